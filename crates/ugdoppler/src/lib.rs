@@ -1,0 +1,1 @@
+//! Colours of a UniGrafix scene as seen in relativistic motion

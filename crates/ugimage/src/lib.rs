@@ -1,0 +1,1 @@
+//! Frame buffer and picture formats

@@ -1,0 +1,1 @@
+//! Geometry of a UniGrafix scene as seen in relativistic motion

@@ -1,0 +1,369 @@
+//! The flat scene: what every tool reads and writes after names, definitions,
+//! instances and arrays have been resolved.
+//!
+//! A [`Scene`] is plain data in index buffers. Its guarantees, made by
+//! [`crate::parse`] and kept by everyone who builds one:
+//!
+//! - every id is in range, every number finite, every speed below 1;
+//! - every contour of a face has three vertices or more, every contour of a
+//!   wire two or more;
+//! - names are unique within colours and within vertices.
+
+use std::ops::Range;
+
+use glam::DVec3;
+
+use crate::names::{NameId, Names};
+
+macro_rules! index {
+    ($($(#[$doc:meta])* $name:ident)*) => {$(
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        pub struct $name(pub u32);
+
+        impl $name {
+            /// The id of the element at position `idx` of its table.
+            ///
+            /// # Panics
+            /// If `idx` does not fit 32 bits; the reader refuses such scenes.
+            pub fn from_index(idx: usize) -> Self {
+                Self(u32::try_from(idx).expect("tables have fewer than 2^32 rows"))
+            }
+
+            /// Position in its table.
+            pub fn index(self) -> usize {
+                self.0 as usize
+            }
+        }
+    )*};
+}
+
+index! {
+    /// Row of [`Scene::colors`].
+    ColorId
+    /// Row of [`Scene::vertices`].
+    VertexId
+    /// Row of [`Scene::velocities`].
+    VelocityId
+}
+
+/// A flat UniGrafix scene.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Scene {
+    /// Comments before the first statement (licence, history), without their
+    /// outer braces. They come first in every output.
+    pub head: Vec<String>,
+    /// All other comments.
+    pub comments: Vec<Comment>,
+    /// Text of every name used below.
+    pub names: Names,
+    /// `c`, `c_rgb`.
+    pub colors: Vec<Color>,
+    /// Distinct velocities carried by faces, wires, lights and cameras,
+    /// fractions of c, each shorter than 1.
+    pub velocities: Vec<DVec3>,
+    /// `v`.
+    pub vertices: Vec<Vertex>,
+    /// Contours of faces and wires.
+    pub contours: Contours,
+    /// `f`.
+    pub faces: Vec<Face>,
+    /// `w`.
+    pub wires: Vec<Wire>,
+    /// `l`.
+    pub lights: Vec<Light>,
+    /// `cam`.
+    pub cameras: Vec<Camera>,
+    /// Escapes `( … )`: text for other programs, without its outer
+    /// parentheses.
+    pub escapes: Vec<String>,
+}
+
+/// A named surface colour.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Color {
+    /// Its name.
+    pub name: NameId,
+    /// How it was given.
+    pub value: ColorValue,
+    /// 0 opaque … 1 clear.
+    pub translucency: f64,
+}
+
+/// The ways to give a colour. Numbers are kept as written; what they mean
+/// (hue modulo 360, or a wavelength in nm under `-wi`) is the reader's business.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ColorValue {
+    /// `c`: HSV. Saturation 0 is grey, whatever the hue.
+    Hsv {
+        /// Lightness V ≥ 0; 1 is full, more is kept.
+        value: f64,
+        /// Hue in degrees, or wavelength in nm.
+        hue: f64,
+        /// Saturation 0…1.
+        saturation: f64,
+    },
+    /// `c_rgb`: red, green, blue in 0…1, display-encoded (sRGB).
+    Rgb([f64; 3]),
+}
+
+/// A vertex.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Vertex {
+    /// Its name, a path (`car:a`) where an instance was expanded.
+    pub name: NameId,
+    /// Position in scene coordinates.
+    pub position: DVec3,
+    /// Its own colour; beats the colour of the faces.
+    pub color: Option<ColorId>,
+    /// Rest-frame normal for smooth shading; any length but 0.
+    pub normal: Option<DVec3>,
+}
+
+/// A planar polygon, with holes if it has more than one contour (even-odd rule).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Face {
+    /// Its name, if it has one; need not be unique.
+    pub name: Option<NameId>,
+    /// Rows of [`Scene::contours`], never empty. The first is the outline, and
+    /// runs counterclockwise seen from outside.
+    pub contours: Range<u32>,
+    /// Colour; `None` means lightness 1, saturation 0, opaque.
+    pub color: Option<ColorId>,
+    /// Stored light level: lighting is skipped.
+    pub illum: Option<f64>,
+    /// Its velocity, if given.
+    pub velocity: Option<VelocityId>,
+}
+
+/// Lines.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Wire {
+    /// Its name, if it has one.
+    pub name: Option<NameId>,
+    /// Rows of [`Scene::contours`], never empty. Each is an open polyline.
+    pub contours: Range<u32>,
+    /// Colour; `None` as for faces.
+    pub color: Option<ColorId>,
+    /// Its velocity, inherited from instances.
+    pub velocity: Option<VelocityId>,
+}
+
+/// A light.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Light {
+    /// Its name, if it has one.
+    pub name: Option<NameId>,
+    /// Intensity; 1 lights a white face fully.
+    pub intensity: f64,
+    /// What kind of light, and where.
+    pub kind: LightKind,
+    /// Its colour; default white.
+    pub color: Option<ColorId>,
+    /// Its velocity; without one it rests in the frame of the face it lights.
+    pub velocity: Option<VelocityId>,
+}
+
+/// What kind of light.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum LightKind {
+    /// From everywhere.
+    Ambient,
+    /// From infinitely far; the vector points toward the light, any length but 0.
+    Directional(DVec3),
+    /// From a point, or a small sphere.
+    Local {
+        /// Its place in scene coordinates.
+        position: DVec3,
+        /// Its radius, 0 or more.
+        radius: f64,
+    },
+}
+
+/// A camera: everything is optional and has its default in the renderer.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Camera {
+    /// Its name, if it has one.
+    pub name: Option<NameId>,
+    /// `-vc`: view centre.
+    pub center: Option<DVec3>,
+    /// `-ep`: eye point.
+    pub eye: Option<DVec3>,
+    /// `-ud`: up direction.
+    pub up: Option<DVec3>,
+    /// `-cl`: hither and yon, distances from the eye along the view.
+    pub clip: Option<[f64; 2]>,
+    /// `-ph`: sub-rectangle of the film, min x, min y, max x, max y in 0…1.
+    pub film: Option<[f64; 4]>,
+    /// `-og` or `-ps`.
+    pub projection: Option<Projection>,
+    /// `-va`: full view angles across and down, degrees.
+    pub view_angle: Option<[f64; 2]>,
+    /// `-fs`: film size.
+    pub film_size: Option<[f64; 2]>,
+    /// `-fl`: focal length.
+    pub focal_length: Option<f64>,
+    /// Its velocity in the scene's frame.
+    pub velocity: Option<VelocityId>,
+}
+
+/// Kind of projection.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Projection {
+    /// `-og`
+    Orthographic,
+    /// `-ps`
+    Perspective,
+}
+
+/// A comment inside the scene.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Comment {
+    /// Text without the outer braces.
+    pub text: String,
+    /// The statement it stands before or behind.
+    pub at: Item,
+    /// True if it follows `at` on the same line, false if it stands above it.
+    pub trailing: bool,
+}
+
+/// A statement of a flat scene, by table and row.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Item {
+    /// Row of [`Scene::escapes`].
+    Escape(u32),
+    /// Row of [`Scene::colors`].
+    Color(u32),
+    /// Row of [`Scene::vertices`].
+    Vertex(u32),
+    /// Row of [`Scene::faces`].
+    Face(u32),
+    /// Row of [`Scene::wires`].
+    Wire(u32),
+    /// Row of [`Scene::lights`].
+    Light(u32),
+    /// Row of [`Scene::cameras`].
+    Camera(u32),
+    /// Behind the last statement.
+    End,
+}
+
+/// Lists of vertices, all in one buffer.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Contours {
+    corners: Vec<VertexId>,
+    ends: Vec<u32>,
+}
+
+impl Contours {
+    /// Appends a contour; its row is [`Contours::len`] before the call.
+    pub fn push(&mut self, corners: impl IntoIterator<Item = VertexId>) {
+        self.corners.extend(corners);
+        let end = u32::try_from(self.corners.len()).expect("fewer than 2^32 corners");
+        self.ends.push(end);
+    }
+
+    /// Appends one face's contours and gives their rows.
+    pub fn push_all<C>(&mut self, contours: impl IntoIterator<Item = C>) -> Range<u32>
+    where
+        C: IntoIterator<Item = VertexId>,
+    {
+        let first = self.row_count();
+        contours.into_iter().for_each(|contour| self.push(contour));
+        first..self.row_count()
+    }
+
+    /// The vertices of contour `row`.
+    pub fn get(&self, row: u32) -> &[VertexId] {
+        let row = row as usize;
+        let start = if row == 0 { 0 } else { self.ends[row - 1] as usize };
+        &self.corners[start..self.ends[row] as usize]
+    }
+
+    /// The contours of a face or wire, in order.
+    pub fn iter(&self, rows: Range<u32>) -> impl ExactSizeIterator<Item = &[VertexId]> + Clone {
+        (rows.start as usize..rows.end as usize).map(|row| self.get(row as u32))
+    }
+
+    /// All corners of a face or wire, contour after contour.
+    pub fn corners(&self, rows: Range<u32>) -> &[VertexId] {
+        if rows.is_empty() {
+            return &[];
+        }
+        let start = if rows.start == 0 { 0 } else { self.ends[rows.start as usize - 1] as usize };
+        &self.corners[start..self.ends[rows.end as usize - 1] as usize]
+    }
+
+    /// The same, to be changed in place.
+    pub fn corners_mut(&mut self, rows: Range<u32>) -> &mut [VertexId] {
+        if rows.is_empty() {
+            return &mut [];
+        }
+        let start = if rows.start == 0 { 0 } else { self.ends[rows.start as usize - 1] as usize };
+        &mut self.corners[start..self.ends[rows.end as usize - 1] as usize]
+    }
+
+    /// Number of contours.
+    pub fn len(&self) -> usize {
+        self.ends.len()
+    }
+
+    /// True if there is none.
+    pub fn is_empty(&self) -> bool {
+        self.ends.is_empty()
+    }
+
+    fn row_count(&self) -> u32 {
+        u32::try_from(self.ends.len()).expect("fewer than 2^32 contours")
+    }
+}
+
+impl Scene {
+    /// The contours of a face, outline first.
+    pub fn face_contours(&self, face: &Face) -> impl ExactSizeIterator<Item = &[VertexId]> + Clone {
+        self.contours.iter(face.contours.clone())
+    }
+
+    /// The polylines of a wire.
+    pub fn wire_contours(&self, wire: &Wire) -> impl ExactSizeIterator<Item = &[VertexId]> + Clone {
+        self.contours.iter(wire.contours.clone())
+    }
+
+    /// The camera that counts: the first without a name, else the first.
+    pub fn camera(&self) -> Option<&Camera> {
+        self.cameras.iter().find(|camera| camera.name.is_none()).or(self.cameras.first())
+    }
+
+    /// The row of `velocity` in [`Scene::velocities`], added if it is new.
+    ///
+    /// Scenes have few bodies, so a linear search does.
+    pub fn velocity_id(&mut self, velocity: DVec3) -> VelocityId {
+        let known = self.velocities.iter().position(|&other| other == velocity);
+        let idx = known.unwrap_or_else(|| {
+            self.velocities.push(velocity);
+            self.velocities.len() - 1
+        });
+        VelocityId::from_index(idx)
+    }
+
+    /// Corners of the axis-parallel box round all vertices; `None` without vertices.
+    pub fn bounds(&self) -> Option<(DVec3, DVec3)> {
+        let first = self.vertices.first()?.position;
+        Some(self.vertices.iter().fold((first, first), |(low, high), vertex| {
+            (low.min(vertex.position), high.max(vertex.position))
+        }))
+    }
+}
+
+/// Area-weighted normal of a polygon by Newell's method: right-handed, its
+/// length twice the area for a planar polygon, zero for a degenerate one.
+///
+/// Coordinates are taken relative to the first corner, so that a small face far
+/// from the origin keeps its precision.
+pub fn newell_normal(corners: impl Iterator<Item = DVec3> + Clone) -> DVec3 {
+    let mut rest = corners.clone();
+    let Some(origin) = rest.next() else {
+        return DVec3::ZERO;
+    };
+    rest.clone().zip(rest.skip(1)).fold(DVec3::ZERO, |sum, (a, b)| sum + (a - origin).cross(b - origin))
+}

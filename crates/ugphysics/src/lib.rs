@@ -1,0 +1,1 @@
+//! Special relativity and colour physics as pure functions

@@ -1,0 +1,1 @@
+//! The Unix edge of the ug programs: arguments, streams, messages, exit codes

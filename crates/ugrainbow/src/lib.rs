@@ -1,0 +1,1 @@
+//! Scanline renderer for relativistic UniGrafix scenes
