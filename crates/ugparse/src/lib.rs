@@ -1,6 +1,102 @@
 //! UniGrafix scenes: text to [`Scene`] and back.
-mod names;
-mod scene;
+//!
+//! UniGrafix is Berkeley's scene language of the 1980s: statements that begin
+//! with a keyword and end with `;`, comments in braces, definitions that are
+//! placed by instances and arrays. This crate reads it in four steps:
+//!
+//! ```text
+//! bytes ─reader→ Document ─resolve→ Links ─place→ Scene (flat) ─write→ bytes
+//!        grammar  as written  names to rows  instances expanded
+//! ```
+//!
+//! What comes out is complete: every name is resolved, every instance has its
+//! own vertices, every number is finite. Whatever is wrong is returned as
+//! [`Diagnostics`], up to 20 at once, each with its place in the text.
+//!
+//! ```
+//! let source = ugparse::Source::new(
+//!     "tile.ug",
+//!     "{ four tiles }
+//!      def tile; v a 0 0 0; v b 1 0 0; v c 1 1 0; v d 0 1 0; f (a b c d); end;
+//!      a floor (tile) 4 -tx 1.1;",
+//! );
+//! let scene = ugparse::parse(&source, &ugparse::Options::default())?.scene;
+//! assert_eq!(scene.faces.len(), 4);
+//! assert_eq!(scene.names.get(scene.vertices[4].name), "floor#1:a");
+//! # Ok::<(), ugparse::Diagnostics>(())
+//! ```
+//!
+//! Nothing here knows physics or pixels: velocities are carried, not used.
 
+mod diagnostic;
+mod document;
+mod grammar;
+mod names;
+mod place;
+mod reader;
+mod resolve;
+mod scene;
+mod source;
+mod token;
+mod transform;
+mod writer;
+
+pub use diagnostic::{Diagnostic, Diagnostics, MAX_ERRORS, Severity};
 pub use names::{NameId, Names};
+pub use place::Origins;
 pub use scene::*;
+pub use source::{Source, Span};
+pub use writer::write;
+
+/// Bytes a scene may have: positions are 32-bit.
+const MAX_TEXT: usize = u32::MAX as usize;
+
+/// How to read.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Options {
+    /// Unknown statements are warned about and passed on, not refused (`-lax`).
+    pub lax: bool,
+}
+
+/// A scene that was read.
+#[derive(Clone, Debug)]
+pub struct Parsed {
+    /// The flat scene.
+    pub scene: Scene,
+    /// Where its rows come from.
+    pub origins: Origins,
+    /// What was changed to make it usable.
+    pub warnings: Diagnostics,
+}
+
+/// Reads a scene and flattens it.
+///
+/// # Errors
+/// All that is wrong with the text, up to [`MAX_ERRORS`] findings.
+pub fn parse(source: &Source, options: &Options) -> Result<Parsed, Diagnostics> {
+    let text = &source.text[..];
+    if text.len() > MAX_TEXT {
+        let finding = Diagnostic::error(Span::default(), "the scene is too large")
+            .help("the limit is 4 GiB of text; split the scene");
+        return Err(Diagnostics::one(source, finding));
+    }
+    let mut findings = Vec::new();
+    let document = reader::read(text, options.lax, &mut findings);
+    refuse_errors(source, &mut findings)?;
+
+    let mut scene = Scene::default();
+    let links = resolve::resolve(text, &document, &mut scene, &mut findings);
+    refuse_errors(source, &mut findings)?;
+
+    let (scene, origins) = place::place(text, &document, &links, scene, &mut findings);
+    refuse_errors(source, &mut findings)?;
+    Ok(Parsed { scene, origins, warnings: Diagnostics::new(source, findings) })
+}
+
+/// Stops if there is an error among the findings.
+fn refuse_errors(source: &Source, findings: &mut Vec<Diagnostic>) -> Result<(), Diagnostics> {
+    if findings.iter().any(|finding| finding.severity == Severity::Error) {
+        return Err(Diagnostics::new(source, std::mem::take(findings)));
+    }
+    Ok(())
+}

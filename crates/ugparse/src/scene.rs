@@ -48,7 +48,10 @@ index! {
 }
 
 /// A flat UniGrafix scene.
-#[derive(Clone, Debug, Default, PartialEq)]
+///
+/// Two scenes are equal if they write the same text: rows of names and
+/// contours may differ.
+#[derive(Clone, Debug, Default)]
 pub struct Scene {
     /// Comments before the first statement (licence, history), without their
     /// outer braces. They come first in every output.
@@ -77,6 +80,8 @@ pub struct Scene {
     /// Escapes `( … )`: text for other programs, without its outer
     /// parentheses.
     pub escapes: Vec<String>,
+    /// Statements nobody here knows, kept under `-lax`, with their `;`.
+    pub unknown: Vec<String>,
 }
 
 /// A named surface colour.
@@ -232,6 +237,8 @@ pub struct Comment {
 pub enum Item {
     /// Row of [`Scene::escapes`].
     Escape(u32),
+    /// Row of [`Scene::unknown`].
+    Unknown(u32),
     /// Row of [`Scene::colors`].
     Color(u32),
     /// Row of [`Scene::vertices`].
@@ -315,6 +322,12 @@ impl Contours {
 
     fn row_count(&self) -> u32 {
         u32::try_from(self.ends.len()).expect("fewer than 2^32 contours")
+    }
+}
+
+impl PartialEq for Scene {
+    fn eq(&self, other: &Self) -> bool {
+        crate::write(self) == crate::write(other)
     }
 }
 

@@ -1,0 +1,190 @@
+//! Errors and warnings as data with positions; drawn only at the edge.
+
+use std::fmt;
+
+use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
+
+use crate::source::{Source, Span};
+
+/// Errors reported together before reading stops.
+pub const MAX_ERRORS: usize = 20;
+
+/// Bytes of a line shown round an error; longer lines are cut.
+const MAX_SHOWN: usize = 160;
+
+/// How bad.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Severity {
+    /// The scene cannot be used.
+    Error,
+    /// The scene is used, with the change the message names.
+    Warning,
+}
+
+/// One thing that is wrong with a scene.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Diagnostic {
+    /// How bad.
+    pub severity: Severity,
+    /// What is wrong: lower case, no full stop.
+    pub message: String,
+    /// Where.
+    pub span: Span,
+    /// A word or two at the place.
+    pub label: String,
+    /// A second place that matters, such as the first definition of a name.
+    pub other: Option<(Span, String)>,
+    /// What to do.
+    pub help: Option<String>,
+}
+
+impl Diagnostic {
+    /// An error at a place.
+    pub fn error(span: Span, message: impl Into<String>) -> Self {
+        Self {
+            severity: Severity::Error,
+            message: message.into(),
+            span,
+            label: String::new(),
+            other: None,
+            help: None,
+        }
+    }
+
+    /// A warning at a place.
+    pub fn warning(span: Span, message: impl Into<String>) -> Self {
+        Self { severity: Severity::Warning, ..Self::error(span, message) }
+    }
+
+    /// Adds the words at the place.
+    pub fn label(mut self, label: impl Into<String>) -> Self {
+        self.label = label.into();
+        self
+    }
+
+    /// Adds a second place.
+    pub fn other(mut self, span: Span, label: impl Into<String>) -> Self {
+        self.other = Some((span, label.into()));
+        self
+    }
+
+    /// Adds the remedy.
+    pub fn help(mut self, help: impl Into<String>) -> Self {
+        self.help = Some(help.into());
+        self
+    }
+
+    /// The message as a person sees it, with the line and a caret.
+    pub fn render(&self, source: &Source, styled: bool) -> String {
+        let level = match self.severity {
+            Severity::Error => Level::ERROR,
+            Severity::Warning => Level::WARNING,
+        };
+        let mut report = vec![level.primary_title(self.message.as_str()).elements(self.snippets(source))];
+        if let Some(help) = &self.help {
+            report.push(Group::with_title(Level::HELP.secondary_title(help.as_str())));
+        }
+        let renderer = if styled { Renderer::styled() } else { Renderer::plain() };
+        renderer.render(&report)
+    }
+
+    /// The lines to show: one snippet if both places are on one screen of text, else two.
+    fn snippets<'a>(&'a self, source: &'a Source) -> Vec<Snippet<'a, annotate_snippets::Annotation<'a>>> {
+        let mut places = vec![(self.span, self.label.as_str(), AnnotationKind::Primary)];
+        if let Some((span, label)) = &self.other {
+            places.push((*span, label.as_str(), AnnotationKind::Context));
+        }
+        places
+            .into_iter()
+            .map(|(span, label, kind)| {
+                let excerpt = Excerpt::new(source, span);
+                let annotation = kind.span(excerpt.mark).label((!label.is_empty()).then_some(label));
+                Snippet::source(excerpt.text)
+                    .path(source.name.as_str())
+                    .line_start(excerpt.line)
+                    .annotation(annotation)
+            })
+            .collect()
+    }
+}
+
+/// The one line that is shown for a place.
+struct Excerpt {
+    text: String,
+    line: usize,
+    mark: std::ops::Range<usize>,
+}
+
+impl Excerpt {
+    /// Cuts the line round `span` out of the source: control characters are
+    /// blanked, text that is not UTF-8 replaced, long lines cut.
+    fn new(source: &Source, span: Span) -> Self {
+        let text = &source.text;
+        let start = (span.start as usize).min(text.len());
+        let line_start = memchr::memrchr(b'\n', &text[..start]).map_or(0, |idx| idx + 1);
+        let line_end = memchr::memchr(b'\n', &text[start..]).map_or(text.len(), |idx| start + idx);
+        let end = (span.end as usize).clamp(start, line_end);
+
+        let cut_start = line_start.max(start.saturating_sub(MAX_SHOWN / 2));
+        let cut_end = line_end.min(start + MAX_SHOWN);
+        let shown = |from: usize, to: usize| {
+            String::from_utf8_lossy(&text[from..to.max(from)])
+                .replace(|c: char| c.is_control() && c != '\t', " ")
+        };
+        let before = shown(cut_start, start);
+        let marked = shown(start, end.min(cut_end));
+        let after = shown(end.min(cut_end), cut_end);
+        let mark = before.len()..before.len() + marked.len();
+        Self { line: source.line_column(span.start).0, text: format!("{before}{marked}{after}"), mark }
+    }
+}
+
+/// All that is wrong with a scene, with its text, ready to show.
+#[derive(Clone, Debug)]
+pub struct Diagnostics {
+    /// The findings, in the order of the text.
+    pub list: Vec<Diagnostic>,
+    /// How many more there are than the list holds.
+    pub omitted: usize,
+    source: Source,
+}
+
+impl Diagnostics {
+    /// Puts findings in the order of the text and keeps the first [`MAX_ERRORS`].
+    pub fn new(source: &Source, mut list: Vec<Diagnostic>) -> Self {
+        list.sort_by_key(|finding| (finding.severity != Severity::Error, finding.span));
+        let omitted = list.len().saturating_sub(MAX_ERRORS);
+        list.truncate(MAX_ERRORS);
+        // The text is kept only if there is something to show in it.
+        let text = if list.is_empty() { Vec::new() } else { source.text.clone() };
+        Self { list, omitted, source: Source { name: source.name.clone(), text } }
+    }
+
+    /// One finding.
+    pub fn one(source: &Source, finding: Diagnostic) -> Self {
+        Self::new(source, vec![finding])
+    }
+
+    /// True if nothing is wrong.
+    pub fn is_empty(&self) -> bool {
+        self.list.is_empty()
+    }
+
+    /// Every finding as a person sees it.
+    pub fn render(&self, styled: bool) -> String {
+        let mut parts: Vec<String> =
+            self.list.iter().map(|finding| finding.render(&self.source, styled)).collect();
+        if self.omitted > 0 {
+            parts.push(format!("… and {} more", self.omitted));
+        }
+        parts.join("\n\n")
+    }
+}
+
+impl fmt::Display for Diagnostics {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.render(false))
+    }
+}
+
+impl std::error::Error for Diagnostics {}

@@ -1,0 +1,47 @@
+//! Scene text with a name, and positions in it.
+
+use memchr::memchr_iter;
+
+/// A scene text and what to call it in messages.
+#[derive(Clone, Debug)]
+pub struct Source {
+    /// File name, or `<stdin>`.
+    pub name: String,
+    /// The bytes of the file. Anything is allowed in comments and escapes.
+    pub text: Vec<u8>,
+}
+
+impl Source {
+    /// A source from a name and text.
+    pub fn new(name: impl Into<String>, text: impl Into<Vec<u8>>) -> Self {
+        Self { name: name.into(), text: text.into() }
+    }
+
+    /// Line and column (both from 1, the column in bytes) of a byte position.
+    pub fn line_column(&self, position: u32) -> (usize, usize) {
+        let before = &self.text[..(position as usize).min(self.text.len())];
+        let line_start = memchr::memrchr(b'\n', before).map_or(0, |idx| idx + 1);
+        (memchr_iter(b'\n', before).count() + 1, before.len() - line_start + 1)
+    }
+
+    /// The text of a span; text that is not UTF-8 is shown with replacement characters.
+    pub fn slice(&self, span: Span) -> std::borrow::Cow<'_, str> {
+        String::from_utf8_lossy(span.of(&self.text))
+    }
+}
+
+/// A range of bytes in a [`Source`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Span {
+    /// First byte.
+    pub start: u32,
+    /// Byte behind the last.
+    pub end: u32,
+}
+
+impl Span {
+    /// The bytes of this span in its text.
+    pub(crate) fn of(self, text: &[u8]) -> &[u8] {
+        &text[self.start as usize..self.end as usize]
+    }
+}

@@ -1,0 +1,199 @@
+//! Words of the language, as nom parsers over bytes.
+//!
+//! Positions are never counted: the rest of the input says where we are.
+
+use glam::DVec3;
+use memchr::memchr2;
+use nom::Err;
+
+/// What is left to read.
+pub(crate) type Input<'a> = &'a [u8];
+
+/// Result of a parser of this crate.
+pub(crate) type Parsed<'a, T> = nom::IResult<Input<'a>, T, Trouble<'a>>;
+
+/// What a parser did not like, and where.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Trouble<'a> {
+    pub at: Input<'a>,
+    pub reason: Reason,
+}
+
+/// Why a parser gave up.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Reason {
+    /// Something else was expected here.
+    Expected(&'static str),
+    /// The number has no finite value.
+    NotFinite,
+    /// A comment or escape is not closed; `at` is its first byte.
+    Unclosed(&'static str),
+    /// Value out of range: what is wrong, what to do.
+    Range(&'static str, &'static str),
+}
+
+impl<'a> nom::error::ParseError<Input<'a>> for Trouble<'a> {
+    fn from_error_kind(at: Input<'a>, _: nom::error::ErrorKind) -> Self {
+        Self { at, reason: Reason::Expected("something else") }
+    }
+
+    fn append(_: Input<'a>, _: nom::error::ErrorKind, other: Self) -> Self {
+        other
+    }
+}
+
+/// "Not this, perhaps something else."
+pub(crate) fn backtrack<T>(at: Input<'_>, reason: Reason) -> Parsed<'_, T> {
+    Err(Err::Error(Trouble { at, reason }))
+}
+
+/// "Definitely wrong."
+pub(crate) fn fail<T>(at: Input<'_>, reason: Reason) -> Parsed<'_, T> {
+    Err(Err::Failure(Trouble { at, reason }))
+}
+
+/// Turns "perhaps something else" into "definitely wrong".
+pub(crate) fn require<'a, T>(result: Parsed<'a, T>) -> Parsed<'a, T> {
+    result.map_err(|err| match err {
+        Err::Error(trouble) => Err::Failure(trouble),
+        other => other,
+    })
+}
+
+/// True for bytes that end a word.
+fn ends_word(byte: u8) -> bool {
+    byte.is_ascii_whitespace() || matches!(byte, 0x0B | b'(' | b')' | b';' | b'<' | b'>' | b'{' | b'}' | b'"')
+}
+
+fn is_blank(byte: u8) -> bool {
+    byte.is_ascii_whitespace() || byte == 0x0B
+}
+
+/// Skips white space and comments.
+pub(crate) fn blank(mut input: Input<'_>) -> Parsed<'_, ()> {
+    loop {
+        match input.first() {
+            Some(&byte) if is_blank(byte) => input = &input[1..],
+            Some(b'{') => input = comment(input)?.0,
+            _ => return Ok((input, ())),
+        }
+    }
+}
+
+/// A comment, which may hold comments; gives the text between its braces.
+pub(crate) fn comment(input: Input<'_>) -> Parsed<'_, Input<'_>> {
+    nested(input, b'{', b'}', "comment")
+}
+
+/// An escape, which may hold escapes; gives the text between its parentheses.
+pub(crate) fn escape(input: Input<'_>) -> Parsed<'_, Input<'_>> {
+    nested(input, b'(', b')', "escape")
+}
+
+fn nested<'a>(input: Input<'a>, open: u8, close: u8, what: &'static str) -> Parsed<'a, Input<'a>> {
+    if input.first() != Some(&open) {
+        return backtrack(input, Reason::Expected(what));
+    }
+    let mut depth = 0usize;
+    let mut idx = 0;
+    while let Some(step) = memchr2(open, close, &input[idx..]) {
+        idx += step + 1;
+        if input[idx - 1] == open {
+            depth += 1;
+        } else {
+            depth -= 1;
+        }
+        if depth == 0 {
+            return Ok((&input[idx..], &input[1..idx - 1]));
+        }
+    }
+    fail(input, Reason::Unclosed(what))
+}
+
+/// A word: a run of bytes that are neither blank nor punctuation.
+pub(crate) fn word(input: Input<'_>) -> Parsed<'_, Input<'_>> {
+    let (input, ()) = blank(input)?;
+    let len = word_len(input);
+    if len == 0 {
+        return backtrack(input, Reason::Expected("a word"));
+    }
+    Ok((&input[len..], &input[..len]))
+}
+
+fn word_len(input: Input<'_>) -> usize {
+    input.iter().position(|&byte| ends_word(byte)).unwrap_or(input.len())
+}
+
+/// What is there, for messages: a word, a punctuation mark, or nothing at the end.
+pub(crate) fn found(input: Input<'_>) -> Input<'_> {
+    &input[..word_len(input).max(1).min(input.len())]
+}
+
+/// An identifier: letters, digits, `:`, `_`, `#`, not starting with a digit.
+pub(crate) fn identifier(input: Input<'_>) -> Parsed<'_, Input<'_>> {
+    let (input, ()) = blank(input)?;
+    let starts = |byte: u8| byte.is_ascii_alphabetic() || matches!(byte, b':' | b'_' | b'#');
+    if !input.first().is_some_and(|&byte| starts(byte)) {
+        return backtrack(input, Reason::Expected("a name"));
+    }
+    let len = input.iter().position(|&byte| !(starts(byte) || byte.is_ascii_digit())).unwrap_or(input.len());
+    if input.get(len).is_some_and(|&byte| !ends_word(byte)) {
+        return fail(input, Reason::Expected("a name of letters, digits, `:`, `_` and `#`"));
+    }
+    Ok((&input[len..], &input[..len]))
+}
+
+/// A real number. Values without a finite f64 are refused.
+pub(crate) fn number(input: Input<'_>) -> Parsed<'_, f64> {
+    let (input, ()) = blank(input)?;
+    let unsigned = input.strip_prefix(b"+").unwrap_or(input);
+    let digits = input.strip_prefix(b"-").unwrap_or(unsigned);
+    // Only digits may follow the sign: this keeps out `inf` and `nan`.
+    if !matches!(digits, [b'0'..=b'9', ..] | [b'.', b'0'..=b'9', ..]) {
+        return backtrack(input, Reason::Expected("a number"));
+    }
+    let Ok((value, len)) = fast_float2::parse_partial::<f64, _>(unsigned) else {
+        return fail(input, Reason::Expected("a number"));
+    };
+    let rest = &unsigned[len..];
+    if rest.first().is_some_and(|&byte| !ends_word(byte)) {
+        return fail(input, Reason::Expected("a number"));
+    }
+    if !value.is_finite() {
+        return fail(input, Reason::NotFinite);
+    }
+    Ok((rest, value))
+}
+
+/// An array size: digits only.
+pub(crate) fn integer(input: Input<'_>) -> Parsed<'_, u64> {
+    let (input, ()) = blank(input)?;
+    let len = word_len(input);
+    let digits = &input[..len];
+    if digits.is_empty() || !digits.iter().all(u8::is_ascii_digit) {
+        return backtrack(input, Reason::Expected("a whole number"));
+    }
+    let value = digits
+        .iter()
+        .fold(0u64, |sum, &digit| sum.saturating_mul(10).saturating_add(u64::from(digit - b'0')));
+    Ok((&input[len..], value))
+}
+
+/// Three numbers.
+pub(crate) fn point(input: Input<'_>) -> Parsed<'_, DVec3> {
+    let (input, x) = number(input)?;
+    let (input, y) = require(number(input))?;
+    let (input, z) = require(number(input))?;
+    Ok((input, DVec3::new(x, y, z)))
+}
+
+/// A punctuation mark.
+pub(crate) fn mark<'a>(byte: u8, what: &'static str) -> impl Fn(Input<'a>) -> Parsed<'a, ()> {
+    move |input| {
+        let (input, ()) = blank(input)?;
+        match input.split_first() {
+            Some((&first, rest)) if first == byte => Ok((rest, ())),
+            _ => backtrack(input, Reason::Expected(what)),
+        }
+    }
+}

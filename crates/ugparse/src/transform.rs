@@ -1,0 +1,136 @@
+//! Transformations of instances: an affine map, and whether it turns faces over.
+
+use glam::{DAffine3, DMat3, DVec3};
+
+/// What `-sx … -M4` add up to.
+///
+/// Written for row vectors, options apply from left to right; kept here as the
+/// equal map of column vectors.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Transform {
+    map: DAffine3,
+    /// The number of mirrorings is odd: vertex order of faces is reversed.
+    pub mirrored: bool,
+}
+
+impl Transform {
+    pub const IDENTITY: Self = Self { map: DAffine3::IDENTITY, mirrored: false };
+
+    fn linear(matrix: DMat3) -> Self {
+        Self { map: DAffine3::from_mat3(matrix), mirrored: false }
+    }
+
+    /// `-sx -sy -sz -sa` as factors along the axes.
+    pub fn scale(factors: DVec3) -> Self {
+        Self::linear(DMat3::from_diagonal(factors))
+    }
+
+    /// `-sv`: by `factor` along a vector. `None` for the zero vector.
+    pub fn scale_along(vector: DVec3, factor: f64) -> Option<Self> {
+        let unit = vector.try_normalize()?;
+        Some(Self::linear(DMat3::IDENTITY + outer(unit) * (factor - 1.0)))
+    }
+
+    /// `-tx -ty -tz -ta`.
+    pub fn translate(offset: DVec3) -> Self {
+        Self { map: DAffine3::from_translation(offset), mirrored: false }
+    }
+
+    /// `-tv`: by `amount` along a vector. `None` for the zero vector.
+    pub fn translate_along(vector: DVec3, amount: f64) -> Option<Self> {
+        Some(Self::translate(vector.try_normalize()? * amount))
+    }
+
+    /// `-rx -ry -rz -rv`: counterclockwise seen from the tip of the axis.
+    /// `None` for the zero vector.
+    pub fn rotate(axis: DVec3, degrees: f64) -> Option<Self> {
+        let k = axis.try_normalize()?;
+        let (sin, cos) = sin_cos_degrees(degrees);
+        let cross = DMat3::from_cols(
+            DVec3::new(0.0, k.z, -k.y),
+            DVec3::new(-k.z, 0.0, k.x),
+            DVec3::new(k.y, -k.x, 0.0),
+        );
+        // Rodrigues' formula.
+        Some(Self::linear(DMat3::IDENTITY * cos + cross * sin + outer(k) * (1.0 - cos)))
+    }
+
+    /// `-mx -my -mz -ma` as signs along the axes.
+    pub fn mirror(signs: DVec3) -> Self {
+        Self { mirrored: signs.x * signs.y * signs.z < 0.0, ..Self::scale(signs) }
+    }
+
+    /// `-mv`: in the plane through the origin at right angles to a vector.
+    /// `None` for the zero vector.
+    pub fn mirror_across(vector: DVec3) -> Option<Self> {
+        Some(Self { mirrored: true, ..Self::scale_along(vector, -1.0)? })
+    }
+
+    /// `-M3`: nine numbers, row by row, for row vectors.
+    pub fn rows3(m: &[f64; 9]) -> Self {
+        // Rows for row vectors are columns for column vectors.
+        Self::linear(DMat3::from_cols_array(m))
+    }
+
+    /// `-M4`: sixteen numbers, row by row, for row vectors: the translation is
+    /// in the last row. `None` unless the last column is 0 0 0 1.
+    pub fn rows4(m: &[f64; 16]) -> Option<Self> {
+        if [m[3], m[7], m[11], m[15]] != [0.0, 0.0, 0.0, 1.0] {
+            return None;
+        }
+        let linear = [m[0], m[1], m[2], m[4], m[5], m[6], m[8], m[9], m[10]];
+        let map = DAffine3 {
+            matrix3: DMat3::from_cols_array(&linear),
+            translation: DVec3::new(m[12], m[13], m[14]),
+        };
+        Some(Self { map, mirrored: false })
+    }
+
+    /// First `self`, then `next`.
+    pub fn then(&self, next: &Self) -> Self {
+        Self { map: next.map * self.map, mirrored: self.mirrored != next.mirrored }
+    }
+
+    pub fn point(&self, p: DVec3) -> DVec3 {
+        self.map.transform_point3(p)
+    }
+
+    pub fn direction(&self, d: DVec3) -> DVec3 {
+        self.map.transform_vector3(d)
+    }
+
+    /// A normal: by the inverse transpose. A map that flattens space leaves the
+    /// normal along the flattened direction.
+    pub fn normal(&self, n: DVec3) -> DVec3 {
+        let m = self.map.matrix3;
+        let [a, b, c] = [m.x_axis, m.y_axis, m.z_axis];
+        // The cofactor matrix is det times the inverse transpose, and exists always.
+        let cofactor = DMat3::from_cols(b.cross(c), c.cross(a), a.cross(b));
+        let image = cofactor * n;
+        let sign = if m.determinant() < 0.0 { -1.0 } else { 1.0 };
+        if image == DVec3::ZERO { n } else { image.normalize() * (sign * n.length()) }
+    }
+
+    /// True if every entry is finite.
+    pub fn is_finite(&self) -> bool {
+        self.map.is_finite()
+    }
+}
+
+fn outer(k: DVec3) -> DMat3 {
+    DMat3::from_cols(k * k.x, k * k.y, k * k.z)
+}
+
+/// Sine and cosine of an angle in degrees, exact at multiples of 90.
+fn sin_cos_degrees(degrees: f64) -> (f64, f64) {
+    let quarters = degrees / 90.0;
+    if quarters == quarters.floor() {
+        return match quarters.rem_euclid(4.0) as u8 {
+            0 => (0.0, 1.0),
+            1 => (1.0, 0.0),
+            2 => (0.0, -1.0),
+            _ => (-1.0, 0.0),
+        };
+    }
+    libm::sincos((degrees % 360.0).to_radians())
+}

@@ -1,0 +1,262 @@
+//! [`Scene`] to text: one statement a line, numbers that read back to the same bits.
+
+use glam::DVec3;
+
+use crate::names::NameId;
+use crate::scene::{
+    Camera, Color, ColorId, ColorValue, Comment, Contours, Item, Light, LightKind, Projection, Scene,
+    VelocityId,
+};
+
+/// The text of a scene: head comments, then escapes and unknown statements,
+/// colours, vertices, faces, wires, lights, cameras, each with its comments.
+pub fn write(scene: &Scene) -> Vec<u8> {
+    let mut writer = Writer {
+        scene,
+        out: Vec::with_capacity(64 * (scene.vertices.len() + scene.faces.len()) + 1024),
+        comments: &scene.comments,
+        numbers: zmij::Buffer::new(),
+    };
+    writer.scene();
+    writer.out
+}
+
+struct Writer<'s> {
+    scene: &'s Scene,
+    out: Vec<u8>,
+    /// Comments not written yet; they are sorted by statement.
+    comments: &'s [Comment],
+    numbers: zmij::Buffer,
+}
+
+impl<'s> Writer<'s> {
+    fn scene(&mut self) {
+        let scene = self.scene;
+        for text in &scene.head {
+            self.comment(text);
+            self.out.push(b'\n');
+        }
+        self.rows(&scene.escapes, Item::Escape, |w, text| {
+            w.text("(");
+            w.text(text);
+            w.text(")");
+        });
+        self.rows(&scene.unknown, Item::Unknown, |w, text| w.text(text));
+        self.rows(&scene.colors, Item::Color, Self::color);
+        self.rows(&scene.vertices, Item::Vertex, |w, vertex| {
+            w.text("v");
+            w.name(vertex.name);
+            w.point(vertex.position);
+            w.optional_color(vertex.color);
+            vertex.normal.into_iter().for_each(|normal| w.point(normal));
+            w.text(";");
+        });
+        self.rows(&scene.faces, Item::Face, |w, face| {
+            w.text("f");
+            face.name.into_iter().for_each(|name| w.name(name));
+            w.contours(&scene.contours, face.contours.clone());
+            w.optional_color(face.color);
+            face.illum.into_iter().for_each(|level| w.number(level));
+            w.optional_velocity(face.velocity);
+            w.text(";");
+        });
+        self.rows(&scene.wires, Item::Wire, |w, wire| {
+            w.text("w");
+            wire.name.into_iter().for_each(|name| w.name(name));
+            w.contours(&scene.contours, wire.contours.clone());
+            w.optional_color(wire.color);
+            w.optional_velocity(wire.velocity);
+            w.text(";");
+        });
+        self.rows(&scene.lights, Item::Light, Self::light);
+        self.rows(&scene.cameras, Item::Camera, Self::camera);
+        self.comments_at(Item::End, false);
+    }
+
+    /// One line for each row, with the comments above and behind it.
+    fn rows<T>(&mut self, rows: &'s [T], item: fn(u32) -> Item, line: impl Fn(&mut Self, &'s T)) {
+        for (idx, row) in rows.iter().enumerate() {
+            if self.comments.is_empty() {
+                line(self, row);
+            } else {
+                let item = item(idx as u32);
+                self.comments_at(item, false);
+                line(self, row);
+                self.comments_at(item, true);
+            }
+            self.out.push(b'\n');
+        }
+    }
+
+    /// Writes the comments of `item` up to the first that is not `trailing` as asked.
+    fn comments_at(&mut self, item: Item, trailing: bool) {
+        while let Some((comment, rest)) = self.comments.split_first() {
+            // A comment of a row that does not exist must not hold up the others.
+            let lost = comment.at < item;
+            if !lost && (comment.at != item || comment.trailing != trailing) {
+                break;
+            }
+            self.comments = rest;
+            if trailing {
+                self.text(" ");
+                self.comment(&comment.text);
+            } else {
+                self.comment(&comment.text);
+                self.out.push(b'\n');
+            }
+        }
+    }
+
+    fn comment(&mut self, text: &str) {
+        self.text("{");
+        self.text(text);
+        self.text("}");
+    }
+
+    fn text(&mut self, text: &str) {
+        self.out.extend_from_slice(text.as_bytes());
+    }
+
+    fn name(&mut self, name: NameId) {
+        self.out.push(b' ');
+        self.out.extend_from_slice(self.scene.names.get(name).as_bytes());
+    }
+
+    /// The shortest decimal that reads back to the same bits.
+    fn number(&mut self, value: f64) {
+        self.out.push(b' ');
+        // Not `-0.0`: the sign of zero is kept by the general way.
+        if value == value.trunc() && value.abs() < 1e6 && (value != 0.0 || value.is_sign_positive()) {
+            let mut digits = [0u8; 8];
+            self.out.extend_from_slice(short_integer(value as i32, &mut digits));
+            return;
+        }
+        let text = self.numbers.format_finite(value);
+        self.out.extend_from_slice(text.strip_suffix(".0").unwrap_or(text).as_bytes());
+    }
+
+    fn point(&mut self, p: DVec3) {
+        self.number(p.x);
+        self.number(p.y);
+        self.number(p.z);
+    }
+
+    fn numbers(&mut self, values: &[f64]) {
+        values.iter().for_each(|&value| self.number(value));
+    }
+
+    fn optional_color(&mut self, color: Option<ColorId>) {
+        if let Some(color) = color {
+            self.name(self.scene.colors[color.index()].name);
+        }
+    }
+
+    fn optional_velocity(&mut self, velocity: Option<VelocityId>) {
+        if let Some(velocity) = velocity {
+            self.text(" <");
+            self.point(self.scene.velocities[velocity.index()]);
+            self.text(" >");
+        }
+    }
+
+    fn contours(&mut self, contours: &Contours, rows: std::ops::Range<u32>) {
+        for contour in contours.iter(rows) {
+            self.text(" (");
+            for (idx, &corner) in contour.iter().enumerate() {
+                let name = self.scene.names.get(self.scene.vertices[corner.index()].name);
+                if idx > 0 {
+                    self.out.push(b' ');
+                }
+                self.out.extend_from_slice(name.as_bytes());
+            }
+            self.text(")");
+        }
+    }
+
+    fn color(&mut self, color: &Color) {
+        let clear = (color.translucency != 0.0).then_some(color.translucency);
+        match color.value {
+            ColorValue::Hsv { value, hue, saturation } => {
+                self.text("c");
+                self.name(color.name);
+                self.number(value);
+                if (hue, saturation) != (0.0, 0.0) || clear.is_some() {
+                    self.numbers(&[hue, saturation]);
+                }
+            }
+            ColorValue::Rgb(rgb) => {
+                self.text("c_rgb");
+                self.name(color.name);
+                self.numbers(&rgb);
+            }
+        }
+        clear.into_iter().for_each(|clear| self.number(clear));
+        self.text(";");
+    }
+
+    fn light(&mut self, light: &Light) {
+        self.text("l");
+        light.name.into_iter().for_each(|name| self.name(name));
+        self.number(light.intensity);
+        match light.kind {
+            LightKind::Ambient => {}
+            LightKind::Directional(toward) => self.point(toward),
+            LightKind::Local { position, radius } => {
+                self.point(position);
+                self.number(radius);
+            }
+        }
+        self.optional_color(light.color);
+        self.optional_velocity(light.velocity);
+        self.text(";");
+    }
+
+    fn camera(&mut self, camera: &Camera) {
+        self.text("cam");
+        camera.name.into_iter().for_each(|name| self.name(name));
+        let to_array = |p: Option<DVec3>| p.map(|p| p.to_array().to_vec());
+        let to_vec = |pair: Option<[f64; 2]>| pair.map(|pair| pair.to_vec());
+        let options = [
+            (" -ep", to_array(camera.eye)),
+            (" -vc", to_array(camera.center)),
+            (" -ud", to_array(camera.up)),
+            (" -cl", to_vec(camera.clip)),
+            (" -ph", camera.film.map(|film| film.to_vec())),
+            (" -va", to_vec(camera.view_angle)),
+            (" -fs", to_vec(camera.film_size)),
+            (" -fl", camera.focal_length.map(|len| vec![len])),
+        ];
+        for (option, values) in options {
+            if let Some(values) = values {
+                self.text(option);
+                self.numbers(&values);
+            }
+        }
+        match camera.projection {
+            Some(Projection::Orthographic) => self.text(" -og"),
+            Some(Projection::Perspective) => self.text(" -ps"),
+            None => {}
+        }
+        self.optional_velocity(camera.velocity);
+        self.text(";");
+    }
+}
+
+/// Decimal digits of an integer of at most six digits.
+fn short_integer(value: i32, digits: &mut [u8; 8]) -> &[u8] {
+    let mut rest = value.unsigned_abs();
+    let mut start = digits.len();
+    loop {
+        start -= 1;
+        digits[start] = b'0' + (rest % 10) as u8;
+        rest /= 10;
+        if rest == 0 {
+            break;
+        }
+    }
+    if value < 0 {
+        start -= 1;
+        digits[start] = b'-';
+    }
+    &digits[start..]
+}
