@@ -42,7 +42,7 @@ mod transform;
 mod writer;
 
 pub use diagnostic::{Diagnostic, Diagnostics, MAX_ERRORS, Severity};
-pub use names::{NameId, Names};
+pub use names::{NameId, Names, UniqueNames};
 pub use place::Origins;
 pub use scene::*;
 pub use source::{Source, Span};

@@ -1,4 +1,6 @@
-//! Names of a scene, in one buffer.
+//! Names of a scene, in one buffer, and new ones beside them.
+
+use rustc_hash::FxHashSet;
 
 /// A name in a [`Names`] table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -33,5 +35,35 @@ impl Names {
         let row = id.0 as usize;
         let start = if row == 0 { 0 } else { self.ends[row - 1] as usize };
         &self.text[start..self.ends[row] as usize]
+    }
+}
+
+/// Names that are taken, for making new ones.
+#[derive(Clone, Debug, Default)]
+pub struct UniqueNames {
+    taken: FxHashSet<String>,
+}
+
+impl UniqueNames {
+    /// Takes `name` if it is free; false if it was taken before.
+    pub fn take(&mut self, name: &str) -> bool {
+        self.taken.insert(name.to_string())
+    }
+
+    /// Takes `name`, or the first free one of `name_2`, `name_3`, …
+    pub fn fresh(&mut self, name: &str) -> String {
+        let mut candidate = name.to_string();
+        let mut count = 1u64;
+        while !self.taken.insert(candidate.clone()) {
+            count += 1;
+            candidate = format!("{name}_{count}");
+        }
+        candidate
+    }
+}
+
+impl<'a> FromIterator<&'a str> for UniqueNames {
+    fn from_iter<I: IntoIterator<Item = &'a str>>(names: I) -> Self {
+        Self { taken: names.into_iter().map(str::to_string).collect() }
     }
 }

@@ -1,10 +1,8 @@
 //! Puts everything in its place: a document and its links become a flat scene.
 
-use rustc_hash::FxHashSet;
-
 use crate::diagnostic::Diagnostic;
 use crate::document::{CallStatement, CommentSpan, Document, FaceStatement, Node, Repeat, Statement};
-use crate::names::NameId;
+use crate::names::{NameId, Names, UniqueNames};
 use crate::resolve::{Link, Links};
 use crate::scene::{
     ColorId, Comment, Face, Item, Light, LightKind, Scene, VelocityId, Vertex, VertexId, Wire,
@@ -285,19 +283,9 @@ impl Placer<'_> {
     /// A path may meet a name that somebody wrote with colons; the later one
     /// in the table gives way.
     fn make_names_unique(&mut self) {
-        let scene = &mut self.scene;
-        let mut rename = Unique::default();
-        for row in 0..scene.vertices.len() {
-            if let Some(name) = rename.other_name(scene.names.get(scene.vertices[row].name)) {
-                scene.vertices[row].name = scene.names.add(&name);
-            }
-        }
-        let mut rename = Unique::default();
-        for row in 0..scene.colors.len() {
-            if let Some(name) = rename.other_name(scene.names.get(scene.colors[row].name)) {
-                scene.colors[row].name = scene.names.add(&name);
-            }
-        }
+        let Scene { names, vertices, colors, .. } = &mut self.scene;
+        rename_duplicates(names, vertices.iter_mut().map(|vertex| &mut vertex.name));
+        rename_duplicates(names, colors.iter_mut().map(|color| &mut color.name));
     }
 
     /// Comments above the first statement are the head; others go to the row
@@ -336,21 +324,13 @@ impl Placer<'_> {
     }
 }
 
-/// Finds names that are taken.
-#[derive(Default)]
-struct Unique {
-    taken: FxHashSet<String>,
-}
-
-impl Unique {
-    /// `None` if `name` is new, else a new name made from it.
-    fn other_name(&mut self, name: &str) -> Option<String> {
-        if self.taken.insert(name.to_string()) {
-            return None;
+fn rename_duplicates<'n>(names: &mut Names, ids: impl Iterator<Item = &'n mut NameId>) {
+    let mut taken = UniqueNames::default();
+    for id in ids {
+        let name = names.get(*id).to_string();
+        let unique = taken.fresh(&name);
+        if unique != name {
+            *id = names.add(&unique);
         }
-        let other =
-            (2u32..).map(|count| format!("{name}_{count}")).find(|other| !self.taken.contains(other))?;
-        self.taken.insert(other.clone());
-        Some(other)
     }
 }

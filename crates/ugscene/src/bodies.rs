@@ -1,0 +1,133 @@
+//! Bodies: the parts of a scene that move with one velocity.
+
+use rustc_hash::FxHashMap;
+use ugparse::{Scene, UniqueNames, VelocityId, VertexId};
+use ugphysics::{Velocity, VelocityError};
+
+/// The velocities of a scene, ready to compute with.
+#[derive(Clone, Debug)]
+pub struct Bodies {
+    /// In the order of [`Scene::velocities`].
+    velocities: Vec<Velocity>,
+    default: Velocity,
+}
+
+impl Bodies {
+    /// Bodies of `scene`; faces without a velocity move with `default`.
+    ///
+    /// # Errors
+    /// A velocity of the scene that is not below the speed of light.
+    pub fn new(scene: &Scene, default: Velocity) -> Result<Self, VelocityError> {
+        let velocities = scene.velocities.iter().map(|&beta| Velocity::from_beta(beta));
+        Ok(Self { velocities: velocities.collect::<Result<_, _>>()?, default })
+    }
+
+    /// The velocity of a face, wire or vertex.
+    pub fn of(&self, id: Option<VelocityId>) -> Velocity {
+        id.map_or(self.default, |id| self.velocities[id.index()])
+    }
+
+    /// The velocities of the scene, by row.
+    pub fn all(&self) -> &[Velocity] {
+        &self.velocities
+    }
+
+    /// True if nothing moves.
+    pub fn are_at_rest(&self) -> bool {
+        self.default.is_zero() && self.velocities.iter().all(|v| v.is_zero())
+    }
+}
+
+/// The velocity each vertex moves with, from the faces and wires that use it;
+/// `None` for vertices without one.
+///
+/// A vertex that bodies of different velocity share counts for the first of
+/// them: call [`separate_bodies`] before, and there is no such vertex.
+pub fn vertex_velocities(scene: &Scene) -> Vec<Option<VelocityId>> {
+    let mut velocities = vec![None; scene.vertices.len()];
+    // From behind, so that the first user has the last word.
+    for (rows, velocity) in users(scene).collect::<Vec<_>>().into_iter().rev() {
+        for corner in scene.contours.corners(rows) {
+            velocities[corner.index()] = velocity;
+        }
+    }
+    velocities
+}
+
+/// Faces and wires: their contours and velocity.
+fn users(scene: &Scene) -> impl Iterator<Item = (std::ops::Range<u32>, Option<VelocityId>)> {
+    let faces = scene.faces.iter().map(|face| (face.contours.clone(), face.velocity));
+    let wires = scene.wires.iter().map(|wire| (wire.contours.clone(), wire.velocity));
+    faces.chain(wires)
+}
+
+/// Gives every body its own vertices: where faces or wires of different
+/// velocity share a vertex, the later ones get a copy, named after it.
+pub fn separate_bodies(scene: &mut Scene) {
+    if scene.velocities.is_empty() {
+        return;
+    }
+    let mut owner: Vec<Option<Option<VelocityId>>> = vec![None; scene.vertices.len()];
+    let mut copies: FxHashMap<(VertexId, Option<VelocityId>), VertexId> = FxHashMap::default();
+    let mut names: Option<UniqueNames> = None;
+    for (rows, velocity) in users(scene).collect::<Vec<_>>() {
+        for idx in 0..scene.contours.corners(rows.clone()).len() {
+            let corner = scene.contours.corners(rows.clone())[idx];
+            if *owner[corner.index()].get_or_insert(velocity) == velocity {
+                continue;
+            }
+            let copy = *copies.entry((corner, velocity)).or_insert_with(|| {
+                let taken = names.get_or_insert_with(|| vertex_names(scene));
+                copy_vertex(scene, corner, taken)
+            });
+            scene.contours.corners_mut(rows.clone())[idx] = copy;
+        }
+    }
+}
+
+fn vertex_names(scene: &Scene) -> UniqueNames {
+    scene.vertices.iter().map(|vertex| scene.names.get(vertex.name)).collect()
+}
+
+fn copy_vertex(scene: &mut Scene, original: VertexId, taken: &mut UniqueNames) -> VertexId {
+    let mut vertex = scene.vertices[original.index()];
+    let name = taken.fresh(scene.names.get(vertex.name));
+    vertex.name = scene.names.add(&name);
+    scene.vertices.push(vertex);
+    VertexId::from_index(scene.vertices.len() - 1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn scene(text: &str) -> Scene {
+        ugparse::parse(&ugparse::Source::new("t.ug", text), &ugparse::Options::default()).unwrap().scene
+    }
+
+    #[test]
+    fn shared_vertices_are_copied_once_for_each_body() {
+        let mut scene = scene(
+            "v a 0 0 0; v b 1 0 0; v c 0 1 0; v a_2 9 9 9;
+             f x (a b c) <0.5 0 0>; f y (c b a) <0 0.5 0>; f z (a b c) <0 0.5 0>; w (a b);",
+        );
+        separate_bodies(&mut scene);
+        assert_eq!(scene.vertices.len(), 4 + 3 + 2);
+        let names: Vec<&str> = scene.vertices[4..].iter().map(|v| scene.names.get(v.name)).collect();
+        assert_eq!(names, ["c_2", "b_2", "a_3", "a_4", "b_3"]);
+        let velocities = vertex_velocities(&scene);
+        for face in &scene.faces {
+            for corner in scene.contours.corners(face.contours.clone()) {
+                assert_eq!(velocities[corner.index()], face.velocity);
+            }
+        }
+    }
+
+    #[test]
+    fn one_body_is_left_alone() {
+        let before = scene("v a 0 0 0; v b 1 0 0; v c 0 1 0; f (a b c) <0.5 0 0>; f (c b a) <0.5 0 0>;");
+        let mut after = before.clone();
+        separate_bodies(&mut after);
+        assert_eq!(before, after);
+    }
+}

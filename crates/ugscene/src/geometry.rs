@@ -1,0 +1,132 @@
+//! Rest geometry ⇄ seen geometry, also where `uglorentz` was told to leave
+//! something out.
+
+use glam::DVec3;
+use rayon::prelude::*;
+use ugparse::Scene;
+use ugphysics::{Velocity, contracted, flight_time, rest_position, seen_position};
+
+use crate::{Bodies, vertex_velocities};
+
+/// First word of the escape that tells later stages what was left out.
+const MARK: &str = "uglorentz";
+const NO_CONTRACTION: &str = "no-contraction";
+const NO_FLIGHT_TIME: &str = "no-flight-time";
+
+/// Which of the two effects the seen positions of a scene have in them.
+///
+/// Both, unless the scene says otherwise in an escape such as
+/// `(uglorentz no-contraction)`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Geometry {
+    /// Lorentz contraction, (P1).
+    pub contraction: bool,
+    /// Time of flight, (P2).
+    pub flight_time: bool,
+}
+
+impl Default for Geometry {
+    fn default() -> Self {
+        Self { contraction: true, flight_time: true }
+    }
+}
+
+impl Geometry {
+    /// What the escapes of a scene say.
+    pub fn of(scene: &Scene) -> Self {
+        let left_out = |what: &str| {
+            scene.escapes.iter().any(|text| {
+                let mut words = text.split_whitespace();
+                words.next() == Some(MARK) && words.any(|word| word == what)
+            })
+        };
+        Self { contraction: !left_out(NO_CONTRACTION), flight_time: !left_out(NO_FLIGHT_TIME) }
+    }
+
+    /// The escape to write; `None` if nothing was left out.
+    pub fn escape(self) -> Option<String> {
+        let words = [(self.contraction, NO_CONTRACTION), (self.flight_time, NO_FLIGHT_TIME)];
+        let left_out: Vec<&str> = words.iter().filter(|(kept, _)| !kept).map(|(_, word)| *word).collect();
+        (!left_out.is_empty()).then(|| format!("{MARK} {}", left_out.join(" ")))
+    }
+
+    /// Where a point of a body is seen. Both positions are relative to the eye:
+    /// `p_rest` in the body's frame, the result in the camera's. (P3), or (P1)
+    /// or (P2) alone.
+    pub fn seen(self, p_rest: DVec3, v: Velocity) -> DVec3 {
+        match (self.contraction, self.flight_time) {
+            (true, true) => seen_position(p_rest, v),
+            (true, false) => contracted(p_rest, v),
+            (false, true) => p_rest + flight_time(p_rest, v) * v.beta(),
+            (false, false) => p_rest,
+        }
+    }
+
+    /// The inverse of [`Geometry::seen`]; (P4) if nothing was left out.
+    pub fn rest(self, p_seen: DVec3, v: Velocity) -> DVec3 {
+        match (self.contraction, self.flight_time) {
+            (true, true) => rest_position(p_seen, v),
+            (true, false) => p_seen + (v.gamma() - 1.0) * p_seen.dot(v.direction()) * v.direction(),
+            // Light left at −|p_seen|; the body moved on with v since.
+            (false, true) => p_seen + p_seen.length() * v.beta(),
+            (false, false) => p_seen,
+        }
+    }
+}
+
+/// Rest position of every vertex of a seen scene, relative to the eye, each in
+/// the frame of its own body. (P4)
+pub fn rest_positions(scene: &Scene, eye: DVec3, bodies: &Bodies) -> Vec<DVec3> {
+    if bodies.are_at_rest() {
+        return scene.vertices.par_iter().map(|vertex| vertex.position - eye).collect();
+    }
+    let geometry = Geometry::of(scene);
+    let velocities = vertex_velocities(scene);
+    (scene.vertices.par_iter().zip(velocities.par_iter()))
+        .map(|(vertex, &velocity)| geometry.rest(vertex.position - eye, bodies.of(velocity)))
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const ALL: [Geometry; 4] = [
+        Geometry { contraction: true, flight_time: true },
+        Geometry { contraction: true, flight_time: false },
+        Geometry { contraction: false, flight_time: true },
+        Geometry { contraction: false, flight_time: false },
+    ];
+
+    #[test]
+    fn rest_inverts_seen() {
+        for geometry in ALL {
+            for beta in [DVec3::ZERO, DVec3::new(0.3, -0.4, 0.5), DVec3::new(0.0, 0.0, -0.99)] {
+                let v = Velocity::from_beta(beta).unwrap();
+                for p in [DVec3::new(3.0, 4.0, -1.0), DVec3::new(-2.0, 0.1, 7.0), DVec3::ZERO] {
+                    let back = geometry.rest(geometry.seen(p, v), v);
+                    // γ² = 50 costs two digits of sixteen.
+                    assert!((back - p).length() <= 1e-13 * p.length(), "{geometry:?} {beta} {p}: {back}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn both_effects_are_p1_and_then_p2() {
+        let v = Velocity::from_beta(DVec3::new(0.5, 0.0, 0.0)).unwrap();
+        let p_rest = DVec3::new(3.0, 4.0, 0.0);
+        let p0 = ALL[1].seen(p_rest, v);
+        let both = ALL[2].seen(p0, v);
+        assert!((both - ALL[0].seen(p_rest, v)).length() < 1e-14);
+    }
+
+    #[test]
+    fn escapes_carry_what_was_left_out() {
+        for geometry in ALL {
+            let escapes = geometry.escape().into_iter().chain(["other text".to_string()]).collect();
+            let scene = Scene { escapes, ..Scene::default() };
+            assert_eq!(Geometry::of(&scene), geometry);
+        }
+    }
+}

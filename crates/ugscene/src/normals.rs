@@ -1,0 +1,58 @@
+//! Vertex normals from the faces round a vertex, weighted by angle (Nguyen 1988, 5.2.1).
+
+use glam::DVec3;
+use ugparse::{Face, Scene, VertexId, newell_normal};
+
+/// Angle at corner `idx` of a contour, radians in 0…π. For a reflex corner it
+/// is the outer angle: weights are never larger than π.
+pub fn corner_angle(contour: &[VertexId], idx: usize, positions: &[DVec3]) -> f64 {
+    let len = contour.len();
+    let at = |idx: usize| positions[contour[idx % len].index()];
+    let (a, b) = (at(idx + len - 1) - at(idx), at(idx + 1) - at(idx));
+    libm::atan2(a.cross(b).length(), a.dot(b))
+}
+
+/// Unit normal of a face; zero if it has no area.
+pub(crate) fn face_normal(scene: &Scene, face: &Face, positions: &[DVec3]) -> DVec3 {
+    let outline = scene.contours.get(face.contours.start);
+    newell_normal(outline.iter().map(|corner| positions[corner.index()])).normalize_or_zero()
+}
+
+/// For every vertex the mean of the unit normals of its faces, weighted by the
+/// angle of the face's corner there, of unit length. Zero for a vertex without
+/// faces, or whose faces cancel out.
+///
+/// `positions`: one for each vertex, in the frame the normals are wanted in.
+pub fn smooth_normals(scene: &Scene, positions: &[DVec3]) -> Vec<DVec3> {
+    let mut normals = vec![DVec3::ZERO; scene.vertices.len()];
+    for face in &scene.faces {
+        let normal = face_normal(scene, face, positions);
+        for contour in scene.face_contours(face) {
+            for (idx, corner) in contour.iter().enumerate() {
+                normals[corner.index()] += normal * corner_angle(contour, idx, positions);
+            }
+        }
+    }
+    // Opposite faces leave rounding noise of some 1e-16 that has no direction.
+    let unit = |sum: DVec3| if sum.length() > 1e-12 { sum.normalize() } else { DVec3::ZERO };
+    normals.into_iter().map(unit).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_cube_corner_points_along_the_diagonal_however_its_faces_are_cut() {
+        // One side is cut into two triangles that meet in the corner: weighting
+        // by angle sees no difference, weighting by count would.
+        let text = "v o 0 0 0; v x 1 0 0; v y 0 1 0; v z 0 0 1; v xy 1 1 0; v yz 0 1 1; v zx 1 0 1;
+            f (o y xy); f (o xy x); f (o z yz y); f (o x zx z);";
+        let source = ugparse::Source::new("cube.ug", text);
+        let scene = ugparse::parse(&source, &ugparse::Options::default()).unwrap().scene;
+        let positions: Vec<DVec3> = scene.vertices.iter().map(|v| v.position).collect();
+        let corner = smooth_normals(&scene, &positions)[0];
+        let diagonal = DVec3::NEG_ONE / 3f64.sqrt();
+        assert!((corner - diagonal).length() < 1e-15, "{corner}");
+    }
+}
