@@ -1,1 +1,171 @@
-//! Colours of a UniGrafix scene as seen in relativistic motion
+//! Colours of a UniGrafix scene as seen in relativistic motion.
+//!
+//! Every vertex gets the colour that its body's colour looks like from there:
+//! the hue becomes a wavelength (P16), is divided by the Doppler factor
+//! D (P10), (P11), and becomes a hue again; the value is multiplied by D
+//! (P12). Saturation stays, and a colour without saturation has no wavelength
+//! to shift. The eye's fading towards infrared and ultraviolet (P17) is left to
+//! the renderer, which applies it at every pixel.
+//!
+//! The input is what `uglorentz` writes: vertices where they are seen, faces
+//! with their velocity, the eye in the camera.
+//!
+//! ```
+//! let text = "c green 1 120; v a 9 0 0; v b 10 0 0; v c 10 1 0; f (a b c) green <-0.5 0 0>;";
+//! let source = ugparse::Source::new("scene.ug", text);
+//! let config = ugdoppler::Config { tolerance: 0.0, wavelengths: true, ..Default::default() };
+//! let seen = String::from_utf8(ugdoppler::run(&config, &source)?.text)?;
+//! // It comes straight at the eye, so D = √3 and 546.1 nm is seen at 315.3 nm.
+//! assert!(seen.contains("c green#1_73205080756887") && seen.contains(" 1 315.29098200445"), "{seen}");
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod cli;
+mod palette;
+
+use std::fmt;
+
+use glam::DVec3;
+use rayon::prelude::*;
+use ugparse::{Diagnostics, Options, Parsed, Scene, Source};
+use ugphysics::{Brightness, Velocity, VelocityError, doppler_at};
+use ugscene::{Bodies, Filtered, HueScale};
+
+pub use cli::{Args, main};
+
+use palette::Palette;
+
+/// What to do.
+#[derive(Clone, Debug)]
+pub struct Config {
+    /// Velocity where faces carry none.
+    pub velocity: Velocity,
+    /// The eye; else the scene's camera says.
+    pub eye: Option<DVec3>,
+    /// Write wavelengths in nm in place of hues (`-gw`).
+    pub wavelengths: bool,
+    /// How D changes brightness, (P12).
+    pub law: Brightness,
+    /// Repeat a vertex for every colour of its faces, instead of mixing them (`-vr`).
+    pub repeat: bool,
+    /// Reuse a colour whose wavelength is within this many nm, and whose value
+    /// is within as many percent; 0 gives every vertex its own (`-ct`).
+    pub tolerance: f64,
+    /// Scale all values so that the largest is 1, instead of clipping (`-ir`).
+    pub iris: bool,
+    /// Shift wavelengths.
+    pub doppler: bool,
+    /// Change brightness.
+    pub flux: bool,
+    /// Pass unknown statements on.
+    pub lax: bool,
+    /// How the program was called, for the scene's history.
+    pub command_line: String,
+}
+
+/// A tenth of a nanometre moves the hue by less than one 8-bit step, a tenth
+/// of a percent the value by a quarter of one.
+pub const DEFAULT_TOLERANCE: f64 = 0.1;
+
+impl Default for Config {
+    fn default() -> Self {
+        Self {
+            velocity: Velocity::ZERO,
+            eye: None,
+            wavelengths: false,
+            law: Brightness::Report,
+            repeat: false,
+            tolerance: DEFAULT_TOLERANCE,
+            iris: false,
+            doppler: true,
+            flux: true,
+            lax: false,
+            command_line: PROGRAM.to_string(),
+        }
+    }
+}
+
+pub(crate) const PROGRAM: &str = env!("CARGO_PKG_NAME");
+
+/// Why no scene came out.
+#[derive(Debug)]
+pub enum Error {
+    /// The text is no scene that can be used.
+    Scene(Diagnostics),
+    /// A velocity of the scene is not below the speed of light.
+    Velocity(VelocityError),
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Scene(findings) => findings.fmt(f),
+            Self::Velocity(error) => error.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for Error {}
+
+impl From<Diagnostics> for Error {
+    fn from(findings: Diagnostics) -> Self {
+        Self::Scene(findings)
+    }
+}
+
+impl From<VelocityError> for Error {
+    fn from(error: VelocityError) -> Self {
+        Self::Velocity(error)
+    }
+}
+
+/// Reads a scene as `uglorentz` writes it, and writes it with a colour on every
+/// vertex that a face or wire uses.
+///
+/// # Errors
+/// What is wrong with the scene: [`Error`].
+pub fn run(config: &Config, source: &Source) -> Result<Filtered, Error> {
+    ugscene::filter(source, &Options { lax: config.lax }, |parsed| colour(config, source, parsed))
+}
+
+fn colour(config: &Config, source: &Source, parsed: &Parsed) -> Result<(Scene, Vec<String>), Error> {
+    let mut scene = parsed.scene.clone();
+    let bodies = Bodies::new(&scene, config.velocity)?;
+    let eye = ugscene::eye(&scene, config.eye);
+    if let Some(vertex) = ugscene::vertex_at_eye(&scene, eye, &bodies) {
+        return Err(ugscene::at_eye_error(source, parsed, vertex).into());
+    }
+    ugscene::separate_bodies(&mut scene);
+    if config.repeat {
+        repeat_vertices(&mut scene);
+    }
+    let rest = ugscene::rest_positions(&scene, eye, &bodies);
+    let colors = ugscene::vertex_colors(&scene, &rest, HueScale::Degrees);
+    let factors = doppler_factors(&scene, eye, &bodies);
+
+    let mut palette = Palette::new(&mut scene, config);
+    let used = palette.used_vertices();
+    for (row, (&color, &doppler)) in colors.iter().zip(&factors).enumerate() {
+        if used[row] {
+            palette.paint(row, color, doppler);
+        }
+    }
+    let notes = palette.finish();
+    ugscene::record(&mut scene, PROGRAM, env!("CARGO_PKG_VERSION"), &config.command_line);
+    Ok((scene, notes))
+}
+
+/// A vertex for every face colour that meets there, so that colours stay apart.
+/// A normal stays on every copy, and so shading stays smooth across them.
+fn repeat_vertices(scene: &mut Scene) {
+    let faces: Vec<_> = scene.faces.iter().map(|face| (face.contours.clone(), face.color)).collect();
+    ugscene::split_vertices(scene, &faces, |vertex| vertex.color.is_none());
+}
+
+/// D of every vertex, in its body's motion. (P10)
+pub fn doppler_factors(scene: &Scene, eye: DVec3, bodies: &Bodies) -> Vec<f64> {
+    let velocities = ugscene::vertex_velocities(scene);
+    (scene.vertices.par_iter().zip(velocities.par_iter()))
+        .map(|(vertex, &velocity)| doppler_at(vertex.position - eye, bodies.of(velocity)))
+        .collect()
+}

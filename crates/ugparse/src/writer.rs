@@ -154,8 +154,11 @@ impl<'s> Writer<'s> {
     fn optional_velocity(&mut self, velocity: Option<VelocityId>) {
         if let Some(velocity) = velocity {
             self.text(" <");
+            let start = self.out.len();
             self.point(self.scene.velocities[velocity.index()]);
-            self.text(" >");
+            // The blank before the first number is not needed behind `<`.
+            self.out.remove(start);
+            self.text(">");
         }
     }
 

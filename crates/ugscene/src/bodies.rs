@@ -1,8 +1,9 @@
 //! Bodies: the parts of a scene that move with one velocity.
 
-use rustc_hash::FxHashMap;
-use ugparse::{Scene, UniqueNames, VelocityId, VertexId};
+use ugparse::{Scene, VelocityId};
 use ugphysics::{Velocity, VelocityError};
+
+use crate::split_vertices;
 
 /// The velocities of a scene, ready to compute with.
 #[derive(Clone, Debug)]
@@ -64,37 +65,10 @@ fn users(scene: &Scene) -> impl Iterator<Item = (std::ops::Range<u32>, Option<Ve
 /// Gives every body its own vertices: where faces or wires of different
 /// velocity share a vertex, the later ones get a copy, named after it.
 pub fn separate_bodies(scene: &mut Scene) {
-    if scene.velocities.is_empty() {
-        return;
+    if !scene.velocities.is_empty() {
+        let users: Vec<_> = users(scene).collect();
+        split_vertices(scene, &users, |_| true);
     }
-    let mut owner: Vec<Option<Option<VelocityId>>> = vec![None; scene.vertices.len()];
-    let mut copies: FxHashMap<(VertexId, Option<VelocityId>), VertexId> = FxHashMap::default();
-    let mut names: Option<UniqueNames> = None;
-    for (rows, velocity) in users(scene).collect::<Vec<_>>() {
-        for idx in 0..scene.contours.corners(rows.clone()).len() {
-            let corner = scene.contours.corners(rows.clone())[idx];
-            if *owner[corner.index()].get_or_insert(velocity) == velocity {
-                continue;
-            }
-            let copy = *copies.entry((corner, velocity)).or_insert_with(|| {
-                let taken = names.get_or_insert_with(|| vertex_names(scene));
-                copy_vertex(scene, corner, taken)
-            });
-            scene.contours.corners_mut(rows.clone())[idx] = copy;
-        }
-    }
-}
-
-fn vertex_names(scene: &Scene) -> UniqueNames {
-    scene.vertices.iter().map(|vertex| scene.names.get(vertex.name)).collect()
-}
-
-fn copy_vertex(scene: &mut Scene, original: VertexId, taken: &mut UniqueNames) -> VertexId {
-    let mut vertex = scene.vertices[original.index()];
-    let name = taken.fresh(scene.names.get(vertex.name));
-    vertex.name = scene.names.add(&name);
-    scene.vertices.push(vertex);
-    VertexId::from_index(scene.vertices.len() - 1)
 }
 
 #[cfg(test)]

@@ -22,13 +22,17 @@
 mod bodies;
 mod colors;
 mod eye;
+mod filter;
 mod geometry;
 mod history;
 mod normals;
+mod split;
 
 pub use bodies::{Bodies, separate_bodies, vertex_velocities};
 pub use colors::{HueScale, VertexColor, hsv, vertex_colors};
-pub use eye::eye;
+pub use eye::{at_eye_error, eye, vertex_at_eye};
+pub use filter::{Filtered, filter};
 pub use geometry::{Geometry, rest_positions};
 pub use history::{history, record};
 pub use normals::{corner_angle, smooth_normals};
+pub use split::split_vertices;

@@ -1,0 +1,133 @@
+//! The command line of `ugdoppler`.
+
+use std::process::ExitCode;
+
+use clap::{ArgAction, Parser, ValueEnum};
+use glam::DVec3;
+use ugparse::Source;
+use ugphysics::{Brightness, Velocity};
+use ugpipe::{CommonArgs, Failure, Stage, ToolArgs};
+
+use crate::{Config, DEFAULT_TOLERANCE, Error};
+
+/// Colours of a UniGrafix scene as seen in relativistic motion: Doppler shift and photon flux
+///
+/// Reads the scene that uglorentz writes and gives every vertex its colour as seen: hue to wavelength, divided by
+/// the Doppler factor D, back to hue; brightness times D. Faces carry their velocity, the camera the eye, so the
+/// options -vel and -ep of uglorentz need not be repeated.
+#[derive(Parser, Debug)]
+#[command(name = "ugdoppler", version, before_help = ugpipe::ONE_DASH, after_help = EXAMPLES)]
+pub struct Args {
+    /// Velocity of faces that carry none, fractions of c
+    #[arg(long, visible_alias = "velocity", num_args = 3, value_names = ["X", "Y", "Z"],
+          action = ArgAction::Set, allow_hyphen_values = true, value_parser = ugpipe::finite)]
+    vel: Option<Vec<f64>>,
+
+    /// Eye point; else the camera's, else the origin
+    #[arg(long, visible_alias = "eye", num_args = 3, value_names = ["X", "Y", "Z"],
+          action = ArgAction::Set, allow_hyphen_values = true, value_parser = ugpipe::finite)]
+    ep: Option<Vec<f64>>,
+
+    /// Write wavelengths (nm) in place of hues; draw with ugrainbow -wi
+    #[arg(long, visible_alias = "wavelengths")]
+    gw: bool,
+
+    /// Brightness law: how the value changes with D
+    #[arg(long, visible_alias = "brightness", value_name = "LAW", value_enum, default_value_t = Law::Report)]
+    br: Law,
+
+    /// Repeat a vertex for every face colour that meets there, instead of mixing them
+    #[arg(long, visible_alias = "repeat-vertices")]
+    vr: bool,
+
+    /// Reuse colours within T nm and T percent of value; 0 makes one for each vertex
+    #[arg(long, visible_alias = "color-tolerance", value_name = "T", allow_hyphen_values = true,
+          value_parser = ugpipe::finite, default_value_t = DEFAULT_TOLERANCE)]
+    ct: f64,
+
+    /// Iris: scale all values so that the brightest is 1, instead of clipping those above
+    #[arg(long, visible_alias = "iris")]
+    ir: bool,
+
+    /// Leave wavelengths as they are
+    #[arg(long)]
+    no_doppler: bool,
+
+    /// Leave brightness as it is
+    #[arg(long)]
+    no_flux: bool,
+
+    #[command(flatten)]
+    common: CommonArgs,
+}
+
+const EXAMPLES: &str = "Examples:
+  uglorentz -vel .3 0 0 ship.ug | ugdoppler | ugrainbow > ship.png
+  uglorentz -vel 0 .9 0 street.ug | ugdoppler -gw -ir | ugrainbow -wi > street.png
+  uglorentz -vel .9 0 0 ship.ug | ugdoppler --no-doppler --no-flux | ugrainbow > shape.png";
+
+/// Brightness laws, (P12).
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum Law {
+    /// D: the photon-flux law of the 1988 report
+    Report,
+    /// D^3: photons per area, time and solid angle
+    Photon,
+    /// D^4: power per area and solid angle
+    Bolometric,
+    /// 1: no change
+    None,
+}
+
+impl ToolArgs for Args {
+    fn common(&self) -> &CommonArgs {
+        &self.common
+    }
+}
+
+impl Args {
+    fn config(&self, command_line: &str) -> Result<Config, Failure> {
+        if self.ct < 0.0 {
+            return Err(Failure::usage("a colour tolerance (-ct) is 0 or more"));
+        }
+        let vector = |numbers: &Option<Vec<f64>>| ugpipe::vector(numbers.as_deref()).map(DVec3::from_array);
+        let beta = vector(&self.vel).unwrap_or_default();
+        Ok(Config {
+            velocity: Velocity::from_beta(beta).map_err(Failure::usage)?,
+            eye: vector(&self.ep),
+            wavelengths: self.gw,
+            law: match self.br {
+                Law::Report => Brightness::Report,
+                Law::Photon => Brightness::Photon,
+                Law::Bolometric => Brightness::Bolometric,
+                Law::None => Brightness::None,
+            },
+            repeat: self.vr,
+            tolerance: self.ct,
+            iris: self.ir,
+            doppler: !self.no_doppler,
+            flux: !self.no_flux,
+            lax: self.common.lax(),
+            command_line: command_line.to_string(),
+        })
+    }
+}
+
+/// The program.
+pub fn main() -> ExitCode {
+    ugpipe::main(|args: &Args, stage: &mut Stage| {
+        let config = args.config(stage.command_line())?;
+        let input = stage.input()?;
+        let scene =
+            crate::run(&config, &Source::new(input.name, input.text)).map_err(|error| match error {
+                Error::Scene(findings) => Failure::Report(findings.render(true)),
+                other => Failure::failed(other),
+            })?;
+        if !scene.warnings.is_empty() {
+            stage.report(&scene.warnings.render(true));
+        }
+        scene.notes.iter().for_each(|note| stage.note(note));
+        stage.detail(&format!("{} bytes", scene.text.len()));
+        stage.write(&scene.text)
+    })
+}

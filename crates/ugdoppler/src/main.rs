@@ -1,0 +1,5 @@
+//! `ugdoppler`: see the library of the same name.
+
+fn main() -> std::process::ExitCode {
+    ugdoppler::main()
+}

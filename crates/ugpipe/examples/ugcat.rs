@@ -1,0 +1,85 @@
+//! A small program on `ugpipe`: copies its input to its output, and says and fails as told.
+
+use std::process::ExitCode;
+
+use clap::{ArgAction, Parser, ValueEnum};
+use ugpipe::{CommonArgs, Failure, Stage, ToolArgs};
+
+/// Copies its input to its output
+#[derive(Parser)]
+#[command(name = "ugcat", version, before_help = ugpipe::ONE_DASH)]
+struct Args {
+    /// Velocity, for the head line only
+    #[arg(long, visible_alias = "velocity", value_names = ["X", "Y", "Z"], num_args = 3,
+          action = ArgAction::Set, allow_hyphen_values = true, value_parser = ugpipe::finite)]
+    vel: Option<Vec<f64>>,
+
+    /// View angle, for the head line only
+    #[arg(long, value_names = ["A", "B"], num_args = 1..=2, value_parser = ugpipe::finite)]
+    va: Option<Vec<f64>>,
+
+    /// Title, for the head line only
+    #[arg(long, allow_hyphen_values = true)]
+    title: Option<String>,
+
+    /// Write the command line first
+    #[arg(long)]
+    head: bool,
+
+    /// Say one of everything
+    #[arg(long)]
+    say: bool,
+
+    /// Fail in this way when all is written
+    #[arg(long)]
+    fail: Option<Way>,
+
+    #[command(flatten)]
+    common: CommonArgs,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum Way {
+    Usage,
+    Work,
+    Report,
+}
+
+impl ToolArgs for Args {
+    fn common(&self) -> &CommonArgs {
+        &self.common
+    }
+}
+
+fn main() -> ExitCode {
+    ugpipe::main(run)
+}
+
+fn run(args: &Args, stage: &mut Stage) -> Result<(), Failure> {
+    if args.say {
+        say(stage);
+    }
+    let input = stage.input()?;
+    let mut output = Vec::new();
+    if args.head {
+        output.extend(format!("{{ {} }}\n", stage.command_line()).into_bytes());
+    }
+    output.extend(input.text);
+    stage.write(&output)?;
+    match args.fail {
+        None => Ok(()),
+        Some(Way::Usage) => Err(Failure::usage("`-vel` is too fast; stay below 1")),
+        Some(Way::Work) => Ok("ten".parse::<i32>().map(drop)?),
+        Some(Way::Report) => Err(Failure::Report("\x1b[1merror\x1b[0m: no face\n --> x.ug:1:2".to_owned())),
+    }
+}
+
+fn say(stage: &Stage) {
+    stage.note("all is well");
+    stage.warn("nearly all");
+    stage.report("\x1b[1mwarning\x1b[0m: this face\n --> x.ug:1:2\n");
+    stage.detail("24 faces");
+    let (is_terminal, name) = (stage.output_is_terminal(), stage.output_name());
+    let n_threads = rayon::current_num_threads();
+    stage.note(&format!("terminal {is_terminal}, name {name:?}, threads {n_threads}"));
+}

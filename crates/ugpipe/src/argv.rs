@@ -1,0 +1,297 @@
+//! Historical spelling of options: `-vel .9 0 0` for `--vel .9 0 0`.
+//!
+//! clap knows long options with two dashes only and reads `-vel` as the cluster
+//! `-v -e -l`. So words are rewritten before clap sees them, for exactly the long
+//! names the [`Command`] declares. Values of options are stepped over, as is all
+//! after `--`. A long name wins over a cluster of short ones.
+//!
+//! Known limit: the value in the word after a *short* option is not stepped over. The
+//! only short options of our programs are `-h` and `-V`, which take none.
+
+use std::ffi::{OsStr, OsString};
+use std::iter::Peekable;
+
+use clap::builder::ValueRange;
+use clap::{Arg, ArgAction, Command};
+
+use crate::args::finite;
+
+/// Word that ends the values of an option with a variable number of them.
+/// The rewriter writes it for clap; no user has to.
+const END_OF_VALUES: &str = ";";
+
+/// Completes a command, with `--help` and `--version`, for [`rewrite`].
+///
+/// An option with a variable number of values (`-va A [B]`) gets an end mark, so that
+/// the file in `-va 40 ship.ug` is not taken for its second value.
+pub(crate) fn prepare(command: Command) -> Command {
+    let mut command = command.mut_args(|arg| match arg.get_num_args() {
+        Some(range) if is_variable(range) && arg.get_long().is_some() => {
+            arg.value_terminator(END_OF_VALUES).allow_hyphen_values(true).action(ArgAction::Set)
+        }
+        _ => arg,
+    });
+    command.build();
+    command
+}
+
+/// The arguments as clap wants them. The first is the name of the program and stays.
+pub(crate) fn rewrite(command: &Command, argv: impl IntoIterator<Item = OsString>) -> Vec<OsString> {
+    let mut words = argv.into_iter().peekable();
+    let mut rewritten = Vec::from_iter(words.next());
+    while let Some(word) = words.next() {
+        if word == "--" {
+            rewritten.push(word);
+            rewritten.extend(words);
+            break;
+        }
+        let Some(option) = Spelled::find(command, &word) else {
+            rewritten.push(word);
+            continue;
+        };
+        rewritten.push(option.with_two_dashes(word));
+        if !option.has_value {
+            take_values(option.arg, &mut words, &mut rewritten);
+        }
+    }
+    rewritten
+}
+
+/// A word that names a long option.
+struct Spelled<'a> {
+    arg: &'a Arg,
+    has_two_dashes: bool,
+    /// The value is in the same word: `-fi=ship.ug`.
+    has_value: bool,
+}
+
+impl<'a> Spelled<'a> {
+    fn find(command: &'a Command, word: &OsStr) -> Option<Self> {
+        let after_dash = word.as_encoded_bytes().strip_prefix(b"-")?;
+        let after_dashes = after_dash.strip_prefix(b"-");
+        let name_and_value = after_dashes.unwrap_or(after_dash);
+        let equals = name_and_value.iter().position(|&byte| byte == b'=');
+        let name = str::from_utf8(&name_and_value[..equals.unwrap_or(name_and_value.len())]).ok()?;
+        // One letter after one dash is a short option, and clap's own business.
+        let arg = command.get_arguments().find(|arg| name.len() > 1 && has_long_name(arg, name))?;
+        Some(Self { arg, has_two_dashes: after_dashes.is_some(), has_value: equals.is_some() })
+    }
+
+    fn with_two_dashes(&self, word: OsString) -> OsString {
+        if self.has_two_dashes {
+            return word;
+        }
+        let mut longer = OsString::from("-");
+        longer.push(word);
+        longer
+    }
+}
+
+fn has_long_name(arg: &Arg, name: &str) -> bool {
+    arg.get_long() == Some(name) || arg.get_all_aliases().is_some_and(|aliases| aliases.contains(&name))
+}
+
+/// Moves the values of `arg` over as they are.
+///
+/// First come as many as the option needs. Those it may have in addition are numbers in
+/// all our programs, which tells them from a file name.
+fn take_values(arg: &Arg, words: &mut Peekable<impl Iterator<Item = OsString>>, out: &mut Vec<OsString>) {
+    let Some(range) = arg.get_num_args().filter(|_| arg.get_action().takes_values()) else { return };
+    let mut n_taken = 0;
+    while n_taken < range.max_values() {
+        let is_needed = n_taken < range.min_values();
+        let belongs = |word: &OsString| if is_needed { may_be_value(arg, word) } else { is_number(word) };
+        let Some(value) = words.next_if(belongs) else { break };
+        out.push(value);
+        n_taken += 1;
+    }
+    if (range.min_values()..range.max_values()).contains(&n_taken) {
+        out.push(END_OF_VALUES.into());
+    }
+}
+
+/// Whether clap would take `word` for a value of `arg`. Elsewhere a word with a dash is
+/// the next option, so that in `-fi -fo x` the missing value is reported, not `-fo`.
+fn may_be_value(arg: &Arg, word: &OsStr) -> bool {
+    arg.is_allow_hyphen_values_set() || word == "-" || !word.as_encoded_bytes().starts_with(b"-")
+}
+
+fn is_number(word: &OsStr) -> bool {
+    word.to_str().is_some_and(|word| finite(word).is_ok())
+}
+
+fn is_variable(range: ValueRange) -> bool {
+    range.min_values() < range.max_values()
+}
+
+#[cfg(test)]
+mod tests {
+    use std::os::unix::ffi::OsStringExt;
+
+    use super::*;
+
+    fn tool() -> Command {
+        let number = |name| Arg::new(name).long(name).value_parser(finite);
+        let flag = |name| Arg::new(name).long(name).action(ArgAction::SetTrue);
+        prepare(
+            Command::new("tool")
+                .version("1")
+                .arg(
+                    number("vel")
+                        .alias("velocity")
+                        .num_args(3)
+                        .action(ArgAction::Set)
+                        .allow_hyphen_values(true),
+                )
+                .arg(number("ti").allow_hyphen_values(true))
+                .arg(number("va").num_args(1..=2))
+                .arg(Arg::new("an").long("an").num_args(1..=3))
+                .arg(number("lg").num_args(0..=1).default_missing_value("7"))
+                .arg(Arg::new("title").long("title").allow_hyphen_values(true))
+                .arg(Arg::new("fi").long("fi"))
+                .arg(flag("gw"))
+                .arg(flag("no-flux"))
+                .arg(flag("w").short('w'))
+                .arg(flag("g").short('g'))
+                .arg(Arg::new("t").short('t').allow_hyphen_values(true).value_parser(finite))
+                .arg(Arg::new("file")),
+        )
+    }
+
+    /// Rewrites a line of words without blanks, and lets clap read it.
+    fn parse(line: &str) -> (String, Result<clap::ArgMatches, clap::Error>) {
+        let command = tool();
+        let words = rewrite(&command, format!("tool {line}").split_whitespace().map(OsString::from));
+        let rewritten = Vec::from_iter(words[1..].iter().map(|word| word.to_str().unwrap())).join(" ");
+        (rewritten, command.try_get_matches_from(words))
+    }
+
+    #[test]
+    fn options_with_one_dash() {
+        #[track_caller]
+        fn check(line: &str, expected: &str) {
+            let (rewritten, read) = parse(line);
+            assert_eq!(rewritten, expected, "{line}");
+            assert!(read.is_ok(), "{line}: {}", read.unwrap_err());
+        }
+        check("", "");
+        check("-vel .9 0 0", "--vel .9 0 0");
+        check("-vel -.9 0 -1e-3", "--vel -.9 0 -1e-3");
+        check("-vel -.9 0 -1e-3 -gw", "--vel -.9 0 -1e-3 --gw");
+        check("--vel -5.e-1 0 0 -gw", "--vel -5.e-1 0 0 --gw");
+        check("-velocity .9 0 0", "--velocity .9 0 0");
+        check("--velocity .9 0 0", "--velocity .9 0 0");
+        check("-ti -5", "--ti -5");
+        check("-ti=-.5 -gw", "--ti=-.5 --gw");
+        check("--ti=-.5 -gw", "--ti=-.5 --gw");
+        check("-no-flux ship.ug", "--no-flux ship.ug");
+        // A dash alone is a file.
+        check("-", "-");
+        check("-fi -", "--fi -");
+        check("-fi - -gw", "--fi - --gw");
+        check("-fi=ship.ug", "--fi=ship.ug");
+        // Values are never options.
+        check("-title -vel", "--title -vel");
+        check("-title -vel -gw", "--title -vel --gw");
+        check("-title -- -gw", "--title -- --gw");
+        check("-title=-vel", "--title=-vel");
+        // Neither are files after two dashes.
+        check("-- -vel", "-- -vel");
+        check("-gw -- -gw", "--gw -- -gw");
+        // Short options, alone and in clusters, are left alone; a long name wins.
+        check("-w", "-w");
+        check("-wg", "-wg");
+        check("-gw", "--gw");
+        check("-t-3", "-t-3");
+        check("-t -3", "-t -3");
+    }
+
+    #[test]
+    fn values_in_varying_number_end_where_numbers_end() {
+        #[track_caller]
+        fn check(line: &str, expected: &str, name: &str, values: &[&str], file: Option<&str>) {
+            let (rewritten, read) = parse(line);
+            assert_eq!(rewritten, expected, "{line}");
+            let read = read.unwrap_or_else(|error| panic!("{line}: {error}"));
+            let raw = read.get_raw(name).into_iter().flatten();
+            assert_eq!(Vec::from_iter(raw.map(|value| value.to_str().unwrap())), values, "{line}");
+            assert_eq!(read.get_one::<String>("file").map(String::as_str), file, "{line}");
+        }
+        check("-va 40", "--va 40 ;", "va", &["40"], None);
+        check("-va 40 30", "--va 40 30", "va", &["40", "30"], None);
+        check("-va 40 30 ship.ug", "--va 40 30 ship.ug", "va", &["40", "30"], Some("ship.ug"));
+        check("-va 40 ship.ug", "--va 40 ; ship.ug", "va", &["40"], Some("ship.ug"));
+        check("-va 40 -gw", "--va 40 ; --gw", "va", &["40"], None);
+        check("-va 40 - -gw", "--va 40 ; - --gw", "va", &["40"], Some("-"));
+        check("-va -.5 -1e-3 -gw", "--va -.5 -1e-3 --gw", "va", &["-.5", "-1e-3"], None);
+        check("-va=40 ship.ug", "--va=40 ship.ug", "va", &["40"], Some("ship.ug"));
+        check("-an eye ship.ug", "--an eye ; ship.ug", "an", &["eye"], Some("ship.ug"));
+        check(
+            "-an -.5 0 -1e-3 ship.ug",
+            "--an -.5 0 -1e-3 ship.ug",
+            "an",
+            &["-.5", "0", "-1e-3"],
+            Some("ship.ug"),
+        );
+        check("-an center -- -gw", "--an center ; -- -gw", "an", &["center"], Some("-gw"));
+        check("-lg ship.ug", "--lg ; ship.ug", "lg", &["7"], Some("ship.ug"));
+        check("-lg 3 ship.ug", "--lg 3 ship.ug", "lg", &["3"], Some("ship.ug"));
+        check("-lg -gw", "--lg ; --gw", "lg", &["7"], None);
+    }
+
+    #[test]
+    fn mistakes_are_told_in_the_users_words() {
+        #[track_caller]
+        fn check(line: &str, expected: &str) {
+            let error = parse(line).1.expect_err(line).to_string();
+            assert_eq!(error.lines().next(), Some(expected), "{line}");
+        }
+        check("-vel .9 0", "error: 3 values required for '--vel <vel> <vel> <vel>' but 2 were provided");
+        check(
+            "-vel .9 0 -gw",
+            "error: invalid value '-gw' for '--vel <vel> <vel> <vel>': not a finite number",
+        );
+        check(
+            "-vel .9 0 nan",
+            "error: invalid value 'nan' for '--vel <vel> <vel> <vel>': not a finite number",
+        );
+        check("-ti 1e999", "error: invalid value '1e999' for '--ti <ti>': not a finite number");
+        check(
+            "-vel .9 0 0 -vel .5 0 0",
+            "error: the argument '--vel <vel> <vel> <vel>' cannot be used multiple times",
+        );
+        check("-fi -gw", "error: a value is required for '--fi <fi>' but none was supplied");
+        check("-va", "error: a value is required for '--va <va>...' but none was supplied");
+        check("-va -gw", "error: invalid value '-gw' for '--va <va>...': not a finite number");
+        check("-va 1 2 3 4", "error: unexpected argument '4' found");
+        check("---gw", "error: unexpected argument '---gw' found");
+        check("-q", "error: unexpected argument '-q' found");
+    }
+
+    #[test]
+    fn help_and_version_come_with_one_dash() {
+        for (line, kind) in [
+            ("-help", clap::error::ErrorKind::DisplayHelp),
+            ("-version", clap::error::ErrorKind::DisplayVersion),
+        ] {
+            assert_eq!(parse(line).1.expect_err(line).kind(), kind);
+        }
+    }
+
+    #[test]
+    fn words_need_not_be_text() {
+        #[track_caller]
+        fn check(words: &[&[u8]], expected: &[&[u8]]) {
+            let words = words.iter().map(|word| OsString::from_vec(word.to_vec()));
+            let rewritten = rewrite(&tool(), words).into_iter().map(OsString::into_vec);
+            assert_eq!(Vec::from_iter(rewritten), expected);
+        }
+        check(&[], &[]);
+        check(&[b"\xff"], &[b"\xff"]);
+        check(&[b"-vel"], &[b"-vel"]);
+        check(&[b"tool", b"-fi", b"\xff.ug", b"-gw"], &[b"tool", b"--fi", b"\xff.ug", b"--gw"]);
+        check(&[b"tool", b"-fi=\xff.ug"], &[b"tool", b"--fi=\xff.ug"]);
+        check(&[b"tool", b"-\xff", b"-gw"], &[b"tool", b"-\xff", b"--gw"]);
+        check(&[b"tool", b"-va", b"40", b"\xff"], &[b"tool", b"--va", b"40", b";", b"\xff"]);
+    }
+}

@@ -1,0 +1,42 @@
+//! The whole input in memory.
+
+use std::fs;
+use std::io::{self, IsTerminal, Read};
+use std::path::Path;
+
+use crate::failure::Failure;
+use crate::text;
+
+/// All of an input.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Input {
+    /// Name for messages: the file as the user named it, or `<stdin>`.
+    pub name: String,
+    /// Every byte of it.
+    pub text: Vec<u8>,
+}
+
+const STDIN: &str = "<stdin>";
+
+/// Reads a file, or standard input if there is none.
+pub(crate) fn read(path: Option<&Path>) -> Result<Input, Failure> {
+    let (name, text) = match path {
+        Some(path) => (text::path(path), fs::read(path)),
+        None => (STDIN.to_owned(), read_stdin()),
+    };
+    match text {
+        Ok(text) => Ok(Input { name, text }),
+        Err(error) => Err(Failure::Read { name, error }),
+    }
+}
+
+fn read_stdin() -> io::Result<Vec<u8>> {
+    let mut text = Vec::new();
+    io::stdin().lock().read_to_end(&mut text)?;
+    Ok(text)
+}
+
+/// A person sits before the screen and may not know that we wait for text.
+pub(crate) fn stdin_is_terminal() -> bool {
+    io::stdin().is_terminal()
+}

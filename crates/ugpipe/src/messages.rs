@@ -1,0 +1,100 @@
+//! Notes, warnings and errors: to standard error or the file of `-fm`.
+
+use std::fs::File;
+use std::io::{self, Write};
+use std::time::Instant;
+
+use anstream::adapter::strip_str;
+use anstream::{AutoStream, ColorChoice};
+use clap::builder::styling::{AnsiColor, Style};
+
+use crate::args::CommonArgs;
+use crate::failure::Failure;
+use crate::text;
+
+const ERROR: Style = AnsiColor::Red.on_default().bold();
+const WARNING: Style = AnsiColor::Yellow.on_default().bold();
+const NOTE: Style = AnsiColor::Cyan.on_default().bold();
+
+/// Where messages go, and which are wanted.
+pub(crate) struct Messages {
+    program: String,
+    file: Option<File>,
+    is_quiet: bool,
+    is_verbose: bool,
+    start: Instant,
+}
+
+impl Messages {
+    /// Everything to standard error, until the options are known.
+    pub(crate) fn new(program: &str) -> Self {
+        let program = program.to_owned();
+        Self { program, file: None, is_quiet: false, is_verbose: false, start: Instant::now() }
+    }
+
+    /// Does as the options say. The file of `-fm` is emptied now.
+    pub(crate) fn follow(&mut self, common: &CommonArgs) -> Result<(), Failure> {
+        self.is_quiet = common.quiet();
+        self.is_verbose = common.verbose();
+        if let Some(path) = common.messages() {
+            let created = File::create(path);
+            self.file = Some(created.map_err(|error| Failure::Write { name: text::path(path), error })?);
+        }
+        Ok(())
+    }
+
+    pub(crate) fn note(&self, text: &str) {
+        if !self.is_quiet {
+            self.headed("note", NOTE, text);
+        }
+    }
+
+    pub(crate) fn warn(&self, text: &str) {
+        if !self.is_quiet {
+            self.headed("warning", WARNING, text);
+        }
+    }
+
+    pub(crate) fn warn_report(&self, text: &str) {
+        if !self.is_quiet {
+            self.print(text);
+        }
+    }
+
+    pub(crate) fn detail(&self, text: &str) {
+        if self.is_verbose {
+            let seconds = self.start.elapsed().as_secs_f64();
+            self.print(&format!("{}: {seconds:.3} s: {text}", self.program));
+        }
+    }
+
+    pub(crate) fn failure(&self, failure: &Failure) {
+        match failure {
+            Failure::Report(text) => self.print(text),
+            Failure::Usage(text) => {
+                self.headed("error", ERROR, &format!("{text}\ntry `{} --help`", self.program));
+            }
+            _ => self.headed("error", ERROR, &failure.to_string()),
+        }
+    }
+
+    fn headed(&self, heading: &str, style: Style, text: &str) {
+        self.print(&format!("{}: {style}{heading}:{style:#} {text}", self.program));
+    }
+
+    /// Prints lines, in one piece: programs of a pipe share the terminal.
+    ///
+    /// A message that cannot be printed has no other way to the user, so it is dropped.
+    fn print(&self, text: &str) {
+        let text = format!("{}\n", text.trim_end_matches('\n'));
+        let plain = strip_str(&text).to_string();
+        let is_in_file = self.file.as_ref().is_some_and(|mut file| file.write_all(plain.as_bytes()).is_ok());
+        if is_in_file {
+            return;
+        }
+        let stderr = io::stderr();
+        let is_colored = AutoStream::choice(&stderr) != ColorChoice::Never;
+        let shown = if is_colored { text } else { plain };
+        let _ = stderr.lock().write_all(shown.as_bytes());
+    }
+}

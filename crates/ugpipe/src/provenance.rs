@@ -1,0 +1,138 @@
+//! The command line as recorded in the output.
+
+use std::ffi::OsStr;
+
+use clap::parser::ValueSource;
+use clap::{Arg, ArgMatches, Command};
+
+use crate::args::WITHOUT_EFFECT;
+use crate::text;
+
+/// Program and options that affect the content, in the historical spelling and the
+/// user's order: `uglorentz -vel .9 0 0 -sm`.
+///
+/// The line can stand in a `{ … }` comment: it holds no braces and no control
+/// characters. A shell reads back every other argument as it was given.
+pub(crate) fn command_line(command: &Command, matches: &ArgMatches) -> String {
+    let mut options: Vec<_> = command
+        .get_arguments()
+        .filter(|arg| matches.value_source(arg.get_id().as_str()) == Some(ValueSource::CommandLine))
+        .filter(|arg| !WITHOUT_EFFECT.contains(&arg.get_id().as_str()))
+        .collect();
+    options.sort_by_key(|arg| matches.index_of(arg.get_id().as_str()));
+
+    let mut line = text::printable(command.get_name());
+    for arg in options {
+        for occurrence in matches.get_raw_occurrences(arg.get_id().as_str()).into_iter().flatten() {
+            append(&mut line, &spelling(arg));
+            if arg.get_action().takes_values() {
+                occurrence.for_each(|value| append(&mut line, &quoted(value)));
+            }
+        }
+    }
+    line
+}
+
+fn append(line: &mut String, word: &str) {
+    if !word.is_empty() {
+        line.push(' ');
+        line.push_str(word);
+    }
+}
+
+/// One dash before the names of 1988, of two or three letters, and two before later ones.
+fn spelling(arg: &Arg) -> String {
+    match (arg.get_long(), arg.get_short()) {
+        (Some(long), _) if long.len() <= 3 => format!("-{long}"),
+        (Some(long), _) => format!("--{long}"),
+        (None, Some(short)) => format!("-{short}"),
+        (None, None) => String::new(),
+    }
+}
+
+/// `word` for a POSIX shell, safe within a comment.
+fn quoted(word: &OsStr) -> String {
+    let safe = text::printable(&word.to_string_lossy()).replace(['{', '}', char::REPLACEMENT_CHARACTER], "?");
+    let is_plain = |c: char| c.is_alphanumeric() || "-_+.,:/@%=".contains(c);
+    if !safe.is_empty() && safe.chars().all(is_plain) {
+        safe
+    } else {
+        format!("'{}'", safe.replace('\'', r"'\''"))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::ffi::OsString;
+    use std::os::unix::ffi::OsStringExt;
+
+    use clap::{Args, Parser};
+
+    use super::*;
+    use crate::CommonArgs;
+    use crate::argv;
+
+    /// The line recorded for `words`, with an option of every kind.
+    fn recorded(words: Vec<OsString>) -> String {
+        let option = |name| Arg::new(name).long(name).allow_hyphen_values(true);
+        let command = Command::new("tool")
+            .arg(option("vel").alias("velocity").num_args(3))
+            .arg(option("va").num_args(1..=2))
+            .arg(option("ti").default_value("0"))
+            .arg(option("title").value_parser(clap::value_parser!(OsString)))
+            .arg(Arg::new("gw").long("gw").action(clap::ArgAction::SetTrue))
+            .arg(Arg::new("no-flux").long("no-flux").action(clap::ArgAction::SetTrue));
+        let mut command = argv::prepare(CommonArgs::augment_args(command));
+        let words = argv::rewrite(&command, std::iter::once("tool".into()).chain(words));
+        let matches = command.try_get_matches_from_mut(words).unwrap();
+        command_line(&command, &matches)
+    }
+
+    #[test]
+    fn options_that_affect_the_content() {
+        #[track_caller]
+        fn check(words: &str, expected: &str) {
+            assert_eq!(recorded(words.split_whitespace().map(OsString::from).collect()), expected);
+        }
+        check("", "tool");
+        check("-vel .9 0 0", "tool -vel .9 0 0");
+        check("--velocity -.9 0 -1e-3", "tool -vel -.9 0 -1e-3");
+        check("--ti=-.5", "tool -ti -.5");
+        check("--no-flux -gw -va 40 ship.ug", "tool --no-flux -gw -va 40");
+        check("-va 40 30 -ti 0", "tool -va 40 30 -ti 0");
+        check("-fi a.ug -fo b.ug -fm c -lax -qt -nt 3", "tool -lax");
+        check("--input a.ug --output b.ug --messages c -verbose -threads 1 -gw", "tool -gw");
+    }
+
+    #[test]
+    fn values_are_safe_in_a_shell_and_in_a_comment() {
+        #[track_caller]
+        fn check(title: &[u8], expected: &str) {
+            let words = vec!["-title".into(), OsString::from_vec(title.to_vec())];
+            assert_eq!(recorded(words), format!("tool --title {expected}"));
+        }
+        check(b"ship", "ship");
+        check(b"", "''");
+        check(b"a ship", "'a ship'");
+        check(b"-vel", "-vel");
+        check(b"it's", r"'it'\''s'");
+        check(b"$HOME;*", "'$HOME;*'");
+        check(b"}{", "'??'");
+        check(b"a\nb\x1b[1m\x7f", "'a?b?[1m?'");
+        check(b"\xff", "'?'");
+        check("γ".as_bytes(), "γ");
+    }
+
+    #[test]
+    fn every_common_option_is_known_to_change_the_content_or_not() {
+        #[derive(Parser)]
+        struct Bare {
+            #[command(flatten)]
+            _common: CommonArgs,
+        }
+        let command = <Bare as clap::CommandFactory>::command();
+        let ids = command.get_arguments().map(|arg| arg.get_id().as_str());
+        let with_effect = Vec::from_iter(ids.filter(|id| !WITHOUT_EFFECT.contains(id)));
+        assert_eq!(with_effect, ["lax"]);
+    }
+}

@@ -1,0 +1,118 @@
+//! One program's place in a pipe.
+
+use std::path::{Path, PathBuf};
+
+use crate::args::CommonArgs;
+use crate::failure::Failure;
+use crate::input::{self, Input};
+use crate::messages::Messages;
+use crate::output::Output;
+
+/// What a program sees of the world: its input, its output and its messages.
+///
+/// Read all, compute, then write all: a filter that fails has written nothing, so the
+/// next program never draws half a scene.
+pub struct Stage {
+    input: Option<PathBuf>,
+    is_input_named: bool,
+    output: Output,
+    messages: Messages,
+    command_line: String,
+}
+
+impl Stage {
+    pub(crate) fn new(common: &CommonArgs, messages: Messages, command_line: String) -> Self {
+        Self {
+            input: common.input().map(Path::to_owned),
+            is_input_named: common.input_named().is_some(),
+            output: Output::new(common.output()),
+            messages,
+            command_line,
+        }
+    }
+
+    /// Reads the whole input: the file the user named, or standard input. Call it once,
+    /// for standard input is empty the second time.
+    ///
+    /// # Errors
+    /// [`Failure::Read`] if there is no such file or it cannot be read.
+    pub fn input(&mut self) -> Result<Input, Failure> {
+        if !self.is_input_named && input::stdin_is_terminal() {
+            self.note("reading standard input; --help for help");
+        }
+        input::read(self.input.as_deref())
+    }
+
+    /// The program and those of its options that affect the content, for the output's
+    /// head comment: `uglorentz -vel .9 0 0`.
+    ///
+    /// Options stand in the historical spelling and the user's order; files, threads and
+    /// talk (`-fi -fo -fm -nt -qt -vb`) are left out, since equal content must be equal
+    /// bytes. There are no braces and no control characters in it: they show as `?`.
+    pub fn command_line(&self) -> &str {
+        &self.command_line
+    }
+
+    /// Writes the whole output. Call it once, when everything else has succeeded.
+    ///
+    /// A named file takes its place when the program ends well, not before. A second
+    /// call appends.
+    ///
+    /// # Errors
+    /// [`Failure::Write`] if the disk is full, the reader has left, or the place is not ours
+    /// to write to.
+    pub fn write(&mut self, data: &[u8]) -> Result<(), Failure> {
+        self.output.write(data)
+    }
+
+    /// Whether the output would appear on the screen of a person: pictures must not.
+    pub fn output_is_terminal(&self) -> bool {
+        self.output.is_terminal()
+    }
+
+    /// File of the output, if it is not standard output. Its ending may choose a format.
+    pub fn output_name(&self) -> Option<&Path> {
+        self.output.path()
+    }
+
+    /// Sends the output to a file the user did not name, as some programs did in 1988
+    /// when their output was a terminal. Call it before [`Stage::write`].
+    pub fn set_output_name(&mut self, path: impl AsRef<Path>) {
+        self.output.set_path(path.as_ref());
+    }
+
+    /// Tells the user something worth knowing. Silent under `-qt`.
+    pub fn note(&self, text: &str) {
+        self.messages.note(text);
+    }
+
+    /// Tells the user of something that may be wrong. Silent under `-qt`.
+    pub fn warn(&self, text: &str) {
+        self.messages.warn(text);
+    }
+
+    /// Prints finished diagnostics as they are: warnings with their own places and
+    /// headings. Terminal styles in them are left out where they do not belong, so render
+    /// them styled always. Silent under `-qt`.
+    ///
+    /// Errors of this kind end the run as [`Failure::Report`].
+    pub fn report(&self, text: &str) {
+        self.messages.warn_report(text);
+    }
+
+    /// Says what was done, with the time since the start. Only under `-vb`.
+    pub fn detail(&self, text: &str) {
+        self.messages.detail(text);
+    }
+
+    /// Keeps or discards the output, and says why a run failed.
+    pub(crate) fn end(mut self, outcome: Result<(), Failure>) -> Result<(), Failure> {
+        let outcome = outcome.and_then(|()| self.output.finish());
+        if let Err(failure) = &outcome
+            && !failure.is_closed_pipe()
+        {
+            self.messages.failure(failure);
+        }
+        outcome
+    }
+}

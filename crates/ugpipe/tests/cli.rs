@@ -1,0 +1,402 @@
+//! What a user and a shell see of a program, on `examples/ugcat.rs`.
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking, its helpers too")]
+
+use std::env;
+use std::ffi::OsStr;
+use std::fs::{self, File};
+use std::io::{Read, Write};
+use std::os::unix::ffi::OsStrExt;
+use std::os::unix::fs::{MetadataExt, PermissionsExt, symlink};
+use std::os::unix::process::ExitStatusExt;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+
+use tempfile::TempDir;
+
+const SHIP: &str = "v A 0 0 0;\n";
+const SIGPIPE: i32 = 13;
+
+/// The example, which cargo builds beside the tests.
+fn ugcat() -> PathBuf {
+    let test = env::current_exe().unwrap();
+    let example = test.parent().and_then(Path::parent).unwrap().join("examples/ugcat");
+    assert!(example.exists(), "{example:?} is not built; run `cargo test -p ugpipe`");
+    example
+}
+
+/// A folder with one scene, `ship.ug`.
+fn folder() -> TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("ship.ug"), SHIP).unwrap();
+    folder
+}
+
+/// `ugcat` in `folder`, with no terminal to colour for.
+fn command(folder: &TempDir, args: &[&str]) -> Command {
+    let mut command = Command::new(ugcat());
+    command.current_dir(folder).args(args).stdin(Stdio::null());
+    command
+}
+
+fn run(folder: &TempDir, args: &[&str]) -> Output {
+    command(folder, args).output().unwrap()
+}
+
+/// Runs with `input` on standard input.
+fn feed(mut command: Command, input: &str) -> Output {
+    command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    let mut child = command.spawn().unwrap();
+    child.stdin.take().unwrap().write_all(input.as_bytes()).unwrap();
+    child.wait_with_output().unwrap()
+}
+
+/// Runs a line of shell, in which `$ugcat` is the program.
+fn shell(folder: &TempDir, line: &str) -> Output {
+    let mut command = Command::new("sh");
+    command.current_dir(folder).args(["-c", line]).env("ugcat", ugcat()).stdin(Stdio::null());
+    command.output().unwrap()
+}
+
+/// Asserts status, standard output and standard error, to the letter.
+#[track_caller]
+fn assert_run(output: &Output, status: i32, stdout: &str, stderr: &str) {
+    assert_eq!(String::from_utf8_lossy(&output.stderr), stderr);
+    assert_eq!(String::from_utf8_lossy(&output.stdout), stdout);
+    assert_eq!(output.status.code(), Some(status));
+}
+
+/// Names of all files in `folder`, sorted: temporary ones must not be left.
+fn files(folder: &TempDir) -> Vec<String> {
+    let entries = fs::read_dir(folder).unwrap();
+    let mut names = Vec::from_iter(entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()));
+    names.sort();
+    names
+}
+
+fn read(folder: &TempDir, name: &str) -> String {
+    fs::read_to_string(folder.path().join(name)).unwrap()
+}
+
+#[test]
+fn input_is_a_file_or_standard_input() {
+    let folder = folder();
+    for args in [&["ship.ug"][..], &["-fi", "ship.ug"], &["--input", "ship.ug"], &["-fi=ship.ug"]] {
+        assert_run(&run(&folder, args), 0, SHIP, "");
+    }
+    for args in [&[][..], &["-"], &["-fi", "-"], &["--", "-"], &["-fo", "-"]] {
+        assert_run(&feed(command(&folder, args), "c red 0;\n"), 0, "c red 0;\n", "");
+    }
+}
+
+#[test]
+fn file_names_need_not_be_text() {
+    let folder = folder();
+    let name = OsStr::from_bytes(b"\xff.ug");
+    fs::write(folder.path().join(name), SHIP).unwrap();
+    for option in ["--", "-fi", "--input"] {
+        let output = command(&folder, &[option]).arg(name).output().unwrap();
+        assert_run(&output, 0, SHIP, "");
+    }
+    let output = command(&folder, &["ship.ug", "-fo"]).arg(OsStr::from_bytes(b"\xfe.ug")).output().unwrap();
+    assert_run(&output, 0, "", "");
+    assert!(folder.path().join(OsStr::from_bytes(b"\xfe.ug")).exists());
+
+    let output = command(&folder, &[]).arg(OsStr::from_bytes(b"no\xff.ug")).output().unwrap();
+    assert_run(&output, 1, "", "ugcat: error: cannot read `no\u{fffd}.ug`: No such file or directory\n");
+}
+
+#[test]
+fn failures_have_a_status_and_a_message() {
+    let folder = folder();
+    #[track_caller]
+    fn check(folder: &TempDir, args: &[&str], status: i32, stderr: &str) {
+        let output = run(folder, args);
+        assert_eq!(String::from_utf8_lossy(&output.stderr), stderr);
+        assert_eq!(output.status.code(), Some(status));
+    }
+    check(&folder, &["x.ug"], 1, "ugcat: error: cannot read `x.ug`: No such file or directory\n");
+    check(&folder, &["."], 1, "ugcat: error: cannot read `.`: Is a directory\n");
+    check(&folder, &["-fo", "."], 1, "ugcat: error: cannot write `.`: Is a directory\n");
+    check(
+        &folder,
+        &["-fo", "no/x.ug"],
+        1,
+        "ugcat: error: cannot write `no/x.ug`: No such file or directory\n",
+    );
+    check(&folder, &["-fm", "no/x"], 1, "ugcat: error: cannot write `no/x`: No such file or directory\n");
+    check(&folder, &["-fail", "work"], 1, "ugcat: error: invalid digit found in string\n");
+    check(&folder, &["-fail", "report"], 1, "error: no face\n --> x.ug:1:2\n");
+    let usage = "ugcat: error: `-vel` is too fast; stay below 1\ntry `ugcat --help`\n";
+    check(&folder, &["-fail", "usage"], 2, usage);
+    check(&folder, &["-qt", "-fail", "usage"], 2, usage);
+}
+
+#[test]
+fn mistakes_in_the_command_line() {
+    #[track_caller]
+    fn check(args: &[&str], first_line: &str) {
+        let output = run(&folder(), args);
+        assert_eq!(String::from_utf8_lossy(&output.stderr).lines().next(), Some(first_line));
+        assert_eq!(output.stdout, b"");
+        assert_eq!(output.status.code(), Some(2));
+    }
+    check(&["-fi", "ship.ug", "ship.ug"], "error: the argument '--fi <FILE>' cannot be used with '[FILE]'");
+    check(&["ship.ug", "ship.ug"], "error: unexpected argument 'ship.ug' found");
+    check(&["-fi"], "error: a value is required for '--fi <FILE>' but none was supplied");
+    check(&["-vel", ".9", "0"], "error: 3 values required for '--vel <X> <Y> <Z>' but 2 were provided");
+    check(
+        &["-vel", ".9", "0", "-lax"],
+        "error: invalid value '-lax' for '--vel <X> <Y> <Z>': not a finite number",
+    );
+    check(&["-nt", "0"], "error: invalid value '0' for '--nt <N>': 0 is not in 1..=1024");
+    check(&["-qt", "-vb"], "error: the argument '--qt' cannot be used with '--vb'");
+    check(&["-zz"], "error: unexpected argument '-z' found");
+}
+
+#[test]
+fn help_and_version() {
+    let folder = folder();
+    for option in ["-version", "--version"] {
+        assert_run(&run(&folder, &[option]), 0, &format!("ugcat {}\n", env!("CARGO_PKG_VERSION")), "");
+    }
+    for option in ["-help", "--help", "-h"] {
+        let output = run(&folder, &[option]);
+        assert_eq!(String::from_utf8_lossy(&output.stderr), "");
+        assert_eq!(output.status.code(), Some(0));
+        let help = String::from_utf8_lossy(&output.stdout);
+        assert!(help.starts_with(ugpipe::ONE_DASH), "{help}");
+        for name in ["--fi <FILE>", "--fo <FILE>", "--fm <FILE>", "--lax", "--qt", "--vb", "--nt <N>"] {
+            assert!(help.contains(name), "{name} is not in {help}");
+        }
+    }
+}
+
+#[test]
+fn the_command_line_is_recorded_without_streams_and_threads() {
+    let folder = folder();
+    let args = "--velocity -.9 0 -1e-3 -va 40 -fo out.ug -nt 2 -head -title {a} ship.ug";
+    assert_run(&run(&folder, &Vec::from_iter(args.split(' '))), 0, "", "");
+    assert_eq!(
+        read(&folder, "out.ug"),
+        format!("{{ ugcat -vel -.9 0 -1e-3 -va 40 --head --title '?a?' }}\n{SHIP}")
+    );
+}
+
+#[test]
+fn messages_go_to_standard_error_or_a_file() {
+    const WARNINGS: &str = "ugcat: warning: nearly all\nwarning: this face\n --> x.ug:1:2\n";
+    let folder = folder();
+    let notes = |n_threads: &str, name: &str| {
+        let rest = format!("ugcat: note: terminal false, name {name}, threads {n_threads}\n");
+        format!("ugcat: note: all is well\n{WARNINGS}{rest}")
+    };
+    assert_run(&run(&folder, &["-say", "-nt", "3"]), 0, "", &notes("3", "None"));
+    assert_run(&run(&folder, &["-say", "-nt", "1", "-fm", "-"]), 0, "", &notes("1", "None"));
+    assert_run(&run(&folder, &["-say", "-nt", "1", "-fo", "x"]), 0, "", &notes("1", "Some(\"x\")"));
+    assert_run(&run(&folder, &["-say", "-qt"]), 0, "", "");
+
+    fs::write(folder.path().join("log"), "an older and longer log\n".repeat(99)).unwrap();
+    assert_run(&run(&folder, &["-say", "-nt", "1", "-fm", "log"]), 0, "", "");
+    assert_eq!(read(&folder, "log"), notes("1", "None"));
+    assert_run(&run(&folder, &["-fm", "log", "-fail", "report"]), 1, "", "");
+    assert_eq!(read(&folder, "log"), "error: no face\n --> x.ug:1:2\n");
+    // An error has to reach someone.
+    let full = run(&folder, &["-fm", "/dev/full", "-fail", "work"]);
+    assert_run(&full, 1, "", "ugcat: error: invalid digit found in string\n");
+}
+
+#[test]
+fn details_come_with_times() {
+    let output = run(&folder(), &["-say", "-vb"]);
+    let stderr = String::from_utf8(output.stderr).unwrap();
+    let detail = stderr.lines().find(|line| line.ends_with(" s: 24 faces")).expect(&stderr);
+    let seconds: f64 = detail.split(' ').nth(1).unwrap().parse().unwrap();
+    assert!((0.0..60.0).contains(&seconds), "{detail}");
+}
+
+#[test]
+fn output_files_appear_whole() {
+    let folder = folder();
+    assert_run(&run(&folder, &["ship.ug", "-fo", "out.ug"]), 0, "", "");
+    assert_eq!(read(&folder, "out.ug"), SHIP);
+    assert_eq!(files(&folder), ["out.ug", "ship.ug"]);
+    // In place: all has been read before the file is replaced.
+    assert_run(&run(&folder, &["ship.ug", "-fo", "ship.ug", "-head"]), 0, "", "");
+    assert_eq!(read(&folder, "ship.ug"), format!("{{ ugcat --head }}\n{SHIP}"));
+}
+
+#[test]
+fn output_files_of_failed_runs_do_not_appear() {
+    let folder = folder();
+    assert_eq!(run(&folder, &["ship.ug", "-fo", "new.ug", "-fail", "work"]).status.code(), Some(1));
+    assert_eq!(run(&folder, &["no.ug", "-fo", "new.ug"]).status.code(), Some(1));
+    assert_eq!(files(&folder), ["ship.ug"]);
+    fs::write(folder.path().join("old.ug"), "old").unwrap();
+    assert_eq!(run(&folder, &["ship.ug", "-fo", "old.ug", "-fail", "usage"]).status.code(), Some(2));
+    assert_eq!(read(&folder, "old.ug"), "old");
+    assert_eq!(files(&folder), ["old.ug", "ship.ug"]);
+}
+
+#[test]
+fn a_disk_that_fills_up_leaves_nothing() {
+    let folder = folder();
+    let stdout = shell(&folder, "\"$ugcat\" ship.ug > /dev/full");
+    assert_run(&stdout, 1, "", "ugcat: error: cannot write `<stdout>`: No space left on device\n");
+    let help = shell(&folder, "\"$ugcat\" --help > /dev/full");
+    assert_run(&help, 1, "", "");
+
+    // The largest file allowed stands for a disk: half the output fits.
+    fs::write(folder.path().join("old.ug"), "old").unwrap();
+    let line = "trap '' XFSZ; ulimit -f 64; head -c 99999 /dev/zero | \"$ugcat\" -fo ";
+    for name in ["new.ug", "old.ug"] {
+        let output = shell(&folder, &format!("{line}{name}"));
+        assert_run(&output, 1, "", &format!("ugcat: error: cannot write `{name}`: File too large\n"));
+    }
+    assert_eq!(read(&folder, "old.ug"), "old");
+    assert_eq!(files(&folder), ["old.ug", "ship.ug"]);
+}
+
+#[test]
+fn a_link_stays_and_its_target_is_written() {
+    let folder = folder();
+    fs::create_dir(folder.path().join("deep")).unwrap();
+    for (link, target) in [("a", "deep/out.ug"), ("b", "a"), ("deep/c", "../dangling.ug")] {
+        symlink(target, folder.path().join(link)).unwrap();
+    }
+    for (link, target) in [("a", "deep/out.ug"), ("b", "deep/out.ug"), ("deep/c", "dangling.ug")] {
+        assert_run(&run(&folder, &["ship.ug", "-fo", link]), 0, "", "");
+        assert!(folder.path().join(link).is_symlink(), "{link}");
+        assert_eq!(read(&folder, target), SHIP);
+        fs::write(folder.path().join(target), "old").unwrap();
+    }
+    symlink("loop", folder.path().join("loop")).unwrap();
+    let output = run(&folder, &["ship.ug", "-fo", "loop"]);
+    assert_run(&output, 1, "", "ugcat: error: cannot write `loop`: Too many levels of symbolic links\n");
+}
+
+#[test]
+fn permissions_are_those_of_the_umask_or_the_old_file() {
+    let folder = folder();
+    let mode = |name: &str| fs::metadata(folder.path().join(name)).unwrap().mode() & 0o7777;
+    for (umask, expected) in [("022", 0o644), ("027", 0o640), ("000", 0o666)] {
+        let output = shell(&folder, &format!("umask {umask}; \"$ugcat\" ship.ug -fo m{umask}"));
+        assert_run(&output, 0, "", "");
+        assert_eq!(mode(&format!("m{umask}")), expected);
+    }
+    fs::set_permissions(folder.path().join("m022"), fs::Permissions::from_mode(0o604)).unwrap();
+    assert_run(&run(&folder, &["ship.ug", "-fo", "m022"]), 0, "", "");
+    assert_eq!(mode("m022"), 0o604);
+}
+
+#[test]
+fn named_pipes_are_written_to() {
+    let folder = folder();
+    // Here a pipe. That devices are left in place is tested in `src/output.rs`, where no
+    // mistake of ours, made as root, can replace one.
+    assert_run(&run(&folder, &["ship.ug", "-fo", "/dev/stdout"]), 0, SHIP, "");
+    let output = shell(&folder, "mkfifo pipe && { \"$ugcat\" ship.ug -fo pipe & cat pipe; wait; }");
+    assert_run(&output, 0, SHIP, "");
+    assert_eq!(files(&folder), ["pipe", "ship.ug"]);
+}
+
+#[test]
+fn a_closed_pipe_kills_quietly() {
+    let folder = folder();
+    for args in [&["ship.ug"][..], &["--help"], &["ship.ug", "-fo", "/dev/stdout"]] {
+        let (reader, writer) = std::io::pipe().unwrap();
+        drop(reader);
+        let output = command(&folder, args).stdout(writer).stderr(Stdio::piped()).output().unwrap();
+        assert_eq!(output.status.signal(), Some(SIGPIPE), "{args:?}");
+        assert_eq!(String::from_utf8_lossy(&output.stderr), "");
+    }
+    // As a shell sees it, with more than a pipe holds.
+    fs::write(folder.path().join("big"), vec![b'x'; 1 << 20]).unwrap();
+    let line = "{ \"$ugcat\" big; echo $? >&2; } | head -c 1";
+    assert_run(&shell(&folder, line), 0, "x", "141\n");
+}
+
+#[test]
+fn a_megabyte_passes_a_pipe_unchanged() {
+    let folder = folder();
+    let text = "v A 0.1 0.2 0.3;\n".repeat(1 << 16);
+    assert_run(&feed(command(&folder, &[]), &text), 0, &text, "");
+}
+
+/// Runs `command` with all streams on a new terminal on which the user types `typed`.
+/// Status and all that appeared on the screen.
+fn on_terminal(mut command: Command, typed: &[u8]) -> (Option<i32>, String) {
+    use rustix::pty::{OpenptFlags, grantpt, openpt, ptsname, unlockpt};
+
+    let master = openpt(OpenptFlags::RDWR | OpenptFlags::NOCTTY).unwrap();
+    grantpt(&master).unwrap();
+    unlockpt(&master).unwrap();
+    let name = ptsname(&master, Vec::new()).unwrap();
+    let open = || File::options().read(true).write(true).open(OsStr::from_bytes(name.as_bytes())).unwrap();
+    let mut child = command.stdin(open()).stdout(open()).stderr(open()).spawn().unwrap();
+    // The command holds our copies of the terminal; while they live, there is no end to read.
+    drop(command);
+
+    let mut master = File::from(master);
+    master.write_all(typed).unwrap();
+    let mut screen = Vec::new();
+    // Linux reports the end of a terminal as an error.
+    let _ = master.read_to_end(&mut screen);
+    (child.wait().unwrap().code(), String::from_utf8(screen).unwrap().replace('\r', ""))
+}
+
+/// As [`command`], on a terminal that can show colours, and without the tester's wishes.
+fn command_in_color(folder: &TempDir, args: &[&str]) -> Command {
+    let mut command = command(folder, args);
+    command.env("TERM", "xterm");
+    for name in ["NO_COLOR", "CLICOLOR", "CLICOLOR_FORCE"] {
+        command.env_remove(name);
+    }
+    command
+}
+
+#[test]
+fn a_terminal_is_told_that_we_wait() {
+    const END: &[u8] = b"\x04";
+    const WAITING: &str = "reading standard input; --help for help\n";
+    let folder = folder();
+    let waits = |args: &[&str]| {
+        let (status, screen) = on_terminal(command(&folder, args), END);
+        assert_eq!(status, Some(0), "{screen}");
+        screen.contains(WAITING)
+    };
+    assert!(waits(&[]));
+    assert!(waits(&["-fo", "out.ug"]));
+    assert!(!waits(&["-"]));
+    assert!(!waits(&["-fi", "-"]));
+    assert!(!waits(&["-qt"]));
+    assert!(!waits(&["ship.ug"]));
+}
+
+#[test]
+fn a_terminal_as_output_is_known() {
+    let folder = folder();
+    for (args, expected) in [
+        (&["-say", "ship.ug"][..], "terminal true, name None"),
+        (&["-say", "ship.ug", "-fo", "-"], "terminal true, name None"),
+        (&["-say", "ship.ug", "-fo", "out.ug"], "terminal false, name Some(\"out.ug\")"),
+    ] {
+        let (status, screen) = on_terminal(command(&folder, args), b"");
+        assert_eq!(status, Some(0));
+        assert!(screen.contains(expected), "{screen}");
+    }
+}
+
+#[test]
+fn a_terminal_shows_colors_unless_unwanted() {
+    let folder = folder();
+    let args = ["-say", "ship.ug"];
+    let (_, screen) = on_terminal(command_in_color(&folder, &args), b"");
+    assert!(screen.contains("ugcat: \x1b[1m\x1b[33mwarning:\x1b[0m nearly all\n"), "{screen:?}");
+    assert!(screen.contains("\x1b[1mwarning\x1b[0m: this face\n"), "{screen:?}");
+
+    let mut without = command_in_color(&folder, &args);
+    without.env("NO_COLOR", "1");
+    let (_, screen) = on_terminal(without, b"");
+    assert!(screen.contains("ugcat: warning: nearly all\nwarning: this face\n"), "{screen:?}");
+    assert!(!screen.contains('\x1b'), "{screen:?}");
+}

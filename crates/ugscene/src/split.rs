@@ -1,0 +1,49 @@
+//! Vertices that users want to keep apart are repeated.
+
+use std::hash::Hash;
+use std::ops::Range;
+
+use rustc_hash::FxHashMap;
+use ugparse::{Scene, UniqueNames, Vertex, VertexId};
+
+/// Repeats vertices that users of different kinds share, so that afterwards
+/// each belongs to one kind. The first user keeps the vertex; the others get
+/// copies, one for each kind, named after it.
+///
+/// `users`: contours of faces and wires, each with its kind.
+/// `divide`: false for vertices that may be shared all the same.
+pub fn split_vertices<K: Copy + Eq + Hash>(
+    scene: &mut Scene,
+    users: &[(Range<u32>, K)],
+    divide: impl Fn(&Vertex) -> bool,
+) {
+    let mut owner: Vec<Option<K>> = vec![None; scene.vertices.len()];
+    let mut copies: FxHashMap<(VertexId, K), VertexId> = FxHashMap::default();
+    let mut names: Option<UniqueNames> = None;
+    for &(ref rows, kind) in users {
+        for idx in 0..scene.contours.corners(rows.clone()).len() {
+            let corner = scene.contours.corners(rows.clone())[idx];
+            if *owner[corner.index()].get_or_insert(kind) == kind || !divide(&scene.vertices[corner.index()])
+            {
+                continue;
+            }
+            let copy = *copies.entry((corner, kind)).or_insert_with(|| {
+                let taken = names.get_or_insert_with(|| vertex_names(scene));
+                copy_vertex(scene, corner, taken)
+            });
+            scene.contours.corners_mut(rows.clone())[idx] = copy;
+        }
+    }
+}
+
+fn vertex_names(scene: &Scene) -> UniqueNames {
+    scene.vertices.iter().map(|vertex| scene.names.get(vertex.name)).collect()
+}
+
+fn copy_vertex(scene: &mut Scene, original: VertexId, taken: &mut UniqueNames) -> VertexId {
+    let mut vertex = scene.vertices[original.index()];
+    let name = taken.fresh(scene.names.get(vertex.name));
+    vertex.name = scene.names.add(&name);
+    scene.vertices.push(vertex);
+    VertexId::from_index(scene.vertices.len() - 1)
+}
