@@ -199,7 +199,8 @@ impl<'s> Palette<'s> {
         }
         for color in &mut self.scene.colors {
             color.value = match color.value {
-                ColorValue::Rgb(rgb) => ColorValue::Rgb(rgb.map(|channel| channel / largest)),
+                // A colour no vertex uses may be brighter than all that are used.
+                ColorValue::Rgb(rgb) => ColorValue::Rgb(rgb.map(|channel| (channel / largest).min(1.0))),
                 ColorValue::Hsv { value, hue, saturation } => {
                     ColorValue::Hsv { value: value / largest, hue, saturation }
                 }

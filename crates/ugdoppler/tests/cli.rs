@@ -1,0 +1,57 @@
+//! The program itself: usage, streams, exit status.
+
+use std::io::Write;
+use std::process::{Command, Output, Stdio};
+
+fn ugdoppler(args: &[&str], input: &str) -> Output {
+    let mut child = Command::new(env!("CARGO_BIN_EXE_ugdoppler"))
+        .args(args)
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("the program starts");
+    // The program may end without reading; a closed pipe is no failure of ours.
+    let _ = child.stdin.take().expect("a pipe").write_all(input.as_bytes());
+    child.wait_with_output().expect("the program ends")
+}
+
+const SCENE: &str = "{ a licence }\nc green 1 120;\nv a 9 0 0;\nv b 9 1 0;\nv c 9 1 1;\nf (a b c) green;\n";
+
+#[test]
+fn a_scene_goes_through() {
+    let out = ugdoppler(&["-vel", "-.5", "0", "0", "-nt", "1", "-gw"], SCENE);
+    assert_eq!(String::from_utf8_lossy(&out.stderr), "ugdoppler: note: max intensity is 1.73, clip to 1.0\n");
+    assert!(out.status.success());
+    let text = String::from_utf8(out.stdout).unwrap();
+    let head: Vec<&str> = text.lines().take(2).collect();
+    let version = env!("CARGO_PKG_VERSION");
+    assert_eq!(head, ["{ a licence }", &format!("{{ ugdoppler {version}: ugdoppler -vel -.5 0 0 -gw }}")]);
+}
+
+#[test]
+fn bad_usage_is_status_2() {
+    for (args, message) in [
+        (&["-vel", "1.2", "0", "0"][..], "speed is 1.2 c"),
+        (&["-vel", ".5", "0"][..], "3 values required"),
+        (&["-vel", "nan", "0", "0"][..], "not a finite number"),
+        (&["-br", "bright"][..], "invalid value 'bright'"),
+        (&["-ct", "-1"][..], "a colour tolerance (-ct) is 0 or more"),
+        (&["-nonsense"][..], "unexpected argument"),
+    ] {
+        let out = ugdoppler(args, SCENE);
+        let error = String::from_utf8_lossy(&out.stderr).into_owned();
+        assert_eq!(out.status.code(), Some(2), "{args:?}: {error}");
+        assert!(error.contains(message), "{args:?}: {error}");
+        assert!(out.stdout.is_empty(), "{args:?}");
+    }
+}
+
+#[test]
+fn a_bad_scene_is_status_1_and_writes_nothing() {
+    let out = ugdoppler(&[], "v a 0 0 0;\nf (a b c);\n");
+    assert_eq!(out.status.code(), Some(1));
+    assert!(out.stdout.is_empty());
+    let error = String::from_utf8_lossy(&out.stderr).into_owned();
+    assert!(error.contains("vertex `b` is not defined") && error.contains("<stdin>:2:6"), "{error}");
+}

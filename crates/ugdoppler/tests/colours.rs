@@ -1,0 +1,189 @@
+//! Colours as seen, against the laws they follow.
+
+use ugdoppler::{Config, run};
+use ugparse::{ColorValue, Options, Scene, Source};
+use ugphysics::{Brightness, Velocity, hue_to_wavelength};
+
+/// One green triangle, far away to the right, above and behind; and one grey.
+const SCENE: &str = "c green 0.5 120; c grey 0.4; c_rgb rose 1 0.5 0.5;
+    v a 9 0 0; v b 10 1 0; v c 9 1 1; f (a b c) green;
+    v d 0 9 0; v e 1 10 0; v f 0 9 1; f (d e f) grey;
+    v g -9 0 0; v h -9 1 0; v i -9 1 1; f (g h i) rose; v unused 1 1 1;";
+
+fn colour(text: &str, config: &Config) -> (Scene, Vec<String>) {
+    let out = run(config, &Source::new("t.ug", text)).unwrap_or_else(|error| panic!("{error}"));
+    let scene = ugparse::parse(&Source::new("out.ug", out.text), &Options::default()).unwrap().scene;
+    (scene, out.notes)
+}
+
+fn moving(x: f64, y: f64, z: f64) -> Config {
+    let velocity = Velocity::from_beta(glam::DVec3::new(x, y, z)).unwrap();
+    Config { velocity, tolerance: 0.0, ..Config::default() }
+}
+
+/// Name, value, hue and saturation of a vertex's colour.
+fn of(scene: &Scene, vertex: &str) -> (String, f64, f64, f64) {
+    let vertex = scene.vertices.iter().find(|v| scene.names.get(v.name) == vertex).unwrap();
+    let color = &scene.colors[vertex.color.expect("a colour on every used vertex").index()];
+    let name = scene.names.get(color.name).to_string();
+    match color.value {
+        ColorValue::Hsv { value, hue, saturation } => (name, value, hue, saturation),
+        ColorValue::Rgb(rgb) => (name, rgb[0], rgb[1], rgb[2]),
+    }
+}
+
+#[test]
+fn on_the_line_of_motion_d_is_known() {
+    // β = 0.6: D = 2 ahead (the triangle comes at us), 0.5 behind, 0.8 abeam; conformance T19.
+    let config = Config { wavelengths: true, ..moving(-0.6, 0.0, 0.0) };
+    let (scene, notes) = colour(SCENE, &config);
+    let check = |vertex: &str, base: &str, value: f64, wavelength: f64| {
+        let (name, v, h, _) = of(&scene, vertex);
+        assert!(name.starts_with(base), "{vertex}: {name}");
+        assert!((v - value).abs() < 1e-12, "{vertex}: value {v}");
+        assert!((h - wavelength).abs() < 1e-9, "{vertex}: wavelength {h}");
+    };
+    check("a", "green#", 1.0, 546.1 / 2.0);
+    check("d", "grey#", 0.4 * 0.8, 0.0);
+    check("g", "rose#", 0.5, 700.0 / 0.5);
+    assert_eq!(notes, Vec::<String>::new());
+    let unused = scene.vertices.iter().find(|v| scene.names.get(v.name) == "unused").unwrap();
+    assert_eq!(unused.color, None);
+}
+
+#[test]
+fn the_laws_are_powers_of_d() {
+    for (law, power) in
+        [(Brightness::Report, 1), (Brightness::Photon, 3), (Brightness::Bolometric, 4), (Brightness::None, 0)]
+    {
+        // D = 0.5 for the receding rose, so nothing is clipped.
+        let (scene, _) = colour(SCENE, &Config { law, ..moving(-0.6, 0.0, 0.0) });
+        let expected: f64 = std::iter::repeat_n(0.5, power).product();
+        assert!((of(&scene, "g").1 - expected).abs() < 1e-12, "{law:?}");
+    }
+}
+
+#[test]
+fn teaching_switches_leave_the_other_alone() {
+    let shifted = Config { flux: false, ..moving(-0.3, 0.0, 0.0) };
+    let dimmed = Config { doppler: false, ..moving(-0.3, 0.0, 0.0) };
+    let both = colour(SCENE, &moving(-0.3, 0.0, 0.0)).0;
+    for vertex in ["a", "b", "d", "g", "i"] {
+        let (_, value, hue, saturation) = of(&both, vertex);
+        let (_, shift_value, shift_hue, _) = of(&colour(SCENE, &shifted).0, vertex);
+        let (_, dim_value, dim_hue, dim_saturation) = of(&colour(SCENE, &dimmed).0, vertex);
+        assert_eq!((shift_hue, dim_value, dim_saturation), (hue, value, saturation), "{vertex}");
+        let (at_rest_value, at_rest_hue) = match vertex {
+            "a" | "b" => (0.5, 120.0),
+            "d" => (0.4, 0.0),
+            _ => (1.0, 0.0),
+        };
+        assert_eq!(dim_hue, at_rest_hue, "{vertex}");
+        if vertex != "d" {
+            assert_eq!(shift_value, at_rest_value, "{vertex}");
+        }
+    }
+}
+
+#[test]
+fn nothing_moves_nothing_changes() {
+    let (scene, notes) = colour(SCENE, &Config::default());
+    assert_eq!(scene.colors.len(), 3);
+    assert_eq!(of(&scene, "a").0, "green");
+    assert_eq!(of(&scene, "g").0, "rose");
+    assert_eq!(notes, Vec::<String>::new());
+}
+
+#[test]
+fn values_above_one_are_clipped_or_scaled() {
+    let text = "c white 1; c half 0.5; v a 9 0 0; v b 9 0 1e-9; v c 9 1e-9 0; f (a b c) white;
+        v d -9 0 0; v e -9 0 1e-9; v f -9 1e-9 0; f (d e f) half;";
+    // D = 2 ahead and 0.5 behind.
+    let clip = colour(text, &moving(-0.6, 0.0, 0.0));
+    assert_eq!(clip.1, ["max intensity is 2.00, clip to 1.0"]);
+    assert_eq!(of(&clip.0, "a").1, 1.0);
+    assert!((of(&clip.0, "d").1 - 0.25).abs() < 1e-12);
+
+    let iris = colour(text, &Config { iris: true, ..moving(-0.6, 0.0, 0.0) });
+    assert_eq!(iris.1, ["max intensity is 2.00, scaled to 1.0"]);
+    assert!((of(&iris.0, "a").1 - 1.0).abs() < 1e-12);
+    assert!((of(&iris.0, "d").1 - 0.125).abs() < 1e-12);
+}
+
+#[test]
+fn reuse_keeps_its_tolerance_and_saves_colours() {
+    // A ribbon of many vertices along which D runs from ahead to behind.
+    let mut text = String::from("c green 0.3 120;");
+    let n = 2000;
+    for k in 0..n {
+        let x = -20.0 + 40.0 * k as f64 / n as f64;
+        text += &format!("v a{k} {x} 9 0; v b{k} {x} 9 1;\n");
+    }
+    for k in 1..n {
+        text += &format!("f (a{} a{k} b{k}) green;\n", k - 1);
+    }
+    let exact = colour(&text, &Config { wavelengths: true, ..moving(-0.3, 0.0, 0.0) }).0;
+    let mut n_before = exact.colors.len();
+    for tolerance in [0.1, 1.0, 5.0] {
+        let config = Config { wavelengths: true, tolerance, ..moving(-0.3, 0.0, 0.0) };
+        let near = colour(&text, &config).0;
+        for (a, b) in exact.vertices.iter().zip(&near.vertices) {
+            let name = exact.names.get(a.name);
+            let (Some(_), Some(_)) = (a.color, b.color) else { continue };
+            let ((_, v0, l0, _), (_, v1, l1, _)) = (of(&exact, name), of(&near, name));
+            // A step of ln D is taken at its middle; (δ/2)² is what the bound leaves out.
+            assert!((l0 - l1).abs() <= tolerance * 1.01, "{name}: {l0} {l1}");
+            assert!((v0 - v1).abs() * 100.0 <= tolerance, "{name}: {v0} {v1}");
+        }
+        assert!(near.colors.len() < n_before, "{} of {n_before}", near.colors.len());
+        n_before = near.colors.len();
+    }
+}
+
+#[test]
+fn colours_mix_or_stay_apart() {
+    let text = "c red 1 0; c green 1 120; v a 0 9 0; v b 1 9 0; v c 0 9 1; v d -1 9 0;
+        f x (a b c) red; f y (a c d) green;";
+    let mixed = colour(text, &moving(0.1, 0.0, 0.0)).0;
+    assert!(of(&mixed, "a").0.starts_with("mixed"));
+    assert_eq!(mixed.vertices.len(), 4);
+
+    let apart = colour(text, &Config { repeat: true, ..moving(0.1, 0.0, 0.0) }).0;
+    assert_eq!(apart.vertices.len(), 6);
+    for (face, base) in apart.faces.iter().zip(["red", "green"]) {
+        for corner in apart.contours.corners(face.contours.clone()) {
+            let name = apart.names.get(apart.vertices[corner.index()].name).to_string();
+            assert!(of(&apart, &name).0.starts_with(base), "{name}");
+        }
+    }
+}
+
+#[test]
+fn a_hue_outside_the_visible_stops_at_the_end() {
+    // Green is seen at 1092 nm and 273 nm.
+    for (beta, hue) in [(0.6, -60.0), (-0.6, 300.0)] {
+        let (scene, _) = colour(SCENE, &moving(beta, 0.0, 0.0));
+        let (name, _, seen, _) = of(&scene, "a");
+        assert!(name.starts_with("green#"));
+        assert_eq!(seen, hue);
+    }
+    assert_eq!(hue_to_wavelength(300.0), 380.0);
+}
+
+#[test]
+fn a_vertex_at_the_eye_is_refused() {
+    let text = "v a 0 0 0; v b 1 0 0;\nv c 0 1 0; f (a b c) <0.5 0 0>;";
+    let error = run(&Config::default(), &Source::new("t.ug", text)).unwrap_err().to_string();
+    assert_eq!(
+        error,
+        "error: vertex `a` lies at the eye, where no direction to it exists
+ --> t.ug:1:3
+  |
+1 | v a 0 0 0; v b 1 0 0;
+  |   ^ here
+  |
+help: move the eye (-ep) or the vertex"
+    );
+    // At rest it has a place and a colour like any other.
+    assert!(run(&Config::default(), &Source::new("t.ug", text.replace("<0.5 0 0>", ""))).is_ok());
+}
