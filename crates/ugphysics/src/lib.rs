@@ -1,1 +1,66 @@
-//! Special relativity and colour physics as pure functions
+//! Special relativity and colour physics as pure functions.
+//!
+//! What does a body look like that moves at nearly the speed of light? Three things happen on the way from
+//! the body to a picture, and each is one function here:
+//!
+//! * **where** it is seen ([`seen_position`]): light from its far parts left earlier, when the body was
+//!   elsewhere. Contraction and time of flight together are one boost of the event that sent the light;
+//! * **in which colour** ([`doppler_factor`], [`wavelength_to_hue`]): every frequency is multiplied by D;
+//! * **how bright** ([`Brightness`]): by a power of D that depends on what "bright" means.
+//!
+//! # Conventions
+//!
+//! c = 1: speeds are fractions of that of light, and times and lengths share a unit. The eye rests at the
+//! origin of the camera frame S and takes its picture at t = 0. A body rests in its own frame S', which moves
+//! with velocity **v** in S; axes are parallel and the origins meet at t = t' = 0. Every coordinate handed to
+//! this crate is relative to the eye. Wavelengths are in nanometres, hues in degrees. Equation numbers like
+//! (P3) are those of `docs/physics.md`, which derives them.
+//!
+//! # Guarantees
+//!
+//! * A [`Velocity`] is below that of light; its constructors decide that exactly, and keep γ.
+//! * Nothing here panics, prints, or holds state. Finite input gives finite output as long as the true value
+//!   is one; NaN gives NaN.
+//! * No formula loses digits near the speed of light or near rest, and none changes form at a small speed:
+//!   at rest the general formulas are the identity.
+//! * The same input gives the same bits on every platform: transcendental functions come from `libm`.
+//!
+//! # Example
+//!
+//! A green point, four units ahead and one to the side, comes towards the eye at a tenth of the speed of light:
+//!
+//! ```
+//! use glam::DVec3;
+//! use ugphysics::{Velocity, doppler_at, hue_to_wavelength, seen_position, wavelength_to_hue};
+//!
+//! let v = Velocity::from_beta(DVec3::new(-0.1, 0.0, 0.0))?;
+//! let seen = seen_position(DVec3::new(4.0, 1.0, 0.0), v);
+//! assert!((seen.x - 4.43453).abs() < 1e-5); // its light left when it was further away
+//!
+//! let doppler = doppler_at(seen, v);
+//! let wavelength_nm = hue_to_wavelength(120.0) / doppler;
+//! let hue = wavelength_to_hue(wavelength_nm);
+//! assert!((doppler - 1.102).abs() < 1e-3); // blueshifted by a tenth
+//! assert!(hue > 180.0); // towards blue
+//! # Ok::<(), ugphysics::VelocityError>(())
+//! ```
+
+mod aberration;
+mod color;
+mod doppler;
+mod exact;
+mod hue;
+mod light;
+mod lorentz;
+mod velocity;
+
+pub use aberration::aberrate;
+pub use color::{Hsv, luminance, srgb_decode, srgb_encode};
+pub use doppler::{Brightness, doppler_at, doppler_factor};
+pub use hue::{
+    CONTROL_POINTS, ControlPoint, RED_END_NM, VIOLET_END_NM, attenuation, hue_to_wavelength,
+    wavelength_to_hue,
+};
+pub use light::{Event, contracted, flight_time, observer_shift, rest_position, seen_event, seen_position};
+pub use lorentz::{Lorentz, compose};
+pub use velocity::{Velocity, VelocityError};

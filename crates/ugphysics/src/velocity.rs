@@ -1,0 +1,321 @@
+//! A velocity below that of light, held so that nothing is lost near it.
+
+use core::fmt;
+use core::ops::Neg;
+
+use glam::DVec3;
+
+use crate::exact::{mul_add, one_minus_square, power_of_two_below};
+
+/// A velocity in the camera frame S, as a fraction of the speed of light, below 1 by construction.
+///
+/// γ and the proper velocity **u** = γ**β** are computed once, from the numbers given and with the rounding
+/// of 1 − β² kept, so they are right to a few units in the last place at every speed. The direction is kept
+/// as it was given, which keeps every formula built on it well conditioned: a direction rounded once more
+/// would cost a factor γ in the pictures of fast bodies.
+///
+/// ```
+/// use glam::DVec3;
+/// use ugphysics::Velocity;
+///
+/// let v = Velocity::from_beta(DVec3::new(0.6, 0.0, 0.0))?;
+/// assert_eq!(v.gamma(), 1.25);
+/// assert_eq!(v.proper(), DVec3::new(0.75, 0.0, 0.0));
+/// # Ok::<(), ugphysics::VelocityError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Velocity {
+    /// Exactly parallel to the velocity: the vector given, times a power of two that brings it near length 1.
+    axis: DVec3,
+    /// û, the unit vector of `axis`.
+    direction: DVec3,
+    beta: DVec3,
+    gamma: f64,
+    /// |u| = γβ = sinh η.
+    proper_speed: f64,
+}
+
+impl Velocity {
+    /// At rest.
+    pub const ZERO: Velocity =
+        Velocity { axis: DVec3::X, direction: DVec3::X, beta: DVec3::ZERO, gamma: 1.0, proper_speed: 0.0 };
+
+    /// The largest rapidity accepted: 1 − β is about 10⁻⁸⁷ there. The bound keeps products of several γ finite.
+    pub const MAX_RAPIDITY: f64 = 100.0;
+
+    /// The velocity **β**, in fractions of the speed of light.
+    ///
+    /// Whether |**β**| < 1 is decided on the exact sum of the squares.
+    ///
+    /// # Errors
+    /// [`VelocityError::NotFinite`], or [`VelocityError::NotBelowLight`] when |**β**| ≥ 1.
+    ///
+    /// ```
+    /// use glam::DVec3;
+    /// use ugphysics::Velocity;
+    ///
+    /// let error = Velocity::from_beta(DVec3::new(0.0, 1.2, 0.0)).unwrap_err();
+    /// assert_eq!(
+    ///     error.to_string(),
+    ///     "speed is 1.2 c: it must be below 1 (velocities are fractions of the speed of light)"
+    /// );
+    /// ```
+    pub fn from_beta(beta: DVec3) -> Result<Velocity, VelocityError> {
+        if !beta.is_finite() {
+            return Err(VelocityError::NotFinite);
+        }
+        if beta == DVec3::ZERO {
+            return Ok(Velocity::ZERO);
+        }
+        let scale = power_of_two_below(beta);
+        let axis = beta / scale;
+        let length = axis.length();
+        let speed = length * scale;
+        let below_light = beta.abs().max_element() < 1.0;
+        let gamma_inverse_squared = if below_light { one_minus_square(beta) } else { 0.0 };
+        if gamma_inverse_squared <= 0.0 {
+            return Err(VelocityError::NotBelowLight { speed: speed.max(1.0) });
+        }
+        let gamma = 1.0 / gamma_inverse_squared.sqrt();
+        Ok(Velocity { axis, direction: axis / length, beta, gamma, proper_speed: gamma * speed })
+    }
+
+    /// The velocity of rapidity η (β = tanh η) along `direction`, a vector of any length. A negative rapidity
+    /// moves the other way; rapidity 0 needs no direction.
+    ///
+    /// The way to speeds that β cannot say: 1 − β = 10⁻¹² is η = ½ ln((2 − 10⁻¹²)/10⁻¹²), exactly as good as
+    /// any other number.
+    ///
+    /// # Errors
+    /// [`VelocityError::NotFinite`], [`VelocityError::NoDirection`], or
+    /// [`VelocityError::RapidityTooLarge`] above [`Velocity::MAX_RAPIDITY`].
+    ///
+    /// ```
+    /// use glam::DVec3;
+    /// use ugphysics::{Velocity, doppler_factor};
+    ///
+    /// let v = Velocity::from_rapidity(DVec3::Y, 20.0)?;
+    /// assert_eq!(v.speed(), 1.0); // rounded: 1 − β is 8e-18
+    /// let ahead = doppler_factor(DVec3::Y, v);
+    /// assert!((ahead / libm::exp(20.0) - 1.0).abs() < 1e-14);
+    /// # Ok::<(), ugphysics::VelocityError>(())
+    /// ```
+    pub fn from_rapidity(direction: DVec3, rapidity: f64) -> Result<Velocity, VelocityError> {
+        if !rapidity.is_finite() {
+            return Err(VelocityError::NotFinite);
+        }
+        if rapidity.abs() > Velocity::MAX_RAPIDITY {
+            return Err(VelocityError::RapidityTooLarge { rapidity });
+        }
+        let direction = if rapidity < 0.0 { -direction } else { direction };
+        Velocity::along(direction, libm::cosh(rapidity), libm::sinh(rapidity.abs()))
+    }
+
+    /// The velocity with Lorentz factor γ ≥ 1 along `direction`, a vector of any length. γ = 1 is at rest and
+    /// needs no direction.
+    ///
+    /// # Errors
+    /// [`VelocityError::NotFinite`], [`VelocityError::NoDirection`],
+    /// [`VelocityError::GammaBelowOne`], or [`VelocityError::RapidityTooLarge`].
+    ///
+    /// ```
+    /// use glam::DVec3;
+    /// use ugphysics::Velocity;
+    ///
+    /// let v = Velocity::from_gamma(DVec3::new(0.0, 0.0, 7.0), 1.25)?;
+    /// assert_eq!(v.beta(), DVec3::new(0.0, 0.0, 0.6));
+    /// # Ok::<(), ugphysics::VelocityError>(())
+    /// ```
+    pub fn from_gamma(direction: DVec3, gamma: f64) -> Result<Velocity, VelocityError> {
+        if !gamma.is_finite() {
+            return Err(VelocityError::NotFinite);
+        }
+        if gamma < 1.0 {
+            return Err(VelocityError::GammaBelowOne { gamma });
+        }
+        if gamma > libm::cosh(Velocity::MAX_RAPIDITY) {
+            return Err(VelocityError::RapidityTooLarge { rapidity: libm::acosh(gamma) });
+        }
+        Velocity::along(direction, gamma, ((gamma - 1.0) * (gamma + 1.0)).sqrt())
+    }
+
+    /// The velocity whose proper velocity is `proper` = γ**β**.
+    ///
+    /// # Errors
+    /// [`VelocityError::NotFinite`] or [`VelocityError::RapidityTooLarge`].
+    pub(crate) fn from_proper(proper: DVec3) -> Result<Velocity, VelocityError> {
+        if !proper.is_finite() {
+            return Err(VelocityError::NotFinite);
+        }
+        let scale = power_of_two_below(proper);
+        let proper_speed = (proper / scale).length() * scale;
+        let rapidity = libm::asinh(proper_speed);
+        if rapidity > Velocity::MAX_RAPIDITY {
+            return Err(VelocityError::RapidityTooLarge { rapidity });
+        }
+        Velocity::along(proper, (1.0 + proper_speed * proper_speed).sqrt(), proper_speed)
+    }
+
+    /// A consistent pair (γ, |u|) put along `direction`, whose length does not matter.
+    fn along(direction: DVec3, gamma: f64, proper_speed: f64) -> Result<Velocity, VelocityError> {
+        if !direction.is_finite() {
+            return Err(VelocityError::NotFinite);
+        }
+        if proper_speed == 0.0 {
+            return Ok(Velocity::ZERO);
+        }
+        if direction == DVec3::ZERO {
+            return Err(VelocityError::NoDirection);
+        }
+        let axis = direction / power_of_two_below(direction);
+        let direction = axis / axis.length();
+        Ok(Velocity { axis, direction, beta: direction * (proper_speed / gamma), gamma, proper_speed })
+    }
+
+    /// **β**, the velocity in fractions of the speed of light; exactly the vector given to
+    /// [`Velocity::from_beta`].
+    #[must_use]
+    pub fn beta(self) -> DVec3 {
+        self.beta
+    }
+
+    /// β = |**β**|. Rounds to 1 above rapidity 19; [`Velocity::gamma`] and [`Velocity::rapidity`] do not
+    /// saturate.
+    #[must_use]
+    pub fn speed(self) -> f64 {
+        self.proper_speed / self.gamma
+    }
+
+    /// The Lorentz factor γ = 1/√(1−β²) = cosh η, right to a few units in the last place.
+    #[must_use]
+    pub fn gamma(self) -> f64 {
+        self.gamma
+    }
+
+    /// The proper velocity **u** = γ**β**.
+    #[must_use]
+    pub fn proper(self) -> DVec3 {
+        self.direction * self.proper_speed
+    }
+
+    /// |**u**| = γβ = sinh η.
+    #[must_use]
+    pub fn proper_speed(self) -> f64 {
+        self.proper_speed
+    }
+
+    /// The rapidity η = atanh β ≥ 0.
+    #[must_use]
+    pub fn rapidity(self) -> f64 {
+        libm::asinh(self.proper_speed)
+    }
+
+    /// û, the unit vector of the motion; +x when at rest.
+    #[must_use]
+    pub fn direction(self) -> DVec3 {
+        self.direction
+    }
+
+    /// Is this the velocity 0, exactly?
+    #[must_use]
+    pub fn is_zero(self) -> bool {
+        self.proper_speed == 0.0
+    }
+
+    /// γ − 1, without cancellation at small speeds.
+    pub(crate) fn gamma_minus_one(self) -> f64 {
+        self.proper_speed * (self.proper_speed / (self.gamma + 1.0))
+    }
+
+    /// e^{−η} = γ − |u|, without cancellation: the Doppler factor of a body straight behind its motion.
+    pub(crate) fn exp_minus_rapidity(self) -> f64 {
+        1.0 / (self.gamma + self.proper_speed)
+    }
+
+    /// The parts of `p` along and across the motion. `p` must be of a size whose squares are normal numbers.
+    ///
+    /// The part across is right relative to its own length, however small against |p|: it is projected twice
+    /// ("twice is enough", Parlett 1980), against the direction as it was given. For a motion along a
+    /// coordinate axis the other two coordinates pass through unchanged, to the bit.
+    pub(crate) fn split(self, p: DVec3) -> Split {
+        let per_square = 1.0 / self.axis.length_squared();
+        let first = mul_add(-p.dot(self.axis) * per_square, self.axis, p);
+        let across = mul_add(-first.dot(self.axis) * per_square, self.axis, first);
+        Split { along: p.dot(self.direction), across }
+    }
+}
+
+/// A vector taken apart by a motion.
+pub(crate) struct Split {
+    /// p·û.
+    pub(crate) along: f64,
+    /// p − (p·û)û.
+    pub(crate) across: DVec3,
+}
+
+impl Default for Velocity {
+    fn default() -> Velocity {
+        Velocity::ZERO
+    }
+}
+
+impl Neg for Velocity {
+    type Output = Velocity;
+
+    /// The same speed the other way.
+    fn neg(self) -> Velocity {
+        if self.is_zero() {
+            return self;
+        }
+        Velocity { axis: -self.axis, direction: -self.direction, beta: -self.beta, ..self }
+    }
+}
+
+/// Why numbers are not a velocity.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum VelocityError {
+    /// A component, a direction, a rapidity or a γ is NaN or infinite.
+    NotFinite,
+    /// The speed is that of light or above.
+    NotBelowLight {
+        /// The speed given, at least 1.
+        speed: f64,
+    },
+    /// The direction is the zero vector, and the speed is not 0.
+    NoDirection,
+    /// γ is below 1.
+    GammaBelowOne {
+        /// The γ given.
+        gamma: f64,
+    },
+    /// The rapidity is above [`Velocity::MAX_RAPIDITY`] in absolute value.
+    RapidityTooLarge {
+        /// The rapidity given, or that of the γ given.
+        rapidity: f64,
+    },
+}
+
+impl fmt::Display for VelocityError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            VelocityError::NotFinite => {
+                write!(f, "velocity is not finite: its numbers must not be infinite or NaN")
+            }
+            VelocityError::NotBelowLight { speed } => write!(
+                f,
+                "speed is {speed} c: it must be below 1 (velocities are fractions of the speed of light)"
+            ),
+            VelocityError::NoDirection => {
+                write!(f, "direction is the zero vector: give one that is not, or speed 0")
+            }
+            VelocityError::GammaBelowOne { gamma } => {
+                write!(f, "gamma is {gamma}: it must be 1 (at rest) or above")
+            }
+            VelocityError::RapidityTooLarge { rapidity } => {
+                write!(f, "rapidity is {rapidity}: it must be at most {}", Velocity::MAX_RAPIDITY)
+            }
+        }
+    }
+}
+
+impl core::error::Error for VelocityError {}
