@@ -1,2 +1,91 @@
-//! Chores of the project.
-fn main() {}
+//! Chores of the project: write the scenes that are made by rule rather than by
+//! hand, and tile pictures into contact sheets.
+//!
+//! ```text
+//! cargo xtask teapot > scenes/teapot.ug
+//! cargo xtask mesh 1000000 > /tmp/mesh.ug
+//! cargo xtask sheet sheet.png 2 a.png b.png c.png d.png
+//! ```
+//!
+//! Scenes go to standard output and are the same bytes on every run and platform.
+
+mod globe;
+mod mesh;
+mod sheet;
+mod short;
+mod sphere;
+mod teapot;
+
+use clap::{Parser, Subcommand};
+use std::io::{self, BufWriter, Write};
+use std::num::NonZeroU32;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+/// Chores of the project.
+#[derive(Parser)]
+#[command(bin_name = "cargo xtask")]
+struct Args {
+    #[command(subcommand)]
+    chore: Chore,
+}
+
+#[derive(Subcommand)]
+enum Chore {
+    /// Write the Utah teapot
+    Teapot {
+        /// Squares along each side of each of the 32 patches, two triangles a square
+        #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(1..=256))]
+        squares: u32,
+    },
+    /// Write a sphere of radius 1
+    Sphere {
+        /// Bands from pole to pole; there are twice as many around
+        #[arg(long, value_name = "N", default_value_t = 24, value_parser = clap::value_parser!(u32).range(2..=2048))]
+        bands: u32,
+        /// Northern half red, southern half green, with common vertices on the equator
+        #[arg(long)]
+        halves: bool,
+    },
+    /// Write a bumpy sphere of about N triangles with vertex colours, for benchmarks
+    Mesh {
+        /// Triangles, roughly
+        #[arg(value_name = "N", value_parser = clap::value_parser!(u32).range(36..=100_000_000))]
+        triangles: u32,
+    },
+    /// Tile pictures of equal size into one, row by row
+    Sheet {
+        /// Picture to write
+        out: PathBuf,
+        /// Pictures in a row
+        columns: NonZeroU32,
+        /// Pictures to tile
+        #[arg(required = true)]
+        pictures: Vec<PathBuf>,
+    },
+}
+
+fn main() -> ExitCode {
+    match run(&Args::parse().chore) {
+        Ok(()) => ExitCode::SUCCESS,
+        // The reader has seen enough (`| head`): not an error.
+        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
+        Err(error) => {
+            // Nothing is left to tell if standard error is closed, too.
+            let _ = writeln!(io::stderr(), "xtask: {error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run(chore: &Chore) -> io::Result<()> {
+    let mut out = BufWriter::new(io::stdout().lock());
+    match chore {
+        Chore::Teapot { squares } => teapot::write(&mut out, *squares)?,
+        Chore::Sphere { bands, halves: false } => sphere::write(&mut out, *bands)?,
+        Chore::Sphere { bands, halves: true } => sphere::write_halves(&mut out, *bands)?,
+        Chore::Mesh { triangles } => mesh::write(&mut out, *triangles)?,
+        Chore::Sheet { out: picture, columns, pictures } => sheet::tile(picture, *columns, pictures)?,
+    }
+    out.flush()
+}

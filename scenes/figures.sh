@@ -1,0 +1,88 @@
+#!/usr/bin/env bash
+# Draws the papers' figures, and some of our own, from the scenes in this folder.
+#
+#   scenes/figures.sh [OUTDIR]        default: figures
+#
+# Every picture is one pipe. Our scenes have z up: motion is along +x, and the camera looks
+# along +y, where the papers have y up and look along the z axis.
+set -euo pipefail
+export LC_ALL=C
+
+out=${1:-figures}
+mkdir -p "$out/rows"
+out=$(cd "$out" && pwd)
+cd "$(dirname "$0")/.."
+
+cargo build --quiet --release
+export PATH="${CARGO_TARGET_DIR:-$PWD/target}/release:$PATH"
+cd scenes
+
+# The colours of things at rest, so that only the shape is changed.
+shape() { ugdoppler -qt --no-doppler --no-flux; }
+
+# draw NAME [OPTION...]: the last stage, to OUTDIR/NAME.png
+draw() {
+    local name=$1
+    shift
+    ugrainbow -qt -sz 640 480 "$@" -fo "$out/$name.png"
+    printf '%s\n' "$name"
+}
+
+# Nguyen 1988, figure 1: the rainbow.
+ugrainbow -qt -wi -sz 640 480 -fo "$out/nguyen-01.png" rainbow.ug
+
+# Nguyen 1988, figure 2: the ship at rest and at 0.3, 0.6 and 0.9c. Then in colour: at 0.6c the
+# stern still comes nearer while the bow goes away; head-on, much above 0.2c much of the ship
+# would shine where no eye sees.
+uglorentz ship.ug | shape | draw nguyen-02a-rest
+uglorentz -in -vel .3 0 0 ship.ug | shape | draw nguyen-02b-0.3c
+uglorentz -in -vel .6 0 0 ship.ug | shape | draw nguyen-02c-0.6c
+uglorentz -in -vel .9 0 0 ship.ug | shape | draw nguyen-02d-0.9c
+uglorentz -in -vel .6 0 0 ship.ug | ugdoppler -qt | draw nguyen-02e-0.6c-colours
+uglorentz -in -vel 0 -.2 0 ship.ug | ugdoppler -qt | draw nguyen-02f-approaching-0.2c-colours
+uglorentz -in -vel 0 .2 0 ship.ug | ugdoppler -qt | draw nguyen-02g-receding-0.2c-colours
+
+# Chang, Lai and Chen 1996, figure 9: at rest, and at 0.95c when seen at right angles.
+uglorentz teapot.ug | shape | draw chang-09a-teapot-rest
+uglorentz -in -vel .95 0 0 teapot.ug | shape | draw chang-09b-teapot-0.95c
+uglorentz cubes.ug | shape | draw chang-09c-cubes-rest
+uglorentz -in -vel .95 0 0 cubes.ug | shape | draw chang-09d-cubes-0.95c
+uglorentz sphere.ug | shape | draw chang-09e-sphere-rest
+uglorentz -in -vel .95 0 0 sphere.ug | shape | draw chang-09f-sphere-0.95c
+
+# Figure 10: the teapot flies by, seen at equal intervals of time, later ones below. It seems
+# to slow down: its approach is seen sped up, its retreat drawn out.
+uglorentz teapot.ug | shape | draw chang-10a-rest -va 90
+for speed in .95 .999; do
+    rows=()
+    for time in 07 12 17 22; do
+        row=$out/rows/teapot-$speed-$time.png
+        uglorentz -vel $speed 0 0 -ti $time teapot.ug | shape | ugrainbow -qt -va 90 -sz 640 117 -fo "$row"
+        rows+=("$row")
+    done
+    cargo --quiet xtask sheet "$out/chang-10-0${speed}c.png" 1 "${rows[@]}"
+    printf '%s\n' "chang-10-0${speed}c"
+done
+
+# Figures 11 and 12: the street at rest, rushing in, rushing out; and in colour, in small pieces
+# because hues change fast along the ground.
+uglorentz street.ug | shape | draw chang-11-rest
+uglorentz -vel 0 -.99 0 -ep 0 40 3 street.ug | shape | draw chang-12a-in-0.99c
+uglorentz -vel 0 .99 0 -ep 0 -250 3 street.ug | shape | draw chang-12b-out-0.99c
+uglorentz -vel 0 -.9 0 -ep 0 20 3 -se .05 street.ug | ugdoppler -qt | draw chang-12c-in-0.9c-colours -va 110
+
+# Howard, Dance and Kitchen 1995, figures 4 and 5: flying at a grid, and just through it.
+uglorentz grid.ug | shape | draw howard-04a-rest
+uglorentz -vel 0 -.5 0 grid.ug | shape | draw howard-04b-0.5c
+uglorentz -vel 0 -.9 0 grid.ug | shape | draw howard-04c-0.9c
+uglorentz -vel 0 -.9 0 -ep 0 .5 0 grid.ug | shape | draw howard-05-through-0.9c
+
+# Our own: the lattice in shape and colour, colours that meet at a vertex, five speeds at once.
+uglorentz -vel 0 -.9 0 lattice.ug | shape | draw lattice-0.9c-shape -va 120
+uglorentz -vel 0 -.9 0 lattice.ug | ugdoppler -qt | draw lattice-0.9c-colours -va 120
+ugdoppler -qt halves.ug | draw halves-mixed
+ugdoppler -qt -vr halves.ug | draw halves-repeated
+uglorentz -in dice.ug | shape | draw dice
+
+cargo --quiet xtask sheet "$out/sheet.png" 6 "$out"/{nguyen,chang,howard,lattice,halves,dice}*.png
+printf 'The pictures are in %s, all of them on %s/sheet.png\n' "$out" "$out"

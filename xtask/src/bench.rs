@@ -1,0 +1,204 @@
+//! Times the programs beside `cat` of the same file, in one run, as Markdown.
+//!
+//! Machines differ and are busy, so what counts is the ratio to the floor: the
+//! time `cat` takes to read the file and throw it away.
+
+use std::error::Error;
+use std::fs::File;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+
+use crate::mesh;
+
+/// Runs of each command; the fastest and the median are shown.
+const RUNS: usize = 7;
+
+/// Benchmarks meshes of about these many triangles and prints a table for each.
+pub fn write(out: &mut impl Write, sizes: &[u32]) -> Result<(), Box<dyn Error>> {
+    build()?;
+    let dir = target_dir().join("bench");
+    std::fs::create_dir_all(&dir)?;
+    writeln!(out, "{}\n", machine())?;
+    for &triangles in sizes {
+        let bench = Bench { dir: &dir, triangles };
+        bench.prepare()?;
+        writeln!(out, "### {triangles} triangles, {:.1} MB of text\n", bench.megabytes("mesh")?)?;
+        writeln!(out, "| what | fastest | median | beside `cat` | MB/s in |")?;
+        writeln!(out, "| --- | ---: | ---: | ---: | ---: |")?;
+        let floor = time(RUNS, || bench.run(&format!("cat {} > /dev/null", bench.file("mesh"))))?;
+        for row in bench.rows() {
+            let times = match &row.work {
+                Work::Shell(command) => time(RUNS, || bench.run(command))?,
+                Work::Inside(work) => time(RUNS, work)?,
+            };
+            let megabytes = bench.megabytes(row.input)?;
+            writeln!(
+                out,
+                "| {} | {:.1} ms | {:.1} ms | {:.1} | {:.0} |",
+                row.name,
+                ms(times.fastest),
+                ms(times.median),
+                ms(times.fastest) / ms(floor.fastest),
+                megabytes / times.fastest.as_secs_f64(),
+            )?;
+        }
+        writeln!(out)?;
+    }
+    Ok(())
+}
+
+/// One size of mesh, and the files made from it.
+struct Bench<'a> {
+    dir: &'a Path,
+    triangles: u32,
+}
+
+struct Row {
+    name: &'static str,
+    /// Which file goes in.
+    input: &'static str,
+    work: Work,
+}
+
+enum Work {
+    /// A whole process, or a pipe of them.
+    Shell(String),
+    /// A library call on data in memory.
+    Inside(Box<dyn Fn() -> Result<(), Box<dyn Error>>>),
+}
+
+impl Bench<'_> {
+    fn file(&self, stage: &str) -> String {
+        self.dir.join(format!("{stage}-{}.ug", self.triangles)).display().to_string()
+    }
+
+    fn megabytes(&self, stage: &str) -> io::Result<f64> {
+        Ok(std::fs::metadata(self.file(stage))?.len() as f64 / 1e6)
+    }
+
+    /// Writes the mesh, and what each stage makes of it.
+    fn prepare(&self) -> Result<(), Box<dyn Error>> {
+        let mut file = io::BufWriter::new(File::create(self.file("mesh"))?);
+        mesh::write(&mut file, self.triangles)?;
+        file.flush()?;
+        drop(file);
+        self.run(&format!("{LORENTZ} {} > {}", self.file("mesh"), self.file("seen")))?;
+        self.run(&format!("{DOPPLER} {} > {}", self.file("seen"), self.file("coloured")))
+    }
+
+    /// Runs a shell command with the programs on its path.
+    fn run(&self, command: &str) -> Result<(), Box<dyn Error>> {
+        let status = Command::new("bash")
+            .args(["-c", &format!("set -euo pipefail; {command}")])
+            .env("PATH", path_with_programs()?)
+            .stdin(Stdio::null())
+            .status()?;
+        if status.success() { Ok(()) } else { Err(format!("`{command}` failed: {status}").into()) }
+    }
+
+    fn rows(&self) -> Vec<Row> {
+        let (mesh, seen, coloured) = (self.file("mesh"), self.file("seen"), self.file("coloured"));
+        let shell = |name, input, command: String| Row { name, input, work: Work::Shell(command) };
+        vec![
+            shell("`cat`", "mesh", format!("cat {mesh} > /dev/null")),
+            Row { name: "reading (library)", input: "mesh", work: Work::Inside(read(mesh.clone())) },
+            Row { name: "writing (library)", input: "mesh", work: Work::Inside(write_back(mesh.clone())) },
+            Row { name: "drawing (library), 1280×720", input: "coloured", work: Work::Inside(draw(coloured.clone())) },
+            shell("`uglorentz -vel .3 0 0`", "mesh", format!("{LORENTZ} {mesh} > /dev/null")),
+            shell("`ugdoppler`", "seen", format!("{DOPPLER} {seen} > /dev/null")),
+            shell("`ugrainbow -sz 1280 720 -aa 1`", "coloured", format!("{RAINBOW} {coloured} > /dev/null")),
+            shell("the whole pipe", "mesh", format!("{LORENTZ} {mesh} | {DOPPLER} | {RAINBOW} > /dev/null")),
+        ]
+    }
+}
+
+const LORENTZ: &str = "uglorentz -qt -vel .3 0 0";
+const DOPPLER: &str = "ugdoppler -qt";
+const RAINBOW: &str = "ugrainbow -qt -sz 1280 720 -aa 1";
+
+type Kernel = Box<dyn Fn() -> Result<(), Box<dyn Error>>>;
+
+fn source(file: &str) -> Result<ugparse::Source, Box<dyn Error>> {
+    Ok(ugparse::Source::new(file, std::fs::read(file)?))
+}
+
+fn read(file: String) -> Kernel {
+    let source = source(&file).map_err(|error| error.to_string());
+    Box::new(move || {
+        let parsed = ugparse::parse(source.as_ref()?, &ugparse::Options::default())?;
+        std::hint::black_box(parsed);
+        Ok(())
+    })
+}
+
+fn write_back(file: String) -> Kernel {
+    let scene = scene(&file).map_err(|error| error.to_string());
+    Box::new(move || {
+        std::hint::black_box(ugparse::write(scene.as_ref()?));
+        Ok(())
+    })
+}
+
+fn draw(file: String) -> Kernel {
+    let scene = scene(&file).map_err(|error| error.to_string());
+    let config = ugrainbow::Config { size: (1280, 720), samples: 1, ..ugrainbow::Config::default() };
+    Box::new(move || {
+        std::hint::black_box(ugrainbow::render(scene.as_ref()?, &config)?);
+        Ok(())
+    })
+}
+
+fn scene(file: &str) -> Result<ugparse::Scene, Box<dyn Error>> {
+    Ok(ugparse::parse(&source(file)?, &ugparse::Options::default())?.scene)
+}
+
+struct Times {
+    fastest: Duration,
+    median: Duration,
+}
+
+/// Times `work`, after one run that does not count.
+fn time(runs: usize, work: impl Fn() -> Result<(), Box<dyn Error>>) -> Result<Times, Box<dyn Error>> {
+    work()?;
+    let mut times = Vec::with_capacity(runs);
+    for _ in 0..runs {
+        let start = Instant::now();
+        work()?;
+        times.push(start.elapsed());
+    }
+    times.sort();
+    Ok(Times { fastest: times[0], median: times[runs / 2] })
+}
+
+fn ms(time: Duration) -> f64 {
+    time.as_secs_f64() * 1e3
+}
+
+fn build() -> Result<(), Box<dyn Error>> {
+    let status = Command::new(env!("CARGO")).args(["build", "--quiet", "--release"]).status()?;
+    if status.success() { Ok(()) } else { Err("the programs do not build".into()) }
+}
+
+/// Where cargo puts things: this program was built there.
+fn target_dir() -> PathBuf {
+    let exe = std::env::current_exe().unwrap_or_default();
+    exe.ancestors().nth(2).map_or_else(|| PathBuf::from("target"), Path::to_path_buf)
+}
+
+fn path_with_programs() -> Result<std::ffi::OsString, Box<dyn Error>> {
+    let path = std::env::var_os("PATH").unwrap_or_default();
+    let programs = target_dir().join("release");
+    Ok(std::env::join_paths(std::iter::once(programs).chain(std::env::split_paths(&path)))?)
+}
+
+/// Processor, threads and compiler, as far as the system tells.
+fn machine() -> String {
+    let cpuinfo = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
+    let model = cpuinfo.lines().find_map(|line| line.strip_prefix("model name")).unwrap_or("unknown processor");
+    let threads = std::thread::available_parallelism().map_or(0, |n| n.get());
+    let rustc = Command::new("rustc").arg("--version").output();
+    let rustc = rustc.map_or_else(|_| "rustc".into(), |out| String::from_utf8_lossy(&out.stdout).trim().to_string());
+    format!("{}, {threads} threads, {rustc}", model.trim_start_matches([' ', '\t', ':']))
+}

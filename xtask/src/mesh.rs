@@ -1,0 +1,72 @@
+//! A bumpy sphere with coloured vertices, of any number of triangles: something
+//! to measure speed on.
+
+use crate::globe::{Globe, Place};
+use crate::short::{Short, ShortPoint};
+use crate::sphere;
+use std::f64::consts::{PI, TAU};
+use std::io::{self, Write};
+
+/// The palette: hues from red to blue and back by longitude, saturations by colatitude. Purples are left out,
+/// since they have no wavelength.
+const HUES: u32 = 36;
+const SATURATIONS: u32 = 8;
+
+/// Writes a mesh of about `triangles` triangles.
+pub fn write(out: &mut impl Write, triangles: u32) -> io::Result<()> {
+    // A globe of n bands and 2 n sectors has 4 n (n - 1) triangles.
+    let bands = (f64::from(triangles) / 4.0).sqrt().round() as u32;
+    let globe = Globe::with_bands(bands);
+    writeln!(
+        out,
+        "{{ A bumpy sphere, r = 1 + 0.05 sin 12 theta cos 9 phi, with {} triangles and a palette of
+  {} colours on its vertices: something to measure speed on.
+  z is up; faces run counterclockwise seen from outside.
+  Made by `cargo xtask mesh {triangles}`. CC0 1.0.
+}}",
+        4 * bands * (bands - 1),
+        HUES * SATURATIONS,
+    )?;
+    write_palette(out)?;
+    for (i, place) in globe.places().enumerate() {
+        let p = bump(place) * sphere::direction(place);
+        writeln!(out, "v v{i} {} {} ;", ShortPoint(p), color_name(place))?;
+    }
+    for cell in (0..bands).flat_map(|band| globe.cells(band)) {
+        for pair in cell[1..].windows(2) {
+            writeln!(out, "f (v{} v{} v{}) ;", cell[0], pair[0], pair[1])?;
+        }
+    }
+    writeln!(
+        out,
+        "l 0.3 ;
+l sun 0.7 -1 -2 1.5 ;
+cam -ep 0 -6 1 -vc 0 0 0 -ud 0 0 1 -ps -va 30 24 ;"
+    )
+}
+
+fn write_palette(out: &mut impl Write) -> io::Result<()> {
+    for h in 0..HUES {
+        for s in 0..SATURATIONS {
+            let hue = 240.0 * f64::from(h) / f64::from(HUES - 1);
+            let saturation = f64::from(s + 1) / f64::from(SATURATIONS);
+            writeln!(out, "c {} 0.9 {} {} ;", name(h, s), Short(hue), Short(saturation))?;
+        }
+    }
+    Ok(())
+}
+
+fn bump(place: Place) -> f64 {
+    1.0 + 0.05 * libm::sin(12.0 * place.theta) * libm::cos(9.0 * place.phi)
+}
+
+fn color_name(place: Place) -> String {
+    let step = |part: f64, steps: u32| ((part * f64::from(steps)) as u32).min(steps - 1);
+    // 0 at both ends of the way around, 1 half-way.
+    let there_and_back = 1.0 - (2.0 * place.phi / TAU - 1.0).abs();
+    name(step(there_and_back, HUES), step(place.theta / PI, SATURATIONS))
+}
+
+fn name(hue_step: u32, saturation_step: u32) -> String {
+    format!("h{hue_step}s{saturation_step}")
+}
