@@ -64,12 +64,12 @@ for speed in .95 .999; do
     printf '%s\n' "chang-10-0${speed}c"
 done
 
-# Figures 11 and 12: the street at rest, rushing in, rushing out; and in colour, in small pieces
-# because hues change fast along the ground.
+# Figures 11 and 12: the street at rest, rushing in, rushing out; and in colour. Wavelengths (-gw,
+# -wi) go on where hues end, and so fade evenly at the rim of the visible.
 uglorentz street.ug | shape | draw chang-11-rest
 uglorentz -vel 0 -.99 0 -ep 0 40 3 street.ug | shape | draw chang-12a-in-0.99c
 uglorentz -vel 0 .99 0 -ep 0 -250 3 street.ug | shape | draw chang-12b-out-0.99c
-uglorentz -vel 0 -.9 0 -ep 0 20 3 -se .05 street.ug | ugdoppler -qt | draw chang-12c-in-0.9c-colours -va 110
+uglorentz -vel 0 -.9 0 -ep 0 20 3 street.ug | ugdoppler -qt -gw | draw chang-12c-in-0.9c-colours -wi -va 110
 
 # Howard, Dance and Kitchen 1995, figures 4 and 5: flying at a grid, and just through it.
 uglorentz grid.ug | shape | draw howard-04a-rest
@@ -79,7 +79,7 @@ uglorentz -vel 0 -.9 0 -ep 0 .5 0 grid.ug | shape | draw howard-05-through-0.9c
 
 # Our own: the lattice in shape and colour, colours that meet at a vertex, five speeds at once.
 uglorentz -vel 0 -.9 0 lattice.ug | shape | draw lattice-0.9c-shape -va 120
-uglorentz -vel 0 -.9 0 lattice.ug | ugdoppler -qt | draw lattice-0.9c-colours -va 120
+uglorentz -vel 0 -.9 0 lattice.ug | ugdoppler -qt -gw | draw lattice-0.9c-colours -wi -va 120
 ugdoppler -qt halves.ug | draw halves-mixed
 ugdoppler -qt -vr halves.ug | draw halves-repeated
 uglorentz -in dice.ug | shape | draw dice

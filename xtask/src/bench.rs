@@ -66,7 +66,7 @@ enum Work {
     /// A whole process, or a pipe of them.
     Shell(String),
     /// A library call on data in memory.
-    Inside(Box<dyn Fn() -> Result<(), Box<dyn Error>>>),
+    Inside(Kernel),
 }
 
 impl Bench<'_> {
@@ -101,11 +101,12 @@ impl Bench<'_> {
     fn rows(&self) -> Vec<Row> {
         let (mesh, seen, coloured) = (self.file("mesh"), self.file("seen"), self.file("coloured"));
         let shell = |name, input, command: String| Row { name, input, work: Work::Shell(command) };
+        let inside = |name, input, kernel| Row { name, input, work: Work::Inside(kernel) };
         vec![
             shell("`cat`", "mesh", format!("cat {mesh} > /dev/null")),
-            Row { name: "reading (library)", input: "mesh", work: Work::Inside(read(mesh.clone())) },
-            Row { name: "writing (library)", input: "mesh", work: Work::Inside(write_back(mesh.clone())) },
-            Row { name: "drawing (library), 1280×720", input: "coloured", work: Work::Inside(draw(coloured.clone())) },
+            inside("reading (library)", "mesh", read(&mesh)),
+            inside("writing (library)", "mesh", write_back(&mesh)),
+            inside("drawing (library), 1280×720, 1 sample", "coloured", draw(&coloured)),
             shell("`uglorentz -vel .3 0 0`", "mesh", format!("{LORENTZ} {mesh} > /dev/null")),
             shell("`ugdoppler`", "seen", format!("{DOPPLER} {seen} > /dev/null")),
             shell("`ugrainbow -sz 1280 720 -aa 1`", "coloured", format!("{RAINBOW} {coloured} > /dev/null")),
@@ -124,28 +125,28 @@ fn source(file: &str) -> Result<ugparse::Source, Box<dyn Error>> {
     Ok(ugparse::Source::new(file, std::fs::read(file)?))
 }
 
-fn read(file: String) -> Kernel {
-    let source = source(&file).map_err(|error| error.to_string());
+fn read(file: &str) -> Kernel {
+    let source = source(file).map_err(|error| error.to_string());
     Box::new(move || {
-        let parsed = ugparse::parse(source.as_ref()?, &ugparse::Options::default())?;
+        let parsed = ugparse::parse(source.as_ref().map_err(Clone::clone)?, &ugparse::Options::default())?;
         std::hint::black_box(parsed);
         Ok(())
     })
 }
 
-fn write_back(file: String) -> Kernel {
-    let scene = scene(&file).map_err(|error| error.to_string());
+fn write_back(file: &str) -> Kernel {
+    let scene = scene(file).map_err(|error| error.to_string());
     Box::new(move || {
-        std::hint::black_box(ugparse::write(scene.as_ref()?));
+        std::hint::black_box(ugparse::write(scene.as_ref().map_err(Clone::clone)?));
         Ok(())
     })
 }
 
-fn draw(file: String) -> Kernel {
-    let scene = scene(&file).map_err(|error| error.to_string());
-    let config = ugrainbow::Config { size: (1280, 720), samples: 1, ..ugrainbow::Config::default() };
+fn draw(file: &str) -> Kernel {
+    let scene = scene(file).map_err(|error| error.to_string());
+    let config = ugrainbow::Config { size: [1280, 720], samples: 1, ..ugrainbow::Config::default() };
     Box::new(move || {
-        std::hint::black_box(ugrainbow::render(scene.as_ref()?, &config)?);
+        std::hint::black_box(ugrainbow::render(scene.as_ref().map_err(Clone::clone)?, &config)?);
         Ok(())
     })
 }
@@ -196,9 +197,11 @@ fn path_with_programs() -> Result<std::ffi::OsString, Box<dyn Error>> {
 /// Processor, threads and compiler, as far as the system tells.
 fn machine() -> String {
     let cpuinfo = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
-    let model = cpuinfo.lines().find_map(|line| line.strip_prefix("model name")).unwrap_or("unknown processor");
+    let model =
+        cpuinfo.lines().find_map(|line| line.strip_prefix("model name")).unwrap_or("unknown processor");
     let threads = std::thread::available_parallelism().map_or(0, |n| n.get());
     let rustc = Command::new("rustc").arg("--version").output();
-    let rustc = rustc.map_or_else(|_| "rustc".into(), |out| String::from_utf8_lossy(&out.stdout).trim().to_string());
+    let rustc =
+        rustc.map_or_else(|_| "rustc".into(), |out| String::from_utf8_lossy(&out.stdout).trim().to_string());
     format!("{}, {threads} threads, {rustc}", model.trim_start_matches([' ', '\t', ':']))
 }

@@ -1,14 +1,16 @@
 //! Chores of the project: write the scenes that are made by rule rather than by
-//! hand, and tile pictures into contact sheets.
+//! hand, tile pictures into contact sheets, time the programs.
 //!
 //! ```text
 //! cargo xtask teapot > scenes/teapot.ug
 //! cargo xtask mesh 1000000 > /tmp/mesh.ug
 //! cargo xtask sheet sheet.png 2 a.png b.png c.png d.png
+//! cargo xtask bench
 //! ```
 //!
 //! Scenes go to standard output and are the same bytes on every run and platform.
 
+mod bench;
 mod globe;
 mod mesh;
 mod sheet;
@@ -63,6 +65,12 @@ enum Chore {
         #[arg(required = true)]
         pictures: Vec<PathBuf>,
     },
+    /// Time the programs beside `cat` on meshes of these sizes, as Markdown
+    Bench {
+        /// Triangles, roughly
+        #[arg(default_values_t = [100_000, 1_000_000])]
+        triangles: Vec<u32>,
+    },
 }
 
 fn main() -> ExitCode {
@@ -85,6 +93,9 @@ fn run(chore: &Chore) -> io::Result<()> {
         Chore::Sphere { bands, halves: false } => sphere::write(&mut out, *bands)?,
         Chore::Sphere { bands, halves: true } => sphere::write_halves(&mut out, *bands)?,
         Chore::Mesh { triangles } => mesh::write(&mut out, *triangles)?,
+        Chore::Bench { triangles } => {
+            bench::write(&mut out, triangles).map_err(|error| io::Error::other(error.to_string()))?;
+        }
         Chore::Sheet { out: picture, columns, pictures } => sheet::tile(picture, *columns, pictures)?,
     }
     out.flush()

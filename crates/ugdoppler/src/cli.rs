@@ -62,9 +62,9 @@ pub struct Args {
 }
 
 const EXAMPLES: &str = "Examples:
-  uglorentz -vel .3 0 0 ship.ug | ugdoppler | ugrainbow > ship.png
-  uglorentz -vel 0 .9 0 street.ug | ugdoppler -gw -ir | ugrainbow -wi > street.png
-  uglorentz -vel .9 0 0 ship.ug | ugdoppler --no-doppler --no-flux | ugrainbow > shape.png";
+  uglorentz -vel 0 -.2 0 -in ship.ug | ugdoppler | ugrainbow > ship.png
+  uglorentz -vel 0 -.9 0 lattice.ug | ugdoppler -gw | ugrainbow -wi -va 120 > ring.png
+  uglorentz -vel .9 0 0 -in ship.ug | ugdoppler --no-doppler --no-flux | ugrainbow > shape.png";
 
 /// Brightness laws, (P12).
 #[derive(Clone, Copy, Debug, ValueEnum)]
