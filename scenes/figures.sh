@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Draws the papers' figures, and some of our own, from the scenes in this folder.
 #
-#   scenes/figures.sh [OUTDIR]        default: figures
+#   scenes/figures.sh [OUTDIR [WIDTH HEIGHT]]        default: figures 640 480
 #
 # Every picture is one pipe. Our scenes have z up: motion is along +x, and the camera looks
 # along +y, where the papers have y up and look along the z axis.
@@ -9,6 +9,7 @@ set -euo pipefail
 export LC_ALL=C
 
 out=${1:-figures}
+width=${2:-640} height=${3:-480}
 mkdir -p "$out/rows"
 out=$(cd "$out" && pwd)
 cd "$(dirname "$0")/.."
@@ -24,12 +25,12 @@ shape() { ugdoppler -qt --no-doppler --no-flux; }
 draw() {
     local name=$1
     shift
-    ugrainbow -qt -sz 640 480 "$@" -fo "$out/$name.png"
+    ugrainbow -qt -sz "$width" "$height" "$@" -fo "$out/$name.png"
     printf '%s\n' "$name"
 }
 
 # Nguyen 1988, figure 1: the rainbow.
-ugrainbow -qt -wi -sz 640 480 -fo "$out/nguyen-01.png" rainbow.ug
+draw nguyen-01 -wi rainbow.ug
 
 # Nguyen 1988, figure 2: the ship at rest and at 0.3, 0.6 and 0.9c. Then in colour: at 0.6c the
 # stern still comes nearer while the bow goes away; head-on, much above 0.2c much of the ship
@@ -57,7 +58,7 @@ for speed in .95 .999; do
     rows=()
     for time in 07 12 17 22; do
         row=$out/rows/teapot-$speed-$time.png
-        uglorentz -vel $speed 0 0 -ti $time teapot.ug | shape | ugrainbow -qt -va 90 -sz 640 117 -fo "$row"
+        uglorentz -vel $speed 0 0 -ti $time teapot.ug | shape | ugrainbow -qt -va 90 -sz "$width" $((height / 4 - 3)) -fo "$row"
         rows+=("$row")
     done
     cargo --quiet xtask sheet "$out/chang-10-0${speed}c.png" 1 "${rows[@]}"

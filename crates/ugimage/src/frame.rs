@@ -1,0 +1,94 @@
+//! The frame: a rectangle of display-encoded pixels.
+
+/// A picture in memory, rows from top to bottom, four bytes a pixel: red,
+/// green, blue encoded with the sRGB transfer function, and alpha.
+///
+/// Colours are not multiplied by alpha. In an opaque frame every alpha is 255.
+///
+/// # Guarantees
+/// There are exactly width × height pixels, and neither side is 0.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Frame {
+    width: u32,
+    height: u32,
+    is_opaque: bool,
+    pixels: Vec<[u8; 4]>,
+}
+
+impl Frame {
+    /// A black frame without transparency.
+    ///
+    /// # Panics
+    /// If a side is 0.
+    pub fn opaque(width: u32, height: u32) -> Self {
+        Self::filled(width, height, true, [0, 0, 0, 255])
+    }
+
+    /// A frame with transparency, clear everywhere.
+    ///
+    /// # Panics
+    /// If a side is 0.
+    pub fn clear(width: u32, height: u32) -> Self {
+        Self::filled(width, height, false, [0; 4])
+    }
+
+    fn filled(width: u32, height: u32, is_opaque: bool, pixel: [u8; 4]) -> Self {
+        assert!(width > 0 && height > 0, "a frame has at least one pixel");
+        Self { width, height, is_opaque, pixels: vec![pixel; width as usize * height as usize] }
+    }
+
+    /// Pixels in a row.
+    pub fn width(&self) -> u32 {
+        self.width
+    }
+
+    /// Number of rows.
+    pub fn height(&self) -> u32 {
+        self.height
+    }
+
+    /// True if the frame has no transparency, so that alpha need not be written.
+    pub fn is_opaque(&self) -> bool {
+        self.is_opaque
+    }
+
+    /// All pixels, row after row from the top.
+    pub fn pixels(&self) -> &[[u8; 4]] {
+        &self.pixels
+    }
+
+    /// The same, to be painted. Whoever paints an opaque frame leaves alpha at 255.
+    pub fn pixels_mut(&mut self) -> &mut [[u8; 4]] {
+        &mut self.pixels
+    }
+
+    /// The pixel in column `x` of row `y`, counted from the top left.
+    ///
+    /// # Panics
+    /// If it lies outside.
+    pub fn pixel(&self, x: u32, y: u32) -> [u8; 4] {
+        assert!(x < self.width && y < self.height, "the pixel lies in the frame");
+        self.pixels[y as usize * self.width as usize + x as usize]
+    }
+}
+
+/// Frames that exercise writers: one pixel, odd sizes, long runs, noise, transparency.
+#[cfg(test)]
+pub(crate) fn test_frames() -> Vec<Frame> {
+    let mut noise = Frame::opaque(37, 19);
+    let mut state = 1u32;
+    for pixel in noise.pixels_mut() {
+        state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        let [r, g, b, _] = state.to_be_bytes();
+        *pixel = [r, g, b, 255];
+    }
+    let mut runs = Frame::opaque(300, 5);
+    for (idx, pixel) in runs.pixels_mut().iter_mut().enumerate() {
+        *pixel = if idx % 301 < 7 { [idx as u8, 9, 9, 255] } else { [0, 0, 0, 255] };
+    }
+    let mut clear = Frame::clear(16, 16);
+    for (idx, pixel) in clear.pixels_mut().iter_mut().enumerate() {
+        *pixel = [idx as u8, 255 - idx as u8, 7, idx as u8];
+    }
+    vec![Frame::opaque(1, 1), Frame::opaque(129, 3), noise, runs, clear]
+}

@@ -1,0 +1,302 @@
+//! What the PostScript formats share: comments, transparency put on white, and the
+//! colour image operator with its two filters.
+
+use ugphysics::srgb_decode;
+
+use crate::{Frame, Label, Quantizer};
+
+/// Longest comment line we write; the document structuring conventions allow 255.
+const MAX_COMMENT: usize = 250;
+
+/// The `%%Creator` comment, and the label's comment as plain `%` lines.
+pub fn label_comments(label: &Label) -> String {
+    let mut text = String::new();
+    if !label.software.is_empty() {
+        text += &format!("%%Creator: {}\n", comment_line(&label.software));
+    }
+    text
+}
+
+/// The label's comment as plain `%` lines, to stand behind `%%EndComments`.
+pub fn history_comments(label: &Label) -> String {
+    label.comment.lines().map(|line| format!("% {}\n", comment_line(line))).collect()
+}
+
+/// One line of printable ASCII, short enough for a comment.
+fn comment_line(text: &str) -> String {
+    text.chars().map(|c| if c == ' ' || c.is_ascii_graphic() { c } else { '?' }).take(MAX_COMMENT).collect()
+}
+
+/// The picture as PostScript level 2, drawn with its lower left corner at the origin, one
+/// pixel a point.
+///
+/// The filters stand in variables so that, when all pixels have been read, both can be
+/// run to their ends and the interpreter goes on right behind the data.
+pub fn color_image(frame: &Frame) -> Vec<u8> {
+    let (width, height) = (frame.width(), frame.height());
+    let mut out = format!(
+        "gsave\n\
+         {width} {height} scale\n\
+         /DeviceRGB setcolorspace\n\
+         /UgImage {{\n\
+         /UgText currentfile /ASCII85Decode filter def\n\
+         /UgRuns UgText /RunLengthDecode filter def\n\
+         << /ImageType 1 /Width {width} /Height {height} /BitsPerComponent 8\n\
+         /Decode [0 1 0 1 0 1] /ImageMatrix [{width} 0 0 -{height} 0 {height}]\n\
+         /DataSource UgRuns >> image\n\
+         UgRuns flushfile UgText flushfile\n\
+         }} def\n\
+         UgImage\n"
+    )
+    .into_bytes();
+    let rgb = over_white(frame);
+    let mut text = Ascii85::new(&mut out);
+    run_length(rgb.as_flattened(), |byte| text.push(byte));
+    text.finish();
+    out.extend_from_slice(b"grestore\n");
+    out
+}
+
+/// The colours of a frame, transparent pixels laid over white in linear light.
+pub fn over_white(frame: &Frame) -> Vec<[u8; 3]> {
+    if frame.is_opaque() {
+        return frame.pixels().iter().map(|&[r, g, b, _]| [r, g, b]).collect();
+    }
+    let quantizer = Quantizer::new();
+    let linear = decode_table();
+    let blend = |level: u8, alpha: u8| {
+        let alpha = f32::from(alpha) / 255.0;
+        quantizer.level(linear[usize::from(level)] as f32 * alpha + (1.0 - alpha))
+    };
+    frame.pixels().iter().map(|&[r, g, b, a]| [r, g, b].map(|level| blend(level, a))).collect()
+}
+
+/// Linear light of each display level.
+pub fn decode_table() -> [f64; 256] {
+    std::array::from_fn(|level| srgb_decode(level as f64 / 255.0))
+}
+
+/// The run-length coding of PostScript (PackBits): a length byte n, then n + 1 bytes as
+/// they are if n < 128, or one byte to be repeated 257 − n times; 128 ends.
+fn run_length(bytes: &[u8], mut put: impl FnMut(u8)) {
+    const LONGEST: usize = 128;
+    let run_at = |at: usize| bytes[at..].iter().take(LONGEST).take_while(|&&byte| byte == bytes[at]).count();
+    let mut at = 0;
+    while at < bytes.len() {
+        let run = run_at(at);
+        if run >= 3 {
+            put((257 - run) as u8);
+            put(bytes[at]);
+            at += run;
+            continue;
+        }
+        // Bytes as they are, up to the next run worth its two bytes.
+        let start = at;
+        while at < bytes.len() && at - start < LONGEST && !starts_run(&bytes[at..]) {
+            at += 1;
+        }
+        put((at - start - 1) as u8);
+        bytes[start..at].iter().for_each(|&byte| put(byte));
+    }
+    put(128);
+}
+
+/// True if the first three bytes are equal.
+fn starts_run(bytes: &[u8]) -> bool {
+    matches!(bytes, [a, b, c, ..] if a == b && b == c)
+}
+
+/// Writes bytes as base 85 text: four bytes become five characters from `!` to `u`, four
+/// zeros become `z`, and `~>` ends.
+struct Ascii85<'a> {
+    out: &'a mut Vec<u8>,
+    word: u32,
+    len: usize,
+    column: usize,
+}
+
+impl<'a> Ascii85<'a> {
+    fn new(out: &'a mut Vec<u8>) -> Self {
+        Self { out, word: 0, len: 0, column: 0 }
+    }
+
+    fn push(&mut self, byte: u8) {
+        self.word = self.word << 8 | u32::from(byte);
+        self.len += 1;
+        if self.len < 4 {
+            return;
+        }
+        match self.word {
+            0 => self.print(b'z'),
+            word => digits(word).into_iter().for_each(|digit| self.print(digit)),
+        }
+        (self.word, self.len) = (0, 0);
+    }
+
+    /// A last group of n bytes is padded with zeros, and n + 1 of its digits are written.
+    fn finish(mut self) {
+        if self.len > 0 {
+            let word = self.word << (8 * (4 - self.len));
+            digits(word).into_iter().take(self.len + 1).for_each(|digit| self.print(digit));
+        }
+        self.out.extend_from_slice(b"~>\n");
+    }
+
+    fn print(&mut self, digit: u8) {
+        // A line that starts with `%%` would be taken for a structuring comment by
+        // spoolers; a blank before it is skipped by the decoder.
+        if self.column == 0 && digit == b'%' {
+            self.out.push(b' ');
+        }
+        self.out.push(digit);
+        self.column += 1;
+        if self.column == 80 {
+            self.out.push(b'\n');
+            self.column = 0;
+        }
+    }
+}
+
+/// The five base 85 digits of a word, the highest first.
+fn digits(word: u32) -> [u8; 5] {
+    [52_200_625, 614_125, 7_225, 85, 1].map(|unit| b'!' + (word / unit % 85) as u8)
+}
+
+/// Decoders of their own, so that the writers are not tested against themselves.
+#[cfg(test)]
+pub(crate) mod decode {
+    /// The text between the lines `start` and `end`.
+    pub fn between<'a>(file: &'a [u8], start: &str, end: &str) -> &'a [u8] {
+        let find = |from: usize, text: &str| {
+            from + file[from..].windows(text.len()).position(|window| window == text.as_bytes()).unwrap()
+        };
+        let from = find(0, start) + start.len();
+        &file[from..find(from, end)]
+    }
+
+    pub fn ascii85(text: &[u8]) -> Vec<u8> {
+        let mut bytes = Vec::new();
+        let mut group = Vec::new();
+        for &c in text.iter().filter(|c| !c.is_ascii_whitespace()) {
+            match c {
+                b'z' => bytes.extend([0; 4]),
+                b'!'..=b'u' => group.push(c - b'!'),
+                _ => panic!("{c} is no base 85 digit"),
+            }
+            if group.len() == 5 {
+                bytes.extend(value(&group).to_be_bytes());
+                group.clear();
+            }
+        }
+        if !group.is_empty() {
+            let n_bytes = group.len() - 1;
+            group.resize(5, 84);
+            bytes.extend(&value(&group).to_be_bytes()[..n_bytes]);
+        }
+        bytes
+    }
+
+    fn value(group: &[u8]) -> u32 {
+        let value = group.iter().fold(0u64, |value, &digit| value * 85 + u64::from(digit));
+        u32::try_from(value).unwrap()
+    }
+
+    pub fn run_length(bytes: &[u8]) -> Vec<u8> {
+        let mut out = Vec::new();
+        let mut bytes = bytes.iter().copied();
+        loop {
+            match bytes.next().unwrap() {
+                128 => break,
+                n @ 0..128 => out.extend(bytes.by_ref().take(usize::from(n) + 1)),
+                n => out.extend(std::iter::repeat_n(bytes.next().unwrap(), 257 - usize::from(n))),
+            }
+        }
+        assert_eq!(bytes.next(), None, "nothing follows the end mark");
+        out
+    }
+
+    pub fn hex(text: &[u8]) -> Vec<u8> {
+        let digits: Vec<u8> = text
+            .iter()
+            .filter(|c| !c.is_ascii_whitespace())
+            .map(|&c| u8::try_from(char::from(c).to_digit(16).unwrap()).unwrap())
+            .collect();
+        digits.chunks_exact(2).map(|pair| pair[0] * 16 + pair[1]).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::frame::test_frames;
+
+    #[test]
+    fn pixels_come_back() {
+        for frame in test_frames() {
+            let image = color_image(&frame);
+            let runs = decode::ascii85(decode::between(&image, "UgImage\n", "~>"));
+            let pixels = decode::run_length(&runs);
+            assert_eq!(pixels, over_white(&frame).as_flattened());
+        }
+    }
+
+    #[test]
+    fn runs_are_coded() {
+        let rows: [(&[u8], &[u8]); 6] = [
+            (&[], &[128]),
+            (&[7], &[0, 7, 128]),
+            (&[7, 7], &[1, 7, 7, 128]),
+            (&[7, 7, 7], &[254, 7, 128]),
+            (&[1, 2, 7, 7, 7, 3], &[1, 1, 2, 254, 7, 0, 3, 128]),
+            (&[5; 129], &[129, 5, 0, 5, 128]),
+        ];
+        for (bytes, coded) in rows {
+            let mut out = Vec::new();
+            run_length(bytes, |byte| out.push(byte));
+            assert_eq!(out, coded, "{bytes:?}");
+        }
+    }
+
+    #[test]
+    fn base_85_text() {
+        let rows: [(&[u8], &str); 5] = [
+            (b"", "~>\n"),
+            (b"Man ", "9jqo^~>\n"),
+            (b"Man sure", "9jqo^F*2M7~>\n"),
+            (b"\0\0\0\0.", "z/c~>\n"),
+            (b".", "/c~>\n"),
+        ];
+        for (bytes, text) in rows {
+            let mut out = Vec::new();
+            let mut coder = Ascii85::new(&mut out);
+            bytes.iter().for_each(|&byte| coder.push(byte));
+            coder.finish();
+            assert_eq!(String::from_utf8(out).unwrap(), text);
+        }
+    }
+
+    #[test]
+    fn no_data_line_looks_like_a_comment() {
+        for frame in test_frames() {
+            let image = color_image(&frame);
+            assert!(image.split(|&c| c == b'\n').all(|line| !line.starts_with(b"%") && line.len() <= 100));
+        }
+    }
+
+    #[test]
+    fn transparency_lies_on_white() {
+        let mut frame = Frame::clear(3, 1);
+        frame.pixels_mut().copy_from_slice(&[[0, 0, 0, 0], [10, 20, 30, 255], [0, 0, 0, 128]]);
+        // 1 − 128/255 of white light is 0.498, level 187.5 + …: encode(0.49804) · 255 = 187.2.
+        assert_eq!(over_white(&frame), [[255; 3], [10, 20, 30], [187; 3]]);
+    }
+
+    #[test]
+    fn labels_are_comments() {
+        let label = Label { software: "ug\n1".into(), comment: "a -vel .9\nγ".into() };
+        assert_eq!(label_comments(&label), "%%Creator: ug?1\n");
+        assert_eq!(history_comments(&label), "% a -vel .9\n% ?\n");
+        let long = Label { software: String::new(), comment: "x".repeat(1000) };
+        assert!(history_comments(&long).lines().all(|line| line.len() <= 255));
+    }
+}

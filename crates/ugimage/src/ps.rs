@@ -1,0 +1,29 @@
+//! PostScript: one page in colour, cut to the size of the picture.
+
+use crate::postscript::{color_image, history_comments, label_comments};
+use crate::{Frame, Label};
+
+/// The frame as a PostScript document of one page, one pixel a point.
+pub fn encode(frame: &Frame, label: &Label) -> Vec<u8> {
+    let (width, height) = (frame.width(), frame.height());
+    let mut file = format!(
+        "%!PS-Adobe-3.0\n\
+         %%BoundingBox: 0 0 {width} {height}\n\
+         {}\
+         %%LanguageLevel: 2\n\
+         %%DocumentData: Clean7Bit\n\
+         %%Pages: 1\n\
+         %%EndComments\n\
+         {}\
+         %%BeginSetup\n\
+         << /PageSize [{width} {height}] >> setpagedevice\n\
+         %%EndSetup\n\
+         %%Page: 1 1\n",
+        label_comments(label),
+        history_comments(label)
+    )
+    .into_bytes();
+    file.extend(color_image(frame));
+    file.extend_from_slice(b"showpage\n%%Trailer\n%%EOF\n");
+    file
+}

@@ -1,0 +1,218 @@
+//! The camera: from scene coordinates to the sample grid.
+
+use std::fmt;
+
+use glam::DVec3;
+use ugparse::{Camera, Projection, Scene};
+
+use crate::clip::{Place, Slab};
+use crate::config::CameraOptions;
+
+/// View angle across the picture where nobody says one, degrees.
+const DEFAULT_VIEW_ANGLE: f64 = 40.0;
+
+/// Without a hither distance, nothing nearer to the eye than this part of the distance
+/// to the view centre is drawn: points at the eye have no place in a picture.
+const NEAREST: f64 = 1e-6;
+
+/// Why there is no picture from this camera.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum CameraError {
+    /// The eye point is the view centre, or too near to or far from it to have a direction.
+    NoDirection {
+        /// The eye point.
+        eye: DVec3,
+    },
+    /// A view angle, in degrees, that is not between 0 and 180.
+    ViewAngle(f64),
+    /// A film size or focal length that is not positive.
+    Film,
+    /// A film rectangle (`-ph`) without area.
+    FilmRectangle,
+    /// The yon distance is not behind the hither distance, or not in front of the eye.
+    Clip([f64; 2]),
+}
+
+impl fmt::Display for CameraError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NoDirection { eye } => write!(
+                f,
+                "the eye point {} {} {} is also the view centre, so there is no direction to look in; \
+                 move the eye with -ep or the centre with -vc",
+                eye.x, eye.y, eye.z
+            ),
+            Self::ViewAngle(degrees) => write!(
+                f,
+                "a view angle of {degrees} degrees cannot be projected on a flat picture; \
+                 give -va more than 0 and less than 180"
+            ),
+            Self::Film => f.write_str(
+                "the film size and the focal length of the camera must be positive; \
+                 correct -fs and -fl of the `cam` statement, or give -va",
+            ),
+            Self::FilmRectangle => f.write_str(
+                "the film rectangle of the camera has no area; \
+                 give -ph of the `cam` statement as min x, min y, max x, max y",
+            ),
+            Self::Clip([hither, yon]) => write!(
+                f,
+                "nothing lies between the clipping distances {hither} and {yon}; \
+                 give -cl of the `cam` statement as hither and a greater yon"
+            ),
+        }
+    }
+}
+
+impl std::error::Error for CameraError {}
+
+/// A camera set up for a picture.
+#[derive(Clone, Debug)]
+pub struct View {
+    /// Eye point, scene coordinates.
+    pub eye: DVec3,
+    /// Unit vector into the picture.
+    pub forward: DVec3,
+    /// True for perspective, false for orthographic projection.
+    pub is_perspective: bool,
+    /// What of the depth is drawn.
+    pub slab: Slab,
+    /// Distance from the eye to the view centre.
+    pub distance: f64,
+    /// True if the up direction was parallel to the view and another one was taken.
+    pub is_up_replaced: bool,
+    right: DVec3,
+    up: DVec3,
+    /// Samples per unit of the film at distance 1, across and down.
+    scale: [f64; 2],
+    /// The sample where the view axis goes through.
+    axis: [f64; 2],
+}
+
+impl View {
+    /// Puts together options, the scene's camera and defaults, in this order. `samples`: of
+    /// the picture, across and down.
+    ///
+    /// # Errors
+    /// [`CameraError`] where they make no sense together.
+    pub fn new(scene: &Scene, options: &CameraOptions, samples: [u32; 2]) -> Result<Self, CameraError> {
+        let none = Camera::default();
+        let camera = scene.camera().unwrap_or(&none);
+        let eye = ugscene::eye(scene, options.eye);
+        let center = options.center.or(camera.center).unwrap_or_else(|| middle(scene));
+        let distance = (center - eye).length();
+        if !(distance > 0.0 && distance.is_finite()) {
+            return Err(CameraError::NoDirection { eye });
+        }
+        let forward = (center - eye) / distance;
+        let (right, is_up_replaced) = right_of(forward, options.up.or(camera.up).unwrap_or(DVec3::Z));
+        let is_perspective = !options.is_orthographic && camera.projection != Some(Projection::Orthographic);
+        let film = Film::new(camera, options, samples)?;
+        // What is at the distance of the view centre has one size in both projections.
+        let half = film.half.map(|half| if is_perspective { half } else { half * distance });
+        Ok(Self {
+            eye,
+            forward,
+            is_perspective,
+            slab: slab(camera, is_perspective, distance)?,
+            distance,
+            is_up_replaced,
+            right,
+            up: right.cross(forward),
+            scale: [film.samples[0] / (2.0 * half[0]), film.samples[1] / (2.0 * half[1])],
+            axis: film.axis,
+        })
+    }
+
+    /// Where a point, relative to the eye, is in the picture.
+    pub fn place(&self, point: DVec3) -> Place {
+        let z = point.dot(self.forward);
+        let w = if self.is_perspective { z } else { 1.0 };
+        Place {
+            x: self.scale[0] * point.dot(self.right) + self.axis[0] * w,
+            y: self.axis[1] * w - self.scale[1] * point.dot(self.up),
+            z,
+        }
+    }
+}
+
+/// The middle of the box round all vertices.
+fn middle(scene: &Scene) -> DVec3 {
+    // Halved first: the sum of two large coordinates may be too large.
+    scene.bounds().map_or(DVec3::ZERO, |(low, high)| low * 0.5 + high * 0.5)
+}
+
+/// The unit vector to the right, and whether `up` had to be replaced because it is parallel
+/// to the view.
+fn right_of(forward: DVec3, up: DVec3) -> (DVec3, bool) {
+    /// Sine of the least angle between up and view that is not taken for rounding.
+    const LEAST: f64 = 1e-9;
+    let across = forward.cross(up.normalize_or_zero());
+    if across.length() > LEAST {
+        return (across.normalize(), false);
+    }
+    // +y is up for a view straight down or up, the usual layout of a map.
+    let axis = if forward.y.abs() < 0.9 { DVec3::Y } else { DVec3::Z };
+    (forward.cross(axis).normalize(), true)
+}
+
+fn slab(camera: &Camera, is_perspective: bool, distance: f64) -> Result<Slab, CameraError> {
+    let nearest = if is_perspective { NEAREST * distance } else { f64::NEG_INFINITY };
+    let Some([hither, yon]) = camera.clip else {
+        return Ok(Slab { near: nearest, far: f64::INFINITY });
+    };
+    let slab = Slab { near: hither.max(nearest), far: yon };
+    if slab.near < slab.far { Ok(slab) } else { Err(CameraError::Clip([hither, yon])) }
+}
+
+/// The film: which part of the view the picture shows.
+struct Film {
+    /// Half its sides at distance 1 from the eye.
+    half: [f64; 2],
+    /// Samples that would cover the whole film.
+    samples: [f64; 2],
+    /// The sample at its middle.
+    axis: [f64; 2],
+}
+
+impl Film {
+    /// Pixels are square unless both angles stand on the command line: otherwise the angle
+    /// across counts, and the height follows from the shape of the picture.
+    fn new(camera: &Camera, options: &CameraOptions, samples: [u32; 2]) -> Result<Self, CameraError> {
+        let [min_x, min_y, max_x, max_y] = camera.film.unwrap_or([0.0, 0.0, 1.0, 1.0]);
+        if !(min_x < max_x && min_y < max_y) {
+            return Err(CameraError::FilmRectangle);
+        }
+        let [width, height] = samples.map(f64::from);
+        let samples = [width / (max_x - min_x), height / (max_y - min_y)];
+        // Film coordinates run up, rows run down.
+        let axis = [(0.5 - min_x) * samples[0], (max_y - 0.5) * samples[1]];
+        let half_width = match options.view_angle {
+            Some((across, _)) => half_side(across)?,
+            None => half_width_of(camera)?,
+        };
+        let half_height = match options.view_angle {
+            Some((_, Some(down))) => half_side(down)?,
+            _ => half_width * samples[1] / samples[0],
+        };
+        Ok(Self { half: [half_width, half_height], samples, axis })
+    }
+}
+
+/// Half the width of the film at distance 1, from any two of view angle, film size and focal
+/// length: fs = 2 fl tan(va/2).
+fn half_width_of(camera: &Camera) -> Result<f64, CameraError> {
+    match (camera.view_angle, camera.film_size, camera.focal_length) {
+        (Some([across, _]), _, _) => half_side(across),
+        (None, Some([width, _]), Some(length)) if width > 0.0 && length > 0.0 => Ok(0.5 * width / length),
+        (None, Some(_), Some(_)) => Err(CameraError::Film),
+        _ => half_side(DEFAULT_VIEW_ANGLE),
+    }
+}
+
+/// Half the side of the film at distance 1 that fills a view angle in degrees.
+fn half_side(degrees: f64) -> Result<f64, CameraError> {
+    let is_flat = 0.0 < degrees && degrees < 180.0;
+    let half = libm::tan(0.5 * degrees.to_radians());
+    if is_flat && half > 0.0 { Ok(half) } else { Err(CameraError::ViewAngle(degrees)) }
+}

@@ -1,0 +1,231 @@
+//! The command line.
+
+use std::path::Path;
+
+use clap::{ArgAction, Parser};
+use glam::DVec3;
+use ugimage::Format;
+use ugparse::Source;
+use ugphysics::Hsv;
+use ugpipe::{CommonArgs, Failure, Stage, ToolArgs, finite, vector};
+use ugscene::HueScale;
+
+use crate::config::{Background, CameraOptions, Config, Interpolation, Output};
+use crate::{Error, run};
+
+/// Where black-and-white PostScript goes if standard output is a terminal, as in 1988.
+const POSTSCRIPT_FILE: &str = "POSTSCRIPTFILE";
+
+/// Draw a UniGrafix scene, interpolating hues or wavelengths between corners.
+///
+/// Reads a scene and writes a picture. At the end of a pipe it shows what moves nearly as
+/// fast as light:
+///
+///   uglorentz -vel .9 0 0 < ship.ug | ugdoppler | ugrainbow > ship.png
+#[derive(Clone, Debug, Parser)]
+#[command(name = "ugrainbow", version, before_help = ugpipe::ONE_DASH)]
+pub struct Args {
+    /// Interpolate hue between corners (default)
+    #[arg(long, visible_alias = "interpolate-hue", conflicts_with_all = ["iw", "wi"])]
+    ih: bool,
+
+    /// Interpolate wavelength between corners
+    #[arg(long, visible_alias = "interpolate-wavelength")]
+    iw: bool,
+
+    /// Hues in colour statements are wavelengths in nm; implies -iw
+    ///
+    /// As `ugdoppler -gw` writes them.
+    #[arg(long, visible_alias = "wavelengths")]
+    wi: bool,
+
+    /// Write black-and-white PostScript, as in 1988
+    ///
+    /// To the file POSTSCRIPTFILE if standard output is a terminal and there is no -fo.
+    #[arg(long, visible_alias = "grey-postscript", conflicts_with_all = ["dt", "tb"])]
+    dp: bool,
+
+    /// Format of the picture: png, eps, ps [default: by the ending of -fo, else png]
+    #[arg(long, value_name = "FMT", visible_alias = "format", value_parser = format_named)]
+    dt: Option<Format>,
+
+    /// Eye point [default: that of the scene, else the origin]
+    #[arg(long, num_args = 3, value_names = ["X", "Y", "Z"], action = ArgAction::Set,
+          allow_hyphen_values = true, value_parser = finite, visible_alias = "eye", help_heading = CAMERA)]
+    ep: Option<Vec<f64>>,
+
+    /// View centre, shown in the middle [default: that of the scene, else its middle]
+    #[arg(long, num_args = 3, value_names = ["X", "Y", "Z"], action = ArgAction::Set,
+          allow_hyphen_values = true, value_parser = finite, visible_alias = "center", help_heading = CAMERA)]
+    vc: Option<Vec<f64>>,
+
+    /// Up direction [default: that of the scene, else 0 0 1]
+    #[arg(long, num_args = 3, value_names = ["X", "Y", "Z"], action = ArgAction::Set,
+          allow_hyphen_values = true, value_parser = finite, visible_alias = "up", help_heading = CAMERA)]
+    ud: Option<Vec<f64>>,
+
+    /// Full view angle across the picture and, if given, down it, in degrees
+    ///
+    /// Default: that of the scene across, else 40. Pixels are square unless both are given.
+    #[arg(long, num_args = 1..=2, value_names = ["A", "B"], action = ArgAction::Set,
+          value_parser = view_angle, visible_alias = "view-angle", help_heading = CAMERA)]
+    va: Option<Vec<f64>>,
+
+    /// Orthographic projection
+    ///
+    /// What is at the distance of the view centre is as large as in perspective.
+    /// Without clipping distances in the scene, what is behind the eye is drawn too.
+    #[arg(long, visible_alias = "orthographic", help_heading = CAMERA)]
+    og: bool,
+
+    /// Size of the picture in pixels
+    #[arg(long, num_args = 2, value_names = ["W", "H"], action = ArgAction::Set,
+          default_values = ["1024", "768"], value_parser = clap::value_parser!(u32).range(1..),
+          visible_alias = "size", help_heading = PICTURE)]
+    sz: Vec<u32>,
+
+    /// N x N samples per pixel, 1 to 16
+    #[arg(long, value_name = "N", default_value = "4", value_parser = clap::value_parser!(u32).range(1..=16),
+          visible_alias = "samples", help_heading = PICTURE)]
+    aa: u32,
+
+    /// Background colour: lightness, hue in degrees, saturation [default: black]
+    #[arg(long, num_args = 1..=3, value_names = ["L", "H", "S"], action = ArgAction::Set,
+          value_parser = finite, visible_alias = "background", help_heading = PICTURE)]
+    bg: Option<Vec<f64>>,
+
+    /// Transparent background
+    #[arg(long, visible_alias = "transparent", conflicts_with = "bg", help_heading = PICTURE)]
+    tb: bool,
+
+    #[command(flatten)]
+    common: CommonArgs,
+}
+
+const CAMERA: &str = "Camera";
+const PICTURE: &str = "Picture";
+
+impl ToolArgs for Args {
+    fn common(&self) -> &CommonArgs {
+        &self.common
+    }
+}
+
+impl Args {
+    /// What is asked for. `output`: the file to be written, `command_line`: what the picture
+    /// says about how it was made.
+    ///
+    /// # Errors
+    /// The ending of the file is that of no format, or the background is no colour.
+    pub fn config(&self, output: Option<&Path>, command_line: &str) -> Result<Config, Failure> {
+        Ok(Config {
+            interpolation: if self.iw { Interpolation::Wavelength } else { Interpolation::Hue },
+            hue_scale: if self.wi { HueScale::Wavelengths } else { HueScale::Degrees },
+            camera: self.camera(),
+            size: [self.sz[0], self.sz[1]],
+            samples: self.aa,
+            background: self.background()?,
+            output: self.output(output)?,
+            lax: self.common.lax(),
+            command_line: command_line.to_owned(),
+        })
+    }
+
+    fn camera(&self) -> CameraOptions {
+        let point = |numbers: &Option<Vec<f64>>| vector(numbers.as_deref()).map(DVec3::from_array);
+        CameraOptions {
+            eye: point(&self.ep),
+            center: point(&self.vc),
+            up: point(&self.ud),
+            view_angle: self.va.as_ref().map(|angles| (angles[0], angles.get(1).copied())),
+            is_orthographic: self.og,
+        }
+    }
+
+    fn background(&self) -> Result<Background, Failure> {
+        if self.tb {
+            return Ok(Background::Clear);
+        }
+        // As in a `c` statement: lightness alone is grey, with a hue it is pure.
+        let (value, hue, saturation) = match self.bg.as_deref().unwrap_or(&[0.0]) {
+            [value] => (*value, 0.0, 0.0),
+            [value, hue] => (*value, *hue, 1.0),
+            [value, hue, saturation, ..] => (*value, *hue, *saturation),
+            [] => (0.0, 0.0, 0.0),
+        };
+        let is_part = |number: f64| (0.0..=1.0).contains(&number);
+        if !is_part(value) || !is_part(saturation) {
+            return Err(Failure::Usage(
+                "lightness and saturation of the background -bg are from 0 to 1".into(),
+            ));
+        }
+        Ok(Background::Color(Hsv { hue, saturation, value }))
+    }
+
+    fn output(&self, file: Option<&Path>) -> Result<Output, Failure> {
+        if self.dp {
+            return Ok(Output::Grey);
+        }
+        let ending = || file.and_then(Path::extension).map(|ending| ending.to_string_lossy());
+        match (self.dt, ending()) {
+            (Some(format), _) => Ok(Output::Color(format)),
+            (None, None) => Ok(Output::Color(Format::Png)),
+            (None, Some(ending)) => format_named(&ending)
+                .map(Output::Color)
+                .map_err(|error| Failure::Usage(format!("`.{ending}` is {error}; name one with -dt"))),
+        }
+    }
+}
+
+/// The whole program between its streams: reads the scene, draws it, writes the picture.
+///
+/// # Errors
+/// Bad usage, a bad scene, or a stream that fails.
+pub fn draw(args: &Args, stage: &mut Stage) -> Result<(), Failure> {
+    let config = args.config(stage.output_name(), stage.command_line())?;
+    if stage.output_is_terminal() {
+        redirect(config.output, stage)?;
+    }
+    let input = stage.input()?;
+    stage.detail(&format!("read {} bytes of `{}`", input.text.len(), input.name));
+    let picture =
+        run(&config, &Source { name: input.name, text: input.text }).map_err(|error| match error {
+            Error::Scene(diagnostics) => Failure::Report(diagnostics.render(true)),
+            error if error.is_usage() => Failure::usage(error),
+            error => Failure::failed(error),
+        })?;
+    if !picture.warnings.is_empty() {
+        stage.report(&picture.warnings.render(true));
+    }
+    picture.notes.iter().for_each(|note| stage.note(note));
+    stage.detail(&format!("drew {} x {} pixels", config.size[0], config.size[1]));
+    stage.write(&picture.bytes)
+}
+
+/// Keeps a terminal free of what it cannot show.
+fn redirect(output: Output, stage: &mut Stage) -> Result<(), Failure> {
+    match output {
+        Output::Color(format) if format.is_binary() => Err(Failure::Usage(
+            "a picture is not written to a terminal; send it to a file with `> FILE` or -fo FILE".into(),
+        )),
+        Output::Color(_) => Ok(()),
+        Output::Grey => {
+            stage.set_output_name(POSTSCRIPT_FILE);
+            stage.note(&format!("the picture goes to the file {POSTSCRIPT_FILE}"));
+            Ok(())
+        }
+    }
+}
+
+fn format_named(name: &str) -> Result<Format, String> {
+    Format::from_name(name).ok_or_else(|| format!("none of the formats {}", Format::list()))
+}
+
+fn view_angle(word: &str) -> Result<f64, String> {
+    let degrees = finite(word)?;
+    if 0.0 < degrees && degrees < 180.0 {
+        Ok(degrees)
+    } else {
+        Err("a view angle is more than 0 and less than 180 degrees".to_owned())
+    }
+}

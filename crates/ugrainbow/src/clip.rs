@@ -1,0 +1,180 @@
+//! Clipping in depth, before the division by it.
+
+use crate::raster::Corner;
+
+/// A point in front of the camera, before projection.
+///
+/// In perspective `x` and `y` are sample coordinates times `z`, so that they are linear in
+/// the point wherever it is; in orthographic projection they are sample coordinates.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Place {
+    pub x: f64,
+    pub y: f64,
+    /// Distance from the eye along the view.
+    pub z: f64,
+}
+
+/// The depths that are drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Slab {
+    /// Least distance, positive in perspective.
+    pub near: f64,
+    /// Greatest distance.
+    pub far: f64,
+}
+
+/// A corner before projection, with the numbers to interpolate.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Vertex<const N: usize> {
+    pub place: Place,
+    pub values: [f64; N],
+}
+
+impl<const N: usize> Vertex<N> {
+    /// The point between two vertices at depth `z`.
+    fn between(inside: &Self, outside: &Self, z: f64) -> Self {
+        let (a, b) = (inside.place, outside.place);
+        let part = (z - a.z) / (b.z - a.z);
+        let mix = |a: f64, b: f64| a + (b - a) * part;
+        Self {
+            // The depth itself is set, not computed: next to a far point
+            // rounding could put it behind the eye.
+            place: Place { x: mix(a.x, b.x), y: mix(a.y, b.y), z },
+            values: std::array::from_fn(|i| mix(inside.values[i], outside.values[i])),
+        }
+    }
+
+    /// The corner in the picture.
+    pub fn project(&self, is_perspective: bool) -> Corner<N> {
+        let Place { x, y, z } = self.place;
+        if is_perspective {
+            let key = 1.0 / z;
+            Corner { x: x * key, y: y * key, key, values: self.values.map(|value| value * key) }
+        } else {
+            Corner { x, y, key: -z, values: self.values }
+        }
+    }
+}
+
+impl Slab {
+    fn contains(&self, place: &Place) -> bool {
+        self.near <= place.z && place.z <= self.far
+    }
+
+    /// Cuts away the parts of a polygon outside the slab (Sutherland and Hodgman 1974).
+    ///
+    /// New corners are computed from the corner inside to the one outside, whichever way
+    /// the polygon runs: faces that share an edge share its cut end too. Where a concave
+    /// polygon falls apart, the parts stay joined along the plane, forth and back, and
+    /// the even-odd rule draws nothing there.
+    pub fn clip_polygon<const N: usize>(&self, polygon: &mut Vec<Vertex<N>>, scratch: &mut Vec<Vertex<N>>) {
+        if polygon.iter().all(|vertex| self.contains(&vertex.place)) {
+            return;
+        }
+        clip(polygon, scratch, self.near, |z| z >= self.near);
+        clip(scratch, polygon, self.far, |z| z <= self.far);
+    }
+
+    /// The part of a line segment inside the slab.
+    pub fn clip_segment<const N: usize>(&self, mut ends: [Vertex<N>; 2]) -> Option<[Vertex<N>; 2]> {
+        let planes: [(f64, &dyn Fn(f64) -> bool); 2] =
+            [(self.near, &|z| z >= self.near), (self.far, &|z| z <= self.far)];
+        for (z, is_inside) in planes {
+            let [a, b] = ends;
+            ends = match (is_inside(a.place.z), is_inside(b.place.z)) {
+                (true, true) => [a, b],
+                (true, false) => [a, Vertex::between(&a, &b, z)],
+                (false, true) => [Vertex::between(&b, &a, z), b],
+                (false, false) => return None,
+            };
+        }
+        Some(ends)
+    }
+}
+
+/// Cuts `polygon` by one plane into `kept`.
+fn clip<const N: usize>(
+    polygon: &[Vertex<N>],
+    kept: &mut Vec<Vertex<N>>,
+    z: f64,
+    is_inside: impl Fn(f64) -> bool,
+) {
+    kept.clear();
+    let Some(mut before) = polygon.last() else { return };
+    for vertex in polygon {
+        match (is_inside(before.place.z), is_inside(vertex.place.z)) {
+            (true, true) => kept.push(*vertex),
+            (true, false) => kept.push(Vertex::between(before, vertex, z)),
+            (false, true) => kept.extend([Vertex::between(vertex, before, z), *vertex]),
+            (false, false) => {}
+        }
+        before = vertex;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SLAB: Slab = Slab { near: 1.0, far: 5.0 };
+
+    fn at(x: f64, z: f64) -> Vertex<1> {
+        Vertex { place: Place { x, y: 0.0, z }, values: [10.0 * x] }
+    }
+
+    #[test]
+    fn polygons_are_cut() {
+        #[track_caller]
+        fn check(polygon: &[(f64, f64)], expected: &[(f64, f64)]) {
+            let mut polygon: Vec<_> = polygon.iter().map(|&(x, z)| at(x, z)).collect();
+            SLAB.clip_polygon(&mut polygon, &mut Vec::new());
+            let expected: Vec<_> = expected.iter().map(|&(x, z)| at(x, z)).collect();
+            assert_eq!(polygon, expected);
+        }
+        check(&[(0.0, 2.0), (1.0, 3.0), (0.0, 4.0)], &[(0.0, 2.0), (1.0, 3.0), (0.0, 4.0)]);
+        check(&[(0.0, 1.0), (1.0, 5.0), (0.0, 3.0)], &[(0.0, 1.0), (1.0, 5.0), (0.0, 3.0)]);
+        check(&[(0.0, 0.0), (1.0, -3.0), (0.0, 0.5)], &[]);
+        check(&[(0.0, 6.0), (1.0, 7.0), (0.0, 8.0)], &[]);
+        // From 0 to 2 deep the plane is met half way.
+        check(&[(0.0, 0.0), (4.0, 2.0), (4.0, 4.0)], &[(1.0, 1.0), (2.0, 1.0), (4.0, 2.0), (4.0, 4.0)]);
+        check(&[], &[]);
+    }
+
+    #[test]
+    fn a_shared_edge_is_cut_at_one_point() {
+        let (a, b) = (at(0.1, -0.3), at(0.7, 3.1));
+        let others = [at(-2.0, 2.0), at(5.0, 0.2)];
+        let [one, other] = [[a, b, others[0]], [b, a, others[1]]].map(|face| {
+            let mut face = face.to_vec();
+            SLAB.clip_polygon(&mut face, &mut Vec::new());
+            face
+        });
+        let cut = SLAB.clip_segment([a, b]).unwrap()[0];
+        assert!(one.contains(&cut) && other.contains(&cut));
+        assert_eq!(cut, SLAB.clip_segment([b, a]).unwrap()[1]);
+    }
+
+    #[test]
+    fn segments_are_cut() {
+        let rows = [
+            ((0.0, 2.0), (1.0, 3.0), Some(((0.0, 2.0), (1.0, 3.0)))),
+            ((0.0, 0.0), (4.0, 4.0), Some(((1.0, 1.0), (4.0, 4.0)))),
+            ((0.0, 0.0), (8.0, 8.0), Some(((1.0, 1.0), (5.0, 5.0)))),
+            ((8.0, 8.0), (0.0, 0.0), Some(((5.0, 5.0), (1.0, 1.0)))),
+            ((0.0, 0.0), (4.0, 0.5), None),
+            ((0.0, 6.0), (4.0, 7.0), None),
+        ];
+        for (a, b, expected) in rows {
+            let kept = SLAB.clip_segment([at(a.0, a.1), at(b.0, b.1)]);
+            assert_eq!(kept, expected.map(|(a, b)| [at(a.0, a.1), at(b.0, b.1)]));
+        }
+    }
+
+    #[test]
+    fn a_cut_lies_in_front_of_the_eye_however_far_the_other_end() {
+        let slab = Slab { near: 1e-6, far: f64::INFINITY };
+        let [a, _] = slab.clip_segment([at(0.0, -1e12), at(1.0, 1.0)]).unwrap();
+        assert_eq!(a.place.z, 1e-6);
+        assert!(a.project(true).key > 0.0);
+    }
+}

@@ -1,0 +1,99 @@
+//! Why there is no picture.
+
+use std::fmt;
+
+use ugparse::Diagnostics;
+use ugphysics::VelocityError;
+
+use crate::camera::CameraError;
+
+/// Most pixels of a picture; in memory they are a gibibyte.
+pub const MAX_PIXELS: u64 = 1 << 28;
+
+/// Most pixels along a side.
+pub const MAX_SIDE: u32 = 1 << 24;
+
+/// Most samples along a side of a pixel.
+const MAX_SAMPLES: u32 = 16;
+
+/// Why there is no picture.
+#[derive(Debug)]
+pub enum Error {
+    /// The scene has errors.
+    Scene(Diagnostics),
+    /// The scene has neither faces nor wires.
+    Empty,
+    /// The picture has no pixels, or more than [`MAX_PIXELS`] or [`MAX_SIDE`].
+    Size([u32; 2]),
+    /// The samples along a side of a pixel are not 1…16.
+    Samples(u32),
+    /// The camera makes no sense.
+    Camera(CameraError),
+    /// A velocity of the scene is not below that of light.
+    Velocity(VelocityError),
+}
+
+impl Error {
+    /// True if the command line asks for it, whatever the scene.
+    pub fn is_usage(&self) -> bool {
+        matches!(self, Self::Size(_) | Self::Samples(_))
+    }
+}
+
+/// Refuses what does not fit in memory, before anything is allocated.
+pub fn check_size(size: [u32; 2], samples: u32) -> Result<(), Error> {
+    let [width, height] = size;
+    let fits = (1..=MAX_SIDE).contains(&width) && (1..=MAX_SIDE).contains(&height);
+    if !fits || u64::from(width) * u64::from(height) > MAX_PIXELS {
+        return Err(Error::Size(size));
+    }
+    if !(1..=MAX_SAMPLES).contains(&samples) {
+        return Err(Error::Samples(samples));
+    }
+    Ok(())
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Scene(diagnostics) => diagnostics.fmt(f),
+            Self::Empty => f.write_str(
+                "the scene has no faces and no wires, so there is nothing to draw; \
+                 check that the program before in the pipe wrote one",
+            ),
+            Self::Size([width, height]) => write!(
+                f,
+                "a picture of {width} x {height} pixels cannot be made: the limit is {MAX_PIXELS} pixels in \
+                 all and {MAX_SIDE} along a side; give a smaller -sz"
+            ),
+            Self::Samples(samples) => {
+                write!(
+                    f,
+                    "{samples} x {samples} samples a pixel cannot be taken; give -aa 1 to {MAX_SAMPLES}"
+                )
+            }
+            Self::Camera(error) => error.fmt(f),
+            Self::Velocity(error) => error.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for Error {}
+
+impl From<Diagnostics> for Error {
+    fn from(diagnostics: Diagnostics) -> Self {
+        Self::Scene(diagnostics)
+    }
+}
+
+impl From<CameraError> for Error {
+    fn from(error: CameraError) -> Self {
+        Self::Camera(error)
+    }
+}
+
+impl From<VelocityError> for Error {
+    fn from(error: VelocityError) -> Self {
+        Self::Velocity(error)
+    }
+}

@@ -1,0 +1,84 @@
+//! What the user should know about a picture: above all why nothing is to be seen.
+
+use ugparse::Scene;
+
+use crate::camera::View;
+use crate::drawlist::Reach;
+use crate::raster::Tally;
+
+/// Brightness that is worth the message that it was clipped; less does not show in 8 bits.
+const CLIPPED: f32 = 1.001;
+
+/// How drawing went.
+#[derive(Clone, Copy, Debug)]
+pub struct Outcome {
+    /// How many faces and wires came how far.
+    pub reach: Reach,
+    /// What the samples were.
+    pub tally: Tally,
+}
+
+/// One sentence for each thing worth knowing.
+pub fn notes(scene: &Scene, view: &View, outcome: &Outcome) -> Vec<String> {
+    let mut notes = scene_notes(scene);
+    if view.is_up_replaced {
+        notes.push(
+            "the up direction is parallel to the view, so another axis is up; choose one with -ud".into(),
+        );
+    }
+    notes.extend(why_nothing_is_seen(outcome).map(str::to_owned));
+    if outcome.tally.max_intensity > CLIPPED {
+        notes.push(format!("max intensity is {}, clip to 1.0", decimal(outcome.tally.max_intensity)));
+    }
+    notes
+}
+
+/// A number with one to three decimals.
+fn decimal(number: f32) -> String {
+    let text = format!("{number:.3}");
+    let short = text.trim_end_matches('0');
+    if short.ends_with('.') { format!("{short}0") } else { short.to_owned() }
+}
+
+fn scene_notes(scene: &Scene) -> Vec<String> {
+    let mut notes = Vec::new();
+    if scene.lights.is_empty() && scene.faces.iter().any(|face| face.illum.is_none()) {
+        notes.push("no lights in the scene: drawn with ambient light 0.3 and 0.7 from the eye".into());
+    }
+    if scene.lights.iter().any(|light| light.velocity.is_some()) {
+        notes.push("velocities of lights are left out: each light rests with the faces it lights".into());
+    }
+    if scene.colors.iter().any(|color| color.translucency > 0.0) {
+        notes.push("translucency is left out: everything is drawn opaque".into());
+    }
+    notes
+}
+
+fn why_nothing_is_seen(Outcome { reach, tally }: &Outcome) -> Option<&'static str> {
+    if reach.in_front == 0 {
+        return Some(
+            "nothing is drawn: everything is behind the eye or outside the clipping distances; \
+             try another -ep or -vc",
+        );
+    }
+    if reach.in_picture == 0 {
+        return Some("nothing is drawn: everything is outside the picture; try another -vc or a wider -va");
+    }
+    if tally.covered == 0 {
+        return Some(
+            "nothing is drawn: everything is seen edge-on or smaller than a sample; try another -ep or a narrower -va",
+        );
+    }
+    if tally.visible > 0 {
+        return None;
+    }
+    if tally.out_of_range > 0 {
+        return Some(
+            "all that is in the picture is black: its wavelengths are outside 380-780 nm; \
+             try a lower speed, or `ugdoppler --no-doppler --no-flux` to see the shape",
+        );
+    }
+    Some(
+        "all that is in the picture is black: its colours are, or no light falls on it; try `l 1;` in the scene",
+    )
+}

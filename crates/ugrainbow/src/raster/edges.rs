@@ -1,0 +1,125 @@
+//! Where the outline of a polygon crosses the rows of samples.
+
+use super::polygons::{Corner, first_center};
+
+/// A place on a row: what a corner holds, but for the row.
+#[derive(Clone, Copy, Debug)]
+pub struct Crossing<const N: usize> {
+    pub x: f64,
+    pub key: f64,
+    pub values: [f64; N],
+}
+
+/// An edge of a polygon that crosses at least one row, as linear functions of the row.
+#[derive(Clone, Copy, Debug)]
+struct Edge<const N: usize> {
+    first_row: u32,
+    end_row: u32,
+    /// Its upper end.
+    top: Corner<N>,
+    /// Change of `x`, key and values a row downward.
+    slope: Crossing<N>,
+}
+
+impl<const N: usize> Edge<N> {
+    /// The edge between two corners, cut to the rows from `first_row` to `end_row`;
+    /// `None` if it crosses none of them.
+    ///
+    /// Row j crosses if y₀ ≤ j + ½ < y₁. The upper end is taken as the start whichever way
+    /// the polygon runs, so that both polygons at an edge compute the same bits.
+    #[inline]
+    fn between(a: &Corner<N>, b: &Corner<N>, first_row: u32, end_row: u32) -> Option<Self> {
+        let (top, bottom) = if a.y < b.y { (a, b) } else { (b, a) };
+        let first_row = first_center(top.y, end_row).max(first_row);
+        let end_row = first_center(bottom.y, end_row);
+        if first_row >= end_row {
+            return None;
+        }
+        let per_row = 1.0 / (bottom.y - top.y);
+        let slope = Crossing {
+            x: (bottom.x - top.x) * per_row,
+            key: (bottom.key - top.key) * per_row,
+            values: std::array::from_fn(|i| (bottom.values[i] - top.values[i]) * per_row),
+        };
+        Some(Self { first_row, end_row, top: *top, slope })
+    }
+
+    #[inline]
+    fn at_row(&self, row: u32) -> Crossing<N> {
+        // Always from the end and never from the row above: the answer must not depend
+        // on where a band starts.
+        let down = f64::from(row) + 0.5 - self.top.y;
+        Crossing {
+            x: self.top.x + down * self.slope.x,
+            key: self.top.key + down * self.slope.key,
+            values: std::array::from_fn(|i| self.top.values[i] + down * self.slope.values[i]),
+        }
+    }
+}
+
+/// Walks down polygons with a list of the edges that cross the current row. Its buffers
+/// are kept from polygon to polygon.
+#[derive(Debug, Default)]
+pub struct Scanner<const N: usize> {
+    edges: Vec<Edge<N>>,
+    active: Vec<u32>,
+    crossings: Vec<Crossing<N>>,
+}
+
+impl<const N: usize> Scanner<N> {
+    /// Gives `span` the row and the two ends of every stretch of the polygon that lies in
+    /// the rows from `first_row` to `end_row`, by the even-odd rule.
+    pub fn scan<'a>(
+        &mut self,
+        contours: impl Iterator<Item = &'a [Corner<N>]>,
+        first_row: u32,
+        end_row: u32,
+        mut span: impl FnMut(u32, &Crossing<N>, &Crossing<N>),
+    ) {
+        self.collect_edges(contours, first_row, end_row);
+        let Some(top) = self.edges.first() else { return };
+        let (mut row, mut next) = (top.first_row, 0);
+        self.active.clear();
+        while next < self.edges.len() || !self.active.is_empty() {
+            while next < self.edges.len() && self.edges[next].first_row == row {
+                self.active.push(next as u32);
+                next += 1;
+            }
+            self.find_crossings(row);
+            for pair in self.crossings.chunks_exact(2) {
+                span(row, &pair[0], &pair[1]);
+            }
+            row += 1;
+            self.active.retain(|&edge| self.edges[edge as usize].end_row > row);
+        }
+    }
+
+    fn collect_edges<'a>(
+        &mut self,
+        contours: impl Iterator<Item = &'a [Corner<N>]>,
+        first_row: u32,
+        end_row: u32,
+    ) {
+        self.edges.clear();
+        for contour in contours {
+            let Some(mut before) = contour.last() else { continue };
+            for corner in contour {
+                self.edges.extend(Edge::between(before, corner, first_row, end_row));
+                before = corner;
+            }
+        }
+        self.edges.sort_by_key(|edge| edge.first_row);
+    }
+
+    fn find_crossings(&mut self, row: u32) {
+        self.crossings.clear();
+        self.crossings.extend(self.active.iter().map(|&edge| self.edges[edge as usize].at_row(row)));
+        if let [a, b] = &mut self.crossings[..] {
+            if a.x > b.x {
+                std::mem::swap(a, b);
+            }
+        } else {
+            self.crossings.sort_by(|a, b| a.x.total_cmp(&b.x));
+        }
+    }
+}

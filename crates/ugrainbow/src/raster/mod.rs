@@ -1,0 +1,40 @@
+//! Scan conversion: polygons in the picture plane to pixels.
+//!
+//! The rasterizer knows nothing of scenes and colours. It is given polygons whose
+//! corners carry a depth key and N numbers ([`Corner`]), and a shader that turns N
+//! interpolated numbers into light. Its steps, one file each:
+//!
+//! 1. [`polygons`]: polygons in buffers, sorted into bands of pixel rows;
+//! 2. [`edges`]: where a polygon's outline crosses a row of samples;
+//! 3. [`spans`]: the samples between two crossings, and the depth test;
+//! 4. [`resolve`]: samples to pixels, averaged in linear light;
+//! 5. [`band`]: bands in parallel, each with its own small sample buffer.
+//!
+//! # Which sample belongs to whom
+//!
+//! A picture of W × H pixels with N × N samples each is a grid of W·N × H·N samples;
+//! sample (i, j) sits at (i + ½, j + ½) in sample units. Coordinates of corners are in
+//! these units too. A sample belongs to a polygon if a walk from the left
+//! meets the outline an odd number of times at or before it (even-odd rule, so holes
+//! need no special case). An edge counts for the rows in y₀ ≤ y < y₁. The crossing of
+//! an edge with a row is computed from its upper end, whichever way the polygon runs
+//! round: two faces that share an edge get the same bits, so no
+//! sample is left out between them and none is drawn twice.
+//!
+//! # Depth
+//!
+//! The key is larger for what is nearer, and linear in the picture: 1/distance in
+//! perspective, −distance in orthographic projection. It is compared per sample, so
+//! faces that cut through each other come out right. Of equals the first drawn stays.
+
+mod band;
+mod edges;
+mod polygons;
+mod resolve;
+mod spans;
+#[cfg(test)]
+mod tests;
+
+pub use band::{Grid, paint};
+pub use polygons::{Corner, PolygonList};
+pub use resolve::{Backdrop, Shade, Tally};

@@ -1,0 +1,87 @@
+//! The samples of a tile, and the depth test.
+
+use super::edges::Crossing;
+use super::polygons::first_center;
+
+/// A rectangle of samples with what is nearest at each of them.
+#[derive(Debug)]
+pub struct Tile<const N: usize> {
+    /// First column, and one past the last, in samples of the whole picture.
+    columns: [u32; 2],
+    rows: [u32; 2],
+    /// Depth keys; [`EMPTY`] where nothing has been drawn.
+    keys: Vec<f32>,
+    values: Vec<[f32; N]>,
+}
+
+/// Farther than everything.
+const EMPTY: f32 = f32::NEG_INFINITY;
+
+impl<const N: usize> Default for Tile<N> {
+    fn default() -> Self {
+        Self { columns: [0; 2], rows: [0; 2], keys: Vec::new(), values: Vec::new() }
+    }
+}
+
+impl<const N: usize> Tile<N> {
+    /// Makes it the empty tile of these columns and rows, reusing its buffers.
+    pub fn reset(&mut self, columns: [u32; 2], rows: [u32; 2]) {
+        (self.columns, self.rows) = (columns, rows);
+        let len = (columns[1] - columns[0]) as usize * (rows[1] - rows[0]) as usize;
+        self.keys.clear();
+        self.keys.resize(len, EMPTY);
+        // What stands in `values` is read only where a key has been written.
+        self.values.resize(len, [0.0; N]);
+    }
+
+    pub fn rows(&self) -> [u32; 2] {
+        self.rows
+    }
+
+    /// Draws the samples of a row with left ≤ x < right where the depth test lets it.
+    ///
+    /// Keys and values are linear between the two ends; in perspective the values
+    /// are those of the surface times the key, and are divided by it.
+    #[inline]
+    pub fn draw(&mut self, row: u32, left: &Crossing<N>, right: &Crossing<N>, is_perspective: bool) {
+        let first = first_center(left.x, self.columns[1]).max(self.columns[0]);
+        let end = first_center(right.x, self.columns[1]);
+        if first >= end {
+            return;
+        }
+        let per_column = 1.0 / (right.x - left.x);
+        let key_slope = (right.key - left.key) * per_column;
+        let slopes: [f64; N] = std::array::from_fn(|i| (right.values[i] - left.values[i]) * per_column);
+        let samples = self.samples(row, first, end);
+        let (keys, values) = (&mut self.keys[samples.clone()], &mut self.values[samples]);
+        for (column, (nearest, values)) in (first..end).zip(keys.iter_mut().zip(values)) {
+            // From the left end and never from the sample before: the answer must not
+            // depend on where a tile starts.
+            let across = f64::from(column) + 0.5 - left.x;
+            let key = left.key + across * key_slope;
+            if key as f32 <= *nearest {
+                continue;
+            }
+            *nearest = key as f32;
+            let scale = if is_perspective { 1.0 / key } else { 1.0 };
+            // Double precision pays: where values do not change they stay the same bits, and
+            // the resolver shades them once.
+            *values = std::array::from_fn(|i| ((left.values[i] + across * slopes[i]) * scale) as f32);
+        }
+    }
+
+    /// The samples of part of a row: their values where something was drawn.
+    #[inline]
+    pub fn row_part(&self, row: u32, first: u32, end: u32) -> impl Iterator<Item = Option<&[f32; N]>> {
+        let samples = self.samples(row, first, end);
+        let values = &self.values[samples.clone()];
+        self.keys[samples].iter().zip(values).map(|(&key, values)| (key != EMPTY).then_some(values))
+    }
+
+    #[inline]
+    fn samples(&self, row: u32, first: u32, end: u32) -> std::ops::Range<usize> {
+        let width = (self.columns[1] - self.columns[0]) as usize;
+        let start = (row - self.rows[0]) as usize * width;
+        start + (first - self.columns[0]) as usize..start + (end - self.columns[0]) as usize
+    }
+}

@@ -1,0 +1,223 @@
+//! Coverage against counting and geometry; the pixels of scenes are in `tests/`.
+
+use ugimage::Frame;
+
+use super::edges::Scanner;
+use super::*;
+
+/// A corner at a place, at depth key 1, without values.
+fn at(x: f64, y: f64) -> Corner<0> {
+    Corner { x, y, key: 1.0, values: [] }
+}
+
+/// A small generator of numbers in 0…1.
+struct Noise(u64);
+
+impl Noise {
+    fn next(&mut self) -> f64 {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 11) as f64 / (1u64 << 53) as f64
+    }
+}
+
+/// How often each sample of a w × h grid is drawn.
+fn count(polygons: &[Vec<Vec<Corner<0>>>], width: usize, height: usize) -> Vec<Vec<u32>> {
+    let mut counts = vec![vec![0; width]; height];
+    let mut scanner = Scanner::default();
+    for contours in polygons {
+        scanner.scan(contours.iter().map(Vec::as_slice), 0, height as u32, |row, left, right| {
+            for (column, n) in counts[row as usize].iter_mut().enumerate() {
+                let center = column as f64 + 0.5;
+                *n += u32::from(left.x <= center && center < right.x);
+            }
+        });
+    }
+    counts
+}
+
+#[test]
+fn a_square_covers_its_samples() {
+    #[track_caller]
+    fn check(
+        [left, top, right, bottom]: [f64; 4],
+        columns: std::ops::Range<usize>,
+        rows: std::ops::Range<usize>,
+    ) {
+        let around = vec![at(left, top), at(right, top), at(right, bottom), at(left, bottom)];
+        for contour in [around.clone(), around.into_iter().rev().collect()] {
+            for (y, row) in count(&[vec![contour]], 8, 8).into_iter().enumerate() {
+                for (x, n) in row.into_iter().enumerate() {
+                    assert_eq!(n, u32::from(columns.contains(&x) && rows.contains(&y)), "sample {x} {y}");
+                }
+            }
+        }
+    }
+    check([2.0, 3.0, 5.0, 6.0], 2..5, 3..6);
+    check([1.6, 1.4, 5.4, 5.6], 2..5, 1..6);
+    // An edge through sample centres belongs to what lies right of it or below.
+    check([2.5, 3.5, 5.5, 6.5], 2..5, 3..6);
+    check([-9.0, -9.0, 99.0, 99.0], 0..8, 0..8);
+    check([2.6, 0.0, 3.4, 8.0], 3..3, 0..8);
+    check([-3.0, 0.0, -1.0, 8.0], 0..0, 0..8);
+    check([-1e300, -1e300, 1e300, 4.0], 0..8, 0..4);
+}
+
+#[test]
+fn faces_of_a_mesh_share_no_sample_and_leave_none_out() {
+    const CELLS: usize = 12;
+    const CELL: f64 = 3.7;
+    let mut noise = Noise(1);
+    let mut points = [[(0.0, 0.0); CELLS + 1]; CELLS + 1];
+    for (j, row) in points.iter_mut().enumerate() {
+        for (i, point) in row.iter_mut().enumerate() {
+            let mut jitter = |idx: usize| if idx == 0 || idx == CELLS { 0.0 } else { noise.next() - 0.5 };
+            // Some points on sample centres, where ties are.
+            let snap = |x: f64| if (i + j) % 3 == 0 { x.round() + 0.5 } else { x };
+            let inside = |idx: usize, x: f64| if idx == 0 || idx == CELLS { x } else { snap(x) };
+            *point =
+                (inside(i, CELL * i as f64 + 1.5 * jitter(i)), inside(j, CELL * j as f64 + 1.5 * jitter(j)));
+        }
+    }
+    let mut polygons = Vec::new();
+    for j in 0..CELLS {
+        for i in 0..CELLS {
+            let [a, b, c, d] = [points[j][i], points[j][i + 1], points[j + 1][i + 1], points[j + 1][i]]
+                .map(|(x, y)| at(x, y));
+            let faces = match (i + j) % 3 {
+                0 => vec![vec![a, b, c], vec![c, d, a]],
+                1 => vec![vec![d, b, a], vec![b, d, c]],
+                _ => vec![vec![c, b, a, d]],
+            };
+            polygons.extend(faces.into_iter().map(|face| vec![face]));
+        }
+    }
+    let size = (CELLS as f64 * CELL).ceil() as usize + 2;
+    let last = CELLS as f64 * CELL;
+    for (y, row) in count(&polygons, size, size).into_iter().enumerate() {
+        for (x, n) in row.into_iter().enumerate() {
+            let is_inside = (x as f64 + 0.5) < last && (y as f64 + 0.5) < last;
+            assert_eq!(n, u32::from(is_inside), "sample {x} {y}");
+        }
+    }
+}
+
+#[test]
+fn holes_follow_the_even_odd_rule() {
+    // A pentagram in one stroke, with a round hole off its middle: even-odd by winding angle.
+    let star: Vec<_> = [0, 2, 4, 1, 3]
+        .map(|k| {
+            let angle = f64::from(k) * std::f64::consts::TAU / 5.0 + 0.3;
+            at(20.0 + 19.0 * libm::cos(angle), 20.0 + 19.0 * libm::sin(angle))
+        })
+        .into();
+    let hole: Vec<_> = (0..17)
+        .map(|k| {
+            let angle = -f64::from(k) * std::f64::consts::TAU / 17.0;
+            at(25.0 + 6.0 * libm::cos(angle), 22.0 + 6.0 * libm::sin(angle))
+        })
+        .collect();
+    let polygon = vec![star, hole];
+    let counts = count(std::slice::from_ref(&polygon), 40, 40);
+    let mut n_inside = 0;
+    for (y, row) in counts.iter().enumerate() {
+        for (x, &n) in row.iter().enumerate() {
+            let inside = is_inside(&polygon, x as f64 + 0.5, y as f64 + 0.5);
+            assert_eq!(n, u32::from(inside), "sample {x} {y}");
+            n_inside += n;
+        }
+    }
+    assert!(n_inside > 300, "{n_inside}");
+}
+
+/// Counts crossings upward instead of to the left.
+fn is_inside(contours: &[Vec<Corner<0>>], x: f64, y: f64) -> bool {
+    let mut n_above = 0;
+    for contour in contours {
+        for (a, b) in contour.iter().zip(contour.iter().cycle().skip(1)) {
+            if (a.x <= x) != (b.x <= x) && a.y + (x - a.x) / (b.x - a.x) * (b.y - a.y) < y {
+                n_above += 1;
+            }
+        }
+    }
+    n_above % 2 == 1
+}
+
+/// Draws polygons of one value, its light; the background is black.
+fn painted(polygons: &[Vec<Corner<1>>], grid: &Grid) -> Frame {
+    let mut list = PolygonList::default();
+    for polygon in polygons {
+        polygon.iter().for_each(|corner| list.push_corner(*corner));
+        list.end_contour();
+        list.end_polygon(grid);
+    }
+    list.sort_into_bands(grid);
+    let mut frame = Frame::opaque(grid.width, grid.height);
+    let shader = |&[light]: &[f32; 1]| Shade { light: [light; 3], intensity: light, is_out_of_range: false };
+    paint(&mut frame, grid, &[list], Backdrop::Light([0.0; 3]), &shader);
+    frame
+}
+
+/// Wide and high enough for several tiles in both directions and several bands.
+#[test]
+fn tiles_do_not_show() {
+    for (width, height, samples) in [(100_000, 5, 3), (600_000, 2, 1), (50, 3000, 2)] {
+        let grid = Grid { width, height, samples, is_perspective: false };
+        let (right, bottom) = (f64::from(grid.sample_columns()), f64::from(grid.sample_rows()));
+        let corner = |x: f64, y: f64, light: f64| Corner { x, y, key: 0.0, values: [light] };
+        let frame = painted(
+            &[vec![
+                corner(0.0, 0.0, 0.0),
+                corner(right, 0.0, 1.0),
+                corner(right, bottom, 1.0),
+                corner(0.0, bottom, 0.0),
+            ]],
+            &grid,
+        );
+        let quantizer = ugimage::Quantizer::new();
+        for (idx, pixel) in frame.pixels().iter().enumerate() {
+            let column = idx % width as usize;
+            let light = (column as f32 + 0.5) / width as f32;
+            // 1e-5 of light is far less than a level, but may tip one over.
+            let [low, high] = [light - 1e-5, light + 1e-5].map(|light| quantizer.level(light));
+            assert!((low..=high).contains(&pixel[0]), "column {column}: {pixel:?}");
+        }
+    }
+}
+
+#[test]
+fn of_equal_depths_the_first_stays() {
+    let square = |light: f64, key: f64| {
+        [(0.0, 0.0), (4.0, 0.0), (4.0, 4.0), (0.0, 4.0)]
+            .map(|(x, y)| Corner { x, y, key, values: [light] })
+            .into()
+    };
+    let grid = Grid { width: 4, height: 4, samples: 1, is_perspective: false };
+    let rows = [
+        ([(1.0, 5.0), (0.0, 5.0)], 255),
+        ([(0.0, 5.0), (1.0, 5.0)], 0),
+        ([(0.0, 5.0), (1.0, 6.0)], 255),
+        ([(1.0, 5.0), (0.0, 4.0)], 255),
+    ];
+    for (squares, level) in rows {
+        let frame = painted(&squares.map(|(light, key)| square(light, key)), &grid);
+        assert!(frame.pixels().iter().all(|pixel| pixel[0] == level), "{squares:?}");
+    }
+}
+
+#[test]
+fn what_is_not_finite_is_dropped() {
+    let grid = Grid { width: 4, height: 4, samples: 1, is_perspective: false };
+    for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        for place in 0..4 {
+            let mut numbers = [1.0; 4];
+            numbers[place] = bad;
+            let [x, y, key, light] = numbers;
+            let corner = |x, y| Corner { x, y, key: 1.0, values: [1.0] };
+            let frame = painted(
+                &[vec![corner(0.0, 0.0), corner(4.0, 0.0), Corner { x, y, key, values: [light] }]],
+                &grid,
+            );
+            assert!(frame.pixels().iter().all(|pixel| pixel[..3] == [0; 3]));
+        }
+    }
+}

@@ -1,0 +1,155 @@
+//! From interpolated numbers to light.
+
+use ugphysics::{Hsv, attenuation, hue_to_wavelength, srgb_decode, wavelength_to_hue};
+
+use crate::config::Interpolation;
+use crate::raster::Shade;
+
+/// Cells of the table of the transfer function. Between its points the curve is at most
+/// h²/8 times its second derivative, 3, away from a straight line: 2e-8.
+const TRANSFER_CELLS: usize = 4096;
+
+/// Cells of each table of the attenuation over the hue.
+const FADE_CELLS: usize = 1024;
+
+/// Turns tint, saturation and value into linear light, attenuated where the eye sees
+/// little.  Eq. (P17)
+#[derive(Clone, Debug)]
+pub struct Shader {
+    interpolation: Interpolation,
+    transfer: Table,
+    /// Attenuation over hue −60…0, and over 240…300: finding the wavelength of a hue takes
+    /// iterations, too slow for each sample. Between, attenuation is 1.
+    red_fade: Table,
+    violet_fade: Table,
+}
+
+impl Shader {
+    /// Computes the tables.
+    pub fn new(interpolation: Interpolation) -> Self {
+        let fade = |hue: f64| attenuation(hue_to_wavelength(hue));
+        Self {
+            interpolation,
+            transfer: Table::new(TRANSFER_CELLS, srgb_decode),
+            red_fade: Table::new(FADE_CELLS, |part| fade(-60.0 + 60.0 * part)),
+            violet_fade: Table::new(FADE_CELLS, |part| fade(240.0 + 60.0 * part)),
+        }
+    }
+
+    /// The light of tint, saturation and value.
+    pub fn plain(&self, &[tint, saturation, value]: &[f32; 3]) -> Shade {
+        self.lit(tint, saturation, value, [1.0; 3])
+    }
+
+    /// The light of tint, saturation and value times a coloured light.
+    pub fn colored(&self, &[tint, saturation, value, red, green, blue]: &[f32; 6]) -> Shade {
+        self.lit(tint, saturation, value, [red, green, blue])
+    }
+
+    fn lit(&self, tint: f32, saturation: f32, value: f32, light: [f32; 3]) -> Shade {
+        let fade = if saturation > 0.0 { self.fade(tint) } else { 1.0 };
+        let color = Hsv { hue: self.hue(tint), saturation: f64::from(saturation), value: 1.0 };
+        let rgb = color.to_rgb();
+        let intensity: [f32; 3] = std::array::from_fn(|i| value * fade * light[i]);
+        Shade {
+            light: std::array::from_fn(|i| self.transfer.at(rgb[i] as f32 * intensity[i].min(1.0))),
+            intensity: intensity.into_iter().fold(0.0, f32::max),
+            is_out_of_range: fade == 0.0,
+        }
+    }
+
+    fn hue(&self, tint: f32) -> f64 {
+        match self.interpolation {
+            Interpolation::Hue => f64::from(tint),
+            Interpolation::Wavelength => wavelength_to_hue(f64::from(tint)),
+        }
+    }
+
+    fn fade(&self, tint: f32) -> f32 {
+        match self.interpolation {
+            Interpolation::Wavelength => attenuation(f64::from(tint)) as f32,
+            Interpolation::Hue if tint < 0.0 => self.red_fade.at((tint + 60.0) / 60.0),
+            Interpolation::Hue if tint > 240.0 => self.violet_fade.at((tint - 240.0) / 60.0),
+            Interpolation::Hue => 1.0,
+        }
+    }
+}
+
+/// A function on 0…1 as a table with straight lines between its points.
+#[derive(Clone, Debug)]
+struct Table(Vec<f32>);
+
+impl Table {
+    fn new(n_cells: usize, function: impl Fn(f64) -> f64) -> Self {
+        Self((0..=n_cells).map(|point| function(point as f64 / n_cells as f64) as f32).collect())
+    }
+
+    /// The value at `x`, which is clipped to 0…1.
+    #[inline]
+    fn at(&self, x: f32) -> f32 {
+        let n_cells = self.0.len() - 1;
+        let place = x.clamp(0.0, 1.0) * n_cells as f32;
+        let cell = (place as usize).min(n_cells - 1);
+        let part = place - cell as f32;
+        self.0[cell] * (1.0 - part) + self.0[cell + 1] * part
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn exact(hue: f64, saturation: f64, value: f64) -> [f64; 3] {
+        Hsv { hue, saturation, value: value.min(1.0) }.to_rgb().map(srgb_decode)
+    }
+
+    #[track_caller]
+    fn assert_light(shade: &Shade, light: [f64; 3]) {
+        for (ours, exact) in shade.light.iter().zip(light) {
+            // Two table look-ups and single precision: 1e-6 is a thousandth of a level.
+            assert!((f64::from(*ours) - exact).abs() < 1e-6, "{shade:?} {light:?}");
+        }
+    }
+
+    #[test]
+    fn hues_fade_as_their_wavelengths() {
+        let shader = Shader::new(Interpolation::Hue);
+        for step in 0..=3600 {
+            let hue = f64::from(step) / 10.0 - 60.0;
+            let fade = attenuation(hue_to_wavelength(hue));
+            let shade = shader.plain(&[hue as f32, 0.9, 0.8]);
+            assert_light(&shade, exact(hue, 0.9, 0.8 * fade));
+            assert_eq!(shade.is_out_of_range, fade == 0.0, "hue {hue}");
+        }
+    }
+
+    #[test]
+    fn wavelengths_fade_at_both_ends() {
+        let shader = Shader::new(Interpolation::Wavelength);
+        for nm in [300.0, 379.0, 380.0, 400.0, 435.8, 500.0, 589.0, 700.0, 740.0, 779.0, 780.0, 5000.0] {
+            let fade = attenuation(nm);
+            let shade = shader.plain(&[nm as f32, 1.0, 1.0]);
+            assert_light(&shade, exact(wavelength_to_hue(nm), 1.0, fade));
+            assert_eq!(shade.is_out_of_range, fade == 0.0);
+        }
+    }
+
+    #[test]
+    fn grey_has_no_wavelength() {
+        let shade = Shader::new(Interpolation::Wavelength).plain(&[5000.0, 0.0, 0.5]);
+        assert_light(&shade, [srgb_decode(0.5); 3]);
+        let shade = Shader::new(Interpolation::Hue).plain(&[300.0, 0.0, 0.5]);
+        assert_light(&shade, [srgb_decode(0.5); 3]);
+    }
+
+    #[test]
+    fn intensity_is_told_before_clipping() {
+        let shader = Shader::new(Interpolation::Hue);
+        let shade = shader.plain(&[120.0, 0.5, 1.5]);
+        assert_eq!(shade.intensity, 1.5);
+        assert_light(&shade, exact(120.0, 0.5, 1.0));
+        let shade = shader.colored(&[0.0, 0.0, 1.0, 0.5, 2.0, 0.0]);
+        assert_eq!(shade.intensity, 2.0);
+        assert_light(&shade, [srgb_decode(0.5), 1.0, 0.0]);
+    }
+}

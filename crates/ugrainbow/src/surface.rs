@@ -1,0 +1,52 @@
+//! What vertices look like and where they rest.
+
+use glam::DVec3;
+use rayon::prelude::*;
+use ugparse::{Scene, VelocityId, VertexId};
+use ugphysics::{Velocity, VelocityError, aberrate};
+use ugscene::{Bodies, HueScale, VertexColor, rest_positions, vertex_colors};
+
+use crate::palette::{Palette, Swatch};
+
+/// Colours and rest positions of the vertices of a scene.
+#[derive(Clone, Debug)]
+pub struct Surface {
+    swatches: Vec<Swatch>,
+    rest: Vec<DVec3>,
+    bodies: Bodies,
+}
+
+impl Surface {
+    /// `scene`: its vertices belong to one velocity each.
+    ///
+    /// # Errors
+    /// A velocity of the scene is not below that of light.
+    pub fn new(scene: &Scene, eye: DVec3, palette: &Palette, scale: HueScale) -> Result<Self, VelocityError> {
+        let bodies = Bodies::new(scene, Velocity::ZERO)?;
+        let rest = rest_positions(scene, eye, &bodies);
+        let swatches = vertex_colors(scene, &rest, scale)
+            .into_par_iter()
+            .map(|color| match color {
+                VertexColor::Named(color) => palette.get(color),
+                VertexColor::White => Swatch::WHITE,
+                VertexColor::Mixed { hsv, .. } => palette.swatch(hsv),
+            })
+            .collect();
+        Ok(Self { swatches, rest, bodies })
+    }
+
+    /// Its own colour, else the mix of its faces' colours, else white.
+    pub fn swatch(&self, vertex: VertexId) -> Swatch {
+        self.swatches[vertex.index()]
+    }
+
+    /// Where the vertex is in the rest frame of its body, relative to the eye.  Eq. (P4)
+    pub fn rest(&self, vertex: VertexId) -> DVec3 {
+        self.rest[vertex.index()]
+    }
+
+    /// A viewing direction in the rest frame of a body.  Eq. (P6)
+    pub fn rest_direction(&self, direction: DVec3, velocity: Option<VelocityId>) -> DVec3 {
+        aberrate(direction, self.bodies.of(velocity))
+    }
+}
