@@ -1,1 +1,348 @@
-//! Geometry of a UniGrafix scene as seen in relativistic motion
+//! Geometry of a UniGrafix scene as seen in relativistic motion: the first program of
+//!
+//! ```text
+//! uglorentz -vel .9 0 0 < ship.ug | ugdoppler | ugrainbow > ship.png
+//! ```
+//!
+//! # What a moving body looks like
+//!
+//! A picture shows each point of a body where its light left it, not where it is. Light from far parts left
+//! earlier, so a passing body looks turned, sheared and bent, and a coming one stretched, although in its own
+//! frame nothing happened to it. Nguyen's report of 1988 does this in two steps: contract the body along its
+//! motion, (P1), then move every point back to where it was when the light left, (P2). The two are one boost of
+//! the event "light leaves", (P3), which is what `ugphysics` computes, without loss near the speed of light.
+//!
+//! The filter maps every vertex so, keeps faces, and writes what the next programs need to know: on each face
+//! its velocity, in the camera the eye. From these the rest shape can be had back exactly, (P4). Equation
+//! numbers are those of `docs/physics.md`.
+//!
+//! # Why faces are cut
+//!
+//! Renderers draw straight edges between vertices, but a straight edge in motion is seen as an arc of a
+//! hyperbola. So long edges are cut first. By default a closed formula for the angle between arc and chord
+//! decides edge by edge where that shows ([`Pieces::UpTo`]); two faces that share an edge cut it alike, so
+//! the result has no cracks. A scene at rest is never cut.
+//!
+//! Pieces keep direction, colour, light level, velocity and name of their face; those of one face stand
+//! together, in its place. Vertices of the scene keep their names and rows; new ones are called `s#1`, `s#2`, …
+//! and come last.
+//!
+//! # Parts
+//!
+//! ```text
+//! Scene ─separate bodies─ placement ─ smooth normals ─┬─ adaptive (edge) ─┬─ positions ─ attributes → Scene
+//!                         (P5)                        └─ equal ───────────┘  (P3)
+//! ```
+//!
+//! # Example
+//!
+//! ```
+//! use glam::DVec3;
+//!
+//! let source = ugparse::Source::new("tile.ug", "v a -1 1 0; v b 1 1 0; v c 0 1 1; f (a b c);");
+//! let config = uglorentz::Config {
+//!     velocity: Some(DVec3::new(0.9, 0.0, 0.0)),
+//!     pieces: uglorentz::Pieces::PerEdge(2),
+//!     ..uglorentz::Config::default()
+//! };
+//! let report = uglorentz::run(&config, &source)?;
+//!
+//! // The middle of the edge from a to b is abreast of the eye, and is seen γβ behind: (P3).
+//! let text = String::from_utf8(report.text())?;
+//! assert!(text.contains("v s#1 -2.06474160483505"));
+//! // Two pieces an edge make four of a triangle; each says how it moves.
+//! assert_eq!(text.matches("<0.9 0 0>").count(), 4);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod adaptive;
+mod attributes;
+mod cli;
+mod edge;
+mod equal;
+mod error;
+mod growth;
+mod motion;
+mod notes;
+mod pieces;
+mod placement;
+mod polygon;
+
+use glam::DVec3;
+use rayon::prelude::*;
+use ugparse::{Camera, Diagnostics, Item, Scene, Source, VelocityId};
+use ugphysics::Velocity;
+use ugscene::{Bodies, Geometry};
+
+pub use cli::{Args, main};
+pub use error::Error;
+pub use notes::Notes;
+
+use crate::edge::Tolerance;
+use crate::growth::Growth;
+use crate::motion::{Motion, Point};
+use crate::pieces::Outcome;
+
+/// Default of [`Pieces::UpTo`]: 0.25 milliradians, in radians. A pixel of a picture 40° wide and 1024 pixels
+/// across is 0.68.
+pub const DEFAULT_ERROR: f64 = 0.25e-3;
+
+/// What to do.
+#[derive(Clone, Debug)]
+pub struct Config {
+    /// Velocity of everything, fraction of c; beats velocities in the scene (`-vel`).
+    pub velocity: Option<DVec3>,
+    /// The eye in scene coordinates; beats the scene's camera (`-ep`).
+    pub eye: Option<DVec3>,
+    /// Time of the picture on the observer's clock, (P5) (`-ti`).
+    pub time: f64,
+    /// The point about which contraction leaves coordinates alone (`-an`); `None` is the eye, but the centre of
+    /// each body if `in_place` is set.
+    pub anchor: Option<Anchor>,
+    /// Put each body so that its anchor is seen, at time 0, where the scene has it (`-in`).
+    pub in_place: bool,
+    /// How to cut edges (`-se`, `-sd`).
+    pub pieces: Pieces,
+    /// Give vertices without a normal the mean of their faces' (`-sm`).
+    pub smooth: bool,
+    /// Which effects to show (`-nc`, `--no-flight-time`).
+    pub geometry: Geometry,
+    /// Pass unknown statements on (`-lax`).
+    pub lax: bool,
+    /// What the head comment of the output says.
+    pub command_line: String,
+}
+
+impl Default for Config {
+    fn default() -> Config {
+        Config {
+            velocity: None,
+            eye: None,
+            time: 0.0,
+            anchor: None,
+            in_place: false,
+            pieces: Pieces::UpTo(DEFAULT_ERROR),
+            smooth: false,
+            geometry: Geometry::default(),
+            lax: false,
+            command_line: "uglorentz".to_string(),
+        }
+    }
+}
+
+/// A point that contraction leaves where it is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Anchor {
+    /// The eye, as in the report of 1988.
+    Eye,
+    /// The origin of scene coordinates.
+    Origin,
+    /// The middle of the box round each body.
+    Center,
+    /// A point in scene coordinates.
+    Point(DVec3),
+}
+
+/// How edges are cut.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Pieces {
+    /// Until the picture is right to this angle at the eye, radians.
+    UpTo(f64),
+    /// Into this many equal pieces each, 1 or more.
+    PerEdge(u32),
+}
+
+/// What came of it.
+#[derive(Clone, Debug)]
+pub struct Report {
+    /// The scene as seen.
+    pub scene: Scene,
+    /// What was done.
+    pub notes: Notes,
+    /// What the reader changed to make the scene usable.
+    pub warnings: Diagnostics,
+}
+
+impl Report {
+    /// The scene as text.
+    pub fn text(&self) -> Vec<u8> {
+        ugparse::write(&self.scene)
+    }
+}
+
+/// Reads a scene and gives it as seen.
+///
+/// # Errors
+/// See [`Error`]. Errors of the scene come with their place in the text.
+pub fn run(config: &Config, source: &Source) -> Result<Report, Error> {
+    let options = ugparse::Options { lax: config.lax };
+    let parsed = ugparse::parse(source, &options).map_err(Error::Scene)?;
+    let (scene, notes) = transform_owned(parsed.scene, config)
+        .map_err(|error| error.located(source, &parsed.origins.vertices))?;
+    Ok(Report { scene, notes, warnings: parsed.warnings })
+}
+
+/// Gives a scene as seen.
+///
+/// # Errors
+/// See [`Error`]; never [`Error::Scene`].
+pub fn transform(scene: &Scene, config: &Config) -> Result<(Scene, Notes), Error> {
+    transform_owned(scene.clone(), config)
+}
+
+fn transform_owned(mut scene: Scene, config: &Config) -> Result<(Scene, Notes), Error> {
+    let velocity = check(config)?;
+    let was_seen_before = ugscene::history(&scene).iter().any(|line| line.split(' ').next() == Some(PROGRAM));
+    let n_faces = scene.faces.len();
+
+    if let Some(velocity) = config.velocity {
+        set_velocity(&mut scene, velocity);
+    }
+    ugscene::separate_bodies(&mut scene);
+    let eye = ugscene::eye(&scene, config.eye);
+    let velocities = ugscene::vertex_velocities(&scene);
+    let motions = motions(&scene, velocity, config.geometry)?;
+    let shifts = placement::shifts(&scene, &velocities, &motions, eye, config);
+    let points = points(&scene, &velocities, &motions, &shifts, eye);
+    refuse_vertices_at_eye(&scene, &points, &motions)?;
+    placement::shift_lights(&mut scene, &shifts);
+    if config.smooth {
+        smooth(&mut scene, &points);
+    }
+
+    let mut growth = Growth::new(&motions, points);
+    let outcome = match config.pieces {
+        Pieces::UpTo(error) => {
+            adaptive::cut(&scene, &mut growth, &Tolerance::new(error), adaptive::MAX_PIECES)
+        }
+        Pieces::PerEdge(n) => {
+            equal::cut(&scene, &mut growth, n).map_err(|n_pieces| Error::TooManyPieces { n_pieces })?
+        }
+    };
+    put_pieces(&mut scene, &outcome);
+    attributes::add_vertices(&mut scene, &growth.recipes);
+    set_positions(&mut scene, &growth, eye)?;
+    set_eye(&mut scene, eye);
+    scene.escapes.extend(config.geometry.escape());
+    ugscene::record(&mut scene, PROGRAM, env!("CARGO_PKG_VERSION"), &config.command_line);
+
+    let notes = Notes {
+        was_seen_before,
+        n_new_vertices: growth.recipes.len(),
+        n_new_faces: scene.faces.len() - n_faces,
+        n_too_deep: outcome.n_too_deep,
+        is_full: outcome.is_full,
+    };
+    Ok((scene, notes))
+}
+
+const PROGRAM: &str = env!("CARGO_PKG_NAME");
+
+/// The velocity of what carries none.
+fn check(config: &Config) -> Result<Velocity, Error> {
+    match config.pieces {
+        Pieces::UpTo(error) if !(error > 0.0 && error.is_finite()) => return Err(Error::NoBound { error }),
+        Pieces::PerEdge(0) => return Err(Error::NoPieces),
+        _ => {}
+    }
+    Velocity::from_beta(config.velocity.unwrap_or(DVec3::ZERO)).map_err(Error::Velocity)
+}
+
+/// Gives all faces and wires one velocity. At rest, those that had none still have none.
+fn set_velocity(scene: &mut Scene, velocity: DVec3) {
+    let id = scene.velocity_id(velocity);
+    let faces = scene.faces.iter_mut().map(|face| &mut face.velocity);
+    for slot in faces.chain(scene.wires.iter_mut().map(|wire| &mut wire.velocity)) {
+        if velocity != DVec3::ZERO || slot.is_some() {
+            *slot = Some(id);
+        }
+    }
+}
+
+/// Of each body, in the order of [`placement::body`].
+fn motions(scene: &Scene, default: Velocity, geometry: Geometry) -> Result<Vec<Motion>, Error> {
+    let bodies = Bodies::new(scene, default).map_err(Error::SceneVelocity)?;
+    let velocities = [bodies.of(None)].into_iter().chain(bodies.all().iter().copied());
+    Ok(velocities.map(|velocity| Motion::new(velocity, geometry)).collect())
+}
+
+fn points(
+    scene: &Scene,
+    velocities: &[Option<VelocityId>],
+    motions: &[Motion],
+    shifts: &[DVec3],
+    eye: DVec3,
+) -> Vec<Point> {
+    let vertices = scene.vertices.par_iter().zip(velocities.par_iter());
+    vertices
+        .map(|(vertex, &velocity)| {
+            let body = placement::body(velocity);
+            motions[body].point(body as u32, vertex.position - eye + shifts[body])
+        })
+        .collect()
+}
+
+/// A moving point at the eye has no direction, and no Doppler factor.
+fn refuse_vertices_at_eye(scene: &Scene, points: &[Point], motions: &[Motion]) -> Result<(), Error> {
+    let is_at_eye = |point: &Point| point.rest == DVec3::ZERO && !motions[point.body as usize].is_at_rest();
+    if !points.par_iter().any(is_at_eye) {
+        return Ok(());
+    }
+    let faces = scene.faces.iter().map(|face| face.contours.clone());
+    let users = faces.chain(scene.wires.iter().map(|wire| wire.contours.clone()));
+    let mut used = users.flat_map(|rows| scene.contours.corners(rows));
+    match used.find(|vertex| is_at_eye(&points[vertex.index()])) {
+        None => Ok(()),
+        Some(vertex) => Err(Error::VertexAtEye { name: name(scene, vertex.index()), row: vertex.index() }),
+    }
+}
+
+fn name(scene: &Scene, row: usize) -> String {
+    scene.names.get(scene.vertices[row].name).to_string()
+}
+
+fn smooth(scene: &mut Scene, points: &[Point]) {
+    let rest: Vec<DVec3> = points.iter().map(|point| point.rest).collect();
+    let normals = ugscene::smooth_normals(scene, &rest);
+    for (vertex, normal) in scene.vertices.iter_mut().zip(normals) {
+        if vertex.normal.is_none() && normal != DVec3::ZERO {
+            vertex.normal = Some(normal);
+        }
+    }
+}
+
+/// Comments go with the first piece of their face.
+fn put_pieces(scene: &mut Scene, outcome: &Outcome) {
+    if outcome.is_empty() {
+        return;
+    }
+    let first_pieces = outcome.put_into(scene);
+    for comment in &mut scene.comments {
+        if let Item::Face(row) = &mut comment.at {
+            *row = first_pieces[*row as usize];
+        }
+    }
+}
+
+/// Where vertices are seen. A body at rest keeps its numbers to the bit.
+fn set_positions(scene: &mut Scene, growth: &Growth, eye: DVec3) -> Result<(), Error> {
+    let n_old = growth.points.len() - growth.recipes.len();
+    scene.vertices.par_iter_mut().zip(&growth.points).enumerate().for_each(|(row, (vertex, point))| {
+        if row >= n_old || !growth.motions[point.body as usize].is_at_rest() {
+            vertex.position = point.seen + eye;
+        }
+    });
+    match scene.vertices.par_iter().position_first(|vertex| !vertex.position.is_finite()) {
+        None => Ok(()),
+        Some(row) => Err(Error::OutOfRange { name: name(scene, row), row }),
+    }
+}
+
+/// Writes the eye into the camera that counts.
+fn set_eye(scene: &mut Scene, eye: DVec3) {
+    let unnamed = scene.cameras.iter().position(|camera| camera.name.is_none());
+    if scene.cameras.is_empty() {
+        scene.cameras.push(Camera::default());
+    }
+    scene.cameras[unnamed.unwrap_or(0)].eye = Some(eye);
+}

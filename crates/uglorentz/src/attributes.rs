@@ -1,0 +1,111 @@
+//! Names, colours and normals of new vertices.
+
+use glam::DVec3;
+use rustc_hash::FxHashMap;
+use ugparse::{Color, ColorId, ColorValue, Scene, Vertex};
+use ugphysics::Hsv;
+use ugscene::HueScale;
+
+use crate::growth::Recipe;
+
+/// What the names of new vertices and colours begin with; a number follows.
+const PREFIX: &str = "s#";
+
+/// Adds the vertices that `recipes` make, in order, still without positions.
+pub(crate) fn add_vertices(scene: &mut Scene, recipes: &[Recipe]) {
+    let prefix = free_prefix(scene.vertices.iter().map(|vertex| scene.names.get(vertex.name)));
+    let mut palette = Palette::new(scene);
+    for (idx, recipe) in recipes.iter().enumerate() {
+        let color = palette.mix(scene, recipe);
+        let normal = mean_normal(scene, recipe);
+        let name = scene.names.add_parts(&[&prefix, &(idx + 1).to_string()]);
+        scene.vertices.push(Vertex { name, position: DVec3::ZERO, color, normal });
+    }
+}
+
+/// [`PREFIX`], with as many `#` more as it takes so that no name begins with it.
+fn free_prefix<'a>(names: impl Iterator<Item = &'a str> + Clone) -> String {
+    let mut prefix = PREFIX.to_string();
+    while names.clone().any(|name| name.starts_with(&prefix)) {
+        prefix.push('#');
+    }
+    prefix
+}
+
+/// Parents with their weights.
+fn parents<'a>(scene: &'a Scene, recipe: &Recipe) -> impl Iterator<Item = (&'a Vertex, f64)> + Clone {
+    let pairs = recipe.parents.into_iter().zip(recipe.weights).filter(|&(_, weight)| weight > 0.0);
+    pairs.map(|(row, weight)| (&scene.vertices[row as usize], weight))
+}
+
+/// The mean of the parents' unit normals, of unit length; `None` if a parent has none or they cancel.
+fn mean_normal(scene: &Scene, recipe: &Recipe) -> Option<DVec3> {
+    parents(scene, recipe)
+        .map(|(vertex, weight)| Some(vertex.normal?.normalize_or_zero() * weight))
+        .sum::<Option<DVec3>>()?
+        .try_normalize()
+}
+
+/// Colours mixed so far, so that equal mixtures share a statement.
+struct Palette {
+    prefix: String,
+    mixed: FxHashMap<Mixture, ColorId>,
+}
+
+/// Rows of the parents' colours and the bits of their weights.
+type Mixture = Vec<(ColorId, u64)>;
+
+impl Palette {
+    fn new(scene: &Scene) -> Palette {
+        let prefix = free_prefix(scene.colors.iter().map(|color| scene.names.get(color.name)));
+        Palette { prefix, mixed: FxHashMap::default() }
+    }
+
+    /// The colour of a new vertex: that of its parents if they agree, a new one between theirs if not, and none
+    /// if one of them has none.
+    fn mix(&mut self, scene: &mut Scene, recipe: &Recipe) -> Option<ColorId> {
+        let part = |(vertex, weight): (&Vertex, f64)| Some((vertex.color?, weight));
+        let mut parts: Vec<(ColorId, f64)> = parents(scene, recipe).map(part).collect::<Option<_>>()?;
+        parts.sort_by_key(|&(color, _)| color);
+        let first = parts.first()?.0;
+        if parts.iter().all(|&(color, _)| color == first) {
+            return Some(first);
+        }
+        let key = parts.iter().map(|&(color, weight)| (color, weight.to_bits())).collect();
+        let (prefix, n_mixed) = (&self.prefix, self.mixed.len());
+        Some(*self.mixed.entry(key).or_insert_with(|| {
+            let (value, translucency) = blend(scene, &parts);
+            let name = scene.names.add_parts(&[prefix, &(n_mixed + 1).to_string()]);
+            scene.colors.push(Color { name, value, translucency });
+            ColorId::from_index(scene.colors.len() - 1)
+        }))
+    }
+}
+
+/// Hue, saturation and value between those of some colours, each on its own, as the renderer of 1988 takes them
+/// between the corners of a face. Hues may be wavelengths: their numbers are used as they are. A grey has no
+/// hue and does not count for it.
+fn blend(scene: &Scene, parts: &[(ColorId, f64)]) -> (ColorValue, f64) {
+    let (mut mean, mut hue_weight, mut translucency) =
+        (Hsv { hue: 0.0, saturation: 0.0, value: 0.0 }, 0.0, 0.0);
+    for &(id, weight) in parts {
+        let color = &scene.colors[id.index()];
+        let hsv = ugscene::hsv(color, HueScale::Degrees);
+        mean.value += weight * hsv.value;
+        mean.saturation += weight * hsv.saturation;
+        translucency += weight * color.translucency;
+        if hsv.saturation > 0.0 {
+            mean.hue += weight * below_violet(hsv.hue);
+            hue_weight += weight;
+        }
+    }
+    if hue_weight > 0.0 {
+        mean.hue /= hue_weight;
+    }
+    (ColorValue::Hsv { value: mean.value, hue: mean.hue, saturation: mean.saturation }, translucency)
+}
+
+/// Hues between violet (300) and red (360) lie below red, (P16). Larger numbers are wavelengths.
+fn below_violet(hue: f64) -> f64 {
+    if hue > 300.0 && hue < 360.0 { hue - 360.0 } else { hue }
+}

@@ -1,0 +1,153 @@
+//! The command line of `uglorentz`.
+
+use std::process::ExitCode;
+
+use clap::{ArgAction, Parser};
+use glam::DVec3;
+use ugparse::Source;
+use ugpipe::{CommonArgs, Failure, Stage, ToolArgs, finite, vector};
+use ugscene::Geometry;
+
+use crate::{Anchor, Config, DEFAULT_ERROR, Error, Pieces};
+
+/// Geometry of a UniGrafix scene as seen in relativistic motion
+///
+/// Moves every vertex to where its light left it, cuts edges that are then seen bent, and writes a flat
+/// scene whose faces carry their velocity and whose camera carries the eye, ready for ugdoppler.
+#[derive(Debug, Parser)]
+#[command(name = "uglorentz", version, before_help = ugpipe::ONE_DASH, after_help = EXAMPLES)]
+pub struct Args {
+    /// Velocity of all objects, fraction of c [default: the scene's, else 0]
+    #[arg(long = "vel", visible_alias = "velocity", value_names = ["X", "Y", "Z"], num_args = 3,
+          action = ArgAction::Set, allow_hyphen_values = true, value_parser = finite)]
+    velocity: Option<Vec<f64>>,
+
+    /// Eye point [default: that of the scene's camera, else the origin]
+    #[arg(long = "ep", visible_alias = "eye", value_names = ["X", "Y", "Z"], num_args = 3,
+          action = ArgAction::Set, allow_hyphen_values = true, value_parser = finite)]
+    eye: Option<Vec<f64>>,
+
+    /// Time of the picture on the observer's clock
+    ///
+    /// At time 0 the scene's coordinates hold; a unit of time is what light takes for a unit of length.
+    #[arg(long = "ti", visible_alias = "time", value_name = "T", default_value = "0",
+          allow_hyphen_values = true, value_parser = finite)]
+    time: f64,
+
+    /// Point about which bodies contract: eye, origin, center or X Y Z [default: eye]
+    ///
+    /// center is the middle of the box round each body.
+    #[arg(long = "an", visible_alias = "anchor", value_name = "POINT", num_args = 1..=3,
+          action = ArgAction::Set, allow_hyphen_values = true)]
+    anchor: Option<Vec<String>>,
+
+    /// Put each body so that its anchor is seen where the scene has it
+    ///
+    /// At time 0. The anchor is then center unless -an says otherwise.
+    #[arg(long = "in", visible_alias = "in-place")]
+    in_place: bool,
+
+    /// Cut until the picture is right to ERR milliradians at the eye [default: 0.25]
+    #[arg(long = "se", visible_alias = "error", value_name = "ERR", conflicts_with = "equal",
+          allow_hyphen_values = true, value_parser = finite)]
+    error: Option<f64>,
+
+    /// Cut every edge into N equal pieces instead
+    #[arg(id = "equal", long = "sd", visible_alias = "pieces", value_name = "N")]
+    equal: Option<u32>,
+
+    /// Write vertex normals for smooth shading, where the scene has none
+    #[arg(long = "sm", visible_alias = "smooth")]
+    smooth: bool,
+
+    /// For teaching: leave out Lorentz contraction
+    #[arg(long = "nc", visible_alias = "no-contraction")]
+    no_contraction: bool,
+
+    /// For teaching: leave out the time light takes
+    #[arg(long = "no-flight-time")]
+    no_flight_time: bool,
+
+    #[command(flatten)]
+    common: CommonArgs,
+}
+
+const EXAMPLES: &str = "Examples:
+  uglorentz -vel .9 0 0 ship.ug | ugdoppler | ugrainbow > ship.png
+  uglorentz -vel .9 0 0 -in ship.ug        the ship stays in the picture at any speed
+  uglorentz -vel 0 .9 0 -ti -2 street.ug   two units of time earlier";
+
+/// The whole program.
+pub fn main() -> ExitCode {
+    ugpipe::main(run)
+}
+
+fn run(args: &Args, stage: &mut Stage) -> Result<(), Failure> {
+    let config = args.config(stage.command_line())?;
+    let input = stage.input()?;
+    let report = crate::run(&config, &Source::new(input.name, input.text)).map_err(failure)?;
+    if !report.warnings.is_empty() {
+        stage.report(&report.warnings.render(true));
+    }
+    report.notes.warnings().iter().for_each(|warning| stage.warn(warning));
+    stage.detail(&report.notes.summary());
+    stage.write(&report.text())
+}
+
+fn failure(error: Error) -> Failure {
+    match error {
+        Error::Scene(diagnostics) => Failure::Report(diagnostics.render(true)),
+        error if error.is_usage() => Failure::usage(error),
+        error => Failure::failed(error),
+    }
+}
+
+impl ToolArgs for Args {
+    fn common(&self) -> &CommonArgs {
+        &self.common
+    }
+}
+
+impl Args {
+    fn config(&self, command_line: &str) -> Result<Config, Failure> {
+        let pieces = match (self.equal, self.error) {
+            (Some(n), _) => Pieces::PerEdge(n),
+            (None, Some(milliradians)) => Pieces::UpTo(milliradians * 1e-3),
+            (None, None) => Pieces::UpTo(DEFAULT_ERROR),
+        };
+        Ok(Config {
+            velocity: vector(self.velocity.as_deref()).map(DVec3::from_array),
+            eye: vector(self.eye.as_deref()).map(DVec3::from_array),
+            time: self.time,
+            anchor: self.anchor.as_deref().map(anchor).transpose()?,
+            in_place: self.in_place,
+            pieces,
+            smooth: self.smooth,
+            geometry: Geometry { contraction: !self.no_contraction, flight_time: !self.no_flight_time },
+            lax: self.common.lax(),
+            command_line: command_line.to_string(),
+        })
+    }
+}
+
+fn anchor(words: &[String]) -> Result<Anchor, Failure> {
+    let words: Vec<&str> = words.iter().map(String::as_str).collect();
+    match words[..] {
+        ["eye"] => Ok(Anchor::Eye),
+        ["origin"] => Ok(Anchor::Origin),
+        ["center"] => Ok(Anchor::Center),
+        [x, y, z] => {
+            let numbers = [x, y, z].map(finite);
+            let [Ok(x), Ok(y), Ok(z)] = numbers else { return Err(bad_anchor(&words)) };
+            Ok(Anchor::Point(DVec3::new(x, y, z)))
+        }
+        _ => Err(bad_anchor(&words)),
+    }
+}
+
+fn bad_anchor(words: &[&str]) -> Failure {
+    Failure::Usage(format!(
+        "`{}` is not an anchor: -an takes eye, origin, center or three numbers",
+        words.join(" ")
+    ))
+}

@@ -1,0 +1,108 @@
+//! What can go wrong.
+
+use std::fmt;
+
+use ugparse::{Diagnostic, Diagnostics, Source, Span};
+use ugphysics::VelocityError;
+
+use crate::adaptive::MAX_PIECES;
+
+/// Why there is no scene.
+#[derive(Clone, Debug)]
+pub enum Error {
+    /// The text is no scene, or what is wrong with it has a place in the text.
+    Scene(Diagnostics),
+    /// [`crate::Config::velocity`] is none.
+    Velocity(VelocityError),
+    /// A velocity of the scene is none. Readers refuse such scenes.
+    SceneVelocity(VelocityError),
+    /// The bound of [`crate::Pieces::UpTo`] is not above 0, or not finite.
+    NoBound {
+        /// The bound given, radians.
+        error: f64,
+    },
+    /// [`crate::Pieces::PerEdge`] is 0.
+    NoPieces,
+    /// [`crate::Pieces::PerEdge`] makes too many pieces.
+    TooManyPieces {
+        /// How many there would be.
+        n_pieces: usize,
+    },
+    /// A vertex of a moving body is exactly at the eye.
+    VertexAtEye {
+        /// Its name.
+        name: String,
+        /// Its row.
+        row: usize,
+    },
+    /// A vertex is seen further away than numbers reach.
+    OutOfRange {
+        /// Its name.
+        name: String,
+        /// Its row.
+        row: usize,
+    },
+}
+
+impl Error {
+    /// Is the configuration to blame, not the scene?
+    pub fn is_usage(&self) -> bool {
+        matches!(
+            self,
+            Error::Velocity(_) | Error::NoBound { .. } | Error::NoPieces | Error::TooManyPieces { .. }
+        )
+    }
+
+    /// With the place in the text, if it has one. `origins`: of each vertex.
+    pub(crate) fn located(self, source: &Source, origins: &[Span]) -> Error {
+        let row = match self {
+            Error::VertexAtEye { row, .. } | Error::OutOfRange { row, .. } => row,
+            _ => return self,
+        };
+        let Some(&span) = origins.get(row) else { return self };
+        let finding = Diagnostic::error(span, self.problem()).label("this vertex");
+        Error::Scene(Diagnostics::one(source, finding.help(self.remedy())))
+    }
+
+    fn problem(&self) -> String {
+        match self {
+            Error::Scene(diagnostics) => diagnostics.to_string(),
+            Error::Velocity(error) => format!("-vel: {error}"),
+            Error::SceneVelocity(error) => error.to_string(),
+            Error::NoBound { error } => format!("the bound of -se is {} milliradians", error * 1e3),
+            Error::NoPieces => "-sd 0 leaves no pieces".to_string(),
+            Error::TooManyPieces { n_pieces } => {
+                format!("-sd would make {n_pieces} pieces, more than the limit of {MAX_PIECES}")
+            }
+            Error::VertexAtEye { name, .. } => {
+                format!("vertex `{name}` lies at the eye, where no direction to it exists")
+            }
+            Error::OutOfRange { name, .. } => {
+                format!("vertex `{name}` is seen too far away to be written as a number")
+            }
+        }
+    }
+
+    fn remedy(&self) -> &'static str {
+        match self {
+            Error::Scene(_) | Error::Velocity(_) | Error::SceneVelocity(_) => "",
+            Error::NoBound { .. } => "give a number above 0",
+            Error::NoPieces => "give 1 or more",
+            Error::TooManyPieces { .. } => "give fewer, or use -se, which cuts only where it shows",
+            Error::VertexAtEye { .. } => "move the eye (-ep) or the vertex",
+            Error::OutOfRange { .. } => "use smaller coordinates, a smaller time (-ti) or a lower speed",
+        }
+    }
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.problem())?;
+        match self.remedy() {
+            "" => Ok(()),
+            remedy => write!(f, ": {remedy}"),
+        }
+    }
+}
+
+impl std::error::Error for Error {}

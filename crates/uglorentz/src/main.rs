@@ -1,0 +1,5 @@
+//! `uglorentz`: see the library of the same name.
+
+fn main() -> std::process::ExitCode {
+    uglorentz::main()
+}

@@ -1,0 +1,181 @@
+//! What faces and wires are cut into.
+
+use glam::DVec3;
+use ugparse::{Face, Scene, VertexId};
+
+use crate::polygon;
+
+/// A piece of a face that can be cut further: corners by vertex row, in the direction of the face.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Shape {
+    /// A triangle.
+    Triangle([u32; 3]),
+    /// A convex quadrilateral.
+    Quad([u32; 4]),
+}
+
+impl Shape {
+    pub(crate) fn corners(&self) -> &[u32] {
+        match self {
+            Shape::Triangle(corners) => corners,
+            Shape::Quad(corners) => corners,
+        }
+    }
+
+    /// From each corner to the next.
+    pub(crate) fn edges(&self) -> impl Iterator<Item = (u32, u32)> {
+        closed_edges(self.corners())
+    }
+}
+
+/// A piece and the face it is of.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Piece {
+    /// Row of the face.
+    pub face: u32,
+    /// The piece.
+    pub shape: Shape,
+}
+
+/// A contour that keeps its place and only gets more corners: of a wire, or of a face that cannot be cut into
+/// triangles.
+#[derive(Clone, Debug)]
+pub(crate) struct Polyline {
+    /// Row of the contour.
+    pub row: u32,
+    /// Does the last corner join the first?
+    pub is_closed: bool,
+    /// Vertex rows.
+    pub corners: Vec<u32>,
+}
+
+impl Polyline {
+    pub(crate) fn open(row: u32, corners: &[VertexId]) -> Polyline {
+        Polyline { row, is_closed: false, corners: rows(corners) }
+    }
+
+    pub(crate) fn closed(row: u32, corners: &[VertexId]) -> Polyline {
+        Polyline { row, is_closed: true, corners: rows(corners) }
+    }
+
+    /// From each corner to the next.
+    pub(crate) fn edges(&self) -> impl Iterator<Item = (u32, u32)> {
+        let n_edges = self.corners.len() - usize::from(!self.is_closed);
+        closed_edges(&self.corners).take(n_edges)
+    }
+}
+
+fn vertex_ids(rows: &[u32]) -> Vec<VertexId> {
+    rows.iter().map(|&row| VertexId(row)).collect()
+}
+
+fn rows(corners: &[VertexId]) -> Vec<u32> {
+    corners.iter().map(|corner| corner.0).collect()
+}
+
+fn closed_edges(corners: &[u32]) -> impl Iterator<Item = (u32, u32)> {
+    corners.iter().copied().zip(corners.iter().copied().cycle().skip(1))
+}
+
+/// A face ready for cutting.
+#[derive(Clone, Debug)]
+pub(crate) enum Cut {
+    /// As triangles and convex quadrilaterals.
+    Pieces(Vec<Shape>),
+    /// As it is, for its contours cross each other or enclose nothing.
+    Contours(Vec<Polyline>),
+}
+
+/// A face as triangles and convex quadrilaterals, in its rest plane. `None` if it has no corners.
+pub(crate) fn shape(scene: &Scene, face: &Face, rest: impl Fn(VertexId) -> DVec3) -> Option<Cut> {
+    let corners = scene.contours.corners(face.contours.clone());
+    if face.contours.len() == 1 {
+        if let &[a, b, c] = corners {
+            return Some(Cut::Pieces(vec![Shape::Triangle([a.0, b.0, c.0])]));
+        }
+        if let &[a, b, c, d] = corners
+            && polygon::is_convex([a, b, c, d].map(&rest))
+        {
+            return Some(Cut::Pieces(vec![Shape::Quad([a.0, b.0, c.0, d.0])]));
+        }
+    }
+    let contours: Vec<Vec<VertexId>> = scene.face_contours(face).map(without_repeats).collect();
+    let rings: Vec<Vec<DVec3>> =
+        contours.iter().map(|contour| contour.iter().map(|&vertex| rest(vertex)).collect()).collect();
+    let corners = contours.concat();
+    if corners.is_empty() {
+        return None;
+    }
+    Some(match polygon::triangulate(&rings) {
+        Some(triangles) => Cut::Pieces(
+            triangles.iter().map(|t| Shape::Triangle(t.map(|corner| corners[corner as usize].0))).collect(),
+        ),
+        None => Cut::Contours(
+            face.contours.clone().map(|row| Polyline::closed(row, scene.contours.get(row))).collect(),
+        ),
+    })
+}
+
+/// A contour without corners that repeat the one before.
+fn without_repeats(contour: &[VertexId]) -> Vec<VertexId> {
+    let mut corners = contour.to_vec();
+    corners.dedup();
+    while corners.len() > 1 && corners.first() == corners.last() {
+        corners.pop();
+    }
+    corners
+}
+
+/// What cutting gives.
+#[derive(Debug, Default)]
+pub(crate) struct Outcome {
+    /// Pieces that replace faces, by face.
+    pub pieces: Vec<Piece>,
+    /// Contours with more corners.
+    pub lines: Vec<Polyline>,
+    /// Edges left bent since they have been halved often enough.
+    pub n_too_deep: usize,
+    /// Was cutting stopped since there are too many pieces?
+    pub is_full: bool,
+}
+
+impl Outcome {
+    /// Was nothing cut?
+    pub(crate) fn is_empty(&self) -> bool {
+        self.pieces.is_empty() && self.lines.is_empty()
+    }
+
+    /// Puts the pieces in the place of their faces. The result says for each old face the row of its first
+    /// piece, and after the last the number of faces.
+    pub(crate) fn put_into(&self, scene: &mut Scene) -> Vec<u32> {
+        let mut lines: Vec<&Polyline> = self.lines.iter().collect();
+        lines.sort_by_key(|line| line.row);
+        let old = std::mem::take(&mut scene.contours);
+        let kept = |row: u32| match lines.binary_search_by_key(&row, |line| line.row) {
+            Ok(at) => vertex_ids(&lines[at].corners),
+            Err(_) => old.get(row).to_vec(),
+        };
+
+        let contours = &mut scene.contours;
+        let mut faces = Vec::with_capacity(scene.faces.len() + self.pieces.len());
+        let mut first_pieces = Vec::with_capacity(scene.faces.len() + 1);
+        let mut groups = self.pieces.chunk_by(|a, b| a.face == b.face).peekable();
+        for (idx, face) in std::mem::take(&mut scene.faces).into_iter().enumerate() {
+            first_pieces.push(faces.len() as u32);
+            let Some(group) = groups.next_if(|group| group[0].face as usize == idx) else {
+                faces.push(Face { contours: contours.push_all(face.contours.clone().map(kept)), ..face });
+                continue;
+            };
+            for piece in group {
+                let rows = contours.push_all([vertex_ids(piece.shape.corners())]);
+                faces.push(Face { contours: rows, ..face.clone() });
+            }
+        }
+        first_pieces.push(faces.len() as u32);
+        scene.faces = faces;
+        for wire in &mut scene.wires {
+            wire.contours = contours.push_all(wire.contours.clone().map(kept));
+        }
+        first_pieces
+    }
+}

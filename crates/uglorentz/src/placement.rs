@@ -1,0 +1,99 @@
+//! Where bodies are put: anchors, observer time, and bodies in place.
+//!
+//! All three add a constant to the rest coordinates of a body, so that everything after works on rest
+//! coordinates alone, and rest geometry recovered from the output has its shape unchanged.
+
+use glam::DVec3;
+use ugparse::{LightKind, Scene, VelocityId};
+use ugphysics::observer_shift;
+
+use crate::motion::Motion;
+use crate::{Anchor, Config};
+
+/// Row of a body in the tables of this module: 0 for what carries no velocity.
+pub(crate) fn body(velocity: Option<VelocityId>) -> usize {
+    velocity.map_or(0, |id| id.index() + 1)
+}
+
+/// What to add to the rest coordinates of each body.
+///
+/// `velocities`: of each vertex. `motions`: of each body.
+pub(crate) fn shifts(
+    scene: &Scene,
+    velocities: &[Option<VelocityId>],
+    motions: &[Motion],
+    eye: DVec3,
+    config: &Config,
+) -> Vec<DVec3> {
+    let centers = centers(scene, velocities, motions.len());
+    let shift = |(motion, &center): (&Motion, &DVec3)| {
+        let point = match config.anchor {
+            Some(Anchor::Eye) => DVec3::ZERO,
+            Some(Anchor::Origin) => -eye,
+            Some(Anchor::Center) => center - eye,
+            Some(Anchor::Point(point)) => point - eye,
+            None if config.in_place => center - eye,
+            None => DVec3::ZERO,
+        };
+        anchor_shift(motion, point, config.in_place) + time_shift(motion, config.time)
+    };
+    let mut shifts: Vec<DVec3> = motions.iter().zip(&centers).map(shift).collect();
+    // Vertices that nothing uses carry no velocity; they stay with the body that moves as they do.
+    let twin = (1..motions.len()).find(|&row| motions[row].velocity() == motions[0].velocity());
+    if let Some(row) = twin {
+        shifts[0] = shifts[row];
+    }
+    shifts
+}
+
+/// `anchor`: relative to the eye.
+fn anchor_shift(motion: &Motion, anchor: DVec3, in_place: bool) -> DVec3 {
+    if motion.is_at_rest() {
+        DVec3::ZERO
+    } else if in_place {
+        // The rest position that is seen at the anchor, (P4), goes where the anchor is.
+        motion.rest(anchor) - anchor
+    } else if motion.has_contraction() {
+        // Contraction about A in place of the eye adds (1 − 1/γ)(A·û)û to (P1): γ times that in rest
+        // coordinates.
+        motion.direction() * (motion.gamma_minus_one() * anchor.dot(motion.direction()))
+    } else {
+        DVec3::ZERO
+    }
+}
+
+fn time_shift(motion: &Motion, time: f64) -> DVec3 {
+    if motion.has_contraction() {
+        observer_shift(motion.velocity(), time) // (P5)
+    } else {
+        motion.velocity().beta() * time
+    }
+}
+
+/// Middle of the box round each body, in scene coordinates.
+fn centers(scene: &Scene, velocities: &[Option<VelocityId>], n_bodies: usize) -> Vec<DVec3> {
+    let mut boxes = vec![(DVec3::INFINITY, DVec3::NEG_INFINITY); n_bodies];
+    for (vertex, &velocity) in scene.vertices.iter().zip(velocities) {
+        let (low, high) = &mut boxes[body(velocity)];
+        *low = low.min(vertex.position);
+        *high = high.max(vertex.position);
+    }
+    let middle = |(low, high): (DVec3, DVec3)| if low.x <= high.x { low.midpoint(high) } else { DVec3::ZERO };
+    boxes.into_iter().map(middle).collect()
+}
+
+/// Moves the local lights of a scene that is all one body along with it. With several bodies nobody knows
+/// which of them a lamp belongs to; and a light with its own velocity is a body of its own.
+pub(crate) fn shift_lights(scene: &mut Scene, shifts: &[DVec3]) {
+    let users = scene.faces.iter().map(|face| face.velocity).chain(scene.wires.iter().map(|w| w.velocity));
+    let mut users = users.peekable();
+    let Some(&first) = users.peek() else { return };
+    if users.any(|velocity| velocity != first) {
+        return;
+    }
+    for light in scene.lights.iter_mut().filter(|light| light.velocity.is_none()) {
+        if let LightKind::Local { position, .. } = &mut light.kind {
+            *position += shifts[body(first)];
+        }
+    }
+}

@@ -1,0 +1,114 @@
+//! What a user and a shell see of the program.
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking, its helpers too")]
+
+use std::io::{Read, Write};
+use std::os::unix::process::ExitStatusExt;
+use std::process::{Command, Output, Stdio};
+
+const TILE: &str = "v a 3 0 1; v b 4 0 1; v c 3 1 1;\nf (a b c) ;\n";
+const SIGPIPE: i32 = 13;
+
+fn program(args: &str) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_uglorentz"));
+    command.args(args.split_whitespace());
+    command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    command
+}
+
+fn run(args: &str, scene: &str) -> Output {
+    let mut child = program(args).spawn().unwrap();
+    // A program that refuses its command line does not read.
+    let _ = child.stdin.take().unwrap().write_all(scene.as_bytes());
+    child.wait_with_output().unwrap()
+}
+
+#[test]
+fn scenes_come_out_as_seen() {
+    let output = run("-vel -0.6 0 0 -ep 0 0 1 -sd 1", TILE);
+    assert_eq!(String::from_utf8(output.stderr).unwrap(), "");
+    assert_eq!(output.status.code(), Some(0));
+    assert_eq!(
+        String::from_utf8(output.stdout).unwrap(),
+        "{ uglorentz 0.1.0: uglorentz -vel -0.6 0 0 -ep 0 0 1 -sd 1 }
+v a 6 0 1;
+v b 8 0 1;
+v c 6.1217082451262845 1 1;
+f (a b c) <-0.6 0 0>;
+cam -ep 0 0 1;
+"
+    );
+}
+
+#[test]
+fn options_have_two_spellings() {
+    let check = |historical: &str, descriptive: &str| {
+        let [one, two] = [historical, descriptive].map(|args| run(args, TILE));
+        assert_eq!(one.status.code(), Some(0), "{historical}: {}", String::from_utf8_lossy(&one.stderr));
+        assert_eq!(one.stdout, two.stdout, "{historical}");
+    };
+    check("-vel .5 0 0", "--velocity .5 0 0");
+    check("-vel .5 0 0 -ti -2.5 -ep 0 0 -1", "--velocity .5 0 0 --time -2.5 --eye 0 0 -1");
+    check("-vel .5 0 0 -in -an 3 0 1 -se 1", "--vel .5 0 0 --in-place --anchor 3 0 1 --error 1");
+    check("-vel .5 0 0 -an center -sd 2 -sm", "--vel .5 0 0 --anchor center --pieces 2 --smooth");
+    check("-vel .5 0 0 -nc -no-flight-time", "--vel .5 0 0 --no-contraction --no-flight-time");
+}
+
+#[test]
+fn complaints() {
+    let check = |args: &str, scene: &str, status: i32, expected: &str| {
+        let output = run(args, scene);
+        let stderr = String::from_utf8(output.stderr).unwrap();
+        assert!(stderr.contains(expected), "{args}: {stderr}");
+        assert_eq!((output.status.code(), output.stdout), (Some(status), Vec::new()), "{args}");
+    };
+    check("-vel 1 0 0", TILE, 2, "error: -vel: speed is 1 c: it must be below 1");
+    check("-vel nan 0 0", TILE, 2, "not a finite number");
+    check("-vel .5 0", TILE, 2, "3 values required");
+    check("-se 0", TILE, 2, "the bound of -se is 0 milliradians: give a number above 0");
+    check("-se -1", TILE, 2, "the bound of -se is -1 milliradians: give a number above 0");
+    check("-sd 0", TILE, 2, "-sd 0 leaves no pieces: give 1 or more");
+    check("-sd 2 -se 1", TILE, 2, "cannot be used with");
+    check("-an nose", TILE, 2, "`nose` is not an anchor: -an takes eye, origin, center or three numbers");
+    check("-an 1 2", TILE, 2, "`1 2` is not an anchor");
+    check("-speed 3", TILE, 2, "unexpected argument");
+    check("-vel .5 0 0 no-such-file.ug", TILE, 1, "no-such-file.ug");
+    check("", "v a 0 0 0;\nf (a b c);", 1, "<stdin>:2:");
+    check("", "v a 1 0 0; v b 1 1 0; v c 0 1 0;\nf (a b c) <0 1.5 0>;", 1, "<stdin>:2:");
+    check("-vel .5 0 0 -ep 3 0 1", TILE, 1, "vertex `a` lies at the eye, where no direction to it exists");
+    check("-vel .5 0 0 -ep 3 0 1", TILE, 1, "move the eye (-ep) or the vertex");
+}
+
+#[test]
+fn warnings_do_not_stop_it() {
+    let once = run("-vel .5 0 0", TILE).stdout;
+    let scene = String::from_utf8(once).unwrap();
+    let twice = run("-vel .5 0 0", &scene);
+    assert_eq!(twice.status.code(), Some(0));
+    assert!(String::from_utf8_lossy(&twice.stderr).contains("has been through uglorentz before"));
+    let quiet = run("-vel .5 0 0 -qt", &scene);
+    assert_eq!((quiet.stdout, quiet.stderr), (twice.stdout, Vec::new()));
+    let talk = String::from_utf8(run("-vel .5 0 0 -vb", TILE).stderr).unwrap();
+    assert!(talk.contains("cutting added"), "{talk}");
+}
+
+#[test]
+fn a_closed_pipe_ends_it_quietly() {
+    // More than a pipe holds, so that writing meets the closed end.
+    let many: String = (0..20_000).map(|idx| format!("v v{idx} {idx} 1 2;\n")).collect();
+    let mut child = program("-vel .5 0 0").spawn().unwrap();
+    drop(child.stdout.take());
+    child.stdin.take().unwrap().write_all(many.as_bytes()).unwrap();
+    let mut stderr = String::new();
+    child.stderr.take().unwrap().read_to_string(&mut stderr).unwrap();
+    assert_eq!((child.wait().unwrap().signal(), stderr.as_str()), (Some(SIGPIPE), ""));
+}
+
+#[test]
+fn help_names_every_option() {
+    let help = String::from_utf8(run("--help", "").stdout).unwrap();
+    for option in
+        ["--vel", "--ep", "--ti", "--an", "--in", "--se", "--sd", "--sm", "--nc", "--no-flight-time"]
+    {
+        assert!(help.contains(&format!("{option} ")) || help.contains(&format!("{option}\n")), "{option}");
+    }
+}

@@ -1,0 +1,415 @@
+//! Cutting: no cracks, right to the bound, nothing lost. What is measured is measured on the output alone, by
+//! sampling true curves.
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking, its helpers too")]
+
+mod common;
+
+use std::collections::BTreeSet;
+
+use common::{Random, edges, find, moving, normal, parse, place, prism, rock, run, seen, tetrahedron, text};
+use glam::DVec3;
+use uglorentz::{Config, Pieces};
+use ugparse::{Item, Scene, VertexId};
+use ugphysics::{Velocity, doppler_at, seen_position};
+use ugscene::{Bodies, Geometry};
+
+type Mesh = (Vec<DVec3>, Vec<Vec<usize>>);
+
+/// Closed meshes of triangles, quadrilaterals and larger polygons, near enough to be cut.
+fn meshes(random: &mut Random) -> Vec<Mesh> {
+    let mut center = || random.direction() * 3.0;
+    let centers = [center(), center(), center(), center(), center()];
+    vec![
+        tetrahedron(random, centers[0], 1.0),
+        rock(random, centers[1], 1.5, 1),
+        prism(random, centers[2], 1.0, 4),
+        prism(random, centers[3], 1.2, 5),
+        prism(random, centers[4], 1.0, 9),
+    ]
+}
+
+/// Rest positions recovered from what was written, by (P4).
+fn rest(scene: &Scene) -> Vec<DVec3> {
+    let bodies = Bodies::new(scene, Velocity::ZERO).unwrap();
+    let eye = ugscene::eye(scene, None);
+    ugscene::rest_positions(scene, eye, &bodies)
+}
+
+#[test]
+fn closed_meshes_stay_closed() {
+    let mut random = Random(11);
+    let mut n_cut = 0;
+    for speed in [0.3, 0.9, 0.99] {
+        for pieces in [5e-3, 1e-3, 0.25e-3].map(Pieces::UpTo).into_iter().chain([2, 3].map(Pieces::PerEdge)) {
+            for (vertices, faces) in meshes(&mut random) {
+                let text = text(&vertices, &faces);
+                let config = Config { pieces, ..moving(random.direction() * speed) };
+                let scene = seen(&text, &config);
+                n_cut += scene.faces.len() - faces.len();
+                let edges = edges(&scene);
+                let odd = edges.iter().find(|(_, count)| **count != (1, 1));
+                assert_eq!(odd, None, "{speed} {pieces:?}");
+                // A sphere is what it was.
+                assert_eq!(scene.vertices.len() + scene.faces.len(), edges.len() + 2);
+            }
+        }
+    }
+    assert!(n_cut > 10_000, "{n_cut}");
+}
+
+#[test]
+fn pieces_cover_their_face_in_its_direction() {
+    let mut random = Random(12);
+    for pieces in [Pieces::UpTo(1e-3), Pieces::PerEdge(3)] {
+        for (vertices, faces) in meshes(&mut random) {
+            let text = text(&vertices, &faces);
+            let whole = parse(&text);
+            let scene = seen(&text, &Config { pieces, ..moving(random.direction() * 0.9) });
+            let rest = rest(&scene);
+            let names: Vec<&str> = scene.faces.iter().map(|f| scene.names.get(f.name.unwrap())).collect();
+            for (idx, face) in whole.faces.iter().enumerate() {
+                let expected = normal(&whole, face, &vertices);
+                let mine = scene.faces.iter().zip(&names).filter(|(_, name)| **name == format!("f{idx}"));
+                let parts: Vec<DVec3> = mine.map(|(piece, _)| normal(&scene, piece, &rest)).collect();
+                assert!(parts.iter().all(|part| part.dot(expected) > 0.0), "a piece is turned");
+                let sum: DVec3 = parts.iter().sum();
+                assert!((sum - expected).length() < 1e-12, "{sum} {expected}");
+                // Flat pieces without overlap: areas add up too.
+                let area: f64 = parts.iter().map(|part| part.length()).sum();
+                assert!((area - expected.length()).abs() < 1e-11, "{area}");
+            }
+            // Pieces stand together, in the order of their faces.
+            let mut order = names.clone();
+            order.dedup();
+            assert_eq!(order, (0..faces.len()).map(|idx| format!("f{idx}")).collect::<Vec<_>>());
+        }
+    }
+}
+
+#[test]
+fn names_are_unique() {
+    let (vertices, faces) = prism(&mut Random(13), DVec3::new(2.0, 1.0, 0.5), 1.0, 5);
+    let text = text(&vertices, &faces).replace("v1 ", "s#1 ").replace("v1)", "s#1)").replace("v2 ", "s##7 ");
+    let scene = seen(&text.replace("v2)", "s##7)"), &moving(DVec3::X * 0.9));
+    let names: BTreeSet<&str> = scene.vertices.iter().map(|v| scene.names.get(v.name)).collect();
+    assert_eq!(names.len(), scene.vertices.len());
+    assert!(names.contains("s###1") && !names.contains("s##1"));
+}
+
+/// Largest errors of drawn edges against the true curves between their ends.
+#[derive(Default, Debug)]
+struct Errors {
+    /// Angle of the true curve from the chord, radians.
+    angle: f64,
+    /// Distance in space from the chord over the distance from the eye.
+    offset: f64,
+    /// Relative error of D along the chord.
+    doppler: f64,
+}
+
+fn errors(scene: &Scene, v: Velocity) -> Errors {
+    let rest = rest(scene);
+    let mut worst = Errors::default();
+    for &(a, b) in edges(scene).keys() {
+        let (from, to) = (place(scene, a), place(scene, b));
+        for step in 1..40 {
+            let s = f64::from(step) / 40.0;
+            let p = seen_position(rest[a.index()].lerp(rest[b.index()], s), v);
+            let (angle, offset) = off_chord(p, from, to);
+            let drawn = from.lerp(to, s);
+            let exact = doppler_at(drawn, v);
+            let linear = doppler_at(from, v) * (1.0 - s) + doppler_at(to, v) * s;
+            worst.angle = worst.angle.max(angle);
+            worst.offset = worst.offset.max(offset / p.length());
+            worst.doppler = worst.doppler.max((linear / exact - 1.0).abs());
+        }
+    }
+    worst
+}
+
+/// Least angle at the eye, and least distance, between a point and a chord.
+fn off_chord(p: DVec3, from: DVec3, to: DVec3) -> (f64, f64) {
+    let nearest = |p: DVec3, a: DVec3, b: DVec3| {
+        let s = ((p - a).dot(b - a) / (b - a).length_squared()).clamp(0.0, 1.0);
+        a.lerp(b, s)
+    };
+    // Seen from the eye the chord is a great circle: with p scaled onto the plane p·d = |p|, it is a straight line.
+    let d = p.normalize();
+    let (a, b) = (from / from.dot(d), to / to.dot(d));
+    let q = nearest(d, a, b);
+    (libm::atan2(d.cross(q).length(), d.dot(q)), (nearest(p, from, to) - p).length())
+}
+
+#[test]
+fn drawn_edges_are_right_to_the_bound() {
+    let mut random = Random(14);
+    for speed in [0.3, 0.9, 0.99] {
+        for bound in [10e-3, 1e-3, 0.1e-3] {
+            let mut worst = Errors::default();
+            for _ in 0..3 {
+                for (vertices, faces) in meshes(&mut random) {
+                    let direction = random.direction();
+                    let config = Config { pieces: Pieces::UpTo(bound), ..moving(direction * speed) };
+                    let scene = seen(&text(&vertices, &faces), &config);
+                    let found = errors(&scene, Velocity::from_beta(direction * speed).unwrap());
+                    worst.angle = worst.angle.max(found.angle);
+                    worst.offset = worst.offset.max(found.offset);
+                    worst.doppler = worst.doppler.max(found.doppler);
+                }
+            }
+            println!("{speed} c, {bound}: {worst:?}");
+            assert!(worst.angle <= bound * 1.000_001, "{speed} {bound} {worst:?}");
+            // Sampled by the program at a few points of each edge, so not quite the largest.
+            assert!(worst.offset <= 1.1 * (4.0 * bound).max(1e-4), "{speed} {bound} {worst:?}");
+            assert!(worst.doppler <= 1.1 * 0.005, "{speed} {bound} {worst:?}");
+            // And the bound is used, not undercut by far.
+            if bound < 1e-3 {
+                assert!(worst.angle.max(worst.offset / 4.0) > bound / 2.0, "{speed} {bound} {worst:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn only_what_bends_is_cut() {
+    let check = |what: &str, text: &str, config: &Config, is_cut: bool| {
+        let scene = run(text, config).scene;
+        assert_eq!(scene.faces.len() > parse(text).faces.len(), is_cut, "{what}");
+    };
+    let wide = "v a -9 1 1; v b 9 1 1; v c 9 1 3; v d -9 1 3; f (a b c d);";
+    let small = "v a 0 1 0; v b 1e-4 1 0; v c 1e-4 1 1e-4; v d 0 1 1e-4; f (a b c d);";
+    let fast = moving(DVec3::X * 0.9);
+    check("a wide face", wide, &fast, true);
+    check("a small face", small, &fast, false);
+    check("a wide face at rest", wide, &Config::default(), false);
+    check("a wide face that hardly moves", wide, &moving(DVec3::X * 1e-6), false);
+    let contracted = Geometry { contraction: true, flight_time: false };
+    let far = "v a -1 100 0; v b 1 100 0; v c 1 100 2; v d -1 100 2; f (a b c d);";
+    check(
+        "without flight time, where D varies little",
+        far,
+        &Config { geometry: contracted, ..fast.clone() },
+        false,
+    );
+    let seen_now = Geometry { contraction: false, flight_time: true };
+    check("without contraction", wide, &Config { geometry: seen_now, ..fast.clone() }, true);
+    check("one piece an edge", wide, &Config { pieces: Pieces::PerEdge(1), ..fast }, false);
+}
+
+/// Uniform pieces of the edge x = 0, y in −1…1 at distance z = 1, β = 0.9: largest distance of the hyperbola
+/// x = −βγ√(y² + z²) from its chords along x. The numbers are closed forms, taken where curve and chord are
+/// parallel.
+#[test]
+fn chord_errors_of_equal_pieces() {
+    let expected = [
+        (1, 0.855_243_975_519),
+        (2, 0.185_455_666_752),
+        (4, 0.058_356_734_505),
+        (8, 0.015_705_305_033),
+        (16, 0.004_005_382_346),
+        (32, 0.001_006_455_613),
+    ];
+    for (n, error) in expected {
+        let config = Config { pieces: Pieces::PerEdge(n), ..moving(DVec3::X * 0.9) };
+        let scene = seen("v a 0 -1 1; v b 0 1 1; w (a b);", &config);
+        let corners = scene.wire_contours(&scene.wires[0]).next().unwrap();
+        assert_eq!(corners.len(), n as usize + 1);
+        let points: Vec<DVec3> = corners.iter().map(|&corner| place(&scene, corner)).collect();
+        let slope = 0.9 / (1.0 - 0.81f64).sqrt();
+        let worst = points.windows(2).flat_map(|pair| {
+            (0..=2000).map(|step| {
+                let p = pair[0].lerp(pair[1], f64::from(step) / 2000.0);
+                (p.x + slope * (p.y * p.y + 1.0).sqrt()).abs()
+            })
+        });
+        let worst = worst.fold(0.0, f64::max);
+        assert!((worst - error).abs() < 1e-6 * error, "{n}: {worst}");
+    }
+}
+
+#[test]
+fn equal_pieces_are_as_many_as_asked() {
+    let check = |face: &str, n: u32, n_faces: usize, n_vertices: usize| {
+        let corners = "v a 3 0 0; v b 4 0 0; v c 4 1 0; v d 3 1 0; v e 2.5 0.5 0; v f 3.2 0.2 0; v g 3.2 0.3 0; v h 3.3 0.3 0;";
+        let config = Config { pieces: Pieces::PerEdge(n), eye: Some(DVec3::Z), ..moving(DVec3::X * 0.5) };
+        let scene = seen(&format!("{corners} {face}"), &config);
+        assert_eq!((scene.faces.len(), scene.vertices.len() - 8), (n_faces, n_vertices), "{face} {n}");
+    };
+    check("f (a b c);", 1, 1, 0);
+    check("f (a b c);", 3, 9, 7);
+    check("f (a b c d);", 3, 9, 12);
+    check("f (a b c d e);", 1, 1, 0);
+    check("f (a b c d e);", 2, 12, 7);
+    check("f (a b c d) (f g h);", 2, 28, 7 + 7);
+    check("w (a b c d);", 4, 0, 9);
+    // Two faces share the new vertices of their edge.
+    check("f (a b c); f (a c d);", 2, 8, 5);
+}
+
+#[test]
+fn polygons_with_holes_keep_them() {
+    let text = "v a 3 -2 -2; v b 3 2 -2; v c 3 2 2; v d 3 -2 2; v m 3 0 -2;
+        v e 3 -1 -1; v f 3 1 -1; v g 3 1 1; v h 3 -1 1; f wall (a m b c d) (e f g h);";
+    let config = moving(DVec3::Y * 0.9);
+    let scene = seen(text, &config);
+    let rest = rest(&scene);
+    let area: f64 = scene.faces.iter().map(|face| normal(&scene, face, &rest).x / 2.0).sum();
+    assert!((area - 12.0).abs() < 1e-11, "{area}");
+    assert!(scene.faces.len() > 100);
+    // Every edge has two sides but those on the outline and round the hole.
+    let on_rim = |vertex: VertexId| {
+        let p = rest[vertex.index()];
+        let reach = p.y.abs().max(p.z.abs());
+        (reach - 1.0).abs() < 1e-9 || (reach - 2.0).abs() < 1e-9
+    };
+    for ((a, b), count) in edges(&scene) {
+        assert!(count == (1, 1) || (on_rim(a) && on_rim(b)), "{:?} {:?}", rest[a.index()], rest[b.index()]);
+    }
+}
+
+#[test]
+fn faces_that_cannot_be_triangulated_still_meet_their_neighbours() {
+    // A bow tie above a triangle: they share the edge from a to b.
+    let text = "v a -3 2 1; v b 3 2 1; v c -3 3 1; v d 4 5 1; v e 0 2 -4; f bow (a b c d); f low (b a e);";
+    let scene = seen(text, &moving(DVec3::X * 0.9));
+    let bow = &scene.faces[0];
+    let corners: Vec<VertexId> = scene.face_contours(bow).next().unwrap().to_vec();
+    assert!(corners.len() > 20);
+    assert_eq!(scene.names.get(scene.faces[1].name.unwrap()), "low");
+    let edges = edges(&scene);
+    let (a, b) = (find(&scene, "a"), find(&scene, "b"));
+    let along: Vec<VertexId> =
+        corners.iter().copied().skip_while(|&c| c != a).take_while(|&c| c != b).chain([b]).collect();
+    for pair in along.windows(2) {
+        assert_eq!(edges[&(pair[0].min(pair[1]), pair[0].max(pair[1]))], (1, 1));
+    }
+}
+
+#[test]
+fn wires_follow_the_faces_they_lie_on() {
+    let text = "v a -3 2 1; v b 3 2 1; v c 0 4 1; f (a b c); w (b a);";
+    let scene = seen(text, &moving(DVec3::X * 0.9));
+    let corners = scene.wire_contours(&scene.wires[0]).next().unwrap();
+    assert!(corners.len() > 10);
+    let edges = edges(&scene);
+    assert!(corners.windows(2).all(|p| edges.contains_key(&(p[0].min(p[1]), p[0].max(p[1])))));
+}
+
+#[test]
+fn comments_and_attributes_go_with_their_faces() {
+    let text = "{ head }
+        c red 0.9 0 1;
+        v a -3 2 1; v b 3 2 1; v c 0 4 1; v d 0 0 1;
+        { the upper } f up (a b c) red 0.5;
+        { the lower } f low (b a d) red; { behind it }
+        { the line } w (a b);";
+    let scene = seen(text, &moving(DVec3::X * 0.9));
+    let named = |row: u32| scene.names.get(scene.faces[row as usize].name.unwrap());
+    let mut found = Vec::new();
+    for comment in &scene.comments {
+        let at = match comment.at {
+            Item::Face(row) => {
+                assert!(comment.trailing || row == 0 || named(row - 1) != named(row), "not the first piece");
+                named(row).to_string()
+            }
+            other => format!("{other:?}"),
+        };
+        found.push((comment.text.trim(), at));
+    }
+    let expected = [("the upper", "up"), ("the lower", "low"), ("behind it", "low"), ("the line", "Wire(0)")];
+    assert_eq!(found, expected.map(|(text, at)| (text, at.to_string())));
+    for (row, face) in scene.faces.iter().enumerate() {
+        assert_eq!(face.illum, (named(row as u32) == "up").then_some(0.5));
+        assert!(face.color.is_some() && scene.velocities[face.velocity.unwrap().index()].x == 0.9);
+    }
+    assert_eq!(scene.head, [" head ", " uglorentz 0.1.0: uglorentz "]);
+}
+
+#[test]
+fn colours_between_vertices() {
+    let check = |a: &str, b: &str, expected: &str| {
+        let text = format!(
+            "c red 1 0 1; c green 0.5 120 0.5 1; c violet 1 330 1; c grey 0.5; c_rgb blue 0 0 1;
+             v a 1 1 0 {a}; v b 2 1 0 {b}; v c 2 2 0 {a}; w (a b c);"
+        );
+        let scene = run(&text, &Config { pieces: Pieces::PerEdge(2), ..moving(DVec3::X * 0.5) }).scene;
+        let middle = &scene.vertices[3..];
+        let lines = String::from_utf8(ugparse::write(&scene)).unwrap();
+        let name = middle[0].color.map(|id| scene.names.get(scene.colors[id.index()].name));
+        let statement = name
+            .and_then(|name| lines.lines().find(|l| l.starts_with('c') && l.contains(&format!(" {name} "))));
+        assert_eq!(statement.unwrap_or("none"), expected, "{a} {b}");
+        // Both edges mix the same two: one new colour serves them.
+        assert!(scene.colors.len() <= 6);
+    };
+    check("red", "red", "c red 1 0 1;");
+    check("", "", "none");
+    check("red", "", "none");
+    check("red", "green", "c s#1 0.75 60 0.75 0.5;");
+    check("red", "violet", "c s#1 1 -15 1;");
+    check("green", "grey", "c s#1 0.5 120 0.25 0.5;");
+    check("red", "blue", "c s#1 1 120 1;");
+}
+
+#[test]
+fn edges_at_the_eye_end_in_bounded_work() {
+    // The eye lies in the face, in an edge, and a hair beside an edge.
+    for text in [
+        "v a -1 -1 0; v b 1 -1 0; v c 1 1 0; v d -1 1 0; f (a b c d);",
+        "v a -1 0 0; v b 1 0 0; v c 1 1 0; v d -1 1 0; f (a b c d); w (a b);",
+        "v a -1 0 1e-8; v b 1 0 1e-8; v c 1 1 0; v d -1 1 0; f (a b c d);",
+        "v a -1e6 0 1; v b 1e6 0 1; v c 1e6 1 1; v d -1e6 1 1; f (a b c d);",
+    ] {
+        let report = run(text, &moving(DVec3::X * 0.99));
+        assert!(report.scene.faces.len() < 200_000, "{}", report.scene.faces.len());
+        assert!(report.scene.vertices.iter().all(|v| v.position.is_finite() && v.position != DVec3::ZERO));
+        assert!(!report.notes.is_full);
+    }
+    // Numbers near the ends of their range.
+    for size in ["1e-300", "1e200"] {
+        let text = "v a -SIZE SIZE 0; v b SIZE SIZE 0; v c 0 SIZE SIZE; f (a b c);".replace("SIZE", size);
+        assert!(run(&text, &moving(DVec3::X * 0.999)).scene.faces.len() < 200_000);
+    }
+    let report = run("v a -1 0 0; v b 1 0 0; w (a b);", &moving(DVec3::X * 0.99));
+    assert!(report.notes.warnings()[0].contains("still bend after 32 halvings"));
+}
+
+#[test]
+fn output_does_not_depend_on_threads() {
+    let mut random = Random(15);
+    let mut all = String::new();
+    for (idx, (vertices, faces)) in meshes(&mut random).iter().enumerate() {
+        let text = text(vertices, faces);
+        all += &format!("def d{idx}; {text} end; i i{idx} (d{idx}) <0 {} 0.5>;", 0.1 * idx as f64);
+    }
+    let with = |n: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(n).build().unwrap();
+        pool.install(|| run(&all, &Config::default()).text())
+    };
+    let one = with(1);
+    assert!(one.len() > 100_000);
+    assert!(one == with(4) && one == with(3));
+}
+
+#[test]
+fn bad_numbers_are_refused_with_a_remedy() {
+    let check = |config: Config, expected: &str| {
+        let error =
+            uglorentz::transform(&parse("v a 0 0 1; v b 1 0 1; v c 0 1 1; f (a b c);"), &config).unwrap_err();
+        assert_eq!(error.to_string(), expected);
+        assert!(error.is_usage());
+    };
+    let pieces = |pieces| Config { pieces, ..Config::default() };
+    check(
+        moving(DVec3::X),
+        "-vel: speed is 1 c: it must be below 1 (velocities are fractions of the speed of light)",
+    );
+    check(moving(DVec3::NAN), "-vel: velocity is not finite: its numbers must not be infinite or NaN");
+    check(pieces(Pieces::UpTo(0.0)), "the bound of -se is 0 milliradians: give a number above 0");
+    check(pieces(Pieces::UpTo(f64::NAN)), "the bound of -se is NaN milliradians: give a number above 0");
+    check(pieces(Pieces::PerEdge(0)), "-sd 0 leaves no pieces: give 1 or more");
+    check(
+        pieces(Pieces::PerEdge(3000)),
+        "-sd would make 9000000 pieces, more than the limit of 4000000: give fewer, or use -se, which cuts only where it shows",
+    );
+}
