@@ -14,8 +14,8 @@
 //!    satisfy m·d + k = 0 with m = n' + (γ − 1)(n'·û)û, k = γ n'·v and |m|² − k² = 1: a circle on the sphere
 //!    of directions, of geodesic curvature k. The chord is a great circle. The angle between the two is
 //!    largest in the middle (E2) and must not pass the bound;
-//! 2. **depth**: the distance from C(s) to the chord in space, over |C(s)|, must stay below
-//!    [`OFFSET_PER_ERROR`] times the bound, since faces hide each other by depth;
+//! 2. **depth**: the distance from C(s) to the chord in space, over |C(s)|, must stay below the bound too, since
+//!    faces hide each other by depth, and a decal lies close in front of its wall;
 //! 3. **colour**: D taken linearly along the chord must agree with D in that direction to
 //!    [`DOPPLER_ERROR`].
 //!
@@ -26,11 +26,6 @@ use glam::DVec3;
 use ugphysics::doppler_at;
 
 use crate::motion::{Motion, Point};
-
-/// Bound of rule 2 in units of the bound of rule 1. Where two faces meet at an ordinary angle, an error of depth
-/// shifts the line between them by about as much across the view; 4 pixels' worth there go unseen where one in
-/// an outline does not.
-const OFFSET_PER_ERROR: f64 = 4.0;
 
 /// Rule 2 never asks for more than this: a ten-thousandth of the distance.
 const LEAST_OFFSET: f64 = 1e-4;
@@ -59,7 +54,7 @@ impl Tolerance {
     /// From the largest angle at the eye, radians; angles above a right one count as that.
     pub(crate) fn new(error: f64) -> Tolerance {
         let error = error.min(std::f64::consts::FRAC_PI_2);
-        let offset = (OFFSET_PER_ERROR * error).max(LEAST_OFFSET);
+        let offset = error.max(LEAST_OFFSET);
         Tolerance { tan_half: libm::tan(error / 2.0), offset, safe: libm::sin(error).min(offset) }
     }
 }

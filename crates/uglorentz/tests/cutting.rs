@@ -160,11 +160,11 @@ fn drawn_edges_are_right_to_the_bound() {
             println!("{speed} c, {bound}: {worst:?}");
             assert!(worst.angle <= bound * 1.000_001, "{speed} {bound} {worst:?}");
             // Sampled by the program at a few points of each edge, so not quite the largest.
-            assert!(worst.offset <= 1.1 * (4.0 * bound).max(1e-4), "{speed} {bound} {worst:?}");
+            assert!(worst.offset <= 1.1 * bound.max(1e-4), "{speed} {bound} {worst:?}");
             assert!(worst.doppler <= 1.1 * 0.005, "{speed} {bound} {worst:?}");
             // And the bound is used, not undercut by far.
             if bound < 1e-3 {
-                assert!(worst.angle.max(worst.offset / 4.0) > bound / 2.0, "{speed} {bound} {worst:?}");
+                assert!(worst.angle.max(worst.offset) > bound / 2.0, "{speed} {bound} {worst:?}");
             }
         }
     }
@@ -361,7 +361,7 @@ fn edges_at_the_eye_end_in_bounded_work() {
         "v a -1e6 0 1; v b 1e6 0 1; v c 1e6 1 1; v d -1e6 1 1; f (a b c d);",
     ] {
         let report = run(text, &moving(DVec3::X * 0.99));
-        assert!(report.scene.faces.len() < 200_000, "{}", report.scene.faces.len());
+        assert!(report.scene.faces.len() < 1_000_000, "{}", report.scene.faces.len());
         assert!(report.scene.vertices.iter().all(|v| v.position.is_finite() && v.position != DVec3::ZERO));
         assert!(!report.notes.is_full);
     }
