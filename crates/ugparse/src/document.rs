@@ -25,6 +25,15 @@ pub(crate) struct Document {
     pub comments: Vec<CommentSpan>,
 }
 
+impl Document {
+    /// The rows of [`Document::references`] that a contour has.
+    pub fn contour(&self, contour: u32) -> Range<usize> {
+        let contour = contour as usize;
+        let start = if contour == 0 { 0 } else { self.contour_ends[contour - 1] as usize };
+        start..self.contour_ends[contour] as usize
+    }
+}
+
 /// The statements of a file or a definition.
 #[derive(Debug, Default)]
 pub(crate) struct Group {
@@ -75,7 +84,7 @@ pub(crate) struct VertexStatement {
     pub normal: Option<DVec3>,
 }
 
-/// A face, or a wire (which has no `illum` and no velocity).
+/// A face, or a wire (which has no `illum`).
 #[derive(Debug)]
 pub(crate) struct FaceStatement {
     pub name: Option<Span>,

@@ -14,7 +14,8 @@ use crate::document::{
 use crate::scene::{ColorValue, Projection};
 use crate::source::Span;
 use crate::token::{
-    Input, Parsed, Reason, backtrack, blank, fail, identifier, integer, mark, number, point, require, word,
+    Input, Parsed, Reason, backtrack, blank, fail, identifier, integer, mark, number, point, require, wanted,
+    word,
 };
 use crate::transform::Transform;
 
@@ -71,12 +72,12 @@ impl<'t> Grammar<'t> {
 
     /// `v ID x y z [color] [nx ny nz]`
     fn vertex<'a>(&self, input: Input<'a>) -> Parsed<'a, Statement> {
-        let (input, name) = self.name(input)?;
+        let (input, name) = wanted(self.name(input), NAME)?;
         let (input, position) = point(input)?;
         let (input, color) = self.optional_name(input)?;
         let (rest, normal) = opt(point).parse(input)?;
         if normal == Some(DVec3::ZERO) {
-            return fail(blank(input)?.0, ZERO_VECTOR);
+            return fail(blank(input)?.0, zero_vector(3));
         }
         Ok((rest, Statement::Vertex(VertexStatement { name, position, color, normal })))
     }
@@ -103,7 +104,7 @@ impl<'t> Grammar<'t> {
     /// One or more `( vertex … )`, appended to the document's buffers.
     fn contours<'a>(&self, input: Input<'a>, document: &mut Document) -> Parsed<'a, std::ops::Range<u32>> {
         let first = document.contour_ends.len() as u32;
-        let (mut input, ()) = mark(b'(', "`(` and the face's vertices")(input)?;
+        let (mut input, ()) = mark(b'(', "`(` and vertex names")(input)?;
         loop {
             input = self.contour(input, document)?.0;
             document.contour_ends.push(document.references.len() as u32);
@@ -117,7 +118,9 @@ impl<'t> Grammar<'t> {
     }
 
     /// `vertex … )`
-    fn contour<'a>(&self, mut input: Input<'a>, document: &mut Document) -> Parsed<'a, ()> {
+    fn contour<'a>(&self, input: Input<'a>, document: &mut Document) -> Parsed<'a, ()> {
+        let (mut input, first) = require(wanted(self.name(input), "a vertex name"))?;
+        document.references.push(first);
         loop {
             match self.name(input) {
                 Ok((rest, reference)) => {
@@ -170,7 +173,7 @@ impl<'t> Grammar<'t> {
             None => (input, None),
         };
         if radius.is_none() && vector == Some(DVec3::ZERO) {
-            return fail(at, ZERO_VECTOR);
+            return fail(at, zero_vector(3));
         }
         let (input, color) = self.optional_name(input)?;
         let (input, velocity) = opt(velocity).parse(input)?;
@@ -194,7 +197,7 @@ impl<'t> Grammar<'t> {
     fn call<'a>(&self, input: Input<'a>, is_array: bool) -> Parsed<'a, Statement> {
         let (input, name) = self.optional_name(input)?;
         let (input, ()) = mark(b'(', "`(` and the name of a definition")(input)?;
-        let (input, definition) = self.name(input)?;
+        let (input, definition) = wanted(self.name(input), "the name of a definition")?;
         let (input, color) = self.optional_name(input)?;
         let (input, inner) = transforms(input)?;
         let (input, ()) = mark(b')', "a transformation such as `-tx` or `)`")(input)?;
@@ -210,10 +213,15 @@ impl<'t> Grammar<'t> {
     }
 }
 
+/// What a name begins with, for messages.
+pub(crate) const NAME: &str = "a name that begins with a letter, `:`, `_` or `#`";
+
 const SHARE: &str = "use a number from 0 to 1";
 
-const ZERO_VECTOR: Reason =
-    Reason::Range("the vector has no length", "give a vector with a direction, such as `0 0 1`");
+/// The vector in these words has no length.
+const fn zero_vector(words: usize) -> Reason {
+    Reason::Impossible(words, "the vector has no length", "give a vector with a direction, such as `0 0 1`")
+}
 
 /// A number in a closed range.
 fn number_from<'a>(
@@ -224,7 +232,7 @@ fn number_from<'a>(
     move |input| {
         let (rest, value) = number(input)?;
         if value < least || value > most {
-            return fail(blank(input)?.0, Reason::Range("this number is out of range", remedy));
+            return fail(blank(input)?.0, Reason::OutOfRange(remedy));
         }
         Ok((rest, value))
     }
@@ -240,7 +248,11 @@ fn velocity(input: Input<'_>) -> Parsed<'_, DVec3> {
     if velocity.length_squared() >= 1.0 {
         return fail(
             at,
-            Reason::Range("the speed is not below 1", "velocities are fractions of the speed of light"),
+            Reason::Impossible(
+                3,
+                "the speed is not below 1",
+                "give x, y and z as fractions of the speed of light, together shorter than 1",
+            ),
         );
     }
     Ok((input, velocity))
@@ -284,7 +296,11 @@ fn camera_option<'a>(
     match name {
         b"vc" => store(&mut camera.center, point(input), same),
         b"ep" => store(&mut camera.eye, point(input), same),
-        b"ud" => store(&mut camera.up, point(input), same),
+        b"ud" => {
+            let (rest, up) = require(point(input))?;
+            camera.up = Some(up);
+            if up == DVec3::ZERO { fail(blank(at)?.0, zero_vector(4)) } else { Ok((rest, ())) }
+        }
         b"cl" => store(&mut camera.clip, numbers(input), pair),
         b"ph" => store(&mut camera.film, numbers(input), |x: [f64; 4]| x),
         b"va" => store(&mut camera.view_angle, numbers(input), pair),
@@ -315,7 +331,7 @@ fn transforms(mut input: Input<'_>) -> Parsed<'_, Transform> {
         input = rest;
     }
     if !total.is_finite() {
-        return fail(start, Reason::Range("the transformation overflows", "use smaller numbers"));
+        return fail(start, Reason::Impossible(1, "the transformation overflows", "use smaller numbers"));
     }
     Ok((input, total))
 }
@@ -388,18 +404,28 @@ fn transform<'a>(name: Input<'a>, at: Input<'a>, input: Input<'a>) -> Parsed<'a,
             let (rest, m) = numbers::<16>(input)?;
             match Transform::rows4(&m) {
                 Some(map) => Ok((rest, map)),
-                None => {
-                    fail(at, Reason::Range("this matrix is not affine", "its last column must be 0 0 0 1"))
-                }
+                None => fail(
+                    at,
+                    Reason::Impossible(
+                        17,
+                        "this matrix is not affine",
+                        "its last column must be 0 0 0 1; a translation is in the last row",
+                    ),
+                ),
             }
         }
-        _ => fail(at, Reason::Expected("a transformation (-sx -sy -sz -sa -sv -tx … -rx … -mx … -M3 -M4)")),
+        _ => fail(
+            at,
+            Reason::Expected(
+                "a transformation (`-s`, `-t`, `-r` or `-m` with `x`, `y`, `z`, `a` or `v`, or `-M3`, `-M4`)",
+            ),
+        ),
     }
 }
 
 fn non_zero<'a>(map: Option<Transform>, at: Input<'a>, rest: Input<'a>) -> Parsed<'a, Transform> {
     match map {
         Some(map) => Ok((rest, map)),
-        None => fail(at, ZERO_VECTOR),
+        None => fail(at, zero_vector(4)),
     }
 }

@@ -39,6 +39,7 @@ mod scene;
 mod source;
 mod token;
 mod transform;
+mod wording;
 mod writer;
 
 pub use diagnostic::{Diagnostic, Diagnostics, MAX_ERRORS, Severity};

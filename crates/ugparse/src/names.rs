@@ -30,6 +30,11 @@ impl Names {
         NameId(u32::try_from(self.ends.len() - 1).expect("fewer than 2^32 names"))
     }
 
+    /// Bytes of all names together.
+    pub(crate) fn len_bytes(&self) -> usize {
+        self.text.len()
+    }
+
     /// The text of a name.
     pub fn get(&self, id: NameId) -> &str {
         let row = id.0 as usize;

@@ -1,11 +1,17 @@
 //! Puts everything in its place: a document and its links become a flat scene.
 
+use std::collections::BTreeMap;
+
+use glam::DVec3;
+use rustc_hash::FxHashMap;
+
 use crate::diagnostic::Diagnostic;
 use crate::document::{CallStatement, CommentSpan, Document, FaceStatement, Node, Repeat, Statement};
 use crate::names::{NameId, Names, UniqueNames};
 use crate::resolve::{Link, Links};
 use crate::scene::{
-    ColorId, Comment, Face, Item, Light, LightKind, Scene, VelocityId, Vertex, VertexId, Wire,
+    Camera, ColorId, Comment, Face, Item, Light, LightKind, Scene, VelocityId, Vertex, VertexId, Wire,
+    newell_normal,
 };
 use crate::source::Span;
 use crate::transform::Transform;
@@ -44,20 +50,15 @@ pub(crate) fn place(
         origins: Origins::default(),
         emitted,
         placed_before: vec![false; document.groups.len()],
-        overflow: None,
+        velocities: FxHashMap::default(),
+        trouble: None,
+        flattened: BTreeMap::new(),
     };
     placer.group(0, &Frame::root());
-    if links.has_calls || document.groups.len() > 1 {
-        placer.make_names_unique();
-    }
+    placer.make_names_unique();
     placer.place_comments();
-    if let Some(span) = placer.overflow {
-        findings.push(
-            Diagnostic::error(span, "coordinates overflow when this is placed")
-                .label("here")
-                .help("use smaller numbers"),
-        );
-    }
+    findings.extend(placer.trouble);
+    findings.extend(placer.flattened.into_values());
     (placer.scene, placer.origins)
 }
 
@@ -75,11 +76,19 @@ struct Frame {
     prefix: String,
     color: Option<ColorId>,
     velocity: Option<VelocityId>,
+    /// The file itself, which nothing places.
+    is_root: bool,
 }
 
 impl Frame {
     fn root() -> Self {
-        Self { transform: Transform::IDENTITY, prefix: String::new(), color: None, velocity: None }
+        Self {
+            transform: Transform::IDENTITY,
+            prefix: String::new(),
+            color: None,
+            velocity: None,
+            is_root: true,
+        }
     }
 }
 
@@ -92,7 +101,13 @@ struct Placer<'d> {
     /// First row that each statement gave, for the comments beside it.
     emitted: Vec<(Span, Item)>,
     placed_before: Vec<bool>,
-    overflow: Option<Span>,
+    /// Rows of `scene.velocities` by the bits of their numbers.
+    velocities: FxHashMap<[u64; 3], VelocityId>,
+    /// The first thing that cannot be placed.
+    trouble: Option<Diagnostic>,
+    /// Warnings for faces that have no area where they are placed, once for
+    /// each statement, by its position.
+    flattened: BTreeMap<u32, Diagnostic>,
 }
 
 impl Placer<'_> {
@@ -127,8 +142,10 @@ impl Placer<'_> {
         let next = |rows: usize| rows as u32;
         match &node.statement {
             Statement::Face(face) => {
-                self.note(first_time, node, Item::Face(next(self.scene.faces.len())));
-                self.face(node, face, link, frame, first_vertex);
+                let item = Item::Face(next(self.scene.faces.len()));
+                if self.face(node, face, link, frame, first_vertex) {
+                    self.note(first_time, node, item);
+                }
             }
             Statement::Wire(wire) => {
                 self.note(first_time, node, Item::Wire(next(self.scene.wires.len())));
@@ -136,14 +153,15 @@ impl Placer<'_> {
             }
             Statement::Light(light) => {
                 self.note(first_time, node, Item::Light(next(self.scene.lights.len())));
-                let light = self.light(light, link, frame);
+                let light = self.light(node, light, link, frame);
                 self.scene.lights.push(light);
             }
             Statement::Camera(camera) => {
                 self.note(first_time, node, Item::Camera(next(self.scene.cameras.len())));
                 let mut placed = camera.placed(&frame.transform);
                 placed.name = self.optional_name(camera.name, frame);
-                placed.velocity = camera.velocity.map(|velocity| self.scene.velocity_id(velocity));
+                placed.velocity = camera.velocity.map(|velocity| self.velocity(velocity));
+                self.check_camera(node, &placed);
                 self.scene.cameras.push(placed);
             }
             Statement::Escape(text) if first_time => {
@@ -168,19 +186,29 @@ impl Placer<'_> {
     fn vertex(&mut self, node: &Node, link: &Link, frame: &Frame) {
         let Statement::Vertex(vertex) = &node.statement else { return };
         let position = frame.transform.point(vertex.position);
-        if !position.is_finite() {
-            self.overflow.get_or_insert(vertex.name);
-        }
         let name = self.name(vertex.name, frame);
         let normal = vertex.normal.map(|normal| frame.transform.normal(normal));
+        self.check_finite(vertex.name, position);
+        self.check_finite(vertex.name, normal.unwrap_or_default());
         self.scene.vertices.push(Vertex { name, position, color: link.color, normal });
         self.origins.vertices.push(vertex.name);
     }
 
-    fn face(&mut self, node: &Node, face: &FaceStatement, link: &Link, frame: &Frame, first_vertex: u32) {
+    /// False if the face is left out.
+    fn face(
+        &mut self,
+        node: &Node,
+        face: &FaceStatement,
+        link: &Link,
+        frame: &Frame,
+        first_vertex: u32,
+    ) -> bool {
+        if !frame.is_root && !self.has_area(node, face, first_vertex) {
+            return false;
+        }
         let contours = self.contours(face, frame.transform.mirrored, first_vertex);
         let name = self.optional_name(face.name, frame);
-        let own = face.velocity.map(|velocity| self.scene.velocity_id(velocity));
+        let own = face.velocity.map(|velocity| self.velocity(velocity));
         self.scene.faces.push(Face {
             name,
             contours,
@@ -189,12 +217,13 @@ impl Placer<'_> {
             velocity: frame.velocity.or(own),
         });
         self.origins.faces.push(node.span);
+        true
     }
 
     fn wire(&mut self, wire: &FaceStatement, link: &Link, frame: &Frame, first_vertex: u32) {
         let contours = self.contours(wire, false, first_vertex);
         let name = self.optional_name(wire.name, frame);
-        let own = wire.velocity.map(|velocity| self.scene.velocity_id(velocity));
+        let own = wire.velocity.map(|velocity| self.velocity(velocity));
         self.scene.wires.push(Wire {
             name,
             contours,
@@ -205,11 +234,8 @@ impl Placer<'_> {
 
     /// Copies contours; a mirrored frame reverses their direction but keeps the first vertex.
     fn contours(&mut self, face: &FaceStatement, reversed: bool, first_vertex: u32) -> std::ops::Range<u32> {
-        let ends = &self.document.contour_ends;
         let rows = face.contours.clone().map(|contour| {
-            let contour = contour as usize;
-            let start = if contour == 0 { 0 } else { ends[contour - 1] as usize };
-            let corners = &self.links.corners[start..ends[contour] as usize];
+            let corners = &self.links.corners[self.document.contour(contour)];
             let len = corners.len();
             (0..len).map(move |idx| {
                 let idx = if reversed { (len - idx) % len } else { idx };
@@ -219,7 +245,30 @@ impl Placer<'_> {
         self.scene.contours.push_all(rows)
     }
 
-    fn light(&mut self, light: &crate::document::LightStatement, link: &Link, frame: &Frame) -> Light {
+    /// False, with a warning, if the outline has no area where it is placed:
+    /// squashed flat by `-sz 0`, or too small beside its distance.
+    fn has_area(&mut self, node: &Node, face: &FaceStatement, first_vertex: u32) -> bool {
+        let corners = &self.links.corners[self.document.contour(face.contours.start)];
+        let position = |&local: &u32| self.scene.vertices[(first_vertex + local) as usize].position;
+        if newell_normal(corners.iter().map(position)) != DVec3::ZERO {
+            return true;
+        }
+        let span = face.name.unwrap_or(Span { start: node.span.start, end: node.span.start + 1 });
+        self.flattened.entry(node.span.start).or_insert_with(|| {
+            Diagnostic::warning(span, "face has no area where it is placed")
+                .label("left out")
+                .help("mend the transformations that place it")
+        });
+        false
+    }
+
+    fn light(
+        &mut self,
+        node: &Node,
+        light: &crate::document::LightStatement,
+        link: &Link,
+        frame: &Frame,
+    ) -> Light {
         let kind = match (light.vector, light.radius) {
             (None, _) => LightKind::Ambient,
             (Some(toward), None) => LightKind::Directional(frame.transform.direction(toward)),
@@ -227,18 +276,61 @@ impl Placer<'_> {
                 LightKind::Local { position: frame.transform.point(position), radius }
             }
         };
+        match kind {
+            LightKind::Ambient => {}
+            LightKind::Directional(toward) => self.check_direction(node.span, toward),
+            LightKind::Local { position, .. } => self.check_finite(node.span, position),
+        }
         Light {
             name: self.optional_name(light.name, frame),
             intensity: light.intensity,
             kind,
             color: link.color,
-            velocity: light.velocity.map(|velocity| self.scene.velocity_id(velocity)),
+            velocity: light.velocity.map(|velocity| self.velocity(velocity)),
         }
+    }
+
+    fn check_camera(&mut self, node: &Node, placed: &Camera) {
+        for point in [placed.center, placed.eye].into_iter().flatten() {
+            self.check_finite(node.span, point);
+        }
+        placed.up.into_iter().for_each(|up| self.check_direction(node.span, up));
+    }
+
+    fn check_finite(&mut self, span: Span, place: DVec3) {
+        if !place.is_finite() {
+            self.trouble.get_or_insert_with(|| {
+                Diagnostic::error(span, "coordinates overflow when this is placed")
+                    .label("here")
+                    .help("use smaller numbers")
+            });
+        }
+    }
+
+    fn check_direction(&mut self, span: Span, direction: DVec3) {
+        self.check_finite(span, direction);
+        if direction == DVec3::ZERO {
+            self.trouble.get_or_insert_with(|| {
+                Diagnostic::error(span, "this direction is lost when it is placed")
+                    .label("has no length there")
+                    .help("place it without a scale of 0")
+            });
+        }
+    }
+
+    fn velocity(&mut self, velocity: DVec3) -> VelocityId {
+        // Adding 0 makes -0 the same as 0.
+        let bits = (velocity + DVec3::ZERO).to_array().map(f64::to_bits);
+        *self.velocities.entry(bits).or_insert_with(|| {
+            let id = VelocityId::from_index(self.scene.velocities.len());
+            self.scene.velocities.push(velocity);
+            id
+        })
     }
 
     fn call(&mut self, row: usize, call: &CallStatement, link: &Link, frame: &Frame) {
         let Some((target, label)) = link.call else { return };
-        let own_velocity = call.velocity.map(|velocity| self.scene.velocity_id(velocity));
+        let own_velocity = call.velocity.map(|velocity| self.velocity(velocity));
         let label = &self.links.labels[row][label];
         let colon = if frame.prefix.is_empty() || label.is_empty() { "" } else { ":" };
         let mut inner = Frame {
@@ -246,6 +338,7 @@ impl Placer<'_> {
             prefix: format!("{}{colon}{label}", frame.prefix),
             color: link.color.or(frame.color),
             velocity: frame.velocity.or(own_velocity),
+            is_root: false,
         };
         match &call.repeat {
             Repeat::Once => self.group(target, &inner),
@@ -280,12 +373,16 @@ impl Placer<'_> {
         String::from_utf8_lossy(span.of(self.text)).into_owned()
     }
 
-    /// A path may meet a name that somebody wrote with colons; the later one
-    /// in the table gives way.
+    /// A path, or the name of an unnamed colour, may meet a name that somebody
+    /// wrote; the later one in the table gives way.
     fn make_names_unique(&mut self) {
+        let is_flat = self.document.groups.len() == 1;
         let Scene { names, vertices, colors, .. } = &mut self.scene;
-        rename_duplicates(names, vertices.iter_mut().map(|vertex| &mut vertex.name));
         rename_duplicates(names, colors.iter_mut().map(|color| &mut color.name));
+        // Vertices of a flat file have been compared.
+        if !is_flat {
+            rename_duplicates(names, vertices.iter_mut().map(|vertex| &mut vertex.name));
+        }
     }
 
     /// Comments above the first statement are the head; others go to the row

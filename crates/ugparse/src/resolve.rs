@@ -1,7 +1,7 @@
 //! Names to rows: colours, vertices and definitions of every scope, each
 //! checked once, however often a definition is placed.
 
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::diagnostic::Diagnostic;
 use crate::document::{CallStatement, Document, FaceStatement, Node, Repeat, Statement};
@@ -11,6 +11,16 @@ use crate::source::Span;
 /// Statements a scene may have after instances and arrays are placed. Each
 /// takes some 200 bytes, so this is where memory of common machines ends.
 const MAX_PLACED: u64 = 50_000_000;
+
+/// Corners of all placed faces and wires; each takes 4 bytes.
+const MAX_CORNERS: u64 = 500_000_000;
+
+/// Bytes that the names of a placed scene may have together; positions of
+/// names are 32-bit.
+const MAX_NAME_BYTES: u64 = 2 << 30;
+
+/// The same for the names of colours alone, paths included.
+const MAX_COLOR_BYTES: usize = 1 << 29;
 
 /// How long a chain of definitions that place each other may be; the placing
 /// recurses, and this keeps it well inside the stack.
@@ -90,6 +100,10 @@ impl<'d> Resolver<'d, '_> {
                 self.links.statements[row][idx].default_color = default_color;
                 match &node.statement {
                     Statement::Color(color) => {
+                        if scene.names.len_bytes() + prefix.len() + node.span.len() > MAX_COLOR_BYTES {
+                            self.findings.push(long_color_names(node.span));
+                            return;
+                        }
                         let id = ColorId::from_index(scene.colors.len());
                         let own = match color.name {
                             Some(name) => {
@@ -256,7 +270,9 @@ impl<'d> Resolver<'d, '_> {
                 Some(&local) => self.links.corners[idx] = local,
                 None => {
                     complete = false;
-                    let remedy = if row == 0 {
+                    let remedy = if name.of(self.text).contains(&b':') {
+                        "define it with a `v` statement: vertices of instances cannot be used outside them"
+                    } else if row == 0 {
                         "define it with a `v` statement"
                     } else {
                         "define it with a `v` statement in the same `def`: vertices of the scope outside are not seen here"
@@ -270,18 +286,13 @@ impl<'d> Resolver<'d, '_> {
 
     /// The references of all contours of a face.
     fn reference_range(&self, face: &FaceStatement) -> std::ops::Range<usize> {
-        let ends = &self.document.contour_ends;
-        let start = face.contours.start as usize;
-        let first = if start == 0 { 0 } else { ends[start - 1] as usize };
-        first..ends[face.contours.end as usize - 1] as usize
+        let (first, last) = (face.contours.start, face.contours.end - 1);
+        self.document.contour(first).start..self.document.contour(last).end
     }
 
     /// Corners of one contour.
     fn contour(&self, contour: u32) -> &[u32] {
-        let ends = &self.document.contour_ends;
-        let contour = contour as usize;
-        let start = if contour == 0 { 0 } else { ends[contour - 1] as usize };
-        &self.links.corners[start..ends[contour] as usize]
+        &self.links.corners[self.document.contour(contour)]
     }
 
     /// Fewer than three different vertices in a contour, or no area: warned about.
@@ -338,17 +349,34 @@ impl<'d> Resolver<'d, '_> {
     /// scenes that would grow without bound: before anything is placed.
     fn check_calls(&mut self) {
         let mut sizes: Vec<Option<Size>> = vec![None; self.document.groups.len()];
-        let mut on_path = vec![false; self.document.groups.len()];
+        // Definitions that nothing places are checked, too.
+        for root in 0..sizes.len() {
+            if let Err(finding) = self.measure(root, &mut sizes) {
+                self.findings.push(finding);
+                return;
+            }
+        }
+        if let Some(size) = sizes[0]
+            && let Some(finding) = self.too_large(size)
+        {
+            self.findings.push(finding);
+        }
+    }
+
+    /// Sizes of `root` and of all that it places, without recursion.
+    fn measure(&self, root: usize, sizes: &mut [Option<Size>]) -> Result<(), Diagnostic> {
+        if sizes[root].is_some() {
+            return Ok(());
+        }
+        let mut on_path = FxHashSet::from_iter([root]);
         // Each entry: a group and the call of its that is looked at next.
-        let mut path: Vec<(usize, usize)> = vec![(0, 0)];
-        on_path[0] = true;
+        let mut path: Vec<(usize, usize)> = vec![(root, 0)];
         while let Some(&mut (row, ref mut next)) = path.last_mut() {
             let idx = *next;
             *next += 1;
-            let statements = &self.document.groups[row].statements;
-            let Some(node) = statements.get(idx) else {
-                sizes[row] = Some(self.size(row, &sizes));
-                on_path[row] = false;
+            let Some(node) = self.document.groups[row].statements.get(idx) else {
+                sizes[row] = Some(self.size(row, sizes));
+                on_path.remove(&row);
                 path.pop();
                 continue;
             };
@@ -357,44 +385,61 @@ impl<'d> Resolver<'d, '_> {
             else {
                 continue;
             };
-            if on_path[target] || path.len() > MAX_CHAIN {
-                let finding = if on_path[target] { self.recursion(call) } else { too_long(call) };
-                self.findings.push(finding);
-                return;
+            if on_path.contains(&target) {
+                return Err(self.recursion(call));
+            }
+            // The file itself is no link of the chain.
+            let below = sizes[target].map_or(1, |size| size.levels);
+            if path.len() - 1 + below > MAX_CHAIN {
+                return Err(too_long(call));
             }
             if sizes[target].is_none() {
-                on_path[target] = true;
+                on_path.insert(target);
                 path.push((target, 0));
             }
         }
-        if let Some(Size { statements, .. }) = sizes[0]
-            && statements > MAX_PLACED
-        {
-            self.findings.push(self.too_many(&sizes, statements));
-        }
+        Ok(())
     }
 
-    /// Statements a group comes to, those of the groups it places included.
+    /// What a group comes to, the groups it places included.
     fn size(&self, row: usize, sizes: &[Option<Size>]) -> Size {
-        let mut total = Size { statements: 0, largest_call: None };
+        let mut total = Size::default();
         let mut largest = 0;
         for (node, link) in self.document.groups[row].statements.iter().zip(&self.links.statements[row]) {
-            let mut own = 1u64;
-            if let (Statement::Call(call), Some((target, _))) = (&node.statement, link.call) {
-                let copies = match call.repeat {
-                    Repeat::Once => 1,
-                    Repeat::Times(copies, _) => copies,
-                };
-                let each = sizes[target].map_or(0, |size| size.statements);
-                own = copies.saturating_mul(each.saturating_add(1));
-                if own > largest {
-                    largest = own;
-                    total.largest_call = Some(call.definition);
+            let own = match (&node.statement, link.call) {
+                (Statement::Call(call), Some((target, label))) => {
+                    let each = sizes[target].unwrap_or_default();
+                    let label = &self.links.labels[row][label];
+                    let own = each.placed(copies(call), label.len());
+                    if own.statements > largest {
+                        largest = own.statements;
+                        total.largest_call = Some(call.definition);
+                    }
+                    own
                 }
-            }
-            total.statements = total.statements.saturating_add(own);
+                (statement, _) => self.statement_size(statement),
+            };
+            total.add(&own);
         }
+        total.levels += 1;
         total
+    }
+
+    /// What one statement that places nothing comes to.
+    fn statement_size(&self, statement: &Statement) -> Size {
+        let name = match statement {
+            Statement::Vertex(vertex) => Some(vertex.name),
+            Statement::Face(face) | Statement::Wire(face) => face.name,
+            Statement::Light(light) => light.name,
+            Statement::Camera(camera) => camera.name,
+            _ => None,
+        };
+        let corners = match statement {
+            Statement::Face(face) | Statement::Wire(face) => self.reference_range(face).len() as u64,
+            _ => 0,
+        };
+        let name_bytes = name.map_or(0, |name| name.len() as u64);
+        Size { statements: 1, corners, names: u64::from(name.is_some()), name_bytes, ..Size::default() }
     }
 
     fn recursion(&self, call: &CallStatement) -> Diagnostic {
@@ -404,14 +449,29 @@ impl<'d> Resolver<'d, '_> {
             .help("a definition may not place itself, directly or through others")
     }
 
-    fn too_many(&self, sizes: &[Option<Size>], statements: u64) -> Diagnostic {
-        let place = sizes[0].and_then(|size| size.largest_call).unwrap_or_default();
-        let count =
-            if statements == u64::MAX { "too many to count".to_string() } else { statements.to_string() };
-        Diagnostic::error(place, format!("the placed scene would have {count} statements"))
-            .label("most of them from here")
-            .help(format!("the limit is {MAX_PLACED}; use smaller arrays"))
+    /// The message for a scene that is too large to place.
+    fn too_large(&self, size: Size) -> Option<Diagnostic> {
+        let (count, limit, what) = [
+            (size.statements, MAX_PLACED, "statements"),
+            (size.corners, MAX_CORNERS, "corners of faces"),
+            (size.name_bytes, MAX_NAME_BYTES, "bytes of names"),
+        ]
+        .into_iter()
+        .find(|&(count, limit, _)| count > limit)?;
+        let count = if count == u64::MAX { "too many".to_string() } else { count.to_string() };
+        let place = size.largest_call.unwrap_or_default();
+        Some(
+            Diagnostic::error(place, format!("the placed scene would have {count} {what}"))
+                .label("most of them from here")
+                .help(format!("the limit is {limit}; use smaller arrays")),
+        )
     }
+}
+
+fn long_color_names(span: Span) -> Diagnostic {
+    Diagnostic::error(span, "the names of colours, with those of their definitions before them, are too long")
+        .label("this one is too much")
+        .help("use shorter names for definitions that hold colours")
 }
 
 fn too_long(call: &CallStatement) -> Diagnostic {
@@ -433,12 +493,48 @@ struct Vertices<'d> {
     nodes: Vec<u32>,
 }
 
-/// What a group comes to when it is placed.
-#[derive(Clone, Copy)]
+fn copies(call: &CallStatement) -> u64 {
+    match call.repeat {
+        Repeat::Once => 1,
+        Repeat::Times(copies, _) => copies,
+    }
+}
+
+/// What a group comes to when it is placed; sums stop at the largest number.
+#[derive(Clone, Copy, Default)]
 struct Size {
     statements: u64,
+    corners: u64,
+    names: u64,
+    name_bytes: u64,
+    /// Length of the longest chain of groups that place each other.
+    levels: usize,
     /// Where most of it comes from.
     largest_call: Option<Span>,
+}
+
+impl Size {
+    /// The size of that many copies, whose names get a path with `label` in it.
+    fn placed(&self, copies: u64, label: usize) -> Self {
+        // The colon, and the number of a copy of an array.
+        let added = label as u64 + 1 + if copies > 1 { 9 } else { 2 };
+        let name_bytes = self.name_bytes.saturating_add(self.names.saturating_mul(added));
+        Self {
+            statements: copies.saturating_mul(self.statements.saturating_add(1)),
+            corners: copies.saturating_mul(self.corners),
+            names: copies.saturating_mul(self.names),
+            name_bytes: copies.saturating_mul(name_bytes),
+            ..*self
+        }
+    }
+
+    fn add(&mut self, other: &Self) {
+        self.statements = self.statements.saturating_add(other.statements);
+        self.corners = self.corners.saturating_add(other.corners);
+        self.names = self.names.saturating_add(other.names);
+        self.name_bytes = self.name_bytes.saturating_add(other.name_bytes);
+        self.levels = self.levels.max(other.levels);
+    }
 }
 
 /// Names for the calls of a group, unique in it.

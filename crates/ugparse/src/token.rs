@@ -28,8 +28,10 @@ pub(crate) enum Reason {
     NotFinite,
     /// A comment or escape is not closed; `at` is its first byte.
     Unclosed(&'static str),
-    /// Value out of range: what is wrong, what to do.
-    Range(&'static str, &'static str),
+    /// The number is not one of those allowed: what to do.
+    OutOfRange(&'static str),
+    /// So many words from here on mean what cannot be: what is wrong, what to do.
+    Impossible(usize, &'static str, &'static str),
 }
 
 impl<'a> nom::error::ParseError<Input<'a>> for Trouble<'a> {
@@ -60,13 +62,57 @@ pub(crate) fn require<'a, T>(result: Parsed<'a, T>) -> Parsed<'a, T> {
     })
 }
 
+/// Says what would have been welcome in place of the parser's own words.
+pub(crate) fn wanted<'a, T>(result: Parsed<'a, T>, what: &'static str) -> Parsed<'a, T> {
+    result.map_err(|err| match err {
+        Err::Error(Trouble { at, .. }) => Err::Error(Trouble { at, reason: Reason::Expected(what) }),
+        other => other,
+    })
+}
+
+/// What a byte can be, as bits.
+const BLANK: u8 = 1;
+const ENDS_WORD: u8 = 2;
+const ID_START: u8 = 4;
+const ID: u8 = 8;
+
+/// The bits of every byte: one look-up instead of a chain of comparisons.
+static CLASS: [u8; 256] = {
+    let mut class = [0; 256];
+    let mut idx = 0;
+    while idx < 256 {
+        let byte = idx as u8;
+        let blank = byte.is_ascii_whitespace() || byte == 0x0B;
+        let punctuation = matches!(byte, b'(' | b')' | b';' | b'<' | b'>' | b'{' | b'}' | b'"');
+        let id_start = byte.is_ascii_alphabetic() || matches!(byte, b':' | b'_' | b'#');
+        if blank {
+            class[idx] |= BLANK;
+        }
+        if blank || punctuation {
+            class[idx] |= ENDS_WORD;
+        }
+        if id_start {
+            class[idx] |= ID_START;
+        }
+        if id_start || byte.is_ascii_digit() {
+            class[idx] |= ID;
+        }
+        idx += 1;
+    }
+    class
+};
+
+fn is(byte: u8, bits: u8) -> bool {
+    CLASS[byte as usize] & bits != 0
+}
+
 /// True for bytes that end a word.
 fn ends_word(byte: u8) -> bool {
-    byte.is_ascii_whitespace() || matches!(byte, 0x0B | b'(' | b')' | b';' | b'<' | b'>' | b'{' | b'}' | b'"')
+    is(byte, ENDS_WORD)
 }
 
 fn is_blank(byte: u8) -> bool {
-    byte.is_ascii_whitespace() || byte == 0x0B
+    is(byte, BLANK)
 }
 
 /// Skips white space and comments.
@@ -129,16 +175,18 @@ pub(crate) fn found(input: Input<'_>) -> Input<'_> {
     &input[..word_len(input).max(1).min(input.len())]
 }
 
+/// What a name consists of, for messages.
+pub(crate) const NAME_LETTERS: &str = "a name of letters, digits, `:`, `_` and `#`";
+
 /// An identifier: letters, digits, `:`, `_`, `#`, not starting with a digit.
 pub(crate) fn identifier(input: Input<'_>) -> Parsed<'_, Input<'_>> {
     let (input, ()) = blank(input)?;
-    let starts = |byte: u8| byte.is_ascii_alphabetic() || matches!(byte, b':' | b'_' | b'#');
-    if !input.first().is_some_and(|&byte| starts(byte)) {
+    if !input.first().is_some_and(|&byte| is(byte, ID_START)) {
         return backtrack(input, Reason::Expected("a name"));
     }
-    let len = input.iter().position(|&byte| !(starts(byte) || byte.is_ascii_digit())).unwrap_or(input.len());
+    let len = input.iter().position(|&byte| !is(byte, ID)).unwrap_or(input.len());
     if input.get(len).is_some_and(|&byte| !ends_word(byte)) {
-        return fail(input, Reason::Expected("a name of letters, digits, `:`, `_` and `#`"));
+        return fail(input, Reason::Expected(NAME_LETTERS));
     }
     Ok((&input[len..], &input[..len]))
 }

@@ -27,7 +27,7 @@ impl Transform {
 
     /// `-sv`: by `factor` along a vector. `None` for the zero vector.
     pub fn scale_along(vector: DVec3, factor: f64) -> Option<Self> {
-        let unit = vector.try_normalize()?;
+        let unit = unit(vector)?;
         Some(Self::linear(DMat3::IDENTITY + outer(unit) * (factor - 1.0)))
     }
 
@@ -38,13 +38,13 @@ impl Transform {
 
     /// `-tv`: by `amount` along a vector. `None` for the zero vector.
     pub fn translate_along(vector: DVec3, amount: f64) -> Option<Self> {
-        Some(Self::translate(vector.try_normalize()? * amount))
+        Some(Self::translate(unit(vector)? * amount))
     }
 
     /// `-rx -ry -rz -rv`: counterclockwise seen from the tip of the axis.
     /// `None` for the zero vector.
     pub fn rotate(axis: DVec3, degrees: f64) -> Option<Self> {
-        let k = axis.try_normalize()?;
+        let k = unit(axis)?;
         let (sin, cos) = sin_cos_degrees(degrees);
         let cross = DMat3::from_cols(
             DVec3::new(0.0, k.z, -k.y),
@@ -92,29 +92,42 @@ impl Transform {
     }
 
     pub fn point(&self, p: DVec3) -> DVec3 {
-        self.map.transform_point3(p)
+        // What is not moved keeps its bits; sums with 0 would lose the sign of -0.
+        if self.map == DAffine3::IDENTITY { p } else { self.map.transform_point3(p) }
     }
 
     pub fn direction(&self, d: DVec3) -> DVec3 {
-        self.map.transform_vector3(d)
+        if self.map.matrix3 == DMat3::IDENTITY { d } else { self.map.transform_vector3(d) }
     }
 
     /// A normal: by the inverse transpose. A map that flattens space leaves the
     /// normal along the flattened direction.
     pub fn normal(&self, n: DVec3) -> DVec3 {
         let m = self.map.matrix3;
-        let [a, b, c] = [m.x_axis, m.y_axis, m.z_axis];
+        let largest = [m.x_axis, m.y_axis, m.z_axis].map(|axis| axis.abs().max_element());
+        let largest = largest.into_iter().fold(0.0, f64::max);
+        // What is only moved keeps its normals to the bit.
+        if m == DMat3::IDENTITY || largest == 0.0 {
+            return n;
+        }
+        // Entries up to 1, so that their products neither overflow nor vanish.
+        let [a, b, c] = [m.x_axis, m.y_axis, m.z_axis].map(|axis| axis / largest);
         // The cofactor matrix is det times the inverse transpose, and exists always.
-        let cofactor = DMat3::from_cols(b.cross(c), c.cross(a), a.cross(b));
-        let image = cofactor * n;
-        let sign = if m.determinant() < 0.0 { -1.0 } else { 1.0 };
-        if image == DVec3::ZERO { n } else { image.normalize() * (sign * n.length()) }
+        let image = DMat3::from_cols(b.cross(c), c.cross(a), a.cross(b)) * n;
+        let sign = if a.dot(b.cross(c)) < 0.0 { -1.0 } else { 1.0 };
+        unit(image).map_or(n, |image| image * (sign * n.length()))
     }
 
     /// True if every entry is finite.
     pub fn is_finite(&self) -> bool {
         self.map.is_finite()
     }
+}
+
+/// A vector of length 1, also of one whose square has no f64. `None` for the zero vector.
+fn unit(vector: DVec3) -> Option<DVec3> {
+    let largest = vector.abs().max_element();
+    (largest > 0.0).then(|| (vector / largest).normalize())
 }
 
 fn outer(k: DVec3) -> DMat3 {

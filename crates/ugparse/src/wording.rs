@@ -1,0 +1,86 @@
+//! What messages about single words and statements say.
+
+use crate::diagnostic::Diagnostic;
+use crate::grammar::{KEYWORDS, NAME};
+use crate::source::Span;
+use crate::token::{Input, NAME_LETTERS, word};
+
+/// The message for a first word that is none of ours.
+pub(crate) fn no_statement(word: &[u8], span: Span) -> Diagnostic {
+    let finding = Diagnostic::error(span, format!("`{}` is no statement", shorten(word)));
+    let lower = word.to_ascii_lowercase();
+    let is_keyword = |word: &[u8]| KEYWORDS.split(' ').any(|keyword| keyword.as_bytes() == word);
+    match word {
+        b"}" => finding.label("closes nothing").help("remove it, or open its comment with `{`"),
+        b"#" | b"#line" => finding
+            .label("a line of the C preprocessor")
+            .help("run `cpp -P`, which leaves such lines out; -lax passes them on"),
+        b"include" | b"execute" | b"c_xyz" | b"c_bb" | b"c_spd" | b"surf" => finding
+            .label("not read yet")
+            .help(format!("only {KEYWORDS} and escapes are read; -lax passes others on")),
+        _ if is_keyword(&lower) => finding
+            .label("unknown statement")
+            .help(format!("keywords are lower case: `{}`", String::from_utf8_lossy(&lower))),
+        _ => finding.label("unknown statement").help(format!(
+            "a statement begins with one of {KEYWORDS}, or `(` for an escape; -lax passes unknown ones on"
+        )),
+    }
+}
+
+/// How to write the word that is meant: a number, or a name.
+pub(crate) fn word_help(wanted: &str, word: &[u8]) -> Option<String> {
+    let shown = shorten(word);
+    let looks_like_number = matches!(word, [b'0'..=b'9' | b'+' | b'-' | b'.', ..]);
+    let unsigned = shown.trim_start_matches(['+', '-']).to_ascii_lowercase();
+    match wanted {
+        "a number" if looks_like_number && shown.contains(',') => Some("write a decimal point".to_string()),
+        "a number" if ["nan", "inf", "infinity"].contains(&unsigned.as_str()) => {
+            Some("every number must be finite".to_string())
+        }
+        "a number" if looks_like_number => Some("numbers are written like `1`, `-.5` or `2e-3`".to_string()),
+        NAME | NAME_LETTERS if word.len() < 40 && word.iter().any(u8::is_ascii_alphanumeric) => {
+            let allowed = |c: char| c.is_ascii_alphanumeric() || matches!(c, ':' | '_' | '#');
+            let name: String = shown.chars().map(|c| if allowed(c) { c } else { '_' }).collect();
+            let begin = if name.starts_with(|c: char| c.is_ascii_digit()) { "_" } else { "" };
+            Some(format!("write for example `{begin}{name}`"))
+        }
+        _ => None,
+    }
+}
+
+/// Adds the form of the statement that begins at `input`.
+pub(crate) fn with_usage(finding: Diagnostic, input: Input<'_>) -> Diagnostic {
+    match word(input).ok().and_then(|(_, keyword)| usage(keyword)) {
+        Some(usage) => finding.help(format!("the form is `{usage}`")),
+        None => finding,
+    }
+}
+
+/// A word for a message: at most 40 characters, control characters blanked.
+pub(crate) fn shorten(word: &[u8]) -> String {
+    let text = String::from_utf8_lossy(word);
+    let clean = |c: char| if c.is_control() { '?' } else { c };
+    let mut short: String = text.chars().take(40).map(clean).collect();
+    if short.len() < text.len() {
+        short.push('…');
+    }
+    short
+}
+
+/// The form of a statement, for messages.
+fn usage(keyword: &[u8]) -> Option<&'static str> {
+    Some(match keyword {
+        b"v" => "v ID x y z [color] [nx ny nz] ;",
+        b"w" => "w [ID] (vertices) … [color] [< vx vy vz >] ;",
+        b"f" => "f [ID] (vertices) … [color] [illum] [< vx vy vz >] ;",
+        b"c" => "c [ID] lightness [hue [saturation [translucency]]] ;",
+        b"c_rgb" => "c_rgb [ID] red green blue [translucency] ;",
+        b"l" => "l [ID] intensity [x y z [radius]] [color] [< vx vy vz >] ;",
+        b"cam" => "cam [ID] [-ep x y z] [-vc x y z] [-ud x y z] [-va a b] … ;",
+        b"def" => "def ID ; … end ;",
+        b"end" => "end ;",
+        b"i" => "i [ID] (def [color] [-tx …]) [< vx vy vz >] ;",
+        b"a" => "a [ID] (def [color] [-tx …]) size [-tx …] [< vx vy vz >] ;",
+        _ => return None,
+    })
+}

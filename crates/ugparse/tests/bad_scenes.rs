@@ -1,0 +1,46 @@
+//! Every scene in `scenes/bad/` fails with the message written beside it.
+//!
+//! `UG_BLESS=1` records the messages anew; the difference is to be reviewed.
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking, its helpers too")]
+
+use std::path::{Path, PathBuf};
+
+use ugparse::{Options, Source};
+
+const MIN_SCENES: usize = 25;
+
+#[test]
+fn bad_scenes_fail_as_written() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/bad");
+    let scenes = files(&folder, "ug");
+    assert!(scenes.len() >= MIN_SCENES, "only {} scenes in {}", scenes.len(), folder.display());
+    let mut wrong = Vec::new();
+    for path in &scenes {
+        let name = format!("scenes/bad/{}", path.file_name().unwrap().to_str().unwrap());
+        let found =
+            match ugparse::parse(&Source::new(&name, std::fs::read(path).unwrap()), &Options::default()) {
+                Ok(_) => panic!("{name} can be read"),
+                Err(found) => found.render(false) + "\n",
+            };
+        let expected_path = path.with_extension("expected");
+        if std::env::var_os("UG_BLESS").is_some() {
+            std::fs::write(&expected_path, &found).unwrap();
+        }
+        let expected = std::fs::read_to_string(&expected_path).unwrap_or_default();
+        if found != expected {
+            wrong.push(format!("{name}\n--- expected\n{expected}--- found\n{found}"));
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+    let messages = files(&folder, "expected");
+    assert_eq!(messages.len(), scenes.len(), "a message without its scene in {}", folder.display());
+}
+
+/// The files of a folder with an extension, sorted.
+fn files(folder: &Path, extension: &str) -> Vec<PathBuf> {
+    let entries = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+    let mut files: Vec<PathBuf> =
+        entries.filter(|path| path.extension().is_some_and(|e| e == extension)).collect();
+    files.sort();
+    files
+}

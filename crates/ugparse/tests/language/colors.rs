@@ -1,0 +1,95 @@
+//! Which colour a face has.
+
+use crate::{check_error, check_rest};
+
+const FACE: &str = "v a 0 0 0; v b 1 0 0; v c 0 1 0; ";
+
+#[test]
+fn own_color_beats_instance_beats_unnamed_beats_none() {
+    let row = |text: &str, expected: &[&str]| {
+        let text = text.replace("FACE", FACE);
+        check_rest(
+            &format!("c r 1 0; c g 1 120; {text}"),
+            &[&["c r 1 0 1;", "c g 1 120 1;"], expected].concat(),
+        );
+    };
+    row("FACE f (a b c);", &["f (a b c);"]);
+    row("FACE f (a b c) r;", &["f (a b c) r;"]);
+    row(
+        "FACE f (a b c); c .5; f (a b c); c .25; f (a b c); f (a b c) r; w (a b);",
+        &[
+            "c unnamed#2 0.5;",
+            "c unnamed#3 0.25;",
+            "f (a b c);",
+            "f (a b c) unnamed#2;",
+            "f (a b c) unnamed#3;",
+            "f (a b c) r;",
+            "w (a b) unnamed#3;",
+        ],
+    );
+    let def = "def d; FACE f (a b c); f (a b c) g; w (a b); end; ";
+    let placed = |color: &str| {
+        [format!("f (d:a d:b d:c){color};"), "f (d:a d:b d:c) g;".to_string(), format!("w (d:a d:b){color};")]
+    };
+    let strs = |lines: &[String]| lines.iter().map(|line| line.as_str().to_string()).collect::<Vec<_>>();
+    let row_of = |text: &str, first: &[&str], color: &str| {
+        let lines = strs(&placed(color));
+        let lines: Vec<&str> = first.iter().copied().chain(lines.iter().map(String::as_str)).collect();
+        row(text, &lines);
+    };
+    row_of(&format!("{def} i (d);"), &[], "");
+    row_of(&format!("{def} i (d r);"), &[], " r");
+    // The unnamed colour in force where the face stands, not where it is placed.
+    row_of(&format!("{def} c .5; i (d);"), &["c unnamed#2 0.5;"], "");
+    row_of(&format!("c .5; {def} i (d);"), &["c unnamed#2 0.5;"], " unnamed#2");
+    row_of(&format!("c .5; {def} i (d r);"), &["c unnamed#2 0.5;"], " r");
+    row_of(
+        "def d; c .5; FACE f (a b c); f (a b c) g; w (a b); end; i (d);",
+        &["c d:unnamed#2 0.5;"],
+        " d:unnamed#2",
+    );
+}
+
+#[test]
+fn the_innermost_instance_that_names_a_color_gives_it() {
+    let text = format!(
+        "c r 1 0; c g 1 120; def d; {FACE} f (a b c); end; def e; i (d); i x (d g); end; i (e r); a y (e) 1;"
+    );
+    check_rest(
+        &text,
+        &[
+            "c r 1 0 1;",
+            "c g 1 120 1;",
+            "f (e:d:a e:d:b e:d:c) r;",
+            "f (e:x:a e:x:b e:x:c) g;",
+            "f (y#0:d:a y#0:d:b y#0:d:c);",
+            "f (y#0:x:a y#0:x:b y#0:x:c) g;",
+        ],
+    );
+}
+
+#[test]
+fn vertices_and_lights_have_only_their_own() {
+    let text = "c r 1 0; c .5; def d; v a 0 0 0; v b 0 0 0 r; l 1; l 1 r; end; i (d r);";
+    let out = crate::flat(text);
+    for line in ["v d:a 0 0 0;", "v d:b 0 0 0 r;", "l 1;", "l 1 r;"] {
+        assert!(out.lines().any(|other| other == line), "{line}\n{out}");
+    }
+}
+
+#[test]
+fn names_of_colors() {
+    // A colour may be used before it is defined; not twice in one scope.
+    check_rest(&format!("{FACE} f (a b c) late; c late 1;"), &["c late 1;", "f (a b c) late;"]);
+    check_error("c a 1; c_rgb a 1 1 1;", "colour `a` is defined twice");
+    // An inner scope hides the outer one, and its colours get its name.
+    check_rest(
+        &format!("c x 1; def d; c x .5; {FACE} f (a b c) x; end; {FACE} f (a b c) x; i (d);"),
+        &["c x 1;", "c d:x 0.5;", "f (a b c) x;", "f (d:a d:b d:c) d:x;"],
+    );
+    // Colours of a definition are not seen outside.
+    check_error(&format!("def d; c x .5; end; {FACE} f (a b c) x;"), "colour `x` is not defined");
+    // A name that we make gives way to one that was written.
+    check_rest("c .5; c unnamed#0 1;", &["c unnamed#0 0.5;", "c unnamed#0_2 1;"]);
+    check_rest("c d:x 1; def d; c x .5; end;", &["c d:x 1;", "c d:x_2 0.5;"]);
+}

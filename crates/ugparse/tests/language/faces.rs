@@ -1,0 +1,71 @@
+//! Holes, and faces that are none.
+
+use crate::{TRIANGLE, check_rest, parse_with, warnings};
+
+const SQUARE: &str =
+    "v a 0 0 0; v b 4 0 0; v c 4 4 0; v d 0 4 0; v e 1 1 0; v f 2 1 0; v g 2 2 0; v h 1 2 0; ";
+
+#[test]
+fn holes_are_kept_in_order() {
+    check_rest(&format!("{SQUARE} f (a b c d) (e h g f);"), &["f (a b c d) (e h g f);"]);
+    check_rest(&format!("{SQUARE} f roof (a b c d)(e f g)(g h e);"), &["f roof (a b c d) (e f g) (g h e);"]);
+    // A mirrored face is turned over, contour by contour, and keeps its first vertices.
+    check_rest(
+        &format!("def t; {SQUARE} f (a b c d) (e h g f); end; i m (t -mx);"),
+        &["f (m:a m:d m:c m:b) (m:e m:f m:g m:h);"],
+    );
+}
+
+#[test]
+fn degenerate_faces_are_left_out_with_a_warning() {
+    let row = |face: &str, expected: &str| {
+        let text = format!("{SQUARE} v i 8 0 0; v j 1e-300 0 0; v k 0 1e-300 0; {face}");
+        check_rest(&text, &[]);
+        assert_eq!(warnings(&text, false), [expected], "{face}");
+    };
+    row("f (a b);", "face has a contour of fewer than 3 different vertices");
+    row("f roof (a);", "face `roof` has a contour of fewer than 3 different vertices");
+    row("f (a b a b a);", "face has a contour of fewer than 3 different vertices");
+    row("f (a b c d) (e f);", "face has a contour of fewer than 3 different vertices");
+    row("f line (a b i);", "face `line` has no area");
+    row("f (a b c b);", "face has no area");
+    row("f (a j k);", "face has no area");
+    row("w (a);", "wire has a contour of fewer than 2 vertices");
+    row("w edge (a b) (c);", "wire `edge` has a contour of fewer than 2 vertices");
+    assert_eq!(warnings(&format!("{SQUARE} f (a b c); f (a a b c); w (a a);"), false), [""; 0]);
+}
+
+#[test]
+fn a_warning_reads_well() {
+    let text = format!("{TRIANGLE}\nf roof (a b a);\n");
+    let parsed = parse_with(text, false);
+    assert_eq!(
+        parsed.warnings.render(false),
+        "\
+warning: face `roof` has a contour of fewer than 3 different vertices
+ --> test.ug:2:3
+  |
+2 | f roof (a b a);
+  |   ^^^^ left out
+  |
+help: remove it, or mend its vertices"
+    );
+}
+
+#[test]
+fn faces_squashed_by_their_instance_are_left_out() {
+    let text = format!("def t; {TRIANGLE} f roof (a b c); end; a row (t -sx 0) 3 -tz 1; i good (t);");
+    check_rest(&text, &["f good:roof (good:a good:b good:c);"]);
+    assert_eq!(warnings(&text, false), ["face has no area where it is placed"], "once, not for every copy");
+    // Too far away to have a size in f64.
+    let text = format!("def t; {TRIANGLE} f (a b c); end; i (t -tx 1e200);");
+    check_rest(&text, &[]);
+}
+
+#[test]
+fn comments_of_faces_left_out_are_kept() {
+    check_rest(
+        &format!("{TRIANGLE}\n{{ bad }}\nf (a b);\n{{ good }}\nf (a b c);"),
+        &["{ bad }", "{ good }", "f (a b c);"],
+    );
+}

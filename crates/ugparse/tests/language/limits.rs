@@ -1,0 +1,185 @@
+//! Bombs: small texts that ask for too much. Each is refused, or read, in little time and memory.
+
+use std::time::{Duration, Instant};
+
+use ugparse::{Options, Source};
+
+use crate::{TRIANGLE, errors, flat, parse, write};
+
+/// Far above what any row needs, far below what a scene that is really expanded would take.
+const SOON: Duration = Duration::from_secs(20);
+
+#[track_caller]
+fn refused(text: impl AsRef<[u8]>, expected: &str) {
+    let start = Instant::now();
+    let errors = errors(text);
+    assert!(errors.len() == 1 && errors[0].starts_with(expected), "{expected}: {:?}", errors.first());
+    assert!(start.elapsed() < SOON, "{expected}: {:?}", start.elapsed());
+}
+
+#[test]
+fn large_arrays_are_refused_before_they_are_placed() {
+    let def = "def d; v p 0 0 0; end; ";
+    refused(format!("{def} a (d) 1000000000;"), "the placed scene would have 2000000001 statements");
+    refused(
+        format!("{def} a (d) 99999999999999999999999999;"),
+        "the placed scene would have too many statements",
+    );
+    refused("def d; end; a (d) 1000000000;", "the placed scene would have 1000000001 statements");
+    let nested = format!("{def} def e; a (d) 10000; end; a (e) 10000;");
+    refused(nested, "the placed scene would have");
+    // Two to the thousandth, were it not for the length of the chain: two to the sixtieth.
+    let doubling: String = (1..60).fold(def.to_string(), |text, idx| {
+        let inner = if idx == 1 { "d".to_string() } else { format!("d{}", idx - 1) };
+        text + &format!("def d{idx}; i ({inner}); i ({inner}); end; ")
+    });
+    refused(doubling + "i (d59);", "the placed scene would have");
+    let corners = "a b c ".repeat(100_000);
+    refused(
+        format!("def d; {TRIANGLE} f ({corners}); end; a (d) 10000;"),
+        "the placed scene would have 3000000000 corners",
+    );
+    // Ten thousand million bytes of names.
+    let name = "n".repeat(100_000);
+    refused(format!("{def} a {name} (d) 100000;"), "the placed scene would have 10001");
+    refused(format!("def d; v {name} 0 0 0; end; a (d) 100000;"), "the placed scene would have 10001");
+}
+
+#[test]
+fn long_chains_are_refused() {
+    let chain = |n: usize| {
+        let defs: String = (1..n).map(|idx| format!("def d{idx}; i (d{}); end;\n", idx - 1)).collect();
+        format!("def d0; v p 0 0 0; end;\n{defs}")
+    };
+    refused(chain(100_000) + "i (d99999);", "definitions place each other in too long a chain");
+    refused(chain(100_000), "definitions place each other in too long a chain");
+    // Every link placed by itself first, so that each was measured when the next is.
+    let calls: String = (0..3000).map(|idx| format!("i (d{idx});\n")).collect();
+    refused(chain(3000) + &calls, "definitions place each other in too long a chain");
+    let deepest = chain(200) + "i (d199);";
+    assert_eq!(parse(&deepest).vertices.len(), 1);
+    refused(chain(201) + "i (d200);", "definitions place each other in too long a chain");
+    let circle = chain(100_000).replace("def d0; v p 0 0 0; end;", "def d0; i (d99999); end;");
+    refused(circle, "definition");
+}
+
+#[test]
+fn definitions_nest_64_deep() {
+    let nested = |n: usize| {
+        format!("{}v p 0 0 0;{}", "def d;".repeat(n), "i (d); end;".repeat(n)).replacen(
+            "i (d); end;",
+            "end;",
+            1,
+        )
+    };
+    assert_eq!(parse(nested(64) + "i (d);").vertices.len(), 1);
+    refused(nested(65), "definitions nest too deeply");
+    refused(nested(100_000), "definitions nest too deeply");
+    refused("def d;".repeat(100_000), "definitions nest too deeply");
+}
+
+#[test]
+fn deep_comments_and_escapes_are_read() {
+    let deep = |open: &str, close: &str| format!("{}{}", open.repeat(100_000), close.repeat(100_000));
+    assert_eq!(flat(deep("{", "}") + "v p 0 0 0;").lines().count(), 2);
+    assert_eq!(flat(format!("v p 0 {} 0 0;", deep("{", "}"))).lines().count(), 2);
+    assert_eq!(flat(deep("(", ")")).lines().count(), 1);
+    refused("{".repeat(100_000), "this comment is not closed");
+    refused("(".repeat(100_000), "this escape is not closed");
+    refused(format!("v a 0 0 0 {}", "{".repeat(100_000)), "this comment is not closed");
+    refused("f (".repeat(100_000), "expected a vertex name or `)`, found `(`");
+}
+
+#[test]
+fn long_words_are_read() {
+    let digits = "1234567890".repeat(1000);
+    refused(
+        format!("v a {digits} 0 0;"),
+        "the number `1234567890123456789012345678901234567890…` is too large",
+    );
+    assert_eq!(parse(format!("v a 0.{digits} 0 0;")).vertices[0].position.x, 0.123_456_789_012_345_68);
+    let zeros = "0".repeat(10_000);
+    assert_eq!(
+        parse(format!("v a {zeros}7.5{zeros} 0.{zeros}1 1e-{digits};")).vertices[0].position.to_array(),
+        [7.5, 0.0, 0.0]
+    );
+    refused(format!("def d; end; a (d) {digits};"), "the placed scene would have");
+    let name = "n".repeat(1_000_000);
+    assert_eq!(flat(format!("v {name} 0 0 0;")).len(), 1_000_000 + 10);
+    refused(format!("f ({name});"), "vertex `nnnnnnnnnn");
+}
+
+#[test]
+fn many_bodies_are_read_soon() {
+    let faces: String =
+        (0..100_000).map(|idx| format!("f (a b c) <{} 0 0>;\n", f64::from(idx) / 100_001.0)).collect();
+    let start = Instant::now();
+    assert_eq!(parse(format!("{TRIANGLE} {faces}")).velocities.len(), 100_000);
+    assert!(start.elapsed() < SOON, "{:?}", start.elapsed());
+}
+
+#[test]
+fn at_most_20_errors_are_listed() {
+    let bad = "v 1 0 0 0;\n".repeat(1000);
+    assert_eq!(errors(&bad).len(), 20);
+    let source = Source::new("bad.ug", format!("f ({});", "nothing ".repeat(1000)));
+    let found = ugparse::parse(&source, &Options::default()).unwrap_err();
+    assert_eq!((found.list.len(), found.omitted), (20, 980));
+    assert!(found.render(false).ends_with("… and 980 more"));
+}
+
+#[test]
+fn odd_bytes_are_refused_outside_comments() {
+    refused(b"\0", "`?` is no statement");
+    refused(b"v a 0 0 0;\n\xff\xfe", "`\u{fffd}\u{fffd}` is no statement");
+    refused(b"v a\xff 0 0 0;", "expected a name of letters, digits, `:`, `_` and `#`, found `a\u{fffd}`");
+    refused(b"v a \0 0 0;", "expected a number, found `?`");
+    refused("\u{feff}v a 0 0 0;", "`\u{feff}v` is no statement");
+    assert_eq!(flat(b"{\0\xff}v a 0 0 0;"), "{\0\u{fffd}}\nv a 0 0 0;\n");
+}
+
+/// A scene with one of everything.
+const EVERYTHING: &str = "{ head {nested} }\nc red 1 0; c_rgb g .5 1 0 .25; c .5 200 .5;\n( escape (nested) )\n\
+    v a 0 0 0; v b 1 0 0 red; v c 0 1 0 0 0 1; v d 1 1 0 g 0 0 -1.5e-3; { behind }\n\
+    f roof (a b d c) (a c b) red .5 <.1 -.2 0>;\nw edge (a b) (c d) g;\n\
+    def part; def inner; v p 1 2 3; v q 2 2 3; v r 2 3 3; f (p q r); end;\n\
+    i (inner red -M3 1 0 0 0 2 0 0 0 1) <0 0 .5>; a row (inner -rx 90) 3 -tx 5 -mx; end;\n\
+    i car (part -M4 1 0 0 0 0 1 0 0 0 0 1 0 3 4 5 1); l sun .7 1 -1 2 g; l .3; l lamp 1 0 0 5 .25 <0 0 .1>;\n\
+    cam eye -ep 0 -12 3 -vc 0 0 0 -ud 0 0 1 -cl 1 99 -ph 0 0 1 1 -va 40 30 -ps; { end }";
+
+/// A scene cut off anywhere is a shorter scene, or an error that says where.
+#[test]
+fn scenes_cut_off_anywhere_are_read_or_refused() {
+    let mut scenes = vec![EVERYTHING.as_bytes().to_vec()];
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes");
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        // Every byte of every scene would take minutes; small ones show it as well.
+        if path.extension().is_some_and(|extension| extension == "ug") {
+            let text = std::fs::read(&path).unwrap();
+            if text.len() < 5000 {
+                scenes.push(text);
+            }
+        }
+    }
+    assert!(scenes.len() >= 5, "small scenes: {}", scenes.len());
+    let (mut read, mut refused) = (0, 0);
+    for text in &scenes {
+        let whole = parse(text);
+        for end in 0..text.len() {
+            match ugparse::parse(&Source::new("cut.ug", &text[..end]), &Options::default()) {
+                Ok(parsed) => {
+                    read += 1;
+                    assert!(parsed.scene.vertices.len() <= whole.vertices.len());
+                    parse(write(&parsed.scene));
+                }
+                Err(found) => {
+                    refused += 1;
+                    assert!(found.list.iter().all(|finding| finding.span.end as usize <= end));
+                    assert!(found.render(false).contains("--> cut.ug:"));
+                }
+            }
+        }
+    }
+    assert!(read > 100 && refused > 1000, "{read} {refused}");
+}

@@ -1,0 +1,78 @@
+//! The language, rule by rule: what is accepted, what it means, what is written.
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking, its helpers too")]
+
+mod arrays;
+mod colors;
+mod comments;
+mod docs;
+mod faces;
+mod limits;
+mod round_trip;
+mod scopes;
+mod statements;
+mod tokens;
+mod transforms;
+
+use ugparse::{Options, Parsed, Scene, Source};
+
+/// Three vertices to hang faces on.
+const TRIANGLE: &str = "v a 0 0 0; v b 1 0 0; v c 0 1 0; ";
+
+fn parse_with(text: impl AsRef<[u8]>, lax: bool) -> Parsed {
+    let text = text.as_ref();
+    let source = Source::new("test.ug", text);
+    ugparse::parse(&source, &Options { lax })
+        .unwrap_or_else(|found| panic!("{}\n{}", String::from_utf8_lossy(text), found.render(false)))
+}
+
+fn parse(text: impl AsRef<[u8]>) -> Scene {
+    parse_with(text, false).scene
+}
+
+fn write(scene: &Scene) -> String {
+    String::from_utf8(ugparse::write(scene)).expect("scenes are written as UTF-8")
+}
+
+/// A scene read and written again; what is written reads back to itself.
+fn flat(text: impl AsRef<[u8]>) -> String {
+    let parsed = parse_with(&text, true);
+    let out = write(&parsed.scene);
+    let again = parse_with(&out, true);
+    assert_eq!(write(&again.scene), out, "written, read and written again");
+    out
+}
+
+/// What is written for `text`, line by line.
+#[track_caller]
+fn check(text: &str, expected: &[&str]) {
+    let out = flat(text);
+    assert_eq!(out.lines().collect::<Vec<_>>(), expected, "{text}");
+}
+
+/// The same without the vertices.
+#[track_caller]
+fn check_rest(text: &str, expected: &[&str]) {
+    let out = flat(text);
+    let rest: Vec<&str> = out.lines().filter(|line| !line.starts_with("v ")).collect();
+    assert_eq!(rest, expected, "{text}");
+}
+
+/// The titles of all errors of a scene that cannot be read.
+fn errors(text: impl AsRef<[u8]>) -> Vec<String> {
+    let text = text.as_ref();
+    match ugparse::parse(&Source::new("test.ug", text), &Options::default()) {
+        Ok(_) => Vec::new(),
+        Err(found) => found.list.into_iter().map(|finding| finding.message).collect(),
+    }
+}
+
+/// `text` is refused with exactly one message.
+#[track_caller]
+fn check_error(text: &str, expected: &str) {
+    assert_eq!(errors(text), [expected], "{text}");
+}
+
+/// The titles of all warnings.
+fn warnings(text: &str, lax: bool) -> Vec<String> {
+    parse_with(text, lax).warnings.list.into_iter().map(|finding| finding.message).collect()
+}
