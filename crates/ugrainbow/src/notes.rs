@@ -58,11 +58,14 @@ fn why_nothing_is_seen(Outcome { reach, tally }: &Outcome) -> Option<&'static st
     if reach.in_front == 0 {
         return Some(
             "nothing is drawn: everything is behind the eye or outside the clipping distances; \
-             try another -ep or -vc",
+             try `uglorentz -in`, another -ep or -vc",
         );
     }
     if reach.in_picture == 0 {
-        return Some("nothing is drawn: everything is outside the picture; try another -vc or a wider -va");
+        return Some(
+            "nothing is drawn: everything is outside the picture, where fast bodies often are; \
+             try `uglorentz -in`, another -vc or a wider -va",
+        );
     }
     if tally.covered == 0 {
         return Some(

@@ -496,15 +496,14 @@ fn pictures_in_which_nothing_is_seen_say_why() {
     check(
         &format!("{square}; cam -ep 0 0 20 -vc 0 0 30 -ud 0 1 0;"),
         &config,
-        &[
-            "nothing is drawn: everything is behind the eye or outside the clipping distances; try another -ep \
-           or -vc",
-        ],
+        &["nothing is drawn: everything is behind the eye or outside the clipping distances; try \
+             `uglorentz -in`, another -ep or -vc"],
     );
     check(
         &format!("{square}; cam -ep 0 0 20 -vc 90 0 0;"),
         &config,
-        &["nothing is drawn: everything is outside the picture; try another -vc or a wider -va"],
+        &["nothing is drawn: everything is outside the picture, where fast bodies often are; \
+             try `uglorentz -in`, another -vc or a wider -va"],
     );
     check(
         &format!("{square}; cam -ep 30 0 0 -vc 0 0 0;"),
