@@ -113,21 +113,23 @@ impl Args {
     }
 }
 
-/// The program.
+/// The whole program.
 pub fn main() -> ExitCode {
-    ugpipe::main(|args: &Args, stage: &mut Stage| {
-        let config = args.config(stage.command_line())?;
-        let input = stage.input()?;
-        let scene =
-            crate::run(&config, &Source::new(input.name, input.text)).map_err(|error| match error {
-                Error::Scene(findings) => Failure::Report(findings.render(true)),
-                other => Failure::failed(other),
-            })?;
-        if !scene.warnings.is_empty() {
-            stage.report(&scene.warnings.render(true));
-        }
-        scene.notes.iter().for_each(|note| stage.note(note));
-        stage.detail(&format!("{} bytes", scene.text.len()));
-        stage.write(&scene.text)
-    })
+    ugpipe::main(run)
+}
+
+fn run(args: &Args, stage: &mut Stage) -> Result<(), Failure> {
+    let config = args.config(stage.command_line())?;
+    let input = stage.input()?;
+    let report = crate::run(&config, &Source::new(input.name, input.text)).map_err(|error| match error {
+        Error::Scene(findings) => Failure::Report(findings.render(true)),
+        error => Failure::failed(error),
+    })?;
+    if !report.warnings.is_empty() {
+        stage.report(&report.warnings.render(true));
+    }
+    report.notes.iter().for_each(|note| stage.note(note));
+    let text = report.text();
+    stage.detail(&format!("{} colours, {} bytes", report.scene.colors.len(), text.len()));
+    stage.write(&text)
 }

@@ -14,7 +14,7 @@
 //! let text = "c green 1 120; v a 9 0 0; v b 10 0 0; v c 10 1 0; f (a b c) green <-0.5 0 0>;";
 //! let source = ugparse::Source::new("scene.ug", text);
 //! let config = ugdoppler::Config { tolerance: 0.0, wavelengths: true, ..Default::default() };
-//! let seen = String::from_utf8(ugdoppler::run(&config, &source)?.text)?;
+//! let seen = String::from_utf8(ugdoppler::run(&config, &source)?.text())?;
 //! // It comes straight at the eye, so D = √3 and 546.1 nm is seen at 315.3 nm.
 //! assert!(seen.contains("c green#1_73205080756887") && seen.contains(" 1 315.29098200445"), "{seen}");
 //! # Ok::<(), Box<dyn std::error::Error>>(())
@@ -27,9 +27,9 @@ use std::fmt;
 
 use glam::DVec3;
 use rayon::prelude::*;
-use ugparse::{Diagnostics, Options, Parsed, Scene, Source};
+use ugparse::{Diagnostics, Face, Options, Scene, Source};
 use ugphysics::{Brightness, Velocity, VelocityError, doppler_at};
-use ugscene::{Bodies, Filtered, HueScale};
+use ugscene::{Bodies, HueScale};
 
 pub use cli::{Args, main};
 
@@ -119,29 +119,45 @@ impl From<VelocityError> for Error {
     }
 }
 
-/// Reads a scene as `uglorentz` writes it, and writes it with a colour on every
-/// vertex that a face or wire uses.
+/// What came of it.
+#[derive(Clone, Debug)]
+pub struct Report {
+    /// The scene with a colour on every vertex that a face or wire uses.
+    pub scene: Scene,
+    /// What the user should know.
+    pub notes: Vec<String>,
+    /// What the reader changed to make the scene usable.
+    pub warnings: Diagnostics,
+}
+
+impl Report {
+    /// The scene as text.
+    pub fn text(&self) -> Vec<u8> {
+        ugparse::write(&self.scene)
+    }
+}
+
+/// Reads a scene as `uglorentz` writes it, and colours it.
 ///
 /// # Errors
 /// What is wrong with the scene: [`Error`].
-pub fn run(config: &Config, source: &Source) -> Result<Filtered, Error> {
-    ugscene::filter(source, &Options { lax: config.lax }, |parsed| colour(config, source, parsed))
+pub fn run(config: &Config, source: &Source) -> Result<Report, Error> {
+    let parsed = ugparse::parse(source, &Options { lax: config.lax })?;
+    let bodies = Bodies::new(&parsed.scene, config.velocity)?;
+    let eye = ugscene::eye(&parsed.scene, config.eye);
+    if let Some(vertex) = ugscene::vertex_at_eye(&parsed.scene, eye, &bodies) {
+        return Err(ugscene::at_eye_error(source, &parsed, vertex).into());
+    }
+    let (scene, notes) = colour(parsed.scene, config, eye, &bodies);
+    Ok(Report { scene, notes, warnings: parsed.warnings })
 }
 
-fn colour(config: &Config, source: &Source, parsed: &Parsed) -> Result<(Scene, Vec<String>), Error> {
-    let mut scene = parsed.scene.clone();
-    let bodies = Bodies::new(&scene, config.velocity)?;
-    let eye = ugscene::eye(&scene, config.eye);
-    if let Some(vertex) = ugscene::vertex_at_eye(&scene, eye, &bodies) {
-        return Err(ugscene::at_eye_error(source, parsed, vertex).into());
-    }
+fn colour(mut scene: Scene, config: &Config, eye: DVec3, bodies: &Bodies) -> (Scene, Vec<String>) {
     ugscene::separate_bodies(&mut scene);
-    if config.repeat {
-        repeat_vertices(&mut scene);
-    }
-    let rest = ugscene::rest_positions(&scene, eye, &bodies);
+    repeat_vertices(&mut scene, config.repeat);
+    let rest = ugscene::rest_positions(&scene, eye, bodies);
     let colors = ugscene::vertex_colors(&scene, &rest, HueScale::Degrees);
-    let factors = doppler_factors(&scene, eye, &bodies);
+    let factors = doppler_factors(&scene, eye, bodies);
 
     let mut palette = Palette::new(&mut scene, config);
     let used = palette.used_vertices();
@@ -152,14 +168,21 @@ fn colour(config: &Config, source: &Source, parsed: &Parsed) -> Result<(Scene, V
     }
     let notes = palette.finish();
     ugscene::record(&mut scene, PROGRAM, env!("CARGO_PKG_VERSION"), &config.command_line);
-    Ok((scene, notes))
+    (scene, notes)
 }
 
-/// A vertex for every face colour that meets there, so that colours stay apart.
-/// A normal stays on every copy, and so shading stays smooth across them.
-fn repeat_vertices(scene: &mut Scene) {
-    let faces: Vec<_> = scene.faces.iter().map(|face| (face.contours.clone(), face.color)).collect();
-    ugscene::split_vertices(scene, &faces, |vertex| vertex.color.is_none());
+/// Gives wires vertices of their own, since a vertex can carry one colour only; and with `each_face_color`
+/// (`-vr`) a vertex for every face colour that meets there. A normal stays on every copy, so shading stays
+/// smooth across them.
+fn repeat_vertices(scene: &mut Scene, each_face_color: bool) {
+    if scene.wires.is_empty() && !each_face_color {
+        return;
+    }
+    let of_face = |face: &Face| (false, face.color.filter(|_| each_face_color));
+    let faces = scene.faces.iter().map(|face| (face.contours.clone(), of_face(face)));
+    let wires = scene.wires.iter().map(|wire| (wire.contours.clone(), (true, wire.color)));
+    let users: Vec<_> = faces.chain(wires).collect();
+    ugscene::split_vertices(scene, &users, |vertex| vertex.color.is_none());
 }
 
 /// D of every vertex, in its body's motion. (P10)

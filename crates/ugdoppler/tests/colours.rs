@@ -12,18 +12,19 @@ const SCENE: &str = "c green 0.5 120; c grey 0.4; c_rgb rose 1 0.5 0.5;
 
 fn colour(text: &str, config: &Config) -> (Scene, Vec<String>) {
     let out = run(config, &Source::new("t.ug", text)).unwrap_or_else(|error| panic!("{error}"));
-    let scene = ugparse::parse(&Source::new("out.ug", out.text), &Options::default()).unwrap().scene;
-    (scene, out.notes)
+    let scene = ugparse::parse(&Source::new("out.ug", out.text()), &Options::default());
+    (scene.unwrap_or_else(|findings| panic!("{findings}")).scene, out.notes)
 }
 
 fn moving(x: f64, y: f64, z: f64) -> Config {
-    let velocity = Velocity::from_beta(glam::DVec3::new(x, y, z)).unwrap();
-    Config { velocity, tolerance: 0.0, ..Config::default() }
+    let velocity = Velocity::from_beta(glam::DVec3::new(x, y, z));
+    Config { velocity: velocity.expect("a speed below 1"), tolerance: 0.0, ..Config::default() }
 }
 
 /// Name, value, hue and saturation of a vertex's colour.
 fn of(scene: &Scene, vertex: &str) -> (String, f64, f64, f64) {
-    let vertex = scene.vertices.iter().find(|v| scene.names.get(v.name) == vertex).unwrap();
+    let vertex = scene.vertices.iter().find(|v| scene.names.get(v.name) == vertex);
+    let vertex = vertex.expect("a vertex of that name");
     let color = &scene.colors[vertex.color.expect("a colour on every used vertex").index()];
     let name = scene.names.get(color.name).to_string();
     match color.value {
@@ -156,6 +157,20 @@ fn colours_mix_or_stay_apart() {
             assert!(of(&apart, &name).0.starts_with(base), "{name}");
         }
     }
+}
+
+#[test]
+fn wires_keep_their_colour_beside_faces() {
+    let text = "c pale 0.7 200 0.3; c line 1 55 0.9; c edge 1 10; v a -1 7 -1; v b 1 7 -1; v c 1 7 1;
+        f (a b c) pale; w (a b c) line; w (a c) edge;";
+    let scene = colour(text, &moving(0.1, 0.0, 0.0)).0;
+    for (wire, base) in scene.wires.iter().zip(["line#", "edge#"]) {
+        for corner in scene.contours.corners(wire.contours.clone()) {
+            let name = scene.names.get(scene.vertices[corner.index()].name).to_string();
+            assert!(of(&scene, &name).0.starts_with(base), "{name}");
+        }
+    }
+    assert!(of(&scene, "a").0.starts_with("pale#"));
 }
 
 #[test]

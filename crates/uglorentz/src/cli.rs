@@ -47,7 +47,7 @@ pub struct Args {
     #[arg(long = "in", visible_alias = "in-place")]
     in_place: bool,
 
-    /// Cut until the picture is right to ERR milliradians at the eye [default: 0.25]
+    /// Cut until the picture is right to ERR milliradians at the eye [default: 0.1]
     #[arg(long = "se", visible_alias = "error", value_name = "ERR", conflicts_with = "equal",
           allow_hyphen_values = true, value_parser = finite)]
     error: Option<f64>,

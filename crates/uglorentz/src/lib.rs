@@ -66,7 +66,6 @@ mod motion;
 mod notes;
 mod pieces;
 mod placement;
-mod polygon;
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -83,9 +82,9 @@ use crate::growth::Growth;
 use crate::motion::{Motion, Point};
 use crate::pieces::Outcome;
 
-/// Default of [`Pieces::UpTo`]: 0.25 milliradians, in radians. A pixel of a picture 40° wide and 1024 pixels
-/// across is 0.68.
-pub const DEFAULT_ERROR: f64 = 0.25e-3;
+/// Default of [`Pieces::UpTo`]: 0.1 milliradians, in radians. A pixel of a picture 40° wide and 1920 pixels
+/// across is 0.36, so no edge is off by a third of one.
+pub const DEFAULT_ERROR: f64 = 0.1e-3;
 
 /// What to do.
 #[derive(Clone, Debug)]

@@ -3,8 +3,6 @@
 use glam::DVec3;
 use ugparse::{Face, Scene, VertexId};
 
-use crate::polygon;
-
 /// A piece of a face that can be cut further: corners by vertex row, in the direction of the face.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Shape {
@@ -94,7 +92,7 @@ pub(crate) fn shape(scene: &Scene, face: &Face, rest: impl Fn(VertexId) -> DVec3
             return Some(Cut::Pieces(vec![Shape::Triangle([a.0, b.0, c.0])]));
         }
         if let &[a, b, c, d] = corners
-            && polygon::is_convex([a, b, c, d].map(&rest))
+            && ugscene::is_convex([a, b, c, d].map(&rest))
         {
             return Some(Cut::Pieces(vec![Shape::Quad([a.0, b.0, c.0, d.0])]));
         }
@@ -106,7 +104,7 @@ pub(crate) fn shape(scene: &Scene, face: &Face, rest: impl Fn(VertexId) -> DVec3
     if corners.is_empty() {
         return None;
     }
-    Some(match polygon::triangulate(&rings) {
+    Some(match ugscene::triangulate(&rings) {
         Some(triangles) => Cut::Pieces(
             triangles.iter().map(|t| Shape::Triangle(t.map(|corner| corners[corner as usize].0))).collect(),
         ),

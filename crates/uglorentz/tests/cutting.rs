@@ -360,7 +360,8 @@ fn edges_at_the_eye_end_in_bounded_work() {
         "v a -1 0 1e-8; v b 1 0 1e-8; v c 1 1 0; v d -1 1 0; f (a b c d);",
         "v a -1e6 0 1; v b 1e6 0 1; v c 1e6 1 1; v d -1e6 1 1; f (a b c d);",
     ] {
-        let report = run(text, &moving(DVec3::X * 0.99));
+        let config = Config { pieces: Pieces::UpTo(0.25e-3), ..moving(DVec3::X * 0.99) };
+        let report = run(text, &config);
         assert!(report.scene.faces.len() < 1_000_000, "{}", report.scene.faces.len());
         assert!(report.scene.vertices.iter().all(|v| v.position.is_finite() && v.position != DVec3::ZERO));
         assert!(!report.notes.is_full);

@@ -3,8 +3,9 @@
 //! A scene is geometry and colour as text gives it; the filters need more:
 //! which body a vertex belongs to and how that body moves ([`Bodies`],
 //! [`separate_bodies`]), where it rests when it is seen here ([`Geometry`],
-//! [`rest_positions`], equation (P4)), its normal ([`smooth_normals`]) and the
-//! colour it gets from the faces round it ([`vertex_colors`]). All programs
+//! [`rest_positions`], equation (P4)), its normal ([`smooth_normals`]), the
+//! colour it gets from the faces round it ([`vertex_colors`]), and what triangles
+//! make up a polygon ([`triangulate`]). All programs
 //! must agree on these, so they are written once, here.
 //!
 //! ```
@@ -22,17 +23,17 @@
 mod bodies;
 mod colors;
 mod eye;
-mod filter;
 mod geometry;
 mod history;
 mod normals;
+mod polygon;
 mod split;
 
 pub use bodies::{Bodies, separate_bodies, vertex_velocities};
 pub use colors::{HueScale, VertexColor, hsv, vertex_colors};
 pub use eye::{at_eye_error, eye, vertex_at_eye};
-pub use filter::{Filtered, filter};
 pub use geometry::{Geometry, rest_positions};
 pub use history::{history, record};
 pub use normals::{corner_angle, smooth_normals};
+pub use polygon::{Triangle, is_convex, triangulate};
 pub use split::split_vertices;

@@ -6,10 +6,10 @@ use rustc_hash::{FxHashMap, FxHashSet};
 use ugparse::newell_normal;
 
 /// Three corners, by place in the list of corners.
-pub(crate) type Triangle = [u32; 3];
+pub type Triangle = [u32; 3];
 
 /// Is this quadrilateral convex, with no corner straight or nearly so?
-pub(crate) fn is_convex(corners: [DVec3; 4]) -> bool {
+pub fn is_convex(corners: [DVec3; 4]) -> bool {
     let normal = newell_normal(corners.iter().copied());
     // A corner with a sine below a millionth would make a needle of a triangle.
     let least = 1e-6 * normal.length();
@@ -25,7 +25,7 @@ pub(crate) fn is_convex(corners: [DVec3; 4]) -> bool {
 /// `rings`: the corners of its contours; the first gives its direction, and inside is decided by the even-odd
 /// rule. Corners are numbered through all rings. `None` if that cannot be done, for polygons that cross
 /// themselves or have no area.
-pub(crate) fn triangulate(rings: &[Vec<DVec3>]) -> Option<Vec<Triangle>> {
+pub fn triangulate(rings: &[Vec<DVec3>]) -> Option<Vec<Triangle>> {
     let normal = newell_normal(rings.first()?.iter().copied());
     let flat = Flat::new(rings, normal)?;
     let mut triangles = Vec::new();

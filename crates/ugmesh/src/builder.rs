@@ -1,0 +1,182 @@
+//! A scene made of mesh data as it comes.
+
+use glam::DVec3;
+use rustc_hash::FxHashMap;
+use ugparse::{Color, ColorId, ColorValue, Face, NameId, Scene, Vertex, VertexId, newell_normal};
+
+use crate::error::Problem;
+
+/// Vertices a mesh may have: some 6 GB of scene. A damaged or hostile file must end in a message, not in swapping.
+const MAX_VERTICES: usize = 1 << 26;
+/// Corners of faces a mesh may have.
+const MAX_CORNERS: usize = 1 << 29;
+
+/// Red, green and blue, display-encoded, and opacity.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Rgba(pub [f64; 4]);
+
+impl Rgba {
+    pub fn opaque([red, green, blue]: [f64; 3]) -> Self {
+        Self([red, green, blue, 1.0])
+    }
+}
+
+/// Keeps the promises of [`Scene`]: numbers finite, faces with corners, names unique.
+pub(crate) struct Builder {
+    scene: Scene,
+    /// Before names, with its `_`.
+    prefix: String,
+    /// By the bits of the clipped colour.
+    colors: FxHashMap<[u64; 4], ColorId>,
+    n_corners: usize,
+    n_degenerate: usize,
+    n_clipped: usize,
+    warnings: Vec<String>,
+}
+
+impl Builder {
+    pub fn new(prefix: &str) -> Self {
+        let prefix = if prefix.is_empty() { String::new() } else { format!("{prefix}_") };
+        Self {
+            scene: Scene::default(),
+            prefix,
+            colors: FxHashMap::default(),
+            n_corners: 0,
+            n_degenerate: 0,
+            n_clipped: 0,
+            warnings: Vec::new(),
+        }
+    }
+
+    /// A new vertex. A normal without direction counts as none.
+    pub fn vertex(
+        &mut self,
+        position: DVec3,
+        normal: Option<DVec3>,
+        color: Option<Rgba>,
+    ) -> Result<VertexId, Problem> {
+        let row = self.scene.vertices.len();
+        if !position.is_finite() {
+            return Err(Problem::new(format!("vertex {} is at no finite place; repair the mesh", row + 1)));
+        }
+        if row == MAX_VERTICES {
+            return Err(Problem::new(format!("more than {MAX_VERTICES} vertices; split the mesh")));
+        }
+        let name = self.name('v', row);
+        let color = color.map(|color| self.color(color));
+        let normal = normal.and_then(usable_normal);
+        self.scene.vertices.push(Vertex { name, position: without_sign_of_zero(position), color, normal });
+        Ok(VertexId::from_index(row))
+    }
+
+    /// The vertex of a number counted from 0, if there is one.
+    pub fn known(&self, idx: u64) -> Option<VertexId> {
+        (idx < self.n_vertices() as u64).then(|| VertexId::from_index(idx as usize))
+    }
+
+    pub fn n_vertices(&self) -> usize {
+        self.scene.vertices.len()
+    }
+
+    pub fn set_normal(&mut self, id: VertexId, normal: Option<DVec3>) {
+        self.scene.vertices[id.index()].normal = normal.and_then(usable_normal);
+    }
+
+    /// A vertex like another but for its normal.
+    pub fn copy(&mut self, id: VertexId, normal: Option<DVec3>) -> Result<VertexId, Problem> {
+        let Vertex { position, color, .. } = self.scene.vertices[id.index()];
+        let copy = self.vertex(position, normal, None)?;
+        self.scene.vertices[copy.index()].color = color;
+        Ok(copy)
+    }
+
+    /// The colour statement for a colour, the same for equal ones.
+    pub fn color(&mut self, Rgba(rgba): Rgba) -> ColorId {
+        let clipped = rgba.map(|part| if part.is_nan() { 0.0 } else { part.clamp(0.0, 1.0) + 0.0 });
+        let key = clipped.map(f64::to_bits);
+        if let Some(&known) = self.colors.get(&key) {
+            return known;
+        }
+        self.n_clipped += usize::from(clipped != rgba);
+        let [red, green, blue, alpha] = clipped;
+        let row = self.scene.colors.len();
+        let name = self.name('c', row);
+        let value = ColorValue::Rgb([red, green, blue]);
+        self.scene.colors.push(Color { name, value, translucency: 1.0 - alpha });
+        let id = ColorId::from_index(row);
+        self.colors.insert(key, id);
+        id
+    }
+
+    /// A new face, unless it has no area: corners repeated in sequence count once.
+    pub fn face(&mut self, corners: &[VertexId], color: Option<ColorId>) -> Result<(), Problem> {
+        let mut corners = corners.to_vec();
+        corners.dedup();
+        while corners.len() > 1 && corners.first() == corners.last() {
+            corners.pop();
+        }
+        let places = corners.iter().map(|corner| self.scene.vertices[corner.index()].position);
+        if corners.len() < 3 || newell_normal(places) == DVec3::ZERO {
+            self.n_degenerate += 1;
+            return Ok(());
+        }
+        self.n_corners += corners.len();
+        if self.n_corners > MAX_CORNERS {
+            return Err(Problem::new(format!("more than {MAX_CORNERS} corners of faces; split the mesh")));
+        }
+        let contours = self.scene.contours.push_all([corners]);
+        self.scene.faces.push(Face { name: None, contours, color, illum: None, velocity: None });
+        Ok(())
+    }
+
+    /// Text of the source to keep, such as its licence.
+    pub fn comment(&mut self, text: &str) {
+        // Braces would end the comment.
+        let text = text.trim().replace('{', "(").replace('}', ")");
+        if !text.is_empty() {
+            self.scene.head.push(format!(" {text} "));
+        }
+    }
+
+    pub fn warn(&mut self, text: impl Into<String>) {
+        self.warnings.push(text.into());
+    }
+
+    /// Warns if there is something to count: `3 lines are left out`.
+    pub fn warn_of(&mut self, count: usize, one: &str, many: &str) {
+        match count {
+            0 => {}
+            1 => self.warn(format!("1 {one}")),
+            _ => self.warn(format!("{count} {many}")),
+        }
+    }
+
+    /// The scene, and what the user should know.
+    pub fn finish(mut self) -> (Scene, Vec<String>) {
+        self.warn_of(self.n_degenerate, "face without area is left out", "faces without area are left out");
+        self.warn_of(
+            self.n_clipped,
+            "colour is outside 0…1 and clipped",
+            "colours are outside 0…1 and clipped",
+        );
+        if self.scene.faces.is_empty() {
+            self.warn("the mesh has no faces");
+        }
+        (self.scene, self.warnings)
+    }
+
+    /// `v1`, `v2`, …
+    fn name(&mut self, kind: char, row: usize) -> NameId {
+        self.scene.names.add(&format!("{}{kind}{}", self.prefix, row + 1))
+    }
+}
+
+/// A normal that has a direction.
+fn usable_normal(normal: DVec3) -> Option<DVec3> {
+    (normal.is_finite() && normal.length_squared() > 0.0).then(|| without_sign_of_zero(normal))
+}
+
+/// −0 becomes 0: its sign means nothing here and would show in the text.
+fn without_sign_of_zero(v: DVec3) -> DVec3 {
+    v + DVec3::ZERO
+}

@@ -1,0 +1,217 @@
+//! The command line of `ugmesh`.
+
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use clap::{Parser, ValueEnum};
+use ugpipe::{CommonArgs, Failure, Stage, ToolArgs};
+
+use crate::{Axis, Config, Error, Format, Input, Size, Target};
+
+/// Meshes of other programs to UniGrafix and back
+///
+/// Reads OBJ, PLY, STL, OFF, glTF and UniGrafix. Writes UniGrafix, or OBJ, PLY or glTF as -dt or the ending of -fo
+/// asks. Keeps polygons, normals and the colours of faces and vertices.
+#[derive(Parser, Debug)]
+#[command(name = "ugmesh", version, before_help = ugpipe::ONE_DASH, after_help = EXAMPLES)]
+pub struct Args {
+    /// Format of the input; else its content or the ending of its name says
+    #[arg(id = "if", long = "if", visible_alias = "input-format", value_name = "FMT", value_enum)]
+    format: Option<FormatName>,
+
+    /// Format to write; else the ending of -fo says, else ug
+    #[arg(long, visible_alias = "device-type", value_name = "FMT", value_enum)]
+    dt: Option<TargetName>,
+
+    /// Write PLY as text
+    #[arg(long)]
+    ascii: bool,
+
+    /// Axis that is up in the mesh [default: y for OBJ and glTF, z for PLY, STL and OFF]
+    #[arg(long, value_name = "AXIS", value_enum)]
+    up: Option<AxisName>,
+
+    /// Make the mesh S times as large
+    #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = ugpipe::finite, conflicts_with = "fit")]
+    scale: Option<f64>,
+
+    /// Make the longest side of the mesh's box L
+    #[arg(long, value_name = "L", allow_hyphen_values = true, value_parser = ugpipe::finite)]
+    fit: Option<f64>,
+
+    /// Move the middle of the mesh's box to the origin
+    #[arg(long)]
+    center: bool,
+
+    /// Begin names of vertices and colours with NAME_, to put several meshes into one scene
+    #[arg(long, value_name = "NAME", value_parser = name)]
+    name: Option<String>,
+
+    #[command(flatten)]
+    common: CommonArgs,
+}
+
+const EXAMPLES: &str = "Examples:
+  ugmesh teapot.obj | uglorentz -vel .9 0 0 | ugmesh -dt ply > distorted.ply
+  ugmesh -center -fit 2 bunny.ply > bunny.ug
+  uglorentz -vel 0 .8 0 ship.ug | ugdoppler | ugmesh -fo ship.glb";
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum FormatName {
+    Ug,
+    Obj,
+    Ply,
+    Stl,
+    Off,
+    Gltf,
+    Glb,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum TargetName {
+    Ug,
+    Obj,
+    Ply,
+    Gltf,
+    Glb,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum AxisName {
+    X,
+    Y,
+    Z,
+}
+
+/// What UniGrafix takes for a name, and other programs too.
+fn name(word: &str) -> Result<String, String> {
+    let is_fit = word.chars().all(|c| c.is_ascii_alphanumeric() || c == '_')
+        && word.starts_with(|c: char| c.is_ascii_alphabetic());
+    if is_fit {
+        Ok(word.to_string())
+    } else {
+        Err("a name has letters, digits and _, a letter first".to_string())
+    }
+}
+
+impl ToolArgs for Args {
+    fn common(&self) -> &CommonArgs {
+        &self.common
+    }
+}
+
+impl Args {
+    fn config(&self, command_line: &str) -> Result<Config, Failure> {
+        if [self.scale, self.fit].into_iter().flatten().any(|size| size <= 0.0) {
+            return Err(Failure::usage("sizes (-scale, -fit) are above 0"));
+        }
+        let size = match (self.scale, self.fit) {
+            (Some(scale), _) => Size::Times(scale),
+            (None, Some(length)) => Size::Fit(length),
+            (None, None) => Size::Same,
+        };
+        let target = self.target()?;
+        if self.ascii && !matches!(target, Target::Ply { .. }) {
+            return Err(Failure::usage("only PLY has a choice of text (-ascii); add -dt ply"));
+        }
+        Ok(Config {
+            format: self.format.map(FormatName::format),
+            target,
+            up: self.up.map(|up| match up {
+                AxisName::X => Axis::X,
+                AxisName::Y => Axis::Y,
+                AxisName::Z => Axis::Z,
+            }),
+            size,
+            is_centered: self.center,
+            name: self.name.clone().unwrap_or_default(),
+            lax: self.common.lax(),
+            command_line: command_line.to_string(),
+        })
+    }
+
+    /// An ending that is no format is an error: a scene in a file of another name surprises.
+    fn target(&self) -> Result<Target, Failure> {
+        let target = match (self.dt, self.common.output()) {
+            (Some(name), _) => name.target(),
+            (None, Some(path)) if path.extension().is_some() && is_file_or_new(path) => {
+                Target::by_ending(path).ok_or_else(|| {
+                    Failure::usage(format!("no format ends like `{}`; choose one with -dt", path.display()))
+                })?
+            }
+            (None, _) => Target::Ug,
+        };
+        Ok(match target {
+            Target::Ply { .. } => Target::Ply { is_ascii: self.ascii },
+            other => other,
+        })
+    }
+}
+
+/// Devices have no format.
+fn is_file_or_new(path: &Path) -> bool {
+    fs::metadata(path).map_or(true, |metadata| metadata.is_file())
+}
+
+impl FormatName {
+    fn format(self) -> Format {
+        match self {
+            Self::Ug => Format::Ug,
+            Self::Obj => Format::Obj,
+            Self::Ply => Format::Ply,
+            Self::Stl => Format::Stl,
+            Self::Off => Format::Off,
+            Self::Gltf | Self::Glb => Format::Gltf,
+        }
+    }
+}
+
+impl TargetName {
+    fn target(self) -> Target {
+        match self {
+            Self::Ug => Target::Ug,
+            Self::Obj => Target::Obj,
+            Self::Ply => Target::Ply { is_ascii: false },
+            Self::Gltf => Target::Gltf,
+            Self::Glb => Target::Glb,
+        }
+    }
+}
+
+/// Reads files in the folder of the mesh; a mesh from a pipe has none.
+fn beside(mesh: Option<PathBuf>) -> impl Fn(&str) -> io::Result<Vec<u8>> {
+    move |name| match mesh.as_deref().map(|mesh| mesh.parent().unwrap_or(Path::new(""))) {
+        // The system's words alone: the numbers behind them help nobody.
+        Some(folder) => fs::read(folder.join(name)).map_err(|error| io::Error::from(error.kind())),
+        None => Err(io::Error::other("standard input has no folder; name the mesh on the command line")),
+    }
+}
+
+/// The program.
+pub fn main() -> ExitCode {
+    ugpipe::main(|args: &Args, stage: &mut Stage| {
+        let config = args.config(stage.command_line())?;
+        if stage.output_is_terminal() && config.target.is_binary() {
+            return Err(Failure::usage(
+                "binary is not written to a terminal; send it to a file with `> FILE` or -fo FILE",
+            ));
+        }
+        let read = stage.input()?;
+        let beside = beside(args.common.input().map(Path::to_path_buf));
+        let input = Input::new(read.name, read.text).with_files(&beside);
+        let converted = crate::run(&config, &input).map_err(|error| match error {
+            Error::Scene(findings) => Failure::Report(findings.render(true)),
+            Error::NothingToConvert => Failure::usage(error),
+            other => Failure::failed(other),
+        })?;
+        if let Some(findings) = converted.diagnostics.filter(|findings| !findings.is_empty()) {
+            stage.report(&findings.render(true));
+        }
+        converted.warnings.iter().for_each(|warning| stage.warn(warning));
+        converted.notes.iter().for_each(|note| stage.note(note));
+        stage.detail(&format!("{} bytes", converted.bytes.len()));
+        stage.write(&converted.bytes)
+    })
+}

@@ -1,0 +1,227 @@
+//! Formats of meshes, and how to tell them apart.
+
+use std::fmt;
+use std::path::Path;
+
+/// What can be read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// UniGrafix.
+    Ug,
+    /// Wavefront OBJ.
+    Obj,
+    /// Stanford PLY, ASCII or binary.
+    Ply,
+    /// STL, ASCII or binary.
+    Stl,
+    /// Geomview OFF, with its variants COFF, NOFF, STOFF.
+    Off,
+    /// glTF 2.0, as JSON or as GLB.
+    Gltf,
+}
+
+/// What can be written.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Target {
+    /// UniGrafix.
+    #[default]
+    Ug,
+    /// Wavefront OBJ with colours of vertices.
+    Obj,
+    /// Stanford PLY.
+    Ply {
+        /// As text, not binary.
+        is_ascii: bool,
+    },
+    /// glTF 2.0 as JSON with its buffer inside.
+    Gltf,
+    /// glTF 2.0 as binary GLB.
+    Glb,
+}
+
+/// A coordinate axis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Axis {
+    /// The first.
+    X,
+    /// The second.
+    Y,
+    /// The third.
+    Z,
+}
+
+impl Format {
+    /// The axis that is up where the format, or its habit, says so.
+    pub fn up(self) -> Axis {
+        match self {
+            Self::Obj | Self::Gltf => Axis::Y,
+            Self::Ug | Self::Ply | Self::Stl | Self::Off => Axis::Z,
+        }
+    }
+
+    /// The format of `bytes`: by what cannot be anything else, then by the ending of the name, then by looks.
+    pub fn detect(name: &str, bytes: &[u8]) -> Option<Self> {
+        Self::by_magic(bytes).or_else(|| Self::by_ending(name)).or_else(|| Self::by_looks(bytes))
+    }
+
+    fn by_magic(bytes: &[u8]) -> Option<Self> {
+        if bytes.starts_with(b"ply\n") || bytes.starts_with(b"ply\r") {
+            Some(Self::Ply)
+        } else if bytes.starts_with(b"glTF") {
+            Some(Self::Gltf)
+        } else {
+            None
+        }
+    }
+
+    fn by_ending(name: &str) -> Option<Self> {
+        match Path::new(name).extension()?.to_str()?.to_ascii_lowercase().as_str() {
+            "ug" => Some(Self::Ug),
+            "obj" => Some(Self::Obj),
+            "ply" => Some(Self::Ply),
+            "stl" => Some(Self::Stl),
+            "off" | "coff" | "noff" => Some(Self::Off),
+            "gltf" | "glb" => Some(Self::Gltf),
+            _ => None,
+        }
+    }
+
+    fn by_looks(bytes: &[u8]) -> Option<Self> {
+        if is_binary_stl(bytes) {
+            return Some(Self::Stl);
+        }
+        let text = String::from_utf8_lossy(&bytes[..bytes.len().min(PEEK)]);
+        let text = text.trim_start_matches('\u{feff}').trim_start();
+        if let Some(inside) = text.strip_prefix('{') {
+            // A JSON object begins with a key, a comment of UniGrafix with anything.
+            let is_json = inside.trim_start().starts_with('"') && text.contains("\"asset\"");
+            return Some(if is_json { Self::Gltf } else { Self::Ug });
+        }
+        let line = text.lines().map(str::trim).find(|line| !line.is_empty() && !line.starts_with('#'))?;
+        let mut words = line.split_whitespace();
+        let first = words.next()?;
+        if first.eq_ignore_ascii_case("solid") {
+            Some(Self::Stl)
+        } else if is_off_keyword(first) {
+            Some(Self::Off)
+        } else if is_obj_line(line) {
+            Some(Self::Obj)
+        } else if UG_KEYWORDS.contains(&first) || line.starts_with('(') {
+            Some(Self::Ug)
+        } else {
+            None
+        }
+    }
+}
+
+/// Bytes looked at: exporters write long head comments.
+const PEEK: usize = 1 << 16;
+
+const UG_KEYWORDS: [&str; 11] = ["v", "w", "f", "c", "c_rgb", "l", "cam", "def", "end", "i", "a"];
+
+/// A binary STL has no magic number, and its header may even begin with `solid`; but its length is given by its
+/// count.
+pub(crate) fn is_binary_stl(bytes: &[u8]) -> bool {
+    let count = bytes.get(80..84).and_then(|count| count.try_into().ok()).map(u32::from_le_bytes);
+    count.is_some_and(|count| bytes.len() as u64 == 84 + 50 * u64::from(count))
+}
+
+/// `OFF` with its prefixes: texture, colour, normal, 4-D, n-D.
+pub(crate) fn is_off_keyword(word: &str) -> bool {
+    let Some(prefix) = word.strip_suffix("OFF") else { return false };
+    let prefix = prefix.strip_prefix("ST").unwrap_or(prefix);
+    let prefix = prefix.strip_prefix('C').unwrap_or(prefix);
+    let prefix = prefix.strip_prefix('N').unwrap_or(prefix);
+    let prefix = prefix.strip_prefix('4').unwrap_or(prefix);
+    matches!(prefix, "" | "n")
+}
+
+/// OBJ shares `v` and `f` with UniGrafix, whose statements end with `;` and whose vertices have names.
+fn is_obj_line(line: &str) -> bool {
+    if line.contains([';', '{', '(']) {
+        return false;
+    }
+    let mut words = line.split_whitespace();
+    match words.next() {
+        Some("mtllib" | "usemtl" | "o" | "g" | "s" | "vn" | "vt" | "vp") => true,
+        Some("v") => words.clone().count() >= 3 && words.all(|word| word.parse::<f64>().is_ok()),
+        _ => false,
+    }
+}
+
+impl fmt::Display for Format {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Ug => "UniGrafix",
+            Self::Obj => "OBJ",
+            Self::Ply => "PLY",
+            Self::Stl => "STL",
+            Self::Off => "OFF",
+            Self::Gltf => "glTF",
+        })
+    }
+}
+
+impl Target {
+    /// The target that the ending of a file's name asks for.
+    pub fn by_ending(path: &Path) -> Option<Self> {
+        match path.extension()?.to_str()?.to_ascii_lowercase().as_str() {
+            "ug" => Some(Self::Ug),
+            "obj" => Some(Self::Obj),
+            "ply" => Some(Self::Ply { is_ascii: false }),
+            "gltf" => Some(Self::Gltf),
+            "glb" => Some(Self::Glb),
+            _ => None,
+        }
+    }
+
+    /// Whether it is not for the eye.
+    pub fn is_binary(self) -> bool {
+        matches!(self, Self::Glb | Self::Ply { is_ascii: false })
+    }
+
+    /// The axis that is up in what is written.
+    pub fn up(self) -> Axis {
+        match self {
+            Self::Obj | Self::Gltf | Self::Glb => Axis::Y,
+            Self::Ug | Self::Ply { .. } => Axis::Z,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn formats_are_told_apart() {
+        fn check(name: &str, bytes: &[u8], expected: Option<Format>) {
+            assert_eq!(Format::detect(name, bytes), expected, "{name}: {}", String::from_utf8_lossy(bytes));
+        }
+        let stdin = "<stdin>";
+        check(stdin, b"ply\nformat ascii 1.0\n", Some(Format::Ply));
+        check("liar.obj", b"ply\r\nformat ascii 1.0\r\n", Some(Format::Ply));
+        check(stdin, b"glTF\x02\0\0\0", Some(Format::Gltf));
+        check(stdin, b" {\n \"asset\": {\"version\": \"2.0\"}}", Some(Format::Gltf));
+        check(stdin, b"{ a licence }\nv a 0 0 0;", Some(Format::Ug));
+        check(stdin, b"{\"quoted\"} v a 0 0 0;", Some(Format::Ug));
+        check(stdin, b"v a 0 0 0;", Some(Format::Ug));
+        check(stdin, b"v 7 0 0 0;", Some(Format::Ug));
+        check(stdin, b"v 7\n0 0 0;", Some(Format::Ug));
+        check(stdin, b"(escape)", Some(Format::Ug));
+        check(stdin, b"# a cube\n\nv 0 0 0\n", Some(Format::Obj));
+        check(stdin, b"\xef\xbb\xbf# byte order mark\nmtllib a.mtl\n", Some(Format::Obj));
+        check(stdin, b"g cube\nv 0 0 0\n", Some(Format::Obj));
+        check(stdin, b"solid\nfacet normal 0 0 1\n", Some(Format::Stl));
+        check(stdin, &[&b"solid binary"[..], &[0; 72]].concat(), Some(Format::Stl));
+        check(stdin, b"# cube\nOFF\n8 6 12\n", Some(Format::Off));
+        check(stdin, b"STCNOFF\n", Some(Format::Off));
+        check(stdin, b"BOFF\n", None);
+        check(stdin, b"", None);
+        check(stdin, b"# nothing\n", None);
+        check(stdin, b"\x7fELF", None);
+        check("cube.STL", b"", Some(Format::Stl));
+        check("cube.ug", b"f (a b c);", Some(Format::Ug));
+        check("a.b/cube", b"", None);
+    }
+}

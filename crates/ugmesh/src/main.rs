@@ -1,0 +1,5 @@
+//! `ugmesh`: see the library of the same name.
+
+fn main() -> std::process::ExitCode {
+    ugmesh::main()
+}

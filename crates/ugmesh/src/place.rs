@@ -1,0 +1,91 @@
+//! Where the mesh stands: which way is up, how large, where its middle is.
+
+use glam::DVec3;
+use ugparse::Scene;
+
+use crate::{Axis, Error};
+
+/// How large the mesh comes out.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Size {
+    /// As it is.
+    #[default]
+    Same,
+    /// This many times as large.
+    Times(f64),
+    /// So that the longest side of its box has this length.
+    Fit(f64),
+}
+
+/// Turns `up` to z, by moving axes cyclically or by a quarter turn about x: exact.
+pub(crate) fn to_z_up(up: Axis, p: DVec3) -> DVec3 {
+    match up {
+        Axis::X => DVec3::new(p.y, p.z, p.x),
+        // Not `-p.z`, which makes −0 of 0.
+        Axis::Y => DVec3::new(p.x, 0.0 - p.z, p.y),
+        Axis::Z => p,
+    }
+}
+
+/// The inverse of [`to_z_up`].
+pub(crate) fn from_z_up(up: Axis, p: DVec3) -> DVec3 {
+    match up {
+        Axis::X => DVec3::new(p.z, p.x, p.y),
+        Axis::Y => DVec3::new(p.x, p.z, 0.0 - p.y),
+        Axis::Z => p,
+    }
+}
+
+/// Turns all vertices and their normals.
+pub(crate) fn turn(scene: &mut Scene, turn: impl Fn(DVec3) -> DVec3) {
+    for vertex in &mut scene.vertices {
+        vertex.position = turn(vertex.position);
+        vertex.normal = vertex.normal.map(&turn);
+    }
+}
+
+/// Moves the middle of the mesh's box to the origin if asked for, then scales about the origin.
+pub(crate) fn resize(scene: &mut Scene, size: Size, is_centered: bool) -> Result<(), Error> {
+    let Some((low, high)) = scene.bounds() else { return Ok(()) };
+    // Halves first: the sum of two large numbers may overflow.
+    let middle = if is_centered { 0.5 * low + 0.5 * high } else { DVec3::ZERO };
+    let longest = (high - low).max_element();
+    let scale = match size {
+        Size::Same => 1.0,
+        Size::Times(scale) => scale,
+        Size::Fit(_) if longest == 0.0 => 1.0,
+        Size::Fit(length) => length / longest,
+    };
+    if scale == 0.0 {
+        // The box is too large for its size to be a number.
+        return Err(Error::Overflow);
+    }
+    if middle == DVec3::ZERO && scale == 1.0 {
+        return Ok(());
+    }
+    for vertex in &mut scene.vertices {
+        vertex.position = (vertex.position - middle) * scale + DVec3::ZERO;
+    }
+    if scene.vertices.iter().all(|vertex| vertex.position.is_finite()) {
+        Ok(())
+    } else {
+        Err(Error::Overflow)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn up_is_a_rotation() {
+        let p = DVec3::new(0.1, -0.2, 0.3);
+        for (up, axis) in [(Axis::X, DVec3::X), (Axis::Y, DVec3::Y), (Axis::Z, DVec3::Z)] {
+            assert_eq!(to_z_up(up, axis), DVec3::Z);
+            assert_eq!(from_z_up(up, to_z_up(up, p)), p);
+            let [x, y, z] = DVec3::AXES.map(|axis| to_z_up(up, axis));
+            assert_eq!(x.cross(y), z, "{up:?} is no mirror");
+        }
+        assert!(to_z_up(Axis::Y, DVec3::ZERO).y.is_sign_positive());
+    }
+}

@@ -1,0 +1,378 @@
+//! glTF 2.0: the nodes of its scene, with transforms, normals and colours.
+
+use std::borrow::Cow;
+use std::rc::Rc;
+
+use base64::Engine;
+use base64::alphabet;
+use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
+use glam::{DAffine3, DMat3, DMat4, DQuat, DVec3};
+use gltf::accessor::{DataType, Dimensions};
+use gltf::json::validation::Checked::Valid;
+use gltf::json::validation::{Error as Invalid, Validate};
+use gltf::json::{Path, Root};
+use gltf::material::AlphaMode;
+use gltf::mesh::{Mode, Semantic};
+use gltf::{Accessor, Document, Primitive};
+use rustc_hash::FxHashMap;
+use serde_json::Value;
+use ugparse::VertexId;
+use ugphysics::srgb_encode;
+
+use super::{accessor, strip};
+use crate::Input;
+use crate::builder::{Builder, Rgba};
+use crate::error::Problem;
+
+pub(super) fn read(input: &Input, builder: &mut Builder) -> Result<(), Problem> {
+    let (json, blob) = split(&input.bytes)?;
+    let (document, nodes) = parse(&json)?;
+    let buffers = buffers(&document, blob, input)?;
+    if let Some(copyright) = &document.as_json().asset.copyright {
+        builder.comment(copyright);
+    }
+    let mut reader =
+        Reader { builder, buffers, numbers: FxHashMap::default(), n_left_out: 0, has_textures: false };
+    reader.scene(&document, &nodes)?;
+    let (n_left_out, has_textures) = (reader.n_left_out, reader.has_textures);
+    if document.nodes().any(|node| node.skin().is_some()) {
+        builder.warn("bones are not moved: skinned meshes stand as they were made");
+    }
+    if has_textures {
+        builder.warn("textures are not read");
+    }
+    builder.warn_of(n_left_out, "set of lines or points is left out", "sets of lines or points are left out");
+    Ok(())
+}
+
+type Chunks<'a> = (Cow<'a, [u8]>, Option<Cow<'a, [u8]>>);
+
+/// The JSON text, and the buffer in a GLB file.
+fn split(bytes: &[u8]) -> Result<Chunks<'_>, Problem> {
+    if !bytes.starts_with(b"glTF") {
+        return Ok((bytes.into(), None));
+    }
+    // The crate subtracts the size of the head from the length without looking.
+    let length = bytes.get(8..12).and_then(|length| length.try_into().ok()).map(u32::from_le_bytes);
+    if length.is_none_or(|length| length < 20 || length as usize > bytes.len()) {
+        return Err(Problem::new("it is cut off; copy it again"));
+    }
+    let glb = gltf::Glb::from_slice(bytes).map_err(|error| Problem::new(error.to_string()))?;
+    Ok((glb.json, glb.bin))
+}
+
+/// The document, and its nodes as they stand in the text: the crate has their numbers in 32 bits.
+fn parse(json: &[u8]) -> Result<(Document, Vec<Value>), Problem> {
+    let bad = |error: serde_json::Error| Problem::new(error.to_string());
+    let root: Root = serde_json::from_slice(json).map_err(bad)?;
+    check(&root)?;
+    let mut value: Value = serde_json::from_slice(json).map_err(bad)?;
+    let nodes = match value.get_mut("nodes").map(Value::take) {
+        Some(Value::Array(nodes)) => nodes,
+        _ => Vec::new(),
+    };
+    Ok((Document::from_json_without_validation(root), nodes))
+}
+
+/// Extensions that do not move vertices: what uses them can be read without.
+const HARMLESS: [&str; 6] = [
+    "KHR_lights_punctual",
+    "KHR_materials_",
+    "KHR_mesh_quantization",
+    "KHR_texture_",
+    "EXT_texture_",
+    "MSFT_texture_",
+];
+
+/// Makes sure that every number that points into a table points to a row of it. The crate relies on it.
+fn check(root: &Root) -> Result<(), Problem> {
+    // The crate's own check takes this one on trust.
+    let primitives = root.meshes.iter().flat_map(|mesh| &mesh.primitives);
+    let positions = primitives.filter_map(|primitive| primitive.attributes.get(&Valid(Semantic::Positions)));
+    if let Some(row) = positions.map(|index| index.value()).find(|&row| row >= root.accessors.len()) {
+        return Err(Problem::new(format!("`POSITION` names accessor {row}, which is not there")));
+    }
+    let mut found = None;
+    root.validate(root, Path::new, &mut |path, error| {
+        let path = path();
+        let path = path.as_str();
+        // Bounds are not used here, and some exporters leave them out.
+        let is_bounds = error == Invalid::Missing && (path.ends_with(".min") || path.ends_with(".max"));
+        let is_harmless = error == Invalid::Unsupported && HARMLESS.iter().any(|name| path.contains(name));
+        if !is_bounds && !is_harmless && found.is_none() {
+            let remedy =
+                if error == Invalid::Unsupported { "export without it" } else { "export the mesh again" };
+            let what = format!("`{path}`: {}; {remedy}", error.to_string().to_lowercase());
+            found = Some(Problem::new(what));
+        }
+    });
+    found.map_or(Ok(()), Err)
+}
+
+/// All buffers: of the file itself, from data URIs and from files beside it.
+fn buffers<'a>(
+    document: &Document,
+    mut blob: Option<Cow<'a, [u8]>>,
+    input: &Input,
+) -> Result<Vec<Cow<'a, [u8]>>, Problem> {
+    let mut buffers = Vec::new();
+    for buffer in document.buffers() {
+        let bytes: Cow<[u8]> = match buffer.source() {
+            gltf::buffer::Source::Bin => {
+                blob.take().ok_or_else(|| Problem::new("its binary chunk is missing; copy it again"))?
+            }
+            gltf::buffer::Source::Uri(uri) => load(uri, input)?.into(),
+        };
+        if bytes.len() < buffer.length() {
+            let (index, length) = (buffer.index(), buffer.length());
+            let what = format!("buffer {index} has {} of {length} bytes; copy it again", bytes.len());
+            return Err(Problem::new(what));
+        }
+        buffers.push(bytes);
+    }
+    Ok(buffers)
+}
+
+/// Exporters differ about `=` at the end.
+const BASE64: GeneralPurpose = GeneralPurpose::new(
+    &alphabet::STANDARD,
+    GeneralPurposeConfig::new().with_decode_padding_mode(DecodePaddingMode::Indifferent),
+);
+
+fn load(uri: &str, input: &Input) -> Result<Vec<u8>, Problem> {
+    if let Some(data) = uri.strip_prefix("data:") {
+        let (_, code) = data
+            .split_once(";base64,")
+            .ok_or_else(|| Problem::new("a data URI is not base64; export the mesh as GLB"))?;
+        return BASE64.decode(code).map_err(|error| Problem::new(format!("a data URI is damaged: {error}")));
+    }
+    let name = percent_decoded(uri);
+    if name.contains("://") {
+        return Err(Problem::new(format!(
+            "`{name}` is on a network; load it and name the file in its place"
+        )));
+    }
+    (input.beside)(&name)
+        .map_err(|error| Problem::new(format!("cannot read `{name}`: {error}; put it beside the mesh")))
+}
+
+fn percent_decoded(uri: &str) -> String {
+    let mut bytes = Vec::with_capacity(uri.len());
+    let mut rest = uri.as_bytes();
+    while let [first, after @ ..] = rest {
+        let code = after.get(..2).and_then(|hex| str::from_utf8(hex).ok());
+        match code.and_then(|hex| u8::from_str_radix(hex, 16).ok()) {
+            Some(byte) if *first == b'%' => {
+                bytes.push(byte);
+                rest = &after[2..];
+            }
+            _ => {
+                bytes.push(*first);
+                rest = after;
+            }
+        }
+    }
+    String::from_utf8_lossy(&bytes).into_owned()
+}
+
+struct Reader<'a, 'b> {
+    builder: &'a mut Builder,
+    buffers: Vec<Cow<'b, [u8]>>,
+    /// Of accessors read before: many primitives may share one.
+    numbers: FxHashMap<usize, Rc<Vec<f64>>>,
+    n_left_out: usize,
+    has_textures: bool,
+}
+
+impl Reader<'_, '_> {
+    /// All nodes of the default scene, or of the first, or of none: then those that are nobody's children.
+    fn scene(&mut self, document: &Document, nodes: &[Value]) -> Result<(), Problem> {
+        let scene = document.default_scene().or_else(|| document.scenes().next());
+        let roots: Vec<gltf::Node> = match scene {
+            Some(scene) => scene.nodes().collect(),
+            None => {
+                let mut is_child = vec![false; document.nodes().len()];
+                document
+                    .nodes()
+                    .flat_map(|node| node.children())
+                    .for_each(|node| is_child[node.index()] = true);
+                document.nodes().filter(|node| !is_child[node.index()]).collect()
+            }
+        };
+        let mut is_visited = vec![false; document.nodes().len()];
+        let mut todo: Vec<_> = roots.into_iter().map(|node| (node, DAffine3::IDENTITY)).collect();
+        todo.reverse();
+        while let Some((node, scene_from_parent)) = todo.pop() {
+            if std::mem::replace(&mut is_visited[node.index()], true) {
+                let what = format!("node {} has two parents; export the mesh again", node.index());
+                return Err(Problem::new(what));
+            }
+            let scene_from_node = scene_from_parent * local_transform(nodes.get(node.index()));
+            for primitive in node.mesh().iter().flat_map(|mesh| mesh.primitives()) {
+                self.primitive(&primitive, scene_from_node)?;
+            }
+            let children: Vec<_> = node.children().map(|child| (child, scene_from_node)).collect();
+            todo.extend(children.into_iter().rev());
+        }
+        Ok(())
+    }
+
+    fn primitive(&mut self, primitive: &Primitive, scene_from_node: DAffine3) -> Result<(), Problem> {
+        if !matches!(primitive.mode(), Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan) {
+            self.n_left_out += 1;
+            return Ok(());
+        }
+        let Some(accessor) = primitive.get(&Semantic::Positions) else { return Ok(()) };
+        let positions = self.vectors(&accessor, "POSITION")?;
+        let n_positions = positions.len() / 3;
+        let normals = match primitive.get(&Semantic::Normals) {
+            Some(accessor) => Some(self.vectors(&accessor, "NORMAL")?),
+            None => None,
+        };
+        let material = Material::new(primitive);
+        self.has_textures |= material.has_texture;
+        let colors = self.colors(primitive, &material)?;
+        let corners = self.corners(primitive, n_positions)?;
+
+        // Normals stay upright on surfaces that are scaled unevenly.
+        let normal_matrix: DMat3 = scene_from_node.matrix3.inverse().transpose();
+        // Primitives often share one long list of vertices: only those used become vertices of the scene.
+        let mut is_used = vec![false; n_positions];
+        corners.iter().for_each(|&corner| is_used[corner] = true);
+        let mut vertices = vec![VertexId(0); n_positions];
+        for row in (0..n_positions).filter(|&row| is_used[row]) {
+            let position = scene_from_node.transform_point3(vector(&positions, row));
+            let normal = normals.as_ref().filter(|normals| normals.len() >= 3 * row + 3);
+            let normal = normal.map(|normals| (normal_matrix * vector(normals, row)).normalize_or_zero());
+            let color = colors.as_ref().and_then(|colors| colors.get(row)).copied();
+            vertices[row] = self.builder.vertex(position, normal, color)?;
+        }
+        let color = if colors.is_some() { None } else { material.color() };
+        let color = color.map(|color| self.builder.color(color));
+        // A mirror image has its outside where the corners run the other way.
+        let is_mirrored = scene_from_node.matrix3.determinant() < 0.0;
+        for [a, b, c] in triangles(primitive.mode(), corners.len()) {
+            let triangle = if is_mirrored { [a, c, b] } else { [a, b, c] };
+            self.builder.face(&triangle.map(|corner| vertices[corners[corner]]), color)?;
+        }
+        Ok(())
+    }
+
+    /// The rows of the primitive's vertices, one for each corner.
+    fn corners(&mut self, primitive: &Primitive, n_positions: usize) -> Result<Vec<usize>, Problem> {
+        let Some(accessor) = primitive.indices() else { return Ok((0..n_positions).collect()) };
+        if !matches!(accessor.data_type(), DataType::U8 | DataType::U16 | DataType::U32)
+            || accessor.dimensions() != Dimensions::Scalar
+        {
+            return Err(Problem::new("indices are no whole numbers; export the mesh again"));
+        }
+        let corners: Vec<usize> = self.numbers(&accessor)?.iter().map(|&row| row as usize).collect();
+        match corners.iter().find(|&&row| row >= n_positions) {
+            Some(row) => {
+                Err(Problem::new(format!("a triangle names vertex {row}, but there are {n_positions}")))
+            }
+            None => Ok(corners),
+        }
+    }
+
+    /// `COLOR_0` times the colour of the material, both linear, as colours for display.
+    fn colors(&mut self, primitive: &Primitive, material: &Material) -> Result<Option<Vec<Rgba>>, Problem> {
+        let Some(accessor) = primitive.get(&Semantic::Colors(0)) else { return Ok(None) };
+        let n_components = match accessor.dimensions() {
+            Dimensions::Vec3 => 3,
+            Dimensions::Vec4 => 4,
+            _ => return Err(Problem::new("`COLOR_0` has neither three nor four components")),
+        };
+        let numbers = self.numbers(&accessor)?;
+        let colors = numbers.chunks_exact(n_components).map(|part| {
+            let alpha = part.get(3).copied().unwrap_or(1.0);
+            material.tinted([part[0], part[1], part[2], alpha])
+        });
+        Ok(Some(colors.collect()))
+    }
+
+    fn vectors(&mut self, accessor: &Accessor, name: &str) -> Result<Rc<Vec<f64>>, Problem> {
+        if accessor.dimensions() != Dimensions::Vec3 {
+            return Err(Problem::new(format!("`{name}` has not three components; export the mesh again")));
+        }
+        self.numbers(accessor)
+    }
+
+    fn numbers(&mut self, accessor: &Accessor) -> Result<Rc<Vec<f64>>, Problem> {
+        if let Some(known) = self.numbers.get(&accessor.index()) {
+            return Ok(Rc::clone(known));
+        }
+        let numbers = Rc::new(accessor::read(accessor, &self.buffers)?);
+        self.numbers.insert(accessor.index(), Rc::clone(&numbers));
+        Ok(numbers)
+    }
+}
+
+fn vector(numbers: &[f64], row: usize) -> DVec3 {
+    DVec3::from_slice(&numbers[3 * row..3 * row + 3])
+}
+
+/// Corners of triangles, by place among `len` corners.
+fn triangles(mode: Mode, len: usize) -> Vec<[usize; 3]> {
+    match mode {
+        Mode::TriangleStrip => strip(len).collect(),
+        Mode::TriangleFan => (2..len).map(|last| [0, last - 1, last]).collect(),
+        _ => (0..len / 3).map(|idx| [3 * idx, 3 * idx + 1, 3 * idx + 2]).collect(),
+    }
+}
+
+/// The transform of a node, from the numbers of the text: a matrix by columns, or scale, rotation, translation.
+fn local_transform(node: Option<&Value>) -> DAffine3 {
+    let numbers =
+        |key: &str| -> Option<Vec<f64>> { node?.get(key)?.as_array()?.iter().map(Value::as_f64).collect() };
+    if let Some(matrix) = numbers("matrix").and_then(|m| <[f64; 16]>::try_from(m).ok()) {
+        return DAffine3::from_mat4(DMat4::from_cols_array(&matrix));
+    }
+    let vector = |key: &str, default: DVec3| match numbers(key).as_deref() {
+        Some(&[x, y, z]) => DVec3::new(x, y, z),
+        _ => default,
+    };
+    let rotation = match numbers("rotation").as_deref() {
+        // Exporters round quaternions to 32 bits; the turn they mean has no scale in it.
+        Some(&[x, y, z, w]) if x * x + y * y + z * z + w * w > 0.0 => {
+            DQuat::from_xyzw(x, y, z, w).normalize()
+        }
+        _ => DQuat::IDENTITY,
+    };
+    let (scale, translation) = (vector("scale", DVec3::ONE), vector("translation", DVec3::ZERO));
+    DAffine3::from_scale_rotation_translation(scale, rotation, translation)
+}
+
+struct Material {
+    /// Linear, with opacity.
+    factor: [f64; 4],
+    is_given: bool,
+    is_clear: bool,
+    has_texture: bool,
+}
+
+impl Material {
+    fn new(primitive: &Primitive) -> Self {
+        let material = primitive.material();
+        let surface = material.pbr_metallic_roughness();
+        Self {
+            factor: surface.base_color_factor().map(f64::from),
+            is_given: material.index().is_some(),
+            is_clear: material.alpha_mode() == AlphaMode::Blend,
+            has_texture: surface.base_color_texture().is_some(),
+        }
+    }
+
+    /// The colour for display of a surface that has the linear colour `part` under this material.
+    fn tinted(&self, part: [f64; 4]) -> Rgba {
+        let [red, green, blue, alpha] = [0, 1, 2, 3].map(|idx| part[idx] * self.factor[idx]);
+        // The ends of the curve are a rounding error away from 1.
+        let encode = |linear: f64| if linear == 1.0 { 1.0 } else { srgb_encode(linear) };
+        let alpha = if self.is_clear { alpha } else { 1.0 };
+        Rgba([encode(red), encode(green), encode(blue), alpha])
+    }
+
+    fn color(&self) -> Option<Rgba> {
+        self.is_given.then(|| self.tinted([1.0; 4]))
+    }
+}

@@ -1,0 +1,33 @@
+//! Readers: one for each format, all into a [`Builder`].
+
+mod accessor;
+mod gltf;
+mod mtl;
+mod obj;
+mod off;
+mod ply;
+mod stl;
+mod words;
+
+use crate::builder::Builder;
+use crate::error::Problem;
+use crate::{Format, Input};
+
+type Reader = fn(&Input, &mut Builder) -> Result<(), Problem>;
+
+/// The reader of a mesh format; UniGrafix is read by `ugparse`.
+pub(crate) fn reader(format: Format) -> Option<Reader> {
+    match format {
+        Format::Ug => None,
+        Format::Obj => Some(obj::read),
+        Format::Ply => Some(|input, builder| ply::read(&input.bytes, builder)),
+        Format::Stl => Some(|input, builder| stl::read(&input.bytes, builder)),
+        Format::Off => Some(|input, builder| off::read(&input.bytes, builder)),
+        Format::Gltf => Some(gltf::read),
+    }
+}
+
+/// Corners of the triangles of a strip of `len` corners, by place in it; every other one is turned.
+fn strip(len: usize) -> impl Iterator<Item = [usize; 3]> {
+    (2..len).map(|last| if last % 2 == 0 { [last - 2, last - 1, last] } else { [last - 1, last - 2, last] })
+}

@@ -1,0 +1,247 @@
+//! Wavefront OBJ: vertices, normals, faces, colours of vertices and materials.
+//!
+//! Why not a crate: those at hand give every group and every texture seam vertices of its own, in f32, so that
+//! neighbouring faces no longer share edges.
+
+use std::borrow::Cow;
+use std::collections::BTreeSet;
+
+use glam::DVec3;
+use rustc_hash::FxHashMap;
+use ugparse::{ColorId, VertexId};
+
+use super::mtl::{self, Materials};
+use super::words::{self, numbers};
+use crate::Input;
+use crate::builder::{Builder, Rgba};
+use crate::error::Problem;
+
+pub(super) fn read(input: &Input, builder: &mut Builder) -> Result<(), Problem> {
+    let text = words::text(&input.bytes);
+    let mut reader = Reader::new(input, builder);
+    let mut in_head = true;
+    for (line, statement) in statements(&text) {
+        let statement = statement.trim();
+        if let Some(comment) = statement.strip_prefix('#') {
+            if in_head {
+                reader.builder.comment(comment);
+            }
+            continue;
+        }
+        in_head &= statement.is_empty();
+        let at_line = |problem: Problem| Problem { line: Some(line), ..problem };
+        reader.statement(line, statement).map_err(at_line)?;
+    }
+    reader.finish()
+}
+
+/// Lines with their numbers; a backslash at the end joins a line to the next.
+fn statements(text: &str) -> impl Iterator<Item = (usize, Cow<'_, str>)> {
+    let mut lines = text.lines().enumerate();
+    std::iter::from_fn(move || {
+        let (idx, line) = lines.next()?;
+        let mut statement = Cow::Borrowed(line);
+        while let Some(begun) = statement.strip_suffix('\\') {
+            let joined = format!("{begun} {}", lines.next().map_or("", |(_, line)| line));
+            statement = joined.into();
+        }
+        Some((idx + 1, statement))
+    })
+}
+
+struct Reader<'a> {
+    input: &'a Input<'a>,
+    builder: &'a mut Builder,
+    normals: Vec<DVec3>,
+    /// Of all faces: rows of `v` and of `normals`.
+    corners: Vec<(VertexId, Option<u32>)>,
+    /// End in `corners` and colour.
+    faces: Vec<(usize, Option<ColorId>)>,
+    materials: Materials,
+    /// Of the faces to come.
+    color: Option<ColorId>,
+    n_left_out: usize,
+    unknown_materials: BTreeSet<String>,
+}
+
+impl<'a> Reader<'a> {
+    fn new(input: &'a Input<'a>, builder: &'a mut Builder) -> Self {
+        Self {
+            input,
+            builder,
+            normals: Vec::new(),
+            corners: Vec::new(),
+            faces: Vec::new(),
+            materials: Materials::default(),
+            color: None,
+            n_left_out: 0,
+            unknown_materials: BTreeSet::new(),
+        }
+    }
+
+    fn statement(&mut self, line: usize, statement: &str) -> Result<(), Problem> {
+        let (keyword, rest) = mtl::split(statement);
+        match keyword {
+            "v" => self.vertex(line, rest)?,
+            "vn" => self.normal(rest)?,
+            "f" => self.face(rest)?,
+            "l" | "p" | "curv" | "curv2" | "surf" => self.n_left_out += 1,
+            "mtllib" => self.load_materials(rest),
+            "usemtl" => self.use_material(rest),
+            _ => {}
+        }
+        Ok(())
+    }
+
+    /// `v x y z`, followed by nothing, a weight, or red, green and blue.
+    fn vertex(&mut self, line: usize, rest: &str) -> Result<(), Problem> {
+        let mut words = rest.split_whitespace();
+        let position = numbers::<3>(&mut words, line, "vertex")?;
+        let has_color = words.clone().count() >= 3;
+        let color =
+            if has_color { Some(Rgba::opaque(numbers(&mut words, line, "vertex colour")?)) } else { None };
+        self.builder.vertex(DVec3::from_array(position), None, color)?;
+        Ok(())
+    }
+
+    /// Any numbers will do: some exporters write `nan` for faces without area.
+    fn normal(&mut self, rest: &str) -> Result<(), Problem> {
+        let mut parts = rest.split_whitespace().map_while(|word| fast_float2::parse(word).ok());
+        let (Some(x), Some(y), Some(z)) = (parts.next(), parts.next(), parts.next()) else {
+            return Err(Problem::new("a normal needs 3 numbers"));
+        };
+        self.normals.push(DVec3::new(x, y, z) + DVec3::ZERO);
+        Ok(())
+    }
+
+    fn face(&mut self, rest: &str) -> Result<(), Problem> {
+        for word in rest.split_whitespace() {
+            let corner = self.corner(word)?;
+            self.corners.push(corner);
+        }
+        self.faces.push((self.corners.len(), self.color));
+        Ok(())
+    }
+
+    /// `v`, `v/vt`, `v//vn` or `v/vt/vn`: numbers from 1, or backwards from −1.
+    fn corner(&self, word: &str) -> Result<(VertexId, Option<u32>), Problem> {
+        let mut parts = word.split('/');
+        let (position, normal) = (parts.next().unwrap_or_default(), parts.nth(1).unwrap_or_default());
+        let n_vertices = self.builder.n_vertices();
+        let vertex = row(position, n_vertices).and_then(|row| self.builder.known(row)).ok_or_else(|| {
+            Problem::new(format!("a face names vertex `{position}`, but there are {n_vertices} above it"))
+        })?;
+        if normal.is_empty() {
+            return Ok((vertex, None));
+        }
+        let n_normals = self.normals.len();
+        let row = row(normal, n_normals).filter(|&row| row < n_normals as u64).ok_or_else(|| {
+            Problem::new(format!("a face names normal `{normal}`, but there are {n_normals} above it"))
+        })?;
+        Ok((vertex, Some(row as u32)))
+    }
+
+    /// `mtllib` takes several names, but names with blanks are more common.
+    fn load_materials(&mut self, rest: &str) {
+        let names: Vec<&str> = rest.split_whitespace().collect();
+        if let Ok(bytes) = (self.input.beside)(rest) {
+            return self.materials.add(&bytes);
+        }
+        for name in if names.is_empty() { vec![rest] } else { names } {
+            match (self.input.beside)(name) {
+                Ok(bytes) => self.materials.add(&bytes),
+                Err(error) => {
+                    self.builder.warn(format!("colours are missing: cannot read `{name}`: {error}"));
+                }
+            }
+        }
+    }
+
+    fn use_material(&mut self, name: &str) {
+        let known = self.materials.colors.get(name).copied();
+        if known.is_none() {
+            self.unknown_materials.insert(name.to_string());
+        }
+        self.color = known.map(|color| self.builder.color(color));
+    }
+
+    /// Makes the faces, now that all vertices of the file are there.
+    fn finish(mut self) -> Result<(), Problem> {
+        let mut seams = Seams::new(self.builder.n_vertices());
+        let mut start = 0;
+        for &(end, color) in &self.faces {
+            let corners = self.corners[start..end].iter().map(|&(vertex, normal)| {
+                let normal = normal.map(|row| self.normals[row as usize]).filter(|n| n.is_finite());
+                seams.vertex(self.builder, vertex, normal)
+            });
+            let corners = corners.collect::<Result<Vec<_>, _>>()?;
+            self.builder.face(&corners, color)?;
+            start = end;
+        }
+        self.warn();
+        Ok(())
+    }
+
+    fn warn(&mut self) {
+        let names: Vec<String> =
+            self.unknown_materials.iter().take(5).map(|name| format!("`{name}`")).collect();
+        if !names.is_empty() {
+            let more = if self.unknown_materials.len() > names.len() { ", …" } else { "" };
+            self.builder.warn(format!("no colour is known for material {}{more}", names.join(", ")));
+        }
+        if self.materials.has_textures {
+            self.builder.warn("textures are not read");
+        }
+        self.builder.warn_of(
+            self.n_left_out,
+            "line, point or curve is left out",
+            "lines, points or curves are left out",
+        );
+    }
+}
+
+/// Bits of a normal: equal ones are one, under whatever number.
+type NormalBits = Option<[u64; 3]>;
+
+/// Positions with several normals become several vertices. The first normal stays with the vertex of the file, so
+/// that vertices keep their order; the others come behind them all.
+struct Seams {
+    first: Vec<Option<NormalBits>>,
+    copies: FxHashMap<(VertexId, NormalBits), VertexId>,
+}
+
+impl Seams {
+    fn new(n_vertices: usize) -> Self {
+        Self { first: vec![None; n_vertices], copies: FxHashMap::default() }
+    }
+
+    /// The vertex with this normal at the place of `vertex`.
+    fn vertex(
+        &mut self,
+        builder: &mut Builder,
+        vertex: VertexId,
+        normal: Option<DVec3>,
+    ) -> Result<VertexId, Problem> {
+        let bits = normal.map(|n| n.to_array().map(f64::to_bits));
+        let first = self.first[vertex.index()].get_or_insert_with(|| {
+            builder.set_normal(vertex, normal);
+            bits
+        });
+        if *first == bits {
+            return Ok(vertex);
+        }
+        if let Some(&copy) = self.copies.get(&(vertex, bits)) {
+            return Ok(copy);
+        }
+        let copy = builder.copy(vertex, normal)?;
+        self.copies.insert((vertex, bits), copy);
+        Ok(copy)
+    }
+}
+
+/// The row of an element counted from 1, or backwards from −1.
+fn row(word: &str, n_rows: usize) -> Option<u64> {
+    let number: i64 = word.parse().ok()?;
+    let row = if number < 0 { number.checked_add_unsigned(n_rows as u64)? } else { number - 1 };
+    u64::try_from(row).ok()
+}

@@ -1,0 +1,117 @@
+//! Geomview OFF: `[ST][C][N]OFF`, counts, vertices, faces, one a line.
+
+use glam::DVec3;
+
+use super::words::{self, number, numbers};
+use crate::builder::{Builder, Rgba};
+use crate::error::Problem;
+use crate::format::is_off_keyword;
+
+pub(super) fn read(bytes: &[u8], builder: &mut Builder) -> Result<(), Problem> {
+    let text = words::text(bytes);
+    let lines = text.lines().enumerate().map(|(idx, line)| {
+        let without_comment = line.split('#').next().unwrap_or_default();
+        (idx + 1, without_comment.trim())
+    });
+    let mut lines = lines.filter(|(_, line)| !line.is_empty());
+
+    let (kind, [n_vertices, n_faces]) = read_head(&mut lines)?;
+    for n_read in 0..n_vertices {
+        let (line, vertex) = lines.next().ok_or_else(|| ends_early(n_vertices, "vertices", n_read))?;
+        read_vertex(vertex, line, kind, builder)?;
+    }
+    for n_read in 0..n_faces {
+        let (line, face) = lines.next().ok_or_else(|| ends_early(n_faces, "faces", n_read))?;
+        read_face(face, line, builder)?;
+    }
+    Ok(())
+}
+
+/// What the keyword says a vertex has.
+#[derive(Clone, Copy, Default)]
+struct Kind {
+    has_normal: bool,
+    has_color: bool,
+}
+
+fn ends_early(announced: u64, what: &str, n_read: u64) -> Problem {
+    Problem::new(format!("{announced} {what} are announced, but it ends after {n_read}; copy it again"))
+}
+
+/// The keyword, which may be missing, and the counts, which may stand on its line.
+fn read_head<'t>(lines: &mut impl Iterator<Item = (usize, &'t str)>) -> Result<(Kind, [u64; 2]), Problem> {
+    let nothing = || Problem::new("it has no counts of vertices and faces");
+    let (line, head) = lines.next().ok_or_else(nothing)?;
+    let mut words: Vec<&str> = head.split_whitespace().collect();
+    let mut kind = Kind::default();
+    let mut line = line;
+    if let Some(&keyword) = words.first()
+        && is_off_keyword(keyword)
+    {
+        if keyword.contains(['4', 'n']) || words.contains(&"BINARY") {
+            let what = format!("`{head}` is not read; export plain three-dimensional text OFF, or PLY");
+            return Err(Problem::at(line, what));
+        }
+        // `STOFF` has no normals, `ST` is for texture.
+        let letters = keyword.trim_start_matches("ST");
+        kind = Kind { has_normal: letters.contains('N'), has_color: letters.contains('C') };
+        words.remove(0);
+        if words.is_empty() {
+            let (next_line, counts) = lines.next().ok_or_else(nothing)?;
+            line = next_line;
+            words = counts.split_whitespace().collect();
+        }
+    }
+    let count = |idx: usize| words.get(idx).and_then(|word| word.parse().ok());
+    match (count(0), count(1)) {
+        (Some(n_vertices), Some(n_faces)) => Ok((kind, [n_vertices, n_faces])),
+        _ => Err(Problem::at(line, "the numbers of vertices and faces are expected here")),
+    }
+}
+
+fn read_vertex(vertex: &str, line: usize, kind: Kind, builder: &mut Builder) -> Result<(), Problem> {
+    let mut words = vertex.split_whitespace();
+    let position = numbers::<3>(&mut words, line, "vertex")?;
+    let normal =
+        if kind.has_normal { Some(DVec3::from_array(numbers(&mut words, line, "normal")?)) } else { None };
+    let color = if kind.has_color { color(words, line)? } else { None };
+    builder.vertex(DVec3::from_array(position), normal, color)?;
+    Ok(())
+}
+
+fn read_face(face: &str, line: usize, builder: &mut Builder) -> Result<(), Problem> {
+    let mut words = face.split_whitespace();
+    let n_corners: u64 = words
+        .next()
+        .and_then(|word| word.parse().ok())
+        .ok_or_else(|| Problem::at(line, "a face begins with the number of its corners"))?;
+    let mut corners = Vec::new();
+    for n_read in 0..n_corners {
+        let word = words
+            .next()
+            .ok_or_else(|| Problem::at(line, format!("a face of {n_corners} corners ends after {n_read}")))?;
+        let corner = word.parse().ok().and_then(|idx| builder.known(idx)).ok_or_else(|| {
+            let last = builder.n_vertices() as i64 - 1;
+            Problem::at(line, format!("a face names vertex `{word}`, but they are numbered from 0 to {last}"))
+        })?;
+        corners.push(corner);
+    }
+    let color = color(words, line)?.map(|color| builder.color(color));
+    builder.face(&corners, color)
+}
+
+/// Three or four numbers: whole ones from 0 to 255, others from 0 to 1. A single one is a row of a colour map that
+/// was never written down.
+fn color<'w>(words: impl Iterator<Item = &'w str>, line: usize) -> Result<Option<Rgba>, Problem> {
+    let mut parts = Vec::with_capacity(4);
+    for word in words.take(4) {
+        let value = number(word, line, "colour")?;
+        let is_whole = word.bytes().all(|byte| byte.is_ascii_digit());
+        parts.push(if is_whole { value / 255.0 } else { value });
+    }
+    Ok(match parts[..] {
+        [red, green, blue] => Some(Rgba::opaque([red, green, blue])),
+        [red, green, blue, alpha] => Some(Rgba([red, green, blue, alpha])),
+        _ => None,
+    })
+}

@@ -1,0 +1,130 @@
+//! A scene as mesh formats have it: one colour for each vertex, polygons without holes.
+
+use glam::DVec3;
+use ugparse::{ColorId, ColorValue, Contours, Scene, VertexId};
+use ugscene::{HueScale, hsv};
+
+/// Which polygons a format can hold.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Polygons {
+    /// Any without holes.
+    Simple,
+    /// Triangles only.
+    Triangles,
+}
+
+/// What is written.
+pub(crate) struct Surface {
+    /// Its vertices count, and its head comments.
+    pub scene: Scene,
+    /// Red, green, blue, display-encoded, and opacity of every vertex; `None` if the scene has no colours.
+    pub colors: Option<Vec<[f64; 4]>>,
+    /// One a row, counterclockwise seen from outside.
+    pub polygons: Contours,
+    /// What the user should know.
+    pub notes: Vec<String>,
+}
+
+impl Surface {
+    pub fn new(mut scene: Scene, kind: Polygons) -> Self {
+        let mut notes = Vec::new();
+        note_of(&mut notes, scene.wires.len(), "wire is left out", "wires are left out");
+        note_of(&mut notes, scene.lights.len(), "light is left out", "lights are left out");
+        note_of(&mut notes, scene.cameras.len(), "camera is left out", "cameras are left out");
+        separate_colors(&mut scene);
+        let colors = vertex_colors(&scene, &mut notes);
+        let polygons = polygons(&scene, kind, &mut notes);
+        Self { scene, colors, polygons, notes }
+    }
+
+    /// Whether anything shows what is behind it.
+    pub fn is_clear(&self) -> bool {
+        self.colors.iter().flatten().any(|color| color[3] < 1.0)
+    }
+
+    /// The normals, if every vertex of a face has one: formats with one list for all cannot leave any out.
+    pub fn normals(&self) -> Option<Vec<DVec3>> {
+        let used = (0..self.polygons.len() as u32).flat_map(|row| self.polygons.get(row));
+        let mut has_all = !self.polygons.is_empty();
+        used.for_each(|corner| has_all &= self.scene.vertices[corner.index()].normal.is_some());
+        has_all.then(|| {
+            let unit = |normal: Option<DVec3>| normal.map_or(DVec3::Z, unit);
+            self.scene.vertices.iter().map(|vertex| unit(vertex.normal)).collect()
+        })
+    }
+}
+
+/// Unit vector along a vector of any length but 0. One that is a unit vector stays as it is, to the bit.
+fn unit(v: DVec3) -> DVec3 {
+    if (v.length_squared() - 1.0).abs() < 1e-6 { v } else { (v / v.abs().max_element()).normalize() }
+}
+
+fn note_of(notes: &mut Vec<String>, count: usize, one: &str, many: &str) {
+    match count {
+        0 => {}
+        1 => notes.push(format!("1 {one}")),
+        _ => notes.push(format!("{count} {many}")),
+    }
+}
+
+/// Repeats vertices where faces of different colours meet, so that each vertex has one.
+fn separate_colors(scene: &mut Scene) {
+    let users: Vec<_> = scene.faces.iter().map(|face| (face.contours.clone(), face.color)).collect();
+    ugscene::split_vertices(scene, &users, |vertex| vertex.color.is_none());
+}
+
+/// The colour of every vertex: its own, else that of its faces, else white.
+fn vertex_colors(scene: &Scene, notes: &mut Vec<String>) -> Option<Vec<[f64; 4]>> {
+    let mut ids: Vec<Option<ColorId>> = scene.vertices.iter().map(|vertex| vertex.color).collect();
+    for face in &scene.faces {
+        for corner in scene.contours.corners(face.contours.clone()) {
+            let id = &mut ids[corner.index()];
+            *id = id.or(face.color);
+        }
+    }
+    let mut n_clipped = 0;
+    let palette: Vec<[f64; 4]> = scene
+        .colors
+        .iter()
+        .map(|color| {
+            let [red, green, blue] = match color.value {
+                ColorValue::Rgb(rgb) => rgb,
+                ColorValue::Hsv { .. } => hsv(color, HueScale::Degrees).to_rgb(),
+            };
+            n_clipped += usize::from(red.max(green).max(blue) > 1.0);
+            [red, green, blue, 1.0 - color.translucency].map(|part| part.clamp(0.0, 1.0))
+        })
+        .collect();
+    note_of(notes, n_clipped, "colour brighter than 1 is clipped", "colours brighter than 1 are clipped");
+    let color = |id: Option<ColorId>| id.map_or([1.0; 4], |id| palette[id.index()]);
+    ids.iter().any(Option::is_some).then(|| ids.into_iter().map(color).collect())
+}
+
+/// Faces as polygons without holes. What cannot be cut is kept as its outline.
+fn polygons(scene: &Scene, kind: Polygons, notes: &mut Vec<String>) -> Contours {
+    let mut polygons = Contours::default();
+    let mut n_uncut = 0;
+    for face in &scene.faces {
+        let contours: Vec<&[VertexId]> = scene.face_contours(face).collect();
+        let is_fit = match kind {
+            Polygons::Simple => contours.len() == 1,
+            Polygons::Triangles => contours.len() == 1 && contours[0].len() == 3,
+        };
+        if is_fit {
+            polygons.push(contours[0].iter().copied());
+            continue;
+        }
+        let place = |corner: &VertexId| scene.vertices[corner.index()].position;
+        let rings: Vec<Vec<DVec3>> = contours.iter().map(|ring| ring.iter().map(place).collect()).collect();
+        let corners = contours.concat();
+        let triangles = ugscene::triangulate(&rings).unwrap_or_else(|| {
+            n_uncut += 1;
+            (2..contours[0].len() as u32).map(|last| [0, last - 1, last]).collect()
+        });
+        for triangle in triangles {
+            polygons.push(triangle.map(|corner| corners[corner as usize]));
+        }
+    }
+    note_of(notes, n_uncut, "face without area is cut like a fan", "faces without area are cut like fans");
+    polygons
+}

@@ -1,0 +1,159 @@
+//! glTF 2.0: one node, one mesh, one primitive, 32-bit numbers, linear colours.
+
+use std::borrow::Cow;
+
+use base64::Engine;
+use base64::prelude::BASE64_STANDARD;
+use gltf::binary::{Glb, Header};
+use serde_json::{Value, json};
+use ugphysics::srgb_decode;
+
+use crate::Error;
+use crate::surface::Surface;
+
+/// Codes of OpenGL for types and uses of numbers.
+const FLOAT: u32 = 5126;
+const UNSIGNED_INT: u32 = 5125;
+const ARRAY_BUFFER: u32 = 34962;
+const ELEMENT_ARRAY_BUFFER: u32 = 34963;
+
+pub(super) fn write_glb(surface: &mut Surface) -> Result<Vec<u8>, Error> {
+    check_range(surface)?;
+    let (document, buffer) = document(surface, None);
+    let json = document.to_string().into_bytes();
+    // The head of the file has 32 bits for its length; 64 bytes are for heads and padding.
+    if u32::try_from(json.len() + buffer.len() + 64).is_err() {
+        return Err(Error::TooLarge);
+    }
+    let header = Header { magic: *b"glTF", version: 2, length: 0 };
+    let bin = (!buffer.is_empty()).then_some(Cow::Owned(buffer));
+    Glb { header, json: json.into(), bin }.to_vec().map_err(|_| Error::TooLarge)
+}
+
+pub(super) fn write_json(surface: &mut Surface) -> Result<Vec<u8>, Error> {
+    check_range(surface)?;
+    let (document, _) = document(surface, Some("data:application/octet-stream;base64,"));
+    Ok(format!("{document:#}\n").into_bytes())
+}
+
+fn check_range(surface: &Surface) -> Result<(), Error> {
+    let is_narrow = surface.scene.vertices.iter().all(|vertex| vertex.position.as_vec3().is_finite());
+    if is_narrow { Ok(()) } else { Err(Error::OutOfRange) }
+}
+
+/// The document and its buffer, which is also put into the document if there is a `uri` to put before it.
+fn document(surface: &mut Surface, uri: Option<&str>) -> (Value, Vec<u8>) {
+    let mut document = json!({
+        "asset": {
+            "version": "2.0",
+            "generator": concat!("ugmesh ", env!("CARGO_PKG_VERSION")),
+            "extras": { "history": super::head_lines(&surface.scene).collect::<Vec<_>>() },
+        },
+    });
+    let mut buffer = Buffer::default();
+    // Lists and accessors without rows are not allowed.
+    if !surface.polygons.is_empty() {
+        document["scene"] = 0.into();
+        document["scenes"] = json!([{ "nodes": [0] }]);
+        document["nodes"] = json!([{ "mesh": 0 }]);
+        let attributes = attributes(surface, &mut buffer);
+        let indices = indices(surface, &mut buffer);
+        let primitive = json!({ "attributes": attributes, "indices": indices, "material": 0, "mode": 4 });
+        document["meshes"] = json!([{ "primitives": [primitive] }]);
+        document["materials"] = json!([material(surface.is_clear())]);
+        document["accessors"] = Value::Array(buffer.accessors);
+        document["bufferViews"] = Value::Array(buffer.views);
+        document["buffers"] = json!([{ "byteLength": buffer.bytes.len() }]);
+        if let Some(uri) = uri {
+            document["buffers"][0]["uri"] = (uri.to_string() + &BASE64_STANDARD.encode(&buffer.bytes)).into();
+        }
+    }
+    (document, buffer.bytes)
+}
+
+/// Dull, and seen from both sides, as scenes are.
+fn material(is_clear: bool) -> Value {
+    let mut material = json!({
+        "pbrMetallicRoughness": { "metallicFactor": 0, "roughnessFactor": 1 },
+        "doubleSided": true,
+    });
+    if is_clear {
+        material["alphaMode"] = "BLEND".into();
+    }
+    material
+}
+
+fn attributes(surface: &mut Surface, buffer: &mut Buffer) -> Value {
+    let positions: Vec<[f32; 3]> =
+        surface.scene.vertices.iter().map(|vertex| vertex.position.as_vec3().to_array()).collect();
+    let mut attributes = json!({ "POSITION": buffer.rows(&positions, "VEC3") });
+    let (low, high) = bounds(&positions);
+    let position = buffer.accessors.last_mut().expect("just added");
+    (position["min"], position["max"]) = (json!(low), json!(high));
+
+    match surface.normals() {
+        Some(normals) => {
+            let normals: Vec<[f32; 3]> = normals.iter().map(|normal| normal.as_vec3().to_array()).collect();
+            attributes["NORMAL"] = buffer.rows(&normals, "VEC3").into();
+        }
+        None if surface.scene.vertices.iter().any(|vertex| vertex.normal.is_some()) => {
+            surface.notes.push("normals are left out: not every vertex has one".to_string());
+        }
+        None => {}
+    }
+    if let Some(colors) = &surface.colors {
+        let linear = |&[red, green, blue, alpha]: &[f64; 4]| {
+            let [red, green, blue] = [red, green, blue].map(|part| srgb_decode(part) as f32);
+            [red, green, blue, alpha as f32]
+        };
+        let colors: Vec<[f32; 4]> = colors.iter().map(linear).collect();
+        attributes["COLOR_0"] = buffer.rows(&colors, "VEC4").into();
+    }
+    attributes
+}
+
+fn indices(surface: &Surface, buffer: &mut Buffer) -> usize {
+    let corners = (0..surface.polygons.len() as u32).flat_map(|row| surface.polygons.get(row));
+    let bytes: Vec<u8> = corners.flat_map(|corner| corner.0.to_le_bytes()).collect();
+    buffer.add(&bytes, bytes.len() / 4, UNSIGNED_INT, "SCALAR", ELEMENT_ARRAY_BUFFER)
+}
+
+fn bounds(positions: &[[f32; 3]]) -> ([f32; 3], [f32; 3]) {
+    let first = positions.first().copied().unwrap_or_default();
+    positions.iter().fold((first, first), |(low, high), p| {
+        (std::array::from_fn(|i| low[i].min(p[i])), std::array::from_fn(|i| high[i].max(p[i])))
+    })
+}
+
+/// The binary buffer, and who describes it. Everything in it is a multiple of four bytes.
+#[derive(Default)]
+struct Buffer {
+    bytes: Vec<u8>,
+    views: Vec<Value>,
+    accessors: Vec<Value>,
+}
+
+impl Buffer {
+    fn rows<const N: usize>(&mut self, rows: &[[f32; N]], kind: &str) -> usize {
+        let bytes: Vec<u8> = rows.iter().flatten().flat_map(|x| x.to_le_bytes()).collect();
+        self.add(&bytes, rows.len(), FLOAT, kind, ARRAY_BUFFER)
+    }
+
+    /// The number of the accessor.
+    fn add(&mut self, bytes: &[u8], count: usize, component: u32, kind: &str, target: u32) -> usize {
+        self.views.push(json!({
+            "buffer": 0,
+            "byteOffset": self.bytes.len(),
+            "byteLength": bytes.len(),
+            "target": target,
+        }));
+        self.bytes.extend_from_slice(bytes);
+        self.accessors.push(json!({
+            "bufferView": self.views.len() - 1,
+            "componentType": component,
+            "count": count,
+            "type": kind,
+        }));
+        self.accessors.len() - 1
+    }
+}

@@ -1,0 +1,34 @@
+//! Writers: one for each format, all from a [`Surface`].
+
+mod gltf;
+mod obj;
+mod ply;
+
+use ugparse::Scene;
+
+use crate::surface::{Polygons, Surface};
+use crate::{Error, Target};
+
+/// The bytes of a scene in a format, and notes.
+pub(crate) fn write(scene: Scene, target: Target) -> Result<(Vec<u8>, Vec<String>), Error> {
+    let (polygons, writer): (Polygons, Writer) = match target {
+        Target::Ug => return Ok((ugparse::write(&scene), Vec::new())),
+        Target::Obj => (Polygons::Simple, |surface| Ok(obj::write(surface))),
+        Target::Ply { is_ascii: false } => (Polygons::Simple, |surface| Ok(ply::write(surface, false))),
+        Target::Ply { is_ascii: true } => (Polygons::Simple, |surface| Ok(ply::write(surface, true))),
+        Target::Gltf => (Polygons::Triangles, gltf::write_json),
+        Target::Glb => (Polygons::Triangles, gltf::write_glb),
+    };
+    let mut surface = Surface::new(scene, polygons);
+    let bytes = writer(&mut surface)?;
+    Ok((bytes, surface.notes))
+}
+
+type Writer = fn(&mut Surface) -> Result<Vec<u8>, Error>;
+
+/// The lines of the scene's head comments: licence and history. Control characters in them would end the line for
+/// some readers.
+fn head_lines(scene: &Scene) -> impl Iterator<Item = String> {
+    let printable = |line: &str| line.trim().replace(char::is_control, " ");
+    scene.head.iter().flat_map(|comment| comment.lines()).map(printable).filter(|line| !line.is_empty())
+}

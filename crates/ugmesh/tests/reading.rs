@@ -1,0 +1,452 @@
+//! What comes out of each format.
+
+mod common;
+
+use common::{
+    Encoding, convert, floats, glb, glb_with_nodes, ply, seen, statements, stl_binary, stl_text, to_scene,
+};
+use ugmesh::{Axis, Config, Input, Size};
+
+fn z_up() -> Config {
+    Config { up: Some(Axis::Z), ..Config::default() }
+}
+
+#[test]
+fn texts_become_scenes() {
+    #[track_caller]
+    fn check(name: &str, text: &str, expected: &str) {
+        let lines: Vec<&str> = expected.lines().map(str::trim).collect();
+        assert_eq!(statements(&to_scene(&z_up(), name, text)).trim_end(), lines.join("\n"), "{text}");
+    }
+    let square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+    let points = "v v1 0 0 0;\nv v2 1 0 0;\nv v3 1 1 0;\nv v4 0 1 0;\n";
+    check("polygons stay.obj", &format!("{square}f 1 2 3 4"), &format!("{points}f (v1 v2 v3 v4);"));
+    check("from the end.obj", &format!("{square}f -4 -3 -1"), &format!("{points}f (v1 v2 v4);"));
+    check("joined lines.obj", &format!("{square}f 1 2\\\n3"), &format!("{points}f (v1 v2 v3);"));
+    check(
+        "texture seams and groups part nothing.obj",
+        &format!("{square}vt 0 0\nvt 1 1\ng a\nf 1/1 2/1 3/1\ng b\nf 1/2 3/2 4/2"),
+        &format!("{points}f (v1 v2 v3);\nf (v1 v3 v4);"),
+    );
+    check(
+        "a second normal makes a second vertex, behind all others.obj",
+        "vn 0 0 1\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1//1 2//1 3//1\nvn 1 0 0\nvn 0 0 1\nv 0 0 1\nf 1//2 3//3 4",
+        "v v1 0 0 0 0 0 1;\nv v2 1 0 0 0 0 1;\nv v3 0 1 0 0 0 1;\nv v4 0 0 1;\nv v5 0 0 0 1 0 0;
+         f (v1 v2 v3);\nf (v5 v3 v4);",
+    );
+    check(
+        "colours of vertices, each once.obj",
+        "v 0 0 0 1 0.5 0\nv 1 0 0 1 .5 0.0\nv 0 1 0 0 0 1\nv 0 0 1 1\nf 1 2 3",
+        "c_rgb c1 1 0.5 0;\nc_rgb c2 0 0 1;
+         v v1 0 0 0 c1;\nv v2 1 0 0 c1;\nv v3 0 1 0 c2;\nv v4 0 0 1;\nf (v1 v2 v3);",
+    );
+    check(
+        "corners that repeat, and faces without area.obj",
+        &format!("{square}f 1 1 2 3 1\nf 1 2 1\nf 1 2 2\nf 1 2"),
+        &format!("{points}f (v1 v2 v3);"),
+    );
+    check(
+        "minus nought.obj",
+        "v -0 -0.0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3",
+        "v v1 0 0 0;\nv v2 1 0 0;\nv v3 0 1 0;\nf (v1 v2 v3);",
+    );
+    check(
+        "numbers to the bit.obj",
+        "v 0.1 1e-7 123456789.123456789\nv 1 0 0\nv 0 1 0\nf 1 2 3",
+        "v v1 0.1 1e-7 123456789.12345679;\nv v2 1 0 0;\nv v3 0 1 0;\nf (v1 v2 v3);",
+    );
+
+    let off = "3 1 0\n0 0 0\n1 0 0 # a corner\n\n0 1 0\n3 0 1 2";
+    let triangle = "v v1 0 0 0;\nv v2 1 0 0;\nv v3 0 1 0;\n";
+    check("plain.off", &format!("OFF\n{off}"), &format!("{triangle}f (v1 v2 v3);"));
+    check("counts behind the keyword.off", &format!("OFF {off}"), &format!("{triangle}f (v1 v2 v3);"));
+    check("no keyword.off", off, &format!("{triangle}f (v1 v2 v3);"));
+    check(
+        "a face with a colour in bytes.off",
+        &format!("OFF\n{off} 255 0 51"),
+        &format!("c_rgb c1 1 0 0.2;\n{triangle}f (v1 v2 v3) c1;"),
+    );
+    check(
+        "a face with a clear colour.off",
+        &format!("OFF\n{off} 1.0 0.0 0.2 0.75"),
+        &format!("c_rgb c1 1 0 0.2 0.25;\n{triangle}f (v1 v2 v3) c1;"),
+    );
+    check("a row of a colour map.off", &format!("OFF\n{off} 7"), &format!("{triangle}f (v1 v2 v3);"));
+    check(
+        "colours and normals of vertices.off",
+        "CNOFF\n3 1 0\n0 0 0  0 0 1  0 255 0 255\n1 0 0  0 0 1  0.0 1.0 0.0\n0 1 0  0 0 0  0 0 255\n3 0 1 2",
+        "c_rgb c1 0 1 0;\nc_rgb c2 0 0 1;
+         v v1 0 0 0 c1 0 0 1;\nv v2 1 0 0 c1 0 0 1;\nv v3 0 1 0 c2;\nf (v1 v2 v3);",
+    );
+    check(
+        "strips of triangles.ply",
+        "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n\
+         element tristrips 1\nproperty list int int vertex_indices\nend_header\n\
+         0 0 0\n1 0 0\n0 1 0\n1 1 0\n8 0 1 2 3 -1 0 1 3",
+        "v v1 0 0 0;\nv v2 1 0 0;\nv v3 0 1 0;\nv v4 1 1 0;\nf (v1 v2 v3);\nf (v3 v2 v4);\nf (v1 v2 v4);",
+    );
+    check(
+        "a face with a colour.ply",
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n\
+         property list uchar uint vertex_index\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n\
+         end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2 255 0 51\n",
+        &format!("c_rgb c1 1 0 0.2;\n{triangle}f (v1 v2 v3) c1;"),
+    );
+}
+
+#[test]
+fn encodings_of_ply_are_one_scene() {
+    let [ascii, little, big] = [Encoding::Ascii, Encoding::Little, Encoding::Big].map(|encoding| {
+        let scene = to_scene(&Config::default(), "<stdin>", ply(encoding));
+        assert!(scene.head[0].contains("free for all"), "{:?}", scene.head);
+        statements(&scene)
+    });
+    let unit = [0.6f32, 0.8].map(f64::from);
+    let expected = format!(
+        "c_rgb c1 1 0 0;\nc_rgb c2 1 0.2 0;\nc_rgb c3 1 0.4 0;\nc_rgb c4 1 0.6 0;\nc_rgb c5 1 0.8 0;\n\
+         v v1 0 0 0 c1 0 {0} {1};\nv v2 1 0 {2} c2 0 {0} {1};\nv v3 1 1 {3} c3 0 {0} {1};\n\
+         v v4 0 1 {4:e} c4 0 {0} {1};\nv v5 0.5 2 0 c5 0 {0} {1};\nf (v1 v2 v3 v4);\nf (v4 v3 v5);\n",
+        unit[0],
+        unit[1],
+        f64::from(0.1f32) / 3.0,
+        f64::from(-0.3f32) / 3.0,
+        f64::from(1e-7f32) / 3.0
+    );
+    assert_eq!(little, expected);
+    assert_eq!(big, expected);
+    // Normals in text are 0.6 as a 32-bit number too.
+    assert_eq!(ascii, expected);
+}
+
+#[test]
+fn both_kinds_of_stl_are_one_scene() {
+    let [text, binary] =
+        [stl_text(), stl_binary()].map(|bytes| to_scene(&Config::default(), "<stdin>", bytes));
+    assert_eq!(statements(&text), statements(&binary));
+    let (x, y, z) = (f64::from(0.1f32), f64::from(0.2f32), f64::from(0.3f32));
+    assert_eq!(
+        statements(&text),
+        format!(
+            "v v1 0 0 0;\nv v2 0 1 0;\nv v3 1 0 0;\nv v4 {x} {y} {z};\n\
+             f (v1 v2 v3);\nf (v1 v3 v4);\nf (v1 v4 v2);\nf (v3 v2 v4);\n"
+        )
+    );
+}
+
+#[test]
+fn nodes_of_gltf_land_where_it_says() {
+    /// `expected`: where (1 1 1) lands, and the normal (1 1 0)/√2, with y up.
+    #[track_caller]
+    fn check(nodes: &str, expected: [f64; 3], normal: [f64; 3]) {
+        let config = Config { up: Some(Axis::Z), ..Config::default() };
+        let scene = to_scene(&config, "<stdin>", glb_with_nodes(nodes));
+        let corner =
+            seen(&scene)[0].iter().find(|corner| distance(corner.position, expected) < 1e-14).cloned();
+        let corner = corner.unwrap_or_else(|| panic!("nothing at {expected:?}: {:?}", seen(&scene)));
+        let length = normal.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let found = corner.normal.unwrap();
+        assert!(distance(found, normal.map(|x| x / length)) < 1e-14, "{found:?}");
+    }
+    fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
+        a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+    }
+    let quarter_about_z = "[0,0,0.7071067811865476,0.7071067811865476]";
+    check(r#"[{"mesh":0}]"#, [1.0, 1.0, 1.0], [1.0, 1.0, 0.0]);
+    // In 64 bits: 0.1 is not what it is in 32.
+    check(r#"[{"mesh":0,"translation":[0.1,0.2,0.3]}]"#, [1.1, 1.2, 1.3], [1.0, 1.0, 0.0]);
+    // (1 1 1) is scaled to (2 3 4), moved to (3 5 7), turned to (-5 3 7), moved to (5 23 37). The normal is
+    // unscaled to (1/2 1/3 0) and turned to (-1/3 1/2 0).
+    check(
+        &format!(
+            r#"[{{"children":[1],"translation":[10,20,30],"rotation":{quarter_about_z}}},
+                {{"mesh":0,"scale":[2,3,4],"translation":[1,2,3]}}]"#
+        ),
+        [5.0, 23.0, 37.0],
+        [-1.0 / 3.0, 0.5, 0.0],
+    );
+    // Turned to (-1 1 1), then scaled by a grandparent to (-2 1 1): no single scale and rotation does this.
+    check(
+        &format!(
+            r#"[{{"children":[2],"scale":[2,1,1]}},{{"mesh":0,"rotation":{quarter_about_z}}},{{"children":[1]}}]"#
+        ),
+        [-2.0, 1.0, 1.0],
+        [-0.5, 1.0, 0.0],
+    );
+    // A matrix stands by columns: x goes to y, y to z, z to x, and all is moved.
+    check(r#"[{"mesh":0,"matrix":[0,1,0,0, 0,0,1,0, 1,0,0,0, 5,6,7,1]}]"#, [6.0, 7.0, 8.0], [0.0, 1.0, 1.0]);
+}
+
+#[test]
+fn mirrored_nodes_keep_their_outside() {
+    let order = |nodes: &str| -> Vec<[f64; 3]> {
+        let scene = to_scene(&z_up(), "<stdin>", glb_with_nodes(nodes));
+        seen(&scene)[0].iter().map(|corner| corner.position).collect()
+    };
+    assert_eq!(order(r#"[{"mesh":0}]"#), [[0.0, 0.0, 0.0], [1.0, 1.0, 1.0], [0.0, 1.0, 0.0]]);
+    assert_eq!(
+        order(r#"[{"mesh":0,"scale":[-1,1,1]}]"#),
+        [[0.0, 0.0, 0.0], [0.0, 1.0, 0.0], [-1.0, 1.0, 1.0]]
+    );
+}
+
+/// One primitive of five vertices: a flat strip, with what `extra` adds to it and `more` to the document.
+fn gltf_strip(mode: u32, extra: &str, more: &str, colors: &[u8]) -> Vec<u8> {
+    let positions = floats(&[0., 0., 0., 1., 0., 0., 0., 1., 0., 1., 1., 0., 0., 2., 0.]);
+    let bytes = [positions, colors.to_vec()].concat();
+    let json = format!(
+        r#"{{"asset":{{"version":"2.0"}},"scene":0,"scenes":[{{"nodes":[0]}}],"nodes":[{{"mesh":0}}],
+        "meshes":[{{"primitives":[{{"mode":{mode},"attributes":{{"POSITION":0{extra}}}}}]}}],
+        "accessors":[
+          {{"bufferView":0,"componentType":5126,"count":5,"type":"VEC3","min":[0,0,0],"max":[1,2,0]}},
+          {{"bufferView":1,"componentType":5121,"normalized":true,"count":5,"type":"VEC4"}}],
+        "bufferViews":[{{"buffer":0,"byteLength":60}},{{"buffer":0,"byteOffset":60,"byteLength":20}}],
+        "buffers":[{{"byteLength":80}}]{more}}}"#
+    );
+    glb(&json, &bytes)
+}
+
+#[test]
+fn strips_fans_and_colours_of_gltf() {
+    #[track_caller]
+    fn check(bytes: Vec<u8>, expected: &str) {
+        let text = statements(&to_scene(&z_up(), "<stdin>", bytes));
+        let lines: Vec<&str> = text.lines().filter(|line| !line.starts_with("v ")).collect();
+        assert_eq!(lines.join(" "), expected);
+    }
+    let white = [255; 20];
+    check(gltf_strip(4, "", "", &white), "f (v1 v2 v3);");
+    check(gltf_strip(5, "", "", &white), "f (v1 v2 v3); f (v3 v2 v4); f (v3 v4 v5);");
+    check(gltf_strip(6, "", "", &white), "f (v1 v2 v3); f (v1 v3 v4); f (v1 v4 v5);");
+    // Linear 0.5 is 188 of 255 on a display.
+    let half = 0.7353569830524495;
+    let linear = r#","materials":[{"pbrMetallicRoughness":{"baseColorFactor":[1,0.5,0,0.25]}}]"#;
+    let red = [255, 0, 0, 128].repeat(5);
+    let with = |attributes: &str, material: &str| gltf_strip(4, attributes, material, &red);
+    let given = |bytes: Vec<u8>| {
+        // The primitive's material, put behind its mode.
+        let text = [bytes.as_slice()].concat();
+        let at = text.windows(8).position(|w| w == b"\"mode\":4").unwrap();
+        let json_len = u32::from_le_bytes(text[12..16].try_into().unwrap()) as usize;
+        let json = String::from_utf8_lossy(&text[20..20 + json_len]).into_owned();
+        let json = json.replacen("\"mode\":4", "\"mode\":4,\"material\":0", 1);
+        assert!(at > 20);
+        glb(json.trim_end(), &text[28 + json_len..])
+    };
+    check(given(with("", linear)), &format!("c_rgb c1 1 {half} 0; f (v1 v2 v3) c1;"));
+    // Only a material that blends is clear.
+    let blend = linear.replace("[{", r#"[{"alphaMode":"BLEND","#);
+    check(given(with("", &blend)), &format!("c_rgb c1 1 {half} 0 0.75; f (v1 v2 v3) c1;"));
+    // Both colours multiply.
+    check(given(with(r#","COLOR_0":1"#, linear)), "c_rgb c1 1 0 0; f (v1 v2 v3);");
+    check(with(r#","COLOR_0":1"#, ""), "c_rgb c1 1 0 0; f (v1 v2 v3);");
+}
+
+#[test]
+fn files_beside_the_mesh() {
+    let beside = |name: &str| -> std::io::Result<Vec<u8>> {
+        match name {
+            "my colours.mtl" => {
+                Ok(b"# made by hand\nnewmtl deep red\n Kd 0.5 0 0\nd 0.75\nnewmtl bare\nnewmtl white\nKd 1\n"
+                    .to_vec())
+            }
+            "a b.bin" => Ok(floats(&[0., 0., 0., 1., 0., 0., 0., 1., 0.])),
+            _ => Err(std::io::ErrorKind::NotFound.into()),
+        }
+    };
+    let run = |name: &str, text: &str| {
+        ugmesh::run(&z_up(), &Input::new(name, text).with_files(&beside))
+            .unwrap_or_else(|error| panic!("{error}"))
+    };
+    let points = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+    let obj = run(
+        "a.obj",
+        &format!(
+            "mtllib my colours.mtl\n{points}usemtl deep red\nf 1 2 3\nusemtl bare\nf 1 3 2\nusemtl white\nf 1 3 2"
+        ),
+    );
+    let text = String::from_utf8(obj.bytes).unwrap();
+    assert!(text.contains("c_rgb c1 0.5 0 0 0.25;\nc_rgb c2 0.8 0.8 0.8;\nc_rgb c3 1 1 1;\n"), "{text}");
+    assert!(text.ends_with("f (v1 v2 v3) c1;\nf (v1 v3 v2) c2;\nf (v1 v3 v2) c3;\n"), "{text}");
+    assert!(obj.warnings.is_empty(), "{:?}", obj.warnings);
+
+    let missing = run("a.obj", &format!("mtllib none.mtl\n{points}usemtl red\nf 1 2 3"));
+    assert_eq!(
+        missing.warnings,
+        [
+            "colours are missing: cannot read `none.mtl`: entity not found",
+            "no colour is known for material `red`"
+        ]
+    );
+
+    let gltf = |uri: &str| {
+        format!(
+            r#"{{"asset":{{"version":"2.0"}},"nodes":[{{"mesh":0}}],
+            "meshes":[{{"primitives":[{{"attributes":{{"POSITION":0}}}}]}}],
+            "accessors":[{{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]}}],
+            "bufferViews":[{{"buffer":0,"byteLength":36}}],"buffers":[{{"byteLength":36,"uri":"{uri}"}}]}}"#
+        )
+    };
+    let triangle = "v v1 0 0 0;\nv v2 1 0 0;\nv v3 0 1 0;\nf (v1 v2 v3);\n";
+    // 1.0 is 00 00 80 3f.
+    let data = "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA";
+    for uri in ["a%20b.bin", data] {
+        let text = String::from_utf8(run("a.gltf", &gltf(uri)).bytes).unwrap();
+        assert!(text.ends_with(triangle), "{uri}: {text}");
+    }
+    let error =
+        ugmesh::run(&z_up(), &Input::new("a.gltf", gltf("none.bin")).with_files(&beside)).unwrap_err();
+    assert_eq!(
+        error.to_string(),
+        "cannot read `a.gltf` as glTF: cannot read `none.bin`: entity not found; put it beside the mesh"
+    );
+}
+
+#[test]
+fn placing() {
+    #[track_caller]
+    fn check(config: Config, expected: &str) {
+        let text = statements(&to_scene(&config, "a.obj", "v 1 2 3\nv 5 2 3\nv 1 4 3\nf 1 2 3"));
+        let points: Vec<&str> = text.lines().filter_map(|line| line.strip_prefix("v v")).collect();
+        assert_eq!(points.join(" "), expected);
+    }
+    let with = |up, size, is_centered| Config { up, size, is_centered, ..Config::default() };
+    check(with(None, Size::Same, false), "1 1 -3 2; 2 5 -3 2; 3 1 -3 4;");
+    check(with(Some(Axis::Z), Size::Same, false), "1 1 2 3; 2 5 2 3; 3 1 4 3;");
+    check(with(Some(Axis::X), Size::Same, false), "1 2 3 1; 2 2 3 5; 3 4 3 1;");
+    check(with(Some(Axis::Z), Size::Times(0.5), false), "1 0.5 1 1.5; 2 2.5 1 1.5; 3 0.5 2 1.5;");
+    check(with(Some(Axis::Z), Size::Fit(1.0), false), "1 0.25 0.5 0.75; 2 1.25 0.5 0.75; 3 0.25 1 0.75;");
+    check(with(Some(Axis::Z), Size::Fit(8.0), true), "1 -4 -2 0; 2 4 -2 0; 3 -4 2 0;");
+}
+
+#[test]
+fn sizes_that_no_number_can_say() {
+    #[track_caller]
+    fn check(size: Size, x: &str) {
+        let config = Config { size, ..Config::default() };
+        let error =
+            convert(&config, "a.obj", format!("v {x} 2 3\nv -{x} 2 3\nv 1 4 3\nf 1 2 3")).unwrap_err();
+        assert_eq!(
+            error.to_string(),
+            "scaled coordinates are no numbers any more; choose another -scale or -fit"
+        );
+    }
+    check(Size::Times(1e300), "1e10");
+    check(Size::Fit(1.0), "1.7e308");
+}
+
+#[test]
+fn what_is_wrong_is_said_with_its_place() {
+    #[track_caller]
+    fn check(name: &str, bytes: impl Into<Vec<u8>>, expected: &str) {
+        assert_eq!(convert(&Config::default(), name, bytes).unwrap_err().to_string(), expected);
+    }
+    check("a", "", "cannot tell the format of `a`; name it with -if ug, obj, ply, stl, off or gltf");
+    check("a.ug", "", "the input is a UniGrafix scene already; choose a mesh with -dt obj, ply, gltf or glb");
+    let obj = "cannot read `a.obj` as OBJ: ";
+    check("a.obj", "v 1 2", &format!("{obj}line 1: a vertex needs 3 numbers or more"));
+    check("a.obj", "v 0 0 0\nv 1 2 nan", &format!("{obj}line 2: `nan` in a vertex is not a finite number"));
+    check(
+        "a.obj",
+        "v 0 0 0\nf 1 2 3",
+        &format!("{obj}line 2: a face names vertex `2`, but there are 1 above it"),
+    );
+    check(
+        "a.obj",
+        "v 0 0 0\nf 0 1 1",
+        &format!("{obj}line 2: a face names vertex `0`, but there are 1 above it"),
+    );
+    check(
+        "a.obj",
+        "v 0 0 0\nf 1//1",
+        &format!("{obj}line 2: a face names normal `1`, but there are 0 above it"),
+    );
+    check("a.obj", "vn 1", &format!("{obj}line 1: a normal needs 3 numbers"));
+    let stl = "cannot read `a.stl` as STL: ";
+    check("a.stl", "solid\nvertex 0 0 0\nendloop", &format!("{stl}line 3: a facet has 1 corners, not 3"));
+    check("a.stl", "solid\nvertx 0 0 0", &format!("{stl}line 2: `vertx` is no word of STL"));
+    check("a.stl", "solid\nvertex 0 0 0", &format!("{stl}it ends inside a facet; copy it again"));
+    check("a.stl", "", &format!("{stl}it is too short for STL"));
+    let cut = &stl_binary()[..200];
+    check(
+        "a.stl",
+        &[b"x", &cut[1..]].concat()[..],
+        &format!("{stl}4 triangles are announced, but it ends after 2; copy it again"),
+    );
+    let off = "cannot read `a.off` as OFF: ";
+    check(
+        "a.off",
+        "OFF\n2 1 0\n0 0 0",
+        &format!("{off}2 vertices are announced, but it ends after 1; copy it again"),
+    );
+    check(
+        "a.off",
+        "OFF\n1 1\n0 0 0\n3 0 0 1",
+        &format!("{off}line 4: a face names vertex `1`, but they are numbered from 0 to 0"),
+    );
+    check(
+        "a.off",
+        "OFF BINARY\n",
+        &format!("{off}line 1: `OFF BINARY` is not read; export plain three-dimensional text OFF, or PLY"),
+    );
+    check(
+        "a.off",
+        "OFF\nv 1 2",
+        &format!("{off}line 2: the numbers of vertices and faces are expected here"),
+    );
+    let ply = "cannot read `a.ply` as PLY: ";
+    let head = "ply\nformat ascii 1.0\nelement vertex";
+    check(
+        "a.ply",
+        format!("{head} 1000000000000\nproperty float x\nend_header\n"),
+        &format!("{ply}1000000000000 rows of `vertex` are announced, which are not there"),
+    );
+    check(
+        "a.ply",
+        format!("{head} 9\nend_header\n"),
+        &format!("{ply}9 rows of `vertex` are announced, which are not there"),
+    );
+    check(
+        "a.ply",
+        format!("{head} 1\nproperty float x\nend_header\n1\n"),
+        &format!("{ply}its vertices have no property `y`"),
+    );
+    let gltf = "cannot read `a.glb` as glTF: ";
+    check("a.glb", "glTF\x02\0\0\0\0\0\0\0", &format!("{gltf}it is cut off; copy it again"));
+    check(
+        "a.glb",
+        glb(r#"{"asset":{"version":"2.0"},"extensionsRequired":["KHR_draco_mesh_compression"]}"#, b""),
+        &format!(
+            "{gltf}`extensionsRequired[0] = \"KHR_draco_mesh_compression\"`: unsupported extension; export without it"
+        ),
+    );
+    check(
+        "a.glb",
+        glb_with_nodes(r#"[{"children":[1,2]},{"children":[2]},{"mesh":0}]"#),
+        &format!("{gltf}node 2 has two parents; export the mesh again"),
+    );
+    let mut long = glb_with_nodes(r#"[{"mesh":0}]"#);
+    let count = long.windows(9).position(|window| window == br#""count":3"#).unwrap() + 8;
+    long[count] = b'4';
+    check("a.glb", long, &format!("{gltf}an accessor reaches beyond its buffer; export the mesh again"));
+}
+
+#[test]
+fn what_is_left_out_is_counted() {
+    #[track_caller]
+    fn check(name: &str, text: &str, expected: &[&str]) {
+        assert_eq!(convert(&Config::default(), name, text).unwrap().warnings, expected);
+    }
+    let points = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+    check("a.obj", points, &["the mesh has no faces"]);
+    check(
+        "a.obj",
+        &format!("{points}f 1 2 3\nf 1 2 1\nl 1 2"),
+        &["1 line, point or curve is left out", "1 face without area is left out"],
+    );
+    check("a.obj", &format!("{points}f 1 2 3\nf 1 1 1\nf 1 2 2"), &["2 faces without area are left out"]);
+    check(
+        "a.obj",
+        "v 0 0 0 255 0 0\nv 1 0 0 255 0 0\nv 0 1 0 0 0 0\nf 1 2 3",
+        &["1 colour is outside 0…1 and clipped"],
+    );
+}

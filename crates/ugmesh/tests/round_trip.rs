@@ -1,0 +1,213 @@
+//! To a mesh and back.
+
+mod common;
+
+use common::{Corner, convert, parse, seen, statements, to_mesh, to_scene};
+use ugmesh::{Axis, Config, Target};
+use ugparse::ColorValue;
+
+/// Colours that bytes can say, coordinates that 32 bits can say, corners with and without own colours.
+const SCENE: &str = "{ a licence }
+c_rgb red 1 0 0.2; c_rgb green 0 0.6 0.4; c_rgb blue 0 0 1;
+v a 0 0 0; v b 1 0 0; v c 1 1 0.5; v d 0 1 0.5; v e 0.5 0.5 2; v f 7 7 7 blue;
+f (a b e) red; f (b c e) green; f (c d e) red; f (d a e); f (d c b a) green; f (a e f) red;";
+
+/// Every corner with a colour, white where none is given.
+fn coloured(mut faces: Vec<Vec<Corner>>) -> Vec<Vec<Corner>> {
+    faces.iter_mut().flatten().for_each(|corner| corner.rgba = Some(corner.rgba.unwrap_or([1.0; 4])));
+    faces
+}
+
+fn assert_near(found: &[Vec<Corner>], expected: &[Vec<Corner>], tolerance: f64) {
+    assert_eq!(found.len(), expected.len());
+    for (found, expected) in found.iter().flatten().zip(expected.iter().flatten()) {
+        assert_eq!(found.position, expected.position);
+        let (found, expected) = (found.rgba.expect("a colour"), expected.rgba.expect("a colour"));
+        let worst = found.iter().zip(expected).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        assert!(worst <= tolerance, "{found:?} for {expected:?}");
+    }
+}
+
+#[test]
+fn faces_places_and_colours_come_back() {
+    let expected = coloured(seen(&parse(SCENE.as_bytes())));
+    for target in [Target::Obj, Target::Ply { is_ascii: true }, Target::Ply { is_ascii: false }] {
+        let back = to_scene(&Config::default(), "<stdin>", to_mesh(target, SCENE.as_bytes()));
+        assert_eq!(coloured(seen(&back)), expected, "{target:?}");
+    }
+    // glTF has triangles only, and linear colours in 32 bits: the square is cut, a colour is off by 2^-24 or so.
+    let triangles = SCENE.replace("f (d c b a) green", "f (d c b) green; f (b a d) green");
+    let expected = coloured(seen(&parse(triangles.as_bytes())));
+    for target in [Target::Gltf, Target::Glb] {
+        let back = to_scene(&Config::default(), "<stdin>", to_mesh(target, triangles.as_bytes()));
+        assert_near(&coloured(seen(&back)), &expected, 1e-6);
+        let cut = to_scene(&Config::default(), "<stdin>", to_mesh(target, SCENE.as_bytes()));
+        assert_eq!(cut.faces.len(), 7, "{target:?}");
+    }
+}
+
+#[test]
+fn an_obj_comes_back_to_the_bit() {
+    // 32-bit numbers, in the text other programs write for them, and 64-bit ones.
+    let numbers: Vec<f64> = (0..300u32)
+        .map(|n| {
+            let bits = n.wrapping_mul(2_654_435_761);
+            let narrow = f32::from_bits((bits % 0x7f00_0000) | (bits & 0x8000_0000));
+            if n % 3 == 0 { f64::from(narrow) * 1e-3 } else { f64::from(narrow) }
+        })
+        .collect();
+    let vertices: String = numbers
+        .chunks_exact(3)
+        .enumerate()
+        .map(|(row, p)| format!("v {} {} {} {} 0 0.25\n", p[0], p[1], p[2], row as f64 / 100.0))
+        .collect();
+    let faces: String =
+        (1..=96).map(|row| format!("f {row} {} {} {}\n", row + 1, row + 2, row + 4)).collect();
+    let obj = format!("{vertices}{faces}");
+    let scene = convert(&Config::default(), "a.obj", obj.as_str()).unwrap();
+    assert!(scene.warnings.is_empty(), "{:?}", scene.warnings);
+    let back = String::from_utf8(to_mesh(Target::Obj, &scene.bytes)).unwrap();
+    let without_head: String =
+        back.lines().filter(|line| !line.starts_with('#')).map(|l| format!("{l}\n")).collect();
+    assert_eq!(without_head, obj);
+}
+
+#[test]
+fn normals_come_back() {
+    let text = "v a 0 0 0 0 0.6 0.8;\nv b 1 0 0 0 0.6 0.8;\nv c 0 1 0 1 0 0;\nf (a b c);\n";
+    let expected = seen(&parse(text.as_bytes()));
+    for target in [Target::Obj, Target::Ply { is_ascii: false }, Target::Gltf, Target::Glb] {
+        let back = seen(&to_scene(&Config::default(), "<stdin>", to_mesh(target, text.as_bytes())));
+        for (found, expected) in back[0].iter().zip(&expected[0]) {
+            let (found, expected) = (found.normal.unwrap(), expected.normal.unwrap());
+            let worst = found.iter().zip(expected).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            assert!(worst < 1e-7, "{target:?}: {found:?}");
+        }
+    }
+    // OBJ gives some corners normals and others none; the rest have one list for all vertices.
+    let some =
+        text.replace("1 0 0;\nf", ";\nf").replace("f (a b c)", "f (a b c); v d 1 1 1 0 0 1; f (a b d)");
+    let obj = String::from_utf8(to_mesh(Target::Obj, some.as_bytes())).unwrap();
+    assert!(obj.ends_with("f 1 2 3\nf 1//1 2//2 4//3\n"), "{obj}");
+    let glb = convert(&Config { target: Target::Glb, ..Config::default() }, "a.ug", some).unwrap();
+    assert_eq!(glb.notes, ["normals are left out: not every vertex has one"]);
+}
+
+#[test]
+fn colours_of_faces_move_to_vertices() {
+    let text = "c red 1 0; c pale 0.5 0 0.5; v a 0 0 0; v b 1 0 0; v c 0 1 0; v d 0 0 1; f (a b c) red; f (b a d) pale;";
+    let obj = String::from_utf8(to_mesh(Target::Obj, text.as_bytes())).unwrap();
+    let lines: Vec<&str> = obj.lines().skip(1).collect();
+    // Up is y in OBJ.
+    assert_eq!(
+        lines,
+        [
+            "v 0 0 0 1 0 0",
+            "v 1 0 0 1 0 0",
+            "v 0 0 -1 1 0 0",
+            "v 0 1 0 0.5 0.25 0.25",
+            "v 1 0 0 0.5 0.25 0.25",
+            "v 0 0 0 0.5 0.25 0.25",
+            "f 1 2 3",
+            "f 5 6 4"
+        ]
+    );
+}
+
+#[test]
+fn holes_are_cut() {
+    let text = "v a 0 0 0; v b 4 0 0; v c 4 4 0; v d 0 4 0; v e 1 1 0; v f 1 3 0; v g 3 3 0; v h 3 1 0;
+        f (a b c d) (e f g h); f (a b c d); f (a b g d);";
+    let faces = |target| seen(&to_scene(&Config::default(), "<stdin>", to_mesh(target, text.as_bytes())));
+    for (target, n_faces) in [(Target::Obj, 10), (Target::Ply { is_ascii: false }, 10), (Target::Glb, 12)] {
+        let faces = faces(target);
+        assert_eq!(faces.len(), n_faces, "{target:?}");
+        let area = |face: &Vec<Corner>| {
+            ugparse::newell_normal(face.iter().map(|corner| corner.position.into())).z / 2.0
+        };
+        let areas: Vec<f64> = faces.iter().map(area).collect();
+        assert!(areas.iter().all(|&area| area > 0.0), "{areas:?}");
+        assert_eq!(areas.iter().sum::<f64>(), 12.0 + 16.0 + 12.0, "{target:?}");
+    }
+}
+
+#[test]
+fn numbers_take_the_room_they_need() {
+    #[track_caller]
+    fn check(x: &str, expected: &str) {
+        let text = format!("v a {x} 0 0; v b 1 0 0; v c 0 1 0; f (a b c);");
+        for is_ascii in [false, true] {
+            let ply = to_mesh(Target::Ply { is_ascii }, text.as_bytes());
+            assert!(String::from_utf8_lossy(&ply).contains(&format!("property {expected} x\n")), "{x}");
+            assert_eq!(seen(&to_scene(&Config::default(), "<stdin>", ply)), seen(&parse(text.as_bytes())));
+        }
+    }
+    check("0.5", "float");
+    check("0.1", "double");
+    check("0.10000000149011612", "float");
+    check("1e300", "double");
+    let config = Config { target: Target::Glb, ..Config::default() };
+    let error = convert(&config, "a.ug", "v a 1e300 0 0; v b 1 0 0; v c 0 1 0; f (a b c);").unwrap_err();
+    assert_eq!(
+        error.to_string(),
+        "coordinates do not fit glTF; make the mesh smaller (-fit 1) or write PLY (-dt ply)"
+    );
+}
+
+#[test]
+fn clear_colours_stay_clear_where_they_can() {
+    let text = "c glass 1 0 0 0.4; v a 0 0 0; v b 1 0 0; v c 0 1 0; f (a b c) glass;";
+    for target in [Target::Ply { is_ascii: false }, Target::Glb] {
+        let back = to_scene(&Config::default(), "<stdin>", to_mesh(target, text.as_bytes()));
+        assert!(back.colors.iter().all(|color| (color.translucency - 0.4).abs() < 1e-6), "{target:?}");
+    }
+    let obj = convert(&Config { target: Target::Obj, ..Config::default() }, "a.ug", text).unwrap();
+    assert_eq!(obj.notes, ["OBJ has no clear vertices: all are written opaque"]);
+}
+
+#[test]
+fn what_a_mesh_cannot_hold_is_noted() {
+    let text = "c bright 1.5 0 1; v a 0 0 0; v b 1 0 0; v c 0 1 0; f (a b c) bright; w (a b); l 0.5; l sun 1 0 0 1; cam;";
+    let mesh = convert(&Config { target: Target::Glb, ..Config::default() }, "a.ug", text).unwrap();
+    assert_eq!(
+        mesh.notes,
+        [
+            "1 wire is left out",
+            "2 lights are left out",
+            "1 camera is left out",
+            "1 colour brighter than 1 is clipped"
+        ]
+    );
+}
+
+#[test]
+fn history_and_licence_go_along() {
+    let config = |target| Config { target, command_line: "ugmesh -dt x".to_string(), ..Config::default() };
+    for target in [Target::Obj, Target::Ply { is_ascii: false }] {
+        let mesh = convert(&config(target), "a.ug", SCENE).unwrap().bytes;
+        let scene = to_scene(&config(Target::Ug), "<stdin>", mesh);
+        let line = concat!(" ugmesh ", env!("CARGO_PKG_VERSION"), ": ugmesh -dt x ");
+        assert_eq!(scene.head, [" a licence ", line, line], "{target:?}");
+    }
+}
+
+#[test]
+fn meshes_become_meshes() {
+    let obj = "v 1 2 3\nv 4 5 6\nv 7 8 10\nf 1 2 3\n";
+    let ply = |up| {
+        let config = Config { target: Target::Ply { is_ascii: true }, up, ..Config::default() };
+        let ply = String::from_utf8(convert(&config, "a.obj", obj).unwrap().bytes).unwrap();
+        ply.split_once("end_header\n").unwrap().1.to_string()
+    };
+    assert_eq!(ply(None), "1 -3 2\n4 -6 5\n7 -10 8\n3 0 1 2\n");
+    assert_eq!(ply(Some(Axis::X)), "1 2 3\n4 5 6\n7 8 10\n3 0 1 2\n");
+}
+
+#[test]
+fn a_scene_as_seen_keeps_its_colours() {
+    // What `ugdoppler` writes: HSV colours on vertices.
+    let text = "c a#1 1 30 1; v a 0 0 0 a#1; v b 1 0 0 a#1; v c 0 1 0 a#1; f (a b c) <0.5 0 0>;";
+    let back = to_scene(&Config::default(), "<stdin>", to_mesh(Target::Obj, text.as_bytes()));
+    assert_eq!(back.colors[0].value, ColorValue::Rgb([1.0, 0.5, 0.0]));
+    assert_eq!(statements(&back).lines().count(), 5);
+}

@@ -1,0 +1,102 @@
+//! The same input gives the same bytes: on any number of threads, on every run, and with every profile.
+
+#![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test fails by panicking")]
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use glam::DVec3;
+use ugtests::pipe::{Pipe, Stages};
+use ugtests::scenes;
+
+/// Pipes that take different ways through the programs.
+fn pipes() -> Vec<(&'static str, Pipe)> {
+    let size = [160, 120];
+    let mut ship = Pipe::new(0.3 * DVec3::X, size).in_place();
+    ship.lorentz.smooth = true;
+    let lattice = Pipe::new(-0.9 * DVec3::Y, size).view_angle(120.0);
+    let mut teapot = Pipe::new(DVec3::new(0.5, 0.5, 0.5), size).in_place();
+    teapot.doppler.iris = true;
+    teapot.rainbow.interpolation = ugrainbow::Interpolation::Wavelength;
+    let mut street = Pipe::new(-0.6 * DVec3::Y, size).shape();
+    street.doppler.repeat = true;
+    street.lorentz.pieces = uglorentz::Pieces::PerEdge(3);
+    let mut dice = Pipe::default().in_place();
+    dice.rainbow.size = size;
+    vec![("ship", ship), ("lattice", lattice), ("teapot", teapot), ("street", street), ("dice", dice)]
+}
+
+/// Runs the pipe on as many threads.
+fn run_on(n_threads: usize, pipe: &Pipe, text: &[u8]) -> Stages {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(n_threads).build().unwrap();
+    pool.install(|| pipe.run(text))
+}
+
+#[test]
+fn bytes_do_not_depend_on_threads_or_runs() {
+    for (name, pipe) in pipes() {
+        let text = scenes::text(name);
+        let one = run_on(1, &pipe, &text);
+        for n_threads in [1, 2, 7] {
+            assert!(run_on(n_threads, &pipe, &text) == one, "{name} on {n_threads} threads");
+        }
+    }
+}
+
+/// Builds the programs as people do, and gives the folder they are in.
+fn build(profile: &str) -> PathBuf {
+    let mut cargo = Command::new(env!("CARGO"));
+    cargo.args([
+        "build",
+        "--quiet",
+        "--package",
+        "uglorentz",
+        "--package",
+        "ugdoppler",
+        "--package",
+        "ugrainbow",
+    ]);
+    cargo.args(["--profile", profile]).arg("--target-dir").arg(scenes::target_dir());
+    let status = cargo.current_dir(scenes::root()).status().unwrap();
+    assert!(status.success(), "cargo build --profile {profile}: {status}");
+    scenes::target_dir().join(if profile == "dev" { "debug" } else { profile })
+}
+
+/// What each stage of a real pipe writes, with the programs of a folder.
+fn through_a_shell(programs: &Path, scene: &Path) -> Stages {
+    const SCRIPT: &str = r#"
+        PATH="$1:$PATH"
+        uglorentz -qt -vel .3 -.2 0 -in < "$2" | tee "$3/seen" |
+            ugdoppler -qt -ir | tee "$3/colored" |
+            ugrainbow -qt -sz 160 120 > "$3/file""#;
+    let folder = tempfile::tempdir().unwrap();
+    let mut shell = Command::new("sh");
+    shell.args(["-e", "-c", SCRIPT, "sh"]).arg(programs).arg(scene).arg(folder.path());
+    let output = shell.output().unwrap();
+    let messages = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success() && messages.is_empty(), "{}: {messages}", output.status);
+    let stage = |name: &str| std::fs::read(folder.path().join(name)).unwrap();
+    Stages { seen: stage("seen"), colored: stage("colored"), file: stage("file") }
+}
+
+#[test]
+fn a_shell_pipe_gives_the_same_bytes_whoever_built_it() {
+    let scene = scenes::root().join("scenes").join("cubes.ug");
+    let dev = through_a_shell(&build("dev"), &scene);
+    let release = through_a_shell(&build("release"), &scene);
+    assert!(!dev.file.is_empty());
+    assert!(dev.seen == release.seen, "uglorentz");
+    assert!(dev.colored == release.colored, "ugdoppler");
+    assert!(dev.file == release.file, "ugrainbow");
+    assert!(through_a_shell(&build("release"), &scene) == release, "a second run");
+
+    // And the libraries in this process give what the programs do.
+    let mut pipe = Pipe::new(DVec3::new(0.3, -0.2, 0.0), [160, 120]).in_place();
+    pipe.doppler.iris = true;
+    pipe.lorentz.command_line = "uglorentz -vel .3 -.2 0 -in".to_string();
+    pipe.doppler.command_line = "ugdoppler -ir".to_string();
+    pipe.rainbow.command_line = "ugrainbow -sz 160 120".to_string();
+    let here = pipe.run(&std::fs::read(&scene).unwrap());
+    assert_eq!(String::from_utf8_lossy(&here.seen), String::from_utf8_lossy(&dev.seen));
+    assert!(here == dev, "libraries and programs differ");
+}

@@ -1,0 +1,79 @@
+//! The commands in the documents do what they say: each is run, in a copy of `scenes/`.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// Documents with commands to be typed in `scenes/`, the section they stand in (empty for all), and the least
+/// number of them.
+const DOCUMENTS: [(&str, &str, usize); 2] = [("README.md", "## First steps", 5), ("docs/gallery.md", "", 20)];
+
+/// What the gallery calls `shape`.
+const SHAPE: &str = "shape() { ugdoppler -qt --no-doppler --no-flux; }";
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+}
+
+/// Indented lines that begin with one of our programs, comments cut off.
+fn commands(document: &str, section: &str) -> Vec<String> {
+    let text = std::fs::read_to_string(root().join(document)).expect("the document is there");
+    let start = text.find(section).expect("the section is there");
+    let body = &text[start + section.len()..];
+    let end = if section.is_empty() { body.len() } else { body.find("\n## ").unwrap_or(body.len()) };
+    body[..end]
+        .lines()
+        .filter_map(|line| line.strip_prefix("    "))
+        .filter(|line| ["uglorentz ", "ugdoppler ", "ugrainbow "].iter().any(|tool| line.starts_with(tool)))
+        .map(|line| line.split(" #").next().unwrap_or(line).trim_end().to_string())
+        .collect()
+}
+
+/// The folder of the programs, built in the profile of this test.
+fn programs() -> PathBuf {
+    let mut build = Command::new(env!("CARGO"));
+    build.args(["build", "--quiet"]).current_dir(root());
+    if !cfg!(debug_assertions) {
+        build.arg("--release");
+    }
+    assert!(build.status().expect("cargo runs").success());
+    // target/PROFILE/deps/docs-… is this test.
+    let exe = std::env::current_exe().expect("this test is a file");
+    exe.ancestors().nth(2).expect("it lies two folders deep").to_path_buf()
+}
+
+#[test]
+fn commands_in_documents_work() {
+    let scenes = tempfile::tempdir().expect("a temporary folder");
+    for entry in std::fs::read_dir(root().join("scenes")).expect("scenes").flatten() {
+        if entry.path().extension().is_some_and(|ending| ending == "ug") {
+            std::fs::copy(entry.path(), scenes.path().join(entry.file_name())).expect("a copy");
+        }
+    }
+    let programs = programs();
+    let path = std::env::var_os("PATH").unwrap_or_default();
+    let path = std::env::join_paths(std::iter::once(programs).chain(std::env::split_paths(&path)));
+    let path = path.expect("a path without colons");
+
+    for (document, section, least) in DOCUMENTS {
+        let commands = commands(document, section);
+        assert!(commands.len() >= least, "{document}: {} commands", commands.len());
+        for command in commands {
+            // Smaller pictures say as much here.
+            let small = command.replace("ugrainbow", "ugrainbow -sz 160 120 -aa 1");
+            let output = Command::new("bash")
+                .args(["-c", &format!("set -euo pipefail; {SHAPE}; {small}")])
+                .current_dir(scenes.path())
+                .env("PATH", &path)
+                .output()
+                .expect("bash runs");
+            let talk = String::from_utf8_lossy(&output.stderr);
+            assert!(output.status.success(), "{document}: {command}: {talk}");
+            assert!(!talk.contains("nothing is drawn"), "{document}: {command}: {talk}");
+            if let Some((_, file)) = command.split_once("> ").or_else(|| command.split_once("-fo ")) {
+                let made = scenes.path().join(file.trim());
+                let size = std::fs::metadata(&made).map_or(0, |made| made.len());
+                assert!(size > 500, "{document}: {command}: {size} bytes");
+            }
+        }
+    }
+}

@@ -1,0 +1,149 @@
+//! Small pictures, one idea each, exactly as they were when somebody looked at them.
+//!
+//! `UG_BLESS=1 cargo test -p ugtests --test golden` records them anew; look at what changed.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+use glam::DVec3;
+use ugrainbow::{Background, HueScale, Interpolation};
+use ugtests::picture::{assert_golden, decode};
+use ugtests::pipe::{Pipe, rainbow};
+use ugtests::scenes;
+
+const SIZE: [u32; 2] = [160, 120];
+
+fn pipe(x: f64, y: f64, z: f64) -> Pipe {
+    Pipe::new(DVec3::new(x, y, z), SIZE)
+}
+
+fn check(name: &str, scene: &str, pipe: &Pipe) {
+    assert_golden(name, &pipe.draw(&scenes::text(scene)));
+}
+
+#[test]
+fn ship_at_rest() {
+    check("ship-at-rest", "ship", &pipe(0.0, 0.0, 0.0));
+}
+
+#[test]
+fn terrell_rotation() {
+    check("terrell-rotation-ship-0.9c", "ship", &pipe(0.9, 0.0, 0.0).in_place().shape());
+}
+
+#[test]
+fn without_flight_time_only_contraction_is_left() {
+    let mut ship = pipe(0.9, 0.0, 0.0).shape();
+    ship.lorentz.geometry.flight_time = false;
+    check("contraction-alone-ship-0.9c", "ship", &ship);
+}
+
+#[test]
+fn straight_edges_bend() {
+    check("bent-edges-cubes-0.95c", "cubes", &pipe(0.95, 0.0, 0.0).in_place().shape());
+}
+
+#[test]
+fn spheres_stay_round() {
+    check("round-outline-sphere-0.95c", "sphere", &pipe(0.95, 0.0, 0.0).in_place().shape());
+}
+
+#[test]
+fn smooth_things() {
+    check("smooth-shading-teapot-0.95c", "teapot", &pipe(0.95, 0.0, 0.0).in_place().shape());
+}
+
+#[test]
+fn aberration_shows_what_is_behind() {
+    let mut street = pipe(0.0, -0.99, 0.0).shape();
+    street.lorentz.eye = Some(DVec3::new(0.0, 40.0, 3.0));
+    check("aberration-street-0.99c", "street", &street);
+}
+
+#[test]
+fn aberration_backward_is_a_telescope() {
+    check("telescope-street-backward-0.9c", "street", &pipe(0.0, 0.9, 0.0).shape());
+}
+
+#[test]
+fn a_plane_that_was_passed_is_seen_ahead() {
+    let mut grid = pipe(0.0, -0.9, 0.0).shape();
+    grid.lorentz.eye = Some(DVec3::new(0.0, 0.5, 0.0));
+    check("passed-grid-seen-ahead-0.9c", "grid", &grid);
+}
+
+#[test]
+fn doppler_makes_a_ring() {
+    check("doppler-ring-lattice-0.9c", "lattice", &pipe(0.0, -0.9, 0.0).view_angle(120.0));
+}
+
+#[test]
+fn doppler_shifts_both_ways() {
+    check("blueshift-ship-0.2c", "ship", &pipe(0.0, -0.2, 0.0).in_place());
+    check("redshift-ship-0.2c", "ship", &pipe(0.0, 0.2, 0.0).in_place());
+}
+
+#[test]
+fn the_iris_scales_what_is_too_bright() {
+    let mut cubes = pipe(0.0, -0.15, 0.0).in_place();
+    cubes.doppler.iris = true;
+    check("iris-cubes-approaching-0.15c", "cubes", &cubes);
+}
+
+#[test]
+fn every_body_has_its_own_velocity() {
+    let mut dice = Pipe::default().in_place().shape();
+    dice.rainbow.size = SIZE;
+    check("five-velocities-dice", "dice", &dice);
+}
+
+#[test]
+fn colours_meet_at_vertices() {
+    let mut halves = pipe(0.0, 0.0, 0.0);
+    check("colours-mixed-halves", "halves", &halves);
+    halves.doppler.repeat = true;
+    check("colours-repeated-halves", "halves", &halves);
+}
+
+#[test]
+fn the_rainbow_of_1988() {
+    let config = ugrainbow::Config { size: SIZE, hue_scale: HueScale::Wavelengths, ..Default::default() };
+    assert_golden("wavelengths-380-to-780-rainbow", &decode(&rainbow(&scenes::text("rainbow"), &config)));
+}
+
+/// Between red and blue lies the rainbow; by hue and by wavelength it is divided differently.
+#[test]
+fn hue_and_wavelength() {
+    const STRIPES: &[u8] = b"c red 1 0; c blue 1 240; c_rgb white 1 1 1; l 1;
+        v a -2 9 .6 red; v b 2 9 .6 blue; v c 2 9 1.4 blue; v d -2 9 1.4 red; f (a b c d);
+        v e -2 9 -.4 white; v f 2 9 -.4 blue; v g 2 9 .4 blue; v h -2 9 .4 white; f (e f g h);
+        v i -2 9 -1.4 red; v j 2 9 -1.4 white; v k 2 9 -.6 white; v l -2 9 -.6 red; f (i j k l);
+        cam -ep 0 0 0 -vc 0 9 0 -ud 0 0 1 -va 30 22;";
+    for (name, interpolation) in
+        [("interpolated-hue", Interpolation::Hue), ("interpolated-wavelength", Interpolation::Wavelength)]
+    {
+        let config = ugrainbow::Config { size: SIZE, interpolation, ..Default::default() };
+        assert_golden(name, &decode(&rainbow(STRIPES, &config)));
+    }
+}
+
+/// Samples hold no background: edges are half clear.
+#[test]
+fn transparent_background() {
+    let mut cubes = pipe(0.6, 0.0, 0.0).in_place().shape();
+    cubes.rainbow.background = Background::Clear;
+    check("transparent-background-cubes", "cubes", &cubes);
+}
+
+/// Wires lie on the faces whose edges they follow, and bend with them.
+#[test]
+fn wires_follow_edges() {
+    // The wires have vertices of their own, so that their colour is not mixed with that of the faces.
+    const BOX: &[u8] = b"c pale 0.7 200 0.3; c line 1 55 0.9; l 1;
+        def corners; v a -1 7 -1; v b 1 7 -1; v c 1 7 1; v d -1 7 1; v e -1 9 -1; v f 1 9 -1; v g 1 9 1; v h -1 9 1;
+        f (a b c d); f (e a d h); f (b f g c); f (f e h g); f (d c g h); f (e f b a); end;
+        def edges; v a -1 7 -1; v b 1 7 -1; v c 1 7 1; v d -1 7 1; v e -1 9 -1; v f 1 9 -1; v g 1 9 1; v h -1 9 1;
+        w (a b c d a); w (e f g h e); w (a e); w (b f); w (c g); w (d h); end;
+        i (corners pale); i (edges line);
+        cam -ep 0 0 2 -vc 0 8 0 -ud 0 0 1 -va 30 22;";
+    assert_golden("wires-on-a-box-0.9c", &pipe(0.9, 0.0, 0.0).in_place().shape().draw(BOX));
+}

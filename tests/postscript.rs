@@ -1,0 +1,92 @@
+//! PostScript, as Ghostscript sees it: the same pixels as the PNG.
+//!
+//! Without `gs` on the path the test is skipped, unless `UG_REQUIRE_TOOLS=1`.
+
+#![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test fails by panicking")]
+
+use std::process::Command;
+
+use glam::DVec3;
+use image::Rgba;
+use ugimage::Format;
+use ugphysics::{luminance, srgb_decode, srgb_encode};
+use ugrainbow::{Background, Output};
+use ugtests::picture::{Picture, assert_same, decode, read};
+use ugtests::pipe::{Pipe, rainbow};
+use ugtests::scenes;
+
+/// False, with a word about it, if there is no Ghostscript and there need not be.
+fn has_ghostscript() -> bool {
+    let found = Command::new("gs").arg("--version").output().is_ok_and(|output| output.status.success());
+    let must = std::env::var_os("UG_REQUIRE_TOOLS").is_some_and(|value| value == "1");
+    assert!(found || !must, "UG_REQUIRE_TOOLS=1, but there is no `gs`: install ghostscript");
+    if !found {
+        println!("skipped: there is no `gs` on the path; install ghostscript to run this test");
+    }
+    found
+}
+
+/// Renders PostScript at one pixel a point. EPS pages are cut to their box; others set their size.
+fn ghostscript(file: &[u8]) -> Picture {
+    let folder = tempfile::tempdir().unwrap();
+    let (input, output) = (folder.path().join("in.ps"), folder.path().join("out.png"));
+    std::fs::write(&input, file).unwrap();
+    let mut gs = Command::new("gs");
+    gs.args(["-q", "-dSAFER", "-dBATCH", "-dNOPAUSE", "-dEPSCrop", "-r72", "-sDEVICE=png16m"]);
+    gs.arg("-o").arg(&output).arg(&input);
+    let run = gs.output().unwrap();
+    let messages = String::from_utf8_lossy(&run.stdout) + String::from_utf8_lossy(&run.stderr);
+    assert!(run.status.success() && messages.is_empty(), "{}: {messages}", run.status);
+    read(&output)
+}
+
+/// Display-encoded luminance of every pixel.
+fn grey(picture: &Picture) -> Picture {
+    let mut grey = picture.clone();
+    for Rgba([r, g, b, _]) in grey.pixels_mut() {
+        let light = luminance([*r, *g, *b].map(|level| srgb_decode(f64::from(level) / 255.0)));
+        let level = (255.0 * srgb_encode(light)).round() as u8;
+        (*r, *g, *b) = (level, level, level);
+    }
+    grey
+}
+
+/// Pictures laid on white, in linear light.
+fn on_white(picture: &Picture) -> Picture {
+    let mut flat = picture.clone();
+    for Rgba([r, g, b, alpha]) in flat.pixels_mut() {
+        let part = f64::from(*alpha) / 255.0;
+        for level in [r, g, b] {
+            let light = part * srgb_decode(f64::from(*level) / 255.0) + 1.0 - part;
+            *level = (255.0 * srgb_encode(light)).round() as u8;
+        }
+        *alpha = 255;
+    }
+    flat
+}
+
+#[test]
+fn ghostscript_draws_the_pixels_of_the_png() {
+    if !has_ghostscript() {
+        return;
+    }
+    let mut ship = Pipe::new(0.9 * DVec3::X, [160, 120]).in_place().shape();
+    let mut lattice = Pipe::new(-0.9 * DVec3::Y, [97, 61]).view_angle(120.0);
+    lattice.rainbow.samples = 2;
+    let mut clear = ship.clone();
+    clear.rainbow.background = Background::Clear;
+    ship.rainbow.command_line = "ugrainbow (with) \\ brackets".to_string();
+    for (name, scene, pipe) in
+        [("ship", "ship", ship), ("lattice", "lattice", lattice), ("clear", "ship", clear)]
+    {
+        let colored = pipe.run(&scenes::text(scene)).colored;
+        let draw = |output| rainbow(&colored, &ugrainbow::Config { output, ..pipe.rainbow.clone() });
+        let png = on_white(&decode(&draw(Output::Color(Format::Png))));
+        assert!(png.pixels().any(|pixel| pixel != png.get_pixel(0, 0)), "{name} shows something");
+        for format in [Format::Eps, Format::Ps] {
+            let drawn = ghostscript(&draw(Output::Color(format)));
+            assert_same(&format!("postscript-{name}-{}", format.name()), &png, &drawn, 1);
+        }
+        assert_same(&format!("postscript-{name}-grey"), &grey(&png), &ghostscript(&draw(Output::Grey)), 1);
+    }
+}

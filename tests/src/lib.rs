@@ -1,0 +1,15 @@
+//! Helpers shared by the cross-crate tests.
+//!
+//! - [`pipe`]: the three programs in one process, from text to a decoded picture;
+//! - [`scenes`]: the scenes of the repository;
+//! - [`picture`]: comparing pictures, golden ones included;
+//! - [`oracle`]: what every pixel must show, found by a slow method of its own;
+//! - [`random`]: reproducible random numbers.
+
+#![allow(clippy::missing_panics_doc, reason = "a test helper fails by panicking")]
+
+pub mod oracle;
+pub mod picture;
+pub mod pipe;
+pub mod random;
+pub mod scenes;

@@ -1,0 +1,96 @@
+//! The pipe in one process: each program is its library's `run`, and text goes between them.
+
+use glam::DVec3;
+use ugparse::Source;
+
+use crate::picture::{Picture, decode};
+
+/// `uglorentz | ugdoppler | ugrainbow`, with the options of each.
+#[derive(Clone, Debug, Default)]
+pub struct Pipe {
+    /// Options of `uglorentz`.
+    pub lorentz: uglorentz::Config,
+    /// Options of `ugdoppler`.
+    pub doppler: ugdoppler::Config,
+    /// Options of `ugrainbow`.
+    pub rainbow: ugrainbow::Config,
+}
+
+/// What came out of every stage.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Stages {
+    /// Of `uglorentz`: the scene as seen.
+    pub seen: Vec<u8>,
+    /// Of `ugdoppler`: the same with colours.
+    pub colored: Vec<u8>,
+    /// Of `ugrainbow`: the file.
+    pub file: Vec<u8>,
+}
+
+impl Pipe {
+    /// Everything moves with `beta`; the picture has `size` pixels.
+    pub fn new(beta: DVec3, size: [u32; 2]) -> Self {
+        let mut pipe = Self::default();
+        pipe.lorentz.velocity = Some(beta);
+        pipe.rainbow.size = size;
+        pipe
+    }
+
+    /// Bodies are seen where they stand (`-in`).
+    #[must_use]
+    pub fn in_place(mut self) -> Self {
+        self.lorentz.in_place = true;
+        self
+    }
+
+    /// Colours as at rest (`--no-doppler --no-flux`).
+    #[must_use]
+    pub fn shape(mut self) -> Self {
+        self.doppler.doppler = false;
+        self.doppler.flux = false;
+        self
+    }
+
+    /// The full view angle across the picture, degrees.
+    #[must_use]
+    pub fn view_angle(mut self, across_deg: f64) -> Self {
+        self.rainbow.camera.view_angle = Some((across_deg, None));
+        self
+    }
+
+    /// Runs the pipe.
+    #[track_caller]
+    pub fn run(&self, text: &[u8]) -> Stages {
+        let seen = lorentz(text, &self.lorentz);
+        let colored = doppler(&seen, &self.doppler);
+        let file = rainbow(&colored, &self.rainbow);
+        Stages { seen, colored, file }
+    }
+
+    /// Runs the pipe for its picture.
+    #[track_caller]
+    pub fn draw(&self, text: &[u8]) -> Picture {
+        decode(&self.run(text).file)
+    }
+}
+
+/// `uglorentz`
+#[track_caller]
+pub fn lorentz(text: &[u8], config: &uglorentz::Config) -> Vec<u8> {
+    let report = uglorentz::run(config, &Source::new("test.ug", text));
+    report.unwrap_or_else(|error| panic!("uglorentz: {error}")).text()
+}
+
+/// `ugdoppler`
+#[track_caller]
+pub fn doppler(text: &[u8], config: &ugdoppler::Config) -> Vec<u8> {
+    let scene = ugdoppler::run(config, &Source::new("<stdin>", text));
+    scene.unwrap_or_else(|error| panic!("ugdoppler: {error}")).text()
+}
+
+/// `ugrainbow`
+#[track_caller]
+pub fn rainbow(text: &[u8], config: &ugrainbow::Config) -> Vec<u8> {
+    let picture = ugrainbow::run(config, &Source::new("<stdin>", text));
+    picture.unwrap_or_else(|error| panic!("ugrainbow: {error}")).bytes
+}

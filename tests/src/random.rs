@@ -1,0 +1,40 @@
+//! Random numbers that are the same on every run (SplitMix64).
+
+use glam::DVec3;
+
+/// The generator; its field is the seed.
+#[derive(Clone, Debug)]
+pub struct Random(pub u64);
+
+impl Random {
+    /// In 0…1.
+    pub fn unit(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    /// In `low`…`high`.
+    pub fn between(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * self.unit()
+    }
+
+    /// A point of the cube |x|, |y|, |z| ≤ `half`.
+    pub fn in_cube(&mut self, half: f64) -> DVec3 {
+        DVec3::from_array([(); 3].map(|()| self.between(-half, half)))
+    }
+
+    /// A unit vector, all directions alike.
+    pub fn direction(&mut self) -> DVec3 {
+        loop {
+            let point = self.in_cube(1.0);
+            if point.length_squared() <= 1.0
+                && let Some(direction) = point.try_normalize()
+            {
+                return direction;
+            }
+        }
+    }
+}

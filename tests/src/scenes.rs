@@ -1,0 +1,44 @@
+//! The scenes of the repository, and where things are.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use ugparse::{Scene, Source};
+
+/// The root of the repository.
+pub fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("the package is a folder of the repository")
+}
+
+/// The target folder this test was built into.
+pub fn target_dir() -> PathBuf {
+    let program = std::env::current_exe().expect("a running program has a path");
+    // target/PROFILE/deps/PROGRAM
+    program.ancestors().nth(3).expect("tests lie three folders deep").to_owned()
+}
+
+/// Names of all scenes, without `.ug`, in order.
+pub fn names() -> Vec<String> {
+    let folder = root().join("scenes");
+    let files = fs::read_dir(&folder).expect("the folder of scenes can be read");
+    let paths = files.map(|file| file.expect("a folder can be listed").path());
+    let scenes = paths.filter(|path| path.extension().is_some_and(|ending| ending == "ug"));
+    let mut names: Vec<String> = scenes
+        .map(|path| path.file_stem().expect("it has an ending").to_string_lossy().into_owned())
+        .collect();
+    names.sort();
+    names
+}
+
+/// The text of a scene.
+pub fn text(name: &str) -> Vec<u8> {
+    let path = root().join("scenes").join(format!("{name}.ug"));
+    fs::read(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+}
+
+/// A flat scene from text.
+#[track_caller]
+pub fn parse(text: &[u8]) -> Scene {
+    let parsed = ugparse::parse(&Source::new("test.ug", text), &ugparse::Options::default());
+    parsed.unwrap_or_else(|findings| panic!("{findings}")).scene
+}

@@ -1,0 +1,252 @@
+//! What holds of the repository as a whole: who depends on whom, citations, scenes, and clean text.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use ugparse::{Options, Source};
+use ugtests::scenes::{self, root};
+
+/// The text of a file; what is not UTF-8 is replaced.
+fn read(path: &Path) -> String {
+    let bytes = fs::read(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+    String::from_utf8_lossy(&bytes).into_owned()
+}
+
+/// All files below a folder, in order, but for what tools keep there.
+fn files(folder: &Path) -> Vec<PathBuf> {
+    let mut entries: Vec<PathBuf> =
+        fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    entries.sort();
+    let is_ours = |path: &PathBuf| !matches!(name(path).as_str(), ".git" | "target" | "figures");
+    let below = |path: PathBuf| if path.is_dir() { files(&path) } else { vec![path] };
+    entries.into_iter().filter(is_ours).flat_map(below).collect()
+}
+
+fn name(path: &Path) -> String {
+    path.file_name().unwrap().to_string_lossy().into_owned()
+}
+
+fn has_ending(path: &Path, endings: &[&str]) -> bool {
+    path.extension().is_some_and(|ending| endings.iter().any(|&known| ending == known))
+}
+
+/// Files that people write, and their text.
+fn texts() -> Vec<(PathBuf, String)> {
+    let is_text = |path: &PathBuf| {
+        has_ending(path, &["rs", "md", "toml", "ug", "sh", "yml", "yaml"]) || path.ends_with(".ci/run")
+    };
+    let texts: Vec<_> =
+        files(root()).into_iter().filter(is_text).map(|path| (path.clone(), read(&path))).collect();
+    assert!(texts.len() > 100, "{} texts", texts.len());
+    texts
+}
+
+/// Fails with all findings at once.
+#[track_caller]
+fn assert_none(findings: &[String]) {
+    assert!(findings.is_empty(), "\n{}", findings.join("\n"));
+}
+
+fn place(path: &Path, line: usize) -> String {
+    format!("{}:{}", path.strip_prefix(root()).unwrap().display(), line + 1)
+}
+
+/// Folders of `crates/`.
+fn crates() -> BTreeSet<String> {
+    fs::read_dir(root().join("crates")).unwrap().map(|entry| name(&entry.unwrap().path())).collect()
+}
+
+/// The table of ARCHITECTURE.md: crate → what it may depend on.
+fn allowed() -> BTreeMap<String, BTreeSet<String>> {
+    let text = read(&root().join("ARCHITECTURE.md"));
+    let rows = text.lines().skip_while(|line| *line != "| crate | may depend on | never sees |").skip(2);
+    let row = |line: &str| {
+        let cells: Vec<&str> = line.trim_matches('|').split('|').map(str::trim).collect();
+        let uses = cells[1].split(", ").filter(|word| !word.is_empty()).map(str::to_string);
+        (cells[0].to_string(), uses.collect())
+    };
+    rows.take_while(|line| line.starts_with('|')).map(row).collect()
+}
+
+/// Names under `[dependencies]`, which the program is made of.
+fn dependencies(manifest: &str) -> BTreeSet<String> {
+    let lines = manifest.lines().skip_while(|line| *line != "[dependencies]").skip(1);
+    let entries = lines.take_while(|line| !line.starts_with('['));
+    let names = entries.filter_map(|line| line.split_once('=')).map(|(key, _)| key);
+    names.map(|key| key.trim().trim_end_matches(".workspace").to_string()).collect()
+}
+
+#[test]
+fn crates_depend_on_what_the_table_allows() {
+    let table = allowed();
+    assert_eq!(table.keys().cloned().collect::<BTreeSet<_>>(), crates(), "rows of the table are the crates");
+    let mut findings = Vec::new();
+    for (krate, allowed) in &table {
+        let used = dependencies(&read(&root().join("crates").join(krate).join("Cargo.toml")));
+        assert!(!used.is_empty(), "{krate} depends on something");
+        findings.extend(used.difference(allowed).map(|other| format!("{krate} may not depend on {other}")));
+    }
+    assert_none(&findings);
+}
+
+#[test]
+fn data_goes_one_way() {
+    const ORDER: [&str; 4] = ["ugparse", "uglorentz", "ugdoppler", "ugrainbow"];
+    let table = allowed();
+    for (step, krate) in ORDER.iter().enumerate() {
+        for later in &ORDER[step + 1..] {
+            assert!(!table[*krate].contains(*later), "{krate} knows {later}");
+        }
+    }
+    // Programs talk in text.
+    for pair in ORDER[1..].windows(2) {
+        assert!(!table[pair[1]].contains(pair[0]), "{} knows {}", pair[1], pair[0]);
+    }
+}
+
+/// Numbers of equations in a line: (P3), and each of (P10, P12) or (P1)-(P3).
+fn citations(line: &str) -> impl Iterator<Item = u32> {
+    let pieces = line.split(|c: char| !c.is_ascii_alphanumeric());
+    pieces.filter_map(|word| word.strip_prefix('P')).filter_map(|digits| digits.parse().ok())
+}
+
+#[test]
+fn every_equation_that_is_cited_exists() {
+    let physics = read(&root().join("docs").join("physics.md"));
+    let is_known = |number: u32| physics.contains(&format!("**(P{number})**"));
+    let mut n_citations = 0;
+    let mut findings = Vec::new();
+    for (path, text) in texts().into_iter().filter(|(path, _)| has_ending(path, &["rs", "md", "ug"])) {
+        for (row, line) in text.lines().enumerate() {
+            for number in citations(line) {
+                n_citations += 1;
+                if !is_known(number) {
+                    findings.push(format!("{}: (P{number}) is not in docs/physics.md", place(&path, row)));
+                }
+            }
+        }
+    }
+    assert_none(&findings);
+    assert!(n_citations > 100, "{n_citations} citations");
+}
+
+#[test]
+fn every_scene_is_in_the_list_of_scenes() {
+    let list = read(&root().join("scenes").join("README.md"));
+    let names = scenes::names();
+    assert!(names.len() >= 9, "{names:?}");
+    let rows: BTreeSet<&str> = list
+        .lines()
+        .filter_map(|line| line.strip_prefix("| `")?.split_once(".ug`"))
+        .map(|(name, _)| name)
+        .collect();
+    assert_eq!(rows, names.iter().map(String::as_str).collect());
+}
+
+#[test]
+fn every_scene_says_how_many_faces_it_has() {
+    let list = read(&root().join("scenes").join("README.md"));
+    for name in scenes::names() {
+        let row = list.lines().find(|line| line.starts_with(&format!("| `{name}.ug`"))).unwrap();
+        let count = row.trim_end_matches('|').rsplit('|').next().unwrap().trim();
+        let n_faces = scenes::parse(&scenes::text(&name)).faces.len();
+        assert_eq!(count, n_faces.to_string(), "{name}");
+    }
+}
+
+#[test]
+fn every_scene_parses_and_writes_itself() {
+    for name in scenes::names() {
+        let parse = |text: Vec<u8>| {
+            let parsed = ugparse::parse(&Source::new(format!("{name}.ug"), text), &Options::default());
+            let parsed = parsed.unwrap_or_else(|findings| panic!("{findings}"));
+            assert!(parsed.warnings.is_empty(), "{}", parsed.warnings);
+            parsed.scene
+        };
+        let scene = parse(scenes::text(&name));
+        let written = ugparse::write(&scene);
+        let again = parse(written.clone());
+        assert!(again == scene, "{name}");
+        assert!(ugparse::write(&again) == written, "{name}");
+        assert!(!scene.faces.is_empty() && !scene.cameras.is_empty() && !scene.lights.is_empty(), "{name}");
+    }
+}
+
+#[test]
+fn faces_of_scenes_are_flat() {
+    /// Coordinates are written to four decimals or so.
+    const ROUNDING: f64 = 1e-4;
+    /// Thickness over size: patches of round things are flat only nearly.
+    const SLACK: f64 = 0.02;
+    let mut findings = Vec::new();
+    for name in scenes::names() {
+        let scene = scenes::parse(&scenes::text(&name));
+        for (row, face) in scene.faces.iter().enumerate() {
+            let corners: Vec<_> = scene
+                .face_contours(face)
+                .flatten()
+                .map(|vertex| scene.vertices[vertex.index()].position)
+                .collect();
+            let outline = scene.face_contours(face).next().unwrap().len();
+            let normal = ugparse::newell_normal(corners[..outline].iter().copied()).normalize_or_zero();
+            let heights = corners.iter().map(|&corner| (corner - corners[0]).dot(normal));
+            let (low, high) = heights.fold((0.0_f64, 0.0_f64), |(low, high), h| (low.min(h), high.max(h)));
+            let size = corners.iter().map(|&corner| (corner - corners[0]).length()).fold(0.0, f64::max);
+            if high - low > ROUNDING + SLACK * size {
+                findings.push(format!("{name}: face {row} of size {size:.3} is {:.4} thick", high - low));
+            }
+        }
+    }
+    assert_none(&findings);
+}
+
+#[test]
+fn nothing_names_a_place_on_somebodys_machine() {
+    // In pieces, so that this file does not name them.
+    let places =
+        ["/ho~me/", "/ro~ot/", "/wo~rk/", "/Us~ers/", "..~/shared", "C:\\~Users"].map(|p| p.replace('~', ""));
+    let mut findings = Vec::new();
+    for (path, text) in texts() {
+        for (row, line) in text.lines().enumerate() {
+            findings.extend(
+                places
+                    .iter()
+                    .filter(|&name| line.contains(name.as_str()))
+                    .map(|name| format!("{} names {name}", place(&path, row))),
+            );
+        }
+    }
+    assert_none(&findings);
+}
+
+#[test]
+fn every_source_file_says_what_it_is() {
+    let sources: Vec<_> = texts()
+        .into_iter()
+        .filter(|(path, _)| path.starts_with(root().join("crates")) && has_ending(path, &["rs"]))
+        .filter(|(path, _)| path.components().any(|part| part.as_os_str() == "src"))
+        .collect();
+    assert!(sources.len() > 50, "{} sources", sources.len());
+    let silent = sources.iter().filter(|(_, text)| !text.starts_with("//! "));
+    let findings: Vec<String> = silent.map(|(path, _)| place(path, 0)).collect();
+    assert_none(&findings);
+}
+
+#[test]
+fn text_is_clean() {
+    let mut findings = Vec::new();
+    // A scene that must fail may be as untidy as it likes.
+    let is_clean = |path: &Path| !path.starts_with(root().join("scenes").join("bad"));
+    for (path, text) in texts().into_iter().filter(|(path, _)| is_clean(path)) {
+        let lines = text.lines().enumerate();
+        let untidy = lines.filter(|(_, line)| line.ends_with([' ', '\t', '\r']));
+        findings.extend(untidy.map(|(row, _)| format!("{}: white space at the end", place(&path, row))));
+        if !text.is_empty() && (!text.ends_with('\n') || text.ends_with("\n\n")) {
+            findings.push(format!("{}: does not end with one line end", place(&path, 0)));
+        }
+    }
+    assert_none(&findings);
+}
