@@ -9,6 +9,8 @@
 //!   wire two or more;
 //! - names are unique within colours and within vertices.
 
+use std::fmt;
+use std::num::NonZeroU32;
 use std::ops::Range;
 
 use glam::DVec3;
@@ -39,10 +41,46 @@ macro_rules! index {
 }
 
 index! {
-    /// Row of [`Scene::colors`].
-    ColorId
     /// Row of [`Scene::vertices`].
     VertexId
+}
+
+macro_rules! optional_index {
+    ($($(#[$doc:meta])* $name:ident)*) => {$(
+        $(#[$doc])*
+        ///
+        /// An `Option` of it takes no more room than itself.
+        #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        pub struct $name(NonZeroU32);
+
+        impl $name {
+            /// The id of the element at position `idx` of its table.
+            ///
+            /// # Panics
+            /// If `idx + 1` does not fit 32 bits; the reader refuses such scenes.
+            pub fn from_index(idx: usize) -> Self {
+                let row = u32::try_from(idx + 1).ok().and_then(NonZeroU32::new);
+                Self(row.expect("tables have fewer than 2^32 rows"))
+            }
+
+            /// Position in its table.
+            pub fn index(self) -> usize {
+                self.0.get() as usize - 1
+            }
+        }
+
+        impl fmt::Debug for $name {
+            fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                write!(f, "{}({})", stringify!($name), self.index())
+            }
+        }
+    )*};
+}
+pub(crate) use optional_index;
+
+optional_index! {
+    /// Row of [`Scene::colors`].
+    ColorId
     /// Row of [`Scene::velocities`].
     VelocityId
 }
@@ -270,6 +308,37 @@ impl Contours {
         self.ends.push(end);
     }
 
+    /// Appends a corner to the contour that [`Contours::end_contour`] will end.
+    pub(crate) fn push_corner(&mut self, corner: VertexId) {
+        self.corners.push(corner);
+    }
+
+    /// Ends a contour of single corners.
+    pub(crate) fn end_contour(&mut self) {
+        self.push([]);
+    }
+
+    /// Drops all but the first `rows` contours, and corners of one not ended.
+    pub(crate) fn truncate(&mut self, rows: usize) {
+        self.ends.truncate(rows);
+        self.corners.truncate(self.ends.last().map_or(0, |&end| end as usize));
+    }
+
+    /// Corners and ends of all contours.
+    pub(crate) fn parts_mut(&mut self) -> (&mut Vec<VertexId>, &mut Vec<u32>) {
+        (&mut self.corners, &mut self.ends)
+    }
+
+    /// Contours from corners, and the end of each among them.
+    pub(crate) fn from_parts(corners: Vec<VertexId>, ends: Vec<u32>) -> Self {
+        Self { corners, ends }
+    }
+
+    /// Corners of all contours together.
+    pub(crate) fn corner_count(&self) -> usize {
+        self.corners.len()
+    }
+
     /// Appends one face's contours and gives their rows.
     pub fn push_all<C>(&mut self, contours: impl IntoIterator<Item = C>) -> Range<u32>
     where
@@ -320,7 +389,7 @@ impl Contours {
         self.ends.is_empty()
     }
 
-    fn row_count(&self) -> u32 {
+    pub(crate) fn row_count(&self) -> u32 {
         u32::try_from(self.ends.len()).expect("fewer than 2^32 contours")
     }
 }
