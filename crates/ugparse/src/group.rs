@@ -12,7 +12,8 @@ use rustc_hash::FxHashMap;
 use crate::names::{NameId, Names};
 use crate::numbered::{Name, NumberedNames};
 use crate::scene::{
-    Camera, Color, ColorId, Contours, Face, Light, LightKind, VelocityId, Vertex, VertexId, Wire,
+    Camera, Color, ColorId, Contours, Face, Illum, IllumId, Light, LightKind, VelocityId, Vertex, VertexId,
+    Wire,
 };
 use crate::source::Span;
 use crate::statement::{
@@ -20,6 +21,11 @@ use crate::statement::{
     VertexStatement,
 };
 use crate::token::{skip_statement, statement_start};
+
+/// Bytes that short statements take: `v v123 1.25 2.5 1 ;`, `f (v1 v12 v123) ;`, and a corner of that.
+const VERTEX_BYTES: usize = 20;
+const FACE_BYTES: usize = 17;
+const CORNER_BYTES: usize = 5;
 
 /// No vertex has this name.
 pub(crate) const NO_ROW: u32 = u32::MAX;
@@ -41,6 +47,10 @@ impl<T> Rows<T> {
     pub fn push(&mut self, row: T, span: Span) {
         self.rows.push(row);
         self.spans.push(span);
+    }
+
+    fn with_capacity(rows: usize) -> Self {
+        Self { rows: Vec::with_capacity(rows), spans: Vec::with_capacity(rows) }
     }
 
     pub fn len(&self) -> usize {
@@ -85,6 +95,7 @@ pub(crate) struct Group<'t> {
     /// Corners are rows of vertices already.
     pub is_linked: bool,
     pub faces: Rows<Face>,
+    pub illums: Vec<Illum>,
     pub wires: Rows<Wire>,
     pub lights: Rows<Light>,
     pub cameras: Rows<Camera>,
@@ -148,10 +159,22 @@ pub(crate) struct Duplicate {
 }
 
 impl<'t> Group<'t> {
-    pub fn new(text: &[u8], name: Span, parent: Option<usize>) -> Self {
-        // A definition seldom fills the text.
-        let bytes = if parent.is_none() { text.len() } else { 0 };
-        Self { name, parent, vertex_names: NumberedNames::for_text(bytes), ..Self::default() }
+    /// Of a definition.
+    pub fn new(name: Span, parent: Option<usize>) -> Self {
+        Self { name, parent, ..Self::default() }
+    }
+
+    /// Of the file, or of a part of it: with room for as many rows as so many
+    /// bytes usually hold. Memory that is asked for but not used costs nothing;
+    /// tables that grow are copied.
+    pub fn for_text(bytes: usize) -> Self {
+        Self {
+            vertices: Rows::with_capacity(bytes / VERTEX_BYTES),
+            faces: Rows::with_capacity(bytes / FACE_BYTES),
+            contours: Contours::with_capacity(bytes / CORNER_BYTES, bytes / FACE_BYTES),
+            vertex_names: NumberedNames::for_text(bytes),
+            ..Self::default()
+        }
     }
 
     /// Enters a statement that stands at `span`; its contours are in `references`.
@@ -222,10 +245,18 @@ impl<'t> Group<'t> {
             name: self.name(text, face.name),
             contours,
             color: self.color(text, face.color),
-            illum: face.illum,
+            illum: face.illum.map(|level| self.add_illum(Illum::Level(level))),
             velocity: face.velocity.map(|velocity| self.velocities.id(velocity)),
         };
         self.faces.push(face, span);
+    }
+
+    fn add_illum(&mut self, illum: Illum) -> IllumId {
+        // Neighbours often have the same.
+        if self.illums.last() != Some(&illum) {
+            self.illums.push(illum);
+        }
+        IllumId::from_index(self.illums.len() - 1)
     }
 
     fn add_wire(&mut self, text: &'t [u8], span: Span, wire: &FaceStatement, references: &References) {

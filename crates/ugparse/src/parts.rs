@@ -12,10 +12,8 @@ use rayon::prelude::*;
 use crate::diagnostic::Diagnostic;
 use crate::group::{DefaultColor, Group, NO_ROW, Rows};
 use crate::names::NameId;
-use crate::numbered::NumberedNames;
 use crate::reader::{Document, read, read_part};
-use crate::scene::{ColorId, Contours, VelocityId, VertexId};
-use crate::source::Span;
+use crate::scene::{ColorId, Contours, IllumId, VelocityId, VertexId};
 
 /// Bytes a part should have at least.
 const MIN_PART: usize = 1 << 19;
@@ -43,7 +41,7 @@ fn read_parts(text: &[u8], n_parts: usize, lax: bool) -> Option<(Document<'_>, V
     let (mut documents, warnings): (Vec<_>, Vec<_>) = parts?.into_iter().unzip();
     let groups = documents.iter_mut().filter_map(|document| document.groups.pop()).collect();
     let document = Document {
-        groups: vec![join(text, groups)?],
+        groups: vec![join(groups)?],
         first_statement: documents.iter().find_map(|document| document.first_statement),
         comments: documents.into_iter().flat_map(|document| document.comments).collect(),
     };
@@ -62,13 +60,13 @@ fn cut(text: &[u8], part: usize, n_parts: usize) -> usize {
 }
 
 /// The tables of all parts in one; `None` if a name is defined twice.
-fn join<'t>(text: &[u8], mut parts: Vec<Group<'t>>) -> Option<Group<'t>> {
+fn join<'t>(mut parts: Vec<Group<'t>>) -> Option<Group<'t>> {
     // Calls stand between rows of all kinds; texts so large seldom have any.
     let is_plain = |part: &Group<'_>| part.duplicates.is_empty() && part.calls.rows.is_empty();
     if !parts.iter().all(is_plain) {
         return None;
     }
-    let mut file = Group::new(text, Span::default(), None);
+    let mut file = Group::default();
     let vertex_rows = vertices_of_parts(&mut parts, &mut file)?;
     let mut before = Before::default();
     let mut places = Vec::with_capacity(parts.len());
@@ -78,7 +76,7 @@ fn join<'t>(text: &[u8], mut parts: Vec<Group<'t>>) -> Option<Group<'t>> {
     }
 
     file.is_linked = true;
-    file.contours = join_contours(&mut parts, &vertex_rows);
+    file.contours = join_contours(&mut parts, &file.vertex_rows, &vertex_rows);
     file.vertices = join_tables(
         &mut parts,
         &places,
@@ -98,6 +96,7 @@ fn join<'t>(text: &[u8], mut parts: Vec<Group<'t>>) -> Option<Group<'t>> {
                 face.contours.start + place.first_contour..face.contours.end + place.first_contour;
             face.color = place.color(face.color);
             face.velocity = place.velocity(face.velocity);
+            face.illum = face.illum.map(|illum| IllumId::from_index(place.first_illum + illum.index()));
         },
     );
     file.wires = join_tables(
@@ -137,33 +136,33 @@ fn join<'t>(text: &[u8], mut parts: Vec<Group<'t>>) -> Option<Group<'t>> {
     Some(file)
 }
 
-/// For each part, for each number of a vertex's name, the row of the vertex in
-/// the whole file, or [`NO_ROW`]. `None` if two vertices have one name.
+/// Puts the names of vertices together, and their rows. Gives, for each part but
+/// the first, for each number of a name there, the row in the whole file or
+/// [`NO_ROW`]. `None` if two vertices have one name.
 fn vertices_of_parts<'t>(parts: &mut [Group<'t>], file: &mut Group<'t>) -> Option<Vec<Vec<u32>>> {
-    file.vertex_names = std::mem::take(&mut parts[0].vertex_names);
-    let mut numbers = vec![None];
-    numbers.extend(parts[1..].iter().map(|part| Some(file.vertex_names.enter_all(&part.vertex_names))));
-    let number_of =
-        |part: usize, own: usize| numbers[part].as_ref().map_or(own, |numbers| numbers[own] as usize);
-
-    let mut rows = std::mem::take(&mut parts[0].vertex_rows);
-    rows.resize(file.vertex_names.len(), NO_ROW);
-    let mut first_row = parts[0].vertices.len() as u32;
-    for (idx, part) in parts.iter().enumerate().skip(1) {
-        for (own, &row) in part.vertex_rows.iter().enumerate().filter(|(_, row)| **row != NO_ROW) {
-            let before = std::mem::replace(&mut rows[number_of(idx, own)], first_row + row);
+    let (first, others) = parts.split_first_mut()?;
+    file.vertex_names = std::mem::take(&mut first.vertex_names);
+    file.vertex_rows = std::mem::take(&mut first.vertex_rows);
+    let mut first_row = first.vertices.len() as u32;
+    let mut all_rows = Vec::with_capacity(others.len());
+    for part in &mut *others {
+        let numbers = file.vertex_names.enter_all(&std::mem::take(&mut part.vertex_names));
+        file.vertex_rows.resize(file.vertex_names.len(), NO_ROW);
+        let rows = std::mem::take(&mut part.vertex_rows);
+        for (&number, row) in numbers.iter().zip(rows).filter(|(_, row)| *row != NO_ROW) {
+            let before = std::mem::replace(&mut file.vertex_rows[number as usize], first_row + row);
             if before != NO_ROW {
                 return None;
             }
         }
         first_row += part.vertices.len() as u32;
+        all_rows.push(numbers);
     }
-    let all_rows = numbers.iter().map(|numbers| match numbers {
-        None => rows.clone(),
-        Some(numbers) => numbers.iter().map(|&number| rows[number as usize]).collect(),
-    });
-    let all_rows = all_rows.collect();
-    file.vertex_rows = rows;
+    // Only now all vertices are known.
+    for number in all_rows.iter_mut().flatten() {
+        *number = file.vertex_rows[*number as usize];
+    }
+    file.vertex_rows.resize(file.vertex_names.len(), NO_ROW);
     Some(all_rows)
 }
 
@@ -187,6 +186,7 @@ impl Before {
 struct Place {
     first_name: usize,
     first_contour: u32,
+    first_illum: usize,
     colors: Vec<ColorId>,
     velocities: Vec<VelocityId>,
     /// Nothing in the part's rows has to change.
@@ -203,7 +203,9 @@ impl Place {
         let place = Self {
             first_name: file.names.len(),
             first_contour: before.contours,
+            first_illum: file.illums.len(),
             is_same: before.contours == 0
+                && (file.illums.is_empty() || part.illums.is_empty())
                 && (file.names.len() == 0 || part.names.len() == 0)
                 && colors.iter().enumerate().all(|(row, color)| color.index() == row)
                 && velocities.iter().enumerate().all(|(row, velocity)| velocity.index() == row),
@@ -225,7 +227,7 @@ impl Place {
             first_wire: before.wires + default.first_wire,
         }));
         file.names.append(std::mem::take(&mut part.names));
-        part.vertex_names = NumberedNames::default();
+        file.illums.append(&mut part.illums);
         file.n_statements += part.n_statements;
         Some(place)
     }
@@ -258,20 +260,23 @@ fn join_tables<'t, T: Clone + Send + Sync>(
     }
 }
 
-/// Rows of all parts in order, put together on all threads. What one part
-/// holds alone is not copied, and not touched if `is_same`.
+/// Rows of all parts in order, put together on all threads. A part that is not
+/// changed, and holds by far the most, is not copied.
 fn join_rows<T: Clone + Send + Sync>(
     mut parts: Vec<Vec<T>>,
     is_same: impl Fn(usize) -> bool,
     change: impl Fn(&mut T, usize) + Send + Sync,
 ) -> Vec<T> {
-    let mut filled = (0..parts.len()).filter(|&part| !parts[part].is_empty());
-    let first = filled.next().unwrap_or(0);
-    if filled.next().is_none() {
-        let mut rows = parts.swap_remove(first);
-        if !is_same(first) {
-            rows.par_iter_mut().with_min_len(MIN_ROWS).for_each(|row| change(row, first));
+    let n_rows: usize = parts.iter().map(Vec::len).sum();
+    let largest = (0..parts.len()).max_by_key(|&part| parts[part].len()).unwrap_or(0);
+    if n_rows - parts[largest].len() <= n_rows / 8 {
+        for (part, rows) in parts.iter_mut().enumerate().filter(|(part, _)| !is_same(*part)) {
+            rows.par_iter_mut().with_min_len(MIN_ROWS).for_each(|row| change(row, part));
         }
+        let mut behind = parts.split_off(largest);
+        let mut rows = behind.remove(0);
+        rows.splice(0..0, parts.into_iter().flatten());
+        rows.extend(behind.into_iter().flatten());
         return rows;
     }
     let ends: Vec<usize> = parts
@@ -281,7 +286,6 @@ fn join_rows<T: Clone + Send + Sync>(
             Some(*end)
         })
         .collect();
-    let n_rows = ends[ends.len() - 1];
     let row_of = |part: &mut usize, idx: usize| {
         while idx >= ends[*part] {
             *part += 1;
@@ -293,8 +297,9 @@ fn join_rows<T: Clone + Send + Sync>(
     (0..n_rows).into_par_iter().with_min_len(MIN_ROWS).map_with(0, row_of).collect()
 }
 
-/// Contours of all parts, with rows of vertices for corners.
-fn join_contours(parts: &mut [Group<'_>], vertex_rows: &[Vec<u32>]) -> Contours {
+/// Contours of all parts, with rows of vertices for corners: those of the first
+/// part by `first_rows`, of the others by `other_rows`.
+fn join_contours(parts: &mut [Group<'_>], first_rows: &[u32], other_rows: &[Vec<u32>]) -> Contours {
     let (mut corners, mut ends) = (Vec::new(), Vec::new());
     let mut first_corners = Vec::new();
     let mut first_corner = 0;
@@ -309,7 +314,8 @@ fn join_contours(parts: &mut [Group<'_>], vertex_rows: &[Vec<u32>]) -> Contours 
         corners,
         |_| false,
         |corner: &mut VertexId, part| {
-            *corner = VertexId(vertex_rows[part][corner.index()]);
+            let rows = part.checked_sub(1).map_or(first_rows, |other| &other_rows[other][..]);
+            *corner = VertexId(rows[corner.index()]);
         },
     );
     let ends = join_rows(ends, |part| first_corners[part] == 0, |end, part| *end += first_corners[part]);

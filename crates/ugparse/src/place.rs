@@ -13,8 +13,8 @@ use crate::group::{Call, Counts, DefaultColor, Group, Rows, Velocities};
 use crate::names::{NameId, Names, UniqueNames};
 use crate::reader::{CommentSpan, Document};
 use crate::scene::{
-    Camera, ColorId, Comment, Face, Item, Light, LightKind, Scene, VelocityId, Vertex, VertexId, Wire,
-    newell_normal,
+    Camera, ColorId, Comment, Face, IllumId, Item, Light, LightKind, Scene, VelocityId, Vertex, VertexId,
+    Wire, newell_normal,
 };
 use crate::settle::{Link, Links, face_name};
 use crate::source::Span;
@@ -49,7 +49,7 @@ pub(crate) fn place(
         scene,
         origins: Origins::default(),
         emitted: has_comments.then(Vec::new),
-        placed_before: vec![false; document.groups.len()],
+        first_illums: vec![None; document.groups.len()],
         velocities: Velocities::default(),
         trouble: None,
         flattened: BTreeMap::new(),
@@ -91,6 +91,8 @@ struct Placement<'p> {
     first_time: bool,
     /// Row of the group's first colour in the scene.
     first_color: usize,
+    /// Row of the group's first illum in the scene.
+    first_illum: usize,
     /// The unnamed colour in force at the `def`.
     outer_default: Option<ColorId>,
 }
@@ -122,7 +124,8 @@ struct Placer<'d, 't> {
     origins: Origins,
     /// Where each statement stands and the first row it gave, if comments ask for it.
     emitted: Option<Vec<(Span, Item)>>,
-    placed_before: Vec<bool>,
+    /// For each group that has been placed, the row of its first illum.
+    first_illums: Vec<Option<usize>>,
     velocities: Velocities,
     /// The first thing that cannot be placed.
     trouble: Option<Diagnostic>,
@@ -150,6 +153,7 @@ impl Placer<'_, '_> {
         self.scene.vertices = file.vertices.rows;
         self.origins.vertices = file.vertices.spans;
         self.scene.contours = file.contours;
+        self.scene.illums = file.illums;
         let mut queues = Queues {
             faces: Queue::new(file.faces),
             wires: Queue::new(file.wires),
@@ -205,13 +209,19 @@ impl Placer<'_, '_> {
         let velocities: Vec<VelocityId> =
             group.velocities.list.iter().map(|&velocity| self.velocities.id(velocity)).collect();
         let default = group.outer_default;
+        let first_time = self.first_illums[row].is_none();
+        let first_illum = *self.first_illums[row].get_or_insert_with(|| {
+            self.scene.illums.extend_from_slice(&group.illums);
+            self.scene.illums.len() - group.illums.len()
+        });
         let placement = Placement {
             group,
             frame,
             first_vertex: self.scene.vertices.len() as u32,
             velocities: &velocities,
-            first_time: !std::mem::replace(&mut self.placed_before[row], true),
+            first_time,
             first_color: self.links.first_colors[row],
+            first_illum,
             outer_default: default
                 .map(|(outer, color)| ColorId::from_index(self.links.first_colors[outer] + color as usize)),
         };
@@ -283,7 +293,7 @@ impl Placer<'_, '_> {
             name: self.optional_name(group, face.name, frame),
             contours: self.contours(placement, face.contours.clone(), frame.transform.mirrored),
             color: placement.color(face.color, row, |default| default.first_face),
-            illum: face.illum,
+            illum: face.illum.map(|illum| IllumId::from_index(placement.first_illum + illum.index())),
             velocity: frame.velocity.or(placement.velocity(face.velocity)),
         };
         self.scene.faces.push(placed);

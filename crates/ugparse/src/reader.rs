@@ -38,7 +38,7 @@ pub(crate) struct CommentSpan {
 /// Reads the whole text. Errors go to `findings`; reading goes on behind them
 /// until there are too many.
 pub(crate) fn read<'t>(text: &'t [u8], lax: bool, findings: &mut Vec<Diagnostic>) -> Document<'t> {
-    let mut reader = Reader::new(text, lax, findings);
+    let mut reader = Reader::new(text, 0, lax, findings);
     reader.run(0);
     reader.check_all_closed();
     reader.document
@@ -53,7 +53,7 @@ pub(crate) fn read_part<'t>(
     lax: bool,
 ) -> Option<(Document<'t>, Vec<Diagnostic>)> {
     let mut findings = Vec::new();
-    let mut reader = Reader { is_part: true, ..Reader::new(text, lax, &mut findings) };
+    let mut reader = Reader { is_part: true, ..Reader::new(text, start, lax, &mut findings) };
     reader.run(start);
     let is_plain = reader.error_count == 0 && reader.document.groups.len() == 1;
     let document = reader.document;
@@ -77,8 +77,8 @@ struct Reader<'t, 'f> {
 }
 
 impl<'t, 'f> Reader<'t, 'f> {
-    fn new(text: &'t [u8], lax: bool, findings: &'f mut Vec<Diagnostic>) -> Self {
-        let file = Group::new(text, Span::default(), None);
+    fn new(text: &'t [u8], start: usize, lax: bool, findings: &'f mut Vec<Diagnostic>) -> Self {
+        let file = Group::for_text(text.len() - start);
         Self {
             grammar: Grammar { text },
             document: Document { groups: vec![file], ..Document::default() },
@@ -241,7 +241,7 @@ impl<'t, 'f> Reader<'t, 'f> {
     fn begin_definition(&mut self, input: Input<'t>, body: Input<'t>) -> Result<Input<'t>, Trouble<'t>> {
         let row = self.document.groups.len();
         let outer = self.open[self.open.len() - 1];
-        let mut group = Group::new(self.grammar.text, Span::default(), Some(outer));
+        let mut group = Group::new(Span::default(), Some(outer));
         let around = &self.document.groups[outer];
         group.outer_default =
             around.defaults.last().map(|default| (outer, default.color)).or(around.outer_default);

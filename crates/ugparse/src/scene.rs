@@ -83,6 +83,8 @@ optional_index! {
     ColorId
     /// Row of [`Scene::velocities`].
     VelocityId
+    /// Row of [`Scene::illums`].
+    IllumId
 }
 
 /// A flat UniGrafix scene.
@@ -109,6 +111,8 @@ pub struct Scene {
     pub contours: Contours,
     /// `f`.
     pub faces: Vec<Face>,
+    /// What faces carry in place of lighting; few do, so it is kept beside them.
+    pub illums: Vec<Illum>,
     /// `w`.
     pub wires: Vec<Wire>,
     /// `l`.
@@ -173,10 +177,17 @@ pub struct Face {
     pub contours: Range<u32>,
     /// Colour; `None` means lightness 1, saturation 0, opaque.
     pub color: Option<ColorId>,
-    /// Stored light level: lighting is skipped.
-    pub illum: Option<f64>,
+    /// What is known of its light, see [`Scene::light_level`].
+    pub illum: Option<IllumId>,
     /// Its velocity, if given.
     pub velocity: Option<VelocityId>,
+}
+
+/// What a face carries in place of lighting.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Illum {
+    /// Stored light level: lighting is skipped.
+    Level(f64),
 }
 
 /// Lines.
@@ -329,6 +340,10 @@ impl Contours {
         (&mut self.corners, &mut self.ends)
     }
 
+    pub(crate) fn with_capacity(corners: usize, contours: usize) -> Self {
+        Self { corners: Vec::with_capacity(corners), ends: Vec::with_capacity(contours) }
+    }
+
     /// Contours from corners, and the end of each among them.
     pub(crate) fn from_parts(corners: Vec<VertexId>, ends: Vec<u32>) -> Self {
         Self { corners, ends }
@@ -404,6 +419,13 @@ impl Scene {
     /// The contours of a face, outline first.
     pub fn face_contours(&self, face: &Face) -> impl ExactSizeIterator<Item = &[VertexId]> + Clone {
         self.contours.iter(face.contours.clone())
+    }
+
+    /// The stored light level of a face: its lighting is skipped.
+    pub fn light_level(&self, face: &Face) -> Option<f64> {
+        match self.illums[face.illum?.index()] {
+            Illum::Level(level) => Some(level),
+        }
     }
 
     /// The polylines of a wire.

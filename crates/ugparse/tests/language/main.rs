@@ -10,6 +10,7 @@ mod limits;
 mod round_trip;
 mod scopes;
 mod statements;
+mod threads;
 mod tokens;
 mod transforms;
 
