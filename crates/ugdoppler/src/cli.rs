@@ -4,7 +4,7 @@ use std::process::ExitCode;
 
 use clap::{ArgAction, Parser, ValueEnum};
 use glam::DVec3;
-use ugparse::Source;
+use ugparse::{Options, Source};
 use ugphysics::{Brightness, Velocity};
 use ugpipe::{CommonArgs, Failure, Stage, ToolArgs};
 
@@ -118,11 +118,14 @@ pub fn main() -> ExitCode {
     ugpipe::main(|args: &Args, stage: &mut Stage| {
         let config = args.config(stage.command_line())?;
         let input = stage.input()?;
-        let scene =
-            crate::run(&config, &Source::new(input.name, input.text)).map_err(|error| match error {
-                Error::Scene(findings) => Failure::Report(findings.render(true)),
-                other => Failure::failed(other),
-            })?;
+        let options = Options { lax: config.lax };
+        let source =
+            ugparse::include(Source::new(input.name, input.text), &options, |path| std::fs::read(path))
+                .map_err(|findings| Failure::Report(findings.render(true)))?;
+        let scene = crate::run(&config, &source).map_err(|error| match error {
+            Error::Scene(findings) => Failure::Report(findings.render(true)),
+            other => Failure::failed(other),
+        })?;
         if !scene.warnings.is_empty() {
             stage.report(&scene.warnings.render(true));
         }

@@ -20,7 +20,7 @@ use crate::token::{
 use crate::transform::Transform;
 
 /// The statement keywords, as messages list them.
-pub(crate) const KEYWORDS: &str = "v w f c c_rgb l cam def end i a";
+pub(crate) const KEYWORDS: &str = "v w f c c_rgb l cam def end i a include";
 
 /// A reader of one text; knows the text's length, and so where a rest of it begins.
 pub(crate) struct Grammar<'t> {

@@ -32,6 +32,7 @@
 mod diagnostic;
 mod grammar;
 mod group;
+mod include;
 mod names;
 mod numbered;
 mod parts;
@@ -48,6 +49,7 @@ mod wording;
 mod writer;
 
 pub use diagnostic::{Diagnostic, Diagnostics, MAX_ERRORS, Severity};
+pub use include::include;
 pub use names::{NameId, Names, UniqueNames};
 pub use place::Origins;
 pub use scene::*;
@@ -88,6 +90,7 @@ pub fn parse(source: &Source, options: &Options) -> Result<Parsed, Diagnostics> 
     }
     let mut findings = Vec::new();
     let mut document = parts::read_all(text, options.lax, &mut findings);
+    findings.extend(document.includes.iter().map(include::not_followed));
     refuse_errors(source, &mut findings)?;
 
     let mut scene = Scene::default();

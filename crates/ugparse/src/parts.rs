@@ -42,6 +42,8 @@ fn read_parts(text: &[u8], n_parts: usize, lax: bool) -> Option<(Document<'_>, V
     let groups = documents.iter_mut().filter_map(|document| document.groups.pop()).collect();
     let document = Document {
         groups: vec![join(groups)?],
+        line_marks: documents.iter().flat_map(|document| document.line_marks.iter().cloned()).collect(),
+        includes: documents.iter().flat_map(|document| document.includes.iter().copied()).collect(),
         first_statement: documents.iter().find_map(|document| document.first_statement),
         comments: documents.into_iter().flat_map(|document| document.comments).collect(),
     };

@@ -4,11 +4,11 @@ use crate::diagnostic::{Diagnostic, MAX_ERRORS};
 use crate::grammar::{Grammar, NAME};
 use crate::group::Group;
 use crate::quick;
-use crate::source::Span;
+use crate::source::{LineMark, Span};
 use crate::statement::References;
 use crate::token::{
-    Input, Reason, Trouble, blank, comment, escape, found, identifier, mark, skip_statement, trouble, wanted,
-    word,
+    Input, Reason, Trouble, blank, comment, escape, file_name, found, identifier, integer, mark,
+    skip_statement, trouble, wanted, word,
 };
 use crate::wording::{no_statement, shorten, with_usage, word_help};
 
@@ -25,6 +25,10 @@ pub(crate) struct Document<'t> {
     pub comments: Vec<CommentSpan>,
     /// Where the first statement begins.
     pub first_statement: Option<u32>,
+    /// Lines of the C preprocessor.
+    pub line_marks: Vec<LineMark>,
+    /// `include` statements.
+    pub includes: Vec<Include>,
 }
 
 /// A comment: the text between its braces.
@@ -33,6 +37,14 @@ pub(crate) struct CommentSpan {
     pub text: Span,
     /// It begins on the line on which a statement ends.
     pub trailing: bool,
+}
+
+/// `include FILE ;`
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Include {
+    pub span: Span,
+    /// The file name without quotes.
+    pub file: Span,
 }
 
 /// Reads the whole text. Errors go to `findings`; reading goes on behind them
@@ -58,6 +70,16 @@ pub(crate) fn read_part<'t>(
     let is_plain = reader.error_count == 0 && reader.document.groups.len() == 1;
     let document = reader.document;
     is_plain.then_some((document, findings))
+}
+
+/// The lines of the C preprocessor in a text.
+pub(crate) fn line_marks(text: &[u8]) -> Vec<LineMark> {
+    let may_be_one = |idx: usize| matches!(text[idx + 1..], [b' ' | b'\t', ..] | [b'l', b'i', ..]);
+    if !memchr::memchr_iter(b'#', text).any(may_be_one) {
+        return Vec::new();
+    }
+    // Marks behind more mistakes than are reported are not missed.
+    read(text, true, &mut Vec::new()).line_marks
 }
 
 struct Reader<'t, 'f> {
@@ -183,6 +205,11 @@ impl<'t, 'f> Reader<'t, 'f> {
         match keyword {
             b"def" => self.begin_definition(input, body),
             b"end" => self.end_definition(input, body),
+            b"include" => self.include(input, body),
+            b"#" | b"#line" if let Some((rest, mark)) = self.line_mark(body) => {
+                self.document.line_marks.push(mark);
+                Ok(rest)
+            }
             _ => self.plain_statement(input, keyword, body),
         }
     }
@@ -232,6 +259,30 @@ impl<'t, 'f> Reader<'t, 'f> {
         let (text, span) = (self.grammar.text, self.span(input, rest));
         self.group_for(span).add_unknown(text, span);
         Ok(rest)
+    }
+
+    /// `include FILE ;`
+    fn include(&mut self, input: Input<'t>, body: Input<'t>) -> Result<Input<'t>, Trouble<'t>> {
+        let (rest, name) = file_name(body).map_err(trouble)?;
+        let quotes = usize::from(rest.len() + name.len() < body.len() && skip_blank(body).starts_with(b"\""));
+        let end = self.grammar.position(rest) - quotes as u32;
+        let file = Span { start: end - name.len() as u32, end };
+        let (rest, ()) = mark(b';', "`;`")(rest).map_err(trouble)?;
+        self.document.includes.push(Include { span: self.span(input, rest), file });
+        Ok(rest)
+    }
+
+    /// The rest of `# LINE "FILE" …`, which ends with its line. What follows the
+    /// file name is for the preprocessor.
+    fn line_mark(&self, body: Input<'t>) -> Option<(Input<'t>, LineMark)> {
+        let end = memchr::memchr(b'\n', body).unwrap_or(body.len());
+        let (rest, line) = integer(&body[..end]).ok()?;
+        let rest = rest.trim_ascii();
+        let name =
+            if rest.is_empty() { None } else { Some(file_name(rest).ok().filter(|_| rest[0] == b'"')?.1) };
+        let behind = &body[(end + 1).min(body.len())..];
+        let name = name.map(|name| String::from_utf8_lossy(name).into_owned());
+        Some((behind, LineMark { start: self.grammar.position(behind), line: line as usize, name }))
     }
 
     /// `def ID ;`

@@ -302,6 +302,18 @@ pub(crate) fn mark<'a>(byte: u8, what: &'static str) -> impl Fn(Input<'a>) -> Pa
     }
 }
 
+/// A file name: a string in quotes, or a run of characters that are no punctuation.
+pub(crate) fn file_name(input: Input<'_>) -> Parsed<'_, Input<'_>> {
+    let (input, ()) = blank(input)?;
+    let Some(quoted) = input.strip_prefix(b"\"") else { return wanted(word(input), FILE_NAME) };
+    match memchr2(b'"', b'\n', quoted) {
+        Some(len @ 1..) if quoted[len] == b'"' => Ok((&quoted[len + 1..], &quoted[..len])),
+        _ => backtrack(input, Reason::Expected(FILE_NAME)),
+    }
+}
+
+const FILE_NAME: &str = "a file name, in quotes if there are blanks in it";
+
 /// What is behind the next `;` outside comments.
 pub(crate) fn skip_statement(mut input: Input<'_>) -> Result<Input<'_>, Trouble<'_>> {
     loop {

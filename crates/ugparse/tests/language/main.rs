@@ -6,6 +6,7 @@ mod colors;
 mod comments;
 mod docs;
 mod faces;
+mod files;
 mod limits;
 mod round_trip;
 mod scopes;
