@@ -185,7 +185,7 @@ fn build() -> Result<(), Box<dyn Error>> {
 }
 
 /// Where cargo puts things: this program was built there.
-fn target_dir() -> PathBuf {
+pub fn target_dir() -> PathBuf {
     let exe = std::env::current_exe().unwrap_or_default();
     exe.ancestors().nth(2).map_or_else(|| PathBuf::from("target"), Path::to_path_buf)
 }
@@ -197,7 +197,7 @@ fn path_with_programs() -> Result<std::ffi::OsString, Box<dyn Error>> {
 }
 
 /// Processor, threads and compiler, as far as the system tells.
-fn machine() -> String {
+pub fn machine() -> String {
     let cpuinfo = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
     let model =
         cpuinfo.lines().find_map(|line| line.strip_prefix("model name")).unwrap_or("unknown processor");

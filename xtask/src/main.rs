@@ -6,6 +6,7 @@
 //! cargo xtask mesh 1000000 > /tmp/mesh.ug
 //! cargo xtask sheet sheet.png 2 a.png b.png c.png d.png
 //! cargo xtask bench
+//! cargo xtask bench-reading
 //! ```
 //!
 //! Scenes go to standard output and are the same bytes on every run and platform.
@@ -13,6 +14,7 @@
 mod bench;
 mod globe;
 mod mesh;
+mod reading;
 mod sheet;
 mod short;
 mod sphere;
@@ -71,6 +73,20 @@ enum Chore {
         #[arg(default_values_t = [100_000, 1_000_000])]
         triangles: Vec<u32>,
     },
+    /// Time reading and writing beside `tobj` on the equal mesh as OBJ, as Markdown
+    BenchReading {
+        /// Triangles, roughly
+        #[arg(default_value_t = 1_000_000, value_parser = clap::value_parser!(u32).range(36..=100_000_000))]
+        triangles: u32,
+    },
+    /// Read a scene and tell the peak memory in bytes
+    #[command(hide = true)]
+    ReadOnce {
+        /// Scene to read
+        scene: PathBuf,
+        /// Threads to read on
+        threads: usize,
+    },
 }
 
 fn main() -> ExitCode {
@@ -95,6 +111,13 @@ fn run(chore: &Chore) -> io::Result<()> {
         Chore::Mesh { triangles } => mesh::write(&mut out, *triangles)?,
         Chore::Bench { triangles } => {
             bench::write(&mut out, triangles).map_err(|error| io::Error::other(error.to_string()))?;
+        }
+        Chore::BenchReading { triangles } => {
+            reading::write(&mut out, *triangles).map_err(|error| io::Error::other(error.to_string()))?;
+        }
+        Chore::ReadOnce { scene, threads } => {
+            reading::read_once(&mut out, scene, *threads)
+                .map_err(|error| io::Error::other(error.to_string()))?;
         }
         Chore::Sheet { out: picture, columns, pictures } => sheet::tile(picture, *columns, pictures)?,
     }

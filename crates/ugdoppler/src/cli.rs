@@ -4,7 +4,7 @@ use std::process::ExitCode;
 
 use clap::{ArgAction, Parser, ValueEnum};
 use glam::DVec3;
-use ugparse::Source;
+use ugparse::{Options, Source};
 use ugphysics::{Brightness, Velocity};
 use ugpipe::{CommonArgs, Failure, Stage, ToolArgs};
 
@@ -121,7 +121,10 @@ pub fn main() -> ExitCode {
 fn run(args: &Args, stage: &mut Stage) -> Result<(), Failure> {
     let config = args.config(stage.command_line())?;
     let input = stage.input()?;
-    let report = crate::run(&config, &Source::new(input.name, input.text)).map_err(|error| match error {
+    let options = Options { lax: config.lax };
+    let source = ugparse::include(Source::new(input.name, input.text), &options, |path| std::fs::read(path))
+        .map_err(|findings| Failure::Report(findings.render(true)))?;
+    let report = crate::run(&config, &source).map_err(|error| match error {
         Error::Scene(findings) => Failure::Report(findings.render(true)),
         error => Failure::failed(error),
     })?;

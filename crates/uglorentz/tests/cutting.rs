@@ -319,7 +319,7 @@ fn comments_and_attributes_go_with_their_faces() {
     let expected = [("the upper", "up"), ("the lower", "low"), ("behind it", "low"), ("the line", "Wire(0)")];
     assert_eq!(found, expected.map(|(text, at)| (text, at.to_string())));
     for (row, face) in scene.faces.iter().enumerate() {
-        assert_eq!(face.illum, (named(row as u32) == "up").then_some(0.5));
+        assert_eq!(scene.light_level(face), (named(row as u32) == "up").then_some(0.5));
         assert!(face.color.is_some() && scene.velocities[face.velocity.unwrap().index()].x == 0.9);
     }
     assert_eq!(scene.head, [" head ", " uglorentz 0.1.0: uglorentz "]);

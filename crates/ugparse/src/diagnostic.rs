@@ -4,7 +4,8 @@ use std::fmt;
 
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 
-use crate::source::{Source, Span};
+use crate::reader::line_marks;
+use crate::source::{LineMark, Source, Span};
 
 /// Errors reported together before reading stops.
 pub const MAX_ERRORS: usize = 20;
@@ -76,11 +77,16 @@ impl Diagnostic {
 
     /// The message as a person sees it, with the line and a caret.
     pub fn render(&self, source: &Source, styled: bool) -> String {
+        self.render_with(source, &line_marks(&source.text), styled)
+    }
+
+    fn render_with(&self, source: &Source, marks: &[LineMark], styled: bool) -> String {
         let level = match self.severity {
             Severity::Error => Level::ERROR,
             Severity::Warning => Level::WARNING,
         };
-        let mut report = vec![level.primary_title(self.message.as_str()).elements(self.snippets(source))];
+        let mut report =
+            vec![level.primary_title(self.message.as_str()).elements(self.snippets(source, marks))];
         if let Some(help) = &self.help {
             report.push(Group::with_title(Level::HELP.secondary_title(help.as_str())));
         }
@@ -89,7 +95,11 @@ impl Diagnostic {
     }
 
     /// The lines to show: one snippet if both places are on one screen of text, else two.
-    fn snippets<'a>(&'a self, source: &'a Source) -> Vec<Snippet<'a, annotate_snippets::Annotation<'a>>> {
+    fn snippets<'a>(
+        &'a self,
+        source: &'a Source,
+        marks: &'a [LineMark],
+    ) -> Vec<Snippet<'a, annotate_snippets::Annotation<'a>>> {
         let mut places = vec![(self.span, self.label.as_str(), AnnotationKind::Primary)];
         if let Some((span, label)) = &self.other {
             places.push((*span, label.as_str(), AnnotationKind::Context));
@@ -98,11 +108,9 @@ impl Diagnostic {
             .into_iter()
             .map(|(span, label, kind)| {
                 let excerpt = Excerpt::new(source, span);
+                let (name, line) = source.reported(marks, span.start);
                 let annotation = kind.span(excerpt.mark).label((!label.is_empty()).then_some(label));
-                Snippet::source(excerpt.text)
-                    .path(source.name.as_str())
-                    .line_start(excerpt.line)
-                    .annotation(annotation)
+                Snippet::source(excerpt.text).path(name).line_start(line).annotation(annotation)
             })
             .collect()
     }
@@ -111,7 +119,6 @@ impl Diagnostic {
 /// The one line that is shown for a place.
 struct Excerpt {
     text: String,
-    line: usize,
     mark: std::ops::Range<usize>,
 }
 
@@ -135,7 +142,7 @@ impl Excerpt {
         let marked = shown(start, end.min(cut_end));
         let after = shown(end.min(cut_end), cut_end);
         let mark = before.len()..before.len() + marked.len();
-        Self { line: source.line_column(span.start).0, text: format!("{before}{marked}{after}"), mark }
+        Self { text: format!("{before}{marked}{after}"), mark }
     }
 }
 
@@ -172,8 +179,9 @@ impl Diagnostics {
 
     /// Every finding as a person sees it.
     pub fn render(&self, styled: bool) -> String {
+        let marks = line_marks(&self.source.text);
         let mut parts: Vec<String> =
-            self.list.iter().map(|finding| finding.render(&self.source, styled)).collect();
+            self.list.iter().map(|finding| finding.render_with(&self.source, &marks, styled)).collect();
         if self.omitted > 0 {
             parts.push(format!("… and {} more", self.omitted));
         }

@@ -7,12 +7,12 @@ use glam::DVec3;
 use nom::Parser;
 use nom::combinator::opt;
 
-use crate::document::{
-    CallStatement, CameraStatement, ColorStatement, Document, FaceStatement, LightStatement, Repeat,
+use crate::scene::{Camera, ColorValue, Projection};
+use crate::source::Span;
+use crate::statement::{
+    CallStatement, CameraStatement, ColorStatement, FaceStatement, LightStatement, References, Repeat,
     Statement, VertexStatement,
 };
-use crate::scene::{ColorValue, Projection};
-use crate::source::Span;
 use crate::token::{
     Input, Parsed, Reason, backtrack, blank, fail, identifier, integer, mark, number, point, require, wanted,
     word,
@@ -20,7 +20,7 @@ use crate::token::{
 use crate::transform::Transform;
 
 /// The statement keywords, as messages list them.
-pub(crate) const KEYWORDS: &str = "v w f c c_rgb l cam def end i a";
+pub(crate) const KEYWORDS: &str = "v w f c c_rgb l cam def end i a include";
 
 /// A reader of one text; knows the text's length, and so where a rest of it begins.
 pub(crate) struct Grammar<'t> {
@@ -54,12 +54,12 @@ impl<'t> Grammar<'t> {
         &self,
         keyword: &[u8],
         input: Input<'a>,
-        document: &mut Document,
+        references: &mut References,
     ) -> Option<Parsed<'a, Statement>> {
         Some(match keyword {
             b"v" => self.vertex(input),
-            b"f" => self.face(input, document),
-            b"w" => self.wire(input, document),
+            b"f" => self.face(input, references),
+            b"w" => self.wire(input, references),
             b"c" => self.color(input),
             b"c_rgb" => self.rgb(input),
             b"l" => self.light(input),
@@ -83,48 +83,47 @@ impl<'t> Grammar<'t> {
     }
 
     /// `f [ID] contours [color] [illum] [< x y z >]`
-    fn face<'a>(&self, input: Input<'a>, document: &mut Document) -> Parsed<'a, Statement> {
+    fn face<'a>(&self, input: Input<'a>, references: &mut References) -> Parsed<'a, Statement> {
         let (input, name) = self.optional_name(input)?;
-        let (input, contours) = self.contours(input, document)?;
+        let (input, ()) = self.contours(input, references)?;
         let (input, color) = self.optional_name(input)?;
         let (input, illum) = opt(number).parse(input)?;
         let (input, velocity) = opt(velocity).parse(input)?;
-        Ok((input, Statement::Face(FaceStatement { name, contours, color, illum, velocity })))
+        Ok((input, Statement::Face(FaceStatement { name, color, illum, velocity })))
     }
 
     /// `w [ID] contours [color] [< x y z >]`; the velocity is ours, for flat scenes.
-    fn wire<'a>(&self, input: Input<'a>, document: &mut Document) -> Parsed<'a, Statement> {
+    fn wire<'a>(&self, input: Input<'a>, references: &mut References) -> Parsed<'a, Statement> {
         let (input, name) = self.optional_name(input)?;
-        let (input, contours) = self.contours(input, document)?;
+        let (input, ()) = self.contours(input, references)?;
         let (input, color) = self.optional_name(input)?;
         let (input, velocity) = opt(velocity).parse(input)?;
-        Ok((input, Statement::Wire(FaceStatement { name, contours, color, illum: None, velocity })))
+        Ok((input, Statement::Wire(FaceStatement { name, color, illum: None, velocity })))
     }
 
-    /// One or more `( vertex … )`, appended to the document's buffers.
-    fn contours<'a>(&self, input: Input<'a>, document: &mut Document) -> Parsed<'a, std::ops::Range<u32>> {
-        let first = document.contour_ends.len() as u32;
+    /// One or more `( vertex … )`.
+    fn contours<'a>(&self, input: Input<'a>, references: &mut References) -> Parsed<'a, ()> {
+        references.clear();
         let (mut input, ()) = mark(b'(', "`(` and vertex names")(input)?;
         loop {
-            input = self.contour(input, document)?.0;
-            document.contour_ends.push(document.references.len() as u32);
+            input = self.contour(input, references)?.0;
+            references.ends.push(references.names.len());
             match mark(b'(', "`(`")(input) {
                 Ok((rest, ())) => input = rest,
-                Err(nom::Err::Error(_)) => break,
+                Err(nom::Err::Error(_)) => return Ok((input, ())),
                 Err(err) => return Err(err),
             }
         }
-        Ok((input, first..document.contour_ends.len() as u32))
     }
 
     /// `vertex … )`
-    fn contour<'a>(&self, input: Input<'a>, document: &mut Document) -> Parsed<'a, ()> {
+    fn contour<'a>(&self, input: Input<'a>, references: &mut References) -> Parsed<'a, ()> {
         let (mut input, first) = require(wanted(self.name(input), "a vertex name"))?;
-        document.references.push(first);
+        references.names.push(first);
         loop {
             match self.name(input) {
                 Ok((rest, reference)) => {
-                    document.references.push(reference);
+                    references.names.push(reference);
                     input = rest;
                 }
                 Err(nom::Err::Error(_)) => {
@@ -183,13 +182,12 @@ impl<'t> Grammar<'t> {
     /// `cam [ID] { -vc -ep -ud -cl -ph -og -ps -va -fs -fl } [< x y z >]`
     fn camera<'a>(&self, input: Input<'a>) -> Parsed<'a, Statement> {
         let (mut input, name) = self.optional_name(input)?;
-        let mut camera = CameraStatement { name, ..CameraStatement::default() };
+        let mut camera = Camera::default();
         while let (rest, Some(name)) = opt(option_word).parse(input)? {
             input = camera_option(&mut camera, name, input, rest)?.0;
         }
         let (input, velocity) = opt(velocity).parse(input)?;
-        camera.velocity = velocity;
-        Ok((input, Statement::Camera(camera)))
+        Ok((input, Statement::Camera(CameraStatement { name, camera, velocity })))
     }
 
     /// `i [ID] ( def [color] tforms ) [< x y z >]`,
@@ -277,7 +275,7 @@ fn numbers<'a, const N: usize>(mut input: Input<'a>) -> Parsed<'a, [f64; N]> {
 
 /// Reads the arguments of camera option `name`, which stands at `at`; `input` is behind it.
 fn camera_option<'a>(
-    camera: &mut CameraStatement,
+    camera: &mut Camera,
     name: Input<'a>,
     at: Input<'a>,
     input: Input<'a>,

@@ -2,11 +2,12 @@
 //!
 //! UniGrafix is Berkeley's scene language of the 1980s: statements that begin
 //! with a keyword and end with `;`, comments in braces, definitions that are
-//! placed by instances and arrays. This crate reads it in four steps:
+//! placed by instances and arrays. This crate reads it in three steps:
 //!
 //! ```text
-//! bytes ─reader→ Document ─resolve→ Links ─place→ Scene (flat) ─write→ bytes
-//!        grammar  as written  names to rows  instances expanded
+//! bytes ─reader→ groups ─settle→ groups ─place→ Scene (flat) ─write→ bytes
+//!        tables for the  names are rows  instances expanded
+//!        file, each def
 //! ```
 //!
 //! What comes out is complete: every name is resolved, every instance has its
@@ -29,20 +30,26 @@
 //! Nothing here knows physics or pixels: velocities are carried, not used.
 
 mod diagnostic;
-mod document;
 mod grammar;
+mod group;
+mod include;
 mod names;
+mod numbered;
+mod parts;
 mod place;
+mod quick;
 mod reader;
-mod resolve;
 mod scene;
+mod settle;
 mod source;
+mod statement;
 mod token;
 mod transform;
 mod wording;
 mod writer;
 
 pub use diagnostic::{Diagnostic, Diagnostics, MAX_ERRORS, Severity};
+pub use include::include;
 pub use names::{NameId, Names, UniqueNames};
 pub use place::Origins;
 pub use scene::*;
@@ -82,14 +89,15 @@ pub fn parse(source: &Source, options: &Options) -> Result<Parsed, Diagnostics> 
         return Err(Diagnostics::one(source, finding));
     }
     let mut findings = Vec::new();
-    let document = reader::read(text, options.lax, &mut findings);
+    let mut document = parts::read_all(text, options.lax, &mut findings);
+    findings.extend(document.includes.iter().map(include::not_followed));
     refuse_errors(source, &mut findings)?;
 
     let mut scene = Scene::default();
-    let links = resolve::resolve(text, &document, &mut scene, &mut findings);
+    let links = settle::settle(text, &mut document.groups, &mut scene, &mut findings);
     refuse_errors(source, &mut findings)?;
 
-    let (scene, origins) = place::place(text, &document, &links, scene, &mut findings);
+    let (scene, origins) = place::place(text, &mut document, &links, scene, &mut findings);
     refuse_errors(source, &mut findings)?;
     Ok(Parsed { scene, origins, warnings: Diagnostics::new(source, findings) })
 }

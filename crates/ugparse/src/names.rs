@@ -1,10 +1,16 @@
 //! Names of a scene, in one buffer, and new ones beside them.
 
+use std::fmt;
+use std::num::NonZeroU32;
+
 use rustc_hash::FxHashSet;
 
-/// A name in a [`Names`] table.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct NameId(u32);
+use crate::scene::optional_index;
+
+optional_index! {
+    /// A name in a [`Names`] table.
+    NameId
+}
 
 /// Text of names. Adding never looks up: rows may repeat a text.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -27,7 +33,23 @@ impl Names {
         parts.iter().for_each(|part| self.text.push_str(part));
         let end = u32::try_from(self.text.len()).expect("names together are below 4 GiB");
         self.ends.push(end);
-        NameId(u32::try_from(self.ends.len() - 1).expect("fewer than 2^32 names"))
+        NameId::from_index(self.ends.len() - 1)
+    }
+
+    /// Number of names.
+    pub(crate) fn len(&self) -> usize {
+        self.ends.len()
+    }
+
+    /// Appends another table; its names are numbered on behind those here.
+    pub(crate) fn append(&mut self, other: Self) {
+        if self.ends.is_empty() {
+            *self = other;
+            return;
+        }
+        let offset = u32::try_from(self.text.len()).expect("names together are below 4 GiB");
+        self.text.push_str(&other.text);
+        self.ends.extend(other.ends.iter().map(|end| end + offset));
     }
 
     /// Bytes of all names together.
@@ -37,7 +59,7 @@ impl Names {
 
     /// The text of a name.
     pub fn get(&self, id: NameId) -> &str {
-        let row = id.0 as usize;
+        let row = id.index();
         let start = if row == 0 { 0 } else { self.ends[row - 1] as usize };
         &self.text[start..self.ends[row] as usize]
     }

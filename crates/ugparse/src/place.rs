@@ -1,19 +1,24 @@
-//! Puts everything in its place: a document and its links become a flat scene.
+//! Puts everything in its place: groups and what they place become a flat scene.
+//!
+//! The file's own tables become those of the scene; definitions are copied
+//! behind them, once for each instance.
 
 use std::collections::BTreeMap;
+use std::ops::Range;
 
 use glam::DVec3;
-use rustc_hash::FxHashMap;
 
 use crate::diagnostic::Diagnostic;
-use crate::document::{CallStatement, CommentSpan, Document, FaceStatement, Node, Repeat, Statement};
+use crate::group::{Call, Counts, DefaultColor, Group, Rows, Velocities};
 use crate::names::{NameId, Names, UniqueNames};
-use crate::resolve::{Link, Links};
+use crate::reader::{CommentSpan, Document};
 use crate::scene::{
-    Camera, ColorId, Comment, Face, Item, Light, LightKind, Scene, VelocityId, Vertex, VertexId, Wire,
-    newell_normal,
+    Camera, ColorId, Comment, Face, IllumId, Item, Light, LightKind, Scene, VelocityId, Vertex, VertexId,
+    Wire, newell_normal,
 };
+use crate::settle::{Link, Links, face_name};
 use crate::source::Span;
+use crate::statement::Repeat;
 use crate::transform::Transform;
 
 /// Where in the text the rows of a flat scene come from.
@@ -25,48 +30,38 @@ pub struct Origins {
     pub faces: Vec<Span>,
 }
 
-/// Builds the flat scene; colours are in it already.
+/// Builds the flat scene; colours, and the names of the file, are in it already.
 pub(crate) fn place(
     text: &[u8],
-    document: &Document,
+    document: &mut Document<'_>,
     links: &Links,
-    mut scene: Scene,
+    scene: Scene,
     findings: &mut Vec<Diagnostic>,
 ) -> (Scene, Origins) {
-    let colors = document.groups.iter().flat_map(|group| {
-        group.statements.iter().filter(|node| matches!(node.statement, Statement::Color(_)))
-    });
-    let mut emitted: Vec<(Span, Item)> =
-        colors.enumerate().map(|(row, node)| (node.span, Item::Color(row as u32))).collect();
-    if document.comments.is_empty() {
-        emitted.clear();
-    }
-    reserve(&mut scene, document);
+    // Only comments behind the head ask where statements stand.
+    let first_statement = document.first_statement.unwrap_or(u32::MAX);
+    let has_comments = document.comments.last().is_some_and(|comment| comment.text.start > first_statement);
+    let file = std::mem::take(&mut document.groups[0]);
     let mut placer = Placer {
         text,
-        document,
+        groups: &document.groups,
         links,
         scene,
         origins: Origins::default(),
-        emitted,
-        placed_before: vec![false; document.groups.len()],
-        velocities: FxHashMap::default(),
+        emitted: has_comments.then(Vec::new),
+        first_illums: vec![None; document.groups.len()],
+        velocities: Velocities::default(),
         trouble: None,
         flattened: BTreeMap::new(),
     };
-    placer.group(0, &Frame::root());
+    placer.colors(&file);
+    placer.file(file);
     placer.make_names_unique();
-    placer.place_comments();
+    placer.place_comments(&document.comments, first_statement);
     findings.extend(placer.trouble);
     findings.extend(placer.flattened.into_values());
+    placer.scene.velocities = placer.velocities.list;
     (placer.scene, placer.origins)
-}
-
-fn reserve(scene: &mut Scene, document: &Document) {
-    let statements = &document.groups[0].statements;
-    let vertices = statements.iter().filter(|node| matches!(node.statement, Statement::Vertex(_))).count();
-    scene.vertices.reserve(vertices);
-    scene.faces.reserve(statements.len() - vertices);
 }
 
 /// What a group inherits from the calls that place it.
@@ -76,33 +71,62 @@ struct Frame {
     prefix: String,
     color: Option<ColorId>,
     velocity: Option<VelocityId>,
-    /// The file itself, which nothing places.
-    is_root: bool,
 }
 
 impl Frame {
-    fn root() -> Self {
-        Self {
-            transform: Transform::IDENTITY,
-            prefix: String::new(),
-            color: None,
-            velocity: None,
-            is_root: true,
-        }
+    /// That of the file itself, which nothing places.
+    fn file() -> Self {
+        Self { transform: Transform::IDENTITY, prefix: String::new(), color: None, velocity: None }
     }
 }
 
-struct Placer<'d> {
-    text: &'d [u8],
-    document: &'d Document,
+/// A definition that is being placed.
+struct Placement<'p> {
+    group: &'p Group<'p>,
+    frame: &'p Frame,
+    /// Row of its first vertex in the scene.
+    first_vertex: u32,
+    /// Velocities of the group in the scene.
+    velocities: &'p [VelocityId],
+    first_time: bool,
+    /// Row of the group's first colour in the scene.
+    first_color: usize,
+    /// Row of the group's first illum in the scene.
+    first_illum: usize,
+    /// The unnamed colour in force at the `def`.
+    outer_default: Option<ColorId>,
+}
+
+impl Placement<'_> {
+    fn velocity(&self, velocity: Option<VelocityId>) -> Option<VelocityId> {
+        velocity.map(|id| self.velocities[id.index()])
+    }
+
+    /// The colour of face or wire `row`; `first` says from which row on an unnamed colour is in force.
+    fn color(&self, own: Option<ColorId>, row: usize, first: fn(&DefaultColor) -> usize) -> Option<ColorId> {
+        own.or(self.frame.color).or_else(|| {
+            let defaults = &self.group.defaults;
+            let behind = defaults.partition_point(|default| first(default) <= row);
+            match behind.checked_sub(1) {
+                Some(idx) => Some(ColorId::from_index(self.first_color + defaults[idx].color as usize)),
+                None => self.outer_default,
+            }
+        })
+    }
+}
+
+struct Placer<'d, 't> {
+    text: &'t [u8],
+    /// The definitions; the row of the file is empty.
+    groups: &'d [Group<'t>],
     links: &'d Links,
     scene: Scene,
     origins: Origins,
-    /// First row that each statement gave, for the comments beside it.
-    emitted: Vec<(Span, Item)>,
-    placed_before: Vec<bool>,
-    /// Rows of `scene.velocities` by the bits of their numbers.
-    velocities: FxHashMap<[u64; 3], VelocityId>,
+    /// Where each statement stands and the first row it gave, if comments ask for it.
+    emitted: Option<Vec<(Span, Item)>>,
+    /// For each group that has been placed, the row of its first illum.
+    first_illums: Vec<Option<usize>>,
+    velocities: Velocities,
     /// The first thing that cannot be placed.
     trouble: Option<Diagnostic>,
     /// Warnings for faces that have no area where they are placed, once for
@@ -110,191 +134,260 @@ struct Placer<'d> {
     flattened: BTreeMap<u32, Diagnostic>,
 }
 
-impl Placer<'_> {
-    fn group(&mut self, row: usize, frame: &Frame) {
-        let document = self.document;
-        let first_vertex = self.scene.vertices.len() as u32;
-        let first_time = !std::mem::replace(&mut self.placed_before[row], true);
-        // Faces may name vertices that come later, so vertices go first.
-        for (node, link) in document.groups[row].statements.iter().zip(&self.links.statements[row]) {
-            if let Statement::Vertex(_) = node.statement {
-                self.note(first_time, node, Item::Vertex(self.scene.vertices.len() as u32));
-                self.vertex(node, link, frame);
-            }
+impl Placer<'_, '_> {
+    fn colors(&mut self, file: &Group<'_>) {
+        let Some(emitted) = &mut self.emitted else { return };
+        let spans = file.colors.spans.iter().chain(self.groups.iter().flat_map(|group| &group.colors.spans));
+        emitted.extend(spans.enumerate().map(|(row, &span)| (span, Item::Color(row as u32))));
+    }
+
+    /// The file's tables become the scene's, with what calls give in between.
+    fn file(&mut self, mut file: Group<'_>) {
+        let end = file.counts();
+        self.velocities = std::mem::take(&mut file.velocities);
+        if self.emitted.is_some() {
+            let names = file.vertices.spans.iter();
+            let spans: Vec<Span> = names.map(|&name| Group::vertex_statement(self.text, name)).collect();
+            self.note(&spans, 0, Item::Vertex);
         }
-        for (node, link) in document.groups[row].statements.iter().zip(&self.links.statements[row]) {
-            self.statement(row, node, link, frame, first_vertex, first_time);
+        self.scene.vertices = file.vertices.rows;
+        self.origins.vertices = file.vertices.spans;
+        self.scene.contours = file.contours;
+        self.scene.illums = file.illums;
+        let mut queues = Queues {
+            faces: Queue::new(file.faces),
+            wires: Queue::new(file.wires),
+            lights: Queue::new(file.lights),
+            cameras: Queue::new(file.cameras),
+            escapes: Queue::new(file.escapes),
+            unknown: Queue::new(file.unknown),
+        };
+        let frame = Frame::file();
+        for (call, link) in file.calls.rows.iter().zip(&self.links.calls[0]) {
+            self.move_rows(&mut queues, call.before);
+            self.call(call, link, &frame);
+        }
+        self.move_rows(&mut queues, end);
+    }
+
+    /// Moves rows of the file up to `end`.
+    fn move_rows(&mut self, queues: &mut Queues, end: Counts) {
+        let spans = self.move_some(&mut queues.faces, end.faces, |scene| &mut scene.faces, Item::Face);
+        append(&mut self.origins.faces, spans);
+        self.move_some(&mut queues.wires, end.wires, |scene| &mut scene.wires, Item::Wire);
+        self.move_some(&mut queues.lights, end.lights, |scene| &mut scene.lights, Item::Light);
+        self.move_some(&mut queues.cameras, end.cameras, |scene| &mut scene.cameras, Item::Camera);
+        self.move_some(&mut queues.escapes, end.escapes, |scene| &mut scene.escapes, Item::Escape);
+        self.move_some(&mut queues.unknown, end.unknown, |scene| &mut scene.unknown, Item::Unknown);
+    }
+
+    fn move_some<T>(
+        &mut self,
+        queue: &mut Queue<T>,
+        end: usize,
+        table: fn(&mut Scene) -> &mut Vec<T>,
+        item: fn(u32) -> Item,
+    ) -> Vec<Span> {
+        let (rows, spans) = queue.take_up_to(end);
+        let table = table(&mut self.scene);
+        let first = table.len();
+        append(table, rows);
+        self.note(&spans, first, item);
+        spans
+    }
+
+    /// Notes where statements stand whose rows begin at `first`.
+    fn note(&mut self, spans: &[Span], first: usize, item: fn(u32) -> Item) {
+        if let Some(emitted) = &mut self.emitted {
+            emitted.extend(spans.iter().zip(first as u32..).map(|(&span, row)| (span, item(row))));
         }
     }
 
-    fn statement(
-        &mut self,
-        row: usize,
-        node: &Node,
-        link: &Link,
-        frame: &Frame,
-        first_vertex: u32,
-        first_time: bool,
-    ) {
-        if link.skipped {
+    /// Copies a definition to its place.
+    fn group(&mut self, row: usize, frame: &Frame) {
+        let group = &self.groups[row];
+        let velocities: Vec<VelocityId> =
+            group.velocities.list.iter().map(|&velocity| self.velocities.id(velocity)).collect();
+        let default = group.outer_default;
+        let first_time = self.first_illums[row].is_none();
+        let first_illum = *self.first_illums[row].get_or_insert_with(|| {
+            self.scene.illums.extend_from_slice(&group.illums);
+            self.scene.illums.len() - group.illums.len()
+        });
+        let placement = Placement {
+            group,
+            frame,
+            first_vertex: self.scene.vertices.len() as u32,
+            velocities: &velocities,
+            first_time,
+            first_color: self.links.first_colors[row],
+            first_illum,
+            outer_default: default
+                .map(|(outer, color)| ColorId::from_index(self.links.first_colors[outer] + color as usize)),
+        };
+        self.vertices(&placement);
+        let mut done = Counts::default();
+        for (call, link) in group.calls.rows.iter().zip(&self.links.calls[row]) {
+            self.rows(&placement, done, call.before);
+            done = call.before;
+            self.call(call, link, frame);
+        }
+        self.rows(&placement, done, group.counts());
+    }
+
+    fn vertices(&mut self, placement: &Placement<'_>) {
+        let Placement { group, frame, .. } = placement;
+        for (vertex, &span) in group.vertices.rows.iter().zip(&group.vertices.spans) {
+            let position = frame.transform.point(vertex.position);
+            let normal = vertex.normal.map(|normal| frame.transform.normal(normal));
+            self.check_finite(span, position);
+            self.check_finite(span, normal.unwrap_or_default());
+            let name = self.name(group, vertex.name, frame);
+            self.scene.vertices.push(Vertex { name, position, color: vertex.color, normal });
+            self.origins.vertices.push(span);
+            if placement.first_time && self.emitted.is_some() {
+                let row = self.scene.vertices.len() - 1;
+                self.note(&[Group::vertex_statement(self.text, span)], row, Item::Vertex);
+            }
+        }
+    }
+
+    /// Places all but vertices and calls, from `start` up to `end`.
+    fn rows(&mut self, placement: &Placement<'_>, start: Counts, end: Counts) {
+        let group = placement.group;
+        for row in start.faces..end.faces {
+            self.face(placement, row);
+        }
+        for row in start.wires..end.wires {
+            self.wire(placement, row);
+        }
+        for row in start.lights..end.lights {
+            self.light(placement, row);
+        }
+        for row in start.cameras..end.cameras {
+            self.camera(placement, row);
+        }
+        if placement.first_time {
+            let (escapes, unknown) = (start.escapes..end.escapes, start.unknown..end.unknown);
+            self.note(&group.escapes.spans[escapes.clone()], self.scene.escapes.len(), Item::Escape);
+            self.scene.escapes.extend_from_slice(&group.escapes.rows[escapes]);
+            self.note(&group.unknown.spans[unknown.clone()], self.scene.unknown.len(), Item::Unknown);
+            self.scene.unknown.extend_from_slice(&group.unknown.rows[unknown]);
+        }
+    }
+
+    fn note_first(&mut self, placement: &Placement<'_>, span: Span, row: usize, item: fn(u32) -> Item) {
+        if placement.first_time {
+            self.note(&[span], row, item);
+        }
+    }
+
+    fn face(&mut self, placement: &Placement<'_>, row: usize) {
+        let Placement { group, frame, .. } = placement;
+        let (face, span) = (&group.faces.rows[row], group.faces.spans[row]);
+        if !self.has_area(placement, face, span) {
             return;
         }
-        let next = |rows: usize| rows as u32;
-        match &node.statement {
-            Statement::Face(face) => {
-                let item = Item::Face(next(self.scene.faces.len()));
-                if self.face(node, face, link, frame, first_vertex) {
-                    self.note(first_time, node, item);
-                }
-            }
-            Statement::Wire(wire) => {
-                self.note(first_time, node, Item::Wire(next(self.scene.wires.len())));
-                self.wire(wire, link, frame, first_vertex);
-            }
-            Statement::Light(light) => {
-                self.note(first_time, node, Item::Light(next(self.scene.lights.len())));
-                let light = self.light(node, light, link, frame);
-                self.scene.lights.push(light);
-            }
-            Statement::Camera(camera) => {
-                self.note(first_time, node, Item::Camera(next(self.scene.cameras.len())));
-                let mut placed = camera.placed(&frame.transform);
-                placed.name = self.optional_name(camera.name, frame);
-                placed.velocity = camera.velocity.map(|velocity| self.velocity(velocity));
-                self.check_camera(node, &placed);
-                self.scene.cameras.push(placed);
-            }
-            Statement::Escape(text) if first_time => {
-                self.note(first_time, node, Item::Escape(next(self.scene.escapes.len())));
-                self.scene.escapes.push(self.lossy(*text));
-            }
-            Statement::Unknown if first_time => {
-                self.note(first_time, node, Item::Unknown(next(self.scene.unknown.len())));
-                self.scene.unknown.push(self.lossy(node.span));
-            }
-            Statement::Call(call) => self.call(row, call, link, frame),
-            _ => {}
-        }
+        self.note_first(placement, span, self.scene.faces.len(), Item::Face);
+        let placed = Face {
+            name: self.optional_name(group, face.name, frame),
+            contours: self.contours(placement, face.contours.clone(), frame.transform.mirrored),
+            color: placement.color(face.color, row, |default| default.first_face),
+            illum: face.illum.map(|illum| IllumId::from_index(placement.first_illum + illum.index())),
+            velocity: frame.velocity.or(placement.velocity(face.velocity)),
+        };
+        self.scene.faces.push(placed);
+        self.origins.faces.push(span);
     }
 
-    fn note(&mut self, first_time: bool, node: &Node, item: Item) {
-        if first_time && !self.document.comments.is_empty() {
-            self.emitted.push((node.span, item));
-        }
-    }
-
-    fn vertex(&mut self, node: &Node, link: &Link, frame: &Frame) {
-        let Statement::Vertex(vertex) = &node.statement else { return };
-        let position = frame.transform.point(vertex.position);
-        let name = self.name(vertex.name, frame);
-        let normal = vertex.normal.map(|normal| frame.transform.normal(normal));
-        self.check_finite(vertex.name, position);
-        self.check_finite(vertex.name, normal.unwrap_or_default());
-        self.scene.vertices.push(Vertex { name, position, color: link.color, normal });
-        self.origins.vertices.push(vertex.name);
-    }
-
-    /// False if the face is left out.
-    fn face(
-        &mut self,
-        node: &Node,
-        face: &FaceStatement,
-        link: &Link,
-        frame: &Frame,
-        first_vertex: u32,
-    ) -> bool {
-        if !frame.is_root && !self.has_area(node, face, first_vertex) {
-            return false;
-        }
-        let contours = self.contours(face, frame.transform.mirrored, first_vertex);
-        let name = self.optional_name(face.name, frame);
-        let own = face.velocity.map(|velocity| self.velocity(velocity));
-        self.scene.faces.push(Face {
-            name,
-            contours,
-            color: link.color.or(frame.color).or(link.default_color),
-            illum: face.illum,
-            velocity: frame.velocity.or(own),
-        });
-        self.origins.faces.push(node.span);
-        true
-    }
-
-    fn wire(&mut self, wire: &FaceStatement, link: &Link, frame: &Frame, first_vertex: u32) {
-        let contours = self.contours(wire, false, first_vertex);
-        let name = self.optional_name(wire.name, frame);
-        let own = wire.velocity.map(|velocity| self.velocity(velocity));
-        self.scene.wires.push(Wire {
-            name,
-            contours,
-            color: link.color.or(frame.color).or(link.default_color),
-            velocity: frame.velocity.or(own),
-        });
+    fn wire(&mut self, placement: &Placement<'_>, row: usize) {
+        let Placement { group, frame, .. } = placement;
+        let wire = &group.wires.rows[row];
+        self.note_first(placement, group.wires.spans[row], self.scene.wires.len(), Item::Wire);
+        let placed = Wire {
+            name: self.optional_name(group, wire.name, frame),
+            contours: self.contours(placement, wire.contours.clone(), false),
+            color: placement.color(wire.color, row, |default| default.first_wire),
+            velocity: frame.velocity.or(placement.velocity(wire.velocity)),
+        };
+        self.scene.wires.push(placed);
     }
 
     /// Copies contours; a mirrored frame reverses their direction but keeps the first vertex.
-    fn contours(&mut self, face: &FaceStatement, reversed: bool, first_vertex: u32) -> std::ops::Range<u32> {
-        let rows = face.contours.clone().map(|contour| {
-            let corners = &self.links.corners[self.document.contour(contour)];
+    fn contours(&mut self, placement: &Placement<'_>, rows: Range<u32>, reversed: bool) -> Range<u32> {
+        let Placement { group, first_vertex, .. } = *placement;
+        self.scene.contours.push_all(group.contours.iter(rows).map(|corners| {
             let len = corners.len();
             (0..len).map(move |idx| {
                 let idx = if reversed { (len - idx) % len } else { idx };
-                VertexId(first_vertex + corners[idx])
+                VertexId(first_vertex + corners[idx].0)
             })
-        });
-        self.scene.contours.push_all(rows)
+        }))
     }
 
     /// False, with a warning, if the outline has no area where it is placed:
     /// squashed flat by `-sz 0`, or too small beside its distance.
-    fn has_area(&mut self, node: &Node, face: &FaceStatement, first_vertex: u32) -> bool {
-        let corners = &self.links.corners[self.document.contour(face.contours.start)];
-        let position = |&local: &u32| self.scene.vertices[(first_vertex + local) as usize].position;
+    fn has_area(&mut self, placement: &Placement<'_>, face: &Face, span: Span) -> bool {
+        let corners = placement.group.contours.get(face.contours.start);
+        let position = |corner: &VertexId| {
+            self.scene.vertices[placement.first_vertex as usize + corner.index()].position
+        };
         if newell_normal(corners.iter().map(position)) != DVec3::ZERO {
             return true;
         }
-        let span = face.name.unwrap_or(Span { start: node.span.start, end: node.span.start + 1 });
-        self.flattened.entry(node.span.start).or_insert_with(|| {
-            Diagnostic::warning(span, "face has no area where it is placed")
+        let text = self.text;
+        self.flattened.entry(span.start).or_insert_with(|| {
+            let shown = face_name(text, span).unwrap_or(Span { start: span.start, end: span.start + 1 });
+            Diagnostic::warning(shown, "face has no area where it is placed")
                 .label("left out")
                 .help("mend the transformations that place it")
         });
         false
     }
 
-    fn light(
-        &mut self,
-        node: &Node,
-        light: &crate::document::LightStatement,
-        link: &Link,
-        frame: &Frame,
-    ) -> Light {
-        let kind = match (light.vector, light.radius) {
-            (None, _) => LightKind::Ambient,
-            (Some(toward), None) => LightKind::Directional(frame.transform.direction(toward)),
-            (Some(position), Some(radius)) => {
-                LightKind::Local { position: frame.transform.point(position), radius }
+    fn light(&mut self, placement: &Placement<'_>, row: usize) {
+        let Placement { group, frame, .. } = placement;
+        let (light, span) = (&group.lights.rows[row], group.lights.spans[row]);
+        self.note_first(placement, span, self.scene.lights.len(), Item::Light);
+        let kind = match light.kind {
+            LightKind::Ambient => LightKind::Ambient,
+            LightKind::Directional(toward) => {
+                let toward = frame.transform.direction(toward);
+                self.check_direction(span, toward);
+                LightKind::Directional(toward)
+            }
+            LightKind::Local { position, radius } => {
+                let position = frame.transform.point(position);
+                self.check_finite(span, position);
+                LightKind::Local { position, radius }
             }
         };
-        match kind {
-            LightKind::Ambient => {}
-            LightKind::Directional(toward) => self.check_direction(node.span, toward),
-            LightKind::Local { position, .. } => self.check_finite(node.span, position),
-        }
-        Light {
-            name: self.optional_name(light.name, frame),
-            intensity: light.intensity,
+        let placed = Light {
+            name: self.optional_name(group, light.name, frame),
             kind,
-            color: link.color,
-            velocity: light.velocity.map(|velocity| self.velocity(velocity)),
-        }
+            velocity: placement.velocity(light.velocity),
+            ..light.clone()
+        };
+        self.scene.lights.push(placed);
     }
 
-    fn check_camera(&mut self, node: &Node, placed: &Camera) {
+    fn camera(&mut self, placement: &Placement<'_>, row: usize) {
+        let Placement { group, frame, .. } = placement;
+        let (camera, span) = (&group.cameras.rows[row], group.cameras.spans[row]);
+        self.note_first(placement, span, self.scene.cameras.len(), Item::Camera);
+        let placed = Camera {
+            name: self.optional_name(group, camera.name, frame),
+            center: camera.center.map(|point| frame.transform.point(point)),
+            eye: camera.eye.map(|point| frame.transform.point(point)),
+            up: camera.up.map(|up| frame.transform.direction(up)),
+            velocity: placement.velocity(camera.velocity),
+            ..camera.clone()
+        };
         for point in [placed.center, placed.eye].into_iter().flatten() {
-            self.check_finite(node.span, point);
+            self.check_finite(span, point);
         }
-        placed.up.into_iter().for_each(|up| self.check_direction(node.span, up));
+        placed.up.into_iter().for_each(|up| self.check_direction(span, up));
+        self.scene.cameras.push(placed);
     }
 
     fn check_finite(&mut self, span: Span, place: DVec3) {
@@ -318,27 +411,16 @@ impl Placer<'_> {
         }
     }
 
-    fn velocity(&mut self, velocity: DVec3) -> VelocityId {
-        // Adding 0 makes -0 the same as 0.
-        let bits = (velocity + DVec3::ZERO).to_array().map(f64::to_bits);
-        *self.velocities.entry(bits).or_insert_with(|| {
-            let id = VelocityId::from_index(self.scene.velocities.len());
-            self.scene.velocities.push(velocity);
-            id
-        })
-    }
-
-    fn call(&mut self, row: usize, call: &CallStatement, link: &Link, frame: &Frame) {
-        let Some((target, label)) = link.call else { return };
-        let own_velocity = call.velocity.map(|velocity| self.velocity(velocity));
-        let label = &self.links.labels[row][label];
+    fn call(&mut self, call: &Call, link: &Link, frame: &Frame) {
+        let (Some(target), label) = (link.target, &link.label) else { return };
+        let Call { statement: call, color, .. } = call;
+        let own_velocity = call.velocity.map(|velocity| self.velocities.id(velocity));
         let colon = if frame.prefix.is_empty() || label.is_empty() { "" } else { ":" };
         let mut inner = Frame {
             transform: call.inner.then(&frame.transform),
             prefix: format!("{}{colon}{label}", frame.prefix),
-            color: link.color.or(frame.color),
+            color: color.or(frame.color),
             velocity: frame.velocity.or(own_velocity),
-            is_root: false,
         };
         match &call.repeat {
             Repeat::Once => self.group(target, &inner),
@@ -355,28 +437,22 @@ impl Placer<'_> {
         }
     }
 
-    fn name(&mut self, name: Span, frame: &Frame) -> NameId {
-        // Identifiers are ASCII, so nothing is lost here.
-        let own = std::str::from_utf8(name.of(self.text)).unwrap_or_default();
-        if frame.prefix.is_empty() {
-            self.scene.names.add(own)
-        } else {
-            self.scene.names.add_parts(&[&frame.prefix, ":", own])
-        }
+    fn name(&mut self, group: &Group<'_>, name: NameId, frame: &Frame) -> NameId {
+        self.scene.names.add_parts(&[
+            &frame.prefix,
+            if frame.prefix.is_empty() { "" } else { ":" },
+            group.names.get(name),
+        ])
     }
 
-    fn optional_name(&mut self, name: Option<Span>, frame: &Frame) -> Option<NameId> {
-        name.map(|name| self.name(name, frame))
-    }
-
-    fn lossy(&self, span: Span) -> String {
-        String::from_utf8_lossy(span.of(self.text)).into_owned()
+    fn optional_name(&mut self, group: &Group<'_>, name: Option<NameId>, frame: &Frame) -> Option<NameId> {
+        name.map(|name| self.name(group, name, frame))
     }
 
     /// A path, or the name of an unnamed colour, may meet a name that somebody
     /// wrote; the later one in the table gives way.
     fn make_names_unique(&mut self) {
-        let is_flat = self.document.groups.len() == 1;
+        let is_flat = self.groups.len() == 1;
         let Scene { names, vertices, colors, .. } = &mut self.scene;
         rename_duplicates(names, colors.iter_mut().map(|color| &mut color.name));
         // Vertices of a flat file have been compared.
@@ -387,37 +463,77 @@ impl Placer<'_> {
 
     /// Comments above the first statement are the head; others go to the row
     /// of the statement they stand at.
-    fn place_comments(&mut self) {
-        let first_statement =
-            self.document.groups[0].statements.first().map_or(u32::MAX, |node| node.span.start);
-        self.emitted.sort_by_key(|&(span, item)| (span.start, item));
-        for comment in &self.document.comments {
+    fn place_comments(&mut self, comments: &[CommentSpan], first_statement: u32) {
+        let mut emitted = self.emitted.take().unwrap_or_default();
+        emitted.sort_by_key(|&(span, item)| (span.start, item));
+        for comment in comments {
             let text = String::from_utf8_lossy(comment.text.of(self.text)).into_owned();
             if comment.text.start < first_statement {
                 self.scene.head.push(text);
                 continue;
             }
-            let (at, trailing) = self.item_at(comment);
+            let (at, trailing) = item_at(self.text, &emitted, comment);
             self.scene.comments.push(Comment { text, at, trailing });
         }
         // The writer goes through rows and comments side by side.
         self.scene.comments.sort_by_key(|comment| comment.at);
     }
+}
 
-    /// The statement a comment goes with.
-    fn item_at(&self, comment: &CommentSpan) -> (Item, bool) {
-        let position = comment.text.start;
-        let behind = self.emitted.partition_point(|(span, _)| span.start < position);
-        if let Some(&(span, item)) = behind.checked_sub(1).and_then(|idx| self.emitted.get(idx)) {
-            let inside = position < span.end;
-            let on_its_line =
-                comment.trailing && !self.text[span.end as usize..position as usize].contains(&b'\n');
-            if inside || on_its_line {
-                return (item, on_its_line);
-            }
+/// The statement a comment goes with.
+fn item_at(text: &[u8], emitted: &[(Span, Item)], comment: &CommentSpan) -> (Item, bool) {
+    let position = comment.text.start;
+    let behind = emitted.partition_point(|(span, _)| span.start < position);
+    if let Some(&(span, item)) = behind.checked_sub(1).and_then(|idx| emitted.get(idx)) {
+        let inside = position < span.end;
+        let on_its_line = comment.trailing && !text[span.end as usize..position as usize].contains(&b'\n');
+        if inside || on_its_line {
+            return (item, on_its_line);
         }
-        let next = self.emitted.get(behind).map_or(Item::End, |&(_, item)| item);
-        (next, false)
+    }
+    let next = emitted.get(behind).map_or(Item::End, |&(_, item)| item);
+    (next, false)
+}
+
+/// Rows of the file that are not in the scene yet.
+struct Queues {
+    faces: Queue<Face>,
+    wires: Queue<Wire>,
+    lights: Queue<Light>,
+    cameras: Queue<Camera>,
+    escapes: Queue<String>,
+    unknown: Queue<String>,
+}
+
+struct Queue<T> {
+    rows: std::vec::IntoIter<T>,
+    spans: std::vec::IntoIter<Span>,
+    n_taken: usize,
+}
+
+impl<T> Queue<T> {
+    fn new(rows: Rows<T>) -> Self {
+        Self { rows: rows.rows.into_iter(), spans: rows.spans.into_iter(), n_taken: 0 }
+    }
+
+    fn take_up_to(&mut self, end: usize) -> (Vec<T>, Vec<Span>) {
+        let count = end - self.n_taken;
+        self.n_taken = end;
+        if count >= self.rows.len() {
+            // All that is left: a table that was not touched is moved, not copied.
+            let (rows, spans) = (std::mem::take(&mut self.rows), std::mem::take(&mut self.spans));
+            return (rows.collect(), spans.collect());
+        }
+        (self.rows.by_ref().take(count).collect(), self.spans.by_ref().take(count).collect())
+    }
+}
+
+/// Appends, by moving the whole table if there is nothing before it.
+fn append<T>(table: &mut Vec<T>, mut rows: Vec<T>) {
+    if table.is_empty() {
+        *table = rows;
+    } else {
+        table.append(&mut rows);
     }
 }
 

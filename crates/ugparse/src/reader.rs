@@ -1,49 +1,122 @@
-//! Text to [`Document`]: statement after statement, with recovery at the next `;`.
-
-use nom::Err;
+//! Text to groups: statement after statement, with recovery at the next `;`.
 
 use crate::diagnostic::{Diagnostic, MAX_ERRORS};
-use crate::document::{CommentSpan, Document, Group, Node, Statement};
 use crate::grammar::{Grammar, NAME};
-use crate::source::Span;
-use crate::token::{Input, Reason, Trouble, blank, comment, escape, found, identifier, mark, wanted, word};
+use crate::group::Group;
+use crate::quick;
+use crate::source::{LineMark, Span};
+use crate::statement::References;
+use crate::token::{
+    Input, Reason, Trouble, blank, comment, escape, file_name, found, identifier, integer, mark,
+    skip_statement, trouble, wanted, word,
+};
 use crate::wording::{no_statement, shorten, with_usage, word_help};
 
 /// How deep definitions may nest.
 const MAX_NESTING: usize = 64;
 
+/// A text that was read.
+#[derive(Default)]
+pub(crate) struct Document<'t> {
+    /// Row 0 is the file itself, the others are its definitions in the order
+    /// of their `def`s.
+    pub groups: Vec<Group<'t>>,
+    /// Comments in order.
+    pub comments: Vec<CommentSpan>,
+    /// Where the first statement begins.
+    pub first_statement: Option<u32>,
+    /// Lines of the C preprocessor.
+    pub line_marks: Vec<LineMark>,
+    /// `include` statements.
+    pub includes: Vec<Include>,
+}
+
+/// A comment: the text between its braces.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct CommentSpan {
+    pub text: Span,
+    /// It begins on the line on which a statement ends.
+    pub trailing: bool,
+}
+
+/// `include FILE ;`
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Include {
+    pub span: Span,
+    /// The file name without quotes.
+    pub file: Span,
+}
+
 /// Reads the whole text. Errors go to `findings`; reading goes on behind them
 /// until there are too many.
-pub(crate) fn read(text: &[u8], lax: bool, findings: &mut Vec<Diagnostic>) -> Document {
-    let mut reader = Reader {
-        grammar: Grammar { text },
-        document: Document { groups: vec![Group::default()], ..Document::default() },
-        open: vec![0],
-        lax,
-        line_has_statement: false,
-        findings,
-        error_count: 0,
-    };
-    reader.run();
+pub(crate) fn read<'t>(text: &'t [u8], lax: bool, findings: &mut Vec<Diagnostic>) -> Document<'t> {
+    let mut reader = Reader::new(text, 0, lax, findings);
+    reader.run(0);
+    reader.check_all_closed();
     reader.document
+}
+
+/// Reads the statements of `text` from `start` on, if all is well and they hold no definition.
+///
+/// The text ends where this part of it does.
+pub(crate) fn read_part<'t>(
+    text: &'t [u8],
+    start: usize,
+    lax: bool,
+) -> Option<(Document<'t>, Vec<Diagnostic>)> {
+    let mut findings = Vec::new();
+    let mut reader = Reader { is_part: true, ..Reader::new(text, start, lax, &mut findings) };
+    reader.run(start);
+    let is_plain = reader.error_count == 0 && reader.document.groups.len() == 1;
+    let document = reader.document;
+    is_plain.then_some((document, findings))
+}
+
+/// The lines of the C preprocessor in a text.
+pub(crate) fn line_marks(text: &[u8]) -> Vec<LineMark> {
+    let may_be_one = |idx: usize| matches!(text[idx + 1..], [b' ' | b'\t', ..] | [b'l', b'i', ..]);
+    if !memchr::memchr_iter(b'#', text).any(may_be_one) {
+        return Vec::new();
+    }
+    // Marks behind more mistakes than are reported are not missed.
+    read(text, true, &mut Vec::new()).line_marks
 }
 
 struct Reader<'t, 'f> {
     grammar: Grammar<'t>,
-    document: Document,
+    document: Document<'t>,
     /// The groups being read, from the file inwards.
     open: Vec<usize>,
     lax: bool,
+    /// Only plain statements are read, up to the first that is not.
+    is_part: bool,
     /// A statement has ended on the line we are on.
     line_has_statement: bool,
+    /// Of the statement being read.
+    references: References,
     findings: &'f mut Vec<Diagnostic>,
     error_count: usize,
 }
 
-impl<'t> Reader<'t, '_> {
-    fn run(&mut self) {
-        let mut input: Input<'t> = self.grammar.text;
-        while self.error_count < MAX_ERRORS {
+impl<'t, 'f> Reader<'t, 'f> {
+    fn new(text: &'t [u8], start: usize, lax: bool, findings: &'f mut Vec<Diagnostic>) -> Self {
+        let file = Group::for_text(text.len() - start);
+        Self {
+            grammar: Grammar { text },
+            document: Document { groups: vec![file], ..Document::default() },
+            open: vec![0],
+            lax,
+            is_part: false,
+            line_has_statement: false,
+            references: References::default(),
+            findings,
+            error_count: 0,
+        }
+    }
+
+    fn run(&mut self, start: usize) {
+        let mut input: Input<'t> = &self.grammar.text[start..];
+        while self.goes_on() {
             match self.between(input) {
                 Ok([]) => break,
                 Ok(rest) => input = self.statement(rest),
@@ -53,7 +126,14 @@ impl<'t> Reader<'t, '_> {
                 }
             }
         }
-        self.check_all_closed();
+    }
+
+    fn goes_on(&self) -> bool {
+        if self.is_part {
+            self.error_count == 0 && self.open.len() == 1
+        } else {
+            self.error_count < MAX_ERRORS
+        }
     }
 
     /// Skips white space and notes comments up to the next statement.
@@ -83,6 +163,13 @@ impl<'t> Reader<'t, '_> {
 
     /// Reads one statement; gives what is behind it, or where to go on after an error.
     fn statement(&mut self, input: Input<'t>) -> Input<'t> {
+        let start = self.grammar.position(input);
+        let group = &mut self.document.groups[self.open[self.open.len() - 1]];
+        if let Some(end) = quick::statement(self.grammar.text, start as usize, group) {
+            self.document.first_statement.get_or_insert(start);
+            self.line_has_statement = true;
+            return &self.grammar.text[end..];
+        }
         match self.try_statement(input) {
             Ok(rest) => {
                 self.line_has_statement = true;
@@ -109,7 +196,8 @@ impl<'t> Reader<'t, '_> {
             let (rest, text) = escape(input).map_err(trouble)?;
             let end = self.grammar.position(rest) - 1;
             let text = Span { start: end - text.len() as u32, end };
-            self.push(input, rest, Statement::Escape(text));
+            let (source, span) = (self.grammar.text, self.span(input, rest));
+            self.group_for(span).add_escape(source, span, text);
             return Ok(rest);
         }
         let (body, keyword) =
@@ -117,6 +205,11 @@ impl<'t> Reader<'t, '_> {
         match keyword {
             b"def" => self.begin_definition(input, body),
             b"end" => self.end_definition(input, body),
+            b"include" => self.include(input, body),
+            b"#" | b"#line" if let Some((rest, mark)) = self.line_mark(body) => {
+                self.document.line_marks.push(mark);
+                Ok(rest)
+            }
             _ => self.plain_statement(input, keyword, body),
         }
     }
@@ -127,12 +220,15 @@ impl<'t> Reader<'t, '_> {
         keyword: Input<'t>,
         body: Input<'t>,
     ) -> Result<Input<'t>, Trouble<'t>> {
-        let Some(parsed) = self.grammar.statement(keyword, body, &mut self.document) else {
+        let Some(parsed) = self.grammar.statement(keyword, body, &mut self.references) else {
             return self.unknown_statement(input, keyword, body);
         };
         let (rest, statement) = parsed.map_err(trouble)?;
         let (rest, ()) = mark(b';', "`;`")(rest).map_err(trouble)?;
-        self.push(input, rest, statement);
+        let span = self.span(input, rest);
+        let row = self.open[self.open.len() - 1];
+        self.document.first_statement.get_or_insert(span.start);
+        self.document.groups[row].add(self.grammar.text, span, statement, &self.references);
         self.note_inner_comments(input, rest);
         Ok(rest)
     }
@@ -160,8 +256,33 @@ impl<'t> Reader<'t, '_> {
                 .label("not known here")
                 .help("remove it if no later program reads it"),
         );
-        self.push(input, rest, Statement::Unknown);
+        let (text, span) = (self.grammar.text, self.span(input, rest));
+        self.group_for(span).add_unknown(text, span);
         Ok(rest)
+    }
+
+    /// `include FILE ;`
+    fn include(&mut self, input: Input<'t>, body: Input<'t>) -> Result<Input<'t>, Trouble<'t>> {
+        let (rest, name) = file_name(body).map_err(trouble)?;
+        let quotes = usize::from(rest.len() + name.len() < body.len() && skip_blank(body).starts_with(b"\""));
+        let end = self.grammar.position(rest) - quotes as u32;
+        let file = Span { start: end - name.len() as u32, end };
+        let (rest, ()) = mark(b';', "`;`")(rest).map_err(trouble)?;
+        self.document.includes.push(Include { span: self.span(input, rest), file });
+        Ok(rest)
+    }
+
+    /// The rest of `# LINE "FILE" …`, which ends with its line. What follows the
+    /// file name is for the preprocessor.
+    fn line_mark(&self, body: Input<'t>) -> Option<(Input<'t>, LineMark)> {
+        let end = memchr::memchr(b'\n', body).unwrap_or(body.len());
+        let (rest, line) = integer(&body[..end]).ok()?;
+        let rest = rest.trim_ascii();
+        let name =
+            if rest.is_empty() { None } else { Some(file_name(rest).ok().filter(|_| rest[0] == b'"')?.1) };
+        let behind = &body[(end + 1).min(body.len())..];
+        let name = name.map(|name| String::from_utf8_lossy(name).into_owned());
+        Some((behind, LineMark { start: self.grammar.position(behind), line: line as usize, name }))
     }
 
     /// `def ID ;`
@@ -170,7 +291,11 @@ impl<'t> Reader<'t, '_> {
     /// `end` of the definition has its `def`.
     fn begin_definition(&mut self, input: Input<'t>, body: Input<'t>) -> Result<Input<'t>, Trouble<'t>> {
         let row = self.document.groups.len();
-        let group = Group { parent: self.open.last().copied(), ..Group::default() };
+        let outer = self.open[self.open.len() - 1];
+        let mut group = Group::new(Span::default(), Some(outer));
+        let around = &self.document.groups[outer];
+        group.outer_default =
+            around.defaults.last().map(|default| (outer, default.color)).or(around.outer_default);
         self.document.groups.push(group);
         self.open.push(row);
         if self.open.len() == MAX_NESTING + 2 {
@@ -182,9 +307,8 @@ impl<'t> Reader<'t, '_> {
         let name = Span { start: end - name.len() as u32, end };
         let (rest, ()) = mark(b';', "`;`")(rest).map_err(trouble)?;
         self.document.groups[row].name = name;
-        let span = Span { start: self.grammar.position(input), end: self.grammar.position(rest) };
-        let outer = self.open[self.open.len() - 2];
-        self.document.groups[outer].statements.push(Node { span, statement: Statement::Definition(row) });
+        self.document.first_statement.get_or_insert(self.grammar.position(input));
+        self.document.groups[outer].add_definition(self.grammar.text, name, row);
         self.note_inner_comments(input, rest);
         Ok(rest)
     }
@@ -205,10 +329,15 @@ impl<'t> Reader<'t, '_> {
         Ok(rest)
     }
 
-    fn push(&mut self, input: Input<'t>, rest: Input<'t>, statement: Statement) {
-        let span = Span { start: self.grammar.position(input), end: self.grammar.position(rest) };
-        let row = self.open.last().copied().unwrap_or(0);
-        self.document.groups[row].statements.push(Node { span, statement });
+    /// The group being read, into which the statement at `span` is to go.
+    fn group_for(&mut self, span: Span) -> &mut Group<'t> {
+        self.document.first_statement.get_or_insert(span.start);
+        let row = self.open[self.open.len() - 1];
+        &mut self.document.groups[row]
+    }
+
+    fn span(&self, input: Input<'t>, rest: Input<'t>) -> Span {
+        Span { start: self.grammar.position(input), end: self.grammar.position(rest) }
     }
 
     /// Comments between the words of a statement come behind those above it.
@@ -249,7 +378,7 @@ impl<'t> Reader<'t, '_> {
         match keyword {
             b"def" => identifier(body).is_ok_and(|(rest, _)| semicolon(rest)),
             b"end" => semicolon(body),
-            _ => match self.grammar.statement(keyword, body, &mut Document::default()) {
+            _ => match self.grammar.statement(keyword, body, &mut References::default()) {
                 // It may lack its own `;`. Before a parenthesis it is rather a part of a contour.
                 Some(Ok((rest, _))) => {
                     let in_contour = matches!(skip_blank(rest), [b'(' | b')', ..]);
@@ -340,11 +469,11 @@ impl<'t> Reader<'t, '_> {
 
     /// A statement without `;` takes the `end` of the next line for the name of a colour.
     fn swallowed_end(&self, row: usize) -> Option<(Input<'t>, Next<'t>)> {
-        self.document.groups[row].statements.iter().find_map(|node| {
-            let statement = &self.grammar.text[node.span.start as usize..];
+        self.document.groups[row].statements(self.grammar.text).into_iter().find_map(|span| {
+            let statement = &self.grammar.text[span.start as usize..];
             let mut words = Words { rest: statement };
             let mut end = words.next()?.behind;
-            for word in words.take_while(|word| self.grammar.position(word.at) < node.span.end) {
+            for word in words.take_while(|word| self.grammar.position(word.at) < span.end) {
                 if word.begins_line && word.at.starts_with(b"end") && self.reads_as_statement(word.at) {
                     return Some((statement, Next { at: word.at, end, wanted: "`;`" }));
                 }
@@ -352,25 +481,6 @@ impl<'t> Reader<'t, '_> {
             }
             None
         })
-    }
-}
-
-/// The trouble of a parser; our parsers read whole texts, so nothing is ever incomplete.
-fn trouble(err: Err<Trouble<'_>>) -> Trouble<'_> {
-    match err {
-        Err::Error(trouble) | Err::Failure(trouble) => trouble,
-        Err::Incomplete(_) => Trouble { at: &[], reason: Reason::Expected("more text") },
-    }
-}
-
-/// What is behind the next `;` outside comments.
-fn skip_statement(mut input: Input<'_>) -> Result<Input<'_>, Trouble<'_>> {
-    loop {
-        match memchr::memchr2(b';', b'{', input) {
-            None => return Err(Trouble { at: &[], reason: Reason::Expected("`;`") }),
-            Some(idx) if input[idx] == b';' => return Ok(&input[idx + 1..]),
-            Some(idx) => input = comment(&input[idx..]).map_err(trouble)?.0,
-        }
     }
 }
 

@@ -9,6 +9,8 @@
 //!   wire two or more;
 //! - names are unique within colours and within vertices.
 
+use std::fmt;
+use std::num::NonZeroU32;
 use std::ops::Range;
 
 use glam::DVec3;
@@ -39,12 +41,50 @@ macro_rules! index {
 }
 
 index! {
-    /// Row of [`Scene::colors`].
-    ColorId
     /// Row of [`Scene::vertices`].
     VertexId
+}
+
+macro_rules! optional_index {
+    ($($(#[$doc:meta])* $name:ident)*) => {$(
+        $(#[$doc])*
+        ///
+        /// An `Option` of it takes no more room than itself.
+        #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        pub struct $name(NonZeroU32);
+
+        impl $name {
+            /// The id of the element at position `idx` of its table.
+            ///
+            /// # Panics
+            /// If `idx + 1` does not fit 32 bits; the reader refuses such scenes.
+            pub fn from_index(idx: usize) -> Self {
+                let row = u32::try_from(idx + 1).ok().and_then(NonZeroU32::new);
+                Self(row.expect("tables have fewer than 2^32 rows"))
+            }
+
+            /// Position in its table.
+            pub fn index(self) -> usize {
+                self.0.get() as usize - 1
+            }
+        }
+
+        impl fmt::Debug for $name {
+            fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                write!(f, "{}({})", stringify!($name), self.index())
+            }
+        }
+    )*};
+}
+pub(crate) use optional_index;
+
+optional_index! {
+    /// Row of [`Scene::colors`].
+    ColorId
     /// Row of [`Scene::velocities`].
     VelocityId
+    /// Row of [`Scene::illums`].
+    IllumId
 }
 
 /// A flat UniGrafix scene.
@@ -71,6 +111,8 @@ pub struct Scene {
     pub contours: Contours,
     /// `f`.
     pub faces: Vec<Face>,
+    /// What faces carry in place of lighting; few do, so it is kept beside them.
+    pub illums: Vec<Illum>,
     /// `w`.
     pub wires: Vec<Wire>,
     /// `l`.
@@ -135,10 +177,17 @@ pub struct Face {
     pub contours: Range<u32>,
     /// Colour; `None` means lightness 1, saturation 0, opaque.
     pub color: Option<ColorId>,
-    /// Stored light level: lighting is skipped.
-    pub illum: Option<f64>,
+    /// What is known of its light, see [`Scene::light_level`].
+    pub illum: Option<IllumId>,
     /// Its velocity, if given.
     pub velocity: Option<VelocityId>,
+}
+
+/// What a face carries in place of lighting.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Illum {
+    /// Stored light level: lighting is skipped.
+    Level(f64),
 }
 
 /// Lines.
@@ -270,6 +319,41 @@ impl Contours {
         self.ends.push(end);
     }
 
+    /// Appends a corner to the contour that [`Contours::end_contour`] will end.
+    pub(crate) fn push_corner(&mut self, corner: VertexId) {
+        self.corners.push(corner);
+    }
+
+    /// Ends a contour of single corners.
+    pub(crate) fn end_contour(&mut self) {
+        self.push([]);
+    }
+
+    /// Drops all but the first `rows` contours, and corners of one not ended.
+    pub(crate) fn truncate(&mut self, rows: usize) {
+        self.ends.truncate(rows);
+        self.corners.truncate(self.ends.last().map_or(0, |&end| end as usize));
+    }
+
+    /// Corners and ends of all contours.
+    pub(crate) fn parts_mut(&mut self) -> (&mut Vec<VertexId>, &mut Vec<u32>) {
+        (&mut self.corners, &mut self.ends)
+    }
+
+    pub(crate) fn with_capacity(corners: usize, contours: usize) -> Self {
+        Self { corners: Vec::with_capacity(corners), ends: Vec::with_capacity(contours) }
+    }
+
+    /// Contours from corners, and the end of each among them.
+    pub(crate) fn from_parts(corners: Vec<VertexId>, ends: Vec<u32>) -> Self {
+        Self { corners, ends }
+    }
+
+    /// Corners of all contours together.
+    pub(crate) fn corner_count(&self) -> usize {
+        self.corners.len()
+    }
+
     /// Appends one face's contours and gives their rows.
     pub fn push_all<C>(&mut self, contours: impl IntoIterator<Item = C>) -> Range<u32>
     where
@@ -320,7 +404,7 @@ impl Contours {
         self.ends.is_empty()
     }
 
-    fn row_count(&self) -> u32 {
+    pub(crate) fn row_count(&self) -> u32 {
         u32::try_from(self.ends.len()).expect("fewer than 2^32 contours")
     }
 }
@@ -335,6 +419,13 @@ impl Scene {
     /// The contours of a face, outline first.
     pub fn face_contours(&self, face: &Face) -> impl ExactSizeIterator<Item = &[VertexId]> + Clone {
         self.contours.iter(face.contours.clone())
+    }
+
+    /// The stored light level of a face: its lighting is skipped.
+    pub fn light_level(&self, face: &Face) -> Option<f64> {
+        match self.illums[face.illum?.index()] {
+            Illum::Level(level) => Some(level),
+        }
     }
 
     /// The polylines of a wire.

@@ -30,6 +30,28 @@ impl Source {
     }
 }
 
+/// From a position on, text that was written elsewhere: `# LINE "FILE"`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct LineMark {
+    /// The first byte behind the line of the mark.
+    pub start: u32,
+    /// The number of the line that begins there.
+    pub line: usize,
+    /// The file; the same as before if there is none.
+    pub name: Option<String>,
+}
+
+impl Source {
+    /// File and line that a position is to be reported at.
+    pub(crate) fn reported<'s>(&'s self, marks: &'s [LineMark], position: u32) -> (&'s str, usize) {
+        let before = &marks[..marks.partition_point(|mark| mark.start <= position)];
+        let name = before.iter().rev().find_map(|mark| mark.name.as_deref()).unwrap_or(&self.name);
+        let Some(last) = before.last() else { return (name, self.line_column(position).0) };
+        let end = (position as usize).min(self.text.len());
+        (name, last.line.saturating_add(memchr_iter(b'\n', &self.text[last.start as usize..end]).count()))
+    }
+}
+
 /// A range of bytes in a [`Source`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Span {

@@ -107,11 +107,20 @@ fn is(byte: u8, bits: u8) -> bool {
 }
 
 /// True for bytes that end a word.
-fn ends_word(byte: u8) -> bool {
+pub(crate) fn ends_word(byte: u8) -> bool {
     is(byte, ENDS_WORD)
 }
 
-fn is_blank(byte: u8) -> bool {
+/// True for bytes of names, and for those a name may begin with.
+pub(crate) fn is_identifier(byte: u8) -> bool {
+    is(byte, ID)
+}
+
+pub(crate) fn begins_identifier(byte: u8) -> bool {
+    is(byte, ID_START)
+}
+
+pub(crate) fn is_blank(byte: u8) -> bool {
     is(byte, BLANK)
 }
 
@@ -200,8 +209,12 @@ pub(crate) fn number(input: Input<'_>) -> Parsed<'_, f64> {
     if !matches!(digits, [b'0'..=b'9', ..] | [b'.', b'0'..=b'9', ..]) {
         return backtrack(input, Reason::Expected("a number"));
     }
-    let Ok((value, len)) = fast_float2::parse_partial::<f64, _>(unsigned) else {
-        return fail(input, Reason::Expected("a number"));
+    let (value, len) = match short_decimal(unsigned) {
+        Some(read) => read,
+        None => match fast_float2::parse_partial::<f64, _>(unsigned) {
+            Ok(read) => read,
+            Err(_) => return fail(input, Reason::Expected("a number")),
+        },
     };
     let rest = &unsigned[len..];
     if rest.first().is_some_and(|&byte| !ends_word(byte)) {
@@ -211,6 +224,49 @@ pub(crate) fn number(input: Input<'_>) -> Parsed<'_, f64> {
         return fail(input, Reason::NotFinite);
     }
     Ok((rest, value))
+}
+
+/// Powers of ten that are exact as f64.
+const POWERS_OF_TEN: [f64; 16] =
+    [1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15];
+
+/// A decimal number of at most 15 digits without exponent, and its length.
+///
+/// Its digits and the power of ten it is divided by are exact, so the quotient
+/// is the nearest f64 (Clinger 1990): the same as by the general way, sooner.
+#[inline(always)]
+pub(crate) fn short_decimal(input: Input<'_>) -> Option<(f64, usize)> {
+    let is_negative = input.first() == Some(&b'-');
+    let mut idx = usize::from(is_negative);
+    let start = idx;
+    let mut digits = 0u64;
+    while let Some(digit) = digit(input, idx) {
+        digits = digits.wrapping_mul(10).wrapping_add(digit);
+        idx += 1;
+    }
+    let mut n_digits = idx - start;
+    let mut n_decimals = 0;
+    if input.get(idx) == Some(&b'.') {
+        let first = idx + 1;
+        idx = first;
+        while let Some(digit) = digit(input, idx) {
+            digits = digits.wrapping_mul(10).wrapping_add(digit);
+            idx += 1;
+        }
+        n_decimals = idx - first;
+        n_digits += n_decimals;
+    }
+    if n_digits == 0 || n_digits > 15 || input.get(idx).is_some_and(|&byte| !ends_word(byte)) {
+        return None;
+    }
+    let value = digits as f64 / POWERS_OF_TEN[n_decimals];
+    Some((if is_negative { -value } else { value }, idx))
+}
+
+#[inline(always)]
+fn digit(input: Input<'_>, idx: usize) -> Option<u64> {
+    let value = input.get(idx)?.wrapping_sub(b'0');
+    (value < 10).then_some(u64::from(value))
 }
 
 /// An array size: digits only.
@@ -243,5 +299,53 @@ pub(crate) fn mark<'a>(byte: u8, what: &'static str) -> impl Fn(Input<'a>) -> Pa
             Some((&first, rest)) if first == byte => Ok((rest, ())),
             _ => backtrack(input, Reason::Expected(what)),
         }
+    }
+}
+
+/// A file name: a string in quotes, or a run of characters that are no punctuation.
+pub(crate) fn file_name(input: Input<'_>) -> Parsed<'_, Input<'_>> {
+    let (input, ()) = blank(input)?;
+    let Some(quoted) = input.strip_prefix(b"\"") else { return wanted(word(input), FILE_NAME) };
+    match memchr2(b'"', b'\n', quoted) {
+        Some(len @ 1..) if quoted[len] == b'"' => Ok((&quoted[len + 1..], &quoted[..len])),
+        _ => backtrack(input, Reason::Expected(FILE_NAME)),
+    }
+}
+
+const FILE_NAME: &str = "a file name, in quotes if there are blanks in it";
+
+/// What is behind the next `;` outside comments.
+pub(crate) fn skip_statement(mut input: Input<'_>) -> Result<Input<'_>, Trouble<'_>> {
+    loop {
+        match memchr2(b';', b'{', input) {
+            None => return Err(Trouble { at: &[], reason: Reason::Expected("`;`") }),
+            Some(idx) if input[idx] == b';' => return Ok(&input[idx + 1..]),
+            Some(idx) => input = comment(&input[idx..]).map_err(trouble)?.0,
+        }
+    }
+}
+
+/// Position of the keyword that is followed, past white space and comments, by the end of `before`.
+pub(crate) fn statement_start(before: Input<'_>) -> usize {
+    let mut idx = before.len();
+    let mut depth = 0usize;
+    while idx > 0 {
+        match before[idx - 1] {
+            // Comments nest, so they can be skipped from behind as well.
+            b'}' => depth += 1,
+            b'{' => depth = depth.saturating_sub(1),
+            byte if depth == 0 && !is_blank(byte) => break,
+            _ => {}
+        }
+        idx -= 1;
+    }
+    before[..idx].iter().rposition(|&byte| ends_word(byte)).map_or(0, |end| end + 1)
+}
+
+/// The trouble of a parser; our parsers read whole texts, so nothing is ever incomplete.
+pub(crate) fn trouble(err: Err<Trouble<'_>>) -> Trouble<'_> {
+    match err {
+        Err::Error(trouble) | Err::Failure(trouble) => trouble,
+        Err::Incomplete(_) => Trouble { at: &[], reason: Reason::Expected("more text") },
     }
 }

@@ -13,9 +13,9 @@ pub(crate) fn no_statement(word: &[u8], span: Span) -> Diagnostic {
     match word {
         b"}" => finding.label("closes nothing").help("remove it, or open its comment with `{`"),
         b"#" | b"#line" => finding
-            .label("a line of the C preprocessor")
-            .help("run `cpp -P`, which leaves such lines out; -lax passes them on"),
-        b"include" | b"execute" | b"c_xyz" | b"c_bb" | b"c_spd" | b"surf" => finding
+            .label("not a line mark of the C preprocessor")
+            .help("such a line is `# LINE \"FILE\"`; -lax passes others on"),
+        b"execute" | b"c_xyz" | b"c_bb" | b"c_spd" | b"surf" => finding
             .label("not read yet")
             .help(format!("only {KEYWORDS} and escapes are read; -lax passes others on")),
         _ if is_keyword(&lower) => finding
@@ -79,6 +79,7 @@ fn usage(keyword: &[u8]) -> Option<&'static str> {
         b"cam" => "cam [ID] [-ep x y z] [-vc x y z] [-ud x y z] [-va a b] … ;",
         b"def" => "def ID ; … end ;",
         b"end" => "end ;",
+        b"include" => "include FILE ;",
         b"i" => "i [ID] (def [color] [-tx …]) [< vx vy vz >] ;",
         b"a" => "a [ID] (def [color] [-tx …]) size [-tx …] [< vx vy vz >] ;",
         _ => return None,

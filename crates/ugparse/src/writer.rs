@@ -56,7 +56,7 @@ impl<'s> Writer<'s> {
             face.name.into_iter().for_each(|name| w.name(name));
             w.contours(&scene.contours, face.contours.clone());
             w.optional_color(face.color);
-            face.illum.into_iter().for_each(|level| w.number(level));
+            scene.light_level(face).into_iter().for_each(|level| w.number(level));
             w.optional_velocity(face.velocity);
             w.text(";");
         });

@@ -5,7 +5,7 @@ use std::path::Path;
 use clap::{ArgAction, Parser};
 use glam::DVec3;
 use ugimage::Format;
-use ugparse::Source;
+use ugparse::{Options, Source};
 use ugphysics::Hsv;
 use ugpipe::{CommonArgs, Failure, Stage, ToolArgs, finite, vector};
 use ugscene::HueScale;
@@ -188,12 +188,14 @@ pub fn draw(args: &Args, stage: &mut Stage) -> Result<(), Failure> {
     }
     let input = stage.input()?;
     stage.detail(&format!("read {} bytes of `{}`", input.text.len(), input.name));
-    let picture =
-        run(&config, &Source { name: input.name, text: input.text }).map_err(|error| match error {
-            Error::Scene(diagnostics) => Failure::Report(diagnostics.render(true)),
-            error if error.is_usage() => Failure::usage(error),
-            error => Failure::failed(error),
-        })?;
+    let options = Options { lax: config.lax };
+    let source = ugparse::include(Source::new(input.name, input.text), &options, |path| std::fs::read(path))
+        .map_err(|diagnostics| Failure::Report(diagnostics.render(true)))?;
+    let picture = run(&config, &source).map_err(|error| match error {
+        Error::Scene(diagnostics) => Failure::Report(diagnostics.render(true)),
+        error if error.is_usage() => Failure::usage(error),
+        error => Failure::failed(error),
+    })?;
     if !picture.warnings.is_empty() {
         stage.report(&picture.warnings.render(true));
     }

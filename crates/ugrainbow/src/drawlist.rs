@@ -166,7 +166,7 @@ impl<const N: usize, P: Fn(&Swatch, DVec3) -> [f64; N]> Chunk<'_, N, P> {
     }
 
     fn level(&self, face: &Face, vertex: VertexId, seen_normal: DVec3) -> DVec3 {
-        if let Some(level) = face.illum {
+        if let Some(level) = self.painter.scene.light_level(face) {
             return DVec3::splat(level);
         }
         let lighting = self.painter.lighting;

@@ -87,7 +87,10 @@ fn velocities_are_shared() {
         "{TRIANGLE} f (a b c) <0 0 .1>; f (b c a) <0 .1 0>; f (c a b) <0 0 .1>; f (a b c) <-0 0 .1>;"
     ));
     assert_eq!(scene.velocities.len(), 2);
-    assert_eq!(scene.faces.iter().map(|face| face.velocity.unwrap().0).collect::<Vec<_>>(), [0, 1, 0, 0]);
+    assert_eq!(
+        scene.faces.iter().map(|face| face.velocity.unwrap().index()).collect::<Vec<_>>(),
+        [0, 1, 0, 0]
+    );
 }
 
 #[test]

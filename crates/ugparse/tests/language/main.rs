@@ -6,10 +6,12 @@ mod colors;
 mod comments;
 mod docs;
 mod faces;
+mod files;
 mod limits;
 mod round_trip;
 mod scopes;
 mod statements;
+mod threads;
 mod tokens;
 mod transforms;
 

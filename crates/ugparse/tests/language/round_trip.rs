@@ -125,7 +125,7 @@ fn same(a: &Scene, b: &Scene) -> Result<(), TestCaseError> {
                 "{:?} {contours:?} {:?} {:?} {velocity:?}",
                 f.name.map(|name| scene.names.get(name)),
                 f.color,
-                f.illum
+                scene.light_level(f)
             )
         };
         scene.faces.iter().map(row).collect()

@@ -1,0 +1,478 @@
+//! The file, or a definition, as it is read: tables of the types of a
+//! [`Scene`](crate::Scene), in which names are not yet looked up everywhere.
+//!
+//! A colour stands as the row of its name in [`Group::color_names`], a corner
+//! as the number of its vertex's name in [`Group::vertex_names`], so that what
+//! is used before it is defined, or defined in a scope outside, costs nothing.
+//! Settling turns both into rows of colours and vertices.
+
+use glam::DVec3;
+use rustc_hash::FxHashMap;
+
+use crate::names::{NameId, Names};
+use crate::numbered::{Name, NumberedNames};
+use crate::scene::{
+    Camera, Color, ColorId, Contours, Face, Illum, IllumId, Light, LightKind, VelocityId, Vertex, VertexId,
+    Wire,
+};
+use crate::source::Span;
+use crate::statement::{
+    CallStatement, CameraStatement, ColorStatement, FaceStatement, LightStatement, References, Statement,
+    VertexStatement,
+};
+use crate::token::{skip_statement, statement_start};
+
+/// Bytes that short statements take: `v v123 1.25 2.5 1 ;`, `f (v1 v12 v123) ;`, and a corner of that.
+const VERTEX_BYTES: usize = 20;
+const FACE_BYTES: usize = 17;
+const CORNER_BYTES: usize = 5;
+
+/// No vertex has this name.
+pub(crate) const NO_ROW: u32 = u32::MAX;
+
+/// A table, and where each row stands in the text.
+#[derive(Debug)]
+pub(crate) struct Rows<T> {
+    pub rows: Vec<T>,
+    pub spans: Vec<Span>,
+}
+
+impl<T> Default for Rows<T> {
+    fn default() -> Self {
+        Self { rows: Vec::new(), spans: Vec::new() }
+    }
+}
+
+impl<T> Rows<T> {
+    pub fn push(&mut self, row: T, span: Span) {
+        self.rows.push(row);
+        self.spans.push(span);
+    }
+
+    fn with_capacity(rows: usize) -> Self {
+        Self { rows: Vec::with_capacity(rows), spans: Vec::with_capacity(rows) }
+    }
+
+    pub fn len(&self) -> usize {
+        self.rows.len()
+    }
+
+    pub fn into_parts(self) -> (Vec<T>, Vec<Span>) {
+        (self.rows, self.spans)
+    }
+
+    /// Removes rows that are given in order.
+    fn remove(&mut self, rows: &[usize]) {
+        if rows.is_empty() {
+            return;
+        }
+        let is_kept = |row: usize| rows.binary_search(&row).is_err();
+        let mut row = 0..;
+        self.rows.retain(|_| row.next().is_some_and(is_kept));
+        let mut row = 0..;
+        self.spans.retain(|_| row.next().is_some_and(is_kept));
+    }
+}
+
+/// What a scope has as tables in the order of the text.
+#[derive(Default)]
+pub(crate) struct Group<'t> {
+    /// Name of the definition; empty for the file.
+    pub name: Span,
+    /// The group this one is defined in.
+    pub parent: Option<usize>,
+    /// Names of all but colours.
+    pub names: Names,
+    pub velocities: Velocities,
+
+    /// Spans are those of the names, see [`Group::vertex_statement`].
+    pub vertices: Rows<Vertex>,
+    pub vertex_names: NumberedNames<'t>,
+    /// For each number of a name, the row of the vertex or [`NO_ROW`].
+    pub vertex_rows: Vec<u32>,
+
+    pub contours: Contours,
+    /// Corners are rows of vertices already.
+    pub is_linked: bool,
+    pub faces: Rows<Face>,
+    pub illums: Vec<Illum>,
+    pub wires: Rows<Wire>,
+    pub lights: Rows<Light>,
+    pub cameras: Rows<Camera>,
+    pub escapes: Rows<String>,
+    pub unknown: Rows<String>,
+
+    /// Colours; their names are not made yet.
+    pub colors: Rows<Color>,
+    /// Where the name of each colour stands, if it has one.
+    pub color_spans: Vec<Option<Span>>,
+    pub color_names: ColorNames<'t>,
+    /// For each row of `color_names`, that of the colour, if it is defined here.
+    pub color_rows: Vec<Option<u32>>,
+    /// Unnamed colours, each with the rows from which on it is in force.
+    pub defaults: Vec<DefaultColor>,
+    /// The unnamed colour in force at the `def`: its group, and its row there.
+    pub outer_default: Option<(usize, u32)>,
+
+    pub calls: Rows<Call>,
+    /// Definitions written here, by name.
+    pub definitions: FxHashMap<&'t [u8], (usize, Span)>,
+    /// Names defined twice.
+    pub duplicates: Vec<Duplicate>,
+    /// Statements other than calls.
+    pub n_statements: u64,
+}
+
+/// An instance or array.
+pub(crate) struct Call {
+    pub statement: CallStatement,
+    /// Its colour, as a row of the names of colours.
+    pub color: Option<ColorId>,
+    /// What stands before it.
+    pub before: Counts,
+}
+
+/// Rows of the tables that are placed in the order of the text.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Counts {
+    pub faces: usize,
+    pub wires: usize,
+    pub lights: usize,
+    pub cameras: usize,
+    pub escapes: usize,
+    pub unknown: usize,
+}
+
+/// A colour without a name.
+#[derive(Clone, Copy)]
+pub(crate) struct DefaultColor {
+    pub color: u32,
+    pub first_face: usize,
+    pub first_wire: usize,
+}
+
+/// A name defined twice.
+pub(crate) struct Duplicate {
+    pub kind: &'static str,
+    pub again: Span,
+    pub first: Span,
+}
+
+impl<'t> Group<'t> {
+    /// Of a definition.
+    pub fn new(name: Span, parent: Option<usize>) -> Self {
+        Self { name, parent, ..Self::default() }
+    }
+
+    /// Of the file, or of a part of it: with room for as many rows as so many
+    /// bytes usually hold. Memory that is asked for but not used costs nothing;
+    /// tables that grow are copied.
+    pub fn for_text(bytes: usize) -> Self {
+        Self {
+            vertices: Rows::with_capacity(bytes / VERTEX_BYTES),
+            faces: Rows::with_capacity(bytes / FACE_BYTES),
+            contours: Contours::with_capacity(bytes / CORNER_BYTES, bytes / FACE_BYTES),
+            vertex_names: NumberedNames::for_text(bytes),
+            ..Self::default()
+        }
+    }
+
+    /// Enters a statement that stands at `span`; its contours are in `references`.
+    pub fn add(&mut self, text: &'t [u8], span: Span, statement: Statement, references: &References) {
+        if let Statement::Call(statement) = statement {
+            return self.add_call(text, span, statement);
+        }
+        self.n_statements += 1;
+        match statement {
+            Statement::Vertex(vertex) => self.add_vertex(text, &vertex),
+            Statement::Face(face) => self.add_face(text, span, &face, references),
+            Statement::Wire(wire) => self.add_wire(text, span, &wire, references),
+            Statement::Color(color) => self.add_color(text, span, &color),
+            Statement::Light(light) => self.add_light(text, span, &light),
+            Statement::Camera(camera) => self.add_camera(text, span, camera),
+            Statement::Call(_) => {}
+        }
+    }
+
+    pub fn add_escape(&mut self, text: &[u8], span: Span, inner: Span) {
+        self.n_statements += 1;
+        self.escapes.push(lossy(text, inner), span);
+    }
+
+    pub fn add_unknown(&mut self, text: &[u8], span: Span) {
+        self.n_statements += 1;
+        self.unknown.push(lossy(text, span), span);
+    }
+
+    /// Enters a definition, which has its own group.
+    pub fn add_definition(&mut self, text: &'t [u8], name: Span, group: usize) {
+        self.n_statements += 1;
+        if let Some((_, first)) = self.definitions.insert(name.of(text), (group, name)) {
+            self.duplicates.push(Duplicate { kind: "definition", again: name, first });
+        }
+    }
+
+    fn add_vertex(&mut self, text: &'t [u8], vertex: &VertexStatement) {
+        let color = self.color(text, vertex.color);
+        self.push_vertex(Name::new(vertex.name.of(text)), vertex.name, vertex.position, color, vertex.normal);
+    }
+
+    pub fn push_vertex(
+        &mut self,
+        name: Name<'t>,
+        span: Span,
+        position: DVec3,
+        color: Option<ColorId>,
+        normal: Option<DVec3>,
+    ) {
+        let row = self.vertices.len() as u32;
+        let number = self.vertex_names.enter(name) as usize;
+        if number >= self.vertex_rows.len() {
+            self.vertex_rows.resize(number + 1, NO_ROW);
+        }
+        let before = std::mem::replace(&mut self.vertex_rows[number], row);
+        if before != NO_ROW {
+            let first = self.vertices.spans[before as usize];
+            self.duplicates.push(Duplicate { kind: "vertex", again: span, first });
+        }
+        let name = self.add_name(name.text);
+        self.vertices.push(Vertex { name, position, color, normal }, span);
+    }
+
+    fn add_face(&mut self, text: &'t [u8], span: Span, face: &FaceStatement, references: &References) {
+        let contours = self.push_contours(text, references);
+        let face = Face {
+            name: self.name(text, face.name),
+            contours,
+            color: self.color(text, face.color),
+            illum: face.illum.map(|level| self.add_illum(Illum::Level(level))),
+            velocity: face.velocity.map(|velocity| self.velocities.id(velocity)),
+        };
+        self.faces.push(face, span);
+    }
+
+    fn add_illum(&mut self, illum: Illum) -> IllumId {
+        // Neighbours often have the same.
+        if self.illums.last() != Some(&illum) {
+            self.illums.push(illum);
+        }
+        IllumId::from_index(self.illums.len() - 1)
+    }
+
+    fn add_wire(&mut self, text: &'t [u8], span: Span, wire: &FaceStatement, references: &References) {
+        let contours = self.push_contours(text, references);
+        let wire = Wire {
+            name: self.name(text, wire.name),
+            contours,
+            color: self.color(text, wire.color),
+            velocity: wire.velocity.map(|velocity| self.velocities.id(velocity)),
+        };
+        self.wires.push(wire, span);
+    }
+
+    fn push_contours(&mut self, text: &'t [u8], references: &References) -> std::ops::Range<u32> {
+        let Self { contours, vertex_names, .. } = self;
+        contours.push_all(references.contours().map(|names| {
+            let names = references.names[names].iter();
+            names.map(|name| VertexId(vertex_names.enter(Name::new(name.of(text))))).collect::<Vec<_>>()
+        }))
+    }
+
+    fn add_color(&mut self, text: &'t [u8], span: Span, color: &ColorStatement) {
+        let row = self.colors.len() as u32;
+        match color.name {
+            Some(name) => self.define_color(text, name, row),
+            None => self.defaults.push(DefaultColor {
+                color: row,
+                first_face: self.faces.len(),
+                first_wire: self.wires.len(),
+            }),
+        }
+        // The name is made when the colours of all scopes are put together.
+        let name = NameId::from_index(0);
+        self.colors.push(Color { name, value: color.value, translucency: color.translucency }, span);
+        self.color_spans.push(color.name);
+    }
+
+    fn define_color(&mut self, text: &'t [u8], name: Span, row: u32) {
+        let name_row = self.color_names.enter(name.of(text)).index();
+        if name_row >= self.color_rows.len() {
+            self.color_rows.resize(name_row + 1, None);
+        }
+        if let Some(before) = self.color_rows[name_row].replace(row) {
+            let first = self.color_spans[before as usize].unwrap_or_default();
+            self.duplicates.push(Duplicate { kind: "colour", again: name, first });
+        }
+    }
+
+    fn add_light(&mut self, text: &'t [u8], span: Span, light: &LightStatement) {
+        let kind = match (light.vector, light.radius) {
+            (None, _) => LightKind::Ambient,
+            (Some(toward), None) => LightKind::Directional(toward),
+            (Some(position), Some(radius)) => LightKind::Local { position, radius },
+        };
+        let light = Light {
+            name: self.name(text, light.name),
+            intensity: light.intensity,
+            kind,
+            color: self.color(text, light.color),
+            velocity: light.velocity.map(|velocity| self.velocities.id(velocity)),
+        };
+        self.lights.push(light, span);
+    }
+
+    fn add_camera(&mut self, text: &[u8], span: Span, statement: CameraStatement) {
+        let name = self.name(text, statement.name);
+        let velocity = statement.velocity.map(|velocity| self.velocities.id(velocity));
+        self.cameras.push(Camera { name, velocity, ..statement.camera }, span);
+    }
+
+    fn add_call(&mut self, text: &'t [u8], span: Span, statement: CallStatement) {
+        let color = self.color(text, statement.color);
+        self.calls.push(Call { statement, color, before: self.counts() }, span);
+    }
+
+    /// Rows of the tables that are placed in the order of the text.
+    pub fn counts(&self) -> Counts {
+        Counts {
+            faces: self.faces.len(),
+            wires: self.wires.len(),
+            lights: self.lights.len(),
+            cameras: self.cameras.len(),
+            escapes: self.escapes.len(),
+            unknown: self.unknown.len(),
+        }
+    }
+
+    /// A name for this group's table.
+    pub fn add_name(&mut self, name: &[u8]) -> NameId {
+        self.names.add(as_str(name))
+    }
+
+    fn name(&mut self, text: &[u8], name: Option<Span>) -> Option<NameId> {
+        name.map(|name| self.add_name(name.of(text)))
+    }
+
+    fn color(&mut self, text: &'t [u8], name: Option<Span>) -> Option<ColorId> {
+        name.map(|name| self.color_names.enter(name.of(text)))
+    }
+
+    /// True if a vertex of that name is defined here.
+    pub fn has_vertex(&self, name: &[u8]) -> bool {
+        let number = self.vertex_names.get(Name::new(name));
+        number.is_some_and(|number| self.vertex_rows.get(number as usize).is_some_and(|&row| row != NO_ROW))
+    }
+
+    /// Removes the faces of these rows, in order.
+    pub fn remove_faces(&mut self, rows: &[usize]) {
+        self.faces.remove(rows);
+        let before = |first: usize| first - rows.partition_point(|&row| row < first);
+        self.defaults.iter_mut().for_each(|default| default.first_face = before(default.first_face));
+        self.calls.rows.iter_mut().for_each(|call| call.before.faces = before(call.before.faces));
+    }
+
+    /// Removes the wires of these rows, in order.
+    pub fn remove_wires(&mut self, rows: &[usize]) {
+        self.wires.remove(rows);
+        let before = |first: usize| first - rows.partition_point(|&row| row < first);
+        self.defaults.iter_mut().for_each(|default| default.first_wire = before(default.first_wire));
+        self.calls.rows.iter_mut().for_each(|call| call.before.wires = before(call.before.wires));
+    }
+
+    /// The whole statement of a vertex, from the span of its name.
+    pub fn vertex_statement(text: &[u8], name: Span) -> Span {
+        let start = statement_start(&text[..name.start as usize]) as u32;
+        let rest = skip_statement(&text[name.end as usize..]).map_or(0, <[u8]>::len);
+        Span { start, end: (text.len() - rest) as u32 }
+    }
+
+    /// Where all statements stand, in the order of the text.
+    pub fn statements(&self, text: &[u8]) -> Vec<Span> {
+        let vertices = self.vertices.spans.iter().map(|&name| Self::vertex_statement(text, name));
+        let others = [
+            &self.faces.spans,
+            &self.wires.spans,
+            &self.lights.spans,
+            &self.cameras.spans,
+            &self.colors.spans,
+            &self.calls.spans,
+            &self.escapes.spans,
+            &self.unknown.spans,
+        ];
+        let mut spans: Vec<Span> = vertices.chain(others.into_iter().flatten().copied()).collect();
+        spans.sort();
+        spans
+    }
+}
+
+/// Identifiers are ASCII.
+pub(crate) fn as_str(name: &[u8]) -> &str {
+    std::str::from_utf8(name).unwrap_or_default()
+}
+
+fn lossy(text: &[u8], span: Span) -> String {
+    String::from_utf8_lossy(span.of(text)).into_owned()
+}
+
+/// Names of colours, numbered in the order in which they are used or defined.
+#[derive(Default)]
+pub(crate) struct ColorNames<'t> {
+    pub list: Vec<&'t [u8]>,
+    rows: FxHashMap<&'t [u8], ColorId>,
+    /// The one asked for last: neighbours often have one colour.
+    last: Option<ColorId>,
+}
+
+impl<'t> ColorNames<'t> {
+    /// The row of a name, which is entered if it is new.
+    #[inline]
+    pub fn enter(&mut self, name: &'t [u8]) -> ColorId {
+        match self.last {
+            Some(last) if self.list[last.index()] == name => last,
+            _ => self.enter_other(name),
+        }
+    }
+
+    fn enter_other(&mut self, name: &'t [u8]) -> ColorId {
+        let row = *self.rows.entry(name).or_insert_with(|| {
+            self.list.push(name);
+            ColorId::from_index(self.list.len() - 1)
+        });
+        self.last = Some(row);
+        row
+    }
+
+    /// The row of a name, if it is known.
+    pub fn get(&self, name: &[u8]) -> Option<usize> {
+        self.rows.get(name).map(|row| row.index())
+    }
+}
+
+/// Distinct velocities.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Velocities {
+    pub list: Vec<DVec3>,
+    /// By the bits of their numbers.
+    rows: FxHashMap<[u64; 3], VelocityId>,
+    /// The one asked for last: neighbours mostly move alike.
+    last: Option<([u64; 3], VelocityId)>,
+}
+
+impl Velocities {
+    /// The row of a velocity, which is entered if it is new.
+    pub fn id(&mut self, velocity: DVec3) -> VelocityId {
+        // Adding 0 makes -0 the same as 0.
+        let bits = (velocity + DVec3::ZERO).to_array().map(f64::to_bits);
+        if let Some((last, id)) = self.last
+            && last == bits
+        {
+            return id;
+        }
+        let id = *self.rows.entry(bits).or_insert_with(|| {
+            self.list.push(velocity);
+            VelocityId::from_index(self.list.len() - 1)
+        });
+        self.last = Some((bits, id));
+        id
+    }
+}

@@ -1,0 +1,174 @@
+//! Vertex names to numbers.
+//!
+//! Most vertices are called by a stem and a number: `v1`, `v2`, … So each stem
+//! has a table that is indexed by the number: nothing is hashed, and neighbours
+//! in the text are neighbours in memory. All other names go through a hash map.
+
+use rustc_hash::FxHashMap;
+
+/// Most digits of a number behind a stem; more are a part of the name.
+const MAX_DIGITS: usize = 9;
+
+/// Table entries a short text may have, whatever its length.
+const MIN_ROOM: usize = 1024;
+
+/// A name, taken apart.
+#[derive(Clone, Copy)]
+pub(crate) struct Name<'t> {
+    pub text: &'t [u8],
+    /// Bytes of the stem, if the rest is a number without leading zeros.
+    stem: Option<usize>,
+    number: u32,
+}
+
+impl<'t> Name<'t> {
+    pub fn new(text: &'t [u8]) -> Self {
+        let digits = text.iter().rev().take_while(|byte| byte.is_ascii_digit()).count();
+        let stem = text.len() - digits;
+        // What is not a number here is not used as one.
+        let number =
+            text[stem..].iter().take(MAX_DIGITS).fold(0, |sum, digit| sum * 10 + u32::from(digit - b'0'));
+        Self::with_number(text, stem, number)
+    }
+
+    /// The name whose first `stem` bytes are followed by digits that come to `number`.
+    #[inline(always)]
+    pub fn with_number(text: &'t [u8], stem: usize, number: u32) -> Self {
+        let digits = text.len() - stem;
+        let is_number = digits > 0 && digits <= MAX_DIGITS && (text[stem] != b'0' || digits == 1);
+        Self { text, stem: is_number.then_some(stem), number }
+    }
+}
+
+/// Numbers for names, from 0 in the order in which they are first asked for.
+#[derive(Default)]
+pub(crate) struct NumberedNames<'t> {
+    stems: Vec<Stem<'t>>,
+    stem_rows: FxHashMap<&'t [u8], usize>,
+    /// The stem asked for last.
+    last: usize,
+    others: FxHashMap<&'t [u8], u32>,
+    len: u32,
+    /// Entries the tables may still grow by.
+    room: usize,
+}
+
+struct Stem<'t> {
+    text: &'t [u8],
+    /// For each number one more than what it stands for, 0 for nothing.
+    entries: Vec<u32>,
+}
+
+impl<'t> NumberedNames<'t> {
+    /// For names of a text of that many bytes, to which the tables stay in proportion.
+    pub fn for_text(bytes: usize) -> Self {
+        Self { room: (bytes / 4).max(MIN_ROOM), ..Self::default() }
+    }
+
+    /// How many different names there are.
+    pub fn len(&self) -> usize {
+        self.len as usize
+    }
+
+    /// The number of a name, which is entered if it is new.
+    #[inline]
+    pub fn enter(&mut self, name: Name<'t>) -> u32 {
+        if let Some(len) = name.stem {
+            let stem = &name.text[..len];
+            if let Some(last) = self.stems.get(self.last)
+                && last.text == stem
+                && let Some(&entry @ 1..) = last.entries.get(name.number as usize)
+            {
+                return entry - 1;
+            }
+        }
+        self.enter_slowly(name)
+    }
+
+    /// The number of a name, if it is known.
+    pub fn get(&self, name: Name<'_>) -> Option<u32> {
+        let table = name.stem.and_then(|len| self.stem_rows.get(&name.text[..len]));
+        let entry = table.and_then(|&row| self.stems[row].entries.get(name.number as usize));
+        match entry {
+            Some(&entry @ 1..) => Some(entry - 1),
+            _ => self.others.get(name.text).copied(),
+        }
+    }
+
+    fn enter_slowly(&mut self, name: Name<'t>) -> u32 {
+        let Some(len) = name.stem else { return self.enter_other(name.text) };
+        self.last = self.stem(&name.text[..len]);
+        let entries = &mut self.stems[self.last].entries;
+        let idx = name.number as usize;
+        if idx >= entries.len() {
+            let wanted = (idx + 1).max(2 * entries.len()).min(entries.len() + self.room);
+            if wanted <= idx {
+                return self.enter_other(name.text);
+            }
+            self.room -= wanted - entries.len();
+            entries.resize(wanted, 0);
+        }
+        if entries[idx] == 0 {
+            // It may have been entered before its table was large enough.
+            if let Some(&known) = self.others.get(name.text) {
+                return known;
+            }
+            self.len += 1;
+            entries[idx] = self.len;
+        }
+        entries[idx] - 1
+    }
+
+    fn enter_other(&mut self, name: &'t [u8]) -> u32 {
+        *self.others.entry(name).or_insert_with(|| {
+            self.len += 1;
+            self.len - 1
+        })
+    }
+
+    fn stem(&mut self, text: &'t [u8]) -> usize {
+        if self.stems.get(self.last).is_some_and(|stem| stem.text == text) {
+            return self.last;
+        }
+        *self.stem_rows.entry(text).or_insert_with(|| {
+            self.stems.push(Stem { text, entries: Vec::new() });
+            self.stems.len() - 1
+        })
+    }
+
+    /// For each name of `other`, by its number there, its number here; those not known here are entered.
+    pub fn enter_all(&mut self, other: &NumberedNames<'t>) -> Vec<u32> {
+        let mut numbers = vec![0; other.len()];
+        for stem in &other.stems {
+            self.last = self.stem(stem.text);
+            for (idx, &entry) in stem.entries.iter().enumerate().filter(|(_, entry)| **entry != 0) {
+                numbers[entry as usize - 1] = self.enter_numbered(idx);
+            }
+        }
+        for (&name, &number) in &other.others {
+            numbers[number as usize] = self.enter(Name::new(name));
+        }
+        numbers
+    }
+
+    /// The number of the name that is put together from the last stem and `idx`.
+    fn enter_numbered(&mut self, idx: usize) -> u32 {
+        let stem = &mut self.stems[self.last];
+        if let Some(&entry @ 1..) = stem.entries.get(idx) {
+            return entry - 1;
+        }
+        if !self.others.is_empty() {
+            let name = [stem.text, idx.to_string().as_bytes()].concat();
+            if let Some(&known) = self.others.get(&name[..]) {
+                return known;
+            }
+        }
+        // The other table holds it, so this one stays in proportion, too.
+        if idx >= stem.entries.len() {
+            stem.entries.resize((idx + 1).max(2 * stem.entries.len()), 0);
+        }
+        self.len += 1;
+        stem.entries[idx] = self.len;
+        self.len - 1
+    }
+}

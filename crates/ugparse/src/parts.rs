@@ -1,0 +1,325 @@
+//! Large texts, read in parts on all threads.
+//!
+//! A text is cut at line ends behind a `;`. Each part is read as if it began
+//! between two statements of the file. The first part does, and if a part ends
+//! between two statements, the next one does, too; so if all parts are read to
+//! their ends without an error, they are what the whole text holds. If a cut
+//! falls into a comment or a definition, or if anything is wrong, then a part
+//! shows it, and the whole is read again in one go, which finds the words for it.
+
+use rayon::prelude::*;
+
+use crate::diagnostic::Diagnostic;
+use crate::group::{DefaultColor, Group, NO_ROW, Rows};
+use crate::names::NameId;
+use crate::reader::{Document, read, read_part};
+use crate::scene::{ColorId, Contours, IllumId, VelocityId, VertexId};
+
+/// Bytes a part should have at least.
+const MIN_PART: usize = 1 << 19;
+
+/// Rows that a thread should have at least.
+const MIN_ROWS: usize = 1 << 14;
+
+/// Reads a text, in parts if it is large and there are threads.
+pub(crate) fn read_all<'t>(text: &'t [u8], lax: bool, findings: &mut Vec<Diagnostic>) -> Document<'t> {
+    let n_parts = rayon::current_num_threads().min(text.len() / MIN_PART);
+    if n_parts > 1
+        && let Some((document, warnings)) = read_parts(text, n_parts, lax)
+    {
+        findings.extend(warnings);
+        return document;
+    }
+    read(text, lax, findings)
+}
+
+fn read_parts(text: &[u8], n_parts: usize, lax: bool) -> Option<(Document<'_>, Vec<Diagnostic>)> {
+    let mut cuts: Vec<usize> = (0..=n_parts).map(|part| cut(text, part, n_parts)).collect();
+    cuts.dedup();
+    let parts: Option<Vec<_>> =
+        cuts.par_windows(2).map(|cuts| read_part(&text[..cuts[1]], cuts[0], lax)).collect();
+    let (mut documents, warnings): (Vec<_>, Vec<_>) = parts?.into_iter().unzip();
+    let groups = documents.iter_mut().filter_map(|document| document.groups.pop()).collect();
+    let document = Document {
+        groups: vec![join(groups)?],
+        line_marks: documents.iter().flat_map(|document| document.line_marks.iter().cloned()).collect(),
+        includes: documents.iter().flat_map(|document| document.includes.iter().copied()).collect(),
+        first_statement: documents.iter().find_map(|document| document.first_statement),
+        comments: documents.into_iter().flat_map(|document| document.comments).collect(),
+    };
+    Some((document, warnings.concat()))
+}
+
+/// Where part `part` of `n_parts` begins: behind the next line that ends in a `;`.
+fn cut(text: &[u8], part: usize, n_parts: usize) -> usize {
+    if part == 0 {
+        return 0;
+    }
+    let from = text.len() / n_parts * part;
+    let mut ends = memchr::memchr_iter(b'\n', &text[from..]).map(|idx| from + idx);
+    let is_end = |end: &usize| text[..*end].trim_ascii_end().ends_with(b";");
+    if part == n_parts { text.len() } else { ends.find(is_end).map_or(text.len(), |end| end + 1) }
+}
+
+/// The tables of all parts in one; `None` if a name is defined twice.
+fn join<'t>(mut parts: Vec<Group<'t>>) -> Option<Group<'t>> {
+    // Calls stand between rows of all kinds; texts so large seldom have any.
+    let is_plain = |part: &Group<'_>| part.duplicates.is_empty() && part.calls.rows.is_empty();
+    if !parts.iter().all(is_plain) {
+        return None;
+    }
+    let mut file = Group::default();
+    let vertex_rows = vertices_of_parts(&mut parts, &mut file)?;
+    let mut before = Before::default();
+    let mut places = Vec::with_capacity(parts.len());
+    for part in &mut parts {
+        places.push(Place::behind(&mut file, before, part)?);
+        before.add(part);
+    }
+
+    file.is_linked = true;
+    file.contours = join_contours(&mut parts, &file.vertex_rows, &vertex_rows);
+    file.vertices = join_tables(
+        &mut parts,
+        &places,
+        |part| &mut part.vertices,
+        |vertex, place| {
+            vertex.name = place.name(vertex.name);
+            vertex.color = place.color(vertex.color);
+        },
+    );
+    file.faces = join_tables(
+        &mut parts,
+        &places,
+        |part| &mut part.faces,
+        |face, place| {
+            face.name = face.name.map(|name| place.name(name));
+            face.contours =
+                face.contours.start + place.first_contour..face.contours.end + place.first_contour;
+            face.color = place.color(face.color);
+            face.velocity = place.velocity(face.velocity);
+            face.illum = face.illum.map(|illum| IllumId::from_index(place.first_illum + illum.index()));
+        },
+    );
+    file.wires = join_tables(
+        &mut parts,
+        &places,
+        |part| &mut part.wires,
+        |wire, place| {
+            wire.name = wire.name.map(|name| place.name(name));
+            wire.contours =
+                wire.contours.start + place.first_contour..wire.contours.end + place.first_contour;
+            wire.color = place.color(wire.color);
+            wire.velocity = place.velocity(wire.velocity);
+        },
+    );
+    file.lights = join_tables(
+        &mut parts,
+        &places,
+        |part| &mut part.lights,
+        |light, place| {
+            light.name = light.name.map(|name| place.name(name));
+            light.color = place.color(light.color);
+            light.velocity = place.velocity(light.velocity);
+        },
+    );
+    file.cameras = join_tables(
+        &mut parts,
+        &places,
+        |part| &mut part.cameras,
+        |camera, place| {
+            camera.name = camera.name.map(|name| place.name(name));
+            camera.velocity = place.velocity(camera.velocity);
+        },
+    );
+    file.colors = join_tables(&mut parts, &places, |part| &mut part.colors, |_, _| {});
+    file.escapes = join_tables(&mut parts, &places, |part| &mut part.escapes, |_, _| {});
+    file.unknown = join_tables(&mut parts, &places, |part| &mut part.unknown, |_, _| {});
+    Some(file)
+}
+
+/// Puts the names of vertices together, and their rows. Gives, for each part but
+/// the first, for each number of a name there, the row in the whole file or
+/// [`NO_ROW`]. `None` if two vertices have one name.
+fn vertices_of_parts<'t>(parts: &mut [Group<'t>], file: &mut Group<'t>) -> Option<Vec<Vec<u32>>> {
+    let (first, others) = parts.split_first_mut()?;
+    file.vertex_names = std::mem::take(&mut first.vertex_names);
+    file.vertex_rows = std::mem::take(&mut first.vertex_rows);
+    let mut first_row = first.vertices.len() as u32;
+    let mut all_rows = Vec::with_capacity(others.len());
+    for part in &mut *others {
+        let numbers = file.vertex_names.enter_all(&std::mem::take(&mut part.vertex_names));
+        file.vertex_rows.resize(file.vertex_names.len(), NO_ROW);
+        let rows = std::mem::take(&mut part.vertex_rows);
+        for (&number, row) in numbers.iter().zip(rows).filter(|(_, row)| *row != NO_ROW) {
+            let before = std::mem::replace(&mut file.vertex_rows[number as usize], first_row + row);
+            if before != NO_ROW {
+                return None;
+            }
+        }
+        first_row += part.vertices.len() as u32;
+        all_rows.push(numbers);
+    }
+    // Only now all vertices are known.
+    for number in all_rows.iter_mut().flatten() {
+        *number = file.vertex_rows[*number as usize];
+    }
+    file.vertex_rows.resize(file.vertex_names.len(), NO_ROW);
+    Some(all_rows)
+}
+
+/// Rows in the parts before one.
+#[derive(Clone, Copy, Default)]
+struct Before {
+    contours: u32,
+    faces: usize,
+    wires: usize,
+}
+
+impl Before {
+    fn add(&mut self, part: &Group<'_>) {
+        self.contours += part.contours.row_count();
+        self.faces += part.faces.len();
+        self.wires += part.wires.len();
+    }
+}
+
+/// Where the rows of a part come in the whole file.
+struct Place {
+    first_name: usize,
+    first_contour: u32,
+    first_illum: usize,
+    colors: Vec<ColorId>,
+    velocities: Vec<VelocityId>,
+    /// Nothing in the part's rows has to change.
+    is_same: bool,
+}
+
+impl Place {
+    /// Behind what is in `file` already. Names, colours and velocities go there at
+    /// once. `None` if a colour is defined twice.
+    fn behind<'t>(file: &mut Group<'t>, before: Before, part: &mut Group<'t>) -> Option<Self> {
+        let colors: Vec<_> = part.color_names.list.iter().map(|name| file.color_names.enter(name)).collect();
+        let velocities: Vec<_> =
+            part.velocities.list.iter().map(|&velocity| file.velocities.id(velocity)).collect();
+        let place = Self {
+            first_name: file.names.len(),
+            first_contour: before.contours,
+            first_illum: file.illums.len(),
+            is_same: before.contours == 0
+                && (file.illums.is_empty() || part.illums.is_empty())
+                && (file.names.len() == 0 || part.names.len() == 0)
+                && colors.iter().enumerate().all(|(row, color)| color.index() == row)
+                && velocities.iter().enumerate().all(|(row, velocity)| velocity.index() == row),
+            colors,
+            velocities,
+        };
+        let first_color = file.color_spans.len() as u32;
+        file.color_rows.resize(file.color_names.list.len(), None);
+        for (row, name) in part.color_rows.iter().zip(&place.colors) {
+            let Some(row) = row else { continue };
+            if file.color_rows[name.index()].replace(first_color + row).is_some() {
+                return None;
+            }
+        }
+        file.color_spans.append(&mut part.color_spans);
+        file.defaults.extend(part.defaults.iter().map(|default| DefaultColor {
+            color: first_color + default.color,
+            first_face: before.faces + default.first_face,
+            first_wire: before.wires + default.first_wire,
+        }));
+        file.names.append(std::mem::take(&mut part.names));
+        file.illums.append(&mut part.illums);
+        file.n_statements += part.n_statements;
+        Some(place)
+    }
+
+    fn name(&self, name: NameId) -> NameId {
+        NameId::from_index(self.first_name + name.index())
+    }
+
+    fn color(&self, color: Option<ColorId>) -> Option<ColorId> {
+        color.map(|color| self.colors[color.index()])
+    }
+
+    fn velocity(&self, velocity: Option<VelocityId>) -> Option<VelocityId> {
+        velocity.map(|velocity| self.velocities[velocity.index()])
+    }
+}
+
+/// One table of all parts in one; `change` makes a row of a part one of the file.
+fn join_tables<'t, T: Clone + Send + Sync>(
+    parts: &mut [Group<'t>],
+    places: &[Place],
+    table: impl for<'p> Fn(&'p mut Group<'t>) -> &'p mut Rows<T>,
+    change: impl Fn(&mut T, &Place) + Send + Sync,
+) -> Rows<T> {
+    let (rows, spans) = parts.iter_mut().map(|part| std::mem::take(table(part)).into_parts()).unzip();
+    let is_same = |part: usize| places[part].is_same;
+    Rows {
+        rows: join_rows(rows, is_same, |row, part| change(row, &places[part])),
+        spans: join_rows(spans, |_| true, |_, _| {}),
+    }
+}
+
+/// Rows of all parts in order, put together on all threads. A part that is not
+/// changed, and holds by far the most, is not copied.
+fn join_rows<T: Clone + Send + Sync>(
+    mut parts: Vec<Vec<T>>,
+    is_same: impl Fn(usize) -> bool,
+    change: impl Fn(&mut T, usize) + Send + Sync,
+) -> Vec<T> {
+    let n_rows: usize = parts.iter().map(Vec::len).sum();
+    let largest = (0..parts.len()).max_by_key(|&part| parts[part].len()).unwrap_or(0);
+    if n_rows - parts[largest].len() <= n_rows / 8 {
+        for (part, rows) in parts.iter_mut().enumerate().filter(|(part, _)| !is_same(*part)) {
+            rows.par_iter_mut().with_min_len(MIN_ROWS).for_each(|row| change(row, part));
+        }
+        let mut behind = parts.split_off(largest);
+        let mut rows = behind.remove(0);
+        rows.splice(0..0, parts.into_iter().flatten());
+        rows.extend(behind.into_iter().flatten());
+        return rows;
+    }
+    let ends: Vec<usize> = parts
+        .iter()
+        .scan(0, |end, part| {
+            *end += part.len();
+            Some(*end)
+        })
+        .collect();
+    let row_of = |part: &mut usize, idx: usize| {
+        while idx >= ends[*part] {
+            *part += 1;
+        }
+        let mut row = parts[*part][idx + parts[*part].len() - ends[*part]].clone();
+        change(&mut row, *part);
+        row
+    };
+    (0..n_rows).into_par_iter().with_min_len(MIN_ROWS).map_with(0, row_of).collect()
+}
+
+/// Contours of all parts, with rows of vertices for corners: those of the first
+/// part by `first_rows`, of the others by `other_rows`.
+fn join_contours(parts: &mut [Group<'_>], first_rows: &[u32], other_rows: &[Vec<u32>]) -> Contours {
+    let (mut corners, mut ends) = (Vec::new(), Vec::new());
+    let mut first_corners = Vec::new();
+    let mut first_corner = 0;
+    for part in parts {
+        let (part_corners, part_ends) = part.contours.parts_mut();
+        first_corners.push(first_corner);
+        first_corner += part_corners.len() as u32;
+        corners.push(std::mem::take(part_corners));
+        ends.push(std::mem::take(part_ends));
+    }
+    let corners = join_rows(
+        corners,
+        |_| false,
+        |corner: &mut VertexId, part| {
+            let rows = part.checked_sub(1).map_or(first_rows, |other| &other_rows[other][..]);
+            *corner = VertexId(rows[corner.index()]);
+        },
+    );
+    let ends = join_rows(ends, |part| first_corners[part] == 0, |end, part| *end += first_corners[part]);
+    Contours::from_parts(corners, ends)
+}

@@ -1,0 +1,192 @@
+//! The two statements that fill files, vertices and faces, read without ceremony.
+//!
+//! Whatever is not plain at once, be it a comment between two words, a normal
+//! or a mistake, is left to the [grammar](crate::grammar), which reads the
+//! statement from its beginning, and says what is wrong.
+
+use glam::DVec3;
+
+use crate::group::Group;
+use crate::numbered::Name;
+use crate::scene::{Face, VertexId};
+use crate::source::Span;
+use crate::token::{begins_identifier, ends_word, is_blank, is_identifier, number, short_decimal};
+
+/// Reads `v ID x y z [color] ;` or `f [ID] contours [color] [< x y z >] ;` at
+/// `start` and gives the position behind it; `None` for everything else.
+#[inline]
+pub(crate) fn statement<'t>(text: &'t [u8], start: usize, group: &mut Group<'t>) -> Option<usize> {
+    let cursor = Cursor { text, at: start + 1 };
+    match text.get(start)? {
+        b'v' if is_blank(*text.get(start + 1)?) => vertex(cursor, group),
+        b'f' if is_blank(*text.get(start + 1)?) => face(cursor, start, group),
+        _ => None,
+    }
+}
+
+fn vertex<'t>(mut cursor: Cursor<'t>, group: &mut Group<'t>) -> Option<usize> {
+    cursor.skip_blank();
+    let name = cursor.name()?;
+    let span = Span { start: (cursor.at - name.text.len()) as u32, end: cursor.at as u32 };
+    let position = cursor.point()?;
+    cursor.skip_blank();
+    let color = cursor.identifier();
+    cursor.mark(b';')?;
+    let color = color.map(|color| group.color_names.enter(color));
+    group.n_statements += 1;
+    group.push_vertex(name, span, position, color, None);
+    Some(cursor.at)
+}
+
+fn face<'t>(mut cursor: Cursor<'t>, start: usize, group: &mut Group<'t>) -> Option<usize> {
+    cursor.skip_blank();
+    let name = cursor.identifier();
+    let first = group.contours.len();
+    let Some(tail) = contours(&mut cursor, group).and_then(|()| Tail::read(&mut cursor)) else {
+        group.contours.truncate(first);
+        return None;
+    };
+    let face = Face {
+        name: name.map(|name| group.add_name(name)),
+        contours: first as u32..group.contours.row_count(),
+        color: tail.color.map(|color| group.color_names.enter(color)),
+        illum: None,
+        velocity: tail.velocity.map(|velocity| group.velocities.id(velocity)),
+    };
+    group.n_statements += 1;
+    group.faces.push(face, Span { start: start as u32, end: cursor.at as u32 });
+    Some(cursor.at)
+}
+
+/// One or more `( ID … )`.
+#[inline(always)]
+fn contours<'t>(cursor: &mut Cursor<'t>, group: &mut Group<'t>) -> Option<()> {
+    cursor.mark(b'(')?;
+    loop {
+        cursor.skip_blank();
+        // A contour has one corner at least.
+        loop {
+            let name = cursor.name()?;
+            group.contours.push_corner(VertexId(group.vertex_names.enter(name)));
+            cursor.skip_blank();
+            if cursor.next_is(b')') {
+                break;
+            }
+        }
+        cursor.at += 1;
+        group.contours.end_contour();
+        cursor.skip_blank();
+        if !cursor.next_is(b'(') {
+            return Some(());
+        }
+        cursor.at += 1;
+    }
+}
+
+/// What follows the contours of a face.
+struct Tail<'t> {
+    color: Option<&'t [u8]>,
+    velocity: Option<DVec3>,
+}
+
+impl<'t> Tail<'t> {
+    #[inline(always)]
+    fn read(cursor: &mut Cursor<'t>) -> Option<Self> {
+        let color = cursor.identifier();
+        cursor.skip_blank();
+        let velocity = if cursor.next_is(b'<') { Some(cursor.velocity()?) } else { None };
+        cursor.mark(b';')?;
+        Some(Self { color, velocity })
+    }
+}
+
+#[derive(Clone, Copy)]
+struct Cursor<'t> {
+    text: &'t [u8],
+    at: usize,
+}
+
+impl<'t> Cursor<'t> {
+    #[inline(always)]
+    fn next_is(&self, byte: u8) -> bool {
+        self.text.get(self.at) == Some(&byte)
+    }
+
+    #[inline(always)]
+    fn skip_blank(&mut self) {
+        while self.text.get(self.at).is_some_and(|&byte| is_blank(byte)) {
+            self.at += 1;
+        }
+    }
+
+    #[inline(always)]
+    fn mark(&mut self, byte: u8) -> Option<()> {
+        self.skip_blank();
+        self.next_is(byte).then(|| self.at += 1)
+    }
+
+    /// A name that begins here, taken apart on the way.
+    #[inline(always)]
+    fn name(&mut self) -> Option<Name<'t>> {
+        let start = self.at;
+        begins_identifier(*self.text.get(start)?).then_some(())?;
+        let (mut stem, mut number) = (1, 0u32);
+        let mut len = 1;
+        let end = loop {
+            let byte = *self.text.get(start + len)?;
+            let digit = byte.wrapping_sub(b'0');
+            if digit < 10 {
+                number = number.wrapping_mul(10).wrapping_add(u32::from(digit));
+            } else if is_identifier(byte) {
+                (stem, number) = (len + 1, 0);
+            } else {
+                break byte;
+            }
+            len += 1;
+        };
+        if !ends_word(end) {
+            return None;
+        }
+        self.at = start + len;
+        Some(Name::with_number(&self.text[start..self.at], stem, number))
+    }
+
+    /// A name, if one begins here; what is wrong with it shows at the mark behind it.
+    #[inline(always)]
+    fn identifier(&mut self) -> Option<&'t [u8]> {
+        if !self.text.get(self.at).is_some_and(|&byte| begins_identifier(byte)) {
+            return None;
+        }
+        let rest = &self.text[self.at..];
+        let len = rest.iter().position(|&byte| !is_identifier(byte)).unwrap_or(rest.len());
+        self.at += len;
+        Some(&rest[..len])
+    }
+
+    #[inline(always)]
+    fn number(&mut self) -> Option<f64> {
+        self.skip_blank();
+        let rest = &self.text[self.at..];
+        if let Some((value, len)) = short_decimal(rest) {
+            self.at += len;
+            return Some(value);
+        }
+        // A comment is no plain blank.
+        let (behind, value) = number(rest).ok().filter(|_| rest.first() != Some(&b'{'))?;
+        self.at = self.text.len() - behind.len();
+        Some(value)
+    }
+
+    #[inline(always)]
+    fn point(&mut self) -> Option<DVec3> {
+        Some(DVec3::new(self.number()?, self.number()?, self.number()?))
+    }
+
+    /// `< x y z >`, slower than light.
+    fn velocity(&mut self) -> Option<DVec3> {
+        self.at += 1;
+        let velocity = self.point()?;
+        self.mark(b'>')?;
+        (velocity.length_squared() < 1.0).then_some(velocity)
+    }
+}

@@ -1,0 +1,566 @@
+//! Names to rows, when all of the text is read: colours, vertices and
+//! definitions of every scope, each looked up and checked once, however often a
+//! definition is placed.
+
+use rayon::prelude::*;
+use rustc_hash::{FxHashMap, FxHashSet};
+
+use crate::diagnostic::Diagnostic;
+use crate::grammar::Grammar;
+use crate::group::{Call, Group, NO_ROW};
+use crate::scene::{Color, ColorId, Face, Scene, VertexId, newell_normal};
+use crate::source::Span;
+use crate::statement::{CallStatement, References, Repeat, Statement};
+use crate::token::word;
+
+/// Statements a scene may have after instances and arrays are placed. Each
+/// takes some 200 bytes, so this is where memory of common machines ends.
+const MAX_PLACED: u64 = 50_000_000;
+
+/// Corners of all placed faces and wires; each takes 4 bytes.
+const MAX_CORNERS: u64 = 500_000_000;
+
+/// Bytes that the names of a placed scene may have together; positions of
+/// names are 32-bit.
+const MAX_NAME_BYTES: u64 = 2 << 30;
+
+/// The same for the names of colours alone, paths included.
+const MAX_COLOR_BYTES: usize = 1 << 29;
+
+/// How long a chain of definitions that place each other may be; the placing
+/// recurses, and this keeps it well inside the stack.
+const MAX_CHAIN: usize = 200;
+
+/// Rows from which on threads are worth their start.
+const MANY_ROWS: usize = 1 << 16;
+
+/// What calls refer to.
+#[derive(Default)]
+pub(crate) struct Links {
+    /// For each group, for each call.
+    pub calls: Vec<Vec<Link>>,
+    /// For each group, the row of its first colour in the scene.
+    pub first_colors: Vec<usize>,
+}
+
+/// What one call refers to.
+pub(crate) struct Link {
+    /// The group that is placed; `None` if it is not defined.
+    pub target: Option<usize>,
+    /// The name to put into paths.
+    pub label: String,
+}
+
+/// Resolves all names of `groups`; colours go into `scene` on the way.
+pub(crate) fn settle(
+    text: &[u8],
+    groups: &mut [Group<'_>],
+    scene: &mut Scene,
+    findings: &mut Vec<Diagnostic>,
+) -> Links {
+    for group in groups.iter() {
+        findings.extend(group.duplicates.iter().map(|duplicate| {
+            let shown = show(text, duplicate.again);
+            Diagnostic::error(duplicate.again, format!("{} `{shown}` is defined twice", duplicate.kind))
+                .label("again here")
+                .other(duplicate.first, "first here")
+                .help("give one of them another name")
+        }));
+    }
+    let own_sizes = groups.iter().map(Group::own_size).collect();
+    // The names of the file come first, so that they need not be moved.
+    scene.names = std::mem::take(&mut groups[0].names);
+    let Some(first_colors) = gather_colors(text, groups, scene, findings) else { return Links::default() };
+    for row in 0..groups.len() {
+        let colors = visible_colors(groups, row, &first_colors);
+        let group = &mut groups[row];
+        let has_colors = paint(group, &colors);
+        let has_corners = link_corners(group);
+        if !(has_colors && has_corners) {
+            Complaints { text, groups, row, findings }.about_all();
+        }
+        let group = &mut groups[row];
+        leave_out_flat_faces(text, group, has_corners, findings);
+        leave_out_short_wires(text, group, has_corners, findings);
+    }
+    apply_default_colors(&mut groups[0]);
+    let calls = (0..groups.len()).map(|row| link_calls(text, groups, row, findings)).collect();
+    let links = Links { calls, first_colors };
+    Sizes { text, groups, own_sizes, links: &links }.check_calls(findings);
+    links
+}
+
+/// Puts the colours of all groups into the scene; gives the row of the first of each group.
+fn gather_colors(
+    text: &[u8],
+    groups: &mut [Group<'_>],
+    scene: &mut Scene,
+    findings: &mut Vec<Diagnostic>,
+) -> Option<Vec<usize>> {
+    let mut first_colors = Vec::with_capacity(groups.len());
+    let mut bytes = 0;
+    for row in 0..groups.len() {
+        first_colors.push(scene.colors.len());
+        if groups[row].colors.rows.is_empty() {
+            continue;
+        }
+        let prefix = scope_prefix(text, groups, row);
+        let group = &mut groups[row];
+        let colors = std::mem::take(&mut group.colors.rows);
+        for ((color, span), name) in colors.into_iter().zip(&group.colors.spans).zip(&group.color_spans) {
+            bytes += prefix.len() + span.len();
+            if bytes > MAX_COLOR_BYTES {
+                findings.push(long_color_names(*span));
+                return None;
+            }
+            let own = match name {
+                Some(name) => show(text, *name),
+                None => format!("unnamed#{}", scene.colors.len()),
+            };
+            let name = scene.names.add_parts(&[&prefix, &own]);
+            scene.colors.push(Color { name, ..color });
+        }
+    }
+    Some(first_colors)
+}
+
+/// `outer:inner:` for the colours of a nested definition, empty for the file's.
+fn scope_prefix(text: &[u8], groups: &[Group<'_>], row: usize) -> String {
+    scopes(groups, row)
+        .filter(|&scope| groups[scope].parent.is_some())
+        .fold(String::new(), |inner, scope| format!("{}:{inner}", show(text, groups[scope].name)))
+}
+
+/// A group and those round it, from the inner to the outer.
+fn scopes<'g>(groups: &'g [Group<'_>], row: usize) -> impl Iterator<Item = usize> + use<'g> {
+    std::iter::successors(Some(row), |&scope| groups[scope].parent)
+}
+
+/// For each name of a colour in a group, the colour it means.
+fn visible_colors(groups: &[Group<'_>], row: usize, first_colors: &[usize]) -> Vec<Option<ColorId>> {
+    let names = groups[row].color_names.list.iter();
+    names
+        .map(|name| {
+            scopes(groups, row).find_map(|scope| own_color(&groups[scope], name, first_colors[scope]))
+        })
+        .collect()
+}
+
+fn own_color(group: &Group<'_>, name: &[u8], first_color: usize) -> Option<ColorId> {
+    let row = group.color_rows.get(group.color_names.get(name)?).copied().flatten()?;
+    Some(ColorId::from_index(first_color + row as usize))
+}
+
+/// Turns names of colours into colours; false if one is not defined.
+fn paint(group: &mut Group<'_>, colors: &[Option<ColorId>]) -> bool {
+    let stays = |(row, color): (usize, &Option<ColorId>)| *color == Some(ColorId::from_index(row));
+    if colors.iter().enumerate().all(stays) {
+        return true;
+    }
+    let paint = |color: &mut Option<ColorId>| *color = color.and_then(|name| colors[name.index()]);
+    for_all(&mut group.vertices.rows, |vertex| paint(&mut vertex.color));
+    for_all(&mut group.faces.rows, |face| paint(&mut face.color));
+    group.wires.rows.iter_mut().for_each(|wire| paint(&mut wire.color));
+    group.lights.rows.iter_mut().for_each(|light| paint(&mut light.color));
+    group.calls.rows.iter_mut().for_each(|call| paint(&mut call.color));
+    colors.iter().all(Option::is_some)
+}
+
+/// Turns numbers of names into rows of vertices; false if a vertex is not defined.
+fn link_corners(group: &mut Group<'_>) -> bool {
+    let names = std::mem::take(&mut group.vertex_names);
+    let mut rows = std::mem::take(&mut group.vertex_rows);
+    rows.resize(names.len(), NO_ROW);
+    let (corners, _) = group.contours.parts_mut();
+    let in_order = rows.iter().enumerate().all(|(number, &row)| number == row as usize);
+    if !group.is_linked && !in_order {
+        for_all(corners, |corner| *corner = VertexId(rows[corner.index()]));
+    }
+    let is_complete = in_order || !corners.contains(&VertexId(NO_ROW));
+    group.vertex_names = names;
+    group.vertex_rows = rows;
+    is_complete
+}
+
+/// On several threads if there are many.
+fn for_all<T: Send>(rows: &mut [T], change: impl Fn(&mut T) + Send + Sync) {
+    if rows.len() < MANY_ROWS {
+        rows.iter_mut().for_each(change);
+    } else {
+        rows.par_iter_mut().with_min_len(MANY_ROWS / 4).for_each(change);
+    }
+}
+
+/// The rows that `test` holds for, on several threads if there are many.
+fn rows_where<T: Sync>(rows: &[T], test: impl Fn(&T) -> bool + Sync) -> Vec<usize> {
+    let keep = |(row, value)| test(value).then_some(row);
+    if rows.len() < MANY_ROWS {
+        return rows.iter().enumerate().filter_map(keep).collect();
+    }
+    rows.par_iter().enumerate().with_min_len(MANY_ROWS / 4).filter_map(keep).collect()
+}
+
+/// Faces with fewer than three different vertices in a contour, or without area, are warned about.
+fn leave_out_flat_faces(
+    text: &[u8],
+    group: &mut Group<'_>,
+    has_corners: bool,
+    findings: &mut Vec<Diagnostic>,
+) {
+    let is_whole = |face: &Face| has_corners || is_linked(group.contours.corners(face.contours.clone()));
+    let flat = rows_where(&group.faces.rows, |face| is_whole(face) && flatness(group, face).is_some());
+    for &row in &flat {
+        let problem = flatness(group, &group.faces.rows[row]).unwrap_or_default();
+        let span = group.faces.spans[row];
+        findings.push(left_out(text, span, "face", problem, "remove it, or mend its vertices"));
+    }
+    group.remove_faces(&flat);
+}
+
+fn is_linked(corners: &[VertexId]) -> bool {
+    !corners.contains(&VertexId(NO_ROW))
+}
+
+/// Why a face draws nothing.
+fn flatness(group: &Group<'_>, face: &Face) -> Option<&'static str> {
+    if !group.contours.iter(face.contours.clone()).all(has_three) {
+        return Some("has a contour of fewer than 3 different vertices");
+    }
+    let outline = group.contours.get(face.contours.start);
+    let corners = outline.iter().map(|corner| group.vertices.rows[corner.index()].position);
+    (newell_normal(corners) == glam::DVec3::ZERO).then_some("has no area")
+}
+
+fn leave_out_short_wires(
+    text: &[u8],
+    group: &mut Group<'_>,
+    has_corners: bool,
+    findings: &mut Vec<Diagnostic>,
+) {
+    let short = rows_where(&group.wires.rows, |wire| {
+        let is_whole = has_corners || is_linked(group.contours.corners(wire.contours.clone()));
+        is_whole && group.contours.iter(wire.contours.clone()).any(|contour| contour.len() < 2)
+    });
+    for &row in &short {
+        let problem = "has a contour of fewer than 2 vertices";
+        findings.push(left_out(text, group.wires.spans[row], "wire", problem, "remove it, or add a vertex"));
+    }
+    group.remove_wires(&short);
+}
+
+fn left_out(text: &[u8], span: Span, kind: &str, problem: &str, remedy: &str) -> Diagnostic {
+    let name = face_name(text, span);
+    let shown = name.map_or(String::new(), |name| format!(" `{}`", show(text, name)));
+    let span = name.unwrap_or(Span { start: span.start, end: span.start + 1 });
+    Diagnostic::warning(span, format!("{kind}{shown} {problem}")).label("left out").help(remedy)
+}
+
+/// Where the name of the face or wire at `span` stands.
+pub(crate) fn face_name(text: &[u8], span: Span) -> Option<Span> {
+    match read_again(text, span, &mut References::default()) {
+        Some(Statement::Face(face) | Statement::Wire(face)) => face.name,
+        _ => None,
+    }
+}
+
+/// The statement at `span`, which has been read without an error before.
+fn read_again(text: &[u8], span: Span, references: &mut References) -> Option<Statement> {
+    let (body, keyword) = word(&text[span.start as usize..]).ok()?;
+    let (_, statement) = Grammar { text }.statement(keyword, body, references)?.ok()?;
+    Some(statement)
+}
+
+/// The unnamed colour in force where the faces of the file are written. Those
+/// of definitions get it when they are placed, behind the colours of calls.
+fn apply_default_colors(file: &mut Group<'_>) {
+    let Group { defaults, faces, wires, .. } = file;
+    for (idx, default) in defaults.iter().enumerate() {
+        let next = defaults.get(idx + 1);
+        // The file's colours are the first of the scene.
+        let color = Some(ColorId::from_index(default.color as usize));
+        let end = next.map_or(faces.len(), |next| next.first_face);
+        for face in &mut faces.rows[default.first_face..end] {
+            face.color = face.color.or(color);
+        }
+        let end = next.map_or(wires.len(), |next| next.first_wire);
+        for wire in &mut wires.rows[default.first_wire..end] {
+            wire.color = wire.color.or(color);
+        }
+    }
+}
+
+/// Reads the statements of a group again, and complains about every name that is not defined.
+struct Complaints<'g, 't, 'f> {
+    text: &'t [u8],
+    groups: &'g [Group<'t>],
+    row: usize,
+    findings: &'f mut Vec<Diagnostic>,
+}
+
+impl Complaints<'_, '_, '_> {
+    fn about_all(&mut self) {
+        let mut references = References::default();
+        for span in self.groups[self.row].statements(self.text) {
+            match read_again(self.text, span, &mut references) {
+                Some(Statement::Vertex(vertex)) => self.about_color(vertex.color),
+                Some(Statement::Light(light)) => self.about_color(light.color),
+                Some(Statement::Call(call)) => self.about_color(call.color),
+                Some(Statement::Face(face) | Statement::Wire(face)) => {
+                    self.about_color(face.color);
+                    references.names.iter().for_each(|&name| self.about_vertex(name));
+                }
+                _ => {}
+            }
+        }
+    }
+
+    fn about_color(&mut self, name: Option<Span>) {
+        let Some(name) = name else { return };
+        let is_defined = |scope: usize| own_color(&self.groups[scope], name.of(self.text), 0).is_some();
+        if !scopes(self.groups, self.row).any(is_defined) {
+            let remedy = "define it with a `c` or `c_rgb` statement";
+            self.findings.push(undefined(self.text, "colour", name, remedy));
+        }
+    }
+
+    fn about_vertex(&mut self, name: Span) {
+        let own = name.of(self.text);
+        if self.groups[self.row].has_vertex(own) {
+            return;
+        }
+        let remedy = if own.contains(&b':') {
+            "define it with a `v` statement: vertices of instances cannot be used outside them"
+        } else if self.row == 0 {
+            "define it with a `v` statement"
+        } else {
+            "define it with a `v` statement in the same `def`: vertices of the scope outside are not seen here"
+        };
+        self.findings.push(undefined(self.text, "vertex", name, remedy));
+    }
+}
+
+fn undefined(text: &[u8], kind: &str, name: Span, remedy: &str) -> Diagnostic {
+    Diagnostic::error(name, format!("{kind} `{}` is not defined", show(text, name)))
+        .label("used here")
+        .help(remedy)
+}
+
+fn show(text: &[u8], name: Span) -> String {
+    String::from_utf8_lossy(name.of(text)).into_owned()
+}
+
+/// Definitions and labels of the calls of a group.
+fn link_calls(text: &[u8], groups: &[Group<'_>], row: usize, findings: &mut Vec<Diagnostic>) -> Vec<Link> {
+    let calls = &groups[row].calls.rows;
+    let mut labels = Labels { taken: FxHashMap::default(), only_call: calls.len() == 1 };
+    let links = calls.iter().map(|Call { statement: call, .. }| {
+        let name = call.definition.of(text);
+        let target = scopes(groups, row).find_map(|scope| groups[scope].definitions.get(name));
+        if target.is_none() {
+            let remedy = "define it with `def NAME ; … end ;`";
+            findings.push(undefined(text, "definition", call.definition, remedy));
+        }
+        let target = target.map(|&(group, _)| group);
+        Link { target, label: labels.next(text, call) }
+    });
+    links.collect()
+}
+
+/// Measures what calls come to.
+struct Sizes<'g, 't> {
+    text: &'t [u8],
+    groups: &'g [Group<'t>],
+    own_sizes: Vec<Size>,
+    links: &'g Links,
+}
+
+impl Sizes<'_, '_> {
+    /// Finds definitions that place themselves, chains that are too long, and
+    /// scenes that would grow without bound: before anything is placed.
+    fn check_calls(&self, findings: &mut Vec<Diagnostic>) {
+        let mut sizes: Vec<Option<Size>> = vec![None; self.groups.len()];
+        // Definitions that nothing places are checked, too.
+        for root in 0..sizes.len() {
+            if let Err(finding) = self.measure(root, &mut sizes) {
+                findings.push(finding);
+                return;
+            }
+        }
+        if let Some(size) = sizes[0]
+            && let Some(finding) = self.too_large(size)
+        {
+            findings.push(finding);
+        }
+    }
+
+    /// Sizes of `root` and of all that it places, without recursion.
+    fn measure(&self, root: usize, sizes: &mut [Option<Size>]) -> Result<(), Diagnostic> {
+        if sizes[root].is_some() {
+            return Ok(());
+        }
+        let mut on_path = FxHashSet::from_iter([root]);
+        // Each entry: a group and the call of its that is looked at next.
+        let mut path: Vec<(usize, usize)> = vec![(root, 0)];
+        while let Some(&mut (row, ref mut next)) = path.last_mut() {
+            let idx = *next;
+            *next += 1;
+            let Some(link) = self.links.calls[row].get(idx) else {
+                sizes[row] = Some(self.size(row, sizes));
+                on_path.remove(&row);
+                path.pop();
+                continue;
+            };
+            let Some(target) = link.target else { continue };
+            let call = &self.groups[row].calls.rows[idx].statement;
+            if on_path.contains(&target) {
+                return Err(self.recursion(call));
+            }
+            // The file itself is no link of the chain.
+            let below = sizes[target].map_or(1, |size| size.levels);
+            if path.len() - 1 + below > MAX_CHAIN {
+                return Err(too_long(call));
+            }
+            if sizes[target].is_none() {
+                on_path.insert(target);
+                path.push((target, 0));
+            }
+        }
+        Ok(())
+    }
+
+    /// What a group comes to, the groups it places included.
+    fn size(&self, row: usize, sizes: &[Option<Size>]) -> Size {
+        let mut total = self.own_sizes[row];
+        let mut largest = 0;
+        for (call, link) in self.groups[row].calls.rows.iter().zip(&self.links.calls[row]) {
+            let Some(target) = link.target else { continue };
+            let each = sizes[target].unwrap_or_default();
+            let own = each.placed(copies(&call.statement), link.label.len());
+            if own.statements > largest {
+                largest = own.statements;
+                total.largest_call = Some(call.statement.definition);
+            }
+            total.add(&own);
+        }
+        total.levels += 1;
+        total
+    }
+
+    fn recursion(&self, call: &CallStatement) -> Diagnostic {
+        let shown = show(self.text, call.definition);
+        Diagnostic::error(call.definition, format!("definition `{shown}` contains itself"))
+            .label("placed here, inside itself")
+            .help("a definition may not place itself, directly or through others")
+    }
+
+    /// The message for a scene that is too large to place.
+    fn too_large(&self, size: Size) -> Option<Diagnostic> {
+        let (count, limit, what) = [
+            (size.statements, MAX_PLACED, "statements"),
+            (size.corners, MAX_CORNERS, "corners of faces"),
+            (size.name_bytes, MAX_NAME_BYTES, "bytes of names"),
+        ]
+        .into_iter()
+        .find(|&(count, limit, _)| count > limit)?;
+        let count = if count == u64::MAX { "too many".to_string() } else { count.to_string() };
+        let place = size.largest_call.unwrap_or_default();
+        Some(
+            Diagnostic::error(place, format!("the placed scene would have {count} {what}"))
+                .label("most of them from here")
+                .help(format!("the limit is {limit}; use smaller arrays")),
+        )
+    }
+}
+
+fn long_color_names(span: Span) -> Diagnostic {
+    Diagnostic::error(span, "the names of colours, with those of their definitions before them, are too long")
+        .label("this one is too much")
+        .help("use shorter names for definitions that hold colours")
+}
+
+fn too_long(call: &CallStatement) -> Diagnostic {
+    Diagnostic::error(call.definition, "definitions place each other in too long a chain")
+        .label("here")
+        .help(format!("the limit is {MAX_CHAIN} levels"))
+}
+
+/// Three different entries.
+fn has_three(corners: &[VertexId]) -> bool {
+    let Some((&a, rest)) = corners.split_first() else { return false };
+    let Some(&b) = rest.iter().find(|&&c| c != a) else { return false };
+    rest.iter().any(|&c| c != a && c != b)
+}
+
+fn copies(call: &CallStatement) -> u64 {
+    match call.repeat {
+        Repeat::Once => 1,
+        Repeat::Times(copies, _) => copies,
+    }
+}
+
+/// What a group comes to when it is placed; sums stop at the largest number.
+#[derive(Clone, Copy, Default)]
+struct Size {
+    statements: u64,
+    corners: u64,
+    names: u64,
+    name_bytes: u64,
+    /// Length of the longest chain of groups that place each other.
+    levels: usize,
+    /// Where most of it comes from.
+    largest_call: Option<Span>,
+}
+
+impl Size {
+    /// The size of that many copies, whose names get a path with `label` in it.
+    fn placed(&self, copies: u64, label: usize) -> Self {
+        // The colon, and the number of a copy of an array.
+        let added = label as u64 + 1 + if copies > 1 { 9 } else { 2 };
+        let name_bytes = self.name_bytes.saturating_add(self.names.saturating_mul(added));
+        Self {
+            statements: copies.saturating_mul(self.statements.saturating_add(1)),
+            corners: copies.saturating_mul(self.corners),
+            names: copies.saturating_mul(self.names),
+            name_bytes: copies.saturating_mul(name_bytes),
+            ..*self
+        }
+    }
+
+    fn add(&mut self, other: &Self) {
+        self.statements = self.statements.saturating_add(other.statements);
+        self.corners = self.corners.saturating_add(other.corners);
+        self.names = self.names.saturating_add(other.names);
+        self.name_bytes = self.name_bytes.saturating_add(other.name_bytes);
+        self.levels = self.levels.max(other.levels);
+    }
+}
+
+impl Group<'_> {
+    /// What a group comes to without its calls. Faces that are left out count, too.
+    fn own_size(&self) -> Size {
+        let (corners, names) = (self.contours.corner_count() as u64, self.names.len() as u64);
+        let name_bytes = self.names.len_bytes() as u64;
+        Size { statements: self.n_statements, corners, names, name_bytes, ..Size::default() }
+    }
+}
+
+/// Makes names for the calls of a group, unique in it.
+struct Labels {
+    taken: FxHashMap<String, u32>,
+    only_call: bool,
+}
+
+impl Labels {
+    /// The next call's label: its name, else its definition's name; nothing
+    /// for a nameless array that is alone, whose element number says enough.
+    fn next(&mut self, text: &[u8], call: &CallStatement) -> String {
+        let is_array = matches!(call.repeat, Repeat::Times(..));
+        let label = match call.name {
+            None if is_array && self.only_call => String::new(),
+            name => show(text, name.unwrap_or(call.definition)),
+        };
+        let uses = self.taken.entry(label.clone()).or_default();
+        *uses += 1;
+        if *uses > 1 { format!("{label}_{uses}") } else { label }
+    }
+}

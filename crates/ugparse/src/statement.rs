@@ -1,0 +1,103 @@
+//! A statement as written: names as spans of the text, nothing looked up.
+
+use std::ops::Range;
+
+use glam::DVec3;
+
+use crate::scene::Camera;
+use crate::source::Span;
+use crate::transform::Transform;
+
+/// Vertex references of the contours of one statement.
+#[derive(Debug, Default)]
+pub(crate) struct References {
+    pub names: Vec<Span>,
+    /// End of each contour in `names`.
+    pub ends: Vec<usize>,
+}
+
+impl References {
+    pub fn clear(&mut self) {
+        self.names.clear();
+        self.ends.clear();
+    }
+
+    /// Rows of [`References::names`], contour after contour.
+    pub fn contours(&self) -> impl Iterator<Item = Range<usize>> {
+        let starts = std::iter::once(0).chain(self.ends.iter().copied());
+        starts.zip(&self.ends).map(|(start, &end)| start..end)
+    }
+}
+
+#[derive(Debug)]
+pub(crate) enum Statement {
+    Vertex(VertexStatement),
+    Face(FaceStatement),
+    Wire(FaceStatement),
+    Color(ColorStatement),
+    Light(LightStatement),
+    Camera(CameraStatement),
+    Call(CallStatement),
+}
+
+#[derive(Debug)]
+pub(crate) struct VertexStatement {
+    pub name: Span,
+    pub position: DVec3,
+    pub color: Option<Span>,
+    pub normal: Option<DVec3>,
+}
+
+/// A face, or a wire (which has no `illum`); its contours are in [`References`].
+#[derive(Debug)]
+pub(crate) struct FaceStatement {
+    pub name: Option<Span>,
+    pub color: Option<Span>,
+    pub illum: Option<f64>,
+    pub velocity: Option<DVec3>,
+}
+
+#[derive(Debug)]
+pub(crate) struct ColorStatement {
+    pub name: Option<Span>,
+    pub value: crate::scene::ColorValue,
+    pub translucency: f64,
+}
+
+#[derive(Debug)]
+pub(crate) struct LightStatement {
+    pub name: Option<Span>,
+    pub intensity: f64,
+    pub vector: Option<DVec3>,
+    pub radius: Option<f64>,
+    pub color: Option<Span>,
+    pub velocity: Option<DVec3>,
+}
+
+/// A camera; the name and velocity inside are not set.
+#[derive(Debug, Default)]
+pub(crate) struct CameraStatement {
+    pub name: Option<Span>,
+    pub camera: Camera,
+    pub velocity: Option<DVec3>,
+}
+
+/// An instance, or an array of them.
+#[derive(Debug)]
+pub(crate) struct CallStatement {
+    pub name: Option<Span>,
+    pub definition: Span,
+    pub color: Option<Span>,
+    pub inner: Transform,
+    pub repeat: Repeat,
+    pub velocity: Option<DVec3>,
+}
+
+/// How often a definition is placed.
+#[derive(Debug)]
+pub(crate) enum Repeat {
+    /// `i`
+    Once,
+    /// `a`: this many copies, each moved on by the step.
+    Times(u64, Transform),
+}

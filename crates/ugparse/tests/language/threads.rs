@@ -1,0 +1,126 @@
+//! A large text is read in parts: what comes out is the same for any number of threads.
+
+use std::fmt::Write;
+
+use ugparse::{Options, Source};
+
+/// Statements of a text of some 2 MB: large enough for several parts.
+const ROWS: usize = 12_000;
+
+/// Everything that can be told from outside about reading `text`.
+fn outcome(text: &str, n_threads: usize) -> (Vec<u8>, String) {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(n_threads).build().unwrap();
+    let source = Source::new("large.ug", text);
+    match pool.install(|| ugparse::parse(&source, &Options { lax: true })) {
+        Ok(parsed) => {
+            let scene = &parsed.scene;
+            let colors: Vec<_> =
+                scene.faces.iter().map(|face| (face.color, face.velocity, face.illum)).collect();
+            let what = format!("{:?} {:?} {}", parsed.origins, colors, parsed.warnings.render(false));
+            (ugparse::write(scene), what)
+        }
+        Err(found) => (Vec::new(), found.render(false)),
+    }
+}
+
+#[track_caller]
+fn check(text: &str, is_read: bool) {
+    assert!(text.len() > 5 << 19, "{} bytes are too few for five parts", text.len());
+    let alone = outcome(text, 1);
+    assert_eq!(!alone.0.is_empty(), is_read, "{}", &alone.1[..alone.1.len().min(500)]);
+    for n_threads in [2, 3, 5] {
+        let together = outcome(text, n_threads);
+        assert!(alone.0 == together.0, "other bytes on {n_threads} threads");
+        assert!(alone.1 == together.1, "other rows or messages on {n_threads} threads");
+    }
+}
+
+fn vertices(text: &mut String, rows: std::ops::Range<usize>) {
+    for row in rows {
+        // Numbered, numbered from far on, numbered with zeros, not numbered.
+        let (x, y) = (row as f64 / 7.0, row * row % 101);
+        writeln!(text, "v v{row} {x} {y} 1e-3 c{};\nv far{}00000 {y} {x} 2;", row % 7, row).unwrap();
+        writeln!(text, "v z00{row} {x} 3 {y}; v name{row}_ {y} 4 {x} 0 0 {};", row + 1).unwrap();
+    }
+}
+
+fn faces(text: &mut String, rows: std::ops::Range<usize>) {
+    for row in rows {
+        let next = (row + 1) % ROWS;
+        writeln!(text, "f (v{row} far{next}00000 z00{row}) c{} <.5 0 {}>;", row % 7, row % 3).unwrap();
+        writeln!(text, "f big{row} (v{row} v{next} name{row}_) (z00{row} z00{next} v{row}) .{row};").unwrap();
+        writeln!(text, "w (v{row} v{next}); l sun{row} 1 0 0 1 c3;").unwrap();
+    }
+}
+
+fn colors(text: &mut String) {
+    (0..7).for_each(|row| writeln!(text, "c c{row} .5 {row}0;").unwrap());
+}
+
+/// Vertices, then faces, as the programs write them; or the other way round.
+fn scene(faces_first: bool) -> String {
+    let mut text = "{ head }\n".to_string();
+    if faces_first {
+        faces(&mut text, 0..ROWS);
+        vertices(&mut text, 0..ROWS);
+        colors(&mut text);
+    } else {
+        colors(&mut text);
+        vertices(&mut text, 0..ROWS);
+        faces(&mut text, 0..ROWS);
+    }
+    text.replace("<.5 0 2>", "").replace("<.5 0 1>", "<0 .1 0>")
+}
+
+#[test]
+fn any_number_of_threads_reads_the_same() {
+    let (ordered, reversed) = (scene(false), scene(true));
+    check(&ordered, true);
+    check(&reversed, true);
+    // All kinds in turn, with unnamed colours, comments, escapes and unknown statements.
+    let mut mixed = String::new();
+    for start in (0..ROWS).step_by(100) {
+        writeln!(mixed, "c .{start} 20;\n{{ from {start} }}").unwrap();
+        faces(&mut mixed, start..start + 100);
+        vertices(&mut mixed, start..start + 100);
+        writeln!(
+            mixed,
+            "(escape {start})\nother thing {start};\ncam eye{start} -ep 0 0 1 <0 0 .2>; {{ behind }}"
+        )
+        .unwrap();
+        writeln!(mixed, "f flat{start} (v0 v0 v0);\nw short{start} (v0);").unwrap();
+    }
+    colors(&mut mixed);
+    check(&mixed.replace("<.5 0 2>", "").replace("<.5 0 1>", "<0 .1 0>"), true);
+}
+
+#[test]
+fn cuts_may_fall_anywhere() {
+    let scene = scene(false);
+    check(&format!("{{ {scene} }} {scene}"), true);
+    check(&format!("def d; {scene} end; i (d -tx 1); {scene}"), true);
+    check(&format!("{scene} def d; v a 0 0 0; end;\n a (d) 3;"), true);
+    check(&format!("({}) {scene}", scene.replace(['(', ')'], "")), true);
+    check(&scene.replace('\n', " "), true);
+    check(&scene.replace(";\n", "\n;\n\n"), true);
+}
+
+#[test]
+fn any_number_of_threads_says_the_same() {
+    let scene = scene(false);
+    for mistake in [
+        "f (v0 v1 nobody) nothing;",
+        "v v17 0 0 0;",
+        "v far700000 0 0 0;",
+        "c c1 1;",
+        "v w 0 0;",
+        "end;",
+        "{",
+        "i (d);",
+    ] {
+        check(&format!("{scene}{mistake}\n"), false);
+        check(&format!("{mistake}\n{scene}"), false);
+    }
+    let two = "f (v1 v2 one);\n".to_string() + &scene + "f (v1 v2 two);\n";
+    check(&two, false);
+}
