@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use ugparse::{Options, Source};
 
-const MIN_SCENES: usize = 25;
+const MIN_SCENES: usize = 40;
 
 #[test]
 fn bad_scenes_fail_as_written() {
