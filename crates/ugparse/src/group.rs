@@ -92,6 +92,8 @@ pub(crate) struct Group<'t> {
     pub vertex_rows: Vec<u32>,
 
     pub contours: Contours,
+    /// Corners that name vertices of instances: `car:a`, `floor#3:b`.
+    pub paths: Vec<PathCorner>,
     /// Corners are rows of vertices already.
     pub is_linked: bool,
     pub faces: Rows<Face>,
@@ -149,6 +151,14 @@ pub(crate) struct DefaultColor {
     pub color: u32,
     pub first_face: usize,
     pub first_wire: usize,
+}
+
+/// A corner that names a vertex of an instance; until that is placed, it is [`NO_ROW`].
+#[derive(Clone, Copy)]
+pub(crate) struct PathCorner {
+    /// Among the corners of all contours of the group.
+    pub corner: usize,
+    pub name: Span,
 }
 
 /// A name defined twice.
@@ -355,6 +365,11 @@ impl<'t> Group<'t> {
 
     fn color(&mut self, text: &'t [u8], name: Option<Span>) -> Option<ColorId> {
         name.map(|name| self.color_names.enter(name.of(text)))
+    }
+
+    /// True if a name may be the path of a vertex of an instance.
+    pub fn may_be_path(&self, name: &[u8]) -> bool {
+        name.contains(&b':') && self.calls.len() > 0
     }
 
     /// True if a vertex of that name is defined here.

@@ -376,6 +376,16 @@ impl Contours {
         (rows.start as usize..rows.end as usize).map(|row| self.get(row as u32))
     }
 
+    /// Position of the first corner of contour `row` among those of all contours.
+    pub(crate) fn first_corner(&self, row: u32) -> usize {
+        if row == 0 { 0 } else { self.ends[row as usize - 1] as usize }
+    }
+
+    /// Corner number `idx` of all contours.
+    pub(crate) fn corner(&self, idx: usize) -> VertexId {
+        self.corners[idx]
+    }
+
     /// All corners of a face or wire, contour after contour.
     pub fn corners(&self, rows: Range<u32>) -> &[VertexId] {
         if rows.is_empty() {

@@ -7,8 +7,8 @@ use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::diagnostic::Diagnostic;
 use crate::grammar::Grammar;
-use crate::group::{Call, Group, NO_ROW};
-use crate::scene::{Color, ColorId, Face, Scene, VertexId, newell_normal};
+use crate::group::{Call, Group, NO_ROW, PathCorner};
+use crate::scene::{Color, ColorId, Contours, Face, Scene, Vertex, VertexId, newell_normal};
 use crate::source::Span;
 use crate::statement::{CallStatement, References, Repeat, Statement};
 use crate::token::word;
@@ -78,6 +78,7 @@ pub(crate) fn settle(
         let has_corners = link_corners(group);
         if !(has_colors && has_corners) {
             Complaints { text, groups, row, findings }.about_all();
+            groups[row].paths = path_corners(text, &groups[row]);
         }
         let group = &mut groups[row];
         leave_out_flat_faces(text, group, has_corners, findings);
@@ -182,6 +183,30 @@ fn link_corners(group: &mut Group<'_>) -> bool {
     is_complete
 }
 
+/// The corners that name vertices of instances.
+fn path_corners(text: &[u8], group: &Group<'_>) -> Vec<PathCorner> {
+    let mut paths = Vec::new();
+    let faces = group.faces.rows.iter().map(|face| &face.contours).zip(&group.faces.spans);
+    let wires = group.wires.rows.iter().map(|wire| &wire.contours).zip(&group.wires.spans);
+    let mut references = References::default();
+    for (contours, &span) in faces.chain(wires) {
+        let corners = group.contours.corners(contours.clone());
+        if is_linked(corners) {
+            continue;
+        }
+        read_again(text, span, &mut references);
+        let first = group.contours.first_corner(contours.start);
+        let places = (first..).zip(corners.iter().zip(&references.names));
+        let of_instances = |name: &Span| group.may_be_path(name.of(text));
+        paths.extend(
+            places
+                .filter(|(_, (corner, name))| corner.0 == NO_ROW && of_instances(name))
+                .map(|(corner, (_, &name))| PathCorner { corner, name }),
+        );
+    }
+    paths
+}
+
 /// On several threads if there are many.
 fn for_all<T: Send>(rows: &mut [T], change: impl Fn(&mut T) + Send + Sync) {
     if rows.len() < MANY_ROWS {
@@ -208,9 +233,10 @@ fn leave_out_flat_faces(
     findings: &mut Vec<Diagnostic>,
 ) {
     let is_whole = |face: &Face| has_corners || is_linked(group.contours.corners(face.contours.clone()));
-    let flat = rows_where(&group.faces.rows, |face| is_whole(face) && flatness(group, face).is_some());
+    let problem = |face: &Face| flatness(&group.contours, &group.vertices.rows, face);
+    let flat = rows_where(&group.faces.rows, |face| is_whole(face) && problem(face).is_some());
     for &row in &flat {
-        let problem = flatness(group, &group.faces.rows[row]).unwrap_or_default();
+        let problem = problem(&group.faces.rows[row]).unwrap_or_default();
         let span = group.faces.spans[row];
         findings.push(left_out(text, span, "face", problem, "remove it, or mend its vertices"));
     }
@@ -222,12 +248,12 @@ fn is_linked(corners: &[VertexId]) -> bool {
 }
 
 /// Why a face draws nothing.
-fn flatness(group: &Group<'_>, face: &Face) -> Option<&'static str> {
-    if !group.contours.iter(face.contours.clone()).all(has_three) {
+pub(crate) fn flatness(contours: &Contours, vertices: &[Vertex], face: &Face) -> Option<&'static str> {
+    if !contours.iter(face.contours.clone()).all(has_three) {
         return Some("has a contour of fewer than 3 different vertices");
     }
-    let outline = group.contours.get(face.contours.start);
-    let corners = outline.iter().map(|corner| group.vertices.rows[corner.index()].position);
+    let outline = contours.get(face.contours.start);
+    let corners = outline.iter().map(|corner| vertices[corner.index()].position);
     (newell_normal(corners) == glam::DVec3::ZERO).then_some("has no area")
 }
 
@@ -248,7 +274,7 @@ fn leave_out_short_wires(
     group.remove_wires(&short);
 }
 
-fn left_out(text: &[u8], span: Span, kind: &str, problem: &str, remedy: &str) -> Diagnostic {
+pub(crate) fn left_out(text: &[u8], span: Span, kind: &str, problem: &str, remedy: &str) -> Diagnostic {
     let name = face_name(text, span);
     let shown = name.map_or(String::new(), |name| format!(" `{}`", show(text, name)));
     let span = name.unwrap_or(Span { start: span.start, end: span.start + 1 });
@@ -325,11 +351,11 @@ impl Complaints<'_, '_, '_> {
 
     fn about_vertex(&mut self, name: Span) {
         let own = name.of(self.text);
-        if self.groups[self.row].has_vertex(own) {
+        if self.groups[self.row].has_vertex(own) || self.groups[self.row].may_be_path(own) {
             return;
         }
         let remedy = if own.contains(&b':') {
-            "define it with a `v` statement: vertices of instances cannot be used outside them"
+            "define it with a `v` statement: nothing is placed in this scope whose vertex it could be"
         } else if self.row == 0 {
             "define it with a `v` statement"
         } else {
@@ -339,7 +365,7 @@ impl Complaints<'_, '_, '_> {
     }
 }
 
-fn undefined(text: &[u8], kind: &str, name: Span, remedy: &str) -> Diagnostic {
+pub(crate) fn undefined(text: &[u8], kind: &str, name: Span, remedy: &str) -> Diagnostic {
     Diagnostic::error(name, format!("{kind} `{}` is not defined", show(text, name)))
         .label("used here")
         .help(remedy)
@@ -485,7 +511,7 @@ fn too_long(call: &CallStatement) -> Diagnostic {
 }
 
 /// Three different entries.
-fn has_three(corners: &[VertexId]) -> bool {
+pub(crate) fn has_three(corners: &[VertexId]) -> bool {
     let Some((&a, rest)) = corners.split_first() else { return false };
     let Some(&b) = rest.iter().find(|&&c| c != a) else { return false };
     rest.iter().any(|&c| c != a && c != b)
