@@ -143,6 +143,7 @@ fn colour(config: &Config, source: &Source, parsed: &Parsed) -> Result<(Scene, V
     let colors = ugscene::vertex_colors(&scene, &rest, HueScale::Degrees);
     let factors = doppler_factors(&scene, eye, &bodies);
 
+    let spectra_note = ugscene::spectra_note(&scene);
     let mut palette = Palette::new(&mut scene, config);
     let used = palette.used_vertices();
     for (row, (&color, &doppler)) in colors.iter().zip(&factors).enumerate() {
@@ -150,7 +151,8 @@ fn colour(config: &Config, source: &Source, parsed: &Parsed) -> Result<(Scene, V
             palette.paint(row, color, doppler);
         }
     }
-    let notes = palette.finish();
+    let mut notes = palette.finish();
+    notes.extend(spectra_note);
     ugscene::record(&mut scene, PROGRAM, env!("CARGO_PKG_VERSION"), &config.command_line);
     Ok((scene, notes))
 }

@@ -7,7 +7,7 @@ use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::diagnostic::Diagnostic;
 use crate::grammar::Grammar;
-use crate::group::{Call, Group, NO_ROW, PathCorner};
+use crate::group::{Call, Group, NO_ROW, PathCorner, shifted};
 use crate::scene::{Color, ColorId, Contours, Face, Scene, Vertex, VertexId, newell_normal};
 use crate::source::Span;
 use crate::statement::{CallStatement, References, Repeat, Statement};
@@ -108,6 +108,8 @@ fn gather_colors(
         let prefix = scope_prefix(text, groups, row);
         let group = &mut groups[row];
         let colors = std::mem::take(&mut group.colors.rows);
+        let first_sample = scene.samples.len();
+        scene.samples.append(&mut group.samples);
         for ((color, span), name) in colors.into_iter().zip(&group.colors.spans).zip(&group.color_spans) {
             bytes += prefix.len() + span.len();
             if bytes > MAX_COLOR_BYTES {
@@ -119,7 +121,7 @@ fn gather_colors(
                 None => format!("unnamed#{}", scene.colors.len()),
             };
             let name = scene.names.add_parts(&[&prefix, &own]);
-            scene.colors.push(Color { name, ..color });
+            scene.colors.push(Color { name, value: shifted(color.value, first_sample), ..color });
         }
     }
     Some(first_colors)

@@ -29,7 +29,7 @@ mod normals;
 mod split;
 
 pub use bodies::{Bodies, separate_bodies, vertex_velocities};
-pub use colors::{HueScale, VertexColor, hsv, vertex_colors};
+pub use colors::{HueScale, VertexColor, hsv, spectra_note, vertex_colors};
 pub use eye::{at_eye_error, eye, vertex_at_eye};
 pub use filter::{Filtered, filter};
 pub use geometry::{Geometry, rest_positions};
