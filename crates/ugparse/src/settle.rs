@@ -5,12 +5,13 @@
 use rayon::prelude::*;
 use rustc_hash::{FxHashMap, FxHashSet};
 
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, MAX_ERRORS};
 use crate::grammar::Grammar;
 use crate::group::{Call, Group, NO_ROW, PathCorner, shifted};
 use crate::scene::{Color, ColorId, Contours, Face, Scene, Vertex, VertexId, newell_normal};
 use crate::source::Span;
 use crate::statement::{CallStatement, References, Repeat, Statement};
+use crate::suggest::nearest;
 use crate::token::word;
 
 /// Statements a scene may have after instances and arrays are placed. Each
@@ -345,10 +346,14 @@ impl Complaints<'_, '_, '_> {
     fn about_color(&mut self, name: Option<Span>) {
         let Some(name) = name else { return };
         let is_defined = |scope: usize| own_color(&self.groups[scope], name.of(self.text), 0).is_some();
-        if !scopes(self.groups, self.row).any(is_defined) {
-            let remedy = "define it with a `c` or `c_rgb` statement";
-            self.findings.push(undefined(self.text, "colour", name, remedy));
+        if scopes(self.groups, self.row).any(is_defined) {
+            return;
         }
+        let spans = scopes(self.groups, self.row).flat_map(|scope| &self.groups[scope].color_spans);
+        let names = spans.flatten().map(|span| span.of(self.text));
+        let remedy = "define it with a `c` or `c_rgb` statement";
+        let found = undefined_like(self.text, "colour", name, remedy, names, self.findings.len());
+        self.findings.push(found);
     }
 
     fn about_vertex(&mut self, name: Span) {
@@ -363,7 +368,9 @@ impl Complaints<'_, '_, '_> {
         } else {
             "define it with a `v` statement in the same `def`: vertices of the scope outside are not seen here"
         };
-        self.findings.push(undefined(self.text, "vertex", name, remedy));
+        let names = self.groups[self.row].vertices.spans.iter().map(|span| span.of(self.text));
+        let found = undefined_like(self.text, "vertex", name, remedy, names, self.findings.len());
+        self.findings.push(found);
     }
 }
 
@@ -371,6 +378,22 @@ pub(crate) fn undefined(text: &[u8], kind: &str, name: Span, remedy: &str) -> Di
     Diagnostic::error(name, format!("{kind} `{}` is not defined", show(text, name)))
         .label("used here")
         .help(remedy)
+}
+
+/// The same, with a guess at what was meant, if it will be shown: there are `n_before` findings.
+fn undefined_like<'n>(
+    text: &[u8],
+    kind: &str,
+    name: Span,
+    remedy: &str,
+    names: impl IntoIterator<Item = &'n [u8]>,
+    n_before: usize,
+) -> Diagnostic {
+    let guess = if n_before < MAX_ERRORS { nearest(name.of(text), names) } else { None };
+    match guess {
+        Some(guess) => undefined(text, kind, name, &format!("did you mean `{guess}`? if not, {remedy}")),
+        None => undefined(text, kind, name, remedy),
+    }
 }
 
 fn show(text: &[u8], name: Span) -> String {
@@ -386,7 +409,12 @@ fn link_calls(text: &[u8], groups: &[Group<'_>], row: usize, findings: &mut Vec<
         let target = scopes(groups, row).find_map(|scope| groups[scope].definitions.get(name));
         if target.is_none() {
             let remedy = "define it with `def NAME ; … end ;`";
-            findings.push(undefined(text, "definition", call.definition, remedy));
+            let names = scopes(groups, row).flat_map(|scope| groups[scope].definitions.values());
+            // The table has no order of its own.
+            let mut names: Vec<&[u8]> = names.map(|(_, span)| span.of(text)).collect();
+            names.sort_unstable();
+            let found = undefined_like(text, "definition", call.definition, remedy, names, findings.len());
+            findings.push(found);
         }
         let target = target.map(|&(group, _)| group);
         Link { target, label: labels.next(text, call) }

@@ -3,6 +3,7 @@
 use crate::diagnostic::Diagnostic;
 use crate::grammar::{KEYWORDS, NAME};
 use crate::source::Span;
+use crate::suggest::nearest;
 use crate::token::{Input, NAME_LETTERS, word};
 
 /// The message for a first word that is none of ours.
@@ -21,6 +22,9 @@ pub(crate) fn no_statement(word: &[u8], span: Span) -> Diagnostic {
         _ if is_keyword(&lower) => finding
             .label("unknown statement")
             .help(format!("keywords are lower case: `{}`", String::from_utf8_lossy(&lower))),
+        _ if let Some(keyword) = nearest(word, KEYWORDS.split(' ').map(str::as_bytes)) => {
+            finding.label("unknown statement").help(format!("did you mean `{keyword}`?"))
+        }
         _ => finding.label("unknown statement").help(format!(
             "a statement begins with one of {KEYWORDS}, or `(` for an escape; -lax passes unknown ones on"
         )),
