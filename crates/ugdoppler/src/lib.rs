@@ -159,6 +159,7 @@ fn colour(mut scene: Scene, config: &Config, eye: DVec3, bodies: &Bodies) -> (Sc
     let colors = ugscene::vertex_colors(&scene, &rest, HueScale::Degrees);
     let factors = doppler_factors(&scene, eye, bodies);
 
+    let spectra_note = ugscene::spectra_note(&scene);
     let mut palette = Palette::new(&mut scene, config);
     let used = palette.used_vertices();
     for (row, (&color, &doppler)) in colors.iter().zip(&factors).enumerate() {
@@ -166,7 +167,8 @@ fn colour(mut scene: Scene, config: &Config, eye: DVec3, bodies: &Bodies) -> (Sc
             palette.paint(row, color, doppler);
         }
     }
-    let notes = palette.finish();
+    let mut notes = palette.finish();
+    notes.extend(spectra_note);
     ugscene::record(&mut scene, PROGRAM, env!("CARGO_PKG_VERSION"), &config.command_line);
     (scene, notes)
 }

@@ -204,6 +204,11 @@ impl<'s> Palette<'s> {
                 ColorValue::Hsv { value, hue, saturation } => {
                     ColorValue::Hsv { value: value / largest, hue, saturation }
                 }
+                ColorValue::Xyz(xyz) => ColorValue::Xyz(xyz.map(|part| part / largest)),
+                ColorValue::Blackbody { kelvin, scale } => {
+                    ColorValue::Blackbody { kelvin, scale: scale / largest }
+                }
+                spectrum @ ColorValue::Spectrum { .. } => spectrum,
             };
         }
         vec![format!("max intensity is {}, scaled to 1.0", shown(largest))]

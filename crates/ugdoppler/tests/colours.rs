@@ -1,4 +1,5 @@
 //! Colours as seen, against the laws they follow.
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking, its helpers too")]
 
 use ugdoppler::{Config, run};
 use ugparse::{ColorValue, Options, Scene, Source};
@@ -30,6 +31,7 @@ fn of(scene: &Scene, vertex: &str) -> (String, f64, f64, f64) {
     match color.value {
         ColorValue::Hsv { value, hue, saturation } => (name, value, hue, saturation),
         ColorValue::Rgb(rgb) => (name, rgb[0], rgb[1], rgb[2]),
+        other => panic!("no colour of these scenes: {other:?}"),
     }
 }
 

@@ -20,7 +20,7 @@ use crate::token::{
 use crate::transform::Transform;
 
 /// The statement keywords, as messages list them.
-pub(crate) const KEYWORDS: &str = "v w f c c_rgb l cam def end i a include";
+pub(crate) const KEYWORDS: &str = "v w f c c_rgb c_xyz c_bb c_spd l cam def end i a include";
 
 /// A reader of one text; knows the text's length, and so where a rest of it begins.
 pub(crate) struct Grammar<'t> {
@@ -62,6 +62,9 @@ impl<'t> Grammar<'t> {
             b"w" => self.wire(input, references),
             b"c" => self.color(input),
             b"c_rgb" => self.rgb(input),
+            b"c_xyz" => self.xyz(input),
+            b"c_bb" => self.blackbody(input),
+            b"c_spd" => self.spectrum(input),
             b"l" => self.light(input),
             b"cam" => self.camera(input),
             b"i" => self.call(input, false),
@@ -145,7 +148,7 @@ impl<'t> Grammar<'t> {
         let saturation = saturation.unwrap_or(if hue.is_some() { 1.0 } else { 0.0 });
         let value = ColorValue::Hsv { value, hue: hue.unwrap_or(0.0), saturation };
         let translucency = translucency.unwrap_or(0.0);
-        Ok((input, Statement::Color(ColorStatement { name, value, translucency })))
+        Ok((input, Statement::Color(ColorStatement { name, value, samples: Vec::new(), translucency })))
     }
 
     /// `c_rgb [ID] r g b [translucency]`
@@ -158,7 +161,46 @@ impl<'t> Grammar<'t> {
         let (input, translucency) = opt(share).parse(input)?;
         let value = ColorValue::Rgb([r, g, b]);
         let translucency = translucency.unwrap_or(0.0);
-        Ok((input, Statement::Color(ColorStatement { name, value, translucency })))
+        Ok((input, Statement::Color(ColorStatement { name, value, samples: Vec::new(), translucency })))
+    }
+
+    /// `c_xyz [ID] X Y Z [translucency]`
+    fn xyz<'a>(&self, input: Input<'a>) -> Parsed<'a, Statement> {
+        let (input, name) = self.optional_name(input)?;
+        let (input, xyz) = point(input)?;
+        let (input, translucency) = opt(number_from(0.0, 1.0, SHARE)).parse(input)?;
+        let (value, translucency) = (ColorValue::Xyz(xyz.to_array()), translucency.unwrap_or(0.0));
+        Ok((input, Statement::Color(ColorStatement { name, value, samples: Vec::new(), translucency })))
+    }
+
+    /// `c_bb [ID] kelvin [scale]`
+    fn blackbody<'a>(&self, input: Input<'a>) -> Parsed<'a, Statement> {
+        let (input, name) = self.optional_name(input)?;
+        let (input, kelvin) =
+            number_from(f64::MIN_POSITIVE, f64::INFINITY, "a temperature is above 0")(input)?;
+        let (input, scale) = opt(number_from(0.0, f64::INFINITY, "a scale is 0 or more")).parse(input)?;
+        let value = ColorValue::Blackbody { kelvin, scale: scale.unwrap_or(1.0) };
+        Ok((input, Statement::Color(ColorStatement { name, value, samples: Vec::new(), translucency: 0.0 })))
+    }
+
+    /// `c_spd [ID] nm value …`
+    fn spectrum<'a>(&self, input: Input<'a>) -> Parsed<'a, Statement> {
+        let (mut input, name) = self.optional_name(input)?;
+        let mut samples: Vec<[f64; 2]> = Vec::new();
+        let mut least = f64::MIN_POSITIVE;
+        loop {
+            let nanometres = number_from(least, f64::INFINITY, "wavelengths are above 0 and rise");
+            let (behind, wavelength_nm) = match nanometres(input) {
+                Err(nom::Err::Error(_)) if !samples.is_empty() => break,
+                result => result?,
+            };
+            let (rest, value) = require(number_from(0.0, f64::INFINITY, "a value is 0 or more")(behind))?;
+            samples.push([wavelength_nm, value]);
+            least = wavelength_nm.next_up();
+            input = rest;
+        }
+        let value = ColorValue::Spectrum { start: 0, end: samples.len() as u32 };
+        Ok((input, Statement::Color(ColorStatement { name, value, samples, translucency: 0.0 })))
     }
 
     /// `l [ID] intensity [x y z [radius]] [color] [< x y z >]`

@@ -12,8 +12,8 @@ use rustc_hash::FxHashMap;
 use crate::names::{NameId, Names};
 use crate::numbered::{Name, NumberedNames};
 use crate::scene::{
-    Camera, Color, ColorId, Contours, Face, Illum, IllumId, Light, LightKind, VelocityId, Vertex, VertexId,
-    Wire,
+    Camera, Color, ColorId, ColorValue, Contours, Face, Illum, IllumId, Light, LightKind, VelocityId, Vertex,
+    VertexId, Wire,
 };
 use crate::source::Span;
 use crate::statement::{
@@ -92,6 +92,8 @@ pub(crate) struct Group<'t> {
     pub vertex_rows: Vec<u32>,
 
     pub contours: Contours,
+    /// Corners that name vertices of instances: `car:a`, `floor#3:b`.
+    pub paths: Vec<PathCorner>,
     /// Corners are rows of vertices already.
     pub is_linked: bool,
     pub faces: Rows<Face>,
@@ -102,6 +104,8 @@ pub(crate) struct Group<'t> {
     pub escapes: Rows<String>,
     pub unknown: Rows<String>,
 
+    /// Of spectra.
+    pub samples: Vec<[f64; 2]>,
     /// Colours; their names are not made yet.
     pub colors: Rows<Color>,
     /// Where the name of each colour stands, if it has one.
@@ -149,6 +153,14 @@ pub(crate) struct DefaultColor {
     pub color: u32,
     pub first_face: usize,
     pub first_wire: usize,
+}
+
+/// A corner that names a vertex of an instance; until that is placed, it is [`NO_ROW`].
+#[derive(Clone, Copy)]
+pub(crate) struct PathCorner {
+    /// Among the corners of all contours of the group.
+    pub corner: usize,
+    pub name: Span,
 }
 
 /// A name defined twice.
@@ -290,7 +302,9 @@ impl<'t> Group<'t> {
         }
         // The name is made when the colours of all scopes are put together.
         let name = NameId::from_index(0);
-        self.colors.push(Color { name, value: color.value, translucency: color.translucency }, span);
+        let value = shifted(color.value, self.samples.len());
+        self.samples.extend_from_slice(&color.samples);
+        self.colors.push(Color { name, value, translucency: color.translucency }, span);
         self.color_spans.push(color.name);
     }
 
@@ -357,6 +371,11 @@ impl<'t> Group<'t> {
         name.map(|name| self.color_names.enter(name.of(text)))
     }
 
+    /// True if a name may be the path of a vertex of an instance.
+    pub fn may_be_path(&self, name: &[u8]) -> bool {
+        name.contains(&b':') && self.calls.len() > 0
+    }
+
     /// True if a vertex of that name is defined here.
     pub fn has_vertex(&self, name: &[u8]) -> bool {
         let number = self.vertex_names.get(Name::new(name));
@@ -402,6 +421,16 @@ impl<'t> Group<'t> {
         let mut spans: Vec<Span> = vertices.chain(others.into_iter().flatten().copied()).collect();
         spans.sort();
         spans
+    }
+}
+
+/// A colour whose samples, if it has any, stand that many rows further on.
+pub(crate) fn shifted(value: ColorValue, rows: usize) -> ColorValue {
+    match value {
+        ColorValue::Spectrum { start, end } => {
+            ColorValue::Spectrum { start: start + rows as u32, end: end + rows as u32 }
+        }
+        other => other,
     }
 }
 

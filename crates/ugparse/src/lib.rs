@@ -43,6 +43,7 @@ mod scene;
 mod settle;
 mod source;
 mod statement;
+mod suggest;
 mod token;
 mod transform;
 mod wording;

@@ -10,7 +10,7 @@
 use rayon::prelude::*;
 
 use crate::diagnostic::Diagnostic;
-use crate::group::{DefaultColor, Group, NO_ROW, Rows};
+use crate::group::{DefaultColor, Group, NO_ROW, Rows, shifted};
 use crate::names::NameId;
 use crate::reader::{Document, read, read_part};
 use crate::scene::{ColorId, Contours, IllumId, VelocityId, VertexId};
@@ -132,7 +132,14 @@ fn join<'t>(mut parts: Vec<Group<'t>>) -> Option<Group<'t>> {
             camera.velocity = place.velocity(camera.velocity);
         },
     );
-    file.colors = join_tables(&mut parts, &places, |part| &mut part.colors, |_, _| {});
+    file.colors = join_tables(
+        &mut parts,
+        &places,
+        |part| &mut part.colors,
+        |color, place| {
+            color.value = shifted(color.value, place.first_sample);
+        },
+    );
     file.escapes = join_tables(&mut parts, &places, |part| &mut part.escapes, |_, _| {});
     file.unknown = join_tables(&mut parts, &places, |part| &mut part.unknown, |_, _| {});
     Some(file)
@@ -189,6 +196,7 @@ struct Place {
     first_name: usize,
     first_contour: u32,
     first_illum: usize,
+    first_sample: usize,
     colors: Vec<ColorId>,
     velocities: Vec<VelocityId>,
     /// Nothing in the part's rows has to change.
@@ -206,7 +214,9 @@ impl Place {
             first_name: file.names.len(),
             first_contour: before.contours,
             first_illum: file.illums.len(),
+            first_sample: file.samples.len(),
             is_same: before.contours == 0
+                && file.samples.is_empty()
                 && (file.illums.is_empty() || part.illums.is_empty())
                 && (file.names.len() == 0 || part.names.len() == 0)
                 && colors.iter().enumerate().all(|(row, color)| color.index() == row)
@@ -230,6 +240,7 @@ impl Place {
         }));
         file.names.append(std::mem::take(&mut part.names));
         file.illums.append(&mut part.illums);
+        file.samples.append(&mut part.samples);
         file.n_statements += part.n_statements;
         Some(place)
     }

@@ -7,16 +7,17 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 use glam::DVec3;
+use rustc_hash::FxHashMap;
 
 use crate::diagnostic::Diagnostic;
-use crate::group::{Call, Counts, DefaultColor, Group, Rows, Velocities};
+use crate::group::{Call, Counts, DefaultColor, Group, NO_ROW, Rows, Velocities, as_str};
 use crate::names::{NameId, Names, UniqueNames};
 use crate::reader::{CommentSpan, Document};
 use crate::scene::{
     Camera, ColorId, Comment, Face, IllumId, Item, Light, LightKind, Scene, VelocityId, Vertex, VertexId,
     Wire, newell_normal,
 };
-use crate::settle::{Link, Links, face_name};
+use crate::settle::{Link, Links, face_name, flatness, has_three, left_out, undefined};
 use crate::source::Span;
 use crate::statement::Repeat;
 use crate::transform::Transform;
@@ -49,6 +50,11 @@ pub(crate) fn place(
         scene,
         origins: Origins::default(),
         emitted: has_comments.then(Vec::new),
+        placed_before: vec![false; document.groups.len()],
+        next_vertex: 0,
+        path_rows: FxHashMap::default(),
+        has_linked_paths: false,
+        undefined: BTreeMap::new(),
         first_illums: vec![None; document.groups.len()],
         velocities: Velocities::default(),
         trouble: None,
@@ -56,6 +62,7 @@ pub(crate) fn place(
     };
     placer.colors(&file);
     placer.file(file);
+    findings.extend(std::mem::take(&mut placer.undefined).into_values());
     placer.make_names_unique();
     placer.place_comments(&document.comments, first_statement);
     findings.extend(placer.trouble);
@@ -86,6 +93,8 @@ struct Placement<'p> {
     frame: &'p Frame,
     /// Row of its first vertex in the scene.
     first_vertex: u32,
+    /// The vertices at corners that name those of instances.
+    paths: FxHashMap<usize, VertexId>,
     /// Velocities of the group in the scene.
     velocities: &'p [VelocityId],
     first_time: bool,
@@ -98,6 +107,18 @@ struct Placement<'p> {
 }
 
 impl Placement<'_> {
+    /// Positions of the corners of a contour among those of the group.
+    fn corners(&self, row: u32) -> Range<usize> {
+        let first = self.group.contours.first_corner(row);
+        first..first + self.group.contours.get(row).len()
+    }
+
+    /// The vertex at a corner.
+    fn corner(&self, idx: usize) -> VertexId {
+        let VertexId(local) = self.group.contours.corner(idx);
+        if local == NO_ROW { self.paths[&idx] } else { VertexId(self.first_vertex + local) }
+    }
+
     fn velocity(&self, velocity: Option<VelocityId>) -> Option<VelocityId> {
         velocity.map(|id| self.velocities[id.index()])
     }
@@ -124,6 +145,16 @@ struct Placer<'d, 't> {
     origins: Origins,
     /// Where each statement stands and the first row it gave, if comments ask for it.
     emitted: Option<Vec<(Span, Item)>>,
+    /// Vertices of the group have been placed.
+    placed_before: Vec<bool>,
+    /// Where the vertices of the next group begin, when all vertices are placed.
+    next_vertex: usize,
+    /// Placed vertices by path, if something names one.
+    path_rows: FxHashMap<String, VertexId>,
+    /// A corner of the file was linked to one of them.
+    has_linked_paths: bool,
+    /// Paths that lead nowhere, by their positions.
+    undefined: BTreeMap<u32, Diagnostic>,
     /// For each group that has been placed, the row of its first illum.
     first_illums: Vec<Option<usize>>,
     velocities: Velocities,
@@ -143,15 +174,24 @@ impl Placer<'_, '_> {
 
     /// The file's tables become the scene's, with what calls give in between.
     fn file(&mut self, mut file: Group<'_>) {
-        let end = file.counts();
         self.velocities = std::mem::take(&mut file.velocities);
         if self.emitted.is_some() {
             let names = file.vertices.spans.iter();
             let spans: Vec<Span> = names.map(|&name| Group::vertex_statement(self.text, name)).collect();
             self.note(&spans, 0, Item::Vertex);
         }
-        self.scene.vertices = file.vertices.rows;
-        self.origins.vertices = file.vertices.spans;
+        self.scene.vertices = std::mem::take(&mut file.vertices.rows);
+        self.origins.vertices = std::mem::take(&mut file.vertices.spans);
+        // Faces may name vertices that come later, also in instances, so vertices go first.
+        let frame = Frame::file();
+        self.next_vertex = self.scene.vertices.len();
+        for (call, link) in file.calls.rows.iter().zip(&self.links.calls[0]) {
+            self.call(call, link, &frame, Self::vertices);
+        }
+        self.enter_paths(&file);
+        self.link_paths(&mut file);
+
+        let end = file.counts();
         self.scene.contours = file.contours;
         self.scene.illums = file.illums;
         let mut queues = Queues {
@@ -162,12 +202,57 @@ impl Placer<'_, '_> {
             escapes: Queue::new(file.escapes),
             unknown: Queue::new(file.unknown),
         };
-        let frame = Frame::file();
         for (call, link) in file.calls.rows.iter().zip(&self.links.calls[0]) {
             self.move_rows(&mut queues, call.before);
-            self.call(call, link, &frame);
+            self.call(call, link, &frame, Self::group);
         }
         self.move_rows(&mut queues, end);
+    }
+
+    /// Notes the names of placed vertices, if anything asks for one.
+    fn enter_paths(&mut self, file: &Group<'_>) {
+        if file.paths.is_empty() && self.groups.iter().all(|group| group.paths.is_empty()) {
+            return;
+        }
+        for (row, vertex) in self.scene.vertices.iter().enumerate().skip(self.next_vertex) {
+            let path = self.scene.names.get(vertex.name).to_string();
+            self.path_rows.entry(path).or_insert(VertexId::from_index(row));
+        }
+    }
+
+    /// The vertex that a path means where `prefix` is placed.
+    fn find_path(&mut self, prefix: &str, name: Span) -> Option<VertexId> {
+        let own = as_str(name.of(self.text));
+        let colon = if prefix.is_empty() { "" } else { ":" };
+        let found = self.path_rows.get(&format!("{prefix}{colon}{own}")).copied();
+        if found.is_none() {
+            let remedy = "the path of a vertex is `instance:vertex`, or `array#3:vertex` for copy 3, from 0";
+            let text = self.text;
+            self.undefined.entry(name.start).or_insert_with(|| undefined(text, "vertex", name, remedy));
+        }
+        found
+    }
+
+    /// Links the file's corners that name vertices of instances. Faces that turn
+    /// out to be flat are left out.
+    fn link_paths(&mut self, file: &mut Group<'_>) {
+        for path in std::mem::take(&mut file.paths) {
+            let Some(vertex) = self.find_path("", path.name) else { continue };
+            file.contours.parts_mut().0[path.corner] = vertex;
+            self.has_linked_paths = true;
+        }
+        if !self.has_linked_paths || !self.undefined.is_empty() {
+            return;
+        }
+        let problem = |face: &Face| flatness(&file.contours, &self.scene.vertices, face);
+        let faces = file.faces.rows.iter().enumerate();
+        let flat: Vec<_> = faces.filter_map(|(row, face)| Some((row, problem(face)?))).collect();
+        for &(row, problem) in &flat {
+            let span = file.faces.spans[row];
+            let warning = left_out(self.text, span, "face", problem, "remove it, or mend its vertices");
+            self.flattened.insert(span.start, warning);
+        }
+        file.remove_faces(&flat.into_iter().map(|(row, _)| row).collect::<Vec<_>>());
     }
 
     /// Moves rows of the file up to `end`.
@@ -203,11 +288,41 @@ impl Placer<'_, '_> {
         }
     }
 
-    /// Copies a definition to its place.
+    /// Copies the vertices of a definition, and of what it places.
+    fn vertices(&mut self, row: usize, frame: &Frame) {
+        let group = &self.groups[row];
+        let first_time = !std::mem::replace(&mut self.placed_before[row], true);
+        for (vertex, &span) in group.vertices.rows.iter().zip(&group.vertices.spans) {
+            let position = frame.transform.point(vertex.position);
+            let normal = vertex.normal.map(|normal| frame.transform.normal(normal));
+            self.check_finite(span, position);
+            self.check_finite(span, normal.unwrap_or_default());
+            let name = self.name(group, vertex.name, frame);
+            if first_time && self.emitted.is_some() {
+                let row = self.scene.vertices.len();
+                self.note(&[Group::vertex_statement(self.text, span)], row, Item::Vertex);
+            }
+            self.scene.vertices.push(Vertex { name, position, color: vertex.color, normal });
+            self.origins.vertices.push(span);
+        }
+        for (call, link) in group.calls.rows.iter().zip(&self.links.calls[row]) {
+            self.call(call, link, frame, Self::vertices);
+        }
+    }
+
+    /// Copies all but the vertices, which come in the same order as before.
     fn group(&mut self, row: usize, frame: &Frame) {
         let group = &self.groups[row];
         let velocities: Vec<VelocityId> =
             group.velocities.list.iter().map(|&velocity| self.velocities.id(velocity)).collect();
+        let first_vertex = self.next_vertex as u32;
+        self.next_vertex += group.vertices.len();
+        let paths = group.paths.iter();
+        let paths = paths.filter_map(|path| Some((path.corner, self.find_path(&frame.prefix, path.name)?)));
+        let paths: FxHashMap<usize, VertexId> = paths.collect();
+        if paths.len() < group.paths.len() {
+            return;
+        }
         let default = group.outer_default;
         let first_time = self.first_illums[row].is_none();
         let first_illum = *self.first_illums[row].get_or_insert_with(|| {
@@ -217,7 +332,8 @@ impl Placer<'_, '_> {
         let placement = Placement {
             group,
             frame,
-            first_vertex: self.scene.vertices.len() as u32,
+            first_vertex,
+            paths,
             velocities: &velocities,
             first_time,
             first_color: self.links.first_colors[row],
@@ -225,31 +341,13 @@ impl Placer<'_, '_> {
             outer_default: default
                 .map(|(outer, color)| ColorId::from_index(self.links.first_colors[outer] + color as usize)),
         };
-        self.vertices(&placement);
         let mut done = Counts::default();
         for (call, link) in group.calls.rows.iter().zip(&self.links.calls[row]) {
             self.rows(&placement, done, call.before);
             done = call.before;
-            self.call(call, link, frame);
+            self.call(call, link, frame, Self::group);
         }
         self.rows(&placement, done, group.counts());
-    }
-
-    fn vertices(&mut self, placement: &Placement<'_>) {
-        let Placement { group, frame, .. } = placement;
-        for (vertex, &span) in group.vertices.rows.iter().zip(&group.vertices.spans) {
-            let position = frame.transform.point(vertex.position);
-            let normal = vertex.normal.map(|normal| frame.transform.normal(normal));
-            self.check_finite(span, position);
-            self.check_finite(span, normal.unwrap_or_default());
-            let name = self.name(group, vertex.name, frame);
-            self.scene.vertices.push(Vertex { name, position, color: vertex.color, normal });
-            self.origins.vertices.push(span);
-            if placement.first_time && self.emitted.is_some() {
-                let row = self.scene.vertices.len() - 1;
-                self.note(&[Group::vertex_statement(self.text, span)], row, Item::Vertex);
-            }
-        }
     }
 
     /// Places all but vertices and calls, from `start` up to `end`.
@@ -315,24 +413,29 @@ impl Placer<'_, '_> {
 
     /// Copies contours; a mirrored frame reverses their direction but keeps the first vertex.
     fn contours(&mut self, placement: &Placement<'_>, rows: Range<u32>, reversed: bool) -> Range<u32> {
-        let Placement { group, first_vertex, .. } = *placement;
-        self.scene.contours.push_all(group.contours.iter(rows).map(|corners| {
+        self.scene.contours.push_all(rows.map(|row| {
+            let corners = placement.corners(row);
             let len = corners.len();
             (0..len).map(move |idx| {
                 let idx = if reversed { (len - idx) % len } else { idx };
-                VertexId(first_vertex + corners[idx].0)
+                placement.corner(corners.start + idx)
             })
         }))
     }
 
-    /// False, with a warning, if the outline has no area where it is placed:
-    /// squashed flat by `-sz 0`, or too small beside its distance.
+    /// False, with a warning, if a face has no area where it is placed: squashed
+    /// flat by `-sz 0`, or too small beside its distance.
     fn has_area(&mut self, placement: &Placement<'_>, face: &Face, span: Span) -> bool {
-        let corners = placement.group.contours.get(face.contours.start);
-        let position = |corner: &VertexId| {
-            self.scene.vertices[placement.first_vertex as usize + corner.index()].position
-        };
-        if newell_normal(corners.iter().map(position)) != DVec3::ZERO {
+        let outline = placement.corners(face.contours.start);
+        let position = |corner: usize| self.scene.vertices[placement.corner(corner).index()].position;
+        // Corners by path may turn out to be one vertex.
+        let has_three = placement.paths.is_empty()
+            || face.contours.clone().all(|row| {
+                let corners: Vec<VertexId> =
+                    placement.corners(row).map(|idx| placement.corner(idx)).collect();
+                has_three(&corners)
+            });
+        if has_three && newell_normal(outline.map(position)) != DVec3::ZERO {
             return true;
         }
         let text = self.text;
@@ -411,7 +514,8 @@ impl Placer<'_, '_> {
         }
     }
 
-    fn call(&mut self, call: &Call, link: &Link, frame: &Frame) {
+    /// Lets `place` see to every copy that a call asks for.
+    fn call(&mut self, call: &Call, link: &Link, frame: &Frame, place: fn(&mut Self, usize, &Frame)) {
         let (Some(target), label) = (link.target, &link.label) else { return };
         let Call { statement: call, color, .. } = call;
         let own_velocity = call.velocity.map(|velocity| self.velocities.id(velocity));
@@ -423,14 +527,14 @@ impl Placer<'_, '_> {
             velocity: frame.velocity.or(own_velocity),
         };
         match &call.repeat {
-            Repeat::Once => self.group(target, &inner),
+            Repeat::Once => place(self, target, &inner),
             Repeat::Times(copies, step) => {
                 let base = std::mem::take(&mut inner.prefix);
                 let mut steps = call.inner;
                 for copy in 0..*copies {
                     inner.prefix = format!("{base}#{copy}");
                     inner.transform = steps.then(&frame.transform);
-                    self.group(target, &inner);
+                    place(self, target, &inner);
                     steps = steps.then(step);
                 }
             }

@@ -206,10 +206,13 @@ impl<'t, 'f> Reader<'t, 'f> {
             b"def" => self.begin_definition(input, body),
             b"end" => self.end_definition(input, body),
             b"include" => self.include(input, body),
-            b"#" | b"#line" if let Some((rest, mark)) = self.line_mark(body) => {
-                self.document.line_marks.push(mark);
-                Ok(rest)
-            }
+            b"#" | b"#line" => match self.line_mark(body) {
+                Some((rest, mark)) => {
+                    self.document.line_marks.push(mark);
+                    Ok(rest)
+                }
+                None => self.unknown_statement(input, keyword, body),
+            },
             _ => self.plain_statement(input, keyword, body),
         }
     }

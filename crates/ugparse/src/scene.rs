@@ -100,8 +100,11 @@ pub struct Scene {
     pub comments: Vec<Comment>,
     /// Text of every name used below.
     pub names: Names,
-    /// `c`, `c_rgb`.
+    /// `c`, `c_rgb`, `c_xyz`, `c_bb`, `c_spd`.
     pub colors: Vec<Color>,
+    /// Samples of spectra: wavelength in nm, rising in each, and value, 0 or more.
+    /// Linear between, 0 outside.
+    pub samples: Vec<[f64; 2]>,
     /// Distinct velocities carried by faces, wires, lights and cameras,
     /// fractions of c, each shorter than 1.
     pub velocities: Vec<DVec3>,
@@ -152,6 +155,22 @@ pub enum ColorValue {
     },
     /// `c_rgb`: red, green, blue in 0…1, display-encoded (sRGB).
     Rgb([f64; 3]),
+    /// `c_xyz`: CIE 1931 X, Y, Z; Y is 1 for white. Any numbers.
+    Xyz([f64; 3]),
+    /// `c_bb`: light of a black body.
+    Blackbody {
+        /// Its temperature, above 0.
+        kelvin: f64,
+        /// What its light is multiplied by, 0 or more.
+        scale: f64,
+    },
+    /// `c_spd`: a spectrum by samples.
+    Spectrum {
+        /// First row of [`Scene::samples`].
+        start: u32,
+        /// Row behind the last.
+        end: u32,
+    },
 }
 
 /// A vertex.
@@ -374,6 +393,16 @@ impl Contours {
     /// The contours of a face or wire, in order.
     pub fn iter(&self, rows: Range<u32>) -> impl ExactSizeIterator<Item = &[VertexId]> + Clone {
         (rows.start as usize..rows.end as usize).map(|row| self.get(row as u32))
+    }
+
+    /// Position of the first corner of contour `row` among those of all contours.
+    pub(crate) fn first_corner(&self, row: u32) -> usize {
+        if row == 0 { 0 } else { self.ends[row as usize - 1] as usize }
+    }
+
+    /// Corner number `idx` of all contours.
+    pub(crate) fn corner(&self, idx: usize) -> VertexId {
+        self.corners[idx]
     }
 
     /// All corners of a face or wire, contour after contour.

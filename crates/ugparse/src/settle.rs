@@ -5,12 +5,13 @@
 use rayon::prelude::*;
 use rustc_hash::{FxHashMap, FxHashSet};
 
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, MAX_ERRORS};
 use crate::grammar::Grammar;
-use crate::group::{Call, Group, NO_ROW};
-use crate::scene::{Color, ColorId, Face, Scene, VertexId, newell_normal};
+use crate::group::{Call, Group, NO_ROW, PathCorner, shifted};
+use crate::scene::{Color, ColorId, Contours, Face, Scene, Vertex, VertexId, newell_normal};
 use crate::source::Span;
 use crate::statement::{CallStatement, References, Repeat, Statement};
+use crate::suggest::nearest;
 use crate::token::word;
 
 /// Statements a scene may have after instances and arrays are placed. Each
@@ -78,6 +79,7 @@ pub(crate) fn settle(
         let has_corners = link_corners(group);
         if !(has_colors && has_corners) {
             Complaints { text, groups, row, findings }.about_all();
+            groups[row].paths = path_corners(text, &groups[row]);
         }
         let group = &mut groups[row];
         leave_out_flat_faces(text, group, has_corners, findings);
@@ -107,6 +109,8 @@ fn gather_colors(
         let prefix = scope_prefix(text, groups, row);
         let group = &mut groups[row];
         let colors = std::mem::take(&mut group.colors.rows);
+        let first_sample = scene.samples.len();
+        scene.samples.append(&mut group.samples);
         for ((color, span), name) in colors.into_iter().zip(&group.colors.spans).zip(&group.color_spans) {
             bytes += prefix.len() + span.len();
             if bytes > MAX_COLOR_BYTES {
@@ -118,7 +122,7 @@ fn gather_colors(
                 None => format!("unnamed#{}", scene.colors.len()),
             };
             let name = scene.names.add_parts(&[&prefix, &own]);
-            scene.colors.push(Color { name, ..color });
+            scene.colors.push(Color { name, value: shifted(color.value, first_sample), ..color });
         }
     }
     Some(first_colors)
@@ -182,6 +186,30 @@ fn link_corners(group: &mut Group<'_>) -> bool {
     is_complete
 }
 
+/// The corners that name vertices of instances.
+fn path_corners(text: &[u8], group: &Group<'_>) -> Vec<PathCorner> {
+    let mut paths = Vec::new();
+    let faces = group.faces.rows.iter().map(|face| &face.contours).zip(&group.faces.spans);
+    let wires = group.wires.rows.iter().map(|wire| &wire.contours).zip(&group.wires.spans);
+    let mut references = References::default();
+    for (contours, &span) in faces.chain(wires) {
+        let corners = group.contours.corners(contours.clone());
+        if is_linked(corners) {
+            continue;
+        }
+        read_again(text, span, &mut references);
+        let first = group.contours.first_corner(contours.start);
+        let places = (first..).zip(corners.iter().zip(&references.names));
+        let of_instances = |name: &Span| group.may_be_path(name.of(text));
+        paths.extend(
+            places
+                .filter(|(_, (corner, name))| corner.0 == NO_ROW && of_instances(name))
+                .map(|(corner, (_, &name))| PathCorner { corner, name }),
+        );
+    }
+    paths
+}
+
 /// On several threads if there are many.
 fn for_all<T: Send>(rows: &mut [T], change: impl Fn(&mut T) + Send + Sync) {
     if rows.len() < MANY_ROWS {
@@ -208,9 +236,10 @@ fn leave_out_flat_faces(
     findings: &mut Vec<Diagnostic>,
 ) {
     let is_whole = |face: &Face| has_corners || is_linked(group.contours.corners(face.contours.clone()));
-    let flat = rows_where(&group.faces.rows, |face| is_whole(face) && flatness(group, face).is_some());
+    let problem = |face: &Face| flatness(&group.contours, &group.vertices.rows, face);
+    let flat = rows_where(&group.faces.rows, |face| is_whole(face) && problem(face).is_some());
     for &row in &flat {
-        let problem = flatness(group, &group.faces.rows[row]).unwrap_or_default();
+        let problem = problem(&group.faces.rows[row]).unwrap_or_default();
         let span = group.faces.spans[row];
         findings.push(left_out(text, span, "face", problem, "remove it, or mend its vertices"));
     }
@@ -222,12 +251,12 @@ fn is_linked(corners: &[VertexId]) -> bool {
 }
 
 /// Why a face draws nothing.
-fn flatness(group: &Group<'_>, face: &Face) -> Option<&'static str> {
-    if !group.contours.iter(face.contours.clone()).all(has_three) {
+pub(crate) fn flatness(contours: &Contours, vertices: &[Vertex], face: &Face) -> Option<&'static str> {
+    if !contours.iter(face.contours.clone()).all(has_three) {
         return Some("has a contour of fewer than 3 different vertices");
     }
-    let outline = group.contours.get(face.contours.start);
-    let corners = outline.iter().map(|corner| group.vertices.rows[corner.index()].position);
+    let outline = contours.get(face.contours.start);
+    let corners = outline.iter().map(|corner| vertices[corner.index()].position);
     (newell_normal(corners) == glam::DVec3::ZERO).then_some("has no area")
 }
 
@@ -248,7 +277,7 @@ fn leave_out_short_wires(
     group.remove_wires(&short);
 }
 
-fn left_out(text: &[u8], span: Span, kind: &str, problem: &str, remedy: &str) -> Diagnostic {
+pub(crate) fn left_out(text: &[u8], span: Span, kind: &str, problem: &str, remedy: &str) -> Diagnostic {
     let name = face_name(text, span);
     let shown = name.map_or(String::new(), |name| format!(" `{}`", show(text, name)));
     let span = name.unwrap_or(Span { start: span.start, end: span.start + 1 });
@@ -317,32 +346,54 @@ impl Complaints<'_, '_, '_> {
     fn about_color(&mut self, name: Option<Span>) {
         let Some(name) = name else { return };
         let is_defined = |scope: usize| own_color(&self.groups[scope], name.of(self.text), 0).is_some();
-        if !scopes(self.groups, self.row).any(is_defined) {
-            let remedy = "define it with a `c` or `c_rgb` statement";
-            self.findings.push(undefined(self.text, "colour", name, remedy));
+        if scopes(self.groups, self.row).any(is_defined) {
+            return;
         }
+        let spans = scopes(self.groups, self.row).flat_map(|scope| &self.groups[scope].color_spans);
+        let names = spans.flatten().map(|span| span.of(self.text));
+        let remedy = "define it with a `c` or `c_rgb` statement";
+        let found = undefined_like(self.text, "colour", name, remedy, names, self.findings.len());
+        self.findings.push(found);
     }
 
     fn about_vertex(&mut self, name: Span) {
         let own = name.of(self.text);
-        if self.groups[self.row].has_vertex(own) {
+        if self.groups[self.row].has_vertex(own) || self.groups[self.row].may_be_path(own) {
             return;
         }
         let remedy = if own.contains(&b':') {
-            "define it with a `v` statement: vertices of instances cannot be used outside them"
+            "define it with a `v` statement: nothing is placed in this scope whose vertex it could be"
         } else if self.row == 0 {
             "define it with a `v` statement"
         } else {
             "define it with a `v` statement in the same `def`: vertices of the scope outside are not seen here"
         };
-        self.findings.push(undefined(self.text, "vertex", name, remedy));
+        let names = self.groups[self.row].vertices.spans.iter().map(|span| span.of(self.text));
+        let found = undefined_like(self.text, "vertex", name, remedy, names, self.findings.len());
+        self.findings.push(found);
     }
 }
 
-fn undefined(text: &[u8], kind: &str, name: Span, remedy: &str) -> Diagnostic {
+pub(crate) fn undefined(text: &[u8], kind: &str, name: Span, remedy: &str) -> Diagnostic {
     Diagnostic::error(name, format!("{kind} `{}` is not defined", show(text, name)))
         .label("used here")
         .help(remedy)
+}
+
+/// The same, with a guess at what was meant, if it will be shown: there are `n_before` findings.
+fn undefined_like<'n>(
+    text: &[u8],
+    kind: &str,
+    name: Span,
+    remedy: &str,
+    names: impl IntoIterator<Item = &'n [u8]>,
+    n_before: usize,
+) -> Diagnostic {
+    let guess = if n_before < MAX_ERRORS { nearest(name.of(text), names) } else { None };
+    match guess {
+        Some(guess) => undefined(text, kind, name, &format!("did you mean `{guess}`? if not, {remedy}")),
+        None => undefined(text, kind, name, remedy),
+    }
 }
 
 fn show(text: &[u8], name: Span) -> String {
@@ -358,7 +409,12 @@ fn link_calls(text: &[u8], groups: &[Group<'_>], row: usize, findings: &mut Vec<
         let target = scopes(groups, row).find_map(|scope| groups[scope].definitions.get(name));
         if target.is_none() {
             let remedy = "define it with `def NAME ; … end ;`";
-            findings.push(undefined(text, "definition", call.definition, remedy));
+            let names = scopes(groups, row).flat_map(|scope| groups[scope].definitions.values());
+            // The table has no order of its own.
+            let mut names: Vec<&[u8]> = names.map(|(_, span)| span.of(text)).collect();
+            names.sort_unstable();
+            let found = undefined_like(text, "definition", call.definition, remedy, names, findings.len());
+            findings.push(found);
         }
         let target = target.map(|&(group, _)| group);
         Link { target, label: labels.next(text, call) }
@@ -485,7 +541,7 @@ fn too_long(call: &CallStatement) -> Diagnostic {
 }
 
 /// Three different entries.
-fn has_three(corners: &[VertexId]) -> bool {
+pub(crate) fn has_three(corners: &[VertexId]) -> bool {
     let Some((&a, rest)) = corners.split_first() else { return false };
     let Some(&b) = rest.iter().find(|&&c| c != a) else { return false };
     rest.iter().any(|&c| c != a && c != b)

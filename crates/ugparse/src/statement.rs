@@ -60,7 +60,9 @@ pub(crate) struct FaceStatement {
 #[derive(Debug)]
 pub(crate) struct ColorStatement {
     pub name: Option<Span>,
+    /// A spectrum's rows are those of `samples`.
     pub value: crate::scene::ColorValue,
+    pub samples: Vec<[f64; 2]>,
     pub translucency: f64,
 }
 

@@ -3,6 +3,7 @@
 use crate::diagnostic::Diagnostic;
 use crate::grammar::{KEYWORDS, NAME};
 use crate::source::Span;
+use crate::suggest::nearest;
 use crate::token::{Input, NAME_LETTERS, word};
 
 /// The message for a first word that is none of ours.
@@ -15,12 +16,15 @@ pub(crate) fn no_statement(word: &[u8], span: Span) -> Diagnostic {
         b"#" | b"#line" => finding
             .label("not a line mark of the C preprocessor")
             .help("such a line is `# LINE \"FILE\"`; -lax passes others on"),
-        b"execute" | b"c_xyz" | b"c_bb" | b"c_spd" | b"surf" => finding
+        b"execute" | b"surf" => finding
             .label("not read yet")
             .help(format!("only {KEYWORDS} and escapes are read; -lax passes others on")),
         _ if is_keyword(&lower) => finding
             .label("unknown statement")
             .help(format!("keywords are lower case: `{}`", String::from_utf8_lossy(&lower))),
+        _ if let Some(keyword) = nearest(word, KEYWORDS.split(' ').map(str::as_bytes)) => {
+            finding.label("unknown statement").help(format!("did you mean `{keyword}`?"))
+        }
         _ => finding.label("unknown statement").help(format!(
             "a statement begins with one of {KEYWORDS}, or `(` for an escape; -lax passes unknown ones on"
         )),
@@ -75,6 +79,9 @@ fn usage(keyword: &[u8]) -> Option<&'static str> {
         b"f" => "f [ID] (vertices) … [color] [illum] [< vx vy vz >] ;",
         b"c" => "c [ID] lightness [hue [saturation [translucency]]] ;",
         b"c_rgb" => "c_rgb [ID] red green blue [translucency] ;",
+        b"c_xyz" => "c_xyz [ID] X Y Z [translucency] ;",
+        b"c_bb" => "c_bb [ID] kelvin [scale] ;",
+        b"c_spd" => "c_spd [ID] nm value [nm value] … ;",
         b"l" => "l [ID] intensity [x y z [radius]] [color] [< vx vy vz >] ;",
         b"cam" => "cam [ID] [-ep x y z] [-vc x y z] [-ud x y z] [-va a b] … ;",
         b"def" => "def ID ; … end ;",

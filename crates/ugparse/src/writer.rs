@@ -192,6 +192,22 @@ impl<'s> Writer<'s> {
                 self.name(color.name);
                 self.numbers(&rgb);
             }
+            ColorValue::Xyz(xyz) => {
+                self.text("c_xyz");
+                self.name(color.name);
+                self.numbers(&xyz);
+            }
+            ColorValue::Blackbody { kelvin, scale } => {
+                self.text("c_bb");
+                self.name(color.name);
+                self.number(kelvin);
+                (scale != 1.0).then(|| self.number(scale));
+            }
+            ColorValue::Spectrum { start, end } => {
+                self.text("c_spd");
+                self.name(color.name);
+                self.numbers(self.scene.samples[start as usize..end as usize].as_flattened());
+            }
         }
         clear.into_iter().for_each(|clear| self.number(clear));
         self.text(";");

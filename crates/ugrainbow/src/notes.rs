@@ -48,6 +48,7 @@ fn scene_notes(scene: &Scene) -> Vec<String> {
     if scene.lights.iter().any(|light| light.velocity.is_some()) {
         notes.push("velocities of lights are left out: each light rests with the faces it lights".into());
     }
+    notes.extend(ugscene::spectra_note(scene));
     if scene.colors.iter().any(|color| color.translucency > 0.0) {
         notes.push("translucency is left out: everything is drawn opaque".into());
     }

@@ -17,10 +17,15 @@ pub enum HueScale {
 }
 
 /// A colour statement as HSV, hue in degrees. Wavelengths outside 380…780 nm
-/// become the hue at that end, (P16).
+/// become the hue at that end, (P16). What no screen can show is cut to what it
+/// can. Black bodies and spectra count as white, see [`spectra_note`].
 pub fn hsv(color: &Color, scale: HueScale) -> Hsv {
     match color.value {
         ColorValue::Rgb(rgb) => Hsv::from_rgb(rgb),
+        ColorValue::Xyz(xyz) => Hsv::from_rgb(xyz_to_linear_srgb(xyz).map(srgb_encode)),
+        ColorValue::Blackbody { .. } | ColorValue::Spectrum { .. } => {
+            Hsv { hue: 0.0, saturation: 0.0, value: 1.0 }
+        }
         ColorValue::Hsv { value, hue, saturation } => {
             let hue = match scale {
                 HueScale::Degrees => hue,
@@ -29,6 +34,26 @@ pub fn hsv(color: &Color, scale: HueScale) -> Hsv {
             Hsv { hue, saturation, value }
         }
     }
+}
+
+/// Linear red, green and blue of the sRGB primaries from CIE X, Y, Z
+/// (IEC 61966-2-1); colours outside the triangle of the primaries are cut.
+fn xyz_to_linear_srgb([x, y, z]: [f64; 3]) -> [f64; 3] {
+    [
+        3.2406 * x - 1.5372 * y - 0.4986 * z,
+        -0.9689 * x + 1.8758 * y + 0.0415 * z,
+        0.0557 * x - 0.2040 * y + 1.0570 * z,
+    ]
+    .map(|channel| channel.max(0.0))
+}
+
+/// What to tell the user of a scene with colours that [`hsv`] takes for white.
+pub fn spectra_note(scene: &Scene) -> Option<String> {
+    let is_spectrum =
+        |color: &Color| matches!(color.value, ColorValue::Blackbody { .. } | ColorValue::Spectrum { .. });
+    let color = scene.colors.iter().find(|color| is_spectrum(color))?;
+    let name = scene.names.get(color.name);
+    Some(format!("black bodies and spectra are not drawn yet: colour `{name}` and its like count as white"))
 }
 
 /// The colour of a vertex.
@@ -205,5 +230,21 @@ mod tests {
              f (a b c) red; f (a c d) green;",
             &["0.666667 0.333333 0.000000", "red", "0.333333 0.666667 0.000000", "green"],
         );
+    }
+
+    /// The white and the primaries of sRGB, as IEC 61966-2-1 gives them.
+    #[test]
+    fn xyz_of_the_screen_is_rgb() {
+        let primaries = [
+            ([0.9505, 1.0, 1.0890], [1.0, 1.0, 1.0]),
+            ([0.4124, 0.2126, 0.0193], [1.0, 0.0, 0.0]),
+            ([0.3576, 0.7152, 0.1192], [0.0, 1.0, 0.0]),
+            ([0.1805, 0.0722, 0.9505], [0.0, 0.0, 1.0]),
+        ];
+        for (xyz, rgb) in primaries {
+            let found = xyz_to_linear_srgb(xyz);
+            // The standard rounds both matrices to four decimals.
+            assert!(found.iter().zip(rgb).all(|(a, b)| (a - b).abs() < 5e-4), "{xyz:?}: {found:?}");
+        }
     }
 }

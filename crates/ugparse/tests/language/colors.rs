@@ -1,6 +1,6 @@
 //! Which colour a face has.
 
-use crate::{check_error, check_rest};
+use crate::{check, check_error, check_rest};
 
 const FACE: &str = "v a 0 0 0; v b 1 0 0; v c 0 1 0; ";
 
@@ -92,4 +92,28 @@ fn names_of_colors() {
     // A name that we make gives way to one that was written.
     check_rest("c .5; c unnamed#0 1;", &["c unnamed#0 0.5;", "c unnamed#0_2 1;"]);
     check_rest("c d:x 1; def d; c x .5; end;", &["c d:x 1;", "c d:x_2 0.5;"]);
+}
+
+#[test]
+fn colours_may_be_physical() {
+    check("c_xyz x 0.95 1 -1.09;", &["c_xyz x 0.95 1 -1.09;"]);
+    check("c_xyz x 9 1 1 .5;", &["c_xyz x 9 1 1 0.5;"]);
+    check("c_bb sun 5772; c_bb dim 300 0;", &["c_bb sun 5772;", "c_bb dim 300 0;"]);
+    check("c_spd s 380 0 555 1.5;c_spd t 589 1;", &["c_spd s 380 0 555 1.5;", "c_spd t 589 1;"]);
+    // Samples of all scopes share a table.
+    check(
+        "def d; c_spd s 1 2 3 4; v a 0 0 0 s; end; c_spd s 5 6; i (d); v b 0 0 0 s;",
+        &["c_spd s 5 6;", "c_spd d:s 1 2 3 4;", "v b 0 0 0 s;", "v d:a 0 0 0 d:s;"],
+    );
+    for (text, message) in [
+        ("c_xyz x 1 1;", "expected a number, found `;`"),
+        ("c_bb x 0;", "the number `0` is out of range"),
+        ("c_bb x 300 -1;", "the number `-1` is out of range"),
+        ("c_spd x;", "expected a number, found `;`"),
+        ("c_spd x 400;", "expected a number, found `;`"),
+        ("c_spd x 400 1 400 2;", "the number `400` is out of range"),
+        ("c_spd x 400 -1;", "the number `-1` is out of range"),
+    ] {
+        check_error(text, message);
+    }
 }

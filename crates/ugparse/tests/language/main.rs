@@ -8,6 +8,7 @@ mod docs;
 mod faces;
 mod files;
 mod limits;
+mod paths;
 mod round_trip;
 mod scopes;
 mod statements;

@@ -26,7 +26,8 @@ fn definitions_are_local_and_hide_outer_ones() {
 #[test]
 fn vertices_are_seen_in_their_own_scope_only() {
     check_error(&format!("{TRIANGLE} def d; v x 0 0 0; f (a x x); end;"), "vertex `a` is not defined");
-    assert_eq!(errors("def d; v x 0 0 0; end; i (d); f (d:x x x);").len(), 3);
+    assert_eq!(errors("def d; v x 0 0 0; end; i (d); f (d:x x x);").len(), 2);
+    assert_eq!(errors("def d; v x 0 0 0; end; f (d:x x x);").len(), 3);
     check_error("v a 0 0 0; v a 0 0 0;", "vertex `a` is defined twice");
     check("def d; v a 1 0 0; end; v a 0 0 0; i (d);", &["v a 0 0 0;", "v d:a 1 0 0;"]);
 }

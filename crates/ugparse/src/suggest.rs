@@ -1,0 +1,30 @@
+//! "Did you mean": the name that is most like a misspelt one.
+
+/// Names that are compared at most; behind a typo in a large mesh nobody needs a guess.
+const MAX_COMPARED: usize = 10_000;
+
+/// The candidate most like `word`: the same in other case, or one or two slips
+/// of the pen away. `None` if nothing is near. The first of equals.
+pub(crate) fn nearest<'n>(word: &[u8], candidates: impl IntoIterator<Item = &'n [u8]>) -> Option<&'n str> {
+    let word = std::str::from_utf8(word).ok()?;
+    let most = match word.len() {
+        0..=2 => 0,
+        3..=5 => 1,
+        _ => 2,
+    };
+    let near = candidates.into_iter().take(MAX_COMPARED).filter_map(|candidate| {
+        let candidate = std::str::from_utf8(candidate).ok()?;
+        // `v100` is no slip for `v1000`.
+        if stem(candidate) == stem(word) || candidate.len().abs_diff(word.len()) > most {
+            return None;
+        }
+        let same = candidate.eq_ignore_ascii_case(word);
+        let distance = if same { 0 } else { strsim::osa_distance(word, candidate) };
+        (distance <= most).then_some((distance, candidate))
+    });
+    near.min_by_key(|&(distance, _)| distance).map(|(_, candidate)| candidate)
+}
+
+fn stem(name: &str) -> &str {
+    name.trim_end_matches(|c: char| c.is_ascii_digit())
+}

@@ -1,0 +1,73 @@
+//! Vertices of instances, used outside them by their paths.
+
+use crate::{TRIANGLE, check_error, check_rest, errors, parse, warnings};
+
+#[test]
+fn faces_and_wires_reach_into_instances() {
+    let def = "def d; v a 0 0 0; v b 1 0 0; v c 0 1 0; end; ";
+    let check = |text: &str, expected: &[&str]| check_rest(&format!("{def}{text}"), expected);
+    check("i car (d); f (car:a car:b car:c);", &["f (car:a car:b car:c);"]);
+    check("v o 0 0 1; w (x:a o y:b); i x (d); i y (d -tx 3);", &["w (x:a o y:b);"]);
+    check(
+        "a row (d) 3 -tz 1; f (row#0:a row#2:b row#1:c) (row#2:a row#2:b row#2:c);",
+        &["f (row#0:a row#2:b row#1:c) (row#2:a row#2:b row#2:c);"],
+    );
+    // Without names of their own, instances are called as their vertices are.
+    check("i (d); i (d -tx 1); w (d:a d_2:a);", &["w (d:a d_2:a);"]);
+    check("a (d) 2 -tx 1; w (#0:a #1:a);", &["w (#0:a #1:a);"]);
+    // Deeper, and in a definition that is placed twice.
+    check("def e; i in (d); end; i out (e); w (out:in:a out:in:b);", &["w (out:in:a out:in:b);"]);
+    check(
+        "def e; v o 5 5 5; i in (d -tx 1); w line (o in:a); end; i p (e); a q (e) 2;",
+        &["w p:line (p:o p:in:a);", "w q#0:line (q#0:o q#0:in:a);", "w q#1:line (q#1:o q#1:in:a);"],
+    );
+    check(
+        "def e; i in (d); f (in:a in:b in:c) <0 0 .5>; end; i m (e -mx);",
+        &["f (m:in:a m:in:c m:in:b) <0 0 0.5>;"],
+    );
+    // What is written has the names in it, and reads as it was written.
+    let scene = parse(format!("{def} i car (d -tx 5); {TRIANGLE} f (a b car:c);"));
+    let corners = scene.face_contours(&scene.faces[0]).next().unwrap();
+    assert_eq!(scene.vertices[corners[2].index()].position.to_array(), [5.0, 1.0, 0.0]);
+}
+
+#[test]
+fn a_name_of_its_own_wins_over_a_path() {
+    let scene = parse("def d; v a 9 9 9; end; i car (d); v car:a 1 2 3; v o 0 0 0; w (o car:a);");
+    let corners = scene.wire_contours(&scene.wires[0]).next().unwrap();
+    assert_eq!(scene.vertices[corners[1].index()].position.to_array(), [1.0, 2.0, 3.0]);
+}
+
+#[test]
+fn paths_that_lead_nowhere_are_errors() {
+    let def = "def d; v a 0 0 0; end; def e; i in (d); end; ";
+    for path in ["car:b", "car:a:a", "bus:a", "car#0:a", "in:a", "e:in:a", ":a"] {
+        let found = errors(format!("{def} i car (d); i car2 (e); v o 0 0 0; w (o {path});"));
+        assert_eq!(found, [format!("vertex `{path}` is not defined")]);
+    }
+    check_error("def d; v a 0 0 0; end; a r (d) 2; v o 0 0 0; w (o r#2:a);", "vertex `r#2:a` is not defined");
+    check_error("def d; v a 0 0 0; end; a r (d) 0; v o 0 0 0; w (o r#0:a);", "vertex `r#0:a` is not defined");
+    // Once for the statement, however often it is placed.
+    check_error(
+        &format!("{def} def f; v o 0 0 0; i x (d); w (o x:b); end; a (f) 3;"),
+        "vertex `x:b` is not defined",
+    );
+}
+
+#[test]
+fn flat_faces_by_path_are_left_out() {
+    let def = "def d; v a 0 0 0; v b 1 0 0; v c 2 0 0; end; ";
+    for text in [
+        "i x (d); f (x:a x:b x:c);",
+        "i x (d); f (x:a x:b x:b);",
+        "def e; i x (d); f (x:a x:b x:c); end; i (e);",
+    ] {
+        let text = format!("{def}{text}");
+        assert_eq!((warnings(&text, false).len(), parse(&text).faces.len()), (1, 0), "{text}");
+    }
+    // The comments of what follows stay where they are.
+    check_rest(
+        &format!("{def} v o 0 1 0; i x (d); f (x:a x:b x:c);\n{{ it }}\nf (x:a x:b o); {{ that }}"),
+        &["{ it }", "f (x:a x:b o); { that }"],
+    );
+}
