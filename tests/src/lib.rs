@@ -4,7 +4,8 @@
 //! - [`scenes`]: the scenes of the repository;
 //! - [`picture`]: comparing pictures, golden ones included;
 //! - [`oracle`]: what every pixel must show, found by a slow method of its own;
-//! - [`random`]: reproducible random numbers.
+//! - [`random`]: reproducible random numbers;
+//! - [`slow_reader`]: a second reader of the scene language, to check the first.
 
 #![allow(clippy::missing_panics_doc, reason = "a test helper fails by panicking")]
 
@@ -13,3 +14,4 @@ pub mod picture;
 pub mod pipe;
 pub mod random;
 pub mod scenes;
+pub mod slow_reader;
