@@ -27,6 +27,7 @@ fn flat(scene: &Scene) -> Flat {
                 Paint::Hsv([value, hue, saturation, color.translucency])
             }
             ColorValue::Rgb([r, g, b]) => Paint::Rgb([r, g, b, color.translucency]),
+            other => panic!("the slow reader does not know {other:?}"),
         })
     };
     let vertex_name = |id: &VertexId| text(scene.vertices[id.index()].name);

@@ -146,6 +146,25 @@ impl Excerpt {
     }
 }
 
+/// A place in a file, for programs that read messages.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Place {
+    /// The file as messages name it.
+    pub file: String,
+    /// From 1.
+    pub line: usize,
+    /// From 1, in bytes.
+    pub column: usize,
+}
+
+impl Place {
+    /// Where a position of a text was written.
+    pub(crate) fn new(source: &Source, marks: &[LineMark], position: u32) -> Self {
+        let (file, line) = source.reported(marks, position);
+        Self { file: file.to_string(), line, column: source.line_column(position).1 }
+    }
+}
+
 /// All that is wrong with a scene, with its text, ready to show.
 #[derive(Clone, Debug)]
 pub struct Diagnostics {
@@ -175,6 +194,13 @@ impl Diagnostics {
     /// True if nothing is wrong.
     pub fn is_empty(&self) -> bool {
         self.list.is_empty()
+    }
+
+    /// Where each finding of the list is.
+    pub fn places(&self) -> Vec<Place> {
+        let marks = line_marks(&self.source.text);
+        let place = |finding: &Diagnostic| Place::new(&self.source, &marks, finding.span.start);
+        self.list.iter().map(place).collect()
     }
 
     /// Every finding as a person sees it.

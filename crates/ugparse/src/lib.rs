@@ -28,7 +28,12 @@
 //! ```
 //!
 //! Nothing here knows physics or pixels: velocities are carried, not used.
+//!
+//! The feature `cli` adds the program of the same name, and what it stands on;
+//! other crates do without.
 
+#[cfg(feature = "cli")]
+mod cli;
 mod diagnostic;
 mod grammar;
 mod group;
@@ -44,17 +49,21 @@ mod settle;
 mod source;
 mod statement;
 mod suggest;
+mod tidy;
 mod token;
 mod transform;
 mod wording;
 mod writer;
 
-pub use diagnostic::{Diagnostic, Diagnostics, MAX_ERRORS, Severity};
+#[cfg(feature = "cli")]
+pub use cli::main;
+pub use diagnostic::{Diagnostic, Diagnostics, MAX_ERRORS, Place, Severity};
 pub use include::include;
 pub use names::{NameId, Names, UniqueNames};
 pub use place::Origins;
 pub use scene::*;
 pub use source::{Source, Span};
+pub use tidy::tidy;
 pub use writer::write;
 
 /// Bytes a scene may have: positions are 32-bit.
@@ -84,11 +93,7 @@ pub struct Parsed {
 /// All that is wrong with the text, up to [`MAX_ERRORS`] findings.
 pub fn parse(source: &Source, options: &Options) -> Result<Parsed, Diagnostics> {
     let text = &source.text[..];
-    if text.len() > MAX_TEXT {
-        let finding = Diagnostic::error(Span::default(), "the scene is too large")
-            .help("the limit is 4 GiB of text; split the scene");
-        return Err(Diagnostics::one(source, finding));
-    }
+    check_length(source)?;
     let mut findings = Vec::new();
     let mut document = parts::read_all(text, options.lax, &mut findings);
     findings.extend(document.includes.iter().map(include::not_followed));
@@ -101,6 +106,16 @@ pub fn parse(source: &Source, options: &Options) -> Result<Parsed, Diagnostics> 
     let (scene, origins) = place::place(text, &mut document, &links, scene, &mut findings);
     refuse_errors(source, &mut findings)?;
     Ok(Parsed { scene, origins, warnings: Diagnostics::new(source, findings) })
+}
+
+/// Stops if positions in the text do not fit.
+fn check_length(source: &Source) -> Result<(), Diagnostics> {
+    if source.text.len() > MAX_TEXT {
+        let finding = Diagnostic::error(Span::default(), "the scene is too large")
+            .help("the limit is 4 GiB of text; split the scene");
+        return Err(Diagnostics::one(source, finding));
+    }
+    Ok(())
 }
 
 /// Stops if there is an error among the findings.

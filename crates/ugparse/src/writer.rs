@@ -122,17 +122,9 @@ impl<'s> Writer<'s> {
         self.out.extend_from_slice(self.scene.names.get(name).as_bytes());
     }
 
-    /// The shortest decimal that reads back to the same bits.
     fn number(&mut self, value: f64) {
         self.out.push(b' ');
-        // Not `-0.0`: the sign of zero is kept by the general way.
-        if value == value.trunc() && value.abs() < 1e6 && (value != 0.0 || value.is_sign_positive()) {
-            let mut digits = [0u8; 8];
-            self.out.extend_from_slice(short_integer(value as i32, &mut digits));
-            return;
-        }
-        let text = self.numbers.format_finite(value);
-        self.out.extend_from_slice(text.strip_suffix(".0").unwrap_or(text).as_bytes());
+        push_number(&mut self.out, &mut self.numbers, value);
     }
 
     fn point(&mut self, p: DVec3) {
@@ -259,6 +251,18 @@ impl<'s> Writer<'s> {
         self.optional_velocity(camera.velocity);
         self.text(";");
     }
+}
+
+/// The shortest decimal that reads back to the same bits.
+pub(crate) fn push_number(out: &mut Vec<u8>, numbers: &mut zmij::Buffer, value: f64) {
+    // Not `-0.0`: the sign of zero is kept by the general way.
+    if value == value.trunc() && value.abs() < 1e6 && (value != 0.0 || value.is_sign_positive()) {
+        let mut digits = [0u8; 8];
+        out.extend_from_slice(short_integer(value as i32, &mut digits));
+        return;
+    }
+    let text = numbers.format_finite(value);
+    out.extend_from_slice(text.strip_suffix(".0").unwrap_or(text).as_bytes());
 }
 
 /// Decimal digits of an integer of at most six digits.

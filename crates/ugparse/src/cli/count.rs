@@ -1,0 +1,191 @@
+//! What `ugparse count` prints.
+
+use std::fmt::Write;
+
+use glam::DVec3;
+use serde_json::{Map, Value, json};
+
+use crate::cli::measure::{Edges, bodies, corner_count, thickest_face};
+use crate::diagnostic::Place;
+use crate::group::Group;
+use crate::parts::read_all;
+use crate::reader::line_marks;
+use crate::scene::{Scene, VelocityId};
+use crate::statement::Repeat;
+use crate::{Options, Parsed, Source};
+
+/// All that is counted and measured.
+pub(crate) struct Counts {
+    statements: Vec<Statements>,
+    corners: usize,
+    faces_with_holes: usize,
+    bounds: Option<(DVec3, DVec3)>,
+    /// The face that is least flat, and its thickness over its size.
+    thickest: Option<(FacePlace, f64)>,
+    edges: Edges,
+    /// The face that disagrees with most of its neighbours, and with how many edges.
+    turned: Option<(FacePlace, u32)>,
+    bodies: Vec<Body>,
+}
+
+/// Statements of a kind.
+struct Statements {
+    kind: &'static str,
+    /// In the text, those in definitions included, once.
+    written: usize,
+    /// In the flat scene, if the kind is in flat scenes.
+    placed: Option<usize>,
+}
+
+struct FacePlace {
+    name: Option<String>,
+    place: Place,
+}
+
+struct Body {
+    velocity: Option<DVec3>,
+    faces: usize,
+    wires: usize,
+}
+
+impl Counts {
+    pub fn new(source: &Source, parsed: &Parsed, options: &Options) -> Self {
+        let Parsed { scene, origins, .. } = parsed;
+        let marks = line_marks(&source.text);
+        let face_place = |row: usize| FacePlace {
+            name: scene.faces[row].name.map(|name| scene.names.get(name).to_string()),
+            place: Place::new(source, &marks, origins.faces[row].start),
+        };
+        let edges = Edges::new(scene);
+        Self {
+            statements: statements(source, scene, options),
+            corners: corner_count(scene),
+            faces_with_holes: scene.faces.iter().filter(|face| face.contours.len() > 1).count(),
+            bounds: scene.bounds(),
+            thickest: thickest_face(scene).map(|(row, thickness)| (face_place(row), thickness)),
+            turned: edges.turned.map(|(row, n_edges)| (face_place(row), n_edges)),
+            edges,
+            bodies: bodies(scene)
+                .into_iter()
+                .map(|(velocity, faces, wires)| Body { velocity: value(scene, velocity), faces, wires })
+                .collect(),
+        }
+    }
+
+    pub fn text(&self) -> String {
+        let mut out = String::new();
+        // Writing to a string does not fail.
+        let mut line = |label: &str, text: String| {
+            let _ = writeln!(out, "{}", format!("{label:<18}{text}").trim_end());
+        };
+        line("", format!("{:>9} {:>9}", "written", "placed"));
+        for Statements { kind, written, placed } in &self.statements {
+            let placed = placed.map_or("-".to_string(), |count| count.to_string());
+            line(kind, format!("{written:>9} {placed:>9}"));
+        }
+        line("corners of faces", format!("{:>9} {:>9}", "", self.corners));
+        line("faces with holes", format!("{:>9} {:>9}", "", self.faces_with_holes));
+        if let Some((low, high)) = self.bounds {
+            line("box", format!("{} to {}", point(low), point(high)));
+        }
+        if let Some((face, thickness)) = &self.thickest {
+            line("least flat face", format!("{thickness:.1e} of its size: {}", face.text()));
+        }
+        let Edges { opposite, same, border, crowded, .. } = &self.edges;
+        line("edges", format!("{opposite} between two faces that agree which side is outside"));
+        line("", format!("{same} between two faces that do not"));
+        line("", format!("{border} of one face"));
+        line("", format!("{crowded} of more than two"));
+        if let Some((face, n_edges)) = &self.turned {
+            line("turned face", format!("{}, at {n_edges} of its edges", face.text()));
+        }
+        for (row, body) in self.bodies.iter().enumerate() {
+            let velocity = body.velocity.map_or("no velocity".to_string(), |v| format!("<{}>", point(v)));
+            let label = if row == 0 { format!("bodies {:>10} ", self.bodies.len()) } else { String::new() };
+            line(&label, format!("{velocity}: {} faces, {} wires", body.faces, body.wires));
+        }
+        out
+    }
+
+    pub fn json(&self) -> Value {
+        let written: Map<String, Value> =
+            self.statements.iter().map(|row| (row.kind.to_string(), row.written.into())).collect();
+        let placed: Map<String, Value> = self
+            .statements
+            .iter()
+            .filter_map(|row| Some((row.kind.to_string(), row.placed?.into())))
+            .collect();
+        let bodies = self.bodies.iter().map(|body| {
+            let velocity = body.velocity.map(|velocity| velocity.to_array());
+            json!({ "velocity": velocity, "faces": body.faces, "wires": body.wires })
+        });
+        json!({
+            "written": written,
+            "placed": placed,
+            "corners": self.corners,
+            "faces_with_holes": self.faces_with_holes,
+            "box": self.bounds.map(|(low, high)| [low.to_array(), high.to_array()]),
+            "least_flat": self.thickest.as_ref().map(|(face, thickness)| {
+                json!({ "thickness_over_size": thickness, "face": face.json() })
+            }),
+            "edges": {
+                "opposite": self.edges.opposite,
+                "same": self.edges.same,
+                "border": self.edges.border,
+                "more_than_two": self.edges.crowded,
+            },
+            "turned": self.turned.as_ref().map(|(face, n_edges)| {
+                json!({ "edges": n_edges, "face": face.json() })
+            }),
+            "bodies": bodies.collect::<Value>(),
+        })
+    }
+}
+
+impl FacePlace {
+    fn text(&self) -> String {
+        let Place { file, line, .. } = &self.place;
+        match &self.name {
+            Some(name) => format!("`{name}`, {file}:{line}"),
+            None => format!("{file}:{line}"),
+        }
+    }
+
+    fn json(&self) -> Value {
+        json!({ "name": self.name, "file": self.place.file, "line": self.place.line })
+    }
+}
+
+fn point(p: DVec3) -> String {
+    format!("{} {} {}", p.x, p.y, p.z)
+}
+
+fn value(scene: &Scene, velocity: Option<VelocityId>) -> Option<DVec3> {
+    velocity.map(|velocity| scene.velocities[velocity.index()])
+}
+
+/// Statements by kind. The text is read a second time, since placing it used its tables up.
+fn statements(source: &Source, scene: &Scene, options: &Options) -> Vec<Statements> {
+    let document = read_all(&source.text, options.lax, &mut Vec::new());
+    let written = |count: fn(&Group<'_>) -> usize| document.groups.iter().map(count).sum();
+    let row =
+        |kind, count: fn(&Group<'_>) -> usize, placed| Statements { kind, written: written(count), placed };
+    vec![
+        row("colours", |group| group.colors.len(), Some(scene.colors.len())),
+        row("vertices", |group| group.vertices.len(), Some(scene.vertices.len())),
+        row("faces", |group| group.faces.len(), Some(scene.faces.len())),
+        row("wires", |group| group.wires.len(), Some(scene.wires.len())),
+        row("lights", |group| group.lights.len(), Some(scene.lights.len())),
+        row("cameras", |group| group.cameras.len(), Some(scene.cameras.len())),
+        row("escapes", |group| group.escapes.len(), Some(scene.escapes.len())),
+        row("unknown", |group| group.unknown.len(), Some(scene.unknown.len())),
+        row("definitions", |group| group.definitions.len(), None),
+        row("instances", |group| group.calls.len() - array_count(group), None),
+        row("arrays", array_count, None),
+    ]
+}
+
+fn array_count(group: &Group<'_>) -> usize {
+    let is_array = |repeat: &Repeat| matches!(repeat, Repeat::Times(..));
+    group.calls.rows.iter().filter(|call| is_array(&call.statement.repeat)).count()
+}

@@ -1,0 +1,5 @@
+//! `ugparse`: see the library of the same name.
+
+fn main() -> std::process::ExitCode {
+    ugparse::main()
+}

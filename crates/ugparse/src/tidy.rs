@@ -1,0 +1,192 @@
+//! Canonical layout of a scene as written: nothing is flattened, left out or put in another order.
+//!
+//! The layout is made from the text itself, word by word. So all that a reader
+//! does not keep, the order of statements and the comments within them, is kept.
+
+use crate::diagnostic::Diagnostics;
+use crate::grammar::KEYWORDS;
+use crate::parts::read_all;
+use crate::source::Source;
+use crate::token::{Input, comment, escape, found, integer, is_blank, number, skip_statement, word};
+use crate::writer::push_number;
+use crate::{Options, check_length, refuse_errors};
+
+/// Blanks for each scope round a statement.
+const INDENT: &str = "  ";
+
+/// Lays a scene out anew: one statement a line, definitions indented, one blank
+/// between words, numbers as short as can be.
+///
+/// - Statements keep their order, comments their places: on a line of their
+///   own, behind a statement, or within it. The text of comments, escapes and
+///   unknown statements is not touched, nor are file names.
+/// - One empty line between statements is kept; more become one.
+/// - Empty statements (a second `;`) go away.
+/// - Included files are not read, nothing is looked up: a text that is a part of
+///   a scene may be laid out by itself.
+///
+/// What comes out is laid out to itself, and reads as what went in. Only a
+/// comment behind several statements on one line goes with the last of them.
+///
+/// ```
+/// let source = ugparse::Source::new("tile.ug", "def tile; v a 0 0.50 +1; {corner} end ;i(tile -tx 1e0);");
+/// let text = ugparse::tidy(&source, &ugparse::Options::default())?;
+/// assert_eq!(
+///     String::from_utf8_lossy(&text),
+///     "def tile;\n  v a 0 0.5 1; {corner}\nend;\ni (tile -tx 1);\n"
+/// );
+/// # Ok::<(), ugparse::Diagnostics>(())
+/// ```
+///
+/// # Errors
+/// Statements that cannot be read.
+pub fn tidy(source: &Source, options: &Options) -> Result<Vec<u8>, Diagnostics> {
+    check_length(source)?;
+    let mut findings = Vec::new();
+    read_all(&source.text, options.lax, &mut findings);
+    refuse_errors(source, &mut findings)?;
+    let mut layout = Layout { out: Vec::with_capacity(source.text.len()), ..Layout::default() };
+    layout.text(&source.text);
+    Ok(layout.out)
+}
+
+#[derive(Default)]
+struct Layout {
+    out: Vec<u8>,
+    /// Definitions that are open.
+    depth: usize,
+    /// Line ends since the last statement or comment.
+    n_line_ends: usize,
+    numbers: zmij::Buffer,
+}
+
+impl Layout {
+    /// Lays out a text that has been read without errors.
+    fn text(&mut self, text: &[u8]) {
+        let mut input = text;
+        while let Some(&byte) = input.first() {
+            input = match byte {
+                b'\n' => {
+                    self.n_line_ends += 1;
+                    &input[1..]
+                }
+                byte if is_blank(byte) || byte == b';' => &input[1..],
+                b'{' => {
+                    let rest = comment(input).map_or(&input[..0], |(rest, _)| rest);
+                    self.comment(taken(input, rest));
+                    rest
+                }
+                _ => self.statement(input),
+            };
+        }
+        if !self.out.is_empty() {
+            self.out.push(b'\n');
+        }
+    }
+
+    /// A comment between statements stays on its line.
+    fn comment(&mut self, text: &[u8]) {
+        if self.n_line_ends == 0 && !self.out.is_empty() {
+            self.out.push(b' ');
+        } else {
+            self.begin_line();
+        }
+        self.verbatim(text);
+    }
+
+    /// Lays out one statement and gives what is behind it.
+    fn statement<'t>(&mut self, input: Input<'t>) -> Input<'t> {
+        if input.first() == Some(&b'(') {
+            let rest = escape(input).map_or(&input[..0], |(rest, _)| rest);
+            self.begin_line();
+            self.verbatim(taken(input, rest));
+            return rest;
+        }
+        let (body, keyword) = word(input).unwrap_or((&input[..0], input));
+        if keyword == b"end" {
+            self.depth = self.depth.saturating_sub(1);
+        }
+        self.begin_line();
+        if is_known(keyword) {
+            let rest = self.words(input, keyword);
+            self.depth += usize::from(keyword == b"def");
+            return rest;
+        }
+        let rest = match keyword {
+            // For the C preprocessor, or from it: the statement ends with its line.
+            b"#" | b"#line" => &body[memchr::memchr(b'\n', body).unwrap_or(body.len())..],
+            _ => skip_statement(body).unwrap_or_default(),
+        };
+        self.verbatim(taken(input, rest));
+        rest
+    }
+
+    fn begin_line(&mut self) {
+        if !self.out.is_empty() {
+            self.out.push(b'\n');
+            if self.n_line_ends > 1 {
+                self.out.push(b'\n');
+            }
+        }
+        self.out.extend_from_slice(INDENT.repeat(self.depth).as_bytes());
+    }
+
+    fn verbatim(&mut self, text: &[u8]) {
+        self.out.extend_from_slice(text);
+        self.n_line_ends = 0;
+    }
+
+    /// The words of a statement up to its `;`, one blank between them but not
+    /// inside brackets; gives what is behind.
+    fn words<'t>(&mut self, mut input: Input<'t>, keyword: &[u8]) -> Input<'t> {
+        let mut is_open = true;
+        loop {
+            let n_blanks = input.iter().take_while(|&&byte| is_blank(byte)).count();
+            input = &input[n_blanks..];
+            let Some(&byte) = input.first() else { return input };
+            if !is_open && !matches!(byte, b')' | b'>' | b';') {
+                self.out.push(b' ');
+            }
+            is_open = matches!(byte, b'(' | b'<');
+            let rest = behind_word(input);
+            self.word(taken(input, rest), keyword);
+            input = rest;
+            if byte == b';' {
+                return input;
+            }
+        }
+    }
+
+    /// One word, comment or mark of a statement.
+    fn word(&mut self, text: &[u8], keyword: &[u8]) {
+        if matches!(keyword, b"include" | b"execute") {
+            self.verbatim(text);
+        } else if keyword == b"a" && matches!(integer(text), Ok(([], _))) {
+            // The size of an array has digits only, however many.
+            let zeros = text.iter().take_while(|&&digit| digit == b'0').count();
+            self.verbatim(&text[zeros.min(text.len() - 1)..]);
+        } else if let Ok(([], value)) = number(text) {
+            push_number(&mut self.out, &mut self.numbers, value);
+        } else {
+            self.verbatim(text);
+        }
+    }
+}
+
+fn is_known(keyword: &[u8]) -> bool {
+    KEYWORDS.split(' ').any(|known| known.as_bytes() == keyword)
+}
+
+/// What is behind the comment, file name in quotes, word or mark at the beginning of `input`.
+fn behind_word(input: Input<'_>) -> Input<'_> {
+    match input {
+        [b'{', ..] => comment(input).map_or(&input[..0], |(rest, _)| rest),
+        [b'"', quoted @ ..] => &quoted[memchr::memchr(b'"', quoted).map_or(quoted.len(), |end| end + 1)..],
+        _ => &input[found(input).len()..],
+    }
+}
+
+/// The part of `input` before `rest`.
+fn taken<'t>(input: Input<'t>, rest: Input<'_>) -> Input<'t> {
+    &input[..input.len() - rest.len()]
+}

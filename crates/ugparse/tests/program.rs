@@ -1,0 +1,325 @@
+//! The program itself: what each job prints, and its exit status.
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking, its helpers too")]
+
+use std::fs;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+
+use serde_json::{Value, json};
+use ugparse::{Options, Scene, Source};
+
+fn ugparse(args: &[&str], input: &[u8]) -> Output {
+    let mut child = Command::new(env!("CARGO_BIN_EXE_ugparse"))
+        .args(args)
+        .current_dir(repository())
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("the program starts");
+    // The program may end without reading; a closed pipe is no failure of ours.
+    let _ = child.stdin.take().expect("a pipe").write_all(input);
+    child.wait_with_output().expect("the program ends")
+}
+
+fn repository() -> &'static Path {
+    Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))
+}
+
+/// What a successful run prints.
+#[track_caller]
+fn printed(args: &[&str], input: &[u8]) -> String {
+    let out = ugparse(args, input);
+    let error = String::from_utf8_lossy(&out.stderr);
+    assert_eq!(out.status.code(), Some(0), "{args:?}: {error}");
+    String::from_utf8(out.stdout).unwrap()
+}
+
+#[track_caller]
+fn json_of(args: &[&str], input: &[u8]) -> Value {
+    serde_json::from_str(&printed(args, input)).unwrap()
+}
+
+/// The scenes of the repository.
+fn scenes() -> Vec<PathBuf> {
+    let entries = fs::read_dir(repository().join("scenes")).unwrap();
+    let mut scenes: Vec<PathBuf> = entries.map(|entry| entry.unwrap().path()).collect();
+    scenes.retain(|path| path.extension().is_some_and(|ending| ending == "ug"));
+    scenes.sort();
+    assert!(scenes.len() >= 9, "{scenes:?}");
+    scenes
+}
+
+fn flat(text: &[u8]) -> Scene {
+    let parsed = ugparse::parse(&Source::new("scene.ug", text), &Options::default());
+    parsed.unwrap_or_else(|findings| panic!("{findings}")).scene
+}
+
+const BAD: &str = "v a 0 0 0;\nv b 1 0 0;\nv c 0 1 0;\nf (a b c) red;\nf (a b d);\n";
+const POOR: &str = "v a 0 0 0;\nv b 1 0 0;\nf (a b);\n";
+
+#[test]
+fn check_is_what_is_done_without_a_job() {
+    for args in
+        [&["scenes/ship.ug"][..], &["check", "scenes/ship.ug"], &["-fi", "scenes/ship.ug", "-nt", "1"]]
+    {
+        let out = ugparse(args, b"");
+        let messages = String::from_utf8_lossy(&out.stderr).into_owned();
+        assert_eq!(messages, "ugparse: note: scenes/ship.ug can be used: 0 errors, 0 warnings\n", "{args:?}");
+        assert_eq!((out.status.code(), out.stdout.len()), (Some(0), 0), "{args:?}");
+    }
+}
+
+#[test]
+fn a_check_prints_findings_as_other_programs_do() {
+    let out = ugparse(&["-qt"], BAD.as_bytes());
+    assert_eq!((out.status.code(), out.stdout.len()), (Some(1), 0));
+    let findings = ugparse::parse(&Source::new("<stdin>", BAD), &Options::default()).unwrap_err();
+    assert_eq!(String::from_utf8_lossy(&out.stderr), format!("{findings}\n"));
+
+    let out = ugparse(&[], POOR.as_bytes());
+    assert_eq!((out.status.code(), out.stdout.len()), (Some(0), 0));
+    let messages = String::from_utf8_lossy(&out.stderr).into_owned();
+    assert!(messages.contains("<stdin> can be used: 0 errors, 1 warning\n"), "{messages}");
+    assert!(messages.contains("warning: ") && messages.contains("<stdin>:3:"), "{messages}");
+}
+
+#[test]
+fn a_check_for_programs_is_json() {
+    let out = ugparse(&["check", "-format", "json"], BAD.as_bytes());
+    assert_eq!((out.status.code(), out.stderr.len()), (Some(1), 0));
+    let rows: Value = serde_json::from_slice(&out.stdout).unwrap();
+    let places: Vec<_> = rows.as_array().unwrap().iter().map(|row| (&row["line"], &row["column"])).collect();
+    assert_eq!(places, [(&json!(4), &json!(11)), (&json!(5), &json!(8))]);
+    let row = &rows[1];
+    assert_eq!(row["severity"], "error");
+    assert_eq!(row["message"], "vertex `d` is not defined");
+    assert_eq!(row["file"], "<stdin>");
+    assert_eq!(row["label"], "used here");
+    assert!(row["help"].as_str().unwrap().contains("`v` statement"), "{row}");
+
+    assert_eq!(json_of(&["--format", "json", "scenes/ship.ug"], b""), json!([]));
+    assert_eq!(json_of(&["-format=json"], POOR.as_bytes())[0]["severity"], "warning");
+}
+
+#[test]
+fn findings_are_placed_in_the_file_that_has_them() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name).display().to_string();
+    fs::write(path("house.ug"), "c red 1 0;\ninclude \"the walls.ug\";\nf (a b e);\n").unwrap();
+    fs::write(path("the walls.ug"), "v a 0 0 0;\nv b 1 0 0; f (a b d);\n").unwrap();
+    let report = path("report.json");
+    let out = ugparse(&["check", "-format", "json", "-fo", &report, &path("house.ug")], b"");
+    assert_eq!(out.status.code(), Some(1), "{}", String::from_utf8_lossy(&out.stderr));
+    // The report is the work, and is kept.
+    let rows: Value = serde_json::from_slice(&fs::read(report).unwrap()).unwrap();
+    let place = |row: usize| (rows[row]["file"].as_str().unwrap().to_string(), rows[row]["line"].clone());
+    assert_eq!(place(0), (path("the walls.ug"), json!(2)));
+    assert_eq!(place(1), (path("house.ug"), json!(3)));
+}
+
+#[test]
+fn bad_usage_is_status_2() {
+    for args in [
+        &["tidy", "-format", "json"][..],
+        &["flatten", "-format", "json"],
+        &["count", "-format", "xml"],
+        &["-nonsense"],
+        &["scenes/ship.ug", "tidy"],
+        &["-fi", "scenes/ship.ug", "tidy", "scenes/dice.ug"],
+        &["tidy", "-fi", "scenes/ship.ug", "scenes/dice.ug"],
+        &["tidy", "scenes/ship.ug", "scenes/dice.ug"],
+    ] {
+        let out = ugparse(args, b"");
+        assert_eq!((out.status.code(), out.stdout.len()), (Some(2), 0), "{args:?}");
+        assert!(!out.stderr.is_empty(), "{args:?}");
+    }
+}
+
+#[test]
+fn options_stand_on_either_side_of_the_job() {
+    let unknown = b"shine 1;\n";
+    for args in [
+        &["tidy", "-lax", "-qt"][..],
+        &["-lax", "-qt", "tidy"],
+        &["-lax", "tidy", "-qt", "-"],
+        &["-nt", "1", "-lax", "-qt", "flatten", "-fi", "-"],
+    ] {
+        let out = ugparse(args, unknown);
+        assert_eq!((&out.stdout[..], &out.stderr[..]), (&unknown[..], &b""[..]), "{args:?}");
+    }
+    let counts = json_of(&["-format", "json", "count", "scenes/ship.ug"], b"");
+    assert_eq!(counts, json_of(&["count", "-fi", "scenes/ship.ug", "-format", "json"], b""));
+}
+
+#[test]
+fn jobs_that_write_scenes_write_nothing_of_bad_ones() {
+    for job in ["flatten", "count"] {
+        let out = ugparse(&[job], BAD.as_bytes());
+        assert_eq!((out.status.code(), out.stdout.len()), (Some(1), 0), "{job}");
+    }
+    // Tidying looks nothing up: what cannot be read is a matter of statements.
+    assert_eq!(printed(&["tidy"], BAD.as_bytes()), BAD);
+    let out = ugparse(&["tidy"], b"v a 0 0;\n");
+    assert_eq!((out.status.code(), out.stdout.len()), (Some(1), 0));
+}
+
+#[test]
+fn flatten_writes_the_flat_scene() {
+    for path in scenes() {
+        let scene = flat(&fs::read(&path).unwrap());
+        let out = ugparse(&["flatten", path.to_str().unwrap()], b"");
+        assert!(out.status.success() && out.stdout == ugparse::write(&scene), "{}", path.display());
+    }
+}
+
+#[test]
+fn tidy_keeps_scenes_and_is_done_once() {
+    for path in scenes() {
+        let text = fs::read(&path).unwrap();
+        let tidy = printed(&["tidy", path.to_str().unwrap()], b"");
+        assert!(flat(tidy.as_bytes()) == flat(&text), "{}", path.display());
+        assert_eq!(printed(&["tidy"], tidy.as_bytes()), tidy, "{}", path.display());
+        assert_eq!(tidy.matches('{').count(), String::from_utf8_lossy(&text).matches('{').count());
+        for keyword in ["def", "i", "a"] {
+            let count = |text: &str| text.split_whitespace().filter(|word| *word == keyword).count();
+            assert!(count(&tidy) >= count(&String::from_utf8_lossy(&text)), "{}: {keyword}", path.display());
+        }
+    }
+}
+
+#[test]
+fn tidy_lays_out() {
+    #[track_caller]
+    fn check(text: &str, expected: &str) {
+        let tidy = |text: &str| printed(&["tidy", "-lax", "-qt"], text.as_bytes());
+        assert_eq!(tidy(text), expected);
+        assert_eq!(tidy(expected), expected);
+        let scene = |text: &str| {
+            let options = Options { lax: true };
+            ugparse::parse(&Source::new("scene.ug", text), &options).ok().map(|parsed| parsed.scene)
+        };
+        assert!(scene(text) == scene(expected), "{text}");
+    }
+    check("", "");
+    check(" \n\n", "");
+    check("{ only a comment }", "{ only a comment }\n");
+    // One statement a line, one blank between words.
+    check("v a 0 0 0;v b 1 0 0 ;\tv\tc\n0 1 0\n;", "v a 0 0 0;\nv b 1 0 0;\nv c 0 1 0;\n");
+    check(
+        "c red 1 0; v a 0 0 0; v b 1 0 0; v c 0 1 0; f up( a b c )( c b a )red < 0 .5 0 > ;",
+        "c red 1 0;\nv a 0 0 0;\nv b 1 0 0;\nv c 0 1 0;\nf up (a b c) (c b a) red <0 0.5 0>;\n",
+    );
+    check("v\x0Ba 0\x0C0 0;\r\nv b 0 0 1;\r\n", "v a 0 0 0;\nv b 0 0 1;\n");
+    check(";;v a 0 0 0;;", "v a 0 0 0;\n");
+    // Numbers are as short as they can be, and mean the same.
+    check("v a +1.50 -0 1E3;", "v a 1.5 -0 1000;\n");
+    check("v a .10000000000000001 1e-7 123456789;", "v a 0.1 1e-7 123456789;\n");
+    check("cam -ep 01 2. 3 -va 040 30 -ps;", "cam -ep 1 2 3 -va 40 30 -ps;\n");
+    check("def t; end; a(t)004 -tx 1.0;", "def t;\nend;\na (t) 4 -tx 1;\n");
+    check("def t; end; a (t) 0 -tx 1;", "def t;\nend;\na (t) 0 -tx 1;\n");
+    // Definitions are indented; empty lines are kept, one at a time.
+    check(
+        "\n\ndef a;def b;v x 0 0 0;end;\n\n\ni (b);end;\ni (a);\n\n",
+        "def a;\n  def b;\n    v x 0 0 0;\n  end;\n\n  i (b);\nend;\ni (a);\n",
+    );
+    // Comments stay where they are, and as they are.
+    check(
+        "{ head }\n{two}{three}\nv a 0 0 0;  {behind}  {too}\n  {above}v b 0 0 1;",
+        "{ head }\n{two} {three}\nv a 0 0 0; {behind} {too}\n{above}\nv b 0 0 1;\n",
+    );
+    check("v{n}a 0{x}0 {y}\n 0{ z\n};", "v {n} a 0 {x} 0 {y} 0 { z\n};\n");
+    check(
+        "def t;{what}\nv a 0 0 0;{ {nested}\n  lines }\nend;{t}\n",
+        "def t; {what}\n  v a 0 0 0; { {nested}\n  lines }\nend; {t}\n",
+    );
+    // Text for others is not touched.
+    check("(  for  (others) 1.0 ; { ) {mine}\nv a 0 0 0;", "(  for  (others) 1.0 ; { ) {mine}\nv a 0 0 0;\n");
+    check("shine  a 1.0 {x;}\n  2 ; v a 0 0 0;", "shine  a 1.0 {x;}\n  2 ;\nv a 0 0 0;\n");
+    check("v a 0 0 0; # pragma  once \nv b 0 0 1;", "v a 0 0 0;\n# pragma  once \nv b 0 0 1;\n");
+    check(
+        "# 1 \"a b.ug\"\nv a 0 0 0;\n#line 7\n{x} v b 0 0 1;",
+        "# 1 \"a b.ug\"\nv a 0 0 0;\n#line 7\n{x}\nv b 0 0 1;\n",
+    );
+    check("include  007;include\"a; {b}.ug\" ;", "include 007;\ninclude \"a; {b}.ug\";\n");
+}
+
+/// A cube of side 2 whose face `top` is as told.
+fn cube(top: &str) -> String {
+    let mut text = String::new();
+    for row in 0..8 {
+        let side = |bit: usize| if row >> bit & 1 == 1 { 1 } else { -1 };
+        text += &format!("v p{row} {} {} {};\n", side(0), side(1), side(2));
+    }
+    text + "f bottom (p0 p2 p3 p1);\nf front (p0 p1 p5 p4);\nf back (p2 p6 p7 p3);\n\
+            f left (p0 p4 p6 p2);\nf right (p1 p3 p7 p5);\n"
+        + top
+}
+
+#[test]
+fn count_sees_a_face_that_is_turned() {
+    #[track_caller]
+    fn check(top: &str, [opposite, same, border, more]: [u32; 4], turned: Value) {
+        let counts = json_of(&["count", "-format", "json"], cube(top).as_bytes());
+        let expected = json!({ "opposite": opposite, "same": same, "border": border, "more_than_two": more });
+        assert_eq!(counts["edges"], expected, "{top}");
+        assert_eq!(counts["turned"], turned, "{top}");
+    }
+    let at_line_14 =
+        |edges: u32| json!({ "edges": edges, "face": { "name": "top", "file": "<stdin>", "line": 14 } });
+    check("f top (p4 p5 p7 p6);", [12, 0, 0, 0], Value::Null);
+    check("f top (p6 p7 p5 p4);", [8, 4, 0, 0], at_line_14(4));
+    check("", [8, 0, 4, 0], Value::Null);
+    check("f top (p4 p5 p7 p6); f top (p4 p5 p7 p6);", [8, 0, 0, 4], Value::Null);
+    // Other vertices in the same places.
+    check("v a -1 -1 1; v b 1 -1 1; v c 1 1 1; v d -1 1 1;\nf top (a b c d);", [12, 0, 0, 0], Value::Null);
+    // A hole has edges, whichever way it is written.
+    let hole = "v a -.5 -.5 1; v b .5 -.5 1; v c .5 .5 1; v d -.5 .5 1; f lid (a b c d);";
+    check(&format!("{hole} f top (p4 p5 p7 p6) (a b c d);"), [16, 0, 0, 0], Value::Null);
+    check(&format!("{hole} f top (p4 p5 p7 p6) (d c b a);"), [16, 0, 0, 0], Value::Null);
+}
+
+#[test]
+fn count_counts_and_measures() {
+    let text = "{ two squares, one of them bent }
+        c red 1 0; def tile; v a 0 0 0; v b 1 0 0; v c 1 1 0; v d 0 1 0; f flat (a b c d) red; end;
+        a (tile) 3 -tx 2 <.5 0 0>; i (tile -tz 1);
+        v p 0 0 5; v q 3 0 5.5; v r 3 4 5; v s 0 4 5.5;
+        f bent (p q r s) <0 .25 0>; w (p r);
+        l 1; cam -ep 0 0 9; (an escape)";
+    let counts = json_of(&["count", "-format", "json"], text.as_bytes());
+    let written = json!({ "colours": 1, "vertices": 8, "faces": 2, "wires": 1, "lights": 1, "cameras": 1,
+        "escapes": 1, "unknown": 0, "definitions": 1, "instances": 1, "arrays": 1 });
+    let placed = json!({ "colours": 1, "vertices": 20, "faces": 5, "wires": 1, "lights": 1, "cameras": 1,
+        "escapes": 1, "unknown": 0 });
+    assert_eq!((&counts["written"], &counts["placed"]), (&written, &placed));
+    assert_eq!((&counts["corners"], &counts["faces_with_holes"]), (&json!(20), &json!(0)));
+    assert_eq!(counts["box"], json!([[0.0, 0.0, 0.0], [5.0, 4.0, 5.5]]));
+    // By symmetry the plane is z = 5.25: all corners are 0.25 off it.
+    let face = json!({ "name": "bent", "file": "<stdin>", "line": 5 });
+    assert_eq!(counts["least_flat"]["face"], face);
+    let thickness = counts["least_flat"]["thickness_over_size"].as_f64().unwrap();
+    assert!((thickness - 0.25 / 25.25_f64.sqrt()).abs() < 1e-15, "{thickness}");
+    let body = |velocity: Value, faces: u32, wires: u32| json!({ "velocity": velocity, "faces": faces, "wires": wires });
+    let bodies = counts["bodies"].as_array().unwrap();
+    assert_eq!(bodies.len(), 3, "{bodies:?}");
+    for expected in
+        [body(Value::Null, 1, 1), body(json!([0.5, 0.0, 0.0]), 3, 0), body(json!([0.0, 0.25, 0.0]), 1, 0)]
+    {
+        assert!(bodies.contains(&expected), "{bodies:?}");
+    }
+
+    let table = printed(&["count"], text.as_bytes());
+    for row in ["vertices 8 20", "arrays 1 -", "least flat face 5.0e-2 of its size: `bent`, <stdin>:5"] {
+        let words = |line: &str| line.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(table.lines().any(|line| words(line) == row), "{row}\n{table}");
+    }
+}
+
+#[test]
+fn count_of_nothing() {
+    let counts = json_of(&["count", "-format", "json"], b"");
+    assert_eq!((&counts["box"], &counts["least_flat"]), (&Value::Null, &Value::Null));
+    assert_eq!((&counts["bodies"], &counts["turned"]), (&json!([]), &Value::Null));
+}
