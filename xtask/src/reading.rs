@@ -70,7 +70,7 @@ pub fn write(out: &mut impl Write, triangles: u32) -> Result<(), Box<dyn Error>>
         let peak = peak_of_child(&path, n_threads)? / 1e6;
         writeln!(
             out,
-            "\nPeak memory of reading on {n_threads} threads, text included: {peak:.0} MB, {:.2} times the text.",
+            "\nPeak memory of reading on {n_threads} thread(s), text included: {peak:.0} MB, {:.2} times the text.",
             peak / megabytes
         )?;
     }
