@@ -662,7 +662,9 @@ impl Placing {
     }
 
     fn vertex(&mut self, vertex: &Statement, scopes: &[&Scope], place: &Place) {
-        let Statement::Vertex { name, position, color, normal } = vertex else { unreachable!() };
+        let Statement::Vertex { name, position, color, normal } = vertex else {
+            unreachable!("the caller matched a vertex")
+        };
         self.flat.vertices.push(Vertex {
             name: fresh(&mut self.vertices, place.name(name)),
             position: place.point(*position),
@@ -676,7 +678,7 @@ impl Placing {
 
     fn shape(&mut self, shape: &Statement, scopes: &[&Scope], place: &Place, local: &Local) {
         let Statement::Shape { is_wire, name, contours, color, unnamed, illum, velocity } = shape else {
-            unreachable!()
+            unreachable!("the caller matched a face or wire")
         };
         let name = place.optional_name(name);
         let color = find_paint(scopes, color).or(place.color).or(*unnamed);
@@ -697,7 +699,9 @@ impl Placing {
     }
 
     fn light(&mut self, light: &Statement, scopes: &[&Scope], place: &Place) {
-        let Statement::Light { name, numbers, color, velocity } = light else { unreachable!() };
+        let Statement::Light { name, numbers, color, velocity } = light else {
+            unreachable!("the caller matched a light")
+        };
         let triple = (numbers.len() > 1).then(|| [numbers[1], numbers[2], numbers[3]]);
         let radius = numbers.get(4).copied();
         let to_scene = |p| if radius.is_some() { place.point(p) } else { place.direction(p) };
@@ -713,7 +717,7 @@ impl Placing {
 
     fn placed(&mut self, placed: &Statement, scopes: &[&Scope], place: &Place) {
         let Statement::Placed { name, definition, color, first, size, step, velocity } = placed else {
-            unreachable!()
+            unreachable!("the caller matched an instance or array")
         };
         let found = seen(scopes, |scope| scope.definitions.get(definition));
         let (level, inside) = found.expect("a definition that is seen");
