@@ -148,7 +148,8 @@ mod tests {
     #[test]
     fn devices_are_written_to_and_stay() {
         assert!(matches!(Sink::open(Some(Path::new("/dev/null"))), Ok(Sink::Device(_))));
-        let failure = Output::new(Some(Path::new("/dev/full"))).write(b"scene").unwrap_err();
+        let failure =
+            Output::new(Some(Path::new("/dev/full"))).write_with(|out| out.write_all(b"scene")).unwrap_err();
         assert_eq!(failure.to_string(), "cannot write `/dev/full`: No space left on device");
     }
 }

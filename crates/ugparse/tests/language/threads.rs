@@ -137,10 +137,10 @@ fn as_written() -> String {
     };
     for row in 0..rows {
         let (above, behind) = (comment(row, "above"), comment(row, "behind"));
-        let line = format!("{above}\nv v{row} {row} -{row}.5 0 red; {behind}");
+        let line = format!("{above}\nv v{row} {row} -{row}.5 {} red; {behind}", row * row % 101);
         writeln!(text, "{}", line.trim()).unwrap();
     }
-    for row in 0..rows / 2 {
+    for row in 1..rows / 2 {
         let (above, behind) = (comment(row, "over"), comment(row, "after"));
         let line = format!("{above}\nf (v{row} v{} v0) <0.5 0 0>; {behind}", row + 1);
         writeln!(text, "{}", line.trim()).unwrap();
