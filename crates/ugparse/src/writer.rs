@@ -25,7 +25,7 @@ pub fn write(scene: &Scene) -> Vec<u8> {
     text
 }
 
-/// Sends the text of a scene, as [`write`] gives it, to `out` while it is made
+/// Sends the text of a scene, as [`write()`] gives it, to `out` while it is made
 /// on rayon's threads: less memory, and the same bytes on any number of them.
 ///
 /// # Errors
