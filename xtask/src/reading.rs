@@ -54,11 +54,13 @@ pub fn write(out: &mut impl Write, triangles: u32) -> Result<(), Box<dyn Error>>
     let pools = [pool(1)?, pool(2)?];
     let [one, two] = &pools;
     let read = || ugparse::parse(&source, &Options::default());
+    let write = || ugparse::write(&scene);
     let works = [
         Work { name: "`tobj`, 1 thread", megabytes: obj.len() as f64 / 1e6, run: &|| read_obj(&obj) },
         Work { name: "reading, 1 thread", megabytes, run: &|| black_box(one.install(read)).is_ok() },
         Work { name: "reading, 2 threads", megabytes, run: &|| black_box(two.install(read)).is_ok() },
-        Work { name: "writing", megabytes, run: &|| !black_box(ugparse::write(&scene)).is_empty() },
+        Work { name: "writing, 1 thread", megabytes, run: &|| !black_box(one.install(write)).is_empty() },
+        Work { name: "writing, 2 threads", megabytes, run: &|| !black_box(two.install(write)).is_empty() },
     ];
     let seconds = fastest(&works)?;
     let rate = |row: usize| works[row].megabytes / seconds[row];

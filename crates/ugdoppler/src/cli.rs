@@ -132,7 +132,6 @@ fn run(args: &Args, stage: &mut Stage) -> Result<(), Failure> {
         stage.report(&report.warnings.render(true));
     }
     report.notes.iter().for_each(|note| stage.note(note));
-    let text = report.text();
-    stage.detail(&format!("{} colours, {} bytes", report.scene.colors.len(), text.len()));
-    stage.write(&text)
+    stage.detail(&format!("{} vertices, {} colours", report.scene.vertices.len(), report.scene.colors.len()));
+    stage.write_with(|out| ugparse::write_to(&report.scene, out))
 }

@@ -40,6 +40,7 @@ mod group;
 mod include;
 mod names;
 mod numbered;
+mod outlet;
 mod parts;
 mod place;
 mod quick;
@@ -64,7 +65,7 @@ pub use place::Origins;
 pub use scene::*;
 pub use source::{Source, Span};
 pub use tidy::tidy;
-pub use writer::write;
+pub use writer::{write, write_to};
 
 /// Bytes a scene may have: positions are 32-bit.
 const MAX_TEXT: usize = u32::MAX as usize;

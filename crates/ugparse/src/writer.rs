@@ -1,24 +1,133 @@
 //! [`Scene`] to text: one statement a line, numbers that read back to the same bits.
 
+use std::io::{self, Write};
+
 use glam::DVec3;
 
 use crate::names::NameId;
+use crate::outlet::Outlet;
 use crate::scene::{
     Camera, Color, ColorId, ColorValue, Comment, Contours, Item, Light, LightKind, Projection, Scene,
     VelocityId,
 };
 
+/// Rows that one piece of text is made of.
+const BLOCK_ROWS: usize = 1 << 11;
+
+/// Pieces that a thread makes in one round: enough for even work, and little memory.
+const BLOCKS_PER_THREAD: usize = 4;
+
 /// The text of a scene: head comments, then escapes and unknown statements,
 /// colours, vertices, faces, wires, lights, cameras, each with its comments.
 pub fn write(scene: &Scene) -> Vec<u8> {
-    let mut writer = Writer {
-        scene,
-        out: Vec::with_capacity(64 * (scene.vertices.len() + scene.faces.len()) + 1024),
-        comments: &scene.comments,
-        numbers: zmij::Buffer::new(),
-    };
-    writer.scene();
-    writer.out
+    let mut text = Vec::with_capacity(64 * (scene.vertices.len() + scene.faces.len()) + 1024);
+    write_to(scene, &mut text).expect("memory takes all that is written to it");
+    text
+}
+
+/// Sends the text of a scene, as [`write()`] gives it, to `out` while it is made
+/// on rayon's threads: less memory, and the same bytes on any number of them.
+///
+/// # Errors
+/// Those of `out`. It may have got a part of the text.
+pub fn write_to(scene: &Scene, out: &mut dyn Write) -> io::Result<()> {
+    Tables { scene, outlet: Outlet::new(out), comments: &scene.comments }.send()
+}
+
+/// The tables of a scene, on their way out.
+struct Tables<'s, 'o> {
+    scene: &'s Scene,
+    outlet: Outlet<'o>,
+    /// Comments not given to a block yet; they are sorted by statement.
+    comments: &'s [Comment],
+}
+
+impl<'s> Tables<'s, '_> {
+    fn send(mut self) -> io::Result<()> {
+        let scene = self.scene;
+        for text in &scene.head {
+            self.outlet.append(|out| Writer::on(out, scene, &[], |w| w.comment_line(text)));
+        }
+        self.rows(&scene.escapes, Item::Escape, |w, text| {
+            w.text("(");
+            w.text(text);
+            w.text(")");
+        })?;
+        self.rows(&scene.unknown, Item::Unknown, |w, text| w.text(text))?;
+        self.rows(&scene.colors, Item::Color, Writer::color)?;
+        self.rows(&scene.vertices, Item::Vertex, |w, vertex| {
+            w.text("v");
+            w.name(vertex.name);
+            w.point(vertex.position);
+            w.optional_color(vertex.color);
+            vertex.normal.into_iter().for_each(|normal| w.point(normal));
+            w.text(";");
+        })?;
+        self.rows(&scene.faces, Item::Face, |w, face| {
+            w.text("f");
+            face.name.into_iter().for_each(|name| w.name(name));
+            w.contours(&scene.contours, face.contours.clone());
+            w.optional_color(face.color);
+            scene.light_level(face).into_iter().for_each(|level| w.number(level));
+            w.optional_velocity(face.velocity);
+            w.text(";");
+        })?;
+        self.rows(&scene.wires, Item::Wire, |w, wire| {
+            w.text("w");
+            wire.name.into_iter().for_each(|name| w.name(name));
+            w.contours(&scene.contours, wire.contours.clone());
+            w.optional_color(wire.color);
+            w.optional_velocity(wire.velocity);
+            w.text(";");
+        })?;
+        self.rows(&scene.lights, Item::Light, Writer::light)?;
+        self.rows(&scene.cameras, Item::Camera, Writer::camera)?;
+        let comments = self.comments;
+        self.outlet.append(|out| Writer::on(out, scene, comments, |w| w.comments_at(Item::End, false)));
+        self.outlet.send()
+    }
+
+    /// One line for each row, in blocks that are written on all threads.
+    fn rows<T: Sync>(
+        &mut self,
+        rows: &'s [T],
+        item: fn(u32) -> Item,
+        line: impl Fn(&mut Writer<'s>, &'s T) + Sync,
+    ) -> io::Result<()> {
+        let scene = self.scene;
+        let write = |block: &Block<'s, T>, out: &mut Vec<u8>| {
+            Writer::on(out, scene, block.comments, |w| w.block(block, item, &line));
+        };
+        let blocks: Vec<Block<'s, T>> = rows
+            .chunks(BLOCK_ROWS)
+            .enumerate()
+            .map(|(idx, rows)| self.take_block(idx * BLOCK_ROWS, rows, item))
+            .collect();
+        for round in blocks.chunks(BLOCKS_PER_THREAD * rayon::current_num_threads()) {
+            match round {
+                // Waking a thread would take longer than a small table.
+                [block] => self.outlet.append(|out| write(block, out)),
+                _ => self.outlet.round(round, write)?,
+            }
+        }
+        Ok(())
+    }
+
+    /// A block of rows with the comments that belong to them.
+    fn take_block<T>(&mut self, first: usize, rows: &'s [T], item: fn(u32) -> Item) -> Block<'s, T> {
+        let behind = item((first + rows.len()) as u32);
+        let (comments, rest) = self.comments.split_at(self.comments.partition_point(|c| c.at < behind));
+        self.comments = rest;
+        Block { first, rows, comments }
+    }
+}
+
+/// Neighbouring rows of a table.
+struct Block<'s, T> {
+    /// Row in the table.
+    first: usize,
+    rows: &'s [T],
+    comments: &'s [Comment],
 }
 
 struct Writer<'s> {
@@ -30,52 +139,16 @@ struct Writer<'s> {
 }
 
 impl<'s> Writer<'s> {
-    fn scene(&mut self) {
-        let scene = self.scene;
-        for text in &scene.head {
-            self.comment(text);
-            self.out.push(b'\n');
-        }
-        self.rows(&scene.escapes, Item::Escape, |w, text| {
-            w.text("(");
-            w.text(text);
-            w.text(")");
-        });
-        self.rows(&scene.unknown, Item::Unknown, |w, text| w.text(text));
-        self.rows(&scene.colors, Item::Color, Self::color);
-        self.rows(&scene.vertices, Item::Vertex, |w, vertex| {
-            w.text("v");
-            w.name(vertex.name);
-            w.point(vertex.position);
-            w.optional_color(vertex.color);
-            vertex.normal.into_iter().for_each(|normal| w.point(normal));
-            w.text(";");
-        });
-        self.rows(&scene.faces, Item::Face, |w, face| {
-            w.text("f");
-            face.name.into_iter().for_each(|name| w.name(name));
-            w.contours(&scene.contours, face.contours.clone());
-            w.optional_color(face.color);
-            scene.light_level(face).into_iter().for_each(|level| w.number(level));
-            w.optional_velocity(face.velocity);
-            w.text(";");
-        });
-        self.rows(&scene.wires, Item::Wire, |w, wire| {
-            w.text("w");
-            wire.name.into_iter().for_each(|name| w.name(name));
-            w.contours(&scene.contours, wire.contours.clone());
-            w.optional_color(wire.color);
-            w.optional_velocity(wire.velocity);
-            w.text(";");
-        });
-        self.rows(&scene.lights, Item::Light, Self::light);
-        self.rows(&scene.cameras, Item::Camera, Self::camera);
-        self.comments_at(Item::End, false);
+    /// Appends what `write` writes to `out`.
+    fn on(out: &mut Vec<u8>, scene: &'s Scene, comments: &'s [Comment], write: impl FnOnce(&mut Self)) {
+        let mut writer = Self { scene, out: std::mem::take(out), comments, numbers: zmij::Buffer::new() };
+        write(&mut writer);
+        *out = writer.out;
     }
 
     /// One line for each row, with the comments above and behind it.
-    fn rows<T>(&mut self, rows: &'s [T], item: fn(u32) -> Item, line: impl Fn(&mut Self, &'s T)) {
-        for (idx, row) in rows.iter().enumerate() {
+    fn block<T>(&mut self, block: &Block<'s, T>, item: fn(u32) -> Item, line: impl Fn(&mut Self, &'s T)) {
+        for (row, idx) in block.rows.iter().zip(block.first..) {
             if self.comments.is_empty() {
                 line(self, row);
             } else {
@@ -86,6 +159,8 @@ impl<'s> Writer<'s> {
             }
             self.out.push(b'\n');
         }
+        // None is left but where their order is wrong; then, too, they must not be lost.
+        self.comments.iter().for_each(|comment| self.comment_line(&comment.text));
     }
 
     /// Writes the comments of `item` up to the first that is not `trailing` as asked.
@@ -101,10 +176,14 @@ impl<'s> Writer<'s> {
                 self.text(" ");
                 self.comment(&comment.text);
             } else {
-                self.comment(&comment.text);
-                self.out.push(b'\n');
+                self.comment_line(&comment.text);
             }
         }
+    }
+
+    fn comment_line(&mut self, text: &str) {
+        self.comment(text);
+        self.out.push(b'\n');
     }
 
     fn comment(&mut self, text: &str) {

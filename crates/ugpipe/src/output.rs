@@ -46,8 +46,12 @@ impl Output {
         self.path.is_none() && io::stdout().is_terminal()
     }
 
-    pub(crate) fn write(&mut self, data: &[u8]) -> Result<(), Failure> {
-        self.try_write(data).map_err(|error| self.failure(error))
+    /// Writes what `fill` sends.
+    pub(crate) fn write_with(
+        &mut self,
+        fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+    ) -> Result<(), Failure> {
+        self.try_write(fill).map_err(|error| self.failure(error))
     }
 
     /// Puts the file in its place.
@@ -60,12 +64,12 @@ impl Output {
         }
     }
 
-    fn try_write(&mut self, data: &[u8]) -> io::Result<()> {
+    fn try_write(&mut self, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
         let sink = match self.sink.take() {
             Some(sink) => sink,
             None => Sink::open(self.path.as_deref())?,
         };
-        self.sink.insert(sink).write(data)
+        self.sink.insert(sink).write_with(fill)
     }
 
     fn failure(&self, error: io::Error) -> Failure {
@@ -110,15 +114,15 @@ impl Sink {
         Ok(Self::Beside { temporary, target })
     }
 
-    fn write(&mut self, data: &[u8]) -> io::Result<()> {
+    fn write_with(&mut self, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
         match self {
             Self::Stdout => {
                 let mut stdout = io::stdout().lock();
-                stdout.write_all(data)?;
+                fill(&mut stdout)?;
                 stdout.flush()
             }
-            Self::Device(file) => file.write_all(data),
-            Self::Beside { temporary, .. } => temporary.as_file_mut().write_all(data),
+            Self::Device(file) => fill(file),
+            Self::Beside { temporary, .. } => fill(temporary.as_file_mut()),
         }
     }
 }
@@ -144,7 +148,8 @@ mod tests {
     #[test]
     fn devices_are_written_to_and_stay() {
         assert!(matches!(Sink::open(Some(Path::new("/dev/null"))), Ok(Sink::Device(_))));
-        let failure = Output::new(Some(Path::new("/dev/full"))).write(b"scene").unwrap_err();
+        let failure =
+            Output::new(Some(Path::new("/dev/full"))).write_with(|out| out.write_all(b"scene")).unwrap_err();
         assert_eq!(failure.to_string(), "cannot write `/dev/full`: No space left on device");
     }
 }

@@ -1,5 +1,6 @@
 //! One program's place in a pipe.
 
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use crate::args::CommonArgs;
@@ -62,7 +63,17 @@ impl Stage {
     /// [`Failure::Write`] if the disk is full, the reader has left, or the place is not ours
     /// to write to.
     pub fn write(&mut self, data: &[u8]) -> Result<(), Failure> {
-        self.output.write(data)
+        self.write_with(|out| out.write_all(data))
+    }
+
+    /// The same for an output that is sent in pieces while it is made, so that it need not
+    /// be in memory as a whole. `fill` sends it, in large pieces, and can fail by writing only:
+    /// with one half written there is no way back.
+    ///
+    /// # Errors
+    /// [`Failure::Write`] with the error of `fill`.
+    pub fn write_with(&mut self, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), Failure> {
+        self.output.write_with(fill)
     }
 
     /// Whether the output would appear on the screen of a person: pictures must not.

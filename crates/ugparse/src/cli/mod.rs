@@ -114,7 +114,7 @@ fn run(args: &Args, stage: &mut Stage) -> Result<bool, Failure> {
         Some(Job::Flatten(_)) => {
             let (_, parsed) = read(source, &options).map_err(refused)?;
             warn(&parsed.warnings, stage);
-            stage.write(&crate::write(&parsed.scene))?;
+            stage.write_with(|out| crate::write_to(&parsed.scene, out))?;
         }
         Some(Job::Count(_)) => {
             let (source, parsed) = read(source, &options).map_err(refused)?;
