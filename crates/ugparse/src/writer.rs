@@ -4,12 +4,12 @@ use glam::DVec3;
 
 use crate::names::NameId;
 use crate::scene::{
-    Camera, Color, ColorId, ColorValue, Comment, Contours, Item, Light, LightKind, Projection, Scene,
-    VelocityId,
+    Camera, Color, ColorId, ColorValue, Comment, Contours, Illum, Item, Light, LightKind, Projection, Scene,
+    Surface, VelocityId,
 };
 
 /// The text of a scene: head comments, then escapes and unknown statements,
-/// colours, vertices, faces, wires, lights, cameras, each with its comments.
+/// colours, surfaces, vertices, faces, wires, lights, cameras, each with its comments.
 pub fn write(scene: &Scene) -> Vec<u8> {
     let mut writer = Writer {
         scene,
@@ -43,6 +43,7 @@ impl<'s> Writer<'s> {
         });
         self.rows(&scene.unknown, Item::Unknown, |w, text| w.text(text));
         self.rows(&scene.colors, Item::Color, Self::color);
+        self.rows(&scene.surfaces, Item::Surface, Self::surface);
         self.rows(&scene.vertices, Item::Vertex, |w, vertex| {
             w.text("v");
             w.name(vertex.name);
@@ -56,7 +57,7 @@ impl<'s> Writer<'s> {
             face.name.into_iter().for_each(|name| w.name(name));
             w.contours(&scene.contours, face.contours.clone());
             w.optional_color(face.color);
-            scene.light_level(face).into_iter().for_each(|level| w.number(level));
+            face.illum.into_iter().for_each(|illum| w.illum(scene.illums[illum.index()]));
             w.optional_velocity(face.velocity);
             w.text(";");
         });
@@ -203,6 +204,26 @@ impl<'s> Writer<'s> {
         }
         clear.into_iter().for_each(|clear| self.number(clear));
         self.text(";");
+    }
+
+    fn surface(&mut self, surface: &Surface) {
+        self.text("surf");
+        self.name(surface.name);
+        self.numbers(&[surface.diffuse, surface.specular, surface.transmitted]);
+        if (surface.refraction, surface.exponent) != (Surface::REFRACTION, Surface::EXPONENT) {
+            self.number(surface.refraction);
+        }
+        if surface.exponent != Surface::EXPONENT {
+            self.number(surface.exponent);
+        }
+        self.text(";");
+    }
+
+    fn illum(&mut self, illum: Illum) {
+        match illum {
+            Illum::Level(level) => self.number(level),
+            Illum::Surface(surface) => self.name(self.scene.surfaces[surface.index()].name),
+        }
     }
 
     fn light(&mut self, light: &Light) {
