@@ -176,7 +176,7 @@ fn programs_of_a_scene_are_run_only_if_that_is_allowed() {
         1,
         "error: program `/stars` failed with exit status: 3: no fuel\n --> /sky.ug:2:9",
     );
-    check("echo v a 0;", &["-allow-execute"], 1, "error: expected a number, found `;`\n --> /stars:1:6");
+    check("echo 'v a 0;'", &["-allow-execute"], 1, "error: expected a number, found `;`\n --> /stars:1:6");
     let endless = "while :; do echo '{}'; done";
     check(endless, &["-allow-execute", "-limit", "text=1000"], 1, "error: with the text of `stars`");
     let said = check("echo 'some are faint' >&2", &["-allow-execute"], 0, "{ sky }\n");

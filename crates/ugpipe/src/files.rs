@@ -93,8 +93,12 @@ fn in_words(error: io::Error) -> io::Error {
 mod tests {
     use std::fs;
     use std::os::unix::fs::PermissionsExt;
+    use std::sync::{Mutex, PoisonError};
 
     use super::*;
+
+    /// A program that is being written cannot be run, and what one test writes is open in the children of others.
+    static ALONE: Mutex<()> = Mutex::new(());
 
     /// What a shell script prints, with that much room.
     fn printed(script: &str, room: u64) -> io::Result<Printed> {
@@ -107,6 +111,7 @@ mod tests {
 
     #[test]
     fn programs_are_read_and_bounded() {
+        let _alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
         let ran = printed("echo scene; echo why >&2", 100).unwrap();
         assert_eq!(ran, Printed { text: b"scene\n".to_vec(), complaint: "why".into(), failure: None });
         let ran = printed("echo no >&2; echo more >&2; exit 3", 100).unwrap();
@@ -123,6 +128,7 @@ mod tests {
 
     #[test]
     fn what_cannot_be_run_or_read_is_told_in_words() {
+        let _alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
         let words = |error: io::Error| error.to_string();
         assert_eq!(
             run_program(Path::new("no-such"), 9).map_err(words),
