@@ -142,7 +142,7 @@ impl Report {
 /// # Errors
 /// What is wrong with the scene: [`Error`].
 pub fn run(config: &Config, source: &Source) -> Result<Report, Error> {
-    let parsed = ugparse::parse(source, &config.reading)?;
+    let parsed = ugscene::read(source, &config.reading)?;
     let bodies = Bodies::new(&parsed.scene, config.velocity)?;
     let eye = ugscene::eye(&parsed.scene, config.eye);
     if let Some(vertex) = ugscene::vertex_at_eye(&parsed.scene, eye, &bodies) {

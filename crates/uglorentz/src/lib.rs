@@ -174,7 +174,7 @@ impl Report {
 /// # Errors
 /// See [`Error`]. Errors of the scene come with their place in the text.
 pub fn run(config: &Config, source: &Source) -> Result<Report, Error> {
-    let parsed = ugparse::parse(source, &config.reading).map_err(Error::Scene)?;
+    let parsed = ugscene::read(source, &config.reading).map_err(Error::Scene)?;
     let (scene, notes) = transform_owned(parsed.scene, config)
         .map_err(|error| error.located(source, &parsed.origins.vertices))?;
     Ok(Report { scene, notes, warnings: parsed.warnings })

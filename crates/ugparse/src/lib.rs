@@ -35,8 +35,10 @@
 #[cfg(feature = "cli")]
 mod cli;
 mod diagnostic;
+mod flatness;
 mod grammar;
 mod group;
+mod history;
 mod include;
 mod named;
 mod names;
@@ -62,6 +64,8 @@ mod writer;
 #[cfg(feature = "cli")]
 pub use cli::main;
 pub use diagnostic::{Diagnostic, Diagnostics, MAX_ERRORS, Place, Severity};
+pub use flatness::{BentFace, FLAT, TOO_BENT, thickness};
+pub use history::{history, record};
 pub use include::{Request, RequestError, RequestKind, include};
 pub use names::{NameId, Names, UniqueNames};
 pub use options::{Limit, Limits, Options};
@@ -78,7 +82,9 @@ pub struct Parsed {
     pub scene: Scene,
     /// Where its rows come from.
     pub origins: Origins,
-    /// What was changed to make it usable.
+    /// Faces that are not flat, in order.
+    pub bent: Vec<BentFace>,
+    /// What was changed to make it usable, or may look wrong.
     pub warnings: Diagnostics,
 }
 
@@ -100,7 +106,9 @@ pub fn parse(source: &Source, options: &Options) -> Result<Parsed, Diagnostics> 
 
     let (scene, origins) = place::place(text, &mut document, &links, scene, &mut findings);
     refuse_errors(source, &mut findings)?;
-    Ok(Parsed { scene, origins, warnings: Diagnostics::new(source, findings) })
+    let bent = flatness::bent_faces(&scene);
+    findings.extend(flatness::warning(source, &origins, &bent));
+    Ok(Parsed { scene, origins, bent, warnings: Diagnostics::new(source, findings) })
 }
 
 /// Stops if positions in the text do not fit.
