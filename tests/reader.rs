@@ -178,7 +178,7 @@ def tile ;
   ( once )
 end ;
 f after (v f end) ;   { the unnamed colour of the scene, not of the definition }
-i (tile) ; i (tile) ; i early (tile) ;
+i (tile) ; i (tile) ; i early (tile) ; i tile_2 (tile) ;
 i tx (tile -tx 1 -ty 2 -tz 3) ; i ta (tile -ta 1 2 3) ; i tv (tile -tv 1 2 2 6) ;
 i s (tile -sx 2 -sy 3 -sz 4) ; i sa (tile -sa -2) ; i sv (tile -sv 1 2 -2 3) ; i sn (tile -sx -1) ;
 i r (tile -rx 90 -ry 45 -rz -30) ; i ra (tile -ra 10 20 30) ; i rv (tile -rv 1 1 1 120) ;

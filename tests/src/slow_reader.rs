@@ -753,7 +753,8 @@ impl Placing {
         let path = if size.is_some() && name.is_none() && is_alone {
             place.path.clone()
         } else {
-            fresh(&mut self.paths, place.name(name.as_ref().unwrap_or(definition)))
+            let wanted = place.name(name.as_ref().unwrap_or(definition));
+            if self.paths.insert(wanted.clone()) { wanted } else { self.second_path(&wanted, scopes, place) }
         };
         for k in 0..size.unwrap_or(1) {
             let mut copy = place.copy(first, step, k);
@@ -762,6 +763,22 @@ impl Placing {
             copy.velocity = place.velocity.or(*velocity);
             self.scope(&inside_scopes, &copy);
         }
+    }
+}
+
+impl Placing {
+    /// The first of `_2`, `_3`, … that nothing else has or, in this scope, asks for.
+    fn second_path(&mut self, wanted: &str, scopes: &[&Scope], place: &Place) -> String {
+        let written = scopes[scopes.len() - 1].statements.iter().filter_map(|statement| match statement {
+            Statement::Placed { name, definition, .. } => {
+                Some(place.name(name.as_ref().unwrap_or(definition)))
+            }
+            _ => None,
+        });
+        let mut taken: BTreeSet<String> = written.chain(self.paths.iter().cloned()).collect();
+        let path = fresh(&mut taken, wanted.to_string());
+        self.paths.insert(path.clone());
+        path
     }
 }
 

@@ -478,8 +478,8 @@ fn show(text: &[u8], name: Span) -> String {
 /// Definitions and labels of the calls of a group.
 fn link_calls(text: &[u8], groups: &[Group<'_>], row: usize, findings: &mut Vec<Diagnostic>) -> Vec<Link> {
     let calls = &groups[row].calls.rows;
-    let mut labels = Labels { taken: FxHashMap::default(), only_call: calls.len() == 1 };
-    let links = calls.iter().map(|Call { statement: call, .. }| {
+    let labels = labels(text, calls);
+    let links = calls.iter().zip(labels).map(|(Call { statement: call, .. }, label)| {
         let name = call.definition.of(text);
         let target = scopes(groups, row).find_map(|scope| groups[scope].definitions.get(name));
         if target.is_none() {
@@ -492,7 +492,7 @@ fn link_calls(text: &[u8], groups: &[Group<'_>], row: usize, findings: &mut Vec<
             findings.push(found);
         }
         let target = target.map(|&(group, _)| group);
-        Link { target, label: labels.next(text, call) }
+        Link { target, label }
     });
     links.collect()
 }
@@ -668,23 +668,30 @@ impl Group<'_> {
     }
 }
 
-/// Makes names for the calls of a group, unique in it.
-struct Labels {
-    taken: FxHashMap<String, u32>,
-    only_call: bool,
-}
-
-impl Labels {
-    /// The next call's label: its name, else its definition's name; nothing
-    /// for a nameless array that is alone, whose element number says enough.
-    fn next(&mut self, text: &[u8], call: &CallStatement) -> String {
-        let is_array = matches!(call.repeat, Repeat::Times(..));
-        let label = match call.name {
-            None if is_array && self.only_call => String::new(),
-            name => show(text, name.unwrap_or(call.definition)),
-        };
-        let uses = self.taken.entry(label.clone()).or_default();
+/// For each call of a group its label, unique there: its name, else its definition's name;
+/// nothing for a nameless array that is alone, whose element number says enough.
+fn labels(text: &[u8], calls: &[Call]) -> Vec<String> {
+    let wanted = |Call { statement: call, .. }: &Call| match call.name {
+        None if calls.len() == 1 && matches!(call.repeat, Repeat::Times(..)) => String::new(),
+        name => show(text, name.unwrap_or(call.definition)),
+    };
+    let wanted: Vec<String> = calls.iter().map(wanted).collect();
+    // A label that was written is never given to another call.
+    let mut taken: FxHashSet<String> = wanted.iter().cloned().collect();
+    let mut uses: FxHashMap<&str, u64> = FxHashMap::default();
+    let mut labels = Vec::with_capacity(wanted.len());
+    for wanted in &wanted {
+        let uses = uses.entry(wanted).or_default();
         *uses += 1;
-        if *uses > 1 { format!("{label}_{uses}") } else { label }
+        let mut label = wanted.clone();
+        while *uses > 1 {
+            label = format!("{wanted}_{uses}");
+            if taken.insert(label.clone()) {
+                break;
+            }
+            *uses += 1;
+        }
+        labels.push(label);
     }
+    labels
 }
