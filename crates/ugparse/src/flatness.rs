@@ -59,7 +59,8 @@ pub(crate) fn bent_faces(scene: &Scene) -> Vec<BentFace> {
         let thickness = thickness(scene, face);
         (thickness > FLAT).then_some(BentFace { row, thickness })
     };
-    if is_as_seen(scene) {
+    // No face has fewer than three corners, so if that is the mean, all are triangles.
+    if scene.contours.corner_count() == 3 * scene.faces.len() || is_as_seen(scene) {
         return Vec::new();
     }
     scene.faces.par_iter().enumerate().with_min_len(MANY_FACES).filter_map(bent).collect()
