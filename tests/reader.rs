@@ -43,6 +43,9 @@ fn flat(scene: &Scene) -> Flat {
         contours: scene.face_contours(face).map(contour).collect(),
         color: color(face.color),
         illum: scene.light_level(face),
+        surface: scene
+            .surface(face)
+            .map(|s| [s.diffuse, s.specular, s.transmitted, s.refraction, s.exponent]),
         velocity: velocity(face.velocity),
     });
     let wires = scene.wires.iter().map(|wire| Wire {
@@ -153,6 +156,8 @@ const ALL: &str = "\
 ( escape ; { not a comment ( nested ) ) (another)
 i early (tile late -tx 1) ; { what it uses comes later }
 f unlit (v f end) 0.5; f(v i f)late;
+f (v f i) sky glossy ; surf glossy .5 .5 0 1 60 ; surf late 1 0 .5 ; surf clear 0 .1 .9 1.5 ;
+f (v f end) late late <.5 0 0> ;
 c late 2 -30 ; c 0.25 ; c_rgb sky 0.1 0.2 0.9 0.5 ; c_rgb night 0 0 .25 ; c full 1 400 0.5 0.25 ;
 v v 0 0 0 ; v f 5 -0 0 ; v end +1 5. 0 sky ; v i 0 .5 1e+0 sky 0 0 -2 ; v def -2.5E-1 1 1 0 1 1 ;
 v p1 1 1 0 ; v p2 2 1 0 ; v p3 1 2 0 ; v A 9 0 0 ; v a 0 9 0 ; v :c#1 0 0 9 ;
@@ -173,7 +178,7 @@ def tile ;
   ( once )
 end ;
 f after (v f end) ;   { the unnamed colour of the scene, not of the definition }
-i (tile) ; i (tile) ; i early (tile) ;
+i (tile) ; i (tile) ; i early (tile) ; i tile_2 (tile) ;
 i tx (tile -tx 1 -ty 2 -tz 3) ; i ta (tile -ta 1 2 3) ; i tv (tile -tv 1 2 2 6) ;
 i s (tile -sx 2 -sy 3 -sz 4) ; i sa (tile -sa -2) ; i sv (tile -sv 1 2 -2 3) ; i sn (tile -sx -1) ;
 i r (tile -rx 90 -ry 45 -rz -30) ; i ra (tile -ra 10 20 30) ; i rv (tile -rv 1 1 1 120) ;
@@ -187,9 +192,9 @@ i flat (squashed -sz 0) ; i upright (squashed) ;
 a floor (tile night -tx -4) 3 -tx 1.1 -rz 10 <0 .125 0> ;
 a (tile) 2 -ty 5 ; a (tile) 2 -mx -ty 5 ; a none (tile) 0 -tz 1 ; a one (tile) 1 ;
 def car ;
-  c late 0.125 ; c inner 0.5 90 1 ;
+  c late 0.125 ; c inner 0.5 90 1 ; surf clear 0 0 1 ;
   v a 0 0 0 late ; v b 1 0 0 inner ; v c 0 1 0 sky ;
-  f body (a b c) late ; f (c b a) ;
+  f body (a b c) late clear ; f (c b a) ; f (c b a) inner late ;
   i lamp (lamp -tz 1) ; i wheel (tile inner -rx 90) <.1 0 0> ; i (plain) ;
   def lamp ;
     v a 0 0 0 inner ; v b 1 0 0 ; v c 0 1 0 ; f glass (a b c) 0.9 ;
@@ -230,7 +235,7 @@ enum Statement {
         name: Option<usize>,
         contours: Vec<Vec<usize>>,
         color: Option<usize>,
-        illum: Option<f64>,
+        illum: Illum,
         tail: Tail,
     },
     Wire {
@@ -244,6 +249,7 @@ enum Statement {
         keyword: &'static str,
         numbers: Vec<f64>,
     },
+    Surface(Vec<f64>),
     Light {
         name: Option<usize>,
         numbers: Vec<f64>,
@@ -264,6 +270,14 @@ enum Statement {
         tail: Tail,
     },
     Definition(Vec<Statement>),
+}
+
+/// What a face says of its light; a surface only behind a colour.
+#[derive(Clone, Copy, Debug)]
+enum Illum {
+    None,
+    Level(f64),
+    Surface(usize),
 }
 
 /// The velocity of a statement.
@@ -345,6 +359,14 @@ fn color_statement() -> impl Strategy<Value = Statement> {
     })
 }
 
+fn surface() -> impl Strategy<Value = Statement> {
+    let last = some((0.5..2.0, some(0.0..90.0)));
+    ([0.0..1.5, 0.0..1.5, 0.0..1.0], last).prop_map(|(numbers, last)| {
+        let (n, exponent) = last.map_or((None, None), |(n, exponent)| (Some(n), exponent));
+        Statement::Surface(numbers.into_iter().chain(n).chain(exponent).collect())
+    })
+}
+
 fn light() -> impl Strategy<Value = Statement> {
     let numbers = (0.0..2.0, some((direction(), some(0.0..1.0)))).prop_map(|(intensity, place)| {
         let (place, radius) = place.map_or((None, None), |(place, radius)| (Some(place), radius));
@@ -394,7 +416,12 @@ fn vertex() -> impl Strategy<Value = Statement> {
 }
 
 fn other() -> impl Strategy<Value = Statement> {
-    let face = (some(0..9usize), contours(3), some(0..9usize), some(0.0..1.0), tail()).prop_map(
+    let illum = prop_oneof![
+        Just(Illum::None),
+        (0.0..1.0).prop_map(Illum::Level),
+        (0..9usize).prop_map(Illum::Surface),
+    ];
+    let face = (some(0..9usize), contours(3), some(0..9usize), illum, tail()).prop_map(
         |(name, contours, color, illum, tail)| Statement::Face { name, contours, color, illum, tail },
     );
     let wire = (some(0..9usize), contours(1), some(0..9usize), tail())
@@ -403,6 +430,7 @@ fn other() -> impl Strategy<Value = Statement> {
         4 => face,
         1 => wire,
         3 => color_statement(),
+        2 => surface(),
         1 => light(),
         1 => camera(),
         4 => placed(),
@@ -434,6 +462,7 @@ enum Layout {
 /// A scope that is being written.
 struct Level {
     n_colors: usize,
+    n_surfaces: usize,
     n_definitions: usize,
     /// Number of definitions that have begun.
     n_begun: usize,
@@ -458,10 +487,20 @@ impl Writer {
         }
     }
 
-    fn color(&mut self, color: Option<usize>) {
+    /// False if there is none to be seen.
+    fn color(&mut self, color: Option<usize>) -> bool {
         let n_seen = self.levels.iter().map(|level| level.n_colors).max().unwrap();
-        if let Some(color) = color.filter(|_| n_seen > 0) {
-            self.word(format!("c{}", color % n_seen));
+        let color = color.filter(|_| n_seen > 0);
+        color.into_iter().for_each(|color| self.word(format!("c{}", color % n_seen)));
+        color.is_some()
+    }
+
+    fn illum(&mut self, illum: Illum, has_color: bool) {
+        let n_seen = self.levels.iter().map(|level| level.n_surfaces).max().unwrap();
+        match illum {
+            Illum::Level(level) => self.numbers(&[level]),
+            Illum::Surface(surface) if has_color && n_seen > 0 => self.word(format!("s{}", surface % n_seen)),
+            _ => {}
         }
     }
 
@@ -510,8 +549,9 @@ impl Writer {
         let n_vertices = count(|statement| matches!(statement, Statement::Vertex { .. }));
         let n_colors = count(|statement| matches!(statement, Statement::Color { is_named: true, .. }));
         let n_definitions = count(|statement| matches!(statement, Statement::Definition(_)));
-        self.levels.push(Level { n_colors, n_definitions, n_begun: 0 });
-        let (mut vertices, mut colors) = (0.., 0..);
+        let n_surfaces = count(|statement| matches!(statement, Statement::Surface(_)));
+        self.levels.push(Level { n_colors, n_surfaces, n_definitions, n_begun: 0 });
+        let (mut vertices, mut colors, mut surfaces) = (0.., 0.., 0..);
         for statement in statements {
             match statement {
                 Statement::Vertex { position, color, normal } => {
@@ -528,6 +568,13 @@ impl Writer {
                         let color: usize = colors.next().unwrap();
                         self.word(format!("c{color}"));
                     }
+                    self.numbers(numbers);
+                    self.word(";");
+                }
+                Statement::Surface(numbers) => {
+                    let surface: usize = surfaces.next().unwrap();
+                    self.word("surf");
+                    self.word(format!("s{surface}"));
                     self.numbers(numbers);
                     self.word(";");
                 }
@@ -552,8 +599,8 @@ impl Writer {
                 self.word("f");
                 self.name(*name);
                 self.contours(contours, n_vertices);
-                self.color(*color);
-                self.numbers(illum.as_slice());
+                let has_color = self.color(*color);
+                self.illum(*illum, has_color);
                 self.tail(*tail);
             }
             Statement::Wire { name, contours, color, tail } => {

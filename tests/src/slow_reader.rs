@@ -49,6 +49,8 @@ pub struct Face {
     pub color: Option<Paint>,
     /// Its fixed light level.
     pub illum: Option<f64>,
+    /// kd, ks, kt, n and exponent of its surface, of whatever name.
+    pub surface: Option<[f64; 5]>,
     /// Its velocity.
     pub velocity: Option<Triple>,
 }
@@ -255,6 +257,7 @@ struct Scope {
     /// Names of the definitions round it and its own, each with a `:` behind it.
     prefix: String,
     colors: BTreeMap<String, Paint>,
+    surfaces: BTreeMap<String, [f64; 5]>,
     definitions: BTreeMap<String, Scope>,
     statements: Vec<Statement>,
 }
@@ -274,6 +277,7 @@ enum Statement {
         contours: Vec<Vec<String>>,
         color: Option<String>,
         unnamed: Option<Paint>,
+        surface: Option<String>,
         illum: Option<f64>,
         velocity: Option<Triple>,
     },
@@ -319,6 +323,16 @@ fn read_scope(words: &mut Words, prefix: &str, mut unnamed: Option<Paint>) -> Sc
                     Some(name) => assert!(scope.colors.insert(name, paint).is_none(), "a second colour"),
                 }
             }
+            "surf" => {
+                let name = words.take();
+                let surface = match words.all_numbers()[..] {
+                    [kd, ks, kt] => [kd, ks, kt, 1.0, 20.0],
+                    [kd, ks, kt, n] => [kd, ks, kt, n, 20.0],
+                    [kd, ks, kt, n, exponent] => [kd, ks, kt, n, exponent],
+                    ref numbers => panic!("{} numbers behind `surf`", numbers.len()),
+                };
+                assert!(scope.surfaces.insert(name, surface).is_none(), "a second surface");
+            }
             "def" => {
                 let name = words.take();
                 words.expect(";");
@@ -360,6 +374,7 @@ fn read_statement(keyword: &str, words: &mut Words, unnamed: Option<Paint>) -> S
             contours: words.contours(),
             color: words.name(),
             unnamed,
+            surface: if keyword == "f" { words.name() } else { None },
             illum: words.is_number().then(|| words.number()),
             velocity: words.velocity(),
         },
@@ -677,7 +692,8 @@ impl Placing {
     }
 
     fn shape(&mut self, shape: &Statement, scopes: &[&Scope], place: &Place, local: &Local) {
-        let Statement::Shape { is_wire, name, contours, color, unnamed, illum, velocity } = shape else {
+        let Statement::Shape { is_wire, name, contours, color, unnamed, surface, illum, velocity } = shape
+        else {
             unreachable!("the caller matched a face or wire")
         };
         let name = place.optional_name(name);
@@ -694,7 +710,16 @@ impl Placing {
             if place.is_mirrored {
                 new_contours.iter_mut().for_each(|contour| contour[1..].reverse());
             }
-            self.flat.faces.push(Face { name, contours: new_contours, color, illum: *illum, velocity });
+            let find = |name| seen(scopes, |scope| scope.surfaces.get(name)).expect("a surface that is seen");
+            let surface = surface.as_ref().map(|name| *find(name).1);
+            self.flat.faces.push(Face {
+                name,
+                contours: new_contours,
+                color,
+                illum: *illum,
+                surface,
+                velocity,
+            });
         }
     }
 
@@ -728,7 +753,8 @@ impl Placing {
         let path = if size.is_some() && name.is_none() && is_alone {
             place.path.clone()
         } else {
-            fresh(&mut self.paths, place.name(name.as_ref().unwrap_or(definition)))
+            let wanted = place.name(name.as_ref().unwrap_or(definition));
+            if self.paths.insert(wanted.clone()) { wanted } else { self.second_path(&wanted, scopes, place) }
         };
         for k in 0..size.unwrap_or(1) {
             let mut copy = place.copy(first, step, k);
@@ -737,6 +763,22 @@ impl Placing {
             copy.velocity = place.velocity.or(*velocity);
             self.scope(&inside_scopes, &copy);
         }
+    }
+}
+
+impl Placing {
+    /// The first of `_2`, `_3`, … that nothing else has or, in this scope, asks for.
+    fn second_path(&mut self, wanted: &str, scopes: &[&Scope], place: &Place) -> String {
+        let written = scopes[scopes.len() - 1].statements.iter().filter_map(|statement| match statement {
+            Statement::Placed { name, definition, .. } => {
+                Some(place.name(name.as_ref().unwrap_or(definition)))
+            }
+            _ => None,
+        });
+        let mut taken: BTreeSet<String> = written.chain(self.paths.iter().cloned()).collect();
+        let path = fresh(&mut taken, wanted.to_string());
+        self.paths.insert(path.clone());
+        path
     }
 }
 

@@ -4,7 +4,7 @@ use std::process::ExitCode;
 
 use clap::{ArgAction, Parser, ValueEnum};
 use glam::DVec3;
-use ugparse::{Options, Source};
+use ugparse::pipe;
 use ugphysics::{Brightness, Velocity};
 use ugpipe::{CommonArgs, Failure, Stage, ToolArgs};
 
@@ -107,7 +107,7 @@ impl Args {
             iris: self.ir,
             doppler: !self.no_doppler,
             flux: !self.no_flux,
-            lax: self.common.lax(),
+            reading: pipe::options(&self.common)?,
             command_line: command_line.to_string(),
         })
     }
@@ -120,12 +120,9 @@ pub fn main() -> ExitCode {
 
 fn run(args: &Args, stage: &mut Stage) -> Result<(), Failure> {
     let config = args.config(stage.command_line())?;
-    let input = stage.input()?;
-    let options = Options { lax: config.lax };
-    let source = ugparse::include(Source::new(input.name, input.text), &options, |path| std::fs::read(path))
-        .map_err(|findings| Failure::Report(findings.render(true)))?;
+    let source = pipe::read(stage, &config.reading)?;
     let report = crate::run(&config, &source).map_err(|error| match error {
-        Error::Scene(findings) => Failure::Report(findings.render(true)),
+        Error::Scene(findings) => pipe::refused(findings),
         error => Failure::failed(error),
     })?;
     if !report.warnings.is_empty() {

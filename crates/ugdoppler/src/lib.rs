@@ -57,8 +57,8 @@ pub struct Config {
     pub doppler: bool,
     /// Change brightness.
     pub flux: bool,
-    /// Pass unknown statements on.
-    pub lax: bool,
+    /// How the scene is read.
+    pub reading: Options,
     /// How the program was called, for the scene's history.
     pub command_line: String,
 }
@@ -79,7 +79,7 @@ impl Default for Config {
             iris: false,
             doppler: true,
             flux: true,
-            lax: false,
+            reading: Options::default(),
             command_line: PROGRAM.to_string(),
         }
     }
@@ -142,7 +142,7 @@ impl Report {
 /// # Errors
 /// What is wrong with the scene: [`Error`].
 pub fn run(config: &Config, source: &Source) -> Result<Report, Error> {
-    let parsed = ugparse::parse(source, &Options { lax: config.lax })?;
+    let parsed = ugscene::read(source, &config.reading)?;
     let bodies = Bodies::new(&parsed.scene, config.velocity)?;
     let eye = ugscene::eye(&parsed.scene, config.eye);
     if let Some(vertex) = ugscene::vertex_at_eye(&parsed.scene, eye, &bodies) {

@@ -4,7 +4,7 @@ use std::process::ExitCode;
 
 use clap::{ArgAction, Parser};
 use glam::DVec3;
-use ugparse::{Options, Source};
+use ugparse::pipe;
 use ugpipe::{CommonArgs, Failure, Stage, ToolArgs, finite, vector};
 use ugscene::Geometry;
 
@@ -84,10 +84,7 @@ pub fn main() -> ExitCode {
 
 fn run(args: &Args, stage: &mut Stage) -> Result<(), Failure> {
     let config = args.config(stage.command_line())?;
-    let input = stage.input()?;
-    let options = Options { lax: config.lax };
-    let source = ugparse::include(Source::new(input.name, input.text), &options, |path| std::fs::read(path))
-        .map_err(|findings| Failure::Report(findings.render(true)))?;
+    let source = pipe::read(stage, &config.reading)?;
     let report = crate::run(&config, &source).map_err(failure)?;
     if !report.warnings.is_empty() {
         stage.report(&report.warnings.render(true));
@@ -99,7 +96,7 @@ fn run(args: &Args, stage: &mut Stage) -> Result<(), Failure> {
 
 fn failure(error: Error) -> Failure {
     match error {
-        Error::Scene(diagnostics) => Failure::Report(diagnostics.render(true)),
+        Error::Scene(findings) => pipe::refused(findings),
         error if error.is_usage() => Failure::usage(error),
         error => Failure::failed(error),
     }
@@ -127,7 +124,7 @@ impl Args {
             pieces,
             smooth: self.smooth,
             geometry: Geometry { contraction: !self.no_contraction, flight_time: !self.no_flight_time },
-            lax: self.common.lax(),
+            reading: pipe::options(&self.common)?,
             command_line: command_line.to_string(),
         })
     }

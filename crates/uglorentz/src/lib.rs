@@ -69,7 +69,7 @@ mod placement;
 
 use glam::DVec3;
 use rayon::prelude::*;
-use ugparse::{Camera, Diagnostics, Item, Scene, Source, VelocityId};
+use ugparse::{Camera, Diagnostics, Item, Options, Scene, Source, VelocityId};
 use ugphysics::Velocity;
 use ugscene::{Bodies, Geometry};
 
@@ -106,8 +106,8 @@ pub struct Config {
     pub smooth: bool,
     /// Which effects to show (`-nc`, `--no-flight-time`).
     pub geometry: Geometry,
-    /// Pass unknown statements on (`-lax`).
-    pub lax: bool,
+    /// How the scene is read.
+    pub reading: Options,
     /// What the head comment of the output says.
     pub command_line: String,
 }
@@ -123,7 +123,7 @@ impl Default for Config {
             pieces: Pieces::UpTo(DEFAULT_ERROR),
             smooth: false,
             geometry: Geometry::default(),
-            lax: false,
+            reading: Options::default(),
             command_line: "uglorentz".to_string(),
         }
     }
@@ -174,8 +174,7 @@ impl Report {
 /// # Errors
 /// See [`Error`]. Errors of the scene come with their place in the text.
 pub fn run(config: &Config, source: &Source) -> Result<Report, Error> {
-    let options = ugparse::Options { lax: config.lax };
-    let parsed = ugparse::parse(source, &options).map_err(Error::Scene)?;
+    let parsed = ugscene::read(source, &config.reading).map_err(Error::Scene)?;
     let (scene, notes) = transform_owned(parsed.scene, config)
         .map_err(|error| error.located(source, &parsed.origins.vertices))?;
     Ok(Report { scene, notes, warnings: parsed.warnings })

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::{Parser, ValueEnum};
+use ugparse::pipe;
 use ugpipe::{CommonArgs, Failure, Stage, ToolArgs};
 
 use crate::{Axis, Config, Error, Format, Input, Size, Target};
@@ -127,7 +128,7 @@ impl Args {
             size,
             is_centered: self.center,
             name: self.name.clone().unwrap_or_default(),
-            lax: self.common.lax(),
+            reading: pipe::options(&self.common)?,
             command_line: command_line.to_string(),
         })
     }
@@ -200,9 +201,10 @@ pub fn main() -> ExitCode {
         }
         let read = stage.input()?;
         let beside = beside(args.common.input().map(Path::to_path_buf));
-        let input = Input::new(read.name, read.text).with_files(&beside);
+        let follow = |source| pipe::follow(source, &config.reading, stage);
+        let input = Input::new(read.name, read.text).with_files(&beside).with_includes(&follow);
         let converted = crate::run(&config, &input).map_err(|error| match error {
-            Error::Scene(findings) => Failure::Report(findings.render(true)),
+            Error::Scene(findings) => pipe::refused(findings),
             Error::NothingToConvert => Failure::usage(error),
             other => Failure::failed(other),
         })?;

@@ -35,7 +35,7 @@ mod write;
 
 use std::io;
 
-use ugparse::{Diagnostics, Scene, Source};
+use ugparse::{Diagnostics, Options, Scene, Source};
 
 pub use cli::{Args, main};
 pub use error::{Error, Problem};
@@ -61,14 +61,17 @@ pub struct Config {
     pub is_centered: bool,
     /// Before the names of vertices and colours made here.
     pub name: String,
-    /// Pass unknown statements of UniGrafix on.
-    pub lax: bool,
+    /// How UniGrafix is read.
+    pub reading: Options,
     /// How the program was called, for the scene's history.
     pub command_line: String,
 }
 
 /// Reads a file that a mesh names, such as its materials.
 type Beside<'a> = &'a dyn Fn(&str) -> io::Result<Vec<u8>>;
+
+/// Puts the files that a scene includes into it.
+type Follow<'a> = &'a dyn Fn(Source) -> Result<Source, Diagnostics>;
 
 /// A mesh as it comes.
 pub struct Input<'a> {
@@ -78,17 +81,25 @@ pub struct Input<'a> {
     pub bytes: Vec<u8>,
     /// Reads a file by the name the mesh gives it.
     pub beside: Beside<'a>,
+    /// Follows the `include` statements of UniGrafix.
+    pub follow: Follow<'a>,
 }
 
 impl<'a> Input<'a> {
     /// A mesh with no files beside it.
     pub fn new(name: impl Into<String>, bytes: impl Into<Vec<u8>>) -> Self {
-        Self { name: name.into(), bytes: bytes.into(), beside: &|_| Err(io::ErrorKind::NotFound.into()) }
+        let (name, bytes) = (name.into(), bytes.into());
+        Self { name, bytes, beside: &|_| Err(io::ErrorKind::NotFound.into()), follow: &Ok }
     }
 
     /// The same with files beside it, which `beside` reads.
     pub fn with_files(self, beside: Beside<'a>) -> Self {
         Self { beside, ..self }
+    }
+
+    /// The same, whose `include` statements `follow` follows.
+    pub fn with_includes(self, follow: Follow<'a>) -> Self {
+        Self { follow, ..self }
     }
 }
 
@@ -143,8 +154,8 @@ fn load(config: &Config, format: Format, input: &Input) -> Result<Loaded, Error>
 }
 
 fn load_scene(config: &Config, input: &Input) -> Result<Loaded, Error> {
-    let source = Source::new(input.name.clone(), input.bytes.clone());
-    let parsed = ugparse::parse(&source, &ugparse::Options { lax: config.lax })?;
+    let source = (input.follow)(Source::new(input.name.clone(), input.bytes.clone()))?;
+    let parsed = ugscene::read(&source, &config.reading)?;
     Ok(Loaded { scene: parsed.scene, warnings: Vec::new(), diagnostics: Some(parsed.warnings) })
 }
 

@@ -75,6 +75,19 @@ fn missing_materials_are_a_warning() {
 }
 
 #[test]
+fn scenes_may_include_files() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("corners.ug"), "v a 0 0 0; v b 1 0 0; v c 0 1 0;").unwrap();
+    fs::write(folder.path().join("scene.ug"), "include corners.ug; f (a b c);").unwrap();
+    let out = ugmesh(folder.path(), &["-dt", "obj", "scene.ug"], b"");
+    assert!(out.status.success(), "{}", String::from_utf8_lossy(&out.stderr));
+    assert_eq!(String::from_utf8_lossy(&out.stdout).lines().filter(|line| line.starts_with("v ")).count(), 3);
+    fs::write(folder.path().join("scene.ug"), "execute corners.ug; f (a b c);").unwrap();
+    let out = ugmesh(folder.path(), &["-dt", "obj", "scene.ug"], b"");
+    assert_eq!((out.status.code(), out.stdout.len()), (Some(1), 0));
+}
+
+#[test]
 fn bad_usage_is_status_2() {
     let folder = tempfile::tempdir().unwrap();
     for (args, message) in [

@@ -203,6 +203,14 @@ impl Diagnostics {
         self.list.iter().map(place).collect()
     }
 
+    /// The second place of each finding of the list that has one, and the words at it.
+    pub fn other_places(&self) -> Vec<Option<(Place, &str)>> {
+        let marks = line_marks(&self.source.text);
+        let others = self.list.iter().map(|finding| finding.other.as_ref());
+        let place = |span: &Span| Place::new(&self.source, &marks, span.start);
+        others.map(|other| other.map(|(span, label)| (place(span), label.as_str()))).collect()
+    }
+
     /// Every finding as a person sees it.
     pub fn render(&self, styled: bool) -> String {
         let marks = line_marks(&self.source.text);

@@ -7,11 +7,12 @@ use glam::DVec3;
 use nom::Parser;
 use nom::combinator::opt;
 
-use crate::scene::{Camera, ColorValue, Projection};
+use crate::names::NameId;
+use crate::scene::{Camera, ColorValue, Projection, Surface};
 use crate::source::Span;
 use crate::statement::{
-    CallStatement, CameraStatement, ColorStatement, FaceStatement, LightStatement, References, Repeat,
-    Statement, VertexStatement,
+    CallStatement, CameraStatement, ColorStatement, FaceStatement, IllumStatement, LightStatement,
+    References, Repeat, Statement, SurfaceStatement, VertexStatement,
 };
 use crate::token::{
     Input, Parsed, Reason, backtrack, blank, fail, identifier, integer, mark, number, point, require, wanted,
@@ -20,7 +21,7 @@ use crate::token::{
 use crate::transform::Transform;
 
 /// The statement keywords, as messages list them.
-pub(crate) const KEYWORDS: &str = "v w f c c_rgb c_xyz c_bb c_spd l cam def end i a include";
+pub(crate) const KEYWORDS: &str = "v w f c c_rgb c_xyz c_bb c_spd surf l cam def end i a include execute";
 
 /// A reader of one text; knows the text's length, and so where a rest of it begins.
 pub(crate) struct Grammar<'t> {
@@ -65,6 +66,7 @@ impl<'t> Grammar<'t> {
             b"c_xyz" => self.xyz(input),
             b"c_bb" => self.blackbody(input),
             b"c_spd" => self.spectrum(input),
+            b"surf" => self.surface(input),
             b"l" => self.light(input),
             b"cam" => self.camera(input),
             b"i" => self.call(input, false),
@@ -90,9 +92,18 @@ impl<'t> Grammar<'t> {
         let (input, name) = self.optional_name(input)?;
         let (input, ()) = self.contours(input, references)?;
         let (input, color) = self.optional_name(input)?;
-        let (input, illum) = opt(number).parse(input)?;
+        let (input, illum) = self.illum(input)?;
         let (input, velocity) = opt(velocity).parse(input)?;
         Ok((input, Statement::Face(FaceStatement { name, color, illum, velocity })))
+    }
+
+    /// `number` or `surface`
+    fn illum<'a>(&self, input: Input<'a>) -> Parsed<'a, Option<IllumStatement>> {
+        if let (rest, Some(surface)) = self.optional_name(input)? {
+            return Ok((rest, Some(IllumStatement::Surface(surface))));
+        }
+        let (rest, level) = opt(number).parse(input)?;
+        Ok((rest, level.map(IllumStatement::Level)))
     }
 
     /// `w [ID] contours [color] [< x y z >]`; the velocity is ours, for flat scenes.
@@ -201,6 +212,30 @@ impl<'t> Grammar<'t> {
         }
         let value = ColorValue::Spectrum { start: 0, end: samples.len() as u32 };
         Ok((input, Statement::Color(ColorStatement { name, value, samples, translucency: 0.0 })))
+    }
+
+    /// `surf ID kd ks kt [n [exponent]]`
+    fn surface<'a>(&self, input: Input<'a>) -> Parsed<'a, Statement> {
+        let part = number_from(0.0, f64::INFINITY, "a part of the light is 0 or more");
+        let (input, name) = wanted(self.name(input), NAME)?;
+        let (input, diffuse) = part(input)?;
+        let (input, specular) = part(input)?;
+        let (input, transmitted) = number_from(0.0, 1.0, SHARE)(input)?;
+        let index = number_from(f64::MIN_POSITIVE, f64::INFINITY, "a refractive index is above 0");
+        let (input, refraction) = opt(index).parse(input)?;
+        let (input, exponent) = match refraction {
+            Some(_) => opt(number_from(0.0, f64::INFINITY, "an exponent is 0 or more")).parse(input)?,
+            None => (input, None),
+        };
+        let surface = Surface {
+            name: NameId::from_index(0),
+            diffuse,
+            specular,
+            transmitted,
+            refraction: refraction.unwrap_or(Surface::REFRACTION),
+            exponent: exponent.unwrap_or(Surface::EXPONENT),
+        };
+        Ok((input, Statement::Surface(SurfaceStatement { name, surface })))
     }
 
     /// `l [ID] intensity [x y z [radius]] [color] [< x y z >]`

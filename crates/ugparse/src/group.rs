@@ -1,24 +1,25 @@
 //! The file, or a definition, as it is read: tables of the types of a
 //! [`Scene`](crate::Scene), in which names are not yet looked up everywhere.
 //!
-//! A colour stands as the row of its name in [`Group::color_names`], a corner
-//! as the number of its vertex's name in [`Group::vertex_names`], so that what
-//! is used before it is defined, or defined in a scope outside, costs nothing.
-//! Settling turns both into rows of colours and vertices.
+//! A colour or surface stands as the number of its name among those of its kind, a
+//! corner as the number of its vertex's name in [`Group::vertex_names`], so that
+//! what is used before it is defined, or defined in a scope outside, costs nothing.
+//! Settling turns all of them into rows.
 
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 
+use crate::named::Named;
 use crate::names::{NameId, Names};
 use crate::numbered::{Name, NumberedNames};
 use crate::scene::{
-    Camera, Color, ColorId, ColorValue, Contours, Face, Illum, IllumId, Light, LightKind, VelocityId, Vertex,
-    VertexId, Wire,
+    Camera, Color, ColorId, ColorValue, Contours, Face, Illum, IllumId, Light, LightKind, Surface, SurfaceId,
+    VelocityId, Vertex, VertexId, Wire,
 };
 use crate::source::Span;
 use crate::statement::{
-    CallStatement, CameraStatement, ColorStatement, FaceStatement, LightStatement, References, Statement,
-    VertexStatement,
+    CallStatement, CameraStatement, ColorStatement, FaceStatement, IllumStatement, LightStatement,
+    References, Statement, SurfaceStatement, VertexStatement,
 };
 use crate::token::{skip_statement, statement_start};
 
@@ -81,7 +82,7 @@ pub(crate) struct Group<'t> {
     pub name: Span,
     /// The group this one is defined in.
     pub parent: Option<usize>,
-    /// Names of all but colours.
+    /// Names of all but colours and surfaces.
     pub names: Names,
     pub velocities: Velocities,
 
@@ -106,13 +107,8 @@ pub(crate) struct Group<'t> {
 
     /// Of spectra.
     pub samples: Vec<[f64; 2]>,
-    /// Colours; their names are not made yet.
-    pub colors: Rows<Color>,
-    /// Where the name of each colour stands, if it has one.
-    pub color_spans: Vec<Option<Span>>,
-    pub color_names: ColorNames<'t>,
-    /// For each row of `color_names`, that of the colour, if it is defined here.
-    pub color_rows: Vec<Option<u32>>,
+    pub colors: Named<'t, Color>,
+    pub surfaces: Named<'t, Surface>,
     /// Unnamed colours, each with the rows from which on it is in force.
     pub defaults: Vec<DefaultColor>,
     /// The unnamed colour in force at the `def`: its group, and its row there.
@@ -200,6 +196,7 @@ impl<'t> Group<'t> {
             Statement::Face(face) => self.add_face(text, span, &face, references),
             Statement::Wire(wire) => self.add_wire(text, span, &wire, references),
             Statement::Color(color) => self.add_color(text, span, &color),
+            Statement::Surface(surface) => self.add_surface(text, span, &surface),
             Statement::Light(light) => self.add_light(text, span, &light),
             Statement::Camera(camera) => self.add_camera(text, span, camera),
             Statement::Call(_) => {}
@@ -257,13 +254,19 @@ impl<'t> Group<'t> {
             name: self.name(text, face.name),
             contours,
             color: self.color(text, face.color),
-            illum: face.illum.map(|level| self.add_illum(Illum::Level(level))),
+            illum: face.illum.map(|illum| self.add_illum(text, illum)),
             velocity: face.velocity.map(|velocity| self.velocities.id(velocity)),
         };
         self.faces.push(face, span);
     }
 
-    fn add_illum(&mut self, illum: Illum) -> IllumId {
+    fn add_illum(&mut self, text: &'t [u8], illum: IllumStatement) -> IllumId {
+        let illum = match illum {
+            IllumStatement::Level(level) => Illum::Level(level),
+            IllumStatement::Surface(name) => {
+                Illum::Surface(SurfaceId::from_index(self.surfaces.names.enter(name.of(text))))
+            }
+        };
         // Neighbours often have the same.
         if self.illums.last() != Some(&illum) {
             self.illums.push(illum);
@@ -291,31 +294,32 @@ impl<'t> Group<'t> {
     }
 
     fn add_color(&mut self, text: &'t [u8], span: Span, color: &ColorStatement) {
-        let row = self.colors.len() as u32;
-        match color.name {
-            Some(name) => self.define_color(text, name, row),
-            None => self.defaults.push(DefaultColor {
-                color: row,
+        if color.name.is_none() {
+            self.defaults.push(DefaultColor {
+                color: self.colors.table.len() as u32,
                 first_face: self.faces.len(),
                 first_wire: self.wires.len(),
-            }),
+            });
         }
         // The name is made when the colours of all scopes are put together.
         let name = NameId::from_index(0);
         let value = shifted(color.value, self.samples.len());
         self.samples.extend_from_slice(&color.samples);
-        self.colors.push(Color { name, value, translucency: color.translucency }, span);
-        self.color_spans.push(color.name);
+        let row = Color { name, value, translucency: color.translucency };
+        let before = self.colors.push(text, color.name, row, span);
+        self.note_duplicate("colour", color.name, before);
     }
 
-    fn define_color(&mut self, text: &'t [u8], name: Span, row: u32) {
-        let name_row = self.color_names.enter(name.of(text)).index();
-        if name_row >= self.color_rows.len() {
-            self.color_rows.resize(name_row + 1, None);
-        }
-        if let Some(before) = self.color_rows[name_row].replace(row) {
-            let first = self.color_spans[before as usize].unwrap_or_default();
-            self.duplicates.push(Duplicate { kind: "colour", again: name, first });
+    fn add_surface(&mut self, text: &'t [u8], span: Span, surface: &SurfaceStatement) {
+        // The name is made when the surfaces of all scopes are put together.
+        let row = Surface { name: NameId::from_index(0), ..surface.surface };
+        let before = self.surfaces.push(text, Some(surface.name), row, span);
+        self.note_duplicate("surface", Some(surface.name), before);
+    }
+
+    fn note_duplicate(&mut self, kind: &'static str, again: Option<Span>, first: Option<Span>) {
+        if let (Some(again), Some(first)) = (again, first) {
+            self.duplicates.push(Duplicate { kind, again, first });
         }
     }
 
@@ -368,7 +372,7 @@ impl<'t> Group<'t> {
     }
 
     fn color(&mut self, text: &'t [u8], name: Option<Span>) -> Option<ColorId> {
-        name.map(|name| self.color_names.enter(name.of(text)))
+        name.map(|name| ColorId::from_index(self.colors.names.enter(name.of(text))))
     }
 
     /// True if a name may be the path of a vertex of an instance.
@@ -413,7 +417,8 @@ impl<'t> Group<'t> {
             &self.wires.spans,
             &self.lights.spans,
             &self.cameras.spans,
-            &self.colors.spans,
+            &self.colors.table.spans,
+            &self.surfaces.table.spans,
             &self.calls.spans,
             &self.escapes.spans,
             &self.unknown.spans,
@@ -441,40 +446,6 @@ pub(crate) fn as_str(name: &[u8]) -> &str {
 
 fn lossy(text: &[u8], span: Span) -> String {
     String::from_utf8_lossy(span.of(text)).into_owned()
-}
-
-/// Names of colours, numbered in the order in which they are used or defined.
-#[derive(Default)]
-pub(crate) struct ColorNames<'t> {
-    pub list: Vec<&'t [u8]>,
-    rows: FxHashMap<&'t [u8], ColorId>,
-    /// The one asked for last: neighbours often have one colour.
-    last: Option<ColorId>,
-}
-
-impl<'t> ColorNames<'t> {
-    /// The row of a name, which is entered if it is new.
-    #[inline]
-    pub fn enter(&mut self, name: &'t [u8]) -> ColorId {
-        match self.last {
-            Some(last) if self.list[last.index()] == name => last,
-            _ => self.enter_other(name),
-        }
-    }
-
-    fn enter_other(&mut self, name: &'t [u8]) -> ColorId {
-        let row = *self.rows.entry(name).or_insert_with(|| {
-            self.list.push(name);
-            ColorId::from_index(self.list.len() - 1)
-        });
-        self.last = Some(row);
-        row
-    }
-
-    /// The row of a name, if it is known.
-    pub fn get(&self, name: &[u8]) -> Option<usize> {
-        self.rows.get(name).map(|row| row.index())
-    }
 }
 
 /// Distinct velocities.

@@ -29,19 +29,25 @@
 //!
 //! Nothing here knows physics or pixels: velocities are carried, not used.
 //!
-//! The feature `cli` adds the program of the same name, and what it stands on;
-//! other crates do without.
+//! The feature `pipe` adds how programs read scenes, files included; the feature `cli`
+//! the program of the same name, and what it stands on. Libraries do without.
 
 #[cfg(feature = "cli")]
 mod cli;
 mod diagnostic;
+mod flatness;
 mod grammar;
 mod group;
+mod history;
 mod include;
+mod named;
 mod names;
 mod numbered;
+mod options;
 mod outlet;
 mod parts;
+#[cfg(feature = "pipe")]
+pub mod pipe;
 mod place;
 mod quick;
 mod reader;
@@ -59,23 +65,16 @@ mod writer;
 #[cfg(feature = "cli")]
 pub use cli::main;
 pub use diagnostic::{Diagnostic, Diagnostics, MAX_ERRORS, Place, Severity};
-pub use include::include;
+pub use flatness::{BentFace, FLAT, TOO_BENT, thickness};
+pub use history::{history, record};
+pub use include::{Request, RequestError, RequestKind, include};
 pub use names::{NameId, Names, UniqueNames};
+pub use options::{Limit, Limits, Options};
 pub use place::Origins;
 pub use scene::*;
 pub use source::{Source, Span};
 pub use tidy::tidy;
 pub use writer::{write, write_to};
-
-/// Bytes a scene may have: positions are 32-bit.
-const MAX_TEXT: usize = u32::MAX as usize;
-
-/// How to read.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Options {
-    /// Unknown statements are warned about and passed on, not refused (`-lax`).
-    pub lax: bool,
-}
 
 /// A scene that was read.
 #[derive(Clone, Debug)]
@@ -84,7 +83,9 @@ pub struct Parsed {
     pub scene: Scene,
     /// Where its rows come from.
     pub origins: Origins,
-    /// What was changed to make it usable.
+    /// Faces that are not flat, in order.
+    pub bent: Vec<BentFace>,
+    /// What was changed to make it usable, or may look wrong.
     pub warnings: Diagnostics,
 }
 
@@ -94,26 +95,28 @@ pub struct Parsed {
 /// All that is wrong with the text, up to [`MAX_ERRORS`] findings.
 pub fn parse(source: &Source, options: &Options) -> Result<Parsed, Diagnostics> {
     let text = &source.text[..];
-    check_length(source)?;
+    check_length(source, options)?;
     let mut findings = Vec::new();
-    let mut document = parts::read_all(text, options.lax, &mut findings);
-    findings.extend(document.includes.iter().map(include::not_followed));
+    let mut document = parts::read_all(text, options, &mut findings);
+    findings.extend(document.requests.iter().map(include::not_followed));
     refuse_errors(source, &mut findings)?;
 
     let mut scene = Scene::default();
-    let links = settle::settle(text, &mut document.groups, &mut scene, &mut findings);
+    let links = settle::settle(text, &mut document.groups, &mut scene, &options.limits, &mut findings);
     refuse_errors(source, &mut findings)?;
 
     let (scene, origins) = place::place(text, &mut document, &links, scene, &mut findings);
     refuse_errors(source, &mut findings)?;
-    Ok(Parsed { scene, origins, warnings: Diagnostics::new(source, findings) })
+    let bent = flatness::bent_faces(&scene);
+    findings.extend(flatness::warning(source, &origins, &bent));
+    Ok(Parsed { scene, origins, bent, warnings: Diagnostics::new(source, findings) })
 }
 
 /// Stops if positions in the text do not fit.
-fn check_length(source: &Source) -> Result<(), Diagnostics> {
-    if source.text.len() > MAX_TEXT {
+fn check_length(source: &Source, options: &Options) -> Result<(), Diagnostics> {
+    if source.text.len() as u64 > options.limits.get(Limit::Text) {
         let finding = Diagnostic::error(Span::default(), "the scene is too large")
-            .help("the limit is 4 GiB of text; split the scene");
+            .help(options.limits.remedy(Limit::Text, "split it"));
         return Err(Diagnostics::one(source, finding));
     }
     Ok(())

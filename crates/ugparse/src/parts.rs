@@ -9,11 +9,12 @@
 
 use rayon::prelude::*;
 
+use crate::Options;
 use crate::diagnostic::Diagnostic;
 use crate::group::{DefaultColor, Group, NO_ROW, Rows, shifted};
 use crate::names::NameId;
 use crate::reader::{Document, read, read_part};
-use crate::scene::{ColorId, Contours, IllumId, VelocityId, VertexId};
+use crate::scene::{ColorId, Contours, Illum, IllumId, SurfaceId, VelocityId, VertexId};
 
 /// Bytes a part should have at least.
 const MIN_PART: usize = 1 << 19;
@@ -22,28 +23,36 @@ const MIN_PART: usize = 1 << 19;
 const MIN_ROWS: usize = 1 << 14;
 
 /// Reads a text, in parts if it is large and there are threads.
-pub(crate) fn read_all<'t>(text: &'t [u8], lax: bool, findings: &mut Vec<Diagnostic>) -> Document<'t> {
+pub(crate) fn read_all<'t>(
+    text: &'t [u8],
+    options: &Options,
+    findings: &mut Vec<Diagnostic>,
+) -> Document<'t> {
     let n_parts = rayon::current_num_threads().min(text.len() / MIN_PART);
     if n_parts > 1
-        && let Some((document, warnings)) = read_parts(text, n_parts, lax)
+        && let Some((document, warnings)) = read_parts(text, n_parts, options)
     {
         findings.extend(warnings);
         return document;
     }
-    read(text, lax, findings)
+    read(text, options, findings)
 }
 
-fn read_parts(text: &[u8], n_parts: usize, lax: bool) -> Option<(Document<'_>, Vec<Diagnostic>)> {
+fn read_parts<'t>(
+    text: &'t [u8],
+    n_parts: usize,
+    options: &Options,
+) -> Option<(Document<'t>, Vec<Diagnostic>)> {
     let mut cuts: Vec<usize> = (0..=n_parts).map(|part| cut(text, part, n_parts)).collect();
     cuts.dedup();
     let parts: Option<Vec<_>> =
-        cuts.par_windows(2).map(|cuts| read_part(&text[..cuts[1]], cuts[0], lax)).collect();
+        cuts.par_windows(2).map(|cuts| read_part(&text[..cuts[1]], cuts[0], options)).collect();
     let (mut documents, warnings): (Vec<_>, Vec<_>) = parts?.into_iter().unzip();
     let groups = documents.iter_mut().filter_map(|document| document.groups.pop()).collect();
     let document = Document {
         groups: vec![join(groups)?],
         line_marks: documents.iter().flat_map(|document| document.line_marks.iter().cloned()).collect(),
-        includes: documents.iter().flat_map(|document| document.includes.iter().copied()).collect(),
+        requests: documents.iter().flat_map(|document| document.requests.iter().copied()).collect(),
         first_statement: documents.iter().find_map(|document| document.first_statement),
         comments: documents.into_iter().flat_map(|document| document.comments).collect(),
     };
@@ -132,14 +141,15 @@ fn join<'t>(mut parts: Vec<Group<'t>>) -> Option<Group<'t>> {
             camera.velocity = place.velocity(camera.velocity);
         },
     );
-    file.colors = join_tables(
+    file.colors.table = join_tables(
         &mut parts,
         &places,
-        |part| &mut part.colors,
+        |part| &mut part.colors.table,
         |color, place| {
             color.value = shifted(color.value, place.first_sample);
         },
     );
+    file.surfaces.table = join_tables(&mut parts, &places, |part| &mut part.surfaces.table, |_, _| {});
     file.escapes = join_tables(&mut parts, &places, |part| &mut part.escapes, |_, _| {});
     file.unknown = join_tables(&mut parts, &places, |part| &mut part.unknown, |_, _| {});
     Some(file)
@@ -204,10 +214,13 @@ struct Place {
 }
 
 impl Place {
-    /// Behind what is in `file` already. Names, colours and velocities go there at
-    /// once. `None` if a colour is defined twice.
+    /// Behind what is in `file` already. Names of all kinds and velocities go there at
+    /// once. `None` if a colour or surface is defined twice.
     fn behind<'t>(file: &mut Group<'t>, before: Before, part: &mut Group<'t>) -> Option<Self> {
-        let colors: Vec<_> = part.color_names.list.iter().map(|name| file.color_names.enter(name)).collect();
+        let first_color = file.colors.spans.len() as u32;
+        let colors = file.colors.append_names(&mut part.colors)?;
+        let colors: Vec<_> = colors.into_iter().map(ColorId::from_index).collect();
+        let surfaces = file.surfaces.append_names(&mut part.surfaces)?;
         let velocities: Vec<_> =
             part.velocities.list.iter().map(|&velocity| file.velocities.id(velocity)).collect();
         let place = Self {
@@ -224,22 +237,16 @@ impl Place {
             colors,
             velocities,
         };
-        let first_color = file.color_spans.len() as u32;
-        file.color_rows.resize(file.color_names.list.len(), None);
-        for (row, name) in part.color_rows.iter().zip(&place.colors) {
-            let Some(row) = row else { continue };
-            if file.color_rows[name.index()].replace(first_color + row).is_some() {
-                return None;
-            }
-        }
-        file.color_spans.append(&mut part.color_spans);
         file.defaults.extend(part.defaults.iter().map(|default| DefaultColor {
             color: first_color + default.color,
             first_face: before.faces + default.first_face,
             first_wire: before.wires + default.first_wire,
         }));
         file.names.append(std::mem::take(&mut part.names));
-        file.illums.append(&mut part.illums);
+        file.illums.extend(part.illums.drain(..).map(|illum| match illum {
+            Illum::Surface(name) => Illum::Surface(SurfaceId::from_index(surfaces[name.index()])),
+            level => level,
+        }));
         file.samples.append(&mut part.samples);
         file.n_statements += part.n_statements;
         Some(place)

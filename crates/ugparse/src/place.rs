@@ -31,8 +31,39 @@ pub struct Origins {
     pub faces: Vec<Span>,
 }
 
-/// Builds the flat scene; colours, and the names of the file, are in it already.
+/// Chains of definitions that any thread has stack for.
+const SHORT_CHAIN: usize = 200;
+
+/// Bytes of stack for each definition of a longer chain: several times what is needed.
+const STACK_PER_LEVEL: usize = 1 << 15;
+
+/// Builds the flat scene; colours, surfaces, and the names of the file, are in it already.
 pub(crate) fn place(
+    text: &[u8],
+    document: &mut Document<'_>,
+    links: &Links,
+    scene: Scene,
+    findings: &mut Vec<Diagnostic>,
+) -> (Scene, Origins) {
+    if links.levels <= SHORT_CHAIN {
+        return place_here(text, document, links, scene, findings);
+    }
+    // Placing recurses, so a long chain gets a thread with a stack of its length.
+    let mut outcome = None;
+    let started = std::thread::scope(|scope| {
+        let work = || outcome = Some(place_here(text, document, links, scene, findings));
+        let thread = std::thread::Builder::new().stack_size(links.levels * STACK_PER_LEVEL);
+        thread.spawn_scoped(scope, work).map(|_| ())
+    });
+    outcome.unwrap_or_else(|| {
+        let why = started.err().map_or(String::new(), |error| format!(": {error}"));
+        let message = format!("there is no memory for so long a chain of definitions{why}");
+        findings.push(Diagnostic::error(Span::default(), message));
+        Default::default()
+    })
+}
+
+fn place_here(
     text: &[u8],
     document: &mut Document<'_>,
     links: &Links,
@@ -60,7 +91,7 @@ pub(crate) fn place(
         trouble: None,
         flattened: BTreeMap::new(),
     };
-    placer.colors(&file);
+    placer.note_definitions(&file);
     placer.file(file);
     findings.extend(std::mem::take(&mut placer.undefined).into_values());
     placer.make_names_unique();
@@ -166,10 +197,15 @@ struct Placer<'d, 't> {
 }
 
 impl Placer<'_, '_> {
-    fn colors(&mut self, file: &Group<'_>) {
+    /// Notes where colours and surfaces stand.
+    fn note_definitions(&mut self, file: &Group<'_>) {
         let Some(emitted) = &mut self.emitted else { return };
-        let spans = file.colors.spans.iter().chain(self.groups.iter().flat_map(|group| &group.colors.spans));
-        emitted.extend(spans.enumerate().map(|(row, &span)| (span, Item::Color(row as u32))));
+        let defined = self.groups;
+        let groups = || std::iter::once(file).chain(defined);
+        let colors = groups().flat_map(|group| &group.colors.table.spans);
+        emitted.extend(colors.enumerate().map(|(row, &span)| (span, Item::Color(row as u32))));
+        let surfaces = groups().flat_map(|group| &group.surfaces.table.spans);
+        emitted.extend(surfaces.enumerate().map(|(row, &span)| (span, Item::Surface(row as u32))));
     }
 
     /// The file's tables become the scene's, with what calls give in between.
@@ -557,8 +593,9 @@ impl Placer<'_, '_> {
     /// wrote; the later one in the table gives way.
     fn make_names_unique(&mut self) {
         let is_flat = self.groups.len() == 1;
-        let Scene { names, vertices, colors, .. } = &mut self.scene;
+        let Scene { names, vertices, colors, surfaces, .. } = &mut self.scene;
         rename_duplicates(names, colors.iter_mut().map(|color| &mut color.name));
+        rename_duplicates(names, surfaces.iter_mut().map(|surface| &mut surface.name));
         // Vertices of a flat file have been compared.
         if !is_flat {
             rename_duplicates(names, vertices.iter_mut().map(|vertex| &mut vertex.name));

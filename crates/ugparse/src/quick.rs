@@ -8,7 +8,7 @@ use glam::DVec3;
 
 use crate::group::Group;
 use crate::numbered::Name;
-use crate::scene::{Face, VertexId};
+use crate::scene::{ColorId, Face, VertexId};
 use crate::source::Span;
 use crate::token::{begins_identifier, ends_word, is_blank, is_identifier, number, short_decimal};
 
@@ -32,7 +32,7 @@ fn vertex<'t>(mut cursor: Cursor<'t>, group: &mut Group<'t>) -> Option<usize> {
     cursor.skip_blank();
     let color = cursor.identifier();
     cursor.mark(b';')?;
-    let color = color.map(|color| group.color_names.enter(color));
+    let color = color.map(|color| ColorId::from_index(group.colors.names.enter(color)));
     group.n_statements += 1;
     group.push_vertex(name, span, position, color, None);
     Some(cursor.at)
@@ -49,7 +49,7 @@ fn face<'t>(mut cursor: Cursor<'t>, start: usize, group: &mut Group<'t>) -> Opti
     let face = Face {
         name: name.map(|name| group.add_name(name)),
         contours: first as u32..group.contours.row_count(),
-        color: tail.color.map(|color| group.color_names.enter(color)),
+        color: tail.color.map(|color| ColorId::from_index(group.colors.names.enter(color))),
         illum: None,
         velocity: tail.velocity.map(|velocity| group.velocities.id(velocity)),
     };

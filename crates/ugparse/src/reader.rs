@@ -3,6 +3,8 @@
 use crate::diagnostic::{Diagnostic, MAX_ERRORS};
 use crate::grammar::{Grammar, NAME};
 use crate::group::Group;
+use crate::include::RequestKind;
+use crate::options::{Limit, Options};
 use crate::quick;
 use crate::source::{LineMark, Span};
 use crate::statement::References;
@@ -11,9 +13,6 @@ use crate::token::{
     skip_statement, trouble, wanted, word,
 };
 use crate::wording::{no_statement, shorten, with_usage, word_help};
-
-/// How deep definitions may nest.
-const MAX_NESTING: usize = 64;
 
 /// A text that was read.
 #[derive(Default)]
@@ -27,8 +26,8 @@ pub(crate) struct Document<'t> {
     pub first_statement: Option<u32>,
     /// Lines of the C preprocessor.
     pub line_marks: Vec<LineMark>,
-    /// `include` statements.
-    pub includes: Vec<Include>,
+    /// `include` and `execute` statements.
+    pub requests: Vec<RequestStatement>,
 }
 
 /// A comment: the text between its braces.
@@ -39,9 +38,10 @@ pub(crate) struct CommentSpan {
     pub trailing: bool,
 }
 
-/// `include FILE ;`
+/// `include FILE ;` or `execute FILE ;`
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Include {
+pub(crate) struct RequestStatement {
+    pub kind: RequestKind,
     pub span: Span,
     /// The file name without quotes.
     pub file: Span,
@@ -49,8 +49,8 @@ pub(crate) struct Include {
 
 /// Reads the whole text. Errors go to `findings`; reading goes on behind them
 /// until there are too many.
-pub(crate) fn read<'t>(text: &'t [u8], lax: bool, findings: &mut Vec<Diagnostic>) -> Document<'t> {
-    let mut reader = Reader::new(text, 0, lax, findings);
+pub(crate) fn read<'t>(text: &'t [u8], options: &Options, findings: &mut Vec<Diagnostic>) -> Document<'t> {
+    let mut reader = Reader::new(text, 0, options, findings);
     reader.run(0);
     reader.check_all_closed();
     reader.document
@@ -62,10 +62,10 @@ pub(crate) fn read<'t>(text: &'t [u8], lax: bool, findings: &mut Vec<Diagnostic>
 pub(crate) fn read_part<'t>(
     text: &'t [u8],
     start: usize,
-    lax: bool,
+    options: &Options,
 ) -> Option<(Document<'t>, Vec<Diagnostic>)> {
     let mut findings = Vec::new();
-    let mut reader = Reader { is_part: true, ..Reader::new(text, start, lax, &mut findings) };
+    let mut reader = Reader { is_part: true, ..Reader::new(text, start, options, &mut findings) };
     reader.run(start);
     let is_plain = reader.error_count == 0 && reader.document.groups.len() == 1;
     let document = reader.document;
@@ -79,7 +79,8 @@ pub(crate) fn line_marks(text: &[u8]) -> Vec<LineMark> {
         return Vec::new();
     }
     // Marks behind more mistakes than are reported are not missed.
-    read(text, true, &mut Vec::new()).line_marks
+    let options = Options { lax: true, ..Options::default() };
+    read(text, &options, &mut Vec::new()).line_marks
 }
 
 struct Reader<'t, 'f> {
@@ -87,7 +88,7 @@ struct Reader<'t, 'f> {
     document: Document<'t>,
     /// The groups being read, from the file inwards.
     open: Vec<usize>,
-    lax: bool,
+    options: Options,
     /// Only plain statements are read, up to the first that is not.
     is_part: bool,
     /// A statement has ended on the line we are on.
@@ -99,13 +100,13 @@ struct Reader<'t, 'f> {
 }
 
 impl<'t, 'f> Reader<'t, 'f> {
-    fn new(text: &'t [u8], start: usize, lax: bool, findings: &'f mut Vec<Diagnostic>) -> Self {
+    fn new(text: &'t [u8], start: usize, options: &Options, findings: &'f mut Vec<Diagnostic>) -> Self {
         let file = Group::for_text(text.len() - start);
         Self {
             grammar: Grammar { text },
             document: Document { groups: vec![file], ..Document::default() },
             open: vec![0],
-            lax,
+            options: *options,
             is_part: false,
             line_has_statement: false,
             references: References::default(),
@@ -205,7 +206,8 @@ impl<'t, 'f> Reader<'t, 'f> {
         match keyword {
             b"def" => self.begin_definition(input, body),
             b"end" => self.end_definition(input, body),
-            b"include" => self.include(input, body),
+            b"include" => self.request(RequestKind::Include, input, body),
+            b"execute" => self.request(RequestKind::Execute, input, body),
             b"#" | b"#line" => match self.line_mark(body) {
                 Some((rest, mark)) => {
                     self.document.line_marks.push(mark);
@@ -243,7 +245,7 @@ impl<'t, 'f> Reader<'t, 'f> {
         keyword: Input<'t>,
         body: Input<'t>,
     ) -> Result<Input<'t>, Trouble<'t>> {
-        if !self.lax {
+        if !self.options.lax {
             return Err(Trouble { at: input, reason: Reason::Expected("a statement") });
         }
         let rest = match keyword {
@@ -264,14 +266,19 @@ impl<'t, 'f> Reader<'t, 'f> {
         Ok(rest)
     }
 
-    /// `include FILE ;`
-    fn include(&mut self, input: Input<'t>, body: Input<'t>) -> Result<Input<'t>, Trouble<'t>> {
+    /// `include FILE ;` or `execute FILE ;`
+    fn request(
+        &mut self,
+        kind: RequestKind,
+        input: Input<'t>,
+        body: Input<'t>,
+    ) -> Result<Input<'t>, Trouble<'t>> {
         let (rest, name) = file_name(body).map_err(trouble)?;
         let quotes = usize::from(rest.len() + name.len() < body.len() && skip_blank(body).starts_with(b"\""));
         let end = self.grammar.position(rest) - quotes as u32;
         let file = Span { start: end - name.len() as u32, end };
         let (rest, ()) = mark(b';', "`;`")(rest).map_err(trouble)?;
-        self.document.includes.push(Include { span: self.span(input, rest), file });
+        self.document.requests.push(RequestStatement { kind, span: self.span(input, rest), file });
         Ok(rest)
     }
 
@@ -301,9 +308,12 @@ impl<'t, 'f> Reader<'t, 'f> {
             around.defaults.last().map(|default| (outer, default.color)).or(around.outer_default);
         self.document.groups.push(group);
         self.open.push(row);
-        if self.open.len() == MAX_NESTING + 2 {
-            let reason = Reason::Impossible(1, "definitions nest too deeply", "the limit is 64 levels");
-            self.complain(&Trouble { at: input, reason }, None);
+        // The file is open, too; the first that is too deep is enough to complain about.
+        if self.open.len() as u64 == self.options.limits.get(Limit::Nesting) + 2 {
+            let start = self.grammar.position(input);
+            let span = Span { start, end: start + found(input).len() as u32 };
+            let help = self.options.limits.remedy(Limit::Nesting, "use fewer");
+            self.report(Diagnostic::error(span, "definitions nest too deeply").label("here").help(help));
         }
         let (rest, name) = wanted(identifier(body), NAME).map_err(trouble)?;
         let end = self.grammar.position(rest);

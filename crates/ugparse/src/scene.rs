@@ -7,7 +7,7 @@
 //! - every id is in range, every number finite, every speed below 1;
 //! - every contour of a face has three vertices or more, every contour of a
 //!   wire two or more;
-//! - names are unique within colours and within vertices.
+//! - names are unique within colours, within surfaces and within vertices.
 
 use std::fmt;
 use std::num::NonZeroU32;
@@ -81,6 +81,8 @@ pub(crate) use optional_index;
 optional_index! {
     /// Row of [`Scene::colors`].
     ColorId
+    /// Row of [`Scene::surfaces`].
+    SurfaceId
     /// Row of [`Scene::velocities`].
     VelocityId
     /// Row of [`Scene::illums`].
@@ -105,6 +107,8 @@ pub struct Scene {
     /// Samples of spectra: wavelength in nm, rising in each, and value, 0 or more.
     /// Linear between, 0 outside.
     pub samples: Vec<[f64; 2]>,
+    /// `surf`.
+    pub surfaces: Vec<Surface>,
     /// Distinct velocities carried by faces, wires, lights and cameras,
     /// fractions of c, each shorter than 1.
     pub velocities: Vec<DVec3>,
@@ -114,7 +118,7 @@ pub struct Scene {
     pub contours: Contours,
     /// `f`.
     pub faces: Vec<Face>,
-    /// What faces carry in place of lighting; few do, so it is kept beside them.
+    /// What faces say about their light; few do, so it is kept beside them.
     pub illums: Vec<Illum>,
     /// `w`.
     pub wires: Vec<Wire>,
@@ -173,6 +177,30 @@ pub enum ColorValue {
     },
 }
 
+/// How a surface takes light, for programs that follow rays.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Surface {
+    /// Its name.
+    pub name: NameId,
+    /// kd: part of the light that is scattered all round, 0 or more.
+    pub diffuse: f64,
+    /// ks: part that is mirrored, 0 or more.
+    pub specular: f64,
+    /// kt: part that goes through, 0…1.
+    pub transmitted: f64,
+    /// n: refractive index, above 0.
+    pub refraction: f64,
+    /// How sharp highlights are, 0 or more.
+    pub exponent: f64,
+}
+
+impl Surface {
+    /// Refractive index unless given.
+    pub const REFRACTION: f64 = 1.0;
+    /// Exponent of highlights unless given.
+    pub const EXPONENT: f64 = 20.0;
+}
+
 /// A vertex.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Vertex {
@@ -196,17 +224,19 @@ pub struct Face {
     pub contours: Range<u32>,
     /// Colour; `None` means lightness 1, saturation 0, opaque.
     pub color: Option<ColorId>,
-    /// What is known of its light, see [`Scene::light_level`].
+    /// What is known of its light, see [`Scene::light_level`] and [`Scene::surface`].
     pub illum: Option<IllumId>,
     /// Its velocity, if given.
     pub velocity: Option<VelocityId>,
 }
 
-/// What a face carries in place of lighting.
+/// What a face says about its light.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Illum {
     /// Stored light level: lighting is skipped.
     Level(f64),
+    /// How it takes light.
+    Surface(SurfaceId),
 }
 
 /// Lines.
@@ -309,6 +339,8 @@ pub enum Item {
     Unknown(u32),
     /// Row of [`Scene::colors`].
     Color(u32),
+    /// Row of [`Scene::surfaces`].
+    Surface(u32),
     /// Row of [`Scene::vertices`].
     Vertex(u32),
     /// Row of [`Scene::faces`].
@@ -454,6 +486,15 @@ impl Scene {
     pub fn light_level(&self, face: &Face) -> Option<f64> {
         match self.illums[face.illum?.index()] {
             Illum::Level(level) => Some(level),
+            Illum::Surface(_) => None,
+        }
+    }
+
+    /// How a face takes light, if it says so.
+    pub fn surface(&self, face: &Face) -> Option<&Surface> {
+        match self.illums[face.illum?.index()] {
+            Illum::Level(_) => None,
+            Illum::Surface(surface) => Some(&self.surfaces[surface.index()]),
         }
     }
 

@@ -8,29 +8,19 @@ use rustc_hash::{FxHashMap, FxHashSet};
 use crate::diagnostic::{Diagnostic, MAX_ERRORS};
 use crate::grammar::Grammar;
 use crate::group::{Call, Group, NO_ROW, PathCorner, shifted};
-use crate::scene::{Color, ColorId, Contours, Face, Scene, Vertex, VertexId, newell_normal};
+use crate::named::Named;
+use crate::names::{NameId, Names};
+use crate::options::{Limit, Limits};
+use crate::scene::{
+    Color, ColorId, Contours, Face, Illum, Scene, Surface, SurfaceId, Vertex, VertexId, newell_normal,
+};
 use crate::source::Span;
-use crate::statement::{CallStatement, References, Repeat, Statement};
+use crate::statement::{CallStatement, IllumStatement, References, Repeat, Statement};
 use crate::suggest::nearest;
 use crate::token::word;
 
-/// Statements a scene may have after instances and arrays are placed. Each
-/// takes some 200 bytes, so this is where memory of common machines ends.
-const MAX_PLACED: u64 = 50_000_000;
-
-/// Corners of all placed faces and wires; each takes 4 bytes.
-const MAX_CORNERS: u64 = 500_000_000;
-
-/// Bytes that the names of a placed scene may have together; positions of
-/// names are 32-bit.
-const MAX_NAME_BYTES: u64 = 2 << 30;
-
-/// The same for the names of colours alone, paths included.
-const MAX_COLOR_BYTES: usize = 1 << 29;
-
-/// How long a chain of definitions that place each other may be; the placing
-/// recurses, and this keeps it well inside the stack.
-const MAX_CHAIN: usize = 200;
+/// The names of colours and surfaces, paths included, may have this part of the bytes of all names.
+const PART_OF_NAMES: u64 = 4;
 
 /// Rows from which on threads are worth their start.
 const MANY_ROWS: usize = 1 << 16;
@@ -42,6 +32,8 @@ pub(crate) struct Links {
     pub calls: Vec<Vec<Link>>,
     /// For each group, the row of its first colour in the scene.
     pub first_colors: Vec<usize>,
+    /// Length of the longest chain of definitions that place each other.
+    pub levels: usize,
 }
 
 /// What one call refers to.
@@ -57,6 +49,7 @@ pub(crate) fn settle(
     text: &[u8],
     groups: &mut [Group<'_>],
     scene: &mut Scene,
+    limits: &Limits,
     findings: &mut Vec<Diagnostic>,
 ) -> Links {
     for group in groups.iter() {
@@ -71,13 +64,21 @@ pub(crate) fn settle(
     let own_sizes = groups.iter().map(Group::own_size).collect();
     // The names of the file come first, so that they need not be moved.
     scene.names = std::mem::take(&mut groups[0].names);
-    let Some(first_colors) = gather_colors(text, groups, scene, findings) else { return Links::default() };
+    let firsts = match gather_named(text, groups, scene, limits) {
+        Ok(firsts) => firsts,
+        Err(finding) => {
+            findings.push(finding);
+            return Links::default();
+        }
+    };
     for row in 0..groups.len() {
-        let colors = visible_colors(groups, row, &first_colors);
+        let colors = visible(groups, row, |group| &group.colors, &firsts.colors);
+        let surfaces = visible(groups, row, |group| &group.surfaces, &firsts.surfaces);
         let group = &mut groups[row];
         let has_colors = paint(group, &colors);
+        let has_surfaces = name_surfaces(group, &surfaces);
         let has_corners = link_corners(group);
-        if !(has_colors && has_corners) {
+        if !(has_colors && has_surfaces && has_corners) {
             Complaints { text, groups, row, findings }.about_all();
             groups[row].paths = path_corners(text, &groups[row]);
         }
@@ -87,48 +88,78 @@ pub(crate) fn settle(
     }
     apply_default_colors(&mut groups[0]);
     let calls = (0..groups.len()).map(|row| link_calls(text, groups, row, findings)).collect();
-    let links = Links { calls, first_colors };
-    Sizes { text, groups, own_sizes, links: &links }.check_calls(findings);
+    let mut links = Links { calls, first_colors: firsts.colors, levels: 0 };
+    match (Sizes { text, groups, own_sizes, links: &links, limits }).check_calls() {
+        Ok(levels) => links.levels = levels,
+        Err(finding) => findings.push(finding),
+    }
     links
 }
 
-/// Puts the colours of all groups into the scene; gives the row of the first of each group.
-fn gather_colors(
+/// For each group, the row of its first colour, and of its first surface, in the scene.
+#[derive(Default)]
+struct Firsts {
+    colors: Vec<usize>,
+    surfaces: Vec<usize>,
+}
+
+/// Puts the colours and surfaces of all groups into the scene.
+fn gather_named(
     text: &[u8],
     groups: &mut [Group<'_>],
     scene: &mut Scene,
-    findings: &mut Vec<Diagnostic>,
-) -> Option<Vec<usize>> {
-    let mut first_colors = Vec::with_capacity(groups.len());
-    let mut bytes = 0;
+    limits: &Limits,
+) -> Result<Firsts, Diagnostic> {
+    let mut firsts = Firsts::default();
+    let mut room = limits.get(Limit::Names) / PART_OF_NAMES;
     for row in 0..groups.len() {
-        first_colors.push(scene.colors.len());
-        if groups[row].colors.rows.is_empty() {
+        firsts.colors.push(scene.colors.len());
+        firsts.surfaces.push(scene.surfaces.len());
+        let group = &groups[row];
+        if group.colors.spans.is_empty() && group.surfaces.spans.is_empty() {
             continue;
         }
         let prefix = scope_prefix(text, groups, row);
         let group = &mut groups[row];
-        let colors = std::mem::take(&mut group.colors.rows);
+        let mut name = |names: &mut Names, own: &str, span: Span| {
+            let taken = (prefix.len() + own.len()) as u64;
+            room = room.checked_sub(taken).ok_or_else(|| long_names(span, limits))?;
+            Ok::<NameId, Diagnostic>(names.add_parts(&[&prefix, own]))
+        };
         let first_sample = scene.samples.len();
         scene.samples.append(&mut group.samples);
-        for ((color, span), name) in colors.into_iter().zip(&group.colors.spans).zip(&group.color_spans) {
-            bytes += prefix.len() + span.len();
-            if bytes > MAX_COLOR_BYTES {
-                findings.push(long_color_names(*span));
-                return None;
-            }
-            let own = match name {
-                Some(name) => show(text, *name),
+        let colors = std::mem::take(&mut group.colors.table.rows).into_iter();
+        for ((color, &span), own) in colors.zip(&group.colors.table.spans).zip(&group.colors.spans) {
+            let own = match own {
+                Some(own) => show(text, *own),
                 None => format!("unnamed#{}", scene.colors.len()),
             };
-            let name = scene.names.add_parts(&[&prefix, &own]);
+            let name = name(&mut scene.names, &own, span)?;
             scene.colors.push(Color { name, value: shifted(color.value, first_sample), ..color });
         }
+        let surfaces = std::mem::take(&mut group.surfaces.table.rows).into_iter();
+        for ((surface, &span), own) in
+            surfaces.zip(&group.surfaces.table.spans).zip(group.surfaces.spans.iter().flatten())
+        {
+            let name = name(&mut scene.names, &show(text, *own), span)?;
+            scene.surfaces.push(Surface { name, ..surface });
+        }
     }
-    Some(first_colors)
+    Ok(firsts)
 }
 
-/// `outer:inner:` for the colours of a nested definition, empty for the file's.
+fn long_names(span: Span, limits: &Limits) -> Diagnostic {
+    let else_do = "use shorter names for definitions that hold colours or surfaces; \
+                   theirs may have a quarter of all bytes";
+    Diagnostic::error(
+        span,
+        "the names of colours and surfaces, with those of their definitions before them, are too long",
+    )
+    .label("this one is too much")
+    .help(limits.remedy(Limit::Names, else_do))
+}
+
+/// `outer:inner:` for the colours and surfaces of a nested definition, empty for the file's.
 fn scope_prefix(text: &[u8], groups: &[Group<'_>], row: usize) -> String {
     scopes(groups, row)
         .filter(|&scope| groups[scope].parent.is_some())
@@ -140,27 +171,25 @@ fn scopes<'g>(groups: &'g [Group<'_>], row: usize) -> impl Iterator<Item = usize
     std::iter::successors(Some(row), |&scope| groups[scope].parent)
 }
 
-/// For each name of a colour in a group, the colour it means.
-fn visible_colors(groups: &[Group<'_>], row: usize, first_colors: &[usize]) -> Vec<Option<ColorId>> {
-    let names = groups[row].color_names.list.iter();
-    names
-        .map(|name| {
-            scopes(groups, row).find_map(|scope| own_color(&groups[scope], name, first_colors[scope]))
-        })
-        .collect()
-}
-
-fn own_color(group: &Group<'_>, name: &[u8], first_color: usize) -> Option<ColorId> {
-    let row = group.color_rows.get(group.color_names.get(name)?).copied().flatten()?;
-    Some(ColorId::from_index(first_color + row as usize))
+/// For each name of a kind in a group, the row in the scene of what it means.
+fn visible<'g, T: 'g>(
+    groups: &'g [Group<'_>],
+    row: usize,
+    kind: impl Fn(&'g Group<'_>) -> &'g Named<'g, T>,
+    firsts: &[usize],
+) -> Vec<Option<usize>> {
+    let find = |name: &&[u8]| {
+        scopes(groups, row).find_map(|scope| Some(firsts[scope] + kind(&groups[scope]).row(name)?))
+    };
+    kind(&groups[row]).names.list.iter().map(find).collect()
 }
 
 /// Turns names of colours into colours; false if one is not defined.
-fn paint(group: &mut Group<'_>, colors: &[Option<ColorId>]) -> bool {
-    let stays = |(row, color): (usize, &Option<ColorId>)| *color == Some(ColorId::from_index(row));
-    if colors.iter().enumerate().all(stays) {
+fn paint(group: &mut Group<'_>, colors: &[Option<usize>]) -> bool {
+    if colors.iter().enumerate().all(|(row, color)| *color == Some(row)) {
         return true;
     }
+    let colors: Vec<_> = colors.iter().map(|color| color.map(ColorId::from_index)).collect();
     let paint = |color: &mut Option<ColorId>| *color = color.and_then(|name| colors[name.index()]);
     for_all(&mut group.vertices.rows, |vertex| paint(&mut vertex.color));
     for_all(&mut group.faces.rows, |face| paint(&mut face.color));
@@ -168,6 +197,18 @@ fn paint(group: &mut Group<'_>, colors: &[Option<ColorId>]) -> bool {
     group.lights.rows.iter_mut().for_each(|light| paint(&mut light.color));
     group.calls.rows.iter_mut().for_each(|call| paint(&mut call.color));
     colors.iter().all(Option::is_some)
+}
+
+/// Turns names of surfaces into surfaces; false if one is not defined.
+fn name_surfaces(group: &mut Group<'_>, surfaces: &[Option<usize>]) -> bool {
+    for illum in &mut group.illums {
+        if let Illum::Surface(id) = illum
+            && let Some(row) = surfaces[id.index()]
+        {
+            *id = SurfaceId::from_index(row);
+        }
+    }
+    surfaces.iter().all(Option::is_some)
 }
 
 /// Turns numbers of names into rows of vertices; false if a vertex is not defined.
@@ -336,6 +377,9 @@ impl Complaints<'_, '_, '_> {
                 Some(Statement::Call(call)) => self.about_color(call.color),
                 Some(Statement::Face(face) | Statement::Wire(face)) => {
                     self.about_color(face.color);
+                    if let Some(IllumStatement::Surface(name)) = face.illum {
+                        self.about_surface(name);
+                    }
                     references.names.iter().for_each(|&name| self.about_vertex(name));
                 }
                 _ => {}
@@ -345,14 +389,45 @@ impl Complaints<'_, '_, '_> {
 
     fn about_color(&mut self, name: Option<Span>) {
         let Some(name) = name else { return };
-        let is_defined = |scope: usize| own_color(&self.groups[scope], name.of(self.text), 0).is_some();
-        if scopes(self.groups, self.row).any(is_defined) {
+        if self.is_seen(name, |group| &group.colors) {
             return;
         }
-        let spans = scopes(self.groups, self.row).flat_map(|scope| &self.groups[scope].color_spans);
+        let remedy = if self.is_seen(name, |group| &group.surfaces) {
+            "there is a surface of that name; on a face it stands behind the colour, so give one"
+        } else {
+            "define it with a `c` or `c_rgb` statement"
+        };
+        self.undefined("colour", name, remedy, |group| &group.colors);
+    }
+
+    fn about_surface(&mut self, name: Span) {
+        if self.is_seen(name, |group| &group.surfaces) {
+            return;
+        }
+        let remedy = if self.is_seen(name, |group| &group.colors) {
+            "there is a colour of that name; a face takes one colour, and a surface behind it"
+        } else {
+            "define it with a `surf` statement"
+        };
+        self.undefined("surface", name, remedy, |group| &group.surfaces);
+    }
+
+    /// True if something of that kind and name is seen here.
+    fn is_seen<T>(&self, name: Span, kind: for<'g> fn(&'g Group<'_>) -> &'g Named<'g, T>) -> bool {
+        let mut scopes = scopes(self.groups, self.row);
+        scopes.any(|scope| kind(&self.groups[scope]).row(name.of(self.text)).is_some())
+    }
+
+    fn undefined<T>(
+        &mut self,
+        kind: &str,
+        name: Span,
+        remedy: &str,
+        of_kind: for<'g> fn(&'g Group<'_>) -> &'g Named<'g, T>,
+    ) {
+        let spans = scopes(self.groups, self.row).flat_map(|scope| &of_kind(&self.groups[scope]).spans);
         let names = spans.flatten().map(|span| span.of(self.text));
-        let remedy = "define it with a `c` or `c_rgb` statement";
-        let found = undefined_like(self.text, "colour", name, remedy, names, self.findings.len());
+        let found = undefined_like(self.text, kind, name, remedy, names, self.findings.len());
         self.findings.push(found);
     }
 
@@ -403,8 +478,8 @@ fn show(text: &[u8], name: Span) -> String {
 /// Definitions and labels of the calls of a group.
 fn link_calls(text: &[u8], groups: &[Group<'_>], row: usize, findings: &mut Vec<Diagnostic>) -> Vec<Link> {
     let calls = &groups[row].calls.rows;
-    let mut labels = Labels { taken: FxHashMap::default(), only_call: calls.len() == 1 };
-    let links = calls.iter().map(|Call { statement: call, .. }| {
+    let labels = labels(text, calls);
+    let links = calls.iter().zip(labels).map(|(Call { statement: call, .. }, label)| {
         let name = call.definition.of(text);
         let target = scopes(groups, row).find_map(|scope| groups[scope].definitions.get(name));
         if target.is_none() {
@@ -417,7 +492,7 @@ fn link_calls(text: &[u8], groups: &[Group<'_>], row: usize, findings: &mut Vec<
             findings.push(found);
         }
         let target = target.map(|&(group, _)| group);
-        Link { target, label: labels.next(text, call) }
+        Link { target, label }
     });
     links.collect()
 }
@@ -428,25 +503,21 @@ struct Sizes<'g, 't> {
     groups: &'g [Group<'t>],
     own_sizes: Vec<Size>,
     links: &'g Links,
+    limits: &'g Limits,
 }
 
 impl Sizes<'_, '_> {
     /// Finds definitions that place themselves, chains that are too long, and
-    /// scenes that would grow without bound: before anything is placed.
-    fn check_calls(&self, findings: &mut Vec<Diagnostic>) {
+    /// scenes that would grow without bound: before anything is placed. Gives the
+    /// length of the longest chain.
+    fn check_calls(&self) -> Result<usize, Diagnostic> {
         let mut sizes: Vec<Option<Size>> = vec![None; self.groups.len()];
         // Definitions that nothing places are checked, too.
         for root in 0..sizes.len() {
-            if let Err(finding) = self.measure(root, &mut sizes) {
-                findings.push(finding);
-                return;
-            }
+            self.measure(root, &mut sizes)?;
         }
-        if let Some(size) = sizes[0]
-            && let Some(finding) = self.too_large(size)
-        {
-            findings.push(finding);
-        }
+        let size = sizes[0].unwrap_or_default();
+        self.too_large(size).map_or(Ok(size.levels), Err)
     }
 
     /// Sizes of `root` and of all that it places, without recursion.
@@ -473,8 +544,8 @@ impl Sizes<'_, '_> {
             }
             // The file itself is no link of the chain.
             let below = sizes[target].map_or(1, |size| size.levels);
-            if path.len() - 1 + below > MAX_CHAIN {
-                return Err(too_long(call));
+            if (path.len() - 1 + below) as u64 > self.limits.get(Limit::Chain) {
+                return Err(self.too_long(call));
             }
             if sizes[target].is_none() {
                 on_path.insert(target);
@@ -512,32 +583,29 @@ impl Sizes<'_, '_> {
     /// The message for a scene that is too large to place.
     fn too_large(&self, size: Size) -> Option<Diagnostic> {
         let (count, limit, what) = [
-            (size.statements, MAX_PLACED, "statements"),
-            (size.corners, MAX_CORNERS, "corners of faces"),
-            (size.name_bytes, MAX_NAME_BYTES, "bytes of names"),
+            (size.statements, Limit::Statements, "statements"),
+            (size.corners, Limit::Corners, "corners of faces"),
+            (size.name_bytes, Limit::Names, "bytes of names"),
         ]
         .into_iter()
-        .find(|&(count, limit, _)| count > limit)?;
+        .find(|&(count, limit, _)| count > self.limits.get(limit))?;
         let count = if count == u64::MAX { "too many".to_string() } else { count.to_string() };
-        let place = size.largest_call.unwrap_or_default();
-        Some(
+        let finding = |place, label, else_do| {
             Diagnostic::error(place, format!("the placed scene would have {count} {what}"))
-                .label("most of them from here")
-                .help(format!("the limit is {limit}; use smaller arrays")),
-        )
+                .label(label)
+                .help(self.limits.remedy(limit, else_do))
+        };
+        Some(match size.largest_call {
+            Some(call) => finding(call, "most of them from here", "use smaller arrays"),
+            None => finding(Span::default(), "", "split the scene"),
+        })
     }
-}
 
-fn long_color_names(span: Span) -> Diagnostic {
-    Diagnostic::error(span, "the names of colours, with those of their definitions before them, are too long")
-        .label("this one is too much")
-        .help("use shorter names for definitions that hold colours")
-}
-
-fn too_long(call: &CallStatement) -> Diagnostic {
-    Diagnostic::error(call.definition, "definitions place each other in too long a chain")
-        .label("here")
-        .help(format!("the limit is {MAX_CHAIN} levels"))
+    fn too_long(&self, call: &CallStatement) -> Diagnostic {
+        Diagnostic::error(call.definition, "definitions place each other in too long a chain")
+            .label("here")
+            .help(self.limits.remedy(Limit::Chain, "use fewer"))
+    }
 }
 
 /// Three different entries.
@@ -600,23 +668,30 @@ impl Group<'_> {
     }
 }
 
-/// Makes names for the calls of a group, unique in it.
-struct Labels {
-    taken: FxHashMap<String, u32>,
-    only_call: bool,
-}
-
-impl Labels {
-    /// The next call's label: its name, else its definition's name; nothing
-    /// for a nameless array that is alone, whose element number says enough.
-    fn next(&mut self, text: &[u8], call: &CallStatement) -> String {
-        let is_array = matches!(call.repeat, Repeat::Times(..));
-        let label = match call.name {
-            None if is_array && self.only_call => String::new(),
-            name => show(text, name.unwrap_or(call.definition)),
-        };
-        let uses = self.taken.entry(label.clone()).or_default();
+/// For each call of a group its label, unique there: its name, else its definition's name;
+/// nothing for a nameless array that is alone, whose element number says enough.
+fn labels(text: &[u8], calls: &[Call]) -> Vec<String> {
+    let wanted = |Call { statement: call, .. }: &Call| match call.name {
+        None if calls.len() == 1 && matches!(call.repeat, Repeat::Times(..)) => String::new(),
+        name => show(text, name.unwrap_or(call.definition)),
+    };
+    let wanted: Vec<String> = calls.iter().map(wanted).collect();
+    // A label that was written is never given to another call.
+    let mut taken: FxHashSet<String> = wanted.iter().cloned().collect();
+    let mut uses: FxHashMap<&str, u64> = FxHashMap::default();
+    let mut labels = Vec::with_capacity(wanted.len());
+    for wanted in &wanted {
+        let uses = uses.entry(wanted).or_default();
         *uses += 1;
-        if *uses > 1 { format!("{label}_{uses}") } else { label }
+        let mut label = wanted.clone();
+        while *uses > 1 {
+            label = format!("{wanted}_{uses}");
+            if taken.insert(label.clone()) {
+                break;
+            }
+            *uses += 1;
+        }
+        labels.push(label);
     }
+    labels
 }

@@ -62,11 +62,6 @@ pub struct Span {
 }
 
 impl Span {
-    /// Number of bytes.
-    pub(crate) fn len(self) -> usize {
-        (self.end - self.start) as usize
-    }
-
     /// The bytes of this span in its text.
     pub(crate) fn of(self, text: &[u8]) -> &[u8] {
         &text[self.start as usize..self.end as usize]

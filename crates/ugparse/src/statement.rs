@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use glam::DVec3;
 
-use crate::scene::Camera;
+use crate::scene::{Camera, Surface};
 use crate::source::Span;
 use crate::transform::Transform;
 
@@ -35,6 +35,7 @@ pub(crate) enum Statement {
     Face(FaceStatement),
     Wire(FaceStatement),
     Color(ColorStatement),
+    Surface(SurfaceStatement),
     Light(LightStatement),
     Camera(CameraStatement),
     Call(CallStatement),
@@ -53,8 +54,15 @@ pub(crate) struct VertexStatement {
 pub(crate) struct FaceStatement {
     pub name: Option<Span>,
     pub color: Option<Span>,
-    pub illum: Option<f64>,
+    pub illum: Option<IllumStatement>,
     pub velocity: Option<DVec3>,
+}
+
+/// What stands behind the colour of a face.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum IllumStatement {
+    Level(f64),
+    Surface(Span),
 }
 
 #[derive(Debug)]
@@ -64,6 +72,13 @@ pub(crate) struct ColorStatement {
     pub value: crate::scene::ColorValue,
     pub samples: Vec<[f64; 2]>,
     pub translucency: f64,
+}
+
+/// A surface; the name inside is not set.
+#[derive(Debug)]
+pub(crate) struct SurfaceStatement {
+    pub name: Span,
+    pub surface: Surface,
 }
 
 #[derive(Debug)]

@@ -41,9 +41,9 @@ const INDENT: &str = "  ";
 /// # Errors
 /// Statements that cannot be read.
 pub fn tidy(source: &Source, options: &Options) -> Result<Vec<u8>, Diagnostics> {
-    check_length(source)?;
+    check_length(source, options)?;
     let mut findings = Vec::new();
-    read_all(&source.text, options.lax, &mut findings);
+    read_all(&source.text, options, &mut findings);
     refuse_errors(source, &mut findings)?;
     let mut layout = Layout { out: Vec::with_capacity(source.text.len()), ..Layout::default() };
     layout.text(&source.text);

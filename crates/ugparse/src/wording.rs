@@ -16,9 +16,6 @@ pub(crate) fn no_statement(word: &[u8], span: Span) -> Diagnostic {
         b"#" | b"#line" => finding
             .label("not a line mark of the C preprocessor")
             .help("such a line is `# LINE \"FILE\"`; -lax passes others on"),
-        b"execute" | b"surf" => finding
-            .label("not read yet")
-            .help(format!("only {KEYWORDS} and escapes are read; -lax passes others on")),
         _ if is_keyword(&lower) => finding
             .label("unknown statement")
             .help(format!("keywords are lower case: `{}`", String::from_utf8_lossy(&lower))),
@@ -76,17 +73,19 @@ fn usage(keyword: &[u8]) -> Option<&'static str> {
     Some(match keyword {
         b"v" => "v ID x y z [color] [nx ny nz] ;",
         b"w" => "w [ID] (vertices) … [color] [< vx vy vz >] ;",
-        b"f" => "f [ID] (vertices) … [color] [illum] [< vx vy vz >] ;",
+        b"f" => "f [ID] (vertices) … [color] [level or surface] [< vx vy vz >] ;",
         b"c" => "c [ID] lightness [hue [saturation [translucency]]] ;",
         b"c_rgb" => "c_rgb [ID] red green blue [translucency] ;",
         b"c_xyz" => "c_xyz [ID] X Y Z [translucency] ;",
         b"c_bb" => "c_bb [ID] kelvin [scale] ;",
         b"c_spd" => "c_spd [ID] nm value [nm value] … ;",
+        b"surf" => "surf ID kd ks kt [n [exponent]] ;",
         b"l" => "l [ID] intensity [x y z [radius]] [color] [< vx vy vz >] ;",
         b"cam" => "cam [ID] [-ep x y z] [-vc x y z] [-ud x y z] [-va a b] … ;",
         b"def" => "def ID ; … end ;",
         b"end" => "end ;",
         b"include" => "include FILE ;",
+        b"execute" => "execute FILE ;",
         b"i" => "i [ID] (def [color] [-tx …]) [< vx vy vz >] ;",
         b"a" => "a [ID] (def [color] [-tx …]) size [-tx …] [< vx vy vz >] ;",
         _ => return None,

@@ -7,8 +7,8 @@ use glam::DVec3;
 use crate::names::NameId;
 use crate::outlet::Outlet;
 use crate::scene::{
-    Camera, Color, ColorId, ColorValue, Comment, Contours, Item, Light, LightKind, Projection, Scene,
-    VelocityId,
+    Camera, Color, ColorId, ColorValue, Comment, Contours, Illum, Item, Light, LightKind, Projection, Scene,
+    Surface, VelocityId,
 };
 
 /// Rows that one piece of text is made of.
@@ -18,7 +18,7 @@ const BLOCK_ROWS: usize = 1 << 11;
 const BLOCKS_PER_THREAD: usize = 4;
 
 /// The text of a scene: head comments, then escapes and unknown statements,
-/// colours, vertices, faces, wires, lights, cameras, each with its comments.
+/// colours, surfaces, vertices, faces, wires, lights, cameras, each with its comments.
 pub fn write(scene: &Scene) -> Vec<u8> {
     let mut text = Vec::with_capacity(64 * (scene.vertices.len() + scene.faces.len()) + 1024);
     write_to(scene, &mut text).expect("memory takes all that is written to it");
@@ -55,6 +55,7 @@ impl<'s> Tables<'s, '_> {
         })?;
         self.rows(&scene.unknown, Item::Unknown, |w, text| w.text(text))?;
         self.rows(&scene.colors, Item::Color, Writer::color)?;
+        self.rows(&scene.surfaces, Item::Surface, Writer::surface)?;
         self.rows(&scene.vertices, Item::Vertex, |w, vertex| {
             w.text("v");
             w.name(vertex.name);
@@ -68,7 +69,7 @@ impl<'s> Tables<'s, '_> {
             face.name.into_iter().for_each(|name| w.name(name));
             w.contours(&scene.contours, face.contours.clone());
             w.optional_color(face.color);
-            scene.light_level(face).into_iter().for_each(|level| w.number(level));
+            face.illum.into_iter().for_each(|illum| w.illum(scene.illums[illum.index()]));
             w.optional_velocity(face.velocity);
             w.text(";");
         })?;
@@ -282,6 +283,26 @@ impl<'s> Writer<'s> {
         }
         clear.into_iter().for_each(|clear| self.number(clear));
         self.text(";");
+    }
+
+    fn surface(&mut self, surface: &Surface) {
+        self.text("surf");
+        self.name(surface.name);
+        self.numbers(&[surface.diffuse, surface.specular, surface.transmitted]);
+        if (surface.refraction, surface.exponent) != (Surface::REFRACTION, Surface::EXPONENT) {
+            self.number(surface.refraction);
+        }
+        if surface.exponent != Surface::EXPONENT {
+            self.number(surface.exponent);
+        }
+        self.text(";");
+    }
+
+    fn illum(&mut self, illum: Illum) {
+        match illum {
+            Illum::Level(level) => self.number(level),
+            Illum::Surface(surface) => self.name(self.scene.surfaces[surface.index()].name),
+        }
     }
 
     fn light(&mut self, light: &Light) {

@@ -89,7 +89,8 @@ fn a_check_prints_findings_as_other_programs_do() {
 fn a_check_for_programs_is_json() {
     let out = ugparse(&["check", "-format", "json"], BAD.as_bytes());
     assert_eq!((out.status.code(), out.stderr.len()), (Some(1), 0));
-    let rows: Value = serde_json::from_slice(&out.stdout).unwrap();
+    let report: Value = serde_json::from_slice(&out.stdout).unwrap();
+    let rows = &report["findings"];
     let places: Vec<_> = rows.as_array().unwrap().iter().map(|row| (&row["line"], &row["column"])).collect();
     assert_eq!(places, [(&json!(4), &json!(11)), (&json!(5), &json!(8))]);
     let row = &rows[1];
@@ -99,8 +100,30 @@ fn a_check_for_programs_is_json() {
     assert_eq!(row["label"], "used here");
     assert!(row["help"].as_str().unwrap().contains("`v` statement"), "{row}");
 
-    assert_eq!(json_of(&["--format", "json", "scenes/ship.ug"], b""), json!([]));
-    assert_eq!(json_of(&["-format=json"], POOR.as_bytes())[0]["severity"], "warning");
+    assert_eq!(
+        (&row["other"], &report["omitted"], &report["usable"]),
+        (&Value::Null, &json!(0), &json!(false))
+    );
+
+    let good = json!({ "usable": true, "findings": [], "omitted": 0 });
+    assert_eq!(json_of(&["--format", "json", "scenes/ship.ug"], b""), good);
+    let poor = json_of(&["-format=json"], POOR.as_bytes());
+    assert_eq!((&poor["findings"][0]["severity"], &poor["usable"]), (&json!("warning"), &json!(true)));
+}
+
+#[test]
+fn a_check_for_programs_has_second_places_and_what_it_omits() {
+    let twice = b"v a 0 0 0;\n# 7 \"old.ug\"\n v a 1 0 0;\n";
+    let report: Value = serde_json::from_slice(&ugparse(&["-format", "json"], twice).stdout).unwrap();
+    let row = &report["findings"][0];
+    assert_eq!((&row["file"], &row["line"]), (&json!("old.ug"), &json!(7)));
+    let first = json!({ "file": "<stdin>", "line": 1, "column": 3, "label": "first here" });
+    assert_eq!(row["other"], first);
+
+    let many = format!("f ({});", "nothing ".repeat(100));
+    let report: Value =
+        serde_json::from_slice(&ugparse(&["-format", "json"], many.as_bytes()).stdout).unwrap();
+    assert_eq!((report["findings"].as_array().unwrap().len(), &report["omitted"]), (20, &json!(80)));
 }
 
 #[test]
@@ -113,10 +136,67 @@ fn findings_are_placed_in_the_file_that_has_them() {
     let out = ugparse(&["check", "-format", "json", "-fo", &report, &path("house.ug")], b"");
     assert_eq!(out.status.code(), Some(1), "{}", String::from_utf8_lossy(&out.stderr));
     // The report is the work, and is kept.
-    let rows: Value = serde_json::from_slice(&fs::read(report).unwrap()).unwrap();
+    let report: Value = serde_json::from_slice(&fs::read(report).unwrap()).unwrap();
+    let rows = &report["findings"];
     let place = |row: usize| (rows[row]["file"].as_str().unwrap().to_string(), rows[row]["line"].clone());
     assert_eq!(place(0), (path("the walls.ug"), json!(2)));
     assert_eq!(place(1), (path("house.ug"), json!(3)));
+}
+
+/// A folder with a scene that runs `stars`, a script of these lines.
+fn scene_with_program(script: &str) -> tempfile::TempDir {
+    use std::os::unix::fs::PermissionsExt;
+    let folder = tempfile::tempdir().unwrap();
+    let program = folder.path().join("stars");
+    fs::write(&program, format!("#!/bin/sh\n{script}\n")).unwrap();
+    fs::set_permissions(&program, fs::Permissions::from_mode(0o755)).unwrap();
+    fs::write(folder.path().join("sky.ug"), "{ sky }\nexecute stars ;\n").unwrap();
+    folder
+}
+
+#[test]
+fn programs_of_a_scene_are_run_only_if_that_is_allowed() {
+    let check = |script: &str, args: &[&str], status: i32, expected: &str| {
+        let folder = scene_with_program(script);
+        let scene = folder.path().join("sky.ug").display().to_string();
+        let out = ugparse(&[args, &["flatten", &scene]].concat(), b"never read");
+        let printed = String::from_utf8_lossy(if status == 0 { &out.stdout } else { &out.stderr });
+        let printed = printed.replace(&folder.path().display().to_string(), "");
+        assert_eq!(out.status.code(), Some(status), "{script}: {printed}");
+        assert!(printed.starts_with(expected), "{script}: {printed}");
+        String::from_utf8_lossy(&out.stderr).into_owned()
+    };
+    check("echo 'v a 1 2 3;'", &["-allow-execute"], 0, "{ sky }\nv a 1 2 3;\n");
+    check("echo 'v a 1 2 3;'", &[], 1, "error: program `stars` is not run\n --> /sky.ug:2:9");
+    // It has no arguments, no input, and is run where we are.
+    check("echo \"{ $# $(cat) }\"; test -d crates || exit 1", &["-allow-execute"], 0, "{ sky }\n{ 0  }\n");
+    check(
+        "echo no fuel >&2; exit 3",
+        &["-allow-execute"],
+        1,
+        "error: program `/stars` failed with exit status: 3: no fuel\n --> /sky.ug:2:9",
+    );
+    check("echo 'v a 0;'", &["-allow-execute"], 1, "error: expected a number, found `;`\n --> /stars:1:6");
+    let endless = "while :; do echo '{}'; done";
+    check(endless, &["-allow-execute", "-limit", "text=1000"], 1, "error: with the text of `stars`");
+    let said = check("echo 'some are faint' >&2", &["-allow-execute"], 0, "{ sky }\n");
+    assert!(said.starts_with("ugparse: note: ") && said.ends_with("stars says: some are faint\n"), "{said}");
+}
+
+#[test]
+fn limits_are_set_on_the_command_line() {
+    let bomb = b"def d; v a 0 0 0; end;\na (d) 100;\n";
+    let status = |args: &[&str]| ugparse(args, bomb).status.code();
+    assert_eq!(status(&["flatten"]), Some(0));
+    assert_eq!(status(&["flatten", "-limit", "statements=200"]), Some(1));
+    assert_eq!(status(&["--limit=statements=200", "-limit", "statements=300", "flatten"]), Some(0));
+    for wrong in ["statements", "statements=-1", "statements=9999999999", "words=3"] {
+        assert_eq!(status(&["flatten", "-limit", wrong]), Some(2), "{wrong}");
+    }
+    let help = printed(&["--help"], b"");
+    for limit in ugparse::Limit::ALL {
+        assert!(help.contains(&format!(" {}", limit.name())), "{}\n{help}", limit.name());
+    }
 }
 
 #[test]
@@ -197,7 +277,7 @@ fn tidy_lays_out() {
         assert_eq!(tidy(text), expected);
         assert_eq!(tidy(expected), expected);
         let scene = |text: &str| {
-            let options = Options { lax: true };
+            let options = Options { lax: true, ..Options::default() };
             ugparse::parse(&Source::new("scene.ug", text), &options).ok().map(|parsed| parsed.scene)
         };
         assert!(scene(text) == scene(expected), "{text}");
@@ -283,15 +363,15 @@ fn count_sees_a_face_that_is_turned() {
 #[test]
 fn count_counts_and_measures() {
     let text = "{ two squares, one of them bent }
-        c red 1 0; def tile; v a 0 0 0; v b 1 0 0; v c 1 1 0; v d 0 1 0; f flat (a b c d) red; end;
+        c red 1 0; surf s 1 0 0; def tile; v a 0 0 0; v b 1 0 0; v c 1 1 0; v d 0 1 0; f flat (a b c d) red s; end;
         a (tile) 3 -tx 2 <.5 0 0>; i (tile -tz 1);
         v p 0 0 5; v q 3 0 5.5; v r 3 4 5; v s 0 4 5.5;
         f bent (p q r s) <0 .25 0>; w (p r);
         l 1; cam -ep 0 0 9; (an escape)";
     let counts = json_of(&["count", "-format", "json"], text.as_bytes());
-    let written = json!({ "colours": 1, "vertices": 8, "faces": 2, "wires": 1, "lights": 1, "cameras": 1,
+    let written = json!({ "colours": 1, "surfaces": 1, "vertices": 8, "faces": 2, "wires": 1, "lights": 1, "cameras": 1,
         "escapes": 1, "unknown": 0, "definitions": 1, "instances": 1, "arrays": 1 });
-    let placed = json!({ "colours": 1, "vertices": 20, "faces": 5, "wires": 1, "lights": 1, "cameras": 1,
+    let placed = json!({ "colours": 1, "surfaces": 1, "vertices": 20, "faces": 5, "wires": 1, "lights": 1, "cameras": 1,
         "escapes": 1, "unknown": 0 });
     assert_eq!((&counts["written"], &counts["placed"]), (&written, &placed));
     assert_eq!((&counts["corners"], &counts["faces_with_holes"]), (&json!(20), &json!(0)));

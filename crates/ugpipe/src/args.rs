@@ -43,6 +43,20 @@ pub struct CommonArgs {
     #[arg(long, help_heading = COMMON)]
     lax: bool,
 
+    /// Run the programs that `execute` statements name
+    ///
+    /// They may do whatever you may: only for scenes you trust. Otherwise such statements are errors.
+    /// May be written with one dash: -allow-execute.
+    #[arg(long, help_heading = COMMON)]
+    allow_execute: bool,
+
+    /// Set a limit of what a scene may ask for, as in statements=100000000
+    ///
+    /// Names of limits: text, includes, files, nesting, chain, statements, corners, names; the page on UniGrafix
+    /// says what they are. May be written with one dash, and more than once: -limit NAME=N.
+    #[arg(long, value_name = "NAME=N", value_parser = limit, help_heading = COMMON)]
+    limit: Vec<(String, u64)>,
+
     /// Print errors only, no notes and warnings
     ///
     /// May be written with one dash: -qt.
@@ -86,6 +100,16 @@ impl CommonArgs {
         self.lax
     }
 
+    /// Programs that the input names may be run.
+    pub fn allow_execute(&self) -> bool {
+        self.allow_execute
+    }
+
+    /// Limits that were set, in order; what their names mean is not known here.
+    pub fn limits(&self) -> &[(String, u64)] {
+        &self.limit
+    }
+
     /// Notes and warnings are not wanted.
     pub fn quiet(&self) -> bool {
         self.qt
@@ -109,6 +133,14 @@ impl CommonArgs {
 
 fn is_dash(path: &Path) -> bool {
     path.as_os_str() == "-"
+}
+
+/// `NAME=N`
+fn limit(word: &str) -> Result<(String, u64), String> {
+    let (name, value) = word.split_once('=').ok_or("write NAME=N")?;
+    let is_whole = !value.is_empty() && value.bytes().all(|byte| byte.is_ascii_digit());
+    let value = value.parse().ok().filter(|_| is_whole).ok_or("N is not a whole number, or too large")?;
+    Ok((name.to_owned(), value))
 }
 
 /// Value parser of every option that takes a number: `value_parser = ugpipe::finite`.
@@ -171,6 +203,23 @@ mod tests {
         check(" 1", None);
         check("0x10", None);
         check("1,5", None);
+    }
+
+    #[test]
+    fn limits_are_a_name_and_a_whole_number() {
+        fn check(word: &str, expected: Option<(&str, u64)>) {
+            let expected = expected.map(|(name, value)| (name.to_owned(), value));
+            assert_eq!(limit(word).ok(), expected, "{word}");
+        }
+        check("files=3", Some(("files", 3)));
+        check("files=007", Some(("files", 7)));
+        check("=3", Some(("", 3)));
+        check("files", None);
+        check("files=", None);
+        check("files=+3", None);
+        check("files=-3", None);
+        check("files=1e3", None);
+        check("files=99999999999999999999", None);
     }
 
     #[test]

@@ -19,6 +19,8 @@
 //! - **Streams.** Data on standard output only, all talk on standard error. [`CommonArgs`]
 //!   sends them to files instead. A program reads all, computes, and writes all, so that a
 //!   mistake on the last line of a scene cannot leave half a scene to the next program.
+//! - **Files and programs** that an input names are read and run ([`read_file`],
+//!   [`run_program`]) with bounds, and never searched for.
 //! - **Files** appear whole or not at all: written beside their place and renamed when the
 //!   run has ended well. Links are followed, permissions kept, devices written to directly.
 //! - **Messages** are lines such as `uglorentz: warning: …`, each written in one piece since
@@ -80,6 +82,7 @@
 mod args;
 mod argv;
 mod failure;
+mod files;
 mod input;
 mod messages;
 mod output;
@@ -90,6 +93,7 @@ mod text;
 
 pub use args::{CommonArgs, ONE_DASH, finite, vector};
 pub use failure::Failure;
+pub use files::{Printed, read_file, run_program};
 pub use input::Input;
 pub use run::{ToolArgs, main};
 pub use stage::Stage;

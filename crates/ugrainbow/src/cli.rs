@@ -5,7 +5,7 @@ use std::path::Path;
 use clap::{ArgAction, Parser};
 use glam::DVec3;
 use ugimage::Format;
-use ugparse::{Options, Source};
+use ugparse::{Source, pipe};
 use ugphysics::Hsv;
 use ugpipe::{CommonArgs, Failure, Stage, ToolArgs, finite, vector};
 use ugscene::HueScale;
@@ -126,7 +126,7 @@ impl Args {
             samples: self.aa,
             background: self.background()?,
             output: self.output(output)?,
-            lax: self.common.lax(),
+            reading: pipe::options(&self.common)?,
             command_line: command_line.to_owned(),
         })
     }
@@ -188,11 +188,10 @@ pub fn draw(args: &Args, stage: &mut Stage) -> Result<(), Failure> {
     }
     let input = stage.input()?;
     stage.detail(&format!("read {} bytes of `{}`", input.text.len(), input.name));
-    let options = Options { lax: config.lax };
-    let source = ugparse::include(Source::new(input.name, input.text), &options, |path| std::fs::read(path))
-        .map_err(|diagnostics| Failure::Report(diagnostics.render(true)))?;
+    let source =
+        pipe::follow(Source::new(input.name, input.text), &config.reading, stage).map_err(pipe::refused)?;
     let picture = run(&config, &source).map_err(|error| match error {
-        Error::Scene(diagnostics) => Failure::Report(diagnostics.render(true)),
+        Error::Scene(findings) => pipe::refused(findings),
         error if error.is_usage() => Failure::usage(error),
         error => Failure::failed(error),
     })?;

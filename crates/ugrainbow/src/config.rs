@@ -23,8 +23,8 @@ pub struct Config {
     pub background: Background,
     /// Kind of file.
     pub output: Output,
-    /// Unknown statements are warned about, not refused.
-    pub lax: bool,
+    /// How the scene is read.
+    pub reading: ugparse::Options,
     /// How the program was called, to be written into the picture.
     pub command_line: String,
 }
@@ -41,7 +41,7 @@ impl Default for Config {
             samples: 4,
             background: Background::Color(Hsv { hue: 0.0, saturation: 0.0, value: 0.0 }),
             output: Output::Color(Format::Png),
-            lax: false,
+            reading: ugparse::Options::default(),
             command_line: String::new(),
         }
     }

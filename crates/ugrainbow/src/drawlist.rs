@@ -146,7 +146,7 @@ impl<const N: usize, P: Fn(&Swatch, DVec3) -> [f64; N]> Chunk<'_, N, P> {
     /// The rest normal of a face on the side that is seen; zero if lighting needs none or the
     /// face has none.
     fn seen_normal(&self, face: &Face) -> DVec3 {
-        if face.illum.is_some() || !self.painter.lighting.needs_geometry() {
+        if self.painter.scene.light_level(face).is_some() || !self.painter.lighting.needs_geometry() {
             return DVec3::ZERO;
         }
         let Some(outline) = self.painter.scene.face_contours(face).next() else { return DVec3::ZERO };

@@ -101,7 +101,7 @@ pub struct Picture {
 /// # Errors
 /// Whatever stops it: see [`Error`].
 pub fn run(config: &Config, source: &Source) -> Result<Picture, Error> {
-    let parsed = ugparse::parse(source, &ugparse::Options { lax: config.lax })?;
+    let parsed = ugscene::read(source, &config.reading)?;
     let (frame, notes) = render(&parsed.scene, config)?;
     let label = label(&parsed.scene, config);
     let bytes = match config.output {

@@ -42,7 +42,7 @@ fn decimal(number: f32) -> String {
 
 fn scene_notes(scene: &Scene) -> Vec<String> {
     let mut notes = Vec::new();
-    if scene.lights.is_empty() && scene.faces.iter().any(|face| face.illum.is_none()) {
+    if scene.lights.is_empty() && scene.faces.iter().any(|face| scene.light_level(face).is_none()) {
         notes.push("no lights in the scene: drawn with ambient light 0.3 and 0.7 from the eye".into());
     }
     if scene.lights.iter().any(|light| light.velocity.is_some()) {

@@ -5,7 +5,7 @@
 //! [`separate_bodies`]), where it rests when it is seen here ([`Geometry`],
 //! [`rest_positions`], equation (P4)), its normal ([`smooth_normals`]), the
 //! colour it gets from the faces round it ([`vertex_colors`]), and what triangles
-//! make up a polygon ([`triangulate`]). All programs
+//! make up a polygon ([`triangulate`]), or a face that is not flat ([`read`]). All programs
 //! must agree on these, so they are written once, here.
 //!
 //! ```
@@ -24,16 +24,17 @@ mod bodies;
 mod colors;
 mod eye;
 mod geometry;
-mod history;
 mod normals;
 mod polygon;
+mod read;
 mod split;
 
 pub use bodies::{Bodies, separate_bodies, vertex_velocities};
 pub use colors::{HueScale, VertexColor, hsv, spectra_note, vertex_colors};
 pub use eye::{at_eye_error, eye, vertex_at_eye};
 pub use geometry::{Geometry, rest_positions};
-pub use history::{history, record};
 pub use normals::{corner_angle, smooth_normals};
 pub use polygon::{Triangle, is_convex, triangulate};
+pub use read::read;
 pub use split::split_vertices;
+pub use ugparse::{history, record};

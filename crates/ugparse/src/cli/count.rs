@@ -166,12 +166,13 @@ fn value(scene: &Scene, velocity: Option<VelocityId>) -> Option<DVec3> {
 
 /// Statements by kind. The text is read a second time, since placing it used its tables up.
 fn statements(source: &Source, scene: &Scene, options: &Options) -> Vec<Statements> {
-    let document = read_all(&source.text, options.lax, &mut Vec::new());
+    let document = read_all(&source.text, options, &mut Vec::new());
     let written = |count: fn(&Group<'_>) -> usize| document.groups.iter().map(count).sum();
     let row =
         |kind, count: fn(&Group<'_>) -> usize, placed| Statements { kind, written: written(count), placed };
     vec![
-        row("colours", |group| group.colors.len(), Some(scene.colors.len())),
+        row("colours", |group| group.colors.table.len(), Some(scene.colors.len())),
+        row("surfaces", |group| group.surfaces.table.len(), Some(scene.surfaces.len())),
         row("vertices", |group| group.vertices.len(), Some(scene.vertices.len())),
         row("faces", |group| group.faces.len(), Some(scene.faces.len())),
         row("wires", |group| group.wires.len(), Some(scene.wires.len())),

@@ -3,6 +3,7 @@
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 
+use crate::flatness::thickness;
 use crate::scene::{Face, Scene, VelocityId, VertexId, newell_normal};
 
 /// Corners of all faces.
@@ -15,22 +16,6 @@ pub(crate) fn thickest_face(scene: &Scene) -> Option<(usize, f64)> {
     let faces = scene.faces.iter().enumerate().map(|(row, face)| (row, thickness(scene, face)));
     // Of equals the first; a face too large to measure is never the thickest.
     faces.reduce(|worst, face| if face.1 > worst.1 { face } else { worst })
-}
-
-/// Greatest distance of a corner from the plane of a face, over its size.
-///
-/// The plane goes through the mean of all corners, at right angles to the
-/// outline's area vector; the size is the diagonal of the face's box.
-fn thickness(scene: &Scene, face: &Face) -> f64 {
-    let corners = || scene.contours.corners(face.contours.clone()).iter().map(|&id| position(scene, id));
-    let Some(first) = corners().next() else { return 0.0 };
-    let mean = corners().map(|corner| corner - first).sum::<DVec3>() / corners().count() as f64 + first;
-    let normal = outline_normal(scene, face).normalize_or_zero();
-    let distance = corners().map(|corner| (corner - mean).dot(normal).abs()).fold(0.0, f64::max);
-    let (low, high) =
-        corners().fold((first, first), |(low, high), corner| (low.min(corner), high.max(corner)));
-    let size = (high - low).length();
-    if size > 0.0 { distance / size } else { 0.0 }
 }
 
 fn position(scene: &Scene, vertex: VertexId) -> DVec3 {

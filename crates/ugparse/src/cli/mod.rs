@@ -10,6 +10,7 @@ use clap::{Arg, Parser, Subcommand, ValueEnum};
 use serde_json::{Value, json};
 use ugpipe::{CommonArgs, Failure, Stage, ToolArgs};
 
+use crate::pipe::{self, refused};
 use crate::{Diagnostics, Options, Parsed, Severity, Source};
 
 /// Checks, tidies, flattens and measures UniGrafix scenes
@@ -28,7 +29,7 @@ struct Args {
 
 const EXAMPLES: &str = "Examples:
   ugparse ship.ug
-  ugparse check -format json ship.ug | jq '.[].message'
+  ugparse check -format json ship.ug | jq '.findings[].message'
   ugparse tidy ship.ug > tidy.ug
   ugparse flatten ship.ug | head
   ugparse count ship.ug";
@@ -105,19 +106,19 @@ fn run(args: &Args, stage: &mut Stage) -> Result<bool, Failure> {
     if args.job.is_some() && args.rest.common.input().is_some() {
         return Err(Failure::usage("the job stands before the file: `ugparse tidy FILE`"));
     }
-    let options = Options { lax: common.lax() };
+    let options = pipe::options(common)?;
     let input = stage.input()?;
     let source = Source::new(input.name, input.text);
     match args.job {
         None | Some(Job::Check(_)) => return check(source, &options, is_json, stage),
         Some(Job::Tidy(_)) => stage.write(&crate::tidy(&source, &options).map_err(refused)?)?,
         Some(Job::Flatten(_)) => {
-            let (_, parsed) = read(source, &options).map_err(refused)?;
+            let (_, parsed) = read(source, &options, stage).map_err(refused)?;
             warn(&parsed.warnings, stage);
             stage.write_with(|out| crate::write_to(&parsed.scene, out))?;
         }
         Some(Job::Count(_)) => {
-            let (source, parsed) = read(source, &options).map_err(refused)?;
+            let (source, parsed) = read(source, &options, stage).map_err(refused)?;
             warn(&parsed.warnings, stage);
             let counts = count::Counts::new(&source, &parsed, &options);
             let text = if is_json { pretty(&counts.json()) } else { counts.text() };
@@ -127,14 +128,10 @@ fn run(args: &Args, stage: &mut Stage) -> Result<bool, Failure> {
     Ok(true)
 }
 
-fn read(source: Source, options: &Options) -> Result<(Source, Parsed), Diagnostics> {
-    let source = crate::include(source, options, |path| std::fs::read(path))?;
+fn read(source: Source, options: &Options, stage: &Stage) -> Result<(Source, Parsed), Diagnostics> {
+    let source = pipe::follow(source, options, stage)?;
     let parsed = crate::parse(&source, options)?;
     Ok((source, parsed))
-}
-
-fn refused(findings: Diagnostics) -> Failure {
-    Failure::Report(findings.render(true))
 }
 
 fn warn(warnings: &Diagnostics, stage: &Stage) {
@@ -146,12 +143,17 @@ fn warn(warnings: &Diagnostics, stage: &Stage) {
 /// Reports all findings; false if the scene cannot be used.
 fn check(source: Source, options: &Options, is_json: bool, stage: &mut Stage) -> Result<bool, Failure> {
     let name = source.name.clone();
-    let (is_usable, findings) = match read(source, options) {
+    let (is_usable, findings) = match read(source, options, stage) {
         Ok((_, parsed)) => (true, parsed.warnings),
         Err(findings) => (false, findings),
     };
     if is_json {
-        stage.write(pretty(&findings_json(&findings)).as_bytes())?;
+        let report = json!({
+            "usable": is_usable,
+            "findings": findings_json(&findings),
+            "omitted": findings.omitted,
+        });
+        stage.write(pretty(&report).as_bytes())?;
         return Ok(is_usable);
     }
     let verdict = if is_usable { "can be used" } else { "cannot be used" };
@@ -173,7 +175,11 @@ fn summary(findings: &Diagnostics) -> String {
 }
 
 fn findings_json(findings: &Diagnostics) -> Value {
-    let rows = findings.list.iter().zip(findings.places()).map(|(finding, place)| {
+    let places = findings.places().into_iter().zip(findings.other_places());
+    let rows = findings.list.iter().zip(places).map(|(finding, (place, other))| {
+        let other = other.map(|(place, label)| {
+            json!({ "file": place.file, "line": place.line, "column": place.column, "label": label })
+        });
         json!({
             "severity": match finding.severity {
                 Severity::Error => "error",
@@ -184,6 +190,7 @@ fn findings_json(findings: &Diagnostics) -> Value {
             "line": place.line,
             "column": place.column,
             "label": finding.label,
+            "other": other,
             "help": finding.help,
         })
     });

@@ -49,3 +49,20 @@ fn numbers_are_written_as_shown() {
         assert_eq!(flat(format!("v a {number} 0 0;")), format!("v a {number} 0 0;\n"));
     }
 }
+
+#[test]
+fn the_table_of_limits_is_true() {
+    for limit in ugparse::Limit::ALL {
+        let begin = format!("| `{}` | ", limit.name());
+        let row = PAGE.lines().find(|line| line.starts_with(&begin)).expect("a row for each limit");
+        let end = format!(" | {} | {} |", limit.default_value(), limit.most());
+        assert!(row.ends_with(&end), "{row}");
+    }
+}
+
+#[test]
+fn the_examples_of_surfaces_are_read_as_told() {
+    let scene = parse(block("surf polished 0.6 0.4 0 ;"));
+    let rows: Vec<_> = scene.surfaces.iter().map(|s| (s.specular, s.refraction, s.exponent)).collect();
+    assert_eq!(rows, [(0.4, 1.0, 20.0), (0.1, 1.5, 60.0)]);
+}

@@ -36,6 +36,47 @@ fn degenerate_faces_are_left_out_with_a_warning() {
 }
 
 #[test]
+fn faces_that_are_not_flat_are_warned_about_once() {
+    let row = |faces: &str, expected: &[&str]| {
+        let text = format!("{SQUARE} v up 4 4 .1; v far 4 4 1e-3; {faces}");
+        assert_eq!(warnings(&text, false), expected, "{faces}");
+    };
+    // A corner at height h is h / 4 off the plane of the others, in a box of diagonal 4 sqrt 2.
+    row("f (a b far d);", &[]);
+    row("f (a b up d);", &["face is not flat"]);
+    row("f roof (a b up d);", &["face `roof` is not flat"]);
+    row("f (a b c d); f roof (a b up d); f (a b up d);", &["face `roof` and one other are not flat"]);
+    row("f r (a b up d) (e f g h); f (a b up d); f (a b up d);", &["face `r` and 2 others are not flat"]);
+    // Triangles are flat, and so is what was flat before it was placed.
+    row("f (a b up); f (a b c d);", &[]);
+    row(&format!("def t; {SQUARE} f (a b c d); end; i (t -rv 1 2 3 40 -sv 1 2 3 7);"), &[]);
+    row(
+        "def t; v a 0 0 0; v b 4 0 0; v c 4 4 .1; v d 0 4 0; f q (a b c d); end; a (t) 3 -tx 5;",
+        &["face `q` and 2 others are not flat"],
+    );
+    row("def t; v a 0 0 0; v b 4 0 0; v c 4 4 .1; v d 0 4 0; f q (a b c d); end; i (t -sz .01);", &[]);
+    // As seen, faces are bent, and should be.
+    let seen = format!("{{ uglorentz 1: uglorentz -vel .5 0 0 }}{SQUARE} v up 4 4 .1; f (a b up d);");
+    assert_eq!(warnings(&seen, false), [""; 0]);
+}
+
+#[test]
+fn a_warning_of_a_bent_face_reads_well() {
+    let text = format!("{SQUARE}v up 4 4 .1;\nf roof (a b up d);\n");
+    assert_eq!(
+        parse_with(text, false).warnings.render(false),
+        "\
+warning: face `roof` is not flat
+ --> test.ug:2:3
+  |
+2 | f roof (a b up d);
+  |   ^^^^ a corner is off by 4.4e-3 of its size
+  |
+help: cut it into triangles; those without holes that are off by more than 0.03 are cut when drawn"
+    );
+}
+
+#[test]
 fn a_warning_reads_well() {
     let text = format!("{TRIANGLE}\nf roof (a b a);\n");
     let parsed = parse_with(text, false);

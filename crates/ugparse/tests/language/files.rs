@@ -1,21 +1,36 @@
-//! Texts put together from files: `include`, and what the C preprocessor leaves behind.
+//! Texts put together: `include`, `execute`, and what the C preprocessor leaves behind.
 
 use std::io;
 use std::path::Path;
 
-use ugparse::{Options, Source};
+use ugparse::{Limit, Limits, Options, Request, RequestError, RequestKind, Source};
 
 use crate::{check, check_error, parse, write};
 
-/// Reads `scene.ug` of some files; gives what is written, or the messages.
+/// Reads the first of some files; gives what is written, or the messages.
 fn read(files: &[(&str, &str)]) -> String {
-    let load = |path: &Path| {
-        let found = files.iter().find(|(name, _)| Path::new(name) == path);
-        found.map(|(_, text)| text.as_bytes().to_vec()).ok_or_else(|| io::Error::other("no such file"))
+    read_with(files, &Options::default())
+}
+
+/// The same with options. Programs are files whose text begins with `#!`, and print the rest; with
+/// `#!3` they fail with that status.
+fn read_with(files: &[(&str, &str)], options: &Options) -> String {
+    let load = |request: &Request<'_>| {
+        let found = files.iter().find(|(name, _)| Path::new(name) == request.path);
+        let Some((_, text)) = found else { return Err(io::Error::other("no such file").into()) };
+        match (request.kind, text.strip_prefix("#!")) {
+            (RequestKind::Include, None) => Ok(text.as_bytes().to_vec()),
+            (RequestKind::Execute, Some(rest)) => match rest.strip_prefix('3') {
+                Some(complaint) => {
+                    Err(RequestError::Failed { status: "exit status: 3".into(), complaint: complaint.into() })
+                }
+                None => Ok(rest.as_bytes().to_vec()),
+            },
+            _ => Err(io::Error::other("of another kind").into()),
+        }
     };
-    let options = Options::default();
     let scene = Source::new(files[0].0, files[0].1);
-    match ugparse::include(scene, &options, load).and_then(|whole| ugparse::parse(&whole, &options)) {
+    match ugparse::include(scene, options, load).and_then(|whole| ugparse::parse(&whole, options)) {
         Ok(parsed) => write(&parsed.scene),
         Err(found) => found.render(false),
     }
@@ -23,7 +38,11 @@ fn read(files: &[(&str, &str)]) -> String {
 
 /// The first line of the first message, and the place.
 fn message(files: &[(&str, &str)]) -> String {
-    let text = read(files);
+    message_with(files, &Options::default())
+}
+
+fn message_with(files: &[(&str, &str)], options: &Options) -> String {
+    let text = read_with(files, options);
     let mut lines = text.lines();
     let title = lines.next().unwrap_or_default();
     let place = lines.next().unwrap_or_default().trim().trim_start_matches("--> ");
@@ -104,6 +123,83 @@ fn messages_name_the_file_that_is_wrong() {
 #[test]
 fn texts_in_memory_include_nothing() {
     check_error("include a.ug;", "files are not included here");
+    check_error("execute a;", "programs are not run here");
+}
+
+#[test]
+fn programs_are_run_if_that_is_allowed() {
+    let allowed = Options { execute: true, ..Options::default() };
+    let files = [
+        ("a/scene.ug", "{ head }\ndef d; execute \"bin/one\"; end; i (d);"),
+        ("a/bin/one", "#!v p 1 2 3;\ninclude ../two.ug; execute three;"),
+        ("a/two.ug", "v q 1 2 3;"),
+        ("a/bin/three", "#!"),
+    ];
+    assert_eq!(read_with(&files, &allowed), "{ head }\nv d:p 1 2 3;\nv d:q 1 2 3;\n");
+    assert_eq!(message(&files), "error: program `bin/one` is not run at a/scene.ug:2:17");
+    assert!(read(&files).contains("allow it with --allow-execute"));
+
+    let check = |files: &[(&str, &str)], expected: &str| {
+        assert_eq!(message_with(files, &allowed), expected, "{files:?}");
+    };
+    check(&[("s.ug", " execute no;")], "error: cannot run `no`: no such file at s.ug:1:10");
+    check(
+        &[("s.ug", "execute p;"), ("p", "#!3out of oil")],
+        "error: program `p` failed with exit status: 3: out of oil at s.ug:1:9",
+    );
+    check(
+        &[("s.ug", "execute p;"), ("p", "#!3")],
+        "error: program `p` failed with exit status: 3 at s.ug:1:9",
+    );
+    // What a program prints is called after the program.
+    check(
+        &[("s.ug", "execute p;"), ("p", "#!v a 0 0 0;\nv b 0 0;")],
+        "error: expected a number, found `;` at p:2:8",
+    );
+    check(&[("s.ug", "execute p;"), ("p", "#!execute p;")], "error: file `p` includes itself at p:1:9");
+    // A program that is included is read, not run.
+    check(
+        &[("s.ug", "include p;"), ("p", "#!v a 0 0 0;")],
+        "error: cannot read `p`: of another kind at s.ug:1:9",
+    );
+    // `execute` is a good name.
+    assert_eq!(read(&[("s.ug", "v execute 0 0 0;")]), "v execute 0 0 0;\n");
+}
+
+#[test]
+fn limits_of_files_can_be_set() {
+    let with = |limit: Limit, value: u64| Options {
+        limits: Limits::default().with(limit, value),
+        ..Options::default()
+    };
+    let chain = [("0", "include 1;"), ("1", "include 2;"), ("2", "include 3;"), ("3", "v a 1 2 3;")];
+    let scene = "v a 1 2 3;\n";
+    assert_eq!(read_with(&chain, &with(Limit::Includes, 3)), scene);
+    let found = read_with(&chain, &with(Limit::Includes, 2));
+    assert!(found.starts_with("error: files include each other too deeply"), "{found}");
+    assert!(
+        found.ends_with("the limit is 2 levels; use fewer, or raise it with --limit includes=N"),
+        "{found}"
+    );
+    // Far deeper than a stack would bear.
+    let deep: Vec<(String, String)> =
+        (0..5001).map(|idx| (format!("{idx}"), format!("include {};", idx + 1))).collect();
+    let mut deep: Vec<(&str, &str)> = deep.iter().map(|(name, text)| (&name[..], &text[..])).collect();
+    deep.push(("5001", "v a 1 2 3;"));
+    assert_eq!(read_with(&deep, &with(Limit::Includes, 6000)), scene);
+
+    assert_eq!(read_with(&chain, &with(Limit::Files, 3)), scene);
+    let found = read_with(&chain, &with(Limit::Files, 2));
+    assert!(found.starts_with("error: too many files are included"), "{found}");
+    assert!(
+        found.ends_with("the limit is 2 files; include fewer, or raise it with --limit files=N"),
+        "{found}"
+    );
+
+    assert_eq!(read_with(&chain, &with(Limit::Text, 100)), scene);
+    let found = read_with(&chain, &with(Limit::Text, 20));
+    assert!(found.starts_with("error: with the text of `3` the scene is too large"), "{found}");
+    assert!(found.ends_with("the limit is 20 bytes; split it, or raise it with --limit text=N"), "{found}");
 }
 
 #[test]

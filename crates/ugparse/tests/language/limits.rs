@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use ugparse::{Options, Source};
+use ugparse::{Limit, Limits, Options, Source};
 
 use crate::{TRIANGLE, errors, flat, parse, write};
 
@@ -138,10 +138,108 @@ fn odd_bytes_are_refused_outside_comments() {
     assert_eq!(flat(b"{\0\xff}v a 0 0 0;"), "{\0\u{fffd}}\nv a 0 0 0;\n");
 }
 
+/// The first message about a text with one limit set, and its remedy; nothing if it can be read.
+fn limited(text: &str, limit: Limit, value: u64) -> Option<(String, String)> {
+    let options = Options { limits: Limits::default().with(limit, value), ..Options::default() };
+    let found = ugparse::parse(&Source::new("test.ug", text), &options).err()?;
+    let first = &found.list[0];
+    Some((first.message.clone(), first.help.clone().unwrap_or_default()))
+}
+
+#[test]
+fn every_limit_can_be_set_and_says_so() {
+    #[track_caller]
+    fn check(text: &str, limit: Limit, enough: u64, message: &str, remedy: &str) {
+        assert_eq!(limited(text, limit, enough), None, "{text}");
+        let (found, help) = limited(text, limit, enough - 1).unwrap();
+        assert_eq!((found.as_str(), help.as_str()), (message, remedy), "{text}");
+    }
+    check(
+        "v a 0 0 0;",
+        Limit::Text,
+        10,
+        "the scene is too large",
+        "the limit is 9 bytes; split it, or raise it with --limit text=N",
+    );
+    let nested = "def a; def b; v p 0 0 0; end; end;";
+    check(
+        nested,
+        Limit::Nesting,
+        2,
+        "definitions nest too deeply",
+        "the limit is 1 level; use fewer, or raise it with --limit nesting=N",
+    );
+    let chain = "def a; v p 0 0 0; end; def b; i (a); end; def c; i (b); end; i (c);";
+    check(
+        chain,
+        Limit::Chain,
+        3,
+        "definitions place each other in too long a chain",
+        "the limit is 2 levels; use fewer, or raise it with --limit chain=N",
+    );
+    let array = "def d; v pp 0 0 0; v qq 1 0 0; w (pp qq); end; a (d) 10;";
+    check(
+        array,
+        Limit::Statements,
+        41,
+        "the placed scene would have 41 statements",
+        "the limit is 40 statements; use smaller arrays, or raise it with --limit statements=N",
+    );
+    check(
+        array,
+        Limit::Corners,
+        20,
+        "the placed scene would have 20 corners of faces",
+        "the limit is 19 corners; use smaller arrays, or raise it with --limit corners=N",
+    );
+    check(
+        "v long 0 0 0; v longer 0 0 0;",
+        Limit::Names,
+        10,
+        "the placed scene would have 10 bytes of names",
+        "the limit is 9 bytes; split the scene, or raise it with --limit names=N",
+    );
+    let (found, _) = limited("def d; c long 1; end; surf long 1 0 0;", Limit::Names, 39).unwrap();
+    assert!(found.starts_with("the names of colours and surfaces"), "{found}");
+    assert_eq!(limited("def d; c long 1; end; surf long 1 0 0;", Limit::Names, 40), None);
+}
+
+#[test]
+fn limits_have_names_defaults_and_bounds() {
+    for limit in Limit::ALL {
+        assert_eq!(Limit::from_name(limit.name()), Some(limit));
+        assert_eq!(Limits::default().get(limit), limit.default_value());
+        assert!(limit.default_value() <= limit.most());
+        assert_eq!(Limits::default().with(limit, u64::MAX).get(limit), limit.most());
+        assert_eq!(Limits::default().with(limit, 7).get(limit), 7);
+    }
+    assert_eq!(Limit::from_name("Text"), None);
+    // A limit that cannot be raised does not promise it.
+    let (_, help) = limited("def d; v p 0 0 0; end; a (d) 9999999999;", Limit::Statements, u64::MAX).unwrap();
+    assert_eq!(help, "the limit is 2000000000 statements, and cannot be raised; use smaller arrays");
+}
+
+/// Each level of a chain takes stack, so a long one gets a stack of its own.
+#[test]
+fn chains_as_long_as_can_be_are_placed() {
+    let defs: String = (1..10_000).map(|idx| format!("def d{idx}; i x (d{}); end;\n", idx - 1)).collect();
+    let text = format!("def d0; v p 0 0 0; end;\n{defs} i x (d9999 -tx 1);");
+    let options = Options { limits: Limits::default().with(Limit::Chain, 10_000), ..Options::default() };
+    let scene = ugparse::parse(&Source::new("test.ug", text), &options).unwrap().scene;
+    assert_eq!(scene.vertices[0].position.to_array(), [1.0, 0.0, 0.0]);
+}
+
+#[test]
+fn definitions_can_nest_as_deep_as_can_be() {
+    let n = Limit::Nesting.most() as usize;
+    let text = format!("{}v p 0 0 0;{}", "def d;".repeat(n), "end;".repeat(n));
+    assert_eq!(limited(&text, Limit::Nesting, n as u64), None);
+}
+
 /// A scene with one of everything.
-const EVERYTHING: &str = "{ head {nested} }\nc red 1 0; c_rgb g .5 1 0 .25; c .5 200 .5;\n( escape (nested) )\n\
+const EVERYTHING: &str = "{ head {nested} }\nc red 1 0; c_rgb g .5 1 0 .25; c .5 200 .5; surf s .5 .25 .125 1.5 30;\n( escape (nested) )\n\
     v a 0 0 0; v b 1 0 0 red; v c 0 1 0 0 0 1; v d 1 1 0 g 0 0 -1.5e-3; { behind }\n\
-    f roof (a b d c) (a c b) red .5 <.1 -.2 0>;\nw edge (a b) (c d) g;\n\
+    f roof (a b d c) (a c b) red .5 <.1 -.2 0>; f (a b c) red s;\nw edge (a b) (c d) g;\n\
     def part; def inner; v p 1 2 3; v q 2 2 3; v r 2 3 3; f (p q r); end;\n\
     i (inner red -M3 1 0 0 0 2 0 0 0 1) <0 0 .5>; a row (inner -rx 90) 3 -tx 5 -mx; end;\n\
     i car (part -M4 1 0 0 0 0 1 0 0 0 0 1 0 3 4 5 1); l sun .7 1 -1 2 g; l .3; l lamp 1 0 0 5 .25 <0 0 .1>;\n\

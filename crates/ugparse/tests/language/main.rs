@@ -12,6 +12,7 @@ mod paths;
 mod round_trip;
 mod scopes;
 mod statements;
+mod surfaces;
 mod threads;
 mod tokens;
 mod transforms;
@@ -24,7 +25,7 @@ const TRIANGLE: &str = "v a 0 0 0; v b 1 0 0; v c 0 1 0; ";
 fn parse_with(text: impl AsRef<[u8]>, lax: bool) -> Parsed {
     let text = text.as_ref();
     let source = Source::new("test.ug", text);
-    ugparse::parse(&source, &Options { lax })
+    ugparse::parse(&source, &Options { lax, ..Options::default() })
         .unwrap_or_else(|found| panic!("{}\n{}", String::from_utf8_lossy(text), found.render(false)))
 }
 

@@ -32,6 +32,24 @@ fn faces_and_wires_reach_into_instances() {
 }
 
 #[test]
+fn instances_of_one_scope_have_paths_of_their_own() {
+    let row = |calls: &str, expected: &[&str]| {
+        let scene = parse(format!("def d; v a 0 0 0; end; {calls}"));
+        let names: Vec<&str> = scene.vertices.iter().map(|vertex| scene.names.get(vertex.name)).collect();
+        assert_eq!(names, expected, "{calls}");
+    };
+    row("i x (d); i x (d); i x (d);", &["x:a", "x_2:a", "x_3:a"]);
+    // A name that was written is kept, and not given to another.
+    row("i x (d); i x_2 (d); i x (d);", &["x:a", "x_2:a", "x_3:a"]);
+    row("i x (d); i x (d); i x_2 (d);", &["x:a", "x_3:a", "x_2:a"]);
+    row(
+        "i x (d); i x (d); i x_2 (d); i x_2 (d); i x_2_2 (d);",
+        &["x:a", "x_3:a", "x_2:a", "x_2_3:a", "x_2_2:a"],
+    );
+    row("i d_2 (d); i (d); a (d) 1; i (d);", &["d_2:a", "d:a", "d_3#0:a", "d_4:a"]);
+}
+
+#[test]
 fn a_name_of_its_own_wins_over_a_path() {
     let scene = parse("def d; v a 9 9 9; end; i car (d); v car:a 1 2 3; v o 0 0 0; w (o car:a);");
     let corners = scene.wire_contours(&scene.wires[0]).next().unwrap();

@@ -12,11 +12,12 @@ const ROWS: usize = 12_000;
 fn outcome(text: &str, n_threads: usize) -> (Vec<u8>, String) {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(n_threads).build().unwrap();
     let source = Source::new("large.ug", text);
-    match pool.install(|| ugparse::parse(&source, &Options { lax: true })) {
+    match pool.install(|| ugparse::parse(&source, &Options { lax: true, ..Options::default() })) {
         Ok(parsed) => {
             let scene = &parsed.scene;
+            let light = |face| (scene.light_level(face), scene.surface(face));
             let colors: Vec<_> =
-                scene.faces.iter().map(|face| (face.color, face.velocity, face.illum)).collect();
+                scene.faces.iter().map(|face| (face.color, face.velocity, light(face))).collect();
             let what = format!("{:?} {:?} {}", parsed.origins, colors, parsed.warnings.render(false));
             (ugparse::write(scene), what)
         }
@@ -50,12 +51,14 @@ fn faces(text: &mut String, rows: std::ops::Range<usize>) {
         let next = (row + 1) % ROWS;
         writeln!(text, "f (v{row} far{next}00000 z00{row}) c{} <.5 0 {}>;", row % 7, row % 3).unwrap();
         writeln!(text, "f big{row} (v{row} v{next} name{row}_) (z00{row} z00{next} v{row}) .{row};").unwrap();
+        writeln!(text, "f (v{row} v{next} name{row}_) c{} s{};", row % 7, row / 5 % 3).unwrap();
         writeln!(text, "w (v{row} v{next}); l sun{row} 1 0 0 1 c3;").unwrap();
     }
 }
 
 fn colors(text: &mut String) {
     (0..7).for_each(|row| writeln!(text, "c c{row} .5 {row}0;").unwrap());
+    (0..3).for_each(|row| writeln!(text, "surf s{row} .{row} 0 .5;").unwrap());
 }
 
 /// Vertices, then faces, as the programs write them; or the other way round.
@@ -114,6 +117,8 @@ fn any_number_of_threads_says_the_same() {
         "v v17 0 0 0;",
         "v far700000 0 0 0;",
         "c c1 1;",
+        "surf s1 1 0 0;",
+        "f (v0 v1 v2) c1 s7;",
         "v w 0 0;",
         "end;",
         "{",

@@ -1,6 +1,6 @@
 //! A scene carries its own history: each filter adds a head comment.
 
-use ugparse::Scene;
+use crate::scene::Scene;
 
 /// Adds a head comment that says which program wrote the scene and how it was
 /// called, behind the comments that were there.

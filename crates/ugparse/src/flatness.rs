@@ -1,0 +1,90 @@
+//! How flat faces are.
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use crate::Source;
+use crate::diagnostic::Diagnostic;
+use crate::history::history;
+use crate::place::Origins;
+use crate::scene::{Face, Scene, newell_normal};
+use crate::settle::face_name;
+use crate::source::Span;
+
+/// A face is flat if no corner is farther from its plane than this part of its size: files are rounded.
+pub const FLAT: f64 = 1e-3;
+
+/// A face without holes that is less flat than this should be drawn as triangles.
+pub const TOO_BENT: f64 = 3e-2;
+
+/// Faces that a thread should have at least.
+const MANY_FACES: usize = 1 << 14;
+
+/// A face that is not flat.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BentFace {
+    /// Row of [`Scene::faces`].
+    pub row: usize,
+    /// Its [`thickness`], above [`FLAT`].
+    pub thickness: f64,
+}
+
+/// Greatest distance of a corner from the plane of a face, over its size; both in rest coordinates.
+///
+/// The plane goes through the mean of all corners, at right angles to the
+/// outline's area vector; the size is the diagonal of the face's box.
+pub fn thickness(scene: &Scene, face: &Face) -> f64 {
+    let corners = scene.contours.corners(face.contours.clone());
+    let positions = || corners.iter().map(|&corner| scene.vertices[corner.index()].position);
+    let Some(first) = positions().next() else { return 0.0 };
+    let mean = positions().map(|corner| corner - first).sum::<DVec3>() / corners.len() as f64 + first;
+    let outline = scene.contours.get(face.contours.start).iter();
+    let normal = newell_normal(outline.map(|&corner| scene.vertices[corner.index()].position));
+    let normal = normal.normalize_or_zero();
+    let distance = positions().map(|corner| (corner - mean).dot(normal).abs()).fold(0.0, f64::max);
+    let (low, high) =
+        positions().fold((first, first), |(low, high), corner| (low.min(corner), high.max(corner)));
+    let size = (high - low).length();
+    if size > 0.0 { distance / size } else { 0.0 }
+}
+
+/// The faces that are not flat, in order. A scene as seen has none: there it is
+/// no mistake that faces are bent.
+pub(crate) fn bent_faces(scene: &Scene) -> Vec<BentFace> {
+    let bent = |(row, face): (usize, &Face)| {
+        // Triangles are flat.
+        if face.contours.len() == 1 && scene.contours.get(face.contours.start).len() == 3 {
+            return None;
+        }
+        let thickness = thickness(scene, face);
+        (thickness > FLAT).then_some(BentFace { row, thickness })
+    };
+    // No face has fewer than three corners, so if that is the mean, all are triangles.
+    if scene.contours.corner_count() == 3 * scene.faces.len() || is_as_seen(scene) {
+        return Vec::new();
+    }
+    scene.faces.par_iter().enumerate().with_min_len(MANY_FACES).filter_map(bent).collect()
+}
+
+/// True if `uglorentz` has been at it.
+fn is_as_seen(scene: &Scene) -> bool {
+    history(scene).iter().any(|line| line.split(' ').next() == Some("uglorentz"))
+}
+
+/// One warning for all of them.
+pub(crate) fn warning(source: &Source, origins: &Origins, bent: &[BentFace]) -> Option<Diagnostic> {
+    let first = bent.first()?;
+    let span = origins.faces[first.row];
+    let name = face_name(&source.text, span);
+    let shown = name.map_or(String::new(), |name| format!(" `{}`", source.slice(name)));
+    let others = match bent.len() - 1 {
+        0 => " is".to_string(),
+        1 => " and one other are".to_string(),
+        others => format!(" and {others} others are"),
+    };
+    let place = name.unwrap_or(Span { start: span.start, end: span.start + 1 });
+    let label = format!("a corner is off by {:.1e} of its size", first.thickness);
+    Some(Diagnostic::warning(place, format!("face{shown}{others} not flat")).label(label).help(format!(
+        "cut it into triangles; those without holes that are off by more than {TOO_BENT} are cut when drawn"
+    )))
+}

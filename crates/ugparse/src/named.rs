@@ -1,0 +1,98 @@
+//! What has names of its own kind that are seen in scopes inside: colours and surfaces.
+
+use rustc_hash::FxHashMap;
+
+use crate::group::Rows;
+use crate::source::Span;
+
+/// Colours or surfaces of a scope.
+pub(crate) struct Named<'t, T> {
+    /// In the order of the text. The names in the rows are not made yet.
+    pub table: Rows<T>,
+    /// Where the name of each row stands, if it has one.
+    pub spans: Vec<Option<Span>>,
+    /// Names that are used or defined here.
+    pub names: NameTable<'t>,
+    /// For each of these names its row, if it is defined here.
+    rows: Vec<Option<u32>>,
+}
+
+impl<T> Default for Named<'_, T> {
+    fn default() -> Self {
+        Self { table: Rows::default(), spans: Vec::new(), names: NameTable::default(), rows: Vec::new() }
+    }
+}
+
+impl<'t, T> Named<'t, T> {
+    /// Enters the statement at `span`; gives the first definition of its name if this is the second.
+    pub fn push(&mut self, text: &'t [u8], name: Option<Span>, row: T, span: Span) -> Option<Span> {
+        let before = name.and_then(|name| {
+            let number = self.names.enter(name.of(text));
+            self.define(number, self.spans.len() as u32)
+        });
+        self.table.push(row, span);
+        self.spans.push(name);
+        before.map(|row| self.spans[row as usize].unwrap_or_default())
+    }
+
+    /// Says what a name means; gives what it meant before.
+    fn define(&mut self, name: usize, row: u32) -> Option<u32> {
+        if name >= self.rows.len() {
+            self.rows.resize(name + 1, None);
+        }
+        self.rows[name].replace(row)
+    }
+
+    /// The row of what is defined here by that name.
+    pub fn row(&self, name: &[u8]) -> Option<usize> {
+        self.rows.get(self.names.get(name)?).copied().flatten().map(|row| row as usize)
+    }
+
+    /// Takes the names of a part of the text that follows, but not its table. Gives,
+    /// for each name there, its number here; `None` if one is defined twice.
+    pub fn append_names(&mut self, part: &mut Self) -> Option<Vec<usize>> {
+        let numbers: Vec<usize> = part.names.list.iter().map(|name| self.names.enter(name)).collect();
+        let first_row = self.spans.len() as u32;
+        for (row, &number) in part.rows.iter().zip(&numbers) {
+            let Some(row) = row else { continue };
+            if self.define(number, first_row + row).is_some() {
+                return None;
+            }
+        }
+        self.spans.append(&mut part.spans);
+        Some(numbers)
+    }
+}
+
+/// Names, numbered in the order in which they are used or defined.
+#[derive(Default)]
+pub(crate) struct NameTable<'t> {
+    pub list: Vec<&'t [u8]>,
+    numbers: FxHashMap<&'t [u8], usize>,
+    /// The one asked for last: neighbours often have one colour.
+    last: usize,
+}
+
+impl<'t> NameTable<'t> {
+    /// The number of a name, which is entered if it is new.
+    #[inline]
+    pub fn enter(&mut self, name: &'t [u8]) -> usize {
+        match self.list.get(self.last) {
+            Some(&last) if last == name => self.last,
+            _ => self.enter_other(name),
+        }
+    }
+
+    fn enter_other(&mut self, name: &'t [u8]) -> usize {
+        self.last = *self.numbers.entry(name).or_insert_with(|| {
+            self.list.push(name);
+            self.list.len() - 1
+        });
+        self.last
+    }
+
+    /// The number of a name, if it is known.
+    pub fn get(&self, name: &[u8]) -> Option<usize> {
+        self.numbers.get(name).copied()
+    }
+}

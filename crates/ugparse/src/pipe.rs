@@ -1,0 +1,64 @@
+//! How the programs read scenes: with the options all of them have, and with the files
+//! and programs that a scene names.
+
+use ugpipe::{CommonArgs, Failure, Stage};
+
+use crate::{Diagnostics, Limit, Limits, Options, Request, RequestError, RequestKind, Source};
+
+/// What the common options of a program say about reading.
+///
+/// # Errors
+/// [`Failure::Usage`] for a limit that is not known, or cannot be so large.
+pub fn options(common: &CommonArgs) -> Result<Options, Failure> {
+    let mut limits = Limits::default();
+    for (name, value) in common.limits() {
+        let Some(limit) = Limit::from_name(name) else {
+            let names = Limit::ALL.map(Limit::name).join(", ");
+            return Err(Failure::Usage(format!("`{name}` is no limit; limits are {names}")));
+        };
+        if *value > limit.most() {
+            return Err(Failure::Usage(format!("the limit {name} is {} at most", limit.most())));
+        }
+        limits = limits.with(limit, *value);
+    }
+    Ok(Options { lax: common.lax(), execute: common.allow_execute(), limits })
+}
+
+/// Reads the scene of a program, with all that it includes.
+///
+/// # Errors
+/// [`Failure::Read`] for the input itself, [`Failure::Report`] for what it includes.
+pub fn read(stage: &mut Stage, options: &Options) -> Result<Source, Failure> {
+    let input = stage.input()?;
+    follow(Source::new(input.name, input.text), options, stage).map_err(refused)
+}
+
+/// Follows the `include` and `execute` statements of a scene, see [`crate::include`]. What
+/// programs complain about, though they end well, is told as a note.
+///
+/// # Errors
+/// See [`crate::include`].
+pub fn follow(source: Source, options: &Options, stage: &Stage) -> Result<Source, Diagnostics> {
+    crate::include(source, options, |request| load(request, stage))
+}
+
+fn load(request: &Request<'_>, stage: &Stage) -> Result<Vec<u8>, RequestError> {
+    match request.kind {
+        RequestKind::Include => Ok(ugpipe::read_file(request.path, request.room)?),
+        RequestKind::Execute => {
+            let printed = ugpipe::run_program(request.path, request.room)?;
+            if let Some(status) = printed.failure {
+                return Err(RequestError::Failed { status, complaint: printed.complaint });
+            }
+            if !printed.complaint.is_empty() {
+                stage.note(&format!("{} says: {}", request.path.display(), printed.complaint));
+            }
+            Ok(printed.text)
+        }
+    }
+}
+
+/// Findings that end a run.
+pub fn refused(findings: Diagnostics) -> Failure {
+    Failure::Report(findings.render(true))
+}

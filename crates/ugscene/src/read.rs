@@ -1,0 +1,122 @@
+//! A scene as programs that move or draw its faces want it.
+
+use std::ops::Range;
+
+use glam::DVec3;
+use ugparse::{Diagnostics, Face, Item, Options, Parsed, Scene, Source, TOO_BENT, VertexId};
+
+use crate::polygon::triangulate;
+
+/// Reads a scene, and cuts faces that are far from flat ([`TOO_BENT`]) into triangles, if they
+/// have no holes: what such a face looks like would depend on the side it is seen from. The
+/// triangles keep all that the face has, its name too.
+///
+/// # Errors
+/// See [`ugparse::parse`].
+pub fn read(source: &Source, options: &Options) -> Result<Parsed, Diagnostics> {
+    let mut parsed = ugparse::parse(source, options)?;
+    let rows: Vec<usize> =
+        parsed.bent.iter().filter(|face| face.thickness > TOO_BENT).map(|face| face.row).collect();
+    if !rows.is_empty() {
+        cut_faces(&mut parsed, &rows);
+    }
+    Ok(parsed)
+}
+
+/// Cuts the faces of these rows, in order, into triangles where that can be done.
+fn cut_faces(parsed: &mut Parsed, rows: &[usize]) {
+    let Parsed { scene, origins, .. } = parsed;
+    let faces = std::mem::take(&mut scene.faces);
+    let spans = std::mem::take(&mut origins.faces);
+    let mut first_pieces = Vec::with_capacity(faces.len());
+    for (row, (face, span)) in faces.into_iter().zip(spans).enumerate() {
+        first_pieces.push(scene.faces.len() as u32);
+        let pieces = if rows.binary_search(&row).is_ok() { triangles(scene, &face) } else { None };
+        match pieces {
+            Some(pieces) => {
+                scene.faces.extend(pieces.map(|contours| Face { contours, ..face.clone() }));
+            }
+            None => scene.faces.push(face),
+        }
+        origins.faces.resize(scene.faces.len(), span);
+    }
+    for comment in &mut scene.comments {
+        if let Item::Face(row) = &mut comment.at {
+            // One behind the face comes behind its last piece.
+            let ahead = if comment.trailing { first_pieces.get(*row as usize + 1) } else { None };
+            *row = match ahead {
+                Some(next) => next - 1,
+                None if comment.trailing => scene.faces.len() as u32 - 1,
+                None => first_pieces[*row as usize],
+            };
+        }
+    }
+}
+
+/// Contours of the triangles that make up a face, one each; `None` if it has holes or crosses itself.
+fn triangles(scene: &mut Scene, face: &Face) -> Option<impl Iterator<Item = Range<u32>> + use<>> {
+    if face.contours.len() != 1 {
+        return None;
+    }
+    let corners: Vec<VertexId> = scene.contours.get(face.contours.start).to_vec();
+    let places: Vec<DVec3> = corners.iter().map(|corner| scene.vertices[corner.index()].position).collect();
+    let triangles = triangulate(&[places])?;
+    let cut = triangles.iter().map(|triangle| triangle.map(|corner| corners[corner as usize]));
+    let rows = scene.contours.push_all(cut);
+    Some(rows.map(|row| row..row + 1))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read_text(text: &str) -> Parsed {
+        read(&Source::new("t.ug", text), &Options::default()).unwrap()
+    }
+
+    /// A square of side 1 whose corners are off its plane by `d`, up and down in turn.
+    fn square(d: f64, rest: &str) -> String {
+        format!("v a 0 0 {d}; v b 1 0 -{d}; v c 1 1 {d}; v e 0 1 -{d}; {rest}")
+    }
+
+    #[test]
+    fn faces_far_from_flat_become_triangles() {
+        let check = |d: f64, n_faces: usize, n_warnings: usize| {
+            let parsed = read_text(&square(d, "f (a b c e);"));
+            assert_eq!((parsed.scene.faces.len(), parsed.warnings.list.len()), (n_faces, n_warnings), "{d}");
+            assert_eq!(parsed.origins.faces.len(), n_faces);
+        };
+        // Its size is the root of 2, almost.
+        check(0.0, 1, 0);
+        check(0.99e-3 * 2f64.sqrt(), 1, 0);
+        check(1.01e-3 * 2f64.sqrt(), 1, 1);
+        check(0.99 * 3e-2 * 2f64.sqrt(), 1, 1);
+        check(1.02 * 3e-2 * 2f64.sqrt(), 2, 1);
+    }
+
+    #[test]
+    fn triangles_keep_what_the_face_has() {
+        let rest = "c red 1 0; surf s 1 0 0;\n{ first } f (a b c);\n{ bent }\nf x (a b c e) red s <.5 0 0>; { behind }\n\
+                    { last }\nf (a c e);";
+        let parsed = read_text(&square(0.25, rest));
+        let out = String::from_utf8(ugparse::write(&parsed.scene)).unwrap();
+        let lines: Vec<&str> = out.lines().skip_while(|line| !line.starts_with("{ first")).collect();
+        let [first, f, bent, one, two, last, g] = lines[..] else { panic!("{out}") };
+        assert_eq!(
+            [first, f, bent, last, g],
+            ["{ first }", "f (a b c);", "{ bent }", "{ last }", "f (a c e);"]
+        );
+        assert!(one.starts_with("f x (") && one.ends_with(") red s <0.5 0 0>;"), "{out}");
+        assert!(two.starts_with("f x (") && two.ends_with(") red s <0.5 0 0>; { behind }"), "{out}");
+        assert_eq!((one.len() + 11, parsed.origins.faces[1]), (two.len(), parsed.origins.faces[2]));
+    }
+
+    #[test]
+    fn holes_and_what_was_seen_stay() {
+        let hole = "v h .4 .4 0; v i .6 .4 0; v j .5 .6 0; f (a b c e) (h i j);";
+        assert_eq!(read_text(&square(0.25, hole)).scene.faces.len(), 1);
+        let seen = format!("{{ uglorentz 0.1.0: uglorentz -vel .9 0 0 }} {}", square(0.25, "f (a b c e);"));
+        let parsed = read_text(&seen);
+        assert_eq!((parsed.scene.faces.len(), parsed.warnings.list.len()), (1, 0));
+    }
+}
