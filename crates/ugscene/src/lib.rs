@@ -28,6 +28,7 @@ mod history;
 mod normals;
 mod polygon;
 mod split;
+mod traveller;
 
 pub use bodies::{Bodies, separate_bodies, vertex_velocities};
 pub use colors::{HueScale, VertexColor, hsv, spectra_note, vertex_colors};
@@ -37,3 +38,4 @@ pub use history::{history, record};
 pub use normals::{corner_angle, smooth_normals};
 pub use polygon::{Triangle, is_convex, triangulate};
 pub use split::split_vertices;
+pub use traveller::{axes_from_scene, camera_velocity, record_camera_velocity};
