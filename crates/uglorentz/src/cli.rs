@@ -22,6 +22,14 @@ pub struct Args {
           action = ArgAction::Set, allow_hyphen_values = true, value_parser = finite)]
     velocity: Option<Vec<f64>>,
 
+    /// Velocity of the camera in the scene, fraction of c [default: the scene's, else 0]
+    ///
+    /// Velocities of objects are then those in the scene, too. Where the camera looks, -vc and -ud, is said in
+    /// its own frame.
+    #[arg(long = "cv", visible_alias = "camera-velocity", value_names = ["X", "Y", "Z"], num_args = 3,
+          action = ArgAction::Set, allow_hyphen_values = true, value_parser = finite)]
+    camera_velocity: Option<Vec<f64>>,
+
     /// Eye point [default: that of the scene's camera, else the origin]
     #[arg(long = "ep", visible_alias = "eye", value_names = ["X", "Y", "Z"], num_args = 3,
           action = ArgAction::Set, allow_hyphen_values = true, value_parser = finite)]
@@ -75,7 +83,8 @@ pub struct Args {
 const EXAMPLES: &str = "Examples:
   uglorentz -vel .9 0 0 ship.ug | ugdoppler | ugrainbow > ship.png
   uglorentz -vel .9 0 0 -in ship.ug        the ship stays in the picture at any speed
-  uglorentz -vel 0 .9 0 -ti -2 street.ug   two units of time earlier";
+  uglorentz -vel 0 .9 0 -ti -2 street.ug   two units of time earlier
+  uglorentz -cv 0 .9 0 street.ug           the camera drives; cars keep their velocities in the street";
 
 /// The whole program.
 pub fn main() -> ExitCode {
@@ -120,6 +129,7 @@ impl Args {
         };
         Ok(Config {
             velocity: vector(self.velocity.as_deref()).map(DVec3::from_array),
+            camera_velocity: vector(self.camera_velocity.as_deref()).map(DVec3::from_array),
             eye: vector(self.eye.as_deref()).map(DVec3::from_array),
             time: self.time,
             anchor: self.anchor.as_deref().map(anchor).transpose()?,

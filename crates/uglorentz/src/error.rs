@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use glam::DVec3;
 use ugparse::{Diagnostic, Diagnostics, Source, Span};
 use ugphysics::VelocityError;
 
@@ -14,6 +15,13 @@ pub enum Error {
     Scene(Diagnostics),
     /// [`crate::Config::velocity`] is none.
     Velocity(VelocityError),
+    /// [`crate::Config::camera_velocity`] is none.
+    CameraVelocity(VelocityError),
+    /// A body and the camera meet so fast that the body's velocity in the camera's frame rounds to that of light.
+    TooFast {
+        /// The body's velocity in the frame of the scene.
+        beta: DVec3,
+    },
     /// A velocity of the scene is none. Readers refuse such scenes.
     SceneVelocity(VelocityError),
     /// The bound of [`crate::Pieces::UpTo`] is not above 0, or not finite.
@@ -49,7 +57,11 @@ impl Error {
     pub fn is_usage(&self) -> bool {
         matches!(
             self,
-            Error::Velocity(_) | Error::NoBound { .. } | Error::NoPieces | Error::TooManyPieces { .. }
+            Error::Velocity(_)
+                | Error::CameraVelocity(_)
+                | Error::NoBound { .. }
+                | Error::NoPieces
+                | Error::TooManyPieces { .. }
         )
     }
 
@@ -68,6 +80,12 @@ impl Error {
         match self {
             Error::Scene(diagnostics) => diagnostics.to_string(),
             Error::Velocity(error) => format!("-vel: {error}"),
+            Error::CameraVelocity(error) => format!("-cv: {error}"),
+            Error::TooFast { beta } => format!(
+                "what moves with {} {} {} in the scene meets the camera (-cv) too near the speed of light to \
+                 be written as a velocity",
+                beta.x, beta.y, beta.z
+            ),
             Error::SceneVelocity(error) => error.to_string(),
             Error::NoBound { error } => format!("the bound of -se is {} milliradians", error * 1e3),
             Error::NoPieces => "-sd 0 leaves no pieces".to_string(),
@@ -85,7 +103,8 @@ impl Error {
 
     fn remedy(&self) -> &'static str {
         match self {
-            Error::Scene(_) | Error::Velocity(_) | Error::SceneVelocity(_) => "",
+            Error::Scene(_) | Error::Velocity(_) | Error::CameraVelocity(_) | Error::SceneVelocity(_) => "",
+            Error::TooFast { .. } => "make one of them slower",
             Error::NoBound { .. } => "give a number above 0",
             Error::NoPieces => "give 1 or more",
             Error::TooManyPieces { .. } => "give fewer, or use -se, which cuts only where it shows",

@@ -61,6 +61,7 @@ mod cli;
 mod edge;
 mod equal;
 mod error;
+mod frame;
 mod growth;
 mod motion;
 mod notes;
@@ -91,6 +92,9 @@ pub const DEFAULT_ERROR: f64 = 0.1e-3;
 pub struct Config {
     /// Velocity of everything, fraction of c; beats velocities in the scene (`-vel`).
     pub velocity: Option<DVec3>,
+    /// Velocity of the camera in the frame of the scene, fraction of c; beats that of the scene's camera (`-cv`).
+    /// Velocities are then those in the frame of the scene, and come out as those in the frame of the camera.
+    pub camera_velocity: Option<DVec3>,
     /// The eye in scene coordinates; beats the scene's camera (`-ep`).
     pub eye: Option<DVec3>,
     /// Time of the picture on the observer's clock, (P5) (`-ti`).
@@ -116,6 +120,7 @@ impl Default for Config {
     fn default() -> Config {
         Config {
             velocity: None,
+            camera_velocity: None,
             eye: None,
             time: 0.0,
             anchor: None,
@@ -191,22 +196,27 @@ pub fn transform(scene: &Scene, config: &Config) -> Result<(Scene, Notes), Error
 
 fn transform_owned(mut scene: Scene, config: &Config) -> Result<(Scene, Notes), Error> {
     let velocity = check(config)?;
-    let was_seen_before = ugscene::history(&scene).iter().any(|line| line.split(' ').next() == Some(PROGRAM));
+    let was_seen_before = frame::was_seen_before(&scene);
     let n_faces = scene.faces.len();
 
     if let Some(velocity) = config.velocity {
         set_velocity(&mut scene, velocity);
     }
+    let camera = frame::take_camera_velocity(&mut scene, config)?;
+    if !camera.is_zero() {
+        frame::give_velocities(&mut scene, velocity);
+    }
     ugscene::separate_bodies(&mut scene);
     let eye = ugscene::eye(&scene, config.eye);
     let velocities = ugscene::vertex_velocities(&scene);
-    let motions = motions(&scene, velocity, config.geometry)?;
+    let motions = motions(&scene, velocity, camera, config.geometry)?;
+    frame::carry_velocities(&mut scene, camera)?;
     let shifts = placement::shifts(&scene, &velocities, &motions, eye, config);
     let points = points(&scene, &velocities, &motions, &shifts, eye);
     refuse_vertices_at_eye(&scene, &points, &motions)?;
-    placement::shift_lights(&mut scene, &shifts);
+    placement::shift_lights(&mut scene, &motions, &shifts);
     if config.smooth {
-        smooth(&mut scene, &points);
+        smooth(&mut scene, &points, &motions);
     }
 
     let mut growth = Growth::new(&motions, points);
@@ -220,7 +230,7 @@ fn transform_owned(mut scene: Scene, config: &Config) -> Result<(Scene, Notes), 
     };
     put_pieces(&mut scene, &outcome);
     attributes::add_vertices(&mut scene, &growth.recipes);
-    set_positions(&mut scene, &growth, eye)?;
+    set_positions(&mut scene, &growth, &shifts, eye)?;
     set_eye(&mut scene, eye);
     scene.escapes.extend(config.geometry.escape());
     ugscene::record(&mut scene, PROGRAM, env!("CARGO_PKG_VERSION"), &config.command_line);
@@ -259,10 +269,15 @@ fn set_velocity(scene: &mut Scene, velocity: DVec3) {
 }
 
 /// Of each body, in the order of [`placement::body`].
-fn motions(scene: &Scene, default: Velocity, geometry: Geometry) -> Result<Vec<Motion>, Error> {
+fn motions(
+    scene: &Scene,
+    default: Velocity,
+    camera: Velocity,
+    geometry: Geometry,
+) -> Result<Vec<Motion>, Error> {
     let bodies = Bodies::new(scene, default).map_err(Error::SceneVelocity)?;
     let velocities = [bodies.of(None)].into_iter().chain(bodies.all().iter().copied());
-    Ok(velocities.map(|velocity| Motion::new(velocity, geometry)).collect())
+    velocities.map(|velocity| Motion::seen_by(camera, velocity, geometry)).collect()
 }
 
 fn points(
@@ -276,7 +291,8 @@ fn points(
     vertices
         .map(|(vertex, &velocity)| {
             let body = placement::body(velocity);
-            motions[body].point(body as u32, vertex.position - eye + shifts[body])
+            let rest = motions[body].turned(vertex.position - eye) + shifts[body];
+            motions[body].point(body as u32, rest)
         })
         .collect()
 }
@@ -300,12 +316,13 @@ fn name(scene: &Scene, row: usize) -> String {
     scene.names.get(scene.vertices[row].name).to_string()
 }
 
-fn smooth(scene: &mut Scene, points: &[Point]) {
+/// Normals are in the axes of the scene, as its lights are.
+fn smooth(scene: &mut Scene, points: &[Point], motions: &[Motion]) {
     let rest: Vec<DVec3> = points.iter().map(|point| point.rest).collect();
     let normals = ugscene::smooth_normals(scene, &rest);
-    for (vertex, normal) in scene.vertices.iter_mut().zip(normals) {
+    for ((vertex, normal), point) in scene.vertices.iter_mut().zip(normals).zip(points) {
         if vertex.normal.is_none() && normal != DVec3::ZERO {
-            vertex.normal = Some(normal);
+            vertex.normal = Some(motions[point.body as usize].turned_back(normal));
         }
     }
 }
@@ -323,11 +340,12 @@ fn put_pieces(scene: &mut Scene, outcome: &Outcome) {
     }
 }
 
-/// Where vertices are seen. A body at rest keeps its numbers to the bit.
-fn set_positions(scene: &mut Scene, growth: &Growth, eye: DVec3) -> Result<(), Error> {
+/// Where vertices are seen. A body at rest that was not moved keeps its numbers to the bit.
+fn set_positions(scene: &mut Scene, growth: &Growth, shifts: &[DVec3], eye: DVec3) -> Result<(), Error> {
     let n_old = growth.points.len() - growth.recipes.len();
+    let stays = |body: usize| growth.motions[body].is_at_rest() && shifts[body] == DVec3::ZERO;
     scene.vertices.par_iter_mut().zip(&growth.points).enumerate().for_each(|(row, (vertex, point))| {
-        if row >= n_old || !growth.motions[point.body as usize].is_at_rest() {
+        if row >= n_old || !stays(point.body as usize) {
             vertex.position = point.seen + eye;
         }
     });
@@ -339,9 +357,9 @@ fn set_positions(scene: &mut Scene, growth: &Growth, eye: DVec3) -> Result<(), E
 
 /// Writes the eye into the camera that counts.
 fn set_eye(scene: &mut Scene, eye: DVec3) {
-    let unnamed = scene.cameras.iter().position(|camera| camera.name.is_none());
     if scene.cameras.is_empty() {
         scene.cameras.push(Camera::default());
     }
-    scene.cameras[unnamed.unwrap_or(0)].eye = Some(eye);
+    let row = frame::camera_row(scene).unwrap_or(0);
+    scene.cameras[row].eye = Some(eye);
 }
