@@ -8,9 +8,9 @@ use ugimage::Format;
 use ugparse::{Options, Source};
 use ugphysics::Hsv;
 use ugpipe::{CommonArgs, Failure, Stage, ToolArgs, finite, vector};
-use ugscene::HueScale;
+use ugscene::{CameraOptions, HueScale};
 
-use crate::config::{Background, CameraOptions, Config, Interpolation, Output};
+use crate::config::{Background, Config, Interpolation, Output};
 use crate::{Error, run};
 
 /// Where black-and-white PostScript goes if standard output is a terminal, as in 1988.

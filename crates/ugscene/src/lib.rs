@@ -4,8 +4,8 @@
 //! which body a vertex belongs to and how that body moves ([`Bodies`],
 //! [`separate_bodies`]), where it rests when it is seen here ([`Geometry`],
 //! [`rest_positions`], equation (P4)), its normal ([`smooth_normals`]), the
-//! colour it gets from the faces round it ([`vertex_colors`]), and what triangles
-//! make up a polygon ([`triangulate`]). All programs
+//! colour it gets from the faces round it ([`vertex_colors`]), what triangles
+//! make up a polygon ([`triangulate`]), and what the camera sees ([`View`]). All programs
 //! must agree on these, so they are written once, here.
 //!
 //! ```
@@ -21,6 +21,7 @@
 //! ```
 
 mod bodies;
+mod camera;
 mod colors;
 mod eye;
 mod geometry;
@@ -31,6 +32,7 @@ mod split;
 mod traveller;
 
 pub use bodies::{Bodies, separate_bodies, vertex_velocities};
+pub use camera::{CameraError, CameraOptions, HalfSpace, Place, Slab, View};
 pub use colors::{HueScale, VertexColor, hsv, spectra_note, vertex_colors};
 pub use eye::{at_eye_error, eye, vertex_at_eye};
 pub use geometry::{Geometry, rest_positions};
