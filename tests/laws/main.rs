@@ -4,6 +4,7 @@
 
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test fails by panicking")]
 
+mod culling;
 mod exact;
 mod moving_camera;
 mod outlines;

@@ -5,8 +5,8 @@ use std::process::ExitCode;
 use clap::{ArgAction, Parser};
 use glam::DVec3;
 use ugparse::{Options, Source};
-use ugpipe::{CommonArgs, Failure, Stage, ToolArgs, finite, vector};
-use ugscene::Geometry;
+use ugpipe::{CommonArgs, Failure, Stage, ToolArgs, finite, vector, view_angle};
+use ugscene::{CameraOptions, Geometry};
 
 use crate::{Anchor, Config, DEFAULT_ERROR, Error, Pieces};
 
@@ -76,9 +76,45 @@ pub struct Args {
     #[arg(long = "no-flight-time")]
     no_flight_time: bool,
 
+    /// Leave out faces that the camera does not see
+    ///
+    /// They are not cut either. The picture stays the same, if ugrainbow has the same -va and -sz; the
+    /// scene's camera or -vc must say where it looks.
+    #[arg(long = "cull", help_heading = CAMERA)]
+    cull: bool,
+
+    /// View centre, written into the scene's camera
+    #[arg(long = "vc", visible_alias = "center", value_names = ["X", "Y", "Z"], num_args = 3,
+          action = ArgAction::Set, allow_hyphen_values = true, value_parser = finite, help_heading = CAMERA)]
+    center: Option<Vec<f64>>,
+
+    /// Up direction, written into the scene's camera
+    #[arg(long = "ud", visible_alias = "up", value_names = ["X", "Y", "Z"], num_args = 3,
+          action = ArgAction::Set, allow_hyphen_values = true, value_parser = finite, help_heading = CAMERA)]
+    up: Option<Vec<f64>>,
+
+    /// View angle across and, if given, down, in degrees, written into the scene's camera
+    ///
+    /// The angle down is for -cull alone: give it to ugrainbow, too.
+    #[arg(long = "va", visible_alias = "view-angle", num_args = 1..=2, value_names = ["A", "B"],
+          action = ArgAction::Set, value_parser = view_angle, help_heading = CAMERA)]
+    view_angle: Option<Vec<f64>>,
+
+    /// Orthographic projection, written into the scene's camera
+    #[arg(long = "og", visible_alias = "orthographic", help_heading = CAMERA)]
+    is_orthographic: bool,
+
+    /// Size of the picture in pixels, for -cull: its shape counts
+    #[arg(long = "sz", visible_alias = "size", num_args = 2, value_names = ["W", "H"], action = ArgAction::Set,
+          default_values = ["1024", "768"], value_parser = clap::value_parser!(u32).range(1..),
+          help_heading = CAMERA)]
+    size: Vec<u32>,
+
     #[command(flatten)]
     common: CommonArgs,
 }
+
+const CAMERA: &str = "Camera";
 
 const EXAMPLES: &str = "Examples:
   uglorentz -vel .9 0 0 ship.ug | ugdoppler | ugrainbow > ship.png
@@ -131,6 +167,8 @@ impl Args {
             velocity: vector(self.velocity.as_deref()).map(DVec3::from_array),
             camera_velocity: vector(self.camera_velocity.as_deref()).map(DVec3::from_array),
             eye: vector(self.eye.as_deref()).map(DVec3::from_array),
+            camera: self.camera(),
+            cull: self.cull.then(|| [self.size[0], self.size[1]]),
             time: self.time,
             anchor: self.anchor.as_deref().map(anchor).transpose()?,
             in_place: self.in_place,
@@ -140,6 +178,16 @@ impl Args {
             lax: self.common.lax(),
             command_line: command_line.to_string(),
         })
+    }
+
+    fn camera(&self) -> CameraOptions {
+        CameraOptions {
+            eye: None,
+            center: vector(self.center.as_deref()).map(DVec3::from_array),
+            up: vector(self.up.as_deref()).map(DVec3::from_array),
+            view_angle: self.view_angle.as_ref().map(|angles| (angles[0], angles.get(1).copied())),
+            is_orthographic: self.is_orthographic,
+        }
     }
 }
 

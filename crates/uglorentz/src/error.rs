@@ -5,6 +5,7 @@ use std::fmt;
 use glam::DVec3;
 use ugparse::{Diagnostic, Diagnostics, Source, Span};
 use ugphysics::VelocityError;
+use ugscene::CameraError;
 
 use crate::adaptive::MAX_PIECES;
 
@@ -24,6 +25,10 @@ pub enum Error {
     },
     /// A velocity of the scene is none. Readers refuse such scenes.
     SceneVelocity(VelocityError),
+    /// Nobody says where the camera looks, so what it sees is not known ([`crate::Config::cull`]).
+    NoViewCenter,
+    /// The camera makes no sense.
+    Camera(CameraError),
     /// The bound of [`crate::Pieces::UpTo`] is not above 0, or not finite.
     NoBound {
         /// The bound given, radians.
@@ -59,6 +64,7 @@ impl Error {
             self,
             Error::Velocity(_)
                 | Error::CameraVelocity(_)
+                | Error::NoViewCenter
                 | Error::NoBound { .. }
                 | Error::NoPieces
                 | Error::TooManyPieces { .. }
@@ -87,6 +93,8 @@ impl Error {
                 beta.x, beta.y, beta.z
             ),
             Error::SceneVelocity(error) => error.to_string(),
+            Error::NoViewCenter => "-cull does not know where the camera looks".to_string(),
+            Error::Camera(error) => error.to_string(),
             Error::NoBound { error } => format!("the bound of -se is {} milliradians", error * 1e3),
             Error::NoPieces => "-sd 0 leaves no pieces".to_string(),
             Error::TooManyPieces { n_pieces } => {
@@ -103,7 +111,12 @@ impl Error {
 
     fn remedy(&self) -> &'static str {
         match self {
-            Error::Scene(_) | Error::Velocity(_) | Error::CameraVelocity(_) | Error::SceneVelocity(_) => "",
+            Error::Scene(_)
+            | Error::Velocity(_)
+            | Error::CameraVelocity(_)
+            | Error::SceneVelocity(_)
+            | Error::Camera(_) => "",
+            Error::NoViewCenter => "give the view centre with -vc, or in the `cam` statement of the scene",
             Error::TooFast { .. } => "make one of them slower",
             Error::NoBound { .. } => "give a number above 0",
             Error::NoPieces => "give 1 or more",

@@ -58,6 +58,7 @@
 mod adaptive;
 mod attributes;
 mod cli;
+mod cull;
 mod edge;
 mod equal;
 mod error;
@@ -67,12 +68,13 @@ mod motion;
 mod notes;
 mod pieces;
 mod placement;
+mod viewpoint;
 
 use glam::DVec3;
 use rayon::prelude::*;
-use ugparse::{Camera, Diagnostics, Item, Scene, Source, VelocityId};
+use ugparse::{Diagnostics, Item, Scene, Source, VelocityId};
 use ugphysics::Velocity;
-use ugscene::{Bodies, Geometry};
+use ugscene::{Bodies, CameraOptions, Geometry};
 
 pub use cli::{Args, main};
 pub use error::Error;
@@ -97,6 +99,11 @@ pub struct Config {
     pub camera_velocity: Option<DVec3>,
     /// The eye in scene coordinates; beats the scene's camera (`-ep`).
     pub eye: Option<DVec3>,
+    /// What else of the camera to write into the scene (`-vc`, `-ud`, `-va`, `-og`). Its eye is left alone:
+    /// [`Config::eye`] counts.
+    pub camera: CameraOptions,
+    /// Leave out faces that a picture of so many pixels across and down does not show (`-cull`, `-sz`).
+    pub cull: Option<[u32; 2]>,
     /// Time of the picture on the observer's clock, (P5) (`-ti`).
     pub time: f64,
     /// The point about which contraction leaves coordinates alone (`-an`); `None` is the eye, but the centre of
@@ -122,6 +129,8 @@ impl Default for Config {
             velocity: None,
             camera_velocity: None,
             eye: None,
+            camera: CameraOptions::default(),
+            cull: None,
             time: 0.0,
             anchor: None,
             in_place: false,
@@ -212,12 +221,21 @@ fn transform_owned(mut scene: Scene, config: &Config) -> Result<(Scene, Notes), 
     let motions = motions(&scene, velocity, camera, config.geometry)?;
     frame::carry_velocities(&mut scene, camera)?;
     let shifts = placement::shifts(&scene, &velocities, &motions, eye, config);
-    let points = points(&scene, &velocities, &motions, &shifts, eye);
+    let mut points = points(&scene, &velocities, &motions, &shifts, eye);
     refuse_vertices_at_eye(&scene, &points, &motions)?;
     placement::shift_lights(&mut scene, &motions, &shifts);
     if config.smooth {
         smooth(&mut scene, &points, &motions);
     }
+
+    viewpoint::set_camera(&mut scene, eye, &config.camera);
+    let n_culled = match config.cull {
+        Some(size) => {
+            let view = viewpoint::view(&scene, &config.camera, size)?;
+            cull::cull(&mut scene, &mut points, &motions, &view)
+        }
+        None => 0,
+    };
 
     let mut growth = Growth::new(&motions, points);
     let outcome = match config.pieces {
@@ -231,14 +249,14 @@ fn transform_owned(mut scene: Scene, config: &Config) -> Result<(Scene, Notes), 
     put_pieces(&mut scene, &outcome);
     attributes::add_vertices(&mut scene, &growth.recipes);
     set_positions(&mut scene, &growth, &shifts, eye)?;
-    set_eye(&mut scene, eye);
     scene.escapes.extend(config.geometry.escape());
     ugscene::record(&mut scene, PROGRAM, env!("CARGO_PKG_VERSION"), &config.command_line);
 
     let notes = Notes {
         was_seen_before,
         n_new_vertices: growth.recipes.len(),
-        n_new_faces: scene.faces.len() - n_faces,
+        n_new_faces: scene.faces.len() + n_culled - n_faces,
+        n_culled,
         n_too_deep: outcome.n_too_deep,
         is_full: outcome.is_full,
     };
@@ -353,13 +371,4 @@ fn set_positions(scene: &mut Scene, growth: &Growth, shifts: &[DVec3], eye: DVec
         None => Ok(()),
         Some(row) => Err(Error::OutOfRange { name: name(scene, row), row }),
     }
-}
-
-/// Writes the eye into the camera that counts.
-fn set_eye(scene: &mut Scene, eye: DVec3) {
-    if scene.cameras.is_empty() {
-        scene.cameras.push(Camera::default());
-    }
-    let row = frame::camera_row(scene).unwrap_or(0);
-    scene.cameras[row].eye = Some(eye);
 }

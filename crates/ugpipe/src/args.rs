@@ -125,6 +125,19 @@ pub fn finite(word: &str) -> Result<f64, String> {
         .ok_or_else(|| "not a finite number".to_owned())
 }
 
+/// Value parser of options that take a view angle, in degrees: it is above 0 and below 180.
+///
+/// # Errors
+/// Says so; clap names the word and the option.
+pub fn view_angle(word: &str) -> Result<f64, String> {
+    let degrees = finite(word)?;
+    if 0.0 < degrees && degrees < 180.0 {
+        Ok(degrees)
+    } else {
+        Err("a view angle is more than 0 and less than 180 degrees".to_owned())
+    }
+}
+
 /// The three numbers of an option declared as
 ///
 /// ```
@@ -171,6 +184,16 @@ mod tests {
         check(" 1", None);
         check("0x10", None);
         check("1,5", None);
+    }
+
+    #[test]
+    fn view_angles_fit_on_a_film() {
+        assert_eq!(view_angle("179.9"), Ok(179.9));
+        assert!(
+            [view_angle("0"), view_angle("180"), view_angle("-40"), view_angle("nan")]
+                .iter()
+                .all(Result::is_err)
+        );
     }
 
     #[test]

@@ -88,7 +88,7 @@ mod run;
 mod stage;
 mod text;
 
-pub use args::{CommonArgs, ONE_DASH, finite, vector};
+pub use args::{CommonArgs, ONE_DASH, finite, vector, view_angle};
 pub use failure::Failure;
 pub use input::Input;
 pub use run::{ToolArgs, main};

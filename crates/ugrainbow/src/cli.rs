@@ -7,7 +7,7 @@ use glam::DVec3;
 use ugimage::Format;
 use ugparse::{Options, Source};
 use ugphysics::Hsv;
-use ugpipe::{CommonArgs, Failure, Stage, ToolArgs, finite, vector};
+use ugpipe::{CommonArgs, Failure, Stage, ToolArgs, finite, vector, view_angle};
 use ugscene::{CameraOptions, HueScale};
 
 use crate::config::{Background, Config, Interpolation, Output};
@@ -221,13 +221,4 @@ fn redirect(output: Output, stage: &mut Stage) -> Result<(), Failure> {
 
 fn format_named(name: &str) -> Result<Format, String> {
     Format::from_name(name).ok_or_else(|| format!("none of the formats {}", Format::list()))
-}
-
-fn view_angle(word: &str) -> Result<f64, String> {
-    let degrees = finite(word)?;
-    if 0.0 < degrees && degrees < 180.0 {
-        Ok(degrees)
-    } else {
-        Err("a view angle is more than 0 and less than 180 degrees".to_owned())
-    }
 }
