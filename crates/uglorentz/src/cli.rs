@@ -1,5 +1,6 @@
 //! The command line of `uglorentz`.
 
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::{ArgAction, Parser};
@@ -8,7 +9,7 @@ use ugparse::{Options, Source};
 use ugpipe::{CommonArgs, Failure, Stage, ToolArgs, finite, vector, view_angle};
 use ugscene::{CameraOptions, Geometry};
 
-use crate::{Anchor, Config, DEFAULT_ERROR, Error, Pieces};
+use crate::{Anchor, Config, DEFAULT_ERROR, Error, Pieces, Table};
 
 /// Geometry of a UniGrafix scene as seen in relativistic motion
 ///
@@ -110,6 +111,13 @@ pub struct Args {
           help_heading = CAMERA)]
     size: Vec<u32>,
 
+    /// Also write what is measured at each vertex, to FILE.csv or FILE.ply
+    ///
+    /// Name, place, emission time on the camera's clock, Doppler factor, apparent distance, and the angle between
+    /// the motion and the light's way to the eye, in degrees: in the camera's frame and in the body's.
+    #[arg(id = "at", long = "at", visible_alias = "attributes", value_name = "FILE")]
+    attributes: Option<PathBuf>,
+
     #[command(flatten)]
     common: CommonArgs,
 }
@@ -139,6 +147,9 @@ fn run(args: &Args, stage: &mut Stage) -> Result<(), Failure> {
     }
     report.notes.warnings().iter().for_each(|warning| stage.warn(warning));
     stage.detail(&report.notes.summary());
+    if let (Some(path), Some(table)) = (&args.attributes, &report.table) {
+        stage.write_file(path, table)?;
+    }
     stage.write(&report.text())
 }
 
@@ -175,6 +186,7 @@ impl Args {
             pieces,
             smooth: self.smooth,
             geometry: Geometry { contraction: !self.no_contraction, flight_time: !self.no_flight_time },
+            table: self.attributes.as_deref().map(table).transpose()?,
             lax: self.common.lax(),
             command_line: command_line.to_string(),
         })
@@ -189,6 +201,14 @@ impl Args {
             is_orthographic: self.is_orthographic,
         }
     }
+}
+
+/// The format of a file of measurements.
+fn table(path: &Path) -> Result<Table, Failure> {
+    let ending = path.extension().map(|ending| ending.to_string_lossy()).unwrap_or_default();
+    Table::by_ending(&ending).ok_or_else(|| {
+        Failure::Usage("the file of -at is a table: its name ends with .csv or .ply".to_string())
+    })
 }
 
 fn anchor(words: &[String]) -> Result<Anchor, Failure> {

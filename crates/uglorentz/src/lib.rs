@@ -64,6 +64,7 @@ mod equal;
 mod error;
 mod frame;
 mod growth;
+mod measurement;
 mod motion;
 mod notes;
 mod pieces;
@@ -78,6 +79,7 @@ use ugscene::{Bodies, CameraOptions, Geometry};
 
 pub use cli::{Args, main};
 pub use error::Error;
+pub use measurement::{Measurement, Table, measure};
 pub use notes::Notes;
 
 use crate::edge::Tolerance;
@@ -117,6 +119,8 @@ pub struct Config {
     pub smooth: bool,
     /// Which effects to show (`-nc`, `--no-flight-time`).
     pub geometry: Geometry,
+    /// Measure the vertices as well (`-at`).
+    pub table: Option<Table>,
     /// Pass unknown statements on (`-lax`).
     pub lax: bool,
     /// What the head comment of the output says.
@@ -137,6 +141,7 @@ impl Default for Config {
             pieces: Pieces::UpTo(DEFAULT_ERROR),
             smooth: false,
             geometry: Geometry::default(),
+            table: None,
             lax: false,
             command_line: "uglorentz".to_string(),
         }
@@ -170,6 +175,8 @@ pub enum Pieces {
 pub struct Report {
     /// The scene as seen.
     pub scene: Scene,
+    /// Measurements, as the file that was asked for.
+    pub table: Option<Vec<u8>>,
     /// What was done.
     pub notes: Notes,
     /// What the reader changed to make the scene usable.
@@ -192,7 +199,11 @@ pub fn run(config: &Config, source: &Source) -> Result<Report, Error> {
     let parsed = ugparse::parse(source, &options).map_err(Error::Scene)?;
     let (scene, notes) = transform_owned(parsed.scene, config)
         .map_err(|error| error.located(source, &parsed.origins.vertices))?;
-    Ok(Report { scene, notes, warnings: parsed.warnings })
+    let table = config.table.map(|table| {
+        let rows = measure(&scene, ugscene::eye(&scene, None), config.time).map_err(Error::SceneVelocity)?;
+        Ok(table.write(&scene, &rows))
+    });
+    Ok(Report { scene, table: table.transpose()?, notes, warnings: parsed.warnings })
 }
 
 /// Gives a scene as seen.
