@@ -1,10 +1,8 @@
 //! Leaving out what the camera cannot see, before anything is cut.
 //!
 //! A face is left out if it certainly lies outside one of the half-spaces that hold all there is in the
-//! picture. What is seen is bent, but seen places are linear in rest coordinates p' and their length: with the
-//! boost (P3), p·n = p'·N − k|p'|, where N = n + (γ−1)(n·û)û and k = γβ n·û. Over a face this is largest at
-//! a corner where k ≤ 0; where k > 0, |p'| ≥ p'·a for every unit vector a leaves a bound that is linear, and
-//! so largest at a corner, too. With a toward the middle of the face the bound is close.
+//! picture. What is seen is bent, but seen places are linear in rest coordinates p' and their length, so their
+//! distance from a plane has a bound that is largest at a corner, (P27).
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -53,7 +51,7 @@ pub(crate) fn cull(scene: &mut Scene, points: &mut Vec<Point>, motions: &[Motion
     n_culled
 }
 
-/// True only if no point of the face is in the half-space as seen.
+/// True only if no point of the face is in the half-space as seen.  Eq. (P27)
 fn is_outside(space: &HalfSpace, motions: &[Motion], corners: &[&Point]) -> bool {
     let Some(first) = corners.first() else { return false };
     let motion = &motions[first.body as usize];
