@@ -1,5 +1,6 @@
 //! From the frame of the scene to that of a camera that moves in it.
 
+use glam::DVec3;
 use ugparse::Scene;
 use ugphysics::{Velocity, compose};
 
@@ -21,6 +22,17 @@ pub(crate) fn take_camera_velocity(scene: &mut Scene, config: &Config) -> Result
 pub(crate) fn camera_row(scene: &Scene) -> Option<usize> {
     let unnamed = scene.cameras.iter().position(|camera| camera.name.is_none());
     unnamed.or((!scene.cameras.is_empty()).then_some(0))
+}
+
+/// Gives all faces and wires one velocity. At rest, those that had none still have none.
+pub(crate) fn set_velocity(scene: &mut Scene, velocity: DVec3) {
+    let id = scene.velocity_id(velocity);
+    let faces = scene.faces.iter_mut().map(|face| &mut face.velocity);
+    for slot in faces.chain(scene.wires.iter_mut().map(|wire| &mut wire.velocity)) {
+        if velocity != DVec3::ZERO || slot.is_some() {
+            *slot = Some(id);
+        }
+    }
 }
 
 /// Gives everything that is drawn a velocity, for what rests in the scene moves in the frame of the camera.

@@ -220,7 +220,7 @@ fn transform_owned(mut scene: Scene, config: &Config) -> Result<(Scene, Notes), 
     let n_faces = scene.faces.len();
 
     if let Some(velocity) = config.velocity {
-        set_velocity(&mut scene, velocity);
+        frame::set_velocity(&mut scene, velocity);
     }
     let camera = frame::take_camera_velocity(&mut scene, config)?;
     if !camera.is_zero() {
@@ -233,10 +233,10 @@ fn transform_owned(mut scene: Scene, config: &Config) -> Result<(Scene, Notes), 
     frame::carry_velocities(&mut scene, camera)?;
     let shifts = placement::shifts(&scene, &velocities, &motions, eye, config);
     let mut points = points(&scene, &velocities, &motions, &shifts, eye);
-    refuse_vertices_at_eye(&scene, &points, &motions)?;
+    viewpoint::refuse_vertices_at_eye(&scene, &points, &motions)?;
     placement::shift_lights(&mut scene, &motions, &shifts);
     if config.smooth {
-        smooth(&mut scene, &points, &motions);
+        attributes::smooth(&mut scene, &points, &motions);
     }
 
     viewpoint::set_camera(&mut scene, eye, &config.camera);
@@ -286,17 +286,6 @@ fn check(config: &Config) -> Result<Velocity, Error> {
     Velocity::from_beta(config.velocity.unwrap_or(DVec3::ZERO)).map_err(Error::Velocity)
 }
 
-/// Gives all faces and wires one velocity. At rest, those that had none still have none.
-fn set_velocity(scene: &mut Scene, velocity: DVec3) {
-    let id = scene.velocity_id(velocity);
-    let faces = scene.faces.iter_mut().map(|face| &mut face.velocity);
-    for slot in faces.chain(scene.wires.iter_mut().map(|wire| &mut wire.velocity)) {
-        if velocity != DVec3::ZERO || slot.is_some() {
-            *slot = Some(id);
-        }
-    }
-}
-
 /// Of each body, in the order of [`placement::body`].
 fn motions(
     scene: &Scene,
@@ -326,34 +315,8 @@ fn points(
         .collect()
 }
 
-/// A moving point at the eye has no direction, and no Doppler factor.
-fn refuse_vertices_at_eye(scene: &Scene, points: &[Point], motions: &[Motion]) -> Result<(), Error> {
-    let is_at_eye = |point: &Point| point.rest == DVec3::ZERO && !motions[point.body as usize].is_at_rest();
-    if !points.par_iter().any(is_at_eye) {
-        return Ok(());
-    }
-    let faces = scene.faces.iter().map(|face| face.contours.clone());
-    let users = faces.chain(scene.wires.iter().map(|wire| wire.contours.clone()));
-    let mut used = users.flat_map(|rows| scene.contours.corners(rows));
-    match used.find(|vertex| is_at_eye(&points[vertex.index()])) {
-        None => Ok(()),
-        Some(vertex) => Err(Error::VertexAtEye { name: name(scene, vertex.index()), row: vertex.index() }),
-    }
-}
-
 fn name(scene: &Scene, row: usize) -> String {
     scene.names.get(scene.vertices[row].name).to_string()
-}
-
-/// Normals are in the axes of the scene, as its lights are.
-fn smooth(scene: &mut Scene, points: &[Point], motions: &[Motion]) {
-    let rest: Vec<DVec3> = points.iter().map(|point| point.rest).collect();
-    let normals = ugscene::smooth_normals(scene, &rest);
-    for ((vertex, normal), point) in scene.vertices.iter_mut().zip(normals).zip(points) {
-        if vertex.normal.is_none() && normal != DVec3::ZERO {
-            vertex.normal = Some(motions[point.body as usize].turned_back(normal));
-        }
-    }
 }
 
 /// Comments go with the first piece of their face.
