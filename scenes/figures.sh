@@ -85,5 +85,9 @@ ugdoppler -qt halves.ug | draw halves-mixed
 ugdoppler -qt -vr halves.ug | draw halves-repeated
 uglorentz -in dice.ug | shape | draw dice
 
-cargo --quiet xtask sheet "$out/sheet.png" 6 "$out"/{nguyen,chang,howard,lattice,halves,dice}*.png
+# Cars at 0.6c, from a camera that stands still and from one that drives at 0.5c.
+uglorentz -an center -cv 0 0 0 traffic.ug | shape | draw traffic-a-standing
+uglorentz -an center traffic.ug | shape | draw traffic-b-driving
+
+cargo --quiet xtask sheet "$out/sheet.png" 6 "$out"/{nguyen,chang,howard,lattice,halves,dice,traffic}*.png
 printf 'The pictures are in %s, all of them on %s/sheet.png\n' "$out" "$out"

@@ -97,6 +97,14 @@ fn every_body_has_its_own_velocity() {
 }
 
 #[test]
+fn the_camera_moves_among_cars() {
+    let mut traffic = Pipe::default().shape();
+    traffic.lorentz.anchor = Some(uglorentz::Anchor::Center);
+    traffic.rainbow.size = SIZE;
+    check("moving-camera-traffic", "traffic", &traffic);
+}
+
+#[test]
 fn colours_meet_at_vertices() {
     let mut halves = pipe(0.0, 0.0, 0.0);
     check("colours-mixed-halves", "halves", &halves);

@@ -88,12 +88,16 @@ struct Case {
     beta: Option<DVec3>,
     in_place: bool,
     eye: Option<DVec3>,
+    /// Of the camera in the scene.
+    camera: Option<DVec3>,
+    /// In place of the file of the scene.
+    text: Option<&'static str>,
 }
 
 impl Case {
     /// A scene as it stands, cut as finely as by default.
     const fn new(scene: &'static str) -> Self {
-        Self { scene, beta: None, in_place: false, eye: None }
+        Self { scene, beta: None, in_place: false, eye: None, camera: None, text: None }
     }
 }
 
@@ -237,9 +241,11 @@ fn painted(oracle: &Oracle, camera: &Pinhole) -> Picture {
 
 /// Draws a case both ways. The error says what differs, and where to look at it.
 fn check(case: Case) -> Result<(), String> {
-    let scene = recolored(scenes::parse(&scenes::text(case.scene)));
+    let text = case.text.map_or_else(|| scenes::text(case.scene), |text| text.as_bytes().to_vec());
+    let scene = recolored(scenes::parse(&text));
     let mut pipe = Pipe::default().shape();
     pipe.lorentz.velocity = case.beta;
+    pipe.lorentz.camera_velocity = case.camera;
     pipe.lorentz.in_place = case.in_place;
     pipe.lorentz.eye = case.eye;
     pipe.doppler.repeat = true;
@@ -250,10 +256,11 @@ fn check(case: Case) -> Result<(), String> {
     let camera = scene.camera().unwrap();
     let eye = case.eye.or(camera.eye).unwrap();
     let oracle = Oracle::new(&scene, eye, case.beta, case.in_place);
+    let oracle = case.camera.into_iter().fold(oracle, Oracle::seen_by);
     let camera = Pinhole::new(camera, eye, SIZE);
     let agreement = compare(&actual, &oracle, &camera);
 
-    let name = match case.beta {
+    let name = match case.beta.or(case.camera) {
         Some(beta) => format!("{}-{:.2}c", case.scene, beta.length()),
         None => case.scene.to_string(),
     };
@@ -311,4 +318,28 @@ fn lattice_is_flown_through() {
 #[test]
 fn dice_have_five_velocities() {
     check_all([Case { in_place: true, ..Case::new("dice") }]);
+}
+
+/// Houses, cars and the camera are in four frames.
+#[test]
+fn traffic_is_seen_from_a_car() {
+    check_all(SPEEDS.map(|speed| Case { camera: Some(speed * DVec3::Y), ..Case::new("traffic") }));
+    let aside = DVec3::new(0.4, 0.6, -0.1);
+    check_all([Case { camera: Some(aside), ..Case::new("traffic") }]);
+}
+
+/// Where plates of different velocity cut through each other, the later emission is seen, (P22).
+#[test]
+fn moving_bodies_cut_through_each_other() {
+    const PLATES: &str = "cam -ep 0 -1 0 -vc 0 6 0 -ud 0 0 1 -va 60 45;
+        v a -3 4 -2; v b 3 8 -2; v c 3 8 2; v d -3 4 2; f (a b c d) <0.7 0 0>;
+        v e -3 8 -2; v f 3 4 -2; v g 3 4 2; v h -3 8 2; f (e f g h) <-0.5 0.3 0>;
+        v i -2 5 -2; v j 2 5 -2; v k 2 7 2; v l -2 7 2; f (i j k l) <0 -0.6 0.6>;
+        v m -2 7 -1; v n 2 7 -1; v o 2 5 1; v p -2 5 1; f (m n o p);";
+    check_all([Case { in_place: true, text: Some(PLATES), ..Case::new("plates") }]);
+    check_all([DVec3::new(0.18, 0.0, 0.24), DVec3::new(0.2, 0.8, 0.0)].map(|camera| Case {
+        camera: Some(camera),
+        text: Some(PLATES),
+        ..Case::new("plates")
+    }));
 }

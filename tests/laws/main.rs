@@ -4,7 +4,9 @@
 
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test fails by panicking")]
 
+mod culling;
 mod exact;
+mod moving_camera;
 mod notice;
 mod outlines;
 mod rest;

@@ -273,6 +273,16 @@ impl Oracle {
         }
     }
 
+    /// The same seen by a camera that moves with `camera`; velocities are then those in the frame of the
+    /// scene. From the camera's frame a ray goes through that of the scene into those of the bodies, (P7).
+    #[must_use]
+    pub fn seen_by(mut self, camera: DVec3) -> Self {
+        for body in &mut self.bodies {
+            body.boost *= boost(-camera);
+        }
+        self
+    }
+
     /// What is seen in each of some neighbouring directions.
     pub fn faces(&self, directions: &[DVec3]) -> Vec<Option<usize>> {
         let mut nearest: Vec<(f64, Option<usize>)> = vec![(f64::INFINITY, None); directions.len()];

@@ -1,4 +1,4 @@
-//! Names, colours and normals of new vertices.
+//! Normals, and the names, colours and normals of new vertices.
 
 use glam::DVec3;
 use rustc_hash::FxHashMap;
@@ -7,6 +7,7 @@ use ugphysics::Hsv;
 use ugscene::HueScale;
 
 use crate::growth::Recipe;
+use crate::motion::{Motion, Point};
 
 /// What the names of new vertices and colours begin with; a number follows.
 const PREFIX: &str = "s#";
@@ -20,6 +21,17 @@ pub(crate) fn add_vertices(scene: &mut Scene, recipes: &[Recipe]) {
         let normal = mean_normal(scene, recipe);
         let name = scene.names.add_parts(&[&prefix, &(idx + 1).to_string()]);
         scene.vertices.push(Vertex { name, position: DVec3::ZERO, color, normal });
+    }
+}
+
+/// Gives vertices without a normal the mean of their faces'. Normals are in the axes of the scene, as its lights are.
+pub(crate) fn smooth(scene: &mut Scene, points: &[Point], motions: &[Motion]) {
+    let rest: Vec<DVec3> = points.iter().map(|point| point.rest).collect();
+    let normals = ugscene::smooth_normals(scene, &rest);
+    for ((vertex, normal), point) in scene.vertices.iter_mut().zip(normals).zip(points) {
+        if vertex.normal.is_none() && normal != DVec3::ZERO {
+            vertex.normal = Some(motions[point.body as usize].turned_back(normal));
+        }
     }
 }
 

@@ -1,14 +1,15 @@
 //! The command line of `uglorentz`.
 
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::{ArgAction, Parser};
 use glam::DVec3;
 use ugparse::pipe;
-use ugpipe::{CommonArgs, Failure, Stage, ToolArgs, finite, vector};
-use ugscene::Geometry;
+use ugpipe::{CommonArgs, Failure, Stage, ToolArgs, finite, vector, view_angle};
+use ugscene::{CameraOptions, Geometry};
 
-use crate::{Anchor, Config, DEFAULT_ERROR, Error, Pieces};
+use crate::{Anchor, Config, DEFAULT_ERROR, Error, Pieces, Table};
 
 /// Geometry of a UniGrafix scene as seen in relativistic motion
 ///
@@ -21,6 +22,14 @@ pub struct Args {
     #[arg(long = "vel", visible_alias = "velocity", value_names = ["X", "Y", "Z"], num_args = 3,
           action = ArgAction::Set, allow_hyphen_values = true, value_parser = finite)]
     velocity: Option<Vec<f64>>,
+
+    /// Velocity of the camera in the scene, fraction of c [default: the scene's, else 0]
+    ///
+    /// Velocities of objects are then those in the scene, too. Where the camera looks, -vc and -ud, is said in
+    /// its own frame.
+    #[arg(long = "cv", visible_alias = "camera-velocity", value_names = ["X", "Y", "Z"], num_args = 3,
+          action = ArgAction::Set, allow_hyphen_values = true, value_parser = finite)]
+    camera_velocity: Option<Vec<f64>>,
 
     /// Eye point [default: that of the scene's camera, else the origin]
     #[arg(long = "ep", visible_alias = "eye", value_names = ["X", "Y", "Z"], num_args = 3,
@@ -68,14 +77,58 @@ pub struct Args {
     #[arg(long = "no-flight-time")]
     no_flight_time: bool,
 
+    /// Leave out faces that the camera does not see
+    ///
+    /// They are not cut either. The picture stays the same, if ugrainbow has the same -va and -sz; the
+    /// scene's camera or -vc must say where it looks.
+    #[arg(long = "cull", help_heading = CAMERA)]
+    cull: bool,
+
+    /// View centre, written into the scene's camera
+    #[arg(long = "vc", visible_alias = "center", value_names = ["X", "Y", "Z"], num_args = 3,
+          action = ArgAction::Set, allow_hyphen_values = true, value_parser = finite, help_heading = CAMERA)]
+    center: Option<Vec<f64>>,
+
+    /// Up direction, written into the scene's camera
+    #[arg(long = "ud", visible_alias = "up", value_names = ["X", "Y", "Z"], num_args = 3,
+          action = ArgAction::Set, allow_hyphen_values = true, value_parser = finite, help_heading = CAMERA)]
+    up: Option<Vec<f64>>,
+
+    /// View angle across and, if given, down, in degrees, written into the scene's camera
+    ///
+    /// The angle down is for -cull alone: give it to ugrainbow, too.
+    #[arg(long = "va", visible_alias = "view-angle", num_args = 1..=2, value_names = ["A", "B"],
+          action = ArgAction::Set, value_parser = view_angle, help_heading = CAMERA)]
+    view_angle: Option<Vec<f64>>,
+
+    /// Orthographic projection, written into the scene's camera
+    #[arg(long = "og", visible_alias = "orthographic", help_heading = CAMERA)]
+    is_orthographic: bool,
+
+    /// Size of the picture in pixels, for -cull: its shape counts
+    #[arg(long = "sz", visible_alias = "size", num_args = 2, value_names = ["W", "H"], action = ArgAction::Set,
+          default_values = ["1024", "768"], value_parser = clap::value_parser!(u32).range(1..),
+          help_heading = CAMERA)]
+    size: Vec<u32>,
+
+    /// Also write what is measured at each vertex, to FILE.csv or FILE.ply
+    ///
+    /// Name, place, emission time on the camera's clock, Doppler factor, apparent distance, and the angle between
+    /// the motion and the light's way to the eye, in degrees: in the camera's frame and in the body's.
+    #[arg(id = "at", long = "at", visible_alias = "attributes", value_name = "FILE")]
+    attributes: Option<PathBuf>,
+
     #[command(flatten)]
     common: CommonArgs,
 }
 
+const CAMERA: &str = "Camera";
+
 const EXAMPLES: &str = "Examples:
   uglorentz -vel .9 0 0 ship.ug | ugdoppler | ugrainbow > ship.png
   uglorentz -vel .9 0 0 -in ship.ug        the ship stays in the picture at any speed
-  uglorentz -vel 0 .9 0 -ti -2 street.ug   two units of time earlier";
+  uglorentz -vel 0 .9 0 -ti -2 street.ug   two units of time earlier
+  uglorentz -cv 0 .9 0 street.ug           the camera drives; cars keep their velocities in the street";
 
 /// The whole program.
 pub fn main() -> ExitCode {
@@ -91,6 +144,9 @@ fn run(args: &Args, stage: &mut Stage) -> Result<(), Failure> {
     }
     report.notes.warnings().iter().for_each(|warning| stage.warn(warning));
     stage.detail(&report.notes.summary());
+    if let (Some(path), Some(table)) = (&args.attributes, &report.table) {
+        stage.write_file(path, table)?;
+    }
     stage.write(&report.text())
 }
 
@@ -117,17 +173,39 @@ impl Args {
         };
         Ok(Config {
             velocity: vector(self.velocity.as_deref()).map(DVec3::from_array),
+            camera_velocity: vector(self.camera_velocity.as_deref()).map(DVec3::from_array),
             eye: vector(self.eye.as_deref()).map(DVec3::from_array),
+            camera: self.camera(),
+            cull: self.cull.then(|| [self.size[0], self.size[1]]),
             time: self.time,
             anchor: self.anchor.as_deref().map(anchor).transpose()?,
             in_place: self.in_place,
             pieces,
             smooth: self.smooth,
             geometry: Geometry { contraction: !self.no_contraction, flight_time: !self.no_flight_time },
+            table: self.attributes.as_deref().map(table).transpose()?,
             reading: pipe::options(&self.common)?,
             command_line: command_line.to_string(),
         })
     }
+
+    fn camera(&self) -> CameraOptions {
+        CameraOptions {
+            eye: None,
+            center: vector(self.center.as_deref()).map(DVec3::from_array),
+            up: vector(self.up.as_deref()).map(DVec3::from_array),
+            view_angle: self.view_angle.as_ref().map(|angles| (angles[0], angles.get(1).copied())),
+            is_orthographic: self.is_orthographic,
+        }
+    }
+}
+
+/// The format of a file of measurements.
+fn table(path: &Path) -> Result<Table, Failure> {
+    let ending = path.extension().map(|ending| ending.to_string_lossy()).unwrap_or_default();
+    Table::by_ending(&ending).ok_or_else(|| {
+        Failure::Usage("the file of -at is a table: its name ends with .csv or .ply".to_string())
+    })
 }
 
 fn anchor(words: &[String]) -> Result<Anchor, Failure> {

@@ -2,8 +2,10 @@
 
 use std::fmt;
 
+use glam::DVec3;
 use ugparse::{Diagnostic, Diagnostics, Source, Span};
 use ugphysics::VelocityError;
+use ugscene::CameraError;
 
 use crate::adaptive::MAX_PIECES;
 
@@ -14,8 +16,19 @@ pub enum Error {
     Scene(Diagnostics),
     /// [`crate::Config::velocity`] is none.
     Velocity(VelocityError),
+    /// [`crate::Config::camera_velocity`] is none.
+    CameraVelocity(VelocityError),
+    /// A body and the camera meet so fast that the body's velocity in the camera's frame rounds to that of light.
+    TooFast {
+        /// The body's velocity in the frame of the scene.
+        beta: DVec3,
+    },
     /// A velocity of the scene is none. Readers refuse such scenes.
     SceneVelocity(VelocityError),
+    /// Nobody says where the camera looks, so what it sees is not known ([`crate::Config::cull`]).
+    NoViewCenter,
+    /// The camera makes no sense.
+    Camera(CameraError),
     /// The bound of [`crate::Pieces::UpTo`] is not above 0, or not finite.
     NoBound {
         /// The bound given, radians.
@@ -49,7 +62,12 @@ impl Error {
     pub fn is_usage(&self) -> bool {
         matches!(
             self,
-            Error::Velocity(_) | Error::NoBound { .. } | Error::NoPieces | Error::TooManyPieces { .. }
+            Error::Velocity(_)
+                | Error::CameraVelocity(_)
+                | Error::NoViewCenter
+                | Error::NoBound { .. }
+                | Error::NoPieces
+                | Error::TooManyPieces { .. }
         )
     }
 
@@ -68,7 +86,15 @@ impl Error {
         match self {
             Error::Scene(diagnostics) => diagnostics.to_string(),
             Error::Velocity(error) => format!("-vel: {error}"),
+            Error::CameraVelocity(error) => format!("-cv: {error}"),
+            Error::TooFast { beta } => format!(
+                "what moves with {} {} {} in the scene meets the camera (-cv) too near the speed of light to \
+                 be written as a velocity",
+                beta.x, beta.y, beta.z
+            ),
             Error::SceneVelocity(error) => error.to_string(),
+            Error::NoViewCenter => "-cull does not know where the camera looks".to_string(),
+            Error::Camera(error) => error.to_string(),
             Error::NoBound { error } => format!("the bound of -se is {} milliradians", error * 1e3),
             Error::NoPieces => "-sd 0 leaves no pieces".to_string(),
             Error::TooManyPieces { n_pieces } => {
@@ -85,7 +111,13 @@ impl Error {
 
     fn remedy(&self) -> &'static str {
         match self {
-            Error::Scene(_) | Error::Velocity(_) | Error::SceneVelocity(_) => "",
+            Error::Scene(_)
+            | Error::Velocity(_)
+            | Error::CameraVelocity(_)
+            | Error::SceneVelocity(_)
+            | Error::Camera(_) => "",
+            Error::NoViewCenter => "give the view centre with -vc, or in the `cam` statement of the scene",
+            Error::TooFast { .. } => "make one of them slower",
             Error::NoBound { .. } => "give a number above 0",
             Error::NoPieces => "give 1 or more",
             Error::TooManyPieces { .. } => "give fewer, or use -se, which cuts only where it shows",

@@ -58,23 +58,28 @@
 mod adaptive;
 mod attributes;
 mod cli;
+mod cull;
 mod edge;
 mod equal;
 mod error;
+mod frame;
 mod growth;
+mod measurement;
 mod motion;
 mod notes;
 mod pieces;
 mod placement;
+mod viewpoint;
 
 use glam::DVec3;
 use rayon::prelude::*;
-use ugparse::{Camera, Diagnostics, Item, Options, Scene, Source, VelocityId};
+use ugparse::{Diagnostics, Item, Options, Scene, Source, VelocityId};
 use ugphysics::Velocity;
-use ugscene::{Bodies, Geometry};
+use ugscene::{Bodies, CameraOptions, Geometry};
 
 pub use cli::{Args, main};
 pub use error::Error;
+pub use measurement::{Measurement, Table, measure};
 pub use notes::Notes;
 
 use crate::edge::Tolerance;
@@ -91,8 +96,16 @@ pub const DEFAULT_ERROR: f64 = 0.1e-3;
 pub struct Config {
     /// Velocity of everything, fraction of c; beats velocities in the scene (`-vel`).
     pub velocity: Option<DVec3>,
+    /// Velocity of the camera in the frame of the scene, fraction of c; beats that of the scene's camera (`-cv`).
+    /// Velocities are then those in the frame of the scene, and come out as those in the frame of the camera.
+    pub camera_velocity: Option<DVec3>,
     /// The eye in scene coordinates; beats the scene's camera (`-ep`).
     pub eye: Option<DVec3>,
+    /// What else of the camera to write into the scene (`-vc`, `-ud`, `-va`, `-og`). Its eye is left alone:
+    /// [`Config::eye`] counts.
+    pub camera: CameraOptions,
+    /// Leave out faces that a picture of so many pixels across and down does not show (`-cull`, `-sz`).
+    pub cull: Option<[u32; 2]>,
     /// Time of the picture on the observer's clock, (P5) (`-ti`).
     pub time: f64,
     /// The point about which contraction leaves coordinates alone (`-an`); `None` is the eye, but the centre of
@@ -106,6 +119,8 @@ pub struct Config {
     pub smooth: bool,
     /// Which effects to show (`-nc`, `--no-flight-time`).
     pub geometry: Geometry,
+    /// Measure the vertices as well (`-at`).
+    pub table: Option<Table>,
     /// How the scene is read.
     pub reading: Options,
     /// What the head comment of the output says.
@@ -116,13 +131,17 @@ impl Default for Config {
     fn default() -> Config {
         Config {
             velocity: None,
+            camera_velocity: None,
             eye: None,
+            camera: CameraOptions::default(),
+            cull: None,
             time: 0.0,
             anchor: None,
             in_place: false,
             pieces: Pieces::UpTo(DEFAULT_ERROR),
             smooth: false,
             geometry: Geometry::default(),
+            table: None,
             reading: Options::default(),
             command_line: "uglorentz".to_string(),
         }
@@ -156,6 +175,8 @@ pub enum Pieces {
 pub struct Report {
     /// The scene as seen.
     pub scene: Scene,
+    /// Measurements, as the file that was asked for.
+    pub table: Option<Vec<u8>>,
     /// What was done.
     pub notes: Notes,
     /// What the reader changed to make the scene usable.
@@ -177,7 +198,11 @@ pub fn run(config: &Config, source: &Source) -> Result<Report, Error> {
     let parsed = ugscene::read(source, &config.reading).map_err(Error::Scene)?;
     let (scene, notes) = transform_owned(parsed.scene, config)
         .map_err(|error| error.located(source, &parsed.origins.vertices))?;
-    Ok(Report { scene, notes, warnings: parsed.warnings })
+    let table = config.table.map(|table| {
+        let rows = measure(&scene, ugscene::eye(&scene, None), config.time).map_err(Error::SceneVelocity)?;
+        Ok(table.write(&scene, &rows))
+    });
+    Ok(Report { scene, table: table.transpose()?, notes, warnings: parsed.warnings })
 }
 
 /// Gives a scene as seen.
@@ -190,23 +215,37 @@ pub fn transform(scene: &Scene, config: &Config) -> Result<(Scene, Notes), Error
 
 fn transform_owned(mut scene: Scene, config: &Config) -> Result<(Scene, Notes), Error> {
     let velocity = check(config)?;
-    let was_seen_before = ugscene::history(&scene).iter().any(|line| line.split(' ').next() == Some(PROGRAM));
+    let was_seen_before = frame::was_seen_before(&scene);
     let n_faces = scene.faces.len();
 
     if let Some(velocity) = config.velocity {
-        set_velocity(&mut scene, velocity);
+        frame::set_velocity(&mut scene, velocity);
+    }
+    let camera = frame::take_camera_velocity(&mut scene, config)?;
+    if !camera.is_zero() {
+        frame::give_velocities(&mut scene, velocity);
     }
     ugscene::separate_bodies(&mut scene);
     let eye = ugscene::eye(&scene, config.eye);
     let velocities = ugscene::vertex_velocities(&scene);
-    let motions = motions(&scene, velocity, config.geometry)?;
+    let motions = motions(&scene, velocity, camera, config.geometry)?;
+    frame::carry_velocities(&mut scene, camera)?;
     let shifts = placement::shifts(&scene, &velocities, &motions, eye, config);
-    let points = points(&scene, &velocities, &motions, &shifts, eye);
-    refuse_vertices_at_eye(&scene, &points, &motions)?;
-    placement::shift_lights(&mut scene, &shifts);
+    let mut points = points(&scene, &velocities, &motions, &shifts, eye);
+    viewpoint::refuse_vertices_at_eye(&scene, &points, &motions)?;
+    placement::shift_lights(&mut scene, &motions, &shifts);
     if config.smooth {
-        smooth(&mut scene, &points);
+        attributes::smooth(&mut scene, &points, &motions);
     }
+
+    viewpoint::set_camera(&mut scene, eye, &config.camera);
+    let n_culled = match config.cull {
+        Some(size) => {
+            let view = viewpoint::view(&scene, &config.camera, size)?;
+            cull::cull(&mut scene, &mut points, &motions, &view)
+        }
+        None => 0,
+    };
 
     let mut growth = Growth::new(&motions, points);
     let outcome = match config.pieces {
@@ -219,15 +258,15 @@ fn transform_owned(mut scene: Scene, config: &Config) -> Result<(Scene, Notes), 
     };
     put_pieces(&mut scene, &outcome);
     attributes::add_vertices(&mut scene, &growth.recipes);
-    set_positions(&mut scene, &growth, eye)?;
-    set_eye(&mut scene, eye);
+    set_positions(&mut scene, &growth, &shifts, eye)?;
     scene.escapes.extend(config.geometry.escape());
     ugscene::record(&mut scene, PROGRAM, env!("CARGO_PKG_VERSION"), &config.command_line);
 
     let notes = Notes {
         was_seen_before,
         n_new_vertices: growth.recipes.len(),
-        n_new_faces: scene.faces.len() - n_faces,
+        n_new_faces: scene.faces.len() + n_culled - n_faces,
+        n_culled,
         n_too_deep: outcome.n_too_deep,
         is_full: outcome.is_full,
     };
@@ -246,22 +285,16 @@ fn check(config: &Config) -> Result<Velocity, Error> {
     Velocity::from_beta(config.velocity.unwrap_or(DVec3::ZERO)).map_err(Error::Velocity)
 }
 
-/// Gives all faces and wires one velocity. At rest, those that had none still have none.
-fn set_velocity(scene: &mut Scene, velocity: DVec3) {
-    let id = scene.velocity_id(velocity);
-    let faces = scene.faces.iter_mut().map(|face| &mut face.velocity);
-    for slot in faces.chain(scene.wires.iter_mut().map(|wire| &mut wire.velocity)) {
-        if velocity != DVec3::ZERO || slot.is_some() {
-            *slot = Some(id);
-        }
-    }
-}
-
 /// Of each body, in the order of [`placement::body`].
-fn motions(scene: &Scene, default: Velocity, geometry: Geometry) -> Result<Vec<Motion>, Error> {
+fn motions(
+    scene: &Scene,
+    default: Velocity,
+    camera: Velocity,
+    geometry: Geometry,
+) -> Result<Vec<Motion>, Error> {
     let bodies = Bodies::new(scene, default).map_err(Error::SceneVelocity)?;
     let velocities = [bodies.of(None)].into_iter().chain(bodies.all().iter().copied());
-    Ok(velocities.map(|velocity| Motion::new(velocity, geometry)).collect())
+    velocities.map(|velocity| Motion::seen_by(camera, velocity, geometry)).collect()
 }
 
 fn points(
@@ -275,38 +308,14 @@ fn points(
     vertices
         .map(|(vertex, &velocity)| {
             let body = placement::body(velocity);
-            motions[body].point(body as u32, vertex.position - eye + shifts[body])
+            let rest = motions[body].turned(vertex.position - eye) + shifts[body];
+            motions[body].point(body as u32, rest)
         })
         .collect()
 }
 
-/// A moving point at the eye has no direction, and no Doppler factor.
-fn refuse_vertices_at_eye(scene: &Scene, points: &[Point], motions: &[Motion]) -> Result<(), Error> {
-    let is_at_eye = |point: &Point| point.rest == DVec3::ZERO && !motions[point.body as usize].is_at_rest();
-    if !points.par_iter().any(is_at_eye) {
-        return Ok(());
-    }
-    let faces = scene.faces.iter().map(|face| face.contours.clone());
-    let users = faces.chain(scene.wires.iter().map(|wire| wire.contours.clone()));
-    let mut used = users.flat_map(|rows| scene.contours.corners(rows));
-    match used.find(|vertex| is_at_eye(&points[vertex.index()])) {
-        None => Ok(()),
-        Some(vertex) => Err(Error::VertexAtEye { name: name(scene, vertex.index()), row: vertex.index() }),
-    }
-}
-
 fn name(scene: &Scene, row: usize) -> String {
     scene.names.get(scene.vertices[row].name).to_string()
-}
-
-fn smooth(scene: &mut Scene, points: &[Point]) {
-    let rest: Vec<DVec3> = points.iter().map(|point| point.rest).collect();
-    let normals = ugscene::smooth_normals(scene, &rest);
-    for (vertex, normal) in scene.vertices.iter_mut().zip(normals) {
-        if vertex.normal.is_none() && normal != DVec3::ZERO {
-            vertex.normal = Some(normal);
-        }
-    }
 }
 
 /// Comments go with the first piece of their face.
@@ -322,11 +331,12 @@ fn put_pieces(scene: &mut Scene, outcome: &Outcome) {
     }
 }
 
-/// Where vertices are seen. A body at rest keeps its numbers to the bit.
-fn set_positions(scene: &mut Scene, growth: &Growth, eye: DVec3) -> Result<(), Error> {
+/// Where vertices are seen. A body at rest that was not moved keeps its numbers to the bit.
+fn set_positions(scene: &mut Scene, growth: &Growth, shifts: &[DVec3], eye: DVec3) -> Result<(), Error> {
     let n_old = growth.points.len() - growth.recipes.len();
+    let stays = |body: usize| growth.motions[body].is_at_rest() && shifts[body] == DVec3::ZERO;
     scene.vertices.par_iter_mut().zip(&growth.points).enumerate().for_each(|(row, (vertex, point))| {
-        if row >= n_old || !growth.motions[point.body as usize].is_at_rest() {
+        if row >= n_old || !stays(point.body as usize) {
             vertex.position = point.seen + eye;
         }
     });
@@ -334,13 +344,4 @@ fn set_positions(scene: &mut Scene, growth: &Growth, eye: DVec3) -> Result<(), E
         None => Ok(()),
         Some(row) => Err(Error::OutOfRange { name: name(scene, row), row }),
     }
-}
-
-/// Writes the eye into the camera that counts.
-fn set_eye(scene: &mut Scene, eye: DVec3) {
-    let unnamed = scene.cameras.iter().position(|camera| camera.name.is_none());
-    if scene.cameras.is_empty() {
-        scene.cameras.push(Camera::default());
-    }
-    scene.cameras[unnamed.unwrap_or(0)].eye = Some(eye);
 }

@@ -1,23 +1,55 @@
 //! Bodies in motion and points on them.
 
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 use ugphysics::Velocity;
 use ugscene::Geometry;
+
+use crate::{Error, frame};
 
 /// How one body moves, and which effects are shown.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Motion {
+    /// In the frame of the camera.
     velocity: Velocity,
+    in_scene: Velocity,
+    axes_from_scene: DQuat,
     geometry: Geometry,
 }
 
 impl Motion {
+    /// Of a body that moves with `velocity` in the frame of the camera, which is that of the scene.
     pub(crate) fn new(velocity: Velocity, geometry: Geometry) -> Motion {
-        Motion { velocity, geometry }
+        Motion { velocity, in_scene: velocity, axes_from_scene: DQuat::IDENTITY, geometry }
     }
 
+    /// Of a body that moves with `in_scene`, seen by a camera that moves with `camera`.
+    ///
+    /// # Errors
+    /// They meet too fast.
+    pub(crate) fn seen_by(camera: Velocity, in_scene: Velocity, geometry: Geometry) -> Result<Motion, Error> {
+        let velocity = frame::in_camera_frame(in_scene, camera)?;
+        let axes_from_scene = ugscene::axes_from_scene(velocity, camera);
+        Ok(Motion { in_scene, axes_from_scene, ..Motion::new(velocity, geometry) })
+    }
+
+    /// In the frame of the camera.
     pub(crate) fn velocity(&self) -> Velocity {
         self.velocity
+    }
+
+    /// In the frame of the scene.
+    pub(crate) fn in_scene(&self) -> Velocity {
+        self.in_scene
+    }
+
+    /// Rest coordinates, or a direction, in the axes that this module uses; `p` is in those of the scene. (P25)
+    pub(crate) fn turned(&self, p: DVec3) -> DVec3 {
+        self.axes_from_scene * p
+    }
+
+    /// The inverse of [`Motion::turned`].
+    pub(crate) fn turned_back(&self, p: DVec3) -> DVec3 {
+        self.axes_from_scene.inverse() * p
     }
 
     pub(crate) fn is_at_rest(&self) -> bool {
@@ -54,9 +86,9 @@ impl Motion {
         self.velocity.proper_speed()
     }
 
-    /// γ − 1 = (γβ)²/(γ + 1), which does not cancel.
+    /// γ − 1 of the motion in the frame of the camera.
     pub(crate) fn gamma_minus_one(&self) -> f64 {
-        self.proper_speed() * (self.proper_speed() / (self.gamma() + 1.0))
+        gamma_minus_one(self.velocity)
     }
 
     /// The rest coordinates that (P3) maps to where `rest` is seen. Without contraction they are longer along
@@ -82,10 +114,15 @@ impl Motion {
     }
 }
 
+/// γ − 1 = (γβ)²/(γ + 1), which does not cancel.
+pub(crate) fn gamma_minus_one(v: Velocity) -> f64 {
+    v.proper_speed() * (v.proper_speed() / (v.gamma() + 1.0))
+}
+
 /// A point of a body, relative to the eye.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Point {
-    /// Rest coordinates.
+    /// Rest coordinates, in the axes of [`Motion::turned`].
     pub rest: DVec3,
     /// Where it is seen.
     pub seen: DVec3,

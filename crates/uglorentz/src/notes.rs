@@ -11,6 +11,8 @@ pub struct Notes {
     pub n_new_vertices: usize,
     /// Faces added by cutting.
     pub n_new_faces: usize,
+    /// Faces of the scene left out because the camera does not see them.
+    pub n_culled: usize,
     /// Edges that still bend and were not cut further.
     pub n_too_deep: usize,
     /// Cutting stopped early, at the largest number of pieces.
@@ -46,6 +48,10 @@ impl Notes {
 
     /// What was cut, for those who want to know.
     pub fn summary(&self) -> String {
-        format!("cutting added {} faces and {} vertices", self.n_new_faces, self.n_new_vertices)
+        let cut = format!("cutting added {} faces and {} vertices", self.n_new_faces, self.n_new_vertices);
+        match self.n_culled {
+            0 => cut,
+            n_culled => format!("{cut}; {n_culled} faces out of sight were left out"),
+        }
     }
 }

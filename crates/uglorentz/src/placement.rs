@@ -7,7 +7,7 @@ use glam::DVec3;
 use ugparse::{LightKind, Scene, VelocityId};
 use ugphysics::observer_shift;
 
-use crate::motion::Motion;
+use crate::motion::{Motion, gamma_minus_one};
 use crate::{Anchor, Config};
 
 /// Row of a body in the tables of this module: 0 for what carries no velocity.
@@ -15,7 +15,7 @@ pub(crate) fn body(velocity: Option<VelocityId>) -> usize {
     velocity.map_or(0, |id| id.index() + 1)
 }
 
-/// What to add to the rest coordinates of each body.
+/// What to add to the rest coordinates of each body, in the axes of [`Motion::turned`].
 ///
 /// `velocities`: of each vertex. `motions`: of each body.
 pub(crate) fn shifts(
@@ -39,24 +39,26 @@ pub(crate) fn shifts(
     };
     let mut shifts: Vec<DVec3> = motions.iter().zip(&centers).map(shift).collect();
     // Vertices that nothing uses carry no velocity; they stay with the body that moves as they do.
-    let twin = (1..motions.len()).find(|&row| motions[row].velocity() == motions[0].velocity());
+    let twin = (1..motions.len()).find(|&row| motions[row].in_scene() == motions[0].in_scene());
     if let Some(row) = twin {
         shifts[0] = shifts[row];
     }
     shifts
 }
 
-/// `anchor`: relative to the eye.
+/// `anchor`: relative to the eye, in the axes of the scene, or of the camera if bodies are put in place.  (P26)
 fn anchor_shift(motion: &Motion, anchor: DVec3, in_place: bool) -> DVec3 {
-    if motion.is_at_rest() {
-        DVec3::ZERO
-    } else if in_place {
+    if in_place {
+        if motion.is_at_rest() {
+            return DVec3::ZERO;
+        }
         // The rest position that is seen at the anchor, (P4), goes where the anchor is.
-        motion.rest(anchor) - anchor
+        motion.rest(anchor) - motion.turned(anchor)
     } else if motion.has_contraction() {
         // Contraction about A in place of the eye adds (1 − 1/γ)(A·û)û to (P1): γ times that in rest
-        // coordinates.
-        motion.direction() * (motion.gamma_minus_one() * anchor.dot(motion.direction()))
+        // coordinates. Bodies contract in the frame of the scene, by their motion there.
+        let v = motion.in_scene();
+        motion.turned(v.direction() * (gamma_minus_one(v) * anchor.dot(v.direction())))
     } else {
         DVec3::ZERO
     }
@@ -84,7 +86,7 @@ fn centers(scene: &Scene, velocities: &[Option<VelocityId>], n_bodies: usize) ->
 
 /// Moves the local lights of a scene that is all one body along with it. With several bodies nobody knows
 /// which of them a lamp belongs to; and a light with its own velocity is a body of its own.
-pub(crate) fn shift_lights(scene: &mut Scene, shifts: &[DVec3]) {
+pub(crate) fn shift_lights(scene: &mut Scene, motions: &[Motion], shifts: &[DVec3]) {
     let users = scene.faces.iter().map(|face| face.velocity).chain(scene.wires.iter().map(|w| w.velocity));
     let mut users = users.peekable();
     let Some(&first) = users.peek() else { return };
@@ -93,7 +95,7 @@ pub(crate) fn shift_lights(scene: &mut Scene, shifts: &[DVec3]) {
     }
     for light in scene.lights.iter_mut().filter(|light| light.velocity.is_none()) {
         if let LightKind::Local { position, .. } = &mut light.kind {
-            *position += shifts[body(first)];
+            *position += motions[body(first)].turned_back(shifts[body(first)]);
         }
     }
 }

@@ -50,6 +50,11 @@ fn options_have_two_spellings() {
     check("-vel .5 0 0 -ti -2.5 -ep 0 0 -1", "--velocity .5 0 0 --time -2.5 --eye 0 0 -1");
     check("-vel .5 0 0 -in -an 3 0 1 -se 1", "--vel .5 0 0 --in-place --anchor 3 0 1 --error 1");
     check("-vel .5 0 0 -an center -sd 2 -sm", "--vel .5 0 0 --anchor center --pieces 2 --smooth");
+    check("-cv .5 0 0", "--camera-velocity .5 0 0");
+    check(
+        "-cull -vc 3 1 1 -ud 0 1 0 -va 50 40 -og -sz 4 3",
+        "--cull --center 3 1 1 --up 0 1 0 --view-angle 50 40 --orthographic --size 4 3",
+    );
     check("-vel .5 0 0 -nc -no-flight-time", "--vel .5 0 0 --no-contraction --no-flight-time");
 }
 
@@ -111,4 +116,32 @@ fn help_names_every_option() {
     {
         assert!(help.contains(&format!("{option} ")) || help.contains(&format!("{option}\n")), "{option}");
     }
+}
+
+#[test]
+fn measurements_go_to_a_file_that_does_not_change_the_scene() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = |name: &str| folder.path().join(name).display().to_string();
+    let plain = run("-vel .6 0 0", TILE);
+    let output = run(&format!("-vel .6 0 0 -at {}", file("t.csv")), TILE);
+    assert_eq!(String::from_utf8(output.stderr).unwrap(), "");
+    assert_eq!(output.stdout, plain.stdout);
+    assert!(std::fs::read_to_string(file("t.csv")).unwrap().starts_with("name,x,y,z,"));
+
+    let fails = |args: &str, scene: &str, status: i32, expected: &str| {
+        let output = run(args, scene);
+        let stderr = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(status), "{stderr}");
+        assert!(stderr.contains(expected), "{stderr}");
+        assert!(output.stdout.is_empty());
+    };
+    fails("-at t.txt", TILE, 2, "its name ends with .csv or .ply");
+    fails(&format!("-at {0} -fo {0}", file("both.ply")), TILE, 2, "two outputs cannot go to one file");
+    fails(&format!("-at {}", file("none.csv")), "f (a b c);", 1, "`a` is not defined");
+    fails(&format!("-at {}", file("no/folder.csv")), TILE, 1, "cannot write");
+    // The scene could not be written, so there is no table either.
+    fails(&format!("-at {} -fo {}", file("late.csv"), file("no/scene.ug")), TILE, 1, "cannot write");
+    let left: Vec<_> =
+        std::fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+    assert_eq!(left, ["t.csv"]);
 }

@@ -62,5 +62,5 @@ pub use hue::{
     wavelength_to_hue,
 };
 pub use light::{Event, contracted, flight_time, observer_shift, rest_position, seen_event, seen_position};
-pub use lorentz::{Lorentz, compose};
+pub use lorentz::{Lorentz, compose, wigner_rotation};
 pub use velocity::{Velocity, VelocityError};

@@ -2,7 +2,7 @@
 
 use core::ops::Mul;
 
-use glam::{DMat4, DVec3, DVec4, Vec4Swizzles};
+use glam::{DMat4, DQuat, DVec3, DVec4, Vec4Swizzles};
 
 use crate::{Event, Velocity, VelocityError};
 
@@ -120,6 +120,49 @@ pub fn compose(u: Velocity, v: Velocity) -> Velocity {
     Velocity::from_proper(proper)
         .or_else(|_| Velocity::from_rapidity(proper, Velocity::MAX_RAPIDITY))
         .unwrap_or_default()
+}
+
+/// The Wigner rotation W of two motions: Λ(v)Λ(u) = Λ(w)W with w = [`compose`]`(u, v)`.  Eq. (P25)
+///
+/// It turns the axes of a body that moves with `u` in a frame that moves with `v` in S, both boosts with
+/// parallel axes, into the axes a single boost with w would give it. The rotation back is
+/// `wigner_rotation(v, u)`, and also `wigner_rotation(w, -v)`.
+///
+/// Angles are right to about 10⁻¹⁶ divided by 1 + b·b', (P25): a few units in the last place unless nearly
+/// opposite motions are both close to the speed of light.
+///
+/// ```
+/// use glam::DVec3;
+/// use ugphysics::{Velocity, wigner_rotation};
+///
+/// let along = Velocity::from_beta(DVec3::new(0.8, 0.0, 0.0))?;
+/// let aside = Velocity::from_beta(DVec3::new(0.0, 0.8, 0.0))?;
+/// let turned = wigner_rotation(aside, along) * DVec3::X;
+/// let gamma = 5.0 / 3.0;
+/// assert!((turned.x - 2.0 * gamma / (1.0 + gamma * gamma)).abs() < 1e-15);
+/// # Ok::<(), ugphysics::VelocityError>(())
+/// ```
+#[must_use]
+pub fn wigner_rotation(u: Velocity, v: Velocity) -> DQuat {
+    // The sum of the directions is exact where they are nearly opposite, and there their cross product and
+    // 1 + cos φ must not come from a difference of rounded products.
+    let sum = u.direction() + v.direction();
+    let cross = sum.cross(v.direction());
+    let (b, gap) = half_speed(u);
+    let (b_frame, gap_frame) = half_speed(v);
+    if cross == DVec3::ZERO || b == 0.0 || b_frame == 0.0 {
+        return DQuat::IDENTITY;
+    }
+    let one_minus_product = gap + b * gap_frame;
+    let real = one_minus_product + b * b_frame * (0.5 * sum.length_squared());
+    let axis = b * b_frame * cross;
+    DQuat::from_xyzw(axis.x, axis.y, axis.z, real).normalize()
+}
+
+/// tanh η/2 = |u|/(γ+1), and what it lacks of 1: (1 + e^{−η})/(γ+1).
+fn half_speed(v: Velocity) -> (f64, f64) {
+    let per = 1.0 / (v.gamma() + 1.0);
+    (v.proper_speed() * per, (1.0 + v.exp_minus_rapidity()) * per)
 }
 
 fn column(t: f64, x: DVec3) -> DVec4 {

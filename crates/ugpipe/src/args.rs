@@ -6,9 +6,10 @@ use std::path::{Path, PathBuf};
 pub const ONE_DASH: &str =
     "Every long option may be written with one dash, as in 1988: -fi FILE is --fi FILE.";
 
-/// Ids of the options below that choose streams, talk and threads. They do not
-/// change what is computed, so the recorded command line leaves them out.
-pub(crate) const WITHOUT_EFFECT: [&str; 7] = ["file", "fi", "fo", "fm", "qt", "vb", "nt"];
+/// Ids of options that choose streams, talk and threads: those below, and `at` for a second file to write
+/// ([`crate::Stage::write_file`]). They do not change what is computed, so the recorded command line leaves
+/// them out.
+pub(crate) const WITHOUT_EFFECT: [&str; 8] = ["file", "fi", "fo", "fm", "qt", "vb", "nt", "at"];
 
 /// Options of every program. Put it last in the program's own arguments:
 /// `#[command(flatten)] common: CommonArgs`.
@@ -157,6 +158,19 @@ pub fn finite(word: &str) -> Result<f64, String> {
         .ok_or_else(|| "not a finite number".to_owned())
 }
 
+/// Value parser of options that take a view angle, in degrees: it is above 0 and below 180.
+///
+/// # Errors
+/// Says so; clap names the word and the option.
+pub fn view_angle(word: &str) -> Result<f64, String> {
+    let degrees = finite(word)?;
+    if 0.0 < degrees && degrees < 180.0 {
+        Ok(degrees)
+    } else {
+        Err("a view angle is more than 0 and less than 180 degrees".to_owned())
+    }
+}
+
 /// The three numbers of an option declared as
 ///
 /// ```
@@ -220,6 +234,16 @@ mod tests {
         check("files=-3", None);
         check("files=1e3", None);
         check("files=99999999999999999999", None);
+    }
+
+    #[test]
+    fn view_angles_fit_on_a_film() {
+        assert_eq!(view_angle("179.9"), Ok(179.9));
+        assert!(
+            [view_angle("0"), view_angle("180"), view_angle("-40"), view_angle("nan")]
+                .iter()
+                .all(Result::is_err)
+        );
     }
 
     #[test]

@@ -91,7 +91,7 @@ mod run;
 mod stage;
 mod text;
 
-pub use args::{CommonArgs, ONE_DASH, finite, vector};
+pub use args::{CommonArgs, ONE_DASH, finite, vector, view_angle};
 pub use failure::Failure;
 pub use files::{Printed, read_file, run_program};
 pub use input::Input;

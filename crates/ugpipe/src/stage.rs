@@ -8,6 +8,7 @@ use crate::failure::Failure;
 use crate::input::{self, Input};
 use crate::messages::Messages;
 use crate::output::Output;
+use crate::text;
 
 /// What a program sees of the world: its input, its output and its messages.
 ///
@@ -17,6 +18,8 @@ pub struct Stage {
     input: Option<PathBuf>,
     is_input_named: bool,
     output: Output,
+    /// Beside it.
+    others: Vec<Output>,
     messages: Messages,
     command_line: String,
 }
@@ -27,6 +30,7 @@ impl Stage {
             input: common.input().map(Path::to_owned),
             is_input_named: common.input_named().is_some(),
             output: Output::new(common.output()),
+            others: Vec::new(),
             messages,
             command_line,
         }
@@ -76,6 +80,21 @@ impl Stage {
         self.output.write_with(fill)
     }
 
+    /// Writes another file beside the output, whole or not at all: it takes its place when the program ends
+    /// well, before the output does.
+    ///
+    /// # Errors
+    /// [`Failure::Usage`] if the output goes to that file; [`Failure::Write`] as for [`Stage::write`].
+    pub fn write_file(&mut self, path: &Path, data: &[u8]) -> Result<(), Failure> {
+        if self.output.path() == Some(path) {
+            return Err(Failure::Usage(format!("two outputs cannot go to one file, `{}`", text::path(path))));
+        }
+        let mut file = Output::new(Some(path));
+        file.write_with(|out| out.write_all(data))?;
+        self.others.push(file);
+        Ok(())
+    }
+
     /// Whether the output would appear on the screen of a person: pictures must not.
     pub fn output_is_terminal(&self) -> bool {
         self.output.is_terminal()
@@ -118,6 +137,7 @@ impl Stage {
 
     /// Keeps or discards the output, and says why a run failed.
     pub(crate) fn end(mut self, outcome: Result<(), Failure>) -> Result<(), Failure> {
+        let outcome = outcome.and_then(|()| self.others.iter_mut().try_for_each(Output::finish));
         let outcome = outcome.and_then(|()| self.output.finish());
         if let Err(failure) = &outcome
             && !failure.is_closed_pipe()

@@ -7,10 +7,10 @@ use glam::DVec3;
 use ugimage::Format;
 use ugparse::{Source, pipe};
 use ugphysics::Hsv;
-use ugpipe::{CommonArgs, Failure, Stage, ToolArgs, finite, vector};
-use ugscene::HueScale;
+use ugpipe::{CommonArgs, Failure, Stage, ToolArgs, finite, vector, view_angle};
+use ugscene::{CameraOptions, HueScale};
 
-use crate::config::{Background, CameraOptions, Config, Interpolation, Output};
+use crate::config::{Background, Config, Interpolation, Output};
 use crate::{Error, run};
 
 /// Where black-and-white PostScript goes if standard output is a terminal, as in 1988.
@@ -220,13 +220,4 @@ fn redirect(output: Output, stage: &mut Stage) -> Result<(), Failure> {
 
 fn format_named(name: &str) -> Result<Format, String> {
     Format::from_name(name).ok_or_else(|| format!("none of the formats {}", Format::list()))
-}
-
-fn view_angle(word: &str) -> Result<f64, String> {
-    let degrees = finite(word)?;
-    if 0.0 < degrees && degrees < 180.0 {
-        Ok(degrees)
-    } else {
-        Err("a view angle is more than 0 and less than 180 degrees".to_owned())
-    }
 }

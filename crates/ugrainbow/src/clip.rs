@@ -1,27 +1,8 @@
 //! Clipping in depth, before the division by it.
 
+use ugscene::{Place, Slab};
+
 use crate::raster::Corner;
-
-/// A point in front of the camera, before projection.
-///
-/// In perspective `x` and `y` are sample coordinates times `z`, so that they are linear in
-/// the point wherever it is; in orthographic projection they are sample coordinates.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Place {
-    pub x: f64,
-    pub y: f64,
-    /// Distance from the eye along the view.
-    pub z: f64,
-}
-
-/// The depths that are drawn.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Slab {
-    /// Least distance, positive in perspective.
-    pub near: f64,
-    /// Greatest distance.
-    pub far: f64,
-}
 
 /// A corner before projection, with the numbers to interpolate.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -56,40 +37,34 @@ impl<const N: usize> Vertex<N> {
     }
 }
 
-impl Slab {
-    fn contains(&self, place: &Place) -> bool {
-        self.near <= place.z && place.z <= self.far
+/// Cuts away the parts of a polygon outside the slab (Sutherland and Hodgman 1974).
+///
+/// New corners are computed from the corner inside to the one outside, whichever way
+/// the polygon runs: faces that share an edge share its cut end too. Where a concave
+/// polygon falls apart, the parts stay joined along the plane, forth and back, and
+/// the even-odd rule draws nothing there.
+pub fn clip_polygon<const N: usize>(slab: Slab, polygon: &mut Vec<Vertex<N>>, scratch: &mut Vec<Vertex<N>>) {
+    if polygon.iter().all(|vertex| slab.near <= vertex.place.z && vertex.place.z <= slab.far) {
+        return;
     }
+    clip(polygon, scratch, slab.near, |z| z >= slab.near);
+    clip(scratch, polygon, slab.far, |z| z <= slab.far);
+}
 
-    /// Cuts away the parts of a polygon outside the slab (Sutherland and Hodgman 1974).
-    ///
-    /// New corners are computed from the corner inside to the one outside, whichever way
-    /// the polygon runs: faces that share an edge share its cut end too. Where a concave
-    /// polygon falls apart, the parts stay joined along the plane, forth and back, and
-    /// the even-odd rule draws nothing there.
-    pub fn clip_polygon<const N: usize>(&self, polygon: &mut Vec<Vertex<N>>, scratch: &mut Vec<Vertex<N>>) {
-        if polygon.iter().all(|vertex| self.contains(&vertex.place)) {
-            return;
-        }
-        clip(polygon, scratch, self.near, |z| z >= self.near);
-        clip(scratch, polygon, self.far, |z| z <= self.far);
+/// The part of a line segment inside the slab.
+pub fn clip_segment<const N: usize>(slab: Slab, mut ends: [Vertex<N>; 2]) -> Option<[Vertex<N>; 2]> {
+    let planes: [(f64, &dyn Fn(f64) -> bool); 2] =
+        [(slab.near, &|z| z >= slab.near), (slab.far, &|z| z <= slab.far)];
+    for (z, is_inside) in planes {
+        let [a, b] = ends;
+        ends = match (is_inside(a.place.z), is_inside(b.place.z)) {
+            (true, true) => [a, b],
+            (true, false) => [a, Vertex::between(&a, &b, z)],
+            (false, true) => [Vertex::between(&b, &a, z), b],
+            (false, false) => return None,
+        };
     }
-
-    /// The part of a line segment inside the slab.
-    pub fn clip_segment<const N: usize>(&self, mut ends: [Vertex<N>; 2]) -> Option<[Vertex<N>; 2]> {
-        let planes: [(f64, &dyn Fn(f64) -> bool); 2] =
-            [(self.near, &|z| z >= self.near), (self.far, &|z| z <= self.far)];
-        for (z, is_inside) in planes {
-            let [a, b] = ends;
-            ends = match (is_inside(a.place.z), is_inside(b.place.z)) {
-                (true, true) => [a, b],
-                (true, false) => [a, Vertex::between(&a, &b, z)],
-                (false, true) => [Vertex::between(&b, &a, z), b],
-                (false, false) => return None,
-            };
-        }
-        Some(ends)
-    }
+    Some(ends)
 }
 
 /// Cuts `polygon` by one plane into `kept`.
@@ -127,7 +102,7 @@ mod tests {
         #[track_caller]
         fn check(polygon: &[(f64, f64)], expected: &[(f64, f64)]) {
             let mut polygon: Vec<_> = polygon.iter().map(|&(x, z)| at(x, z)).collect();
-            SLAB.clip_polygon(&mut polygon, &mut Vec::new());
+            clip_polygon(SLAB, &mut polygon, &mut Vec::new());
             let expected: Vec<_> = expected.iter().map(|&(x, z)| at(x, z)).collect();
             assert_eq!(polygon, expected);
         }
@@ -146,12 +121,12 @@ mod tests {
         let others = [at(-2.0, 2.0), at(5.0, 0.2)];
         let [one, other] = [[a, b, others[0]], [b, a, others[1]]].map(|face| {
             let mut face = face.to_vec();
-            SLAB.clip_polygon(&mut face, &mut Vec::new());
+            clip_polygon(SLAB, &mut face, &mut Vec::new());
             face
         });
-        let cut = SLAB.clip_segment([a, b]).unwrap()[0];
+        let cut = clip_segment(SLAB, [a, b]).unwrap()[0];
         assert!(one.contains(&cut) && other.contains(&cut));
-        assert_eq!(cut, SLAB.clip_segment([b, a]).unwrap()[1]);
+        assert_eq!(cut, clip_segment(SLAB, [b, a]).unwrap()[1]);
     }
 
     #[test]
@@ -165,7 +140,7 @@ mod tests {
             ((0.0, 6.0), (4.0, 7.0), None),
         ];
         for (a, b, expected) in rows {
-            let kept = SLAB.clip_segment([at(a.0, a.1), at(b.0, b.1)]);
+            let kept = clip_segment(SLAB, [at(a.0, a.1), at(b.0, b.1)]);
             assert_eq!(kept, expected.map(|(a, b)| [at(a.0, a.1), at(b.0, b.1)]));
         }
     }
@@ -173,7 +148,7 @@ mod tests {
     #[test]
     fn a_cut_lies_in_front_of_the_eye_however_far_the_other_end() {
         let slab = Slab { near: 1e-6, far: f64::INFINITY };
-        let [a, _] = slab.clip_segment([at(0.0, -1e12), at(1.0, 1.0)]).unwrap();
+        let [a, _] = clip_segment(slab, [at(0.0, -1e12), at(1.0, 1.0)]).unwrap();
         assert_eq!(a.place.z, 1e-6);
         assert!(a.project(true).key > 0.0);
     }

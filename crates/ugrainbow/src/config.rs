@@ -1,9 +1,8 @@
 //! What is asked of the renderer, apart from the scene.
 
-use glam::DVec3;
 use ugimage::Format;
 use ugphysics::Hsv;
-use ugscene::HueScale;
+use ugscene::{CameraOptions, HueScale};
 
 /// Everything that decides the bytes of a picture besides the scene.
 #[derive(Clone, Debug, PartialEq)]
@@ -65,21 +64,6 @@ pub enum Interpolation {
     Hue,
     /// The wavelength.
     Wavelength,
-}
-
-/// Camera options.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct CameraOptions {
-    /// Eye point.
-    pub eye: Option<DVec3>,
-    /// View centre: the point in the middle of the picture.
-    pub center: Option<DVec3>,
-    /// The direction that is up in the picture.
-    pub up: Option<DVec3>,
-    /// Full view angle across the picture, and if given also down it, in degrees.
-    pub view_angle: Option<(f64, Option<f64>)>,
-    /// Parallel projection.
-    pub is_orthographic: bool,
 }
 
 /// What stands behind everything.

@@ -3,9 +3,9 @@
 use glam::DVec3;
 use rayon::prelude::*;
 use ugparse::{Face, Scene, VertexId, Wire, newell_normal};
+use ugscene::{Place, View};
 
-use crate::camera::View;
-use crate::clip::{Place, Vertex};
+use crate::clip::{Vertex, clip_polygon, clip_segment};
 use crate::light::Lighting;
 use crate::palette::{Palette, Swatch};
 use crate::raster::{Corner, Grid, PolygonList};
@@ -128,7 +128,7 @@ impl<const N: usize, P: Fn(&Swatch, DVec3) -> [f64; N]> Chunk<'_, N, P> {
     /// Clips and projects the contour; false if nothing is left of it.
     fn push_contour(&mut self) -> bool {
         let view = self.painter.view;
-        view.slab.clip_polygon(&mut self.contour, &mut self.scratch);
+        clip_polygon(view.slab, &mut self.contour, &mut self.scratch);
         for vertex in &self.contour {
             self.list.push_corner(vertex.project(view.is_perspective));
         }
@@ -203,7 +203,7 @@ impl<const N: usize, P: Fn(&Swatch, DVec3) -> [f64; N]> Chunk<'_, N, P> {
         for line in self.painter.scene.wire_contours(wire) {
             for ends in line.windows(2) {
                 let ends = [ends[0], ends[1]].map(|vertex| self.wire_end(vertex, &color));
-                if let Some(ends) = self.painter.view.slab.clip_segment(ends) {
+                if let Some(ends) = clip_segment(self.painter.view.slab, ends) {
                     self.push_strip(ends);
                 }
             }

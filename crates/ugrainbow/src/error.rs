@@ -4,8 +4,7 @@ use std::fmt;
 
 use ugparse::Diagnostics;
 use ugphysics::VelocityError;
-
-use crate::camera::CameraError;
+use ugscene::CameraError;
 
 /// Most pixels of a picture; in memory they are a gibibyte.
 pub const MAX_PIXELS: u64 = 1 << 28;

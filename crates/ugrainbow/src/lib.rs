@@ -50,7 +50,6 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-mod camera;
 mod cli;
 mod clip;
 mod config;
@@ -69,14 +68,13 @@ use glam::DVec3;
 use ugimage::{Frame, Label, grey_postscript};
 use ugparse::{Diagnostics, Scene, Source};
 use ugphysics::srgb_decode;
+use ugscene::View;
 
-pub use camera::CameraError;
 pub use cli::{Args, draw};
-pub use config::{Background, CameraOptions, Config, Interpolation, Output};
+pub use config::{Background, Config, Interpolation, Output};
 pub use error::{Error, MAX_PIXELS, MAX_SIDE};
-pub use ugscene::HueScale;
+pub use ugscene::{CameraError, CameraOptions, HueScale};
 
-use camera::View;
 use drawlist::{DrawList, Painter};
 use light::Lighting;
 use notes::Outcome;

@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 use ugparse::{Light, LightKind, Scene};
+use ugscene::View;
 
-use crate::camera::View;
 use crate::palette::{Palette, Swatch};
 
 /// The lights of a scene, as they fall on a face at rest.

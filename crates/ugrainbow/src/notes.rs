@@ -1,8 +1,8 @@
 //! What the user should know about a picture: above all why nothing is to be seen.
 
 use ugparse::Scene;
+use ugscene::View;
 
-use crate::camera::View;
 use crate::drawlist::Reach;
 use crate::raster::Tally;
 

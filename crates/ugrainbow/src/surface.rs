@@ -40,13 +40,13 @@ impl Surface {
         self.swatches[vertex.index()]
     }
 
-    /// Where the vertex is in the rest frame of its body, relative to the eye.  Eq. (P4)
+    /// Where the vertex is in the rest frame of its body, relative to the eye, in the axes of the scene.  Eq. (P4)
     pub fn rest(&self, vertex: VertexId) -> DVec3 {
         self.rest[vertex.index()]
     }
 
-    /// A viewing direction in the rest frame of a body.  Eq. (P6)
+    /// A viewing direction in the rest frame of a body, in the axes of the scene.  Eq. (P6), (P25)
     pub fn rest_direction(&self, direction: DVec3, velocity: Option<VelocityId>) -> DVec3 {
-        aberrate(direction, self.bodies.of(velocity))
+        self.bodies.scene_from_axes(velocity) * aberrate(direction, self.bodies.of(velocity))
     }
 }

@@ -1,9 +1,10 @@
 //! Bodies: the parts of a scene that move with one velocity.
 
+use glam::DQuat;
 use ugparse::{Scene, VelocityId};
 use ugphysics::{Velocity, VelocityError};
 
-use crate::split_vertices;
+use crate::{axes_from_scene, camera_velocity, split_vertices};
 
 /// The velocities of a scene, ready to compute with.
 #[derive(Clone, Debug)]
@@ -11,21 +12,33 @@ pub struct Bodies {
     /// In the order of [`Scene::velocities`].
     velocities: Vec<Velocity>,
     default: Velocity,
+    /// How the camera moves in the frame the scene was written in.
+    camera: Velocity,
 }
 
 impl Bodies {
     /// Bodies of `scene`; faces without a velocity move with `default`.
     ///
     /// # Errors
-    /// A velocity of the scene that is not below the speed of light.
+    /// A velocity of the scene, or that of its camera ([`camera_velocity`]), is not below the speed of light.
     pub fn new(scene: &Scene, default: Velocity) -> Result<Self, VelocityError> {
         let velocities = scene.velocities.iter().map(|&beta| Velocity::from_beta(beta));
-        Ok(Self { velocities: velocities.collect::<Result<_, _>>()?, default })
+        Ok(Self {
+            velocities: velocities.collect::<Result<_, _>>()?,
+            default,
+            camera: camera_velocity(scene)?,
+        })
     }
 
     /// The velocity of a face, wire or vertex.
     pub fn of(&self, id: Option<VelocityId>) -> Velocity {
         id.map_or(self.default, |id| self.velocities[id.index()])
+    }
+
+    /// Turns rest coordinates of a face, wire or vertex, as (P4) gives them, into the axes of the scene, where
+    /// lights and normals are. The identity unless the camera moves in the scene.  Eq. (P25)
+    pub fn scene_from_axes(&self, id: Option<VelocityId>) -> DQuat {
+        axes_from_scene(self.of(id), self.camera).inverse()
     }
 
     /// The velocities of the scene, by row.

@@ -9,7 +9,7 @@ use ugphysics::{Velocity, contracted, flight_time, rest_position, seen_position}
 use crate::{Bodies, vertex_velocities};
 
 /// First word of the escape that tells later stages what was left out.
-const MARK: &str = "uglorentz";
+pub(crate) const MARK: &str = "uglorentz";
 const NO_CONTRACTION: &str = "no-contraction";
 const NO_FLIGHT_TIME: &str = "no-flight-time";
 
@@ -75,7 +75,7 @@ impl Geometry {
 }
 
 /// Rest position of every vertex of a seen scene, relative to the eye, each in
-/// the frame of its own body. (P4)
+/// the frame of its own body and in the axes of the scene. (P4), (P25)
 pub fn rest_positions(scene: &Scene, eye: DVec3, bodies: &Bodies) -> Vec<DVec3> {
     if bodies.are_at_rest() {
         return scene.vertices.par_iter().map(|vertex| vertex.position - eye).collect();
@@ -83,12 +83,16 @@ pub fn rest_positions(scene: &Scene, eye: DVec3, bodies: &Bodies) -> Vec<DVec3> 
     let geometry = Geometry::of(scene);
     let velocities = vertex_velocities(scene);
     (scene.vertices.par_iter().zip(velocities.par_iter()))
-        .map(|(vertex, &velocity)| geometry.rest(vertex.position - eye, bodies.of(velocity)))
+        .map(|(vertex, &velocity)| {
+            bodies.scene_from_axes(velocity) * geometry.rest(vertex.position - eye, bodies.of(velocity))
+        })
         .collect()
 }
 
 #[cfg(test)]
 mod tests {
+    use ugphysics::{Event, Lorentz};
+
     use super::*;
 
     const ALL: [Geometry; 4] = [
@@ -112,6 +116,33 @@ mod tests {
         }
     }
 
+    /// A body at rest in the scene, one with a velocity of its own, and a camera that moves: the seen positions
+    /// come from 4×4 matrices.
+    #[test]
+    fn rest_positions_are_in_the_axes_of_the_scene() {
+        let text = "v a 1 2 3; v b -4 1 2; v c 2 2 -5; v d 1 9 2; v e -3 1 1; v f 0 2 7;
+            f (a b c); f (d e f) <0 0.7 -0.2>;";
+        let source = ugparse::Source::new("t.ug", text);
+        let mut scene = ugparse::parse(&source, &ugparse::Options::default()).unwrap().scene;
+        let rest: Vec<DVec3> = scene.vertices.iter().map(|vertex| vertex.position).collect();
+        let camera = Velocity::from_beta(DVec3::new(0.6, -0.3, 0.5)).unwrap();
+        let betas = [DVec3::ZERO, DVec3::new(0.0, 0.7, -0.2)];
+        for (face, beta) in betas.into_iter().enumerate() {
+            let to_camera = Lorentz::boost(Velocity::from_beta(beta).unwrap()).then(Lorentz::boost(-camera));
+            let velocity = scene.velocity_id(to_camera.velocity_of_frame().unwrap().beta());
+            scene.faces[face].velocity = Some(velocity);
+            for vertex in &mut scene.vertices[3 * face..3 * face + 3] {
+                let leaves = Event { t: -vertex.position.length(), x: vertex.position };
+                vertex.position = to_camera.apply(leaves).x;
+            }
+        }
+        crate::record_camera_velocity(&mut scene, camera);
+        let bodies = Bodies::new(&scene, Velocity::ZERO).unwrap();
+        for (found, rest) in rest_positions(&scene, DVec3::ZERO, &bodies).into_iter().zip(rest) {
+            assert!((found - rest).length() < 1e-14 * 20.0, "{found} {rest}");
+        }
+    }
+
     #[test]
     fn both_effects_are_p1_and_then_p2() {
         let v = Velocity::from_beta(DVec3::new(0.5, 0.0, 0.0)).unwrap();
@@ -124,7 +155,8 @@ mod tests {
     #[test]
     fn escapes_carry_what_was_left_out() {
         for geometry in ALL {
-            let escapes = geometry.escape().into_iter().chain(["other text".to_string()]).collect();
+            let others = ["other text".to_string(), "uglorentz camera-velocity 0.5 0 0".to_string()];
+            let escapes = geometry.escape().into_iter().chain(others).collect();
             let scene = Scene { escapes, ..Scene::default() };
             assert_eq!(Geometry::of(&scene), geometry);
         }

@@ -4,8 +4,9 @@
 //! which body a vertex belongs to and how that body moves ([`Bodies`],
 //! [`separate_bodies`]), where it rests when it is seen here ([`Geometry`],
 //! [`rest_positions`], equation (P4)), its normal ([`smooth_normals`]), the
-//! colour it gets from the faces round it ([`vertex_colors`]), and what triangles
-//! make up a polygon ([`triangulate`]), or a face that is not flat ([`read`]). All programs
+//! colour it gets from the faces round it ([`vertex_colors`]), what triangles
+//! make up a polygon ([`triangulate`]), or a face that is not flat ([`read`]), and what
+//! the camera sees ([`View`]). All programs
 //! must agree on these, so they are written once, here.
 //!
 //! ```
@@ -21,6 +22,7 @@
 //! ```
 
 mod bodies;
+mod camera;
 mod colors;
 mod eye;
 mod geometry;
@@ -28,8 +30,10 @@ mod normals;
 mod polygon;
 mod read;
 mod split;
+mod traveller;
 
 pub use bodies::{Bodies, separate_bodies, vertex_velocities};
+pub use camera::{CameraError, CameraOptions, HalfSpace, Place, Slab, View};
 pub use colors::{HueScale, VertexColor, hsv, spectra_note, vertex_colors};
 pub use eye::{at_eye_error, eye, vertex_at_eye};
 pub use geometry::{Geometry, rest_positions};
@@ -37,4 +41,5 @@ pub use normals::{corner_angle, smooth_normals};
 pub use polygon::{Triangle, is_convex, triangulate};
 pub use read::read;
 pub use split::split_vertices;
+pub use traveller::{axes_from_scene, camera_velocity, record_camera_velocity};
 pub use ugparse::{history, record};

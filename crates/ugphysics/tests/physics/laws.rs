@@ -4,7 +4,7 @@ use glam::{DMat3, DQuat, DVec3, Vec3Swizzles, Vec4Swizzles};
 use proptest::prelude::*;
 use ugphysics::{
     Brightness, Event, Lorentz, Velocity, aberrate, compose, contracted, doppler_at, doppler_factor,
-    flight_time, observer_shift, rest_position, seen_event, seen_position,
+    flight_time, observer_shift, rest_position, seen_event, seen_position, wigner_rotation,
 };
 
 use crate::{along_x, angle_deg, directions, near, near_vector};
@@ -198,6 +198,31 @@ proptest! {
         let want = seen_event(p, u);
         prop_assert!((in_camera.x - want.x).length() <= tolerance * p.length());
         prop_assert!((in_camera.t - want.t).abs() <= tolerance * p.length());
+    }
+
+    /// Two boosts are the boost of the composed velocity, after the Wigner rotation. (P25)
+    #[test]
+    fn two_boosts_are_a_rotation_and_a_boost(
+        p in points(), t in -50.0..50.0_f64, u in velocities_up_to(2.0), v in velocities_up_to(2.0),
+    ) {
+        let event = Event { t, x: p };
+        let want = Lorentz::boost(u).then(Lorentz::boost(v)).apply(event);
+        let turned = Event { t, x: wigner_rotation(u, v) * p };
+        let got = Lorentz::boost(compose(u, v)).apply(turned);
+        // γ of both is below 4, so numbers are up to 30 times as long as they were.
+        let tolerance = rounding(30.0 * 4.0) * (p.length() + t.abs());
+        prop_assert!((got.x - want.x).length() <= tolerance && (got.t - want.t).abs() <= tolerance);
+    }
+
+    /// The same rotation from the composed motion, and back, at speeds where matrices lose all digits.
+    #[test]
+    fn wigner_rotations_undo_each_other(u in velocities_up_to(12.0), v in velocities_up_to(12.0), d in unit_vectors()) {
+        let turned = wigner_rotation(u, v) * d;
+        near_vector("swapped", wigner_rotation(v, u) * turned, d, 1e-14);
+        // Taking v away again from a sum in which it hides u magnifies rounding.
+        let w = compose(u, v);
+        prop_assume!(w.gamma() * v.gamma() < 1e6 * u.gamma());
+        near_vector("undone", wigner_rotation(w, -v) * turned, d, rounding(16.0) * w.gamma() * v.gamma());
     }
 
     #[test]
@@ -406,6 +431,16 @@ fn wigner_rotation_of_perpendicular_boosts() {
         let gamma = v.gamma();
         near("closed form", (turn * DVec3::X).x, 2.0 * gamma / (1.0 + gamma * gamma), 1e-13);
         near("axis stays", (turn * DVec3::Z).z, 1.0, 1e-13);
+        near_vector("without matrices", wigner_rotation(u, v) * DVec3::X, turn * DVec3::X, 1e-13);
+    }
+}
+
+#[test]
+fn motions_along_one_line_turn_nothing() {
+    let v = along_x(0.9);
+    for u in [Velocity::ZERO, v, -v, along_x(0.999_999), along_x(-1e-9)] {
+        assert_eq!(wigner_rotation(u, v), DQuat::IDENTITY);
+        assert_eq!(wigner_rotation(v, u), DQuat::IDENTITY);
     }
 }
 

@@ -1,12 +1,9 @@
-//! The camera: from scene coordinates to the sample grid.
+//! The camera: what of a scene is in the picture, and where.
 
 use std::fmt;
 
 use glam::DVec3;
 use ugparse::{Camera, Projection, Scene};
-
-use crate::clip::{Place, Slab};
-use crate::config::CameraOptions;
 
 /// View angle across the picture where nobody says one, degrees.
 const DEFAULT_VIEW_ANGLE: f64 = 40.0;
@@ -14,6 +11,44 @@ const DEFAULT_VIEW_ANGLE: f64 = 40.0;
 /// Without a hither distance, nothing nearer to the eye than this part of the distance
 /// to the view centre is drawn: points at the eye have no place in a picture.
 const NEAREST: f64 = 1e-6;
+
+/// Camera options of a program: they beat the camera of the scene.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct CameraOptions {
+    /// Eye point.
+    pub eye: Option<DVec3>,
+    /// View centre: the point in the middle of the picture.
+    pub center: Option<DVec3>,
+    /// The direction that is up in the picture.
+    pub up: Option<DVec3>,
+    /// Full view angle across the picture, and if given also down it, in degrees.
+    pub view_angle: Option<(f64, Option<f64>)>,
+    /// Parallel projection.
+    pub is_orthographic: bool,
+}
+
+/// A point in front of the camera, before projection.
+///
+/// In perspective `x` and `y` are sample coordinates times `z`, so that they are linear in
+/// the point wherever it is; in orthographic projection they are sample coordinates.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Place {
+    /// Across, to the right.
+    pub x: f64,
+    /// Down.
+    pub y: f64,
+    /// Distance from the eye along the view.
+    pub z: f64,
+}
+
+/// The depths that are drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Slab {
+    /// Least distance, positive in perspective.
+    pub near: f64,
+    /// Greatest distance.
+    pub far: f64,
+}
 
 /// Why there is no picture from this camera.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -87,6 +122,17 @@ pub struct View {
     scale: [f64; 2],
     /// The sample where the view axis goes through.
     axis: [f64; 2],
+    /// Samples of the picture.
+    size: [f64; 2],
+}
+
+/// A half-space, relative to the eye: points p with p·normal + offset ≥ 0.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HalfSpace {
+    /// Points inward; any length.
+    pub normal: DVec3,
+    /// See above.
+    pub offset: f64,
 }
 
 impl View {
@@ -98,7 +144,7 @@ impl View {
     pub fn new(scene: &Scene, options: &CameraOptions, samples: [u32; 2]) -> Result<Self, CameraError> {
         let none = Camera::default();
         let camera = scene.camera().unwrap_or(&none);
-        let eye = ugscene::eye(scene, options.eye);
+        let eye = crate::eye(scene, options.eye);
         let center = options.center.or(camera.center).unwrap_or_else(|| middle(scene));
         let distance = (center - eye).length();
         if !(distance > 0.0 && distance.is_finite()) {
@@ -121,7 +167,31 @@ impl View {
             up: right.cross(forward),
             scale: [film.samples[0] / (2.0 * half[0]), film.samples[1] / (2.0 * half[1])],
             axis: film.axis,
+            size: samples.map(f64::from),
         })
+    }
+
+    /// The half-spaces in which everything lies that can be in the picture: its four sides, and the
+    /// clipping planes. `None` where there is no such plane.
+    pub fn half_spaces(&self) -> [Option<HalfSpace>; 6] {
+        // A side is where a sample coordinate of `place`, a linear function over w, is 0 or the size.
+        let side = |scale: DVec3, axis: f64| {
+            if self.is_perspective {
+                HalfSpace { normal: scale + axis * self.forward, offset: 0.0 }
+            } else {
+                HalfSpace { normal: scale, offset: axis }
+            }
+        };
+        let (x, y) = (self.scale[0] * self.right, -self.scale[1] * self.up);
+        let depth = |normal: DVec3, offset: f64| offset.is_finite().then_some(HalfSpace { normal, offset });
+        [
+            Some(side(x, self.axis[0])),
+            Some(side(-x, self.size[0] - self.axis[0])),
+            Some(side(y, self.axis[1])),
+            Some(side(-y, self.size[1] - self.axis[1])),
+            depth(self.forward, -self.slab.near),
+            depth(-self.forward, self.slab.far),
+        ]
     }
 
     /// Where a point, relative to the eye, is in the picture.
@@ -215,4 +285,45 @@ fn half_side(degrees: f64) -> Result<f64, CameraError> {
     let is_flat = 0.0 < degrees && degrees < 180.0;
     let half = libm::tan(0.5 * degrees.to_radians());
     if is_flat && half > 0.0 { Ok(half) } else { Err(CameraError::ViewAngle(degrees)) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A point has a sample in the picture where it lies in all half-spaces, and nowhere else.
+    #[test]
+    fn half_spaces_enclose_the_picture() {
+        let camera = |options: &str| {
+            let text = format!("v a 1 2 3; cam -ep 1 -2 3 -vc 4 5 -1 -ud 0.2 0 1 {options};");
+            let source = ugparse::Source::new("t.ug", text);
+            ugparse::parse(&source, &ugparse::Options::default()).unwrap().scene
+        };
+        let mut inside = 0;
+        for options in ["-va 70 50", "-og -va 90 90", "-cl 2 9 -ph 0.1 0.3 0.6 0.7", "-og -cl -3 5"] {
+            let view = View::new(&camera(options), &CameraOptions::default(), [40, 30]).unwrap();
+            let spaces: Vec<HalfSpace> = view.half_spaces().into_iter().flatten().collect();
+            assert_eq!(
+                spaces.len(),
+                4 + usize::from(view.is_perspective)
+                    + usize::from(options.contains("-cl")) * if view.is_perspective { 1 } else { 2 }
+            );
+            for step in 0..4000_u32 {
+                // Irrational steps fill a cube evenly.
+                let part = |by: f64| (f64::from(step) * by).fract() * 24.0 - 12.0;
+                let p = DVec3::new(part(0.618_033_988_7), part(0.754_877_666_2), part(0.569_840_291));
+                let Place { x, y, z } = view.place(p);
+                let w = if view.is_perspective { z } else { 1.0 };
+                let is_in_picture = (0.0..=40.0).contains(&(x / w)) && (0.0..=30.0).contains(&(y / w));
+                let is_drawn = is_in_picture && view.slab.near <= z && z <= view.slab.far;
+                assert_eq!(
+                    spaces.iter().all(|s| s.normal.dot(p) + s.offset >= 0.0),
+                    is_drawn,
+                    "{options} {p}"
+                );
+                inside += u32::from(is_drawn);
+            }
+        }
+        assert!(inside > 500, "{inside}");
+    }
 }

@@ -1,0 +1,170 @@
+//! What can be measured at every vertex of a seen scene, besides its place.
+
+use std::fmt::Write;
+
+use glam::DVec3;
+use ugparse::{Face, Scene, VertexId};
+use ugphysics::{Velocity, VelocityError, aberrate, doppler_at};
+use ugscene::{Bodies, Geometry};
+
+/// How one vertex is seen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Measurement {
+    /// Apparent distance |p| from the eye, in the frame of the camera.
+    pub distance: f64,
+    /// When its light left, on the clock of the camera: the time of the picture less the distance. Without time
+    /// of flight, the time of the picture.
+    pub emission_time: f64,
+    /// Doppler factor D = f_observed/f_emitted.  Eq. (P10)
+    ///
+    /// 1 at rest.
+    pub doppler: f64,
+    /// Angle between the motion and the light's way to the eye, in the frame of the camera, degrees. NaN where
+    /// one of them has no direction: at rest, and at the eye.
+    pub emission_angle_deg: f64,
+    /// The same angle in the rest frame of the body, (P6).
+    pub rest_emission_angle_deg: f64,
+}
+
+/// Measures a scene as `uglorentz` writes it, one row for each vertex.
+///
+/// `eye`: in scene coordinates. `time`: of the picture, on the clock of the camera.
+///
+/// # Errors
+/// A velocity of the scene is not below that of light.
+pub fn measure(scene: &Scene, eye: DVec3, time: f64) -> Result<Vec<Measurement>, VelocityError> {
+    let bodies = Bodies::new(scene, Velocity::ZERO)?;
+    let has_flight_time = Geometry::of(scene).flight_time;
+    let velocities = ugscene::vertex_velocities(scene);
+    let one = |seen: DVec3, v: Velocity| {
+        let distance = seen.length();
+        Measurement {
+            distance,
+            emission_time: if has_flight_time { time - distance } else { time },
+            doppler: if v.is_zero() { 1.0 } else { doppler_at(seen, v) },
+            emission_angle_deg: angle_to_motion_deg(-seen, v),
+            rest_emission_angle_deg: angle_to_motion_deg(-aberrate(seen, v), v),
+        }
+    };
+    let vertices = scene.vertices.iter().zip(velocities);
+    Ok(vertices.map(|(vertex, velocity)| one(vertex.position - eye, bodies.of(velocity))).collect())
+}
+
+fn angle_to_motion_deg(direction: DVec3, v: Velocity) -> f64 {
+    if v.is_zero() || direction == DVec3::ZERO {
+        return f64::NAN;
+    }
+    // Both parts may be tiny or huge together.
+    let direction = direction / direction.abs().max_element();
+    let (sine, cosine) = (direction.cross(v.direction()).length(), direction.dot(v.direction()));
+    libm::atan2(sine, cosine).to_degrees()
+}
+
+/// How measurements are written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Table {
+    /// One line for each vertex, under a line of headings.
+    Csv,
+    /// PLY as text: vertices with properties, faces, and the names of the vertices as lists of bytes.
+    Ply,
+}
+
+/// Headings of [`Table::Csv`] behind the name, and vertex properties of [`Table::Ply`].
+const COLUMNS: [&str; 8] =
+    ["x", "y", "z", "emission_time", "doppler", "distance", "emission_angle_deg", "rest_emission_angle_deg"];
+
+impl Table {
+    /// The format that the ending of a file's name asks for.
+    pub fn by_ending(ending: &str) -> Option<Table> {
+        match ending.to_ascii_lowercase().as_str() {
+            "csv" => Some(Table::Csv),
+            "ply" => Some(Table::Ply),
+            _ => None,
+        }
+    }
+
+    /// The file. `rows`: of [`measure`].
+    pub fn write(self, scene: &Scene, rows: &[Measurement]) -> Vec<u8> {
+        let mut text = String::new();
+        let written = match self {
+            Table::Csv => write_csv(&mut text, scene, rows),
+            Table::Ply => write_ply(&mut text, scene, rows),
+        };
+        written.expect("writing to memory does not fail");
+        text.into_bytes()
+    }
+}
+
+fn write_csv(text: &mut String, scene: &Scene, rows: &[Measurement]) -> std::fmt::Result {
+    writeln!(text, "name,{}", COLUMNS.join(","))?;
+    for (vertex, row) in scene.vertices.iter().zip(rows) {
+        // Names are letters, digits, `:`, `_` and `#`, and need no quotes.
+        text.push_str(scene.names.get(vertex.name));
+        for number in numbers(vertex.position, row) {
+            write!(text, ",{number}")?;
+        }
+        text.push('\n');
+    }
+    Ok(())
+}
+
+fn write_ply(text: &mut String, scene: &Scene, rows: &[Measurement]) -> std::fmt::Result {
+    let faces: Vec<Vec<VertexId>> = scene.faces.iter().flat_map(|face| polygons(scene, face)).collect();
+    text.push_str("ply\nformat ascii 1.0\n");
+    for line in ugscene::history(scene) {
+        writeln!(text, "comment {line}")?;
+    }
+    writeln!(text, "element vertex {}", rows.len())?;
+    for column in COLUMNS {
+        writeln!(text, "property double {column}")?;
+    }
+    writeln!(text, "element face {}\nproperty list uint uint vertex_indices", faces.len())?;
+    writeln!(text, "element vertex_name {}\nproperty list uint uchar bytes\nend_header", rows.len())?;
+    for (vertex, row) in scene.vertices.iter().zip(rows) {
+        let words = numbers(vertex.position, row).map(|number| number.to_string());
+        writeln!(text, "{}", words.join(" "))?;
+    }
+    for face in faces {
+        write!(text, "{}", face.len())?;
+        face.iter().try_for_each(|corner| write!(text, " {}", corner.0))?;
+        text.push('\n');
+    }
+    for vertex in &scene.vertices {
+        let name = scene.names.get(vertex.name).as_bytes();
+        write!(text, "{}", name.len())?;
+        name.iter().try_for_each(|byte| write!(text, " {byte}"))?;
+        text.push('\n');
+    }
+    Ok(())
+}
+
+/// In the order of [`COLUMNS`].
+fn numbers(position: DVec3, row: &Measurement) -> [f64; 8] {
+    let [x, y, z] = position.to_array();
+    [
+        x,
+        y,
+        z,
+        row.emission_time,
+        row.doppler,
+        row.distance,
+        row.emission_angle_deg,
+        row.rest_emission_angle_deg,
+    ]
+}
+
+/// A face without holes: itself, or triangles. One that cannot be cut loses its holes.
+fn polygons(scene: &Scene, face: &Face) -> Vec<Vec<VertexId>> {
+    let outline = scene.contours.get(face.contours.start).to_vec();
+    if face.contours.len() == 1 {
+        return vec![outline];
+    }
+    let at = |corner: &VertexId| scene.vertices[corner.index()].position;
+    let rings: Vec<Vec<DVec3>> =
+        scene.face_contours(face).map(|contour| contour.iter().map(at).collect()).collect();
+    let corners = scene.contours.corners(face.contours.clone());
+    match ugscene::triangulate(&rings) {
+        Some(triangles) => triangles.iter().map(|t| t.map(|row| corners[row as usize]).to_vec()).collect(),
+        None => vec![outline],
+    }
+}

@@ -1,0 +1,127 @@
+//! `-cull` leaves out what cannot be seen, and nothing else.
+
+use glam::DVec3;
+use ugparse::Source;
+use ugscene::{CameraOptions, Geometry};
+use ugtests::picture::assert_same;
+use ugtests::pipe::Pipe;
+use ugtests::scenes;
+
+const SIZE: [u32; 2] = [160, 120];
+
+/// How many faces were left out, after the picture has been found the same.
+fn culled(name: &str, scene: &str, pipe: &Pipe) -> usize {
+    let text = scenes::text(scene);
+    let whole = pipe.draw(&text);
+    let mut culling = pipe.clone();
+    culling.lorentz.cull = Some(SIZE);
+    assert_same(&format!("cull-{name}"), &whole, &culling.draw(&text), 0);
+    let report = uglorentz::run(&culling.lorentz, &Source::new("test.ug", text)).unwrap();
+    let end = format!("; {} faces out of sight were left out", report.notes.n_culled);
+    assert_eq!(report.notes.summary().ends_with(&end), report.notes.n_culled > 0);
+    report.notes.n_culled
+}
+
+fn pipe(lorentz: uglorentz::Config) -> Pipe {
+    let mut pipe = Pipe { lorentz, ..Pipe::default() };
+    pipe.rainbow.size = SIZE;
+    pipe.rainbow.samples = 1;
+    pipe
+}
+
+/// Cameras: (view centre, up, angles, orthographic), each from the eye of the scene.
+fn cameras() -> Vec<CameraOptions> {
+    let camera = |center: [f64; 3], view_angle, is_orthographic| CameraOptions {
+        center: Some(DVec3::from(center)),
+        view_angle: Some(view_angle),
+        is_orthographic,
+        ..CameraOptions::default()
+    };
+    vec![
+        CameraOptions::default(),
+        camera([3.0, 0.0, 1.0], (30.0, None), false),
+        camera([-9.0, -40.0, 5.0], (110.0, None), false),
+        camera([0.0, 3.0, 30.0], (20.0, Some(80.0)), false),
+        camera([1.0, 5.0, 2.0], (40.0, None), true),
+    ]
+}
+
+#[test]
+fn pictures_stay_the_same_to_the_pixel() {
+    let mut n_culled = 0;
+    for scene in ["street", "lattice", "cubes"] {
+        for (idx, camera) in cameras().into_iter().enumerate() {
+            for beta in [DVec3::new(0.2, -0.5, 0.1), DVec3::NEG_Y * 0.95, DVec3::Y * 0.99] {
+                let coarse = uglorentz::Pieces::UpTo(2e-3);
+                let lorentz = uglorentz::Config {
+                    velocity: Some(beta),
+                    camera: camera.clone(),
+                    pieces: coarse,
+                    ..Default::default()
+                };
+                let mut pipe = pipe(lorentz);
+                pipe.rainbow.camera.view_angle = camera.view_angle;
+                // Flat shading, too, and colours that do not mix.
+                pipe.lorentz.smooth = idx % 2 == 1;
+                pipe.doppler.repeat = idx == 2;
+                pipe.doppler.doppler = idx != 1;
+                n_culled += culled(&format!("{scene}-{idx}-{:.2}", beta.length()), scene, &pipe);
+            }
+        }
+    }
+    // There are 5434 faces in all, drawn 15 times.
+    assert!(n_culled > 5434 * 15 / 3, "{n_culled}");
+}
+
+#[test]
+fn bodies_of_all_velocities_are_culled() {
+    for (scene, in_place) in [("dice", true), ("dice", false), ("traffic", false)] {
+        for (idx, camera) in cameras().into_iter().enumerate() {
+            let lorentz = uglorentz::Config { in_place, camera, ..Default::default() };
+            culled(&format!("{scene}-{in_place}-{idx}"), scene, &pipe(lorentz));
+        }
+    }
+}
+
+#[test]
+fn teaching_switches_are_culled_right() {
+    let mut n_culled = 0;
+    for (contraction, flight_time) in [(true, false), (false, true), (false, false)] {
+        let lorentz = uglorentz::Config {
+            velocity: Some(DVec3::new(0.3, -0.9, 0.0)),
+            geometry: Geometry { contraction, flight_time },
+            pieces: uglorentz::Pieces::PerEdge(2),
+            ..Default::default()
+        };
+        n_culled += culled(&format!("teaching-{contraction}-{flight_time}"), "street", &pipe(lorentz));
+    }
+    assert!(n_culled > 500, "{n_culled}");
+}
+
+/// A face in whose middle one looks, with all corners and edges out of the picture.
+#[test]
+fn large_faces_are_not_lost() {
+    let tile = b"v a -9 2 -9; v b 9 2 -9; v c 9 2 9; v d -9 2 9; f (a b c d); l 1; cam -vc 0 1 0 -va 2 2;";
+    for speed in [-0.9, 0.0, 0.9] {
+        let mut pipe = pipe(uglorentz::Config { velocity: Some(DVec3::Y * speed), ..Default::default() });
+        pipe.lorentz.cull = Some(SIZE);
+        let picture = pipe.shape().draw(tile);
+        assert!(picture.pixels().all(|pixel| pixel.0[0] > 0), "{speed}");
+    }
+}
+
+#[test]
+fn where_the_camera_looks_must_be_known() {
+    let source = Source::new("t.ug", "v a 1 2 3; v b 2 0 3; v c 1 1 1; f (a b c);");
+    let config = uglorentz::Config { cull: Some(SIZE), ..Default::default() };
+    let error = uglorentz::run(&config, &source).unwrap_err();
+    assert!(error.is_usage());
+    assert_eq!(
+        error.to_string(),
+        "-cull does not know where the camera looks: give the view centre with -vc, or in the `cam` statement of the scene"
+    );
+    // Behind the camera there is everything; one face is kept, for a scene without any is no scene.
+    let camera = CameraOptions { center: Some(DVec3::NEG_ONE), ..Default::default() };
+    let report = uglorentz::run(&uglorentz::Config { camera, ..config }, &source).unwrap();
+    assert_eq!((report.scene.faces.len(), report.notes.n_culled), (1, 0));
+}

@@ -1,0 +1,82 @@
+//! A camera that moves in the scene: pictures, and the light on bodies. (P7), (P25)
+
+use glam::DVec3;
+use ugphysics::Velocity;
+use ugtests::picture::assert_same;
+use ugtests::pipe::{self, Pipe};
+use ugtests::random::Random;
+use ugtests::scenes::{self, parse};
+
+/// The whole pipe, colours included, does not tell a scene that comes from a camera that goes.
+#[test]
+fn a_camera_that_goes_sees_what_a_scene_that_comes_shows() {
+    for (name, beta) in [("ship", DVec3::new(0.1, -0.5, 0.2)), ("street", DVec3::new(0.0, -0.9, 0.1))] {
+        let text = scenes::text(name);
+        let mut scene = Pipe::new(beta, [240, 180]);
+        scene.lorentz.time = 1.0;
+        let mut camera = scene.clone();
+        (camera.lorentz.velocity, camera.lorentz.camera_velocity) = (None, Some(-beta));
+        assert_same(&format!("moving-camera-{name}"), &scene.draw(&text), &camera.draw(&text), 0);
+    }
+}
+
+/// One flat tile in sight of a camera, both with random velocities. Its corners in the scene are its rest
+/// coordinates, and there, by hand, is its light; the pixel in its middle shows it.
+#[test]
+fn bodies_are_lit_in_the_axes_of_the_scene() {
+    const SUN: DVec3 = DVec3::new(0.3, -0.5, 0.8);
+    const LAMP: DVec3 = DVec3::new(4.0, -3.0, 6.0);
+    let mut random = Random(77);
+    let (mut n_lit, mut n_turned) = (0, 0);
+    for case in 0..60 {
+        let corners: [DVec3; 3] = [(); 3].map(|()| random.in_cube(10.0));
+        let (eye, body) = (random.in_cube(10.0), 0.9 * random.direction());
+        let camera = 0.9 * random.direction();
+        let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalize();
+        let normal = if normal.dot(eye - corners[0]) < 0.0 { -normal } else { normal };
+        let lamp = |corner: DVec3| normal.dot((LAMP - corner).normalize()).max(0.0);
+        let lamps = corners.map(lamp).iter().sum::<f64>() / 3.0;
+        let level = 0.1 + 0.4 * normal.dot(SUN.normalize()).max(0.0) + 0.5 * lamps;
+
+        let vertices: Vec<String> = corners
+            .iter()
+            .zip(["a", "b", "c"])
+            .map(|(p, name)| format!("v {name} {} {} {};", p.x, p.y, p.z))
+            .collect();
+        let text = format!(
+            "{} f (a b c) <{} {} {}>; l 0.1; l 0.4 {} {} {}; l 0.5 {} {} {} 0; cam -ep {} {} {} <{} {} {}>;",
+            vertices.join(" "),
+            body.x,
+            body.y,
+            body.z,
+            SUN.x,
+            SUN.y,
+            SUN.z,
+            LAMP.x,
+            LAMP.y,
+            LAMP.z,
+            eye.x,
+            eye.y,
+            eye.z,
+            camera.x,
+            camera.y,
+            camera.z
+        );
+        let lorentz = uglorentz::Config { pieces: uglorentz::Pieces::PerEdge(1), ..Default::default() };
+        let seen = pipe::lorentz(text.as_bytes(), &lorentz);
+        let middle = parse(&seen).vertices.iter().map(|vertex| vertex.position).sum::<DVec3>() / 3.0;
+        let mut pipe = Pipe::default().shape().view_angle(1e-3);
+        pipe.lorentz = lorentz;
+        pipe.rainbow.camera.center = Some(middle);
+        pipe.rainbow.size = [1, 1];
+        let pixel = pipe.draw(text.as_bytes()).get_pixel(0, 0).0;
+        let expected = 255.0 * level.min(1.0);
+        assert!((f64::from(pixel[0]) - expected).abs() <= 1.0, "case {case}: {pixel:?} for {expected}");
+        n_lit += usize::from(level > 0.15);
+        let w = parse(&seen).velocities[0];
+        let turn =
+            ugscene::axes_from_scene(Velocity::from_beta(w).unwrap(), Velocity::from_beta(camera).unwrap());
+        n_turned += usize::from((turn * normal).dot(normal) < 0.9);
+    }
+    assert!(n_lit > 30 && n_turned > 30, "{n_lit} lit, {n_turned} turned");
+}
