@@ -147,7 +147,7 @@ fn run(args: &Args, stage: &mut Stage) -> Result<(), Failure> {
     if let (Some(path), Some(table)) = (&args.attributes, &report.table) {
         stage.write_file(path, table)?;
     }
-    stage.write(&report.text())
+    stage.write_with(|out| ugparse::write_to(&report.scene, out))
 }
 
 fn failure(error: Error) -> Failure {
