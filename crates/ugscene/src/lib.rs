@@ -30,7 +30,7 @@ mod polygon;
 mod split;
 
 pub use bodies::{Bodies, separate_bodies, vertex_velocities};
-pub use colors::{HueScale, VertexColor, hsv, spectra_note, vertex_colors};
+pub use colors::{HueScale, VertexColor, hsv, light, spectra_note, vertex_colors};
 pub use eye::{at_eye_error, eye, vertex_at_eye};
 pub use geometry::{Geometry, rest_positions};
 pub use history::{history, record};
