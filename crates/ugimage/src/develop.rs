@@ -111,8 +111,8 @@ impl Development {
 
     fn toned(&self, exposed: [f64; 3]) -> [f64; 3] {
         let before = luminance(exposed);
-        // Less than black is black, and NaN with it.
-        if !(before > 0.0) {
+        // Less than black is black.
+        if before.is_nan() || before <= 0.0 {
             return [0.0; 3];
         }
         if before == f64::INFINITY {

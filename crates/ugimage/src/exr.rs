@@ -12,9 +12,11 @@ use crate::{Label, LinearFrame};
 /// nothing cut; then the frame's planes under their names. Colours are multiplied by `A`, as OpenEXR has it.
 /// The chromaticities are those of sRGB; the label is in `software` and `comments`.
 pub fn encode(frame: &LinearFrame, label: &Label) -> Vec<u8> {
-    let mut attributes = LayerAttributes::default();
-    attributes.software_name = text(&label.software);
-    attributes.comments = text(&label.comment);
+    let attributes = LayerAttributes {
+        software_name: text(&label.software),
+        comments: text(&label.comment),
+        ..LayerAttributes::default()
+    };
     let size = (frame.width() as usize, frame.height() as usize);
     let channels = AnyChannels::sort(channels(frame).into());
     let mut image = Image::from_layer(Layer::new(size, attributes, Encoding::SMALL_LOSSLESS, channels));

@@ -4,13 +4,14 @@ use std::path::Path;
 
 use clap::{ArgAction, Parser};
 use glam::DVec3;
-use ugimage::Format;
+use ugimage::{Format, Tone};
 use ugparse::{Options, Source};
 use ugphysics::Hsv;
 use ugpipe::{CommonArgs, Failure, Stage, ToolArgs, finite, vector};
 use ugscene::HueScale;
 
-use crate::config::{Background, CameraOptions, Config, Interpolation, Output};
+use crate::config::{Background, CameraOptions, Config, Exposure, Interpolation, Output};
+use crate::planes::Channel;
 use crate::{Error, run};
 
 /// Where black-and-white PostScript goes if standard output is a terminal, as in 1988.
@@ -45,7 +46,10 @@ pub struct Args {
     #[arg(long, visible_alias = "grey-postscript", conflicts_with_all = ["dt", "tb"])]
     dp: bool,
 
-    /// Format of the picture: png, eps, ps [default: by the ending of -fo, else png]
+    /// Format of the picture [default: by the ending of -fo, else png]
+    ///
+    /// png, png16 (16 bits), ppm, eps, ps; and exr, pfm, hdr, which hold linear light, neither clipped nor
+    /// brought into the gamut: white is 1, parts may be above it and below 0.
     #[arg(long, value_name = "FMT", visible_alias = "format", value_parser = format_named)]
     dt: Option<Format>,
 
@@ -98,6 +102,28 @@ pub struct Args {
     #[arg(long, visible_alias = "transparent", conflicts_with = "bg", help_heading = PICTURE)]
     tb: bool,
 
+    /// Exposure in stops: light is multiplied by 2 to the power E, and clipped only then
+    ///
+    /// auto: by what shows 99 of 100 pixels that are not black at or below white.
+    #[arg(long, value_name = "E|auto", allow_hyphen_values = true, value_parser = exposure,
+          visible_alias = "exposure", help_heading = PICTURE)]
+    ex: Option<Exposure>,
+
+    /// Tone curve from light to display: clip, filmic
+    ///
+    /// filmic is Hable's of 2010, whose white is 5.6. Curves work on luminance and keep hue.
+    #[arg(long, value_name = "CURVE", default_value = "clip", value_parser = tone,
+          visible_alias = "tone-curve", help_heading = PICTURE)]
+    tc: Tone,
+
+    /// More channels of an EXR picture, with commas between: D, time, distance, Z, id, velocity
+    ///
+    /// Doppler factor, emission time, distance of the emission, depth along the view, number of the
+    /// face, velocity of the body; all at the middle of the pixel.
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = channel,
+          visible_alias = "channels", help_heading = PICTURE)]
+    ch: Vec<Channel>,
+
     #[command(flatten)]
     common: CommonArgs,
 }
@@ -126,9 +152,23 @@ impl Args {
             samples: self.aa,
             background: self.background()?,
             output: self.output(output)?,
+            exposure: self.ex,
+            tone: self.tc,
+            channels: self.channels(),
             lax: self.common.lax(),
             command_line: command_line.to_owned(),
         })
+    }
+
+    /// Each once, in the order given.
+    fn channels(&self) -> Vec<Channel> {
+        let mut channels = Vec::new();
+        for &channel in &self.ch {
+            if !channels.contains(&channel) {
+                channels.push(channel);
+            }
+        }
+        channels
     }
 
     fn camera(&self) -> CameraOptions {
@@ -221,6 +261,29 @@ fn redirect(output: Output, stage: &mut Stage) -> Result<(), Failure> {
 
 fn format_named(name: &str) -> Result<Format, String> {
     Format::from_name(name).ok_or_else(|| format!("none of the formats {}", Format::list()))
+}
+
+fn exposure(word: &str) -> Result<Exposure, String> {
+    /// More than the range of the numbers light is kept in.
+    const MOST: f64 = 300.0;
+    if word == "auto" {
+        return Ok(Exposure::Auto);
+    }
+    let stops = finite(word).map_err(|error| format!("{error}, nor is it `auto`"))?;
+    if stops.abs() <= MOST {
+        Ok(Exposure::Stops(stops))
+    } else {
+        Err(format!("an exposure is between -{MOST} and {MOST} stops"))
+    }
+}
+
+fn tone(word: &str) -> Result<Tone, String> {
+    Tone::from_name(word)
+        .ok_or_else(|| format!("none of the curves {}", Tone::ALL.map(Tone::name).join(", ")))
+}
+
+fn channel(word: &str) -> Result<Channel, String> {
+    Channel::from_name(word).ok_or_else(|| format!("none of the channels {}", Channel::list()))
 }
 
 fn view_angle(word: &str) -> Result<f64, String> {

@@ -51,6 +51,7 @@
 //! ```
 
 mod camera;
+mod canvas;
 mod cli;
 mod clip;
 mod config;
@@ -58,32 +59,30 @@ mod drawlist;
 mod error;
 mod light;
 mod notes;
+mod painter;
 mod palette;
+mod planes;
 mod raster;
+mod setup;
 mod shade;
+mod sheet;
 mod surface;
 
-use std::borrow::Cow;
-
-use glam::DVec3;
 use ugimage::{Frame, Label, grey_postscript};
 use ugparse::{Diagnostics, Scene, Source};
-use ugphysics::srgb_decode;
 
 pub use camera::CameraError;
 pub use cli::{Args, draw};
-pub use config::{Background, CameraOptions, Config, Interpolation, Output};
+pub use config::{Background, CameraOptions, Config, Exposure, Interpolation, Output};
 pub use error::{Error, MAX_PIXELS, MAX_SIDE};
+pub use planes::Channel;
+pub use ugimage::Tone;
 pub use ugscene::HueScale;
 
-use camera::View;
-use drawlist::{DrawList, Painter};
-use light::Lighting;
+use canvas::{Canvas, Drawn};
 use notes::Outcome;
-use palette::{Palette, Swatch};
-use raster::{Backdrop, Grid, PolygonList, Shade, Tally, paint};
-use shade::Shader;
-use surface::Surface;
+use setup::Setup;
+use sheet::Sheet;
 
 /// A picture as a file.
 #[derive(Clone, Debug)]
@@ -102,97 +101,30 @@ pub struct Picture {
 /// Whatever stops it: see [`Error`].
 pub fn run(config: &Config, source: &Source) -> Result<Picture, Error> {
     let parsed = ugparse::parse(source, &ugparse::Options { lax: config.lax })?;
-    let (frame, notes) = render(&parsed.scene, config)?;
+    let (drawn, notes) = paint(&parsed.scene, config)?;
     let label = label(&parsed.scene, config);
-    let bytes = match config.output {
-        Output::Color(format) => format.encode(&frame, &label),
-        Output::Grey => grey_postscript(&frame, &label),
+    let bytes = match (config.output, drawn) {
+        (Output::Color(format), Drawn::Display(frame)) => format.encode(&frame, &label),
+        (Output::Color(format), Drawn::Light(frame)) => format.encode_linear(&frame, &label),
+        (Output::Grey, drawn) => grey_postscript(&drawn.into_frame(), &label),
     };
     Ok(Picture { bytes, notes, warnings: parsed.warnings })
 }
 
-/// Draws a scene. The notes say what the user should know, one sentence each.
+/// Draws a scene for a display with 8 bits a channel. The notes say what the user should know, one sentence each.
 ///
 /// # Errors
 /// The picture is too large, there is nothing to draw, or the camera makes no sense.
 pub fn render(scene: &Scene, config: &Config) -> Result<(Frame, Vec<String>), Error> {
-    error::check_size(config.size, config.samples)?;
-    if scene.faces.is_empty() && scene.wires.is_empty() {
-        return Err(Error::Empty);
-    }
-    let scene = &with_separate_bodies(scene);
-    let [width, height] = config.size;
-    let view = View::new(scene, &config.camera, config.size.map(|pixels| pixels * config.samples))?;
-    let grid = Grid { width, height, samples: config.samples, is_perspective: view.is_perspective };
-    let palette = Palette::new(scene, config);
-    let lighting = Lighting::new(scene, &palette, &view);
-    let surface = Surface::new(scene, view.eye, &palette, config.hue_scale)?;
-    let painter = Painter {
-        scene,
-        view: &view,
-        grid: &grid,
-        palette: &palette,
-        lighting: &lighting,
-        surface: &surface,
-    };
-    let shader = Shader::new(config.interpolated());
-    let mut canvas = Canvas::new(&grid, config.background);
-    let outcome = if lighting.is_colored() {
-        canvas.draw(DrawList::new(&painter, pack_colored), |values| shader.colored(values))
-    } else {
-        canvas.draw(DrawList::new(&painter, pack_plain), |values| shader.plain(values))
-    };
-    Ok((canvas.frame, notes::notes(scene, &view, &outcome)))
+    paint(scene, config).map(|(drawn, notes)| (drawn.into_frame(), notes))
 }
 
-/// The scene with vertices of one velocity each, copied only if it has velocities.
-fn with_separate_bodies(scene: &Scene) -> Cow<'_, Scene> {
-    if scene.velocities.is_empty() {
-        return Cow::Borrowed(scene);
-    }
-    let mut scene = scene.clone();
-    ugscene::separate_bodies(&mut scene);
-    Cow::Owned(scene)
-}
-
-/// White light of one level goes into the value.
-fn pack_plain(swatch: &Swatch, level: DVec3) -> [f64; 3] {
-    [swatch.tint, swatch.saturation, swatch.value * level.x]
-}
-
-/// Coloured light is carried beside the colour.
-fn pack_colored(swatch: &Swatch, level: DVec3) -> [f64; 6] {
-    [swatch.tint, swatch.saturation, swatch.value, level.x, level.y, level.z]
-}
-
-/// A frame to be drawn in.
-struct Canvas<'a> {
-    frame: Frame,
-    backdrop: Backdrop,
-    grid: &'a Grid,
-}
-
-impl<'a> Canvas<'a> {
-    fn new(grid: &'a Grid, background: Background) -> Self {
-        let (width, height) = (grid.width, grid.height);
-        match background {
-            Background::Clear => Self { frame: Frame::clear(width, height), backdrop: Backdrop::Clear, grid },
-            Background::Color(color) => {
-                let light = color.to_rgb().map(|channel| srgb_decode(channel) as f32);
-                Self { frame: Frame::opaque(width, height), backdrop: Backdrop::Light(light), grid }
-            }
-        }
-    }
-
-    fn draw<const N: usize>(
-        &mut self,
-        DrawList { lists, reach }: DrawList<N>,
-        shader: impl Fn(&[f32; N]) -> Shade + Sync,
-    ) -> Outcome {
-        let lists: Vec<PolygonList<N>> = lists.into_iter().filter(|list| !list.is_empty()).collect();
-        let tally: Tally = paint(&mut self.frame, self.grid, &lists, self.backdrop, &shader);
-        Outcome { reach, tally }
-    }
+fn paint(scene: &Scene, config: &Config) -> Result<(Drawn, Vec<String>), Error> {
+    let setup = Setup::new(scene, config)?;
+    let sheet = Sheet::new(&setup.painter());
+    let canvas = Canvas::new(&setup, &sheet, config);
+    let outcome = Outcome { reach: sheet.reach(), tally: canvas.tally, development: canvas.development };
+    Ok((canvas.drawn, notes::notes(&setup, config, &outcome)))
 }
 
 /// Our name and version, and the command lines of the whole pipe.
