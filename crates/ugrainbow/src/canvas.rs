@@ -1,5 +1,7 @@
 //! Pixels from samples: averaged in linear light, put on the background, and made fit for a display if asked.
 
+use std::borrow::Borrow;
+
 use rayon::prelude::*;
 use ugimage::{Development, Frame, LinearFrame, Quantizer, auto_exposure, display_pixel};
 use ugphysics::srgb_decode;
@@ -52,7 +54,7 @@ impl Canvas {
         if config.is_linear() {
             return Self { drawn: Drawn::Light(frame), tally, development: None };
         }
-        let development = development(&frame, config);
+        let development = development(|| &frame, config);
         frame.pixels_mut().par_chunks_mut(CHUNK).flatten().for_each(|pixel| {
             *pixel = developed(&development, *pixel);
         });
@@ -75,7 +77,7 @@ impl Canvas {
 }
 
 /// The whole picture as light, with the planes that are asked for.
-fn light(setup: &Setup<'_>, sheet: &Sheet, config: &Config) -> (LinearFrame, Tally) {
+pub fn light(setup: &Setup<'_>, sheet: &Sheet, config: &Config) -> (LinearFrame, Tally) {
     let grid = &setup.grid;
     let ground = Ground::new(config);
     let n_pixels = grid.width as usize * grid.height as usize;
@@ -97,12 +99,12 @@ fn light(setup: &Setup<'_>, sheet: &Sheet, config: &Config) -> (LinearFrame, Tal
     (frame, tally)
 }
 
-/// How the picture is to be developed.
-pub fn development(frame: &LinearFrame, config: &Config) -> Development {
+/// How the picture is to be developed. `frame`: its light, which only an automatic exposure looks at.
+pub fn development<F: Borrow<LinearFrame>>(frame: impl FnOnce() -> F, config: &Config) -> Development {
     let stops = match config.exposure {
         None => 0.0,
         Some(Exposure::Stops(stops)) => stops,
-        Some(Exposure::Auto) => auto_exposure(frame, config.tone),
+        Some(Exposure::Auto) => auto_exposure(frame().borrow(), config.tone),
     };
     Development { stops, tone: config.tone }
 }

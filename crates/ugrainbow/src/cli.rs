@@ -11,6 +11,7 @@ use ugpipe::{CommonArgs, Failure, Stage, ToolArgs, finite, vector};
 use ugscene::HueScale;
 
 use crate::config::{Background, CameraOptions, Config, Exposure, Interpolation, Output};
+use crate::explain::{self, explain};
 use crate::planes::Channel;
 use crate::{Error, run};
 
@@ -50,8 +51,8 @@ pub struct Args {
     ///
     /// png, png16 (16 bits), ppm, eps, ps; and exr, pfm, hdr, which hold linear light, neither clipped nor
     /// brought into the gamut: white is 1, parts may be above it and below 0.
-    #[arg(long, value_name = "FMT", visible_alias = "format", value_parser = format_named)]
-    dt: Option<Format>,
+    #[arg(long, value_name = "FMT", visible_alias = "format", value_parser = kind_named)]
+    dt: Option<Kind>,
 
     /// Eye point [default: that of the scene, else the origin]
     #[arg(long, num_args = 3, value_names = ["X", "Y", "Z"], action = ArgAction::Set,
@@ -124,8 +125,32 @@ pub struct Args {
           visible_alias = "channels", help_heading = PICTURE)]
     ch: Vec<Channel>,
 
+    /// Instead of the picture, explain the pixel in column X and row Y, from 0 at the upper left
+    ///
+    /// As text, or with `--format json` as JSON: the face, its motion, when and where its light was sent,
+    /// colour and light, and every step to the bytes.
+    #[arg(long, value_name = "X,Y", value_parser = pixel, conflicts_with = "dp")]
+    explain: Option<Pixel>,
+
     #[command(flatten)]
     common: CommonArgs,
+}
+
+/// A column and a row.
+type Pixel = [u32; 2];
+
+/// What is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Kind {
+    Picture(Format),
+    Report(Report),
+}
+
+/// How a pixel is explained.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Report {
+    Text,
+    Json,
 }
 
 const CAMERA: &str = "Camera";
@@ -206,15 +231,38 @@ impl Args {
         if self.dp {
             return Ok(Output::Grey);
         }
-        let ending = || file.and_then(Path::extension).map(|ending| ending.to_string_lossy());
-        match (self.dt, ending()) {
-            (Some(format), _) => Ok(Output::Color(format)),
+        if self.explain.is_some() {
+            return Ok(Output::Color(Format::Png));
+        }
+        match (self.dt, ending(file)) {
+            (Some(Kind::Picture(format)), _) => Ok(Output::Color(format)),
+            (Some(Kind::Report(_)), _) => Err(Failure::Usage(
+                "`text` and `json` explain a pixel: add --explain X,Y, or name a format of pictures".into(),
+            )),
             (None, None) => Ok(Output::Color(Format::Png)),
             (None, Some(ending)) => format_named(&ending)
                 .map(Output::Color)
                 .map_err(|error| Failure::Usage(format!("`.{ending}` is {error}; name one with -dt"))),
         }
     }
+
+    /// How a pixel is to be explained.
+    fn report(&self, file: Option<&Path>) -> Result<Report, Failure> {
+        match self.dt {
+            Some(Kind::Report(report)) => Ok(report),
+            Some(Kind::Picture(_)) => Err(Failure::Usage(
+                "a pixel is explained as text or json: give --format json, or none".into(),
+            )),
+            None if ending(file).is_some_and(|ending| ending.eq_ignore_ascii_case("json")) => {
+                Ok(Report::Json)
+            }
+            None => Ok(Report::Text),
+        }
+    }
+}
+
+fn ending(file: Option<&Path>) -> Option<String> {
+    file.and_then(Path::extension).map(|ending| ending.to_string_lossy().into_owned())
 }
 
 /// The whole program between its streams: reads the scene, draws it, writes the picture.
@@ -223,7 +271,11 @@ impl Args {
 /// Bad usage, a bad scene, or a stream that fails.
 pub fn draw(args: &Args, stage: &mut Stage) -> Result<(), Failure> {
     let config = args.config(stage.output_name(), stage.command_line())?;
-    if stage.output_is_terminal() {
+    let report = match args.explain {
+        Some(pixel) => Some((pixel, args.report(stage.output_name())?)),
+        None => None,
+    };
+    if report.is_none() && stage.output_is_terminal() {
         redirect(config.output, stage)?;
     }
     let input = stage.input()?;
@@ -231,17 +283,42 @@ pub fn draw(args: &Args, stage: &mut Stage) -> Result<(), Failure> {
     let options = Options { lax: config.lax };
     let source = ugparse::include(Source::new(input.name, input.text), &options, |path| std::fs::read(path))
         .map_err(|diagnostics| Failure::Report(diagnostics.render(true)))?;
-    let picture = run(&config, &source).map_err(|error| match error {
-        Error::Scene(diagnostics) => Failure::Report(diagnostics.render(true)),
-        error if error.is_usage() => Failure::usage(error),
-        error => Failure::failed(error),
-    })?;
+    if let Some((pixel, report)) = report {
+        return explain_pixel(&config, &source, pixel, report, stage);
+    }
+    let picture = run(&config, &source).map_err(failure)?;
     if !picture.warnings.is_empty() {
         stage.report(&picture.warnings.render(true));
     }
     picture.notes.iter().for_each(|note| stage.note(note));
     stage.detail(&format!("drew {} x {} pixels", config.size[0], config.size[1]));
     stage.write(&picture.bytes)
+}
+
+fn explain_pixel(
+    config: &Config,
+    source: &Source,
+    pixel: Pixel,
+    report: Report,
+    stage: &mut Stage,
+) -> Result<(), Failure> {
+    let (explanation, warnings) = explain(config, source, pixel).map_err(failure)?;
+    if !warnings.is_empty() {
+        stage.report(&warnings.render(true));
+    }
+    let text = match report {
+        Report::Text => explain::text(&explanation),
+        Report::Json => explain::json(&explanation),
+    };
+    stage.write(text.as_bytes())
+}
+
+fn failure(error: Error) -> Failure {
+    match error {
+        Error::Scene(diagnostics) => Failure::Report(diagnostics.render(true)),
+        error if error.is_usage() => Failure::usage(error),
+        error => Failure::failed(error),
+    }
 }
 
 /// Keeps a terminal free of what it cannot show.
@@ -261,6 +338,20 @@ fn redirect(output: Output, stage: &mut Stage) -> Result<(), Failure> {
 
 fn format_named(name: &str) -> Result<Format, String> {
     Format::from_name(name).ok_or_else(|| format!("none of the formats {}", Format::list()))
+}
+
+fn kind_named(name: &str) -> Result<Kind, String> {
+    match name {
+        "text" => Ok(Kind::Report(Report::Text)),
+        "json" => Ok(Kind::Report(Report::Json)),
+        name => format_named(name).map(Kind::Picture),
+    }
+}
+
+fn pixel(word: &str) -> Result<Pixel, String> {
+    let numbers =
+        word.split_once(',').and_then(|(x, y)| Some([x.trim().parse().ok()?, y.trim().parse().ok()?]));
+    numbers.ok_or_else(|| "a pixel is its column and row, such as 320,240".to_owned())
 }
 
 fn exposure(word: &str) -> Result<Exposure, String> {

@@ -31,6 +31,13 @@ pub enum Error {
     Samples(u32),
     /// Options that do not go together; the text says which, and what to do.
     Options(&'static str),
+    /// A pixel to be explained that is not in the picture.
+    Pixel {
+        /// Its column and row.
+        pixel: [u32; 2],
+        /// Of the picture.
+        size: [u32; 2],
+    },
     /// The camera makes no sense.
     Camera(CameraError),
     /// A velocity of the scene is not below that of light.
@@ -40,7 +47,7 @@ pub enum Error {
 impl Error {
     /// True if the command line asks for it, whatever the scene.
     pub fn is_usage(&self) -> bool {
-        matches!(self, Self::Size(_) | Self::Samples(_) | Self::Options(_))
+        matches!(self, Self::Size(_) | Self::Samples(_) | Self::Options(_) | Self::Pixel { .. })
     }
 }
 
@@ -98,6 +105,11 @@ impl fmt::Display for Error {
                 )
             }
             Self::Options(text) => f.write_str(text),
+            Self::Pixel { pixel: [x, y], size: [width, height] } => write!(
+                f,
+                "pixel {x},{y} is not in the picture of {width} x {height} pixels; \
+                 count columns and rows from 0 at the upper left, or give -sz"
+            ),
             Self::Camera(error) => error.fmt(f),
             Self::Velocity(error) => error.fmt(f),
         }

@@ -57,6 +57,7 @@ mod clip;
 mod config;
 mod drawlist;
 mod error;
+mod explain;
 mod light;
 mod notes;
 mod painter;

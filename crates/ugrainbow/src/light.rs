@@ -99,4 +99,17 @@ impl Lighting {
             .chain(local)
             .fold(scale(&self.ambient), |sum, (toward, lamp)| sum + scale(lamp) * normal.dot(toward).max(0.0))
     }
+
+    /// The same light by light: what each adds to the level, and what to call it.
+    pub fn parts(&self, point: DVec3, normal: DVec3, scale: Scale) -> Vec<(String, DVec3)> {
+        let falling = |lamp: &Lamp, toward: DVec3| scale(lamp) * normal.dot(toward).max(0.0);
+        let ambient = [("ambient".to_owned(), scale(&self.ambient))];
+        let directional = (1..)
+            .zip(&self.directional)
+            .map(|(k, (toward, lamp))| (format!("directional {k}"), falling(lamp, *toward)));
+        let local = (1..).zip(&self.local).map(|(k, (place, lamp))| {
+            (format!("local {k}"), falling(lamp, (*place - point).normalize_or_zero()))
+        });
+        ambient.into_iter().chain(directional).chain(local).collect()
+    }
 }
