@@ -121,9 +121,8 @@ pub struct Args {
     ///
     /// Doppler factor, emission time, distance of the emission, depth along the view, number of the
     /// face, velocity of the body; all at the middle of the pixel.
-    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = channel,
-          visible_alias = "channels", help_heading = PICTURE)]
-    ch: Vec<Channel>,
+    #[arg(long, value_name = "LIST", value_parser = channels, visible_alias = "channels", help_heading = PICTURE)]
+    ch: Option<Channels>,
 
     /// Instead of the picture, explain the pixel in column X and row Y, from 0 at the upper left
     ///
@@ -135,6 +134,10 @@ pub struct Args {
     #[command(flatten)]
     common: CommonArgs,
 }
+
+/// What `-ch` names.
+#[derive(Clone, Debug, Default)]
+struct Channels(Vec<Channel>);
 
 /// A column and a row.
 type Pixel = [u32; 2];
@@ -179,21 +182,10 @@ impl Args {
             output: self.output(output)?,
             exposure: self.ex,
             tone: self.tc,
-            channels: self.channels(),
+            channels: self.ch.clone().unwrap_or_default().0,
             lax: self.common.lax(),
             command_line: command_line.to_owned(),
         })
-    }
-
-    /// Each once, in the order given.
-    fn channels(&self) -> Vec<Channel> {
-        let mut channels = Vec::new();
-        for &channel in &self.ch {
-            if !channels.contains(&channel) {
-                channels.push(channel);
-            }
-        }
-        channels
     }
 
     fn camera(&self) -> CameraOptions {
@@ -373,8 +365,17 @@ fn tone(word: &str) -> Result<Tone, String> {
         .ok_or_else(|| format!("none of the curves {}", Tone::ALL.map(Tone::name).join(", ")))
 }
 
-fn channel(word: &str) -> Result<Channel, String> {
-    Channel::from_name(word).ok_or_else(|| format!("none of the channels {}", Channel::list()))
+/// Each once, in the order given.
+fn channels(list: &str) -> Result<Channels, String> {
+    let mut channels = Vec::new();
+    for name in list.split(',') {
+        let channel = Channel::from_name(name)
+            .ok_or_else(|| format!("`{name}` is none of the channels {}", Channel::list()))?;
+        if !channels.contains(&channel) {
+            channels.push(channel);
+        }
+    }
+    Ok(Channels(channels))
 }
 
 fn view_angle(word: &str) -> Result<f64, String> {
