@@ -9,7 +9,7 @@ use ugphysics::VelocityError;
 use crate::camera::CameraError;
 use crate::config::{Background, Config};
 
-/// Most pixels of a picture; in memory they are a gibibyte.
+/// Most pixels of a picture; in memory they are a gibibyte, as light four.
 pub const MAX_PIXELS: u64 = 1 << 28;
 
 /// Most pixels along a side.

@@ -11,20 +11,22 @@
 //!
 //! ```text
 //! Scene ─camera─→ places of vertices ┐
-//!       ─surface→ colours, rest frame ├─drawlist→ polygons ─raster→ samples ─shade→ light ─→ pixels
-//!       ─light──→ light levels        ┘  (clip)
+//!       ─surface→ colours, rest frame ├─drawlist→ polygons ─raster→ samples ─shade→ light ─canvas→ pixels
+//!       ─light──→ light levels        ┘  (clip)                                            (develop)
 //! ```
 //!
 //! - **Camera.** An option beats the scene's `cam`, which beats the default: the eye at the
 //!   origin looking at the middle of the scene, +z up, 40 degrees across. Pixels are square
 //!   unless both view angles are given as options.
-//! - **Colour.** A vertex has its own colour, else the mix of its faces' colours, else
+//! - **Colour.** Colours given as light (`c_xyz`) are interpolated as linear light, uncut. A vertex has its own colour, else the mix of its faces' colours, else
 //!   white. A saturation of 0 has no wavelength and is not attenuated.
 //! - **Light.** As in 1988 lights rest in the frame of the face they light. Positions and
 //!   normals are brought back to that frame (P4), so a moving cube is lit like a cube.
 //!   Faces are lit on the side that is seen. The level multiplies the value.
 //! - **Hidden surfaces.** Depth is compared per sample, so faces may cut through each other.
-//! - **Pixels.** Samples are averaged in linear light and encoded as sRGB.
+//! - **Pixels.** Samples are averaged in linear light. The mean is exposed, put through a tone curve, brought
+//!   into the gamut (P31), and encoded as sRGB; or written as it is to a format that holds light. Unless light
+//!   is given or asked for, values above 1 are clipped sample by sample, as in 1988.
 //!
 //! - **Wires** are 1.2 pixels wide and not lit, and win against the faces they lie on.
 //!
