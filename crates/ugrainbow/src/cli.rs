@@ -12,7 +12,9 @@ use ugscene::HueScale;
 
 use crate::config::{Background, CameraOptions, Config, Exposure, Interpolation, Output};
 use crate::explain::{self, explain};
-use crate::planes::Channel;
+use crate::words::{
+    Channels, Kind, Pixel, Report, channels, exposure, format_named, kind_named, pixel, tone, view_angle,
+};
 use crate::{Error, run};
 
 /// Where black-and-white PostScript goes if standard output is a terminal, as in 1988.
@@ -133,27 +135,6 @@ pub struct Args {
 
     #[command(flatten)]
     common: CommonArgs,
-}
-
-/// What `-ch` names.
-#[derive(Clone, Debug, Default)]
-struct Channels(Vec<Channel>);
-
-/// A column and a row.
-type Pixel = [u32; 2];
-
-/// What is written.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Kind {
-    Picture(Format),
-    Report(Report),
-}
-
-/// How a pixel is explained.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Report {
-    Text,
-    Json,
 }
 
 const CAMERA: &str = "Camera";
@@ -325,64 +306,5 @@ fn redirect(output: Output, stage: &mut Stage) -> Result<(), Failure> {
             stage.note(&format!("the picture goes to the file {POSTSCRIPT_FILE}"));
             Ok(())
         }
-    }
-}
-
-fn format_named(name: &str) -> Result<Format, String> {
-    Format::from_name(name).ok_or_else(|| format!("none of the formats {}", Format::list()))
-}
-
-fn kind_named(name: &str) -> Result<Kind, String> {
-    match name {
-        "text" => Ok(Kind::Report(Report::Text)),
-        "json" => Ok(Kind::Report(Report::Json)),
-        name => format_named(name).map(Kind::Picture),
-    }
-}
-
-fn pixel(word: &str) -> Result<Pixel, String> {
-    let numbers =
-        word.split_once(',').and_then(|(x, y)| Some([x.trim().parse().ok()?, y.trim().parse().ok()?]));
-    numbers.ok_or_else(|| "a pixel is its column and row, such as 320,240".to_owned())
-}
-
-fn exposure(word: &str) -> Result<Exposure, String> {
-    /// More than the range of the numbers light is kept in.
-    const MOST: f64 = 300.0;
-    if word == "auto" {
-        return Ok(Exposure::Auto);
-    }
-    let stops = finite(word).map_err(|error| format!("{error}, nor is it `auto`"))?;
-    if stops.abs() <= MOST {
-        Ok(Exposure::Stops(stops))
-    } else {
-        Err(format!("an exposure is between -{MOST} and {MOST} stops"))
-    }
-}
-
-fn tone(word: &str) -> Result<Tone, String> {
-    Tone::from_name(word)
-        .ok_or_else(|| format!("none of the curves {}", Tone::ALL.map(Tone::name).join(", ")))
-}
-
-/// Each once, in the order given.
-fn channels(list: &str) -> Result<Channels, String> {
-    let mut channels = Vec::new();
-    for name in list.split(',') {
-        let channel = Channel::from_name(name)
-            .ok_or_else(|| format!("`{name}` is none of the channels {}", Channel::list()))?;
-        if !channels.contains(&channel) {
-            channels.push(channel);
-        }
-    }
-    Ok(Channels(channels))
-}
-
-fn view_angle(word: &str) -> Result<f64, String> {
-    let degrees = finite(word)?;
-    if 0.0 < degrees && degrees < 180.0 {
-        Ok(degrees)
-    } else {
-        Err("a view angle is more than 0 and less than 180 degrees".to_owned())
     }
 }

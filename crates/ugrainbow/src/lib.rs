@@ -70,6 +70,7 @@ mod setup;
 mod shade;
 mod sheet;
 mod surface;
+mod words;
 
 use ugimage::{Frame, Label, grey_postscript};
 use ugparse::{Diagnostics, Scene, Source};
