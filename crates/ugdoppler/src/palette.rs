@@ -155,7 +155,7 @@ impl<'s> Palette<'s> {
                 let hsv = Hsv { hue: 0.0, saturation: 0.0, value: 1.0 };
                 Base { hsv, translucency: 0.0, name: "white".to_string() }
             }
-            VertexColor::Mixed { hsv, translucency } => {
+            VertexColor::Mixed { hsv, translucency, .. } => {
                 let name = format!("mixed{}", self.bases.len() + 1);
                 Base { hsv, translucency, name }
             }
@@ -236,7 +236,7 @@ fn key(color: VertexColor) -> BaseKey {
     match color {
         VertexColor::Named(id) => BaseKey::Named(id),
         VertexColor::White => BaseKey::White,
-        VertexColor::Mixed { hsv, translucency } => {
+        VertexColor::Mixed { hsv, translucency, .. } => {
             BaseKey::Mixed([hsv.hue, hsv.saturation, hsv.value, translucency].map(f64::to_bits))
         }
     }

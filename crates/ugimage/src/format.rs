@@ -1,6 +1,6 @@
 //! The formats, their names, and what is written beside the pixels.
 
-use crate::{Frame, eps, png, ps};
+use crate::{Frame, LinearFrame, eps, exr, hdr, pfm, png, ppm, ps};
 
 /// What a file says about where it comes from.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -16,22 +16,38 @@ pub struct Label {
 pub enum Format {
     /// Portable Network Graphics.
     Png,
+    /// The same with 16 bits a channel.
+    Png16,
     /// Encapsulated PostScript, to be put into a document.
     Eps,
     /// PostScript, one page the size of the picture.
     Ps,
+    /// Portable pixmap, binary.
+    Ppm,
+    /// OpenEXR: light, and any other planes.
+    Exr,
+    /// Portable float map: light.
+    Pfm,
+    /// Radiance HDR: light, to 8 bits with a common exponent.
+    Hdr,
 }
 
 impl Format {
     /// All of them, the default first.
-    pub const ALL: [Self; 3] = [Self::Png, Self::Eps, Self::Ps];
+    pub const ALL: [Self; 8] =
+        [Self::Png, Self::Png16, Self::Eps, Self::Ps, Self::Ppm, Self::Exr, Self::Pfm, Self::Hdr];
 
-    /// Its name, which is also the usual ending of its files.
+    /// Its name, which is also the usual ending of its files, but for `png16`.
     pub fn name(self) -> &'static str {
         match self {
             Self::Png => "png",
+            Self::Png16 => "png16",
             Self::Eps => "eps",
             Self::Ps => "ps",
+            Self::Ppm => "ppm",
+            Self::Exr => "exr",
+            Self::Pfm => "pfm",
+            Self::Hdr => "hdr",
         }
     }
 
@@ -47,7 +63,22 @@ impl Format {
 
     /// True if the file is not text, and would garble a terminal.
     pub fn is_binary(self) -> bool {
-        self == Self::Png
+        !matches!(self, Self::Eps | Self::Ps)
+    }
+
+    /// True if it holds light, uncut, and not what a display shows of it.
+    pub fn is_linear(self) -> bool {
+        matches!(self, Self::Exr | Self::Pfm | Self::Hdr)
+    }
+
+    /// True if it needs more than a [`Frame`] of 8 bits holds.
+    pub fn is_deep(self) -> bool {
+        self.is_linear() || self == Self::Png16
+    }
+
+    /// True if transparency is kept, or put on white; else light counts as if the rest were black.
+    pub fn has_alpha(self) -> bool {
+        !matches!(self, Self::Pfm | Self::Hdr)
     }
 
     /// The frame as a file of this format.
@@ -56,6 +87,20 @@ impl Format {
             Self::Png => png::encode(frame, label),
             Self::Eps => eps::encode(frame, label),
             Self::Ps => ps::encode(frame, label),
+            Self::Ppm => ppm::encode(frame, label),
+            Self::Png16 | Self::Exr | Self::Pfm | Self::Hdr => self.encode_linear(&frame.into(), label),
+        }
+    }
+
+    /// Light as a file of this format. What a display cannot show is clipped unless the format
+    /// [is linear](Format::is_linear): develop it before.
+    pub fn encode_linear(self, frame: &LinearFrame, label: &Label) -> Vec<u8> {
+        match self {
+            Self::Png16 => png::encode_16(frame, label),
+            Self::Exr => exr::encode(frame, label),
+            Self::Pfm => pfm::encode(frame),
+            Self::Hdr => hdr::encode(frame, label),
+            Self::Png | Self::Eps | Self::Ps | Self::Ppm => self.encode(&frame.to_display(), label),
         }
     }
 }
@@ -72,6 +117,6 @@ mod tests {
         }
         assert_eq!(Format::from_name("jpg"), None);
         assert_eq!(Format::from_name(""), None);
-        assert_eq!(Format::list(), "png, eps, ps");
+        assert_eq!(Format::list(), "png, png16, eps, ps, ppm, exr, pfm, hdr");
     }
 }

@@ -2,7 +2,9 @@
 
 use png::{BitDepth, ColorType, Compression, Encoder, EncodingError, SrgbRenderingIntent};
 
-use crate::{Frame, Label};
+use ugphysics::srgb_encode;
+
+use crate::{Frame, Label, LinearFrame};
 
 /// The frame as a PNG file: RGB if it is opaque, else RGBA; tagged as sRGB; the label
 /// in text chunks `Software` and `Comment`; no date.
@@ -11,22 +13,50 @@ pub fn encode(frame: &Frame, label: &Label) -> Vec<u8> {
 }
 
 fn try_encode(frame: &Frame, label: &Label) -> Result<Vec<u8>, EncodingError> {
+    let data: Vec<u8> = if frame.is_opaque() {
+        frame.pixels().iter().flat_map(|&[r, g, b, _]| [r, g, b]).collect()
+    } else {
+        frame.pixels().as_flattened().to_vec()
+    };
+    write([frame.width(), frame.height()], frame.is_opaque(), BitDepth::Eight, &data, label)
+}
+
+/// Light as a PNG file with 16 bits a channel, encoded as sRGB: RGB or RGBA; light outside 0…1 is clipped.
+pub fn encode_16(frame: &LinearFrame, label: &Label) -> Vec<u8> {
+    let whole = |part: f64| (65535.0 * part).round() as u16;
+    let level = |light: f32| whole(srgb_encode(f64::from(light).clamp(0.0, 1.0))).to_be_bytes();
+    let channels = if frame.is_opaque() { 3 } else { 4 };
+    let mut data = Vec::with_capacity(frame.pixels().len() * 2 * channels);
+    let mut last = ([f32::NAN; 4], [[0; 2]; 4]);
+    for &pixel in frame.pixels() {
+        if pixel != last.0 {
+            let [r, g, b, part] = pixel;
+            last = (pixel, [level(r), level(g), level(b), whole(f64::from(part)).to_be_bytes()]);
+        }
+        data.extend_from_slice(last.1[..channels].as_flattened());
+    }
+    write([frame.width(), frame.height()], frame.is_opaque(), BitDepth::Sixteen, &data, label)
+        .expect("a frame with pixels fits a PNG and a vector takes every write")
+}
+
+fn write(
+    [width, height]: [u32; 2],
+    is_opaque: bool,
+    depth: BitDepth,
+    data: &[u8],
+    label: &Label,
+) -> Result<Vec<u8>, EncodingError> {
     let mut file = Vec::new();
-    let mut encoder = Encoder::new(&mut file, frame.width(), frame.height());
-    encoder.set_color(if frame.is_opaque() { ColorType::Rgb } else { ColorType::Rgba });
-    encoder.set_depth(BitDepth::Eight);
+    let mut encoder = Encoder::new(&mut file, width, height);
+    encoder.set_color(if is_opaque { ColorType::Rgb } else { ColorType::Rgba });
+    encoder.set_depth(depth);
     encoder.set_source_srgb(SrgbRenderingIntent::Perceptual);
     // Best compression costs 50 times the time for two thirds of the size.
     encoder.set_compression(Compression::Fast);
     add_text(&mut encoder, "Software", &label.software)?;
     add_text(&mut encoder, "Comment", &label.comment)?;
     let mut writer = encoder.write_header()?;
-    if frame.is_opaque() {
-        let rgb: Vec<[u8; 3]> = frame.pixels().iter().map(|&[r, g, b, _]| [r, g, b]).collect();
-        writer.write_image_data(rgb.as_flattened())?;
-    } else {
-        writer.write_image_data(frame.pixels().as_flattened())?;
-    }
+    writer.write_image_data(data)?;
     writer.finish()?;
     Ok(file)
 }
@@ -73,6 +103,28 @@ mod tests {
                 frame.pixels().as_flattened().to_vec()
             };
             assert_eq!(pixels, expected);
+        }
+    }
+
+    #[test]
+    fn sixteen_bits_are_the_nearest_levels() {
+        for frame in crate::linear::test_frames() {
+            let (output, bytes, _) = decode(&encode_16(&frame, &Label::default()));
+            assert_eq!(output.bit_depth, BitDepth::Sixteen);
+            let channels = if frame.is_opaque() { 3 } else { 4 };
+            assert_eq!(bytes.len(), frame.pixels().len() * 2 * channels);
+            for (bytes, light) in bytes.chunks(2 * channels).zip(frame.pixels()) {
+                let levels: Vec<f64> =
+                    bytes.chunks(2).map(|pair| f64::from(u16::from_be_bytes([pair[0], pair[1]]))).collect();
+                for (level, light) in levels.iter().zip(&light[..3]) {
+                    let back = ugphysics::srgb_decode(level / 65535.0);
+                    // Half a level, where the curve is steepest: 2.4/1.055 a unit.
+                    assert!((back - f64::from(*light).clamp(0.0, 1.0)).abs() < 0.51 * 2.3 / 65535.0);
+                }
+                if let Some(alpha) = levels.get(3) {
+                    assert_eq!(*alpha, (65535.0 * f64::from(light[3])).round());
+                }
+            }
         }
     }
 

@@ -55,7 +55,7 @@ mod lorentz;
 mod velocity;
 
 pub use aberration::aberrate;
-pub use color::{Hsv, luminance, srgb_decode, srgb_encode};
+pub use color::{Hsv, linear_srgb_to_xyz, luminance, srgb_decode, srgb_encode, xyz_to_linear_srgb};
 pub use doppler::{Brightness, doppler_at, doppler_factor};
 pub use hue::{
     CONTROL_POINTS, ControlPoint, RED_END_NM, VIOLET_END_NM, attenuation, hue_to_wavelength,

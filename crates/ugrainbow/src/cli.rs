@@ -4,13 +4,17 @@ use std::path::Path;
 
 use clap::{ArgAction, Parser};
 use glam::DVec3;
-use ugimage::Format;
+use ugimage::{Format, Tone};
 use ugparse::{Source, pipe};
 use ugphysics::Hsv;
 use ugpipe::{CommonArgs, Failure, Stage, ToolArgs, finite, vector, view_angle};
 use ugscene::{CameraOptions, HueScale};
 
-use crate::config::{Background, Config, Interpolation, Output};
+use crate::config::{Background, Config, Exposure, Interpolation, Output};
+use crate::explain::{self, explain};
+use crate::words::{
+    Channels, Kind, Pixel, Report, channels, exposure, format_named, kind_named, pixel, tone,
+};
 use crate::{Error, run};
 
 /// Where black-and-white PostScript goes if standard output is a terminal, as in 1988.
@@ -45,9 +49,12 @@ pub struct Args {
     #[arg(long, visible_alias = "grey-postscript", conflicts_with_all = ["dt", "tb"])]
     dp: bool,
 
-    /// Format of the picture: png, eps, ps [default: by the ending of -fo, else png]
-    #[arg(long, value_name = "FMT", visible_alias = "format", value_parser = format_named)]
-    dt: Option<Format>,
+    /// Format of the picture [default: by the ending of -fo, else png]
+    ///
+    /// png, png16 (16 bits), ppm, eps, ps; and exr, pfm, hdr, which hold linear light, neither clipped nor
+    /// brought into the gamut: white is 1, parts may be above it and below 0.
+    #[arg(long, value_name = "FMT", visible_alias = "format", value_parser = kind_named)]
+    dt: Option<Kind>,
 
     /// Eye point [default: that of the scene, else the origin]
     #[arg(long, num_args = 3, value_names = ["X", "Y", "Z"], action = ArgAction::Set,
@@ -98,6 +105,34 @@ pub struct Args {
     #[arg(long, visible_alias = "transparent", conflicts_with = "bg", help_heading = PICTURE)]
     tb: bool,
 
+    /// Exposure in stops: light is multiplied by 2 to the power E, and clipped only then
+    ///
+    /// auto: by what shows 99 of 100 pixels that are not black at or below white.
+    #[arg(long, value_name = "E|auto", allow_hyphen_values = true, value_parser = exposure,
+          visible_alias = "exposure", help_heading = PICTURE)]
+    ex: Option<Exposure>,
+
+    /// Tone curve from light to display: clip, filmic
+    ///
+    /// filmic is Hable's of 2010, whose white is 5.6. Curves work on luminance and keep hue.
+    #[arg(long, value_name = "CURVE", default_value = "clip", value_parser = tone,
+          visible_alias = "tone-curve", help_heading = PICTURE)]
+    tc: Tone,
+
+    /// More channels of an EXR picture, with commas between: D, time, distance, Z, id, velocity
+    ///
+    /// Doppler factor, emission time, distance of the emission, depth along the view, number of the
+    /// face, velocity of the body; all at the middle of the pixel.
+    #[arg(long, value_name = "LIST", value_parser = channels, visible_alias = "channels", help_heading = PICTURE)]
+    ch: Option<Channels>,
+
+    /// Instead of the picture, explain the pixel in column X and row Y, from 0 at the upper left
+    ///
+    /// As text, or with `--format json` as JSON: the face, its motion, when and where its light was sent,
+    /// colour and light, and every step to the bytes.
+    #[arg(long, value_name = "X,Y", value_parser = pixel, conflicts_with = "dp")]
+    explain: Option<Pixel>,
+
     #[command(flatten)]
     common: CommonArgs,
 }
@@ -127,6 +162,9 @@ impl Args {
             background: self.background()?,
             output: self.output(output)?,
             reading: pipe::options(&self.common)?,
+            exposure: self.ex,
+            tone: self.tc,
+            channels: self.ch.clone().unwrap_or_default().0,
             command_line: command_line.to_owned(),
         })
     }
@@ -166,15 +204,38 @@ impl Args {
         if self.dp {
             return Ok(Output::Grey);
         }
-        let ending = || file.and_then(Path::extension).map(|ending| ending.to_string_lossy());
-        match (self.dt, ending()) {
-            (Some(format), _) => Ok(Output::Color(format)),
+        if self.explain.is_some() {
+            return Ok(Output::Color(Format::Png));
+        }
+        match (self.dt, ending(file)) {
+            (Some(Kind::Picture(format)), _) => Ok(Output::Color(format)),
+            (Some(Kind::Report(_)), _) => Err(Failure::Usage(
+                "`text` and `json` explain a pixel: add --explain X,Y, or name a format of pictures".into(),
+            )),
             (None, None) => Ok(Output::Color(Format::Png)),
             (None, Some(ending)) => format_named(&ending)
                 .map(Output::Color)
                 .map_err(|error| Failure::Usage(format!("`.{ending}` is {error}; name one with -dt"))),
         }
     }
+
+    /// How a pixel is to be explained.
+    fn report(&self, file: Option<&Path>) -> Result<Report, Failure> {
+        match self.dt {
+            Some(Kind::Report(report)) => Ok(report),
+            Some(Kind::Picture(_)) => Err(Failure::Usage(
+                "a pixel is explained as text or json: give --format json, or none".into(),
+            )),
+            None if ending(file).is_some_and(|ending| ending.eq_ignore_ascii_case("json")) => {
+                Ok(Report::Json)
+            }
+            None => Ok(Report::Text),
+        }
+    }
+}
+
+fn ending(file: Option<&Path>) -> Option<String> {
+    file.and_then(Path::extension).map(|ending| ending.to_string_lossy().into_owned())
 }
 
 /// The whole program between its streams: reads the scene, draws it, writes the picture.
@@ -183,24 +244,53 @@ impl Args {
 /// Bad usage, a bad scene, or a stream that fails.
 pub fn draw(args: &Args, stage: &mut Stage) -> Result<(), Failure> {
     let config = args.config(stage.output_name(), stage.command_line())?;
-    if stage.output_is_terminal() {
+    let report = match args.explain {
+        Some(pixel) => Some((pixel, args.report(stage.output_name())?)),
+        None => None,
+    };
+    if report.is_none() && stage.output_is_terminal() {
         redirect(config.output, stage)?;
     }
     let input = stage.input()?;
     stage.detail(&format!("read {} bytes of `{}`", input.text.len(), input.name));
     let source =
         pipe::follow(Source::new(input.name, input.text), &config.reading, stage).map_err(pipe::refused)?;
-    let picture = run(&config, &source).map_err(|error| match error {
-        Error::Scene(findings) => pipe::refused(findings),
-        error if error.is_usage() => Failure::usage(error),
-        error => Failure::failed(error),
-    })?;
+    if let Some((pixel, report)) = report {
+        return explain_pixel(&config, &source, pixel, report, stage);
+    }
+    let picture = run(&config, &source).map_err(failure)?;
     if !picture.warnings.is_empty() {
         stage.report(&picture.warnings.render(true));
     }
     picture.notes.iter().for_each(|note| stage.note(note));
     stage.detail(&format!("drew {} x {} pixels", config.size[0], config.size[1]));
     stage.write(&picture.bytes)
+}
+
+fn explain_pixel(
+    config: &Config,
+    source: &Source,
+    pixel: Pixel,
+    report: Report,
+    stage: &mut Stage,
+) -> Result<(), Failure> {
+    let (explanation, warnings) = explain(config, source, pixel).map_err(failure)?;
+    if !warnings.is_empty() {
+        stage.report(&warnings.render(true));
+    }
+    let text = match report {
+        Report::Text => explain::text(&explanation),
+        Report::Json => explain::json(&explanation),
+    };
+    stage.write(text.as_bytes())
+}
+
+fn failure(error: Error) -> Failure {
+    match error {
+        Error::Scene(diagnostics) => Failure::Report(diagnostics.render(true)),
+        error if error.is_usage() => Failure::usage(error),
+        error => Failure::failed(error),
+    }
 }
 
 /// Keeps a terminal free of what it cannot show.
@@ -216,8 +306,4 @@ fn redirect(output: Output, stage: &mut Stage) -> Result<(), Failure> {
             Ok(())
         }
     }
-}
-
-fn format_named(name: &str) -> Result<Format, String> {
-    Format::from_name(name).ok_or_else(|| format!("none of the formats {}", Format::list()))
 }

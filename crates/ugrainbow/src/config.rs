@@ -1,8 +1,10 @@
 //! What is asked of the renderer, apart from the scene.
 
-use ugimage::Format;
+use ugimage::{Format, Tone};
 use ugphysics::Hsv;
 use ugscene::{CameraOptions, HueScale};
+
+use crate::planes::Channel;
 
 /// Everything that decides the bytes of a picture besides the scene.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,6 +26,12 @@ pub struct Config {
     pub output: Output,
     /// How the scene is read.
     pub reading: ugparse::Options,
+    /// What light is multiplied by before it is shown. If given, light brighter than white is kept until then.
+    pub exposure: Option<Exposure>,
+    /// How light is brought into the range of a display.
+    pub tone: Tone,
+    /// What an EXR picture holds besides colour.
+    pub channels: Vec<Channel>,
     /// How the program was called, to be written into the picture.
     pub command_line: String,
 }
@@ -41,6 +49,9 @@ impl Default for Config {
             background: Background::Color(Hsv { hue: 0.0, saturation: 0.0, value: 0.0 }),
             output: Output::Color(Format::Png),
             reading: ugparse::Options::default(),
+            exposure: None,
+            tone: Tone::Clip,
+            channels: Vec::new(),
             command_line: String::new(),
         }
     }
@@ -54,6 +65,25 @@ impl Config {
             HueScale::Wavelengths => Interpolation::Wavelength,
         }
     }
+
+    /// True if the file is to hold light, uncut.
+    pub(crate) fn is_linear(&self) -> bool {
+        self.output.format().is_some_and(Format::is_linear)
+    }
+
+    /// True if light brighter than white is asked for, or asked to be brought into range.
+    pub(crate) fn keeps_light(&self) -> bool {
+        self.is_linear() || self.exposure.is_some() || self.tone != Tone::Clip
+    }
+}
+
+/// What light is multiplied by.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Exposure {
+    /// By 2 to this power.
+    Stops(f64),
+    /// By what shows 99 of 100 pixels at or below white, see [`ugimage::auto_exposure`].
+    Auto,
 }
 
 /// What is interpolated, besides saturation and value.
@@ -82,4 +112,14 @@ pub enum Output {
     Color(Format),
     /// Black-and-white PostScript, as in 1988.
     Grey,
+}
+
+impl Output {
+    /// The colour format, if it is one.
+    pub fn format(self) -> Option<Format> {
+        match self {
+            Self::Color(format) => Some(format),
+            Self::Grey => None,
+        }
+    }
 }

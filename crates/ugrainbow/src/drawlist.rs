@@ -2,14 +2,13 @@
 
 use glam::DVec3;
 use rayon::prelude::*;
-use ugparse::{Face, Scene, VertexId, Wire, newell_normal};
-use ugscene::{Place, View};
+use ugparse::{Face, VertexId, Wire};
 
 use crate::clip::{Vertex, clip_polygon, clip_segment};
-use crate::light::Lighting;
-use crate::palette::{Palette, Swatch};
-use crate::raster::{Corner, Grid, PolygonList};
-use crate::surface::Surface;
+use crate::painter::Painter;
+use crate::palette::Swatch;
+use crate::raster::{Corner, PolygonList};
+use ugscene::Place;
 
 /// Faces or wires that one task turns into a list.
 const CHUNK: usize = 1024;
@@ -19,23 +18,7 @@ const WIRE_HALF_WIDTH: f64 = 0.6;
 
 /// How much nearer to the eye a wire is drawn than it is, relative to its distance: enough to
 /// win against the faces whose edge it follows.
-const WIRE_LIFT: f64 = 5e-4;
-
-/// All that faces and wires are drawn from.
-pub struct Painter<'a> {
-    /// The scene, with vertices of one velocity each.
-    pub scene: &'a Scene,
-    /// The camera.
-    pub view: &'a View,
-    /// The sample grid.
-    pub grid: &'a Grid,
-    /// Its colours.
-    pub palette: &'a Palette,
-    /// Its lights.
-    pub lighting: &'a Lighting,
-    /// Its surfaces: colours and rest geometry of vertices.
-    pub surface: &'a Surface,
-}
+pub const WIRE_LIFT: f64 = 5e-4;
 
 /// Polygons in drawing order, and how many faces and wires came how far.
 pub struct DrawList<const N: usize> {
@@ -61,7 +44,7 @@ impl Reach {
 }
 
 impl<const N: usize> DrawList<N> {
-    /// Faces first, then wires, each in the order of the scene. `pack` turns a colour and
+    /// Faces first, then wires, each in the order of the scene; their items are counted in this order from 0. `pack` turns a colour and
     /// the level of red, green and blue light into the numbers to interpolate.
     pub fn new(painter: &Painter<'_>, pack: impl Fn(&Swatch, DVec3) -> [f64; N] + Sync) -> Self {
         let scene = painter.scene;
@@ -70,8 +53,10 @@ impl<const N: usize> DrawList<N> {
             .par_iter()
             .map(|vertex| painter.view.place(vertex.position - painter.view.eye))
             .collect();
-        let chunk = || Chunk {
+        let chunk = |chunk: usize, first: usize| Chunk {
             painter,
+            // The text of a scene is below 4 GiB, and so are these numbers.
+            item: (first + chunk * CHUNK) as u32,
             places: &places,
             pack: &pack,
             list: PolygonList::default(),
@@ -79,9 +64,12 @@ impl<const N: usize> DrawList<N> {
             contour: Vec::new(),
             scratch: Vec::new(),
         };
-        let faces = scene.faces.par_chunks(CHUNK).map(|faces| chunk().all(faces, Chunk::push_face));
-        let wires = scene.wires.par_chunks(CHUNK).map(|wires| chunk().all(wires, Chunk::push_wire));
-        let (lists, reaches): (Vec<_>, Vec<_>) = faces.chain(wires).unzip();
+        let faces = scene.faces.par_chunks(CHUNK).enumerate();
+        let faces = faces.map(|(idx, faces)| chunk(idx, 0).all(faces, Chunk::push_face));
+        let wires = scene.wires.par_chunks(CHUNK).enumerate();
+        let wires = wires.map(|(idx, wires)| chunk(idx, scene.faces.len()).all(wires, Chunk::push_wire));
+        let (lists, reaches): (Vec<PolygonList<N>>, Vec<_>) = faces.chain(wires).unzip();
+        let lists = lists.into_iter().filter(|list| !list.is_empty()).collect();
         Self { lists, reach: reaches.into_iter().fold(Reach::default(), Reach::merge) }
     }
 }
@@ -92,6 +80,8 @@ struct Chunk<'a, const N: usize, P> {
     /// Of every vertex.
     places: &'a [Place],
     pack: &'a P,
+    /// Of the face or wire in work.
+    item: u32,
     list: PolygonList<N>,
     reach: Reach,
     /// The contour in work, kept for its buffer.
@@ -101,20 +91,23 @@ struct Chunk<'a, const N: usize, P> {
 
 impl<const N: usize, P: Fn(&Swatch, DVec3) -> [f64; N]> Chunk<'_, N, P> {
     fn all<T>(mut self, items: &[T], push: impl Fn(&mut Self, &T)) -> (PolygonList<N>, Reach) {
-        items.iter().for_each(|item| push(&mut self, item));
+        for item in items {
+            push(&mut self, item);
+            self.item += 1;
+        }
         self.list.sort_into_bands(self.painter.grid);
         (self.list, self.reach)
     }
 
     fn push_face(&mut self, face: &Face) {
-        let normal = self.seen_normal(face);
-        let grey_tint = self.grey_tint(face);
+        let normal = self.painter.seen_normal(face);
+        let common = self.painter.common(face);
         let mut is_in_front = false;
         for corners in self.painter.scene.face_contours(face) {
             self.contour.clear();
             for &vertex in corners {
-                let swatch = self.swatch(vertex, grey_tint);
-                let level = self.level(face, vertex, normal);
+                let swatch = self.painter.swatch(vertex, &common);
+                let level = self.painter.level(face, vertex, normal, common.is_light);
                 let values = (self.pack)(&swatch, level);
                 self.contour.push(Vertex { place: self.places[vertex.index()], values });
             }
@@ -140,69 +133,16 @@ impl<const N: usize, P: Fn(&Swatch, DVec3) -> [f64; N]> Chunk<'_, N, P> {
 
     fn end_polygon(&mut self) {
         self.reach.in_front += 1;
-        self.reach.in_picture += usize::from(self.list.end_polygon(self.painter.grid));
-    }
-
-    /// The rest normal of a face on the side that is seen; zero if lighting needs none or the
-    /// face has none.
-    fn seen_normal(&self, face: &Face) -> DVec3 {
-        if self.painter.scene.light_level(face).is_some() || !self.painter.lighting.needs_geometry() {
-            return DVec3::ZERO;
-        }
-        let Some(outline) = self.painter.scene.face_contours(face).next() else { return DVec3::ZERO };
-        let surface = self.painter.surface;
-        let normal = newell_normal(outline.iter().map(|&vertex| surface.rest(vertex))).normalize_or_zero();
-        let toward_eye = self.toward_eye(face, outline[0]);
-        if normal.dot(toward_eye) < 0.0 { -normal } else { normal }
-    }
-
-    /// Where the eye is, seen from a corner in the rest frame of the face.
-    fn toward_eye(&self, face: &Face, corner: VertexId) -> DVec3 {
-        if self.painter.view.is_perspective {
-            -self.painter.surface.rest(corner)
-        } else {
-            -self.painter.surface.rest_direction(self.painter.view.forward, face.velocity)
-        }
-    }
-
-    fn level(&self, face: &Face, vertex: VertexId, seen_normal: DVec3) -> DVec3 {
-        if let Some(level) = self.painter.scene.light_level(face) {
-            return DVec3::splat(level);
-        }
-        let lighting = self.painter.lighting;
-        if !lighting.needs_geometry() {
-            return lighting.level(DVec3::ZERO, DVec3::ZERO);
-        }
-        let normal = match self.painter.scene.vertices[vertex.index()].normal {
-            // A normal of a vertex belongs to the side its face looks to.
-            Some(own) if own.dot(seen_normal) < 0.0 => -own.normalize_or_zero(),
-            Some(own) => own.normalize_or_zero(),
-            None => seen_normal,
-        };
-        lighting.level(self.painter.surface.rest(vertex), normal)
-    }
-
-    fn swatch(&self, vertex: VertexId, grey_tint: f64) -> Swatch {
-        let swatch = self.painter.surface.swatch(vertex);
-        if swatch.is_grey() { Swatch { tint: grey_tint, ..swatch } } else { swatch }
-    }
-
-    /// The tint a grey corner takes for interpolation: the mean of the coloured corners, so that
-    /// a face from grey to blue does not run through the rainbow.
-    fn grey_tint(&self, face: &Face) -> f64 {
-        let corners = self.painter.scene.contours.corners(face.contours.clone());
-        let swatches = corners.iter().map(|&vertex| self.painter.surface.swatch(vertex));
-        let (sum, count) = swatches
-            .filter(|swatch| !swatch.is_grey())
-            .fold((0.0, 0), |(sum, count), swatch| (sum + swatch.tint, count + 1));
-        if count == 0 { 0.0 } else { sum / f64::from(count) }
+        self.reach.in_picture += usize::from(self.list.end_polygon(self.painter.grid, self.item));
     }
 
     fn push_wire(&mut self, wire: &Wire) {
-        let color = wire.color.map_or(Swatch::WHITE, |color| self.painter.palette.get(color));
+        let color = self.painter.wire_swatch(wire);
+        // One end given as light makes all of the wire light, as with faces.
+        let is_light = self.painter.is_light_wire(wire, &color);
         for line in self.painter.scene.wire_contours(wire) {
             for ends in line.windows(2) {
-                let ends = [ends[0], ends[1]].map(|vertex| self.wire_end(vertex, &color));
+                let ends = [ends[0], ends[1]].map(|vertex| self.wire_end(vertex, &color, is_light));
                 if let Some(ends) = clip_segment(self.painter.view.slab, ends) {
                     self.push_strip(ends);
                 }
@@ -211,9 +151,9 @@ impl<const N: usize, P: Fn(&Swatch, DVec3) -> [f64; N]> Chunk<'_, N, P> {
     }
 
     /// Wires are not lit.
-    fn wire_end(&self, vertex: VertexId, color: &Swatch) -> Vertex<N> {
-        let own = self.painter.scene.vertices[vertex.index()].color;
-        let swatch = own.map_or(*color, |own| self.painter.palette.get(own));
+    fn wire_end(&self, vertex: VertexId, color: &Swatch, is_light: bool) -> Vertex<N> {
+        let swatch = self.painter.wire_end(vertex, color);
+        let swatch = if is_light { self.painter.as_light(swatch) } else { swatch };
         Vertex { place: self.places[vertex.index()], values: (self.pack)(&swatch, DVec3::ONE) }
     }
 

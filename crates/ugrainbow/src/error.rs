@@ -2,11 +2,14 @@
 
 use std::fmt;
 
+use ugimage::{Format, Tone};
 use ugparse::Diagnostics;
 use ugphysics::VelocityError;
 use ugscene::CameraError;
 
-/// Most pixels of a picture; in memory they are a gibibyte.
+use crate::config::{Background, Config};
+
+/// Most pixels of a picture; in memory they are a gibibyte, as light four.
 pub const MAX_PIXELS: u64 = 1 << 28;
 
 /// Most pixels along a side.
@@ -26,6 +29,15 @@ pub enum Error {
     Size([u32; 2]),
     /// The samples along a side of a pixel are not 1…16.
     Samples(u32),
+    /// Options that do not go together; the text says which, and what to do.
+    Options(&'static str),
+    /// A pixel to be explained that is not in the picture.
+    Pixel {
+        /// Its column and row.
+        pixel: [u32; 2],
+        /// Of the picture.
+        size: [u32; 2],
+    },
     /// The camera makes no sense.
     Camera(CameraError),
     /// A velocity of the scene is not below that of light.
@@ -35,7 +47,7 @@ pub enum Error {
 impl Error {
     /// True if the command line asks for it, whatever the scene.
     pub fn is_usage(&self) -> bool {
-        matches!(self, Self::Size(_) | Self::Samples(_))
+        matches!(self, Self::Size(_) | Self::Samples(_) | Self::Options(_) | Self::Pixel { .. })
     }
 }
 
@@ -48,6 +60,27 @@ pub fn check_size(size: [u32; 2], samples: u32) -> Result<(), Error> {
     }
     if !(1..=MAX_SAMPLES).contains(&samples) {
         return Err(Error::Samples(samples));
+    }
+    Ok(())
+}
+
+/// Refuses what a format has no place for.
+pub fn check_output(config: &Config) -> Result<(), Error> {
+    let format = config.output.format();
+    if !config.channels.is_empty() && format != Some(Format::Exr) {
+        return Err(Error::Options(
+            "only EXR has a place for other channels than colour: with -ch write -dt exr",
+        ));
+    }
+    if config.is_linear() && (config.exposure.is_some() || config.tone != Tone::Clip) {
+        return Err(Error::Options(
+            "EXR, PFM and HDR pictures hold the light as it is: leave out -ex and -tc, or write -dt png16",
+        ));
+    }
+    if config.background == Background::Clear && format.is_some_and(|format| !format.has_alpha()) {
+        return Err(Error::Options(
+            "PFM and HDR pictures have no transparency: leave out -tb, or write -dt exr",
+        ));
     }
     Ok(())
 }
@@ -71,6 +104,12 @@ impl fmt::Display for Error {
                     "{samples} x {samples} samples a pixel cannot be taken; give -aa 1 to {MAX_SAMPLES}"
                 )
             }
+            Self::Options(text) => f.write_str(text),
+            Self::Pixel { pixel: [x, y], size: [width, height] } => write!(
+                f,
+                "pixel {x},{y} is not in the picture of {width} x {height} pixels; \
+                 count columns and rows from 0 at the upper left, or give -sz"
+            ),
             Self::Camera(error) => error.fmt(f),
             Self::Velocity(error) => error.fmt(f),
         }

@@ -11,20 +11,22 @@
 //!
 //! ```text
 //! Scene ─camera─→ places of vertices ┐
-//!       ─surface→ colours, rest frame ├─drawlist→ polygons ─raster→ samples ─shade→ light ─→ pixels
-//!       ─light──→ light levels        ┘  (clip)
+//!       ─surface→ colours, rest frame ├─drawlist→ polygons ─raster→ samples ─shade→ light ─canvas→ pixels
+//!       ─light──→ light levels        ┘  (clip)                                            (develop)
 //! ```
 //!
 //! - **Camera.** An option beats the scene's `cam`, which beats the default: the eye at the
 //!   origin looking at the middle of the scene, +z up, 40 degrees across. Pixels are square
 //!   unless both view angles are given as options.
-//! - **Colour.** A vertex has its own colour, else the mix of its faces' colours, else
+//! - **Colour.** Colours given as light (`c_xyz`) are interpolated as linear light, uncut. A vertex has its own colour, else the mix of its faces' colours, else
 //!   white. A saturation of 0 has no wavelength and is not attenuated.
 //! - **Light.** As in 1988 lights rest in the frame of the face they light. Positions and
 //!   normals are brought back to that frame (P4), so a moving cube is lit like a cube.
 //!   Faces are lit on the side that is seen. The level multiplies the value.
 //! - **Hidden surfaces.** Depth is compared per sample, so faces may cut through each other.
-//! - **Pixels.** Samples are averaged in linear light and encoded as sRGB.
+//! - **Pixels.** Samples are averaged in linear light. The mean is exposed, put through a tone curve, brought
+//!   into the gamut (P31), and encoded as sRGB; or written as it is to a format that holds light. Unless light
+//!   is given or asked for, values above 1 are clipped sample by sample, as in 1988.
 //!
 //! - **Wires** are 1.2 pixels wide and not lit, and win against the faces they lie on.
 //!
@@ -50,38 +52,39 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod canvas;
 mod cli;
 mod clip;
 mod config;
 mod drawlist;
 mod error;
+mod explain;
 mod light;
 mod notes;
+mod painter;
 mod palette;
+mod planes;
 mod raster;
+mod setup;
 mod shade;
+mod sheet;
 mod surface;
+mod words;
 
-use std::borrow::Cow;
-
-use glam::DVec3;
 use ugimage::{Frame, Label, grey_postscript};
 use ugparse::{Diagnostics, Scene, Source};
-use ugphysics::srgb_decode;
-use ugscene::View;
 
 pub use cli::{Args, draw};
-pub use config::{Background, Config, Interpolation, Output};
+pub use config::{Background, Config, Exposure, Interpolation, Output};
 pub use error::{Error, MAX_PIXELS, MAX_SIDE};
+pub use planes::Channel;
+pub use ugimage::Tone;
 pub use ugscene::{CameraError, CameraOptions, HueScale};
 
-use drawlist::{DrawList, Painter};
-use light::Lighting;
+use canvas::{Canvas, Drawn};
 use notes::Outcome;
-use palette::{Palette, Swatch};
-use raster::{Backdrop, Grid, PolygonList, Shade, Tally, paint};
-use shade::Shader;
-use surface::Surface;
+use setup::Setup;
+use sheet::Sheet;
 
 /// A picture as a file.
 #[derive(Clone, Debug)]
@@ -100,97 +103,30 @@ pub struct Picture {
 /// Whatever stops it: see [`Error`].
 pub fn run(config: &Config, source: &Source) -> Result<Picture, Error> {
     let parsed = ugscene::read(source, &config.reading)?;
-    let (frame, notes) = render(&parsed.scene, config)?;
+    let (drawn, notes) = paint(&parsed.scene, config)?;
     let label = label(&parsed.scene, config);
-    let bytes = match config.output {
-        Output::Color(format) => format.encode(&frame, &label),
-        Output::Grey => grey_postscript(&frame, &label),
+    let bytes = match (config.output, drawn) {
+        (Output::Color(format), Drawn::Display(frame)) => format.encode(&frame, &label),
+        (Output::Color(format), Drawn::Light(frame)) => format.encode_linear(&frame, &label),
+        (Output::Grey, drawn) => grey_postscript(&drawn.into_frame(), &label),
     };
     Ok(Picture { bytes, notes, warnings: parsed.warnings })
 }
 
-/// Draws a scene. The notes say what the user should know, one sentence each.
+/// Draws a scene for a display with 8 bits a channel. The notes say what the user should know, one sentence each.
 ///
 /// # Errors
 /// The picture is too large, there is nothing to draw, or the camera makes no sense.
 pub fn render(scene: &Scene, config: &Config) -> Result<(Frame, Vec<String>), Error> {
-    error::check_size(config.size, config.samples)?;
-    if scene.faces.is_empty() && scene.wires.is_empty() {
-        return Err(Error::Empty);
-    }
-    let scene = &with_separate_bodies(scene);
-    let [width, height] = config.size;
-    let view = View::new(scene, &config.camera, config.size.map(|pixels| pixels * config.samples))?;
-    let grid = Grid { width, height, samples: config.samples, is_perspective: view.is_perspective };
-    let palette = Palette::new(scene, config);
-    let lighting = Lighting::new(scene, &palette, &view);
-    let surface = Surface::new(scene, view.eye, &palette, config.hue_scale)?;
-    let painter = Painter {
-        scene,
-        view: &view,
-        grid: &grid,
-        palette: &palette,
-        lighting: &lighting,
-        surface: &surface,
-    };
-    let shader = Shader::new(config.interpolated());
-    let mut canvas = Canvas::new(&grid, config.background);
-    let outcome = if lighting.is_colored() {
-        canvas.draw(DrawList::new(&painter, pack_colored), |values| shader.colored(values))
-    } else {
-        canvas.draw(DrawList::new(&painter, pack_plain), |values| shader.plain(values))
-    };
-    Ok((canvas.frame, notes::notes(scene, &view, &outcome)))
+    paint(scene, config).map(|(drawn, notes)| (drawn.into_frame(), notes))
 }
 
-/// The scene with vertices of one velocity each, copied only if it has velocities.
-fn with_separate_bodies(scene: &Scene) -> Cow<'_, Scene> {
-    if scene.velocities.is_empty() {
-        return Cow::Borrowed(scene);
-    }
-    let mut scene = scene.clone();
-    ugscene::separate_bodies(&mut scene);
-    Cow::Owned(scene)
-}
-
-/// White light of one level goes into the value.
-fn pack_plain(swatch: &Swatch, level: DVec3) -> [f64; 3] {
-    [swatch.tint, swatch.saturation, swatch.value * level.x]
-}
-
-/// Coloured light is carried beside the colour.
-fn pack_colored(swatch: &Swatch, level: DVec3) -> [f64; 6] {
-    [swatch.tint, swatch.saturation, swatch.value, level.x, level.y, level.z]
-}
-
-/// A frame to be drawn in.
-struct Canvas<'a> {
-    frame: Frame,
-    backdrop: Backdrop,
-    grid: &'a Grid,
-}
-
-impl<'a> Canvas<'a> {
-    fn new(grid: &'a Grid, background: Background) -> Self {
-        let (width, height) = (grid.width, grid.height);
-        match background {
-            Background::Clear => Self { frame: Frame::clear(width, height), backdrop: Backdrop::Clear, grid },
-            Background::Color(color) => {
-                let light = color.to_rgb().map(|channel| srgb_decode(channel) as f32);
-                Self { frame: Frame::opaque(width, height), backdrop: Backdrop::Light(light), grid }
-            }
-        }
-    }
-
-    fn draw<const N: usize>(
-        &mut self,
-        DrawList { lists, reach }: DrawList<N>,
-        shader: impl Fn(&[f32; N]) -> Shade + Sync,
-    ) -> Outcome {
-        let lists: Vec<PolygonList<N>> = lists.into_iter().filter(|list| !list.is_empty()).collect();
-        let tally: Tally = paint(&mut self.frame, self.grid, &lists, self.backdrop, &shader);
-        Outcome { reach, tally }
-    }
+fn paint(scene: &Scene, config: &Config) -> Result<(Drawn, Vec<String>), Error> {
+    let setup = Setup::new(scene, config)?;
+    let sheet = Sheet::new(&setup.painter());
+    let canvas = Canvas::new(&setup, &sheet, config);
+    let outcome = Outcome { reach: sheet.reach(), tally: canvas.tally, development: canvas.development };
+    Ok((canvas.drawn, notes::notes(&setup, config, &outcome)))
 }
 
 /// Our name and version, and the command lines of the whole pipe.

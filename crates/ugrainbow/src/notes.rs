@@ -1,10 +1,12 @@
 //! What the user should know about a picture: above all why nothing is to be seen.
 
+use ugimage::{Development, Tone};
 use ugparse::Scene;
-use ugscene::View;
 
+use crate::config::{Config, Exposure};
 use crate::drawlist::Reach;
 use crate::raster::Tally;
+use crate::setup::Setup;
 
 /// Brightness that is worth the message that it was clipped; less does not show in 8 bits.
 const CLIPPED: f32 = 1.001;
@@ -16,21 +18,38 @@ pub struct Outcome {
     pub reach: Reach,
     /// What the samples were.
     pub tally: Tally,
+    /// How light was developed, if more than white was kept for it.
+    pub development: Option<Development>,
 }
 
 /// One sentence for each thing worth knowing.
-pub fn notes(scene: &Scene, view: &View, outcome: &Outcome) -> Vec<String> {
-    let mut notes = scene_notes(scene);
-    if view.is_up_replaced {
+pub fn notes(setup: &Setup<'_>, config: &Config, outcome: &Outcome) -> Vec<String> {
+    let mut notes = scene_notes(setup.scene());
+    if setup.view.is_up_replaced {
         notes.push(
             "the up direction is parallel to the view, so another axis is up; choose one with -ud".into(),
         );
     }
     notes.extend(why_nothing_is_seen(outcome).map(str::to_owned));
-    if outcome.tally.max_intensity > CLIPPED {
-        notes.push(format!("max intensity is {}, clip to 1.0", decimal(outcome.tally.max_intensity)));
-    }
+    notes.extend(light_note(config, outcome));
     notes
+}
+
+/// What was done with light that is too bright, if there was any.
+fn light_note(config: &Config, outcome: &Outcome) -> Option<String> {
+    if config.is_linear() {
+        return None;
+    }
+    if let (Some(Exposure::Auto), Some(Development { stops, .. })) = (config.exposure, outcome.development) {
+        return Some(format!("exposure is {stops} stops; -ex {stops} gives the same picture"));
+    }
+    let is_chosen = config.exposure.is_some() || config.tone != Tone::Clip;
+    let brightest = outcome.tally.max_intensity;
+    if brightest <= CLIPPED || is_chosen {
+        return None;
+    }
+    let remedy = if outcome.development.is_some() { "; -ex auto brings it into range" } else { "" };
+    Some(format!("max intensity is {}, clip to 1.0{remedy}", decimal(brightest)))
 }
 
 /// A number with one to three decimals.
@@ -55,7 +74,7 @@ fn scene_notes(scene: &Scene) -> Vec<String> {
     notes
 }
 
-fn why_nothing_is_seen(Outcome { reach, tally }: &Outcome) -> Option<&'static str> {
+fn why_nothing_is_seen(Outcome { reach, tally, .. }: &Outcome) -> Option<&'static str> {
     if reach.in_front == 0 {
         return Some(
             "nothing is drawn: everything is behind the eye or outside the clipping distances; \

@@ -1,7 +1,8 @@
 //! Colours of the scene as what is interpolated.
 
+use glam::DVec3;
 use ugparse::{Color, ColorValue, Scene};
-use ugphysics::{Hsv, hue_to_wavelength, wavelength_to_hue};
+use ugphysics::{Hsv, attenuation, hue_to_wavelength, srgb_decode, wavelength_to_hue};
 use ugscene::HueScale;
 
 use crate::config::{Config, Interpolation};
@@ -16,11 +17,14 @@ pub struct Swatch {
     pub saturation: f64,
     /// 0 and more.
     pub value: f64,
+    /// The light itself, uncut, if the colour is given as such (`c_xyz`): linear red, green and blue. The
+    /// numbers above are then the nearest that a display has.
+    pub light: Option<DVec3>,
 }
 
 impl Swatch {
     /// The colour of what has none.
-    pub const WHITE: Self = Self { tint: 0.0, saturation: 0.0, value: 1.0 };
+    pub const WHITE: Self = Self { tint: 0.0, saturation: 0.0, value: 1.0, light: None };
 
     /// True if it has no tint.
     pub fn is_grey(&self) -> bool {
@@ -34,13 +38,15 @@ pub struct Palette {
     swatches: Vec<Swatch>,
     interpolation: Interpolation,
     scale: HueScale,
+    has_light: bool,
 }
 
 impl Palette {
     /// Reads all colours of a scene.
     pub fn new(scene: &Scene, config: &Config) -> Self {
-        let mut palette =
-            Self { swatches: Vec::new(), interpolation: config.interpolated(), scale: config.hue_scale };
+        let has_light = scene.colors.iter().any(|color| ugscene::light(color).is_some());
+        let (interpolation, scale) = (config.interpolated(), config.hue_scale);
+        let mut palette = Self { swatches: Vec::new(), interpolation, scale, has_light };
         palette.swatches = scene.colors.iter().map(|color| palette.read(color)).collect();
         palette
     }
@@ -48,6 +54,29 @@ impl Palette {
     /// The colour in a row of the scene's table.
     pub fn get(&self, color: ugparse::ColorId) -> Swatch {
         self.swatches[color.index()]
+    }
+
+    /// True if the scene gives a colour as light.
+    pub fn has_light(&self) -> bool {
+        self.has_light
+    }
+
+    /// The light of a colour: linear red, green and blue. That of a hue is attenuated where the eye sees little.
+    /// Eq. (P17)
+    pub fn light(&self, swatch: &Swatch) -> DVec3 {
+        swatch.light.unwrap_or_else(|| {
+            let fade = if swatch.is_grey() { 1.0 } else { attenuation(self.wavelength_nm(swatch)) };
+            let color = self.hsv(swatch);
+            DVec3::from_array(Hsv { value: color.value * fade, ..color }.to_rgb().map(srgb_decode))
+        })
+    }
+
+    /// The wavelength a tint stands for.
+    pub fn wavelength_nm(&self, swatch: &Swatch) -> f64 {
+        match self.interpolation {
+            Interpolation::Hue => hue_to_wavelength(swatch.tint),
+            Interpolation::Wavelength => swatch.tint,
+        }
     }
 
     /// The same as a colour with a hue.
@@ -65,16 +94,19 @@ impl Palette {
             Interpolation::Hue => spectral(color.hue),
             Interpolation::Wavelength => hue_to_wavelength(color.hue),
         };
-        Swatch { tint, saturation: color.saturation, value: color.value }
+        Swatch { tint, saturation: color.saturation, value: color.value, light: None }
     }
 
     fn read(&self, color: &Color) -> Swatch {
         match color.value {
             // Taken as it is: a wavelength the eye cannot see has no hue.
             ColorValue::Hsv { value, hue: tint, saturation } if self.scale == HueScale::Wavelengths => {
-                Swatch { tint, saturation, value }
+                Swatch { tint, saturation, value, light: None }
             }
-            _ => self.swatch(ugscene::hsv(color, self.scale)),
+            _ => Swatch {
+                light: ugscene::light(color).map(DVec3::from_array),
+                ..self.swatch(ugscene::hsv(color, self.scale))
+            },
         }
     }
 }

@@ -17,6 +17,8 @@ const FADE_CELLS: usize = 1024;
 #[derive(Clone, Debug)]
 pub struct Shader {
     interpolation: Interpolation,
+    /// Values are clipped to this.
+    ceiling: f32,
     transfer: Table,
     /// Attenuation over hue −60…0, and over 240…300: finding the wavelength of a hue takes
     /// iterations, too slow for each sample. Between, attenuation is 1.
@@ -25,11 +27,13 @@ pub struct Shader {
 }
 
 impl Shader {
-    /// Computes the tables.
-    pub fn new(interpolation: Interpolation) -> Self {
+    /// Computes the tables. `is_clipped`: values of hues are clipped to 1, sample by sample, as in 1988;
+    /// otherwise what is brighter follows the transfer function on.
+    pub fn new(interpolation: Interpolation, is_clipped: bool) -> Self {
         let fade = |hue: f64| attenuation(hue_to_wavelength(hue));
         Self {
             interpolation,
+            ceiling: if is_clipped { 1.0 } else { f32::INFINITY },
             transfer: Table::new(TRANSFER_CELLS, srgb_decode),
             red_fade: Table::new(FADE_CELLS, |part| fade(-60.0 + 60.0 * part)),
             violet_fade: Table::new(FADE_CELLS, |part| fade(240.0 + 60.0 * part)),
@@ -46,16 +50,32 @@ impl Shader {
         self.lit(tint, saturation, value, [red, green, blue])
     }
 
+    /// The light of a mixed scene: of three numbers as for [`Shader::plain`], or of linear red, green and blue if the
+    /// fourth is 1 and not 0.
+    pub fn mixed(&self, &[a, b, c, is_light]: &[f32; 4]) -> Shade {
+        if is_light > 0.5 { given([a, b, c]) } else { self.lit(a, b, c, [1.0; 3]) }
+    }
+
+    /// The same under coloured lights, which are in light already.
+    pub fn mixed_colored(&self, &[a, b, c, red, green, blue, is_light]: &[f32; 7]) -> Shade {
+        if is_light > 0.5 { given([a, b, c]) } else { self.lit(a, b, c, [red, green, blue]) }
+    }
+
     fn lit(&self, tint: f32, saturation: f32, value: f32, light: [f32; 3]) -> Shade {
         let fade = if saturation > 0.0 { self.fade(tint) } else { 1.0 };
         let color = Hsv { hue: self.hue(tint), saturation: f64::from(saturation), value: 1.0 };
         let rgb = color.to_rgb();
         let intensity: [f32; 3] = std::array::from_fn(|i| value * fade * light[i]);
         Shade {
-            light: std::array::from_fn(|i| self.transfer.at(rgb[i] as f32 * intensity[i].min(1.0))),
+            light: std::array::from_fn(|i| self.decode(rgb[i] as f32 * intensity[i].min(self.ceiling))),
             intensity: intensity.into_iter().fold(0.0, f32::max),
             is_out_of_range: fade == 0.0,
         }
+    }
+
+    #[inline]
+    fn decode(&self, encoded: f32) -> f32 {
+        if encoded <= 1.0 { self.transfer.at(encoded) } else { srgb_decode(f64::from(encoded)) as f32 }
     }
 
     fn hue(&self, tint: f32) -> f64 {
@@ -73,6 +93,11 @@ impl Shader {
             Interpolation::Hue => 1.0,
         }
     }
+}
+
+/// Light that is given as such.
+fn given(light: [f32; 3]) -> Shade {
+    Shade { light, intensity: light.into_iter().fold(0.0, f32::max), is_out_of_range: false }
 }
 
 /// A function on 0…1 as a table with straight lines between its points.
@@ -113,7 +138,7 @@ mod tests {
 
     #[test]
     fn hues_fade_as_their_wavelengths() {
-        let shader = Shader::new(Interpolation::Hue);
+        let shader = Shader::new(Interpolation::Hue, true);
         for step in 0..=3600 {
             let hue = f64::from(step) / 10.0 - 60.0;
             let fade = attenuation(hue_to_wavelength(hue));
@@ -125,7 +150,7 @@ mod tests {
 
     #[test]
     fn wavelengths_fade_at_both_ends() {
-        let shader = Shader::new(Interpolation::Wavelength);
+        let shader = Shader::new(Interpolation::Wavelength, true);
         for nm in [300.0, 379.0, 380.0, 400.0, 435.8, 500.0, 589.0, 700.0, 740.0, 779.0, 780.0, 5000.0] {
             let fade = attenuation(nm);
             let shade = shader.plain(&[nm as f32, 1.0, 1.0]);
@@ -136,20 +161,35 @@ mod tests {
 
     #[test]
     fn grey_has_no_wavelength() {
-        let shade = Shader::new(Interpolation::Wavelength).plain(&[5000.0, 0.0, 0.5]);
+        let shade = Shader::new(Interpolation::Wavelength, true).plain(&[5000.0, 0.0, 0.5]);
         assert_light(&shade, [srgb_decode(0.5); 3]);
-        let shade = Shader::new(Interpolation::Hue).plain(&[300.0, 0.0, 0.5]);
+        let shade = Shader::new(Interpolation::Hue, true).plain(&[300.0, 0.0, 0.5]);
         assert_light(&shade, [srgb_decode(0.5); 3]);
     }
 
     #[test]
     fn intensity_is_told_before_clipping() {
-        let shader = Shader::new(Interpolation::Hue);
+        let shader = Shader::new(Interpolation::Hue, true);
         let shade = shader.plain(&[120.0, 0.5, 1.5]);
         assert_eq!(shade.intensity, 1.5);
         assert_light(&shade, exact(120.0, 0.5, 1.0));
         let shade = shader.colored(&[0.0, 0.0, 1.0, 0.5, 2.0, 0.0]);
         assert_eq!(shade.intensity, 2.0);
         assert_light(&shade, [srgb_decode(0.5), 1.0, 0.0]);
+    }
+
+    #[test]
+    fn without_a_ceiling_bright_colours_follow_the_curve() {
+        let shader = Shader::new(Interpolation::Hue, false);
+        for value in [0.25, 1.0, 1.0001, 1.5, 40.0] {
+            let shade = shader.plain(&[120.0, 0.5, value]);
+            let light =
+                Hsv { hue: 120.0, saturation: 0.5, value: f64::from(value) }.to_rgb().map(srgb_decode);
+            for (ours, exact) in shade.light.iter().zip(light) {
+                assert!((f64::from(*ours) - exact).abs() < 1e-6 * exact.max(1.0), "{shade:?} {light:?}");
+            }
+        }
+        assert_eq!(shader.mixed(&[7.0, -0.5, 0.25, 1.0]).light, [7.0, -0.5, 0.25]);
+        assert_eq!(shader.mixed(&[120.0, 0.5, 0.25, 0.0]), shader.plain(&[120.0, 0.5, 0.25]));
     }
 }

@@ -29,7 +29,9 @@ impl Surface {
             .map(|color| match color {
                 VertexColor::Named(color) => palette.get(color),
                 VertexColor::White => Swatch::WHITE,
-                VertexColor::Mixed { hsv, .. } => palette.swatch(hsv),
+                VertexColor::Mixed { hsv, light, .. } => {
+                    Swatch { light: light.map(DVec3::from_array), ..palette.swatch(hsv) }
+                }
             })
             .collect();
         Ok(Self { swatches, rest, bodies })
@@ -43,6 +45,11 @@ impl Surface {
     /// Where the vertex is in the rest frame of its body, relative to the eye, in the axes of the scene.  Eq. (P4)
     pub fn rest(&self, vertex: VertexId) -> DVec3 {
         self.rest[vertex.index()]
+    }
+
+    /// The velocity of a face or wire.
+    pub fn velocity(&self, velocity: Option<VelocityId>) -> Velocity {
+        self.bodies.of(velocity)
     }
 
     /// A viewing direction in the rest frame of a body, in the axes of the scene.  Eq. (P6), (P25)

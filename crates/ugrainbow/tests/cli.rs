@@ -100,8 +100,11 @@ fn bad_usage_ends_with_2() {
         assert_eq!(output.stdout, b"");
         assert!(stderr(&output).contains(message), "{}", stderr(&output));
     }
-    check("-dt jpg", "none of the formats png, eps, ps");
-    check("-fo a.jpg", "`.jpg` is none of the formats png, eps, ps; name one with -dt");
+    check("-dt jpg", "none of the formats png, png16, eps, ps, ppm, exr, pfm, hdr");
+    check(
+        "-fo a.jpg",
+        "`.jpg` is none of the formats png, png16, eps, ps, ppm, exr, pfm, hdr; name one with -dt",
+    );
     check(
         "-sz 32768 16384",
         "a picture of 32768 x 16384 pixels cannot be made: the limit is 268435456 pixels",

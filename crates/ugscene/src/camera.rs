@@ -206,6 +206,17 @@ impl View {
     }
 }
 
+/// The way back, from the picture to points.
+impl View {
+    /// The point, relative to the eye, that is at a place in the picture, in samples, and at a depth along the view.
+    pub fn point(&self, [x, y]: [f64; 2], z: f64) -> DVec3 {
+        let w = if self.is_perspective { z } else { 1.0 };
+        let across = (x - self.axis[0]) * w / self.scale[0];
+        let above = (self.axis[1] - y) * w / self.scale[1];
+        across * self.right + above * self.up + z * self.forward
+    }
+}
+
 /// The middle of the box round all vertices.
 fn middle(scene: &Scene) -> DVec3 {
     // Halved first: the sum of two large coordinates may be too large.

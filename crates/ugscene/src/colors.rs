@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use ugparse::{Color, ColorId, ColorValue, Scene};
-use ugphysics::{Hsv, srgb_decode, srgb_encode, wavelength_to_hue};
+use ugphysics::{Hsv, srgb_decode, srgb_encode, wavelength_to_hue, xyz_to_linear_srgb};
 
 use crate::corner_angle;
 
@@ -22,7 +22,9 @@ pub enum HueScale {
 pub fn hsv(color: &Color, scale: HueScale) -> Hsv {
     match color.value {
         ColorValue::Rgb(rgb) => Hsv::from_rgb(rgb),
-        ColorValue::Xyz(xyz) => Hsv::from_rgb(xyz_to_linear_srgb(xyz).map(srgb_encode)),
+        ColorValue::Xyz(xyz) => {
+            Hsv::from_rgb(xyz_to_linear_srgb(xyz).map(|channel| srgb_encode(channel.max(0.0))))
+        }
         ColorValue::Blackbody { .. } | ColorValue::Spectrum { .. } => {
             Hsv { hue: 0.0, saturation: 0.0, value: 1.0 }
         }
@@ -36,15 +38,13 @@ pub fn hsv(color: &Color, scale: HueScale) -> Hsv {
     }
 }
 
-/// Linear red, green and blue of the sRGB primaries from CIE X, Y, Z
-/// (IEC 61966-2-1); colours outside the triangle of the primaries are cut.
-fn xyz_to_linear_srgb([x, y, z]: [f64; 3]) -> [f64; 3] {
-    [
-        3.2406 * x - 1.5372 * y - 0.4986 * z,
-        -0.9689 * x + 1.8758 * y + 0.0415 * z,
-        0.0557 * x - 0.2040 * y + 1.0570 * z,
-    ]
-    .map(|channel| channel.max(0.0))
+/// A colour statement as linear red, green and blue of the sRGB primaries, uncut: light in XYZ may have
+/// parts above 1 and below 0. `None` for what is not given as light.
+pub fn light(color: &Color) -> Option<[f64; 3]> {
+    match color.value {
+        ColorValue::Xyz(xyz) => Some(xyz_to_linear_srgb(xyz)),
+        _ => None,
+    }
 }
 
 /// What to tell the user of a scene with colours that [`hsv`] takes for white.
@@ -68,6 +68,8 @@ pub enum VertexColor {
     Mixed {
         /// The mean, hue in degrees.
         hsv: Hsv,
+        /// The mean as linear light, if one of the colours is [`light`]: then nothing is cut.
+        light: Option<[f64; 3]>,
         /// The mean translucency.
         translucency: f64,
     },
@@ -154,20 +156,23 @@ impl Sum {
 #[derive(Default)]
 struct Mean {
     linear: DVec3,
+    /// One of them is given as light.
+    is_light: bool,
     translucency: f64,
     weight: f64,
 }
 
 impl Mean {
     fn add(&mut self, scene: &Scene, scale: HueScale, color: Option<ColorId>, weight: f64) {
-        let (rgb, translucency) = match color {
-            Some(color) => {
-                let color = &scene.colors[color.index()];
-                (hsv(color, scale).to_rgb(), color.translucency)
-            }
-            None => ([1.0; 3], 0.0),
-        };
-        self.linear += DVec3::from_array(rgb.map(srgb_decode)) * weight;
+        let color = color.map(|color| &scene.colors[color.index()]);
+        let given = color.and_then(light);
+        let linear = given.unwrap_or_else(|| match color {
+            Some(color) => hsv(color, scale).to_rgb().map(srgb_decode),
+            None => [1.0; 3],
+        });
+        let translucency = color.map_or(0.0, |color| color.translucency);
+        self.is_light |= given.is_some();
+        self.linear += DVec3::from_array(linear) * weight;
         self.translucency += translucency * weight;
         self.weight += weight;
     }
@@ -179,7 +184,8 @@ impl Mean {
         }
         let linear = self.linear / self.weight;
         VertexColor::Mixed {
-            hsv: Hsv::from_rgb(linear.to_array().map(srgb_encode)),
+            hsv: Hsv::from_rgb(linear.to_array().map(|channel| srgb_encode(channel.max(0.0)))),
+            light: self.is_light.then_some(linear.to_array()),
             translucency: self.translucency / self.weight,
         }
     }
@@ -232,19 +238,20 @@ mod tests {
         );
     }
 
-    /// The white and the primaries of sRGB, as IEC 61966-2-1 gives them.
     #[test]
-    fn xyz_of_the_screen_is_rgb() {
-        let primaries = [
-            ([0.9505, 1.0, 1.0890], [1.0, 1.0, 1.0]),
-            ([0.4124, 0.2126, 0.0193], [1.0, 0.0, 0.0]),
-            ([0.3576, 0.7152, 0.1192], [0.0, 1.0, 0.0]),
-            ([0.1805, 0.0722, 0.9505], [0.0, 0.0, 1.0]),
-        ];
-        for (xyz, rgb) in primaries {
-            let found = xyz_to_linear_srgb(xyz);
-            // The standard rounds both matrices to four decimals.
-            assert!(found.iter().zip(rgb).all(|(a, b)| (a - b).abs() < 5e-4), "{xyz:?}: {found:?}");
-        }
+    fn light_is_mixed_uncut() {
+        let text = "c_xyz hot 9 8 7; c_xyz odd 0 1 0; v a 0 0 0; v b 1 0 0; v c 0 1 0; v d -1 0 0;
+                    f (a b c) hot; f (a c d) odd;";
+        let source = ugparse::Source::new("t.ug", text);
+        let scene = ugparse::parse(&source, &ugparse::Options::default()).unwrap().scene;
+        let positions: Vec<DVec3> = scene.vertices.iter().map(|v| v.position).collect();
+        let VertexColor::Mixed { light: Some(light), .. } =
+            vertex_colors(&scene, &positions, HueScale::Degrees)[0]
+        else {
+            panic!("two faces with two colours meet there")
+        };
+        let xyz = ugphysics::linear_srgb_to_xyz(light);
+        // Both corners have 90 degrees.
+        assert!((DVec3::from_array(xyz) - DVec3::new(4.5, 4.5, 3.5)).length() < 1e-9, "{xyz:?}");
     }
 }

@@ -34,7 +34,7 @@ mod traveller;
 
 pub use bodies::{Bodies, separate_bodies, vertex_velocities};
 pub use camera::{CameraError, CameraOptions, HalfSpace, Place, Slab, View};
-pub use colors::{HueScale, VertexColor, hsv, spectra_note, vertex_colors};
+pub use colors::{HueScale, VertexColor, hsv, light, spectra_note, vertex_colors};
 pub use eye::{at_eye_error, eye, vertex_at_eye};
 pub use geometry::{Geometry, rest_positions};
 pub use normals::{corner_angle, smooth_normals};

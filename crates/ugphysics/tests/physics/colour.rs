@@ -2,8 +2,8 @@
 
 use proptest::prelude::*;
 use ugphysics::{
-    CONTROL_POINTS, Hsv, attenuation, hue_to_wavelength, luminance, srgb_decode, srgb_encode,
-    wavelength_to_hue,
+    CONTROL_POINTS, Hsv, attenuation, hue_to_wavelength, linear_srgb_to_xyz, luminance, srgb_decode,
+    srgb_encode, wavelength_to_hue, xyz_to_linear_srgb,
 };
 
 use crate::near;
@@ -114,6 +114,27 @@ fn srgb_published() {
         near("round trip", srgb_encode(srgb_decode(encoded)), encoded, 1e-15);
     }
     near("white", luminance([1.0; 3]), 1.0, 1e-15);
+}
+
+/// The chromaticities of IEC 61966-2-1, and that red, green and blue together are its white.
+#[test]
+fn primaries_have_their_published_chromaticities() {
+    let rows = [
+        ([1.0, 0.0, 0.0], [0.64, 0.33]),
+        ([0.0, 1.0, 0.0], [0.30, 0.60]),
+        ([0.0, 0.0, 1.0], [0.15, 0.06]),
+        ([1.0, 1.0, 1.0], [0.3127, 0.3290]),
+    ];
+    for (rgb, [x, y]) in rows {
+        let xyz = linear_srgb_to_xyz(rgb);
+        let sum: f64 = xyz.iter().sum();
+        near("x", xyz[0] / sum, x, 1e-10);
+        near("y", xyz[1] / sum, y, 1e-10);
+        for (back, channel) in xyz_to_linear_srgb(xyz).into_iter().zip(rgb) {
+            assert!((back - channel).abs() < 1e-10);
+        }
+    }
+    near("white", linear_srgb_to_xyz([1.0; 3])[1], 1.0, 1e-10);
 }
 
 proptest! {

@@ -3,12 +3,11 @@
 use std::ops::Range;
 
 use rayon::prelude::*;
-use ugimage::{Frame, Quantizer};
 
 use super::edges::Scanner;
 use super::polygons::PolygonList;
-use super::resolve::{Backdrop, Resolver, Shade, Tally};
-use super::spans::Tile;
+use super::resolve::{Gathered, Resolver, Shade, Tally};
+use super::spans::{Tag, Tile};
 
 /// Samples a tile should have: with some 16 bytes each they stay in a core's cache.
 const TILE_SAMPLES: u32 = 1 << 15;
@@ -72,30 +71,31 @@ impl Grid {
     }
 }
 
-/// Draws polygons, list after list, into a frame of the grid's size.
+/// Draws polygons, list after list, into the pixels of the grid, row after row.
 ///
 /// The lists have been sorted into the bands of this grid. The pixels do not depend on the
-/// number of threads: bands are cut by the size of the picture alone.
-pub fn paint<const N: usize, S>(
-    frame: &mut Frame,
+/// number of threads. `finish` makes a pixel of its samples.
+pub fn paint<const N: usize, T, P, S, F>(
+    pixels: &mut [P],
     grid: &Grid,
     lists: &[PolygonList<N>],
-    backdrop: Backdrop,
     shader: &S,
+    finish: &F,
 ) -> Tally
 where
+    T: Tag,
+    P: Send,
     S: Fn(&[f32; N]) -> Shade + Sync,
+    F: Fn(&Gathered<T>) -> P + Sync,
 {
-    let quantizer = Quantizer::new();
     let band_pixels = grid.band_rows() as usize * grid.width as usize;
-    frame
-        .pixels_mut()
+    pixels
         .par_chunks_mut(band_pixels)
         .enumerate()
         .map_init(
             || (Scanner::default(), Tile::default()),
             |(scanner, tile), (band, pixels)| {
-                let mut resolver = Resolver::new(shader, &quantizer, backdrop, grid.samples);
+                let mut resolver = Resolver::new(shader, finish, grid.samples);
                 Band { grid, lists, band, scanner, tile }.paint(&mut resolver, pixels);
                 resolver.tally
             },
@@ -104,20 +104,20 @@ where
 }
 
 /// One band being drawn.
-struct Band<'a, const N: usize> {
-    grid: &'a Grid,
-    lists: &'a [PolygonList<N>],
-    band: usize,
-    scanner: &'a mut Scanner<N>,
-    tile: &'a mut Tile<N>,
+pub struct Band<'a, const N: usize, T> {
+    pub grid: &'a Grid,
+    pub lists: &'a [PolygonList<N>],
+    pub band: usize,
+    pub scanner: &'a mut Scanner<N>,
+    pub tile: &'a mut Tile<N, T>,
 }
 
-impl<const N: usize> Band<'_, N> {
-    fn paint<S: Fn(&[f32; N]) -> Shade>(
-        &mut self,
-        resolver: &mut Resolver<'_, N, S>,
-        pixels: &mut [[u8; 4]],
-    ) {
+impl<const N: usize, T: Tag> Band<'_, N, T> {
+    fn paint<P, S, F>(&mut self, resolver: &mut Resolver<'_, N, S, F>, pixels: &mut [P])
+    where
+        S: Fn(&[f32; N]) -> Shade,
+        F: Fn(&Gathered<T>) -> P,
+    {
         let grid = self.grid;
         let top = self.band as u32 * grid.band_rows();
         let tile_rows = grid.tile_rows() as usize;
@@ -130,29 +130,33 @@ impl<const N: usize> Band<'_, N> {
     }
 
     /// Draws the tile whose upper left pixel is given into `rows`, whole rows of the frame.
-    fn paint_tile<S: Fn(&[f32; N]) -> Shade>(
+    fn paint_tile<P, S, F>(
         &mut self,
-        resolver: &mut Resolver<'_, N, S>,
+        resolver: &mut Resolver<'_, N, S, F>,
         column: u32,
         row: u32,
-        rows: &mut [[u8; 4]],
-    ) {
+        rows: &mut [P],
+    ) where
+        S: Fn(&[f32; N]) -> Shade,
+        F: Fn(&Gathered<T>) -> P,
+    {
         let grid = self.grid;
         let end_column = (column + grid.tile_columns()).min(grid.width);
         let n_rows = rows.len() as u32 / grid.width;
-        let samples = |pixels: u32| pixels * grid.samples;
-        self.tile.reset([samples(column), samples(end_column)], [samples(row), samples(row + n_rows)]);
-        self.draw_polygons();
+        self.draw([column, end_column], [row, row + n_rows]);
         for (row, pixels) in (row..).zip(rows.chunks_mut(grid.width as usize)) {
             resolver.paint(self.tile, column, row, &mut pixels[column as usize..end_column as usize]);
         }
     }
 
-    fn draw_polygons(&mut self) {
+    /// Makes the tile that of these columns and rows of pixels, all in this band, and draws it.
+    pub fn draw(&mut self, columns: [u32; 2], rows: [u32; 2]) {
+        let samples = |pixels: u32| pixels * self.grid.samples;
+        self.tile.reset(columns.map(samples), rows.map(samples));
         let [first_row, end_row] = self.tile.rows();
-        for polygon in self.lists.iter().flat_map(|list| list.in_band(self.band)) {
+        for (item, polygon) in self.lists.iter().flat_map(|list| list.in_band(self.band)) {
             self.scanner.scan(polygon, first_row, end_row, |row, left, right| {
-                self.tile.draw(row, left, right, self.grid.is_perspective);
+                self.tile.draw(row, left, right, self.grid.is_perspective, T::of(item));
             });
         }
     }

@@ -2,13 +2,17 @@
 //!
 //! The rasterizer knows nothing of scenes and colours. It is given polygons whose
 //! corners carry a depth key and N numbers ([`Corner`]), and a shader that turns N
-//! interpolated numbers into light. Its steps, one file each:
+//! interpolated numbers into light; what becomes of a pixel's light is decided by who calls. Its steps, one
+//! file each:
 //!
 //! 1. [`polygons`]: polygons in buffers, sorted into bands of pixel rows;
 //! 2. [`edges`]: where a polygon's outline crosses a row of samples;
 //! 3. [`spans`]: the samples between two crossings, and the depth test;
 //! 4. [`resolve`]: samples to pixels, averaged in linear light;
-//! 5. [`band`]: bands in parallel, each with its own small sample buffer.
+//! 5. [`band`]: bands in parallel, each with its own small sample buffer;
+//! 6. [`probe`]: one pixel alone, with all its samples.
+//!
+//! A sample can also remember whose it is ([`Tag`]); where nobody asks, that costs nothing.
 //!
 //! # Which sample belongs to whom
 //!
@@ -30,6 +34,7 @@
 mod band;
 mod edges;
 mod polygons;
+mod probe;
 mod resolve;
 mod spans;
 #[cfg(test)]
@@ -37,4 +42,6 @@ mod tests;
 
 pub use band::{Grid, paint};
 pub use polygons::{Corner, PolygonList};
-pub use resolve::{Backdrop, Shade, Tally};
+pub use probe::{Sample, probe};
+pub use resolve::{Gathered, Shade, Tally};
+pub use spans::{Seen, Tag};

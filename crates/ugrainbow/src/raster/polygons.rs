@@ -26,11 +26,12 @@ pub struct PolygonList<const N: usize> {
     bins: Bins,
 }
 
-/// A polygon: its contours, and the rows of samples it may touch.
+/// A polygon: its contours, the rows of samples it may touch, and what of the scene it is.
 #[derive(Clone, Debug)]
 struct Polygon {
     contours: Range<u32>,
     rows: Range<u32>,
+    item: u32,
 }
 
 /// For each band the polygons that touch it, in drawing order.
@@ -53,15 +54,16 @@ impl<const N: usize> PolygonList<N> {
     }
 
     /// Ends the polygon: all contours since the last one. It is dropped if no sample can lie
-    /// in it. The answer says whether it is in the picture, if only between samples.
-    pub fn end_polygon(&mut self, grid: &Grid) -> bool {
+    /// in it. The answer says whether it is in the picture, if only between samples. `item`: any number, to
+    /// tell whose it is.
+    pub fn end_polygon(&mut self, grid: &Grid, item: u32) -> bool {
         let first_contour = self.polygons.last().map_or(0, |polygon| polygon.contours.end);
         let first_corner = self.contour_start(first_contour);
         let rows = sample_rows(&self.corners[first_corner..], grid);
         let is_in_picture = rows.is_some();
         if let Some(rows) = rows.filter(|rows| !rows.is_empty()) {
             let contours = first_contour..index(self.contour_ends.len());
-            self.polygons.push(Polygon { contours, rows });
+            self.polygons.push(Polygon { contours, rows, item });
         } else {
             self.corners.truncate(first_corner);
             self.contour_ends.truncate(first_contour as usize);
@@ -95,10 +97,12 @@ impl<const N: usize> PolygonList<N> {
         self.bins = Bins { starts, items };
     }
 
-    /// The polygons that touch a band, each as its contours.
-    pub fn in_band(&self, band: usize) -> impl Iterator<Item = impl Iterator<Item = &[Corner<N>]>> {
+    /// The polygons that touch a band, each as its item and its contours.
+    pub fn in_band(&self, band: usize) -> impl Iterator<Item = (u32, impl Iterator<Item = &[Corner<N>]>)> {
         let part = self.bins.starts[band] as usize..self.bins.starts[band + 1] as usize;
-        self.bins.items[part].iter().map(|&polygon| self.contours(polygon))
+        self.bins.items[part]
+            .iter()
+            .map(|&polygon| (self.polygons[polygon as usize].item, self.contours(polygon)))
     }
 
     fn contours(&self, polygon: u32) -> impl Iterator<Item = &[Corner<N>]> {

@@ -1,13 +1,11 @@
-//! Samples to pixels: shading, averaging in linear light, display encoding.
+//! Samples to pixels: shading, and adding up in linear light.
 
-use ugimage::Quantizer;
-
-use super::spans::Tile;
+use super::spans::{Seen, Tag, Tile};
 
 /// What a shader says of a sample.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Shade {
-    /// Linear light, red, green, blue, each 0…1.
+    /// Linear light, red, green, blue.
     pub light: [f32; 3],
     /// Brightness before it was clipped to 1.
     pub intensity: f32,
@@ -15,13 +13,15 @@ pub struct Shade {
     pub is_out_of_range: bool,
 }
 
-/// What stands behind everything.
+/// The samples of a pixel together.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Backdrop {
-    /// Linear light.
-    Light([f32; 3]),
-    /// Nothing: pixels get an alpha.
-    Clear,
+pub struct Gathered<T> {
+    /// Sum of the light of the covered samples.
+    pub sum: [f32; 3],
+    /// How many are covered.
+    pub n_covered: u32,
+    /// What is seen at the sample nearest to the middle, of equals the last; never anything if tags are not kept.
+    pub center: Option<Seen<T>>,
 }
 
 /// What the samples of a picture were.
@@ -57,10 +57,9 @@ impl Tally {
 }
 
 /// Turns samples into pixels.
-pub struct Resolver<'a, const N: usize, S> {
+pub struct Resolver<'a, const N: usize, S, F> {
     shader: &'a S,
-    quantizer: &'a Quantizer,
-    backdrop: Backdrop,
+    finish: &'a F,
     /// Samples along a side of a pixel.
     samples: u32,
     /// The sample shaded last: on a flat face the next is the same.
@@ -68,21 +67,27 @@ pub struct Resolver<'a, const N: usize, S> {
     pub tally: Tally,
 }
 
-impl<'a, const N: usize, S: Fn(&[f32; N]) -> Shade> Resolver<'a, N, S> {
-    pub fn new(shader: &'a S, quantizer: &'a Quantizer, backdrop: Backdrop, samples: u32) -> Self {
+impl<'a, const N: usize, S: Fn(&[f32; N]) -> Shade, F> Resolver<'a, N, S, F> {
+    /// `finish` makes a pixel of its samples.
+    pub fn new(shader: &'a S, finish: &'a F, samples: u32) -> Self {
         // NaN differs from every sample, so that the first one is shaded.
         let last = ([f32::NAN; N], Shade::default());
-        Self { shader, quantizer, backdrop, samples, last, tally: Tally::default() }
+        Self { shader, finish, samples, last, tally: Tally::default() }
     }
 
     /// Paints the pixels of a row from column `first` on.
-    pub fn paint(&mut self, tile: &Tile<N>, first: u32, row: u32, pixels: &mut [[u8; 4]]) {
+    pub fn paint<T: Tag, P>(&mut self, tile: &Tile<N, T>, first: u32, row: u32, pixels: &mut [P])
+    where
+        F: Fn(&Gathered<T>) -> P,
+    {
         for (column, pixel) in (first..).zip(pixels) {
-            *pixel = self.pixel(tile, column, row);
+            *pixel = (self.finish)(&self.gather(tile, column, row));
         }
     }
 
-    fn pixel(&mut self, tile: &Tile<N>, column: u32, row: u32) -> [u8; 4] {
+    /// The samples of one pixel.
+    #[inline]
+    pub fn gather<T: Tag>(&mut self, tile: &Tile<N, T>, column: u32, row: u32) -> Gathered<T> {
         let n = self.samples;
         let mut sum = [0.0; 3];
         let mut n_covered = 0;
@@ -93,7 +98,8 @@ impl<'a, const N: usize, S: Fn(&[f32; N]) -> Shade> Resolver<'a, N, S> {
                 sum = std::array::from_fn(|i| sum[i] + light[i]);
             }
         }
-        self.encode(sum, n_covered)
+        let center = if T::IS_KEPT { tile.seen(row * n + n / 2, column * n + n / 2) } else { None };
+        Gathered { sum, n_covered, center }
     }
 
     #[inline]
@@ -103,23 +109,5 @@ impl<'a, const N: usize, S: Fn(&[f32; N]) -> Shade> Resolver<'a, N, S> {
         }
         self.tally.count(&self.last.1);
         self.last.1.light
-    }
-
-    /// The pixel whose covered samples add up to `sum`.
-    fn encode(&self, sum: [f32; 3], n_covered: u32) -> [u8; 4] {
-        let n_samples = (self.samples * self.samples) as f32;
-        let n_covered = n_covered as f32;
-        let (mean, alpha) = match self.backdrop {
-            Backdrop::Light(behind) => {
-                let n_free = n_samples - n_covered;
-                (std::array::from_fn(|i| (sum[i] + behind[i] * n_free) / n_samples), 255)
-            }
-            Backdrop::Clear if n_covered == 0.0 => return [0; 4],
-            Backdrop::Clear => {
-                (sum.map(|light| light / n_covered), (255.0 * n_covered / n_samples).round() as u8)
-            }
-        };
-        let [r, g, b] = mean.map(|light: f32| self.quantizer.level(light));
-        [r, g, b, alpha]
     }
 }

@@ -3,35 +3,69 @@
 use super::edges::Crossing;
 use super::polygons::first_center;
 
+/// What a sample remembers of the polygon it shows.
+pub trait Tag: Copy + Default + Send {
+    /// False if it remembers nothing, and costs nothing.
+    const IS_KEPT: bool;
+
+    /// That of a polygon of this item.
+    fn of(item: u32) -> Self;
+}
+
+impl Tag for () {
+    const IS_KEPT: bool = false;
+
+    fn of(_item: u32) -> Self {}
+}
+
+impl Tag for u32 {
+    const IS_KEPT: bool = true;
+
+    fn of(item: u32) -> Self {
+        item
+    }
+}
+
 /// A rectangle of samples with what is nearest at each of them.
 #[derive(Debug)]
-pub struct Tile<const N: usize> {
+pub struct Tile<const N: usize, T> {
     /// First column, and one past the last, in samples of the whole picture.
     columns: [u32; 2],
     rows: [u32; 2],
     /// Depth keys; [`EMPTY`] where nothing has been drawn.
     keys: Vec<f32>,
     values: Vec<[f32; N]>,
+    tags: Vec<T>,
+}
+
+/// What is seen at a sample.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Seen<T> {
+    /// Its depth key.
+    pub key: f32,
+    /// Whose it is.
+    pub tag: T,
 }
 
 /// Farther than everything.
 const EMPTY: f32 = f32::NEG_INFINITY;
 
-impl<const N: usize> Default for Tile<N> {
+impl<const N: usize, T> Default for Tile<N, T> {
     fn default() -> Self {
-        Self { columns: [0; 2], rows: [0; 2], keys: Vec::new(), values: Vec::new() }
+        Self { columns: [0; 2], rows: [0; 2], keys: Vec::new(), values: Vec::new(), tags: Vec::new() }
     }
 }
 
-impl<const N: usize> Tile<N> {
+impl<const N: usize, T: Tag> Tile<N, T> {
     /// Makes it the empty tile of these columns and rows, reusing its buffers.
     pub fn reset(&mut self, columns: [u32; 2], rows: [u32; 2]) {
         (self.columns, self.rows) = (columns, rows);
         let len = (columns[1] - columns[0]) as usize * (rows[1] - rows[0]) as usize;
         self.keys.clear();
         self.keys.resize(len, EMPTY);
-        // What stands in `values` is read only where a key has been written.
+        // What stands in `values` and `tags` is read only where a key has been written.
         self.values.resize(len, [0.0; N]);
+        self.tags.resize(len, T::default());
     }
 
     pub fn rows(&self) -> [u32; 2] {
@@ -43,7 +77,7 @@ impl<const N: usize> Tile<N> {
     /// Keys and values are linear between the two ends; in perspective the values
     /// are those of the surface times the key, and are divided by it.
     #[inline]
-    pub fn draw(&mut self, row: u32, left: &Crossing<N>, right: &Crossing<N>, is_perspective: bool) {
+    pub fn draw(&mut self, row: u32, left: &Crossing<N>, right: &Crossing<N>, is_perspective: bool, tag: T) {
         let first = first_center(left.x, self.columns[1]).max(self.columns[0]);
         let end = first_center(right.x, self.columns[1]);
         if first >= end {
@@ -53,8 +87,10 @@ impl<const N: usize> Tile<N> {
         let key_slope = (right.key - left.key) * per_column;
         let slopes: [f64; N] = std::array::from_fn(|i| (right.values[i] - left.values[i]) * per_column);
         let samples = self.samples(row, first, end);
-        let (keys, values) = (&mut self.keys[samples.clone()], &mut self.values[samples]);
-        for (column, (nearest, values)) in (first..end).zip(keys.iter_mut().zip(values)) {
+        let (keys, values) = (&mut self.keys[samples.clone()], &mut self.values[samples.clone()]);
+        let tags = &mut self.tags[samples];
+        for (column, ((nearest, values), tag_here)) in (first..end).zip(keys.iter_mut().zip(values).zip(tags))
+        {
             // From the left end and never from the sample before: the answer must not
             // depend on where a tile starts.
             let across = f64::from(column) + 0.5 - left.x;
@@ -63,6 +99,7 @@ impl<const N: usize> Tile<N> {
                 continue;
             }
             *nearest = key as f32;
+            *tag_here = tag;
             let scale = if is_perspective { 1.0 / key } else { 1.0 };
             // Double precision pays: where values do not change they stay the same bits, and
             // the resolver shades them once.
@@ -76,6 +113,13 @@ impl<const N: usize> Tile<N> {
         let samples = self.samples(row, first, end);
         let values = &self.values[samples.clone()];
         self.keys[samples].iter().zip(values).map(|(&key, values)| (key != EMPTY).then_some(values))
+    }
+
+    /// What is seen at a sample, if anything.
+    pub fn seen(&self, row: u32, column: u32) -> Option<Seen<T>> {
+        let sample = self.samples(row, column, column + 1).start;
+        let (key, tag) = (self.keys[sample], self.tags[sample]);
+        (key != EMPTY).then_some(Seen { key, tag })
     }
 
     #[inline]

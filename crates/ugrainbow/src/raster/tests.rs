@@ -1,7 +1,5 @@
 //! Coverage against counting and geometry; the pixels of scenes are in `tests/`.
 
-use ugimage::Frame;
-
 use super::edges::Scanner;
 use super::*;
 
@@ -142,19 +140,62 @@ fn is_inside(contours: &[Vec<Corner<0>>], x: f64, y: f64) -> bool {
     n_above % 2 == 1
 }
 
-/// Draws polygons of one value, its light; the background is black.
-fn painted(polygons: &[Vec<Corner<1>>], grid: &Grid) -> Frame {
+/// Draws polygons of one value, its light, and gives each pixel's mean on black. Every pixel is looked at with a
+/// probe, too, where there are few.
+fn painted(polygons: &[Vec<Corner<1>>], grid: &Grid) -> Vec<f32> {
     let mut list = PolygonList::default();
-    for polygon in polygons {
+    for (polygon, item) in polygons.iter().zip(0..) {
         polygon.iter().for_each(|corner| list.push_corner(*corner));
         list.end_contour();
-        list.end_polygon(grid);
+        list.end_polygon(grid, item);
     }
     list.sort_into_bands(grid);
-    let mut frame = Frame::opaque(grid.width, grid.height);
+    let lists = [list];
     let shader = |&[light]: &[f32; 1]| Shade { light: [light; 3], intensity: light, is_out_of_range: false };
-    paint(&mut frame, grid, &[list], Backdrop::Light([0.0; 3]), &shader);
-    frame
+    let mean = |sum: [f32; 3]| sum[0] / (grid.samples * grid.samples) as f32;
+    let mut pixels = vec![0.0; grid.width as usize * grid.height as usize];
+    paint(&mut pixels, grid, &lists, &shader, &|all: &Gathered<()>| mean(all.sum));
+    let mut marked = vec![(0.0, None); pixels.len()];
+    paint(&mut marked, grid, &lists, &shader, &|all: &Gathered<u32>| (mean(all.sum), all.center));
+    for (idx, (&light, marked)) in pixels.iter().zip(&marked).enumerate() {
+        assert_eq!(light, marked.0);
+        if pixels.len() > 1000 {
+            continue;
+        }
+        let place = [idx as u32 % grid.width, idx as u32 / grid.width];
+        let (samples, all) = probe(grid, &lists, &shader, place);
+        assert_eq!((mean(all.sum), all.center), *marked);
+        assert_eq!(samples.len() as u32, all.n_covered);
+        let middle = place.map(|pixel| pixel * grid.samples + grid.samples / 2);
+        assert_eq!(
+            samples.iter().find(|sample| sample.place == middle).map(|sample| sample.seen),
+            all.center
+        );
+        assert_eq!(samples.iter().map(|sample| sample.shade.light[0]).sum::<f32>(), all.sum[0]);
+    }
+    pixels
+}
+
+/// Triangles that cut through each other, each of a light of its own.
+#[test]
+fn a_probe_finds_what_was_painted() {
+    let mut noise = Noise(5);
+    for samples in [1, 2, 3] {
+        let grid = Grid { width: 25, height: 20, samples, is_perspective: false };
+        let polygons: Vec<Vec<Corner<1>>> = (1..=40)
+            .map(|k| {
+                let mut corner = || Corner {
+                    x: 30.0 * f64::from(samples) * noise.next(),
+                    y: 25.0 * f64::from(samples) * noise.next(),
+                    key: noise.next(),
+                    values: [f64::from(k) / 64.0],
+                };
+                vec![corner(), corner(), corner()]
+            })
+            .collect();
+        let pixels = painted(&polygons, &grid);
+        assert!(pixels.iter().filter(|light| **light > 0.0).count() > 300);
+    }
 }
 
 /// Wide and high enough for several tiles in both directions and several bands.
@@ -164,7 +205,7 @@ fn tiles_do_not_show() {
         let grid = Grid { width, height, samples, is_perspective: false };
         let (right, bottom) = (f64::from(grid.sample_columns()), f64::from(grid.sample_rows()));
         let corner = |x: f64, y: f64, light: f64| Corner { x, y, key: 0.0, values: [light] };
-        let frame = painted(
+        let pixels = painted(
             &[vec![
                 corner(0.0, 0.0, 0.0),
                 corner(right, 0.0, 1.0),
@@ -173,13 +214,10 @@ fn tiles_do_not_show() {
             ]],
             &grid,
         );
-        let quantizer = ugimage::Quantizer::new();
-        for (idx, pixel) in frame.pixels().iter().enumerate() {
+        for (idx, pixel) in pixels.iter().enumerate() {
             let column = idx % width as usize;
             let light = (column as f32 + 0.5) / width as f32;
-            // 1e-5 of light is far less than a level, but may tip one over.
-            let [low, high] = [light - 1e-5, light + 1e-5].map(|light| quantizer.level(light));
-            assert!((low..=high).contains(&pixel[0]), "column {column}: {pixel:?}");
+            assert!((pixel - light).abs() < 1e-5, "column {column}: {pixel}");
         }
     }
 }
@@ -193,14 +231,14 @@ fn of_equal_depths_the_first_stays() {
     };
     let grid = Grid { width: 4, height: 4, samples: 1, is_perspective: false };
     let rows = [
-        ([(1.0, 5.0), (0.0, 5.0)], 255),
-        ([(0.0, 5.0), (1.0, 5.0)], 0),
-        ([(0.0, 5.0), (1.0, 6.0)], 255),
-        ([(1.0, 5.0), (0.0, 4.0)], 255),
+        ([(1.0, 5.0), (0.0, 5.0)], 1.0),
+        ([(0.0, 5.0), (1.0, 5.0)], 0.0),
+        ([(0.0, 5.0), (1.0, 6.0)], 1.0),
+        ([(1.0, 5.0), (0.0, 4.0)], 1.0),
     ];
     for (squares, level) in rows {
-        let frame = painted(&squares.map(|(light, key)| square(light, key)), &grid);
-        assert!(frame.pixels().iter().all(|pixel| pixel[0] == level), "{squares:?}");
+        let pixels = painted(&squares.map(|(light, key)| square(light, key)), &grid);
+        assert!(pixels.iter().all(|pixel| *pixel == level), "{squares:?}");
     }
 }
 
@@ -213,11 +251,11 @@ fn what_is_not_finite_is_dropped() {
             numbers[place] = bad;
             let [x, y, key, light] = numbers;
             let corner = |x, y| Corner { x, y, key: 1.0, values: [1.0] };
-            let frame = painted(
+            let pixels = painted(
                 &[vec![corner(0.0, 0.0), corner(4.0, 0.0), Corner { x, y, key, values: [light] }]],
                 &grid,
             );
-            assert!(frame.pixels().iter().all(|pixel| pixel[..3] == [0; 3]));
+            assert!(pixels.iter().all(|pixel| *pixel == 0.0));
         }
     }
 }

@@ -1,0 +1,286 @@
+//! From light to what a display can show: exposure, tone curve, gamut.  Eq. (P31)
+
+use ugphysics::luminance;
+
+use crate::LinearFrame;
+
+/// How luminance is brought into the range of a display. White is the light that is shown as white, 1.
+///
+/// Both curves rise and take 0 to 0, and are applied to luminance while the ratio of red to green to blue
+/// stays: greys stay grey, and no colour changes its hue.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Tone {
+    /// Straight up to 1, and 1 from there. White is 1.
+    #[default]
+    Clip,
+    /// The curve of J. Hable, *Filmic Tonemapping Operators* (filmicworlds.com, 2010): a toe, a straight part and
+    /// a shoulder. White is 5.6: his linear white point 11.2 over his exposure bias 2.
+    Filmic,
+}
+
+impl Tone {
+    /// All of them, the default first.
+    pub const ALL: [Self; 2] = [Self::Clip, Self::Filmic];
+
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Clip => "clip",
+            Self::Filmic => "filmic",
+        }
+    }
+
+    /// The curve called `name`.
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|tone| name == tone.name())
+    }
+
+    /// The least luminance that is shown as white.
+    pub fn white(self) -> f64 {
+        match self {
+            Self::Clip => 1.0,
+            Self::Filmic => LINEAR_WHITE / EXPOSURE_BIAS,
+        }
+    }
+
+    /// The luminance shown, 0…1, for a luminance of 0 and more.
+    pub fn at(self, luminance: f64) -> f64 {
+        if luminance >= self.white() {
+            return 1.0;
+        }
+        match self {
+            Self::Clip => luminance,
+            Self::Filmic => hable(EXPOSURE_BIAS * luminance) / hable(LINEAR_WHITE),
+        }
+    }
+}
+
+const LINEAR_WHITE: f64 = 11.2;
+const EXPOSURE_BIAS: f64 = 2.0;
+
+/// The curve as published; the parameters have their names and values there.
+fn hable(x: f64) -> f64 {
+    const SHOULDER: f64 = 0.15;
+    const LINEAR: f64 = 0.50;
+    const ANGLE: f64 = 0.10;
+    const TOE: f64 = 0.20;
+    const NUMERATOR: f64 = 0.02;
+    const DENOMINATOR: f64 = 0.30;
+    let above = x * (SHOULDER * x + ANGLE * LINEAR) + TOE * NUMERATOR;
+    let below = x * (SHOULDER * x + LINEAR) + TOE * DENOMINATOR;
+    above / below - NUMERATOR / DENOMINATOR
+}
+
+/// How light becomes a picture on a display.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Development {
+    /// Light is multiplied by 2 to this power first.
+    pub stops: f64,
+    /// The curve.
+    pub tone: Tone,
+}
+
+/// What one pixel becomes, step by step, as linear red, green and blue.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Steps {
+    /// After the exposure.
+    pub exposed: [f64; 3],
+    /// After the tone curve.
+    pub toned: [f64; 3],
+    /// Brought into the gamut: each part 0…1.
+    pub shown: [f64; 3],
+}
+
+impl Development {
+    /// Every step for one pixel.
+    pub fn steps(&self, light: [f32; 3]) -> Steps {
+        let gain = libm::exp2(self.stops);
+        let exposed = light.map(|channel| f64::from(channel) * gain);
+        let toned = self.toned(exposed);
+        Steps { exposed, toned, shown: into_gamut(toned) }
+    }
+
+    /// The light a display shows: each part 0…1. Light that fits is left as it is, to the bit, if nothing is asked for.
+    pub fn apply(&self, light: [f32; 3]) -> [f32; 3] {
+        let is_plain = self.stops == 0.0 && self.tone == Tone::Clip;
+        if is_plain && light.iter().all(|channel| (0.0..=1.0).contains(channel)) {
+            return light;
+        }
+        self.steps(light).shown.map(|channel| channel as f32)
+    }
+
+    fn toned(&self, exposed: [f64; 3]) -> [f64; 3] {
+        let before = luminance(exposed);
+        // Less than black is black.
+        if before.is_nan() || before <= 0.0 {
+            return [0.0; 3];
+        }
+        if before == f64::INFINITY {
+            return [1.0; 3];
+        }
+        let ratio = self.tone.at(before) / before;
+        if ratio == 1.0 { exposed } else { exposed.map(|channel| channel * ratio) }
+    }
+}
+
+/// Brings a colour of luminance 0…1 among those a display shows: it is mixed with the grey of its own
+/// luminance, and only as far as needed. So luminance stays, and so does hue as dominant wavelength: the
+/// colour moves in the chromaticity diagram straight towards white.
+fn into_gamut(rgb: [f64; 3]) -> [f64; 3] {
+    // The weights add up to 1 but for rounding.
+    let grey = luminance(rgb).clamp(0.0, 1.0);
+    let part = rgb.iter().fold(1.0f64, |part, &channel| {
+        let away = channel - grey;
+        if channel > 1.0 {
+            part.min((1.0 - grey) / away)
+        } else if channel < 0.0 {
+            part.min(grey / -away)
+        } else {
+            part
+        }
+    });
+    if part == 1.0 { rgb } else { rgb.map(|channel| (grey + part * (channel - grey)).clamp(0.0, 1.0)) }
+}
+
+/// The part of the pixels with light that an automatic exposure shows below white.
+const BELOW_WHITE: f64 = 0.99;
+
+/// The exposure, in stops, that shows 99 of 100 pixels at or below the white of the curve: of the pixels on which
+/// something was drawn that is not black. Rounded to hundredths, so that it can be said and given again; 0 if
+/// all is black.
+pub fn auto_exposure(frame: &LinearFrame, tone: Tone) -> f64 {
+    let luminance_of = |&[r, g, b, _]: &[f32; 4]| luminance([r, g, b].map(f64::from)) as f32;
+    let mut seen: Vec<f32> = frame
+        .pixels()
+        .iter()
+        .filter(|pixel| pixel[3] > 0.0)
+        .map(luminance_of)
+        .filter(|light| *light > 0.0 && light.is_finite())
+        .collect();
+    let Some(last) = seen.len().checked_sub(1) else { return 0.0 };
+    let rank = (last as f64 * BELOW_WHITE).round() as usize;
+    let (_, bright, _) = seen.select_nth_unstable_by(rank, f32::total_cmp);
+    let stops = libm::log2(tone.white() / f64::from(*bright));
+    (100.0 * stops).round() / 100.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The published code, written out for one number.
+    #[test]
+    fn filmic_is_as_published() {
+        let f = |x: f64| ((x * (0.15 * x + 0.05) + 0.004) / (x * (0.15 * x + 0.5) + 0.06)) - 0.02 / 0.3;
+        for x in [0.0, 0.01, 0.18, 0.5, 1.0, 2.0, 5.5999] {
+            assert!((Tone::Filmic.at(x) - f(2.0 * x) / f(11.2)).abs() < 1e-15, "{x}");
+        }
+        assert_eq!(Tone::Filmic.at(5.6), 1.0);
+    }
+
+    #[test]
+    fn curves_rise_from_black_to_white() {
+        for tone in Tone::ALL {
+            assert!(tone.at(0.0).abs() < 1e-16);
+            let steps = 100_000;
+            let levels: Vec<f64> = (0..=steps)
+                .map(|step| tone.at(1.01 * tone.white() * f64::from(step) / f64::from(steps)))
+                .collect();
+            assert!(levels.windows(2).all(|pair| pair[0] <= pair[1]), "{tone:?}");
+            assert!(levels.iter().all(|level| (-1e-16..=1.0).contains(level)));
+            assert_eq!(tone.at(tone.white()), 1.0);
+            assert_eq!(Tone::from_name(tone.name()), Some(tone));
+        }
+    }
+
+    fn noise(count: usize, scale: f32) -> Vec<[f32; 3]> {
+        let mut state = 7u32;
+        let mut next = || {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            (state >> 8) as f32 / (1 << 24) as f32
+        };
+        (0..count).map(|_| [next(), next(), next()].map(|x| scale * (x - 0.25))).collect()
+    }
+
+    /// Chromaticities lie on a line through white if the three parts less the least are in one ratio.
+    #[test]
+    fn hue_and_luminance_stay() {
+        for scale in [1.0, 3.0, 40.0] {
+            for light in noise(20_000, scale) {
+                for development in [
+                    Development::default(),
+                    Development { stops: -2.5, tone: Tone::Clip },
+                    Development { stops: 1.0, tone: Tone::Filmic },
+                ] {
+                    let Steps { exposed, toned, shown } = development.steps(light);
+                    assert!(shown.iter().all(|channel| (0.0..=1.0).contains(channel)), "{shown:?}");
+                    if luminance(exposed) <= 0.0 {
+                        assert_eq!(shown, [0.0; 3]);
+                        continue;
+                    }
+                    let wanted = development.tone.at(luminance(exposed));
+                    assert!((luminance(toned) - wanted).abs() < 1e-12);
+                    assert!((luminance(shown) - wanted).abs() < 1e-12, "{light:?}: {shown:?}");
+                    // What is left of the colour is parallel to what was: no hue is changed or turned round.
+                    let away = |rgb: [f64; 3]| rgb.map(|channel| channel - luminance(rgb));
+                    let (before, after) = (away(exposed), away(shown));
+                    let across = cross(before, after);
+                    assert!(dot(across, across).sqrt() <= 1e-9 * dot(before, before).sqrt().max(1.0));
+                    assert!(dot(before, after) >= -1e-12);
+                }
+            }
+        }
+    }
+
+    fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+        a.iter().zip(b).map(|(a, b)| a * b).sum()
+    }
+
+    fn cross([a, b, c]: [f64; 3], [d, e, f]: [f64; 3]) -> [f64; 3] {
+        [b * f - c * e, c * d - a * f, a * e - b * d]
+    }
+
+    #[test]
+    fn what_a_display_shows_is_left_alone() {
+        for light in noise(10_000, 1.0) {
+            let light = light.map(|channel| channel.clamp(0.0, 1.0));
+            assert_eq!(Development::default().apply(light), light);
+        }
+        assert_eq!(Development::default().apply([1.0; 3]), [1.0; 3]);
+        assert_eq!(Development::default().apply([7.0; 3]), [1.0; 3]);
+        assert_eq!(Development { stops: 1.0, ..Development::default() }.apply([0.25; 3]), [0.5; 3]);
+    }
+
+    #[test]
+    fn no_number_makes_anything_but_a_colour() {
+        let odd = [0.0, -0.0, 1e-45, 1e38, -1e38, f32::INFINITY, f32::NEG_INFINITY, f32::NAN];
+        for r in odd {
+            for g in odd {
+                for tone in Tone::ALL {
+                    for stops in [0.0, 1000.0, -1000.0, 3.0] {
+                        let shown = Development { stops, tone }.apply([r, g, 0.5]);
+                        assert!(shown.iter().all(|x| (0.0..=1.0).contains(x)), "{r} {g} {stops}: {shown:?}");
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn automatic_exposure_shows_99_of_100_below_white() {
+        let pixels: Vec<[f32; 4]> =
+            (1..=1000u16).map(|k| [f32::from(k) * 0.37; 3]).map(|[r, g, b]| [r, g, b, 1.0]).collect();
+        let frame = LinearFrame::new([100, 10], true, pixels);
+        for tone in Tone::ALL {
+            let gain = libm::exp2(auto_exposure(&frame, tone));
+            let white = frame.pixels().iter().filter(|p| f64::from(p[0]) * gain >= tone.white()).count();
+            // A hundredth of a stop is 0.7 percent.
+            assert!((4..=17).contains(&white), "{tone:?}: {white}");
+        }
+        let black = LinearFrame::new([1, 1], true, vec![[0.0, 0.0, 0.0, 1.0]]);
+        assert_eq!(auto_exposure(&black, Tone::Clip), 0.0);
+        // What nothing was drawn on does not count.
+        let back = LinearFrame::new([2, 1], true, vec![[9.0, 9.0, 9.0, 0.0], [0.25, 0.25, 0.25, 0.5]]);
+        assert_eq!(auto_exposure(&back, Tone::Clip), 2.0);
+    }
+}

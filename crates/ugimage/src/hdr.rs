@@ -1,0 +1,116 @@
+//! Radiance HDR: eight bits each for red, green, blue and a common exponent (G. Ward, *Real Pixels*, 1991).
+
+use crate::{Label, LinearFrame};
+
+/// Widths that the run-length coding can be used for.
+const CODED_WIDTHS: std::ops::Range<u32> = 8..0x8000;
+
+/// Brightest exponent byte.
+const MAX_EXPONENT: i32 = 255;
+
+/// The light as a Radiance HDR file, to one part in 256 of the brightest channel. What is below 0 is cut; there is
+/// no transparency. The label stands in the header.
+pub fn encode(frame: &LinearFrame, label: &Label) -> Vec<u8> {
+    let mut file = b"#?RADIANCE\n".to_vec();
+    if !label.software.is_empty() {
+        push_line(&mut file, "SOFTWARE=", &label.software);
+    }
+    label.comment.lines().for_each(|line| push_line(&mut file, "# ", line));
+    file.extend_from_slice(b"PRIMARIES=0.64 0.33 0.30 0.60 0.15 0.06 0.3127 0.3290\n");
+    let (width, height) = (frame.width(), frame.height());
+    file.extend_from_slice(format!("FORMAT=32-bit_rle_rgbe\n\n-Y {height} +X {width}\n").as_bytes());
+    for row in frame.pixels().chunks(width as usize) {
+        let row: Vec<[u8; 4]> = row.iter().map(|&pixel| rgbe(frame.light_of(pixel))).collect();
+        if CODED_WIDTHS.contains(&width) {
+            push_coded(&mut file, &row);
+        } else {
+            file.extend_from_slice(row.as_flattened());
+        }
+    }
+    file
+}
+
+/// A line of the header, which ends at an empty one.
+fn push_line(file: &mut Vec<u8>, key: &str, text: &str) {
+    let text: String = text.chars().map(|c| if c.is_control() { '?' } else { c }).collect();
+    file.extend_from_slice(format!("{key}{text}\n").as_bytes());
+}
+
+/// Light as mantissas of 8 bits with the exponent of the brightest: (m + ½)/256 · 2^(e − 128).
+fn rgbe(light: [f32; 3]) -> [u8; 4] {
+    let light = light.map(|channel| f64::from(channel.clamp(0.0, f32::MAX)));
+    let brightest = light.into_iter().fold(0.0, f64::max);
+    // brightest = mantissa · 2^exponent, mantissa in ½…1.
+    let (_, exponent) = libm::frexp(brightest);
+    let exponent_byte = exponent + 128;
+    if brightest == 0.0 || exponent_byte <= 0 {
+        return [0; 4];
+    }
+    let exponent_byte = exponent_byte.min(MAX_EXPONENT);
+    let scale = libm::ldexp(256.0, 128 - exponent_byte);
+    let [r, g, b] = light.map(|channel| (channel * scale) as u8);
+    [r, g, b, exponent_byte as u8]
+}
+
+/// A row channel after channel: a length above 128 and a byte to repeat, or a length and bytes as they are.
+fn push_coded(file: &mut Vec<u8>, row: &[[u8; 4]]) {
+    const LONGEST: usize = 127;
+    file.extend([2, 2, (row.len() >> 8) as u8, row.len() as u8]);
+    for channel in 0..4 {
+        let bytes: Vec<u8> = row.iter().map(|pixel| pixel[channel]).collect();
+        let mut rest = &bytes[..];
+        while let Some(first) = rest.first() {
+            let run = run_len(rest, LONGEST);
+            if run > 2 {
+                file.extend([128 + run as u8, *first]);
+                rest = &rest[run..];
+            } else {
+                let len = (0..rest.len().min(LONGEST)).take_while(|&at| run_len(&rest[at..], 3) < 3).count();
+                file.push(len as u8);
+                file.extend_from_slice(&rest[..len]);
+                rest = &rest[len..];
+            }
+        }
+    }
+}
+
+/// How often the first byte stands there, counted up to `longest`.
+fn run_len(bytes: &[u8], longest: usize) -> usize {
+    bytes.iter().take(longest).take_while(|byte| **byte == bytes[0]).count()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn another_reader_finds_the_light() {
+        let label = Label { software: "ug 1".into(), comment: "ug -sz 3 2\n\nug\u{7}".into() };
+        for frame in crate::linear::test_frames() {
+            let file = encode(&frame, &label);
+            let read =
+                image::load_from_memory_with_format(&file, image::ImageFormat::Hdr).unwrap().into_rgb32f();
+            assert_eq!(read.dimensions(), (frame.width(), frame.height()));
+            for (ours, pixel) in read.pixels().zip(frame.pixels()) {
+                let light = frame.light_of(*pixel).map(|channel| channel.max(0.0));
+                let brightest = light.into_iter().fold(0.0, f32::max);
+                for (ours, light) in ours.0.iter().zip(light) {
+                    assert!((ours - light).abs() <= brightest / 128.0, "{ours} for {light}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn odd_numbers_are_pixels() {
+        for (light, expected) in [
+            ([0.0; 3], [0; 4]),
+            ([1.0; 3], [128, 128, 128, 129]),
+            ([-1.0, 0.5, f32::NAN], [0, 128, 0, 128]),
+            ([1e-45; 3], [0; 4]),
+            ([f32::INFINITY, 0.0, 0.0], [255, 0, 0, 255]),
+        ] {
+            assert_eq!(rgbe(light), expected, "{light:?}");
+        }
+    }
+}

@@ -1,0 +1,170 @@
+//! The linear frame: a rectangle of light before it is made fit for a display.
+
+use ugphysics::srgb_decode;
+
+use crate::{Frame, Quantizer};
+
+/// A picture as light, rows from top to bottom: linear red, green and blue of the sRGB primaries, and the
+/// part of the pixel that something was drawn on, 0…1.
+///
+/// White is 1 1 1. Nothing is cut: light brighter than white is above 1, and a colour that the primaries
+/// cannot mix has a part below 0. In an opaque frame the light is that of the whole pixel, background
+/// included; else that of its covered part, not multiplied by it.
+///
+/// # Guarantees
+/// There are exactly width × height pixels, and as many numbers in every plane. Neither side is 0.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LinearFrame {
+    width: u32,
+    height: u32,
+    is_opaque: bool,
+    pixels: Vec<[f32; 4]>,
+    planes: Vec<Plane>,
+}
+
+/// One more number for each pixel.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plane {
+    /// Its name in the file.
+    pub name: String,
+    /// The numbers.
+    pub samples: Samples,
+}
+
+/// The numbers of a [`Plane`], rows from top to bottom.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Samples {
+    /// Measured ones.
+    Float(Vec<f32>),
+    /// Counted ones.
+    Whole(Vec<u32>),
+}
+
+impl Samples {
+    fn len(&self) -> usize {
+        match self {
+            Self::Float(numbers) => numbers.len(),
+            Self::Whole(numbers) => numbers.len(),
+        }
+    }
+}
+
+impl LinearFrame {
+    /// A frame of these pixels.
+    ///
+    /// # Panics
+    /// If a side is 0, or there are not as many pixels as the sides say.
+    pub fn new(size: [u32; 2], is_opaque: bool, pixels: Vec<[f32; 4]>) -> Self {
+        let [width, height] = size;
+        assert!(width > 0 && height > 0, "a frame has at least one pixel");
+        assert_eq!(pixels.len(), width as usize * height as usize, "a frame has all its pixels");
+        Self { width, height, is_opaque, pixels, planes: Vec::new() }
+    }
+
+    /// Adds a plane.
+    ///
+    /// # Panics
+    /// If it has not one number for each pixel.
+    pub fn push_plane(&mut self, plane: Plane) {
+        assert_eq!(plane.samples.len(), self.pixels.len(), "a plane has a number for each pixel");
+        self.planes.push(plane);
+    }
+
+    /// Pixels in a row.
+    pub fn width(&self) -> u32 {
+        self.width
+    }
+
+    /// Number of rows.
+    pub fn height(&self) -> u32 {
+        self.height
+    }
+
+    /// True if the frame has no transparency.
+    pub fn is_opaque(&self) -> bool {
+        self.is_opaque
+    }
+
+    /// All pixels, row after row from the top.
+    pub fn pixels(&self) -> &[[f32; 4]] {
+        &self.pixels
+    }
+
+    /// The same, to be changed.
+    pub fn pixels_mut(&mut self) -> &mut [[f32; 4]] {
+        &mut self.pixels
+    }
+
+    /// What there is besides colour.
+    pub fn planes(&self) -> &[Plane] {
+        &self.planes
+    }
+
+    /// The light that comes from one of its pixels: that of the covered part, times that part.
+    pub fn light_of(&self, [red, green, blue, part]: [f32; 4]) -> [f32; 3] {
+        let part = if self.is_opaque { 1.0 } else { part };
+        [red * part, green * part, blue * part]
+    }
+
+    /// The frame with 8 bits a channel; light outside 0…1 is clipped.
+    pub fn to_display(&self) -> Frame {
+        let quantizer = Quantizer::new();
+        let empty = if self.is_opaque { Frame::opaque } else { Frame::clear };
+        let mut frame = empty(self.width, self.height);
+        for (pixel, light) in frame.pixels_mut().iter_mut().zip(&self.pixels) {
+            *pixel = display_pixel(&quantizer, *light, self.is_opaque);
+        }
+        frame
+    }
+}
+
+/// A pixel of light as 8 bits a channel: red, green, blue and alpha.
+pub fn display_pixel(quantizer: &Quantizer, [red, green, blue, part]: [f32; 4], is_opaque: bool) -> [u8; 4] {
+    if !is_opaque && part == 0.0 {
+        return [0; 4];
+    }
+    let [red, green, blue] = [red, green, blue].map(|light| quantizer.level(light));
+    let alpha = if is_opaque { 255 } else { (255.0 * part).round() as u8 };
+    [red, green, blue, alpha]
+}
+
+impl From<&Frame> for LinearFrame {
+    fn from(frame: &Frame) -> Self {
+        let linear: [f32; 256] = std::array::from_fn(|level| srgb_decode(level as f64 / 255.0) as f32);
+        let light = |&[red, green, blue, alpha]: &[u8; 4]| {
+            let [red, green, blue] = [red, green, blue].map(|level| linear[usize::from(level)]);
+            [red, green, blue, f32::from(alpha) / 255.0]
+        };
+        let pixels = frame.pixels().iter().map(light).collect();
+        Self::new([frame.width(), frame.height()], frame.is_opaque(), pixels)
+    }
+}
+
+/// Frames that exercise writers of light: bright, negative, tiny, transparent, one pixel, wide.
+#[cfg(test)]
+pub(crate) fn test_frames() -> Vec<LinearFrame> {
+    let frame = |size: [u32; 2], is_opaque, pixel: &dyn Fn(usize) -> [f32; 4]| {
+        LinearFrame::new(size, is_opaque, (0..(size[0] * size[1]) as usize).map(pixel).collect())
+    };
+    vec![
+        frame([1, 1], true, &|_| [0.25, 1.0, 4.0, 1.0]),
+        frame([9, 5], true, &|idx| [idx as f32 * 0.37, -0.5, 1e-4 * idx as f32, 1.0]),
+        frame([300, 3], true, &|idx| if idx % 97 < 60 { [5.5, 0.5, 1e5, 1.0] } else { [idx as f32; 4] }),
+        frame([8, 4], false, &|idx| [2.0, 0.1 * idx as f32, 0.0, (idx % 5) as f32 / 4.0]),
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_a_display_shows_is_light_and_back() {
+        for frame in crate::frame::test_frames() {
+            let back = LinearFrame::from(&frame).to_display();
+            for (ours, &pixel) in back.pixels().iter().zip(frame.pixels()) {
+                assert_eq!(*ours, if pixel[3] == 0 { [0; 4] } else { pixel });
+            }
+        }
+    }
+}

@@ -1,0 +1,34 @@
+//! PPM: the plain picture of the netpbm programs.
+
+use crate::postscript::over_white;
+use crate::{Frame, Label};
+
+/// The frame as a binary PPM file (P6, 8 bits), transparent pixels on white, the label in comments.
+pub fn encode(frame: &Frame, label: &Label) -> Vec<u8> {
+    let mut file = b"P6\n".to_vec();
+    for line in [&label.software[..]].into_iter().chain(label.comment.lines()).filter(|line| !line.is_empty())
+    {
+        let line: String = line.chars().map(|c| if c.is_control() { '?' } else { c }).collect();
+        file.extend_from_slice(format!("# {line}\n").as_bytes());
+    }
+    file.extend_from_slice(format!("{} {}\n255\n", frame.width(), frame.height()).as_bytes());
+    file.extend_from_slice(over_white(frame).as_flattened());
+    file
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn another_reader_finds_the_pixels() {
+        let label = Label { software: "ug 1".into(), comment: "ug -sz 3 2\nug γ".into() };
+        for frame in crate::frame::test_frames() {
+            let file = encode(&frame, &label);
+            let read =
+                image::load_from_memory_with_format(&file, image::ImageFormat::Pnm).unwrap().into_rgb8();
+            assert_eq!(read.dimensions(), (frame.width(), frame.height()));
+            assert_eq!(read.as_raw()[..], *over_white(&frame).as_flattened());
+        }
+    }
+}

@@ -1,0 +1,153 @@
+//! Pixels from samples: averaged in linear light, put on the background, and made fit for a display if asked.
+
+use std::borrow::Borrow;
+
+use rayon::prelude::*;
+use ugimage::{Development, Frame, LinearFrame, Quantizer, auto_exposure, display_pixel};
+use ugphysics::srgb_decode;
+
+use crate::config::{Background, Config, Exposure};
+use crate::planes::{Finder, planes};
+use crate::raster::{Gathered, Seen, Tally};
+use crate::setup::Setup;
+use crate::sheet::Sheet;
+
+/// Pixels that one task develops.
+const CHUNK: usize = 1 << 14;
+
+/// A picture before it is a file.
+pub enum Drawn {
+    /// What a display shows.
+    Display(Frame),
+    /// Light: developed, or as it is for a format that holds light.
+    Light(LinearFrame),
+}
+
+impl Drawn {
+    /// What a display shows of it.
+    pub fn into_frame(self) -> Frame {
+        match self {
+            Self::Display(frame) => frame,
+            Self::Light(frame) => frame.to_display(),
+        }
+    }
+}
+
+/// A picture, and how it came about.
+pub struct Canvas {
+    /// Its pixels.
+    pub drawn: Drawn,
+    /// What its samples were.
+    pub tally: Tally,
+    /// How its light was developed; `None` if it is light as it is, or fitted a display from the first.
+    pub development: Option<Development>,
+}
+
+impl Canvas {
+    /// Draws a sheet.
+    pub fn new(setup: &Setup<'_>, sheet: &Sheet, config: &Config) -> Self {
+        let is_deep = config.output.format().is_some_and(|format| format.is_deep());
+        if !is_deep && !setup.is_uncut {
+            return Self::display(setup, sheet, config);
+        }
+        let (mut frame, tally) = light(setup, sheet, config);
+        if config.is_linear() {
+            return Self { drawn: Drawn::Light(frame), tally, development: None };
+        }
+        let development = development(|| &frame, config);
+        frame.pixels_mut().par_chunks_mut(CHUNK).flatten().for_each(|pixel| {
+            *pixel = developed(&development, *pixel);
+        });
+        let drawn = if is_deep { Drawn::Light(frame) } else { Drawn::Display(frame.to_display()) };
+        Self { drawn, tally, development: setup.is_uncut.then_some(development) }
+    }
+
+    /// Straight to 8 bits, when nothing in between is asked for.
+    fn display(setup: &Setup<'_>, sheet: &Sheet, config: &Config) -> Self {
+        let grid = &setup.grid;
+        let ground = Ground::new(config);
+        let quantizer = Quantizer::new();
+        let empty = if ground.is_opaque() { Frame::opaque } else { Frame::clear };
+        let mut frame = empty(grid.width, grid.height);
+        let tally = sheet.paint(grid, &setup.shader, frame.pixels_mut(), &|all: &Gathered<()>| {
+            display_pixel(&quantizer, ground.pixel(all), ground.is_opaque())
+        });
+        Self { drawn: Drawn::Display(frame), tally, development: None }
+    }
+}
+
+/// The whole picture as light, with the planes that are asked for.
+pub fn light(setup: &Setup<'_>, sheet: &Sheet, config: &Config) -> (LinearFrame, Tally) {
+    let grid = &setup.grid;
+    let ground = Ground::new(config);
+    let n_pixels = grid.width as usize * grid.height as usize;
+    let frame = |pixels| LinearFrame::new([grid.width, grid.height], ground.is_opaque(), pixels);
+    if config.channels.is_empty() {
+        let mut pixels = vec![[0.0; 4]; n_pixels];
+        let tally = sheet.paint(grid, &setup.shader, &mut pixels, &|all: &Gathered<()>| ground.pixel(all));
+        return (frame(pixels), tally);
+    }
+    let mut pixels: Vec<([f32; 4], Option<Seen<u32>>)> = vec![([0.0; 4], None); n_pixels];
+    let tally = sheet.paint(grid, &setup.shader, &mut pixels, &|all| (ground.pixel(all), all.center));
+    let (pixels, seen): (Vec<_>, Vec<_>) = pixels.into_iter().unzip();
+    let mut frame = frame(pixels);
+    let painter = setup.painter();
+    let finder = Finder::new(&painter);
+    for &channel in &config.channels {
+        planes(channel, &finder, grid, &seen).into_iter().for_each(|plane| frame.push_plane(plane));
+    }
+    (frame, tally)
+}
+
+/// How the picture is to be developed. `frame`: its light, which only an automatic exposure looks at.
+pub fn development<F: Borrow<LinearFrame>>(frame: impl FnOnce() -> F, config: &Config) -> Development {
+    let stops = match config.exposure {
+        None => 0.0,
+        Some(Exposure::Stops(stops)) => stops,
+        Some(Exposure::Auto) => auto_exposure(frame().borrow(), config.tone),
+    };
+    Development { stops, tone: config.tone }
+}
+
+/// A pixel developed; what part of it is covered stays.
+pub fn developed(development: &Development, [red, green, blue, part]: [f32; 4]) -> [f32; 4] {
+    let [red, green, blue] = development.apply([red, green, blue]);
+    [red, green, blue, part]
+}
+
+/// What stands behind everything, and how many samples a pixel has.
+pub struct Ground {
+    /// Linear light; `None` if the picture is transparent there.
+    behind: Option<[f32; 3]>,
+    n_samples: f32,
+}
+
+impl Ground {
+    /// That of a picture.
+    pub fn new(config: &Config) -> Self {
+        let behind = match config.background {
+            Background::Clear => None,
+            Background::Color(color) => Some(color.to_rgb().map(|channel| srgb_decode(channel) as f32)),
+        };
+        Self { behind, n_samples: (config.samples * config.samples) as f32 }
+    }
+
+    /// True if it is a colour.
+    pub fn is_opaque(&self) -> bool {
+        self.behind.is_some()
+    }
+
+    /// The mean light of a pixel on this ground, or of its covered part if there is none; and that part.
+    pub fn pixel<T>(&self, Gathered { sum, n_covered, .. }: &Gathered<T>) -> [f32; 4] {
+        let n_covered = *n_covered as f32;
+        let [red, green, blue] = match self.behind {
+            Some(behind) => {
+                let n_free = self.n_samples - n_covered;
+                std::array::from_fn(|i| (sum[i] + behind[i] * n_free) / self.n_samples)
+            }
+            None if n_covered == 0.0 => [0.0; 3],
+            None => sum.map(|light| light / n_covered),
+        };
+        [red, green, blue, n_covered / self.n_samples]
+    }
+}

@@ -1,0 +1,90 @@
+//! An explanation for scripts.
+
+use glam::DVec3;
+use serde_json::{Value, json};
+
+use super::{Corner, Explanation, Item, SampleColor, Shown};
+
+/// The explanation as JSON, with a line break at its end.
+pub fn json(explanation: &Explanation) -> String {
+    let Explanation { pixel, size, samples, covers, story, is_at_rest, sample, pixel_steps } = explanation;
+    let n_covered: usize = covers.iter().map(|(_, count)| count).sum();
+    let n_samples = (samples * samples) as usize;
+    let part = |count: usize| count as f64 / n_samples as f64;
+    let covers: Vec<Value> =
+        covers.iter().map(|(shown, count)| json!({ "item": item(shown), "part": part(*count) })).collect();
+    let development = pixel_steps.development.map(|(development, steps)| {
+        json!({
+            "stops": development.stops,
+            "tone_curve": development.tone.name(),
+            "exposed": steps.exposed,
+            "toned": steps.toned,
+            "in_gamut": steps.shown,
+        })
+    });
+    let value = json!({
+        "pixel": pixel,
+        "size": size,
+        "samples": n_samples,
+        "covers": covers,
+        "background_part": part(n_samples - n_covered),
+        "history": story.lines,
+        "is_at_rest": is_at_rest,
+        "brightness_law": story.doppler.as_ref().map(|doppler| &doppler.law),
+        "sample": sample.as_ref().map(shown),
+        "mean_linear": pixel_steps.mean[..3],
+        "development": development,
+        "bytes": pixel_steps.bytes,
+    });
+    format!("{value:#}\n")
+}
+
+fn item(item: &Item) -> Value {
+    let (file, line) = item.place.clone().unzip();
+    json!({ "kind": item.kind, "id": item.id, "name": item.name, "file": file, "line": line })
+}
+
+fn point(point: DVec3) -> Value {
+    json!(point.to_array())
+}
+
+fn shown(shown: &Shown) -> Value {
+    json!({
+        "place": shown.place,
+        "item": item(&shown.item),
+        "velocity": point(shown.beta),
+        "beta": shown.beta.length(),
+        "gamma": shown.gamma,
+        "emission": { "t": shown.emission.0, "x": point(shown.emission.1) },
+        "emission_at_rest": { "t": shown.rest.0, "x": point(shown.rest.1) },
+        "angle_deg": shown.angles_deg.map(|[camera, _]| camera),
+        "angle_at_rest_deg": shown.angles_deg.map(|[_, rest]| rest),
+        "D": shown.doppler,
+        "color": color(&shown.color),
+        "corners": shown.corners.iter().map(corner).collect::<Vec<_>>(),
+        "linear": shown.light,
+    })
+}
+
+fn color(color: &SampleColor) -> Value {
+    match color {
+        SampleColor::Hue { hue, saturation, value, level, wavelength } => json!({
+            "hue": hue,
+            "saturation": saturation,
+            "value": value,
+            "light_level": level,
+            "rest_wavelength_nm": wavelength.map(|wavelength| wavelength.rest_nm),
+            "seen_wavelength_nm": wavelength.map(|wavelength| wavelength.seen_nm),
+            "is_at_end_of_range": wavelength.map(|wavelength| wavelength.is_at_end),
+            "attenuation": wavelength.map(|wavelength| wavelength.attenuation),
+        }),
+        SampleColor::Light { xyz, chromaticity } => json!({ "xyz": xyz, "chromaticity": chromaticity }),
+    }
+}
+
+fn corner(corner: &Corner) -> Value {
+    let lights: Vec<Value> =
+        corner.lights.iter().map(|(light, level)| json!({ "light": light, "level": level })).collect();
+    let names = if corner.is_light { "linear" } else { "hue_saturation_value" };
+    json!({ "vertex": corner.name, names: corner.color, "light_level": corner.level, "lights": lights })
+}

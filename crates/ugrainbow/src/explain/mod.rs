@@ -1,0 +1,333 @@
+//! Why a pixel has its colour: from the face and its motion to the bytes.
+
+mod json;
+mod story;
+mod text;
+
+use glam::DVec3;
+use ugimage::{Development, Quantizer, Steps, display_pixel};
+use ugparse::{Diagnostic, Diagnostics, Parsed, Source, VertexId};
+use ugphysics::{attenuation, doppler_at, linear_srgb_to_xyz, wavelength_to_hue};
+use ugscene::Geometry;
+
+use crate::canvas::{Ground, development};
+use crate::config::{Config, Interpolation};
+use crate::light::{Lamp, Scale};
+use crate::palette::Swatch;
+use crate::planes::Finder;
+use crate::raster::{Gathered, Sample};
+use crate::setup::Setup;
+use crate::sheet::Sheet;
+use crate::{Error, canvas};
+
+pub use json::json;
+pub use story::Story;
+pub use text::text;
+
+/// What there is to say about a pixel.
+#[derive(Clone, Debug)]
+pub struct Explanation {
+    /// Column and row from the upper left.
+    pub pixel: [u32; 2],
+    /// Of the picture.
+    pub size: [u32; 2],
+    /// Samples along a side of a pixel.
+    pub samples: u32,
+    /// What the pixel's samples show, and how many of them, in the order in which they come; without
+    /// those that show the background.
+    pub covers: Vec<(Item, usize)>,
+    /// What the scene says of how it was made.
+    pub story: Story,
+    /// True if nothing in the scene moves.
+    pub is_at_rest: bool,
+    /// The covered sample nearest to the centre of the pixel.
+    pub sample: Option<Shown>,
+    /// From the samples to the bytes.
+    pub pixel_steps: PixelSteps,
+}
+
+/// A face or wire.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Item {
+    /// `face` or `wire`.
+    pub kind: &'static str,
+    /// As in the channel `id`: faces from 1, then wires.
+    pub id: u32,
+    /// Its name, if it has one.
+    pub name: Option<String>,
+    /// File and line of its statement, where known.
+    pub place: Option<(String, usize)>,
+}
+
+/// One sample.
+#[derive(Clone, Debug)]
+pub struct Shown {
+    /// Column and row in pixels.
+    pub place: [f64; 2],
+    /// What it shows.
+    pub item: Item,
+    /// Velocity of the body.
+    pub beta: DVec3,
+    /// Its γ.
+    pub gamma: f64,
+    /// Time and place, from the eye, in the frame of the camera, at which the light was sent.
+    pub emission: (f64, DVec3),
+    /// The same in the rest frame of the body; no time if contraction or time of flight was left out.
+    pub rest: (Option<f64>, DVec3),
+    /// Angle between the line of sight and the motion in degrees, in the camera's frame and the body's; none at rest.
+    pub angles_deg: Option<[f64; 2]>,
+    /// Doppler factor.
+    pub doppler: f64,
+    /// Its colour.
+    pub color: SampleColor,
+    /// Corners of the face, or ends of the wire.
+    pub corners: Vec<Corner>,
+    /// Linear red, green and blue of the sample.
+    pub light: [f32; 3],
+}
+
+/// The colour of a sample, interpolated and lit.
+#[derive(Clone, Debug)]
+pub enum SampleColor {
+    /// A hue, saturation and value; with coloured light beside it.
+    Hue {
+        hue: f64,
+        saturation: f64,
+        value: f64,
+        /// Level of red, green and blue light, if lights are coloured; else it is in the value.
+        level: Option<[f64; 3]>,
+        /// None for greys.
+        wavelength: Option<Wavelength>,
+    },
+    /// CIE X, Y, Z, and chromaticity x, y.
+    Light { xyz: [f64; 3], chromaticity: Option<[f64; 2]> },
+}
+
+/// The wavelength a hue stands for.
+#[derive(Clone, Copy, Debug)]
+pub struct Wavelength {
+    pub rest_nm: f64,
+    pub seen_nm: f64,
+    /// (P17)
+    pub attenuation: f64,
+    /// A hue at the end of the range may stand for any wavelength beyond.
+    pub is_at_end: bool,
+}
+
+/// A corner, between which colour and light are interpolated.
+#[derive(Clone, Debug)]
+pub struct Corner {
+    pub name: String,
+    /// Hue in degrees, saturation, value; or linear red, green, blue if given as light.
+    pub color: [f64; 3],
+    pub is_light: bool,
+    /// Level of red, green and blue light.
+    pub level: [f64; 3],
+    /// What of it comes from which light; none if the face says its level, or is a wire.
+    pub lights: Vec<(String, [f64; 3])>,
+}
+
+/// From the samples of the pixel to its bytes.
+#[derive(Clone, Debug)]
+pub struct PixelSteps {
+    /// Linear red, green, blue, averaged; and the covered part.
+    pub mean: [f32; 4],
+    /// If light was kept uncut: how it was developed.
+    pub development: Option<(Development, Steps)>,
+    /// Red, green, blue, alpha.
+    pub bytes: [u8; 4],
+}
+
+/// Explains a pixel of the picture that `config` asks for.
+///
+/// # Errors
+/// As for drawing; the pixel is not in the picture.
+pub fn explain(
+    config: &Config,
+    source: &Source,
+    pixel: [u32; 2],
+) -> Result<(Explanation, Diagnostics), Error> {
+    let parsed = ugscene::read(source, &config.reading)?;
+    let setup = Setup::new(&parsed.scene, config)?;
+    if pixel[0] >= config.size[0] || pixel[1] >= config.size[1] {
+        return Err(Error::Pixel { pixel, size: config.size });
+    }
+    let sheet = Sheet::new(&setup.painter());
+    let (samples, gathered) = sheet.probe(&setup.grid, &setup.shader, pixel);
+    let story = Story::of(&parsed.scene);
+    let teller = Teller { setup: &setup, config, source, parsed: &parsed, story: &story };
+    let explanation = Explanation {
+        pixel,
+        size: config.size,
+        samples: config.samples,
+        covers: teller.covers(&samples),
+        is_at_rest: parsed.scene.velocities.iter().all(|beta| *beta == DVec3::ZERO),
+        sample: nearest(&samples, pixel, config.samples).map(|sample| teller.shown(sample)),
+        pixel_steps: pixel_steps(&setup, &sheet, config, &gathered),
+        story,
+    };
+    Ok((explanation, parsed.warnings))
+}
+
+/// The sample nearest to the centre of the pixel; of equals the last, as for channels.
+fn nearest(samples: &[Sample], pixel: [u32; 2], n: u32) -> Option<&Sample> {
+    let away = |sample: &Sample| {
+        // Twice the distance, so that it is a whole number.
+        let axis = |i: usize| i64::from(2 * (sample.place[i] - pixel[i] * n) + 1) - i64::from(n);
+        axis(0) * axis(0) + axis(1) * axis(1)
+    };
+    samples.iter().rev().min_by_key(|sample| away(sample))
+}
+
+fn pixel_steps(setup: &Setup<'_>, sheet: &Sheet, config: &Config, gathered: &Gathered<u32>) -> PixelSteps {
+    let ground = Ground::new(config);
+    let mean = ground.pixel(gathered);
+    let [red, green, blue, _] = mean;
+    let development = setup.is_uncut.then(|| {
+        let development = development(|| canvas::light(setup, sheet, config).0, config);
+        (development, development.steps([red, green, blue]))
+    });
+    let shown = development.map_or(mean, |(development, _)| canvas::developed(&development, mean));
+    PixelSteps { mean, development, bytes: display_pixel(&Quantizer::new(), shown, ground.is_opaque()) }
+}
+
+/// Finds out what there is to tell.
+struct Teller<'a> {
+    setup: &'a Setup<'a>,
+    config: &'a Config,
+    source: &'a Source,
+    parsed: &'a Parsed,
+    story: &'a Story,
+}
+
+impl Teller<'_> {
+    fn covers(&self, samples: &[Sample]) -> Vec<(Item, usize)> {
+        let mut counts: Vec<(u32, usize)> = Vec::new();
+        for sample in samples {
+            match counts.iter_mut().find(|(item, _)| *item == sample.seen.tag) {
+                Some((_, count)) => *count += 1,
+                None => counts.push((sample.seen.tag, 1)),
+            }
+        }
+        counts.into_iter().map(|(item, count)| (self.item(item), count)).collect()
+    }
+
+    fn item(&self, item: u32) -> Item {
+        let scene = self.setup.scene();
+        let row = item as usize;
+        let id = item.saturating_add(1);
+        let name = |name: Option<ugparse::NameId>| name.map(|name| scene.names.get(name).to_owned());
+        let Some(face) = scene.faces.get(row) else {
+            let wire = scene.wires.get(row - scene.faces.len());
+            return Item { kind: "wire", id, name: name(wire.and_then(|wire| wire.name)), place: None };
+        };
+        let place = self.parsed.origins.faces.get(row).and_then(|span| {
+            let place =
+                Diagnostics::one(self.source, Diagnostic::error(*span, "")).places().into_iter().next()?;
+            Some((place.file, place.line))
+        });
+        Item { kind: "face", id, name: name(face.name), place }
+    }
+
+    fn shown(&self, sample: &Sample) -> Shown {
+        let painter = self.setup.painter();
+        let emission = Finder::new(&painter).emission(sample.place, sample.seen);
+        let (place, velocity) = (emission.place, emission.velocity);
+        let geometry = Geometry::of(self.setup.scene());
+        let rest = geometry.rest(place, velocity);
+        let rest_time = (geometry == Geometry::default()).then(|| -rest.length());
+        let angle = |line: DVec3| line.angle_between(velocity.direction()).to_degrees();
+        let doppler = doppler_at(place, velocity);
+        let n = f64::from(self.config.samples);
+        Shown {
+            place: sample.place.map(|sample| (f64::from(sample) + 0.5) / n),
+            item: self.item(sample.seen.tag),
+            beta: velocity.beta(),
+            gamma: velocity.gamma(),
+            emission: (emission.time, place),
+            rest: (rest_time, rest),
+            angles_deg: (!velocity.is_zero()).then(|| [angle(place), angle(rest)]),
+            doppler,
+            color: self.color(sample, doppler),
+            corners: self.corners(sample.seen.tag),
+            light: sample.shade.light,
+        }
+    }
+
+    /// What the interpolated numbers mean: see [`Sheet`].
+    fn color(&self, sample: &Sample, doppler: f64) -> SampleColor {
+        let numbers: Vec<f64> = sample.values.iter().map(|&number| f64::from(number)).collect();
+        let is_light = matches!(numbers.len(), 4 | 7) && numbers[numbers.len() - 1] > 0.5;
+        if is_light {
+            let xyz = linear_srgb_to_xyz([numbers[0], numbers[1], numbers[2]]);
+            let sum: f64 = xyz.iter().sum();
+            return SampleColor::Light {
+                xyz,
+                chromaticity: (sum > 0.0).then(|| [xyz[0] / sum, xyz[1] / sum]),
+            };
+        }
+        let [tint, saturation, value] = [numbers[0], numbers[1], numbers[2]];
+        let swatch = Swatch { tint, saturation, value, light: None };
+        let hue = match self.config.interpolated() {
+            Interpolation::Hue => tint,
+            Interpolation::Wavelength => wavelength_to_hue(tint),
+        };
+        let wavelength = (!swatch.is_grey()).then(|| {
+            let seen_nm = self.setup.palette.wavelength_nm(&swatch);
+            Wavelength {
+                rest_nm: if self.story.shifts() { seen_nm * doppler } else { seen_nm },
+                seen_nm,
+                attenuation: attenuation(seen_nm),
+                is_at_end: self.config.interpolated() == Interpolation::Hue && !(-60.0 < hue && hue < 300.0),
+            }
+        });
+        let level = (numbers.len() >= 6).then(|| [numbers[3], numbers[4], numbers[5]]);
+        SampleColor::Hue { hue, saturation, value, level, wavelength }
+    }
+
+    fn corners(&self, item: u32) -> Vec<Corner> {
+        let painter = self.setup.painter();
+        let scene = painter.scene;
+        let vertices = |rows: &std::ops::Range<u32>| scene.contours.corners(rows.clone()).to_vec();
+        if let Some(face) = scene.faces.get(item as usize) {
+            let normal = painter.seen_normal(face);
+            let common = painter.common(face);
+            let corner = |vertex: VertexId| {
+                let swatch = painter.swatch(vertex, &common);
+                let level = painter.level(face, vertex, normal, common.is_light);
+                let scale: Scale =
+                    if common.is_light { |lamp: &Lamp| lamp.linear } else { |lamp: &Lamp| lamp.encoded };
+                let lights = if scene.light_level(face).is_some() {
+                    Vec::new()
+                } else {
+                    let normal = painter.normal_at(vertex, normal);
+                    painter.lighting.parts(painter.surface.rest(vertex), normal, scale)
+                };
+                self.corner(vertex, &swatch, level, lights)
+            };
+            return vertices(&face.contours).into_iter().map(corner).collect();
+        }
+        let Some(wire) = scene.wires.get(item as usize - scene.faces.len()) else { return Vec::new() };
+        let color = painter.wire_swatch(wire);
+        let end = |vertex| self.corner(vertex, &painter.wire_end(vertex, &color), DVec3::ONE, Vec::new());
+        vertices(&wire.contours).into_iter().map(end).collect()
+    }
+
+    fn corner(
+        &self,
+        vertex: VertexId,
+        swatch: &Swatch,
+        level: DVec3,
+        lights: Vec<(String, DVec3)>,
+    ) -> Corner {
+        let scene = self.setup.scene();
+        let hsv = self.setup.palette.hsv(swatch);
+        Corner {
+            name: scene.names.get(scene.vertices[vertex.index()].name).to_owned(),
+            color: swatch.light.map_or([hsv.hue, hsv.saturation, hsv.value], |light| light.to_array()),
+            is_light: swatch.light.is_some(),
+            level: level.to_array(),
+            lights: lights.into_iter().map(|(name, level)| (name, level.to_array())).collect(),
+        }
+    }
+}

@@ -1,0 +1,131 @@
+//! What faces and wires are drawn from, and the colour and light of their corners.
+
+use glam::DVec3;
+use ugparse::{Face, Scene, VertexId, Wire, newell_normal};
+
+use crate::light::{Lamp, Lighting, Scale};
+use crate::palette::{Palette, Swatch};
+use crate::raster::Grid;
+use crate::surface::Surface;
+use ugscene::View;
+
+/// All that faces and wires are drawn from.
+pub struct Painter<'a> {
+    /// The scene, with vertices of one velocity each.
+    pub scene: &'a Scene,
+    /// The camera.
+    pub view: &'a View,
+    /// The sample grid.
+    pub grid: &'a Grid,
+    /// Its colours.
+    pub palette: &'a Palette,
+    /// Its lights.
+    pub lighting: &'a Lighting,
+    /// Its surfaces: colours and rest geometry of vertices.
+    pub surface: &'a Surface,
+}
+
+/// What the corners of a face have in common.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Common {
+    /// The tint a grey corner takes for interpolation: the mean of the coloured corners, so that a face from
+    /// grey to blue does not run through the rainbow.
+    grey_tint: f64,
+    /// A corner's colour is given as light, so light is interpolated and not hue.
+    pub is_light: bool,
+}
+
+impl Painter<'_> {
+    /// What the corners of a face have in common.
+    pub fn common(&self, face: &Face) -> Common {
+        let corners = self.scene.contours.corners(face.contours.clone());
+        let swatches = || corners.iter().map(|&vertex| self.surface.swatch(vertex));
+        let (sum, count) = swatches()
+            .filter(|swatch| !swatch.is_grey())
+            .fold((0.0, 0), |(sum, count), swatch| (sum + swatch.tint, count + 1));
+        let grey_tint = if count == 0 { 0.0 } else { sum / f64::from(count) };
+        Common {
+            grey_tint,
+            is_light: self.palette.has_light() && swatches().any(|swatch| swatch.light.is_some()),
+        }
+    }
+
+    /// The colour of a corner of a face.
+    pub fn swatch(&self, vertex: VertexId, common: &Common) -> Swatch {
+        let swatch = self.surface.swatch(vertex);
+        if common.is_light {
+            self.as_light(swatch)
+        } else if swatch.is_grey() {
+            Swatch { tint: common.grey_tint, ..swatch }
+        } else {
+            swatch
+        }
+    }
+
+    /// The colour with its light, whether it was given so or not.
+    pub fn as_light(&self, swatch: Swatch) -> Swatch {
+        Swatch { light: Some(self.palette.light(&swatch)), ..swatch }
+    }
+
+    /// The colour of a wire where its ends have none of their own.
+    pub fn wire_swatch(&self, wire: &Wire) -> Swatch {
+        wire.color.map_or(Swatch::WHITE, |color| self.palette.get(color))
+    }
+
+    /// The colour of an end of a wire of colour `color`.
+    pub fn wire_end(&self, vertex: VertexId, color: &Swatch) -> Swatch {
+        self.scene.vertices[vertex.index()].color.map_or(*color, |own| self.palette.get(own))
+    }
+
+    /// True if a colour of the wire is given as light.
+    pub fn is_light_wire(&self, wire: &Wire, color: &Swatch) -> bool {
+        let mut ends = self.scene.contours.corners(wire.contours.clone()).iter();
+        self.palette.has_light() && ends.any(|&vertex| self.wire_end(vertex, color).light.is_some())
+    }
+
+    /// The rest normal of a face on the side that is seen; zero if lighting needs none or the
+    /// face has none.
+    pub fn seen_normal(&self, face: &Face) -> DVec3 {
+        if self.scene.light_level(face).is_some() || !self.lighting.needs_geometry() {
+            return DVec3::ZERO;
+        }
+        let Some(outline) = self.scene.face_contours(face).next() else { return DVec3::ZERO };
+        let rest = outline.iter().map(|&vertex| self.surface.rest(vertex));
+        let normal = newell_normal(rest).normalize_or_zero();
+        let toward_eye = self.toward_eye(face, outline[0]);
+        if normal.dot(toward_eye) < 0.0 { -normal } else { normal }
+    }
+
+    /// Where the eye is, seen from a corner in the rest frame of the face.
+    fn toward_eye(&self, face: &Face, corner: VertexId) -> DVec3 {
+        if self.view.is_perspective {
+            -self.surface.rest(corner)
+        } else {
+            -self.surface.rest_direction(self.view.forward, face.velocity)
+        }
+    }
+
+    /// The light level at a corner, for red, green and blue: linear for a colour that is light, else on the scale
+    /// of display-encoded values.
+    pub fn level(&self, face: &Face, vertex: VertexId, seen_normal: DVec3, is_light: bool) -> DVec3 {
+        if let Some(level) = self.scene.light_level(face) {
+            return DVec3::splat(level);
+        }
+        let scale: Scale = if is_light { |lamp: &Lamp| lamp.linear } else { |lamp: &Lamp| lamp.encoded };
+        if !self.lighting.needs_geometry() {
+            return self.lighting.level(DVec3::ZERO, DVec3::ZERO, scale);
+        }
+        let normal = self.normal_at(vertex, seen_normal);
+        self.lighting.level(self.surface.rest(vertex), normal, scale)
+    }
+
+    /// The normal at a corner of a face, on the side that is seen.
+    pub fn normal_at(&self, vertex: VertexId, seen_normal: DVec3) -> DVec3 {
+        match self.scene.vertices[vertex.index()].normal {
+            // A normal of a vertex belongs to the side its face looks to.
+            Some(own) if own.dot(seen_normal) < 0.0 => -own.normalize_or_zero(),
+            Some(own) => own.normalize_or_zero(),
+            None => seen_normal,
+        }
+    }
+}

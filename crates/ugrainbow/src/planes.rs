@@ -1,0 +1,148 @@
+//! What pixels show besides colour: where and when its light was sent, and with what Doppler factor.
+
+use glam::DVec3;
+use rayon::prelude::*;
+use ugimage::{Plane, Samples};
+use ugphysics::{Velocity, doppler_at};
+use ugscene::Geometry;
+
+use crate::drawlist::WIRE_LIFT;
+use crate::painter::Painter;
+use crate::raster::{Grid, Seen};
+
+/// A number for each pixel, or three: of what is seen at the sample nearest to its centre, never a mean.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Channel {
+    /// `D`: the Doppler factor (P10); 0 where nothing is seen.
+    Doppler,
+    /// `time`: when the light was sent, before the picture is taken at 0; −∞ where nothing is seen.
+    Time,
+    /// `distance`: from the eye to where the light was sent; ∞ where nothing is seen.
+    Distance,
+    /// `Z`: the same along the view; ∞ where nothing is seen.
+    Depth,
+    /// `id`: faces counted from 1 in the order of the scene, then wires; 0 where nothing is seen.
+    Id,
+    /// `velocity.X`, `velocity.Y`, `velocity.Z`: of the body; 0 where nothing is seen.
+    Velocity,
+}
+
+impl Channel {
+    /// All of them.
+    pub const ALL: [Self; 6] =
+        [Self::Doppler, Self::Time, Self::Distance, Self::Depth, Self::Id, Self::Velocity];
+
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Doppler => "D",
+            Self::Time => "time",
+            Self::Distance => "distance",
+            Self::Depth => "Z",
+            Self::Id => "id",
+            Self::Velocity => "velocity",
+        }
+    }
+
+    /// The channel called `name`.
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|channel| channel.name() == name)
+    }
+
+    /// All names with commas between, for messages.
+    pub fn list() -> String {
+        Self::ALL.map(Self::name).join(", ")
+    }
+}
+
+/// Where and when light was sent that is seen in the picture.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Emission {
+    /// Of the face or wire; see [`Painter`].
+    pub item: u32,
+    /// Place relative to the eye, in the frame of the camera.
+    pub place: DVec3,
+    /// Depth along the view.
+    pub depth: f64,
+    /// Time, in the frame of the camera; the picture is taken at 0.
+    pub time: f64,
+    /// Of the body.
+    pub velocity: Velocity,
+}
+
+/// What finds emissions behind samples.
+pub struct Finder<'a> {
+    painter: &'a Painter<'a>,
+    has_flight_time: bool,
+}
+
+impl<'a> Finder<'a> {
+    /// For the scene of a painter.
+    pub fn new(painter: &'a Painter<'a>) -> Self {
+        Self { painter, has_flight_time: Geometry::of(painter.scene).flight_time }
+    }
+
+    /// The emission seen at a sample.
+    pub fn emission(&self, [column, row]: [u32; 2], seen: Seen<u32>) -> Emission {
+        let Painter { scene, view, surface, .. } = self.painter;
+        let key = f64::from(seen.key);
+        let drawn = if view.is_perspective { 1.0 / key } else { -key };
+        let face = scene.faces.get(seen.tag as usize);
+        let (velocity, depth) = match face {
+            Some(face) => (face.velocity, drawn),
+            // Wires are drawn nearer than they are.
+            None => {
+                let wire = scene.wires.get(seen.tag as usize - scene.faces.len());
+                let lifted = if view.is_perspective {
+                    drawn / (1.0 - WIRE_LIFT)
+                } else {
+                    drawn + WIRE_LIFT * view.distance
+                };
+                (wire.and_then(|wire| wire.velocity), lifted)
+            }
+        };
+        let place = view.point([f64::from(column) + 0.5, f64::from(row) + 0.5], depth);
+        let time = if self.has_flight_time { -place.length() } else { 0.0 };
+        Emission { item: seen.tag, place, depth, time, velocity: surface.velocity(velocity) }
+    }
+}
+
+/// The planes of a channel. `seen`: at the middle of each pixel of the grid.
+pub fn planes(channel: Channel, finder: &Finder<'_>, grid: &Grid, seen: &[Option<Seen<u32>>]) -> Vec<Plane> {
+    let of = |number: &(dyn Fn(&Emission) -> f64 + Sync), nothing: f32| {
+        let numbers = seen.par_iter().enumerate().map(|(idx, seen)| {
+            let Some(seen) = *seen else { return nothing };
+            number(&finder.emission(middle(grid, idx), seen)) as f32
+        });
+        Samples::Float(numbers.collect())
+    };
+    let plane = |name: &str, samples| Plane { name: name.to_owned(), samples };
+    let name = channel.name();
+    match channel {
+        Channel::Doppler => {
+            vec![plane(name, of(&|emission| doppler_at(emission.place, emission.velocity), 0.0))]
+        }
+        Channel::Time => vec![plane(name, of(&|emission| emission.time, f32::NEG_INFINITY))],
+        Channel::Distance => vec![plane(name, of(&|emission| emission.place.length(), f32::INFINITY))],
+        Channel::Depth => vec![plane(name, of(&|emission| emission.depth, f32::INFINITY))],
+        Channel::Id => {
+            let ids = seen.iter().map(|seen| seen.map_or(0, |seen| seen.tag.saturating_add(1)));
+            vec![plane(name, Samples::Whole(ids.collect()))]
+        }
+        Channel::Velocity => ["X", "Y", "Z"]
+            .into_iter()
+            .enumerate()
+            .map(|(axis, letter)| {
+                let part = of(&move |emission| emission.velocity.beta()[axis], 0.0);
+                plane(&format!("{name}.{letter}"), part)
+            })
+            .collect(),
+    }
+}
+
+/// The sample nearest to the centre of a pixel, of equals the last: see [`crate::raster::Gathered`].
+fn middle(grid: &Grid, idx: usize) -> [u32; 2] {
+    let width = grid.width as usize;
+    // The pixels of a picture are fewer than 2^32.
+    [idx % width, idx / width].map(|pixel| pixel as u32 * grid.samples + grid.samples / 2)
+}

@@ -1,0 +1,79 @@
+//! A scene made ready to be drawn from one camera.
+
+use std::borrow::Cow;
+
+use ugparse::Scene;
+
+use crate::config::Config;
+use crate::error::{self, Error};
+use crate::light::Lighting;
+use crate::painter::Painter;
+use crate::palette::Palette;
+use crate::raster::Grid;
+use crate::shade::Shader;
+use crate::surface::Surface;
+use ugscene::View;
+
+/// Everything that is computed once for a picture.
+pub struct Setup<'a> {
+    scene: Cow<'a, Scene>,
+    pub view: View,
+    pub grid: Grid,
+    pub palette: Palette,
+    pub lighting: Lighting,
+    pub surface: Surface,
+    pub shader: Shader,
+    /// Light brighter than white is kept to the last step; else it is clipped sample by sample, as in 1988.
+    pub is_uncut: bool,
+}
+
+impl<'a> Setup<'a> {
+    /// Checks and prepares.
+    ///
+    /// # Errors
+    /// The picture is too large, there is nothing to draw, or the camera or the options make no sense.
+    pub fn new(scene: &'a Scene, config: &Config) -> Result<Self, Error> {
+        error::check_size(config.size, config.samples)?;
+        error::check_output(config)?;
+        if scene.faces.is_empty() && scene.wires.is_empty() {
+            return Err(Error::Empty);
+        }
+        let scene = with_separate_bodies(scene);
+        let [width, height] = config.size;
+        let view = View::new(&scene, &config.camera, config.size.map(|pixels| pixels * config.samples))?;
+        let grid = Grid { width, height, samples: config.samples, is_perspective: view.is_perspective };
+        let palette = Palette::new(&scene, config);
+        let lighting = Lighting::new(&scene, &palette, &view);
+        let surface = Surface::new(&scene, view.eye, &palette, config.hue_scale)?;
+        let is_uncut = palette.has_light() || config.keeps_light();
+        let shader = Shader::new(config.interpolated(), !is_uncut);
+        Ok(Self { scene, view, grid, palette, lighting, surface, shader, is_uncut })
+    }
+
+    /// The scene, with vertices of one velocity each. Faces and wires have the order of the scene given.
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// What draws it.
+    pub fn painter(&self) -> Painter<'_> {
+        Painter {
+            scene: &self.scene,
+            view: &self.view,
+            grid: &self.grid,
+            palette: &self.palette,
+            lighting: &self.lighting,
+            surface: &self.surface,
+        }
+    }
+}
+
+/// The scene with vertices of one velocity each, copied only if it has velocities.
+fn with_separate_bodies(scene: &Scene) -> Cow<'_, Scene> {
+    if scene.velocities.is_empty() {
+        return Cow::Borrowed(scene);
+    }
+    let mut scene = scene.clone();
+    ugscene::separate_bodies(&mut scene);
+    Cow::Owned(scene)
+}

@@ -1,0 +1,110 @@
+//! Everything to be drawn, packed as the scene needs it.
+
+use glam::DVec3;
+
+use crate::drawlist::{DrawList, Reach};
+use crate::painter::Painter;
+use crate::palette::Swatch;
+use crate::raster::{Gathered, Grid, Sample, Tag, Tally, paint, probe};
+use crate::shade::Shader;
+
+/// Polygons with the numbers to interpolate: hues alone or with colours given as light among them, under
+/// white or coloured lights.
+pub enum Sheet {
+    /// Tint, saturation, value.
+    Plain(DrawList<3>),
+    /// The same, and the level of red, green and blue light.
+    Colored(DrawList<6>),
+    /// As plain, or linear light; and which.
+    Mixed(DrawList<4>),
+    /// As coloured, or linear light; and which.
+    MixedColored(DrawList<7>),
+}
+
+impl Sheet {
+    /// All faces and wires.
+    pub fn new(painter: &Painter<'_>) -> Self {
+        match (painter.palette.has_light(), painter.lighting.is_colored()) {
+            (false, false) => Self::Plain(DrawList::new(painter, pack_plain)),
+            (false, true) => Self::Colored(DrawList::new(painter, pack_colored)),
+            (true, false) => Self::Mixed(DrawList::new(painter, pack_mixed)),
+            (true, true) => Self::MixedColored(DrawList::new(painter, pack_mixed_colored)),
+        }
+    }
+
+    /// How many faces and wires came how far.
+    pub fn reach(&self) -> Reach {
+        match self {
+            Self::Plain(list) => list.reach,
+            Self::Colored(list) => list.reach,
+            Self::Mixed(list) => list.reach,
+            Self::MixedColored(list) => list.reach,
+        }
+    }
+
+    /// Draws all pixels of the grid. `finish` makes a pixel of its samples.
+    pub fn paint<T: Tag, P: Send>(
+        &self,
+        grid: &Grid,
+        shader: &Shader,
+        pixels: &mut [P],
+        finish: &(impl Fn(&Gathered<T>) -> P + Sync),
+    ) -> Tally {
+        match self {
+            Self::Plain(list) => paint(pixels, grid, &list.lists, &|values| shader.plain(values), finish),
+            Self::Colored(list) => paint(pixels, grid, &list.lists, &|values| shader.colored(values), finish),
+            Self::Mixed(list) => paint(pixels, grid, &list.lists, &|values| shader.mixed(values), finish),
+            Self::MixedColored(list) => {
+                paint(pixels, grid, &list.lists, &|values| shader.mixed_colored(values), finish)
+            }
+        }
+    }
+
+    /// The samples of one pixel, and what they gather to.
+    pub fn probe(&self, grid: &Grid, shader: &Shader, pixel: [u32; 2]) -> (Vec<Sample>, Gathered<u32>) {
+        match self {
+            Self::Plain(list) => probe(grid, &list.lists, &|values| shader.plain(values), pixel),
+            Self::Colored(list) => probe(grid, &list.lists, &|values| shader.colored(values), pixel),
+            Self::Mixed(list) => probe(grid, &list.lists, &|values| shader.mixed(values), pixel),
+            Self::MixedColored(list) => {
+                probe(grid, &list.lists, &|values| shader.mixed_colored(values), pixel)
+            }
+        }
+    }
+}
+
+/// White light of one level goes into the value.
+fn pack_plain(swatch: &Swatch, level: DVec3) -> [f64; 3] {
+    [swatch.tint, swatch.saturation, swatch.value * level.x]
+}
+
+/// Coloured light is carried beside the colour.
+fn pack_colored(swatch: &Swatch, level: DVec3) -> [f64; 6] {
+    [swatch.tint, swatch.saturation, swatch.value, level.x, level.y, level.z]
+}
+
+fn pack_mixed(swatch: &Swatch, level: DVec3) -> [f64; 4] {
+    match swatch.light {
+        Some(light) => {
+            let [red, green, blue] = (light * level).to_array();
+            [red, green, blue, 1.0]
+        }
+        None => {
+            let [tint, saturation, value] = pack_plain(swatch, level);
+            [tint, saturation, value, 0.0]
+        }
+    }
+}
+
+fn pack_mixed_colored(swatch: &Swatch, level: DVec3) -> [f64; 7] {
+    match swatch.light {
+        Some(light) => {
+            let [red, green, blue] = (light * level).to_array();
+            [red, green, blue, 1.0, 1.0, 1.0, 1.0]
+        }
+        None => {
+            let [tint, saturation, value, red, green, blue] = pack_colored(swatch, level);
+            [tint, saturation, value, red, green, blue, 0.0]
+        }
+    }
+}

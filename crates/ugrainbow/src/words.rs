@@ -1,0 +1,83 @@
+//! Words of the command line as values.
+
+use ugimage::{Format, Tone};
+use ugpipe::finite;
+
+use crate::config::Exposure;
+use crate::planes::Channel;
+
+/// What `-ch` names.
+#[derive(Clone, Debug, Default)]
+pub struct Channels(pub Vec<Channel>);
+
+/// A column and a row.
+pub type Pixel = [u32; 2];
+
+/// What is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    Picture(Format),
+    Report(Report),
+}
+
+/// How a pixel is explained.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Report {
+    Text,
+    Json,
+}
+
+/// A format of pictures.
+pub fn format_named(name: &str) -> Result<Format, String> {
+    Format::from_name(name).ok_or_else(|| format!("none of the formats {}", Format::list()))
+}
+
+/// A format of pictures or of explanations.
+pub fn kind_named(name: &str) -> Result<Kind, String> {
+    match name {
+        "text" => Ok(Kind::Report(Report::Text)),
+        "json" => Ok(Kind::Report(Report::Json)),
+        name => format_named(name).map(Kind::Picture),
+    }
+}
+
+/// `320,240`
+pub fn pixel(word: &str) -> Result<Pixel, String> {
+    let numbers =
+        word.split_once(',').and_then(|(x, y)| Some([x.trim().parse().ok()?, y.trim().parse().ok()?]));
+    numbers.ok_or_else(|| "a pixel is its column and row, such as 320,240".to_owned())
+}
+
+/// Stops, or `auto`.
+pub fn exposure(word: &str) -> Result<Exposure, String> {
+    /// More than the range of the numbers light is kept in.
+    const MOST: f64 = 300.0;
+    if word == "auto" {
+        return Ok(Exposure::Auto);
+    }
+    let stops = finite(word).map_err(|error| format!("{error}, nor is it `auto`"))?;
+    if stops.abs() <= MOST {
+        Ok(Exposure::Stops(stops))
+    } else {
+        Err(format!("an exposure is between -{MOST} and {MOST} stops"))
+    }
+}
+
+/// The name of a tone curve.
+pub fn tone(word: &str) -> Result<Tone, String> {
+    Tone::from_name(word)
+        .ok_or_else(|| format!("none of the curves {}", Tone::ALL.map(Tone::name).join(", ")))
+}
+
+/// Each once, in the order given.
+pub fn channels(list: &str) -> Result<Channels, String> {
+    let mut channels = Vec::new();
+    for name in list.split(',') {
+        let channel = Channel::from_name(name)
+            .ok_or_else(|| format!("`{name}` is none of the channels {}", Channel::list()))?;
+        if !channels.contains(&channel) {
+            channels.push(channel);
+        }
+    }
+    Ok(Channels(channels))
+}

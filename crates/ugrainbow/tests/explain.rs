@@ -1,0 +1,192 @@
+//! `--explain`: its bytes are the picture's, and its numbers obey the equations.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking, its helpers too")]
+
+use std::io::Cursor;
+use std::path::Path;
+use std::process::Command;
+
+use glam::DVec3;
+use serde_json::Value;
+
+/// Faces of hues, greys and light, a hole, a wire, bodies at three velocities, a coloured light.
+const SCENE: &str = "\
+{ uglorentz 0.1.0: uglorentz -se .1 }
+{ ugdoppler 0.1.0: ugdoppler -br photon }
+c red 1.4 350 .8; c blue .7 250; c grey .6; c_xyz hot 6 5 1; c warm 1 30 .4;
+l .2; l .6 -1 -2 3 warm; l 1 2 -3 4;
+v a -4 5 -3; v b 4 5 -3 blue; v c 4 5 3; v d -4 5 3 red;
+v e -1 5 -1; v f 1 5 -1; v g 1 5 1; v h -1 5 1;
+f wall (a b c d) (e f g h) red <.5 .2 0>;
+v i -3 4 -2; v j 0 3.5 2.5; v k 2 7 -1; f shard (i j k) hot <0 .8 .1>;
+v m 1 3 -2; v n 3 3 -2; v o 2 3 1; f (m n o) grey;
+v p -2 3 2 hot; v q 2 3 2 blue; w line (p q a) grey;
+cam -ep 0 0 0 -vc 0 5 0 -va 70 50;
+";
+
+fn ugrainbow(folder: &Path, args: &[&str]) -> Vec<u8> {
+    let output = Command::new(env!("CARGO_BIN_EXE_ugrainbow"))
+        .args(["-qt", "-sz", "60", "45", "scene.ug"])
+        .args(args)
+        .current_dir(folder)
+        .output()
+        .unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    output.stdout
+}
+
+/// Red, green, blue and alpha of every pixel of a PNG.
+fn pixels(file: &[u8]) -> Vec<[u8; 4]> {
+    let mut reader = png::Decoder::new(Cursor::new(file)).read_info().unwrap();
+    let mut bytes = vec![0; reader.output_buffer_size().unwrap()];
+    let info = reader.next_frame(&mut bytes).unwrap();
+    match info.color_type {
+        png::ColorType::Rgb => bytes.as_chunks::<3>().0.iter().map(|&[r, g, b]| [r, g, b, 255]).collect(),
+        _ => bytes.as_chunks::<4>().0.to_vec(),
+    }
+}
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap_or_else(|| panic!("{value} is no number"))
+}
+
+fn point(value: &Value) -> DVec3 {
+    DVec3::from_array(std::array::from_fn(|i| number(&value[i])))
+}
+
+#[test]
+fn the_last_step_is_the_picture() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("scene.ug"), SCENE).unwrap();
+    let hues = SCENE.replace("c_xyz hot 6 5 1;", "c hot 1.2 60;");
+    let mut seen = [0; 3];
+    for (scene, options) in [
+        (SCENE, "-aa 4"),
+        (SCENE, "-aa 3 -ex auto -tc filmic -bg .2 200"),
+        (SCENE, "-aa 2 -tb -ex -1.5"),
+        (SCENE, "-aa 1 -og -va 60"),
+        (&hues, "-aa 4 -iw"),
+        (&hues, "-aa 2 -ex -.5"),
+    ] {
+        std::fs::write(folder.path().join("scene.ug"), scene).unwrap();
+        let options: Vec<&str> = options.split(' ').collect();
+        let picture = pixels(&ugrainbow(folder.path(), &options));
+        for idx in (7..60 * 45).step_by(89) {
+            let place = format!("{},{}", idx % 60, idx / 60);
+            let told = ugrainbow(
+                folder.path(),
+                &[&options[..], &["--explain", &place, "--format", "json"]].concat(),
+            );
+            let told: Value = serde_json::from_slice(&told).unwrap();
+            let bytes: Vec<u64> =
+                told["bytes"].as_array().unwrap().iter().map(|x| x.as_u64().unwrap()).collect();
+            assert_eq!(bytes, picture[idx].map(u64::from), "{options:?} at {place}");
+            check_parts(&told);
+            if told["sample"].is_null() {
+                seen[0] += 1;
+            } else {
+                check_sample(&told);
+                seen[if told["sample"]["item"]["kind"] == "face" { 1 } else { 2 }] += 1;
+            }
+        }
+    }
+    assert!(seen[0] > 10 && seen[1] > 60 && seen[2] > 1, "background, faces, wires: {seen:?}");
+}
+
+fn check_parts(told: &Value) {
+    let covers = told["covers"].as_array().unwrap();
+    let sum: f64 = covers.iter().map(|cover| number(&cover["part"])).sum();
+    assert!((sum + number(&told["background_part"]) - 1.0).abs() < 1e-12);
+    assert_eq!(covers.is_empty(), told["sample"].is_null());
+}
+
+/// The event is on the light cone in both frames, D is the ratio of the distances (P10), and the angles those
+/// of (P6).
+fn check_sample(told: &Value) {
+    let sample = &told["sample"];
+    let (event, rest) = (&sample["emission"], &sample["emission_at_rest"]);
+    let (x, x_rest, beta) = (point(&event["x"]), point(&rest["x"]), point(&sample["velocity"]));
+    assert!((number(&event["t"]) + x.length()).abs() < 1e-12 * x.length());
+    assert!((number(&rest["t"]) + x_rest.length()).abs() < 1e-12 * x_rest.length());
+    let doppler = number(&sample["D"]);
+    assert!((doppler - x.length() / x_rest.length()).abs() < 1e-12 * doppler);
+    // The invariant interval to the eye's own event is null; the phase of the light is the Doppler factor.
+    let gamma = 1.0 / (1.0 - beta.length_squared()).sqrt();
+    assert!((number(&sample["gamma"]) - gamma).abs() < 1e-12 * gamma);
+    assert!((doppler * gamma * (1.0 + beta.dot(x) / x.length()) - 1.0).abs() < 1e-12);
+    if beta != DVec3::ZERO {
+        let [camera, at_rest] =
+            ["angle_deg", "angle_at_rest_deg"].map(|name| number(&sample[name]).to_radians());
+        let speed = beta.length();
+        let ratio = ((1.0 - speed) / (1.0 + speed)).sqrt();
+        assert!((libm::tan(at_rest / 2.0) - ratio * libm::tan(camera / 2.0)).abs() < 1e-9);
+    } else {
+        assert!(sample["angle_deg"].is_null());
+        assert_eq!(x, x_rest);
+    }
+    let expected = match sample["item"]["name"].as_str() {
+        Some("wall") => DVec3::new(0.5, 0.2, 0.0),
+        Some("shard") => DVec3::new(0.0, 0.8, 0.1),
+        _ => DVec3::ZERO,
+    };
+    assert_eq!(beta, expected);
+    let color = &sample["color"];
+    if let Some(seen) = color["seen_wavelength_nm"].as_f64() {
+        assert!((number(&color["rest_wavelength_nm"]) - seen * doppler).abs() < 1e-9 * seen);
+        assert!((number(&color["attenuation"]) - ugphysics::attenuation(seen)).abs() < 1e-12);
+    }
+    for corner in sample["corners"].as_array().unwrap() {
+        let lights = corner["lights"].as_array().unwrap();
+        if !lights.is_empty() {
+            let sum: DVec3 = lights.iter().map(|light| point(&light["level"])).sum();
+            assert!((sum - point(&corner["light_level"])).length() < 1e-12);
+        }
+    }
+    assert_eq!(told["brightness_law"], "photon");
+}
+
+#[test]
+fn people_are_told_the_same() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("scene.ug");
+    std::fs::write(&path, SCENE).unwrap();
+    let told = |place: &str| String::from_utf8(ugrainbow(folder.path(), &["--explain", place])).unwrap();
+    let wall = told("7,10");
+    for part in
+        ["face `wall`, id 1, scene.ug:7", "beta 0.538516", "law `photon`", "nm at rest", "directional 1"]
+    {
+        assert!(wall.contains(part), "{part}:\n{wall}");
+    }
+    std::fs::write(
+        &path,
+        "c green 1 120; l 1; v a -1 5 -1; v b 1 5 -1; v c 0 5 1; f (a b c) green; cam -vc 0 5 0;",
+    )
+    .unwrap();
+    let still = told("30,22");
+    for part in [
+        "everything is at rest",
+        "never went through ugdoppler",
+        "D             1 (P10)",
+        "bytes         0 255 0",
+    ] {
+        assert!(still.contains(part), "{part}:\n{still}");
+    }
+}
+
+#[test]
+fn bad_usage_is_told() {
+    let check = |args: &str, message: &str| {
+        let output = Command::new(env!("CARGO_BIN_EXE_ugrainbow"))
+            .args(args.split(' '))
+            .arg(concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/cubes.ug"))
+            .output()
+            .unwrap();
+        assert_eq!(output.status.code(), Some(2));
+        let error = String::from_utf8(output.stderr).unwrap();
+        assert!(error.contains(message) && output.stdout.is_empty(), "{error}");
+    };
+    check("-sz 20 10 --explain 20,3", "pixel 20,3 is not in the picture of 20 x 10 pixels");
+    check("--explain 20", "a pixel is its column and row, such as 320,240");
+    check("--explain 2,3 -dt exr", "give --format json, or none");
+    check("--format json", "add --explain X,Y");
+}
