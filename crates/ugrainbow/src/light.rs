@@ -34,9 +34,6 @@ pub struct Lamp {
     pub linear: DVec3,
 }
 
-/// Which of the two a level is taken of.
-pub type Scale = fn(&Lamp) -> DVec3;
-
 impl Lamp {
     const fn white(intensity: f64) -> Self {
         Self { encoded: DVec3::splat(intensity), linear: DVec3::splat(intensity) }
@@ -89,8 +86,19 @@ impl Lighting {
     ///
     /// `point`: relative to the eye, in the rest frame of the surface. `normal`: unit vector
     /// on the side that is seen, or zero for a surface without one.
+    /// `is_linear`: of the lights' linear colours, else of the display-encoded ones.
     /// Level = Σ ambient + Σ intensity · max(0, n·l).
-    pub fn level(&self, point: DVec3, normal: DVec3, scale: Scale) -> DVec3 {
+    pub fn level(&self, point: DVec3, normal: DVec3, is_linear: bool) -> DVec3 {
+        // Two loops, each with its colour inlined: this runs for every corner of the scene.
+        if is_linear {
+            self.sum(point, normal, |lamp| lamp.linear)
+        } else {
+            self.sum(point, normal, |lamp| lamp.encoded)
+        }
+    }
+
+    #[inline]
+    fn sum(&self, point: DVec3, normal: DVec3, scale: impl Fn(&Lamp) -> DVec3) -> DVec3 {
         let toward = |place: DVec3| (place - point).normalize_or_zero();
         let local = self.local.iter().map(|(place, lamp)| (toward(*place), lamp));
         self.directional
@@ -101,7 +109,8 @@ impl Lighting {
     }
 
     /// The same light by light: what each adds to the level, and what to call it.
-    pub fn parts(&self, point: DVec3, normal: DVec3, scale: Scale) -> Vec<(String, DVec3)> {
+    pub fn parts(&self, point: DVec3, normal: DVec3, is_linear: bool) -> Vec<(String, DVec3)> {
+        let scale = |lamp: &Lamp| if is_linear { lamp.linear } else { lamp.encoded };
         let falling = |lamp: &Lamp, toward: DVec3| scale(lamp) * normal.dot(toward).max(0.0);
         let ambient = [("ambient".to_owned(), scale(&self.ambient))];
         let directional = (1..)

@@ -3,7 +3,7 @@
 use glam::DVec3;
 use ugparse::{Face, Scene, VertexId, Wire, newell_normal};
 
-use crate::light::{Lamp, Lighting, Scale};
+use crate::light::Lighting;
 use crate::palette::{Palette, Swatch};
 use crate::raster::Grid;
 use crate::surface::Surface;
@@ -37,6 +37,7 @@ pub struct Common {
 
 impl Painter<'_> {
     /// What the corners of a face have in common.
+    #[inline]
     pub fn common(&self, face: &Face) -> Common {
         let corners = self.scene.contours.corners(face.contours.clone());
         let swatches = || corners.iter().map(|&vertex| self.surface.swatch(vertex));
@@ -51,6 +52,7 @@ impl Painter<'_> {
     }
 
     /// The colour of a corner of a face.
+    #[inline]
     pub fn swatch(&self, vertex: VertexId, common: &Common) -> Swatch {
         let swatch = self.surface.swatch(vertex);
         if common.is_light {
@@ -107,16 +109,16 @@ impl Painter<'_> {
 
     /// The light level at a corner, for red, green and blue: linear for a colour that is light, else on the scale
     /// of display-encoded values.
+    #[inline]
     pub fn level(&self, face: &Face, vertex: VertexId, seen_normal: DVec3, is_light: bool) -> DVec3 {
         if let Some(level) = self.scene.light_level(face) {
             return DVec3::splat(level);
         }
-        let scale: Scale = if is_light { |lamp: &Lamp| lamp.linear } else { |lamp: &Lamp| lamp.encoded };
         if !self.lighting.needs_geometry() {
-            return self.lighting.level(DVec3::ZERO, DVec3::ZERO, scale);
+            return self.lighting.level(DVec3::ZERO, DVec3::ZERO, is_light);
         }
         let normal = self.normal_at(vertex, seen_normal);
-        self.lighting.level(self.surface.rest(vertex), normal, scale)
+        self.lighting.level(self.surface.rest(vertex), normal, is_light)
     }
 
     /// The normal at a corner of a face, on the side that is seen.

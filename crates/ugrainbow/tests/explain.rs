@@ -63,7 +63,7 @@ fn the_last_step_is_the_picture() {
     for (scene, options) in [
         (SCENE, "-aa 4"),
         (SCENE, "-aa 3 -ex auto -tc filmic -bg .2 200"),
-        (SCENE, "-aa 2 -tb -ex -1.5"),
+        (SCENE, "-aa 2 -tb -ex -1.5 -va 140"),
         (SCENE, "-aa 1 -og -va 60"),
         (&hues, "-aa 4 -iw"),
         (&hues, "-aa 2 -ex -.5"),

@@ -12,7 +12,6 @@ use ugscene::Geometry;
 
 use crate::canvas::{Ground, development};
 use crate::config::{Config, Interpolation};
-use crate::light::{Lamp, Scale};
 use crate::palette::Swatch;
 use crate::planes::Finder;
 use crate::raster::{Gathered, Sample};
@@ -295,13 +294,11 @@ impl Teller<'_> {
             let corner = |vertex: VertexId| {
                 let swatch = painter.swatch(vertex, &common);
                 let level = painter.level(face, vertex, normal, common.is_light);
-                let scale: Scale =
-                    if common.is_light { |lamp: &Lamp| lamp.linear } else { |lamp: &Lamp| lamp.encoded };
                 let lights = if scene.light_level(face).is_some() {
                     Vec::new()
                 } else {
                     let normal = painter.normal_at(vertex, normal);
-                    painter.lighting.parts(painter.surface.rest(vertex), normal, scale)
+                    painter.lighting.parts(painter.surface.rest(vertex), normal, common.is_light)
                 };
                 self.corner(vertex, &swatch, level, lights)
             };
