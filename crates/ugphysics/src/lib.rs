@@ -53,6 +53,7 @@ mod hue;
 mod light;
 mod lorentz;
 mod velocity;
+mod xyz;
 
 pub use aberration::aberrate;
 pub use color::{Hsv, luminance, srgb_decode, srgb_encode};
@@ -64,3 +65,4 @@ pub use hue::{
 pub use light::{Event, contracted, flight_time, observer_shift, rest_position, seen_event, seen_position};
 pub use lorentz::{Lorentz, compose};
 pub use velocity::{Velocity, VelocityError};
+pub use xyz::{WHITE_XYZ, linear_srgb_to_xyz, xyz_to_linear_srgb};
