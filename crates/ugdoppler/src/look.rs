@@ -51,11 +51,11 @@ impl Look {
     }
 
     /// X, Y, Z under a ln D.
-    pub fn seen(&self, ln_doppler: f64, motion: Motion) -> [f64; 3] {
+    pub fn seen(&self, grid: &Grid, ln_doppler: f64, motion: Motion) -> [f64; 3] {
         let shift = motion.shift(ln_doppler);
         let xyz = match &self.table {
             Some(table) => table.xyz(shift),
-            None => self.spectrum.shifted(libm::exp(shift)),
+            None => grid.xyz(&self.spectrum, shift),
         };
         let gain = libm::exp(motion.gain(ln_doppler));
         xyz.map(|part| part * gain)

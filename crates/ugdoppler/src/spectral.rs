@@ -30,7 +30,7 @@ pub(crate) fn paint(
 
     let plan = Plan::new(scene, &looks, &ruler, shares, &ln_factors, used);
     let mut seen: Vec<[f64; 3]> =
-        plan.slots.par_iter().map(|slot| slot.xyz(&looks, motion, shares)).collect();
+        plan.slots.par_iter().map(|slot| slot.xyz(&looks, &grid, motion, shares)).collect();
     let notes = expose(&mut seen, config.iris).into_iter().chain(changed_note(scene, &looks)).collect();
     push_colors(scene, config, &ruler, shares, &plan, &seen);
     notes
@@ -131,11 +131,11 @@ impl Plan {
 
 impl Slot {
     /// X, Y, Z: those of the spectra that meet, each by its share.
-    fn xyz(&self, looks: &[Option<Look>], motion: Motion, shares: &[Shares]) -> [f64; 3] {
+    fn xyz(&self, looks: &[Option<Look>], grid: &Grid, motion: Motion, shares: &[Shares]) -> [f64; 3] {
         let mut sum = [0.0; 3];
         for (color, share) in parts(&shares[self.vertex]) {
             let Some(look) = &looks[row(color)] else { continue };
-            let seen = look.seen(self.ln_doppler, motion);
+            let seen = look.seen(grid, self.ln_doppler, motion);
             sum.iter_mut().zip(seen).for_each(|(sum, part)| *sum += share * part);
         }
         // What is too bright for a number stays finite; what is no number is dark.

@@ -25,7 +25,9 @@ pub fn hsv(scene: &Scene, color: &Color, scale: HueScale) -> Hsv {
     match color.value {
         ColorValue::Rgb(rgb) => Hsv::from_rgb(rgb),
         ColorValue::Xyz(xyz) => shown(xyz),
-        ColorValue::Blackbody { .. } | ColorValue::Spectrum { .. } => shown(spectrum(scene, color).0.seen(1.0)),
+        ColorValue::Blackbody { .. } | ColorValue::Spectrum { .. } => {
+            shown(spectrum(scene, color).0.seen(1.0))
+        }
         ColorValue::Hsv { value, hue, saturation } => {
             let hue = match scale {
                 HueScale::Degrees => hue,

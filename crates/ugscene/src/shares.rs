@@ -55,7 +55,10 @@ enum Sum {
     /// Given by the vertex itself; nothing changes it.
     Own(ColorId),
     Nothing,
-    One { color: Option<ColorId>, weight: f64 },
+    One {
+        color: Option<ColorId>,
+        weight: f64,
+    },
     Many(Vec<(Option<ColorId>, f64)>),
 }
 

@@ -71,8 +71,7 @@ impl Reflectance {
     pub(crate) fn lit(&self, light: &Illumination) -> [f64; 3] {
         let ends = CURVE_NM.map(|nm| self.at(nm));
         let [ultraviolet, infrared] = light.outside.each_ref().map(|xyz| xyz.as_slice());
-        let mut sums: [f64; 3] =
-            std::array::from_fn(|i| ends[0] * ultraviolet[i] + ends[1] * infrared[i]);
+        let mut sums: [f64; 3] = std::array::from_fn(|i| ends[0] * ultraviolet[i] + ends[1] * infrared[i]);
         for (row, weights) in light.inside.iter().enumerate() {
             let reflected = match &self.curve {
                 Some(curve) => curve.at((light.first_nm + row as f64) * light.doppler),

@@ -40,8 +40,9 @@ pub(crate) fn solve(wanted: [f64; 3]) -> Option<Coefficients> {
     let mean = ((wanted[0] + wanted[1] + wanted[2]) / 3.0).clamp(0.05, 0.95);
     // The grey of that level: the inverse of S.
     let grey = Coefficients([(mean - 0.5) / (mean * (1.0 - mean)).sqrt(), 0.0, 0.0]);
-    let (near, _) = descend(&grids[0], wanted, grey, 1e-4);
-    let (found, error) = descend(&grids[1], wanted, near, NEAR);
+    // The grids are nearly alike, so behind the first the second needs no damping.
+    let (near, _) = descend(&grids[0], wanted, grey, 1e-5, 1e-3);
+    let (found, error) = descend(&grids[1], wanted, near, NEAR, 1e-9);
     (error < NEAR_ENOUGH).then_some(found)
 }
 
@@ -64,10 +65,15 @@ fn grids() -> &'static [Vec<Weight>; 2] {
 }
 
 /// Levenberg–Marquardt until the largest error is below `near`; the best curve and its error.
-fn descend(grid: &[Weight], wanted: [f64; 3], start: Coefficients, near: f64) -> (Coefficients, f64) {
+fn descend(
+    grid: &[Weight],
+    wanted: [f64; 3],
+    start: Coefficients,
+    near: f64,
+    mut damping: f64,
+) -> (Coefficients, f64) {
     let mut best = start;
     let (mut error, mut slopes) = colour(grid, wanted, best);
-    let mut damping = 1e-3;
     for _ in 0..ROUNDS {
         if size(error) < near {
             break;
@@ -89,7 +95,11 @@ fn descend(grid: &[Weight], wanted: [f64; 3], start: Coefficients, near: f64) ->
 }
 
 /// How far the colour of a curve is off, and its derivatives: row channel, column coefficient.
-fn colour(grid: &[Weight], wanted: [f64; 3], Coefficients([a, b, c]): Coefficients) -> ([f64; 3], [[f64; 3]; 3]) {
+fn colour(
+    grid: &[Weight],
+    wanted: [f64; 3],
+    Coefficients([a, b, c]): Coefficients,
+) -> ([f64; 3], [[f64; 3]; 3]) {
     let mut error = wanted.map(|channel| -channel);
     let mut slopes = [[0.0; 3]; 3];
     for ([one, t, quadratic], rgb) in grid {
@@ -118,7 +128,8 @@ fn size(error: [f64; 3]) -> f64 {
 
 /// The damped step: (JᵀJ + damping diag JᵀJ) step = −Jᵀ error, by Cramer's rule.
 fn step(error: [f64; 3], slopes: [[f64; 3]; 3], damping: f64) -> Option<[f64; 3]> {
-    let entry = |i: usize, j: usize| (0..3).map(|channel| slopes[channel][i] * slopes[channel][j]).sum::<f64>();
+    let entry =
+        |i: usize, j: usize| (0..3).map(|channel| slopes[channel][i] * slopes[channel][j]).sum::<f64>();
     let mut matrix: [[f64; 3]; 3] = std::array::from_fn(|i| std::array::from_fn(|j| entry(i, j)));
     for (i, row) in matrix.iter_mut().enumerate() {
         row[i] *= 1.0 + damping;

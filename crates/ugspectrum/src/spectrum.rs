@@ -5,6 +5,7 @@ use std::sync::Arc;
 use ugphysics::{linear_srgb_to_xyz, luminance, xyz_to_linear_srgb};
 
 use crate::reflectance::Reflectance;
+use crate::shifted::MOST;
 use crate::{blackbody, samples};
 
 /// Light over all wavelengths, as it is at rest.
@@ -72,9 +73,10 @@ impl Spectrum {
         self.shifted(doppler).map(|part| part * (square * square * doppler))
     }
 
-    /// X, Y, Z of the shifted spectrum L(λ) = L'(λD), without the factor D⁵ of (P12).
+    /// X, Y, Z of the shifted spectrum L(λ) = L'(λD), without the factor D⁵ of (P12). D is taken from e⁻¹⁰⁰ to e¹⁰⁰.
     #[must_use]
     pub fn shifted(&self, doppler: f64) -> [f64; 3] {
+        let doppler = doppler.clamp(libm::exp(-MOST), libm::exp(MOST));
         match &self.0 {
             Kind::Reflected(surface) => surface.xyz(doppler),
             Kind::Blackbody { .. } => self.ln_shifted(doppler).map(libm::exp),
@@ -87,8 +89,7 @@ impl Spectrum {
         match self.0 {
             Kind::Blackbody { kelvin, luminance } => {
                 // (P13): L'(λD) at T is D⁻⁵ times L at D·T.
-                let offset =
-                    libm::log(luminance) - blackbody::ln_xyz(kelvin)[1] - 5.0 * libm::log(doppler);
+                let offset = libm::log(luminance) - blackbody::ln_xyz(kelvin)[1] - 5.0 * libm::log(doppler);
                 blackbody::ln_xyz(kelvin * doppler).map(|ln| ln + offset)
             }
             _ => self.shifted(doppler).map(libm::log),
