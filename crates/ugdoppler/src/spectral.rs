@@ -139,7 +139,7 @@ impl Slot {
             sum.iter_mut().zip(seen).for_each(|(sum, part)| *sum += share * part);
         }
         // What is too bright for a number stays finite; what is no number is dark.
-        sum.map(|part| part.max(0.0).min(f64::MAX))
+        sum.map(|part| if part.is_nan() { 0.0 } else { part.clamp(0.0, f64::MAX) })
     }
 }
 

@@ -61,12 +61,22 @@ pub fn spectrum(scene: &Scene, color: &Color) -> (Spectrum, bool) {
 }
 
 /// What to tell the user of a scene with spectra of which [`hsv`] takes the
-/// colour at rest only.
+/// colour at rest only: those that something is drawn or lit with.
 pub fn spectra_note(scene: &Scene) -> Option<String> {
-    let is_spectrum =
-        |color: &Color| matches!(color.value, ColorValue::Blackbody { .. } | ColorValue::Spectrum { .. });
-    let color = scene.colors.iter().find(|color| is_spectrum(color))?;
-    let name = scene.names.get(color.name);
+    let is_spectrum = |id: &ColorId| {
+        matches!(scene.colors[id.index()].value, ColorValue::Blackbody { .. } | ColorValue::Spectrum { .. })
+    };
+    // A colour of the vertices beats that of their face.
+    let needs_color = |rows: &std::ops::Range<u32>| {
+        let corners = scene.contours.corners(rows.clone());
+        corners.iter().any(|corner| scene.vertices[corner.index()].color.is_none())
+    };
+    let vertices = scene.vertices.iter().filter_map(|vertex| vertex.color);
+    let faces = scene.faces.iter().filter(|face| needs_color(&face.contours)).filter_map(|face| face.color);
+    let wires = scene.wires.iter().filter(|wire| needs_color(&wire.contours)).filter_map(|wire| wire.color);
+    let lights = scene.lights.iter().filter_map(|light| light.color);
+    let color = vertices.chain(faces).chain(wires).chain(lights).find(is_spectrum)?;
+    let name = scene.names.get(scene.colors[color.index()].name);
     Some(format!(
         "black bodies and spectra count with their colour at rest (colour `{name}`): `ugdoppler -sp` shifts them as spectra"
     ))
