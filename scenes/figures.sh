@@ -73,7 +73,7 @@ uglorentz -vel 0 .99 0 -ep 0 -250 3 street.ug | shape | draw chang-12b-out-0.99c
 uglorentz -vel 0 -.9 0 -ep 0 20 3 street.ug | ugdoppler -qt -gw | draw chang-12c-in-0.9c-colours -wi -va 110
 
 # Figure 17: three narrow bands about 460, 540 and 600 nm, at 0.5c from left to right, later ones below. Bluer than at rest
-# while it comes nearer, redder when it leaves.
+# while it comes nearer, redder when it leaves; each row is as bright as it can be.
 bands='c_spd 455 0 460 2 465 0 535 0 540 4.5 545 0 595 0 600 6.5 605 0 ;'
 rows=()
 for time in 00 09 17 28; do
