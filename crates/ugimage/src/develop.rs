@@ -1,4 +1,4 @@
-//! From light to what a display can show: exposure, tone curve, gamut.  Eq. (P31)
+//! From light to what a display can show: exposure, tone curve, gamut.  Eq. (P30)
 
 use ugphysics::luminance;
 

@@ -93,34 +93,3 @@ pub fn luminance(linear_rgb: [f64; 3]) -> f64 {
     let [red, green, blue] = linear_rgb;
     0.2126 * red + 0.7152 * green + 0.0722 * blue
 }
-
-/// Linear red, green and blue from CIE X, Y, Z, by the chromaticities of IEC 61966-2-1: white, Y = 1, is 1 1 1. What the
-/// primaries cannot mix has negative parts.  Eq. (P30)
-///
-/// ```
-/// let white = ugphysics::xyz_to_linear_srgb([0.950456, 1.0, 1.089058]);
-/// assert!(white.iter().all(|channel| (channel - 1.0).abs() < 1e-5));
-/// ```
-#[must_use]
-pub fn xyz_to_linear_srgb([x, y, z]: [f64; 3]) -> [f64; 3] {
-    [
-        3.240969941905 * x - 1.537383177570 * y - 0.498610760293 * z,
-        -0.969243636281 * x + 1.875967501508 * y + 0.041555057407 * z,
-        0.055630079697 * x - 0.203976958889 * y + 1.056971514243 * z,
-    ]
-}
-
-/// CIE X, Y, Z from linear red, green and blue, the inverse of [`xyz_to_linear_srgb`].  Eq. (P30)
-///
-/// ```
-/// let [x, y, _] = ugphysics::linear_srgb_to_xyz([1.0, 0.0, 0.0]);
-/// assert!((x / y - 0.64 / 0.33).abs() < 1e-9);
-/// ```
-#[must_use]
-pub fn linear_srgb_to_xyz([red, green, blue]: [f64; 3]) -> [f64; 3] {
-    [
-        0.412390799266 * red + 0.357584339384 * green + 0.180480788402 * blue,
-        0.212639005872 * red + 0.715168678768 * green + 0.072192315361 * blue,
-        0.019330818716 * red + 0.119194779795 * green + 0.950532152250 * blue,
-    ]
-}

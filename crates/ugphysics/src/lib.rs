@@ -53,9 +53,10 @@ mod hue;
 mod light;
 mod lorentz;
 mod velocity;
+mod xyz;
 
 pub use aberration::aberrate;
-pub use color::{Hsv, linear_srgb_to_xyz, luminance, srgb_decode, srgb_encode, xyz_to_linear_srgb};
+pub use color::{Hsv, luminance, srgb_decode, srgb_encode};
 pub use doppler::{Brightness, doppler_at, doppler_factor};
 pub use hue::{
     CONTROL_POINTS, ControlPoint, RED_END_NM, VIOLET_END_NM, attenuation, hue_to_wavelength,
@@ -64,3 +65,4 @@ pub use hue::{
 pub use light::{Event, contracted, flight_time, observer_shift, rest_position, seen_event, seen_position};
 pub use lorentz::{Lorentz, compose, wigner_rotation};
 pub use velocity::{Velocity, VelocityError};
+pub use xyz::{WHITE_XYZ, linear_srgb_to_xyz, xyz_to_linear_srgb};

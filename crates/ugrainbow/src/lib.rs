@@ -25,7 +25,7 @@
 //!   Faces are lit on the side that is seen. The level multiplies the value.
 //! - **Hidden surfaces.** Depth is compared per sample, so faces may cut through each other.
 //! - **Pixels.** Samples are averaged in linear light. The mean is exposed, put through a tone curve, brought
-//!   into the gamut (P31), and encoded as sRGB; or written as it is to a format that holds light. Unless light
+//!   into the gamut (P30), and encoded as sRGB; or written as it is to a format that holds light. Unless light
 //!   is given or asked for, values above 1 are clipped sample by sample, as in 1988.
 //!
 //! - **Wires** are 1.2 pixels wide and not lit, and win against the faces they lie on.

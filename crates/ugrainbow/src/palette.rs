@@ -44,10 +44,10 @@ pub struct Palette {
 impl Palette {
     /// Reads all colours of a scene.
     pub fn new(scene: &Scene, config: &Config) -> Self {
-        let has_light = scene.colors.iter().any(|color| ugscene::light(color).is_some());
+        let has_light = scene.colors.iter().any(ugscene::is_light);
         let (interpolation, scale) = (config.interpolated(), config.hue_scale);
         let mut palette = Self { swatches: Vec::new(), interpolation, scale, has_light };
-        palette.swatches = scene.colors.iter().map(|color| palette.read(color)).collect();
+        palette.swatches = scene.colors.iter().map(|color| palette.read(scene, color)).collect();
         palette
     }
 
@@ -97,15 +97,15 @@ impl Palette {
         Swatch { tint, saturation: color.saturation, value: color.value, light: None }
     }
 
-    fn read(&self, color: &Color) -> Swatch {
+    fn read(&self, scene: &Scene, color: &Color) -> Swatch {
         match color.value {
             // Taken as it is: a wavelength the eye cannot see has no hue.
             ColorValue::Hsv { value, hue: tint, saturation } if self.scale == HueScale::Wavelengths => {
                 Swatch { tint, saturation, value, light: None }
             }
             _ => Swatch {
-                light: ugscene::light(color).map(DVec3::from_array),
-                ..self.swatch(ugscene::hsv(color, self.scale))
+                light: ugscene::light(scene, color).map(DVec3::from_array),
+                ..self.swatch(ugscene::hsv(scene, color, self.scale))
             },
         }
     }

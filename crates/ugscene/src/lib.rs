@@ -4,7 +4,8 @@
 //! which body a vertex belongs to and how that body moves ([`Bodies`],
 //! [`separate_bodies`]), where it rests when it is seen here ([`Geometry`],
 //! [`rest_positions`], equation (P4)), its normal ([`smooth_normals`]), the
-//! colour it gets from the faces round it ([`vertex_colors`]), what triangles
+//! colour it gets from the faces round it ([`vertex_colors`]), the spectrum a
+//! colour stands for ([`spectrum`]), what triangles
 //! make up a polygon ([`triangulate`]), or a face that is not flat ([`read`]), and what
 //! the camera sees ([`View`]). All programs
 //! must agree on these, so they are written once, here.
@@ -29,17 +30,19 @@ mod geometry;
 mod normals;
 mod polygon;
 mod read;
+mod shares;
 mod split;
 mod traveller;
 
 pub use bodies::{Bodies, separate_bodies, vertex_velocities};
 pub use camera::{CameraError, CameraOptions, HalfSpace, Place, Slab, View};
-pub use colors::{HueScale, VertexColor, hsv, light, spectra_note, vertex_colors};
+pub use colors::{HueScale, VertexColor, hsv, is_light, light, spectra_note, spectrum, vertex_colors};
 pub use eye::{at_eye_error, eye, vertex_at_eye};
 pub use geometry::{Geometry, rest_positions};
 pub use normals::{corner_angle, smooth_normals};
 pub use polygon::{Triangle, is_convex, triangulate};
 pub use read::read;
+pub use shares::{Shares, vertex_shares};
 pub use split::split_vertices;
 pub use traveller::{axes_from_scene, camera_velocity, record_camera_velocity};
 pub use ugparse::{history, record};
