@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use rayon::prelude::*;
-use ugparse::{Face, Scene, VertexId, Wire, newell_normal};
+use ugparse::{Face, Scene, VertexId, Wire};
 
 use crate::camera::View;
 use crate::clip::{Place, Vertex};
@@ -151,9 +151,8 @@ impl<const N: usize, P: Fn(&Swatch, DVec3) -> [f64; N]> Chunk<'_, N, P> {
         }
         let Some(outline) = self.painter.scene.face_contours(face).next() else { return DVec3::ZERO };
         let surface = self.painter.surface;
-        let normal = newell_normal(outline.iter().map(|&vertex| surface.rest(vertex))).normalize_or_zero();
-        let toward_eye = self.toward_eye(face, outline[0]);
-        if normal.dot(toward_eye) < 0.0 { -normal } else { normal }
+        let corners = outline.iter().map(|&vertex| surface.rest(vertex));
+        ugscene::seen_normal(corners, self.toward_eye(face, outline[0]))
     }
 
     /// Where the eye is, seen from a corner in the rest frame of the face.
@@ -173,12 +172,8 @@ impl<const N: usize, P: Fn(&Swatch, DVec3) -> [f64; N]> Chunk<'_, N, P> {
         if !lighting.needs_geometry() {
             return lighting.level(DVec3::ZERO, DVec3::ZERO);
         }
-        let normal = match self.painter.scene.vertices[vertex.index()].normal {
-            // A normal of a vertex belongs to the side its face looks to.
-            Some(own) if own.dot(seen_normal) < 0.0 => -own.normalize_or_zero(),
-            Some(own) => own.normalize_or_zero(),
-            None => seen_normal,
-        };
+        let own = self.painter.scene.vertices[vertex.index()].normal;
+        let normal = ugscene::shading_normal(own, seen_normal);
         lighting.level(self.painter.surface.rest(vertex), normal)
     }
 

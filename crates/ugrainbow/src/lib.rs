@@ -29,8 +29,8 @@
 //! - **Wires** are 1.2 pixels wide and not lit, and win against the faces they lie on.
 //!
 //! What is not done: translucency (everything is opaque), a fall-off of local lights with
-//! distance, their radius, and lights that move against what they light. Every thread
-//! count gives the same bytes.
+//! distance, their radius, and lights that move against what they light: `ugdoppler -li`
+//! does that. Every thread count gives the same bytes.
 //!
 //! # Example
 //!
@@ -125,7 +125,7 @@ pub fn render(scene: &Scene, config: &Config) -> Result<(Frame, Vec<String>), Er
     let view = View::new(scene, &config.camera, config.size.map(|pixels| pixels * config.samples))?;
     let grid = Grid { width, height, samples: config.samples, is_perspective: view.is_perspective };
     let palette = Palette::new(scene, config);
-    let lighting = Lighting::new(scene, &palette, &view);
+    let lighting = Lighting::new(scene, config.hue_scale, &view);
     let surface = Surface::new(scene, view.eye, &palette, config.hue_scale)?;
     let painter = Painter {
         scene,

@@ -1,10 +1,10 @@
 //! How brightly corners are lit.
 
 use glam::DVec3;
-use ugparse::{Light, LightKind, Scene};
+use ugparse::Scene;
+use ugscene::{HueScale, Lamp, LampPlace, lamps};
 
 use crate::camera::View;
-use crate::palette::{Palette, Swatch};
 
 /// The lights of a scene, as they fall on a face at rest.
 ///
@@ -14,37 +14,28 @@ use crate::palette::{Palette, Swatch};
 #[derive(Clone, Debug)]
 pub struct Lighting {
     ambient: DVec3,
-    /// Unit vector toward the light, and its colour times its intensity.
-    directional: Vec<(DVec3, DVec3)>,
-    /// Place relative to the eye, and colour times intensity.
-    local: Vec<(DVec3, DVec3)>,
+    /// All others.
+    lamps: Vec<Lamp>,
     is_colored: bool,
 }
 
 impl Lighting {
     /// The lights of the scene; if it has none, ambient 0.3 and 0.7 from the eye.
-    pub fn new(scene: &Scene, palette: &Palette, view: &View) -> Self {
-        let mut lighting =
-            Self { ambient: DVec3::ZERO, directional: Vec::new(), local: Vec::new(), is_colored: false };
-        for light in &scene.lights {
-            lighting.add(light, palette, view);
-        }
+    pub fn new(scene: &Scene, scale: HueScale, view: &View) -> Self {
         if scene.lights.is_empty() {
-            lighting.ambient = DVec3::splat(0.3);
-            lighting.directional.push((-view.forward, DVec3::splat(0.7)));
+            let from_eye = Lamp {
+                place: LampPlace::Afar(-view.forward),
+                color: DVec3::splat(0.7),
+                is_colored: false,
+                velocity: None,
+            };
+            return Self { ambient: DVec3::splat(0.3), lamps: vec![from_eye], is_colored: false };
         }
-        lighting
-    }
-
-    fn add(&mut self, light: &Light, palette: &Palette, view: &View) {
-        let swatch = light.color.map_or(Swatch::WHITE, |color| palette.get(color));
-        let color = DVec3::from_array(palette.hsv(&swatch).to_rgb()) * light.intensity;
-        self.is_colored |= !swatch.is_grey();
-        match light.kind {
-            LightKind::Ambient => self.ambient += color,
-            LightKind::Directional(toward) => self.directional.push((toward.normalize_or_zero(), color)),
-            LightKind::Local { position, .. } => self.local.push((position - view.eye, color)),
-        }
+        let all = lamps(scene, view.eye, scale);
+        let is_colored = all.iter().any(|lamp| lamp.is_colored);
+        let (ambient, lamps): (Vec<Lamp>, Vec<Lamp>) =
+            all.into_iter().partition(|lamp| lamp.place == LampPlace::Everywhere);
+        Self { ambient: ambient.iter().map(|lamp| lamp.color).sum(), lamps, is_colored }
     }
 
     /// True if a light is not white or grey, so that levels differ between red, green and blue.
@@ -54,7 +45,7 @@ impl Lighting {
 
     /// True if the level depends on where a face is and how it lies.
     pub fn needs_geometry(&self) -> bool {
-        !self.directional.is_empty() || !self.local.is_empty()
+        !self.lamps.is_empty()
     }
 
     /// Light level of a surface at a point, for red, green and blue.
@@ -63,12 +54,7 @@ impl Lighting {
     /// on the side that is seen, or zero for a surface without one.
     /// Level = Σ ambient + Σ intensity · max(0, n·l).
     pub fn level(&self, point: DVec3, normal: DVec3) -> DVec3 {
-        let toward = |place: DVec3| (place - point).normalize_or_zero();
-        let local = self.local.iter().map(|&(place, color)| (toward(place), color));
-        self.directional
-            .iter()
-            .copied()
-            .chain(local)
-            .fold(self.ambient, |sum, (toward, color)| sum + color * normal.dot(toward).max(0.0))
+        let lit = |sum: DVec3, lamp: &Lamp| sum + lamp.color * lamp.level_at_rest(point, normal);
+        self.lamps.iter().fold(self.ambient, lit)
     }
 }

@@ -50,15 +50,6 @@ impl Palette {
         self.swatches[color.index()]
     }
 
-    /// The same as a colour with a hue.
-    pub fn hsv(&self, swatch: &Swatch) -> Hsv {
-        let hue = match self.interpolation {
-            Interpolation::Hue => swatch.tint,
-            Interpolation::Wavelength => wavelength_to_hue(swatch.tint),
-        };
-        Hsv { hue, saturation: swatch.saturation, value: swatch.value }
-    }
-
     /// A colour with a hue as a swatch.
     pub fn swatch(&self, color: Hsv) -> Swatch {
         let tint = match self.interpolation {

@@ -3,9 +3,9 @@
 //! A scene is geometry and colour as text gives it; the filters need more:
 //! which body a vertex belongs to and how that body moves ([`Bodies`],
 //! [`separate_bodies`]), where it rests when it is seen here ([`Geometry`],
-//! [`rest_positions`], equation (P4)), its normal ([`smooth_normals`]), the
-//! colour it gets from the faces round it ([`vertex_colors`]), and what triangles
-//! make up a polygon ([`triangulate`]). All programs
+//! [`rest_positions`], equation (P4)), its normal ([`smooth_normals`], and [`shading_normal`]
+//! under a light), what lights it ([`lamps`]), the colour it gets from the faces round it
+//! ([`vertex_colors`]), and what triangles make up a polygon ([`triangulate`]). All programs
 //! must agree on these, so they are written once, here.
 //!
 //! ```
@@ -25,6 +25,7 @@ mod colors;
 mod eye;
 mod geometry;
 mod history;
+mod lights;
 mod normals;
 mod polygon;
 mod split;
@@ -34,6 +35,7 @@ pub use colors::{HueScale, VertexColor, hsv, spectra_note, vertex_colors};
 pub use eye::{at_eye_error, eye, vertex_at_eye};
 pub use geometry::{Geometry, rest_positions};
 pub use history::{history, record};
-pub use normals::{corner_angle, smooth_normals};
+pub use lights::{Lamp, LampPlace, lamps};
+pub use normals::{corner_angle, seen_normal, shading_normal, smooth_normals};
 pub use polygon::{Triangle, is_convex, triangulate};
-pub use split::split_vertices;
+pub use split::{split_corners, split_vertices};
