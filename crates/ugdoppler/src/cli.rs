@@ -49,6 +49,11 @@ pub struct Args {
     #[arg(long, visible_alias = "iris")]
     ir: bool,
 
+    /// Light: put the light of the scene's lights, moving ones included, into the colours, and leave one ambient
+    /// light in place of all
+    #[arg(long, visible_alias = "light")]
+    li: bool,
+
     /// Leave wavelengths as they are
     #[arg(long)]
     no_doppler: bool,
@@ -105,6 +110,7 @@ impl Args {
             repeat: self.vr,
             tolerance: self.ct,
             iris: self.ir,
+            light: self.li,
             doppler: !self.no_doppler,
             flux: !self.no_flux,
             lax: self.common.lax(),

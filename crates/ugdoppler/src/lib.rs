@@ -7,6 +7,10 @@
 //! to shift. The eye's fading towards infrared and ultraviolet (P17) is left to
 //! the renderer, which applies it at every pixel.
 //!
+//! With [`Config::light`] the colours get the light of the scene's lights as well. A light
+//! that moves against a surface has a Doppler factor D_l of its own there, and falls in
+//! from where it was when it shone (P14); it shifts and dims the colour like D does.
+//!
 //! The input is what `uglorentz` writes: vertices where they are seen, faces
 //! with their velocity, the eye in the camera.
 //!
@@ -21,6 +25,8 @@
 //! ```
 
 mod cli;
+mod illumination;
+mod lit;
 mod palette;
 
 use std::fmt;
@@ -28,11 +34,13 @@ use std::fmt;
 use glam::DVec3;
 use rayon::prelude::*;
 use ugparse::{Diagnostics, Face, Options, Scene, Source};
-use ugphysics::{Brightness, Velocity, VelocityError, doppler_at};
-use ugscene::{Bodies, HueScale};
+use ugphysics::{Brightness, Hsv, Velocity, VelocityError, doppler_at};
+use ugscene::{Bodies, HueScale, VertexColor};
 
 pub use cli::{Args, main};
 
+use illumination::Illumination;
+use lit::Seen;
 use palette::Palette;
 
 /// What to do.
@@ -53,6 +61,8 @@ pub struct Config {
     pub tolerance: f64,
     /// Scale all values so that the largest is 1, instead of clipping (`-ir`).
     pub iris: bool,
+    /// Put the light of the scene's lights, moving ones included, into the colours (`-li`).
+    pub light: bool,
     /// Shift wavelengths.
     pub doppler: bool,
     /// Change brightness.
@@ -77,6 +87,7 @@ impl Default for Config {
             repeat: false,
             tolerance: DEFAULT_TOLERANCE,
             iris: false,
+            light: false,
             doppler: true,
             flux: true,
             lax: false,
@@ -155,22 +166,61 @@ pub fn run(config: &Config, source: &Source) -> Result<Report, Error> {
 fn colour(mut scene: Scene, config: &Config, eye: DVec3, bodies: &Bodies) -> (Scene, Vec<String>) {
     ugscene::separate_bodies(&mut scene);
     repeat_vertices(&mut scene, config.repeat);
-    let rest = ugscene::rest_positions(&scene, eye, bodies);
-    let colors = ugscene::vertex_colors(&scene, &rest, HueScale::Degrees);
+    let mut rest = ugscene::rest_positions(&scene, eye, bodies);
+    let mut colors = ugscene::vertex_colors(&scene, &rest, HueScale::Degrees);
+    let has_light = config.light && !scene.lights.is_empty();
+    let light = has_light.then(|| {
+        let (originals, normals) = illumination::split(&mut scene, &rest);
+        rest.extend(originals.iter().map(|original| rest[original.index()]).collect::<Vec<_>>());
+        colors.extend(originals.iter().map(|original| colors[original.index()]).collect::<Vec<_>>());
+        Illumination::new(&scene, eye, bodies, &rest, &normals)
+    });
     let factors = doppler_factors(&scene, eye, bodies);
+    let lit = light.map(|light| lit_colors(&scene, config, &colors, &factors, &light));
 
     let spectra_note = ugscene::spectra_note(&scene);
     let mut palette = Palette::new(&mut scene, config);
     let used = palette.used_vertices();
     for (row, (&color, &doppler)) in colors.iter().zip(&factors).enumerate() {
-        if used[row] {
-            palette.paint(row, color, doppler);
+        match lit.as_ref().and_then(|lit| lit[row]) {
+            _ if !used[row] => {}
+            Some(seen) => palette.paint_lit(row, color, seen),
+            None => palette.paint(row, color, doppler),
         }
     }
     let mut notes = palette.finish();
     notes.extend(spectra_note);
+    if has_light {
+        illumination::replace_lights(&mut scene);
+    } else if config.light {
+        notes.push("no lights in the scene, so -li puts none into its colours".to_string());
+    }
     ugscene::record(&mut scene, PROGRAM, env!("CARGO_PKG_VERSION"), &config.command_line);
     (scene, notes)
+}
+
+/// Of every vertex, with its light; `None` where it is not lit.
+fn lit_colors(
+    scene: &Scene,
+    config: &Config,
+    colors: &[VertexColor],
+    factors: &[f64],
+    light: &Illumination,
+) -> Vec<Option<Seen>> {
+    let all = colors.par_iter().zip(factors).zip(&light.of_vertex);
+    all.map(|((&color, &doppler), parts)| {
+        let base = surface_hsv(scene, color);
+        Some(lit::look(base, doppler, parts.as_ref()?, &light.lamps, config))
+    })
+    .collect()
+}
+
+fn surface_hsv(scene: &Scene, color: VertexColor) -> Hsv {
+    match color {
+        VertexColor::Named(id) => ugscene::hsv(&scene.colors[id.index()], HueScale::Degrees),
+        VertexColor::White => Hsv { hue: 0.0, saturation: 0.0, value: 1.0 },
+        VertexColor::Mixed { hsv, .. } => hsv,
+    }
 }
 
 /// Gives wires vertices of their own, since a vertex can carry one colour only; and with `each_face_color`
