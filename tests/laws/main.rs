@@ -5,6 +5,7 @@
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test fails by panicking")]
 
 mod exact;
+mod lights;
 mod outlines;
 mod rest;
 mod switches;
