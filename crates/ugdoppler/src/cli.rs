@@ -69,6 +69,7 @@ pub struct Args {
 const EXAMPLES: &str = "Examples:
   uglorentz -vel 0 -.2 0 -in ship.ug | ugdoppler | ugrainbow > ship.png
   uglorentz -vel 0 -.9 0 lattice.ug | ugdoppler -gw | ugrainbow -wi -va 120 > ring.png
+  uglorentz lamp.ug | ugdoppler -li | ugrainbow > lamp.png
   uglorentz -vel .9 0 0 -in ship.ug | ugdoppler --no-doppler --no-flux | ugrainbow > shape.png";
 
 /// Brightness laws, (P12).
