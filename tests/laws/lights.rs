@@ -188,8 +188,8 @@ fn no_speed_breaks_it() {
         [(0.999_999_999, -0.999_999_999), (-0.999_999_999_999, 0.0), (0.0, 0.999_999_999_999)]
     {
         let lights = with_velocity(&format!("<0 {light} 0>"));
-        let mut config = uglorentz::Config::default();
-        config.velocity = Some(Velocity::from_beta(DVec3::new(0.0, body, 0.0)).unwrap().beta());
+        let velocity = Velocity::from_beta(DVec3::new(0.0, body, 0.0)).unwrap();
+        let config = uglorentz::Config { velocity: Some(velocity.beta()), ..uglorentz::Config::default() };
         for law in [Brightness::Report, Brightness::Bolometric] {
             let seen = doppler(&lorentz(&room(&lights), &config), &Config { law, ..lit() });
             assert!(numbers(&seen).iter().flat_map(|(_, rgb)| rgb).all(|part| part.is_finite()));
