@@ -99,12 +99,31 @@ flyby chang-13-lights-along "$out/rows/pot.ug" -li --no-doppler
 flyby chang-15a-lights-at-rest "$out/rows/pot-lights-at-rest.ug" -li --no-doppler
 ugdoppler -qt -li -ir --no-doppler < "$out/rows/pot.ug" | draw chang-13-rest
 pot '<-0.95 0 0>' | ugdoppler -qt -li -ir --no-doppler | draw chang-15b-lights-coming
+# Figure 17: three narrow bands about 460, 540 and 600 nm, at 0.5c from left to right, later ones below. Bluer than at rest
+# while it comes nearer, redder when it leaves; each row is as bright as it can be.
+bands='c_spd 455 0 460 2 465 0 535 0 540 4.5 545 0 595 0 600 6.5 605 0 ;'
+rows=()
+for time in 00 09 17 28; do
+    row=$out/rows/bands-$time.png
+    sed "s/^c .*/$bands/" teapot.ug | uglorentz -vel .5 0 0 -ti $time | ugdoppler -qt -sp -ir |
+        ugrainbow -qt -va 90 -sz "$width" $((height / 4 - 3)) -fo "$row"
+    rows+=("$row")
+done
+cargo --quiet xtask sheet "$out/chang-17-bands-0.5c.png" 1 "${rows[@]}"
+printf '%s\n' chang-17-bands-0.5c
 
 # Howard, Dance and Kitchen 1995, figures 4 and 5: flying at a grid, and just through it.
 uglorentz grid.ug | shape | draw howard-04a-rest
 uglorentz -vel 0 -.5 0 grid.ug | shape | draw howard-04b-0.5c
 uglorentz -vel 0 -.9 0 grid.ug | shape | draw howard-04c-0.9c
 uglorentz -vel 0 -.9 0 -ep 0 .5 0 grid.ug | shape | draw howard-05-through-0.9c
+
+# Weiskopf 2000, figure 3: a tunnel of black bodies at 3500, 5900 and 10000 K, at rest; flying through it at 0.6c, shape alone,
+# with the Doppler effect, and with the searchlight as well.
+uglorentz tunnel.ug | ugdoppler -qt -sp | draw weiskopf-03a-rest
+uglorentz -vel 0 -.6 0 tunnel.ug | ugdoppler -qt -sp --no-doppler --no-flux | draw weiskopf-03b-0.6c-shape
+uglorentz -vel 0 -.6 0 tunnel.ug | ugdoppler -qt -sp --no-flux | draw weiskopf-03c-0.6c-doppler
+uglorentz -vel 0 -.6 0 tunnel.ug | ugdoppler -qt -sp -ir | draw weiskopf-03d-0.6c-searchlight
 
 # Our own: the lattice in shape and colour, colours that meet at a vertex, five speeds at once.
 uglorentz -vel 0 -.9 0 lattice.ug | shape | draw lattice-0.9c-shape -va 120
@@ -115,5 +134,5 @@ uglorentz -in dice.ug | shape | draw dice
 uglorentz lamp.ug | ugdoppler -qt | draw lamp-at-rest
 uglorentz lamp.ug | ugdoppler -qt -li | draw lamp-moving
 
-cargo --quiet xtask sheet "$out/sheet.png" 6 "$out"/{nguyen,chang,howard,lattice,halves,dice,lamp}*.png
+cargo --quiet xtask sheet "$out/sheet.png" 6 "$out"/{nguyen,chang,howard,weiskopf,lattice,halves,dice,lamp}*.png
 printf 'The pictures are in %s, all of them on %s/sheet.png\n' "$out" "$out"

@@ -23,7 +23,20 @@ fn pipes() -> Vec<(&'static str, Pipe)> {
     street.lorentz.pieces = uglorentz::Pieces::PerEdge(3);
     let mut dice = Pipe::default().in_place();
     dice.rainbow.size = size;
-    vec![("ship", ship), ("lattice", lattice), ("teapot", teapot), ("street", street), ("dice", dice)]
+    let mut tunnel = Pipe::new(-0.6 * DVec3::Y, size);
+    tunnel.doppler.spectral = true;
+    tunnel.doppler.iris = true;
+    let mut globe = tunnel.clone();
+    globe.doppler.tolerance = 0.0;
+    vec![
+        ("ship", ship),
+        ("lattice", lattice),
+        ("teapot", teapot),
+        ("street", street),
+        ("dice", dice),
+        ("tunnel", tunnel),
+        ("sphere", globe),
+    ]
 }
 
 /// Runs the pipe on as many threads.

@@ -175,7 +175,8 @@ fn numbers(text: &[u8]) -> Vec<(String, [f64; 3])> {
     let scene = scenes::parse(text);
     let of = |vertex: &ugparse::Vertex| {
         let color = vertex.color.map(|color| &scene.colors[color.index()]);
-        let rgb = color.map_or([1.0; 3], |color| ugscene::hsv(color, ugscene::HueScale::Degrees).to_rgb());
+        let rgb =
+            color.map_or([1.0; 3], |color| ugscene::hsv(&scene, color, ugscene::HueScale::Degrees).to_rgb());
         (scene.names.get(vertex.name).to_string(), rgb)
     };
     scene.vertices.iter().map(of).collect()
@@ -194,5 +195,50 @@ fn no_speed_breaks_it() {
             let seen = doppler(&lorentz(&room(&lights), &config), &Config { law, ..lit() });
             assert!(numbers(&seen).iter().flat_map(|(_, rgb)| rgb).all(|part| part.is_finite()));
         }
+    }
+}
+
+/// White under a black body: Planck's law at D_l D T, times D_l⁻² for the solid angle of the lamp, (P13) and (P14).
+#[test]
+fn spectra_of_lights_pass_both_shifts() {
+    let face = "v a 9 0 -1e-9; v b 9 1e-9 0; v c 9 -1e-9 0; f (a b c)";
+    for (body, light, d, d_light) in [
+        ("<0 0 0>", "<0 0 0>", 1.0, 1.0),
+        ("<0.6 0 0>", "<0 0 0>", 0.5, 0.5),
+        ("<-0.6 0 0>", "<0.6 0 0>", 2.0, 4.0),
+        ("<0 0 0>", "<0.6 0 0>", 1.0, 2.0),
+    ] {
+        let text = format!("c_bb hot 5000 0.7; {face} {body}; l 0.5 -1 0 0 hot {light};");
+        let config = Config { spectral: true, ..lit() };
+        let scene = scenes::parse(&doppler(text.as_bytes(), &config));
+        let color = scene.vertices[0].color.expect("a colour on every used vertex");
+        let ColorValue::Xyz(xyz) = scene.colors[color.index()].value else { panic!("no X, Y, Z") };
+        let expected = ugspectrum::Spectrum::blackbody(5000.0, 0.7).seen(d * d_light);
+        for (found, expected) in xyz.into_iter().zip(expected) {
+            let expected = 0.5 * expected / (d_light * d_light);
+            assert!((found / expected - 1.0).abs() < 1e-6, "{text}: {xyz:?}, {expected}");
+        }
+    }
+}
+
+/// A lamp of daylight at rest, straight on, shows colours as they are.
+#[test]
+fn full_daylight_shows_colours_as_they_are() {
+    let text = "c_rgb brick 0.7 0.3 0.2; c_spd line 500 1 510 2 520 0; c_bb glow 3000 0.4;
+        v a 9 0 -1e-9; v b 9 1e-9 0; v c 9 -1e-9 0; f (a b c) brick;
+        v d 9 1 -1e-9; v e 9 1.0001 0; v f 9 1 0; f (d e f) line <-0.3 0 0>;
+        v g 9 -1 -1e-9; v h 9 -1.0001 0; v i 9 -1 0; f (g h i) glow <0.4 0 0>;";
+    let colors = |light: bool| -> Vec<[f64; 3]> {
+        let config = Config { spectral: true, light, ..lit() };
+        let scene = scenes::parse(&doppler(format!("{text} l 1 -1 0 0;").as_bytes(), &config));
+        let of = |vertex: &ugparse::Vertex| match scene.colors[vertex.color.expect("a colour").index()].value
+        {
+            ColorValue::Xyz(xyz) => xyz,
+            other => panic!("{other:?}"),
+        };
+        scene.vertices.iter().map(of).collect()
+    };
+    for (lit, plain) in colors(true).into_iter().flatten().zip(colors(false).into_iter().flatten()) {
+        assert!((lit - plain).abs() < 1e-6 * plain, "{lit} {plain}");
     }
 }

@@ -11,6 +11,10 @@
 //! that moves against a surface has a Doppler factor D_l of its own there, and falls in
 //! from where it was when it shone (P14); it shifts and dims the colour like D does.
 //!
+//! With [`Config::spectral`] colours are spectra instead: of surfaces (P20), of black
+//! bodies (P13), or given by samples. Each is shifted as a whole and multiplied by D⁵
+//! (P12), and what the eye makes of it is written as X, Y, Z (P19).
+//!
 //! The input is what `uglorentz` writes: vertices where they are seen, faces
 //! with their velocity, the eye in the camera.
 //!
@@ -27,7 +31,12 @@
 mod cli;
 mod illumination;
 mod lit;
+mod lit_spectra;
+mod look;
+mod notes;
 mod palette;
+mod ruler;
+mod spectral;
 
 use std::fmt;
 
@@ -57,12 +66,18 @@ pub struct Config {
     /// Repeat a vertex for every colour of its faces, instead of mixing them (`-vr`).
     pub repeat: bool,
     /// Reuse a colour whose wavelength is within this many nm, and whose value
-    /// is within as many percent; 0 gives every vertex its own (`-ct`).
+    /// is within as many percent; with spectra, whose X, Y and Z are. 0 gives every
+    /// vertex its own (`-ct`).
     pub tolerance: f64,
     /// Scale all values so that the largest is 1, instead of clipping (`-ir`).
     pub iris: bool,
     /// Put the light of the scene's lights, moving ones included, into the colours (`-li`).
     pub light: bool,
+    /// Keep values above 1, instead of clipping (`-hd`).
+    pub keep: bool,
+    /// Shift spectra in place of hues, and write X, Y, Z (`-sp`). The law is that of spectral radiance, D⁵, and
+    /// nothing is clipped.
+    pub spectral: bool,
     /// Shift wavelengths.
     pub doppler: bool,
     /// Change brightness.
@@ -88,6 +103,8 @@ impl Default for Config {
             tolerance: DEFAULT_TOLERANCE,
             iris: false,
             light: false,
+            keep: false,
+            spectral: false,
             doppler: true,
             flux: true,
             lax: false,
@@ -166,37 +183,57 @@ pub fn run(config: &Config, source: &Source) -> Result<Report, Error> {
 fn colour(mut scene: Scene, config: &Config, eye: DVec3, bodies: &Bodies) -> (Scene, Vec<String>) {
     ugscene::separate_bodies(&mut scene);
     repeat_vertices(&mut scene, config.repeat);
-    let mut rest = ugscene::rest_positions(&scene, eye, bodies);
-    let mut colors = ugscene::vertex_colors(&scene, &rest, HueScale::Degrees);
-    let has_light = config.light && !scene.lights.is_empty();
-    let light = has_light.then(|| {
-        let (originals, normals) = illumination::split(&mut scene, &rest);
-        rest.extend(originals.iter().map(|original| rest[original.index()]).collect::<Vec<_>>());
-        colors.extend(originals.iter().map(|original| colors[original.index()]).collect::<Vec<_>>());
-        Illumination::new(&scene, eye, bodies, &rest, &normals)
-    });
-    let factors = doppler_factors(&scene, eye, bodies);
-    let lit = light.map(|light| lit_colors(&scene, config, &colors, &factors, &light));
-
-    let spectra_note = ugscene::spectra_note(&scene);
-    let mut palette = Palette::new(&mut scene, config);
-    let used = palette.used_vertices();
-    for (row, (&color, &doppler)) in colors.iter().zip(&factors).enumerate() {
-        match lit.as_ref().and_then(|lit| lit[row]) {
-            _ if !used[row] => {}
-            Some(seen) => palette.paint_lit(row, color, seen),
-            None => palette.paint(row, color, doppler),
+    let rest = ugscene::rest_positions(&scene, eye, bodies);
+    let mut notes = if config.spectral {
+        let mut shares = ugscene::vertex_shares(&scene, &rest);
+        let light = put_light(&mut scene, config, eye, bodies, rest, &mut shares);
+        let (factors, used) = (doppler_factors(&scene, eye, bodies), used_vertices(&scene));
+        let lit = light.map(|light| lit_spectra::seen(&scene, config, &shares, &factors, &light));
+        spectral::paint(&mut scene, config, &shares, &factors, &used, lit.as_deref())
+    } else {
+        let mut colors = ugscene::vertex_colors(&scene, &rest, HueScale::Degrees);
+        let light = put_light(&mut scene, config, eye, bodies, rest, &mut colors);
+        let (factors, used) = (doppler_factors(&scene, eye, bodies), used_vertices(&scene));
+        let lit = light.map(|light| lit_colors(&scene, config, &colors, &factors, &light));
+        let spectra_note = ugscene::spectra_note(&scene);
+        let mut palette = Palette::new(&mut scene, config);
+        for (row, (&color, &doppler)) in colors.iter().zip(&factors).enumerate() {
+            match lit.as_ref().and_then(|lit| lit[row]) {
+                _ if !used[row] => {}
+                Some(seen) => palette.paint_lit(row, color, seen),
+                None => palette.paint(row, color, doppler),
+            }
         }
-    }
-    let mut notes = palette.finish();
-    notes.extend(spectra_note);
-    if has_light {
-        illumination::replace_lights(&mut scene);
-    } else if config.light {
+        palette.finish().into_iter().chain(spectra_note).collect()
+    };
+    if config.light && scene.lights.is_empty() {
         notes.push("no lights in the scene, so -li puts none into its colours".to_string());
+    } else if config.light {
+        illumination::replace_lights(&mut scene);
     }
     ugscene::record(&mut scene, PROGRAM, env!("CARGO_PKG_VERSION"), &config.command_line);
     (scene, notes)
+}
+
+/// The light on the vertices, if it is wanted and there is some. Vertices on which it differs are repeated, and what
+/// is known of each vertex with them.
+fn put_light<T: Clone>(
+    scene: &mut Scene,
+    config: &Config,
+    eye: DVec3,
+    bodies: &Bodies,
+    mut rest: Vec<DVec3>,
+    of_vertex: &mut Vec<T>,
+) -> Option<Illumination> {
+    if !config.light || scene.lights.is_empty() {
+        return None;
+    }
+    let (originals, normals) = illumination::split(scene, &rest);
+    for original in originals {
+        rest.push(rest[original.index()]);
+        of_vertex.push(of_vertex[original.index()].clone());
+    }
+    Some(Illumination::new(scene, eye, bodies, &rest, &normals))
 }
 
 /// Of every vertex, with its light; `None` where it is not lit.
@@ -217,10 +254,21 @@ fn lit_colors(
 
 fn surface_hsv(scene: &Scene, color: VertexColor) -> Hsv {
     match color {
-        VertexColor::Named(id) => ugscene::hsv(&scene.colors[id.index()], HueScale::Degrees),
+        VertexColor::Named(id) => ugscene::hsv(scene, &scene.colors[id.index()], HueScale::Degrees),
         VertexColor::White => Hsv { hue: 0.0, saturation: 0.0, value: 1.0 },
         VertexColor::Mixed { hsv, .. } => hsv,
     }
+}
+
+/// True for vertices that a face or wire uses.
+fn used_vertices(scene: &Scene) -> Vec<bool> {
+    let mut used = vec![false; scene.vertices.len()];
+    let faces = scene.faces.iter().map(|face| face.contours.clone());
+    let wires = scene.wires.iter().map(|wire| wire.contours.clone());
+    for rows in faces.chain(wires) {
+        scene.contours.corners(rows).iter().for_each(|corner| used[corner.index()] = true);
+    }
+    used
 }
 
 /// Gives wires vertices of their own, since a vertex can carry one colour only; and with `each_face_color`

@@ -57,6 +57,7 @@ mod illumination;
 mod light;
 mod lorentz;
 mod velocity;
+mod xyz;
 
 pub use aberration::aberrate;
 pub use ambient::{SkyRing, ambient_illumination};
@@ -70,3 +71,4 @@ pub use illumination::{Illumination, illumination, illumination_from_afar};
 pub use light::{Event, contracted, flight_time, observer_shift, rest_position, seen_event, seen_position};
 pub use lorentz::{Lorentz, compose};
 pub use velocity::{Velocity, VelocityError};
+pub use xyz::{WHITE_XYZ, linear_srgb_to_xyz, xyz_to_linear_srgb};

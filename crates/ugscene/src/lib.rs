@@ -5,7 +5,8 @@
 //! [`separate_bodies`]), where it rests when it is seen here ([`Geometry`],
 //! [`rest_positions`], equation (P4)), its normal ([`smooth_normals`], and [`shading_normal`]
 //! under a light), what lights it ([`lamps`]), the colour it gets from the faces round it
-//! ([`vertex_colors`]), and what triangles make up a polygon ([`triangulate`]). All programs
+//! ([`vertex_colors`]), the spectrum a colour stands for ([`spectrum`]), and what triangles
+//! make up a polygon ([`triangulate`]). All programs
 //! must agree on these, so they are written once, here.
 //!
 //! ```
@@ -28,14 +29,16 @@ mod history;
 mod lights;
 mod normals;
 mod polygon;
+mod shares;
 mod split;
 
 pub use bodies::{Bodies, separate_bodies, vertex_velocities};
-pub use colors::{HueScale, VertexColor, hsv, spectra_note, vertex_colors};
+pub use colors::{HueScale, VertexColor, hsv, spectra_note, spectrum, vertex_colors};
 pub use eye::{at_eye_error, eye, vertex_at_eye};
 pub use geometry::{Geometry, rest_positions};
 pub use history::{history, record};
 pub use lights::{Lamp, LampPlace, lamps};
 pub use normals::{corner_angle, seen_normal, shading_normal, smooth_normals};
 pub use polygon::{Triangle, is_convex, triangulate};
+pub use shares::{Shares, vertex_shares};
 pub use split::{split_corners, split_vertices};

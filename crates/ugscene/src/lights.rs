@@ -38,7 +38,7 @@ pub fn lamps(scene: &Scene, eye: DVec3, scale: HueScale) -> Vec<Lamp> {
 }
 
 fn lamp(scene: &Scene, light: &Light, eye: DVec3, scale: HueScale) -> Lamp {
-    let color = light.color.map(|color| hsv(&scene.colors[color.index()], scale));
+    let color = light.color.map(|color| hsv(scene, &scene.colors[color.index()], scale));
     Lamp {
         place: match light.kind {
             LightKind::Ambient => LampPlace::Everywhere,
