@@ -90,6 +90,7 @@ fn black_bodies_on_the_line_of_motion() {
         assert!(cold.is_nan() || (behind[1] / cold - 1.0).abs() < 1e-5, "{behind:?}");
     }
     let (scene, _) = colour(&ahead_and_behind("c_bb sun 5800;", "sun"), &moving(-0.5, 0.0, 0.0));
+    assert_eq!(ugscene::spectra_note(&scene), None, "they are shifted");
     let [x, y, z] = named(&scene, "a");
     let sum = x + y + z;
     assert!((x / sum - 0.2803813).abs() < 1e-6 && (y / sum - 0.2879898).abs() < 1e-6);
@@ -210,6 +211,18 @@ fn intensities_above_one() {
     assert_eq!(notes, ["max intensity is 2.00, kept for the renderer; -ir scales it to 1.0"]);
     let value = scene.colors[scene.vertices[0].color.unwrap().index()].value;
     assert!(matches!(value, ColorValue::Hsv { value, .. } if (value - 2.0).abs() < 1e-12), "{value:?}");
+}
+
+#[test]
+fn without_spectra_black_bodies_have_their_hue_at_rest() {
+    let text = ahead_and_behind("c_bb glow 3000 0.3;", "glow");
+    let (scene, notes) = colour(&text, &Config { spectral: false, ..moving(0.0, 0.0, 0.0) });
+    assert!(notes[0].contains("(colour `glow`): `ugdoppler -sp` shifts them"), "{notes:?}");
+    assert_eq!(scene.names.get(scene.colors[scene.vertices[0].color.unwrap().index()].name), "glow");
+    let (scene, _) = colour(&text, &Config { spectral: false, ..moving(-0.1, 0.0, 0.0) });
+    let value = scene.colors[scene.vertices[0].color.unwrap().index()].value;
+    // Orange turns yellow: its one wavelength is shifted, not its spectrum.
+    assert!(matches!(value, ColorValue::Hsv { hue, .. } if (40.0..100.0).contains(&hue)), "{value:?}");
 }
 
 #[test]

@@ -9,7 +9,7 @@
 //! * **Surface colours** in red, green and blue are raised to a smooth reflectance under daylight (P20), and give
 //!   back their own red, green and blue at rest.
 //!
-//! Asking for one D is a sum over 471 wavelengths. For many, [`Shifted`] tabulates X, Y, Z over ln D.
+//! Asking for one D is a sum over 471 wavelengths. For many, a [`Grid`] makes tables of X, Y, Z over ln D.
 //!
 //! ```
 //! use ugspectrum::Spectrum;
