@@ -21,6 +21,25 @@ cd scenes
 # The colours of things at rest, so that only the shape is changed.
 shape() { ugdoppler -qt --no-doppler --no-flux; }
 
+# pot [VELOCITY]: the teapot under the three lights of Chang, Lai and Chen 1996.
+pot() {
+    sed '/^l /d' teapot.ug
+    printf 'l 1.8 %s ;' "0 -1 0 ${1-}" "1 1 0 ${1-}" "-1 1 0 ${1-}"
+}
+
+# flyby NAME SCENE [OPTION...]: four moments at 0.95c, options for ugdoppler
+flyby() {
+    local name=$1 scene=$2 rows=() time row
+    shift 2
+    for time in 07 12 17 22; do
+        row=$out/rows/$name-$time.png
+        uglorentz -vel .95 0 0 -ti $time "$scene" | ugdoppler -qt "$@" | ugrainbow -qt -va 90 -sz "$width" $((height / 4 - 3)) -fo "$row"
+        rows+=("$row")
+    done
+    cargo --quiet xtask sheet "$out/$name.png" 1 "${rows[@]}"
+    printf '%s\n' "$name"
+}
+
 # draw NAME [OPTION...]: the last stage, to OUTDIR/NAME.png
 draw() {
     local name=$1
@@ -72,6 +91,14 @@ uglorentz -vel 0 -.99 0 -ep 0 40 3 street.ug | shape | draw chang-12a-in-0.99c
 uglorentz -vel 0 .99 0 -ep 0 -250 3 street.ug | shape | draw chang-12b-out-0.99c
 uglorentz -vel 0 -.9 0 -ep 0 20 3 street.ug | ugdoppler -qt -gw | draw chang-12c-in-0.9c-colours -wi -va 110
 
+# Figures 13 and 15: the teapot's brightness under three distant lights that move along, that rest with the viewer,
+# and, seen by somebody who flies with the pot, that come at it.
+pot > "$out/rows/pot.ug"
+pot '<0 0 0>' > "$out/rows/pot-lights-at-rest.ug"
+flyby chang-13-lights-along "$out/rows/pot.ug" -li --no-doppler
+flyby chang-15a-lights-at-rest "$out/rows/pot-lights-at-rest.ug" -li --no-doppler
+ugdoppler -qt -li -ir --no-doppler < "$out/rows/pot.ug" | draw chang-13-rest
+pot '<-0.95 0 0>' | ugdoppler -qt -li -ir --no-doppler | draw chang-15b-lights-coming
 # Figure 17: three narrow bands about 460, 540 and 600 nm, at 0.5c from left to right, later ones below. Bluer than at rest
 # while it comes nearer, redder when it leaves; each row is as bright as it can be.
 bands='c_spd 455 0 460 2 465 0 535 0 540 4.5 545 0 595 0 600 6.5 605 0 ;'
@@ -104,10 +131,12 @@ uglorentz -vel 0 -.9 0 lattice.ug | ugdoppler -qt -gw | draw lattice-0.9c-colour
 ugdoppler -qt halves.ug | draw halves-mixed
 ugdoppler -qt -vr halves.ug | draw halves-repeated
 uglorentz -in dice.ug | shape | draw dice
+uglorentz lamp.ug | ugdoppler -qt | draw lamp-at-rest
+uglorentz lamp.ug | ugdoppler -qt -li | draw lamp-moving
 
 # Cars at 0.6c, from a camera that stands still and from one that drives at 0.5c.
 uglorentz -an center -cv 0 0 0 traffic.ug | shape | draw traffic-a-standing
 uglorentz -an center traffic.ug | shape | draw traffic-b-driving
 
-cargo --quiet xtask sheet "$out/sheet.png" 6 "$out"/{nguyen,chang,howard,weiskopf,lattice,halves,dice,traffic}*.png
+cargo --quiet xtask sheet "$out/sheet.png" 6 "$out"/{nguyen,chang,howard,weiskopf,lattice,halves,dice,traffic,lamp}*.png
 printf 'The pictures are in %s, all of them on %s/sheet.png\n' "$out" "$out"

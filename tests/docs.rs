@@ -7,8 +7,9 @@ use std::process::Command;
 /// number of them.
 const DOCUMENTS: [(&str, &str, usize); 2] = [("README.md", "## First steps", 5), ("docs/gallery.md", "", 20)];
 
-/// What the gallery calls `shape`.
-const SHAPE: &str = "shape() { ugdoppler -qt --no-doppler --no-flux; }";
+/// What the gallery calls `shape` and `pot`.
+const SHAPE: &str = r#"shape() { ugdoppler -qt --no-doppler --no-flux; }
+pot() { sed '/^l /d' teapot.ug; printf 'l 1.8 %s ;' "0 -1 0 $1" "1 1 0 $1" "-1 1 0 $1"; }"#;
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")

@@ -105,6 +105,27 @@ fn the_camera_moves_among_cars() {
 }
 
 #[test]
+fn a_lamp_that_moves_makes_a_rainbow() {
+    let mut lamp = Pipe::default();
+    lamp.rainbow.size = SIZE;
+    lamp.doppler.light = true;
+    check("rainbow-under-a-lamp-0.4c", "lamp", &lamp);
+}
+
+/// For the pot they come from ahead.
+#[test]
+fn lights_behind_light_the_front() {
+    let mut pot = pipe(0.6, 0.0, 0.0).in_place();
+    pot.doppler.light = true;
+    pot.doppler.doppler = false;
+    pot.doppler.iris = true;
+    let text = String::from_utf8(scenes::text("teapot")).unwrap();
+    let lights = "l 1 0 -1 0 <0 0 0>; l 1 1 1 0 <0 0 0>; l 1 -1 1 0 <0 0 0>;";
+    let text = text.replace("\nl 0.3 ;", &format!("\n{lights}")).replace("\nl sun 0.7 -0.2 -0.8 0.7 ;", "");
+    assert_golden("lights-at-rest-teapot-0.6c", &pot.draw(text.as_bytes()));
+}
+
+#[test]
 fn colours_meet_at_vertices() {
     let mut halves = pipe(0.0, 0.0, 0.0);
     check("colours-mixed-halves", "halves", &halves);

@@ -6,6 +6,7 @@
 
 mod culling;
 mod exact;
+mod lights;
 mod moving_camera;
 mod notice;
 mod outlines;

@@ -54,6 +54,10 @@ pub struct Args {
     #[arg(long, visible_alias = "iris")]
     ir: bool,
 
+    /// Light: put the light of the scene's lights, moving ones included, into the colours, and leave one ambient
+    /// light in place of all
+    #[arg(long, visible_alias = "light")]
+    li: bool,
     /// Keep values above 1 for the exposure of the renderer, instead of clipping them
     #[arg(long, visible_alias = "keep-intensities")]
     hd: bool,
@@ -73,6 +77,7 @@ pub struct Args {
 const EXAMPLES: &str = "Examples:
   uglorentz -vel 0 -.2 0 -in ship.ug | ugdoppler | ugrainbow > ship.png
   uglorentz -vel 0 -.9 0 lattice.ug | ugdoppler -gw | ugrainbow -wi -va 120 > ring.png
+  uglorentz lamp.ug | ugdoppler -li | ugrainbow > lamp.png
   uglorentz -vel 0 -.6 0 tunnel.ug | ugdoppler -sp -ir | ugrainbow -va 90 > tunnel.png
   uglorentz -vel .9 0 0 -in ship.ug | ugdoppler --no-doppler --no-flux | ugrainbow > shape.png";
 
@@ -116,6 +121,7 @@ impl Args {
             repeat: self.vr,
             tolerance: self.ct,
             iris: self.ir,
+            light: self.li,
             keep: self.hd,
             spectral: self.sp,
             doppler: !self.no_doppler,

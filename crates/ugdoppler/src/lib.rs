@@ -7,6 +7,10 @@
 //! to shift. The eye's fading towards infrared and ultraviolet (P17) is left to
 //! the renderer, which applies it at every pixel.
 //!
+//! With [`Config::light`] the colours get the light of the scene's lights as well. A light
+//! that moves against a surface has a Doppler factor D_l of its own there, and falls in
+//! from where it was when it shone (P14); it shifts and dims the colour like D does.
+//!
 //! With [`Config::spectral`] colours are spectra instead: of surfaces (P20), of black
 //! bodies (P13), or given by samples. Each is shifted as a whole and multiplied by D⁵
 //! (P12), and what the eye makes of it is written as X, Y, Z (P19).
@@ -25,6 +29,9 @@
 //! ```
 
 mod cli;
+mod illumination;
+mod lit;
+mod lit_spectra;
 mod look;
 mod notes;
 mod palette;
@@ -36,11 +43,13 @@ use std::fmt;
 use glam::DVec3;
 use rayon::prelude::*;
 use ugparse::{Diagnostics, Face, Options, Scene, Source};
-use ugphysics::{Brightness, Velocity, VelocityError, doppler_at};
-use ugscene::{Bodies, HueScale};
+use ugphysics::{Brightness, Hsv, Velocity, VelocityError, doppler_at};
+use ugscene::{Bodies, HueScale, VertexColor};
 
 pub use cli::{Args, main};
 
+use illumination::Illumination;
+use lit::Seen;
 use palette::Palette;
 
 /// What to do.
@@ -62,6 +71,8 @@ pub struct Config {
     pub tolerance: f64,
     /// Scale all values so that the largest is 1, instead of clipping (`-ir`).
     pub iris: bool,
+    /// Put the light of the scene's lights, moving ones included, into the colours (`-li`).
+    pub light: bool,
     /// Keep values above 1, instead of clipping (`-hd`).
     pub keep: bool,
     /// Shift spectra in place of hues, and write X, Y, Z (`-sp`). The law is that of spectral radiance, D⁵, and
@@ -91,6 +102,7 @@ impl Default for Config {
             repeat: false,
             tolerance: DEFAULT_TOLERANCE,
             iris: false,
+            light: false,
             keep: false,
             spectral: false,
             doppler: true,
@@ -172,24 +184,80 @@ fn colour(mut scene: Scene, config: &Config, eye: DVec3, bodies: &Bodies) -> (Sc
     ugscene::separate_bodies(&mut scene);
     repeat_vertices(&mut scene, config.repeat);
     let rest = ugscene::rest_positions(&scene, eye, bodies);
-    let factors = doppler_factors(&scene, eye, bodies);
-    let used = used_vertices(&scene);
-    let notes = if config.spectral {
-        let shares = ugscene::vertex_shares(&scene, &rest);
-        spectral::paint(&mut scene, config, &shares, &factors, &used)
+    let mut notes = if config.spectral {
+        let mut shares = ugscene::vertex_shares(&scene, &rest);
+        let light = put_light(&mut scene, config, eye, bodies, rest, &mut shares);
+        let (factors, used) = (doppler_factors(&scene, eye, bodies), used_vertices(&scene));
+        let lit = light.map(|light| lit_spectra::seen(&scene, config, &shares, &factors, &light));
+        spectral::paint(&mut scene, config, &shares, &factors, &used, lit.as_deref())
     } else {
-        let colors = ugscene::vertex_colors(&scene, &rest, HueScale::Degrees);
+        let mut colors = ugscene::vertex_colors(&scene, &rest, HueScale::Degrees);
+        let light = put_light(&mut scene, config, eye, bodies, rest, &mut colors);
+        let (factors, used) = (doppler_factors(&scene, eye, bodies), used_vertices(&scene));
+        let lit = light.map(|light| lit_colors(&scene, config, &colors, &factors, &light));
         let spectra_note = ugscene::spectra_note(&scene);
         let mut palette = Palette::new(&mut scene, config);
         for (row, (&color, &doppler)) in colors.iter().zip(&factors).enumerate() {
-            if used[row] {
-                palette.paint(row, color, doppler);
+            match lit.as_ref().and_then(|lit| lit[row]) {
+                _ if !used[row] => {}
+                Some(seen) => palette.paint_lit(row, color, seen),
+                None => palette.paint(row, color, doppler),
             }
         }
         palette.finish().into_iter().chain(spectra_note).collect()
     };
+    if config.light && scene.lights.is_empty() {
+        notes.push("no lights in the scene, so -li puts none into its colours".to_string());
+    } else if config.light {
+        illumination::replace_lights(&mut scene);
+    }
     ugscene::record(&mut scene, PROGRAM, env!("CARGO_PKG_VERSION"), &config.command_line);
     (scene, notes)
+}
+
+/// The light on the vertices, if it is wanted and there is some. Vertices on which it differs are repeated, and what
+/// is known of each vertex with them.
+fn put_light<T: Clone>(
+    scene: &mut Scene,
+    config: &Config,
+    eye: DVec3,
+    bodies: &Bodies,
+    mut rest: Vec<DVec3>,
+    of_vertex: &mut Vec<T>,
+) -> Option<Illumination> {
+    if !config.light || scene.lights.is_empty() {
+        return None;
+    }
+    let (originals, normals) = illumination::split(scene, &rest);
+    for original in originals {
+        rest.push(rest[original.index()]);
+        of_vertex.push(of_vertex[original.index()].clone());
+    }
+    Some(Illumination::new(scene, eye, bodies, &rest, &normals))
+}
+
+/// Of every vertex, with its light; `None` where it is not lit.
+fn lit_colors(
+    scene: &Scene,
+    config: &Config,
+    colors: &[VertexColor],
+    factors: &[f64],
+    light: &Illumination,
+) -> Vec<Option<Seen>> {
+    let all = colors.par_iter().zip(factors).zip(&light.of_vertex);
+    all.map(|((&color, &doppler), parts)| {
+        let base = surface_hsv(scene, color);
+        Some(lit::look(base, doppler, parts.as_ref()?, &light.lamps, config))
+    })
+    .collect()
+}
+
+fn surface_hsv(scene: &Scene, color: VertexColor) -> Hsv {
+    match color {
+        VertexColor::Named(id) => ugscene::hsv(scene, &scene.colors[id.index()], HueScale::Degrees),
+        VertexColor::White => Hsv { hue: 0.0, saturation: 0.0, value: 1.0 },
+        VertexColor::Mixed { hsv, .. } => hsv,
+    }
 }
 
 /// True for vertices that a face or wire uses.

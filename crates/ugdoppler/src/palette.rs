@@ -6,6 +6,7 @@ use ugphysics::{Hsv, hue_to_wavelength, wavelength_to_hue};
 use ugscene::{HueScale, VertexColor, hsv};
 
 use crate::Config;
+use crate::lit::Seen;
 use crate::notes::{clipped, kept, scaled};
 
 /// The longest visible wavelength, nm: where a relative step of D moves the
@@ -21,6 +22,8 @@ pub(crate) struct Palette<'s> {
     /// Width of a step of ln D; 0 keeps every D apart.
     step: f64,
     made: FxHashMap<Key, ColorId>,
+    /// Colours with light in them, by translucency and step of wavelength, saturation and value.
+    lit: FxHashMap<[u64; 4], ColorId>,
     bases: FxHashMap<BaseKey, Base>,
     names: UniqueNames,
     largest_value: f64,
@@ -54,6 +57,7 @@ impl<'s> Palette<'s> {
             // D is taken at the middle of its step, so it is off by half a step at most.
             step: 2.0 * config.tolerance / LONGEST_NM,
             made: FxHashMap::default(),
+            lit: FxHashMap::default(),
             bases: FxHashMap::default(),
             names,
             largest_value: 0.0,
@@ -75,6 +79,47 @@ impl<'s> Palette<'s> {
             }
         };
         self.scene.vertices[row].color = Some(id);
+    }
+
+    /// Gives vertex `row` a colour that has its light in it already; `color` is that of the surface.
+    pub fn paint_lit(&mut self, row: usize, color: VertexColor, seen: Seen) {
+        let base = self.base(key(color), color);
+        let (key, n_lit) = (self.lit_key(base.translucency, seen), self.lit.len());
+        let id = match self.lit.get(&key) {
+            Some(&id) => id,
+            None => {
+                self.largest_value = self.largest_value.max(seen.value);
+                let name = self.names.fresh(&format!("{}#lit{}", base.name, n_lit + 1));
+                let name = self.scene.names.add(&name);
+                let hue = match seen.saturation {
+                    0.0 => 0.0,
+                    _ if self.config.wavelengths => seen.wavelength_nm,
+                    _ => seen.hue,
+                };
+                let hsv = Hsv { hue, saturation: seen.saturation, value: seen.value };
+                let id = self.push(name, hsv, base.translucency);
+                self.lit.insert(key, id);
+                id
+            }
+        };
+        self.scene.vertices[row].color = Some(id);
+    }
+
+    /// Steps as wide as the tolerance: the first colour of a step stands for all. What no eye sees has no step.
+    fn lit_key(&self, translucency: f64, seen: Seen) -> [u64; 4] {
+        let tolerance = self.config.tolerance;
+        let step = |number: f64, width: f64| {
+            let number = if tolerance > 0.0 { (number / width).round() } else { number };
+            number.to_bits()
+        };
+        let wavelength = if seen.saturation > 0.0 { seen.wavelength_nm } else { 0.0 };
+        [
+            translucency.to_bits(),
+            step(wavelength, tolerance),
+            step(seen.saturation, tolerance / 100.0),
+            // Parts of the value, not of 1: the iris may make dark scenes bright.
+            step(libm::log(seen.value), tolerance / 100.0),
+        ]
     }
 
     /// The step that D falls in, as a key, and D at its middle. D = 1 is a middle.

@@ -12,15 +12,18 @@ use crate::look::{Look, Motion};
 use crate::notes::{kept, scaled};
 use crate::ruler::Ruler;
 
-/// Gives every used vertex the colour that the spectra of its colours have under its D. Colours of the scene stay,
-/// for lights and for what is not used.
+/// Gives every used vertex the colour that the spectra of its colours have under its D, or the one in `lit`. Colours of
+/// the scene stay, for lights and for what is not used.
 pub(crate) fn paint(
     scene: &mut Scene,
     config: &Config,
     shares: &[Shares],
     factors: &[f64],
     used: &[bool],
+    lit: Option<&[Option<[f64; 3]>]>,
 ) -> Vec<String> {
+    let lit = Lit::new(lit.unwrap_or_default(), used);
+    let used = &*lit.others;
     let motion = Motion { doppler: config.doppler, flux: config.flux };
     let ln_factors: Vec<f64> = factors.par_iter().map(|&doppler| libm::log(doppler)).collect();
     let grid = Grid::new(range(&ln_factors, used));
@@ -31,8 +34,11 @@ pub(crate) fn paint(
     let plan = Plan::new(scene, &looks, &ruler, shares, &ln_factors, used);
     let mut seen: Vec<[f64; 3]> =
         plan.slots.par_iter().map(|slot| slot.xyz(&looks, &grid, motion, shares)).collect();
+    seen.extend(lit.vertices.iter().map(|&(_, xyz)| xyz));
     let notes = expose(&mut seen, config.iris).into_iter().chain(changed_note(scene, &looks)).collect();
-    push_colors(scene, config, &ruler, shares, &plan, &seen);
+    let (unlit, with_light) = seen.split_at(plan.slots.len());
+    push_colors(scene, config, &ruler, shares, &plan, unlit);
+    lit.push_colors(scene, config, shares, with_light);
     notes
 }
 
@@ -49,7 +55,7 @@ fn row(color: Option<ColorId>) -> usize {
 }
 
 /// The colours that meet at a vertex.
-fn parts(shares: &Shares) -> impl Iterator<Item = (Option<ColorId>, f64)> {
+pub(crate) fn parts(shares: &Shares) -> impl Iterator<Item = (Option<ColorId>, f64)> {
     let one = match shares {
         Shares::One(color) => Some((*color, 1.0)),
         Shares::Mixed(_) => None,
@@ -209,4 +215,49 @@ fn unchanged(scene: &Scene, shares: &Shares, seen: [f64; 3]) -> Option<ColorId> 
     let ColorValue::Xyz(given) = scene.colors[id.index()].value else { return None };
     let largest = given.iter().fold(0.0, |largest: f64, part| largest.max(part.abs()));
     given.iter().zip(seen).all(|(a, b)| (a - b).abs() <= NEAR * largest).then_some(id)
+}
+
+/// Used vertices that have their light in their colours already.
+struct Lit {
+    vertices: Vec<(usize, [f64; 3])>,
+    /// Used vertices without.
+    others: Vec<bool>,
+}
+
+impl Lit {
+    fn new(lit: &[Option<[f64; 3]>], used: &[bool]) -> Self {
+        let mut others = used.to_vec();
+        let mut vertices = Vec::new();
+        for (row, xyz) in lit.iter().enumerate() {
+            if let (true, Some(xyz)) = (used[row], *xyz) {
+                vertices.push((row, xyz));
+                others[row] = false;
+            }
+        }
+        Self { vertices, others }
+    }
+
+    /// `seen`: X, Y, Z as they are to be written. Steps as wide as the tolerance share a colour.
+    fn push_colors(&self, scene: &mut Scene, config: &Config, shares: &[Shares], seen: &[[f64; 3]]) {
+        let mut names: UniqueNames = scene.colors.iter().map(|color| scene.names.get(color.name)).collect();
+        let mut made: FxHashMap<[u64; 4], ColorId> = FxHashMap::default();
+        let width = config.tolerance / 100.0;
+        let step = |part: f64| {
+            let part = if width > 0.0 { (libm::log(part) / width).round() } else { part };
+            part.to_bits()
+        };
+        for (&(row, _), &xyz) in self.vertices.iter().zip(seen) {
+            let translucency: f64 = parts(&shares[row])
+                .map(|(color, share)| color.map_or(0.0, |id| scene.colors[id.index()].translucency) * share)
+                .sum();
+            let [x, y, z] = xyz.map(step);
+            let n_made = made.len();
+            let id = *made.entry([x, y, z, translucency.to_bits()]).or_insert_with(|| {
+                let name = scene.names.add(&names.fresh(&format!("lit#{}", n_made + 1)));
+                scene.colors.push(Color { name, value: ColorValue::Xyz(xyz), translucency });
+                ColorId::from_index(scene.colors.len() - 1)
+            });
+            scene.vertices[row].color = Some(id);
+        }
+    }
 }

@@ -72,30 +72,39 @@ fn time_shift(motion: &Motion, time: f64) -> DVec3 {
     }
 }
 
-/// Middle of the box round each body, in scene coordinates.
+/// Middle of the box round each body, in scene coordinates. Lamps count only for what has no vertices.
 fn centers(scene: &Scene, velocities: &[Option<VelocityId>], n_bodies: usize) -> Vec<DVec3> {
-    let mut boxes = vec![(DVec3::INFINITY, DVec3::NEG_INFINITY); n_bodies];
+    const EMPTY: (DVec3, DVec3) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    let grow = |(low, high): &mut (DVec3, DVec3), position: DVec3| {
+        *low = low.min(position);
+        *high = high.max(position);
+    };
+    let mut boxes = vec![EMPTY; n_bodies];
+    let mut lamp_boxes = boxes.clone();
     for (vertex, &velocity) in scene.vertices.iter().zip(velocities) {
-        let (low, high) = &mut boxes[body(velocity)];
-        *low = low.min(vertex.position);
-        *high = high.max(vertex.position);
+        grow(&mut boxes[body(velocity)], vertex.position);
     }
-    let middle = |(low, high): (DVec3, DVec3)| if low.x <= high.x { low.midpoint(high) } else { DVec3::ZERO };
-    boxes.into_iter().map(middle).collect()
+    for light in &scene.lights {
+        if let LightKind::Local { position, .. } = light.kind {
+            grow(&mut lamp_boxes[body(light.velocity)], position);
+        }
+    }
+    let middle = |(low, high): (DVec3, DVec3)| (low.x <= high.x).then(|| low.midpoint(high));
+    let center = |(own, lamps)| middle(own).or(middle(lamps)).unwrap_or_default();
+    boxes.into_iter().zip(lamp_boxes).map(center).collect()
 }
 
-/// Moves the local lights of a scene that is all one body along with it. With several bodies nobody knows
-/// which of them a lamp belongs to; and a light with its own velocity is a body of its own.
+/// Moves the local lights. One with a velocity belongs to the body of that velocity, or is one by itself. One
+/// without goes along if the scene is all one body; with several nobody knows which of them it belongs to.
 pub(crate) fn shift_lights(scene: &mut Scene, motions: &[Motion], shifts: &[DVec3]) {
     let users = scene.faces.iter().map(|face| face.velocity).chain(scene.wires.iter().map(|w| w.velocity));
     let mut users = users.peekable();
-    let Some(&first) = users.peek() else { return };
-    if users.any(|velocity| velocity != first) {
-        return;
-    }
-    for light in scene.lights.iter_mut().filter(|light| light.velocity.is_none()) {
-        if let LightKind::Local { position, .. } = &mut light.kind {
-            *position += motions[body(first)].turned_back(shifts[body(first)]);
+    let first = users.peek().copied();
+    let of_all = first.filter(|&first| users.all(|velocity| velocity == first)).map(body);
+    for light in &mut scene.lights {
+        let body = light.velocity.map(|velocity| body(Some(velocity))).or(of_all);
+        if let (LightKind::Local { position, .. }, Some(body)) = (&mut light.kind, body) {
+            *position += motions[body].turned_back(shifts[body]);
         }
     }
 }

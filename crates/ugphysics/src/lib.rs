@@ -8,6 +8,8 @@
 //! * **in which colour** ([`doppler_factor`], [`wavelength_to_hue`]): every frequency is multiplied by D;
 //! * **how bright** ([`Brightness`]): by a power of D that depends on what "bright" means.
 //!
+//! Before that, light fell on the body, perhaps from a source that moves against it ([`illumination`]).
+//!
 //! # Conventions
 //!
 //! c = 1: speeds are fractions of that of light, and times and lengths share a unit. The eye rests at the
@@ -46,22 +48,26 @@
 //! ```
 
 mod aberration;
+mod ambient;
 mod color;
 mod doppler;
 mod exact;
 mod hue;
+mod illumination;
 mod light;
 mod lorentz;
 mod velocity;
 mod xyz;
 
 pub use aberration::aberrate;
+pub use ambient::{SkyRing, ambient_illumination};
 pub use color::{Hsv, luminance, srgb_decode, srgb_encode};
 pub use doppler::{Brightness, doppler_at, doppler_factor};
 pub use hue::{
     CONTROL_POINTS, ControlPoint, RED_END_NM, VIOLET_END_NM, attenuation, hue_to_wavelength,
     wavelength_to_hue,
 };
+pub use illumination::{Illumination, illumination, illumination_from_afar};
 pub use light::{Event, contracted, flight_time, observer_shift, rest_position, seen_event, seen_position};
 pub use lorentz::{Lorentz, compose, wigner_rotation};
 pub use velocity::{Velocity, VelocityError};

@@ -31,8 +31,8 @@
 //! - **Wires** are 1.2 pixels wide and not lit, and win against the faces they lie on.
 //!
 //! What is not done: translucency (everything is opaque), a fall-off of local lights with
-//! distance, their radius, and lights that move against what they light. Every thread
-//! count gives the same bytes.
+//! distance, their radius, and lights that move against what they light: `ugdoppler -li`
+//! does that. Every thread count gives the same bytes.
 //!
 //! # Example
 //!

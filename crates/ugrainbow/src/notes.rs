@@ -65,7 +65,11 @@ fn scene_notes(scene: &Scene) -> Vec<String> {
         notes.push("no lights in the scene: drawn with ambient light 0.3 and 0.7 from the eye".into());
     }
     if scene.lights.iter().any(|light| light.velocity.is_some()) {
-        notes.push("velocities of lights are left out: each light rests with the faces it lights".into());
+        notes.push(
+            "velocities of lights are left out: each light rests with the faces it lights; \
+             `ugdoppler -li` draws with them"
+                .into(),
+        );
     }
     notes.extend(ugscene::spectra_note(scene));
     if scene.colors.iter().any(|color| color.translucency > 0.0) {

@@ -1,7 +1,7 @@
 //! What faces and wires are drawn from, and the colour and light of their corners.
 
 use glam::DVec3;
-use ugparse::{Face, Scene, VertexId, Wire, newell_normal};
+use ugparse::{Face, Scene, VertexId, Wire};
 
 use crate::light::Lighting;
 use crate::palette::{Palette, Swatch};
@@ -93,9 +93,7 @@ impl Painter<'_> {
         }
         let Some(outline) = self.scene.face_contours(face).next() else { return DVec3::ZERO };
         let rest = outline.iter().map(|&vertex| self.surface.rest(vertex));
-        let normal = newell_normal(rest).normalize_or_zero();
-        let toward_eye = self.toward_eye(face, outline[0]);
-        if normal.dot(toward_eye) < 0.0 { -normal } else { normal }
+        ugscene::seen_normal(rest, self.toward_eye(face, outline[0]))
     }
 
     /// Where the eye is, seen from a corner in the rest frame of the face.
@@ -123,11 +121,6 @@ impl Painter<'_> {
 
     /// The normal at a corner of a face, on the side that is seen.
     pub fn normal_at(&self, vertex: VertexId, seen_normal: DVec3) -> DVec3 {
-        match self.scene.vertices[vertex.index()].normal {
-            // A normal of a vertex belongs to the side its face looks to.
-            Some(own) if own.dot(seen_normal) < 0.0 => -own.normalize_or_zero(),
-            Some(own) => own.normalize_or_zero(),
-            None => seen_normal,
-        }
+        ugscene::shading_normal(self.scene.vertices[vertex.index()].normal, seen_normal)
     }
 }

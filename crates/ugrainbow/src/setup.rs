@@ -43,7 +43,7 @@ impl<'a> Setup<'a> {
         let view = View::new(&scene, &config.camera, config.size.map(|pixels| pixels * config.samples))?;
         let grid = Grid { width, height, samples: config.samples, is_perspective: view.is_perspective };
         let palette = Palette::new(&scene, config);
-        let lighting = Lighting::new(&scene, &palette, &view);
+        let lighting = Lighting::new(&scene, config.hue_scale, &view);
         let surface = Surface::new(&scene, view.eye, &palette, config.hue_scale)?;
         let is_uncut = palette.has_light() || config.keeps_light();
         let shader = Shader::new(config.interpolated(), !is_uncut);

@@ -3,9 +3,9 @@
 //! A scene is geometry and colour as text gives it; the filters need more:
 //! which body a vertex belongs to and how that body moves ([`Bodies`],
 //! [`separate_bodies`]), where it rests when it is seen here ([`Geometry`],
-//! [`rest_positions`], equation (P4)), its normal ([`smooth_normals`]), the
-//! colour it gets from the faces round it ([`vertex_colors`]), the spectrum a
-//! colour stands for ([`spectrum`]), what triangles
+//! [`rest_positions`], equation (P4)), its normal ([`smooth_normals`], and [`shading_normal`]
+//! under a light), what lights it ([`lamps`]), the colour it gets from the faces round it
+//! ([`vertex_colors`]), the spectrum a colour stands for ([`spectrum`]), what triangles
 //! make up a polygon ([`triangulate`]), or a face that is not flat ([`read`]), and what
 //! the camera sees ([`View`]). All programs
 //! must agree on these, so they are written once, here.
@@ -27,6 +27,7 @@ mod camera;
 mod colors;
 mod eye;
 mod geometry;
+mod lights;
 mod normals;
 mod polygon;
 mod read;
@@ -39,10 +40,11 @@ pub use camera::{CameraError, CameraOptions, HalfSpace, Place, Slab, View};
 pub use colors::{HueScale, VertexColor, hsv, is_light, light, spectra_note, spectrum, vertex_colors};
 pub use eye::{at_eye_error, eye, vertex_at_eye};
 pub use geometry::{Geometry, rest_positions};
-pub use normals::{corner_angle, smooth_normals};
+pub use lights::{Lamp, LampPlace, lamps};
+pub use normals::{corner_angle, seen_normal, shading_normal, smooth_normals};
 pub use polygon::{Triangle, is_convex, triangulate};
 pub use read::read;
 pub use shares::{Shares, vertex_shares};
-pub use split::split_vertices;
+pub use split::{split_corners, split_vertices};
 pub use traveller::{axes_from_scene, camera_velocity, record_camera_velocity};
 pub use ugparse::{history, record};

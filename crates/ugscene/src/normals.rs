@@ -18,6 +18,25 @@ pub(crate) fn face_normal(scene: &Scene, face: &Face, positions: &[DVec3]) -> DV
     newell_normal(outline.iter().map(|corner| positions[corner.index()])).normalize_or_zero()
 }
 
+/// Unit normal of an outline on the side that is seen; zero if it has no area.
+///
+/// `corners`: at rest. `toward_eye`: a vector to where the eye is, in the frame of `corners`.
+pub fn seen_normal(corners: impl Iterator<Item = DVec3> + Clone, toward_eye: DVec3) -> DVec3 {
+    let normal = newell_normal(corners).normalize_or_zero();
+    if normal.dot(toward_eye) < 0.0 { -normal } else { normal }
+}
+
+/// The unit normal a corner is lit with: its own, turned to the side its face is seen from, else that of the face.
+///
+/// `own`: of the vertex, any length. `seen`: [`seen_normal`] of the face.
+pub fn shading_normal(own: Option<DVec3>, seen: DVec3) -> DVec3 {
+    match own {
+        Some(own) if own.dot(seen) < 0.0 => -own.normalize_or_zero(),
+        Some(own) => own.normalize_or_zero(),
+        None => seen,
+    }
+}
+
 /// For every vertex the mean of the unit normals of its faces, weighted by the
 /// angle of the face's corner there, of unit length. Zero for a vertex without
 /// faces, or whose faces cancel out.

@@ -17,23 +17,40 @@ pub fn split_vertices<K: Copy + Eq + Hash>(
     users: &[(Range<u32>, K)],
     divide: impl Fn(&Vertex) -> bool,
 ) {
+    let rows = users.iter().map(|(rows, _)| rows.clone());
+    split_corners(scene, rows, |user, _, vertex| divide(vertex).then_some(users[user].1));
+}
+
+/// The same where the kind depends on the corner: `kind` is asked for user, vertex and what is known of the
+/// vertex; `None` uses the vertex as it is, whatever its kind.
+///
+/// Gives the originals of the copies, which are the last vertices of the scene, in order. No copy is the original
+/// of another.
+pub fn split_corners<K: Copy + Eq + Hash>(
+    scene: &mut Scene,
+    users: impl Iterator<Item = Range<u32>>,
+    kind: impl Fn(usize, VertexId, &Vertex) -> Option<K>,
+) -> Vec<VertexId> {
     let mut owner: Vec<Option<K>> = vec![None; scene.vertices.len()];
     let mut copies: FxHashMap<(VertexId, K), VertexId> = FxHashMap::default();
+    let mut originals = Vec::new();
     let mut names: Option<UniqueNames> = None;
-    for &(ref rows, kind) in users {
+    for (user, rows) in users.enumerate() {
         for idx in 0..scene.contours.corners(rows.clone()).len() {
             let corner = scene.contours.corners(rows.clone())[idx];
-            if *owner[corner.index()].get_or_insert(kind) == kind || !divide(&scene.vertices[corner.index()])
-            {
+            let Some(kind) = kind(user, corner, &scene.vertices[corner.index()]) else { continue };
+            if *owner[corner.index()].get_or_insert(kind) == kind {
                 continue;
             }
             let copy = *copies.entry((corner, kind)).or_insert_with(|| {
                 let taken = names.get_or_insert_with(|| vertex_names(scene));
+                originals.push(corner);
                 copy_vertex(scene, corner, taken)
             });
             scene.contours.corners_mut(rows.clone())[idx] = copy;
         }
     }
+    originals
 }
 
 fn vertex_names(scene: &Scene) -> UniqueNames {

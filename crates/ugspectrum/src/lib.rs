@@ -29,6 +29,7 @@
 mod blackbody;
 mod cie_1931;
 mod daylight;
+mod lamplight;
 mod observer;
 mod reflectance;
 mod samples;
@@ -38,6 +39,7 @@ mod spectrum;
 
 pub use blackbody::{blackbody_luminance_ratio, planck};
 pub use daylight::{DAYLIGHT_KELVIN, daylight};
+pub use lamplight::Lamplight;
 pub use observer::{integrate, observer};
 pub use reflectance::Reflectance;
 pub use shifted::{Grid, LN_STEP, Shifted};

@@ -4,6 +4,7 @@
 
 mod big;
 mod colour;
+mod illumination;
 mod laws;
 mod numbers;
 mod reference;

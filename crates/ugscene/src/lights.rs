@@ -1,0 +1,86 @@
+//! The lights of a scene, as all programs understand them.
+
+use glam::DVec3;
+use ugparse::{Light, LightKind, Scene, VelocityId};
+
+use ugphysics::srgb_decode;
+
+use crate::{HueScale, hsv, light};
+
+/// A light of a scene, ready to compute with.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lamp {
+    /// What kind of light, and where.
+    pub place: LampPlace,
+    /// Red, green and blue, display-encoded, times the intensity. Levels of several lights add up so, and
+    /// multiply the colour of a surface.
+    pub color: DVec3,
+    /// The same linear, which multiplies what is given as light, [`crate::light`].
+    pub linear: DVec3,
+    /// True if the light is neither white nor grey.
+    pub is_colored: bool,
+    /// Its own velocity; without one it rests with whatever it lights.
+    pub velocity: Option<VelocityId>,
+}
+
+/// Where a light is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum LampPlace {
+    /// All round.
+    Everywhere,
+    /// Infinitely far along a unit vector, in the frame of the light.
+    Afar(DVec3),
+    /// At a point, relative to the eye, in the frame of the light. Its light grows no weaker with distance.
+    At(DVec3),
+}
+
+/// The lights of a scene, in its order.
+///
+/// `eye`: in scene coordinates. `scale`: of the hues of their colours.
+pub fn lamps(scene: &Scene, eye: DVec3, scale: HueScale) -> Vec<Lamp> {
+    scene.lights.iter().map(|light| lamp(scene, light, eye, scale)).collect()
+}
+
+fn lamp(scene: &Scene, statement: &Light, eye: DVec3, scale: HueScale) -> Lamp {
+    let place = match statement.kind {
+        LightKind::Ambient => LampPlace::Everywhere,
+        // Divided first: the square of a large component may be too large.
+        LightKind::Directional(toward) => {
+            LampPlace::Afar((toward / toward.abs().max_element()).normalize_or_zero())
+        }
+        LightKind::Local { position, .. } => LampPlace::At(position - eye),
+    };
+    let white = Lamp { velocity: statement.velocity, ..Lamp::white(place, statement.intensity) };
+    let Some(id) = statement.color else { return white };
+    let color = &scene.colors[id.index()];
+    let shown = hsv(scene, color, scale);
+    let encoded = shown.to_rgb();
+    let linear = light(scene, color).unwrap_or_else(|| encoded.map(srgb_decode));
+    Lamp {
+        color: DVec3::from_array(encoded) * statement.intensity,
+        linear: DVec3::from_array(linear) * statement.intensity,
+        is_colored: shown.saturation > 0.0,
+        ..white
+    }
+}
+
+impl Lamp {
+    /// A white light that rests with whatever it lights.
+    pub fn white(place: LampPlace, intensity: f64) -> Lamp {
+        let color = DVec3::splat(intensity);
+        Lamp { place, color, linear: color, is_colored: false, velocity: None }
+    }
+
+    /// What part of its intensity falls on a surface if both are at rest: max(0, n·l), 1 for ambient light.
+    ///
+    /// `point`: of the surface, relative to the eye. `normal`: unit vector on the side that is seen, or zero
+    /// for a surface without one.
+    pub fn level_at_rest(&self, point: DVec3, normal: DVec3) -> f64 {
+        let toward = match self.place {
+            LampPlace::Everywhere => return 1.0,
+            LampPlace::Afar(toward) => toward,
+            LampPlace::At(place) => (place - point).normalize_or_zero(),
+        };
+        normal.dot(toward).max(0.0)
+    }
+}

@@ -1,0 +1,293 @@
+//! Light put into colours by `ugdoppler -li`, against `ugrainbow`'s own lighting and against numbers.
+
+use glam::DVec3;
+use ugdoppler::Config;
+use ugparse::{ColorValue, Scene};
+use ugphysics::{Brightness, Velocity};
+use ugtests::picture::{assert_same, decode};
+use ugtests::pipe::{Pipe, doppler, lorentz, rainbow};
+use ugtests::random::Random;
+use ugtests::scenes;
+
+fn lit() -> Config {
+    Config { light: true, tolerance: 0.0, ..Config::default() }
+}
+
+/// Walls, flat and smooth, seen from both sides, a face that shines, wires, and lights of all kinds:
+/// ambient, directional, local, coloured.
+const ROOM: &str = "c red 0.8 10 0.7; c blue 0.9 220 0.6; c warm 1 30 0.5; c cool 0.8 200;
+    v a -2 6 -1; v b 0 7 -1; v c 0 7 1; v d -2 6 1; v e 2 6 -1; v f 2 6 1;
+    v n -1 5 -2 0.1 -1 0.2; v o 1 5 -2 -0.1 -1 0.2; v p 1 5 -1 0.1 -1 0.6; v q -1 5 -1 0 1 -0.6;
+    f (a b c d) red; f (b c f e) red; f (n o p q) blue;
+    v s -0.5 4 1.2; v t 0.5 4 1.2; v u 0 4 1.6; f (s t u) red 0.5; w (s u t) blue;
+    v r 0.4 4.6 0.2 red; f (b r c);
+    cam -ep 0 0 0 -vc 0 6 0 -va 50 40;";
+
+fn room(lights: &str) -> Vec<u8> {
+    format!("{ROOM} {lights}").into_bytes()
+}
+
+const LIGHTS: &str =
+    "l 0.2; l 0.3 warm; l 0.3 -1 -2 1; l 0.3 2 -1 0.5 cool; l 0.4 1 3 2 0.1 warm; l 0.3 -2 4 0;";
+
+/// The same lights, all with a velocity.
+fn with_velocity(velocity: &str) -> String {
+    LIGHTS.replace(';', &format!(" {velocity};"))
+}
+
+#[test]
+fn light_at_rest_in_the_colours_is_light_at_rest_in_the_picture() {
+    let mut pipe = Pipe::default();
+    pipe.rainbow.size = [160, 120];
+    let check = |name: &str, text: &[u8], levels: u8| {
+        let expected = decode(&rainbow(text, &pipe.rainbow));
+        let baked = doppler(text, &lit());
+        assert_same(&format!("lights-{name}"), &expected, &decode(&rainbow(&baked, &pipe.rainbow)), levels);
+    };
+    for name in ["cubes", "teapot", "ship", "street", "halves"] {
+        check(name, &scenes::text(name), 1);
+    }
+    // Coloured light: levels of red, green and blue are interpolated apart there, hue and saturation here.
+    check("white-room", &room("l 0.2; l 0.3 -1 -2 1; l 0.4 1 3 2 0.1;"), 1);
+    check("room", &room(LIGHTS), 12);
+}
+
+#[test]
+fn light_at_rest_in_a_moving_body_moves_along() {
+    for velocity in ["0.6 0.3 -0.2", "0 -0.99 0"] {
+        let beta: Vec<f64> = velocity.split(' ').map(|part| part.parse().unwrap()).collect();
+        let seen = |lights: &str| {
+            let mut config = uglorentz::Config { in_place: true, time: 0.3, ..uglorentz::Config::default() };
+            config.velocity = Some(DVec3::from_slice(&beta));
+            numbers(&doppler(&lorentz(&room(lights), &config), &lit()))
+        };
+        assert_eq!(seen(&with_velocity(&format!("<{velocity}>"))), seen(LIGHTS));
+    }
+}
+
+/// Standing still is a velocity like others; and nearly standing still is nearly that.
+#[test]
+fn rest_is_the_limit_of_slow_lights() {
+    let still = numbers(&doppler(&room(LIGHTS), &lit()));
+    assert_eq!(numbers(&doppler(&room(&with_velocity("<0 0 0>")), &lit())), still);
+    for speed in [1e-3, 1e-5, 1e-7] {
+        let slow = numbers(&doppler(&room(&with_velocity(&format!("<{speed} 0 {speed}>"))), &lit()));
+        for ((name, slow), (_, still)) in slow.iter().zip(&still) {
+            // Of the ambient light 10⁻³ may be lost to summing over its directions.
+            let off = (0..3).map(|part| (slow[part] - still[part]).abs()).fold(0.0, f64::max);
+            assert!(off < 20.0 * speed + 1e-3, "{name} at {speed}: {slow:?}, {still:?}");
+        }
+    }
+}
+
+/// A mirror of the formulas: one white face, facing the light and the eye, each straight ahead or straight behind.
+#[test]
+fn both_factors_shift_and_dim() {
+    // β = 0.6 is D = 2 towards and 0.5 away; (P15) gives 15/17 for the two against each other, D_l = 4.
+    let face = "c green 0.1 120; v a 9 0 -1e-9; v b 9 1e-9 0; v c 9 -1e-9 0; f (a b c) green";
+    for (body, light, d, d_light) in [
+        ("<0.6 0 0>", "<0 0 0>", 0.5, 0.5),
+        ("<-0.6 0 0>", "<0 0 0>", 2.0, 2.0),
+        ("<-0.6 0 0>", "<0.6 0 0>", 2.0, 4.0),
+        ("<0.6 0 0>", "<-0.6 0 0>", 0.5, 0.25),
+        ("<0 0 0>", "<0.6 0 0>", 1.0, 2.0),
+        ("<0.6 0 0>", "<0.6 0 0>", 0.5, 1.0),
+    ] {
+        // From the direction of the eye, and from a lamp on the line of sight behind the eye.
+        for place in ["-1 0 0", "-30 0 0 0"] {
+            let text = format!("{face} {body}; l 0.5 {place} {light};");
+            for (law, factor) in [
+                (Brightness::Report, d * d_light),
+                (Brightness::Photon, d * d * d * d_light),
+                (Brightness::Bolometric, d * d * d * d * d_light * d_light),
+                (Brightness::None, 1.0),
+            ] {
+                let config = Config { wavelengths: true, law, iris: true, ..lit() };
+                let scene = scenes::parse(&doppler(text.as_bytes(), &config));
+                let (wavelength, value) = wavelength_and_value(&scene);
+                assert!((wavelength - 546.1 / (d * d_light)).abs() < 1e-5, "{text}: {wavelength}");
+                // The iris makes it 1, and says what it was.
+                assert!((value - 1.0).abs() < 1e-12);
+                let dim = Config { iris: false, ..config };
+                let value = wavelength_and_value(&scenes::parse(&doppler(text.as_bytes(), &dim))).1;
+                assert!((value - (0.05 * factor).min(1.0)).abs() < 1e-9, "{text} {law:?}: {value}, {factor}");
+            }
+        }
+    }
+}
+
+fn wavelength_and_value(scene: &Scene) -> (f64, f64) {
+    let color = scene.vertices[0].color.expect("a colour on every used vertex");
+    match scene.colors[color.index()].value {
+        ColorValue::Hsv { hue, value, .. } => (hue, value),
+        other => panic!("{other:?}"),
+    }
+}
+
+/// A lamp flies over a floor: the floor lights up where the lamp was seen from there, not where it is.
+#[test]
+fn lamplight_lags() {
+    let speed = 0.8;
+    let floor: String = (-40..=40)
+        .map(|x| format!("v a{x} {x} 20 0; v b{x} {x} 20.001 0; v c{x} {x}.001 20 0; f (a{x} b{x} c{x});"))
+        .collect::<String>()
+        .replace("a-", "am")
+        .replace("b-", "bm")
+        .replace("c-", "cm");
+    let text = format!("{floor} l 0.5 0 20 3 0 <{speed} 0 0>; cam -ep 0 0 5;");
+    let config = Config { law: Brightness::None, doppler: false, ..lit() };
+    let scene = scenes::parse(&doppler(text.as_bytes(), &config));
+    let bright = |vertex: &ugparse::Vertex| {
+        let color = vertex.color.expect("a colour");
+        match scene.colors[color.index()].value {
+            ColorValue::Hsv { value, .. } => value,
+            other => panic!("{other:?}"),
+        }
+    };
+    let brightest = scene.vertices.iter().filter(|v| scene.names.get(v.name).starts_with('a'));
+    let brightest = brightest.max_by(|a, b| bright(a).total_cmp(&bright(b))).expect("a vertex");
+    // Light that left the lamp at x_l overhead takes 3 to the floor, and |(x, 20, −5)| to the eye: n·l is largest
+    // right below where it shone, x = v t with t = −√(x² + 20² + 5²) − 3. That the floor moves in no way leaves it
+    // to x alone.
+    let lag = |x: f64| speed * (-(x * x + 425.0).sqrt() - 3.0) - x;
+    let (mut low, mut high) = (-1000.0, 0.0);
+    for _ in 0..100 {
+        let middle = 0.5 * (low + high);
+        if lag(middle) > 0.0 { low = middle } else { high = middle }
+    }
+    assert!((brightest.position.x - low).abs() < 0.51, "{}, not {low}", brightest.position.x);
+    assert!(low < -25.0, "{low}");
+}
+
+/// How a moving light falls on a moving surface is a matter between the two: a camera that passes the eye at any
+/// velocity (`-cv`) sees the same light leave the same event, but for its own Doppler factor, which divides out
+/// against lights that rest with the surface.
+#[test]
+fn the_camera_does_not_change_what_falls_on_a_surface() {
+    let mut random = Random(19);
+    for case in 0..40 {
+        let vector = |v: DVec3| format!("{} {} {}", v.x, v.y, v.z);
+        let corners: Vec<String> = ["a", "b", "c"]
+            .iter()
+            .map(|name| format!("v {name} {};", vector(random.in_cube(10.0))))
+            .collect();
+        let body = vector(0.8 * random.direction());
+        let mut lights = |velocity: &dyn Fn(&mut Random) -> String| {
+            ["0.3", "0.4 3 -5 8", "0.5 4 -3 6 0", "0.6 -7 2 1 0"]
+                .iter()
+                .map(|light| format!("l {light} {};", velocity(&mut random)))
+                .collect::<String>()
+        };
+        let moving = lights(&|random| format!("<{}>", vector(0.8 * random.direction())));
+        let resting = lights(&|_| String::new());
+        let config = Config { law: Brightness::Report, keep: true, ..lit() };
+        let values = |lights: &str, camera: DVec3| -> Vec<f64> {
+            let text =
+                format!("c grey 0.5; {} f (a b c) grey <{body}>; {lights} cam -ep 1 2 3;", corners.join(" "));
+            let lorentz_config = uglorentz::Config {
+                camera_velocity: Some(camera),
+                pieces: uglorentz::Pieces::PerEdge(1),
+                ..uglorentz::Config::default()
+            };
+            let scene = scenes::parse(&doppler(&lorentz(text.as_bytes(), &lorentz_config), &config));
+            let value = |color: ugparse::ColorId| match scene.colors[color.index()].value {
+                ColorValue::Hsv { value, .. } => value,
+                other => panic!("{other:?}"),
+            };
+            scene.vertices.iter().map(|vertex| value(vertex.color.expect("a colour"))).collect()
+        };
+        let camera = 0.8 * random.direction();
+        let ratio = |camera: DVec3| -> Vec<f64> {
+            values(&moving, camera).iter().zip(values(&resting, camera)).map(|(a, b)| a / b).collect()
+        };
+        for (still, driven) in ratio(DVec3::ZERO).into_iter().zip(ratio(camera)) {
+            // Ambient light is a sum over rings of directions, whose places depend on how the axes lie.
+            assert!((still / driven - 1.0).abs() < 1e-3, "case {case}: {still}, {driven}");
+        }
+    }
+}
+
+/// Without lights there is nothing to put in, and the renderer's own light stays.
+#[test]
+fn no_lights_no_change() {
+    let text = room("");
+    let config = lit();
+    let report = ugdoppler::run(&config, &ugparse::Source::new("t.ug", text.clone())).unwrap();
+    assert!(report.notes.iter().any(|note| note.starts_with("no lights")), "{:?}", report.notes);
+    assert!(report.scene.lights.is_empty());
+    let plain = Config { light: false, ..config };
+    assert_eq!(numbers(&report.text()), numbers(&doppler(&text, &plain)));
+}
+
+/// Red, green and blue of every vertex, by name.
+fn numbers(text: &[u8]) -> Vec<(String, [f64; 3])> {
+    let scene = scenes::parse(text);
+    let of = |vertex: &ugparse::Vertex| {
+        let color = vertex.color.map(|color| &scene.colors[color.index()]);
+        let rgb =
+            color.map_or([1.0; 3], |color| ugscene::hsv(&scene, color, ugscene::HueScale::Degrees).to_rgb());
+        (scene.names.get(vertex.name).to_string(), rgb)
+    };
+    scene.vertices.iter().map(of).collect()
+}
+
+/// What moves at all speeds stays finite.
+#[test]
+fn no_speed_breaks_it() {
+    for (body, light) in
+        [(0.999_999_999, -0.999_999_999), (-0.999_999_999_999, 0.0), (0.0, 0.999_999_999_999)]
+    {
+        let lights = with_velocity(&format!("<0 {light} 0>"));
+        let velocity = Velocity::from_beta(DVec3::new(0.0, body, 0.0)).unwrap();
+        let config = uglorentz::Config { velocity: Some(velocity.beta()), ..uglorentz::Config::default() };
+        for law in [Brightness::Report, Brightness::Bolometric] {
+            let seen = doppler(&lorentz(&room(&lights), &config), &Config { law, ..lit() });
+            assert!(numbers(&seen).iter().flat_map(|(_, rgb)| rgb).all(|part| part.is_finite()));
+        }
+    }
+}
+
+/// White under a black body: Planck's law at D_l D T, times D_l⁻² for the solid angle of the lamp, (P13) and (P14).
+#[test]
+fn spectra_of_lights_pass_both_shifts() {
+    let face = "v a 9 0 -1e-9; v b 9 1e-9 0; v c 9 -1e-9 0; f (a b c)";
+    for (body, light, d, d_light) in [
+        ("<0 0 0>", "<0 0 0>", 1.0, 1.0),
+        ("<0.6 0 0>", "<0 0 0>", 0.5, 0.5),
+        ("<-0.6 0 0>", "<0.6 0 0>", 2.0, 4.0),
+        ("<0 0 0>", "<0.6 0 0>", 1.0, 2.0),
+    ] {
+        let text = format!("c_bb hot 5000 0.7; {face} {body}; l 0.5 -1 0 0 hot {light};");
+        let config = Config { spectral: true, ..lit() };
+        let scene = scenes::parse(&doppler(text.as_bytes(), &config));
+        let color = scene.vertices[0].color.expect("a colour on every used vertex");
+        let ColorValue::Xyz(xyz) = scene.colors[color.index()].value else { panic!("no X, Y, Z") };
+        let expected = ugspectrum::Spectrum::blackbody(5000.0, 0.7).seen(d * d_light);
+        for (found, expected) in xyz.into_iter().zip(expected) {
+            let expected = 0.5 * expected / (d_light * d_light);
+            assert!((found / expected - 1.0).abs() < 1e-6, "{text}: {xyz:?}, {expected}");
+        }
+    }
+}
+
+/// A lamp of daylight at rest, straight on, shows colours as they are.
+#[test]
+fn full_daylight_shows_colours_as_they_are() {
+    let text = "c_rgb brick 0.7 0.3 0.2; c_spd line 500 1 510 2 520 0; c_bb glow 3000 0.4;
+        v a 9 0 -1e-9; v b 9 1e-9 0; v c 9 -1e-9 0; f (a b c) brick;
+        v d 9 1 -1e-9; v e 9 1.0001 0; v f 9 1 0; f (d e f) line <-0.3 0 0>;
+        v g 9 -1 -1e-9; v h 9 -1.0001 0; v i 9 -1 0; f (g h i) glow <0.4 0 0>;";
+    let colors = |light: bool| -> Vec<[f64; 3]> {
+        let config = Config { spectral: true, light, ..lit() };
+        let scene = scenes::parse(&doppler(format!("{text} l 1 -1 0 0;").as_bytes(), &config));
+        let of = |vertex: &ugparse::Vertex| match scene.colors[vertex.color.expect("a colour").index()].value
+        {
+            ColorValue::Xyz(xyz) => xyz,
+            other => panic!("{other:?}"),
+        };
+        scene.vertices.iter().map(of).collect()
+    };
+    for (lit, plain) in colors(true).into_iter().flatten().zip(colors(false).into_iter().flatten()) {
+        assert!((lit - plain).abs() < 1e-6 * plain, "{lit} {plain}");
+    }
+}
