@@ -46,21 +46,29 @@
 //! ```
 
 mod aberration;
+mod apparent;
 mod color;
 mod doppler;
 mod exact;
 mod hue;
+mod hyperbolic;
 mod light;
 mod lorentz;
+mod point_light;
 mod velocity;
+mod wave;
 
 pub use aberration::aberrate;
+pub use apparent::{apparent_velocity, contracted_normal};
 pub use color::{Hsv, luminance, srgb_decode, srgb_encode};
 pub use doppler::{Brightness, doppler_at, doppler_factor};
 pub use hue::{
     CONTROL_POINTS, ControlPoint, RED_END_NM, VIOLET_END_NM, attenuation, hue_to_wavelength,
     wavelength_to_hue,
 };
+pub use hyperbolic::Hyperbolic;
 pub use light::{Event, contracted, flight_time, observer_shift, rest_position, seen_event, seen_position};
 pub use lorentz::{Lorentz, compose};
+pub use point_light::irradiance;
 pub use velocity::{Velocity, VelocityError};
+pub use wave::{Slab, Wave, light_in_glass, reflect, refract};

@@ -7,6 +7,7 @@ mod colour;
 mod laws;
 mod numbers;
 mod reference;
+mod surfaces;
 mod velocity;
 
 use glam::DVec3;
