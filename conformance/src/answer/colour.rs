@@ -1,7 +1,7 @@
 //! Wavelengths and what a screen shows.
 
 use ugparse::{ColorValue, Options, Source};
-use ugphysics::{srgb_encode, wavelength_to_hue};
+use ugphysics::{RED_END_NM, VIOLET_END_NM, srgb_encode, wavelength_to_hue};
 
 use super::numbers::{Answer, exactly};
 
@@ -23,6 +23,10 @@ pub const KINDS: &[(&str, Answer)] = &[
 
 /// Sends a triangle of one wavelength through `ugdoppler`, moving straight at the eye or away from it.
 fn wavelength_seen(wavelength_nm: f64, doppler: f64) -> Option<f64> {
+    // Only what is in sight has a hue to begin with.
+    if !(VIOLET_END_NM..=RED_END_NM).contains(&wavelength_nm) {
+        return None;
+    }
     let square = doppler * doppler;
     // D straight ahead is √((1 + β)/(1 − β)).
     let toward = (square - 1.0) / (square + 1.0);
