@@ -72,11 +72,31 @@ uglorentz -vel 0 -.99 0 -ep 0 40 3 street.ug | shape | draw chang-12a-in-0.99c
 uglorentz -vel 0 .99 0 -ep 0 -250 3 street.ug | shape | draw chang-12b-out-0.99c
 uglorentz -vel 0 -.9 0 -ep 0 20 3 street.ug | ugdoppler -qt -gw | draw chang-12c-in-0.9c-colours -wi -va 110
 
+# Figure 17: three narrow bands about 460, 540 and 600 nm, at 0.5c from left to right, later ones below. Bluer than at rest
+# while it comes nearer, redder when it leaves; each row is as bright as it can be.
+bands='c_spd 455 0 460 2 465 0 535 0 540 4.5 545 0 595 0 600 6.5 605 0 ;'
+rows=()
+for time in 00 09 17 28; do
+    row=$out/rows/bands-$time.png
+    sed "s/^c .*/$bands/" teapot.ug | uglorentz -vel .5 0 0 -ti $time | ugdoppler -qt -sp -ir |
+        ugrainbow -qt -va 90 -sz "$width" $((height / 4 - 3)) -fo "$row"
+    rows+=("$row")
+done
+cargo --quiet xtask sheet "$out/chang-17-bands-0.5c.png" 1 "${rows[@]}"
+printf '%s\n' chang-17-bands-0.5c
+
 # Howard, Dance and Kitchen 1995, figures 4 and 5: flying at a grid, and just through it.
 uglorentz grid.ug | shape | draw howard-04a-rest
 uglorentz -vel 0 -.5 0 grid.ug | shape | draw howard-04b-0.5c
 uglorentz -vel 0 -.9 0 grid.ug | shape | draw howard-04c-0.9c
 uglorentz -vel 0 -.9 0 -ep 0 .5 0 grid.ug | shape | draw howard-05-through-0.9c
+
+# Weiskopf 2000, figure 3: a tunnel of black bodies at 3500, 5900 and 10000 K, at rest; flying through it at 0.6c, shape alone,
+# with the Doppler effect, and with the searchlight as well.
+uglorentz tunnel.ug | ugdoppler -qt -sp | draw weiskopf-03a-rest
+uglorentz -vel 0 -.6 0 tunnel.ug | ugdoppler -qt -sp --no-doppler --no-flux | draw weiskopf-03b-0.6c-shape
+uglorentz -vel 0 -.6 0 tunnel.ug | ugdoppler -qt -sp --no-flux | draw weiskopf-03c-0.6c-doppler
+uglorentz -vel 0 -.6 0 tunnel.ug | ugdoppler -qt -sp -ir | draw weiskopf-03d-0.6c-searchlight
 
 # Our own: the lattice in shape and colour, colours that meet at a vertex, five speeds at once.
 uglorentz -vel 0 -.9 0 lattice.ug | shape | draw lattice-0.9c-shape -va 120
@@ -85,5 +105,5 @@ ugdoppler -qt halves.ug | draw halves-mixed
 ugdoppler -qt -vr halves.ug | draw halves-repeated
 uglorentz -in dice.ug | shape | draw dice
 
-cargo --quiet xtask sheet "$out/sheet.png" 6 "$out"/{nguyen,chang,howard,lattice,halves,dice}*.png
+cargo --quiet xtask sheet "$out/sheet.png" 6 "$out"/{nguyen,chang,howard,weiskopf,lattice,halves,dice}*.png
 printf 'The pictures are in %s, all of them on %s/sheet.png\n' "$out" "$out"

@@ -144,9 +144,12 @@ const MISTAKES: [Mistake; 17] = [
     // The other half of M14: a matrix for another white.
     Mistake {
         name: "M14white",
-        file: "crates/ugscene/src/colors.rs",
-        right: "3.2406 * x - 1.5372 * y - 0.4986 * z",
-        wrong: "2.3707 * x - 0.9001 * y - 0.4706 * z",
+        file: "crates/ugphysics/src/xyz.rs",
+        right: "times(RGB_FROM_XYZ, xyz)",
+        wrong: "times(
+            [[2.3707, -0.9001, -0.4706], [-0.5139, 1.4253, 0.0886], [0.0053, -0.0147, 1.0094]],
+            xyz,
+        )",
         found_by: "colours",
     },
     Mistake {

@@ -2,6 +2,7 @@
 
 use ugparse::{ColorValue, Options, Source};
 use ugphysics::{RED_END_NM, VIOLET_END_NM, srgb_encode, wavelength_to_hue};
+use ugspectrum::{Spectrum, blackbody_luminance_ratio, planck};
 
 use super::numbers::{Answer, exactly};
 
@@ -10,6 +11,22 @@ pub const KINDS: &[(&str, Answer)] = &[
         let [kelvin, doppler] = exactly(given)?;
         // Every wavelength is divided by D, that of the maximum, too.
         Some(vec![kelvin * doppler])
+    }),
+    ("blackbody_radiance_ratio", |given| {
+        let [kelvin, doppler, wavelength_nm] = exactly(given)?;
+        // What is seen there was sent at λD, and a unit of wavelength here is D units there (P12).
+        let square = doppler * doppler;
+        let seen = square * square * doppler * planck(wavelength_nm * doppler, kelvin);
+        Some(vec![seen / planck(wavelength_nm, kelvin)])
+    }),
+    ("blackbody_xy", |given| {
+        let [kelvin] = exactly(given)?;
+        let [x, y, z] = Spectrum::blackbody(kelvin, 1.0).seen(1.0);
+        Some(vec![x / (x + y + z), y / (x + y + z)])
+    }),
+    ("blackbody_luminance_ratio", |given| {
+        let [kelvin, reference_kelvin] = exactly(given)?;
+        Some(vec![blackbody_luminance_ratio(kelvin, reference_kelvin)])
     }),
     ("wavelength_seen", |given| {
         let [wavelength_nm, doppler] = exactly(given)?;

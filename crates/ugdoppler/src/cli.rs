@@ -32,15 +32,20 @@ pub struct Args {
     #[arg(long, visible_alias = "wavelengths")]
     gw: bool,
 
-    /// Brightness law: how the value changes with D
-    #[arg(long, visible_alias = "brightness", value_name = "LAW", value_enum, default_value_t = Law::Report)]
-    br: Law,
+    /// Brightness law: how the value changes with D [default: report]
+    #[arg(long, visible_alias = "brightness", value_name = "LAW", value_enum)]
+    br: Option<Law>,
+
+    /// Shift spectra in place of hues, and write X, Y, Z: black bodies and sampled spectra as they are, colours as
+    /// surfaces in daylight. The law is D^5 per wavelength, and nothing is clipped
+    #[arg(long, visible_alias = "spectral")]
+    sp: bool,
 
     /// Repeat a vertex for every face colour that meets there, instead of mixing them
     #[arg(long, visible_alias = "repeat-vertices")]
     vr: bool,
 
-    /// Reuse colours within T nm and T percent of value; 0 makes one for each vertex
+    /// Reuse colours within T nm and T percent of value, or of X, Y and Z; 0 makes one for each vertex
     #[arg(long, visible_alias = "color-tolerance", value_name = "T", allow_hyphen_values = true,
           value_parser = ugpipe::finite, default_value_t = DEFAULT_TOLERANCE)]
     ct: f64,
@@ -49,11 +54,15 @@ pub struct Args {
     #[arg(long, visible_alias = "iris")]
     ir: bool,
 
+    /// Keep values above 1 for the exposure of the renderer, instead of clipping them
+    #[arg(long, visible_alias = "keep-intensities")]
+    hd: bool,
+
     /// Leave wavelengths as they are
     #[arg(long)]
     no_doppler: bool,
 
-    /// Leave brightness as it is
+    /// Leave brightness as it is; under -sp leave out D^5
     #[arg(long)]
     no_flux: bool,
 
@@ -64,16 +73,17 @@ pub struct Args {
 const EXAMPLES: &str = "Examples:
   uglorentz -vel 0 -.2 0 -in ship.ug | ugdoppler | ugrainbow > ship.png
   uglorentz -vel 0 -.9 0 lattice.ug | ugdoppler -gw | ugrainbow -wi -va 120 > ring.png
+  uglorentz -vel 0 -.6 0 tunnel.ug | ugdoppler -sp -ir | ugrainbow -va 90 > tunnel.png
   uglorentz -vel .9 0 0 -in ship.ug | ugdoppler --no-doppler --no-flux | ugrainbow > shape.png";
 
 /// Brightness laws, (P12).
 #[derive(Clone, Copy, Debug, ValueEnum)]
 enum Law {
-    /// D: the photon-flux law of the 1988 report
+    /// D: the rate at which photons arrive, the photon-flux law of the 1988 report
     Report,
-    /// D^3: photons per area, time and solid angle
+    /// D^3: photon radiance, photons per area, time and solid angle
     Photon,
-    /// D^4: power per area and solid angle
+    /// D^4: bolometric radiance, power per area and solid angle at all wavelengths together
     Bolometric,
     /// 1: no change
     None,
@@ -90,13 +100,14 @@ impl Args {
         if self.ct < 0.0 {
             return Err(Failure::usage("a colour tolerance (-ct) is 0 or more"));
         }
+        self.refuse_contradictions()?;
         let vector = |numbers: &Option<Vec<f64>>| ugpipe::vector(numbers.as_deref()).map(DVec3::from_array);
         let beta = vector(&self.vel).unwrap_or_default();
         Ok(Config {
             velocity: Velocity::from_beta(beta).map_err(Failure::usage)?,
             eye: vector(&self.ep),
             wavelengths: self.gw,
-            law: match self.br {
+            law: match self.br.unwrap_or(Law::Report) {
                 Law::Report => Brightness::Report,
                 Law::Photon => Brightness::Photon,
                 Law::Bolometric => Brightness::Bolometric,
@@ -105,11 +116,30 @@ impl Args {
             repeat: self.vr,
             tolerance: self.ct,
             iris: self.ir,
+            keep: self.hd,
+            spectral: self.sp,
             doppler: !self.no_doppler,
             flux: !self.no_flux,
             lax: self.common.lax(),
             command_line: command_line.to_string(),
         })
+    }
+
+    fn refuse_contradictions(&self) -> Result<(), Failure> {
+        if self.sp && self.gw {
+            return Err(Failure::usage(
+                "-sp writes X, Y, Z and -gw writes wavelengths of hues: give one of them",
+            ));
+        }
+        if self.sp && self.br.is_some() {
+            return Err(Failure::usage(
+                "-sp has one brightness law, D^5 per wavelength: leave out -br, or the D^5 by --no-flux",
+            ));
+        }
+        if self.ir && self.hd {
+            return Err(Failure::usage("-ir scales intensities to 1 and -hd keeps them: give one of them"));
+        }
+        Ok(())
     }
 }
 

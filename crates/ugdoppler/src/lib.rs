@@ -7,6 +7,10 @@
 //! to shift. The eye's fading towards infrared and ultraviolet (P17) is left to
 //! the renderer, which applies it at every pixel.
 //!
+//! With [`Config::spectral`] colours are spectra instead: of surfaces (P20), of black
+//! bodies (P13), or given by samples. Each is shifted as a whole and multiplied by D⁵
+//! (P12), and what the eye makes of it is written as X, Y, Z (P19).
+//!
 //! The input is what `uglorentz` writes: vertices where they are seen, faces
 //! with their velocity, the eye in the camera.
 //!
@@ -21,7 +25,11 @@
 //! ```
 
 mod cli;
+mod look;
+mod notes;
 mod palette;
+mod ruler;
+mod spectral;
 
 use std::fmt;
 
@@ -49,10 +57,16 @@ pub struct Config {
     /// Repeat a vertex for every colour of its faces, instead of mixing them (`-vr`).
     pub repeat: bool,
     /// Reuse a colour whose wavelength is within this many nm, and whose value
-    /// is within as many percent; 0 gives every vertex its own (`-ct`).
+    /// is within as many percent; with spectra, whose X, Y and Z are. 0 gives every
+    /// vertex its own (`-ct`).
     pub tolerance: f64,
     /// Scale all values so that the largest is 1, instead of clipping (`-ir`).
     pub iris: bool,
+    /// Keep values above 1, instead of clipping (`-hd`).
+    pub keep: bool,
+    /// Shift spectra in place of hues, and write X, Y, Z (`-sp`). The law is that of spectral radiance, D⁵, and
+    /// nothing is clipped.
+    pub spectral: bool,
     /// Shift wavelengths.
     pub doppler: bool,
     /// Change brightness.
@@ -77,6 +91,8 @@ impl Default for Config {
             repeat: false,
             tolerance: DEFAULT_TOLERANCE,
             iris: false,
+            keep: false,
+            spectral: false,
             doppler: true,
             flux: true,
             lax: false,
@@ -156,21 +172,35 @@ fn colour(mut scene: Scene, config: &Config, eye: DVec3, bodies: &Bodies) -> (Sc
     ugscene::separate_bodies(&mut scene);
     repeat_vertices(&mut scene, config.repeat);
     let rest = ugscene::rest_positions(&scene, eye, bodies);
-    let colors = ugscene::vertex_colors(&scene, &rest, HueScale::Degrees);
     let factors = doppler_factors(&scene, eye, bodies);
-
-    let spectra_note = ugscene::spectra_note(&scene);
-    let mut palette = Palette::new(&mut scene, config);
-    let used = palette.used_vertices();
-    for (row, (&color, &doppler)) in colors.iter().zip(&factors).enumerate() {
-        if used[row] {
-            palette.paint(row, color, doppler);
+    let used = used_vertices(&scene);
+    let notes = if config.spectral {
+        let shares = ugscene::vertex_shares(&scene, &rest);
+        spectral::paint(&mut scene, config, &shares, &factors, &used)
+    } else {
+        let colors = ugscene::vertex_colors(&scene, &rest, HueScale::Degrees);
+        let spectra_note = ugscene::spectra_note(&scene);
+        let mut palette = Palette::new(&mut scene, config);
+        for (row, (&color, &doppler)) in colors.iter().zip(&factors).enumerate() {
+            if used[row] {
+                palette.paint(row, color, doppler);
+            }
         }
-    }
-    let mut notes = palette.finish();
-    notes.extend(spectra_note);
+        palette.finish().into_iter().chain(spectra_note).collect()
+    };
     ugscene::record(&mut scene, PROGRAM, env!("CARGO_PKG_VERSION"), &config.command_line);
     (scene, notes)
+}
+
+/// True for vertices that a face or wire uses.
+fn used_vertices(scene: &Scene) -> Vec<bool> {
+    let mut used = vec![false; scene.vertices.len()];
+    let faces = scene.faces.iter().map(|face| face.contours.clone());
+    let wires = scene.wires.iter().map(|wire| wire.contours.clone());
+    for rows in faces.chain(wires) {
+        scene.contours.corners(rows).iter().for_each(|corner| used[corner.index()] = true);
+    }
+    used
 }
 
 /// Gives wires vertices of their own, since a vertex can carry one colour only; and with `each_face_color`

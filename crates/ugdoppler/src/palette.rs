@@ -6,6 +6,7 @@ use ugphysics::{Hsv, hue_to_wavelength, wavelength_to_hue};
 use ugscene::{HueScale, VertexColor, hsv};
 
 use crate::Config;
+use crate::notes::{clipped, kept, scaled};
 
 /// The longest visible wavelength, nm: where a relative step of D moves the
 /// wavelength most.
@@ -59,18 +60,6 @@ impl<'s> Palette<'s> {
             scene,
             config,
         }
-    }
-
-    /// True for vertices that a face or wire uses.
-    pub fn used_vertices(&self) -> Vec<bool> {
-        let scene = &*self.scene;
-        let mut used = vec![false; scene.vertices.len()];
-        let faces = scene.faces.iter().map(|face| face.contours.clone());
-        let wires = scene.wires.iter().map(|wire| wire.contours.clone());
-        for rows in faces.chain(wires) {
-            scene.contours.corners(rows).iter().for_each(|corner| used[corner.index()] = true);
-        }
-        used
     }
 
     /// Gives vertex `row` the colour that `color` looks like under `doppler`.
@@ -146,7 +135,7 @@ impl<'s> Palette<'s> {
             VertexColor::Named(id) => {
                 let color = &self.scene.colors[id.index()];
                 Base {
-                    hsv: hsv(color, HueScale::Degrees),
+                    hsv: hsv(self.scene, color, HueScale::Degrees),
                     translucency: color.translucency,
                     name: self.scene.names.get(color.name).to_string(),
                 }
@@ -176,7 +165,7 @@ impl<'s> Palette<'s> {
         text.replace('.', "_")
     }
 
-    /// Brings values above 1 into range and the given colours to the scale of the output.
+    /// Brings values above 1 into range, unless they are to be kept, and the given colours to the scale of the output.
     pub fn finish(mut self) -> Vec<String> {
         let notes = if self.config.iris { self.scale_values() } else { self.clip_values() };
         if self.config.wavelengths {
@@ -211,25 +200,23 @@ impl<'s> Palette<'s> {
                 spectrum @ ColorValue::Spectrum { .. } => spectrum,
             };
         }
-        vec![format!("max intensity is {}, scaled to 1.0", shown(largest))]
+        vec![scaled(largest)]
     }
 
     fn clip_values(&mut self) -> Vec<String> {
         if self.largest_value <= 1.0 {
             return Vec::new();
         }
+        if self.config.keep {
+            return vec![kept(self.largest_value)];
+        }
         for color in &mut self.scene.colors[self.n_given..] {
             if let ColorValue::Hsv { value, .. } = &mut color.value {
                 *value = value.min(1.0);
             }
         }
-        vec![format!("max intensity is {}, clip to 1.0", shown(self.largest_value))]
+        vec![clipped(self.largest_value)]
     }
-}
-
-/// A value for a message, three significant digits or so.
-fn shown(value: f64) -> String {
-    if value < 10.0 { format!("{value:.2}") } else { format!("{value:.0}") }
 }
 
 fn key(color: VertexColor) -> BaseKey {

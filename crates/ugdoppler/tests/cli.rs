@@ -37,6 +37,9 @@ fn bad_usage_is_status_2() {
         (&["-vel", "nan", "0", "0"][..], "not a finite number"),
         (&["-br", "bright"][..], "invalid value 'bright'"),
         (&["-ct", "-1"][..], "a colour tolerance (-ct) is 0 or more"),
+        (&["-sp", "-gw"][..], "-sp writes X, Y, Z and -gw writes wavelengths of hues"),
+        (&["-sp", "-br", "report"][..], "leave out -br, or the D^5 by --no-flux"),
+        (&["-ir", "-hd"][..], "-ir scales intensities to 1 and -hd keeps them"),
         (&["-nonsense"][..], "unexpected argument"),
     ] {
         let out = ugdoppler(args, SCENE);

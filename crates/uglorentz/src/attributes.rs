@@ -90,7 +90,7 @@ fn blend(scene: &Scene, parts: &[(ColorId, f64)]) -> (ColorValue, f64) {
         (Hsv { hue: 0.0, saturation: 0.0, value: 0.0 }, 0.0, 0.0);
     for &(id, weight) in parts {
         let color = &scene.colors[id.index()];
-        let hsv = ugscene::hsv(color, HueScale::Degrees);
+        let hsv = ugscene::hsv(scene, color, HueScale::Degrees);
         mean.value += weight * hsv.value;
         mean.saturation += weight * hsv.saturation;
         translucency += weight * color.translucency;

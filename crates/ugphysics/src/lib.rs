@@ -57,6 +57,7 @@ mod lorentz;
 mod point_light;
 mod velocity;
 mod wave;
+mod xyz;
 
 pub use aberration::aberrate;
 pub use apparent::{apparent_velocity, contracted_normal};
@@ -72,3 +73,4 @@ pub use lorentz::{Lorentz, compose};
 pub use point_light::irradiance;
 pub use velocity::{Velocity, VelocityError};
 pub use wave::{Slab, Wave, light_in_glass, reflect, refract};
+pub use xyz::{WHITE_XYZ, linear_srgb_to_xyz, xyz_to_linear_srgb};

@@ -41,7 +41,7 @@ impl Palette {
     pub fn new(scene: &Scene, config: &Config) -> Self {
         let mut palette =
             Self { swatches: Vec::new(), interpolation: config.interpolated(), scale: config.hue_scale };
-        palette.swatches = scene.colors.iter().map(|color| palette.read(color)).collect();
+        palette.swatches = scene.colors.iter().map(|color| palette.read(scene, color)).collect();
         palette
     }
 
@@ -68,13 +68,13 @@ impl Palette {
         Swatch { tint, saturation: color.saturation, value: color.value }
     }
 
-    fn read(&self, color: &Color) -> Swatch {
+    fn read(&self, scene: &Scene, color: &Color) -> Swatch {
         match color.value {
             // Taken as it is: a wavelength the eye cannot see has no hue.
             ColorValue::Hsv { value, hue: tint, saturation } if self.scale == HueScale::Wavelengths => {
                 Swatch { tint, saturation, value }
             }
-            _ => self.swatch(ugscene::hsv(color, self.scale)),
+            _ => self.swatch(ugscene::hsv(scene, color, self.scale)),
         }
     }
 }

@@ -2,9 +2,10 @@
 
 use glam::DVec3;
 use ugparse::{Color, ColorId, ColorValue, Scene};
-use ugphysics::{Hsv, srgb_decode, srgb_encode, wavelength_to_hue};
+use ugphysics::{Hsv, srgb_decode, srgb_encode, wavelength_to_hue, xyz_to_linear_srgb};
+use ugspectrum::Spectrum;
 
-use crate::corner_angle;
+use crate::{Shares, vertex_shares};
 
 /// What the hue field of `c` statements holds.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -17,14 +18,15 @@ pub enum HueScale {
 }
 
 /// A colour statement as HSV, hue in degrees. Wavelengths outside 380…780 nm
-/// become the hue at that end, (P16). What no screen can show is cut to what it
-/// can. Black bodies and spectra count as white, see [`spectra_note`].
-pub fn hsv(color: &Color, scale: HueScale) -> Hsv {
+/// become the hue at that end, (P16). Black bodies and spectra count with their
+/// colour at rest, see [`spectra_note`]. What no screen can show is cut to what
+/// it can.
+pub fn hsv(scene: &Scene, color: &Color, scale: HueScale) -> Hsv {
     match color.value {
         ColorValue::Rgb(rgb) => Hsv::from_rgb(rgb),
-        ColorValue::Xyz(xyz) => Hsv::from_rgb(xyz_to_linear_srgb(xyz).map(srgb_encode)),
+        ColorValue::Xyz(xyz) => shown(xyz),
         ColorValue::Blackbody { .. } | ColorValue::Spectrum { .. } => {
-            Hsv { hue: 0.0, saturation: 0.0, value: 1.0 }
+            shown(spectrum(scene, color).0.seen(1.0))
         }
         ColorValue::Hsv { value, hue, saturation } => {
             let hue = match scale {
@@ -36,24 +38,48 @@ pub fn hsv(color: &Color, scale: HueScale) -> Hsv {
     }
 }
 
-/// Linear red, green and blue of the sRGB primaries from CIE X, Y, Z
-/// (IEC 61966-2-1); colours outside the triangle of the primaries are cut.
-fn xyz_to_linear_srgb([x, y, z]: [f64; 3]) -> [f64; 3] {
-    [
-        3.2406 * x - 1.5372 * y - 0.4986 * z,
-        -0.9689 * x + 1.8758 * y + 0.0415 * z,
-        0.0557 * x - 0.2040 * y + 1.0570 * z,
-    ]
-    .map(|channel| channel.max(0.0))
+/// X, Y, Z as the hue, saturation and value of a screen; colours outside the
+/// triangle of its primaries are cut.
+fn shown(xyz: [f64; 3]) -> Hsv {
+    Hsv::from_rgb(xyz_to_linear_srgb(xyz).map(|channel| srgb_encode(channel.max(0.0))))
 }
 
-/// What to tell the user of a scene with colours that [`hsv`] takes for white.
+/// The spectrum of a colour statement, hues in degrees: of `c`, `c_rgb` and
+/// `c_xyz` that of a surface of that colour (P20). True if it has this colour
+/// at rest exactly, which all have but a `c_xyz` that no smooth surface shows.
+pub fn spectrum(scene: &Scene, color: &Color) -> (Spectrum, bool) {
+    let of_screen = |rgb: [f64; 3]| (Spectrum::from_linear_srgb(rgb.map(srgb_decode)), true);
+    match color.value {
+        ColorValue::Rgb(rgb) => of_screen(rgb),
+        ColorValue::Hsv { value, hue, saturation } => of_screen(Hsv { hue, saturation, value }.to_rgb()),
+        ColorValue::Xyz(xyz) => Spectrum::from_xyz(xyz),
+        ColorValue::Blackbody { kelvin, scale } => (Spectrum::blackbody(kelvin, scale), true),
+        ColorValue::Spectrum { start, end } => {
+            (Spectrum::samples(&scene.samples[start as usize..end as usize]), true)
+        }
+    }
+}
+
+/// What to tell the user of a scene with spectra of which [`hsv`] takes the
+/// colour at rest only: those that something is drawn or lit with.
 pub fn spectra_note(scene: &Scene) -> Option<String> {
-    let is_spectrum =
-        |color: &Color| matches!(color.value, ColorValue::Blackbody { .. } | ColorValue::Spectrum { .. });
-    let color = scene.colors.iter().find(|color| is_spectrum(color))?;
-    let name = scene.names.get(color.name);
-    Some(format!("black bodies and spectra are not drawn yet: colour `{name}` and its like count as white"))
+    let is_spectrum = |id: &ColorId| {
+        matches!(scene.colors[id.index()].value, ColorValue::Blackbody { .. } | ColorValue::Spectrum { .. })
+    };
+    // A colour of the vertices beats that of their face.
+    let needs_color = |rows: &std::ops::Range<u32>| {
+        let corners = scene.contours.corners(rows.clone());
+        corners.iter().any(|corner| scene.vertices[corner.index()].color.is_none())
+    };
+    let vertices = scene.vertices.iter().filter_map(|vertex| vertex.color);
+    let faces = scene.faces.iter().filter(|face| needs_color(&face.contours)).filter_map(|face| face.color);
+    let wires = scene.wires.iter().filter(|wire| needs_color(&wire.contours)).filter_map(|wire| wire.color);
+    let lights = scene.lights.iter().filter_map(|light| light.color);
+    let color = vertices.chain(faces).chain(wires).chain(lights).find(is_spectrum)?;
+    let name = scene.names.get(scene.colors[color.index()].name);
+    Some(format!(
+        "black bodies and spectra count with their colour at rest (colour `{name}`): `ugdoppler -sp` shifts them as spectra"
+    ))
 }
 
 /// The colour of a vertex.
@@ -78,111 +104,32 @@ pub enum VertexColor {
 /// `positions`: one for each vertex, in the rest frame of its body, where
 /// angles do not depend on the speed.
 pub fn vertex_colors(scene: &Scene, positions: &[DVec3], scale: HueScale) -> Vec<VertexColor> {
-    let mut sums: Vec<Sum> = scene.vertices.iter().map(|vertex| Sum::new(vertex.color)).collect();
-    let mut use_colour = |contour: &[ugparse::VertexId], color: Option<ColorId>, weighted: bool| {
-        for (idx, corner) in contour.iter().enumerate() {
-            let weight = || if weighted { corner_angle(contour, idx, positions) } else { 1.0 };
-            sums[corner.index()].add(scene, scale, color, weight);
-        }
+    let shares = vertex_shares(scene, positions);
+    // Decoding is slow, and most scenes have no vertex of several colours.
+    let linear: Vec<DVec3> = if shares.iter().any(|share| matches!(share, Shares::Mixed(_))) {
+        let rgb = |color| hsv(scene, color, scale).to_rgb().map(srgb_decode);
+        scene.colors.iter().map(|color| DVec3::from_array(rgb(color))).collect()
+    } else {
+        Vec::new()
     };
-    for face in &scene.faces {
-        scene.face_contours(face).for_each(|contour| use_colour(contour, face.color, true));
-    }
-    // Wires speak only for vertices that no face uses.
-    let used_by_faces: Vec<bool> = if scene.wires.is_empty() { Vec::new() } else { face_vertices(scene) };
-    for wire in &scene.wires {
-        for corner in scene.wire_contours(wire).flatten() {
-            if !used_by_faces[corner.index()] {
-                use_colour(std::slice::from_ref(corner), wire.color, false);
-            }
-        }
-    }
-    sums.into_iter().map(Sum::finish).collect()
+    shares
+        .into_iter()
+        .map(|share| match share {
+            Shares::One(color) => color.map_or(VertexColor::White, VertexColor::Named),
+            Shares::Mixed(parts) => mean(scene, &linear, &parts),
+        })
+        .collect()
 }
 
-fn face_vertices(scene: &Scene) -> Vec<bool> {
-    let mut used = vec![false; scene.vertices.len()];
-    for face in &scene.faces {
-        scene.contours.corners(face.contours.clone()).iter().for_each(|corner| used[corner.index()] = true);
+/// The mean of colours; `linear` is the linear RGB of each colour of the scene.
+fn mean(scene: &Scene, linear: &[DVec3], parts: &[(Option<ColorId>, f64)]) -> VertexColor {
+    let mut sum = DVec3::ZERO;
+    let mut translucency = 0.0;
+    for &(color, share) in parts {
+        sum += color.map_or(DVec3::ONE, |color| linear[color.index()]) * share;
+        translucency += color.map_or(0.0, |color| scene.colors[color.index()].translucency) * share;
     }
-    used
-}
-
-/// The colours met at a vertex so far.
-enum Sum {
-    /// Given by the vertex itself; nothing changes it.
-    Own(ColorId),
-    Nothing,
-    /// One colour only; its weight is needed if another comes.
-    One {
-        color: Option<ColorId>,
-        weight: f64,
-    },
-    Many(Box<Mean>),
-}
-
-impl Sum {
-    fn new(own: Option<ColorId>) -> Self {
-        own.map_or(Self::Nothing, Self::Own)
-    }
-
-    fn add(&mut self, scene: &Scene, scale: HueScale, color: Option<ColorId>, weight: impl Fn() -> f64) {
-        match self {
-            Self::Own(_) => {}
-            Self::Nothing => *self = Self::One { color, weight: weight() },
-            Self::One { color: first, weight: sum } if *first == color => *sum += weight(),
-            Self::One { color: first, weight: sum } => {
-                let mut mean = Box::<Mean>::default();
-                mean.add(scene, scale, *first, *sum);
-                mean.add(scene, scale, color, weight());
-                *self = Self::Many(mean);
-            }
-            Self::Many(mean) => mean.add(scene, scale, color, weight()),
-        }
-    }
-
-    fn finish(self) -> VertexColor {
-        match self {
-            Self::Own(color) | Self::One { color: Some(color), .. } => VertexColor::Named(color),
-            Self::Nothing | Self::One { color: None, .. } => VertexColor::White,
-            Self::Many(mean) => mean.finish(),
-        }
-    }
-}
-
-/// A weighted mean of colours in linear RGB.
-#[derive(Default)]
-struct Mean {
-    linear: DVec3,
-    translucency: f64,
-    weight: f64,
-}
-
-impl Mean {
-    fn add(&mut self, scene: &Scene, scale: HueScale, color: Option<ColorId>, weight: f64) {
-        let (rgb, translucency) = match color {
-            Some(color) => {
-                let color = &scene.colors[color.index()];
-                (hsv(color, scale).to_rgb(), color.translucency)
-            }
-            None => ([1.0; 3], 0.0),
-        };
-        self.linear += DVec3::from_array(rgb.map(srgb_decode)) * weight;
-        self.translucency += translucency * weight;
-        self.weight += weight;
-    }
-
-    fn finish(&self) -> VertexColor {
-        // Corners without an angle, all of them: as good as no colour.
-        if self.weight <= 0.0 {
-            return VertexColor::White;
-        }
-        let linear = self.linear / self.weight;
-        VertexColor::Mixed {
-            hsv: Hsv::from_rgb(linear.to_array().map(srgb_encode)),
-            translucency: self.translucency / self.weight,
-        }
-    }
+    VertexColor::Mixed { hsv: Hsv::from_rgb(sum.to_array().map(srgb_encode)), translucency }
 }
 
 #[cfg(test)]
@@ -232,19 +179,21 @@ mod tests {
         );
     }
 
-    /// The white and the primaries of sRGB, as IEC 61966-2-1 gives them.
     #[test]
-    fn xyz_of_the_screen_is_rgb() {
-        let primaries = [
-            ([0.9505, 1.0, 1.0890], [1.0, 1.0, 1.0]),
-            ([0.4124, 0.2126, 0.0193], [1.0, 0.0, 0.0]),
-            ([0.3576, 0.7152, 0.1192], [0.0, 1.0, 0.0]),
-            ([0.1805, 0.0722, 0.9505], [0.0, 0.0, 1.0]),
-        ];
-        for (xyz, rgb) in primaries {
-            let found = xyz_to_linear_srgb(xyz);
-            // The standard rounds both matrices to four decimals.
-            assert!(found.iter().zip(rgb).all(|(a, b)| (a - b).abs() < 5e-4), "{xyz:?}: {found:?}");
-        }
+    fn black_bodies_and_spectra_have_their_colour_at_rest() {
+        let shown = |statement: &str| {
+            let source = ugparse::Source::new("t.ug", statement);
+            let scene = ugparse::parse(&source, &ugparse::Options::default()).unwrap().scene;
+            hsv(&scene, &scene.colors[0], HueScale::Degrees)
+        };
+        // Reddish below the temperature of daylight, bluish above, and as bright as the scale says.
+        assert!((15.0..45.0).contains(&shown("c_bb glow 3000 0.2;").hue));
+        assert!((210.0..240.0).contains(&shown("c_bb star 15000 0.2;").hue));
+        let linear = shown("c_bb glow 5000 0.2;").to_rgb().map(srgb_decode);
+        assert!((ugphysics::luminance(linear) - 0.2).abs() < 1e-4);
+        // Lines of a nanometre: no screen shows them, but their hues are plain.
+        assert!((shown("c_spd sodium 588 0 589 100 590 0;").hue - 40.0).abs() < 10.0);
+        assert!((shown("c_spd green 531 0 532 100 533 0;").hue - 120.0).abs() < 20.0);
+        assert_eq!(shown("c_spd infrared 900 1 1000 1;").value, 0.0);
     }
 }

@@ -4,7 +4,8 @@
 //! which body a vertex belongs to and how that body moves ([`Bodies`],
 //! [`separate_bodies`]), where it rests when it is seen here ([`Geometry`],
 //! [`rest_positions`], equation (P4)), its normal ([`smooth_normals`]), the
-//! colour it gets from the faces round it ([`vertex_colors`]), and what triangles
+//! colour it gets from the faces round it ([`vertex_colors`]), the spectrum a
+//! colour stands for ([`spectrum`]), and what triangles
 //! make up a polygon ([`triangulate`]). All programs
 //! must agree on these, so they are written once, here.
 //!
@@ -27,13 +28,15 @@ mod geometry;
 mod history;
 mod normals;
 mod polygon;
+mod shares;
 mod split;
 
 pub use bodies::{Bodies, separate_bodies, vertex_velocities};
-pub use colors::{HueScale, VertexColor, hsv, spectra_note, vertex_colors};
+pub use colors::{HueScale, VertexColor, hsv, spectra_note, spectrum, vertex_colors};
 pub use eye::{at_eye_error, eye, vertex_at_eye};
 pub use geometry::{Geometry, rest_positions};
 pub use history::{history, record};
 pub use normals::{corner_angle, smooth_normals};
 pub use polygon::{Triangle, is_convex, triangulate};
+pub use shares::{Shares, vertex_shares};
 pub use split::split_vertices;

@@ -1,0 +1,74 @@
+//! Between CIE X, Y, Z and the red, green and blue of a screen.
+
+/// X, Y, Z of the white of the screen: CIE illuminant D65 weighed by the CIE 1931 observer, Y = 1.  Eq. (P19)
+///
+/// By the tables at 1 nm; the standard rounds its chromaticity to four digits, and so Z to 1.089.
+pub const WHITE_XYZ: [f64; 3] = [0.9504693596190847, 1.0, 1.0888220674507918];
+
+/// Chromaticities x, y of the primaries (IEC 61966-2-1).
+const PRIMARIES: [[f64; 2]; 3] = [[0.64, 0.33], [0.30, 0.60], [0.15, 0.06]];
+
+const XYZ_FROM_RGB: [[f64; 3]; 3] = xyz_from_rgb();
+const RGB_FROM_XYZ: [[f64; 3]; 3] = inverse(XYZ_FROM_RGB);
+
+/// Linear red, green and blue with the sRGB primaries from X, Y, Z; the white of D65 is 1 1 1. A colour outside of the
+/// triangle of the primaries has a negative channel.  Eq. (P19)
+///
+/// ```
+/// let [red, green, blue] = ugphysics::xyz_to_linear_srgb(ugphysics::WHITE_XYZ);
+/// assert!((red - 1.0).abs() < 1e-14 && (green - 1.0).abs() < 1e-14 && (blue - 1.0).abs() < 1e-14);
+/// ```
+#[must_use]
+pub fn xyz_to_linear_srgb(xyz: [f64; 3]) -> [f64; 3] {
+    times(RGB_FROM_XYZ, xyz)
+}
+
+/// X, Y, Z of linear red, green and blue with the sRGB primaries: the inverse of [`xyz_to_linear_srgb`].  Eq. (P19)
+///
+/// ```
+/// let [_, luminance, _] = ugphysics::linear_srgb_to_xyz([0.0, 1.0, 0.0]);
+/// assert!((luminance - 0.7152).abs() < 1e-4);
+/// ```
+#[must_use]
+pub fn linear_srgb_to_xyz(rgb: [f64; 3]) -> [f64; 3] {
+    times(XYZ_FROM_RGB, rgb)
+}
+
+const fn times(m: [[f64; 3]; 3], v: [f64; 3]) -> [f64; 3] {
+    [
+        m[0][0] * v[0] + m[0][1] * v[1] + m[0][2] * v[2],
+        m[1][0] * v[0] + m[1][1] * v[1] + m[1][2] * v[2],
+        m[2][0] * v[0] + m[2][1] * v[1] + m[2][2] * v[2],
+    ]
+}
+
+/// Columns are the primaries, each as bright as makes their sum white.
+const fn xyz_from_rgb() -> [[f64; 3]; 3] {
+    let [[xr, yr], [xg, yg], [xb, yb]] = PRIMARIES;
+    let columns = [
+        [xr / yr, xg / yg, xb / yb],
+        [1.0, 1.0, 1.0],
+        [(1.0 - xr - yr) / yr, (1.0 - xg - yg) / yg, (1.0 - xb - yb) / yb],
+    ];
+    let bright = times(inverse(columns), WHITE_XYZ);
+    let mut scaled = columns;
+    let mut row = 0;
+    while row < 3 {
+        let mut column = 0;
+        while column < 3 {
+            scaled[row][column] *= bright[column];
+            column += 1;
+        }
+        row += 1;
+    }
+    scaled
+}
+
+const fn inverse([[a, b, c], [d, e, f], [g, h, i]]: [[f64; 3]; 3]) -> [[f64; 3]; 3] {
+    let whole = a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g);
+    [
+        [(e * i - f * h) / whole, (c * h - b * i) / whole, (b * f - c * e) / whole],
+        [(f * g - d * i) / whole, (a * i - c * g) / whole, (c * d - a * f) / whole],
+        [(d * h - e * g) / whole, (b * g - a * h) / whole, (a * e - b * d) / whole],
+    ]
+}

@@ -1,0 +1,64 @@
+//! Light of a black body.
+
+use crate::cie_1931::FIRST_NM;
+use crate::observer::{SUM_Y, weigh};
+
+/// The second radiation constant hc/k, nm K (CODATA 2018; exact since 2019 but for its digits).
+const SECOND_RADIATION_NM_K: f64 = 1.438776877e7;
+
+/// The first radiation constant for radiance 2hc², W nm⁴ m⁻² sr⁻¹: so that λ in nm gives radiance per nm.
+const FIRST_RADIATION: f64 = 1.191042972e20;
+
+/// Temperatures are taken from this range, kelvins.
+const COLDEST: f64 = 1e-6;
+const HOTTEST: f64 = 1e15;
+
+/// Spectral radiance of a black body, W m⁻² sr⁻¹ nm⁻¹, at a wavelength in nm and a temperature in kelvins, both
+/// above 0: Planck's law.  Eq. (P13)
+///
+/// ```
+/// // The Sun, nearly, and where it is brightest (Wien).
+/// let at = |nm| ugspectrum::planck(nm, 5800.0);
+/// assert!(at(499.6) > at(498.0) && at(499.6) > at(501.0));
+/// ```
+#[must_use]
+pub fn planck(wavelength_nm: f64, kelvin: f64) -> f64 {
+    let square = wavelength_nm * wavelength_nm;
+    let fifth = square * square * wavelength_nm;
+    FIRST_RADIATION / (fifth * libm::expm1(SECOND_RADIATION_NM_K / (wavelength_nm * kelvin)))
+}
+
+/// ln X, ln Y, ln Z of a black body's radiance, in one unit for all temperatures. Logarithms, because what is cold
+/// shines too faintly for an f64: at 30 K, Y is e⁻⁵⁷⁸.  Eq. (P13), (P19)
+pub(crate) fn ln_xyz(kelvin: f64) -> [f64; 3] {
+    // Beyond, exponents are no numbers any more.
+    let kelvin = kelvin.clamp(COLDEST, HOTTEST);
+    let exponent = |wavelength_nm: f64| SECOND_RADIATION_NM_K / (wavelength_nm * kelvin);
+    // The least exponent, at the red end of the table.
+    let least = exponent((FIRST_NM + crate::cie_1931::CIE_1931.len() - 1) as f64);
+    let fifth = |nm: f64| 1e13 / (nm * nm * (nm * nm) * nm);
+    if least < 1.0 {
+        return weigh(|_, nm| fifth(nm) / libm::expm1(exponent(nm))).map(|sum| libm::log(sum / SUM_Y));
+    }
+    // 1/(e^x − 1) without its factor e^(−least).
+    let factor = libm::exp(-least);
+    let sums = weigh(|_, nm| {
+        let rest = libm::exp(least - exponent(nm));
+        fifth(nm) * rest / (1.0 - rest * factor)
+    });
+    sums.map(|sum| libm::log(sum / SUM_Y) - least)
+}
+
+/// How many times brighter (Y) a black body is than another, by their temperatures in kelvins.
+///
+/// To give black bodies of one scene the brightness that their temperatures have: the scale of each is its
+/// ratio to a common reference.
+///
+/// ```
+/// let ratio = ugspectrum::blackbody_luminance_ratio(3348.631561, 5800.0);
+/// assert!((ratio - 0.0387105).abs() < 1e-7);
+/// ```
+#[must_use]
+pub fn blackbody_luminance_ratio(kelvin: f64, reference_kelvin: f64) -> f64 {
+    libm::exp(ln_xyz(kelvin)[1] - ln_xyz(reference_kelvin)[1])
+}

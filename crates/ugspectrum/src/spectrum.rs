@@ -1,0 +1,119 @@
+//! A spectrum, and what it looks like in motion.
+
+use std::sync::Arc;
+
+use ugphysics::{linear_srgb_to_xyz, luminance, xyz_to_linear_srgb};
+
+use crate::reflectance::Reflectance;
+use crate::shifted::MOST;
+use crate::{blackbody, samples};
+
+/// Light over all wavelengths, as it is at rest.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Spectrum(pub(crate) Kind);
+
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Kind {
+    /// What a surface sends back of daylight.
+    Reflected(Reflectance),
+    /// Planck's law with a given Y at rest.
+    Blackbody { kelvin: f64, luminance: f64 },
+    /// Samples (nm, radiance).
+    Samples(Arc<[[f64; 2]]>),
+}
+
+impl Spectrum {
+    /// A surface of that linear red, green and blue (sRGB primaries) under daylight, (P20). Channels below 0 and colours
+    /// outside of what smooth surfaces can have: see [`Spectrum::from_xyz`].
+    #[must_use]
+    pub fn from_linear_srgb(rgb: [f64; 3]) -> Self {
+        Self::from_xyz(linear_srgb_to_xyz(rgb)).0
+    }
+
+    /// A surface of that X, Y, Z under daylight, (P20); true if it has exactly this colour at rest. Colours more
+    /// saturated than a smooth surface can be are brought toward the grey of the same Y, to the edge of what a screen shows; a
+    /// negative Y is black.
+    #[must_use]
+    pub fn from_xyz(xyz: [f64; 3]) -> (Self, bool) {
+        let rgb = tidy(xyz_to_linear_srgb(xyz));
+        // Outside of the triangle only dim surfaces are saturated enough, so the factor is larger.
+        let exact = Reflectance::from_linear_srgb(rgb);
+        let is_exact = exact.is_some();
+        let surface = exact.or_else(|| Reflectance::from_linear_srgb(in_gamut(rgb)));
+        let black = Reflectance::default();
+        (Self(Kind::Reflected(surface.unwrap_or(black))), is_exact)
+    }
+
+    /// A black body of that temperature, above 0, whose Y at rest is `scale`, (P13).
+    #[must_use]
+    pub fn blackbody(kelvin: f64, scale: f64) -> Self {
+        Self(Kind::Blackbody { kelvin, luminance: scale })
+    }
+
+    /// Radiance by samples (nm, value) at rising wavelengths, linear between them and 0 outside.
+    #[must_use]
+    pub fn samples(samples: &[[f64; 2]]) -> Self {
+        Self(Kind::Samples(samples.into()))
+    }
+
+    /// X, Y, Z as seen with Doppler factor D, above 0: of L(λ) = D⁵ L'(λD).  Eq. (P12), (P19)
+    ///
+    /// ```
+    /// use ugspectrum::Spectrum;
+    ///
+    /// // White is the white of the screen, and bluish and brighter when it comes nearer.
+    /// let white = Spectrum::from_linear_srgb([1.0; 3]);
+    /// assert!((white.seen(1.0)[1] - 1.0).abs() < 1e-12);
+    /// let [x, y, z] = white.seen(1.2);
+    /// assert!(y > 2.0 && z / y > 1.2 && x > 0.0);
+    /// ```
+    #[must_use]
+    pub fn seen(&self, doppler: f64) -> [f64; 3] {
+        let square = doppler * doppler;
+        self.shifted(doppler).map(|part| part * (square * square * doppler))
+    }
+
+    /// X, Y, Z of the shifted spectrum L(λ) = L'(λD), without the factor D⁵ of (P12). D is taken from e⁻¹⁰⁰ to e¹⁰⁰.
+    #[must_use]
+    pub fn shifted(&self, doppler: f64) -> [f64; 3] {
+        let doppler = doppler.clamp(libm::exp(-MOST), libm::exp(MOST));
+        match &self.0 {
+            Kind::Reflected(surface) => surface.xyz(doppler),
+            Kind::Blackbody { .. } => self.ln_shifted(doppler).map(libm::exp),
+            Kind::Samples(samples) => samples::xyz(samples, doppler),
+        }
+    }
+
+    /// ln of [`Spectrum::shifted`]; −∞ for no light.
+    pub(crate) fn ln_shifted(&self, doppler: f64) -> [f64; 3] {
+        match self.0 {
+            Kind::Blackbody { kelvin, luminance } => {
+                // (P13): L'(λD) at T is D⁻⁵ times L at D·T.
+                let offset = libm::log(luminance) - blackbody::ln_xyz(kelvin)[1] - 5.0 * libm::log(doppler);
+                blackbody::ln_xyz(kelvin * doppler).map(|ln| ln + offset)
+            }
+            _ => self.shifted(doppler).map(libm::log),
+        }
+    }
+}
+
+/// Channels that are 0, or grey, but for the rounding of X, Y, Z.
+fn tidy(rgb: [f64; 3]) -> [f64; 3] {
+    const ROUNDING: f64 = 1e-12;
+    let largest = rgb.iter().fold(0.0, |largest: f64, channel| largest.max(channel.abs()));
+    if rgb.iter().all(|channel| (channel - rgb[1]).abs() <= ROUNDING * largest) {
+        return [rgb[1]; 3];
+    }
+    rgb.map(|channel| if channel.abs() <= ROUNDING * largest { 0.0 } else { channel })
+}
+
+/// The colour mixed with the grey of its luminance until no channel is below 0.
+fn in_gamut(rgb: [f64; 3]) -> [f64; 3] {
+    let grey = luminance(rgb).max(0.0);
+    let least = rgb[0].min(rgb[1]).min(rgb[2]);
+    if grey <= 0.0 {
+        return [0.0; 3];
+    }
+    let keep = if least < 0.0 { grey / (grey - least) } else { 1.0 };
+    rgb.map(|channel| (grey + keep * (channel - grey)).max(0.0))
+}
