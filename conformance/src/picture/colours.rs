@@ -23,15 +23,8 @@ const PATCH: u32 = 100;
 pub fn measure_patches(sight: &Sight) -> Result<Vec<Measured>, String> {
     let center =
         |patch: usize, row: u32| sight.color(PATCH * patch as u32 + PATCH / 2, PATCH * row + PATCH / 2);
-    let mut found = Vec::new();
-    for (patch, (name, right)) in BLACK_BODIES.into_iter().enumerate() {
-        let levels = center(patch, 0).map(f64::from);
-        let xy = chromaticity(levels);
-        let tolerance = rounding(levels);
-        for (axis, i) in [("x", 0), ("y", 1)] {
-            found.push(Measured::new(format!("{axis} of {name}"), xy[i], right[i], tolerance[i]));
-        }
-    }
+    let bodies = BLACK_BODIES.into_iter().enumerate();
+    let mut found: Vec<_> = bodies.flat_map(|(patch, body)| measure_body(center(patch, 0), body)).collect();
     for (patch, grey) in GREYS.into_iter().enumerate() {
         let right = 255.0 * srgb_encode(grey);
         for (name, level) in ["red", "green", "blue"].into_iter().zip(center(patch, 1)) {
@@ -40,6 +33,28 @@ pub fn measure_patches(sight: &Sight) -> Result<Vec<Measured>, String> {
         }
     }
     Ok(found)
+}
+
+/// Four bodies of 3000 K in one row; those of 2000, 5800 and 10045.89 K as they are seen are known from T22.
+pub fn measure_moving(sight: &Sight) -> Result<Vec<Measured>, String> {
+    let [cold, rest, white, blue] = [0, 1, 2, 4].map(|idx| BLACK_BODIES[idx]);
+    let center = |patch: usize| sight.color(PATCH * patch as u32 + PATCH / 2, PATCH / 2);
+    let mut found = Vec::new();
+    for (patch, body) in [cold, rest, white, blue].into_iter().enumerate() {
+        let color = center(patch);
+        let lit = f64::from(color.into_iter().max().unwrap_or(0));
+        found.push(Measured::at_least(format!("brightest channel of {}, level", body.0), lit, 100.0));
+        found.extend(measure_body(color, body));
+    }
+    Ok(found)
+}
+
+/// Both coordinates of a black body's colour.
+fn measure_body(color: [u8; 3], (name, right): (&str, [f64; 2])) -> [Measured; 2] {
+    let levels = color.map(f64::from);
+    let (xy, tolerance) = (chromaticity(levels), rounding(levels));
+    [("x", 0), ("y", 1)]
+        .map(|(axis, i)| Measured::new(format!("{axis} of {name}"), xy[i], right[i], tolerance[i]))
 }
 
 /// CIE x, y of what an sRGB screen shows (IEC 61966-2-1).

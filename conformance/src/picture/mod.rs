@@ -40,6 +40,8 @@ struct Switches {
     in_place: bool,
     /// Colours are shifted.
     shift: bool,
+    /// Not by their hues but as spectra.
+    spectral: bool,
     /// Samples along the side of a pixel.
     samples: u32,
 }
@@ -106,10 +108,10 @@ impl fmt::Display for Measured {
     }
 }
 
-const SHAPE: Switches = Switches { in_place: false, shift: false, samples: 1 };
+const SHAPE: Switches = Switches { in_place: false, shift: false, spectral: false, samples: 1 };
 
 /// All cases.
-pub const CASES: [PictureCase; 7] = [
+pub const CASES: [PictureCase; 8] = [
     PictureCase {
         name: "sphere",
         about: "T11: the outline of a fast sphere is a circle in the sphere of directions",
@@ -147,7 +149,7 @@ pub const CASES: [PictureCase; 7] = [
         about: "T19: D depends on the direction, not on the shape of the picture",
         scene: include_str!("../../scenes/wide.ug"),
         size: [640, 360],
-        switches: Switches { shift: true, samples: 2, in_place: false },
+        switches: Switches { shift: true, samples: 2, ..SHAPE },
         measure: colours::measure_wide,
     },
     PictureCase {
@@ -155,15 +157,23 @@ pub const CASES: [PictureCase; 7] = [
         about: "T22: the shift is applied once",
         scene: include_str!("../../scenes/shift.ug"),
         size: [400, 200],
-        switches: Switches { shift: true, samples: 2, in_place: false },
+        switches: Switches { shift: true, samples: 2, ..SHAPE },
         measure: colours::measure_shift,
+    },
+    PictureCase {
+        name: "blackbody",
+        about: "T22: a moving black body has the colour of a hotter or colder one",
+        scene: include_str!("../../scenes/blackbody.ug"),
+        size: [400, 100],
+        switches: Switches { shift: true, spectral: true, samples: 2, ..SHAPE },
+        measure: colours::measure_moving,
     },
     PictureCase {
         name: "colours",
         about: "T22: black bodies and greys on an sRGB screen",
         scene: include_str!("../../scenes/colours.ug"),
         size: [600, 200],
-        switches: Switches { shift: false, samples: 2, in_place: false },
+        switches: Switches { samples: 2, ..SHAPE },
         measure: colours::measure_patches,
     },
 ];
@@ -211,6 +221,7 @@ impl PictureCase {
         let doppler = ugdoppler::Config {
             repeat: true,
             doppler: self.switches.shift,
+            spectral: self.switches.spectral,
             flux: false,
             ..Default::default()
         };
