@@ -253,7 +253,7 @@ def t06():
         for kind, side, printed in [("rod_approaching", -1, coming), ("rod_receding", 1, going)]:
             ends = [seen(vec(side * x, 0, 0), v) for x in (1, 2)]
             contracted = 1 / gamma(v)
-            ask(f"{kind} {b}", norm(plus(ends[0], -1, ends[1])), "Weiskopf 2000", printed=printed, M1=contracted)
+            ask(f"{kind} {b}", norm(plus(ends[0], -1, ends[1])), OURS, printed=printed, M1=contracted)
 
 
 def t07():
@@ -390,7 +390,7 @@ def t14():
     for b, printed in [("0.5", None), ("0.9", "25.84193276"), ("0.99", "8.109614456"), ("0.999", "2.562558733")]:
         # Light that leaves at right angles in the body's frame.
         light = from_frame(along(b), [1, 0, 1, 0])
-        ask(f"headlight {b}", angle(light[1:], vec(1, 0, 0)), "Rindler, Relativity (2006), sec. 4.3", printed=printed)
+        ask(f"headlight {b}", angle(light[1:], vec(1, 0, 0)), "Rindler, Relativity (2006), ch. 4", printed=printed)
 
 
 def t15():
@@ -731,7 +731,7 @@ def t30():
         t = mp.quad(lambda s: mp.cosh(A * s), [0, T])
         x = mp.quad(lambda s: mp.sinh(A * s), [0, T])
         swapped = A * T / mp.sqrt(1 + (A * T) ** 2)
-        ask(f"hyperbolic {a} {tau}", [mp.tanh(A * T), mp.cosh(A * T), t, x], "Rindler 1960; Misner, Thorne & Wheeler 1973, sec. 6.2", printed=printed,
+        ask(f"hyperbolic {a} {tau}", [mp.tanh(A * T), mp.cosh(A * T), t, x], "Misner, Thorne & Wheeler 1973, sec. 6.2", printed=printed,
             M11=[swapped, mp.sqrt(1 + (A * T) ** 2), T, (mp.sqrt(1 + (A * T) ** 2) - 1) / A])
     for a, distance, printed in [(shown, "1", "0.75164632520818 2.20790858467672 1.8923437798616"), ("2", "10", None)]:
         A, half = mpf(a), mpf(distance) / 2
