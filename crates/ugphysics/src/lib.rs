@@ -49,26 +49,34 @@
 
 mod aberration;
 mod ambient;
+mod apparent;
 mod color;
 mod doppler;
 mod exact;
 mod hue;
+mod hyperbolic;
 mod illumination;
 mod light;
 mod lorentz;
+mod point_light;
 mod velocity;
+mod wave;
 mod xyz;
 
 pub use aberration::aberrate;
 pub use ambient::{SkyRing, ambient_illumination};
+pub use apparent::{apparent_velocity, contracted_normal};
 pub use color::{Hsv, luminance, srgb_decode, srgb_encode};
 pub use doppler::{Brightness, doppler_at, doppler_factor};
 pub use hue::{
     CONTROL_POINTS, ControlPoint, RED_END_NM, VIOLET_END_NM, attenuation, hue_to_wavelength,
     wavelength_to_hue,
 };
+pub use hyperbolic::Hyperbolic;
 pub use illumination::{Illumination, illumination, illumination_from_afar};
 pub use light::{Event, contracted, flight_time, observer_shift, rest_position, seen_event, seen_position};
 pub use lorentz::{Lorentz, compose, wigner_rotation};
+pub use point_light::irradiance;
 pub use velocity::{Velocity, VelocityError};
+pub use wave::{Slab, Wave, light_in_glass, reflect, refract};
 pub use xyz::{WHITE_XYZ, linear_srgb_to_xyz, xyz_to_linear_srgb};

@@ -8,6 +8,7 @@ mod illumination;
 mod laws;
 mod numbers;
 mod reference;
+mod surfaces;
 mod velocity;
 
 use glam::DVec3;

@@ -1,0 +1,63 @@
+//! Wavelengths and what a screen shows.
+
+use ugparse::{ColorValue, Options, Source};
+use ugphysics::{RED_END_NM, VIOLET_END_NM, srgb_encode, wavelength_to_hue};
+use ugspectrum::{Spectrum, blackbody_luminance_ratio, planck};
+
+use super::numbers::{Answer, exactly};
+
+pub const KINDS: &[(&str, Answer)] = &[
+    ("blackbody_temperature", |given| {
+        let [kelvin, doppler] = exactly(given)?;
+        // Every wavelength is divided by D, that of the maximum, too.
+        Some(vec![kelvin * doppler])
+    }),
+    ("blackbody_radiance_ratio", |given| {
+        let [kelvin, doppler, wavelength_nm] = exactly(given)?;
+        // What is seen there was sent at λD, and a unit of wavelength here is D units there (P12).
+        let square = doppler * doppler;
+        let seen = square * square * doppler * planck(wavelength_nm * doppler, kelvin);
+        Some(vec![seen / planck(wavelength_nm, kelvin)])
+    }),
+    ("blackbody_xy", |given| {
+        let [kelvin] = exactly(given)?;
+        let [x, y, z] = Spectrum::blackbody(kelvin, 1.0).seen(1.0);
+        Some(vec![x / (x + y + z), y / (x + y + z)])
+    }),
+    ("blackbody_luminance_ratio", |given| {
+        let [kelvin, reference_kelvin] = exactly(given)?;
+        Some(vec![blackbody_luminance_ratio(kelvin, reference_kelvin)])
+    }),
+    ("wavelength_seen", |given| {
+        let [wavelength_nm, doppler] = exactly(given)?;
+        wavelength_seen(wavelength_nm, doppler).map(|seen| vec![seen])
+    }),
+    ("srgb_encode", |given| {
+        let [linear] = exactly(given)?;
+        Some(vec![srgb_encode(linear)])
+    }),
+];
+
+/// Sends a triangle of one wavelength through `ugdoppler`, moving straight at the eye or away from it.
+fn wavelength_seen(wavelength_nm: f64, doppler: f64) -> Option<f64> {
+    // Only what is in sight has a hue to begin with.
+    if !(VIOLET_END_NM..=RED_END_NM).contains(&wavelength_nm) {
+        return None;
+    }
+    let square = doppler * doppler;
+    // D straight ahead is √((1 + β)/(1 − β)).
+    let toward = (square - 1.0) / (square + 1.0);
+    let hue = wavelength_to_hue(wavelength_nm);
+    let scene = format!(
+        "c color 1 {hue:?} 1; v a 10 0 0; v b 11 0 0; v d 10 1 0; f (a b d) color <{:?} 0 0>;",
+        -toward
+    );
+    let config = ugdoppler::Config { tolerance: 0.0, wavelengths: true, ..Default::default() };
+    let seen = ugdoppler::run(&config, &Source::new("wavelength.ug", scene)).ok()?.text();
+    let scene = ugparse::parse(&Source::new("seen.ug", seen), &Options::default()).ok()?.scene;
+    let color = scene.vertices.first()?.color?;
+    match scene.colors[color.index()].value {
+        ColorValue::Hsv { hue, .. } => Some(hue),
+        _ => None,
+    }
+}

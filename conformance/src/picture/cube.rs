@@ -1,0 +1,35 @@
+//! T08, T09: a unit cube at 0.8 c. One unit at its middle is 400 pixels.
+
+use super::sight::Hue;
+use super::{Measured, Sight};
+
+const SPEED: f64 = 0.8;
+const PER_UNIT: f64 = 400.0;
+
+pub fn measure(sight: &Sight) -> Result<Vec<Measured>, String> {
+    let [width, height] = sight.size();
+    let row: Vec<Hue> = (0..width).map(|x| sight.hue(x, height / 2)).collect();
+    let count = |hue| row.iter().filter(|&&pixel| pixel == hue).count() as f64;
+    let (front, side) = (count(Hue::Red), count(Hue::Green));
+    if front + side < 1.0 {
+        return Err("neither the red nor the green face is found in the middle row".to_string());
+    }
+    let last_green = row.iter().rposition(|&hue| hue == Hue::Green);
+    let first_red = row.iter().position(|&hue| hue == Hue::Red);
+    let is_left = f64::from(u8::from(last_green < first_red));
+    let rest = (1.0 - SPEED * SPEED).sqrt();
+    let turned_deg = libm::atan2(side, front).to_degrees();
+    // Half a pixel at both ends, and the depth of the cube: 1 in 2000.
+    let edges = 1.2;
+    Ok(vec![
+        Measured::new("front, pixels", front, rest * PER_UNIT, edges),
+        Measured::new("trailing side, pixels", side, SPEED * PER_UNIT, edges),
+        Measured::new("trailing side is on the left (1) or not (0)", is_left, 1.0, 0.0),
+        Measured::new(
+            "turned by, degrees",
+            turned_deg,
+            libm::asin(SPEED).to_degrees(),
+            (edges / PER_UNIT).to_degrees() * 1.5,
+        ),
+    ])
+}

@@ -1,0 +1,179 @@
+//! Answers against the suite.
+
+use std::collections::BTreeMap;
+use std::fmt::{self, Write};
+
+use crate::mistakes;
+use crate::suite::{Case, Topic};
+
+/// The answers of a program, by the id of the question.
+pub type Answers = BTreeMap<String, Vec<f64>>;
+
+/// A line of answers that cannot be read.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct BadAnswer {
+    /// From 1.
+    pub line: usize,
+    /// From 1, in bytes.
+    pub column: usize,
+    /// The word that is wrong.
+    pub word: String,
+    /// What is wrong with it.
+    pub what: &'static str,
+}
+
+impl fmt::Display for BadAnswer {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}:{}: `{}` {}", self.line, self.column, self.word, self.what)
+    }
+}
+
+impl std::error::Error for BadAnswer {}
+
+/// Reads answers: on each line an id and numbers. `-` in place of numbers is no answer, and neither are empty lines and
+/// those that begin with `#`. Numbers that are not finite can be given; they are wrong.
+///
+/// # Errors
+/// A word is not a number, an id is not one of the suite's, or stands twice.
+pub fn read_answers(text: &str, topics: &[Topic]) -> Result<Answers, BadAnswer> {
+    let is_known = |id: &str| topics.iter().flat_map(|topic| &topic.cases).any(|case| case.id == id);
+    let mut answers = Answers::new();
+    for (row, line) in text.lines().enumerate() {
+        let bad = |word: &str, what| BadAnswer {
+            line: row + 1,
+            column: word.as_ptr() as usize - line.as_ptr() as usize + 1,
+            word: word.chars().filter(|c| !c.is_control()).take(40).collect(),
+            what,
+        };
+        let mut words = line.split_ascii_whitespace();
+        let Some(id) = words.next().filter(|word| !word.starts_with('#')) else { continue };
+        if !is_known(id) {
+            return Err(bad(id, "is not the id of a question; `ugconformance questions` lists them"));
+        }
+        let mut values = Vec::new();
+        for word in words.filter(|&word| word != "-") {
+            values.push(word.parse().map_err(|_| bad(word, "is not a number"))?);
+        }
+        if values.is_empty() {
+            continue;
+        }
+        if answers.insert(id.to_string(), values).is_some() {
+            return Err(bad(id, "is answered twice"));
+        }
+    }
+    Ok(answers)
+}
+
+/// How a program did.
+#[derive(Clone, Debug)]
+pub struct Scorecard<'a> {
+    rows: Vec<Row<'a>>,
+    failures: Vec<Failure<'a>>,
+}
+
+#[derive(Clone, Debug)]
+struct Row<'a> {
+    topic: &'a Topic,
+    passed: usize,
+    failed: usize,
+    /// Of the answers given, relative to the tolerance.
+    worst: f64,
+}
+
+impl Row<'_> {
+    fn unanswered(&self) -> usize {
+        self.topic.cases.len() - self.passed - self.failed
+    }
+}
+
+#[derive(Clone, Debug)]
+struct Failure<'a> {
+    case: &'a Case,
+    answer: &'a [f64],
+}
+
+impl<'a> Scorecard<'a> {
+    /// Compares.
+    pub fn new(topics: &'a [Topic], answers: &'a Answers) -> Self {
+        let mut failures = Vec::new();
+        let rows = topics
+            .iter()
+            .map(|topic| {
+                let mut row = Row { topic, passed: 0, failed: 0, worst: 0.0 };
+                for case in &topic.cases {
+                    let Some(answer) = answers.get(&case.id) else { continue };
+                    let error = case.error(answer) / case.tolerance;
+                    row.worst = if error <= row.worst { row.worst } else { error };
+                    // A NaN is not within.
+                    if error <= 1.0 {
+                        row.passed += 1;
+                    } else {
+                        row.failed += 1;
+                        failures.push(Failure { case, answer });
+                    }
+                }
+                row
+            })
+            .collect();
+        Self { rows, failures }
+    }
+
+    /// Cases passed, failed, and without an answer.
+    pub fn counts(&self) -> [usize; 3] {
+        self.rows.iter().fold([0; 3], |[passed, failed, unanswered], row| {
+            [passed + row.passed, failed + row.failed, unanswered + row.unanswered()]
+        })
+    }
+
+    /// Ids of the cases that failed.
+    pub fn failed(&self) -> impl Iterator<Item = &str> {
+        self.failures.iter().map(|failure| failure.case.id.as_str())
+    }
+}
+
+impl fmt::Display for Scorecard<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(f, "topic  passed  failed  unanswered  worst error  about")?;
+        for row in &self.rows {
+            // In units of the tolerance, so that 1 is just right.
+            let worst = if row.passed + row.failed == 0 { "-".to_string() } else { short(row.worst) };
+            writeln!(
+                f,
+                "{:5}  {:6}  {:6}  {:10}  {worst:>11}  {}",
+                row.topic.name,
+                row.passed,
+                row.failed,
+                row.unanswered(),
+                row.topic.title
+            )?;
+        }
+        let [passed, failed, unanswered] = self.counts();
+        writeln!(f, "all    {passed:6}  {failed:6}  {unanswered:10}\n")?;
+        writeln!(f, "The worst error is in units of the tolerance: up to 1 is right.")?;
+        for Failure { case, answer } in &self.failures {
+            writeln!(f, "\n{}", case.question())?;
+            writeln!(f, "  answered {}", list(answer))?;
+            writeln!(f, "  right is {}  ({})", list(&case.expected), case.source)?;
+            writeln!(f, "  error {}, tolerance {:e}", short(case.error(answer)), case.tolerance)?;
+            for name in case.recognized(answer) {
+                writeln!(f, "  looks like {name}: {}", mistakes::what(name))?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// A few digits.
+fn short(value: f64) -> String {
+    if value == 0.0 { "0".to_string() } else { format!("{value:.1e}") }
+}
+
+fn list(values: &[f64]) -> String {
+    let mut text = String::new();
+    for (i, value) in values.iter().enumerate() {
+        let gap = if i == 0 { "" } else { " " };
+        // Writing to a string does not fail.
+        let _ = write!(text, "{gap}{value:?}");
+    }
+    text
+}

@@ -1,0 +1,285 @@
+//! The suite finds the mistakes it is made for: a copy of the crates gets them built in, each behind a switch, and every
+//! one of them must make at least one case fail.
+//!
+//! The copy lies in the target folder and shares its dependencies; only what changed is built again.
+
+use std::collections::BTreeMap;
+use std::env;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// A mistake, and what must fail with it.
+struct Mistake {
+    name: &'static str,
+    file: &'static str,
+    /// An expression that stands in the file once.
+    right: &'static str,
+    wrong: &'static str,
+    /// A case that finds it, or a topic.
+    found_by: &'static str,
+}
+
+/// Where our programs have no such code, the nearest takes its place. No program draws panoramas, so M10 is put into the
+/// aberration itself.
+const MISTAKES: [Mistake; 17] = [
+    Mistake {
+        name: "M1",
+        file: "crates/ugphysics/src/doppler.rs",
+        right: "to_observer / power_of_two_below(to_observer)",
+        wrong: "-crate::aberrate(-to_observer, v)",
+        found_by: "T19",
+    },
+    Mistake {
+        name: "M2",
+        file: "crates/ugphysics/src/velocity.rs",
+        right: "1.0 / gamma_inverse_squared.sqrt()",
+        wrong: "1.0 / gamma_inverse_squared",
+        found_by: "T01",
+    },
+    Mistake {
+        name: "M3",
+        file: "crates/ugphysics/src/lorentz.rs",
+        right: "v.split(u.proper())",
+        wrong: "(-v).split(u.proper())",
+        found_by: "T32",
+    },
+    Mistake {
+        name: "M4",
+        file: "crates/ugrainbow/src/camera.rs",
+        right: "half_width * samples[1] / samples[0]",
+        wrong: "half_width",
+        found_by: "wide",
+    },
+    Mistake {
+        name: "M5",
+        file: "crates/ugphysics/src/doppler.rs",
+        right: "square * square",
+        wrong: "square * doppler",
+        found_by: "T20",
+    },
+    Mistake {
+        name: "M6",
+        file: "crates/ugrainbow/src/drawlist.rs",
+        right: "scene
+            .vertices
+            .par_iter()
+            .map(|vertex| painter.view.place(vertex.position - painter.view.eye))
+            .collect()",
+        wrong: "scene
+            .vertices
+            .par_iter()
+            .enumerate()
+            .map(|(row, vertex)| {
+                let seen = vertex.position - painter.view.eye;
+                let distance = painter.surface.rest(VertexId::from_index(row)).length();
+                painter.view.place(seen * (distance / seen.length()))
+            })
+            .collect()",
+        found_by: "depth",
+    },
+    Mistake {
+        name: "M7",
+        file: "crates/ugdoppler/src/palette.rs",
+        right: "if shifts { doppler } else { 1.0 }",
+        wrong: "doppler * doppler",
+        found_by: "shift",
+    },
+    Mistake {
+        name: "M8",
+        file: "crates/ugphysics/src/point_light.rs",
+        right: "power * (doppler * doppler)",
+        wrong: "power * (doppler * doppler * doppler * doppler * doppler)",
+        found_by: "T25",
+    },
+    Mistake {
+        name: "M9",
+        file: "crates/ugphysics/src/aberration.rs",
+        right: "rest_position(d / d.abs().max_element(), v).normalize()",
+        wrong: "(d.normalize() + v.beta()).normalize()",
+        found_by: "T17",
+    },
+    Mistake {
+        name: "M10",
+        file: "crates/ugphysics/src/aberration.rs",
+        right: "rest_position(d / d.abs().max_element(), v).normalize()",
+        wrong: "{
+            let seen = rest_position(d, v).normalize();
+            let back = seen.dot(v.direction()).min(0.0);
+            seen - 2.0 * back * v.direction()
+        }",
+        found_by: "T13",
+    },
+    Mistake {
+        name: "M11",
+        file: "crates/ugphysics/src/hyperbolic.rs",
+        right: "libm::sinh(a * proper_time) / a",
+        wrong: "proper_time",
+        found_by: "T30",
+    },
+    Mistake {
+        name: "M12",
+        file: "crates/ugphysics/src/apparent.rs",
+        right: "n + v.gamma_minus_one() * along * v.direction()",
+        wrong: "n - (1.0 - 1.0 / v.gamma()) * along * v.direction()",
+        found_by: "T35",
+    },
+    Mistake {
+        name: "M13",
+        file: "crates/uglorentz/src/growth.rs",
+        right: "self.motions[body as usize].point(body, rest)",
+        wrong: "Point {
+            seen: used().map(|(parent, weight)| self.point(parent).seen * weight).sum(),
+            ..self.motions[body as usize].point(body, rest)
+        }",
+        found_by: "edge",
+    },
+    Mistake {
+        name: "M14",
+        file: "crates/ugimage/src/quantizer.rs",
+        right: "srgb_decode((level as f64 + 0.5) / 255.0) as f32",
+        wrong: "((level as f64 + 0.5) / 255.0) as f32",
+        found_by: "colours",
+    },
+    // The other half of M14: a matrix for another white.
+    Mistake {
+        name: "M14white",
+        file: "crates/ugphysics/src/xyz.rs",
+        right: "times(RGB_FROM_XYZ, xyz)",
+        wrong: "times(
+            [[2.3707, -0.9001, -0.4706], [-0.5139, 1.4253, 0.0886], [0.0053, -0.0147, 1.0094]],
+            xyz,
+        )",
+        found_by: "colours",
+    },
+    Mistake {
+        name: "M15",
+        file: "crates/ugphysics/src/velocity.rs",
+        right: "beta == DVec3::ZERO",
+        wrong: "beta.length() < 0.01",
+        found_by: "T18",
+    },
+    Mistake {
+        name: "M16",
+        file: "crates/ugphysics/src/doppler.rs",
+        right: "1.0 / stretch\n",
+        wrong: "f64::from(1.0_f32 / (v.gamma() as f32 * (1.0 - v.beta().dot(to_observer.normalize()) as f32)))\n",
+        found_by: "T19",
+    },
+];
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+}
+
+/// All files below `folder`, by their paths relative to `top`.
+fn collect(top: &Path, folder: &Path, files: &mut BTreeMap<PathBuf, Vec<u8>>) {
+    for entry in fs::read_dir(folder).expect("a folder of the workspace") {
+        let path = entry.expect("an entry of it").path();
+        if path.is_dir() {
+            collect(top, &path, files);
+        } else {
+            let name = path.strip_prefix(top).expect("it lies below").to_path_buf();
+            files.insert(name, fs::read(&path).expect("a file of the workspace"));
+        }
+    }
+}
+
+/// The workspace with all mistakes behind switches.
+fn mistaken_workspace() -> BTreeMap<PathBuf, Vec<u8>> {
+    let root = root();
+    let mut files = BTreeMap::new();
+    for folder in ["crates", "conformance/src", "conformance/cases", "conformance/scenes"] {
+        collect(&root, &root.join(folder), &mut files);
+    }
+    for name in ["Cargo.toml", "Cargo.lock", "conformance/Cargo.toml"] {
+        files.insert(name.into(), fs::read(root.join(name)).expect("a file of the workspace"));
+    }
+    for Mistake { name, file, right, wrong, .. } in &MISTAKES {
+        let (value, end) = (right.trim_end(), &right[right.trim_end().len()..]);
+        let switch = format!(
+            "({{ static MISTAKE: std::sync::LazyLock<bool> = std::sync::LazyLock::new(|| \
+             std::env::var(\"UG_MISTAKE\").is_ok_and(|name| name == \"{name}\")); \
+             if *MISTAKE {{ {} }} else {{ {value} }} }}){end}",
+            wrong.trim_end(),
+        );
+        // What follows the value may have told it from others like it.
+        edit(&mut files, file, right, &switch);
+    }
+    edit(&mut files, "Cargo.toml", "\"conformance\", \"tests\", \"xtask\"]", "\"conformance\"]");
+    // A version of its own: cargo would take these crates for the right ones otherwise, and use what it built of them.
+    let version = concat!("version = \"", env!("CARGO_PKG_VERSION"), "\"\nedition");
+    edit(&mut files, "Cargo.toml", version, "version = \"0.0.0-mistaken\"\nedition");
+    // And a name of its own, so that it does not take the place of the right program in the target folder.
+    let program = "[dependencies]\n";
+    let renamed = "[[bin]]\nname = \"ugmistakes\"\npath = \"src/main.rs\"\n\n[dependencies]\n";
+    edit(&mut files, "conformance/Cargo.toml", program, renamed);
+    files
+}
+
+#[track_caller]
+fn edit(files: &mut BTreeMap<PathBuf, Vec<u8>>, file: &str, right: &str, wrong: &str) {
+    let text = files.get_mut(Path::new(file)).unwrap_or_else(|| panic!("{file} is not in the workspace"));
+    let before = String::from_utf8(std::mem::take(text)).expect("source is text");
+    let n_found = before.matches(right).count();
+    assert_eq!(n_found, 1, "{file}: `{right}` must stand there once; correct the list of mistakes");
+    *text = before.replace(right, wrong).into_bytes();
+}
+
+/// Makes `folder` hold these files and no others; one that is the same is left alone, so that it is not built again.
+fn put(folder: &Path, files: &BTreeMap<PathBuf, Vec<u8>>) {
+    let mut old = BTreeMap::new();
+    if folder.exists() {
+        collect(folder, folder, &mut old);
+    }
+    for name in old.keys().filter(|name| !files.contains_key(*name)) {
+        fs::remove_file(folder.join(name)).expect("an old file of ours");
+    }
+    for (name, bytes) in files.iter().filter(|(name, bytes)| old.get(*name) != Some(bytes)) {
+        let path = folder.join(name);
+        fs::create_dir_all(path.parent().expect("a folder")).expect("a folder of ours");
+        fs::write(path, bytes).expect("a file of ours");
+    }
+}
+
+/// What `check` finds wrong.
+fn wrong(program: &Path, mistake: &str) -> Vec<String> {
+    let output = Command::new(program).arg("check").env("UG_MISTAKE", mistake).output().expect("it runs");
+    let text = String::from_utf8_lossy(&output.stdout);
+    let talk = String::from_utf8_lossy(&output.stderr);
+    let last = text.lines().last().and_then(|line| line.strip_prefix("wrong: "));
+    let last = last.unwrap_or_else(|| panic!("{mistake}: no verdict: {talk}"));
+    let found: Vec<String> = last.split(' ').filter(|word| *word != "nothing").map(str::to_string).collect();
+    assert_eq!(output.status.success(), found.is_empty(), "{mistake}: status and verdict agree");
+    found
+}
+
+#[test]
+fn every_mistake_is_found() {
+    let scratch = Path::new(env!("CARGO_TARGET_TMPDIR"));
+    let folder = scratch.join("mistakes");
+    put(&folder, &mistaken_workspace());
+    let target = scratch.parent().expect("the target folder");
+    let mut build = Command::new(env!("CARGO"));
+    build.args(["build", "--quiet", "--offline", "--package", "ugconformance", "--bin", "ugmistakes"]);
+    build.arg("--target-dir").arg(target).current_dir(&folder);
+    if !cfg!(debug_assertions) {
+        build.arg("--release");
+    }
+    let output = build.output().expect("cargo runs");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let profile = if cfg!(debug_assertions) { "debug" } else { "release" };
+    let program = target.join(profile).join(format!("ugmistakes{}", env::consts::EXE_SUFFIX));
+
+    assert_eq!(wrong(&program, ""), [""; 0], "without a mistake nothing fails");
+    for Mistake { name, found_by, .. } in &MISTAKES {
+        let found = wrong(&program, name);
+        let some: Vec<_> = found.iter().rev().take(8).map(String::as_str).collect();
+        println!("{name}: {} cases, among them {}", found.len(), some.join(" "));
+        let is_it = |case: &String| case == found_by || case.split('.').next() == Some(found_by);
+        assert!(found.iter().any(is_it), "{name} is not found by {found_by}: {found:?}");
+    }
+    let known = ugconformance::mistakes::MISTAKES.map(|(name, _)| name);
+    let missing: Vec<_> = known.iter().filter(|name| !MISTAKES.iter().any(|m| m.name == **name)).collect();
+    assert!(missing.is_empty(), "{missing:?} are not tried");
+}

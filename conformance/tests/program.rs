@@ -1,0 +1,104 @@
+//! The program: its jobs, its files and its status.
+
+use std::fs;
+use std::io::Write;
+use std::process::{Command, Output, Stdio};
+
+fn run(args: &[&str], input: &[u8]) -> Output {
+    let mut child = Command::new(env!("CARGO_BIN_EXE_ugconformance"))
+        .args(args)
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("the program starts");
+    let mut pipe = child.stdin.take().expect("a pipe");
+    let input = input.to_vec();
+    // Beside it, so that no pipe runs full. The program may end without reading.
+    let writer = std::thread::spawn(move || {
+        let _ = pipe.write_all(&input);
+    });
+    let output = child.wait_with_output().expect("the program ends");
+    writer.join().expect("writing ends");
+    output
+}
+
+fn text(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stdout).into_owned()
+}
+
+#[test]
+fn questions_are_answered_and_scored() {
+    let questions = run(&["questions"], b"");
+    assert!(questions.status.success());
+    assert!(text(&questions).starts_with("T01.01 gamma 0\n"));
+    let answers = run(&["answer"], &questions.stdout);
+    assert!(answers.status.success());
+    assert_eq!(text(&answers).lines().count(), text(&questions).lines().count());
+    let card = run(&["score"], &answers.stdout);
+    assert!(card.status.success(), "{}", text(&card));
+    assert!(
+        text(&card)
+            .starts_with("topic  passed  failed  unanswered  worst error  about\nT01        10       0")
+    );
+}
+
+#[test]
+fn mistakes_are_named() {
+    let card = run(&["score"], b"T01.04 1.33333333333333\n");
+    assert_eq!(card.status.code(), Some(1));
+    let shown = "
+T01.04 gamma 0.5
+  answered 1.33333333333333
+  right is 1.1547005383792515  (Einstein 1905, sec. 4)
+  error 1.5e-1, tolerance 1e-12
+  looks like M2: gamma without its square root
+";
+    assert!(text(&card).ends_with(shown), "{}", text(&card));
+}
+
+#[test]
+fn bad_answers_are_refused() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("answers");
+    fs::write(&file, "T01.01 one\n").expect("a file");
+    let name = file.to_string_lossy().into_owned();
+    let card = run(&["score", &name], b"");
+    assert_eq!(card.status.code(), Some(1));
+    assert_eq!(text(&card), "");
+    let talk = String::from_utf8_lossy(&card.stderr).into_owned();
+    assert_eq!(talk, format!("ugconformance: error: {name}:1:8: `one` is not a number\n"));
+}
+
+#[test]
+fn pictures_are_drawn_and_measured() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("cube.png").to_string_lossy().into_owned();
+    assert!(run(&["draw", "cube", "-fo", &file], b"").status.success());
+    let score = run(&["score-image", "cube", &file], b"");
+    assert!(score.status.success(), "{}", text(&score));
+    assert!(text(&score).starts_with("cube: T08, T09: "));
+    // The other way round, what was a trailing side would lead.
+    let picture = image::open(&file).expect("a picture").fliph();
+    picture.save(&file).expect("a picture");
+    let score = run(&["score-image", "cube", &file], b"");
+    assert_eq!(score.status.code(), Some(1));
+    assert!(
+        text(&score).contains("FAILED  trailing side is on the left (1) or not (0): 0.0000"),
+        "{}",
+        text(&score)
+    );
+}
+
+#[test]
+fn bad_usage_is_said() {
+    for (args, said) in [
+        (&["score-image", "moon"][..], "there is no such picture; there are sphere, cube, "),
+        (&["sphere.png"], "requires a subcommand"),
+        (&[], "ugconformance"),
+    ] {
+        let output = run(args, b"");
+        assert_eq!(output.status.code(), Some(2), "{args:?}");
+        assert!(String::from_utf8_lossy(&output.stderr).contains(said), "{args:?}");
+    }
+}

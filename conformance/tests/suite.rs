@@ -1,0 +1,166 @@
+//! The suite as it is: complete, documented, and answered by this project.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::Path;
+
+use ugconformance::picture::CASES;
+use ugconformance::scorecard::{Answers, Scorecard, read_answers};
+use ugconformance::suite::{Case, topics};
+use ugconformance::{answers, questions};
+
+/// Least number of cases; there are more.
+const LEAST_CASES: usize = 390;
+
+fn cases() -> Vec<Case> {
+    let topics = topics().expect("the files of cases are in order");
+    topics.into_iter().flat_map(|topic| topic.cases).collect()
+}
+
+fn readme() -> String {
+    fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("README.md")).expect("a README")
+}
+
+#[test]
+fn the_suite_is_whole() {
+    let topics = topics().unwrap();
+    let names: Vec<String> = (1..=36).map(|number| format!("T{number:02}")).collect();
+    assert_eq!(topics.iter().map(|topic| &topic.name).collect::<Vec<_>>(), names.iter().collect::<Vec<_>>());
+    let cases = cases();
+    assert!(cases.len() >= LEAST_CASES, "{}", cases.len());
+    let ids: BTreeSet<&str> = cases.iter().map(|case| case.id.as_str()).collect();
+    assert_eq!(ids.len(), cases.len(), "ids are unique");
+    for case in &cases {
+        assert!((1e-13..=1e-4).contains(&case.tolerance), "{}", case.id);
+        // What is right is right, and no mistake is.
+        assert_eq!(case.error(&case.expected), 0.0, "{}", case.id);
+        for (name, wrong) in &case.mistakes {
+            assert!(case.error(wrong) > case.tolerance, "{}: {name}", case.id);
+            assert!(case.recognized(wrong).contains(&name.as_str()), "{}: {name}", case.id);
+        }
+    }
+}
+
+#[test]
+fn every_file_of_cases_is_in_the_suite() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases");
+    let files: BTreeSet<String> = fs::read_dir(folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().path().file_stem().unwrap().to_string_lossy().into_owned())
+        .collect();
+    assert_eq!(files, topics().unwrap().into_iter().map(|topic| topic.name).collect());
+}
+
+#[test]
+fn every_kind_and_picture_is_explained() {
+    let readme = readme();
+    let kinds: BTreeSet<String> = cases().into_iter().map(|case| case.kind).collect();
+    assert!(kinds.len() >= 60, "{}", kinds.len());
+    let rows: Vec<&str> = readme.lines().filter(|line| line.starts_with("| `")).collect();
+    let first_cell = |line: &&str| line[1..].split('|').next().unwrap_or_default().to_string();
+    let explained: Vec<String> = rows.iter().map(first_cell).collect();
+    for name in kinds.iter().map(String::as_str).chain(CASES.iter().map(|case| case.name)) {
+        assert!(explained.iter().any(|cell| cell.contains(&format!("`{name}`"))), "{name}");
+    }
+    for (name, _) in ugconformance::mistakes::MISTAKES {
+        assert!(readme.contains(&format!("\n| {name} |")), "{name}");
+    }
+}
+
+#[test]
+fn our_crates_answer_rightly() {
+    let topics = topics().unwrap();
+    let answers = read_answers(&answers(&questions(&topics)), &topics).unwrap();
+    let card = Scorecard::new(&topics, &answers);
+    let [passed, failed, unanswered] = card.counts();
+    assert_eq!(failed, 0, "{card}");
+    assert_eq!(unanswered, 0, "{card}");
+    assert_eq!(passed, cases().len());
+}
+
+#[test]
+fn our_programs_draw_rightly() {
+    for case in &CASES {
+        let png = case.draw().unwrap();
+        let (text, is_right) = ugconformance::score_image(case, &png).unwrap();
+        assert!(is_right, "{text}");
+    }
+}
+
+#[test]
+fn no_answers_are_no_mistakes() {
+    let topics = topics().unwrap();
+    let card_of = |text: &str| {
+        let answers = read_answers(text, &topics).unwrap();
+        Scorecard::new(&topics, &answers).counts()
+    };
+    let n = cases().len();
+    assert_eq!(card_of(""), [0, 0, n]);
+    assert_eq!(card_of("# nothing\n\nT01.04 -\n"), [0, 0, n]);
+    assert_eq!(card_of("T01.04 1.1547005383792515\nT01.01 nan\nT01.02 1 1\n"), [1, 2, n - 3]);
+    let empty = Answers::new();
+    assert_eq!(Scorecard::new(&topics, &empty).failed().count(), 0);
+}
+
+#[test]
+fn bad_answers_have_a_place() {
+    let topics = topics().unwrap();
+    let refused = |text: &str| read_answers(text, &topics).unwrap_err().to_string();
+    assert_eq!(refused("\nT01.01 1 x"), "2:10: `x` is not a number");
+    assert_eq!(refused("T01.01 1\nT01.01 1"), "2:1: `T01.01` is answered twice");
+    assert_eq!(
+        refused(" T99.01 1"),
+        "1:2: `T99.01` is not the id of a question; `ugconformance questions` lists them"
+    );
+}
+
+#[test]
+fn questions_that_make_no_sense_have_no_answer() {
+    for question in [
+        "a",
+        "a gamma",
+        "a gamma 1",
+        "a gamma 0.5 0.5",
+        "a gamma x",
+        "a gamma nan",
+        "a nothing 1",
+        "a wavelength_seen 5000 1",
+        "a wavelength_seen 500 0",
+        "a edge_chord_error 0.9 1 1 1e300",
+        "a retarded 1 2 3",
+        "a sphere_outline 0.5 2 1 90",
+        "a hyperbolic 1 1e9",
+        "a glass_speed 1 0.5",
+        "a compose 0 0 0 1 0 0",
+    ] {
+        assert_eq!(answers(question), "a -\n", "{question}");
+    }
+    assert_eq!(answers("\n# a gamma 0\n b gamma 0\n"), "b 1.0\n");
+}
+
+#[test]
+fn a_picture_of_something_else_is_refused() {
+    let sphere = &CASES[0];
+    let refused = |png: &[u8]| sphere.measure(png).unwrap_err();
+    assert!(refused(b"not a picture").starts_with("the picture cannot be read: "));
+    let other = CASES[1].draw().unwrap();
+    assert_eq!(refused(&other), "the picture is 800 x 800 pixels; `sphere` is 600 x 600");
+    let black = image::RgbImage::new(600, 600);
+    let mut png = std::io::Cursor::new(Vec::new());
+    black.write_to(&mut png, image::ImageFormat::Png).unwrap();
+    assert_eq!(refused(png.get_ref()), "no outline of a sphere is found");
+}
+
+/// Scenes say how they are drawn; none has anything to warn of.
+#[test]
+fn scenes_are_clean() {
+    for case in &CASES {
+        let source = ugparse::Source::new(case.name, case.scene);
+        let parsed = ugparse::parse(&source, &ugparse::Options::default()).unwrap();
+        assert!(parsed.warnings.is_empty(), "{}: {}", case.name, parsed.warnings);
+        let [width, height] = case.size;
+        let command = format!("-sz {width} {height}");
+        let name = case.name;
+        assert!(case.scene.contains(&command) && case.scene.contains(&format!("> {name}.png")), "{name}");
+    }
+}

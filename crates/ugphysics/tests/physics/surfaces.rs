@@ -1,0 +1,137 @@
+//! Mirrors, glass, lamps and accelerated bodies: published numbers, and laws on random ones.
+
+use glam::DVec3;
+use proptest::prelude::*;
+use ugphysics::{
+    Event, Hyperbolic, Lorentz, Slab, Velocity, Wave, apparent_velocity, contracted, contracted_normal,
+    doppler_at, irradiance, light_in_glass, reflect, refract, seen_position,
+};
+
+use crate::{along_x, angle_deg, at_angle, beta, near, near_vector};
+
+const TEN_DIGITS: f64 = 1e-9;
+
+fn wave(direction: DVec3) -> Wave {
+    Wave { frequency: 1.0, direction }
+}
+
+#[test]
+fn t27_moving_mirrors() {
+    // Einstein 1905, section 8. The mirror faces +x; light comes at an angle from there.
+    for (in_deg, speed, out_deg, frequency) in [
+        (60.0, 0.3, 34.53894442, 1.527472527),
+        (30.0, 0.5, 10.20781872, 2.821367205),
+        (30.0, -0.5, 77.58795377, 0.5119661283),
+    ] {
+        let d = at_angle(in_deg);
+        let back = reflect(wave(DVec3::new(-d.x, d.y, 0.0)), DVec3::X, along_x(speed));
+        near("angle", angle_deg(back.direction, DVec3::X), out_deg, TEN_DIGITS);
+        near("frequency", back.frequency, frequency, TEN_DIGITS);
+    }
+    // Slow to run away from, the light still goes the mirror's way.
+    let back = reflect(wave(-at_angle(-60.0)), DVec3::X, along_x(-0.3));
+    near("cos", -back.direction.x, 0.06962025316, TEN_DIGITS);
+    let sliding = reflect(wave(DVec3::new(-0.6, 0.0, 0.8)), DVec3::X, beta(0.0, 0.9, 0.3));
+    near_vector("sliding", sliding.direction, DVec3::new(0.6, 0.0, 0.8), 1e-14);
+    near("sliding", sliding.frequency, 1.0, 1e-14);
+}
+
+#[test]
+fn t28_moving_glass() {
+    for (index, speed, light) in
+        [(1.5, 0.1, 0.71875), (1.5, 0.9, 0.9791666667), (1.5, -0.9, -0.5833333333), (1.33, 0.5, 0.9098360656)]
+    {
+        let found = light_in_glass(DVec3::X, index, along_x(speed)).unwrap();
+        near("speed", found.beta().x, light, TEN_DIGITS);
+    }
+    assert!(light_in_glass(DVec3::X, 1.0, along_x(0.5)).is_none());
+    let slab = Slab { normal: DVec3::X, thickness: 1.0, index: 1.5 };
+    for (speed, t, x) in [(0.5, 2.309401077, 2.020725942), (-0.5, 1.154700538, 0.2886751346)] {
+        let exit = slab.exit(DVec3::X, along_x(speed));
+        near("t", exit.t, t, TEN_DIGITS);
+        near("x", exit.x.x, x, TEN_DIGITS);
+    }
+    // Beyond asin(1/1.5) nothing gets out.
+    assert!(
+        refract(at_angle(41.9), DVec3::X, 1.5).is_none() && refract(at_angle(41.8), DVec3::X, 1.5).is_some()
+    );
+}
+
+#[test]
+fn t30_a_year_at_one_g() {
+    let year_g = 9.80665 * 31_557_600.0 / 299_792_458.0;
+    let ship = Hyperbolic { acceleration: year_g * DVec3::Z };
+    let (event, v) = (ship.event(1.0), ship.velocity(1.0).unwrap());
+    near("speed", v.speed(), 0.7748272626, TEN_DIGITS);
+    near("γ", v.gamma(), 1.581845454, TEN_DIGITS);
+    near("t", event.t, 1.187312402, TEN_DIGITS);
+    near("x", event.x.z, 0.5636424651, TEN_DIGITS);
+    near("back", ship.proper_time_to(event.x.z), 1.0, 1e-14);
+    let still = Hyperbolic { acceleration: DVec3::ZERO };
+    assert_eq!(still.event(3.0), Event { t: 3.0, x: DVec3::ZERO });
+}
+
+fn velocities() -> impl Strategy<Value = Velocity> {
+    (0usize..64, 0.0..3.0_f64).prop_map(|(i, rapidity)| {
+        let all = crate::directions();
+        Velocity::from_rapidity(all[i % all.len()], rapidity).expect("a rapidity below 100")
+    })
+}
+
+fn directions() -> impl Strategy<Value = DVec3> {
+    (0usize..64).prop_map(|i| {
+        let all = crate::directions();
+        all[(7 * i + 3) % all.len()]
+    })
+}
+
+proptest! {
+    /// A wave in another frame is the boost of its null vector.
+    #[test]
+    fn waves_are_null_vectors(v in velocities(), n in directions()) {
+        let there = wave(n).in_frame(v);
+        let vector = Lorentz::boost(v).inverse().apply(Event { t: 1.0, x: n });
+        let scale = v.gamma() * v.gamma();
+        near("frequency", there.frequency / vector.t, 1.0, 1e-14 * scale);
+        near_vector("direction", there.direction, vector.x / vector.t, 1e-14 * scale);
+        let back = there.out_of_frame(v);
+        near("there and back", back.frequency, 1.0, 1e-13 * scale);
+    }
+
+    /// Light sent back along its way comes out of a mirror as it went in.
+    #[test]
+    fn mirrors_undo_themselves(v in velocities(), n in directions(), normal in directions()) {
+        let scale = v.gamma() * v.gamma();
+        let once = reflect(wave(n), normal, v);
+        let frequencies = once.frequency;
+        // Reflection is its own inverse.
+        let twice = reflect(once, normal, v);
+        near("frequency", twice.frequency, 1.0, 1e-12 * scale * frequencies.max(1.0 / frequencies));
+        near("direction", twice.direction.dot(n), 1.0, 1e-12 * scale);
+    }
+
+    /// The seen place moves with the apparent velocity, and a lamp's light is counted alike in both frames.
+    #[test]
+    fn what_is_seen_moves_with_the_apparent_velocity(v in velocities(), d in directions()) {
+        let p_rest = 3.0 * d;
+        let step = 1e-5;
+        let at = |t: f64| seen_position(p_rest + v.proper() * t, v);
+        let p = at(0.0);
+        let moved = (at(step) - at(-step)) / (2.0 * step);
+        let apparent = apparent_velocity(-p, v);
+        prop_assert!((moved - apparent).length() <= 1e-6 * (1.0 + apparent.length()) * v.gamma() * v.gamma());
+        let doppler = doppler_at(p, v);
+        let photons_there = 1.0 / (4.0 * core::f64::consts::PI * p_rest.length_squared());
+        near("irradiance", irradiance(1.0, p.length(), doppler) / (photons_there * doppler * doppler), 1.0, 1e-11);
+    }
+
+    /// Lines in a plane stay across its normal.
+    #[test]
+    fn normals_stay_normal(v in velocities(), normal in directions()) {
+        let line = normal.any_orthonormal_vector();
+        let other = normal.cross(line);
+        let seen = contracted_normal(normal, v);
+        prop_assert!(seen.dot(contracted(line, v)).abs() < 1e-13 && seen.dot(contracted(other, v)).abs() < 1e-13);
+        prop_assert!((seen.length() - 1.0).abs() < 1e-14);
+    }
+}
