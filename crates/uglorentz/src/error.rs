@@ -21,6 +21,11 @@ pub enum Error {
         /// The bound given, radians.
         error: f64,
     },
+    /// [`crate::Config::color_error`] is not above 0.
+    NoColorBound {
+        /// The bound given, a part.
+        error: f64,
+    },
     /// [`crate::Pieces::PerEdge`] is 0.
     NoPieces,
     /// [`crate::Pieces::PerEdge`] makes too many pieces.
@@ -49,7 +54,11 @@ impl Error {
     pub fn is_usage(&self) -> bool {
         matches!(
             self,
-            Error::Velocity(_) | Error::NoBound { .. } | Error::NoPieces | Error::TooManyPieces { .. }
+            Error::Velocity(_)
+                | Error::NoBound { .. }
+                | Error::NoColorBound { .. }
+                | Error::NoPieces
+                | Error::TooManyPieces { .. }
         )
     }
 
@@ -70,6 +79,7 @@ impl Error {
             Error::Velocity(error) => format!("-vel: {error}"),
             Error::SceneVelocity(error) => error.to_string(),
             Error::NoBound { error } => format!("the bound of -se is {} milliradians", error * 1e3),
+            Error::NoColorBound { error } => format!("the bound of -sc is {} percent", error * 1e2),
             Error::NoPieces => "-sd 0 leaves no pieces".to_string(),
             Error::TooManyPieces { n_pieces } => {
                 format!("-sd would make {n_pieces} pieces, more than the limit of {MAX_PIECES}")
@@ -87,6 +97,7 @@ impl Error {
         match self {
             Error::Scene(_) | Error::Velocity(_) | Error::SceneVelocity(_) => "",
             Error::NoBound { .. } => "give a number above 0",
+            Error::NoColorBound { .. } => "give a number above 0, or off",
             Error::NoPieces => "give 1 or more",
             Error::TooManyPieces { .. } => "give fewer, or use -se, which cuts only where it shows",
             Error::VertexAtEye { .. } => "move the eye (-ep) or the vertex",

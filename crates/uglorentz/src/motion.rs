@@ -1,7 +1,7 @@
 //! Bodies in motion and points on them.
 
 use glam::DVec3;
-use ugphysics::Velocity;
+use ugphysics::{Velocity, doppler_at};
 use ugscene::Geometry;
 
 /// How one body moves, and which effects are shown.
@@ -76,6 +76,7 @@ impl Motion {
             seen,
             rest_distance: self.boosted_rest(rest).length(),
             seen_distance: seen.length(),
+            inverse_doppler: if self.is_at_rest() { 1.0 } else { 1.0 / doppler_at(seen, self.velocity) },
             body,
             generation: 0,
         }
@@ -93,6 +94,8 @@ pub(crate) struct Point {
     pub rest_distance: f64,
     /// |p|.
     pub seen_distance: f64,
+    /// 1/D, (P10).
+    pub inverse_doppler: f64,
     /// Row of its body.
     pub body: u32,
     /// How many halvings made it: 0 for a vertex of the scene.

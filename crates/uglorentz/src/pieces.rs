@@ -80,7 +80,7 @@ fn closed_edges(corners: &[u32]) -> impl Iterator<Item = (u32, u32)> {
 pub(crate) enum Cut {
     /// As triangles and convex quadrilaterals.
     Pieces(Vec<Shape>),
-    /// As it is, for its contours cross each other or enclose nothing.
+    /// As it is, for its contours cross each other or enclose nothing, or it is seen edge-on.
     Contours(Vec<Polyline>),
 }
 
@@ -108,10 +108,13 @@ pub(crate) fn shape(scene: &Scene, face: &Face, rest: impl Fn(VertexId) -> DVec3
         Some(triangles) => Cut::Pieces(
             triangles.iter().map(|t| Shape::Triangle(t.map(|corner| corners[corner as usize].0))).collect(),
         ),
-        None => Cut::Contours(
-            face.contours.clone().map(|row| Polyline::closed(row, scene.contours.get(row))).collect(),
-        ),
+        None => Cut::Contours(as_contours(scene, face)),
     })
+}
+
+/// The contours of a face, to be given more corners.
+pub(crate) fn as_contours(scene: &Scene, face: &Face) -> Vec<Polyline> {
+    face.contours.clone().map(|row| Polyline::closed(row, scene.contours.get(row))).collect()
 }
 
 /// A contour without corners that repeat the one before.
