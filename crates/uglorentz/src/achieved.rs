@@ -8,7 +8,7 @@ use crate::growth::Growth;
 use crate::motion::Point;
 use crate::notes::{Achieved, Worst};
 use crate::pieces::{Cut, Shape, shape};
-use crate::{edge, edge_on, interior};
+use crate::{edge, edge_on, interior, quick};
 
 /// The greatest errors of all edges and faces of a scene whose pieces are in place.
 pub(crate) fn measure(scene: &Scene, growth: &Growth) -> Achieved {
@@ -86,7 +86,7 @@ impl Judge<'_, '_> {
         Found { angle: (errors.angle, at), depth: (errors.offset, at), doppler: (errors.color, at) }
     }
 
-    /// Triangles as they are drawn; larger polygons as they would be cut.
+    /// Triangles as they are drawn; larger polygons as they would be cut; an upper bound for those that cannot be.
     fn inside(&self, face: &Face) -> Found {
         let rest = |vertex: VertexId| -> DVec3 { self.growth.point(vertex.0).rest };
         let corners = self.scene.contours.corners(face.contours.clone());
@@ -94,7 +94,15 @@ impl Judge<'_, '_> {
         if !motion.has_flight_time() || edge_on::is_edge_on(self.scene, face, motion, rest) {
             return Found::default();
         }
-        let Some(Cut::Pieces(shapes)) = shape(self.scene, face, rest) else { return Found::default() };
+        let shapes = match shape(self.scene, face, rest) {
+            Some(Cut::Pieces(shapes)) => shapes,
+            Some(_) => {
+                let points = corners.iter().map(|corner| self.growth.point(corner.0));
+                let at = [0, 1, 2].map(|idx| corners.get(idx).map(|corner| corner.0));
+                return Found { depth: (quick::offset(motion, points), at), ..Found::default() };
+            }
+            None => return Found::default(),
+        };
         let halves = shapes.iter().flat_map(|shape| match *shape {
             Shape::Triangle(corners) => vec![corners],
             Shape::Quad([a, b, c, d]) => vec![[a, b, c], [a, c, d], [b, c, d], [b, d, a]],

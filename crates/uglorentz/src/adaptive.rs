@@ -43,7 +43,11 @@ pub(crate) fn cut(scene: &Scene, growth: &mut Growth, tolerance: &Tolerance, max
     for (face, cut) in judge.first_cuts(scene) {
         match cut {
             Cut::Pieces(shapes) => fresh.extend(shapes.into_iter().map(|shape| Piece { face, shape })),
-            Cut::Contours(lines) => outcome.lines.extend(lines),
+            Cut::EdgeOn(lines) => outcome.lines.extend(lines),
+            Cut::Contours(lines) => {
+                outcome.lines.extend(lines);
+                outcome.n_uncut += 1;
+            }
         }
     }
     outcome.lines.extend(judge.bent_wires(scene));
@@ -167,13 +171,15 @@ impl Judge<'_, '_> {
         }
         let rest = |vertex: VertexId| -> DVec3 { self.growth.point(vertex.0).rest };
         let cut = if edge_on::is_edge_on(scene, face, motion, rest) {
-            Cut::Contours(as_contours(scene, face))
+            Cut::EdgeOn(as_contours(scene, face))
         } else {
             shape(scene, face, rest)?
         };
         let bends = match &cut {
             Cut::Pieces(shapes) => shapes.iter().any(|shape| self.piece(shape).any()),
-            Cut::Contours(lines) => lines.iter().any(|line| self.line(line).contains(&true)),
+            Cut::EdgeOn(lines) | Cut::Contours(lines) => {
+                lines.iter().any(|line| self.line(line).contains(&true))
+            }
         };
         bends.then_some(cut)
     }

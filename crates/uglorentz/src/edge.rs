@@ -189,7 +189,7 @@ impl<'a> Edge<'a> {
         let beta = self.motion.velocity().beta();
         let across = beta.cross(chord).length();
         let term = (self.w / length) * (self.w / length);
-        if across == 0.0 || !(term > 0.0) {
+        if across == 0.0 || term.is_nan() || term <= 0.0 {
             return 0.0;
         }
         let line = self.along / length;

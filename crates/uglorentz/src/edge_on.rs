@@ -46,8 +46,9 @@ fn is_beside_eye(outline: impl Iterator<Item = DVec3> + Clone, normal: DVec3, cl
     let mut is_inside = false;
     for (a, b) in outline.zip(next) {
         let along = b - a;
-        let s = (-a.dot(along) / along.length_squared()).clamp(0.0, 1.0);
-        if !((a + along * s).length() > clear) && along != DVec3::ZERO {
+        // A corner that repeats the one before is no edge, and as far from the eye as any of its points.
+        let s = (-a.dot(along) / along.length_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+        if (a + along * s).length() <= clear {
             return false;
         }
         let ([ax, ay], [bx, by]) = ([a.dot(across), a.dot(up)], [b.dot(across), b.dot(up)]);

@@ -46,7 +46,7 @@ fn largest_delta([a, b, c]: [DVec3; 3]) -> Option<f64> {
     // The part of u in the triangle's plane, from u·ab and u·ac.
     let flat = (ac.cross(normal) * to_b + normal.cross(ab) * to_c) / normal2;
     let rest2 = 1.0 - flat.length_squared();
-    if !(rest2 >= 0.0) {
+    if rest2.is_nan() || rest2 < 0.0 {
         return None; // Nowhere stationary, or no area.
     }
     let unit = normal / normal2.sqrt();

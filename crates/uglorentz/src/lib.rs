@@ -244,12 +244,13 @@ fn transform_owned(mut scene: Scene, config: &Config) -> Result<(Scene, Notes), 
     scene.escapes.extend(config.geometry.escape());
     ugscene::record(&mut scene, PROGRAM, env!("CARGO_PKG_VERSION"), &config.command_line);
 
-    let is_short = outcome.is_full || outcome.n_too_deep > 0;
+    let is_short = outcome.is_full || outcome.n_too_deep + outcome.n_uncut > 0;
     let achieved = (config.measure || is_short).then(|| achieved::measure(&scene, &growth));
     let notes = Notes {
         was_seen_before,
         n_new_vertices: growth.recipes.len(),
         n_new_faces: scene.faces.len() - n_faces,
+        n_uncut: outcome.n_uncut,
         n_too_deep: outcome.n_too_deep,
         is_full: outcome.is_full,
         achieved,
@@ -263,7 +264,7 @@ const PROGRAM: &str = env!("CARGO_PKG_NAME");
 fn check(config: &Config) -> Result<Velocity, Error> {
     match config.pieces {
         Pieces::UpTo(error) if !(error > 0.0 && error.is_finite()) => return Err(Error::NoBound { error }),
-        Pieces::UpTo(_) if !(config.color_error > 0.0) => {
+        Pieces::UpTo(_) if config.color_error.is_nan() || config.color_error <= 0.0 => {
             return Err(Error::NoColorBound { error: config.color_error });
         }
         Pieces::PerEdge(0) => return Err(Error::NoPieces),

@@ -13,6 +13,8 @@ pub struct Notes {
     pub n_new_vertices: usize,
     /// Faces added by cutting.
     pub n_new_faces: usize,
+    /// Faces right at their edges only: their contours cross or enclose nothing, so they cannot be cut.
+    pub n_uncut: usize,
     /// Edges that still bend and were not cut further.
     pub n_too_deep: usize,
     /// Cutting stopped early, at the largest number of pieces.
@@ -59,6 +61,13 @@ impl Notes {
             warnings.push(format!(
                 "cutting stopped at {MAX_PIECES} pieces: some edges are not as right as asked; \
                  a larger bound (-se) takes fewer pieces{left}"
+            ));
+        }
+        if self.n_uncut > 0 {
+            warnings.push(format!(
+                "{} faces are right at their edges only: their contours cross or enclose nothing, so they cannot \
+                 be cut; correct them{left}",
+                self.n_uncut
             ));
         }
         if self.n_too_deep > 0 {

@@ -80,7 +80,9 @@ fn closed_edges(corners: &[u32]) -> impl Iterator<Item = (u32, u32)> {
 pub(crate) enum Cut {
     /// As triangles and convex quadrilaterals.
     Pieces(Vec<Shape>),
-    /// As it is, for its contours cross each other or enclose nothing, or it is seen edge-on.
+    /// As it is, for it is seen edge-on.
+    EdgeOn(Vec<Polyline>),
+    /// As it is, for its contours cross each other or enclose nothing.
     Contours(Vec<Polyline>),
 }
 
@@ -134,6 +136,8 @@ pub(crate) struct Outcome {
     pub pieces: Vec<Piece>,
     /// Contours with more corners.
     pub lines: Vec<Polyline>,
+    /// Faces whose inside is off, but which cannot be cut.
+    pub n_uncut: usize,
     /// Edges left bent since they have been halved often enough.
     pub n_too_deep: usize,
     /// Was cutting stopped since there are too many pieces?

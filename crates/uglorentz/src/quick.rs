@@ -21,7 +21,7 @@ pub(crate) fn is_right<'a>(
 /// Upper bound of |C − flat|/|C|, by (E5) with u towards the first corner.
 ///
 /// |C| = γ(|p'| − v·p') is at least γ(u − v)·p', and that is linear: least in a corner.
-fn offset<'a>(motion: &Motion, mut corners: impl Iterator<Item = &'a Point>) -> f64 {
+pub(crate) fn offset<'a>(motion: &Motion, mut corners: impl Iterator<Item = &'a Point>) -> f64 {
     let Some(first) = corners.next() else { return 0.0 };
     let first_rest = motion.boosted_rest(first.rest);
     let (mut delta, mut floor) = (0.0, first.seen_distance);
@@ -49,7 +49,7 @@ fn color<'a>(motion: &Motion, mut corners: impl Iterator<Item = &'a Point>) -> f
     }
     // Chords are no longer than twice the reach, and no point of one is further than the reach from an end.
     let r = nearest - reach2.sqrt();
-    if !(r > 0.0) {
+    if r.is_nan() || r <= 0.0 {
         return f64::INFINITY;
     }
     let change = most - least;
