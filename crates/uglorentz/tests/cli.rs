@@ -50,6 +50,8 @@ fn options_have_two_spellings() {
     check("-vel .5 0 0 -ti -2.5 -ep 0 0 -1", "--velocity .5 0 0 --time -2.5 --eye 0 0 -1");
     check("-vel .5 0 0 -in -an 3 0 1 -se 1", "--vel .5 0 0 --in-place --anchor 3 0 1 --error 1");
     check("-vel .5 0 0 -an center -sd 2 -sm", "--vel .5 0 0 --anchor center --pieces 2 --smooth");
+    check("-vel .5 0 0 -sc .5", "--vel .5 0 0 --color-error .5");
+    check("-vel .5 0 0 -sc off", "--velocity .5 0 0 --color-error off");
     check("-vel .5 0 0 -nc -no-flight-time", "--vel .5 0 0 --no-contraction --no-flight-time");
 }
 
