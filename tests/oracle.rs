@@ -6,6 +6,7 @@
 use glam::DVec3;
 use ugtests::agreement::{MOST_FACES, color_of, compare, face_of, painted, recolored};
 use ugtests::oracle::{Oracle, Pinhole};
+use ugtests::outline;
 use ugtests::picture::save;
 use ugtests::pipe::Pipe;
 use ugtests::scenes;
@@ -108,4 +109,39 @@ fn lattice_is_flown_through() {
 #[test]
 fn dice_have_five_velocities() {
     check_all([Case { in_place: true, ..Case::new("dice") }]);
+}
+
+/// A reduced form of what `cargo xtask geometry` measures.
+#[test]
+fn outlines_are_right_to_the_bound() {
+    for (name, in_place, beta) in [
+        ("cubes", true, DVec3::new(0.9, 0.0, 0.0)),
+        ("sphere", true, DVec3::new(0.0, -0.9, 0.0)),
+        ("ship", true, DVec3::new(0.7, 0.6, 0.3)),
+    ] {
+        let mut scene = scenes::parse(&scenes::text(name));
+        scene.wires.clear();
+        for row in 0..scene.faces.len() {
+            scene.faces[row].name = Some(scene.names.add(&format!("f{row}")));
+        }
+        let camera = scene.camera().unwrap();
+        let eye = camera.eye.unwrap();
+        let oracle = Oracle::new(&scene, eye, Some(beta), in_place);
+        let camera = Pinhole::new(camera, eye, [320, 240]);
+        for bound in [3e-3, 0.3e-3] {
+            let config = uglorentz::Config {
+                velocity: Some(beta),
+                in_place,
+                pieces: uglorentz::Pieces::UpTo(bound),
+                ..uglorentz::Config::default()
+            };
+            let seen = uglorentz::transform(&scene, &config).unwrap().0;
+            let row = |face: &ugparse::Face| seen.names.get(face.name.unwrap())[1..].parse().unwrap();
+            let origins: Vec<usize> = seen.faces.iter().map(row).collect();
+            let errors = outline::errors(&seen, &origins, eye, &oracle, &camera);
+            println!("{name} {bound}: {errors:?}");
+            assert!(errors.n_edges >= scene.faces.len(), "{name}: {errors:?}");
+            assert!(errors.angle <= bound && errors.angle > bound / 10.0, "{name} {bound}: {errors:?}");
+        }
+    }
 }

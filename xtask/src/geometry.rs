@@ -46,12 +46,32 @@ const MOST_PIECES: usize = 1 << 16;
 /// each face.
 const DEPTH: f64 = 2e-4;
 
+/// What to measure.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub enum Table {
+    /// Pictures at the default bound.
+    Pictures,
+    /// Errors and faces at several bounds.
+    Bounds,
+}
+
 /// Prints the tables.
-pub fn write(out: &mut impl Write, size: [u32; 2], files: &[PathBuf]) -> Outcome<()> {
-    let views = views(size, files)?;
+pub fn write(
+    out: &mut impl Write,
+    size: [u32; 2],
+    only: Option<&str>,
+    table: Option<Table>,
+    files: &[PathBuf],
+) -> Outcome<()> {
+    let mut views = views(size, files)?;
+    views.retain(|view| only.is_none_or(|name| view.name.starts_with(name)));
     let mut failures = Vec::new();
-    pictures(out, &views, &mut failures)?;
-    bounds(out, &views, &mut failures)?;
+    if table != Some(Table::Bounds) {
+        pictures(out, size, &views, &mut failures)?;
+    }
+    if table != Some(Table::Pictures) {
+        bounds(out, &views, &mut failures)?;
+    }
     if failures.is_empty() { Ok(()) } else { Err(failures.join("\n").into()) }
 }
 
@@ -174,8 +194,12 @@ impl View {
     }
 }
 
-fn pictures(out: &mut impl Write, views: &[View], failures: &mut Vec<String>) -> Outcome<()> {
-    let [width, height] = views[0].size;
+fn pictures(
+    out: &mut impl Write,
+    [width, height]: [u32; 2],
+    views: &[View],
+    failures: &mut Vec<String>,
+) -> Outcome<()> {
     writeln!(out, "### At the default bound, {width}×{height}, 1 sample\n")?;
     writeln!(
         out,

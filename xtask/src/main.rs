@@ -86,6 +86,12 @@ enum Chore {
         /// Pixels across and down
         #[arg(long = "sz", num_args = 2, value_names = ["W", "H"], default_values_t = [1920, 1080])]
         size: Vec<u32>,
+        /// Only scenes whose name begins so
+        #[arg(long, value_name = "NAME")]
+        only: Option<String>,
+        /// Only one of the tables
+        #[arg(long, value_enum)]
+        table: Option<geometry::Table>,
         /// Scenes besides those of the repository
         #[arg(value_name = "FILE", value_parser = geometry::is_file)]
         files: Vec<PathBuf>,
@@ -126,9 +132,10 @@ fn run(chore: &Chore) -> io::Result<()> {
         Chore::BenchReading { triangles } => {
             reading::write(&mut out, *triangles).map_err(|error| io::Error::other(error.to_string()))?;
         }
-        Chore::Geometry { size, files } => {
+        Chore::Geometry { size, only, table, files } => {
             let size = [size[0], size[1]];
-            geometry::write(&mut out, size, files).map_err(|error| io::Error::other(error.to_string()))?;
+            geometry::write(&mut out, size, only.as_deref(), *table, files)
+                .map_err(|error| io::Error::other(error.to_string()))?;
         }
         Chore::ReadOnce { scene, threads } => {
             reading::read_once(&mut out, scene, *threads)

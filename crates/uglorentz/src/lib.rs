@@ -19,8 +19,8 @@
 //! # Why faces are cut
 //!
 //! Renderers draw straight edges between vertices, but a straight edge in motion is seen as an arc of a
-//! hyperbola. So long edges are cut first. By default a closed formula for the angle between arc and chord
-//! decides edge by edge where that shows ([`Pieces::UpTo`]); two faces that share an edge cut it alike, so
+//! hyperbola. So long edges are cut first. By default closed formulas for the angle between arc and chord, for depth
+//! and for colour decide edge by edge where that shows ([`Pieces::UpTo`], derived in `docs/geometry.md`); two faces that share an edge cut it alike, so
 //! the result has no cracks. A scene at rest is never cut.
 //!
 //! Pieces keep direction, colour, light level, velocity and name of their face; those of one face stand

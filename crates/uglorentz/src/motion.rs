@@ -71,15 +71,16 @@ impl Motion {
     /// The point at `rest`, relative to the eye.
     pub(crate) fn point(&self, body: u32, rest: DVec3) -> Point {
         let seen = if self.is_at_rest() { rest } else { self.geometry.seen(rest, self.velocity) };
-        Point {
-            rest,
-            seen,
-            rest_distance: self.boosted_rest(rest).length(),
-            seen_distance: seen.length(),
-            inverse_doppler: if self.is_at_rest() { 1.0 } else { 1.0 / doppler_at(seen, self.velocity) },
-            body,
-            generation: 0,
-        }
+        let (rest_distance, seen_distance) = (self.boosted_rest(rest).length(), seen.length());
+        let inverse_doppler = if self.is_at_rest() {
+            1.0
+        } else if self.has_flight_time() {
+            // D = |p|/|p'|.
+            rest_distance / seen_distance
+        } else {
+            1.0 / doppler_at(seen, self.velocity)
+        };
+        Point { rest, seen, rest_distance, seen_distance, inverse_doppler, body, generation: 0 }
     }
 }
 

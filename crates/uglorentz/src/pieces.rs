@@ -63,8 +63,8 @@ impl Polyline {
     }
 }
 
-fn vertex_ids(rows: &[u32]) -> Vec<VertexId> {
-    rows.iter().map(|&row| VertexId(row)).collect()
+fn vertex_ids(rows: &[u32]) -> impl Iterator<Item = VertexId> {
+    rows.iter().map(|&row| VertexId(row))
 }
 
 fn rows(corners: &[VertexId]) -> Vec<u32> {
@@ -156,9 +156,13 @@ impl Outcome {
         let mut lines: Vec<&Polyline> = self.lines.iter().collect();
         lines.sort_by_key(|line| line.row);
         let old = std::mem::take(&mut scene.contours);
-        let kept = |row: u32| match lines.binary_search_by_key(&row, |line| line.row) {
-            Ok(at) => vertex_ids(&lines[at].corners),
-            Err(_) => old.get(row).to_vec(),
+        let kept = |row: u32| {
+            let (whole, cut): (&[VertexId], &[u32]) = match lines.binary_search_by_key(&row, |line| line.row)
+            {
+                Ok(at) => (&[], &lines[at].corners),
+                Err(_) => (old.get(row), &[]),
+            };
+            whole.iter().copied().chain(vertex_ids(cut))
         };
 
         let contours = &mut scene.contours;
