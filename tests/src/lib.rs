@@ -4,12 +4,16 @@
 //! - [`scenes`]: the scenes of the repository;
 //! - [`picture`]: comparing pictures, golden ones included;
 //! - [`oracle`]: what every pixel must show, found by a slow method of its own;
+//! - [`agreement`]: how far a picture agrees with the oracle;
+//! - [`outline`]: how far drawn edges are from where they are seen;
 //! - [`random`]: reproducible random numbers;
 //! - [`slow_reader`]: a second reader of the scene language, to check the first.
 
 #![allow(clippy::missing_panics_doc, reason = "a test helper fails by panicking")]
 
+pub mod agreement;
 pub mod oracle;
+pub mod outline;
 pub mod picture;
 pub mod pipe;
 pub mod random;

@@ -146,15 +146,7 @@ impl Polygon {
     /// The point of each edge that lies nearest to the half-line along `ray`.
     fn edge_points(&self, ray: DVec3) -> impl Iterator<Item = DVec3> {
         let along = ray.normalize();
-        let across = move |p: DVec3| p - p.dot(along) * along;
-        self.edges.iter().map(move |&(a, b)| {
-            // Seen along the ray, the edge is a segment and the ray a point, the origin.
-            let step = across(b - a);
-            let part = -across(a).dot(step) / step.length_squared();
-            // An edge along the ray is as near everywhere.
-            let part = if part.is_finite() { part.clamp(0.0, 1.0) } else { 0.0 };
-            a + part * (b - a)
-        })
+        self.edges.iter().map(move |&(a, b)| nearest_to_ray(a, b, along))
     }
 
     /// False only if no ray within `cone` meets the sphere round the face.
@@ -170,6 +162,21 @@ impl Polygon {
 
 fn without(p: DVec3, axis: usize) -> DVec2 {
     DVec2::new(p[(axis + 1) % 3], p[(axis + 2) % 3])
+}
+
+/// The point of the segment from `a` to `b` that is seen nearest to the unit vector `ray`, by angle.
+fn nearest_to_ray(a: DVec3, b: DVec3, ray: DVec3) -> DVec3 {
+    // Directions of the segment are those of a great circle; the nearest of it is the ray dropped onto its plane.
+    let plane = a.cross(b - a);
+    let foot = ray - plane * (ray.dot(plane) / plane.length_squared());
+    // a + s (b - a) along the foot: both crossed with it, in the plane, agree.
+    let (from, step) = (a.cross(foot).dot(plane), (b - a).cross(foot).dot(plane));
+    let part = -from / step;
+    let point = a + part * (b - a);
+    if part.is_finite() && (0.0..=1.0).contains(&part) && point.dot(foot) > 0.0 {
+        return point;
+    }
+    if ray.angle_between(a) <= ray.angle_between(b) { a } else { b }
 }
 
 /// The rays of some pixels.
@@ -324,12 +331,63 @@ impl Oracle {
         points.into_iter().filter(is_visible).map(DVec3::normalize).collect()
     }
 
+    /// The outline of a face; `None` if it has no area.
+    pub fn outline(&self, face: usize) -> Option<Outline<'_>> {
+        self.bodies.iter().find_map(|body| {
+            let polygon = body.polygons.iter().find(|polygon| polygon.face == face)?;
+            Some(Outline { body, edges: &polygon.edges, size: polygon.radius })
+        })
+    }
+
     /// The distance at which one face is seen in a direction, were it alone.
     pub fn distance(&self, face: usize, direction: DVec3) -> Option<f64> {
         self.bodies.iter().find_map(|body| {
             let polygon = body.polygons.iter().find(|polygon| polygon.face == face)?;
             polygon.hit(body.ray(direction))
         })
+    }
+}
+
+/// The edges of one face, as they are seen.
+#[derive(Clone, Copy, Debug)]
+pub struct Outline<'a> {
+    body: &'a Body,
+    edges: &'a [(DVec3, DVec3)],
+    size: f64,
+}
+
+impl Outline<'_> {
+    /// Edges, holes included.
+    pub fn n_edges(&self) -> usize {
+        self.edges.len()
+    }
+
+    /// Where the point at `part`, 0…1, of an edge is seen.
+    pub fn point(&self, edge: usize, part: f64) -> DVec3 {
+        let (a, b) = self.edges[edge];
+        self.body.seen(a + part * (b - a))
+    }
+
+    /// The parts of an edge at which two seen points lie; `None` if one of them does not lie on it.
+    pub fn parts(&self, edge: usize, seen: [DVec3; 2]) -> Option<[f64; 2]> {
+        /// Of the size of the face. The boost back loses some γ² units in the last place.
+        const ON_EDGE: f64 = 1e-8;
+        let (a, b) = self.edges[edge];
+        let along = b - a;
+        let [first, second] = seen.map(|p| {
+            let rest = (self.body.boost * p.extend(-p.length())).truncate();
+            let part = (rest - a).dot(along) / along.length_squared();
+            let off = (a + part * along - rest).length();
+            let is_within = (-ON_EDGE..=1.0 + ON_EDGE).contains(&part);
+            (is_within && off <= ON_EDGE * (self.size + rest.length())).then_some(part)
+        });
+        Some([first?, second?])
+    }
+
+    /// Where the point of an edge nearest to direction `d` is seen.
+    pub fn nearest(&self, edge: usize, d: DVec3) -> DVec3 {
+        let (a, b) = self.edges[edge];
+        self.body.seen(nearest_to_ray(a, b, self.body.ray(d).normalize()))
     }
 }
 

@@ -109,6 +109,7 @@ impl Bench<'_> {
             inside("reading (library)", "mesh", read(&mesh)),
             inside("writing (library)", "mesh", write_back(&mesh)),
             inside("drawing (library), 1280×720, 1 sample", "coloured", draw(&coloured)),
+            shell("`ugparse flatten`", "mesh", format!("ugparse flatten {mesh} > /dev/null")),
             shell("`uglorentz -vel .3 0 0`", "mesh", format!("{LORENTZ} {mesh} > /dev/null")),
             shell("`ugdoppler`", "seen", format!("{DOPPLER} {seen} > /dev/null")),
             shell("`ugrainbow -sz 1280 720 -aa 1`", "coloured", format!("{RAINBOW} {coloured} > /dev/null")),

@@ -7,11 +7,13 @@
 //! cargo xtask sheet sheet.png 2 a.png b.png c.png d.png
 //! cargo xtask bench
 //! cargo xtask bench-reading
+//! cargo xtask geometry > tables.md
 //! ```
 //!
 //! Scenes go to standard output and are the same bytes on every run and platform.
 
 mod bench;
+mod geometry;
 mod globe;
 mod mesh;
 mod reading;
@@ -79,6 +81,21 @@ enum Chore {
         #[arg(default_value_t = 1_000_000, value_parser = clap::value_parser!(u32).range(36..=100_000_000))]
         triangles: u32,
     },
+    /// Measure outlines in pictures against the oracle, and the faces it takes, as Markdown
+    Geometry {
+        /// Pixels across and down
+        #[arg(long = "sz", num_args = 2, value_names = ["W", "H"], default_values_t = [1920, 1080])]
+        size: Vec<u32>,
+        /// Only scenes whose name begins so
+        #[arg(long, value_name = "NAME")]
+        only: Option<String>,
+        /// Only one of the tables
+        #[arg(long, value_enum)]
+        table: Option<geometry::Table>,
+        /// Scenes besides those of the repository
+        #[arg(value_name = "FILE", value_parser = geometry::is_file)]
+        files: Vec<PathBuf>,
+    },
     /// Read a scene and tell the peak memory in bytes
     #[command(hide = true)]
     ReadOnce {
@@ -114,6 +131,11 @@ fn run(chore: &Chore) -> io::Result<()> {
         }
         Chore::BenchReading { triangles } => {
             reading::write(&mut out, *triangles).map_err(|error| io::Error::other(error.to_string()))?;
+        }
+        Chore::Geometry { size, only, table, files } => {
+            let size = [size[0], size[1]];
+            geometry::write(&mut out, size, only.as_deref(), *table, files)
+                .map_err(|error| io::Error::other(error.to_string()))?;
         }
         Chore::ReadOnce { scene, threads } => {
             reading::read_once(&mut out, scene, *threads)

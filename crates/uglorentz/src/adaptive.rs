@@ -11,9 +11,11 @@
 //! | convex quadrilateral | all | 4 quadrilaterals round the mean of its corners |
 //! | | two opposite ones | 2 quadrilaterals |
 //! | | others | 2 triangles, and those as above |
-//! | | none bends, but a diagonal does | 2 triangles |
+//! | | none bends, but a diagonal does, or the inside | 2 triangles |
+//! | triangle | none bends, but the inside does | 3 triangles round the mean of its corners |
 //! | other polygon | any bends, or an inner edge of its triangles | triangles, and those as above |
 //! | other polygon that cannot be triangulated | any | itself with more corners |
+//! | any, seen edge-on | any | itself with more corners |
 //! | wire | any | itself with more corners |
 
 use glam::DVec3;
@@ -22,7 +24,9 @@ use ugparse::{Face, Scene, VertexId};
 
 use crate::edge::{self, Tolerance};
 use crate::growth::Growth;
-use crate::pieces::{Cut, Outcome, Piece, Polyline, Shape, shape};
+use crate::motion::Point;
+use crate::pieces::{Cut, Outcome, Piece, Polyline, Shape, as_contours, shape};
+use crate::{edge_on, interior, quick};
 
 /// An edge is halved this often at most. Each halving divides the sagitta by 4, so 12 take the worst arc down
 /// to the default bound; the rest are for edges that pass the eye at a millionth of their length.
@@ -39,7 +43,11 @@ pub(crate) fn cut(scene: &Scene, growth: &mut Growth, tolerance: &Tolerance, max
     for (face, cut) in judge.first_cuts(scene) {
         match cut {
             Cut::Pieces(shapes) => fresh.extend(shapes.into_iter().map(|shape| Piece { face, shape })),
-            Cut::Contours(lines) => outcome.lines.extend(lines),
+            Cut::EdgeOn(lines) => outcome.lines.extend(lines),
+            Cut::Contours(lines) => {
+                outcome.lines.extend(lines);
+                outcome.n_uncut += 1;
+            }
         }
     }
     outcome.lines.extend(judge.bent_wires(scene));
@@ -101,13 +109,13 @@ impl Open {
 struct Marks {
     /// From each corner to the next.
     edges: [bool; 4],
-    /// No edge is marked, but a diagonal of the quadrilateral is.
-    diagonal: bool,
+    /// No edge is marked, but the inside is, or a diagonal of the quadrilateral.
+    inside: bool,
 }
 
 impl Marks {
     fn any(self) -> bool {
-        self.diagonal || self.edges.contains(&true)
+        self.inside || self.edges.contains(&true)
     }
 
     /// At most how many pieces more there are when these edges are halved.
@@ -152,15 +160,26 @@ impl Judge<'_, '_> {
 
     /// `None` if the face can stay as it is.
     fn first_cut(&self, scene: &Scene, face: &Face) -> Option<Cut> {
-        let first = scene.contours.corners(face.contours.clone()).first()?;
-        if self.growth.motion(first.0).is_at_rest() {
+        let corners = scene.contours.corners(face.contours.clone());
+        let motion = self.growth.motion(corners.first()?.0);
+        if motion.is_at_rest() {
+            return None;
+        }
+        let points = corners.iter().map(|corner| self.growth.point(corner.0));
+        if quick::is_right(motion, points, self.tolerance) {
             return None;
         }
         let rest = |vertex: VertexId| -> DVec3 { self.growth.point(vertex.0).rest };
-        let cut = shape(scene, face, rest)?;
+        let cut = if edge_on::is_edge_on(scene, face, motion, rest) {
+            Cut::EdgeOn(as_contours(scene, face))
+        } else {
+            shape(scene, face, rest)?
+        };
         let bends = match &cut {
             Cut::Pieces(shapes) => shapes.iter().any(|shape| self.piece(shape).any()),
-            Cut::Contours(lines) => lines.iter().any(|line| self.line(line).contains(&true)),
+            Cut::EdgeOn(lines) | Cut::Contours(lines) => {
+                lines.iter().any(|line| self.line(line).contains(&true))
+            }
         };
         bends.then_some(cut)
     }
@@ -175,13 +194,36 @@ impl Judge<'_, '_> {
 
     fn piece(&self, shape: &Shape) -> Marks {
         let mut marks = Marks::default();
+        let points = shape.corners().iter().map(|&corner| self.growth.point(corner));
+        let motion = self.growth.motion(shape.corners()[0]);
+        if quick::is_right(motion, points, self.tolerance) {
+            return marks;
+        }
         for (mark, (a, b)) in marks.edges.iter_mut().zip(shape.edges()) {
             *mark = self.bends(a, b);
         }
-        if let Shape::Quad([a, b, c, d]) = *shape {
-            marks.diagonal = !marks.any() && (self.bends(a, c) || self.bends(b, d));
-        }
+        marks.inside = !marks.any() && self.bends_inside(shape);
         marks
+    }
+
+    /// Given that no edge bends.
+    fn bends_inside(&self, shape: &Shape) -> bool {
+        match *shape {
+            Shape::Triangle(corners) => self.bulges(corners),
+            Shape::Quad([a, b, c, d]) => {
+                self.bends(a, c)
+                    || self.bends(b, d)
+                    || [[a, b, c], [a, c, d], [b, c, d], [b, d, a]].into_iter().any(|half| self.bulges(half))
+            }
+        }
+    }
+
+    /// Is the true face too far from the inside of this triangle?
+    fn bulges(&self, corners: [u32; 3]) -> bool {
+        let motion = self.growth.motion(corners[0]);
+        let points: [&Point; 3] = corners.map(|corner| self.growth.point(corner));
+        let is_deep = points.iter().any(|point| point.generation >= MAX_GENERATION);
+        motion.has_flight_time() && !is_deep && interior::offset(motion, points) > self.tolerance.offset
     }
 
     fn line(&self, line: &Polyline) -> Vec<bool> {
@@ -209,9 +251,9 @@ impl Judge<'_, '_> {
                 .map(|((a, b), _)| length_squared(self.growth, a, b))
                 .reduce(f64::max)
         };
-        // A bent diagonal has no length here: its piece is cut at once.
+        // What is wrong inside has no length: its piece is cut at once.
         let of_piece = |open: &Open| {
-            if open.marks.diagonal {
+            if open.marks.inside {
                 return Some(0.0);
             }
             longest(&mut open.piece.shape.edges().zip(open.marks.edges))
@@ -233,15 +275,22 @@ impl Judge<'_, '_> {
     }
 }
 
-/// Halves the marked edges of a piece, or cuts it along a diagonal if that is marked.
+/// Halves the marked edges of a piece, or cuts it inside if that is marked.
 fn split(growth: &mut Growth, shape: &Shape, marks: Marks) -> Vec<Shape> {
     match *shape {
         Shape::Triangle(corners) => {
             let [a, b, c, _] = marks.edges;
-            split_triangle(growth, corners, [a, b, c])
+            if marks.inside { fan(growth, corners) } else { split_triangle(growth, corners, [a, b, c]) }
         }
         Shape::Quad(corners) => split_quad(growth, corners, marks.edges),
     }
+}
+
+/// Three triangles round the mean. In the shape of an equilateral one they are obtuse, so that no inside is worse
+/// than its edges.
+fn fan(growth: &mut Growth, [a, b, c]: [u32; 3]) -> Vec<Shape> {
+    let center = growth.center([a, b, c]);
+    [[a, b, center], [b, c, center], [c, a, center]].map(Shape::Triangle).to_vec()
 }
 
 /// `marks`: from each corner to the next.
@@ -355,7 +404,7 @@ mod tests {
         for max_pieces in [10, 100, 1000, 10_000] {
             let points = scene.vertices.iter().map(|vertex| motions[0].point(0, vertex.position)).collect();
             let mut growth = Growth::new(&motions, points);
-            let outcome = cut(&scene, &mut growth, &Tolerance::new(1e-9), max_pieces);
+            let outcome = cut(&scene, &mut growth, &Tolerance::new(1e-9, 2e-3), max_pieces);
             assert!(outcome.is_full);
             let n_pieces = outcome.pieces.len();
             assert!((max_pieces / 10..=max_pieces).contains(&n_pieces), "{n_pieces} of {max_pieces}");

@@ -14,6 +14,9 @@ const PREFIX: &str = "s#";
 
 /// Adds the vertices that `recipes` make, in order, still without positions.
 pub(crate) fn add_vertices(scene: &mut Scene, recipes: &[Recipe]) {
+    if recipes.is_empty() {
+        return;
+    }
     let prefix = free_prefix(scene.vertices.iter().map(|vertex| scene.names.get(vertex.name)));
     let mut palette = Palette::new(scene);
     for (idx, recipe) in recipes.iter().enumerate() {

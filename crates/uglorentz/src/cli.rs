@@ -9,7 +9,7 @@ use ugparse::pipe;
 use ugpipe::{CommonArgs, Failure, Stage, ToolArgs, finite, vector, view_angle};
 use ugscene::{CameraOptions, Geometry};
 
-use crate::{Anchor, Config, DEFAULT_ERROR, Error, Pieces, Table};
+use crate::{Anchor, Config, DEFAULT_COLOR_ERROR, DEFAULT_ERROR, Error, Pieces, Table};
 
 /// Geometry of a UniGrafix scene as seen in relativistic motion
 ///
@@ -57,9 +57,20 @@ pub struct Args {
     in_place: bool,
 
     /// Cut until the picture is right to ERR milliradians at the eye [default: 0.1]
+    ///
+    /// Cutting stops at 4000000 pieces, or after 32 halvings of an edge, with a warning that tells the error left.
+    /// -vb always tells it, and where it is.
     #[arg(long = "se", visible_alias = "error", value_name = "ERR", conflicts_with = "equal",
           allow_hyphen_values = true, value_parser = finite)]
     error: Option<f64>,
+
+    /// Cut until the Doppler factor is right to PERCENT between vertices, or off [default: 0.15]
+    ///
+    /// The default is less than an eye can tell apart. off saves faces where colours are not shown as they are
+    /// seen (ugdoppler --no-doppler --no-flux). It does nothing with -sd.
+    #[arg(long = "sc", visible_alias = "color-error", value_name = "PERCENT", allow_hyphen_values = true,
+          value_parser = percent_or_off)]
+    color_error: Option<f64>,
 
     /// Cut every edge into N equal pieces instead
     #[arg(id = "equal", long = "sd", visible_alias = "pieces", value_name = "N")]
@@ -143,7 +154,7 @@ fn run(args: &Args, stage: &mut Stage) -> Result<(), Failure> {
         stage.report(&report.warnings.render(true));
     }
     report.notes.warnings().iter().for_each(|warning| stage.warn(warning));
-    stage.detail(&report.notes.summary());
+    report.notes.details().iter().for_each(|detail| stage.detail(detail));
     if let (Some(path), Some(table)) = (&args.attributes, &report.table) {
         stage.write_file(path, table)?;
     }
@@ -181,6 +192,8 @@ impl Args {
             anchor: self.anchor.as_deref().map(anchor).transpose()?,
             in_place: self.in_place,
             pieces,
+            color_error: self.color_error.unwrap_or(DEFAULT_COLOR_ERROR),
+            measure: self.common.verbose(),
             smooth: self.smooth,
             geometry: Geometry { contraction: !self.no_contraction, flight_time: !self.no_flight_time },
             table: self.attributes.as_deref().map(table).transpose()?,
@@ -206,6 +219,17 @@ fn table(path: &Path) -> Result<Table, Failure> {
     Table::by_ending(&ending).ok_or_else(|| {
         Failure::Usage("the file of -at is a table: its name ends with .csv or .ply".to_string())
     })
+}
+
+/// A part, from a percentage.
+fn percent_or_off(word: &str) -> Result<f64, String> {
+    if word == "off" {
+        return Ok(f64::INFINITY);
+    }
+    match finite(word)? {
+        percent if percent > 0.0 => Ok(percent / 100.0),
+        _ => Err("it takes a percentage above 0, or off".to_string()),
+    }
 }
 
 fn anchor(words: &[String]) -> Result<Anchor, Failure> {

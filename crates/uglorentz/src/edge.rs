@@ -8,36 +8,30 @@
 //! ```
 //!
 //! So the true curve leaves the chord that a renderer draws only against or along the motion, by a closed form.
-//! What the picture shows of it is tested by three rules, from cheap to dear:
+//! What the picture shows of it is tested by three rules:
 //!
 //! 1. **outline**: the edge and the eye span a plane in S' with unit normal n'. By (P6) its directions d in S
 //!    satisfy m·d + k = 0 with m = n' + (γ − 1)(n'·û)û, k = γ n'·v and |m|² − k² = 1: a circle on the sphere
 //!    of directions, of geodesic curvature k. The chord is a great circle. The angle between the two is
 //!    largest in the middle (E2) and must not pass the bound;
 //! 2. **depth**: the distance from C(s) to the chord in space, over |C(s)|, must stay below the bound too, since
-//!    faces hide each other by depth, and a decal lies close in front of its wall;
-//! 3. **colour**: D taken linearly along the chord must agree with D in that direction to
-//!    [`DOPPLER_ERROR`].
+//!    faces hide each other by depth, and a decal lies close in front of its wall. Its maximum is (E3);
+//! 3. **colour**: D and 1/D taken linearly along the chord must agree with D in that direction
+//!    ([`crate::color`]).
 //!
 //! The answer depends on the two points, their body and the bound, not on the face, so two faces that share an
-//! edge always agree about it.
+//! edge always agree about it. Derivations are in `docs/geometry.md`.
 
 use glam::DVec3;
-use ugphysics::doppler_at;
 
+use crate::color;
 use crate::motion::{Motion, Point};
 
 /// Rule 2 never asks for more than this: a ten-thousandth of the distance.
 const LEAST_OFFSET: f64 = 1e-4;
 
-/// Largest relative error of D between two vertices. At 550 nm it is 2.7 nm, about what an eye can tell apart.
-const DOPPLER_ERROR: f64 = 0.005;
-
 /// Two directions with |d_a + d_b|² below this are opposite: no great circle joins them in particular.
 const OPPOSITE: f64 = 1e-12;
-
-/// Parameters at which rules 2 and 3 look.
-const SAMPLES: [f64; 3] = [0.25, 0.5, 0.75];
 
 /// How far a drawn edge may be from the true one.
 #[derive(Clone, Copy, Debug)]
@@ -45,18 +39,33 @@ pub(crate) struct Tolerance {
     /// Tangent of half the bound of rule 1.
     tan_half: f64,
     /// Bound of rule 2.
-    offset: f64,
+    pub offset: f64,
     /// What |C − chord|/|C| may be for rules 1 and 2 to hold for sure.
-    safe: f64,
+    pub safe: f64,
+    /// Bound of rule 3; infinite if nobody asks.
+    pub color: f64,
 }
 
 impl Tolerance {
-    /// From the largest angle at the eye, radians; angles above a right one count as that.
-    pub(crate) fn new(error: f64) -> Tolerance {
+    /// `error`: the largest angle at the eye, radians; angles above a right one count as that.
+    /// `color`: the largest relative error of D, infinite for any.
+    pub(crate) fn new(error: f64, color: f64) -> Tolerance {
         let error = error.min(std::f64::consts::FRAC_PI_2);
         let offset = error.max(LEAST_OFFSET);
-        Tolerance { tan_half: libm::tan(error / 2.0), offset, safe: libm::sin(error).min(offset) }
+        let safe = libm::sin(error).min(offset);
+        Tolerance { tan_half: libm::tan(error / 2.0), offset, safe, color: color * color::EDGE_SHARE }
     }
+}
+
+/// What is wrong with a drawn edge, at the place where it is worst.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Errors {
+    /// Rule 1, radians.
+    pub angle: f64,
+    /// Rule 2.
+    pub offset: f64,
+    /// Rule 3; an upper bound.
+    pub color: f64,
 }
 
 /// Must the edge be cut? Give the ends in the same order whenever you ask for the same edge.
@@ -64,7 +73,21 @@ pub(crate) fn bends(a: &Point, b: &Point, motion: &Motion, tolerance: &Tolerance
     if motion.is_at_rest() {
         return false;
     }
-    (motion.has_flight_time() && leaves_chord(a, b, motion, tolerance)) || shifts_colour(a, b, motion)
+    (motion.has_flight_time() && leaves_chord(a, b, motion, tolerance))
+        || color::is_off(a, b, motion, tolerance.color)
+}
+
+/// All there is to say about an edge.
+pub(crate) fn errors(a: &Point, b: &Point, motion: &Motion) -> Errors {
+    if motion.is_at_rest() {
+        return Errors::default();
+    }
+    let color = color::error(a, b, motion);
+    if !motion.has_flight_time() {
+        return Errors { color, ..Errors::default() };
+    }
+    let edge = Edge::new(a, b, motion);
+    Errors { angle: 2.0 * libm::atan(edge.tan_half_sagitta()), offset: edge.offset(), color }
 }
 
 /// Rules 1 and 2.
@@ -80,6 +103,13 @@ fn leaves_chord(a: &Point, b: &Point, motion: &Motion, tolerance: &Tolerance) ->
     edge.tan_half_sagitta() > tolerance.tan_half || edge.offset() > tolerance.offset
 }
 
+/// |p||q| − p·q of two vectors, given the product of their lengths.
+pub(crate) fn lengths_less_dot(p: DVec3, q: DVec3, product: f64) -> f64 {
+    let dot = p.dot(q);
+    // The first form does not cancel for vectors close to each other.
+    if dot > 0.0 { p.cross(q - p).length_squared() / (product + dot) } else { product - dot }
+}
+
 /// An edge of a moving body.
 struct Edge<'a> {
     a: &'a Point,
@@ -89,8 +119,6 @@ struct Edge<'a> {
     start: DVec3,
     /// b' − a'.
     along: DVec3,
-    /// a' × b'.
-    normal: DVec3,
     /// |a'||b'| − a'·b'.
     w: f64,
 }
@@ -99,12 +127,8 @@ impl<'a> Edge<'a> {
     fn new(a: &'a Point, b: &'a Point, motion: &'a Motion) -> Edge<'a> {
         let (start, end) = (motion.boosted_rest(a.rest), motion.boosted_rest(b.rest));
         let along = end - start;
-        let normal = start.cross(along);
-        let product = a.rest_distance * b.rest_distance;
-        let dot = start.dot(end);
-        // The first form does not cancel for ends close to each other.
-        let w = if dot > 0.0 { normal.length_squared() / (product + dot) } else { product - dot };
-        Edge { a, b, motion, start, along, normal, w }
+        let w = lengths_less_dot(start, end, a.rest_distance * b.rest_distance);
+        Edge { a, b, motion, start, along, w }
     }
 
     /// tan(σ/2), where σ is the largest angle between the seen arc and the chord's great circle.
@@ -119,7 +143,7 @@ impl<'a> Edge<'a> {
     ///
     /// m·g is negative when the arc is the longer part of its circle; the second form is for it.
     fn tan_half_sagitta(&self) -> f64 {
-        let Some(rest_normal) = self.normal.try_normalize() else {
+        let Some(rest_normal) = self.start.cross(self.along).try_normalize() else {
             return 0.0; // The edge points at the eye and is seen as a point.
         };
         let direction = self.motion.direction();
@@ -144,47 +168,41 @@ impl<'a> Edge<'a> {
         }
     }
 
-    /// Largest distance of the true curve from the chord over its distance from the eye, by (E1), at
-    /// [`SAMPLES`] and where the edge is closest to the eye.
+    /// Largest distance of the true curve from the chord over its distance from the eye.
+    ///
+    /// With x the place on the edge's line, h the line's distance from the eye, r = √(h² + x²) = |p'|, and B = (|b'| − |a'|)/L,
+    /// Q = v·l, A and P the values at x = 0, it is γ|v × chord| times the largest
+    ///
+    /// ```text
+    /// λ/γ = δ/|C| = (A + Bx − r)/γ(r − P − Qx).
+    /// ```
+    ///
+    /// In the plane (x, r) a value of λ is a straight line, and the largest is the one that touches the
+    /// hyperbola: a quadratic, whose last term is (w/L)² exactly, so it does not cancel for short edges:
+    ///
+    /// ```text
+    /// λ = (w/L)²/(e + √(e² + (w/L)²(h²(1 − Q²) − P²))),      e = h²(1 − BQ) − AP.      (E3)
+    /// ```
     fn offset(&self) -> f64 {
-        let direction = self.motion.direction();
+        let length = self.along.length();
         let chord = (self.b.seen - self.a.seen).normalize_or_zero();
-        let across = self.motion.proper_speed() * direction.cross(chord).length();
-        let closest = closest_to_eye(self.start, self.along);
-        SAMPLES.into_iter().chain(closest).fold(0.0, |worst: f64, s| {
-            let linear = (1.0 - s) * self.a.rest_distance + s * self.b.rest_distance;
-            let delta = 2.0 * s * (1.0 - s) * self.w / (linear + (self.start + self.along * s).length());
-            let bulge = direction * (self.motion.proper_speed() * delta);
-            let seen_distance = (self.a.seen.lerp(self.b.seen, s) + bulge).length();
-            worst.max(across * delta / seen_distance)
-        })
+        let beta = self.motion.velocity().beta();
+        let across = beta.cross(chord).length();
+        let term = (self.w / length) * (self.w / length);
+        if across == 0.0 || term.is_nan() || term <= 0.0 {
+            return 0.0;
+        }
+        let line = self.along / length;
+        let x = self.start.dot(line);
+        let foot = self.start - line * x;
+        let h2 = foot.length_squared();
+        let slope = (self.along.dot(self.start + self.start + self.along) / length)
+            / (self.a.rest_distance + self.b.rest_distance);
+        let (at_foot, p, q) = (self.a.rest_distance - slope * x, beta.dot(foot), beta.dot(line));
+        let e = h2 * (1.0 - slope * q) - at_foot * p;
+        let square = (e * e + term * (h2 * (1.0 - q * q) - p * p)).max(0.0);
+        across * term / (e + square.sqrt()).max(0.0)
     }
-}
-
-/// Rule 3.
-fn shifts_colour(a: &Point, b: &Point, motion: &Motion) -> bool {
-    // |d ln D/dθ| ≤ γβ, and the chord spans at most the angle L/√(r² − L²/4) at the eye, where r is the distance
-    // of its nearer end.
-    let chord = b.seen - a.seen;
-    let length2 = chord.length_squared();
-    let nearer = a.seen_distance.min(b.seen_distance);
-    let closest2 = nearer * nearer - length2 / 4.0;
-    let speed = motion.proper_speed();
-    if speed * speed * length2 <= DOPPLER_ERROR * DOPPLER_ERROR * closest2 {
-        return false;
-    }
-    let (d_a, d_b) = (doppler_at(a.seen, motion.velocity()), doppler_at(b.seen, motion.velocity()));
-    SAMPLES.into_iter().chain(closest_to_eye(a.seen, chord)).any(|s| {
-        let linear = (1.0 - s) * d_a + s * d_b;
-        let exact = doppler_at(a.seen + chord * s, motion.velocity());
-        (linear - exact).abs() > DOPPLER_ERROR * exact
-    })
-}
-
-/// Parameter of the point of a line nearest to the eye, if it lies between the ends.
-fn closest_to_eye(start: DVec3, along: DVec3) -> Option<f64> {
-    let s = -start.dot(along) / along.length_squared();
-    (s > 0.0 && s < 1.0).then_some(s)
 }
 
 #[cfg(test)]
@@ -236,9 +254,36 @@ mod tests {
     }
 
     #[test]
+    fn the_offset_is_the_largest_along_the_edge() {
+        let step = |k: u32, seed: f64| (f64::from(k) * seed).fract() * 2.0 - 1.0;
+        for k in 1..300_u32 {
+            let a = DVec3::new(step(k, 0.618_034), step(k, 0.414_214), step(k, 0.732_051)) * 3.0;
+            let b = DVec3::new(step(k, 0.236_068), step(k, 0.645_751), step(k, 0.316_625)) * 3.0;
+            // From whole edges to those of a fine mesh.
+            let b = a.lerp(b, libm::pow(10.0, -f64::from(k % 4)));
+            for speed in [1e-3, 0.5, 0.99, 0.999_99] {
+                let motion = motion(DVec3::new(0.6, 0.0, 0.8) * speed);
+                let (p, q) = (motion.point(0, a), motion.point(0, b));
+                let found = Edge::new(&p, &q, &motion).offset();
+                let chord = (q.seen - p.seen).normalize();
+                let sampled = (1..1000).map(|step| {
+                    let s = f64::from(step) / 1000.0;
+                    let true_point = motion.point(0, a.lerp(b, s)).seen;
+                    (true_point - p.seen).cross(chord).length() / true_point.length()
+                });
+                let sampled = sampled.fold(0.0, f64::max);
+                // Sampling falls short of the maximum, by more for long edges near the eye.
+                let slack = 1e-9 + 0.02 * found;
+                assert!(sampled <= found * (1.0 + 1e-6) + 1e-12, "{a} {b} {speed}: {found} {sampled}");
+                assert!(sampled >= found - slack, "{a} {b} {speed}: {found} {sampled}");
+            }
+        }
+    }
+
+    #[test]
     fn what_is_safe_is_right() {
         // The quick way out must agree with the rules it skips.
-        let tolerance = Tolerance::new(1e-3);
+        let tolerance = Tolerance::new(1e-3, 1.0);
         let (mut n_quick, mut n_bent) = (0, 0);
         for k in 1..2000_u32 {
             let turn = f64::from(k);
@@ -258,7 +303,7 @@ mod tests {
     #[test]
     fn opposite_and_degenerate_edges() {
         let motion = motion(DVec3::X * 0.9);
-        let tolerance = Tolerance::new(0.25e-3);
+        let tolerance = Tolerance::new(0.25e-3, 2e-3);
         let bends = |a: DVec3, b: DVec3| bends(&motion.point(0, a), &motion.point(0, b), &motion, &tolerance);
         assert!(bends(DVec3::Y, -DVec3::Y), "through the eye");
         assert!(bends(DVec3::X, -DVec3::X), "through the eye, along the motion");

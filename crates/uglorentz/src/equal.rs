@@ -24,7 +24,7 @@ pub(crate) fn cut(scene: &Scene, growth: &mut Growth, n: u32) -> Result<Outcome,
             Some(Cut::Pieces(list)) => {
                 shapes.extend(list.into_iter().map(|shape| Piece { face: idx as u32, shape }));
             }
-            Some(Cut::Contours(list)) => lines.extend(list),
+            Some(Cut::EdgeOn(list) | Cut::Contours(list)) => lines.extend(list),
             None => {}
         }
     }

@@ -1,5 +1,6 @@
 //! New vertices: made once, shared by all who meet at them.
 
+use glam::DVec3;
 use rustc_hash::FxHashMap;
 
 use crate::motion::{Motion, Point};
@@ -67,6 +68,15 @@ impl<'a> Growth<'a> {
         let is_at_eye = ((a + b + c + d) / 4.0).length() <= AT_EYE * (a - c).length();
         let weights = if is_at_eye { BESIDE_MEAN } else { [0.25; 4] };
         self.add(Recipe { parents, weights })
+    }
+
+    /// The mean of the corners of a triangle, or a point beside it if the eye is there, not shared.
+    pub(crate) fn center(&mut self, [a, b, c]: [u32; 3]) -> u32 {
+        let corners = [a, b, c].map(|row| self.point(row).rest);
+        let mean = corners.iter().sum::<DVec3>() / 3.0;
+        let is_at_eye = mean.length() <= AT_EYE * (corners[0] - corners[1]).length();
+        let [first, other] = if is_at_eye { [0.5, 0.25] } else { [1.0 / 3.0, 1.0 / 3.0] };
+        self.add(Recipe { parents: [a, b, c, 0], weights: [first, other, other, 0.0] })
     }
 
     /// A new vertex of the body of its first parent.

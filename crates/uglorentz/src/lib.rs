@@ -19,8 +19,8 @@
 //! # Why faces are cut
 //!
 //! Renderers draw straight edges between vertices, but a straight edge in motion is seen as an arc of a
-//! hyperbola. So long edges are cut first. By default a closed formula for the angle between arc and chord
-//! decides edge by edge where that shows ([`Pieces::UpTo`]); two faces that share an edge cut it alike, so
+//! hyperbola. So long edges are cut first. By default closed formulas for the angle between arc and chord, for depth
+//! and for colour decide edge by edge where that shows ([`Pieces::UpTo`], derived in `docs/geometry.md`); two faces that share an edge cut it alike, so
 //! the result has no cracks. A scene at rest is never cut.
 //!
 //! Pieces keep direction, colour, light level, velocity and name of their face; those of one face stand
@@ -55,20 +55,25 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod achieved;
 mod adaptive;
 mod attributes;
 mod cli;
+mod color;
 mod cull;
 mod edge;
+mod edge_on;
 mod equal;
 mod error;
 mod frame;
 mod growth;
+mod interior;
 mod measurement;
 mod motion;
 mod notes;
 mod pieces;
 mod placement;
+mod quick;
 mod viewpoint;
 
 use glam::DVec3;
@@ -80,7 +85,7 @@ use ugscene::{Bodies, CameraOptions, Geometry};
 pub use cli::{Args, main};
 pub use error::Error;
 pub use measurement::{Measurement, Table, measure};
-pub use notes::Notes;
+pub use notes::{Achieved, Notes, Worst};
 
 use crate::edge::Tolerance;
 use crate::growth::Growth;
@@ -90,6 +95,10 @@ use crate::pieces::Outcome;
 /// Default of [`Pieces::UpTo`]: 0.1 milliradians, in radians. A pixel of a picture 40° wide and 1920 pixels
 /// across is 0.36, so no edge is off by a third of one.
 pub const DEFAULT_ERROR: f64 = 0.1e-3;
+
+/// Default of [`Config::color_error`]: 0.15 percent, at 550 nm 0.8 nm. At best an eye tells wavelengths apart that
+/// differ by 1 nm (W. D. Wright and F. H. G. Pitt, 1934).
+pub const DEFAULT_COLOR_ERROR: f64 = 1.5e-3;
 
 /// What to do.
 #[derive(Clone, Debug)]
@@ -115,6 +124,11 @@ pub struct Config {
     pub in_place: bool,
     /// How to cut edges (`-se`, `-sd`).
     pub pieces: Pieces,
+    /// With [`Pieces::UpTo`], cut also where the Doppler factor, or its inverse, taken linearly along an edge would
+    /// be off by more than this part; infinite for nowhere (`-sc`).
+    pub color_error: f64,
+    /// Find out how right the result is, for [`Notes::achieved`] (`-vb`).
+    pub measure: bool,
     /// Give vertices without a normal the mean of their faces' (`-sm`).
     pub smooth: bool,
     /// Which effects to show (`-nc`, `--no-flight-time`).
@@ -139,6 +153,8 @@ impl Default for Config {
             anchor: None,
             in_place: false,
             pieces: Pieces::UpTo(DEFAULT_ERROR),
+            color_error: DEFAULT_COLOR_ERROR,
+            measure: false,
             smooth: false,
             geometry: Geometry::default(),
             table: None,
@@ -249,9 +265,12 @@ fn transform_owned(mut scene: Scene, config: &Config) -> Result<(Scene, Notes), 
 
     let mut growth = Growth::new(&motions, points);
     let outcome = match config.pieces {
-        Pieces::UpTo(error) => {
-            adaptive::cut(&scene, &mut growth, &Tolerance::new(error), adaptive::MAX_PIECES)
-        }
+        Pieces::UpTo(error) => adaptive::cut(
+            &scene,
+            &mut growth,
+            &Tolerance::new(error, config.color_error),
+            adaptive::MAX_PIECES,
+        ),
         Pieces::PerEdge(n) => {
             equal::cut(&scene, &mut growth, n).map_err(|n_pieces| Error::TooManyPieces { n_pieces })?
         }
@@ -262,13 +281,17 @@ fn transform_owned(mut scene: Scene, config: &Config) -> Result<(Scene, Notes), 
     scene.escapes.extend(config.geometry.escape());
     ugscene::record(&mut scene, PROGRAM, env!("CARGO_PKG_VERSION"), &config.command_line);
 
+    let is_short = outcome.is_full || outcome.n_too_deep + outcome.n_uncut > 0;
+    let achieved = (config.measure || is_short).then(|| achieved::measure(&scene, &growth));
     let notes = Notes {
         was_seen_before,
         n_new_vertices: growth.recipes.len(),
         n_new_faces: scene.faces.len() + n_culled - n_faces,
         n_culled,
+        n_uncut: outcome.n_uncut,
         n_too_deep: outcome.n_too_deep,
         is_full: outcome.is_full,
+        achieved,
     };
     Ok((scene, notes))
 }
@@ -279,6 +302,9 @@ const PROGRAM: &str = env!("CARGO_PKG_NAME");
 fn check(config: &Config) -> Result<Velocity, Error> {
     match config.pieces {
         Pieces::UpTo(error) if !(error > 0.0 && error.is_finite()) => return Err(Error::NoBound { error }),
+        Pieces::UpTo(_) if config.color_error.is_nan() || config.color_error <= 0.0 => {
+            return Err(Error::NoColorBound { error: config.color_error });
+        }
         Pieces::PerEdge(0) => return Err(Error::NoPieces),
         _ => {}
     }

@@ -1,7 +1,7 @@
 //! Bodies in motion and points on them.
 
 use glam::{DQuat, DVec3};
-use ugphysics::Velocity;
+use ugphysics::{Velocity, doppler_at};
 use ugscene::Geometry;
 
 use crate::{Error, frame};
@@ -103,14 +103,16 @@ impl Motion {
     /// The point at `rest`, relative to the eye.
     pub(crate) fn point(&self, body: u32, rest: DVec3) -> Point {
         let seen = if self.is_at_rest() { rest } else { self.geometry.seen(rest, self.velocity) };
-        Point {
-            rest,
-            seen,
-            rest_distance: self.boosted_rest(rest).length(),
-            seen_distance: seen.length(),
-            body,
-            generation: 0,
-        }
+        let (rest_distance, seen_distance) = (self.boosted_rest(rest).length(), seen.length());
+        let inverse_doppler = if self.is_at_rest() {
+            1.0
+        } else if self.has_flight_time() {
+            // D = |p|/|p'|.
+            rest_distance / seen_distance
+        } else {
+            1.0 / doppler_at(seen, self.velocity)
+        };
+        Point { rest, seen, rest_distance, seen_distance, inverse_doppler, body, generation: 0 }
     }
 }
 
@@ -130,6 +132,8 @@ pub(crate) struct Point {
     pub rest_distance: f64,
     /// |p|.
     pub seen_distance: f64,
+    /// 1/D, (P10).
+    pub inverse_doppler: f64,
     /// Row of its body.
     pub body: u32,
     /// How many halvings made it: 0 for a vertex of the scene.

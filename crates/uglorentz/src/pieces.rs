@@ -63,8 +63,8 @@ impl Polyline {
     }
 }
 
-fn vertex_ids(rows: &[u32]) -> Vec<VertexId> {
-    rows.iter().map(|&row| VertexId(row)).collect()
+fn vertex_ids(rows: &[u32]) -> impl Iterator<Item = VertexId> {
+    rows.iter().map(|&row| VertexId(row))
 }
 
 fn rows(corners: &[VertexId]) -> Vec<u32> {
@@ -80,6 +80,8 @@ fn closed_edges(corners: &[u32]) -> impl Iterator<Item = (u32, u32)> {
 pub(crate) enum Cut {
     /// As triangles and convex quadrilaterals.
     Pieces(Vec<Shape>),
+    /// As it is, for it is seen edge-on.
+    EdgeOn(Vec<Polyline>),
     /// As it is, for its contours cross each other or enclose nothing.
     Contours(Vec<Polyline>),
 }
@@ -108,10 +110,13 @@ pub(crate) fn shape(scene: &Scene, face: &Face, rest: impl Fn(VertexId) -> DVec3
         Some(triangles) => Cut::Pieces(
             triangles.iter().map(|t| Shape::Triangle(t.map(|corner| corners[corner as usize].0))).collect(),
         ),
-        None => Cut::Contours(
-            face.contours.clone().map(|row| Polyline::closed(row, scene.contours.get(row))).collect(),
-        ),
+        None => Cut::Contours(as_contours(scene, face)),
     })
+}
+
+/// The contours of a face, to be given more corners.
+pub(crate) fn as_contours(scene: &Scene, face: &Face) -> Vec<Polyline> {
+    face.contours.clone().map(|row| Polyline::closed(row, scene.contours.get(row))).collect()
 }
 
 /// A contour without corners that repeat the one before.
@@ -131,6 +136,8 @@ pub(crate) struct Outcome {
     pub pieces: Vec<Piece>,
     /// Contours with more corners.
     pub lines: Vec<Polyline>,
+    /// Faces whose inside is off, but which cannot be cut.
+    pub n_uncut: usize,
     /// Edges left bent since they have been halved often enough.
     pub n_too_deep: usize,
     /// Was cutting stopped since there are too many pieces?
@@ -149,9 +156,13 @@ impl Outcome {
         let mut lines: Vec<&Polyline> = self.lines.iter().collect();
         lines.sort_by_key(|line| line.row);
         let old = std::mem::take(&mut scene.contours);
-        let kept = |row: u32| match lines.binary_search_by_key(&row, |line| line.row) {
-            Ok(at) => vertex_ids(&lines[at].corners),
-            Err(_) => old.get(row).to_vec(),
+        let kept = |row: u32| {
+            let (whole, cut): (&[VertexId], &[u32]) = match lines.binary_search_by_key(&row, |line| line.row)
+            {
+                Ok(at) => (&[], &lines[at].corners),
+                Err(_) => (old.get(row), &[]),
+            };
+            whole.iter().copied().chain(vertex_ids(cut))
         };
 
         let contours = &mut scene.contours;

@@ -55,6 +55,8 @@ fn options_have_two_spellings() {
         "-cull -vc 3 1 1 -ud 0 1 0 -va 50 40 -og -sz 4 3",
         "--cull --center 3 1 1 --up 0 1 0 --view-angle 50 40 --orthographic --size 4 3",
     );
+    check("-vel .5 0 0 -sc .5", "--vel .5 0 0 --color-error .5");
+    check("-vel .5 0 0 -sc off", "--velocity .5 0 0 --color-error off");
     check("-vel .5 0 0 -nc -no-flight-time", "--vel .5 0 0 --no-contraction --no-flight-time");
 }
 

@@ -60,7 +60,7 @@ impl Bodies {
 pub fn vertex_velocities(scene: &Scene) -> Vec<Option<VelocityId>> {
     let mut velocities = vec![None; scene.vertices.len()];
     // From behind, so that the first user has the last word.
-    for (rows, velocity) in users(scene).collect::<Vec<_>>().into_iter().rev() {
+    for (rows, velocity) in users(scene).rev() {
         for corner in scene.contours.corners(rows) {
             velocities[corner.index()] = velocity;
         }
@@ -69,7 +69,7 @@ pub fn vertex_velocities(scene: &Scene) -> Vec<Option<VelocityId>> {
 }
 
 /// Faces and wires: their contours and velocity.
-fn users(scene: &Scene) -> impl Iterator<Item = (std::ops::Range<u32>, Option<VelocityId>)> {
+fn users(scene: &Scene) -> impl DoubleEndedIterator<Item = (std::ops::Range<u32>, Option<VelocityId>)> {
     let faces = scene.faces.iter().map(|face| (face.contours.clone(), face.velocity));
     let wires = scene.wires.iter().map(|wire| (wire.contours.clone(), wire.velocity));
     faces.chain(wires)
@@ -78,7 +78,8 @@ fn users(scene: &Scene) -> impl Iterator<Item = (std::ops::Range<u32>, Option<Ve
 /// Gives every body its own vertices: where faces or wires of different
 /// velocity share a vertex, the later ones get a copy, named after it.
 pub fn separate_bodies(scene: &mut Scene) {
-    if !scene.velocities.is_empty() {
+    let first = users(scene).next().map(|(_, velocity)| velocity);
+    if users(scene).any(|(_, velocity)| Some(velocity) != first) {
         let users: Vec<_> = users(scene).collect();
         split_vertices(scene, &users, |_| true);
     }

@@ -1,0 +1,116 @@
+//! How right the result is: the rules of [`crate::edge`] on everything that is written.
+
+use glam::DVec3;
+use rayon::prelude::*;
+use ugparse::{Face, Scene, VertexId, Wire};
+
+use crate::growth::Growth;
+use crate::motion::Point;
+use crate::notes::{Achieved, Worst};
+use crate::pieces::{Cut, Shape, shape};
+use crate::{edge, edge_on, interior, quick};
+
+/// The greatest errors of all edges and faces of a scene whose pieces are in place.
+pub(crate) fn measure(scene: &Scene, growth: &Growth) -> Achieved {
+    let judge = Judge { scene, growth };
+    let faces = scene.faces.par_iter().map(|face| judge.face(face)).reduce(Found::default, Found::or);
+    let wires = scene.wires.par_iter().map(|wire| judge.wire(wire)).reduce(Found::default, Found::or);
+    let found = faces.or(wires);
+    let worst = |(error, at): At| {
+        let name = |row: &u32| scene.names.get(scene.vertices[*row as usize].name).to_string();
+        Worst { error, at: if error > 0.0 { at.iter().flatten().map(name).collect() } else { Vec::new() } }
+    };
+    Achieved { angle: worst(found.angle), depth: worst(found.depth), doppler: worst(found.doppler) }
+}
+
+/// An error and the vertices it is between.
+type At = (f64, [Option<u32>; 3]);
+
+#[derive(Clone, Copy, Default)]
+struct Found {
+    angle: At,
+    depth: At,
+    doppler: At,
+}
+
+impl Found {
+    /// The larger of each; of equal ones the first, so the result does not depend on threads.
+    fn or(self, other: Found) -> Found {
+        let larger = |a: At, b: At| {
+            let first = if b.1 < a.1 { b } else { a };
+            if a.0 == b.0 {
+                first
+            } else if b.0 > a.0 {
+                b
+            } else {
+                a
+            }
+        };
+        Found {
+            angle: larger(self.angle, other.angle),
+            depth: larger(self.depth, other.depth),
+            doppler: larger(self.doppler, other.doppler),
+        }
+    }
+}
+
+struct Judge<'a, 'b> {
+    scene: &'a Scene,
+    growth: &'a Growth<'b>,
+}
+
+impl Judge<'_, '_> {
+    fn face(&self, face: &Face) -> Found {
+        let contours = self.scene.face_contours(face);
+        let ends = contours.flat_map(|corners| corners.iter().zip(corners.iter().cycle().skip(1)));
+        let edges = ends.map(|(a, b)| self.edge(a.0, b.0)).fold(Found::default(), Found::or);
+        let is_moving = self.is_moving(self.scene.contours.corners(face.contours.clone()));
+        if is_moving { edges.or(self.inside(face)) } else { edges }
+    }
+
+    fn wire(&self, wire: &Wire) -> Found {
+        let contours = self.scene.wire_contours(wire);
+        let ends = contours.flat_map(|corners| corners.windows(2));
+        ends.map(|pair| self.edge(pair[0].0, pair[1].0)).fold(Found::default(), Found::or)
+    }
+
+    fn is_moving(&self, corners: &[VertexId]) -> bool {
+        corners.first().is_some_and(|corner| !self.growth.motion(corner.0).is_at_rest())
+    }
+
+    fn edge(&self, a: u32, b: u32) -> Found {
+        let (low, high) = (a.min(b), a.max(b));
+        let (from, to) = (self.growth.point(low), self.growth.point(high));
+        let errors = edge::errors(from, to, self.growth.motion(low));
+        let at = [Some(low), Some(high), None];
+        Found { angle: (errors.angle, at), depth: (errors.offset, at), doppler: (errors.color, at) }
+    }
+
+    /// Triangles as they are drawn; larger polygons as they would be cut; an upper bound for those that cannot be.
+    fn inside(&self, face: &Face) -> Found {
+        let rest = |vertex: VertexId| -> DVec3 { self.growth.point(vertex.0).rest };
+        let corners = self.scene.contours.corners(face.contours.clone());
+        let motion = self.growth.motion(corners[0].0);
+        if !motion.has_flight_time() || edge_on::is_edge_on(self.scene, face, motion, rest) {
+            return Found::default();
+        }
+        let shapes = match shape(self.scene, face, rest) {
+            Some(Cut::Pieces(shapes)) => shapes,
+            Some(_) => {
+                let points = corners.iter().map(|corner| self.growth.point(corner.0));
+                let at = [0, 1, 2].map(|idx| corners.get(idx).map(|corner| corner.0));
+                return Found { depth: (quick::offset(motion, points), at), ..Found::default() };
+            }
+            None => return Found::default(),
+        };
+        let halves = shapes.iter().flat_map(|shape| match *shape {
+            Shape::Triangle(corners) => vec![corners],
+            Shape::Quad([a, b, c, d]) => vec![[a, b, c], [a, c, d], [b, c, d], [b, d, a]],
+        });
+        let found = halves.map(|corners| {
+            let points: [&Point; 3] = corners.map(|row| self.growth.point(row));
+            Found { depth: (interior::offset(motion, points), corners.map(Some)), ..Found::default() }
+        });
+        found.fold(Found::default(), Found::or)
+    }
+}

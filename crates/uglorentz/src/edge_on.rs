@@ -1,0 +1,60 @@
+//! Faces whose plane goes through the eye have no area in the picture.
+//!
+//! All their points are seen on one circle of directions (P8), so only the outline, and its depth, is ever
+//! seen. Such a face keeps its contours, with the corners that its edges get, and nothing inside is cut: close to
+//! the eye that would take pieces without end.
+
+use glam::DVec3;
+use ugparse::{Face, Scene, VertexId};
+
+use crate::motion::Motion;
+
+/// A plane through the eye up to rounding: the part of the largest distance of a corner.
+const FLAT: f64 = 1e-12;
+
+/// Edges are clear of the eye by this part of it at least.
+const CLEAR: f64 = 1e-9;
+
+/// Is the face seen edge-on, so that its outline alone draws it?
+///
+/// If it moves out of its plane the circle is a small one, and an outline that goes round the eye would enclose
+/// what lies inside that circle; such a face does not count.
+pub(crate) fn is_edge_on(
+    scene: &Scene,
+    face: &Face,
+    motion: &Motion,
+    rest: impl Fn(VertexId) -> DVec3,
+) -> bool {
+    let corners = || scene.contours.corners(face.contours.clone()).iter().map(|&corner| rest(corner));
+    let Some(outline) = scene.face_contours(face).next() else { return false };
+    let Some(normal) = ugparse::newell_normal(outline.iter().map(|&corner| rest(corner))).try_normalize()
+    else {
+        return false;
+    };
+    let reach = corners().map(|corner| corner.length()).fold(0.0, f64::max);
+    if !corners().all(|corner| normal.dot(corner).abs() <= FLAT * reach) {
+        return false;
+    }
+    let slides = motion.proper_speed() * normal.dot(motion.direction()).abs() <= FLAT;
+    slides || is_beside_eye(outline.iter().map(|&corner| rest(corner)), normal, CLEAR * reach)
+}
+
+/// Is the eye, in the plane of an outline, outside it and clear of its edges?
+fn is_beside_eye(outline: impl Iterator<Item = DVec3> + Clone, normal: DVec3, clear: f64) -> bool {
+    let (across, up) = normal.any_orthonormal_pair();
+    let next = outline.clone().skip(1).chain(outline.clone().take(1));
+    let mut is_inside = false;
+    for (a, b) in outline.zip(next) {
+        let along = b - a;
+        // A corner that repeats the one before is no edge, and as far from the eye as any of its points.
+        let s = (-a.dot(along) / along.length_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+        if (a + along * s).length() <= clear {
+            return false;
+        }
+        let ([ax, ay], [bx, by]) = ([a.dot(across), a.dot(up)], [b.dot(across), b.dot(up)]);
+        if (ay <= 0.0) != (by <= 0.0) && ax - ay * (bx - ax) / (by - ay) > 0.0 {
+            is_inside = !is_inside;
+        }
+    }
+    !is_inside
+}

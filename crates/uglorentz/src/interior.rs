@@ -1,0 +1,106 @@
+//! How far the inside of a flat piece is from the true, curved image of its face.
+//!
+//! By (P3) the point Σλ_i p_i' of a face is seen at the same mean of the seen corners, less γ v δ, where
+//!
+//! ```text
+//! δ = Σ λ_i |p_i'| − |Σ λ_i p_i'|        and its maximum is        min over |u| ≤ 1 of max over i of |p_i'| − u·p_i'.      (E5)
+//! ```
+//!
+//! (The minimax theorem: |p| is the largest of u·p.) Any u gives an upper bound, so corners seen close together
+//! say at once that a whole piece is right, its edges with it ([`crate::quick`]). And where p lies inside a triangle and is
+//! not on an edge, δ is stationary: u is then the direction of p, and the three differences are equal.
+
+use glam::DVec3;
+
+use crate::motion::{Motion, Point};
+
+/// Upper bound of the distance of the true face from the flat triangle over its distance from the eye, at
+/// the inner point where δ is largest; 0 if that is on an edge.
+pub(crate) fn offset(motion: &Motion, corners: [&Point; 3]) -> f64 {
+    let Some(delta) = largest_delta(corners.map(|corner| motion.boosted_rest(corner.rest))) else {
+        return 0.0;
+    };
+    let [a, b, c] = corners.map(|corner| corner.seen);
+    let normal = (b - a).cross(c - a).normalize_or_zero();
+    let across = motion.proper_speed() * normal.dot(motion.direction()).abs();
+    let nearest = corners.iter().map(|corner| corner.seen_distance).fold(f64::INFINITY, f64::min);
+    let floor = nearest - motion.gamma() * delta;
+    if floor > 0.0 {
+        across * delta / floor
+    } else if across > 0.0 {
+        f64::INFINITY
+    } else {
+        0.0
+    }
+}
+
+/// The largest δ, if it is inside the triangle.
+fn largest_delta([a, b, c]: [DVec3; 3]) -> Option<f64> {
+    let (ab, ac) = (b - a, c - a);
+    let normal = ab.cross(ac);
+    let normal2 = normal.length_squared();
+    let length = a.length();
+    // |b| − |a| and |c| − |a|, without cancellation.
+    let further = |p: DVec3, step: DVec3| step.dot(p + a) / (p.length() + length);
+    let (to_b, to_c) = (further(b, ab), further(c, ac));
+    // The part of u in the triangle's plane, from u·ab and u·ac.
+    let flat = (ac.cross(normal) * to_b + normal.cross(ab) * to_c) / normal2;
+    let rest2 = 1.0 - flat.length_squared();
+    if rest2.is_nan() || rest2 < 0.0 {
+        return None; // Nowhere stationary, or no area.
+    }
+    let unit = normal / normal2.sqrt();
+    let height = unit.dot(a);
+    let out = rest2.sqrt() * if height < 0.0 { -1.0 } else { 1.0 };
+    // Where the ray along u meets the plane; the eye itself if that is in it.
+    let place = (flat + unit * out) * (height / out);
+    let place = if place.is_finite() { place } else { DVec3::ZERO };
+    let is_left_of = |p: DVec3, q: DVec3| (q - p).cross(place - p).dot(normal) > 0.0;
+    if !(is_left_of(a, b) && is_left_of(b, c) && is_left_of(c, a)) {
+        return None;
+    }
+    let along = flat + unit * out;
+    Some(crate::edge::lengths_less_dot(a, along, length).max(0.0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_largest_delta_is_that_of_sampling() {
+        let step = |k: u32, seed: f64| (f64::from(k) * seed).fract() * 2.0 - 1.0;
+        let (mut n_inside, mut worst) = (0, 0.0_f64);
+        for k in 1..400_u32 {
+            let point = |p, q, r| DVec3::new(step(k, p), step(k, q), step(k, r));
+            let a = point(0.618_034, 0.414_214, 0.732_051) * 2.0 + DVec3::X * 0.3;
+            let size = libm::pow(10.0, -f64::from(k % 3));
+            let b = a + point(0.236_068, 0.645_751, 0.316_625) * size;
+            let c = a + point(0.872_983, 0.123_106, 0.358_899) * size;
+            let at = |i: u32, j: u32| {
+                let (s, t) = (f64::from(i) / 200.0, f64::from(j) / 200.0);
+                let mean = a.length() * (1.0 - s - t) + b.length() * s + c.length() * t;
+                mean - (a * (1.0 - s - t) + b * s + c * t).length()
+            };
+            let inside = (0..=200).flat_map(|i| (0..=200 - i).map(move |j| (i, j)));
+            let (mut all, mut edges) = (0.0_f64, 0.0_f64);
+            for (i, j) in inside {
+                all = all.max(at(i, j));
+                if i == 0 || j == 0 || i + j == 200 {
+                    edges = edges.max(at(i, j));
+                }
+            }
+            match largest_delta([a, b, c]) {
+                Some(found) => {
+                    n_inside += 1;
+                    worst = worst.max(found / edges);
+                    assert!(found >= all * (1.0 - 1e-9) - 1e-15, "{k}: {found} {all}");
+                    assert!(found <= all * 1.01, "{k}: {found} {all}");
+                }
+                None => assert!(all <= edges * 1.001, "{k}: {all} {edges}"),
+            }
+        }
+        assert!(n_inside > 20, "{n_inside}");
+        assert!(worst > 1.01 && worst <= 2.0, "{worst}");
+    }
+}
