@@ -91,7 +91,9 @@ impl Diagnostic {
             report.push(Group::with_title(Level::HELP.secondary_title(help.as_str())));
         }
         let renderer = if styled { Renderer::styled() } else { Renderer::plain() };
-        renderer.render(&report)
+        let drawn = renderer.render(&report);
+        let places = [Some(self.span), self.other.as_ref().map(|(span, _)| *span)];
+        places.into_iter().flatten().fold(drawn, |drawn, span| with_whole_column(drawn, source, marks, span))
     }
 
     /// The lines to show: one snippet if both places are on one screen of text, else two.
@@ -116,10 +118,24 @@ impl Diagnostic {
     }
 }
 
+/// Columns are drawn as they are in the excerpt: puts right that of a line whose beginning was cut off.
+fn with_whole_column(drawn: String, source: &Source, marks: &[LineMark], span: Span) -> String {
+    let excerpt = Excerpt::new(source, span);
+    if excerpt.n_cut == 0 {
+        return drawn;
+    }
+    let (name, line) = source.reported(marks, span.start);
+    let column = excerpt.text[..excerpt.mark.start].chars().count() + 1;
+    let place = |column: usize| format!("{name}:{line}:{column}");
+    drawn.replacen(&place(column), &place(column + excerpt.n_cut), 1)
+}
+
 /// The one line that is shown for a place.
 struct Excerpt {
     text: String,
     mark: std::ops::Range<usize>,
+    /// Characters cut off at the beginning of the line.
+    n_cut: usize,
 }
 
 impl Excerpt {
@@ -142,7 +158,8 @@ impl Excerpt {
         let marked = shown(start, end.min(cut_end));
         let after = shown(end.min(cut_end), cut_end);
         let mark = before.len()..before.len() + marked.len();
-        Self { text: format!("{before}{marked}{after}"), mark }
+        let n_cut = String::from_utf8_lossy(&text[line_start..cut_start]).chars().count();
+        Self { n_cut, text: format!("{before}{marked}{after}"), mark }
     }
 }
 

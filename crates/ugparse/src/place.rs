@@ -17,7 +17,7 @@ use crate::scene::{
     Camera, ColorId, Comment, Face, IllumId, Item, Light, LightKind, Scene, VelocityId, Vertex, VertexId,
     Wire, newell_normal,
 };
-use crate::settle::{Link, Links, face_name, flatness, has_three, left_out, undefined};
+use crate::settle::{Link, Links, face_name, flatness, has_three, is_short, left_out, short_wire, undefined};
 use crate::source::Span;
 use crate::statement::Repeat;
 use crate::transform::Transform;
@@ -270,7 +270,7 @@ impl Placer<'_, '_> {
     }
 
     /// Links the file's corners that name vertices of instances. Faces that turn
-    /// out to be flat are left out.
+    /// out to be flat are left out, and wires that are too short.
     fn link_paths(&mut self, file: &mut Group<'_>) {
         for path in std::mem::take(&mut file.paths) {
             let Some(vertex) = self.find_path("", path.name) else { continue };
@@ -289,6 +289,14 @@ impl Placer<'_, '_> {
             self.flattened.insert(span.start, warning);
         }
         file.remove_faces(&flat.into_iter().map(|(row, _)| row).collect::<Vec<_>>());
+        let wires = file.wires.rows.iter().enumerate();
+        let short: Vec<usize> =
+            wires.filter(|(_, wire)| is_short(&file.contours, wire)).map(|(row, _)| row).collect();
+        for &row in &short {
+            let span = file.wires.spans[row];
+            self.flattened.insert(span.start, short_wire(self.text, span));
+        }
+        file.remove_wires(&short);
     }
 
     /// Moves rows of the file up to `end`.
@@ -436,8 +444,13 @@ impl Placer<'_, '_> {
 
     fn wire(&mut self, placement: &Placement<'_>, row: usize) {
         let Placement { group, frame, .. } = placement;
-        let wire = &group.wires.rows[row];
-        self.note_first(placement, group.wires.spans[row], self.scene.wires.len(), Item::Wire);
+        let (wire, span) = (&group.wires.rows[row], group.wires.spans[row]);
+        // One with corners by path comes as far as this.
+        if is_short(&group.contours, wire) {
+            self.flattened.entry(span.start).or_insert_with(|| short_wire(self.text, span));
+            return;
+        }
+        self.note_first(placement, span, self.scene.wires.len(), Item::Wire);
         let placed = Wire {
             name: self.optional_name(group, wire.name, frame),
             contours: self.contours(placement, wire.contours.clone(), false),

@@ -12,7 +12,7 @@ use crate::named::Named;
 use crate::names::{NameId, Names};
 use crate::options::{Limit, Limits};
 use crate::scene::{
-    Color, ColorId, Contours, Face, Illum, Scene, Surface, SurfaceId, Vertex, VertexId, newell_normal,
+    Color, ColorId, Contours, Face, Illum, Scene, Surface, SurfaceId, Vertex, VertexId, Wire, newell_normal,
 };
 use crate::source::Span;
 use crate::statement::{CallStatement, IllumStatement, References, Repeat, Statement};
@@ -309,13 +309,20 @@ fn leave_out_short_wires(
 ) {
     let short = rows_where(&group.wires.rows, |wire| {
         let is_whole = has_corners || is_linked(group.contours.corners(wire.contours.clone()));
-        is_whole && group.contours.iter(wire.contours.clone()).any(|contour| contour.len() < 2)
+        is_whole && is_short(&group.contours, wire)
     });
-    for &row in &short {
-        let problem = "has a contour of fewer than 2 vertices";
-        findings.push(left_out(text, group.wires.spans[row], "wire", problem, "remove it, or add a vertex"));
-    }
+    findings.extend(short.iter().map(|&row| short_wire(text, group.wires.spans[row])));
     group.remove_wires(&short);
+}
+
+/// True for a wire that draws nothing.
+pub(crate) fn is_short(contours: &Contours, wire: &Wire) -> bool {
+    contours.iter(wire.contours.clone()).any(|contour| contour.len() < 2)
+}
+
+/// What is said of it.
+pub(crate) fn short_wire(text: &[u8], span: Span) -> Diagnostic {
+    left_out(text, span, "wire", "has a contour of fewer than 2 vertices", "remove it, or add a vertex")
 }
 
 pub(crate) fn left_out(text: &[u8], span: Span, kind: &str, problem: &str, remedy: &str) -> Diagnostic {

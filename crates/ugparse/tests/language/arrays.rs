@@ -42,7 +42,7 @@ fn placed_vertices_are_named_by_their_path() {
     // What was written has its name; what was made gives way.
     row("v car:p 0 0 0; i car (d);", &["car:p", "car:p_2"]);
     row("v car:p 0 0 0; v car:p_2 0 0 0; i car (d);", &["car:p", "car:p_2", "car:p_3"]);
-    row("i x (d); i x (d); i x_2 (d);", &["x:p", "x_2:p", "x_2:p_2"]);
+    row("i x (d); i x (d); i x_2 (d);", &["x:p", "x_3:p", "x_2:p"]);
     // Faces, wires, lights and cameras are named in the same way.
     check_rest(
         &format!(

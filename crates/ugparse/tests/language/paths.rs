@@ -50,6 +50,14 @@ fn instances_of_one_scope_have_paths_of_their_own() {
 }
 
 #[test]
+fn wires_of_one_vertex_are_left_out_by_path_too() {
+    let def = "def d; v a 0 0 0; v b 1 0 0; end; def g; i q (d); w (q:a); w (q:a q:b) (q:b); end;";
+    let text = format!("{def} i q (d); i h (g); i k (g); w (q:a); w (q:a q:b); w long (q:b);");
+    check_rest(&text, &["w (q:a q:b);"]);
+    assert_eq!(warnings(&text, false).len(), 4, "one for each statement");
+}
+
+#[test]
 fn a_name_of_its_own_wins_over_a_path() {
     let scene = parse("def d; v a 9 9 9; end; i car (d); v car:a 1 2 3; v o 0 0 0; w (o car:a);");
     let corners = scene.wire_contours(&scene.wires[0]).next().unwrap();

@@ -220,3 +220,18 @@ fn only_the_first_word_is_a_keyword_and_in_lower_case() {
         check_error(&format!("{word} a 0 0 0;"), &format!("`{word}` is no statement"));
     }
 }
+
+/// Long lines are shown in part, with the place they have in the file.
+#[test]
+fn columns_count_from_the_beginning_of_the_line() {
+    for n_before in [0, 30, 60, 90, 200, 5000] {
+        let text =
+            format!("c red 1; {}v a 0 0 ü0;\n{}f (q);", "v v 0 0 0; ".repeat(n_before), " ".repeat(n_before));
+        let findings = ugparse::parse(&ugparse::Source::new("t.ug", text), &Default::default()).unwrap_err();
+        let places = findings.places();
+        let drawn = findings.render(false);
+        let column = 9 + 11 * n_before + "v a 0 0 ".len() + 1;
+        assert!(drawn.contains(&format!(" t.ug:1:{column}\n")), "{n_before}: {drawn}");
+        assert!(places.iter().any(|place| (place.line, place.column) == (1, column)), "{places:?}");
+    }
+}
