@@ -46,7 +46,7 @@ const MISTAKES: [Mistake; 17] = [
     },
     Mistake {
         name: "M4",
-        file: "crates/ugrainbow/src/camera.rs",
+        file: "crates/ugscene/src/camera.rs",
         right: "half_width * samples[1] / samples[0]",
         wrong: "half_width",
         found_by: "wide",
