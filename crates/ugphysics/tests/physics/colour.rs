@@ -120,16 +120,17 @@ fn srgb_published() {
 #[test]
 fn primaries_have_their_published_chromaticities() {
     let rows = [
-        ([1.0, 0.0, 0.0], [0.64, 0.33]),
-        ([0.0, 1.0, 0.0], [0.30, 0.60]),
-        ([0.0, 0.0, 1.0], [0.15, 0.06]),
-        ([1.0, 1.0, 1.0], [0.3127, 0.3290]),
+        ([1.0, 0.0, 0.0], [0.64, 0.33], 1e-10),
+        ([0.0, 1.0, 0.0], [0.30, 0.60], 1e-10),
+        ([0.0, 0.0, 1.0], [0.15, 0.06], 1e-10),
+        // Ours is the white of the tables, the standard's is rounded to four digits.
+        ([1.0, 1.0, 1.0], [0.3127, 0.3290], 5e-5),
     ];
-    for (rgb, [x, y]) in rows {
+    for (rgb, [x, y], tolerance) in rows {
         let xyz = linear_srgb_to_xyz(rgb);
         let sum: f64 = xyz.iter().sum();
-        near("x", xyz[0] / sum, x, 1e-10);
-        near("y", xyz[1] / sum, y, 1e-10);
+        near("x", xyz[0] / sum, x, tolerance);
+        near("y", xyz[1] / sum, y, tolerance);
         for (back, channel) in xyz_to_linear_srgb(xyz).into_iter().zip(rgb) {
             assert!((back - channel).abs() < 1e-10);
         }
