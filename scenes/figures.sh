@@ -99,6 +99,14 @@ flyby chang-13-lights-along "$out/rows/pot.ug" -li --no-doppler
 flyby chang-15a-lights-at-rest "$out/rows/pot-lights-at-rest.ug" -li --no-doppler
 ugdoppler -qt -li -ir --no-doppler < "$out/rows/pot.ug" | draw chang-13-rest
 pot '<-0.95 0 0>' | ugdoppler -qt -li -ir --no-doppler | draw chang-15b-lights-coming
+
+# Figures 14 and 16: the brightness of the street under lights that rest with it, rushing in and out, and under the same
+# lights at rest with the viewer. Rushing in, all is scaled to the brightest point.
+street_under() { sed "s/^\\(l .*\\);/\\1 $1 ;/" street.ug; }
+uglorentz -vel 0 -.99 0 -ep 0 40 3 street.ug | ugdoppler -qt -ir --no-doppler | draw chang-14a-in-0.99c
+uglorentz -vel 0 .99 0 -ep 0 -250 3 street.ug | ugdoppler -qt --no-doppler | draw chang-14b-out-0.99c
+street_under '<0 0 0>' | uglorentz -vel 0 -.99 0 -ep 0 40 3 | ugdoppler -qt -li -ir --no-doppler | draw chang-16-lights-at-rest
+
 # Figure 17: three narrow bands about 460, 540 and 600 nm, at 0.5c from left to right, later ones below. Bluer than at rest
 # while it comes nearer, redder when it leaves; each row is as bright as it can be.
 bands='c_spd 455 0 460 2 465 0 535 0 540 4.5 545 0 595 0 600 6.5 605 0 ;'
@@ -119,11 +127,11 @@ uglorentz -vel 0 -.9 0 grid.ug | shape | draw howard-04c-0.9c
 uglorentz -vel 0 -.9 0 -ep 0 .5 0 grid.ug | shape | draw howard-05-through-0.9c
 
 # Weiskopf 2000, figure 3: a tunnel of black bodies at 3500, 5900 and 10000 K, at rest; flying through it at 0.6c, shape alone,
-# with the Doppler effect, and with the searchlight as well.
+# with the Doppler effect, and with the searchlight as well, at a tenth of the light (-3.32 stops).
 uglorentz tunnel.ug | ugdoppler -qt -sp | draw weiskopf-03a-rest
-uglorentz -vel 0 -.6 0 tunnel.ug | ugdoppler -qt -sp --no-doppler --no-flux | draw weiskopf-03b-0.6c-shape
-uglorentz -vel 0 -.6 0 tunnel.ug | ugdoppler -qt -sp --no-flux | draw weiskopf-03c-0.6c-doppler
-uglorentz -vel 0 -.6 0 tunnel.ug | ugdoppler -qt -sp -ir | draw weiskopf-03d-0.6c-searchlight
+uglorentz -cv 0 .6 0 tunnel.ug | ugdoppler -qt -sp --no-doppler --no-flux | draw weiskopf-03b-0.6c-shape
+uglorentz -cv 0 .6 0 tunnel.ug | ugdoppler -qt -sp --no-flux | draw weiskopf-03c-0.6c-doppler
+uglorentz -cv 0 .6 0 tunnel.ug | ugdoppler -qt -sp | draw weiskopf-03d-0.6c-searchlight -ex -3.32
 
 # Our own: the lattice in shape and colour, colours that meet at a vertex, five speeds at once.
 uglorentz -vel 0 -.9 0 lattice.ug | shape | draw lattice-0.9c-shape -va 120

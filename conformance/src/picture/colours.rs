@@ -14,6 +14,10 @@ const BLACK_BODIES: [(&str, [f64; 2]); 6] = [
     ("25281.6 K", [0.252_352_6, 0.251_986_8]),
 ];
 
+/// Y of the patches of the picture `colours`: all of a body's light that the screen can show.
+const LUMINANCES: [f64; 6] =
+    [0.384_922_92, 0.547_800_36, 0.874_232_02, 0.930_107_69, 0.676_230_30, 0.502_353_65];
+
 const GREYS: [f64; 6] = [0.0, 0.05, 0.18, 0.4, 0.7, 1.0];
 
 /// Pixels to a patch.
@@ -23,8 +27,12 @@ const PATCH: u32 = 100;
 pub fn measure_patches(sight: &Sight) -> Result<Vec<Measured>, String> {
     let center =
         |patch: usize, row: u32| sight.color(PATCH * patch as u32 + PATCH / 2, PATCH * row + PATCH / 2);
-    let bodies = BLACK_BODIES.into_iter().enumerate();
-    let mut found: Vec<_> = bodies.flat_map(|(patch, body)| measure_body(center(patch, 0), body)).collect();
+    let mut found = Vec::new();
+    for (patch, (body, luminance)) in BLACK_BODIES.into_iter().zip(LUMINANCES).enumerate() {
+        let color = center(patch, 0);
+        found.extend(measure_body(color, body));
+        found.push(measure_luminance(color, body.0, luminance));
+    }
     for (patch, grey) in GREYS.into_iter().enumerate() {
         let right = 255.0 * srgb_encode(grey);
         for (name, level) in ["red", "green", "blue"].into_iter().zip(center(patch, 1)) {
@@ -57,13 +65,29 @@ fn measure_body(color: [u8; 3], (name, right): (&str, [f64; 2])) -> [Measured; 2
         .map(|(axis, i)| Measured::new(format!("{axis} of {name}"), xy[i], right[i], tolerance[i]))
 }
 
-/// CIE x, y of what an sRGB screen shows (IEC 61966-2-1).
+/// How bright a patch is: white is 1.
+fn measure_luminance(color: [u8; 3], name: &str, right: f64) -> Measured {
+    let levels = color.map(f64::from);
+    let [_, y, _] = seen(levels);
+    // As in `rounding`; it grows with every channel.
+    let [_, above, _] = seen(levels.map(|level| level + 0.75));
+    Measured::new(format!("Y of {name}"), y, right, above - y)
+}
+
+/// CIE x, y of what an sRGB screen shows.
 fn chromaticity(levels: [f64; 3]) -> [f64; 2] {
-    let [r, g, b] = levels.map(|level| srgb_decode(level / 255.0));
-    let x = 0.4124 * r + 0.3576 * g + 0.1805 * b;
-    let y = 0.2126 * r + 0.7152 * g + 0.0722 * b;
-    let z = 0.0193 * r + 0.1192 * g + 0.9505 * b;
+    let [x, y, z] = seen(levels);
     [x / (x + y + z), y / (x + y + z)]
+}
+
+/// CIE X, Y, Z of what an sRGB screen shows (IEC 61966-2-1).
+fn seen(levels: [f64; 3]) -> [f64; 3] {
+    let [r, g, b] = levels.map(|level| srgb_decode(level / 255.0));
+    [
+        0.4124 * r + 0.3576 * g + 0.1805 * b,
+        0.2126 * r + 0.7152 * g + 0.0722 * b,
+        0.0193 * r + 0.1192 * g + 0.9505 * b,
+    ]
 }
 
 /// How far x and y change when every channel changes by three quarters of a level, half of it from rounding.

@@ -20,9 +20,10 @@ pub(crate) struct Seen {
 impl Seen {
     const BLACK: Self = Self { hue: 0.0, wavelength_nm: 0.0, saturation: 0.0, value: 0.0 };
 
-    /// What shows of it: the eye's fading is for colours with a wavelength.  Eq. (P17)
-    fn fading(&self) -> f64 {
-        if self.saturation > 0.0 { attenuation(self.wavelength_nm) } else { 1.0 }
+    /// What the eye sees of it.  Eq. (P17)
+    fn shown(&self) -> Hsv {
+        let color = Hsv { hue: self.hue, saturation: self.saturation, value: self.value };
+        color.attenuated(attenuation(self.wavelength_nm))
     }
 }
 
@@ -67,8 +68,9 @@ fn reflected(base: Hsv, lamp: &Lamp) -> Hsv {
 /// The sum of colours as display-encoded red, green and blue: so `ugrainbow` adds the levels of lights, and lights
 /// at rest give the same picture here and there.
 ///
-/// Colours of one wavelength keep it, seen or not. Others are faded (P17) before they are added, and as the renderer
-/// will fade the sum by its hue, it is made brighter by that, but not brighter than it would be without any fading.
+/// Colours of one wavelength keep it, seen or not. The hues of others are faded (P17) before they are added, and as the
+/// renderer will fade that of the sum, it is made stronger by that; but the sum is not made brighter than it would be
+/// without any fading.
 fn mix(parts: &[Seen]) -> Seen {
     let Some(first) = parts.first() else { return Seen::BLACK };
     let all: f64 = parts.iter().map(|part| part.value).sum();
@@ -79,9 +81,7 @@ fn mix(parts: &[Seen]) -> Seen {
     }
     let mut sum = [0.0; 3];
     for part in parts {
-        let value = part.value * part.fading();
-        let rgb = Hsv { hue: part.hue, saturation: part.saturation, value }.to_rgb();
-        sum.iter_mut().zip(rgb).for_each(|(sum, channel)| *sum += channel);
+        sum.iter_mut().zip(part.shown().to_rgb()).for_each(|(sum, channel)| *sum += channel);
     }
     let mixed = Hsv::from_rgb(sum);
     if mixed.value <= 0.0 {
@@ -91,10 +91,8 @@ fn mix(parts: &[Seen]) -> Seen {
         return Seen { value: all, ..strongest };
     }
     let wavelength_nm = if mixed.saturation > 0.0 { hue_to_wavelength(mixed.hue) } else { 0.0 };
-    let seen = Seen { hue: mixed.hue, wavelength_nm, saturation: mixed.saturation, value: mixed.value };
-    let fading = seen.fading();
-    let value = if fading > 0.0 { (mixed.value / fading).min(all) } else { all };
-    Seen { value, ..seen }
+    let Hsv { hue, saturation, value } = mixed.unattenuated(attenuation(wavelength_nm), all);
+    Seen { hue, wavelength_nm, saturation, value }
 }
 
 #[cfg(test)]
@@ -118,7 +116,7 @@ mod tests {
         assert!((mixed.hue - 120.0).abs() < 1e-9 && (mixed.value - 0.4).abs() < 1e-9, "{mixed:?}");
         let dark = mix(&[of_wavelength(250.0, 9.0), of_wavelength(1200.0, 1.0)]);
         assert_eq!((dark.wavelength_nm, dark.value), (250.0, 10.0));
-        assert_eq!(dark.fading(), 0.0);
+        assert_eq!(dark.shown().value, 0.0);
         assert_eq!(mix(&[]), Seen::BLACK);
     }
 

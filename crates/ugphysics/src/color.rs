@@ -31,6 +31,44 @@ impl Hsv {
         })
     }
 
+    /// What the eye sees of it: of the white and the pure hue that it is made of, V(1 − S) and V S, the hue
+    /// times `attenuation`, 0 to 1, of its wavelength.  Eq. (P17)
+    ///
+    /// ```
+    /// use ugphysics::Hsv;
+    ///
+    /// let pale = Hsv { hue: 300.0, saturation: 0.25, value: 1.0 };
+    /// assert_eq!(pale.attenuated(0.0), Hsv { hue: 300.0, saturation: 0.0, value: 0.75 });
+    /// assert_eq!(pale.attenuated(1.0), pale);
+    /// ```
+    #[must_use]
+    pub fn attenuated(self, attenuation: f64) -> Hsv {
+        let pure = self.saturation * attenuation;
+        // Exactly 1 if nothing is attenuated, and the attenuation of a pure hue.
+        let kept = (1.0 - self.saturation) + pure;
+        Hsv { saturation: if pure > 0.0 { pure / kept } else { 0.0 }, value: self.value * kept, ..self }
+    }
+
+    /// The colour of the same hue that [`Hsv::attenuated`] makes this one; or, if that is of a value above `limit`,
+    /// the nearest to it that is not, with the same white. Above its own value nothing is limited.  Eq. (P17)
+    ///
+    /// ```
+    /// use ugphysics::Hsv;
+    ///
+    /// let pale = Hsv { hue: 270.0, saturation: 0.25, value: 1.0 };
+    /// assert_eq!(pale.attenuated(0.5).unattenuated(0.5, 1.0), pale);
+    /// ```
+    #[must_use]
+    pub fn unattenuated(self, attenuation: f64, limit: f64) -> Hsv {
+        if self.value * self.saturation <= 0.0 {
+            return self;
+        }
+        let white = self.value * (1.0 - self.saturation);
+        let pure = self.value * self.saturation;
+        let pure = (pure / attenuation).min((limit - white).max(pure));
+        Hsv { saturation: pure / (white + pure), value: white + pure, ..self }
+    }
+
     /// The hue, saturation and value of display-encoded red, green and blue, none of them negative. The hue is
     /// above −60 and at most 300, as [`crate::hue_to_wavelength`] has it, and 0 for greys; the saturation of black
     /// is 0.

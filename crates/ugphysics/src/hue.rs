@@ -66,7 +66,7 @@ pub fn hue_to_wavelength(hue_deg: f64) -> f64 {
     segment_where(|_, hue| hue_deg <= hue).wavelength_nm(hue_deg)
 }
 
-/// How much of a colour the eye still sees: 1 from 435.8 to 700 nm, falling linearly to 0 at 380 and at
+/// How much of a pure hue the eye still sees: 1 from 435.8 to 700 nm, falling linearly to 0 at 380 and at
 /// 780 nm, 0 outside.  Eq. (P17)
 ///
 /// A renderer applies it per pixel; a filter never does, since light that is out of sight here may be

@@ -4,8 +4,9 @@
 //! It is the last program of the pipe. What moves has been bent by `uglorentz` and
 //! coloured by `ugdoppler`; the picture of the result is an ordinary one, but for colour.
 //! After Nguyen (1988) a colour is a wavelength with a saturation and a value. Between a
-//! red corner (700 nm) and a blue one (435.8 nm) lies the rainbow, not purple; a colour
-//! shifted out of the visible range is black, and fades toward its ends (P17).
+//! red corner (700 nm) and a blue one (435.8 nm) lies the rainbow, not purple; a pure colour
+//! shifted out of the visible range is black, and fades toward its ends; of a pale one the
+//! white in it stays (P17).
 //!
 //! # From scene to picture
 //!
@@ -19,7 +20,7 @@
 //!   origin looking at the middle of the scene, +z up, 40 degrees across. Pixels are square
 //!   unless both view angles are given as options.
 //! - **Colour.** Colours given as light (`c_xyz`) are interpolated as linear light, uncut. A vertex has its own colour, else the mix of its faces' colours, else
-//!   white. A saturation of 0 has no wavelength and is not attenuated.
+//!   white. A saturation of 0 has no wavelength, and nothing to attenuate.
 //! - **Light.** As in 1988 lights rest in the frame of the face they light. Positions and
 //!   normals are brought back to that frame (P4), so a moving cube is lit like a cube.
 //!   Faces are lit on the side that is seen. The level multiplies the value.

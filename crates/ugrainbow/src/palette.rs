@@ -61,13 +61,12 @@ impl Palette {
         self.has_light
     }
 
-    /// The light of a colour: linear red, green and blue. That of a hue is attenuated where the eye sees little.
+    /// The light of a colour: linear red, green and blue. Its hue is attenuated where the eye sees little.
     /// Eq. (P17)
     pub fn light(&self, swatch: &Swatch) -> DVec3 {
         swatch.light.unwrap_or_else(|| {
-            let fade = if swatch.is_grey() { 1.0 } else { attenuation(self.wavelength_nm(swatch)) };
-            let color = self.hsv(swatch);
-            DVec3::from_array(Hsv { value: color.value * fade, ..color }.to_rgb().map(srgb_decode))
+            let seen = self.hsv(swatch).attenuated(attenuation(self.wavelength_nm(swatch)));
+            DVec3::from_array(seen.to_rgb().map(srgb_decode))
         })
     }
 

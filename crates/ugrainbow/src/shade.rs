@@ -12,7 +12,7 @@ const TRANSFER_CELLS: usize = 4096;
 /// Cells of each table of the attenuation over the hue.
 const FADE_CELLS: usize = 1024;
 
-/// Turns tint, saturation and value into linear light, attenuated where the eye sees
+/// Turns tint, saturation and value into linear light, the hue in it attenuated where the eye sees
 /// little.  Eq. (P17)
 #[derive(Clone, Debug)]
 pub struct Shader {
@@ -64,8 +64,10 @@ impl Shader {
     fn lit(&self, tint: f32, saturation: f32, value: f32, light: [f32; 3]) -> Shade {
         let fade = if saturation > 0.0 { self.fade(tint) } else { 1.0 };
         let color = Hsv { hue: self.hue(tint), saturation: f64::from(saturation), value: 1.0 };
-        let rgb = color.to_rgb();
-        let intensity: [f32; 3] = std::array::from_fn(|i| value * fade * light[i]);
+        // For most samples 1, which changes nothing.
+        let seen = if fade < 1.0 { color.attenuated(f64::from(fade)) } else { color };
+        let rgb = Hsv { value: 1.0, ..seen }.to_rgb();
+        let intensity: [f32; 3] = std::array::from_fn(|i| value * seen.value as f32 * light[i]);
         Shade {
             light: std::array::from_fn(|i| self.decode(rgb[i] as f32 * intensity[i].min(self.ceiling))),
             intensity: intensity.into_iter().fold(0.0, f32::max),
@@ -142,9 +144,57 @@ mod tests {
         for step in 0..=3600 {
             let hue = f64::from(step) / 10.0 - 60.0;
             let fade = attenuation(hue_to_wavelength(hue));
-            let shade = shader.plain(&[hue as f32, 0.9, 0.8]);
-            assert_light(&shade, exact(hue, 0.9, 0.8 * fade));
+            let shade = shader.plain(&[hue as f32, 1.0, 0.8]);
+            assert_light(&shade, exact(hue, 1.0, 0.8 * fade));
             assert_eq!(shade.is_out_of_range, fade == 0.0, "hue {hue}");
+        }
+    }
+
+    /// White and pure hue in display-encoded red, green and blue.
+    fn parts(hue: f64, saturation: f64, value: f64, fade: f64) -> [f64; 3] {
+        let pure = Hsv { hue, saturation: 1.0, value: 1.0 }.to_rgb();
+        pure.map(|pure| srgb_decode(value * ((1.0 - saturation) + saturation * fade * pure)))
+    }
+
+    #[test]
+    fn of_pale_colours_the_hue_alone_fades() {
+        let shader = Shader::new(Interpolation::Hue, true);
+        for hue in [-60.0, -59.0, -30.0, -1.0, 0.0, 120.0, 240.0, 250.0, 280.0, 299.0, 300.0] {
+            let fade = attenuation(hue_to_wavelength(hue));
+            let mut before = shader.plain(&[hue as f32, 0.0, 0.8]).light;
+            for step in 0..=1000 {
+                let saturation = f64::from(step) / 1000.0;
+                let shade = shader.plain(&[hue as f32, saturation as f32, 0.8]);
+                assert_light(&shade, parts(hue, saturation, 0.8, fade));
+                // A thousandth of saturation is 0.0008 of display-encoded value, and the slope of decoding at most 2.3.
+                for (now, before) in shade.light.iter().zip(before) {
+                    assert!((now - before).abs() < 0.002, "hue {hue}, saturation {saturation}: {shade:?}");
+                }
+                before = shade.light;
+            }
+        }
+    }
+
+    #[test]
+    fn whitish_is_never_nearly_black() {
+        for interpolation in [Interpolation::Hue, Interpolation::Wavelength] {
+            let shader = Shader::new(interpolation, true);
+            let tints: [f32; 5] = match interpolation {
+                Interpolation::Hue => [-60.0, -59.9, 299.9, 300.0, 120.0],
+                Interpolation::Wavelength => [10.0, 379.9, 380.1, 779.9, 5000.0],
+            };
+            for tint in tints {
+                for saturation in [0.0, 1e-6, 0.03, 0.1] {
+                    for color in [
+                        shader.plain(&[tint, saturation, 1.0]),
+                        shader.colored(&[tint, saturation, 1.0, 1.0, 1.0, 1.0]),
+                    ] {
+                        // Of display-encoded white nine tenths are left.
+                        let least = color.light.into_iter().fold(1.0, f32::min);
+                        assert!(least > 0.78, "tint {tint}, saturation {saturation}: {color:?}");
+                    }
+                }
+            }
         }
     }
 

@@ -156,7 +156,7 @@ fn write_color(out: &mut String, color: &SampleColor, story: &Story) -> fmt::Res
             let rest = if story.shifts() { "at rest" } else { "at rest, as far as the history tells" };
             let (rest_nm, seen_nm) = (number(wavelength.rest_nm), number(wavelength.seen_nm));
             row(out, "wavelength", format!("{rest_nm} nm {rest}, {seen_nm} nm seen{end} (P16)"))?;
-            row(out, "attenuation", format!("times {} (P17)", number(wavelength.attenuation)))
+            row(out, "attenuation", format!("hue times {} (P17)", number(wavelength.attenuation)))
         }
     }
 }
