@@ -30,6 +30,8 @@
 //!
 //! - **Wires** are 1.2 pixels wide and not lit, and win against the faces they lie on.
 //!
+//! - **Figures** of areas and lines are made of the same polygons, with [`Output::Vector`].
+//!
 //! What is not done: translucency (everything is opaque), a fall-off of local lights with
 //! distance, their radius, and lights that move against what they light: `ugdoppler -li`
 //! does that. Every thread count gives the same bytes.

@@ -3,7 +3,7 @@
 use pdf_writer::writers::StreamShadingType;
 use pdf_writer::{Content, Filter, Name, Pdf, Ref};
 
-use super::{Element, Figure, MESH_BITS, Mesh, Point, Rgb, Triangle, seams};
+use super::{Element, Figure, MESH_BITS, Mesh, Point, Rgb, SEAM_WIDTH, Triangle, seams};
 use crate::Label;
 use crate::pdf::{FIRST, deflate, document};
 
@@ -59,11 +59,11 @@ impl Page {
         let mut elements = figure.elements.iter().zip(seams).peekable();
         while let Some((element, seams)) = elements.next() {
             match element {
-                Element::Area { contours, color } => {
+                Element::Area { contours, color, .. } => {
                     self.set_color(*color);
                     contours.iter().for_each(|contour| self.add_contour(contour));
                     self.content.fill_even_odd();
-                    self.stroke(&seams, 1.0);
+                    self.stroke(&seams, SEAM_WIDTH);
                 }
                 Element::Line { ends, width, color } => {
                     self.set_color(*color);

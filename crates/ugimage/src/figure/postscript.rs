@@ -1,6 +1,6 @@
 //! Figures as PostScript level 3.
 
-use super::{Element, Figure, MESH_BITS, Mesh, Point, Rgb, Triangle, number, seams};
+use super::{Element, Figure, MESH_BITS, Mesh, Point, Rgb, SEAM_WIDTH, Triangle, number, seams};
 use crate::pdf::deflate;
 use crate::postscript::Ascii85;
 use crate::{Label, eps as eps_file, ps as ps_file};
@@ -50,12 +50,12 @@ fn drawing(figure: &Figure<Triangle>) -> Vec<u8> {
     let mut elements = figure.elements.iter().zip(seams).peekable();
     while let Some((element, seams)) = elements.next() {
         match element {
-            Element::Area { contours, color } => {
+            Element::Area { contours, color, .. } => {
                 page.set_color(*color);
                 page.add(&path(contours));
                 page.add("f\n");
                 if !seams.is_empty() {
-                    page.set_width(1.0);
+                    page.set_width(SEAM_WIDTH);
                     page.add(&seams.iter().map(line).collect::<String>());
                     page.add("s\n");
                 }

@@ -1,6 +1,6 @@
 //! Figures as SVG.
 
-use super::{Element, Figure, Gradient, Point, Rgb, number, seams};
+use super::{Element, Figure, Gradient, Point, Rgb, SEAM_WIDTH, number, seams};
 use crate::Label;
 use crate::svg::document;
 
@@ -10,17 +10,17 @@ pub fn svg(figure: &Figure<Gradient>, label: &Label) -> Vec<u8> {
     if let Some(background) = figure.background {
         out += &format!("<rect width=\"100%\" height=\"100%\" fill=\"{}\"/>\n", hex(background));
     }
-    out += "<g fill-rule=\"evenodd\">\n";
+    out += &format!("<g fill-rule=\"evenodd\" stroke-width=\"{SEAM_WIDTH}\">\n");
     let seams = seams(figure.elements.iter().map(|element| match element {
-        Element::Area { contours, .. } => Some(&contours[..]),
-        Element::Smooth(gradient) => Some(&gradient.contours[..]),
-        Element::Line { .. } => None,
+        Element::Area { contours, is_inside: false, .. } => Some(&contours[..]),
+        Element::Smooth(gradient) if !gradient.is_inside => Some(&gradient.contours[..]),
+        _ => None,
     }));
     let mut n_gradients = 0;
     for (element, seams) in figure.elements.iter().zip(seams) {
         match element {
-            Element::Area { contours, color } => out += &area(contours, &seams, &hex(*color)),
-            Element::Smooth(Gradient { contours, ends: [a, b], colors }) => {
+            Element::Area { contours, color, .. } => out += &area(contours, &seams, &hex(*color)),
+            Element::Smooth(Gradient { contours, ends: [a, b], colors, .. }) => {
                 let ([x1, y1], [x2, y2]) = (a.map(number), b.map(number));
                 let [from, to] = colors.map(hex);
                 out += &format!(

@@ -24,14 +24,18 @@ pub fn push_lines<S>(
     wires: &[Patch],
     faces: &[Patch],
     index: &Index,
+    size: [u32; 2],
     scale: f64,
     elements: &mut Vec<Element<S>>,
 ) {
     // Ends stand out by half the width.
     let shorten = 0.5 * WIDTH / scale - 0.5 * WIDTH;
+    let picture = near_picture(size);
     let mut lines = Vec::new();
     for wire in wires {
         let Some([a, b]) = wire.line(shorten) else { continue };
+        let Some([start, end]) = picture.as_ref().and_then(|picture| picture.over(a, b)) else { continue };
+        let (a, b) = (along(a, b, start), along(a, b, end));
         for [start, end] in visible(a, b, faces, index) {
             lines.push((wire, [along(a, b, start), along(a, b, end)]));
         }
@@ -42,6 +46,12 @@ pub fn push_lines<S>(
         let color = |[x, y, _]: Place| palette.at(wire, [x, y]);
         push_line(&color, ends, elements);
     }
+}
+
+/// The picture and a little around it, beyond which lines are not drawn.
+fn near_picture(size: [u32; 2]) -> Option<Convex> {
+    let [low, right, bottom] = [-WIDTH, f64::from(size[0]) + WIDTH, f64::from(size[1]) + WIDTH];
+    Convex::new(vec![[low, low, 0.0], [right, low, 0.0], [right, bottom, 0.0], [low, bottom, 0.0]])
 }
 
 fn along(a: Place, b: Place, part: f64) -> Place {

@@ -73,7 +73,7 @@ fn figure<S: Smooth>(
     for piece in order::painting_order(&faces, &index) {
         push_piece(&palette, &faces, &piece, &mut elements);
     }
-    lines::push_lines(&palette, &wires, &faces, &index, f64::from(scale), &mut elements);
+    lines::push_lines(&palette, &wires, &faces, &index, config.size, f64::from(scale), &mut elements);
     Ok(Figure { size: config.size, background: background(config, development), elements })
 }
 

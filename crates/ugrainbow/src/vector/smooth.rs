@@ -13,7 +13,7 @@ use super::patch::Patch;
 const BOUND: f64 = 2.0;
 
 /// An area whose colours differ by less is plain.
-const PLAIN: f64 = 1.0;
+const PLAIN: f64 = 2.0;
 
 /// What is smaller, in pixels, is not cut for its colour.
 const LEAST: f64 = 0.25;
@@ -52,12 +52,14 @@ pub fn push_piece<S: Smooth>(
         }
     };
     if let Some(values) = patch.single_values() {
-        elements.push(Element::Area { contours, color: rounded(palette.levels(&values)) });
+        elements.push(Element::Area { contours, color: rounded(palette.levels(&values)), is_inside: false });
         return;
     }
     let job = Job { palette, patch };
     match plain(&job.tried(parts)) {
-        Some(color) => elements.push(Element::Area { contours, color: rounded(color) }),
+        Some(color) => {
+            elements.push(Element::Area { contours, color: rounded(color), is_inside: false });
+        }
         None => S::push(&job, contours, parts, elements),
     }
 }
@@ -146,8 +148,19 @@ fn greatest(numbers: [f64; 3]) -> usize {
 
 impl Smooth for Gradient {
     fn push(job: &Job<'_>, contours: Vec<Vec<Point>>, parts: &[Convex], elements: &mut Vec<Element<Self>>) {
-        if let Some((ends, colors)) = fitted(&job.tried(parts), BOUND) {
-            elements.push(Element::Smooth(Self { contours, ends, colors: colors.map(rounded) }));
+        let tried = job.tried(parts);
+        let nearest = fitted(&tried, f64::INFINITY);
+        if let Some((ends, colors)) = nearest {
+            // Also where the piece has to be cut, as the ground of its parts: what shines through between them has
+            // nearly their colours.
+            elements.push(Element::Smooth(Self {
+                contours,
+                ends,
+                colors: colors.map(rounded),
+                is_inside: false,
+            }));
+        }
+        if fitted(&tried, BOUND).is_some() {
             return;
         }
         let mut stack: Vec<(Convex, u32)> = parts.iter().rev().map(|part| (part.clone(), 0)).collect();
@@ -156,9 +169,14 @@ impl Smooth for Gradient {
             let contours = vec![outline(&part)];
             let is_last = cuts == MOST_CUTS || part.extent() < LEAST;
             if let Some(color) = plain(&tried) {
-                elements.push(Element::Area { contours, color: rounded(color) });
+                elements.push(Element::Area { contours, color: rounded(color), is_inside: true });
             } else if let Some((ends, colors)) = fitted(&tried, if is_last { f64::INFINITY } else { BOUND }) {
-                elements.push(Element::Smooth(Self { contours, ends, colors: colors.map(rounded) }));
+                elements.push(Element::Smooth(Self {
+                    contours,
+                    ends,
+                    colors: colors.map(rounded),
+                    is_inside: true,
+                }));
             } else {
                 stack.extend(part.halves().into_iter().flatten().map(|half| (half, cuts + 1)));
             }
