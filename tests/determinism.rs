@@ -26,10 +26,13 @@ fn pipes() -> Vec<(&'static str, Pipe)> {
     let mut tunnel = Pipe::new(-0.6 * DVec3::Y, size);
     tunnel.doppler.spectral = true;
     tunnel.doppler.iris = true;
+    let mut figure = ship.clone();
+    figure.rainbow.output = ugrainbow::Output::Vector(ugimage::Format::Pdf);
     let mut globe = tunnel.clone();
     globe.doppler.tolerance = 0.0;
     vec![
         ("ship", ship),
+        ("ship", figure),
         ("lattice", lattice),
         ("teapot", teapot),
         ("street", street),

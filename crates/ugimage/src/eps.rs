@@ -5,21 +5,24 @@ use crate::{Frame, Label};
 
 /// The frame as an EPS file, one pixel a point.
 pub fn encode(frame: &Frame, label: &Label) -> Vec<u8> {
+    wrap([frame.width(), frame.height()], 2, label, &color_image(frame))
+}
+
+/// What draws a picture of `width` × `height` points, made an EPS file.
+pub fn wrap([width, height]: [u32; 2], level: u32, label: &Label, drawing: &[u8]) -> Vec<u8> {
     let mut file = format!(
         "%!PS-Adobe-3.0 EPSF-3.0\n\
-         %%BoundingBox: 0 0 {} {}\n\
+         %%BoundingBox: 0 0 {width} {height}\n\
          {}\
-         %%LanguageLevel: 2\n\
+         %%LanguageLevel: {level}\n\
          %%DocumentData: Clean7Bit\n\
          %%EndComments\n\
          {}",
-        frame.width(),
-        frame.height(),
         label_comments(label),
         history_comments(label)
     )
     .into_bytes();
-    file.extend(color_image(frame));
+    file.extend_from_slice(drawing);
     file.extend_from_slice(b"showpage\n%%EOF\n");
     file
 }

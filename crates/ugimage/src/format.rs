@@ -1,6 +1,6 @@
 //! The formats, their names, and what is written beside the pixels.
 
-use crate::{Frame, LinearFrame, eps, exr, hdr, pfm, png, ppm, ps};
+use crate::{Frame, LinearFrame, eps, exr, hdr, pdf, pfm, png, ppm, ps, svg};
 
 /// What a file says about where it comes from.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -22,6 +22,10 @@ pub enum Format {
     Eps,
     /// PostScript, one page the size of the picture.
     Ps,
+    /// Portable Document Format, one page the size of the picture.
+    Pdf,
+    /// Scalable Vector Graphics.
+    Svg,
     /// Portable pixmap, binary.
     Ppm,
     /// OpenEXR: light, and any other planes.
@@ -34,8 +38,18 @@ pub enum Format {
 
 impl Format {
     /// All of them, the default first.
-    pub const ALL: [Self; 8] =
-        [Self::Png, Self::Png16, Self::Eps, Self::Ps, Self::Ppm, Self::Exr, Self::Pfm, Self::Hdr];
+    pub const ALL: [Self; 10] = [
+        Self::Png,
+        Self::Png16,
+        Self::Eps,
+        Self::Ps,
+        Self::Pdf,
+        Self::Svg,
+        Self::Ppm,
+        Self::Exr,
+        Self::Pfm,
+        Self::Hdr,
+    ];
 
     /// Its name, which is also the usual ending of its files, but for `png16`.
     pub fn name(self) -> &'static str {
@@ -44,6 +58,8 @@ impl Format {
             Self::Png16 => "png16",
             Self::Eps => "eps",
             Self::Ps => "ps",
+            Self::Pdf => "pdf",
+            Self::Svg => "svg",
             Self::Ppm => "ppm",
             Self::Exr => "exr",
             Self::Pfm => "pfm",
@@ -63,12 +79,17 @@ impl Format {
 
     /// True if the file is not text, and would garble a terminal.
     pub fn is_binary(self) -> bool {
-        !matches!(self, Self::Eps | Self::Ps)
+        !matches!(self, Self::Eps | Self::Ps | Self::Svg)
     }
 
     /// True if it holds light, uncut, and not what a display shows of it.
     pub fn is_linear(self) -> bool {
         matches!(self, Self::Exr | Self::Pfm | Self::Hdr)
+    }
+
+    /// True if it has areas and lines as well as pixels, see [`crate::figure`].
+    pub fn has_vectors(self) -> bool {
+        matches!(self, Self::Eps | Self::Ps | Self::Pdf | Self::Svg)
     }
 
     /// True if it needs more than a [`Frame`] of 8 bits holds.
@@ -87,6 +108,8 @@ impl Format {
             Self::Png => png::encode(frame, label),
             Self::Eps => eps::encode(frame, label),
             Self::Ps => ps::encode(frame, label),
+            Self::Pdf => pdf::encode(frame, label),
+            Self::Svg => svg::encode(frame, label),
             Self::Ppm => ppm::encode(frame, label),
             Self::Png16 | Self::Exr | Self::Pfm | Self::Hdr => self.encode_linear(&frame.into(), label),
         }
@@ -100,7 +123,9 @@ impl Format {
             Self::Exr => exr::encode(frame, label),
             Self::Pfm => pfm::encode(frame),
             Self::Hdr => hdr::encode(frame, label),
-            Self::Png | Self::Eps | Self::Ps | Self::Ppm => self.encode(&frame.to_display(), label),
+            Self::Png | Self::Eps | Self::Ps | Self::Pdf | Self::Svg | Self::Ppm => {
+                self.encode(&frame.to_display(), label)
+            }
         }
     }
 }
@@ -117,6 +142,6 @@ mod tests {
         }
         assert_eq!(Format::from_name("jpg"), None);
         assert_eq!(Format::from_name(""), None);
-        assert_eq!(Format::list(), "png, png16, eps, ps, ppm, exr, pfm, hdr");
+        assert_eq!(Format::list(), "png, png16, eps, ps, pdf, svg, ppm, exr, pfm, hdr");
     }
 }

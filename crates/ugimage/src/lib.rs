@@ -17,6 +17,7 @@
 //! | format | pixels | transparency |
 //! | --- | --- | --- |
 //! | [`Format::Png`], [`Format::Png16`] | RGB or RGBA, 8 or 16 bits, tagged sRGB | kept |
+//! | [`Format::Pdf`], [`Format::Svg`] | an embedded RGB picture, one pixel a point | kept |
 //! | [`Format::Ppm`] | RGB, 8 bits | put on white |
 //! | [`Format::Exr`] | light, 32-bit floats, and other planes | kept |
 //! | [`Format::Pfm`] | light, 32-bit floats | put on black |
@@ -40,17 +41,20 @@
 mod develop;
 mod eps;
 mod exr;
+pub mod figure;
 mod format;
 mod frame;
 mod grey;
 mod hdr;
 mod linear;
+mod pdf;
 mod pfm;
 mod png;
 mod postscript;
 mod ppm;
 mod ps;
 mod quantizer;
+mod svg;
 
 pub use develop::{Development, Steps, Tone, auto_exposure};
 pub use format::{Format, Label};

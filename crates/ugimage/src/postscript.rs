@@ -108,7 +108,7 @@ fn starts_run(bytes: &[u8]) -> bool {
 
 /// Writes bytes as base 85 text: four bytes become five characters from `!` to `u`, four
 /// zeros become `z`, and `~>` ends.
-struct Ascii85<'a> {
+pub struct Ascii85<'a> {
     out: &'a mut Vec<u8>,
     word: u32,
     len: usize,
@@ -118,6 +118,13 @@ struct Ascii85<'a> {
 impl<'a> Ascii85<'a> {
     fn new(out: &'a mut Vec<u8>) -> Self {
         Self { out, word: 0, len: 0, column: 0 }
+    }
+
+    /// Adds all these bytes and the end.
+    pub fn encode(bytes: &[u8], out: &'a mut Vec<u8>) {
+        let mut text = Self::new(out);
+        bytes.iter().for_each(|&byte| text.push(byte));
+        text.finish();
     }
 
     fn push(&mut self, byte: u8) {

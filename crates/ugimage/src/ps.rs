@@ -5,12 +5,16 @@ use crate::{Frame, Label};
 
 /// The frame as a PostScript document of one page, one pixel a point.
 pub fn encode(frame: &Frame, label: &Label) -> Vec<u8> {
-    let (width, height) = (frame.width(), frame.height());
+    wrap([frame.width(), frame.height()], 2, label, &color_image(frame))
+}
+
+/// What draws a picture of `width` × `height` points, made a document of one page.
+pub fn wrap([width, height]: [u32; 2], level: u32, label: &Label, drawing: &[u8]) -> Vec<u8> {
     let mut file = format!(
         "%!PS-Adobe-3.0\n\
          %%BoundingBox: 0 0 {width} {height}\n\
          {}\
-         %%LanguageLevel: 2\n\
+         %%LanguageLevel: {level}\n\
          %%DocumentData: Clean7Bit\n\
          %%Pages: 1\n\
          %%EndComments\n\
@@ -23,7 +27,7 @@ pub fn encode(frame: &Frame, label: &Label) -> Vec<u8> {
         history_comments(label)
     )
     .into_bytes();
-    file.extend(color_image(frame));
+    file.extend_from_slice(drawing);
     file.extend_from_slice(b"showpage\n%%Trailer\n%%EOF\n");
     file
 }

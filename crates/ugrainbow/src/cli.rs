@@ -51,10 +51,17 @@ pub struct Args {
 
     /// Format of the picture [default: by the ending of -fo, else png]
     ///
-    /// png, png16 (16 bits), ppm, eps, ps; and exr, pfm, hdr, which hold linear light, neither clipped nor
+    /// png, png16 (16 bits), ppm, eps, ps, pdf, svg; and exr, pfm, hdr, which hold linear light, neither clipped nor
     /// brought into the gamut: white is 1, parts may be above it and below 0.
     #[arg(long, value_name = "FMT", visible_alias = "format", value_parser = kind_named)]
     dt: Option<Kind>,
+
+    /// Areas and lines in place of pixels, sharp at any size: for eps, ps, pdf, svg
+    ///
+    /// A pixel of -sz is a point. Faces are painted from behind, and hidden parts covered; of wires they are
+    /// left out. Colours are right to 2 levels of 255.
+    #[arg(long, visible_alias = "vector", conflicts_with_all = ["dp", "explain"])]
+    vec: bool,
 
     /// Eye point [default: that of the scene, else the origin]
     #[arg(long, num_args = 3, value_names = ["X", "Y", "Z"], action = ArgAction::Set,
@@ -201,6 +208,14 @@ impl Args {
     }
 
     fn output(&self, file: Option<&Path>) -> Result<Output, Failure> {
+        match self.pixels(file)? {
+            Output::Color(format) if self.vec => Ok(Output::Vector(format)),
+            output => Ok(output),
+        }
+    }
+
+    /// The output if it has pixels.
+    fn pixels(&self, file: Option<&Path>) -> Result<Output, Failure> {
         if self.dp {
             return Ok(Output::Grey);
         }
@@ -296,10 +311,10 @@ fn failure(error: Error) -> Failure {
 /// Keeps a terminal free of what it cannot show.
 fn redirect(output: Output, stage: &mut Stage) -> Result<(), Failure> {
     match output {
-        Output::Color(format) if format.is_binary() => Err(Failure::Usage(
+        Output::Color(format) | Output::Vector(format) if format.is_binary() => Err(Failure::Usage(
             "a picture is not written to a terminal; send it to a file with `> FILE` or -fo FILE".into(),
         )),
-        Output::Color(_) => Ok(()),
+        Output::Color(_) | Output::Vector(_) => Ok(()),
         Output::Grey => {
             stage.set_output_name(POSTSCRIPT_FILE);
             stage.note(&format!("the picture goes to the file {POSTSCRIPT_FILE}"));

@@ -110,6 +110,8 @@ pub enum Background {
 pub enum Output {
     /// A colour format.
     Color(Format),
+    /// Areas and lines in place of pixels: a format that [has them](Format::has_vectors).
+    Vector(Format),
     /// Black-and-white PostScript, as in 1988.
     Grey,
 }
@@ -118,7 +120,7 @@ impl Output {
     /// The colour format, if it is one.
     pub fn format(self) -> Option<Format> {
         match self {
-            Self::Color(format) => Some(format),
+            Self::Color(format) | Self::Vector(format) => Some(format),
             Self::Grey => None,
         }
     }

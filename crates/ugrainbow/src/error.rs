@@ -7,13 +7,16 @@ use ugparse::Diagnostics;
 use ugphysics::VelocityError;
 use ugscene::CameraError;
 
-use crate::config::{Background, Config};
+use crate::config::{Background, Config, Output};
 
 /// Most pixels of a picture; in memory they are a gibibyte, as light four.
 pub const MAX_PIXELS: u64 = 1 << 28;
 
 /// Most pixels along a side.
 pub const MAX_SIDE: u32 = 1 << 24;
+
+/// Most pixels along a side of a vector figure; its places are counted in fine steps.
+const MAX_VECTOR_SIDE: u32 = 1 << 15;
 
 /// Most samples along a side of a pixel.
 const MAX_SAMPLES: u32 = 16;
@@ -67,6 +70,9 @@ pub fn check_size(size: [u32; 2], samples: u32) -> Result<(), Error> {
 /// Refuses what a format has no place for.
 pub fn check_output(config: &Config) -> Result<(), Error> {
     let format = config.output.format();
+    if let Output::Vector(format) = config.output {
+        check_vectors(config, format)?;
+    }
     if !config.channels.is_empty() && format != Some(Format::Exr) {
         return Err(Error::Options(
             "only EXR has a place for other channels than colour: with -ch write -dt exr",
@@ -80,6 +86,18 @@ pub fn check_output(config: &Config) -> Result<(), Error> {
     if config.background == Background::Clear && format.is_some_and(|format| !format.has_alpha()) {
         return Err(Error::Options(
             "PFM and HDR pictures have no transparency: leave out -tb, or write -dt exr",
+        ));
+    }
+    Ok(())
+}
+
+fn check_vectors(config: &Config, format: Format) -> Result<(), Error> {
+    if !format.has_vectors() {
+        return Err(Error::Options("this format has only pixels: with -vec write -dt eps, ps, pdf or svg"));
+    }
+    if config.size.iter().any(|&side| side > MAX_VECTOR_SIDE) {
+        return Err(Error::Options(
+            "a figure of areas has at most 32768 pixels, which are points, along a side: give a smaller -sz",
         ));
     }
     Ok(())

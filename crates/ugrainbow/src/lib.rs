@@ -31,6 +31,8 @@
 //!
 //! - **Wires** are 1.2 pixels wide and not lit, and win against the faces they lie on.
 //!
+//! - **Figures** of areas and lines are made of the same polygons, with [`Output::Vector`].
+//!
 //! What is not done: translucency (everything is opaque), a fall-off of local lights with
 //! distance, their radius, and lights that move against what they light: `ugdoppler -li`
 //! does that. Every thread count gives the same bytes.
@@ -70,9 +72,10 @@ mod setup;
 mod shade;
 mod sheet;
 mod surface;
+mod vector;
 mod words;
 
-use ugimage::{Frame, Label, grey_postscript};
+use ugimage::{Development, Frame, Label, grey_postscript};
 use ugparse::{Diagnostics, Scene, Source};
 
 pub use cli::{Args, draw};
@@ -104,9 +107,10 @@ pub struct Picture {
 /// Whatever stops it: see [`Error`].
 pub fn run(config: &Config, source: &Source) -> Result<Picture, Error> {
     let parsed = ugscene::read(source, &config.reading)?;
-    let (drawn, notes) = paint(&parsed.scene, config)?;
+    let Painted { drawn, development, notes } = paint(&parsed.scene, config)?;
     let label = label(&parsed.scene, config);
     let bytes = match (config.output, drawn) {
+        (Output::Vector(format), _) => vector::file(&parsed.scene, config, format, development, &label)?,
         (Output::Color(format), Drawn::Display(frame)) => format.encode(&frame, &label),
         (Output::Color(format), Drawn::Light(frame)) => format.encode_linear(&frame, &label),
         (Output::Grey, drawn) => grey_postscript(&drawn.into_frame(), &label),
@@ -119,15 +123,23 @@ pub fn run(config: &Config, source: &Source) -> Result<Picture, Error> {
 /// # Errors
 /// The picture is too large, there is nothing to draw, or the camera makes no sense.
 pub fn render(scene: &Scene, config: &Config) -> Result<(Frame, Vec<String>), Error> {
-    paint(scene, config).map(|(drawn, notes)| (drawn.into_frame(), notes))
+    paint(scene, config).map(|painted| (painted.drawn.into_frame(), painted.notes))
 }
 
-fn paint(scene: &Scene, config: &Config) -> Result<(Drawn, Vec<String>), Error> {
+/// A picture, how its light was developed, and what there is to say about it.
+struct Painted {
+    drawn: Drawn,
+    development: Option<Development>,
+    notes: Vec<String>,
+}
+
+fn paint(scene: &Scene, config: &Config) -> Result<Painted, Error> {
     let setup = Setup::new(scene, config)?;
     let sheet = Sheet::new(&setup.painter());
     let canvas = Canvas::new(&setup, &sheet, config);
-    let outcome = Outcome { reach: sheet.reach(), tally: canvas.tally, development: canvas.development };
-    Ok((canvas.drawn, notes::notes(&setup, config, &outcome)))
+    let Canvas { drawn, tally, development } = canvas;
+    let outcome = Outcome { reach: sheet.reach(), tally, development };
+    Ok(Painted { drawn, development, notes: notes::notes(&setup, config, &outcome) })
 }
 
 /// Our name and version, and the command lines of the whole pipe.

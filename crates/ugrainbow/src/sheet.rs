@@ -5,7 +5,7 @@ use glam::DVec3;
 use crate::drawlist::{DrawList, Reach};
 use crate::painter::Painter;
 use crate::palette::Swatch;
-use crate::raster::{Gathered, Grid, Sample, Tag, Tally, paint, probe};
+use crate::raster::{Corner, Gathered, Grid, Sample, Shade, Tag, Tally, paint, probe};
 use crate::shade::Shader;
 
 /// Polygons with the numbers to interpolate: hues alone or with colours given as light among them, under
@@ -69,6 +69,45 @@ impl Sheet {
             Self::MixedColored(list) => {
                 probe(grid, &list.lists, &|values| shader.mixed_colored(values), pixel)
             }
+        }
+    }
+}
+
+/// Most numbers any sheet interpolates.
+pub const MOST_VALUES: usize = 7;
+
+impl Sheet {
+    /// Gives `take` every polygon, as its item and its contours; corners have zeros behind their numbers.
+    pub fn for_each_polygon(&self, mut take: impl FnMut(u32, Vec<Vec<Corner<MOST_VALUES>>>)) {
+        fn all<const N: usize>(
+            list: &DrawList<N>,
+            take: &mut impl FnMut(u32, Vec<Vec<Corner<MOST_VALUES>>>),
+        ) {
+            let padded = |corner: &Corner<N>| Corner {
+                x: corner.x,
+                y: corner.y,
+                key: corner.key,
+                values: std::array::from_fn(|i| corner.values.get(i).copied().unwrap_or(0.0)),
+            };
+            for (item, contours) in list.lists.iter().flat_map(|list| list.polygons()) {
+                take(item, contours.map(|contour| contour.iter().map(padded).collect()).collect());
+            }
+        }
+        match self {
+            Self::Plain(list) => all(list, &mut take),
+            Self::Colored(list) => all(list, &mut take),
+            Self::Mixed(list) => all(list, &mut take),
+            Self::MixedColored(list) => all(list, &mut take),
+        }
+    }
+
+    /// The light of numbers interpolated between corners of [`Sheet::for_each_polygon`].
+    pub fn shade(&self, shader: &Shader, &[a, b, c, d, e, f, g]: &[f32; MOST_VALUES]) -> Shade {
+        match self {
+            Self::Plain(_) => shader.plain(&[a, b, c]),
+            Self::Colored(_) => shader.colored(&[a, b, c, d, e, f]),
+            Self::Mixed(_) => shader.mixed(&[a, b, c, d]),
+            Self::MixedColored(_) => shader.mixed_colored(&[a, b, c, d, e, f, g]),
         }
     }
 }

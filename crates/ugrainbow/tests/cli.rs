@@ -76,6 +76,8 @@ fn the_ending_of_the_file_is_the_format() {
         ("a.png", "\u{89}PNG".chars().map(|c| c as u8).collect::<Vec<u8>>()),
         ("a.EPS", b"%!PS-Adobe-3.0 EPSF-3.0".to_vec()),
         ("a.ps", b"%!PS-Adobe-3.0\n".to_vec()),
+        ("a.pdf", b"%PDF-1.7".to_vec()),
+        ("a.svg", b"<svg xmlns=".to_vec()),
         ("picture", b"\x89PNG".to_vec()),
     ];
     for (name, start) in rows {
@@ -100,10 +102,10 @@ fn bad_usage_ends_with_2() {
         assert_eq!(output.stdout, b"");
         assert!(stderr(&output).contains(message), "{}", stderr(&output));
     }
-    check("-dt jpg", "none of the formats png, png16, eps, ps, ppm, exr, pfm, hdr");
+    check("-dt jpg", "none of the formats png, png16, eps, ps, pdf, svg, ppm, exr, pfm, hdr");
     check(
         "-fo a.jpg",
-        "`.jpg` is none of the formats png, png16, eps, ps, ppm, exr, pfm, hdr; name one with -dt",
+        "`.jpg` is none of the formats png, png16, eps, ps, pdf, svg, ppm, exr, pfm, hdr; name one with -dt",
     );
     check(
         "-sz 32768 16384",
@@ -120,6 +122,8 @@ fn bad_usage_ends_with_2() {
     check("-bg .5 -tb", "cannot be used with");
     check("-ih -wi", "cannot be used with");
     check("-dp -tb", "cannot be used with");
+    check("-vec", "this format has only pixels: with -vec write -dt eps, ps, pdf or svg");
+    check("-vec -dp", "cannot be used with");
     check("-zz", "unexpected argument");
 }
 
@@ -215,9 +219,10 @@ fn help_and_version() {
     let output = ugrainbow(&["-help"]).output().unwrap();
     assert!(output.status.success());
     let help = String::from_utf8(output.stdout).unwrap();
-    for option in
-        ["--ih", "--iw", "--wi", "--dp", "--dt", "--ep", "--vc", "--ud", "--va", "--og", "--sz", "--aa"]
-    {
+    for option in [
+        "--ih", "--iw", "--wi", "--dp", "--dt", "--ep", "--vc", "--ud", "--va", "--og", "--sz", "--aa",
+        "--vec",
+    ] {
         assert!(help.contains(option), "{option}");
     }
 }

@@ -105,6 +105,11 @@ impl<const N: usize> PolygonList<N> {
             .map(|&polygon| (self.polygons[polygon as usize].item, self.contours(polygon)))
     }
 
+    /// All polygons in drawing order, each as its item and its contours.
+    pub fn polygons(&self) -> impl Iterator<Item = (u32, impl Iterator<Item = &[Corner<N>]>)> {
+        (0..).zip(&self.polygons).map(|(idx, polygon)| (polygon.item, self.contours(idx)))
+    }
+
     fn contours(&self, polygon: u32) -> impl Iterator<Item = &[Corner<N>]> {
         self.polygons[polygon as usize].contours.clone().map(|contour| {
             &self.corners[self.contour_start(contour)..self.contour_ends[contour as usize] as usize]

@@ -1,0 +1,124 @@
+//! Figures as PDF.
+
+use pdf_writer::writers::StreamShadingType;
+use pdf_writer::{Content, Filter, Name, Pdf, Ref};
+
+use super::{Element, Figure, MESH_BITS, Mesh, Point, Rgb, SEAM_WIDTH, Triangle, seams};
+use crate::Label;
+use crate::pdf::{FIRST, deflate, document};
+
+/// The figure as a PDF file, one pixel a point.
+pub fn pdf(figure: &Figure<Triangle>, label: &Label) -> Vec<u8> {
+    let [width, height] = figure.size.map(|side| side as f32);
+    let mut page = Page { content: Content::new(), meshes: Vec::new(), color: None, width: None };
+    page.content.transform([1.0, 0.0, 0.0, -1.0, 0.0, height]);
+    if let Some(background) = figure.background {
+        page.set_color(background);
+        page.content.rect(0.0, 0.0, width, height).fill_nonzero();
+    }
+    page.draw(figure);
+    let Page { content, meshes, .. } = page;
+    let mut pdf = Pdf::new();
+    let ids = (FIRST..).map(Ref::new);
+    for (mesh, id) in meshes.iter().zip(ids) {
+        let data = deflate(&mesh.0);
+        let mut shading = pdf.stream_shading(id, &data);
+        shading.filter(Filter::FlateDecode);
+        shading.shading_type(StreamShadingType::FreeformGouraud).color_space().device_rgb();
+        shading.bits_per_coordinate(MESH_BITS as i32).bits_per_component(8).bits_per_flag(8);
+        shading.decode(Mesh::decode().map(|number| number as f32));
+    }
+    document(pdf, figure.size, label, content.finish().as_slice(), |resources| {
+        if !meshes.is_empty() {
+            let mut shadings = resources.shadings();
+            for number in 0..meshes.len() {
+                shadings.pair(Name(mesh_name(number).as_bytes()), Ref::new(FIRST + number as i32));
+            }
+        }
+    })
+}
+
+fn mesh_name(number: usize) -> String {
+    format!("M{number}")
+}
+
+/// The drawing so far, and the colour and width that are set.
+struct Page {
+    content: Content,
+    meshes: Vec<Mesh>,
+    color: Option<Rgb>,
+    width: Option<f64>,
+}
+
+impl Page {
+    fn draw(&mut self, figure: &Figure<Triangle>) {
+        let seams = seams(figure.elements.iter().map(|element| match element {
+            Element::Area { contours, .. } => Some(&contours[..]),
+            _ => None,
+        }));
+        let mut elements = figure.elements.iter().zip(seams).peekable();
+        while let Some((element, seams)) = elements.next() {
+            match element {
+                Element::Area { contours, color, .. } => {
+                    self.set_color(*color);
+                    contours.iter().for_each(|contour| self.add_contour(contour));
+                    self.content.fill_even_odd();
+                    self.stroke(&seams, SEAM_WIDTH);
+                }
+                Element::Line { ends, width, color } => {
+                    self.set_color(*color);
+                    self.stroke(&[*ends], *width);
+                }
+                Element::Smooth(triangle) => {
+                    let mut mesh = Mesh::new();
+                    mesh.push(triangle);
+                    while let Some((Element::Smooth(triangle), _)) = elements.peek() {
+                        mesh.push(triangle);
+                        elements.next();
+                    }
+                    self.content.shading(Name(mesh_name(self.meshes.len()).as_bytes()));
+                    self.meshes.push(mesh);
+                }
+            }
+        }
+    }
+
+    fn add_contour(&mut self, contour: &[Point]) {
+        let mut points = contour.iter().map(rounded);
+        let Some([x, y]) = points.next() else { return };
+        self.content.move_to(x, y);
+        for [x, y] in points {
+            self.content.line_to(x, y);
+        }
+        self.content.close_path();
+    }
+
+    fn stroke(&mut self, lines: &[[Point; 2]], width: f64) {
+        if lines.is_empty() {
+            return;
+        }
+        if self.width != Some(width) {
+            self.width = Some(width);
+            self.content.set_line_width(width as f32);
+        }
+        for [a, b] in lines {
+            let ([ax, ay], [bx, by]) = (rounded(a), rounded(b));
+            self.content.move_to(ax, ay).line_to(bx, by);
+        }
+        self.content.stroke();
+    }
+
+    fn set_color(&mut self, color: Rgb) {
+        if self.color != Some(color) {
+            self.color = Some(color);
+            // Three decimals tell 256 levels apart.
+            let [r, g, b] = color.map(|level| (f32::from(level) / 0.255).round() / 1000.0);
+            self.content.set_fill_rgb(r, g, b).set_stroke_rgb(r, g, b);
+        }
+    }
+}
+
+/// To hundredths, which keeps files short.
+fn rounded(point: &Point) -> [f32; 2] {
+    point.map(|coordinate| ((coordinate * 100.0).round() / 100.0) as f32)
+}

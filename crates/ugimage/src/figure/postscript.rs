@@ -1,0 +1,127 @@
+//! Figures as PostScript level 3.
+
+use super::{Element, Figure, MESH_BITS, Mesh, Point, Rgb, SEAM_WIDTH, Triangle, number, seams};
+use crate::pdf::deflate;
+use crate::postscript::Ascii85;
+use crate::{Label, eps as eps_file, ps as ps_file};
+
+/// The figure as an EPS file, one pixel a point.
+pub fn eps(figure: &Figure<Triangle>, label: &Label) -> Vec<u8> {
+    eps_file::wrap(figure.size, 3, label, &drawing(figure))
+}
+
+/// The figure as a document of one page, one pixel a point.
+pub fn ps(figure: &Figure<Triangle>, label: &Label) -> Vec<u8> {
+    ps_file::wrap(figure.size, 3, label, &drawing(figure))
+}
+
+/// As with images, the filters stand in variables so that both can be run to their ends behind the data.
+fn prologue([width, height]: [u32; 2]) -> String {
+    let decode = Mesh::decode().map(|number| number.to_string()).join(" ");
+    format!(
+        "gsave\n\
+         0 0 {width} {height} rectclip\n\
+         0 {height} translate 1 -1 scale\n\
+         /m /moveto load def /l /lineto load def /h /closepath load def\n\
+         /f /eofill load def /s /stroke load def /w /setlinewidth load def\n\
+         /c {{ 3 {{ 255 div 3 1 roll }} repeat setrgbcolor }} bind def\n\
+         /UgMesh {{\n\
+         /UgText currentfile /ASCII85Decode filter def\n\
+         /UgData UgText /FlateDecode filter def\n\
+         << /ShadingType 4 /ColorSpace /DeviceRGB /BitsPerCoordinate {MESH_BITS} /BitsPerComponent 8\n\
+         /BitsPerFlag 8 /Decode [{decode}]\n\
+         /DataSource UgData >> shfill\n\
+         UgData flushfile UgText flushfile\n\
+         }} def\n"
+    )
+}
+
+fn drawing(figure: &Figure<Triangle>) -> Vec<u8> {
+    let mut page = Page { out: prologue(figure.size).into_bytes(), color: None, width: None };
+    if let Some(background) = figure.background {
+        let [width, height] = figure.size;
+        page.set_color(background);
+        page.add(&format!("0 0 {width} {height} rectfill\n"));
+    }
+    let seams = seams(figure.elements.iter().map(|element| match element {
+        Element::Area { contours, .. } => Some(&contours[..]),
+        _ => None,
+    }));
+    let mut elements = figure.elements.iter().zip(seams).peekable();
+    while let Some((element, seams)) = elements.next() {
+        match element {
+            Element::Area { contours, color, .. } => {
+                page.set_color(*color);
+                page.add(&path(contours));
+                page.add("f\n");
+                if !seams.is_empty() {
+                    page.set_width(SEAM_WIDTH);
+                    page.add(&seams.iter().map(line).collect::<String>());
+                    page.add("s\n");
+                }
+            }
+            Element::Line { ends, width, color } => {
+                page.set_color(*color);
+                page.set_width(*width);
+                page.add(&line(ends));
+                page.add("s\n");
+            }
+            Element::Smooth(triangle) => {
+                let mut mesh = Mesh::new();
+                mesh.push(triangle);
+                while let Some((Element::Smooth(triangle), _)) = elements.peek() {
+                    mesh.push(triangle);
+                    elements.next();
+                }
+                page.add("UgMesh\n");
+                Ascii85::encode(&deflate(&mesh.0), &mut page.out);
+            }
+        }
+    }
+    page.add("grestore\n");
+    page.out
+}
+
+/// Outlines.
+fn path(contours: &[Vec<Point>]) -> String {
+    let step =
+        |(idx, [x, y]): (usize, [String; 2])| format!("{x} {y} {}\n", if idx == 0 { 'm' } else { 'l' });
+    let contour = |contour: &Vec<Point>| {
+        let steps = contour.iter().map(|point| point.map(number)).enumerate().map(step);
+        steps.chain(["h\n".to_owned()]).collect::<String>()
+    };
+    contours.iter().map(contour).collect()
+}
+
+fn line([a, b]: &[Point; 2]) -> String {
+    let [x, y] = b.map(number);
+    format!("{} {} m {x} {y} l\n", number(a[0]), number(a[1]))
+}
+
+/// The drawing so far, and the colour and width that are set.
+struct Page {
+    out: Vec<u8>,
+    color: Option<Rgb>,
+    width: Option<f64>,
+}
+
+impl Page {
+    fn add(&mut self, text: &str) {
+        self.out.extend_from_slice(text.as_bytes());
+    }
+
+    fn set_color(&mut self, color: Rgb) {
+        if self.color != Some(color) {
+            self.color = Some(color);
+            let [red, green, blue] = color;
+            self.add(&format!("{red} {green} {blue} c\n"));
+        }
+    }
+
+    fn set_width(&mut self, width: f64) {
+        if self.width != Some(width) {
+            self.width = Some(width);
+            self.add(&format!("{} w\n", number(width)));
+        }
+    }
+}

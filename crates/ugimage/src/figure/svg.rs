@@ -1,0 +1,78 @@
+//! Figures as SVG.
+
+use super::{Element, Figure, Gradient, Point, Rgb, SEAM_WIDTH, number, seams};
+use crate::Label;
+use crate::svg::document;
+
+/// The figure as an SVG file, one pixel a unit.
+pub fn svg(figure: &Figure<Gradient>, label: &Label) -> Vec<u8> {
+    let mut out = String::new();
+    if let Some(background) = figure.background {
+        out += &format!("<rect width=\"100%\" height=\"100%\" fill=\"{}\"/>\n", hex(background));
+    }
+    out += &format!("<g fill-rule=\"evenodd\" stroke-width=\"{SEAM_WIDTH}\">\n");
+    let seams = seams(figure.elements.iter().map(|element| match element {
+        Element::Area { contours, is_inside: false, .. } => Some(&contours[..]),
+        Element::Smooth(gradient) if !gradient.is_inside => Some(&gradient.contours[..]),
+        _ => None,
+    }));
+    let mut n_gradients = 0;
+    for (element, seams) in figure.elements.iter().zip(seams) {
+        match element {
+            Element::Area { contours, color, .. } => out += &area(contours, &seams, &hex(*color)),
+            Element::Smooth(Gradient { contours, ends: [a, b], colors, .. }) => {
+                let ([x1, y1], [x2, y2]) = (a.map(number), b.map(number));
+                let [from, to] = colors.map(hex);
+                out += &format!(
+                    "<linearGradient id=\"g{n_gradients}\" gradientUnits=\"userSpaceOnUse\" \
+                     x1=\"{x1}\" y1=\"{y1}\" x2=\"{x2}\" y2=\"{y2}\"><stop stop-color=\"{from}\"/>\
+                     <stop offset=\"1\" stop-color=\"{to}\"/></linearGradient>"
+                );
+                out += &area(contours, &seams, &format!("url(#g{n_gradients})"));
+                n_gradients += 1;
+            }
+            Element::Line { ends, width, color } => {
+                let (path, width) = (lines(&[*ends]), number(*width));
+                out += &format!("<path stroke=\"{}\" stroke-width=\"{width}\" d=\"{path}\"/>\n", hex(*color));
+            }
+        }
+    }
+    out += "</g>\n";
+    document(figure.size, label, &out)
+}
+
+/// An area, and the lines by which it reaches under others.
+fn area(contours: &[Vec<Point>], seams: &[[Point; 2]], paint: &str) -> String {
+    let path = outline(contours);
+    let mut text = format!("<path fill=\"{paint}\" d=\"{}\"/>", path);
+    if !seams.is_empty() {
+        text += &format!("<path stroke=\"{paint}\" d=\"{}\"/>", lines(seams));
+    }
+    text.push('\n');
+    text
+}
+
+fn outline(contours: &[Vec<Point>]) -> String {
+    let contour = |contour: &Vec<Point>| {
+        let points: Vec<String> = contour.iter().map(|point| point.map(number).join(" ")).collect();
+        format!("M{}z", points.join("L"))
+    };
+    contours.iter().map(contour).collect()
+}
+
+fn lines(lines: &[[Point; 2]]) -> String {
+    let line = |[a, b]: &[Point; 2]| {
+        let ([ax, ay], [bx, by]) = (a.map(number), b.map(number));
+        format!("M{ax} {ay}L{bx} {by}")
+    };
+    lines.iter().map(line).collect()
+}
+
+/// A colour in three or six hexadecimal digits.
+fn hex([red, green, blue]: Rgb) -> String {
+    if [red, green, blue].iter().all(|level| level % 17 == 0) {
+        format!("#{:x}{:x}{:x}", red / 17, green / 17, blue / 17)
+    } else {
+        format!("#{red:02x}{green:02x}{blue:02x}")
+    }
+}

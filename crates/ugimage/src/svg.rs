@@ -1,0 +1,68 @@
+//! SVG: a picture embedded as PNG, one pixel a unit.
+
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+
+use crate::{Frame, Label, png};
+
+/// The frame as an SVG file; transparency is kept.
+pub fn encode(frame: &Frame, label: &Label) -> Vec<u8> {
+    let size @ [width, height] = [frame.width(), frame.height()];
+    // The history stands in the file once, as text of its own.
+    let picture = STANDARD.encode(png::encode(frame, &Label::default()));
+    let image = format!(
+        "<image width=\"{width}\" height=\"{height}\" image-rendering=\"pixelated\" \
+         href=\"data:image/png;base64,{picture}\"/>\n"
+    );
+    document(size, label, &image)
+}
+
+/// What draws a picture of `width` × `height` units, made a file. The label becomes its description.
+pub fn document([width, height]: [u32; 2], label: &Label, drawing: &str) -> Vec<u8> {
+    let words = [label.software.as_str(), label.comment.as_str()];
+    let words: Vec<String> = words.into_iter().filter(|text| !text.is_empty()).map(escaped).collect();
+    let description =
+        if words.is_empty() { String::new() } else { format!("<desc>{}</desc>\n", words.join("\n")) };
+    format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
+         viewBox=\"0 0 {width} {height}\">\n{description}{drawing}</svg>\n"
+    )
+    .into_bytes()
+}
+
+/// Text between tags. XML has no place for most control characters.
+fn escaped(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '&' => out += "&amp;",
+            '<' => out += "&lt;",
+            '>' => out += "&gt;",
+            '\n' | '\t' => out.push(c),
+            c if c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}') => out.push('?'),
+            c => out.push(c),
+        }
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_embedded_picture_is_the_png() {
+        for frame in crate::frame::test_frames() {
+            let text = String::from_utf8(encode(&frame, &Label::default())).unwrap();
+            let data = text.split("base64,").nth(1).unwrap().split('"').next().unwrap();
+            assert_eq!(STANDARD.decode(data).unwrap(), png::encode(&frame, &Label::default()));
+        }
+    }
+
+    #[test]
+    fn labels_are_text() {
+        let label = Label { software: "ug 1".into(), comment: "a < b > c & \"d\"\nγ\u{1}".into() };
+        let text = String::from_utf8(document([2, 1], &label, "")).unwrap();
+        assert!(text.contains("<desc>ug 1\na &lt; b &gt; c &amp; \"d\"\nγ?</desc>"), "{text}");
+    }
+}

@@ -1,0 +1,211 @@
+//! Convex flat polygons in the picture plane with depth.
+
+/// A place in the picture, and its depth key, larger for what is nearer.
+pub type Place = [f64; 3];
+
+/// Areas below this many square pixels are none: rounding makes such slivers along shared edges.
+const LEAST_AREA: f64 = 1e-6;
+
+/// Keys closer than this, relative to them, are equal: the raster compares them in single precision.
+const SAME_KEY: f64 = 1e-6;
+
+/// A convex polygon on one plane.
+#[derive(Clone, Debug)]
+pub struct Convex {
+    /// Counterclockwise in coordinates with y up; so the signed area is positive.
+    pub corners: Vec<Place>,
+    /// Least and greatest x and y.
+    pub low: [f64; 2],
+    pub high: [f64; 2],
+    /// Change of the key per x and y, and the key at the origin of `anchor`.
+    slope: [f64; 2],
+    anchor: Place,
+}
+
+/// How two polygons lie to each other where they overlap in the picture.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Relation {
+    /// The first is nearer somewhere.
+    pub is_before: bool,
+    /// The first is farther somewhere.
+    pub is_behind: bool,
+    /// They overlap, and somewhere at the same depth.
+    pub is_level: bool,
+}
+
+impl Convex {
+    /// `None` if there is no area. The plane is that of the widest triangle at the first corner.
+    pub fn new(mut corners: Vec<Place>) -> Option<Self> {
+        let area = doubled_area(&corners);
+        if !area.is_finite() || area.abs() < LEAST_AREA {
+            return None;
+        }
+        if area < 0.0 {
+            corners.reverse();
+        }
+        let anchor = corners[0];
+        let triangle = |pair: &[Place]| {
+            let [u, v] = [pair[0], pair[1]].map(|corner| [0, 1, 2].map(|i| corner[i] - anchor[i]));
+            (u[0] * v[1] - u[1] * v[0], u, v)
+        };
+        let triangles = corners[1..].windows(2).map(triangle);
+        let (cross, u, v) = triangles.max_by(|a, b| a.0.total_cmp(&b.0))?;
+        let slope = [(u[2] * v[1] - v[2] * u[1]) / cross, (u[0] * v[2] - v[0] * u[2]) / cross];
+        let bound = |axis: usize, start: f64, pick: fn(f64, f64) -> f64| {
+            corners.iter().map(|corner| corner[axis]).fold(start, pick)
+        };
+        let low = [0, 1].map(|axis| bound(axis, f64::INFINITY, f64::min));
+        let high = [0, 1].map(|axis| bound(axis, f64::NEG_INFINITY, f64::max));
+        Some(Self { corners, low, high, slope, anchor })
+    }
+
+    /// The key of its plane.
+    pub fn key(&self, x: f64, y: f64) -> f64 {
+        self.anchor[2] + self.slope[0] * (x - self.anchor[0]) + self.slope[1] * (y - self.anchor[1])
+    }
+
+    /// True if all its corners lie on its plane.
+    pub fn is_flat(&self) -> bool {
+        self.corners.iter().all(|&[x, y, key]| side(key, self.key(x, y)) == 0)
+    }
+
+    /// Where it is nearer than another and where farther.
+    pub fn relation(&self, other: &Self) -> Relation {
+        let mut relation = Relation::default();
+        let is_apart =
+            (0..2).any(|axis| self.high[axis] <= other.low[axis] || other.high[axis] <= self.low[axis]);
+        if is_apart {
+            return relation;
+        }
+        let common = self.common(other);
+        if doubled_area(&common) < LEAST_AREA {
+            return relation;
+        }
+        for [x, y, _] in common {
+            match side(self.key(x, y), other.key(x, y)) {
+                1 => relation.is_before = true,
+                -1 => relation.is_behind = true,
+                _ => relation.is_level = true,
+            }
+        }
+        relation
+    }
+
+    /// What of it lies over another in the picture.
+    fn common(&self, other: &Self) -> Vec<Place> {
+        let mut rest = self.corners.clone();
+        for (a, b) in sides(&other.corners) {
+            let inside = |[x, y, _]: Place| (b[0] - a[0]) * (y - a[1]) - (b[1] - a[1]) * (x - a[0]);
+            rest = clip(&rest, inside);
+            if rest.is_empty() {
+                break;
+            }
+        }
+        rest
+    }
+
+    /// On which side of the plane of `self` another lies: 1 nearer, −1 farther, 0 on it; `None` if on both.
+    pub fn side_of(&self, other: &Self) -> Option<i8> {
+        let mut sides = [false; 2];
+        for &[x, y, key] in &other.corners {
+            match side(key, self.key(x, y)) {
+                1 => sides[1] = true,
+                -1 => sides[0] = true,
+                _ => {}
+            }
+        }
+        match sides {
+            [true, true] => None,
+            [false, true] => Some(1),
+            [true, false] => Some(-1),
+            [false, false] => Some(0),
+        }
+    }
+
+    /// The parts of another behind and before the plane of `self`.
+    pub fn split(&self, other: &Self) -> [Option<Self>; 2] {
+        let ahead = |[x, y, key]: Place| key - self.key(x, y);
+        [Self::new(clip(&other.corners, |place| -ahead(place))), Self::new(clip(&other.corners, ahead))]
+    }
+
+    /// The part of the segment from `a` to `b` over it, as parts of the way, if any.
+    pub fn over(&self, a: Place, b: Place) -> Option<[f64; 2]> {
+        let (mut start, mut end) = (0.0f64, 1.0f64);
+        for (p, q) in sides(&self.corners) {
+            let inside = |[x, y, _]: Place| (q[0] - p[0]) * (y - p[1]) - (q[1] - p[1]) * (x - p[0]);
+            let (at_a, at_b) = (inside(a), inside(b));
+            match (at_a >= 0.0, at_b >= 0.0) {
+                (true, true) => {}
+                (false, false) => return None,
+                (true, false) => end = end.min(at_a / (at_a - at_b)),
+                (false, true) => start = start.max(at_a / (at_a - at_b)),
+            }
+        }
+        (start < end).then_some([start, end])
+    }
+
+    /// The parts on both sides of the line across the middle of its greater extent.
+    pub fn halves(&self) -> [Option<Self>; 2] {
+        let extent = [0, 1].map(|axis| self.high[axis] - self.low[axis]);
+        let axis = usize::from(extent[1] > extent[0]);
+        let middle = 0.5 * (self.low[axis] + self.high[axis]);
+        [
+            Self::new(clip(&self.corners, |place| middle - place[axis])),
+            Self::new(clip(&self.corners, |place| place[axis] - middle)),
+        ]
+    }
+
+    /// The mean of its corners.
+    pub fn middle(&self) -> [f64; 2] {
+        let n_corners = self.corners.len() as f64;
+        [0, 1].map(|axis| self.corners.iter().map(|corner| corner[axis]).sum::<f64>() / n_corners)
+    }
+
+    /// The greater of its extents across and down.
+    pub fn extent(&self) -> f64 {
+        (self.high[0] - self.low[0]).max(self.high[1] - self.low[1])
+    }
+}
+
+/// 1 if `key` is nearer than `other`, −1 if farther, 0 if they count as equal.
+fn side(key: f64, other: f64) -> i8 {
+    let difference = key - other;
+    if difference.abs() <= SAME_KEY * key.abs().max(other.abs()) {
+        0
+    } else if difference > 0.0 {
+        1
+    } else {
+        -1
+    }
+}
+
+/// The sides of a polygon.
+pub fn sides(corners: &[Place]) -> impl Iterator<Item = (Place, Place)> {
+    let ahead = corners.iter().cycle().skip(1);
+    corners.iter().copied().zip(ahead.copied())
+}
+
+/// Twice the signed area.
+pub fn doubled_area(corners: &[Place]) -> f64 {
+    let Some(&[x0, y0, _]) = corners.first() else { return 0.0 };
+    sides(corners).map(|(a, b)| (a[0] - x0) * (b[1] - y0) - (a[1] - y0) * (b[0] - x0)).sum()
+}
+
+/// The part of a polygon where `inside` is not negative. It is linear. Crossings are computed from the corner inside, whichever
+/// way the polygon runs.
+pub fn clip(corners: &[Place], inside: impl Fn(Place) -> f64) -> Vec<Place> {
+    let crossing = |a: Place, b: Place| {
+        let part = inside(a) / (inside(a) - inside(b));
+        [0, 1, 2].map(|i| a[i] + (b[i] - a[i]) * part)
+    };
+    let mut kept = Vec::with_capacity(corners.len() + 1);
+    for (a, b) in sides(corners) {
+        match (inside(a) >= 0.0, inside(b) >= 0.0) {
+            (true, true) => kept.push(b),
+            (true, false) => kept.push(crossing(a, b)),
+            (false, true) => kept.extend([crossing(b, a), b]),
+            (false, false) => {}
+        }
+    }
+    kept
+}

@@ -1,0 +1,184 @@
+//! The order of painting: what is behind comes first.
+//!
+//! For each two polygons that overlap in the picture it is found out which is in front. Where these relations have no
+//! cycle they give an order. Polygons in a cycle, such as two that cut through each other, are
+//! cut along each other's planes until they have one (binary space partition, Fuchs, Kedem and Naylor 1980). In a
+//! picture with its depth key everything flat is a plane, and the eye is above all of them: below it is painted first.
+
+use super::convex::{Convex, Relation};
+use super::index::Index;
+use super::patch::Patch;
+
+/// What is painted at once.
+#[derive(Clone, Debug)]
+pub enum Piece {
+    /// A whole patch.
+    Whole(usize),
+    /// A convex part of one.
+    Part(usize, Convex),
+}
+
+/// Splitting planes tried at each step; the one that cuts least is taken.
+const CANDIDATES: usize = 8;
+
+/// All patches, or their parts, from the farthest to the nearest.
+pub fn painting_order(patches: &[Patch], index: &Index) -> Vec<Piece> {
+    let behind = relations(patches, index);
+    let mut pieces = Vec::new();
+    for group in strong_components(&behind) {
+        match group[..] {
+            [patch] => pieces.push(Piece::Whole(patch)),
+            _ => partition(patches, &group, &mut pieces),
+        }
+    }
+    pieces
+}
+
+/// For each patch, what it hides in part.
+fn relations(patches: &[Patch], index: &Index) -> Vec<Vec<usize>> {
+    let mut behind = vec![Vec::new(); patches.len()];
+    for (first, patch) in patches.iter().enumerate() {
+        for second in index.overlapping(patch).filter(|&second| second > first) {
+            let relation = relation(patch, &patches[second]);
+            // Of what is equally deep the first is seen, as in the raster.
+            let is_tie = relation.is_level && !relation.is_behind;
+            if relation.is_before || is_tie {
+                behind[first].push(second);
+            }
+            if relation.is_behind {
+                behind[second].push(first);
+            }
+        }
+    }
+    behind
+}
+
+fn relation(first: &Patch, second: &Patch) -> Relation {
+    let pairs = first.parts.iter().flat_map(|a| second.parts.iter().map(move |b| a.relation(b)));
+    pairs.fold(Relation::default(), |all, one| Relation {
+        is_before: all.is_before || one.is_before,
+        is_behind: all.is_behind || one.is_behind,
+        is_level: all.is_level || one.is_level,
+    })
+}
+
+/// Tarjan's strongly connected components (1972); a component comes after all that it leads to.
+fn strong_components(leads_to: &[Vec<usize>]) -> Vec<Vec<usize>> {
+    const NEW: usize = usize::MAX;
+    let n = leads_to.len();
+    let (mut number, mut lowest, mut is_open) = (vec![NEW; n], vec![0; n], vec![false; n]);
+    let (mut open, mut components, mut n_numbered) = (Vec::new(), Vec::new(), 0);
+    for root in 0..n {
+        if number[root] != NEW {
+            continue;
+        }
+        // Nodes on the way here, each with how many of its edges have been followed.
+        let mut way = vec![(root, 0)];
+        while let Some((node, edge)) = way.last_mut() {
+            let node = *node;
+            if *edge == 0 {
+                (number[node], lowest[node], is_open[node]) = (n_numbered, n_numbered, true);
+                n_numbered += 1;
+                open.push(node);
+            }
+            if let Some(&next) = leads_to[node].get(*edge) {
+                *edge += 1;
+                if number[next] == NEW {
+                    way.push((next, 0));
+                } else if is_open[next] {
+                    lowest[node] = lowest[node].min(number[next]);
+                }
+                continue;
+            }
+            way.pop();
+            if let Some(&(before, _)) = way.last() {
+                lowest[before] = lowest[before].min(lowest[node]);
+            }
+            if lowest[node] == number[node] {
+                let start = open.iter().rposition(|&other| other == node).unwrap_or(0);
+                let component = open.split_off(start);
+                component.iter().for_each(|&member| is_open[member] = false);
+                components.push(component);
+            }
+        }
+    }
+    components
+}
+
+/// A step of the partition.
+enum Step {
+    Divide(Vec<(usize, Convex)>),
+    Paint(Vec<(usize, Convex)>),
+}
+
+/// Paints the parts of these patches from behind, cut where needed.
+fn partition(patches: &[Patch], group: &[usize], pieces: &mut Vec<Piece>) {
+    let mut group = group.to_vec();
+    group.sort_unstable();
+    let parts = group.iter().flat_map(|&idx| patches[idx].parts.iter().map(move |part| (idx, part.clone())));
+    let mut steps = vec![Step::Divide(parts.collect())];
+    while let Some(step) = steps.pop() {
+        match step {
+            Step::Paint(mut parts) => {
+                // Of what is equally deep the first is to be seen, so it comes last.
+                parts.sort_by_key(|(idx, _)| std::cmp::Reverse(patches[*idx].item));
+                pieces.extend(parts.into_iter().map(|(idx, part)| Piece::Part(idx, part)));
+            }
+            Step::Divide(parts) if parts.len() < 2 => steps.push(Step::Paint(parts)),
+            Step::Divide(parts) => {
+                let [behind, on, before] = divide(parts);
+                steps.extend([Step::Divide(before), Step::Paint(on), Step::Divide(behind)]);
+            }
+        }
+    }
+}
+
+/// What is behind, on and before the plane of one of them, which itself is on it.
+fn divide(parts: Vec<(usize, Convex)>) -> [Vec<(usize, Convex)>; 3] {
+    let stride = parts.len().div_ceil(CANDIDATES);
+    let cuts = |plane: &Convex| parts.iter().filter(|(_, part)| plane.side_of(part).is_none()).count();
+    let splitter = (0..parts.len()).step_by(stride).min_by_key(|&idx| cuts(&parts[idx].1)).unwrap_or(0);
+    let plane = parts[splitter].1.clone();
+    let [mut behind, mut on, mut before] = [const { Vec::new() }; 3];
+    for (number, (idx, part)) in parts.into_iter().enumerate() {
+        // The splitter itself is on its plane, whatever rounding says, so the rest gets fewer.
+        let side = if number == splitter { Some(0) } else { plane.side_of(&part) };
+        match side {
+            Some(0) => on.push((idx, part)),
+            Some(1) => before.push((idx, part)),
+            Some(_) => behind.push((idx, part)),
+            None => {
+                let [far, near] = plane.split(&part);
+                behind.extend(far.map(|part| (idx, part)));
+                before.extend(near.map(|part| (idx, part)));
+            }
+        }
+    }
+    [behind, on, before]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn components_come_after_what_they_lead_to() {
+        // 0 → 1 ⇄ 2 → 3, and 4 alone.
+        let edges = vec![vec![1], vec![2], vec![1, 3], vec![], vec![]];
+        assert_eq!(strong_components(&edges), [vec![3], vec![1, 2], vec![0], vec![4]]);
+        assert_eq!(strong_components(&[vec![0]]), [vec![0]]);
+    }
+
+    #[test]
+    fn polygons_that_cut_each_other_are_cut() {
+        let at = |corners: [[f64; 3]; 4]| Convex::new(corners.to_vec()).unwrap();
+        let flat = at([[0.0, 0.0, 1.0], [4.0, 0.0, 1.0], [4.0, 4.0, 1.0], [0.0, 4.0, 1.0]]);
+        let steep = at([[0.0, 0.0, 0.5], [4.0, 0.0, 1.5], [4.0, 4.0, 1.5], [0.0, 4.0, 0.5]]);
+        let relation = flat.relation(&steep);
+        assert!(relation.is_before && relation.is_behind);
+        let [behind, on, before] = divide(vec![(0, flat), (1, steep)]);
+        assert_eq!((behind[0].0, on[0].0, before[0].0), (1, 0, 1));
+        assert_eq!((behind[0].1.low, behind[0].1.high), ([0.0, 0.0], [2.0, 4.0]));
+        assert_eq!((before[0].1.low, before[0].1.high), ([2.0, 0.0], [4.0, 4.0]));
+    }
+}

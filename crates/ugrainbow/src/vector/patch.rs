@@ -1,0 +1,181 @@
+//! Faces and wires as polygons to be painted.
+
+use super::convex::{Convex, Place, clip, doubled_area, sides};
+use crate::raster::Corner;
+use crate::sheet::MOST_VALUES;
+
+/// What is drawn so far outside the picture, in pixels; the rest is cut away.
+const MARGIN: f64 = 4.0;
+
+/// A polygon of the draw list, in pixels.
+#[derive(Clone, Debug)]
+pub struct Patch {
+    /// Its face or wire.
+    pub item: u32,
+    /// As drawn by the raster; its colours come from here.
+    contours: Vec<Vec<Corner<MOST_VALUES>>>,
+    /// What of it is in and near the picture.
+    pub outline: Vec<Vec<Place>>,
+    /// The same in convex flat parts.
+    pub parts: Vec<Convex>,
+    is_perspective: bool,
+}
+
+impl Patch {
+    /// `corners` are in pixels. `None` if nothing of it is in the picture.
+    pub fn new(
+        item: u32,
+        contours: Vec<Vec<Corner<MOST_VALUES>>>,
+        size: [u32; 2],
+        is_perspective: bool,
+    ) -> Option<Self> {
+        let place = |corner: &Corner<MOST_VALUES>| [corner.x, corner.y, corner.key];
+        let outline = contours.iter().map(|contour| near_picture(contour.iter().map(place).collect(), size));
+        let outline: Vec<Vec<Place>> = outline.filter(|contour| contour.len() > 2).collect();
+        let parts = parts(&outline);
+        (!parts.is_empty()).then_some(Self { item, contours, outline, parts, is_perspective })
+    }
+
+    /// The ends of the line of which this is the strip, cut square `shorten` before its ends.
+    pub fn line(&self, shorten: f64) -> Option<[Place; 2]> {
+        let [a, b, c, d] = self.contours.first()?.as_slice() else { return None };
+        let middle =
+            |p: &Corner<MOST_VALUES>, q: &Corner<MOST_VALUES>| [0.5 * (p.x + q.x), 0.5 * (p.y + q.y), p.key];
+        let (a, b) = (middle(a, d), middle(b, c));
+        let length = libm::hypot(b[0] - a[0], b[1] - a[1]);
+        let part = shorten / length;
+        let moved = |from: Place, to: Place| {
+            [from[0] + (to[0] - from[0]) * part, from[1] + (to[1] - from[1]) * part, from[2]]
+        };
+        (length > 0.0).then(|| [moved(a, b), moved(b, a)])
+    }
+
+    /// The numbers the raster interpolates at a place, which is moved to the nearest of its row if it is not inside.
+    pub fn values_at(&self, [x, y]: [f64; 2]) -> [f32; MOST_VALUES] {
+        let corners = || self.contours.iter().flatten();
+        let top = corners().map(|corner| corner.y).fold(f64::INFINITY, f64::min);
+        let bottom = corners().map(|corner| corner.y).fold(f64::NEG_INFINITY, f64::max);
+        // On the lowest row an outline ends, so the row just above it is asked.
+        let inset = 1e-9 * (bottom - top);
+        let y = y.max(top + inset).min(bottom - inset);
+        let mut crossings: Vec<Corner<MOST_VALUES>> = self
+            .contours
+            .iter()
+            .flat_map(|contour| contour.iter().zip(contour.iter().cycle().skip(1)))
+            .filter(|(a, b)| (a.y <= y) != (b.y <= y))
+            .map(|(a, b)| mixed(a, b, (y - a.y) / (b.y - a.y)))
+            .collect();
+        crossings.sort_by(|a, b| a.x.total_cmp(&b.x));
+        let distance = |pair: &[Corner<MOST_VALUES>]| (pair[0].x - x).max(x - pair[1].x).max(0.0);
+        let nearest = crossings.chunks_exact(2).min_by(|a, b| distance(a).total_cmp(&distance(b)));
+        let here = match nearest {
+            Some([left, right]) if right.x > left.x => {
+                mixed(left, right, ((x - left.x) / (right.x - left.x)).clamp(0.0, 1.0))
+            }
+            Some([left, ..]) => *left,
+            _ => self.contours[0][0],
+        };
+        let scale = if self.is_perspective { 1.0 / here.key } else { 1.0 };
+        here.values.map(|value| (value * scale) as f32)
+    }
+
+    /// The numbers at all corners if they are the same.
+    pub fn single_values(&self) -> Option<[f32; MOST_VALUES]> {
+        let values = |corner: &Corner<MOST_VALUES>| {
+            let scale = if self.is_perspective { 1.0 / corner.key } else { 1.0 };
+            corner.values.map(|value| (value * scale) as f32)
+        };
+        let first = values(self.contours.first()?.first()?);
+        self.contours.iter().flatten().all(|corner| values(corner) == first).then_some(first)
+    }
+}
+
+fn mixed(a: &Corner<MOST_VALUES>, b: &Corner<MOST_VALUES>, part: f64) -> Corner<MOST_VALUES> {
+    let mix = |a: f64, b: f64| a + (b - a) * part;
+    Corner {
+        x: mix(a.x, b.x),
+        y: mix(a.y, b.y),
+        key: mix(a.key, b.key),
+        values: std::array::from_fn(|i| mix(a.values[i], b.values[i])),
+    }
+}
+
+/// A contour without what is far outside the picture.
+fn near_picture(mut contour: Vec<Place>, size: [u32; 2]) -> Vec<Place> {
+    for axis in 0..2 {
+        let end = f64::from(size[axis]) + MARGIN;
+        if contour.iter().any(|place| place[axis] < -MARGIN) {
+            contour = clip(&contour, |place| place[axis] + MARGIN);
+        }
+        if contour.iter().any(|place| place[axis] > end) {
+            contour = clip(&contour, |place| end - place[axis]);
+        }
+    }
+    contour
+}
+
+/// Convex flat parts of a polygon.
+fn parts(outline: &[Vec<Place>]) -> Vec<Convex> {
+    if let [contour] = outline
+        && is_convex(contour)
+    {
+        return flat_parts(contour.clone());
+    }
+    trapezoids(outline).into_iter().flat_map(flat_parts).collect()
+}
+
+/// A convex polygon in flat parts: itself, or a fan of triangles.
+fn flat_parts(corners: Vec<Place>) -> Vec<Convex> {
+    let Some(whole) = Convex::new(corners) else { return Vec::new() };
+    if whole.is_flat() {
+        return vec![whole];
+    }
+    let first = whole.corners[0];
+    whole.corners[1..].windows(2).filter_map(|pair| Convex::new(vec![first, pair[0], pair[1]])).collect()
+}
+
+/// True if the outline turns one way only, and once round.
+fn is_convex(contour: &[Place]) -> bool {
+    let n = contour.len();
+    let direction = doubled_area(contour).signum();
+    let turns_back = (0..n).any(|idx| {
+        let [a, b, c] = [0, 1, 2].map(|step| contour[(idx + step) % n]);
+        ((b[0] - a[0]) * (c[1] - b[1]) - (b[1] - a[1]) * (c[0] - b[0])) * direction < 0.0
+    });
+    // A star turns one way, too, but goes up and down more than once.
+    let n_tops = sides(contour)
+        .zip(sides(contour).skip(1).chain(sides(contour).take(1)))
+        .filter(|((a, b), (_, c))| a[1] < b[1] && c[1] <= b[1])
+        .count();
+    !turns_back && n_tops <= 1
+}
+
+/// The polygon between the rows of its corners, by the even-odd rule.
+fn trapezoids(outline: &[Vec<Place>]) -> Vec<Vec<Place>> {
+    let mut rows: Vec<f64> = outline.iter().flatten().map(|place| place[1]).collect();
+    rows.sort_by(f64::total_cmp);
+    rows.dedup();
+    let edges: Vec<(Place, Place)> = outline.iter().flat_map(|contour| sides(contour)).collect();
+    let mut trapezoids = Vec::new();
+    for pair in rows.windows(2) {
+        let [top, bottom] = [pair[0], pair[1]];
+        let at = |(a, b): (Place, Place), y: f64| {
+            // From the upper end, so that both parts beside an edge get the same place.
+            let (a, b) = if a[1] < b[1] { (a, b) } else { (b, a) };
+            let part = (y - a[1]) / (b[1] - a[1]);
+            [a[0] + (b[0] - a[0]) * part, y, a[2] + (b[2] - a[2]) * part]
+        };
+        let spans = |(a, b): &(Place, Place)| a[1].min(b[1]) <= top && a[1].max(b[1]) >= bottom;
+        let mut crossings: Vec<[Place; 2]> = edges
+            .iter()
+            .filter(|edge| spans(edge))
+            .map(|&edge| [top, bottom].map(|row| at(edge, row)))
+            .collect();
+        crossings.sort_by(|a, b| (a[0][0] + a[1][0]).total_cmp(&(b[0][0] + b[1][0])));
+        for pair in crossings.chunks_exact(2) {
+            let ([a, d], [b, c]) = (pair[0], pair[1]);
+            trapezoids.push(vec![a, b, c, d]);
+        }
+    }
+    trapezoids
+}

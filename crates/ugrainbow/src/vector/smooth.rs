@@ -1,0 +1,248 @@
+//! Pieces of patches as elements of a figure: plain areas, triangles between whose corners colour is linear, and
+//! areas whose colour is linear along a line.
+
+use ugimage::figure::{Element, Gradient, Point, Triangle};
+
+use super::color::{Levels, Palette, distance, mean, rounded};
+use super::convex::{Convex, sides};
+use super::order::Piece;
+use super::patch::Patch;
+
+/// How far, in levels of 255, the colours of a figure are from those of the scene where that is tried: at corners,
+/// middles of edges and middles of pieces.
+const BOUND: f64 = 2.0;
+
+/// An area whose colours differ by less is plain.
+const PLAIN: f64 = 2.0;
+
+/// What is smaller, in pixels, is not cut for its colour.
+const LEAST: f64 = 0.25;
+
+/// How often a piece is halved at most.
+const MOST_CUTS: u32 = 14;
+
+/// How a format has smooth colour.
+pub trait Smooth: Sized {
+    /// Adds smooth elements for the parts of a piece whose outline is `contours`.
+    fn push(job: &Job<'_>, contours: Vec<Vec<Point>>, parts: &[Convex], elements: &mut Vec<Element<Self>>);
+}
+
+/// A patch being painted.
+pub struct Job<'a> {
+    palette: &'a Palette<'a>,
+    patch: &'a Patch,
+}
+
+/// Adds a piece to the figure.
+pub fn push_piece<S: Smooth>(
+    palette: &Palette<'_>,
+    patches: &[Patch],
+    piece: &Piece,
+    elements: &mut Vec<Element<S>>,
+) {
+    let (patch, part) = match piece {
+        Piece::Whole(idx) => (&patches[*idx], None),
+        Piece::Part(idx, part) => (&patches[*idx], Some(part)),
+    };
+    let parts = part.map_or(&patch.parts[..], std::slice::from_ref);
+    let contours: Vec<Vec<Point>> = match part {
+        Some(part) => vec![outline(part)],
+        None => {
+            patch.outline.iter().map(|contour| contour.iter().map(|&[x, y, _]| [x, y]).collect()).collect()
+        }
+    };
+    if let Some(values) = patch.single_values() {
+        elements.push(Element::Area { contours, color: rounded(palette.levels(&values)), is_inside: false });
+        return;
+    }
+    let job = Job { palette, patch };
+    match plain(&job.tried(parts)) {
+        Some(color) => {
+            elements.push(Element::Area { contours, color: rounded(color), is_inside: false });
+        }
+        None => S::push(&job, contours, parts, elements),
+    }
+}
+
+fn outline(part: &Convex) -> Vec<Point> {
+    part.corners.iter().map(|&[x, y, _]| [x, y]).collect()
+}
+
+/// The middle of the range of colours, if it is small.
+fn plain(tried: &[(Point, Levels)]) -> Option<Levels> {
+    let bound = |i: usize, start: f64, pick: fn(f64, f64) -> f64| {
+        tried.iter().map(|(_, levels)| levels[i]).fold(start, pick)
+    };
+    let low = [0, 1, 2].map(|i| bound(i, f64::INFINITY, f64::min));
+    let high = [0, 1, 2].map(|i| bound(i, f64::NEG_INFINITY, f64::max));
+    (distance(low, high) <= PLAIN).then(|| mean(low, high))
+}
+
+impl Job<'_> {
+    fn color(&self, place: Point) -> Levels {
+        self.palette.at(self.patch, place)
+    }
+
+    /// Colours at corners, middles of edges and middles of parts.
+    fn tried(&self, parts: &[Convex]) -> Vec<(Point, Levels)> {
+        let mut places = Vec::new();
+        for part in parts {
+            places.push(part.middle());
+            for (a, b) in sides(&part.corners) {
+                places.extend([[a[0], a[1]], [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])]]);
+            }
+        }
+        places.into_iter().map(|place| (place, self.color(place))).collect()
+    }
+}
+
+impl Smooth for Triangle {
+    fn push(job: &Job<'_>, _: Vec<Vec<Point>>, parts: &[Convex], elements: &mut Vec<Element<Self>>) {
+        for part in parts {
+            let corners = outline(part);
+            for pair in corners[1..].windows(2) {
+                let corners = [corners[0], pair[0], pair[1]];
+                push_triangles(job, corners, elements);
+            }
+        }
+    }
+}
+
+/// Adds a triangle, halved until colour is linear in the parts.
+fn push_triangles(job: &Job<'_>, corners: [Point; 3], elements: &mut Vec<Element<Triangle>>) {
+    let mut stack = vec![(corners, corners.map(|corner| job.color(corner)), 0)];
+    while let Some((corners, colors, cuts)) = stack.pop() {
+        let middles = [0, 1, 2].map(|i| middle(corners[i], corners[(i + 1) % 3]));
+        let colors_there = middles.map(|place| job.color(place));
+        let errors = [0, 1, 2].map(|i| distance(colors_there[i], mean(colors[i], colors[(i + 1) % 3])));
+        let center = [0, 1].map(|axis| (corners[0][axis] + corners[1][axis] + corners[2][axis]) / 3.0);
+        let mean_color = [0, 1, 2].map(|i| (colors[0][i] + colors[1][i] + colors[2][i]) / 3.0);
+        let error = errors.into_iter().fold(distance(job.color(center), mean_color), f64::max);
+        let length = |i: usize| {
+            let (a, b) = (corners[i], corners[(i + 1) % 3]);
+            libm::hypot(b[0] - a[0], b[1] - a[1])
+        };
+        let longest = greatest([0, 1, 2].map(length));
+        if error <= BOUND || cuts == MOST_CUTS || length(longest) < LEAST {
+            elements.push(Element::Smooth(Triangle { corners, colors: colors.map(rounded) }));
+            continue;
+        }
+        // The edge where colour is least linear; if that is the inside, the longest.
+        let worst = greatest(errors);
+        let i = if errors[worst] > BOUND { worst } else { longest };
+        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+        let (place, color) = (middles[i], colors_there[i]);
+        stack.push(([place, corners[j], corners[k]], [color, colors[j], colors[k]], cuts + 1));
+        stack.push(([corners[i], place, corners[k]], [colors[i], color, colors[k]], cuts + 1));
+    }
+}
+
+fn middle(a: Point, b: Point) -> Point {
+    [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])]
+}
+
+/// The place of the greatest; of equals the first.
+fn greatest(numbers: [f64; 3]) -> usize {
+    (1..3).fold(0, |best, i| if numbers[i] > numbers[best] { i } else { best })
+}
+
+impl Smooth for Gradient {
+    fn push(job: &Job<'_>, contours: Vec<Vec<Point>>, parts: &[Convex], elements: &mut Vec<Element<Self>>) {
+        let tried = job.tried(parts);
+        let nearest = fitted(&tried, f64::INFINITY);
+        if let Some((ends, colors)) = nearest {
+            // Also where the piece has to be cut, as the ground of its parts: what shines through between them has
+            // nearly their colours.
+            elements.push(Element::Smooth(Self {
+                contours,
+                ends,
+                colors: colors.map(rounded),
+                is_inside: false,
+            }));
+        }
+        if fitted(&tried, BOUND).is_some() {
+            return;
+        }
+        let mut stack: Vec<(Convex, u32)> = parts.iter().rev().map(|part| (part.clone(), 0)).collect();
+        while let Some((part, cuts)) = stack.pop() {
+            let tried = job.tried(std::slice::from_ref(&part));
+            let contours = vec![outline(&part)];
+            let is_last = cuts == MOST_CUTS || part.extent() < LEAST;
+            if let Some(color) = plain(&tried) {
+                elements.push(Element::Area { contours, color: rounded(color), is_inside: true });
+            } else if let Some((ends, colors)) = fitted(&tried, if is_last { f64::INFINITY } else { BOUND }) {
+                elements.push(Element::Smooth(Self {
+                    contours,
+                    ends,
+                    colors: colors.map(rounded),
+                    is_inside: true,
+                }));
+            } else {
+                stack.extend(part.halves().into_iter().flatten().map(|half| (half, cuts + 1)));
+            }
+        }
+    }
+}
+
+/// The linear change of colour along a line that is nearest to these colours, if it is nowhere farther from them than
+/// `bound`.
+///
+/// Least squares give the linear function of the place for each channel; the line goes where all channels together
+/// change most, which is the greater principal axis of their slopes.
+fn fitted(tried: &[(Point, Levels)], bound: f64) -> Option<([Point; 2], [Levels; 2])> {
+    let n = tried.len() as f64;
+    let [x0, y0] = [0, 1].map(|axis| tried.iter().map(|(place, _)| place[axis]).sum::<f64>() / n);
+    let center = [0, 1, 2].map(|i| tried.iter().map(|(_, color)| color[i]).sum::<f64>() / n);
+    let mut moments = [0.0; 3];
+    let mut products = [[0.0; 2]; 3];
+    for ([x, y], color) in tried {
+        let (x, y) = (x - x0, y - y0);
+        moments = [moments[0] + x * x, moments[1] + x * y, moments[2] + y * y];
+        for i in 0..3 {
+            products[i][0] += x * (color[i] - center[i]);
+            products[i][1] += y * (color[i] - center[i]);
+        }
+    }
+    let [xx, xy, yy] = moments;
+    let determinant = xx * yy - xy * xy;
+    // Of places along one line the slope across it is nothing.
+    let ridge = 1e-9 * (xx + yy) * (xx + yy);
+    let determinant = determinant.max(ridge);
+    let slopes =
+        products.map(|[px, py]| [(px * yy - py * xy) / determinant, (py * xx - px * xy) / determinant]);
+    let sum = |a: usize, b: usize| slopes.iter().map(|slope| slope[a] * slope[b]).sum::<f64>();
+    let angle = 0.5 * libm::atan2(2.0 * sum(0, 1), sum(0, 0) - sum(1, 1));
+    let (dy, dx) = libm::sincos(angle);
+    let along = |[x, y]: Point| (x - x0) * dx + (y - y0) * dy;
+    let start = tried.iter().map(|(place, _)| along(*place)).fold(f64::INFINITY, f64::min);
+    let end = tried.iter().map(|(place, _)| along(*place)).fold(f64::NEG_INFINITY, f64::max);
+    let square: f64 = tried.iter().map(|(place, _)| along(*place) * along(*place)).sum();
+    let slope = [0, 1, 2].map(|i| {
+        let product: f64 = tried.iter().map(|(place, color)| along(*place) * (color[i] - center[i])).sum();
+        if square > 0.0 { product / square } else { 0.0 }
+    });
+    let color = |t: f64| [0, 1, 2].map(|i| center[i] + slope[i] * t);
+    let is_near = tried.iter().all(|(place, levels)| distance(color(along(*place)), *levels) <= bound);
+    let place = |t: f64| [x0 + t * dx, y0 + t * dy];
+    let shown = |t: f64| color(t).map(|level| level.clamp(0.0, 255.0));
+    is_near.then(|| ([place(start), place(end)], [shown(start), shown(end)]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_linear_change_is_fitted_exactly() {
+        let color = |[x, y]: Point| [10.0 + 3.0 * x + 4.0 * y, 200.0 - 6.0 * x - 8.0 * y, 50.0];
+        let places = [[0.0, 0.0], [4.0, 0.0], [4.0, 3.0], [0.0, 3.0], [1.0, 2.0]];
+        let tried = places.map(|place| (place, color(place)));
+        let (ends, colors) = fitted(&tried, 1e-9).unwrap();
+        for (end, shown) in ends.into_iter().zip(colors) {
+            assert!(distance(shown, color(end)) < 1e-9, "{end:?} {shown:?}");
+        }
+        // Red goes one way and green the other: no line does for both.
+        let crossed = places.map(|[x, y]| ([x, y], [50.0 * x, 50.0 * y, 0.0]));
+        assert!(fitted(&crossed, 2.0).is_none());
+    }
+}

@@ -1,0 +1,78 @@
+//! Figures of small scenes against where their edges are.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking, its helpers too")]
+
+use ugimage::Format;
+use ugrainbow::{Config, Error, Output, run};
+
+/// Eye ten units above the plane z = 0, +y up, orthographic: ten pixels a unit, the origin at 40, 40.
+fn svg(scene: &str) -> String {
+    let angle = 2.0 * libm::atan(4.0 / 10.0).to_degrees();
+    let text = format!("{scene} cam -ep 0 0 10 -vc 0 0 0 -ud 0 1 0 -og -va {angle} {angle};");
+    let config = Config { size: [80, 80], output: Output::Vector(Format::Svg), ..Config::default() };
+    let picture = run(&config, &ugparse::Source::new("test.ug", text)).unwrap();
+    String::from_utf8(picture.bytes).unwrap()
+}
+
+const COLORS: &str = "l 1; c red 1 0; c green 1 120; c blue 1 240;";
+const FAR: &str = "v a -3 -3 0; v b 3 -3 0; v c 3 3 0; v d -3 3 0; f far (a b c d) blue;";
+const NEAR: &str = "v e -1 -1 1; v f -1 1 1; v g 1 1 1; v h 1 -1 1; f near (e f g h) red;";
+
+/// Fill colour, and least and greatest x and y, of every area.
+fn areas(svg: &str) -> Vec<(String, [f64; 4])> {
+    let paths = svg.split("<path fill=\"").skip(1);
+    let area = |path: &str| {
+        let (color, rest) = path.split_once('"').unwrap();
+        let outline = rest.split("d=\"").nth(1).unwrap().split('"').next().unwrap();
+        let numbers: Vec<f64> =
+            outline.split(['M', 'L', 'z', ' ']).filter_map(|number| number.parse().ok()).collect();
+        let along = |axis: usize| numbers.iter().copied().skip(axis).step_by(2);
+        let least = |axis| along(axis).fold(f64::INFINITY, f64::min);
+        let greatest = |axis| along(axis).fold(f64::NEG_INFINITY, f64::max);
+        (color.to_owned(), [least(0), greatest(0), least(1), greatest(1)])
+    };
+    paths.map(area).collect()
+}
+
+#[test]
+fn what_is_nearer_is_painted_later_and_what_is_hidden_not_at_all() {
+    let hidden = "v i -2 -2 -1; v j 2 -2 -1; v k 2 2 -1; f hidden (i j k) green;";
+    let expected =
+        [("#00f".to_owned(), [10.0, 70.0, 10.0, 70.0]), ("#f00".to_owned(), [30.0, 50.0, 30.0, 50.0])];
+    for scene in [[NEAR, FAR, hidden], [hidden, FAR, NEAR], [FAR, hidden, NEAR]] {
+        assert_eq!(areas(&svg(&format!("{COLORS}{}", scene.concat()))), expected);
+    }
+}
+
+#[test]
+fn faces_that_cut_each_other_are_cut_there() {
+    // Blue is level, and green rises from left to right through it, along x = 0.5.
+    let steep = "v i -2 -1 -1; v j 3 -1 1; v k 3 1 1; v l -2 1 -1; f steep (i j k l) green;";
+    let found = areas(&svg(&format!("{COLORS}{FAR}{steep}")));
+    let last = found.last().unwrap();
+    assert_eq!(last, &("#0f0".to_owned(), [45.0, 70.0, 30.0, 50.0]), "{found:?}");
+}
+
+#[test]
+fn hidden_parts_of_wires_are_left_out() {
+    let wire = "c white 1; v p -2 0 .5; v q 2 0 .5; w wire (p q) white;";
+    let text = svg(&format!("{COLORS}{FAR}{NEAR}{wire}"));
+    let lines: Vec<&str> = text
+        .lines()
+        .filter_map(|line| line.split_once("stroke-width=\"1.2\""))
+        .map(|(_, line)| line)
+        .collect();
+    // It stands out of its ends by half its width, 0.6, and the near face covers it from 30 to 50.
+    assert_eq!(lines, [" d=\"M19.4 40L30 40\"/>", " d=\"M50 40L60.6 40\"/>"]);
+}
+
+#[test]
+fn what_cannot_be_a_figure_is_refused() {
+    let source = ugparse::Source::new("test.ug", format!("{COLORS}{FAR}"));
+    let refused = |format, size| {
+        let config = Config { size, output: Output::Vector(format), ..Config::default() };
+        run(&config, &source).unwrap_err()
+    };
+    assert!(matches!(refused(Format::Png, [8, 8]), Error::Options(text) if text.contains("-vec")));
+    assert!(matches!(refused(Format::Pdf, [32769, 8]), Error::Options(text) if text.contains("32768")));
+}

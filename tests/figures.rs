@@ -1,0 +1,176 @@
+//! PDF, SVG and figures of areas, as independent programs see them: the same picture as the PNG.
+//!
+//! Without `gs`, `pdftoppm` and `rsvg-convert` on the path the tests are skipped, unless `UG_REQUIRE_TOOLS=1`.
+
+#![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test fails by panicking")]
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use glam::DVec3;
+use ugimage::Format;
+use ugrainbow::Output;
+use ugtests::picture::{Picture, assert_same, decode, read};
+use ugtests::pipe::{Pipe, rainbow};
+use ugtests::scenes;
+
+/// False, with a word about it, if a program is missing and need not be there.
+fn has_tools() -> bool {
+    let must = std::env::var_os("UG_REQUIRE_TOOLS").is_some_and(|value| value == "1");
+    [
+        ("gs", "--version", "ghostscript"),
+        ("pdftoppm", "-v", "poppler-utils"),
+        ("rsvg-convert", "--version", "librsvg2-bin"),
+    ]
+    .into_iter()
+    .all(|(tool, option, package)| {
+        let found = Command::new(tool).arg(option).output().is_ok_and(|output| output.status.success());
+        assert!(found || !must, "UG_REQUIRE_TOOLS=1, but there is no `{tool}`: install {package}");
+        if !found {
+            println!("skipped: there is no `{tool}` on the path; install {package} to run this test");
+        }
+        found
+    })
+}
+
+/// What draws a file.
+#[derive(Clone, Copy, Debug)]
+enum Tool {
+    Ghostscript,
+    Poppler,
+    Rsvg,
+}
+
+/// The file drawn at one pixel a point, with smoothed edges.
+fn drawn(tool: Tool, format: Format, file: &[u8]) -> Picture {
+    let folder = tempfile::tempdir().unwrap();
+    let input = folder.path().join(format!("in.{}", format.name()));
+    let output = folder.path().join("out.png");
+    std::fs::write(&input, file).unwrap();
+    let mut command = command(tool, &input, &output);
+    let run = command.output().unwrap();
+    let messages = String::from_utf8_lossy(&run.stdout) + String::from_utf8_lossy(&run.stderr);
+    assert!(run.status.success() && messages.is_empty(), "{tool:?}: {}: {messages}", run.status);
+    read(&output)
+}
+
+fn command(tool: Tool, input: &Path, output: &PathBuf) -> Command {
+    match tool {
+        Tool::Ghostscript => {
+            let mut gs = Command::new("gs");
+            gs.args(["-q", "-dSAFER", "-dBATCH", "-dNOPAUSE", "-dEPSCrop", "-r72", "-dGraphicsAlphaBits=4"]);
+            gs.arg("-sDEVICE=png16m").arg("-o").arg(output).arg(input);
+            gs
+        }
+        Tool::Poppler => {
+            let mut poppler = Command::new("pdftoppm");
+            poppler.args(["-r", "72", "-png", "-singlefile"]).arg(input).arg(output.with_extension(""));
+            poppler
+        }
+        Tool::Rsvg => {
+            let mut rsvg = Command::new("rsvg-convert");
+            rsvg.arg(input).arg("-o").arg(output);
+            rsvg
+        }
+    }
+}
+
+/// Formats of areas, and who draws them.
+const DRAWN_BY: [(Format, Tool); 5] = [
+    (Format::Eps, Tool::Ghostscript),
+    (Format::Ps, Tool::Ghostscript),
+    (Format::Pdf, Tool::Ghostscript),
+    (Format::Pdf, Tool::Poppler),
+    (Format::Svg, Tool::Rsvg),
+];
+
+/// The part of the pixels that differ: those with a channel more than `LEVELS` outside the range that the pixel of the
+/// PNG and its eight neighbours have. So an edge may be smoothed in another way, but not lie elsewhere; and where the
+/// PNG changes little, as within faces, nothing but its colour passes.
+fn part_that_differs(png: &Picture, drawn: &Picture) -> f64 {
+    const LEVELS: u8 = 8;
+    assert_eq!(png.dimensions(), drawn.dimensions());
+    let (width, height) = png.dimensions();
+    let differs = |x: u32, y: u32| {
+        let near = |at: u32, end: u32| at.saturating_sub(1)..(at + 2).min(end);
+        (0..3).any(|channel| {
+            let levels = near(y, height).flat_map(|y| near(x, width).map(move |x| (x, y)));
+            let levels = levels.map(|(x, y)| png.get_pixel(x, y)[channel]);
+            let (low, high) =
+                levels.fold((255, 0), |(low, high): (u8, u8), level| (low.min(level), high.max(level)));
+            let level = drawn.get_pixel(x, y)[channel];
+            level < low.saturating_sub(LEVELS) || level > high.saturating_add(LEVELS)
+        })
+    };
+    let n_different =
+        (0..height).flat_map(|y| (0..width).map(move |x| (x, y))).filter(|&(x, y)| differs(x, y));
+    n_different.count() as f64 / f64::from(width * height)
+}
+
+const SIZE: [u32; 2] = [432, 324];
+
+fn ship() -> Pipe {
+    Pipe::new(0.2 * DVec3::X, SIZE).in_place()
+}
+
+#[test]
+fn embedded_pictures_are_the_png() {
+    if !has_tools() {
+        return;
+    }
+    let pipe = ship();
+    let colored = pipe.run(&scenes::text("ship")).colored;
+    let draw = |output| rainbow(&colored, &ugrainbow::Config { output, ..pipe.rainbow.clone() });
+    let png = decode(&draw(Output::Color(Format::Png)));
+    for (format, tool) in
+        [(Format::Pdf, Tool::Ghostscript), (Format::Pdf, Tool::Poppler), (Format::Svg, Tool::Rsvg)]
+    {
+        let file = draw(Output::Color(format));
+        assert_same(&format!("embedded-{}-{tool:?}", format.name()), &png, &drawn(tool, format, &file), 1);
+    }
+}
+
+#[test]
+fn figures_of_areas_show_the_same_as_the_png() {
+    if !has_tools() {
+        return;
+    }
+    let mut white = ship();
+    white.rainbow.background =
+        ugrainbow::Background::Color(ugphysics::Hsv { hue: 0.0, saturation: 0.0, value: 1.0 });
+    let cubes = Pipe::new(0.3 * DVec3::X, SIZE).in_place();
+    let street = Pipe::new(-0.5 * DVec3::Y, SIZE);
+    for (name, scene, pipe) in [
+        ("ship", "ship", ship()),
+        ("white", "ship", white),
+        ("cubes", "cubes", cubes),
+        ("street", "street", street),
+    ] {
+        let colored = pipe.run(&scenes::text(scene)).colored;
+        let draw = |output| rainbow(&colored, &ugrainbow::Config { output, ..pipe.rainbow.clone() });
+        let png = decode(&draw(Output::Color(Format::Png)));
+        assert!(png.pixels().any(|pixel| pixel != png.get_pixel(0, 0)), "{name} shows something");
+        for (format, tool) in DRAWN_BY {
+            let picture = drawn(tool, format, &draw(Output::Vector(format)));
+            let part = part_that_differs(&png, &picture);
+            println!("{name} {} {tool:?}: {:.3} % of the pixels differ", format.name(), 100.0 * part);
+            assert!(part <= 0.02, "{name} {} {tool:?}: {part} of the pixels differ", format.name());
+        }
+    }
+}
+
+/// A figure for a page must not be larger than the picture it is drawn for.
+#[test]
+fn figures_of_areas_are_smaller_than_pictures_for_print() {
+    let pipe = ship();
+    let colored = pipe.run(&scenes::text("ship")).colored;
+    let draw = |config| rainbow(&colored, &config).len();
+    // 6 x 4.5 inches of paper: points, and pixels of 1200 dpi.
+    let print = ugrainbow::Config { size: [7200, 5400], samples: 1, ..pipe.rainbow.clone() };
+    let png = draw(print);
+    for format in [Format::Eps, Format::Ps, Format::Pdf, Format::Svg] {
+        let figure = draw(ugrainbow::Config { output: Output::Vector(format), ..pipe.rainbow.clone() });
+        println!("{}: {figure} bytes, PNG {png}", format.name());
+        assert!(figure < png, "{}: {figure} bytes, PNG {png}", format.name());
+    }
+}
