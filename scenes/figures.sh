@@ -101,11 +101,12 @@ ugdoppler -qt -li -ir --no-doppler < "$out/rows/pot.ug" | draw chang-13-rest
 pot '<-0.95 0 0>' | ugdoppler -qt -li -ir --no-doppler | draw chang-15b-lights-coming
 
 # Figures 14 and 16: the brightness of the street under lights that rest with it, rushing in and out, and under the same
-# lights at rest with the viewer. Rushing in, all is scaled to the brightest point.
+# lights at rest with the viewer. Rushing in, the exposure is one for so much light.
 street_under() { sed "s/^\\(l .*\\);/\\1 $1 ;/" street.ug; }
-uglorentz -vel 0 -.99 0 -ep 0 40 3 street.ug | ugdoppler -qt -ir --no-doppler | draw chang-14a-in-0.99c
+uglorentz -vel 0 -.99 0 -ep 0 40 3 street.ug | ugdoppler -qt -hd --no-doppler | draw chang-14a-in-0.99c -ex auto -tc filmic
 uglorentz -vel 0 .99 0 -ep 0 -250 3 street.ug | ugdoppler -qt --no-doppler | draw chang-14b-out-0.99c
-street_under '<0 0 0>' | uglorentz -vel 0 -.99 0 -ep 0 40 3 | ugdoppler -qt -li -ir --no-doppler | draw chang-16-lights-at-rest
+street_under '<0 0 0>' | uglorentz -vel 0 -.99 0 -ep 0 40 3 | ugdoppler -qt -li -hd --no-doppler |
+    draw chang-16-lights-at-rest -ex auto -tc filmic
 
 # Figure 17: three narrow bands about 460, 540 and 600 nm, at 0.5c from left to right, later ones below. Bluer than at rest
 # while it comes nearer, redder when it leaves; each row is as bright as it can be.
