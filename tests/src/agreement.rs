@@ -153,6 +153,7 @@ impl Neighbourhood<'_> {
         (self.reach >= DIAGONAL && self.neighbours(center).any(|neighbour| neighbour == face))
             || self.rings(center).contains(&face)
             || face.is_some_and(|face| self.has_edge(face, center))
+            || self.grid(center).contains(&face)
     }
 
     /// What the eight pixels round it show.
@@ -178,12 +179,29 @@ impl Neighbourhood<'_> {
         self.oracle.faces(&directions)
     }
 
+    /// What is seen at points a fiftieth of the reach apart: slow, for slits and for corners.
+    fn grid(&self, center: DVec2) -> Vec<Option<usize>> {
+        const N_STEPS: i32 = 50;
+        let steps = || (-N_STEPS..=N_STEPS).map(|step| f64::from(step) / f64::from(N_STEPS));
+        let points = steps().flat_map(|y| steps().map(move |x| DVec2::new(x, y)));
+        let points = points.filter(|p| p.length() <= 1.0).map(|p| center + p * self.reach);
+        let directions: Vec<DVec3> = points.map(|p| self.camera.direction(p.x, p.y)).collect();
+        self.oracle.faces(&directions)
+    }
+
     /// For faces so thin that no point of a ring hits them.
     fn has_edge(&self, face: usize, center: DVec2) -> bool {
-        let edges = self.oracle.edges_near(face, self.camera.direction(center.x, center.y));
-        let mut pixels = edges.into_iter().filter_map(|direction| self.camera.pixel(direction));
-        pixels.any(|pixel| pixel.distance(center) <= self.reach)
+        /// Faces that share the edge do not hide it.
+        const BESIDE: f64 = 1e-6;
+        has_edge(self.oracle, self.camera, face, center, self.reach, BESIDE)
     }
+}
+
+/// Is an edge of the face within `reach` pixels, hidden by nothing that is nearer by more than `beside`?
+fn has_edge(oracle: &Oracle, camera: &Pinhole, face: usize, center: DVec2, reach: f64, beside: f64) -> bool {
+    let edges = oracle.edges_near(face, camera.direction(center.x, center.y), beside);
+    let mut pixels = edges.into_iter().filter_map(|direction| camera.pixel(direction));
+    pixels.any(|pixel| pixel.distance(center) <= reach)
 }
 
 /// Compares a picture of a [`recolored`] scene with what the oracle sees.
@@ -224,15 +242,18 @@ pub fn compare(actual: &Picture, oracle: &Oracle, camera: &Pinhole, reach: f64) 
     agreement
 }
 
-/// Are two faces seen at distances that agree to `part` of them?
-pub fn are_close(oracle: &Oracle, camera: &Pinhole, wrong: &Wrong, part: f64) -> bool {
-    let [x, y] = wrong.pixel.map(|side| f64::from(side) + 0.5);
-    let direction = camera.direction(x, y);
+/// Would the pixel be right if what hides the face it shows, by less than `part` of the distance, did not? The
+/// face may lie beside the pixel's middle, by `reach` pixels.
+pub fn are_close(oracle: &Oracle, camera: &Pinhole, wrong: &Wrong, reach: f64, part: f64) -> bool {
+    let center = DVec2::from_array(wrong.pixel.map(f64::from)) + 0.5;
+    let direction = camera.direction(center.x, center.y);
+    let Ok(Some(shown)) = wrong.shown else { return false };
     let distance = |face: Option<usize>| oracle.distance(face?, direction);
-    match (distance(wrong.shown.ok().flatten()), distance(wrong.expected)) {
+    let is_hit = match (distance(Some(shown)), distance(wrong.expected)) {
         (Some(a), Some(b)) => (a - b).abs() <= part * a.min(b),
         _ => false,
-    }
+    };
+    is_hit || has_edge(oracle, camera, shown, center, reach, part)
 }
 
 /// Two faces in one place: rods that cross have faces in common planes.

@@ -312,11 +312,9 @@ impl Oracle {
 
     /// Directions to the edges of a face near direction `d`, one for each edge, where nothing hides it.
     ///
-    /// A face seen edge-on can be too thin for any ray to meet it; its edges are still there.
-    pub fn edges_near(&self, face: usize, d: DVec3) -> Vec<DVec3> {
-        /// Relative distance; what is not nearer than the edge by more does not hide it: the
-        /// faces that share the edge.
-        const BESIDE: f64 = 1e-6;
+    /// A face seen edge-on can be too thin for any ray to meet it; its edges are still there. `beside`: what is
+    /// nearer by no more than this part of the distance does not hide an edge.
+    pub fn edges_near(&self, face: usize, d: DVec3, beside: f64) -> Vec<DVec3> {
         let find = |body: &Body| {
             let polygon = body.polygons.iter().find(|polygon| polygon.face == face)?;
             let points = polygon.edge_points(body.ray(d)).map(|point| body.seen(point));
@@ -326,7 +324,7 @@ impl Oracle {
         let is_visible = |point: &DVec3| {
             let direction = point.normalize();
             let nearest = self.faces(&[direction])[0].and_then(|face| self.distance(face, direction));
-            nearest.is_none_or(|nearest| nearest >= point.length() * (1.0 - BESIDE))
+            nearest.is_none_or(|nearest| nearest >= point.length() * (1.0 - beside))
         };
         points.into_iter().filter(is_visible).map(DVec3::normalize).collect()
     }

@@ -3,7 +3,7 @@
 //! Only positions in the written scene are used. An edge of a piece counts if both its ends, carried back into
 //! the rest frame by the oracle's matrix, lie on one edge of the face as it was; edges within a face show nothing.
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use ugparse::Scene;
 
@@ -59,21 +59,38 @@ fn of_chord(outline: &Outline, ends: [DVec3; 2], camera: &Pinhole) -> Errors {
 
 /// The error of a straight line between two seen points of one edge.
 pub fn chord_error(outline: &Outline, edge: usize, ends: [DVec3; 2], camera: &Pinhole) -> Errors {
-    let [width, height] = camera.size().map(f64::from);
     let mut errors = Errors { n_edges: 1, ..Errors::default() };
-    // In equal steps of the picture, not of space: directions between those of the ends.
-    let [from, to] = ends.map(DVec3::normalize);
-    for step in 1..N_POINTS {
-        let drawn = from.lerp(to, f64::from(step) / f64::from(N_POINTS)).normalize();
+    for drawn in drawn(ends) {
         let exact = outline.nearest(edge, drawn).normalize();
         errors.angle = errors.angle.max(libm::atan2(drawn.cross(exact).length(), drawn.dot(exact)));
-        if let Some(pixel) = camera.pixel(drawn)
-            && (0.0..=width).contains(&pixel.x)
-            && (0.0..=height).contains(&pixel.y)
-        {
-            let exact = camera.pixel(exact);
-            errors.pixels = errors.pixels.max(exact.map_or(f64::INFINITY, |exact| exact.distance(pixel)));
+        if let Some(pixel) = pixel_within(camera, drawn) {
+            errors.pixels = errors.pixels.max(distance(camera, exact, pixel));
         }
     }
     errors
+}
+
+/// Is a straight line between two seen points of one edge right to `pixels` wherever it is in the picture?
+pub fn is_right(outline: &Outline, edge: usize, ends: [DVec3; 2], camera: &Pinhole, pixels: f64) -> bool {
+    drawn(ends).all(|drawn| {
+        // Most of a scene is not in the picture, and need not be looked for.
+        let off = |pixel| distance(camera, outline.nearest(edge, drawn).normalize(), pixel);
+        pixel_within(camera, drawn).is_none_or(|pixel| off(pixel) <= pixels)
+    })
+}
+
+/// Directions along a drawn line, in equal steps of the picture, not of space: between those of the ends.
+fn drawn(ends: [DVec3; 2]) -> impl Iterator<Item = DVec3> {
+    let [from, to] = ends.map(DVec3::normalize);
+    (1..N_POINTS).map(move |step| from.lerp(to, f64::from(step) / f64::from(N_POINTS)).normalize())
+}
+
+fn pixel_within(camera: &Pinhole, direction: DVec3) -> Option<DVec2> {
+    let [width, height] = camera.size().map(f64::from);
+    let is_within = |p: &DVec2| (0.0..=width).contains(&p.x) && (0.0..=height).contains(&p.y);
+    camera.pixel(direction).filter(is_within)
+}
+
+fn distance(camera: &Pinhole, direction: DVec3, pixel: DVec2) -> f64 {
+    camera.pixel(direction).map_or(f64::INFINITY, |exact| exact.distance(pixel))
 }

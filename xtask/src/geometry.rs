@@ -9,8 +9,9 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use glam::DVec3;
+use rayon::prelude::*;
 use ugparse::{Camera, Scene, Source};
-use ugtests::agreement::{MOST_FACES, are_close, compare, painted, recolored};
+use ugtests::agreement::{MOST_FACES, Wrong, are_close, compare, painted, recolored};
 use ugtests::oracle::{Oracle, Outline, Pinhole};
 use ugtests::outline::{self, Errors};
 use ugtests::pipe::Pipe;
@@ -176,22 +177,30 @@ impl View {
         Oracle::new(&self.scene, self.eye(), Some(beta), self.in_place)
     }
 
-    /// Cuts with a bound in radians: errors of the outlines, and the number of faces.
-    fn measure(&self, beta: DVec3, bound: f64, oracle: &Oracle) -> Outcome<(Errors, usize)> {
-        let mut scene = self.scene.clone();
+    /// The configuration for what the camera sees and how it is shaped: no more than outlines and depth need.
+    fn config_of_shape(&self, beta: DVec3) -> uglorentz::Config {
+        let mut config = self.config(beta, uglorentz::Pieces::UpTo(uglorentz::DEFAULT_ERROR));
+        config.color_error = f64::INFINITY;
+        config.cull = Some(self.size);
+        config.camera.view_angle = self.camera.view_angle.map(|[across, _]| (across, None));
+        config
+    }
+
+    /// Errors of the outlines of what a configuration writes, and of which face each piece is.
+    fn measure(&self, config: &uglorentz::Config, oracle: &Oracle) -> Outcome<(Errors, Vec<usize>)> {
+        let mut scene = Scene { cameras: vec![self.camera.clone()], ..self.scene.clone() };
         for row in 0..scene.faces.len() {
             scene.faces[row].name = Some(scene.names.add(&format!("f{row}")));
         }
-        let config = self.config(beta, uglorentz::Pieces::UpTo(bound));
-        let (seen, notes) = uglorentz::transform(&scene, &config)?;
+        let (seen, notes) = uglorentz::transform(&scene, config)?;
         if notes.is_full {
-            return Err(format!("{} at {beta}: too many pieces", self.name).into());
+            return Err(format!("{} at {:?}: too many pieces", self.name, config.velocity).into());
         }
         // Pieces have the name of their face.
         let origin = |face: &ugparse::Face| seen.names.get(face.name?).strip_prefix('f')?.parse().ok();
         let origins: Option<Vec<usize>> = seen.faces.iter().map(origin).collect();
         let origins = origins.ok_or("a piece has lost its name")?;
-        Ok((outline::errors(&seen, &origins, self.eye(), oracle, &self.pinhole()), seen.faces.len()))
+        Ok((outline::errors(&seen, &origins, self.eye(), oracle, &self.pinhole()), origins))
     }
 }
 
@@ -204,34 +213,42 @@ fn pictures(
     writeln!(out, "### At the default bound, {width}×{height}, 1 sample\n")?;
     writeln!(
         out,
-        "| scene | β | camera flies | outline off by, px | pixels that differ | of them further than 0.5 px, faces close | others | faces | uniform: pieces an edge | uniform: faces | ratio |"
+        "| scene | β | camera flies | outline off by, px | pixels that differ | of them further than 0.5 px, faces close | others | faces | `-cull -sc off`: off by, px | faces | uniform: pieces an edge | uniform: faces | ratio |"
     )?;
-    writeln!(out, "| --- | ---: | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |")?;
+    writeln!(
+        out,
+        "| --- | ---: | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |"
+    )?;
     for view in views {
         for (speed, (flight, beta)) in
             SPEEDS.iter().flat_map(|&speed| view.motions(speed).map(|m| (speed, m)))
         {
             let oracle = view.oracle(beta);
-            let (errors, n_faces) = view.measure(beta, uglorentz::DEFAULT_ERROR, &oracle)?;
-            let (n_different, n_close, n_wrong) = pixels(view, beta, &oracle, &format!("{speed}-{flight}"))?;
-            let n = uniform(view, &oracle, errors.pixels);
-            let n_uniform = n.map(|n| n_pieces(&view.scene, n));
+            let config = view.config(beta, uglorentz::Pieces::UpTo(uglorentz::DEFAULT_ERROR));
+            let (errors, pieces) = view.measure(&config, &oracle)?;
+            let n_faces = pieces.len();
+            let what = format!("{speed}-{flight}");
+            let (n_different, n_close, n_wrong) = pixels(view, beta, &oracle, &what, failures)?;
+            let (seen_errors, mut seen) = view.measure(&view.config_of_shape(beta), &oracle)?;
+            let n_seen = seen.len();
+            seen.dedup();
+            let n = uniform(view, &oracle, seen_errors.pixels);
+            let n_uniform = n.map(|n| n_pieces(&view.scene, &seen, n));
             let number = |n: Option<usize>| n.map_or("—".to_string(), |n| n.to_string());
             writeln!(
                 out,
-                "| {} | {speed} | {flight} | {:.3} | {n_different} | {n_close} | {n_wrong} | {n_faces} | {} | {} | {} |",
+                "| {} | {speed} | {flight} | {:.3} | {n_different} | {n_close} | {n_wrong} | {n_faces} | {:.3} | {n_seen} | {} | {} | {} |",
                 view.name,
                 errors.pixels,
+                seen_errors.pixels,
                 number(n),
                 number(n_uniform),
-                n_uniform.map_or("—".to_string(), |n| format!("{:.1}", n as f64 / n_faces as f64)),
+                n_uniform.map_or("—".to_string(), |n| format!("{:.1}", n as f64 / n_seen as f64)),
             )?;
             out.flush()?;
-            if errors.pixels >= MOST_PIXELS || n_wrong > 0 {
-                failures.push(format!(
-                    "{} at {speed} {flight}: {:.3} px, {n_wrong} far",
-                    view.name, errors.pixels
-                ));
+            let off = errors.and(seen_errors).pixels;
+            if off >= MOST_PIXELS {
+                failures.push(format!("{} at {what}: {off:.3} px", view.name));
             }
         }
     }
@@ -241,7 +258,13 @@ fn pictures(
 
 /// Pixels that show another face than the oracle sees; those of them without it within reach, where the two faces
 /// are as close to each other as the bound of depth; and the rest.
-fn pixels(view: &View, beta: DVec3, oracle: &Oracle, what: &str) -> Outcome<(usize, usize, usize)> {
+fn pixels(
+    view: &View,
+    beta: DVec3,
+    oracle: &Oracle,
+    what: &str,
+    failures: &mut Vec<String>,
+) -> Outcome<(usize, usize, usize)> {
     if view.scene.faces.len() > MOST_FACES {
         return Err(format!("{}: there are colours for {MOST_FACES} faces only", view.name).into());
     }
@@ -257,8 +280,12 @@ fn pixels(view: &View, beta: DVec3, oracle: &Oracle, what: &str) -> Outcome<(usi
     let picture = pipe.draw(&ugparse::write(&scene));
     let camera = view.pinhole();
     let agreement = compare(&picture, oracle, &camera, MOST_PIXELS);
-    let n_close = agreement.wrong.iter().filter(|wrong| are_close(oracle, &camera, wrong, DEPTH)).count();
-    let n_wrong = agreement.wrong.len() - n_close;
+    let is_close = |wrong: &Wrong| are_close(oracle, &camera, wrong, MOST_PIXELS, DEPTH);
+    let (close, far): (Vec<&Wrong>, Vec<&Wrong>) = agreement.wrong.iter().partition(|wrong| is_close(wrong));
+    let (n_close, n_wrong) = (close.len(), far.len());
+    for Wrong { pixel, shown, expected, .. } in far {
+        failures.push(format!("{} at {what}: {pixel:?} shows {shown:?} for {expected:?}", view.name));
+    }
     if n_wrong > 0 {
         let folder = crate::bench::target_dir().join("geometry");
         std::fs::create_dir_all(&folder)?;
@@ -276,13 +303,15 @@ fn uniform(view: &View, oracle: &Oracle, error: f64) -> Option<usize> {
         outlines.flat_map(|outline| (0..outline.n_edges()).map(move |edge| (outline, edge))).collect();
     let is_right = |outline: &Outline, edge: usize, n: usize| {
         let at = |k: usize| outline.point(edge, k as f64 / n as f64);
-        (0..n).all(|k| outline::chord_error(outline, edge, [at(k), at(k + 1)], &camera).pixels <= error)
+        (0..n).all(|k| outline::is_right(outline, edge, [at(k), at(k + 1)], &camera, error))
     };
     if error == 0.0 {
         return None;
     }
-    let mut n = 1;
-    for (outline, edge) in &edges {
+    let (mut n, mut rest) = (1, &edges[..]);
+    while let Some(at) = rest.par_iter().position_first(|(outline, edge)| !is_right(outline, *edge, n)) {
+        let (outline, edge) = &rest[at];
+        rest = &rest[at + 1..];
         // Errors fall with the square of n: up by halves, then down.
         let mut low = n;
         while n < MOST_PIECES && !is_right(outline, *edge, n) {
@@ -297,13 +326,13 @@ fn uniform(view: &View, oracle: &Oracle, error: f64) -> Option<usize> {
     Some(n)
 }
 
-/// Pieces of `-sd N`: N² of a triangle or quadrilateral, and of each triangle of other polygons.
-fn n_pieces(scene: &Scene, n: usize) -> usize {
+/// Pieces of `-sd N` of some faces: N² of a triangle or quadrilateral, and of each triangle of other polygons.
+fn n_pieces(scene: &Scene, faces: &[usize], n: usize) -> usize {
     let cells = |face: &ugparse::Face| {
         let n_corners = scene.contours.corners(face.contours.clone()).len();
         if face.contours.len() == 1 && n_corners <= 4 { 1 } else { n_corners + 2 * face.contours.len() - 4 }
     };
-    scene.faces.iter().map(cells).sum::<usize>() * n * n
+    faces.iter().map(|&row| cells(&scene.faces[row])).sum::<usize>() * n * n
 }
 
 fn bounds(out: &mut impl Write, views: &[View], failures: &mut Vec<String>) -> Outcome<()> {
@@ -316,9 +345,10 @@ fn bounds(out: &mut impl Write, views: &[View], failures: &mut Vec<String>) -> O
         for bound in BOUNDS {
             let (mut errors, mut n_faces) = (Errors::default(), 0);
             for (_, beta) in BOUND_SPEEDS.iter().flat_map(|&speed| view.motions(speed)) {
-                let (found, n) = view.measure(beta, bound * 1e-3, &view.oracle(beta))?;
+                let config = view.config(beta, uglorentz::Pieces::UpTo(bound * 1e-3));
+                let (found, pieces) = view.measure(&config, &view.oracle(beta))?;
                 errors = errors.and(found);
-                n_faces += n;
+                n_faces += pieces.len();
             }
             // The power of 1/bound by which the number of faces has grown.
             let growth =

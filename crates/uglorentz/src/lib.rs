@@ -78,7 +78,7 @@ mod viewpoint;
 
 use glam::DVec3;
 use rayon::prelude::*;
-use ugparse::{Diagnostics, Item, Options, Scene, Source, VelocityId};
+use ugparse::{Diagnostics, Item, Options, Scene, Source, VelocityId, Vertex};
 use ugphysics::Velocity;
 use ugscene::{Bodies, CameraOptions, Geometry};
 
@@ -361,12 +361,17 @@ fn put_pieces(scene: &mut Scene, outcome: &Outcome) {
 fn set_positions(scene: &mut Scene, growth: &Growth, shifts: &[DVec3], eye: DVec3) -> Result<(), Error> {
     let n_old = growth.points.len() - growth.recipes.len();
     let stays = |body: usize| growth.motions[body].is_at_rest() && shifts[body] == DVec3::ZERO;
-    scene.vertices.par_iter_mut().zip(&growth.points).enumerate().for_each(|(row, (vertex, point))| {
+    let is_finite = |(row, (vertex, point)): (usize, (&mut Vertex, &Point))| {
         if row >= n_old || !stays(point.body as usize) {
             vertex.position = point.seen + eye;
         }
-    });
-    match scene.vertices.par_iter().position_first(|vertex| !vertex.position.is_finite()) {
+        vertex.position.is_finite()
+    };
+    let places = scene.vertices.par_iter_mut().zip(&growth.points).enumerate().map(is_finite);
+    if places.reduce(|| true, |all, one| all & one) {
+        return Ok(());
+    }
+    match scene.vertices.iter().position(|vertex| !vertex.position.is_finite()) {
         None => Ok(()),
         Some(row) => Err(Error::OutOfRange { name: name(scene, row), row }),
     }

@@ -25,7 +25,16 @@ pub(crate) fn shifts(
     eye: DVec3,
     config: &Config,
 ) -> Vec<DVec3> {
-    let centers = centers(scene, velocities, motions.len());
+    let is_center_asked = match config.anchor {
+        Some(anchor) => anchor == Anchor::Center,
+        None => config.in_place,
+    };
+    // They take a look at every vertex.
+    let centers = if is_center_asked {
+        centers(scene, velocities, motions.len())
+    } else {
+        vec![DVec3::ZERO; motions.len()]
+    };
     let shift = |(motion, &center): (&Motion, &DVec3)| {
         let point = match config.anchor {
             Some(Anchor::Eye) => DVec3::ZERO,
