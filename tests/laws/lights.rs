@@ -291,3 +291,36 @@ fn full_daylight_shows_colours_as_they_are() {
         assert!((lit - plain).abs() < 1e-6 * plain, "{lit} {plain}");
     }
 }
+
+/// Four tiles under a lamp that flies by: cut for its light (`-sl`), the picture is that of many equal pieces.
+#[test]
+fn large_faces_get_the_vertices_that_their_light_needs() {
+    let floor = "c grey 0.9; v a -12 -6 0; v b 0 -6 0; v c 12 -6 0; v d -12 0 0; v e 0 0 0; v f 12 0 0;
+        v g -12 6 0; v h 0 6 0; v i 12 6 0;
+        f (a b e d) grey; f (b c f e) grey; f (d e h g) grey; f (e f i h) grey;
+        cam -ep 0 -13 6.5 -vc 0 0 0.5 -ud 0 0 1 -va 62 48;";
+    let mut pipe = Pipe::default();
+    pipe.rainbow.size = [160, 120];
+    for light in [
+        "l lamp 0.6 5 0 2 0 <0.4 0 0>;",
+        "l lamp 0.8 -2 1 1.5 0;",
+        "l 0.1; l 0.5 3 -1 2 0 <0 0.3 0>; l 0.3 -6 2 3 0;",
+    ] {
+        let text = format!("{floor} {light}").into_bytes();
+        let base = uglorentz::Config::default();
+        let draw = |config: &uglorentz::Config| {
+            let baked = doppler(&lorentz(&text, config), &lit());
+            (baked.iter().filter(|&&byte| byte == b'\n').count(), decode(&rainbow(&baked, &pipe.rainbow)))
+        };
+        let (_, expected) =
+            draw(&uglorentz::Config { pieces: uglorentz::Pieces::PerEdge(128), ..base.clone() });
+        let (n_few, few) = draw(&base);
+        let (n_lines, found) = draw(&uglorentz::Config { light_error: 0.02, ..base });
+        let off =
+            |picture| ugtests::picture::difference(&expected, picture).map_or(u8::MAX, |found| found.levels);
+        // Two percent of the light are five levels; D of the lamp makes some of them brighter.
+        assert!(off(&found) <= 8, "{light}: {}", off(&found));
+        assert!(off(&few) > 16, "{light}: {}", off(&few));
+        assert!(n_lines < 6000, "{light}: {n_few} and {n_lines} lines");
+    }
+}

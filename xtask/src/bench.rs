@@ -83,9 +83,14 @@ impl Bench<'_> {
     /// Writes the mesh, and what each stage makes of it.
     fn prepare(&self) -> Result<(), Box<dyn Error>> {
         let mut file = io::BufWriter::new(File::create(self.file("mesh"))?);
-        mesh::write(&mut file, self.triangles)?;
+        mesh::write(&mut file, self.triangles, false)?;
         file.flush()?;
         drop(file);
+        let mut file = io::BufWriter::new(File::create(self.file("each"))?);
+        mesh::write(&mut file, self.triangles, true)?;
+        file.flush()?;
+        drop(file);
+        self.run(&format!("{LORENTZ} {} > {}", self.file("each"), self.file("each-seen")))?;
         self.run(&format!("{LORENTZ} {} > {}", self.file("mesh"), self.file("seen")))?;
         self.run(&format!("{DOPPLER} {} > {}", self.file("seen"), self.file("coloured")))
     }
@@ -102,6 +107,7 @@ impl Bench<'_> {
 
     fn rows(&self) -> Vec<Row> {
         let (mesh, seen, coloured) = (self.file("mesh"), self.file("seen"), self.file("coloured"));
+        let each = self.file("each-seen");
         let shell = |name, input, command: String| Row { name, input, work: Work::Shell(command) };
         let inside = |name, input, kernel| Row { name, input, work: Work::Inside(kernel) };
         vec![
@@ -112,6 +118,9 @@ impl Bench<'_> {
             shell("`ugparse flatten`", "mesh", format!("ugparse flatten {mesh} > /dev/null")),
             shell("`uglorentz -vel .3 0 0`", "mesh", format!("{LORENTZ} {mesh} > /dev/null")),
             shell("`ugdoppler`", "seen", format!("{DOPPLER} {seen} > /dev/null")),
+            shell("`ugdoppler -sp`", "seen", format!("{DOPPLER} -sp {seen} > /dev/null")),
+            shell("`ugdoppler`, a colour each", "each-seen", format!("{DOPPLER} {each} > /dev/null")),
+            shell("`ugdoppler -sp`, a colour each", "each-seen", format!("{DOPPLER} -sp {each} > /dev/null")),
             shell("`ugrainbow -sz 1280 720 -aa 1`", "coloured", format!("{RAINBOW} {coloured} > /dev/null")),
             shell("the whole pipe", "mesh", format!("{LORENTZ} {mesh} | {DOPPLER} | {RAINBOW} > /dev/null")),
         ]

@@ -58,6 +58,9 @@ enum Chore {
         /// Triangles, roughly
         #[arg(value_name = "N", value_parser = clap::value_parser!(u32).range(36..=100_000_000))]
         triangles: u32,
+        /// Give every vertex a colour of its own, in place of a palette
+        #[arg(long)]
+        each: bool,
     },
     /// Tile pictures of equal size into one, row by row
     Sheet {
@@ -125,7 +128,7 @@ fn run(chore: &Chore) -> io::Result<()> {
         Chore::Teapot { squares } => teapot::write(&mut out, *squares)?,
         Chore::Sphere { bands, halves: false } => sphere::write(&mut out, *bands)?,
         Chore::Sphere { bands, halves: true } => sphere::write_halves(&mut out, *bands)?,
-        Chore::Mesh { triangles } => mesh::write(&mut out, *triangles)?,
+        Chore::Mesh { triangles, each } => mesh::write(&mut out, *triangles, *each)?,
         Chore::Bench { triangles } => {
             bench::write(&mut out, triangles).map_err(|error| io::Error::other(error.to_string()))?;
         }

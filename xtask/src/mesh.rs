@@ -12,25 +12,33 @@ use std::io::{self, Write};
 const HUES: u32 = 36;
 const SATURATIONS: u32 = 8;
 
-/// Writes a mesh of about `triangles` triangles.
-pub fn write(out: &mut impl Write, triangles: u32) -> io::Result<()> {
+/// Writes a mesh of about `triangles` triangles; if `each`, every vertex has a colour of its own.
+pub fn write(out: &mut impl Write, triangles: u32, each: bool) -> io::Result<()> {
     // A globe of n bands and 2 n sectors has 4 n (n - 1) triangles.
     let bands = (f64::from(triangles) / 4.0).sqrt().round() as u32;
     let globe = Globe::with_bands(bands);
     writeln!(
         out,
-        "{{ A bumpy sphere, r = 1 + 0.05 sin 12 theta cos 9 phi, with {} triangles and a palette of
-  {} colours on its vertices: something to measure speed on.
+        "{{ A bumpy sphere, r = 1 + 0.05 sin 12 theta cos 9 phi, with {} triangles and {}
+  on its vertices: something to measure speed on.
   z is up; faces run counterclockwise seen from outside.
-  Made by `cargo xtask mesh {triangles}`. CC0 1.0.
+  Made by `cargo xtask mesh {triangles}{}`. CC0 1.0.
 }}",
         4 * bands * (bands - 1),
-        HUES * SATURATIONS,
+        if each { "as many colours as there are".into() } else { format!("{} colours", HUES * SATURATIONS) },
+        if each { " --each" } else { "" },
     )?;
-    write_palette(out)?;
+    if each {
+        for (i, place) in globe.places().enumerate() {
+            writeln!(out, "c c{i} {} ;", own_color(i, place))?;
+        }
+    } else {
+        write_palette(out)?;
+    }
     for (i, place) in globe.places().enumerate() {
         let p = bump(place) * sphere::direction(place);
-        writeln!(out, "v v{i} {} {} ;", ShortPoint(p), color_name(place))?;
+        let color = if each { format!("c{i}") } else { color_name(place) };
+        writeln!(out, "v v{i} {} {color} ;", ShortPoint(p))?;
     }
     for cell in (0..bands).flat_map(|band| globe.cells(band)) {
         for pair in cell[1..].windows(2) {
@@ -54,6 +62,14 @@ fn write_palette(out: &mut impl Write) -> io::Result<()> {
         }
     }
     Ok(())
+}
+
+/// Value, hue and saturation like those of the palette at that place, but no two alike.
+fn own_color(i: usize, place: Place) -> String {
+    let there_and_back = 1.0 - (2.0 * place.phi / TAU - 1.0).abs();
+    // Steps of the golden ratio: spread evenly, and not alike before many millions.
+    let value = 0.5 + 0.5 * (i as f64 * 0.618_033_988_749_895).fract();
+    format!("{value:.9} {} {}", Short(240.0 * there_and_back), Short(0.1 + 0.9 * place.theta / PI))
 }
 
 fn bump(place: Place) -> f64 {

@@ -36,7 +36,7 @@ pub fn write(out: &mut impl Write, triangles: u32) -> Result<(), Box<dyn Error>>
     std::fs::create_dir_all(&dir)?;
     let path = dir.join(format!("reading-{triangles}.ug"));
     let mut text = Vec::new();
-    mesh::write(&mut text, triangles)?;
+    mesh::write(&mut text, triangles, false)?;
     std::fs::write(&path, &text)?;
     let megabytes = text.len() as f64 / 1e6;
     let source = Source::new(path.display().to_string(), text);

@@ -212,7 +212,6 @@ impl<'s> Palette<'s> {
 
     /// Brings values above 1 into range, unless they are to be kept, and the given colours to the scale of the output.
     pub fn finish(mut self) -> Vec<String> {
-        let notes = if self.config.iris { self.scale_values() } else { self.clip_values() };
         if self.config.wavelengths {
             for color in &mut self.scene.colors[..self.n_given] {
                 if let ColorValue::Hsv { hue, saturation, .. } = &mut color.value
@@ -222,19 +221,23 @@ impl<'s> Palette<'s> {
                 }
             }
         }
-        notes
+        if self.config.iris { self.scale_values() } else { self.clip_values() }
     }
 
-    /// All values times the factor that makes the largest 1.
+    /// The values that vertices have, times the factor that makes the largest 1. Lights keep theirs: they multiply what is
+    /// scaled here.
     fn scale_values(&mut self) -> Vec<String> {
         let largest = self.largest_value;
         if largest == 0.0 || largest == 1.0 {
             return Vec::new();
         }
-        for color in &mut self.scene.colors {
+        let mut is_scaled = vec![false; self.n_given];
+        is_scaled.resize(self.scene.colors.len(), true);
+        self.made.values().for_each(|id| is_scaled[id.index()] = true);
+        self.keep_lights(&is_scaled);
+        for (color, _) in self.scene.colors.iter_mut().zip(is_scaled).filter(|(_, is_scaled)| *is_scaled) {
             color.value = match color.value {
-                // A colour no vertex uses may be brighter than all that are used.
-                ColorValue::Rgb(rgb) => ColorValue::Rgb(rgb.map(|channel| (channel / largest).min(1.0))),
+                ColorValue::Rgb(rgb) => ColorValue::Rgb(rgb.map(|channel| channel / largest)),
                 ColorValue::Hsv { value, hue, saturation } => {
                     ColorValue::Hsv { value: value / largest, hue, saturation }
                 }
@@ -246,6 +249,22 @@ impl<'s> Palette<'s> {
             };
         }
         vec![scaled(largest)]
+    }
+
+    /// Gives lights that share a colour with vertices a copy of it.
+    fn keep_lights(&mut self, is_scaled: &[bool]) {
+        let mut copies: FxHashMap<ColorId, ColorId> = FxHashMap::default();
+        for row in 0..self.scene.lights.len() {
+            let Some(id) = self.scene.lights[row].color.filter(|id| is_scaled[id.index()]) else { continue };
+            let copy = *copies.entry(id).or_insert_with(|| {
+                let color = self.scene.colors[id.index()].clone();
+                let name = self.names.fresh(&format!("{}#light", self.scene.names.get(color.name)));
+                let name = self.scene.names.add(&name);
+                self.scene.colors.push(Color { name, ..color });
+                ColorId::from_index(self.scene.colors.len() - 1)
+            });
+            self.scene.lights[row].color = Some(copy);
+        }
     }
 
     fn clip_values(&mut self) -> Vec<String> {

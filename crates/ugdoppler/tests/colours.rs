@@ -54,6 +54,28 @@ fn on_the_line_of_motion_d_is_known() {
     assert_eq!(unused.color, None);
 }
 
+/// Lights multiply what the iris scales, so their colours stay: else the picture would be darkened twice.
+#[test]
+fn the_iris_leaves_lights_alone() {
+    let text = format!(
+        "{SCENE} c pale 0.8; f (a b c) grey <0 0 0>; l 0.3; l sun 0.7 0 0 1 0 pale; l sky 0.2 0 1 0 0 grey;"
+    );
+    let (scene, notes) = colour(&text, &Config { iris: true, keep: false, ..moving(-0.8, 0.0, 0.0) });
+    assert_eq!(notes, ["max intensity is 1.50, scaled to 1.0"]);
+    let value = |row: usize| match scene.colors[row].value {
+        ColorValue::Hsv { value, .. } => value,
+        other => panic!("{other:?}"),
+    };
+    let lights: Vec<f64> =
+        scene.lights.iter().filter_map(|light| light.color).map(|id| value(id.index())).collect();
+    assert_eq!(lights, [0.8, 0.4]);
+    // Green and the resting grey, in which nothing else is changed.
+    let of_vertices: Vec<f64> =
+        scene.vertices.iter().filter_map(|vertex| vertex.color).map(|id| value(id.index())).collect();
+    assert!(of_vertices.iter().any(|value| (value - 1.0).abs() < 1e-12), "{of_vertices:?}");
+    assert!(of_vertices.iter().any(|value| (value - 0.4 / 1.5).abs() < 1e-12), "{of_vertices:?}");
+}
+
 #[test]
 fn the_laws_are_powers_of_d() {
     for (law, power) in

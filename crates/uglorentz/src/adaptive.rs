@@ -24,6 +24,7 @@ use ugparse::{Face, Scene, VertexId};
 
 use crate::edge::{self, Tolerance};
 use crate::growth::Growth;
+use crate::lit::Lit;
 use crate::motion::Point;
 use crate::pieces::{Cut, Outcome, Piece, Polyline, Shape, as_contours, shape};
 use crate::{edge_on, interior, quick};
@@ -35,9 +36,15 @@ pub(crate) const MAX_GENERATION: u32 = 32;
 /// Pieces a scene is cut into at most: about half a gigabyte of text.
 pub(crate) const MAX_PIECES: usize = 4_000_000;
 
-/// Cuts faces and wires until every edge is right to `tolerance`, or `max_pieces` would be passed.
-pub(crate) fn cut(scene: &Scene, growth: &mut Growth, tolerance: &Tolerance, max_pieces: usize) -> Outcome {
-    let judge = Judge { growth, tolerance };
+/// Cuts faces and wires until every edge is right to `tolerance` and by `lit`, or `max_pieces` would be passed.
+pub(crate) fn cut(
+    scene: &Scene,
+    growth: &mut Growth,
+    tolerance: &Tolerance,
+    lit: &Lit,
+    max_pieces: usize,
+) -> Outcome {
+    let judge = Judge { growth, tolerance, lit };
     let mut outcome = Outcome::default();
     let mut fresh: Vec<Piece> = Vec::new();
     for (face, cut) in judge.first_cuts(scene) {
@@ -53,7 +60,7 @@ pub(crate) fn cut(scene: &Scene, growth: &mut Growth, tolerance: &Tolerance, max
     outcome.lines.extend(judge.bent_wires(scene));
     let mut open: Vec<Open> = Vec::new();
     loop {
-        let judge = Judge { growth, tolerance };
+        let judge = Judge { growth, tolerance, lit };
         judge.sort(std::mem::take(&mut fresh), &mut open, &mut outcome.pieces);
         let line_marks: Vec<Vec<bool>> = outcome.lines.par_iter().map(|line| judge.line(line)).collect();
         let Some(least) = judge.least_due(&open, &outcome.lines, &line_marks) else { break };
@@ -73,7 +80,7 @@ pub(crate) fn cut(scene: &Scene, growth: &mut Growth, tolerance: &Tolerance, max
     }
     outcome.pieces.extend(open.into_iter().map(|open| open.piece));
     outcome.pieces.sort_by_key(|piece| piece.face);
-    outcome.n_too_deep = Judge { growth, tolerance }.n_too_deep(&outcome);
+    outcome.n_too_deep = Judge { growth, tolerance, lit }.n_too_deep(&outcome);
     outcome
 }
 
@@ -134,6 +141,7 @@ fn length_squared(growth: &Growth, a: u32, b: u32) -> f64 {
 struct Judge<'a, 'b> {
     growth: &'a Growth<'b>,
     tolerance: &'a Tolerance,
+    lit: &'a Lit,
 }
 
 impl Judge<'_, '_> {
@@ -149,7 +157,8 @@ impl Judge<'_, '_> {
     fn bends_at_any_depth(&self, a: u32, b: u32) -> bool {
         let (low, high) = (a.min(b), a.max(b));
         let growth = self.growth;
-        edge::bends(growth.point(low), growth.point(high), growth.motion(low), self.tolerance)
+        let (from, to, motion) = (growth.point(low), growth.point(high), growth.motion(low));
+        edge::bends(from, to, motion, self.tolerance) || self.lit.is_uneven(from, to, motion)
     }
 
     /// The faces that need cutting, in order, cut into triangles and convex quadrilaterals.
@@ -162,11 +171,11 @@ impl Judge<'_, '_> {
     fn first_cut(&self, scene: &Scene, face: &Face) -> Option<Cut> {
         let corners = scene.contours.corners(face.contours.clone());
         let motion = self.growth.motion(corners.first()?.0);
-        if motion.is_at_rest() {
+        if motion.is_at_rest() && self.lit.is_empty() {
             return None;
         }
         let points = corners.iter().map(|corner| self.growth.point(corner.0));
-        if quick::is_right(motion, points, self.tolerance) {
+        if self.lit.is_empty() && quick::is_right(motion, points, self.tolerance) {
             return None;
         }
         let rest = |vertex: VertexId| -> DVec3 { self.growth.point(vertex.0).rest };
@@ -196,7 +205,7 @@ impl Judge<'_, '_> {
         let mut marks = Marks::default();
         let points = shape.corners().iter().map(|&corner| self.growth.point(corner));
         let motion = self.growth.motion(shape.corners()[0]);
-        if quick::is_right(motion, points, self.tolerance) {
+        if self.lit.is_empty() && quick::is_right(motion, points, self.tolerance) {
             return marks;
         }
         for (mark, (a, b)) in marks.edges.iter_mut().zip(shape.edges()) {
@@ -404,7 +413,7 @@ mod tests {
         for max_pieces in [10, 100, 1000, 10_000] {
             let points = scene.vertices.iter().map(|vertex| motions[0].point(0, vertex.position)).collect();
             let mut growth = Growth::new(&motions, points);
-            let outcome = cut(&scene, &mut growth, &Tolerance::new(1e-9, 2e-3), max_pieces);
+            let outcome = cut(&scene, &mut growth, &Tolerance::new(1e-9, 2e-3), &Lit::default(), max_pieces);
             assert!(outcome.is_full);
             let n_pieces = outcome.pieces.len();
             assert!((max_pieces / 10..=max_pieces).contains(&n_pieces), "{n_pieces} of {max_pieces}");

@@ -72,6 +72,14 @@ pub struct Args {
           value_parser = percent_or_off)]
     color_error: Option<f64>,
 
+    /// Cut also until the light of near lamps is right to PERCENT between vertices [default: off]
+    ///
+    /// For ugdoppler -li, which puts light into colours at vertices: large faces near a lamp, at rest too, get the vertices they
+    /// need. 2 is hardly seen. It does nothing with -sd.
+    #[arg(long = "sl", visible_alias = "light-error", value_name = "PERCENT", allow_hyphen_values = true,
+          value_parser = percent_or_off)]
+    light_error: Option<f64>,
+
     /// Cut every edge into N equal pieces instead
     #[arg(id = "equal", long = "sd", visible_alias = "pieces", value_name = "N")]
     equal: Option<u32>,
@@ -193,6 +201,7 @@ impl Args {
             in_place: self.in_place,
             pieces,
             color_error: self.color_error.unwrap_or(DEFAULT_COLOR_ERROR),
+            light_error: self.light_error.unwrap_or(f64::INFINITY),
             measure: self.common.verbose(),
             smooth: self.smooth,
             geometry: Geometry { contraction: !self.no_contraction, flight_time: !self.no_flight_time },

@@ -39,6 +39,11 @@ pub enum Error {
         /// The bound given, a part.
         error: f64,
     },
+    /// [`crate::Config::light_error`] is not above 0.
+    NoLightBound {
+        /// The bound given, a part.
+        error: f64,
+    },
     /// [`crate::Pieces::PerEdge`] is 0.
     NoPieces,
     /// [`crate::Pieces::PerEdge`] makes too many pieces.
@@ -72,6 +77,7 @@ impl Error {
                 | Error::NoViewCenter
                 | Error::NoBound { .. }
                 | Error::NoColorBound { .. }
+                | Error::NoLightBound { .. }
                 | Error::NoPieces
                 | Error::TooManyPieces { .. }
         )
@@ -103,6 +109,7 @@ impl Error {
             Error::Camera(error) => error.to_string(),
             Error::NoBound { error } => format!("the bound of -se is {} milliradians", error * 1e3),
             Error::NoColorBound { error } => format!("the bound of -sc is {} percent", error * 1e2),
+            Error::NoLightBound { error } => format!("the bound of -sl is {} percent", error * 1e2),
             Error::NoPieces => "-sd 0 leaves no pieces".to_string(),
             Error::TooManyPieces { n_pieces } => {
                 format!("-sd would make {n_pieces} pieces, more than the limit of {MAX_PIECES}")
@@ -126,7 +133,7 @@ impl Error {
             Error::NoViewCenter => "give the view centre with -vc, or in the `cam` statement of the scene",
             Error::TooFast { .. } => "make one of them slower",
             Error::NoBound { .. } => "give a number above 0",
-            Error::NoColorBound { .. } => "give a number above 0, or off",
+            Error::NoColorBound { .. } | Error::NoLightBound { .. } => "give a number above 0, or off",
             Error::NoPieces => "give 1 or more",
             Error::TooManyPieces { .. } => "give fewer, or use -se, which cuts only where it shows",
             Error::VertexAtEye { .. } => "move the eye (-ep) or the vertex",

@@ -21,7 +21,7 @@
 //! Renderers draw straight edges between vertices, but a straight edge in motion is seen as an arc of a
 //! hyperbola. So long edges are cut first. By default closed formulas for the angle between arc and chord, for depth
 //! and for colour decide edge by edge where that shows ([`Pieces::UpTo`], derived in `docs/geometry.md`); two faces that share an edge cut it alike, so
-//! the result has no cracks. A scene at rest is never cut.
+//! the result has no cracks. A body at rest is not cut, but for the light of near lamps if that is asked for.
 //!
 //! Pieces keep direction, colour, light level, velocity and name of their face; those of one face stand
 //! together, in its place. Vertices of the scene keep their names and rows; new ones are called `s#1`, `s#2`, …
@@ -68,6 +68,7 @@ mod error;
 mod frame;
 mod growth;
 mod interior;
+mod lit;
 mod measurement;
 mod motion;
 mod notes;
@@ -89,6 +90,7 @@ pub use notes::{Achieved, Notes, Worst};
 
 use crate::edge::Tolerance;
 use crate::growth::Growth;
+use crate::lit::Lit;
 use crate::motion::{Motion, Point};
 use crate::pieces::Outcome;
 
@@ -127,6 +129,9 @@ pub struct Config {
     /// With [`Pieces::UpTo`], cut also where the Doppler factor, or its inverse, taken linearly along an edge would
     /// be off by more than this part; infinite for nowhere (`-sc`).
     pub color_error: f64,
+    /// With [`Pieces::UpTo`], cut also where the light of near lamps, taken linearly along an edge, would be off by more than
+    /// this part of it; infinite, the default, for nowhere (`-sl`).
+    pub light_error: f64,
     /// Find out how right the result is, for [`Notes::achieved`] (`-vb`).
     pub measure: bool,
     /// Give vertices without a normal the mean of their faces' (`-sm`).
@@ -154,6 +159,7 @@ impl Default for Config {
             in_place: false,
             pieces: Pieces::UpTo(DEFAULT_ERROR),
             color_error: DEFAULT_COLOR_ERROR,
+            light_error: f64::INFINITY,
             measure: false,
             smooth: false,
             geometry: Geometry::default(),
@@ -269,6 +275,7 @@ fn transform_owned(mut scene: Scene, config: &Config) -> Result<(Scene, Notes), 
             &scene,
             &mut growth,
             &Tolerance::new(error, config.color_error),
+            &Lit::new(&scene, eye, &motions, config.light_error),
             adaptive::MAX_PIECES,
         ),
         Pieces::PerEdge(n) => {
@@ -304,6 +311,9 @@ fn check(config: &Config) -> Result<Velocity, Error> {
         Pieces::UpTo(error) if !(error > 0.0 && error.is_finite()) => return Err(Error::NoBound { error }),
         Pieces::UpTo(_) if config.color_error.is_nan() || config.color_error <= 0.0 => {
             return Err(Error::NoColorBound { error: config.color_error });
+        }
+        Pieces::UpTo(_) if config.light_error.is_nan() || config.light_error <= 0.0 => {
+            return Err(Error::NoLightBound { error: config.light_error });
         }
         Pieces::PerEdge(0) => return Err(Error::NoPieces),
         _ => {}

@@ -88,19 +88,20 @@ proptest! {
     fn closed_solids_stay_closed(
         seed in any::<u64>(),
         kinds in prop::collection::vec(0..4usize, 1..4),
-        speed in prop_oneof![Just(0.3), Just(0.9), Just(0.99), Just(0.999)],
+        speed in prop_oneof![Just(0.0), Just(0.3), Just(0.9), Just(0.99), Just(0.999)],
         bound in prop_oneof![Just(10e-3), Just(2e-3), Just(0.5e-3)],
         color_error in prop_oneof![Just(f64::INFINITY), Just(5e-3)],
+        light_error in prop_oneof![Just(f64::INFINITY), Just(0.1)],
         pieces in prop_oneof![3 => Just(None), 1 => (1..4_u32).prop_map(Some)],
     ) {
         let mut random = Random(seed);
-        let mut text = String::new();
+        let mut text = "l near 0.5 1 -2 0.5 0 <0.3 0.2 0>; l 0.5 -1 1 3 0;".to_string();
         for (body, &kind) in kinds.iter().enumerate() {
             let solid = solid(&mut random, kind);
             append(&mut text, body, &solid, random.direction() * speed);
         }
         let pieces = pieces.map_or(Pieces::UpTo(bound), Pieces::PerEdge);
-        let scene = run(&text, &Config { pieces, color_error, ..Config::default() }).scene;
+        let scene = run(&text, &Config { pieces, color_error, light_error, ..Config::default() }).scene;
         let odd = edges(&scene).into_iter().find(|(_, count)| *count != (1, 1));
         prop_assert_eq!(odd, None);
     }

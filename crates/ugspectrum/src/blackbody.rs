@@ -3,11 +3,16 @@
 use crate::cie_1931::FIRST_NM;
 use crate::observer::{SUM_Y, weigh};
 
-/// The second radiation constant hc/k, nm K (CODATA 2018; exact since 2019 but for its digits).
-const SECOND_RADIATION_NM_K: f64 = 1.438776877e7;
+/// Planck's constant, J s, the speed of light, m/s, and Boltzmann's constant, J/K: exact, by the SI of 2019.
+const PLANCK: f64 = 6.62607015e-34;
+const LIGHT: f64 = 299_792_458.0;
+const BOLTZMANN: f64 = 1.380649e-23;
+
+/// The second radiation constant hc/k, nm K: 1.4387768775039338·10⁷.
+const SECOND_RADIATION_NM_K: f64 = PLANCK * LIGHT / BOLTZMANN * 1e9;
 
 /// The first radiation constant for radiance 2hc², W nm⁴ m⁻² sr⁻¹: so that λ in nm gives radiance per nm.
-const FIRST_RADIATION: f64 = 1.191042972e20;
+const FIRST_RADIATION: f64 = 2.0 * PLANCK * LIGHT * LIGHT * 1e36;
 
 /// Temperatures are taken from this range, kelvins.
 const COLDEST: f64 = 1e-6;

@@ -30,6 +30,7 @@ mod blackbody;
 mod cie_1931;
 mod daylight;
 mod lamplight;
+mod nodes;
 mod observer;
 mod reflectance;
 mod samples;

@@ -1,14 +1,13 @@
 //! Surface colours raised to spectra.
 
-use ugphysics::xyz_to_linear_srgb;
-
 use crate::cie_1931::{CIE_1931, FIRST_NM};
 use crate::daylight::daylight;
+use crate::nodes::dot;
 use crate::observer::weigh;
 use crate::solve::{Coefficients, solve};
 
 /// Where the curve ends; beyond, the reflectance stays as it is there.
-const CURVE_NM: [f64; 2] = [380.0, 780.0];
+pub(crate) const CURVE_NM: [f64; 2] = [380.0, 780.0];
 
 /// The brightest channel that a curve is solved for: at 1 its coefficients grow without bound toward white. Colours
 /// outside of the triangle of the primaries are so saturated only if the surface is dim, and get another try.
@@ -70,16 +69,20 @@ impl Reflectance {
     /// The same with the light worked out before.
     pub(crate) fn lit(&self, light: &Illumination) -> [f64; 3] {
         let ends = CURVE_NM.map(|nm| self.at(nm));
-        let [ultraviolet, infrared] = light.outside.each_ref().map(|xyz| xyz.as_slice());
-        let mut sums: [f64; 3] = std::array::from_fn(|i| ends[0] * ultraviolet[i] + ends[1] * infrared[i]);
-        for (row, weights) in light.inside.iter().enumerate() {
-            let reflected = match &self.curve {
-                Some(curve) => curve.at((light.first_nm + row as f64) * light.doppler),
-                None => 1.0,
-            } * self.factor;
-            sums.iter_mut().zip(weights).for_each(|(sum, weight)| *sum += reflected * weight);
-        }
-        sums
+        let [ultraviolet, infrared] = &light.outside;
+        let reflected: Vec<f64> = match self.curve {
+            Some(curve) => light.wavelengths().map(|nm| curve.at(nm)).collect(),
+            None => vec![1.0; light.inside[0].len()],
+        };
+        std::array::from_fn(|i| {
+            let inside = self.factor * dot(&reflected, &light.inside[i]);
+            ends[0] * ultraviolet[i] + ends[1] * infrared[i] + inside
+        })
+    }
+
+    /// The curve times a factor; without a curve, 1 times it.
+    pub(crate) fn parts(&self) -> (f64, Option<Coefficients>) {
+        (self.factor, self.curve)
     }
 }
 
@@ -88,16 +91,17 @@ impl Reflectance {
 pub(crate) struct Illumination {
     doppler: f64,
     /// X, Y, Z of all that comes from below 380 nm, and from above 780.
-    outside: [[f64; 3]; 2],
+    pub outside: [[f64; 3]; 2],
     /// Wavelength at the eye, nm, of the first row of `inside`.
     first_nm: f64,
-    /// X, Y, Z of each nanometre at the eye whose light comes from 380…780 nm.
-    inside: Vec<[f64; 3]>,
+    /// X, then Y, then Z of each nanometre at the eye whose light comes from 380…780 nm.
+    pub inside: [Vec<f64>; 3],
 }
 
 impl Illumination {
     pub fn new(doppler: f64) -> Self {
-        let mut light = Self { doppler, outside: [[0.0; 3]; 2], first_nm: 0.0, inside: Vec::new() };
+        let inside = [0; 3].map(|_| Vec::new());
+        let mut light = Self { doppler, outside: [[0.0; 3]; 2], first_nm: 0.0, inside };
         let scale = 1.0 / white_luminance();
         for (row, weights) in CIE_1931.iter().enumerate() {
             let seen_nm = (FIRST_NM + row) as f64;
@@ -108,10 +112,10 @@ impl Illumination {
             } else if seen_nm * doppler > CURVE_NM[1] {
                 &mut light.outside[1]
             } else {
-                if light.inside.is_empty() {
+                if light.inside[0].is_empty() {
                     light.first_nm = seen_nm;
                 }
-                light.inside.push(xyz);
+                light.inside.iter_mut().zip(xyz).for_each(|(channel, part)| channel.push(part));
                 continue;
             };
             into.iter_mut().zip(xyz).for_each(|(sum, part)| *sum += part);
@@ -119,15 +123,9 @@ impl Illumination {
         light
     }
 
-    /// Linear sRGB of each nanometre, with the wavelength where the curve is looked up: at rest, for solving.
-    pub fn rgb_weights(&self) -> impl Iterator<Item = (f64, [f64; 3])> {
-        let [first, last] = CURVE_NM;
-        let inside = self.inside.iter().enumerate();
-        let inside = inside.map(move |(row, &xyz)| (self.first_nm + row as f64, xyz));
-        [(first, self.outside[0]), (last, self.outside[1])]
-            .into_iter()
-            .chain(inside)
-            .map(|(nm, xyz)| (nm, xyz_to_linear_srgb(xyz)))
+    /// Wavelengths at the surface of the rows of `inside`, nm.
+    pub fn wavelengths(&self) -> impl Iterator<Item = f64> {
+        (0..self.inside[0].len()).map(|row| (self.first_nm + row as f64) * self.doppler)
     }
 }
 

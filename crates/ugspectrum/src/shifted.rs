@@ -3,7 +3,8 @@
 use std::ops::RangeInclusive;
 use std::sync::OnceLock;
 
-use crate::reflectance::Illumination;
+use crate::nodes::{N_NODES, Nodes};
+use crate::reflectance::{Illumination, Reflectance};
 use crate::spectrum::{Kind, Spectrum};
 
 /// Distance of the points of a table in ln D: a hundredth part of a wavelength, some 5 nm.
@@ -26,6 +27,8 @@ pub struct Grid {
     last: i32,
     /// The light on surfaces at each, worked out once for all of them.
     light: OnceLock<Vec<Illumination>>,
+    /// The same for single surfaces.
+    nodes: OnceLock<Vec<Nodes<N_NODES>>>,
 }
 
 impl Grid {
@@ -37,6 +40,7 @@ impl Grid {
             first: row(*ln_doppler.start()).min(0) - MARGIN,
             last: row(*ln_doppler.end()).max(0) + 1 + MARGIN,
             light: OnceLock::new(),
+            nodes: OnceLock::new(),
         }
     }
 
@@ -63,17 +67,17 @@ impl Grid {
         Shifted { first: self.first, points }
     }
 
-    /// X, Y, Z as [`Spectrum::shifted`] has them, at one ln D and without a table: for surfaces by the four points of the
-    /// table that it would take, since the light is worked out already.
+    /// X, Y, Z as [`Spectrum::shifted`] has them, at one ln D and without a table: for surfaces from their reflectance
+    /// every 4 nm, since the light is worked out already. Exact at the points of a table, so at rest.
     #[must_use]
     pub fn xyz(&self, spectrum: &Spectrum, ln_doppler: f64) -> [f64; 3] {
         let Kind::Reflected(surface) = &spectrum.0 else { return spectrum.shifted(libm::exp(ln_doppler)) };
         let place = Place::new(self.first, self.n_points(), ln_doppler);
-        let light = self.light();
         if place.part == 0.0 {
-            return surface.lit(&light[place.cell]);
+            return surface.lit(&self.light()[place.cell]);
         }
-        place.between(std::array::from_fn(|i| surface.lit(&light[place.cell + i - 1]).map(libm::log)))
+        let nodes = self.nodes.get_or_init(|| self.light().iter().map(Nodes::new).collect());
+        place.between(points(surface, &nodes[place.cell - 1..place.cell + 3]))
     }
 
     fn light(&self) -> &[Illumination] {
@@ -83,6 +87,14 @@ impl Grid {
     fn factors(&self) -> impl Iterator<Item = f64> {
         self.ln_doppler().map(libm::exp)
     }
+}
+
+/// ln X, ln Y, ln Z of a surface at four points.
+fn points(surface: &Reflectance, around: &[Nodes<N_NODES>]) -> [[f64; 3]; 4] {
+    let (factor, curve) = surface.parts();
+    let values = curve.map_or([1.0; N_NODES], |curve| around[0].curve(curve));
+    // Polynomials between nodes may swing a little below 0.
+    std::array::from_fn(|k| around[k].sums(&values).map(|sum| libm::log(factor * sum.max(0.0))))
 }
 
 /// ln X, ln Y, ln Z of L(λ) = L'(λD), without D⁵, over ln D.

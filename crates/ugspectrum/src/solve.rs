@@ -2,26 +2,29 @@
 
 use std::sync::OnceLock;
 
+use ugphysics::xyz_to_linear_srgb;
+
+use crate::nodes::{N_NODES, Nodes, dot};
 use crate::reflectance::Illumination;
 
 /// A sigmoid of a quadratic: S(x) = 1/2 + x/(2√(1 + x²)) with x = a + b t + c (3t² − 1)/2 and t from −1 at 380 nm to 1 at
 /// 780.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Coefficients([f64; 3]);
+pub(crate) struct Coefficients(pub [f64; 3]);
 
 impl Coefficients {
     pub fn at(&self, wavelength_nm: f64) -> f64 {
-        let [_, t, quadratic] = basis(wavelength_nm);
+        let [_, t, quadratic] = Self::basis(wavelength_nm);
         let [a, b, c] = self.0;
         let x = a + b * t + c * quadratic;
         0.5 + 0.5 * x / (1.0 + x * x).sqrt()
     }
-}
 
-/// Legendre's polynomials, which keep the three unknowns apart better than powers of t.
-fn basis(wavelength_nm: f64) -> [f64; 3] {
-    let t = (wavelength_nm - 580.0) / 200.0;
-    [1.0, t, 1.5 * t * t - 0.5]
+    /// Legendre's polynomials, which keep the three unknowns apart better than powers of t.
+    pub fn basis(wavelength_nm: f64) -> [f64; 3] {
+        let t = (wavelength_nm - 580.0) / 200.0;
+        [1.0, t, 1.5 * t * t - 0.5]
+    }
 }
 
 /// How near the colour must come, in linear light.
@@ -30,59 +33,110 @@ const NEAR: f64 = 1e-10;
 /// What a solution has to reach to count.
 const NEAR_ENOUGH: f64 = 1e-9;
 
-/// Rounds of the coarse and of the fine iteration.
+/// From here on one step is enough: slopes on the middle grid are right to some 10⁻³ for the steepest curves.
+const ONE_STEP: f64 = 1e-7;
+
+/// Rounds of the iterations.
 const ROUNDS: usize = 200;
 
+/// Rounds of the last, each of which divides the error by a thousand or so.
+const LAST_ROUNDS: usize = 4;
+
 /// The curve whose colour under daylight is this linear sRGB, by the Gauss–Newton method with damping (Levenberg
-/// and Marquardt): first on every eighth wavelength, then on all.
+/// and Marquardt): first on nodes every 20 nm, then every 4, then on all wavelengths.
 pub(crate) fn solve(wanted: [f64; 3]) -> Option<Coefficients> {
-    let grids = grids();
-    let mean = ((wanted[0] + wanted[1] + wanted[2]) / 3.0).clamp(0.05, 0.95);
-    // The grey of that level: the inverse of S.
-    let grey = Coefficients([(mean - 0.5) / (mean * (1.0 - mean)).sqrt(), 0.0, 0.0]);
-    // The grids are nearly alike, so behind the first the second needs no damping.
-    let (near, _) = descend(&grids[0], wanted, grey, 1e-5, 1e-3);
-    let (found, error) = descend(&grids[1], wanted, near, NEAR, 1e-9);
-    (error < NEAR_ENOUGH).then_some(found)
-}
-
-/// One wavelength: the basis there, and what a reflectance of 1 adds to linear red, green and blue.
-type Weight = ([f64; 3], [f64; 3]);
-
-fn grids() -> &'static [Vec<Weight>; 2] {
-    static GRIDS: OnceLock<[Vec<Weight>; 2]> = OnceLock::new();
-    GRIDS.get_or_init(|| {
-        let fine: Vec<_> = Illumination::new(1.0).rgb_weights().collect();
-        // The first two are what lies outside of the curve.
-        let (ends, inside) = fine.split_at(2);
-        let coarse = ends.chunks(1).chain(inside.chunks(8)).map(|run| {
-            let sum = |i: usize| run.iter().map(|(_, rgb)| rgb[i]).sum();
-            (basis(run[run.len() / 2].0), [sum(0), sum(1), sum(2)])
-        });
-        let coarse = coarse.collect();
-        [coarse, fine.into_iter().map(|(nm, rgb)| (basis(nm), rgb)).collect()]
+    let (coarse, middle, fine) = grids();
+    let start = descend(coarse, wanted, through(wanted), 1e-4, 1e-3);
+    // The grids are nearly alike, so behind the first no damping is needed.
+    let near = descend(middle, wanted, start.curve, ONE_STEP, 1e-9);
+    refine(fine, wanted, &near).or_else(|| {
+        let found = descend(fine, wanted, grey(wanted), NEAR, 1e-3);
+        (size(found.error) < NEAR_ENOUGH).then_some(found.curve)
     })
 }
 
-/// Levenberg–Marquardt until the largest error is below `near`; the best curve and its error.
-fn descend(
-    grid: &[Weight],
+/// The inverse of S, for what is neither black nor white.
+fn argument(reflected: f64) -> f64 {
+    let reflected = reflected.clamp(0.02, 0.98);
+    (reflected - 0.5) / (reflected * (1.0 - reflected)).sqrt()
+}
+
+/// The grey of that level.
+fn grey(wanted: [f64; 3]) -> Coefficients {
+    Coefficients([argument((wanted[0] + wanted[1] + wanted[2]) / 3.0), 0.0, 0.0])
+}
+
+/// The curve that reflects as much as is wanted of blue at 455 nm, of green at 545 and of red at 600, where each is seen
+/// best: not far from the one that is sought.
+fn through([red, green, blue]: [f64; 3]) -> Coefficients {
+    const AT: [f64; 3] = [-0.625, -0.175, 0.1];
+    let [low, middle, high] = [blue, green, red].map(argument);
+    // Newton's divided differences, and from powers of t to Legendre's polynomials.
+    let first = (middle - low) / (AT[1] - AT[0]);
+    let second = ((high - middle) / (AT[2] - AT[1]) - first) / (AT[2] - AT[0]);
+    let quadratic = second / 1.5;
+    let slope = first - second * (AT[0] + AT[1]);
+    let level = low - first * AT[0] + second * AT[0] * AT[1];
+    Coefficients([level + 0.5 * quadratic, slope, quadratic])
+}
+
+/// Newton's method on all wavelengths, by slopes that hold already nearby. `None` if it does not come near enough.
+fn refine(fine: &Fine, wanted: [f64; 3], near: &Found) -> Option<Coefficients> {
+    let mut curve = near.curve;
+    for _ in 0..LAST_ROUNDS {
+        let sums = fine.sums(&fine.curve(curve));
+        let error: [f64; 3] = std::array::from_fn(|i| sums[i] - wanted[i]);
+        if size(error) < NEAR {
+            return Some(curve);
+        }
+        let step = step(error, near.slopes, 0.0)?;
+        curve = Coefficients(std::array::from_fn(|i| curve.0[i] + step[i]));
+        if size(error) < ONE_STEP {
+            return Some(curve);
+        }
+    }
+    None
+}
+
+/// Nodes every 20 nm, every 4, and at every nanometre.
+type Grids = (Nodes<21>, Nodes<N_NODES>, Fine);
+type Fine = Nodes<401>;
+
+/// Linear red, green and blue of the light on a surface at rest.
+fn grids() -> &'static Grids {
+    static GRIDS: OnceLock<Grids> = OnceLock::new();
+    GRIDS.get_or_init(|| {
+        let light = Illumination::new(1.0);
+        let mix = xyz_to_linear_srgb;
+        (Nodes::new(&light).mixed(mix), Nodes::new(&light).mixed(mix), Nodes::new(&light).mixed(mix))
+    })
+}
+
+/// A curve, and how far its colour is off with its derivatives: row channel, column coefficient.
+struct Found {
+    curve: Coefficients,
+    error: [f64; 3],
+    slopes: [[f64; 3]; 3],
+}
+
+/// Levenberg–Marquardt until the largest error is below `near`; the best curve.
+fn descend<const N: usize>(
+    grid: &Nodes<N>,
     wanted: [f64; 3],
     start: Coefficients,
     near: f64,
     mut damping: f64,
-) -> (Coefficients, f64) {
-    let mut best = start;
-    let (mut error, mut slopes) = colour(grid, wanted, best);
+) -> Found {
+    let mut best = colour(grid, wanted, start);
     for _ in 0..ROUNDS {
-        if size(error) < near {
+        if size(best.error) < near {
             break;
         }
-        let Some(step) = step(error, slopes, damping) else { break };
-        let next = Coefficients(std::array::from_fn(|i| best.0[i] + step[i]));
-        let (next_error, next_slopes) = colour(grid, wanted, next);
-        if square(next_error) < square(error) {
-            (best, error, slopes) = (next, next_error, next_slopes);
+        let Some(step) = step(best.error, best.slopes, damping) else { break };
+        let next = Coefficients(std::array::from_fn(|i| best.curve.0[i] + step[i]));
+        let next = colour(grid, wanted, next);
+        if square(next.error) < square(best.error) {
+            best = next;
             damping *= 0.1;
         } else {
             damping = (damping * 10.0).max(1e-12);
@@ -91,31 +145,14 @@ fn descend(
             }
         }
     }
-    (best, size(error))
+    best
 }
 
-/// How far the colour of a curve is off, and its derivatives: row channel, column coefficient.
-fn colour(
-    grid: &[Weight],
-    wanted: [f64; 3],
-    Coefficients([a, b, c]): Coefficients,
-) -> ([f64; 3], [[f64; 3]; 3]) {
-    let mut error = wanted.map(|channel| -channel);
-    let mut slopes = [[0.0; 3]; 3];
-    for ([one, t, quadratic], rgb) in grid {
-        let x = a * one + b * t + c * quadratic;
-        let root = 1.0 / (1.0 + x * x).sqrt();
-        let reflected = 0.5 + 0.5 * x * root;
-        let slope = 0.5 * root * root * root;
-        for channel in 0..3 {
-            error[channel] += rgb[channel] * reflected;
-            let weight = rgb[channel] * slope;
-            slopes[channel][0] += weight;
-            slopes[channel][1] += weight * t;
-            slopes[channel][2] += weight * quadratic;
-        }
-    }
-    (error, slopes)
+fn colour<const N: usize>(grid: &Nodes<N>, wanted: [f64; 3], curve: Coefficients) -> Found {
+    let (values, basis) = grid.curve_and_slopes(curve);
+    let sums = grid.sums(&values);
+    let slopes = std::array::from_fn(|i| std::array::from_fn(|j| dot(&basis[j], &grid.weights[i])));
+    Found { curve, error: std::array::from_fn(|i| sums[i] - wanted[i]), slopes }
 }
 
 fn square(error: [f64; 3]) -> f64 {

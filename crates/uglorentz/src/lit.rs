@@ -1,0 +1,147 @@
+//! Where the light of near lamps changes too much along an edge (`-sl`).
+//!
+//! Programs downstream that put light into vertex colours go in straight lines between. On a point of a face with normal n the
+//! light of a lamp is n·l D_l, with l towards the lamp and D_l of (P14), and neighbouring faces have normals of their
+//! own. So the rule asks for the vector D_l l, which is common to all of them (E6). Lamps far away and ambient light do not
+//! change along an edge.
+
+use glam::DVec3;
+use ugparse::Scene;
+use ugphysics::{Velocity, illumination};
+use ugscene::{HueScale, LampPlace, lamps};
+
+use crate::motion::{Motion, Point};
+use crate::placement::body;
+
+/// Where an edge is compared with the straight line, parts of it.
+const SAMPLES: [f64; 3] = [0.25, 0.5, 0.75];
+
+/// An edge is halved this often at most for the sake of light: a lamp may lie on a face.
+const MAX_GENERATION: u32 = 12;
+
+/// The lamps of a scene that edges are cut for; none if nobody asks.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Lit {
+    lamps: Vec<NearLamp>,
+    bound: f64,
+}
+
+#[derive(Clone, Debug)]
+struct NearLamp {
+    /// The brightest channel of its colour times its intensity.
+    intensity: f64,
+    /// Relative to the eye in the frame of the lamp, in the axes of [`Motion::turned`]; of a lamp without a velocity in those
+    /// of the scene.
+    place: DVec3,
+    /// None for a lamp that rests with whatever it lights.
+    velocity: Option<Velocity>,
+}
+
+impl Lit {
+    /// `scene`: with its lights in place. `bound`: part of the light of a lamp that shines straight at a face, infinite
+    /// for any.
+    pub(crate) fn new(scene: &Scene, eye: DVec3, motions: &[Motion], bound: f64) -> Self {
+        if bound == f64::INFINITY {
+            return Self::default();
+        }
+        let near = lamps(scene, eye, HueScale::Degrees).into_iter().filter_map(|lamp| {
+            let LampPlace::At(place) = lamp.place else { return None };
+            let motion = lamp.velocity.map(|id| &motions[body(Some(id))]);
+            let place = motion.map_or(place, |motion| motion.turned(place));
+            let velocity = motion.map(Motion::velocity);
+            Some(NearLamp { intensity: lamp.color.max_element(), place, velocity })
+        });
+        Self { lamps: near.filter(|lamp| lamp.intensity > 0.0).collect(), bound }
+    }
+
+    /// Is there nothing to cut for?
+    pub(crate) fn is_empty(&self) -> bool {
+        self.lamps.is_empty()
+    }
+
+    /// Does the light change by more than a straight line along this edge? Give the ends in the same order whenever you ask for
+    /// the same edge.
+    pub(crate) fn is_uneven(&self, a: &Point, b: &Point, motion: &Motion) -> bool {
+        !self.is_empty()
+            && a.generation.max(b.generation) < MAX_GENERATION
+            && self.lamps.iter().map(|lamp| lamp.intensity * lamp.error(a.rest, b.rest, motion)).sum::<f64>()
+                > self.bound
+    }
+}
+
+impl NearLamp {
+    /// How far the light and its wavelength are off the straight line between the ends, in parts of what they are.  (E6)
+    fn error(&self, a: DVec3, b: DVec3, motion: &Motion) -> f64 {
+        // At the lamp itself there is no direction, and nothing to compare with.
+        let (Some(from), Some(to)) = (self.light(a, motion), self.light(b, motion)) else { return 0.0 };
+        let at = |s: f64| {
+            let Some(light) = self.light(a.lerp(b, s), motion) else { return 0.0 };
+            let off = (light.toward - from.toward.lerp(to.toward, s)).length() / light.doppler;
+            let straight = (1.0 - s) / from.doppler + s / to.doppler;
+            f64::max(off, (straight * light.doppler - 1.0).abs())
+        };
+        SAMPLES.into_iter().map(at).fold(0.0, f64::max)
+    }
+
+    fn light(&self, rest: DVec3, motion: &Motion) -> Option<Light> {
+        match self.velocity {
+            Some(velocity) if velocity != motion.velocity() => {
+                let light = illumination(rest, motion.velocity(), self.place, velocity)?;
+                Some(Light { toward: light.toward * light.doppler, doppler: light.doppler })
+            }
+            of_lamp => {
+                let place = if of_lamp.is_some() { self.place } else { motion.turned(self.place) };
+                Some(Light { toward: (place - rest).try_normalize()?, doppler: 1.0 })
+            }
+        }
+    }
+}
+
+/// What falls on a point.
+struct Light {
+    /// D_l l.
+    toward: DVec3,
+    /// D_l.
+    doppler: f64,
+}
+
+#[cfg(test)]
+mod tests {
+    use ugscene::Geometry;
+
+    use super::*;
+
+    /// On a line that passes a resting lamp at a distance of 1, the light on a floor is 1/√(1 + x²): by hand, the largest
+    /// error of chords of half the length is about a quarter.
+    #[test]
+    fn the_error_is_that_of_the_chord() {
+        let motion = Motion::new(Velocity::ZERO, Geometry::default());
+        let lamp = NearLamp { intensity: 1.0, place: DVec3::Z, velocity: None };
+        let level = |x: f64| 1.0 / (1.0 + x * x).sqrt();
+        for (from, to) in [(-0.2, 0.3), (0.5, 0.9), (-3.0, 2.0), (1.0, 1.1)] {
+            let error = lamp.error(DVec3::X * from, DVec3::X * to, &motion);
+            for step in 0..=4 {
+                let s = f64::from(step) / 4.0;
+                let off = level(from + s * (to - from)) - (1.0 - s) * level(from) - s * level(to);
+                assert!(off.abs() <= error + 1e-15, "{from} {to}: {off} {error}");
+            }
+            let half = lamp.error(DVec3::X * from, DVec3::X * f64::midpoint(from, to), &motion);
+            assert!(half < 0.6 * error, "{from} {to}: {half} {error}");
+        }
+        assert_eq!(lamp.error(DVec3::Z, DVec3::ZERO, &motion), 0.0);
+    }
+
+    /// The same lamp, floor and edge in motion together are as at rest; against each other D_l counts.
+    #[test]
+    fn only_motion_against_each_other_counts() {
+        let fast = Velocity::from_beta(DVec3::new(0.8, 0.0, 0.0)).unwrap();
+        let (at_rest, moving) =
+            (Motion::new(Velocity::ZERO, Geometry::default()), Motion::new(fast, Geometry::default()));
+        let lamp = |velocity| NearLamp { intensity: 1.0, place: DVec3::new(1.0, 5.0, 2.0), velocity };
+        let (a, b) = (DVec3::new(0.0, 5.0, 0.0), DVec3::new(1.5, 6.0, 0.0));
+        let rest = lamp(None).error(a, b, &at_rest);
+        assert_eq!(lamp(Some(fast)).error(a, b, &moving), rest);
+        assert_eq!(lamp(None).error(a, b, &moving), rest);
+        assert!((lamp(Some(fast)).error(a, b, &at_rest) - rest).abs() > 1e-3 * rest);
+    }
+}

@@ -1,0 +1,109 @@
+//! Sums over a smooth reflectance from few of its values.
+
+use crate::reflectance::{CURVE_NM, Illumination};
+use crate::solve::Coefficients;
+
+/// How many nodes colours in motion are made from: one every 4 nm.
+pub(crate) const N_NODES: usize = 101;
+
+/// Points of the polynomials between nodes.
+const N_POINTS: usize = 6;
+
+/// Values of a curve at even steps from 380 to 780 nm, each with the X, Y, Z that a 1 there adds to what is seen, or
+/// with its red, green and blue.
+///
+/// Between nodes the curve counts as the polynomial through the six next to it, and daylight and the observer have their
+/// value at every nanometre at the eye. So it is the curve alone that has to be smooth.
+#[derive(Clone, Debug)]
+pub(crate) struct Nodes<const N: usize> {
+    /// Legendre's first and second polynomial at each node, see [`Coefficients`].
+    t: [f64; N],
+    quadratic: [f64; N],
+    /// The weights, by channel.
+    pub weights: [[f64; N]; 3],
+}
+
+impl<const N: usize> Nodes<N> {
+    /// Of what shines on the surface and is seen.
+    pub fn new(light: &Illumination) -> Self {
+        let [first, last] = CURVE_NM;
+        let step_nm = (last - first) / (N - 1) as f64;
+        let mut weights = [[0.0; N]; 3];
+        for (channel, weights) in weights.iter_mut().enumerate() {
+            // Outside, the curve stays as it is at its ends.
+            weights[0] += light.outside[0][channel];
+            weights[N - 1] += light.outside[1][channel];
+            for (nm, weight) in light.wavelengths().zip(&light.inside[channel]) {
+                let (row, parts) = polynomial((nm - first) / step_nm, N);
+                for (node, part) in weights[row..].iter_mut().zip(parts) {
+                    *node += weight * part;
+                }
+            }
+        }
+        let basis = |row: usize| Coefficients::basis(first + row as f64 * step_nm);
+        Self {
+            t: std::array::from_fn(|row| basis(row)[1]),
+            quadratic: std::array::from_fn(|row| basis(row)[2]),
+            weights,
+        }
+    }
+
+    /// The same with other channels.
+    pub fn mixed(mut self, mix: impl Fn([f64; 3]) -> [f64; 3]) -> Self {
+        for row in 0..N {
+            let mixed = mix(std::array::from_fn(|i| self.weights[i][row]));
+            self.weights.iter_mut().zip(mixed).for_each(|(weights, mixed)| weights[row] = mixed);
+        }
+        self
+    }
+
+    /// The sums of a curve by channel.
+    pub fn sums(&self, values: &[f64; N]) -> [f64; 3] {
+        self.weights.each_ref().map(|weights| dot(values, weights))
+    }
+
+    /// The curve at every node.
+    pub fn curve(&self, curve: Coefficients) -> [f64; N] {
+        self.arguments(curve).map(|x| 0.5 + 0.5 * x / (1.0 + x * x).sqrt())
+    }
+
+    /// The curve, and its derivative by the three coefficients.
+    pub fn curve_and_slopes(&self, curve: Coefficients) -> ([f64; N], [[f64; N]; 3]) {
+        // One table after the other, which processors do several rows of at once.
+        let arguments = self.arguments(curve);
+        let roots = arguments.map(|x| 1.0 / (1.0 + x * x).sqrt());
+        let slope = roots.map(|root| 0.5 * root * root * root);
+        let t = std::array::from_fn(|row| slope[row] * self.t[row]);
+        let quadratic = std::array::from_fn(|row| slope[row] * self.quadratic[row]);
+        (std::array::from_fn(|row| 0.5 + 0.5 * arguments[row] * roots[row]), [slope, t, quadratic])
+    }
+
+    fn arguments(&self, Coefficients([a, b, c]): Coefficients) -> [f64; N] {
+        std::array::from_fn(|row| a + b * self.t[row] + c * self.quadratic[row])
+    }
+}
+
+/// The first of the nodes that a value `at` steps from the first depends on, and the weights of it and the next.
+fn polynomial(at: f64, n_nodes: usize) -> (usize, [f64; N_POINTS]) {
+    let row = (at as usize).saturating_sub(N_POINTS / 2 - 1).min(n_nodes - N_POINTS);
+    let at = at - row as f64;
+    let weight = |own: usize| {
+        let others = (0..N_POINTS).filter(|&other| other != own);
+        others.map(|other| (at - other as f64) / (own as f64 - other as f64)).product()
+    };
+    (row, std::array::from_fn(weight))
+}
+
+/// Σ a b, in four sums at once, in one order on every machine.
+pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
+    let (a_chunks, a_rest) = a.as_chunks::<4>();
+    let (b_chunks, b_rest) = b.as_chunks::<4>();
+    let mut sums = [0.0; 4];
+    for (a, b) in a_chunks.iter().zip(b_chunks) {
+        for i in 0..4 {
+            sums[i] += a[i] * b[i];
+        }
+    }
+    let rest: f64 = a_rest.iter().zip(b_rest).map(|(a, b)| a * b).sum();
+    (sums[0] + sums[2]) + (sums[1] + sums[3]) + rest
+}
