@@ -58,6 +58,7 @@ mod clip;
 mod config;
 mod drawlist;
 mod error;
+mod exact;
 mod explain;
 mod light;
 mod notes;
@@ -75,7 +76,7 @@ use ugimage::{Frame, Label, grey_postscript};
 use ugparse::{Diagnostics, Scene, Source};
 
 pub use cli::{Args, draw};
-pub use config::{Background, Config, Exposure, Interpolation, Output};
+pub use config::{Background, Config, Exact, Exposure, Interpolation, Output};
 pub use error::{Error, MAX_PIXELS, MAX_SIDE};
 pub use planes::Channel;
 pub use ugimage::Tone;
@@ -123,7 +124,7 @@ pub fn render(scene: &Scene, config: &Config) -> Result<(Frame, Vec<String>), Er
 
 fn paint(scene: &Scene, config: &Config) -> Result<(Drawn, Vec<String>), Error> {
     let setup = Setup::new(scene, config)?;
-    let sheet = Sheet::new(&setup.painter());
+    let sheet = Sheet::new(setup.painter(), config.exact);
     let canvas = Canvas::new(&setup, &sheet, config);
     let outcome = Outcome { reach: sheet.reach(), tally: canvas.tally, development: canvas.development };
     Ok((canvas.drawn, notes::notes(&setup, config, &outcome)))
