@@ -26,7 +26,7 @@ const POSTSCRIPT_FILE: &str = "POSTSCRIPTFILE";
 /// fast as light:
 ///
 ///   uglorentz -vel .9 0 0 < ship.ug | ugdoppler | ugrainbow > ship.png
-///   uglorentz -vel .9 0 0 -sd 1 < ship.ug | ugrainbow -xc > exact.png
+///   uglorentz -vel 0 -.2 0 -in -sd 1 < ship.ug | ugrainbow -xc > exact.png
 #[derive(Clone, Debug, Parser)]
 #[command(name = "ugrainbow", version, before_help = ugpipe::ONE_DASH)]
 pub struct Args {

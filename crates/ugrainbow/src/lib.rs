@@ -28,6 +28,8 @@
 //!   into the gamut (P30), and encoded as sRGB; or written as it is to a format that holds light. Unless light
 //!   is given or asked for, values above 1 are clipped sample by sample, as in 1988.
 //!
+//! - **Exact pictures** ([`Config::exact`]): each sample is found by a ray into the rest frame of a face (P6), and its colour
+//!   shifted there; faces need not be cut, and the scene must not have been coloured by `ugdoppler`.
 //! - **Wires** are 1.2 pixels wide and not lit, and win against the faces they lie on.
 //!
 //! What is not done: translucency (everything is opaque), a fall-off of local lights with

@@ -79,20 +79,28 @@ impl<'a, const N: usize> Faces<'a, N> {
         }
     }
 
-    /// What of a tile can show a face: nothing of it outside this rectangle. For a large face it is found anew.
-    fn part<T: Tag>(&self, shape: &Shape, tile: &Tile<N, T>) -> Option<[Range<u32>; 2]> {
+    /// Draws what of a face is in a rectangle of the tile. What can show the face is found anew in each half of a
+    /// large one, so that rays are not wasted on what lies beside slanting and thin faces.
+    fn draw_within<T: Tag>(&self, shape: &Shape, [columns, rows]: [Range<u32>; 2], tile: &mut Tile<N, T>) {
         /// Samples that are tried at once rather than to look for those that need not be.
-        const FEW: usize = 256;
-        let [left, right] = tile.columns();
-        let [top, bottom] = tile.rows();
-        let columns = shape.columns.start.max(left)..shape.columns.end.min(right);
-        let rows = shape.rows.start.max(top)..shape.rows.end.min(bottom);
-        let is_cut = rows != shape.rows || columns != shape.columns;
-        if is_cut && columns.len() * rows.len() > FEW {
-            let rect = Rect::new([columns.start, columns.end], [rows.start, rows.end]);
-            return footprint(&self.frames[shape.frame], &shape.outline, rect).map(samples);
+        const FEW: usize = 512;
+        if columns.is_empty() || rows.is_empty() {
+            return;
         }
-        (!columns.is_empty() && !rows.is_empty()).then_some([columns, rows])
+        if columns.len() * rows.len() <= FEW {
+            return self.draw_shape(shape, [columns, rows], tile);
+        }
+        let halves = if columns.len() >= rows.len() {
+            halves(columns).map(|columns| [columns, rows.clone()])
+        } else {
+            halves(rows).map(|rows| [columns.clone(), rows])
+        };
+        for [columns, rows] in halves {
+            let rect = Rect::new([columns.start, columns.end], [rows.start, rows.end]);
+            if let Some(part) = footprint(&self.frames[shape.frame], &shape.outline, rect) {
+                self.draw_within(shape, samples(part), tile);
+            }
+        }
     }
 }
 
@@ -100,9 +108,9 @@ impl<const N: usize> Layer<N> for Faces<'_, N> {
     fn draw<T: Tag>(&self, _grid: &Grid, band: usize, _scanner: &mut Scanner<N>, tile: &mut Tile<N, T>) {
         for &shape in self.bins.in_band(band) {
             let shape = &self.shapes[shape as usize];
-            if let Some(part) = self.part(shape, tile) {
-                self.draw_shape(shape, part, tile);
-            }
+            let within = |range: &Range<u32>, [start, end]: [u32; 2]| range.start.max(start)..range.end.min(end);
+            let part = [within(&shape.columns, tile.columns()), within(&shape.rows, tile.rows())];
+            self.draw_within(shape, part, tile);
         }
     }
 }
@@ -146,6 +154,11 @@ fn build(painter: &Painter<'_>, motion: Motion<'_>, frames: &[Frame], row: usize
     let look = Look::new(painter, motion, frame, face, &contours);
     // The text of a scene is below 4 GiB, and so are its rows.
     Built::Shape(Box::new(Shape { item: row as u32, frame: at, columns, rows, outline, look }))
+}
+
+fn halves(range: Range<u32>) -> [Range<u32>; 2] {
+    let middle = range.start + (range.end - range.start) / 2;
+    [range.start..middle, middle..range.end]
 }
 
 /// The samples in a rectangle, which is within the picture.

@@ -7,6 +7,9 @@ use ugparse::newell_normal;
 /// is likely to have.
 const SIDEWAYS: DVec3 = DVec3::new(0.436_812_907_331, 0.617_203_411_907, 0.654_371_083_561);
 
+/// Distance of the eye from the plane of a face, relative to that of the face: with less it is seen edge-on.
+const EDGE_ON: f64 = 1e-12;
+
 /// The outline of a face at rest, holes included.
 #[derive(Clone, Debug)]
 pub struct Outline {
@@ -39,6 +42,11 @@ impl Outline {
         let first = contours.first()?;
         let normal = newell_normal(first.iter().copied()).try_normalize()?;
         let middle = first.iter().sum::<DVec3>() / first.len() as f64;
+        // Nearer to edge-on the distance of the plane would be made of rounding.
+        let farthest = first.iter().map(|corner| corner.length()).fold(0.0, f64::max);
+        if normal.dot(middle).abs() <= EDGE_ON * farthest {
+            return None;
+        }
         let plane = normal / normal.dot(middle);
         let edges = contours.iter().flat_map(|contour| {
             let next = contour.iter().cycle().skip(1);
