@@ -62,15 +62,15 @@ fn channels(pipe: &Pipe, text: &[u8]) -> BTreeMap<String, Vec<f64>> {
 /// A sample may show another face than the oracle's only where another is as near, or next to it to rounding.
 fn is_on_boundary(oracle: &Oracle, camera: &Pinhole, [x, y]: [f64; 2], face: Option<usize>) -> bool {
     const NEXT: f64 = 1e-7;
-    let direction = camera.direction(x, y);
-    let nearest = oracle.faces(&[direction])[0].and_then(|nearest| oracle.distance(nearest, direction));
-    let own = face.and_then(|face| oracle.distance(face, direction));
-    if own.zip(nearest).is_some_and(|(own, nearest)| (own / nearest - 1.0).abs() < SINGLE) {
-        return true;
-    }
     let steps = [-NEXT, 0.0, NEXT];
     let around = steps.iter().flat_map(|dx| steps.map(|dy| camera.direction(x + dx, y + dy)));
-    oracle.faces(&around.collect::<Vec<_>>()).contains(&face)
+    let around: Vec<DVec3> = around.collect();
+    let shown = oracle.faces(&around);
+    around.iter().zip(shown).any(|(&direction, nearest)| {
+        let distance = |face: Option<usize>| face.and_then(|face| oracle.distance(face, direction));
+        let is_as_near = |(own, nearest): (f64, f64)| (own / nearest - 1.0).abs() < SINGLE;
+        nearest == face || distance(face).zip(distance(nearest)).is_some_and(is_as_near)
+    })
 }
 
 /// The scene with its faces in triangles: on a face that is not quite flat an outline seen from the eye and
@@ -78,12 +78,14 @@ fn is_on_boundary(oracle: &Oracle, camera: &Pinhole, [x, y]: [f64; 2], face: Opt
 fn triangles(mut scene: Scene) -> Scene {
     for face in std::mem::take(&mut scene.faces) {
         let rings: Vec<Vec<VertexId>> = scene.face_contours(&face).map(<[VertexId]>::to_vec).collect();
-        let places = |ring: &Vec<VertexId>| ring.iter().map(|id| scene.vertices[id.index()].position).collect();
+        let places =
+            |ring: &Vec<VertexId>| ring.iter().map(|id| scene.vertices[id.index()].position).collect();
         let places: Vec<Vec<DVec3>> = rings.iter().map(places).collect();
         let corners = rings.concat();
-        let is_flat = ugparse::newell_normal(places[0].iter().copied())
-            .try_normalize()
-            .is_some_and(|normal| places.concat().iter().all(|p| normal.dot(*p - places[0][0]).abs() < 1e-12));
+        let is_flat =
+            ugparse::newell_normal(places[0].iter().copied()).try_normalize().is_some_and(|normal| {
+                places.concat().iter().all(|p| normal.dot(*p - places[0][0]).abs() < 1e-12)
+            });
         if is_flat {
             scene.faces.push(face);
             continue;
@@ -100,7 +102,9 @@ fn triangles(mut scene: Scene) -> Scene {
 #[track_caller]
 fn check(name: &str, beta: Option<DVec3>, in_place: bool, eye: Option<DVec3>) {
     let text = scenes::text(name);
-    let scene = triangles(scenes::parse(&text));
+    let mut scene = triangles(scenes::parse(&text));
+    // The oracle knows no wires, and places bodies by their faces.
+    scene.wires.clear();
     let text = ugparse::write(&scene);
     let mut pipe = exact(beta);
     pipe.lorentz.in_place = in_place;
@@ -149,12 +153,16 @@ fn cubes_are_exact() {
 
 #[test]
 fn street_is_exact() {
-    SPEEDS.into_iter().for_each(|speed| check("street", Some(speed * DVec3::NEG_Y), false, Some(DVec3::new(0.0, 20.0, 3.0))));
+    SPEEDS.into_iter().for_each(|speed| {
+        check("street", Some(speed * DVec3::NEG_Y), false, Some(DVec3::new(0.0, 20.0, 3.0)))
+    });
 }
 
 #[test]
 fn lattice_is_exact() {
-    SPEEDS.into_iter().for_each(|speed| check("lattice", Some(speed * DVec3::NEG_Y), false, None));
+    // From its middle many samples would look exactly at edges.
+    let eye = Some(DVec3::new(0.013, 0.0, 0.007));
+    SPEEDS.into_iter().for_each(|speed| check("lattice", Some(speed * DVec3::NEG_Y), false, eye));
 }
 
 #[test]

@@ -56,12 +56,13 @@ impl<const N: usize> DrawList<N> {
             .map(|vertex| painter.view.place(vertex.position - painter.view.eye))
             .collect();
         let faces = scene.faces.par_chunks(CHUNK).enumerate();
-        let faces =
-            faces.map(|(idx, faces)| Chunk::new(painter, idx, 0, &places, &pack).all(faces, Chunk::push_face));
+        let faces = faces
+            .map(|(idx, faces)| Chunk::new(painter, idx, 0, &places, &pack).all(faces, Chunk::push_face));
         let wires = scene.wires.par_chunks(CHUNK).enumerate();
         let n_faces = scene.faces.len();
-        let wires = wires
-            .map(|(idx, wires)| Chunk::new(painter, idx, n_faces, &places, &pack).all(wires, Chunk::push_wire));
+        let wires = wires.map(|(idx, wires)| {
+            Chunk::new(painter, idx, n_faces, &places, &pack).all(wires, Chunk::push_wire)
+        });
         Self::of(faces.chain(wires).collect())
     }
 
@@ -74,7 +75,8 @@ impl<const N: usize> DrawList<N> {
         let wires = painter.scene.wires.par_chunks(CHUNK).enumerate();
         let n_faces = painter.scene.faces.len();
         let wires = wires.map(|(idx, wires)| {
-            Chunk::new(painter, idx, n_faces, &[], &pack).all(wires, |chunk, wire| chunk.push_bent(wire, bend))
+            Chunk::new(painter, idx, n_faces, &[], &pack)
+                .all(wires, |chunk, wire| chunk.push_bent(wire, bend))
         });
         Self::of(wires.collect())
     }
@@ -186,10 +188,7 @@ impl<'a, const N: usize, P: Fn(&Swatch, DVec3) -> [f64; N]> Chunk<'a, N, P> {
     }
 
     fn joint(&self, joint: &Joint) -> Vertex<N> {
-        Vertex {
-            place: self.painter.view.place(joint.seen),
-            values: (self.pack)(&joint.color, DVec3::ONE),
-        }
+        Vertex { place: self.painter.view.place(joint.seen), values: (self.pack)(&joint.color, DVec3::ONE) }
     }
 
     fn push_line(&mut self, ends: [Vertex<N>; 2]) {

@@ -108,7 +108,8 @@ impl<const N: usize> Layer<N> for Faces<'_, N> {
     fn draw<T: Tag>(&self, _grid: &Grid, band: usize, _scanner: &mut Scanner<N>, tile: &mut Tile<N, T>) {
         for &shape in self.bins.in_band(band) {
             let shape = &self.shapes[shape as usize];
-            let within = |range: &Range<u32>, [start, end]: [u32; 2]| range.start.max(start)..range.end.min(end);
+            let within =
+                |range: &Range<u32>, [start, end]: [u32; 2]| range.start.max(start)..range.end.min(end);
             let part = [within(&shape.columns, tile.columns()), within(&shape.rows, tile.rows())];
             self.draw_within(shape, part, tile);
         }

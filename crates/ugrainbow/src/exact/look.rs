@@ -67,9 +67,8 @@ impl Look {
         let level = (painter.scene.light_level(face).is_some() || !painter.lighting.needs_geometry())
             .then(|| painter.level(face, vertices[0], normal, common.is_light));
         let first = corners[0];
-        let is_even = |other: &Corner| {
-            other.color == first.color && (level.is_some() || other.normal == first.normal)
-        };
+        let is_even =
+            |other: &Corner| other.color == first.color && (level.is_some() || other.normal == first.normal);
         let mesh = (!corners.iter().all(is_even)).then(|| Box::new(Mesh::new(&corners, contours)));
         Self {
             normal: first.normal,

@@ -85,7 +85,9 @@ mod tests {
     use super::*;
 
     fn square(half: f64, z: f64) -> Vec<DVec3> {
-        [(-half, -half), (half, -half), (half, half), (-half, half)].map(|(x, y)| DVec3::new(x, y, z)).to_vec()
+        [(-half, -half), (half, -half), (half, half), (-half, half)]
+            .map(|(x, y)| DVec3::new(x, y, z))
+            .to_vec()
     }
 
     #[test]

@@ -181,7 +181,12 @@ fn nearest(samples: &[Sample], pixel: [u32; 2], n: u32) -> Option<&Sample> {
     samples.iter().rev().min_by_key(|sample| away(sample))
 }
 
-fn pixel_steps(setup: &Setup<'_>, sheet: &Sheet<'_>, config: &Config, gathered: &Gathered<u32>) -> PixelSteps {
+fn pixel_steps(
+    setup: &Setup<'_>,
+    sheet: &Sheet<'_>,
+    config: &Config,
+    gathered: &Gathered<u32>,
+) -> PixelSteps {
     let ground = Ground::new(config);
     let mean = ground.pixel(gathered);
     let [red, green, blue, _] = mean;

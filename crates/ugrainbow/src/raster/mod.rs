@@ -42,8 +42,8 @@ mod spans;
 mod tests;
 
 pub use band::{Grid, Layer, paint};
-pub use edges::Scanner;
 pub use bins::Bins;
+pub use edges::Scanner;
 pub use polygons::{Corner, PolygonList};
 pub use probe::{Sample, probe};
 pub use resolve::{Gathered, Shade, Tally};
