@@ -140,7 +140,7 @@ fn build(painter: &Painter<'_>, motion: Motion<'_>, frames: &[Frame], row: usize
     let contours: Vec<Vec<DVec3>> = painter
         .scene
         .face_contours(face)
-        .map(|contour| contour.iter().map(|&id| frame.from_scene(painter.surface.rest(id))).collect())
+        .map(|contour| contour.iter().map(|&id| frame.axes_from_scene(painter.surface.rest(id))).collect())
         .collect();
     let mut corners = contours.iter().flatten();
     let is_behind = corners.all(|&corner| frame.place(frame.seen(corner)).z < painter.view.slab.near);

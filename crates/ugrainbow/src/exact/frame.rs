@@ -111,7 +111,7 @@ impl Frame {
     }
 
     /// Corner coordinates of a face at rest, from those in the axes of the scene.
-    pub fn from_scene(&self, rest: DVec3) -> DVec3 {
+    pub fn axes_from_scene(&self, rest: DVec3) -> DVec3 {
         self.scene_from_axes.transpose() * rest
     }
 

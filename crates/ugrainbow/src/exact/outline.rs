@@ -122,9 +122,9 @@ mod tests {
             .collect();
         let faces: Vec<Outline> =
             (0..7).map(|i| Outline::new(&[vec![middle, rim[i], rim[(i + 1) % 7]]]).unwrap()).collect();
-        for i in 0..7 {
+        for (i, corner) in rim.iter().enumerate() {
             for part in [0.0, 1e-17, 1e-16, 1e-3, 0.3, 0.99] {
-                let on_edge = middle + part * (rim[i] - middle);
+                let on_edge = middle + part * (*corner - middle);
                 for dx in [-2e-16, -1e-16, 0.0, 1e-16] {
                     let ray = on_edge * (1.0 / 3.0) + DVec3::new(dx, 0.0, 0.0);
                     let n_faces = faces.iter().filter(|face| face.contains(ray)).count();

@@ -52,7 +52,7 @@ impl<'a> Bend<'a> {
             let swatch = painter.wire_end(end, &color);
             if is_light { painter.as_light(swatch) } else { Swatch { light: None, ..swatch } }
         });
-        let rest = ends.map(|end| frame.from_scene(painter.surface.rest(end)));
+        let rest = ends.map(|end| frame.axes_from_scene(painter.surface.rest(end)));
         let line = Line { frame, motion: self.motion, rest, colors, near: painter.view.slab.near };
         let mut joints = vec![line.joint(0.0)];
         line.add([0.0, 1.0], MOST_HALVINGS, &mut joints);
