@@ -73,6 +73,33 @@ pub enum Brightness {
 }
 
 impl Brightness {
+    /// All of them.
+    pub const ALL: [Self; 4] = [Self::Report, Self::Photon, Self::Bolometric, Self::None];
+
+    /// Its name, as in the table of (P12).
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Brightness::Report => "report",
+            Brightness::Photon => "photon",
+            Brightness::Bolometric => "bolometric",
+            Brightness::None => "none",
+        }
+    }
+
+    /// The law called `name`.
+    ///
+    /// ```
+    /// use ugphysics::Brightness;
+    ///
+    /// assert_eq!(Brightness::from_name("photon"), Some(Brightness::Photon));
+    /// assert!(Brightness::ALL.iter().all(|&law| Brightness::from_name(law.name()) == Some(law)));
+    /// ```
+    #[must_use]
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|law| law.name() == name)
+    }
+
     /// What brightness is multiplied by at Doppler factor `doppler`.
     ///
     /// ```

@@ -45,7 +45,7 @@ pub struct Canvas {
 
 impl Canvas {
     /// Draws a sheet.
-    pub fn new(setup: &Setup<'_>, sheet: &Sheet, config: &Config) -> Self {
+    pub fn new(setup: &Setup<'_>, sheet: &Sheet<'_>, config: &Config) -> Self {
         let is_deep = config.output.format().is_some_and(|format| format.is_deep());
         if !is_deep && !setup.is_uncut {
             return Self::display(setup, sheet, config);
@@ -63,7 +63,7 @@ impl Canvas {
     }
 
     /// Straight to 8 bits, when nothing in between is asked for.
-    fn display(setup: &Setup<'_>, sheet: &Sheet, config: &Config) -> Self {
+    fn display(setup: &Setup<'_>, sheet: &Sheet<'_>, config: &Config) -> Self {
         let grid = &setup.grid;
         let ground = Ground::new(config);
         let quantizer = Quantizer::new();
@@ -77,7 +77,7 @@ impl Canvas {
 }
 
 /// The whole picture as light, with the planes that are asked for.
-pub fn light(setup: &Setup<'_>, sheet: &Sheet, config: &Config) -> (LinearFrame, Tally) {
+pub fn light(setup: &Setup<'_>, sheet: &Sheet<'_>, config: &Config) -> (LinearFrame, Tally) {
     let grid = &setup.grid;
     let ground = Ground::new(config);
     let n_pixels = grid.width as usize * grid.height as usize;

@@ -6,14 +6,14 @@ use clap::{ArgAction, Parser};
 use glam::DVec3;
 use ugimage::{Format, Tone};
 use ugparse::{Source, pipe};
-use ugphysics::Hsv;
+use ugphysics::{Brightness, Hsv};
 use ugpipe::{CommonArgs, Failure, Stage, ToolArgs, finite, vector, view_angle};
 use ugscene::{CameraOptions, HueScale};
 
-use crate::config::{Background, Config, Exposure, Interpolation, Output};
+use crate::config::{Background, Config, Exact, Exposure, Interpolation, Output};
 use crate::explain::{self, explain};
 use crate::words::{
-    Channels, Kind, Pixel, Report, channels, exposure, format_named, kind_named, pixel, tone,
+    Channels, Kind, Pixel, Report, channels, exposure, format_named, kind_named, law, pixel, tone,
 };
 use crate::{Error, run};
 
@@ -26,6 +26,7 @@ const POSTSCRIPT_FILE: &str = "POSTSCRIPTFILE";
 /// fast as light:
 ///
 ///   uglorentz -vel .9 0 0 < ship.ug | ugdoppler | ugrainbow > ship.png
+///   uglorentz -vel 0 -.2 0 -in -sd 1 < ship.ug | ugrainbow -xc > exact.png
 #[derive(Clone, Debug, Parser)]
 #[command(name = "ugrainbow", version, before_help = ugpipe::ONE_DASH)]
 pub struct Args {
@@ -60,7 +61,7 @@ pub struct Args {
     ///
     /// A pixel of -sz is a point. Faces are painted from behind, and hidden parts covered; of wires they are
     /// left out. Colours are right to 2 levels of 255.
-    #[arg(long, visible_alias = "vector", conflicts_with_all = ["dp", "explain"])]
+    #[arg(long, visible_alias = "vector", conflicts_with_all = ["dp", "explain", "xc"])]
     vec: bool,
 
     /// Eye point [default: that of the scene, else the origin]
@@ -133,6 +134,28 @@ pub struct Args {
     #[arg(long, value_name = "LIST", value_parser = channels, visible_alias = "channels", help_heading = PICTURE)]
     ch: Option<Channels>,
 
+    /// Exact: find every sample by a ray into the rest frame of each face, and shift its colour there
+    ///
+    /// Takes a scene as `uglorentz -sd 1` writes it, and does the work of ugdoppler itself: outline, depth, Doppler
+    /// factor, colour and light are exact at every sample, and nothing need be cut into pieces.
+    #[arg(long, visible_alias = "exact", conflicts_with_all = ["og", "explain"], help_heading = EXACT)]
+    xc: bool,
+
+    /// With -xc, brightness law: report (D), photon (D^3), bolometric (D^4), none [default: report]
+    ///
+    /// As of ugdoppler. Values above 1 are clipped at the sample, unless -ex or -tc keeps them.
+    #[arg(long, visible_alias = "brightness", value_name = "LAW", value_parser = law, requires = "xc",
+          conflicts_with = "no_flux", help_heading = EXACT)]
+    br: Option<Brightness>,
+
+    /// With -xc, leave wavelengths as they are
+    #[arg(long, requires = "xc", help_heading = EXACT)]
+    no_doppler: bool,
+
+    /// With -xc, leave brightness as it is
+    #[arg(long, requires = "xc", help_heading = EXACT)]
+    no_flux: bool,
+
     /// Instead of the picture, explain the pixel in column X and row Y, from 0 at the upper left
     ///
     /// As text, or with `--format json` as JSON: the face, its motion, when and where its light was sent,
@@ -146,6 +169,7 @@ pub struct Args {
 
 const CAMERA: &str = "Camera";
 const PICTURE: &str = "Picture";
+const EXACT: &str = "Exact pictures";
 
 impl ToolArgs for Args {
     fn common(&self) -> &CommonArgs {
@@ -172,8 +196,14 @@ impl Args {
             exposure: self.ex,
             tone: self.tc,
             channels: self.ch.clone().unwrap_or_default().0,
+            exact: self.xc.then(|| self.exact()),
             command_line: command_line.to_owned(),
         })
+    }
+
+    fn exact(&self) -> Exact {
+        let law = if self.no_flux { Brightness::None } else { self.br.unwrap_or_default() };
+        Exact { law, doppler: !self.no_doppler }
     }
 
     fn camera(&self) -> CameraOptions {

@@ -1,7 +1,7 @@
 //! What is asked of the renderer, apart from the scene.
 
 use ugimage::{Format, Tone};
-use ugphysics::Hsv;
+use ugphysics::{Brightness, Hsv};
 use ugscene::{CameraOptions, HueScale};
 
 use crate::planes::Channel;
@@ -32,6 +32,8 @@ pub struct Config {
     pub tone: Tone,
     /// What an EXR picture holds besides colour.
     pub channels: Vec<Channel>,
+    /// Faces are drawn by a ray for each sample (`-xc`), from a scene whose colours have not been shifted.
+    pub exact: Option<Exact>,
     /// How the program was called, to be written into the picture.
     pub command_line: String,
 }
@@ -52,6 +54,7 @@ impl Default for Config {
             exposure: None,
             tone: Tone::Clip,
             channels: Vec::new(),
+            exact: None,
             command_line: String::new(),
         }
     }
@@ -74,6 +77,22 @@ impl Config {
     /// True if light brighter than white is asked for, or asked to be brought into range.
     pub(crate) fn keeps_light(&self) -> bool {
         self.is_linear() || self.exposure.is_some() || self.tone != Tone::Clip
+    }
+}
+
+/// How motion changes the colours of a picture that is drawn by rays.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Exact {
+    /// How D changes brightness, (P12).
+    pub law: Brightness,
+    /// Wavelengths are divided by D, (P11).
+    pub doppler: bool,
+}
+
+impl Default for Exact {
+    /// As `ugdoppler` by default.
+    fn default() -> Self {
+        Self { law: Brightness::Report, doppler: true }
     }
 }
 

@@ -5,6 +5,7 @@ use rayon::prelude::*;
 use ugparse::{Face, VertexId, Wire};
 
 use crate::clip::{Vertex, clip_polygon, clip_segment};
+use crate::exact::{Bend, Joint};
 use crate::painter::Painter;
 use crate::palette::Swatch;
 use crate::raster::{Corner, PolygonList};
@@ -38,7 +39,8 @@ pub struct Reach {
 }
 
 impl Reach {
-    fn merge(self, other: Self) -> Self {
+    /// Those of two parts of a scene together.
+    pub fn merge(self, other: Self) -> Self {
         Self { in_front: self.in_front + other.in_front, in_picture: self.in_picture + other.in_picture }
     }
 }
@@ -53,22 +55,34 @@ impl<const N: usize> DrawList<N> {
             .par_iter()
             .map(|vertex| painter.view.place(vertex.position - painter.view.eye))
             .collect();
-        let chunk = |chunk: usize, first: usize| Chunk {
-            painter,
-            // The text of a scene is below 4 GiB, and so are these numbers.
-            item: (first + chunk * CHUNK) as u32,
-            places: &places,
-            pack: &pack,
-            list: PolygonList::default(),
-            reach: Reach::default(),
-            contour: Vec::new(),
-            scratch: Vec::new(),
-        };
         let faces = scene.faces.par_chunks(CHUNK).enumerate();
-        let faces = faces.map(|(idx, faces)| chunk(idx, 0).all(faces, Chunk::push_face));
+        let faces = faces
+            .map(|(idx, faces)| Chunk::new(painter, idx, 0, &places, &pack).all(faces, Chunk::push_face));
         let wires = scene.wires.par_chunks(CHUNK).enumerate();
-        let wires = wires.map(|(idx, wires)| chunk(idx, scene.faces.len()).all(wires, Chunk::push_wire));
-        let (lists, reaches): (Vec<PolygonList<N>>, Vec<_>) = faces.chain(wires).unzip();
+        let n_faces = scene.faces.len();
+        let wires = wires.map(|(idx, wires)| {
+            Chunk::new(painter, idx, n_faces, &places, &pack).all(wires, Chunk::push_wire)
+        });
+        Self::of(faces.chain(wires).collect())
+    }
+
+    /// The wires alone, bent as they are seen; numbered as if faces were there.
+    pub fn wires(
+        painter: &Painter<'_>,
+        bend: &Bend<'_>,
+        pack: impl Fn(&Swatch, DVec3) -> [f64; N] + Sync,
+    ) -> Self {
+        let wires = painter.scene.wires.par_chunks(CHUNK).enumerate();
+        let n_faces = painter.scene.faces.len();
+        let wires = wires.map(|(idx, wires)| {
+            Chunk::new(painter, idx, n_faces, &[], &pack)
+                .all(wires, |chunk, wire| chunk.push_bent(wire, bend))
+        });
+        Self::of(wires.collect())
+    }
+
+    fn of(parts: Vec<(PolygonList<N>, Reach)>) -> Self {
+        let (lists, reaches): (Vec<PolygonList<N>>, Vec<_>) = parts.into_iter().unzip();
         let lists = lists.into_iter().filter(|list| !list.is_empty()).collect();
         Self { lists, reach: reaches.into_iter().fold(Reach::default(), Reach::merge) }
     }
@@ -89,7 +103,22 @@ struct Chunk<'a, const N: usize, P> {
     scratch: Vec<Vertex<N>>,
 }
 
-impl<const N: usize, P: Fn(&Swatch, DVec3) -> [f64; N]> Chunk<'_, N, P> {
+impl<'a, const N: usize, P: Fn(&Swatch, DVec3) -> [f64; N]> Chunk<'a, N, P> {
+    /// The chunk of this number among faces or wires; `first`: number of the first of them.
+    fn new(painter: &'a Painter<'a>, chunk: usize, first: usize, places: &'a [Place], pack: &'a P) -> Self {
+        Self {
+            painter,
+            // The text of a scene is below 4 GiB, and so are these numbers.
+            item: (first + chunk * CHUNK) as u32,
+            places,
+            pack,
+            list: PolygonList::default(),
+            reach: Reach::default(),
+            contour: Vec::new(),
+            scratch: Vec::new(),
+        }
+    }
+
     fn all<T>(mut self, items: &[T], push: impl Fn(&mut Self, &T)) -> (PolygonList<N>, Reach) {
         for item in items {
             push(&mut self, item);
@@ -143,10 +172,28 @@ impl<const N: usize, P: Fn(&Swatch, DVec3) -> [f64; N]> Chunk<'_, N, P> {
         for line in self.painter.scene.wire_contours(wire) {
             for ends in line.windows(2) {
                 let ends = [ends[0], ends[1]].map(|vertex| self.wire_end(vertex, &color, is_light));
-                if let Some(ends) = clip_segment(self.painter.view.slab, ends) {
-                    self.push_strip(ends);
-                }
+                self.push_line(ends);
             }
+        }
+    }
+
+    fn push_bent(&mut self, wire: &Wire, bend: &Bend<'_>) {
+        for line in self.painter.scene.wire_contours(wire) {
+            for ends in line.windows(2) {
+                let joints: Vec<Vertex<N>> =
+                    bend.joints(wire, [ends[0], ends[1]]).iter().map(|joint| self.joint(joint)).collect();
+                joints.windows(2).for_each(|ends| self.push_line([ends[0], ends[1]]));
+            }
+        }
+    }
+
+    fn joint(&self, joint: &Joint) -> Vertex<N> {
+        Vertex { place: self.painter.view.place(joint.seen), values: (self.pack)(&joint.color, DVec3::ONE) }
+    }
+
+    fn push_line(&mut self, ends: [Vertex<N>; 2]) {
+        if let Some(ends) = clip_segment(self.painter.view.slab, ends) {
+            self.push_strip(ends);
         }
     }
 

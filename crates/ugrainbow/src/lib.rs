@@ -29,6 +29,8 @@
 //!   into the gamut (P30), and encoded as sRGB; or written as it is to a format that holds light. Unless light
 //!   is given or asked for, values above 1 are clipped sample by sample, as in 1988.
 //!
+//! - **Exact pictures** ([`Config::exact`]): each sample is found by a ray into the rest frame of a face (P6), and its colour
+//!   shifted there; faces need not be cut, and the scene must not have been coloured by `ugdoppler`.
 //! - **Wires** are 1.2 pixels wide and not lit, and win against the faces they lie on.
 //!
 //! - **Figures** of areas and lines are made of the same polygons, with [`Output::Vector`].
@@ -61,6 +63,7 @@ mod clip;
 mod config;
 mod drawlist;
 mod error;
+mod exact;
 mod explain;
 mod light;
 mod notes;
@@ -79,7 +82,7 @@ use ugimage::{Development, Frame, Label, grey_postscript};
 use ugparse::{Diagnostics, Scene, Source};
 
 pub use cli::{Args, draw};
-pub use config::{Background, Config, Exposure, Interpolation, Output};
+pub use config::{Background, Config, Exact, Exposure, Interpolation, Output};
 pub use error::{Error, MAX_PIXELS, MAX_SIDE};
 pub use planes::Channel;
 pub use ugimage::Tone;
@@ -135,7 +138,7 @@ struct Painted {
 
 fn paint(scene: &Scene, config: &Config) -> Result<Painted, Error> {
     let setup = Setup::new(scene, config)?;
-    let sheet = Sheet::new(&setup.painter());
+    let sheet = Sheet::new(setup.painter(), config.exact);
     let canvas = Canvas::new(&setup, &sheet, config);
     let Canvas { drawn, tally, development } = canvas;
     let outcome = Outcome { reach: sheet.reach(), tally, development };

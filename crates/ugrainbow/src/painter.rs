@@ -10,6 +10,7 @@ use crate::surface::Surface;
 use ugscene::View;
 
 /// All that faces and wires are drawn from.
+#[derive(Clone, Copy)]
 pub struct Painter<'a> {
     /// The scene, with vertices of one velocity each.
     pub scene: &'a Scene,
@@ -33,6 +34,13 @@ pub struct Common {
     grey_tint: f64,
     /// A corner's colour is given as light, so light is interpolated and not hue.
     pub is_light: bool,
+}
+
+impl Common {
+    /// The same, with hues in place of light.
+    pub fn without_light(self) -> Self {
+        Self { is_light: false, ..self }
+    }
 }
 
 impl Painter<'_> {

@@ -78,6 +78,15 @@ impl Palette {
         }
     }
 
+    /// The same colour at another wavelength, which the eye need not see: a hue stops at the end of its range.
+    pub fn shifted(&self, swatch: &Swatch, wavelength_nm: f64) -> Swatch {
+        let tint = match self.interpolation {
+            Interpolation::Hue => wavelength_to_hue(wavelength_nm),
+            Interpolation::Wavelength => wavelength_nm,
+        };
+        Swatch { tint, ..*swatch }
+    }
+
     /// The same as a colour with a hue.
     pub fn hsv(&self, swatch: &Swatch) -> Hsv {
         let hue = match self.interpolation {

@@ -6,13 +6,14 @@ use ugparse::Scene;
 
 use crate::config::Config;
 use crate::error::{self, Error};
+use crate::explain::Story;
 use crate::light::Lighting;
 use crate::painter::Painter;
 use crate::palette::Palette;
 use crate::raster::Grid;
 use crate::shade::Shader;
 use crate::surface::Surface;
-use ugscene::View;
+use ugscene::{Geometry, View};
 
 /// Everything that is computed once for a picture.
 pub struct Setup<'a> {
@@ -46,6 +47,9 @@ impl<'a> Setup<'a> {
         let lighting = Lighting::new(&scene, config.hue_scale, &view);
         let surface = Surface::new(&scene, view.eye, &palette, config.hue_scale)?;
         let is_uncut = palette.has_light() || config.keeps_light();
+        if config.exact.is_some() {
+            check_exact(&scene, &view)?;
+        }
         let shader = Shader::new(config.interpolated(), !is_uncut);
         Ok(Self { scene, view, grid, palette, lighting, surface, shader, is_uncut })
     }
@@ -66,6 +70,29 @@ impl<'a> Setup<'a> {
             surface: &self.surface,
         }
     }
+}
+
+/// Refuses what rays do not find, or what would be shifted twice.
+fn check_exact(scene: &Scene, view: &View) -> Result<(), Error> {
+    if Story::of(scene).doppler.is_some() {
+        return Err(Error::Exact(
+            "-xc shifts colours itself, at every sample, and those of this scene have been shifted by ugdoppler: \
+             leave ugdoppler out, and give -br, --no-doppler or --no-flux here",
+        ));
+    }
+    if Geometry::of(scene) != Geometry::default() {
+        return Err(Error::Exact(
+            "-xc follows rays through contraction and time of flight, and uglorentz left one of them out: \
+             leave out -xc, or -nc and --no-flight-time",
+        ));
+    }
+    if !view.is_perspective {
+        return Err(Error::Exact(
+            "-xc follows rays to the eye, and in orthographic projection they do not meet there: \
+             leave out -xc, or -og (in the scene, too)",
+        ));
+    }
+    Ok(())
 }
 
 /// The scene with vertices of one velocity each, copied only if it has velocities.

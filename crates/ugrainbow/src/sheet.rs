@@ -2,43 +2,81 @@
 
 use glam::DVec3;
 
+use crate::config::Exact;
 use crate::drawlist::{DrawList, Reach};
+use crate::exact::{Bend, Faces};
 use crate::painter::Painter;
 use crate::palette::Swatch;
-use crate::raster::{Corner, Gathered, Grid, Sample, Shade, Tag, Tally, paint, probe};
+use crate::raster::{Corner, Gathered, Grid, Layer, Sample, Scanner, Shade, Tag, Tally, Tile, paint, probe};
 use crate::shade::Shader;
 
-/// Polygons with the numbers to interpolate: hues alone or with colours given as light among them, under
+/// Turns a colour and the level of red, green and blue light into the numbers to interpolate.
+pub type Pack<const N: usize> = fn(&Swatch, DVec3) -> [f64; N];
+
+/// Everything with the numbers to interpolate: hues alone or with colours given as light among them, under
 /// white or coloured lights.
-pub enum Sheet {
+pub enum Sheet<'a> {
     /// Tint, saturation, value.
-    Plain(DrawList<3>),
+    Plain(Layers<'a, 3>),
     /// The same, and the level of red, green and blue light.
-    Colored(DrawList<6>),
+    Colored(Layers<'a, 6>),
     /// As plain, or linear light; and which.
-    Mixed(DrawList<4>),
+    Mixed(Layers<'a, 4>),
     /// As coloured, or linear light; and which.
-    MixedColored(DrawList<7>),
+    MixedColored(Layers<'a, 7>),
 }
 
-impl Sheet {
+/// What is drawn.
+pub struct Layers<'a, const N: usize> {
+    /// Faces that rays find.
+    faces: Option<Faces<'a, N>>,
+    /// All polygons, which come behind those faces.
+    polygons: DrawList<N>,
+}
+
+impl<'a, const N: usize> Layers<'a, N> {
+    fn new(painter: Painter<'a>, exact: Option<Exact>, pack: Pack<N>) -> Self {
+        match exact {
+            None => Self { faces: None, polygons: DrawList::new(&painter, pack) },
+            Some(exact) => Self {
+                polygons: DrawList::wires(&painter, &Bend::new(painter, exact), pack),
+                faces: Some(Faces::new(painter, exact, pack)),
+            },
+        }
+    }
+
+    fn reach(&self) -> Reach {
+        self.faces.iter().fold(self.polygons.reach, |reach, faces| reach.merge(faces.reach))
+    }
+}
+
+impl<const N: usize> Layer<N> for Layers<'_, N> {
+    fn draw<T: Tag>(&self, grid: &Grid, band: usize, scanner: &mut Scanner<N>, tile: &mut Tile<N, T>) {
+        if let Some(faces) = &self.faces {
+            faces.draw(grid, band, scanner, tile);
+        }
+        self.polygons.lists[..].draw(grid, band, scanner, tile);
+    }
+}
+
+impl<'a> Sheet<'a> {
     /// All faces and wires.
-    pub fn new(painter: &Painter<'_>) -> Self {
+    pub fn new(painter: Painter<'a>, exact: Option<Exact>) -> Self {
         match (painter.palette.has_light(), painter.lighting.is_colored()) {
-            (false, false) => Self::Plain(DrawList::new(painter, pack_plain)),
-            (false, true) => Self::Colored(DrawList::new(painter, pack_colored)),
-            (true, false) => Self::Mixed(DrawList::new(painter, pack_mixed)),
-            (true, true) => Self::MixedColored(DrawList::new(painter, pack_mixed_colored)),
+            (false, false) => Self::Plain(Layers::new(painter, exact, pack_plain)),
+            (false, true) => Self::Colored(Layers::new(painter, exact, pack_colored)),
+            (true, false) => Self::Mixed(Layers::new(painter, exact, pack_mixed)),
+            (true, true) => Self::MixedColored(Layers::new(painter, exact, pack_mixed_colored)),
         }
     }
 
     /// How many faces and wires came how far.
     pub fn reach(&self) -> Reach {
         match self {
-            Self::Plain(list) => list.reach,
-            Self::Colored(list) => list.reach,
-            Self::Mixed(list) => list.reach,
-            Self::MixedColored(list) => list.reach,
+            Self::Plain(layers) => layers.reach(),
+            Self::Colored(layers) => layers.reach(),
+            Self::Mixed(layers) => layers.reach(),
+            Self::MixedColored(layers) => layers.reach(),
         }
     }
 
@@ -51,11 +89,11 @@ impl Sheet {
         finish: &(impl Fn(&Gathered<T>) -> P + Sync),
     ) -> Tally {
         match self {
-            Self::Plain(list) => paint(pixels, grid, &list.lists, &|values| shader.plain(values), finish),
-            Self::Colored(list) => paint(pixels, grid, &list.lists, &|values| shader.colored(values), finish),
-            Self::Mixed(list) => paint(pixels, grid, &list.lists, &|values| shader.mixed(values), finish),
-            Self::MixedColored(list) => {
-                paint(pixels, grid, &list.lists, &|values| shader.mixed_colored(values), finish)
+            Self::Plain(layers) => paint(pixels, grid, layers, &|values| shader.plain(values), finish),
+            Self::Colored(layers) => paint(pixels, grid, layers, &|values| shader.colored(values), finish),
+            Self::Mixed(layers) => paint(pixels, grid, layers, &|values| shader.mixed(values), finish),
+            Self::MixedColored(layers) => {
+                paint(pixels, grid, layers, &|values| shader.mixed_colored(values), finish)
             }
         }
     }
@@ -63,12 +101,10 @@ impl Sheet {
     /// The samples of one pixel, and what they gather to.
     pub fn probe(&self, grid: &Grid, shader: &Shader, pixel: [u32; 2]) -> (Vec<Sample>, Gathered<u32>) {
         match self {
-            Self::Plain(list) => probe(grid, &list.lists, &|values| shader.plain(values), pixel),
-            Self::Colored(list) => probe(grid, &list.lists, &|values| shader.colored(values), pixel),
-            Self::Mixed(list) => probe(grid, &list.lists, &|values| shader.mixed(values), pixel),
-            Self::MixedColored(list) => {
-                probe(grid, &list.lists, &|values| shader.mixed_colored(values), pixel)
-            }
+            Self::Plain(layers) => probe(grid, layers, &|values| shader.plain(values), pixel),
+            Self::Colored(layers) => probe(grid, layers, &|values| shader.colored(values), pixel),
+            Self::Mixed(layers) => probe(grid, layers, &|values| shader.mixed(values), pixel),
+            Self::MixedColored(layers) => probe(grid, layers, &|values| shader.mixed_colored(values), pixel),
         }
     }
 }
@@ -76,7 +112,7 @@ impl Sheet {
 /// Most numbers any sheet interpolates.
 pub const MOST_VALUES: usize = 7;
 
-impl Sheet {
+impl Sheet<'_> {
     /// Gives `take` every polygon, as its item and its contours; corners have zeros behind their numbers.
     pub fn for_each_polygon(&self, mut take: impl FnMut(u32, Vec<Vec<Corner<MOST_VALUES>>>)) {
         fn all<const N: usize>(
@@ -94,10 +130,10 @@ impl Sheet {
             }
         }
         match self {
-            Self::Plain(list) => all(list, &mut take),
-            Self::Colored(list) => all(list, &mut take),
-            Self::Mixed(list) => all(list, &mut take),
-            Self::MixedColored(list) => all(list, &mut take),
+            Self::Plain(list) => all(&list.polygons, &mut take),
+            Self::Colored(list) => all(&list.polygons, &mut take),
+            Self::Mixed(list) => all(&list.polygons, &mut take),
+            Self::MixedColored(list) => all(&list.polygons, &mut take),
         }
     }
 

@@ -1,6 +1,6 @@
 //! What vertices look like and where they rest.
 
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 use rayon::prelude::*;
 use ugparse::{Scene, VelocityId, VertexId};
 use ugphysics::{Velocity, VelocityError, aberrate};
@@ -52,8 +52,13 @@ impl Surface {
         self.bodies.of(velocity)
     }
 
+    /// Turns rest coordinates of a body, as (P4) gives them, into the axes of the scene.  Eq. (P25)
+    pub fn scene_from_axes(&self, velocity: Option<VelocityId>) -> DQuat {
+        self.bodies.scene_from_axes(velocity)
+    }
+
     /// A viewing direction in the rest frame of a body, in the axes of the scene.  Eq. (P6), (P25)
     pub fn rest_direction(&self, direction: DVec3, velocity: Option<VelocityId>) -> DVec3 {
-        self.bodies.scene_from_axes(velocity) * aberrate(direction, self.bodies.of(velocity))
+        self.scene_from_axes(velocity) * aberrate(direction, self.bodies.of(velocity))
     }
 }

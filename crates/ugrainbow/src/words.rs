@@ -1,6 +1,7 @@
 //! Words of the command line as values.
 
 use ugimage::{Format, Tone};
+use ugphysics::Brightness;
 use ugpipe::finite;
 
 use crate::config::Exposure;
@@ -61,6 +62,12 @@ pub fn exposure(word: &str) -> Result<Exposure, String> {
     } else {
         Err(format!("an exposure is between -{MOST} and {MOST} stops"))
     }
+}
+
+/// The name of a brightness law.
+pub fn law(word: &str) -> Result<Brightness, String> {
+    Brightness::from_name(word)
+        .ok_or_else(|| format!("none of the laws {}", Brightness::ALL.map(Brightness::name).join(", ")))
 }
 
 /// The name of a tone curve.

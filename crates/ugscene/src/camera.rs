@@ -215,6 +215,12 @@ impl View {
         let above = (self.axis[1] - y) * w / self.scale[1];
         across * self.right + above * self.up + z * self.forward
     }
+
+    /// The rays of a perspective picture: the one through sample coordinates x, y runs from the eye along the first
+    /// vector plus x times the second plus y times the third, with depth 1.
+    pub fn rays(&self) -> [DVec3; 3] {
+        [self.point([0.0, 0.0], 1.0), self.right / self.scale[0], -self.up / self.scale[1]]
+    }
 }
 
 /// The middle of the box round all vertices.

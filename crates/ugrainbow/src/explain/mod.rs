@@ -147,11 +147,14 @@ pub fn explain(
     pixel: [u32; 2],
 ) -> Result<(Explanation, Diagnostics), Error> {
     let parsed = ugscene::read(source, &config.reading)?;
+    if config.exact.is_some() {
+        return Err(Error::Options("--explain tells of the scanline mode only: leave out -xc"));
+    }
     let setup = Setup::new(&parsed.scene, config)?;
     if pixel[0] >= config.size[0] || pixel[1] >= config.size[1] {
         return Err(Error::Pixel { pixel, size: config.size });
     }
-    let sheet = Sheet::new(&setup.painter());
+    let sheet = Sheet::new(setup.painter(), config.exact);
     let (samples, gathered) = sheet.probe(&setup.grid, &setup.shader, pixel);
     let story = Story::of(&parsed.scene);
     let teller = Teller { setup: &setup, config, source, parsed: &parsed, story: &story };
@@ -178,7 +181,12 @@ fn nearest(samples: &[Sample], pixel: [u32; 2], n: u32) -> Option<&Sample> {
     samples.iter().rev().min_by_key(|sample| away(sample))
 }
 
-fn pixel_steps(setup: &Setup<'_>, sheet: &Sheet, config: &Config, gathered: &Gathered<u32>) -> PixelSteps {
+fn pixel_steps(
+    setup: &Setup<'_>,
+    sheet: &Sheet<'_>,
+    config: &Config,
+    gathered: &Gathered<u32>,
+) -> PixelSteps {
     let ground = Ground::new(config);
     let mean = ground.pixel(gathered);
     let [red, green, blue, _] = mean;

@@ -71,18 +71,36 @@ impl Grid {
     }
 }
 
-/// Draws polygons, list after list, into the pixels of the grid, row after row.
+/// What is drawn: something that knows which samples of a tile it covers.
+pub trait Layer<const N: usize>: Sync {
+    /// Draws into a tile what of it is in the band the tile belongs to.
+    fn draw<T: Tag>(&self, grid: &Grid, band: usize, scanner: &mut Scanner<N>, tile: &mut Tile<N, T>);
+}
+
+/// Polygons, list after list, that have been sorted into the bands of the grid.
+impl<const N: usize> Layer<N> for [PolygonList<N>] {
+    fn draw<T: Tag>(&self, grid: &Grid, band: usize, scanner: &mut Scanner<N>, tile: &mut Tile<N, T>) {
+        let [first_row, end_row] = tile.rows();
+        for (item, polygon) in self.iter().flat_map(|list| list.in_band(band)) {
+            scanner.scan(polygon, first_row, end_row, |row, left, right| {
+                tile.draw(row, left, right, grid.is_perspective, T::of(item));
+            });
+        }
+    }
+}
+
+/// Draws a layer into the pixels of the grid, row after row.
 ///
-/// The lists have been sorted into the bands of this grid. The pixels do not depend on the
-/// number of threads. `finish` makes a pixel of its samples.
-pub fn paint<const N: usize, T, P, S, F>(
+/// The pixels do not depend on the number of threads. `finish` makes a pixel of its samples.
+pub fn paint<const N: usize, L, T, P, S, F>(
     pixels: &mut [P],
     grid: &Grid,
-    lists: &[PolygonList<N>],
+    layer: &L,
     shader: &S,
     finish: &F,
 ) -> Tally
 where
+    L: Layer<N> + ?Sized,
     T: Tag,
     P: Send,
     S: Fn(&[f32; N]) -> Shade + Sync,
@@ -96,7 +114,7 @@ where
             || (Scanner::default(), Tile::default()),
             |(scanner, tile), (band, pixels)| {
                 let mut resolver = Resolver::new(shader, finish, grid.samples);
-                Band { grid, lists, band, scanner, tile }.paint(&mut resolver, pixels);
+                Band { grid, layer, band, scanner, tile }.paint(&mut resolver, pixels);
                 resolver.tally
             },
         )
@@ -104,15 +122,15 @@ where
 }
 
 /// One band being drawn.
-pub struct Band<'a, const N: usize, T> {
+pub struct Band<'a, const N: usize, L: ?Sized, T> {
     pub grid: &'a Grid,
-    pub lists: &'a [PolygonList<N>],
+    pub layer: &'a L,
     pub band: usize,
     pub scanner: &'a mut Scanner<N>,
     pub tile: &'a mut Tile<N, T>,
 }
 
-impl<const N: usize, T: Tag> Band<'_, N, T> {
+impl<const N: usize, L: Layer<N> + ?Sized, T: Tag> Band<'_, N, L, T> {
     fn paint<P, S, F>(&mut self, resolver: &mut Resolver<'_, N, S, F>, pixels: &mut [P])
     where
         S: Fn(&[f32; N]) -> Shade,
@@ -153,11 +171,6 @@ impl<const N: usize, T: Tag> Band<'_, N, T> {
     pub fn draw(&mut self, columns: [u32; 2], rows: [u32; 2]) {
         let samples = |pixels: u32| pixels * self.grid.samples;
         self.tile.reset(columns.map(samples), rows.map(samples));
-        let [first_row, end_row] = self.tile.rows();
-        for (item, polygon) in self.lists.iter().flat_map(|list| list.in_band(self.band)) {
-            self.scanner.scan(polygon, first_row, end_row, |row, left, right| {
-                self.tile.draw(row, left, right, self.grid.is_perspective, T::of(item));
-            });
-        }
+        self.layer.draw(self.grid, self.band, self.scanner, self.tile);
     }
 }

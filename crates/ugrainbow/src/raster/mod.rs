@@ -1,6 +1,6 @@
 //! Scan conversion: polygons in the picture plane to pixels.
 //!
-//! The rasterizer knows nothing of scenes and colours. It is given polygons whose
+//! The rasterizer knows nothing of scenes and colours. It is given layers ([`Layer`]), above all polygons whose
 //! corners carry a depth key and N numbers ([`Corner`]), and a shader that turns N
 //! interpolated numbers into light; what becomes of a pixel's light is decided by who calls. Its steps, one
 //! file each:
@@ -32,6 +32,7 @@
 //! faces that cut through each other come out right. Of equals the first drawn stays.
 
 mod band;
+mod bins;
 mod edges;
 mod polygons;
 mod probe;
@@ -40,8 +41,10 @@ mod spans;
 #[cfg(test)]
 mod tests;
 
-pub use band::{Grid, paint};
+pub use band::{Grid, Layer, paint};
+pub use bins::Bins;
+pub use edges::Scanner;
 pub use polygons::{Corner, PolygonList};
 pub use probe::{Sample, probe};
 pub use resolve::{Gathered, Shade, Tally};
-pub use spans::{Seen, Tag};
+pub use spans::{Seen, Tag, Tile};

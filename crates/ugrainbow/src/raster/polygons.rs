@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use super::band::Grid;
+use super::bins::Bins;
 
 /// A corner in the picture plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,14 +33,6 @@ struct Polygon {
     contours: Range<u32>,
     rows: Range<u32>,
     item: u32,
-}
-
-/// For each band the polygons that touch it, in drawing order.
-#[derive(Clone, Debug, Default)]
-struct Bins {
-    /// Where each band's part of `items` starts; one more than there are bands.
-    starts: Vec<u32>,
-    items: Vec<u32>,
 }
 
 impl<const N: usize> PolygonList<N> {
@@ -78,29 +71,13 @@ impl<const N: usize> PolygonList<N> {
 
     /// Sorts the polygons into the bands of the grid. To be called once, when all are in.
     pub fn sort_into_bands(&mut self, grid: &Grid) {
-        let bands = |polygon: &Polygon| grid.bands_of(&polygon.rows);
-        let mut starts = vec![0u32; grid.n_bands() + 1];
-        for band in self.polygons.iter().flat_map(bands) {
-            starts[band + 1] += 1;
-        }
-        for band in 1..starts.len() {
-            starts[band] += starts[band - 1];
-        }
-        let mut items = vec![0; starts[starts.len() - 1] as usize];
-        let mut next = starts.clone();
-        for (polygon_idx, polygon) in self.polygons.iter().enumerate() {
-            for band in bands(polygon) {
-                items[next[band] as usize] = index(polygon_idx);
-                next[band] += 1;
-            }
-        }
-        self.bins = Bins { starts, items };
+        self.bins = Bins::new(grid, self.polygons.iter().map(|polygon| &polygon.rows));
     }
 
     /// The polygons that touch a band, each as its item and its contours.
     pub fn in_band(&self, band: usize) -> impl Iterator<Item = (u32, impl Iterator<Item = &[Corner<N>]>)> {
-        let part = self.bins.starts[band] as usize..self.bins.starts[band + 1] as usize;
-        self.bins.items[part]
+        self.bins
+            .in_band(band)
             .iter()
             .map(|&polygon| (self.polygons[polygon as usize].item, self.contours(polygon)))
     }

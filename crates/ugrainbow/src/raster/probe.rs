@@ -1,8 +1,7 @@
 //! One pixel alone, to be looked at closely.
 
-use super::band::{Band, Grid};
+use super::band::{Band, Grid, Layer};
 use super::edges::Scanner;
-use super::polygons::PolygonList;
 use super::resolve::{Gathered, Resolver, Shade};
 use super::spans::{Seen, Tile};
 
@@ -21,16 +20,16 @@ pub struct Sample {
 
 /// The covered samples of a pixel, row after row, and the pixel gathered from them: the very numbers that
 /// [`super::paint`] computes, for no sample depends on where a tile begins.
-pub fn probe<const N: usize>(
+pub fn probe<const N: usize, L: Layer<N> + ?Sized>(
     grid: &Grid,
-    lists: &[PolygonList<N>],
+    layer: &L,
     shader: &impl Fn(&[f32; N]) -> Shade,
     [column, row]: [u32; 2],
 ) -> (Vec<Sample>, Gathered<u32>) {
     let (mut scanner, mut tile) = (Scanner::default(), Tile::default());
     let n = grid.samples;
     let band = grid.bands_of(&(row * n..(row + 1) * n)).start;
-    Band { grid, lists, band, scanner: &mut scanner, tile: &mut tile }
+    Band { grid, layer, band, scanner: &mut scanner, tile: &mut tile }
         .draw([column, column + 1], [row, row + 1]);
     let mut samples = Vec::new();
     for sample_row in row * n..(row + 1) * n {

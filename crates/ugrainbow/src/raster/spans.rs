@@ -72,6 +72,31 @@ impl<const N: usize, T: Tag> Tile<N, T> {
         self.rows
     }
 
+    pub fn columns(&self) -> [u32; 2] {
+        self.columns
+    }
+
+    /// Draws samples of a row one by one. `sample` is given the column of each and the key of what is nearest there
+    /// so far, and answers key and values of what is nearer.
+    #[inline]
+    pub fn draw_each(
+        &mut self,
+        row: u32,
+        columns: std::ops::Range<u32>,
+        tag: T,
+        mut sample: impl FnMut(u32, f32) -> Option<(f32, [f32; N])>,
+    ) {
+        let samples = self.samples(row, columns.start, columns.end);
+        let keys = self.keys[samples.clone()].iter_mut();
+        let stored = self.values[samples.clone()].iter_mut().zip(&mut self.tags[samples]);
+        for (column, (nearest, (values, tag_here))) in columns.zip(keys.zip(stored)) {
+            if let Some(nearer) = sample(column, *nearest) {
+                (*nearest, *values) = nearer;
+                *tag_here = tag;
+            }
+        }
+    }
+
     /// Draws the samples of a row with left ≤ x < right where the depth test lets it.
     ///
     /// Keys and values are linear between the two ends; in perspective the values

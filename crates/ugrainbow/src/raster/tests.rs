@@ -154,16 +154,16 @@ fn painted(polygons: &[Vec<Corner<1>>], grid: &Grid) -> Vec<f32> {
     let shader = |&[light]: &[f32; 1]| Shade { light: [light; 3], intensity: light, is_out_of_range: false };
     let mean = |sum: [f32; 3]| sum[0] / (grid.samples * grid.samples) as f32;
     let mut pixels = vec![0.0; grid.width as usize * grid.height as usize];
-    paint(&mut pixels, grid, &lists, &shader, &|all: &Gathered<()>| mean(all.sum));
+    paint(&mut pixels, grid, &lists[..], &shader, &|all: &Gathered<()>| mean(all.sum));
     let mut marked = vec![(0.0, None); pixels.len()];
-    paint(&mut marked, grid, &lists, &shader, &|all: &Gathered<u32>| (mean(all.sum), all.center));
+    paint(&mut marked, grid, &lists[..], &shader, &|all: &Gathered<u32>| (mean(all.sum), all.center));
     for (idx, (&light, marked)) in pixels.iter().zip(&marked).enumerate() {
         assert_eq!(light, marked.0);
         if pixels.len() > 1000 {
             continue;
         }
         let place = [idx as u32 % grid.width, idx as u32 / grid.width];
-        let (samples, all) = probe(grid, &lists, &shader, place);
+        let (samples, all) = probe(grid, &lists[..], &shader, place);
         assert_eq!((mean(all.sum), all.center), *marked);
         assert_eq!(samples.len() as u32, all.n_covered);
         let middle = place.map(|pixel| pixel * grid.samples + grid.samples / 2);

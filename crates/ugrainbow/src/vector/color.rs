@@ -14,7 +14,7 @@ pub type Levels = [f64; 3];
 
 /// Turns numbers of the draw list into colours on the display.
 pub struct Palette<'a> {
-    pub sheet: &'a Sheet,
+    pub sheet: &'a Sheet<'a>,
     pub shader: &'a Shader,
     /// How light is developed; `None` if it fits a display as it is.
     pub development: Option<Development>,

@@ -64,7 +64,7 @@ fn figure<S: Smooth>(
     let scale = scale(config.size);
     let fine = Config { size: config.size.map(|side| side * scale), samples: 1, ..config.clone() };
     let setup = Setup::new(scene, &fine)?;
-    let sheet = Sheet::new(&setup.painter());
+    let sheet = Sheet::new(setup.painter(), None);
     let is_shown = seen::faces(&setup, &sheet);
     let (faces, wires) = patches(&sheet, &setup, config.size, f64::from(scale), &is_shown);
     let palette = Palette { sheet: &sheet, shader: &setup.shader, development };
@@ -85,7 +85,7 @@ fn scale([width, height]: [u32; 2]) -> u32 {
 
 /// Faces that are shown, and wires.
 fn patches(
-    sheet: &Sheet,
+    sheet: &Sheet<'_>,
     setup: &Setup<'_>,
     size: [u32; 2],
     scale: f64,

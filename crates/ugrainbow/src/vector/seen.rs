@@ -9,7 +9,7 @@ use crate::sheet::Sheet;
 /// For each face, whether it or a face beside it is seen at a sample.
 ///
 /// A face that is seen only between samples nearly always has a neighbour that is seen at one, so it is kept.
-pub fn faces(setup: &Setup<'_>, sheet: &Sheet) -> Vec<bool> {
+pub fn faces(setup: &Setup<'_>, sheet: &Sheet<'_>) -> Vec<bool> {
     let scene = setup.scene();
     let is_seen: Vec<AtomicBool> = scene.faces.iter().map(|_| AtomicBool::new(false)).collect();
     let n_pixels = setup.grid.width as usize * setup.grid.height as usize;

@@ -1,0 +1,155 @@
+//! Rays of the picture in the rest frame of a body, and back.
+
+use glam::{DMat3, DVec3};
+use ugparse::VelocityId;
+use ugphysics::Velocity;
+
+use crate::painter::Painter;
+
+/// A body's rest frame, in the axes (û, e₁, e₂) of which the first is along the motion, so that a boost changes one
+/// coordinate only. Everything is relative to the eye.
+#[derive(Clone, Debug)]
+pub struct Frame {
+    /// The velocity of the body.
+    pub velocity: Velocity,
+    /// Turns rest coordinates into the axes of the scene, where lights and normals are.  Eq. (P25)
+    pub scene_from_axes: DMat3,
+    /// Turns seen coordinates into the axes of the camera's frame.
+    camera_from_axes: DMat3,
+    /// From seen coordinates to samples: x and y times the depth, and the depth.
+    samples_from_seen: DMat3,
+    /// The ray through the corner of the picture, and its change a sample across and down; depth 1.
+    rays: [DVec3; 3],
+    exp_minus_rapidity: f64,
+}
+
+/// Where a ray runs.
+#[derive(Clone, Copy, Debug)]
+pub struct Ray {
+    /// In the camera's frame: where on it light was sent that is seen at depth 1.
+    pub seen: DVec3,
+    /// The same point in the rest frame. A multiple of one is that multiple of the other.  Eq. (P4), (P6)
+    pub rest: DVec3,
+}
+
+impl Ray {
+    /// The Doppler factor, which is |p|/|p'|.  Eq. (P10)
+    pub fn doppler(&self) -> f64 {
+        self.seen.length() / self.rest.length()
+    }
+}
+
+/// The frames of a scene: of what rests, and then of its velocities, row by row. See [`frame_of`].
+pub fn frames(painter: &Painter<'_>) -> Vec<Frame> {
+    let rows = (0..painter.scene.velocities.len()).map(VelocityId::from_index).map(Some);
+    std::iter::once(None).chain(rows).map(|row| Frame::new(painter, row)).collect()
+}
+
+/// The row of a face's or wire's frame in [`frames`].
+pub fn frame_of(velocity: Option<VelocityId>) -> usize {
+    velocity.map_or(0, |id| id.index() + 1)
+}
+
+impl Frame {
+    fn new(painter: &Painter<'_>, row: Option<VelocityId>) -> Self {
+        let velocity = painter.surface.velocity(row);
+        let along = velocity.direction();
+        let (e1, e2) = along.any_orthonormal_pair();
+        let camera_from_axes = DMat3::from_cols(along, e1, e2);
+        let axes_from_camera = camera_from_axes.transpose();
+        let scene_from_camera = DMat3::from_quat(painter.surface.scene_from_axes(row));
+        let place = |axis: DVec3| {
+            let place = painter.view.place(axis);
+            DVec3::new(place.x, place.y, place.z)
+        };
+        Self {
+            velocity,
+            scene_from_axes: scene_from_camera * camera_from_axes,
+            camera_from_axes,
+            samples_from_seen: DMat3::from_cols(place(along), place(e1), place(e2)),
+            rays: painter.view.rays().map(|ray| axes_from_camera * ray),
+            exp_minus_rapidity: 1.0 / (velocity.gamma() + velocity.proper_speed()),
+        }
+    }
+
+    /// The rays of a row of samples, `y` down the picture; see [`Frame::ray`].
+    pub fn row(&self, y: f64) -> DVec3 {
+        self.rays[0] + y * self.rays[2]
+    }
+
+    /// The ray at `x` across the picture, in samples, on a row.
+    #[inline]
+    pub fn ray(&self, row: DVec3, x: f64) -> Ray {
+        let seen = row + x * self.rays[1];
+        Ray { seen, rest: self.rest(seen) }
+    }
+
+    /// Where the point rests that is seen here.  Eq. (P4)
+    #[inline]
+    pub fn rest(&self, seen: DVec3) -> DVec3 {
+        DVec3 { x: self.boosted(seen, self.velocity.proper_speed()), ..seen }
+    }
+
+    /// Where a point at rest is seen.  Eq. (P3)
+    #[inline]
+    pub fn seen(&self, rest: DVec3) -> DVec3 {
+        DVec3 { x: self.boosted(rest, -self.velocity.proper_speed()), ..rest }
+    }
+
+    /// γ a + u r of the part a along and the length r, in the form of (P3) that does not cancel.
+    #[inline]
+    fn boosted(&self, p: DVec3, proper_speed: f64) -> f64 {
+        let (a, r) = (p.x, p.length());
+        // What is turned round, (a, u) to (−a, −u), has the opposite answer.
+        let (b, speed) = if proper_speed < 0.0 { (-a, -proper_speed) } else { (a, proper_speed) };
+        let sum = if b < 0.0 {
+            b * self.exp_minus_rapidity + speed * (p.y * p.y + p.z * p.z) / (r - b)
+        } else {
+            self.velocity.gamma() * b + speed * r
+        };
+        if proper_speed < 0.0 { -sum } else { sum }
+    }
+
+    /// Corner coordinates of a face at rest, from those in the axes of the scene.
+    pub fn axes_from_scene(&self, rest: DVec3) -> DVec3 {
+        self.scene_from_axes.transpose() * rest
+    }
+
+    /// Seen coordinates in the axes of the camera's frame.
+    pub fn to_camera(&self, seen: DVec3) -> DVec3 {
+        self.camera_from_axes * seen
+    }
+
+    /// Where a seen point is in the picture: its sample coordinates times the depth, and the depth.
+    pub fn place(&self, seen: DVec3) -> DVec3 {
+        self.samples_from_seen * seen
+    }
+
+    /// What a straight line at rest between two unit vectors is seen as: the three control points of a rational
+    /// Bézier curve, in the coordinates of [`Frame::place`]. `None` if the line goes through the eye.
+    ///
+    /// In directions the line is an arc of a great circle, with control points a, (a+b)/(1+a·b) of weight
+    /// κ = cos φ/2, and b. With the time −1 they are points of a plane in spacetime; the curve lies on the light cone.
+    /// A boost is linear, and so is the projection, so both act on the control points.  Eq. (P8)
+    pub fn arc(&self, a: DVec3, b: DVec3) -> Option<[DVec3; 3]> {
+        /// cos φ/2 of a line that passes through the eye, to rounding.
+        const LEAST: f64 = 1e-9;
+        let sum = a + b;
+        let kappa = 0.5 * sum.length();
+        if kappa < LEAST {
+            return None;
+        }
+        let middle = sum / (2.0 * kappa);
+        let (gamma, speed) = (self.velocity.gamma(), self.velocity.proper_speed());
+        let along = if middle.x > 0.0 {
+            // γ(m − κ) + (γ − u)κ, with m² − κ² = sin² φ/2 − m_across².
+            let across = middle.y * middle.y + middle.z * middle.z;
+            let difference = 0.25 * (a - b).length_squared() - across;
+            gamma * difference / (middle.x + kappa) + self.exp_minus_rapidity * kappa
+        } else {
+            gamma * middle.x - speed * kappa
+        };
+        let control = DVec3 { x: along, ..middle };
+        Some([self.seen(a), control, self.seen(b)].map(|point| self.place(point)))
+    }
+}

@@ -1,0 +1,32 @@
+//! Faces drawn by a ray for each sample, exact everywhere (`-xc`).
+//!
+//! After T. Müller, S. Grottel and D. Weiskopf, *Special relativistic visualization by local ray tracing* (2010): the
+//! viewing direction of a sample is carried into the rest frame of a face (P6) and meets the face's plane there.
+//! Outline, depth, Doppler factor, colour and light are those of that point; nothing is cut into
+//! pieces, and nothing is interpolated in the picture. Its steps, one file each:
+//!
+//! 1. [`frame`]: rays of a row of samples in the rest frame of a body;
+//! 2. [`outline`]: whether a ray goes through a face;
+//! 3. [`footprint`]: the part of the picture outside of which no ray does, from arcs of conics (P8);
+//! 4. [`look`]: colour and light at a point of a face at rest;
+//! 5. [`motion`]: colour as seen;
+//! 6. [`faces`]: all faces of a scene as a layer of the raster;
+//! 7. [`wires`]: wires as polylines fine enough for the picture.
+//!
+//! # Which sample belongs to whom
+//!
+//! A ray is in a face if a half plane that begins at the ray meets its outline an odd number of times. On which side of an edge
+//! the ray runs is computed from the ends in one order, so that faces that share an edge find the same bits. Summed over
+//! faces that share their edges all that is left is the outline of them together: a sample inside it belongs to
+//! an odd number of faces, and so to one at least.
+
+mod faces;
+mod footprint;
+mod frame;
+mod look;
+mod motion;
+mod outline;
+mod wires;
+
+pub use faces::Faces;
+pub use wires::{Bend, Joint};
