@@ -196,8 +196,8 @@ mod tests {
 
     #[test]
     fn the_area_painted_first_reaches_under_the_other() {
-        let left = vec![vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]];
-        let right = vec![vec![[1.0, 1.0], [1.0, 0.0], [2.0, 0.0], [2.0, 1.0]]];
+        let left = [vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]];
+        let right = [vec![[1.0, 1.0], [1.0, 0.0], [2.0, 0.0], [2.0, 1.0]]];
         let seams = seams([Some(&left[..]), None, Some(&right[..])].into_iter());
         assert_eq!(seams, [vec![[[1.0, 0.0], [1.0, 1.0]]], vec![], vec![]]);
     }
