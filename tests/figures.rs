@@ -38,6 +38,8 @@ fn has_tools() -> bool {
 enum Tool {
     Ghostscript,
     Poppler,
+    /// Takes the picture out of the page; pdftoppm resamples pictures even at one pixel a point.
+    PopplerImages,
     Rsvg,
 }
 
@@ -45,7 +47,8 @@ enum Tool {
 fn drawn(tool: Tool, format: Format, file: &[u8]) -> Picture {
     let folder = tempfile::tempdir().unwrap();
     let input = folder.path().join(format!("in.{}", format.name()));
-    let output = folder.path().join("out.png");
+    let output =
+        folder.path().join(if matches!(tool, Tool::PopplerImages) { "out-000.png" } else { "out.png" });
     std::fs::write(&input, file).unwrap();
     let mut command = command(tool, &input, &output);
     let run = command.output().unwrap();
@@ -65,6 +68,11 @@ fn command(tool: Tool, input: &Path, output: &PathBuf) -> Command {
         Tool::Poppler => {
             let mut poppler = Command::new("pdftoppm");
             poppler.args(["-r", "72", "-png", "-singlefile"]).arg(input).arg(output.with_extension(""));
+            poppler
+        }
+        Tool::PopplerImages => {
+            let mut poppler = Command::new("pdfimages");
+            poppler.arg("-png").arg(input).arg(output.with_file_name("out"));
             poppler
         }
         Tool::Rsvg => {
@@ -123,7 +131,7 @@ fn embedded_pictures_are_the_png() {
     let draw = |output| rainbow(&colored, &ugrainbow::Config { output, ..pipe.rainbow.clone() });
     let png = decode(&draw(Output::Color(Format::Png)));
     for (format, tool) in
-        [(Format::Pdf, Tool::Ghostscript), (Format::Pdf, Tool::Poppler), (Format::Svg, Tool::Rsvg)]
+        [(Format::Pdf, Tool::Ghostscript), (Format::Pdf, Tool::PopplerImages), (Format::Svg, Tool::Rsvg)]
     {
         let file = draw(Output::Color(format));
         assert_same(&format!("embedded-{}-{tool:?}", format.name()), &png, &drawn(tool, format, &file), 1);
