@@ -7,26 +7,39 @@ use std::process::Command;
 /// number of them.
 const DOCUMENTS: [(&str, &str, usize); 2] = [("README.md", "## First steps", 5), ("docs/gallery.md", "", 20)];
 
-/// What the gallery calls `shape` and `pot`.
-const SHAPE: &str = r#"shape() { ugdoppler -qt --no-doppler --no-flux; }
-pot() { sed '/^l /d' teapot.ug; printf 'l 1.8 %s ;' "0 -1 0 $1" "1 1 0 $1" "-1 1 0 $1"; }"#;
-
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
 }
 
-/// Indented lines that begin with one of our programs, comments cut off.
-fn commands(document: &str, section: &str) -> Vec<String> {
-    let text = std::fs::read_to_string(root().join(document)).expect("the document is there");
-    let start = text.find(section).expect("the section is there");
-    let body = &text[start + section.len()..];
-    let end = if section.is_empty() { body.len() } else { body.find("\n## ").unwrap_or(body.len()) };
-    body[..end]
-        .lines()
-        .filter_map(|line| line.strip_prefix("    "))
-        .filter(|line| ["uglorentz ", "ugdoppler ", "ugrainbow "].iter().any(|tool| line.starts_with(tool)))
-        .map(|line| line.split(" #").next().unwrap_or(line).trim_end().to_string())
-        .collect()
+/// What a person would type from a section of a document.
+struct Typed {
+    /// Functions and variables of the shell, for all commands.
+    definitions: String,
+    /// Pipes of our programs, comments cut off.
+    commands: Vec<String>,
+}
+
+impl Typed {
+    fn read(document: &str, section: &str) -> Typed {
+        let text = std::fs::read_to_string(root().join(document)).expect("the document is there");
+        let start = text.find(section).expect("the section is there");
+        let body = &text[start + section.len()..];
+        let end = if section.is_empty() { body.len() } else { body.find("\n## ").unwrap_or(body.len()) };
+        let mut typed = Typed { definitions: String::new(), commands: Vec::new() };
+        for line in body[..end].lines().filter_map(|line| line.strip_prefix("    ")) {
+            let name = line.trim_start_matches(|c: char| c.is_ascii_lowercase() || c == '_');
+            if name.len() < line.len() && (name.starts_with("() {") || name.starts_with("='")) {
+                typed.definitions.push_str(line);
+                typed.definitions.push('\n');
+            } else if ["uglorentz ", "ugdoppler ", "ugrainbow ", "sed "]
+                .iter()
+                .any(|tool| line.starts_with(tool))
+            {
+                typed.commands.push(line.split(" #").next().unwrap_or(line).trim_end().to_string());
+            }
+        }
+        typed
+    }
 }
 
 /// The folder of the programs, built in the profile of this test.
@@ -56,16 +69,15 @@ fn commands_in_documents_work() {
     let path = path.expect("a path without colons");
 
     for (document, section, least) in DOCUMENTS {
-        let commands = commands(document, section);
+        let Typed { definitions, commands } = Typed::read(document, section);
         assert!(commands.len() >= least, "{document}: {} commands", commands.len());
-        for command in commands {
-            // Smaller pictures say as much here, but they lack the pixel that is asked about.
-            let small = match command.contains("--explain") {
-                true => command.clone(),
-                false => command.replace("ugrainbow", "ugrainbow -sz 160 120 -aa 1"),
-            };
+        for command in &commands {
+            // Smaller pictures say as much here, but they may lack the pixel that is asked about.
+            let has_size = command.contains("-sz ") || command.contains("--explain");
+            let small =
+                if has_size { command } else { &command.replace("ugrainbow", "ugrainbow -sz 160 120 -aa 1") };
             let output = Command::new("bash")
-                .args(["-c", &format!("set -euo pipefail; {SHAPE}; {small}")])
+                .args(["-c", &format!("set -euo pipefail\n{definitions}{small}")])
                 .current_dir(scenes.path())
                 .env("PATH", &path)
                 .output()
