@@ -27,7 +27,11 @@ fn flat(scene: &Scene) -> Flat {
                 Paint::Hsv([value, hue, saturation, color.translucency])
             }
             ColorValue::Rgb([r, g, b]) => Paint::Rgb([r, g, b, color.translucency]),
-            other => panic!("the slow reader does not know {other:?}"),
+            ColorValue::Xyz([x, y, z]) => Paint::Xyz([x, y, z, color.translucency]),
+            ColorValue::Blackbody { kelvin, scale } => Paint::Blackbody([kelvin, scale]),
+            ColorValue::Spectrum { start, end } => {
+                Paint::Spectrum(scene.samples[start as usize..end as usize].as_flattened().to_vec())
+            }
         })
     };
     let vertex_name = |id: &VertexId| text(scene.vertices[id.index()].name);
@@ -158,6 +162,8 @@ i early (tile late -tx 1) ; { what it uses comes later }
 f unlit (v f end) 0.5; f(v i f)late;
 f (v f i) sky glossy ; surf glossy .5 .5 0 1 60 ; surf late 1 0 .5 ; surf clear 0 .1 .9 1.5 ;
 f (v f end) late late <.5 0 0> ;
+c_xyz haze 1.5 2 .25 0.5 ; c_bb sun 5800 ; c_bb lamp 2700 .5 ; c_spd sodium 588 0 589 2.5 590 0 ; c_xyz void 0 0 0 ;
+f (v f end) haze ; f (v f end) sun ; f (v f end) lamp ; f (v f end) sodium ; f (v f end) void ;
 c late 2 -30 ; c 0.25 ; c_rgb sky 0.1 0.2 0.9 0.5 ; c_rgb night 0 0 .25 ; c full 1 400 0.5 0.25 ;
 v v 0 0 0 ; v f 5 -0 0 ; v end +1 5. 0 sky ; v i 0 .5 1e+0 sky 0 0 -2 ; v def -2.5E-1 1 1 0 1 1 ;
 v p1 1 1 0 ; v p2 2 1 0 ; v p3 1 2 0 ; v A 9 0 0 ; v a 0 9 0 ; v :c#1 0 0 9 ;
@@ -351,6 +357,7 @@ fn color_statement() -> impl Strategy<Value = Statement> {
         (part(), number(), part(), part()).prop_map(|(l, h, s, t)| ("c", vec![l, h, s, t])),
         prop::array::uniform3(part()).prop_map(|rgb| ("c_rgb", rgb.to_vec())),
         prop::array::uniform4(part()).prop_map(|rgbt| ("c_rgb", rgbt.to_vec())),
+        prop::array::uniform4(part()).prop_map(|xyzt| ("c_xyz", xyzt.to_vec())),
     ];
     (any::<bool>(), numbers).prop_map(|(is_named, (keyword, numbers))| Statement::Color {
         is_named,

@@ -97,12 +97,18 @@ pub struct Camera {
 }
 
 /// The numbers of a colour and its translucency.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Paint {
     /// Lightness, hue, saturation, translucency.
     Hsv([f64; 4]),
     /// Red, green, blue, translucency.
     Rgb([f64; 4]),
+    /// X, Y, Z, translucency.
+    Xyz([f64; 4]),
+    /// Kelvin, scale.
+    Blackbody([f64; 2]),
+    /// Wavelengths with their values.
+    Spectrum(Vec<f64>),
 }
 
 /// Reads a valid scene.
@@ -315,7 +321,7 @@ fn read_scope(words: &mut Words, prefix: &str, mut unnamed: Option<Paint>) -> Sc
             continue;
         }
         match &keyword[..] {
-            "c" | "c_rgb" => {
+            "c" | "c_rgb" | "c_xyz" | "c_bb" | "c_spd" => {
                 let name = words.name();
                 let paint = paint(&keyword, &words.all_numbers());
                 match name {
@@ -336,11 +342,11 @@ fn read_scope(words: &mut Words, prefix: &str, mut unnamed: Option<Paint>) -> Sc
             "def" => {
                 let name = words.take();
                 words.expect(";");
-                let inside = read_scope(words, &format!("{prefix}{name}:"), unnamed);
+                let inside = read_scope(words, &format!("{prefix}{name}:"), unnamed.clone());
                 words.expect("end");
                 assert!(scope.definitions.insert(name, inside).is_none(), "a second definition");
             }
-            _ => scope.statements.push(read_statement(&keyword, words, unnamed)),
+            _ => scope.statements.push(read_statement(&keyword, words, unnamed.clone())),
         }
         words.expect(";");
     }
@@ -355,6 +361,11 @@ fn paint(keyword: &str, numbers: &[f64]) -> Paint {
         ("c", &[l, h, s, t]) => Paint::Hsv([l, h, s, t]),
         ("c_rgb", &[r, g, b]) => Paint::Rgb([r, g, b, 0.0]),
         ("c_rgb", &[r, g, b, t]) => Paint::Rgb([r, g, b, t]),
+        ("c_xyz", &[x, y, z]) => Paint::Xyz([x, y, z, 0.0]),
+        ("c_xyz", &[x, y, z, t]) => Paint::Xyz([x, y, z, t]),
+        ("c_bb", &[kelvin]) => Paint::Blackbody([kelvin, 1.0]),
+        ("c_bb", &[kelvin, scale]) => Paint::Blackbody([kelvin, scale]),
+        ("c_spd", samples) => Paint::Spectrum(samples.to_vec()),
         _ => panic!("{} numbers behind `{keyword}`", numbers.len()),
     }
 }
@@ -623,7 +634,7 @@ fn seen<'s, T>(scopes: &[&'s Scope], get: impl Fn(&'s Scope) -> Option<T>) -> Op
 fn find_paint(scopes: &[&Scope], name: &Option<String>) -> Option<Paint> {
     let name = name.as_ref()?;
     let (_, paint) = seen(scopes, |scope| scope.colors.get(name)).expect("a colour that is seen");
-    Some(*paint)
+    Some(paint.clone())
 }
 
 /// `wanted`, or with the first of `_2`, `_3`, … that makes it new.
@@ -697,7 +708,7 @@ impl Placing {
             unreachable!("the caller matched a face or wire")
         };
         let name = place.optional_name(name);
-        let color = find_paint(scopes, color).or(place.color).or(*unnamed);
+        let color = find_paint(scopes, color).or_else(|| place.color.clone()).or_else(|| unnamed.clone());
         let velocity = place.velocity.or(*velocity);
         let new_name = |vertex: &String| local[&vertex[..]].1.clone();
         let mut new_contours: Vec<Vec<String>> =
@@ -759,7 +770,7 @@ impl Placing {
         for k in 0..size.unwrap_or(1) {
             let mut copy = place.copy(first, step, k);
             copy.path = if size.is_some() { format!("{path}#{k}") } else { path.clone() };
-            copy.color = find_paint(scopes, color).or(place.color);
+            copy.color = find_paint(scopes, color).or_else(|| place.color.clone());
             copy.velocity = place.velocity.or(*velocity);
             self.scope(&inside_scopes, &copy);
         }
