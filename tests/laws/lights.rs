@@ -324,3 +324,36 @@ fn large_faces_get_the_vertices_that_their_light_needs() {
         assert!(n_lines < 6000, "{light}: {n_few} and {n_lines} lines");
     }
 }
+
+/// The same from a moving camera, which sees the floor bent, so the floor reaches beyond the picture: where outlines are off
+/// by a hair, a sample more or less is many levels.
+#[test]
+fn the_camera_may_move_over_large_faces() {
+    let floor = "c grey 0.9; v a -60 -8 0; v b 60 -8 0; v c 60 60 0; v d -60 60 0; f (a b c d) grey;
+        cam -ep 0 -6 3 -vc 0 0 0 -ud 0 0 1 -va 30 20;";
+    let mut pipe = Pipe::default();
+    pipe.rainbow.size = [80, 60];
+    for camera in [DVec3::new(0.3, 0.2, 0.0), DVec3::new(0.0, 0.2, 0.0), DVec3::new(-0.3, 0.1, 0.1)] {
+        let text = format!("{floor} l 0.1; l 0.3 3 -1 2 0 <0 0.3 0>; l 0.2 -6 2 3 0;").into_bytes();
+        // Coarse, so that the bent floor is not cut finely enough for its light anyway.
+        let base = uglorentz::Config {
+            camera_velocity: Some(camera),
+            pieces: uglorentz::Pieces::UpTo(5e-3),
+            color_error: f64::INFINITY,
+            ..uglorentz::Config::default()
+        };
+        let config = Config { law: Brightness::None, ..lit() };
+        let draw = |lorentz_config: &uglorentz::Config| {
+            decode(&rainbow(&doppler(&lorentz(&text, lorentz_config), &config), &pipe.rainbow))
+        };
+        let expected = draw(&uglorentz::Config { pieces: uglorentz::Pieces::PerEdge(256), ..base.clone() });
+        let off = |config: &uglorentz::Config| {
+            ugtests::picture::difference(&expected, &draw(config)).map_or(0, |found| found.levels)
+        };
+        let uncut = off(&base);
+        let cut = off(&uglorentz::Config { light_error: 0.01, ..base });
+        assert!(cut <= 4 && uncut >= 8, "{camera}: {cut}, and {uncut} without");
+        let darkest = expected.pixels().map(|pixel| pixel.0[0]).min();
+        assert!(darkest > Some(10), "{camera}: the floor fills the picture, {darkest:?}");
+    }
+}
