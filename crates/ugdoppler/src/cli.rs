@@ -23,6 +23,12 @@ pub struct Args {
           action = ArgAction::Set, allow_hyphen_values = true, value_parser = ugpipe::finite)]
     vel: Option<Vec<f64>>,
 
+    /// The camera of this name [default: the first without a name, else the first]
+    ///
+    /// It then has no name in what is written, so that it counts in the programs behind this one, too.
+    #[arg(long, value_name = "NAME", visible_alias = "camera")]
+    cam: Option<String>,
+
     /// Eye point; else the camera's, else the origin
     #[arg(long, visible_alias = "eye", num_args = 3, value_names = ["X", "Y", "Z"],
           action = ArgAction::Set, allow_hyphen_values = true, value_parser = ugpipe::finite)]
@@ -110,6 +116,7 @@ impl Args {
         let beta = vector(&self.vel).unwrap_or_default();
         Ok(Config {
             velocity: Velocity::from_beta(beta).map_err(Failure::usage)?,
+            camera: self.cam.clone(),
             eye: vector(&self.ep),
             wavelengths: self.gw,
             law: match self.br.unwrap_or(Law::Report) {

@@ -57,6 +57,8 @@ use palette::Palette;
 pub struct Config {
     /// Velocity where faces carry none.
     pub velocity: Velocity,
+    /// Name of the camera that counts, of several (`-cam`).
+    pub camera: Option<String>,
     /// The eye; else the scene's camera says.
     pub eye: Option<DVec3>,
     /// Write wavelengths in nm in place of hues (`-gw`).
@@ -96,6 +98,7 @@ impl Default for Config {
     fn default() -> Self {
         Self {
             velocity: Velocity::ZERO,
+            camera: None,
             eye: None,
             wavelengths: false,
             law: Brightness::Report,
@@ -170,7 +173,7 @@ impl Report {
 /// # Errors
 /// What is wrong with the scene: [`Error`].
 pub fn run(config: &Config, source: &Source) -> Result<Report, Error> {
-    let parsed = ugscene::read(source, &config.reading)?;
+    let parsed = ugscene::read(source, &config.reading, config.camera.as_deref())?;
     let bodies = Bodies::new(&parsed.scene, config.velocity)?;
     let eye = ugscene::eye(&parsed.scene, config.eye);
     if let Some(vertex) = ugscene::vertex_at_eye(&parsed.scene, eye, &bodies) {

@@ -31,6 +31,12 @@ pub struct Args {
           action = ArgAction::Set, allow_hyphen_values = true, value_parser = finite)]
     camera_velocity: Option<Vec<f64>>,
 
+    /// The camera of this name [default: the first without a name, else the first]
+    ///
+    /// It then has no name in what is written, so that it counts in the programs behind this one, too.
+    #[arg(long, value_name = "NAME", visible_alias = "camera")]
+    cam: Option<String>,
+
     /// Eye point [default: that of the scene's camera, else the origin]
     #[arg(long = "ep", visible_alias = "eye", value_names = ["X", "Y", "Z"], num_args = 3,
           action = ArgAction::Set, allow_hyphen_values = true, value_parser = finite)]
@@ -213,6 +219,7 @@ impl Args {
 
     fn camera(&self) -> CameraOptions {
         CameraOptions {
+            name: self.cam.clone(),
             eye: None,
             center: vector(self.center.as_deref()).map(DVec3::from_array),
             up: vector(self.up.as_deref()).map(DVec3::from_array),

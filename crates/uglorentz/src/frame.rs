@@ -9,19 +9,15 @@ use crate::{Config, Error, PROGRAM};
 /// The velocity of the camera in the frame of the scene: the option, else that of the scene's camera, which
 /// loses it, for downstream the camera is at rest.
 pub(crate) fn take_camera_velocity(scene: &mut Scene, config: &Config) -> Result<Velocity, Error> {
-    let row = camera_row(scene);
-    let own = row.and_then(|row| scene.cameras[row].velocity.take()).map(|id| scene.velocities[id.index()]);
+    let own = scene
+        .camera_row()
+        .and_then(|row| scene.cameras[row].velocity.take())
+        .map(|id| scene.velocities[id.index()]);
     match (config.camera_velocity, own) {
         (Some(beta), _) => Velocity::from_beta(beta).map_err(Error::CameraVelocity),
         (None, Some(beta)) => Velocity::from_beta(beta).map_err(Error::SceneVelocity),
         (None, None) => Ok(Velocity::ZERO),
     }
-}
-
-/// Row of the camera that counts.
-pub(crate) fn camera_row(scene: &Scene) -> Option<usize> {
-    let unnamed = scene.cameras.iter().position(|camera| camera.name.is_none());
-    unnamed.or((!scene.cameras.is_empty()).then_some(0))
 }
 
 /// Gives all faces and wires one velocity. At rest, those that had none still have none.

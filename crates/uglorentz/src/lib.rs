@@ -217,7 +217,8 @@ impl Report {
 /// # Errors
 /// See [`Error`]. Errors of the scene come with their place in the text.
 pub fn run(config: &Config, source: &Source) -> Result<Report, Error> {
-    let parsed = ugscene::read(source, &config.reading).map_err(Error::Scene)?;
+    let parsed =
+        ugscene::read(source, &config.reading, config.camera.name.as_deref()).map_err(Error::Scene)?;
     let (scene, notes) = transform_owned(parsed.scene, config)
         .map_err(|error| error.located(source, &parsed.origins.vertices))?;
     let table = config.table.map(|table| {

@@ -6,14 +6,14 @@ use ugparse::{Camera, Projection, Scene};
 use ugscene::{CameraOptions, View};
 
 use crate::motion::{Motion, Point};
-use crate::{Error, frame, name};
+use crate::{Error, name};
 
 /// Writes the eye and the options into the camera that counts, so that they need not be repeated.
 pub(crate) fn set_camera(scene: &mut Scene, eye: DVec3, options: &CameraOptions) {
     if scene.cameras.is_empty() {
         scene.cameras.push(Camera::default());
     }
-    let row = frame::camera_row(scene).unwrap_or(0);
+    let row = scene.camera_row().unwrap_or(0);
     let camera = &mut scene.cameras[row];
     camera.eye = Some(eye);
     camera.center = options.center.or(camera.center);

@@ -60,6 +60,20 @@ fn options_have_two_spellings() {
     check("-vel .5 0 0 -nc -no-flight-time", "--vel .5 0 0 --no-contraction --no-flight-time");
 }
 
+/// A chosen camera's eye is the one from which things are seen, here and in the programs behind.
+#[test]
+fn one_of_several_cameras_can_be_chosen() {
+    let scene = format!("{TILE} cam -ep 0 -9 0; cam side -ep 7 1 0;");
+    let output = run("-vel .5 0 0 -cam side", &scene);
+    let text = String::from_utf8(output.stdout).unwrap();
+    let body = |text: &str| {
+        text.lines().filter(|line| !line.starts_with('{')).map(str::to_owned).collect::<Vec<_>>()
+    };
+    assert!(text.contains("cam -ep 7 1 0;\ncam -ep 0 -9 0;\n"), "{text}");
+    let alone = run("-vel .5 0 0", &format!("{TILE} cam -ep 7 1 0; cam -ep 0 -9 0;"));
+    assert_eq!(body(&text), body(&String::from_utf8(alone.stdout).unwrap()));
+}
+
 #[test]
 fn complaints() {
     let check = |args: &str, scene: &str, status: i32, expected: &str| {
@@ -77,6 +91,7 @@ fn complaints() {
     check("-sd 2 -se 1", TILE, 2, "cannot be used with");
     check("-an nose", TILE, 2, "`nose` is not an anchor: -an takes eye, origin, center or three numbers");
     check("-an 1 2", TILE, 2, "`1 2` is not an anchor");
+    check("-cam side", TILE, 1, "no camera is called `side`");
     check("-speed 3", TILE, 2, "unexpected argument");
     check("-vel .5 0 0 no-such-file.ug", TILE, 1, "no-such-file.ug");
     check("", "v a 0 0 0;\nf (a b c);", 1, "<stdin>:2:");

@@ -155,7 +155,7 @@ fn load(config: &Config, format: Format, input: &Input) -> Result<Loaded, Error>
 
 fn load_scene(config: &Config, input: &Input) -> Result<Loaded, Error> {
     let source = (input.follow)(Source::new(input.name.clone(), input.bytes.clone()))?;
-    let parsed = ugscene::read(&source, &config.reading)?;
+    let parsed = ugscene::read(&source, &config.reading, None)?;
     Ok(Loaded { scene: parsed.scene, warnings: Vec::new(), diagnostics: Some(parsed.warnings) })
 }
 

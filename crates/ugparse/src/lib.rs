@@ -32,6 +32,7 @@
 //! The feature `pipe` adds how programs read scenes, files included; the feature `cli`
 //! the program of the same name, and what it stands on. Libraries do without.
 
+mod cameras;
 #[cfg(feature = "cli")]
 mod cli;
 mod diagnostic;

@@ -29,6 +29,8 @@ pub struct Origins {
     pub vertices: Vec<Span>,
     /// For each face, its statement.
     pub faces: Vec<Span>,
+    /// For each camera, its statement.
+    pub cameras: Vec<Span>,
 }
 
 /// Chains of definitions that any thread has stack for.
@@ -305,7 +307,9 @@ impl Placer<'_, '_> {
         append(&mut self.origins.faces, spans);
         self.move_some(&mut queues.wires, end.wires, |scene| &mut scene.wires, Item::Wire);
         self.move_some(&mut queues.lights, end.lights, |scene| &mut scene.lights, Item::Light);
-        self.move_some(&mut queues.cameras, end.cameras, |scene| &mut scene.cameras, Item::Camera);
+        let spans =
+            self.move_some(&mut queues.cameras, end.cameras, |scene| &mut scene.cameras, Item::Camera);
+        append(&mut self.origins.cameras, spans);
         self.move_some(&mut queues.escapes, end.escapes, |scene| &mut scene.escapes, Item::Escape);
         self.move_some(&mut queues.unknown, end.unknown, |scene| &mut scene.unknown, Item::Unknown);
     }
@@ -540,6 +544,7 @@ impl Placer<'_, '_> {
         }
         placed.up.into_iter().for_each(|up| self.check_direction(span, up));
         self.scene.cameras.push(placed);
+        self.origins.cameras.push(span);
     }
 
     fn check_finite(&mut self, span: Span, place: DVec3) {

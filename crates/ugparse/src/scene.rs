@@ -503,11 +503,6 @@ impl Scene {
         self.contours.iter(wire.contours.clone())
     }
 
-    /// The camera that counts: the first without a name, else the first.
-    pub fn camera(&self) -> Option<&Camera> {
-        self.cameras.iter().find(|camera| camera.name.is_none()).or(self.cameras.first())
-    }
-
     /// The row of `velocity` in [`Scene::velocities`], added if it is new.
     ///
     /// Scenes have few bodies, so a linear search does.

@@ -64,6 +64,10 @@ pub struct Args {
     #[arg(long, visible_alias = "vector", conflicts_with_all = ["dp", "explain", "xc"])]
     vec: bool,
 
+    /// The camera of this name [default: the first without a name, else the first]
+    #[arg(long, value_name = "NAME", visible_alias = "camera", help_heading = CAMERA)]
+    cam: Option<String>,
+
     /// Eye point [default: that of the scene, else the origin]
     #[arg(long, num_args = 3, value_names = ["X", "Y", "Z"], action = ArgAction::Set,
           allow_hyphen_values = true, value_parser = finite, visible_alias = "eye", help_heading = CAMERA)]
@@ -209,6 +213,7 @@ impl Args {
     fn camera(&self) -> CameraOptions {
         let point = |numbers: &Option<Vec<f64>>| vector(numbers.as_deref()).map(DVec3::from_array);
         CameraOptions {
+            name: self.cam.clone(),
             eye: point(&self.ep),
             center: point(&self.vc),
             up: point(&self.ud),

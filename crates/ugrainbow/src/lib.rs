@@ -109,7 +109,7 @@ pub struct Picture {
 /// # Errors
 /// Whatever stops it: see [`Error`].
 pub fn run(config: &Config, source: &Source) -> Result<Picture, Error> {
-    let parsed = ugscene::read(source, &config.reading)?;
+    let parsed = ugscene::read(source, &config.reading, config.camera.name.as_deref())?;
     let Painted { drawn, development, notes } = paint(&parsed.scene, config)?;
     let label = label(&parsed.scene, config);
     let bytes = match (config.output, drawn) {

@@ -15,6 +15,8 @@ const NEAREST: f64 = 1e-6;
 /// Camera options of a program: they beat the camera of the scene.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CameraOptions {
+    /// Name of the camera that counts, of several in the scene; chosen by [`crate::read`].
+    pub name: Option<String>,
     /// Eye point.
     pub eye: Option<DVec3>,
     /// View centre: the point in the middle of the picture.

@@ -11,10 +11,15 @@ use crate::polygon::triangulate;
 /// have no holes: what such a face looks like would depend on the side it is seen from. The
 /// triangles keep all that the face has, its name too.
 ///
+/// `camera`: the name of the one that counts, if it is not said by the scene alone ([`Parsed::choose_camera`]).
+///
 /// # Errors
-/// See [`ugparse::parse`].
-pub fn read(source: &Source, options: &Options) -> Result<Parsed, Diagnostics> {
+/// See [`ugparse::parse`] and [`Parsed::choose_camera`].
+pub fn read(source: &Source, options: &Options, camera: Option<&str>) -> Result<Parsed, Diagnostics> {
     let mut parsed = ugparse::parse(source, options)?;
+    if let Some(name) = camera {
+        parsed.choose_camera(source, name)?;
+    }
     let rows: Vec<usize> =
         parsed.bent.iter().filter(|face| face.thickness > TOO_BENT).map(|face| face.row).collect();
     if !rows.is_empty() {
@@ -71,7 +76,7 @@ mod tests {
     use super::*;
 
     fn read_text(text: &str) -> Parsed {
-        read(&Source::new("t.ug", text), &Options::default()).unwrap()
+        read(&Source::new("t.ug", text), &Options::default(), None).unwrap()
     }
 
     /// A square of side 1 whose corners are off its plane by `d`, up and down in turn.

@@ -146,7 +146,7 @@ pub fn explain(
     source: &Source,
     pixel: [u32; 2],
 ) -> Result<(Explanation, Diagnostics), Error> {
-    let parsed = ugscene::read(source, &config.reading)?;
+    let parsed = ugscene::read(source, &config.reading, config.camera.name.as_deref())?;
     if config.exact.is_some() {
         return Err(Error::Options("--explain tells of the scanline mode only: leave out -xc"));
     }

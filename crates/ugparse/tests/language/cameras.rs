@@ -1,0 +1,70 @@
+//! Which of several cameras counts.
+
+use super::*;
+
+/// What is written when the camera called `name` was chosen, and read again.
+fn chosen(text: &str, name: &str) -> Result<Vec<String>, String> {
+    let source = Source::new("test.ug", text);
+    let mut parsed = parse_with(text, false);
+    parsed.choose_camera(&source, name).map_err(|found| found.render(false))?;
+    let again = parse(write(&parsed.scene));
+    assert_eq!(again.camera(), parsed.scene.camera());
+    Ok(write(&parsed.scene).lines().map(str::to_owned).collect())
+}
+
+#[test]
+fn the_first_without_a_name_counts_else_the_first() {
+    fn check(text: &str, expected: Option<f64>) {
+        assert_eq!(parse(text).camera().map(|camera| camera.eye.unwrap().x), expected, "{text}");
+    }
+    check("", None);
+    check("cam a -ep 1 0 0; cam b -ep 2 0 0;", Some(1.0));
+    check("cam a -ep 1 0 0; cam -ep 2 0 0; cam -ep 3 0 0;", Some(2.0));
+}
+
+#[test]
+fn one_chosen_by_name_counts() {
+    let check = |text: &str, name: &str, expected: &[&str]| {
+        assert_eq!(chosen(text, name).unwrap(), expected, "{text}");
+    };
+    check("cam a -ep 1 0 0; cam b -ep 2 0 0;", "b", &["cam a -ep 1 0 0;", "cam -ep 2 0 0;"]);
+    check("cam a -ep 1 0 0; cam b -ep 2 0 0;", "a", &["cam -ep 1 0 0;", "cam b -ep 2 0 0;"]);
+    // Before the first without a name, whose place is kept among the others.
+    check(
+        "cam x -ep 9 0 0; cam -ep 1 0 0; cam b -ep 2 0 0; cam -ep 3 0 0;",
+        "b",
+        &["cam x -ep 9 0 0;", "cam -ep 2 0 0;", "cam -ep 1 0 0;", "cam -ep 3 0 0;"],
+    );
+    // Names of cameras need not be unique: the first. Placed ones are called by their path.
+    check("cam b -ep 1 0 0; cam b -ep 2 0 0;", "b", &["cam -ep 1 0 0;", "cam b -ep 2 0 0;"]);
+    let car = "def car; cam dash -ep 0 0 1; end; cam -ep 9 9 9; i taxi (car -tx 5);";
+    check(car, "taxi:dash", &["cam -ep 5 0 1;", "cam -ep 9 9 9;"]);
+}
+
+#[test]
+fn comments_go_with_their_cameras() {
+    let text =
+        "v z 0 0 0;\n{ front }\ncam -ep 1 0 0; { from here }\n{ side }\ncam side -ep 2 0 0; { from there }\n";
+    let expected = [
+        "v z 0 0 0;",
+        "{ side }",
+        "cam -ep 2 0 0; { from there }",
+        "{ front }",
+        "cam -ep 1 0 0; { from here }",
+    ];
+    assert_eq!(chosen(text, "side").unwrap(), expected);
+}
+
+#[test]
+fn a_camera_that_is_not_there_is_an_error() {
+    let check = |text: &str, name: &str, place: &str, help: &str| {
+        let shown = chosen(text, name).unwrap_err();
+        assert!(shown.starts_with(&format!("error: no camera is called `{name}`")), "{shown}");
+        assert!(shown.contains(&format!("test.ug:{place}")) && shown.contains(help), "{shown}");
+    };
+    let two = "v z 0 0 0;\ncam -ep 1 0 0;\ncam bridge -ep 2 0 0; cam stern -ep 3 0 0;";
+    check(two, "brigde", "2:1", "did you mean `bridge`?");
+    check(two, "north", "2:1", "cameras are `bridge`, `stern`");
+    check("cam -ep 1 0 0;", "a", "1:1", "no camera has a name");
+    check("v z 0 0 0;", "a", "1:1", "no camera has a name");
+}
