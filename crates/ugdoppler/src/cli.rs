@@ -164,7 +164,7 @@ pub fn main() -> ExitCode {
 fn run(args: &Args, stage: &mut Stage) -> Result<(), Failure> {
     let config = args.config(stage.command_line())?;
     let source = pipe::read(stage, &config.reading)?;
-    let report = crate::run(&config, &source).map_err(|error| match error {
+    let report = crate::run_with(&config, &source, &stage.steps()).map_err(|error| match error {
         Error::Scene(findings) => pipe::refused(findings),
         error => Failure::failed(error),
     })?;

@@ -44,6 +44,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 use ugparse::{Diagnostics, Face, Options, Scene, Source};
 use ugphysics::{Brightness, Hsv, Velocity, VelocityError, doppler_at};
+use ugpipe::Progress;
 use ugscene::{Bodies, HueScale, VertexColor};
 
 pub use cli::{Args, main};
@@ -173,12 +174,22 @@ impl Report {
 /// # Errors
 /// What is wrong with the scene: [`Error`].
 pub fn run(config: &Config, source: &Source) -> Result<Report, Error> {
+    run_with(config, source, &())
+}
+
+/// [`run`], which tells somebody how far it is.
+///
+/// # Errors
+/// What is wrong with the scene: [`Error`].
+pub fn run_with(config: &Config, source: &Source, progress: &dyn Progress) -> Result<Report, Error> {
+    progress.step("reading", 0);
     let parsed = ugscene::read(source, &config.reading, config.camera.as_deref())?;
     let bodies = Bodies::new(&parsed.scene, config.velocity)?;
     let eye = ugscene::eye(&parsed.scene, config.eye);
     if let Some(vertex) = ugscene::vertex_at_eye(&parsed.scene, eye, &bodies) {
         return Err(ugscene::at_eye_error(source, &parsed, vertex).into());
     }
+    progress.step("colouring", 0);
     let (scene, notes) = colour(parsed.scene, config, eye, &bodies);
     Ok(Report { scene, notes, warnings: parsed.warnings })
 }

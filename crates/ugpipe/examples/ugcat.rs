@@ -3,7 +3,7 @@
 use std::process::ExitCode;
 
 use clap::{ArgAction, Parser, ValueEnum};
-use ugpipe::{CommonArgs, Failure, Stage, ToolArgs};
+use ugpipe::{CommonArgs, Failure, Progress, Stage, ToolArgs};
 
 /// Copies its input to its output
 #[derive(Parser)]
@@ -29,6 +29,10 @@ struct Args {
     /// Say one of everything
     #[arg(long)]
     say: bool,
+
+    /// Work in two steps, the second for so many seconds
+    #[arg(long, value_parser = ugpipe::finite)]
+    work: Option<f64>,
 
     /// Fail in this way when all is written
     #[arg(long)]
@@ -59,6 +63,9 @@ fn run(args: &Args, stage: &mut Stage) -> Result<(), Failure> {
     if args.say {
         say(stage);
     }
+    if let Some(seconds) = args.work {
+        work(&stage.steps(), seconds);
+    }
     let input = stage.input()?;
     let mut output = Vec::new();
     if args.head {
@@ -71,6 +78,15 @@ fn run(args: &Args, stage: &mut Stage) -> Result<(), Failure> {
         Some(Way::Usage) => Err(Failure::usage("`-vel` is too fast; stay below 1")),
         Some(Way::Work) => Ok("ten".parse::<i32>().map(drop)?),
         Some(Way::Report) => Err(Failure::Report("\x1b[1merror\x1b[0m: no face\n --> x.ug:1:2".to_owned())),
+    }
+}
+
+fn work(progress: &dyn Progress, seconds: f64) {
+    progress.step("thinking", 0);
+    progress.step("working", 4);
+    for _ in 0..4 {
+        std::thread::sleep(std::time::Duration::from_secs_f64(seconds / 4.0));
+        progress.done(1);
     }
 }
 

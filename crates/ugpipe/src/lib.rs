@@ -26,6 +26,8 @@
 //! - **Messages** are lines such as `uglorentz: warning: …`, each written in one piece since
 //!   programs of a pipe share the terminal. Colour appears only on a terminal, and not
 //!   under `NO_COLOR`.
+//! - **Long runs** show a bar on a terminal after a second, and tell the times of their steps
+//!   under `-vb`: computations tell a [`Progress`] how far they are, and do not know who listens.
 //! - **Exit status** 0 when done, 1 for a bad scene or failed input and output, 2 for bad
 //!   usage. When the reader of a pipe leaves early, the program dies of SIGPIPE without a
 //!   word, as C filters do.
@@ -86,6 +88,7 @@ mod files;
 mod input;
 mod messages;
 mod output;
+mod progress;
 mod provenance;
 mod run;
 mod stage;
@@ -95,5 +98,6 @@ pub use args::{CommonArgs, ONE_DASH, finite, vector, view_angle};
 pub use failure::Failure;
 pub use files::{Printed, read_file, run_program};
 pub use input::Input;
+pub use progress::{Progress, Steps};
 pub use run::{ToolArgs, main};
 pub use stage::Stage;

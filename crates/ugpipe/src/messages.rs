@@ -2,7 +2,7 @@
 
 use std::fs::File;
 use std::io::{self, Write};
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use anstream::adapter::strip_str;
 use anstream::{AutoStream, ColorChoice};
@@ -43,6 +43,19 @@ impl Messages {
         Ok(())
     }
 
+    pub(crate) fn program(&self) -> &str {
+        &self.program
+    }
+
+    pub(crate) fn is_quiet(&self) -> bool {
+        self.is_quiet
+    }
+
+    /// Time since the program began.
+    pub(crate) fn elapsed(&self) -> Duration {
+        self.start.elapsed()
+    }
+
     pub(crate) fn note(&self, text: &str) {
         if !self.is_quiet {
             self.headed("note", NOTE, text);
@@ -63,7 +76,7 @@ impl Messages {
 
     pub(crate) fn detail(&self, text: &str) {
         if self.is_verbose {
-            let seconds = self.start.elapsed().as_secs_f64();
+            let seconds = self.elapsed().as_secs_f64();
             self.print(&format!("{}: {seconds:.3} s: {text}", self.program));
         }
     }

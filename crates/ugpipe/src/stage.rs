@@ -2,12 +2,14 @@
 
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+use std::time::Instant;
 
 use crate::args::CommonArgs;
 use crate::failure::Failure;
 use crate::input::{self, Input};
 use crate::messages::Messages;
 use crate::output::Output;
+use crate::progress::Steps;
 use crate::text;
 
 /// What a program sees of the world: its input, its output and its messages.
@@ -77,7 +79,10 @@ impl Stage {
     /// # Errors
     /// [`Failure::Write`] with the error of `fill`.
     pub fn write_with(&mut self, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), Failure> {
-        self.output.write_with(fill)
+        let begun = Instant::now();
+        self.output.write_with(fill)?;
+        self.detail(&format!("writing took {:.3} s", begun.elapsed().as_secs_f64()));
+        Ok(())
     }
 
     /// Writes another file beside the output, whole or not at all: it takes its place when the program ends
@@ -133,6 +138,13 @@ impl Stage {
     /// Says what was done, with the time since the start. Only under `-vb`.
     pub fn detail(&self, text: &str) {
         self.messages.detail(text);
+    }
+
+    /// Whom a computation tells how far it is. `-vb` says what each step took; a step that is not done when
+    /// the program has run for a second shows a bar, if standard error is a terminal, but not under `-qt`.
+    /// Drop it before other messages are to appear.
+    pub fn steps(&self) -> Steps<'_> {
+        Steps::new(&self.messages)
     }
 
     /// Keeps or discards the output, and says why a run failed.

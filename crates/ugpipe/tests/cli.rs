@@ -400,3 +400,30 @@ fn a_terminal_shows_colors_unless_unwanted() {
     assert!(screen.contains("ugcat: warning: nearly all\nwarning: this face\n"), "{screen:?}");
     assert!(!screen.contains('\x1b'), "{screen:?}");
 }
+
+#[test]
+fn a_long_run_shows_a_bar_to_people_only() {
+    let folder = folder();
+    let screen = |args: &[&str]| {
+        let (status, screen) = on_terminal(command_in_color(&folder, args), b"");
+        assert_eq!(status, Some(0), "{screen}");
+        screen
+    };
+    let long = screen(&["-work", "1.4", "ship.ug", "-fo", "out.ug"]);
+    assert!(long.contains("ugcat: working [") && long.contains("75%"), "{long:?}");
+    // The bar is gone at the end.
+    assert!(long.ends_with("\x1b[2K") || long.trim_end().ends_with("\x1b[2K"), "{long:?}");
+    assert_eq!(screen(&["-work", "1.4", "ship.ug", "-qt", "-fo", "out.ug"]), "");
+    assert_eq!(screen(&["-work", "0", "ship.ug", "-fo", "out.ug"]), "");
+    assert_run(&run(&folder, &["-work", "1.4", "ship.ug"]), 0, SHIP, "");
+}
+
+#[test]
+fn steps_tell_their_times_when_asked() {
+    let folder = folder();
+    let told = run(&folder, &["-work", "0", "-vb", "ship.ug"]);
+    let lines = String::from_utf8(told.stderr).unwrap();
+    let steps: Vec<&str> =
+        lines.lines().filter_map(|line| line.split(" s: ").nth(1)?.split(" took ").next()).collect();
+    assert_eq!(steps, ["thinking", "working", "writing"], "{lines}");
+}
