@@ -1,0 +1,265 @@
+//! Puts everything in its place: groups and what they place become a flat scene.
+//!
+//! The file's own tables become those of the scene; definitions are copied
+//! behind them, once for each instance.
+
+mod comments;
+mod frame;
+mod names;
+mod paths;
+mod queue;
+mod rows;
+
+use std::collections::BTreeMap;
+
+use rustc_hash::FxHashMap;
+
+use crate::diagnostic::Diagnostic;
+use crate::group::{Call, Counts, Group, Velocities};
+use crate::reader::Document;
+use crate::scene::{ColorId, Item, Scene, VelocityId, Vertex, VertexId};
+use crate::settle::{Link, Links};
+use crate::source::Span;
+use crate::statement::Repeat;
+
+use frame::{Frame, Placement};
+use queue::{Queue, Queues};
+
+/// Where in the text the rows of a flat scene come from.
+#[derive(Clone, Debug, Default)]
+pub struct Origins {
+    /// For each vertex, its name in its `v` statement.
+    pub vertices: Vec<Span>,
+    /// For each face, its statement.
+    pub faces: Vec<Span>,
+    /// For each camera, its statement.
+    pub cameras: Vec<Span>,
+}
+
+/// Chains of definitions that any thread has stack for.
+const SHORT_CHAIN: usize = 200;
+
+/// Bytes of stack for each definition of a longer chain: several times what is needed.
+const STACK_PER_LEVEL: usize = 1 << 15;
+
+/// Builds the flat scene; colours, surfaces, and the names of the file, are in it already.
+pub(crate) fn place(
+    text: &[u8],
+    document: &mut Document<'_>,
+    links: &Links,
+    scene: Scene,
+    findings: &mut Vec<Diagnostic>,
+) -> (Scene, Origins) {
+    if links.levels <= SHORT_CHAIN {
+        return place_here(text, document, links, scene, findings);
+    }
+    // Placing recurses, so a long chain gets a thread with a stack of its length.
+    let mut outcome = None;
+    let started = std::thread::scope(|scope| {
+        let work = || outcome = Some(place_here(text, document, links, scene, findings));
+        let thread = std::thread::Builder::new().stack_size(links.levels * STACK_PER_LEVEL);
+        thread.spawn_scoped(scope, work).map(|_| ())
+    });
+    outcome.unwrap_or_else(|| {
+        let why = started.err().map_or(String::new(), |error| format!(": {error}"));
+        let message = format!("there is no memory for so long a chain of definitions{why}");
+        findings.push(Diagnostic::error(Span::default(), message));
+        Default::default()
+    })
+}
+
+fn place_here(
+    text: &[u8],
+    document: &mut Document<'_>,
+    links: &Links,
+    scene: Scene,
+    findings: &mut Vec<Diagnostic>,
+) -> (Scene, Origins) {
+    // Only comments behind the head ask where statements stand.
+    let first_statement = document.first_statement.unwrap_or(u32::MAX);
+    let has_comments = document.comments.last().is_some_and(|comment| comment.text.start > first_statement);
+    let file = std::mem::take(&mut document.groups[0]);
+    let mut placer = Placer {
+        text,
+        groups: &document.groups,
+        links,
+        scene,
+        origins: Origins::default(),
+        emitted: has_comments.then(Vec::new),
+        placed_before: vec![false; document.groups.len()],
+        next_vertex: 0,
+        path_rows: FxHashMap::default(),
+        has_linked_paths: false,
+        undefined: BTreeMap::new(),
+        first_illums: vec![None; document.groups.len()],
+        velocities: Velocities::default(),
+        trouble: None,
+        flattened: BTreeMap::new(),
+    };
+    placer.note_definitions(&file);
+    placer.file(file);
+    findings.extend(std::mem::take(&mut placer.undefined).into_values());
+    placer.make_names_unique();
+    placer.place_comments(&document.comments, first_statement);
+    findings.extend(placer.trouble);
+    findings.extend(placer.flattened.into_values());
+    placer.scene.velocities = placer.velocities.list;
+    (placer.scene, placer.origins)
+}
+
+struct Placer<'d, 't> {
+    text: &'t [u8],
+    /// The definitions; the row of the file is empty.
+    groups: &'d [Group<'t>],
+    links: &'d Links,
+    scene: Scene,
+    origins: Origins,
+    /// Where each statement stands and the first row it gave, if comments ask for it.
+    emitted: Option<Vec<(Span, Item)>>,
+    /// Vertices of the group have been placed.
+    placed_before: Vec<bool>,
+    /// Where the vertices of the next group begin, when all vertices are placed.
+    next_vertex: usize,
+    /// Placed vertices by path, if something names one.
+    path_rows: FxHashMap<String, VertexId>,
+    /// A corner of the file was linked to one of them.
+    has_linked_paths: bool,
+    /// Paths that lead nowhere, by their positions.
+    undefined: BTreeMap<u32, Diagnostic>,
+    /// For each group that has been placed, the row of its first illum.
+    first_illums: Vec<Option<usize>>,
+    velocities: Velocities,
+    /// The first thing that cannot be placed.
+    trouble: Option<Diagnostic>,
+    /// Warnings for faces that have no area where they are placed, once for
+    /// each statement, by its position.
+    flattened: BTreeMap<u32, Diagnostic>,
+}
+
+impl Placer<'_, '_> {
+    /// The file's tables become the scene's, with what calls give in between.
+    fn file(&mut self, mut file: Group<'_>) {
+        self.velocities = std::mem::take(&mut file.velocities);
+        if self.emitted.is_some() {
+            let names = file.vertices.spans.iter();
+            let spans: Vec<Span> = names.map(|&name| Group::vertex_statement(self.text, name)).collect();
+            self.note(&spans, 0, Item::Vertex);
+        }
+        self.scene.vertices = std::mem::take(&mut file.vertices.rows);
+        self.origins.vertices = std::mem::take(&mut file.vertices.spans);
+        // Faces may name vertices that come later, also in instances, so vertices go first.
+        let frame = Frame::file();
+        self.next_vertex = self.scene.vertices.len();
+        for (call, link) in file.calls.rows.iter().zip(&self.links.calls[0]) {
+            self.call(call, link, &frame, Self::vertices);
+        }
+        self.enter_paths(&file);
+        self.link_paths(&mut file);
+
+        let end = file.counts();
+        self.scene.contours = file.contours;
+        self.scene.illums = file.illums;
+        let mut queues = Queues {
+            faces: Queue::new(file.faces),
+            wires: Queue::new(file.wires),
+            lights: Queue::new(file.lights),
+            cameras: Queue::new(file.cameras),
+            escapes: Queue::new(file.escapes),
+            unknown: Queue::new(file.unknown),
+        };
+        for (call, link) in file.calls.rows.iter().zip(&self.links.calls[0]) {
+            self.move_rows(&mut queues, call.before);
+            self.call(call, link, &frame, Self::group);
+        }
+        self.move_rows(&mut queues, end);
+    }
+
+    /// Copies the vertices of a definition, and of what it places.
+    fn vertices(&mut self, row: usize, frame: &Frame) {
+        let group = &self.groups[row];
+        let first_time = !std::mem::replace(&mut self.placed_before[row], true);
+        for (vertex, &span) in group.vertices.rows.iter().zip(&group.vertices.spans) {
+            let position = frame.transform.point(vertex.position);
+            let normal = vertex.normal.map(|normal| frame.transform.normal(normal));
+            self.check_finite(span, position);
+            self.check_finite(span, normal.unwrap_or_default());
+            let name = self.name(group, vertex.name, frame);
+            if first_time && self.emitted.is_some() {
+                let row = self.scene.vertices.len();
+                self.note(&[Group::vertex_statement(self.text, span)], row, Item::Vertex);
+            }
+            self.scene.vertices.push(Vertex { name, position, color: vertex.color, normal });
+            self.origins.vertices.push(span);
+        }
+        for (call, link) in group.calls.rows.iter().zip(&self.links.calls[row]) {
+            self.call(call, link, frame, Self::vertices);
+        }
+    }
+
+    /// Copies all but the vertices, which come in the same order as before.
+    fn group(&mut self, row: usize, frame: &Frame) {
+        let group = &self.groups[row];
+        let velocities: Vec<VelocityId> =
+            group.velocities.list.iter().map(|&velocity| self.velocities.id(velocity)).collect();
+        let first_vertex = self.next_vertex as u32;
+        self.next_vertex += group.vertices.len();
+        let paths = group.paths.iter();
+        let paths = paths.filter_map(|path| Some((path.corner, self.find_path(&frame.prefix, path.name)?)));
+        let paths: FxHashMap<usize, VertexId> = paths.collect();
+        if paths.len() < group.paths.len() {
+            return;
+        }
+        let default = group.outer_default;
+        let first_time = self.first_illums[row].is_none();
+        let first_illum = *self.first_illums[row].get_or_insert_with(|| {
+            self.scene.illums.extend_from_slice(&group.illums);
+            self.scene.illums.len() - group.illums.len()
+        });
+        let placement = Placement {
+            group,
+            frame,
+            first_vertex,
+            paths,
+            velocities: &velocities,
+            first_time,
+            first_color: self.links.first_colors[row],
+            first_illum,
+            outer_default: default
+                .map(|(outer, color)| ColorId::from_index(self.links.first_colors[outer] + color as usize)),
+        };
+        let mut done = Counts::default();
+        for (call, link) in group.calls.rows.iter().zip(&self.links.calls[row]) {
+            self.rows(&placement, done, call.before);
+            done = call.before;
+            self.call(call, link, frame, Self::group);
+        }
+        self.rows(&placement, done, group.counts());
+    }
+
+    /// Lets `place` see to every copy that a call asks for.
+    fn call(&mut self, call: &Call, link: &Link, frame: &Frame, place: fn(&mut Self, usize, &Frame)) {
+        let (Some(target), label) = (link.target, &link.label) else { return };
+        let Call { statement: call, color, .. } = call;
+        let own_velocity = call.velocity.map(|velocity| self.velocities.id(velocity));
+        let colon = if frame.prefix.is_empty() || label.is_empty() { "" } else { ":" };
+        let mut inner = Frame {
+            transform: call.inner.then(&frame.transform),
+            prefix: format!("{}{colon}{label}", frame.prefix),
+            color: color.or(frame.color),
+            velocity: frame.velocity.or(own_velocity),
+        };
+        match &call.repeat {
+            Repeat::Once => place(self, target, &inner),
+            Repeat::Times(copies, step) => {
+                let base = std::mem::take(&mut inner.prefix);
+                let mut steps = call.inner;
+                for copy in 0..*copies {
+                    inner.prefix = format!("{base}#{copy}");
+                    inner.transform = steps.then(&frame.transform);
+                    place(self, target, &inner);
+                    steps = steps.then(step);
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,50 @@
+//! Names of what is placed.
+
+use super::Placer;
+use super::frame::Frame;
+use crate::group::Group;
+use crate::names::{NameId, Names, UniqueNames};
+use crate::scene::Scene;
+
+impl Placer<'_, '_> {
+    pub(super) fn name(&mut self, group: &Group<'_>, name: NameId, frame: &Frame) -> NameId {
+        self.scene.names.add_parts(&[
+            &frame.prefix,
+            if frame.prefix.is_empty() { "" } else { ":" },
+            group.names.get(name),
+        ])
+    }
+
+    pub(super) fn optional_name(
+        &mut self,
+        group: &Group<'_>,
+        name: Option<NameId>,
+        frame: &Frame,
+    ) -> Option<NameId> {
+        name.map(|name| self.name(group, name, frame))
+    }
+
+    /// A path, or the name of an unnamed colour, may meet a name that somebody
+    /// wrote; the later one in the table gives way.
+    pub(super) fn make_names_unique(&mut self) {
+        let is_flat = self.groups.len() == 1;
+        let Scene { names, vertices, colors, surfaces, .. } = &mut self.scene;
+        rename_duplicates(names, colors.iter_mut().map(|color| &mut color.name));
+        rename_duplicates(names, surfaces.iter_mut().map(|surface| &mut surface.name));
+        // Vertices of a flat file have been compared.
+        if !is_flat {
+            rename_duplicates(names, vertices.iter_mut().map(|vertex| &mut vertex.name));
+        }
+    }
+}
+
+fn rename_duplicates<'n>(names: &mut Names, ids: impl Iterator<Item = &'n mut NameId>) {
+    let mut taken = UniqueNames::default();
+    for id in ids {
+        let name = names.get(*id).to_string();
+        let unique = taken.fresh(&name);
+        if unique != name {
+            *id = names.add(&unique);
+        }
+    }
+}

@@ -1,0 +1,63 @@
+//! Vertices of instances, by their paths.
+
+use super::Placer;
+use crate::group::{Group, as_str};
+use crate::scene::{Face, VertexId};
+use crate::settle::{flatness, is_short, left_out, short_wire, undefined};
+use crate::source::Span;
+
+impl Placer<'_, '_> {
+    /// Notes the names of placed vertices, if anything asks for one.
+    pub(super) fn enter_paths(&mut self, file: &Group<'_>) {
+        if file.paths.is_empty() && self.groups.iter().all(|group| group.paths.is_empty()) {
+            return;
+        }
+        for (row, vertex) in self.scene.vertices.iter().enumerate().skip(self.next_vertex) {
+            let path = self.scene.names.get(vertex.name).to_string();
+            self.path_rows.entry(path).or_insert(VertexId::from_index(row));
+        }
+    }
+
+    /// The vertex that a path means where `prefix` is placed.
+    pub(super) fn find_path(&mut self, prefix: &str, name: Span) -> Option<VertexId> {
+        let own = as_str(name.of(self.text));
+        let colon = if prefix.is_empty() { "" } else { ":" };
+        let found = self.path_rows.get(&format!("{prefix}{colon}{own}")).copied();
+        if found.is_none() {
+            let remedy = "the path of a vertex is `instance:vertex`, or `array#3:vertex` for copy 3, from 0";
+            let text = self.text;
+            self.undefined.entry(name.start).or_insert_with(|| undefined(text, "vertex", name, remedy));
+        }
+        found
+    }
+
+    /// Links the file's corners that name vertices of instances. Faces that turn
+    /// out to be flat are left out, and wires that are too short.
+    pub(super) fn link_paths(&mut self, file: &mut Group<'_>) {
+        for path in std::mem::take(&mut file.paths) {
+            let Some(vertex) = self.find_path("", path.name) else { continue };
+            file.contours.parts_mut().0[path.corner] = vertex;
+            self.has_linked_paths = true;
+        }
+        if !self.has_linked_paths || !self.undefined.is_empty() {
+            return;
+        }
+        let problem = |face: &Face| flatness(&file.contours, &self.scene.vertices, face);
+        let faces = file.faces.rows.iter().enumerate();
+        let flat: Vec<_> = faces.filter_map(|(row, face)| Some((row, problem(face)?))).collect();
+        for &(row, problem) in &flat {
+            let span = file.faces.spans[row];
+            let warning = left_out(self.text, span, "face", problem, "remove it, or mend its vertices");
+            self.flattened.insert(span.start, warning);
+        }
+        file.remove_faces(&flat.into_iter().map(|(row, _)| row).collect::<Vec<_>>());
+        let wires = file.wires.rows.iter().enumerate();
+        let short: Vec<usize> =
+            wires.filter(|(_, wire)| is_short(&file.contours, wire)).map(|(row, _)| row).collect();
+        for &row in &short {
+            let span = file.wires.spans[row];
+            self.flattened.insert(span.start, short_wire(self.text, span));
+        }
+        file.remove_wires(&short);
+    }
+}

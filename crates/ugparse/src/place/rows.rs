@@ -1,0 +1,185 @@
+//! Faces, wires, lights and cameras of a definition, as placed.
+
+use std::ops::Range;
+
+use glam::DVec3;
+
+use super::Placer;
+use super::frame::Placement;
+use crate::diagnostic::Diagnostic;
+use crate::group::Counts;
+use crate::scene::{Camera, Face, IllumId, Item, Light, LightKind, VertexId, Wire, newell_normal};
+use crate::settle::{face_name, has_three, is_short, short_wire};
+use crate::source::Span;
+
+impl Placer<'_, '_> {
+    /// Places all but vertices and calls, from `start` up to `end`.
+    pub(super) fn rows(&mut self, placement: &Placement<'_>, start: Counts, end: Counts) {
+        let group = placement.group;
+        for row in start.faces..end.faces {
+            self.face(placement, row);
+        }
+        for row in start.wires..end.wires {
+            self.wire(placement, row);
+        }
+        for row in start.lights..end.lights {
+            self.light(placement, row);
+        }
+        for row in start.cameras..end.cameras {
+            self.camera(placement, row);
+        }
+        if placement.first_time {
+            let (escapes, unknown) = (start.escapes..end.escapes, start.unknown..end.unknown);
+            self.note(&group.escapes.spans[escapes.clone()], self.scene.escapes.len(), Item::Escape);
+            self.scene.escapes.extend_from_slice(&group.escapes.rows[escapes]);
+            self.note(&group.unknown.spans[unknown.clone()], self.scene.unknown.len(), Item::Unknown);
+            self.scene.unknown.extend_from_slice(&group.unknown.rows[unknown]);
+        }
+    }
+
+    fn note_first(&mut self, placement: &Placement<'_>, span: Span, row: usize, item: fn(u32) -> Item) {
+        if placement.first_time {
+            self.note(&[span], row, item);
+        }
+    }
+
+    fn face(&mut self, placement: &Placement<'_>, row: usize) {
+        let Placement { group, frame, .. } = placement;
+        let (face, span) = (&group.faces.rows[row], group.faces.spans[row]);
+        if !self.has_area(placement, face, span) {
+            return;
+        }
+        self.note_first(placement, span, self.scene.faces.len(), Item::Face);
+        let placed = Face {
+            name: self.optional_name(group, face.name, frame),
+            contours: self.contours(placement, face.contours.clone(), frame.transform.mirrored),
+            color: placement.color(face.color, row, |default| default.first_face),
+            illum: face.illum.map(|illum| IllumId::from_index(placement.first_illum + illum.index())),
+            velocity: frame.velocity.or(placement.velocity(face.velocity)),
+        };
+        self.scene.faces.push(placed);
+        self.origins.faces.push(span);
+    }
+
+    fn wire(&mut self, placement: &Placement<'_>, row: usize) {
+        let Placement { group, frame, .. } = placement;
+        let (wire, span) = (&group.wires.rows[row], group.wires.spans[row]);
+        // One with corners by path comes as far as this.
+        if is_short(&group.contours, wire) {
+            self.flattened.entry(span.start).or_insert_with(|| short_wire(self.text, span));
+            return;
+        }
+        self.note_first(placement, span, self.scene.wires.len(), Item::Wire);
+        let placed = Wire {
+            name: self.optional_name(group, wire.name, frame),
+            contours: self.contours(placement, wire.contours.clone(), false),
+            color: placement.color(wire.color, row, |default| default.first_wire),
+            velocity: frame.velocity.or(placement.velocity(wire.velocity)),
+        };
+        self.scene.wires.push(placed);
+    }
+
+    /// Copies contours; a mirrored frame reverses their direction but keeps the first vertex.
+    fn contours(&mut self, placement: &Placement<'_>, rows: Range<u32>, reversed: bool) -> Range<u32> {
+        self.scene.contours.push_all(rows.map(|row| {
+            let corners = placement.corners(row);
+            let len = corners.len();
+            (0..len).map(move |idx| {
+                let idx = if reversed { (len - idx) % len } else { idx };
+                placement.corner(corners.start + idx)
+            })
+        }))
+    }
+
+    /// False, with a warning, if a face has no area where it is placed: squashed
+    /// flat by `-sz 0`, or too small beside its distance.
+    fn has_area(&mut self, placement: &Placement<'_>, face: &Face, span: Span) -> bool {
+        let outline = placement.corners(face.contours.start);
+        let position = |corner: usize| self.scene.vertices[placement.corner(corner).index()].position;
+        // Corners by path may turn out to be one vertex.
+        let has_three = placement.paths.is_empty()
+            || face.contours.clone().all(|row| {
+                let corners: Vec<VertexId> =
+                    placement.corners(row).map(|idx| placement.corner(idx)).collect();
+                has_three(&corners)
+            });
+        if has_three && newell_normal(outline.map(position)) != DVec3::ZERO {
+            return true;
+        }
+        let text = self.text;
+        self.flattened.entry(span.start).or_insert_with(|| {
+            let shown = face_name(text, span).unwrap_or(Span { start: span.start, end: span.start + 1 });
+            Diagnostic::warning(shown, "face has no area where it is placed")
+                .label("left out")
+                .help("mend the transformations that place it")
+        });
+        false
+    }
+
+    fn light(&mut self, placement: &Placement<'_>, row: usize) {
+        let Placement { group, frame, .. } = placement;
+        let (light, span) = (&group.lights.rows[row], group.lights.spans[row]);
+        self.note_first(placement, span, self.scene.lights.len(), Item::Light);
+        let kind = match light.kind {
+            LightKind::Ambient => LightKind::Ambient,
+            LightKind::Directional(toward) => {
+                let toward = frame.transform.direction(toward);
+                self.check_direction(span, toward);
+                LightKind::Directional(toward)
+            }
+            LightKind::Local { position, radius } => {
+                let position = frame.transform.point(position);
+                self.check_finite(span, position);
+                LightKind::Local { position, radius }
+            }
+        };
+        let placed = Light {
+            name: self.optional_name(group, light.name, frame),
+            kind,
+            velocity: placement.velocity(light.velocity),
+            ..light.clone()
+        };
+        self.scene.lights.push(placed);
+    }
+
+    fn camera(&mut self, placement: &Placement<'_>, row: usize) {
+        let Placement { group, frame, .. } = placement;
+        let (camera, span) = (&group.cameras.rows[row], group.cameras.spans[row]);
+        self.note_first(placement, span, self.scene.cameras.len(), Item::Camera);
+        let placed = Camera {
+            name: self.optional_name(group, camera.name, frame),
+            center: camera.center.map(|point| frame.transform.point(point)),
+            eye: camera.eye.map(|point| frame.transform.point(point)),
+            up: camera.up.map(|up| frame.transform.direction(up)),
+            velocity: placement.velocity(camera.velocity),
+            ..camera.clone()
+        };
+        for point in [placed.center, placed.eye].into_iter().flatten() {
+            self.check_finite(span, point);
+        }
+        placed.up.into_iter().for_each(|up| self.check_direction(span, up));
+        self.scene.cameras.push(placed);
+        self.origins.cameras.push(span);
+    }
+
+    pub(super) fn check_finite(&mut self, span: Span, place: DVec3) {
+        if !place.is_finite() {
+            self.trouble.get_or_insert_with(|| {
+                Diagnostic::error(span, "coordinates overflow when this is placed")
+                    .label("here")
+                    .help("use smaller numbers")
+            });
+        }
+    }
+
+    fn check_direction(&mut self, span: Span, direction: DVec3) {
+        self.check_finite(span, direction);
+        if direction == DVec3::ZERO {
+            self.trouble.get_or_insert_with(|| {
+                Diagnostic::error(span, "this direction is lost when it is placed")
+                    .label("has no length there")
+                    .help("place it without a scale of 0")
+            });
+        }
+    }
+}

@@ -1,0 +1,134 @@
+//! What is said of names that are not defined.
+
+use super::scopes;
+use crate::diagnostic::{Diagnostic, MAX_ERRORS};
+use crate::grammar::Grammar;
+use crate::group::Group;
+use crate::named::Named;
+use crate::source::Span;
+use crate::statement::{IllumStatement, References, Statement};
+use crate::suggest::nearest;
+use crate::token::word;
+
+/// Reads the statements of a group again, and complains about every name that is not defined.
+pub(super) struct Complaints<'g, 't, 'f> {
+    pub text: &'t [u8],
+    pub groups: &'g [Group<'t>],
+    pub row: usize,
+    pub findings: &'f mut Vec<Diagnostic>,
+}
+
+impl Complaints<'_, '_, '_> {
+    pub(super) fn about_all(&mut self) {
+        let mut references = References::default();
+        for span in self.groups[self.row].statements(self.text) {
+            match read_again(self.text, span, &mut references) {
+                Some(Statement::Vertex(vertex)) => self.about_color(vertex.color),
+                Some(Statement::Light(light)) => self.about_color(light.color),
+                Some(Statement::Call(call)) => self.about_color(call.color),
+                Some(Statement::Face(face) | Statement::Wire(face)) => {
+                    self.about_color(face.color);
+                    if let Some(IllumStatement::Surface(name)) = face.illum {
+                        self.about_surface(name);
+                    }
+                    references.names.iter().for_each(|&name| self.about_vertex(name));
+                }
+                _ => {}
+            }
+        }
+    }
+
+    fn about_color(&mut self, name: Option<Span>) {
+        let Some(name) = name else { return };
+        if self.is_seen(name, |group| &group.colors) {
+            return;
+        }
+        let remedy = if self.is_seen(name, |group| &group.surfaces) {
+            "there is a surface of that name; on a face it stands behind the colour, so give one"
+        } else {
+            "define it with a `c` or `c_rgb` statement"
+        };
+        self.undefined("colour", name, remedy, |group| &group.colors);
+    }
+
+    fn about_surface(&mut self, name: Span) {
+        if self.is_seen(name, |group| &group.surfaces) {
+            return;
+        }
+        let remedy = if self.is_seen(name, |group| &group.colors) {
+            "there is a colour of that name; a face takes one colour, and a surface behind it"
+        } else {
+            "define it with a `surf` statement"
+        };
+        self.undefined("surface", name, remedy, |group| &group.surfaces);
+    }
+
+    /// True if something of that kind and name is seen here.
+    fn is_seen<T>(&self, name: Span, kind: for<'g> fn(&'g Group<'_>) -> &'g Named<'g, T>) -> bool {
+        let mut scopes = scopes(self.groups, self.row);
+        scopes.any(|scope| kind(&self.groups[scope]).row(name.of(self.text)).is_some())
+    }
+
+    fn undefined<T>(
+        &mut self,
+        kind: &str,
+        name: Span,
+        remedy: &str,
+        of_kind: for<'g> fn(&'g Group<'_>) -> &'g Named<'g, T>,
+    ) {
+        let spans = scopes(self.groups, self.row).flat_map(|scope| &of_kind(&self.groups[scope]).spans);
+        let names = spans.flatten().map(|span| span.of(self.text));
+        let found = undefined_like(self.text, kind, name, remedy, names, self.findings.len());
+        self.findings.push(found);
+    }
+
+    fn about_vertex(&mut self, name: Span) {
+        let own = name.of(self.text);
+        if self.groups[self.row].has_vertex(own) || self.groups[self.row].may_be_path(own) {
+            return;
+        }
+        let remedy = if own.contains(&b':') {
+            "define it with a `v` statement: nothing is placed in this scope whose vertex it could be"
+        } else if self.row == 0 {
+            "define it with a `v` statement"
+        } else {
+            "define it with a `v` statement in the same `def`: vertices of the scope outside are not seen here"
+        };
+        let names = self.groups[self.row].vertices.spans.iter().map(|span| span.of(self.text));
+        let found = undefined_like(self.text, "vertex", name, remedy, names, self.findings.len());
+        self.findings.push(found);
+    }
+}
+
+pub(crate) fn undefined(text: &[u8], kind: &str, name: Span, remedy: &str) -> Diagnostic {
+    Diagnostic::error(name, format!("{kind} `{}` is not defined", show(text, name)))
+        .label("used here")
+        .help(remedy)
+}
+
+/// The same, with a guess at what was meant, if it will be shown: there are `n_before` findings.
+pub(super) fn undefined_like<'n>(
+    text: &[u8],
+    kind: &str,
+    name: Span,
+    remedy: &str,
+    names: impl IntoIterator<Item = &'n [u8]>,
+    n_before: usize,
+) -> Diagnostic {
+    let guess = if n_before < MAX_ERRORS { nearest(name.of(text), names) } else { None };
+    match guess {
+        Some(guess) => undefined(text, kind, name, &format!("did you mean `{guess}`? if not, {remedy}")),
+        None => undefined(text, kind, name, remedy),
+    }
+}
+
+/// The statement at `span`, which has been read without an error before.
+pub(super) fn read_again(text: &[u8], span: Span, references: &mut References) -> Option<Statement> {
+    let (body, keyword) = word(&text[span.start as usize..]).ok()?;
+    let (_, statement) = Grammar { text }.statement(keyword, body, references)?.ok()?;
+    Some(statement)
+}
+
+pub(super) fn show(text: &[u8], name: Span) -> String {
+    String::from_utf8_lossy(name.of(text)).into_owned()
+}

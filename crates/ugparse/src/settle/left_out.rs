@@ -1,0 +1,87 @@
+//! Faces and wires that would draw nothing.
+
+use super::complaints::{read_again, show};
+use super::corners::rows_where;
+use crate::diagnostic::Diagnostic;
+use crate::group::{Group, NO_ROW};
+use crate::scene::{Contours, Face, Vertex, VertexId, Wire, newell_normal};
+use crate::source::Span;
+use crate::statement::{References, Statement};
+
+/// Faces with fewer than three different vertices in a contour, or without area, are warned about.
+pub(super) fn leave_out_flat_faces(
+    text: &[u8],
+    group: &mut Group<'_>,
+    has_corners: bool,
+    findings: &mut Vec<Diagnostic>,
+) {
+    let is_whole = |face: &Face| has_corners || is_linked(group.contours.corners(face.contours.clone()));
+    let problem = |face: &Face| flatness(&group.contours, &group.vertices.rows, face);
+    let flat = rows_where(&group.faces.rows, |face| is_whole(face) && problem(face).is_some());
+    for &row in &flat {
+        let problem = problem(&group.faces.rows[row]).unwrap_or_default();
+        let span = group.faces.spans[row];
+        findings.push(left_out(text, span, "face", problem, "remove it, or mend its vertices"));
+    }
+    group.remove_faces(&flat);
+}
+
+pub(super) fn leave_out_short_wires(
+    text: &[u8],
+    group: &mut Group<'_>,
+    has_corners: bool,
+    findings: &mut Vec<Diagnostic>,
+) {
+    let short = rows_where(&group.wires.rows, |wire| {
+        let is_whole = has_corners || is_linked(group.contours.corners(wire.contours.clone()));
+        is_whole && is_short(&group.contours, wire)
+    });
+    findings.extend(short.iter().map(|&row| short_wire(text, group.wires.spans[row])));
+    group.remove_wires(&short);
+}
+
+pub(super) fn is_linked(corners: &[VertexId]) -> bool {
+    !corners.contains(&VertexId(NO_ROW))
+}
+
+/// Why a face draws nothing.
+pub(crate) fn flatness(contours: &Contours, vertices: &[Vertex], face: &Face) -> Option<&'static str> {
+    if !contours.iter(face.contours.clone()).all(has_three) {
+        return Some("has a contour of fewer than 3 different vertices");
+    }
+    let outline = contours.get(face.contours.start);
+    let corners = outline.iter().map(|corner| vertices[corner.index()].position);
+    (newell_normal(corners) == glam::DVec3::ZERO).then_some("has no area")
+}
+
+/// Three different entries.
+pub(crate) fn has_three(corners: &[VertexId]) -> bool {
+    let Some((&a, rest)) = corners.split_first() else { return false };
+    let Some(&b) = rest.iter().find(|&&c| c != a) else { return false };
+    rest.iter().any(|&c| c != a && c != b)
+}
+
+/// True for a wire that draws nothing.
+pub(crate) fn is_short(contours: &Contours, wire: &Wire) -> bool {
+    contours.iter(wire.contours.clone()).any(|contour| contour.len() < 2)
+}
+
+/// What is said of it.
+pub(crate) fn short_wire(text: &[u8], span: Span) -> Diagnostic {
+    left_out(text, span, "wire", "has a contour of fewer than 2 vertices", "remove it, or add a vertex")
+}
+
+pub(crate) fn left_out(text: &[u8], span: Span, kind: &str, problem: &str, remedy: &str) -> Diagnostic {
+    let name = face_name(text, span);
+    let shown = name.map_or(String::new(), |name| format!(" `{}`", show(text, name)));
+    let span = name.unwrap_or(Span { start: span.start, end: span.start + 1 });
+    Diagnostic::warning(span, format!("{kind}{shown} {problem}")).label("left out").help(remedy)
+}
+
+/// Where the name of the face or wire at `span` stands.
+pub(crate) fn face_name(text: &[u8], span: Span) -> Option<Span> {
+    match read_again(text, span, &mut References::default()) {
+        Some(Statement::Face(face) | Statement::Wire(face)) => face.name,
+        _ => None,
+    }
+}

@@ -1,0 +1,144 @@
+//! Colours and surfaces: from the tables of the scopes into the scene, and from names to rows.
+
+use super::complaints::show;
+use super::corners::for_all;
+use super::scopes;
+use crate::diagnostic::Diagnostic;
+use crate::group::{Group, shifted};
+use crate::named::Named;
+use crate::names::{NameId, Names};
+use crate::options::{Limit, Limits};
+use crate::scene::{Color, ColorId, Illum, Scene, Surface, SurfaceId};
+use crate::source::Span;
+
+/// The names of colours and surfaces, paths included, may have this part of the bytes of all names.
+const PART_OF_NAMES: u64 = 4;
+
+/// For each group, the row of its first colour, and of its first surface, in the scene.
+#[derive(Default)]
+pub(super) struct Firsts {
+    pub colors: Vec<usize>,
+    pub surfaces: Vec<usize>,
+}
+
+/// Puts the colours and surfaces of all groups into the scene.
+pub(super) fn gather_named(
+    text: &[u8],
+    groups: &mut [Group<'_>],
+    scene: &mut Scene,
+    limits: &Limits,
+) -> Result<Firsts, Diagnostic> {
+    let mut firsts = Firsts::default();
+    let mut room = limits.get(Limit::Names) / PART_OF_NAMES;
+    for row in 0..groups.len() {
+        firsts.colors.push(scene.colors.len());
+        firsts.surfaces.push(scene.surfaces.len());
+        let group = &groups[row];
+        if group.colors.spans.is_empty() && group.surfaces.spans.is_empty() {
+            continue;
+        }
+        let prefix = scope_prefix(text, groups, row);
+        let group = &mut groups[row];
+        let mut name = |names: &mut Names, own: &str, span: Span| {
+            let taken = (prefix.len() + own.len()) as u64;
+            room = room.checked_sub(taken).ok_or_else(|| long_names(span, limits))?;
+            Ok::<NameId, Diagnostic>(names.add_parts(&[&prefix, own]))
+        };
+        let first_sample = scene.samples.len();
+        scene.samples.append(&mut group.samples);
+        let colors = std::mem::take(&mut group.colors.table.rows).into_iter();
+        for ((color, &span), own) in colors.zip(&group.colors.table.spans).zip(&group.colors.spans) {
+            let own = match own {
+                Some(own) => show(text, *own),
+                None => format!("unnamed#{}", scene.colors.len()),
+            };
+            let name = name(&mut scene.names, &own, span)?;
+            scene.colors.push(Color { name, value: shifted(color.value, first_sample), ..color });
+        }
+        let surfaces = std::mem::take(&mut group.surfaces.table.rows).into_iter();
+        for ((surface, &span), own) in
+            surfaces.zip(&group.surfaces.table.spans).zip(group.surfaces.spans.iter().flatten())
+        {
+            let name = name(&mut scene.names, &show(text, *own), span)?;
+            scene.surfaces.push(Surface { name, ..surface });
+        }
+    }
+    Ok(firsts)
+}
+
+fn long_names(span: Span, limits: &Limits) -> Diagnostic {
+    let else_do = "use shorter names for definitions that hold colours or surfaces; \
+                   theirs may have a quarter of all bytes";
+    Diagnostic::error(
+        span,
+        "the names of colours and surfaces, with those of their definitions before them, are too long",
+    )
+    .label("this one is too much")
+    .help(limits.remedy(Limit::Names, else_do))
+}
+
+/// `outer:inner:` for the colours and surfaces of a nested definition, empty for the file's.
+fn scope_prefix(text: &[u8], groups: &[Group<'_>], row: usize) -> String {
+    scopes(groups, row)
+        .filter(|&scope| groups[scope].parent.is_some())
+        .fold(String::new(), |inner, scope| format!("{}:{inner}", show(text, groups[scope].name)))
+}
+
+/// For each name of a kind in a group, the row in the scene of what it means.
+pub(super) fn visible<'g, T: 'g>(
+    groups: &'g [Group<'_>],
+    row: usize,
+    kind: impl Fn(&'g Group<'_>) -> &'g Named<'g, T>,
+    firsts: &[usize],
+) -> Vec<Option<usize>> {
+    let find = |name: &&[u8]| {
+        scopes(groups, row).find_map(|scope| Some(firsts[scope] + kind(&groups[scope]).row(name)?))
+    };
+    kind(&groups[row]).names.list.iter().map(find).collect()
+}
+
+/// Turns names of colours into colours; false if one is not defined.
+pub(super) fn paint(group: &mut Group<'_>, colors: &[Option<usize>]) -> bool {
+    if colors.iter().enumerate().all(|(row, color)| *color == Some(row)) {
+        return true;
+    }
+    let colors: Vec<_> = colors.iter().map(|color| color.map(ColorId::from_index)).collect();
+    let paint = |color: &mut Option<ColorId>| *color = color.and_then(|name| colors[name.index()]);
+    for_all(&mut group.vertices.rows, |vertex| paint(&mut vertex.color));
+    for_all(&mut group.faces.rows, |face| paint(&mut face.color));
+    group.wires.rows.iter_mut().for_each(|wire| paint(&mut wire.color));
+    group.lights.rows.iter_mut().for_each(|light| paint(&mut light.color));
+    group.calls.rows.iter_mut().for_each(|call| paint(&mut call.color));
+    colors.iter().all(Option::is_some)
+}
+
+/// Turns names of surfaces into surfaces; false if one is not defined.
+pub(super) fn name_surfaces(group: &mut Group<'_>, surfaces: &[Option<usize>]) -> bool {
+    for illum in &mut group.illums {
+        if let Illum::Surface(id) = illum
+            && let Some(row) = surfaces[id.index()]
+        {
+            *id = SurfaceId::from_index(row);
+        }
+    }
+    surfaces.iter().all(Option::is_some)
+}
+
+/// The unnamed colour in force where the faces of the file are written. Those
+/// of definitions get it when they are placed, behind the colours of calls.
+pub(super) fn apply_default_colors(file: &mut Group<'_>) {
+    let Group { defaults, faces, wires, .. } = file;
+    for (idx, default) in defaults.iter().enumerate() {
+        let next = defaults.get(idx + 1);
+        // The file's colours are the first of the scene.
+        let color = Some(ColorId::from_index(default.color as usize));
+        let end = next.map_or(faces.len(), |next| next.first_face);
+        for face in &mut faces.rows[default.first_face..end] {
+            face.color = face.color.or(color);
+        }
+        let end = next.map_or(wires.len(), |next| next.first_wire);
+        for wire in &mut wires.rows[default.first_wire..end] {
+            wire.color = wire.color.or(color);
+        }
+    }
+}

@@ -1,0 +1,175 @@
+//! How large the placed scene would be: known before anything is placed.
+
+use rustc_hash::FxHashSet;
+
+use super::Links;
+use super::complaints::show;
+use crate::diagnostic::Diagnostic;
+use crate::group::Group;
+use crate::options::{Limit, Limits};
+use crate::source::Span;
+use crate::statement::{CallStatement, Repeat};
+
+/// Measures what calls come to.
+pub(super) struct Sizes<'g, 't> {
+    pub text: &'t [u8],
+    pub groups: &'g [Group<'t>],
+    pub own_sizes: Vec<Size>,
+    pub links: &'g Links,
+    pub limits: &'g Limits,
+}
+
+impl Sizes<'_, '_> {
+    /// Finds definitions that place themselves, chains that are too long, and
+    /// scenes that would grow without bound: before anything is placed. Gives the
+    /// length of the longest chain.
+    pub fn check_calls(&self) -> Result<usize, Diagnostic> {
+        let mut sizes: Vec<Option<Size>> = vec![None; self.groups.len()];
+        // Definitions that nothing places are checked, too.
+        for root in 0..sizes.len() {
+            self.measure(root, &mut sizes)?;
+        }
+        let size = sizes[0].unwrap_or_default();
+        self.too_large(size).map_or(Ok(size.levels), Err)
+    }
+
+    /// Sizes of `root` and of all that it places, without recursion.
+    fn measure(&self, root: usize, sizes: &mut [Option<Size>]) -> Result<(), Diagnostic> {
+        if sizes[root].is_some() {
+            return Ok(());
+        }
+        let mut on_path = FxHashSet::from_iter([root]);
+        // Each entry: a group and the call of its that is looked at next.
+        let mut path: Vec<(usize, usize)> = vec![(root, 0)];
+        while let Some(&mut (row, ref mut next)) = path.last_mut() {
+            let idx = *next;
+            *next += 1;
+            let Some(link) = self.links.calls[row].get(idx) else {
+                sizes[row] = Some(self.size(row, sizes));
+                on_path.remove(&row);
+                path.pop();
+                continue;
+            };
+            let Some(target) = link.target else { continue };
+            let call = &self.groups[row].calls.rows[idx].statement;
+            if on_path.contains(&target) {
+                return Err(self.recursion(call));
+            }
+            // The file itself is no link of the chain.
+            let below = sizes[target].map_or(1, |size| size.levels);
+            if (path.len() - 1 + below) as u64 > self.limits.get(Limit::Chain) {
+                return Err(self.too_long(call));
+            }
+            if sizes[target].is_none() {
+                on_path.insert(target);
+                path.push((target, 0));
+            }
+        }
+        Ok(())
+    }
+
+    /// What a group comes to, the groups it places included.
+    fn size(&self, row: usize, sizes: &[Option<Size>]) -> Size {
+        let mut total = self.own_sizes[row];
+        let mut largest = 0;
+        for (call, link) in self.groups[row].calls.rows.iter().zip(&self.links.calls[row]) {
+            let Some(target) = link.target else { continue };
+            let each = sizes[target].unwrap_or_default();
+            let own = each.placed(copies(&call.statement), link.label.len());
+            if own.statements > largest {
+                largest = own.statements;
+                total.largest_call = Some(call.statement.definition);
+            }
+            total.add(&own);
+        }
+        total.levels += 1;
+        total
+    }
+
+    fn recursion(&self, call: &CallStatement) -> Diagnostic {
+        let shown = show(self.text, call.definition);
+        Diagnostic::error(call.definition, format!("definition `{shown}` contains itself"))
+            .label("placed here, inside itself")
+            .help("a definition may not place itself, directly or through others")
+    }
+
+    /// The message for a scene that is too large to place.
+    fn too_large(&self, size: Size) -> Option<Diagnostic> {
+        let (count, limit, what) = [
+            (size.statements, Limit::Statements, "statements"),
+            (size.corners, Limit::Corners, "corners of faces"),
+            (size.name_bytes, Limit::Names, "bytes of names"),
+        ]
+        .into_iter()
+        .find(|&(count, limit, _)| count > self.limits.get(limit))?;
+        let count = if count == u64::MAX { "too many".to_string() } else { count.to_string() };
+        let finding = |place, label, else_do| {
+            Diagnostic::error(place, format!("the placed scene would have {count} {what}"))
+                .label(label)
+                .help(self.limits.remedy(limit, else_do))
+        };
+        Some(match size.largest_call {
+            Some(call) => finding(call, "most of them from here", "use smaller arrays"),
+            None => finding(Span::default(), "", "split the scene"),
+        })
+    }
+
+    fn too_long(&self, call: &CallStatement) -> Diagnostic {
+        Diagnostic::error(call.definition, "definitions place each other in too long a chain")
+            .label("here")
+            .help(self.limits.remedy(Limit::Chain, "use fewer"))
+    }
+}
+
+/// What a group comes to when it is placed; sums stop at the largest number.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Size {
+    statements: u64,
+    corners: u64,
+    names: u64,
+    name_bytes: u64,
+    /// Length of the longest chain of groups that place each other.
+    levels: usize,
+    /// Where most of it comes from.
+    largest_call: Option<Span>,
+}
+
+impl Size {
+    /// The size of that many copies, whose names get a path with `label` in it.
+    fn placed(&self, copies: u64, label: usize) -> Self {
+        // The colon, and the number of a copy of an array.
+        let added = label as u64 + 1 + if copies > 1 { 9 } else { 2 };
+        let name_bytes = self.name_bytes.saturating_add(self.names.saturating_mul(added));
+        Self {
+            statements: copies.saturating_mul(self.statements.saturating_add(1)),
+            corners: copies.saturating_mul(self.corners),
+            names: copies.saturating_mul(self.names),
+            name_bytes: copies.saturating_mul(name_bytes),
+            ..*self
+        }
+    }
+
+    fn add(&mut self, other: &Self) {
+        self.statements = self.statements.saturating_add(other.statements);
+        self.corners = self.corners.saturating_add(other.corners);
+        self.names = self.names.saturating_add(other.names);
+        self.name_bytes = self.name_bytes.saturating_add(other.name_bytes);
+        self.levels = self.levels.max(other.levels);
+    }
+}
+
+impl Group<'_> {
+    /// What a group comes to without its calls. Faces that are left out count, too.
+    pub(super) fn own_size(&self) -> Size {
+        let (corners, names) = (self.contours.corner_count() as u64, self.names.len() as u64);
+        let name_bytes = self.names.len_bytes() as u64;
+        Size { statements: self.n_statements, corners, names, name_bytes, ..Size::default() }
+    }
+}
+
+fn copies(call: &CallStatement) -> u64 {
+    match call.repeat {
+        Repeat::Once => 1,
+        Repeat::Times(copies, _) => copies,
+    }
+}
