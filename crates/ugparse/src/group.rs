@@ -9,11 +9,12 @@
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 
+use crate::contours::Contours;
 use crate::named::Named;
 use crate::names::{NameId, Names};
 use crate::numbered::{Name, NumberedNames};
 use crate::scene::{
-    Camera, Color, ColorId, ColorValue, Contours, Face, Illum, IllumId, Light, LightKind, Surface, SurfaceId,
+    Camera, Color, ColorId, ColorValue, Face, Illum, IllumId, Light, LightKind, Surface, SurfaceId,
     VelocityId, Vertex, VertexId, Wire,
 };
 use crate::source::Span;

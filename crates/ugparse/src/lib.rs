@@ -35,6 +35,7 @@
 mod cameras;
 #[cfg(feature = "cli")]
 mod cli;
+mod contours;
 mod diagnostic;
 mod flatness;
 mod grammar;
@@ -65,6 +66,7 @@ mod writer;
 
 #[cfg(feature = "cli")]
 pub use cli::main;
+pub use contours::Contours;
 pub use diagnostic::{Diagnostic, Diagnostics, MAX_ERRORS, Place, Severity};
 pub use flatness::{BentFace, FLAT, TOO_BENT, thickness};
 pub use history::{history, record};

@@ -10,11 +10,12 @@
 use rayon::prelude::*;
 
 use crate::Options;
+use crate::contours::Contours;
 use crate::diagnostic::Diagnostic;
 use crate::group::{DefaultColor, Group, NO_ROW, Rows, shifted};
 use crate::names::NameId;
 use crate::reader::{Document, read, read_part};
-use crate::scene::{ColorId, Contours, Illum, IllumId, SurfaceId, VelocityId, VertexId};
+use crate::scene::{ColorId, Illum, IllumId, SurfaceId, VelocityId, VertexId};
 
 /// Bytes a part should have at least.
 const MIN_PART: usize = 1 << 19;

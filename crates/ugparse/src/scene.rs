@@ -15,6 +15,7 @@ use std::ops::Range;
 
 use glam::DVec3;
 
+use crate::contours::Contours;
 use crate::names::{NameId, Names};
 
 macro_rules! index {
@@ -353,121 +354,6 @@ pub enum Item {
     Camera(u32),
     /// Behind the last statement.
     End,
-}
-
-/// Lists of vertices, all in one buffer.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Contours {
-    corners: Vec<VertexId>,
-    ends: Vec<u32>,
-}
-
-impl Contours {
-    /// Appends a contour; its row is [`Contours::len`] before the call.
-    pub fn push(&mut self, corners: impl IntoIterator<Item = VertexId>) {
-        self.corners.extend(corners);
-        let end = u32::try_from(self.corners.len()).expect("fewer than 2^32 corners");
-        self.ends.push(end);
-    }
-
-    /// Appends a corner to the contour that [`Contours::end_contour`] will end.
-    pub(crate) fn push_corner(&mut self, corner: VertexId) {
-        self.corners.push(corner);
-    }
-
-    /// Ends a contour of single corners.
-    pub(crate) fn end_contour(&mut self) {
-        self.push([]);
-    }
-
-    /// Drops all but the first `rows` contours, and corners of one not ended.
-    pub(crate) fn truncate(&mut self, rows: usize) {
-        self.ends.truncate(rows);
-        self.corners.truncate(self.ends.last().map_or(0, |&end| end as usize));
-    }
-
-    /// Corners and ends of all contours.
-    pub(crate) fn parts_mut(&mut self) -> (&mut Vec<VertexId>, &mut Vec<u32>) {
-        (&mut self.corners, &mut self.ends)
-    }
-
-    pub(crate) fn with_capacity(corners: usize, contours: usize) -> Self {
-        Self { corners: Vec::with_capacity(corners), ends: Vec::with_capacity(contours) }
-    }
-
-    /// Contours from corners, and the end of each among them.
-    pub(crate) fn from_parts(corners: Vec<VertexId>, ends: Vec<u32>) -> Self {
-        Self { corners, ends }
-    }
-
-    /// Corners of all contours together.
-    pub(crate) fn corner_count(&self) -> usize {
-        self.corners.len()
-    }
-
-    /// Appends one face's contours and gives their rows.
-    pub fn push_all<C>(&mut self, contours: impl IntoIterator<Item = C>) -> Range<u32>
-    where
-        C: IntoIterator<Item = VertexId>,
-    {
-        let first = self.row_count();
-        contours.into_iter().for_each(|contour| self.push(contour));
-        first..self.row_count()
-    }
-
-    /// The vertices of contour `row`.
-    pub fn get(&self, row: u32) -> &[VertexId] {
-        let row = row as usize;
-        let start = if row == 0 { 0 } else { self.ends[row - 1] as usize };
-        &self.corners[start..self.ends[row] as usize]
-    }
-
-    /// The contours of a face or wire, in order.
-    pub fn iter(&self, rows: Range<u32>) -> impl ExactSizeIterator<Item = &[VertexId]> + Clone {
-        (rows.start as usize..rows.end as usize).map(|row| self.get(row as u32))
-    }
-
-    /// Position of the first corner of contour `row` among those of all contours.
-    pub(crate) fn first_corner(&self, row: u32) -> usize {
-        if row == 0 { 0 } else { self.ends[row as usize - 1] as usize }
-    }
-
-    /// Corner number `idx` of all contours.
-    pub(crate) fn corner(&self, idx: usize) -> VertexId {
-        self.corners[idx]
-    }
-
-    /// All corners of a face or wire, contour after contour.
-    pub fn corners(&self, rows: Range<u32>) -> &[VertexId] {
-        if rows.is_empty() {
-            return &[];
-        }
-        let start = if rows.start == 0 { 0 } else { self.ends[rows.start as usize - 1] as usize };
-        &self.corners[start..self.ends[rows.end as usize - 1] as usize]
-    }
-
-    /// The same, to be changed in place.
-    pub fn corners_mut(&mut self, rows: Range<u32>) -> &mut [VertexId] {
-        if rows.is_empty() {
-            return &mut [];
-        }
-        let start = if rows.start == 0 { 0 } else { self.ends[rows.start as usize - 1] as usize };
-        &mut self.corners[start..self.ends[rows.end as usize - 1] as usize]
-    }
-
-    /// Number of contours.
-    pub fn len(&self) -> usize {
-        self.ends.len()
-    }
-
-    /// True if there is none.
-    pub fn is_empty(&self) -> bool {
-        self.ends.is_empty()
-    }
-
-    pub(crate) fn row_count(&self) -> u32 {
-        u32::try_from(self.ends.len()).expect("fewer than 2^32 contours")
-    }
 }
 
 impl PartialEq for Scene {

@@ -4,11 +4,12 @@ use std::io::{self, Write};
 
 use glam::DVec3;
 
+use crate::contours::Contours;
 use crate::names::NameId;
 use crate::outlet::Outlet;
 use crate::scene::{
-    Camera, Color, ColorId, ColorValue, Comment, Contours, Illum, Item, Light, LightKind, Projection, Scene,
-    Surface, VelocityId,
+    Camera, Color, ColorId, ColorValue, Comment, Illum, Item, Light, LightKind, Projection, Scene, Surface,
+    VelocityId,
 };
 
 /// Rows that one piece of text is made of.

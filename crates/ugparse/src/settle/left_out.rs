@@ -2,9 +2,10 @@
 
 use super::complaints::{read_again, show};
 use super::corners::rows_where;
+use crate::contours::Contours;
 use crate::diagnostic::Diagnostic;
 use crate::group::{Group, NO_ROW};
-use crate::scene::{Contours, Face, Vertex, VertexId, Wire, newell_normal};
+use crate::scene::{Face, Vertex, VertexId, Wire, newell_normal};
 use crate::source::Span;
 use crate::statement::{References, Statement};
 

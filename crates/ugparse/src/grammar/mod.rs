@@ -3,12 +3,15 @@
 //! Each parser reads one statement behind its keyword, up to but without the
 //! closing `;`. One token of look-ahead decides everything.
 
+mod cameras;
+mod transforms;
+
 use glam::DVec3;
 use nom::Parser;
 use nom::combinator::opt;
 
 use crate::names::NameId;
-use crate::scene::{Camera, ColorValue, Projection, Surface};
+use crate::scene::{Camera, ColorValue, Surface};
 use crate::source::Span;
 use crate::statement::{
     CallStatement, CameraStatement, ColorStatement, FaceStatement, IllumStatement, LightStatement,
@@ -18,7 +21,9 @@ use crate::token::{
     Input, Parsed, Reason, backtrack, blank, fail, identifier, integer, mark, number, point, require, wanted,
     word,
 };
-use crate::transform::Transform;
+
+use cameras::camera_option;
+use transforms::transforms;
 
 /// The statement keywords, as messages list them.
 pub(crate) const KEYWORDS: &str = "v w f c c_rgb c_xyz c_bb c_spd surf l cam def end i a include execute";
@@ -348,159 +353,4 @@ fn numbers<'a, const N: usize>(mut input: Input<'a>) -> Parsed<'a, [f64; N]> {
         (input, *value) = require(number(input))?;
     }
     Ok((input, values))
-}
-
-/// Reads the arguments of camera option `name`, which stands at `at`; `input` is behind it.
-fn camera_option<'a>(
-    camera: &mut Camera,
-    name: Input<'a>,
-    at: Input<'a>,
-    input: Input<'a>,
-) -> Parsed<'a, ()> {
-    fn store<'a, T, U>(
-        slot: &mut Option<U>,
-        parsed: Parsed<'a, T>,
-        convert: impl Fn(T) -> U,
-    ) -> Parsed<'a, ()> {
-        let (rest, value) = require(parsed)?;
-        *slot = Some(convert(value));
-        Ok((rest, ()))
-    }
-    let same = |x| x;
-    let pair = |x: [f64; 2]| x;
-    match name {
-        b"vc" => store(&mut camera.center, point(input), same),
-        b"ep" => store(&mut camera.eye, point(input), same),
-        b"ud" => {
-            let (rest, up) = require(point(input))?;
-            camera.up = Some(up);
-            if up == DVec3::ZERO { fail(blank(at)?.0, zero_vector(4)) } else { Ok((rest, ())) }
-        }
-        b"cl" => store(&mut camera.clip, numbers(input), pair),
-        b"ph" => store(&mut camera.film, numbers(input), |x: [f64; 4]| x),
-        b"va" => store(&mut camera.view_angle, numbers(input), pair),
-        b"fs" => store(&mut camera.film_size, numbers(input), pair),
-        b"fl" => store(&mut camera.focal_length, number(input), |x| x),
-        b"og" => {
-            camera.projection = Some(Projection::Orthographic);
-            Ok((input, ()))
-        }
-        b"ps" => {
-            camera.projection = Some(Projection::Perspective);
-            Ok((input, ()))
-        }
-        _ => {
-            fail(blank(at)?.0, Reason::Expected("a camera option (-vc -ep -ud -cl -ph -og -ps -va -fs -fl)"))
-        }
-    }
-}
-
-/// `{ -tx 1 … }`: the transformations of an instance, from left to right.
-fn transforms(mut input: Input<'_>) -> Parsed<'_, Transform> {
-    let start = blank(input)?.0;
-    let mut total = Transform::IDENTITY;
-    while let (rest, Some(name)) = opt(option_word).parse(input)? {
-        let at = blank(input)?.0;
-        let (rest, one) = transform(name, at, rest)?;
-        total = total.then(&one);
-        input = rest;
-    }
-    if !total.is_finite() {
-        return fail(start, Reason::Impossible(1, "the transformation overflows", "use smaller numbers"));
-    }
-    Ok((input, total))
-}
-
-/// One transformation; `at` is its dash, `input` is behind its name.
-fn transform<'a>(name: Input<'a>, at: Input<'a>, input: Input<'a>) -> Parsed<'a, Transform> {
-    let axis = |letter: u8| match letter {
-        b'x' => DVec3::X,
-        b'y' => DVec3::Y,
-        _ => DVec3::Z,
-    };
-    let along_vector = |make: fn(DVec3, f64) -> Option<Transform>| {
-        let (rest, [x, y, z, amount]) = numbers(input)?;
-        non_zero(make(DVec3::new(x, y, z), amount), at, rest)
-    };
-    match *name {
-        [b's', letter @ (b'x' | b'y' | b'z')] => {
-            let (rest, factor) = require(number(input))?;
-            Ok((
-                rest,
-                Transform::scale(DVec3::select(
-                    axis(letter).cmpeq(DVec3::ONE),
-                    DVec3::splat(factor),
-                    DVec3::ONE,
-                )),
-            ))
-        }
-        [b's', b'a'] => {
-            let (rest, factor) = require(number(input))?;
-            Ok((rest, Transform::scale(DVec3::splat(factor))))
-        }
-        [b's', b'v'] => along_vector(Transform::scale_along),
-        [b't', letter @ (b'x' | b'y' | b'z')] => {
-            let (rest, amount) = require(number(input))?;
-            Ok((rest, Transform::translate(axis(letter) * amount)))
-        }
-        [b't', b'a'] => {
-            let (rest, offset) = require(point(input))?;
-            Ok((rest, Transform::translate(offset)))
-        }
-        [b't', b'v'] => along_vector(Transform::translate_along),
-        [b'r', letter @ (b'x' | b'y' | b'z')] => {
-            let (rest, degrees) = require(number(input))?;
-            non_zero(Transform::rotate(axis(letter), degrees), at, rest)
-        }
-        [b'r', b'a'] => {
-            let (rest, degrees) = numbers::<3>(input)?;
-            let turns = [DVec3::X, DVec3::Y, DVec3::Z]
-                .into_iter()
-                .zip(degrees)
-                .try_fold(Transform::IDENTITY, |sum, (axis, angle)| {
-                    Some(sum.then(&Transform::rotate(axis, angle)?))
-                });
-            non_zero(turns, at, rest)
-        }
-        [b'r', b'v'] => along_vector(Transform::rotate),
-        [b'm', letter @ (b'x' | b'y' | b'z')] => {
-            Ok((input, Transform::mirror(DVec3::ONE - axis(letter) * 2.0)))
-        }
-        [b'm', b'a'] => Ok((input, Transform::mirror(DVec3::NEG_ONE))),
-        [b'm', b'v'] => {
-            let (rest, vector) = require(point(input))?;
-            non_zero(Transform::mirror_across(vector), at, rest)
-        }
-        [b'M', b'3'] => {
-            let (rest, m) = numbers::<9>(input)?;
-            Ok((rest, Transform::rows3(&m)))
-        }
-        [b'M', b'4'] => {
-            let (rest, m) = numbers::<16>(input)?;
-            match Transform::rows4(&m) {
-                Some(map) => Ok((rest, map)),
-                None => fail(
-                    at,
-                    Reason::Impossible(
-                        17,
-                        "this matrix is not affine",
-                        "its last column must be 0 0 0 1; a translation is in the last row",
-                    ),
-                ),
-            }
-        }
-        _ => fail(
-            at,
-            Reason::Expected(
-                "a transformation (`-s`, `-t`, `-r` or `-m` with `x`, `y`, `z`, `a` or `v`, or `-M3`, `-M4`)",
-            ),
-        ),
-    }
-}
-
-fn non_zero<'a>(map: Option<Transform>, at: Input<'a>, rest: Input<'a>) -> Parsed<'a, Transform> {
-    match map {
-        Some(map) => Ok((rest, map)),
-        None => fail(at, zero_vector(4)),
-    }
 }
