@@ -163,7 +163,7 @@ pub fn main() -> ExitCode {
 fn run(args: &Args, stage: &mut Stage) -> Result<(), Failure> {
     let config = args.config(stage.command_line())?;
     let source = pipe::read(stage, &config.reading)?;
-    let report = crate::run(&config, &source).map_err(failure)?;
+    let report = crate::run_with(&config, &source, &stage.steps()).map_err(failure)?;
     if !report.warnings.is_empty() {
         stage.report(&report.warnings.render(true));
     }

@@ -81,6 +81,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 use ugparse::{Diagnostics, Item, Options, Scene, Source, VelocityId, Vertex};
 use ugphysics::Velocity;
+use ugpipe::Progress;
 use ugscene::{Bodies, CameraOptions, Geometry};
 
 pub use cli::{Args, main};
@@ -217,10 +218,23 @@ impl Report {
 /// # Errors
 /// See [`Error`]. Errors of the scene come with their place in the text.
 pub fn run(config: &Config, source: &Source) -> Result<Report, Error> {
+    run_with(config, source, &())
+}
+
+/// [`run`], which tells somebody how far it is.
+///
+/// # Errors
+/// See [`Error`]. Errors of the scene come with their place in the text.
+pub fn run_with(config: &Config, source: &Source, progress: &dyn Progress) -> Result<Report, Error> {
+    progress.step("reading", 0);
     let parsed =
         ugscene::read(source, &config.reading, config.camera.name.as_deref()).map_err(Error::Scene)?;
+    progress.step("moving and cutting", 0);
     let (scene, notes) = transform_owned(parsed.scene, config)
         .map_err(|error| error.located(source, &parsed.origins.vertices))?;
+    if config.table.is_some() {
+        progress.step("measuring", 0);
+    }
     let table = config.table.map(|table| {
         let rows = measure(&scene, ugscene::eye(&scene, None), config.time).map_err(Error::SceneVelocity)?;
         Ok(table.write(&scene, &rows))
