@@ -189,7 +189,8 @@ fn ms(time: Duration) -> f64 {
     time.as_secs_f64() * 1e3
 }
 
-fn build() -> Result<(), Box<dyn Error>> {
+/// Builds the programs.
+pub fn build() -> Result<(), Box<dyn Error>> {
     let status = Command::new(env!("CARGO")).args(["build", "--quiet", "--release"]).status()?;
     if status.success() { Ok(()) } else { Err("the programs do not build".into()) }
 }
@@ -198,6 +199,11 @@ fn build() -> Result<(), Box<dyn Error>> {
 pub fn target_dir() -> PathBuf {
     let exe = std::env::current_exe().unwrap_or_default();
     exe.ancestors().nth(2).map_or_else(|| PathBuf::from("target"), Path::to_path_buf)
+}
+
+/// A program of the project.
+pub fn program(name: &str) -> PathBuf {
+    target_dir().join("release").join(name)
 }
 
 fn path_with_programs() -> Result<std::ffi::OsString, Box<dyn Error>> {

@@ -7,6 +7,8 @@
 //! cargo xtask sheet sheet.png 2 a.png b.png c.png d.png
 //! cargo xtask bench
 //! cargo xtask bench-reading
+//! cargo xtask bench-raster
+//! cargo xtask bench-scale docs/performance.svg
 //! cargo xtask geometry > tables.md
 //! ```
 //!
@@ -16,7 +18,10 @@ mod bench;
 mod geometry;
 mod globe;
 mod mesh;
+mod plot;
+mod raster;
 mod reading;
+mod scale;
 mod sheet;
 mod short;
 mod sphere;
@@ -84,6 +89,28 @@ enum Chore {
         #[arg(default_value_t = 1_000_000, value_parser = clap::value_parser!(u32).range(36..=100_000_000))]
         triangles: u32,
     },
+    /// Time drawing beside Mesa llvmpipe, and the whole program beside POV-Ray's reading, as Markdown
+    ///
+    /// See the head of xtask/llvmpipe.py for what must be installed.
+    BenchRaster {
+        /// Triangles, roughly
+        #[arg(default_values_t = [100_000, 1_000_000], value_parser = clap::value_parser!(u32).range(36..=10_000_000))]
+        triangles: Vec<u32>,
+        /// Python with numpy and moderngl
+        #[arg(long, default_value = "python3")]
+        python: String,
+        /// POV-Ray
+        #[arg(long, default_value = "povray")]
+        povray: String,
+        /// Threads of each side
+        #[arg(long, default_value_t = 2)]
+        threads: usize,
+    },
+    /// Measure time and memory of drawing over faces, pixels and samples, as Markdown and as a plot
+    BenchScale {
+        /// SVG file to write
+        plot: PathBuf,
+    },
     /// Measure outlines in pictures against the oracle, and the faces it takes, as Markdown
     Geometry {
         /// Pixels across and down
@@ -98,6 +125,18 @@ enum Chore {
         /// Scenes besides those of the repository
         #[arg(value_name = "FILE", value_parser = geometry::is_file)]
         files: Vec<PathBuf>,
+    },
+    /// Draw a scene and tell the seconds and the peak memory in megabytes
+    #[command(hide = true)]
+    DrawOnce {
+        /// Scene to draw
+        scene: PathBuf,
+        /// Pixels across
+        width: u32,
+        /// Pixels down
+        height: u32,
+        /// Samples along a side of a pixel
+        samples: u32,
     },
     /// Read a scene and tell the peak memory in bytes
     #[command(hide = true)]
@@ -134,6 +173,18 @@ fn run(chore: &Chore) -> io::Result<()> {
         }
         Chore::BenchReading { triangles } => {
             reading::write(&mut out, *triangles).map_err(|error| io::Error::other(error.to_string()))?;
+        }
+        Chore::BenchRaster { triangles, python, povray, threads } => {
+            let tools = raster::Tools { python, povray, threads: *threads };
+            raster::write(&mut out, triangles, &tools)
+                .map_err(|error| io::Error::other(error.to_string()))?;
+        }
+        Chore::BenchScale { plot } => {
+            scale::write(&mut out, plot).map_err(|error| io::Error::other(error.to_string()))?;
+        }
+        Chore::DrawOnce { scene, width, height, samples } => {
+            scale::draw_once(&mut out, scene, [*width, *height], *samples)
+                .map_err(|error| io::Error::other(error.to_string()))?;
         }
         Chore::Geometry { size, only, table, files } => {
             let size = [size[0], size[1]];

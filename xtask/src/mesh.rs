@@ -12,8 +12,19 @@ use std::io::{self, Write};
 const HUES: u32 = 36;
 const SATURATIONS: u32 = 8;
 
+/// The usual lights and camera.
+const TAIL: &str = "l 0.3 ;
+l sun 0.7 -1 -2 1.5 ;
+cam -ep 0 -6 1 -vc 0 0 0 -ud 0 0 1 -ps -va 30 24 ;
+";
+
 /// Writes a mesh of about `triangles` triangles; if `each`, every vertex has a colour of its own.
 pub fn write(out: &mut impl Write, triangles: u32, each: bool) -> io::Result<()> {
+    write_with(out, triangles, each, TAIL)
+}
+
+/// The same with other lights and another camera.
+pub fn write_with(out: &mut impl Write, triangles: u32, each: bool, tail: &str) -> io::Result<()> {
     // A globe of n bands and 2 n sectors has 4 n (n - 1) triangles.
     let bands = (f64::from(triangles) / 4.0).sqrt().round() as u32;
     let globe = Globe::with_bands(bands);
@@ -45,12 +56,7 @@ pub fn write(out: &mut impl Write, triangles: u32, each: bool) -> io::Result<()>
             writeln!(out, "f (v{} v{} v{}) ;", cell[0], pair[0], pair[1])?;
         }
     }
-    writeln!(
-        out,
-        "l 0.3 ;
-l sun 0.7 -1 -2 1.5 ;
-cam -ep 0 -6 1 -vc 0 0 0 -ud 0 0 1 -ps -va 30 24 ;"
-    )
+    out.write_all(tail.as_bytes())
 }
 
 fn write_palette(out: &mut impl Write) -> io::Result<()> {

@@ -83,11 +83,16 @@ pub fn write(out: &mut impl Write, triangles: u32) -> Result<(), Box<dyn Error>>
 pub fn read_once(out: &mut impl Write, path: &Path, n_threads: usize) -> Result<(), Box<dyn Error>> {
     let source = Source::new("mesh", std::fs::read(path)?);
     black_box(pool(n_threads)?.install(|| ugparse::parse(&source, &Options::default()))?);
+    Ok(writeln!(out, "{}", peak_memory()?)?)
+}
+
+/// Greatest memory of this process so far, in bytes.
+pub fn peak_memory() -> Result<u64, Box<dyn Error>> {
     let status = std::fs::read_to_string("/proc/self/status")?;
     let peak =
         status.lines().find_map(|line| line.strip_prefix("VmHWM:")).ok_or("no VmHWM in /proc/self/status")?;
     let kib: u64 = peak.trim().trim_end_matches(" kB").parse()?;
-    Ok(writeln!(out, "{}", kib * 1024)?)
+    Ok(kib * 1024)
 }
 
 fn peak_of_child(path: &Path, n_threads: usize) -> Result<f64, Box<dyn Error>> {

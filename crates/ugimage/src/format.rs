@@ -1,5 +1,6 @@
 //! The formats, their names, and what is written beside the pixels.
 
+use crate::png::Packing;
 use crate::{Frame, LinearFrame, eps, exr, hdr, pdf, pfm, png, ppm, ps, svg};
 
 /// What a file says about where it comes from.
@@ -104,27 +105,39 @@ impl Format {
 
     /// The frame as a file of this format.
     pub fn encode(self, frame: &Frame, label: &Label) -> Vec<u8> {
+        self.pack(frame, label, Packing::Fast)
+    }
+
+    /// The same; PNG files packed as asked.
+    pub fn pack(self, frame: &Frame, label: &Label, packing: Packing) -> Vec<u8> {
         match self {
-            Self::Png => png::encode(frame, label),
+            Self::Png => png::encode(frame, label, packing),
             Self::Eps => eps::encode(frame, label),
             Self::Ps => ps::encode(frame, label),
             Self::Pdf => pdf::encode(frame, label),
             Self::Svg => svg::encode(frame, label),
             Self::Ppm => ppm::encode(frame, label),
-            Self::Png16 | Self::Exr | Self::Pfm | Self::Hdr => self.encode_linear(&frame.into(), label),
+            Self::Png16 | Self::Exr | Self::Pfm | Self::Hdr => {
+                self.pack_linear(&frame.into(), label, packing)
+            }
         }
     }
 
     /// Light as a file of this format. What a display cannot show is clipped unless the format
     /// [is linear](Format::is_linear): develop it before.
     pub fn encode_linear(self, frame: &LinearFrame, label: &Label) -> Vec<u8> {
+        self.pack_linear(frame, label, Packing::Fast)
+    }
+
+    /// The same; PNG files packed as asked.
+    pub fn pack_linear(self, frame: &LinearFrame, label: &Label, packing: Packing) -> Vec<u8> {
         match self {
-            Self::Png16 => png::encode_16(frame, label),
+            Self::Png16 => png::encode_16(frame, label, packing),
             Self::Exr => exr::encode(frame, label),
             Self::Pfm => pfm::encode(frame),
             Self::Hdr => hdr::encode(frame, label),
             Self::Png | Self::Eps | Self::Ps | Self::Pdf | Self::Svg | Self::Ppm => {
-                self.encode(&frame.to_display(), label)
+                self.pack(&frame.to_display(), label, packing)
             }
         }
     }

@@ -33,8 +33,17 @@ impl Frame {
     }
 
     fn filled(width: u32, height: u32, is_opaque: bool, pixel: [u8; 4]) -> Self {
+        Self::new([width, height], is_opaque, vec![pixel; width as usize * height as usize])
+    }
+
+    /// A frame of these pixels; if it is opaque, with alpha 255.
+    ///
+    /// # Panics
+    /// If a side is 0, or there are not as many pixels as the sides say.
+    pub fn new([width, height]: [u32; 2], is_opaque: bool, pixels: Vec<[u8; 4]>) -> Self {
         assert!(width > 0 && height > 0, "a frame has at least one pixel");
-        Self { width, height, is_opaque, pixels: vec![pixel; width as usize * height as usize] }
+        assert_eq!(pixels.len(), width as usize * height as usize, "a frame has all its pixels");
+        Self { width, height, is_opaque, pixels }
     }
 
     /// Pixels in a row.

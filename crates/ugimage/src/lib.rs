@@ -61,4 +61,5 @@ pub use format::{Format, Label};
 pub use frame::Frame;
 pub use grey::grey_postscript;
 pub use linear::{LinearFrame, Plane, Samples, display_pixel};
+pub use png::Packing;
 pub use quantizer::Quantizer;

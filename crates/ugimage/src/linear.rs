@@ -119,6 +119,7 @@ impl LinearFrame {
 }
 
 /// A pixel of light as 8 bits a channel: red, green, blue and alpha.
+#[inline]
 pub fn display_pixel(quantizer: &Quantizer, [red, green, blue, part]: [f32; 4], is_opaque: bool) -> [u8; 4] {
     if !is_opaque && part == 0.0 {
         return [0; 4];

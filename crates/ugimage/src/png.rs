@@ -1,28 +1,41 @@
 //! PNG, by the `png` crate.
 
+use std::borrow::Cow;
+
 use png::{BitDepth, ColorType, Compression, Encoder, EncodingError, SrgbRenderingIntent};
 
 use ugphysics::srgb_encode;
 
 use crate::{Frame, Label, LinearFrame};
 
-/// The frame as a PNG file: RGB if it is opaque, else RGBA; tagged as sRGB; the label
-/// in text chunks `Software` and `Comment`; no date.
-pub fn encode(frame: &Frame, label: &Label) -> Vec<u8> {
-    try_encode(frame, label).expect("a frame with pixels fits a PNG and a vector takes every write")
+/// How much work is put into small files.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Packing {
+    /// Little: packing takes less time than drawing.
+    #[default]
+    Fast,
+    /// Much: some 20 times the time for some two thirds of the size.
+    Small,
 }
 
-fn try_encode(frame: &Frame, label: &Label) -> Result<Vec<u8>, EncodingError> {
-    let data: Vec<u8> = if frame.is_opaque() {
-        frame.pixels().iter().flat_map(|&[r, g, b, _]| [r, g, b]).collect()
+/// The frame as a PNG file: RGB if it is opaque, else RGBA; tagged as sRGB; the label
+/// in text chunks `Software` and `Comment`; no date.
+pub fn encode(frame: &Frame, label: &Label, packing: Packing) -> Vec<u8> {
+    let data: Cow<'_, [u8]> = if frame.is_opaque() {
+        let mut data = vec![0; 3 * frame.pixels().len()];
+        for (bytes, &[r, g, b, _]) in data.chunks_exact_mut(3).zip(frame.pixels()) {
+            bytes.copy_from_slice(&[r, g, b]);
+        }
+        data.into()
     } else {
-        frame.pixels().as_flattened().to_vec()
+        frame.pixels().as_flattened().into()
     };
-    write([frame.width(), frame.height()], frame.is_opaque(), BitDepth::Eight, &data, label)
+    write([frame.width(), frame.height()], frame.is_opaque(), BitDepth::Eight, &data, label, packing)
+        .expect("a frame with pixels fits a PNG and a vector takes every write")
 }
 
 /// Light as a PNG file with 16 bits a channel, encoded as sRGB: RGB or RGBA; light outside 0…1 is clipped.
-pub fn encode_16(frame: &LinearFrame, label: &Label) -> Vec<u8> {
+pub fn encode_16(frame: &LinearFrame, label: &Label, packing: Packing) -> Vec<u8> {
     let whole = |part: f64| (65535.0 * part).round() as u16;
     let level = |light: f32| whole(srgb_encode(f64::from(light).clamp(0.0, 1.0))).to_be_bytes();
     let channels = if frame.is_opaque() { 3 } else { 4 };
@@ -35,7 +48,7 @@ pub fn encode_16(frame: &LinearFrame, label: &Label) -> Vec<u8> {
         }
         data.extend_from_slice(last.1[..channels].as_flattened());
     }
-    write([frame.width(), frame.height()], frame.is_opaque(), BitDepth::Sixteen, &data, label)
+    write([frame.width(), frame.height()], frame.is_opaque(), BitDepth::Sixteen, &data, label, packing)
         .expect("a frame with pixels fits a PNG and a vector takes every write")
 }
 
@@ -45,14 +58,17 @@ fn write(
     depth: BitDepth,
     data: &[u8],
     label: &Label,
+    packing: Packing,
 ) -> Result<Vec<u8>, EncodingError> {
     let mut file = Vec::new();
     let mut encoder = Encoder::new(&mut file, width, height);
     encoder.set_color(if is_opaque { ColorType::Rgb } else { ColorType::Rgba });
     encoder.set_depth(depth);
     encoder.set_source_srgb(SrgbRenderingIntent::Perceptual);
-    // Best compression costs 50 times the time for two thirds of the size.
-    encoder.set_compression(Compression::Fast);
+    encoder.set_compression(match packing {
+        Packing::Fast => Compression::Fast,
+        Packing::Small => Compression::High,
+    });
     add_text(&mut encoder, "Software", &label.software)?;
     add_text(&mut encoder, "Comment", &label.comment)?;
     let mut writer = encoder.write_header()?;
@@ -92,7 +108,7 @@ mod tests {
     #[test]
     fn pixels_come_back() {
         for frame in test_frames() {
-            let (output, pixels, info) = decode(&encode(&frame, &Label::default()));
+            let (output, pixels, info) = decode(&encode(&frame, &Label::default(), Packing::Fast));
             assert_eq!((output.width, output.height), (frame.width(), frame.height()));
             assert_eq!(info.srgb, Some(SrgbRenderingIntent::Perceptual));
             let expected: Vec<u8> = if frame.is_opaque() {
@@ -106,10 +122,30 @@ mod tests {
         }
     }
 
+    /// Smoothly coloured, as pictures are.
+    #[test]
+    fn small_files_have_the_same_pixels() {
+        let level = |part: f64| (255.0 * part).round() as u8;
+        let pixels = (0..200 * 100).map(|idx| {
+            let (x, y) = (f64::from(idx % 200) / 199.0, f64::from(idx / 200) / 99.0);
+            [level(x * y), level((1.0 - x) * y * y), level((x - y).abs()), 255]
+        });
+        let frame = Frame::new([200, 100], true, pixels.collect());
+        let light = LinearFrame::from(&frame);
+        let of_8 = |packing| encode(&frame, &Label::default(), packing);
+        let of_16 = |packing| encode_16(&light, &Label::default(), packing);
+        for [fast, small] in
+            [[Packing::Fast, Packing::Small].map(of_8), [Packing::Fast, Packing::Small].map(of_16)]
+        {
+            assert_eq!(decode(&fast).1, decode(&small).1);
+            assert!(small.len() < fast.len(), "{} {}", small.len(), fast.len());
+        }
+    }
+
     #[test]
     fn sixteen_bits_are_the_nearest_levels() {
         for frame in crate::linear::test_frames() {
-            let (output, bytes, _) = decode(&encode_16(&frame, &Label::default()));
+            let (output, bytes, _) = decode(&encode_16(&frame, &Label::default(), Packing::Fast));
             assert_eq!(output.bit_depth, BitDepth::Sixteen);
             let channels = if frame.is_opaque() { 3 } else { 4 };
             assert_eq!(bytes.len(), frame.pixels().len() * 2 * channels);
@@ -132,21 +168,22 @@ mod tests {
     fn labels_come_back() {
         let frame = Frame::opaque(1, 1);
         let label = Label { software: "ug 1".into(), comment: "ug -vel .9 0 0\nug\u{e9}".into() };
-        let (_, _, info) = decode(&encode(&frame, &label));
+        let (_, _, info) = decode(&encode(&frame, &label, Packing::Fast));
         let texts: Vec<_> =
             info.uncompressed_latin1_text.iter().map(|chunk| (&*chunk.keyword, &*chunk.text)).collect();
         assert_eq!(texts, [("Software", "ug 1"), ("Comment", "ug -vel .9 0 0\nug\u{e9}")]);
 
         let label = Label { software: String::new(), comment: "γ = 2\0".into() };
-        let (_, _, info) = decode(&encode(&frame, &label));
+        let (_, _, info) = decode(&encode(&frame, &label, Packing::Fast));
         assert!(info.uncompressed_latin1_text.is_empty());
         assert_eq!(info.utf8_text[0].get_text().unwrap(), "γ = 2");
     }
 
     #[test]
     fn no_date_is_written() {
-        let file = encode(&Frame::opaque(3, 2), &Label { software: "a".into(), comment: "b".into() });
+        let label = Label { software: "a".into(), comment: "b".into() };
+        let file = encode(&Frame::opaque(3, 2), &label, Packing::Fast);
         assert!(!file.windows(4).any(|kind| kind == b"tIME"));
-        assert_eq!(file, encode(&Frame::opaque(3, 2), &Label { software: "a".into(), comment: "b".into() }));
+        assert_eq!(file, encode(&Frame::opaque(3, 2), &label, Packing::Fast));
     }
 }

@@ -4,8 +4,11 @@ use ugphysics::srgb_decode;
 
 /// Number of cells of equal width that [0, 1] is cut into. The transfer function is
 /// steepest at 0, 12.92, where 255 levels × 12.92 / 4096 is below one level a cell:
-/// a look-up is never more than one threshold away from the answer.
+/// no cell has two thresholds, and a look-up is never more than one away from the answer.
 const CELLS: usize = 4096;
+
+/// What is rounded up to 1 when a number of a cell is added to 1: half the distance of numbers there.
+const ROUNDING: f32 = 1.0 / (1 << 24) as f32;
 
 /// Rounds linear light to the nearest display level: round(255 · encode(x)), without
 /// the power function of the sRGB transfer curve.
@@ -14,8 +17,8 @@ const CELLS: usize = 4096;
 /// curve; a table then gives a level just at or below the answer.
 #[derive(Clone, Debug)]
 pub struct Quantizer {
-    /// `thresholds[k]`: the linear value at which level k + 1 begins.
-    thresholds: [f32; 255],
+    /// `thresholds[k]`: the linear value at which level k + 1 begins; for the last, NaN, which nothing reaches.
+    thresholds: [f32; 256],
     /// The level of the lower end of each cell.
     start: [u8; CELLS],
 }
@@ -23,12 +26,14 @@ pub struct Quantizer {
 impl Quantizer {
     /// Computes the tables, some ten microseconds.
     pub fn new() -> Self {
-        let thresholds: [f32; 255] =
-            std::array::from_fn(|level| srgb_decode((level as f64 + 0.5) / 255.0) as f32);
+        let thresholds: [f32; 256] = std::array::from_fn(|level| match level {
+            255 => f32::NAN,
+            level => srgb_decode((level as f64 + 0.5) / 255.0) as f32,
+        });
         let mut start = [0; CELLS];
         for (cell, level) in start.iter_mut().enumerate() {
-            let low = cell as f32 / CELLS as f32;
-            *level = thresholds.partition_point(|&threshold| threshold <= low) as u8;
+            let low = cell as f32 / CELLS as f32 - ROUNDING;
+            *level = thresholds[..255].partition_point(|&threshold| threshold <= low) as u8;
         }
         Self { thresholds, start }
     }
@@ -36,14 +41,20 @@ impl Quantizer {
     /// The display level nearest to `linear`; values outside 0…1 (and NaN) are clipped.
     #[inline]
     pub fn level(&self, linear: f32) -> u8 {
-        // A cast from float to integer saturates, and takes NaN to 0.
-        let cell = ((linear * CELLS as f32) as usize).min(CELLS - 1);
-        let mut level = self.start[cell];
-        while level < 255 && linear >= self.thresholds[usize::from(level)] {
-            level += 1;
-        }
-        level
+        let level = self.start[cell(linear)];
+        level + u8::from(linear >= self.thresholds[usize::from(level)])
     }
+}
+
+/// The cell of a number: of 1 plus it the first bits behind the point, which is faster than a cast.
+#[inline]
+fn cell(linear: f32) -> usize {
+    // NaN becomes 0.
+    let low = if linear > 0.0 { linear } else { 0.0 };
+    // The greatest number that stays below 2 when 1 is added.
+    let inside = low.min(1.0 - 2.0 * ROUNDING);
+    const SHIFT: u32 = f32::MANTISSA_DIGITS - 1 - CELLS.ilog2();
+    ((1.0 + inside).to_bits() >> SHIFT) as usize % CELLS
 }
 
 impl Default for Quantizer {
@@ -76,6 +87,18 @@ mod tests {
         for level in 0..=255u8 {
             let linear = srgb_decode(f64::from(level) / 255.0) as f32;
             assert_eq!(quantizer.level(linear), level);
+        }
+    }
+
+    /// Next to every place where the level changes, and next to the ends of all cells.
+    #[test]
+    fn levels_change_where_they_should() {
+        let quantizer = Quantizer::new();
+        let near = |x: f32| (-3..=3).map(move |step| f32::from_bits(x.to_bits().saturating_add_signed(step)));
+        let ends = (1..=CELLS).map(|cell| cell as f32 / CELLS as f32);
+        for linear in quantizer.thresholds[..255].iter().copied().chain(ends).flat_map(near) {
+            let exact = quantizer.thresholds[..255].iter().filter(|threshold| **threshold <= linear).count();
+            assert_eq!(usize::from(quantizer.level(linear)), exact, "{linear}");
         }
     }
 

@@ -3,13 +3,14 @@
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 
+use crate::png::Packing;
 use crate::{Frame, Label, png};
 
 /// The frame as an SVG file; transparency is kept.
 pub fn encode(frame: &Frame, label: &Label) -> Vec<u8> {
     let size @ [width, height] = [frame.width(), frame.height()];
     // The history stands in the file once, as text of its own.
-    let picture = STANDARD.encode(png::encode(frame, &Label::default()));
+    let picture = STANDARD.encode(png::encode(frame, &Label::default(), Packing::Fast));
     let image = format!(
         "<image width=\"{width}\" height=\"{height}\" image-rendering=\"pixelated\" \
          href=\"data:image/png;base64,{picture}\"/>\n"
@@ -55,7 +56,7 @@ mod tests {
         for frame in crate::frame::test_frames() {
             let text = String::from_utf8(encode(&frame, &Label::default())).unwrap();
             let data = text.split("base64,").nth(1).unwrap().split('"').next().unwrap();
-            assert_eq!(STANDARD.decode(data).unwrap(), png::encode(&frame, &Label::default()));
+            assert_eq!(STANDARD.decode(data).unwrap(), png::encode(&frame, &Label::default(), Packing::Fast));
         }
     }
 

@@ -21,8 +21,9 @@ impl Hsv {
     /// assert_eq!(orange.to_rgb(), [1.0, 0.5, 0.0]);
     /// ```
     #[must_use]
+    #[inline]
     pub fn to_rgb(self) -> [f64; 3] {
-        let sixth = self.hue.rem_euclid(360.0) / 60.0;
+        let sixth = within_a_turn(self.hue) / 60.0;
         // How far each primary is from its own sixths of the circle, 0 inside to 1 two sixths away.
         [0.0, 2.0, 4.0].map(|primary| {
             let apart = (sixth - primary).abs();
@@ -42,6 +43,7 @@ impl Hsv {
     /// assert_eq!(pale.attenuated(1.0), pale);
     /// ```
     #[must_use]
+    #[inline]
     pub fn attenuated(self, attenuation: f64) -> Hsv {
         let pure = self.saturation * attenuation;
         // Exactly 1 if nothing is attenuated, and the attenuation of a pure hue.
@@ -97,6 +99,18 @@ impl Hsv {
         // Red comes first above, so magenta came out as −60; it is violet, the other end.
         let hue = if hue <= -60.0 { hue + 360.0 } else { hue };
         Hsv { hue, saturation: chroma / value, value }
+    }
+}
+
+/// The same hue in 0…360 degrees. Nearly all are within a turn, where no slow remainder is needed for the same bits.
+#[inline]
+fn within_a_turn(hue: f64) -> f64 {
+    if (0.0..360.0).contains(&hue) {
+        hue
+    } else if (-360.0..0.0).contains(&hue) {
+        hue + 360.0
+    } else {
+        hue.rem_euclid(360.0)
     }
 }
 

@@ -67,11 +67,12 @@ impl Canvas {
         let grid = &setup.grid;
         let ground = Ground::new(config);
         let quantizer = Quantizer::new();
-        let empty = if ground.is_opaque() { Frame::opaque } else { Frame::clear };
-        let mut frame = empty(grid.width, grid.height);
-        let tally = sheet.paint(grid, &setup.shader, frame.pixels_mut(), &|all: &Gathered<()>| {
+        // Zeros come from the system as they are touched, on the threads that paint.
+        let mut pixels = vec![[0; 4]; grid.width as usize * grid.height as usize];
+        let tally = sheet.paint(grid, &setup.shader, &mut pixels, &|all: &Gathered<()>| {
             display_pixel(&quantizer, ground.pixel(all), ground.is_opaque())
         });
+        let frame = Frame::new([grid.width, grid.height], ground.is_opaque(), pixels);
         Self { drawn: Drawn::Display(frame), tally, development: None }
     }
 }

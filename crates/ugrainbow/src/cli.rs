@@ -131,6 +131,18 @@ pub struct Args {
           visible_alias = "tone-curve", help_heading = PICTURE)]
     tc: Tone,
 
+    /// Small PNG files, which take some 20 times as long to pack
+    ///
+    /// The pixels stay the same.
+    #[arg(long, visible_alias = "pack", help_heading = PICTURE)]
+    pz: bool,
+
+    /// Leave out faces that are seen from behind: those whose corners run clockwise
+    ///
+    /// Of closed bodies the picture stays the same, and large scenes are drawn faster.
+    #[arg(long, visible_alias = "cull-back-faces", conflicts_with = "xc", help_heading = PICTURE)]
+    cb: bool,
+
     /// More channels of an EXR picture, with commas between: D, time, distance, Z, id, velocity
     ///
     /// Doppler factor, emission time, distance of the emission, depth along the view, number of the
@@ -201,6 +213,8 @@ impl Args {
             tone: self.tc,
             channels: self.ch.clone().unwrap_or_default().0,
             exact: self.xc.then(|| self.exact()),
+            cull: self.cb,
+            small: self.pz,
             command_line: command_line.to_owned(),
         })
     }

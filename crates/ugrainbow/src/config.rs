@@ -34,6 +34,10 @@ pub struct Config {
     pub channels: Vec<Channel>,
     /// Faces are drawn by a ray for each sample (`-xc`), from a scene whose colours have not been shifted.
     pub exact: Option<Exact>,
+    /// Faces that are seen from behind, running clockwise, are left out.
+    pub cull: bool,
+    /// PNG files are made as small as can be, which takes long.
+    pub small: bool,
     /// How the program was called, to be written into the picture.
     pub command_line: String,
 }
@@ -55,6 +59,8 @@ impl Default for Config {
             tone: Tone::Clip,
             channels: Vec::new(),
             exact: None,
+            cull: false,
+            small: false,
             command_line: String::new(),
         }
     }

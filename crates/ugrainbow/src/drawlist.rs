@@ -6,9 +6,10 @@ use ugparse::{Face, VertexId, Wire};
 
 use crate::clip::{Vertex, clip_polygon, clip_segment};
 use crate::exact::{Bend, Joint};
-use crate::painter::Painter;
+use crate::painter::{Common, Painter};
 use crate::palette::Swatch;
-use crate::raster::{Corner, PolygonList};
+use crate::raster::{Bounds, Corner, Drawn, Point, PolygonList, Shapes, Table, is_regular, twice_area};
+use crate::sheet::Pack;
 use ugscene::Place;
 
 /// Faces or wires that one task turns into a list.
@@ -21,12 +22,52 @@ const WIRE_HALF_WIDTH: f64 = 0.6;
 /// win against the faces whose edge it follows.
 pub const WIRE_LIFT: f64 = 5e-4;
 
-/// Polygons in drawing order, and how many faces and wires came how far.
-pub struct DrawList<const N: usize> {
+/// Shapes in drawing order, and how many faces and wires came how far.
+pub struct DrawList<'a, const N: usize> {
     /// Sorted into bands.
-    pub lists: Vec<PolygonList<N>>,
+    lists: Vec<PolygonList<N>>,
+    corners: Corners<'a, N>,
     /// How many faces and wires came how far.
     pub reach: Reach,
+}
+
+/// Where vertices are in the picture, and what faces look like at them.
+struct Corners<'a, const N: usize> {
+    painter: Painter<'a>,
+    pack: Pack<N>,
+    /// Of every vertex; not a number where it is outside the slab.
+    points: Vec<Point>,
+}
+
+impl<const N: usize> Table<N> for Corners<'_, N> {
+    #[inline]
+    fn point(&self, corner: u32) -> Point {
+        self.points[corner as usize]
+    }
+
+    fn numbers(&self, item: u32, corners: [u32; 3]) -> [[f64; N]; 3] {
+        let look = FaceLook::new(&self.painter, &self.painter.scene.faces[item as usize]);
+        corners.map(|corner| look.numbers(VertexId(corner), self.pack))
+    }
+}
+
+/// A face, and what its corners have in common.
+struct FaceLook<'a> {
+    painter: &'a Painter<'a>,
+    face: &'a Face,
+    normal: DVec3,
+    common: Common,
+}
+
+impl<'a> FaceLook<'a> {
+    fn new(painter: &'a Painter<'a>, face: &'a Face) -> Self {
+        Self { painter, face, normal: painter.seen_normal(face), common: painter.common(face) }
+    }
+
+    fn numbers<const N: usize>(&self, vertex: VertexId, pack: Pack<N>) -> [f64; N] {
+        let swatch = self.painter.swatch(vertex, &self.common);
+        pack(&swatch, self.painter.level(self.face, vertex, self.normal, self.common.is_light))
+    }
 }
 
 /// How many faces and pieces of wires came how far.
@@ -45,55 +86,68 @@ impl Reach {
     }
 }
 
-impl<const N: usize> DrawList<N> {
+impl<'a, const N: usize> DrawList<'a, N> {
     /// Faces first, then wires, each in the order of the scene; their items are counted in this order from 0. `pack` turns a colour and
     /// the level of red, green and blue light into the numbers to interpolate.
-    pub fn new(painter: &Painter<'_>, pack: impl Fn(&Swatch, DVec3) -> [f64; N] + Sync) -> Self {
+    pub fn new(painter: Painter<'a>, pack: Pack<N>) -> Self {
         let scene = painter.scene;
-        let places: Vec<Place> = scene
-            .vertices
-            .par_iter()
-            .map(|vertex| painter.view.place(vertex.position - painter.view.eye))
-            .collect();
+        let point = |vertex: &ugparse::Vertex| painter.point(painter.place(vertex.position));
+        let corners = Corners { painter, pack, points: scene.vertices.par_iter().map(point).collect() };
         let faces = scene.faces.par_chunks(CHUNK).enumerate();
-        let faces = faces
-            .map(|(idx, faces)| Chunk::new(painter, idx, 0, &places, &pack).all(faces, Chunk::push_face));
+        let faces = faces.map(|(idx, faces)| Chunk::new(&corners, idx, 0).all(faces, Chunk::push_face));
         let wires = scene.wires.par_chunks(CHUNK).enumerate();
         let n_faces = scene.faces.len();
-        let wires = wires.map(|(idx, wires)| {
-            Chunk::new(painter, idx, n_faces, &places, &pack).all(wires, Chunk::push_wire)
-        });
-        Self::of(faces.chain(wires).collect())
+        let wires = wires.map(|(idx, wires)| Chunk::new(&corners, idx, n_faces).all(wires, Chunk::push_wire));
+        let parts = faces.chain(wires).collect();
+        Self::of(parts, corners)
     }
 
     /// The wires alone, bent as they are seen; numbered as if faces were there.
-    pub fn wires(
-        painter: &Painter<'_>,
-        bend: &Bend<'_>,
-        pack: impl Fn(&Swatch, DVec3) -> [f64; N] + Sync,
-    ) -> Self {
+    pub fn wires(painter: Painter<'a>, bend: &Bend<'_>, pack: Pack<N>) -> Self {
         let wires = painter.scene.wires.par_chunks(CHUNK).enumerate();
         let n_faces = painter.scene.faces.len();
+        let corners = Corners { painter, pack, points: Vec::new() };
         let wires = wires.map(|(idx, wires)| {
-            Chunk::new(painter, idx, n_faces, &[], &pack)
-                .all(wires, |chunk, wire| chunk.push_bent(wire, bend))
+            Chunk::new(&corners, idx, n_faces).all(wires, |chunk, wire| chunk.push_bent(wire, bend))
         });
-        Self::of(wires.collect())
+        let parts = wires.collect();
+        Self::of(parts, corners)
     }
 
-    fn of(parts: Vec<(PolygonList<N>, Reach)>) -> Self {
+    fn of(parts: Vec<(PolygonList<N>, Reach)>, corners: Corners<'a, N>) -> Self {
         let (lists, reaches): (Vec<PolygonList<N>>, Vec<_>) = parts.into_iter().unzip();
         let lists = lists.into_iter().filter(|list| !list.is_empty()).collect();
-        Self { lists, reach: reaches.into_iter().fold(Reach::default(), Reach::merge) }
+        Self { lists, corners, reach: reaches.into_iter().fold(Reach::default(), Reach::merge) }
+    }
+
+    /// What is drawn.
+    pub fn shapes(&self) -> Shapes<'_, N, impl Table<N> + use<'a, N>> {
+        Shapes { lists: &self.lists, table: &self.corners }
+    }
+
+    /// Gives `take` every polygon, as its item and its contours.
+    pub fn for_each_polygon(&self, mut take: impl FnMut(u32, Vec<Vec<Corner<N>>>)) {
+        for (item, shape) in self.lists.iter().flat_map(|list| list.shapes()) {
+            match shape {
+                Drawn::Polygon(contours) => take(item, contours.map(<[Corner<N>]>::to_vec).collect()),
+                Drawn::Triangle(corners) => {
+                    let numbers = self.corners.numbers(item, corners);
+                    let corner = |i: usize| {
+                        let Point { x, y, key } = self.corners.point(corners[i]);
+                        let scale = if self.corners.painter.view.is_perspective { key } else { 1.0 };
+                        Corner { x, y, key, values: numbers[i].map(|number| number * scale) }
+                    };
+                    take(item, vec![[0, 1, 2].map(corner).to_vec()]);
+                }
+            }
+        }
     }
 }
 
-/// A run of faces or wires becoming polygons.
-struct Chunk<'a, const N: usize, P> {
+/// A run of faces or wires becoming shapes.
+struct Chunk<'a, const N: usize> {
+    corners: &'a Corners<'a, N>,
     painter: &'a Painter<'a>,
-    /// Of every vertex.
-    places: &'a [Place],
-    pack: &'a P,
     /// Of the face or wire in work.
     item: u32,
     list: PolygonList<N>,
@@ -103,15 +157,14 @@ struct Chunk<'a, const N: usize, P> {
     scratch: Vec<Vertex<N>>,
 }
 
-impl<'a, const N: usize, P: Fn(&Swatch, DVec3) -> [f64; N]> Chunk<'a, N, P> {
+impl<'a, const N: usize> Chunk<'a, N> {
     /// The chunk of this number among faces or wires; `first`: number of the first of them.
-    fn new(painter: &'a Painter<'a>, chunk: usize, first: usize, places: &'a [Place], pack: &'a P) -> Self {
+    fn new(corners: &'a Corners<'a, N>, chunk: usize, first: usize) -> Self {
         Self {
-            painter,
+            corners,
+            painter: &corners.painter,
             // The text of a scene is below 4 GiB, and so are these numbers.
             item: (first + chunk * CHUNK) as u32,
-            places,
-            pack,
             list: PolygonList::default(),
             reach: Reach::default(),
             contour: Vec::new(),
@@ -129,22 +182,55 @@ impl<'a, const N: usize, P: Fn(&Swatch, DVec3) -> [f64; N]> Chunk<'a, N, P> {
     }
 
     fn push_face(&mut self, face: &Face) {
-        let normal = self.painter.seen_normal(face);
-        let common = self.painter.common(face);
+        let vertices = self.painter.scene.contours.corners(face.contours.clone());
+        let points = vertices.iter().map(|vertex| self.corners.points[vertex.index()]);
+        // Of a face that is not clipped it is known early where it is: what is outside the picture or between
+        // samples costs no more.
+        if points.clone().all(|point| point.is_finite()) {
+            let rows = Bounds::new(points.map(|point| [point.x, point.y])).rows(self.painter.grid);
+            self.reach.in_front += 1;
+            self.reach.in_picture += usize::from(rows.is_some());
+            let Some(rows) = rows.filter(|rows| !rows.is_empty()) else { return };
+            if let &[VertexId(a), VertexId(b), VertexId(c)] = vertices {
+                let corners = [a, b, c];
+                let points = corners.map(|corner| self.corners.point(corner));
+                if is_regular(&points, self.painter.view.is_perspective) {
+                    if !self.painter.is_culled || twice_area(&points) > 0.0 {
+                        self.list.push_triangle(self.item, corners, rows);
+                    }
+                    return;
+                }
+            }
+            if !self.is_left_out(face) {
+                self.push_contours(face);
+                self.list.end_polygon(self.painter.grid, self.item);
+            }
+        } else if self.is_left_out(face) {
+            // What cannot be seen is not looked at more closely.
+            self.reach.in_front += 1;
+            self.reach.in_picture += 1;
+        } else if self.push_contours(face) {
+            self.end_polygon();
+        }
+    }
+
+    fn is_left_out(&self, face: &Face) -> bool {
+        self.painter.is_culled && self.painter.is_seen_from_behind(face)
+    }
+
+    /// Clips and projects the contours; false if nothing is left of them.
+    fn push_contours(&mut self, face: &Face) -> bool {
+        let look = FaceLook::new(self.painter, face);
         let mut is_in_front = false;
         for corners in self.painter.scene.face_contours(face) {
             self.contour.clear();
-            for &vertex in corners {
-                let swatch = self.painter.swatch(vertex, &common);
-                let level = self.painter.level(face, vertex, normal, common.is_light);
-                let values = (self.pack)(&swatch, level);
-                self.contour.push(Vertex { place: self.places[vertex.index()], values });
-            }
+            self.contour.extend(corners.iter().map(|&vertex| Vertex {
+                place: self.painter.place(self.painter.scene.vertices[vertex.index()].position),
+                values: look.numbers(vertex, self.corners.pack),
+            }));
             is_in_front |= self.push_contour();
         }
-        if is_in_front {
-            self.end_polygon();
-        }
+        is_in_front
     }
 
     /// Clips and projects the contour; false if nothing is left of it.
@@ -188,7 +274,10 @@ impl<'a, const N: usize, P: Fn(&Swatch, DVec3) -> [f64; N]> Chunk<'a, N, P> {
     }
 
     fn joint(&self, joint: &Joint) -> Vertex<N> {
-        Vertex { place: self.painter.view.place(joint.seen), values: (self.pack)(&joint.color, DVec3::ONE) }
+        Vertex {
+            place: self.painter.view.place(joint.seen),
+            values: (self.corners.pack)(&joint.color, DVec3::ONE),
+        }
     }
 
     fn push_line(&mut self, ends: [Vertex<N>; 2]) {
@@ -201,7 +290,8 @@ impl<'a, const N: usize, P: Fn(&Swatch, DVec3) -> [f64; N]> Chunk<'a, N, P> {
     fn wire_end(&self, vertex: VertexId, color: &Swatch, is_light: bool) -> Vertex<N> {
         let swatch = self.painter.wire_end(vertex, color);
         let swatch = if is_light { self.painter.as_light(swatch) } else { swatch };
-        Vertex { place: self.places[vertex.index()], values: (self.pack)(&swatch, DVec3::ONE) }
+        let place = self.painter.place(self.painter.scene.vertices[vertex.index()].position);
+        Vertex { place, values: (self.corners.pack)(&swatch, DVec3::ONE) }
     }
 
     /// Adds a line as a strip in the picture plane, with square ends so that the pieces of a

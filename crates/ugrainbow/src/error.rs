@@ -75,6 +75,11 @@ pub fn check_output(config: &Config) -> Result<(), Error> {
     if let Output::Vector(format) = config.output {
         check_vectors(config, format)?;
     }
+    if config.small && !matches!(config.output, Output::Color(Format::Png | Format::Png16)) {
+        return Err(Error::Options(
+            "only PNG files are packed smaller: leave out -pz, or write -dt png or png16",
+        ));
+    }
     if !config.channels.is_empty() && format != Some(Format::Exr) {
         return Err(Error::Options(
             "only EXR has a place for other channels than colour: with -ch write -dt exr",

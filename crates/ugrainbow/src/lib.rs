@@ -24,7 +24,8 @@
 //! - **Light.** As in 1988 lights rest in the frame of the face they light. Positions and
 //!   normals are brought back to that frame (P4), so a moving cube is lit like a cube.
 //!   Faces are lit on the side that is seen. The level multiplies the value.
-//! - **Hidden surfaces.** Depth is compared per sample, so faces may cut through each other.
+//! - **Hidden surfaces.** Depth is compared per sample, so faces may cut through each other. Colour and light of a
+//!   face are computed when the first of its samples is seen, and never if none is. [`Config::cull`] leaves out what is seen from behind.
 //! - **Pixels.** Samples are averaged in linear light. The mean is exposed, put through a tone curve, brought
 //!   into the gamut (P30), and encoded as sRGB; or written as it is to a format that holds light. Unless light
 //!   is given or asked for, values above 1 are clipped sample by sample, as in 1988.
@@ -78,7 +79,7 @@ mod surface;
 mod vector;
 mod words;
 
-use ugimage::{Development, Frame, Label, grey_postscript};
+use ugimage::{Development, Frame, Label, Packing, grey_postscript};
 use ugparse::{Diagnostics, Scene, Source};
 
 pub use cli::{Args, draw};
@@ -112,10 +113,11 @@ pub fn run(config: &Config, source: &Source) -> Result<Picture, Error> {
     let parsed = ugscene::read(source, &config.reading, config.camera.name.as_deref())?;
     let Painted { drawn, development, notes } = paint(&parsed.scene, config)?;
     let label = label(&parsed.scene, config);
+    let packing = if config.small { Packing::Small } else { Packing::Fast };
     let bytes = match (config.output, drawn) {
         (Output::Vector(format), _) => vector::file(&parsed.scene, config, format, development, &label)?,
-        (Output::Color(format), Drawn::Display(frame)) => format.encode(&frame, &label),
-        (Output::Color(format), Drawn::Light(frame)) => format.encode_linear(&frame, &label),
+        (Output::Color(format), Drawn::Display(frame)) => format.pack(&frame, &label, packing),
+        (Output::Color(format), Drawn::Light(frame)) => format.pack_linear(&frame, &label, packing),
         (Output::Grey, drawn) => grey_postscript(&drawn.into_frame(), &label),
     };
     Ok(Picture { bytes, notes, warnings: parsed.warnings })
@@ -127,6 +129,28 @@ pub fn run(config: &Config, source: &Source) -> Result<Picture, Error> {
 /// The picture is too large, there is nothing to draw, or the camera makes no sense.
 pub fn render(scene: &Scene, config: &Config) -> Result<(Frame, Vec<String>), Error> {
     paint(scene, config).map(|painted| (painted.drawn.into_frame(), painted.notes))
+}
+
+/// A scene made ready to be drawn: its colours and lights are known, and nothing has been put into the picture yet.
+pub struct Prepared<'a> {
+    setup: Setup<'a>,
+    config: &'a Config,
+}
+
+impl<'a> Prepared<'a> {
+    /// Makes a scene ready.
+    ///
+    /// # Errors
+    /// As of [`render`].
+    pub fn new(scene: &'a Scene, config: &'a Config) -> Result<Self, Error> {
+        Ok(Self { setup: Setup::new(scene, config)?, config })
+    }
+
+    /// Draws it: from vertices in the scene to 8 bits a channel.
+    pub fn draw(&self) -> Frame {
+        let sheet = Sheet::new(self.setup.painter(), self.config.exact);
+        Canvas::new(&self.setup, &sheet, self.config).drawn.into_frame()
+    }
 }
 
 /// A picture, how its light was developed, and what there is to say about it.

@@ -30,7 +30,7 @@ pub fn notes(setup: &Setup<'_>, config: &Config, outcome: &Outcome) -> Vec<Strin
             "the up direction is parallel to the view, so another axis is up; choose one with -ud".into(),
         );
     }
-    notes.extend(why_nothing_is_seen(outcome).map(str::to_owned));
+    notes.extend(why_nothing_is_seen(config, outcome).map(str::to_owned));
     notes.extend(light_note(config, outcome));
     notes
 }
@@ -78,7 +78,7 @@ fn scene_notes(scene: &Scene) -> Vec<String> {
     notes
 }
 
-fn why_nothing_is_seen(Outcome { reach, tally, .. }: &Outcome) -> Option<&'static str> {
+fn why_nothing_is_seen(config: &Config, Outcome { reach, tally, .. }: &Outcome) -> Option<&'static str> {
     if reach.in_front == 0 {
         return Some(
             "nothing is drawn: everything is behind the eye or outside the clipping distances; \
@@ -89,6 +89,12 @@ fn why_nothing_is_seen(Outcome { reach, tally, .. }: &Outcome) -> Option<&'stati
         return Some(
             "nothing is drawn: everything is outside the picture, where fast bodies often are; \
              try `uglorentz -in`, another -vc or a wider -va",
+        );
+    }
+    if tally.covered == 0 && config.cull {
+        return Some(
+            "nothing is drawn: everything is seen from behind, or smaller than a sample; leave out -cb, \
+             or turn the faces round",
         );
     }
     if tally.covered == 0 {

@@ -1,13 +1,14 @@
 //! What faces and wires are drawn from, and the colour and light of their corners.
 
 use glam::DVec3;
-use ugparse::{Face, Scene, VertexId, Wire};
+use ugparse::{Face, Scene, VertexId, Wire, newell_normal};
 
+use crate::clip::Vertex;
 use crate::light::Lighting;
 use crate::palette::{Palette, Swatch};
-use crate::raster::Grid;
+use crate::raster::{Corner, Grid, Point};
 use crate::surface::Surface;
-use ugscene::View;
+use ugscene::{Place, Slab, View};
 
 /// All that faces and wires are drawn from.
 #[derive(Clone, Copy)]
@@ -24,6 +25,8 @@ pub struct Painter<'a> {
     pub lighting: &'a Lighting,
     /// Its surfaces: colours and rest geometry of vertices.
     pub surface: &'a Surface,
+    /// Faces seen from behind are left out.
+    pub is_culled: bool,
 }
 
 /// What the corners of a face have in common.
@@ -44,6 +47,32 @@ impl Common {
 }
 
 impl Painter<'_> {
+    /// Where a position of the scene is before projection.
+    #[inline]
+    pub fn place(&self, position: DVec3) -> Place {
+        self.view.place(position - self.view.eye)
+    }
+
+    /// Where it is in the picture; not a number if it is outside the slab.
+    #[inline]
+    pub fn point(&self, place: Place) -> Point {
+        let Slab { near, far } = self.view.slab;
+        if near <= place.z && place.z <= far {
+            let Corner { x, y, key, .. } = Vertex { place, values: [] }.project(self.view.is_perspective);
+            Point { x, y, key }
+        } else {
+            Point { x: f64::NAN, y: f64::NAN, key: f64::NAN }
+        }
+    }
+
+    /// True if a face runs clockwise as it is seen, so that it is seen from behind.
+    pub fn is_seen_from_behind(&self, face: &Face) -> bool {
+        let Some(outline) = self.scene.face_contours(face).next() else { return false };
+        let seen = outline.iter().map(|vertex| self.scene.vertices[vertex.index()].position - self.view.eye);
+        let forward = if self.view.is_perspective { seen.clone().next() } else { Some(self.view.forward) };
+        newell_normal(seen).dot(forward.unwrap_or_default()) > 0.0
+    }
+
     /// What the corners of a face have in common.
     #[inline]
     pub fn common(&self, face: &Face) -> Common {

@@ -56,6 +56,11 @@ impl Palette {
         self.swatches[color.index()]
     }
 
+    /// All colours in the order of the scene's table.
+    pub fn all(&self) -> &[Swatch] {
+        &self.swatches
+    }
+
     /// True if the scene gives a colour as light.
     pub fn has_light(&self) -> bool {
         self.has_light

@@ -24,6 +24,8 @@ pub struct Setup<'a> {
     pub lighting: Lighting,
     pub surface: Surface,
     pub shader: Shader,
+    /// Faces seen from behind are left out.
+    is_culled: bool,
     /// Light brighter than white is kept to the last step; else it is clipped sample by sample, as in 1988.
     pub is_uncut: bool,
 }
@@ -51,7 +53,8 @@ impl<'a> Setup<'a> {
             check_exact(&scene, &view)?;
         }
         let shader = Shader::new(config.interpolated(), !is_uncut);
-        Ok(Self { scene, view, grid, palette, lighting, surface, shader, is_uncut })
+        let is_culled = config.cull;
+        Ok(Self { scene, view, grid, palette, lighting, surface, shader, is_culled, is_uncut })
     }
 
     /// The scene, with vertices of one velocity each. Faces and wires have the order of the scene given.
@@ -68,6 +71,7 @@ impl<'a> Setup<'a> {
             palette: &self.palette,
             lighting: &self.lighting,
             surface: &self.surface,
+            is_culled: self.is_culled,
         }
     }
 }
@@ -95,9 +99,9 @@ fn check_exact(scene: &Scene, view: &View) -> Result<(), Error> {
     Ok(())
 }
 
-/// The scene with vertices of one velocity each, copied only if it has velocities.
+/// The scene with vertices of one velocity each, copied only if it has several.
 fn with_separate_bodies(scene: &Scene) -> Cow<'_, Scene> {
-    if scene.velocities.is_empty() {
+    if ugscene::is_one_body(scene) {
         return Cow::Borrowed(scene);
     }
     let mut scene = scene.clone();

@@ -41,6 +41,7 @@ impl Shader {
     }
 
     /// The light of tint, saturation and value.
+    #[inline]
     pub fn plain(&self, &[tint, saturation, value]: &[f32; 3]) -> Shade {
         self.lit(tint, saturation, value, [1.0; 3])
     }
@@ -61,6 +62,7 @@ impl Shader {
         if is_light > 0.5 { given([a, b, c]) } else { self.lit(a, b, c, [red, green, blue]) }
     }
 
+    #[inline(always)] // Runs for every sample, and its result is slow to pass through memory.
     fn lit(&self, tint: f32, saturation: f32, value: f32, light: [f32; 3]) -> Shade {
         let fade = if saturation > 0.0 { self.fade(tint) } else { 1.0 };
         let color = Hsv { hue: self.hue(tint), saturation: f64::from(saturation), value: 1.0 };

@@ -31,15 +31,15 @@ pub struct Layers<'a, const N: usize> {
     /// Faces that rays find.
     faces: Option<Faces<'a, N>>,
     /// All polygons, which come behind those faces.
-    polygons: DrawList<N>,
+    polygons: DrawList<'a, N>,
 }
 
 impl<'a, const N: usize> Layers<'a, N> {
     fn new(painter: Painter<'a>, exact: Option<Exact>, pack: Pack<N>) -> Self {
         match exact {
-            None => Self { faces: None, polygons: DrawList::new(&painter, pack) },
+            None => Self { faces: None, polygons: DrawList::new(painter, pack) },
             Some(exact) => Self {
-                polygons: DrawList::wires(&painter, &Bend::new(painter, exact), pack),
+                polygons: DrawList::wires(painter, &Bend::new(painter, exact), pack),
                 faces: Some(Faces::new(painter, exact, pack)),
             },
         }
@@ -55,7 +55,7 @@ impl<const N: usize> Layer<N> for Layers<'_, N> {
         if let Some(faces) = &self.faces {
             faces.draw(grid, band, scanner, tile);
         }
-        self.polygons.lists[..].draw(grid, band, scanner, tile);
+        self.polygons.shapes().draw(grid, band, scanner, tile);
     }
 }
 
@@ -81,7 +81,7 @@ impl<'a> Sheet<'a> {
     }
 
     /// Draws all pixels of the grid. `finish` makes a pixel of its samples.
-    pub fn paint<T: Tag, P: Send>(
+    pub fn paint<T: Tag, P: Copy + Send>(
         &self,
         grid: &Grid,
         shader: &Shader,
@@ -116,7 +116,7 @@ impl Sheet<'_> {
     /// Gives `take` every polygon, as its item and its contours; corners have zeros behind their numbers.
     pub fn for_each_polygon(&self, mut take: impl FnMut(u32, Vec<Vec<Corner<MOST_VALUES>>>)) {
         fn all<const N: usize>(
-            list: &DrawList<N>,
+            list: &DrawList<'_, N>,
             take: &mut impl FnMut(u32, Vec<Vec<Corner<MOST_VALUES>>>),
         ) {
             let padded = |corner: &Corner<N>| Corner {
@@ -125,9 +125,12 @@ impl Sheet<'_> {
                 key: corner.key,
                 values: std::array::from_fn(|i| corner.values.get(i).copied().unwrap_or(0.0)),
             };
-            for (item, contours) in list.lists.iter().flat_map(|list| list.polygons()) {
-                take(item, contours.map(|contour| contour.iter().map(padded).collect()).collect());
-            }
+            list.for_each_polygon(|item, contours| {
+                take(
+                    item,
+                    contours.into_iter().map(|contour| contour.iter().map(padded).collect()).collect(),
+                );
+            });
         }
         match self {
             Self::Plain(list) => all(&list.polygons, &mut take),

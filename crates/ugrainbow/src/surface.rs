@@ -2,7 +2,7 @@
 
 use glam::{DQuat, DVec3};
 use rayon::prelude::*;
-use ugparse::{Scene, VelocityId, VertexId};
+use ugparse::{ColorId, Scene, VelocityId, VertexId};
 use ugphysics::{Velocity, VelocityError, aberrate};
 use ugscene::{Bodies, HueScale, VertexColor, rest_positions, vertex_colors};
 
@@ -11,7 +11,10 @@ use crate::palette::{Palette, Swatch};
 /// Colours and rest positions of the vertices of a scene.
 #[derive(Clone, Debug)]
 pub struct Surface {
+    /// Different colours: those of the scene, white, and mixed ones.
     swatches: Vec<Swatch>,
+    /// For each vertex a row of the swatches; most vertices share theirs with others.
+    rows: Vec<u32>,
     rest: Vec<DVec3>,
     bodies: Bodies,
 }
@@ -24,22 +27,18 @@ impl Surface {
     pub fn new(scene: &Scene, eye: DVec3, palette: &Palette, scale: HueScale) -> Result<Self, VelocityError> {
         let bodies = Bodies::new(scene, Velocity::ZERO)?;
         let rest = rest_positions(scene, eye, &bodies);
-        let swatches = vertex_colors(scene, &rest, scale)
-            .into_par_iter()
-            .map(|color| match color {
-                VertexColor::Named(color) => palette.get(color),
-                VertexColor::White => Swatch::WHITE,
-                VertexColor::Mixed { hsv, light, .. } => {
-                    Swatch { light: light.map(DVec3::from_array), ..palette.swatch(hsv) }
-                }
-            })
-            .collect();
-        Ok(Self { swatches, rest, bodies })
+        let mut swatches = palette.all().to_vec();
+        let own = scene.vertices.par_iter().map(|vertex| vertex.color.map(row));
+        let rows = match own.collect() {
+            Some(rows) => rows,
+            None => mixed_rows(scene, &rest, palette, scale, &mut swatches),
+        };
+        Ok(Self { swatches, rows, rest, bodies })
     }
 
     /// Its own colour, else the mix of its faces' colours, else white.
     pub fn swatch(&self, vertex: VertexId) -> Swatch {
-        self.swatches[vertex.index()]
+        self.swatches[self.rows[vertex.index()] as usize]
     }
 
     /// Where the vertex is in the rest frame of its body, relative to the eye, in the axes of the scene.  Eq. (P4)
@@ -61,4 +60,32 @@ impl Surface {
     pub fn rest_direction(&self, direction: DVec3, velocity: Option<VelocityId>) -> DVec3 {
         self.scene_from_axes(velocity) * aberrate(direction, self.bodies.of(velocity))
     }
+}
+
+fn row(color: ColorId) -> u32 {
+    // Scenes have fewer than 2^32 colours.
+    color.index() as u32
+}
+
+/// The rows of vertices that have not all colours of their own; what is not in the scene is added.
+fn mixed_rows(
+    scene: &Scene,
+    rest: &[DVec3],
+    palette: &Palette,
+    scale: HueScale,
+    swatches: &mut Vec<Swatch>,
+) -> Vec<u32> {
+    let white = swatches.len() as u32;
+    swatches.push(Swatch::WHITE);
+    let colors = vertex_colors(scene, rest, scale).into_iter();
+    let rows = colors.map(|color| match color {
+        VertexColor::Named(color) => row(color),
+        VertexColor::White => white,
+        VertexColor::Mixed { hsv, light, .. } => {
+            swatches.push(Swatch { light: light.map(DVec3::from_array), ..palette.swatch(hsv) });
+            // There are no more mixed colours than vertices.
+            swatches.len() as u32 - 1
+        }
+    });
+    rows.collect()
 }

@@ -75,11 +75,16 @@ fn users(scene: &Scene) -> impl DoubleEndedIterator<Item = (std::ops::Range<u32>
     faces.chain(wires)
 }
 
+/// True if all faces and wires have one velocity, so that [`separate_bodies`] would change nothing.
+pub fn is_one_body(scene: &Scene) -> bool {
+    let first = users(scene).next().map(|(_, velocity)| velocity);
+    scene.velocities.is_empty() || users(scene).all(|(_, velocity)| Some(velocity) == first)
+}
+
 /// Gives every body its own vertices: where faces or wires of different
 /// velocity share a vertex, the later ones get a copy, named after it.
 pub fn separate_bodies(scene: &mut Scene) {
-    let first = users(scene).next().map(|(_, velocity)| velocity);
-    if users(scene).any(|(_, velocity)| Some(velocity) != first) {
+    if !is_one_body(scene) {
         let users: Vec<_> = users(scene).collect();
         split_vertices(scene, &users, |_| true);
     }

@@ -78,9 +78,13 @@ pub fn spectrum(scene: &Scene, color: &Color) -> (Spectrum, bool) {
 /// What to tell the user of a scene with spectra of which [`hsv`] takes the
 /// colour at rest only: those that something is drawn or lit with.
 pub fn spectra_note(scene: &Scene) -> Option<String> {
-    let is_spectrum = |id: &ColorId| {
-        matches!(scene.colors[id.index()].value, ColorValue::Blackbody { .. } | ColorValue::Spectrum { .. })
-    };
+    let has_spectrum =
+        |color: &Color| matches!(color.value, ColorValue::Blackbody { .. } | ColorValue::Spectrum { .. });
+    // Most scenes have none, and their vertices need not be looked at.
+    if !scene.colors.iter().any(has_spectrum) {
+        return None;
+    }
+    let is_spectrum = |id: &ColorId| has_spectrum(&scene.colors[id.index()]);
     // A colour of the vertices beats that of their face.
     let needs_color = |rows: &std::ops::Range<u32>| {
         let corners = scene.contours.corners(rows.clone());

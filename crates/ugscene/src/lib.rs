@@ -35,7 +35,7 @@ mod shares;
 mod split;
 mod traveller;
 
-pub use bodies::{Bodies, separate_bodies, vertex_velocities};
+pub use bodies::{Bodies, is_one_body, separate_bodies, vertex_velocities};
 pub use camera::{CameraError, CameraOptions, HalfSpace, Place, Slab, View};
 pub use colors::{HueScale, VertexColor, hsv, is_light, light, spectra_note, spectrum, vertex_colors};
 pub use eye::{at_eye_error, eye, vertex_at_eye};

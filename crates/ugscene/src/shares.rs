@@ -20,6 +20,11 @@ pub enum Shares {
 /// `positions`: one for each vertex, in the rest frame of its body, where
 /// angles do not depend on the speed.
 pub fn vertex_shares(scene: &Scene, positions: &[DVec3]) -> Vec<Shares> {
+    // Own colours need no look at the faces.
+    let own = scene.vertices.iter().map(|vertex| vertex.color.map(|color| Shares::One(Some(color))));
+    if let Some(shares) = own.collect() {
+        return shares;
+    }
     let mut sums: Vec<Sum> = scene.vertices.iter().map(|vertex| Sum::new(vertex.color)).collect();
     let mut use_colour = |contour: &[VertexId], color: Option<ColorId>, weighted: bool| {
         for (idx, corner) in contour.iter().enumerate() {

@@ -1,13 +1,15 @@
 //! Bands of pixel rows, drawn in parallel.
 
 use std::ops::Range;
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use rayon::prelude::*;
 
 use super::edges::Scanner;
-use super::polygons::PolygonList;
+use super::polygons::{Drawn, PolygonList};
 use super::resolve::{Gathered, Resolver, Shade, Tally};
 use super::spans::{Tag, Tile};
+use super::triangles::Table;
 
 /// Samples a tile should have: with some 16 bytes each they stay in a core's cache.
 const TILE_SAMPLES: u32 = 1 << 15;
@@ -77,14 +79,30 @@ pub trait Layer<const N: usize>: Sync {
     fn draw<T: Tag>(&self, grid: &Grid, band: usize, scanner: &mut Scanner<N>, tile: &mut Tile<N, T>);
 }
 
-/// Polygons, list after list, that have been sorted into the bands of the grid.
-impl<const N: usize> Layer<N> for [PolygonList<N>] {
+/// Shapes, list after list, that have been sorted into the bands of the grid.
+pub struct Shapes<'a, const N: usize, C: ?Sized> {
+    /// Polygons and triangles.
+    pub lists: &'a [PolygonList<N>],
+    /// Where the corners of triangles are.
+    pub table: &'a C,
+}
+
+impl<const N: usize, C: Table<N> + ?Sized> Layer<N> for Shapes<'_, N, C> {
     fn draw<T: Tag>(&self, grid: &Grid, band: usize, scanner: &mut Scanner<N>, tile: &mut Tile<N, T>) {
         let [first_row, end_row] = tile.rows();
-        for (item, polygon) in self.iter().flat_map(|list| list.in_band(band)) {
-            scanner.scan(polygon, first_row, end_row, |row, left, right| {
-                tile.draw(row, left, right, grid.is_perspective, T::of(item));
-            });
+        let is_perspective = grid.is_perspective;
+        for (item, shape) in self.lists.iter().flat_map(|list| list.in_band(band)) {
+            match shape {
+                Drawn::Triangle(corners) => {
+                    let points = corners.map(|corner| self.table.point(corner));
+                    tile.draw_triangle(&points, is_perspective, T::of(item), || {
+                        self.table.numbers(item, corners)
+                    });
+                }
+                Drawn::Polygon(contours) => scanner.scan(contours, first_row, end_row, |row, left, right| {
+                    tile.draw(row, left, right, is_perspective, T::of(item));
+                }),
+            }
         }
     }
 }
@@ -102,23 +120,49 @@ pub fn paint<const N: usize, L, T, P, S, F>(
 where
     L: Layer<N> + ?Sized,
     T: Tag,
-    P: Send,
+    P: Copy + Send,
     S: Fn(&[f32; N]) -> Shade + Sync,
     F: Fn(&Gathered<T>) -> P + Sync,
 {
     let band_pixels = grid.band_rows() as usize * grid.width as usize;
+    // Buffers go from band to band: as many as there are threads, and touched once.
+    let buffers = Buffers::default();
     pixels
         .par_chunks_mut(band_pixels)
+        .with_max_len(1)
         .enumerate()
-        .map_init(
-            || (Scanner::default(), Tile::default()),
-            |(scanner, tile), (band, pixels)| {
-                let mut resolver = Resolver::new(shader, finish, grid.samples);
-                Band { grid, layer, band, scanner, tile }.paint(&mut resolver, pixels);
-                resolver.tally
-            },
-        )
+        .map(|(band, pixels)| {
+            let (mut scanner, mut tile) = buffers.take();
+            let mut resolver = Resolver::new(shader, finish, grid.samples);
+            Band { grid, layer, band, scanner: &mut scanner, tile: &mut tile }.paint(&mut resolver, pixels);
+            buffers.put_back((scanner, tile));
+            resolver.tally
+        })
         .reduce(Tally::default, Tally::merge)
+}
+
+/// Buffers that no thread uses just now.
+struct Buffers<B>(Mutex<Vec<B>>);
+
+impl<B> Default for Buffers<B> {
+    fn default() -> Self {
+        Self(Mutex::new(Vec::new()))
+    }
+}
+
+impl<B: Default> Buffers<B> {
+    fn take(&self) -> B {
+        self.lock().pop().unwrap_or_default()
+    }
+
+    fn put_back(&self, buffer: B) {
+        self.lock().push(buffer);
+    }
+
+    fn lock(&self) -> MutexGuard<'_, Vec<B>> {
+        // A thread that panicked left at worst fewer buffers.
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
 }
 
 /// One band being drawn.
@@ -131,7 +175,7 @@ pub struct Band<'a, const N: usize, L: ?Sized, T> {
 }
 
 impl<const N: usize, L: Layer<N> + ?Sized, T: Tag> Band<'_, N, L, T> {
-    fn paint<P, S, F>(&mut self, resolver: &mut Resolver<'_, N, S, F>, pixels: &mut [P])
+    fn paint<P: Copy, S, F>(&mut self, resolver: &mut Resolver<'_, N, S, F>, pixels: &mut [P])
     where
         S: Fn(&[f32; N]) -> Shade,
         F: Fn(&Gathered<T>) -> P,
@@ -148,7 +192,7 @@ impl<const N: usize, L: Layer<N> + ?Sized, T: Tag> Band<'_, N, L, T> {
     }
 
     /// Draws the tile whose upper left pixel is given into `rows`, whole rows of the frame.
-    fn paint_tile<P, S, F>(
+    fn paint_tile<P: Copy, S, F>(
         &mut self,
         resolver: &mut Resolver<'_, N, S, F>,
         column: u32,

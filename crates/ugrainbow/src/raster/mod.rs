@@ -8,9 +8,10 @@
 //! 1. [`polygons`]: polygons in buffers, sorted into bands of pixel rows;
 //! 2. [`edges`]: where a polygon's outline crosses a row of samples;
 //! 3. [`spans`]: the samples between two crossings, and the depth test;
-//! 4. [`resolve`]: samples to pixels, averaged in linear light;
-//! 5. [`band`]: bands in parallel, each with its own small sample buffer;
-//! 6. [`probe`]: one pixel alone, with all its samples.
+//! 4. [`triangles`]: the same for triangles, the usual case, shorter;
+//! 5. [`resolve`]: samples to pixels, averaged in linear light;
+//! 6. [`band`]: bands in parallel, each with its own small sample buffer;
+//! 7. [`probe`]: one pixel alone, with all its samples.
 //!
 //! A sample can also remember whose it is ([`Tag`]); where nobody asks, that costs nothing.
 //!
@@ -40,11 +41,13 @@ mod resolve;
 mod spans;
 #[cfg(test)]
 mod tests;
+mod triangles;
 
-pub use band::{Grid, Layer, paint};
+pub use band::{Grid, Layer, Shapes, paint};
 pub use bins::Bins;
 pub use edges::Scanner;
-pub use polygons::{Corner, PolygonList};
+pub use polygons::{Bounds, Corner, Drawn, PolygonList};
 pub use probe::{Sample, probe};
 pub use resolve::{Gathered, Shade, Tally};
 pub use spans::{Seen, Tag, Tile};
+pub use triangles::{Point, Table, is_regular, twice_area};

@@ -18,21 +18,41 @@ pub struct Corner<const N: usize> {
     pub values: [f64; N],
 }
 
-/// Polygons in drawing order, all corners in one buffer.
+/// Shapes in drawing order: polygons with all their corners in one buffer, and triangles whose corners are in a
+/// [`super::Table`].
 #[derive(Clone, Debug, Default)]
 pub struct PolygonList<const N: usize> {
     corners: Vec<Corner<N>>,
     contour_ends: Vec<u32>,
-    polygons: Vec<Polygon>,
+    /// How many contours belong to polygons that have ended.
+    n_contours: u32,
+    shapes: Vec<Shape>,
+    /// The rows of samples that each shape may touch, until they are sorted.
+    rows: Vec<Range<u32>>,
     bins: Bins,
 }
 
-/// A polygon: its contours, the rows of samples it may touch, and what of the scene it is.
+/// What of the scene a shape is, and its corners.
 #[derive(Clone, Debug)]
-struct Polygon {
-    contours: Range<u32>,
-    rows: Range<u32>,
+struct Shape {
     item: u32,
+    outline: Outline,
+}
+
+#[derive(Clone, Debug)]
+enum Outline {
+    /// Rows of the contours.
+    Contours(Range<u32>),
+    /// Rows of the table.
+    Triangle([u32; 3]),
+}
+
+/// A shape to be drawn.
+pub enum Drawn<C> {
+    /// Its contours.
+    Polygon(C),
+    /// The rows of its corners in the [`super::Table`].
+    Triangle([u32; 3]),
 }
 
 impl<const N: usize> PolygonList<N> {
@@ -50,47 +70,71 @@ impl<const N: usize> PolygonList<N> {
     /// in it. The answer says whether it is in the picture, if only between samples. `item`: any number, to
     /// tell whose it is.
     pub fn end_polygon(&mut self, grid: &Grid, item: u32) -> bool {
-        let first_contour = self.polygons.last().map_or(0, |polygon| polygon.contours.end);
-        let first_corner = self.contour_start(first_contour);
-        let rows = sample_rows(&self.corners[first_corner..], grid);
-        let is_in_picture = rows.is_some();
-        if let Some(rows) = rows.filter(|rows| !rows.is_empty()) {
-            let contours = first_contour..index(self.contour_ends.len());
-            self.polygons.push(Polygon { contours, rows, item });
+        let first_corner = self.contour_start(self.n_contours);
+        let corners = &self.corners[first_corner..];
+        let rows = if corners.iter().all(is_finite) {
+            Bounds::new(corners.iter().map(|corner| [corner.x, corner.y])).rows(grid)
         } else {
-            self.corners.truncate(first_corner);
-            self.contour_ends.truncate(first_contour as usize);
+            None
+        };
+        if let Some(rows) = rows.clone().filter(|rows| !rows.is_empty()) {
+            let contours = self.n_contours..index(self.contour_ends.len());
+            self.n_contours = contours.end;
+            self.push(item, Outline::Contours(contours), rows);
+        } else {
+            self.drop_contours();
         }
-        is_in_picture
+        rows.is_some()
     }
 
-    /// True if no polygon stayed.
+    /// Drops all contours since the last polygon.
+    pub fn drop_contours(&mut self) {
+        self.corners.truncate(self.contour_start(self.n_contours));
+        self.contour_ends.truncate(self.n_contours as usize);
+    }
+
+    /// Adds a triangle that may touch these rows of samples; they are not empty.
+    pub fn push_triangle(&mut self, item: u32, corners: [u32; 3], rows: Range<u32>) {
+        self.push(item, Outline::Triangle(corners), rows);
+    }
+
+    fn push(&mut self, item: u32, outline: Outline, rows: Range<u32>) {
+        self.shapes.push(Shape { item, outline });
+        self.rows.push(rows);
+    }
+
+    /// True if no shape stayed.
     pub fn is_empty(&self) -> bool {
-        self.polygons.is_empty()
+        self.shapes.is_empty()
     }
 
-    /// Sorts the polygons into the bands of the grid. To be called once, when all are in.
+    /// Sorts the shapes into the bands of the grid. To be called once, when all are in.
     pub fn sort_into_bands(&mut self, grid: &Grid) {
-        self.bins = Bins::new(grid, self.polygons.iter().map(|polygon| &polygon.rows));
+        self.bins = Bins::new(grid, std::mem::take(&mut self.rows).iter());
+        self.shapes.shrink_to_fit();
     }
 
-    /// The polygons that touch a band, each as its item and its contours.
-    pub fn in_band(&self, band: usize) -> impl Iterator<Item = (u32, impl Iterator<Item = &[Corner<N>]>)> {
-        self.bins
-            .in_band(band)
-            .iter()
-            .map(|&polygon| (self.polygons[polygon as usize].item, self.contours(polygon)))
+    /// The shapes that touch a band, each with its item.
+    pub fn in_band(
+        &self,
+        band: usize,
+    ) -> impl Iterator<Item = (u32, Drawn<impl Iterator<Item = &[Corner<N>]>>)> {
+        self.bins.in_band(band).iter().map(|&shape| self.drawn(&self.shapes[shape as usize]))
     }
 
-    /// All polygons in drawing order, each as its item and its contours.
-    pub fn polygons(&self) -> impl Iterator<Item = (u32, impl Iterator<Item = &[Corner<N>]>)> {
-        (0..).zip(&self.polygons).map(|(idx, polygon)| (polygon.item, self.contours(idx)))
+    /// All shapes in drawing order, each with its item.
+    pub fn shapes(&self) -> impl Iterator<Item = (u32, Drawn<impl Iterator<Item = &[Corner<N>]>>)> {
+        self.shapes.iter().map(|shape| self.drawn(shape))
     }
 
-    fn contours(&self, polygon: u32) -> impl Iterator<Item = &[Corner<N>]> {
-        self.polygons[polygon as usize].contours.clone().map(|contour| {
-            &self.corners[self.contour_start(contour)..self.contour_ends[contour as usize] as usize]
-        })
+    fn drawn(&self, shape: &Shape) -> (u32, Drawn<impl Iterator<Item = &[Corner<N>]> + use<'_, N>>) {
+        let drawn = match &shape.outline {
+            Outline::Triangle(corners) => Drawn::Triangle(*corners),
+            Outline::Contours(contours) => Drawn::Polygon(contours.clone().map(|contour| {
+                &self.corners[self.contour_start(contour)..self.contour_ends[contour as usize] as usize]
+            })),
+        };
+        (shape.item, drawn)
     }
 
     fn contour_start(&self, contour: u32) -> usize {
@@ -103,27 +147,48 @@ fn index(idx: usize) -> u32 {
     u32::try_from(idx).expect("a polygon list has fewer than 2^32 corners")
 }
 
-/// The rows of samples between the highest and the lowest corner; `None` if the box round
-/// the corners does not touch the picture, or if a corner is not finite.
-fn sample_rows<const N: usize>(corners: &[Corner<N>], grid: &Grid) -> Option<Range<u32>> {
-    let is_finite = |corner: &Corner<N>| {
-        let numbers = [corner.x, corner.y, corner.key];
-        numbers.iter().chain(&corner.values).all(|number| number.is_finite())
-    };
-    if !corners.iter().all(is_finite) {
-        return None;
+fn is_finite<const N: usize>(corner: &Corner<N>) -> bool {
+    let numbers = [corner.x, corner.y, corner.key];
+    numbers.iter().chain(&corner.values).all(|number| number.is_finite())
+}
+
+/// The box round some corners, in samples.
+#[derive(Clone, Copy, Debug)]
+pub struct Bounds {
+    columns: [f64; 2],
+    rows: [f64; 2],
+}
+
+/// How far a crossing of an edge may be computed beside the corners, in samples. Coordinates where it matters are
+/// below 2¹⁹, so it is no more than 2⁻³².
+const ROUNDING: f64 = 1e-6;
+
+impl Bounds {
+    /// The box round these places.
+    #[inline]
+    pub fn new(places: impl Iterator<Item = [f64; 2]>) -> Self {
+        let empty = [f64::INFINITY, f64::NEG_INFINITY];
+        let with = |[low, high]: [f64; 2], place: f64| [low.min(place), high.max(place)];
+        places.fold(Self { columns: empty, rows: empty }, |bounds, [x, y]| Self {
+            columns: with(bounds.columns, x),
+            rows: with(bounds.rows, y),
+        })
     }
-    let range = |coordinate: fn(&Corner<N>) -> f64| {
-        corners
-            .iter()
-            .map(coordinate)
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)))
-    };
-    let (left, right) = range(|corner| corner.x);
-    let (top, bottom) = range(|corner| corner.y);
-    let (columns, rows) = (grid.sample_columns(), grid.sample_rows());
-    let is_in_picture = right > 0.0 && left < f64::from(columns) && bottom > 0.0 && top < f64::from(rows);
-    is_in_picture.then(|| first_center(top, rows)..first_center(bottom, rows))
+
+    /// The rows of samples in the box, none if there is no sample in it; `None` if it does not touch the picture.
+    #[inline]
+    pub fn rows(&self, grid: &Grid) -> Option<Range<u32>> {
+        let ([left, right], [top, bottom]) = (self.columns, self.rows);
+        let (columns, rows) = (grid.sample_columns(), grid.sample_rows());
+        let is_in_picture = right > 0.0 && left < f64::from(columns) && bottom > 0.0 && top < f64::from(rows);
+        let first = first_center(top, rows);
+        let is_between_columns =
+            || first_center(left - ROUNDING, columns) >= first_center(right + ROUNDING, columns);
+        is_in_picture.then(|| match first..first_center(bottom, rows) {
+            rows if !rows.is_empty() && is_between_columns() => first..first,
+            rows => rows,
+        })
+    }
 }
 
 /// The first of `count` sample centres, at ½, 1½ and so on, at or behind `place`.

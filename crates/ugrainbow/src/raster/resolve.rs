@@ -56,6 +56,9 @@ impl Tally {
     }
 }
 
+/// Pixels that are gathered before the first of them is finished.
+const AT_ONCE: usize = 64;
+
 /// Turns samples into pixels.
 pub struct Resolver<'a, const N: usize, S, F> {
     shader: &'a S,
@@ -76,12 +79,28 @@ impl<'a, const N: usize, S: Fn(&[f32; N]) -> Shade, F> Resolver<'a, N, S, F> {
     }
 
     /// Paints the pixels of a row from column `first` on.
-    pub fn paint<T: Tag, P>(&mut self, tile: &Tile<N, T>, first: u32, row: u32, pixels: &mut [P])
+    pub fn paint<T: Tag, P: Copy>(&mut self, tile: &Tile<N, T>, first: u32, row: u32, pixels: &mut [P])
     where
         F: Fn(&Gathered<T>) -> P,
     {
-        for (column, pixel) in (first..).zip(pixels) {
-            *pixel = (self.finish)(&self.gather(tile, column, row));
+        // Some pixels are gathered before the first is finished: what has just been stored
+        // in parts is slow to load as a whole.
+        let mut gathered = [Gathered { sum: [0.0; 3], n_covered: 0, center: None }; AT_ONCE];
+        // All pixels without a sample are alike.
+        let mut empty = None;
+        for (first, pixels) in (first..).step_by(AT_ONCE).zip(pixels.chunks_mut(AT_ONCE)) {
+            for (column, all) in (first..).zip(&mut gathered[..pixels.len()]) {
+                *all = self.gather(tile, column, row);
+            }
+            for (pixel, all) in pixels.iter_mut().zip(&gathered) {
+                *pixel = match empty {
+                    Some(empty) if all.n_covered == 0 => empty,
+                    _ => (self.finish)(all),
+                };
+                if all.n_covered == 0 {
+                    empty = Some(*pixel);
+                }
+            }
         }
     }
 
@@ -104,10 +123,13 @@ impl<'a, const N: usize, S: Fn(&[f32; N]) -> Shade, F> Resolver<'a, N, S, F> {
 
     #[inline]
     fn shade(&mut self, values: &[f32; N]) -> [f32; 3] {
-        if self.last.0 != *values {
-            self.last = (*values, (self.shader)(values));
+        if self.last.0 == *values {
+            self.tally.count(&self.last.1);
+            return self.last.1.light;
         }
-        self.tally.count(&self.last.1);
-        self.last.1.light
+        let shade = (self.shader)(values);
+        self.tally.count(&shade);
+        self.last = (*values, shade);
+        shade.light
     }
 }

@@ -47,6 +47,23 @@ pub struct Seen<T> {
     pub tag: T,
 }
 
+/// Part of a row of a [`Tile`].
+pub(super) struct Part<'a, const N: usize, T> {
+    pub keys: &'a mut [f32],
+    pub values: &'a mut [[f32; N]],
+    pub tags: &'a mut [T],
+}
+
+impl<const N: usize, T> Part<'_, N, T> {
+    /// Leaves out the first `n` samples.
+    #[inline]
+    pub fn skip(&mut self, n: usize) {
+        self.keys = &mut std::mem::take(&mut self.keys)[n..];
+        self.values = &mut std::mem::take(&mut self.values)[n..];
+        self.tags = &mut std::mem::take(&mut self.tags)[n..];
+    }
+}
+
 /// Farther than everything.
 const EMPTY: f32 = f32::NEG_INFINITY;
 
@@ -111,9 +128,7 @@ impl<const N: usize, T: Tag> Tile<N, T> {
         let per_column = 1.0 / (right.x - left.x);
         let key_slope = (right.key - left.key) * per_column;
         let slopes: [f64; N] = std::array::from_fn(|i| (right.values[i] - left.values[i]) * per_column);
-        let samples = self.samples(row, first, end);
-        let (keys, values) = (&mut self.keys[samples.clone()], &mut self.values[samples.clone()]);
-        let tags = &mut self.tags[samples];
+        let Part { keys, values, tags } = self.part(row, first, end);
         for (column, ((nearest, values), tag_here)) in (first..end).zip(keys.iter_mut().zip(values).zip(tags))
         {
             // From the left end and never from the sample before: the answer must not
@@ -129,6 +144,17 @@ impl<const N: usize, T: Tag> Tile<N, T> {
             // Double precision pays: where values do not change they stay the same bits, and
             // the resolver shades them once.
             *values = std::array::from_fn(|i| ((left.values[i] + across * slopes[i]) * scale) as f32);
+        }
+    }
+
+    /// The samples of part of a row, to be drawn on.
+    #[inline]
+    pub(super) fn part(&mut self, row: u32, first: u32, end: u32) -> Part<'_, N, T> {
+        let samples = self.samples(row, first, end);
+        Part {
+            keys: &mut self.keys[samples.clone()],
+            values: &mut self.values[samples.clone()],
+            tags: &mut self.tags[samples],
         }
     }
 

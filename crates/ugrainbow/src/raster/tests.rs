@@ -140,6 +140,93 @@ fn is_inside(contours: &[Vec<Corner<0>>], x: f64, y: f64) -> bool {
     n_above % 2 == 1
 }
 
+/// For lists without triangles.
+struct NoTable;
+
+impl<const N: usize> Table<N> for NoTable {
+    fn point(&self, _corner: u32) -> Point {
+        unreachable!()
+    }
+
+    fn numbers(&self, _item: u32, _corners: [u32; 3]) -> [[f64; N]; 3] {
+        unreachable!()
+    }
+}
+
+/// Triangles of three corners each in the order of the table.
+struct Triangles(Vec<Corner<1>>);
+
+impl Table<1> for Triangles {
+    fn point(&self, corner: u32) -> Point {
+        let Corner { x, y, key, .. } = self.0[corner as usize];
+        Point { x, y, key }
+    }
+
+    fn numbers(&self, _item: u32, corners: [u32; 3]) -> [[f64; 1]; 3] {
+        corners.map(|corner| self.0[corner as usize].values.map(|value| value / self.0[corner as usize].key))
+    }
+}
+
+/// Random triangles, from specks to some far larger than the picture, drawn by planes and along their edges.
+#[test]
+fn triangles_are_drawn_like_polygons() {
+    let mut noise = Noise(11);
+    let (mut n_drawn, mut n_seen) = (0, 0);
+    for (samples, size) in [(1, 3.0), (1, 40.0), (2, 300.0), (1, 1e5)] {
+        let grid = Grid { width: 60, height: 50, samples, is_perspective: true };
+        let (mut triangles, mut polygons) = (PolygonList::default(), PolygonList::default());
+        let mut table = Vec::new();
+        for item in 0..300 {
+            let middle = [60.0 * noise.next(), 50.0 * noise.next()].map(|place| place * f64::from(samples));
+            let corners = [(); 3].map(|()| {
+                let [x, y] = middle.map(|place| place + size * (noise.next() - 0.5));
+                // Some on sample centres, where ties are.
+                let [x, y] = if item % 3 == 0 { [x.round() + 0.5, y.round() + 0.5] } else { [x, y] };
+                let key = 0.1 + noise.next();
+                Corner { x, y, key, values: [key * noise.next()] }
+            });
+            let points = corners.map(|Corner { x, y, key, .. }| Point { x, y, key });
+            let places = points.map(|point| [point.x, point.y]);
+            let rows = Bounds::new(places.into_iter()).rows(&grid).filter(|rows| !rows.is_empty());
+            if !is_regular(&points, true) {
+                continue;
+            }
+            if let Some(rows) = rows {
+                let first = table.len() as u32;
+                triangles.push_triangle(item, [first, first + 1, first + 2], rows);
+                n_drawn += 1;
+            }
+            table.extend(corners);
+            corners.into_iter().for_each(|corner| polygons.push_corner(corner));
+            polygons.end_contour();
+            polygons.end_polygon(&grid, item);
+        }
+        triangles.sort_into_bands(&grid);
+        polygons.sort_into_bands(&grid);
+        let table = Triangles(table);
+        let shader =
+            |&[light]: &[f32; 1]| Shade { light: [light; 3], intensity: light, is_out_of_range: false };
+        let draw = |list: PolygonList<1>| {
+            let mut pixels = vec![(0.0, 0, None); 60 * 50];
+            let layer = Shapes { lists: &[list], table: &table };
+            paint(&mut pixels, &grid, &layer, &shader, &|all: &Gathered<u32>| {
+                (all.sum[0], all.n_covered, all.center)
+            });
+            pixels
+        };
+        for (ours, exact) in draw(triangles).into_iter().zip(draw(polygons)) {
+            assert_eq!(ours.1, exact.1);
+            assert_eq!(ours.2.map(|seen| seen.tag), exact.2.map(|seen| seen.tag));
+            assert!((ours.0 - exact.0).abs() < 4e-6, "{ours:?} {exact:?}");
+            if let (Some(ours), Some(exact)) = (ours.2, exact.2) {
+                assert!((ours.key - exact.key).abs() < 1e-6, "{ours:?} {exact:?}");
+                n_seen += 1;
+            }
+        }
+    }
+    assert!(n_drawn > 800 && n_seen > 4000, "{n_drawn} {n_seen}");
+}
+
 /// Draws polygons of one value, its light, and gives each pixel's mean on black. Every pixel is looked at with a
 /// probe, too, where there are few.
 fn painted(polygons: &[Vec<Corner<1>>], grid: &Grid) -> Vec<f32> {
@@ -151,19 +238,20 @@ fn painted(polygons: &[Vec<Corner<1>>], grid: &Grid) -> Vec<f32> {
     }
     list.sort_into_bands(grid);
     let lists = [list];
+    let layer = Shapes { lists: &lists, table: &NoTable };
     let shader = |&[light]: &[f32; 1]| Shade { light: [light; 3], intensity: light, is_out_of_range: false };
     let mean = |sum: [f32; 3]| sum[0] / (grid.samples * grid.samples) as f32;
     let mut pixels = vec![0.0; grid.width as usize * grid.height as usize];
-    paint(&mut pixels, grid, &lists[..], &shader, &|all: &Gathered<()>| mean(all.sum));
+    paint(&mut pixels, grid, &layer, &shader, &|all: &Gathered<()>| mean(all.sum));
     let mut marked = vec![(0.0, None); pixels.len()];
-    paint(&mut marked, grid, &lists[..], &shader, &|all: &Gathered<u32>| (mean(all.sum), all.center));
+    paint(&mut marked, grid, &layer, &shader, &|all: &Gathered<u32>| (mean(all.sum), all.center));
     for (idx, (&light, marked)) in pixels.iter().zip(&marked).enumerate() {
         assert_eq!(light, marked.0);
         if pixels.len() > 1000 {
             continue;
         }
         let place = [idx as u32 % grid.width, idx as u32 / grid.width];
-        let (samples, all) = probe(grid, &lists[..], &shader, place);
+        let (samples, all) = probe(grid, &layer, &shader, place);
         assert_eq!((mean(all.sum), all.center), *marked);
         assert_eq!(samples.len() as u32, all.n_covered);
         let middle = place.map(|pixel| pixel * grid.samples + grid.samples / 2);
