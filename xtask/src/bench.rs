@@ -189,7 +189,8 @@ fn ms(time: Duration) -> f64 {
     time.as_secs_f64() * 1e3
 }
 
-fn build() -> Result<(), Box<dyn Error>> {
+/// Builds the programs.
+pub fn build() -> Result<(), Box<dyn Error>> {
     let status = Command::new(env!("CARGO")).args(["build", "--quiet", "--release"]).status()?;
     if status.success() { Ok(()) } else { Err("the programs do not build".into()) }
 }
@@ -198,6 +199,17 @@ fn build() -> Result<(), Box<dyn Error>> {
 pub fn target_dir() -> PathBuf {
     let exe = std::env::current_exe().unwrap_or_default();
     exe.ancestors().nth(2).map_or_else(|| PathBuf::from("target"), Path::to_path_buf)
+}
+
+/// What a shell command with the programs on its path says on standard error.
+pub fn said(command: &str) -> Result<String, Box<dyn Error>> {
+    let output = Command::new("bash")
+        .args(["-c", &format!("set -euo pipefail; {command}")])
+        .env("PATH", path_with_programs()?)
+        .stdin(Stdio::null())
+        .output()?;
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    if output.status.success() { Ok(said) } else { Err(format!("`{command}` failed: {said}").into()) }
 }
 
 fn path_with_programs() -> Result<std::ffi::OsString, Box<dyn Error>> {

@@ -7,12 +7,14 @@
 //! cargo xtask sheet sheet.png 2 a.png b.png c.png d.png
 //! cargo xtask bench
 //! cargo xtask bench-reading
+//! cargo xtask bench-exact
 //! cargo xtask geometry > tables.md
 //! ```
 //!
 //! Scenes go to standard output and are the same bytes on every run and platform.
 
 mod bench;
+mod exact;
 mod geometry;
 mod globe;
 mod mesh;
@@ -84,6 +86,12 @@ enum Chore {
         #[arg(default_value_t = 1_000_000, value_parser = clap::value_parser!(u32).range(36..=100_000_000))]
         triangles: u32,
     },
+    /// Time exact pictures beside the pipe that cuts faces, with default bounds and as right, as Markdown
+    BenchExact {
+        /// Only scenes whose name begins so
+        #[arg(long, value_name = "NAME")]
+        only: Option<String>,
+    },
     /// Measure outlines in pictures against the oracle, and the faces it takes, as Markdown
     Geometry {
         /// Pixels across and down
@@ -134,6 +142,9 @@ fn run(chore: &Chore) -> io::Result<()> {
         }
         Chore::BenchReading { triangles } => {
             reading::write(&mut out, *triangles).map_err(|error| io::Error::other(error.to_string()))?;
+        }
+        Chore::BenchExact { only } => {
+            exact::write(&mut out, only.as_deref()).map_err(|error| io::Error::other(error.to_string()))?;
         }
         Chore::Geometry { size, only, table, files } => {
             let size = [size[0], size[1]];

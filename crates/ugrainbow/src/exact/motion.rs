@@ -1,7 +1,5 @@
 //! Colour as seen.
 
-use ugphysics::Brightness;
-
 use super::hues::Hues;
 use crate::config::{Exact, Interpolation};
 use crate::palette::{Palette, Swatch};
@@ -22,7 +20,7 @@ impl<'a> Motion<'a> {
 
     /// True if colours of bodies that move stay as they are.
     pub fn keeps_colors(&self) -> bool {
-        !self.exact.doppler && self.exact.law == Brightness::None
+        self.exact == Exact::NONE
     }
 
     /// The wavelength of a tint, for [`Motion::seen`].

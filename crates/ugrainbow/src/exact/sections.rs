@@ -88,7 +88,7 @@ impl Line<'_> {
     /// True for NaN, too.
     #[inline]
     fn is_unsure(&self, number: f64) -> bool {
-        !(number.abs() > self.unsure)
+        number.is_nan() || number.abs() <= self.unsure
     }
 
     /// Adds the cuts where the sign changes. False if it is not sure at an end, or where there may be two changes.
