@@ -1,7 +1,7 @@
 //! Pictures drawn by rays (`ugrainbow -xc`): every sample against the oracle, which finds it with 4×4 matrices
 //! in the scene as it was written, and against the formulas of `ugphysics`.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+#![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test fails by panicking")]
 
 use std::collections::BTreeMap;
 
@@ -18,13 +18,17 @@ use ugtests::oracle::{Oracle, Pinhole};
 use ugtests::picture::decode;
 use ugtests::pipe::{Pipe, lorentz, rainbow};
 use ugtests::scenes;
+use ugtests::shading::Shading;
 
-const SIZE: [u32; 2] = [120, 90];
+const SIZE: [u32; 2] = [96, 72];
 
 const SPEEDS: [f64; 4] = [0.3, 0.9, 0.99, 0.999];
 
 /// Depth keys are single precision numbers.
 const SINGLE: f64 = 2e-7;
+
+/// Hues are single precision numbers, and their attenuation comes from a table.
+const LIGHT: f64 = 1e-5;
 
 /// The pipe of an exact picture: nothing is cut.
 fn exact(beta: Option<DVec3>) -> Pipe {
@@ -99,29 +103,73 @@ fn triangles(mut scene: Scene) -> Scene {
     scene
 }
 
+/// A scene, and how it and the camera move.
+#[derive(Clone, Copy)]
+struct Case {
+    scene: &'static str,
+    beta: Option<DVec3>,
+    camera: Option<DVec3>,
+    in_place: bool,
+    eye: Option<DVec3>,
+    exact: Exact,
+    /// `-sm`
+    is_smooth: bool,
+}
+
+impl Case {
+    fn new(scene: &'static str) -> Self {
+        Self {
+            scene,
+            beta: None,
+            camera: None,
+            in_place: false,
+            eye: None,
+            exact: Exact::default(),
+            is_smooth: false,
+        }
+    }
+
+    fn moving(scene: &'static str, beta: DVec3) -> Self {
+        Self { beta: Some(beta), ..Self::new(scene) }
+    }
+
+    fn in_place(scene: &'static str, beta: DVec3) -> Self {
+        Self { in_place: true, ..Self::moving(scene, beta) }
+    }
+
+    fn name(&self) -> String {
+        format!("{}, {:?}, camera {:?}", self.scene, self.beta, self.camera)
+    }
+}
+
+/// Every sample that is not on a boundary shows the face, distance, D, hue and light that the oracle finds.
 #[track_caller]
-fn check(name: &str, beta: Option<DVec3>, in_place: bool, eye: Option<DVec3>) {
-    let text = scenes::text(name);
-    let mut scene = triangles(scenes::parse(&text));
+fn check(case: Case) {
+    let name = case.name();
+    let mut scene = triangles(scenes::parse(&scenes::text(case.scene)));
     // The oracle knows no wires, and places bodies by their faces.
     scene.wires.clear();
-    let text = ugparse::write(&scene);
-    let mut pipe = exact(beta);
-    pipe.lorentz.in_place = in_place;
-    pipe.lorentz.eye = eye;
-    let channels = channels(&pipe, &text);
+    let mut pipe = exact(case.beta);
+    pipe.lorentz.in_place = case.in_place;
+    pipe.lorentz.eye = case.eye;
+    pipe.lorentz.camera_velocity = case.camera;
+    pipe.lorentz.smooth = case.is_smooth;
+    pipe.rainbow.exact = Some(case.exact);
+    let channels = channels(&pipe, &ugparse::write(&scene));
     let camera = scene.camera().unwrap();
-    let eye = eye.or(camera.eye).unwrap();
-    let oracle = Oracle::new(&scene, eye, beta, in_place);
+    let eye = case.eye.or(camera.eye).unwrap();
+    let oracle = Oracle::new(&scene, eye, case.beta, case.in_place);
+    let oracle = case.camera.into_iter().fold(oracle, Oracle::seen_by);
     let camera = Pinhole::new(camera, eye, SIZE);
-    let (mut n_covered, mut n_boundary) = (0, 0);
+    let shading = Shading::new(&scene, eye);
+    let (mut n_covered, mut n_boundary, mut n_lit) = (0, 0, 0);
     for (pixel, expected) in oracle.picture(&camera).into_iter().enumerate() {
         let [x, y] = [pixel as u32 % SIZE[0], pixel as u32 / SIZE[0]].map(|i| f64::from(i) + 0.5);
         let face = (channels["id"][pixel] as usize).checked_sub(1);
         if face != expected {
             assert!(
                 is_on_boundary(&oracle, &camera, [x, y], face),
-                "{name} {beta:?} at {x}, {y}: face {face:?} in place of {expected:?}"
+                "{name} at {x}, {y}: face {face:?} in place of {expected:?}"
             );
             n_boundary += 1;
             continue;
@@ -129,50 +177,110 @@ fn check(name: &str, beta: Option<DVec3>, in_place: bool, eye: Option<DVec3>) {
         let Some(face) = face else { continue };
         n_covered += 1;
         let direction = camera.direction(x, y);
+        let hit = oracle.hit(face, direction).unwrap();
         let distance = oracle.distance(face, direction).unwrap();
-        let ours = channels["distance"][pixel];
-        assert!((ours / distance - 1.0).abs() < SINGLE, "{name} at {x}, {y}: {ours}, not {distance}");
-        let own = scene.faces[face].velocity.map(|id| scene.velocities[id.index()]);
-        let velocity = Velocity::from_beta(beta.or(own).unwrap_or_default()).unwrap();
-        let (ours, doppler) = (channels["D"][pixel], doppler_at(direction, velocity));
-        assert!((ours / doppler - 1.0).abs() < SINGLE, "{name} at {x}, {y}: D {ours}, not {doppler}");
+        for (channel, expected) in [("distance", distance), ("D", hit.doppler)] {
+            let ours = channels[channel][pixel];
+            let off = (ours / expected - 1.0).abs();
+            assert!(off < SINGLE, "{name} at {x}, {y}: {channel} {ours}, not {expected}");
+        }
+        let light = shading.seen(face, &hit, hit.doppler, case.exact).filter(|_| !case.is_smooth);
+        for (channel, expected) in ["R", "G", "B"].into_iter().zip(light.iter().flatten()) {
+            let ours = channels[channel][pixel];
+            let off = (ours - expected).abs() / expected.max(1.0);
+            assert!(off < LIGHT, "{name} at {x}, {y}: {channel} {ours}, not {expected}");
+        }
+        n_lit += usize::from(light.is_some());
     }
-    assert!(n_covered > 100, "{name} {beta:?}: {n_covered}");
-    assert!(n_boundary < 20, "{name} {beta:?}: {n_boundary}");
+    println!("{name}: {n_covered} samples, {n_lit} with light, {n_boundary} on boundaries");
+    assert!(n_covered > 100, "{name}: {n_covered}");
+    assert!(n_boundary < 20, "{name}: {n_boundary}");
 }
 
 #[test]
 fn ship_is_exact() {
-    SPEEDS.into_iter().for_each(|speed| check("ship", Some(speed * DVec3::X), true, None));
+    SPEEDS.into_iter().for_each(|speed| check(Case::in_place("ship", speed * DVec3::X)));
 }
 
 #[test]
 fn cubes_are_exact() {
-    SPEEDS.into_iter().for_each(|speed| check("cubes", Some(speed * DVec3::new(0.8, -0.6, 0.0)), true, None));
+    SPEEDS.into_iter().for_each(|speed| check(Case::in_place("cubes", speed * DVec3::new(0.8, -0.6, 0.0))));
 }
 
 #[test]
 fn street_is_exact() {
-    SPEEDS.into_iter().for_each(|speed| {
-        check("street", Some(speed * DVec3::NEG_Y), false, Some(DVec3::new(0.0, 20.0, 3.0)))
-    });
+    let eye = Some(DVec3::new(0.0, 20.0, 3.0));
+    SPEEDS.into_iter().for_each(|speed| check(Case { eye, ..Case::moving("street", speed * DVec3::NEG_Y) }));
 }
 
 #[test]
 fn lattice_is_exact() {
     // From its middle many samples would look exactly at edges.
     let eye = Some(DVec3::new(0.013, 0.0, 0.007));
-    SPEEDS.into_iter().for_each(|speed| check("lattice", Some(speed * DVec3::NEG_Y), false, eye));
+    SPEEDS.into_iter().for_each(|speed| check(Case { eye, ..Case::moving("lattice", speed * DVec3::NEG_Y) }));
 }
 
 #[test]
-fn sphere_is_exact() {
-    SPEEDS.into_iter().for_each(|speed| check("sphere", Some(speed * DVec3::X), true, None));
+fn spheres_are_exact() {
+    SPEEDS.into_iter().for_each(|speed| check(Case::in_place("sphere", speed * DVec3::X)));
+    SPEEDS.into_iter().for_each(|speed| check(Case::in_place("halves", speed * DVec3::new(0.0, 0.6, 0.8))));
+}
+
+#[test]
+fn teapot_is_exact() {
+    SPEEDS.into_iter().for_each(|speed| check(Case::in_place("teapot", speed * DVec3::X)));
+    check(Case { is_smooth: true, ..Case::in_place("teapot", 0.9 * DVec3::X) });
+}
+
+#[test]
+fn grid_is_exact() {
+    SPEEDS.into_iter().for_each(|speed| check(Case::in_place("grid", speed * DVec3::new(0.6, 0.0, 0.8))));
+}
+
+/// Black bodies in it are not for hues.
+#[test]
+fn tunnel_is_exact() {
+    let exact = Exact::NONE;
+    let eye = Some(DVec3::new(0.012, 0.0, 0.007));
+    SPEEDS
+        .into_iter()
+        .for_each(|speed| check(Case { eye, exact, ..Case::moving("tunnel", speed * DVec3::NEG_Y) }));
+}
+
+#[test]
+fn places_under_a_lamp_are_exact() {
+    let eye = Some(DVec3::new(0.1, -2.0, 2.0));
+    for speed in [0.3, 0.9, 0.99] {
+        check(Case { eye, ..Case::moving("lamp", speed * DVec3::NEG_Y) });
+    }
+    for speed in [0.3, 0.9] {
+        check(Case { camera: Some(speed * DVec3::Y), ..Case::new("lamp") });
+    }
 }
 
 #[test]
 fn bodies_of_several_velocities_are_exact() {
-    check("dice", None, true, None);
+    check(Case { in_place: true, ..Case::new("dice") });
+    check(Case::new("lamp"));
+}
+
+/// Houses, cars and the camera are in four frames.
+#[test]
+fn traffic_is_exact_for_a_camera_that_moves() {
+    SPEEDS
+        .into_iter()
+        .for_each(|speed| check(Case { camera: Some(speed * DVec3::Y), ..Case::new("traffic") }));
+    check(Case { camera: Some(DVec3::new(0.4, 0.6, -0.1)), ..Case::new("traffic") });
+}
+
+#[test]
+fn scenes_are_exact_for_a_camera_that_moves() {
+    let eye = Some(DVec3::new(0.0, 20.0, 3.0));
+    let aside = DVec3::new(0.36, 0.8, 0.48);
+    SPEEDS
+        .into_iter()
+        .for_each(|speed| check(Case { eye, camera: Some(speed * aside), ..Case::new("street") }));
+    check(Case { camera: Some(0.3 * DVec3::NEG_Y), ..Case::new("dice") });
 }
 
 /// A square that fills the picture and comes with a velocity across and toward the eye.
@@ -286,9 +394,32 @@ fn what_rays_cannot_find_is_refused() {
     assert_eq!(refusal(&pipe, &seen), None);
     let colored = ugtests::pipe::doppler(&seen, &pipe.doppler);
     assert!(refusal(&pipe, &colored).unwrap().contains("leave ugdoppler out"));
+    let spectral = SQUARE.replace("c green .9 130 .8;", "c_bb green 5000;");
+    let glowing = lorentz(spectral.as_bytes(), &pipe.lorentz);
+    assert!(refusal(&pipe, &glowing).unwrap().contains("ugdoppler -sp"));
+    let mut shape = pipe.clone();
+    shape.rainbow.exact = Some(Exact::NONE);
+    assert_eq!(refusal(&shape, &glowing), None);
+    let at_rest = spectral.replace("<.2 -.1 0>", "");
+    assert_eq!(refusal(&pipe, at_rest.as_bytes()), None);
     pipe.lorentz.geometry.contraction = false;
     let bent = lorentz(SQUARE.as_bytes(), &pipe.lorentz);
     assert!(refusal(&pipe, &bent).unwrap().contains("leave out -xc"));
     pipe.rainbow.camera.is_orthographic = true;
     assert!(refusal(&pipe, &seen).unwrap().contains("orthographic"));
+}
+
+/// Lights that move are not followed, and the note says what does.
+#[test]
+fn of_lights_that_move_there_is_a_note() {
+    let notes = |text: &str| {
+        let (_, notes) = ugrainbow::render(&scenes::parse(text.as_bytes()), &exact(None).rainbow).unwrap();
+        notes.join("; ")
+    };
+    assert_eq!(notes(SQUARE), "");
+    let moving = notes(&SQUARE.replace("l .7 1 -2 .5;", "l .7 1 -2 .5 <0 .5 0>;"));
+    assert!(moving.contains("leave out -xc") && moving.contains("ugdoppler -li"), "{moving}");
+    // At rest a spectrum is as it is: there is nothing to say.
+    let glowing = SQUARE.replace("c green .9 130 .8;", "c_bb green 5000;").replace("<.2 -.1 0>", "");
+    assert!(!notes(&glowing).contains("ugdoppler"), "{}", notes(&glowing));
 }

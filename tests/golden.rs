@@ -41,7 +41,7 @@ fn without_flight_time_only_contraction_is_left() {
 fn rays_bend_edges_that_are_not_cut() {
     let mut cubes = pipe(0.95, 0.0, 0.0).in_place();
     cubes.lorentz.pieces = uglorentz::Pieces::PerEdge(1);
-    cubes.rainbow.exact = Some(ugrainbow::Exact { law: ugphysics::Brightness::None, doppler: false });
+    cubes.rainbow.exact = Some(ugrainbow::Exact::NONE);
     let seen = ugtests::pipe::lorentz(&scenes::text("cubes"), &cubes.lorentz);
     assert_golden("exact-edges-cubes-0.95c", &decode(&rainbow(&seen, &cubes.rainbow)));
 }

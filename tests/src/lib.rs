@@ -6,6 +6,7 @@
 //! - [`oracle`]: what every pixel must show, found by a slow method of its own;
 //! - [`agreement`]: how far a picture agrees with the oracle;
 //! - [`outline`]: how far drawn edges are from where they are seen;
+//! - [`shading`]: colour and light of a point, by the formulas;
 //! - [`random`]: reproducible random numbers;
 //! - [`slow_reader`]: a second reader of the scene language, to check the first.
 
@@ -18,4 +19,5 @@ pub mod picture;
 pub mod pipe;
 pub mod random;
 pub mod scenes;
+pub mod shading;
 pub mod slow_reader;

@@ -197,7 +197,22 @@ impl Cone {
 struct Body {
     /// From the camera's frame into the body's.
     boost: DMat4,
+    /// What was added to coordinates as they are written.
+    offset: DVec3,
     polygons: Vec<Polygon>,
+}
+
+/// Where a ray meets a face at rest.
+#[derive(Clone, Copy, Debug)]
+pub struct Hit {
+    /// Relative to the eye.
+    pub point: DVec3,
+    /// The same in the coordinates the face is written in.
+    pub written: DVec3,
+    /// Of the face, on any side.
+    pub normal: DVec3,
+    /// The Doppler factor of its light.
+    pub doppler: f64,
 }
 
 impl Body {
@@ -242,7 +257,7 @@ impl Oracle {
             let boost = boost(beta);
             let shift = if in_place { place(boost, middle(scene, &faces) - eye) } else { DVec3::ZERO };
             let polygons = faces.iter().filter_map(|&face| Polygon::new(scene, face, shift - eye));
-            Body { boost, polygons: polygons.collect() }
+            Body { boost, offset: shift - eye, polygons: polygons.collect() }
         };
         Self { bodies: betas.into_iter().map(body).collect() }
     }
@@ -334,6 +349,22 @@ impl Oracle {
         self.bodies.iter().find_map(|body| {
             let polygon = body.polygons.iter().find(|polygon| polygon.face == face)?;
             Some(Outline { body, edges: &polygon.edges, size: polygon.radius })
+        })
+    }
+
+    /// Where one face is seen in a direction, a unit vector, were it alone.
+    pub fn hit(&self, face: usize, direction: DVec3) -> Option<Hit> {
+        self.bodies.iter().find_map(|body| {
+            let polygon = body.polygons.iter().find(|polygon| polygon.face == face)?;
+            let ray = body.ray(direction);
+            let point = polygon.hit(ray)? * ray;
+            // Frequencies are as the times, and so the lengths, of null vectors.
+            Some(Hit {
+                point,
+                written: point - body.offset,
+                normal: polygon.normal,
+                doppler: 1.0 / ray.length(),
+            })
         })
     }
 

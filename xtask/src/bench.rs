@@ -206,6 +206,17 @@ pub fn program(name: &str) -> PathBuf {
     target_dir().join("release").join(name)
 }
 
+/// What a shell command with the programs on its path says on standard error.
+pub fn said(command: &str) -> Result<String, Box<dyn Error>> {
+    let output = Command::new("bash")
+        .args(["-c", &format!("set -euo pipefail; {command}")])
+        .env("PATH", path_with_programs()?)
+        .stdin(Stdio::null())
+        .output()?;
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    if output.status.success() { Ok(said) } else { Err(format!("`{command}` failed: {said}").into()) }
+}
+
 fn path_with_programs() -> Result<std::ffi::OsString, Box<dyn Error>> {
     let path = std::env::var_os("PATH").unwrap_or_default();
     let programs = target_dir().join("release");

@@ -9,12 +9,14 @@
 //! cargo xtask bench-reading
 //! cargo xtask bench-raster
 //! cargo xtask bench-scale docs/performance.svg
+//! cargo xtask bench-exact
 //! cargo xtask geometry > tables.md
 //! ```
 //!
 //! Scenes go to standard output and are the same bytes on every run and platform.
 
 mod bench;
+mod exact;
 mod geometry;
 mod globe;
 mod mesh;
@@ -111,6 +113,12 @@ enum Chore {
         /// SVG file to write
         plot: PathBuf,
     },
+    /// Time exact pictures beside the pipe that cuts faces, with default bounds and as right, as Markdown
+    BenchExact {
+        /// Only scenes whose name begins so
+        #[arg(long, value_name = "NAME")]
+        only: Option<String>,
+    },
     /// Measure outlines in pictures against the oracle, and the faces it takes, as Markdown
     Geometry {
         /// Pixels across and down
@@ -185,6 +193,9 @@ fn run(chore: &Chore) -> io::Result<()> {
         Chore::DrawOnce { scene, width, height, samples } => {
             scale::draw_once(&mut out, scene, [*width, *height], *samples)
                 .map_err(|error| io::Error::other(error.to_string()))?;
+        }
+        Chore::BenchExact { only } => {
+            exact::write(&mut out, only.as_deref()).map_err(|error| io::Error::other(error.to_string()))?;
         }
         Chore::Geometry { size, only, table, files } => {
             let size = [size[0], size[1]];

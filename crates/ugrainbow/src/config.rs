@@ -95,6 +95,11 @@ pub struct Exact {
     pub doppler: bool,
 }
 
+impl Exact {
+    /// Colours of bodies that move stay as they are.
+    pub const NONE: Self = Self { law: Brightness::None, doppler: false };
+}
+
 impl Default for Exact {
     /// As `ugdoppler` by default.
     fn default() -> Self {

@@ -51,6 +51,11 @@ impl Lighting {
         !self.lamps.is_empty()
     }
 
+    /// True if the level depends on where a point of a face is.
+    pub fn needs_places(&self) -> bool {
+        self.lamps.iter().any(|lamp| matches!(lamp.place, LampPlace::At(_)))
+    }
+
     /// Light level of a surface at a point, for red, green and blue.
     ///
     /// `point`: relative to the eye, in the rest frame of the surface. `normal`: unit vector

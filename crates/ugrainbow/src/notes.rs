@@ -24,7 +24,7 @@ pub struct Outcome {
 
 /// One sentence for each thing worth knowing.
 pub fn notes(setup: &Setup<'_>, config: &Config, outcome: &Outcome) -> Vec<String> {
-    let mut notes = scene_notes(setup.scene());
+    let mut notes = scene_notes(setup.scene(), config.exact.is_some());
     if setup.view.is_up_replaced {
         notes.push(
             "the up direction is parallel to the view, so another axis is up; choose one with -ud".into(),
@@ -59,19 +59,20 @@ fn decimal(number: f32) -> String {
     if short.ends_with('.') { format!("{short}0") } else { short.to_owned() }
 }
 
-fn scene_notes(scene: &Scene) -> Vec<String> {
+fn scene_notes(scene: &Scene, is_exact: bool) -> Vec<String> {
     let mut notes = Vec::new();
     if scene.lights.is_empty() && scene.faces.iter().any(|face| scene.light_level(face).is_none()) {
         notes.push("no lights in the scene: drawn with ambient light 0.3 and 0.7 from the eye".into());
     }
     if scene.lights.iter().any(|light| light.velocity.is_some()) {
-        notes.push(
+        let remedy = if is_exact { "leave out -xc: " } else { "" };
+        notes.push(format!(
             "velocities of lights are left out: each light rests with the faces it lights; \
-             `ugdoppler -li` draws with them"
-                .into(),
-        );
+             {remedy}`ugdoppler -li` draws with them"
+        ));
     }
-    notes.extend(ugscene::spectra_note(scene));
+    // Spectra at rest are as they are, and exact pictures have no others.
+    notes.extend(ugscene::spectra_note(scene).filter(|_| !is_exact));
     if scene.colors.iter().any(|color| color.translucency > 0.0) {
         notes.push("translucency is left out: everything is drawn opaque".into());
     }

@@ -61,6 +61,11 @@ impl Palette {
         &self.swatches
     }
 
+    /// What is interpolated.
+    pub fn interpolation(&self) -> Interpolation {
+        self.interpolation
+    }
+
     /// True if the scene gives a colour as light.
     pub fn has_light(&self) -> bool {
         self.has_light
@@ -81,15 +86,6 @@ impl Palette {
             Interpolation::Hue => hue_to_wavelength(swatch.tint),
             Interpolation::Wavelength => swatch.tint,
         }
-    }
-
-    /// The same colour at another wavelength, which the eye need not see: a hue stops at the end of its range.
-    pub fn shifted(&self, swatch: &Swatch, wavelength_nm: f64) -> Swatch {
-        let tint = match self.interpolation {
-            Interpolation::Hue => wavelength_to_hue(wavelength_nm),
-            Interpolation::Wavelength => wavelength_nm,
-        };
-        Swatch { tint, ..*swatch }
     }
 
     /// The same as a colour with a hue.

@@ -1,10 +1,11 @@
 //! A scene made ready to be drawn from one camera.
 
 use std::borrow::Cow;
+use std::ops::Range;
 
-use ugparse::Scene;
+use ugparse::{ColorId, ColorValue, Scene, VelocityId, VertexId};
 
-use crate::config::Config;
+use crate::config::{Config, Exact};
 use crate::error::{self, Error};
 use crate::explain::Story;
 use crate::light::Lighting;
@@ -49,8 +50,9 @@ impl<'a> Setup<'a> {
         let lighting = Lighting::new(&scene, config.hue_scale, &view);
         let surface = Surface::new(&scene, view.eye, &palette, config.hue_scale)?;
         let is_uncut = palette.has_light() || config.keeps_light();
-        if config.exact.is_some() {
+        if let Some(exact) = config.exact {
             check_exact(&scene, &view)?;
+            check_spectra(&scene, &surface, exact)?;
         }
         let shader = Shader::new(config.interpolated(), !is_uncut);
         let is_culled = config.cull;
@@ -81,7 +83,7 @@ fn check_exact(scene: &Scene, view: &View) -> Result<(), Error> {
     if Story::of(scene).doppler.is_some() {
         return Err(Error::Exact(
             "-xc shifts colours itself, at every sample, and those of this scene have been shifted by ugdoppler: \
-             leave ugdoppler out, and give -br, --no-doppler or --no-flux here",
+             leave ugdoppler out, and give -br, --no-doppler or --no-flux here; or, for ugdoppler -sp and -li, leave out -xc",
         ));
     }
     if Geometry::of(scene) != Geometry::default() {
@@ -94,6 +96,29 @@ fn check_exact(scene: &Scene, view: &View) -> Result<(), Error> {
         return Err(Error::Exact(
             "-xc follows rays to the eye, and in orthographic projection they do not meet there: \
              leave out -xc, or -og (in the scene, too)",
+        ));
+    }
+    Ok(())
+}
+
+/// Refuses spectra that would have to be shifted as a whole.
+fn check_spectra(scene: &Scene, surface: &Surface, exact: Exact) -> Result<(), Error> {
+    let is_spectrum = |color: ColorId| {
+        let value = scene.colors[color.index()].value;
+        matches!(value, ColorValue::Blackbody { .. } | ColorValue::Spectrum { .. })
+    };
+    let moves = |velocity: Option<VelocityId>, contours: &Range<u32>, color: Option<ColorId>| {
+        let corners = scene.contours.corners(contours.clone());
+        let color_of = |corner: &VertexId| scene.vertices[corner.index()].color.or(color);
+        !surface.velocity(velocity).is_zero() && corners.iter().filter_map(color_of).any(is_spectrum)
+    };
+    let mut faces = scene.faces.iter().map(|face| moves(face.velocity, &face.contours, face.color));
+    let mut wires = scene.wires.iter().map(|wire| moves(wire.velocity, &wire.contours, wire.color));
+    let has_spectra = scene.colors.iter().any(ugscene::is_light);
+    if has_spectra && exact != Exact::NONE && (faces.any(|moves| moves) || wires.any(|moves| moves)) {
+        return Err(Error::Exact(
+            "-xc shifts hues, and a black body or spectrum of this scene moves: leave out -xc and draw it with \
+             `ugdoppler -sp`, or give --no-doppler --no-flux to see the shape",
         ));
     }
     Ok(())

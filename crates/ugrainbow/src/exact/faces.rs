@@ -1,16 +1,20 @@
 //! The faces of a scene, drawn ray by ray.
 
 use std::ops::Range;
+use std::sync::{Mutex, PoisonError};
 
 use glam::DVec3;
 use rayon::prelude::*;
 use ugparse::Face;
 
+use super::film::{Film, Form, Lengths, center};
 use super::footprint::{Rect, footprint};
 use super::frame::{Frame, frame_of, frames};
 use super::look::Look;
 use super::motion::Motion;
+use super::nearest::{Nearest, PlaneRow, limited};
 use super::outline::Outline;
+use super::sections::{Cutter, Side};
 use crate::config::Exact;
 use crate::drawlist::Reach;
 use crate::painter::Painter;
@@ -25,10 +29,20 @@ pub struct Faces<'a, const N: usize> {
     frames: Vec<Frame>,
     shapes: Vec<Shape>,
     bins: Bins,
-    /// Keys of what is not clipped.
-    keys: [f64; 2],
+    film: Film,
+    /// Least and greatest key of what is neither clipped nor behind the eye.
+    limits: [f64; 2],
+    pool: Mutex<Vec<Scratch>>,
     /// How many faces came how far.
     pub reach: Reach,
+}
+
+/// What is needed for a tile.
+#[derive(Default)]
+struct Scratch {
+    lengths: Lengths,
+    nearest: Nearest,
+    cutter: Cutter,
 }
 
 /// A face that can be seen in the picture.
@@ -39,6 +53,8 @@ struct Shape {
     columns: Range<u32>,
     rows: Range<u32>,
     outline: Outline,
+    sides: Box<[Side]>,
+    depth: Form,
     look: Look,
 }
 
@@ -48,72 +64,113 @@ impl<'a, const N: usize> Faces<'a, N> {
         let motion = Motion::new(exact, painter.palette);
         let frames = frames(&painter);
         let built: Vec<Built> = (painter.scene.faces.par_iter().enumerate())
-            .map(|(row, face)| build(&painter, motion, &frames, row, face))
+            .map(|(row, face)| build(&painter, &motion, &frames, row, face))
             .collect();
         let in_front = built.iter().filter(|built| !matches!(built, Built::Behind)).count();
         let shapes: Vec<Shape> = built.into_iter().filter_map(Built::shape).collect();
         let reach = Reach { in_front, in_picture: shapes.len() };
         let bins = Bins::new(painter.grid, shapes.iter().map(|shape| &shape.rows));
         let slab = painter.view.slab;
-        let keys = [1.0 / slab.far, 1.0 / slab.near];
-        Self { painter, motion, pack, frames, shapes, bins, keys, reach }
+        let limits = [(1.0 / slab.far).max(f64::MIN_POSITIVE), 1.0 / slab.near];
+        let film = Film::new(painter.view);
+        let pool = Mutex::default();
+        Self { painter, motion, pack, frames, shapes, bins, film, limits, pool, reach }
     }
 
-    /// Draws a face into a rectangle of the tile.
-    fn draw_shape<T: Tag>(&self, shape: &Shape, [columns, rows]: [Range<u32>; 2], tile: &mut Tile<N, T>) {
+    /// Calls `take` with those samples of a part of the picture that show a face, were it alone, in runs.
+    fn cover(
+        &self,
+        shape: &Shape,
+        [columns, rows]: [Range<u32>; 2],
+        lengths: &Lengths,
+        cutter: &mut Cutter,
+        mut take: impl FnMut(u32, Range<u32>),
+    ) {
         let frame = &self.frames[shape.frame];
-        let [least, most] = self.keys;
         for row in rows {
-            let rays = frame.row(f64::from(row) + 0.5);
-            tile.draw_each(row, columns.clone(), T::of(shape.item), |column, nearest| {
-                let ray = frame.ray(rays, f64::from(column) + 0.5);
-                let key = shape.outline.key(ray.rest);
-                // What is hidden or clipped need not be met.
-                let may_be_seen = key as f32 > nearest && key > 0.0 && (least..=most).contains(&key);
-                if !may_be_seen || !shape.outline.contains(ray.rest) {
-                    return None;
+            let rays = frame.row(center(row));
+            let contains = |column| shape.outline.contains(frame.ray(rays, center(column)));
+            let take = |columns| take(row, columns);
+            cutter.sections(row, columns.clone(), lengths.row(row), &shape.sides, contains, take);
+        }
+    }
+
+    /// Finds the nearest of some faces in a part of the picture.
+    fn find_nearest(&self, shapes: &[u32], [columns, rows]: [Range<u32>; 2], scratch: &mut Scratch) {
+        let Scratch { lengths, nearest, cutter } = scratch;
+        lengths.reset(&self.film, columns.clone(), rows.clone());
+        nearest.reset(columns.clone(), rows.clone());
+        for &number in shapes {
+            let shape = &self.shapes[number as usize];
+            let frame = &self.frames[shape.frame];
+            let part = [common(&shape.columns, &columns), common(&shape.rows, &rows)];
+            self.cover(shape, part, lengths, cutter, |row, columns| {
+                let lengths = lengths.row(row);
+                if frame.is_extreme() {
+                    let rays = frame.row(center(row));
+                    let key = |column| shape.outline.key(frame.ray(rays, center(column)));
+                    nearest
+                        .draw(row, columns, lengths, number, |column, _| limited(key(column), self.limits));
+                } else {
+                    let plane = PlaneRow { form: shape.depth.on_row(row), limits: self.limits };
+                    nearest.draw(row, columns, lengths, number, |column, length| plane.key(column, length));
                 }
-                let (color, level) = shape.look.at(&self.painter, self.motion, frame, &ray, key);
-                Some((key as f32, (self.pack)(&color, level).map(|number| number as f32)))
             });
         }
     }
 
-    /// Draws what of a face is in a rectangle of the tile. What can show the face is found anew in each half of a
-    /// large one, so that rays are not wasted on what lies beside slanting and thin faces.
-    fn draw_within<T: Tag>(&self, shape: &Shape, [columns, rows]: [Range<u32>; 2], tile: &mut Tile<N, T>) {
-        /// Samples that are tried at once rather than to look for those that need not be.
-        const FEW: usize = 512;
-        if columns.is_empty() || rows.is_empty() {
-            return;
-        }
-        if columns.len() * rows.len() <= FEW {
-            return self.draw_shape(shape, [columns, rows], tile);
-        }
-        let halves = if columns.len() >= rows.len() {
-            halves(columns).map(|columns| [columns, rows.clone()])
-        } else {
-            halves(rows).map(|rows| [columns.clone(), rows])
+    /// Buffers that nobody else uses; they are given back to be used again.
+    fn with_scratch(&self, work: impl FnOnce(&mut Scratch)) {
+        let pool = || self.pool.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut scratch = pool().pop().unwrap_or_default();
+        work(&mut scratch);
+        pool().push(scratch);
+    }
+
+    /// The part of a tile that shapes may be seen in.
+    fn bounds<T: Tag>(&self, shapes: &[u32], tile: &Tile<N, T>) -> [Range<u32>; 2] {
+        let around = |sides: &dyn Fn(&Shape) -> Range<u32>, [start, end]: [u32; 2]| {
+            let sides =
+                shapes.iter().map(|&number| common(&sides(&self.shapes[number as usize]), &(start..end)));
+            let sides = sides.filter(|side| !side.is_empty());
+            sides.reduce(|a, b| a.start.min(b.start)..a.end.max(b.end)).unwrap_or(start..start)
         };
-        for [columns, rows] in halves {
-            let rect = Rect::new([columns.start, columns.end], [rows.start, rows.end]);
-            if let Some(part) = footprint(&self.frames[shape.frame], &shape.outline, rect) {
-                self.draw_within(shape, samples(part), tile);
-            }
-        }
+        [
+            around(&|shape| shape.columns.clone(), tile.columns()),
+            around(&|shape| shape.rows.clone(), tile.rows()),
+        ]
     }
 }
 
 impl<const N: usize> Layer<N> for Faces<'_, N> {
+    /// In two steps, so that what is covered later is never shaded.
     fn draw<T: Tag>(&self, _grid: &Grid, band: usize, _scanner: &mut Scanner<N>, tile: &mut Tile<N, T>) {
-        for &shape in self.bins.in_band(band) {
-            let shape = &self.shapes[shape as usize];
-            let within =
-                |range: &Range<u32>, [start, end]: [u32; 2]| range.start.max(start)..range.end.min(end);
-            let part = [within(&shape.columns, tile.columns()), within(&shape.rows, tile.rows())];
-            self.draw_within(shape, part, tile);
-        }
+        let shapes = self.bins.in_band(band);
+        let part = self.bounds(shapes, tile);
+        self.with_scratch(|scratch| {
+            self.find_nearest(shapes, part, scratch);
+            let Scratch { lengths, nearest, .. } = scratch;
+            for run in nearest.runs() {
+                let shape = &self.shapes[run.face as usize];
+                let frame = &self.frames[shape.frame];
+                let rays = frame.row(center(run.row));
+                let (lengths, keys) = (lengths.row(run.row), nearest.keys(&run));
+                let first = run.columns.start;
+                tile.draw_each(run.row, run.columns, T::of(shape.item), |column, _| {
+                    let ray = frame.ray_of_length(rays, column, lengths.at(column));
+                    let key = shape.outline.key(ray.rest);
+                    let (color, level) = shape.look.at(&self.painter, &self.motion, frame, &ray, key);
+                    let values = (self.pack)(&color, level).map(|number| number as f32);
+                    Some((keys[(column - first) as usize], values))
+                });
+            }
+        });
     }
+}
+
+/// What two ranges have in common.
+fn common(a: &Range<u32>, b: &Range<u32>) -> Range<u32> {
+    a.start.max(b.start)..a.end.min(b.end)
 }
 
 /// How far a face came.
@@ -134,7 +191,7 @@ impl Built {
     }
 }
 
-fn build(painter: &Painter<'_>, motion: Motion<'_>, frames: &[Frame], row: usize, face: &Face) -> Built {
+fn build(painter: &Painter<'_>, motion: &Motion<'_>, frames: &[Frame], row: usize, face: &Face) -> Built {
     let at = frame_of(face.velocity);
     let frame = &frames[at];
     let contours: Vec<Vec<DVec3>> = painter
@@ -154,12 +211,10 @@ fn build(painter: &Painter<'_>, motion: Motion<'_>, frames: &[Frame], row: usize
     }
     let look = Look::new(painter, motion, frame, face, &contours);
     // The text of a scene is below 4 GiB, and so are its rows.
-    Built::Shape(Box::new(Shape { item: row as u32, frame: at, columns, rows, outline, look }))
-}
-
-fn halves(range: Range<u32>) -> [Range<u32>; 2] {
-    let middle = range.start + (range.end - range.start) / 2;
-    [range.start..middle, middle..range.end]
+    let item = row as u32;
+    let (sides, depth) =
+        (outline.edges().iter().map(|edge| frame.side(edge.normal)).collect(), frame.form(outline.plane()));
+    Built::Shape(Box::new(Shape { item, frame: at, columns, rows, outline, sides, depth, look }))
 }
 
 /// The samples in a rectangle, which is within the picture.

@@ -93,7 +93,7 @@ pub fn footprint(frame: &Frame, outline: &Outline, rect: Rect) -> Option<Rect> {
     }
     for x in [search.rect.low[0], search.rect.high[0]] {
         for y in [search.rect.low[1], search.rect.high[1]] {
-            let ray = frame.ray(frame.row(y), x).rest;
+            let ray = frame.ray(frame.row(y), x);
             if outline.key(ray) > 0.0 && outline.contains(ray) {
                 search.found = search.found.with(Rect { low: [x, y], high: [x, y] });
             }

@@ -4,6 +4,8 @@ use glam::{DMat3, DVec3};
 use ugparse::VelocityId;
 use ugphysics::Velocity;
 
+use super::film::{Form, center};
+use super::sections::Side;
 use crate::painter::Painter;
 
 /// A body's rest frame, in the axes (û, e₁, e₂) of which the first is along the motion, so that a boost changes one
@@ -26,17 +28,10 @@ pub struct Frame {
 /// Where a ray runs.
 #[derive(Clone, Copy, Debug)]
 pub struct Ray {
-    /// In the camera's frame: where on it light was sent that is seen at depth 1.
-    pub seen: DVec3,
-    /// The same point in the rest frame. A multiple of one is that multiple of the other.  Eq. (P4), (P6)
+    /// In the rest frame: where on it light was sent that is seen at depth 1.  Eq. (P4), (P6)
     pub rest: DVec3,
-}
-
-impl Ray {
-    /// The Doppler factor, which is |p|/|p'|.  Eq. (P10)
-    pub fn doppler(&self) -> f64 {
-        self.seen.length() / self.rest.length()
-    }
+    /// 1/D, by which wavelengths grow: |p'|/|p|.  Eq. (P10)
+    pub stretch: f64,
 }
 
 /// The frames of a scene: of what rests, and then of its velocities, row by row. See [`frame_of`].
@@ -77,11 +72,44 @@ impl Frame {
         self.rays[0] + y * self.rays[2]
     }
 
-    /// The ray at `x` across the picture, in samples, on a row.
+    /// The ray at `x` across the picture, in samples, on a row: where the light was sent at rest that is seen at depth 1.
     #[inline]
-    pub fn ray(&self, row: DVec3, x: f64) -> Ray {
-        let seen = row + x * self.rays[1];
-        Ray { seen, rest: self.rest(seen) }
+    pub fn ray(&self, row: DVec3, x: f64) -> DVec3 {
+        self.rest(row + x * self.rays[1])
+    }
+
+    /// The same at the middle of a column, where the ray that is seen has a known length.
+    #[inline]
+    pub fn ray_of_length(&self, row: DVec3, column: u32, length: f64) -> Ray {
+        let seen = row + center(column) * self.rays[1];
+        if self.is_extreme() {
+            let rest = self.rest(seen);
+            return Ray { rest, stretch: rest.length() / length };
+        }
+        // With the time −|p| of the event its boost is linear.
+        let (gamma, speed) = (self.velocity.gamma(), self.velocity.proper_speed());
+        let rest = DVec3 { x: gamma * seen.x + speed * length, ..seen };
+        Ray { rest, stretch: (gamma * length + speed * seen.x) / length }
+    }
+
+    /// True where the terms of a boost cancel by more than single precision allows for.
+    pub fn is_extreme(&self) -> bool {
+        /// Cancelling loses 2γ² of rounding, here less than 10⁻⁹.
+        const MOST_GAMMA: f64 = 1000.0;
+        self.velocity.gamma() > MOST_GAMMA
+    }
+
+    /// The product of rays at rest with a vector.
+    pub fn form(&self, vector: DVec3) -> Form {
+        let of_seen = DVec3 { x: self.velocity.gamma() * vector.x, ..vector };
+        let [origin, per_column, per_row] = self.rays.map(|ray| of_seen.dot(ray));
+        Form { origin, per_column, per_row, per_length: self.velocity.proper_speed() * vector.x }
+    }
+
+    /// The plane of the eye and an edge, with its normal.
+    pub fn side(&self, normal: DVec3) -> Side {
+        let size = (self.velocity.gamma() + self.velocity.proper_speed()) * normal.length();
+        Side { form: self.form(normal), size }
     }
 
     /// Where the point rests that is seen here.  Eq. (P4)

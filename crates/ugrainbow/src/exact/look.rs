@@ -15,6 +15,8 @@ pub struct Look {
     normal: DVec3,
     /// The light on it, if it is the same everywhere.
     level: Option<DVec3>,
+    /// Light on it depends on the place.
+    needs_place: bool,
     is_light: bool,
     /// Its colour at rest, or that of its first corner, and the wavelength of that.
     color: Swatch,
@@ -28,6 +30,9 @@ pub struct Look {
 struct Mesh {
     corners: Vec<Corner>,
     triangles: Vec<Triangle>,
+    has_colors: bool,
+    has_tints: bool,
+    has_normals: bool,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,13 +46,23 @@ struct Triangle {
     corners: [u32; 3],
     /// Across the planes of the eye and each side: products with a ray are as the weights of the opposite corners.
     sides: [DVec3; 3],
+    /// Tint, saturation and value, each of the first corner, and how much more the others have.
+    numbers: [[f64; 3]; 3],
+}
+
+/// A point of a triangle: the weights of its corners are not negative, and together 1.
+#[derive(Clone, Copy)]
+struct Spot<'a> {
+    mesh: &'a Mesh,
+    triangle: &'a Triangle,
+    weights: [f64; 3],
 }
 
 impl Look {
     /// That of a face. `contours`: its corners at rest, in the axes of `frame`.
     pub fn new(
         painter: &Painter<'_>,
-        motion: Motion<'_>,
+        motion: &Motion<'_>,
         frame: &Frame,
         face: &Face,
         contours: &[Vec<DVec3>],
@@ -64,41 +79,56 @@ impl Look {
         };
         let vertices = painter.scene.contours.corners(face.contours.clone());
         let corners: Vec<Corner> = vertices.iter().map(corner).collect();
-        let level = (painter.scene.light_level(face).is_some() || !painter.lighting.needs_geometry())
-            .then(|| painter.level(face, vertices[0], normal, common.is_light));
         let first = corners[0];
-        let is_even =
-            |other: &Corner| other.color == first.color && (level.is_some() || other.normal == first.normal);
-        let mesh = (!corners.iter().all(is_even)).then(|| Box::new(Mesh::new(&corners, contours)));
+        let differ = |of: &dyn Fn(&Corner, &Corner) -> bool| corners.iter().any(|corner| of(corner, &first));
+        let has_colors = differ(&|a, b| a.color != b.color);
+        let has_tints = differ(&|a, b| a.color.tint != b.color.tint);
+        let has_normals = differ(&|a, b| a.normal != b.normal);
+        let is_even = painter.scene.light_level(face).is_some()
+            || !(painter.lighting.needs_places() || has_normals && painter.lighting.needs_geometry());
+        let level = is_even.then(|| painter.level(face, vertices[0], normal, common.is_light));
+        let has_normals = has_normals && level.is_none();
+        let mesh = || Mesh { has_colors, has_tints, has_normals, ..Mesh::new(&corners, contours) };
+        let mesh = (has_colors || has_normals).then(|| Box::new(mesh()));
         Self {
             normal: first.normal,
             level,
+            needs_place: painter.lighting.needs_places(),
             is_light: common.is_light,
             color: first.color,
-            wavelength_nm: motion.wavelength_nm(&first.color),
+            wavelength_nm: motion.wavelength_nm(first.color.tint),
             mesh,
         }
     }
 
-    /// Colour as seen, and light level, where a ray meets the plane of the face; `key` is that of the ray.
+    /// Colour as seen, and light level, where a ray meets the plane of the face: at a part of it, 1/`key`.
+    // This runs for every sample, and a ray that is handed over in memory has to be waited for.
+    #[inline(always)]
     pub fn at(
         &self,
         painter: &Painter<'_>,
-        motion: Motion<'_>,
+        motion: &Motion<'_>,
         frame: &Frame,
         ray: &Ray,
         key: f64,
     ) -> (Swatch, DVec3) {
-        let doppler = if frame.velocity.is_zero() { 1.0 } else { ray.doppler() };
-        let (color, normal) = match &self.mesh {
-            None => (motion.seen(&self.color, self.wavelength_nm, doppler), self.normal),
-            Some(mesh) => {
-                let Corner { color, normal } = mesh.at(ray.rest);
-                (motion.seen(&color, motion.wavelength_nm(&color), doppler), normal)
+        let spot = self.mesh.as_ref().map(|mesh| mesh.spot(ray.rest));
+        let color = match &spot {
+            Some(spot) if spot.mesh.has_colors => {
+                let color = spot.color();
+                let has_own = spot.mesh.has_tints && ray.stretch != 1.0;
+                let rest_nm = if has_own { motion.wavelength_nm(color.tint) } else { self.wavelength_nm };
+                motion.seen(&color, rest_nm, ray.stretch)
             }
+            _ => motion.seen(&self.color, self.wavelength_nm, ray.stretch),
         };
         let level = self.level.unwrap_or_else(|| {
-            let point = frame.scene_from_axes * (ray.rest / key);
+            let normal = match &spot {
+                Some(spot) if spot.mesh.has_normals => spot.normal(),
+                _ => self.normal,
+            };
+            let place = || frame.scene_from_axes * (ray.rest * (1.0 / key));
+            let point = if self.needs_place { place() } else { DVec3::ZERO };
             painter.lighting.level(point, normal, self.is_light)
         });
         (color, level)
@@ -110,53 +140,68 @@ impl Mesh {
         let places = contours.concat();
         // A face that crosses itself has no triangles of its own.
         let fan = || (2..places.len() as u32).map(|corner| [0, corner - 1, corner]).collect();
-        let triangles = ugscene::triangulate(contours).unwrap_or_else(fan);
-        let triangle = |corners: [u32; 3]| {
-            let [a, b, c] = corners.map(|corner| places[corner as usize]);
-            Triangle { corners, sides: [(b, c), (c, a), (a, b)].map(|(from, to)| from.cross(to - from)) }
+        let triangles = ugscene::triangulate(contours).filter(|triangles| !triangles.is_empty());
+        let triangle = |at: [u32; 3]| {
+            let [a, b, c] = at.map(|corner| places[corner as usize]);
+            let sides = [(b, c), (c, a), (a, b)].map(|(from, to)| from.cross(to - from));
+            let [a, b, c] = at.map(|corner| &corners[corner as usize].color);
+            let number = |of: fn(&Swatch) -> f64| [of(a), of(b) - of(a), of(c) - of(a)];
+            let numbers =
+                [number(|color| color.tint), number(|color| color.saturation), number(|color| color.value)];
+            Triangle { corners: at, sides, numbers }
         };
-        Self { corners: corners.to_vec(), triangles: triangles.into_iter().map(triangle).collect() }
+        let triangles = triangles.unwrap_or_else(fan).into_iter().map(triangle).collect();
+        Self { corners: corners.to_vec(), triangles, has_colors: true, has_tints: true, has_normals: true }
     }
 
     /// At a ray through the face. At the rim, where by rounding the ray is in no triangle, the nearest counts.
-    fn at(&self, ray: DVec3) -> Corner {
-        let mut best = ([1.0, 0.0, 0.0], f64::NEG_INFINITY, [0; 3]);
+    #[inline]
+    fn spot(&self, ray: DVec3) -> Spot<'_> {
+        let mut best = Spot { mesh: self, triangle: &self.triangles[0], weights: [1.0, 0.0, 0.0] };
+        let mut most = f64::NEG_INFINITY;
         for triangle in &self.triangles {
             let products = triangle.sides.map(|side| side.dot(ray));
-            let sum: f64 = products.iter().sum();
-            let weights = products.map(|product| product / sum);
-            let least = weights.into_iter().fold(f64::INFINITY, f64::min);
-            if least > best.1 {
-                best = (weights, least, triangle.corners);
+            let part = 1.0 / (products[0] + products[1] + products[2]);
+            let weights = products.map(|product| product * part);
+            let least = weights[0].min(weights[1]).min(weights[2]);
+            if least > most {
+                most = least;
+                best = Spot { triangle, weights, ..best };
             }
             if least >= 0.0 {
-                break;
+                return best;
             }
         }
-        let weights = best.0.map(|weight: f64| weight.max(0.0));
+        let weights = best.weights.map(|weight| weight.max(0.0));
         let sum: f64 = weights.iter().sum();
-        mean(weights.map(|weight| weight / sum), best.2.map(|corner| self.corners[corner as usize]))
+        Spot { weights: weights.map(|weight| weight / sum), ..best }
     }
 }
 
-/// The weighted mean; the numbers of a colour are interpolated as in the scanline mode.
-fn mean(weights: [f64; 3], corners: [Corner; 3]) -> Corner {
-    let number = |of: fn(&Corner) -> f64| {
+impl Spot<'_> {
+    /// The weighted mean; the numbers of a colour are interpolated as in the scanline mode.
+    #[inline]
+    fn color(&self) -> Swatch {
+        let [_, second, third] = self.weights;
         // Where a number does not change it stays the same bits.
-        let [a, b, c] = [of(&corners[0]), of(&corners[1]), of(&corners[2])];
-        a + weights[1] * (b - a) + weights[2] * (c - a)
-    };
-    let vector = |of: &dyn Fn(&Corner) -> DVec3| {
-        corners.iter().zip(weights).map(|(corner, weight)| of(corner) * weight).sum::<DVec3>()
-    };
-    let is_light = corners.iter().all(|corner| corner.color.light.is_some());
-    Corner {
-        color: Swatch {
-            tint: number(|corner| corner.color.tint),
-            saturation: number(|corner| corner.color.saturation),
-            value: number(|corner| corner.color.value),
-            light: is_light.then(|| vector(&|corner| corner.color.light.unwrap_or_default())),
-        },
-        normal: vector(&|corner| corner.normal).normalize_or_zero(),
+        let [tint, saturation, value] = self.triangle.numbers.map(|[a, b, c]| a + second * b + third * c);
+        let first = &self.mesh.corners[self.triangle.corners[0] as usize];
+        let light = first.color.light.and_then(|_| self.light());
+        Swatch { tint, saturation, value, light }
+    }
+
+    fn light(&self) -> Option<DVec3> {
+        let [a, b, c] = self.triangle.corners.map(|corner| self.mesh.corners[corner as usize].color.light);
+        Some(self.mean([a?, b?, c?]))
+    }
+
+    #[inline]
+    fn normal(&self) -> DVec3 {
+        let corners = self.triangle.corners;
+        self.mean(corners.map(|corner| self.mesh.corners[corner as usize].normal)).normalize_or_zero()
+    }
+
+    fn mean(&self, [a, b, c]: [DVec3; 3]) -> DVec3 {
+        self.weights[0] * a + self.weights[1] * b + self.weights[2] * c
     }
 }

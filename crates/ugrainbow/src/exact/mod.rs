@@ -6,12 +6,15 @@
 //! pieces, and nothing is interpolated in the picture. Its steps, one file each:
 //!
 //! 1. [`frame`]: rays of a row of samples in the rest frame of a body;
-//! 2. [`outline`]: whether a ray goes through a face;
-//! 3. [`footprint`]: the part of the picture outside of which no ray does, from arcs of conics (P8);
-//! 4. [`look`]: colour and light at a point of a face at rest;
-//! 5. [`motion`]: colour as seen;
-//! 6. [`faces`]: all faces of a scene as a layer of the raster;
-//! 7. [`wires`]: wires as polylines fine enough for the picture.
+//! 2. [`film`]: what is linear in them: on which side of an edge they run, depth, and D;
+//! 3. [`outline`]: whether a ray goes through a face;
+//! 4. [`footprint`]: the part of the picture outside of which no ray does, from arcs of conics (P8);
+//! 5. [`sections`]: where in a row rays begin and cease to do so;
+//! 6. [`nearest`]: which face is nearest, sample by sample;
+//! 7. [`look`]: colour and light at a point of a face at rest, for what is nearest alone;
+//! 8. [`motion`], [`hues`]: colour as seen;
+//! 9. [`faces`]: all faces of a scene as a layer of the raster;
+//! 10. [`wires`]: wires as polylines fine enough for the picture.
 //!
 //! # Which sample belongs to whom
 //!
@@ -21,11 +24,15 @@
 //! an odd number of faces, and so to one at least.
 
 mod faces;
+mod film;
 mod footprint;
 mod frame;
+mod hues;
 mod look;
 mod motion;
+mod nearest;
 mod outline;
+mod sections;
 mod wires;
 
 pub use faces::Faces;

@@ -1,8 +1,7 @@
 //! Colour as seen.
 
-use ugphysics::Brightness;
-
-use crate::config::Exact;
+use super::hues::Hues;
+use crate::config::{Exact, Interpolation};
 use crate::palette::{Palette, Swatch};
 
 /// What motion does to the colours of a picture.
@@ -10,36 +9,47 @@ use crate::palette::{Palette, Swatch};
 pub struct Motion<'a> {
     exact: Exact,
     palette: &'a Palette,
+    hues: &'static Hues,
 }
 
 impl<'a> Motion<'a> {
     /// As asked for.
     pub fn new(exact: Exact, palette: &'a Palette) -> Self {
-        Self { exact, palette }
+        Self { exact, palette, hues: Hues::get() }
     }
 
     /// True if colours of bodies that move stay as they are.
     pub fn keeps_colors(&self) -> bool {
-        !self.exact.doppler && self.exact.law == Brightness::None
+        self.exact == Exact::NONE
     }
 
-    /// The wavelength of a colour at rest, for [`Motion::seen`].
-    pub fn wavelength_nm(&self, rest: &Swatch) -> f64 {
-        if self.exact.doppler && !rest.is_grey() { self.palette.wavelength_nm(rest) } else { 0.0 }
+    /// The wavelength of a tint, for [`Motion::seen`].
+    #[inline]
+    pub fn wavelength_nm(&self, tint: f64) -> f64 {
+        match self.palette.interpolation() {
+            Interpolation::Hue => self.hues.wavelength_nm(tint),
+            Interpolation::Wavelength => tint,
+        }
     }
 
-    /// What a colour at rest is seen as under a Doppler factor; `rest_nm` is its wavelength.  Eq. (P11), (P12), (P18)
+    /// What a colour at rest is seen as where wavelengths grow by a factor, 1/D; `rest_nm` is that of its tint.
+    /// Eq. (P11), (P12), (P18)
     ///
     /// A colour given as light stays; a face that moves has none ([`super::look::Look`]).
-    pub fn seen(&self, rest: &Swatch, rest_nm: f64, doppler: f64) -> Swatch {
-        if rest.light.is_some() {
+    #[inline]
+    pub fn seen(&self, rest: &Swatch, rest_nm: f64, stretch: f64) -> Swatch {
+        if rest.light.is_some() || stretch == 1.0 {
             return *rest;
         }
-        let seen = Swatch { value: rest.value * self.exact.law.factor(doppler), ..*rest };
-        if self.exact.doppler && !rest.is_grey() && doppler != 1.0 {
-            self.palette.shifted(&seen, rest_nm / doppler)
-        } else {
-            seen
+        let seen = Swatch { value: rest.value * self.exact.law.factor(1.0 / stretch), ..*rest };
+        if !self.exact.doppler || rest.is_grey() {
+            return seen;
         }
+        // A wavelength need not be visible: a hue stops at the end of its range.
+        let tint = match self.palette.interpolation() {
+            Interpolation::Hue => self.hues.hue(rest_nm * stretch),
+            Interpolation::Wavelength => rest_nm * stretch,
+        };
+        Swatch { tint, ..seen }
     }
 }

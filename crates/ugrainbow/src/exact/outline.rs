@@ -24,7 +24,7 @@ pub struct Edge {
     /// Its ends, relative to the eye.
     pub ends: [DVec3; 2],
     /// Across the plane of eye and edge.
-    normal: DVec3,
+    pub normal: DVec3,
 }
 
 impl Edge {
@@ -58,6 +58,11 @@ impl Outline {
     /// Its edges.
     pub fn edges(&self) -> &[Edge] {
         &self.edges
+    }
+
+    /// The vector whose product with a ray is the key.
+    pub fn plane(&self) -> DVec3 {
+        self.plane
     }
 
     /// The part of a ray, as a vector at rest, that reaches the plane, inverted: 0 or less if the plane is not ahead.

@@ -88,7 +88,7 @@ impl Line<'_> {
             light: a.light.zip(b.light).map(|(a, b)| a + part * (b - a)),
         };
         let seen = self.point(part);
-        let color = self.motion.seen(&rest, self.motion.wavelength_nm(&rest), self.doppler(seen));
+        let color = self.motion.seen(&rest, self.motion.wavelength_nm(rest.tint), 1.0 / self.doppler(seen));
         Joint { seen: self.frame.to_camera(seen), color }
     }
 

@@ -1,0 +1,112 @@
+//! Which face is nearest at every sample of a part of the picture.
+
+use std::ops::Range;
+
+use super::film::{LengthRow, RowForm};
+
+/// Depth keys, and the faces they are of.
+#[derive(Default)]
+pub struct Nearest {
+    columns: Range<u32>,
+    rows: Range<u32>,
+    keys: Vec<f32>,
+    /// By number; without meaning where nothing has been drawn.
+    faces: Vec<u32>,
+}
+
+/// Farther than everything.
+const EMPTY: f32 = f32::NEG_INFINITY;
+
+/// Samples side by side that show one face.
+#[derive(Clone, Debug)]
+pub struct Run {
+    pub row: u32,
+    pub columns: Range<u32>,
+    pub face: u32,
+}
+
+impl Nearest {
+    /// Makes it nothing at these samples, reusing its buffers.
+    pub fn reset(&mut self, columns: Range<u32>, rows: Range<u32>) {
+        let len = columns.len() * rows.len();
+        (self.columns, self.rows) = (columns, rows);
+        self.keys.clear();
+        self.keys.resize(len, EMPTY);
+        // These are read only where a key has been written.
+        self.faces.resize(len, 0);
+    }
+
+    /// Draws samples of a row where nothing nearer has been drawn. `key`: of the face at a column and length of its ray.
+    #[inline]
+    pub fn draw(
+        &mut self,
+        row: u32,
+        columns: Range<u32>,
+        lengths: LengthRow<'_>,
+        face: u32,
+        key: impl Fn(u32, f64) -> f32,
+    ) {
+        let samples = self.samples(row, &columns);
+        let stored = self.keys[samples.clone()].iter_mut().zip(&mut self.faces[samples]);
+        for ((column, length), (nearest, owner)) in columns.clone().zip(lengths.part(&columns)).zip(stored) {
+            let key = key(column, *length);
+            // Without branches, so that some samples are done at once.
+            let is_nearer = key > *nearest;
+            *nearest = if is_nearer { key } else { *nearest };
+            *owner = if is_nearer { face } else { *owner };
+        }
+    }
+
+    /// What has been drawn, row after row.
+    pub fn runs(&self) -> impl Iterator<Item = Run> {
+        self.rows.clone().flat_map(move |row| {
+            let samples = self.samples(row, &self.columns);
+            let (keys, faces) = (&self.keys[samples.clone()], &self.faces[samples]);
+            let mut column = 0;
+            std::iter::from_fn(move || {
+                column += keys[column..].iter().position(|&key| key != EMPTY)?;
+                let (start, face) = (column, faces[column]);
+                let rest = keys[start..].iter().zip(&faces[start..]);
+                column += rest.take_while(|&(&key, &other)| key != EMPTY && other == face).count();
+                let columns = [start, column].map(|column| self.columns.start + column as u32);
+                Some(Run { row, columns: columns[0]..columns[1], face })
+            })
+        })
+    }
+
+    /// The keys of a run.
+    pub fn keys(&self, run: &Run) -> &[f32] {
+        &self.keys[self.samples(run.row, &run.columns)]
+    }
+
+    #[inline]
+    fn samples(&self, row: u32, columns: &Range<u32>) -> Range<usize> {
+        let start = (row - self.rows.start) as usize * self.columns.len();
+        let [first, end] = [columns.start, columns.end].map(|column| (column - self.columns.start) as usize);
+        start + first..start + end
+    }
+}
+
+/// The depth keys of a plane along a row; what is behind the eye or clipped has [`EMPTY`].
+#[derive(Clone, Copy, Debug)]
+pub struct PlaneRow {
+    /// The key.
+    pub form: RowForm,
+    /// Least and greatest that is not clipped.
+    pub limits: [f64; 2],
+}
+
+impl PlaneRow {
+    /// At a column whose ray has a length.
+    #[inline]
+    pub fn key(&self, column: u32, length: f64) -> f32 {
+        limited(self.form.at(column, length), self.limits)
+    }
+}
+
+/// A key as single precision number, [`EMPTY`] if it is outside of the limits.
+#[inline]
+pub fn limited(key: f64, [least, most]: [f64; 2]) -> f32 {
+    let is_within = key >= least && key <= most;
+    if is_within { key as f32 } else { EMPTY }
+}

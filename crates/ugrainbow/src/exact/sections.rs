@@ -1,0 +1,149 @@
+//! A row of samples cut where it crosses the edges of a face: between two cuts all samples are in the face, or none is.
+
+use std::ops::Range;
+
+use super::film::{Form, LengthRow, RowForm};
+
+/// The plane of the eye and an edge.
+#[derive(Clone, Copy, Debug)]
+pub struct Side {
+    /// On which side of it a ray runs: product of its normal and the ray at rest.
+    pub form: Form,
+    /// Bound of the terms of that product for a ray of length 1.
+    pub size: f64,
+}
+
+/// Columns between two sections of a row, which are to be looked at one by one; mostly none.
+type Cut = Range<u32>;
+
+/// Part of the terms below which the sign of their sum is not trusted: rounding is some 10⁻¹⁵.
+const UNSURE: f64 = 1e-13;
+
+/// In a row of so few columns it does not pay to look for cuts.
+const FEW: usize = 4;
+
+/// Cuts rows; keeps its buffer.
+#[derive(Default)]
+pub struct Cutter {
+    cuts: Vec<Cut>,
+}
+
+impl Cutter {
+    /// Calls `take` with those of the columns of a row, in runs, that are in the face. `contains` says so of one.
+    pub fn sections(
+        &mut self,
+        row: u32,
+        columns: Range<u32>,
+        lengths: LengthRow<'_>,
+        sides: &[Side],
+        contains: impl Fn(u32) -> bool,
+        mut take: impl FnMut(Range<u32>),
+    ) {
+        if columns.len() <= FEW || !self.cut(row, &columns, lengths, sides) {
+            columns.filter(|&column| contains(column)).for_each(|column| take(column..column + 1));
+            return;
+        }
+        let mut start = columns.start;
+        let last = columns.end..columns.end;
+        for cut in self.cuts.iter().chain([&last]) {
+            if start < cut.start && contains(start + (cut.start - start) / 2) {
+                take(start..cut.start);
+            }
+            (cut.start.max(start)..cut.end)
+                .filter(|&column| contains(column))
+                .for_each(|column| take(column..column + 1));
+            start = start.max(cut.end);
+        }
+    }
+
+    /// False if every column has to be looked at.
+    fn cut(&mut self, row: u32, columns: &Range<u32>, lengths: LengthRow<'_>, sides: &[Side]) -> bool {
+        self.cuts.clear();
+        let ends = [columns.start, columns.end - 1];
+        let longest = lengths.at(ends[0]).max(lengths.at(ends[1]));
+        let is_cut = sides.iter().all(|side| {
+            let form = side.form.on_row(row);
+            let line = Line { form, lengths, unsure: UNSURE * side.size * longest };
+            line.cut(ends, &mut self.cuts)
+        });
+        self.cuts.sort_unstable_by_key(|cut| (cut.start, cut.end));
+        is_cut && self.cuts.len() * FEW <= columns.len().max(FEW * FEW)
+    }
+}
+
+/// A number along a row: a straight line plus a multiple of the ray's length, which is convex.
+struct Line<'a> {
+    form: RowForm,
+    lengths: LengthRow<'a>,
+    /// With less than this the sign is not sure.
+    unsure: f64,
+}
+
+impl Line<'_> {
+    #[inline]
+    fn at(&self, column: u32) -> f64 {
+        self.form.at(column, self.lengths.at(column))
+    }
+
+    /// True for NaN, too.
+    #[inline]
+    fn is_unsure(&self, number: f64) -> bool {
+        number.is_nan() || number.abs() <= self.unsure
+    }
+
+    /// Adds the cuts where the sign changes. False if it is not sure at an end, or where there may be two changes.
+    fn cut(&self, [first, last]: [u32; 2], cuts: &mut Vec<Cut>) -> bool {
+        let [start, end] = [self.at(first), self.at(last)];
+        if self.is_unsure(start) || self.is_unsure(end) {
+            return false;
+        }
+        if (start < 0.0) != (end < 0.0) {
+            // What is convex changes its sign once.
+            cuts.push(self.change([first, last], [start, end]));
+            return true;
+        }
+        if self.form.per_length * start <= 0.0 {
+            return true;
+        }
+        let Some(turn) = self.lengths.turn(&self.form, [first, last]) else { return true };
+        for middle in [turn, turn + 1] {
+            let number = self.at(middle);
+            if self.is_unsure(number) {
+                return false;
+            }
+            if (number < 0.0) != (start < 0.0) {
+                cuts.push(self.change([first, middle], [start, number]));
+                cuts.push(self.change([middle, last], [number, end]));
+                return true;
+            }
+        }
+        true
+    }
+
+    /// Where the sign changes, which differs between two columns.
+    fn change(&self, [mut low, mut high]: [u32; 2], [mut below, mut above]: [f64; 2]) -> Cut {
+        let is_negative = below < 0.0;
+        let is_low = |number: f64| (number < 0.0) == is_negative;
+        let (from, to) = (low, high);
+        let mut n_rounds = 0;
+        while high - low > 1 {
+            // Along the chord, and every third time by halves.
+            let part = if n_rounds % 3 == 2 { 0.5 } else { below / (below - above) };
+            let guess = (low + (f64::from(high - low) * part) as u32).min(high - 1);
+            let [left, right] = [guess, guess + 1].map(|column| self.at(column));
+            if !is_low(left) {
+                (high, above) = (guess, left);
+            } else if is_low(right) {
+                (low, below) = (guess + 1, right);
+            } else {
+                (low, high) = (guess, guess + 1);
+            }
+            n_rounds += 1;
+        }
+        let is_unsure = |column: &u32| self.is_unsure(self.at(*column));
+        let end = (high..to).find(|column| !is_unsure(column)).unwrap_or(to);
+        let start =
+            (from..=low).rev().find(|column| !is_unsure(column)).map_or(from + 1, |column| column + 1);
+        start..end
+    }
+}

@@ -1,0 +1,177 @@
+//! Times exact pictures (`ugrainbow -xc`) beside the pipe that cuts faces and interpolates, as Markdown.
+//!
+//! The pipe is measured with its default bounds, and with bounds so fine that its picture is as right. Runs of both take
+//! turns, so that a busy machine slows both.
+
+use std::error::Error;
+use std::io::Write;
+use std::time::{Duration, Instant};
+
+use glam::DVec3;
+use ugtests::picture::{Picture, decode};
+use ugtests::pipe::{Pipe, doppler, lorentz, rainbow};
+use ugtests::scenes;
+
+use crate::bench;
+
+type Outcome<T> = Result<T, Box<dyn Error>>;
+
+/// Scenes, whether they are put in place (`-in`), and how they move.
+const SCENES: [(&str, bool, DVec3); 6] = [
+    ("ship", true, DVec3::new(0.9, 0.0, 0.0)),
+    ("cubes", true, DVec3::new(0.72, -0.54, 0.0)),
+    ("street", false, DVec3::new(0.0, -0.9, 0.0)),
+    ("lattice", false, DVec3::new(0.0, -0.9, 0.0)),
+    ("sphere", true, DVec3::new(0.9, 0.0, 0.0)),
+    ("teapot", true, DVec3::new(0.9, 0.0, 0.0)),
+];
+
+/// Bounds are divided by these until the picture is right.
+const FINER: [u32; 5] = [1, 4, 16, 64, 256];
+
+/// A picture is right if so large a part of the pixels that show something are within a level of the exact ones.
+const RIGHT: f64 = 0.999;
+
+/// Finer bounds are not tried when a picture took longer.
+const LONGEST: Duration = Duration::from_secs(8);
+
+/// Runs of each command; the fastest counts.
+const RUNS: usize = 3;
+
+/// Prints the table.
+pub fn write(out: &mut impl Write, only: Option<&str>) -> Outcome<()> {
+    bench::build()?;
+    writeln!(out, "{}\n", bench::machine())?;
+    writeln!(
+        out,
+        "| scene | `-aa` | `-xc` | pipe | beside `-xc` | right | bounds | pipe then | beside `-xc` | right |"
+    )?;
+    writeln!(out, "| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |")?;
+    for (name, in_place, beta) in
+        SCENES.into_iter().filter(|scene| only.is_none_or(|only| scene.0.starts_with(only)))
+    {
+        for samples in [1, 4] {
+            let view = View { name, in_place, beta, samples };
+            let text = scenes::text(name);
+            let exact = view.exact(&text);
+            let (finer, parts) = view.finer(&text, &exact);
+            let [ours, rough, fine] = view.time(finer)?;
+            writeln!(
+                out,
+                "| {name} | {samples} | {ours} | {rough} | {:.2} | {:.1} % | 1/{finer} | {fine} | {:.2} | {:.2} % |",
+                rough.user / ours.user,
+                100.0 * parts[0],
+                fine.user / ours.user,
+                100.0 * parts[1],
+            )?;
+            out.flush()?;
+        }
+    }
+    Ok(())
+}
+
+struct View {
+    name: &'static str,
+    in_place: bool,
+    beta: DVec3,
+    samples: u32,
+}
+
+impl View {
+    fn pipe(&self) -> Pipe {
+        let mut pipe = Pipe::default();
+        pipe.lorentz.velocity = Some(self.beta);
+        pipe.lorentz.in_place = self.in_place;
+        pipe.rainbow.samples = self.samples;
+        pipe
+    }
+
+    fn exact(&self, text: &[u8]) -> Picture {
+        let mut pipe = self.pipe();
+        pipe.lorentz.pieces = uglorentz::Pieces::PerEdge(1);
+        pipe.rainbow.exact = Some(ugrainbow::Exact::default());
+        decode(&rainbow(&lorentz(text, &pipe.lorentz), &pipe.rainbow))
+    }
+
+    /// The first bounds with which the picture is right, and how right it is by default and with these.
+    fn finer(&self, text: &[u8], exact: &Picture) -> (u32, [f64; 2]) {
+        let mut parts = Vec::new();
+        for finer in FINER {
+            let mut pipe = self.pipe();
+            pipe.lorentz.pieces = uglorentz::Pieces::UpTo(uglorentz::DEFAULT_ERROR / f64::from(finer));
+            pipe.lorentz.color_error /= f64::from(finer);
+            pipe.doppler.keep = true;
+            let start = Instant::now();
+            let seen = doppler(&lorentz(text, &pipe.lorentz), &pipe.doppler);
+            parts.push(right(&decode(&rainbow(&seen, &pipe.rainbow)), exact));
+            if parts[parts.len() - 1] >= RIGHT || start.elapsed() > LONGEST {
+                break;
+            }
+        }
+        (FINER[parts.len() - 1], [parts[0], parts[parts.len() - 1]])
+    }
+
+    /// Exact, with default bounds, and with finer ones.
+    fn time(&self, finer: u32) -> Outcome<[Times; 3]> {
+        let DVec3 { x, y, z } = self.beta;
+        let in_place = if self.in_place { " -in" } else { "" };
+        let file = scenes::root().join("scenes").join(format!("{}.ug", self.name));
+        let lorentz = format!("uglorentz -qt -vel {x} {y} {z}{in_place} {}", file.display());
+        let rainbow = format!("ugrainbow -qt -aa {}", self.samples);
+        let percent = 100.0 * uglorentz::Config::default().color_error / f64::from(finer);
+        let milliradians = 1e3 * uglorentz::DEFAULT_ERROR / f64::from(finer);
+        let commands = [
+            format!("{lorentz} -sd 1 | {rainbow} -xc"),
+            format!("{lorentz} | ugdoppler -qt | {rainbow}"),
+            format!("{lorentz} -se {milliradians} -sc {percent} | ugdoppler -qt -hd | {rainbow}"),
+        ];
+        let mut best = [Times::MOST; 3];
+        for _ in 0..RUNS {
+            for (best, command) in best.iter_mut().zip(&commands) {
+                let times = Times::of(command)?;
+                *best = Times { user: best.user.min(times.user), wall: best.wall.min(times.wall) };
+            }
+        }
+        Ok(best)
+    }
+}
+
+/// The part of the pixels that show something in either picture whose channels differ by no more than a level.
+fn right(picture: &Picture, exact: &Picture) -> f64 {
+    let pairs = picture.pixels().zip(exact.pixels()).map(|(a, b)| (a.0, b.0));
+    let shown = pairs.filter(|pair| *pair != ([0, 0, 0, 255], [0, 0, 0, 255]));
+    let (mut n_shown, mut n_right) = (0.0, 0.0);
+    for (a, b) in shown {
+        n_shown += 1.0;
+        n_right += f64::from(u8::from(a.iter().zip(b).all(|(a, b)| a.abs_diff(b) <= 1)));
+    }
+    n_right / n_shown
+}
+
+/// Seconds.
+#[derive(Clone, Copy)]
+struct Times {
+    /// Of all processors, in the programs.
+    user: f64,
+    wall: f64,
+}
+
+impl std::fmt::Display for Times {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{:.3} ({:.3})", self.user, self.wall)
+    }
+}
+
+impl Times {
+    const MOST: Self = Self { user: f64::INFINITY, wall: f64::INFINITY };
+
+    fn of(command: &str) -> Outcome<Self> {
+        let times =
+            bench::said(&format!("TIMEFORMAT='%U %R'; time {{ {command} > /dev/null 2> /dev/null; }}"))?;
+        let mut numbers = times.split_whitespace().map(str::parse::<f64>);
+        match (numbers.next(), numbers.next()) {
+            (Some(Ok(user)), Some(Ok(wall))) => Ok(Self { user, wall }),
+            _ => Err(format!("`time` said `{times}`").into()),
+        }
+    }
+}
