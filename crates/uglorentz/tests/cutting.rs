@@ -4,7 +4,7 @@
 
 mod common;
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use common::{Random, edges, find, moving, normal, parse, place, prism, rock, run, seen, tetrahedron, text};
 use glam::DVec3;
@@ -101,7 +101,8 @@ fn names_are_unique() {
 struct Errors {
     /// Angle of the true curve from the chord, radians.
     angle: f64,
-    /// Distance in space from the chord over the distance from the eye.
+    /// Distance in space from the planes of the pieces it borders, or from the chord if that is less, over the distance
+    /// from the eye.
     offset: f64,
     /// Relative error of D along the chord, and of 1/D.
     doppler: f64,
@@ -114,7 +115,8 @@ struct Errors {
 fn errors(scene: &Scene, v: Velocity) -> Errors {
     let rest = rest(scene);
     let mut worst = Errors::default();
-    for &(a, b) in edges(scene).keys() {
+    let normals = normals(scene);
+    for (&(a, b), normals) in &normals {
         let (from, to) = (place(scene, a), place(scene, b));
         for step in 1..20 {
             let s = f64::from(step) / 20.0;
@@ -124,7 +126,8 @@ fn errors(scene: &Scene, v: Velocity) -> Errors {
             let exact = doppler_at(drawn, v);
             let linear = doppler_at(from, v) * (1.0 - s) + doppler_at(to, v) * s;
             worst.angle = worst.angle.max(angle);
-            worst.offset = worst.offset.max(offset / p.length());
+            let out = normals.iter().map(|normal| (p - from).dot(*normal).abs()).fold(0.0, f64::max);
+            worst.offset = worst.offset.max(out.min(offset) / p.length());
             worst.doppler = worst.doppler.max((linear / exact - 1.0).abs());
             let inverse = (1.0 - s) / doppler_at(from, v) + s / doppler_at(to, v);
             worst.doppler = worst.doppler.max((inverse * exact - 1.0).abs());
@@ -143,6 +146,21 @@ fn errors(scene: &Scene, v: Velocity) -> Errors {
         }
     }
     worst
+}
+
+/// Of each drawn edge, the normals of the triangles it makes with other corners of its faces.
+fn normals(scene: &Scene) -> BTreeMap<(VertexId, VertexId), Vec<DVec3>> {
+    let mut normals = BTreeMap::<_, Vec<DVec3>>::new();
+    for face in &scene.faces {
+        let corners = scene.contours.corners(face.contours.clone());
+        for (&a, &b) in corners.iter().zip(corners.iter().cycle().skip(1)) {
+            let (from, to) = (place(scene, a), place(scene, b));
+            let others = corners.iter().filter(|&&corner| corner != a && corner != b);
+            let of_edge = normals.entry((a.min(b), a.max(b))).or_default();
+            of_edge.extend(others.map(|&c| (to - from).cross(place(scene, c) - from).normalize_or_zero()));
+        }
+    }
+    normals
 }
 
 /// Errors at some points inside a triangle.
