@@ -94,6 +94,7 @@ impl Judge<'_, '_> {
     fn edge(&self, a: u32, b: u32, shown: Shown) -> Found {
         let (low, high) = (a.min(b), a.max(b));
         let (from, to, motion) = (self.growth.point(low), self.growth.point(high), self.growth.motion(low));
+        let shown = if self.growth.is_rim(low, high) { Shown::All } else { shown };
         let errors = edge::errors(from, to, motion, shown);
         let light = self.bounds.lit.error(from, to, motion);
         let at = [Some(low), Some(high), None];

@@ -1,7 +1,7 @@
 //! Cutting where the picture needs it (`-se`).
 //!
 //! Edges that bend ([`crate::edge::bends`]), where that shows in one of their pieces ([`crate::judge`]), are halved, the longest
-//! first: a round takes those longer than half the longest one left, in every piece they border, so that pieces stay in
+//! first: a round takes those between one power of 2 and the next, in every piece they border, so that pieces stay in
 //! shape. So at the end of each round pieces still meet edge to edge, and it is safe to stop after any of them.
 //!
 //! | piece | edges halved | becomes |
@@ -31,10 +31,13 @@ pub(crate) const MAX_PIECES: usize = 4_000_000;
 
 /// Cuts faces and wires until every edge is right within `bounds`, or `max_pieces` would be passed.
 pub(crate) fn cut(scene: &Scene, growth: &mut Growth, bounds: &Bounds, max_pieces: usize) -> Outcome {
-    let judge = Judge { growth, bounds };
     let mut outcome = Outcome::default();
     let mut fresh: Vec<Piece> = Vec::new();
-    for (face, cut) in judge.first_cuts(scene) {
+    for (face, cut) in (Judge { growth, bounds }).first_cuts(scene) {
+        for contour in scene.face_contours(&scene.faces[face as usize]) {
+            let next = contour.iter().cycle().skip(1);
+            contour.iter().zip(next).for_each(|(a, b)| growth.add_rim(a.0, b.0));
+        }
         match cut {
             Cut::Pieces(shapes) => fresh.extend(shapes.into_iter().map(|shape| Piece { face, shape })),
             Cut::EdgeOn(lines) => outcome.lines.extend(lines),
@@ -44,7 +47,7 @@ pub(crate) fn cut(scene: &Scene, growth: &mut Growth, bounds: &Bounds, max_piece
             }
         }
     }
-    outcome.lines.extend(judge.bent_wires(scene));
+    outcome.lines.extend(Judge { growth, bounds }.bent_wires(scene));
     let mut is_cut = vec![false; if fresh.is_empty() { 0 } else { scene.faces.len() }];
     let mut open: Vec<Open> = Vec::new();
     loop {
@@ -147,8 +150,9 @@ fn sort(judge: &Judge, pieces: Vec<Piece>, open: &mut Vec<Open>, done: &mut Vec<
     }
 }
 
-/// Edges are halved now if the square of their length is as large as this: a quarter of the largest. `None`
-/// if nothing is to be halved any more.
+/// Edges are halved now if the square of their length is as large as this: the largest of those that are wanted, rounded
+/// down to a power of 4. So what becomes of a piece does not depend on how long edges are elsewhere. `None` if nothing is
+/// to be halved any more.
 fn least_due(growth: &Growth, open: &[Open], lines: &[Polyline], line_marks: &[Vec<bool>]) -> Option<f64> {
     let longest = |edges: &mut dyn Iterator<Item = ((u32, u32), bool)>| -> Option<f64> {
         edges.filter(|&(_, mark)| mark).map(|(ends, _)| length_squared(growth, ends)).reduce(f64::max)
@@ -164,7 +168,16 @@ fn least_due(growth: &Growth, open: &[Open], lines: &[Polyline], line_marks: &[V
         |(line, marks): (&Polyline, &Vec<bool>)| longest(&mut line.edges().zip(marks.iter().copied()));
     let of_pieces = open.par_iter().filter_map(of_piece).reduce_with(f64::max);
     let of_lines = lines.iter().zip(line_marks).filter_map(of_line).reduce(f64::max);
-    of_pieces.into_iter().chain(of_lines).reduce(f64::max).map(|longest| longest / 4.0)
+    of_pieces.into_iter().chain(of_lines).reduce(f64::max).map(octave)
+}
+
+/// The largest power of 4 that a number is as large as; 0 for numbers that have none.
+fn octave(square: f64) -> f64 {
+    if square < f64::MIN_POSITIVE {
+        return 0.0;
+    }
+    let power = libm::ilogb(square);
+    libm::ldexp(1.0, power - power.rem_euclid(2))
 }
 
 /// Number of edges that bend although they were halved as often as can be.

@@ -1,8 +1,8 @@
 //! Which edges bend, and where it shows.
 //!
 //! Whether an edge bends is a function of the edge alone. Whether that shows depends on the piece it borders: on one out of
-//! sight nothing does; depth shows only as far as it leaves the plane of the piece; and of a piece that is seen as a line
-//! only the outline is seen. An edge is halved if it bends and that shows in any of its pieces.
+//! sight nothing does; within a face depth shows only as far as it leaves the plane of the piece; and of a piece that is
+//! seen as a line only the outline is seen. An edge is halved if it bends and that shows in any of its pieces.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -184,7 +184,10 @@ impl Judge<'_, '_> {
         verdict
     }
 
+    /// `shown`: of the piece, if the edge lies within a face. All of an edge of the scene is, for what is beside it may have been
+    /// modelled with other corners, and two lines that are drawn in different pieces leave a slit.
     fn shows(&self, a: u32, b: u32, shown: Shown) -> bool {
+        let shown = if self.growth.is_rim(a, b) { Shown::All } else { shown };
         let (low, high) = (a.min(b), a.max(b));
         let (from, to, motion) = (self.growth.point(low), self.growth.point(high), self.growth.motion(low));
         edge::shows(from, to, motion, &self.bounds.tolerance, shown)

@@ -177,4 +177,30 @@ mod tests {
         assert_eq!(lamp(None).error(a, b, &moving), rest);
         assert!((lamp(Some(fast)).error(a, b, &at_rest) - rest).abs() > 1e-3 * rest);
     }
+
+    /// What is called even for sure is so, on lines between any corners.
+    #[test]
+    fn what_is_even_for_sure_is_even() {
+        let step = |k: u32, seed: f64| (f64::from(k) * seed).fract() * 2.0 - 1.0;
+        let motion = Motion::new(Velocity::from_beta(DVec3::X * 0.6).unwrap(), Geometry::default());
+        let (mut n_even, mut n_uneven) = (0, 0);
+        for k in 1..2000_u32 {
+            let point = |p, q, r| DVec3::new(step(k, p), step(k, q), step(k, r));
+            let place = point(0.123_106, 0.872_983, 0.358_899);
+            let lamp = NearLamp { intensity: 1.0, place, velocity: None };
+            let lit = Lit { lamps: vec![lamp], bound: 1e-2 };
+            let size = libm::pow(10.0, -f64::from(k % 12) / 4.0);
+            let a = point(0.618_034, 0.414_214, 0.732_051);
+            let corners = [a, a + point(0.236_068, 0.645_751, 0.316_625) * size, a + DVec3::Z * size];
+            let corners = corners.map(|corner| motion.point(0, corner));
+            if lit.is_even(&motion, corners.iter()) {
+                n_even += 1;
+                let pairs = [(0, 1), (1, 2), (0, 2)];
+                assert!(pairs.iter().all(|&(i, j)| !lit.is_uneven(&corners[i], &corners[j], &motion)));
+            } else {
+                n_uneven += 1;
+            }
+        }
+        assert!(n_even > 300 && n_uneven > 300, "{n_even} {n_uneven}");
+    }
 }
