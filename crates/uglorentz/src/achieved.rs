@@ -4,15 +4,17 @@ use glam::DVec3;
 use rayon::prelude::*;
 use ugparse::{Face, Scene, VertexId, Wire};
 
+use crate::edge::{self, Shown};
 use crate::growth::Growth;
-use crate::motion::Point;
+use crate::judge::Bounds;
+use crate::motion::{Motion, Point};
 use crate::notes::{Achieved, Worst};
 use crate::pieces::{Cut, Shape, shape};
-use crate::{edge, edge_on, interior, quick};
+use crate::{edge_on, interior, quick};
 
-/// The greatest errors of all edges and faces of a scene whose pieces are in place.
-pub(crate) fn measure(scene: &Scene, growth: &Growth) -> Achieved {
-    let judge = Judge { scene, growth };
+/// The greatest errors of all edges and faces of a scene whose pieces are in place, where they show.
+pub(crate) fn measure(scene: &Scene, growth: &Growth, bounds: &Bounds) -> Achieved {
+    let judge = Judge { scene, growth, bounds };
     let faces = scene.faces.par_iter().map(|face| judge.face(face)).reduce(Found::default, Found::or);
     let wires = scene.wires.par_iter().map(|wire| judge.wire(wire)).reduce(Found::default, Found::or);
     let found = faces.or(wires);
@@ -20,7 +22,12 @@ pub(crate) fn measure(scene: &Scene, growth: &Growth) -> Achieved {
         let name = |row: &u32| scene.names.get(scene.vertices[*row as usize].name).to_string();
         Worst { error, at: if error > 0.0 { at.iter().flatten().map(name).collect() } else { Vec::new() } }
     };
-    Achieved { angle: worst(found.angle), depth: worst(found.depth), doppler: worst(found.doppler) }
+    Achieved {
+        angle: worst(found.angle),
+        depth: worst(found.depth),
+        doppler: worst(found.doppler),
+        light: (!bounds.lit.is_empty()).then(|| worst(found.light)),
+    }
 }
 
 /// An error and the vertices it is between.
@@ -31,6 +38,7 @@ struct Found {
     angle: At,
     depth: At,
     doppler: At,
+    light: At,
 }
 
 impl Found {
@@ -50,6 +58,7 @@ impl Found {
             angle: larger(self.angle, other.angle),
             depth: larger(self.depth, other.depth),
             doppler: larger(self.doppler, other.doppler),
+            light: larger(self.light, other.light),
         }
     }
 }
@@ -57,51 +66,61 @@ impl Found {
 struct Judge<'a, 'b> {
     scene: &'a Scene,
     growth: &'a Growth<'b>,
+    bounds: &'a Bounds,
 }
 
 impl Judge<'_, '_> {
     fn face(&self, face: &Face) -> Found {
-        let contours = self.scene.face_contours(face);
-        let ends = contours.flat_map(|corners| corners.iter().zip(corners.iter().cycle().skip(1)));
-        let edges = ends.map(|(a, b)| self.edge(a.0, b.0)).fold(Found::default(), Found::or);
-        let is_moving = self.is_moving(self.scene.contours.corners(face.contours.clone()));
-        if is_moving { edges.or(self.inside(face)) } else { edges }
+        let corners = self.scene.contours.corners(face.contours.clone());
+        let Some(first) = corners.first() else { return Found::default() };
+        let motion = self.growth.motion(first.0);
+        let points: Vec<&Point> = corners.iter().map(|corner| self.growth.point(corner.0)).collect();
+        let Some(shown) = self.bounds.shown(motion, &points) else { return Found::default() };
+        let (inside, shown) = self.inside(face, motion, &points, shown);
+        let ends = self
+            .scene
+            .face_contours(face)
+            .flat_map(|corners| corners.iter().zip(corners.iter().cycle().skip(1)));
+        let edges = ends.map(|(a, b)| self.edge(a.0, b.0, shown)).fold(Found::default(), Found::or);
+        edges.or(inside)
     }
 
     fn wire(&self, wire: &Wire) -> Found {
         let contours = self.scene.wire_contours(wire);
         let ends = contours.flat_map(|corners| corners.windows(2));
-        ends.map(|pair| self.edge(pair[0].0, pair[1].0)).fold(Found::default(), Found::or)
+        ends.map(|pair| self.edge(pair[0].0, pair[1].0, Shown::All)).fold(Found::default(), Found::or)
     }
 
-    fn is_moving(&self, corners: &[VertexId]) -> bool {
-        corners.first().is_some_and(|corner| !self.growth.motion(corner.0).is_at_rest())
-    }
-
-    fn edge(&self, a: u32, b: u32) -> Found {
+    fn edge(&self, a: u32, b: u32, shown: Shown) -> Found {
         let (low, high) = (a.min(b), a.max(b));
-        let (from, to) = (self.growth.point(low), self.growth.point(high));
-        let errors = edge::errors(from, to, self.growth.motion(low));
+        let (from, to, motion) = (self.growth.point(low), self.growth.point(high), self.growth.motion(low));
+        let shown = if self.growth.is_rim(low, high) { Shown::All } else { shown };
+        let errors = edge::errors(from, to, motion, shown);
+        let light = self.bounds.lit.error(from, to, motion);
         let at = [Some(low), Some(high), None];
-        Found { angle: (errors.angle, at), depth: (errors.offset, at), doppler: (errors.color, at) }
+        Found {
+            angle: (errors.angle, at),
+            depth: (errors.offset, at),
+            doppler: (errors.color, at),
+            light: (light, at),
+        }
     }
 
-    /// Triangles as they are drawn; larger polygons as they would be cut; an upper bound for those that cannot be.
-    fn inside(&self, face: &Face) -> Found {
-        let rest = |vertex: VertexId| -> DVec3 { self.growth.point(vertex.0).rest };
-        let corners = self.scene.contours.corners(face.contours.clone());
-        let motion = self.growth.motion(corners[0].0);
-        if !motion.has_flight_time() || edge_on::is_edge_on(self.scene, face, motion, rest) {
-            return Found::default();
+    /// Triangles as they are drawn, larger polygons as they would be cut, an upper bound for those that cannot be; and what
+    /// is seen of the edges: all, if the outline alone draws the face.
+    fn inside(&self, face: &Face, motion: &Motion, points: &[&Point], shown: Shown) -> (Found, Shown) {
+        if motion.is_at_rest() || !motion.has_flight_time() || matches!(shown, Shown::Outline) {
+            return (Found::default(), shown);
         }
-        let shapes = match shape(self.scene, face, rest) {
-            Some(Cut::Pieces(shapes)) => shapes,
-            Some(_) => {
-                let points = corners.iter().map(|corner| self.growth.point(corner.0));
-                let at = [0, 1, 2].map(|idx| corners.get(idx).map(|corner| corner.0));
-                return Found { depth: (quick::offset(motion, points), at), ..Found::default() };
-            }
-            None => return Found::default(),
+        let rest = |vertex: VertexId| -> DVec3 { self.growth.point(vertex.0).rest };
+        if edge_on::is_edge_on(self.scene, face, motion, rest) {
+            return (Found::default(), Shown::All);
+        }
+        let Some(Cut::Pieces(shapes)) = shape(self.scene, face, rest) else {
+            let corners = self.scene.contours.corners(face.contours.clone());
+            let at = [0, 1, 2].map(|idx| corners.get(idx).map(|corner| corner.0));
+            let depth = quick::offset(motion, points.iter().copied());
+            return (Found { depth: (depth, at), ..Found::default() }, Shown::All);
         };
         let halves = shapes.iter().flat_map(|shape| match *shape {
             Shape::Triangle(corners) => vec![corners],
@@ -111,6 +130,6 @@ impl Judge<'_, '_> {
             let points: [&Point; 3] = corners.map(|row| self.growth.point(row));
             Found { depth: (interior::offset(motion, points), corners.map(Some)), ..Found::default() }
         });
-        found.fold(Found::default(), Found::or)
+        (found.fold(Found::default(), Found::or), shown)
     }
 }

@@ -1,9 +1,8 @@
 //! Cutting where the picture needs it (`-se`).
 //!
-//! Edges that bend ([`crate::edge::bends`]) are halved, the longest first: a round takes those longer than half
-//! the longest one left, in every piece they border, so that pieces stay in shape. Whether and when an edge is
-//! halved depends on that edge alone. So at the end of each round pieces still meet edge to edge, and it
-//! is safe to stop after any of them.
+//! Edges that bend ([`crate::edge::bends`]), where that shows in one of their pieces ([`crate::judge`]), are halved, the longest
+//! first: a round takes those between one power of 2 and the next, in every piece they border, so that pieces stay in
+//! shape. So at the end of each round pieces still meet edge to edge, and it is safe to stop after any of them.
 //!
 //! | piece | edges halved | becomes |
 //! | --- | --- | --- |
@@ -18,36 +17,27 @@
 //! | any, seen edge-on | any | itself with more corners |
 //! | wire | any | itself with more corners |
 
-use glam::DVec3;
 use rayon::prelude::*;
-use ugparse::{Face, Scene, VertexId};
+use rustc_hash::FxHashSet;
+use ugparse::Scene;
 
-use crate::edge::{self, Tolerance};
 use crate::growth::Growth;
-use crate::lit::Lit;
-use crate::motion::Point;
-use crate::pieces::{Cut, Outcome, Piece, Polyline, Shape, as_contours, shape};
-use crate::{edge_on, interior, quick};
-
-/// An edge is halved this often at most. Each halving divides the sagitta by 4, so 12 take the worst arc down
-/// to the default bound; the rest are for edges that pass the eye at a millionth of their length.
-pub(crate) const MAX_GENERATION: u32 = 32;
+use crate::judge::{Bounds, Judge, MAX_GENERATION, Marks, Verdict};
+use crate::pieces::{Cut, Outcome, Piece, Polyline};
+use crate::split::split;
 
 /// Pieces a scene is cut into at most: about half a gigabyte of text.
 pub(crate) const MAX_PIECES: usize = 4_000_000;
 
-/// Cuts faces and wires until every edge is right to `tolerance` and by `lit`, or `max_pieces` would be passed.
-pub(crate) fn cut(
-    scene: &Scene,
-    growth: &mut Growth,
-    tolerance: &Tolerance,
-    lit: &Lit,
-    max_pieces: usize,
-) -> Outcome {
-    let judge = Judge { growth, tolerance, lit };
+/// Cuts faces and wires until every edge is right within `bounds`, or `max_pieces` would be passed.
+pub(crate) fn cut(scene: &Scene, growth: &mut Growth, bounds: &Bounds, max_pieces: usize) -> Outcome {
     let mut outcome = Outcome::default();
     let mut fresh: Vec<Piece> = Vec::new();
-    for (face, cut) in judge.first_cuts(scene) {
+    for (face, cut) in (Judge { growth, bounds }).first_cuts(scene) {
+        for contour in scene.face_contours(&scene.faces[face as usize]) {
+            let next = contour.iter().cycle().skip(1);
+            contour.iter().zip(next).for_each(|(a, b)| growth.add_rim(a.0, b.0));
+        }
         match cut {
             Cut::Pieces(shapes) => fresh.extend(shapes.into_iter().map(|shape| Piece { face, shape })),
             Cut::EdgeOn(lines) => outcome.lines.extend(lines),
@@ -57,327 +47,146 @@ pub(crate) fn cut(
             }
         }
     }
-    outcome.lines.extend(judge.bent_wires(scene));
+    outcome.lines.extend(Judge { growth, bounds }.bent_wires(scene));
+    let mut is_cut = vec![false; if fresh.is_empty() { 0 } else { scene.faces.len() }];
     let mut open: Vec<Open> = Vec::new();
     loop {
-        let judge = Judge { growth, tolerance, lit };
-        judge.sort(std::mem::take(&mut fresh), &mut open, &mut outcome.pieces);
+        let judge = Judge { growth, bounds };
+        sort(&judge, std::mem::take(&mut fresh), &mut open, &mut outcome.pieces);
         let line_marks: Vec<Vec<bool>> = outcome.lines.par_iter().map(|line| judge.line(line)).collect();
-        let Some(least) = judge.least_due(&open, &outcome.lines, &line_marks) else { break };
+        let Some(least) = least_due(growth, &open, &outcome.lines, &line_marks) else { break };
 
-        let due: Vec<Marks> = open.par_iter().map(|open| open.due(growth, least)).collect();
+        let wanted = Wanted::new(&open, &outcome.lines, &line_marks);
+        let due: Vec<Marks> = open.par_iter().map(|open| open.due(growth, &wanted, least)).collect();
         let n_corners: usize = outcome.lines.iter().map(|line| 2 * line.corners.len()).sum();
         let n_added: usize = due.iter().map(|due| due.n_added()).sum();
         outcome.is_full = outcome.pieces.len() + open.len() + n_added + n_corners > max_pieces;
         if outcome.is_full {
             break;
         }
-        open =
-            open.into_iter().zip(due).filter_map(|(open, due)| open.cut(growth, due, &mut fresh)).collect();
+        let cut = |(open, due): (Open, Marks)| {
+            if !due.any() {
+                return Some(open);
+            }
+            let face = open.piece.face;
+            is_cut[face as usize] = true;
+            fresh
+                .extend(split(growth, &open.piece.shape, due).into_iter().map(|shape| Piece { face, shape }));
+            None
+        };
+        open = open.into_iter().zip(due).filter_map(cut).collect();
         for (line, marks) in outcome.lines.iter_mut().zip(&line_marks) {
             *line = halve_marked(growth, line, marks, least);
         }
     }
     outcome.pieces.extend(open.into_iter().map(|open| open.piece));
+    // A face of which nothing was cut stays as it is.
+    outcome.pieces.retain(|piece| is_cut[piece.face as usize]);
     outcome.pieces.sort_by_key(|piece| piece.face);
-    outcome.n_too_deep = Judge { growth, tolerance, lit }.n_too_deep(&outcome);
+    outcome.n_too_deep = n_too_deep(&Judge { growth, bounds }, &outcome);
     outcome
 }
 
 /// A piece with edges that bend.
 struct Open {
     piece: Piece,
-    marks: Marks,
+    verdict: Verdict,
 }
 
 impl Open {
-    /// The marked edges as long as `least`, the square of a length.
-    fn due(&self, growth: &Growth, least: f64) -> Marks {
-        let mut due = self.marks;
-        for (mark, (a, b)) in due.edges.iter_mut().zip(self.piece.shape.edges()) {
-            *mark = *mark && length_squared(growth, a, b) >= least;
+    /// The edges that are wanted and as long as `least`, the square of a length.
+    fn due(&self, growth: &Growth, wanted: &Wanted, least: f64) -> Marks {
+        let mut due = Marks { edges: self.verdict.bends, inside: false };
+        for (mark, ends) in due.edges.iter_mut().zip(self.piece.shape.edges()) {
+            *mark = *mark && wanted.has(ends) && length_squared(growth, ends) >= least;
         }
+        // Neighbours come first: what is left inside is seen when their edges are halved.
+        due.inside = self.verdict.shows.inside && !due.any();
         due
     }
+}
 
-    /// Halves the edges that are due. A piece without one is given back.
-    fn cut(self, growth: &mut Growth, due: Marks, fresh: &mut Vec<Piece>) -> Option<Open> {
-        if !due.any() {
-            return Some(self);
+/// The edges that show in any of their pieces.
+struct Wanted {
+    /// `None` if all that bend do.
+    edges: Option<FxHashSet<(u32, u32)>>,
+}
+
+impl Wanted {
+    fn new(open: &[Open], lines: &[Polyline], line_marks: &[Vec<bool>]) -> Wanted {
+        if open.par_iter().all(|open| open.verdict.bends == open.verdict.shows.edges) {
+            return Wanted { edges: None };
         }
-        let Piece { face, shape } = self.piece;
-        fresh.extend(split(growth, &shape, due).into_iter().map(|shape| Piece { face, shape }));
-        None
+        let of_pieces = open.iter().flat_map(|open| open.piece.shape.edges().zip(open.verdict.shows.edges));
+        let of_lines =
+            lines.iter().zip(line_marks).flat_map(|(line, marks)| line.edges().zip(marks.iter().copied()));
+        let edges = of_pieces.chain(of_lines).filter(|&(_, shows)| shows).map(|(ends, _)| in_order(ends));
+        Wanted { edges: Some(edges.collect()) }
+    }
+
+    fn has(&self, ends: (u32, u32)) -> bool {
+        self.edges.as_ref().is_none_or(|edges| edges.contains(&in_order(ends)))
     }
 }
 
-/// Edges of a piece that bend, or those of them that are halved now.
-#[derive(Clone, Copy, Default)]
-struct Marks {
-    /// From each corner to the next.
-    edges: [bool; 4],
-    /// No edge is marked, but the inside is, or a diagonal of the quadrilateral.
-    inside: bool,
-}
-
-impl Marks {
-    fn any(self) -> bool {
-        self.inside || self.edges.contains(&true)
-    }
-
-    /// At most how many pieces more there are when these edges are halved.
-    fn n_added(self) -> usize {
-        let n_edges = self.edges.iter().filter(|&&mark| mark).count();
-        if self.any() { n_edges + 1 } else { 0 }
-    }
+fn in_order((a, b): (u32, u32)) -> (u32, u32) {
+    (a.min(b), a.max(b))
 }
 
 /// Of an edge in rest coordinates. Lengths beyond the range of numbers count as its end.
-fn length_squared(growth: &Growth, a: u32, b: u32) -> f64 {
+fn length_squared(growth: &Growth, (a, b): (u32, u32)) -> f64 {
     (growth.point(a).rest - growth.point(b).rest).length_squared().min(f64::MAX)
 }
 
-/// Says which edges bend.
-struct Judge<'a, 'b> {
-    growth: &'a Growth<'b>,
-    tolerance: &'a Tolerance,
-    lit: &'a Lit,
-}
-
-impl Judge<'_, '_> {
-    /// Must this edge be halved? Asked in one order of its ends, so that all who share it hear the same.
-    fn bends(&self, a: u32, b: u32) -> bool {
-        self.generation(a, b) < MAX_GENERATION && self.bends_at_any_depth(a, b)
-    }
-
-    fn generation(&self, a: u32, b: u32) -> u32 {
-        self.growth.point(a).generation.max(self.growth.point(b).generation)
-    }
-
-    fn bends_at_any_depth(&self, a: u32, b: u32) -> bool {
-        let (low, high) = (a.min(b), a.max(b));
-        let growth = self.growth;
-        let (from, to, motion) = (growth.point(low), growth.point(high), growth.motion(low));
-        edge::bends(from, to, motion, self.tolerance) || self.lit.is_uneven(from, to, motion)
-    }
-
-    /// The faces that need cutting, in order, cut into triangles and convex quadrilaterals.
-    fn first_cuts(&self, scene: &Scene) -> Vec<(u32, Cut)> {
-        let cut = |(idx, face): (usize, &Face)| Some((idx as u32, self.first_cut(scene, face)?));
-        scene.faces.par_iter().enumerate().filter_map(cut).collect()
-    }
-
-    /// `None` if the face can stay as it is.
-    fn first_cut(&self, scene: &Scene, face: &Face) -> Option<Cut> {
-        let corners = scene.contours.corners(face.contours.clone());
-        let motion = self.growth.motion(corners.first()?.0);
-        if motion.is_at_rest() && self.lit.is_empty() {
-            return None;
-        }
-        let points = corners.iter().map(|corner| self.growth.point(corner.0));
-        if self.lit.is_empty() && quick::is_right(motion, points, self.tolerance) {
-            return None;
-        }
-        let rest = |vertex: VertexId| -> DVec3 { self.growth.point(vertex.0).rest };
-        let cut = if edge_on::is_edge_on(scene, face, motion, rest) {
-            Cut::EdgeOn(as_contours(scene, face))
+/// Tells pieces that are done from those that are not.
+fn sort(judge: &Judge, pieces: Vec<Piece>, open: &mut Vec<Open>, done: &mut Vec<Piece>) {
+    let verdicts: Vec<Verdict> = pieces.par_iter().map(|piece| judge.piece(&piece.shape)).collect();
+    for (piece, verdict) in pieces.into_iter().zip(verdicts) {
+        if verdict.is_open() {
+            open.push(Open { piece, verdict });
         } else {
-            shape(scene, face, rest)?
-        };
-        let bends = match &cut {
-            Cut::Pieces(shapes) => shapes.iter().any(|shape| self.piece(shape).any()),
-            Cut::EdgeOn(lines) | Cut::Contours(lines) => {
-                lines.iter().any(|line| self.line(line).contains(&true))
-            }
-        };
-        bends.then_some(cut)
-    }
-
-    fn bent_wires(&self, scene: &Scene) -> Vec<Polyline> {
-        let rows: Vec<u32> = scene.wires.iter().flat_map(|wire| wire.contours.clone()).collect();
-        rows.into_par_iter()
-            .map(|row| Polyline::open(row, scene.contours.get(row)))
-            .filter(|line| self.line(line).contains(&true))
-            .collect()
-    }
-
-    fn piece(&self, shape: &Shape) -> Marks {
-        let mut marks = Marks::default();
-        let points = shape.corners().iter().map(|&corner| self.growth.point(corner));
-        let motion = self.growth.motion(shape.corners()[0]);
-        if self.lit.is_empty() && quick::is_right(motion, points, self.tolerance) {
-            return marks;
-        }
-        for (mark, (a, b)) in marks.edges.iter_mut().zip(shape.edges()) {
-            *mark = self.bends(a, b);
-        }
-        marks.inside = !marks.any() && self.bends_inside(shape);
-        marks
-    }
-
-    /// Given that no edge bends.
-    fn bends_inside(&self, shape: &Shape) -> bool {
-        match *shape {
-            Shape::Triangle(corners) => self.bulges(corners),
-            Shape::Quad([a, b, c, d]) => {
-                self.bends(a, c)
-                    || self.bends(b, d)
-                    || [[a, b, c], [a, c, d], [b, c, d], [b, d, a]].into_iter().any(|half| self.bulges(half))
-            }
-        }
-    }
-
-    /// Is the true face too far from the inside of this triangle?
-    fn bulges(&self, corners: [u32; 3]) -> bool {
-        let motion = self.growth.motion(corners[0]);
-        let points: [&Point; 3] = corners.map(|corner| self.growth.point(corner));
-        let is_deep = points.iter().any(|point| point.generation >= MAX_GENERATION);
-        motion.has_flight_time() && !is_deep && interior::offset(motion, points) > self.tolerance.offset
-    }
-
-    fn line(&self, line: &Polyline) -> Vec<bool> {
-        line.edges().map(|(a, b)| self.bends(a, b)).collect()
-    }
-
-    /// Tells pieces that are done from those that are not.
-    fn sort(&self, pieces: Vec<Piece>, open: &mut Vec<Open>, done: &mut Vec<Piece>) {
-        let marks: Vec<Marks> = pieces.par_iter().map(|piece| self.piece(&piece.shape)).collect();
-        for (piece, marks) in pieces.into_iter().zip(marks) {
-            if marks.any() {
-                open.push(Open { piece, marks });
-            } else {
-                done.push(piece);
-            }
-        }
-    }
-
-    /// Edges are halved now if the square of their length is as large as this: a quarter of the largest. `None`
-    /// if nothing bends any more.
-    fn least_due(&self, open: &[Open], lines: &[Polyline], line_marks: &[Vec<bool>]) -> Option<f64> {
-        let longest = |edges: &mut dyn Iterator<Item = ((u32, u32), bool)>| -> Option<f64> {
-            edges
-                .filter(|&(_, mark)| mark)
-                .map(|((a, b), _)| length_squared(self.growth, a, b))
-                .reduce(f64::max)
-        };
-        // What is wrong inside has no length: its piece is cut at once.
-        let of_piece = |open: &Open| {
-            if open.marks.inside {
-                return Some(0.0);
-            }
-            longest(&mut open.piece.shape.edges().zip(open.marks.edges))
-        };
-        let of_line =
-            |(line, marks): (&Polyline, &Vec<bool>)| longest(&mut line.edges().zip(marks.iter().copied()));
-        let of_pieces = open.par_iter().filter_map(of_piece).reduce_with(f64::max);
-        let of_lines = lines.iter().zip(line_marks).filter_map(of_line).reduce(f64::max);
-        of_pieces.into_iter().chain(of_lines).reduce(f64::max).map(|longest| longest / 4.0)
-    }
-
-    /// Number of edges that bend although they were halved as often as can be.
-    fn n_too_deep(&self, outcome: &Outcome) -> usize {
-        let of_pieces = outcome.pieces.iter().flat_map(|piece| piece.shape.edges());
-        let edges = of_pieces.chain(outcome.lines.iter().flat_map(Polyline::edges));
-        let is_deep =
-            |&(a, b): &(u32, u32)| self.generation(a, b) >= MAX_GENERATION && self.bends_at_any_depth(a, b);
-        edges.filter(is_deep).count()
-    }
-}
-
-/// Halves the marked edges of a piece, or cuts it inside if that is marked.
-fn split(growth: &mut Growth, shape: &Shape, marks: Marks) -> Vec<Shape> {
-    match *shape {
-        Shape::Triangle(corners) => {
-            let [a, b, c, _] = marks.edges;
-            if marks.inside { fan(growth, corners) } else { split_triangle(growth, corners, [a, b, c]) }
-        }
-        Shape::Quad(corners) => split_quad(growth, corners, marks.edges),
-    }
-}
-
-/// Three triangles round the mean. In the shape of an equilateral one they are obtuse, so that no inside is worse
-/// than its edges.
-fn fan(growth: &mut Growth, [a, b, c]: [u32; 3]) -> Vec<Shape> {
-    let center = growth.center([a, b, c]);
-    [[a, b, center], [b, c, center], [c, a, center]].map(Shape::Triangle).to_vec()
-}
-
-/// `marks`: from each corner to the next.
-fn split_triangle(growth: &mut Growth, corners: [u32; 3], marks: [bool; 3]) -> Vec<Shape> {
-    let n_marks = marks.iter().filter(|&&mark| mark).count();
-    // Turn it so that the first edge is marked, and the last is not if one is not.
-    let turn = (0..3).find(|&k| marks[k] && (n_marks == 3 || !marks[(k + 2) % 3])).unwrap_or(0);
-    let [a, b, c] = [corners[turn], corners[(turn + 1) % 3], corners[(turn + 2) % 3]];
-    match n_marks {
-        0 => vec![Shape::Triangle([a, b, c])],
-        1 => {
-            let ab = growth.middle(a, b);
-            vec![Shape::Triangle([a, ab, c]), Shape::Triangle([ab, b, c])]
-        }
-        2 => {
-            let (ab, bc) = (growth.middle(a, b), growth.middle(b, c));
-            let mut shapes = vec![Shape::Triangle([ab, b, bc])];
-            shapes.extend(halves(growth, [a, ab, bc, c]).map(Shape::Triangle));
-            shapes
-        }
-        _ => {
-            let (ab, bc, ca) = (growth.middle(a, b), growth.middle(b, c), growth.middle(c, a));
-            vec![
-                Shape::Triangle([a, ab, ca]),
-                Shape::Triangle([ab, b, bc]),
-                Shape::Triangle([ab, bc, ca]),
-                Shape::Triangle([ca, bc, c]),
-            ]
+            done.push(piece);
         }
     }
 }
 
-/// `marks`: from each corner to the next.
-fn split_quad(growth: &mut Growth, corners: [u32; 4], marks: [bool; 4]) -> Vec<Shape> {
-    let [a, b, c, d] = corners;
-    match marks {
-        [true, true, true, true] => {
-            let middle = growth.mean(corners);
-            let [ab, bc, cd, da] = [(a, b), (b, c), (c, d), (d, a)].map(|(p, q)| growth.middle(p, q));
-            vec![
-                Shape::Quad([a, ab, middle, da]),
-                Shape::Quad([ab, b, bc, middle]),
-                Shape::Quad([middle, bc, c, cd]),
-                Shape::Quad([da, middle, cd, d]),
-            ]
+/// Edges are halved now if the square of their length is as large as this: the largest of those that are wanted, rounded
+/// down to a power of 4. So what becomes of a piece does not depend on how long edges are elsewhere. `None` if nothing is
+/// to be halved any more.
+fn least_due(growth: &Growth, open: &[Open], lines: &[Polyline], line_marks: &[Vec<bool>]) -> Option<f64> {
+    let longest = |edges: &mut dyn Iterator<Item = ((u32, u32), bool)>| -> Option<f64> {
+        edges.filter(|&(_, mark)| mark).map(|(ends, _)| length_squared(growth, ends)).reduce(f64::max)
+    };
+    // What is wrong inside has no length: its piece is cut at once.
+    let of_piece = |open: &Open| {
+        if open.verdict.shows.inside {
+            return Some(0.0);
         }
-        [true, false, true, false] => {
-            let (ab, cd) = (growth.middle(a, b), growth.middle(c, d));
-            vec![Shape::Quad([a, ab, cd, d]), Shape::Quad([ab, b, c, cd])]
-        }
-        [false, true, false, true] => {
-            let (bc, da) = (growth.middle(b, c), growth.middle(d, a));
-            vec![Shape::Quad([a, b, bc, da]), Shape::Quad([da, bc, c, d])]
-        }
-        _ => {
-            // Turned so that the diagonal to cut along runs from the first corner.
-            let turn = usize::from(is_second_diagonal_shorter(growth, corners));
-            let [a, b, c, d] = std::array::from_fn(|idx| corners[(idx + turn) % 4]);
-            let [ab, bc, cd, da] = std::array::from_fn(|idx| marks[(idx + turn) % 4]);
-            let mut shapes = split_triangle(growth, [a, b, c], [ab, bc, false]);
-            shapes.extend(split_triangle(growth, [a, c, d], [false, cd, da]));
-            shapes
-        }
-    }
+        longest(&mut open.piece.shape.edges().zip(open.verdict.shows.edges))
+    };
+    let of_line =
+        |(line, marks): (&Polyline, &Vec<bool>)| longest(&mut line.edges().zip(marks.iter().copied()));
+    let of_pieces = open.par_iter().filter_map(of_piece).reduce_with(f64::max);
+    let of_lines = lines.iter().zip(line_marks).filter_map(of_line).reduce(f64::max);
+    of_pieces.into_iter().chain(of_lines).reduce(f64::max).map(octave)
 }
 
-/// Two triangles, by the shorter diagonal.
-fn halves(growth: &Growth, [a, b, c, d]: [u32; 4]) -> [[u32; 3]; 2] {
-    if is_second_diagonal_shorter(growth, [a, b, c, d]) {
-        [[b, c, d], [b, d, a]]
-    } else {
-        [[a, b, c], [a, c, d]]
+/// The largest power of 4 that a number is as large as; 0 for numbers that have none.
+fn octave(square: f64) -> f64 {
+    if square < f64::MIN_POSITIVE {
+        return 0.0;
     }
+    let power = libm::ilogb(square);
+    libm::ldexp(1.0, power - power.rem_euclid(2))
 }
 
-fn is_second_diagonal_shorter(growth: &Growth, corners: [u32; 4]) -> bool {
-    let [a, b, c, d] = corners.map(|row| growth.point(row).rest);
-    (b - d).length_squared() < (a - c).length_squared()
+/// Number of edges that bend although they were halved as often as can be.
+fn n_too_deep(judge: &Judge, outcome: &Outcome) -> usize {
+    let of_pieces = outcome.pieces.iter().flat_map(|piece| piece.shape.edges());
+    let edges = of_pieces.chain(outcome.lines.iter().flat_map(Polyline::edges));
+    let is_deep =
+        |&(a, b): &(u32, u32)| judge.generation(a, b) >= MAX_GENERATION && judge.bends_at_any_depth(a, b);
+    edges.filter(is_deep).count()
 }
 
 /// Halves those of the marked edges that are as long as `least`, the square of a length.
@@ -387,7 +196,7 @@ fn halve_marked(growth: &mut Growth, line: &Polyline, marks: &[bool], least: f64
         corners.push(corner);
         if marks.get(idx) == Some(&true) {
             let next = line.corners[(idx + 1) % line.corners.len()];
-            if length_squared(growth, corner, next) >= least {
+            if length_squared(growth, (corner, next)) >= least {
                 corners.push(growth.middle(corner, next));
             }
         }
@@ -397,11 +206,14 @@ fn halve_marked(growth: &mut Growth, line: &Polyline, marks: &[bool], least: f64
 
 #[cfg(test)]
 mod tests {
-    use rustc_hash::FxHashSet;
+    use glam::DVec3;
     use ugphysics::Velocity;
     use ugscene::Geometry;
 
     use super::*;
+    use crate::cull::Sight;
+    use crate::edge::Tolerance;
+    use crate::lit::Lit;
     use crate::motion::Motion;
 
     #[test]
@@ -413,7 +225,8 @@ mod tests {
         for max_pieces in [10, 100, 1000, 10_000] {
             let points = scene.vertices.iter().map(|vertex| motions[0].point(0, vertex.position)).collect();
             let mut growth = Growth::new(&motions, points);
-            let outcome = cut(&scene, &mut growth, &Tolerance::new(1e-9, 2e-3), &Lit::default(), max_pieces);
+            let bounds = Bounds::new(Tolerance::new(1e-9, 2e-3), Lit::default(), Sight::default(), &motions);
+            let outcome = cut(&scene, &mut growth, &bounds, max_pieces);
             assert!(outcome.is_full);
             let n_pieces = outcome.pieces.len();
             assert!((max_pieces / 10..=max_pieces).contains(&n_pieces), "{n_pieces} of {max_pieces}");

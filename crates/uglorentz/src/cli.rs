@@ -104,7 +104,7 @@ pub struct Args {
 
     /// Leave out faces that the camera does not see
     ///
-    /// They are not cut either. The picture stays the same, if ugrainbow has the same -va and -sz; the
+    /// They are not cut either, nor are parts of others that are out of sight. The picture stays the same, if ugrainbow has the same -va and -sz; the
     /// scene's camera or -vc must say where it looks.
     #[arg(long = "cull", help_heading = CAMERA)]
     cull: bool,

@@ -14,16 +14,36 @@ use crate::motion::{Motion, Point};
 /// A bound must be below by this part of what it is computed from: rounding of some ten operations.
 const ROUNDING: f64 = 1e-12;
 
-/// Leaves out faces that `view` cannot show, and vertices that only they used; how many faces.
+/// The half-spaces that hold all there is in the picture; none if nobody asks.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Sight {
+    spaces: Vec<HalfSpace>,
+}
+
+impl Sight {
+    pub(crate) fn new(view: &View) -> Sight {
+        Sight { spaces: view.half_spaces().into_iter().flatten().collect() }
+    }
+
+    /// True only if nothing between these corners of a body is in the picture, neither as it is nor as it is drawn.
+    pub(crate) fn is_outside(&self, motion: &Motion, corners: &[&Point]) -> bool {
+        self.spaces.iter().any(|space| is_outside(space, motion, corners))
+    }
+}
+
+/// Leaves out faces that are out of sight, and vertices that only they used; how many faces.
 ///
 /// Faces that share a vertex with one that is kept are kept, too: colours are mixed from the faces round a
 /// vertex. One face is kept in any case, so that there is a scene.
-pub(crate) fn cull(scene: &mut Scene, points: &mut Vec<Point>, motions: &[Motion], view: &View) -> usize {
-    let spaces: Vec<HalfSpace> = view.half_spaces().into_iter().flatten().collect();
+pub(crate) fn cull(scene: &mut Scene, points: &mut Vec<Point>, motions: &[Motion], sight: &Sight) -> usize {
+    if sight.spaces.is_empty() {
+        return 0;
+    }
     let may_be_seen = |face: &Face| {
         let corners = scene.contours.corners(face.contours.clone());
         let corners: Vec<&Point> = corners.iter().map(|corner| &points[corner.index()]).collect();
-        !spaces.iter().any(|space| is_outside(space, motions, &corners))
+        let motion = corners.first().map(|first| &motions[first.body as usize]);
+        motion.is_none_or(|motion| !sight.is_outside(motion, &corners))
     };
     let seen: Vec<bool> = scene.faces.par_iter().map(may_be_seen).collect();
     let mut touched = vec![false; scene.vertices.len()];
@@ -51,10 +71,8 @@ pub(crate) fn cull(scene: &mut Scene, points: &mut Vec<Point>, motions: &[Motion
     n_culled
 }
 
-/// True only if no point of the face is in the half-space as seen.  Eq. (P27)
-fn is_outside(space: &HalfSpace, motions: &[Motion], corners: &[&Point]) -> bool {
-    let Some(first) = corners.first() else { return false };
-    let motion = &motions[first.body as usize];
+/// True only if no point between these corners is in the half-space as seen.  Eq. (P27)
+fn is_outside(space: &HalfSpace, motion: &Motion, corners: &[&Point]) -> bool {
     let direction = motion.direction();
     let along = space.normal.dot(direction);
     let (normal, flight, places): (DVec3, f64, Vec<DVec3>) = if motion.has_flight_time() {

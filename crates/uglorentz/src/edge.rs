@@ -20,7 +20,7 @@
 //!    ([`crate::color`]).
 //!
 //! The answer depends on the two points, their body and the bound, not on the face, so two faces that share an
-//! edge always agree about it. Derivations are in `docs/geometry.md`.
+//! edge always agree about it. [`shows`] then asks for one piece at a time. Derivations are in `docs/geometry.md`.
 
 use glam::DVec3;
 
@@ -37,7 +37,7 @@ const OPPOSITE: f64 = 1e-12;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Tolerance {
     /// Tangent of half the bound of rule 1.
-    tan_half: f64,
+    pub tan_half: f64,
     /// Bound of rule 2.
     pub offset: f64,
     /// What |C − chord|/|C| may be for rules 1 and 2 to hold for sure.
@@ -77,17 +77,53 @@ pub(crate) fn bends(a: &Point, b: &Point, motion: &Motion, tolerance: &Tolerance
         || color::is_off(a, b, motion, tolerance.color)
 }
 
+/// What of an edge that bends is seen.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Shown {
+    /// All of it.
+    All,
+    /// Of its depth, what leaves the plane of a piece: the number is [`slant`].
+    OnPiece(f64),
+    /// The outline, for its piece is seen as a line.
+    Outline,
+}
+
+/// Given that the edge bends: does it do so where it is seen?
+pub(crate) fn shows(a: &Point, b: &Point, motion: &Motion, tolerance: &Tolerance, shown: Shown) -> bool {
+    if motion.is_at_rest() {
+        return false;
+    }
+    let leaves_chord = || {
+        let edge = Edge::new(a, b, motion);
+        edge.tan_half_sagitta() > tolerance.tan_half || edge.offset(shown) > tolerance.offset
+    };
+    let is_color_seen = !matches!(shown, Shown::Outline);
+    (motion.has_flight_time() && leaves_chord())
+        || (is_color_seen && color::is_off(a, b, motion, tolerance.color))
+}
+
+/// The part of the velocity at right angles to a drawn piece, where it is largest: by (E1) nothing on the piece leaves its plane
+/// faster.
+pub(crate) fn slant(corners: &[&Point], motion: &Motion) -> f64 {
+    let n = corners.len();
+    let at = |idx: usize| {
+        let [before, here, next] = [idx + n - 1, idx, idx + 1].map(|idx| corners[idx % n].seen);
+        (before - here).cross(next - here).normalize_or_zero().dot(motion.direction()).abs()
+    };
+    motion.velocity().speed() * (0..n).map(at).fold(0.0, f64::max)
+}
+
 /// All there is to say about an edge.
-pub(crate) fn errors(a: &Point, b: &Point, motion: &Motion) -> Errors {
+pub(crate) fn errors(a: &Point, b: &Point, motion: &Motion, shown: Shown) -> Errors {
     if motion.is_at_rest() {
         return Errors::default();
     }
-    let color = color::error(a, b, motion);
+    let color = if matches!(shown, Shown::Outline) { 0.0 } else { color::error(a, b, motion) };
     if !motion.has_flight_time() {
         return Errors { color, ..Errors::default() };
     }
     let edge = Edge::new(a, b, motion);
-    Errors { angle: 2.0 * libm::atan(edge.tan_half_sagitta()), offset: edge.offset(), color }
+    Errors { angle: 2.0 * libm::atan(edge.tan_half_sagitta()), offset: edge.offset(shown), color }
 }
 
 /// Rules 1 and 2.
@@ -100,7 +136,7 @@ fn leaves_chord(a: &Point, b: &Point, motion: &Motion, tolerance: &Tolerance) ->
     if motion.proper_speed() * delta <= tolerance.safe * floor {
         return false;
     }
-    edge.tan_half_sagitta() > tolerance.tan_half || edge.offset() > tolerance.offset
+    edge.tan_half_sagitta() > tolerance.tan_half || edge.offset(Shown::All) > tolerance.offset
 }
 
 /// |p||q| − p·q of two vectors, given the product of their lengths.
@@ -183,11 +219,18 @@ impl<'a> Edge<'a> {
     /// ```text
     /// λ = (w/L)²/(e + √(e² + (w/L)²(h²(1 − Q²) − P²))),      e = h²(1 − BQ) − AP.      (E3)
     /// ```
-    fn offset(&self) -> f64 {
+    ///
+    /// In a piece of a face only the part at right angles to that shows.
+    fn offset(&self, shown: Shown) -> f64 {
         let length = self.along.length();
         let chord = (self.b.seen - self.a.seen).normalize_or_zero();
         let beta = self.motion.velocity().beta();
         let across = beta.cross(chord).length();
+        let across = match shown {
+            Shown::All => across,
+            Shown::OnPiece(slant) => across.min(slant),
+            Shown::Outline => 0.0,
+        };
         let term = (self.w / length) * (self.w / length);
         if across == 0.0 || term.is_nan() || term <= 0.0 {
             return 0.0;
@@ -264,7 +307,7 @@ mod tests {
             for speed in [1e-3, 0.5, 0.99, 0.999_99] {
                 let motion = motion(DVec3::new(0.6, 0.0, 0.8) * speed);
                 let (p, q) = (motion.point(0, a), motion.point(0, b));
-                let found = Edge::new(&p, &q, &motion).offset();
+                let found = Edge::new(&p, &q, &motion).offset(Shown::All);
                 let chord = (q.seen - p.seen).normalize();
                 let sampled = (1..1000).map(|step| {
                     let s = f64::from(step) / 1000.0;
@@ -292,7 +335,8 @@ mod tests {
             let motion = motion(DVec3::new(0.0, 0.9, 0.1));
             let (p, q) = (motion.point(0, a), motion.point(0, b));
             let edge = Edge::new(&p, &q, &motion);
-            let is_off = edge.tan_half_sagitta() > tolerance.tan_half || edge.offset() > tolerance.offset;
+            let is_off =
+                edge.tan_half_sagitta() > tolerance.tan_half || edge.offset(Shown::All) > tolerance.offset;
             assert_eq!(leaves_chord(&p, &q, &motion, &tolerance), is_off);
             n_quick += u32::from(!is_off);
             n_bent += u32::from(is_off);

@@ -7,7 +7,8 @@
 use glam::DVec3;
 use ugparse::{Face, Scene, VertexId};
 
-use crate::motion::Motion;
+use crate::DEFAULT_ERROR;
+use crate::motion::{Motion, Point};
 
 /// A plane through the eye up to rounding: the part of the largest distance of a corner.
 const FLAT: f64 = 1e-12;
@@ -37,6 +38,27 @@ pub(crate) fn is_edge_on(
     }
     let slides = motion.proper_speed() * normal.dot(motion.direction()).abs() <= FLAT;
     slides || is_beside_eye(outline.iter().map(|&corner| rest(corner)), normal, CLEAR * reach)
+}
+
+/// Is a flat piece seen as a line, by `angle` at the eye?
+///
+/// With n' and k as in (P8) and h' the distance of its plane from the eye, the piece is seen where m·d + k = h'/|p|, since (P3)
+/// is linear. That is a band along the circle m·d + k = 0, h'/|p| wide to first order where h'|m|/|p| is small, for
+/// the circle has a radius of 1/|m|. It counts as a line if it is narrower than a quarter of the angle, and of a
+/// tenth of a milliradian: colours are still seen in what is wider.
+pub(crate) fn is_seen_as_line(motion: &Motion, corners: &[&Point], angle: f64) -> bool {
+    if !motion.has_flight_time() {
+        return false;
+    }
+    let rest = || corners.iter().map(|corner| motion.boosted_rest(corner.rest));
+    let Some(normal) = ugparse::newell_normal(rest()).try_normalize() else { return false };
+    let height = rest().map(|corner| normal.dot(corner).abs()).fold(0.0, f64::max);
+    // |p| = γ(|p'| − v·p') is at least γ(u − v)·p' for any unit u, and that is least in a corner.
+    let toward = rest().map(|corner| corner.normalize_or_zero()).sum::<DVec3>().normalize_or_zero();
+    let way = (toward - motion.velocity().beta()) * motion.gamma();
+    let nearest = rest().map(|corner| way.dot(corner)).fold(f64::INFINITY, f64::min);
+    let k = motion.proper_speed() * normal.dot(motion.direction());
+    height <= nearest * (angle.min(DEFAULT_ERROR) / 4.0) && height * (1.0 + k * k).sqrt() <= nearest / 4.0
 }
 
 /// Is the eye, in the plane of an outline, outside it and clear of its edges?

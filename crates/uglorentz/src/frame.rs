@@ -1,7 +1,8 @@
 //! From the frame of the scene to that of a camera that moves in it.
 
 use glam::DVec3;
-use ugparse::Scene;
+use rayon::prelude::*;
+use ugparse::{Scene, VelocityId};
 use ugphysics::{Velocity, compose};
 
 use crate::{Config, Error, PROGRAM};
@@ -23,12 +24,13 @@ pub(crate) fn take_camera_velocity(scene: &mut Scene, config: &Config) -> Result
 /// Gives all faces and wires one velocity. At rest, those that had none still have none.
 pub(crate) fn set_velocity(scene: &mut Scene, velocity: DVec3) {
     let id = scene.velocity_id(velocity);
-    let faces = scene.faces.iter_mut().map(|face| &mut face.velocity);
-    for slot in faces.chain(scene.wires.iter_mut().map(|wire| &mut wire.velocity)) {
+    let set = |slot: &mut Option<VelocityId>| {
         if velocity != DVec3::ZERO || slot.is_some() {
             *slot = Some(id);
         }
-    }
+    };
+    scene.faces.par_iter_mut().for_each(|face| set(&mut face.velocity));
+    scene.wires.par_iter_mut().for_each(|wire| set(&mut wire.velocity));
 }
 
 /// Gives everything that is drawn a velocity, for what rests in the scene moves in the frame of the camera.

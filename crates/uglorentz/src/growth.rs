@@ -1,7 +1,7 @@
 //! New vertices: made once, shared by all who meet at them.
 
 use glam::DVec3;
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::motion::{Motion, Point};
 
@@ -32,11 +32,19 @@ pub(crate) struct Growth<'a> {
     /// How the new ones were made.
     pub recipes: Vec<Recipe>,
     middles: FxHashMap<(u32, u32), u32>,
+    /// Edges of the scene's faces, and what they were halved into, by their ends in order.
+    rims: FxHashSet<(u32, u32)>,
 }
 
 impl<'a> Growth<'a> {
     pub(crate) fn new(motions: &'a [Motion], points: Vec<Point>) -> Growth<'a> {
-        Growth { motions, points, recipes: Vec::new(), middles: FxHashMap::default() }
+        Growth {
+            motions,
+            points,
+            recipes: Vec::new(),
+            middles: FxHashMap::default(),
+            rims: FxHashSet::default(),
+        }
     }
 
     pub(crate) fn point(&self, row: u32) -> &Point {
@@ -45,6 +53,16 @@ impl<'a> Growth<'a> {
 
     pub(crate) fn motion(&self, row: u32) -> &Motion {
         &self.motions[self.point(row).body as usize]
+    }
+
+    /// Notes that this is an edge of a face of the scene, not one within a face.
+    pub(crate) fn add_rim(&mut self, a: u32, b: u32) {
+        self.rims.insert((a.min(b), a.max(b)));
+    }
+
+    /// Is this a part of an edge of the scene, as far as was noted?
+    pub(crate) fn is_rim(&self, a: u32, b: u32) -> bool {
+        self.rims.contains(&(a.min(b), a.max(b)))
     }
 
     /// The vertex in the middle of an edge, or beside it if the eye is there.
@@ -58,6 +76,10 @@ impl<'a> Growth<'a> {
         let part = if is_at_eye { BESIDE_MIDDLE } else { 0.5 };
         let row = self.add(Recipe { parents: [key.0, key.1, 0, 0], weights: [1.0 - part, part, 0.0, 0.0] });
         self.middles.insert(key, row);
+        if self.rims.contains(&key) {
+            self.add_rim(key.0, row);
+            self.add_rim(row, key.1);
+        }
         row
     }
 

@@ -30,8 +30,8 @@
 //! # Parts
 //!
 //! ```text
-//! Scene ─separate bodies─ placement ─ smooth normals ─┬─ adaptive (edge) ─┬─ positions ─ attributes → Scene
-//!                         (P5)                        └─ equal ───────────┘  (P3)
+//! Scene ─separate bodies─ placement ─ smooth normals ─┬─ adaptive (judge) ─┬─ positions ─ attributes → Scene
+//!                         (P5)                        └─ equal ────────────┘  (P3)
 //! ```
 //!
 //! # Example
@@ -68,6 +68,7 @@ mod error;
 mod frame;
 mod growth;
 mod interior;
+mod judge;
 mod lit;
 mod measurement;
 mod motion;
@@ -75,6 +76,7 @@ mod notes;
 mod pieces;
 mod placement;
 mod quick;
+mod split;
 mod viewpoint;
 
 use glam::DVec3;
@@ -89,8 +91,10 @@ pub use error::Error;
 pub use measurement::{Measurement, Table, measure};
 pub use notes::{Achieved, Notes, Worst};
 
+use crate::cull::Sight;
 use crate::edge::Tolerance;
 use crate::growth::Growth;
+use crate::judge::Bounds;
 use crate::lit::Lit;
 use crate::motion::{Motion, Point};
 use crate::pieces::Outcome;
@@ -276,23 +280,18 @@ fn transform_owned(mut scene: Scene, config: &Config) -> Result<(Scene, Notes), 
     }
 
     viewpoint::set_camera(&mut scene, eye, &config.camera);
-    let n_culled = match config.cull {
-        Some(size) => {
-            let view = viewpoint::view(&scene, &config.camera, size)?;
-            cull::cull(&mut scene, &mut points, &motions, &view)
-        }
-        None => 0,
+    let sight = match config.cull {
+        Some(size) => Sight::new(&viewpoint::view(&scene, &config.camera, size)?),
+        None => Sight::default(),
     };
+    let n_culled = cull::cull(&mut scene, &mut points, &motions, &sight);
 
+    let error = if let Pieces::UpTo(error) = config.pieces { error } else { DEFAULT_ERROR };
+    let lit = Lit::new(&scene, eye, &motions, config.light_error);
+    let bounds = Bounds::new(Tolerance::new(error, config.color_error), lit, sight, &motions);
     let mut growth = Growth::new(&motions, points);
     let outcome = match config.pieces {
-        Pieces::UpTo(error) => adaptive::cut(
-            &scene,
-            &mut growth,
-            &Tolerance::new(error, config.color_error),
-            &Lit::new(&scene, eye, &motions, config.light_error),
-            adaptive::MAX_PIECES,
-        ),
+        Pieces::UpTo(_) => adaptive::cut(&scene, &mut growth, &bounds, adaptive::MAX_PIECES),
         Pieces::PerEdge(n) => {
             equal::cut(&scene, &mut growth, n).map_err(|n_pieces| Error::TooManyPieces { n_pieces })?
         }
@@ -304,7 +303,7 @@ fn transform_owned(mut scene: Scene, config: &Config) -> Result<(Scene, Notes), 
     ugscene::record(&mut scene, PROGRAM, env!("CARGO_PKG_VERSION"), &config.command_line);
 
     let is_short = outcome.is_full || outcome.n_too_deep + outcome.n_uncut > 0;
-    let achieved = (config.measure || is_short).then(|| achieved::measure(&scene, &growth));
+    let achieved = (config.measure || is_short).then(|| achieved::measure(&scene, &growth, &bounds));
     let notes = Notes {
         was_seen_before,
         n_new_vertices: growth.recipes.len(),

@@ -12,6 +12,7 @@ use ugscene::{HueScale, LampPlace, lamps};
 
 use crate::motion::{Motion, Point};
 use crate::placement::body;
+use crate::quick::MOST_BEND;
 
 /// Where an edge is compared with the straight line, parts of it.
 const SAMPLES: [f64; 3] = [0.25, 0.5, 0.75];
@@ -64,8 +65,25 @@ impl Lit {
     pub(crate) fn is_uneven(&self, a: &Point, b: &Point, motion: &Motion) -> bool {
         !self.is_empty()
             && a.generation.max(b.generation) < MAX_GENERATION
-            && self.lamps.iter().map(|lamp| lamp.intensity * lamp.error(a.rest, b.rest, motion)).sum::<f64>()
-                > self.bound
+            && self.error(a, b, motion) > self.bound
+    }
+
+    /// The error of the light on an edge, of all lamps.  (E6)
+    pub(crate) fn error(&self, a: &Point, b: &Point, motion: &Motion) -> f64 {
+        self.lamps.iter().map(|lamp| lamp.intensity * lamp.error(a.rest, b.rest, motion)).sum()
+    }
+
+    /// True only if the light changes by no more than a straight line between any of these corners.
+    pub(crate) fn is_even<'a>(
+        &self,
+        motion: &Motion,
+        corners: impl Iterator<Item = &'a Point> + Clone,
+    ) -> bool {
+        if self.is_empty() {
+            return true;
+        }
+        let of_lamp = |lamp: &NearLamp| lamp.intensity * lamp.most_error(motion, corners.clone());
+        self.lamps.iter().map(of_lamp).sum::<f64>() <= self.bound
     }
 }
 
@@ -83,17 +101,32 @@ impl NearLamp {
         SAMPLES.into_iter().map(at).fold(0.0, f64::max)
     }
 
-    fn light(&self, rest: DVec3, motion: &Motion) -> Option<Light> {
+    /// Upper bound of [`NearLamp::error`] between any of these corners; infinite for a lamp that moves against them.
+    ///
+    /// Along a line that comes no nearer than r to the lamp, |d²l/dx²| ≤ 2/√3 / r², as for D in [`crate::color`].
+    fn most_error<'a>(&self, motion: &Motion, mut corners: impl Iterator<Item = &'a Point>) -> f64 {
+        let Some(first) = corners.next() else { return 0.0 };
+        let Some(place) = self.place_with(motion) else { return f64::INFINITY };
+        let reach = corners.map(|corner| (corner.rest - first.rest).length()).fold(0.0, f64::max);
+        let nearest = (place - first.rest).length() - reach;
+        // Edges are no longer than twice the reach.
+        if nearest > 0.0 { MOST_BEND / 2.0 * (reach / nearest) * (reach / nearest) } else { f64::INFINITY }
+    }
+
+    /// Where it is in the rest frame of a body, if it rests there.
+    fn place_with(&self, motion: &Motion) -> Option<DVec3> {
         match self.velocity {
-            Some(velocity) if velocity != motion.velocity() => {
-                let light = illumination(rest, motion.velocity(), self.place, velocity)?;
-                Some(Light { toward: light.toward * light.doppler, doppler: light.doppler })
-            }
-            of_lamp => {
-                let place = if of_lamp.is_some() { self.place } else { motion.turned(self.place) };
-                Some(Light { toward: (place - rest).try_normalize()?, doppler: 1.0 })
-            }
+            None => Some(motion.turned(self.place)),
+            Some(velocity) => (velocity == motion.velocity()).then_some(self.place),
         }
+    }
+
+    fn light(&self, rest: DVec3, motion: &Motion) -> Option<Light> {
+        if let Some(place) = self.place_with(motion) {
+            return Some(Light { toward: (place - rest).try_normalize()?, doppler: 1.0 });
+        }
+        let light = illumination(rest, motion.velocity(), self.place, self.velocity?)?;
+        Some(Light { toward: light.toward * light.doppler, doppler: light.doppler })
     }
 }
 
@@ -143,5 +176,31 @@ mod tests {
         assert_eq!(lamp(Some(fast)).error(a, b, &moving), rest);
         assert_eq!(lamp(None).error(a, b, &moving), rest);
         assert!((lamp(Some(fast)).error(a, b, &at_rest) - rest).abs() > 1e-3 * rest);
+    }
+
+    /// What is called even for sure is so, on lines between any corners.
+    #[test]
+    fn what_is_even_for_sure_is_even() {
+        let step = |k: u32, seed: f64| (f64::from(k) * seed).fract() * 2.0 - 1.0;
+        let motion = Motion::new(Velocity::from_beta(DVec3::X * 0.6).unwrap(), Geometry::default());
+        let (mut n_even, mut n_uneven) = (0, 0);
+        for k in 1..2000_u32 {
+            let point = |p, q, r| DVec3::new(step(k, p), step(k, q), step(k, r));
+            let place = point(0.123_106, 0.872_983, 0.358_899);
+            let lamp = NearLamp { intensity: 1.0, place, velocity: None };
+            let lit = Lit { lamps: vec![lamp], bound: 1e-2 };
+            let size = libm::pow(10.0, -f64::from(k % 12) / 4.0);
+            let a = point(0.618_034, 0.414_214, 0.732_051);
+            let corners = [a, a + point(0.236_068, 0.645_751, 0.316_625) * size, a + DVec3::Z * size];
+            let corners = corners.map(|corner| motion.point(0, corner));
+            if lit.is_even(&motion, corners.iter()) {
+                n_even += 1;
+                let pairs = [(0, 1), (1, 2), (0, 2)];
+                assert!(pairs.iter().all(|&(i, j)| !lit.is_uneven(&corners[i], &corners[j], &motion)));
+            } else {
+                n_uneven += 1;
+            }
+        }
+        assert!(n_even > 300 && n_uneven > 300, "{n_even} {n_uneven}");
     }
 }

@@ -2,7 +2,8 @@
 
 use std::fmt::{self, Display, Formatter};
 
-use crate::adaptive::{MAX_GENERATION, MAX_PIECES};
+use crate::adaptive::MAX_PIECES;
+use crate::judge::MAX_GENERATION;
 
 /// What was done.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -31,10 +32,13 @@ pub struct Achieved {
     /// Angle at the eye between an edge as drawn and as it is, radians.
     pub angle: Worst,
     /// Distance in space between an edge, or the inside of a face, as drawn and as it is, over its distance
-    /// from the eye.
+    /// from the eye; at right angles to the face, for only that shows.
     pub depth: Worst,
     /// Relative error of D, or 1/D, taken linearly along an edge; an upper bound.
     pub doppler: Worst,
+    /// Error of the light of near lamps, taken linearly along an edge, in parts of that of a lamp that shines straight at
+    /// a face; `None` if nobody asked ([`crate::Config::light_error`]).
+    pub light: Option<Worst>,
 }
 
 /// The largest of some errors.
@@ -100,6 +104,10 @@ impl Display for Achieved {
         };
         write!(f, "outline {:.3} mrad{}, ", self.angle.error * 1e3, place(&self.angle))?;
         write!(f, "depth {:.3} permille{}, ", self.depth.error * 1e3, place(&self.depth))?;
-        write!(f, "Doppler factor {:.3} percent{}", self.doppler.error * 1e2, place(&self.doppler))
+        write!(f, "Doppler factor {:.3} percent{}", self.doppler.error * 1e2, place(&self.doppler))?;
+        match &self.light {
+            Some(light) => write!(f, ", light {:.3} percent{}", light.error * 1e2, place(light)),
+            None => Ok(()),
+        }
     }
 }

@@ -106,6 +106,9 @@ fn centers(scene: &Scene, velocities: &[Option<VelocityId>], n_bodies: usize) ->
 /// Moves the local lights. One with a velocity belongs to the body of that velocity, or is one by itself. One
 /// without goes along if the scene is all one body; with several nobody knows which of them it belongs to.
 pub(crate) fn shift_lights(scene: &mut Scene, motions: &[Motion], shifts: &[DVec3]) {
+    if !scene.lights.iter().any(|light| matches!(light.kind, LightKind::Local { .. })) {
+        return;
+    }
     let users = scene.faces.iter().map(|face| face.velocity).chain(scene.wires.iter().map(|w| w.velocity));
     let mut users = users.peekable();
     let first = users.peek().copied();

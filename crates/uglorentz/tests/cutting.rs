@@ -4,7 +4,7 @@
 
 mod common;
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use common::{Random, edges, find, moving, normal, parse, place, prism, rock, run, seen, tetrahedron, text};
 use glam::DVec3;
@@ -101,7 +101,8 @@ fn names_are_unique() {
 struct Errors {
     /// Angle of the true curve from the chord, radians.
     angle: f64,
-    /// Distance in space from the chord over the distance from the eye.
+    /// Distance in space from the chord over the distance from the eye; within a face from the planes of the pieces it
+    /// borders, if that is less.
     offset: f64,
     /// Relative error of D along the chord, and of 1/D.
     doppler: f64,
@@ -114,7 +115,8 @@ struct Errors {
 fn errors(scene: &Scene, v: Velocity) -> Errors {
     let rest = rest(scene);
     let mut worst = Errors::default();
-    for &(a, b) in edges(scene).keys() {
+    let normals = normals(scene);
+    for (&(a, b), normals) in &normals {
         let (from, to) = (place(scene, a), place(scene, b));
         for step in 1..20 {
             let s = f64::from(step) / 20.0;
@@ -124,7 +126,8 @@ fn errors(scene: &Scene, v: Velocity) -> Errors {
             let exact = doppler_at(drawn, v);
             let linear = doppler_at(from, v) * (1.0 - s) + doppler_at(to, v) * s;
             worst.angle = worst.angle.max(angle);
-            worst.offset = worst.offset.max(offset / p.length());
+            let out = normals.iter().map(|normal| (p - from).dot(*normal).abs()).reduce(f64::max);
+            worst.offset = worst.offset.max(out.map_or(offset, |out| out.min(offset)) / p.length());
             worst.doppler = worst.doppler.max((linear / exact - 1.0).abs());
             let inverse = (1.0 - s) / doppler_at(from, v) + s / doppler_at(to, v);
             worst.doppler = worst.doppler.max((inverse * exact - 1.0).abs());
@@ -143,6 +146,28 @@ fn errors(scene: &Scene, v: Velocity) -> Errors {
         }
     }
     worst
+}
+
+/// Of each drawn edge within a face, the normals of the triangles it makes with other corners of its pieces; none of
+/// edges between faces.
+fn normals(scene: &Scene) -> BTreeMap<(VertexId, VertexId), Vec<DVec3>> {
+    let mut normals = BTreeMap::<_, Vec<DVec3>>::new();
+    let mut names = BTreeMap::<_, BTreeSet<_>>::new();
+    for face in &scene.faces {
+        let corners = scene.contours.corners(face.contours.clone());
+        for (&a, &b) in corners.iter().zip(corners.iter().cycle().skip(1)) {
+            let (from, to) = (place(scene, a), place(scene, b));
+            let others = corners.iter().filter(|&&corner| corner != a && corner != b);
+            let edge = (a.min(b), a.max(b));
+            let normal = |&c: &VertexId| (to - from).cross(place(scene, c) - from).normalize_or_zero();
+            normals.entry(edge).or_default().extend(others.map(normal));
+            names.entry(edge).or_default().insert(face.name.map(|name| scene.names.get(name)));
+        }
+    }
+    for (edge, _) in names.into_iter().filter(|(_, names)| names.len() > 1) {
+        normals.entry(edge).or_default().clear();
+    }
+    normals
 }
 
 /// Errors at some points inside a triangle.
@@ -448,6 +473,43 @@ fn what_is_told_of_errors_is_what_is_measured() {
         assert!(found.offset.max(found.inside) > 0.8 * told.depth.error);
         assert!(found.doppler <= told.doppler.error, "{} {}", found.doppler, told.doppler.error);
         assert!(told.angle.at.len() == 2 && report.notes.details()[1].contains(&told.angle.at[0]));
+    }
+}
+
+#[test]
+fn what_is_out_of_sight_is_not_cut_further() {
+    // A wide floor; the camera looks along it to the left.
+    let text = "v a -50 -50 -1; v b 50 -50 -1; v c 50 50 -1; v d -50 50 -1; f (a b c d); cam -ep 0 0 0 -vc -1 0 -.2;";
+    for direction in [DVec3::X, DVec3::Z, DVec3::new(0.6, 0.0, 0.8)] {
+        let whole = Config { measure: true, ..moving(direction * 0.9) };
+        let seen = Config { cull: Some([80, 60]), ..whole.clone() };
+        let n_faces = |config: &Config| {
+            let report = run(text, config);
+            let achieved = report.notes.achieved.unwrap();
+            assert!(achieved.angle.error <= 1.000_001e-4 && achieved.depth.error <= 1.000_001e-4);
+            // Euler's formula holds only if pieces share their edges.
+            let euler = |scene: &Scene| scene.vertices.len() + scene.faces.len() - edges(scene).len();
+            assert_eq!(euler(&report.scene), 1);
+            report.scene.faces.len()
+        };
+        let (all, few) = (n_faces(&whole), n_faces(&seen));
+        assert!(few < all * 2 / 3, "{direction}: {few} of {all}");
+    }
+}
+
+#[test]
+fn light_left_over_is_told() {
+    let text = "v a -2 3 0; v b 2 3 0; v c 2 3 2; v d -2 3 2; f (a b c d); l 1 0 2 1 0;";
+    let told = |light_error: f64| {
+        let config = Config { measure: true, light_error, ..Config::default() };
+        let notes = run(text, &config).notes;
+        let is_said = notes.details()[1].contains("light ");
+        (notes.achieved.unwrap().light.map(|worst| worst.error), is_said)
+    };
+    assert_eq!(told(f64::INFINITY), (None, false));
+    for bound in [0.1, 0.01] {
+        let (error, is_said) = told(bound);
+        assert!(is_said && error.is_some_and(|error| error <= bound && error > bound / 10.0), "{error:?}");
     }
 }
 

@@ -138,12 +138,22 @@ struct Writer<'s> {
     /// Comments not written yet; they are sorted by statement.
     comments: &'s [Comment],
     numbers: zmij::Buffer,
+    /// The velocity written last, and its text: neighbouring faces mostly share one.
+    velocity: Option<VelocityId>,
+    velocity_text: Vec<u8>,
 }
 
 impl<'s> Writer<'s> {
     /// Appends what `write` writes to `out`.
     fn on(out: &mut Vec<u8>, scene: &'s Scene, comments: &'s [Comment], write: impl FnOnce(&mut Self)) {
-        let mut writer = Self { scene, out: std::mem::take(out), comments, numbers: zmij::Buffer::new() };
+        let mut writer = Self {
+            scene,
+            out: std::mem::take(out),
+            comments,
+            numbers: zmij::Buffer::new(),
+            velocity: None,
+            velocity_text: Vec::new(),
+        };
         write(&mut writer);
         *out = writer.out;
     }
@@ -225,14 +235,19 @@ impl<'s> Writer<'s> {
     }
 
     fn optional_velocity(&mut self, velocity: Option<VelocityId>) {
-        if let Some(velocity) = velocity {
-            self.text(" <");
-            let start = self.out.len();
-            self.point(self.scene.velocities[velocity.index()]);
-            // The blank before the first number is not needed behind `<`.
-            self.out.remove(start);
-            self.text(">");
+        let Some(id) = velocity else { return };
+        if self.velocity != velocity {
+            self.velocity = velocity;
+            self.velocity_text.clear();
+            let mut mark: &[u8] = b" <";
+            for part in self.scene.velocities[id.index()].to_array() {
+                self.velocity_text.extend_from_slice(mark);
+                push_number(&mut self.velocity_text, &mut self.numbers, part);
+                mark = b" ";
+            }
+            self.velocity_text.push(b'>');
         }
+        self.out.extend_from_slice(&self.velocity_text);
     }
 
     fn contours(&mut self, contours: &Contours, rows: std::ops::Range<u32>) {

@@ -1,0 +1,218 @@
+//! Which edges bend, and where it shows.
+//!
+//! Whether an edge bends is a function of the edge alone. Whether that shows depends on the piece it borders: on one out of
+//! sight nothing does; within a face depth shows only as far as it leaves the plane of the piece; and of a piece that is
+//! seen as a line only the outline is seen. An edge is halved if it bends and that shows in any of its pieces.
+
+use glam::DVec3;
+use rayon::prelude::*;
+use ugparse::{Face, Scene, VertexId};
+
+use crate::cull::Sight;
+use crate::edge::{self, Shown, Tolerance};
+use crate::growth::Growth;
+use crate::lit::Lit;
+use crate::motion::{Motion, Point};
+use crate::pieces::{Cut, Polyline, Shape, as_contours, shape};
+use crate::{edge_on, interior, quick};
+
+/// An edge is halved this often at most. Each halving divides the sagitta by 4, so 12 take the worst arc down
+/// to the default bound; the rest are for edges that pass the eye at a millionth of their length.
+pub(crate) const MAX_GENERATION: u32 = 32;
+
+/// How right the result has to be.
+#[derive(Clone, Debug)]
+pub(crate) struct Bounds {
+    tolerance: Tolerance,
+    pub lit: Lit,
+    sight: Sight,
+    /// [`quick::most_spread`] of each body.
+    spreads: Vec<f64>,
+}
+
+impl Bounds {
+    pub(crate) fn new(tolerance: Tolerance, lit: Lit, sight: Sight, motions: &[Motion]) -> Bounds {
+        let spreads = motions.iter().map(|motion| quick::most_spread(motion, &tolerance)).collect();
+        Bounds { tolerance, lit, sight, spreads }
+    }
+
+    /// What is seen of a flat piece and its edges; `None` if it is out of sight.
+    pub(crate) fn shown(&self, motion: &Motion, corners: &[&Point]) -> Option<Shown> {
+        if self.sight.is_outside(motion, corners) {
+            return None;
+        }
+        let is_line = edge_on::is_seen_as_line(motion, corners, 2.0 * self.tolerance.tan_half);
+        Some(if is_line { Shown::Outline } else { Shown::OnPiece(edge::slant(corners, motion)) })
+    }
+}
+
+/// What of a piece is to be cut.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Marks {
+    /// From each corner to the next.
+    pub edges: [bool; 4],
+    /// No edge, but the inside, or a diagonal of the quadrilateral.
+    pub inside: bool,
+}
+
+impl Marks {
+    pub(crate) fn any(self) -> bool {
+        self.inside || self.any_edge()
+    }
+
+    fn any_edge(self) -> bool {
+        self.edges.contains(&true)
+    }
+
+    /// At most how many pieces more there are when these edges are halved.
+    pub(crate) fn n_added(self) -> usize {
+        let n_edges = self.edges.iter().filter(|&&mark| mark).count();
+        if self.any() { n_edges + 1 } else { 0 }
+    }
+}
+
+/// What is said of a piece.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Verdict {
+    /// The edges that bend.
+    pub bends: [bool; 4],
+    /// What of that shows in this piece, and if no edge does, the inside.
+    pub shows: Marks,
+}
+
+impl Verdict {
+    /// Is there anything to cut, now or when another piece asks for it?
+    pub(crate) fn is_open(&self) -> bool {
+        self.bends.contains(&true) || self.shows.inside
+    }
+}
+
+/// Says which edges bend.
+pub(crate) struct Judge<'a, 'b> {
+    pub growth: &'a Growth<'b>,
+    pub bounds: &'a Bounds,
+}
+
+impl Judge<'_, '_> {
+    /// Does this edge bend? Asked in one order of its ends, so that all who share it hear the same.
+    fn bends(&self, a: u32, b: u32) -> bool {
+        self.generation(a, b) < MAX_GENERATION && self.bends_at_any_depth(a, b)
+    }
+
+    pub(crate) fn generation(&self, a: u32, b: u32) -> u32 {
+        self.growth.point(a).generation.max(self.growth.point(b).generation)
+    }
+
+    pub(crate) fn bends_at_any_depth(&self, a: u32, b: u32) -> bool {
+        let (low, high) = (a.min(b), a.max(b));
+        let growth = self.growth;
+        let (from, to, motion) = (growth.point(low), growth.point(high), growth.motion(low));
+        edge::bends(from, to, motion, &self.bounds.tolerance) || self.bounds.lit.is_uneven(from, to, motion)
+    }
+
+    /// The faces with edges that bend, in order, cut into triangles and convex quadrilaterals.
+    pub(crate) fn first_cuts(&self, scene: &Scene) -> Vec<(u32, Cut)> {
+        let cut = |(idx, face): (usize, &Face)| Some((idx as u32, self.first_cut(scene, face)?));
+        scene.faces.par_iter().enumerate().filter_map(cut).collect()
+    }
+
+    /// `None` if the face can stay as it is.
+    fn first_cut(&self, scene: &Scene, face: &Face) -> Option<Cut> {
+        let corners = scene.contours.corners(face.contours.clone());
+        let motion = self.growth.motion(corners.first()?.0);
+        if self.is_right_for_sure(motion, corners.iter().map(|corner| corner.0)) {
+            return None;
+        }
+        let rest = |vertex: VertexId| -> DVec3 { self.growth.point(vertex.0).rest };
+        let cut = if edge_on::is_edge_on(scene, face, motion, rest) {
+            Cut::EdgeOn(as_contours(scene, face))
+        } else {
+            shape(scene, face, rest)?
+        };
+        let bends = match &cut {
+            Cut::Pieces(shapes) => shapes.iter().any(|shape| self.piece(shape).is_open()),
+            Cut::EdgeOn(lines) | Cut::Contours(lines) => {
+                lines.iter().any(|line| self.line(line).contains(&true))
+            }
+        };
+        bends.then_some(cut)
+    }
+
+    /// True only if no line between these corners of a body bends, and nothing inside.
+    fn is_right_for_sure(&self, motion: &Motion, corners: impl Iterator<Item = u32> + Clone) -> bool {
+        let Bounds { tolerance, lit, spreads, .. } = self.bounds;
+        let points = corners.map(|corner| self.growth.point(corner));
+        let body = points.clone().next().map_or(0, |point| point.body as usize);
+        let is_shape_right = || {
+            motion.is_at_rest()
+                || quick::is_close(points.clone(), spreads[body])
+                || quick::is_right(motion, points.clone(), tolerance)
+        };
+        is_shape_right() && lit.is_even(motion, points.clone())
+    }
+
+    pub(crate) fn bent_wires(&self, scene: &Scene) -> Vec<Polyline> {
+        let rows: Vec<u32> = scene.wires.iter().flat_map(|wire| wire.contours.clone()).collect();
+        rows.into_par_iter()
+            .map(|row| Polyline::open(row, scene.contours.get(row)))
+            .filter(|line| self.line(line).contains(&true))
+            .collect()
+    }
+
+    pub(crate) fn line(&self, line: &Polyline) -> Vec<bool> {
+        line.edges().map(|(a, b)| self.bends(a, b)).collect()
+    }
+
+    /// What bends in a piece, and shows.
+    pub(crate) fn piece(&self, shape: &Shape) -> Verdict {
+        let mut verdict = Verdict::default();
+        let motion = self.growth.motion(shape.corners()[0]);
+        if self.is_right_for_sure(motion, shape.corners().iter().copied()) {
+            return verdict;
+        }
+        for (mark, (a, b)) in verdict.bends.iter_mut().zip(shape.edges()) {
+            *mark = self.bends(a, b);
+        }
+        let points: Vec<&Point> = shape.corners().iter().map(|&corner| self.growth.point(corner)).collect();
+        let Some(shown) = self.bounds.shown(motion, &points) else { return verdict };
+        let shows = &mut verdict.shows;
+        for ((mark, bends), (a, b)) in shows.edges.iter_mut().zip(verdict.bends).zip(shape.edges()) {
+            *mark = bends && self.shows(a, b, shown);
+        }
+        shows.inside =
+            !shows.any_edge() && !matches!(shown, Shown::Outline) && self.bends_inside(shape, shown);
+        verdict
+    }
+
+    /// `shown`: of the piece, if the edge lies within a face. All of an edge of the scene is, for what is beside it may have been
+    /// modelled with other corners, and two lines that are drawn in different pieces leave a slit.
+    fn shows(&self, a: u32, b: u32, shown: Shown) -> bool {
+        let shown = if self.growth.is_rim(a, b) { Shown::All } else { shown };
+        let (low, high) = (a.min(b), a.max(b));
+        let (from, to, motion) = (self.growth.point(low), self.growth.point(high), self.growth.motion(low));
+        edge::shows(from, to, motion, &self.bounds.tolerance, shown)
+            || self.bounds.lit.is_uneven(from, to, motion)
+    }
+
+    /// Given that no edge bends so that it shows.
+    fn bends_inside(&self, shape: &Shape, shown: Shown) -> bool {
+        match *shape {
+            Shape::Triangle(corners) => self.bulges(corners),
+            Shape::Quad([a, b, c, d]) => {
+                let bends = |(a, b)| self.bends(a, b) && self.shows(a, b, shown);
+                [(a, c), (b, d)].into_iter().any(bends)
+                    || [[a, b, c], [a, c, d], [b, c, d], [b, d, a]].into_iter().any(|half| self.bulges(half))
+            }
+        }
+    }
+
+    /// Is the true face too far from the inside of this triangle?
+    fn bulges(&self, corners: [u32; 3]) -> bool {
+        let motion = self.growth.motion(corners[0]);
+        let points: [&Point; 3] = corners.map(|corner| self.growth.point(corner));
+        let is_deep = points.iter().any(|point| point.generation >= MAX_GENERATION);
+        motion.has_flight_time()
+            && !is_deep
+            && interior::offset(motion, points) > self.bounds.tolerance.offset
+    }
+}
