@@ -4,6 +4,7 @@ use ugimage::{Format, Tone};
 use ugphysics::{Brightness, Hsv};
 use ugscene::{CameraOptions, HueScale};
 
+use crate::figures::Figures;
 use crate::planes::Channel;
 
 /// Everything that decides the bytes of a picture besides the scene.
@@ -34,6 +35,8 @@ pub struct Config {
     pub channels: Vec<Channel>,
     /// Faces are drawn by a ray for each sample (`-xc`), from a scene whose colours have not been shifted.
     pub exact: Option<Exact>,
+    /// What the figure has besides the picture.
+    pub figures: Figures,
     /// How the program was called, to be written into the picture.
     pub command_line: String,
 }
@@ -55,6 +58,7 @@ impl Default for Config {
             tone: Tone::Clip,
             channels: Vec::new(),
             exact: None,
+            figures: Figures::default(),
             command_line: String::new(),
         }
     }

@@ -1,0 +1,116 @@
+//! What is seen in the middle of each pixel, and which parts of a line it hides.
+
+use glam::DVec3;
+use uglabel::Point;
+use ugscene::View;
+
+use crate::config::{Config, Exact};
+use crate::raster::{Gathered, Seen};
+use crate::setup::Setup;
+use crate::sheet::Sheet;
+
+/// A line as far behind a face as this part of its distance is still on it: lines follow edges and grounds.
+const SLACK: f64 = 2e-3;
+
+/// Steps of a line in pixels, at each of which it is asked whether it is seen.
+const STEP: f64 = 0.5;
+
+/// What is asked of a picture with one sample for each pixel.
+pub fn coarse(config: &Config) -> Config {
+    Config { samples: 1, ..config.clone() }
+}
+
+/// What is seen in the middle of each pixel.
+pub struct Depths {
+    size: [u32; 2],
+    is_perspective: bool,
+    /// Row after row; of face or wire, see [`crate::painter::Painter`].
+    pub seen: Vec<Option<Seen<u32>>>,
+}
+
+impl Depths {
+    /// `setup`: with one sample for each pixel.
+    pub fn new(setup: &Setup<'_>, exact: Option<Exact>) -> Self {
+        let grid = &setup.grid;
+        let sheet = Sheet::new(setup.painter(), exact);
+        let mut seen = vec![None; grid.width as usize * grid.height as usize];
+        sheet.paint(grid, &setup.shader, &mut seen, &|all: &Gathered<u32>| all.center);
+        Self { size: [grid.width, grid.height], is_perspective: grid.is_perspective, seen }
+    }
+
+    /// The parts of a line in the picture that nothing hides; its ends are relative to the eye.
+    pub fn visible(&self, view: &View, ends: [DVec3; 2]) -> Vec<[Point; 2]> {
+        let Some(ends) = in_picture(view, ends) else { return Vec::new() };
+        let [a, b] = ends.map(|end| self.spot(view, end));
+        let at = |part: f64| [0, 1, 2].map(|i| a[i] + (b[i] - a[i]) * part);
+        let length = libm::hypot(b[0] - a[0], b[1] - a[1]);
+        // A line in the picture is not longer than its diagonal.
+        let n_steps = (length / STEP).ceil().clamp(1.0, 1e6) as u32;
+        let part = |step: u32| f64::from(step) / f64::from(n_steps);
+        let mut lines = Vec::new();
+        let mut start = None;
+        for step in 0..=n_steps {
+            let is_seen = step < n_steps && self.is_seen(view, at(0.5 * (part(step) + part(step + 1))));
+            match (start, is_seen) {
+                (None, true) => start = Some(step),
+                (Some(first), false) => {
+                    let [from, to] = [first, step].map(|step| at(part(step)));
+                    lines.push([[from[0], from[1]], [to[0], to[1]]]);
+                    start = None;
+                }
+                _ => {}
+            }
+        }
+        lines
+    }
+
+    /// True if a point relative to the eye is in the picture, and nothing hides it.
+    pub fn shows(&self, view: &View, point: DVec3) -> Option<Point> {
+        in_picture(view, [point; 2])?;
+        let spot = self.spot(view, point);
+        self.is_seen(view, spot).then_some([spot[0], spot[1]])
+    }
+
+    /// Column, row and depth key, which is linear in the picture.
+    fn spot(&self, view: &View, point: DVec3) -> [f64; 3] {
+        let place = view.place(point);
+        if self.is_perspective {
+            [place.x / place.z, place.y / place.z, 1.0 / place.z]
+        } else {
+            [place.x, place.y, -place.z]
+        }
+    }
+
+    /// True unless all nine pixels round the spot show something nearer.
+    fn is_seen(&self, view: &View, [x, y, key]: [f64; 3]) -> bool {
+        let slack = if self.is_perspective { SLACK * key } else { SLACK * view.distance };
+        let [width, height] = self.size.map(i64::from);
+        let (column, row) = (x.floor() as i64, y.floor() as i64);
+        (row - 1..=row + 1).any(|row| {
+            (column - 1..=column + 1).any(|column| {
+                if !(0..width).contains(&column) || !(0..height).contains(&row) {
+                    return false;
+                }
+                let seen = self.seen[(row * width + column) as usize];
+                seen.is_none_or(|seen| f64::from(seen.key) <= key + slack)
+            })
+        })
+    }
+}
+
+/// The part of a line that is in the picture and between the clipping planes.
+fn in_picture(view: &View, [a, b]: [DVec3; 2]) -> Option<[DVec3; 2]> {
+    let (mut start, mut end) = (0.0f64, 1.0f64);
+    for side in view.half_spaces().into_iter().flatten() {
+        let inside = |point: DVec3| side.normal.dot(point) + side.offset;
+        let (first, last) = (inside(a), inside(b));
+        let crossing = first / (first - last);
+        match (first >= 0.0, last >= 0.0) {
+            (false, false) => return None,
+            (false, true) => start = start.max(crossing),
+            (true, false) => end = end.min(crossing),
+            (true, true) => {}
+        }
+    }
+    (start <= end).then(|| [a + (b - a) * start, a + (b - a) * end])
+}
