@@ -27,6 +27,7 @@
 mod coverage;
 mod drawing;
 mod font;
+pub mod number;
 mod paint;
 mod text;
 

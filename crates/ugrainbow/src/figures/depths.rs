@@ -15,10 +15,16 @@ const SLACK: f64 = 2e-3;
 /// Steps of a line in pixels, at each of which it is asked whether it is seen.
 const STEP: f64 = 0.5;
 
+/// The longest part of a line, in pixels, that is left out if most of the line is hidden.
+const SPECK: f64 = 3.0;
+
 /// What is asked of a picture with one sample for each pixel.
 pub fn coarse(config: &Config) -> Config {
     Config { samples: 1, ..config.clone() }
 }
+
+/// Column, row and depth key.
+pub type Spot = [f64; 3];
 
 /// What is seen in the middle of each pixel.
 pub struct Depths {
@@ -40,22 +46,37 @@ impl Depths {
 
     /// The parts of a line in the picture that nothing hides; its ends are relative to the eye.
     pub fn visible(&self, view: &View, ends: [DVec3; 2]) -> Vec<[Point; 2]> {
+        self.visible_where(view, ends, |_, _| true)
+    }
+
+    /// The same, of those parts that are asked for: by place, and by a step of a pixel across the line.
+    pub fn visible_where(
+        &self,
+        view: &View,
+        ends: [DVec3; 2],
+        is_asked: impl Fn(Spot, Point) -> bool,
+    ) -> Vec<[Point; 2]> {
         let Some(ends) = in_picture(view, ends) else { return Vec::new() };
         let [a, b] = ends.map(|end| self.spot(view, end));
         let at = |part: f64| [0, 1, 2].map(|i| a[i] + (b[i] - a[i]) * part);
         let length = libm::hypot(b[0] - a[0], b[1] - a[1]);
         // A line in the picture is not longer than its diagonal.
+        let across = if length > 0.0 { [(a[1] - b[1]) / length, (b[0] - a[0]) / length] } else { [0.0; 2] };
         let n_steps = (length / STEP).ceil().clamp(1.0, 1e6) as u32;
         let part = |step: u32| f64::from(step) / f64::from(n_steps);
         let mut lines = Vec::new();
         let mut start = None;
         for step in 0..=n_steps {
-            let is_seen = step < n_steps && self.is_seen(view, at(0.5 * (part(step) + part(step + 1))));
+            let middle = at(0.5 * (part(step) + part(step + 1)));
+            let is_seen = step < n_steps && self.is_seen(view, middle) && is_asked(middle, across);
             match (start, is_seen) {
                 (None, true) => start = Some(step),
                 (Some(first), false) => {
                     let [from, to] = [first, step].map(|step| at(part(step)));
-                    lines.push([[from[0], from[1]], [to[0], to[1]]]);
+                    // A speck of a longer line is where hiding was decided by a hair.
+                    if 2 * (step - first) >= n_steps || f64::from(step - first) * STEP > SPECK {
+                        lines.push([[from[0], from[1]], [to[0], to[1]]]);
+                    }
                     start = None;
                 }
                 _ => {}
@@ -72,7 +93,7 @@ impl Depths {
     }
 
     /// Column, row and depth key, which is linear in the picture.
-    fn spot(&self, view: &View, point: DVec3) -> [f64; 3] {
+    fn spot(&self, view: &View, point: DVec3) -> Spot {
         let place = view.place(point);
         if self.is_perspective {
             [place.x / place.z, place.y / place.z, 1.0 / place.z]
@@ -81,18 +102,29 @@ impl Depths {
         }
     }
 
+    /// The point of a spot, relative to the eye.
+    pub fn point(&self, view: &View, [x, y, key]: Spot) -> DVec3 {
+        view.point([x, y], if self.is_perspective { 1.0 / key } else { -key })
+    }
+
+    /// The face that is seen at a place; none where nothing is, and outside the picture.
+    pub fn face_at(&self, [x, y]: Point) -> Option<usize> {
+        let [width, height] = self.size.map(f64::from);
+        let is_inside = (0.0..width).contains(&x) && (0.0..height).contains(&y);
+        let idx = is_inside.then(|| y as usize * self.size[0] as usize + x as usize)?;
+        self.seen[idx].map(|seen| seen.tag as usize)
+    }
+
     /// True unless all nine pixels round the spot show something nearer.
-    fn is_seen(&self, view: &View, [x, y, key]: [f64; 3]) -> bool {
+    fn is_seen(&self, view: &View, [x, y, key]: Spot) -> bool {
         let slack = if self.is_perspective { SLACK * key } else { SLACK * view.distance };
         let [width, height] = self.size.map(i64::from);
         let (column, row) = (x.floor() as i64, y.floor() as i64);
         (row - 1..=row + 1).any(|row| {
             (column - 1..=column + 1).any(|column| {
-                if !(0..width).contains(&column) || !(0..height).contains(&row) {
-                    return false;
-                }
-                let seen = self.seen[(row * width + column) as usize];
-                seen.is_none_or(|seen| f64::from(seen.key) <= key + slack)
+                let is_inside = (0..width).contains(&column) && (0..height).contains(&row);
+                let seen = || self.seen[(row * width + column) as usize];
+                is_inside && seen().is_none_or(|seen| f64::from(seen.key) <= key + slack)
             })
         })
     }

@@ -8,9 +8,9 @@ use uglabel::{DESCENT, Drawing, Line, MissingCharacter, Point};
 use ugscene::View;
 
 use super::depths::Depths;
-use super::number::significant;
 use super::style::Style;
 use crate::setup::Setup;
+use uglabel::number::significant;
 
 /// Squares there should be on a ground that is a square, along a side.
 const SQUARES: f64 = 8.0;

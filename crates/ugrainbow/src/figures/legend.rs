@@ -5,8 +5,8 @@ use uglabel::{Drawing, Line, MissingCharacter, Point, Rgb};
 use ugphysics::{Hsv, attenuation, wavelength_to_hue};
 
 use super::motion::Motion;
-use super::number::{few, range, significant, speed};
 use super::style::Style;
+use uglabel::number::{few, range, significant, speed};
 
 /// The wavelength, in nm, of which the legend says where it is seen: the middle of the visible range, green.
 const SAMPLE_NM: f64 = 550.0;
@@ -180,7 +180,6 @@ impl Legend<'_> {
         let row = top + 1.5 * size;
         let right = left + width;
         let start = self.layout.column(SAMPLE_NM);
-        drawing.area(circle([start, row], 0.18 * size), ink);
         let ends = seen_nm.map(|wavelength_nm| self.layout.column(wavelength_nm));
         let near = start.clamp(ends[0], ends[1]);
         let inside = ends.map(|end| end.clamp(left, right));
@@ -199,10 +198,12 @@ impl Legend<'_> {
         // Short ones are still seen.
         let wider = (0.5 * (0.3 * size - (inside[1] - inside[0]))).max(0.0);
         if inside[1] > inside[0] || (left..=right).contains(&near) {
-            let thick = 0.3 * size;
+            let thick = 0.24 * size;
             let corners = [[inside[0] - wider, row - 0.5 * thick], [inside[1] + wider, row + 0.5 * thick]];
             drawing.rectangle(corners[0], corners[1], ink);
         }
+        drawing.area(circle([start, row], 0.42 * size), self.style.ground);
+        drawing.area(circle([start, row], 0.28 * size), ink);
     }
 
     /// Velocities as arrows of unit length, seen from the camera's direction.

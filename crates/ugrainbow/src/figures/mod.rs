@@ -9,7 +9,6 @@ mod depths;
 mod grid;
 mod legend;
 mod motion;
-mod number;
 mod outline;
 mod style;
 

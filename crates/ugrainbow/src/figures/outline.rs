@@ -9,18 +9,27 @@
 use std::collections::HashMap;
 
 use glam::DVec3;
-use uglabel::Drawing;
+use uglabel::{Drawing, Point};
 use ugparse::{Scene, VelocityId, VertexId, newell_normal};
 use ugscene::{Geometry, View, vertex_velocities};
 
-use super::depths::Depths;
+use super::depths::{Depths, Spot};
 use super::style::Style;
 use crate::config::Config;
 use crate::error::Error;
 use crate::setup::Setup;
 
-/// Faces that meet at less than this angle are one bent surface: its cosine, of 25 degrees.
-const CREASE: f64 = 0.906;
+/// Faces that meet at less than this angle are one bent surface: its cosine, of 35 degrees.
+const CREASE: f64 = 0.819;
+
+/// The same of faces in one plane.
+const COPLANAR: f64 = 0.9999;
+
+/// How far beside a line it is asked what goes on there, in pixels.
+const ASIDE: f64 = 1.6;
+
+/// What is so far from the plane of a face, in parts of its distance from the eye, still lies in it.
+const FLAT: f64 = 3e-3;
 
 /// Draws the outlines. `setup`: with one sample for each pixel, and `config` of the same.
 ///
@@ -46,8 +55,12 @@ pub fn draw(
     let ideal = Setup::new(&ideal, &still)?;
     let depths = Depths::new(&ideal, None);
     let mut lines = Vec::new();
-    for ends in Edges::of(scene, &is_moving).shown(&Faces { scene, places: &places, view: &setup.view }) {
-        lines.extend(depths.visible(&setup.view, ends.map(|vertex| places[vertex.index()])));
+    let faces = Faces { scene, places: &places, view: &setup.view };
+    for edge in edges(scene, &is_moving).iter().filter(|edge| edge.is_shown(&faces)) {
+        let ends = edge.ends.map(|vertex| places[vertex.index()]);
+        lines.extend(depths.visible_where(&setup.view, ends, |spot, across| {
+            edge.faces.len() == 2 || !faces.go_on(&depths, spot, across)
+        }));
     }
     let width = 1.2 * style.hairline();
     drawing.lines(lines.clone(), 2.6 * width, style.ground);
@@ -113,6 +126,20 @@ impl Faces<'_> {
             if self.view.is_perspective { -self.places[outline[0].index()] } else { -self.view.forward };
         (normal, normal.dot(toward) > 0.0)
     }
+
+    /// True if one surface goes on at both sides of a place on a line, though it may be made of faces that do not
+    /// share this edge: cut another way, or let into each other.
+    fn go_on(&self, depths: &Depths, spot: Spot, across: Point) -> bool {
+        let point = depths.point(self.view, spot);
+        let side = |by: f64| {
+            let face = depths.face_at([spot[0] + by * across[0], spot[1] + by * across[1]])?;
+            let corner = self.scene.face_contours(&self.scene.faces[face]).next()?.first()?;
+            let (normal, is_front) = self.normal(face);
+            let height = normal.dot(point - self.places[corner.index()]).abs();
+            (height <= FLAT * point.length()).then_some(if is_front { normal } else { -normal })
+        };
+        matches!((side(ASIDE), side(-ASIDE)), (Some(one), Some(other)) if one.dot(other) > CREASE)
+    }
 }
 
 /// An edge of faces, from its first use.
@@ -123,44 +150,40 @@ struct Edge {
 }
 
 /// Edges of moving bodies, in the order of the scene.
-struct Edges(Vec<Edge>);
-
-impl Edges {
-    fn of(scene: &Scene, is_moving: &dyn Fn(Option<VelocityId>) -> bool) -> Self {
-        // A vertex that was repeated, for another colour, is in the same place.
-        let spot = |vertex: VertexId| scene.vertices[vertex.index()].position.to_array().map(f64::to_bits);
-        let mut edges: Vec<Edge> = Vec::new();
-        // Only looked up, so its order is never seen.
-        let mut known = HashMap::new();
-        for (idx, face) in scene.faces.iter().enumerate().filter(|(_, face)| is_moving(face.velocity)) {
-            for contour in scene.face_contours(face) {
-                for (&a, &b) in contour.iter().zip(contour.iter().cycle().skip(1)) {
-                    let (from, to) = (spot(a), spot(b));
-                    let key = (from.min(to), from.max(to), face.velocity);
-                    let edge = *known.entry(key).or_insert_with(|| {
-                        edges.push(Edge { ends: [a, b], faces: Vec::new() });
-                        edges.len() - 1
-                    });
-                    let is_forth = spot(edges[edge].ends[0]) == from;
-                    edges[edge].faces.push((idx, is_forth));
-                }
+fn edges(scene: &Scene, is_moving: &dyn Fn(Option<VelocityId>) -> bool) -> Vec<Edge> {
+    // A vertex that was repeated, for another colour, is in the same place.
+    let spot = |vertex: VertexId| scene.vertices[vertex.index()].position.to_array().map(f64::to_bits);
+    let mut edges: Vec<Edge> = Vec::new();
+    // Only looked up, so its order is never seen.
+    let mut known = HashMap::new();
+    for (idx, face) in scene.faces.iter().enumerate().filter(|(_, face)| is_moving(face.velocity)) {
+        for contour in scene.face_contours(face) {
+            for (&a, &b) in contour.iter().zip(contour.iter().cycle().skip(1)) {
+                let (from, to) = (spot(a), spot(b));
+                let key = (from.min(to), from.max(to), face.velocity);
+                let edge = *known.entry(key).or_insert_with(|| {
+                    edges.push(Edge { ends: [a, b], faces: Vec::new() });
+                    edges.len() - 1
+                });
+                let is_forth = spot(edges[edge].ends[0]) == from;
+                edges[edge].faces.push((idx, is_forth));
             }
         }
-        Self(edges)
     }
-
-    /// Those to be drawn, if nothing hides them.
-    fn shown<'a>(&'a self, faces: &'a Faces<'a>) -> impl Iterator<Item = [VertexId; 2]> + 'a {
-        self.0.iter().filter(|edge| edge.is_shown(faces)).map(|edge| edge.ends)
-    }
+    edges
 }
 
 impl Edge {
+    /// True if it is drawn where nothing hides it.
     fn is_shown(&self, faces: &Faces<'_>) -> bool {
         let &[(one, one_forth), (other, other_forth)] = self.faces.as_slice() else { return true };
         let ((normal, is_front), (other_normal, other_is_front)) = (faces.normal(one), faces.normal(other));
         // Faces of one surface run opposite ways along their edge; else one of them is turned.
         let is_turned = one_forth == other_forth;
+        // Or one lies in a hole of the other.
+        if is_turned && normal.dot(other_normal) > COPLANAR {
+            return false;
+        }
         if is_front != (other_is_front != is_turned) {
             return true;
         }
