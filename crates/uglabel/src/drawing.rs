@@ -66,7 +66,7 @@ impl Drawing {
             return;
         }
         let (x, y) = (x / length, y / length);
-        let head = (6.0 * width).min(length);
+        let head = (6.0 * width).min(0.7 * length);
         let neck = [to[0] - head * x, to[1] - head * y];
         let side = |by: f64| [neck[0] - by * y, neck[1] + by * x];
         // The shaft ends within the head, so that no gap shows.

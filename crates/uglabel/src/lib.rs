@@ -27,11 +27,13 @@
 mod coverage;
 mod drawing;
 mod font;
+mod ink;
 pub mod number;
 mod paint;
 mod text;
 
 pub use drawing::{Drawing, Shape};
 pub use font::MissingCharacter;
+pub use ink::ink_on;
 pub use text::{ASCENT, DESCENT, Line, SPACING, wrapped};
 pub use ugimage::figure::{Point, Rgb};

@@ -85,9 +85,8 @@ impl Depths {
         lines
     }
 
-    /// True if a point relative to the eye is in the picture, and nothing hides it.
+    /// Where a point, relative to the eye and in the picture, is seen, if nothing hides it.
     pub fn shows(&self, view: &View, point: DVec3) -> Option<Point> {
-        in_picture(view, [point; 2])?;
         let spot = self.spot(view, point);
         self.is_seen(view, spot).then_some([spot[0], spot[1]])
     }
@@ -130,8 +129,8 @@ impl Depths {
     }
 }
 
-/// The part of a line that is in the picture and between the clipping planes.
-fn in_picture(view: &View, [a, b]: [DVec3; 2]) -> Option<[DVec3; 2]> {
+/// The part of a line that is in the picture and between the clipping planes; its ends are relative to the eye.
+pub fn in_picture(view: &View, [a, b]: [DVec3; 2]) -> Option<[DVec3; 2]> {
     let (mut start, mut end) = (0.0f64, 1.0f64);
     for side in view.half_spaces().into_iter().flatten() {
         let inside = |point: DVec3| side.normal.dot(point) + side.offset;

@@ -7,16 +7,16 @@ use glam::DVec3;
 use uglabel::{DESCENT, Drawing, Line, MissingCharacter, Point};
 use ugscene::View;
 
-use super::depths::Depths;
+use super::depths::{Depths, in_picture};
 use super::style::Style;
 use crate::setup::Setup;
 use uglabel::number::significant;
 
-/// Squares there should be on a ground that is a square, along a side.
+/// Squares that should be beside each other in the picture, a quarter above its lower edge.
 const SQUARES: f64 = 8.0;
 
 /// Most squares along a side.
-const MOST: f64 = 40.0;
+const MOST: f64 = 100.0;
 
 /// Size of numbers, in parts of that of a caption.
 const TEXT: f64 = 0.8;
@@ -42,7 +42,7 @@ pub fn draw(
         }
     }
     let is_empty = lines.is_empty();
-    drawing.lines(lines, style.hairline(), style.faint);
+    drawing.lines(lines, style.hairline, style.faint);
     let mut labels = Labels { grid: &grid, view, depths, style, boxes: Vec::new(), size: setup.size() };
     for axis in 0..2 {
         labels.draw(axis, drawing)?;
@@ -68,16 +68,15 @@ impl Grid {
     /// None if the scene is too far away for numbers.
     fn of(setup: &Setup<'_>) -> Option<Self> {
         let (low, high) = setup.scene().bounds()?;
-        let sides = [high.x - low.x, high.y - low.y];
-        let longest = sides[0].max(sides[1]);
-        let longest = if longest > 0.0 { longest } else { setup.view.distance };
-        let mean = libm::sqrt(sides[0] * sides[1]);
-        let step = round_step((mean / SQUARES).max(longest / MOST));
+        let longest = (high.x - low.x).max(high.y - low.y);
+        let level = if low.z < -1e-9 * longest { low.z } else { 0.0 };
+        let depth = depth(setup, level);
+        let [left, right] = [0.0, setup.size()[0]].map(|column| setup.view.point([column, 0.0], depth));
+        let step = round_step(((right - left).length() / SQUARES).max(longest / MOST));
         let ends = [[low.x, high.x], [low.y, high.y]]
             .map(|[low, high]| [(low / step).floor(), (high / step).ceil()]);
         // Beyond, a line is not told from the next.
         let is_near = ends.iter().flatten().all(|end| end.abs() < 1e9);
-        let level = if low.z < -1e-9 * longest { low.z } else { 0.0 };
         is_near.then(|| Self { step, level, ends: ends.map(|ends| ends.map(|end| end as i64)) })
     }
 
@@ -91,6 +90,23 @@ impl Grid {
         let (along, across) = (number as f64 * self.step, across as f64 * self.step);
         if axis == 0 { DVec3::new(along, across, self.level) } else { DVec3::new(across, along, self.level) }
     }
+}
+
+/// True if a box overlaps none of the others.
+fn is_free([low, high]: [Point; 2], others: &[[Point; 2]]) -> bool {
+    let is_apart = |[other_low, other_high]: &[Point; 2]| {
+        (0..2).any(|i| high[i] < other_low[i] || low[i] > other_high[i])
+    };
+    others.iter().all(is_apart)
+}
+
+/// The depth of the ground in the lower part of the picture; that of the view centre if it is nearer.
+fn depth(setup: &Setup<'_>, level: f64) -> f64 {
+    let view = &setup.view;
+    let [width, height] = setup.size();
+    let [near, far] = [1.0, 2.0].map(|depth| view.eye.z + view.point([0.5 * width, 0.75 * height], depth).z);
+    let crossing = 1.0 + (level - near) / (far - near);
+    if crossing > 0.0 && view.is_perspective { crossing.min(view.distance) } else { view.distance }
 }
 
 /// The least of 1, 2, 5, 10, 20, … and .5, .2, … that is not less.
@@ -117,22 +133,37 @@ struct Labels<'a> {
 }
 
 impl Labels<'_> {
+    /// From the nearest on, until two would overlap. Those of the other axis, where they stand, are left out.
     fn draw(&mut self, axis: usize, drawing: &mut Drawing) -> Result<(), MissingCharacter> {
         let grid = self.grid;
         let near = self.near_side(axis);
         let [low, high] = grid.ends[1 - axis];
         let far = if near == low { high } else { low };
+        let in_picture = |number: i64| {
+            let ends = [near, far].map(|across| grid.point(axis, number, across) - self.view.eye);
+            in_picture(self.view, ends).map(|[end, other]| (number, end, other, end == ends[0]))
+        };
+        let mut lines: Vec<_> = grid.numbers(axis).filter_map(in_picture).collect();
+        lines.sort_by(|(_, one, ..), (_, other, ..)| one.length().total_cmp(&other.length()));
+        let first = self.boxes.len();
         let mut name = Some(["x", "y"][axis]);
-        for number in grid.numbers(axis) {
-            let [end, other] = [near, far].map(|across| grid.point(axis, number, across) - self.view.eye);
+        for (number, end, other, is_whole) in lines {
             let Some(spot) = self.depths.shows(self.view, end) else { continue };
             let text = significant(number as f64 * grid.step, 6);
             let text = name.map_or_else(|| text.clone(), |name| format!("{name} = {text}"));
             let line = Line::new(&text, TEXT * self.style.size)?;
-            let beyond = end + (end - other) * 1e-3;
-            if self.push(&line, spot, self.direction(end, beyond), drawing) {
-                name = None;
+            let outward = self.direction(end, end + (end - other) * 1e-3);
+            // Where a line leaves the picture, its number stands on it.
+            let direction = if is_whole { outward } else { outward.map(|part| -part) };
+            let place = self.place(&line, spot, direction);
+            if !is_free(place, &self.boxes[first..]) {
+                break;
             }
+            if !self.is_inside(place) || !is_free(place, &self.boxes[..first]) {
+                continue;
+            }
+            name = None;
+            self.push(&line, place, !is_whole, drawing);
         }
         Ok(())
     }
@@ -159,27 +190,28 @@ impl Labels<'_> {
         if length > 0.0 && length.is_finite() { [x / length, y / length] } else { [0.0, 1.0] }
     }
 
-    /// Draws a number beyond the end of its line, unless it has no room.
-    fn push(&mut self, line: &Line, [x, y]: Point, [right, down]: [f64; 2], drawing: &mut Drawing) -> bool {
+    /// The box of a number: from a place in a direction.
+    fn place(&self, line: &Line, [x, y]: Point, [right, down]: [f64; 2]) -> [Point; 2] {
         let size = TEXT * self.style.size;
         let half = [0.5 * line.width(), 0.4 * size];
-        let away = 0.5 * size;
-        // As far from the end as the box needs in this direction.
+        let (away, gap) = (0.5 * size, 0.25 * size);
+        // As far from the place as the box needs in this direction.
         let middle = [x + right * (half[0] + away), y + down * (half[1] + away)];
-        let gap = 0.3 * size;
         let low = [middle[0] - half[0] - gap, middle[1] - half[1] - gap];
-        let high = [middle[0] + half[0] + gap, middle[1] + half[1] + DESCENT * size];
-        let is_inside = low.iter().all(|edge| *edge >= 0.0) && (0..2).all(|i| high[i] <= self.size[i]);
-        let is_free = self
-            .boxes
-            .iter()
-            .all(|[other_low, other_high]| (0..2).any(|i| high[i] < other_low[i] || low[i] > other_high[i]));
-        if !(is_inside && is_free) {
-            return false;
-        }
+        [low, [middle[0] + half[0] + gap, middle[1] + half[1] + DESCENT * size]]
+    }
+
+    fn is_inside(&self, [low, high]: [Point; 2]) -> bool {
+        low.iter().all(|edge| *edge >= 0.0) && (0..2).all(|i| high[i] <= self.size[i])
+    }
+
+    fn push(&mut self, line: &Line, [low, high]: [Point; 2], has_ground: bool, drawing: &mut Drawing) {
         self.boxes.push([low, high]);
-        drawing.text(line, [middle[0] - half[0], (middle[1] + half[1]).round()], self.style.ink);
-        true
+        if has_ground {
+            drawing.rectangle(low, high, self.style.ground);
+        }
+        let base = high[1] - DESCENT * TEXT * self.style.size;
+        drawing.text(line, [0.5 * (low[0] + high[0] - line.width()), base.round()], self.style.ink);
     }
 }
 

@@ -91,7 +91,7 @@ impl Layout {
         }
         // One above the other.
         let (rainbow, motion) = (room.min(most), room.min(MOTION * size));
-        let below = top + (HEIGHT + 0.6) * size;
+        let below = top + (HEIGHT + 0.9) * size;
         let middle = |part: f64| 0.5 * (width - part);
         Self {
             size,
@@ -135,7 +135,7 @@ impl Legend<'_> {
             let columns = [from, to].map(|wavelength_nm| self.layout.column(wavelength_nm));
             drawing.rectangle([columns[0], top], [columns[1], bottom], spectral(from + 0.5 * STEP_NM));
         }
-        let line = self.style.hairline();
+        let line = self.style.hairline;
         let [left, right] = VISIBLE_NM.map(|end| self.layout.column(end));
         let corners = [[left, top], [right, top], [right, bottom], [left, bottom]];
         let sides = (0..4).map(|idx| stretched(corners[idx], corners[(idx + 1) % 4], 0.5 * line));
@@ -176,7 +176,7 @@ impl Legend<'_> {
 
     fn shift_arrow(&self, seen_nm: [f64; 2], drawing: &mut Drawing) {
         let Layout { size, rainbow: ([left, top], width), .. } = self.layout;
-        let (ink, line) = (self.style.ink, self.style.hairline());
+        let (ink, line) = (self.style.ink, self.style.hairline);
         let row = top + 1.5 * size;
         let right = left + width;
         let start = self.layout.column(SAMPLE_NM);
@@ -211,7 +211,7 @@ impl Legend<'_> {
         let Layout { size, motion: ([left, top], _), .. } = self.layout;
         let radius = 1.7 * size;
         let middle = [left + radius, top + 0.5 * HEIGHT * size];
-        let line = self.style.hairline();
+        let line = self.style.hairline;
         let around = circle(middle, radius);
         let sides = (0..around.len()).map(|idx| [around[idx], around[(idx + 1) % around.len()]]);
         drawing.lines(sides.collect(), line, self.style.faint);
@@ -227,17 +227,19 @@ impl Legend<'_> {
 
     /// An arrow, and at its tail a point if it comes toward the viewer, a cross if it goes away.
     fn arrow(&self, [x, y]: Point, radius: f64, direction: DVec3, drawing: &mut Drawing) {
-        /// What is less is not worth an arrow, or a sign.
-        const LEAST: f64 = 0.1;
-        let (ink, width) = (self.style.ink, 1.5 * self.style.hairline());
-        if libm::hypot(direction.x, direction.y) > LEAST {
+        /// Shorter arrows would be hidden by the sign at their tail.
+        const ARROW: f64 = 0.3;
+        /// What is less has no sign.
+        const SIGN: f64 = 0.1;
+        let (ink, width) = (self.style.ink, 1.5 * self.style.hairline);
+        if libm::hypot(direction.x, direction.y) > ARROW {
             let tip = [x + radius * direction.x, y - radius * direction.y];
             drawing.arrow([[x, y], tip], width, ink);
         }
         let sign = 0.22 * radius;
-        if direction.z > LEAST {
+        if direction.z > SIGN {
             drawing.area(circle([x, y], 0.7 * sign), ink);
-        } else if direction.z < -LEAST {
+        } else if direction.z < -SIGN {
             let lines = vec![
                 [[x - sign, y - sign], [x + sign, y + sign]],
                 [[x - sign, y + sign], [x + sign, y - sign]],

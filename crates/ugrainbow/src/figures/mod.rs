@@ -54,7 +54,6 @@ pub struct Plan {
     /// Rows of the legend, below the scene.
     legend_rows: u32,
     caption: Vec<Line>,
-    style: Style,
 }
 
 impl Plan {
@@ -68,7 +67,7 @@ impl Plan {
         if !figures.is_plain() {
             check_output(config)?;
         }
-        let style = Style::new(config);
+        let style = Style::new(config.size, None, config.output);
         let [width, height] = config.size;
         let caption = wrapped(&figures.caption, style.size, f64::from(width) - 2.0 * style.margin())?;
         let legend_rows = if figures.legend { legend::rows(&style, width) } else { 0 };
@@ -76,7 +75,7 @@ impl Plan {
         // With less than a third of its height it is no picture any more.
         match height.checked_sub(strips) {
             Some(scene_rows) if scene_rows > 0 && scene_rows >= height / 3 => {
-                Ok(Self { size: config.size, scene_rows, legend_rows, caption, style })
+                Ok(Self { size: config.size, scene_rows, legend_rows, caption })
             }
             _ => Err(Error::Options(
                 "caption and legend leave no room for the picture: give a larger -sz, or a shorter -cap",
@@ -102,10 +101,12 @@ impl Plan {
         config: &Config,
         development: Option<Development>,
     ) -> Result<Annotations, Error> {
+        let ground = crate::canvas::ground(config, development);
+        let style = &Style::new(self.size, ground, config.output);
         let mut all = Annotations {
             size: self.size,
             scene_rows: self.scene_rows,
-            ground: crate::canvas::ground(config, development),
+            ground,
             over: Drawing::default(),
             strips: Drawing::default(),
             notes: Vec::new(),
@@ -117,27 +118,27 @@ impl Plan {
             if grid || legend {
                 let depths = Depths::new(&coarse, config.exact);
                 if grid {
-                    all.notes.extend(grid::draw(&coarse, &depths, &self.style, &mut all.over)?);
+                    all.notes.extend(grid::draw(&coarse, &depths, style, &mut all.over)?);
                 }
                 if legend {
                     let motion = Motion::new(&coarse, &depths, config);
                     let top = f64::from(self.scene_rows);
-                    legend::draw(&motion, &self.style, [f64::from(self.size[0]), top], &mut all.strips)?;
+                    legend::draw(&motion, style, [f64::from(self.size[0]), top], &mut all.strips)?;
                 }
             }
             if outline {
-                all.notes.extend(outline::draw(&coarse, &options, &self.style, &mut all.over)?);
+                all.notes.extend(outline::draw(&coarse, &options, style, &mut all.over)?);
             }
         }
-        self.push_caption(&mut all.strips);
+        self.push_caption(style, &mut all.strips);
         Ok(all)
     }
 
     /// One line in the middle, several from the left.
-    fn push_caption(&self, drawing: &mut Drawing) {
-        let Style { size, ink, .. } = self.style;
-        let margin = self.style.margin();
-        let top = f64::from(self.scene_rows + self.legend_rows) + padding(&self.style);
+    fn push_caption(&self, style: &Style, drawing: &mut Drawing) {
+        let Style { size, ink, .. } = *style;
+        let margin = style.margin();
+        let top = f64::from(self.scene_rows + self.legend_rows) + padding(style);
         for (idx, line) in self.caption.iter().enumerate() {
             let left = match self.caption.len() {
                 1 => (0.5 * (f64::from(self.size[0]) - line.width())).max(margin),

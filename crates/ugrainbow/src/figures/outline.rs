@@ -62,8 +62,8 @@ pub fn draw(
             edge.faces.len() == 2 || !faces.go_on(&depths, spot, across)
         }));
     }
-    let width = 1.2 * style.hairline();
-    drawing.lines(lines.clone(), 2.6 * width, style.ground);
+    let width = style.hairline;
+    drawing.lines(lines.clone(), 3.0 * width, style.ground);
     drawing.lines(lines, width, style.ink);
     Ok(None)
 }

@@ -1,15 +1,15 @@
 //! Size and colours of text and lines.
 
-use uglabel::Rgb;
-use ugphysics::{luminance, srgb_decode, srgb_encode};
+use uglabel::{Rgb, ink_on};
+use ugphysics::{srgb_decode, srgb_encode};
 
-use crate::config::{Background, Config};
+use crate::config::Output;
 
 /// Least size of text in pixels; smaller letters cannot be read.
 const LEAST: f64 = 9.0;
 
-/// A ground that is lighter than this has black ink: it contrasts with both black and white by the same ratio.
-const MIDDLE: f64 = 0.179;
+/// Text is as many times smaller than the picture.
+const PER_SIZE: f64 = 40.0;
 
 /// Size and colours of text and lines.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,34 +22,27 @@ pub struct Style {
     pub faint: Rgb,
     /// What stands round lines so that they are seen on everything.
     pub ground: Rgb,
+    /// Width of a thin line.
+    pub hairline: f64,
 }
 
 impl Style {
-    /// That of a picture. On a clear ground it is made for white paper.
-    pub fn new(config: &Config) -> Self {
-        let [width, height] = config.size.map(f64::from);
-        let size = (libm::sqrt(width * height) / 40.0).round().max(LEAST);
-        let ground = match config.background {
-            Background::Clear => [1.0; 3],
-            Background::Color(color) => color.to_rgb().map(srgb_decode),
-        };
-        let ink = if luminance(ground) > MIDDLE { 0.0 } else { 1.0 };
-        let bytes = |light: [f64; 3]| light.map(|part| (255.0 * srgb_encode(part)).round() as u8);
-        Self {
-            size,
-            ink: bytes([ink; 3]),
-            faint: bytes(ground.map(|part| 0.65 * part + 0.35 * ink)),
-            ground: bytes(ground),
-        }
+    /// That of a picture. `ground`: light as it is displayed; on a clear ground ink is made for white paper.
+    pub fn new(size: [u32; 2], ground: Option<[f32; 3]>, output: Output) -> Self {
+        let [width, height] = size.map(f64::from);
+        let size = (libm::sqrt(width * height) / PER_SIZE).round().max(LEAST);
+        let byte = |part: f64| (255.0 * srgb_encode(part.clamp(0.0, 1.0))).round() as u8;
+        let ground = ground.map_or([255; 3], |light| light.map(|part| byte(f64::from(part))));
+        let ink = ink_on(ground);
+        let light = |level: u8| srgb_decode(f64::from(level) / 255.0);
+        let faint = [0, 1, 2].map(|i| byte(0.65 * light(ground[i]) + 0.35 * light(ink[i])));
+        // Pixels cannot show what is thinner than they are.
+        let thinnest = if matches!(output, Output::Vector(_)) { 0.0 } else { 1.0 };
+        Self { size, ink, faint, ground, hairline: (size / 16.0).max(thinnest) }
     }
 
     /// Left and right of text.
     pub fn margin(&self) -> f64 {
         0.8 * self.size
-    }
-
-    /// Width of a thin line.
-    pub fn hairline(&self) -> f64 {
-        (self.size / 16.0).max(1.0)
     }
 }
