@@ -1,7 +1,7 @@
 //! Text and lines on pictures: captions, legends, grids.
 //!
 //! A [`Drawing`] is a list of shapes, areas and lines of one colour each, in pixels from the upper left corner. It
-//! is painted on a frame ([`Drawing::paint`], [`Drawing::paint_light`]), with smooth edges and in linear light, or
+//! is painted on a frame ([`Drawing::paint`], [`Drawing::paint_light`]), with smooth edges, or
 //! becomes the elements of a figure of areas ([`Drawing::elements`]), so both show the same.
 //!
 //! Text ([`Line`], [`wrapped`]) is areas, too: the outlines of a font that is part of the program, DejaVu Sans with Latin,

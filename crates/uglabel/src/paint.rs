@@ -1,7 +1,10 @@
-//! Drawings on frames of pixels, mixed in linear light.
+//! Drawings on frames of pixels.
+//!
+//! Ink and ground are mixed as display-encoded levels, not as light: so do all programs that show PDF, PostScript and SVG,
+//! and so letters have one weight, black on white and white on black.
 
-use ugimage::{Frame, LinearFrame, Quantizer};
-use ugphysics::srgb_decode;
+use ugimage::{Frame, LinearFrame};
+use ugphysics::{srgb_decode, srgb_encode};
 
 use crate::coverage::{TILE, Tile};
 use crate::drawing::{Drawing, Shape};
@@ -9,19 +12,15 @@ use crate::drawing::{Drawing, Shape};
 impl Drawing {
     /// Paints it on a frame. Pixels that no shape touches keep their bytes.
     pub fn paint(&self, frame: &mut Frame) {
-        let (width, is_opaque) = (frame.width(), frame.is_opaque());
-        let light: [f32; 256] = std::array::from_fn(|level| srgb_decode(level as f64 / 255.0) as f32);
-        let quantizer = Quantizer::new();
-        let size = [width, frame.height()];
+        let is_opaque = frame.is_opaque();
+        let size = [frame.width(), frame.height()];
         let pixels = frame.pixels_mut();
         self.for_each_covered(size, |idx, color, part| {
-            let [red, green, blue, alpha] = pixels[idx];
-            let under = [red, green, blue].map(|level| light[usize::from(level)]);
-            let below = if is_opaque { 1.0 } else { f32::from(alpha) / 255.0 };
-            let ([red, green, blue], all) =
-                over(color.map(|level| light[usize::from(level)]), part, under, below);
-            let alpha = (255.0 * all).round() as u8;
-            pixels[idx] = [quantizer.level(red), quantizer.level(green), quantizer.level(blue), alpha];
+            let [red, green, blue, alpha] = pixels[idx].map(f32::from);
+            let below = if is_opaque { 1.0 } else { alpha / 255.0 };
+            let ([red, green, blue], all) = over(color.map(f32::from), part, [red, green, blue], below);
+            // A cast from float to integer saturates.
+            pixels[idx] = [red, green, blue, 255.0 * all].map(|level| level.round() as u8);
         });
     }
 
@@ -33,8 +32,9 @@ impl Drawing {
         self.for_each_covered(size, |idx, color, part| {
             let [red, green, blue, drawn] = pixels[idx];
             let below = if is_opaque { 1.0 } else { drawn };
-            let ink = color.map(|level| srgb_decode(f64::from(level) / 255.0) as f32);
-            let ([red, green, blue], all) = over(ink, part, [red, green, blue], below);
+            let under = [red, green, blue].map(|light| srgb_encode(f64::from(light).clamp(0.0, 1.0)) as f32);
+            let (levels, all) = over(color.map(|level| f32::from(level) / 255.0), part, under, below);
+            let [red, green, blue] = levels.map(|level| srgb_decode(f64::from(level)) as f32);
             pixels[idx] = [red, green, blue, if is_opaque { drawn } else { all }];
         });
     }
@@ -59,7 +59,7 @@ impl Drawing {
     }
 }
 
-/// Ink that covers a part, over light of which a part is there: light, and the part that is there then.
+/// Ink that covers a part, over levels of which a part is there: levels, and the part that is there then.
 fn over(ink: [f32; 3], part: f32, under: [f32; 3], below: f32) -> ([f32; 3], f32) {
     let left = below * (1.0 - part);
     let all = part + left;
@@ -68,8 +68,6 @@ fn over(ink: [f32; 3], part: f32, under: [f32; 3], below: f32) -> ([f32; 3], f32
 
 #[cfg(test)]
 mod tests {
-    use ugphysics::srgb_encode;
-
     use super::*;
 
     fn rectangle(left: f64, top: f64, right: f64, bottom: f64) -> Drawing {
@@ -93,14 +91,30 @@ mod tests {
     }
 
     #[test]
-    fn parts_of_pixels_are_mixed_as_light() {
+    fn parts_of_pixels_are_mixed() {
         let mut frame = Frame::opaque(3, 1);
         let mut drawing = Drawing::default();
         drawing.rectangle([0.5, 0.0], [1.25, 1.0], [255; 3]);
         drawing.paint(&mut frame);
         for (x, part) in [(0, 0.5), (1, 0.25), (2, 0.0)] {
-            let level = (255.0 * srgb_encode(part)).round();
-            assert!((f64::from(frame.pixel(x, 0)[0]) - level).abs() <= 1.0, "{x}");
+            assert!((f64::from(frame.pixel(x, 0)[0]) - 255.0 * part).abs() <= 1.0, "{x}");
+        }
+    }
+
+    /// Letters have one weight on both grounds.
+    #[test]
+    fn black_on_white_is_white_on_black() {
+        let mut frames = [Frame::opaque(60, 20), Frame::opaque(60, 20)];
+        frames[1].pixels_mut().fill([255; 4]);
+        for (frame, ink) in frames.iter_mut().zip([[255; 3], [0; 3]]) {
+            let mut drawing = Drawing::default();
+            drawing.text(&crate::Line::new("γ = 2.29", 12.0).unwrap(), [2.0, 14.0], ink);
+            drawing.paint(frame);
+        }
+        let [black, white] = &frames;
+        for (light, dark) in black.pixels().iter().zip(white.pixels()) {
+            // Rounding may go either way.
+            assert!(light[0].abs_diff(255 - dark[0]) <= 1, "{light:?} {dark:?}");
         }
     }
 
@@ -129,7 +143,7 @@ mod tests {
     }
 
     #[test]
-    fn light_is_mixed_as_bytes_are() {
+    fn light_is_mixed_as_levels() {
         let mut drawing = rectangle(0.3, 0.2, 3.7, 2.6);
         drawing.text(&crate::Line::new("β", 4.0).unwrap(), [0.2, 3.1], [0, 40, 90]);
         for mut frame in [Frame::opaque(5, 4), Frame::clear(5, 4)] {

@@ -41,7 +41,7 @@ pub struct Args {
     #[arg(long, value_name = "TEXT", visible_alias = "caption")]
     cap: Option<String>,
 
-    /// Size of labels in pixels [default: a 24th of the pictures, 10 to 48]
+    /// Size of labels in pixels [default: a 28th of the pictures, 10 to 48]
     #[arg(long, value_name = "PIXELS", value_parser = text_size, visible_alias = "text-size")]
     ts: Option<f64>,
 

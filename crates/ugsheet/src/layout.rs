@@ -10,7 +10,7 @@ const TITLE: f64 = 1.35;
 const CAPTION: f64 = 1.1;
 
 /// Labels are as many times smaller than the pictures.
-const PER_TEXT: f64 = 24.0;
+const PER_TEXT: f64 = 28.0;
 
 /// Least size of text that can be read, and most that is taken without being asked for.
 const SIZES: [f64; 2] = [10.0, 48.0];

@@ -146,11 +146,13 @@ impl Labels<'_> {
         let mut lines: Vec<_> = grid.numbers(axis).filter_map(in_picture).collect();
         lines.sort_by(|(_, one, ..), (_, other, ..)| one.length().total_cmp(&other.length()));
         let first = self.boxes.len();
-        let mut name = Some(["x", "y"][axis]);
+        let name = ["x", "y"][axis];
+        let mut is_named = false;
         for (number, end, other, is_whole) in lines {
             let Some(spot) = self.depths.shows(self.view, end) else { continue };
             let text = significant(number as f64 * grid.step, 6);
-            let text = name.map_or_else(|| text.clone(), |name| format!("{name} = {text}"));
+            // At the rims of the picture numbers of both axes are mixed.
+            let text = if is_named && is_whole { text } else { format!("{name} = {text}") };
             let line = Line::new(&text, TEXT * self.style.size)?;
             let outward = self.direction(end, end + (end - other) * 1e-3);
             // Where a line leaves the picture, its number stands on it.
@@ -162,7 +164,7 @@ impl Labels<'_> {
             if !self.is_inside(place) || !is_free(place, &self.boxes[..first]) {
                 continue;
             }
-            name = None;
+            is_named = true;
             self.push(&line, place, !is_whole, drawing);
         }
         Ok(())
