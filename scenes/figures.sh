@@ -36,8 +36,13 @@ flyby() {
         uglorentz -vel .95 0 0 -ti $time "$scene" | ugdoppler -qt "$@" | ugrainbow -qt -va 90 -sz "$width" $((height / 4 - 3)) -fo "$row"
         rows+=("$row")
     done
-    cargo --quiet xtask sheet "$out/$name.png" 1 "${rows[@]}"
+    tile "$out/$name.png" 1 "${rows[@]}"
     printf '%s\n' "$name"
+}
+
+# tile SHEET COLUMNS PICTURE...: a contact sheet without labels
+tile() {
+    ugsheet -qt -lb none -gap 4 0 -bg .25 -cols "$2" -fo "$1" "${@:3}"
 }
 
 # draw NAME [OPTION...]: the last stage, to OUTDIR/NAME.png
@@ -80,7 +85,7 @@ for speed in .95 .999; do
         uglorentz -vel $speed 0 0 -ti $time teapot.ug | shape | ugrainbow -qt -va 90 -sz "$width" $((height / 4 - 3)) -fo "$row"
         rows+=("$row")
     done
-    cargo --quiet xtask sheet "$out/chang-10-0${speed}c.png" 1 "${rows[@]}"
+    tile "$out/chang-10-0${speed}c.png" 1 "${rows[@]}"
     printf '%s\n' "chang-10-0${speed}c"
 done
 
@@ -118,7 +123,7 @@ for time in 00 09 17 28; do
         ugrainbow -qt -va 90 -sz "$width" $((height / 4 - 3)) -fo "$row"
     rows+=("$row")
 done
-cargo --quiet xtask sheet "$out/chang-17-bands-0.5c.png" 1 "${rows[@]}"
+tile "$out/chang-17-bands-0.5c.png" 1 "${rows[@]}"
 printf '%s\n' chang-17-bands-0.5c
 
 # Howard, Dance and Kitchen 1995, figures 4 and 5: flying at a grid, and just through it.
@@ -147,5 +152,5 @@ uglorentz lamp.ug | ugdoppler -qt -li | draw lamp-moving
 uglorentz -an center -cv 0 0 0 traffic.ug | shape | draw traffic-a-standing
 uglorentz -an center traffic.ug | shape | draw traffic-b-driving
 
-cargo --quiet xtask sheet "$out/sheet.png" 6 "$out"/{nguyen,chang,howard,weiskopf,lattice,halves,dice,traffic,lamp}*.png
+tile "$out/sheet.png" 6 "$out"/{nguyen,chang,howard,weiskopf,lattice,halves,dice,traffic,lamp}*.png
 printf 'The pictures are in %s, all of them on %s/sheet.png\n' "$out" "$out"

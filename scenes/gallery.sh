@@ -9,12 +9,13 @@ cd "$(dirname "$0")/.."
 figures=$(mktemp -d)
 trap 'rm -rf "$figures"' EXIT
 scenes/figures.sh "$figures" 400 300
+export PATH="${CARGO_TARGET_DIR:-$PWD/target}/release:$PATH"
 
 # tile NAME COLUMNS PATTERN: docs/gallery/NAME.png from the figures whose names match
 tile() {
     # The pattern is to be expanded.
     # shellcheck disable=SC2086
-    cargo --quiet xtask sheet "docs/gallery/$1.png" "$2" "$figures"/$3
+    ugsheet -qt -lb none -gap 4 0 -bg .25 -cols "$2" -fo "docs/gallery/$1.png" "$figures"/$3
 }
 
 mkdir -p docs/gallery

@@ -28,11 +28,16 @@ fn pipes() -> Vec<(&'static str, Pipe)> {
     tunnel.doppler.iris = true;
     let mut figure = ship.clone();
     figure.rainbow.output = ugrainbow::Output::Vector(ugimage::Format::Pdf);
+    let mut annotated = figure.clone();
+    annotated.rainbow.figures =
+        ugrainbow::Figures { caption: "λ → λ/D".into(), legend: true, outline: true, grid: true };
+    annotated.rainbow.size = [320, 240];
     let mut globe = tunnel.clone();
     globe.doppler.tolerance = 0.0;
     vec![
         ("ship", ship),
         ("ship", figure),
+        ("ship", annotated),
         ("lattice", lattice),
         ("teapot", teapot),
         ("street", street),

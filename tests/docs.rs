@@ -31,7 +31,7 @@ impl Typed {
             if name.len() < line.len() && (name.starts_with("() {") || name.starts_with("='")) {
                 typed.definitions.push_str(line);
                 typed.definitions.push('\n');
-            } else if ["uglorentz ", "ugdoppler ", "ugrainbow ", "sed "]
+            } else if ["uglorentz ", "ugdoppler ", "ugrainbow ", "ugsheet ", "sed "]
                 .iter()
                 .any(|tool| line.starts_with(tool))
             {

@@ -146,11 +146,21 @@ fn figures_of_areas_show_the_same_as_the_png() {
     let mut white = ship();
     white.rainbow.background =
         ugrainbow::Background::Color(ugphysics::Hsv { hue: 0.0, saturation: 0.0, value: 1.0 });
+    // Text and lines are the same outlines, as areas or as pixels.
+    let mut annotated = white.clone();
+    annotated.rainbow.figures = ugrainbow::Figures {
+        caption: "A ship at β = 0.2, γ = 1.021: where it would be seen at rest, and the ground below it."
+            .into(),
+        legend: true,
+        outline: true,
+        grid: true,
+    };
     let cubes = Pipe::new(0.3 * DVec3::X, SIZE).in_place();
     let street = Pipe::new(-0.5 * DVec3::Y, SIZE);
     for (name, scene, pipe) in [
         ("ship", "ship", ship()),
         ("white", "ship", white),
+        ("annotated", "ship", annotated),
         ("cubes", "cubes", cubes),
         ("street", "street", street),
     ] {

@@ -211,3 +211,20 @@ fn wires_follow_edges() {
         cam -ep 0 0 2 -vc 0 8 0 -ud 0 0 1 -va 30 22;";
     assert_golden("wires-on-a-box-0.9c", &pipe(0.9, 0.0, 0.0).in_place().shape().draw(BOX));
 }
+
+#[test]
+fn captions_and_legends_stand_below() {
+    let mut ship = Pipe::new(DVec3::new(0.3, 0.0, 0.0), [400, 300]).in_place();
+    ship.rainbow.figures.caption = "A ship at 0.3c (γ = 1.048)".into();
+    ship.rainbow.figures.legend = true;
+    check("caption-and-legend-ship-0.3c", "ship", &ship);
+}
+
+#[test]
+fn outlines_show_what_is_not_distorted() {
+    let mut teapot = Pipe::new(DVec3::new(0.95, 0.0, 0.0), [320, 240]).in_place().shape();
+    teapot.rainbow.figures.outline = true;
+    teapot.rainbow.figures.grid = true;
+    teapot.rainbow.background = Background::Color(ugphysics::Hsv { hue: 0.0, saturation: 0.0, value: 1.0 });
+    check("undistorted-outline-and-grid-teapot-0.95c", "teapot", &teapot);
+}

@@ -1,10 +1,9 @@
 //! Chores of the project: write the scenes that are made by rule rather than by
-//! hand, tile pictures into contact sheets, time the programs.
+//! hand, time the programs.
 //!
 //! ```text
 //! cargo xtask teapot > scenes/teapot.ug
 //! cargo xtask mesh 1000000 > /tmp/mesh.ug
-//! cargo xtask sheet sheet.png 2 a.png b.png c.png d.png
 //! cargo xtask bench
 //! cargo xtask bench-reading
 //! cargo xtask bench-raster
@@ -24,14 +23,12 @@ mod plot;
 mod raster;
 mod reading;
 mod scale;
-mod sheet;
 mod short;
 mod sphere;
 mod teapot;
 
 use clap::{Parser, Subcommand};
 use std::io::{self, BufWriter, Write};
-use std::num::NonZeroU32;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -68,16 +65,6 @@ enum Chore {
         /// Give every vertex a colour of its own, in place of a palette
         #[arg(long)]
         each: bool,
-    },
-    /// Tile pictures of equal size into one, row by row
-    Sheet {
-        /// Picture to write
-        out: PathBuf,
-        /// Pictures in a row
-        columns: NonZeroU32,
-        /// Pictures to tile
-        #[arg(required = true)]
-        pictures: Vec<PathBuf>,
     },
     /// Time the programs beside `cat` on meshes of these sizes, as Markdown
     Bench {
@@ -206,7 +193,6 @@ fn run(chore: &Chore) -> io::Result<()> {
             reading::read_once(&mut out, scene, *threads)
                 .map_err(|error| io::Error::other(error.to_string()))?;
         }
-        Chore::Sheet { out: picture, columns, pictures } => sheet::tile(picture, *columns, pictures)?,
     }
     out.flush()
 }

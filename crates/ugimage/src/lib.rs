@@ -14,6 +14,8 @@
 //! stands in the file besides pixels in a [`Label`], so the same frame gives the
 //! same bytes.
 //!
+//! [`read_png`] reads what PNG files hold, with the label.
+//!
 //! | format | pixels | transparency |
 //! | --- | --- | --- |
 //! | [`Format::Png`], [`Format::Png16`] | RGB or RGBA, 8 or 16 bits, tagged sRGB | kept |
@@ -54,6 +56,7 @@ mod postscript;
 mod ppm;
 mod ps;
 mod quantizer;
+mod read;
 mod svg;
 
 pub use develop::{Development, Steps, Tone, auto_exposure};
@@ -63,3 +66,4 @@ pub use grey::grey_postscript;
 pub use linear::{LinearFrame, Plane, Samples, display_pixel};
 pub use png::Packing;
 pub use quantizer::Quantizer;
+pub use read::{ReadError, read_png};

@@ -6,10 +6,10 @@ use std::path::{Path, PathBuf};
 pub const ONE_DASH: &str =
     "Every long option may be written with one dash, as in 1988: -fi FILE is --fi FILE.";
 
-/// Ids of options that choose streams, talk and threads: those below, and `at` for a second file to write
-/// ([`crate::Stage::write_file`]). They do not change what is computed, so the recorded command line leaves
+/// Ids of options that choose streams, talk and threads: those below, `files` for more files to read
+/// ([`crate::Stage::input_file`]), and `at` for a second file to write ([`crate::Stage::write_file`]). They do not change what is computed, so the recorded command line leaves
 /// them out.
-pub(crate) const WITHOUT_EFFECT: [&str; 8] = ["file", "fi", "fo", "fm", "qt", "vb", "nt", "at"];
+pub(crate) const WITHOUT_EFFECT: [&str; 9] = ["file", "files", "fi", "fo", "fm", "qt", "vb", "nt", "at"];
 
 /// Options of every program. Put it last in the program's own arguments:
 /// `#[command(flatten)] common: CommonArgs`.

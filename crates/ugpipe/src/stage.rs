@@ -50,6 +50,14 @@ impl Stage {
         input::read(self.input.as_deref())
     }
 
+    /// Reads another input, from a file.
+    ///
+    /// # Errors
+    /// [`Failure::Read`] if there is no such file or it cannot be read.
+    pub fn input_file(&self, path: &Path) -> Result<Input, Failure> {
+        input::read(Some(path))
+    }
+
     /// The program and those of its options that affect the content, for the output's
     /// head comment: `uglorentz -vel .9 0 0`.
     ///

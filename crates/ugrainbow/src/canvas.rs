@@ -116,6 +116,14 @@ pub fn developed(development: &Development, [red, green, blue, part]: [f32; 4]) 
     [red, green, blue, part]
 }
 
+/// The light of what stands behind everything, developed as it is in the picture; none if that is clear.
+pub fn ground(config: &Config, development: Option<Development>) -> Option<[f32; 3]> {
+    let [red, green, blue] = Ground::new(config).behind?;
+    let light = [red, green, blue, 1.0];
+    let [red, green, blue, _] = development.map_or(light, |development| developed(&development, light));
+    Some([red, green, blue])
+}
+
 /// What stands behind everything, and how many samples a pixel has.
 pub struct Ground {
     /// Linear light; `None` if the picture is transparent there.

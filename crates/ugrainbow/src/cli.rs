@@ -12,6 +12,7 @@ use ugscene::{CameraOptions, HueScale};
 
 use crate::config::{Background, Config, Exact, Exposure, Interpolation, Output};
 use crate::explain::{self, explain};
+use crate::figures::Figures;
 use crate::words::{
     Channels, Kind, Pixel, Report, channels, exposure, format_named, kind_named, law, pixel, tone,
 };
@@ -179,10 +180,32 @@ pub struct Args {
     #[arg(long, value_name = "X,Y", value_parser = pixel, conflicts_with = "dp")]
     explain: Option<Pixel>,
 
+    /// Caption below the picture, in lines as they fit, or as they are
+    ///
+    /// The scene is drawn in what the strips below it leave of -sz.
+    #[arg(long, value_name = "TEXT", visible_alias = "caption", help_heading = FIGURES)]
+    cap: Option<String>,
+
+    /// Legend below the picture: the rainbow, velocities, and the Doppler factors that are seen
+    ///
+    /// Wavelengths in nm, where light of 550 nm is seen, the velocity as a unit arrow seen from the camera (a point at its
+    /// tail: it comes, a cross: it goes), and β, γ and D.
+    #[arg(long, visible_alias = "legend", help_heading = FIGURES)]
+    lg: bool,
+
+    /// Outline of moving bodies as they would look at rest, each with its centre where it is seen
+    #[arg(long, visible_alias = "undistorted", help_heading = FIGURES)]
+    dl: bool,
+
+    /// Grid of coordinates on the ground: in the plane z = 0, or under what reaches lower
+    #[arg(long, visible_alias = "grid", help_heading = FIGURES)]
+    gr: bool,
+
     #[command(flatten)]
     common: CommonArgs,
 }
 
+const FIGURES: &str = "Figures";
 const CAMERA: &str = "Camera";
 const PICTURE: &str = "Picture";
 const EXACT: &str = "Exact pictures";
@@ -215,8 +238,18 @@ impl Args {
             exact: self.xc.then(|| self.exact()),
             cull: self.cb,
             small: self.pz,
+            figures: self.figures(),
             command_line: command_line.to_owned(),
         })
+    }
+
+    fn figures(&self) -> Figures {
+        Figures {
+            caption: self.cap.clone().unwrap_or_default(),
+            legend: self.lg,
+            outline: self.dl,
+            grid: self.gr,
+        }
     }
 
     fn exact(&self) -> Exact {

@@ -4,6 +4,7 @@ use ugimage::{Format, Tone};
 use ugphysics::{Brightness, Hsv};
 use ugscene::{CameraOptions, HueScale};
 
+use crate::figures::Figures;
 use crate::planes::Channel;
 
 /// Everything that decides the bytes of a picture besides the scene.
@@ -38,6 +39,8 @@ pub struct Config {
     pub cull: bool,
     /// PNG files are made as small as can be, which takes long.
     pub small: bool,
+    /// What the figure has besides the picture.
+    pub figures: Figures,
     /// How the program was called, to be written into the picture.
     pub command_line: String,
 }
@@ -61,6 +64,7 @@ impl Default for Config {
             exact: None,
             cull: false,
             small: false,
+            figures: Figures::default(),
             command_line: String::new(),
         }
     }

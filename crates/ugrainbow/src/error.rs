@@ -3,6 +3,7 @@
 use std::fmt;
 
 use ugimage::{Format, Tone};
+use uglabel::MissingCharacter;
 use ugparse::Diagnostics;
 use ugphysics::VelocityError;
 use ugscene::CameraError;
@@ -34,6 +35,8 @@ pub enum Error {
     Samples(u32),
     /// Options that do not go together; the text says which, and what to do.
     Options(&'static str),
+    /// Text with a character that the font lacks.
+    Text(MissingCharacter),
     /// A scene that cannot be drawn by rays; the text says why, and what to do.
     Exact(&'static str),
     /// A pixel to be explained that is not in the picture.
@@ -52,7 +55,10 @@ pub enum Error {
 impl Error {
     /// True if the command line asks for it, whatever the scene.
     pub fn is_usage(&self) -> bool {
-        matches!(self, Self::Size(_) | Self::Samples(_) | Self::Options(_) | Self::Pixel { .. })
+        matches!(
+            self,
+            Self::Size(_) | Self::Samples(_) | Self::Options(_) | Self::Text(_) | Self::Pixel { .. }
+        )
     }
 }
 
@@ -130,6 +136,7 @@ impl fmt::Display for Error {
                 )
             }
             Self::Options(text) | Self::Exact(text) => f.write_str(text),
+            Self::Text(missing) => missing.fmt(f),
             Self::Pixel { pixel: [x, y], size: [width, height] } => write!(
                 f,
                 "pixel {x},{y} is not in the picture of {width} x {height} pixels; \
@@ -146,6 +153,12 @@ impl std::error::Error for Error {}
 impl From<Diagnostics> for Error {
     fn from(diagnostics: Diagnostics) -> Self {
         Self::Scene(diagnostics)
+    }
+}
+
+impl From<MissingCharacter> for Error {
+    fn from(missing: MissingCharacter) -> Self {
+        Self::Text(missing)
     }
 }
 

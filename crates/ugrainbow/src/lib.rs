@@ -66,6 +66,7 @@ mod drawlist;
 mod error;
 mod exact;
 mod explain;
+mod figures;
 mod light;
 mod notes;
 mod painter;
@@ -85,11 +86,13 @@ use ugparse::{Diagnostics, Scene, Source};
 pub use cli::{Args, draw};
 pub use config::{Background, Config, Exact, Exposure, Interpolation, Output};
 pub use error::{Error, MAX_PIXELS, MAX_SIDE};
+pub use figures::Figures;
 pub use planes::Channel;
 pub use ugimage::Tone;
 pub use ugscene::{CameraError, CameraOptions, HueScale};
 
 use canvas::{Canvas, Drawn};
+use figures::{Annotations, Plan};
 use notes::Outcome;
 use setup::Setup;
 use sheet::Sheet;
@@ -111,11 +114,15 @@ pub struct Picture {
 /// Whatever stops it: see [`Error`].
 pub fn run(config: &Config, source: &Source) -> Result<Picture, Error> {
     let parsed = ugscene::read(source, &config.reading, config.camera.name.as_deref())?;
-    let Painted { drawn, development, notes } = paint(&parsed.scene, config)?;
+    let plan = Plan::new(config)?;
+    let of_scene = plan.of_scene(config);
+    let Painted { drawn, development, annotations, notes } = paint(&parsed.scene, &plan, &of_scene)?;
     let label = label(&parsed.scene, config);
     let packing = if config.small { Packing::Small } else { Packing::Fast };
     let bytes = match (config.output, drawn) {
-        (Output::Vector(format), _) => vector::file(&parsed.scene, config, format, development, &label)?,
+        (Output::Vector(format), _) => {
+            vector::file(&parsed.scene, &of_scene, format, development, &annotations, &label)?
+        }
         (Output::Color(format), Drawn::Display(frame)) => format.pack(&frame, &label, packing),
         (Output::Color(format), Drawn::Light(frame)) => format.pack_linear(&frame, &label, packing),
         (Output::Grey, drawn) => grey_postscript(&drawn.into_frame(), &label),
@@ -128,7 +135,8 @@ pub fn run(config: &Config, source: &Source) -> Result<Picture, Error> {
 /// # Errors
 /// The picture is too large, there is nothing to draw, or the camera makes no sense.
 pub fn render(scene: &Scene, config: &Config) -> Result<(Frame, Vec<String>), Error> {
-    paint(scene, config).map(|painted| (painted.drawn.into_frame(), painted.notes))
+    let plan = Plan::new(config)?;
+    paint(scene, &plan, &plan.of_scene(config)).map(|painted| (painted.drawn.into_frame(), painted.notes))
 }
 
 /// A scene made ready to be drawn: its colours and lights are known, and nothing has been put into the picture yet.
@@ -157,16 +165,21 @@ impl<'a> Prepared<'a> {
 struct Painted {
     drawn: Drawn,
     development: Option<Development>,
+    annotations: Annotations,
     notes: Vec<String>,
 }
 
-fn paint(scene: &Scene, config: &Config) -> Result<Painted, Error> {
+/// `config`: what is asked of the picture of the scene in the plan.
+fn paint(scene: &Scene, plan: &Plan, config: &Config) -> Result<Painted, Error> {
     let setup = Setup::new(scene, config)?;
     let sheet = Sheet::new(setup.painter(), config.exact);
     let canvas = Canvas::new(&setup, &sheet, config);
     let Canvas { drawn, tally, development } = canvas;
     let outcome = Outcome { reach: sheet.reach(), tally, development };
-    Ok(Painted { drawn, development, notes: notes::notes(&setup, config, &outcome) })
+    let mut notes = notes::notes(&setup, config, &outcome);
+    let annotations = plan.annotations(&setup, config, development)?;
+    notes.extend(annotations.notes.iter().cloned());
+    Ok(Painted { drawn: annotations.on(drawn), development, annotations, notes })
 }
 
 /// Our name and version, and the command lines of the whole pipe.

@@ -64,6 +64,11 @@ impl<'a> Setup<'a> {
         &self.scene
     }
 
+    /// Columns and rows of the picture.
+    pub fn size(&self) -> [f64; 2] {
+        [self.grid.width, self.grid.height].map(f64::from)
+    }
+
     /// What draws it.
     pub fn painter(&self) -> Painter<'_> {
         Painter {

@@ -12,6 +12,7 @@ use ugscene::Geometry;
 
 use crate::canvas::{Ground, development};
 use crate::config::{Config, Interpolation};
+use crate::figures::Plan;
 use crate::palette::Swatch;
 use crate::planes::Finder;
 use crate::raster::{Gathered, Sample};
@@ -150,6 +151,7 @@ pub fn explain(
     if config.exact.is_some() {
         return Err(Error::Options("--explain tells of the scanline mode only: leave out -xc"));
     }
+    let config = &*Plan::new(config)?.of_scene(config);
     let setup = Setup::new(&parsed.scene, config)?;
     if pixel[0] >= config.size[0] || pixel[1] >= config.size[1] {
         return Err(Error::Pixel { pixel, size: config.size });

@@ -19,8 +19,10 @@ mod smooth;
 use ugimage::figure::{self, Figure};
 use ugimage::{Development, Format, Label};
 
-use crate::config::{Background, Config};
+use crate::canvas;
+use crate::config::Config;
 use crate::error::{Error, MAX_PIXELS};
+use crate::figures::Annotations;
 use crate::setup::Setup;
 use crate::sheet::Sheet;
 use color::{Palette, rounded};
@@ -36,7 +38,8 @@ const FINEST: u32 = 8;
 /// Most samples by which it is found out what is seen.
 const MOST_SAMPLES: u64 = MAX_PIXELS / 4;
 
-/// The file of a figure. `development`: how the light of the picture is developed, if it is.
+/// The file of a figure. `development`: how the light of the picture is developed, if it is; `annotations`: what is
+/// drawn over the scene.
 ///
 /// # Errors
 /// As for pictures.
@@ -45,13 +48,14 @@ pub fn file(
     config: &Config,
     format: Format,
     development: Option<Development>,
+    annotations: &Annotations,
     label: &Label,
 ) -> Result<Vec<u8>, Error> {
     Ok(match format {
-        Format::Svg => figure::svg(&figure(scene, config, development)?, label),
-        Format::Pdf => figure::pdf(&figure(scene, config, development)?, label),
-        Format::Ps => figure::ps(&figure(scene, config, development)?, label),
-        _ => figure::eps(&figure(scene, config, development)?, label),
+        Format::Svg => figure::svg(&figure(scene, config, development, annotations)?, label),
+        Format::Pdf => figure::pdf(&figure(scene, config, development, annotations)?, label),
+        Format::Ps => figure::ps(&figure(scene, config, development, annotations)?, label),
+        _ => figure::eps(&figure(scene, config, development, annotations)?, label),
     })
 }
 
@@ -60,6 +64,7 @@ fn figure<S: Smooth>(
     scene: &Scene,
     config: &Config,
     development: Option<Development>,
+    annotations: &Annotations,
 ) -> Result<Figure<S>, Error> {
     let scale = scale(config.size);
     let fine = Config { size: config.size.map(|side| side * scale), samples: 1, ..config.clone() };
@@ -74,7 +79,11 @@ fn figure<S: Smooth>(
         push_piece(&palette, &faces, &piece, &mut elements);
     }
     lines::push_lines(&palette, &wires, &faces, &index, config.size, f64::from(scale), &mut elements);
-    Ok(Figure { size: config.size, background: background(config, development), elements })
+    let background = canvas::ground(config, development)
+        .map(|light| rounded(light.map(|part| 255.0 * srgb_encode(f64::from(part).clamp(0.0, 1.0)))));
+    let mut figure = Figure { size: config.size, background, elements };
+    annotations.complete(&mut figure);
+    Ok(figure)
 }
 
 fn scale([width, height]: [u32; 2]) -> u32 {
@@ -104,15 +113,4 @@ fn patches(
         if is_face.is_some() { &mut faces } else { &mut wires }.extend(patch);
     });
     (faces, wires)
-}
-
-/// What the picture has behind everything, developed as it is.
-fn background(config: &Config, development: Option<Development>) -> Option<figure::Rgb> {
-    let Background::Color(color) = config.background else { return None };
-    let [red, green, blue] = color.to_rgb().map(|channel| ugphysics::srgb_decode(channel) as f32);
-    let light = match &development {
-        Some(development) => crate::canvas::developed(development, [red, green, blue, 1.0]),
-        None => [red, green, blue, 1.0],
-    };
-    Some(rounded([0, 1, 2].map(|i| 255.0 * srgb_encode(f64::from(light[i]).clamp(0.0, 1.0)))))
 }

@@ -1,0 +1,122 @@
+//! PNG files as frames.
+
+use std::fmt;
+use std::io::Cursor;
+
+use png::{ColorType, Decoder, Transformations};
+
+use crate::{Frame, Label};
+
+/// Most pixels that are read.
+const MAX_PIXELS: u64 = 1 << 28;
+
+/// Why a file is no picture.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ReadError(String);
+
+impl fmt::Display for ReadError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl std::error::Error for ReadError {}
+
+/// A PNG file of any kind with 8 bits a channel, and what it says of how it was made. Its colours are taken for sRGB.
+///
+/// # Errors
+/// The file is no PNG, is cut off or broken, or has more than 2²⁸ pixels.
+pub fn read_png(file: &[u8]) -> Result<(Frame, Label), ReadError> {
+    let broken = |error: png::DecodingError| ReadError(format!("no PNG that can be read: {error}"));
+    let mut decoder = Decoder::new(Cursor::new(file));
+    decoder.set_transformations(Transformations::normalize_to_color8());
+    let info = decoder.read_header_info().map_err(broken)?;
+    let (width, height) = (info.width, info.height);
+    if u64::from(width) * u64::from(height) > MAX_PIXELS {
+        return Err(ReadError(format!("{width} x {height} pixels are more than {MAX_PIXELS}")));
+    }
+    let mut reader = decoder.read_info().map_err(broken)?;
+    let size = reader.output_buffer_size().ok_or_else(|| ReadError("too large".to_owned()))?;
+    let mut data = vec![0; size];
+    let output = reader.next_frame(&mut data).map_err(broken)?;
+    // What stands behind the pixels; a file cut off there is a picture still.
+    let _ = reader.finish();
+    let data = &data[..output.buffer_size()];
+    let (n_channels, is_opaque) = match output.color_type {
+        ColorType::Grayscale => (1, true),
+        ColorType::GrayscaleAlpha => (2, false),
+        ColorType::Rgb | ColorType::Indexed => (3, true),
+        ColorType::Rgba => (4, false),
+    };
+    let mut frame = if is_opaque { Frame::opaque(width, height) } else { Frame::clear(width, height) };
+    for (pixel, channels) in frame.pixels_mut().iter_mut().zip(data.chunks_exact(n_channels)) {
+        *pixel = match *channels {
+            [grey] => [grey, grey, grey, 255],
+            [grey, alpha] => [grey, grey, grey, alpha],
+            [red, green, blue] => [red, green, blue, 255],
+            [red, green, blue, alpha, ..] => [red, green, blue, alpha],
+            [] => *pixel,
+        };
+    }
+    Ok((frame, label(reader.info())))
+}
+
+fn label(info: &png::Info<'_>) -> Label {
+    let latin = info.uncompressed_latin1_text.iter().map(|chunk| (chunk.keyword.clone(), chunk.text.clone()));
+    let packed =
+        info.compressed_latin1_text.iter().map(|chunk| (chunk.keyword.clone(), chunk.get_text().ok()));
+    let wide = info.utf8_text.iter().map(|chunk| (chunk.keyword.clone(), chunk.get_text().ok()));
+    let others = packed.chain(wide).filter_map(|(key, text)| Some((key, text?)));
+    let mut texts: Vec<(String, String)> = latin.chain(others).collect();
+    let mut take = |key: &str| {
+        let at = texts.iter().position(|(other, _)| other == key);
+        at.map(|at| texts.swap_remove(at).1).unwrap_or_default()
+    };
+    Label { software: take("Software"), comment: take("Comment") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Format;
+    use crate::frame::test_frames;
+
+    #[test]
+    fn what_was_written_is_read() {
+        for comment in ["uglorentz -vel .9 0 0\nugrainbow", "γ = 2", ""] {
+            let label = Label { software: "ug 1".into(), comment: comment.into() };
+            for frame in test_frames() {
+                assert_eq!(read_png(&Format::Png.encode(&frame, &label)).unwrap(), (frame, label.clone()));
+            }
+        }
+    }
+
+    #[test]
+    fn sixteen_bits_and_greys_are_read() {
+        for frame in test_frames() {
+            let (deep, _) = read_png(&Format::Png16.encode(&frame, &Label::default())).unwrap();
+            let near = |(a, b): (&[u8; 4], &[u8; 4])| a.iter().zip(b).all(|(a, b)| a.abs_diff(*b) <= 1);
+            assert!(deep.pixels().iter().zip(frame.pixels()).all(near));
+        }
+        let mut file = Vec::new();
+        let mut encoder = png::Encoder::new(&mut file, 3, 1);
+        encoder.set_color(ColorType::Grayscale);
+        encoder.set_depth(png::BitDepth::Two);
+        encoder.write_header().unwrap().write_image_data(&[0b0001_1100]).unwrap();
+        let (frame, _) = read_png(&file).unwrap();
+        assert_eq!(frame.pixels(), [[0, 0, 0, 255], [85, 85, 85, 255], [255, 255, 255, 255]]);
+    }
+
+    #[test]
+    fn broken_files_are_refused() {
+        let file = Format::Png.encode(&test_frames()[2], &Label::default());
+        assert!(read_png(b"").is_err());
+        assert!(read_png(b"GIF89a").unwrap_err().to_string().starts_with("no PNG that can be read"));
+        for length in 0..file.len() - 30 {
+            assert!(read_png(&file[..length]).is_err(), "{length}");
+        }
+        let mut huge = file;
+        huge[16..20].copy_from_slice(&0x7fff_ffff_u32.to_be_bytes());
+        assert!(read_png(&huge).is_err());
+    }
+}

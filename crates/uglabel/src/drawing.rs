@@ -1,0 +1,101 @@
+//! Shapes of one colour, in the order of painting.
+
+use ugimage::figure::{Element, Point, Rgb};
+
+use crate::text::Line;
+
+/// What is drawn on a picture.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Drawing {
+    /// In the order of painting.
+    pub shapes: Vec<Shape>,
+}
+
+/// What is painted in one go.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Shape {
+    /// An area; inside by the even-odd rule.
+    Area {
+        /// Its outlines.
+        contours: Vec<Vec<Point>>,
+        /// Its colour.
+        color: Rgb,
+    },
+    /// Lines with ends cut straight; where they overlap they are one.
+    Lines {
+        /// From where to where.
+        lines: Vec<[Point; 2]>,
+        /// Their width in pixels.
+        width: f64,
+        /// Their colour.
+        color: Rgb,
+    },
+}
+
+impl Drawing {
+    /// Adds an area with one outline.
+    pub fn area(&mut self, outline: Vec<Point>, color: Rgb) {
+        self.shapes.push(Shape::Area { contours: vec![outline], color });
+    }
+
+    /// Adds a rectangle.
+    pub fn rectangle(&mut self, [left, top]: Point, [right, bottom]: Point, color: Rgb) {
+        self.area(vec![[left, top], [right, top], [right, bottom], [left, bottom]], color);
+    }
+
+    /// Adds lines.
+    pub fn lines(&mut self, lines: Vec<[Point; 2]>, width: f64, color: Rgb) {
+        if !lines.is_empty() {
+            self.shapes.push(Shape::Lines { lines, width, color });
+        }
+    }
+
+    /// Adds a line of text whose base line begins at `origin`.
+    pub fn text(&mut self, line: &Line, origin: Point, color: Rgb) {
+        let contours = line.contours(origin);
+        if !contours.is_empty() {
+            self.shapes.push(Shape::Area { contours, color });
+        }
+    }
+
+    /// Adds an arrow from one place to another; `width` is that of its shaft.
+    pub fn arrow(&mut self, [from, to]: [Point; 2], width: f64, color: Rgb) {
+        let (x, y) = (to[0] - from[0], to[1] - from[1]);
+        let length = libm::hypot(x, y);
+        if length <= 0.0 {
+            return;
+        }
+        let (x, y) = (x / length, y / length);
+        let head = (6.0 * width).min(0.7 * length);
+        let neck = [to[0] - head * x, to[1] - head * y];
+        let side = |by: f64| [neck[0] - by * y, neck[1] + by * x];
+        // The shaft ends within the head, so that no gap shows.
+        let end = [neck[0] + 0.5 * head * x, neck[1] + 0.5 * head * y];
+        self.lines(vec![[from, end]], width, color);
+        self.area(vec![to, side(0.42 * head), side(-0.42 * head)], color);
+    }
+
+    /// Adds all shapes of another drawing.
+    pub fn extend(&mut self, other: Self) {
+        self.shapes.extend(other.shapes);
+    }
+
+    /// The same as elements of a figure of areas.
+    pub fn elements<S>(&self) -> Vec<Element<S>> {
+        let mut elements = Vec::new();
+        for shape in &self.shapes {
+            match shape {
+                Shape::Area { contours, color } => {
+                    elements.push(Element::Area {
+                        contours: contours.clone(),
+                        color: *color,
+                        is_inside: false,
+                    });
+                }
+                Shape::Lines { lines, width, color } => elements
+                    .extend(lines.iter().map(|&ends| Element::Line { ends, width: *width, color: *color })),
+            }
+        }
+        elements
+    }
+}

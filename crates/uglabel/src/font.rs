@@ -1,0 +1,167 @@
+//! The font: characters as outlines of straight lines.
+
+use std::fmt;
+
+use ab_glyph::{Font, FontRef, GlyphId, OutlineCurve};
+use ugimage::figure::Point;
+
+/// DejaVu Sans; its licence stands beside it.
+const FONT: &[u8] = include_bytes!("../font/DejaVuSans.ttf");
+
+/// How far an outline may be from the curve it stands for, in pixels.
+const TOLERANCE: f64 = 0.01;
+
+/// A character that the font lacks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct MissingCharacter(pub char);
+
+impl fmt::Display for MissingCharacter {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self(character) = *self;
+        let shown = if character.is_control() { '\u{fffd}' } else { character };
+        write!(
+            f,
+            "the font has no `{shown}` (U+{:04X}); it has Latin and Greek letters, superscripts and subscripts, arrows and \
+             signs such as × ° − ≈ √",
+            u32::from(character)
+        )
+    }
+}
+
+impl std::error::Error for MissingCharacter {}
+
+/// The font at a size.
+pub struct Sized {
+    font: FontRef<'static>,
+    /// Pixels a unit of the font.
+    scale: f64,
+}
+
+/// A character of it.
+#[derive(Clone, Copy, PartialEq)]
+pub struct Glyph(GlyphId);
+
+impl Sized {
+    /// `size`: of the em, in pixels.
+    pub fn new(size: f64) -> Self {
+        let font = FontRef::try_from_slice(FONT).expect("the font that is part of the program is sound");
+        let units = font.units_per_em().expect("the font says its units");
+        Self { font, scale: size / f64::from(units) }
+    }
+
+    /// The glyph of a character.
+    pub fn glyph(&self, character: char) -> Result<Glyph, MissingCharacter> {
+        match self.font.glyph_id(character) {
+            GlyphId(0) => Err(MissingCharacter(character)),
+            glyph => Ok(Glyph(glyph)),
+        }
+    }
+
+    /// How far it is from one glyph to the next, in pixels.
+    pub fn advance(&self, glyph: Glyph, next: Option<Glyph>) -> f64 {
+        let kern = next.map_or(0.0, |next| self.font.kern_unscaled(glyph.0, next.0));
+        self.scale * f64::from(self.font.h_advance_unscaled(glyph.0) + kern)
+    }
+
+    /// The outlines of a glyph whose origin, on the base line, is at a place.
+    pub fn contours(&self, glyph: Glyph, origin: Point) -> Vec<Vec<Point>> {
+        let mut contours: Vec<Vec<Point>> = Vec::new();
+        let Some(outline) = self.font.outline(glyph.0) else { return contours };
+        let place = |point: ab_glyph::Point| {
+            [origin[0] + self.scale * f64::from(point.x), origin[1] - self.scale * f64::from(point.y)]
+        };
+        let mut last = None;
+        for curve in outline.curves {
+            let (from, to) = match curve {
+                OutlineCurve::Line(from, to)
+                | OutlineCurve::Quad(from, _, to)
+                | OutlineCurve::Cubic(from, _, _, to) => (from, to),
+            };
+            if last != Some(from) {
+                contours.push(Vec::new());
+            }
+            last = Some(to);
+            let contour = contours.last_mut().expect("the first curve began one");
+            let controls = match curve {
+                OutlineCurve::Line(..) => vec![from, to],
+                OutlineCurve::Quad(_, middle, _) => vec![from, middle, to],
+                OutlineCurve::Cubic(_, first, second, _) => vec![from, first, second, to],
+            };
+            push_curve(&controls.into_iter().map(place).collect::<Vec<_>>(), contour);
+        }
+        contours
+    }
+}
+
+/// Adds a Bézier curve of straight lines, without its last point.
+fn push_curve(controls: &[Point], contour: &mut Vec<Point>) {
+    let bend = controls.windows(3).map(|triple| {
+        let [x, y] = [0, 1].map(|i| triple[0][i] - 2.0 * triple[1][i] + triple[2][i]);
+        libm::hypot(x, y)
+    });
+    // Enough lines for a cubic curve with this bend, and more than enough for a quadratic one.
+    let n_lines = libm::sqrt(0.75 * bend.fold(0.0, f64::max) / TOLERANCE).ceil().max(1.0);
+    for step in 0..n_lines as u32 {
+        contour.push(at(controls.to_vec(), f64::from(step) / n_lines));
+    }
+}
+
+/// The point of a Bézier curve, by de Casteljau.
+fn at(mut points: Vec<Point>, part: f64) -> Point {
+    while points.len() > 1 {
+        points = points
+            .windows(2)
+            .map(|pair| [0, 1].map(|i| pair[0][i] + (pair[1][i] - pair[0][i]) * part))
+            .collect();
+    }
+    points[0]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_authors_write_is_there() {
+        let font = Sized::new(10.0);
+        for character in (' '..='~')
+            .chain('\u{a0}'..='ÿ')
+            .chain('α'..='ω')
+            .chain("βγλν×°−→⟵←↑↓≈≤≥⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁺₀₁₂₃′″–—‘’“”…√∞⊙⊗".chars())
+        {
+            // The long arrow is not in the list of the font.
+            assert_eq!(font.glyph(character).is_ok(), character != '⟵', "{character}");
+        }
+    }
+
+    #[test]
+    fn a_missing_character_says_its_number() {
+        let missing = Sized::new(10.0).glyph('漢').err().unwrap();
+        assert!(missing.to_string().starts_with("the font has no `漢` (U+6F22); it has"), "{missing}");
+    }
+
+    /// Figures of areas fill by the even-odd rule, fonts are made for the other.
+    #[test]
+    fn no_glyph_has_outlines_that_overlap() {
+        let font = Sized::new(200.0);
+        for character in font.font.codepoint_ids().map(|(_, character)| character) {
+            let contours = font.contours(font.glyph(character).unwrap(), [0.0, 200.0]);
+            for row in (0..300).step_by(4) {
+                for column in (0..300).step_by(5) {
+                    let place = [f64::from(column) + 0.37 - 40.0, f64::from(row) + 0.41];
+                    let winding = winding(&contours, place);
+                    assert!(winding == 0 || winding.abs() == 1, "{character} {winding}");
+                }
+            }
+        }
+    }
+
+    fn winding(contours: &[Vec<Point>], [x, y]: Point) -> i32 {
+        let edges = contours.iter().flat_map(|contour| contour.iter().zip(contour.iter().cycle().skip(1)));
+        edges
+            .filter(|(a, b)| (a[1] <= y) != (b[1] <= y))
+            .filter(|(a, b)| a[0] + (b[0] - a[0]) * (y - a[1]) / (b[1] - a[1]) > x)
+            .map(|(a, b)| if a[1] < b[1] { 1 } else { -1 })
+            .sum()
+    }
+}

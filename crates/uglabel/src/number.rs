@@ -1,0 +1,114 @@
+//! Numbers as a textbook prints them.
+
+use ugphysics::Velocity;
+
+/// A number with so many digits that count, trailing zeros left out: `2.294`, `1.3×10⁻⁵`, `−0.5`.
+pub fn significant(number: f64, digits: usize) -> String {
+    let scientific = format!("{:.*e}", digits - 1, number);
+    let Some((mantissa, exponent)) = scientific.split_once('e') else { return scientific };
+    let exponent: i32 = exponent.parse().unwrap_or(0);
+    if number == 0.0 || (-3..6).contains(&exponent) {
+        let decimals = (digits as i32 - 1 - exponent).max(0) as usize;
+        return minus(trimmed(&format!("{number:.decimals$}")));
+    }
+    format!("{}×10{}", minus(trimmed(mantissa)), raised(exponent))
+}
+
+/// β, with as many decimals as tell it from 1.
+pub fn speed(v: Velocity) -> String {
+    let beta = v.speed();
+    // 1 − β, without cancellation.
+    let slack = 1.0 / (v.gamma() * v.gamma() * (1.0 + beta));
+    if beta < 0.1 {
+        return significant(beta, 3);
+    }
+    let decimals = (2.0 - libm::log10(slack).floor()).max(3.0);
+    if decimals > 10.0 {
+        return format!("1 − {}", significant(slack, 2));
+    }
+    trimmed(&format!("{beta:.*}", decimals as usize)).to_owned()
+}
+
+/// Several numbers: all of them if they are few, else the first and the last. Equal ones are one.
+pub fn few(mut texts: Vec<String>) -> String {
+    texts.dedup();
+    match texts.as_slice() {
+        [first, .., last] if texts.len() > 3 => range(first, last),
+        texts => texts.join(", "),
+    }
+}
+
+/// From one number to another.
+pub fn range(low: &str, high: &str) -> String {
+    if low == high { low.to_owned() } else { format!("{low} – {high}") }
+}
+
+fn trimmed(number: &str) -> &str {
+    if number.contains('.') { number.trim_end_matches('0').trim_end_matches('.') } else { number }
+}
+
+fn minus(number: &str) -> String {
+    number.replace('-', "−")
+}
+
+fn raised(exponent: i32) -> String {
+    let digit = |c: char| match c.to_digit(10) {
+        Some(1) => '¹',
+        Some(2) => '²',
+        Some(3) => '³',
+        Some(other) => char::from_u32(0x2070 + other).unwrap_or(c),
+        None => '⁻',
+    };
+    exponent.to_string().chars().map(digit).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+
+    use super::*;
+
+    #[test]
+    fn numbers_are_short_and_right() {
+        let rows = [
+            (0.0, "0"),
+            (1.0, "1"),
+            (2.294_157, "2.294"),
+            (22.366, "22.37"),
+            (0.5, "0.5"),
+            (-0.05, "−0.05"),
+            (123_456.0, "123456"),
+            (7_088_812.0, "7.089×10⁶"),
+            (0.000_012_34, "1.234×10⁻⁵"),
+            (9.9999, "10"),
+        ];
+        for (number, text) in rows {
+            assert_eq!(significant(number, 4), text);
+        }
+    }
+
+    #[test]
+    fn speeds_are_told_from_that_of_light() {
+        let rows = [
+            (0.0, "0"),
+            (0.3, "0.3"),
+            (0.95, "0.95"),
+            (0.999, "0.999"),
+            (0.9999, "0.9999"),
+            (11.0 / 13.0, "0.846"),
+            (1e-4, "1×10⁻⁴"),
+        ];
+        for (beta, text) in rows {
+            assert_eq!(speed(Velocity::from_beta(DVec3::new(0.0, beta, 0.0)).unwrap()), text);
+        }
+        assert_eq!(speed(Velocity::from_gamma(DVec3::X, 1e7).unwrap()), "1 − 5×10⁻¹⁵");
+    }
+
+    #[test]
+    fn more_than_three_are_a_range() {
+        let shown = |texts: &[&str]| few(texts.iter().map(|&text| text.to_owned()).collect());
+        assert_eq!(shown(&["0.5"]), "0.5");
+        assert_eq!(shown(&["0.5", "0.5", "0.9"]), "0.5, 0.9");
+        assert_eq!(shown(&["0", "0.3", "0.5", "0.9"]), "0 – 0.9");
+    }
+}

@@ -1,0 +1,135 @@
+//! Text: lines of characters, and paragraphs of lines.
+
+use ugimage::figure::Point;
+
+use crate::font::{Glyph, MissingCharacter, Sized};
+
+/// How far letters reach above the base line, accents of small letters included, in parts of the size.
+pub const ASCENT: f64 = 0.8;
+
+/// How far they reach below it.
+pub const DESCENT: f64 = 0.25;
+
+/// From one base line to the next.
+pub const SPACING: f64 = 1.35;
+
+/// A line of text at a size.
+pub struct Line {
+    font: Sized,
+    /// Each with its distance from the left end.
+    glyphs: Vec<(Glyph, f64)>,
+    width: f64,
+}
+
+impl Line {
+    /// `size`: of the em, in pixels. Tabs and line ends count as blanks.
+    ///
+    /// # Errors
+    /// The font lacks a character.
+    pub fn new(text: &str, size: f64) -> Result<Self, MissingCharacter> {
+        let font = Sized::new(size);
+        let glyphs = text.chars().map(|c| font.glyph(if matches!(c, '\t' | '\n' | '\r') { ' ' } else { c }));
+        let glyphs = glyphs.collect::<Result<Vec<_>, _>>()?;
+        let mut width = 0.0;
+        let places = glyphs.iter().enumerate().map(|(idx, &glyph)| {
+            let place = width;
+            width += font.advance(glyph, glyphs.get(idx + 1).copied());
+            (glyph, place)
+        });
+        let glyphs = places.collect();
+        Ok(Self { font, glyphs, width })
+    }
+
+    /// Its width in pixels.
+    pub fn width(&self) -> f64 {
+        self.width
+    }
+
+    /// The outlines of all its characters; `origin`: the left end of the base line.
+    pub fn contours(&self, [x, y]: Point) -> Vec<Vec<Point>> {
+        let contours = |&(glyph, place): &(Glyph, f64)| self.font.contours(glyph, [x + place, y]);
+        self.glyphs.iter().flat_map(contours).collect()
+    }
+}
+
+/// Text in lines not wider than `width` pixels: broken at line ends, else between words, and within a word only if it
+/// is too wide alone. Blanks at either end of a line are left out, and lines are lost that have nothing else at the
+/// end of the text.
+///
+/// # Errors
+/// The font lacks a character.
+pub fn wrapped(text: &str, size: f64, width: f64) -> Result<Vec<Line>, MissingCharacter> {
+    let mut lines = Vec::new();
+    for paragraph in text.trim_end().lines() {
+        let mut line = String::new();
+        for word in paragraph.split([' ', '\t']).filter(|word| !word.is_empty()) {
+            let longer = if line.is_empty() { word.to_owned() } else { format!("{line} {word}") };
+            if Line::new(&longer, size)?.width <= width {
+                line = longer;
+                continue;
+            }
+            if !line.is_empty() {
+                lines.push(Line::new(&line, size)?);
+            }
+            line = broken(word, size, width, &mut lines)?;
+        }
+        lines.push(Line::new(&line, size)?);
+    }
+    Ok(lines)
+}
+
+/// Adds full lines of a word that is too wide; what is left of it.
+fn broken(word: &str, size: f64, width: f64, lines: &mut Vec<Line>) -> Result<String, MissingCharacter> {
+    let mut part = String::new();
+    for character in word.chars() {
+        let longer = format!("{part}{character}");
+        if !part.is_empty() && Line::new(&longer, size)?.width > width {
+            lines.push(Line::new(&part, size)?);
+            part = character.to_string();
+        } else {
+            part = longer;
+        }
+    }
+    Ok(part)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_fit_and_lose_no_word() {
+        let text = "A ship passes at 0.9c, seen where it was when its light was sent; \
+                    unbreakableunbreakableunbreakableunbreakable ends.\n\nNew paragraph.\n";
+        let whole: usize = text.chars().filter(|c| !c.is_whitespace()).count();
+        for width in [60.0, 100.0, 250.0, 5000.0] {
+            let lines = wrapped(text, 12.0, width).unwrap();
+            assert!(lines.iter().all(|line| line.width() <= width));
+            let glyphs: usize = lines.iter().map(|line| line.glyphs.len()).sum();
+            // Blanks within lines come on top.
+            assert!(glyphs >= whole, "{width}");
+            assert!(lines.iter().any(|line| line.glyphs.is_empty()), "the empty line stays");
+        }
+        assert_eq!(wrapped(text, 12.0, 5000.0).unwrap().len(), 3);
+    }
+
+    #[test]
+    fn width_is_proportional_to_size_and_pairs_are_kerned() {
+        let width = |text: &str, size: f64| Line::new(text, size).unwrap().width();
+        assert!((width("λ → λ/D", 30.0) - 3.0 * width("λ → λ/D", 10.0)).abs() < 1e-9);
+        assert!(width("AV", 100.0) < width("A", 100.0) + width("V", 100.0) - 1.0);
+    }
+
+    #[test]
+    fn ink_keeps_within_its_height() {
+        for text in ["Éßgjpqy|ﬁ", "(γ = 2,29)²", "ÀÂÅ Ωβ∫"] {
+            let contours = Line::new(text, 100.0).unwrap().contours([0.0, 0.0]);
+            let rows: Vec<f64> = contours.iter().flatten().map(|place| place[1]).collect();
+            // Accents of capitals reach higher than other letters.
+            assert!(
+                rows.iter().all(|row| (-100.0 * (ASCENT + 0.2)..=100.0 * DESCENT).contains(row)),
+                "{text}"
+            );
+        }
+    }
+}

@@ -1,0 +1,232 @@
+//! A grid of coordinates on the ground: in the plane z = 0, or under what reaches lower.
+//!
+//! It is at rest where the picture is taken, in the coordinates of the scene, and spans the box round everything as it
+//! is seen. What is seen in front of it hides it.
+
+use glam::DVec3;
+use uglabel::{DESCENT, Drawing, Line, MissingCharacter, Point};
+use ugscene::View;
+
+use super::depths::{Depths, in_picture};
+use super::style::Style;
+use crate::setup::Setup;
+use uglabel::number::significant;
+
+/// Squares that should be beside each other in the picture, a quarter above its lower edge.
+const SQUARES: f64 = 8.0;
+
+/// Most squares along a side.
+const MOST: f64 = 100.0;
+
+/// Size of numbers, in parts of that of a caption.
+const TEXT: f64 = 0.8;
+
+/// Draws the grid. `setup`: with one sample for each pixel, of which `depths` are.
+///
+/// # Errors
+/// None, for the font has all that is written.
+pub fn draw(
+    setup: &Setup<'_>,
+    depths: &Depths,
+    style: &Style,
+    drawing: &mut Drawing,
+) -> Result<Option<String>, MissingCharacter> {
+    let Some(grid) = Grid::of(setup) else { return Ok(None) };
+    let view = &setup.view;
+    let mut lines = Vec::new();
+    for axis in 0..2 {
+        for number in grid.numbers(axis) {
+            let [low, high] = grid.ends[1 - axis];
+            let ends = [low, high].map(|across| grid.point(axis, number, across) - view.eye);
+            lines.extend(depths.visible(view, ends));
+        }
+    }
+    let is_empty = lines.is_empty();
+    drawing.lines(lines, style.hairline, style.faint);
+    let mut labels = Labels { grid: &grid, view, depths, style, boxes: Vec::new(), size: setup.size() };
+    for axis in 0..2 {
+        labels.draw(axis, drawing)?;
+    }
+    let (step, level) = (significant(grid.step, 4), significant(grid.level, 4));
+    Ok(Some(if is_empty {
+        format!("no line of the grid (-gr) is in the picture; it lies in the plane z = {level}")
+    } else {
+        format!("the lines of the grid (-gr) are {step} apart, in the plane z = {level}")
+    }))
+}
+
+/// Lines at multiples of a step.
+struct Grid {
+    step: f64,
+    /// z
+    level: f64,
+    /// Numbers of the first and the last line, of x and of y.
+    ends: [[i64; 2]; 2],
+}
+
+impl Grid {
+    /// None if the scene is too far away for numbers.
+    fn of(setup: &Setup<'_>) -> Option<Self> {
+        let (low, high) = setup.scene().bounds()?;
+        let longest = (high.x - low.x).max(high.y - low.y);
+        let level = if low.z < -1e-9 * longest { low.z } else { 0.0 };
+        let depth = depth(setup, level);
+        let [left, right] = [0.0, setup.size()[0]].map(|column| setup.view.point([column, 0.0], depth));
+        let step = round_step(((right - left).length() / SQUARES).max(longest / MOST));
+        let ends = [[low.x, high.x], [low.y, high.y]]
+            .map(|[low, high]| [(low / step).floor(), (high / step).ceil()]);
+        // Beyond, a line is not told from the next.
+        let is_near = ends.iter().flatten().all(|end| end.abs() < 1e9);
+        is_near.then(|| Self { step, level, ends: ends.map(|ends| ends.map(|end| end as i64)) })
+    }
+
+    fn numbers(&self, axis: usize) -> impl Iterator<Item = i64> + use<> {
+        let [low, high] = self.ends[axis];
+        low..=high
+    }
+
+    /// Where the line of a number of an axis meets that of a number of the other, scene coordinates.
+    fn point(&self, axis: usize, number: i64, across: i64) -> DVec3 {
+        let (along, across) = (number as f64 * self.step, across as f64 * self.step);
+        if axis == 0 { DVec3::new(along, across, self.level) } else { DVec3::new(across, along, self.level) }
+    }
+}
+
+/// True if a box overlaps none of the others.
+fn is_free([low, high]: [Point; 2], others: &[[Point; 2]]) -> bool {
+    let is_apart = |[other_low, other_high]: &[Point; 2]| {
+        (0..2).any(|i| high[i] < other_low[i] || low[i] > other_high[i])
+    };
+    others.iter().all(is_apart)
+}
+
+/// The depth of the ground in the lower part of the picture; that of the view centre if it is nearer.
+fn depth(setup: &Setup<'_>, level: f64) -> f64 {
+    let view = &setup.view;
+    let [width, height] = setup.size();
+    let [near, far] = [1.0, 2.0].map(|depth| view.eye.z + view.point([0.5 * width, 0.75 * height], depth).z);
+    let crossing = 1.0 + (level - near) / (far - near);
+    if crossing > 0.0 && view.is_perspective { crossing.min(view.distance) } else { view.distance }
+}
+
+/// The least of 1, 2, 5, 10, 20, … and .5, .2, … that is not less.
+fn round_step(least: f64) -> f64 {
+    let power = libm::exp10(libm::log10(least).floor());
+    // Rounding may put a power of ten on either side of itself.
+    [1.0, 2.0, 5.0, 10.0]
+        .map(|factor| factor * power)
+        .into_iter()
+        .find(|step| *step >= least * (1.0 - 1e-9))
+        .unwrap_or(10.0 * power)
+}
+
+/// Numbers at the ends of lines, on the side that is nearer to the eye.
+struct Labels<'a> {
+    grid: &'a Grid,
+    view: &'a View,
+    depths: &'a Depths,
+    style: &'a Style,
+    /// Of those drawn: left upper and right lower corner.
+    boxes: Vec<[Point; 2]>,
+    /// Of the picture.
+    size: [f64; 2],
+}
+
+impl Labels<'_> {
+    /// From the nearest on, until two would overlap. Those of the other axis, where they stand, are left out.
+    fn draw(&mut self, axis: usize, drawing: &mut Drawing) -> Result<(), MissingCharacter> {
+        let grid = self.grid;
+        let near = self.near_side(axis);
+        let [low, high] = grid.ends[1 - axis];
+        let far = if near == low { high } else { low };
+        let in_picture = |number: i64| {
+            let ends = [near, far].map(|across| grid.point(axis, number, across) - self.view.eye);
+            in_picture(self.view, ends).map(|[end, other]| (number, end, other, end == ends[0]))
+        };
+        let mut lines: Vec<_> = grid.numbers(axis).filter_map(in_picture).collect();
+        lines.sort_by(|(_, one, ..), (_, other, ..)| one.length().total_cmp(&other.length()));
+        let first = self.boxes.len();
+        let name = ["x", "y"][axis];
+        let mut is_named = false;
+        for (number, end, other, is_whole) in lines {
+            let Some(spot) = self.depths.shows(self.view, end) else { continue };
+            let text = significant(number as f64 * grid.step, 6);
+            // At the rims of the picture numbers of both axes are mixed.
+            let text = if is_named && is_whole { text } else { format!("{name} = {text}") };
+            let line = Line::new(&text, TEXT * self.style.size)?;
+            let outward = self.direction(end, end + (end - other) * 1e-3);
+            // Where a line leaves the picture, its number stands on it.
+            let direction = if is_whole { outward } else { outward.map(|part| -part) };
+            let place = self.place(&line, spot, direction);
+            if !is_free(place, &self.boxes[first..]) {
+                break;
+            }
+            if !self.is_inside(place) || !is_free(place, &self.boxes[..first]) {
+                continue;
+            }
+            is_named = true;
+            self.push(&line, place, !is_whole, drawing);
+        }
+        Ok(())
+    }
+
+    /// The side of the ground at which lines of an axis have their numbers.
+    fn near_side(&self, axis: usize) -> i64 {
+        let ends = self.grid.ends;
+        let middle = (ends[axis][0] + ends[axis][1]) / 2;
+        let [low, high] = ends[1 - axis];
+        let distance = |across: i64| (self.grid.point(axis, middle, across) - self.view.eye).length();
+        // Of equals the one whose coordinate is greater.
+        if distance(low) < distance(high) * (1.0 - 1e-9) { low } else { high }
+    }
+
+    /// The direction in the picture in which a line leaves the ground.
+    fn direction(&self, end: DVec3, beyond: DVec3) -> [f64; 2] {
+        let [a, b] = [end, beyond].map(|point| {
+            let place = self.view.place(point);
+            let w = if self.view.is_perspective { place.z } else { 1.0 };
+            [place.x / w, place.y / w]
+        });
+        let [x, y] = [b[0] - a[0], b[1] - a[1]];
+        let length = libm::hypot(x, y);
+        if length > 0.0 && length.is_finite() { [x / length, y / length] } else { [0.0, 1.0] }
+    }
+
+    /// The box of a number: from a place in a direction.
+    fn place(&self, line: &Line, [x, y]: Point, [right, down]: [f64; 2]) -> [Point; 2] {
+        let size = TEXT * self.style.size;
+        let half = [0.5 * line.width(), 0.4 * size];
+        let (away, gap) = (0.5 * size, 0.25 * size);
+        // As far from the place as the box needs in this direction.
+        let middle = [x + right * (half[0] + away), y + down * (half[1] + away)];
+        let low = [middle[0] - half[0] - gap, middle[1] - half[1] - gap];
+        [low, [middle[0] + half[0] + gap, middle[1] + half[1] + DESCENT * size]]
+    }
+
+    fn is_inside(&self, [low, high]: [Point; 2]) -> bool {
+        low.iter().all(|edge| *edge >= 0.0) && (0..2).all(|i| high[i] <= self.size[i])
+    }
+
+    fn push(&mut self, line: &Line, [low, high]: [Point; 2], has_ground: bool, drawing: &mut Drawing) {
+        self.boxes.push([low, high]);
+        if has_ground {
+            drawing.rectangle(low, high, self.style.ground);
+        }
+        let base = high[1] - DESCENT * TEXT * self.style.size;
+        drawing.text(line, [0.5 * (low[0] + high[0] - line.width()), base.round()], self.style.ink);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn steps_are_round_and_not_less() {
+        let rows =
+            [(1.0, 1.0), (1.01, 2.0), (2.5, 5.0), (7.0, 10.0), (0.03, 0.05), (1000.0, 1000.0), (1e-7, 1e-7)];
+        for (least, step) in rows {
+            assert!((round_step(least) / step - 1.0).abs() < 1e-12, "{least} {}", round_step(least));
+        }
+    }
+}

@@ -1,0 +1,249 @@
+//! Captions, legends, grids and outlines: where they are, and that the picture of the scene stays as it is.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking, its helpers too")]
+
+use ugimage::{Format, Frame};
+use ugphysics::Hsv;
+use ugrainbow::{Background, Config, Error, Exact, Figures, MAX_PIXELS, Output, render, run};
+
+const SHIP: &str = "c green 1 120 .8; l 1; cam -ep 0 -9 3 -vc 0 0 .5;
+    v a -1 -1 0; v b 1 -1 0; v c 1 1 0; v d -1 1 0; v e -1 -1 1; v f 1 -1 1; v g 1 1 1; v h -1 1 1;
+    f (a b f e) green <.5 0 0>; f (b c g f) green <.5 0 0>; f (c d h g) green <.5 0 0>;
+    f (d a e h) green <.5 0 0>; f (e f g h) green <.5 0 0>; f (d c b a) green <.5 0 0>;";
+
+fn scene(text: &str) -> ugparse::Scene {
+    let source = ugparse::Source::new("test.ug", text);
+    ugparse::parse(&source, &ugparse::Options::default()).unwrap().scene
+}
+
+#[track_caller]
+fn draw(text: &str, config: &Config) -> Frame {
+    render(&scene(text), config).unwrap().0
+}
+
+fn white() -> Background {
+    Background::Color(Hsv { hue: 0.0, saturation: 0.0, value: 1.0 })
+}
+
+fn strips() -> Figures {
+    Figures {
+        caption: "A box at half the speed of light: β = 0.5".into(),
+        legend: true,
+        ..Figures::default()
+    }
+}
+
+/// Rows of the scene in a figure: the greatest height at which the scene alone gives its upper rows, to the byte.
+fn scene_rows(config: &Config) -> u32 {
+    let figure = draw(SHIP, config);
+    let [width, height] = config.size;
+    assert_eq!([figure.width(), figure.height()], config.size);
+    let is_alike = |rows: &u32| {
+        let alone = Config { size: [width, *rows], figures: Figures::default(), ..config.clone() };
+        figure.pixels().starts_with(draw(SHIP, &alone).pixels())
+    };
+    (height / 3..height).rev().find(is_alike).unwrap_or(0)
+}
+
+#[test]
+fn the_scene_is_drawn_as_it_would_be_alone_in_less_room() {
+    let plain = Config { size: [320, 240], samples: 1, ..Config::default() };
+    let caption = Figures { legend: false, ..strips() };
+    let legend = Figures { caption: String::new(), ..strips() };
+    for background in [plain.background, white(), Background::Clear] {
+        for (figures, output, exact) in [
+            (strips(), Output::Color(Format::Png), None),
+            (caption.clone(), Output::Color(Format::Png16), None),
+            (legend.clone(), Output::Color(Format::Png), Some(Exact::default())),
+        ] {
+            let rows = scene_rows(&Config { background, output, exact, figures, ..plain.clone() });
+            assert!((120..235).contains(&rows), "{rows}");
+        }
+    }
+}
+
+#[test]
+fn the_caption_keeps_within_its_strip() {
+    for text in
+        ["β = 0.5", "jpqgy ÂÉ|", &"A long caption that needs several lines, ".repeat(5), "two\nlines", "i"]
+    {
+        for background in [Background::Color(Hsv { hue: 0.0, saturation: 0.0, value: 0.0 }), white()] {
+            let figures = Figures { caption: text.into(), ..Figures::default() };
+            let config = Config { size: [300, 300], samples: 1, background, figures, ..Config::default() };
+            let figure = draw(SHIP, &config);
+            let ground = figure.pixel(0, 299);
+            let rows = scene_rows(&config);
+            let inks = |x: u32, y: u32| figure.pixel(x, y) != ground;
+            // The strip begins with at least half a line of ground, and ends with one.
+            let ink: Vec<[u32; 2]> = (rows..300)
+                .flat_map(|y| (0..300).map(move |x| [x, y]))
+                .filter(|&[x, y]| inks(x, y))
+                .collect();
+            let bound = |axis: usize| {
+                let places = ink.iter().map(move |place| place[axis]);
+                [places.clone().min().unwrap(), places.max().unwrap()]
+            };
+            let ([left, right], [_, bottom]) = (bound(0), bound(1));
+            assert!(left >= 5 && right < 295 && bottom < 297, "{text}: {left} {right} {bottom}");
+            let [red, ..] = ground;
+            let contrast = ink.iter().map(|&[x, y]| figure.pixel(x, y)[0].abs_diff(red)).max();
+            assert!(contrast > Some(100), "{text}: {contrast:?}");
+        }
+    }
+}
+
+/// Each number of the legend stands under the colour of its wavelength.
+#[test]
+fn the_legend_has_the_hues_of_the_map() {
+    let figures = Figures { caption: String::new(), ..strips() };
+    let config = Config { size: [1200, 900], background: white(), figures, ..Config::default() };
+    let figure = draw(SHIP, &config);
+    let hue = |x: u32, y: u32| {
+        let [red, green, blue, _] = figure.pixel(x, y);
+        let color = Hsv::from_rgb([red, green, blue].map(|level| f64::from(level) / 255.0));
+        (color.saturation > 0.99 && color.value > 0.99).then_some(color.hue)
+    };
+    // The longest row of pure colours is in the middle of the rainbow.
+    let pure = |y: u32| (0..1200).filter(|&x| hue(x, y).is_some()).count();
+    let rainbow: Vec<u32> = (600..900).filter(|&y| pure(y) > 100).collect();
+    let (row, end) = (rainbow[rainbow.len() / 2], *rainbow.last().unwrap());
+    // Below it, behind its frame, there are the ticks.
+    let is_tick = |x: u32| figure.pixel(x, end + 4)[0] < 128;
+    // The rainbow is in the left half.
+    let starts: Vec<u32> = (1..600).filter(|&x| is_tick(x) && !is_tick(x - 1)).collect();
+    let middles = starts.iter().map(|&start| {
+        let width = (start..1200).take_while(|&x| is_tick(x)).count() as u32;
+        start + width / 2
+    });
+    let middles: Vec<u32> = middles.collect();
+    assert_eq!(middles.len(), 4, "{middles:?}");
+    for (x, wavelength_nm) in middles.iter().zip([400.0, 500.0, 600.0, 700.0]) {
+        if let Some(found) = hue(*x, row) {
+            let expected = [-3.0, 3.0].map(|off| ugphysics::wavelength_to_hue(wavelength_nm + off));
+            let found = if found > 330.0 { found - 360.0 } else { found };
+            assert!((expected[1]..=expected[0]).contains(&found), "{wavelength_nm} nm: {found} {expected:?}");
+        }
+    }
+    // Ticks are evenly spaced, so all other wavelengths are where they belong.
+    let at = |wavelength_nm: f64| {
+        let (first, last) = (f64::from(middles[0]), f64::from(middles[3]));
+        (first + (last - first) * (wavelength_nm - 400.0) / 300.0).round() as u32
+    };
+    for wavelength_nm in [450.0, 486.1, 550.0, 589.0, 656.3] {
+        let found = hue(at(wavelength_nm), row).unwrap();
+        let expected = [-3.5, 3.5].map(|off| ugphysics::wavelength_to_hue(wavelength_nm + off));
+        assert!((expected[1]..=expected[0]).contains(&found), "{wavelength_nm} nm: {found} {expected:?}");
+    }
+}
+
+/// Seen from above, without perspective: lines are where their coordinates are, but not where a box stands on them.
+#[test]
+fn grid_lines_are_at_their_coordinates_and_hidden_by_what_is_nearer() {
+    let angle = 2.0 * libm::atan(4.0 / 10.0).to_degrees();
+    let text = format!(
+        "c grey .5; l 1; cam -ep 0 0 10 -vc 0 0 0 -ud 0 1 0 -og -va {angle} {angle};
+         v a -.6 -.6 2; v b .6 -.6 2; v c .6 .6 2; v d -.6 .6 2; f (a b c d) grey;
+         v e -3 -3 0; v f -2.9 -3 0; v g -2.9 -2.9 0; f (e f g) grey; v h 3 3 0; v i 2.9 3 0; v j 2.9 2.9 0; f (h i j) grey;"
+    );
+    let config = Config { size: [400, 400], ..Config::default() };
+    let plain = draw(&text, &config);
+    let figures = Figures { grid: true, ..Figures::default() };
+    let grid = draw(&text, &Config { figures, ..config });
+    let differs = |x: u32, y: u32| grid.pixel(x, y) != plain.pixel(x, y);
+    // 50 pixels a unit; lines are 1 apart from -3 to 3.
+    for x in -3..=3 {
+        let column = (200 + 50 * x) as u32;
+        assert!(differs(column, 75) || differs(column - 1, 75), "x = {x}");
+        let is_under_box = x == 0;
+        assert_eq!(differs(column, 200 + 3), !is_under_box, "x = {x}");
+    }
+    for column in (60..340).filter(|column| (column % 50i32 - 25).abs() < 20) {
+        assert!(!differs(column as u32, 225), "column {column} is between lines");
+    }
+    assert!((50..350).all(|y| !differs(40, y)), "nothing but numbers stands outside");
+}
+
+/// A body placed as `uglorentz -in` places it has the outline that it has at rest.
+#[test]
+fn the_undistorted_outline_is_that_of_the_body_at_rest() {
+    // Where the eye of the pipe is, so that (P3) moves corners as uglorentz does.
+    let eye = glam::DVec3::new(0.0, -9.0, 3.0);
+    let corners: Vec<glam::DVec3> = (0..8)
+        .map(|idx| {
+            let side = |bit: u32| if idx >> bit & 1 == 1 { 1.0 } else { -1.0 };
+            glam::DVec3::new(1.5 * side(0), side(1), 0.7 * side(2))
+        })
+        .collect();
+    const FACES: [[usize; 4]; 6] =
+        [[0, 1, 5, 4], [1, 3, 7, 5], [3, 2, 6, 7], [2, 0, 4, 6], [4, 5, 7, 6], [2, 3, 1, 0]];
+    let text = |velocity: &str, places: &[glam::DVec3]| {
+        let vertices = places.iter().enumerate().map(|(idx, p)| format!("v p{idx} {} {} {};", p.x, p.y, p.z));
+        let faces = FACES.iter().map(|face| {
+            let names: Vec<String> = face.iter().map(|idx| format!("p{idx}")).collect();
+            format!("f ({}) grey {velocity};", names.join(" "))
+        });
+        let head = "c grey .5; l .3; l .7 1 -2 4; cam -ep 0 -9 3 -vc 0 0 0;".to_owned();
+        std::iter::once(head).chain(vertices).chain(faces).collect::<Vec<_>>().join(" ")
+    };
+    let v = ugphysics::Velocity::from_beta(glam::DVec3::new(0.9, 0.1, 0.0)).unwrap();
+    // Seen with its centre at the origin: rest coordinates about the one that is seen there.
+    let middle = ugphysics::rest_position(-eye, v);
+    let seen: Vec<glam::DVec3> =
+        corners.iter().map(|&corner| eye + ugphysics::seen_position(middle + corner, v)).collect();
+    let config = Config { size: [320, 240], ..Config::default() };
+    let rest = draw(&text("", &corners), &config);
+    let moving = text("<.9 .1 0>", &seen);
+    let plain = draw(&moving, &config);
+    let figures = Figures { outline: true, ..Figures::default() };
+    let outlined = draw(&moving, &Config { figures, ..config });
+
+    let near = |x: u32, y: u32, reach: u32| {
+        let span = move |at: u32, end: u32| at.saturating_sub(reach)..(at + reach + 1).min(end);
+        span(y, 240).flat_map(move |y| span(x, 320).map(move |x| (x, y)))
+    };
+    let is_edge = |x: u32, y: u32| near(x, y, 1).any(|(i, j)| rest.pixel(i, j) != rest.pixel(x, y));
+    let is_white = |x: u32, y: u32| outlined.pixel(x, y)[0] > plain.pixel(x, y)[0].saturating_add(40);
+    let mut n_ink = 0;
+    for y in 0..240 {
+        for x in 0..320 {
+            if is_white(x, y) {
+                n_ink += 1;
+                assert!(near(x, y, 2).any(|(i, j)| is_edge(i, j)), "ink at {x} {y} is at no edge");
+            }
+            if is_edge(x, y) {
+                assert!(near(x, y, 2).any(|(i, j)| is_white(i, j)), "the edge at {x} {y} has no ink");
+            }
+        }
+    }
+    assert!(n_ink > 400, "{n_ink}");
+}
+
+#[test]
+fn what_cannot_be_is_refused() {
+    let check = |config: Config, part: &str| {
+        let source = ugparse::Source::new("test.ug", SHIP);
+        let error: Error = run(&config, &source).unwrap_err();
+        assert!(error.is_usage() && error.to_string().contains(part), "{error}");
+    };
+    let with = |figures: Figures| Config { size: [320, 240], figures, ..Config::default() };
+    check(with(Figures { caption: "光速".into(), ..Figures::default() }), "the font has no `光` (U+5149)");
+    check(Config { output: Output::Color(Format::Exr), ..with(strips()) }, "leave out -cap");
+    check(Config { size: [30, 30], ..with(strips()) }, "give a larger -sz");
+    check(Config { size: [0, 30], ..with(strips()) }, &MAX_PIXELS.to_string());
+    check(with(Figures { caption: "x\n".repeat(50) + "x", ..Figures::default() }), "a shorter -cap");
+    let clear =
+        Config { background: Background::Clear, output: Output::Vector(Format::Pdf), ..with(strips()) };
+    check(clear, "leave out -tb");
+}
+
+#[test]
+fn at_rest_there_is_a_legend_but_no_outline() {
+    let text = SHIP.replace("<.5 0 0>", "");
+    let figures = Figures { outline: true, ..strips() };
+    let config = Config { size: [320, 240], ..Config::default() };
+    let (frame, notes) = render(&scene(&text), &Config { figures, ..config.clone() }).unwrap();
+    assert!(notes.iter().any(|note| note.starts_with("nothing moves")), "{notes:?}");
+    assert_eq!(frame.height(), 240);
+    let (_, notes) = render(&scene(&text), &Config { figures: strips(), ..config }).unwrap();
+    assert!(notes.is_empty(), "{notes:?}");
+}

@@ -1,0 +1,184 @@
+//! The command line of `ugsheet`.
+
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use clap::{ArgAction, Parser, ValueEnum};
+use ugimage::{Format, read_png};
+use ugphysics::Hsv;
+use ugpipe::{CommonArgs, Failure, Stage, ToolArgs, finite};
+
+use crate::{Config, Error, Labels, Picture, history, sheet};
+
+/// Several pictures on one sheet, with labels
+///
+/// Reads PNG files and puts them side by side, each with its pixels as they are. Labels are the speeds and times that
+/// the pictures say they were made with, if these differ, else the names of the files.
+#[derive(Parser, Debug)]
+#[command(name = "ugsheet", version, before_help = ugpipe::ONE_DASH, after_help = EXAMPLES)]
+pub struct Args {
+    /// Pictures in a row [default: as many as there are rows, or one more]
+    #[arg(long, value_name = "N", visible_alias = "columns", value_parser = clap::value_parser!(u32).range(1..))]
+    cols: Option<u32>,
+
+    /// Label of a picture; give one for each, in their order
+    #[arg(long, value_name = "TEXT", action = ArgAction::Append, conflicts_with = "lb")]
+    label: Vec<String>,
+
+    /// Labels where none are given
+    #[arg(long, value_name = "KIND", default_value = "auto", visible_alias = "labels", value_enum)]
+    lb: Kind,
+
+    /// Begin labels with (a), (b), …
+    #[arg(long, visible_alias = "letters")]
+    lt: bool,
+
+    /// Title above all
+    #[arg(long, value_name = "TEXT")]
+    title: Option<String>,
+
+    /// Caption below all, in lines as they fit, or as they are
+    #[arg(long, value_name = "TEXT", visible_alias = "caption")]
+    cap: Option<String>,
+
+    /// Size of labels in pixels [default: a 28th of the pictures, 10 to 48]
+    #[arg(long, value_name = "PIXELS", value_parser = text_size, visible_alias = "text-size")]
+    ts: Option<f64>,
+
+    /// Pixels between pictures and, if given, around all [default: a little less than the size of labels]
+    #[arg(long, num_args = 1..=2, value_names = ["N", "M"], action = ArgAction::Set,
+          value_parser = clap::value_parser!(u32).range(..=10_000))]
+    gap: Option<Vec<u32>>,
+
+    /// Colour of the ground: lightness, hue in degrees, saturation [default: white]
+    #[arg(long, num_args = 1..=3, value_names = ["L", "H", "S"], action = ArgAction::Set,
+          value_parser = finite, visible_alias = "background")]
+    bg: Option<Vec<f64>>,
+
+    /// Format of the sheet: png, ppm, eps, ps, pdf, svg [default: by the ending of -fo, else png]
+    #[arg(long, value_name = "FMT", visible_alias = "format", value_parser = format_named)]
+    dt: Option<Format>,
+
+    #[command(flatten)]
+    common: CommonArgs,
+
+    /// More files to read
+    #[arg(value_name = "FILE")]
+    files: Vec<PathBuf>,
+}
+
+const EXAMPLES: &str = "Examples:
+  ugsheet -cols 2 rest.png 0.5c.png 0.9c.png 0.99c.png > sheet.png
+  ugsheet -lt -label 'at rest' -label 'β = 0.9' -cap 'A ship passes.' rest.png fast.png -fo figure.pdf";
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum Kind {
+    /// Speed and time if pictures say and differ in them, else names
+    Auto,
+    /// Names of files
+    Names,
+    /// None
+    None,
+}
+
+/// Most size of text, in pixels.
+const LARGEST: f64 = 1000.0;
+
+fn text_size(word: &str) -> Result<f64, String> {
+    let size = finite(word)?;
+    if (4.0..=LARGEST).contains(&size) {
+        Ok(size)
+    } else {
+        Err(format!("text is from 4 to {LARGEST} pixels"))
+    }
+}
+
+fn format_named(name: &str) -> Result<Format, String> {
+    let format = Format::from_name(name).filter(|format| !format.is_deep());
+    format.ok_or_else(|| "none of the formats png, ppm, eps, ps, pdf, svg".to_owned())
+}
+
+impl ToolArgs for Args {
+    fn common(&self) -> &CommonArgs {
+        &self.common
+    }
+}
+
+impl Args {
+    fn config(&self) -> Result<Config, Failure> {
+        let kind = match self.lb {
+            Kind::Auto => Labels::Auto,
+            Kind::Names => Labels::Names,
+            Kind::None => Labels::None,
+        };
+        Ok(Config {
+            columns: self.cols,
+            labels: if self.label.is_empty() { kind } else { Labels::Given(self.label.clone()) },
+            letters: self.lt,
+            title: self.title.clone().unwrap_or_default(),
+            caption: self.cap.clone().unwrap_or_default(),
+            background: self.background()?,
+            gap: self.gap.as_ref().map(|gap| [gap[0], gap.get(1).copied().unwrap_or(gap[0])]),
+            text_size: self.ts,
+        })
+    }
+
+    /// As of `ugrainbow`: lightness alone is grey, with a hue it is pure.
+    fn background(&self) -> Result<[u8; 3], Failure> {
+        let numbers = self.bg.as_deref().unwrap_or(&[1.0]);
+        let hue = numbers.get(1).copied().unwrap_or(0.0);
+        let saturation = numbers.get(2).copied().unwrap_or(if numbers.len() > 1 { 1.0 } else { 0.0 });
+        let is_part = |number: f64| (0.0..=1.0).contains(&number);
+        if !is_part(numbers[0]) || !is_part(saturation) {
+            return Err(Failure::usage("lightness and saturation of the background -bg are from 0 to 1"));
+        }
+        let color = Hsv { hue, saturation, value: numbers[0] };
+        Ok(color.to_rgb().map(|part| (255.0 * part).round() as u8))
+    }
+
+    fn format(&self, file: Option<&Path>) -> Result<Format, Failure> {
+        let ending = file.and_then(Path::extension).map(|ending| ending.to_string_lossy().into_owned());
+        match (self.dt, ending) {
+            (Some(format), _) => Ok(format),
+            (None, None) => Ok(Format::Png),
+            (None, Some(ending)) => format_named(&ending)
+                .map_err(|error| Failure::Usage(format!("`.{ending}` is {error}; name one with -dt"))),
+        }
+    }
+}
+
+/// A picture of its file. `path`: none for standard input.
+fn picture(path: Option<&Path>, input: &ugpipe::Input) -> Result<Picture, Failure> {
+    let (frame, history) =
+        read_png(&input.text).map_err(|error| Failure::Failed(format!("`{}`: {error}", input.name)))?;
+    let name = path.and_then(Path::file_stem).map(|stem| stem.to_string_lossy().into_owned());
+    Ok(Picture { name: name.unwrap_or_default(), frame, history })
+}
+
+/// The program.
+pub fn main() -> ExitCode {
+    ugpipe::main(|args: &Args, stage: &mut Stage| {
+        let config = args.config()?;
+        let format = args.format(stage.output_name())?;
+        if stage.output_is_terminal() && format.is_binary() {
+            return Err(Failure::usage(
+                "a picture is not written to a terminal; send it to a file with `> FILE` or -fo FILE",
+            ));
+        }
+        let mut pictures = vec![picture(args.common.input(), &stage.input()?)?];
+        for path in &args.files {
+            pictures.push(picture(Some(path), &stage.input_file(path)?)?);
+        }
+        let frame = sheet(&config, &pictures).map_err(|error| match error {
+            Error::Count { .. } | Error::Text { .. } => Failure::usage(error),
+            error => Failure::failed(error),
+        })?;
+        stage.detail(&format!(
+            "{} pictures on {} x {} pixels",
+            pictures.len(),
+            frame.width(),
+            frame.height()
+        ));
+        stage.write(&format.encode(&frame, &history(&pictures, stage.command_line())))
+    })
+}

@@ -1,0 +1,154 @@
+//! What stands under a picture.
+
+use glam::DVec3;
+use uglabel::number::{significant, speed};
+use ugphysics::Velocity;
+
+use crate::error::Error;
+use crate::{Picture, words};
+
+/// What stands under pictures.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Labels {
+    /// Speed and time, as far as pictures differ in them by what they say of how they were made; else their names.
+    Auto,
+    /// Names of files.
+    Names,
+    /// Nothing.
+    None,
+    /// These, one for each picture.
+    Given(Vec<String>),
+}
+
+impl Labels {
+    /// The labels of pictures.
+    pub fn texts(&self, pictures: &[Picture]) -> Vec<String> {
+        let names = || pictures.iter().map(|picture| picture.name.clone()).collect();
+        match self {
+            Self::Auto => by_motion(pictures).unwrap_or_else(names),
+            Self::Names => names(),
+            Self::None => vec![String::new(); pictures.len()],
+            Self::Given(texts) => texts.clone(),
+        }
+    }
+
+    /// The same, as many as pictures.
+    ///
+    /// # Errors
+    /// There is no picture, or another number of labels.
+    pub fn checked(&self, pictures: &[Picture]) -> Result<Vec<String>, Error> {
+        let texts = self.texts(pictures);
+        match (texts.len(), pictures.len()) {
+            (_, 0) => Err(Error::Empty),
+            (labels, pictures) if labels != pictures => Err(Error::Count { labels, pictures }),
+            _ => Ok(texts),
+        }
+    }
+}
+
+/// Labels by what `uglorentz` was told; none if pictures do not differ in it.
+fn by_motion(pictures: &[Picture]) -> Option<Vec<String>> {
+    let told: Vec<Told> = pictures.iter().map(|picture| Told::of(&picture.history.comment)).collect();
+    let speeds: Vec<Option<String>> = told.iter().map(|told| told.speed.clone()).collect();
+    let times: Vec<Option<String>> = told.iter().map(|told| told.time.clone()).collect();
+    let has_speeds = speeds.iter().any(Option::is_some) && differ(&speeds);
+    let has_times = times.iter().any(Option::is_some) && differ(&times);
+    let label = |(speed, time): (&Option<String>, &Option<String>)| {
+        let speed = speed.clone().unwrap_or_else(|| "at rest".to_owned());
+        let time = format!("t = {}", time.as_deref().unwrap_or("0"));
+        match (has_speeds, has_times) {
+            (true, true) => format!("{speed}, {time}"),
+            (true, false) => speed,
+            _ => time,
+        }
+    };
+    let labels: Vec<String> = speeds.iter().zip(&times).map(label).collect();
+    // Labels that leave two pictures alike do not tell what is to be seen.
+    let is_telling = (1..labels.len()).all(|idx| !labels[..idx].contains(&labels[idx]));
+    ((has_speeds || has_times) && is_telling).then_some(labels)
+}
+
+fn differ(texts: &[Option<String>]) -> bool {
+    texts.windows(2).any(|pair| pair[0] != pair[1])
+}
+
+/// What `uglorentz` was told of motion.
+#[derive(Debug, PartialEq)]
+struct Told {
+    /// `β = 0.9`; none at rest.
+    speed: Option<String>,
+    /// Of the observer.
+    time: Option<String>,
+}
+
+impl Told {
+    /// By the command lines in a picture.
+    fn of(history: &str) -> Self {
+        let line = history.lines().rfind(|line| line.split(' ').next() == Some("uglorentz"));
+        let words = words::of(line.unwrap_or_default());
+        let numbers = |options: [&str; 2], n: usize| {
+            let at = words.iter().position(|word| options.contains(&word.as_str()))?;
+            let numbers: Option<Vec<f64>> =
+                words.get(at + 1..at + 1 + n)?.iter().map(|word| word.parse().ok()).collect();
+            numbers
+        };
+        let beta = numbers(["-vel", "--velocity"], 3).or_else(|| numbers(["-cv", "--camera-velocity"], 3));
+        let velocity = beta.and_then(|beta| Velocity::from_beta(DVec3::from_slice(&beta)).ok());
+        Self {
+            speed: velocity.filter(|v| !v.is_zero()).map(|v| format!("β = {}", speed(v))),
+            time: numbers(["-ti", "--time"], 1).map(|time| significant(time[0], 6)),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use ugimage::{Frame, Label};
+
+    use super::*;
+
+    fn texts(labels: &Labels, comments: &[&str]) -> Vec<String> {
+        let picture = |(idx, comment): (usize, &&str)| Picture {
+            name: format!("n{idx}"),
+            frame: Frame::opaque(1, 1),
+            history: Label { software: String::new(), comment: (*comment).to_owned() },
+        };
+        labels.texts(&comments.iter().enumerate().map(picture).collect::<Vec<_>>())
+    }
+
+    #[test]
+    fn what_differs_is_the_label() {
+        let rows: [(&[&str], &[&str]); 7] = [
+            (&["uglorentz", "uglorentz -vel .9 0 0 -in"], &["at rest", "β = 0.9"]),
+            (&["uglorentz -vel 0 -.3 .4", "uglorentz -cv .999 0 0\nugdoppler"], &["β = 0.5", "β = 0.999"]),
+            (&["uglorentz -vel .9 0 0 -ti -7", "uglorentz -vel .9 0 0 -ti 12"], &["t = −7", "t = 12"]),
+            (
+                &["uglorentz -vel .9 0 0", "uglorentz -ti 2.5 -vel .5 0 0"],
+                &["β = 0.9, t = 0", "β = 0.5, t = 2.5"],
+            ),
+            (&["uglorentz -vel .9 0 0\nugdoppler", "uglorentz -vel .9 0 0"], &["n0", "n1"]),
+            (
+                &["uglorentz -vel .9 0 0", "uglorentz -vel .5 0 0", "uglorentz -vel -.5 0 0"],
+                &["n0", "n1", "n2"],
+            ),
+            (&["", "not ours"], &["n0", "n1"]),
+        ];
+        for (comments, expected) in rows {
+            assert_eq!(texts(&Labels::Auto, comments), expected);
+        }
+        assert_eq!(texts(&Labels::Names, &["uglorentz", "uglorentz -vel .9 0 0"]), ["n0", "n1"]);
+    }
+
+    #[test]
+    fn broken_histories_are_no_labels() {
+        for line in [
+            "uglorentz -vel",
+            "uglorentz -vel .9 0",
+            "uglorentz -vel 2 0 0",
+            "uglorentz -vel a b c",
+            "uglorentz '",
+        ] {
+            assert_eq!(Told::of(line), Told { speed: None, time: None }, "{line}");
+        }
+    }
+}

@@ -1,0 +1,191 @@
+//! Where pictures and lines of text stand.
+
+use uglabel::{ASCENT, DESCENT, Line, Point, Rgb, SPACING, wrapped};
+
+use crate::error::{Error, MAX_PIXELS};
+use crate::{Config, Picture};
+
+/// Size of titles and of captions, in parts of that of labels.
+const TITLE: f64 = 1.35;
+const CAPTION: f64 = 1.1;
+
+/// Labels are as many times smaller than the pictures.
+const PER_TEXT: f64 = 28.0;
+
+/// Least size of text that can be read, and most that is taken without being asked for.
+const SIZES: [f64; 2] = [10.0, 48.0];
+
+/// Where all stands.
+pub struct Layout {
+    /// Of the sheet.
+    pub size: [u32; 2],
+    /// Upper left corners of the pictures.
+    pub pictures: Vec<[u32; 2]>,
+    /// Lines, and where their base lines begin.
+    pub lines: Vec<(Line, Point)>,
+    /// Of the text.
+    pub ink: Rgb,
+}
+
+impl Layout {
+    /// `labels`: one for each picture.
+    ///
+    /// # Errors
+    /// The font lacks a character, or the sheet is too large.
+    pub fn new(config: &Config, pictures: &[Picture], labels: &[String]) -> Result<Self, Error> {
+        let text = config.text_size.unwrap_or_else(|| text_size(pictures));
+        let gap = (0.9 * text).round() as u32;
+        let [gap, around] = config.gap.unwrap_or([gap; 2]);
+        let n = pictures.len();
+        let n_columns = config
+            .columns
+            .map_or_else(|| n.isqrt() + usize::from(n.isqrt().pow(2) < n), |columns| columns as usize);
+        let n_columns = n_columns.clamp(1, n);
+        let widest = |column: usize| {
+            pictures.iter().skip(column).step_by(n_columns).map(|picture| picture.frame.width()).max()
+        };
+        let widths: Vec<u32> = (0..n_columns).map(|column| widest(column).unwrap_or(0)).collect();
+        let inner: u64 = widths.iter().map(|&width| u64::from(width)).sum::<u64>()
+            + (n_columns as u64 - 1) * u64::from(gap);
+        let width = u32::try_from(inner + 2 * u64::from(around)).map_err(|_| Error::Size)?;
+        let mut page = Page { width, around, row: around, lines: Vec::new() };
+        page.heading(&config.title, TITLE * text)?;
+        let mut places = Vec::with_capacity(n);
+        for (row, cells) in pictures.chunks(n_columns).enumerate() {
+            if row > 0 {
+                page.down(gap)?;
+            }
+            let height = cells.iter().map(|picture| picture.frame.height()).max().unwrap_or(0);
+            let mut column = around;
+            let mut label_rows = 0;
+            for (idx, picture) in cells.iter().enumerate() {
+                let [free, above] = [widths[idx] - picture.frame.width(), height - picture.frame.height()];
+                places.push([column + free / 2, page.row + above / 2]);
+                let number = row * n_columns + idx;
+                let label = labelled(config.letters, number, &labels[number]);
+                let top = page.row.checked_add(height).ok_or(Error::Size)?;
+                label_rows = label_rows.max(page.label(&label, text, [column, top], widths[idx])?);
+                column += widths[idx] + gap;
+            }
+            page.down(height)?;
+            page.down(label_rows)?;
+        }
+        page.caption(&config.caption, CAPTION * text)?;
+        page.down(around)?;
+        let size = [width, page.row];
+        if u64::from(width) * u64::from(page.row) > MAX_PIXELS {
+            return Err(Error::Size);
+        }
+        Ok(Self { size, pictures: places, lines: page.lines, ink: uglabel::ink_on(config.background) })
+    }
+}
+
+/// By the mean picture, so that text is as large in all sheets of such pictures.
+fn text_size(pictures: &[Picture]) -> f64 {
+    let sum: f64 = pictures.iter().map(|picture| picture.frame.pixels().len() as f64).sum();
+    let mean = (sum / pictures.len() as f64).sqrt();
+    (mean / PER_TEXT).round().clamp(SIZES[0], SIZES[1])
+}
+
+/// A label with its letter.
+fn labelled(letters: bool, number: usize, label: &str) -> String {
+    if !letters {
+        return label.to_owned();
+    }
+    format!("({}) {label}", letter(number)).trim_end().to_owned()
+}
+
+/// a … z, aa, ab, …
+fn letter(number: usize) -> String {
+    let last = char::from(b'a' + (number % 26) as u8);
+    match number / 26 {
+        0 => last.to_string(),
+        more => format!("{}{last}", letter(more - 1)),
+    }
+}
+
+/// A sheet being filled from above.
+struct Page {
+    width: u32,
+    around: u32,
+    /// The first that is free.
+    row: u32,
+    lines: Vec<(Line, Point)>,
+}
+
+impl Page {
+    fn down(&mut self, rows: u32) -> Result<(), Error> {
+        self.row = self.row.checked_add(rows).ok_or(Error::Size)?;
+        Ok(())
+    }
+
+    /// Lines within a width, in the middle, the first with its top at a place; the rows that they take.
+    fn label(&mut self, text: &str, size: f64, [left, top]: [u32; 2], width: u32) -> Result<u32, Error> {
+        let lines = lines(text, size, f64::from(width))?;
+        if lines.is_empty() {
+            return Ok(0);
+        }
+        let above = 0.35 * size;
+        let rows = above + paragraph(lines.len(), size);
+        for (idx, line) in lines.into_iter().enumerate() {
+            let column = f64::from(left) + 0.5 * (f64::from(width) - line.width());
+            let base = f64::from(top) + above + size * (ASCENT + SPACING * idx as f64);
+            // Base lines on whole rows are sharp.
+            self.lines.push((line, [column, base.round()]));
+        }
+        Ok(rows.ceil() as u32)
+    }
+
+    fn room(&self) -> u32 {
+        // Without a margin letters would touch the edge.
+        self.width.saturating_sub(2 * self.around.max(4)).max(1)
+    }
+
+    fn heading(&mut self, text: &str, size: f64) -> Result<(), Error> {
+        let (room, row) = (self.room(), self.row);
+        let left = (self.width - room) / 2;
+        let rows = self.label(text, size, [left, row], room)?;
+        self.down(if rows == 0 { 0 } else { rows + (0.4 * size) as u32 })
+    }
+
+    /// One line in the middle, several from the left.
+    fn caption(&mut self, text: &str, size: f64) -> Result<(), Error> {
+        let room = self.room();
+        let left = (self.width - room) / 2;
+        let lines = lines(text, size, f64::from(room))?;
+        if lines.is_empty() {
+            return Ok(());
+        }
+        self.down((0.6 * size).round() as u32)?;
+        let top = self.row;
+        if lines.len() == 1 {
+            let rows = self.label(text, size, [left, top], room)?;
+            return self.down(rows);
+        }
+        let rows = paragraph(lines.len(), size);
+        for (idx, line) in lines.into_iter().enumerate() {
+            let base = f64::from(top) + size * (ASCENT + SPACING * idx as f64);
+            self.lines.push((line, [f64::from(left), base.round()]));
+        }
+        self.down(rows.ceil() as u32)
+    }
+}
+
+/// Height of lines.
+fn paragraph(n_lines: usize, size: f64) -> f64 {
+    size * (ASCENT + DESCENT + SPACING * (n_lines - 1) as f64)
+}
+
+fn lines(text: &str, size: f64, width: f64) -> Result<Vec<Line>, Error> {
+    wrapped(text, size, width).map_err(|missing| Error::Text { text: text.trim().to_owned(), missing })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::letter;
+
+    #[test]
+    fn letters_go_on_after_z() {
+        assert_eq!([0, 25, 26, 27, 701, 702].map(letter), ["a", "z", "aa", "ab", "zz", "aaa"]);
+    }
+}

@@ -1,0 +1,33 @@
+//! The words of a recorded command line.
+
+/// Words as a shell reads them, for what is written there: plain ones, and such in single quotes.
+pub fn of(line: &str) -> Vec<String> {
+    let (mut words, mut word) = (Vec::new(), None::<String>);
+    let (mut is_quoted, mut is_escaped) = (false, false);
+    for character in line.chars() {
+        match character {
+            '\'' if !is_escaped => {
+                is_quoted = !is_quoted;
+                word.get_or_insert_default();
+            }
+            '\\' if !is_quoted && !is_escaped => {
+                is_escaped = true;
+                continue;
+            }
+            ' ' if !is_quoted && !is_escaped => words.extend(word.take()),
+            other => word.get_or_insert_default().push(other),
+        }
+        is_escaped = false;
+    }
+    words.extend(word);
+    words
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn quotes_keep_words_together() {
+        assert_eq!(super::of("a -cap 'b  -vel' '' c"), ["a", "-cap", "b  -vel", "", "c"]);
+        assert_eq!(super::of(r"'it'\''s' x"), ["it's", "x"]);
+    }
+}

@@ -1,0 +1,208 @@
+//! Sheets: where pictures and labels are, and the program itself.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking, its helpers too")]
+
+use std::fs;
+use std::io::Write;
+use std::os::unix::process::ExitStatusExt;
+use std::path::Path;
+use std::process::{Command, Output, Stdio};
+
+use ugimage::{Format, Frame, Label, read_png};
+use ugsheet::{Config, Error, Labels, Picture, sheet};
+
+/// A picture of noise, so that no part of it is like another.
+fn picture(name: &str, width: u32, height: u32, seed: u32) -> Picture {
+    let mut frame = Frame::opaque(width, height);
+    let mut state = seed;
+    for pixel in frame.pixels_mut() {
+        state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        let [r, g, b, _] = state.to_be_bytes();
+        *pixel = [r, g, b | 1, 255];
+    }
+    Picture { name: name.into(), frame, history: Label::default() }
+}
+
+/// The places at which a picture stands on a sheet, to the byte.
+fn places(picture: &Frame, sheet: &Frame) -> Vec<[u32; 2]> {
+    let is_at = |x: u32, y: u32| {
+        (0..picture.height())
+            .all(|j| (0..picture.width()).all(|i| picture.pixel(i, j) == sheet.pixel(x + i, y + j)))
+    };
+    let rows = 0..=sheet.height().saturating_sub(picture.height());
+    rows.flat_map(|y| (0..=sheet.width().saturating_sub(picture.width())).map(move |x| [x, y]))
+        .filter(|&[x, y]| is_at(x, y))
+        .collect()
+}
+
+#[test]
+fn pictures_keep_their_pixels_and_order() {
+    let pictures: Vec<Picture> = (0..5).map(|idx| picture(&format!("p{idx}"), 60, 40, idx)).collect();
+    for (columns, expected) in [(None, 3), (Some(1), 1), (Some(2), 2), (Some(9), 5)] {
+        let config =
+            Config { columns, title: "Title".into(), caption: "Caption".into(), ..Config::default() };
+        let sheet = sheet(&config, &pictures).unwrap();
+        let found: Vec<[u32; 2]> = pictures
+            .iter()
+            .map(|picture| {
+                let places = places(&picture.frame, &sheet);
+                assert_eq!(places.len(), 1);
+                places[0]
+            })
+            .collect();
+        let in_first_row = found.iter().filter(|place| place[1] == found[0][1]).count();
+        assert_eq!(in_first_row, expected);
+        for (idx, place) in found.iter().enumerate() {
+            let above = found[idx - idx % expected];
+            assert_eq!(place[1], above[1], "row of {idx}");
+            assert!(idx % expected == 0 || place[0] > found[idx - 1][0], "column of {idx}");
+        }
+    }
+}
+
+#[test]
+fn without_text_and_margin_a_sheet_is_its_pictures() {
+    let pictures = [picture("a", 30, 20, 1), picture("b", 30, 20, 2)];
+    let config = Config { labels: Labels::None, gap: Some([4, 0]), background: [64; 3], ..Config::default() };
+    let sheet = sheet(&config, &pictures).unwrap();
+    assert_eq!([sheet.width(), sheet.height()], [64, 20]);
+    assert_eq!(places(&pictures[0].frame, &sheet), [[0, 0]]);
+    assert_eq!(places(&pictures[1].frame, &sheet), [[34, 0]]);
+    assert!((0..20).all(|y| (30..34).all(|x| sheet.pixel(x, y) == [64, 64, 64, 255])));
+}
+
+/// Of different sizes each stands in the middle of its cell, and its label in the middle below.
+#[test]
+fn labels_stand_in_the_middle_below() {
+    let pictures = [picture("a", 100, 50, 1), picture("b", 40, 80, 2), picture("c", 60, 30, 3)];
+    for background in [[255; 3], [0; 3]] {
+        let config = Config {
+            columns: Some(2),
+            labels: Labels::Given(vec!["at rest".into(), "β".into(), "γ = 7".into()]),
+            background,
+            ..Config::default()
+        };
+        let sheet = sheet(&config, &pictures).unwrap();
+        let found: Vec<[u32; 2]> = pictures.iter().map(|picture| places(&picture.frame, &sheet)[0]).collect();
+        assert_eq!(found[0][1] + 25, found[1][1] + 40, "middles of a row");
+        assert_eq!(found[0][0] + 50, found[2][0] + 30, "middles of a column");
+        for (picture, [x, y]) in pictures.iter().zip(&found).skip(1) {
+            let (middle, bottom) = (x + picture.frame.width() / 2, y + picture.frame.height());
+            // A label of 10 pixels is within the next 16.
+            let columns = middle - 20..(middle + 20).min(sheet.width());
+            let is_ink = |x: u32, y: u32| sheet.pixel(x, y)[..3] != background;
+            let ink: Vec<u32> = columns.filter(|&x| (bottom..bottom + 16).any(|y| is_ink(x, y))).collect();
+            let (left, right) = (ink[0], ink[ink.len() - 1]);
+            assert!((left + right).abs_diff(2 * middle) <= 4, "{left} {right} {middle}");
+        }
+    }
+}
+
+#[test]
+fn what_is_clear_shows_the_ground() {
+    let mut clear = picture("a", 8, 8, 1);
+    clear.frame = Frame::clear(8, 8);
+    clear.frame.pixels_mut()[0] = [10, 20, 30, 255];
+    let config =
+        Config { labels: Labels::None, gap: Some([0; 2]), background: [200, 100, 0], ..Config::default() };
+    let sheet = sheet(&config, &[clear]).unwrap();
+    assert_eq!(sheet.pixel(0, 0), [10, 20, 30, 255]);
+    assert_eq!(sheet.pixel(5, 5), [200, 100, 0, 255]);
+}
+
+#[test]
+fn what_cannot_be_is_refused() {
+    let pictures = [picture("a", 20, 20, 1), picture("漢", 20, 20, 2)];
+    assert_eq!(sheet(&Config::default(), &[]), Err(Error::Empty));
+    let one = Config { labels: Labels::Given(vec!["x".into()]), ..Config::default() };
+    assert_eq!(sheet(&one, &pictures), Err(Error::Count { labels: 1, pictures: 2 }));
+    let error = sheet(&Config::default(), &pictures).unwrap_err();
+    assert!(error.to_string().starts_with("in `漢`: the font has no `漢` (U+6F22)"), "{error}");
+    assert!(sheet(&Config { labels: Labels::None, ..Config::default() }, &pictures).is_ok());
+    let wide = Config { labels: Labels::None, gap: Some([10_000; 2]), columns: Some(1), ..Config::default() };
+    assert_eq!(sheet(&wide, &[&pictures[..]; 10].concat()), Err(Error::Size));
+}
+
+fn ugsheet(folder: &Path, args: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_ugsheet"));
+    command
+        .args(args)
+        .current_dir(folder)
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped());
+    command
+}
+
+fn fed(command: &mut Command, input: &[u8]) -> Output {
+    let mut child = command.spawn().unwrap();
+    // A program that ends without reading closes the pipe: not this test's business.
+    let _ = child.stdin.take().unwrap().write_all(input);
+    child.wait_with_output().unwrap()
+}
+
+/// A folder with `rest.png` and `fast.png`, which say how they were made.
+fn folder() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, line) in [("rest", "uglorentz"), ("fast", "uglorentz -vel .9 0 0")] {
+        let label = Label { software: "ugrainbow".into(), comment: line.into() };
+        let file = Format::Png.encode(&picture(name, 90, 70, 5).frame, &label);
+        fs::write(folder.path().join(format!("{name}.png")), file).unwrap();
+    }
+    folder
+}
+
+#[test]
+fn the_program_reads_files_and_standard_input() {
+    let folder = folder();
+    let named = fed(&mut ugsheet(folder.path(), &["-cols", "2", "rest.png", "fast.png"]), b"");
+    assert!(named.status.success() && named.stderr.is_empty(), "{}", String::from_utf8_lossy(&named.stderr));
+    let rest = fs::read(folder.path().join("rest.png")).unwrap();
+    let piped = fed(&mut ugsheet(folder.path(), &["-cols", "2", "-", "fast.png"]), &rest);
+    assert_eq!(named.stdout, piped.stdout);
+    let (_, history) = read_png(&named.stdout).unwrap();
+    assert_eq!(history.comment, "uglorentz\nuglorentz -vel .9 0 0\nugsheet --cols 2");
+    // By what they say, and not by their names.
+    let given = ["-cols", "2", "-label", "at rest", "-label", "β = 0.9", "rest.png", "fast.png"];
+    let given = fed(&mut ugsheet(folder.path(), &given), b"");
+    assert_eq!(read_png(&given.stdout).unwrap().0, read_png(&named.stdout).unwrap().0);
+}
+
+#[test]
+fn the_program_says_what_is_wrong() {
+    let folder = folder();
+    fs::write(folder.path().join("text.png"), "no picture").unwrap();
+    let check = |args: &[&str], status: i32, message: &str| {
+        let output = fed(&mut ugsheet(folder.path(), args), b"");
+        let talk = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(status), "{talk}");
+        assert!(output.stdout.is_empty() && talk.contains(message), "{talk}");
+    };
+    check(&["text.png"], 1, "`text.png`: no PNG that can be read");
+    check(&["rest.png", "none.png"], 1, "none.png");
+    check(&["-label", "x", "rest.png", "fast.png"], 2, "give -label once for each picture");
+    check(&["-cap", "漢", "rest.png"], 2, "the font has no `漢`");
+    check(&["-fo", "sheet.exr", "rest.png"], 2, "name one with -dt");
+    check(&["-bg", "2", "rest.png"], 2, "from 0 to 1");
+    check(&["-cols", "0", "rest.png"], 2, "--cols");
+}
+
+#[test]
+fn the_program_writes_other_formats() {
+    let folder = folder();
+    for (file, start) in [("a.pdf", "%PDF-1."), ("a.svg", "<"), ("a.eps", "%!PS-Adobe"), ("a.ppm", "P6")] {
+        let output = fed(&mut ugsheet(folder.path(), &["rest.png", "fast.png", "-fo", file]), b"");
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        assert!(fs::read(folder.path().join(file)).unwrap().starts_with(start.as_bytes()), "{file}");
+    }
+}
+
+#[test]
+fn a_reader_that_leaves_ends_the_program_in_silence() {
+    let folder = folder();
+    let mut child = ugsheet(folder.path(), &["rest.png"]).spawn().unwrap();
+    drop(child.stdout.take());
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(output.status.signal(), Some(13));
+    assert!(output.stderr.is_empty());
+}
