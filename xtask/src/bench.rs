@@ -17,7 +17,7 @@ const RUNS: usize = 7;
 
 /// Benchmarks meshes of about these many triangles and prints a table for each.
 pub fn write(out: &mut impl Write, sizes: &[u32]) -> Result<(), Box<dyn Error>> {
-    build()?;
+    build(&[])?;
     let dir = target_dir().join("bench");
     std::fs::create_dir_all(&dir)?;
     writeln!(out, "{}\n", machine())?;
@@ -189,9 +189,11 @@ fn ms(time: Duration) -> f64 {
     time.as_secs_f64() * 1e3
 }
 
-/// Builds the programs.
-pub fn build() -> Result<(), Box<dyn Error>> {
-    let status = Command::new(env!("CARGO")).args(["build", "--quiet", "--release"]).status()?;
+/// Builds programs, all if none is named.
+pub fn build(programs: &[&str]) -> Result<(), Box<dyn Error>> {
+    let packages = programs.iter().flat_map(|program| ["--package", program]);
+    let status =
+        Command::new(env!("CARGO")).args(["build", "--quiet", "--release"]).args(packages).status()?;
     if status.success() { Ok(()) } else { Err("the programs do not build".into()) }
 }
 

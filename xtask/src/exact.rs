@@ -40,7 +40,7 @@ const RUNS: usize = 3;
 
 /// Prints the table.
 pub fn write(out: &mut impl Write, only: Option<&str>) -> Outcome<()> {
-    bench::build()?;
+    bench::build(&["uglorentz", "ugdoppler", "ugrainbow"])?;
     writeln!(out, "{}\n", bench::machine())?;
     writeln!(
         out,

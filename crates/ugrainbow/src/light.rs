@@ -62,6 +62,7 @@ impl Lighting {
     /// on the side that is seen, or zero for a surface without one.
     /// `is_linear`: of the lights' linear colours, else of the display-encoded ones.
     /// Level = Σ ambient + Σ intensity · max(0, n·l).
+    #[inline]
     pub fn level(&self, point: DVec3, normal: DVec3, is_linear: bool) -> DVec3 {
         // Two loops, each with its colour inlined: this runs for every corner of the scene.
         if is_linear {

@@ -72,7 +72,7 @@ impl<'a, const N: usize> Faces<'a, N> {
         let bins = Bins::new(painter.grid, shapes.iter().map(|shape| &shape.rows));
         let slab = painter.view.slab;
         let limits = [(1.0 / slab.far).max(f64::MIN_POSITIVE), 1.0 / slab.near];
-        let film = Film::new(painter.view);
+        let film = Film::new(painter.view.rays());
         let pool = Mutex::default();
         Self { painter, motion, pack, frames, shapes, bins, film, limits, pool, reach }
     }

@@ -6,7 +6,6 @@
 use std::ops::Range;
 
 use glam::DVec3;
-use ugscene::View;
 
 /// The rays of the picture, through samples; depth 1.
 #[derive(Clone, Copy, Debug)]
@@ -59,9 +58,9 @@ pub fn center(column: u32) -> f64 {
 }
 
 impl Film {
-    /// That of a picture in perspective.
-    pub fn new(view: &View) -> Self {
-        Self { rays: view.rays() }
+    /// `rays`: as of [`ugscene::View::rays`].
+    pub fn new(rays: [DVec3; 3]) -> Self {
+        Self { rays }
     }
 
     /// The row through the middle of these samples.

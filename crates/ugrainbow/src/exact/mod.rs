@@ -22,6 +22,13 @@
 //! the ray runs is computed from the ends in one order, so that faces that share an edge find the same bits. Summed over
 //! faces that share their edges all that is left is the outline of them together: a sample inside it belongs to
 //! an odd number of faces, and so to one at least.
+//!
+//! # Row by row
+//!
+//! To ask that of every sample would be slow. On which side of an edge a ray runs, and how near it meets a plane, are linear in p'
+//! and so in p and |p| ([`film`]); along a row of samples that is a straight line plus a multiple of |p|, which is convex and
+//! changes its sign twice at most. Between the columns where an edge changes it, all samples are in the face or none is, and one of
+//! them is asked. Samples where rounding might decide are asked one by one.
 
 mod faces;
 mod film;

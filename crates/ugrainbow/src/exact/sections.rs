@@ -147,3 +147,68 @@ impl Line<'_> {
         start..end
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+
+    use super::super::film::{Film, Lengths, center};
+    use super::*;
+
+    const COLUMNS: Range<u32> = 0..200;
+    const ROWS: Range<u32> = 0..60;
+
+    /// Numbers from −1 to 1 that are the same on every run.
+    fn numbers() -> impl Iterator<Item = f64> {
+        let mut state = 1u32;
+        std::iter::from_fn(move || {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            Some(f64::from(state >> 8) / f64::from(1u32 << 23) - 1.0)
+        })
+    }
+
+    /// Three random sides, some of which run through a row twice: whichever samples are to be taken, taken are those.
+    #[test]
+    fn every_change_of_a_sign_is_found() {
+        let mut numbers = numbers();
+        let mut vector = || DVec3::from_array([(); 3].map(|()| numbers.next().unwrap()));
+        let rays = [DVec3::new(-1.0, -0.3, 1.0), DVec3::X / 100.0, DVec3::Y / 100.0];
+        let mut lengths = Lengths::default();
+        lengths.reset(&Film::new(rays), COLUMNS, ROWS);
+        let mut cutter = Cutter::default();
+        let (mut n_cut, mut n_bent) = (0, 0);
+        for case in 0..300 {
+            let bend = [0.0, 1e-9, 0.1, 1.0][case % 4];
+            let sides: Vec<Side> = (0..3)
+                .map(|_| {
+                    let (across, per_length) = (vector(), bend * vector().x);
+                    let [origin, per_column, per_row] = rays.map(|ray| across.dot(ray));
+                    let form = Form { origin, per_column, per_row, per_length };
+                    Side { form, size: across.length() + per_length.abs() }
+                })
+                .collect();
+            for row in ROWS {
+                let at = |side: &Side, column: u32| {
+                    let ray = rays[0] + center(column) * rays[1] + center(row) * rays[2];
+                    side.form.on_row(row).at(column, ray.length())
+                };
+                // This changes with the sign of any of them.
+                let contains =
+                    |column: u32| sides.iter().filter(|side| at(side, column) < 0.0).count() % 2 == 1;
+                let mut taken = vec![false; COLUMNS.len()];
+                cutter.sections(row, COLUMNS, lengths.row(row), &sides, contains, |columns| {
+                    columns.for_each(|column| taken[column as usize] = true);
+                });
+                let expected: Vec<bool> = COLUMNS.map(contains).collect();
+                assert_eq!(taken, expected, "case {case}, row {row}");
+                n_cut += usize::from(cutter.cuts.len() > 1);
+                let is_bent = |side: &Side| {
+                    let signs: Vec<bool> = COLUMNS.map(|column| at(side, column) < 0.0).collect();
+                    signs.windows(2).filter(|pair| pair[0] != pair[1]).count() == 2
+                };
+                n_bent += usize::from(sides.iter().any(is_bent));
+            }
+        }
+        assert!(n_cut > 1000 && n_bent > 100, "{n_cut} rows, {n_bent} of them with a side twice");
+    }
+}

@@ -1,26 +1,17 @@
-//! Pictures drawn by rays (`ugrainbow -xc`): every sample against the oracle, which finds it with 4×4 matrices
-//! in the scene as it was written, and against the formulas of `ugphysics`.
+//! Every sample against the oracle and the formulas.
 
-#![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test fails by panicking")]
-
-use std::collections::BTreeMap;
-
-use exr::prelude::{ReadChannels, ReadLayers};
 use glam::DVec3;
-use ugimage::Format;
 use ugparse::{Face, Scene, VertexId};
 use ugphysics::{
     Brightness, Hsv, Velocity, attenuation, doppler_at, hue_to_wavelength, rest_position, srgb_decode,
     wavelength_to_hue,
 };
-use ugrainbow::{Channel, Exact, Output};
+use ugrainbow::Exact;
 use ugtests::oracle::{Oracle, Pinhole};
-use ugtests::picture::decode;
-use ugtests::pipe::{Pipe, lorentz, rainbow};
 use ugtests::scenes;
 use ugtests::shading::Shading;
 
-const SIZE: [u32; 2] = [96, 72];
+use crate::{SIZE, SQUARE, channels, exact};
 
 const SPEEDS: [f64; 4] = [0.3, 0.9, 0.99, 0.999];
 
@@ -29,39 +20,6 @@ const SINGLE: f64 = 2e-7;
 
 /// Hues are single precision numbers, and their attenuation comes from a table.
 const LIGHT: f64 = 1e-5;
-
-/// The pipe of an exact picture: nothing is cut.
-fn exact(beta: Option<DVec3>) -> Pipe {
-    let mut pipe = Pipe::default();
-    pipe.lorentz.velocity = beta;
-    pipe.lorentz.pieces = uglorentz::Pieces::PerEdge(1);
-    pipe.rainbow.exact = Some(Exact::default());
-    pipe.rainbow.size = SIZE;
-    pipe.rainbow.samples = 1;
-    pipe
-}
-
-/// The channels of the picture, pixel by pixel.
-fn channels(pipe: &Pipe, text: &[u8]) -> BTreeMap<String, Vec<f64>> {
-    let mut pipe = pipe.clone();
-    pipe.rainbow.output = Output::Color(Format::Exr);
-    pipe.rainbow.channels = vec![Channel::Id, Channel::Distance, Channel::Doppler];
-    let file = rainbow(&lorentz(text, &pipe.lorentz), &pipe.rainbow);
-    let image = exr::prelude::read()
-        .no_deep_data()
-        .largest_resolution_level()
-        .all_channels()
-        .first_valid_layer()
-        .all_attributes()
-        .from_buffered(std::io::Cursor::new(file))
-        .unwrap();
-    let list = image.layer_data.channel_data.list.iter();
-    list.map(|channel| {
-        let numbers = channel.sample_data.values_as_f32().map(f64::from).collect();
-        (channel.name.to_string(), numbers)
-    })
-    .collect()
-}
 
 /// A sample may show another face than the oracle's only where another is as near, or next to it to rounding.
 fn is_on_boundary(oracle: &Oracle, camera: &Pinhole, [x, y]: [f64; 2], face: Option<usize>) -> bool {
@@ -283,10 +241,6 @@ fn scenes_are_exact_for_a_camera_that_moves() {
     check(Case { camera: Some(0.3 * DVec3::NEG_Y), ..Case::new("dice") });
 }
 
-/// A square that fills the picture and comes with a velocity across and toward the eye.
-const SQUARE: &str = "c green .9 130 .8; l .2; l .7 1 -2 .5; cam -ep 0 0 0 -vc 0 9 0 -va 60 50;
-    v a -40 9 -40; v b 40 9 -40; v c 40 9 40; v d -40 9 40; f (a b c d) green <.2 -.1 0>;";
-
 #[test]
 fn colour_and_light_are_those_of_the_point() {
     let laws = [(Brightness::Report, true), (Brightness::Photon, true), (Brightness::None, false)];
@@ -328,98 +282,4 @@ fn colour_and_light_are_those_of_the_point() {
             }
         }
     }
-}
-
-/// Colours and normals of corners, and a hole, in triangles at rest. At rest a triangle is the same in both modes.
-#[test]
-fn at_rest_triangles_are_those_of_the_scanline_mode() {
-    const TRIANGLES: &str = "c red 1 0; c blue .8 220 .9; c grey .7; l .3; l .8 1 -2 .5;
-        cam -ep 0 0 0 -vc 0 9 0 -va 60 50;
-        v a -3 9 -2 red 0 -1 .3; v b 3 8 -2 blue; v c 0 10 3 grey .5 -1 0; f (a b c); v d 3 12 3; f (b d c);";
-    let mut pipe = exact(None);
-    let exact = decode(&rainbow(TRIANGLES.as_bytes(), &pipe.rainbow));
-    pipe.rainbow.exact = None;
-    let scanned = decode(&rainbow(TRIANGLES.as_bytes(), &pipe.rainbow));
-    // Normals are interpolated before the light is computed, not behind.
-    ugtests::picture::assert_same("exact-triangles", &scanned, &exact, 12);
-}
-
-/// The scanline mode on a scene that was cut finely shows the same, but for samples at the rims of faces.
-#[test]
-fn both_modes_agree() {
-    let cases = [("cubes", 0.9 * DVec3::X), ("ship", 0.3 * DVec3::NEG_Y), ("box", 0.9 * DVec3::X)];
-    for (name, beta) in cases {
-        let text = if name == "box" { BOX.as_bytes().to_vec() } else { scenes::text(name) };
-        let mut pipe = exact(Some(beta)).in_place();
-        let drawn = decode(&rainbow(&lorentz(&text, &pipe.lorentz), &pipe.rainbow));
-        pipe.lorentz.pieces = uglorentz::Config::default().pieces;
-        pipe.rainbow.exact = None;
-        pipe.doppler.keep = true;
-        let scanned = pipe.draw(&text);
-        let far = |(a, b): (&image::Rgba<u8>, &image::Rgba<u8>)| {
-            a.0.iter().zip(b.0).any(|(&a, b)| a.abs_diff(b) > 12)
-        };
-        let n_far = drawn.pixels().zip(scanned.pixels()).filter(|&pair| far(pair)).count();
-        let n_pixels = (SIZE[0] * SIZE[1]) as usize;
-        assert!(n_far * 200 < n_pixels, "{name}: {n_far} of {n_pixels}");
-    }
-}
-
-/// A box of wires, which bend.
-const BOX: &str = "c green 1 120; cam -ep 0 -9 1 -vc 0 0 0 -va 70 50; l 1;
-    v a -3 -3 -3; v b 3 -3 -3; v c 3 3 -3; v d -3 3 -3; v e -3 -3 3; v f 3 -3 3; v g 3 3 3; v h -3 3 3;
-    w (a b c d a e f g h e) green; w (b f) (c g) (d h);";
-
-#[test]
-fn threads_and_tiles_do_not_show() {
-    let text = scenes::text("street");
-    let mut pipe = exact(Some(0.9 * DVec3::NEG_Y));
-    pipe.rainbow.samples = 3;
-    let seen = lorentz(&text, &pipe.lorentz);
-    let draw = |n_threads: usize| {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(n_threads).build().unwrap();
-        pool.install(|| rainbow(&seen, &pipe.rainbow))
-    };
-    assert_eq!(draw(1), draw(3));
-}
-
-#[test]
-fn what_rays_cannot_find_is_refused() {
-    let refusal = |pipe: &Pipe, text: &[u8]| {
-        let source = ugparse::Source::new("test.ug", text);
-        ugrainbow::run(&pipe.rainbow, &source).err().map(|error| error.to_string())
-    };
-    let mut pipe = exact(Some(0.5 * DVec3::X));
-    let seen = lorentz(SQUARE.as_bytes(), &pipe.lorentz);
-    assert_eq!(refusal(&pipe, &seen), None);
-    let colored = ugtests::pipe::doppler(&seen, &pipe.doppler);
-    assert!(refusal(&pipe, &colored).unwrap().contains("leave ugdoppler out"));
-    let spectral = SQUARE.replace("c green .9 130 .8;", "c_bb green 5000;");
-    let glowing = lorentz(spectral.as_bytes(), &pipe.lorentz);
-    assert!(refusal(&pipe, &glowing).unwrap().contains("ugdoppler -sp"));
-    let mut shape = pipe.clone();
-    shape.rainbow.exact = Some(Exact::NONE);
-    assert_eq!(refusal(&shape, &glowing), None);
-    let at_rest = spectral.replace("<.2 -.1 0>", "");
-    assert_eq!(refusal(&pipe, at_rest.as_bytes()), None);
-    pipe.lorentz.geometry.contraction = false;
-    let bent = lorentz(SQUARE.as_bytes(), &pipe.lorentz);
-    assert!(refusal(&pipe, &bent).unwrap().contains("leave out -xc"));
-    pipe.rainbow.camera.is_orthographic = true;
-    assert!(refusal(&pipe, &seen).unwrap().contains("orthographic"));
-}
-
-/// Lights that move are not followed, and the note says what does.
-#[test]
-fn of_lights_that_move_there_is_a_note() {
-    let notes = |text: &str| {
-        let (_, notes) = ugrainbow::render(&scenes::parse(text.as_bytes()), &exact(None).rainbow).unwrap();
-        notes.join("; ")
-    };
-    assert_eq!(notes(SQUARE), "");
-    let moving = notes(&SQUARE.replace("l .7 1 -2 .5;", "l .7 1 -2 .5 <0 .5 0>;"));
-    assert!(moving.contains("leave out -xc") && moving.contains("ugdoppler -li"), "{moving}");
-    // At rest a spectrum is as it is: there is nothing to say.
-    let glowing = SQUARE.replace("c green .9 130 .8;", "c_bb green 5000;").replace("<.2 -.1 0>", "");
-    assert!(!notes(&glowing).contains("ugdoppler"), "{}", notes(&glowing));
 }

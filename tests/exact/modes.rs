@@ -1,0 +1,104 @@
+//! Exact pictures beside those of the scanline mode.
+
+use glam::DVec3;
+use ugtests::picture::decode;
+use ugtests::pipe::{Pipe, lorentz, rainbow};
+use ugtests::random::Random;
+use ugtests::scenes;
+
+use crate::{SIZE, channels, exact};
+
+/// Colours and normals of corners, and a hole, in triangles at rest. At rest a triangle is the same in both modes.
+#[test]
+fn at_rest_triangles_are_those_of_the_scanline_mode() {
+    const TRIANGLES: &str = "c red 1 0; c blue .8 220 .9; c grey .7; l .3; l .8 1 -2 .5;
+        cam -ep 0 0 0 -vc 0 9 0 -va 60 50;
+        v a -3 9 -2 red 0 -1 .3; v b 3 8 -2 blue; v c 0 10 3 grey .5 -1 0; f (a b c); v d 3 12 3; f (b d c);";
+    let mut pipe = exact(None);
+    let exact = decode(&rainbow(TRIANGLES.as_bytes(), &pipe.rainbow));
+    pipe.rainbow.exact = None;
+    let scanned = decode(&rainbow(TRIANGLES.as_bytes(), &pipe.rainbow));
+    // Normals are interpolated before the light is computed, not behind.
+    ugtests::picture::assert_same("exact-triangles", &scanned, &exact, 12);
+}
+
+/// The scanline mode on a scene that was cut finely shows the same, but for samples at the rims of faces.
+#[test]
+fn both_modes_show_the_same_colours() {
+    let cases = [("cubes", 0.9 * DVec3::X), ("ship", 0.3 * DVec3::NEG_Y), ("box", 0.9 * DVec3::X)];
+    for (name, beta) in cases {
+        let text = if name == "box" { BOX.as_bytes().to_vec() } else { scenes::text(name) };
+        let mut pipe = exact(Some(beta)).in_place();
+        let drawn = decode(&rainbow(&lorentz(&text, &pipe.lorentz), &pipe.rainbow));
+        pipe.lorentz.pieces = uglorentz::Config::default().pieces;
+        pipe.rainbow.exact = None;
+        pipe.doppler.keep = true;
+        let scanned = pipe.draw(&text);
+        let far = |(a, b): (&image::Rgba<u8>, &image::Rgba<u8>)| {
+            a.0.iter().zip(b.0).any(|(&a, b)| a.abs_diff(b) > 12)
+        };
+        let n_far = drawn.pixels().zip(scanned.pixels()).filter(|&pair| far(pair)).count();
+        let n_pixels = (SIZE[0] * SIZE[1]) as usize;
+        assert!(n_far * 200 < n_pixels, "{name}: {n_far} of {n_pixels}");
+    }
+}
+
+/// What the scanline mode shows of a face, or leaves out, is so exactly within the bound of cutting.
+#[test]
+fn both_modes_agree_to_the_bound() {
+    /// Samples of the exact picture along a side of a pixel.
+    const FINE: u32 = 4;
+    /// What edges may be off by, pixels.
+    const REACH: f64 = 1.0;
+    const ACROSS_DEG: f64 = 60.0;
+    let pixel = 2.0 * libm::tan(ACROSS_DEG.to_radians() / 2.0) / f64::from(SIZE[0]);
+    // An angle is the more pixels the farther from the middle; at the corners, with 3 : 4, 5/4 of half the width.
+    let slant = 1.25 * pixel * f64::from(SIZE[0]) / 2.0;
+    let bound = REACH * pixel / (1.0 + slant * slant);
+    let mut random = Random(11);
+    let mut n_other = 0;
+    for case in 0..12 {
+        let beta = [0.9, 0.99][case % 2] * random.direction();
+        let (middle, a, b) = (DVec3::Y * 6.0, 3.0 * random.direction(), 3.0 * random.direction());
+        let corners: Vec<String> = [("a", a), ("b", b), ("c", -a), ("d", -b)]
+            .map(|(name, side)| (name, middle + side))
+            .map(|(name, p)| format!("v {name} {} {} {};", p.x, p.y, p.z))
+            .to_vec();
+        let text = format!("{} f (a b c d); cam -ep 0 0 0 -vc 0 9 0 -va {ACROSS_DEG} 46;", corners.concat());
+        let covered = |pipe: &Pipe| -> Vec<bool> {
+            channels(pipe, text.as_bytes())["id"].iter().map(|&id| id > 0.0).collect()
+        };
+        let mut pipe = exact(Some(beta)).in_place();
+        pipe.rainbow.size = SIZE.map(|side| side * FINE);
+        let exact = covered(&pipe);
+        let fine = |x: u32, y: u32| exact[(y * SIZE[0] * FINE + x) as usize];
+        pipe.lorentz.pieces = uglorentz::Pieces::UpTo(bound);
+        pipe.lorentz.color_error = f64::INFINITY;
+        pipe.rainbow.exact = None;
+        pipe.rainbow.size = SIZE;
+        for (idx, is_covered) in covered(&pipe).into_iter().enumerate() {
+            let [x, y] = [idx as u32 % SIZE[0], idx as u32 / SIZE[0]];
+            if fine(x * FINE + FINE / 2, y * FINE + FINE / 2) == is_covered {
+                continue;
+            }
+            n_other += 1;
+            let reach = (REACH * f64::from(FINE)) as u32 + 1;
+            let around = |at: u32, side: u32| {
+                let middle = at * FINE + FINE / 2;
+                middle.saturating_sub(reach)..(middle + reach).min(side * FINE)
+            };
+            let mut places = around(y, SIZE[1]).flat_map(|y| around(x, SIZE[0]).map(move |x| (x, y)));
+            assert!(
+                places.any(|(x, y)| fine(x, y) == is_covered),
+                "{beta} at {x}, {y}: {is_covered}\n{text}"
+            );
+        }
+    }
+    // Else this would say nothing.
+    assert!(n_other > 20, "{n_other}");
+}
+
+/// A box of wires, which bend.
+const BOX: &str = "c green 1 120; cam -ep 0 -9 1 -vc 0 0 0 -va 70 50; l 1;
+    v a -3 -3 -3; v b 3 -3 -3; v c 3 3 -3; v d -3 3 -3; v e -3 -3 3; v f 3 -3 3; v g 3 3 3; v h -3 3 3;
+    w (a b c d a e f g h e) green; w (b f) (c g) (d h);";

@@ -1,0 +1,62 @@
+//! What does not show in exact pictures, what is refused, and what is said.
+
+use glam::DVec3;
+use ugrainbow::Exact;
+use ugtests::pipe::{Pipe, lorentz, rainbow};
+use ugtests::scenes;
+
+use crate::{SQUARE, exact};
+
+#[test]
+fn threads_and_tiles_do_not_show() {
+    let text = scenes::text("street");
+    let mut pipe = exact(Some(0.9 * DVec3::NEG_Y));
+    pipe.rainbow.samples = 3;
+    let seen = lorentz(&text, &pipe.lorentz);
+    let draw = |n_threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(n_threads).build().unwrap();
+        pool.install(|| rainbow(&seen, &pipe.rainbow))
+    };
+    assert_eq!(draw(1), draw(3));
+}
+
+#[test]
+fn what_rays_cannot_find_is_refused() {
+    let refusal = |pipe: &Pipe, text: &[u8]| {
+        let source = ugparse::Source::new("test.ug", text);
+        ugrainbow::run(&pipe.rainbow, &source).err().map(|error| error.to_string())
+    };
+    let mut pipe = exact(Some(0.5 * DVec3::X));
+    let seen = lorentz(SQUARE.as_bytes(), &pipe.lorentz);
+    assert_eq!(refusal(&pipe, &seen), None);
+    let colored = ugtests::pipe::doppler(&seen, &pipe.doppler);
+    assert!(refusal(&pipe, &colored).unwrap().contains("leave ugdoppler out"));
+    let spectral = SQUARE.replace("c green .9 130 .8;", "c_bb green 5000;");
+    let glowing = lorentz(spectral.as_bytes(), &pipe.lorentz);
+    assert!(refusal(&pipe, &glowing).unwrap().contains("ugdoppler -sp"));
+    let mut shape = pipe.clone();
+    shape.rainbow.exact = Some(Exact::NONE);
+    assert_eq!(refusal(&shape, &glowing), None);
+    let at_rest = spectral.replace("<.2 -.1 0>", "");
+    assert_eq!(refusal(&pipe, at_rest.as_bytes()), None);
+    pipe.lorentz.geometry.contraction = false;
+    let bent = lorentz(SQUARE.as_bytes(), &pipe.lorentz);
+    assert!(refusal(&pipe, &bent).unwrap().contains("leave out -xc"));
+    pipe.rainbow.camera.is_orthographic = true;
+    assert!(refusal(&pipe, &seen).unwrap().contains("orthographic"));
+}
+
+/// Lights that move are not followed, and the note says what does.
+#[test]
+fn of_lights_that_move_there_is_a_note() {
+    let notes = |text: &str| {
+        let (_, notes) = ugrainbow::render(&scenes::parse(text.as_bytes()), &exact(None).rainbow).unwrap();
+        notes.join("; ")
+    };
+    assert_eq!(notes(SQUARE), "");
+    let moving = notes(&SQUARE.replace("l .7 1 -2 .5;", "l .7 1 -2 .5 <0 .5 0>;"));
+    assert!(moving.contains("leave out -xc") && moving.contains("ugdoppler -li"), "{moving}");
+    // At rest a spectrum is as it is: there is nothing to say.
+    let glowing = SQUARE.replace("c green .9 130 .8;", "c_bb green 5000;").replace("<.2 -.1 0>", "");
+    assert!(!notes(&glowing).contains("ugdoppler"), "{}", notes(&glowing));
+}
