@@ -50,7 +50,7 @@ pub struct Tools<'a> {
 
 /// Measures meshes of about these many triangles.
 pub fn write(out: &mut impl Write, sizes: &[u32], tools: &Tools<'_>) -> Result<(), Box<dyn Error>> {
-    build()?;
+    build(&["ugrainbow"])?;
     let dir = target_dir().join("bench");
     std::fs::create_dir_all(&dir)?;
     let meshes: Vec<Mesh> = sizes.iter().map(|&n| Mesh::new(&dir, n)).collect::<Result<_, _>>()?;
