@@ -7,7 +7,7 @@
 //! cargo xtask bench
 //! cargo xtask bench-reading
 //! cargo xtask bench-raster
-//! cargo xtask bench-scale docs/performance.svg
+//! cargo xtask bench-scale plot.svg
 //! cargo xtask bench-exact
 //! cargo xtask geometry > tables.md
 //! ```

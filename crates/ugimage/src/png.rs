@@ -14,7 +14,7 @@ pub enum Packing {
     /// Little: packing takes less time than drawing.
     #[default]
     Fast,
-    /// Much: some 20 times the time for some two thirds of the size.
+    /// Much: some two thirds of the size, for many times the time.
     Small,
 }
 

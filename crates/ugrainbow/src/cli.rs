@@ -132,7 +132,7 @@ pub struct Args {
           visible_alias = "tone-curve", help_heading = PICTURE)]
     tc: Tone,
 
-    /// Small PNG files, which take some 20 times as long to pack
+    /// Small PNG files, which take longer to pack
     ///
     /// The pixels stay the same.
     #[arg(long, visible_alias = "pack", help_heading = PICTURE)]
