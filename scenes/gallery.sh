@@ -35,3 +35,13 @@ tile halves 2 'halves*'
 tile dice 1 'dice*'
 tile traffic 2 'traffic*'
 tile lamp 2 'lamp*'
+
+# The one with labels, and the annotated one, as the page says.
+cd scenes
+shape() { ugdoppler -qt --no-doppler --no-flux; }
+passing() { uglorentz -in -vel "$1" 0 0 ship.ug | shape | ugrainbow -qt -sz 400 300; }
+caption='Passing from left to right, each time seen in the same place: the faster, the more it seems turned away.'
+ugsheet -lt -cap "$caption" <(passing 0) <(passing .5) <(passing .9) <(passing .99) > ../docs/gallery/sheet.png
+pot='A teapot at 0.95c, and its outline at rest'
+uglorentz -in -vel .95 0 0 teapot.ug | shape |
+    ugrainbow -qt -sz 640 480 -bg 1 -dl -gr -lg -cap "$pot" > ../docs/gallery/annotated.png

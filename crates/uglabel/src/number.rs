@@ -106,9 +106,9 @@ mod tests {
 
     #[test]
     fn more_than_three_are_a_range() {
-        let shown = |texts: &[&str]| few(texts.iter().map(|&text| text.to_owned()).collect());
-        assert_eq!(shown(&["0.5"]), "0.5");
-        assert_eq!(shown(&["0.5", "0.5", "0.9"]), "0.5, 0.9");
-        assert_eq!(shown(&["0", "0.3", "0.5", "0.9"]), "0 – 0.9");
+        let of = |texts: &[&str]| few(texts.iter().map(|&text| text.to_owned()).collect());
+        assert_eq!(of(&["0.5"]), "0.5");
+        assert_eq!(of(&["0.5", "0.5", "0.9"]), "0.5, 0.9");
+        assert_eq!(of(&["0", "0.3", "0.5", "0.9"]), "0 – 0.9");
     }
 }
