@@ -66,6 +66,7 @@ mod error;
 mod exact;
 mod explain;
 mod light;
+mod lines;
 mod notes;
 mod painter;
 mod palette;
@@ -82,7 +83,7 @@ use ugimage::{Development, Frame, Label, grey_postscript};
 use ugparse::{Diagnostics, Scene, Source};
 
 pub use cli::{Args, draw};
-pub use config::{Background, Config, Exact, Exposure, Interpolation, Output};
+pub use config::{Background, Config, DepthCue, Exact, Exposure, Interpolation, Output, Wireframe};
 pub use error::{Error, MAX_PIXELS, MAX_SIDE};
 pub use planes::Channel;
 pub use ugimage::Tone;
@@ -138,7 +139,7 @@ struct Painted {
 
 fn paint(scene: &Scene, config: &Config) -> Result<Painted, Error> {
     let setup = Setup::new(scene, config)?;
-    let sheet = Sheet::new(setup.painter(), config.exact);
+    let sheet = Sheet::new(setup.painter(), &config.manner());
     let canvas = Canvas::new(&setup, &sheet, config);
     let Canvas { drawn, tally, development } = canvas;
     let outcome = Outcome { reach: sheet.reach(), tally, development };

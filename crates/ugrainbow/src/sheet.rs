@@ -1,21 +1,52 @@
 //! Everything to be drawn, packed as the scene needs it.
 
 use glam::DVec3;
+use ugparse::Face;
 
-use crate::config::Exact;
+use crate::config::{Exact, Wireframe};
 use crate::drawlist::{DrawList, Reach};
 use crate::exact::{Bend, Faces};
+use crate::lines::{Hiders, Shown, Stroke, lines, pieces, strips, strokes};
 use crate::painter::Painter;
 use crate::palette::Swatch;
-use crate::raster::{Corner, Gathered, Grid, Layer, Sample, Scanner, Shade, Tag, Tally, Tile, paint, probe};
+use crate::raster::{
+    CLEAR_VALUES, Clear, Corner, Gathered, Grid, Layer, Pane, PolygonList, Sample, Scanner, Shade, Sink, Tag,
+    Tally, paint, probe,
+};
 use crate::shade::Shader;
 
 /// Turns a colour and the level of red, green and blue light into the numbers to interpolate.
 pub type Pack<const N: usize> = fn(&Swatch, DVec3) -> [f64; N];
 
-/// Everything with the numbers to interpolate: hues alone or with colours given as light among them, under
+/// How a scene is drawn, apart from its camera.
+#[derive(Clone, Copy, Debug)]
+pub struct Manner {
+    /// Faces are found by rays.
+    pub exact: Option<Exact>,
+    /// Edges of faces are drawn.
+    pub wireframe: Option<Wireframe>,
+    /// Width of lines in pixels.
+    pub line_width: f64,
+}
+
+impl Manner {
+    /// False if only their edges are drawn.
+    fn has_faces(&self) -> bool {
+        self.wireframe.is_none_or(|wireframe| wireframe.has_faces)
+    }
+}
+
+/// Everything to be drawn.
+pub struct Sheet<'a> {
+    solid: Solid<'a>,
+    clear: ClearLayers<'a>,
+    has_faces: bool,
+    reach: Reach,
+}
+
+/// What hides, with the numbers to interpolate: hues alone or with colours given as light among them, under
 /// white or coloured lights.
-pub enum Sheet<'a> {
+enum Solid<'a> {
     /// Tint, saturation, value.
     Plain(Layers<'a, 3>),
     /// The same, and the level of red, green and blue light.
@@ -26,58 +57,162 @@ pub enum Sheet<'a> {
     MixedColored(Layers<'a, 7>),
 }
 
-/// What is drawn.
-pub struct Layers<'a, const N: usize> {
-    /// Faces that rays find.
-    faces: Option<Faces<'a, N>>,
-    /// All polygons, which come behind those faces.
+/// Does the same with the layers of every kind, and the function that gives their light.
+macro_rules! with_layers {
+    ($solid:expr, |$layers:ident| $body:expr) => {
+        match $solid {
+            Solid::Plain($layers) => $body,
+            Solid::Colored($layers) => $body,
+            Solid::Mixed($layers) => $body,
+            Solid::MixedColored($layers) => $body,
+        }
+    };
+    ($solid:expr, $shader:expr, |$layers:ident, $shade:ident| $body:expr) => {
+        match $solid {
+            Solid::Plain($layers) => {
+                let $shade = |values: &[f32; 3]| $shader.plain(values);
+                $body
+            }
+            Solid::Colored($layers) => {
+                let $shade = |values: &[f32; 6]| $shader.colored(values);
+                $body
+            }
+            Solid::Mixed($layers) => {
+                let $shade = |values: &[f32; 4]| $shader.mixed(values);
+                $body
+            }
+            Solid::MixedColored($layers) => {
+                let $shade = |values: &[f32; 7]| $shader.mixed_colored(values);
+                $body
+            }
+        }
+    };
+}
+
+/// Faces, by rays or as polygons.
+struct Layers<'a, const N: usize> {
+    by_rays: Option<Faces<'a, N>>,
     polygons: DrawList<N>,
+    /// False if they only hide.
+    is_drawn: bool,
 }
 
 impl<'a, const N: usize> Layers<'a, N> {
-    fn new(painter: Painter<'a>, exact: Option<Exact>, pack: Pack<N>) -> Self {
-        match exact {
-            None => Self { faces: None, polygons: DrawList::new(&painter, pack) },
+    fn new(painter: Painter<'a>, manner: &Manner, is_clear: bool, pack: Pack<N>) -> Self {
+        let is_one = |face: &Face| painter.is_clear(face) == is_clear;
+        let is_drawn = manner.has_faces();
+        match manner.exact {
+            None => Self { by_rays: None, polygons: DrawList::new(&painter, is_one, pack), is_drawn },
             Some(exact) => Self {
-                polygons: DrawList::wires(&painter, &Bend::new(painter, exact), pack),
-                faces: Some(Faces::new(painter, exact, pack)),
+                polygons: DrawList::empty(),
+                by_rays: Some(Faces::new(painter, exact, is_one, pack)),
+                is_drawn,
             },
         }
     }
 
     fn reach(&self) -> Reach {
-        self.faces.iter().fold(self.polygons.reach, |reach, faces| reach.merge(faces.reach))
+        self.by_rays.iter().fold(self.polygons.reach, |reach, faces| reach.merge(faces.reach))
+    }
+
+    /// What of some pieces of lines no face hides.
+    fn shown(&self, painter: &Painter<'_>, all: &[Stroke], width: f64) -> Vec<Stroke> {
+        let size = [painter.grid.sample_columns(), painter.grid.sample_rows()];
+        // A sample more than half the width.
+        let margin = 0.5 * width + 1.0;
+        match &self.by_rays {
+            Some(faces) => {
+                let is_hidden = |place, key| faces.hides(place, key);
+                strokes(all, &Shown::by_rays(&is_hidden, size, margin))
+            }
+            None => {
+                let boxes = all.iter().map(Stroke::bounds);
+                let hiders = Hiders::new(&self.polygons.lists, boxes, size, margin);
+                strokes(all, &Shown::behind(hiders, size, margin))
+            }
+        }
     }
 }
 
 impl<const N: usize> Layer<N> for Layers<'_, N> {
-    fn draw<T: Tag>(&self, grid: &Grid, band: usize, scanner: &mut Scanner<N>, tile: &mut Tile<N, T>) {
-        if let Some(faces) = &self.faces {
-            faces.draw(grid, band, scanner, tile);
+    fn draw(&self, grid: &Grid, band: usize, scanner: &mut Scanner<N>, sink: &mut impl Sink<N>) {
+        if !self.is_drawn {
+            return;
         }
-        self.polygons.lists[..].draw(grid, band, scanner, tile);
+        if let Some(faces) = &self.by_rays {
+            faces.draw(grid, band, scanner, sink);
+        }
+        self.polygons.lists[..].draw(grid, band, scanner, sink);
     }
+}
+
+/// What does not hide what is behind it: translucent faces, and lines, from which that has been taken away.
+struct ClearLayers<'a> {
+    /// None if no face is translucent.
+    faces: Option<Layers<'a, CLEAR_VALUES>>,
+    /// Their visible parts.
+    strokes: Vec<Stroke>,
+    /// The same as strips.
+    lines: [PolygonList<CLEAR_VALUES>; 1],
+}
+
+/// What is clear, with what gives it light.
+struct Lit<'a, 's> {
+    layers: &'s ClearLayers<'a>,
+    shader: &'s Shader,
+}
+
+impl Clear for Lit<'_, '_> {
+    fn draw(&self, grid: &Grid, band: usize, scanner: &mut Scanner<CLEAR_VALUES>, pane: &mut Pane<'_>) {
+        let shade = |values: &[f32; CLEAR_VALUES]| clear_shade(self.shader, values);
+        if let Some(faces) = &self.layers.faces {
+            faces.draw(grid, band, scanner, &mut pane.sink(shade, false));
+        }
+        self.layers.lines[..].draw(grid, band, scanner, &mut pane.sink(shade, true));
+    }
+}
+
+/// Light of the numbers of [`pack_clear`], and the part of what is behind that passes.
+fn clear_shade(shader: &Shader, &[a, b, c, d, e, f, g, pass]: &[f32; CLEAR_VALUES]) -> (Shade, f32) {
+    (shader.mixed_colored(&[a, b, c, d, e, f, g]), pass.clamp(0.0, 1.0))
 }
 
 impl<'a> Sheet<'a> {
     /// All faces and wires.
-    pub fn new(painter: Painter<'a>, exact: Option<Exact>) -> Self {
-        match (painter.palette.has_light(), painter.lighting.is_colored()) {
-            (false, false) => Self::Plain(Layers::new(painter, exact, pack_plain)),
-            (false, true) => Self::Colored(Layers::new(painter, exact, pack_colored)),
-            (true, false) => Self::Mixed(Layers::new(painter, exact, pack_mixed)),
-            (true, true) => Self::MixedColored(Layers::new(painter, exact, pack_mixed_colored)),
+    pub fn new(painter: Painter<'a>, manner: &Manner) -> Self {
+        let solid = match (painter.palette.has_light(), painter.lighting.is_colored()) {
+            (false, false) => Solid::Plain(Layers::new(painter, manner, false, pack_plain)),
+            (false, true) => Solid::Colored(Layers::new(painter, manner, false, pack_colored)),
+            (true, false) => Solid::Mixed(Layers::new(painter, manner, false, pack_mixed)),
+            (true, true) => Solid::MixedColored(Layers::new(painter, manner, false, pack_mixed_colored)),
+        };
+        let faces =
+            painter.palette.has_translucency().then(|| Layers::new(painter, manner, true, pack_clear));
+        let bend = manner.exact.map(|exact| Bend::new(painter, exact));
+        let lines = lines(&painter, manner.wireframe, bend.as_ref());
+        let (pieces, mut reach) = pieces(&painter, &lines, bend.as_ref());
+        let width = manner.line_width * f64::from(painter.grid.samples);
+        let strokes = if pieces.is_empty() {
+            Vec::new()
+        } else {
+            with_layers!(&solid, |layers| layers.shown(&painter, &pieces, width))
+        };
+        if manner.has_faces() {
+            reach = reach.merge(with_layers!(&solid, |layers| layers.reach()));
+            reach = faces.iter().fold(reach, |reach, faces| reach.merge(faces.reach()));
         }
+        let lines = [strips(&painter, &strokes, width)];
+        Self { solid, clear: ClearLayers { faces, strokes, lines }, has_faces: manner.has_faces(), reach }
     }
 
-    /// How many faces and wires came how far.
+    /// How many faces and lines came how far.
     pub fn reach(&self) -> Reach {
-        match self {
-            Self::Plain(layers) => layers.reach(),
-            Self::Colored(layers) => layers.reach(),
-            Self::Mixed(layers) => layers.reach(),
-            Self::MixedColored(layers) => layers.reach(),
-        }
+        self.reach
+    }
+
+    fn lit<'s>(&'s self, shader: &'s Shader) -> Option<Lit<'a, 's>> {
+        let has_faces = self.has_faces && self.clear.faces.is_some();
+        (has_faces || !self.clear.strokes.is_empty()).then_some(Lit { layers: &self.clear, shader })
     }
 
     /// Draws all pixels of the grid. `finish` makes a pixel of its samples.
@@ -86,66 +221,76 @@ impl<'a> Sheet<'a> {
         grid: &Grid,
         shader: &Shader,
         pixels: &mut [P],
-        finish: &(impl Fn(&Gathered<T>) -> P + Sync),
+        finish: &(impl Fn(&Gathered<'_, T>) -> P + Sync),
     ) -> Tally {
-        match self {
-            Self::Plain(layers) => paint(pixels, grid, layers, &|values| shader.plain(values), finish),
-            Self::Colored(layers) => paint(pixels, grid, layers, &|values| shader.colored(values), finish),
-            Self::Mixed(layers) => paint(pixels, grid, layers, &|values| shader.mixed(values), finish),
-            Self::MixedColored(layers) => {
-                paint(pixels, grid, layers, &|values| shader.mixed_colored(values), finish)
-            }
-        }
+        let lit = self.lit(shader);
+        let clear = lit.as_ref().map(|lit| lit as &dyn Clear);
+        with_layers!(&self.solid, shader, |layers, shade| paint(pixels, grid, layers, clear, &shade, finish))
     }
 
     /// The samples of one pixel, and what they gather to.
-    pub fn probe(&self, grid: &Grid, shader: &Shader, pixel: [u32; 2]) -> (Vec<Sample>, Gathered<u32>) {
-        match self {
-            Self::Plain(layers) => probe(grid, layers, &|values| shader.plain(values), pixel),
-            Self::Colored(layers) => probe(grid, layers, &|values| shader.colored(values), pixel),
-            Self::Mixed(layers) => probe(grid, layers, &|values| shader.mixed(values), pixel),
-            Self::MixedColored(layers) => probe(grid, layers, &|values| shader.mixed_colored(values), pixel),
-        }
+    pub fn probe(
+        &self,
+        grid: &Grid,
+        shader: &Shader,
+        pixel: [u32; 2],
+    ) -> (Vec<Sample>, Gathered<'static, u32>) {
+        let lit = self.lit(shader);
+        let clear = lit.as_ref().map(|lit| lit as &dyn Clear);
+        with_layers!(&self.solid, shader, |layers, shade| probe(grid, layers, clear, &shade, pixel))
     }
 }
 
-/// Most numbers any sheet interpolates.
-pub const MOST_VALUES: usize = 7;
-
+/// For figures.
 impl Sheet<'_> {
-    /// Gives `take` every polygon, as its item and its contours; corners have zeros behind their numbers.
-    pub fn for_each_polygon(&self, mut take: impl FnMut(u32, Vec<Vec<Corner<MOST_VALUES>>>)) {
-        fn all<const N: usize>(
-            list: &DrawList<N>,
-            take: &mut impl FnMut(u32, Vec<Vec<Corner<MOST_VALUES>>>),
-        ) {
-            let padded = |corner: &Corner<N>| Corner {
-                x: corner.x,
-                y: corner.y,
-                key: corner.key,
-                values: std::array::from_fn(|i| corner.values.get(i).copied().unwrap_or(0.0)),
-            };
-            for (item, contours) in list.lists.iter().flat_map(|list| list.polygons()) {
-                take(item, contours.map(|contour| contour.iter().map(padded).collect()).collect());
-            }
+    /// Gives `take` every polygon that is drawn, as its item, whether light passes it, and its contours. Numbers of all
+    /// corners are those of [`Sheet::shade`].
+    pub fn for_each_polygon(&self, mut take: impl FnMut(u32, bool, Vec<Vec<Corner<CLEAR_VALUES>>>)) {
+        if !self.has_faces {
+            return;
         }
-        match self {
-            Self::Plain(list) => all(&list.polygons, &mut take),
-            Self::Colored(list) => all(&list.polygons, &mut take),
-            Self::Mixed(list) => all(&list.polygons, &mut take),
-            Self::MixedColored(list) => all(&list.polygons, &mut take),
+        for (item, contours) in self.clear.faces.iter().flat_map(|faces| polygons(&faces.polygons)) {
+            take(item, true, contours);
         }
+        with_layers!(&self.solid, |layers| {
+            polygons(&layers.polygons).for_each(|(item, contours)| take(item, false, contours));
+        });
+    }
+
+    /// The visible parts of lines.
+    pub fn strokes(&self) -> &[Stroke] {
+        &self.clear.strokes
     }
 
     /// The light of numbers interpolated between corners of [`Sheet::for_each_polygon`].
-    pub fn shade(&self, shader: &Shader, &[a, b, c, d, e, f, g]: &[f32; MOST_VALUES]) -> Shade {
-        match self {
-            Self::Plain(_) => shader.plain(&[a, b, c]),
-            Self::Colored(_) => shader.colored(&[a, b, c, d, e, f]),
-            Self::Mixed(_) => shader.mixed(&[a, b, c, d]),
-            Self::MixedColored(_) => shader.mixed_colored(&[a, b, c, d, e, f, g]),
+    pub fn shade(&self, shader: &Shader, is_clear: bool, values: &[f32; CLEAR_VALUES]) -> (Shade, f32) {
+        if is_clear {
+            return clear_shade(shader, values);
         }
+        let &[a, b, c, d, e, f, g, _] = values;
+        let shade = match &self.solid {
+            Solid::Plain(_) => shader.plain(&[a, b, c]),
+            Solid::Colored(_) => shader.colored(&[a, b, c, d, e, f]),
+            Solid::Mixed(_) => shader.mixed(&[a, b, c, d]),
+            Solid::MixedColored(_) => shader.mixed_colored(&[a, b, c, d, e, f, g]),
+        };
+        (shade, 0.0)
     }
+}
+
+/// All polygons of a list; corners have zeros behind their numbers.
+fn polygons<const N: usize>(
+    list: &DrawList<N>,
+) -> impl Iterator<Item = (u32, Vec<Vec<Corner<CLEAR_VALUES>>>)> {
+    let padded = |corner: &Corner<N>| Corner {
+        x: corner.x,
+        y: corner.y,
+        key: corner.key,
+        values: std::array::from_fn(|i| corner.values.get(i).copied().unwrap_or(0.0)),
+    };
+    list.lists.iter().flat_map(|list| list.polygons()).map(move |(item, contours)| {
+        (item, contours.map(|contour| contour.iter().map(padded).collect()).collect())
+    })
 }
 
 /// White light of one level goes into the value.
@@ -182,4 +327,10 @@ fn pack_mixed_colored(swatch: &Swatch, level: DVec3) -> [f64; 7] {
             [tint, saturation, value, red, green, blue, 0.0]
         }
     }
+}
+
+/// In every scene all numbers, and the translucency.
+pub fn pack_clear(swatch: &Swatch, level: DVec3) -> [f64; CLEAR_VALUES] {
+    let [a, b, c, d, e, f, g] = pack_mixed_colored(swatch, level);
+    [a, b, c, d, e, f, g, swatch.translucency]
 }

@@ -29,8 +29,8 @@ impl Surface {
             .map(|color| match color {
                 VertexColor::Named(color) => palette.get(color),
                 VertexColor::White => Swatch::WHITE,
-                VertexColor::Mixed { hsv, light, .. } => {
-                    Swatch { light: light.map(DVec3::from_array), ..palette.swatch(hsv) }
+                VertexColor::Mixed { hsv, light, translucency } => {
+                    Swatch { light: light.map(DVec3::from_array), translucency, ..palette.swatch(hsv) }
                 }
             })
             .collect();

@@ -14,7 +14,7 @@ use super::outline::Outline;
 use crate::config::Exact;
 use crate::drawlist::Reach;
 use crate::painter::Painter;
-use crate::raster::{Bins, Grid, Layer, Scanner, Tag, Tile};
+use crate::raster::{Bins, Grid, Layer, Scanner, Sink};
 use crate::sheet::Pack;
 
 /// Faces and the rays that meet them.
@@ -43,11 +43,17 @@ struct Shape {
 }
 
 impl<'a, const N: usize> Faces<'a, N> {
-    /// All faces of a scene.
-    pub fn new(painter: Painter<'a>, exact: Exact, pack: Pack<N>) -> Self {
+    /// The faces of a scene that `is_drawn` says.
+    pub fn new(
+        painter: Painter<'a>,
+        exact: Exact,
+        is_drawn: impl Fn(&Face) -> bool + Sync,
+        pack: Pack<N>,
+    ) -> Self {
         let motion = Motion::new(exact, painter.palette);
         let frames = frames(&painter);
         let built: Vec<Built> = (painter.scene.faces.par_iter().enumerate())
+            .filter(|(_, face)| is_drawn(face))
             .map(|(row, face)| build(&painter, motion, &frames, row, face))
             .collect();
         let in_front = built.iter().filter(|built| !matches!(built, Built::Behind)).count();
@@ -59,13 +65,37 @@ impl<'a, const N: usize> Faces<'a, N> {
         Self { painter, motion, pack, frames, shapes, bins, keys, reach }
     }
 
+    /// True if a face is nearer than `key` on the ray through a place of the picture, in samples.
+    pub fn hides(&self, [x, y]: [f64; 2], key: f64) -> bool {
+        let grid = self.painter.grid;
+        let is_inside = (0.0..f64::from(grid.sample_columns())).contains(&x)
+            && (0.0..f64::from(grid.sample_rows())).contains(&y);
+        if !is_inside {
+            return false;
+        }
+        // Inside, so the casts keep the whole part.
+        let (column, row) = (x as u32, y as u32);
+        let [least, most] = self.keys;
+        let hides = |shape: &Shape| {
+            let frame = &self.frames[shape.frame];
+            let ray = frame.ray(frame.row(y), x);
+            let nearer = shape.outline.key(ray.rest);
+            nearer > key && (least..=most).contains(&nearer) && shape.outline.contains(ray.rest)
+        };
+        let shapes = self.bins.in_band(grid.bands_of(&(row..row + 1)).start).iter();
+        shapes
+            .map(|&shape| &self.shapes[shape as usize])
+            .filter(|shape| shape.columns.contains(&column) && shape.rows.contains(&row))
+            .any(hides)
+    }
+
     /// Draws a face into a rectangle of the tile.
-    fn draw_shape<T: Tag>(&self, shape: &Shape, [columns, rows]: [Range<u32>; 2], tile: &mut Tile<N, T>) {
+    fn draw_shape(&self, shape: &Shape, [columns, rows]: [Range<u32>; 2], tile: &mut impl Sink<N>) {
         let frame = &self.frames[shape.frame];
         let [least, most] = self.keys;
         for row in rows {
             let rays = frame.row(f64::from(row) + 0.5);
-            tile.draw_each(row, columns.clone(), T::of(shape.item), |column, nearest| {
+            tile.draw_each(row, columns.clone(), shape.item, |column, nearest| {
                 let ray = frame.ray(rays, f64::from(column) + 0.5);
                 let key = shape.outline.key(ray.rest);
                 // What is hidden or clipped need not be met.
@@ -81,7 +111,7 @@ impl<'a, const N: usize> Faces<'a, N> {
 
     /// Draws what of a face is in a rectangle of the tile. What can show the face is found anew in each half of a
     /// large one, so that rays are not wasted on what lies beside slanting and thin faces.
-    fn draw_within<T: Tag>(&self, shape: &Shape, [columns, rows]: [Range<u32>; 2], tile: &mut Tile<N, T>) {
+    fn draw_within(&self, shape: &Shape, [columns, rows]: [Range<u32>; 2], tile: &mut impl Sink<N>) {
         /// Samples that are tried at once rather than to look for those that need not be.
         const FEW: usize = 512;
         if columns.is_empty() || rows.is_empty() {
@@ -105,7 +135,7 @@ impl<'a, const N: usize> Faces<'a, N> {
 }
 
 impl<const N: usize> Layer<N> for Faces<'_, N> {
-    fn draw<T: Tag>(&self, _grid: &Grid, band: usize, _scanner: &mut Scanner<N>, tile: &mut Tile<N, T>) {
+    fn draw(&self, _grid: &Grid, band: usize, _scanner: &mut Scanner<N>, tile: &mut impl Sink<N>) {
         for &shape in self.bins.in_band(band) {
             let shape = &self.shapes[shape as usize];
             let within =

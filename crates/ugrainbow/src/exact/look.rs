@@ -155,6 +155,7 @@ fn mean(weights: [f64; 3], corners: [Corner; 3]) -> Corner {
             tint: number(|corner| corner.color.tint),
             saturation: number(|corner| corner.color.saturation),
             value: number(|corner| corner.color.value),
+            translucency: number(|corner| corner.color.translucency),
             light: is_light.then(|| vector(&|corner| corner.color.light.unwrap_or_default())),
         },
         normal: vector(&|corner| corner.normal).normalize_or_zero(),

@@ -11,7 +11,7 @@
 //! 4. [`look`]: colour and light at a point of a face at rest;
 //! 5. [`motion`]: colour as seen;
 //! 6. [`faces`]: all faces of a scene as a layer of the raster;
-//! 7. [`wires`]: wires as polylines fine enough for the picture.
+//! 7. [`wires`]: lines as polylines fine enough for the picture.
 //!
 //! # Which sample belongs to whom
 //!
@@ -29,4 +29,4 @@ mod outline;
 mod wires;
 
 pub use faces::Faces;
-pub use wires::{Bend, Joint};
+pub use wires::Bend;

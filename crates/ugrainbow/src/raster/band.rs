@@ -4,10 +4,12 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
+use super::cue::Cue;
 use super::edges::Scanner;
+use super::glass::{Clear, Glass, Keep};
 use super::polygons::PolygonList;
 use super::resolve::{Gathered, Resolver, Shade, Tally};
-use super::spans::{Tag, Tile};
+use super::spans::{Sink, Tag, Tile};
 
 /// Samples a tile should have: with some 16 bytes each they stay in a core's cache.
 const TILE_SAMPLES: u32 = 1 << 15;
@@ -30,6 +32,8 @@ pub struct Grid {
     pub samples: u32,
     /// True if values are multiplied by the depth key.
     pub is_perspective: bool,
+    /// How what is far fades, if it does.
+    pub cue: Option<Cue>,
 }
 
 impl Grid {
@@ -41,6 +45,17 @@ impl Grid {
     /// Samples down.
     pub fn sample_rows(&self) -> u32 {
         self.height * self.samples
+    }
+
+    /// The depth along the view of a key.
+    pub fn depth(&self, key: f64) -> f64 {
+        if self.is_perspective { 1.0 / key } else { -key }
+    }
+
+    /// The part of the light that depth cueing leaves at a key.
+    #[inline]
+    pub fn cue_at(&self, key: f32) -> f32 {
+        self.cue.map_or(1.0, |cue| cue.part(self.depth(f64::from(key))) as f32)
     }
 
     /// Pixel columns of a tile.
@@ -74,28 +89,29 @@ impl Grid {
 /// What is drawn: something that knows which samples of a tile it covers.
 pub trait Layer<const N: usize>: Sync {
     /// Draws into a tile what of it is in the band the tile belongs to.
-    fn draw<T: Tag>(&self, grid: &Grid, band: usize, scanner: &mut Scanner<N>, tile: &mut Tile<N, T>);
+    fn draw(&self, grid: &Grid, band: usize, scanner: &mut Scanner<N>, tile: &mut impl Sink<N>);
 }
 
 /// Polygons, list after list, that have been sorted into the bands of the grid.
 impl<const N: usize> Layer<N> for [PolygonList<N>] {
-    fn draw<T: Tag>(&self, grid: &Grid, band: usize, scanner: &mut Scanner<N>, tile: &mut Tile<N, T>) {
+    fn draw(&self, grid: &Grid, band: usize, scanner: &mut Scanner<N>, tile: &mut impl Sink<N>) {
         let [first_row, end_row] = tile.rows();
         for (item, polygon) in self.iter().flat_map(|list| list.in_band(band)) {
             scanner.scan(polygon, first_row, end_row, |row, left, right| {
-                tile.draw(row, left, right, grid.is_perspective, T::of(item));
+                tile.draw(row, left, right, grid.is_perspective, item);
             });
         }
     }
 }
 
-/// Draws a layer into the pixels of the grid, row after row.
+/// Draws a layer, and what is clear before it, into the pixels of the grid, row after row.
 ///
 /// The pixels do not depend on the number of threads. `finish` makes a pixel of its samples.
 pub fn paint<const N: usize, L, T, P, S, F>(
     pixels: &mut [P],
     grid: &Grid,
     layer: &L,
+    clear: Option<&dyn Clear>,
     shader: &S,
     finish: &F,
 ) -> Tally
@@ -104,17 +120,17 @@ where
     T: Tag,
     P: Send,
     S: Fn(&[f32; N]) -> Shade + Sync,
-    F: Fn(&Gathered<T>) -> P + Sync,
+    F: Fn(&Gathered<'_, T>) -> P + Sync,
 {
     let band_pixels = grid.band_rows() as usize * grid.width as usize;
     pixels
         .par_chunks_mut(band_pixels)
         .enumerate()
         .map_init(
-            || (Scanner::default(), Tile::default()),
-            |(scanner, tile), (band, pixels)| {
-                let mut resolver = Resolver::new(shader, finish, grid.samples);
-                Band { grid, layer, band, scanner, tile }.paint(&mut resolver, pixels);
+            || (Scanner::default(), Tile::default(), Glass::default()),
+            |(scanner, tile, glass), (band, pixels)| {
+                let mut resolver = Resolver::new(shader, finish, grid);
+                Band { grid, layer, clear, band, scanner, tile, glass }.paint(&mut resolver, pixels);
                 resolver.tally
             },
         )
@@ -125,16 +141,18 @@ where
 pub struct Band<'a, const N: usize, L: ?Sized, T> {
     pub grid: &'a Grid,
     pub layer: &'a L,
+    pub clear: Option<&'a dyn Clear>,
     pub band: usize,
     pub scanner: &'a mut Scanner<N>,
     pub tile: &'a mut Tile<N, T>,
+    pub glass: &'a mut Glass,
 }
 
 impl<const N: usize, L: Layer<N> + ?Sized, T: Tag> Band<'_, N, L, T> {
     fn paint<P, S, F>(&mut self, resolver: &mut Resolver<'_, N, S, F>, pixels: &mut [P])
     where
         S: Fn(&[f32; N]) -> Shade,
-        F: Fn(&Gathered<T>) -> P,
+        F: Fn(&Gathered<'_, T>) -> P,
     {
         let grid = self.grid;
         let top = self.band as u32 * grid.band_rows();
@@ -156,14 +174,22 @@ impl<const N: usize, L: Layer<N> + ?Sized, T: Tag> Band<'_, N, L, T> {
         rows: &mut [P],
     ) where
         S: Fn(&[f32; N]) -> Shade,
-        F: Fn(&Gathered<T>) -> P,
+        F: Fn(&Gathered<'_, T>) -> P,
     {
         let grid = self.grid;
         let end_column = (column + grid.tile_columns()).min(grid.width);
         let n_rows = rows.len() as u32 / grid.width;
         self.draw([column, end_column], [row, row + n_rows]);
+        resolver.tally =
+            resolver.tally.merge(self.draw_clear(if T::IS_KEPT { Keep::Centers } else { Keep::None }));
         for (row, pixels) in (row..).zip(rows.chunks_mut(grid.width as usize)) {
-            resolver.paint(self.tile, column, row, &mut pixels[column as usize..end_column as usize]);
+            resolver.paint(
+                self.tile,
+                self.glass,
+                column,
+                row,
+                &mut pixels[column as usize..end_column as usize],
+            );
         }
     }
 
@@ -172,5 +198,13 @@ impl<const N: usize, L: Layer<N> + ?Sized, T: Tag> Band<'_, N, L, T> {
         let samples = |pixels: u32| pixels * self.grid.samples;
         self.tile.reset(columns.map(samples), rows.map(samples));
         self.layer.draw(self.grid, self.band, self.scanner, self.tile);
+    }
+
+    /// Draws what is clear over the tile.
+    pub fn draw_clear(&mut self, keep: Keep) -> Tally {
+        match self.clear {
+            Some(clear) => self.glass.draw(clear, self.grid, self.band, self.tile, keep),
+            None => Tally::default(),
+        }
     }
 }

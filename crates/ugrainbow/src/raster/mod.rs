@@ -8,9 +8,10 @@
 //! 1. [`polygons`]: polygons in buffers, sorted into bands of pixel rows;
 //! 2. [`edges`]: where a polygon's outline crosses a row of samples;
 //! 3. [`spans`]: the samples between two crossings, and the depth test;
-//! 4. [`resolve`]: samples to pixels, averaged in linear light;
-//! 5. [`band`]: bands in parallel, each with its own small sample buffer;
-//! 6. [`probe`]: one pixel alone, with all its samples.
+//! 4. [`glass`]: translucent faces and lines in front of them, sample by sample;
+//! 5. [`resolve`]: samples to pixels, averaged in linear light, what is far faded ([`cue`]);
+//! 6. [`band`]: bands in parallel, each with its own small sample buffer;
+//! 7. [`probe`]: one pixel alone, with all its samples.
 //!
 //! A sample can also remember whose it is ([`Tag`]); where nobody asks, that costs nothing.
 //!
@@ -33,7 +34,9 @@
 
 mod band;
 mod bins;
+mod cue;
 mod edges;
+mod glass;
 mod polygons;
 mod probe;
 mod resolve;
@@ -43,8 +46,10 @@ mod tests;
 
 pub use band::{Grid, Layer, paint};
 pub use bins::Bins;
+pub use cue::Cue;
 pub use edges::Scanner;
+pub use glass::{CLEAR_VALUES, Clear, Fragment, Pane};
 pub use polygons::{Corner, PolygonList};
 pub use probe::{Sample, probe};
 pub use resolve::{Gathered, Shade, Tally};
-pub use spans::{Seen, Tag, Tile};
+pub use spans::{Seen, Sink, Tag};

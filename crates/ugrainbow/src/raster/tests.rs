@@ -154,24 +154,37 @@ fn painted(polygons: &[Vec<Corner<1>>], grid: &Grid) -> Vec<f32> {
     let shader = |&[light]: &[f32; 1]| Shade { light: [light; 3], intensity: light, is_out_of_range: false };
     let mean = |sum: [f32; 3]| sum[0] / (grid.samples * grid.samples) as f32;
     let mut pixels = vec![0.0; grid.width as usize * grid.height as usize];
-    paint(&mut pixels, grid, &lists[..], &shader, &|all: &Gathered<()>| mean(all.sum));
+    paint(&mut pixels, grid, &lists[..], None, &shader, &|all: &Gathered<'_, ()>| mean(all.sum));
     let mut marked = vec![(0.0, None); pixels.len()];
-    paint(&mut marked, grid, &lists[..], &shader, &|all: &Gathered<u32>| (mean(all.sum), all.center));
+    paint(&mut marked, grid, &lists[..], None, &shader, &|all: &Gathered<'_, u32>| {
+        (mean(all.sum), all.center)
+    });
     for (idx, (&light, marked)) in pixels.iter().zip(&marked).enumerate() {
         assert_eq!(light, marked.0);
         if pixels.len() > 1000 {
             continue;
         }
         let place = [idx as u32 % grid.width, idx as u32 / grid.width];
-        let (samples, all) = probe(grid, &lists[..], &shader, place);
+        let (samples, all) = probe(grid, &lists[..], None, &shader, place);
         assert_eq!((mean(all.sum), all.center), *marked);
-        assert_eq!(samples.len() as u32, all.n_covered);
+        assert_eq!(samples.len() as f32, all.covered);
         let middle = place.map(|pixel| pixel * grid.samples + grid.samples / 2);
         assert_eq!(
-            samples.iter().find(|sample| sample.place == middle).map(|sample| sample.seen),
+            samples
+                .iter()
+                .find(|sample| sample.place == middle)
+                .and_then(|sample| sample.surface.as_ref())
+                .map(|surface| surface.seen),
             all.center
         );
-        assert_eq!(samples.iter().map(|sample| sample.shade.light[0]).sum::<f32>(), all.sum[0]);
+        assert_eq!(
+            samples
+                .iter()
+                .filter_map(|sample| sample.surface.as_ref())
+                .map(|surface| surface.shade.light[0])
+                .sum::<f32>(),
+            all.sum[0]
+        );
     }
     pixels
 }
@@ -181,7 +194,7 @@ fn painted(polygons: &[Vec<Corner<1>>], grid: &Grid) -> Vec<f32> {
 fn a_probe_finds_what_was_painted() {
     let mut noise = Noise(5);
     for samples in [1, 2, 3] {
-        let grid = Grid { width: 25, height: 20, samples, is_perspective: false };
+        let grid = Grid { width: 25, height: 20, samples, is_perspective: false, cue: None };
         let polygons: Vec<Vec<Corner<1>>> = (1..=40)
             .map(|k| {
                 let mut corner = || Corner {
@@ -202,7 +215,7 @@ fn a_probe_finds_what_was_painted() {
 #[test]
 fn tiles_do_not_show() {
     for (width, height, samples) in [(100_000, 5, 3), (600_000, 2, 1), (50, 3000, 2)] {
-        let grid = Grid { width, height, samples, is_perspective: false };
+        let grid = Grid { width, height, samples, is_perspective: false, cue: None };
         let (right, bottom) = (f64::from(grid.sample_columns()), f64::from(grid.sample_rows()));
         let corner = |x: f64, y: f64, light: f64| Corner { x, y, key: 0.0, values: [light] };
         let pixels = painted(
@@ -229,7 +242,7 @@ fn of_equal_depths_the_first_stays() {
             .map(|(x, y)| Corner { x, y, key, values: [light] })
             .into()
     };
-    let grid = Grid { width: 4, height: 4, samples: 1, is_perspective: false };
+    let grid = Grid { width: 4, height: 4, samples: 1, is_perspective: false, cue: None };
     let rows = [
         ([(1.0, 5.0), (0.0, 5.0)], 1.0),
         ([(0.0, 5.0), (1.0, 5.0)], 0.0),
@@ -244,7 +257,7 @@ fn of_equal_depths_the_first_stays() {
 
 #[test]
 fn what_is_not_finite_is_dropped() {
-    let grid = Grid { width: 4, height: 4, samples: 1, is_perspective: false };
+    let grid = Grid { width: 4, height: 4, samples: 1, is_perspective: false, cue: None };
     for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
         for place in 0..4 {
             let mut numbers = [1.0; 4];

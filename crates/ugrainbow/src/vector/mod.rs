@@ -4,11 +4,13 @@
 //! 2. Faces of which no sample is seen, nor of any neighbour, are left out ([`seen`]).
 //! 3. The rest is put in order, from behind ([`order`]), and cut only where faces cut each other or hide each
 //!    other in a ring. Parts that are hidden are painted over, not cut out.
-//! 4. Each becomes a plain area, or smooth ones, cut until their colours are right ([`smooth`]).
-//! 5. Wires come last, without their hidden parts ([`lines`]).
+//! 4. What lies behind translucent faces is painted once more in the colours seen through them ([`glass`]).
+//! 5. Each becomes a plain area, or smooth ones, cut until their colours are right ([`smooth`]).
+//! 6. Lines come last, without their hidden parts ([`lines`]).
 
 mod color;
 mod convex;
+mod glass;
 mod index;
 mod lines;
 mod order;
@@ -21,14 +23,17 @@ use ugimage::{Development, Format, Label};
 
 use crate::config::{Background, Config};
 use crate::error::{Error, MAX_PIXELS};
+use crate::lines::Stroke;
 use crate::setup::Setup;
 use crate::sheet::Sheet;
 use color::{Palette, rounded};
-use index::Index;
+pub use convex::{Convex, Place as PlanePlace};
+pub use index::Index;
+use lines::Lines;
 use patch::Patch;
-use smooth::{Smooth, push_piece};
+pub use patch::{near_picture, parts};
+use smooth::{Smooth, push_area};
 use ugparse::Scene;
-use ugphysics::srgb_encode;
 
 /// Rows of samples a pixel, if the picture is not too large.
 const FINEST: u32 = 8;
@@ -64,17 +69,34 @@ fn figure<S: Smooth>(
     let scale = scale(config.size);
     let fine = Config { size: config.size.map(|side| side * scale), samples: 1, ..config.clone() };
     let setup = Setup::new(scene, &fine)?;
-    let sheet = Sheet::new(setup.painter(), None);
+    let sheet = Sheet::new(setup.painter(), &fine.manner());
     let is_shown = seen::faces(&setup, &sheet);
-    let (faces, wires) = patches(&sheet, &setup, config.size, f64::from(scale), &is_shown);
-    let palette = Palette { sheet: &sheet, shader: &setup.shader, development };
-    let index = Index::new(&faces, config.size);
+    let faces = patches(&sheet, &setup, config.size, f64::from(scale), &is_shown);
+    let ground = ground(config);
+    let palette = Palette {
+        sheet: &sheet,
+        shader: &setup.shader,
+        development,
+        grid: &setup.grid,
+        ground: ground.unwrap_or([1.0; 3]),
+    };
+    let index = Index::new(faces.iter().map(Patch::bounds), config.size);
     let mut elements = Vec::new();
-    for piece in order::painting_order(&faces, &index) {
-        push_piece(&palette, &faces, &piece, &mut elements);
+    for area in glass::areas(&faces, order::painting_order(&faces, &index)) {
+        push_area(&palette, &faces, &area, &mut elements);
     }
-    lines::push_lines(&palette, &wires, &faces, &index, config.size, f64::from(scale), &mut elements);
-    Ok(Figure { size: config.size, background: background(config, development), elements })
+    let lines = Lines { palette: &palette, faces: &faces, index: &index, width: config.line_width };
+    lines.push(sheet.strokes().iter().map(|stroke| scaled(*stroke, scale)).collect(), &mut elements);
+    let background = ground.map(|light| rounded(palette.levels(light)));
+    Ok(Figure { size: config.size, background, elements })
+}
+
+/// A stroke in pixels, from one in rows of the draw list.
+fn scaled(mut stroke: Stroke, scale: u32) -> Stroke {
+    for end in &mut stroke.ends {
+        (end.x, end.y) = (end.x / f64::from(scale), end.y / f64::from(scale));
+    }
+    stroke
 }
 
 fn scale([width, height]: [u32; 2]) -> u32 {
@@ -83,36 +105,31 @@ fn scale([width, height]: [u32; 2]) -> u32 {
     (1..=FINEST).rev().find(fits).unwrap_or(1)
 }
 
-/// Faces that are shown, and wires.
+/// Faces that are shown.
 fn patches(
     sheet: &Sheet<'_>,
     setup: &Setup<'_>,
     size: [u32; 2],
     scale: f64,
     is_shown: &[bool],
-) -> (Vec<Patch>, Vec<Patch>) {
-    let (mut faces, mut wires) = (Vec::new(), Vec::new());
-    sheet.for_each_polygon(|item, mut contours| {
-        let is_face = is_shown.get(item as usize);
-        if is_face == Some(&false) {
+) -> Vec<Patch> {
+    let mut faces = Vec::new();
+    sheet.for_each_polygon(|item, is_clear, mut contours| {
+        if !is_shown[item as usize] {
             return;
         }
         for corner in contours.iter_mut().flatten() {
             (corner.x, corner.y) = (corner.x / scale, corner.y / scale);
         }
-        let patch = Patch::new(item, contours, size, setup.view.is_perspective);
-        if is_face.is_some() { &mut faces } else { &mut wires }.extend(patch);
+        faces.extend(Patch::new(item, is_clear, contours, size, setup.view.is_perspective));
     });
-    (faces, wires)
+    // Of what is equally deep the first in the scene is seen.
+    faces.sort_by_key(|patch| patch.item);
+    faces
 }
 
-/// What the picture has behind everything, developed as it is.
-fn background(config: &Config, development: Option<Development>) -> Option<figure::Rgb> {
+/// The light that the picture has behind everything.
+fn ground(config: &Config) -> Option<[f32; 3]> {
     let Background::Color(color) = config.background else { return None };
-    let [red, green, blue] = color.to_rgb().map(|channel| ugphysics::srgb_decode(channel) as f32);
-    let light = match &development {
-        Some(development) => crate::canvas::developed(development, [red, green, blue, 1.0]),
-        None => [red, green, blue, 1.0],
-    };
-    Some(rounded([0, 1, 2].map(|i| 255.0 * srgb_encode(f64::from(light[i]).clamp(0.0, 1.0)))))
+    Some(color.to_rgb().map(|channel| ugphysics::srgb_decode(channel) as f32))
 }

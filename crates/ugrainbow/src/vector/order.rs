@@ -18,6 +18,23 @@ pub enum Piece {
     Part(usize, Convex),
 }
 
+impl Piece {
+    /// The row of its patch.
+    pub fn patch(&self) -> usize {
+        match self {
+            Self::Whole(idx) | Self::Part(idx, _) => *idx,
+        }
+    }
+
+    /// Its convex flat parts.
+    pub fn parts<'a>(&'a self, patches: &'a [Patch]) -> &'a [Convex] {
+        match self {
+            Self::Whole(idx) => &patches[*idx].parts,
+            Self::Part(_, part) => std::slice::from_ref(part),
+        }
+    }
+}
+
 /// Splitting planes tried at each step; the one that cuts least is taken.
 const CANDIDATES: usize = 8;
 
@@ -38,7 +55,7 @@ pub fn painting_order(patches: &[Patch], index: &Index) -> Vec<Piece> {
 fn relations(patches: &[Patch], index: &Index) -> Vec<Vec<usize>> {
     let mut behind = vec![Vec::new(); patches.len()];
     for (first, patch) in patches.iter().enumerate() {
-        for second in index.overlapping(patch).filter(|&second| second > first) {
+        for second in index.in_box(patch.bounds()).into_iter().filter(|&second| second > first) {
             let relation = relation(patch, &patches[second]);
             // Of what is equally deep the first is seen, as in the raster.
             let is_tie = relation.is_level && !relation.is_behind;

@@ -5,7 +5,7 @@ use ugimage::figure::{Element, Gradient, Point, Triangle};
 
 use super::color::{Levels, Palette, distance, mean, rounded};
 use super::convex::{Convex, sides};
-use super::order::Piece;
+use super::glass::Area;
 use super::patch::Patch;
 
 /// How far, in levels of 255, the colours of a figure are from those of the scene where that is tried: at corners,
@@ -27,36 +27,32 @@ pub trait Smooth: Sized {
     fn push(job: &Job<'_>, contours: Vec<Vec<Point>>, parts: &[Convex], elements: &mut Vec<Element<Self>>);
 }
 
-/// A patch being painted.
+/// An area being painted.
 pub struct Job<'a> {
     palette: &'a Palette<'a>,
-    patch: &'a Patch,
+    /// What is seen in it, from behind.
+    stack: Vec<&'a Patch>,
 }
 
-/// Adds a piece to the figure.
-pub fn push_piece<S: Smooth>(
+/// Adds an area to the figure.
+pub fn push_area<S: Smooth>(
     palette: &Palette<'_>,
     patches: &[Patch],
-    piece: &Piece,
+    area: &Area,
     elements: &mut Vec<Element<S>>,
 ) {
-    let (patch, part) = match piece {
-        Piece::Whole(idx) => (&patches[*idx], None),
-        Piece::Part(idx, part) => (&patches[*idx], Some(part)),
-    };
-    let parts = part.map_or(&patch.parts[..], std::slice::from_ref);
-    let contours: Vec<Vec<Point>> = match part {
+    let stack: Vec<&Patch> = area.stack.iter().map(|&idx| &patches[idx]).collect();
+    let Some(&first) = stack.first() else { return };
+    let parts = area.part.as_ref().map_or(&first.parts[..], std::slice::from_ref);
+    let contours: Vec<Vec<Point>> = match &area.part {
         Some(part) => vec![outline(part)],
         None => {
-            patch.outline.iter().map(|contour| contour.iter().map(|&[x, y, _]| [x, y]).collect()).collect()
+            first.outline.iter().map(|contour| contour.iter().map(|&[x, y, _]| [x, y]).collect()).collect()
         }
     };
-    if let Some(values) = patch.single_values() {
-        elements.push(Element::Area { contours, color: rounded(palette.levels(&values)), is_inside: false });
-        return;
-    }
-    let job = Job { palette, patch };
-    match plain(&job.tried(parts)) {
+    let everywhere = palette.everywhere(&stack);
+    let job = Job { palette, stack };
+    match everywhere.or_else(|| plain(&job.tried(parts))) {
         Some(color) => {
             elements.push(Element::Area { contours, color: rounded(color), is_inside: false });
         }
@@ -80,7 +76,7 @@ fn plain(tried: &[(Point, Levels)]) -> Option<Levels> {
 
 impl Job<'_> {
     fn color(&self, place: Point) -> Levels {
-        self.palette.at(self.patch, place)
+        self.palette.at(&self.stack, place)
     }
 
     /// Colours at corners, middles of edges and middles of parts.
