@@ -1,84 +1,96 @@
 //! Translucent faces in figures, as areas of the colours that are seen through them.
 //!
-//! Not every format has opacity, and those that have it blend encoded colours and not light. So whatever a translucent
-//! face lies over is painted once more within its outline, in the colours that are seen there.
+//! Not every format has opacity, and those that have it blend encoded colours and not light. So what lies behind a
+//! translucent face is cut along its outline, and the part within gets the colours that are seen there.
 
-use super::convex::{Convex, clip, sides};
+use super::convex::{Convex, Place, clip, sides};
 use super::order::Piece;
 use super::patch::Patch;
 
-/// An area in paint order, and the patches seen in it: the last hides part of the one before, and so on.
+/// Pixels within which an edge lies on another.
+const CLOSE: f64 = 0.02;
+
+/// An area, and the patches seen in it.
+#[derive(Clone, Debug)]
 pub struct Area {
-    /// Rows of the patches, from behind.
-    pub stack: Vec<usize>,
-    /// None for all of the patch, which is then the only one.
+    /// The pieces seen in it, from behind.
+    pub stack: Vec<Piece>,
+    /// None for all of a piece, which is then the only one.
     pub part: Option<Convex>,
 }
 
 /// The areas to be painted for pieces, from behind.
 pub fn areas(patches: &[Patch], pieces: Vec<Piece>) -> Vec<Area> {
-    let mut areas = Vec::new();
-    // What is seen where a pane may come, in disjoint parts but for what is painted over.
-    let mut seen: Vec<(Vec<usize>, Convex)> = Vec::new();
-    let mut n_panes = pieces.iter().filter(|piece| patches[piece.patch()].is_clear).count();
+    let mut areas: Vec<Area> = Vec::with_capacity(pieces.len());
     for piece in pieces {
-        let idx = piece.patch();
-        let parts = piece.parts(patches).to_vec();
-        areas.push(Area {
-            stack: vec![idx],
-            part: match piece {
-                Piece::Whole(_) => None,
-                Piece::Part(_, part) => Some(part),
-            },
-        });
-        if n_panes == 0 {
-            continue;
-        }
-        if patches[idx].is_clear {
-            n_panes -= 1;
-            for part in &parts {
-                let through = look_through(part, idx, &mut seen);
-                areas.extend(
-                    through
-                        .iter()
-                        .map(|(stack, part)| Area { stack: stack.clone(), part: Some(part.clone()) }),
-                );
-                seen.push((vec![idx], part.clone()));
-                seen.extend(through);
+        let mut through = Vec::new();
+        if patches[piece.patch()].is_clear {
+            for part in piece.parts(patches) {
+                let cut = |area| look_through(patches, (&piece, part), area, &mut through);
+                areas = areas.into_iter().flat_map(cut).collect();
             }
-        } else {
-            seen.extend(parts.into_iter().map(|part| (vec![idx], part)));
         }
+        areas.push(Area { stack: vec![piece], part: None });
+        areas.append(&mut through);
     }
     areas
 }
 
-/// What is seen through a part of a pane; what remains beside it stays in `seen`.
+/// What of an area lies beside a part of a pane; the rest is put to what is seen `through` it.
 fn look_through(
-    pane: &Convex,
-    idx: usize,
-    seen: &mut Vec<(Vec<usize>, Convex)>,
-) -> Vec<(Vec<usize>, Convex)> {
-    let mut through = Vec::new();
-    for (stack, area) in std::mem::take(seen) {
-        let is_apart =
-            (0..2).any(|axis| area.high[axis] <= pane.low[axis] || pane.high[axis] <= area.low[axis]);
-        if is_apart || stack.last() == Some(&idx) {
-            seen.push((stack, area));
-            continue;
-        }
-        let mut rest = area.corners;
-        for (a, b) in sides(&pane.corners) {
-            let inside = |[x, y, _]: [f64; 3]| (b[0] - a[0]) * (y - a[1]) - (b[1] - a[1]) * (x - a[0]);
-            let beside = Convex::new(clip(&rest, |place| -inside(place)));
-            seen.extend(beside.map(|part| (stack.clone(), part)));
+    patches: &[Patch],
+    (pane, part): (&Piece, &Convex),
+    area: Area,
+    through: &mut Vec<Area>,
+) -> Vec<Area> {
+    let parts = area.parts(patches);
+    if parts.iter().all(|own| own.is_apart(part)) {
+        return vec![area];
+    }
+    let mut beside = Vec::new();
+    for own in parts {
+        let mut rest = own.corners.clone();
+        for (a, b) in sides(&part.corners) {
+            let inside = |[x, y, _]: Place| (b[0] - a[0]) * (y - a[1]) - (b[1] - a[1]) * (x - a[0]);
+            beside.extend(Convex::new(clip(&rest, |place| -inside(place))));
             rest = clip(&rest, inside);
         }
         if let Some(common) = Convex::new(rest) {
-            let mut stack = stack;
-            stack.push(idx);
-            through.push((stack, common));
+            let stack = area.stack.iter().chain([pane]).cloned().collect();
+            through.push(Area { stack, part: Some(common) });
         }
     }
-    through
+    beside.into_iter().map(|part| Area { stack: area.stack.clone(), part: Some(part) }).collect()
+}
+
+impl Area {
+    /// Its convex flat parts.
+    pub fn parts<'a>(&'a self, patches: &'a [Patch]) -> &'a [Convex] {
+        self.part.as_ref().map_or_else(|| self.stack[0].parts(patches), std::slice::from_ref)
+    }
+
+    /// Edges that are cuts, and no outline of what is seen in it. Beyond them the picture goes on, either alike or with
+    /// what is painted later; so the area may reach over them, and no hairline of what lies behind is left.
+    pub fn cuts(&self, patches: &[Patch]) -> Vec<[Place; 2]> {
+        let Some(part) = &self.part else { return Vec::new() };
+        let is_outline = |a: Place, b: Place| {
+            let middle = [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])];
+            self.stack.iter().any(|piece| match piece {
+                Piece::Whole(idx) => patches[*idx].outline.iter().any(|outline| is_on(outline, middle)),
+                Piece::Part(_, part) => is_on(&part.corners, middle),
+            })
+        };
+        sides(&part.corners).filter(|&(a, b)| !is_outline(a, b)).map(|(a, b)| [a, b]).collect()
+    }
+}
+
+/// True if a place lies on an outline.
+fn is_on(outline: &[Place], [x, y]: [f64; 2]) -> bool {
+    sides(outline).any(|(a, b)| {
+        let (dx, dy) = (b[0] - a[0], b[1] - a[1]);
+        let square = dx * dx + dy * dy;
+        let along = if square > 0.0 { ((x - a[0]) * dx + (y - a[1]) * dy) / square } else { 0.0 };
+        let along = along.clamp(0.0, 1.0);
+        libm::hypot(x - a[0] - along * dx, y - a[1] - along * dy) < CLOSE
+    })
 }

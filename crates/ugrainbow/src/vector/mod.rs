@@ -1,7 +1,8 @@
 //! Vector figures: the faces of the picture as areas in paint order, and wires as lines.
 //!
 //! 1. The polygons of the draw list, at a scale at which hardly any is too thin for it ([`patch`]).
-//! 2. Faces of which no sample is seen, nor of any neighbour, are left out ([`seen`]).
+//! 2. Faces of which no sample is seen, nor of any neighbour, are left out ([`seen`]), and of the others without a
+//!    sample those that are wholly hidden ([`hidden`]).
 //! 3. The rest is put in order, from behind ([`order`]), and cut only where faces cut each other or hide each
 //!    other in a ring. Parts that are hidden are painted over, not cut out.
 //! 4. What lies behind translucent faces is painted once more in the colours seen through them ([`glass`]).
@@ -11,6 +12,7 @@
 mod color;
 mod convex;
 mod glass;
+mod hidden;
 mod index;
 mod lines;
 mod order;
@@ -70,8 +72,10 @@ fn figure<S: Smooth>(
     let fine = Config { size: config.size.map(|side| side * scale), samples: 1, ..config.clone() };
     let setup = Setup::new(scene, &fine)?;
     let sheet = Sheet::new(setup.painter(), &fine.manner());
-    let is_shown = seen::faces(&setup, &sheet);
-    let faces = patches(&sheet, &setup, config.size, f64::from(scale), &is_shown);
+    let seen = seen::faces(&setup, &sheet);
+    let faces = patches(&sheet, &setup, config.size, f64::from(scale), &seen.is_near);
+    let index = Index::new(faces.iter().map(Patch::bounds), config.size);
+    let faces = hidden::without_hidden(faces, &index, &seen.is_seen);
     let ground = ground(config);
     let palette = Palette {
         sheet: &sheet,

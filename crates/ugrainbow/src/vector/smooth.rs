@@ -1,11 +1,12 @@
 //! Pieces of patches as elements of a figure: plain areas, triangles between whose corners colour is linear, and
 //! areas whose colour is linear along a line.
 
-use ugimage::figure::{Element, Gradient, Point, Triangle};
+use ugimage::figure::{Element, Gradient, Point, SEAM_WIDTH, Triangle};
 
 use super::color::{Levels, Palette, distance, mean, rounded};
-use super::convex::{Convex, sides};
+use super::convex::{Convex, Place, sides};
 use super::glass::Area;
+use super::order::Piece;
 use super::patch::Patch;
 
 /// How far, in levels of 255, the colours of a figure are from those of the scene where that is tried: at corners,
@@ -41,17 +42,18 @@ pub fn push_area<S: Smooth>(
     area: &Area,
     elements: &mut Vec<Element<S>>,
 ) {
-    let stack: Vec<&Patch> = area.stack.iter().map(|&idx| &patches[idx]).collect();
-    let Some(&first) = stack.first() else { return };
-    let parts = area.part.as_ref().map_or(&first.parts[..], std::slice::from_ref);
-    let contours: Vec<Vec<Point>> = match &area.part {
-        Some(part) => vec![outline(part)],
-        None => {
-            first.outline.iter().map(|contour| contour.iter().map(|&[x, y, _]| [x, y]).collect()).collect()
+    let stack: Vec<&Patch> = area.stack.iter().map(|piece| &patches[piece.patch()]).collect();
+    let parts = area.parts(patches);
+    let contours: Vec<Vec<Point>> = match (&area.part, &area.stack[..]) {
+        (Some(part), _) | (None, [Piece::Part(_, part), ..]) => vec![outline(part)],
+        (None, _) => {
+            let flat = |contour: &Vec<Place>| contour.iter().map(|&[x, y, _]| [x, y]).collect();
+            stack[0].outline.iter().map(flat).collect()
         }
     };
     let everywhere = palette.everywhere(&stack);
     let job = Job { palette, stack };
+    job.push_cuts(area.cuts(patches), elements);
     match everywhere.or_else(|| plain(&job.tried(parts))) {
         Some(color) => {
             elements.push(Element::Area { contours, color: rounded(color), is_inside: false });
@@ -77,6 +79,20 @@ fn plain(tried: &[(Point, Levels)]) -> Option<Levels> {
 impl Job<'_> {
     fn color(&self, place: Point) -> Levels {
         self.palette.at(&self.stack, place)
+    }
+
+    /// Lines along edges, in their colours.
+    fn push_cuts<S>(&self, cuts: Vec<[Place; 2]>, elements: &mut Vec<Element<S>>) {
+        let mut stack: Vec<[Point; 2]> = cuts.iter().map(|ends| ends.map(|[x, y, _]| [x, y])).collect();
+        while let Some([a, b]) = stack.pop() {
+            let (first, last, place) = (self.color(a), self.color(b), middle(a, b));
+            if distance(first, last) > 2.0 * BOUND && libm::hypot(b[0] - a[0], b[1] - a[1]) > 1.0 {
+                stack.extend([[a, place], [place, b]]);
+                continue;
+            }
+            let color = rounded(mean(first, last));
+            elements.push(Element::Line { ends: [a, b], width: SEAM_WIDTH, color });
+        }
     }
 
     /// Colours at corners, middles of edges and middles of parts.
