@@ -173,7 +173,7 @@ impl Clear for Lit<'_, '_> {
 }
 
 /// Light of the numbers of [`pack_clear`], and the part of what is behind that passes.
-fn clear_shade(shader: &Shader, &[a, b, c, d, e, f, g, pass]: &[f32; CLEAR_VALUES]) -> (Shade, f32) {
+pub fn clear_shade(shader: &Shader, &[a, b, c, d, e, f, g, pass]: &[f32; CLEAR_VALUES]) -> (Shade, f32) {
     (shader.mixed_colored(&[a, b, c, d, e, f, g]), pass.clamp(0.0, 1.0))
 }
 
@@ -243,18 +243,30 @@ impl<'a> Sheet<'a> {
 
 /// For figures.
 impl Sheet<'_> {
-    /// Gives `take` every polygon that is drawn, as its item, whether light passes it, and its contours. Numbers of all
-    /// corners are those of [`Sheet::shade`].
-    pub fn for_each_polygon(&self, mut take: impl FnMut(u32, bool, Vec<Vec<Corner<CLEAR_VALUES>>>)) {
-        if !self.has_faces {
-            return;
+    /// True if a face that is drawn is translucent.
+    pub fn has_clear_faces(&self) -> bool {
+        self.has_faces && self.clear.faces.as_ref().is_some_and(|faces| faces.reach().in_picture > 0)
+    }
+
+    /// Gives `take` every polygon of what hides, as its item and its contours; corners have zeros behind their numbers.
+    pub fn for_each_polygon(&self, take: impl FnMut(u32, Vec<Vec<Corner<CLEAR_VALUES>>>)) {
+        fn all<const N: usize>(
+            list: &DrawList<N>,
+            mut take: impl FnMut(u32, Vec<Vec<Corner<CLEAR_VALUES>>>),
+        ) {
+            let padded = |corner: &Corner<N>| Corner {
+                x: corner.x,
+                y: corner.y,
+                key: corner.key,
+                values: std::array::from_fn(|i| corner.values.get(i).copied().unwrap_or(0.0)),
+            };
+            for (item, contours) in list.lists.iter().flat_map(|list| list.polygons()) {
+                take(item, contours.map(|contour| contour.iter().map(padded).collect()).collect());
+            }
         }
-        for (item, contours) in self.clear.faces.iter().flat_map(|faces| polygons(&faces.polygons)) {
-            take(item, true, contours);
+        if self.has_faces {
+            with_layers!(&self.solid, |layers| all(&layers.polygons, take));
         }
-        with_layers!(&self.solid, |layers| {
-            polygons(&layers.polygons).for_each(|(item, contours)| take(item, false, contours));
-        });
     }
 
     /// The visible parts of lines.
@@ -263,34 +275,14 @@ impl Sheet<'_> {
     }
 
     /// The light of numbers interpolated between corners of [`Sheet::for_each_polygon`].
-    pub fn shade(&self, shader: &Shader, is_clear: bool, values: &[f32; CLEAR_VALUES]) -> (Shade, f32) {
-        if is_clear {
-            return clear_shade(shader, values);
-        }
-        let &[a, b, c, d, e, f, g, _] = values;
-        let shade = match &self.solid {
+    pub fn shade(&self, shader: &Shader, &[a, b, c, d, e, f, g, _]: &[f32; CLEAR_VALUES]) -> Shade {
+        match &self.solid {
             Solid::Plain(_) => shader.plain(&[a, b, c]),
             Solid::Colored(_) => shader.colored(&[a, b, c, d, e, f]),
             Solid::Mixed(_) => shader.mixed(&[a, b, c, d]),
             Solid::MixedColored(_) => shader.mixed_colored(&[a, b, c, d, e, f, g]),
-        };
-        (shade, 0.0)
+        }
     }
-}
-
-/// All polygons of a list; corners have zeros behind their numbers.
-fn polygons<const N: usize>(
-    list: &DrawList<N>,
-) -> impl Iterator<Item = (u32, Vec<Vec<Corner<CLEAR_VALUES>>>)> {
-    let padded = |corner: &Corner<N>| Corner {
-        x: corner.x,
-        y: corner.y,
-        key: corner.key,
-        values: std::array::from_fn(|i| corner.values.get(i).copied().unwrap_or(0.0)),
-    };
-    list.lists.iter().flat_map(|list| list.polygons()).map(move |(item, contours)| {
-        (item, contours.map(|contour| contour.iter().map(padded).collect()).collect())
-    })
 }
 
 /// White light of one level goes into the value.

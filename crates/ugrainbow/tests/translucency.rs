@@ -181,7 +181,7 @@ fn all_clear_is_not_there_and_none_clear_is_opaque() {
     let all = triangles(30, 5);
     let config = config(50, 4);
     let with = |translucency: f64| {
-        let changed = |k: usize| if k % 2 == 0 { translucency } else { all[k].translucency };
+        let changed = |k: usize| if k.is_multiple_of(2) { translucency } else { all[k].translucency };
         let all: Vec<Triangle> = all
             .iter()
             .enumerate()

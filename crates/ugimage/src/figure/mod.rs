@@ -88,7 +88,7 @@ pub struct Gradient {
 
 /// Width of the lines along shared edges. With 1 some 5 percent of what lies behind would still shine through, where
 /// the edge is not in the middle of its pixels.
-pub const SEAM_WIDTH: f64 = 1.5;
+const SEAM_WIDTH: f64 = 1.5;
 
 /// For each outline, the edges that an outline painted later has too.
 fn seams<'a>(outlines: impl Iterator<Item = Option<&'a [Vec<Point>]>>) -> Vec<Vec<[Point; 2]>> {

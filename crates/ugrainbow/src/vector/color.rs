@@ -6,9 +6,9 @@ use ugphysics::srgb_encode;
 
 use super::patch::Patch;
 use crate::canvas::developed;
-use crate::raster::{CLEAR_VALUES, Corner, Grid};
+use crate::raster::{CLEAR_VALUES, Corner, Grid, Shade};
 use crate::shade::Shader;
-use crate::sheet::Sheet;
+use crate::sheet::{Sheet, clear_shade};
 
 /// Display-encoded red, green and blue, from 0 to 255, not rounded.
 pub type Levels = [f64; 3];
@@ -25,39 +25,28 @@ pub struct Palette<'a> {
 }
 
 impl Palette<'_> {
-    /// The colour at a place where patches are seen, each through those behind it in the list.
-    pub fn at(&self, stack: &[&Patch], place: [f64; 2]) -> Levels {
-        let through = |light, patch: &&Patch| self.over(light, patch.is_clear, &patch.numbers_at(place));
-        self.levels(stack.iter().fold(self.ground, through))
+    /// The colour of a patch at a place.
+    pub fn at(&self, patch: &Patch, place: [f64; 2]) -> Levels {
+        let Numbers { values, key } = patch.numbers_at(place);
+        self.cued(self.sheet.shade(self.shader, &values), key)
     }
 
-    /// The colour where patches are seen, if it is the same everywhere.
-    pub fn everywhere(&self, stack: &[&Patch]) -> Option<Levels> {
-        if self.grid.cue.is_some() {
-            return None;
-        }
-        let through = |light, patch: &&Patch| {
-            Some(self.over(light, patch.is_clear, &Numbers { values: patch.single_values()?, key: 0.0 }))
-        };
-        stack.iter().try_fold(self.ground, through).map(|light| self.levels(light))
+    /// The colour of a patch, if it is the same everywhere.
+    pub fn everywhere(&self, patch: &Patch) -> Option<Levels> {
+        let values = patch.single_values().filter(|_| self.grid.cue.is_none())?;
+        Some(self.levels(self.sheet.shade(self.shader, &values).light))
     }
 
-    /// The colour of a point of a line behind panes.
-    pub fn on_line(&self, at: &Corner<CLEAR_VALUES>, panes: &[&Patch]) -> Levels {
+    /// The colour of a point of a line.
+    pub fn on_line(&self, at: &Corner<CLEAR_VALUES>) -> Levels {
         let scale = if self.grid.is_perspective { 1.0 / at.key } else { 1.0 };
-        let numbers = Numbers { values: at.values.map(|value| (value * scale) as f32), key: at.key };
-        let through = |light, pane: &&Patch| self.over(light, pane.is_clear, &pane.numbers_at([at.x, at.y]));
-        self.levels(panes.iter().fold(self.over(self.ground, true, &numbers), through))
+        let values = at.values.map(|value| (value * scale) as f32);
+        self.cued(clear_shade(self.shader, &values).0, at.key)
     }
 
-    /// Light behind something, and that.
-    fn over(&self, behind: [f32; 3], is_clear: bool, numbers: &Numbers) -> [f32; 3] {
-        let (shade, pass) = self.sheet.shade(self.shader, is_clear, &numbers.values);
-        let cue = self.grid.cue_at(numbers.key as f32);
-        std::array::from_fn(|i| {
-            let own = cue * shade.light[i] + (1.0 - cue) * self.ground[i];
-            (1.0 - pass) * own + pass * behind[i]
-        })
+    fn cued(&self, shade: Shade, key: f64) -> Levels {
+        let cue = self.grid.cue_at(key as f32);
+        self.levels(std::array::from_fn(|i| cue * shade.light[i] + (1.0 - cue) * self.ground[i]))
     }
 
     /// Light developed for a display.

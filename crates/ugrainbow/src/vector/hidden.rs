@@ -18,7 +18,7 @@ fn is_hidden(patch: &Patch, patches: &[Patch], index: &Index) -> bool {
     let mut rest = patch.parts.clone();
     for idx in index.in_box(patch.bounds()) {
         let other = &patches[idx];
-        if other.is_clear || other.item == patch.item {
+        if other.item == patch.item {
             continue;
         }
         for part in &other.parts {

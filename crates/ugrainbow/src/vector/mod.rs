@@ -5,13 +5,14 @@
 //!    sample those that are wholly hidden ([`hidden`]).
 //! 3. The rest is put in order, from behind ([`order`]), and cut only where faces cut each other or hide each
 //!    other in a ring. Parts that are hidden are painted over, not cut out.
-//! 4. What lies behind translucent faces is painted once more in the colours seen through them ([`glass`]).
-//! 5. Each becomes a plain area, or smooth ones, cut until their colours are right ([`smooth`]).
-//! 6. Lines come last, without their hidden parts ([`lines`]).
+//! 4. Each becomes a plain area, or smooth ones, cut until their colours are right ([`smooth`]).
+//! 5. Lines come last, without their hidden parts ([`lines`]).
+//!
+//! Translucent faces are refused: not every format has opacity, those that have it blend encoded colours and not light,
+//! and between areas painted over each other in part hairlines would be left.
 
 mod color;
 mod convex;
-mod glass;
 mod hidden;
 mod index;
 mod lines;
@@ -31,10 +32,9 @@ use crate::sheet::Sheet;
 use color::{Palette, rounded};
 pub use convex::{Convex, Place as PlanePlace};
 pub use index::Index;
-use lines::Lines;
 use patch::Patch;
 pub use patch::{near_picture, parts};
-use smooth::{Smooth, push_area};
+use smooth::{Smooth, push_piece};
 use ugparse::Scene;
 
 /// Rows of samples a pixel, if the picture is not too large.
@@ -72,6 +72,11 @@ fn figure<S: Smooth>(
     let fine = Config { size: config.size.map(|side| side * scale), samples: 1, ..config.clone() };
     let setup = Setup::new(scene, &fine)?;
     let sheet = Sheet::new(setup.painter(), &fine.manner());
+    if sheet.has_clear_faces() {
+        return Err(Error::Figure(
+            "a figure of areas has no translucent faces: leave out -vec, and give a larger -sz for print",
+        ));
+    }
     let seen = seen::faces(&setup, &sheet);
     let faces = patches(&sheet, &setup, config.size, f64::from(scale), &seen.is_near);
     let index = Index::new(faces.iter().map(Patch::bounds), config.size);
@@ -86,11 +91,11 @@ fn figure<S: Smooth>(
     };
     let index = Index::new(faces.iter().map(Patch::bounds), config.size);
     let mut elements = Vec::new();
-    for area in glass::areas(&faces, order::painting_order(&faces, &index)) {
-        push_area(&palette, &faces, &area, &mut elements);
+    for piece in order::painting_order(&faces, &index) {
+        push_piece(&palette, &faces, &piece, &mut elements);
     }
-    let lines = Lines { palette: &palette, faces: &faces, index: &index, width: config.line_width };
-    lines.push(sheet.strokes().iter().map(|stroke| scaled(*stroke, scale)).collect(), &mut elements);
+    let strokes = sheet.strokes().iter().map(|stroke| scaled(*stroke, scale)).collect();
+    lines::push_lines(&palette, strokes, config.line_width, &mut elements);
     let background = ground.map(|light| rounded(palette.levels(light)));
     Ok(Figure { size: config.size, background, elements })
 }
@@ -118,17 +123,15 @@ fn patches(
     is_shown: &[bool],
 ) -> Vec<Patch> {
     let mut faces = Vec::new();
-    sheet.for_each_polygon(|item, is_clear, mut contours| {
+    sheet.for_each_polygon(|item, mut contours| {
         if !is_shown[item as usize] {
             return;
         }
         for corner in contours.iter_mut().flatten() {
             (corner.x, corner.y) = (corner.x / scale, corner.y / scale);
         }
-        faces.extend(Patch::new(item, is_clear, contours, size, setup.view.is_perspective));
+        faces.extend(Patch::new(item, contours, size, setup.view.is_perspective));
     });
-    // Of what is equally deep the first in the scene is seen.
-    faces.sort_by_key(|patch| patch.item);
     faces
 }
 

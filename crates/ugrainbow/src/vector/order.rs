@@ -18,23 +18,6 @@ pub enum Piece {
     Part(usize, Convex),
 }
 
-impl Piece {
-    /// The row of its patch.
-    pub fn patch(&self) -> usize {
-        match self {
-            Self::Whole(idx) | Self::Part(idx, _) => *idx,
-        }
-    }
-
-    /// Its convex flat parts.
-    pub fn parts<'a>(&'a self, patches: &'a [Patch]) -> &'a [Convex] {
-        match self {
-            Self::Whole(idx) => &patches[*idx].parts,
-            Self::Part(_, part) => std::slice::from_ref(part),
-        }
-    }
-}
-
 /// Splitting planes tried at each step; the one that cuts least is taken.
 const CANDIDATES: usize = 8;
 

@@ -12,8 +12,6 @@ const MARGIN: f64 = 4.0;
 pub struct Patch {
     /// Its face.
     pub item: u32,
-    /// True if light passes it.
-    pub is_clear: bool,
     /// As drawn by the raster; its colours come from here.
     contours: Vec<Vec<Corner<CLEAR_VALUES>>>,
     /// What of it is in and near the picture.
@@ -27,7 +25,6 @@ impl Patch {
     /// `corners` are in pixels. `None` if nothing of it is in the picture.
     pub fn new(
         item: u32,
-        is_clear: bool,
         contours: Vec<Vec<Corner<CLEAR_VALUES>>>,
         size: [u32; 2],
         is_perspective: bool,
@@ -37,7 +34,7 @@ impl Patch {
             contours.iter().map(|contour| near_picture(contour.iter().map(place).collect(), size, MARGIN));
         let outline: Vec<Vec<Place>> = outline.filter(|contour| contour.len() > 2).collect();
         let parts = parts(&outline);
-        (!parts.is_empty()).then_some(Self { item, is_clear, contours, outline, parts, is_perspective })
+        (!parts.is_empty()).then_some(Self { item, contours, outline, parts, is_perspective })
     }
 
     /// The numbers the raster interpolates at a place, which is moved to the nearest of its row if it is not inside.

@@ -1,11 +1,10 @@
 //! Pieces of patches as elements of a figure: plain areas, triangles between whose corners colour is linear, and
 //! areas whose colour is linear along a line.
 
-use ugimage::figure::{Element, Gradient, Point, SEAM_WIDTH, Triangle};
+use ugimage::figure::{Element, Gradient, Point, Triangle};
 
 use super::color::{Levels, Palette, distance, mean, rounded};
-use super::convex::{Convex, Place, sides};
-use super::glass::Area;
+use super::convex::{Convex, sides};
 use super::order::Piece;
 use super::patch::Patch;
 
@@ -28,33 +27,32 @@ pub trait Smooth: Sized {
     fn push(job: &Job<'_>, contours: Vec<Vec<Point>>, parts: &[Convex], elements: &mut Vec<Element<Self>>);
 }
 
-/// An area being painted.
+/// A patch being painted.
 pub struct Job<'a> {
     palette: &'a Palette<'a>,
-    /// What is seen in it, from behind.
-    stack: Vec<&'a Patch>,
+    patch: &'a Patch,
 }
 
-/// Adds an area to the figure.
-pub fn push_area<S: Smooth>(
+/// Adds a piece to the figure.
+pub fn push_piece<S: Smooth>(
     palette: &Palette<'_>,
     patches: &[Patch],
-    area: &Area,
+    piece: &Piece,
     elements: &mut Vec<Element<S>>,
 ) {
-    let stack: Vec<&Patch> = area.stack.iter().map(|piece| &patches[piece.patch()]).collect();
-    let parts = area.parts(patches);
-    let contours: Vec<Vec<Point>> = match (&area.part, &area.stack[..]) {
-        (Some(part), _) | (None, [Piece::Part(_, part), ..]) => vec![outline(part)],
-        (None, _) => {
-            let flat = |contour: &Vec<Place>| contour.iter().map(|&[x, y, _]| [x, y]).collect();
-            stack[0].outline.iter().map(flat).collect()
+    let (patch, part) = match piece {
+        Piece::Whole(idx) => (&patches[*idx], None),
+        Piece::Part(idx, part) => (&patches[*idx], Some(part)),
+    };
+    let parts = part.map_or(&patch.parts[..], std::slice::from_ref);
+    let contours: Vec<Vec<Point>> = match part {
+        Some(part) => vec![outline(part)],
+        None => {
+            patch.outline.iter().map(|contour| contour.iter().map(|&[x, y, _]| [x, y]).collect()).collect()
         }
     };
-    let everywhere = palette.everywhere(&stack);
-    let job = Job { palette, stack };
-    job.push_cuts(area.cuts(patches), elements);
-    match everywhere.or_else(|| plain(&job.tried(parts))) {
+    let job = Job { palette, patch };
+    match palette.everywhere(patch).or_else(|| plain(&job.tried(parts))) {
         Some(color) => {
             elements.push(Element::Area { contours, color: rounded(color), is_inside: false });
         }
@@ -78,21 +76,7 @@ fn plain(tried: &[(Point, Levels)]) -> Option<Levels> {
 
 impl Job<'_> {
     fn color(&self, place: Point) -> Levels {
-        self.palette.at(&self.stack, place)
-    }
-
-    /// Lines along edges, in their colours.
-    fn push_cuts<S>(&self, cuts: Vec<[Place; 2]>, elements: &mut Vec<Element<S>>) {
-        let mut stack: Vec<[Point; 2]> = cuts.iter().map(|ends| ends.map(|[x, y, _]| [x, y])).collect();
-        while let Some([a, b]) = stack.pop() {
-            let (first, last, place) = (self.color(a), self.color(b), middle(a, b));
-            if distance(first, last) > 2.0 * BOUND && libm::hypot(b[0] - a[0], b[1] - a[1]) > 1.0 {
-                stack.extend([[a, place], [place, b]]);
-                continue;
-            }
-            let color = rounded(mean(first, last));
-            elements.push(Element::Line { ends: [a, b], width: SEAM_WIDTH, color });
-        }
+        self.palette.at(self.patch, place)
     }
 
     /// Colours at corners, middles of edges and middles of parts.
