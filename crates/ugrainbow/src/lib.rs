@@ -24,18 +24,21 @@
 //! - **Light.** As in 1988 lights rest in the frame of the face they light. Positions and
 //!   normals are brought back to that frame (P4), so a moving cube is lit like a cube.
 //!   Faces are lit on the side that is seen. The level multiplies the value.
-//! - **Hidden surfaces.** Depth is compared per sample, so faces may cut through each other.
+//! - **Hidden surfaces.** Depth is compared per sample, so faces may cut through each other. Translucent ones are
+//!   blended from behind, sample by sample, in linear light.
 //! - **Pixels.** Samples are averaged in linear light. The mean is exposed, put through a tone curve, brought
 //!   into the gamut (P30), and encoded as sRGB; or written as it is to a format that holds light. Unless light
 //!   is given or asked for, values above 1 are clipped sample by sample, as in 1988.
 //!
 //! - **Exact pictures** ([`Config::exact`]): each sample is found by a ray into the rest frame of a face (P6), and its colour
 //!   shifted there; faces need not be cut, and the scene must not have been coloured by `ugdoppler`.
-//! - **Wires** are 1.2 pixels wide and not lit, and win against the faces they lie on.
+//! - **Lines**, wires and edges of faces ([`Wireframe`]), are not lit, and win against the faces they lie on. What of them is
+//!   hidden is computed along their middles.
+//! - **Depth cueing** ([`DepthCue`]) lets what is far fade into the background.
 //!
 //! - **Figures** of areas and lines are made of the same polygons, with [`Output::Vector`].
 //!
-//! What is not done: translucency (everything is opaque), a fall-off of local lights with
+//! What is not done: translucent faces in figures, a fall-off of local lights with
 //! distance, their radius, and lights that move against what they light: `ugdoppler -li`
 //! does that. Every thread count gives the same bytes.
 //!

@@ -75,8 +75,8 @@ fn what_cannot_be_a_figure_is_refused() {
     };
     assert!(matches!(refused(Format::Png, [8, 8]), Error::Options(text) if text.contains("-vec")));
     assert!(matches!(refused(Format::Pdf, [32769, 8]), Error::Options(text) if text.contains("32768")));
-    let glass =
-        ugparse::Source::new("test.ug", format!("{COLORS}{FAR}").replace("blue 1 240;", "blue 1 240 1 .5;"));
+    let glass = format!("{COLORS}{FAR} cam -ep 0 0 10 -vc 0 0 0;").replace("blue 1 240;", "blue 1 240 1 .5;");
+    let glass = ugparse::Source::new("test.ug", glass);
     let config = Config { output: Output::Vector(Format::Svg), ..Config::default() };
     assert!(matches!(run(&config, &glass).unwrap_err(), Error::Figure(text) if text.contains("translucent")));
 }
@@ -84,15 +84,15 @@ fn what_cannot_be_a_figure_is_refused() {
 #[test]
 fn what_lies_between_seen_faces_and_is_hidden_is_left_out() {
     // It shares two corners with the near face, of which samples are seen, and lies wholly behind that.
-    let hidden = "v i 0 0 0.5; f hidden (e i h) green;";
+    let hidden = "v i 0 0 0.5; f hidden (e i h) red;";
     for scene in [[NEAR, FAR, hidden], [hidden, FAR, NEAR]] {
         let found = areas(&svg(&format!("{COLORS}{}", scene.concat())));
         assert_eq!(found.iter().map(|(color, _)| &**color).collect::<Vec<_>>(), ["#00f", "#f00"]);
     }
     // Of a face that stands out a part is seen.
-    let tall = "v i 0 -2 0.5; f tall (e i h) green;";
+    let tall = "v i 0 -2 0.5; f tall (e i h) red;";
     let found = areas(&svg(&format!("{COLORS}{NEAR}{FAR}{tall}")));
-    assert!(found.iter().any(|(color, _)| color == "#0f0"), "{found:?}");
+    assert!(found.iter().any(|(_, [.., bottom])| *bottom == 60.0), "{found:?}");
 }
 
 #[test]
