@@ -36,6 +36,8 @@ pub enum Error {
     Options(&'static str),
     /// A scene that cannot be drawn by rays; the text says why, and what to do.
     Exact(&'static str),
+    /// A scene that cannot be drawn as areas; the text says why, and what to do.
+    Figure(&'static str),
     /// A pixel to be explained that is not in the picture.
     Pixel {
         /// Its column and row.
@@ -129,7 +131,7 @@ impl fmt::Display for Error {
                     "{samples} x {samples} samples a pixel cannot be taken; give -aa 1 to {MAX_SAMPLES}"
                 )
             }
-            Self::Options(text) | Self::Exact(text) => f.write_str(text),
+            Self::Options(text) | Self::Exact(text) | Self::Figure(text) => f.write_str(text),
             Self::Pixel { pixel: [x, y], size: [width, height] } => write!(
                 f,
                 "pixel {x},{y} is not in the picture of {width} x {height} pixels; \
