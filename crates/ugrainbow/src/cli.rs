@@ -142,7 +142,7 @@ pub struct Args {
 
     /// Leave out faces that are seen from behind: those whose corners run clockwise
     ///
-    /// Of closed bodies the picture stays the same, and large scenes are drawn faster.
+    /// Of closed opaque bodies the picture stays the same, and large scenes are drawn faster.
     #[arg(long, visible_alias = "cull-back-faces", conflicts_with = "xc", help_heading = PICTURE)]
     cb: bool,
 
