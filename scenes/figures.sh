@@ -152,5 +152,11 @@ uglorentz lamp.ug | ugdoppler -qt -li | draw lamp-moving
 uglorentz -an center -cv 0 0 0 traffic.ug | shape | draw traffic-a-standing
 uglorentz -an center traffic.ug | shape | draw traffic-b-driving
 
-tile "$out/sheet.png" 6 "$out"/{nguyen,chang,howard,weiskopf,lattice,halves,dice,traffic,lamp}*.png
+# Glass at rest and at 0.9c, its edges alone, and both.
+draw glass-a-rest glass.ug
+uglorentz -in -vel .9 0 0 glass.ug | shape | draw glass-b-0.9c
+uglorentz -in -vel .9 0 0 glass.ug | shape | draw glass-c-0.9c-edges -wf -lc 1 -dc 7 12
+uglorentz -in -vel .9 0 0 glass.ug | shape | draw glass-d-0.9c-both -ed
+
+tile "$out/sheet.png" 6 "$out"/{nguyen,chang,howard,weiskopf,lattice,halves,dice,traffic,lamp,glass}*.png
 printf 'The pictures are in %s, all of them on %s/sheet.png\n' "$out" "$out"

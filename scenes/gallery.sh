@@ -35,6 +35,7 @@ tile halves 2 'halves*'
 tile dice 1 'dice*'
 tile traffic 2 'traffic*'
 tile lamp 2 'lamp*'
+tile glass 2 'glass*'
 
 # The one with labels, and the annotated one, as the page says.
 cd scenes

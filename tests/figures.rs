@@ -157,14 +157,31 @@ fn figures_of_areas_show_the_same_as_the_png() {
     };
     let cubes = Pipe::new(0.3 * DVec3::X, SIZE).in_place();
     let street = Pipe::new(-0.5 * DVec3::Y, SIZE);
-    for (name, scene, pipe) in [
-        ("ship", "ship", ship()),
-        ("white", "ship", white),
-        ("annotated", "ship", annotated),
-        ("cubes", "cubes", cubes),
-        ("street", "street", street),
+    let lattice = Pipe::new(0.9 * DVec3::X, SIZE);
+    let sphere = Pipe::new(0.95 * DVec3::X, SIZE).in_place().shape();
+    let mut teapot = sphere.clone();
+    teapot.lorentz.smooth = true;
+    let mut cued = cubes.clone();
+    cued.rainbow.depth_cue = Some(ugrainbow::DepthCue { range: None, least: 0.2 });
+    let edges = |has_faces| Some(ugrainbow::Wireframe { has_faces, color: None });
+    let mut wires = sphere.clone();
+    wires.rainbow.wireframe = edges(false);
+    let mut edged = ship();
+    edged.rainbow.wireframe = edges(true);
+    for (name, text, pipe) in [
+        ("ship", scenes::text("ship"), ship()),
+        ("white", scenes::text("ship"), white),
+        ("annotated", scenes::text("ship"), annotated),
+        ("cubes", scenes::text("cubes"), cubes),
+        ("street", scenes::text("street"), street),
+        ("lattice", scenes::text("lattice"), lattice),
+        ("sphere", scenes::text("sphere"), sphere),
+        ("teapot", scenes::text("teapot"), teapot),
+        ("depth cueing", scenes::text("cubes"), cued),
+        ("wireframe", scenes::text("sphere"), wires),
+        ("edges", scenes::text("ship"), edged),
     ] {
-        let colored = pipe.run(&scenes::text(scene)).colored;
+        let colored = pipe.run(&text).colored;
         let draw = |output| rainbow(&colored, &ugrainbow::Config { output, ..pipe.rainbow.clone() });
         let png = decode(&draw(Output::Color(Format::Png)));
         assert!(png.pixels().any(|pixel| pixel != png.get_pixel(0, 0)), "{name} shows something");

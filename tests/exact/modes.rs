@@ -102,3 +102,20 @@ fn both_modes_agree_to_the_bound() {
 const BOX: &str = "c green 1 120; cam -ep 0 -9 1 -vc 0 0 0 -va 70 50; l 1;
     v a -3 -3 -3; v b 3 -3 -3; v c 3 3 -3; v d -3 3 -3; v e -3 -3 3; v f 3 -3 3; v g 3 3 3; v h -3 3 3;
     w (a b c d a e f g h e) green; w (b f) (c g) (d h);";
+
+/// By rays and by polygons: the nearest that lets through less than half of the light.
+#[test]
+fn channels_tell_of_what_hides_more_than_it_shows() {
+    for (translucency, first) in [(0.0, 1.0), (0.4, 1.0), (0.6, 2.0), (1.0, 2.0)] {
+        let text = format!(
+            "c pane 1 0 1 {translucency}; c wall .8; l 1; cam -ep 0 0 0 -vc 0 1 0 -va 60 50;
+             v a -9 4 -9; v b 9 4 -9; v c 9 4 9; v d -9 4 9; f (a b c d) pane;
+             v e -9 8 -9; v f 9 8 -9; v g 9 8 9; v h -9 8 9; f (e f g h) wall;"
+        );
+        let exact = exact(None);
+        let mut scanned = exact.clone();
+        scanned.rainbow.exact = None;
+        for pipe in [exact, scanned] {
+            assert!(channels(&pipe, text.as_bytes())["id"].iter().all(|id| *id == first), "{translucency}");
+        }
+    }

@@ -5,6 +5,7 @@
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test fails by panicking")]
 
 mod culling;
+mod edges;
 mod exact;
 mod lights;
 mod moving_camera;

@@ -7,7 +7,7 @@ use ugimage::{Development, Frame, LinearFrame, Quantizer, auto_exposure, display
 use ugphysics::srgb_decode;
 
 use crate::config::{Background, Config, Exposure};
-use crate::planes::{Finder, planes};
+use crate::planes::{Finder, front, planes};
 use crate::raster::{Gathered, Seen, Tally};
 use crate::setup::Setup;
 use crate::sheet::Sheet;
@@ -69,7 +69,7 @@ impl Canvas {
         let quantizer = Quantizer::new();
         // Zeros come from the system as they are touched, on the threads that paint.
         let mut pixels = vec![[0; 4]; grid.width as usize * grid.height as usize];
-        let tally = sheet.paint(grid, &setup.shader, &mut pixels, &|all: &Gathered<()>| {
+        let tally = sheet.paint(grid, &setup.shader, &mut pixels, &|all: &Gathered<'_, ()>| {
             display_pixel(&quantizer, ground.pixel(all), ground.is_opaque())
         });
         let frame = Frame::new([grid.width, grid.height], ground.is_opaque(), pixels);
@@ -85,11 +85,13 @@ pub fn light(setup: &Setup<'_>, sheet: &Sheet<'_>, config: &Config) -> (LinearFr
     let frame = |pixels| LinearFrame::new([grid.width, grid.height], ground.is_opaque(), pixels);
     if config.channels.is_empty() {
         let mut pixels = vec![[0.0; 4]; n_pixels];
-        let tally = sheet.paint(grid, &setup.shader, &mut pixels, &|all: &Gathered<()>| ground.pixel(all));
+        let tally =
+            sheet.paint(grid, &setup.shader, &mut pixels, &|all: &Gathered<'_, ()>| ground.pixel(all));
         return (frame(pixels), tally);
     }
     let mut pixels: Vec<([f32; 4], Option<Seen<u32>>)> = vec![([0.0; 4], None); n_pixels];
-    let tally = sheet.paint(grid, &setup.shader, &mut pixels, &|all| (ground.pixel(all), all.center));
+    let tally =
+        sheet.paint(grid, &setup.shader, &mut pixels, &|all| (ground.pixel(all), front(&setup.view, all)));
     let (pixels, seen): (Vec<_>, Vec<_>) = pixels.into_iter().unzip();
     let mut frame = frame(pixels);
     let painter = setup.painter();
@@ -147,8 +149,8 @@ impl Ground {
     }
 
     /// The mean light of a pixel on this ground, or of its covered part if there is none; and that part.
-    pub fn pixel<T>(&self, Gathered { sum, n_covered, .. }: &Gathered<T>) -> [f32; 4] {
-        let n_covered = *n_covered as f32;
+    pub fn pixel<T>(&self, Gathered { sum, covered: n_covered, .. }: &Gathered<'_, T>) -> [f32; 4] {
+        let n_covered = *n_covered;
         let [red, green, blue] = match self.behind {
             Some(behind) => {
                 let n_free = self.n_samples - n_covered;

@@ -10,11 +10,14 @@ use ugphysics::{Brightness, Hsv};
 use ugpipe::{CommonArgs, Failure, Stage, ToolArgs, finite, vector, view_angle};
 use ugscene::{CameraOptions, HueScale};
 
-use crate::config::{Background, Config, Exact, Exposure, Interpolation, Output};
+use crate::config::{
+    Background, Config, DepthCue, Exact, Exposure, Interpolation, LINE_WIDTH, Output, Wireframe,
+};
 use crate::explain::{self, explain};
 use crate::figures::Figures;
 use crate::words::{
-    Channels, Kind, Pixel, Report, channels, exposure, format_named, kind_named, law, pixel, tone,
+    Channels, Kind, Pixel, Report, channels, color, exposure, format_named, kind_named, law, line_width,
+    pixel, tone,
 };
 use crate::{Error, run};
 
@@ -140,7 +143,7 @@ pub struct Args {
 
     /// Leave out faces that are seen from behind: those whose corners run clockwise
     ///
-    /// Of closed bodies the picture stays the same, and large scenes are drawn faster.
+    /// Of closed opaque bodies the picture stays the same, and large scenes are drawn faster.
     #[arg(long, visible_alias = "cull-back-faces", conflicts_with = "xc", help_heading = PICTURE)]
     cb: bool,
 
@@ -150,6 +153,34 @@ pub struct Args {
     /// face, velocity of the body; all at the middle of the pixel.
     #[arg(long, value_name = "LIST", value_parser = channels, visible_alias = "channels", help_heading = PICTURE)]
     ch: Option<Channels>,
+
+    /// Draw edges of faces as lines, and no faces; they only hide
+    ///
+    /// Not those where two faces of one colour and velocity meet in one plane: so cuts of uglorentz are not drawn.
+    #[arg(long, visible_alias = "wireframe", conflicts_with = "ed", help_heading = LINES)]
+    wf: bool,
+
+    /// Draw edges of faces as black lines, over the faces
+    #[arg(long, visible_alias = "edges", help_heading = LINES)]
+    ed: bool,
+
+    /// Colour of the edges: lightness, hue in degrees, saturation [default: with -wf of the faces, with -ed black]
+    #[arg(long, num_args = 1..=3, value_names = ["L", "H", "S"], action = ArgAction::Set,
+          value_parser = finite, visible_alias = "line-color", help_heading = LINES)]
+    lc: Option<Vec<f64>>,
+
+    /// Width of lines, wires too, in pixels
+    #[arg(long, value_name = "W", default_value_t = LINE_WIDTH, value_parser = line_width,
+          visible_alias = "line-width", help_heading = LINES)]
+    lw: f64,
+
+    /// Depth cueing: light falls linearly from depth NEAR to FAR, to the part LEAST, towards the background
+    ///
+    /// Depth is along the view. Without numbers it is from the nearest to the farthest that is seen; LEAST is 0.2
+    /// unless given, 0 to 1.
+    #[arg(long, num_args = 0..=3, value_names = ["NEAR", "FAR", "LEAST"], action = ArgAction::Set,
+          value_parser = finite, visible_alias = "depth-cue", help_heading = PICTURE)]
+    dc: Option<Vec<f64>>,
 
     /// Exact: find every sample by a ray into the rest frame of each face, and shift its colour there
     ///
@@ -208,6 +239,7 @@ pub struct Args {
 const FIGURES: &str = "Figures";
 const CAMERA: &str = "Camera";
 const PICTURE: &str = "Picture";
+const LINES: &str = "Lines";
 const EXACT: &str = "Exact pictures";
 
 impl ToolArgs for Args {
@@ -235,6 +267,9 @@ impl Args {
             exposure: self.ex,
             tone: self.tc,
             channels: self.ch.clone().unwrap_or_default().0,
+            wireframe: self.wireframe()?,
+            line_width: self.lw,
+            depth_cue: self.depth_cue()?,
             exact: self.xc.then(|| self.exact()),
             cull: self.cb,
             small: self.pz,
@@ -273,20 +308,44 @@ impl Args {
         if self.tb {
             return Ok(Background::Clear);
         }
-        // As in a `c` statement: lightness alone is grey, with a hue it is pure.
-        let (value, hue, saturation) = match self.bg.as_deref().unwrap_or(&[0.0]) {
-            [value] => (*value, 0.0, 0.0),
-            [value, hue] => (*value, *hue, 1.0),
-            [value, hue, saturation, ..] => (*value, *hue, *saturation),
-            [] => (0.0, 0.0, 0.0),
+        let black = [0.0];
+        color("background -bg", self.bg.as_deref().unwrap_or(&black)).map(Background::Color)
+    }
+
+    fn wireframe(&self) -> Result<Option<Wireframe>, Failure> {
+        let given = self.lc.as_deref().map(|numbers| color("lines -lc", numbers)).transpose()?;
+        if !self.wf && !self.ed {
+            return match given {
+                Some(_) => {
+                    Err(Failure::Usage("-lc is the colour of edges: add -wf or -ed, or leave it out".into()))
+                }
+                None => Ok(None),
+            };
+        }
+        let black = || Hsv { hue: 0.0, saturation: 0.0, value: 0.0 };
+        let color = if self.ed { Some(given.unwrap_or_else(black)) } else { given };
+        Ok(Some(Wireframe { has_faces: self.ed, color }))
+    }
+
+    fn depth_cue(&self) -> Result<Option<DepthCue>, Failure> {
+        let Some(numbers) = &self.dc else { return Ok(None) };
+        let (range, least) = match numbers[..] {
+            [] => (None, DepthCue::LEAST),
+            [near, far] => (Some([near, far]), DepthCue::LEAST),
+            [near, far, least] => (Some([near, far]), least),
+            _ => {
+                return Err(Failure::Usage(
+                    "depth cueing -dc takes no numbers, two depths, or two depths and a part".into(),
+                ));
+            }
         };
-        let is_part = |number: f64| (0.0..=1.0).contains(&number);
-        if !is_part(value) || !is_part(saturation) {
+        if range.is_some_and(|[near, far]| near >= far) || !(0.0..=1.0).contains(&least) {
             return Err(Failure::Usage(
-                "lightness and saturation of the background -bg are from 0 to 1".into(),
+                "depth cueing -dc is from a depth to a greater one, and what is left there is from 0 to 1"
+                    .into(),
             ));
         }
-        Ok(Background::Color(Hsv { hue, saturation, value }))
+        Ok(Some(DepthCue { range, least }))
     }
 
     fn output(&self, file: Option<&Path>) -> Result<Output, Failure> {

@@ -6,6 +6,7 @@ use ugscene::{CameraOptions, HueScale};
 
 use crate::figures::Figures;
 use crate::planes::Channel;
+use crate::sheet::Manner;
 
 /// Everything that decides the bytes of a picture besides the scene.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,6 +34,12 @@ pub struct Config {
     pub tone: Tone,
     /// What an EXR picture holds besides colour.
     pub channels: Vec<Channel>,
+    /// Edges of faces are drawn as lines.
+    pub wireframe: Option<Wireframe>,
+    /// Width of lines in pixels, above 0.
+    pub line_width: f64,
+    /// What is far fades towards the background.
+    pub depth_cue: Option<DepthCue>,
     /// Faces are drawn by a ray for each sample (`-xc`), from a scene whose colours have not been shifted.
     pub exact: Option<Exact>,
     /// Faces that are seen from behind, running clockwise, are left out.
@@ -61,6 +68,9 @@ impl Default for Config {
             exposure: None,
             tone: Tone::Clip,
             channels: Vec::new(),
+            wireframe: None,
+            line_width: LINE_WIDTH,
+            depth_cue: None,
             exact: None,
             cull: false,
             small: false,
@@ -79,6 +89,11 @@ impl Config {
         }
     }
 
+    /// How the scene is drawn.
+    pub(crate) fn manner(&self) -> Manner {
+        Manner { exact: self.exact, wireframe: self.wireframe, line_width: self.line_width }
+    }
+
     /// True if the file is to hold light, uncut.
     pub(crate) fn is_linear(&self) -> bool {
         self.output.format().is_some_and(Format::is_linear)
@@ -88,6 +103,35 @@ impl Config {
     pub(crate) fn keeps_light(&self) -> bool {
         self.is_linear() || self.exposure.is_some() || self.tone != Tone::Clip
     }
+}
+
+/// Width of lines in pixels unless given.
+pub const LINE_WIDTH: f64 = 1.2;
+
+/// Greatest width of lines.
+pub const MAX_LINE_WIDTH: f64 = 100.0;
+
+/// Edges of faces as lines. They are not lit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Wireframe {
+    /// The faces are drawn, too; else they only hide lines.
+    pub has_faces: bool,
+    /// Of the edges, neither shifted nor attenuated; else they have the colours of the corners of their faces.
+    pub color: Option<Hsv>,
+}
+
+/// Depth cueing: linear in depth along the view, light of surfaces is replaced by that of the background.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DepthCue {
+    /// Depths between which light falls; else those of the nearest and the farthest that is seen.
+    pub range: Option<[f64; 2]>,
+    /// The part that is left at the far end, 0…1.
+    pub least: f64,
+}
+
+impl DepthCue {
+    /// What is left at the far end unless given.
+    pub const LEAST: f64 = 0.2;
 }
 
 /// How motion changes the colours of a picture that is drawn by rays.

@@ -1,33 +1,23 @@
-//! From the scene to polygons in the picture plane.
+//! From the faces of a scene to shapes in the picture plane.
 
 use glam::DVec3;
 use rayon::prelude::*;
-use ugparse::{Face, VertexId, Wire};
+use ugparse::{Face, VertexId};
 
-use crate::clip::{Vertex, clip_polygon, clip_segment};
-use crate::exact::{Bend, Joint};
+use crate::clip::{Vertex, clip_polygon};
 use crate::painter::{Common, Painter};
-use crate::palette::Swatch;
 use crate::raster::{Bounds, Corner, Drawn, Point, PolygonList, Shapes, Table, is_regular, twice_area};
 use crate::sheet::Pack;
-use ugscene::Place;
 
-/// Faces or wires that one task turns into a list.
+/// Faces that one task turns into a list.
 const CHUNK: usize = 1024;
 
-/// Half the width of a wire in pixels.
-const WIRE_HALF_WIDTH: f64 = 0.6;
-
-/// How much nearer to the eye a wire is drawn than it is, relative to its distance: enough to
-/// win against the faces whose edge it follows.
-pub const WIRE_LIFT: f64 = 5e-4;
-
-/// Shapes in drawing order, and how many faces and wires came how far.
+/// Shapes in drawing order, and how many faces came how far.
 pub struct DrawList<'a, const N: usize> {
     /// Sorted into bands.
     lists: Vec<PolygonList<N>>,
     corners: Corners<'a, N>,
-    /// How many faces and wires came how far.
+    /// How many faces came how far.
     pub reach: Reach,
 }
 
@@ -70,7 +60,7 @@ impl<'a> FaceLook<'a> {
     }
 }
 
-/// How many faces and pieces of wires came how far.
+/// How many faces and lines came how far.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Reach {
     /// Between the clipping planes, at least in part.
@@ -87,30 +77,14 @@ impl Reach {
 }
 
 impl<'a, const N: usize> DrawList<'a, N> {
-    /// Faces first, then wires, each in the order of the scene; their items are counted in this order from 0. `pack` turns a colour and
+    /// The faces that `is_drawn` says, in the order of the scene; their items are their rows. `pack` turns a colour and
     /// the level of red, green and blue light into the numbers to interpolate.
-    pub fn new(painter: Painter<'a>, pack: Pack<N>) -> Self {
+    pub fn new(painter: Painter<'a>, is_drawn: impl Fn(&Face) -> bool + Sync, pack: Pack<N>) -> Self {
         let scene = painter.scene;
         let point = |vertex: &ugparse::Vertex| painter.point(painter.place(vertex.position));
         let corners = Corners { painter, pack, points: scene.vertices.par_iter().map(point).collect() };
         let faces = scene.faces.par_chunks(CHUNK).enumerate();
-        let faces = faces.map(|(idx, faces)| Chunk::new(&corners, idx, 0).all(faces, Chunk::push_face));
-        let wires = scene.wires.par_chunks(CHUNK).enumerate();
-        let n_faces = scene.faces.len();
-        let wires = wires.map(|(idx, wires)| Chunk::new(&corners, idx, n_faces).all(wires, Chunk::push_wire));
-        let parts = faces.chain(wires).collect();
-        Self::of(parts, corners)
-    }
-
-    /// The wires alone, bent as they are seen; numbered as if faces were there.
-    pub fn wires(painter: Painter<'a>, bend: &Bend<'_>, pack: Pack<N>) -> Self {
-        let wires = painter.scene.wires.par_chunks(CHUNK).enumerate();
-        let n_faces = painter.scene.faces.len();
-        let corners = Corners { painter, pack, points: Vec::new() };
-        let wires = wires.map(|(idx, wires)| {
-            Chunk::new(&corners, idx, n_faces).all(wires, |chunk, wire| chunk.push_bent(wire, bend))
-        });
-        let parts = wires.collect();
+        let parts = faces.map(|(idx, faces)| Chunk::new(&corners, idx).all(faces, &is_drawn)).collect();
         Self::of(parts, corners)
     }
 
@@ -123,6 +97,19 @@ impl<'a, const N: usize> DrawList<'a, N> {
     /// What is drawn.
     pub fn shapes(&self) -> Shapes<'_, N, impl Table<N> + use<'a, N>> {
         Shapes { lists: &self.lists, table: &self.corners }
+    }
+
+    /// Where the contours of every shape are: column, row and depth key.
+    pub fn outlines(&self) -> impl Iterator<Item = Vec<Vec<[f64; 3]>>> {
+        let place = |corner: &Corner<N>| [corner.x, corner.y, corner.key];
+        let point = |corner: u32| {
+            let Point { x, y, key } = self.corners.point(corner);
+            [x, y, key]
+        };
+        self.lists.iter().flat_map(|list| list.shapes()).map(move |(_, shape)| match shape {
+            Drawn::Polygon(contours) => contours.map(|contour| contour.iter().map(place).collect()).collect(),
+            Drawn::Triangle(corners) => vec![corners.map(point).to_vec()],
+        })
     }
 
     /// Gives `take` every polygon, as its item and its contours.
@@ -144,11 +131,11 @@ impl<'a, const N: usize> DrawList<'a, N> {
     }
 }
 
-/// A run of faces or wires becoming shapes.
+/// A run of faces becoming shapes.
 struct Chunk<'a, const N: usize> {
     corners: &'a Corners<'a, N>,
     painter: &'a Painter<'a>,
-    /// Of the face or wire in work.
+    /// Of the face in work.
     item: u32,
     list: PolygonList<N>,
     reach: Reach,
@@ -158,13 +145,13 @@ struct Chunk<'a, const N: usize> {
 }
 
 impl<'a, const N: usize> Chunk<'a, N> {
-    /// The chunk of this number among faces or wires; `first`: number of the first of them.
-    fn new(corners: &'a Corners<'a, N>, chunk: usize, first: usize) -> Self {
+    /// The chunk of this number.
+    fn new(corners: &'a Corners<'a, N>, chunk: usize) -> Self {
         Self {
             corners,
             painter: &corners.painter,
             // The text of a scene is below 4 GiB, and so are these numbers.
-            item: (first + chunk * CHUNK) as u32,
+            item: (chunk * CHUNK) as u32,
             list: PolygonList::default(),
             reach: Reach::default(),
             contour: Vec::new(),
@@ -172,9 +159,11 @@ impl<'a, const N: usize> Chunk<'a, N> {
         }
     }
 
-    fn all<T>(mut self, items: &[T], push: impl Fn(&mut Self, &T)) -> (PolygonList<N>, Reach) {
-        for item in items {
-            push(&mut self, item);
+    fn all(mut self, faces: &[Face], is_drawn: impl Fn(&Face) -> bool) -> (PolygonList<N>, Reach) {
+        for face in faces {
+            if is_drawn(face) {
+                self.push_face(face);
+            }
             self.item += 1;
         }
         self.list.sort_into_bands(self.painter.grid);
@@ -249,83 +238,5 @@ impl<'a, const N: usize> Chunk<'a, N> {
     fn end_polygon(&mut self) {
         self.reach.in_front += 1;
         self.reach.in_picture += usize::from(self.list.end_polygon(self.painter.grid, self.item));
-    }
-
-    fn push_wire(&mut self, wire: &Wire) {
-        let color = self.painter.wire_swatch(wire);
-        // One end given as light makes all of the wire light, as with faces.
-        let is_light = self.painter.is_light_wire(wire, &color);
-        for line in self.painter.scene.wire_contours(wire) {
-            for ends in line.windows(2) {
-                let ends = [ends[0], ends[1]].map(|vertex| self.wire_end(vertex, &color, is_light));
-                self.push_line(ends);
-            }
-        }
-    }
-
-    fn push_bent(&mut self, wire: &Wire, bend: &Bend<'_>) {
-        for line in self.painter.scene.wire_contours(wire) {
-            for ends in line.windows(2) {
-                let joints: Vec<Vertex<N>> =
-                    bend.joints(wire, [ends[0], ends[1]]).iter().map(|joint| self.joint(joint)).collect();
-                joints.windows(2).for_each(|ends| self.push_line([ends[0], ends[1]]));
-            }
-        }
-    }
-
-    fn joint(&self, joint: &Joint) -> Vertex<N> {
-        Vertex {
-            place: self.painter.view.place(joint.seen),
-            values: (self.corners.pack)(&joint.color, DVec3::ONE),
-        }
-    }
-
-    fn push_line(&mut self, ends: [Vertex<N>; 2]) {
-        if let Some(ends) = clip_segment(self.painter.view.slab, ends) {
-            self.push_strip(ends);
-        }
-    }
-
-    /// Wires are not lit.
-    fn wire_end(&self, vertex: VertexId, color: &Swatch, is_light: bool) -> Vertex<N> {
-        let swatch = self.painter.wire_end(vertex, color);
-        let swatch = if is_light { self.painter.as_light(swatch) } else { swatch };
-        let place = self.painter.place(self.painter.scene.vertices[vertex.index()].position);
-        Vertex { place, values: (self.corners.pack)(&swatch, DVec3::ONE) }
-    }
-
-    /// Adds a line as a strip in the picture plane, with square ends so that the pieces of a
-    /// polyline join.
-    fn push_strip(&mut self, ends: [Vertex<N>; 2]) {
-        let view = self.painter.view;
-        let [a, b] = ends.map(|end| {
-            let z = end.place.z;
-            let lifted =
-                if view.is_perspective { z * (1.0 - WIRE_LIFT) } else { z - WIRE_LIFT * view.distance };
-            let Place { x, y, .. } = end.place;
-            // Moved along its own ray: x/z and y/z stay.
-            let ratio = if view.is_perspective { lifted / z } else { 1.0 };
-            let place = Place { x: x * ratio, y: y * ratio, z: lifted };
-            Vertex { place, ..end }.project(view.is_perspective)
-        });
-        let half = WIRE_HALF_WIDTH * f64::from(self.painter.grid.samples);
-        let length = libm::hypot(b.x - a.x, b.y - a.y);
-        let (along_x, along_y) = if length > 0.0 {
-            ((b.x - a.x) / length * half, (b.y - a.y) / length * half)
-        } else {
-            (half, 0.0)
-        };
-        let corner = |end: &Corner<N>, forth: f64, aside: f64| Corner {
-            x: end.x + forth * along_x - aside * along_y,
-            y: end.y + forth * along_y + aside * along_x,
-            ..*end
-        };
-        for corner in
-            [corner(&a, -1.0, -1.0), corner(&b, 1.0, -1.0), corner(&b, 1.0, 1.0), corner(&a, -1.0, 1.0)]
-        {
-            self.list.push_corner(corner);
-        }
-        self.list.end_contour();
-        self.end_polygon();
     }
 }

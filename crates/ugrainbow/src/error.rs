@@ -39,6 +39,8 @@ pub enum Error {
     Text(MissingCharacter),
     /// A scene that cannot be drawn by rays; the text says why, and what to do.
     Exact(&'static str),
+    /// A scene that cannot be drawn as areas; the text says why, and what to do.
+    Figure(&'static str),
     /// A pixel to be explained that is not in the picture.
     Pixel {
         /// Its column and row.
@@ -135,7 +137,7 @@ impl fmt::Display for Error {
                     "{samples} x {samples} samples a pixel cannot be taken; give -aa 1 to {MAX_SAMPLES}"
                 )
             }
-            Self::Options(text) | Self::Exact(text) => f.write_str(text),
+            Self::Options(text) | Self::Exact(text) | Self::Figure(text) => f.write_str(text),
             Self::Text(missing) => missing.fmt(f),
             Self::Pixel { pixel: [x, y], size: [width, height] } => write!(
                 f,

@@ -26,17 +26,20 @@
 //!   Faces are lit on the side that is seen. The level multiplies the value.
 //! - **Hidden surfaces.** Depth is compared per sample, so faces may cut through each other. Colour and light of a
 //!   face are computed when the first of its samples is seen, and never if none is. [`Config::cull`] leaves out what is seen from behind.
+//!   Translucent faces are blended from behind, sample by sample, in linear light.
 //! - **Pixels.** Samples are averaged in linear light. The mean is exposed, put through a tone curve, brought
 //!   into the gamut (P30), and encoded as sRGB; or written as it is to a format that holds light. Unless light
 //!   is given or asked for, values above 1 are clipped sample by sample, as in 1988.
 //!
 //! - **Exact pictures** ([`Config::exact`]): each sample is found by a ray into the rest frame of a face (P6), and its colour
 //!   shifted there; faces need not be cut, and the scene must not have been coloured by `ugdoppler`.
-//! - **Wires** are 1.2 pixels wide and not lit, and win against the faces they lie on.
+//! - **Lines**, wires and edges of faces ([`Wireframe`]), are not lit, and win against the faces they lie on. What of them is
+//!   hidden is computed along their middles.
+//! - **Depth cueing** ([`DepthCue`]) lets what is far fade into the background.
 //!
 //! - **Figures** of areas and lines are made of the same polygons, with [`Output::Vector`].
 //!
-//! What is not done: translucency (everything is opaque), a fall-off of local lights with
+//! What is not done: translucent faces in figures, a fall-off of local lights with
 //! distance, their radius, and lights that move against what they light: `ugdoppler -li`
 //! does that. Every thread count gives the same bytes.
 //!
@@ -68,6 +71,7 @@ mod exact;
 mod explain;
 mod figures;
 mod light;
+mod lines;
 mod notes;
 mod painter;
 mod palette;
@@ -84,7 +88,7 @@ use ugimage::{Development, Frame, Label, Packing, grey_postscript};
 use ugparse::{Diagnostics, Scene, Source};
 
 pub use cli::{Args, draw};
-pub use config::{Background, Config, Exact, Exposure, Interpolation, Output};
+pub use config::{Background, Config, DepthCue, Exact, Exposure, Interpolation, Output, Wireframe};
 pub use error::{Error, MAX_PIXELS, MAX_SIDE};
 pub use figures::Figures;
 pub use planes::Channel;
@@ -156,7 +160,7 @@ impl<'a> Prepared<'a> {
 
     /// Draws it: from vertices in the scene to 8 bits a channel.
     pub fn draw(&self) -> Frame {
-        let sheet = Sheet::new(self.setup.painter(), self.config.exact);
+        let sheet = Sheet::new(self.setup.painter(), &self.config.manner());
         Canvas::new(&self.setup, &sheet, self.config).drawn.into_frame()
     }
 }
@@ -172,7 +176,7 @@ struct Painted {
 /// `config`: what is asked of the picture of the scene in the plan.
 fn paint(scene: &Scene, plan: &Plan, config: &Config) -> Result<Painted, Error> {
     let setup = Setup::new(scene, config)?;
-    let sheet = Sheet::new(setup.painter(), config.exact);
+    let sheet = Sheet::new(setup.painter(), &config.manner());
     let canvas = Canvas::new(&setup, &sheet, config);
     let Canvas { drawn, tally, development } = canvas;
     let outcome = Outcome { reach: sheet.reach(), tally, development };

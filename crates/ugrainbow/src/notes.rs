@@ -3,9 +3,9 @@
 use ugimage::{Development, Tone};
 use ugparse::Scene;
 
-use crate::config::{Config, Exposure};
+use crate::config::{Config, DepthCue, Exposure};
 use crate::drawlist::Reach;
-use crate::raster::Tally;
+use crate::raster::{Cue, Tally};
 use crate::setup::Setup;
 
 /// Brightness that is worth the message that it was clipped; less does not show in 8 bits.
@@ -32,6 +32,13 @@ pub fn notes(setup: &Setup<'_>, config: &Config, outcome: &Outcome) -> Vec<Strin
     }
     notes.extend(why_nothing_is_seen(config, outcome).map(str::to_owned));
     notes.extend(light_note(config, outcome));
+    if let (Some(DepthCue { range: None, least }), Some(Cue { near, far, .. })) =
+        (config.depth_cue, setup.grid.cue)
+    {
+        notes.push(format!(
+            "depth cueing is from {near} to {far}; -dc {near} {far} {least} gives the same picture"
+        ));
+    }
     notes
 }
 
@@ -73,9 +80,6 @@ fn scene_notes(scene: &Scene, is_exact: bool) -> Vec<String> {
     }
     // Spectra at rest are as they are, and exact pictures have no others.
     notes.extend(ugscene::spectra_note(scene).filter(|_| !is_exact));
-    if scene.colors.iter().any(|color| color.translucency > 0.0) {
-        notes.push("translucency is left out: everything is drawn opaque".into());
-    }
     notes
 }
 

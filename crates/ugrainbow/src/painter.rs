@@ -35,6 +35,8 @@ pub struct Common {
     /// The tint a grey corner takes for interpolation: the mean of the coloured corners, so that a face from
     /// grey to blue does not run through the rainbow.
     grey_tint: f64,
+    /// Its translucency, if its own colour tells it.
+    translucency: Option<f64>,
     /// A corner's colour is given as light, so light is interpolated and not hue.
     pub is_light: bool,
 }
@@ -82,8 +84,10 @@ impl Painter<'_> {
             .filter(|swatch| !swatch.is_grey())
             .fold((0.0, 0), |(sum, count), swatch| (sum + swatch.tint, count + 1));
         let grey_tint = if count == 0 { 0.0 } else { sum / f64::from(count) };
+        let translucency = face.color.map(|color| self.palette.get(color).translucency);
         Common {
             grey_tint,
+            translucency,
             is_light: self.palette.has_light() && swatches().any(|swatch| swatch.light.is_some()),
         }
     }
@@ -91,13 +95,30 @@ impl Painter<'_> {
     /// The colour of a corner of a face.
     #[inline]
     pub fn swatch(&self, vertex: VertexId, common: &Common) -> Swatch {
-        let swatch = self.surface.swatch(vertex);
+        let own = self.surface.swatch(vertex);
+        let swatch = Swatch { translucency: common.translucency.unwrap_or(own.translucency), ..own };
         if common.is_light {
             self.as_light(swatch)
         } else if swatch.is_grey() {
             Swatch { tint: common.grey_tint, ..swatch }
         } else {
             swatch
+        }
+    }
+
+    /// True if light passes a face. Its own colour tells how much, and if it has none, those of its corners do: so a pane
+    /// does not make clear what shares corners with it.
+    #[inline]
+    pub fn is_clear(&self, face: &Face) -> bool {
+        if !self.palette.has_translucency() {
+            return false;
+        }
+        match face.color {
+            Some(color) => self.palette.get(color).translucency > 0.0,
+            None => {
+                let corners = self.scene.contours.corners(face.contours.clone());
+                corners.iter().any(|&vertex| self.surface.swatch(vertex).translucency > 0.0)
+            }
         }
     }
 

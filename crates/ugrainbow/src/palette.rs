@@ -20,11 +20,13 @@ pub struct Swatch {
     /// The light itself, uncut, if the colour is given as such (`c_xyz`): linear red, green and blue. The
     /// numbers above are then the nearest that a display has.
     pub light: Option<DVec3>,
+    /// 0 opaque … 1 clear.
+    pub translucency: f64,
 }
 
 impl Swatch {
     /// The colour of what has none.
-    pub const WHITE: Self = Self { tint: 0.0, saturation: 0.0, value: 1.0, light: None };
+    pub const WHITE: Self = Self { tint: 0.0, saturation: 0.0, value: 1.0, light: None, translucency: 0.0 };
 
     /// True if it has no tint.
     pub fn is_grey(&self) -> bool {
@@ -39,14 +41,16 @@ pub struct Palette {
     interpolation: Interpolation,
     scale: HueScale,
     has_light: bool,
+    has_translucency: bool,
 }
 
 impl Palette {
     /// Reads all colours of a scene.
     pub fn new(scene: &Scene, config: &Config) -> Self {
         let has_light = scene.colors.iter().any(ugscene::is_light);
+        let has_translucency = scene.colors.iter().any(|color| color.translucency > 0.0);
         let (interpolation, scale) = (config.interpolated(), config.hue_scale);
-        let mut palette = Self { swatches: Vec::new(), interpolation, scale, has_light };
+        let mut palette = Self { swatches: Vec::new(), interpolation, scale, has_light, has_translucency };
         palette.swatches = scene.colors.iter().map(|color| palette.read(scene, color)).collect();
         palette
     }
@@ -69,6 +73,11 @@ impl Palette {
     /// True if the scene gives a colour as light.
     pub fn has_light(&self) -> bool {
         self.has_light
+    }
+
+    /// True if a colour of the scene is not opaque.
+    pub fn has_translucency(&self) -> bool {
+        self.has_translucency
     }
 
     /// The light of a colour: linear red, green and blue. Its hue is attenuated where the eye sees little.
@@ -103,17 +112,19 @@ impl Palette {
             Interpolation::Hue => spectral(color.hue),
             Interpolation::Wavelength => hue_to_wavelength(color.hue),
         };
-        Swatch { tint, saturation: color.saturation, value: color.value, light: None }
+        Swatch { tint, saturation: color.saturation, value: color.value, light: None, translucency: 0.0 }
     }
 
     fn read(&self, scene: &Scene, color: &Color) -> Swatch {
+        let translucency = color.translucency;
         match color.value {
             // Taken as it is: a wavelength the eye cannot see has no hue.
             ColorValue::Hsv { value, hue: tint, saturation } if self.scale == HueScale::Wavelengths => {
-                Swatch { tint, saturation, value, light: None }
+                Swatch { tint, saturation, value, light: None, translucency }
             }
             _ => Swatch {
                 light: ugscene::light(scene, color).map(DVec3::from_array),
+                translucency,
                 ..self.swatch(ugscene::hsv(scene, color, self.scale))
             },
         }

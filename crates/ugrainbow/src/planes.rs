@@ -4,11 +4,11 @@ use glam::DVec3;
 use rayon::prelude::*;
 use ugimage::{Plane, Samples};
 use ugphysics::{Velocity, doppler_at};
-use ugscene::Geometry;
+use ugscene::{Geometry, View};
 
-use crate::drawlist::WIRE_LIFT;
+use crate::lines::LIFT;
 use crate::painter::Painter;
-use crate::raster::{Grid, Seen};
+use crate::raster::{Fragment, Gathered, Grid, Seen};
 
 /// A number for each pixel, or three: of what is seen at the sample nearest to its centre, never a mean.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -55,6 +55,22 @@ impl Channel {
     }
 }
 
+/// What a pixel is taken to show at its middle: the nearest that lets through less than half of what is behind it.
+pub fn front(view: &View, all: &Gathered<'_, u32>) -> Option<Seen<u32>> {
+    let layer = all.layers.iter().rev().find(|layer| layer.pass < 0.5);
+    layer.map_or(all.center, |layer| Some(seen(view, layer)))
+}
+
+/// What a layer shows, lines where they are.
+pub fn seen(view: &View, layer: &Fragment) -> Seen<u32> {
+    let key = match (layer.is_line, view.is_perspective) {
+        (false, _) => layer.key,
+        (true, true) => layer.key * (1.0 - LIFT) as f32,
+        (true, false) => layer.key - (LIFT * view.distance) as f32,
+    };
+    Seen { key, tag: layer.item }
+}
+
 /// Where and when light was sent that is seen in the picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Emission {
@@ -86,20 +102,10 @@ impl<'a> Finder<'a> {
     pub fn emission(&self, [column, row]: [u32; 2], seen: Seen<u32>) -> Emission {
         let Painter { scene, view, surface, .. } = self.painter;
         let key = f64::from(seen.key);
-        let drawn = if view.is_perspective { 1.0 / key } else { -key };
-        let face = scene.faces.get(seen.tag as usize);
-        let (velocity, depth) = match face {
-            Some(face) => (face.velocity, drawn),
-            // Wires are drawn nearer than they are.
-            None => {
-                let wire = scene.wires.get(seen.tag as usize - scene.faces.len());
-                let lifted = if view.is_perspective {
-                    drawn / (1.0 - WIRE_LIFT)
-                } else {
-                    drawn + WIRE_LIFT * view.distance
-                };
-                (wire.and_then(|wire| wire.velocity), lifted)
-            }
+        let depth = if view.is_perspective { 1.0 / key } else { -key };
+        let velocity = match scene.faces.get(seen.tag as usize) {
+            Some(face) => face.velocity,
+            None => scene.wires.get(seen.tag as usize - scene.faces.len()).and_then(|wire| wire.velocity),
         };
         let place = view.point([f64::from(column) + 0.5, f64::from(row) + 0.5], depth);
         let time = if self.has_flight_time { -place.length() } else { 0.0 };

@@ -1,21 +1,52 @@
 //! Everything to be drawn, packed as the scene needs it.
 
 use glam::DVec3;
+use ugparse::Face;
 
-use crate::config::Exact;
+use crate::config::{Exact, Wireframe};
 use crate::drawlist::{DrawList, Reach};
 use crate::exact::{Bend, Faces};
+use crate::lines::{Hiders, Shown, Stroke, lines, pieces, strips, strokes};
 use crate::painter::Painter;
 use crate::palette::Swatch;
-use crate::raster::{Corner, Gathered, Grid, Layer, Sample, Scanner, Shade, Tag, Tally, Tile, paint, probe};
+use crate::raster::{
+    CLEAR_VALUES, Clear, Corner, Gathered, Grid, Layer, NoTable, Pane, PolygonList, Sample, Scanner, Shade,
+    Shapes, Sink, Tag, Tally, paint, probe,
+};
 use crate::shade::Shader;
 
 /// Turns a colour and the level of red, green and blue light into the numbers to interpolate.
 pub type Pack<const N: usize> = fn(&Swatch, DVec3) -> [f64; N];
 
-/// Everything with the numbers to interpolate: hues alone or with colours given as light among them, under
+/// How a scene is drawn, apart from its camera.
+#[derive(Clone, Copy, Debug)]
+pub struct Manner {
+    /// Faces are found by rays.
+    pub exact: Option<Exact>,
+    /// Edges of faces are drawn.
+    pub wireframe: Option<Wireframe>,
+    /// Width of lines in pixels.
+    pub line_width: f64,
+}
+
+impl Manner {
+    /// False if only their edges are drawn.
+    fn has_faces(&self) -> bool {
+        self.wireframe.is_none_or(|wireframe| wireframe.has_faces)
+    }
+}
+
+/// Everything to be drawn.
+pub struct Sheet<'a> {
+    solid: Solid<'a>,
+    clear: ClearLayers<'a>,
+    has_faces: bool,
+    reach: Reach,
+}
+
+/// What hides, with the numbers to interpolate: hues alone or with colours given as light among them, under
 /// white or coloured lights.
-pub enum Sheet<'a> {
+enum Solid<'a> {
     /// Tint, saturation, value.
     Plain(Layers<'a, 3>),
     /// The same, and the level of red, green and blue light.
@@ -26,58 +57,167 @@ pub enum Sheet<'a> {
     MixedColored(Layers<'a, 7>),
 }
 
-/// What is drawn.
-pub struct Layers<'a, const N: usize> {
-    /// Faces that rays find.
-    faces: Option<Faces<'a, N>>,
-    /// All polygons, which come behind those faces.
-    polygons: DrawList<'a, N>,
+/// Does the same with the layers of every kind, and the function that gives their light.
+macro_rules! with_layers {
+    ($solid:expr, |$layers:ident| $body:expr) => {
+        match $solid {
+            Solid::Plain($layers) => $body,
+            Solid::Colored($layers) => $body,
+            Solid::Mixed($layers) => $body,
+            Solid::MixedColored($layers) => $body,
+        }
+    };
+    ($solid:expr, $shader:expr, |$layers:ident, $shade:ident| $body:expr) => {
+        match $solid {
+            Solid::Plain($layers) => {
+                let $shade = |values: &[f32; 3]| $shader.plain(values);
+                $body
+            }
+            Solid::Colored($layers) => {
+                let $shade = |values: &[f32; 6]| $shader.colored(values);
+                $body
+            }
+            Solid::Mixed($layers) => {
+                let $shade = |values: &[f32; 4]| $shader.mixed(values);
+                $body
+            }
+            Solid::MixedColored($layers) => {
+                let $shade = |values: &[f32; 7]| $shader.mixed_colored(values);
+                $body
+            }
+        }
+    };
+}
+
+/// Faces.
+struct Layers<'a, const N: usize> {
+    surfaces: Surfaces<'a, N>,
+    /// False if they only hide.
+    is_drawn: bool,
+}
+
+/// How faces are found.
+enum Surfaces<'a, const N: usize> {
+    Rays(Faces<'a, N>),
+    Polygons(DrawList<'a, N>),
 }
 
 impl<'a, const N: usize> Layers<'a, N> {
-    fn new(painter: Painter<'a>, exact: Option<Exact>, pack: Pack<N>) -> Self {
-        match exact {
-            None => Self { faces: None, polygons: DrawList::new(painter, pack) },
-            Some(exact) => Self {
-                polygons: DrawList::wires(painter, &Bend::new(painter, exact), pack),
-                faces: Some(Faces::new(painter, exact, pack)),
-            },
-        }
+    fn new(painter: Painter<'a>, manner: &Manner, is_clear: bool, pack: Pack<N>) -> Self {
+        let is_one = |face: &Face| painter.is_clear(face) == is_clear;
+        let surfaces = match manner.exact {
+            None => Surfaces::Polygons(DrawList::new(painter, is_one, pack)),
+            Some(exact) => Surfaces::Rays(Faces::new(painter, exact, is_one, pack)),
+        };
+        Self { surfaces, is_drawn: manner.has_faces() }
     }
 
     fn reach(&self) -> Reach {
-        self.faces.iter().fold(self.polygons.reach, |reach, faces| reach.merge(faces.reach))
+        match &self.surfaces {
+            Surfaces::Rays(faces) => faces.reach,
+            Surfaces::Polygons(list) => list.reach,
+        }
+    }
+
+    /// What of some pieces of lines no face hides.
+    fn shown(&self, painter: &Painter<'_>, all: &[Stroke], width: f64) -> Vec<Stroke> {
+        let size = [painter.grid.sample_columns(), painter.grid.sample_rows()];
+        // A sample more than half the width.
+        let margin = 0.5 * width + 1.0;
+        match &self.surfaces {
+            Surfaces::Rays(faces) => {
+                let is_hidden = |place, key| faces.hides(place, key);
+                strokes(all, &Shown::by_rays(&is_hidden, size, margin))
+            }
+            Surfaces::Polygons(list) => {
+                let boxes = all.iter().map(Stroke::bounds);
+                let hiders = Hiders::new(list.outlines(), boxes, size, margin);
+                strokes(all, &Shown::behind(hiders, size, margin))
+            }
+        }
     }
 }
 
 impl<const N: usize> Layer<N> for Layers<'_, N> {
-    fn draw<T: Tag>(&self, grid: &Grid, band: usize, scanner: &mut Scanner<N>, tile: &mut Tile<N, T>) {
-        if let Some(faces) = &self.faces {
-            faces.draw(grid, band, scanner, tile);
+    fn draw(&self, grid: &Grid, band: usize, scanner: &mut Scanner<N>, sink: &mut impl Sink<N>) {
+        if !self.is_drawn {
+            return;
         }
-        self.polygons.shapes().draw(grid, band, scanner, tile);
+        match &self.surfaces {
+            Surfaces::Rays(faces) => faces.draw(grid, band, scanner, sink),
+            Surfaces::Polygons(list) => list.shapes().draw(grid, band, scanner, sink),
+        }
     }
+}
+
+/// What does not hide what is behind it: translucent faces, and lines, from which that has been taken away.
+struct ClearLayers<'a> {
+    /// None if no face is translucent.
+    faces: Option<Layers<'a, CLEAR_VALUES>>,
+    /// Their visible parts.
+    strokes: Vec<Stroke>,
+    /// The same as strips.
+    lines: [PolygonList<CLEAR_VALUES>; 1],
+}
+
+/// What is clear, with what gives it light.
+struct Lit<'a, 's> {
+    layers: &'s ClearLayers<'a>,
+    shader: &'s Shader,
+}
+
+impl Clear for Lit<'_, '_> {
+    fn draw(&self, grid: &Grid, band: usize, scanner: &mut Scanner<CLEAR_VALUES>, pane: &mut Pane<'_>) {
+        let shade = |values: &[f32; CLEAR_VALUES]| clear_shade(self.shader, values);
+        if let Some(faces) = &self.layers.faces {
+            faces.draw(grid, band, scanner, &mut pane.sink(shade, false));
+        }
+        let lines = Shapes { lists: &self.layers.lines, table: &NoTable };
+        lines.draw(grid, band, scanner, &mut pane.sink(shade, true));
+    }
+}
+
+/// Light of the numbers of [`pack_clear`], and the part of what is behind that passes.
+pub fn clear_shade(shader: &Shader, &[a, b, c, d, e, f, g, pass]: &[f32; CLEAR_VALUES]) -> (Shade, f32) {
+    (shader.mixed_colored(&[a, b, c, d, e, f, g]), pass.clamp(0.0, 1.0))
 }
 
 impl<'a> Sheet<'a> {
     /// All faces and wires.
-    pub fn new(painter: Painter<'a>, exact: Option<Exact>) -> Self {
-        match (painter.palette.has_light(), painter.lighting.is_colored()) {
-            (false, false) => Self::Plain(Layers::new(painter, exact, pack_plain)),
-            (false, true) => Self::Colored(Layers::new(painter, exact, pack_colored)),
-            (true, false) => Self::Mixed(Layers::new(painter, exact, pack_mixed)),
-            (true, true) => Self::MixedColored(Layers::new(painter, exact, pack_mixed_colored)),
+    pub fn new(painter: Painter<'a>, manner: &Manner) -> Self {
+        let solid = match (painter.palette.has_light(), painter.lighting.is_colored()) {
+            (false, false) => Solid::Plain(Layers::new(painter, manner, false, pack_plain)),
+            (false, true) => Solid::Colored(Layers::new(painter, manner, false, pack_colored)),
+            (true, false) => Solid::Mixed(Layers::new(painter, manner, false, pack_mixed)),
+            (true, true) => Solid::MixedColored(Layers::new(painter, manner, false, pack_mixed_colored)),
+        };
+        let faces =
+            painter.palette.has_translucency().then(|| Layers::new(painter, manner, true, pack_clear));
+        let bend = manner.exact.map(|exact| Bend::new(painter, exact));
+        let lines = lines(&painter, manner.wireframe, bend.as_ref());
+        let (pieces, mut reach) = pieces(&painter, &lines, bend.as_ref());
+        let width = manner.line_width * f64::from(painter.grid.samples);
+        let strokes = if pieces.is_empty() {
+            Vec::new()
+        } else {
+            with_layers!(&solid, |layers| layers.shown(&painter, &pieces, width))
+        };
+        if manner.has_faces() {
+            reach = reach.merge(with_layers!(&solid, |layers| layers.reach()));
+            reach = faces.iter().fold(reach, |reach, faces| reach.merge(faces.reach()));
         }
+        let lines = [strips(&painter, &strokes, width)];
+        Self { solid, clear: ClearLayers { faces, strokes, lines }, has_faces: manner.has_faces(), reach }
     }
 
-    /// How many faces and wires came how far.
+    /// How many faces and lines came how far.
     pub fn reach(&self) -> Reach {
-        match self {
-            Self::Plain(layers) => layers.reach(),
-            Self::Colored(layers) => layers.reach(),
-            Self::Mixed(layers) => layers.reach(),
-            Self::MixedColored(layers) => layers.reach(),
-        }
+        self.reach
+    }
+
+    fn lit<'s>(&'s self, shader: &'s Shader) -> Option<Lit<'a, 's>> {
+        let has_faces = self.has_faces && self.clear.faces.is_some();
+        (has_faces || !self.clear.strokes.is_empty()).then_some(Lit { layers: &self.clear, shader })
     }
 
     /// Draws all pixels of the grid. `finish` makes a pixel of its samples.
@@ -86,39 +226,40 @@ impl<'a> Sheet<'a> {
         grid: &Grid,
         shader: &Shader,
         pixels: &mut [P],
-        finish: &(impl Fn(&Gathered<T>) -> P + Sync),
+        finish: &(impl Fn(&Gathered<'_, T>) -> P + Sync),
     ) -> Tally {
-        match self {
-            Self::Plain(layers) => paint(pixels, grid, layers, &|values| shader.plain(values), finish),
-            Self::Colored(layers) => paint(pixels, grid, layers, &|values| shader.colored(values), finish),
-            Self::Mixed(layers) => paint(pixels, grid, layers, &|values| shader.mixed(values), finish),
-            Self::MixedColored(layers) => {
-                paint(pixels, grid, layers, &|values| shader.mixed_colored(values), finish)
-            }
-        }
+        let lit = self.lit(shader);
+        let clear = lit.as_ref().map(|lit| lit as &dyn Clear);
+        with_layers!(&self.solid, shader, |layers, shade| paint(pixels, grid, layers, clear, &shade, finish))
     }
 
     /// The samples of one pixel, and what they gather to.
-    pub fn probe(&self, grid: &Grid, shader: &Shader, pixel: [u32; 2]) -> (Vec<Sample>, Gathered<u32>) {
-        match self {
-            Self::Plain(layers) => probe(grid, layers, &|values| shader.plain(values), pixel),
-            Self::Colored(layers) => probe(grid, layers, &|values| shader.colored(values), pixel),
-            Self::Mixed(layers) => probe(grid, layers, &|values| shader.mixed(values), pixel),
-            Self::MixedColored(layers) => probe(grid, layers, &|values| shader.mixed_colored(values), pixel),
-        }
+    pub fn probe(
+        &self,
+        grid: &Grid,
+        shader: &Shader,
+        pixel: [u32; 2],
+    ) -> (Vec<Sample>, Gathered<'static, u32>) {
+        let lit = self.lit(shader);
+        let clear = lit.as_ref().map(|lit| lit as &dyn Clear);
+        with_layers!(&self.solid, shader, |layers, shade| probe(grid, layers, clear, &shade, pixel))
     }
 }
 
-/// Most numbers any sheet interpolates.
-pub const MOST_VALUES: usize = 7;
-
+/// For figures.
 impl Sheet<'_> {
-    /// Gives `take` every polygon, as its item and its contours; corners have zeros behind their numbers.
-    pub fn for_each_polygon(&self, mut take: impl FnMut(u32, Vec<Vec<Corner<MOST_VALUES>>>)) {
+    /// True if a face that is drawn is translucent.
+    pub fn has_clear_faces(&self) -> bool {
+        self.has_faces && self.clear.faces.as_ref().is_some_and(|faces| faces.reach().in_picture > 0)
+    }
+
+    /// Gives `take` every polygon of what hides, as its item and its contours; corners have zeros behind their numbers.
+    pub fn for_each_polygon(&self, take: impl FnMut(u32, Vec<Vec<Corner<CLEAR_VALUES>>>)) {
         fn all<const N: usize>(
-            list: &DrawList<'_, N>,
-            take: &mut impl FnMut(u32, Vec<Vec<Corner<MOST_VALUES>>>),
+            layers: &Layers<'_, N>,
+            mut take: impl FnMut(u32, Vec<Vec<Corner<CLEAR_VALUES>>>),
         ) {
+            let Surfaces::Polygons(list) = &layers.surfaces else { return };
             let padded = |corner: &Corner<N>| Corner {
                 x: corner.x,
                 y: corner.y,
@@ -132,21 +273,23 @@ impl Sheet<'_> {
                 );
             });
         }
-        match self {
-            Self::Plain(list) => all(&list.polygons, &mut take),
-            Self::Colored(list) => all(&list.polygons, &mut take),
-            Self::Mixed(list) => all(&list.polygons, &mut take),
-            Self::MixedColored(list) => all(&list.polygons, &mut take),
+        if self.has_faces {
+            with_layers!(&self.solid, |layers| all(layers, take));
         }
     }
 
+    /// The visible parts of lines.
+    pub fn strokes(&self) -> &[Stroke] {
+        &self.clear.strokes
+    }
+
     /// The light of numbers interpolated between corners of [`Sheet::for_each_polygon`].
-    pub fn shade(&self, shader: &Shader, &[a, b, c, d, e, f, g]: &[f32; MOST_VALUES]) -> Shade {
-        match self {
-            Self::Plain(_) => shader.plain(&[a, b, c]),
-            Self::Colored(_) => shader.colored(&[a, b, c, d, e, f]),
-            Self::Mixed(_) => shader.mixed(&[a, b, c, d]),
-            Self::MixedColored(_) => shader.mixed_colored(&[a, b, c, d, e, f, g]),
+    pub fn shade(&self, shader: &Shader, &[a, b, c, d, e, f, g, _]: &[f32; CLEAR_VALUES]) -> Shade {
+        match &self.solid {
+            Solid::Plain(_) => shader.plain(&[a, b, c]),
+            Solid::Colored(_) => shader.colored(&[a, b, c, d, e, f]),
+            Solid::Mixed(_) => shader.mixed(&[a, b, c, d]),
+            Solid::MixedColored(_) => shader.mixed_colored(&[a, b, c, d, e, f, g]),
         }
     }
 }
@@ -185,4 +328,10 @@ fn pack_mixed_colored(swatch: &Swatch, level: DVec3) -> [f64; 7] {
             [tint, saturation, value, red, green, blue, 0.0]
         }
     }
+}
+
+/// In every scene all numbers, and the translucency.
+pub fn pack_clear(swatch: &Swatch, level: DVec3) -> [f64; CLEAR_VALUES] {
+    let [a, b, c, d, e, f, g] = pack_mixed_colored(swatch, level);
+    [a, b, c, d, e, f, g, swatch.translucency]
 }

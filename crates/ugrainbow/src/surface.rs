@@ -81,8 +81,9 @@ fn mixed_rows(
     let rows = colors.map(|color| match color {
         VertexColor::Named(color) => row(color),
         VertexColor::White => white,
-        VertexColor::Mixed { hsv, light, .. } => {
-            swatches.push(Swatch { light: light.map(DVec3::from_array), ..palette.swatch(hsv) });
+        VertexColor::Mixed { hsv, light, translucency } => {
+            let light = light.map(DVec3::from_array);
+            swatches.push(Swatch { light, translucency, ..palette.swatch(hsv) });
             // There are no more mixed colours than vertices.
             swatches.len() as u32 - 1
         }

@@ -1,10 +1,10 @@
 //! Words of the command line as values.
 
 use ugimage::{Format, Tone};
-use ugphysics::Brightness;
-use ugpipe::finite;
+use ugphysics::{Brightness, Hsv};
+use ugpipe::{Failure, finite};
 
-use crate::config::Exposure;
+use crate::config::{Exposure, MAX_LINE_WIDTH};
 use crate::planes::Channel;
 
 /// What `-ch` names.
@@ -47,6 +47,31 @@ pub fn pixel(word: &str) -> Result<Pixel, String> {
     let numbers =
         word.split_once(',').and_then(|(x, y)| Some([x.trim().parse().ok()?, y.trim().parse().ok()?]));
     numbers.ok_or_else(|| "a pixel is its column and row, such as 320,240".to_owned())
+}
+
+/// A colour as in a `c` statement: lightness alone is grey, with a hue it is pure.
+pub fn color(name: &str, numbers: &[f64]) -> Result<Hsv, Failure> {
+    let (value, hue, saturation) = match numbers {
+        [value] => (*value, 0.0, 0.0),
+        [value, hue] => (*value, *hue, 1.0),
+        [value, hue, saturation, ..] => (*value, *hue, *saturation),
+        [] => (0.0, 0.0, 0.0),
+    };
+    let is_part = |number: f64| (0.0..=1.0).contains(&number);
+    if !is_part(value) || !is_part(saturation) {
+        return Err(Failure::Usage(format!("lightness and saturation of the {name} are from 0 to 1")));
+    }
+    Ok(Hsv { hue, saturation, value })
+}
+
+/// Width of lines in pixels.
+pub fn line_width(word: &str) -> Result<f64, String> {
+    let width = finite(word)?;
+    if 0.0 < width && width <= MAX_LINE_WIDTH {
+        Ok(width)
+    } else {
+        Err(format!("a line is more than 0 and at most {MAX_LINE_WIDTH} pixels wide"))
+    }
 }
 
 /// Stops, or `auto`.

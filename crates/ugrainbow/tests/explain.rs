@@ -190,3 +190,58 @@ fn bad_usage_is_told() {
     check("--explain 2,3 -dt exr", "give --format json, or none");
     check("--format json", "add --explain X,Y");
 }
+
+/// A wall behind a pane behind half a pane, and a wire.
+const PANES: &str = "\
+c wall .8 30; c green .9 120 1 .3; c blue .9 240 1 .6; c white 1; l 1;
+v a -5 9 -4; v b 5 9 -4; v c 5 9 4; v d -5 9 4; f wall (a b c d) wall;
+v e -5 7 -4; v f 5 7 -4; v g 5 7 1; v h -5 7 1; f green (e f g h) green;
+v i -2 5 -3; v j 2 5 -3; v k 2 6 3; v l -2 6 3; f blue (i j k l) blue;
+v m -3 6.5 0; v n 3 6.5 0; w line (m n) white;
+cam -ep 0 0 0 -vc 0 5 0 -va 60 45;
+";
+
+#[test]
+fn layers_blend_to_the_pixel() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("scene.ug"), PANES).unwrap();
+    let shown = pixels(&ugrainbow(folder.path(), &["-aa", "1"]));
+    let mut seen = Vec::new();
+    for (x, y) in (1..60).step_by(4).flat_map(|x| (2..45).step_by(5).map(move |y| (x, y))) {
+        let at = format!("{x},{y}");
+        let text = ugrainbow(folder.path(), &["-aa", "1", "--explain", &at, "--format", "json"]);
+        let told: Value = serde_json::from_slice(&text).unwrap();
+        let layers = told["sample"]["layers"].as_array().unwrap();
+        let blended = layers.iter().rev().fold([0.0; 3], |behind, layer| {
+            let pass = number(&layer["translucency"]);
+            std::array::from_fn(|i| (1.0 - pass) * number(&layer["linear"][i]) + pass * behind[i])
+        });
+        for i in 0..3 {
+            if !layers.is_empty() {
+                let mean = number(&told["mean_linear"][i]);
+                assert!((mean - blended[i]).abs() < 1e-6, "{at}: {told}");
+            }
+            assert_eq!(number(&told["bytes"][i]), f64::from(shown[y * 60 + x][i]));
+        }
+        let names = layers.iter().map(|layer| layer["item"]["name"].as_str().unwrap_or_default());
+        let names: Vec<&str> = names.collect();
+        // What is told of is the first that lets less than half through.
+        let subject = told["sample"]["item"]["name"].as_str();
+        let first = layers.iter().position(|layer| number(&layer["translucency"]) < 0.5);
+        assert!(first.is_none_or(|first| subject == Some(names[first])), "{told}");
+        seen.push(names.join(" "));
+    }
+    for all in ["blue green wall", "green wall", "blue wall", "", "blue line"] {
+        assert!(seen.iter().any(|one| one == all), "{all}: {seen:?}");
+    }
+    let text = ugrainbow(folder.path(), &["-dc", "6", "10", "--explain", "29,30"]);
+    let text = String::from_utf8(text).unwrap();
+    for part in [
+        "layers        face `blue`",
+        "behind it     face `green`",
+        "behind it     face `wall`",
+        "depth cueing  leaves ",
+    ] {
+        assert!(text.contains(part), "{part}: {text}");
+    }
+}

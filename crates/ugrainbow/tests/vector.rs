@@ -75,4 +75,40 @@ fn what_cannot_be_a_figure_is_refused() {
     };
     assert!(matches!(refused(Format::Png, [8, 8]), Error::Options(text) if text.contains("-vec")));
     assert!(matches!(refused(Format::Pdf, [32769, 8]), Error::Options(text) if text.contains("32768")));
+    let glass = format!("{COLORS}{FAR} cam -ep 0 0 10 -vc 0 0 0;").replace("blue 1 240;", "blue 1 240 1 .5;");
+    let glass = ugparse::Source::new("test.ug", glass);
+    let config = Config { output: Output::Vector(Format::Svg), ..Config::default() };
+    assert!(matches!(run(&config, &glass).unwrap_err(), Error::Figure(text) if text.contains("translucent")));
+}
+
+#[test]
+fn what_lies_between_seen_faces_and_is_hidden_is_left_out() {
+    // It shares two corners with the near face, of which samples are seen, and lies wholly behind that.
+    let hidden = "v i 0 0 0.5; f hidden (e i h) red;";
+    for scene in [[NEAR, FAR, hidden], [hidden, FAR, NEAR]] {
+        let found = areas(&svg(&format!("{COLORS}{}", scene.concat())));
+        assert_eq!(found.iter().map(|(color, _)| &**color).collect::<Vec<_>>(), ["#00f", "#f00"]);
+    }
+    // Of a face that stands out a part is seen.
+    let tall = "v i 0 -2 0.5; f tall (e i h) red;";
+    let found = areas(&svg(&format!("{COLORS}{NEAR}{FAR}{tall}")));
+    assert!(found.iter().any(|(_, [.., bottom])| *bottom == 60.0), "{found:?}");
+}
+
+#[test]
+fn edges_of_faces_are_lines() {
+    let text = {
+        let angle = 2.0 * libm::atan(4.0 / 10.0).to_degrees();
+        let text = format!("{COLORS}{FAR}{NEAR} cam -ep 0 0 10 -vc 0 0 0 -ud 0 1 0 -og -va {angle} {angle};");
+        let wireframe = Some(ugrainbow::Wireframe { has_faces: false, color: None });
+        let output = Output::Vector(Format::Svg);
+        let config = Config { size: [80, 80], output, wireframe, line_width: 2.0, ..Config::default() };
+        let picture = run(&config, &ugparse::Source::new("test.ug", text)).unwrap();
+        String::from_utf8(picture.bytes).unwrap()
+    };
+    assert!(areas(&text).is_empty(), "{text}");
+    let lines = |color: &str| text.matches(&format!("stroke=\"{color}\" stroke-width=\"2\"")).count();
+    assert_eq!((lines("#00f"), lines("#f00")), (4, 4), "{text}");
+    // The upper edge of the near face, with half the width at its ends.
+    assert!(text.contains("M29 30L51 30") || text.contains("M51 30L29 30"), "{text}");
 }

@@ -9,7 +9,7 @@ use ugparse::Face;
 
 use super::film::{Film, Form, Lengths, center};
 use super::footprint::{Rect, footprint};
-use super::frame::{Frame, frame_of, frames};
+use super::frame::{Frame, Ray, frame_of, frames};
 use super::look::Look;
 use super::motion::Motion;
 use super::nearest::{Nearest, PlaneRow, limited};
@@ -18,7 +18,7 @@ use super::sections::{Cutter, Side};
 use crate::config::Exact;
 use crate::drawlist::Reach;
 use crate::painter::Painter;
-use crate::raster::{Bins, Grid, Layer, Scanner, Tag, Tile};
+use crate::raster::{Bins, Grid, Layer, Scanner, Sink};
 use crate::sheet::Pack;
 
 /// Faces and the rays that meet them.
@@ -59,11 +59,17 @@ struct Shape {
 }
 
 impl<'a, const N: usize> Faces<'a, N> {
-    /// All faces of a scene.
-    pub fn new(painter: Painter<'a>, exact: Exact, pack: Pack<N>) -> Self {
+    /// The faces of a scene that `is_drawn` says.
+    pub fn new(
+        painter: Painter<'a>,
+        exact: Exact,
+        is_drawn: impl Fn(&Face) -> bool + Sync,
+        pack: Pack<N>,
+    ) -> Self {
         let motion = Motion::new(exact, painter.palette);
         let frames = frames(&painter);
         let built: Vec<Built> = (painter.scene.faces.par_iter().enumerate())
+            .filter(|(_, face)| is_drawn(face))
             .map(|(row, face)| build(&painter, &motion, &frames, row, face))
             .collect();
         let in_front = built.iter().filter(|built| !matches!(built, Built::Behind)).count();
@@ -75,6 +81,30 @@ impl<'a, const N: usize> Faces<'a, N> {
         let film = Film::new(painter.view.rays());
         let pool = Mutex::default();
         Self { painter, motion, pack, frames, shapes, bins, film, limits, pool, reach }
+    }
+
+    /// True if a face is nearer than `key` on the ray through a place of the picture, in samples.
+    pub fn hides(&self, [x, y]: [f64; 2], key: f64) -> bool {
+        let grid = self.painter.grid;
+        let is_inside = (0.0..f64::from(grid.sample_columns())).contains(&x)
+            && (0.0..f64::from(grid.sample_rows())).contains(&y);
+        if !is_inside {
+            return false;
+        }
+        // Inside, so the casts keep the whole part.
+        let (column, row) = (x as u32, y as u32);
+        let [least, most] = self.limits;
+        let hides = |shape: &Shape| {
+            let frame = &self.frames[shape.frame];
+            let ray = frame.ray(frame.row(y), x);
+            let nearer = shape.outline.key(ray);
+            nearer > key && (least..=most).contains(&nearer) && shape.outline.contains(ray)
+        };
+        let shapes = self.bins.in_band(grid.bands_of(&(row..row + 1)).start).iter();
+        shapes
+            .map(|&shape| &self.shapes[shape as usize])
+            .filter(|shape| shape.columns.contains(&column) && shape.rows.contains(&row))
+            .any(hides)
     }
 
     /// Calls `take` with those samples of a part of the picture that show a face, were it alone, in runs.
@@ -119,6 +149,72 @@ impl<'a, const N: usize> Faces<'a, N> {
         }
     }
 
+    /// Draws some faces. If only the nearest are kept in two steps, so that what is covered later is never shaded.
+    fn draw_part<S: Sink<N>>(
+        &self,
+        shapes: &[u32],
+        part: [Range<u32>; 2],
+        scratch: &mut Scratch,
+        sink: &mut S,
+    ) {
+        if S::KEEPS_ALL {
+            return self.draw_all(shapes, part, scratch, sink);
+        }
+        self.find_nearest(shapes, part, scratch);
+        let Scratch { lengths, nearest, .. } = scratch;
+        for run in nearest.runs() {
+            let shape = &self.shapes[run.face as usize];
+            let frame = &self.frames[shape.frame];
+            let rays = frame.row(center(run.row));
+            let (lengths, keys) = (lengths.row(run.row), nearest.keys(&run));
+            let first = run.columns.start;
+            sink.draw_each(run.row, run.columns, shape.item, |column, _| {
+                let ray = frame.ray_of_length(rays, column, lengths.at(column));
+                Some((keys[(column - first) as usize], self.values(shape, frame, &ray)))
+            });
+        }
+    }
+
+    /// Draws every face wherever it is nearer than what the sink says.
+    fn draw_all(
+        &self,
+        shapes: &[u32],
+        [columns, rows]: [Range<u32>; 2],
+        scratch: &mut Scratch,
+        sink: &mut impl Sink<N>,
+    ) {
+        let Scratch { lengths, cutter, .. } = scratch;
+        lengths.reset(&self.film, columns.clone(), rows.clone());
+        for &number in shapes {
+            let shape = &self.shapes[number as usize];
+            let frame = &self.frames[shape.frame];
+            let part = [common(&shape.columns, &columns), common(&shape.rows, &rows)];
+            self.cover(shape, part, lengths, cutter, |row, columns| {
+                let (lengths, rays) = (lengths.row(row), frame.row(center(row)));
+                let plane = PlaneRow { form: shape.depth.on_row(row), limits: self.limits };
+                sink.draw_each(row, columns, shape.item, |column, nearest| {
+                    let length = lengths.at(column);
+                    let ray = frame.ray_of_length(rays, column, length);
+                    let key = if frame.is_extreme() {
+                        limited(shape.outline.key(ray.rest), self.limits)
+                    } else {
+                        plane.key(column, length)
+                    };
+                    (key > nearest).then(|| (key, self.values(shape, frame, &ray)))
+                });
+            });
+        }
+    }
+
+    /// The numbers of a face to interpolate, at a ray through it.
+    // As of `Look::at`.
+    #[inline(always)]
+    fn values(&self, shape: &Shape, frame: &Frame, ray: &Ray) -> [f32; N] {
+        let key = shape.outline.key(ray.rest);
+        let (color, level) = shape.look.at(&self.painter, &self.motion, frame, ray, key);
+        (self.pack)(&color, level).map(|number| number as f32)
+    }
+
     /// Buffers that nobody else uses; they are given back to be used again.
     fn with_scratch(&self, work: impl FnOnce(&mut Scratch)) {
         let pool = || self.pool.lock().unwrap_or_else(PoisonError::into_inner);
@@ -128,7 +224,7 @@ impl<'a, const N: usize> Faces<'a, N> {
     }
 
     /// The part of a tile that shapes may be seen in.
-    fn bounds<T: Tag>(&self, shapes: &[u32], tile: &Tile<N, T>) -> [Range<u32>; 2] {
+    fn bounds(&self, shapes: &[u32], sink: &impl Sink<N>) -> [Range<u32>; 2] {
         let around = |sides: &dyn Fn(&Shape) -> Range<u32>, [start, end]: [u32; 2]| {
             let sides =
                 shapes.iter().map(|&number| common(&sides(&self.shapes[number as usize]), &(start..end)));
@@ -136,35 +232,17 @@ impl<'a, const N: usize> Faces<'a, N> {
             sides.reduce(|a, b| a.start.min(b.start)..a.end.max(b.end)).unwrap_or(start..start)
         };
         [
-            around(&|shape| shape.columns.clone(), tile.columns()),
-            around(&|shape| shape.rows.clone(), tile.rows()),
+            around(&|shape| shape.columns.clone(), sink.columns()),
+            around(&|shape| shape.rows.clone(), sink.rows()),
         ]
     }
 }
 
 impl<const N: usize> Layer<N> for Faces<'_, N> {
-    /// In two steps, so that what is covered later is never shaded.
-    fn draw<T: Tag>(&self, _grid: &Grid, band: usize, _scanner: &mut Scanner<N>, tile: &mut Tile<N, T>) {
+    fn draw(&self, _grid: &Grid, band: usize, _scanner: &mut Scanner<N>, sink: &mut impl Sink<N>) {
         let shapes = self.bins.in_band(band);
-        let part = self.bounds(shapes, tile);
-        self.with_scratch(|scratch| {
-            self.find_nearest(shapes, part, scratch);
-            let Scratch { lengths, nearest, .. } = scratch;
-            for run in nearest.runs() {
-                let shape = &self.shapes[run.face as usize];
-                let frame = &self.frames[shape.frame];
-                let rays = frame.row(center(run.row));
-                let (lengths, keys) = (lengths.row(run.row), nearest.keys(&run));
-                let first = run.columns.start;
-                tile.draw_each(run.row, run.columns, T::of(shape.item), |column, _| {
-                    let ray = frame.ray_of_length(rays, column, lengths.at(column));
-                    let key = shape.outline.key(ray.rest);
-                    let (color, level) = shape.look.at(&self.painter, &self.motion, frame, &ray, key);
-                    let values = (self.pack)(&color, level).map(|number| number as f32);
-                    Some((keys[(column - first) as usize], values))
-                });
-            }
-        });
+        let part = self.bounds(shapes, sink);
+        self.with_scratch(|scratch| self.draw_part(shapes, part, scratch, sink));
     }
 }
 

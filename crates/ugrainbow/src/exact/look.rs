@@ -33,6 +33,7 @@ struct Mesh {
     has_colors: bool,
     has_tints: bool,
     has_normals: bool,
+    has_translucency: bool,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -88,7 +89,9 @@ impl Look {
             || !(painter.lighting.needs_places() || has_normals && painter.lighting.needs_geometry());
         let level = is_even.then(|| painter.level(face, vertices[0], normal, common.is_light));
         let has_normals = has_normals && level.is_none();
-        let mesh = || Mesh { has_colors, has_tints, has_normals, ..Mesh::new(&corners, contours) };
+        let has_translucency = corners.iter().any(|corner| corner.color.translucency > 0.0);
+        let mesh =
+            || Mesh { has_colors, has_tints, has_normals, has_translucency, ..Mesh::new(&corners, contours) };
         let mesh = (has_colors || has_normals).then(|| Box::new(mesh()));
         Self {
             normal: first.normal,
@@ -151,7 +154,14 @@ impl Mesh {
             Triangle { corners: at, sides, numbers }
         };
         let triangles = triangles.unwrap_or_else(fan).into_iter().map(triangle).collect();
-        Self { corners: corners.to_vec(), triangles, has_colors: true, has_tints: true, has_normals: true }
+        Self {
+            corners: corners.to_vec(),
+            triangles,
+            has_colors: true,
+            has_tints: true,
+            has_normals: true,
+            has_translucency: true,
+        }
     }
 
     /// At a ray through the face. At the rim, where by rounding the ray is in no triangle, the nearest counts.
@@ -187,7 +197,14 @@ impl Spot<'_> {
         let [tint, saturation, value] = self.triangle.numbers.map(|[a, b, c]| a + second * b + third * c);
         let first = &self.mesh.corners[self.triangle.corners[0] as usize];
         let light = first.color.light.and_then(|_| self.light());
-        Swatch { tint, saturation, value, light }
+        let translucency = if self.mesh.has_translucency { self.translucency() } else { 0.0 };
+        Swatch { tint, saturation, value, light, translucency }
+    }
+
+    fn translucency(&self) -> f64 {
+        let of = |corner: u32| self.mesh.corners[corner as usize].color.translucency;
+        let [a, b, c] = self.triangle.corners.map(of);
+        a + self.weights[1] * (b - a) + self.weights[2] * (c - a)
     }
 
     fn light(&self) -> Option<DVec3> {

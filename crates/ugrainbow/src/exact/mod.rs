@@ -13,8 +13,8 @@
 //! 6. [`nearest`]: which face is nearest, sample by sample;
 //! 7. [`look`]: colour and light at a point of a face at rest, for what is nearest alone;
 //! 8. [`motion`], [`hues`]: colour as seen;
-//! 9. [`faces`]: all faces of a scene as a layer of the raster;
-//! 10. [`wires`]: wires as polylines fine enough for the picture.
+//! 9. [`faces`]: all faces of a scene as a layer of the raster, the nearest alone or, if light passes them, all;
+//! 10. [`wires`]: lines as polylines fine enough for the picture.
 //!
 //! # Which sample belongs to whom
 //!
@@ -43,4 +43,4 @@ mod sections;
 mod wires;
 
 pub use faces::Faces;
-pub use wires::{Bend, Joint};
+pub use wires::Bend;

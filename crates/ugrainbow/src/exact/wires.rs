@@ -1,17 +1,21 @@
-//! Wires, bent as they are seen.
+//! Lines, bent as they are seen.
 
 use glam::DVec3;
-use ugparse::{VertexId, Wire};
+use ugparse::VelocityId;
 use ugphysics::doppler_at;
 
 use super::frame::{Frame, frame_of, frames};
 use super::motion::Motion;
 use crate::config::Exact;
+use crate::lines::Line;
 use crate::painter::Painter;
 use crate::palette::Swatch;
 
-/// Samples by which a piece may be off the wire.
+/// Samples by which a piece may be off the line.
 const TOLERANCE: f64 = 0.125;
+
+/// Part of its depth by which a piece may be off the line in depth.
+const MOST_OFF_IN_DEPTH: f64 = 1e-4;
 
 /// Change of ln D along a piece.
 const MOST_CHANGE: f64 = 2e-3;
@@ -19,14 +23,14 @@ const MOST_CHANGE: f64 = 2e-3;
 /// How often a line is halved at most.
 const MOST_HALVINGS: u32 = 12;
 
-/// Cuts wires into pieces that are straight in the picture, and of one Doppler factor, as far as one can see.
+/// Cuts lines into pieces that are straight in the picture, and of one Doppler factor, as far as one can see.
 pub struct Bend<'a> {
     painter: Painter<'a>,
     motion: Motion<'a>,
     frames: Vec<Frame>,
 }
 
-/// A point of a wire.
+/// A point of a line.
 #[derive(Clone, Copy, Debug)]
 pub struct Joint {
     /// Where it is seen, relative to the eye.
@@ -36,31 +40,30 @@ pub struct Joint {
 }
 
 impl<'a> Bend<'a> {
-    /// The wires of a scene.
+    /// The lines of a scene.
     pub fn new(painter: Painter<'a>, exact: Exact) -> Self {
         Self { painter, motion: Motion::new(exact, painter.palette), frames: frames(&painter) }
     }
 
-    /// The joints of a line of a wire.
-    pub fn joints(&self, wire: &Wire, ends: [VertexId; 2]) -> Vec<Joint> {
+    /// The joints of a line.
+    pub fn joints(&self, line: &Line) -> Vec<Joint> {
         let painter = &self.painter;
-        let frame = &self.frames[frame_of(wire.velocity)];
-        let color = painter.wire_swatch(wire);
-        let is_changed = !frame.velocity.is_zero() && !self.motion.keeps_colors();
-        let is_light = !is_changed && painter.is_light_wire(wire, &color);
-        let colors = ends.map(|end| {
-            let swatch = painter.wire_end(end, &color);
-            if is_light { painter.as_light(swatch) } else { Swatch { light: None, ..swatch } }
-        });
-        let rest = ends.map(|end| frame.axes_from_scene(painter.surface.rest(end)));
-        let line = Line { frame, motion: self.motion, rest, colors, near: painter.view.slab.near };
-        let mut joints = vec![line.joint(0.0)];
-        line.add([0.0, 1.0], MOST_HALVINGS, &mut joints);
+        let frame = &self.frames[frame_of(line.velocity)];
+        let rest = line.ends.map(|end| frame.axes_from_scene(painter.surface.rest(end)));
+        let near = painter.view.slab.near;
+        let bent = Bent { frame, motion: self.motion, rest, colors: line.colors, near };
+        let mut joints = vec![bent.joint(0.0)];
+        bent.add([0.0, 1.0], MOST_HALVINGS, &mut joints);
         joints
+    }
+
+    /// True if light stays light on a body of this velocity: else hues are shifted, and stand for it.
+    pub fn keeps_light(&self, velocity: Option<VelocityId>) -> bool {
+        self.motion.keeps_colors() || self.frames[frame_of(velocity)].velocity.is_zero()
     }
 }
 
-struct Line<'a> {
+struct Bent<'a> {
     frame: &'a Frame,
     motion: Motion<'a>,
     /// In the axes of the frame.
@@ -69,7 +72,7 @@ struct Line<'a> {
     near: f64,
 }
 
-impl Line<'_> {
+impl Bent<'_> {
     fn point(&self, part: f64) -> DVec3 {
         self.frame.seen(self.rest[0] + part * (self.rest[1] - self.rest[0]))
     }
@@ -85,6 +88,7 @@ impl Line<'_> {
             tint: mix(a.tint, b.tint),
             saturation: mix(a.saturation, b.saturation),
             value: mix(a.value, b.value),
+            translucency: 0.0,
             light: a.light.zip(b.light).map(|(a, b)| a + part * (b - a)),
         };
         let seen = self.point(part);
@@ -110,10 +114,16 @@ impl Line<'_> {
             // What is behind the eye is not drawn; what comes from there is.
             return n_behind < 3;
         }
+        let keys = [a, middle, b].map(|place| 1.0 / place.z);
         let [a, middle, b] = [a, middle, b].map(|place| (place / place.z).truncate());
         let along = b - a;
         let off = along.perp_dot(middle - a).abs();
         let [first, .., last] = seen.map(|point| self.doppler(point));
-        off > TOLERANCE * along.length() || (first / last - 1.0).abs() > MOST_CHANGE
+        // A piece is straight in depth, too, for what hides it is found by that.
+        let part = along.dot(middle - a) / along.length_squared();
+        let key = keys[0] + part.clamp(0.0, 1.0) * (keys[2] - keys[0]);
+        off > TOLERANCE * along.length()
+            || (first / last - 1.0).abs() > MOST_CHANGE
+            || (along.length() > TOLERANCE && (key / keys[1] - 1.0).abs() > MOST_OFF_IN_DEPTH)
     }
 }

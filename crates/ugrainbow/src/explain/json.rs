@@ -3,12 +3,12 @@
 use glam::DVec3;
 use serde_json::{Value, json};
 
-use super::{Corner, Explanation, Item, SampleColor, Shown};
+use super::{Corner, Explanation, Item, LayerShown, SampleColor, Shown};
 
 /// The explanation as JSON, with a line break at its end.
 pub fn json(explanation: &Explanation) -> String {
-    let Explanation { pixel, size, samples, covers, story, is_at_rest, sample, pixel_steps } = explanation;
-    let n_covered: usize = covers.iter().map(|(_, count)| count).sum();
+    let Explanation { pixel, size, samples, covers, n_free, story, is_at_rest, sample, pixel_steps } =
+        explanation;
     let n_samples = (samples * samples) as usize;
     let part = |count: usize| count as f64 / n_samples as f64;
     let covers: Vec<Value> =
@@ -27,7 +27,7 @@ pub fn json(explanation: &Explanation) -> String {
         "size": size,
         "samples": n_samples,
         "covers": covers,
-        "background_part": part(n_samples - n_covered),
+        "background_part": part(*n_free),
         "history": story.lines,
         "is_at_rest": is_at_rest,
         "brightness_law": story.doppler.as_ref().map(|doppler| &doppler.law),
@@ -60,10 +60,16 @@ fn shown(shown: &Shown) -> Value {
         "angle_deg": shown.angles_deg.map(|[camera, _]| camera),
         "angle_at_rest_deg": shown.angles_deg.map(|[_, rest]| rest),
         "D": shown.doppler,
-        "color": color(&shown.color),
+        "color": shown.color.as_ref().map(color),
         "corners": shown.corners.iter().map(corner).collect::<Vec<_>>(),
         "linear": shown.light,
+        "depth_cue": shown.cue,
+        "layers": shown.layers.iter().map(layer).collect::<Vec<_>>(),
     })
+}
+
+fn layer(layer: &LayerShown) -> Value {
+    json!({ "item": item(&layer.item), "translucency": layer.translucency, "linear": layer.light })
 }
 
 fn color(color: &SampleColor) -> Value {

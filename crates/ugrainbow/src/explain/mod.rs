@@ -14,8 +14,8 @@ use crate::canvas::{Ground, development};
 use crate::config::{Config, Interpolation};
 use crate::figures::Plan;
 use crate::palette::Swatch;
-use crate::planes::Finder;
-use crate::raster::{Gathered, Sample};
+use crate::planes::{self, Finder};
+use crate::raster::{Fragment, Gathered, Sample, Seen};
 use crate::setup::Setup;
 use crate::sheet::Sheet;
 use crate::{Error, canvas};
@@ -33,9 +33,11 @@ pub struct Explanation {
     pub size: [u32; 2],
     /// Samples along a side of a pixel.
     pub samples: u32,
-    /// What the pixel's samples show, and how many of them, in the order in which they come; without
-    /// those that show the background.
+    /// What the pixel's samples show, and how many of them, in the order in which they come. A sample of something
+    /// translucent shows what is behind it, too.
     pub covers: Vec<(Item, usize)>,
+    /// How many samples show the background, if only through something.
+    pub n_free: usize,
     /// What the scene says of how it was made.
     pub story: Story,
     /// True if nothing in the scene moves.
@@ -78,11 +80,26 @@ pub struct Shown {
     pub angles_deg: Option<[f64; 2]>,
     /// Doppler factor.
     pub doppler: f64,
-    /// Its colour.
-    pub color: SampleColor,
+    /// Its colour; none of what is translucent, whose light is known alone.
+    pub color: Option<SampleColor>,
     /// Corners of the face, or ends of the wire.
     pub corners: Vec<Corner>,
-    /// Linear red, green and blue of the sample.
+    /// Its linear red, green and blue.
+    pub light: [f32; 3],
+    /// The part that depth cueing leaves of it.
+    pub cue: Option<f32>,
+    /// All that the sample shows, from the front, unless it is one thing that hides.
+    pub layers: Vec<LayerShown>,
+}
+
+/// One of the things a sample shows.
+#[derive(Clone, Debug)]
+pub struct LayerShown {
+    /// What it is.
+    pub item: Item,
+    /// The part of the light from behind that passes.
+    pub translucency: f32,
+    /// Its own light, of which the other part is seen.
     pub light: [f32; 3],
 }
 
@@ -156,7 +173,7 @@ pub fn explain(
     if pixel[0] >= config.size[0] || pixel[1] >= config.size[1] {
         return Err(Error::Pixel { pixel, size: config.size });
     }
-    let sheet = Sheet::new(setup.painter(), config.exact);
+    let sheet = Sheet::new(setup.painter(), &config.manner());
     let (samples, gathered) = sheet.probe(&setup.grid, &setup.shader, pixel);
     let story = Story::of(&parsed.scene);
     let teller = Teller { setup: &setup, config, source, parsed: &parsed, story: &story };
@@ -165,6 +182,8 @@ pub fn explain(
         size: config.size,
         samples: config.samples,
         covers: teller.covers(&samples),
+        n_free: (config.samples * config.samples) as usize
+            - samples.iter().filter(|sample| !is_free(sample)).count(),
         is_at_rest: parsed.scene.velocities.iter().all(|beta| *beta == DVec3::ZERO),
         sample: nearest(&samples, pixel, config.samples).map(|sample| teller.shown(sample)),
         pixel_steps: pixel_steps(&setup, &sheet, config, &gathered),
@@ -187,7 +206,7 @@ fn pixel_steps(
     setup: &Setup<'_>,
     sheet: &Sheet<'_>,
     config: &Config,
-    gathered: &Gathered<u32>,
+    gathered: &Gathered<'_, u32>,
 ) -> PixelSteps {
     let ground = Ground::new(config);
     let mean = ground.pixel(gathered);
@@ -198,6 +217,35 @@ fn pixel_steps(
     });
     let shown = development.map_or(mean, |(development, _)| canvas::developed(&development, mean));
     PixelSteps { mean, development, bytes: display_pixel(&Quantizer::new(), shown, ground.is_opaque()) }
+}
+
+/// One of the things a sample shows.
+struct Layer {
+    tag: u32,
+    pass: f32,
+    light: [f32; 3],
+}
+
+/// All that a sample shows, from the front.
+fn stack(sample: &Sample) -> Vec<Layer> {
+    let layers = sample.layers.iter().rev();
+    let mut stack: Vec<Layer> = layers
+        .map(|layer| Layer { tag: layer.item, pass: layer.pass, light: layer.light })
+        .chain(sample.surface.iter().map(|surface| Layer {
+            tag: surface.seen.tag,
+            pass: 0.0,
+            light: surface.shade.light,
+        }))
+        .collect();
+    if let Some(last) = stack.iter().position(|layer| layer.pass == 0.0) {
+        stack.truncate(last + 1);
+    }
+    stack
+}
+
+/// True if the background is seen at a sample.
+fn is_free(sample: &Sample) -> bool {
+    stack(sample).iter().all(|layer| layer.pass > 0.0)
 }
 
 /// Finds out what there is to tell.
@@ -213,9 +261,15 @@ impl Teller<'_> {
     fn covers(&self, samples: &[Sample]) -> Vec<(Item, usize)> {
         let mut counts: Vec<(u32, usize)> = Vec::new();
         for sample in samples {
-            match counts.iter_mut().find(|(item, _)| *item == sample.seen.tag) {
-                Some((_, count)) => *count += 1,
-                None => counts.push((sample.seen.tag, 1)),
+            // A face once, however often it is there: its edges are of it, too.
+            let mut tags: Vec<u32> = stack(sample).iter().map(|layer| layer.tag).collect();
+            tags.sort_unstable();
+            tags.dedup();
+            for tag in tags {
+                match counts.iter_mut().find(|(item, _)| *item == tag) {
+                    Some((_, count)) => *count += 1,
+                    None => counts.push((tag, 1)),
+                }
             }
         }
         counts.into_iter().map(|(item, count)| (self.item(item), count)).collect()
@@ -240,7 +294,8 @@ impl Teller<'_> {
 
     fn shown(&self, sample: &Sample) -> Shown {
         let painter = self.setup.painter();
-        let emission = Finder::new(&painter).emission(sample.place, sample.seen);
+        let (seen, values, light) = self.subject(sample);
+        let emission = Finder::new(&painter).emission(sample.place, seen);
         let (place, velocity) = (emission.place, emission.velocity);
         let geometry = Geometry::of(self.setup.scene());
         let rest = geometry.rest(place, velocity);
@@ -250,22 +305,54 @@ impl Teller<'_> {
         let n = f64::from(self.config.samples);
         Shown {
             place: sample.place.map(|sample| (f64::from(sample) + 0.5) / n),
-            item: self.item(sample.seen.tag),
+            item: self.item(seen.tag),
             beta: velocity.beta(),
             gamma: velocity.gamma(),
             emission: (emission.time, place),
             rest: (rest_time, rest),
             angles_deg: (!velocity.is_zero()).then(|| [angle(place), angle(rest)]),
             doppler,
-            color: self.color(sample, doppler),
-            corners: self.corners(sample.seen.tag),
-            light: sample.shade.light,
+            color: values.map(|values| self.color(values, doppler)),
+            corners: self.corners(seen.tag),
+            light,
+            cue: self.setup.grid.cue.map(|_| self.setup.grid.cue_at(seen.key)),
+            layers: self.layers(sample),
         }
     }
 
+    /// What there is most to tell of: as in channels the nearest that lets through less than half, else the nearest. With
+    /// its numbers, if they are known, and its light.
+    fn subject<'s>(&self, sample: &'s Sample) -> (Seen<u32>, Option<&'s [f32]>, [f32; 3]) {
+        let layer = |layer: &Fragment| (planes::seen(&self.setup.view, layer), None, layer.light);
+        let mut layers = sample.layers.iter().rev();
+        let surface = sample
+            .surface
+            .as_ref()
+            .map(|surface| (surface.seen, Some(&surface.values[..]), surface.shade.light));
+        layers
+            .clone()
+            .find(|layer| layer.pass < 0.5)
+            .map(layer)
+            .or(surface)
+            .unwrap_or_else(|| layers.next().map(layer).expect("a sample shows something"))
+    }
+
+    fn layers(&self, sample: &Sample) -> Vec<LayerShown> {
+        let stack = stack(sample);
+        if stack.len() < 2 && stack.iter().all(|layer| layer.pass == 0.0) {
+            return Vec::new();
+        }
+        let shown = |layer: Layer| LayerShown {
+            item: self.item(layer.tag),
+            translucency: layer.pass,
+            light: layer.light,
+        };
+        stack.into_iter().map(shown).collect()
+    }
+
     /// What the interpolated numbers mean: see [`Sheet`].
-    fn color(&self, sample: &Sample, doppler: f64) -> SampleColor {
-        let numbers: Vec<f64> = sample.values.iter().map(|&number| f64::from(number)).collect();
+    fn color(&self, values: &[f32], doppler: f64) -> SampleColor {
+        let numbers: Vec<f64> = values.iter().map(|&number| f64::from(number)).collect();
         let is_light = matches!(numbers.len(), 4 | 7) && numbers[numbers.len() - 1] > 0.5;
         if is_light {
             let xyz = linear_srgb_to_xyz([numbers[0], numbers[1], numbers[2]]);
@@ -276,7 +363,7 @@ impl Teller<'_> {
             };
         }
         let [tint, saturation, value] = [numbers[0], numbers[1], numbers[2]];
-        let swatch = Swatch { tint, saturation, value, light: None };
+        let swatch = Swatch { tint, saturation, value, ..Swatch::WHITE };
         let hue = match self.config.interpolated() {
             Interpolation::Hue => tint,
             Interpolation::Wavelength => wavelength_to_hue(tint),

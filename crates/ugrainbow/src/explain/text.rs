@@ -19,12 +19,11 @@ fn write_all(out: &mut String, explanation: &Explanation) -> fmt::Result {
     let Explanation { pixel: [x, y], size: [width, height], samples: n, .. } = explanation;
     writeln!(out, "pixel {x} {y} of {width} x {height}, {n} x {n} samples")?;
     let n_samples = (n * n) as usize;
-    let mut n_free = n_samples;
     for (item, count) in &explanation.covers {
         writeln!(out, "    {count} of {n_samples}: {}", described(item))?;
-        n_free -= count;
     }
-    if n_free > 0 {
+    if explanation.n_free > 0 {
+        let n_free = explanation.n_free;
         writeln!(out, "    {n_free} of {n_samples}: background")?;
     }
     if let Some(shown) = &explanation.sample {
@@ -64,8 +63,19 @@ fn write_sample(out: &mut String, shown: &Shown, explanation: &Explanation) -> f
     if shown.corners.len() > MAX_CORNERS {
         row(out, "", format!("and {} more", shown.corners.len() - MAX_CORNERS))?;
     }
-    write_color(out, &shown.color, &explanation.story)?;
-    row(out, "light", format!("{} linear", numbers(&shown.light.map(f64::from))))
+    if let Some(color) = &shown.color {
+        write_color(out, color, &explanation.story)?;
+    }
+    row(out, "light", format!("{} linear", numbers(&shown.light.map(f64::from))))?;
+    if let Some(cue) = shown.cue {
+        row(out, "depth cueing", format!("leaves {} of it", number(f64::from(cue))))?;
+    }
+    for (idx, layer) in shown.layers.iter().enumerate() {
+        let (pass, light) = (number(f64::from(layer.translucency)), numbers(&layer.light.map(f64::from)));
+        let title = if idx == 0 { "layers" } else { "behind it" };
+        row(out, title, format!("{}: translucency {pass}, light {light}", described(&layer.item)))?;
+    }
+    Ok(())
 }
 
 fn body(shown: &Shown, explanation: &Explanation) -> String {

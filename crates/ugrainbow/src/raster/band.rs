@@ -5,11 +5,13 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use rayon::prelude::*;
 
+use super::cue::Cue;
 use super::edges::Scanner;
+use super::glass::{Clear, Glass, Keep};
 use super::polygons::{Drawn, PolygonList};
 use super::resolve::{Gathered, Resolver, Shade, Tally};
-use super::spans::{Tag, Tile};
-use super::triangles::Table;
+use super::spans::{Sink, Tag, Tile};
+use super::triangles::{Table, draw_triangle};
 
 /// Samples a tile should have: with some 16 bytes each they stay in a core's cache.
 const TILE_SAMPLES: u32 = 1 << 15;
@@ -32,6 +34,8 @@ pub struct Grid {
     pub samples: u32,
     /// True if values are multiplied by the depth key.
     pub is_perspective: bool,
+    /// How what is far fades, if it does.
+    pub cue: Option<Cue>,
 }
 
 impl Grid {
@@ -43,6 +47,17 @@ impl Grid {
     /// Samples down.
     pub fn sample_rows(&self) -> u32 {
         self.height * self.samples
+    }
+
+    /// The depth along the view of a key.
+    pub fn depth(&self, key: f64) -> f64 {
+        if self.is_perspective { 1.0 / key } else { -key }
+    }
+
+    /// The part of the light that depth cueing leaves at a key.
+    #[inline]
+    pub fn cue_at(&self, key: f32) -> f32 {
+        self.cue.map_or(1.0, |cue| cue.part(self.depth(f64::from(key))) as f32)
     }
 
     /// Pixel columns of a tile.
@@ -75,8 +90,8 @@ impl Grid {
 
 /// What is drawn: something that knows which samples of a tile it covers.
 pub trait Layer<const N: usize>: Sync {
-    /// Draws into a tile what of it is in the band the tile belongs to.
-    fn draw<T: Tag>(&self, grid: &Grid, band: usize, scanner: &mut Scanner<N>, tile: &mut Tile<N, T>);
+    /// Draws into a tile, or onto one, what of it is in the band the tile belongs to.
+    fn draw(&self, grid: &Grid, band: usize, scanner: &mut Scanner<N>, sink: &mut impl Sink<N>);
 }
 
 /// Shapes, list after list, that have been sorted into the bands of the grid.
@@ -88,32 +103,31 @@ pub struct Shapes<'a, const N: usize, C: ?Sized> {
 }
 
 impl<const N: usize, C: Table<N> + ?Sized> Layer<N> for Shapes<'_, N, C> {
-    fn draw<T: Tag>(&self, grid: &Grid, band: usize, scanner: &mut Scanner<N>, tile: &mut Tile<N, T>) {
-        let [first_row, end_row] = tile.rows();
+    fn draw(&self, grid: &Grid, band: usize, scanner: &mut Scanner<N>, sink: &mut impl Sink<N>) {
+        let [first_row, end_row] = sink.rows();
         let is_perspective = grid.is_perspective;
         for (item, shape) in self.lists.iter().flat_map(|list| list.in_band(band)) {
             match shape {
                 Drawn::Triangle(corners) => {
                     let points = corners.map(|corner| self.table.point(corner));
-                    tile.draw_triangle(&points, is_perspective, T::of(item), || {
-                        self.table.numbers(item, corners)
-                    });
+                    draw_triangle(sink, &points, is_perspective, item, || self.table.numbers(item, corners));
                 }
                 Drawn::Polygon(contours) => scanner.scan(contours, first_row, end_row, |row, left, right| {
-                    tile.draw(row, left, right, is_perspective, T::of(item));
+                    sink.draw(row, left, right, is_perspective, item);
                 }),
             }
         }
     }
 }
 
-/// Draws a layer into the pixels of the grid, row after row.
+/// Draws a layer, and what is clear before it, into the pixels of the grid, row after row.
 ///
 /// The pixels do not depend on the number of threads. `finish` makes a pixel of its samples.
 pub fn paint<const N: usize, L, T, P, S, F>(
     pixels: &mut [P],
     grid: &Grid,
     layer: &L,
+    clear: Option<&dyn Clear>,
     shader: &S,
     finish: &F,
 ) -> Tally
@@ -122,7 +136,7 @@ where
     T: Tag,
     P: Copy + Send,
     S: Fn(&[f32; N]) -> Shade + Sync,
-    F: Fn(&Gathered<T>) -> P + Sync,
+    F: Fn(&Gathered<'_, T>) -> P + Sync,
 {
     let band_pixels = grid.band_rows() as usize * grid.width as usize;
     // Buffers go from band to band: as many as there are threads, and touched once.
@@ -132,10 +146,11 @@ where
         .with_max_len(1)
         .enumerate()
         .map(|(band, pixels)| {
-            let (mut scanner, mut tile) = buffers.take();
-            let mut resolver = Resolver::new(shader, finish, grid.samples);
-            Band { grid, layer, band, scanner: &mut scanner, tile: &mut tile }.paint(&mut resolver, pixels);
-            buffers.put_back((scanner, tile));
+            let mut own = buffers.take();
+            let (scanner, tile, glass) = &mut own;
+            let mut resolver = Resolver::new(shader, finish, grid);
+            Band { grid, layer, clear, band, scanner, tile, glass }.paint(&mut resolver, pixels);
+            buffers.put_back(own);
             resolver.tally
         })
         .reduce(Tally::default, Tally::merge)
@@ -169,16 +184,18 @@ impl<B: Default> Buffers<B> {
 pub struct Band<'a, const N: usize, L: ?Sized, T> {
     pub grid: &'a Grid,
     pub layer: &'a L,
+    pub clear: Option<&'a dyn Clear>,
     pub band: usize,
     pub scanner: &'a mut Scanner<N>,
     pub tile: &'a mut Tile<N, T>,
+    pub glass: &'a mut Glass,
 }
 
 impl<const N: usize, L: Layer<N> + ?Sized, T: Tag> Band<'_, N, L, T> {
     fn paint<P: Copy, S, F>(&mut self, resolver: &mut Resolver<'_, N, S, F>, pixels: &mut [P])
     where
         S: Fn(&[f32; N]) -> Shade,
-        F: Fn(&Gathered<T>) -> P,
+        F: Fn(&Gathered<'_, T>) -> P,
     {
         let grid = self.grid;
         let top = self.band as u32 * grid.band_rows();
@@ -200,14 +217,17 @@ impl<const N: usize, L: Layer<N> + ?Sized, T: Tag> Band<'_, N, L, T> {
         rows: &mut [P],
     ) where
         S: Fn(&[f32; N]) -> Shade,
-        F: Fn(&Gathered<T>) -> P,
+        F: Fn(&Gathered<'_, T>) -> P,
     {
         let grid = self.grid;
         let end_column = (column + grid.tile_columns()).min(grid.width);
         let n_rows = rows.len() as u32 / grid.width;
         self.draw([column, end_column], [row, row + n_rows]);
+        let clear = self.draw_clear(if T::IS_KEPT { Keep::Centers } else { Keep::None });
+        resolver.tally = resolver.tally.merge(clear);
         for (row, pixels) in (row..).zip(rows.chunks_mut(grid.width as usize)) {
-            resolver.paint(self.tile, column, row, &mut pixels[column as usize..end_column as usize]);
+            let pixels = &mut pixels[column as usize..end_column as usize];
+            resolver.paint(self.tile, self.glass, column, row, pixels);
         }
     }
 
@@ -216,5 +236,13 @@ impl<const N: usize, L: Layer<N> + ?Sized, T: Tag> Band<'_, N, L, T> {
         let samples = |pixels: u32| pixels * self.grid.samples;
         self.tile.reset(columns.map(samples), rows.map(samples));
         self.layer.draw(self.grid, self.band, self.scanner, self.tile);
+    }
+
+    /// Draws what is clear over the tile.
+    pub fn draw_clear(&mut self, keep: Keep) -> Tally {
+        match self.clear {
+            Some(clear) => self.glass.draw(clear, self.grid, self.band, self.tile, keep),
+            None => Tally::default(),
+        }
     }
 }

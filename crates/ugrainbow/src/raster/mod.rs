@@ -9,9 +9,10 @@
 //! 2. [`edges`]: where a polygon's outline crosses a row of samples;
 //! 3. [`spans`]: the samples between two crossings, and the depth test;
 //! 4. [`triangles`]: the same for triangles, the usual case, shorter;
-//! 5. [`resolve`]: samples to pixels, averaged in linear light;
-//! 6. [`band`]: bands in parallel, each with its own small sample buffer;
-//! 7. [`probe`]: one pixel alone, with all its samples.
+//! 5. [`glass`]: translucent faces and lines in front of them, sample by sample;
+//! 6. [`resolve`]: samples to pixels, averaged in linear light, what is far faded ([`cue`]);
+//! 7. [`band`]: bands in parallel, each with its own small sample buffer;
+//! 8. [`probe`]: one pixel alone, with all its samples.
 //!
 //! A sample can also remember whose it is ([`Tag`]); where nobody asks, that costs nothing.
 //!
@@ -34,7 +35,9 @@
 
 mod band;
 mod bins;
+mod cue;
 mod edges;
+mod glass;
 mod polygons;
 mod probe;
 mod resolve;
@@ -45,9 +48,11 @@ mod triangles;
 
 pub use band::{Grid, Layer, Shapes, paint};
 pub use bins::Bins;
+pub use cue::Cue;
 pub use edges::Scanner;
+pub use glass::{CLEAR_VALUES, Clear, Fragment, Pane};
 pub use polygons::{Bounds, Corner, Drawn, PolygonList};
 pub use probe::{Sample, probe};
 pub use resolve::{Gathered, Shade, Tally};
-pub use spans::{Seen, Tag, Tile};
-pub use triangles::{Point, Table, is_regular, twice_area};
+pub use spans::{Seen, Sink, Tag};
+pub use triangles::{NoTable, Point, Table, is_regular, twice_area};

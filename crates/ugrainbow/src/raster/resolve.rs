@@ -1,5 +1,7 @@
 //! Samples to pixels: shading, and adding up in linear light.
 
+use super::band::Grid;
+use super::glass::{Fragment, Glass};
 use super::spans::{Seen, Tag, Tile};
 
 /// What a shader says of a sample.
@@ -15,13 +17,26 @@ pub struct Shade {
 
 /// The samples of a pixel together.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Gathered<T> {
+pub struct Gathered<'a, T> {
     /// Sum of the light of the covered samples.
     pub sum: [f32; 3],
-    /// How many are covered.
-    pub n_covered: u32,
-    /// What is seen at the sample nearest to the middle, of equals the last; never anything if tags are not kept.
+    /// How many are covered; those that something clear covers count in part.
+    pub covered: f32,
+    /// The nearest that hides at the sample nearest to the middle, of equals the last; never anything if tags are not
+    /// kept.
     pub center: Option<Seen<T>>,
+    /// What is clear in front of it, from behind.
+    pub layers: &'a [Fragment],
+}
+
+impl<T: Copy> Gathered<'_, T> {
+    /// Of a pixel that shows nothing.
+    const EMPTY: Self = Self { sum: [0.0; 3], covered: 0.0, center: None, layers: &[] };
+
+    /// True if the pixel shows nothing.
+    fn is_empty(&self) -> bool {
+        self.covered == 0.0 && self.center.is_none() && self.layers.is_empty()
+    }
 }
 
 /// What the samples of a picture were.
@@ -48,7 +63,7 @@ impl Tally {
         }
     }
 
-    fn count(&mut self, shade: &Shade) {
+    pub fn count(&mut self, shade: &Shade) {
         self.covered += 1;
         self.visible += u64::from(shade.light != [0.0; 3]);
         self.out_of_range += u64::from(shade.is_out_of_range);
@@ -63,8 +78,7 @@ const AT_ONCE: usize = 64;
 pub struct Resolver<'a, const N: usize, S, F> {
     shader: &'a S,
     finish: &'a F,
-    /// Samples along a side of a pixel.
-    samples: u32,
+    grid: &'a Grid,
     /// The sample shaded last: on a flat face the next is the same.
     last: ([f32; N], Shade),
     pub tally: Tally,
@@ -72,32 +86,39 @@ pub struct Resolver<'a, const N: usize, S, F> {
 
 impl<'a, const N: usize, S: Fn(&[f32; N]) -> Shade, F> Resolver<'a, N, S, F> {
     /// `finish` makes a pixel of its samples.
-    pub fn new(shader: &'a S, finish: &'a F, samples: u32) -> Self {
+    pub fn new(shader: &'a S, finish: &'a F, grid: &'a Grid) -> Self {
         // NaN differs from every sample, so that the first one is shaded.
         let last = ([f32::NAN; N], Shade::default());
-        Self { shader, finish, samples, last, tally: Tally::default() }
+        Self { shader, finish, grid, last, tally: Tally::default() }
     }
 
     /// Paints the pixels of a row from column `first` on.
-    pub fn paint<T: Tag, P: Copy>(&mut self, tile: &Tile<N, T>, first: u32, row: u32, pixels: &mut [P])
-    where
-        F: Fn(&Gathered<T>) -> P,
+    pub fn paint<T: Tag, P: Copy>(
+        &mut self,
+        tile: &Tile<N, T>,
+        glass: &Glass,
+        first: u32,
+        row: u32,
+        pixels: &mut [P],
+    ) where
+        F: Fn(&Gathered<'_, T>) -> P,
     {
         // Some pixels are gathered before the first is finished: what has just been stored
         // in parts is slow to load as a whole.
-        let mut gathered = [Gathered { sum: [0.0; 3], n_covered: 0, center: None }; AT_ONCE];
+        let mut gathered = [Gathered::EMPTY; AT_ONCE];
         // All pixels without a sample are alike.
         let mut empty = None;
         for (first, pixels) in (first..).step_by(AT_ONCE).zip(pixels.chunks_mut(AT_ONCE)) {
             for (column, all) in (first..).zip(&mut gathered[..pixels.len()]) {
-                *all = self.gather(tile, column, row);
+                *all = self.gather(tile, glass, column, row);
             }
             for (pixel, all) in pixels.iter_mut().zip(&gathered) {
+                let is_empty = all.is_empty();
                 *pixel = match empty {
-                    Some(empty) if all.n_covered == 0 => empty,
+                    Some(empty) if is_empty => empty,
                     _ => (self.finish)(all),
                 };
-                if all.n_covered == 0 {
+                if is_empty {
                     empty = Some(*pixel);
                 }
             }
@@ -106,8 +127,17 @@ impl<'a, const N: usize, S: Fn(&[f32; N]) -> Shade, F> Resolver<'a, N, S, F> {
 
     /// The samples of one pixel.
     #[inline]
-    pub fn gather<T: Tag>(&mut self, tile: &Tile<N, T>, column: u32, row: u32) -> Gathered<T> {
-        let n = self.samples;
+    pub fn gather<'g, T: Tag>(
+        &mut self,
+        tile: &Tile<N, T>,
+        glass: &'g Glass,
+        column: u32,
+        row: u32,
+    ) -> Gathered<'g, T> {
+        if !glass.is_empty() || self.grid.cue.is_some() {
+            return self.gather_through(tile, glass, column, row);
+        }
+        let n = self.grid.samples;
         let mut sum = [0.0; 3];
         let mut n_covered = 0;
         for sample_row in row * n..(row + 1) * n {
@@ -118,7 +148,38 @@ impl<'a, const N: usize, S: Fn(&[f32; N]) -> Shade, F> Resolver<'a, N, S, F> {
             }
         }
         let center = if T::IS_KEPT { tile.seen(row * n + n / 2, column * n + n / 2) } else { None };
-        Gathered { sum, n_covered, center }
+        Gathered { sum, covered: n_covered as f32, center, layers: &[] }
+    }
+
+    /// The same behind what is clear, and with depth cueing.
+    #[inline(never)]
+    fn gather_through<'g, T: Tag>(
+        &mut self,
+        tile: &Tile<N, T>,
+        glass: &'g Glass,
+        column: u32,
+        row: u32,
+    ) -> Gathered<'g, T> {
+        let n = self.grid.samples;
+        let (mut sum, mut covered) = ([0.0; 3], 0.0);
+        for sample_row in row * n..(row + 1) * n {
+            let values = tile.row_part(sample_row, column * n, (column + 1) * n);
+            for (sample_column, values) in (column * n..).zip(values) {
+                let veil = glass.veil(sample_row, sample_column);
+                let (mut light, mut cover) = (veil.light, veil.cover);
+                if let (Some(values), Some(seen)) = (values, tile.seen(sample_row, sample_column)) {
+                    let part = veil.pass * self.grid.cue_at(seen.key);
+                    let behind = self.shade(values);
+                    light = std::array::from_fn(|i| light[i] + part * behind[i]);
+                    cover += part;
+                }
+                sum = std::array::from_fn(|i| sum[i] + light[i]);
+                covered += cover;
+            }
+        }
+        let middle = [row, column].map(|pixel| pixel * n + n / 2);
+        let center = if T::IS_KEPT { tile.seen(middle[0], middle[1]) } else { None };
+        Gathered { sum, covered, center, layers: glass.fragments(middle[0], middle[1]) }
     }
 
     #[inline]

@@ -2,6 +2,7 @@
 
 use super::edges::Crossing;
 use super::polygons::first_center;
+use super::triangles::TriangleRow;
 
 /// What a sample remembers of the polygon it shows.
 pub trait Tag: Copy + Default + Send {
@@ -23,6 +24,78 @@ impl Tag for u32 {
 
     fn of(item: u32) -> Self {
         item
+    }
+}
+
+/// What takes the samples of shapes.
+pub trait Sink<const N: usize> {
+    /// False if only the nearest shape is kept at each sample.
+    const KEEPS_ALL: bool;
+
+    /// First row, and one past the last, in samples of the whole picture.
+    fn rows(&self) -> [u32; 2];
+
+    /// First column, and one past the last.
+    fn columns(&self) -> [u32; 2];
+
+    /// Takes the samples of a row with left ≤ x < right, as [`Tile::draw`] does.
+    fn draw(&mut self, row: u32, left: &Crossing<N>, right: &Crossing<N>, is_perspective: bool, item: u32);
+
+    /// Takes the samples of a row of a triangle, as [`Tile::draw_line`] does.
+    fn draw_line(
+        &mut self,
+        line: &TriangleRow,
+        is_perspective: bool,
+        item: u32,
+        numbers: impl FnOnce() -> ([f64; N], [f64; N]),
+    );
+
+    /// Takes samples of a row one by one, as [`Tile::draw_each`] does.
+    fn draw_each(
+        &mut self,
+        row: u32,
+        columns: std::ops::Range<u32>,
+        item: u32,
+        sample: impl FnMut(u32, f32) -> Option<(f32, [f32; N])>,
+    );
+}
+
+impl<const N: usize, T: Tag> Sink<N> for Tile<N, T> {
+    const KEEPS_ALL: bool = false;
+
+    fn rows(&self) -> [u32; 2] {
+        self.rows
+    }
+
+    fn columns(&self) -> [u32; 2] {
+        self.columns
+    }
+
+    #[inline]
+    fn draw(&mut self, row: u32, left: &Crossing<N>, right: &Crossing<N>, is_perspective: bool, item: u32) {
+        self.draw(row, left, right, is_perspective, T::of(item));
+    }
+
+    #[inline]
+    fn draw_line(
+        &mut self,
+        line: &TriangleRow,
+        is_perspective: bool,
+        item: u32,
+        numbers: impl FnOnce() -> ([f64; N], [f64; N]),
+    ) {
+        self.draw_line(line, is_perspective, T::of(item), numbers);
+    }
+
+    #[inline]
+    fn draw_each(
+        &mut self,
+        row: u32,
+        columns: std::ops::Range<u32>,
+        item: u32,
+        sample: impl FnMut(u32, f32) -> Option<(f32, [f32; N])>,
+    ) {
+        self.draw_each(row, columns, T::of(item), sample);
     }
 }
 
@@ -83,6 +156,11 @@ impl<const N: usize, T: Tag> Tile<N, T> {
         // What stands in `values` and `tags` is read only where a key has been written.
         self.values.resize(len, [0.0; N]);
         self.tags.resize(len, T::default());
+    }
+
+    /// Depth keys, row after row.
+    pub fn keys(&self) -> &[f32] {
+        &self.keys
     }
 
     pub fn rows(&self) -> [u32; 2] {

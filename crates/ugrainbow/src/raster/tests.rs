@@ -140,19 +140,6 @@ fn is_inside(contours: &[Vec<Corner<0>>], x: f64, y: f64) -> bool {
     n_above % 2 == 1
 }
 
-/// For lists without triangles.
-struct NoTable;
-
-impl<const N: usize> Table<N> for NoTable {
-    fn point(&self, _corner: u32) -> Point {
-        unreachable!()
-    }
-
-    fn numbers(&self, _item: u32, _corners: [u32; 3]) -> [[f64; N]; 3] {
-        unreachable!()
-    }
-}
-
 /// Triangles of three corners each in the order of the table.
 struct Triangles(Vec<Corner<1>>);
 
@@ -173,7 +160,7 @@ fn triangles_are_drawn_like_polygons() {
     let mut noise = Noise(11);
     let (mut n_drawn, mut n_seen) = (0, 0);
     for (samples, size) in [(1, 3.0), (1, 40.0), (2, 300.0), (1, 1e5)] {
-        let grid = Grid { width: 60, height: 50, samples, is_perspective: true };
+        let grid = Grid { width: 60, height: 50, samples, is_perspective: true, cue: None };
         let (mut triangles, mut polygons) = (PolygonList::default(), PolygonList::default());
         let mut table = Vec::new();
         for item in 0..300 {
@@ -207,10 +194,10 @@ fn triangles_are_drawn_like_polygons() {
         let shader =
             |&[light]: &[f32; 1]| Shade { light: [light; 3], intensity: light, is_out_of_range: false };
         let draw = |list: PolygonList<1>| {
-            let mut pixels = vec![(0.0, 0, None); 60 * 50];
+            let mut pixels = vec![(0.0, 0.0, None); 60 * 50];
             let layer = Shapes { lists: &[list], table: &table };
-            paint(&mut pixels, &grid, &layer, &shader, &|all: &Gathered<u32>| {
-                (all.sum[0], all.n_covered, all.center)
+            paint(&mut pixels, &grid, &layer, None, &shader, &|all: &Gathered<'_, u32>| {
+                (all.sum[0], all.covered, all.center)
             });
             pixels
         };
@@ -242,24 +229,35 @@ fn painted(polygons: &[Vec<Corner<1>>], grid: &Grid) -> Vec<f32> {
     let shader = |&[light]: &[f32; 1]| Shade { light: [light; 3], intensity: light, is_out_of_range: false };
     let mean = |sum: [f32; 3]| sum[0] / (grid.samples * grid.samples) as f32;
     let mut pixels = vec![0.0; grid.width as usize * grid.height as usize];
-    paint(&mut pixels, grid, &layer, &shader, &|all: &Gathered<()>| mean(all.sum));
+    paint(&mut pixels, grid, &layer, None, &shader, &|all: &Gathered<'_, ()>| mean(all.sum));
     let mut marked = vec![(0.0, None); pixels.len()];
-    paint(&mut marked, grid, &layer, &shader, &|all: &Gathered<u32>| (mean(all.sum), all.center));
+    paint(&mut marked, grid, &layer, None, &shader, &|all: &Gathered<'_, u32>| (mean(all.sum), all.center));
     for (idx, (&light, marked)) in pixels.iter().zip(&marked).enumerate() {
         assert_eq!(light, marked.0);
         if pixels.len() > 1000 {
             continue;
         }
         let place = [idx as u32 % grid.width, idx as u32 / grid.width];
-        let (samples, all) = probe(grid, &layer, &shader, place);
+        let (samples, all) = probe(grid, &layer, None, &shader, place);
         assert_eq!((mean(all.sum), all.center), *marked);
-        assert_eq!(samples.len() as u32, all.n_covered);
+        assert_eq!(samples.len() as f32, all.covered);
         let middle = place.map(|pixel| pixel * grid.samples + grid.samples / 2);
         assert_eq!(
-            samples.iter().find(|sample| sample.place == middle).map(|sample| sample.seen),
+            samples
+                .iter()
+                .find(|sample| sample.place == middle)
+                .and_then(|sample| sample.surface.as_ref())
+                .map(|surface| surface.seen),
             all.center
         );
-        assert_eq!(samples.iter().map(|sample| sample.shade.light[0]).sum::<f32>(), all.sum[0]);
+        assert_eq!(
+            samples
+                .iter()
+                .filter_map(|sample| sample.surface.as_ref())
+                .map(|surface| surface.shade.light[0])
+                .sum::<f32>(),
+            all.sum[0]
+        );
     }
     pixels
 }
@@ -269,7 +267,7 @@ fn painted(polygons: &[Vec<Corner<1>>], grid: &Grid) -> Vec<f32> {
 fn a_probe_finds_what_was_painted() {
     let mut noise = Noise(5);
     for samples in [1, 2, 3] {
-        let grid = Grid { width: 25, height: 20, samples, is_perspective: false };
+        let grid = Grid { width: 25, height: 20, samples, is_perspective: false, cue: None };
         let polygons: Vec<Vec<Corner<1>>> = (1..=40)
             .map(|k| {
                 let mut corner = || Corner {
@@ -290,7 +288,7 @@ fn a_probe_finds_what_was_painted() {
 #[test]
 fn tiles_do_not_show() {
     for (width, height, samples) in [(100_000, 5, 3), (600_000, 2, 1), (50, 3000, 2)] {
-        let grid = Grid { width, height, samples, is_perspective: false };
+        let grid = Grid { width, height, samples, is_perspective: false, cue: None };
         let (right, bottom) = (f64::from(grid.sample_columns()), f64::from(grid.sample_rows()));
         let corner = |x: f64, y: f64, light: f64| Corner { x, y, key: 0.0, values: [light] };
         let pixels = painted(
@@ -317,7 +315,7 @@ fn of_equal_depths_the_first_stays() {
             .map(|(x, y)| Corner { x, y, key, values: [light] })
             .into()
     };
-    let grid = Grid { width: 4, height: 4, samples: 1, is_perspective: false };
+    let grid = Grid { width: 4, height: 4, samples: 1, is_perspective: false, cue: None };
     let rows = [
         ([(1.0, 5.0), (0.0, 5.0)], 1.0),
         ([(0.0, 5.0), (1.0, 5.0)], 0.0),
@@ -332,7 +330,7 @@ fn of_equal_depths_the_first_stays() {
 
 #[test]
 fn what_is_not_finite_is_dropped() {
-    let grid = Grid { width: 4, height: 4, samples: 1, is_perspective: false };
+    let grid = Grid { width: 4, height: 4, samples: 1, is_perspective: false, cue: None };
     for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
         for place in 0..4 {
             let mut numbers = [1.0; 4];

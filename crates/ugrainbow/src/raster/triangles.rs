@@ -5,7 +5,7 @@
 //! sample of it is seen.
 
 use super::polygons::first_center;
-use super::spans::{Tag, Tile};
+use super::spans::{Sink, Tag, Tile};
 
 /// A corner in the picture plane, without the numbers to interpolate; see [`super::Corner`].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,6 +33,20 @@ pub trait Table<const N: usize>: Sync {
 
     /// The numbers to interpolate between the corners of an item, as they are at the surface.
     fn numbers(&self, item: u32, corners: [u32; 3]) -> [[f64; N]; 3];
+}
+
+/// The table of lists that have no triangles: all corners are nowhere.
+#[derive(Clone, Copy, Debug)]
+pub struct NoTable;
+
+impl<const N: usize> Table<N> for NoTable {
+    fn point(&self, _corner: u32) -> Point {
+        Point { x: f64::NAN, y: f64::NAN, key: f64::NAN }
+    }
+
+    fn numbers(&self, _item: u32, _corners: [u32; 3]) -> [[f64; N]; 3] {
+        [[0.0; N]; 3]
+    }
 }
 
 /// Samples from the picture's corner within which planes are used.
@@ -142,67 +156,64 @@ fn by_row([a, b, c]: &[Point; 3]) -> [usize; 3] {
     order
 }
 
-impl<const N: usize, T: Tag> Tile<N, T> {
-    /// Draws what of a [regular](is_regular) triangle lies in the tile, where the depth test lets it. `numbers`: to
-    /// interpolate between the corners, as they are at the surface; asked for only if something is seen.
-    #[inline]
-    pub fn draw_triangle(
-        &mut self,
-        corners: &[Point; 3],
-        is_perspective: bool,
-        tag: T,
-        numbers: impl Fn() -> [[f64; N]; 3],
-    ) {
-        let order = by_row(corners);
-        let sorted @ [top, middle, bottom] = order.map(|corner| corners[corner]);
-        let [first, end] = self.rows();
-        let [first, knee, end] =
-            [&top, &middle, &bottom].map(|corner| first_center(corner.y, end).max(first));
-        if first == end {
-            return;
+/// Draws the rows of a [regular](is_regular) triangle. `numbers`: to interpolate between the corners, as they are at
+/// the surface; asked for only if something is seen.
+#[inline]
+pub fn draw_triangle<const N: usize>(
+    sink: &mut impl Sink<N>,
+    corners: &[Point; 3],
+    is_perspective: bool,
+    item: u32,
+    numbers: impl Fn() -> [[f64; N]; 3],
+) {
+    let order = by_row(corners);
+    let sorted @ [top, middle, bottom] = order.map(|corner| corners[corner]);
+    let [first, end] = sink.rows();
+    let [first, knee, end] = [&top, &middle, &bottom].map(|corner| first_center(corner.y, end).max(first));
+    if first == end {
+        return;
+    }
+    let slopes = Slopes::new(&sorted);
+    let [key_a_column, key_a_row] = slopes.of(sorted.map(|corner| corner.key));
+    let mut planes = None;
+    let mut planes = || {
+        *planes.get_or_insert_with(|| {
+            let numbers = numbers();
+            let scale = |corner: usize| if is_perspective { corners[corner].key } else { 1.0 };
+            Planes::new(&slopes, &order.map(|corner| numbers[corner].map(|number| number * scale(corner))))
+        })
+    };
+    let long = Side::new(&top, &bottom);
+    for (rows, ends) in [(first..knee, [&top, &middle]), (knee..end, [&middle, &bottom])] {
+        if rows.is_empty() {
+            continue;
         }
-        let slopes = Slopes::new(&sorted);
-        let [key_a_column, key_a_row] = slopes.of(sorted.map(|corner| corner.key));
-        let mut planes = None;
-        let mut planes = || {
-            *planes.get_or_insert_with(|| {
-                let numbers = numbers();
-                let scale = |corner: usize| if is_perspective { corners[corner].key } else { 1.0 };
-                Planes::new(
-                    &slopes,
-                    &order.map(|corner| numbers[corner].map(|number| number * scale(corner))),
-                )
-            })
-        };
-        let long = Side::new(&top, &bottom);
-        for (rows, ends) in [(first..knee, [&top, &middle]), (knee..end, [&middle, &bottom])] {
-            if rows.is_empty() {
-                continue;
-            }
-            let short = Side::new(ends[0], ends[1]);
-            for row in rows {
-                let (a, b) = (long.at_row(row), short.at_row(row));
-                let down = f64::from(row) + 0.5 - top.y;
-                let line = Line {
-                    row,
-                    ends: if a > b { [b, a] } else { [a, b] },
-                    from: top.x,
-                    key: top.key + down * key_a_row,
-                    key_a_column,
-                };
-                self.draw_line(&line, is_perspective, tag, || {
-                    let Planes { at_top, a_column, a_row } = planes();
-                    (std::array::from_fn(|i| at_top[i] + down * a_row[i]), a_column)
-                });
-            }
+        let short = Side::new(ends[0], ends[1]);
+        for row in rows {
+            let (a, b) = (long.at_row(row), short.at_row(row));
+            let down = f64::from(row) + 0.5 - top.y;
+            let line = TriangleRow {
+                row,
+                ends: if a > b { [b, a] } else { [a, b] },
+                from: top.x,
+                key: top.key + down * key_a_row,
+                key_a_column,
+            };
+            sink.draw_line(&line, is_perspective, item, || {
+                let Planes { at_top, a_column, a_row } = planes();
+                (std::array::from_fn(|i| at_top[i] + down * a_row[i]), a_column)
+            });
         }
     }
+}
 
-    /// Draws a row of a triangle. `numbers`: at the column the line is measured from, and their change a column.
+impl<const N: usize, T: Tag> Tile<N, T> {
+    /// Draws a row of a triangle where the depth test lets it. `numbers`: at the column the row is measured from, and
+    /// their change a column.
     #[inline]
-    fn draw_line(
+    pub fn draw_line(
         &mut self,
-        line: &Line,
+        line: &TriangleRow,
         is_perspective: bool,
         tag: T,
         numbers: impl FnOnce() -> ([f64; N], [f64; N]),
@@ -244,19 +255,22 @@ impl<const N: usize, T: Tag> Tile<N, T> {
 }
 
 /// A row of a triangle.
-struct Line {
-    row: u32,
+#[derive(Clone, Copy, Debug)]
+pub struct TriangleRow {
+    /// Of samples.
+    pub row: u32,
     /// Where the outline crosses the row.
-    ends: [f64; 2],
-    /// The column that the following are measured from.
-    from: f64,
+    pub ends: [f64; 2],
+    /// The column that the key, and the numbers to interpolate, are measured from.
+    pub from: f64,
     key: f64,
     key_a_column: f64,
 }
 
-impl Line {
+impl TriangleRow {
+    /// The depth key at a column.
     #[inline]
-    fn key_at(&self, column: f64) -> f64 {
+    pub fn key_at(&self, column: f64) -> f64 {
         self.key + (column - self.from) * self.key_a_column
     }
 }

@@ -69,12 +69,15 @@ impl Convex {
         self.corners.iter().all(|&[x, y, key]| side(key, self.key(x, y)) == 0)
     }
 
+    /// True if their boxes do not overlap.
+    pub fn is_apart(&self, other: &Self) -> bool {
+        (0..2).any(|axis| self.high[axis] <= other.low[axis] || other.high[axis] <= self.low[axis])
+    }
+
     /// Where it is nearer than another and where farther.
     pub fn relation(&self, other: &Self) -> Relation {
         let mut relation = Relation::default();
-        let is_apart =
-            (0..2).any(|axis| self.high[axis] <= other.low[axis] || other.high[axis] <= self.low[axis]);
-        if is_apart {
+        if self.is_apart(other) {
             return relation;
         }
         let common = self.common(other);

@@ -1,14 +1,19 @@
 //! Vector figures: the faces of the picture as areas in paint order, and wires as lines.
 //!
 //! 1. The polygons of the draw list, at a scale at which hardly any is too thin for it ([`patch`]).
-//! 2. Faces of which no sample is seen, nor of any neighbour, are left out ([`seen`]).
+//! 2. Faces of which no sample is seen, nor of any neighbour, are left out ([`seen`]), and of the others without a
+//!    sample those that are wholly hidden ([`hidden`]).
 //! 3. The rest is put in order, from behind ([`order`]), and cut only where faces cut each other or hide each
 //!    other in a ring. Parts that are hidden are painted over, not cut out.
 //! 4. Each becomes a plain area, or smooth ones, cut until their colours are right ([`smooth`]).
-//! 5. Wires come last, without their hidden parts ([`lines`]).
+//! 5. Lines come last, without their hidden parts ([`lines`]).
+//!
+//! Translucent faces are refused: not every format has opacity, those that have it blend encoded colours and not light,
+//! and between areas painted over each other in part hairlines would be left.
 
 mod color;
 mod convex;
+mod hidden;
 mod index;
 mod lines;
 mod order;
@@ -23,14 +28,16 @@ use crate::canvas;
 use crate::config::Config;
 use crate::error::{Error, MAX_PIXELS};
 use crate::figures::Annotations;
+use crate::lines::Stroke;
 use crate::setup::Setup;
 use crate::sheet::Sheet;
 use color::{Palette, rounded};
-use index::Index;
+pub use convex::{Convex, Place as PlanePlace};
+pub use index::Index;
 use patch::Patch;
+pub use patch::{near_picture, parts};
 use smooth::{Smooth, push_piece};
 use ugparse::Scene;
-use ugphysics::srgb_encode;
 
 /// Rows of samples a pixel, if the picture is not too large.
 const FINEST: u32 = 8;
@@ -69,21 +76,43 @@ fn figure<S: Smooth>(
     let scale = scale(config.size);
     let fine = Config { size: config.size.map(|side| side * scale), samples: 1, ..config.clone() };
     let setup = Setup::new(scene, &fine)?;
-    let sheet = Sheet::new(setup.painter(), None);
-    let is_shown = seen::faces(&setup, &sheet);
-    let (faces, wires) = patches(&sheet, &setup, config.size, f64::from(scale), &is_shown);
-    let palette = Palette { sheet: &sheet, shader: &setup.shader, development };
-    let index = Index::new(&faces, config.size);
+    let sheet = Sheet::new(setup.painter(), &fine.manner());
+    if sheet.has_clear_faces() {
+        return Err(Error::Figure(
+            "a figure of areas has no translucent faces: leave out -vec, and give a larger -sz for print",
+        ));
+    }
+    let seen = seen::faces(&setup, &sheet);
+    let faces = patches(&sheet, &setup, config.size, f64::from(scale), &seen.is_near);
+    let index = Index::new(faces.iter().map(Patch::bounds), config.size);
+    let faces = hidden::without_hidden(faces, &index, &seen.is_seen);
+    let ground = ground(config);
+    let palette = Palette {
+        sheet: &sheet,
+        shader: &setup.shader,
+        development,
+        grid: &setup.grid,
+        ground: ground.unwrap_or([1.0; 3]),
+    };
+    let index = Index::new(faces.iter().map(Patch::bounds), config.size);
     let mut elements = Vec::new();
     for piece in order::painting_order(&faces, &index) {
         push_piece(&palette, &faces, &piece, &mut elements);
     }
-    lines::push_lines(&palette, &wires, &faces, &index, config.size, f64::from(scale), &mut elements);
-    let background = canvas::ground(config, development)
-        .map(|light| rounded(light.map(|part| 255.0 * srgb_encode(f64::from(part).clamp(0.0, 1.0)))));
+    let strokes = sheet.strokes().iter().map(|stroke| scaled(*stroke, scale)).collect();
+    lines::push_lines(&palette, strokes, config.line_width, &mut elements);
+    let background = ground.map(|light| rounded(palette.levels(light)));
     let mut figure = Figure { size: config.size, background, elements };
     annotations.complete(&mut figure);
     Ok(figure)
+}
+
+/// A stroke in pixels, from one in rows of the draw list.
+fn scaled(mut stroke: Stroke, scale: u32) -> Stroke {
+    for end in &mut stroke.ends {
+        (end.x, end.y) = (end.x / f64::from(scale), end.y / f64::from(scale));
+    }
+    stroke
 }
 
 fn scale([width, height]: [u32; 2]) -> u32 {
@@ -92,25 +121,29 @@ fn scale([width, height]: [u32; 2]) -> u32 {
     (1..=FINEST).rev().find(fits).unwrap_or(1)
 }
 
-/// Faces that are shown, and wires.
+/// Faces that are shown.
 fn patches(
     sheet: &Sheet<'_>,
     setup: &Setup<'_>,
     size: [u32; 2],
     scale: f64,
     is_shown: &[bool],
-) -> (Vec<Patch>, Vec<Patch>) {
-    let (mut faces, mut wires) = (Vec::new(), Vec::new());
+) -> Vec<Patch> {
+    let mut faces = Vec::new();
     sheet.for_each_polygon(|item, mut contours| {
-        let is_face = is_shown.get(item as usize);
-        if is_face == Some(&false) {
+        if !is_shown[item as usize] {
             return;
         }
         for corner in contours.iter_mut().flatten() {
             (corner.x, corner.y) = (corner.x / scale, corner.y / scale);
         }
-        let patch = Patch::new(item, contours, size, setup.view.is_perspective);
-        if is_face.is_some() { &mut faces } else { &mut wires }.extend(patch);
+        faces.extend(Patch::new(item, contours, size, setup.view.is_perspective));
     });
-    (faces, wires)
+    faces
+}
+
+/// The light that the picture has behind everything.
+fn ground(config: &Config) -> Option<[f32; 3]> {
+    let Background::Color(color) = config.background else { return None };
+    Some(color.to_rgb().map(|channel| ugphysics::srgb_decode(channel) as f32))
 }

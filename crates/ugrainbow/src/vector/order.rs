@@ -38,7 +38,7 @@ pub fn painting_order(patches: &[Patch], index: &Index) -> Vec<Piece> {
 fn relations(patches: &[Patch], index: &Index) -> Vec<Vec<usize>> {
     let mut behind = vec![Vec::new(); patches.len()];
     for (first, patch) in patches.iter().enumerate() {
-        for second in index.overlapping(patch).filter(|&second| second > first) {
+        for second in index.in_box(patch.bounds()).into_iter().filter(|&second| second > first) {
             let relation = relation(patch, &patches[second]);
             // Of what is equally deep the first is seen, as in the raster.
             let is_tie = relation.is_level && !relation.is_behind;

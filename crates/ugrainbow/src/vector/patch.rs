@@ -1,8 +1,8 @@
-//! Faces and wires as polygons to be painted.
+//! Faces as polygons to be painted.
 
+use super::color::Numbers;
 use super::convex::{Convex, Place, clip, doubled_area, sides};
-use crate::raster::Corner;
-use crate::sheet::MOST_VALUES;
+use crate::raster::{CLEAR_VALUES, Corner};
 
 /// What is drawn so far outside the picture, in pixels; the rest is cut away.
 const MARGIN: f64 = 4.0;
@@ -10,10 +10,10 @@ const MARGIN: f64 = 4.0;
 /// A polygon of the draw list, in pixels.
 #[derive(Clone, Debug)]
 pub struct Patch {
-    /// Its face or wire.
+    /// Its face.
     pub item: u32,
     /// As drawn by the raster; its colours come from here.
-    contours: Vec<Vec<Corner<MOST_VALUES>>>,
+    contours: Vec<Vec<Corner<CLEAR_VALUES>>>,
     /// What of it is in and near the picture.
     pub outline: Vec<Vec<Place>>,
     /// The same in convex flat parts.
@@ -25,40 +25,27 @@ impl Patch {
     /// `corners` are in pixels. `None` if nothing of it is in the picture.
     pub fn new(
         item: u32,
-        contours: Vec<Vec<Corner<MOST_VALUES>>>,
+        contours: Vec<Vec<Corner<CLEAR_VALUES>>>,
         size: [u32; 2],
         is_perspective: bool,
     ) -> Option<Self> {
-        let place = |corner: &Corner<MOST_VALUES>| [corner.x, corner.y, corner.key];
-        let outline = contours.iter().map(|contour| near_picture(contour.iter().map(place).collect(), size));
+        let place = |corner: &Corner<CLEAR_VALUES>| [corner.x, corner.y, corner.key];
+        let outline =
+            contours.iter().map(|contour| near_picture(contour.iter().map(place).collect(), size, MARGIN));
         let outline: Vec<Vec<Place>> = outline.filter(|contour| contour.len() > 2).collect();
         let parts = parts(&outline);
         (!parts.is_empty()).then_some(Self { item, contours, outline, parts, is_perspective })
     }
 
-    /// The ends of the line of which this is the strip, cut square `shorten` before its ends.
-    pub fn line(&self, shorten: f64) -> Option<[Place; 2]> {
-        let [a, b, c, d] = self.contours.first()?.as_slice() else { return None };
-        let middle =
-            |p: &Corner<MOST_VALUES>, q: &Corner<MOST_VALUES>| [0.5 * (p.x + q.x), 0.5 * (p.y + q.y), p.key];
-        let (a, b) = (middle(a, d), middle(b, c));
-        let length = libm::hypot(b[0] - a[0], b[1] - a[1]);
-        let part = shorten / length;
-        let moved = |from: Place, to: Place| {
-            [from[0] + (to[0] - from[0]) * part, from[1] + (to[1] - from[1]) * part, from[2]]
-        };
-        (length > 0.0).then(|| [moved(a, b), moved(b, a)])
-    }
-
     /// The numbers the raster interpolates at a place, which is moved to the nearest of its row if it is not inside.
-    pub fn values_at(&self, [x, y]: [f64; 2]) -> [f32; MOST_VALUES] {
+    pub fn numbers_at(&self, [x, y]: [f64; 2]) -> Numbers {
         let corners = || self.contours.iter().flatten();
         let top = corners().map(|corner| corner.y).fold(f64::INFINITY, f64::min);
         let bottom = corners().map(|corner| corner.y).fold(f64::NEG_INFINITY, f64::max);
         // On the lowest row an outline ends, so the row just above it is asked.
         let inset = 1e-9 * (bottom - top);
         let y = y.max(top + inset).min(bottom - inset);
-        let mut crossings: Vec<Corner<MOST_VALUES>> = self
+        let mut crossings: Vec<Corner<CLEAR_VALUES>> = self
             .contours
             .iter()
             .flat_map(|contour| contour.iter().zip(contour.iter().cycle().skip(1)))
@@ -66,7 +53,7 @@ impl Patch {
             .map(|(a, b)| mixed(a, b, (y - a.y) / (b.y - a.y)))
             .collect();
         crossings.sort_by(|a, b| a.x.total_cmp(&b.x));
-        let distance = |pair: &[Corner<MOST_VALUES>]| (pair[0].x - x).max(x - pair[1].x).max(0.0);
+        let distance = |pair: &[Corner<CLEAR_VALUES>]| (pair[0].x - x).max(x - pair[1].x).max(0.0);
         let nearest = crossings.chunks_exact(2).min_by(|a, b| distance(a).total_cmp(&distance(b)));
         let here = match nearest {
             Some([left, right]) if right.x > left.x => {
@@ -76,12 +63,20 @@ impl Patch {
             _ => self.contours[0][0],
         };
         let scale = if self.is_perspective { 1.0 / here.key } else { 1.0 };
-        here.values.map(|value| (value * scale) as f32)
+        Numbers { values: here.values.map(|value| (value * scale) as f32), key: here.key }
+    }
+
+    /// The least and greatest x and y.
+    pub fn bounds(&self) -> [[f64; 2]; 2] {
+        let fold = |start: f64, pick: fn(f64, f64) -> f64, corner: fn(&Convex) -> [f64; 2]| {
+            [0, 1].map(|axis| self.parts.iter().map(|part| corner(part)[axis]).fold(start, pick))
+        };
+        [fold(f64::INFINITY, f64::min, |part| part.low), fold(f64::NEG_INFINITY, f64::max, |part| part.high)]
     }
 
     /// The numbers at all corners if they are the same.
-    pub fn single_values(&self) -> Option<[f32; MOST_VALUES]> {
-        let values = |corner: &Corner<MOST_VALUES>| {
+    pub fn single_values(&self) -> Option<[f32; CLEAR_VALUES]> {
+        let values = |corner: &Corner<CLEAR_VALUES>| {
             let scale = if self.is_perspective { 1.0 / corner.key } else { 1.0 };
             corner.values.map(|value| (value * scale) as f32)
         };
@@ -90,7 +85,7 @@ impl Patch {
     }
 }
 
-fn mixed(a: &Corner<MOST_VALUES>, b: &Corner<MOST_VALUES>, part: f64) -> Corner<MOST_VALUES> {
+fn mixed(a: &Corner<CLEAR_VALUES>, b: &Corner<CLEAR_VALUES>, part: f64) -> Corner<CLEAR_VALUES> {
     let mix = |a: f64, b: f64| a + (b - a) * part;
     Corner {
         x: mix(a.x, b.x),
@@ -100,12 +95,12 @@ fn mixed(a: &Corner<MOST_VALUES>, b: &Corner<MOST_VALUES>, part: f64) -> Corner<
     }
 }
 
-/// A contour without what is far outside the picture.
-fn near_picture(mut contour: Vec<Place>, size: [u32; 2]) -> Vec<Place> {
+/// A contour without what is farther outside the picture than `margin`.
+pub fn near_picture(mut contour: Vec<Place>, size: [u32; 2], margin: f64) -> Vec<Place> {
     for axis in 0..2 {
-        let end = f64::from(size[axis]) + MARGIN;
-        if contour.iter().any(|place| place[axis] < -MARGIN) {
-            contour = clip(&contour, |place| place[axis] + MARGIN);
+        let end = f64::from(size[axis]) + margin;
+        if contour.iter().any(|place| place[axis] < -margin) {
+            contour = clip(&contour, |place| place[axis] + margin);
         }
         if contour.iter().any(|place| place[axis] > end) {
             contour = clip(&contour, |place| end - place[axis]);
@@ -115,7 +110,7 @@ fn near_picture(mut contour: Vec<Place>, size: [u32; 2]) -> Vec<Place> {
 }
 
 /// Convex flat parts of a polygon.
-fn parts(outline: &[Vec<Place>]) -> Vec<Convex> {
+pub fn parts(outline: &[Vec<Place>]) -> Vec<Convex> {
     if let [contour] = outline
         && is_convex(contour)
     {

@@ -6,23 +6,31 @@ use crate::raster::Gathered;
 use crate::setup::Setup;
 use crate::sheet::Sheet;
 
-/// For each face, whether it or a face beside it is seen at a sample.
-///
-/// A face that is seen only between samples nearly always has a neighbour that is seen at one, so it is kept.
-pub fn faces(setup: &Setup<'_>, sheet: &Sheet<'_>) -> Vec<bool> {
+/// Which faces are seen.
+pub struct Faces {
+    /// For each, whether it is seen at a sample.
+    pub is_seen: Vec<bool>,
+    /// For each, whether it or a face beside it is seen at a sample. A face that is seen only between samples nearly
+    /// always has a neighbour that is seen at one.
+    pub is_near: Vec<bool>,
+}
+
+/// Finds out by the samples of a picture.
+pub fn faces(setup: &Setup<'_>, sheet: &Sheet<'_>) -> Faces {
     let scene = setup.scene();
     let is_seen: Vec<AtomicBool> = scene.faces.iter().map(|_| AtomicBool::new(false)).collect();
     let n_pixels = setup.grid.width as usize * setup.grid.height as usize;
     // Pixels of nothing take no memory. In which order faces are found makes no difference.
-    sheet.paint(&setup.grid, &setup.shader, &mut vec![(); n_pixels], &|all: &Gathered<u32>| {
+    sheet.paint(&setup.grid, &setup.shader, &mut vec![(); n_pixels], &|all: &Gathered<'_, u32>| {
         let face = all.center.and_then(|seen| is_seen.get(seen.tag as usize));
         if let Some(face) = face {
             face.store(true, Ordering::Relaxed);
         }
     });
+    let is_seen: Vec<bool> = is_seen.into_iter().map(AtomicBool::into_inner).collect();
     let mut is_corner = vec![false; scene.vertices.len()];
     for (face, is_seen) in scene.faces.iter().zip(&is_seen) {
-        if is_seen.load(Ordering::Relaxed) {
+        if *is_seen {
             let corners = scene.contours.corners(face.contours.clone());
             corners.iter().for_each(|vertex| is_corner[vertex.index()] = true);
         }
@@ -30,5 +38,6 @@ pub fn faces(setup: &Setup<'_>, sheet: &Sheet<'_>) -> Vec<bool> {
     let has_seen_corner = |face: &ugparse::Face| {
         scene.contours.corners(face.contours.clone()).iter().any(|vertex| is_corner[vertex.index()])
     };
-    scene.faces.iter().map(has_seen_corner).collect()
+    let is_near = scene.faces.iter().map(has_seen_corner).collect();
+    Faces { is_seen, is_near }
 }

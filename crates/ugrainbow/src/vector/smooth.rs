@@ -51,12 +51,8 @@ pub fn push_piece<S: Smooth>(
             patch.outline.iter().map(|contour| contour.iter().map(|&[x, y, _]| [x, y]).collect()).collect()
         }
     };
-    if let Some(values) = patch.single_values() {
-        elements.push(Element::Area { contours, color: rounded(palette.levels(&values)), is_inside: false });
-        return;
-    }
     let job = Job { palette, patch };
-    match plain(&job.tried(parts)) {
+    match palette.everywhere(patch).or_else(|| plain(&job.tried(parts))) {
         Some(color) => {
             elements.push(Element::Area { contours, color: rounded(color), is_inside: false });
         }

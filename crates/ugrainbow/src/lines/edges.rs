@@ -1,0 +1,58 @@
+//! Which edges of faces are drawn.
+
+use glam::DVec3;
+use rayon::prelude::*;
+use ugparse::{Face, VertexId, newell_normal};
+
+use crate::painter::Painter;
+
+/// Sine of the angle between the planes of two faces that count as one.
+const FLAT: f64 = 0.01;
+
+/// An edge of a face.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Edge {
+    /// From where to where.
+    pub ends: [VertexId; 2],
+    /// Row of the face, or of the first of several.
+    pub face: u32,
+}
+
+/// The edges of all faces, each once, without those inside of what is one face but for cuts: where two faces of one
+/// colour and velocity meet that lie in one plane at rest. So what `uglorentz` has cut into pieces has the edges it had
+/// before.
+pub fn edges(painter: &Painter<'_>) -> Vec<Edge> {
+    let scene = painter.scene;
+    let of_face = |(row, face): (usize, &Face)| {
+        let sides = |contour: &[VertexId]| {
+            let next = contour.iter().cycle().skip(1);
+            contour.iter().zip(next).map(|(&a, &b)| [a.min(b), a.max(b)]).collect::<Vec<_>>()
+        };
+        let sides = scene.face_contours(face).flat_map(sides).filter(|[a, b]| a != b);
+        // The text of a scene is below 4 GiB, and so are its rows.
+        sides.map(|ends| Edge { ends, face: row as u32 }).collect::<Vec<_>>()
+    };
+    let mut edges: Vec<Edge> = scene.faces.par_iter().enumerate().flat_map_iter(of_face).collect();
+    edges.par_sort_unstable_by_key(|edge| (edge.ends, edge.face));
+    let shared: Vec<&[Edge]> = edges.chunk_by(|one, other| one.ends == other.ends).collect();
+    let is_drawn = |shared: &&[Edge]| match shared {
+        [one, other] => !is_inside(painter, [one.face, other.face]),
+        _ => true,
+    };
+    shared.into_par_iter().filter(is_drawn).map(|shared| shared[0]).collect()
+}
+
+/// True if two faces are parts of one.
+fn is_inside(painter: &Painter<'_>, faces: [u32; 2]) -> bool {
+    let [one, other] = faces.map(|row| &painter.scene.faces[row as usize]);
+    if one.color != other.color || one.velocity != other.velocity {
+        return false;
+    }
+    let normal = |face: &Face| {
+        let outline = painter.scene.face_contours(face).next()?;
+        newell_normal(outline.iter().map(|&vertex| painter.surface.rest(vertex))).try_normalize()
+    };
+    let is_one_plane = |a: DVec3, b: DVec3| a.dot(b) > 0.0 && a.cross(b).length() < FLAT;
+    // A piece without area lies in every plane.
+    normal(one).zip(normal(other)).is_none_or(|(a, b)| is_one_plane(a, b))
+}

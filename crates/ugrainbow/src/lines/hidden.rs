@@ -1,0 +1,193 @@
+//! The parts of lines that no face hides.
+
+use crate::vector::{Convex, Index, PlanePlace, near_picture, parts};
+
+/// Cells along a side of the grid by which faces are found that lie near no line.
+const CELLS: usize = 256;
+
+/// How far apart, in samples, rays are that look for what hides a line.
+const STEP: f64 = 0.5;
+
+/// Most rays along a straight piece; more do not fit a picture.
+const MOST_STEPS: f64 = 1e6;
+
+/// What decides which parts of a line are seen.
+pub struct Shown<'a> {
+    hiding: Hiding<'a>,
+    /// The picture with a margin, beyond which lines are not drawn.
+    picture: Option<Convex>,
+}
+
+enum Hiding<'a> {
+    Polygons(Hiders),
+    Rays(&'a (dyn Fn([f64; 2], f64) -> bool + Sync)),
+}
+
+impl<'a> Shown<'a> {
+    /// Behind polygons. `size`: of the picture, in samples; `margin`: half the width of lines.
+    pub fn behind(hiders: Hiders, size: [u32; 2], margin: f64) -> Self {
+        Self { hiding: Hiding::Polygons(hiders), picture: picture(size, margin) }
+    }
+
+    /// Behind what rays find: true if a place in the picture is hidden at a key.
+    pub fn by_rays(
+        is_hidden: &'a (dyn Fn([f64; 2], f64) -> bool + Sync),
+        size: [u32; 2],
+        margin: f64,
+    ) -> Self {
+        Self { hiding: Hiding::Rays(is_hidden), picture: picture(size, margin) }
+    }
+
+    /// The parts of the way from `a` to `b` that are in the picture and not hidden.
+    pub fn parts(&self, a: PlanePlace, b: PlanePlace) -> Vec<[f64; 2]> {
+        let Some(within) = self.picture.as_ref().and_then(|picture| picture.over(a, b)) else {
+            return Vec::new();
+        };
+        match &self.hiding {
+            Hiding::Polygons(hiders) => hiders.visible(a, b, within),
+            Hiding::Rays(is_hidden) => by_rays(a, b, within, is_hidden),
+        }
+    }
+}
+
+fn picture(size: [u32; 2], margin: f64) -> Option<Convex> {
+    let [low, right, bottom] = [-margin, f64::from(size[0]) + margin, f64::from(size[1]) + margin];
+    Convex::new(vec![[low, low, 0.0], [right, low, 0.0], [right, bottom, 0.0], [low, bottom, 0.0]])
+}
+
+fn along(a: PlanePlace, b: PlanePlace, part: f64) -> PlanePlace {
+    [0, 1, 2].map(|i| a[i] + (b[i] - a[i]) * part)
+}
+
+/// Looks in the middles of short steps.
+fn by_rays(
+    a: PlanePlace,
+    b: PlanePlace,
+    [start, end]: [f64; 2],
+    is_hidden: &(dyn Fn([f64; 2], f64) -> bool + Sync),
+) -> Vec<[f64; 2]> {
+    let length = libm::hypot(b[0] - a[0], b[1] - a[1]) * (end - start);
+    // At least one, and in range.
+    let n_steps = (length / STEP).ceil().clamp(1.0, MOST_STEPS) as u32;
+    let at = |step: u32| {
+        if step == n_steps { end } else { start + (end - start) * f64::from(step) / f64::from(n_steps) }
+    };
+    let mut shown: Vec<[f64; 2]> = Vec::new();
+    let mut is_open = false;
+    for step in 0..n_steps {
+        let [x, y, key] = along(a, b, 0.5 * (at(step) + at(step + 1)));
+        let is_seen = !is_hidden([x, y], key);
+        match shown.last_mut() {
+            Some(last) if is_seen && is_open => last[1] = at(step + 1),
+            _ if is_seen => shown.push([at(step), at(step + 1)]),
+            _ => {}
+        }
+        is_open = is_seen;
+    }
+    shown
+}
+
+/// Faces that may hide lines, in convex flat parts.
+pub struct Hiders {
+    parts: Vec<Convex>,
+    index: Index,
+}
+
+impl Hiders {
+    /// Those of some polygons, given as their contours, that lie near one of the lines whose boxes are given. `size`: of
+    /// the picture, in samples.
+    pub fn new(
+        outlines: impl Iterator<Item = Vec<Vec<PlanePlace>>>,
+        lines: impl Iterator<Item = [[f64; 2]; 2]>,
+        size: [u32; 2],
+        margin: f64,
+    ) -> Self {
+        let near = Near::new(lines, size);
+        let mut all = Vec::new();
+        for contours in outlines {
+            if !near.has_line(&contours) {
+                continue;
+            }
+            let outline = contours.into_iter().map(|contour| near_picture(contour, size, margin));
+            let outline: Vec<Vec<PlanePlace>> = outline.filter(|contour| contour.len() > 2).collect();
+            all.extend(parts(&outline));
+        }
+        let index = Index::new(all.iter().map(|part| [part.low, part.high]), size);
+        Self { parts: all, index }
+    }
+
+    /// The parts of the way from `a` to `b`, within one part, that no face hides.
+    fn visible(&self, a: PlanePlace, b: PlanePlace, [start, end]: [f64; 2]) -> Vec<[f64; 2]> {
+        let (from, to) = (along(a, b, start), along(a, b, end));
+        let low = [0, 1].map(|axis| from[axis].min(to[axis]));
+        let high = [0, 1].map(|axis| from[axis].max(to[axis]));
+        let parts = self.index.in_box([low, high]).into_iter().map(|idx| &self.parts[idx]);
+        let mut hidden: Vec<[f64; 2]> = parts.filter_map(|part| hidden_by(part, a, b)).collect();
+        hidden.sort_by(|one, other| one[0].total_cmp(&other[0]));
+        let (mut shown, mut reached) = (Vec::new(), start);
+        for [first, last] in hidden {
+            if first.min(end) > reached {
+                shown.push([reached, first.min(end)]);
+            }
+            reached = reached.max(last);
+        }
+        if reached < end {
+            shown.push([reached, end]);
+        }
+        shown
+    }
+}
+
+/// The part of the way on which `part` is nearer.
+fn hidden_by(part: &Convex, a: PlanePlace, b: PlanePlace) -> Option<[f64; 2]> {
+    let [start, end] = part.over(a, b)?;
+    let ahead = |at: f64| {
+        let [x, y, key] = along(a, b, at);
+        part.key(x, y) - key
+    };
+    let (first, last) = (ahead(start), ahead(end));
+    let crossing = start + (end - start) * first / (first - last);
+    match (first > 0.0, last > 0.0) {
+        (true, true) => Some([start, end]),
+        (true, false) => Some([start, crossing]),
+        (false, true) => Some([crossing, end]),
+        (false, false) => None,
+    }
+}
+
+/// Which cells of the picture the boxes of lines touch.
+struct Near {
+    cells: Vec<bool>,
+    size: [f64; 2],
+}
+
+impl Near {
+    fn new(lines: impl Iterator<Item = [[f64; 2]; 2]>, size: [u32; 2]) -> Self {
+        let mut near = Self { cells: vec![false; CELLS * CELLS], size: size.map(f64::from) };
+        for line in lines {
+            let [columns, rows] = near.cells_of(line);
+            for row in rows {
+                near.cells[row * CELLS + columns.start()..=row * CELLS + columns.end()].fill(true);
+            }
+        }
+        near
+    }
+
+    fn has_line(&self, contours: &[Vec<PlanePlace>]) -> bool {
+        let places = || contours.iter().flatten();
+        let low = [0, 1].map(|axis| places().map(|at| at[axis]).fold(f64::INFINITY, f64::min));
+        let high = [0, 1].map(|axis| places().map(|at| at[axis]).fold(f64::NEG_INFINITY, f64::max));
+        let [columns, mut rows] = self.cells_of([low, high]);
+        rows.any(|row| {
+            self.cells[row * CELLS + columns.start()..=row * CELLS + columns.end()].iter().any(|&is| is)
+        })
+    }
+
+    fn cells_of(&self, [low, high]: [[f64; 2]; 2]) -> [std::ops::RangeInclusive<usize>; 2] {
+        [0, 1].map(|axis| {
+            // The cast saturates, so what is outside lies in the outermost cells.
+            let cell = |x: f64| ((x / self.size[axis] * CELLS as f64) as usize).min(CELLS - 1);
+            cell(low[axis])..=cell(high[axis])
+        })
+    }
+}

@@ -1,0 +1,236 @@
+//! Lines of the picture: wires, and edges of faces.
+//!
+//! 1. [`edges`]: which edges of faces are drawn;
+//! 2. here: lines with their colours, where they are in the picture, bent under `-xc`;
+//! 3. [`hidden`]: the parts of them that no face hides, computed and not sampled;
+//! 4. these parts as strips, for the raster, or as they are, for figures.
+//!
+//! What of a line is seen is decided in its middle alone. So a line has its full width everywhere: beside a face whose
+//! edge it is, however slanting this is seen, and on the rim of a body.
+
+mod edges;
+mod hidden;
+
+use glam::DVec3;
+use rayon::prelude::*;
+use ugparse::{VelocityId, VertexId, Wire};
+use ugphysics::{Hsv, srgb_decode};
+use ugscene::Place;
+
+use crate::clip::{Vertex, clip_segment};
+use crate::config::Wireframe;
+use crate::drawlist::Reach;
+use crate::exact::Bend;
+use crate::painter::Painter;
+use crate::palette::Swatch;
+use crate::raster::{CLEAR_VALUES, Corner, PolygonList};
+use crate::sheet::pack_clear;
+use edges::{Edge, edges};
+pub use hidden::{Hiders, Shown};
+
+/// How much nearer to the eye a line is taken to be than it is, relative to its distance: enough to
+/// win against the faces whose edge it follows.
+pub const LIFT: f64 = 5e-4;
+
+/// Shorter visible parts, in samples, are left out: they come from rounding.
+const LEAST: f64 = 1e-3;
+
+/// A straight line at rest.
+#[derive(Clone, Copy, Debug)]
+pub struct Line {
+    /// Of its wire, or of the face whose edge it is.
+    pub item: u32,
+    /// Of its body.
+    pub velocity: Option<VelocityId>,
+    /// From where to where.
+    pub ends: [VertexId; 2],
+    /// Colours of the ends.
+    pub colors: [Swatch; 2],
+}
+
+/// A visible straight part of a line in the picture, in samples.
+#[derive(Clone, Copy, Debug)]
+pub struct Stroke {
+    /// See [`Line`].
+    pub item: u32,
+    /// The middles of its ends.
+    pub ends: [Corner<CLEAR_VALUES>; 2],
+    /// True where the line ends, false where it becomes hidden. There it stands out by half its width, so that the
+    /// pieces of a polyline join.
+    pub is_end: [bool; 2],
+}
+
+/// Wires, and the edges that are asked for.
+pub fn lines(painter: &Painter<'_>, wireframe: Option<Wireframe>, bend: Option<&Bend<'_>>) -> Vec<Line> {
+    let n_faces = painter.scene.faces.len();
+    let mut lines = Vec::new();
+    for (row, wire) in painter.scene.wires.iter().enumerate() {
+        // The text of a scene is below 4 GiB, and so are its rows.
+        push_wire(painter, (n_faces + row) as u32, wire, bend, &mut lines);
+    }
+    if let Some(wireframe) = wireframe {
+        let edges = edges(painter);
+        lines.extend(edges.iter().map(|edge| edge_line(painter, edge, wireframe, bend)));
+    }
+    lines
+}
+
+fn push_wire(painter: &Painter<'_>, item: u32, wire: &Wire, bend: Option<&Bend<'_>>, lines: &mut Vec<Line>) {
+    let color = painter.wire_swatch(wire);
+    let keeps_light = bend.is_none_or(|bend| bend.keeps_light(wire.velocity));
+    // One end given as light makes all of the wire light, as with faces.
+    let is_light = keeps_light && painter.is_light_wire(wire, &color);
+    let end = |vertex| {
+        let swatch = Swatch { translucency: 0.0, ..painter.wire_end(vertex, &color) };
+        if is_light { painter.as_light(swatch) } else { Swatch { light: None, ..swatch } }
+    };
+    for contour in painter.scene.wire_contours(wire) {
+        for ends in contour.windows(2) {
+            let ends = [ends[0], ends[1]];
+            lines.push(Line { item, velocity: wire.velocity, ends, colors: ends.map(end) });
+        }
+    }
+}
+
+/// An edge has the colour of its face, unlit, or the one that is asked for.
+fn edge_line(painter: &Painter<'_>, edge: &Edge, wireframe: Wireframe, bend: Option<&Bend<'_>>) -> Line {
+    let face = &painter.scene.faces[edge.face as usize];
+    let colors = match wireframe.color {
+        Some(color) => [plain(color); 2],
+        None => {
+            let keeps_light = bend.is_none_or(|bend| bend.keeps_light(face.velocity));
+            let common = painter.common(face);
+            let common = if keeps_light { common } else { common.without_light() };
+            edge.ends.map(|end| {
+                let swatch = painter.swatch(end, &common);
+                let light = swatch.light.filter(|_| common.is_light);
+                Swatch { light, translucency: 0.0, ..swatch }
+            })
+        }
+    };
+    Line { item: edge.face, velocity: face.velocity, ends: edge.ends, colors }
+}
+
+/// A colour that stays as it is: not shifted, and not attenuated.
+fn plain(color: Hsv) -> Swatch {
+    Swatch { light: Some(DVec3::from_array(color.to_rgb().map(srgb_decode))), ..Swatch::WHITE }
+}
+
+/// Straight pieces of lines in the picture, hidden or not, and how many lines came how far.
+pub fn pieces(painter: &Painter<'_>, lines: &[Line], bend: Option<&Bend<'_>>) -> (Vec<Stroke>, Reach) {
+    let of = |line: &Line| {
+        let joints: Vec<Vertex<CLEAR_VALUES>> = match bend {
+            Some(bend) => bend
+                .joints(line)
+                .iter()
+                .map(|joint| vertex(painter.view.place(joint.seen), &joint.color))
+                .collect(),
+            None => [0, 1]
+                .map(|i| {
+                    let position = painter.scene.vertices[line.ends[i].index()].position;
+                    vertex(painter.view.place(position - painter.view.eye), &line.colors[i])
+                })
+                .to_vec(),
+        };
+        joints.windows(2).filter_map(|ends| piece(painter, line.item, [ends[0], ends[1]])).collect::<Vec<_>>()
+    };
+    let pieces: Vec<Stroke> = lines.par_iter().flat_map_iter(of).collect();
+    let is_in_picture = |piece: &&Stroke| {
+        let size = [painter.grid.sample_columns(), painter.grid.sample_rows()].map(f64::from);
+        let [low, high] = piece.bounds();
+        (0..2).all(|axis| high[axis] > 0.0 && low[axis] < size[axis])
+    };
+    let in_picture = pieces.iter().filter(is_in_picture).count();
+    let reach = Reach { in_front: pieces.len(), in_picture };
+    (pieces, reach)
+}
+
+/// The piece between two joints, if it is before the eye.
+fn piece(painter: &Painter<'_>, item: u32, ends: [Vertex<CLEAR_VALUES>; 2]) -> Option<Stroke> {
+    let view = painter.view;
+    let ends = clip_segment(view.slab, ends)?.map(|end| lifted(painter, end).project(view.is_perspective));
+    let mut numbers = ends.iter().flat_map(|end| [end.x, end.y, end.key].into_iter().chain(end.values));
+    numbers.all(f64::is_finite).then_some(Stroke { item, ends, is_end: [true; 2] })
+}
+
+impl Stroke {
+    /// Least and greatest x and y.
+    pub fn bounds(&self) -> [[f64; 2]; 2] {
+        let [a, b] = &self.ends;
+        [[a.x.min(b.x), a.y.min(b.y)], [a.x.max(b.x), a.y.max(b.y)]]
+    }
+
+    /// The parts of it that are in the picture and not hidden.
+    fn visible(&self, shown: &Shown<'_>) -> Vec<Self> {
+        let [a, b] = self.ends.map(|end| [end.x, end.y, end.key]);
+        let length = libm::hypot(b[0] - a[0], b[1] - a[1]);
+        // A line seen end-on is a dot.
+        let is_drawn = |[start, end]: &[f64; 2]| (end - start) * length > LEAST || length <= LEAST;
+        let stroke = |[start, end]: [f64; 2]| Self {
+            item: self.item,
+            ends: [start, end].map(|part| between(&self.ends[0], &self.ends[1], part)),
+            is_end: [start == 0.0, end == 1.0],
+        };
+        shown.parts(a, b).into_iter().filter(is_drawn).map(stroke).collect()
+    }
+}
+
+/// The visible parts of pieces.
+pub fn strokes(pieces: &[Stroke], shown: &Shown<'_>) -> Vec<Stroke> {
+    pieces.par_iter().flat_map_iter(|piece| piece.visible(shown)).collect()
+}
+
+fn vertex(place: Place, color: &Swatch) -> Vertex<CLEAR_VALUES> {
+    Vertex { place, values: pack_clear(color, DVec3::ONE) }
+}
+
+/// Moved toward the eye along its own ray.
+fn lifted(painter: &Painter<'_>, end: Vertex<CLEAR_VALUES>) -> Vertex<CLEAR_VALUES> {
+    let Place { x, y, z } = end.place;
+    let place = if painter.view.is_perspective {
+        let ratio = 1.0 - LIFT;
+        Place { x: x * ratio, y: y * ratio, z: z * ratio }
+    } else {
+        Place { x, y, z: z - LIFT * painter.view.distance }
+    };
+    Vertex { place, ..end }
+}
+
+/// The point at a part of the way in the picture.
+pub fn between(a: &Corner<CLEAR_VALUES>, b: &Corner<CLEAR_VALUES>, part: f64) -> Corner<CLEAR_VALUES> {
+    let mix = |a: f64, b: f64| if part == 1.0 { b } else { a + (b - a) * part };
+    Corner {
+        x: mix(a.x, b.x),
+        y: mix(a.y, b.y),
+        key: mix(a.key, b.key),
+        values: std::array::from_fn(|i| mix(a.values[i], b.values[i])),
+    }
+}
+
+/// Strokes as strips of this width, in samples.
+pub fn strips(painter: &Painter<'_>, strokes: &[Stroke], width: f64) -> PolygonList<CLEAR_VALUES> {
+    let mut list = PolygonList::default();
+    for Stroke { item, ends: [a, b], is_end } in strokes {
+        let length = libm::hypot(b.x - a.x, b.y - a.y);
+        let along = if length > 0.0 { [(b.x - a.x) / length, (b.y - a.y) / length] } else { [1.0, 0.0] };
+        let [along_x, along_y] = along.map(|part| 0.5 * width * part);
+        let [before, behind] = is_end.map(|is_end| f64::from(u8::from(is_end)));
+        let corner = |end: &Corner<CLEAR_VALUES>, forth: f64, aside: f64| Corner {
+            x: end.x + forth * along_x - aside * along_y,
+            y: end.y + forth * along_y + aside * along_x,
+            ..*end
+        };
+        for corner in [
+            corner(a, -before, -1.0),
+            corner(b, behind, -1.0),
+            corner(b, behind, 1.0),
+            corner(a, -before, 1.0),
+        ] {
+            list.push_corner(corner);
+        }
+        list.end_contour();
+        list.end_polygon(painter.grid, *item);
+    }
+    list.sort_into_bands(painter.grid);
+    list
+}

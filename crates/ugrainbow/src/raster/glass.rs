@@ -1,0 +1,310 @@
+//! What light passes: translucent faces, and lines, in front of what hides.
+//!
+//! When a tile holds the nearest of what hides at every sample, everything clear is drawn over it: each sample of it
+//! that is nearer becomes a [`Fragment`]. The fragments of a sample are sorted by depth and blended from behind, in
+//! linear light, so faces may cut through each other, and the order of statements makes no difference.
+//!
+//! Fragments take memory, so if a tile has too many of them it is drawn in parts, down to single rows of samples.
+
+use std::ops::Range;
+
+use super::band::Grid;
+use super::edges::{Crossing, Scanner};
+use super::polygons::first_center;
+use super::resolve::{Shade, Tally};
+use super::spans::{Sink, Tag, Tile};
+use super::triangles::TriangleRow;
+
+/// Numbers that are interpolated for what is clear.
+pub const CLEAR_VALUES: usize = 8;
+
+/// Fragments that are kept at once, if more than a row of samples is drawn: 64 MiB.
+const MOST_FRAGMENTS: usize = 1 << 21;
+
+/// What is clear and how it looks.
+pub trait Clear: Sync {
+    /// Draws what of it is in a band.
+    fn draw(&self, grid: &Grid, band: usize, scanner: &mut Scanner<CLEAR_VALUES>, pane: &mut Pane<'_>);
+}
+
+/// A sample of something clear.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Fragment {
+    /// Number of the sample in its tile.
+    sample: u32,
+    /// Depth key.
+    pub key: f32,
+    /// Whose it is.
+    pub item: u32,
+    /// True if it is of a line, which is drawn nearer than it is.
+    pub is_line: bool,
+    /// Its own linear light, before anything is taken from it.
+    pub light: [f32; 3],
+    /// The part of the light from behind that it lets through.
+    pub pass: f32,
+}
+
+/// What a sample shows, blended: to the light behind times `pass`, `light` is added, and `cover` is the part of the
+/// sample that is not the ground behind everything.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Veil {
+    pub light: [f32; 3],
+    pub cover: f32,
+    pub pass: f32,
+}
+
+impl Veil {
+    /// Nothing.
+    pub const NONE: Self = Self { light: [0.0; 3], cover: 0.0, pass: 1.0 };
+
+    /// The same behind something of which the part `cue` is left by depth cueing.
+    fn behind(self, fragment: &Fragment, cue: f32) -> Self {
+        let Fragment { light, pass, .. } = *fragment;
+        let own = (1.0 - pass) * cue;
+        Self {
+            light: std::array::from_fn(|i| own * light[i] + pass * self.light[i]),
+            cover: own + pass * self.cover,
+            pass: pass * self.pass,
+        }
+    }
+}
+
+/// Which fragments are kept after blending.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Keep {
+    #[default]
+    None,
+    /// Those of the samples nearest to the middles of pixels.
+    Centers,
+    All,
+}
+
+/// What is clear in a tile.
+#[derive(Default)]
+pub struct Glass {
+    scanner: Scanner<CLEAR_VALUES>,
+    fragments: Vec<Fragment>,
+    /// One for each sample of the tile; none at all if nothing in it is clear.
+    veils: Vec<Veil>,
+    kept: Vec<Fragment>,
+    columns: [u32; 2],
+    rows: [u32; 2],
+}
+
+impl Glass {
+    /// Draws what is clear over a tile.
+    pub fn draw<const N: usize, T: Tag>(
+        &mut self,
+        clear: &dyn Clear,
+        grid: &Grid,
+        band: usize,
+        tile: &Tile<N, T>,
+        keep: Keep,
+    ) -> Tally {
+        (self.columns, self.rows) = (tile.columns(), tile.rows());
+        self.veils.clear();
+        self.kept.clear();
+        let mut tally = Tally::default();
+        let mut parts = vec![self.rows];
+        while let Some(rows) = parts.pop() {
+            self.fragments.clear();
+            let mut pane = Pane {
+                rows,
+                columns: self.columns,
+                top: self.rows[0],
+                keys: tile.keys(),
+                fragments: &mut self.fragments,
+                most: if rows[1] - rows[0] > 1 { MOST_FRAGMENTS } else { usize::MAX },
+                tally: Tally::default(),
+            };
+            clear.draw(grid, band, &mut self.scanner, &mut pane);
+            if pane.fragments.len() < pane.most {
+                tally = tally.merge(pane.tally);
+                self.blend(grid, keep);
+            } else {
+                let middle = rows[0] + (rows[1] - rows[0]) / 2;
+                parts.extend([[middle, rows[1]], [rows[0], middle]]);
+            }
+        }
+        tally
+    }
+
+    /// True if nothing in the tile is clear.
+    pub fn is_empty(&self) -> bool {
+        self.veils.is_empty()
+    }
+
+    fn blend(&mut self, grid: &Grid, keep: Keep) {
+        if self.fragments.is_empty() {
+            return;
+        }
+        let width = self.columns[1] - self.columns[0];
+        self.veils.resize((width * (self.rows[1] - self.rows[0])) as usize, Veil::NONE);
+        // From behind; of equals the first drawn is in front.
+        self.fragments.reverse();
+        self.fragments.sort_by(|a, b| a.sample.cmp(&b.sample).then(a.key.total_cmp(&b.key)));
+        let middle = |place: u32| place % grid.samples == grid.samples / 2;
+        for fragment in &self.fragments {
+            let veil = &mut self.veils[fragment.sample as usize];
+            *veil = veil.behind(fragment, grid.cue_at(fragment.key));
+            let is_center = || {
+                middle(self.columns[0] + fragment.sample % width)
+                    && middle(self.rows[0] + fragment.sample / width)
+            };
+            if keep == Keep::All || keep == Keep::Centers && is_center() {
+                self.kept.push(*fragment);
+            }
+        }
+    }
+
+    /// What is in front of a sample.
+    #[inline]
+    pub fn veil(&self, row: u32, column: u32) -> Veil {
+        self.veils.get(self.sample(row, column) as usize).copied().unwrap_or(Veil::NONE)
+    }
+
+    /// The fragments of a sample, from behind, if they are kept.
+    pub fn fragments(&self, row: u32, column: u32) -> &[Fragment] {
+        let sample = self.sample(row, column);
+        // Parts of a tile come from above, so those kept are in order.
+        let start = self.kept.partition_point(|fragment| fragment.sample < sample);
+        let end = self.kept.partition_point(|fragment| fragment.sample <= sample);
+        &self.kept[start..end]
+    }
+
+    #[inline]
+    fn sample(&self, row: u32, column: u32) -> u32 {
+        (row - self.rows[0]) * (self.columns[1] - self.columns[0]) + column - self.columns[0]
+    }
+}
+
+/// A part of a tile on which what is clear is drawn.
+pub struct Pane<'a> {
+    rows: [u32; 2],
+    columns: [u32; 2],
+    /// First row of the tile.
+    top: u32,
+    /// Depth keys of what hides, of the whole tile.
+    keys: &'a [f32],
+    fragments: &'a mut Vec<Fragment>,
+    most: usize,
+    tally: Tally,
+}
+
+impl<'a> Pane<'a> {
+    /// Takes faces, or lines. `shader`: the light of interpolated numbers, and the part of what is behind that passes.
+    pub fn sink<S>(&mut self, shader: S, is_line: bool) -> PaneSink<'_, 'a, S> {
+        PaneSink { pane: self, shader, is_line }
+    }
+
+    fn samples(&self, row: u32, columns: &Range<u32>) -> Range<usize> {
+        let width = self.columns[1] - self.columns[0];
+        let start = (row - self.top) * width;
+        let at = |column: u32| (start + column - self.columns[0]) as usize;
+        at(columns.start)..at(columns.end)
+    }
+}
+
+/// Puts samples of shapes on a pane.
+pub struct PaneSink<'p, 'a, S> {
+    pane: &'p mut Pane<'a>,
+    shader: S,
+    is_line: bool,
+}
+
+impl<S: Fn(&[f32; CLEAR_VALUES]) -> (Shade, f32)> PaneSink<'_, '_, S> {
+    fn push(&mut self, sample: usize, item: u32, key: f32, values: &[f32; CLEAR_VALUES]) {
+        let (shade, pass) = (self.shader)(values);
+        let pane = &mut *self.pane;
+        // What is all clear is as if it were not there.
+        if pass < 1.0 && pane.fragments.len() < pane.most {
+            pane.tally.count(&shade);
+            let (sample, light) = (sample as u32, shade.light);
+            pane.fragments.push(Fragment { sample, key, item, is_line: self.is_line, light, pass });
+        }
+    }
+
+    /// Lines have had their hidden parts removed; they are not tested again, beside their middle.
+    fn is_hidden(&self, key: f32, sample: usize) -> bool {
+        !self.is_line && key <= self.pane.keys[sample]
+    }
+}
+
+impl<S: Fn(&[f32; CLEAR_VALUES]) -> (Shade, f32)> Sink<CLEAR_VALUES> for PaneSink<'_, '_, S> {
+    const KEEPS_ALL: bool = true;
+
+    fn rows(&self) -> [u32; 2] {
+        self.pane.rows
+    }
+
+    fn columns(&self) -> [u32; 2] {
+        self.pane.columns
+    }
+
+    fn draw(
+        &mut self,
+        row: u32,
+        left: &Crossing<CLEAR_VALUES>,
+        right: &Crossing<CLEAR_VALUES>,
+        is_perspective: bool,
+        item: u32,
+    ) {
+        let [start, end] = self.pane.columns;
+        let columns = first_center(left.x, end).max(start)..first_center(right.x, end);
+        if columns.is_empty() {
+            return;
+        }
+        let per_column = 1.0 / (right.x - left.x);
+        for (column, sample) in columns.clone().zip(self.pane.samples(row, &columns)) {
+            let across = f64::from(column) + 0.5 - left.x;
+            let mix = |a: f64, b: f64| a + across * ((b - a) * per_column);
+            let key = mix(left.key, right.key);
+            if self.is_hidden(key as f32, sample) {
+                continue;
+            }
+            let scale = if is_perspective { 1.0 / key } else { 1.0 };
+            let values = std::array::from_fn(|i| (mix(left.values[i], right.values[i]) * scale) as f32);
+            self.push(sample, item, key as f32, &values);
+        }
+    }
+
+    fn draw_line(
+        &mut self,
+        line: &TriangleRow,
+        is_perspective: bool,
+        item: u32,
+        numbers: impl FnOnce() -> ([f64; CLEAR_VALUES], [f64; CLEAR_VALUES]),
+    ) {
+        let [start, end] = self.pane.columns;
+        let columns = first_center(line.ends[0], end).max(start)..first_center(line.ends[1], end);
+        if columns.is_empty() {
+            return;
+        }
+        let (at_start, slopes) = numbers();
+        for (column, sample) in columns.clone().zip(self.pane.samples(line.row, &columns)) {
+            let place = f64::from(column) + 0.5;
+            let key = line.key_at(place);
+            if self.is_hidden(key as f32, sample) {
+                continue;
+            }
+            let scale = if is_perspective { 1.0 / key } else { 1.0 };
+            let across = place - line.from;
+            let values = std::array::from_fn(|i| ((at_start[i] + across * slopes[i]) * scale) as f32);
+            self.push(sample, item, key as f32, &values);
+        }
+    }
+
+    fn draw_each(
+        &mut self,
+        row: u32,
+        columns: Range<u32>,
+        item: u32,
+        mut sample: impl FnMut(u32, f32) -> Option<(f32, [f32; CLEAR_VALUES])>,
+    ) {
+        for (column, place) in columns.clone().zip(self.pane.samples(row, &columns)) {
+            if let Some((key, values)) = sample(column, self.pane.keys[place]) {
+                self.push(place, item, key, &values);
+            }
+        }
+    }
+}

@@ -1,0 +1,51 @@
+//! Which patches are wholly hidden.
+
+use super::convex::{Convex, clip, sides};
+use super::index::Index;
+use super::patch::Patch;
+
+/// Most parts a patch is cut into to find out; with more it counts as seen.
+const MOST_PARTS: usize = 64;
+
+/// The patches without those that others hide wholly. What `is_seen` says is kept without more ado.
+pub fn without_hidden(patches: Vec<Patch>, index: &Index, is_seen: &[bool]) -> Vec<Patch> {
+    let is_kept = |patch: &Patch| is_seen[patch.item as usize] || !is_hidden(patch, &patches, index);
+    let is_kept: Vec<bool> = patches.iter().map(is_kept).collect();
+    patches.into_iter().zip(is_kept).filter_map(|(patch, is_kept)| is_kept.then_some(patch)).collect()
+}
+
+fn is_hidden(patch: &Patch, patches: &[Patch], index: &Index) -> bool {
+    let mut rest = patch.parts.clone();
+    for idx in index.in_box(patch.bounds()) {
+        let other = &patches[idx];
+        if other.item == patch.item {
+            continue;
+        }
+        for part in &other.parts {
+            rest = rest.into_iter().flat_map(|own| beside(own, part)).collect();
+        }
+        if rest.is_empty() {
+            return true;
+        }
+        if rest.len() > MOST_PARTS {
+            return false;
+        }
+    }
+    false
+}
+
+/// What of a part another does not hide; all of it if that is not nearer everywhere.
+fn beside(own: Convex, other: &Convex) -> Vec<Convex> {
+    let relation = other.relation(&own);
+    if !relation.is_before || relation.is_behind {
+        return vec![own];
+    }
+    let mut shown = Vec::new();
+    let mut rest = own.corners;
+    for (a, b) in sides(&other.corners) {
+        let inside = |[x, y, _]: [f64; 3]| (b[0] - a[0]) * (y - a[1]) - (b[1] - a[1]) * (x - a[0]);
+        shown.extend(Convex::new(clip(&rest, |place| -inside(place))));
+        rest = clip(&rest, inside);
+    }
+    shown
+}
