@@ -19,6 +19,8 @@ pub fn push_lines<S>(
     elements: &mut Vec<Element<S>>,
 ) {
     let key = |Stroke { ends: [a, b], .. }: &Stroke| a.key + b.key;
+    // Of what is equally near the first is seen, as in the raster.
+    strokes.reverse();
     strokes.sort_by(|one, other| key(one).total_cmp(&key(other)));
     for stroke in &strokes {
         push_line(palette, stroke, width, elements);
