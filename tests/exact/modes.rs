@@ -119,3 +119,4 @@ fn channels_tell_of_what_hides_more_than_it_shows() {
             assert!(channels(&pipe, text.as_bytes())["id"].iter().all(|id| *id == first), "{translucency}");
         }
     }
+}

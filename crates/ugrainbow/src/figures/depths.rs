@@ -4,10 +4,10 @@ use glam::DVec3;
 use uglabel::Point;
 use ugscene::View;
 
-use crate::config::{Config, Exact};
+use crate::config::Config;
 use crate::raster::{Gathered, Seen};
 use crate::setup::Setup;
-use crate::sheet::Sheet;
+use crate::sheet::{Manner, Sheet};
 
 /// A line as far behind a face as this part of its distance is still on it: lines follow edges and grounds.
 const SLACK: f64 = 2e-3;
@@ -18,9 +18,9 @@ const STEP: f64 = 0.5;
 /// The longest part of a line, in pixels, that is left out if most of the line is hidden.
 const SPECK: f64 = 3.0;
 
-/// What is asked of a picture with one sample for each pixel.
+/// What is asked of a picture of faces with one sample for each pixel.
 pub fn coarse(config: &Config) -> Config {
-    Config { samples: 1, ..config.clone() }
+    Config { samples: 1, wireframe: None, depth_cue: None, ..config.clone() }
 }
 
 /// Column, row and depth key.
@@ -35,12 +35,12 @@ pub struct Depths {
 }
 
 impl Depths {
-    /// `setup`: with one sample for each pixel.
-    pub fn new(setup: &Setup<'_>, exact: Option<Exact>) -> Self {
+    /// `setup` and `manner`: with one sample for each pixel.
+    pub fn new(setup: &Setup<'_>, manner: &Manner) -> Self {
         let grid = &setup.grid;
-        let sheet = Sheet::new(setup.painter(), exact);
+        let sheet = Sheet::new(setup.painter(), manner);
         let mut seen = vec![None; grid.width as usize * grid.height as usize];
-        sheet.paint(grid, &setup.shader, &mut seen, &|all: &Gathered<u32>| all.center);
+        sheet.paint(grid, &setup.shader, &mut seen, &|all: &Gathered<'_, u32>| all.center);
         Self { size: [grid.width, grid.height], is_perspective: grid.is_perspective, seen }
     }
 

@@ -116,7 +116,7 @@ impl Plan {
             let options = coarse(config);
             let coarse = Setup::new(setup.scene(), &options)?;
             if grid || legend {
-                let depths = Depths::new(&coarse, config.exact);
+                let depths = Depths::new(&coarse, &options.manner());
                 if grid {
                     all.notes.extend(grid::draw(&coarse, &depths, style, &mut all.over)?);
                 }

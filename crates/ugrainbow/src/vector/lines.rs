@@ -18,7 +18,10 @@ pub fn push_lines<S>(
     width: f64,
     elements: &mut Vec<Element<S>>,
 ) {
-    let key = |Stroke { ends: [a, b], .. }: &Stroke| a.key + b.key;
+    // Single precision, as in the raster: what differs by rounding is equally near.
+    let key = |Stroke { ends: [a, b], .. }: &Stroke| (a.key + b.key) as f32;
+    // Of what is equally near the first is seen, as in the raster.
+    strokes.reverse();
     strokes.sort_by(|one, other| key(one).total_cmp(&key(other)));
     for stroke in &strokes {
         push_line(palette, stroke, width, elements);

@@ -86,7 +86,7 @@ fn figure<S: Smooth>(
     let faces = patches(&sheet, &setup, config.size, f64::from(scale), &seen.is_near);
     let index = Index::new(faces.iter().map(Patch::bounds), config.size);
     let faces = hidden::without_hidden(faces, &index, &seen.is_seen);
-    let ground = ground(config);
+    let ground = canvas::ground(config, None);
     let palette = Palette {
         sheet: &sheet,
         shader: &setup.shader,
@@ -140,10 +140,4 @@ fn patches(
         faces.extend(Patch::new(item, contours, size, setup.view.is_perspective));
     });
     faces
-}
-
-/// The light that the picture has behind everything.
-fn ground(config: &Config) -> Option<[f32; 3]> {
-    let Background::Color(color) = config.background else { return None };
-    Some(color.to_rgb().map(|channel| ugphysics::srgb_decode(channel) as f32))
 }
