@@ -19,7 +19,7 @@ use crate::words::{
     Channels, Kind, Pixel, Report, channels, color, exposure, format_named, kind_named, law, line_width,
     pixel, tone,
 };
-use crate::{Error, run};
+use crate::{Error, run_with};
 
 /// Where black-and-white PostScript goes if standard output is a terminal, as in 1988.
 const POSTSCRIPT_FILE: &str = "POSTSCRIPTFILE";
@@ -414,7 +414,7 @@ pub fn draw(args: &Args, stage: &mut Stage) -> Result<(), Failure> {
     if let Some((pixel, report)) = report {
         return explain_pixel(&config, &source, pixel, report, stage);
     }
-    let picture = run(&config, &source).map_err(failure)?;
+    let picture = run_with(&config, &source, &stage.steps()).map_err(failure)?;
     if !picture.warnings.is_empty() {
         stage.report(&picture.warnings.render(true));
     }

@@ -86,6 +86,7 @@ mod words;
 
 use ugimage::{Development, Frame, Label, Packing, grey_postscript};
 use ugparse::{Diagnostics, Scene, Source};
+use ugpipe::Progress;
 
 pub use cli::{Args, draw};
 pub use config::{Background, Config, DepthCue, Exact, Exposure, Interpolation, Output, Wireframe};
@@ -117,10 +118,21 @@ pub struct Picture {
 /// # Errors
 /// Whatever stops it: see [`Error`].
 pub fn run(config: &Config, source: &Source) -> Result<Picture, Error> {
+    run_with(config, source, &())
+}
+
+/// [`run`], which tells somebody how far it is.
+///
+/// # Errors
+/// Whatever stops it: see [`Error`].
+pub fn run_with(config: &Config, source: &Source, progress: &dyn Progress) -> Result<Picture, Error> {
+    progress.step("reading", 0);
     let parsed = ugscene::read(source, &config.reading, config.camera.name.as_deref())?;
     let plan = Plan::new(config)?;
     let of_scene = plan.of_scene(config);
-    let Painted { drawn, development, annotations, notes } = paint(&parsed.scene, &plan, &of_scene)?;
+    let Painted { drawn, development, annotations, notes } =
+        paint(&parsed.scene, &plan, &of_scene, progress)?;
+    progress.step("packing", 0);
     let label = label(&parsed.scene, config);
     let packing = if config.small { Packing::Small } else { Packing::Fast };
     let bytes = match (config.output, drawn) {
@@ -140,7 +152,8 @@ pub fn run(config: &Config, source: &Source) -> Result<Picture, Error> {
 /// The picture is too large, there is nothing to draw, or the camera makes no sense.
 pub fn render(scene: &Scene, config: &Config) -> Result<(Frame, Vec<String>), Error> {
     let plan = Plan::new(config)?;
-    paint(scene, &plan, &plan.of_scene(config)).map(|painted| (painted.drawn.into_frame(), painted.notes))
+    paint(scene, &plan, &plan.of_scene(config), &())
+        .map(|painted| (painted.drawn.into_frame(), painted.notes))
 }
 
 /// A scene made ready to be drawn: its colours and lights are known, and nothing has been put into the picture yet.
@@ -174,11 +187,13 @@ struct Painted {
 }
 
 /// `config`: what is asked of the picture of the scene in the plan.
-fn paint(scene: &Scene, plan: &Plan, config: &Config) -> Result<Painted, Error> {
+fn paint(scene: &Scene, plan: &Plan, config: &Config, progress: &dyn Progress) -> Result<Painted, Error> {
+    progress.step("preparing", 0);
     let setup = Setup::new(scene, config)?;
-    let sheet = Sheet::new(setup.painter(), &config.manner());
+    let sheet = Sheet::new(setup.painter(), &config.manner()).telling(progress);
     let canvas = Canvas::new(&setup, &sheet, config);
     let Canvas { drawn, tally, development } = canvas;
+    progress.step("annotating", 0);
     let outcome = Outcome { reach: sheet.reach(), tally, development };
     let mut notes = notes::notes(&setup, config, &outcome);
     let annotations = plan.annotations(&setup, config, development)?;

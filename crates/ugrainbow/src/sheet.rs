@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 use ugparse::Face;
+use ugpipe::Progress;
 
 use crate::config::{Exact, Wireframe};
 use crate::drawlist::{DrawList, Reach};
@@ -42,6 +43,7 @@ pub struct Sheet<'a> {
     clear: ClearLayers<'a>,
     has_faces: bool,
     reach: Reach,
+    progress: &'a dyn Progress,
 }
 
 /// What hides, with the numbers to interpolate: hues alone or with colours given as light among them, under
@@ -207,7 +209,18 @@ impl<'a> Sheet<'a> {
             reach = faces.iter().fold(reach, |reach, faces| reach.merge(faces.reach()));
         }
         let lines = [strips(&painter, &strokes, width)];
-        Self { solid, clear: ClearLayers { faces, strokes, lines }, has_faces: manner.has_faces(), reach }
+        Self {
+            solid,
+            clear: ClearLayers { faces, strokes, lines },
+            has_faces: manner.has_faces(),
+            reach,
+            progress: &(),
+        }
+    }
+
+    /// The same, which tells somebody how far drawing is.
+    pub fn telling(self, progress: &'a dyn Progress) -> Self {
+        Self { progress, ..self }
     }
 
     /// How many faces and lines came how far.
@@ -230,7 +243,10 @@ impl<'a> Sheet<'a> {
     ) -> Tally {
         let lit = self.lit(shader);
         let clear = lit.as_ref().map(|lit| lit as &dyn Clear);
-        with_layers!(&self.solid, shader, |layers, shade| paint(pixels, grid, layers, clear, &shade, finish))
+        let progress = self.progress;
+        with_layers!(&self.solid, shader, |layers, shade| {
+            paint(pixels, grid, layers, clear, &shade, finish, progress)
+        })
     }
 
     /// The samples of one pixel, and what they gather to.

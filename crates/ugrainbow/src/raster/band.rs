@@ -4,6 +4,7 @@ use std::ops::Range;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use rayon::prelude::*;
+use ugpipe::Progress;
 
 use super::cue::Cue;
 use super::edges::Scanner;
@@ -122,7 +123,8 @@ impl<const N: usize, C: Table<N> + ?Sized> Layer<N> for Shapes<'_, N, C> {
 
 /// Draws a layer, and what is clear before it, into the pixels of the grid, row after row.
 ///
-/// The pixels do not depend on the number of threads. `finish` makes a pixel of its samples.
+/// The pixels do not depend on the number of threads. `finish` makes a pixel of its samples. `progress` is told of a step
+/// of as many parts as there are bands.
 pub fn paint<const N: usize, L, T, P, S, F>(
     pixels: &mut [P],
     grid: &Grid,
@@ -130,6 +132,7 @@ pub fn paint<const N: usize, L, T, P, S, F>(
     clear: Option<&dyn Clear>,
     shader: &S,
     finish: &F,
+    progress: &dyn Progress,
 ) -> Tally
 where
     L: Layer<N> + ?Sized,
@@ -139,6 +142,7 @@ where
     F: Fn(&Gathered<'_, T>) -> P + Sync,
 {
     let band_pixels = grid.band_rows() as usize * grid.width as usize;
+    progress.step("drawing", pixels.len().div_ceil(band_pixels) as u64);
     // Buffers go from band to band: as many as there are threads, and touched once.
     let buffers = Buffers::default();
     pixels
@@ -151,6 +155,7 @@ where
             let mut resolver = Resolver::new(shader, finish, grid);
             Band { grid, layer, clear, band, scanner, tile, glass }.paint(&mut resolver, pixels);
             buffers.put_back(own);
+            progress.done(1);
             resolver.tally
         })
         .reduce(Tally::default, Tally::merge)

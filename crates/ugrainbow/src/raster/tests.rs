@@ -196,9 +196,15 @@ fn triangles_are_drawn_like_polygons() {
         let draw = |list: PolygonList<1>| {
             let mut pixels = vec![(0.0, 0.0, None); 60 * 50];
             let layer = Shapes { lists: &[list], table: &table };
-            paint(&mut pixels, &grid, &layer, None, &shader, &|all: &Gathered<'_, u32>| {
-                (all.sum[0], all.covered, all.center)
-            });
+            paint(
+                &mut pixels,
+                &grid,
+                &layer,
+                None,
+                &shader,
+                &|all: &Gathered<'_, u32>| (all.sum[0], all.covered, all.center),
+                &(),
+            );
             pixels
         };
         for (ours, exact) in draw(triangles).into_iter().zip(draw(polygons)) {
@@ -229,9 +235,17 @@ fn painted(polygons: &[Vec<Corner<1>>], grid: &Grid) -> Vec<f32> {
     let shader = |&[light]: &[f32; 1]| Shade { light: [light; 3], intensity: light, is_out_of_range: false };
     let mean = |sum: [f32; 3]| sum[0] / (grid.samples * grid.samples) as f32;
     let mut pixels = vec![0.0; grid.width as usize * grid.height as usize];
-    paint(&mut pixels, grid, &layer, None, &shader, &|all: &Gathered<'_, ()>| mean(all.sum));
+    paint(&mut pixels, grid, &layer, None, &shader, &|all: &Gathered<'_, ()>| mean(all.sum), &());
     let mut marked = vec![(0.0, None); pixels.len()];
-    paint(&mut marked, grid, &layer, None, &shader, &|all: &Gathered<'_, u32>| (mean(all.sum), all.center));
+    paint(
+        &mut marked,
+        grid,
+        &layer,
+        None,
+        &shader,
+        &|all: &Gathered<'_, u32>| (mean(all.sum), all.center),
+        &(),
+    );
     for (idx, (&light, marked)) in pixels.iter().zip(&marked).enumerate() {
         assert_eq!(light, marked.0);
         if pixels.len() > 1000 {
