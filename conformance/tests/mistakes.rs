@@ -61,11 +61,7 @@ const MISTAKES: [Mistake; 17] = [
     Mistake {
         name: "M6",
         file: "crates/ugrainbow/src/drawlist.rs",
-        right: "scene
-            .vertices
-            .par_iter()
-            .map(|vertex| painter.view.place(vertex.position - painter.view.eye))
-            .collect()",
+        right: "scene.vertices.par_iter().map(point).collect()",
         wrong: "scene
             .vertices
             .par_iter()
@@ -73,7 +69,7 @@ const MISTAKES: [Mistake; 17] = [
             .map(|(row, vertex)| {
                 let seen = vertex.position - painter.view.eye;
                 let distance = painter.surface.rest(VertexId::from_index(row)).length();
-                painter.view.place(seen * (distance / seen.length()))
+                painter.point(painter.view.place(seen * (distance / seen.length())))
             })
             .collect()",
         found_by: "depth",
