@@ -139,6 +139,43 @@ fn number(coordinate: f64) -> String {
     }
 }
 
+/// What PostScript and PDF paint in one go.
+enum Painted<'a> {
+    /// An area of one colour, and those of its edges that an area painted later has too.
+    Area { contours: &'a [Vec<Point>], color: Rgb, seams: Vec<[Point; 2]> },
+    /// A line.
+    Line { ends: [Point; 2], width: f64, color: Rgb },
+    /// All triangles up to the next area or line.
+    Mesh(Mesh),
+}
+
+/// The elements of a figure in the order of painting.
+fn painted(figure: &Figure<Triangle>) -> impl Iterator<Item = Painted<'_>> {
+    let seams = seams(figure.elements.iter().map(|element| match element {
+        Element::Area { contours, .. } => Some(&contours[..]),
+        _ => None,
+    }));
+    let mut elements = figure.elements.iter().zip(seams).peekable();
+    std::iter::from_fn(move || {
+        let (element, seams) = elements.next()?;
+        Some(match element {
+            Element::Area { contours, color, .. } => Painted::Area { contours, color: *color, seams },
+            Element::Line { ends, width, color } => {
+                Painted::Line { ends: *ends, width: *width, color: *color }
+            }
+            Element::Smooth(triangle) => {
+                let mut mesh = Mesh::new();
+                mesh.push(triangle);
+                while let Some((Element::Smooth(triangle), _)) = elements.peek() {
+                    mesh.push(triangle);
+                    elements.next();
+                }
+                Painted::Mesh(mesh)
+            }
+        })
+    })
+}
+
 /// Triangles for shading type 4: a flag, two coordinates and three colours a corner, the corners of a triangle in
 /// succession. Coordinates are of 24 bits in steps of 1/256 pixel.
 struct Mesh(Vec<u8>);

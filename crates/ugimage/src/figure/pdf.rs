@@ -3,7 +3,7 @@
 use pdf_writer::writers::StreamShadingType;
 use pdf_writer::{Content, Filter, Name, Pdf, Ref};
 
-use super::{Element, Figure, MESH_BITS, Mesh, Point, Rgb, SEAM_WIDTH, Triangle, seams};
+use super::{Figure, MESH_BITS, Mesh, Painted, Point, Rgb, SEAM_WIDTH, Triangle, painted};
 use crate::Label;
 use crate::pdf::{FIRST, deflate, document};
 
@@ -52,30 +52,19 @@ struct Page {
 
 impl Page {
     fn draw(&mut self, figure: &Figure<Triangle>) {
-        let seams = seams(figure.elements.iter().map(|element| match element {
-            Element::Area { contours, .. } => Some(&contours[..]),
-            _ => None,
-        }));
-        let mut elements = figure.elements.iter().zip(seams).peekable();
-        while let Some((element, seams)) = elements.next() {
-            match element {
-                Element::Area { contours, color, .. } => {
-                    self.set_color(*color);
+        for painted in painted(figure) {
+            match painted {
+                Painted::Area { contours, color, seams } => {
+                    self.set_color(color);
                     contours.iter().for_each(|contour| self.add_contour(contour));
                     self.content.fill_even_odd();
                     self.stroke(&seams, SEAM_WIDTH);
                 }
-                Element::Line { ends, width, color } => {
-                    self.set_color(*color);
-                    self.stroke(&[*ends], *width);
+                Painted::Line { ends, width, color } => {
+                    self.set_color(color);
+                    self.stroke(&[ends], width);
                 }
-                Element::Smooth(triangle) => {
-                    let mut mesh = Mesh::new();
-                    mesh.push(triangle);
-                    while let Some((Element::Smooth(triangle), _)) = elements.peek() {
-                        mesh.push(triangle);
-                        elements.next();
-                    }
+                Painted::Mesh(mesh) => {
                     self.content.shading(Name(mesh_name(self.meshes.len()).as_bytes()));
                     self.meshes.push(mesh);
                 }

@@ -1,6 +1,6 @@
 //! Figures as PostScript level 3.
 
-use super::{Element, Figure, MESH_BITS, Mesh, Point, Rgb, SEAM_WIDTH, Triangle, number, seams};
+use super::{Figure, MESH_BITS, Mesh, Painted, Point, Rgb, SEAM_WIDTH, Triangle, number, painted};
 use crate::pdf::deflate;
 use crate::postscript::Ascii85;
 use crate::{Label, eps as eps_file, ps as ps_file};
@@ -43,15 +43,10 @@ fn drawing(figure: &Figure<Triangle>) -> Vec<u8> {
         page.set_color(background);
         page.add(&format!("0 0 {width} {height} rectfill\n"));
     }
-    let seams = seams(figure.elements.iter().map(|element| match element {
-        Element::Area { contours, .. } => Some(&contours[..]),
-        _ => None,
-    }));
-    let mut elements = figure.elements.iter().zip(seams).peekable();
-    while let Some((element, seams)) = elements.next() {
-        match element {
-            Element::Area { contours, color, .. } => {
-                page.set_color(*color);
+    for painted in painted(figure) {
+        match painted {
+            Painted::Area { contours, color, seams } => {
+                page.set_color(color);
                 page.add(&path(contours));
                 page.add("f\n");
                 if !seams.is_empty() {
@@ -60,19 +55,13 @@ fn drawing(figure: &Figure<Triangle>) -> Vec<u8> {
                     page.add("s\n");
                 }
             }
-            Element::Line { ends, width, color } => {
-                page.set_color(*color);
-                page.set_width(*width);
-                page.add(&line(ends));
+            Painted::Line { ends, width, color } => {
+                page.set_color(color);
+                page.set_width(width);
+                page.add(&line(&ends));
                 page.add("s\n");
             }
-            Element::Smooth(triangle) => {
-                let mut mesh = Mesh::new();
-                mesh.push(triangle);
-                while let Some((Element::Smooth(triangle), _)) = elements.peek() {
-                    mesh.push(triangle);
-                    elements.next();
-                }
+            Painted::Mesh(mesh) => {
                 page.add("UgMesh\n");
                 Ascii85::encode(&deflate(&mesh.0), &mut page.out);
             }
