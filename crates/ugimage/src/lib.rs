@@ -65,5 +65,5 @@ pub use frame::Frame;
 pub use grey::grey_postscript;
 pub use linear::{LinearFrame, Plane, Samples, display_pixel};
 pub use png::Packing;
-pub use quantizer::Quantizer;
+pub use quantizer::{HALF, Quantizer};
 pub use read::{ReadError, read_png};

@@ -10,6 +10,10 @@ const CELLS: usize = 4096;
 /// What is rounded up to 1 when a number of a cell is added to 1: half the distance of numbers there.
 const ROUNDING: f32 = 1.0 / (1 << 24) as f32;
 
+/// What is added to a display level before what stands behind its point is cut off: a little more than a half, so that
+/// what lies halfway, as grey 0.5 does, goes up even if its light was computed a few 10⁻⁷ too small.
+pub const HALF: f64 = 0.500_25;
+
 /// Rounds linear light to the nearest display level: round(255 · encode(x)), without
 /// the power function of the sRGB transfer curve.
 ///
@@ -28,7 +32,7 @@ impl Quantizer {
     pub fn new() -> Self {
         let thresholds: [f32; 256] = std::array::from_fn(|level| match level {
             255 => f32::NAN,
-            level => srgb_decode((level as f64 + 0.5) / 255.0) as f32,
+            level => srgb_decode((level as f64 + 1.0 - HALF) / 255.0) as f32,
         });
         let mut start = [0; CELLS];
         for (cell, level) in start.iter_mut().enumerate() {
@@ -77,7 +81,16 @@ mod tests {
             let exact = 255.0 * srgb_encode(f64::from(linear));
             // Thresholds are rounded to f32, 6e-8 of their size: 1e-4 of a level at most.
             let error = (f64::from(quantizer.level(linear)) - exact).abs();
-            assert!(error <= 0.5 + 1e-4, "{linear}: {error}");
+            assert!(error <= HALF + 1e-4, "{linear}: {error}");
+        }
+    }
+
+    #[test]
+    fn halfway_goes_up() {
+        let quantizer = Quantizer::new();
+        for level in 0..255u8 {
+            let halfway = srgb_decode((f64::from(level) + 0.5) / 255.0) as f32;
+            assert_eq!(quantizer.level(halfway * (1.0 - 3e-7)), level + 1);
         }
     }
 

@@ -2,13 +2,15 @@
 
 use std::borrow::Borrow;
 
+use fearless_simd::prelude::*;
+use fearless_simd::{Level, Simd, dispatch, f32x8, i32x8};
 use rayon::prelude::*;
-use ugimage::{Development, Frame, LinearFrame, Quantizer, auto_exposure, display_pixel};
+use ugimage::{Development, Frame, HALF, LinearFrame, Quantizer, auto_exposure, display_pixel};
 use ugphysics::srgb_decode;
 
 use crate::config::{Background, Config, Exposure};
 use crate::planes::{Finder, front, planes};
-use crate::raster::{Gathered, Seen, Tally};
+use crate::raster::{Direct, Finish, Gathered, RUN, Seen, Tally};
 use crate::setup::Setup;
 use crate::sheet::Sheet;
 
@@ -65,16 +67,86 @@ impl Canvas {
     /// Straight to 8 bits, when nothing in between is asked for.
     fn display(setup: &Setup<'_>, sheet: &Sheet<'_>, config: &Config) -> Self {
         let grid = &setup.grid;
-        let ground = Ground::new(config);
-        let quantizer = Quantizer::new();
+        let finish = Display::new(config);
         // Zeros come from the system as they are touched, on the threads that paint.
         let mut pixels = vec![[0; 4]; grid.width as usize * grid.height as usize];
-        let tally = sheet.paint(grid, &setup.shader, &mut pixels, &|all: &Gathered<'_, ()>| {
-            display_pixel(&quantizer, ground.pixel(all), ground.is_opaque())
-        });
-        let frame = Frame::new([grid.width, grid.height], ground.is_opaque(), pixels);
+        let tally = sheet.paint::<(), _>(grid, &setup.shader, &mut pixels, &finish);
+        let frame = Frame::new([grid.width, grid.height], finish.ground.is_opaque(), pixels);
         Self { drawn: Drawn::Display(frame), tally, development: None }
     }
+}
+
+/// Samples to what a display shows of them.
+pub struct Display {
+    ground: Ground,
+    quantizer: Quantizer,
+    /// Of a pixel that shows nothing.
+    empty: [u8; 4],
+}
+
+impl Display {
+    /// That of a picture.
+    pub fn new(config: &Config) -> Self {
+        let (ground, quantizer) = (Ground::new(config), Quantizer::new());
+        let mut display = Self { ground, quantizer, empty: [0; 4] };
+        display.empty = display.pixel(&Gathered::<()>::EMPTY);
+        display
+    }
+}
+
+impl<T> Finish<T, [u8; 4]> for Display {
+    fn pixel(&self, all: &Gathered<'_, T>) -> [u8; 4] {
+        display_pixel(&self.quantizer, self.ground.pixel(all), self.ground.is_opaque())
+    }
+
+    fn direct(&self) -> Option<&dyn Direct<[u8; 4]>> {
+        Some(self)
+    }
+}
+
+impl Direct<[u8; 4]> for Display {
+    fn empty(&self) -> [u8; 4] {
+        self.empty
+    }
+
+    fn pixels(&self, keys: &[f32], levels: &[[f32; RUN]; 3], pixels: &mut [[u8; 4]]) {
+        dispatch!(Level::new(), simd => write_levels(simd, keys, levels, self.empty, pixels));
+    }
+}
+
+/// Levels, 0…1, to the nearest of 256.
+#[inline(always)] // Compiled for what the processor can do to many numbers at once.
+fn write_levels<S: Simd>(
+    simd: S,
+    keys: &[f32],
+    levels: &[[f32; RUN]; 3],
+    empty: [u8; 4],
+    pixels: &mut [[u8; 4]],
+) {
+    let [red, green, blue] = levels;
+    let all = red.as_chunks().0.iter().zip(green.as_chunks().0).zip(blue.as_chunks().0);
+    let empty = i32x8::splat(simd, i32::from_le_bytes(empty));
+    for ((keys, pixels), ((red, green), blue)) in keys.chunks(LANES).zip(pixels.chunks_mut(LANES)).zip(all) {
+        let (red, green, blue) = (bytes(simd, red), bytes(simd, green), bytes(simd, blue));
+        let shown = red | green << 8 | blue << 16 | i32x8::splat(simd, i32::from_le_bytes([0, 0, 0, 255]));
+        let mut all_keys = [f32::NEG_INFINITY; LANES];
+        all_keys[..keys.len()].copy_from_slice(keys);
+        let is_shown = f32x8::from_slice(simd, &all_keys).simd_gt(f32x8::splat(simd, f32::NEG_INFINITY));
+        let shown: [i32; LANES] = is_shown.select(shown, empty).into();
+        for (pixel, shown) in pixels.iter_mut().zip(shown) {
+            *pixel = shown.to_le_bytes();
+        }
+    }
+}
+
+/// Levels that are rounded together.
+const LANES: usize = 8;
+
+/// The levels of 256 nearest to some of 0…1.
+#[inline(always)]
+fn bytes<S: Simd>(simd: S, levels: &[f32; LANES]) -> i32x8<S> {
+    // What stands behind the point is cut off.
+    simd.cvt_i32_f32x8(f32x8::from_slice(simd, levels) * 255.0 + HALF as f32)
 }
 
 /// The whole picture as light, with the planes that are asked for.
@@ -90,8 +162,9 @@ pub fn light(setup: &Setup<'_>, sheet: &Sheet<'_>, config: &Config) -> (LinearFr
         return (frame(pixels), tally);
     }
     let mut pixels: Vec<([f32; 4], Option<Seen<u32>>)> = vec![([0.0; 4], None); n_pixels];
-    let tally =
-        sheet.paint(grid, &setup.shader, &mut pixels, &|all| (ground.pixel(all), front(&setup.view, all)));
+    let tally = sheet.paint(grid, &setup.shader, &mut pixels, &|all: &Gathered<'_, u32>| {
+        (ground.pixel(all), front(&setup.view, all))
+    });
     let (pixels, seen): (Vec<_>, Vec<_>) = pixels.into_iter().unzip();
     let mut frame = frame(pixels);
     let painter = setup.painter();

@@ -27,6 +27,9 @@ struct Corners<'a, const N: usize> {
     pack: Pack<N>,
     /// Of every vertex; not a number where it is outside the slab.
     points: Vec<Point>,
+    /// The light on every face that tells no level of its own, if that is the same everywhere and what a corner looks
+    /// like is told by its own colour.
+    even_level: Option<DVec3>,
 }
 
 impl<const N: usize> Table<N> for Corners<'_, N> {
@@ -36,7 +39,14 @@ impl<const N: usize> Table<N> for Corners<'_, N> {
     }
 
     fn numbers(&self, item: u32, corners: [u32; 3]) -> [[f64; N]; 3] {
-        let look = FaceLook::new(&self.painter, &self.painter.scene.faces[item as usize]);
+        let face = &self.painter.scene.faces[item as usize];
+        if let (Some(level), None) = (self.even_level, face.illum) {
+            let [a, b, c] = corners.map(|corner| self.painter.surface.swatch(VertexId(corner)));
+            if !(a.is_grey() | b.is_grey() | c.is_grey()) {
+                return [(self.pack)(a, level), (self.pack)(b, level), (self.pack)(c, level)];
+            }
+        }
+        let look = FaceLook::new(&self.painter, face);
         corners.map(|corner| look.numbers(VertexId(corner), self.pack))
     }
 }
@@ -82,7 +92,9 @@ impl<'a, const N: usize> DrawList<'a, N> {
     pub fn new(painter: Painter<'a>, is_drawn: impl Fn(&Face) -> bool + Sync, pack: Pack<N>) -> Self {
         let scene = painter.scene;
         let point = |vertex: &ugparse::Vertex| painter.point(painter.place(vertex.position));
-        let corners = Corners { painter, pack, points: scene.vertices.par_iter().map(point).collect() };
+        let even_level = painter.even_level();
+        let corners =
+            Corners { painter, pack, points: scene.vertices.par_iter().map(point).collect(), even_level };
         let faces = scene.faces.par_chunks(CHUNK).enumerate();
         let parts = faces.map(|(idx, faces)| Chunk::new(&corners, idx).all(faces, &is_drawn)).collect();
         Self::of(parts, corners)
@@ -172,6 +184,12 @@ impl<'a, const N: usize> Chunk<'a, N> {
 
     fn push_face(&mut self, face: &Face) {
         let vertices = self.painter.scene.contours.corners(face.contours.clone());
+        if let &[VertexId(a), VertexId(b), VertexId(c)] = vertices {
+            let points = [self.corners.point(a), self.corners.point(b), self.corners.point(c)];
+            if is_regular(&points, self.painter.view.is_perspective) {
+                return self.push_triangle([a, b, c], &points);
+            }
+        }
         let points = vertices.iter().map(|vertex| self.corners.points[vertex.index()]);
         // Of a face that is not clipped it is known early where it is: what is outside the picture or between
         // samples costs no more.
@@ -179,18 +197,7 @@ impl<'a, const N: usize> Chunk<'a, N> {
             let rows = Bounds::new(points.map(|point| [point.x, point.y])).rows(self.painter.grid);
             self.reach.in_front += 1;
             self.reach.in_picture += usize::from(rows.is_some());
-            let Some(rows) = rows.filter(|rows| !rows.is_empty()) else { return };
-            if let &[VertexId(a), VertexId(b), VertexId(c)] = vertices {
-                let corners = [a, b, c];
-                let points = corners.map(|corner| self.corners.point(corner));
-                if is_regular(&points, self.painter.view.is_perspective) {
-                    if !self.painter.is_culled || twice_area(&points) > 0.0 {
-                        self.list.push_triangle(self.item, corners, rows);
-                    }
-                    return;
-                }
-            }
-            if !self.is_left_out(face) {
+            if rows.is_some_and(|rows| !rows.is_empty()) && !self.is_left_out(face) {
                 self.push_contours(face);
                 self.list.end_polygon(self.painter.grid, self.item);
             }
@@ -200,6 +207,18 @@ impl<'a, const N: usize> Chunk<'a, N> {
             self.reach.in_picture += 1;
         } else if self.push_contours(face) {
             self.end_polygon();
+        }
+    }
+
+    fn push_triangle(&mut self, corners: [u32; 3], points: &[Point; 3]) {
+        let bounds = Bounds::new(points.iter().map(|point| [point.x, point.y]));
+        let is_in_picture = bounds.is_in_picture(self.painter.grid);
+        self.reach.in_front += 1;
+        self.reach.in_picture += usize::from(is_in_picture);
+        let is_left_out = self.painter.is_culled && twice_area(points) <= 0.0;
+        if is_in_picture && !is_left_out {
+            let rows = bounds.rows(self.painter.grid).filter(|rows| !rows.is_empty());
+            rows.into_iter().for_each(|rows| self.list.push_triangle(self.item, corners, rows));
         }
     }
 

@@ -80,10 +80,13 @@ impl Painter<'_> {
     pub fn common(&self, face: &Face) -> Common {
         let corners = self.scene.contours.corners(face.contours.clone());
         let swatches = || corners.iter().map(|&vertex| self.surface.swatch(vertex));
-        let (sum, count) = swatches()
-            .filter(|swatch| !swatch.is_grey())
-            .fold((0.0, 0), |(sum, count), swatch| (sum + swatch.tint, count + 1));
-        let grey_tint = if count == 0 { 0.0 } else { sum / f64::from(count) };
+        let mean_tint = || {
+            let (sum, count) = swatches()
+                .filter(|swatch| !swatch.is_grey())
+                .fold((0.0, 0), |(sum, count), swatch| (sum + swatch.tint, count + 1));
+            if count == 0 { 0.0 } else { sum / f64::from(count) }
+        };
+        let grey_tint = if swatches().any(Swatch::is_grey) { mean_tint() } else { 0.0 };
         let translucency = face.color.map(|color| self.palette.get(color).translucency);
         Common {
             grey_tint,
@@ -96,7 +99,7 @@ impl Painter<'_> {
     #[inline]
     pub fn swatch(&self, vertex: VertexId, common: &Common) -> Swatch {
         let own = self.surface.swatch(vertex);
-        let swatch = Swatch { translucency: common.translucency.unwrap_or(own.translucency), ..own };
+        let swatch = Swatch { translucency: common.translucency.unwrap_or(own.translucency), ..*own };
         if common.is_light {
             self.as_light(swatch)
         } else if swatch.is_grey() {
@@ -175,6 +178,13 @@ impl Painter<'_> {
         }
         let normal = self.normal_at(vertex, seen_normal);
         self.lighting.level(self.surface.rest(vertex), normal, is_light)
+    }
+
+    /// The light level of all faces that tell none, if it is the same on all, and colours are hues of vertices.
+    pub fn even_level(&self) -> Option<DVec3> {
+        let is_even = !self.lighting.needs_geometry();
+        let is_plain = !self.palette.has_light() && !self.palette.has_translucency();
+        (is_even && is_plain).then(|| self.lighting.level(DVec3::ZERO, DVec3::ZERO, false))
     }
 
     /// The normal at a corner of a face, on the side that is seen.

@@ -11,8 +11,8 @@ use crate::lines::{Hiders, Shown, Stroke, lines, pieces, strips, strokes};
 use crate::painter::Painter;
 use crate::palette::Swatch;
 use crate::raster::{
-    CLEAR_VALUES, Clear, Corner, Gathered, Grid, Layer, NoTable, Pane, PolygonList, Sample, Scanner, Shade,
-    Shapes, Sink, Tag, Tally, paint, probe,
+    CLEAR_VALUES, Clear, Corner, Finish, Gathered, Grid, Layer, NoTable, Pane, PolygonList, Sample, Scanner,
+    Shade, Shapes, Sink, Tag, Tally, paint, probe,
 };
 use crate::shade::Shader;
 
@@ -67,26 +67,6 @@ macro_rules! with_layers {
             Solid::Colored($layers) => $body,
             Solid::Mixed($layers) => $body,
             Solid::MixedColored($layers) => $body,
-        }
-    };
-    ($solid:expr, $shader:expr, |$layers:ident, $shade:ident| $body:expr) => {
-        match $solid {
-            Solid::Plain($layers) => {
-                let $shade = |values: &[f32; 3]| $shader.plain(values);
-                $body
-            }
-            Solid::Colored($layers) => {
-                let $shade = |values: &[f32; 6]| $shader.colored(values);
-                $body
-            }
-            Solid::Mixed($layers) => {
-                let $shade = |values: &[f32; 4]| $shader.mixed(values);
-                $body
-            }
-            Solid::MixedColored($layers) => {
-                let $shade = |values: &[f32; 7]| $shader.mixed_colored(values);
-                $body
-            }
         }
     };
 }
@@ -239,26 +219,25 @@ impl<'a> Sheet<'a> {
         grid: &Grid,
         shader: &Shader,
         pixels: &mut [P],
-        finish: &(impl Fn(&Gathered<'_, T>) -> P + Sync),
+        finish: &impl Finish<T, P>,
     ) -> Tally {
         let lit = self.lit(shader);
         let clear = lit.as_ref().map(|lit| lit as &dyn Clear);
         let progress = self.progress;
-        with_layers!(&self.solid, shader, |layers, shade| {
-            paint(pixels, grid, layers, clear, &shade, finish, progress)
-        })
+        with_layers!(&self.solid, |layers| paint(pixels, grid, layers, clear, shader, finish, progress))
     }
 
-    /// The samples of one pixel, and what they gather to.
-    pub fn probe(
+    /// The samples of one pixel, what they gather to, and what `finish` makes of it.
+    pub fn probe<P: Copy + Default>(
         &self,
         grid: &Grid,
         shader: &Shader,
+        finish: &impl Finish<u32, P>,
         pixel: [u32; 2],
-    ) -> (Vec<Sample>, Gathered<'static, u32>) {
+    ) -> (Vec<Sample>, Gathered<'static, u32>, P) {
         let lit = self.lit(shader);
         let clear = lit.as_ref().map(|lit| lit as &dyn Clear);
-        with_layers!(&self.solid, shader, |layers, shade| probe(grid, layers, clear, &shade, pixel))
+        with_layers!(&self.solid, |layers| probe(grid, layers, clear, shader, finish, pixel))
     }
 }
 

@@ -37,8 +37,9 @@ impl Surface {
     }
 
     /// Its own colour, else the mix of its faces' colours, else white.
-    pub fn swatch(&self, vertex: VertexId) -> Swatch {
-        self.swatches[self.rows[vertex.index()] as usize]
+    #[inline]
+    pub fn swatch(&self, vertex: VertexId) -> &Swatch {
+        &self.swatches[self.rows[vertex.index()] as usize]
     }
 
     /// Where the vertex is in the rest frame of its body, relative to the eye, in the axes of the scene.  Eq. (P4)

@@ -100,7 +100,7 @@ impl<'a, const N: usize> Faces<'a, N> {
             let nearer = shape.outline.key(ray);
             nearer > key && (least..=most).contains(&nearer) && shape.outline.contains(ray)
         };
-        let shapes = self.bins.in_band(grid.bands_of(&(row..row + 1)).start).iter();
+        let shapes = self.bins.in_band(grid.bands().of(&(row..row + 1)).start).iter();
         shapes
             .map(|&shape| &self.shapes[shape as usize])
             .filter(|shape| shape.columns.contains(&column) && shape.rows.contains(&row))

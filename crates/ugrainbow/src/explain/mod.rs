@@ -10,7 +10,7 @@ use ugparse::{Diagnostic, Diagnostics, Parsed, Source, VertexId};
 use ugphysics::{attenuation, doppler_at, linear_srgb_to_xyz, wavelength_to_hue};
 use ugscene::Geometry;
 
-use crate::canvas::{Ground, development};
+use crate::canvas::{Display, Ground, development};
 use crate::config::{Config, Interpolation};
 use crate::figures::Plan;
 use crate::palette::Swatch;
@@ -174,7 +174,8 @@ pub fn explain(
         return Err(Error::Pixel { pixel, size: config.size });
     }
     let sheet = Sheet::new(setup.painter(), &config.manner());
-    let (samples, gathered) = sheet.probe(&setup.grid, &setup.shader, pixel);
+    let display = Display::new(config);
+    let (samples, gathered, bytes) = sheet.probe(&setup.grid, &setup.shader, &display, pixel);
     let story = Story::of(&parsed.scene);
     let teller = Teller { setup: &setup, config, source, parsed: &parsed, story: &story };
     let explanation = Explanation {
@@ -186,7 +187,7 @@ pub fn explain(
             - samples.iter().filter(|sample| !is_free(sample)).count(),
         is_at_rest: parsed.scene.velocities.iter().all(|beta| *beta == DVec3::ZERO),
         sample: nearest(&samples, pixel, config.samples).map(|sample| teller.shown(sample)),
-        pixel_steps: pixel_steps(&setup, &sheet, config, &gathered),
+        pixel_steps: pixel_steps(&setup, &sheet, config, &gathered, bytes),
         story,
     };
     Ok((explanation, parsed.warnings))
@@ -207,6 +208,7 @@ fn pixel_steps(
     sheet: &Sheet<'_>,
     config: &Config,
     gathered: &Gathered<'_, u32>,
+    bytes: [u8; 4],
 ) -> PixelSteps {
     let ground = Ground::new(config);
     let mean = ground.pixel(gathered);
@@ -215,8 +217,11 @@ fn pixel_steps(
         let development = development(|| canvas::light(setup, sheet, config).0, config);
         (development, development.steps([red, green, blue]))
     });
-    let shown = development.map_or(mean, |(development, _)| canvas::developed(&development, mean));
-    PixelSteps { mean, development, bytes: display_pixel(&Quantizer::new(), shown, ground.is_opaque()) }
+    let bytes = development.map_or(bytes, |(development, _)| {
+        let shown = canvas::developed(&development, mean);
+        display_pixel(&Quantizer::new(), shown, ground.is_opaque())
+    });
+    PixelSteps { mean, development, bytes }
 }
 
 /// One of the things a sample shows.

@@ -3,6 +3,7 @@
 use std::ops::Range;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
+use fearless_simd::{Level, Simd, dispatch};
 use rayon::prelude::*;
 use ugpipe::Progress;
 
@@ -10,7 +11,8 @@ use super::cue::Cue;
 use super::edges::Scanner;
 use super::glass::{Clear, Glass, Keep};
 use super::polygons::{Drawn, PolygonList};
-use super::resolve::{Gathered, Resolver, Shade, Tally};
+use super::resolve::{Finish, Resolver};
+use super::shading::{Shading, Tally};
 use super::spans::{Sink, Tag, Tile};
 use super::triangles::{Table, draw_triangle};
 
@@ -82,10 +84,23 @@ impl Grid {
         self.height.div_ceil(self.band_rows()) as usize
     }
 
-    /// The bands that these rows of samples lie in; `rows` is not empty.
-    pub fn bands_of(&self, rows: &Range<u32>) -> Range<usize> {
-        let band_samples = self.band_rows() * self.samples;
-        (rows.start / band_samples) as usize..((rows.end - 1) / band_samples) as usize + 1
+    /// The bands of the picture.
+    pub fn bands(&self) -> Bands {
+        Bands { sample_rows: self.band_rows() * self.samples }
+    }
+}
+
+/// How a picture is cut into bands.
+#[derive(Clone, Copy, Debug)]
+pub struct Bands {
+    sample_rows: u32,
+}
+
+impl Bands {
+    /// Those that these rows of samples lie in; `rows` is not empty.
+    #[inline]
+    pub fn of(&self, rows: &Range<u32>) -> Range<usize> {
+        (rows.start / self.sample_rows) as usize..((rows.end - 1) / self.sample_rows) as usize + 1
     }
 }
 
@@ -105,13 +120,31 @@ pub struct Shapes<'a, const N: usize, C: ?Sized> {
 
 impl<const N: usize, C: Table<N> + ?Sized> Layer<N> for Shapes<'_, N, C> {
     fn draw(&self, grid: &Grid, band: usize, scanner: &mut Scanner<N>, sink: &mut impl Sink<N>) {
+        dispatch!(Level::new(), simd => self.draw_on(simd, grid, band, scanner, sink));
+    }
+}
+
+impl<const N: usize, C: Table<N> + ?Sized> Shapes<'_, N, C> {
+    /// Draws them. All of a triangle is compiled into this, once for each of several families of processors.
+    #[inline(always)]
+    fn draw_on<S: Simd>(
+        &self,
+        simd: S,
+        grid: &Grid,
+        band: usize,
+        scanner: &mut Scanner<N>,
+        sink: &mut impl Sink<N>,
+    ) {
         let [first_row, end_row] = sink.rows();
         let is_perspective = grid.is_perspective;
         for (item, shape) in self.lists.iter().flat_map(|list| list.in_band(band)) {
             match shape {
                 Drawn::Triangle(corners) => {
-                    let points = corners.map(|corner| self.table.point(corner));
-                    draw_triangle(sink, &points, is_perspective, item, || self.table.numbers(item, corners));
+                    let [a, b, c] = corners;
+                    let points = [self.table.point(a), self.table.point(b), self.table.point(c)];
+                    draw_triangle(simd, sink, &points, is_perspective, item, || {
+                        self.table.numbers(item, corners)
+                    });
                 }
                 Drawn::Polygon(contours) => scanner.scan(contours, first_row, end_row, |row, left, right| {
                     sink.draw(row, left, right, is_perspective, item);
@@ -138,8 +171,8 @@ where
     L: Layer<N> + ?Sized,
     T: Tag,
     P: Copy + Send,
-    S: Fn(&[f32; N]) -> Shade + Sync,
-    F: Fn(&Gathered<'_, T>) -> P + Sync,
+    S: Shading<N>,
+    F: Finish<T, P>,
 {
     let band_pixels = grid.band_rows() as usize * grid.width as usize;
     progress.step("drawing", pixels.len().div_ceil(band_pixels) as u64);
@@ -197,10 +230,10 @@ pub struct Band<'a, const N: usize, L: ?Sized, T> {
 }
 
 impl<const N: usize, L: Layer<N> + ?Sized, T: Tag> Band<'_, N, L, T> {
-    fn paint<P: Copy, S, F>(&mut self, resolver: &mut Resolver<'_, N, S, F>, pixels: &mut [P])
+    fn paint<P: Copy, S, F>(&mut self, resolver: &mut Resolver<'_, S, F>, pixels: &mut [P])
     where
-        S: Fn(&[f32; N]) -> Shade,
-        F: Fn(&Gathered<'_, T>) -> P,
+        S: Shading<N>,
+        F: Finish<T, P>,
     {
         let grid = self.grid;
         let top = self.band as u32 * grid.band_rows();
@@ -216,13 +249,13 @@ impl<const N: usize, L: Layer<N> + ?Sized, T: Tag> Band<'_, N, L, T> {
     /// Draws the tile whose upper left pixel is given into `rows`, whole rows of the frame.
     fn paint_tile<P: Copy, S, F>(
         &mut self,
-        resolver: &mut Resolver<'_, N, S, F>,
+        resolver: &mut Resolver<'_, S, F>,
         column: u32,
         row: u32,
         rows: &mut [P],
     ) where
-        S: Fn(&[f32; N]) -> Shade,
-        F: Fn(&Gathered<'_, T>) -> P,
+        S: Shading<N>,
+        F: Finish<T, P>,
     {
         let grid = self.grid;
         let end_column = (column + grid.tile_columns()).min(grid.width);

@@ -15,8 +15,9 @@ pub struct Bins {
 impl Bins {
     /// `rows`: of samples that each shape may touch; none of these ranges is empty.
     pub fn new<'a>(grid: &Grid, rows: impl Iterator<Item = &'a Range<u32>> + Clone) -> Self {
+        let bands = grid.bands();
         let mut starts = vec![0u32; grid.n_bands() + 1];
-        for band in rows.clone().flat_map(|rows| grid.bands_of(rows)) {
+        for band in rows.clone().flat_map(|rows| bands.of(rows)) {
             starts[band + 1] += 1;
         }
         for band in 1..starts.len() {
@@ -26,7 +27,7 @@ impl Bins {
         let mut next = starts.clone();
         // The text of a scene is below 4 GiB, and so are these numbers.
         for (shape, rows) in (0u32..).zip(rows) {
-            for band in grid.bands_of(rows) {
+            for band in bands.of(rows) {
                 items[next[band] as usize] = shape;
                 next[band] += 1;
             }

@@ -8,12 +8,14 @@
 
 use std::ops::Range;
 
+use fearless_simd::Simd;
+
 use super::band::Grid;
 use super::edges::{Crossing, Scanner};
 use super::polygons::first_center;
-use super::resolve::{Shade, Tally};
+use super::shading::{Shade, Tally};
 use super::spans::{Sink, Tag, Tile};
-use super::triangles::TriangleRow;
+use super::triangles::{Plane, Planes, TriangleRow};
 
 /// Numbers that are interpolated for what is clear.
 pub const CLEAR_VALUES: usize = 8;
@@ -268,19 +270,16 @@ impl<S: Fn(&[f32; CLEAR_VALUES]) -> (Shade, f32)> Sink<CLEAR_VALUES> for PaneSin
         }
     }
 
-    fn draw_line(
+    fn draw_line<P: Simd>(
         &mut self,
+        _: P,
         line: &TriangleRow,
         is_perspective: bool,
         item: u32,
-        numbers: impl FnOnce() -> ([f64; CLEAR_VALUES], [f64; CLEAR_VALUES]),
+        planes: &mut Planes<CLEAR_VALUES, impl Fn(&mut [Plane; CLEAR_VALUES])>,
     ) {
-        let [start, end] = self.pane.columns;
-        let columns = first_center(line.ends[0], end).max(start)..first_center(line.ends[1], end);
-        if columns.is_empty() {
-            return;
-        }
-        let (at_start, slopes) = numbers();
+        let columns = line.columns[0]..line.columns[1];
+        let planes = planes.get();
         for (column, sample) in columns.clone().zip(self.pane.samples(line.row, &columns)) {
             let place = f64::from(column) + 0.5;
             let key = line.key_at(place);
@@ -289,7 +288,7 @@ impl<S: Fn(&[f32; CLEAR_VALUES]) -> (Shade, f32)> Sink<CLEAR_VALUES> for PaneSin
             }
             let scale = if is_perspective { 1.0 / key } else { 1.0 };
             let across = place - line.from;
-            let values = std::array::from_fn(|i| ((at_start[i] + across * slopes[i]) * scale) as f32);
+            let values = planes.map(|plane| ((plane.start(line) + across * plane.a_column) * scale) as f32);
             self.push(sample, item, key as f32, &values);
         }
     }

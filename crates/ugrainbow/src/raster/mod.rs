@@ -10,9 +10,10 @@
 //! 3. [`spans`]: the samples between two crossings, and the depth test;
 //! 4. [`triangles`]: the same for triangles, the usual case, shorter;
 //! 5. [`glass`]: translucent faces and lines in front of them, sample by sample;
-//! 6. [`resolve`]: samples to pixels, averaged in linear light, what is far faded ([`cue`]);
-//! 7. [`band`]: bands in parallel, each with its own small sample buffer;
-//! 8. [`probe`]: one pixel alone, with all its samples.
+//! 6. [`shading`]: the light of samples, many at once;
+//! 7. [`resolve`]: samples to pixels, averaged in linear light, what is far faded ([`cue`]);
+//! 8. [`band`]: bands in parallel, each with its own small sample buffer;
+//! 9. [`probe`]: one pixel alone, with all its samples.
 //!
 //! A sample can also remember whose it is ([`Tag`]); where nobody asks, that costs nothing.
 //!
@@ -41,6 +42,7 @@ mod glass;
 mod polygons;
 mod probe;
 mod resolve;
+mod shading;
 mod spans;
 #[cfg(test)]
 mod tests;
@@ -53,6 +55,7 @@ pub use edges::Scanner;
 pub use glass::{CLEAR_VALUES, Clear, Fragment, Pane};
 pub use polygons::{Bounds, Corner, Drawn, PolygonList};
 pub use probe::{Sample, probe};
-pub use resolve::{Gathered, Shade, Tally};
+pub use resolve::{Direct, Finish, Gathered};
+pub use shading::{RUN, Scale, Shade, Shades, Shading, Tally};
 pub use spans::{Seen, Sink, Tag};
 pub use triangles::{NoTable, Point, Table, is_regular, twice_area};

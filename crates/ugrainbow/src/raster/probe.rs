@@ -3,7 +3,8 @@
 use super::band::{Band, Grid, Layer};
 use super::edges::Scanner;
 use super::glass::{Clear, Fragment, Glass, Keep};
-use super::resolve::{Gathered, Resolver, Shade};
+use super::resolve::{Finish, Gathered, Resolver};
+use super::shading::{Scale, Shade, Shades, Shading};
 use super::spans::{Seen, Tile};
 
 /// A sample of a pixel that shows something.
@@ -28,31 +29,31 @@ pub struct Surface {
     pub shade: Shade,
 }
 
-/// The samples of a pixel that show something, row after row, and the pixel gathered from all: the very numbers that
+/// The samples of a pixel that show something, row after row, what they add up to, and the pixel: the very numbers that
 /// [`super::paint`] computes, for no sample depends on where a tile begins.
-pub fn probe<const N: usize, L: Layer<N> + ?Sized>(
+pub fn probe<const N: usize, L: Layer<N> + ?Sized, P: Copy + Default>(
     grid: &Grid,
     layer: &L,
     clear: Option<&dyn Clear>,
-    shader: &impl Fn(&[f32; N]) -> Shade,
+    shader: &impl Shading<N>,
+    finish: &impl Finish<u32, P>,
     [column, row]: [u32; 2],
-) -> (Vec<Sample>, Gathered<'static, u32>) {
+) -> (Vec<Sample>, Gathered<'static, u32>, P) {
     let (mut scanner, mut tile, mut glass) = (Scanner::default(), Tile::default(), Glass::default());
     let n = grid.samples;
-    let band = grid.bands_of(&(row * n..(row + 1) * n)).start;
+    let band = grid.bands().of(&(row * n..(row + 1) * n)).start;
     let mut one =
         Band { grid, layer, clear, band, scanner: &mut scanner, tile: &mut tile, glass: &mut glass };
     one.draw([column, column + 1], [row, row + 1]);
     one.draw_clear(Keep::All);
+    let mut shades = Shades::default();
     let mut samples = Vec::new();
     for sample_row in row * n..(row + 1) * n {
         for sample_column in column * n..(column + 1) * n {
-            let values = tile.row_part(sample_row, sample_column, sample_column + 1).flatten().next();
-            let surface = tile.seen(sample_row, sample_column).zip(values);
-            let surface = surface.map(|(seen, values)| Surface {
-                seen,
-                values: values.to_vec(),
-                shade: shader(values),
+            let (_, values) = tile.row_part(sample_row, sample_column, sample_column + 1);
+            let surface = tile.seen(sample_row, sample_column).map(|seen| {
+                shader.shade(values, Scale::Linear, &mut shades);
+                Surface { seen, values: values.concat(), shade: shades.get(0) }
             });
             let layers = glass.fragments(sample_row, sample_column).to_vec();
             if surface.is_some() || !layers.is_empty() {
@@ -60,7 +61,9 @@ pub fn probe<const N: usize, L: Layer<N> + ?Sized>(
             }
         }
     }
-    let Gathered { sum, covered, center, .. } =
-        Resolver::new(shader, &(), grid).gather(&tile, &glass, column, row);
-    (samples, Gathered { sum, covered, center, layers: &[] })
+    let mut resolver = Resolver::new(shader, finish, grid);
+    let Gathered { sum, covered, center, .. } = resolver.gather(&tile, &glass, [column, row]);
+    let mut pixel = [P::default()];
+    resolver.paint(&tile, &glass, column, row, &mut pixel);
+    (samples, Gathered { sum, covered, center, layers: &[] }, pixel[0])
 }

@@ -2,23 +2,13 @@
 
 use super::band::Grid;
 use super::glass::{Fragment, Glass};
-use super::spans::{Seen, Tag, Tile};
-
-/// What a shader says of a sample.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Shade {
-    /// Linear light, red, green, blue.
-    pub light: [f32; 3],
-    /// Brightness before it was clipped to 1.
-    pub intensity: f32,
-    /// True if it is black because its wavelength cannot be seen.
-    pub is_out_of_range: bool,
-}
+use super::shading::{RUN, Scale, Shades, Shading, Tally};
+use super::spans::{EMPTY, Seen, Tag, Tile};
 
 /// The samples of a pixel together.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gathered<'a, T> {
-    /// Sum of the light of the covered samples.
+    /// Sum of the linear light of the covered samples.
     pub sum: [f32; 3],
     /// How many are covered; those that something clear covers count in part.
     pub covered: f32,
@@ -31,7 +21,7 @@ pub struct Gathered<'a, T> {
 
 impl<T: Copy> Gathered<'_, T> {
     /// Of a pixel that shows nothing.
-    const EMPTY: Self = Self { sum: [0.0; 3], covered: 0.0, center: None, layers: &[] };
+    pub const EMPTY: Self = Self { sum: [0.0; 3], covered: 0.0, center: None, layers: &[] };
 
     /// True if the pixel shows nothing.
     fn is_empty(&self) -> bool {
@@ -39,61 +29,61 @@ impl<T: Copy> Gathered<'_, T> {
     }
 }
 
-/// What the samples of a picture were.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Tally {
-    /// Samples with a face or wire.
-    pub covered: u64,
-    /// Those that are not black.
-    pub visible: u64,
-    /// Those that are black because of their wavelength.
-    pub out_of_range: u64,
-    /// Greatest brightness before clipping.
-    pub max_intensity: f32,
-}
+/// Makes pixels of samples.
+pub trait Finish<T, P>: Sync {
+    /// A pixel of its samples.
+    fn pixel(&self, all: &Gathered<'_, T>) -> P;
 
-impl Tally {
-    /// That of two parts of a picture together.
-    pub fn merge(self, other: Self) -> Self {
-        Self {
-            covered: self.covered + other.covered,
-            visible: self.visible + other.visible,
-            out_of_range: self.out_of_range + other.out_of_range,
-            max_intensity: self.max_intensity.max(other.max_intensity),
-        }
-    }
-
-    pub fn count(&mut self, shade: &Shade) {
-        self.covered += 1;
-        self.visible += u64::from(shade.light != [0.0; 3]);
-        self.out_of_range += u64::from(shade.is_out_of_range);
-        self.max_intensity = self.max_intensity.max(shade.intensity);
+    /// What makes pixels of single samples without asking for their linear light, if anything can.
+    fn direct(&self) -> Option<&dyn Direct<P>> {
+        None
     }
 }
 
-/// Pixels that are gathered before the first of them is finished.
-const AT_ONCE: usize = 64;
+impl<T, P, F: Fn(&Gathered<'_, T>) -> P + Sync> Finish<T, P> for F {
+    fn pixel(&self, all: &Gathered<'_, T>) -> P {
+        self(all)
+    }
+}
+
+/// Makes pixels of samples that are pixels by themselves.
+pub trait Direct<P> {
+    /// A pixel that shows nothing.
+    fn empty(&self) -> P;
+
+    /// `keys`: depth keys, −∞ where nothing is shown. `levels`: display-encoded red, green and blue.
+    fn pixels(&self, keys: &[f32], levels: &[[f32; RUN]; 3], pixels: &mut [P]);
+}
 
 /// Turns samples into pixels.
-pub struct Resolver<'a, const N: usize, S, F> {
+pub struct Resolver<'a, S, F> {
     shader: &'a S,
     finish: &'a F,
     grid: &'a Grid,
-    /// The sample shaded last: on a flat face the next is the same.
-    last: ([f32; N], Shade),
+    shades: Shades,
+    /// Linear light, and cover, of a row of samples.
+    lit: [Vec<f32>; 4],
+    /// Their sums for each pixel of a row.
+    sums: Vec<[f32; 4]>,
     pub tally: Tally,
 }
 
-impl<'a, const N: usize, S: Fn(&[f32; N]) -> Shade, F> Resolver<'a, N, S, F> {
+impl<'a, S, F> Resolver<'a, S, F> {
     /// `finish` makes a pixel of its samples.
     pub fn new(shader: &'a S, finish: &'a F, grid: &'a Grid) -> Self {
-        // NaN differs from every sample, so that the first one is shaded.
-        let last = ([f32::NAN; N], Shade::default());
-        Self { shader, finish, grid, last, tally: Tally::default() }
+        Self {
+            shader,
+            finish,
+            grid,
+            shades: Shades::default(),
+            lit: Default::default(),
+            sums: Vec::new(),
+            tally: Tally::default(),
+        }
     }
 
     /// Paints the pixels of a row from column `first` on.
-    pub fn paint<T: Tag, P: Copy>(
+    pub fn paint<const N: usize, T: Tag, P: Copy>(
         &mut self,
         tile: &Tile<N, T>,
         glass: &Glass,
@@ -101,96 +91,183 @@ impl<'a, const N: usize, S: Fn(&[f32; N]) -> Shade, F> Resolver<'a, N, S, F> {
         row: u32,
         pixels: &mut [P],
     ) where
-        F: Fn(&Gathered<'_, T>) -> P,
+        S: Shading<N>,
+        F: Finish<T, P>,
     {
-        // Some pixels are gathered before the first is finished: what has just been stored
-        // in parts is slow to load as a whole.
-        let mut gathered = [Gathered::EMPTY; AT_ONCE];
+        match self.finish.direct() {
+            Some(direct) if self.is_direct(glass) => self.paint_direct(tile, direct, first, row, pixels),
+            _ => self.paint_sums(tile, glass, first, row, pixels),
+        }
+    }
+
+    /// True if a pixel is what its only sample shows.
+    pub fn is_direct(&self, glass: &Glass) -> bool {
+        self.grid.samples == 1 && self.grid.cue.is_none() && glass.is_empty()
+    }
+
+    fn paint_direct<const N: usize, T: Tag, P>(
+        &mut self,
+        tile: &Tile<N, T>,
+        direct: &dyn Direct<P>,
+        first: u32,
+        row: u32,
+        pixels: &mut [P],
+    ) where
+        S: Shading<N>,
+        P: Clone,
+    {
+        let (keys, values) = tile.row_part(row, first, first + pixels.len() as u32);
+        for (run, pixels) in pixels.chunks_mut(RUN).enumerate() {
+            let run = run * RUN..run * RUN + pixels.len();
+            let keys = &keys[run.clone()];
+            if is_empty(keys) {
+                pixels.fill(direct.empty());
+                continue;
+            }
+            self.shader.shade(values.map(|all| &all[run.clone()]), Scale::Display, &mut self.shades);
+            self.tally.count_run(keys, &self.shades);
+            direct.pixels(keys, &self.shades.light, pixels);
+        }
+    }
+
+    fn paint_sums<const N: usize, T: Tag, P: Copy>(
+        &mut self,
+        tile: &Tile<N, T>,
+        glass: &Glass,
+        first: u32,
+        row: u32,
+        pixels: &mut [P],
+    ) where
+        S: Shading<N>,
+        F: Finish<T, P>,
+    {
+        self.add_up(tile, glass, first, row, pixels.len() as u32);
         // All pixels without a sample are alike.
         let mut empty = None;
-        for (first, pixels) in (first..).step_by(AT_ONCE).zip(pixels.chunks_mut(AT_ONCE)) {
-            for (column, all) in (first..).zip(&mut gathered[..pixels.len()]) {
-                *all = self.gather(tile, glass, column, row);
+        for ((column, sums), pixel) in (first..).zip(&self.sums).zip(pixels) {
+            let all = gathered(self.grid, tile, glass, [column, row], sums);
+            *pixel = match empty {
+                Some(empty) if all.is_empty() => empty,
+                _ => self.finish.pixel(&all),
+            };
+            if all.is_empty() {
+                empty = Some(*pixel);
             }
-            for (pixel, all) in pixels.iter_mut().zip(&gathered) {
-                let is_empty = all.is_empty();
-                *pixel = match empty {
-                    Some(empty) if is_empty => empty,
-                    _ => (self.finish)(all),
-                };
-                if is_empty {
-                    empty = Some(*pixel);
+        }
+    }
+
+    /// The samples of one pixel, of which tags are kept.
+    pub fn gather<'g, const N: usize, T: Tag>(
+        &mut self,
+        tile: &Tile<N, T>,
+        glass: &'g Glass,
+        [column, row]: [u32; 2],
+    ) -> Gathered<'g, T>
+    where
+        S: Shading<N>,
+    {
+        self.add_up(tile, glass, column, row, 1);
+        gathered(self.grid, tile, glass, [column, row], &self.sums[0])
+    }
+
+    /// Adds up the samples of `n_pixels` pixels of a row, line by line and each from the left.
+    fn add_up<const N: usize, T: Tag>(
+        &mut self,
+        tile: &Tile<N, T>,
+        glass: &Glass,
+        first: u32,
+        row: u32,
+        n_pixels: u32,
+    ) where
+        S: Shading<N>,
+    {
+        let n = self.grid.samples;
+        self.sums.clear();
+        self.sums.resize(n_pixels as usize, [0.0; 4]);
+        for sample_row in row * n..(row + 1) * n {
+            self.light_row(tile, sample_row, [first * n, (first + n_pixels) * n]);
+            if !glass.is_empty() || self.grid.cue.is_some() {
+                self.look_through(tile, glass, sample_row, first * n);
+            }
+            let [red, green, blue, cover] = self.lit.each_ref().map(|all| all.chunks_exact(n as usize));
+            for ((((sums, red), green), blue), cover) in
+                self.sums.iter_mut().zip(red).zip(green).zip(blue).zip(cover)
+            {
+                for (sum, parts) in sums.iter_mut().zip([red, green, blue, cover]) {
+                    *sum = parts.iter().fold(*sum, |sum, part| sum + part);
                 }
             }
         }
     }
 
-    /// The samples of one pixel.
-    #[inline]
-    pub fn gather<'g, T: Tag>(
-        &mut self,
-        tile: &Tile<N, T>,
-        glass: &'g Glass,
-        column: u32,
-        row: u32,
-    ) -> Gathered<'g, T> {
-        if !glass.is_empty() || self.grid.cue.is_some() {
-            return self.gather_through(tile, glass, column, row);
-        }
-        let n = self.grid.samples;
-        let mut sum = [0.0; 3];
-        let mut n_covered = 0;
-        for sample_row in row * n..(row + 1) * n {
-            for values in tile.row_part(sample_row, column * n, (column + 1) * n).flatten() {
-                let light = self.shade(values);
-                n_covered += 1;
-                sum = std::array::from_fn(|i| sum[i] + light[i]);
+    /// Puts the light of a row of samples into `lit`: nothing where nothing is drawn.
+    fn light_row<const N: usize, T: Tag>(&mut self, tile: &Tile<N, T>, row: u32, [first, end]: [u32; 2])
+    where
+        S: Shading<N>,
+    {
+        let (keys, values) = tile.row_part(row, first, end);
+        self.lit.iter_mut().for_each(|all| all.resize(keys.len(), 0.0));
+        for (run, keys) in keys.chunks(RUN).enumerate() {
+            let run = run * RUN..run * RUN + keys.len();
+            if is_empty(keys) {
+                self.lit.iter_mut().for_each(|all| all[run.clone()].fill(0.0));
+                continue;
+            }
+            self.shader.shade(values.map(|all| &all[run.clone()]), Scale::Linear, &mut self.shades);
+            self.tally.count_run(keys, &self.shades);
+            let [lit @ .., covers] = self.lit.each_mut().map(|all| &mut all[run.clone()]);
+            for (lit, light) in lit.into_iter().zip(&self.shades.light) {
+                for ((lit, light), key) in lit.iter_mut().zip(light).zip(keys) {
+                    *lit = if *key > EMPTY { *light } else { 0.0 };
+                }
+            }
+            for (cover, key) in covers.iter_mut().zip(keys) {
+                *cover = f32::from(u8::from(*key > EMPTY));
             }
         }
-        let center = if T::IS_KEPT { tile.seen(row * n + n / 2, column * n + n / 2) } else { None };
-        Gathered { sum, covered: n_covered as f32, center, layers: &[] }
     }
 
-    /// The same behind what is clear, and with depth cueing.
+    /// Puts the row of samples that is in `lit` behind what is clear, and fades what is far.
     #[inline(never)]
-    fn gather_through<'g, T: Tag>(
+    fn look_through<const N: usize, T: Tag>(
         &mut self,
         tile: &Tile<N, T>,
-        glass: &'g Glass,
-        column: u32,
+        glass: &Glass,
         row: u32,
-    ) -> Gathered<'g, T> {
-        let n = self.grid.samples;
-        let (mut sum, mut covered) = ([0.0; 3], 0.0);
-        for sample_row in row * n..(row + 1) * n {
-            let values = tile.row_part(sample_row, column * n, (column + 1) * n);
-            for (sample_column, values) in (column * n..).zip(values) {
-                let veil = glass.veil(sample_row, sample_column);
-                let (mut light, mut cover) = (veil.light, veil.cover);
-                if let (Some(values), Some(seen)) = (values, tile.seen(sample_row, sample_column)) {
-                    let part = veil.pass * self.grid.cue_at(seen.key);
-                    let behind = self.shade(values);
-                    light = std::array::from_fn(|i| light[i] + part * behind[i]);
-                    cover += part;
-                }
-                sum = std::array::from_fn(|i| sum[i] + light[i]);
-                covered += cover;
+        first: u32,
+    ) {
+        let (keys, _) = tile.row_part(row, first, first + self.lit[0].len() as u32);
+        for (idx, &key) in keys.iter().enumerate() {
+            let veil = glass.veil(row, first + idx as u32);
+            let part = if key > EMPTY { veil.pass * self.grid.cue_at(key) } else { 0.0 };
+            let [light @ .., cover] = &mut self.lit;
+            for (light, veil) in light.iter_mut().zip(veil.light) {
+                light[idx] = veil + part * light[idx];
             }
+            cover[idx] = veil.cover + part;
         }
-        let middle = [row, column].map(|pixel| pixel * n + n / 2);
-        let center = if T::IS_KEPT { tile.seen(middle[0], middle[1]) } else { None };
-        Gathered { sum, covered, center, layers: glass.fragments(middle[0], middle[1]) }
     }
+}
 
-    #[inline]
-    fn shade(&mut self, values: &[f32; N]) -> [f32; 3] {
-        if self.last.0 == *values {
-            self.tally.count(&self.last.1);
-            return self.last.1.light;
-        }
-        let shade = (self.shader)(values);
-        self.tally.count(&shade);
-        self.last = (*values, shade);
-        shade.light
+/// True if nothing is drawn on samples. All are looked at, which is faster than to look for one.
+fn is_empty(keys: &[f32]) -> bool {
+    keys.iter().fold(true, |all, key| all & (*key == EMPTY))
+}
+
+/// What the samples of a pixel add up to, and what is in its middle.
+#[inline]
+fn gathered<'g, const N: usize, T: Tag>(
+    grid: &Grid,
+    tile: &Tile<N, T>,
+    glass: &'g Glass,
+    [column, row]: [u32; 2],
+    &[red, green, blue, covered]: &[f32; 4],
+) -> Gathered<'g, T> {
+    let [column, row] = [column, row].map(|pixel| pixel * grid.samples + grid.samples / 2);
+    Gathered {
+        sum: [red, green, blue],
+        covered,
+        center: if T::IS_KEPT { tile.seen(row, column) } else { None },
+        layers: if glass.is_empty() { &[] } else { glass.fragments(row, column) },
     }
 }

@@ -1,8 +1,10 @@
 //! The samples of a tile, and the depth test.
 
+use fearless_simd::Simd;
+
 use super::edges::Crossing;
 use super::polygons::first_center;
-use super::triangles::TriangleRow;
+use super::triangles::{LANES, Plane, Planes, TriangleRow};
 
 /// What a sample remembers of the polygon it shows.
 pub trait Tag: Copy + Default + Send {
@@ -42,12 +44,13 @@ pub trait Sink<const N: usize> {
     fn draw(&mut self, row: u32, left: &Crossing<N>, right: &Crossing<N>, is_perspective: bool, item: u32);
 
     /// Takes the samples of a row of a triangle, as [`Tile::draw_line`] does.
-    fn draw_line(
+    fn draw_line<S: Simd>(
         &mut self,
+        simd: S,
         line: &TriangleRow,
         is_perspective: bool,
         item: u32,
-        numbers: impl FnOnce() -> ([f64; N], [f64; N]),
+        planes: &mut Planes<N, impl Fn(&mut [Plane; N])>,
     );
 
     /// Takes samples of a row one by one, as [`Tile::draw_each`] does.
@@ -76,15 +79,16 @@ impl<const N: usize, T: Tag> Sink<N> for Tile<N, T> {
         self.draw(row, left, right, is_perspective, T::of(item));
     }
 
-    #[inline]
-    fn draw_line(
+    #[inline(always)]
+    fn draw_line<S: Simd>(
         &mut self,
+        simd: S,
         line: &TriangleRow,
         is_perspective: bool,
         item: u32,
-        numbers: impl FnOnce() -> ([f64; N], [f64; N]),
+        planes: &mut Planes<N, impl Fn(&mut [Plane; N])>,
     ) {
-        self.draw_line(line, is_perspective, T::of(item), numbers);
+        self.draw_line(simd, line, is_perspective, T::of(item), planes);
     }
 
     #[inline]
@@ -106,9 +110,10 @@ pub struct Tile<const N: usize, T> {
     columns: [u32; 2],
     rows: [u32; 2],
     /// Depth keys; [`EMPTY`] where nothing has been drawn.
-    keys: Vec<f32>,
-    values: Vec<[f32; N]>,
-    tags: Vec<T>,
+    pub(super) keys: Vec<f32>,
+    /// Each number of all samples together, so that they can be shaded many at once.
+    pub(super) values: [Vec<f32>; N],
+    pub(super) tags: Vec<T>,
 }
 
 /// What is seen at a sample.
@@ -123,26 +128,40 @@ pub struct Seen<T> {
 /// Part of a row of a [`Tile`].
 pub(super) struct Part<'a, const N: usize, T> {
     pub keys: &'a mut [f32],
-    pub values: &'a mut [[f32; N]],
+    pub values: [&'a mut [f32]; N],
     pub tags: &'a mut [T],
 }
 
-impl<const N: usize, T> Part<'_, N, T> {
-    /// Leaves out the first `n` samples.
-    #[inline]
-    pub fn skip(&mut self, n: usize) {
-        self.keys = &mut std::mem::take(&mut self.keys)[n..];
-        self.values = &mut std::mem::take(&mut self.values)[n..];
-        self.tags = &mut std::mem::take(&mut self.tags)[n..];
+impl<const N: usize, T: Copy> Part<'_, N, T> {
+    /// Puts something at a sample.
+    #[inline(always)]
+    pub fn set(&mut self, sample: usize, key: f32, values: [f32; N], tag: T) {
+        self.keys[sample] = key;
+        self.tags[sample] = tag;
+        for (all, value) in self.values.iter_mut().zip(values) {
+            all[sample] = value;
+        }
     }
 }
 
+/// Some elements from one on.
+#[inline(always)]
+pub(super) fn lanes<T>(all: &mut [T], start: usize) -> &mut [T; LANES] {
+    all[start..].first_chunk_mut().expect("more stand behind the samples of a tile")
+}
+
 /// Farther than everything.
-const EMPTY: f32 = f32::NEG_INFINITY;
+pub(super) const EMPTY: f32 = f32::NEG_INFINITY;
 
 impl<const N: usize, T> Default for Tile<N, T> {
     fn default() -> Self {
-        Self { columns: [0; 2], rows: [0; 2], keys: Vec::new(), values: Vec::new(), tags: Vec::new() }
+        Self {
+            columns: [0; 2],
+            rows: [0; 2],
+            keys: Vec::new(),
+            values: [const { Vec::new() }; N],
+            tags: Vec::new(),
+        }
     }
 }
 
@@ -151,14 +170,16 @@ impl<const N: usize, T: Tag> Tile<N, T> {
     pub fn reset(&mut self, columns: [u32; 2], rows: [u32; 2]) {
         (self.columns, self.rows) = (columns, rows);
         let len = (columns[1] - columns[0]) as usize * (rows[1] - rows[0]) as usize;
+        // Some are left over behind the last, so that there are always enough to be drawn on together.
+        let len = len + LANES;
         self.keys.clear();
         self.keys.resize(len, EMPTY);
         // What stands in `values` and `tags` is read only where a key has been written.
-        self.values.resize(len, [0.0; N]);
+        self.values.iter_mut().for_each(|all| all.resize(len, 0.0));
         self.tags.resize(len, T::default());
     }
 
-    /// Depth keys, row after row.
+    /// Depth keys, row after row; some more stand behind them.
     pub fn keys(&self) -> &[f32] {
         &self.keys
     }
@@ -181,13 +202,10 @@ impl<const N: usize, T: Tag> Tile<N, T> {
         tag: T,
         mut sample: impl FnMut(u32, f32) -> Option<(f32, [f32; N])>,
     ) {
-        let samples = self.samples(row, columns.start, columns.end);
-        let keys = self.keys[samples.clone()].iter_mut();
-        let stored = self.values[samples.clone()].iter_mut().zip(&mut self.tags[samples]);
-        for (column, (nearest, (values, tag_here))) in columns.zip(keys.zip(stored)) {
-            if let Some(nearer) = sample(column, *nearest) {
-                (*nearest, *values) = nearer;
-                *tag_here = tag;
+        let mut part = self.part(row, columns.start, columns.end);
+        for (idx, column) in columns.enumerate() {
+            if let Some((key, values)) = sample(column, part.keys[idx]) {
+                part.set(idx, key, values, tag);
             }
         }
     }
@@ -206,22 +224,18 @@ impl<const N: usize, T: Tag> Tile<N, T> {
         let per_column = 1.0 / (right.x - left.x);
         let key_slope = (right.key - left.key) * per_column;
         let slopes: [f64; N] = std::array::from_fn(|i| (right.values[i] - left.values[i]) * per_column);
-        let Part { keys, values, tags } = self.part(row, first, end);
-        for (column, ((nearest, values), tag_here)) in (first..end).zip(keys.iter_mut().zip(values).zip(tags))
-        {
+        let mut part = self.part(row, first, end);
+        for (idx, column) in (first..end).enumerate() {
             // From the left end and never from the sample before: the answer must not
             // depend on where a tile starts.
             let across = f64::from(column) + 0.5 - left.x;
             let key = left.key + across * key_slope;
-            if key as f32 <= *nearest {
+            if key as f32 <= part.keys[idx] {
                 continue;
             }
-            *nearest = key as f32;
-            *tag_here = tag;
             let scale = if is_perspective { 1.0 / key } else { 1.0 };
-            // Double precision pays: where values do not change they stay the same bits, and
-            // the resolver shades them once.
-            *values = std::array::from_fn(|i| ((left.values[i] + across * slopes[i]) * scale) as f32);
+            let value = |i: usize| ((left.values[i] + across * slopes[i]) * scale) as f32;
+            part.set(idx, key as f32, std::array::from_fn(value), tag);
         }
     }
 
@@ -231,17 +245,16 @@ impl<const N: usize, T: Tag> Tile<N, T> {
         let samples = self.samples(row, first, end);
         Part {
             keys: &mut self.keys[samples.clone()],
-            values: &mut self.values[samples.clone()],
+            values: self.values.each_mut().map(|all| &mut all[samples.clone()]),
             tags: &mut self.tags[samples],
         }
     }
 
-    /// The samples of part of a row: their values where something was drawn.
+    /// Part of a row: depth keys, [`EMPTY`] where nothing was drawn, and numbers, of no meaning there.
     #[inline]
-    pub fn row_part(&self, row: u32, first: u32, end: u32) -> impl Iterator<Item = Option<&[f32; N]>> {
+    pub fn row_part(&self, row: u32, first: u32, end: u32) -> (&[f32], [&[f32]; N]) {
         let samples = self.samples(row, first, end);
-        let values = &self.values[samples.clone()];
-        self.keys[samples].iter().zip(values).map(|(&key, values)| (key != EMPTY).then_some(values))
+        (&self.keys[samples.clone()], self.values.each_ref().map(|all| &all[samples.clone()]))
     }
 
     /// What is seen at a sample, if anything.
@@ -251,8 +264,8 @@ impl<const N: usize, T: Tag> Tile<N, T> {
         (key != EMPTY).then_some(Seen { key, tag })
     }
 
-    #[inline]
-    fn samples(&self, row: u32, first: u32, end: u32) -> std::ops::Range<usize> {
+    #[inline(always)]
+    pub(super) fn samples(&self, row: u32, first: u32, end: u32) -> std::ops::Range<usize> {
         let width = (self.columns[1] - self.columns[0]) as usize;
         let start = (row - self.rows[0]) as usize * width;
         start + (first - self.columns[0]) as usize..start + (end - self.columns[0]) as usize

@@ -191,8 +191,6 @@ fn triangles_are_drawn_like_polygons() {
         triangles.sort_into_bands(&grid);
         polygons.sort_into_bands(&grid);
         let table = Triangles(table);
-        let shader =
-            |&[light]: &[f32; 1]| Shade { light: [light; 3], intensity: light, is_out_of_range: false };
         let draw = |list: PolygonList<1>| {
             let mut pixels = vec![(0.0, 0.0, None); 60 * 50];
             let layer = Shapes { lists: &[list], table: &table };
@@ -201,7 +199,7 @@ fn triangles_are_drawn_like_polygons() {
                 &grid,
                 &layer,
                 None,
-                &shader,
+                &Grey,
                 &|all: &Gathered<'_, u32>| (all.sum[0], all.covered, all.center),
                 &(),
             );
@@ -220,6 +218,17 @@ fn triangles_are_drawn_like_polygons() {
     assert!(n_drawn > 800 && n_seen > 4000, "{n_drawn} {n_seen}");
 }
 
+/// Light is the number itself.
+struct Grey;
+
+impl Shading<1> for Grey {
+    fn shade(&self, [lights]: [&[f32]; 1], _: Scale, shades: &mut Shades) {
+        for (sample, &light) in lights.iter().enumerate() {
+            shades.set(sample, Shade { light: [light; 3], intensity: light, is_out_of_range: false });
+        }
+    }
+}
+
 /// Draws polygons of one value, its light, and gives each pixel's mean on black. Every pixel is looked at with a
 /// probe, too, where there are few.
 fn painted(polygons: &[Vec<Corner<1>>], grid: &Grid) -> Vec<f32> {
@@ -232,17 +241,16 @@ fn painted(polygons: &[Vec<Corner<1>>], grid: &Grid) -> Vec<f32> {
     list.sort_into_bands(grid);
     let lists = [list];
     let layer = Shapes { lists: &lists, table: &NoTable };
-    let shader = |&[light]: &[f32; 1]| Shade { light: [light; 3], intensity: light, is_out_of_range: false };
     let mean = |sum: [f32; 3]| sum[0] / (grid.samples * grid.samples) as f32;
     let mut pixels = vec![0.0; grid.width as usize * grid.height as usize];
-    paint(&mut pixels, grid, &layer, None, &shader, &|all: &Gathered<'_, ()>| mean(all.sum), &());
+    paint(&mut pixels, grid, &layer, None, &Grey, &|all: &Gathered<'_, ()>| mean(all.sum), &());
     let mut marked = vec![(0.0, None); pixels.len()];
     paint(
         &mut marked,
         grid,
         &layer,
         None,
-        &shader,
+        &Grey,
         &|all: &Gathered<'_, u32>| (mean(all.sum), all.center),
         &(),
     );
@@ -252,8 +260,10 @@ fn painted(polygons: &[Vec<Corner<1>>], grid: &Grid) -> Vec<f32> {
             continue;
         }
         let place = [idx as u32 % grid.width, idx as u32 / grid.width];
-        let (samples, all) = probe(grid, &layer, None, &shader, place);
+        let finish = |all: &Gathered<'_, u32>| mean(all.sum);
+        let (samples, all, pixel) = probe(grid, &layer, None, &Grey, &finish, place);
         assert_eq!((mean(all.sum), all.center), *marked);
+        assert_eq!(pixel, light);
         assert_eq!(samples.len() as f32, all.covered);
         let middle = place.map(|pixel| pixel * grid.samples + grid.samples / 2);
         assert_eq!(

@@ -4,8 +4,11 @@
 //! corners are, and what is interpolated between them, is looked up while it is drawn, the latter only if a
 //! sample of it is seen.
 
-use super::polygons::first_center;
-use super::spans::{Sink, Tag, Tile};
+use fearless_simd::prelude::*;
+use fearless_simd::{Simd, f32x8, f64x4, f64x8};
+
+use super::polygons::{first_center, greater, lesser};
+use super::spans::{Sink, Tag, Tile, lanes};
 
 /// A corner in the picture plane, without the numbers to interpolate; see [`super::Corner`].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -70,14 +73,20 @@ pub fn twice_area([a, b, c]: &[Point; 3]) -> f64 {
 #[inline]
 pub fn is_regular(corners: &[Point; 3], is_perspective: bool) -> bool {
     let [a, b, c] = corners;
-    let spread = |p: f64, q: f64, r: f64| p.max(q).max(r) - p.min(q).min(r);
-    let extent = spread(a.x, b.x, c.x).max(spread(a.y, b.y, c.y));
-    let is_near = corners.iter().all(|corner| corner.x.abs() <= FAR && corner.y.abs() <= FAR);
-    let is_even = !is_perspective || {
-        let (least, most) = (a.key.min(b.key).min(c.key), a.key.max(b.key).max(c.key));
-        0.0 < least && most <= MOST_KEY_RATIO * least
-    };
-    is_near && is_even && twice_area(corners).abs() > SLIVER * extent * extent
+    let [(left, right), (top, bottom)] = [range(a.x, b.x, c.x), range(a.y, b.y, c.y)];
+    let (least, most) = range(a.key, b.key, c.key);
+    let extent = greater(right - left, bottom - top);
+    let is_near = (-FAR <= lesser(left, top)) & (greater(right, bottom) <= FAR);
+    let is_even = !is_perspective | ((0.0 < least) & (most <= MOST_KEY_RATIO * least));
+    // What is no number is in no sum that is greater than anything.
+    let is_number = a.key + b.key + c.key > f64::NEG_INFINITY;
+    is_near & is_even & is_number & (twice_area(corners).abs() > SLIVER * extent * extent)
+}
+
+/// The least and the greatest of three numbers.
+#[inline]
+fn range(p: f64, q: f64, r: f64) -> (f64, f64) {
+    (lesser(lesser(p, q), r), greater(greater(p, q), r))
 }
 
 /// An edge as a function of the row.
@@ -89,16 +98,16 @@ struct Side {
 
 impl Side {
     /// The very numbers of [`super::Scanner`], so that triangles and polygons share edges exactly.
-    #[inline]
+    #[inline(always)]
     fn new(top: &Point, bottom: &Point) -> Self {
         let per_row = 1.0 / (bottom.y - top.y);
         Self { top: *top, slope: (bottom.x - top.x) * per_row }
     }
 
-    #[inline]
-    fn at_row(&self, row: u32) -> f64 {
-        let down = f64::from(row) + 0.5 - self.top.y;
-        self.top.x + down * self.slope
+    /// Where the middles of rows cross it.
+    #[inline(always)]
+    fn at<S: Simd>(&self, centers: f64x8<S>) -> f64x8<S> {
+        (centers - self.top.y) * self.slope + self.top.x
     }
 }
 
@@ -111,39 +120,56 @@ struct Slopes {
 }
 
 impl Slopes {
-    #[inline]
-    fn new([top, middle, bottom]: &[Point; 3]) -> Self {
+    #[inline(always)]
+    fn new([top, middle, bottom]: [&Point; 3]) -> Self {
         let [p, q] = [[middle.x - top.x, middle.y - top.y], [bottom.x - top.x, bottom.y - top.y]];
         Self { sides: [p, q], per_area: 1.0 / (p[0] * q[1] - q[0] * p[1]) }
     }
 
     /// Change a column and a row of what is `top`, `middle` and `bottom` at the corners.
-    #[inline]
+    #[inline(always)]
     fn of(&self, [top, middle, bottom]: [f64; 3]) -> [f64; 2] {
         let ([p, q], [u, v]) = (self.sides, [middle - top, bottom - top]);
         [(u * q[1] - v * p[1]) * self.per_area, (v * p[0] - u * q[0]) * self.per_area]
     }
 }
 
-/// The planes of all numbers.
-#[derive(Clone, Copy)]
-struct Planes<const N: usize> {
-    at_top: [f64; N],
-    a_column: [f64; N],
-    a_row: [f64; N],
+/// The planes of all numbers, found when they are asked for.
+pub struct Planes<const N: usize, F> {
+    find: F,
+    is_found: bool,
+    all: [Plane; N],
 }
 
-impl<const N: usize> Planes<N> {
-    /// `numbers`: at the corners, multiplied by the key in perspective.
-    #[inline]
-    fn new(slopes: &Slopes, [top, middle, bottom]: &[[f64; N]; 3]) -> Self {
-        let both: [[f64; 2]; N] = std::array::from_fn(|i| slopes.of([top[i], middle[i], bottom[i]]));
-        Self { at_top: *top, a_column: both.map(|[across, _]| across), a_row: both.map(|[_, down]| down) }
+/// A number over the picture, multiplied by the key in perspective.
+#[derive(Clone, Copy, Default)]
+pub struct Plane {
+    at_top: f64,
+    a_row: f64,
+    pub a_column: f64,
+}
+
+impl Plane {
+    /// The number at the column that the row is measured from.
+    #[inline(always)]
+    pub fn start(&self, line: &TriangleRow) -> f64 {
+        self.at_top + line.down * self.a_row
+    }
+}
+
+impl<const N: usize, F: Fn(&mut [Plane; N])> Planes<N, F> {
+    #[inline(always)]
+    pub fn get(&mut self) -> &[Plane; N] {
+        if !self.is_found {
+            (self.find)(&mut self.all);
+            self.is_found = true;
+        }
+        &self.all
     }
 }
 
 /// The corners' places in a triangle, the highest first.
-#[inline]
+#[inline(always)]
 fn by_row([a, b, c]: &[Point; 3]) -> [usize; 3] {
     let mut order = [0, 1, 2];
     let mut rows = [a.y, b.y, c.y];
@@ -156,10 +182,64 @@ fn by_row([a, b, c]: &[Point; 3]) -> [usize; 3] {
     order
 }
 
+/// Samples of a row that are computed together.
+pub const LANES: usize = 8;
+
+/// Rows that are computed together.
+const ROWS: usize = 8;
+
+/// 0, 1, 2, 3: places of lanes.
+const STEPS: [f64; 4] = [0.0, 1.0, 2.0, 3.0];
+
+/// The outline of a triangle.
+struct Outline {
+    long: Side,
+    /// Above and below the knee.
+    short: [Side; 2],
+    knee: u32,
+}
+
+impl Outline {
+    #[inline(always)] // As all of a triangle: see `Shapes::draw`.
+    fn new([top, middle, bottom]: [&Point; 3], knee: u32) -> Self {
+        Self {
+            long: Side::new(top, bottom),
+            short: [Side::new(top, middle), Side::new(middle, bottom)],
+            knee,
+        }
+    }
+
+    /// For some rows the first sample, from column `start` on, and one past the last.
+    #[inline(always)]
+    fn spans<S: Simd>(&self, simd: S, row: u32, [start, end]: [u32; 2]) -> [[i32; ROWS]; 2] {
+        let [upper, lower] = &self.short;
+        let steps: f64x4<S> = STEPS.simd_into(simd);
+        let centers = simd.combine_f64x4(steps, steps + 4.0) + (f64::from(row) + 0.5);
+        // No `map` here: what it calls would not be compiled into this.
+        let (a, upper, lower) = (self.long.at(centers), upper.at(centers), lower.at(centers));
+        let is_upper = centers.simd_lt(f64x8::splat(simd, f64::from(self.knee)));
+        let b = is_upper.select(upper, lower);
+        let is_first = a.simd_gt(b);
+        let columns = (f64x8::splat(simd, f64::from(start)), f64x8::splat(simd, f64::from(end)));
+        let first = first_columns(is_first.select(b, a), columns);
+        let end = first_columns(is_first.select(a, b), columns);
+        // Whole numbers below 2²⁴ stay what they are.
+        let (first, end) = simd.cvt_i32_f32x16(simd.narrow_f64x8(first, end)).split();
+        [first.into(), end.into()]
+    }
+}
+
+/// The first centres at or behind places, in some columns.
+#[inline(always)]
+fn first_columns<S: Simd>(places: f64x8<S>, (start, end): (f64x8<S>, f64x8<S>)) -> f64x8<S> {
+    (places - 0.5).ceil().max(start).min(end)
+}
+
 /// Draws the rows of a [regular](is_regular) triangle. `numbers`: to interpolate between the corners, as they are at
 /// the surface; asked for only if something is seen.
-#[inline]
-pub fn draw_triangle<const N: usize>(
+#[inline(always)]
+pub fn draw_triangle<const N: usize, S: Simd>(
+    simd: S,
     sink: &mut impl Sink<N>,
     corners: &[Point; 3],
     is_perspective: bool,
@@ -167,89 +247,96 @@ pub fn draw_triangle<const N: usize>(
     numbers: impl Fn() -> [[f64; N]; 3],
 ) {
     let order = by_row(corners);
-    let sorted @ [top, middle, bottom] = order.map(|corner| corners[corner]);
+    let sorted @ [top, middle, bottom] = [&corners[order[0]], &corners[order[1]], &corners[order[2]]];
     let [first, end] = sink.rows();
-    let [first, knee, end] = [&top, &middle, &bottom].map(|corner| first_center(corner.y, end).max(first));
+    let row_of = |corner: &Point| first_center(corner.y, end).max(first);
+    let (first, knee, end) = (row_of(top), row_of(middle), row_of(bottom));
     if first == end {
         return;
     }
-    let slopes = Slopes::new(&sorted);
-    let [key_a_column, key_a_row] = slopes.of(sorted.map(|corner| corner.key));
-    let mut planes = None;
-    let mut planes = || {
-        *planes.get_or_insert_with(|| {
-            let numbers = numbers();
-            let scale = |corner: usize| if is_perspective { corners[corner].key } else { 1.0 };
-            Planes::new(&slopes, &order.map(|corner| numbers[corner].map(|number| number * scale(corner))))
-        })
-    };
-    let long = Side::new(&top, &bottom);
-    for (rows, ends) in [(first..knee, [&top, &middle]), (knee..end, [&middle, &bottom])] {
-        if rows.is_empty() {
-            continue;
+    let outline = Outline::new(sorted, knee);
+    let columns = sink.columns();
+    let find = |planes: &mut [Plane; N]| {
+        let (slopes, mut numbers) = (Slopes::new(sorted), numbers());
+        if is_perspective {
+            for (numbers, corner) in numbers.iter_mut().zip(corners) {
+                numbers.iter_mut().for_each(|number| *number *= corner.key);
+            }
         }
-        let short = Side::new(ends[0], ends[1]);
-        for row in rows {
-            let (a, b) = (long.at_row(row), short.at_row(row));
+        for (i, plane) in planes.iter_mut().enumerate() {
+            let [top, middle, bottom] = order;
+            let [a_column, a_row] = slopes.of([numbers[top][i], numbers[middle][i], numbers[bottom][i]]);
+            *plane = Plane { at_top: numbers[top][i], a_row, a_column };
+        }
+    };
+    let mut planes = Planes { find, is_found: false, all: [Plane::default(); N] };
+    let mut key_slopes = None;
+    for row in (first..end).step_by(ROWS) {
+        let [starts, ends] = outline.spans(simd, row, columns);
+        for ((row, start), end) in (row..end).zip(starts).zip(ends) {
+            if start >= end {
+                continue;
+            }
+            // Many small triangles lie between samples and do not come here.
+            let [key_a_column, key_a_row] =
+                *key_slopes.get_or_insert_with(|| Slopes::new(sorted).of([top.key, middle.key, bottom.key]));
             let down = f64::from(row) + 0.5 - top.y;
             let line = TriangleRow {
                 row,
-                ends: if a > b { [b, a] } else { [a, b] },
+                columns: [start as u32, end as u32],
                 from: top.x,
+                down,
                 key: top.key + down * key_a_row,
                 key_a_column,
             };
-            sink.draw_line(&line, is_perspective, item, || {
-                let Planes { at_top, a_column, a_row } = planes();
-                (std::array::from_fn(|i| at_top[i] + down * a_row[i]), a_column)
-            });
+            sink.draw_line(simd, &line, is_perspective, item, &mut planes);
         }
     }
 }
 
 impl<const N: usize, T: Tag> Tile<N, T> {
-    /// Draws a row of a triangle where the depth test lets it. `numbers`: at the column the row is measured from, and
-    /// their change a column.
-    #[inline]
-    pub fn draw_line(
+    /// Draws a row of a triangle where the depth test lets it. `planes`: of the numbers to interpolate.
+    #[inline(always)]
+    pub fn draw_line<S: Simd>(
         &mut self,
+        simd: S,
         line: &TriangleRow,
         is_perspective: bool,
         tag: T,
-        numbers: impl FnOnce() -> ([f64; N], [f64; N]),
+        planes: &mut Planes<N, impl Fn(&mut [Plane; N])>,
     ) {
-        let columns = self.columns();
-        let first = first_center(line.ends[0], columns[1]).max(columns[0]);
-        let end = first_center(line.ends[1], columns[1]);
-        if first >= end {
-            return;
-        }
-        let mut part = self.part(line.row, first, end);
-        // Early depth: most of what is hidden ends here. Columns are whole numbers and exact, so the
-        // answer does not depend on where a tile starts.
-        let mut column = f64::from(first) + 0.5;
-        let Some(n_hidden) = part.keys.iter().position(|nearest| {
-            let is_seen = line.key_at(column) as f32 > *nearest;
-            column += 1.0;
-            is_seen
-        }) else {
-            return;
-        };
-        part.skip(n_hidden);
-        column -= 1.0;
-        let (start, slope) = numbers();
-        for ((nearest, values), tag_here) in part.keys.iter_mut().zip(part.values).zip(part.tags) {
-            let key = line.key_at(column);
-            if key as f32 > *nearest {
-                *nearest = key as f32;
-                *tag_here = tag;
-                let scale = if is_perspective { 1.0 / key } else { 1.0 };
-                let across = column - line.from;
-                // Double precision pays: where values do not change they stay the same bits, and
-                // the resolver shades them once.
-                *values = std::array::from_fn(|i| ((start[i] + across * slope[i]) * scale) as f32);
+        let [first, end] = line.columns;
+        let steps: f64x4<S> = STEPS.simd_into(simd);
+        let places = simd.narrow_f64x4(steps, steps + 4.0);
+        for column in (first..end).step_by(LANES) {
+            let first = self.samples(line.row, column, column).start;
+            let nearest_keys = lanes(&mut self.keys, first);
+            // Columns are whole numbers and exact, so the answer does not depend on where a tile starts.
+            let across = steps + (f64::from(column) + 0.5);
+            let across = (across - line.from, across + 4.0 - line.from);
+            let keys = (line.keys(across.0), line.keys(across.1));
+            let (key, nearest) = (simd.narrow_f64x4(keys.0, keys.1), f32x8::from_slice(simd, nearest_keys));
+            let is_seen = key.simd_gt(nearest) & places.simd_lt(f32x8::splat(simd, (end - column) as f32));
+            // Early depth: most of what is hidden ends here.
+            if !is_seen.any_true() {
+                continue;
             }
-            column += 1.0;
+            is_seen.select(key, nearest).store_slice(nearest_keys);
+            let one = f64x4::splat(simd, 1.0);
+            let scale = if is_perspective { (one / keys.0, one / keys.1) } else { (one, one) };
+            for (all, plane) in self.values.iter_mut().zip(planes.get()) {
+                let (all, start, slope) = (lanes(all, first), plane.start(line), plane.a_column);
+                // Double precision pays: where values do not change they stay the same bits.
+                let a = (across.0 * slope + start) * scale.0;
+                let b = (across.1 * slope + start) * scale.1;
+                let (value, before) = (simd.narrow_f64x4(a, b), f32x8::from_slice(simd, all));
+                is_seen.select(value, before).store_slice(all);
+            }
+            if T::IS_KEPT {
+                for (lane, tag_here) in lanes(&mut self.tags, first).iter_mut().enumerate() {
+                    *tag_here = if is_seen.test(lane) { tag } else { *tag_here };
+                }
+            }
         }
     }
 }
@@ -259,15 +346,23 @@ impl<const N: usize, T: Tag> Tile<N, T> {
 pub struct TriangleRow {
     /// Of samples.
     pub row: u32,
-    /// Where the outline crosses the row.
-    pub ends: [f64; 2],
+    /// The first, and one past the last, in the columns of the sink.
+    pub columns: [u32; 2],
     /// The column that the key, and the numbers to interpolate, are measured from.
     pub from: f64,
+    /// How far it is below the highest corner.
+    down: f64,
     key: f64,
     key_a_column: f64,
 }
 
 impl TriangleRow {
+    /// Depth keys at places, measured from where they are measured from.
+    #[inline(always)]
+    fn keys<S: Simd>(&self, across: f64x4<S>) -> f64x4<S> {
+        across * self.key_a_column + self.key
+    }
+
     /// The depth key at a column.
     #[inline]
     pub fn key_at(&self, column: f64) -> f64 {

@@ -1,0 +1,114 @@
+//! Hues to red, green and blue.
+
+use fearless_simd::{Level, Simd, dispatch};
+
+use super::linear;
+use super::transfer::decode;
+use crate::raster::{RUN, Scale, Shades};
+
+/// Levels of red, green and blue light on every sample; none if it is white and in the value.
+pub type Lights<'a> = Option<[&'a [f32]; 3]>;
+
+/// A colour without its value.
+#[derive(Clone, Copy, Debug)]
+pub struct Pure {
+    /// In −60…300 degrees.
+    pub hue: f32,
+    /// What is left of the hue, 0…1.
+    pub fade: f32,
+    /// 0 grey … 1 pure.
+    pub saturation: f32,
+}
+
+/// Display-encoded red, green and blue of a colour, and their greatest before they were clipped to the ceiling. `values`:
+/// its value under the light of each.  Eq. (P17)
+#[inline(always)] // Into loops over many samples.
+pub fn encode(Pure { hue, fade, saturation }: Pure, values: [f32; 3], ceiling: f32) -> ([f32; 3], f32) {
+    let pure = saturation * fade;
+    let faded = (1.0 - saturation) + pure;
+    let per_kept = if faded > 0.0 { 1.0 / faded } else { 0.0 };
+    // Most hues do not fade, and of those nothing is to be rounded.
+    let (kept, saturation) = if fade < 1.0 { (faded, pure * per_kept) } else { (1.0, saturation) };
+    let sixth = hue * (1.0 / 60.0);
+    let [red, green, blue] = values.map(|value| value * kept);
+    let level = |primary: f32, bright: f32| {
+        // How far the primary is from its own sixths of the circle, 0 inside to 1 two sixths away.
+        let apart = (sixth - primary).abs();
+        let away = (lesser(apart, 6.0 - apart) - 1.0).clamp(0.0, 1.0);
+        (1.0 - saturation * away) * lesser(bright, ceiling)
+    };
+    let levels = [level(0.0, red), level(2.0, green), level(4.0, blue)];
+    (levels, greater(greater(greater(0.0, red), green), blue))
+}
+
+/// One instruction where `f32::min` is several, which also look for what is no number.
+#[inline(always)]
+fn lesser(a: f32, b: f32) -> f32 {
+    if a < b { a } else { b }
+}
+
+#[inline(always)]
+fn greater(a: f32, b: f32) -> f32 {
+    if a > b { a } else { b }
+}
+
+/// The light of many samples: hue, what is left of it, saturation and value of each.
+pub fn encode_all(
+    level: Level,
+    numbers: [&[f32]; 4],
+    lights: Lights<'_>,
+    ceiling: f32,
+    scale: Scale,
+    shades: &mut Shades,
+) {
+    let n = numbers[0].len();
+    dispatch!(level, simd => encode_run(simd, numbers, lights, ceiling, shades));
+    if scale == Scale::Display {
+        return;
+    }
+    for levels in &mut shades.light {
+        let levels = &mut levels[..n];
+        if ceiling > 1.0 && levels.iter().any(|level| *level > 1.0) {
+            levels.iter_mut().for_each(|level| *level = linear(*level));
+        } else {
+            dispatch!(level, simd => decode_run(simd, levels));
+        }
+    }
+}
+
+#[inline(always)]
+fn encode_run<S: Simd>(
+    _: S,
+    [hues, fades, saturations, values]: [&[f32]; 4],
+    lights: Lights<'_>,
+    ceiling: f32,
+    shades: &mut Shades,
+) {
+    let n = hues.len().min(RUN);
+    let (hues, fades, saturations, values) = (&hues[..n], &fades[..n], &saturations[..n], &values[..n]);
+    let [red, green, blue] = &mut shades.light;
+    let (red, green, blue) = (&mut red[..n], &mut green[..n], &mut blue[..n]);
+    let intensities = &mut shades.intensity[..n];
+    let pure = |i: usize| Pure { hue: hues[i], fade: fades[i], saturation: saturations[i] };
+    match lights {
+        None => {
+            for i in 0..n {
+                ([red[i], green[i], blue[i]], intensities[i]) = encode(pure(i), [values[i]; 3], ceiling);
+            }
+        }
+        Some([reds, greens, blues]) => {
+            let (reds, greens, blues) = (&reds[..n], &greens[..n], &blues[..n]);
+            for i in 0..n {
+                let values = [values[i] * reds[i], values[i] * greens[i], values[i] * blues[i]];
+                ([red[i], green[i], blue[i]], intensities[i]) = encode(pure(i), values, ceiling);
+            }
+        }
+    }
+}
+
+#[inline(always)]
+fn decode_run<S: Simd>(_: S, levels: &mut [f32]) {
+    for level in levels {
+        *level = decode(*level);
+    }
+}
