@@ -63,6 +63,8 @@ pub struct Resolver<'a, S, F> {
     shades: Shades,
     /// Linear light, and cover, of a row of samples.
     lit: [Vec<f32>; 4],
+    /// Their sums over the rows of a pixel, for each column of samples.
+    columns: [Vec<f32>; 4],
     /// Their sums for each pixel of a row.
     sums: Vec<[f32; 4]>,
     pub tally: Tally,
@@ -77,6 +79,7 @@ impl<'a, S, F> Resolver<'a, S, F> {
             grid,
             shades: Shades::default(),
             lit: Default::default(),
+            columns: Default::default(),
             sums: Vec::new(),
             tally: Tally::default(),
         }
@@ -170,7 +173,7 @@ impl<'a, S, F> Resolver<'a, S, F> {
         gathered(self.grid, tile, glass, [column, row], &self.sums[0])
     }
 
-    /// Adds up the samples of `n_pixels` pixels of a row, line by line and each from the left.
+    /// Adds up the samples of `n_pixels` pixels of a row: down each column of samples, then from the left.
     fn add_up<const N: usize, T: Tag>(
         &mut self,
         tile: &Tile<N, T>,
@@ -182,22 +185,28 @@ impl<'a, S, F> Resolver<'a, S, F> {
         S: Shading<N>,
     {
         let n = self.grid.samples;
-        self.sums.clear();
-        self.sums.resize(n_pixels as usize, [0.0; 4]);
+        for all in &mut self.columns {
+            all.clear();
+            all.resize((n_pixels * n) as usize, 0.0);
+        }
         for sample_row in row * n..(row + 1) * n {
             self.light_row(tile, sample_row, [first * n, (first + n_pixels) * n]);
             if !glass.is_empty() || self.grid.cue.is_some() {
                 self.look_through(tile, glass, sample_row, first * n);
             }
-            let [red, green, blue, cover] = self.lit.each_ref().map(|all| all.chunks_exact(n as usize));
-            for ((((sums, red), green), blue), cover) in
-                self.sums.iter_mut().zip(red).zip(green).zip(blue).zip(cover)
-            {
-                for (sum, parts) in sums.iter_mut().zip([red, green, blue, cover]) {
-                    *sum = parts.iter().fold(*sum, |sum, part| sum + part);
-                }
+            for (sums, lit) in self.columns.iter_mut().zip(&self.lit) {
+                sums.iter_mut().zip(lit).for_each(|(sum, lit)| *sum += lit);
             }
         }
+        self.sums.clear();
+        let [red, green, blue, cover] = self.columns.each_ref().map(|all| all.chunks_exact(n as usize));
+        let sum = |parts: &[f32]| parts.iter().fold(0.0, |sum, part| sum + part);
+        self.sums.extend(
+            red.zip(green)
+                .zip(blue)
+                .zip(cover)
+                .map(|(((red, green), blue), cover)| [sum(red), sum(green), sum(blue), sum(cover)]),
+        );
     }
 
     /// Puts the light of a row of samples into `lit`: nothing where nothing is drawn.
