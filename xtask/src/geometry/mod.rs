@@ -4,30 +4,23 @@
 //! shares no code with them: from points of drawn edges, and from pixels, a ray into the past goes into the rest
 //! frame by a matrix and meets the scene as it was written.
 
+mod view;
+
 use std::error::Error;
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use glam::DVec3;
 use rayon::prelude::*;
-use ugparse::{Camera, Scene, Source};
+use ugparse::{Camera, Scene};
 use ugtests::agreement::{MOST_FACES, Wrong, are_close, compare, painted, recolored};
-use ugtests::oracle::{Oracle, Outline, Pinhole};
+use ugtests::oracle::{Oracle, Outline};
 use ugtests::outline::{self, Errors};
 use ugtests::pipe::Pipe;
-use ugtests::scenes;
+
+use view::{Flight, View, is_file, views};
 
 type Outcome<T> = Result<T, Box<dyn Error>>;
-
-/// Scenes, and whether they are put in place (`-in`), so that they stay in the picture.
-const SCENES: [(&str, bool); 6] = [
-    ("ship", true),
-    ("street", false),
-    ("lattice", false),
-    ("cubes", true),
-    ("sphere", true),
-    ("teapot", true),
-];
 
 const SPEEDS: [f64; 4] = [0.3, 0.9, 0.99, 0.999];
 
@@ -48,8 +41,40 @@ const MOST_PIECES: usize = 1 << 16;
 const DEPTH: f64 = 2e-4;
 
 /// What to measure.
+#[derive(clap::Args)]
+pub struct Args {
+    /// Pixels across and down
+    #[arg(long = "sz", num_args = 2, value_names = ["W", "H"], default_values_t = [1920, 1080])]
+    size: Vec<u32>,
+    /// Only scenes whose name begins so
+    #[arg(long, value_name = "NAME")]
+    only: Option<String>,
+    /// Only one of the tables
+    #[arg(long, value_enum)]
+    table: Option<Table>,
+    /// Only these speeds, separated by commas
+    #[arg(long, value_name = "BETA", value_delimiter = ',', value_parser = clap::value_parser!(f64))]
+    speed: Vec<f64>,
+    /// Only these flights, separated by commas
+    #[arg(long, value_enum, value_name = "FLIGHT", value_delimiter = ',', default_values_t = Flight::ALL)]
+    direction: Vec<Flight>,
+    /// Scenes besides those of the repository
+    #[arg(value_name = "FILE", value_parser = is_file)]
+    files: Vec<PathBuf>,
+}
+
+impl Args {
+    /// The speeds and flights of a table.
+    fn motions(&self, speeds: &[f64]) -> Vec<(f64, Flight)> {
+        let speeds = if self.speed.is_empty() { speeds } else { &self.speed };
+        let of_speed = |&speed: &f64| self.direction.iter().map(move |&flight| (speed, flight));
+        speeds.iter().flat_map(of_speed).collect()
+    }
+}
+
+/// One of the tables.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
-pub enum Table {
+enum Table {
     /// Pictures at the default bound.
     Pictures,
     /// Errors and faces at several bounds.
@@ -57,159 +82,26 @@ pub enum Table {
 }
 
 /// Prints the tables.
-pub fn write(
-    out: &mut impl Write,
-    size: [u32; 2],
-    only: Option<&str>,
-    table: Option<Table>,
-    files: &[PathBuf],
-) -> Outcome<()> {
-    let mut views = views(size, files)?;
-    views.retain(|view| only.is_none_or(|name| view.name.starts_with(name)));
+pub fn write(out: &mut impl Write, args: &Args) -> Outcome<()> {
+    let mut views = views([args.size[0], args.size[1]], &args.files)?;
+    views.retain(|view| args.only.as_ref().is_none_or(|name| view.name.starts_with(name)));
     let mut failures = Vec::new();
-    if table != Some(Table::Bounds) {
-        pictures(out, size, &views, &mut failures)?;
+    if args.table != Some(Table::Bounds) {
+        pictures(out, &views, &args.motions(&SPEEDS), &mut failures)?;
     }
-    if table != Some(Table::Pictures) {
-        bounds(out, &views, &mut failures)?;
+    if args.table != Some(Table::Pictures) {
+        bounds(out, &views, &args.motions(&BOUND_SPEEDS), &mut failures)?;
     }
     if failures.is_empty() { Ok(()) } else { Err(failures.join("\n").into()) }
 }
 
-/// A scene seen by a camera.
-struct View {
-    name: String,
-    scene: Scene,
-    camera: Camera,
-    in_place: bool,
-    size: [u32; 2],
-}
-
-fn views(size: [u32; 2], files: &[PathBuf]) -> Outcome<Vec<View>> {
-    let mut views = Vec::new();
-    for (name, in_place) in SCENES {
-        let scene = without_wires(scenes::parse(&scenes::text(name)));
-        let camera = scene.camera().ok_or("the scene has a camera")?.clone();
-        views.push(View { name: name.to_string(), scene, camera, in_place, size });
-    }
-    for file in files {
-        let source = Source::new(file.display().to_string(), std::fs::read(file)?);
-        let scene =
-            ugparse::parse(&source, &ugparse::Options { lax: true, ..ugparse::Options::default() })?.scene;
-        let scene = without_wires(scene);
-        let name = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        for (place, camera, in_place) in cameras(&scene) {
-            views.push(View {
-                name: format!("{name}, {place}"),
-                scene: scene.clone(),
-                camera,
-                in_place,
-                size,
-            });
-        }
-    }
-    Ok(views)
-}
-
-/// The oracle sees faces only, and does not count wires when it puts bodies in place.
-fn without_wires(scene: Scene) -> Scene {
-    Scene { wires: Vec::new(), comments: Vec::new(), ..scene }
-}
-
-/// The camera of the scene if it says enough; else one in the middle of its box, at the height of a person's head
-/// were it a storey, looking along it, and one outside.
-fn cameras(scene: &Scene) -> Vec<(&'static str, Camera, bool)> {
-    if let Some(camera) = scene.camera()
-        && camera.eye.is_some()
-        && camera.center.is_some()
-        && camera.view_angle.is_some()
-    {
-        return vec![("its camera", camera.clone(), false)];
-    }
-    let places = scene.vertices.iter().map(|vertex| vertex.position);
-    let (low, high) =
-        places.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| (low.min(p), high.max(p)));
-    let (middle, reach) = (low.midpoint(high), high - low);
-    let along = if reach.x > reach.y { DVec3::X } else { DVec3::Y };
-    // Not on a coordinate of the scene.
-    let inside = middle + reach * DVec3::new(0.017, 0.013, 0.041);
-    let camera = |eye, center, across: f64| Camera {
-        eye: Some(eye),
-        center: Some(center),
-        up: Some(DVec3::Z),
-        view_angle: Some([across, across * 0.75]),
-        ..Camera::default()
-    };
-    let outside = middle + reach.length() * DVec3::new(0.5, -0.9, 0.6);
-    vec![
-        ("inside", camera(inside, inside + along, 90.0), false),
-        ("outside", camera(outside, middle, 50.0), true),
-    ]
-}
-
-impl View {
-    fn eye(&self) -> DVec3 {
-        self.camera.eye.unwrap_or(DVec3::ZERO)
-    }
-
-    /// The camera flies forward, backward, and to the left: velocities of the scene in its frame.
-    fn motions(&self, speed: f64) -> [(&'static str, DVec3); 3] {
-        let ahead = (self.camera.center.unwrap_or(DVec3::Y) - self.eye()).normalize();
-        let right = ahead.cross(self.camera.up.unwrap_or(DVec3::Z)).normalize();
-        [("forward", -ahead * speed), ("backward", ahead * speed), ("sideways", right * speed)]
-    }
-
-    fn pinhole(&self) -> Pinhole {
-        Pinhole::new(&self.camera, self.eye(), self.size)
-    }
-
-    fn config(&self, beta: DVec3, pieces: uglorentz::Pieces) -> uglorentz::Config {
-        uglorentz::Config {
-            velocity: Some(beta),
-            eye: Some(self.eye()),
-            in_place: self.in_place,
-            pieces,
-            ..uglorentz::Config::default()
-        }
-    }
-
-    fn oracle(&self, beta: DVec3) -> Oracle {
-        Oracle::new(&self.scene, self.eye(), Some(beta), self.in_place)
-    }
-
-    /// The configuration for what the camera sees and how it is shaped: no more than outlines and depth need.
-    fn config_of_shape(&self, beta: DVec3) -> uglorentz::Config {
-        let mut config = self.config(beta, uglorentz::Pieces::UpTo(uglorentz::DEFAULT_ERROR));
-        config.color_error = f64::INFINITY;
-        config.cull = Some(self.size);
-        config.camera.view_angle = self.camera.view_angle.map(|[across, _]| (across, None));
-        config
-    }
-
-    /// Errors of the outlines of what a configuration writes, and of which face each piece is.
-    fn measure(&self, config: &uglorentz::Config, oracle: &Oracle) -> Outcome<(Errors, Vec<usize>)> {
-        let mut scene = Scene { cameras: vec![self.camera.clone()], ..self.scene.clone() };
-        for row in 0..scene.faces.len() {
-            scene.faces[row].name = Some(scene.names.add(&format!("f{row}")));
-        }
-        let (seen, notes) = uglorentz::transform(&scene, config)?;
-        if notes.is_full {
-            return Err(format!("{} at {:?}: too many pieces", self.name, config.velocity).into());
-        }
-        // Pieces have the name of their face.
-        let origin = |face: &ugparse::Face| seen.names.get(face.name?).strip_prefix('f')?.parse().ok();
-        let origins: Option<Vec<usize>> = seen.faces.iter().map(origin).collect();
-        let origins = origins.ok_or("a piece has lost its name")?;
-        Ok((outline::errors(&seen, &origins, self.eye(), oracle, &self.pinhole()), origins))
-    }
-}
-
 fn pictures(
     out: &mut impl Write,
-    [width, height]: [u32; 2],
     views: &[View],
+    motions: &[(f64, Flight)],
     failures: &mut Vec<String>,
 ) -> Outcome<()> {
+    let Some([width, height]) = views.first().map(|view| view.size) else { return Ok(()) };
     writeln!(out, "### At the default bound, {width}×{height}, 1 sample\n")?;
     writeln!(
         out,
@@ -220,9 +112,8 @@ fn pictures(
         "| --- | ---: | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |"
     )?;
     for view in views {
-        for (speed, (flight, beta)) in
-            SPEEDS.iter().flat_map(|&speed| view.motions(speed).map(|m| (speed, m)))
-        {
+        for &(speed, flight) in motions {
+            let (beta, flight) = (view.beta(speed, flight), flight.name());
             let oracle = view.oracle(beta);
             let config = view.config(beta, uglorentz::Pieces::UpTo(uglorentz::DEFAULT_ERROR));
             let (errors, pieces) = view.measure(&config, &oracle)?;
@@ -335,16 +226,23 @@ fn n_pieces(scene: &Scene, faces: &[usize], n: usize) -> usize {
     faces.iter().map(|&row| cells(&scene.faces[row])).sum::<usize>() * n * n
 }
 
-fn bounds(out: &mut impl Write, views: &[View], failures: &mut Vec<String>) -> Outcome<()> {
-    let speeds = BOUND_SPEEDS.map(|speed| speed.to_string()).join(" and ");
-    writeln!(out, "### Bound, error and faces, {speeds} c, three flights together\n")?;
+fn bounds(
+    out: &mut impl Write,
+    views: &[View],
+    motions: &[(f64, Flight)],
+    failures: &mut Vec<String>,
+) -> Outcome<()> {
+    let motions_told: Vec<String> =
+        motions.iter().map(|(speed, flight)| format!("{speed} c {}", flight.name())).collect();
+    writeln!(out, "### Bound, error and faces: {} together\n", motions_told.join(", "))?;
     writeln!(out, "| scene | bound, mrad | greatest error, mrad | faces | growth |")?;
     writeln!(out, "| --- | ---: | ---: | ---: | ---: |")?;
     for view in views {
         let mut last: Option<(f64, usize)> = None;
         for bound in BOUNDS {
             let (mut errors, mut n_faces) = (Errors::default(), 0);
-            for (_, beta) in BOUND_SPEEDS.iter().flat_map(|&speed| view.motions(speed)) {
+            for &(speed, flight) in motions {
+                let beta = view.beta(speed, flight);
                 let config = view.config(beta, uglorentz::Pieces::UpTo(bound * 1e-3));
                 let (found, pieces) = view.measure(&config, &view.oracle(beta))?;
                 errors = errors.and(found);
@@ -364,9 +262,4 @@ fn bounds(out: &mut impl Write, views: &[View], failures: &mut Vec<String>) -> O
         }
     }
     Ok(())
-}
-
-/// Is this a scene file? For the command line.
-pub fn is_file(path: &str) -> Result<PathBuf, String> {
-    if Path::new(path).is_file() { Ok(path.into()) } else { Err("there is no such file".to_string()) }
 }
