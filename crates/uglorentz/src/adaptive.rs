@@ -225,7 +225,8 @@ mod tests {
         for max_pieces in [10, 100, 1000, 10_000] {
             let points = scene.vertices.iter().map(|vertex| motions[0].point(0, vertex.position)).collect();
             let mut growth = Growth::new(&motions, points);
-            let bounds = Bounds::new(Tolerance::new(1e-9, 2e-3), Lit::default(), Sight::default(), &motions);
+            let bounds =
+                Bounds::new(vec![Tolerance::new(1e-9, 2e-3)], Lit::default(), Sight::default(), &motions);
             let outcome = cut(&scene, &mut growth, &bounds, max_pieces);
             assert!(outcome.is_full);
             let n_pieces = outcome.pieces.len();

@@ -55,6 +55,12 @@ impl Tolerance {
         let safe = libm::sin(error).min(offset);
         Tolerance { tan_half: libm::tan(error / 2.0), offset, safe, color: color * color::EDGE_SHARE }
     }
+
+    /// With this part of the bound of rule 2, 1 at most.
+    pub(crate) fn with_depth(self, part: f64) -> Tolerance {
+        let offset = self.offset * part;
+        Tolerance { offset, safe: self.safe.min(offset), ..self }
+    }
 }
 
 /// What is wrong with a drawn edge, at the place where it is worst.

@@ -568,3 +568,27 @@ fn bad_numbers_are_refused_with_a_remedy() {
         "-sd would make 9000000 pieces, more than the limit of 4000000: give fewer, or use -se, which cuts only where it shows",
     );
 }
+
+/// In place and receding, a body is γ(1 + β) times as far away in its own frame. How far drawn faces are out, in parts of
+/// the distance, goes with the size of the body, so that faces one behind the other stay in order.
+#[test]
+fn depth_of_what_is_far_away_at_rest_goes_with_its_size() {
+    let mut random = Random(17);
+    for (speed, bound) in [(0.9, 1e-4), (0.99, 1e-4), (0.999, 1e-4), (0.999, 1e-3)] {
+        let center = random.direction() * 4.0;
+        let (vertices, faces) = prism(&mut random, center, 1.0, 5);
+        let beta = center.normalize() * speed;
+        let config = Config { pieces: Pieces::UpTo(bound), in_place: true, ..moving(beta) };
+        let scene = seen(&text(&vertices, &faces), &config);
+        let found = errors(&scene, Velocity::from_beta(beta).unwrap());
+        let rest = rest(&scene);
+        let nearest = rest.iter().map(|place| place.length()).fold(f64::INFINITY, f64::min);
+        let reach = |from: &DVec3| rest.iter().map(|to| from.distance(*to)).fold(0.0, f64::max);
+        // The box round a body may be √3 times as long as the body.
+        let size = rest.iter().map(reach).fold(0.0, f64::max) * 3.0_f64.sqrt();
+        let worst = found.offset.max(found.inside) * nearest / size;
+        assert!(worst <= 3.0 * bound, "{speed}: {worst}");
+        // Else the bound in parts of the distance would do.
+        assert!(bound * nearest / size > 3.0 * bound || speed < 0.99, "{speed}: {nearest} {size}");
+    }
+}
