@@ -7,7 +7,7 @@
 //! | piece | edges halved | becomes |
 //! | --- | --- | --- |
 //! | triangle | 1, 2, 3 | 2, 3, 4 triangles |
-//! | convex quadrilateral | all | 4 quadrilaterals round the mean of its corners |
+//! | convex quadrilateral | all | 4 quadrilaterals round the mean of its corners, if both diagonals bend |
 //! | | two opposite ones | 2 quadrilaterals |
 //! | | others | 2 triangles, and those as above |
 //! | | none bends, but a diagonal does, or the inside | 2 triangles |
@@ -70,8 +70,8 @@ pub(crate) fn cut(scene: &Scene, growth: &mut Growth, bounds: &Bounds, max_piece
             }
             let face = open.piece.face;
             is_cut[face as usize] = true;
-            fresh
-                .extend(split(growth, &open.piece.shape, due).into_iter().map(|shape| Piece { face, shape }));
+            let shapes = split(growth, bounds, &open.piece.shape, due);
+            fresh.extend(shapes.into_iter().map(|shape| Piece { face, shape }));
             None
         };
         open = open.into_iter().zip(due).filter_map(cut).collect();

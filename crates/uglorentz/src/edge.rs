@@ -132,6 +132,14 @@ pub(crate) fn errors(a: &Point, b: &Point, motion: &Motion, shown: Shown) -> Err
     Errors { angle: 2.0 * libm::atan(edge.tan_half_sagitta()), offset: edge.offset(shown), color }
 }
 
+/// The largest of the errors of an edge, in parts of its bound; a number in any case.
+pub(crate) fn excess(a: &Point, b: &Point, motion: &Motion, tolerance: &Tolerance) -> f64 {
+    let Errors { angle, offset, color } = errors(a, b, motion, Shown::All);
+    let color = if tolerance.color == f64::INFINITY { 0.0 } else { color / tolerance.color };
+    let angle = libm::tan(angle / 2.0) / tolerance.tan_half;
+    color.max(angle).max(offset / tolerance.offset).min(f64::MAX)
+}
+
 /// Rules 1 and 2.
 fn leaves_chord(a: &Point, b: &Point, motion: &Motion, tolerance: &Tolerance) -> bool {
     let edge = Edge::new(a, b, motion);

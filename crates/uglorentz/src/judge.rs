@@ -119,6 +119,13 @@ impl Judge<'_, '_> {
             || self.bounds.lit.is_uneven(from, to, motion)
     }
 
+    /// The largest error of an edge in parts of its bound: what new edges inside a face are chosen by. Light is left out.
+    pub(crate) fn excess(&self, a: u32, b: u32) -> f64 {
+        let (low, high) = (a.min(b), a.max(b));
+        let (from, to, motion) = (self.growth.point(low), self.growth.point(high), self.growth.motion(low));
+        edge::excess(from, to, motion, self.bounds.tolerance(from))
+    }
+
     /// The faces with edges that bend, in order, cut into triangles and convex quadrilaterals.
     pub(crate) fn first_cuts(&self, scene: &Scene) -> Vec<(u32, Cut)> {
         let cut = |(idx, face): (usize, &Face)| Some((idx as u32, self.first_cut(scene, face)?));
