@@ -256,6 +256,25 @@ pub fn are_close(oracle: &Oracle, camera: &Pinhole, wrong: &Wrong, reach: f64, p
     is_hit || has_edge(oracle, camera, shown, center, reach, part)
 }
 
+/// Would the pixel be right if edges were drawn `reach` pixels aside? The face it shows and all that should hide that,
+/// nearer by more than `part` of the distance, have edges so near the pixel's middle.
+pub fn are_edges_near(oracle: &Oracle, camera: &Pinhole, wrong: &Wrong, reach: f64, part: f64) -> bool {
+    let center = DVec2::from_array(wrong.pixel.map(f64::from)) + 0.5;
+    let direction = camera.direction(center.x, center.y);
+    let Ok(Some(shown)) = wrong.shown else { return false };
+    // How far away the face has an edge here, if it has one.
+    let edge = |face: usize| {
+        let points = oracle.edge_points(face, direction).into_iter();
+        let is_near =
+            |point: &DVec3| camera.pixel(*point).is_some_and(|pixel| pixel.distance(center) <= reach);
+        points.filter(is_near).map(DVec3::length).reduce(f64::max)
+    };
+    edge(shown).is_some_and(|distance| {
+        let mut hits = oracle.hits(direction).into_iter();
+        hits.all(|(face, at)| face == shown || at >= distance * (1.0 - part) || edge(face).is_some())
+    })
+}
+
 /// Two faces in one place: rods that cross have faces in common planes.
 fn coincide(oracle: &Oracle, a: usize, b: usize, direction: DVec3) -> bool {
     match (oracle.distance(a, direction), oracle.distance(b, direction)) {

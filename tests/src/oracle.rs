@@ -330,18 +330,31 @@ impl Oracle {
     /// A face seen edge-on can be too thin for any ray to meet it; its edges are still there. `beside`: what is
     /// nearer by no more than this part of the distance does not hide an edge.
     pub fn edges_near(&self, face: usize, d: DVec3, beside: f64) -> Vec<DVec3> {
-        let find = |body: &Body| {
-            let polygon = body.polygons.iter().find(|polygon| polygon.face == face)?;
-            let points = polygon.edge_points(body.ray(d)).map(|point| body.seen(point));
-            Some(points.collect::<Vec<DVec3>>())
-        };
-        let points = self.bodies.iter().find_map(find).unwrap_or_default();
         let is_visible = |point: &DVec3| {
             let direction = point.normalize();
             let nearest = self.faces(&[direction])[0].and_then(|face| self.distance(face, direction));
             nearest.is_none_or(|nearest| nearest >= point.length() * (1.0 - beside))
         };
-        points.into_iter().filter(is_visible).map(DVec3::normalize).collect()
+        self.edge_points(face, d).into_iter().filter(is_visible).map(DVec3::normalize).collect()
+    }
+
+    /// The point of each edge of a face that is seen nearest to direction `d`, were the face alone.
+    pub fn edge_points(&self, face: usize, d: DVec3) -> Vec<DVec3> {
+        let find = |body: &Body| {
+            let polygon = body.polygons.iter().find(|polygon| polygon.face == face)?;
+            Some(polygon.edge_points(body.ray(d)).map(|point| body.seen(point)).collect())
+        };
+        self.bodies.iter().find_map(find).unwrap_or_default()
+    }
+
+    /// All faces in a direction, hidden ones too, and their distances.
+    pub fn hits(&self, direction: DVec3) -> Vec<(usize, f64)> {
+        let of_body = |body: &Body| {
+            let ray = body.ray(direction);
+            let hit = |polygon: &Polygon| Some((polygon.face, polygon.hit(ray)?));
+            body.polygons.iter().filter_map(hit).collect::<Vec<_>>()
+        };
+        self.bodies.iter().flat_map(of_body).collect()
     }
 
     /// The outline of a face; `None` if it has no area.

@@ -13,7 +13,7 @@ use std::path::PathBuf;
 use glam::DVec3;
 use rayon::prelude::*;
 use ugparse::{Camera, Scene};
-use ugtests::agreement::{MOST_FACES, Wrong, are_close, compare, painted, recolored};
+use ugtests::agreement::{MOST_FACES, Wrong, are_close, are_edges_near, compare, painted, recolored};
 use ugtests::oracle::{Oracle, Outline};
 use ugtests::outline::{self, Errors};
 use ugtests::pipe::Pipe;
@@ -148,7 +148,7 @@ fn pictures(
 }
 
 /// Pixels that show another face than the oracle sees; those of them without it within reach, where the two faces
-/// are as close to each other as the bound of depth; and the rest.
+/// are as close to each other as the bound of depth; and the rest that edges within their bound do not explain.
 fn pixels(
     view: &View,
     beta: DVec3,
@@ -172,7 +172,9 @@ fn pixels(
     let camera = view.pinhole();
     let agreement = compare(&picture, oracle, &camera, MOST_PIXELS);
     let is_close = |wrong: &Wrong| are_close(oracle, &camera, wrong, MOST_PIXELS, DEPTH);
-    let (close, far): (Vec<&Wrong>, Vec<&Wrong>) = agreement.wrong.iter().partition(|wrong| is_close(wrong));
+    let is_at_edges = |wrong: &&Wrong| are_edges_near(oracle, &camera, wrong, MOST_PIXELS, DEPTH);
+    let (close, rest): (Vec<&Wrong>, Vec<&Wrong>) = agreement.wrong.iter().partition(|wrong| is_close(wrong));
+    let far: Vec<&Wrong> = rest.into_iter().filter(|wrong| !is_at_edges(wrong)).collect();
     let (n_close, n_wrong) = (close.len(), far.len());
     for Wrong { pixel, shown, expected, .. } in far {
         failures.push(format!("{} at {what}: {pixel:?} shows {shown:?} for {expected:?}", view.name));
