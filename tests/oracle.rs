@@ -4,7 +4,9 @@
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test fails by panicking")]
 
 use glam::DVec3;
-use ugtests::agreement::{MOST_FACES, Wrong, are_edges_near, color_of, compare, face_of, painted, recolored};
+use ugtests::agreement::{
+    MOST_FACES, Wrong, are_edges_near, color_of, compare, face_of, is_at_slit, painted, recolored,
+};
 use ugtests::oracle::{Oracle, Pinhole};
 use ugtests::outline;
 use ugtests::picture::save;
@@ -200,4 +202,26 @@ fn edges_explain_what_they_can_and_no_more() {
     assert!(!is_explained(51, Some(2), 0.55), "the walls meet further off");
     assert!(!is_explained(51, Some(3), 0.65), "it has no edge here, and the walls hide it");
     assert!(!is_explained(51, None, 0.65) && !is_explained(50, Some(2), 0.65));
+}
+
+/// Below a long edge two faces that have it in common with the upper one, a corner more, and one that has not: slits are there, and
+/// neither beside it, nor where both have the same corners, nor round a corner.
+#[test]
+fn slits_are_where_edges_have_other_corners() {
+    const SCENE: &str = "cam -ep 0 0 0 -vc 0 9 0 -ud 0 0 1 -va 90 90;
+        v a -8 10 0; v b 0 10 0; v c 4 10 0; v d 8 10 0; v e -8 10 8; v f 0 10 8; v g 8 10 8;
+        v h -8 10 -8; v i 0 10 -8; v j 4 10 -8; v k 8 10 -8;
+        f (a b f e); f (b d g f); f (h i b a); f (i j c b); f (j k d c);";
+    let scene = scenes::parse(SCENE.as_bytes());
+    let oracle = Oracle::new(&scene, DVec3::ZERO, None, false);
+    let camera = Pinhole::new(scene.camera().unwrap(), DVec3::ZERO, [100, 100]);
+    let is_slit = |x: u32, y: u32| {
+        let expected = oracle.faces(&[camera.direction(f64::from(x) + 0.5, f64::from(y) + 0.5)])[0];
+        let wrong = Wrong { pixel: [x, y], is_at_boundary: true, shown: Ok(None), expected };
+        assert!(expected.is_some());
+        is_at_slit(&oracle, &camera, &wrong, 0.6)
+    };
+    assert!(is_slit(60, 50) && is_slit(60, 49) && is_slit(80, 50), "along the edge of 8 beside edges of 4");
+    assert!(!is_slit(60, 51) && !is_slit(30, 50) && !is_slit(30, 49) && !is_slit(70, 60));
+    assert!(!is_slit(49, 50), "this face has all its corners in common with the others");
 }

@@ -223,6 +223,12 @@ impl Body {
         (self.boost * past(d)).truncate()
     }
 
+    fn outlines(&self) -> impl Iterator<Item = (usize, Outline<'_>)> {
+        self.polygons.iter().map(|polygon| {
+            (polygon.face, Outline { body: self, edges: &polygon.edges, size: polygon.radius })
+        })
+    }
+
     /// Where a point at rest is seen: its light leaves at −|p| on the clocks of the body.
     fn seen(&self, p: DVec3) -> DVec3 {
         (self.boost.inverse() * p.extend(-p.length())).truncate()
@@ -359,10 +365,12 @@ impl Oracle {
 
     /// The outline of a face; `None` if it has no area.
     pub fn outline(&self, face: usize) -> Option<Outline<'_>> {
-        self.bodies.iter().find_map(|body| {
-            let polygon = body.polygons.iter().find(|polygon| polygon.face == face)?;
-            Some(Outline { body, edges: &polygon.edges, size: polygon.radius })
-        })
+        self.outlines().find_map(|(other, outline)| (other == face).then_some(outline))
+    }
+
+    /// All faces that have an area, and their outlines.
+    pub fn outlines(&self) -> impl Iterator<Item = (usize, Outline<'_>)> {
+        self.bodies.iter().flat_map(Body::outlines)
     }
 
     /// Where one face is seen in a direction, a unit vector, were it alone.
@@ -408,6 +416,11 @@ impl Outline<'_> {
     pub fn point(&self, edge: usize, part: f64) -> DVec3 {
         let (a, b) = self.edges[edge];
         self.body.seen(a + part * (b - a))
+    }
+
+    /// Where the ends of an edge are seen.
+    pub fn ends(&self, edge: usize) -> [DVec3; 2] {
+        [0.0, 1.0].map(|part| self.point(edge, part))
     }
 
     /// The parts of an edge at which two seen points lie; `None` if one of them does not lie on it.
