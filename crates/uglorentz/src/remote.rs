@@ -4,9 +4,9 @@ use glam::DVec3;
 
 use crate::motion::{Motion, Point};
 
-/// With a part of 1 the bound of depth is a ten-thousandth of the distance. So from bodies further away than three times their
-/// size three ten-thousandths of the size are asked for.
-const FAR: f64 = 3.0;
+/// With a part of 1 the bound of depth is a ten-thousandth of the distance. So from bodies further away than ten times their size
+/// a thousandth of the size is asked for.
+const FAR: f64 = 10.0;
 
 /// Less is not asked for: renderers compare depths in single precision.
 const LEAST: f64 = 3e-3;
