@@ -4,9 +4,8 @@
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test fails by panicking")]
 
 use glam::DVec3;
-use ugtests::agreement::{
-    MOST_FACES, Wrong, are_edges_near, color_of, compare, face_of, is_at_slit, painted, recolored,
-};
+use ugtests::agreement::{MOST_FACES, Wrong, color_of, compare, face_of, painted, recolored};
+use ugtests::explanation::{are_edges_near, is_at_slit};
 use ugtests::oracle::{Oracle, Pinhole};
 use ugtests::outline;
 use ugtests::picture::save;

@@ -9,7 +9,7 @@ use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use ugparse::{Color, ColorId, ColorValue, Face, Light, LightKind, Scene};
 
-use crate::oracle::{Oracle, Outline, Pinhole};
+use crate::oracle::{Oracle, Pinhole};
 use crate::picture::Picture;
 
 /// Least part of the pixels that show the very face.
@@ -254,60 +254,6 @@ pub fn are_close(oracle: &Oracle, camera: &Pinhole, wrong: &Wrong, reach: f64, p
         _ => false,
     };
     is_hit || has_edge(oracle, camera, shown, center, reach, part)
-}
-
-/// Would the pixel be right if edges were drawn `reach` pixels aside? The face it shows and all that should hide that,
-/// nearer by more than `part` of the distance, have edges so near the pixel's middle.
-pub fn are_edges_near(oracle: &Oracle, camera: &Pinhole, wrong: &Wrong, reach: f64, part: f64) -> bool {
-    let center = DVec2::from_array(wrong.pixel.map(f64::from)) + 0.5;
-    let direction = camera.direction(center.x, center.y);
-    let Ok(Some(shown)) = wrong.shown else { return false };
-    // How far away the face has an edge here, if it has one.
-    let edge = |face: usize| {
-        let points = oracle.edge_points(face, direction).into_iter();
-        let is_near =
-            |point: &DVec3| camera.pixel(*point).is_some_and(|pixel| pixel.distance(center) <= reach);
-        points.filter(is_near).map(DVec3::length).reduce(f64::max)
-    };
-    edge(shown).is_some_and(|distance| {
-        let mut hits = oracle.hits(direction).into_iter();
-        hits.all(|(face, at)| face == shown || at >= distance * (1.0 - part) || edge(face).is_some())
-    })
-}
-
-/// Does the face that should be seen have an edge, `reach` pixels from the pixel's middle or less, that partly runs along an edge
-/// of another face with other corners? Drawn as two different lines they leave a slit.
-pub fn is_at_slit(oracle: &Oracle, camera: &Pinhole, wrong: &Wrong, reach: f64) -> bool {
-    let center = DVec2::from_array(wrong.pixel.map(f64::from)) + 0.5;
-    let direction = camera.direction(center.x, center.y);
-    let near = |outline: Outline<'_>| -> Vec<usize> {
-        let is_near = |edge: &usize| {
-            let pixel = camera.pixel(outline.nearest(*edge, direction));
-            pixel.is_some_and(|pixel| pixel.distance(center) <= reach)
-        };
-        (0..outline.n_edges()).filter(is_near).collect()
-    };
-    let Some(own) = wrong.expected.and_then(|face| oracle.outline(face)) else { return false };
-    let own_edges = near(own);
-    let leaves_slit = |other: Outline<'_>, edge: usize| {
-        own_edges.iter().any(|&own_edge| run_apart((own, own_edge), (other, edge)))
-    };
-    let mut others = oracle.outlines().filter(|&(face, _)| Some(face) != wrong.expected);
-    !own_edges.is_empty()
-        && others.any(|(_, other)| near(other).into_iter().any(|edge| leaves_slit(other, edge)))
-}
-
-/// Do two edges run along each other for a part, and do not have the same ends?
-fn run_apart((first, edge): (Outline<'_>, usize), (second, other): (Outline<'_>, usize)) -> bool {
-    /// Places this part of the distance apart are the same.
-    const SAME: f64 = 1e-9;
-    let is_same = |a: DVec3, b: DVec3| (a - b).length() <= SAME * a.length();
-    let ([a, b], [c, d]) = (first.ends(edge), second.ends(other));
-    let is_shared = (is_same(a, c) && is_same(b, d)) || (is_same(a, d) && is_same(b, c));
-    let of_second = [c, d].into_iter().filter(|&end| first.parts(edge, [end; 2]).is_some());
-    let of_first = [a, b].into_iter().filter(|&end| second.parts(other, [end; 2]).is_some());
-    let common: Vec<DVec3> = of_second.chain(of_first).collect();
-    !is_shared && common.iter().any(|&place| !is_same(place, common[0]))
 }
 
 /// Two faces in one place: rods that cross have faces in common planes.

@@ -13,9 +13,8 @@ use std::path::PathBuf;
 use glam::DVec3;
 use rayon::prelude::*;
 use ugparse::{Camera, Scene};
-use ugtests::agreement::{
-    MOST_FACES, Wrong, are_close, are_edges_near, compare, is_at_slit, painted, recolored,
-};
+use ugtests::agreement::{MOST_FACES, Wrong, are_close, compare, painted, recolored};
+use ugtests::explanation::{are_edges_near, is_at_slit};
 use ugtests::oracle::{Oracle, Outline};
 use ugtests::outline::{self, Errors};
 use ugtests::pipe::Pipe;
