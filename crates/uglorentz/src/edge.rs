@@ -27,7 +27,7 @@ use glam::DVec3;
 use crate::color;
 use crate::motion::{Motion, Point};
 
-/// Rule 2 never asks for more than this: a ten-thousandth of the distance.
+/// Rule 2 never asks for more than this, a ten-thousandth of the distance, but of bodies far away ([`crate::remote`]).
 const LEAST_OFFSET: f64 = 1e-4;
 
 /// Two directions with |d_a + d_b|² below this are opposite: no great circle joins them in particular.
