@@ -5,6 +5,7 @@
 //! - [`picture`]: comparing pictures, golden ones included;
 //! - [`oracle`]: what every pixel must show, found by a slow method of its own;
 //! - [`agreement`]: how far a picture agrees with the oracle;
+//! - [`explanation`]: what explains that they differ in a pixel;
 //! - [`outline`]: how far drawn edges are from where they are seen;
 //! - [`shading`]: colour and light of a point, by the formulas;
 //! - [`random`]: reproducible random numbers;
@@ -13,6 +14,7 @@
 #![allow(clippy::missing_panics_doc, reason = "a test helper fails by panicking")]
 
 pub mod agreement;
+pub mod explanation;
 pub mod oracle;
 pub mod outline;
 pub mod picture;

@@ -223,6 +223,12 @@ impl Body {
         (self.boost * past(d)).truncate()
     }
 
+    fn outlines(&self) -> impl Iterator<Item = (usize, Outline<'_>)> {
+        self.polygons.iter().map(|polygon| {
+            (polygon.face, Outline { body: self, edges: &polygon.edges, size: polygon.radius })
+        })
+    }
+
     /// Where a point at rest is seen: its light leaves at −|p| on the clocks of the body.
     fn seen(&self, p: DVec3) -> DVec3 {
         (self.boost.inverse() * p.extend(-p.length())).truncate()
@@ -330,26 +336,41 @@ impl Oracle {
     /// A face seen edge-on can be too thin for any ray to meet it; its edges are still there. `beside`: what is
     /// nearer by no more than this part of the distance does not hide an edge.
     pub fn edges_near(&self, face: usize, d: DVec3, beside: f64) -> Vec<DVec3> {
-        let find = |body: &Body| {
-            let polygon = body.polygons.iter().find(|polygon| polygon.face == face)?;
-            let points = polygon.edge_points(body.ray(d)).map(|point| body.seen(point));
-            Some(points.collect::<Vec<DVec3>>())
-        };
-        let points = self.bodies.iter().find_map(find).unwrap_or_default();
         let is_visible = |point: &DVec3| {
             let direction = point.normalize();
             let nearest = self.faces(&[direction])[0].and_then(|face| self.distance(face, direction));
             nearest.is_none_or(|nearest| nearest >= point.length() * (1.0 - beside))
         };
-        points.into_iter().filter(is_visible).map(DVec3::normalize).collect()
+        self.edge_points(face, d).into_iter().filter(is_visible).map(DVec3::normalize).collect()
+    }
+
+    /// The point of each edge of a face that is seen nearest to direction `d`, were the face alone.
+    pub fn edge_points(&self, face: usize, d: DVec3) -> Vec<DVec3> {
+        let find = |body: &Body| {
+            let polygon = body.polygons.iter().find(|polygon| polygon.face == face)?;
+            Some(polygon.edge_points(body.ray(d)).map(|point| body.seen(point)).collect())
+        };
+        self.bodies.iter().find_map(find).unwrap_or_default()
+    }
+
+    /// All faces in a direction, hidden ones too, and their distances.
+    pub fn hits(&self, direction: DVec3) -> Vec<(usize, f64)> {
+        let of_body = |body: &Body| {
+            let ray = body.ray(direction);
+            let hit = |polygon: &Polygon| Some((polygon.face, polygon.hit(ray)?));
+            body.polygons.iter().filter_map(hit).collect::<Vec<_>>()
+        };
+        self.bodies.iter().flat_map(of_body).collect()
     }
 
     /// The outline of a face; `None` if it has no area.
     pub fn outline(&self, face: usize) -> Option<Outline<'_>> {
-        self.bodies.iter().find_map(|body| {
-            let polygon = body.polygons.iter().find(|polygon| polygon.face == face)?;
-            Some(Outline { body, edges: &polygon.edges, size: polygon.radius })
-        })
+        self.outlines().find_map(|(other, outline)| (other == face).then_some(outline))
+    }
+
+    /// All faces that have an area, and their outlines.
+    pub fn outlines(&self) -> impl Iterator<Item = (usize, Outline<'_>)> {
+        self.bodies.iter().flat_map(Body::outlines)
     }
 
     /// Where one face is seen in a direction, a unit vector, were it alone.
@@ -395,6 +416,11 @@ impl Outline<'_> {
     pub fn point(&self, edge: usize, part: f64) -> DVec3 {
         let (a, b) = self.edges[edge];
         self.body.seen(a + part * (b - a))
+    }
+
+    /// Where the ends of an edge are seen.
+    pub fn ends(&self, edge: usize) -> [DVec3; 2] {
+        [0.0, 1.0].map(|part| self.point(edge, part))
     }
 
     /// The parts of an edge at which two seen points lie; `None` if one of them does not lie on it.

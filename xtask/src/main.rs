@@ -107,20 +107,7 @@ enum Chore {
         only: Option<String>,
     },
     /// Measure outlines in pictures against the oracle, and the faces it takes, as Markdown
-    Geometry {
-        /// Pixels across and down
-        #[arg(long = "sz", num_args = 2, value_names = ["W", "H"], default_values_t = [1920, 1080])]
-        size: Vec<u32>,
-        /// Only scenes whose name begins so
-        #[arg(long, value_name = "NAME")]
-        only: Option<String>,
-        /// Only one of the tables
-        #[arg(long, value_enum)]
-        table: Option<geometry::Table>,
-        /// Scenes besides those of the repository
-        #[arg(value_name = "FILE", value_parser = geometry::is_file)]
-        files: Vec<PathBuf>,
-    },
+    Geometry(geometry::Args),
     /// Draw a scene and tell the seconds and the peak memory in megabytes
     #[command(hide = true)]
     DrawOnce {
@@ -184,10 +171,8 @@ fn run(chore: &Chore) -> io::Result<()> {
         Chore::BenchExact { only } => {
             exact::write(&mut out, only.as_deref()).map_err(|error| io::Error::other(error.to_string()))?;
         }
-        Chore::Geometry { size, only, table, files } => {
-            let size = [size[0], size[1]];
-            geometry::write(&mut out, size, only.as_deref(), *table, files)
-                .map_err(|error| io::Error::other(error.to_string()))?;
+        Chore::Geometry(args) => {
+            geometry::write(&mut out, args).map_err(|error| io::Error::other(error.to_string()))?;
         }
         Chore::ReadOnce { scene, threads } => {
             reading::read_once(&mut out, scene, *threads)

@@ -7,7 +7,7 @@
 //! | piece | edges halved | becomes |
 //! | --- | --- | --- |
 //! | triangle | 1, 2, 3 | 2, 3, 4 triangles |
-//! | convex quadrilateral | all | 4 quadrilaterals round the mean of its corners |
+//! | convex quadrilateral | all | 4 quadrilaterals round the mean of its corners, if both diagonals bend |
 //! | | two opposite ones | 2 quadrilaterals |
 //! | | others | 2 triangles, and those as above |
 //! | | none bends, but a diagonal does, or the inside | 2 triangles |
@@ -70,8 +70,8 @@ pub(crate) fn cut(scene: &Scene, growth: &mut Growth, bounds: &Bounds, max_piece
             }
             let face = open.piece.face;
             is_cut[face as usize] = true;
-            fresh
-                .extend(split(growth, &open.piece.shape, due).into_iter().map(|shape| Piece { face, shape }));
+            let shapes = split(growth, bounds, &open.piece.shape, due);
+            fresh.extend(shapes.into_iter().map(|shape| Piece { face, shape }));
             None
         };
         open = open.into_iter().zip(due).filter_map(cut).collect();
@@ -225,7 +225,8 @@ mod tests {
         for max_pieces in [10, 100, 1000, 10_000] {
             let points = scene.vertices.iter().map(|vertex| motions[0].point(0, vertex.position)).collect();
             let mut growth = Growth::new(&motions, points);
-            let bounds = Bounds::new(Tolerance::new(1e-9, 2e-3), Lit::default(), Sight::default(), &motions);
+            let bounds =
+                Bounds::new(vec![Tolerance::new(1e-9, 2e-3)], Lit::default(), Sight::default(), &motions);
             let outcome = cut(&scene, &mut growth, &bounds, max_pieces);
             assert!(outcome.is_full);
             let n_pieces = outcome.pieces.len();

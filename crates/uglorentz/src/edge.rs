@@ -27,7 +27,7 @@ use glam::DVec3;
 use crate::color;
 use crate::motion::{Motion, Point};
 
-/// Rule 2 never asks for more than this: a ten-thousandth of the distance.
+/// Rule 2 never asks for more than this, a ten-thousandth of the distance, but of bodies far away ([`crate::remote`]).
 const LEAST_OFFSET: f64 = 1e-4;
 
 /// Two directions with |d_a + d_b|² below this are opposite: no great circle joins them in particular.
@@ -54,6 +54,12 @@ impl Tolerance {
         let offset = error.max(LEAST_OFFSET);
         let safe = libm::sin(error).min(offset);
         Tolerance { tan_half: libm::tan(error / 2.0), offset, safe, color: color * color::EDGE_SHARE }
+    }
+
+    /// With this part of the bound of rule 2, 1 at most.
+    pub(crate) fn with_depth(self, part: f64) -> Tolerance {
+        let offset = self.offset * part;
+        Tolerance { offset, safe: self.safe.min(offset), ..self }
     }
 }
 
@@ -124,6 +130,14 @@ pub(crate) fn errors(a: &Point, b: &Point, motion: &Motion, shown: Shown) -> Err
     }
     let edge = Edge::new(a, b, motion);
     Errors { angle: 2.0 * libm::atan(edge.tan_half_sagitta()), offset: edge.offset(shown), color }
+}
+
+/// The largest of the errors of an edge, in parts of its bound; a number in any case.
+pub(crate) fn excess(a: &Point, b: &Point, motion: &Motion, tolerance: &Tolerance) -> f64 {
+    let Errors { angle, offset, color } = errors(a, b, motion, Shown::All);
+    let color = if tolerance.color == f64::INFINITY { 0.0 } else { color / tolerance.color };
+    let angle = libm::tan(angle / 2.0) / tolerance.tan_half;
+    color.max(angle).max(offset / tolerance.offset).min(f64::MAX)
 }
 
 /// Rules 1 and 2.

@@ -23,7 +23,8 @@ pub(crate) const MAX_GENERATION: u32 = 32;
 /// How right the result has to be.
 #[derive(Clone, Debug)]
 pub(crate) struct Bounds {
-    tolerance: Tolerance,
+    /// Of each body.
+    tolerances: Vec<Tolerance>,
     pub lit: Lit,
     sight: Sight,
     /// [`quick::most_spread`] of each body.
@@ -31,9 +32,15 @@ pub(crate) struct Bounds {
 }
 
 impl Bounds {
-    pub(crate) fn new(tolerance: Tolerance, lit: Lit, sight: Sight, motions: &[Motion]) -> Bounds {
-        let spreads = motions.iter().map(|motion| quick::most_spread(motion, &tolerance)).collect();
-        Bounds { tolerance, lit, sight, spreads }
+    /// `tolerances`: of each body.
+    pub(crate) fn new(tolerances: Vec<Tolerance>, lit: Lit, sight: Sight, motions: &[Motion]) -> Bounds {
+        let of_body = |(motion, tolerance)| quick::most_spread(motion, tolerance);
+        let spreads = motions.iter().zip(&tolerances).map(of_body).collect();
+        Bounds { tolerances, lit, sight, spreads }
+    }
+
+    fn tolerance(&self, point: &Point) -> &Tolerance {
+        &self.tolerances[point.body as usize]
     }
 
     /// What is seen of a flat piece and its edges; `None` if it is out of sight.
@@ -41,7 +48,8 @@ impl Bounds {
         if self.sight.is_outside(motion, corners) {
             return None;
         }
-        let is_line = edge_on::is_seen_as_line(motion, corners, 2.0 * self.tolerance.tan_half);
+        let angle = corners.first().map_or(0.0, |corner| 2.0 * self.tolerance(corner).tan_half);
+        let is_line = edge_on::is_seen_as_line(motion, corners, angle);
         Some(if is_line { Shown::Outline } else { Shown::OnPiece(edge::slant(corners, motion)) })
     }
 }
@@ -107,7 +115,15 @@ impl Judge<'_, '_> {
         let (low, high) = (a.min(b), a.max(b));
         let growth = self.growth;
         let (from, to, motion) = (growth.point(low), growth.point(high), growth.motion(low));
-        edge::bends(from, to, motion, &self.bounds.tolerance) || self.bounds.lit.is_uneven(from, to, motion)
+        edge::bends(from, to, motion, self.bounds.tolerance(from))
+            || self.bounds.lit.is_uneven(from, to, motion)
+    }
+
+    /// The largest error of an edge in parts of its bound: what new edges inside a face are chosen by. Light is left out.
+    pub(crate) fn excess(&self, a: u32, b: u32) -> f64 {
+        let (low, high) = (a.min(b), a.max(b));
+        let (from, to, motion) = (self.growth.point(low), self.growth.point(high), self.growth.motion(low));
+        edge::excess(from, to, motion, self.bounds.tolerance(from))
     }
 
     /// The faces with edges that bend, in order, cut into triangles and convex quadrilaterals.
@@ -140,9 +156,10 @@ impl Judge<'_, '_> {
 
     /// True only if no line between these corners of a body bends, and nothing inside.
     fn is_right_for_sure(&self, motion: &Motion, corners: impl Iterator<Item = u32> + Clone) -> bool {
-        let Bounds { tolerance, lit, spreads, .. } = self.bounds;
+        let Bounds { tolerances, lit, spreads, .. } = self.bounds;
         let points = corners.map(|corner| self.growth.point(corner));
         let body = points.clone().next().map_or(0, |point| point.body as usize);
+        let tolerance = &tolerances[body];
         let is_shape_right = || {
             motion.is_at_rest()
                 || quick::is_close(points.clone(), spreads[body])
@@ -190,7 +207,7 @@ impl Judge<'_, '_> {
         let shown = if self.growth.is_rim(a, b) { Shown::All } else { shown };
         let (low, high) = (a.min(b), a.max(b));
         let (from, to, motion) = (self.growth.point(low), self.growth.point(high), self.growth.motion(low));
-        edge::shows(from, to, motion, &self.bounds.tolerance, shown)
+        edge::shows(from, to, motion, self.bounds.tolerance(from), shown)
             || self.bounds.lit.is_uneven(from, to, motion)
     }
 
@@ -213,6 +230,6 @@ impl Judge<'_, '_> {
         let is_deep = points.iter().any(|point| point.generation >= MAX_GENERATION);
         motion.has_flight_time()
             && !is_deep
-            && interior::offset(motion, points) > self.bounds.tolerance.offset
+            && interior::offset(motion, points) > self.bounds.tolerance(points[0]).offset
     }
 }

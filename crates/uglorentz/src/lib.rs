@@ -76,6 +76,7 @@ mod notes;
 mod pieces;
 mod placement;
 mod quick;
+mod remote;
 mod split;
 mod viewpoint;
 
@@ -284,11 +285,14 @@ fn transform_owned(mut scene: Scene, config: &Config) -> Result<(Scene, Notes), 
         Some(size) => Sight::new(&viewpoint::view(&scene, &config.camera, size)?),
         None => Sight::default(),
     };
+    let parts = remote::parts(&points, &motions);
     let n_culled = cull::cull(&mut scene, &mut points, &motions, &sight);
 
     let error = if let Pieces::UpTo(error) = config.pieces { error } else { DEFAULT_ERROR };
     let lit = Lit::new(&scene, eye, &motions, config.light_error);
-    let bounds = Bounds::new(Tolerance::new(error, config.color_error), lit, sight, &motions);
+    let tolerance = Tolerance::new(error, config.color_error);
+    let tolerances = parts.iter().map(|&part| tolerance.with_depth(part)).collect();
+    let bounds = Bounds::new(tolerances, lit, sight, &motions);
     let mut growth = Growth::new(&motions, points);
     let outcome = match config.pieces {
         Pieces::UpTo(_) => adaptive::cut(&scene, &mut growth, &bounds, adaptive::MAX_PIECES),

@@ -446,11 +446,14 @@ fn edges_at_the_eye_end_in_bounded_work() {
         assert!((50..1000).contains(&report.notes.n_new_vertices), "{}", report.notes.n_new_vertices);
         assert!(achieved.angle.error <= 1e-4 && achieved.depth.error <= 1e-4, "{achieved:?}");
     }
-    // A floor a hair below the eye slides along in its plane and is seen flat; only colours ask for many pieces.
-    let floor = "v a -10 -10 1e-8; v b 10 -10 1e-8; v c 10 10 1e-8; v d -10 10 1e-8; f (a b c d);";
-    let n_pieces =
-        |color_error: f64| run(floor, &Config { color_error, ..moving(DVec3::X * 0.99) }).scene.faces.len();
-    assert!(n_pieces(f64::INFINITY) < 1000 && n_pieces(DEFAULT_COLOR_ERROR) < 400_000);
+    // A floor close to the eye slides along in its plane and is seen flat; only colours ask for many pieces.
+    for (height, most) in [("1e-3", 100_000), ("1e-8", 1000), ("1e-12", 1000)] {
+        let floor =
+            "v a -10 -10 H; v b 10 -10 H; v c 10 10 H; v d -10 10 H; f (a b c d);".replace('H', height);
+        let n_pieces =
+            |color_error| run(&floor, &Config { color_error, ..moving(DVec3::X * 0.99) }).scene.faces.len();
+        assert!(n_pieces(f64::INFINITY) < most && n_pieces(DEFAULT_COLOR_ERROR) < 250_000, "{height}");
+    }
     // Numbers near the ends of their range.
     for size in ["1e-300", "1e200"] {
         let text = "v a -SIZE SIZE 0; v b SIZE SIZE 0; v c 0 SIZE SIZE; f (a b c);".replace("SIZE", size);
@@ -567,4 +570,28 @@ fn bad_numbers_are_refused_with_a_remedy() {
         pieces(Pieces::PerEdge(3000)),
         "-sd would make 9000000 pieces, more than the limit of 4000000: give fewer, or use -se, which cuts only where it shows",
     );
+}
+
+/// In place and receding, a body is γ(1 + β) times as far away in its own frame. How far drawn faces are out, in parts of
+/// the distance, goes with the size of the body, so that faces one behind the other stay in order.
+#[test]
+fn depth_of_what_is_far_away_at_rest_goes_with_its_size() {
+    let mut random = Random(17);
+    for (speed, bound) in [(0.9, 1e-4), (0.99, 1e-4), (0.999, 1e-4), (0.999, 1e-3)] {
+        let center = random.direction() * 4.0;
+        let (vertices, faces) = prism(&mut random, center, 1.0, 5);
+        let beta = center.normalize() * speed;
+        let config = Config { pieces: Pieces::UpTo(bound), in_place: true, ..moving(beta) };
+        let scene = seen(&text(&vertices, &faces), &config);
+        let found = errors(&scene, Velocity::from_beta(beta).unwrap());
+        let rest = rest(&scene);
+        let nearest = rest.iter().map(|place| place.length()).fold(f64::INFINITY, f64::min);
+        let reach = |from: &DVec3| rest.iter().map(|to| from.distance(*to)).fold(0.0, f64::max);
+        // The box round a body may be √3 times as long as the body.
+        let size = rest.iter().map(reach).fold(0.0, f64::max) * 3.0_f64.sqrt();
+        let worst = found.offset.max(found.inside) * nearest / size;
+        assert!(worst <= 10.0 * bound, "{speed}: {worst}");
+        // Else the bound in parts of the distance would do.
+        assert!(nearest / size > 10.0 || speed < 0.99, "{speed}: {nearest} {size}");
+    }
 }
