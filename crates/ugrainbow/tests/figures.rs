@@ -231,9 +231,6 @@ fn what_cannot_be_is_refused() {
     check(Config { size: [30, 30], ..with(strips()) }, "give a larger -sz");
     check(Config { size: [0, 30], ..with(strips()) }, &MAX_PIXELS.to_string());
     check(with(Figures { caption: "x\n".repeat(50) + "x", ..Figures::default() }), "a shorter -cap");
-    let clear =
-        Config { background: Background::Clear, output: Output::Vector(Format::Pdf), ..with(strips()) };
-    check(clear, "leave out -tb");
 }
 
 #[test]

@@ -62,6 +62,8 @@ pub enum Element<S> {
         /// Its colour.
         color: Rgb,
     },
+    /// What follows is cut off below so many pixel rows; if none, no more.
+    CutBelow(Option<u32>),
 }
 
 /// A triangle with a colour at each corner; between them it is linear in the encoded colours.
@@ -147,6 +149,8 @@ enum Painted<'a> {
     Line { ends: [Point; 2], width: f64, color: Rgb },
     /// All triangles up to the next area or line.
     Mesh(Mesh),
+    /// As [`Element::CutBelow`].
+    CutBelow(Option<u32>),
 }
 
 /// The elements of a figure in the order of painting.
@@ -163,6 +167,7 @@ fn painted(figure: &Figure<Triangle>) -> impl Iterator<Item = Painted<'_>> {
             Element::Line { ends, width, color } => {
                 Painted::Line { ends: *ends, width: *width, color: *color }
             }
+            Element::CutBelow(rows) => Painted::CutBelow(*rows),
             Element::Smooth(triangle) => {
                 let mut mesh = Mesh::new();
                 mesh.push(triangle);

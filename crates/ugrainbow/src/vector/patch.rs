@@ -12,6 +12,8 @@ const MARGIN: f64 = 4.0;
 pub struct Patch {
     /// Its face.
     pub item: u32,
+    /// True if that is translucent.
+    pub is_clear: bool,
     /// As drawn by the raster; its colours come from here.
     contours: Vec<Vec<Corner<CLEAR_VALUES>>>,
     /// What of it is in and near the picture.
@@ -25,6 +27,7 @@ impl Patch {
     /// `corners` are in pixels. `None` if nothing of it is in the picture.
     pub fn new(
         item: u32,
+        is_clear: bool,
         contours: Vec<Vec<Corner<CLEAR_VALUES>>>,
         size: [u32; 2],
         is_perspective: bool,
@@ -34,7 +37,7 @@ impl Patch {
             contours.iter().map(|contour| near_picture(contour.iter().map(place).collect(), size, MARGIN));
         let outline: Vec<Vec<Place>> = outline.filter(|contour| contour.len() > 2).collect();
         let parts = parts(&outline);
-        (!parts.is_empty()).then_some(Self { item, contours, outline, parts, is_perspective })
+        (!parts.is_empty()).then_some(Self { item, is_clear, contours, outline, parts, is_perspective })
     }
 
     /// The numbers the raster interpolates at a place, which is moved to the nearest of its row if it is not inside.
@@ -68,10 +71,7 @@ impl Patch {
 
     /// The least and greatest x and y.
     pub fn bounds(&self) -> [[f64; 2]; 2] {
-        let fold = |start: f64, pick: fn(f64, f64) -> f64, corner: fn(&Convex) -> [f64; 2]| {
-            [0, 1].map(|axis| self.parts.iter().map(|part| corner(part)[axis]).fold(start, pick))
-        };
-        [fold(f64::INFINITY, f64::min, |part| part.low), fold(f64::NEG_INFINITY, f64::max, |part| part.high)]
+        Convex::bounds(&self.parts)
     }
 
     /// The numbers at all corners if they are the same.
