@@ -6,8 +6,9 @@
 //! 3. The rest is put in order, from behind ([`order`]), and cut only where faces cut each other or hide each
 //!    other in a ring. Parts that are hidden are painted over, not cut out.
 //! 4. Where a translucent face comes, what is seen through it is painted once more ([`glass`]).
-//! 5. Each becomes a plain area, or smooth ones, cut until their colours are right ([`smooth`]).
-//! 6. Lines come last, without their hidden parts, and in other colours behind translucent faces ([`lines`]).
+//! 5. Neighbours of one colour become one area ([`merge`]).
+//! 6. What has several colours becomes smooth areas, cut until their colours are right ([`smooth`]).
+//! 7. Lines come last, without their hidden parts, and in other colours behind translucent faces ([`lines`]).
 
 mod color;
 mod convex;
@@ -15,12 +16,13 @@ mod glass;
 mod hidden;
 mod index;
 mod lines;
+mod merge;
 mod order;
 mod patch;
 mod seen;
 mod smooth;
 
-use ugimage::figure::{self, Figure};
+use ugimage::figure::{self, Element, Figure};
 use ugimage::{Development, Format, Label};
 
 use crate::canvas;
@@ -32,10 +34,12 @@ use crate::setup::Setup;
 use crate::sheet::Sheet;
 use color::{Palette, rounded};
 pub use convex::{Convex, Place as PlanePlace};
+use glass::Coat;
 pub use index::Index;
+use merge::Paint;
 use patch::Patch;
 pub use patch::{near_picture, parts};
-use smooth::{Smooth, push_coat};
+use smooth::{Smooth, plain_color, push_smooth};
 use ugparse::Scene;
 
 /// Rows of samples a pixel, if the picture is not too large.
@@ -95,8 +99,18 @@ fn figure<S: Smooth>(
     };
     let index = Index::new(faces.iter().map(Patch::bounds), config.size);
     let mut elements = Vec::new();
-    for coat in glass::coats(&faces, &index, &order::painting_order(&faces, &index))? {
-        push_coat(&palette, &faces, coat, &mut elements);
+    let coats = glass::coats(&faces, &index, &order::painting_order(&faces, &index))?;
+    let with_color = |coat: Coat| {
+        let color = plain_color(&palette, &faces, &coat);
+        (coat, color)
+    };
+    for paint in merge::merged(coats.into_iter().map(with_color).collect(), config.size) {
+        match paint {
+            Paint::Plain(contours, color) => {
+                elements.push(Element::Area { contours, color, is_inside: false })
+            }
+            Paint::Smooth(coat) => push_smooth(&palette, &faces, coat, &mut elements),
+        }
     }
     let strokes = sheet.strokes().iter().map(|stroke| scaled(*stroke, scale)).collect();
     let panes = lines::Panes { patches: &faces, index: &index };

@@ -1,7 +1,7 @@
 //! Coats as elements of a figure: plain areas, triangles between whose corners colour is linear, and
 //! areas whose colour is linear along a line.
 
-use ugimage::figure::{Element, Gradient, Point, Triangle};
+use ugimage::figure::{Element, Gradient, Point, Rgb, Triangle};
 
 use super::color::{Levels, Palette, distance, mean, rounded};
 use super::convex::{Convex, sides};
@@ -32,24 +32,23 @@ pub struct Job<'a> {
     palette: &'a Palette<'a>,
     patches: &'a [Patch],
     /// As those of a [`Coat`].
-    layers: Vec<usize>,
+    layers: &'a [usize],
 }
 
-/// Adds a coat to the figure.
-pub fn push_coat<S: Smooth>(
+/// The colour of a coat, if it is nearly the same everywhere.
+pub fn plain_color(palette: &Palette<'_>, patches: &[Patch], coat: &Coat) -> Option<Rgb> {
+    let job = Job { palette, patches, layers: &coat.layers };
+    palette.everywhere(job.layers()).or_else(|| plain(&job.tried(&coat.parts))).map(rounded)
+}
+
+/// Adds a coat of smooth colour to the figure.
+pub fn push_smooth<S: Smooth>(
     palette: &Palette<'_>,
     patches: &[Patch],
-    coat: Coat,
+    Coat { layers, contours, parts }: Coat,
     elements: &mut Vec<Element<S>>,
 ) {
-    let Coat { layers, contours, parts } = coat;
-    let job = Job { palette, patches, layers };
-    match palette.everywhere(job.layers()).or_else(|| plain(&job.tried(&parts))) {
-        Some(color) => {
-            elements.push(Element::Area { contours, color: rounded(color), is_inside: false });
-        }
-        None => S::push(&job, contours, &parts, elements),
-    }
+    S::push(&Job { palette, patches, layers: &layers }, contours, &parts, elements);
 }
 
 /// The middle of the range of colours, if it is small.
