@@ -32,12 +32,15 @@ fn pipes() -> Vec<(&'static str, Pipe)> {
     annotated.rainbow.figures =
         ugrainbow::Figures { caption: "λ → λ/D".into(), legend: true, outline: true, grid: true };
     annotated.rainbow.size = [320, 240];
+    let mut glass = Pipe::new(0.9 * DVec3::X, size).in_place();
+    glass.rainbow.output = ugrainbow::Output::Vector(ugimage::Format::Svg);
     let mut globe = tunnel.clone();
     globe.doppler.tolerance = 0.0;
     vec![
         ("ship", ship),
         ("ship", figure),
         ("ship", annotated),
+        ("glass", glass),
         ("lattice", lattice),
         ("teapot", teapot),
         ("street", street),

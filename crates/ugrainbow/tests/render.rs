@@ -2,6 +2,9 @@
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, its helpers too")]
 
+mod common;
+
+use common::{draw, scene};
 use glam::DVec3;
 use ugimage::Frame;
 use ugphysics::{
@@ -12,16 +15,6 @@ use ugrainbow::{Background, CameraOptions, Config, Error, HueScale, Interpolatio
 /// One sample at the centre of each pixel.
 fn plain(width: u32, height: u32) -> Config {
     Config { size: [width, height], samples: 1, ..Config::default() }
-}
-
-fn scene(text: &str) -> ugparse::Scene {
-    let source = ugparse::Source::new("test.ug", text);
-    ugparse::parse(&source, &ugparse::Options::default()).unwrap().scene
-}
-
-#[track_caller]
-fn draw(text: &str, config: &Config) -> Frame {
-    render(&scene(text), config).unwrap().0
 }
 
 #[track_caller]

@@ -47,12 +47,7 @@ pub fn push_lines<S>(
     strokes.sort_by(|one, other| key(one).total_cmp(&key(other)));
     for stroke in &strokes {
         let before = panes.before(stroke);
-        let mut cuts: Vec<f64> = before.iter().flat_map(|(way, _)| *way).chain([0.0, 1.0]).collect();
-        cuts.sort_by(f64::total_cmp);
-        // What is shorter comes from rounding.
-        let length = libm::hypot(stroke.ends[1].x - stroke.ends[0].x, stroke.ends[1].y - stroke.ends[0].y);
-        cuts.dedup_by(|next, last| *next < 1.0 && (*next - *last) * length < SHORTEST);
-        for way in cuts.windows(2) {
+        for way in cuts(stroke, &before).windows(2) {
             let middle = 0.5 * (way[0] + way[1]);
             let is_before = |([start, end], _): &&([f64; 2], usize)| (*start..=*end).contains(&middle);
             let panes: Vec<&Patch> =
@@ -60,6 +55,18 @@ pub fn push_lines<S>(
             push_line(palette, stroke, [way[0], way[1]], &panes, width, elements);
         }
     }
+}
+
+/// The ends of a line, and where panes begin or end to be before it.
+fn cuts(stroke: &Stroke, before: &[([f64; 2], usize)]) -> Vec<f64> {
+    let [a, b] = &stroke.ends;
+    let length = libm::hypot(b.x - a.x, b.y - a.y);
+    let mut cuts: Vec<f64> = before.iter().flat_map(|(way, _)| *way).collect();
+    // What is shorter comes from rounding.
+    cuts.retain(|cut| cut.min(1.0 - cut) * length > SHORTEST);
+    cuts.sort_by(f64::total_cmp);
+    cuts.dedup_by(|next, last| (*next - *last) * length < SHORTEST);
+    [vec![0.0], cuts, vec![1.0]].concat()
 }
 
 /// Adds a part of a line in pieces of one colour.
