@@ -6,7 +6,6 @@ mod common;
 
 use common::{draw, scene};
 use glam::DVec3;
-use ugimage::Frame;
 use ugphysics::{
     Hsv, Velocity, attenuation, hue_to_wavelength, seen_position, srgb_decode, srgb_encode, wavelength_to_hue,
 };
