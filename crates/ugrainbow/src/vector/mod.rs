@@ -98,20 +98,7 @@ fn figure<S: Smooth>(
         ground: ground.unwrap_or([1.0; 3]),
     };
     let index = Index::new(faces.iter().map(Patch::bounds), config.size);
-    let mut elements = Vec::new();
-    let coats = glass::coats(&faces, &index, &order::painting_order(&faces, &index))?;
-    let with_color = |coat: Coat| {
-        let color = plain_color(&palette, &faces, &coat);
-        (coat, color)
-    };
-    for paint in merge::merged(coats.into_iter().map(with_color).collect(), config.size) {
-        match paint {
-            Paint::Plain(contours, color) => {
-                elements.push(Element::Area { contours, color, is_inside: false })
-            }
-            Paint::Smooth(coat) => push_smooth(&palette, &faces, coat, &mut elements),
-        }
-    }
+    let mut elements = painted(&palette, &faces, &index, config.size)?;
     let strokes = sheet.strokes().iter().map(|stroke| scaled(*stroke, scale)).collect();
     let panes = lines::Panes { patches: &faces, index: &index };
     lines::push_lines(&palette, &panes, strokes, config.line_width, &mut elements);
@@ -119,6 +106,30 @@ fn figure<S: Smooth>(
     let mut figure = Figure { size: config.size, background, elements };
     annotations.complete(&mut figure);
     Ok(figure)
+}
+
+/// Faces as elements, from behind.
+fn painted<S: Smooth>(
+    palette: &Palette<'_>,
+    faces: &[Patch],
+    index: &Index,
+    size: [u32; 2],
+) -> Result<Vec<Element<S>>, Error> {
+    let coats = glass::coats(faces, index, &order::painting_order(faces, index))?;
+    let with_color = |coat: Coat| {
+        let color = plain_color(palette, faces, &coat);
+        (coat, color)
+    };
+    let mut elements = Vec::new();
+    for paint in merge::merged(coats.into_iter().map(with_color).collect(), size) {
+        match paint {
+            Paint::Plain(contours, color) => {
+                elements.push(Element::Area { contours, color, is_inside: false });
+            }
+            Paint::Smooth(coat) => push_smooth(palette, faces, coat, &mut elements),
+        }
+    }
+    Ok(elements)
 }
 
 /// A stroke in pixels, from one in rows of the draw list.
