@@ -1,16 +1,14 @@
 //! The commands in the documents do what they say: each is run, in a copy of `scenes/`.
 
-use std::path::{Path, PathBuf};
 use std::process::Command;
+
+use ugtests::programs;
+use ugtests::scenes::root;
 
 /// Documents with commands to be typed in `scenes/`, the section they stand in (empty for all), and the least
 /// number of them.
 const DOCUMENTS: [(&str, &str, usize); 3] =
     [("README.md", "## First steps", 5), ("README.md", "## How do I", 13), ("docs/gallery.md", "", 20)];
-
-fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
-}
 
 /// What a person would type from a section of a document.
 struct Typed {
@@ -45,19 +43,6 @@ impl Typed {
     }
 }
 
-/// The folder of the programs, built in the profile of this test.
-fn programs() -> PathBuf {
-    let mut build = Command::new(env!("CARGO"));
-    build.args(["build", "--quiet"]).current_dir(root());
-    if !cfg!(debug_assertions) {
-        build.arg("--release");
-    }
-    assert!(build.status().expect("cargo runs").success());
-    // target/PROFILE/deps/docs-… is this test.
-    let exe = std::env::current_exe().expect("this test is a file");
-    exe.ancestors().nth(2).expect("it lies two folders deep").to_path_buf()
-}
-
 #[test]
 fn commands_in_documents_work() {
     let scenes = tempfile::tempdir().expect("a temporary folder");
@@ -66,7 +51,7 @@ fn commands_in_documents_work() {
             std::fs::copy(entry.path(), scenes.path().join(entry.file_name())).expect("a copy");
         }
     }
-    let programs = programs();
+    let programs = programs::released();
     let path = std::env::var_os("PATH").unwrap_or_default();
     let path = std::env::join_paths(std::iter::once(programs).chain(std::env::split_paths(&path)));
     let path = path.expect("a path without colons");

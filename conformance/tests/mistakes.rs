@@ -206,6 +206,13 @@ fn mistaken_workspace() -> BTreeMap<PathBuf, Vec<u8>> {
     // A version of its own: cargo would take these crates for the right ones otherwise, and use what it built of them.
     let version = concat!("version = \"", env!("CARGO_PKG_VERSION"), "\"\nedition");
     edit(&mut files, "Cargo.toml", version, "version = \"0.0.0-mistaken\"\nedition");
+    // Dependencies with the features they have while tests are built, so that none is built again.
+    for (path, text) in &mut files {
+        if path.ends_with("Cargo.toml") {
+            let manifest = String::from_utf8_lossy(text);
+            *text = manifest.replace("[dev-dependencies]", "[target.'cfg(all())'.dependencies]").into_bytes();
+        }
+    }
     // And a name of its own, so that it does not take the place of the right program in the target folder.
     let program = "[dependencies]\n";
     let renamed = "[[bin]]\nname = \"ugmistakes\"\npath = \"src/main.rs\"\n\n[dependencies]\n";
@@ -257,7 +264,7 @@ fn every_mistake_is_found() {
     put(&folder, &mistaken_workspace());
     let target = scratch.parent().expect("the target folder");
     let mut build = Command::new(env!("CARGO"));
-    build.args(["build", "--quiet", "--offline", "--package", "ugconformance", "--bin", "ugmistakes"]);
+    build.args(["build", "--quiet", "--offline", "--workspace", "--bin", "ugmistakes"]);
     build.arg("--target-dir").arg(target).current_dir(&folder);
     if !cfg!(debug_assertions) {
         build.arg("--release");

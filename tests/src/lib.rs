@@ -1,6 +1,7 @@
 //! Helpers shared by the cross-crate tests.
 //!
 //! - [`pipe`]: the three programs in one process, from text to a decoded picture;
+//! - [`programs`]: the programs as files;
 //! - [`scenes`]: the scenes of the repository;
 //! - [`picture`]: comparing pictures, golden ones included;
 //! - [`oracle`]: what every pixel must show, found by a slow method of its own;
@@ -19,6 +20,7 @@ pub mod oracle;
 pub mod outline;
 pub mod picture;
 pub mod pipe;
+pub mod programs;
 pub mod random;
 pub mod scenes;
 pub mod shading;

@@ -39,8 +39,7 @@
 //!
 //! - **Figures** of areas and lines are made of the same polygons, with [`Output::Vector`].
 //!
-//! What is not done: translucent faces in figures, a fall-off of local lights with
-//! distance, their radius, and lights that move against what they light: `ugdoppler -li`
+//! What is not done: a fall-off of local lights with distance, their radius, and lights that move against what they light: `ugdoppler -li`
 //! does that. Every thread count gives the same bytes.
 //!
 //! # Example

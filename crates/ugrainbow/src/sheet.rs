@@ -248,8 +248,9 @@ impl Sheet<'_> {
         self.has_faces && self.clear.faces.as_ref().is_some_and(|faces| faces.reach().in_picture > 0)
     }
 
-    /// Gives `take` every polygon of what hides, as its item and its contours; corners have zeros behind their numbers.
-    pub fn for_each_polygon(&self, take: impl FnMut(u32, Vec<Vec<Corner<CLEAR_VALUES>>>)) {
+    /// Gives `take` every polygon, as its item, whether it is translucent, and its contours: first those of what hides, whose
+    /// corners have zeros behind their numbers.
+    pub fn for_each_polygon(&self, mut take: impl FnMut(u32, bool, Vec<Vec<Corner<CLEAR_VALUES>>>)) {
         fn all<const N: usize>(
             layers: &Layers<'_, N>,
             mut take: impl FnMut(u32, Vec<Vec<Corner<CLEAR_VALUES>>>),
@@ -269,7 +270,10 @@ impl Sheet<'_> {
             });
         }
         if self.has_faces {
-            with_layers!(&self.solid, |layers| all(layers, take));
+            with_layers!(&self.solid, |layers| all(layers, |item, contours| take(item, false, contours)));
+            if let Some(clear) = &self.clear.faces {
+                all(clear, |item, contours| take(item, true, contours));
+            }
         }
     }
 
@@ -278,7 +282,7 @@ impl Sheet<'_> {
         &self.clear.strokes
     }
 
-    /// The light of numbers interpolated between corners of [`Sheet::for_each_polygon`].
+    /// The light of numbers interpolated between corners of what hides, by [`Sheet::for_each_polygon`].
     pub fn shade(&self, shader: &Shader, &[a, b, c, d, e, f, g, _]: &[f32; CLEAR_VALUES]) -> Shade {
         match &self.solid {
             Solid::Plain(_) => shader.plain(&[a, b, c]),

@@ -2,7 +2,10 @@
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, its helpers too")]
 
-use ugimage::{Format, Frame};
+mod common;
+
+use common::{draw, scene};
+use ugimage::Format;
 use ugphysics::Hsv;
 use ugrainbow::{Background, Config, Error, Exact, Figures, MAX_PIXELS, Output, render, run};
 
@@ -10,16 +13,6 @@ const SHIP: &str = "c green 1 120 .8; l 1; cam -ep 0 -9 3 -vc 0 0 .5;
     v a -1 -1 0; v b 1 -1 0; v c 1 1 0; v d -1 1 0; v e -1 -1 1; v f 1 -1 1; v g 1 1 1; v h -1 1 1;
     f (a b f e) green <.5 0 0>; f (b c g f) green <.5 0 0>; f (c d h g) green <.5 0 0>;
     f (d a e h) green <.5 0 0>; f (e f g h) green <.5 0 0>; f (d c b a) green <.5 0 0>;";
-
-fn scene(text: &str) -> ugparse::Scene {
-    let source = ugparse::Source::new("test.ug", text);
-    ugparse::parse(&source, &ugparse::Options::default()).unwrap().scene
-}
-
-#[track_caller]
-fn draw(text: &str, config: &Config) -> Frame {
-    render(&scene(text), config).unwrap().0
-}
 
 fn white() -> Background {
     Background::Color(Hsv { hue: 0.0, saturation: 0.0, value: 1.0 })
@@ -231,9 +224,6 @@ fn what_cannot_be_is_refused() {
     check(Config { size: [30, 30], ..with(strips()) }, "give a larger -sz");
     check(Config { size: [0, 30], ..with(strips()) }, &MAX_PIXELS.to_string());
     check(with(Figures { caption: "x\n".repeat(50) + "x", ..Figures::default() }), "a shorter -cap");
-    let clear =
-        Config { background: Background::Clear, output: Output::Vector(Format::Pdf), ..with(strips()) };
-    check(clear, "leave out -tb");
 }
 
 #[test]

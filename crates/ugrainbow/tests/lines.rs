@@ -2,21 +2,13 @@
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, its helpers too")]
 
+mod common;
+
+use common::{config, draw};
 use glam::DVec3;
 use ugimage::Frame;
 use ugphysics::{Hsv, srgb_decode};
-use ugrainbow::{Config, Wireframe, render};
-
-fn config(side: u32, samples: u32) -> Config {
-    Config { size: [side, side], samples, ..Config::default() }
-}
-
-#[track_caller]
-fn draw(text: &str, config: &Config) -> Frame {
-    let source = ugparse::Source::new("test.ug", text);
-    let scene = ugparse::parse(&source, &ugparse::Options::default()).unwrap().scene;
-    render(&scene, config).unwrap().0
-}
+use ugrainbow::{Config, Wireframe};
 
 const ONLY_EDGES: Wireframe =
     Wireframe { has_faces: false, color: Some(Hsv { hue: 0.0, saturation: 0.0, value: 1.0 }) };

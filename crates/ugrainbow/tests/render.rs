@@ -2,8 +2,10 @@
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, its helpers too")]
 
+mod common;
+
+use common::{draw, scene};
 use glam::DVec3;
-use ugimage::Frame;
 use ugphysics::{
     Hsv, Velocity, attenuation, hue_to_wavelength, seen_position, srgb_decode, srgb_encode, wavelength_to_hue,
 };
@@ -12,16 +14,6 @@ use ugrainbow::{Background, CameraOptions, Config, Error, HueScale, Interpolatio
 /// One sample at the centre of each pixel.
 fn plain(width: u32, height: u32) -> Config {
     Config { size: [width, height], samples: 1, ..Config::default() }
-}
-
-fn scene(text: &str) -> ugparse::Scene {
-    let source = ugparse::Source::new("test.ug", text);
-    ugparse::parse(&source, &ugparse::Options::default()).unwrap().scene
-}
-
-#[track_caller]
-fn draw(text: &str, config: &Config) -> Frame {
-    render(&scene(text), config).unwrap().0
 }
 
 #[track_caller]

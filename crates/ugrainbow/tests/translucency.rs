@@ -2,6 +2,9 @@
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, its helpers too")]
 
+mod common;
+
+use common::config;
 use ugimage::Frame;
 use ugphysics::{Hsv, srgb_encode};
 use ugrainbow::{Background, Config, DepthCue, Exact, render};
@@ -12,15 +15,9 @@ fn camera() -> String {
     format!("cam -ep 0 0 10 -vc 0 0 0 -ud 0 1 0 -og -va {angle} {angle};")
 }
 
-fn config(side: u32, samples: u32) -> Config {
-    Config { size: [side, side], samples, ..Config::default() }
-}
-
 #[track_caller]
 fn draw(text: &str, config: &Config) -> Frame {
-    let source = ugparse::Source::new("test.ug", format!("{text} {}", camera()));
-    let scene = ugparse::parse(&source, &ugparse::Options::default()).unwrap().scene;
-    render(&scene, config).unwrap().0
+    common::draw(&format!("{text} {}", camera()), config)
 }
 
 /// A square that fills the picture, at a height, of a pure colour.
@@ -223,8 +220,7 @@ fn a_face_of_its_own_colour_is_as_clear_everywhere() {
 fn exact_pictures_blend_as_well() {
     let all = triangles(24, 9);
     let text = text(&all, 0..24).replace("cam ", "") + "cam -ep 0 0 14 -vc 0 0 0 -ud 0 1 0 -va 40 40;";
-    let source = ugparse::Source::new("test.ug", text);
-    let scene = ugparse::parse(&source, &ugparse::Options::default()).unwrap().scene;
+    let scene = common::scene(&text);
     let scanned = config(60, 2);
     let exact = Config { exact: Some(Exact::default()), ..scanned.clone() };
     let [one, other] = [scanned, exact].map(|config| render(&scene, &config).unwrap().0);

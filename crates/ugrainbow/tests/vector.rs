@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, its helpers too")]
 
 use ugimage::Format;
-use ugrainbow::{Config, Error, Output, run};
+use ugrainbow::{Background, Config, Error, Output, run};
 
 /// Eye ten units above the plane z = 0, +y up, orthographic: ten pixels a unit, the origin at 40, 40.
 fn svg(scene: &str) -> String {
@@ -17,6 +17,9 @@ fn svg(scene: &str) -> String {
 const COLORS: &str = "l 1; c red 1 0; c green 1 120; c blue 1 240;";
 const FAR: &str = "v a -3 -3 0; v b 3 -3 0; v c 3 3 0; v d -3 3 0; f far (a b c d) blue;";
 const NEAR: &str = "v e -1 -1 1; v f -1 1 1; v g 1 1 1; v h 1 -1 1; f near (e f g h) red;";
+
+/// Above them all; half of the light behind it passes. Its right half is over nothing.
+const PANE: &str = "c pane 1 0 1 .5; v p -1 -2 2; v q 7 -2 2; v r 7 2 2; v s -1 2 2; f pane (p q r s) pane;";
 
 /// Fill colour, and least and greatest x and y, of every area.
 fn areas(svg: &str) -> Vec<(String, [f64; 4])> {
@@ -76,10 +79,14 @@ fn what_cannot_be_a_figure_is_refused() {
     };
     assert!(matches!(refused(Format::Png, [8, 8]), Error::Options(text) if text.contains("-vec")));
     assert!(matches!(refused(Format::Pdf, [32769, 8]), Error::Options(text) if text.contains("32768")));
-    let glass = format!("{COLORS}{FAR} cam -ep 0 0 10 -vc 0 0 0;").replace("blue 1 240;", "blue 1 240 1 .5;");
-    let glass = ugparse::Source::new("test.ug", glass);
-    let config = Config { output: Output::Vector(Format::Svg), ..Config::default() };
-    assert!(matches!(run(&config, &glass).unwrap_err(), Error::Figure(text) if text.contains("translucent")));
+    let clear = |background| {
+        let glass = format!("{COLORS}{PANE} cam -ep 0 0 10 -vc 0 0 0;");
+        let output = Output::Vector(Format::Svg);
+        let config = Config { size: [8, 8], output, background, ..Config::default() };
+        run(&config, &ugparse::Source::new("test.ug", glass))
+    };
+    assert!(matches!(clear(Background::Clear).unwrap_err(), Error::Figure(text) if text.contains("-bg 1")));
+    assert!(clear(Config::default().background).is_ok());
 }
 
 #[test]
@@ -94,6 +101,55 @@ fn what_lies_between_seen_faces_and_is_hidden_is_left_out() {
     let tall = "v i 0 -2 0.5; f tall (e i h) red;";
     let found = areas(&svg(&format!("{COLORS}{NEAR}{FAR}{tall}")));
     assert!(found.iter().any(|(_, [.., bottom])| *bottom == 60.0), "{found:?}");
+}
+
+/// Half of the light of two colours, encoded, is 188.
+#[test]
+fn behind_a_pane_all_is_painted_once_more_in_linear_light() {
+    let near = NEAR.replace("red", "green");
+    let square = |color: &str, left, right, top, bottom| (color.to_owned(), [left, right, top, bottom]);
+    let expected = [
+        square("#00f", 10.0, 70.0, 10.0, 70.0),
+        square("#0f0", 30.0, 50.0, 30.0, 50.0),
+        // The pane over nothing, over blue, and over green, which hides all the blue behind it.
+        square("#bc0000", 30.0, 84.0, 20.0, 60.0),
+        square("#bc00bc", 30.0, 70.0, 20.0, 60.0),
+        square("#bcbc00", 30.0, 50.0, 30.0, 50.0),
+    ];
+    for scene in [[PANE, FAR, &near], [&near, PANE, FAR]] {
+        assert_eq!(areas(&svg(&format!("{COLORS}{}", scene.concat()))), expected);
+    }
+    // A pane before the pane, which lets a half through: one quarter of red shines through green.
+    let second = PANE.replace("pane", "second").replace("v p", "v p2").replace("v q", "v q2");
+    let second = second.replace("v r", "v r2").replace("v s", "v s2").replace("(p q r s)", "(p2 q2 r2 s2)");
+    let second = second.replace(" 2;", " 3;").replace("1 0 1 .5", "1 120 1 .5");
+    let colors: Vec<String> =
+        areas(&svg(&format!("{COLORS}{PANE}{second}"))).into_iter().map(|(color, _)| color).collect();
+    // Of the pane behind nothing is seen that is not behind the other.
+    assert_eq!(colors, ["#bc0000", "#89bc00"]);
+}
+
+#[test]
+fn lines_behind_panes_have_other_colours_there() {
+    let wire = "c white 1; v t -3 0 1; v u 3 0 1; w wire (t u) white;";
+    let text = svg(&format!("{COLORS}{PANE}{wire}"));
+    let lines: Vec<&str> = text.lines().filter(|line| line.contains("stroke-width=\"1.2\"")).collect();
+    // From the left to the edge of the pane, and behind it: all of red, and half of green and blue.
+    assert_eq!(lines.len(), 2, "{text}");
+    assert!(lines[0].contains("stroke=\"#fff\"") && lines[0].contains("L30 40"), "{text}");
+    assert!(lines[1].contains("stroke=\"#ffbcbc\"") && lines[1].contains("M30 40"), "{text}");
+}
+
+#[test]
+fn faces_of_one_colour_beside_each_other_are_one_area() {
+    let halves = FAR.replace("f far (a b c d) blue;", "f (a b c) blue; f (a c d) blue;");
+    let expected = [("#00f".to_owned(), [10.0, 70.0, 10.0, 70.0])];
+    assert_eq!(areas(&svg(&format!("{COLORS}{halves}"))), expected);
+    // Not across what is painted between them.
+    assert_eq!(areas(&svg(&format!("{COLORS}{halves}{NEAR}"))).len(), 2);
+    // Corners of their own, or they would have the mean of both colours.
+    let colored = halves.replace("f (a c d) blue;", "v i -3 -3 0; v j 3 3 0; f (i j d) green;");
+    assert_eq!(areas(&svg(&format!("{COLORS}{colored}"))).len(), 2);
 }
 
 #[test]

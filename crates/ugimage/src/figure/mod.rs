@@ -10,7 +10,8 @@
 //!
 //! Where two areas share an edge, a renderer that smooths edges lets some of what lies behind shine through: each
 //! covers half of a pixel, and half of a half stays free. So of two areas the one painted first reaches under the
-//! other by three quarters of a pixel, with a line of its own colour along the edge. Outlines against something else stay as they are.
+//! other by three quarters of a pixel, with a line of its own colour along the edge. Outlines against something else stay as they are,
+//! also if something on the same side has the same edge: so all outlines must run the same way round what they enclose.
 
 mod pdf;
 mod postscript;
@@ -44,7 +45,7 @@ pub struct Figure<S> {
 pub enum Element<S> {
     /// An area of one colour; inside by the even-odd rule.
     Area {
-        /// Its outline, and those of its holes.
+        /// Its outline, and those of its holes, which run the other way round.
         contours: Vec<Vec<Point>>,
         /// Its colour.
         color: Rgb,
@@ -62,6 +63,8 @@ pub enum Element<S> {
         /// Its colour.
         color: Rgb,
     },
+    /// What follows is cut off below so many pixel rows; if none, no more.
+    CutBelow(Option<u32>),
 }
 
 /// A triangle with a colour at each corner; between them it is linear in the encoded colours.
@@ -90,34 +93,40 @@ pub struct Gradient {
 /// the edge is not in the middle of its pixels.
 const SEAM_WIDTH: f64 = 1.5;
 
-/// For each outline, the edges that an outline painted later has too.
+/// For each outline, the edges on whose other side an outline painted later lies. That on this side has none later.
 fn seams<'a>(outlines: impl Iterator<Item = Option<&'a [Vec<Point>]>>) -> Vec<Vec<[Point; 2]>> {
     let outlines: Vec<_> = outlines.collect();
     // Only looked up, so its order is never seen.
     let mut last = HashMap::new();
     for (element, contours) in outlines.iter().enumerate() {
         contours.iter().copied().flat_map(edges).for_each(|edge| {
-            last.insert(key(edge), element);
+            last.insert(written(edge), element);
         });
     }
     let covered = |(element, contours): (usize, &Option<&'a [Vec<Point>]>)| {
-        let edges = contours.iter().copied().flat_map(edges);
-        edges.filter(|&edge| last[&key(edge)] > element).collect()
+        let is_covered = |&[a, b]: &[Point; 2]| {
+            let is_last = last[&written([a, b])] == element;
+            is_last && last.get(&written([b, a])).is_some_and(|&cover| cover > element)
+        };
+        contours.iter().copied().flat_map(edges).filter(is_covered).collect()
     };
     outlines.iter().enumerate().map(covered).collect()
 }
 
-fn edges(contours: &[Vec<Point>]) -> impl Iterator<Item = [Point; 2]> {
+/// The edges of outlines.
+pub fn edges(contours: &[Vec<Point>]) -> impl Iterator<Item = [Point; 2]> {
     contours.iter().flat_map(|contour| {
         let ahead = contour.iter().cycle().skip(1);
         contour.iter().zip(ahead).map(|(&a, &b)| [a, b])
     })
 }
 
-/// The same for both directions, for places that are written alike.
-fn key([a, b]: [Point; 2]) -> [[i64; 2]; 2] {
-    let [a, b] = [a, b].map(|point| point.map(hundredths));
-    if a < b { [a, b] } else { [b, a] }
+/// The ends of an edge in hundredths of a pixel, the finest that is written.
+pub type Written = [[i64; 2]; 2];
+
+/// An edge as it is written.
+pub fn written(edge: [Point; 2]) -> Written {
+    edge.map(|point| point.map(hundredths))
 }
 
 /// The finest place that is written.
@@ -147,6 +156,8 @@ enum Painted<'a> {
     Line { ends: [Point; 2], width: f64, color: Rgb },
     /// All triangles up to the next area or line.
     Mesh(Mesh),
+    /// As [`Element::CutBelow`].
+    CutBelow(Option<u32>),
 }
 
 /// The elements of a figure in the order of painting.
@@ -163,6 +174,7 @@ fn painted(figure: &Figure<Triangle>) -> impl Iterator<Item = Painted<'_>> {
             Element::Line { ends, width, color } => {
                 Painted::Line { ends: *ends, width: *width, color: *color }
             }
+            Element::CutBelow(rows) => Painted::CutBelow(*rows),
             Element::Smooth(triangle) => {
                 let mut mesh = Mesh::new();
                 mesh.push(triangle);

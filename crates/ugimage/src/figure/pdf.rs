@@ -68,6 +68,21 @@ impl Page {
                     self.content.shading(Name(mesh_name(self.meshes.len()).as_bytes()));
                     self.meshes.push(mesh);
                 }
+                Painted::CutBelow(rows) => self.cut_below(figure.size[0], rows),
+            }
+        }
+    }
+
+    /// What was set since is forgotten with the cut.
+    fn cut_below(&mut self, width: u32, rows: Option<u32>) {
+        (self.color, self.width) = (None, None);
+        match rows {
+            Some(rows) => {
+                self.content.save_state().rect(0.0, 0.0, width as f32, rows as f32);
+                self.content.clip_nonzero().end_path();
+            }
+            None => {
+                self.content.restore_state();
             }
         }
     }

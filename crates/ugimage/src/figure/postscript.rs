@@ -65,6 +65,7 @@ fn drawing(figure: &Figure<Triangle>) -> Vec<u8> {
                 page.add("UgMesh\n");
                 Ascii85::encode(&deflate(&mesh.0), &mut page.out);
             }
+            Painted::CutBelow(rows) => page.cut_below(figure.size[0], rows),
         }
     }
     page.add("grestore\n");
@@ -97,6 +98,15 @@ struct Page {
 impl Page {
     fn add(&mut self, text: &str) {
         self.out.extend_from_slice(text.as_bytes());
+    }
+
+    /// What was set since is forgotten with the cut.
+    fn cut_below(&mut self, width: u32, rows: Option<u32>) {
+        (self.color, self.width) = (None, None);
+        match rows {
+            Some(rows) => self.add(&format!("gsave 0 0 {width} {rows} rectclip\n")),
+            None => self.add("grestore\n"),
+        }
     }
 
     fn set_color(&mut self, color: Rgb) {

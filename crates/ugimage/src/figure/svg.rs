@@ -35,6 +35,12 @@ pub fn svg(figure: &Figure<Gradient>, label: &Label) -> Vec<u8> {
                 let (path, width) = (lines(&[*ends]), number(*width));
                 out += &format!("<path stroke=\"{}\" stroke-width=\"{width}\" d=\"{path}\"/>\n", hex(*color));
             }
+            Element::CutBelow(Some(rows)) => {
+                out +=
+                    &format!("<clipPath id=\"c\"><path d=\"M0 0H{}V{rows}H0z\"/></clipPath>", figure.size[0]);
+                out += "<g clip-path=\"url(#c)\">\n";
+            }
+            Element::CutBelow(None) => out += "</g>\n",
         }
     }
     out += "</g>\n";

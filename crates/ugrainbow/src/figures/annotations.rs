@@ -73,11 +73,10 @@ impl Annotations {
     pub fn complete<S>(&self, figure: &mut Figure<S>) {
         figure.size = self.size;
         figure.elements.extend(self.over.elements());
-        if let Some(color) = self.ground_color().filter(|_| self.has_strips()) {
-            let [width, height] = self.size.map(f64::from);
-            let top = f64::from(self.scene_rows);
-            let outline = vec![[0.0, top], [width, top], [width, height], [0.0, height]];
-            figure.elements.push(Element::Area { contours: vec![outline], color, is_inside: false });
+        if self.has_strips() {
+            // Faces reach out of the picture of the scene, and lines stand out of it.
+            figure.elements.insert(0, Element::CutBelow(Some(self.scene_rows)));
+            figure.elements.push(Element::CutBelow(None));
         }
         figure.elements.extend(self.strips.elements());
     }

@@ -17,7 +17,7 @@ use std::borrow::Cow;
 use ugimage::{Development, Format};
 use uglabel::{DESCENT, Drawing, Line, SPACING, wrapped};
 
-use crate::config::{Background, Config, Output};
+use crate::config::Config;
 use crate::error::{Error, check_size};
 use crate::setup::Setup;
 pub use annotations::Annotations;
@@ -172,12 +172,6 @@ fn check_output(config: &Config) -> Result<(), Error> {
         return Err(Error::Options(
             "EXR, PFM and HDR pictures hold the light of the scene and nothing else: \
              leave out -cap, -lg, -dl and -gr, or write -dt png16",
-        ));
-    }
-    let has_strips = config.figures.legend || !config.figures.caption.trim().is_empty();
-    if has_strips && matches!(config.output, Output::Vector(_)) && config.background == Background::Clear {
-        return Err(Error::Options(
-            "with -vec, caption and legend need a ground of a colour: leave out -tb, or give -bg 1 for white",
         ));
     }
     Ok(())

@@ -139,7 +139,7 @@ impl Hiders {
 }
 
 /// The part of the way on which `part` is nearer.
-fn hidden_by(part: &Convex, a: PlanePlace, b: PlanePlace) -> Option<[f64; 2]> {
+pub fn hidden_by(part: &Convex, a: PlanePlace, b: PlanePlace) -> Option<[f64; 2]> {
     let [start, end] = part.over(a, b)?;
     let ahead = |at: f64| {
         let [x, y, key] = along(a, b, at);

@@ -26,7 +26,7 @@ use crate::palette::Swatch;
 use crate::raster::{CLEAR_VALUES, Corner, PolygonList};
 use crate::sheet::pack_clear;
 use edges::{Edge, edges};
-pub use hidden::{Hiders, Shown};
+pub use hidden::{Hiders, Shown, hidden_by};
 
 /// How much nearer to the eye a line is taken to be than it is, relative to its distance: enough to
 /// win against the faces whose edge it follows.

@@ -25,28 +25,57 @@ pub struct Palette<'a> {
 }
 
 impl Palette<'_> {
-    /// The colour of a patch at a place.
-    pub fn at(&self, patch: &Patch, place: [f64; 2]) -> Levels {
-        let Numbers { values, key } = patch.numbers_at(place);
-        self.cued(self.sheet.shade(self.shader, &values), key)
+    /// The colour at a place of patches one behind the other, the first in front.
+    pub fn at<'p>(&self, layers: impl Iterator<Item = &'p Patch>, place: [f64; 2]) -> Levels {
+        self.blended(layers.map(|patch| self.film(patch, &patch.numbers_at(place))))
     }
 
-    /// The colour of a patch, if it is the same everywhere.
-    pub fn everywhere(&self, patch: &Patch) -> Option<Levels> {
-        let values = patch.single_values().filter(|_| self.grid.cue.is_none())?;
-        Some(self.levels(self.sheet.shade(self.shader, &values).light))
+    /// The same, if it is the same everywhere.
+    pub fn everywhere<'p>(&self, layers: impl Iterator<Item = &'p Patch>) -> Option<Levels> {
+        let film = |patch: &'p Patch| {
+            let values = patch.single_values().filter(|_| self.grid.cue.is_none())?;
+            Some(self.film(patch, &Numbers { values, key: 1.0 }))
+        };
+        Some(self.blended(layers.map(film).collect::<Option<Vec<_>>>()?.into_iter()))
     }
 
-    /// The colour of a point of a line.
-    pub fn on_line(&self, at: &Corner<CLEAR_VALUES>) -> Levels {
+    /// The colour of a point of a line behind translucent patches, in any order.
+    pub fn on_line<'p>(&self, at: &Corner<CLEAR_VALUES>, panes: impl Iterator<Item = &'p Patch>) -> Levels {
         let scale = if self.grid.is_perspective { 1.0 / at.key } else { 1.0 };
         let values = at.values.map(|value| (value * scale) as f32);
-        self.cued(clear_shade(self.shader, &values).0, at.key)
+        let line = Film { light: self.cued(clear_shade(self.shader, &values).0, at.key), pass: 0.0 };
+        let film = |patch: &'p Patch| {
+            let numbers = patch.numbers_at([at.x, at.y]);
+            (numbers.key, self.film(patch, &numbers))
+        };
+        let mut films: Vec<(f64, Film)> = panes.map(film).collect();
+        films.sort_by(|(a, _), (b, _)| b.total_cmp(a));
+        self.blended(films.into_iter().map(|(_, film)| film).chain([line]))
     }
 
-    fn cued(&self, shade: Shade, key: f64) -> Levels {
+    fn film(&self, patch: &Patch, Numbers { values, key }: &Numbers) -> Film {
+        let (shade, pass) = if patch.is_clear {
+            clear_shade(self.shader, values)
+        } else {
+            (self.sheet.shade(self.shader, values), 0.0)
+        };
+        Film { light: self.cued(shade, *key), pass }
+    }
+
+    /// Films one behind the other, the first in front, before the ground.
+    fn blended(&self, films: impl Iterator<Item = Film>) -> Levels {
+        let (mut light, mut pass) = ([0.0; 3], 1.0);
+        for film in films {
+            let own = pass * (1.0 - film.pass);
+            light = std::array::from_fn(|i| light[i] + own * film.light[i]);
+            pass *= film.pass;
+        }
+        self.levels(std::array::from_fn(|i| light[i] + pass * self.ground[i]))
+    }
+
+    fn cued(&self, shade: Shade, key: f64) -> [f32; 3] {
         let cue = self.grid.cue_at(key as f32);
-        self.levels(std::array::from_fn(|i| cue * shade.light[i] + (1.0 - cue) * self.ground[i]))
+        std::array::from_fn(|i| cue * shade.light[i] + (1.0 - cue) * self.ground[i])
     }
 
     /// Light developed for a display.
@@ -57,6 +86,12 @@ impl Palette<'_> {
         };
         [0, 1, 2].map(|i| 255.0 * srgb_encode(f64::from(light[i]).clamp(0.0, 1.0)))
     }
+}
+
+/// What a patch or line shows of itself, and the part of the light from behind that it lets through.
+struct Film {
+    light: [f32; 3],
+    pass: f32,
 }
 
 /// What is interpolated, at a place.

@@ -80,7 +80,7 @@ impl Convex {
         if self.is_apart(other) {
             return relation;
         }
-        let common = self.common(other);
+        let common = self.clipped(other);
         if doubled_area(&common) < LEAST_AREA {
             return relation;
         }
@@ -94,17 +94,35 @@ impl Convex {
         relation
     }
 
-    /// What of it lies over another in the picture.
-    fn common(&self, other: &Self) -> Vec<Place> {
+    /// The corners of what of it lies over another in the picture.
+    fn clipped(&self, other: &Self) -> Vec<Place> {
         let mut rest = self.corners.clone();
-        for (a, b) in sides(&other.corners) {
-            let inside = |[x, y, _]: Place| (b[0] - a[0]) * (y - a[1]) - (b[1] - a[1]) * (x - a[0]);
-            rest = clip(&rest, inside);
+        for side in sides(&other.corners) {
+            rest = clip(&rest, |place| inside(side, place));
             if rest.is_empty() {
                 break;
             }
         }
         rest
+    }
+
+    /// What of it lies over another in the picture.
+    pub fn common(&self, other: &Self) -> Option<Self> {
+        if self.is_apart(other) { None } else { Self::new(self.clipped(other)) }
+    }
+
+    /// What of it lies beside another in the picture, in convex parts.
+    pub fn beside(&self, other: &Self) -> Vec<Self> {
+        if self.is_apart(other) {
+            return vec![self.clone()];
+        }
+        let mut beside = Vec::new();
+        let mut rest = self.corners.clone();
+        for side in sides(&other.corners) {
+            beside.extend(Self::new(clip(&rest, |place| -inside(side, place))));
+            rest = clip(&rest, |place| inside(side, place));
+        }
+        beside
     }
 
     /// On which side of the plane of `self` another lies: 1 nearer, −1 farther, 0 on it; `None` if on both.
@@ -134,9 +152,8 @@ impl Convex {
     /// The part of the segment from `a` to `b` over it, as parts of the way, if any.
     pub fn over(&self, a: Place, b: Place) -> Option<[f64; 2]> {
         let (mut start, mut end) = (0.0f64, 1.0f64);
-        for (p, q) in sides(&self.corners) {
-            let inside = |[x, y, _]: Place| (q[0] - p[0]) * (y - p[1]) - (q[1] - p[1]) * (x - p[0]);
-            let (at_a, at_b) = (inside(a), inside(b));
+        for side in sides(&self.corners) {
+            let (at_a, at_b) = (inside(side, a), inside(side, b));
             match (at_a >= 0.0, at_b >= 0.0) {
                 (true, true) => {}
                 (false, false) => return None,
@@ -164,6 +181,19 @@ impl Convex {
         [0, 1].map(|axis| self.corners.iter().map(|corner| corner[axis]).sum::<f64>() / n_corners)
     }
 
+    /// Its corners in the picture.
+    pub fn outline(&self) -> Vec<[f64; 2]> {
+        self.corners.iter().map(|&[x, y, _]| [x, y]).collect()
+    }
+
+    /// The least and greatest x and y of several.
+    pub fn bounds(parts: &[Self]) -> [[f64; 2]; 2] {
+        let fold = |start: f64, pick: fn(f64, f64) -> f64, corner: fn(&Self) -> [f64; 2]| {
+            [0, 1].map(|axis| parts.iter().map(|part| corner(part)[axis]).fold(start, pick))
+        };
+        [fold(f64::INFINITY, f64::min, |part| part.low), fold(f64::NEG_INFINITY, f64::max, |part| part.high)]
+    }
+
     /// The greater of its extents across and down.
     pub fn extent(&self) -> f64 {
         (self.high[0] - self.low[0]).max(self.high[1] - self.low[1])
@@ -180,6 +210,11 @@ fn side(key: f64, other: f64) -> i8 {
     } else {
         -1
     }
+}
+
+/// Not negative for places inside of a side of a polygon.
+fn inside((a, b): (Place, Place), [x, y, _]: Place) -> f64 {
+    (b[0] - a[0]) * (y - a[1]) - (b[1] - a[1]) * (x - a[0])
 }
 
 /// The sides of a polygon.

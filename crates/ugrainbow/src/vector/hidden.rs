@@ -1,6 +1,6 @@
 //! Which patches are wholly hidden.
 
-use super::convex::{Convex, clip, sides};
+use super::convex::Convex;
 use super::index::Index;
 use super::patch::Patch;
 
@@ -18,11 +18,11 @@ fn is_hidden(patch: &Patch, patches: &[Patch], index: &Index) -> bool {
     let mut rest = patch.parts.clone();
     for idx in index.in_box(patch.bounds()) {
         let other = &patches[idx];
-        if other.item == patch.item {
+        if other.item == patch.item || other.is_clear {
             continue;
         }
         for part in &other.parts {
-            rest = rest.into_iter().flat_map(|own| beside(own, part)).collect();
+            rest = rest.into_iter().flat_map(|own| shown(own, part)).collect();
         }
         if rest.is_empty() {
             return true;
@@ -35,17 +35,7 @@ fn is_hidden(patch: &Patch, patches: &[Patch], index: &Index) -> bool {
 }
 
 /// What of a part another does not hide; all of it if that is not nearer everywhere.
-fn beside(own: Convex, other: &Convex) -> Vec<Convex> {
+fn shown(own: Convex, other: &Convex) -> Vec<Convex> {
     let relation = other.relation(&own);
-    if !relation.is_before || relation.is_behind {
-        return vec![own];
-    }
-    let mut shown = Vec::new();
-    let mut rest = own.corners;
-    for (a, b) in sides(&other.corners) {
-        let inside = |[x, y, _]: [f64; 3]| (b[0] - a[0]) * (y - a[1]) - (b[1] - a[1]) * (x - a[0]);
-        shown.extend(Convex::new(clip(&rest, |place| -inside(place))));
-        rest = clip(&rest, inside);
-    }
-    shown
+    if relation.is_before && !relation.is_behind { own.beside(other) } else { vec![own] }
 }

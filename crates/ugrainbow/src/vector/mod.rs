@@ -5,23 +5,24 @@
 //!    sample those that are wholly hidden ([`hidden`]).
 //! 3. The rest is put in order, from behind ([`order`]), and cut only where faces cut each other or hide each
 //!    other in a ring. Parts that are hidden are painted over, not cut out.
-//! 4. Each becomes a plain area, or smooth ones, cut until their colours are right ([`smooth`]).
-//! 5. Lines come last, without their hidden parts ([`lines`]).
-//!
-//! Translucent faces are refused: not every format has opacity, those that have it blend encoded colours and not light,
-//! and between areas painted over each other in part hairlines would be left.
+//! 4. Where a translucent face comes, what is seen through it is painted once more ([`glass`]).
+//! 5. Neighbours of one colour become one area ([`merge`]).
+//! 6. What has several colours becomes smooth areas, cut until their colours are right ([`smooth`]).
+//! 7. Lines come last, without their hidden parts, and in other colours behind translucent faces ([`lines`]).
 
 mod color;
 mod convex;
+mod glass;
 mod hidden;
 mod index;
 mod lines;
+mod merge;
 mod order;
 mod patch;
 mod seen;
 mod smooth;
 
-use ugimage::figure::{self, Figure};
+use ugimage::figure::{self, Element, Figure};
 use ugimage::{Development, Format, Label};
 
 use crate::canvas;
@@ -33,10 +34,12 @@ use crate::setup::Setup;
 use crate::sheet::Sheet;
 use color::{Palette, rounded};
 pub use convex::{Convex, Place as PlanePlace};
+use glass::Coat;
 pub use index::Index;
+use merge::Paint;
 use patch::Patch;
 pub use patch::{near_picture, parts};
-use smooth::{Smooth, push_piece};
+use smooth::{Smooth, plain_color, push_smooth};
 use ugparse::Scene;
 
 /// Rows of samples a pixel, if the picture is not too large.
@@ -77,16 +80,16 @@ fn figure<S: Smooth>(
     let fine = Config { size: config.size.map(|side| side * scale), samples: 1, ..config.clone() };
     let setup = Setup::new(scene, &fine)?;
     let sheet = Sheet::new(setup.painter(), &fine.manner());
-    if sheet.has_clear_faces() {
+    let ground = canvas::ground(config, None);
+    if ground.is_none() && sheet.has_clear_faces() {
         return Err(Error::Figure(
-            "a figure of areas has no translucent faces: leave out -vec, and give a larger -sz for print",
+            "what is seen through translucent faces of a figure of areas must be known: give a background (-bg 1 for paper) in place of -tb",
         ));
     }
     let seen = seen::faces(&setup, &sheet);
     let faces = patches(&sheet, &setup, config.size, f64::from(scale), &seen.is_near);
     let index = Index::new(faces.iter().map(Patch::bounds), config.size);
     let faces = hidden::without_hidden(faces, &index, &seen.is_seen);
-    let ground = canvas::ground(config, None);
     let palette = Palette {
         sheet: &sheet,
         shader: &setup.shader,
@@ -95,16 +98,38 @@ fn figure<S: Smooth>(
         ground: ground.unwrap_or([1.0; 3]),
     };
     let index = Index::new(faces.iter().map(Patch::bounds), config.size);
-    let mut elements = Vec::new();
-    for piece in order::painting_order(&faces, &index) {
-        push_piece(&palette, &faces, &piece, &mut elements);
-    }
+    let mut elements = painted(&palette, &faces, &index, config.size)?;
     let strokes = sheet.strokes().iter().map(|stroke| scaled(*stroke, scale)).collect();
-    lines::push_lines(&palette, strokes, config.line_width, &mut elements);
+    let panes = lines::Panes { patches: &faces, index: &index };
+    lines::push_lines(&palette, &panes, strokes, config.line_width, &mut elements);
     let background = ground.map(|light| rounded(palette.levels(light)));
     let mut figure = Figure { size: config.size, background, elements };
     annotations.complete(&mut figure);
     Ok(figure)
+}
+
+/// Faces as elements, from behind.
+fn painted<S: Smooth>(
+    palette: &Palette<'_>,
+    faces: &[Patch],
+    index: &Index,
+    size: [u32; 2],
+) -> Result<Vec<Element<S>>, Error> {
+    let coats = glass::coats(faces, index, &order::painting_order(faces, index))?;
+    let with_color = |coat: Coat| {
+        let color = plain_color(palette, faces, &coat);
+        (coat, color)
+    };
+    let mut elements = Vec::new();
+    for paint in merge::merged(coats.into_iter().map(with_color).collect(), size) {
+        match paint {
+            Paint::Plain(contours, color) => {
+                elements.push(Element::Area { contours, color, is_inside: false });
+            }
+            Paint::Smooth(coat) => push_smooth(palette, faces, coat, &mut elements),
+        }
+    }
+    Ok(elements)
 }
 
 /// A stroke in pixels, from one in rows of the draw list.
@@ -130,14 +155,14 @@ fn patches(
     is_shown: &[bool],
 ) -> Vec<Patch> {
     let mut faces = Vec::new();
-    sheet.for_each_polygon(|item, mut contours| {
+    sheet.for_each_polygon(|item, is_clear, mut contours| {
         if !is_shown[item as usize] {
             return;
         }
         for corner in contours.iter_mut().flatten() {
             (corner.x, corner.y) = (corner.x / scale, corner.y / scale);
         }
-        faces.extend(Patch::new(item, contours, size, setup.view.is_perspective));
+        faces.extend(Patch::new(item, is_clear, contours, size, setup.view.is_perspective));
     });
     faces
 }

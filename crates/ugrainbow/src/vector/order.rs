@@ -40,7 +40,7 @@ fn relations(patches: &[Patch], index: &Index) -> Vec<Vec<usize>> {
     for (first, patch) in patches.iter().enumerate() {
         for second in index.in_box(patch.bounds()).into_iter().filter(|&second| second > first) {
             let relation = relation(patch, &patches[second]);
-            // Of what is equally deep the first is seen, as in the raster.
+            // Of what is equally deep the first is seen, as in the raster; what is opaque comes first.
             let is_tie = relation.is_level && !relation.is_behind;
             if relation.is_before || is_tie {
                 behind[first].push(second);
@@ -120,8 +120,8 @@ fn partition(patches: &[Patch], group: &[usize], pieces: &mut Vec<Piece>) {
     while let Some(step) = steps.pop() {
         match step {
             Step::Paint(mut parts) => {
-                // Of what is equally deep the first is to be seen, so it comes last.
-                parts.sort_by_key(|(idx, _)| std::cmp::Reverse(patches[*idx].item));
+                // Of what is equally deep the first is to be seen, so it comes last, and what is opaque at the very end.
+                parts.sort_by_key(|(idx, _)| std::cmp::Reverse((patches[*idx].is_clear, patches[*idx].item)));
                 pieces.extend(parts.into_iter().map(|(idx, part)| Piece::Part(idx, part)));
             }
             Step::Divide(parts) if parts.len() < 2 => steps.push(Step::Paint(parts)),

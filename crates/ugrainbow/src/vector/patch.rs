@@ -12,9 +12,11 @@ const MARGIN: f64 = 4.0;
 pub struct Patch {
     /// Its face.
     pub item: u32,
+    /// True if that is translucent.
+    pub is_clear: bool,
     /// As drawn by the raster; its colours come from here.
     contours: Vec<Vec<Corner<CLEAR_VALUES>>>,
-    /// What of it is in and near the picture.
+    /// What of it is in and near the picture; counterclockwise as [`Convex`], holes clockwise.
     pub outline: Vec<Vec<Place>>,
     /// The same in convex flat parts.
     pub parts: Vec<Convex>,
@@ -25,6 +27,7 @@ impl Patch {
     /// `corners` are in pixels. `None` if nothing of it is in the picture.
     pub fn new(
         item: u32,
+        is_clear: bool,
         contours: Vec<Vec<Corner<CLEAR_VALUES>>>,
         size: [u32; 2],
         is_perspective: bool,
@@ -32,9 +35,9 @@ impl Patch {
         let place = |corner: &Corner<CLEAR_VALUES>| [corner.x, corner.y, corner.key];
         let outline =
             contours.iter().map(|contour| near_picture(contour.iter().map(place).collect(), size, MARGIN));
-        let outline: Vec<Vec<Place>> = outline.filter(|contour| contour.len() > 2).collect();
+        let outline = oriented(outline.filter(|contour| contour.len() > 2).collect());
         let parts = parts(&outline);
-        (!parts.is_empty()).then_some(Self { item, contours, outline, parts, is_perspective })
+        (!parts.is_empty()).then_some(Self { item, is_clear, contours, outline, parts, is_perspective })
     }
 
     /// The numbers the raster interpolates at a place, which is moved to the nearest of its row if it is not inside.
@@ -68,10 +71,7 @@ impl Patch {
 
     /// The least and greatest x and y.
     pub fn bounds(&self) -> [[f64; 2]; 2] {
-        let fold = |start: f64, pick: fn(f64, f64) -> f64, corner: fn(&Convex) -> [f64; 2]| {
-            [0, 1].map(|axis| self.parts.iter().map(|part| corner(part)[axis]).fold(start, pick))
-        };
-        [fold(f64::INFINITY, f64::min, |part| part.low), fold(f64::NEG_INFINITY, f64::max, |part| part.high)]
+        Convex::bounds(&self.parts)
     }
 
     /// The numbers at all corners if they are the same.
@@ -107,6 +107,27 @@ pub fn near_picture(mut contour: Vec<Place>, size: [u32; 2], margin: f64) -> Vec
         }
     }
     contour
+}
+
+/// Contours that run all the same way round what they enclose.
+fn oriented(mut outline: Vec<Vec<Place>>) -> Vec<Vec<Place>> {
+    let is_hole = |idx: usize| {
+        let within = |other: &Vec<Place>| is_inside(other, outline[idx][0]);
+        let others = outline.iter().enumerate().filter(|(other, _)| *other != idx);
+        others.filter(|(_, other)| within(other)).count() % 2 == 1
+    };
+    let is_reversed = |idx: usize| (doubled_area(&outline[idx]) < 0.0) != is_hole(idx);
+    let is_reversed: Vec<bool> = (0..outline.len()).map(is_reversed).collect();
+    outline.iter_mut().zip(is_reversed).filter(|(_, is)| *is).for_each(|(contour, _)| contour.reverse());
+    outline
+}
+
+/// True if a place is inside of a contour, by the even-odd rule.
+fn is_inside(contour: &[Place], [x, y, _]: Place) -> bool {
+    let crosses = |(a, b): &(Place, Place)| {
+        (a[1] <= y) != (b[1] <= y) && a[0] + (b[0] - a[0]) * (y - a[1]) / (b[1] - a[1]) > x
+    };
+    sides(contour).filter(crosses).count() % 2 == 1
 }
 
 /// Convex flat parts of a polygon.

@@ -22,9 +22,11 @@ pub fn faces(setup: &Setup<'_>, sheet: &Sheet<'_>) -> Faces {
     let n_pixels = setup.grid.width as usize * setup.grid.height as usize;
     // Pixels of nothing take no memory. In which order faces are found makes no difference.
     sheet.paint(&setup.grid, &setup.shader, &mut vec![(); n_pixels], &|all: &Gathered<'_, u32>| {
-        let face = all.center.and_then(|seen| is_seen.get(seen.tag as usize));
-        if let Some(face) = face {
-            face.store(true, Ordering::Relaxed);
+        let clear = all.layers.iter().filter(|layer| !layer.is_line).map(|layer| layer.item);
+        for item in all.center.iter().map(|seen| seen.tag).chain(clear) {
+            if let Some(face) = is_seen.get(item as usize) {
+                face.store(true, Ordering::Relaxed);
+            }
         }
     });
     let is_seen: Vec<bool> = is_seen.into_iter().map(AtomicBool::into_inner).collect();

@@ -1,11 +1,11 @@
-//! Pieces of patches as elements of a figure: plain areas, triangles between whose corners colour is linear, and
+//! Coats as elements of a figure: plain areas, triangles between whose corners colour is linear, and
 //! areas whose colour is linear along a line.
 
-use ugimage::figure::{Element, Gradient, Point, Triangle};
+use ugimage::figure::{Element, Gradient, Point, Rgb, Triangle};
 
 use super::color::{Levels, Palette, distance, mean, rounded};
 use super::convex::{Convex, sides};
-use super::order::Piece;
+use super::glass::Coat;
 use super::patch::Patch;
 
 /// How far, in levels of 255, the colours of a figure are from those of the scene where that is tried: at corners,
@@ -23,45 +23,32 @@ const MOST_CUTS: u32 = 14;
 
 /// How a format has smooth colour.
 pub trait Smooth: Sized {
-    /// Adds smooth elements for the parts of a piece whose outline is `contours`.
+    /// Adds smooth elements for the parts of a coat whose outline is `contours`.
     fn push(job: &Job<'_>, contours: Vec<Vec<Point>>, parts: &[Convex], elements: &mut Vec<Element<Self>>);
 }
 
-/// A patch being painted.
+/// A coat being painted.
 pub struct Job<'a> {
     palette: &'a Palette<'a>,
-    patch: &'a Patch,
+    patches: &'a [Patch],
+    /// As those of a [`Coat`].
+    layers: &'a [usize],
 }
 
-/// Adds a piece to the figure.
-pub fn push_piece<S: Smooth>(
+/// The colour of a coat, if it is nearly the same everywhere.
+pub fn plain_color(palette: &Palette<'_>, patches: &[Patch], coat: &Coat) -> Option<Rgb> {
+    let job = Job { palette, patches, layers: &coat.layers };
+    palette.everywhere(job.layers()).or_else(|| plain(&job.tried(&coat.parts))).map(rounded)
+}
+
+/// Adds a coat of smooth colour to the figure.
+pub fn push_smooth<S: Smooth>(
     palette: &Palette<'_>,
     patches: &[Patch],
-    piece: &Piece,
+    Coat { layers, contours, parts }: Coat,
     elements: &mut Vec<Element<S>>,
 ) {
-    let (patch, part) = match piece {
-        Piece::Whole(idx) => (&patches[*idx], None),
-        Piece::Part(idx, part) => (&patches[*idx], Some(part)),
-    };
-    let parts = part.map_or(&patch.parts[..], std::slice::from_ref);
-    let contours: Vec<Vec<Point>> = match part {
-        Some(part) => vec![outline(part)],
-        None => {
-            patch.outline.iter().map(|contour| contour.iter().map(|&[x, y, _]| [x, y]).collect()).collect()
-        }
-    };
-    let job = Job { palette, patch };
-    match palette.everywhere(patch).or_else(|| plain(&job.tried(parts))) {
-        Some(color) => {
-            elements.push(Element::Area { contours, color: rounded(color), is_inside: false });
-        }
-        None => S::push(&job, contours, parts, elements),
-    }
-}
-
-fn outline(part: &Convex) -> Vec<Point> {
-    part.corners.iter().map(|&[x, y, _]| [x, y]).collect()
+    S::push(&Job { palette, patches, layers: &layers }, contours, &parts, elements);
 }
 
 /// The middle of the range of colours, if it is small.
@@ -76,7 +63,11 @@ fn plain(tried: &[(Point, Levels)]) -> Option<Levels> {
 
 impl Job<'_> {
     fn color(&self, place: Point) -> Levels {
-        self.palette.at(self.patch, place)
+        self.palette.at(self.layers(), place)
+    }
+
+    fn layers(&self) -> impl Iterator<Item = &Patch> {
+        self.layers.iter().map(|&idx| &self.patches[idx])
     }
 
     /// Colours at corners, middles of edges and middles of parts.
@@ -95,7 +86,7 @@ impl Job<'_> {
 impl Smooth for Triangle {
     fn push(job: &Job<'_>, _: Vec<Vec<Point>>, parts: &[Convex], elements: &mut Vec<Element<Self>>) {
         for part in parts {
-            let corners = outline(part);
+            let corners = part.outline();
             for pair in corners[1..].windows(2) {
                 let corners = [corners[0], pair[0], pair[1]];
                 push_triangles(job, corners, elements);
@@ -162,7 +153,7 @@ impl Smooth for Gradient {
         let mut stack: Vec<(Convex, u32)> = parts.iter().rev().map(|part| (part.clone(), 0)).collect();
         while let Some((part, cuts)) = stack.pop() {
             let tried = job.tried(std::slice::from_ref(&part));
-            let contours = vec![outline(&part)];
+            let contours = vec![part.outline()];
             let is_last = cuts == MOST_CUTS || part.extent() < LEAST;
             if let Some(color) = plain(&tried) {
                 elements.push(Element::Area { contours, color: rounded(color), is_inside: true });

@@ -1,0 +1,222 @@
+//! Neighbouring areas of one colour as one area.
+//!
+//! Bodies come in many faces, and most of a flat side has one colour. Two areas that share an edge become one if they can be
+//! painted at once: if nothing of what is painted between them lies over or under the one that is moved.
+
+use std::collections::{HashMap, HashSet};
+
+use ugimage::figure::{Point, Rgb, Written, edges, written};
+
+use super::convex::{Convex, doubled_area};
+use super::glass::Coat;
+use super::index::Index;
+
+/// Areas that overlap by less, in square pixels, lie beside each other.
+const LEAST_OVERLAP: f64 = 0.005;
+
+/// What is painted at once.
+#[derive(Clone, Debug)]
+pub enum Paint {
+    /// Outlines of an area of one colour; even-odd rule.
+    Plain(Vec<Vec<Point>>, Rgb),
+    Smooth(Coat),
+}
+
+/// Coats in the order of painting, each with its colour if that is the same everywhere. `size`: of the picture.
+pub fn merged(coats: Vec<(Coat, Option<Rgb>)>, size: [u32; 2]) -> Vec<Paint> {
+    let mut groups = Groups::new(&coats, size);
+    // Only looked up, so its order is never seen.
+    let mut with_edge: HashMap<(Written, Rgb), Vec<usize>> = HashMap::new();
+    for (number, (coat, color)) in coats.iter().enumerate() {
+        let Some(color) = *color else { continue };
+        for edge in edges(&coat.contours) {
+            let [a, b] = written(edge);
+            let others = with_edge.get(&([b, a], color));
+            others.into_iter().flatten().for_each(|&other| groups.join(other, number));
+            with_edge.entry(([a, b], color)).or_default().push(number);
+        }
+    }
+    let Groups { members, place, .. } = groups;
+    let mut painted: Vec<(usize, &Vec<usize>)> = members
+        .iter()
+        .zip(place)
+        .filter(|(members, _)| !members.is_empty())
+        .map(|(m, place)| (place, m))
+        .collect();
+    painted.sort_unstable_by_key(|(place, _)| *place);
+    painted.into_iter().map(|(_, members)| paint(&coats, members)).collect()
+}
+
+fn paint(coats: &[(Coat, Option<Rgb>)], members: &[usize]) -> Paint {
+    match (&coats[members[0]], members) {
+        ((coat, None), _) => Paint::Smooth(coat.clone()),
+        ((coat, Some(color)), [_]) => Paint::Plain(coat.contours.clone(), *color),
+        ((_, Some(color)), _) => {
+            let all = members.iter().flat_map(|&member| edges(&coats[member].0.contours));
+            Paint::Plain(outlines(all.map(written).collect()), *color)
+        }
+    }
+}
+
+/// Coats that are painted at once.
+struct Groups<'a> {
+    coats: &'a [(Coat, Option<Rgb>)],
+    index: Index,
+    /// Of each coat, its group.
+    group: Vec<usize>,
+    /// Of each group, its coats, none if it is part of another now.
+    members: Vec<Vec<usize>>,
+    /// Of each group, where in the order it is painted.
+    place: Vec<usize>,
+    /// Pairs that cannot be joined; only looked up.
+    apart: HashSet<[usize; 2]>,
+}
+
+impl<'a> Groups<'a> {
+    fn new(coats: &'a [(Coat, Option<Rgb>)], size: [u32; 2]) -> Self {
+        let index = Index::new(coats.iter().map(|(coat, _)| Convex::bounds(&coat.parts)), size);
+        let numbers = 0..coats.len();
+        Self {
+            coats,
+            index,
+            group: numbers.clone().collect(),
+            members: numbers.clone().map(|number| vec![number]).collect(),
+            place: numbers.collect(),
+            apart: HashSet::new(),
+        }
+    }
+
+    /// Makes one group of those of two coats, if it can be.
+    fn join(&mut self, a: usize, b: usize) {
+        let (a, b) = (self.group[a], self.group[b]);
+        if a == b || !self.apart.insert([a.min(b), a.max(b)]) {
+            return;
+        }
+        // The smaller moves, if it can.
+        let (small, large) = if self.members[a].len() < self.members[b].len() { (a, b) } else { (b, a) };
+        let place = if self.can_move(small, self.place[large]) {
+            self.place[large]
+        } else if self.can_move(large, self.place[small]) {
+            self.place[small]
+        } else {
+            return;
+        };
+        let moved = std::mem::take(&mut self.members[small]);
+        moved.iter().for_each(|&member| self.group[member] = large);
+        self.members[large].extend(moved);
+        self.place[large] = place;
+    }
+
+    /// True if nothing that is painted from where a group is to another place overlaps it.
+    fn can_move(&self, group: usize, to: usize) -> bool {
+        let from = self.place[group];
+        let way = from.min(to)..=from.max(to);
+        self.members[group].iter().all(|&member| {
+            let parts = &self.coats[member].0.parts;
+            self.index.in_box(Convex::bounds(parts)).into_iter().all(|other| {
+                let its = self.group[other];
+                its == group || !way.contains(&self.place[its]) || !overlap(parts, &self.coats[other].0.parts)
+            })
+        })
+    }
+}
+
+fn overlap(some: &[Convex], others: &[Convex]) -> bool {
+    let common = some.iter().flat_map(|one| others.iter().filter_map(|other| one.common(other)));
+    common.map(|part| 0.5 * doubled_area(&part.corners)).sum::<f64>() > LEAST_OVERLAP
+}
+
+/// Outlines that consist of the edges that occur an odd number of times. By the even-odd rule it makes no difference how
+/// edges are joined where more than two meet.
+fn outlines(mut all: Vec<Written>) -> Vec<Vec<Point>> {
+    let ends = |[a, b]: &Written| [*a.min(b), *a.max(b)];
+    all.retain(|[a, b]| a != b);
+    all.sort_unstable_by_key(ends);
+    let of_one_place = all.chunk_by(|one, other| ends(one) == ends(other));
+    let odd: Vec<Written> = of_one_place.filter(|same| same.len() % 2 == 1).map(|same| same[0]).collect();
+    let mut at_place: HashMap<[i64; 2], [Vec<usize>; 2]> = HashMap::new();
+    for (idx, edge) in odd.iter().enumerate() {
+        for end in [0, 1] {
+            at_place.entry(edge[end]).or_default()[end].push(idx);
+        }
+    }
+    let mut is_used = vec![false; odd.len()];
+    let mut outlines = Vec::new();
+    for first in 0..odd.len() {
+        let mut outline = Vec::new();
+        let mut place = odd[first][0];
+        // Along edges, and against them only where outlines overlap.
+        while !is_used[first] || place != odd[first][0] {
+            let Some(edges) = at_place.get_mut(&place) else { break };
+            let Some(next) = edges.iter_mut().find_map(|edges| unused(edges, &is_used)) else { break };
+            is_used[next] = true;
+            outline.push(place.map(|hundredths| hundredths as f64 / 100.0));
+            let [a, b] = odd[next];
+            place = if a == place { b } else { a };
+        }
+        if !outline.is_empty() {
+            outlines.push(outline);
+        }
+    }
+    outlines
+}
+
+/// Takes edges from a list up to one that is not used.
+fn unused(edges: &mut Vec<usize>, is_used: &[bool]) -> Option<usize> {
+    std::iter::from_fn(|| edges.pop()).find(|&edge| !is_used[edge])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn square(left: f64, top: f64, color: u8) -> (Coat, Option<Rgb>) {
+        let [right, bottom] = [left + 1.0, top + 1.0];
+        let corners = vec![[left, top, 1.0], [right, top, 1.0], [right, bottom, 1.0], [left, bottom, 1.0]];
+        let part = Convex::new(corners).unwrap();
+        (Coat { layers: vec![0], contours: vec![part.outline()], parts: vec![part] }, Some([color; 3]))
+    }
+
+    /// Number of outlines and doubled area of each paint.
+    fn shapes(coats: Vec<(Coat, Option<Rgb>)>) -> Vec<(usize, f64)> {
+        let area = |contours: &[Vec<Point>]| {
+            let of = |contour: &Vec<Point>| {
+                doubled_area(&contour.iter().map(|&[x, y]| [x, y, 0.0]).collect::<Vec<_>>())
+            };
+            contours.iter().map(of).map(f64::abs).sum()
+        };
+        let shape = |paint| match paint {
+            Paint::Plain(contours, _) => (contours.len(), area(&contours)),
+            Paint::Smooth(_) => (0, 0.0),
+        };
+        merged(coats, [10, 10]).into_iter().map(shape).collect()
+    }
+
+    #[test]
+    fn neighbours_of_one_colour_become_one() {
+        let row = || vec![square(0.0, 0.0, 1), square(1.0, 0.0, 1), square(3.0, 0.0, 1), square(2.0, 0.0, 1)];
+        assert_eq!(shapes(row()), [(1, 8.0)]);
+        // Others of another colour, and some that only touch at a corner.
+        let mut more = row();
+        more.extend([square(0.0, 1.0, 2), square(4.0, 1.0, 1)]);
+        assert_eq!(shapes(more), [(1, 8.0), (1, 2.0), (1, 2.0)]);
+        // A ring has two outlines.
+        let ring =
+            (0..9).filter(|idx| *idx != 4).map(|idx| square(f64::from(idx % 3), f64::from(idx / 3), 1));
+        let [(2, area)] = shapes(ring.collect())[..] else { panic!("one area with a hole") };
+        assert_eq!(area, 18.0 + 2.0);
+    }
+
+    #[test]
+    fn what_lies_between_keeps_areas_apart() {
+        // The third square covers parts of both others; nothing can move past it.
+        let cover = || square(0.5, 0.0, 2);
+        assert_eq!(shapes(vec![square(0.0, 0.0, 1), cover(), square(1.0, 0.0, 1)]).len(), 3);
+        // Over the first alone: the last is painted early, or the first stays below.
+        let beside = square(0.0, 0.5, 2);
+        assert_eq!(shapes(vec![square(0.0, 0.0, 1), beside, square(1.0, 0.0, 1)]), [(1, 4.0), (1, 2.0)]);
+        // Areas that overlap each other are not one by the even-odd rule.
+        let over = square(0.0, 0.5, 1);
+        assert_eq!(shapes(vec![square(0.0, 0.0, 1), over]).len(), 2);
+    }
+}
