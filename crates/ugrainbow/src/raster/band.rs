@@ -14,7 +14,7 @@ use super::polygons::{Drawn, PolygonList};
 use super::resolve::{Finish, Resolver};
 use super::shading::{Shading, Tally};
 use super::spans::{Sink, Tag, Tile};
-use super::triangles::{Table, draw_triangle};
+use super::triangles::{Table, Traces};
 
 /// Samples a tile should have: with some 16 bytes each they stay in a core's cache.
 const TILE_SAMPLES: u32 = 1 << 15;
@@ -135,22 +135,28 @@ impl<const N: usize, C: Table<N> + ?Sized> Shapes<'_, N, C> {
         scanner: &mut Scanner<N>,
         sink: &mut impl Sink<N>,
     ) {
-        let [first_row, end_row] = sink.rows();
+        let (rows @ [first_row, end_row], columns) = (sink.rows(), sink.columns());
         let is_perspective = grid.is_perspective;
+        let mut traces = Traces::default();
         for (item, shape) in self.lists.iter().flat_map(|list| list.in_band(band)) {
             match shape {
                 Drawn::Triangle(corners) => {
                     let [a, b, c] = corners;
                     let points = [self.table.point(a), self.table.point(b), self.table.point(c)];
-                    draw_triangle(simd, sink, &points, is_perspective, item, || {
-                        self.table.numbers(item, corners)
+                    if traces.push(simd, points, item, corners, rows, columns) {
+                        traces.draw(simd, sink, is_perspective, self.table);
+                    }
+                }
+                Drawn::Polygon(contours) => {
+                    // Of equals the first drawn stays, so the order is kept.
+                    traces.draw(simd, sink, is_perspective, self.table);
+                    scanner.scan(contours, first_row, end_row, |row, left, right| {
+                        sink.draw(row, left, right, is_perspective, item);
                     });
                 }
-                Drawn::Polygon(contours) => scanner.scan(contours, first_row, end_row, |row, left, right| {
-                    sink.draw(row, left, right, is_perspective, item);
-                }),
             }
         }
+        traces.draw(simd, sink, is_perspective, self.table);
     }
 }
 

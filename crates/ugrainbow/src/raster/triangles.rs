@@ -11,7 +11,7 @@ use super::polygons::{first_center, greater, lesser};
 use super::spans::{Sink, Tag, Tile, lanes};
 
 /// A corner in the picture plane, without the numbers to interpolate; see [`super::Corner`].
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Point {
     /// Column, in samples from the left edge of the picture.
     pub x: f64,
@@ -90,9 +90,11 @@ fn range(p: f64, q: f64, r: f64) -> (f64, f64) {
 }
 
 /// An edge as a function of the row.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Default)]
 struct Side {
-    top: Point,
+    /// Its upper end.
+    x: f64,
+    y: f64,
     slope: f64,
 }
 
@@ -101,13 +103,13 @@ impl Side {
     #[inline(always)]
     fn new(top: &Point, bottom: &Point) -> Self {
         let per_row = 1.0 / (bottom.y - top.y);
-        Self { top: *top, slope: (bottom.x - top.x) * per_row }
+        Self { x: top.x, y: top.y, slope: (bottom.x - top.x) * per_row }
     }
 
     /// Where the middles of rows cross it.
     #[inline(always)]
     fn at<S: Simd>(&self, centers: f64x8<S>) -> f64x8<S> {
-        (centers - self.top.y) * self.slope + self.top.x
+        (centers - self.y) * self.slope + self.x
     }
 }
 
@@ -170,16 +172,17 @@ impl<const N: usize, F: Fn(&mut [Plane; N])> Planes<N, F> {
 
 /// The corners' places in a triangle, the highest first.
 #[inline(always)]
-fn by_row([a, b, c]: &[Point; 3]) -> [usize; 3] {
-    let mut order = [0, 1, 2];
-    let mut rows = [a.y, b.y, c.y];
-    for (i, j) in [(0, 1), (1, 2), (0, 1)] {
-        if rows[j] < rows[i] {
-            rows.swap(i, j);
-            order.swap(i, j);
-        }
+fn by_row(corners: &[Point; 3]) -> [usize; 3] {
+    let [mut top, mut middle, mut bottom] = [0, 1, 2];
+    // Chosen and not branched to: nobody can tell beforehand which way a triangle lies.
+    for (upper, lower) in [(0, 1), (1, 2), (0, 1)] {
+        let order = [top, middle, bottom];
+        let (i, j) = (order[upper], order[lower]);
+        let is_wrong = corners[j].y < corners[i].y;
+        let (i, j) = (if is_wrong { j } else { i }, if is_wrong { i } else { j });
+        [top, middle, bottom] = if upper == 0 { [i, j, bottom] } else { [top, i, j] };
     }
-    order
+    [top, middle, bottom]
 }
 
 /// Samples of a row that are computed together.
@@ -192,12 +195,16 @@ const ROWS: usize = 8;
 const STEPS: [f64; 4] = [0.0, 1.0, 2.0, 3.0];
 
 /// The outline of a triangle.
+#[derive(Clone, Copy, Default)]
 struct Outline {
     long: Side,
     /// Above and below the knee.
     short: [Side; 2],
     knee: u32,
 }
+
+/// For some rows the first sample, and one past the last.
+type Spans = [[i32; ROWS]; 2];
 
 impl Outline {
     #[inline(always)] // As all of a triangle: see `Shapes::draw`.
@@ -209,9 +216,14 @@ impl Outline {
         }
     }
 
-    /// For some rows the first sample, from column `start` on, and one past the last.
+    /// The samples in rows from `row` on, in columns from `start` on; and whether there are any above `end_row`.
     #[inline(always)]
-    fn spans<S: Simd>(&self, simd: S, row: u32, [start, end]: [u32; 2]) -> [[i32; ROWS]; 2] {
+    fn spans<S: Simd>(
+        &self,
+        simd: S,
+        [row, end_row]: [u32; 2],
+        [start, end]: [u32; 2],
+    ) -> (Spans, bool) {
         let [upper, lower] = &self.short;
         let steps: f64x4<S> = STEPS.simd_into(simd);
         let centers = simd.combine_f64x4(steps, steps + 4.0) + (f64::from(row) + 0.5);
@@ -223,9 +235,11 @@ impl Outline {
         let columns = (f64x8::splat(simd, f64::from(start)), f64x8::splat(simd, f64::from(end)));
         let first = first_columns(is_first.select(b, a), columns);
         let end = first_columns(is_first.select(a, b), columns);
+        let is_row = centers.simd_lt(f64x8::splat(simd, f64::from(end_row)));
+        let has_samples = (first.simd_lt(end) & is_row).any_true();
         // Whole numbers below 2²⁴ stay what they are.
         let (first, end) = simd.cvt_i32_f32x16(simd.narrow_f64x8(first, end)).split();
-        [first.into(), end.into()]
+        ([first.into(), end.into()], has_samples)
     }
 }
 
@@ -235,61 +249,123 @@ fn first_columns<S: Simd>(places: f64x8<S>, (start, end): (f64x8<S>, f64x8<S>)) 
     (places - 0.5).ceil().max(start).min(end)
 }
 
-/// Draws the rows of a [regular](is_regular) triangle. `numbers`: to interpolate between the corners, as they are at
-/// the surface; asked for only if something is seen.
-#[inline(always)]
-pub fn draw_triangle<const N: usize, S: Simd>(
-    simd: S,
-    sink: &mut impl Sink<N>,
-    corners: &[Point; 3],
-    is_perspective: bool,
+/// A triangle whose outline is known.
+#[derive(Clone, Copy, Default)]
+struct Traced {
     item: u32,
-    numbers: impl Fn() -> [[f64; N]; 3],
-) {
-    let order = by_row(corners);
-    let sorted @ [top, middle, bottom] = [&corners[order[0]], &corners[order[1]], &corners[order[2]]];
-    let [first, end] = sink.rows();
-    let row_of = |corner: &Point| first_center(corner.y, end).max(first);
-    let (first, knee, end) = (row_of(top), row_of(middle), row_of(bottom));
-    if first == end {
-        return;
+    /// Rows of the table.
+    corners: [u32; 3],
+    points: [Point; 3],
+    /// Its corners from above.
+    order: [usize; 3],
+    /// The first row of samples, and one past the last.
+    rows: [u32; 2],
+    outline: Outline,
+    /// Of the first rows.
+    spans: Spans,
+}
+
+/// Triangles that are traced before the first of them is drawn. How many rows and samples a triangle has is not to be
+/// foreseen, so a processor often goes astray in the loops over them; meanwhile the outlines of the next are ready.
+#[derive(Default)]
+pub struct Traces {
+    all: [Traced; AHEAD],
+    n: usize,
+}
+
+/// How many they are.
+const AHEAD: usize = 16;
+
+impl Traces {
+    /// Traces a [regular](is_regular) triangle in some rows and columns of samples. True if there is no room for another.
+    #[inline(always)]
+    pub fn push<S: Simd>(
+        &mut self,
+        simd: S,
+        points: [Point; 3],
+        item: u32,
+        corners: [u32; 3],
+        [first, end]: [u32; 2],
+        columns: [u32; 2],
+    ) -> bool {
+        let order = by_row(&points);
+        let sorted @ [top, middle, bottom] = [&points[order[0]], &points[order[1]], &points[order[2]]];
+        let row_of = |corner: &Point| first_center(corner.y, end).max(first);
+        let (first, knee, end) = (row_of(top), row_of(middle), row_of(bottom));
+        let outline = Outline::new(sorted, knee);
+        let rows = [first, end];
+        let (spans, has_samples) = outline.spans(simd, rows, columns);
+        self.all[self.n] = Traced { item, corners, points, order, rows, outline, spans };
+        // Many small triangles lie between samples.
+        self.n += usize::from(has_samples | (end - first > ROWS as u32));
+        self.n == AHEAD
     }
-    let outline = Outline::new(sorted, knee);
-    let columns = sink.columns();
-    let find = |planes: &mut [Plane; N]| {
-        let (slopes, mut numbers) = (Slopes::new(sorted), numbers());
-        if is_perspective {
-            for (numbers, corner) in numbers.iter_mut().zip(corners) {
-                numbers.iter_mut().for_each(|number| *number *= corner.key);
-            }
+
+    /// Draws them, and is empty then. What is interpolated between the corners is asked for only if something is seen.
+    #[inline(always)]
+    pub fn draw<const N: usize, S: Simd>(
+        &mut self,
+        simd: S,
+        sink: &mut impl Sink<N>,
+        is_perspective: bool,
+        table: &(impl Table<N> + ?Sized),
+    ) {
+        for traced in &self.all[..self.n] {
+            traced.draw(simd, sink, is_perspective, table);
         }
-        for (i, plane) in planes.iter_mut().enumerate() {
-            let [top, middle, bottom] = order;
-            let [a_column, a_row] = slopes.of([numbers[top][i], numbers[middle][i], numbers[bottom][i]]);
-            *plane = Plane { at_top: numbers[top][i], a_row, a_column };
-        }
-    };
-    let mut planes = Planes { find, is_found: false, all: [Plane::default(); N] };
-    let mut key_slopes = None;
-    for row in (first..end).step_by(ROWS) {
-        let [starts, ends] = outline.spans(simd, row, columns);
-        for ((row, start), end) in (row..end).zip(starts).zip(ends) {
-            if start >= end {
-                continue;
+        self.n = 0;
+    }
+}
+
+impl Traced {
+    #[inline(always)]
+    fn draw<const N: usize, S: Simd>(
+        &self,
+        simd: S,
+        sink: &mut impl Sink<N>,
+        is_perspective: bool,
+        table: &(impl Table<N> + ?Sized),
+    ) {
+        let Self { points, order, .. } = self;
+        let sorted @ [top, middle, bottom] = [&points[order[0]], &points[order[1]], &points[order[2]]];
+        let slopes = Slopes::new(sorted);
+        let find = |planes: &mut [Plane; N]| {
+            let mut numbers = table.numbers(self.item, self.corners);
+            if is_perspective {
+                for (numbers, corner) in numbers.iter_mut().zip(points) {
+                    numbers.iter_mut().for_each(|number| *number *= corner.key);
+                }
             }
-            // Many small triangles lie between samples and do not come here.
-            let [key_a_column, key_a_row] =
-                *key_slopes.get_or_insert_with(|| Slopes::new(sorted).of([top.key, middle.key, bottom.key]));
-            let down = f64::from(row) + 0.5 - top.y;
-            let line = TriangleRow {
-                row,
-                columns: [start as u32, end as u32],
-                from: top.x,
-                down,
-                key: top.key + down * key_a_row,
-                key_a_column,
-            };
-            sink.draw_line(simd, &line, is_perspective, item, &mut planes);
+            for (i, plane) in planes.iter_mut().enumerate() {
+                let [top, middle, bottom] = *order;
+                let [a_column, a_row] = slopes.of([numbers[top][i], numbers[middle][i], numbers[bottom][i]]);
+                *plane = Plane { at_top: numbers[top][i], a_row, a_column };
+            }
+        };
+        let mut planes = Planes { find, is_found: false, all: [Plane::default(); N] };
+        let [key_a_column, key_a_row] = slopes.of([top.key, middle.key, bottom.key]);
+        let ([first, end], columns) = (self.rows, sink.columns());
+        let mut spans = self.spans;
+        for first in (first..end).step_by(ROWS) {
+            if first > self.rows[0] {
+                (spans, _) = self.outline.spans(simd, [first, end], columns);
+            }
+            let [starts, ends] = &spans;
+            for ((row, &start), &end) in (first..end).zip(starts).zip(ends) {
+                if start >= end {
+                    continue;
+                }
+                let down = f64::from(row) + 0.5 - top.y;
+                let line = TriangleRow {
+                    row,
+                    columns: [start as u32, end as u32],
+                    from: top.x,
+                    down,
+                    key: top.key + down * key_a_row,
+                    key_a_column,
+                };
+                sink.draw_line(simd, &line, is_perspective, self.item, &mut planes);
+            }
         }
     }
 }
