@@ -112,8 +112,7 @@ impl Coats {
     /// True if coats from number `first` on cover these parts wholly.
     fn is_hidden(&self, mut parts: Vec<Convex>, first: usize) -> bool {
         let near = self.near(&parts);
-        // What is painted last is what is seen.
-        for &number in near.iter().rev().take_while(|&&number| number >= first) {
+        for &number in &near[near.partition_point(|&number| number < first)..] {
             for part in &self.all[number].parts {
                 parts = parts.iter().flat_map(|own| own.beside(part)).collect();
             }
