@@ -12,8 +12,8 @@ use super::order::Piece;
 use super::patch::Patch;
 use crate::error::Error;
 
-/// Most coats of a figure. Each pane before others can double their number.
-const MOST_COATS: usize = 1 << 20;
+/// Most coats of a figure. Each pane before others adds what is seen through it.
+const MOST_COATS: usize = 1 << 16;
 
 /// Most parts an area is cut into to find out whether it is hidden; with more it counts as seen.
 const MOST_PARTS: usize = 64;
@@ -30,12 +30,14 @@ pub struct Coat {
     pub parts: Vec<Convex>,
 }
 
-/// Pieces in the order of painting as coats in that order. `index`: of the patches.
+/// Pieces in the order of painting as coats in that order. `size`: of the picture.
 ///
 /// # Errors
 /// There are too many.
-pub fn coats(patches: &[Patch], index: &Index, pieces: &[Piece]) -> Result<Vec<Coat>, Error> {
-    let mut coats = Coats { index, all: Vec::new(), of_patch: vec![Vec::new(); patches.len()] };
+pub fn coats(patches: &[Patch], pieces: &[Piece], size: [u32; 2]) -> Result<Vec<Coat>, Error> {
+    let has_clear = patches.iter().any(|patch| patch.is_clear);
+    let n_shapes = if has_clear { MOST_COATS } else { 1 };
+    let mut coats = Coats { index: Index::empty(n_shapes, size), all: Vec::new() };
     for piece in pieces {
         let coat = whole(patches, piece);
         if patches[coat.layers[0]].is_clear {
@@ -70,16 +72,14 @@ fn of_parts(layers: Vec<usize>, parts: Vec<Convex>) -> Coat {
 }
 
 /// What has been painted so far.
-struct Coats<'a> {
-    index: &'a Index,
+struct Coats {
     all: Vec<Coat>,
-    /// Of each patch, the coats in which it is in front.
-    of_patch: Vec<Vec<usize>>,
+    index: Index,
 }
 
-impl Coats<'_> {
+impl Coats {
     fn push(&mut self, coat: Coat) {
-        self.of_patch[coat.layers[0]].push(self.all.len());
+        self.index.push(Convex::bounds(&coat.parts));
         self.all.push(coat);
     }
 
@@ -106,11 +106,7 @@ impl Coats<'_> {
 
     /// Coats whose boxes overlap that of some parts, in the order of painting.
     fn near(&self, parts: &[Convex]) -> Vec<usize> {
-        let patches = self.index.in_box(Convex::bounds(parts));
-        let mut found: Vec<usize> =
-            patches.into_iter().flat_map(|patch| &self.of_patch[patch]).copied().collect();
-        found.sort_unstable();
-        found
+        self.index.in_box(Convex::bounds(parts))
     }
 
     /// True if coats from number `first` on cover these parts wholly.

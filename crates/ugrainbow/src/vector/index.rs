@@ -19,15 +19,24 @@ impl Index {
     /// Of shapes of these boxes, in a picture of this size.
     pub fn new(boxes: impl Iterator<Item = [[f64; 2]; 2]>, size: [u32; 2]) -> Self {
         let boxes: Vec<_> = boxes.collect();
-        let side = (boxes.len() as f64).sqrt().ceil() as usize;
-        let n = [side.clamp(1, MAX_CELLS); 2];
-        let mut index = Self { cells: vec![Vec::new(); n[0] * n[1]], n, size: size.map(f64::from), boxes };
-        for idx in 0..index.boxes.len() {
-            for cell in index.cells_of(index.boxes[idx]) {
-                index.cells[cell].push(idx);
-            }
-        }
+        let mut index = Self::empty(boxes.len(), size);
+        boxes.into_iter().for_each(|one| index.push(one));
         index
+    }
+
+    /// Of nothing as yet; made for so many shapes.
+    pub fn empty(n_shapes: usize, size: [u32; 2]) -> Self {
+        let side = (n_shapes as f64).sqrt().ceil() as usize;
+        let n = [side.clamp(1, MAX_CELLS); 2];
+        Self { cells: vec![Vec::new(); n[0] * n[1]], n, size: size.map(f64::from), boxes: Vec::new() }
+    }
+
+    /// Adds a shape.
+    pub fn push(&mut self, its_box: [[f64; 2]; 2]) {
+        for cell in self.cells_of(its_box) {
+            self.cells[cell].push(self.boxes.len());
+        }
+        self.boxes.push(its_box);
     }
 
     /// The shapes whose boxes overlap a box, each once, in order.

@@ -115,7 +115,7 @@ fn painted<S: Smooth>(
     index: &Index,
     size: [u32; 2],
 ) -> Result<Vec<Element<S>>, Error> {
-    let coats = glass::coats(faces, index, &order::painting_order(faces, index))?;
+    let coats = glass::coats(faces, &order::painting_order(faces, index), size)?;
     let with_color = |coat: Coat| {
         let color = plain_color(palette, faces, &coat);
         (coat, color)
