@@ -34,10 +34,12 @@ impl Quantizer {
             255 => f32::NAN,
             level => srgb_decode((level as f64 + 1.0 - HALF) / 255.0) as f32,
         });
-        let mut start = [0; CELLS];
-        for (cell, level) in start.iter_mut().enumerate() {
+        let (mut start, mut level) = ([0; CELLS], 0u8);
+        for (cell, of_cell) in start.iter_mut().enumerate() {
             let low = cell as f32 / CELLS as f32 - ROUNDING;
-            *level = thresholds[..255].partition_point(|&threshold| threshold <= low) as u8;
+            // Cells are narrower than levels, and the last threshold is never reached.
+            level += u8::from(thresholds[usize::from(level)] <= low);
+            *of_cell = level;
         }
         Self { thresholds, start }
     }
