@@ -218,12 +218,7 @@ impl Outline {
 
     /// The samples in rows from `row` on, in columns from `start` on; and whether there are any above `end_row`.
     #[inline(always)]
-    fn spans<S: Simd>(
-        &self,
-        simd: S,
-        [row, end_row]: [u32; 2],
-        [start, end]: [u32; 2],
-    ) -> (Spans, bool) {
+    fn spans<S: Simd>(&self, simd: S, [row, end_row]: [u32; 2], [start, end]: [u32; 2]) -> (Spans, bool) {
         let [upper, lower] = &self.short;
         let steps: f64x4<S> = STEPS.simd_into(simd);
         let centers = simd.combine_f64x4(steps, steps + 4.0) + (f64::from(row) + 0.5);
