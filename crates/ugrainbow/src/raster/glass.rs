@@ -13,9 +13,10 @@ use fearless_simd::Simd;
 use super::band::Grid;
 use super::edges::{Crossing, Scanner};
 use super::polygons::first_center;
+use super::rows::TriangleRow;
 use super::shading::{Shade, Tally};
+use super::slopes::{Plane, Planes};
 use super::spans::{Sink, Tag, Tile};
-use super::triangles::{Plane, Planes, TriangleRow};
 
 /// Numbers that are interpolated for what is clear.
 pub const CLEAR_VALUES: usize = 8;

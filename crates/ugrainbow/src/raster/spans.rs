@@ -4,7 +4,8 @@ use fearless_simd::Simd;
 
 use super::edges::Crossing;
 use super::polygons::first_center;
-use super::triangles::{LANES, Plane, Planes, TriangleRow};
+use super::rows::{LANES, TriangleRow};
+use super::slopes::{Plane, Planes};
 
 /// What a sample remembers of the polygon it shows.
 pub trait Tag: Copy + Default + Send {

@@ -4,11 +4,13 @@
 //! corners are, and what is interpolated between them, is looked up while it is drawn, the latter only if a
 //! sample of it is seen.
 
-use fearless_simd::prelude::*;
-use fearless_simd::{Simd, f32x8, f64x4, f64x8};
+use fearless_simd::Simd;
 
 use super::polygons::{first_center, greater, lesser};
-use super::spans::{Sink, Tag, Tile, lanes};
+use super::rows::TriangleRow;
+use super::sides::{Outline, ROWS, Spans};
+use super::slopes::{Plane, Planes, Slopes};
+use super::spans::Sink;
 
 /// A corner in the picture plane, without the numbers to interpolate; see [`super::Corner`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -89,87 +91,6 @@ fn range(p: f64, q: f64, r: f64) -> (f64, f64) {
     (lesser(lesser(p, q), r), greater(greater(p, q), r))
 }
 
-/// An edge as a function of the row.
-#[derive(Clone, Copy, Default)]
-struct Side {
-    /// Its upper end.
-    x: f64,
-    y: f64,
-    slope: f64,
-}
-
-impl Side {
-    /// The very numbers of [`super::Scanner`], so that triangles and polygons share edges exactly.
-    #[inline(always)]
-    fn new(top: &Point, bottom: &Point) -> Self {
-        let per_row = 1.0 / (bottom.y - top.y);
-        Self { x: top.x, y: top.y, slope: (bottom.x - top.x) * per_row }
-    }
-
-    /// Where the middles of rows cross it.
-    #[inline(always)]
-    fn at<S: Simd>(&self, centers: f64x8<S>) -> f64x8<S> {
-        (centers - self.y) * self.slope + self.x
-    }
-}
-
-/// What turns numbers at three corners into planes over the picture, measured from the highest corner.
-#[derive(Clone, Copy)]
-struct Slopes {
-    /// The two other corners from the highest.
-    sides: [[f64; 2]; 2],
-    per_area: f64,
-}
-
-impl Slopes {
-    #[inline(always)]
-    fn new([top, middle, bottom]: [&Point; 3]) -> Self {
-        let [p, q] = [[middle.x - top.x, middle.y - top.y], [bottom.x - top.x, bottom.y - top.y]];
-        Self { sides: [p, q], per_area: 1.0 / (p[0] * q[1] - q[0] * p[1]) }
-    }
-
-    /// Change a column and a row of what is `top`, `middle` and `bottom` at the corners.
-    #[inline(always)]
-    fn of(&self, [top, middle, bottom]: [f64; 3]) -> [f64; 2] {
-        let ([p, q], [u, v]) = (self.sides, [middle - top, bottom - top]);
-        [(u * q[1] - v * p[1]) * self.per_area, (v * p[0] - u * q[0]) * self.per_area]
-    }
-}
-
-/// The planes of all numbers, found when they are asked for.
-pub struct Planes<const N: usize, F> {
-    find: F,
-    is_found: bool,
-    all: [Plane; N],
-}
-
-/// A number over the picture, multiplied by the key in perspective.
-#[derive(Clone, Copy, Default)]
-pub struct Plane {
-    at_top: f64,
-    a_row: f64,
-    pub a_column: f64,
-}
-
-impl Plane {
-    /// The number at the column that the row is measured from.
-    #[inline(always)]
-    pub fn start(&self, line: &TriangleRow) -> f64 {
-        self.at_top + line.down * self.a_row
-    }
-}
-
-impl<const N: usize, F: Fn(&mut [Plane; N])> Planes<N, F> {
-    #[inline(always)]
-    pub fn get(&mut self) -> &[Plane; N] {
-        if !self.is_found {
-            (self.find)(&mut self.all);
-            self.is_found = true;
-        }
-        &self.all
-    }
-}
-
 /// The corners' places in a triangle, the highest first.
 #[inline(always)]
 fn by_row(corners: &[Point; 3]) -> [usize; 3] {
@@ -183,65 +104,6 @@ fn by_row(corners: &[Point; 3]) -> [usize; 3] {
         [top, middle, bottom] = if upper == 0 { [i, j, bottom] } else { [top, i, j] };
     }
     [top, middle, bottom]
-}
-
-/// Samples of a row that are computed together.
-pub const LANES: usize = 8;
-
-/// Rows that are computed together.
-const ROWS: usize = 8;
-
-/// 0, 1, 2, 3: places of lanes.
-const STEPS: [f64; 4] = [0.0, 1.0, 2.0, 3.0];
-
-/// The outline of a triangle.
-#[derive(Clone, Copy, Default)]
-struct Outline {
-    long: Side,
-    /// Above and below the knee.
-    short: [Side; 2],
-    knee: u32,
-}
-
-/// For some rows the first sample, and one past the last.
-type Spans = [[i32; ROWS]; 2];
-
-impl Outline {
-    #[inline(always)] // As all of a triangle: see `Shapes::draw`.
-    fn new([top, middle, bottom]: [&Point; 3], knee: u32) -> Self {
-        Self {
-            long: Side::new(top, bottom),
-            short: [Side::new(top, middle), Side::new(middle, bottom)],
-            knee,
-        }
-    }
-
-    /// The samples in rows from `row` on, in columns from `start` on; and whether there are any above `end_row`.
-    #[inline(always)]
-    fn spans<S: Simd>(&self, simd: S, [row, end_row]: [u32; 2], [start, end]: [u32; 2]) -> (Spans, bool) {
-        let [upper, lower] = &self.short;
-        let steps: f64x4<S> = STEPS.simd_into(simd);
-        let centers = simd.combine_f64x4(steps, steps + 4.0) + (f64::from(row) + 0.5);
-        // No `map` here: what it calls would not be compiled into this.
-        let (a, upper, lower) = (self.long.at(centers), upper.at(centers), lower.at(centers));
-        let is_upper = centers.simd_lt(f64x8::splat(simd, f64::from(self.knee)));
-        let b = is_upper.select(upper, lower);
-        let is_first = a.simd_gt(b);
-        let columns = (f64x8::splat(simd, f64::from(start)), f64x8::splat(simd, f64::from(end)));
-        let first = first_columns(is_first.select(b, a), columns);
-        let end = first_columns(is_first.select(a, b), columns);
-        let is_row = centers.simd_lt(f64x8::splat(simd, f64::from(end_row)));
-        let has_samples = (first.simd_lt(end) & is_row).any_true();
-        // Whole numbers below 2²⁴ stay what they are.
-        let (first, end) = simd.cvt_i32_f32x16(simd.narrow_f64x8(first, end)).split();
-        ([first.into(), end.into()], has_samples)
-    }
-}
-
-/// The first centres at or behind places, in some columns.
-#[inline(always)]
-fn first_columns<S: Simd>(places: f64x8<S>, (start, end): (f64x8<S>, f64x8<S>)) -> f64x8<S> {
-    (places - 0.5).ceil().max(start).min(end)
 }
 
 /// A triangle whose outline is known.
@@ -337,7 +199,7 @@ impl Traced {
                 *plane = Plane { at_top: numbers[top][i], a_row, a_column };
             }
         };
-        let mut planes = Planes { find, is_found: false, all: [Plane::default(); N] };
+        let mut planes = Planes::new(find);
         let [key_a_column, key_a_row] = slopes.of([top.key, middle.key, bottom.key]);
         let ([first, end], columns) = (self.rows, sink.columns());
         let mut spans = self.spans;
@@ -362,81 +224,5 @@ impl Traced {
                 sink.draw_line(simd, &line, is_perspective, self.item, &mut planes);
             }
         }
-    }
-}
-
-impl<const N: usize, T: Tag> Tile<N, T> {
-    /// Draws a row of a triangle where the depth test lets it. `planes`: of the numbers to interpolate.
-    #[inline(always)]
-    pub fn draw_line<S: Simd>(
-        &mut self,
-        simd: S,
-        line: &TriangleRow,
-        is_perspective: bool,
-        tag: T,
-        planes: &mut Planes<N, impl Fn(&mut [Plane; N])>,
-    ) {
-        let [first, end] = line.columns;
-        let steps: f64x4<S> = STEPS.simd_into(simd);
-        let places = simd.narrow_f64x4(steps, steps + 4.0);
-        for column in (first..end).step_by(LANES) {
-            let first = self.samples(line.row, column, column).start;
-            let nearest_keys = lanes(&mut self.keys, first);
-            // Columns are whole numbers and exact, so the answer does not depend on where a tile starts.
-            let across = steps + (f64::from(column) + 0.5);
-            let across = (across - line.from, across + 4.0 - line.from);
-            let keys = (line.keys(across.0), line.keys(across.1));
-            let (key, nearest) = (simd.narrow_f64x4(keys.0, keys.1), f32x8::from_slice(simd, nearest_keys));
-            let is_seen = key.simd_gt(nearest) & places.simd_lt(f32x8::splat(simd, (end - column) as f32));
-            // Early depth: most of what is hidden ends here.
-            if !is_seen.any_true() {
-                continue;
-            }
-            is_seen.select(key, nearest).store_slice(nearest_keys);
-            let one = f64x4::splat(simd, 1.0);
-            let scale = if is_perspective { (one / keys.0, one / keys.1) } else { (one, one) };
-            for (all, plane) in self.values.iter_mut().zip(planes.get()) {
-                let (all, start, slope) = (lanes(all, first), plane.start(line), plane.a_column);
-                // Double precision pays: where values do not change they stay the same bits.
-                let a = (across.0 * slope + start) * scale.0;
-                let b = (across.1 * slope + start) * scale.1;
-                let (value, before) = (simd.narrow_f64x4(a, b), f32x8::from_slice(simd, all));
-                is_seen.select(value, before).store_slice(all);
-            }
-            if T::IS_KEPT {
-                for (lane, tag_here) in lanes(&mut self.tags, first).iter_mut().enumerate() {
-                    *tag_here = if is_seen.test(lane) { tag } else { *tag_here };
-                }
-            }
-        }
-    }
-}
-
-/// A row of a triangle.
-#[derive(Clone, Copy, Debug)]
-pub struct TriangleRow {
-    /// Of samples.
-    pub row: u32,
-    /// The first, and one past the last, in the columns of the sink.
-    pub columns: [u32; 2],
-    /// The column that the key, and the numbers to interpolate, are measured from.
-    pub from: f64,
-    /// How far it is below the highest corner.
-    down: f64,
-    key: f64,
-    key_a_column: f64,
-}
-
-impl TriangleRow {
-    /// Depth keys at places, measured from where they are measured from.
-    #[inline(always)]
-    fn keys<S: Simd>(&self, across: f64x4<S>) -> f64x4<S> {
-        across * self.key_a_column + self.key
-    }
-
-    /// The depth key at a column.
-    #[inline]
-    pub fn key_at(&self, column: f64) -> f64 {
-        self.key + (column - self.from) * self.key_a_column
     }
 }

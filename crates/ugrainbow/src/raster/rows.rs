@@ -1,0 +1,90 @@
+//! The samples of a row of a triangle.
+
+use fearless_simd::prelude::*;
+use fearless_simd::{Simd, f32x8, f64x4};
+
+use super::slopes::{Plane, Planes};
+use super::spans::{Tag, Tile, lanes};
+
+/// Samples of a row that are computed together.
+pub const LANES: usize = 8;
+
+/// 0, 1, 2, 3: places of lanes.
+pub const STEPS: [f64; 4] = [0.0, 1.0, 2.0, 3.0];
+
+impl<const N: usize, T: Tag> Tile<N, T> {
+    /// Draws a row of a triangle where the depth test lets it. `planes`: of the numbers to interpolate.
+    #[inline(always)]
+    pub fn draw_line<S: Simd>(
+        &mut self,
+        simd: S,
+        line: &TriangleRow,
+        is_perspective: bool,
+        tag: T,
+        planes: &mut Planes<N, impl Fn(&mut [Plane; N])>,
+    ) {
+        let [first, end] = line.columns;
+        let steps: f64x4<S> = STEPS.simd_into(simd);
+        let places = simd.narrow_f64x4(steps, steps + 4.0);
+        for column in (first..end).step_by(LANES) {
+            let first = self.samples(line.row, column, column).start;
+            let nearest_keys = lanes(&mut self.keys, first);
+            // Columns are whole numbers and exact, so the answer does not depend on where a tile starts.
+            let across = steps + (f64::from(column) + 0.5);
+            let across = (across - line.from, across + 4.0 - line.from);
+            let keys = (line.keys(across.0), line.keys(across.1));
+            let (key, nearest) = (simd.narrow_f64x4(keys.0, keys.1), f32x8::from_slice(simd, nearest_keys));
+            let is_seen = key.simd_gt(nearest) & places.simd_lt(f32x8::splat(simd, (end - column) as f32));
+            // Early depth: most of what is hidden ends here.
+            if !is_seen.any_true() {
+                continue;
+            }
+            is_seen.select(key, nearest).store_slice(nearest_keys);
+            let one = f64x4::splat(simd, 1.0);
+            let scale = if is_perspective { (one / keys.0, one / keys.1) } else { (one, one) };
+            for (all, plane) in self.values.iter_mut().zip(planes.get()) {
+                let (all, start, slope) = (lanes(all, first), plane.start(line), plane.a_column);
+                // Double precision pays: where values do not change they stay the same bits.
+                let a = (across.0 * slope + start) * scale.0;
+                let b = (across.1 * slope + start) * scale.1;
+                let (value, before) = (simd.narrow_f64x4(a, b), f32x8::from_slice(simd, all));
+                is_seen.select(value, before).store_slice(all);
+            }
+            if T::IS_KEPT {
+                for (lane, tag_here) in lanes(&mut self.tags, first).iter_mut().enumerate() {
+                    *tag_here = if is_seen.test(lane) { tag } else { *tag_here };
+                }
+            }
+        }
+    }
+}
+
+/// A row of a triangle.
+#[derive(Clone, Copy, Debug)]
+pub struct TriangleRow {
+    /// Of samples.
+    pub row: u32,
+    /// The first, and one past the last, in the columns of the sink.
+    pub columns: [u32; 2],
+    /// The column that the key, and the numbers to interpolate, are measured from.
+    pub from: f64,
+    /// How far it is below the highest corner.
+    pub down: f64,
+    /// The depth key at that column, and its change a column.
+    pub key: f64,
+    pub key_a_column: f64,
+}
+
+impl TriangleRow {
+    /// Depth keys at places, measured from where they are measured from.
+    #[inline(always)]
+    fn keys<S: Simd>(&self, across: f64x4<S>) -> f64x4<S> {
+        across * self.key_a_column + self.key
+    }
+
+    /// The depth key at a column.
+    #[inline]
+    pub fn key_at(&self, column: f64) -> f64 {
+        self.key + (column - self.from) * self.key_a_column
+    }
+}
