@@ -351,8 +351,12 @@ mod tests {
                 ([low + (high - low) * tint, saturation, value], lights, f32::from(noise() > 0.5))
             };
             let samples: Vec<_> = (0..1000).map(|_| sample()).collect();
-            for is_clipped in [true, false] {
-                let shader = Shader::new(interpolation, is_clipped);
+            // Whatever the processor can do, the bits are the same.
+            let levels = [Level::new(), Level::baseline()];
+            for (is_clipped, level) in
+                [true, false].into_iter().flat_map(|is| levels.map(|level| (is, level)))
+            {
+                let shader = Shader { level, ..Shader::new(interpolation, is_clipped) };
                 let plain: Vec<_> = samples.iter().map(|(color, ..)| *color).collect();
                 check_runs(&shader, &plain, |numbers| shader.plain(numbers));
                 let colored: Vec<_> =
