@@ -57,7 +57,7 @@ pub use bins::Bins;
 pub use cue::Cue;
 pub use edges::Scanner;
 pub use glass::{CLEAR_VALUES, Clear, Fragment, Pane};
-pub use polygons::{Bounds, Corner, Drawn, PolygonList};
+pub use polygons::{Bounds, Corner, Drawn, PolygonList, greater, lesser};
 pub use probe::{Sample, probe};
 pub use resolve::{Direct, Finish, Gathered};
 pub use shading::{RUN, Scale, Shade, Shades, Shading, Tally};

@@ -160,14 +160,14 @@ pub struct Bounds {
 }
 
 /// The lesser of two numbers, the second if one is none: one instruction, where `f64::min` is several.
-#[inline]
-pub fn lesser(a: f64, b: f64) -> f64 {
+#[inline(always)] // Into loops that are compiled for several families of processors.
+pub fn lesser<T: PartialOrd>(a: T, b: T) -> T {
     if a < b { a } else { b }
 }
 
 /// The greater of two numbers, the second if one is none.
-#[inline]
-pub fn greater(a: f64, b: f64) -> f64 {
+#[inline(always)]
+pub fn greater<T: PartialOrd>(a: T, b: T) -> T {
     if a > b { a } else { b }
 }
 

@@ -97,14 +97,26 @@ impl<'a, S, F> Resolver<'a, S, F> {
         S: Shading<N>,
         F: Finish<T, P>,
     {
-        match self.finish.direct() {
-            Some(direct) if self.is_direct(glass) => self.paint_direct(tile, direct, first, row, pixels),
-            _ => self.paint_sums(tile, glass, first, row, pixels),
+        if let Some(direct) = self.finish.direct().filter(|_| self.is_direct(glass)) {
+            return self.paint_direct(tile, direct, first, row, pixels);
+        }
+        self.add_up(tile, glass, first, row, pixels.len() as u32);
+        // All pixels without a sample are alike.
+        let mut empty = None;
+        for ((column, sums), pixel) in (first..).zip(&self.sums).zip(pixels) {
+            let all = gathered(self.grid, tile, glass, [column, row], sums);
+            *pixel = match empty {
+                Some(empty) if all.is_empty() => empty,
+                _ => self.finish.pixel(&all),
+            };
+            if all.is_empty() {
+                empty = Some(*pixel);
+            }
         }
     }
 
     /// True if a pixel is what its only sample shows.
-    pub fn is_direct(&self, glass: &Glass) -> bool {
+    fn is_direct(&self, glass: &Glass) -> bool {
         self.grid.samples == 1 && self.grid.cue.is_none() && glass.is_empty()
     }
 
@@ -130,32 +142,6 @@ impl<'a, S, F> Resolver<'a, S, F> {
             self.shader.shade(values.map(|all| &all[run.clone()]), Scale::Display, &mut self.shades);
             self.tally.count_run(keys, &self.shades);
             direct.pixels(keys, &self.shades.light, pixels);
-        }
-    }
-
-    fn paint_sums<const N: usize, T: Tag, P: Copy>(
-        &mut self,
-        tile: &Tile<N, T>,
-        glass: &Glass,
-        first: u32,
-        row: u32,
-        pixels: &mut [P],
-    ) where
-        S: Shading<N>,
-        F: Finish<T, P>,
-    {
-        self.add_up(tile, glass, first, row, pixels.len() as u32);
-        // All pixels without a sample are alike.
-        let mut empty = None;
-        for ((column, sums), pixel) in (first..).zip(&self.sums).zip(pixels) {
-            let all = gathered(self.grid, tile, glass, [column, row], sums);
-            *pixel = match empty {
-                Some(empty) if all.is_empty() => empty,
-                _ => self.finish.pixel(&all),
-            };
-            if all.is_empty() {
-                empty = Some(*pixel);
-            }
         }
     }
 

@@ -72,7 +72,7 @@ impl Outline {
         let end = first_columns(is_first.select(a, b), columns);
         let is_row = centers.simd_lt(f64x8::splat(simd, f64::from(end_row)));
         let has_samples = (first.simd_lt(end) & is_row).any_true();
-        // Whole numbers below 2²⁴ stay what they are.
+        // Whole numbers up to 2²⁴ stay what they are, and no corner is further; beyond, both ends are the same.
         let (first, end) = simd.cvt_i32_f32x16(simd.narrow_f64x8(first, end)).split();
         ([first.into(), end.into()], has_samples)
     }

@@ -4,7 +4,7 @@ use fearless_simd::{Level, Simd, dispatch};
 
 use super::linear;
 use super::transfer::decode;
-use crate::raster::{RUN, Scale, Shades};
+use crate::raster::{RUN, Scale, Shades, greater, lesser};
 
 /// Levels of red, green and blue light on every sample; none if it is white and in the value.
 pub type Lights<'a> = Option<[&'a [f32]; 3]>;
@@ -39,17 +39,6 @@ pub fn encode(Pure { hue, fade, saturation }: Pure, values: [f32; 3], ceiling: f
     };
     let levels = [level(0.0, red), level(2.0, green), level(4.0, blue)];
     (levels, greater(greater(greater(0.0, red), green), blue))
-}
-
-/// One instruction where `f32::min` is several, which also look for what is no number.
-#[inline(always)]
-fn lesser(a: f32, b: f32) -> f32 {
-    if a < b { a } else { b }
-}
-
-#[inline(always)]
-fn greater(a: f32, b: f32) -> f32 {
-    if a > b { a } else { b }
 }
 
 /// The light of many samples: hue, what is left of it, saturation and value of each.
