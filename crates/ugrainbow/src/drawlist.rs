@@ -1,12 +1,13 @@
 //! From the faces of a scene to shapes in the picture plane.
 
+use fearless_simd::Level;
 use glam::DVec3;
 use rayon::prelude::*;
 use ugparse::{Face, VertexId};
 
 use crate::clip::{Vertex, clip_polygon};
 use crate::painter::{Common, Painter};
-use crate::raster::{Bounds, Corner, Drawn, Point, PolygonList, Shapes, Table, is_regular, twice_area};
+use crate::raster::{BLOCK, Block, Bounds, Corner, Drawn, Findings, Point, PolygonList, Shapes, Table};
 use crate::sheet::Pack;
 
 /// Faces that one task turns into a list.
@@ -96,7 +97,8 @@ impl<'a, const N: usize> DrawList<'a, N> {
         let corners =
             Corners { painter, pack, points: scene.vertices.par_iter().map(point).collect(), even_level };
         let faces = scene.faces.par_chunks(CHUNK).enumerate();
-        let parts = faces.map(|(idx, faces)| Chunk::new(&corners, idx).all(faces, &is_drawn)).collect();
+        let level = Level::new();
+        let parts = faces.map(|(idx, faces)| Chunk::new(&corners, idx, level).all(faces, &is_drawn)).collect();
         Self::of(parts, corners)
     }
 
@@ -151,6 +153,10 @@ struct Chunk<'a, const N: usize> {
     item: u32,
     list: PolygonList<N>,
     reach: Reach,
+    /// Triangles that are looked at together.
+    block: Block,
+    /// What the processor can do to many numbers at once. It changes no result.
+    level: Level,
     /// The contour in work, kept for its buffer.
     contour: Vec<Vertex<N>>,
     scratch: Vec<Vertex<N>>,
@@ -158,7 +164,7 @@ struct Chunk<'a, const N: usize> {
 
 impl<'a, const N: usize> Chunk<'a, N> {
     /// The chunk of this number.
-    fn new(corners: &'a Corners<'a, N>, chunk: usize) -> Self {
+    fn new(corners: &'a Corners<'a, N>, chunk: usize, level: Level) -> Self {
         Self {
             corners,
             painter: &corners.painter,
@@ -166,30 +172,65 @@ impl<'a, const N: usize> Chunk<'a, N> {
             item: (chunk * CHUNK) as u32,
             list: PolygonList::default(),
             reach: Reach::default(),
+            block: Block::default(),
+            level,
             contour: Vec::new(),
             scratch: Vec::new(),
         }
     }
 
     fn all(mut self, faces: &[Face], is_drawn: impl Fn(&Face) -> bool) -> (PolygonList<N>, Reach) {
-        for face in faces {
-            if is_drawn(face) {
-                self.push_face(face);
-            }
-            self.item += 1;
+        let first = self.item;
+        for (idx, faces) in faces.chunks(BLOCK).enumerate() {
+            // A chunk is short.
+            self.item = first + (idx * BLOCK) as u32;
+            self.push_faces(faces, &is_drawn);
         }
         self.list.sort_into_bands(self.painter.grid);
         (self.list, self.reach)
     }
 
-    fn push_face(&mut self, face: &Face) {
-        let vertices = self.painter.scene.contours.corners(face.contours.clone());
-        if let &[VertexId(a), VertexId(b), VertexId(c)] = vertices {
-            let points = [self.corners.point(a), self.corners.point(b), self.corners.point(c)];
-            if is_regular(&points, self.painter.view.is_perspective) {
-                return self.push_triangle([a, b, c], &points);
+    /// Takes a block of faces, the first of which is `item`.
+    fn push_faces(&mut self, faces: &[Face], is_drawn: &impl Fn(&Face) -> bool) {
+        let first = self.item;
+        let (mut triangles, mut others) = (0u64, 0u64);
+        let mut corners = [[0; 3]; BLOCK];
+        for (idx, face) in faces.iter().enumerate().filter(|(_, face)| is_drawn(face)) {
+            if let &[VertexId(a), VertexId(b), VertexId(c)] =
+                self.painter.scene.contours.corners(face.contours.clone())
+            {
+                corners[idx] = [a, b, c];
+                let points = [self.corners.point(a), self.corners.point(b), self.corners.point(c)];
+                self.block.set(idx, points);
+                triangles |= 1 << idx;
+            } else {
+                others |= 1 << idx;
             }
         }
+        let Findings { regular, in_picture, drawn, bands: [starts, ends] } = if triangles == 0 {
+            Findings::default()
+        } else {
+            self.block.findings(self.level, self.painter.grid, self.painter.is_culled)
+        };
+        let regular = regular & triangles;
+        self.reach.in_front += regular.count_ones() as usize;
+        self.reach.in_picture += (regular & in_picture).count_ones() as usize;
+        let mut left = (drawn & triangles) | (triangles & !regular) | others;
+        while left != 0 {
+            let idx = left.trailing_zeros() as usize;
+            self.item = first + idx as u32;
+            if regular >> idx & 1 == 1 {
+                self.list.push_triangle(self.item, corners[idx], starts[idx] as u32..ends[idx] as u32);
+            } else {
+                self.push_face(&faces[idx]);
+            }
+            left &= left - 1;
+        }
+    }
+
+    /// Takes a face that is no regular triangle.
+    fn push_face(&mut self, face: &Face) {
+        let vertices = self.painter.scene.contours.corners(face.contours.clone());
         let points = vertices.iter().map(|vertex| self.corners.points[vertex.index()]);
         // Of a face that is not clipped it is known early where it is: what is outside the picture or between
         // samples costs no more.
@@ -207,18 +248,6 @@ impl<'a, const N: usize> Chunk<'a, N> {
             self.reach.in_picture += 1;
         } else if self.push_contours(face) {
             self.end_polygon();
-        }
-    }
-
-    fn push_triangle(&mut self, corners: [u32; 3], points: &[Point; 3]) {
-        let bounds = Bounds::new(points.iter().map(|point| [point.x, point.y]));
-        let is_in_picture = bounds.is_in_picture(self.painter.grid);
-        self.reach.in_front += 1;
-        self.reach.in_picture += usize::from(is_in_picture);
-        let is_left_out = self.painter.is_culled && twice_area(points) <= 0.0;
-        if is_in_picture && !is_left_out {
-            let rows = bounds.rows(self.painter.grid).filter(|rows| !rows.is_empty());
-            rows.into_iter().for_each(|rows| self.list.push_triangle(self.item, corners, rows));
         }
     }
 

@@ -75,7 +75,7 @@ impl<'a, const N: usize> Faces<'a, N> {
         let in_front = built.iter().filter(|built| !matches!(built, Built::Behind)).count();
         let shapes: Vec<Shape> = built.into_iter().filter_map(Built::shape).collect();
         let reach = Reach { in_front, in_picture: shapes.len() };
-        let bins = Bins::new(painter.grid, shapes.iter().map(|shape| &shape.rows));
+        let bins = Bins::new(painter.grid, shapes.iter().map(|shape| painter.grid.bands().of(&shape.rows)));
         let slab = painter.view.slab;
         let limits = [(1.0 / slab.far).max(f64::MIN_POSITIVE), 1.0 / slab.near];
         let film = Film::new(painter.view.rays());
@@ -100,7 +100,7 @@ impl<'a, const N: usize> Faces<'a, N> {
             let nearer = shape.outline.key(ray);
             nearer > key && (least..=most).contains(&nearer) && shape.outline.contains(ray)
         };
-        let shapes = self.bins.in_band(grid.bands().of(&(row..row + 1)).start).iter();
+        let shapes = self.bins.in_band(grid.bands().of(&(row..row + 1)).start as usize).iter();
         shapes
             .map(|&shape| &self.shapes[shape as usize])
             .filter(|shape| shape.columns.contains(&column) && shape.rows.contains(&row))

@@ -97,10 +97,15 @@ pub struct Bands {
 }
 
 impl Bands {
+    /// Rows of samples in each.
+    pub fn sample_rows(&self) -> u32 {
+        self.sample_rows
+    }
+
     /// Those that these rows of samples lie in; `rows` is not empty.
     #[inline]
-    pub fn of(&self, rows: &Range<u32>) -> Range<usize> {
-        (rows.start / self.sample_rows) as usize..((rows.end - 1) / self.sample_rows) as usize + 1
+    pub fn of(&self, rows: &Range<u32>) -> Range<u32> {
+        rows.start / self.sample_rows..(rows.end - 1) / self.sample_rows + 1
     }
 }
 
@@ -135,7 +140,7 @@ impl<const N: usize, C: Table<N> + ?Sized> Shapes<'_, N, C> {
         scanner: &mut Scanner<N>,
         sink: &mut impl Sink<N>,
     ) {
-        let (rows @ [first_row, end_row], columns) = (sink.rows(), sink.columns());
+        let [first_row, end_row] = sink.rows();
         let is_perspective = grid.is_perspective;
         let mut traces = Traces::default();
         for (item, shape) in self.lists.iter().flat_map(|list| list.in_band(band)) {
@@ -143,7 +148,7 @@ impl<const N: usize, C: Table<N> + ?Sized> Shapes<'_, N, C> {
                 Drawn::Triangle(corners) => {
                     let [a, b, c] = corners;
                     let points = [self.table.point(a), self.table.point(b), self.table.point(c)];
-                    if traces.push(simd, points, item, corners, rows, columns) {
+                    if traces.push(item, corners, points) {
                         traces.draw(simd, sink, is_perspective, self.table);
                     }
                 }

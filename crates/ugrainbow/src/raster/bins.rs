@@ -13,12 +13,11 @@ pub struct Bins {
 }
 
 impl Bins {
-    /// `rows`: of samples that each shape may touch; none of these ranges is empty.
-    pub fn new<'a>(grid: &Grid, rows: impl Iterator<Item = &'a Range<u32>> + Clone) -> Self {
-        let bands = grid.bands();
+    /// `bands`: those that each shape may touch.
+    pub fn new(grid: &Grid, bands: impl Iterator<Item = Range<u32>> + Clone) -> Self {
         let mut starts = vec![0u32; grid.n_bands() + 1];
-        for band in rows.clone().flat_map(|rows| bands.of(rows)) {
-            starts[band + 1] += 1;
+        for band in bands.clone().flatten() {
+            starts[band as usize + 1] += 1;
         }
         for band in 1..starts.len() {
             starts[band] += starts[band - 1];
@@ -26,10 +25,11 @@ impl Bins {
         let mut items = vec![0; starts[starts.len() - 1] as usize];
         let mut next = starts.clone();
         // The text of a scene is below 4 GiB, and so are these numbers.
-        for (shape, rows) in (0u32..).zip(rows) {
-            for band in bands.of(rows) {
-                items[next[band] as usize] = shape;
-                next[band] += 1;
+        for (shape, bands) in (0u32..).zip(bands) {
+            for band in bands {
+                let next = &mut next[band as usize];
+                items[*next as usize] = shape;
+                *next += 1;
             }
         }
         Self { starts, items }

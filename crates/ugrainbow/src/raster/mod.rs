@@ -37,6 +37,7 @@
 
 mod band;
 mod bins;
+mod block;
 mod cue;
 mod edges;
 mod glass;
@@ -54,6 +55,7 @@ mod triangles;
 
 pub use band::{Grid, Layer, Shapes, paint};
 pub use bins::Bins;
+pub use block::{BLOCK, Block, Findings};
 pub use cue::Cue;
 pub use edges::Scanner;
 pub use glass::{CLEAR_VALUES, Clear, Fragment, Pane};
@@ -62,4 +64,4 @@ pub use probe::{Sample, probe};
 pub use resolve::{Direct, Finish, Gathered};
 pub use shading::{RUN, Scale, Shade, Shades, Shading, Tally};
 pub use spans::{Seen, Sink, Tag};
-pub use triangles::{NoTable, Point, Table, is_regular, twice_area};
+pub use triangles::{NoTable, Point, Table};

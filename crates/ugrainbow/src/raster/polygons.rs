@@ -27,8 +27,8 @@ pub struct PolygonList<const N: usize> {
     /// How many contours belong to polygons that have ended.
     n_contours: u32,
     shapes: Vec<Shape>,
-    /// The rows of samples that each shape may touch, until they are sorted.
-    rows: Vec<Range<u32>>,
+    /// The bands that each shape may touch, until they are sorted.
+    bands: Vec<Range<u32>>,
     bins: Bins,
 }
 
@@ -80,7 +80,7 @@ impl<const N: usize> PolygonList<N> {
         if let Some(rows) = rows.clone().filter(|rows| !rows.is_empty()) {
             let contours = self.n_contours..index(self.contour_ends.len());
             self.n_contours = contours.end;
-            self.push(item, Outline::Contours(contours), rows);
+            self.push(item, Outline::Contours(contours), grid.bands().of(&rows));
         } else {
             self.drop_contours();
         }
@@ -93,14 +93,16 @@ impl<const N: usize> PolygonList<N> {
         self.contour_ends.truncate(self.n_contours as usize);
     }
 
-    /// Adds a triangle that may touch these rows of samples; they are not empty.
-    pub fn push_triangle(&mut self, item: u32, corners: [u32; 3], rows: Range<u32>) {
-        self.push(item, Outline::Triangle(corners), rows);
+    /// Adds a triangle that may touch these bands; they are not none.
+    #[inline]
+    pub fn push_triangle(&mut self, item: u32, corners: [u32; 3], bands: Range<u32>) {
+        self.push(item, Outline::Triangle(corners), bands);
     }
 
-    fn push(&mut self, item: u32, outline: Outline, rows: Range<u32>) {
+    #[inline]
+    fn push(&mut self, item: u32, outline: Outline, bands: Range<u32>) {
         self.shapes.push(Shape { item, outline });
-        self.rows.push(rows);
+        self.bands.push(bands);
     }
 
     /// True if no shape stayed.
@@ -110,7 +112,7 @@ impl<const N: usize> PolygonList<N> {
 
     /// Sorts the shapes into the bands of the grid. To be called once, when all are in.
     pub fn sort_into_bands(&mut self, grid: &Grid) {
-        self.bins = Bins::new(grid, std::mem::take(&mut self.rows).iter());
+        self.bins = Bins::new(grid, std::mem::take(&mut self.bands).iter().cloned());
         self.shapes.shrink_to_fit();
     }
 
@@ -173,7 +175,7 @@ pub fn greater<T: PartialOrd>(a: T, b: T) -> T {
 
 /// How far a crossing of an edge may be computed beside the corners, in samples. Coordinates where it matters are
 /// below 2¹⁹, so it is no more than 2⁻³².
-const ROUNDING: f64 = 1e-6;
+pub const ROUNDING: f64 = 1e-6;
 
 impl Bounds {
     /// The box round these places.

@@ -41,7 +41,7 @@ pub fn probe<const N: usize, L: Layer<N> + ?Sized, P: Copy + Default>(
 ) -> (Vec<Sample>, Gathered<'static, u32>, P) {
     let (mut scanner, mut tile, mut glass) = (Scanner::default(), Tile::default(), Glass::default());
     let n = grid.samples;
-    let band = grid.bands().of(&(row * n..(row + 1) * n)).start;
+    let band = grid.bands().of(&(row * n..(row + 1) * n)).start as usize;
     let mut one =
         Band { grid, layer, clear, band, scanner: &mut scanner, tile: &mut tile, glass: &mut glass };
     one.draw([column, column + 1], [row, row + 1]);

@@ -9,8 +9,8 @@ use super::spans::{Tag, Tile, lanes};
 /// Samples of a row that are computed together.
 pub const LANES: usize = 8;
 
-/// 0, 1, 2, 3: places of lanes.
-pub const STEPS: [f64; 4] = [0.0, 1.0, 2.0, 3.0];
+/// Places of lanes.
+pub const STEPS: [f64; LANES] = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0];
 
 impl<const N: usize, T: Tag> Tile<N, T> {
     /// Draws a row of a triangle where the depth test lets it. `planes`: of the numbers to interpolate.
@@ -24,7 +24,7 @@ impl<const N: usize, T: Tag> Tile<N, T> {
         planes: &mut Planes<N, impl Fn(&mut [Plane; N])>,
     ) {
         let [first, end] = line.columns;
-        let steps: f64x4<S> = STEPS.simd_into(simd);
+        let steps = f64x4::from_slice(simd, &STEPS[..4]);
         let places = simd.narrow_f64x4(steps, steps + 4.0);
         for column in (first..end).step_by(LANES) {
             let first = self.samples(line.row, column, column).start;

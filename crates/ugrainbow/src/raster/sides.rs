@@ -1,85 +1,111 @@
-//! Where the outline of a triangle crosses the rows of samples.
+//! Where the outlines of triangles cross the rows of samples.
 
 use fearless_simd::prelude::*;
-use fearless_simd::{Simd, f64x4, f64x8};
+use fearless_simd::{Simd, f64x8};
 
-use super::rows::STEPS;
-use super::triangles::Point;
+use super::block::{BLOCK, Corners, Each, first_centers, whole};
 
-/// An edge as a function of the row.
-#[derive(Clone, Copy, Default)]
-struct Side {
-    /// Its upper end.
-    x: f64,
-    y: f64,
-    slope: f64,
+/// Edges as functions of the row.
+#[derive(Clone, Copy)]
+struct Sides<S: Simd> {
+    /// Their upper ends.
+    x: f64x8<S>,
+    y: f64x8<S>,
+    slope: f64x8<S>,
 }
 
-impl Side {
+impl<S: Simd> Sides<S> {
     /// The very numbers of [`super::Scanner`], so that triangles and polygons share edges exactly.
     #[inline(always)]
-    fn new(top: &Point, bottom: &Point) -> Self {
-        let per_row = 1.0 / (bottom.y - top.y);
+    fn new(simd: S, top: &Corners<S>, bottom: &Corners<S>) -> Self {
+        let per_row = f64x8::splat(simd, 1.0) / (bottom.y - top.y);
         Self { x: top.x, y: top.y, slope: (bottom.x - top.x) * per_row }
     }
 
-    /// Where the middles of rows cross it.
+    /// Where the middles of rows cross them.
     #[inline(always)]
-    fn at<S: Simd>(&self, centers: f64x8<S>) -> f64x8<S> {
+    fn at(&self, centers: f64x8<S>) -> f64x8<S> {
         (centers - self.y) * self.slope + self.x
     }
 }
 
-/// Rows that are computed together.
-pub const ROWS: usize = 8;
-
-/// The outline of a triangle.
-#[derive(Clone, Copy, Default)]
-pub struct Outline {
-    long: Side,
+/// The outlines of the triangles of a block, or eight times that of one.
+#[derive(Clone, Copy)]
+pub struct Outlines<S: Simd> {
+    long: Sides<S>,
     /// Above and below the knee.
-    short: [Side; 2],
-    knee: u32,
+    upper: Sides<S>,
+    lower: Sides<S>,
+    /// The first rows of samples below the middle corners, and one past the last.
+    knee: f64x8<S>,
+    end: f64x8<S>,
 }
 
-/// For some rows the first sample, and one past the last.
-pub type Spans = [[i32; ROWS]; 2];
+/// For each of some rows the first sample, and one past the last.
+pub type Spans = [[i32; BLOCK]; 2];
 
-impl Outline {
-    /// Of corners, the highest first. `knee`: the first row of samples below the middle one.
+impl<S: Simd> Outlines<S> {
+    /// Of corners, the highest first.
     #[inline(always)] // As all of a triangle: see `Shapes::draw`.
-    pub fn new([top, middle, bottom]: [&Point; 3], knee: u32) -> Self {
+    pub fn new(simd: S, [top, middle, bottom]: [&Corners<S>; 3], knee: f64x8<S>, end: f64x8<S>) -> Self {
         Self {
-            long: Side::new(top, bottom),
-            short: [Side::new(top, middle), Side::new(middle, bottom)],
+            long: Sides::new(simd, top, bottom),
+            upper: Sides::new(simd, top, middle),
+            lower: Sides::new(simd, middle, bottom),
             knee,
+            end,
         }
     }
 
-    /// The samples in rows from `row` on, in columns from `start` on; and whether there are any above `end_row`.
+    /// The samples with middles in these rows, in columns from `start` on; and those that have any.
     #[inline(always)]
-    pub fn spans<S: Simd>(&self, simd: S, [row, end_row]: [u32; 2], [start, end]: [u32; 2]) -> (Spans, bool) {
-        let [upper, lower] = &self.short;
-        let steps: f64x4<S> = STEPS.simd_into(simd);
-        let centers = simd.combine_f64x4(steps, steps + 4.0) + (f64::from(row) + 0.5);
+    pub fn spans(&self, simd: S, centers: f64x8<S>, [start, end]: [u32; 2]) -> (Spans, u64) {
         // No `map` here: what it calls would not be compiled into this.
-        let (a, upper, lower) = (self.long.at(centers), upper.at(centers), lower.at(centers));
-        let is_upper = centers.simd_lt(f64x8::splat(simd, f64::from(self.knee)));
+        let (a, upper, lower) = (self.long.at(centers), self.upper.at(centers), self.lower.at(centers));
+        let is_upper = centers.simd_lt(self.knee);
         let b = is_upper.select(upper, lower);
         let is_first = a.simd_gt(b);
-        let columns = (f64x8::splat(simd, f64::from(start)), f64x8::splat(simd, f64::from(end)));
-        let first = first_columns(is_first.select(b, a), columns);
-        let end = first_columns(is_first.select(a, b), columns);
-        let is_row = centers.simd_lt(f64x8::splat(simd, f64::from(end_row)));
-        let has_samples = (first.simd_lt(end) & is_row).any_true();
-        // Whole numbers up to 2²⁴ stay what they are, and no corner is further; beyond, both ends are the same.
-        let (first, end) = simd.cvt_i32_f32x16(simd.narrow_f64x8(first, end)).split();
-        ([first.into(), end.into()], has_samples)
+        let (start, end) = (f64x8::splat(simd, f64::from(start)), f64x8::splat(simd, f64::from(end)));
+        let first = first_centers(is_first.select(b, a), start, end);
+        let end = first_centers(is_first.select(a, b), start, end);
+        let has_samples = first.simd_lt(end) & centers.simd_lt(self.end);
+        // No corner is further than 2²⁴; beyond, both ends are the same.
+        (whole(simd, first, end), has_samples.to_bitmask())
     }
 }
 
-/// The first centres at or behind places, in some columns.
-#[inline(always)]
-fn first_columns<S: Simd>(places: f64x8<S>, (start, end): (f64x8<S>, f64x8<S>)) -> f64x8<S> {
-    (places - 0.5).ceil().max(start).min(end)
+/// The outlines of the triangles of a block, to be looked up.
+#[derive(Clone, Copy)]
+pub struct KeptOutlines {
+    /// Places and slopes of the long, the upper and the lower sides.
+    sides: [[Each; 3]; 3],
+    knee: Each,
+    end: Each,
+}
+
+impl KeptOutlines {
+    #[inline(always)]
+    pub fn new<S: Simd>(all: &Outlines<S>) -> Self {
+        let of = |side: &Sides<S>| [side.x.into(), side.y.into(), side.slope.into()];
+        Self {
+            sides: [of(&all.long), of(&all.upper), of(&all.lower)],
+            knee: all.knee.into(),
+            end: all.end.into(),
+        }
+    }
+
+    /// Eight times that of one triangle.
+    #[inline(always)]
+    pub fn only<S: Simd>(&self, simd: S, triangle: usize) -> Outlines<S> {
+        let splat = |each: &Each| f64x8::splat(simd, each[triangle]);
+        let side = |[x, y, slope]: &[Each; 3]| Sides { x: splat(x), y: splat(y), slope: splat(slope) };
+        let [long, upper, lower] = &self.sides;
+        Outlines {
+            long: side(long),
+            upper: side(upper),
+            lower: side(lower),
+            knee: splat(&self.knee),
+            end: splat(&self.end),
+        }
+    }
 }

@@ -1,29 +1,61 @@
 //! Numbers at three corners as planes over the picture.
 
-use super::rows::TriangleRow;
-use super::triangles::Point;
+use std::ops::{Mul, Sub};
 
-/// What turns numbers at three corners into planes over the picture, measured from the highest corner.
+use fearless_simd::prelude::*;
+use fearless_simd::{Simd, f64x8};
+
+use super::block::{Corners, Each};
+use super::rows::TriangleRow;
+
+/// What turns numbers at three corners into planes over the picture, measured from the highest corner: of one triangle,
+/// or of several at once.
 #[derive(Clone, Copy)]
-pub struct Slopes {
+pub struct Slopes<T> {
     /// The two other corners from the highest.
-    sides: [[f64; 2]; 2],
-    per_area: f64,
+    sides: [[T; 2]; 2],
+    per_area: T,
 }
 
-impl Slopes {
-    /// Of a triangle's corners, the highest first.
+impl<S: Simd> Slopes<f64x8<S>> {
+    /// Of the corners of triangles, the highest first.
     #[inline(always)]
-    pub fn new([top, middle, bottom]: [&Point; 3]) -> Self {
+    pub fn new(simd: S, [top, middle, bottom]: [&Corners<S>; 3]) -> Self {
         let [p, q] = [[middle.x - top.x, middle.y - top.y], [bottom.x - top.x, bottom.y - top.y]];
-        Self { sides: [p, q], per_area: 1.0 / (p[0] * q[1] - q[0] * p[1]) }
+        let one = f64x8::splat(simd, 1.0);
+        Self { sides: [p, q], per_area: one / (p[0] * q[1] - q[0] * p[1]) }
     }
+}
 
+impl<T: Copy + Mul<Output = T> + Sub<Output = T>> Slopes<T> {
     /// Change a column and a row of what is `top`, `middle` and `bottom` at the corners.
     #[inline(always)]
-    pub fn of(&self, [top, middle, bottom]: [f64; 3]) -> [f64; 2] {
+    pub fn of(&self, [top, middle, bottom]: [T; 3]) -> [T; 2] {
         let ([p, q], [u, v]) = (self.sides, [middle - top, bottom - top]);
         [(u * q[1] - v * p[1]) * self.per_area, (v * p[0] - u * q[0]) * self.per_area]
+    }
+}
+
+/// The slopes of the triangles of a block, to be looked up.
+#[derive(Clone, Copy)]
+pub struct KeptSlopes {
+    sides: [[Each; 2]; 2],
+    per_area: Each,
+}
+
+impl KeptSlopes {
+    #[inline(always)]
+    pub fn new<S: Simd>(Slopes { sides: [[a, b], [c, d]], per_area }: &Slopes<f64x8<S>>) -> Self {
+        let sides = [[(*a).into(), (*b).into()], [(*c).into(), (*d).into()]];
+        Self { sides, per_area: (*per_area).into() }
+    }
+
+    /// Those of one triangle.
+    #[inline(always)]
+    pub fn only(&self, triangle: usize) -> Slopes<f64> {
+        let [[a, b], [c, d]] = &self.sides;
+        let sides = [[a[triangle], b[triangle]], [c[triangle], d[triangle]]];
+        Slopes { sides, per_area: self.per_area[triangle] }
     }
 }
 

@@ -4,12 +4,13 @@
 //! corners are, and what is interpolated between them, is looked up while it is drawn, the latter only if a
 //! sample of it is seen.
 
-use fearless_simd::Simd;
+use fearless_simd::prelude::*;
+use fearless_simd::{Simd, f64x8};
 
-use super::polygons::{first_center, greater, lesser};
-use super::rows::TriangleRow;
-use super::sides::{Outline, ROWS, Spans};
-use super::slopes::{Plane, Planes, Slopes};
+use super::block::{BLOCK, Block, Corners, Each, first_centers, whole};
+use super::rows::{STEPS, TriangleRow};
+use super::sides::{KeptOutlines, Outlines, Spans};
+use super::slopes::{KeptSlopes, Plane, Planes, Slopes};
 use super::spans::Sink;
 
 /// A corner in the picture plane, without the numbers to interpolate; see [`super::Corner`].
@@ -54,107 +55,33 @@ impl<const N: usize> Table<N> for NoTable {
     }
 }
 
-/// Samples from the picture's corner within which planes are used.
-const FAR: f64 = (1u32 << 24) as f64;
-
-/// Twice the area over the square of the extent, below which a triangle is a sliver. The error of a plane at a
-/// corner is some 2⁻⁵³ over this, relative to what the number changes in the triangle: below that of an f32.
-const SLIVER: f64 = 1.0 / (1u32 << 26) as f64;
-
-/// How much nearer one corner may be than another.
-const MOST_KEY_RATIO: f64 = 16.0;
-
-/// Twice the area, positive if the corners run counterclockwise as the picture is looked at.
-#[inline]
-pub fn twice_area([a, b, c]: &[Point; 3]) -> f64 {
-    (b.y - a.y) * (c.x - a.x) - (b.x - a.x) * (c.y - a.y)
-}
-
-/// True if all numbers of a triangle can be had from planes through its corners, as precise as along its
-/// edges: it is no sliver, not far outside the picture, and not much nearer at one corner than at another.
-#[inline]
-pub fn is_regular(corners: &[Point; 3], is_perspective: bool) -> bool {
-    let [a, b, c] = corners;
-    let [(left, right), (top, bottom)] = [range(a.x, b.x, c.x), range(a.y, b.y, c.y)];
-    let (least, most) = range(a.key, b.key, c.key);
-    let extent = greater(right - left, bottom - top);
-    let is_near = (-FAR <= lesser(left, top)) & (greater(right, bottom) <= FAR);
-    let is_even = !is_perspective | ((0.0 < least) & (most <= MOST_KEY_RATIO * least));
-    // What is no number is in no sum that is greater than anything.
-    let is_number = a.key + b.key + c.key > f64::NEG_INFINITY;
-    is_near & is_even & is_number & (twice_area(corners).abs() > SLIVER * extent * extent)
-}
-
-/// The least and the greatest of three numbers.
-#[inline]
-fn range(p: f64, q: f64, r: f64) -> (f64, f64) {
-    (lesser(lesser(p, q), r), greater(greater(p, q), r))
-}
-
-/// The corners' places in a triangle, the highest first.
-#[inline(always)]
-fn by_row(corners: &[Point; 3]) -> [usize; 3] {
-    let [mut top, mut middle, mut bottom] = [0, 1, 2];
-    // Chosen and not branched to: nobody can tell beforehand which way a triangle lies.
-    for (upper, lower) in [(0, 1), (1, 2), (0, 1)] {
-        let order = [top, middle, bottom];
-        let (i, j) = (order[upper], order[lower]);
-        let is_wrong = corners[j].y < corners[i].y;
-        let (i, j) = (if is_wrong { j } else { i }, if is_wrong { i } else { j });
-        [top, middle, bottom] = if upper == 0 { [i, j, bottom] } else { [top, i, j] };
-    }
-    [top, middle, bottom]
-}
-
-/// A triangle whose outline is known.
-#[derive(Clone, Copy, Default)]
-struct Traced {
-    item: u32,
-    /// Rows of the table.
-    corners: [u32; 3],
-    points: [Point; 3],
-    /// Its corners from above.
-    order: [usize; 3],
-    /// The first row of samples, and one past the last.
-    rows: [u32; 2],
-    outline: Outline,
-    /// Of the first rows.
-    spans: Spans,
-}
-
-/// Triangles that are traced before the first of them is drawn. How many rows and samples a triangle has is not to be
-/// foreseen, so a processor often goes astray in the loops over them; meanwhile the outlines of the next are ready.
-#[derive(Default)]
+/// Triangles that wait to be drawn. How many rows and samples a triangle has is not to be foreseen, so a processor often
+/// goes astray in the loops over them; meanwhile what it needs of the next is ready. And it is found of several at once.
 pub struct Traces {
-    all: [Traced; AHEAD],
+    items: [u32; AHEAD],
+    /// Rows of the table.
+    corners: [[u32; 3]; AHEAD],
+    blocks: [Block; AHEAD / BLOCK],
     n: usize,
 }
 
 /// How many they are.
-const AHEAD: usize = 16;
+const AHEAD: usize = 2 * BLOCK;
+
+impl Default for Traces {
+    fn default() -> Self {
+        Self { items: [0; AHEAD], corners: [[0; 3]; AHEAD], blocks: Default::default(), n: 0 }
+    }
+}
 
 impl Traces {
-    /// Traces a [regular](is_regular) triangle in some rows and columns of samples. True if there is no room for another.
+    /// Adds a [regular](super::Findings) triangle. True if there is no room for another.
     #[inline(always)]
-    pub fn push<S: Simd>(
-        &mut self,
-        simd: S,
-        points: [Point; 3],
-        item: u32,
-        corners: [u32; 3],
-        [first, end]: [u32; 2],
-        columns: [u32; 2],
-    ) -> bool {
-        let order = by_row(&points);
-        let sorted @ [top, middle, bottom] = [&points[order[0]], &points[order[1]], &points[order[2]]];
-        let row_of = |corner: &Point| first_center(corner.y, end).max(first);
-        let (first, knee, end) = (row_of(top), row_of(middle), row_of(bottom));
-        let outline = Outline::new(sorted, knee);
-        let rows = [first, end];
-        let (spans, has_samples) = outline.spans(simd, rows, columns);
-        self.all[self.n] = Traced { item, corners, points, order, rows, outline, spans };
-        // Many small triangles lie between samples.
-        self.n += usize::from(has_samples | (end - first > ROWS as u32));
+    pub fn push(&mut self, item: u32, corners: [u32; 3], points: [Point; 3]) -> bool {
+        self.items[self.n] = item;
+        self.corners[self.n] = corners;
+        self.blocks[self.n / BLOCK].set(self.n % BLOCK, points);
+        self.n += 1;
         self.n == AHEAD
     }
 
@@ -167,62 +94,178 @@ impl Traces {
         is_perspective: bool,
         table: &(impl Table<N> + ?Sized),
     ) {
-        for traced in &self.all[..self.n] {
-            traced.draw(simd, sink, is_perspective, table);
+        for (block, first) in self.blocks.iter().zip((0..self.n).step_by(BLOCK)) {
+            let traced = Traced::new(simd, block, self.n - first, sink.rows(), sink.columns());
+            let mut left = traced.has_samples;
+            while left != 0 {
+                let triangle = left.trailing_zeros() as usize;
+                left &= left - 1;
+                let item = self.items[first + triangle];
+                let find = |planes: &mut [Plane; N]| {
+                    let mut numbers = table.numbers(item, self.corners[first + triangle]);
+                    if is_perspective {
+                        for (numbers, corner) in numbers.iter_mut().zip(block.points(triangle)) {
+                            numbers.iter_mut().for_each(|number| *number *= corner.key);
+                        }
+                    }
+                    traced.find_planes(triangle, numbers, planes);
+                };
+                traced.draw(simd, triangle, sink, is_perspective, item, &mut Planes::new(find));
+            }
         }
         self.n = 0;
     }
 }
 
+/// The triangles of a block, whose outlines are known.
+struct Traced {
+    /// Where the highest corner is, and which of the three it and the others are, downwards.
+    x: Each,
+    y: Each,
+    key: Each,
+    order: [Each; 3],
+    key_a_column: Each,
+    key_a_row: Each,
+    slopes: KeptSlopes,
+    outlines: KeptOutlines,
+    /// The first row of samples, and one past the last.
+    rows: [[i32; BLOCK]; 2],
+    /// Of the first row of each, of the second, and so on.
+    spans: [Spans; AT_ONCE],
+    /// Those of the triangles that have samples: triangle i is bit i.
+    has_samples: u64,
+}
+
+/// Rows of all triangles that are found together; the rest are found for each.
+const AT_ONCE: usize = 8;
+
+/// Swaps corners if the second is higher.
+#[inline(always)]
+fn swap<S: Simd>((a, i): &mut (Corners<S>, f64x8<S>), (b, j): &mut (Corners<S>, f64x8<S>)) {
+    let is_wrong = b.y.simd_lt(a.y);
+    for (a, b) in [(&mut a.x, &mut b.x), (&mut a.y, &mut b.y), (&mut a.key, &mut b.key), (i, j)] {
+        (*a, *b) = (is_wrong.select(*b, *a), is_wrong.select(*a, *b));
+    }
+}
+
 impl Traced {
+    /// Traces the first `n` of a block in some rows and columns of samples.
+    #[inline(always)]
+    fn new<S: Simd>(
+        simd: S,
+        block: &Block,
+        n: usize,
+        [first_row, end_row]: [u32; 2],
+        columns: [u32; 2],
+    ) -> Self {
+        let number = |number: f64| f64x8::splat(simd, number);
+        // The corners from above. Chosen and not branched to: nobody can tell beforehand which way a triangle lies.
+        let corner = |which: usize| (block.corners(simd, which), number(which as f64));
+        let (mut top, mut middle, mut bottom) = (corner(0), corner(1), corner(2));
+        swap(&mut top, &mut middle);
+        swap(&mut middle, &mut bottom);
+        swap(&mut top, &mut middle);
+        let order = [top.1.into(), middle.1.into(), bottom.1.into()];
+        let sorted @ [top, middle, bottom] = [&top.0, &middle.0, &bottom.0];
+        let (picture_top, picture_bottom) = (number(f64::from(first_row)), number(f64::from(end_row)));
+        let row_of = |corner: &Corners<S>| first_centers(corner.y, picture_top, picture_bottom);
+        let (first, knee) = (row_of(top), row_of(middle));
+        let steps: f64x8<S> = STEPS.simd_into(simd);
+        let end = steps.simd_lt(number(n as f64)).select(row_of(bottom), first);
+        let outlines = Outlines::new(simd, sorted, knee, end);
+        let slopes = Slopes::new(simd, sorted);
+        let [key_a_column, key_a_row] = slopes.of([top.key, middle.key, bottom.key]);
+        let n_rows = end - first;
+        let mut has_samples = n_rows.simd_gt(number(AT_ONCE as f64)).to_bitmask();
+        let mut spans = [[[0; BLOCK]; 2]; AT_ONCE];
+        for (row, spans) in spans.iter_mut().enumerate() {
+            if !n_rows.simd_gt(number(row as f64)).any_true() {
+                break;
+            }
+            let has_some;
+            (*spans, has_some) = outlines.spans(simd, first + (row as f64 + 0.5), columns);
+            has_samples |= has_some;
+        }
+        Self {
+            x: top.x.into(),
+            y: top.y.into(),
+            key: top.key.into(),
+            order,
+            key_a_column: key_a_column.into(),
+            key_a_row: key_a_row.into(),
+            slopes: KeptSlopes::new(&slopes),
+            outlines: KeptOutlines::new(&outlines),
+            rows: whole(simd, first, end),
+            spans,
+            has_samples,
+        }
+    }
+
+    /// Draws one of the triangles.
     #[inline(always)]
     fn draw<const N: usize, S: Simd>(
         &self,
         simd: S,
+        triangle: usize,
         sink: &mut impl Sink<N>,
         is_perspective: bool,
-        table: &(impl Table<N> + ?Sized),
+        item: u32,
+        planes: &mut Planes<N, impl Fn(&mut [Plane; N])>,
     ) {
-        let Self { points, order, .. } = self;
-        let sorted @ [top, middle, bottom] = [&points[order[0]], &points[order[1]], &points[order[2]]];
-        let slopes = Slopes::new(sorted);
-        let find = |planes: &mut [Plane; N]| {
-            let mut numbers = table.numbers(self.item, self.corners);
-            if is_perspective {
-                for (numbers, corner) in numbers.iter_mut().zip(points) {
-                    numbers.iter_mut().for_each(|number| *number *= corner.key);
-                }
+        let [first, end] = [self.rows[0][triangle], self.rows[1][triangle]];
+        for (row, [starts, ends]) in (first..end).zip(&self.spans) {
+            let columns = [starts[triangle], ends[triangle]];
+            self.draw_row(simd, triangle, sink, [row, columns[0], columns[1]], is_perspective, item, planes);
+        }
+        if end - first <= AT_ONCE as i32 {
+            return;
+        }
+        let outline = self.outlines.only(simd, triangle);
+        let steps: f64x8<S> = STEPS.simd_into(simd);
+        for first in (first + AT_ONCE as i32..end).step_by(BLOCK) {
+            let ([starts, ends], _) = outline.spans(simd, steps + (f64::from(first) + 0.5), sink.columns());
+            for ((row, start), last) in (first..end).zip(starts).zip(ends) {
+                self.draw_row(simd, triangle, sink, [row, start, last], is_perspective, item, planes);
             }
-            for (i, plane) in planes.iter_mut().enumerate() {
-                let [top, middle, bottom] = *order;
-                let [a_column, a_row] = slopes.of([numbers[top][i], numbers[middle][i], numbers[bottom][i]]);
-                *plane = Plane { at_top: numbers[top][i], a_row, a_column };
-            }
+        }
+    }
+
+    /// Draws a row of one of them.
+    #[inline(always)]
+    #[allow(clippy::too_many_arguments)]
+    fn draw_row<const N: usize, S: Simd>(
+        &self,
+        simd: S,
+        triangle: usize,
+        sink: &mut impl Sink<N>,
+        [row, start, end]: [i32; 3],
+        is_perspective: bool,
+        item: u32,
+        planes: &mut Planes<N, impl Fn(&mut [Plane; N])>,
+    ) {
+        if start >= end {
+            return;
+        }
+        let down = f64::from(row) + 0.5 - self.y[triangle];
+        let line = TriangleRow {
+            row: row as u32,
+            columns: [start as u32, end as u32],
+            from: self.x[triangle],
+            down,
+            key: self.key[triangle] + down * self.key_a_row[triangle],
+            key_a_column: self.key_a_column[triangle],
         };
-        let mut planes = Planes::new(find);
-        let [key_a_column, key_a_row] = slopes.of([top.key, middle.key, bottom.key]);
-        let ([first, end], columns) = (self.rows, sink.columns());
-        let mut spans = self.spans;
-        for first in (first..end).step_by(ROWS) {
-            if first > self.rows[0] {
-                (spans, _) = self.outline.spans(simd, [first, end], columns);
-            }
-            let [starts, ends] = &spans;
-            for ((row, &start), &end) in (first..end).zip(starts).zip(ends) {
-                if start >= end {
-                    continue;
-                }
-                let down = f64::from(row) + 0.5 - top.y;
-                let line = TriangleRow {
-                    row,
-                    columns: [start as u32, end as u32],
-                    from: top.x,
-                    down,
-                    key: top.key + down * key_a_row,
-                    key_a_column,
-                };
-                sink.draw_line(simd, &line, is_perspective, self.item, &mut planes);
-            }
+        sink.draw_line(simd, &line, is_perspective, item, planes);
+    }
+
+    /// The planes of the numbers at the corners of one of them.
+    #[inline(always)]
+    fn find_planes<const N: usize>(&self, triangle: usize, numbers: [[f64; N]; 3], planes: &mut [Plane; N]) {
+        let slopes = self.slopes.only(triangle);
+        let [top, middle, bottom] = [0, 1, 2].map(|place| self.order[place][triangle] as usize);
+        for (i, plane) in planes.iter_mut().enumerate() {
+            let [a_column, a_row] = slopes.of([numbers[top][i], numbers[middle][i], numbers[bottom][i]]);
+            *plane = Plane { at_top: numbers[top][i], a_row, a_column };
         }
     }
 }
