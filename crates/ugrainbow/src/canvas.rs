@@ -3,7 +3,7 @@
 use std::borrow::Borrow;
 
 use fearless_simd::prelude::*;
-use fearless_simd::{Level, Simd, dispatch, f32x8, i32x8};
+use fearless_simd::{Level, Simd, dispatch, f32x16, i32x16};
 use rayon::prelude::*;
 use ugimage::{Development, Frame, HALF, LinearFrame, Quantizer, auto_exposure, display_pixel};
 use ugphysics::srgb_decode;
@@ -68,9 +68,7 @@ impl Canvas {
     fn display(setup: &Setup<'_>, sheet: &Sheet<'_>, config: &Config) -> Self {
         let grid = &setup.grid;
         let finish = Display::new(config);
-        // Zeros come from the system as they are touched, on the threads that paint.
-        let mut pixels = vec![[0; 4]; grid.width as usize * grid.height as usize];
-        let tally = sheet.paint::<(), _>(grid, &setup.shader, &mut pixels, &finish);
+        let (pixels, tally) = sheet.paint::<(), _>(grid, &setup.shader, &finish);
         let frame = Frame::new([grid.width, grid.height], finish.ground.is_opaque(), pixels);
         Self { drawn: Drawn::Display(frame), tally, development: None }
     }
@@ -80,17 +78,12 @@ impl Canvas {
 pub struct Display {
     ground: Ground,
     quantizer: Quantizer,
-    /// Of a pixel that shows nothing.
-    empty: [u8; 4],
 }
 
 impl Display {
     /// That of a picture.
     pub fn new(config: &Config) -> Self {
-        let (ground, quantizer) = (Ground::new(config), Quantizer::new());
-        let mut display = Self { ground, quantizer, empty: [0; 4] };
-        display.empty = display.pixel(&Gathered::<()>::EMPTY);
-        display
+        Self { ground: Ground::new(config), quantizer: Quantizer::new() }
     }
 }
 
@@ -105,67 +98,74 @@ impl<T> Finish<T, [u8; 4]> for Display {
 }
 
 impl Direct<[u8; 4]> for Display {
-    fn empty(&self) -> [u8; 4] {
-        self.empty
-    }
-
     fn pixels(&self, keys: &[f32], levels: &[[f32; RUN]; 3], pixels: &mut [[u8; 4]]) {
-        dispatch!(Level::new(), simd => write_levels(simd, keys, levels, self.empty, pixels));
+        dispatch!(Level::new(), simd => write_levels(simd, keys, levels, pixels));
     }
 }
 
-/// Levels, 0…1, to the nearest of 256.
+/// Levels, 0…1, to the nearest of 256, where there are depth keys.
 #[inline(always)] // Compiled for what the processor can do to many numbers at once.
 fn write_levels<S: Simd>(
     simd: S,
     keys: &[f32],
     levels: &[[f32; RUN]; 3],
-    empty: [u8; 4],
     pixels: &mut [[u8; 4]],
 ) {
     let [red, green, blue] = levels;
     let all = red.as_chunks().0.iter().zip(green.as_chunks().0).zip(blue.as_chunks().0);
-    let empty = i32x8::splat(simd, i32::from_le_bytes(empty));
     for ((keys, pixels), ((red, green), blue)) in keys.chunks(LANES).zip(pixels.chunks_mut(LANES)).zip(all) {
         let (red, green, blue) = (bytes(simd, red), bytes(simd, green), bytes(simd, blue));
-        let shown = red | green << 8 | blue << 16 | i32x8::splat(simd, i32::from_le_bytes([0, 0, 0, 255]));
-        let mut all_keys = [f32::NEG_INFINITY; LANES];
-        all_keys[..keys.len()].copy_from_slice(keys);
-        let is_shown = f32x8::from_slice(simd, &all_keys).simd_gt(f32x8::splat(simd, f32::NEG_INFINITY));
-        let shown: [i32; LANES] = is_shown.select(shown, empty).into();
-        for (pixel, shown) in pixels.iter_mut().zip(shown) {
-            *pixel = shown.to_le_bytes();
+        let shown = red | green << 8 | blue << 16 | i32x16::splat(simd, i32::from_le_bytes([0, 0, 0, 255]));
+        if let (Some(keys), Some(pixels)) = (keys.first_chunk(), pixels.first_chunk_mut()) {
+            show(simd, keys, shown, pixels);
+        } else {
+            let (mut all_keys, mut all_pixels) = ([f32::NEG_INFINITY; LANES], [[0; 4]; LANES]);
+            all_keys[..keys.len()].copy_from_slice(keys);
+            all_pixels[..pixels.len()].copy_from_slice(pixels);
+            show(simd, &all_keys, shown, &mut all_pixels);
+            pixels.copy_from_slice(&all_pixels[..pixels.len()]);
         }
     }
 }
 
+/// Sets pixels where there are depth keys.
+#[inline(always)]
+fn show<S: Simd>(simd: S, keys: &[f32; LANES], shown: i32x16<S>, pixels: &mut [[u8; 4]; LANES]) {
+    let is_shown = f32x16::from_slice(simd, keys).simd_gt(f32x16::splat(simd, f32::NEG_INFINITY));
+    let mut all = [0; LANES];
+    for (all, pixel) in all.iter_mut().zip(&*pixels) {
+        *all = i32::from_le_bytes(*pixel);
+    }
+    let all: [i32; LANES] = is_shown.select(shown, i32x16::from_slice(simd, &all)).into();
+    for (pixel, all) in pixels.iter_mut().zip(all) {
+        *pixel = all.to_le_bytes();
+    }
+}
+
 /// Levels that are rounded together.
-const LANES: usize = 8;
+const LANES: usize = 16;
 
 /// The levels of 256 nearest to some of 0…1.
 #[inline(always)]
-fn bytes<S: Simd>(simd: S, levels: &[f32; LANES]) -> i32x8<S> {
+fn bytes<S: Simd>(simd: S, levels: &[f32; LANES]) -> i32x16<S> {
     // What stands behind the point is cut off.
-    simd.cvt_i32_f32x8(f32x8::from_slice(simd, levels) * 255.0 + HALF as f32)
+    simd.cvt_i32_f32x16(f32x16::from_slice(simd, levels) * 255.0 + HALF as f32)
 }
 
 /// The whole picture as light, with the planes that are asked for.
 pub fn light(setup: &Setup<'_>, sheet: &Sheet<'_>, config: &Config) -> (LinearFrame, Tally) {
     let grid = &setup.grid;
     let ground = Ground::new(config);
-    let n_pixels = grid.width as usize * grid.height as usize;
     let frame = |pixels| LinearFrame::new([grid.width, grid.height], ground.is_opaque(), pixels);
     if config.channels.is_empty() {
-        let mut pixels = vec![[0.0; 4]; n_pixels];
-        let tally =
-            sheet.paint(grid, &setup.shader, &mut pixels, &|all: &Gathered<'_, ()>| ground.pixel(all));
+        let (pixels, tally) =
+            sheet.paint(grid, &setup.shader, &|all: &Gathered<'_, ()>| ground.pixel(all));
         return (frame(pixels), tally);
     }
-    let mut pixels: Vec<([f32; 4], Option<Seen<u32>>)> = vec![([0.0; 4], None); n_pixels];
-    let tally = sheet.paint(grid, &setup.shader, &mut pixels, &|all: &Gathered<'_, u32>| {
+    let (pixels, tally) = sheet.paint(grid, &setup.shader, &|all: &Gathered<'_, u32>| {
         (ground.pixel(all), front(&setup.view, all))
     });
-    let (pixels, seen): (Vec<_>, Vec<_>) = pixels.into_iter().unzip();
+    let (pixels, seen): (Vec<[f32; 4]>, Vec<Option<Seen<u32>>>) = pixels.into_iter().unzip();
     let mut frame = frame(pixels);
     let painter = setup.painter();
     let finder = Finder::new(&painter);

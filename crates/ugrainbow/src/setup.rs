@@ -76,9 +76,7 @@ impl<'a> Setup<'a> {
     /// The least and greatest depth seen, to four digits so that they can be told.
     fn depths(&self, config: &Config) -> Option<[f64; 2]> {
         let sheet = Sheet::new(self.painter(), &config.manner());
-        let n_pixels = self.grid.width as usize * self.grid.height as usize;
-        let mut keys = vec![[f32::INFINITY, f32::NEG_INFINITY]; n_pixels];
-        sheet.paint(&self.grid, &self.shader, &mut keys, &|all: &Gathered<'_, u32>| {
+        let (keys, _) = sheet.paint(&self.grid, &self.shader, &|all: &Gathered<'_, u32>| {
             let solid = all.center.iter().map(|seen| seen.key);
             let keys = solid.chain(all.layers.iter().map(|layer| layer.key));
             keys.fold([f32::INFINITY, f32::NEG_INFINITY], |[low, high], key| [low.min(key), high.max(key)])

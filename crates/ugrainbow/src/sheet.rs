@@ -213,22 +213,21 @@ impl<'a> Sheet<'a> {
         (has_faces || !self.clear.strokes.is_empty()).then_some(Lit { layers: &self.clear, shader })
     }
 
-    /// Draws all pixels of the grid. `finish` makes a pixel of its samples.
-    pub fn paint<T: Tag, P: Copy + Send>(
+    /// Draws all pixels of the grid, row after row. `finish` makes a pixel of its samples.
+    pub fn paint<T: Tag, P: Copy + Send + Sync>(
         &self,
         grid: &Grid,
         shader: &Shader,
-        pixels: &mut [P],
         finish: &impl Finish<T, P>,
-    ) -> Tally {
+    ) -> (Vec<P>, Tally) {
         let lit = self.lit(shader);
         let clear = lit.as_ref().map(|lit| lit as &dyn Clear);
         let progress = self.progress;
-        with_layers!(&self.solid, |layers| paint(pixels, grid, layers, clear, shader, finish, progress))
+        with_layers!(&self.solid, |layers| paint(grid, layers, clear, shader, finish, progress))
     }
 
     /// The samples of one pixel, what they gather to, and what `finish` makes of it.
-    pub fn probe<P: Copy + Default>(
+    pub fn probe<P: Copy>(
         &self,
         grid: &Grid,
         shader: &Shader,

@@ -39,8 +39,7 @@ impl Depths {
     pub fn new(setup: &Setup<'_>, manner: &Manner) -> Self {
         let grid = &setup.grid;
         let sheet = Sheet::new(setup.painter(), manner);
-        let mut seen = vec![None; grid.width as usize * grid.height as usize];
-        sheet.paint(grid, &setup.shader, &mut seen, &|all: &Gathered<'_, u32>| all.center);
+        let (seen, _) = sheet.paint(grid, &setup.shader, &|all: &Gathered<'_, u32>| all.center);
         Self { size: [grid.width, grid.height], is_perspective: grid.is_perspective, seen }
     }
 

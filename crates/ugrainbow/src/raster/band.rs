@@ -11,7 +11,7 @@ use super::cue::Cue;
 use super::edges::Scanner;
 use super::glass::{Clear, Glass, Keep};
 use super::polygons::{Drawn, PolygonList};
-use super::resolve::{Finish, Resolver};
+use super::resolve::{Finish, Gathered, Resolver};
 use super::shading::{Shading, Tally};
 use super::spans::{Sink, Tag, Tile};
 use super::triangles::{Table, Traces};
@@ -165,31 +165,31 @@ impl<const N: usize, C: Table<N> + ?Sized> Shapes<'_, N, C> {
     }
 }
 
-/// Draws a layer, and what is clear before it, into the pixels of the grid, row after row.
+/// Draws a layer, and what is clear before it: the pixels of the grid, row after row.
 ///
-/// The pixels do not depend on the number of threads. `finish` makes a pixel of its samples. `progress` is told of a step
+/// They do not depend on the number of threads. `finish` makes a pixel of its samples. `progress` is told of a step
 /// of as many parts as there are bands.
 pub fn paint<const N: usize, L, T, P, S, F>(
-    pixels: &mut [P],
     grid: &Grid,
     layer: &L,
     clear: Option<&dyn Clear>,
     shader: &S,
     finish: &F,
     progress: &dyn Progress,
-) -> Tally
+) -> (Vec<P>, Tally)
 where
     L: Layer<N> + ?Sized,
     T: Tag,
-    P: Copy + Send,
+    P: Copy + Send + Sync,
     S: Shading<N>,
     F: Finish<T, P>,
 {
     let band_pixels = grid.band_rows() as usize * grid.width as usize;
+    let mut pixels = filled(finish.pixel(&Gathered::EMPTY), grid.width as usize * grid.height as usize);
     progress.step("drawing", pixels.len().div_ceil(band_pixels) as u64);
     // Buffers go from band to band: as many as there are threads, and touched once.
     let buffers = Buffers::default();
-    pixels
+    let tally = pixels
         .par_chunks_mut(band_pixels)
         .with_max_len(1)
         .enumerate()
@@ -202,7 +202,18 @@ where
             progress.done(1);
             resolver.tally
         })
-        .reduce(Tally::default, Tally::merge)
+        .reduce(Tally::default, Tally::merge);
+    (pixels, tally)
+}
+
+/// As many of a value, written by all threads.
+fn filled<P: Copy + Send + Sync>(value: P, len: usize) -> Vec<P> {
+    // Many together, for a list that is made in parallel takes its elements one by one.
+    const TOGETHER: usize = 64;
+    let parts: Vec<[P; TOGETHER]> = rayon::iter::repeat_n([value; TOGETHER], len.div_ceil(TOGETHER)).collect();
+    let mut all = parts.into_flattened();
+    all.truncate(len);
+    all
 }
 
 /// Buffers that no thread uses just now.

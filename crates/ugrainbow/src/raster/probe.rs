@@ -31,7 +31,7 @@ pub struct Surface {
 
 /// The samples of a pixel that show something, row after row, what they add up to, and the pixel: the very numbers that
 /// [`super::paint`] computes, for no sample depends on where a tile begins.
-pub fn probe<const N: usize, L: Layer<N> + ?Sized, P: Copy + Default>(
+pub fn probe<const N: usize, L: Layer<N> + ?Sized, P: Copy>(
     grid: &Grid,
     layer: &L,
     clear: Option<&dyn Clear>,
@@ -63,7 +63,7 @@ pub fn probe<const N: usize, L: Layer<N> + ?Sized, P: Copy + Default>(
     }
     let mut resolver = Resolver::new(shader, finish, grid);
     let Gathered { sum, covered, center, .. } = resolver.gather(&tile, &glass, [column, row]);
-    let mut pixel = [P::default()];
+    let mut pixel = [finish.pixel(&Gathered::EMPTY)];
     resolver.paint(&tile, &glass, column, row, &mut pixel);
     (samples, Gathered { sum, covered, center, layers: &[] }, pixel[0])
 }

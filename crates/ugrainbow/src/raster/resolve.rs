@@ -31,7 +31,7 @@ impl<T: Copy> Gathered<'_, T> {
 
 /// Makes pixels of samples.
 pub trait Finish<T, P>: Sync {
-    /// A pixel of its samples.
+    /// A pixel of its samples; also asked once what a pixel is that shows nothing.
     fn pixel(&self, all: &Gathered<'_, T>) -> P;
 
     /// What makes pixels of single samples without asking for their linear light, if anything can.
@@ -48,10 +48,8 @@ impl<T, P, F: Fn(&Gathered<'_, T>) -> P + Sync> Finish<T, P> for F {
 
 /// Makes pixels of samples that are pixels by themselves.
 pub trait Direct<P> {
-    /// A pixel that shows nothing.
-    fn empty(&self) -> P;
-
-    /// `keys`: depth keys, −∞ where nothing is shown. `levels`: display-encoded red, green and blue.
+    /// Pixels that show something. `keys`: depth keys, −∞ where nothing is shown, and pixels stay as they are. `levels`:
+    /// display-encoded red, green and blue.
     fn pixels(&self, keys: &[f32], levels: &[[f32; RUN]; 3], pixels: &mut [P]);
 }
 
@@ -85,7 +83,7 @@ impl<'a, S, F> Resolver<'a, S, F> {
         }
     }
 
-    /// Paints the pixels of a row from column `first` on.
+    /// Paints the pixels of a row from column `first` on that show something; the others stay as they are.
     pub fn paint<const N: usize, T: Tag, P: Copy>(
         &mut self,
         tile: &Tile<N, T>,
@@ -101,16 +99,10 @@ impl<'a, S, F> Resolver<'a, S, F> {
             return self.paint_direct(tile, direct, first, row, pixels);
         }
         self.add_up(tile, glass, first, row, pixels.len() as u32);
-        // All pixels without a sample are alike.
-        let mut empty = None;
         for ((column, sums), pixel) in (first..).zip(&self.sums).zip(pixels) {
             let all = gathered(self.grid, tile, glass, [column, row], sums);
-            *pixel = match empty {
-                Some(empty) if all.is_empty() => empty,
-                _ => self.finish.pixel(&all),
-            };
-            if all.is_empty() {
-                empty = Some(*pixel);
+            if !all.is_empty() {
+                *pixel = self.finish.pixel(&all);
             }
         }
     }
@@ -129,14 +121,12 @@ impl<'a, S, F> Resolver<'a, S, F> {
         pixels: &mut [P],
     ) where
         S: Shading<N>,
-        P: Clone,
     {
         let (keys, values) = tile.row_part(row, first, first + pixels.len() as u32);
         for (run, pixels) in pixels.chunks_mut(RUN).enumerate() {
             let run = run * RUN..run * RUN + pixels.len();
             let keys = &keys[run.clone()];
             if is_empty(keys) {
-                pixels.fill(direct.empty());
                 continue;
             }
             self.shader.shade(values.map(|all| &all[run.clone()]), Scale::Display, &mut self.shades);

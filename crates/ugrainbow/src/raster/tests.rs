@@ -192,10 +192,8 @@ fn triangles_are_drawn_like_polygons() {
         polygons.sort_into_bands(&grid);
         let table = Triangles(table);
         let draw = |list: PolygonList<1>| {
-            let mut pixels = vec![(0.0, 0.0, None); 60 * 50];
             let layer = Shapes { lists: &[list], table: &table };
-            paint(
-                &mut pixels,
+            let (pixels, _) = paint(
                 &grid,
                 &layer,
                 None,
@@ -242,11 +240,8 @@ fn painted(polygons: &[Vec<Corner<1>>], grid: &Grid) -> Vec<f32> {
     let lists = [list];
     let layer = Shapes { lists: &lists, table: &NoTable };
     let mean = |sum: [f32; 3]| sum[0] / (grid.samples * grid.samples) as f32;
-    let mut pixels = vec![0.0; grid.width as usize * grid.height as usize];
-    paint(&mut pixels, grid, &layer, None, &Grey, &|all: &Gathered<'_, ()>| mean(all.sum), &());
-    let mut marked = vec![(0.0, None); pixels.len()];
-    paint(
-        &mut marked,
+    let (pixels, _) = paint(grid, &layer, None, &Grey, &|all: &Gathered<'_, ()>| mean(all.sum), &());
+    let (marked, _) = paint(
         grid,
         &layer,
         None,

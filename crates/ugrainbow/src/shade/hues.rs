@@ -41,17 +41,29 @@ pub fn encode(Pure { hue, fade, saturation }: Pure, values: [f32; 3], ceiling: f
     (levels, greater(greater(greater(0.0, red), green), blue))
 }
 
-/// The light of many samples: hue, what is left of it, saturation and value of each.
+/// True if all numbers are between two, or these.
+pub fn all_between(level: Level, numbers: &[f32], ends: [f32; 2]) -> bool {
+    dispatch!(level, simd => are_between(simd, numbers, ends))
+}
+
+#[inline(always)] // Compiled for what the processor can do to many numbers at once.
+fn are_between<S: Simd>(_: S, numbers: &[f32], [least, most]: [f32; 2]) -> bool {
+    // All are looked at, which is faster than to look for one.
+    numbers.iter().fold(true, |all, &number| all & (least <= number) & (number <= most))
+}
+
+/// The light of many samples: hue, saturation and value of each, and what is left of the hue, which is all if not given.
 pub fn encode_all(
     level: Level,
-    numbers: [&[f32]; 4],
+    numbers: [&[f32]; 3],
+    fades: Option<&[f32]>,
     lights: Lights<'_>,
     ceiling: f32,
     scale: Scale,
     shades: &mut Shades,
 ) {
     let n = numbers[0].len();
-    dispatch!(level, simd => encode_run(simd, numbers, lights, ceiling, shades));
+    dispatch!(level, simd => encode_run(simd, numbers, fades, lights, ceiling, shades));
     if scale == Scale::Display {
         return;
     }
@@ -68,24 +80,34 @@ pub fn encode_all(
 #[inline(always)]
 fn encode_run<S: Simd>(
     _: S,
-    [hues, fades, saturations, values]: [&[f32]; 4],
+    [hues, saturations, values]: [&[f32]; 3],
+    fades: Option<&[f32]>,
     lights: Lights<'_>,
     ceiling: f32,
     shades: &mut Shades,
 ) {
     let n = hues.len().min(RUN);
-    let (hues, fades, saturations, values) = (&hues[..n], &fades[..n], &saturations[..n], &values[..n]);
+    let (hues, saturations, values) = (&hues[..n], &saturations[..n], &values[..n]);
     let [red, green, blue] = &mut shades.light;
     let (red, green, blue) = (&mut red[..n], &mut green[..n], &mut blue[..n]);
     let intensities = &mut shades.intensity[..n];
-    let pure = |i: usize| Pure { hue: hues[i], fade: fades[i], saturation: saturations[i] };
-    match lights {
-        None => {
+    // Of bright hues nothing is divided, if it is known here that they are.
+    let bright = |i: usize| Pure { hue: hues[i], fade: 1.0, saturation: saturations[i] };
+    let pure = |i: usize| fades.map_or(bright(i), |fades| Pure { fade: fades[i], ..bright(i) });
+    match (fades, lights) {
+        (None, None) => {
             for i in 0..n {
-                ([red[i], green[i], blue[i]], intensities[i]) = encode(pure(i), [values[i]; 3], ceiling);
+                ([red[i], green[i], blue[i]], intensities[i]) = encode(bright(i), [values[i]; 3], ceiling);
             }
         }
-        Some([reds, greens, blues]) => {
+        (Some(fades), None) => {
+            let fades = &fades[..n];
+            for i in 0..n {
+                let pure = Pure { fade: fades[i], ..bright(i) };
+                ([red[i], green[i], blue[i]], intensities[i]) = encode(pure, [values[i]; 3], ceiling);
+            }
+        }
+        (_, Some([reds, greens, blues])) => {
             let (reds, greens, blues) = (&reds[..n], &greens[..n], &blues[..n]);
             for i in 0..n {
                 let values = [values[i] * reds[i], values[i] * greens[i], values[i] * blues[i]];

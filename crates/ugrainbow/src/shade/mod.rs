@@ -8,7 +8,7 @@ use ugphysics::{attenuation, hue_to_wavelength, srgb_decode, srgb_encode, wavele
 
 use crate::config::Interpolation;
 use crate::raster::{RUN, Scale, Shade, Shades, Shading};
-use hues::{Lights, Pure, encode, encode_all};
+use hues::{Lights, Pure, all_between, encode, encode_all};
 use transfer::decode;
 
 /// Cells of each table of the attenuation over the hue.
@@ -78,7 +78,6 @@ impl Shader {
         scale: Scale,
         shades: &mut Shades,
     ) {
-        const BRIGHT: [f32; RUN] = [1.0; RUN];
         let n = tints.len();
         let (mut own_hues, mut own_fades) = ([0.0; RUN], [0.0; RUN]);
         let hues = match self.interpolation {
@@ -88,10 +87,9 @@ impl Shader {
                 &own_hues[..n]
             }
         };
-        let is_bright = tints.iter().fold(true, |all, tint| all & self.is_bright(*tint));
-        let fades = if is_bright {
+        let fades = if all_between(self.level, tints, self.bright_tints()) {
             shades.is_out_of_range = [false; RUN];
-            &BRIGHT
+            None
         } else {
             for ((fade, &tint), &saturation) in own_fades.iter_mut().zip(tints).zip(saturations) {
                 *fade = self.fade(tint, saturation);
@@ -99,9 +97,9 @@ impl Shader {
             for (is_out, fade) in shades.is_out_of_range.iter_mut().zip(&own_fades) {
                 *is_out = *fade == 0.0;
             }
-            &own_fades
+            Some(&own_fades[..n])
         };
-        encode_all(self.level, [hues, &fades[..n], saturations, values], lights, self.ceiling, scale, shades);
+        encode_all(self.level, [hues, saturations, values], fades, lights, self.ceiling, scale, shades);
     }
 
     #[inline]
@@ -112,12 +110,11 @@ impl Shader {
         }
     }
 
-    /// True if a tint is certainly not attenuated.
-    #[inline]
-    fn is_bright(&self, tint: f32) -> bool {
+    /// The ends of the tints that are certainly not attenuated.
+    fn bright_tints(&self) -> [f32; 2] {
         match self.interpolation {
-            Interpolation::Hue => (0.0..=240.0).contains(&tint),
-            Interpolation::Wavelength => (436.0..=700.0).contains(&tint),
+            Interpolation::Hue => [0.0, 240.0],
+            Interpolation::Wavelength => [436.0, 700.0],
         }
     }
 

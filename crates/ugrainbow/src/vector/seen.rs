@@ -19,9 +19,8 @@ pub struct Faces {
 pub fn faces(setup: &Setup<'_>, sheet: &Sheet<'_>) -> Faces {
     let scene = setup.scene();
     let is_seen: Vec<AtomicBool> = scene.faces.iter().map(|_| AtomicBool::new(false)).collect();
-    let n_pixels = setup.grid.width as usize * setup.grid.height as usize;
     // Pixels of nothing take no memory. In which order faces are found makes no difference.
-    sheet.paint(&setup.grid, &setup.shader, &mut vec![(); n_pixels], &|all: &Gathered<'_, u32>| {
+    sheet.paint(&setup.grid, &setup.shader, &|all: &Gathered<'_, u32>| {
         let clear = all.layers.iter().filter(|layer| !layer.is_line).map(|layer| layer.item);
         for item in all.center.iter().map(|seen| seen.tag).chain(clear) {
             if let Some(face) = is_seen.get(item as usize) {
