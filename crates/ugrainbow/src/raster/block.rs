@@ -81,14 +81,6 @@ impl Block {
         }
     }
 
-    /// Where the corners of a triangle are.
-    #[inline(always)]
-    pub fn points(&self, triangle: usize) -> [Point; 3] {
-        let [a, b, c] = &self.corners;
-        let point = |all: &Places| Point { x: all.x[triangle], y: all.y[triangle], key: all.key[triangle] };
-        [point(a), point(b), point(c)]
-    }
-
     /// Looks at all of them. `is_culled`: those that run clockwise are left out.
     pub fn findings(&self, level: Level, grid: &Grid, is_culled: bool) -> Findings {
         dispatch!(level, simd => self.find(simd, grid, is_culled))

@@ -102,13 +102,10 @@ impl Traces {
                 left &= left - 1;
                 let item = self.items[first + triangle];
                 let find = |planes: &mut [Plane; N]| {
-                    let mut numbers = table.numbers(item, self.corners[first + triangle]);
-                    if is_perspective {
-                        for (numbers, corner) in numbers.iter_mut().zip(block.points(triangle)) {
-                            numbers.iter_mut().for_each(|number| *number *= corner.key);
-                        }
-                    }
-                    traced.find_planes(triangle, numbers, planes);
+                    let corners = &self.corners[first + triangle];
+                    let [top, middle, bottom] = traced.order.each_ref().map(|which| which[triangle] as usize);
+                    let numbers = table.numbers(item, [corners[top], corners[middle], corners[bottom]]);
+                    traced.find_planes(triangle, is_perspective, &numbers, planes);
                 };
                 traced.draw(simd, triangle, sink, is_perspective, item, &mut Planes::new(find));
             }
@@ -122,10 +119,10 @@ struct Traced {
     /// Where the highest corner is, and which of the three it and the others are, downwards.
     x: Each,
     y: Each,
-    key: Each,
     order: [Each; 3],
-    key_a_column: Each,
-    key_a_row: Each,
+    /// Depth keys of the corners in this order, and what they change a column and a row.
+    keys: [Each; 3],
+    key_slopes: [Each; 2],
     slopes: KeptSlopes,
     outlines: KeptOutlines,
     /// The first row of samples, and one past the last.
@@ -136,8 +133,8 @@ struct Traced {
     has_samples: u64,
 }
 
-/// Rows of all triangles that are found together; the rest are found for each.
-const AT_ONCE: usize = 8;
+/// Rows of all triangles that are found together; the rest are found for each, as many at once.
+const AT_ONCE: usize = BLOCK;
 
 /// Swaps corners if the second is higher.
 #[inline(always)]
@@ -189,10 +186,9 @@ impl Traced {
         Self {
             x: top.x.into(),
             y: top.y.into(),
-            key: top.key.into(),
             order,
-            key_a_column: key_a_column.into(),
-            key_a_row: key_a_row.into(),
+            keys: [top.key.into(), middle.key.into(), bottom.key.into()],
+            key_slopes: [key_a_column.into(), key_a_row.into()],
             slopes: KeptSlopes::new(&slopes),
             outlines: KeptOutlines::new(&outlines),
             rows: whole(simd, first, end),
@@ -213,59 +209,62 @@ impl Traced {
         planes: &mut Planes<N, impl Fn(&mut [Plane; N])>,
     ) {
         let [first, end] = [self.rows[0][triangle], self.rows[1][triangle]];
-        for (row, [starts, ends]) in (first..end).zip(&self.spans) {
-            let columns = [starts[triangle], ends[triangle]];
-            self.draw_row(simd, triangle, sink, [row, columns[0], columns[1]], is_perspective, item, planes);
-        }
-        if end - first <= AT_ONCE as i32 {
-            return;
-        }
-        let outline = self.outlines.only(simd, triangle);
-        let steps: f64x8<S> = STEPS.simd_into(simd);
-        for first in (first + AT_ONCE as i32..end).step_by(BLOCK) {
-            let ([starts, ends], _) = outline.spans(simd, steps + (f64::from(first) + 0.5), sink.columns());
-            for ((row, start), last) in (first..end).zip(starts).zip(ends) {
-                self.draw_row(simd, triangle, sink, [row, start, last], is_perspective, item, planes);
+        let top_key = self.keys[0][triangle];
+        let [key_a_column, key_a_row] = self.key_slopes.each_ref().map(|all| all[triangle]);
+        let (x, y) = (self.x[triangle], self.y[triangle]);
+        let (mut spans, mut later) = (&self.spans, [[[0; BLOCK]; 2]; AT_ONCE]);
+        for first in (first..end).step_by(AT_ONCE) {
+            if first > self.rows[0][triangle] {
+                self.find_later(simd, triangle, first, sink.columns(), &mut later);
+                spans = &later;
+            }
+            for (row, [starts, ends]) in (first..end).zip(spans) {
+                let (start, end) = (starts[triangle], ends[triangle]);
+                if start >= end {
+                    continue;
+                }
+                let down = f64::from(row) + 0.5 - y;
+                let (row, columns) = (row as u32, [start as u32, end as u32]);
+                let key = top_key + down * key_a_row;
+                let line = TriangleRow { row, columns, from: x, down, key, key_a_column };
+                sink.draw_line(simd, &line, is_perspective, item, planes);
             }
         }
     }
 
-    /// Draws a row of one of them.
+    /// Finds the samples of one triangle in the rows from `first` on, and puts them where they are in [`Traced::spans`].
     #[inline(always)]
-    #[allow(clippy::too_many_arguments)]
-    fn draw_row<const N: usize, S: Simd>(
+    fn find_later<S: Simd>(
         &self,
         simd: S,
         triangle: usize,
-        sink: &mut impl Sink<N>,
-        [row, start, end]: [i32; 3],
-        is_perspective: bool,
-        item: u32,
-        planes: &mut Planes<N, impl Fn(&mut [Plane; N])>,
+        first: i32,
+        columns: [u32; 2],
+        later: &mut [Spans; AT_ONCE],
     ) {
-        if start >= end {
-            return;
+        let steps: f64x8<S> = STEPS.simd_into(simd);
+        let centers = steps + (f64::from(first) + 0.5);
+        let ([starts, ends], _) = self.outlines.only(simd, triangle).spans(simd, centers, columns);
+        for ((spans, start), end) in later.iter_mut().zip(starts).zip(ends) {
+            (spans[0][triangle], spans[1][triangle]) = (start, end);
         }
-        let down = f64::from(row) + 0.5 - self.y[triangle];
-        let line = TriangleRow {
-            row: row as u32,
-            columns: [start as u32, end as u32],
-            from: self.x[triangle],
-            down,
-            key: self.key[triangle] + down * self.key_a_row[triangle],
-            key_a_column: self.key_a_column[triangle],
-        };
-        sink.draw_line(simd, &line, is_perspective, item, planes);
     }
 
-    /// The planes of the numbers at the corners of one of them.
+    /// The planes of numbers of one of them.
     #[inline(always)]
-    fn find_planes<const N: usize>(&self, triangle: usize, numbers: [[f64; N]; 3], planes: &mut [Plane; N]) {
+    fn find_planes<const N: usize>(
+        &self,
+        triangle: usize,
+        is_perspective: bool,
+        [top, middle, bottom]: &[[f64; N]; 3],
+        planes: &mut [Plane; N],
+    ) {
         let slopes = self.slopes.only(triangle);
-        let [top, middle, bottom] = [0, 1, 2].map(|place| self.order[place][triangle] as usize);
+        let keys = if is_perspective { [0, 1, 2].map(|place| self.keys[place][triangle]) } else { [1.0; 3] };
         for (i, plane) in planes.iter_mut().enumerate() {
-            let [a_column, a_row] = slopes.of([numbers[top][i], numbers[middle][i], numbers[bottom][i]]);
-            *plane = Plane { at_top: numbers[top][i], a_row, a_column };
+            let numbers = [top[i] * keys[0], middle[i] * keys[1], bottom[i] * keys[2]];
+            let [a_column, a_row] = slopes.of(numbers);
+            *plane = Plane { at_top: numbers[0], a_row, a_column };
         }
     }
 }
