@@ -87,6 +87,7 @@ impl Contours {
     }
 
     /// All corners of a face or wire, contour after contour.
+    #[inline]
     pub fn corners(&self, rows: Range<u32>) -> &[VertexId] {
         if rows.is_empty() {
             return &[];

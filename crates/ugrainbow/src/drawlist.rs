@@ -10,8 +10,9 @@ use crate::painter::{Common, Painter};
 use crate::raster::{BLOCK, Block, Bounds, Corner, Drawn, Findings, Point, PolygonList, Shapes, Table};
 use crate::sheet::Pack;
 
-/// Faces that one task turns into a list.
-const CHUNK: usize = 1024;
+/// Least and most faces that one task turns into a list: few enough that all threads have work, and as many as can be,
+/// for every band looks into every list.
+const CHUNKS: [usize; 2] = [1 << 10, 1 << 13];
 
 /// Shapes in drawing order, and how many faces came how far.
 pub struct DrawList<'a, const N: usize> {
@@ -96,9 +97,11 @@ impl<'a, const N: usize> DrawList<'a, N> {
         let even_level = painter.even_level();
         let corners =
             Corners { painter, pack, points: scene.vertices.par_iter().map(point).collect(), even_level };
-        let faces = scene.faces.par_chunks(CHUNK).enumerate();
+        let [least, most] = CHUNKS;
+        let chunk = (scene.faces.len() / 64).clamp(least, most);
+        let faces = scene.faces.par_chunks(chunk).enumerate();
         let level = Level::new();
-        let parts = faces.map(|(idx, faces)| Chunk::new(&corners, idx, level).all(faces, &is_drawn)).collect();
+        let parts = faces.map(|(idx, faces)| Chunk::new(&corners, idx * chunk, level).all(faces, &is_drawn)).collect();
         Self::of(parts, corners)
     }
 
@@ -163,13 +166,13 @@ struct Chunk<'a, const N: usize> {
 }
 
 impl<'a, const N: usize> Chunk<'a, N> {
-    /// The chunk of this number.
-    fn new(corners: &'a Corners<'a, N>, chunk: usize, level: Level) -> Self {
+    /// That with this face as its first.
+    fn new(corners: &'a Corners<'a, N>, first: usize, level: Level) -> Self {
         Self {
             corners,
             painter: &corners.painter,
             // The text of a scene is below 4 GiB, and so are these numbers.
-            item: (chunk * CHUNK) as u32,
+            item: first as u32,
             list: PolygonList::default(),
             reach: Reach::default(),
             block: Block::default(),
