@@ -15,7 +15,7 @@ use super::edges::{Crossing, Scanner};
 use super::polygons::first_center;
 use super::rows::TriangleRow;
 use super::shading::{Shade, Tally};
-use super::slopes::{Plane, Planes};
+use super::slopes::{FindPlanes, Planes};
 use super::spans::{Sink, Tag, Tile};
 
 /// Numbers that are interpolated for what is clear.
@@ -277,7 +277,7 @@ impl<S: Fn(&[f32; CLEAR_VALUES]) -> (Shade, f32)> Sink<CLEAR_VALUES> for PaneSin
         line: &TriangleRow,
         is_perspective: bool,
         item: u32,
-        planes: &mut Planes<CLEAR_VALUES, impl Fn(&mut [Plane; CLEAR_VALUES])>,
+        planes: &mut Planes<CLEAR_VALUES, impl FindPlanes<CLEAR_VALUES>>,
     ) {
         let columns = line.columns[0]..line.columns[1];
         let planes = planes.get();

@@ -3,7 +3,7 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x8, f64x4};
 
-use super::slopes::{Plane, Planes};
+use super::slopes::{FindPlanes, Planes};
 use super::spans::{Tag, Tile, lanes};
 
 /// Samples of a row that are computed together.
@@ -21,7 +21,7 @@ impl<const N: usize, T: Tag> Tile<N, T> {
         line: &TriangleRow,
         is_perspective: bool,
         tag: T,
-        planes: &mut Planes<N, impl Fn(&mut [Plane; N])>,
+        planes: &mut Planes<N, impl FindPlanes<N>>,
     ) {
         let [first, end] = line.columns;
         let steps = f64x4::from_slice(simd, &STEPS[..4]);

@@ -59,6 +59,12 @@ impl KeptSlopes {
     }
 }
 
+/// What knows how numbers change over the picture.
+pub trait FindPlanes<const N: usize> {
+    /// The planes of all numbers.
+    fn find(&self) -> [Plane; N];
+}
+
 /// The planes of all numbers, found when they are asked for.
 pub struct Planes<const N: usize, F> {
     find: F,
@@ -85,8 +91,8 @@ impl Plane {
     }
 }
 
-impl<const N: usize, F: Fn(&mut [Plane; N])> Planes<N, F> {
-    /// `find` sets them all.
+impl<const N: usize, F: FindPlanes<N>> Planes<N, F> {
+    /// Those that `find` knows.
     #[inline(always)]
     pub fn new(find: F) -> Self {
         Self { find, is_found: false, all: [Plane::default(); N] }
@@ -96,7 +102,7 @@ impl<const N: usize, F: Fn(&mut [Plane; N])> Planes<N, F> {
     #[inline(always)]
     pub fn get(&mut self) -> &[Plane; N] {
         if !self.is_found {
-            (self.find)(&mut self.all);
+            self.all = self.find.find();
             self.is_found = true;
         }
         &self.all

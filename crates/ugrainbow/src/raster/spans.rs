@@ -5,7 +5,7 @@ use fearless_simd::Simd;
 use super::edges::Crossing;
 use super::polygons::first_center;
 use super::rows::{LANES, TriangleRow};
-use super::slopes::{Plane, Planes};
+use super::slopes::{FindPlanes, Planes};
 
 /// What a sample remembers of the polygon it shows.
 pub trait Tag: Copy + Default + Send {
@@ -51,7 +51,7 @@ pub trait Sink<const N: usize> {
         line: &TriangleRow,
         is_perspective: bool,
         item: u32,
-        planes: &mut Planes<N, impl Fn(&mut [Plane; N])>,
+        planes: &mut Planes<N, impl FindPlanes<N>>,
     );
 
     /// Takes samples of a row one by one, as [`Tile::draw_each`] does.
@@ -87,7 +87,7 @@ impl<const N: usize, T: Tag> Sink<N> for Tile<N, T> {
         line: &TriangleRow,
         is_perspective: bool,
         item: u32,
-        planes: &mut Planes<N, impl Fn(&mut [Plane; N])>,
+        planes: &mut Planes<N, impl FindPlanes<N>>,
     ) {
         self.draw_line(simd, line, is_perspective, T::of(item), planes);
     }

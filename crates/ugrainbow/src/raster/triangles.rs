@@ -10,7 +10,7 @@ use fearless_simd::{Simd, f64x8};
 use super::block::{BLOCK, Block, Corners, Each, first_centers, whole};
 use super::rows::{STEPS, TriangleRow};
 use super::sides::{KeptOutlines, Outlines, Spans};
-use super::slopes::{KeptSlopes, Plane, Planes, Slopes};
+use super::slopes::{FindPlanes, KeptSlopes, Plane, Planes, Slopes};
 use super::spans::Sink;
 
 /// A corner in the picture plane, without the numbers to interpolate; see [`super::Corner`].
@@ -100,14 +100,9 @@ impl Traces {
             while left != 0 {
                 let triangle = left.trailing_zeros() as usize;
                 left &= left - 1;
-                let item = self.items[first + triangle];
-                let find = |planes: &mut [Plane; N]| {
-                    let corners = &self.corners[first + triangle];
-                    let [top, middle, bottom] = traced.order.each_ref().map(|which| which[triangle] as usize);
-                    let numbers = table.numbers(item, [corners[top], corners[middle], corners[bottom]]);
-                    traced.find_planes(triangle, is_perspective, &numbers, planes);
-                };
-                traced.draw(simd, triangle, sink, is_perspective, item, &mut Planes::new(find));
+                let (item, corners) = (self.items[first + triangle], &self.corners[first + triangle]);
+                let known = Known { table, item, corners, traced: &traced, triangle, is_perspective };
+                traced.draw(simd, triangle, sink, is_perspective, item, &mut Planes::new(known));
             }
         }
         self.n = 0;
@@ -206,7 +201,7 @@ impl Traced {
         sink: &mut impl Sink<N>,
         is_perspective: bool,
         item: u32,
-        planes: &mut Planes<N, impl Fn(&mut [Plane; N])>,
+        planes: &mut Planes<N, impl FindPlanes<N>>,
     ) {
         let [first, end] = [self.rows[0][triangle], self.rows[1][triangle]];
         let top_key = self.keys[0][triangle];
@@ -249,22 +244,35 @@ impl Traced {
             (spans[0][triangle], spans[1][triangle]) = (start, end);
         }
     }
+}
 
-    /// The planes of numbers of one of them.
+/// What is known of a triangle that is drawn.
+struct Known<'a, C: ?Sized> {
+    table: &'a C,
+    item: u32,
+    /// Rows of the table.
+    corners: &'a [u32; 3],
+    /// The block it is in, and its place there.
+    traced: &'a Traced,
+    triangle: usize,
+    is_perspective: bool,
+}
+
+impl<const N: usize, C: Table<N> + ?Sized> FindPlanes<N> for Known<'_, C> {
     #[inline(always)]
-    fn find_planes<const N: usize>(
-        &self,
-        triangle: usize,
-        is_perspective: bool,
-        [top, middle, bottom]: &[[f64; N]; 3],
-        planes: &mut [Plane; N],
-    ) {
-        let slopes = self.slopes.only(triangle);
-        let keys = if is_perspective { [0, 1, 2].map(|place| self.keys[place][triangle]) } else { [1.0; 3] };
+    fn find(&self) -> [Plane; N] {
+        let &Self { traced, triangle, .. } = self;
+        let corner = |place: usize| self.corners[traced.order[place][triangle] as usize];
+        let [top, middle, bottom] = self.table.numbers(self.item, [corner(0), corner(1), corner(2)]);
+        let key = |place: usize| if self.is_perspective { traced.keys[place][triangle] } else { 1.0 };
+        let keys = [key(0), key(1), key(2)];
+        let slopes = traced.slopes.only(triangle);
+        let mut planes = [Plane::default(); N];
         for (i, plane) in planes.iter_mut().enumerate() {
             let numbers = [top[i] * keys[0], middle[i] * keys[1], bottom[i] * keys[2]];
             let [a_column, a_row] = slopes.of(numbers);
             *plane = Plane { at_top: numbers[0], a_row, a_column };
         }
+        planes
     }
 }
