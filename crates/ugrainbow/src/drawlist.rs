@@ -7,8 +7,11 @@ use ugparse::{Face, VertexId};
 
 use crate::clip::{Vertex, clip_polygon};
 use crate::painter::{Common, Painter};
-use crate::raster::{BLOCK, Block, Bounds, Corner, Drawn, Findings, Point, PolygonList, Shapes, Table};
+use crate::raster::{BLOCK, Block, Bounds, Corner, Drawn, Point, PolygonList, Shapes, Table};
 use crate::sheet::Pack;
+
+/// Faces that are looked at together: more than a block of triangles, so that while one is looked at the next is filled.
+const TOGETHER: usize = 4 * BLOCK;
 
 /// Least and most faces that one task turns into a list: few enough that all threads have work, and as many as can be,
 /// for every band looks into every list.
@@ -157,7 +160,7 @@ struct Chunk<'a, const N: usize> {
     list: PolygonList<N>,
     reach: Reach,
     /// Triangles that are looked at together.
-    block: Block,
+    blocks: [Block; TOGETHER / BLOCK],
     /// What the processor can do to many numbers at once. It changes no result.
     level: Level,
     /// The contour in work, kept for its buffer.
@@ -175,7 +178,7 @@ impl<'a, const N: usize> Chunk<'a, N> {
             item: first as u32,
             list: PolygonList::default(),
             reach: Reach::default(),
-            block: Block::default(),
+            blocks: Default::default(),
             level,
             contour: Vec::new(),
             scratch: Vec::new(),
@@ -184,37 +187,42 @@ impl<'a, const N: usize> Chunk<'a, N> {
 
     fn all(mut self, faces: &[Face], is_drawn: impl Fn(&Face) -> bool) -> (PolygonList<N>, Reach) {
         let first = self.item;
-        for (idx, faces) in faces.chunks(BLOCK).enumerate() {
+        for (idx, faces) in faces.chunks(TOGETHER).enumerate() {
             // A chunk is short.
-            self.item = first + (idx * BLOCK) as u32;
-            self.push_faces(faces, &is_drawn);
+            self.push_faces(first + (idx * TOGETHER) as u32, faces, &is_drawn);
         }
         self.list.sort_into_bands(self.painter.grid);
         (self.list, self.reach)
     }
 
-    /// Takes a block of faces, the first of which is `item`.
-    fn push_faces(&mut self, faces: &[Face], is_drawn: &impl Fn(&Face) -> bool) {
-        let first = self.item;
+    /// Takes some faces, the first of which is item `first`.
+    fn push_faces(&mut self, first: u32, faces: &[Face], is_drawn: &impl Fn(&Face) -> bool) {
+        // Face i is bit i.
         let (mut triangles, mut others) = (0u64, 0u64);
-        let mut corners = [[0; 3]; BLOCK];
+        let mut corners = [[0; 3]; TOGETHER];
         for (idx, face) in faces.iter().enumerate().filter(|(_, face)| is_drawn(face)) {
             if let &[VertexId(a), VertexId(b), VertexId(c)] =
                 self.painter.scene.contours.corners(face.contours.clone())
             {
                 corners[idx] = [a, b, c];
                 let points = [self.corners.point(a), self.corners.point(b), self.corners.point(c)];
-                self.block.set(idx, points);
+                self.blocks[idx / BLOCK].set(idx % BLOCK, points);
                 triangles |= 1 << idx;
             } else {
                 others |= 1 << idx;
             }
         }
-        let Findings { regular, in_picture, drawn, bands: [starts, ends] } = if triangles == 0 {
-            Findings::default()
-        } else {
-            self.block.findings(self.level, self.painter.grid, self.painter.is_culled)
-        };
+        let (mut regular, mut in_picture, mut drawn) = (0, 0, 0);
+        let mut bands = [[[0; BLOCK]; 2]; TOGETHER / BLOCK];
+        if triangles != 0 {
+            for (idx, (block, bands)) in self.blocks.iter().zip(&mut bands).enumerate() {
+                let found = block.findings(self.level, self.painter.grid, self.painter.is_culled);
+                regular |= found.regular << (idx * BLOCK);
+                in_picture |= found.in_picture << (idx * BLOCK);
+                drawn |= found.drawn << (idx * BLOCK);
+                *bands = found.bands;
+            }
+        }
         let regular = regular & triangles;
         self.reach.in_front += regular.count_ones() as usize;
         self.reach.in_picture += (regular & in_picture).count_ones() as usize;
@@ -223,7 +231,9 @@ impl<'a, const N: usize> Chunk<'a, N> {
             let idx = left.trailing_zeros() as usize;
             self.item = first + idx as u32;
             if regular >> idx & 1 == 1 {
-                self.list.push_triangle(self.item, corners[idx], starts[idx] as u32..ends[idx] as u32);
+                let [starts, ends] = &bands[idx / BLOCK];
+                let bands = starts[idx % BLOCK] as u32..ends[idx % BLOCK] as u32;
+                self.list.push_triangle(self.item, corners[idx], bands);
             } else {
                 self.push_face(&faces[idx]);
             }

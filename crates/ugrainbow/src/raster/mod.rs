@@ -55,7 +55,7 @@ mod triangles;
 
 pub use band::{Grid, Layer, Shapes, paint};
 pub use bins::Bins;
-pub use block::{BLOCK, Block, Findings};
+pub use block::{BLOCK, Block};
 pub use cue::Cue;
 pub use edges::Scanner;
 pub use glass::{CLEAR_VALUES, Clear, Fragment, Pane};
