@@ -58,6 +58,9 @@ const FAR: f64 = (1u32 << 24) as f64;
 /// corner is some 2⁻⁵³ over this, relative to what the number changes in the triangle: below that of an f32.
 const SLIVER: f64 = 1.0 / (1u32 << 26) as f64;
 
+/// Between these single precision has all its digits, for a key and for one over it.
+const KEYS: [f64; 2] = [1e-30, 1e30];
+
 /// How much nearer one corner may be than another.
 const MOST_KEY_RATIO: f64 = 16.0;
 
@@ -102,7 +105,9 @@ impl Block {
         let is_wide = twice_area.abs().simd_gt(extent * extent * SLIVER);
         let mut is_regular = is_near & is_number & is_wide;
         if grid.is_perspective {
-            is_regular = is_regular & least.simd_gt(number(0.0)) & most.simd_le(least * MOST_KEY_RATIO);
+            let [low, high] = KEYS;
+            is_regular = is_regular & least.simd_gt(number(low)) & most.simd_lt(number(high));
+            is_regular = is_regular & most.simd_le(least * MOST_KEY_RATIO);
         }
         let (columns, rows) = (f64::from(grid.sample_columns()), f64::from(grid.sample_rows()));
         let is_in_picture = right.simd_gt(number(0.0))
