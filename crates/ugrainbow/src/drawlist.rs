@@ -186,6 +186,8 @@ impl<'a, const N: usize> Chunk<'a, N> {
     }
 
     fn all(mut self, faces: &[Face], is_drawn: impl Fn(&Face) -> bool) -> (PolygonList<N>, Reach) {
+        // Asked for once, for threads that ask for memory wait for each other.
+        self.list = PolygonList::with_capacity(faces.len());
         let first = self.item;
         for (idx, faces) in faces.chunks(TOGETHER).enumerate() {
             // A chunk is short.

@@ -56,6 +56,11 @@ pub enum Drawn<C> {
 }
 
 impl<const N: usize> PolygonList<N> {
+    /// An empty list with room for some shapes.
+    pub fn with_capacity(shapes: usize) -> Self {
+        Self { shapes: Vec::with_capacity(shapes), bands: Vec::with_capacity(shapes), ..Self::default() }
+    }
+
     /// Adds a corner to the contour being built.
     pub fn push_corner(&mut self, corner: Corner<N>) {
         self.corners.push(corner);
