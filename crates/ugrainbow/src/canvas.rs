@@ -105,12 +105,7 @@ impl Direct<[u8; 4]> for Display {
 
 /// Levels, 0…1, to the nearest of 256, where there are depth keys.
 #[inline(always)] // Compiled for what the processor can do to many numbers at once.
-fn write_levels<S: Simd>(
-    simd: S,
-    keys: &[f32],
-    levels: &[[f32; RUN]; 3],
-    pixels: &mut [[u8; 4]],
-) {
+fn write_levels<S: Simd>(simd: S, keys: &[f32], levels: &[[f32; RUN]; 3], pixels: &mut [[u8; 4]]) {
     let [red, green, blue] = levels;
     let all = red.as_chunks().0.iter().zip(green.as_chunks().0).zip(blue.as_chunks().0);
     for ((keys, pixels), ((red, green), blue)) in keys.chunks(LANES).zip(pixels.chunks_mut(LANES)).zip(all) {
@@ -158,13 +153,11 @@ pub fn light(setup: &Setup<'_>, sheet: &Sheet<'_>, config: &Config) -> (LinearFr
     let ground = Ground::new(config);
     let frame = |pixels| LinearFrame::new([grid.width, grid.height], ground.is_opaque(), pixels);
     if config.channels.is_empty() {
-        let (pixels, tally) =
-            sheet.paint(grid, &setup.shader, &|all: &Gathered<'_, ()>| ground.pixel(all));
+        let (pixels, tally) = sheet.paint(grid, &setup.shader, &|all: &Gathered<'_, ()>| ground.pixel(all));
         return (frame(pixels), tally);
     }
-    let (pixels, tally) = sheet.paint(grid, &setup.shader, &|all: &Gathered<'_, u32>| {
-        (ground.pixel(all), front(&setup.view, all))
-    });
+    let (pixels, tally) = sheet
+        .paint(grid, &setup.shader, &|all: &Gathered<'_, u32>| (ground.pixel(all), front(&setup.view, all)));
     let (pixels, seen): (Vec<[f32; 4]>, Vec<Option<Seen<u32>>>) = pixels.into_iter().unzip();
     let mut frame = frame(pixels);
     let painter = setup.painter();

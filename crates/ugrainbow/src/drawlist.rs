@@ -104,7 +104,9 @@ impl<'a, const N: usize> DrawList<'a, N> {
         let chunk = (scene.faces.len() / 64).clamp(least, most);
         let faces = scene.faces.par_chunks(chunk).enumerate();
         let level = Level::new();
-        let parts = faces.map(|(idx, faces)| Chunk::new(&corners, idx * chunk, level).all(faces, &is_drawn)).collect();
+        let parts = faces
+            .map(|(idx, faces)| Chunk::new(&corners, idx * chunk, level).all(faces, &is_drawn))
+            .collect();
         Self::of(parts, corners)
     }
 

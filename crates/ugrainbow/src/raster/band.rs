@@ -210,7 +210,8 @@ where
 fn filled<P: Copy + Send + Sync>(value: P, len: usize) -> Vec<P> {
     // Many together, for a list that is made in parallel takes its elements one by one.
     const TOGETHER: usize = 64;
-    let parts: Vec<[P; TOGETHER]> = rayon::iter::repeat_n([value; TOGETHER], len.div_ceil(TOGETHER)).collect();
+    let parts: Vec<[P; TOGETHER]> =
+        rayon::iter::repeat_n([value; TOGETHER], len.div_ceil(TOGETHER)).collect();
     let mut all = parts.into_flattened();
     all.truncate(len);
     all

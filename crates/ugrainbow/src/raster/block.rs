@@ -100,14 +100,14 @@ impl Block {
         let twice_area = (b.y - a.y) * (c.x - a.x) - (b.x - a.x) * (c.y - a.y);
         let extent = greater(right - left, bottom - top);
         let is_near = lesser(left, top).simd_ge(number(-FAR)) & greater(right, bottom).simd_le(number(FAR));
-        // What is no number is in no area and no sum that is greater than anything.
-        let is_number = (a.key + b.key + c.key).simd_gt(number(f64::NEG_INFINITY));
+        // What is no number is in no area and no sum that is less than anything.
+        let is_number = (a.key + b.key + c.key).abs().simd_lt(number(f64::INFINITY));
         let is_wide = twice_area.abs().simd_gt(extent * extent * SLIVER);
         let mut is_regular = is_near & is_number & is_wide;
         if grid.is_perspective {
             let [low, high] = KEYS;
-            is_regular = is_regular & least.simd_gt(number(low)) & most.simd_lt(number(high));
-            is_regular = is_regular & most.simd_le(least * MOST_KEY_RATIO);
+            is_regular &= least.simd_gt(number(low)) & most.simd_lt(number(high));
+            is_regular &= most.simd_le(least * MOST_KEY_RATIO);
         }
         let (columns, rows) = (f64::from(grid.sample_columns()), f64::from(grid.sample_rows()));
         let is_in_picture = right.simd_gt(number(0.0))
@@ -118,12 +118,10 @@ impl Block {
         let end_row = first_centers(bottom, number(0.0), number(rows));
         let first_column = first_centers(left - ROUNDING, number(0.0), number(columns));
         let end_column = first_centers(right + ROUNDING, number(0.0), number(columns));
-        let mut is_drawn = is_regular
-            & is_in_picture
-            & first_row.simd_lt(end_row)
-            & first_column.simd_lt(end_column);
+        let mut is_drawn =
+            is_regular & is_in_picture & first_row.simd_lt(end_row) & first_column.simd_lt(end_column);
         if is_culled {
-            is_drawn = is_drawn & twice_area.simd_gt(number(0.0));
+            is_drawn &= twice_area.simd_gt(number(0.0));
         }
         // The middle of a row is half a row from the nearest end of a band, so no rounding moves it there.
         let per_row = 1.0 / f64::from(grid.bands().sample_rows());

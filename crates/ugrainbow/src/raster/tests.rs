@@ -1,5 +1,7 @@
 //! Coverage against counting and geometry; the pixels of scenes are in `tests/`.
 
+use fearless_simd::Level;
+
 use super::edges::Scanner;
 use super::*;
 
@@ -154,6 +156,77 @@ impl Table<1> for Triangles {
     }
 }
 
+/// Blocks of triangles of all sizes, in the picture and beside it, some of them with what is no number, slivers, or much
+/// nearer at one corner than at another; each looked at alone, in plain words.
+#[test]
+fn a_block_is_what_its_triangles_are() {
+    const BAD: [f64; 6] = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 0.0, 1e9, 1e-40];
+    let mut noise = Noise(13);
+    let mut counts = [0; 4];
+    for (round, size) in (0..400).zip([0.3, 3.0, 40.0, 3e3].into_iter().cycle()) {
+        let is_perspective = round % 3 != 0;
+        let grid = Grid { width: 700, height: 300, samples: 1 + round % 3, is_perspective, cue: None };
+        let mut triangles = [[Point::default(); 3]; BLOCK];
+        let mut block = Block::default();
+        for (place, points) in triangles.iter_mut().enumerate() {
+            let middle = [900.0 * noise.next() - 100.0, 500.0 * noise.next() - 100.0];
+            *points = [(); 3].map(|()| {
+                let [x, y] = middle.map(|place| place + size * (noise.next() - 0.5));
+                Point { x, y, key: 0.1 + 1.2 * noise.next() }
+            });
+            match place {
+                5 => points[round as usize % 3].x = BAD[round as usize / 3 % 6],
+                6 => points[round as usize % 3].key = BAD[round as usize / 3 % 6],
+                7 => points[2] = points[round as usize % 2],
+                _ => {}
+            }
+            block.set(place, *points);
+        }
+        let is_culled = round % 2 == 0;
+        for level in [Level::new(), Level::baseline()] {
+            let found = block.findings(level, &grid, is_culled);
+            for (place, points) in triangles.iter().enumerate() {
+                let has = |all: u64| all >> place & 1 == 1;
+                let is_regular = is_plain(points, is_perspective);
+                assert_eq!(has(found.regular), is_regular, "{points:?}");
+                if !is_regular {
+                    assert!(!has(found.drawn));
+                    continue;
+                }
+                let bounds = Bounds::new(points.iter().map(|point| [point.x, point.y]));
+                assert_eq!(has(found.in_picture), bounds.is_in_picture(&grid), "{points:?}");
+                let rows = bounds.rows(&grid).filter(|rows| !rows.is_empty());
+                let is_drawn = rows.is_some() && !(is_culled && twice_area(points) <= 0.0);
+                assert_eq!(has(found.drawn), is_drawn, "{points:?}");
+                if let (true, Some(rows)) = (is_drawn, rows) {
+                    let [start, end] = found.bands.map(|bands| bands[place] as u32);
+                    assert_eq!(start..end, grid.bands().of(&rows), "{points:?}");
+                }
+                counts[usize::from(is_drawn) + 2 * usize::from(is_culled)] += 1;
+            }
+        }
+    }
+    assert!(counts.iter().all(|count| *count > 300), "{counts:?}");
+}
+
+/// Positive if the corners run counterclockwise as the picture is looked at, where rows are counted downwards.
+fn twice_area([a, b, c]: &[Point; 3]) -> f64 {
+    (b.y - a.y) * (c.x - a.x) - (b.x - a.x) * (c.y - a.y)
+}
+
+fn is_plain(points: &[Point; 3], is_perspective: bool) -> bool {
+    let [xs, ys, keys] = [points.map(|p| p.x), points.map(|p| p.y), points.map(|p| p.key)];
+    let ends =
+        |all: [f64; 3]| [all.into_iter().fold(f64::NAN, f64::min), all.into_iter().fold(f64::NAN, f64::max)];
+    let is_finite = [xs, ys, keys].iter().flatten().all(|number| number.is_finite());
+    let ([left, right], [top, bottom], [least, most]) = (ends(xs), ends(ys), ends(keys));
+    let extent = (right - left).max(bottom - top);
+    is_finite
+        && [left, right, top, bottom].iter().all(|place| place.abs() <= f64::from(1 << 24))
+        && twice_area(points).abs() > extent * extent / f64::from(1 << 26)
+        && (!is_perspective || (least > 1e-30 && most < 1e30 && most <= 16.0 * least))
+}
+
 /// Random triangles, from specks to some far larger than the picture, drawn by planes and along their edges.
 #[test]
 fn triangles_are_drawn_like_polygons() {
@@ -173,14 +246,16 @@ fn triangles_are_drawn_like_polygons() {
                 Corner { x, y, key, values: [key * noise.next()] }
             });
             let points = corners.map(|Corner { x, y, key, .. }| Point { x, y, key });
-            let places = points.map(|point| [point.x, point.y]);
-            let rows = Bounds::new(places.into_iter()).rows(&grid).filter(|rows| !rows.is_empty());
-            if !is_regular(&points, true) {
+            let mut block = Block::default();
+            block.set(3, points);
+            let findings = block.findings(Level::new(), &grid, false);
+            if findings.regular != 1 << 3 {
                 continue;
             }
-            if let Some(rows) = rows {
+            if findings.drawn != 0 {
                 let first = table.len() as u32;
-                triangles.push_triangle(item, [first, first + 1, first + 2], rows);
+                let [start, end] = findings.bands.map(|bands| bands[3] as u32);
+                triangles.push_triangle(item, [first, first + 1, first + 2], start..end);
                 n_drawn += 1;
             }
             table.extend(corners);
@@ -241,14 +316,8 @@ fn painted(polygons: &[Vec<Corner<1>>], grid: &Grid) -> Vec<f32> {
     let layer = Shapes { lists: &lists, table: &NoTable };
     let mean = |sum: [f32; 3]| sum[0] / (grid.samples * grid.samples) as f32;
     let (pixels, _) = paint(grid, &layer, None, &Grey, &|all: &Gathered<'_, ()>| mean(all.sum), &());
-    let (marked, _) = paint(
-        grid,
-        &layer,
-        None,
-        &Grey,
-        &|all: &Gathered<'_, u32>| (mean(all.sum), all.center),
-        &(),
-    );
+    let (marked, _) =
+        paint(grid, &layer, None, &Grey, &|all: &Gathered<'_, u32>| (mean(all.sum), all.center), &());
     for (idx, (&light, marked)) in pixels.iter().zip(&marked).enumerate() {
         assert_eq!(light, marked.0);
         if pixels.len() > 1000 {
