@@ -8,8 +8,8 @@
 //! 1. [`polygons`]: polygons in buffers, sorted into bands of pixel rows;
 //! 2. [`edges`]: where a polygon's outline crosses a row of samples;
 //! 3. [`spans`]: the samples between two crossings, and the depth test;
-//! 4. [`triangles`]: the same for triangles, the usual case, shorter: their [`sides`], [`slopes`] of numbers over the
-//!    picture, and samples row by row ([`rows`]), all many at once;
+//! 4. [`triangles`]: the same for triangles, the usual case, shorter: eight of them in a [`block`], their [`sides`],
+//!    [`slopes`] of numbers over the picture, and samples row by row ([`rows`]), all many at once;
 //! 5. [`glass`]: translucent faces and lines in front of them, sample by sample;
 //! 6. [`shading`]: the light of samples, many at once;
 //! 7. [`resolve`]: samples to pixels, averaged in linear light, what is far faded ([`cue`]);
