@@ -75,7 +75,7 @@ impl Default for Traces {
 }
 
 impl Traces {
-    /// Adds a [regular](super::Findings) triangle. True if there is no room for another.
+    /// Adds a [regular](super::block::Findings) triangle. True if there is no room for another.
     #[inline(always)]
     pub fn push(&mut self, item: u32, corners: [u32; 3], points: [Point; 3]) -> bool {
         self.items[self.n] = item;
