@@ -105,7 +105,7 @@ impl<'a, const N: usize> DrawList<'a, N> {
         let faces = scene.faces.par_chunks(chunk).enumerate();
         let level = Level::new();
         let parts = faces
-            .map(|(idx, faces)| Chunk::new(&corners, idx * chunk, level).all(faces, &is_drawn))
+            .map(|(idx, faces)| Chunk::new(&corners, idx * chunk, faces.len(), level).all(faces, &is_drawn))
             .collect();
         Self::of(parts, corners)
     }
@@ -171,14 +171,15 @@ struct Chunk<'a, const N: usize> {
 }
 
 impl<'a, const N: usize> Chunk<'a, N> {
-    /// That with this face as its first.
-    fn new(corners: &'a Corners<'a, N>, first: usize, level: Level) -> Self {
+    /// That of so many faces, with this one as the first.
+    fn new(corners: &'a Corners<'a, N>, first: usize, n_faces: usize, level: Level) -> Self {
         Self {
             corners,
             painter: &corners.painter,
             // The text of a scene is below 4 GiB, and so are these numbers.
             item: first as u32,
-            list: PolygonList::default(),
+            // Asked for once, for threads that ask for memory wait for each other.
+            list: PolygonList::with_capacity(n_faces),
             reach: Reach::default(),
             blocks: Default::default(),
             level,
@@ -188,8 +189,6 @@ impl<'a, const N: usize> Chunk<'a, N> {
     }
 
     fn all(mut self, faces: &[Face], is_drawn: impl Fn(&Face) -> bool) -> (PolygonList<N>, Reach) {
-        // Asked for once, for threads that ask for memory wait for each other.
-        self.list = PolygonList::with_capacity(faces.len());
         let first = self.item;
         for (idx, faces) in faces.chunks(TOGETHER).enumerate() {
             // A chunk is short.
@@ -218,15 +217,18 @@ impl<'a, const N: usize> Chunk<'a, N> {
         }
         let (mut regular, mut in_picture, mut drawn) = (0, 0, 0);
         let mut bands = [[[0; BLOCK]; 2]; TOGETHER / BLOCK];
-        if triangles != 0 {
-            for (idx, (block, bands)) in self.blocks.iter().zip(&mut bands).enumerate() {
-                let found = block.findings(self.level, self.painter.grid, self.painter.is_culled);
-                regular |= found.regular << (idx * BLOCK);
-                in_picture |= found.in_picture << (idx * BLOCK);
-                drawn |= found.drawn << (idx * BLOCK);
-                *bands = found.bands;
+        for (idx, (block, bands)) in self.blocks.iter().zip(&mut bands).enumerate() {
+            let first = idx * BLOCK;
+            if triangles >> first & ((1 << BLOCK) - 1) == 0 {
+                continue;
             }
+            let found = block.findings(self.level, self.painter.grid, self.painter.is_culled);
+            regular |= found.regular << first;
+            in_picture |= found.in_picture << first;
+            drawn |= found.drawn << first;
+            *bands = found.bands;
         }
+        // What stands in other places of a block is left from before.
         let regular = regular & triangles;
         self.reach.in_front += regular.count_ones() as usize;
         self.reach.in_picture += (regular & in_picture).count_ones() as usize;

@@ -37,7 +37,7 @@ pub struct Corners<S: Simd> {
 }
 
 /// What is found of the triangles of a block. In sets of them triangle i is bit i.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug)]
 pub struct Findings {
     /// All numbers of these can be had from planes through their corners, as precise as along their edges: they are no
     /// slivers, not far outside the picture, and not much nearer at one corner than at another. Of others nothing is
