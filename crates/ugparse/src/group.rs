@@ -268,8 +268,12 @@ impl<'t> Group<'t> {
                 Illum::Surface(SurfaceId::from_index(self.surfaces.names.enter(name.of(text))))
             }
         };
-        // Neighbours often have the same.
-        if self.illums.last() != Some(&illum) {
+        // Neighbours often have the same; -0 and 0 are equal, but are not written alike.
+        let is_same = match (self.illums.last(), illum) {
+            (Some(Illum::Level(last)), Illum::Level(level)) => last.to_bits() == level.to_bits(),
+            (last, illum) => last == Some(&illum),
+        };
+        if !is_same {
             self.illums.push(illum);
         }
         IllumId::from_index(self.illums.len() - 1)

@@ -32,6 +32,11 @@ fn faces() {
     row("f (a b c) 0 <0 0 .9>;", "f (a b c) 0 <0 0 0.9>;");
     row("f roof (a b c) red 0 <0 0 .9>;", "f roof (a b c) red 0 <0 0 0.9>;");
     row("f f (a b c) red;", "f f (a b c) red;");
+    // Levels of neighbours, equal but for their sign.
+    check_rest(
+        &format!("{TRIANGLE}f (a b c) 0; f (a b c) -0; f (a b c) -0; f (a b c) 0;"),
+        &["f (a b c) 0;", "f (a b c) -0;", "f (a b c) -0;", "f (a b c) 0;"],
+    );
     let refused = |face: &str, expected: &str| check_error(&format!("{TRIANGLE}{face}"), expected);
     refused("f;", "expected `(` and vertex names, found `;`");
     refused("f roof;", "expected `(` and vertex names, found `;`");
