@@ -1,6 +1,6 @@
 //! The same input gives the same bytes: on any number of threads, on every run, and with every profile.
 
-#![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test fails by panicking")]
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use std::path::Path;
 use std::process::Command;

@@ -13,26 +13,13 @@ use ugimage::Format;
 use ugrainbow::Output;
 use ugtests::picture::{Picture, assert_same, decode, read};
 use ugtests::pipe::{Pipe, rainbow};
-use ugtests::scenes;
+use ugtests::{scenes, tools};
 
-/// False, with a word about it, if a program is missing and need not be there.
-fn has_tools() -> bool {
-    let must = std::env::var_os("UG_REQUIRE_TOOLS").is_some_and(|value| value == "1");
-    [
-        ("gs", "--version", "ghostscript"),
-        ("pdftoppm", "-v", "poppler-utils"),
-        ("rsvg-convert", "--version", "librsvg2-bin"),
-    ]
-    .into_iter()
-    .all(|(tool, option, package)| {
-        let found = Command::new(tool).arg(option).output().is_ok_and(|output| output.status.success());
-        assert!(found || !must, "UG_REQUIRE_TOOLS=1, but there is no `{tool}`: install {package}");
-        if !found {
-            println!("skipped: there is no `{tool}` on the path; install {package} to run this test");
-        }
-        found
-    })
-}
+const TOOLS: [tools::Tool<'_>; 3] = [
+    ("gs", "--version", "ghostscript"),
+    ("pdftoppm", "-v", "poppler-utils"),
+    ("rsvg-convert", "--version", "librsvg2-bin"),
+];
 
 /// What draws a file.
 #[derive(Clone, Copy, Debug)]
@@ -134,7 +121,7 @@ fn ship() -> Pipe {
 
 #[test]
 fn embedded_pictures_are_the_png() {
-    if !has_tools() {
+    if !tools::has(&TOOLS) {
         return;
     }
     let pipe = ship();
@@ -151,7 +138,7 @@ fn embedded_pictures_are_the_png() {
 
 #[test]
 fn figures_of_areas_show_the_same_as_the_png() {
-    if !has_tools() {
+    if !tools::has(&TOOLS) {
         return;
     }
     let mut white = ship();

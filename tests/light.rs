@@ -2,7 +2,7 @@
 //!
 //! Without `oiiotool` on the path the tests are skipped, unless `UG_REQUIRE_TOOLS=1`.
 
-#![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test fails by panicking")]
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -13,6 +13,7 @@ use ugparse::{Options, Source, parse};
 use ugrainbow::{Background, Channel, Output};
 use ugtests::oracle::Pinhole;
 use ugtests::pipe::{Pipe, rainbow};
+use ugtests::tools::{self, Tool};
 
 const SIZE: [u32; 2] = [24, 18];
 
@@ -21,15 +22,7 @@ const GLARE: &str = "c_xyz hot 900 400 1; c_xyz green .2 3 .1; c blue .7 220 .8;
     v a -4 9 -3 hot; v b 1 9 -3 green; v c 1 9 3 dim; v d -4 9 3 blue; f (a b c d);
     v e 0.3 8 -3; v g 3.7 8 -2; v h 2 7 3.1; f (e g h) blue; cam -ep 0 0 0 -vc 0 9 0 -va 60 50;";
 
-fn has_oiiotool() -> bool {
-    let found = Command::new("oiiotool").arg("--help").output().is_ok_and(|output| output.status.success());
-    let must = std::env::var_os("UG_REQUIRE_TOOLS").is_some_and(|value| value == "1");
-    assert!(found || !must, "UG_REQUIRE_TOOLS=1, but there is no `oiiotool`: install openimageio-tools");
-    if !found {
-        println!("skipped: there is no `oiiotool` on the path; install openimageio-tools to run this test");
-    }
-    found
-}
+const OIIOTOOL: Tool<'_> = ("oiiotool", "--help", "openimageio-tools");
 
 /// What `oiiotool` says; it is to be content.
 #[track_caller]
@@ -63,7 +56,7 @@ fn write(folder: &Path, name: &str, bytes: &[u8]) -> PathBuf {
 
 #[test]
 fn another_program_reads_the_same_light() {
-    if !has_oiiotool() {
+    if !tools::has(&[OIIOTOOL]) {
         return;
     }
     let folder = tempfile::tempdir().unwrap();
@@ -109,7 +102,7 @@ fn another_program_reads_the_same_light() {
 
 #[test]
 fn another_program_reads_the_same_levels() {
-    if !has_oiiotool() {
+    if !tools::has(&[OIIOTOOL]) {
         return;
     }
     let folder = tempfile::tempdir().unwrap();
@@ -132,7 +125,7 @@ fn another_program_reads_the_same_levels() {
 /// x = r d, the rest coordinates are r (d + (γ−1)(d·û)û + γv), and their y is 10.
 #[test]
 fn channels_are_where_and_when_light_was_sent() {
-    if !has_oiiotool() {
+    if !tools::has(&[OIIOTOOL]) {
         return;
     }
     let text =
@@ -189,7 +182,7 @@ fn channels_are_where_and_when_light_was_sent() {
 
 #[test]
 fn faces_have_their_numbers() {
-    if !has_oiiotool() {
+    if !tools::has(&[OIIOTOOL]) {
         return;
     }
     let folder = tempfile::tempdir().unwrap();

@@ -2,7 +2,7 @@
 //!
 //! Without `gs` on the path the test is skipped, unless `UG_REQUIRE_TOOLS=1`.
 
-#![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test fails by panicking")]
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use std::process::Command;
 
@@ -14,17 +14,9 @@ use ugrainbow::{Background, Output};
 use ugtests::picture::{Picture, assert_same, decode, read};
 use ugtests::pipe::{Pipe, rainbow};
 use ugtests::scenes;
+use ugtests::tools::{self, Tool};
 
-/// False, with a word about it, if there is no Ghostscript and there need not be.
-fn has_ghostscript() -> bool {
-    let found = Command::new("gs").arg("--version").output().is_ok_and(|output| output.status.success());
-    let must = std::env::var_os("UG_REQUIRE_TOOLS").is_some_and(|value| value == "1");
-    assert!(found || !must, "UG_REQUIRE_TOOLS=1, but there is no `gs`: install ghostscript");
-    if !found {
-        println!("skipped: there is no `gs` on the path; install ghostscript to run this test");
-    }
-    found
-}
+const GHOSTSCRIPT: Tool<'_> = ("gs", "--version", "ghostscript");
 
 /// Renders PostScript at one pixel a point. EPS pages are cut to their box; others set their size.
 fn ghostscript(file: &[u8]) -> Picture {
@@ -67,7 +59,7 @@ fn on_white(picture: &Picture) -> Picture {
 
 #[test]
 fn ghostscript_draws_the_pixels_of_the_png() {
-    if !has_ghostscript() {
+    if !tools::has(&[GHOSTSCRIPT]) {
         return;
     }
     let mut ship = Pipe::new(0.9 * DVec3::X, [160, 120]).in_place().shape();

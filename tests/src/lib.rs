@@ -10,7 +10,8 @@
 //! - [`outline`]: how far drawn edges are from where they are seen;
 //! - [`shading`]: colour and light of a point, by the formulas;
 //! - [`random`]: reproducible random numbers;
-//! - [`slow_reader`]: a second reader of the scene language, to check the first.
+//! - [`slow_reader`]: a second reader of the scene language, to check the first;
+//! - [`tools`]: whether programs of others are there.
 
 #![allow(clippy::missing_panics_doc, reason = "a test helper fails by panicking")]
 
@@ -25,3 +26,4 @@ pub mod random;
 pub mod scenes;
 pub mod shading;
 pub mod slow_reader;
+pub mod tools;
