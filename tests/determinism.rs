@@ -14,6 +14,8 @@ fn pipes() -> Vec<(&'static str, Pipe)> {
     let size = [160, 120];
     let mut ship = Pipe::new(0.3 * DVec3::X, size).in_place();
     ship.lorentz.smooth = true;
+    let mut soft = ship.clone();
+    soft.rainbow.filter = ugrainbow::Filter::Spline;
     let lattice = Pipe::new(-0.9 * DVec3::Y, size).view_angle(120.0);
     let mut teapot = Pipe::new(DVec3::new(0.5, 0.5, 0.5), size).in_place();
     teapot.doppler.iris = true;
@@ -38,6 +40,7 @@ fn pipes() -> Vec<(&'static str, Pipe)> {
     globe.doppler.tolerance = 0.0;
     vec![
         ("ship", ship),
+        ("ship", soft),
         ("ship", figure),
         ("ship", annotated),
         ("glass", glass),

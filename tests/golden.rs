@@ -38,6 +38,13 @@ fn without_flight_time_only_contraction_is_left() {
 }
 
 #[test]
+fn a_wide_filter_smooths_edges() {
+    let mut ship = pipe(0.5, 0.0, 0.0).in_place().shape();
+    ship.rainbow.filter = ugrainbow::Filter::Spline;
+    check("spline-filter-ship-0.5c", "ship", &ship);
+}
+
+#[test]
 fn rays_bend_edges_that_are_not_cut() {
     let mut cubes = pipe(0.95, 0.0, 0.0).in_place();
     cubes.lorentz.pieces = uglorentz::Pieces::PerEdge(1);

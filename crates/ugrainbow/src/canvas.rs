@@ -10,7 +10,7 @@ use ugphysics::srgb_decode;
 
 use crate::config::{Background, Config, Exposure};
 use crate::planes::{Finder, front, planes};
-use crate::raster::{Direct, Finish, Gathered, RUN, Seen, Tally};
+use crate::raster::{Direct, Filter, Finish, Gathered, RUN, Seen, Tally};
 use crate::setup::Setup;
 use crate::sheet::Sheet;
 
@@ -68,7 +68,7 @@ impl Canvas {
     fn display(setup: &Setup<'_>, sheet: &Sheet<'_>, config: &Config) -> Self {
         let grid = &setup.grid;
         let finish = Display::new(config);
-        let (pixels, tally) = sheet.paint::<(), _>(grid, &setup.shader, &finish);
+        let (pixels, tally) = sheet.paint_filtered(grid, config.filter, &setup.shader, &finish);
         let frame = Frame::new([grid.width, grid.height], finish.ground.is_opaque(), pixels);
         Self { drawn: Drawn::Display(frame), tally, development: None }
     }
@@ -152,20 +152,32 @@ pub fn light(setup: &Setup<'_>, sheet: &Sheet<'_>, config: &Config) -> (LinearFr
     let grid = &setup.grid;
     let ground = Ground::new(config);
     let frame = |pixels| LinearFrame::new([grid.width, grid.height], ground.is_opaque(), pixels);
-    if config.channels.is_empty() {
-        let (pixels, tally) = sheet.paint(grid, &setup.shader, &|all: &Gathered<'_, ()>| ground.pixel(all));
-        return (frame(pixels), tally);
+    if config.channels.is_empty() || config.filter != Filter::Box {
+        let light = |all: &Gathered<'_, ()>| ground.pixel(all);
+        let (pixels, tally) = sheet.paint_filtered(grid, config.filter, &setup.shader, &light);
+        let mut frame = frame(pixels);
+        if !config.channels.is_empty() {
+            // What is in the middle of a pixel is not filtered.
+            let front = |all: &Gathered<'_, u32>| front(&setup.view, all);
+            push_planes(&mut frame, setup, config, &sheet.paint(grid, &setup.shader, &front).0);
+        }
+        return (frame, tally);
     }
     let (pixels, tally) = sheet
         .paint(grid, &setup.shader, &|all: &Gathered<'_, u32>| (ground.pixel(all), front(&setup.view, all)));
     let (pixels, seen): (Vec<[f32; 4]>, Vec<Option<Seen<u32>>>) = pixels.into_iter().unzip();
     let mut frame = frame(pixels);
+    push_planes(&mut frame, setup, config, &seen);
+    (frame, tally)
+}
+
+/// Puts the channels that are asked for beside the light.
+fn push_planes(frame: &mut LinearFrame, setup: &Setup<'_>, config: &Config, seen: &[Option<Seen<u32>>]) {
     let painter = setup.painter();
     let finder = Finder::new(&painter);
     for &channel in &config.channels {
-        planes(channel, &finder, grid, &seen).into_iter().for_each(|plane| frame.push_plane(plane));
+        planes(channel, &finder, &setup.grid, seen).into_iter().for_each(|plane| frame.push_plane(plane));
     }
-    (frame, tally)
 }
 
 /// How the picture is to be developed. `frame`: its light, which only an automatic exposure looks at.

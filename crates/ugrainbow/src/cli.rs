@@ -15,9 +15,10 @@ use crate::config::{
 };
 use crate::explain::{self, explain};
 use crate::figures::Figures;
+use crate::raster::Filter;
 use crate::words::{
-    Channels, Kind, Pixel, Report, channels, color, exposure, format_named, kind_named, law, line_width,
-    pixel, tone,
+    Channels, Kind, Pixel, Report, channels, color, exposure, filter, format_named, kind_named, law,
+    line_width, pixel, tone,
 };
 use crate::{Error, run_with};
 
@@ -111,6 +112,14 @@ pub struct Args {
     #[arg(long, value_name = "N", default_value = "4", value_parser = clap::value_parser!(u32).range(1..=16),
           visible_alias = "samples", help_heading = PICTURE)]
     aa: u32,
+
+    /// Filter, by which samples weigh in pixels: box, triangle, spline
+    ///
+    /// box: those of the pixel alike, as of a detector. triangle and spline (a quadratic B-spline) reach into the neighbours: edges and
+    /// thin lines are smoother, and softer.
+    #[arg(long, value_name = "FILTER", default_value = "box", value_parser = filter, visible_alias = "filter",
+          help_heading = PICTURE)]
+    fl: Filter,
 
     /// Background colour: lightness, hue in degrees, saturation [default: black]
     #[arg(long, num_args = 1..=3, value_names = ["L", "H", "S"], action = ArgAction::Set,
@@ -261,6 +270,7 @@ impl Args {
             camera: self.camera(),
             size: [self.sz[0], self.sz[1]],
             samples: self.aa,
+            filter: self.fl,
             background: self.background()?,
             output: self.output(output)?,
             reading: pipe::options(&self.common)?,

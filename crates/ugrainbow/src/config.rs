@@ -6,6 +6,7 @@ use ugscene::{CameraOptions, HueScale};
 
 use crate::figures::Figures;
 use crate::planes::Channel;
+use crate::raster::Filter;
 use crate::sheet::Manner;
 
 /// Everything that decides the bytes of a picture besides the scene.
@@ -22,6 +23,8 @@ pub struct Config {
     pub size: [u32; 2],
     /// Samples along a side of a pixel, 1…16.
     pub samples: u32,
+    /// How samples weigh in pixels.
+    pub filter: Filter,
     /// What stands behind everything.
     pub background: Background,
     /// Kind of file.
@@ -62,6 +65,7 @@ impl Default for Config {
             camera: CameraOptions::default(),
             size: [1024, 768],
             samples: 4,
+            filter: Filter::Box,
             background: Background::Color(Hsv { hue: 0.0, saturation: 0.0, value: 0.0 }),
             output: Output::Color(Format::Png),
             reading: ugparse::Options::default(),

@@ -9,6 +9,7 @@ use ugphysics::VelocityError;
 use ugscene::CameraError;
 
 use crate::config::{Background, Config, Output};
+use crate::raster::Filter;
 
 /// Most pixels of a picture; in memory they are a gibibyte, as light four.
 pub const MAX_PIXELS: u64 = 1 << 28;
@@ -109,6 +110,9 @@ pub fn check_output(config: &Config) -> Result<(), Error> {
 fn check_vectors(config: &Config, format: Format) -> Result<(), Error> {
     if !format.has_vectors() {
         return Err(Error::Options("this format has only pixels: with -vec write -dt eps, ps, pdf or svg"));
+    }
+    if config.filter != Filter::Box {
+        return Err(Error::Options("areas have no samples to be weighed: leave out -fl, or -vec"));
     }
     if config.size.iter().any(|&side| side > MAX_VECTOR_SIDE) {
         return Err(Error::Options(

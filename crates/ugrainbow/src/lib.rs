@@ -27,7 +27,7 @@
 //! - **Hidden surfaces.** Depth is compared per sample, so faces may cut through each other. Colour and light of a
 //!   face are computed when the first of its samples is seen, and never if none is. [`Config::cull`] leaves out what is seen from behind.
 //!   Translucent faces are blended from behind, sample by sample, in linear light.
-//! - **Pixels.** Samples are averaged in linear light. The mean is exposed, put through a tone curve, brought
+//! - **Pixels.** Samples are averaged in linear light, those of the pixel alike or by a wider [`Filter`]. The mean is exposed, put through a tone curve, brought
 //!   into the gamut (P30), and encoded as sRGB; or written as it is to a format that holds light. Unless light
 //!   is given or asked for, values above 1 are clipped sample by sample, as in 1988.
 //!
@@ -92,6 +92,7 @@ pub use config::{Background, Config, DepthCue, Exact, Exposure, Interpolation, O
 pub use error::{Error, MAX_PIXELS, MAX_SIDE};
 pub use figures::Figures;
 pub use planes::Channel;
+pub use raster::Filter;
 pub use ugimage::Tone;
 pub use ugscene::{CameraError, CameraOptions, HueScale};
 

@@ -11,8 +11,8 @@ use crate::lines::{Hiders, Shown, Stroke, lines, pieces, strips, strokes};
 use crate::painter::Painter;
 use crate::palette::Swatch;
 use crate::raster::{
-    CLEAR_VALUES, Clear, Corner, Finish, Gathered, Grid, Layer, NoTable, Pane, PolygonList, Sample, Scanner,
-    Shade, Shapes, Sink, Tag, Tally, paint, probe,
+    CLEAR_VALUES, Clear, Corner, Filter, Finish, Gathered, Grid, Layer, NoTable, Pane, PolygonList, Sample,
+    Scanner, Shade, Shapes, Sink, Tag, Tally, paint, paint_filtered, probe, probe_filtered,
 };
 use crate::shade::Shader;
 
@@ -224,6 +224,41 @@ impl<'a> Sheet<'a> {
         let clear = lit.as_ref().map(|lit| lit as &dyn Clear);
         let progress = self.progress;
         with_layers!(&self.solid, |layers| paint(grid, layers, clear, shader, finish, progress))
+    }
+
+    /// The same by a filter.
+    pub fn paint_filtered<P: Copy + Send + Sync>(
+        &self,
+        grid: &Grid,
+        filter: Filter,
+        shader: &Shader,
+        finish: &impl Finish<(), P>,
+    ) -> (Vec<P>, Tally) {
+        if filter == Filter::Box {
+            return self.paint(grid, shader, finish);
+        }
+        let lit = self.lit(shader);
+        let clear = lit.as_ref().map(|lit| lit as &dyn Clear);
+        let progress = self.progress;
+        with_layers!(&self.solid, |layers| {
+            paint_filtered(grid, filter, layers, clear, shader, finish, progress)
+        })
+    }
+
+    /// A pixel of [`Sheet::paint_filtered`].
+    pub fn probe_filtered<P: Copy>(
+        &self,
+        grid: &Grid,
+        filter: Filter,
+        shader: &Shader,
+        finish: &impl Finish<(), P>,
+        pixel: [u32; 2],
+    ) -> P {
+        let lit = self.lit(shader);
+        let clear = lit.as_ref().map(|lit| lit as &dyn Clear);
+        with_layers!(&self.solid, |layers| {
+            probe_filtered(grid, filter, layers, clear, shader, finish, pixel)
+        })
     }
 
     /// The samples of one pixel, what they gather to, and what `finish` makes of it.

@@ -6,6 +6,7 @@ use ugpipe::{Failure, finite};
 
 use crate::config::{Exposure, MAX_LINE_WIDTH};
 use crate::planes::Channel;
+use crate::raster::Filter;
 
 /// What `-ch` names.
 #[derive(Clone, Debug, Default)]
@@ -99,6 +100,12 @@ pub fn law(word: &str) -> Result<Brightness, String> {
 pub fn tone(word: &str) -> Result<Tone, String> {
     Tone::from_name(word)
         .ok_or_else(|| format!("none of the curves {}", Tone::ALL.map(Tone::name).join(", ")))
+}
+
+/// The name of a filter.
+pub fn filter(word: &str) -> Result<Filter, String> {
+    Filter::from_name(word)
+        .ok_or_else(|| format!("none of the filters {}", Filter::ALL.map(Filter::name).join(", ")))
 }
 
 /// Each once, in the order given.

@@ -113,6 +113,8 @@ fn bad_usage_ends_with_2() {
     );
     check("-sz 0 8", "0 is not in 1..");
     check("-sz 8", "2 values required");
+    check("-fl gauss", "none of the filters box, triangle, spline");
+    check("-vec -dt pdf -fl spline", "areas have no samples to be weighed: leave out -fl, or -vec");
     check("-aa 17", "17 is not in 1..=16");
     check("-aa 0", "0 is not in 1..=16");
     check("-va 180", "a view angle is more than 0 and less than 180 degrees");

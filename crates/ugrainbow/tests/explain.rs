@@ -65,6 +65,8 @@ fn the_last_step_is_the_picture() {
         (SCENE, "-aa 3 -ex auto -tc filmic -bg .2 200"),
         (SCENE, "-aa 2 -tb -ex -1.5 -va 140"),
         (SCENE, "-aa 1 -og -va 60"),
+        (SCENE, "-aa 3 -fl triangle -ex auto -bg .2 200"),
+        (&hues, "-aa 2 -fl spline -tb"),
         (&hues, "-aa 4 -iw"),
         (&hues, "-aa 2 -ex -.5"),
     ] {

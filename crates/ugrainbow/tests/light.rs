@@ -2,6 +2,9 @@
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, its helpers too")]
 
+mod common;
+
+use common::{file, light};
 use ugimage::{Development, Format, Quantizer};
 use ugparse::Source;
 use ugphysics::{Hsv, linear_srgb_to_xyz, luminance, srgb_decode, srgb_encode};
@@ -14,21 +17,6 @@ fn map(width: u32, height: u32, samples: u32) -> (String, Config) {
     let angle = 2.0 * libm::atan(4.0 / 10.0).to_degrees();
     let config = Config { size: [width, height], samples, ..Config::default() };
     (format!("cam -ep 0 0 10 -vc 0 0 0 -ud 0 1 0 -og -va {angle} {angle};"), config)
-}
-
-#[track_caller]
-fn file(text: &str, config: &Config) -> Vec<u8> {
-    run(config, &Source::new("test.ug", text)).unwrap().bytes
-}
-
-/// Linear red, green and blue of every pixel, out of a PFM file.
-#[track_caller]
-fn light(text: &str, config: &Config) -> Vec<[f32; 3]> {
-    let file = file(text, &Config { output: Output::Color(Format::Pfm), ..config.clone() });
-    let [width, height] = config.size.map(|side| side as usize);
-    let data = file[file.len() - 12 * width * height..].as_chunks::<4>().0;
-    let numbers: Vec<f32> = data.iter().map(|bytes| f32::from_le_bytes(*bytes)).collect();
-    numbers.chunks(3 * width).rev().flat_map(|row| row.as_chunks::<3>().0.to_vec()).collect()
 }
 
 #[track_caller]

@@ -32,6 +32,7 @@ pub fn json(explanation: &Explanation) -> String {
         "is_at_rest": is_at_rest,
         "brightness_law": story.doppler.as_ref().map(|doppler| &doppler.law),
         "sample": sample.as_ref().map(shown),
+        "filter": pixel_steps.filter.name(),
         "mean_linear": pixel_steps.mean[..3],
         "development": development,
         "bytes": pixel_steps.bytes,

@@ -11,11 +11,11 @@ use ugphysics::{attenuation, doppler_at, linear_srgb_to_xyz, wavelength_to_hue};
 use ugscene::Geometry;
 
 use crate::canvas::{Display, Ground, development};
-use crate::config::{Config, Interpolation};
+use crate::config::{Background, Config, Interpolation};
 use crate::figures::Plan;
 use crate::palette::Swatch;
 use crate::planes::{self, Finder};
-use crate::raster::{Fragment, Gathered, Sample, Seen};
+use crate::raster::{Filter, Finish, Fragment, Gathered, Sample, Seen};
 use crate::setup::Setup;
 use crate::sheet::Sheet;
 use crate::{Error, canvas};
@@ -147,6 +147,8 @@ pub struct Corner {
 /// From the samples of the pixel to its bytes.
 #[derive(Clone, Debug)]
 pub struct PixelSteps {
+    /// How samples weigh, those of neighbours among them.
+    pub filter: Filter,
     /// Linear red, green, blue, averaged; and the covered part.
     pub mean: [f32; 4],
     /// If light was kept uncut: how it was developed.
@@ -174,8 +176,15 @@ pub fn explain(
         return Err(Error::Pixel { pixel, size: config.size });
     }
     let sheet = Sheet::new(setup.painter(), &config.manner());
-    let display = Display::new(config);
+    let (display, ground) = (Display::new(config), Ground::new(config));
     let (samples, gathered, bytes) = sheet.probe(&setup.grid, &setup.shader, &display, pixel);
+    let (mean, bytes) = match config.filter {
+        Filter::Box => (ground.pixel(&gathered), bytes),
+        filter => {
+            let both = |all: &Gathered<'_, ()>| (ground.pixel(all), display.pixel(all));
+            sheet.probe_filtered(&setup.grid, filter, &setup.shader, &both, pixel)
+        }
+    };
     let story = Story::of(&parsed.scene);
     let teller = Teller { setup: &setup, config, source, parsed: &parsed, story: &story };
     let explanation = Explanation {
@@ -187,7 +196,7 @@ pub fn explain(
             - samples.iter().filter(|sample| !is_free(sample)).count(),
         is_at_rest: parsed.scene.velocities.iter().all(|beta| *beta == DVec3::ZERO),
         sample: nearest(&samples, pixel, config.samples).map(|sample| teller.shown(sample)),
-        pixel_steps: pixel_steps(&setup, &sheet, config, &gathered, bytes),
+        pixel_steps: pixel_steps(&setup, &sheet, config, mean, bytes),
         story,
     };
     Ok((explanation, parsed.warnings))
@@ -207,11 +216,9 @@ fn pixel_steps(
     setup: &Setup<'_>,
     sheet: &Sheet<'_>,
     config: &Config,
-    gathered: &Gathered<'_, u32>,
+    mean: [f32; 4],
     bytes: [u8; 4],
 ) -> PixelSteps {
-    let ground = Ground::new(config);
-    let mean = ground.pixel(gathered);
     let [red, green, blue, _] = mean;
     let development = setup.is_uncut.then(|| {
         let development = development(|| canvas::light(setup, sheet, config).0, config);
@@ -219,9 +226,9 @@ fn pixel_steps(
     });
     let bytes = development.map_or(bytes, |(development, _)| {
         let shown = canvas::developed(&development, mean);
-        display_pixel(&Quantizer::new(), shown, ground.is_opaque())
+        display_pixel(&Quantizer::new(), shown, config.background != Background::Clear)
     });
-    PixelSteps { mean, development, bytes }
+    PixelSteps { filter: config.filter, mean, development, bytes }
 }
 
 /// One of the things a sample shows.

@@ -3,6 +3,7 @@
 use std::fmt::{self, Write};
 
 use super::{Corner, Explanation, Item, PixelSteps, SampleColor, Shown, Story};
+use crate::raster::Filter;
 
 /// Corners shown; a face may have thousands.
 const MAX_CORNERS: usize = 8;
@@ -29,7 +30,7 @@ fn write_all(out: &mut String, explanation: &Explanation) -> fmt::Result {
     if let Some(shown) = &explanation.sample {
         write_sample(out, shown, explanation)?;
     }
-    write_pixel(out, &explanation.pixel_steps)
+    write_pixel(out, &explanation.pixel_steps, explanation.samples)
 }
 
 fn row(out: &mut String, title: &str, text: impl fmt::Display) -> fmt::Result {
@@ -175,10 +176,16 @@ fn lit(level: &Option<[f64; 3]>) -> String {
     level.map_or(", lit".to_owned(), |level| format!(", times red, green, blue light {}", numbers(&level)))
 }
 
-fn write_pixel(out: &mut String, steps: &PixelSteps) -> fmt::Result {
+fn write_pixel(out: &mut String, steps: &PixelSteps, samples: u32) -> fmt::Result {
     let [red, green, blue, part] = steps.mean.map(f64::from);
     writeln!(out, "\nthe pixel")?;
-    row(out, "mean", format!("{} linear, {} of it covered", numbers(&[red, green, blue]), number(part)))?;
+    let by = match steps.filter {
+        Filter::Box => String::new(),
+        filter => {
+            format!(", of {n} x {n} samples by the filter {}", filter.name(), n = filter.n_samples(samples))
+        }
+    };
+    row(out, "mean", format!("{} linear, {} of it covered{by}", numbers(&[red, green, blue]), number(part)))?;
     if let Some((development, steps)) = &steps.development {
         row(out, "exposure", format!("{} stops: {}", number(development.stops), numbers(&steps.exposed)))?;
         row(out, "tone curve", format!("{}: {}", development.tone.name(), numbers(&steps.toned)))?;

@@ -64,7 +64,7 @@ impl Grid {
     }
 
     /// Pixel columns of a tile.
-    fn tile_columns(&self) -> u32 {
+    pub fn tile_columns(&self) -> u32 {
         (MAX_ROW_SAMPLES / (self.samples * self.samples)).clamp(1, self.width)
     }
 
@@ -72,6 +72,11 @@ impl Grid {
     fn tile_rows(&self) -> u32 {
         let row_samples = self.samples * self.samples * self.tile_columns();
         (TILE_SAMPLES / row_samples).clamp(1, self.height)
+    }
+
+    /// Behind the last row of the tile that a row of pixels is in.
+    pub fn tile_end(&self, row: u32) -> u32 {
+        (row / self.tile_rows() + 1) * self.tile_rows()
     }
 
     /// Pixel rows of a band, a whole number of tiles.
@@ -207,7 +212,7 @@ where
 }
 
 /// As many of a value, written by all threads.
-fn filled<P: Copy + Send + Sync>(value: P, len: usize) -> Vec<P> {
+pub fn filled<P: Copy + Send + Sync>(value: P, len: usize) -> Vec<P> {
     // Many together, for a list that is made in parallel takes its elements one by one.
     const TOGETHER: usize = 64;
     let parts: Vec<[P; TOGETHER]> =
@@ -218,7 +223,7 @@ fn filled<P: Copy + Send + Sync>(value: P, len: usize) -> Vec<P> {
 }
 
 /// Buffers that no thread uses just now.
-struct Buffers<B>(Mutex<Vec<B>>);
+pub struct Buffers<B>(Mutex<Vec<B>>);
 
 impl<B> Default for Buffers<B> {
     fn default() -> Self {
@@ -227,11 +232,11 @@ impl<B> Default for Buffers<B> {
 }
 
 impl<B: Default> Buffers<B> {
-    fn take(&self) -> B {
+    pub fn take(&self) -> B {
         self.lock().pop().unwrap_or_default()
     }
 
-    fn put_back(&self, buffer: B) {
+    pub fn put_back(&self, buffer: B) {
         self.lock().push(buffer);
     }
 

@@ -14,7 +14,8 @@
 //! 6. [`shading`]: the light of samples, many at once;
 //! 7. [`resolve`]: samples to pixels, averaged in linear light, what is far faded ([`cue`]);
 //! 8. [`band`]: bands in parallel, each with its own small sample buffer;
-//! 9. [`probe`]: one pixel alone, with all its samples.
+//! 9. [`filter`]: pixels that weigh samples of their neighbours, too;
+//! 10. [`probe`]: one pixel alone, with all its samples.
 //!
 //! A sample can also remember whose it is ([`Tag`]); where nobody asks, that costs nothing.
 //!
@@ -40,6 +41,7 @@ mod bins;
 mod block;
 mod cue;
 mod edges;
+mod filter;
 mod glass;
 mod polygons;
 mod probe;
@@ -58,6 +60,7 @@ pub use bins::Bins;
 pub use block::{BLOCK, Block};
 pub use cue::Cue;
 pub use edges::Scanner;
+pub use filter::{Filter, paint_filtered, probe_filtered};
 pub use glass::{CLEAR_VALUES, Clear, Fragment, Pane};
 pub use polygons::{Bounds, Corner, Drawn, PolygonList, greater, lesser};
 pub use probe::{Sample, probe};

@@ -56,7 +56,7 @@ pub trait Direct<P> {
 /// Turns samples into pixels.
 pub struct Resolver<'a, S, F> {
     shader: &'a S,
-    finish: &'a F,
+    pub finish: &'a F,
     grid: &'a Grid,
     shades: Shades,
     /// Linear light, and cover, of a row of samples.
@@ -166,10 +166,7 @@ impl<'a, S, F> Resolver<'a, S, F> {
             all.resize((n_pixels * n) as usize, 0.0);
         }
         for sample_row in row * n..(row + 1) * n {
-            self.light_row(tile, sample_row, [first * n, (first + n_pixels) * n]);
-            if !glass.is_empty() || self.grid.cue.is_some() {
-                self.look_through(tile, glass, sample_row, first * n);
-            }
+            self.light(tile, glass, sample_row, [first * n, (first + n_pixels) * n]);
             for (sums, lit) in self.columns.iter_mut().zip(&self.lit) {
                 sums.iter_mut().zip(lit).for_each(|(sum, lit)| *sum += lit);
             }
@@ -185,12 +182,37 @@ impl<'a, S, F> Resolver<'a, S, F> {
         );
     }
 
-    /// Puts the light of a row of samples into `lit`: nothing where nothing is drawn.
-    fn light_row<const N: usize, T: Tag>(&mut self, tile: &Tile<N, T>, row: u32, [first, end]: [u32; 2])
+    /// The linear light, and cover, of the samples from column `first` to `end` of a row; `None` if they show nothing.
+    pub fn light<const N: usize, T: Tag>(
+        &mut self,
+        tile: &Tile<N, T>,
+        glass: &Glass,
+        row: u32,
+        [first, end]: [u32; 2],
+    ) -> Option<&[Vec<f32>; 4]>
+    where
+        S: Shading<N>,
+    {
+        let mut is_lit = self.light_row(tile, row, [first, end]);
+        if !glass.is_empty() || self.grid.cue.is_some() {
+            self.look_through(tile, glass, row, first);
+            is_lit = true;
+        }
+        is_lit.then_some(&self.lit)
+    }
+
+    /// Puts the light of a row of samples into `lit`: nothing where nothing is drawn. False if that is everywhere.
+    fn light_row<const N: usize, T: Tag>(
+        &mut self,
+        tile: &Tile<N, T>,
+        row: u32,
+        [first, end]: [u32; 2],
+    ) -> bool
     where
         S: Shading<N>,
     {
         let (keys, values) = tile.row_part(row, first, end);
+        let mut is_lit = false;
         self.lit.iter_mut().for_each(|all| all.resize(keys.len(), 0.0));
         for (run, keys) in keys.chunks(RUN).enumerate() {
             let run = run * RUN..run * RUN + keys.len();
@@ -198,6 +220,7 @@ impl<'a, S, F> Resolver<'a, S, F> {
                 self.lit.iter_mut().for_each(|all| all[run.clone()].fill(0.0));
                 continue;
             }
+            is_lit = true;
             self.shader.shade(values.map(|all| &all[run.clone()]), Scale::Linear, &mut self.shades);
             self.tally.count_run(keys, &self.shades);
             let [lit @ .., covers] = self.lit.each_mut().map(|all| &mut all[run.clone()]);
@@ -210,6 +233,7 @@ impl<'a, S, F> Resolver<'a, S, F> {
                 *cover = f32::from(u8::from(*key > EMPTY));
             }
         }
+        is_lit
     }
 
     /// Puts the row of samples that is in `lit` behind what is clear, and fades what is far.

@@ -1,13 +1,14 @@
 //! Pictures of scenes given as text.
 #![allow(dead_code, clippy::unwrap_used, reason = "each test uses a part; a test fails by panicking")]
 
-use ugimage::Frame;
-use ugrainbow::{Config, render};
+use ugimage::{Format, Frame};
+use ugparse::Source;
+use ugrainbow::{Config, Output, render, run};
 
 /// The scene of a text.
 #[track_caller]
 pub fn scene(text: &str) -> ugparse::Scene {
-    let source = ugparse::Source::new("test.ug", text);
+    let source = Source::new("test.ug", text);
     ugparse::parse(&source, &ugparse::Options::default()).unwrap().scene
 }
 
@@ -20,4 +21,20 @@ pub fn draw(text: &str, config: &Config) -> Frame {
 /// Of a square picture.
 pub fn config(side: u32, samples: u32) -> Config {
     Config { size: [side, side], samples, ..Config::default() }
+}
+
+/// A file of the picture of a text.
+#[track_caller]
+pub fn file(text: &str, config: &Config) -> Vec<u8> {
+    run(config, &Source::new("test.ug", text)).unwrap().bytes
+}
+
+/// Linear red, green and blue of every pixel, out of a PFM file.
+#[track_caller]
+pub fn light(text: &str, config: &Config) -> Vec<[f32; 3]> {
+    let file = file(text, &Config { output: Output::Color(Format::Pfm), ..config.clone() });
+    let [width, height] = config.size.map(|side| side as usize);
+    let data = file[file.len() - 12 * width * height..].as_chunks::<4>().0;
+    let numbers: Vec<f32> = data.iter().map(|bytes| f32::from_le_bytes(*bytes)).collect();
+    numbers.chunks(3 * width).rev().flat_map(|row| row.as_chunks::<3>().0.to_vec()).collect()
 }
