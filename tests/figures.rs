@@ -1,6 +1,6 @@
 //! PDF, SVG and figures of areas, as independent programs see them: the same picture as the PNG.
 //!
-//! Without `gs`, `pdftoppm` and `rsvg-convert` on the path the tests are skipped, unless `UG_REQUIRE_TOOLS=1`.
+//! Without `gs`, `pdftoppm`, `rsvg-convert` and `chromium` on the path the tests are skipped, unless `UG_REQUIRE_TOOLS=1`.
 
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test fails by panicking")]
 
@@ -15,10 +15,11 @@ use ugtests::picture::{Picture, assert_same, decode, read};
 use ugtests::pipe::{Pipe, rainbow};
 use ugtests::{scenes, tools};
 
-const TOOLS: [tools::Tool<'_>; 3] = [
+const TOOLS: [tools::Tool<'_>; 4] = [
     ("gs", "--version", "ghostscript"),
     ("pdftoppm", "-v", "poppler-utils"),
     ("rsvg-convert", "--version", "librsvg2-bin"),
+    ("chromium", "--version", "chromium"),
 ];
 
 /// What draws a file.
@@ -29,6 +30,7 @@ enum Tool {
     /// Takes the picture out of the page; pdftoppm resamples pictures even at one pixel a point.
     PopplerImages,
     Rsvg,
+    Chromium,
 }
 
 /// The file drawn at one pixel a point, with smoothed edges.
@@ -41,7 +43,9 @@ fn drawn(tool: Tool, format: Format, file: &[u8]) -> Picture {
     let mut command = command(tool, &input, &output);
     let run = command.output().unwrap();
     let messages = String::from_utf8_lossy(&run.stdout) + String::from_utf8_lossy(&run.stderr);
-    assert!(run.status.success() && messages.is_empty(), "{tool:?}: {}: {messages}", run.status);
+    // Browsers talk of the desktop that is not there.
+    let is_content = messages.is_empty() || matches!(tool, Tool::Chromium);
+    assert!(run.status.success() && is_content, "{tool:?}: {}: {messages}", run.status);
     read(&output)
 }
 
@@ -68,16 +72,28 @@ fn command(tool: Tool, input: &Path, output: &PathBuf) -> Command {
             rsvg.arg(input).arg("-o").arg(output);
             rsvg
         }
+        Tool::Chromium => {
+            let mut chromium = Command::new("chromium");
+            // Without a sandbox, so that it runs for root; it is shown nothing but our file.
+            chromium.args(["--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage"]);
+            chromium.args(["--hide-scrollbars", "--force-device-scale-factor=1"]);
+            chromium.arg(format!("--window-size={},{}", SIZE[0], SIZE[1]));
+            chromium.arg(format!("--user-data-dir={}", output.with_file_name("profile").display()));
+            chromium.arg(format!("--screenshot={}", output.display()));
+            chromium.arg(format!("file://{}", input.display()));
+            chromium
+        }
     }
 }
 
 /// Formats of areas, and who draws them.
-const DRAWN_BY: [(Format, Tool); 5] = [
+const DRAWN_BY: [(Format, Tool); 6] = [
     (Format::Eps, Tool::Ghostscript),
     (Format::Ps, Tool::Ghostscript),
     (Format::Pdf, Tool::Ghostscript),
     (Format::Pdf, Tool::Poppler),
     (Format::Svg, Tool::Rsvg),
+    (Format::Svg, Tool::Chromium),
 ];
 
 /// The part of the pixels that differ: those with a channel more than `LEVELS` outside the range that the pixel of the
@@ -128,9 +144,12 @@ fn embedded_pictures_are_the_png() {
     let colored = pipe.run(&scenes::text("ship")).colored;
     let draw = |output| rainbow(&colored, &ugrainbow::Config { output, ..pipe.rainbow.clone() });
     let png = decode(&draw(Output::Color(Format::Png)));
-    for (format, tool) in
-        [(Format::Pdf, Tool::Ghostscript), (Format::Pdf, Tool::PopplerImages), (Format::Svg, Tool::Rsvg)]
-    {
+    for (format, tool) in [
+        (Format::Pdf, Tool::Ghostscript),
+        (Format::Pdf, Tool::PopplerImages),
+        (Format::Svg, Tool::Rsvg),
+        (Format::Svg, Tool::Chromium),
+    ] {
         let file = draw(Output::Color(format));
         assert_same(&format!("embedded-{}-{tool:?}", format.name()), &png, &drawn(tool, format, &file), 1);
     }
