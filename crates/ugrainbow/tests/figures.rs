@@ -221,9 +221,25 @@ fn what_cannot_be_is_refused() {
     let with = |figures: Figures| Config { size: [320, 240], figures, ..Config::default() };
     check(with(Figures { caption: "光速".into(), ..Figures::default() }), "the font has no `光` (U+5149)");
     check(Config { output: Output::Color(Format::Exr), ..with(strips()) }, "leave out -cap");
-    check(Config { size: [30, 30], ..with(strips()) }, "give a larger -sz");
+    check(Config { size: [100, 30], ..with(strips()) }, "give a larger -sz");
+    let narrow = "too narrow for a caption or legend: give a wider -sz";
+    check(Config { size: [30, 30], ..with(strips()) }, narrow);
+    check(Config { size: [20, 400], ..with(Figures { caption: "M".into(), ..Figures::default() }) }, narrow);
     check(Config { size: [0, 30], ..with(strips()) }, &MAX_PIXELS.to_string());
     check(with(Figures { caption: "x\n".repeat(50) + "x", ..Figures::default() }), "a shorter -cap");
+}
+
+#[test]
+fn figures_of_any_width_are_drawn_or_refused() {
+    let draws = |width: u32| {
+        let config = Config { size: [width, 400], samples: 1, figures: strips(), ..Config::default() };
+        let drawn = render(&scene(SHIP), &config);
+        assert!(drawn.as_ref().err().is_none_or(Error::is_usage), "{width}");
+        drawn.is_ok()
+    };
+    let least = (1..400).find(|&width| draws(width)).unwrap();
+    assert!((60..100).contains(&least), "{least}");
+    assert!((least..400).step_by(37).all(draws));
 }
 
 #[test]

@@ -35,13 +35,17 @@ const GAP: f64 = 1.5;
 /// Most and least width of the rainbow.
 const RAINBOW: [f64; 2] = [26.0, 20.0];
 
+/// Least width of all, in sizes of text: numbers below the rainbow stand apart, and words can be read.
+const LEAST_WIDTH: f64 = 9.0;
+
 /// More bodies have no arrows.
 const MOST_ARROWS: usize = 8;
 
-/// Rows of a legend in a picture of so many columns.
-pub fn rows(style: &Style, width: u32) -> u32 {
+/// Rows of a legend in a picture of so many columns; `None` if that is too narrow for one.
+pub fn rows(style: &Style, width: u32) -> Option<u32> {
     let layout = Layout::new(style, f64::from(width), 0.0);
-    (layout.end + layout.padding).ceil() as u32
+    let rows = (layout.end + layout.padding).ceil() as u32;
+    (layout.rainbow.1 >= LEAST_WIDTH * layout.size).then_some(rows)
 }
 
 /// Draws it on a strip of a width, that begins at a row.

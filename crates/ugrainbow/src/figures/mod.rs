@@ -69,8 +69,15 @@ impl Plan {
         }
         let style = Style::new(config.size, None, config.output);
         let [width, height] = config.size;
-        let caption = wrapped(&figures.caption, style.size, f64::from(width) - 2.0 * style.margin())?;
-        let legend_rows = if figures.legend { legend::rows(&style, width) } else { 0 };
+        let room = f64::from(width) - 2.0 * style.margin();
+        let caption = wrapped(&figures.caption, style.size, room)?;
+        let legend_rows = if figures.legend { legend::rows(&style, width) } else { Some(0) };
+        let Some(legend_rows) = legend_rows.filter(|_| caption.iter().all(|line| line.width() <= room))
+        else {
+            return Err(Error::Options(
+                "the picture is too narrow for a caption or legend: give a wider -sz, or leave out -cap and -lg",
+            ));
+        };
         let strips = legend_rows.saturating_add(caption_rows(&style, caption.len()));
         // With less than a third of its height it is no picture any more.
         match height.checked_sub(strips) {

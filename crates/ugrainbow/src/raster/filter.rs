@@ -263,8 +263,8 @@ impl<const N: usize, L: Layer<N> + ?Sized> Strip<'_, N, L> {
             let is_last = row == tall[1];
             let done =
                 if is_last { rows[1] } else { row.saturating_sub(self.margin).clamp(waiting, rows[1]) };
-            for done in waiting..done {
-                self.finish(resolver.finish, done, columns, wide[0], &mut put);
+            for finished in waiting..done {
+                self.finish(resolver.finish, finished, columns, wide[0], &mut put);
             }
             waiting = done;
         }
