@@ -4,6 +4,7 @@
 //! that is nearer becomes a [`Fragment`]. The fragments of a sample are sorted by depth and blended from behind, in
 //! linear light, so faces may cut through each other, and the order of statements makes no difference.
 //!
+//! Lines, and what of a face lets nothing through, hide what is clear behind them: that is not kept if it is drawn later.
 //! Fragments take memory, so if a tile has too many of them it is drawn in parts, down to single rows of samples.
 
 use std::ops::Range;
@@ -12,11 +13,11 @@ use fearless_simd::Simd;
 
 use super::band::Grid;
 use super::edges::{Crossing, Scanner};
-use super::polygons::first_center;
+use super::polygons::{first_center, greater};
 use super::rows::TriangleRow;
 use super::shading::{Shade, Tally};
 use super::slopes::{FindPlanes, Planes};
-use super::spans::{Sink, Tag, Tile};
+use super::spans::{EMPTY, Sink, Tag, Tile};
 
 /// Numbers that are interpolated for what is clear.
 pub const CLEAR_VALUES: usize = 8;
@@ -87,6 +88,8 @@ pub enum Keep {
 pub struct Glass {
     scanner: Scanner<CLEAR_VALUES>,
     fragments: Vec<Fragment>,
+    /// Depth keys of the nearest of them that lets nothing through, for each sample of the tile.
+    front: Vec<f32>,
     /// One for each sample of the tile; none at all if nothing in it is clear.
     veils: Vec<Veil>,
     kept: Vec<Fragment>,
@@ -111,12 +114,15 @@ impl Glass {
         let mut parts = vec![self.rows];
         while let Some(rows) = parts.pop() {
             self.fragments.clear();
+            self.front.clear();
+            self.front.resize(tile.keys().len(), EMPTY);
             let mut pane = Pane {
                 rows,
                 columns: self.columns,
                 top: self.rows[0],
                 keys: tile.keys(),
                 fragments: &mut self.fragments,
+                front: &mut self.front,
                 most: if rows[1] - rows[0] > 1 { MOST_FRAGMENTS } else { usize::MAX },
                 tally: Tally::default(),
             };
@@ -190,6 +196,8 @@ pub struct Pane<'a> {
     /// Depth keys of what hides, of the whole tile.
     keys: &'a [f32],
     fragments: &'a mut Vec<Fragment>,
+    /// Depth keys of the nearest of them that lets nothing through.
+    front: &'a mut [f32],
     most: usize,
     tally: Tally,
 }
@@ -222,14 +230,19 @@ impl<S: Fn(&[f32; CLEAR_VALUES]) -> (Shade, f32)> PaneSink<'_, '_, S> {
         // What is all clear is as if it were not there.
         if pass < 1.0 && pane.fragments.len() < pane.most {
             pane.tally.count(&shade);
+            if pass == 0.0 {
+                pane.front[sample] = greater(pane.front[sample], key);
+            }
             let (sample, light) = (sample as u32, shade.light);
             pane.fragments.push(Fragment { sample, key, item, is_line: self.is_line, light, pass });
         }
     }
 
-    /// Lines have had their hidden parts removed; they are not tested again, beside their middle.
-    fn is_hidden(&self, key: f32, sample: usize) -> bool {
-        !self.is_line && key <= self.pane.keys[sample]
+    /// What is not nearer than this depth key is hidden. Lines have had their hidden parts removed; what hides is not looked at
+    /// again, beside their middle. Of equals the first drawn is in front.
+    fn hiding(&self, sample: usize) -> f32 {
+        let front = self.pane.front[sample];
+        if self.is_line { front } else { greater(front, self.pane.keys[sample]) }
     }
 }
 
@@ -262,7 +275,7 @@ impl<S: Fn(&[f32; CLEAR_VALUES]) -> (Shade, f32)> Sink<CLEAR_VALUES> for PaneSin
             let across = f64::from(column) + 0.5 - left.x;
             let mix = |a: f64, b: f64| a + across * ((b - a) * per_column);
             let key = mix(left.key, right.key);
-            if self.is_hidden(key as f32, sample) {
+            if key as f32 <= self.hiding(sample) {
                 continue;
             }
             let scale = if is_perspective { 1.0 / key } else { 1.0 };
@@ -284,7 +297,7 @@ impl<S: Fn(&[f32; CLEAR_VALUES]) -> (Shade, f32)> Sink<CLEAR_VALUES> for PaneSin
         for (column, sample) in columns.clone().zip(self.pane.samples(line.row, &columns)) {
             let place = f64::from(column) + 0.5;
             let key = line.key_at(place);
-            if self.is_hidden(key as f32, sample) {
+            if key as f32 <= self.hiding(sample) {
                 continue;
             }
             let scale = if is_perspective { 1.0 / key } else { 1.0 };
@@ -302,7 +315,7 @@ impl<S: Fn(&[f32; CLEAR_VALUES]) -> (Shade, f32)> Sink<CLEAR_VALUES> for PaneSin
         mut sample: impl FnMut(u32, f32) -> Option<(f32, [f32; CLEAR_VALUES])>,
     ) {
         for (column, place) in columns.clone().zip(self.pane.samples(row, &columns)) {
-            if let Some((key, values)) = sample(column, self.pane.keys[place]) {
+            if let Some((key, values)) = sample(column, self.hiding(place)) {
                 self.push(place, item, key, &values);
             }
         }
