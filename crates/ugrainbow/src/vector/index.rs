@@ -2,11 +2,13 @@
 
 use std::ops::RangeInclusive;
 
-/// A grid of cells over the picture, each with the shapes whose boxes touch it.
+/// Grids of cells over the picture, each twice as fine as the one before. A shape is in the finest in which its box touches no
+/// more than two cells either way: large ones take no more memory than small ones.
 pub struct Index {
-    cells: Vec<Vec<usize>>,
-    /// Cells across and down.
-    n: [usize; 2],
+    /// From the finest grid to that of one cell; the shapes of each cell.
+    grids: Vec<Vec<Vec<usize>>>,
+    /// Cells along a side of the finest.
+    n: usize,
     size: [f64; 2],
     /// Of each shape, the least and greatest x and y.
     boxes: Vec<[[f64; 2]; 2]>,
@@ -27,39 +29,95 @@ impl Index {
     /// Of nothing as yet; made for so many shapes.
     pub fn empty(n_shapes: usize, size: [u32; 2]) -> Self {
         let side = (n_shapes as f64).sqrt().ceil() as usize;
-        let n = [side.clamp(1, MAX_CELLS); 2];
-        Self { cells: vec![Vec::new(); n[0] * n[1]], n, size: size.map(f64::from), boxes: Vec::new() }
+        let n = side.clamp(1, MAX_CELLS).next_power_of_two();
+        let grids = (0..=n.ilog2()).map(|coarser| vec![Vec::new(); (n >> coarser) * (n >> coarser)]);
+        Self { grids: grids.collect(), n, size: size.map(f64::from), boxes: Vec::new() }
     }
 
     /// Adds a shape.
     pub fn push(&mut self, its_box: [[f64; 2]; 2]) {
-        for cell in self.cells_of(its_box) {
-            self.cells[cell].push(self.boxes.len());
-        }
+        let shape = self.boxes.len();
         self.boxes.push(its_box);
+        let ends = self.ends(its_box);
+        let is_small =
+            |coarser: &usize| ends.iter().all(|[low, high]| (high >> coarser) - (low >> coarser) < 2);
+        // In the grid of one cell everything is.
+        let coarser = (0..self.grids.len()).find(is_small).unwrap_or(self.grids.len() - 1);
+        for cell in self.cells(ends, coarser) {
+            self.grids[coarser][cell].push(shape);
+        }
     }
 
     /// The shapes whose boxes overlap a box, each once, in order.
     pub fn in_box(&self, asked: [[f64; 2]; 2]) -> Vec<usize> {
         let [low, high] = asked;
-        let overlaps = |idx: &usize| {
-            let [its_low, its_high] = self.boxes[*idx];
+        let overlaps = |shape: &usize| {
+            let [its_low, its_high] = self.boxes[*shape];
             (0..2).all(|axis| its_low[axis] <= high[axis] && low[axis] <= its_high[axis])
         };
-        let cells = self.cells_of(asked).flat_map(|cell| &self.cells[cell]).copied();
-        let mut found: Vec<usize> = cells.filter(overlaps).collect();
+        let ends = self.ends(asked);
+        let mut found = Vec::new();
+        for (coarser, grid) in self.grids.iter().enumerate() {
+            let shapes = self.cells(ends, coarser).flat_map(|cell| &grid[cell]);
+            found.extend(shapes.copied().filter(overlaps));
+        }
         found.sort_unstable();
         found.dedup();
         found
     }
 
-    fn cells_of(&self, [low, high]: [[f64; 2]; 2]) -> impl Iterator<Item = usize> + use<> {
-        let range = |axis: usize| -> RangeInclusive<usize> {
+    /// The first and last column, and row, of the finest cells that a box touches.
+    fn ends(&self, [low, high]: [[f64; 2]; 2]) -> [[usize; 2]; 2] {
+        [0, 1].map(|axis| {
             // The cast saturates, so what is outside lies in the outermost cells.
-            let cell = |x: f64| ((x / self.size[axis] * self.n[axis] as f64) as usize).min(self.n[axis] - 1);
-            cell(low[axis])..=cell(high[axis])
+            let cell = |x: f64| ((x / self.size[axis] * self.n as f64) as usize).min(self.n - 1);
+            [cell(low[axis]), cell(high[axis])]
+        })
+    }
+
+    /// Cells of a grid so many times coarser.
+    fn cells(&self, ends: [[usize; 2]; 2], coarser: usize) -> impl Iterator<Item = usize> + use<> {
+        let width = self.n >> coarser;
+        let [columns, rows] =
+            ends.map(|[low, high]| -> RangeInclusive<usize> { low >> coarser..=high >> coarser });
+        rows.flat_map(move |row| columns.clone().map(move |column| row * width + column))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Boxes of all sizes, some of them beside the picture, against looking at each.
+    #[test]
+    fn all_that_overlap_are_found() {
+        let mut seed = 3u64;
+        let mut noise = || {
+            seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (seed >> 11) as f64 / (1u64 << 53) as f64
         };
-        let (columns, width) = (range(0), self.n[0]);
-        range(1).flat_map(move |row| columns.clone().map(move |column| row * width + column))
+        let mut random_box = |scale: f64| {
+            let low = [500.0 * noise() - 100.0, 300.0 * noise() - 100.0];
+            [low, low.map(|low| low + scale * noise() * noise() * noise())]
+        };
+        let boxes: Vec<_> =
+            (0..2000).map(|idx| random_box(if idx % 100 == 0 { 1e12 } else { 300.0 })).collect();
+        let index = Index::new(boxes.iter().copied(), [300, 100]);
+        let mut n_found = 0;
+        for scale in [0.0, 3.0, 40.0, 400.0, 1e9] {
+            for _ in 0..50 {
+                let [low, high] = random_box(scale);
+                let overlaps = |idx: &usize| {
+                    let [its_low, its_high] = boxes[*idx];
+                    !(0..2).any(|axis| its_high[axis] < low[axis] || high[axis] < its_low[axis])
+                };
+                let expected: Vec<usize> = (0..boxes.len()).filter(overlaps).collect();
+                assert_eq!(index.in_box([low, high]), expected, "{low:?} {high:?}");
+                n_found += expected.len();
+            }
+        }
+        assert!(n_found > 10_000, "{n_found}");
+        let n_kept: usize = index.grids.iter().flatten().map(Vec::len).sum();
+        assert!(n_kept <= 4 * boxes.len(), "{n_kept}");
     }
 }
