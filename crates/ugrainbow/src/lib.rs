@@ -126,9 +126,9 @@ pub fn run(config: &Config, source: &Source) -> Result<Picture, Error> {
 /// # Errors
 /// Whatever stops it: see [`Error`].
 pub fn run_with(config: &Config, source: &Source, progress: &dyn Progress) -> Result<Picture, Error> {
+    let plan = Plan::new(config)?;
     progress.step("reading", 0);
     let parsed = ugscene::read(source, &config.reading, config.camera.name.as_deref())?;
-    let plan = Plan::new(config)?;
     let of_scene = plan.of_scene(config);
     let Painted { drawn, development, annotations, notes } =
         paint(&parsed.scene, &plan, &of_scene, progress)?;
