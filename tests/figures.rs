@@ -40,8 +40,14 @@ fn drawn(tool: Tool, format: Format, file: &[u8]) -> Picture {
     let output =
         folder.path().join(if matches!(tool, Tool::PopplerImages) { "out-000.png" } else { "out.png" });
     std::fs::write(&input, file).unwrap();
-    let mut command = command(tool, &input, &output);
-    let run = command.output().unwrap();
+    let mut run = command(tool, &input, &output).output().unwrap();
+    for _ in 0..2 {
+        if run.status.success() || !matches!(tool, Tool::Chromium) {
+            break;
+        }
+        // Browsers sometimes hang as they start.
+        run = command(tool, &input, &output).output().unwrap();
+    }
     let messages = String::from_utf8_lossy(&run.stdout) + String::from_utf8_lossy(&run.stderr);
     // Browsers talk of the desktop that is not there.
     let is_content = messages.is_empty() || matches!(tool, Tool::Chromium);
@@ -73,7 +79,8 @@ fn command(tool: Tool, input: &Path, output: &PathBuf) -> Command {
             rsvg
         }
         Tool::Chromium => {
-            let mut chromium = Command::new("chromium");
+            let mut chromium = Command::new("timeout");
+            chromium.args(["60", "chromium"]);
             // Without a sandbox, so that it runs for root; it is shown nothing but our file.
             chromium.args(["--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage"]);
             chromium.args(["--hide-scrollbars", "--force-device-scale-factor=1"]);
