@@ -71,6 +71,8 @@ mod explain;
 mod figures;
 mod light;
 mod lines;
+#[cfg(test)]
+mod noise;
 mod notes;
 mod painter;
 mod palette;

@@ -11,7 +11,7 @@ use ugphysics::{attenuation, doppler_at, linear_srgb_to_xyz, wavelength_to_hue};
 use ugscene::Geometry;
 
 use crate::canvas::{Display, Ground, development};
-use crate::config::{Background, Config, Interpolation};
+use crate::config::{Config, Interpolation};
 use crate::figures::Plan;
 use crate::palette::Swatch;
 use crate::planes::{self, Finder};
@@ -226,7 +226,7 @@ fn pixel_steps(
     });
     let bytes = development.map_or(bytes, |(development, _)| {
         let shown = canvas::developed(&development, mean);
-        display_pixel(&Quantizer::new(), shown, config.background != Background::Clear)
+        display_pixel(&Quantizer::new(), shown, Ground::new(config).is_opaque())
     });
     PixelSteps { filter: config.filter, mean, development, bytes }
 }

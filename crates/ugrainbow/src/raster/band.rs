@@ -189,30 +189,46 @@ where
     S: Shading<N>,
     F: Finish<T, P>,
 {
-    let band_pixels = grid.band_rows() as usize * grid.width as usize;
-    let mut pixels = filled(finish.pixel(&Gathered::EMPTY), grid.width as usize * grid.height as usize);
-    progress.step("drawing", pixels.len().div_ceil(band_pixels) as u64);
-    // Buffers go from band to band: as many as there are threads, and touched once.
+    let empty = finish.pixel(&Gathered::EMPTY);
+    paint_parts(grid, grid.band_rows(), empty, progress, |buffers, band, pixels| {
+        let (scanner, tile, glass) = buffers;
+        let mut resolver = Resolver::new(shader, finish, grid);
+        Band { grid, layer, clear, band, scanner, tile, glass }.paint(&mut resolver, pixels);
+        resolver.tally
+    })
+}
+
+/// The pixels of the grid, painted in parallel in parts of as many rows, over those that are `empty`. `paint` is given buffers, the
+/// number of a part, and its pixels.
+pub fn paint_parts<P: Copy + Send + Sync, B: Default + Send>(
+    grid: &Grid,
+    n_rows: u32,
+    empty: P,
+    progress: &dyn Progress,
+    paint: impl Fn(&mut B, usize, &mut [P]) -> Tally + Sync,
+) -> (Vec<P>, Tally) {
+    let part_pixels = n_rows as usize * grid.width as usize;
+    let mut pixels = filled(empty, grid.width as usize * grid.height as usize);
+    progress.step("drawing", pixels.len().div_ceil(part_pixels) as u64);
+    // Buffers go from part to part: as many as there are threads, and touched once.
     let buffers = Buffers::default();
     let tally = pixels
-        .par_chunks_mut(band_pixels)
+        .par_chunks_mut(part_pixels)
         .with_max_len(1)
         .enumerate()
-        .map(|(band, pixels)| {
+        .map(|(part, pixels)| {
             let mut own = buffers.take();
-            let (scanner, tile, glass) = &mut own;
-            let mut resolver = Resolver::new(shader, finish, grid);
-            Band { grid, layer, clear, band, scanner, tile, glass }.paint(&mut resolver, pixels);
+            let tally = paint(&mut own, part, pixels);
             buffers.put_back(own);
             progress.done(1);
-            resolver.tally
+            tally
         })
         .reduce(Tally::default, Tally::merge);
     (pixels, tally)
 }
 
 /// As many of a value, written by all threads.
-pub fn filled<P: Copy + Send + Sync>(value: P, len: usize) -> Vec<P> {
+fn filled<P: Copy + Send + Sync>(value: P, len: usize) -> Vec<P> {
     // Many together, for a list that is made in parallel takes its elements one by one.
     const TOGETHER: usize = 64;
     let parts: Vec<[P; TOGETHER]> =
@@ -223,7 +239,7 @@ pub fn filled<P: Copy + Send + Sync>(value: P, len: usize) -> Vec<P> {
 }
 
 /// Buffers that no thread uses just now.
-pub struct Buffers<B>(Mutex<Vec<B>>);
+struct Buffers<B>(Mutex<Vec<B>>);
 
 impl<B> Default for Buffers<B> {
     fn default() -> Self {
@@ -232,11 +248,11 @@ impl<B> Default for Buffers<B> {
 }
 
 impl<B: Default> Buffers<B> {
-    pub fn take(&self) -> B {
+    fn take(&self) -> B {
         self.lock().pop().unwrap_or_default()
     }
 
-    pub fn put_back(&self, buffer: B) {
+    fn put_back(&self, buffer: B) {
         self.lock().push(buffer);
     }
 

@@ -7,10 +7,9 @@
 use std::collections::VecDeque;
 
 use fearless_simd::{Level, Simd, dispatch};
-use rayon::prelude::*;
 use ugpipe::Progress;
 
-use super::band::{Band, Buffers, Grid, Layer, filled};
+use super::band::{Band, Grid, Layer, paint_parts};
 use super::edges::Scanner;
 use super::glass::{Clear, Glass, Keep};
 use super::resolve::{Finish, Gathered, Resolver};
@@ -101,31 +100,21 @@ where
     S: Shading<N>,
     F: Finish<(), P>,
 {
-    let mut pixels = filled(finish.pixel(&Gathered::EMPTY), grid.width as usize * grid.height as usize);
-    progress.step("drawing", u64::from(grid.height.div_ceil(STRIP_ROWS)));
     let (weights, margin) = (filter.weights(grid.samples), filter.margin());
-    let buffers = Buffers::default();
-    let tally = pixels
-        .par_chunks_mut(STRIP_ROWS as usize * grid.width as usize)
-        .with_max_len(1)
-        .zip((0..grid.height).into_par_iter().step_by(STRIP_ROWS as usize))
-        .map(|(pixels, top)| {
-            let rows = [top, (top + STRIP_ROWS).min(grid.height)];
-            let mut own = buffers.take();
-            let mut strip = Strip { grid, layer, clear, margin, weights: &weights, own: &mut own };
-            let mut resolver = Resolver::new(shader, finish, grid);
-            for first in (0..grid.width).step_by(grid.tile_columns() as usize) {
-                let columns = [first, (first + grid.tile_columns()).min(grid.width)];
-                strip.paint(&mut resolver, columns, rows, |[column, row], pixel| {
-                    pixels[(row - top) as usize * grid.width as usize + column as usize] = pixel;
-                });
-            }
-            buffers.put_back(own);
-            progress.done(1);
-            resolver.tally
-        })
-        .reduce(Tally::default, Tally::merge);
-    (pixels, tally)
+    let empty = finish.pixel(&Gathered::EMPTY);
+    paint_parts(grid, STRIP_ROWS, empty, progress, |own, strip, pixels| {
+        let top = strip as u32 * STRIP_ROWS;
+        let rows = [top, (top + STRIP_ROWS).min(grid.height)];
+        let mut strip = Strip { grid, layer, clear, margin, weights: &weights, own };
+        let mut resolver = Resolver::new(shader, finish, grid);
+        for first in (0..grid.width).step_by(grid.tile_columns() as usize) {
+            let columns = [first, (first + grid.tile_columns()).min(grid.width)];
+            strip.paint(&mut resolver, columns, rows, |[column, row], pixel| {
+                pixels[(row - top) as usize * grid.width as usize + column as usize] = pixel;
+            });
+        }
+        resolver.tally
+    })
 }
 
 /// A pixel of [`paint_filtered`]: the very numbers, for sums do not depend on where a strip begins.

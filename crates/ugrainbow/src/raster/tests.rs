@@ -4,20 +4,11 @@ use fearless_simd::Level;
 
 use super::edges::Scanner;
 use super::*;
+use crate::noise::Noise;
 
 /// A corner at a place, at depth key 1, without values.
 fn at(x: f64, y: f64) -> Corner<0> {
     Corner { x, y, key: 1.0, values: [] }
-}
-
-/// A small generator of numbers in 0…1.
-struct Noise(u64);
-
-impl Noise {
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 11) as f64 / (1u64 << 53) as f64
-    }
 }
 
 /// How often each sample of a w × h grid is drawn.

@@ -208,6 +208,7 @@ impl Table {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::noise::Noise;
     use ugphysics::Hsv;
 
     fn exact(hue: f64, saturation: f64, value: f64) -> [f64; 3] {
@@ -325,11 +326,8 @@ mod tests {
 
     #[test]
     fn many_at_once_are_shaded_like_one() {
-        let mut seed = 7u64;
-        let mut noise = || {
-            seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            (seed >> 40) as f32 / (1u64 << 24) as f32
-        };
+        let mut noise = Noise(7);
+        let mut noise = || noise.next() as f32;
         for (interpolation, low, high) in [
             (Interpolation::Hue, -60.0, 300.0),
             (Interpolation::Hue, 10.0, 230.0),

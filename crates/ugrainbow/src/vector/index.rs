@@ -87,15 +87,13 @@ impl Index {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::noise::Noise;
 
     /// Boxes of all sizes, some of them beside the picture, against looking at each.
     #[test]
     fn all_that_overlap_are_found() {
-        let mut seed = 3u64;
-        let mut noise = || {
-            seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            (seed >> 11) as f64 / (1u64 << 53) as f64
-        };
+        let mut noise = Noise(3);
+        let mut noise = || noise.next();
         let mut random_box = |scale: f64| {
             let low = [500.0 * noise() - 100.0, 300.0 * noise() - 100.0];
             [low, low.map(|low| low + scale * noise() * noise() * noise())]
