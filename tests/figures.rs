@@ -198,7 +198,7 @@ fn figures_of_areas_show_the_same_as_the_png() {
     glass_at_rest.rainbow.wireframe = edges(true);
     // Over nothing, which all show as white paper.
     let mut clear = annotated.clone();
-    clear.rainbow.background = ugrainbow::Background::Clear;
+    clear.rainbow.background = ugrainbow::Background::Transparent;
     let figures = [
         ("ship", scenes::text("ship"), ship()),
         ("white", scenes::text("ship"), white),
@@ -220,7 +220,7 @@ fn figures_of_areas_show_the_same_as_the_png() {
         let draw = |output| rainbow(&colored, &ugrainbow::Config { output, ..pipe.rainbow.clone() });
         let png = on_paper(decode(&draw(Output::Color(Format::Png))));
         assert!(png.pixels().any(|pixel| pixel != png.get_pixel(0, 0)), "{name} shows something");
-        let is_clear = pipe.rainbow.background == ugrainbow::Background::Clear;
+        let is_clear = pipe.rainbow.background == ugrainbow::Background::Transparent;
         for (format, tool) in DRAWN_BY.into_iter().filter(|(format, _)| !is_clear || format.has_alpha()) {
             let picture = on_paper(drawn(tool, format, &draw(Output::Vector(format))));
             let part = part_that_differs(&png, &picture);

@@ -201,7 +201,7 @@ fn hue_and_wavelength() {
 #[test]
 fn transparent_background() {
     let mut cubes = pipe(0.6, 0.0, 0.0).in_place().shape();
-    cubes.rainbow.background = Background::Clear;
+    cubes.rainbow.background = Background::Transparent;
     check("transparent-background-cubes", "cubes", &cubes);
 }
 

@@ -91,7 +91,7 @@ fn another_program_reads_the_same_light() {
         assert!(is_near, "{ours:?} for {light:?}");
     }
     // With transparency: colours multiplied by alpha, which on black is what the light is.
-    let clear = read(&write(folder.path(), "clear.exr", &draw(Format::Exr, Background::Clear)));
+    let clear = read(&write(folder.path(), "clear.exr", &draw(Format::Exr, Background::Transparent)));
     for (ours, light) in clear.iter().zip(&light) {
         let is_same = ours.iter().zip(*light).all(|(a, b)| (a - b).abs() < 1e-6 * b.abs().max(1.0));
         assert!(ours.len() == 4 && is_same, "{ours:?} for {light:?}");

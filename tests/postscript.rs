@@ -66,7 +66,7 @@ fn ghostscript_draws_the_pixels_of_the_png() {
     let mut lattice = Pipe::new(-0.9 * DVec3::Y, [97, 61]).view_angle(120.0);
     lattice.rainbow.samples = 2;
     let mut clear = ship.clone();
-    clear.rainbow.background = Background::Clear;
+    clear.rainbow.background = Background::Transparent;
     ship.rainbow.command_line = "ugrainbow (with) \\ brackets".to_string();
     for (name, scene, pipe) in
         [("ship", "ship", ship), ("lattice", "lattice", lattice), ("clear", "ship", clear)]

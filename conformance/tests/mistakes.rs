@@ -122,7 +122,7 @@ const MISTAKES: [Mistake; 17] = [
     },
     Mistake {
         name: "M13",
-        file: "crates/uglorentz/src/growth.rs",
+        file: "crates/uglorentz/src/refined_mesh.rs",
         right: "self.motions[body as usize].point(body, rest)",
         wrong: "Point {
             seen: used().map(|(parent, weight)| self.point(parent).seen * weight).sum(),

@@ -4,19 +4,19 @@ use glam::DVec3;
 use rayon::prelude::*;
 use ugparse::{Face, Scene, VertexId, Wire};
 
+use crate::criterion::Bounds;
 use crate::edge::{self, Shown};
-use crate::growth::Growth;
-use crate::judge::Bounds;
 use crate::motion::{Motion, Point};
 use crate::notes::{Achieved, Worst};
 use crate::pieces::{Cut, Shape, shape};
-use crate::{edge_on, interior, quick};
+use crate::refined_mesh::RefinedMesh;
+use crate::{early_accept, edge_on, interior};
 
 /// The greatest errors of all edges and faces of a scene whose pieces are in place, where they show.
-pub(crate) fn measure(scene: &Scene, growth: &Growth, bounds: &Bounds) -> Achieved {
-    let judge = Judge { scene, growth, bounds };
-    let faces = scene.faces.par_iter().map(|face| judge.face(face)).reduce(Found::default, Found::or);
-    let wires = scene.wires.par_iter().map(|wire| judge.wire(wire)).reduce(Found::default, Found::or);
+pub(crate) fn measure(scene: &Scene, mesh: &RefinedMesh, bounds: &Bounds) -> Achieved {
+    let meter = ErrorMeter { scene, mesh, bounds };
+    let faces = scene.faces.par_iter().map(|face| meter.face(face)).reduce(Found::default, Found::or);
+    let wires = scene.wires.par_iter().map(|wire| meter.wire(wire)).reduce(Found::default, Found::or);
     let found = faces.or(wires);
     let worst = |(error, at): At| {
         let name = |row: &u32| scene.names.get(scene.vertices[*row as usize].name).to_string();
@@ -63,18 +63,18 @@ impl Found {
     }
 }
 
-struct Judge<'a, 'b> {
+struct ErrorMeter<'a, 'b> {
     scene: &'a Scene,
-    growth: &'a Growth<'b>,
+    mesh: &'a RefinedMesh<'b>,
     bounds: &'a Bounds,
 }
 
-impl Judge<'_, '_> {
+impl ErrorMeter<'_, '_> {
     fn face(&self, face: &Face) -> Found {
         let corners = self.scene.contours.corners(face.contours.clone());
         let Some(first) = corners.first() else { return Found::default() };
-        let motion = self.growth.motion(first.0);
-        let points: Vec<&Point> = corners.iter().map(|corner| self.growth.point(corner.0)).collect();
+        let motion = self.mesh.motion(first.0);
+        let points: Vec<&Point> = corners.iter().map(|corner| self.mesh.point(corner.0)).collect();
         let Some(shown) = self.bounds.shown(motion, &points) else { return Found::default() };
         let (inside, shown) = self.inside(face, motion, &points, shown);
         let ends = self
@@ -93,8 +93,8 @@ impl Judge<'_, '_> {
 
     fn edge(&self, a: u32, b: u32, shown: Shown) -> Found {
         let (low, high) = (a.min(b), a.max(b));
-        let (from, to, motion) = (self.growth.point(low), self.growth.point(high), self.growth.motion(low));
-        let shown = if self.growth.is_rim(low, high) { Shown::All } else { shown };
+        let (from, to, motion) = (self.mesh.point(low), self.mesh.point(high), self.mesh.motion(low));
+        let shown = if self.mesh.is_rim(low, high) { Shown::All } else { shown };
         let errors = edge::errors(from, to, motion, shown);
         let light = self.bounds.lit.error(from, to, motion);
         let at = [Some(low), Some(high), None];
@@ -112,14 +112,14 @@ impl Judge<'_, '_> {
         if motion.is_at_rest() || !motion.has_flight_time() || matches!(shown, Shown::Outline) {
             return (Found::default(), shown);
         }
-        let rest = |vertex: VertexId| -> DVec3 { self.growth.point(vertex.0).rest };
+        let rest = |vertex: VertexId| -> DVec3 { self.mesh.point(vertex.0).rest };
         if edge_on::is_edge_on(self.scene, face, motion, rest) {
             return (Found::default(), Shown::All);
         }
         let Some(Cut::Pieces(shapes)) = shape(self.scene, face, rest) else {
             let corners = self.scene.contours.corners(face.contours.clone());
             let at = [0, 1, 2].map(|idx| corners.get(idx).map(|corner| corner.0));
-            let depth = quick::offset(motion, points.iter().copied());
+            let depth = early_accept::offset(motion, points.iter().copied());
             return (Found { depth: (depth, at), ..Found::default() }, Shown::All);
         };
         let halves = shapes.iter().flat_map(|shape| match *shape {
@@ -127,7 +127,7 @@ impl Judge<'_, '_> {
             Shape::Quad([a, b, c, d]) => vec![[a, b, c], [a, c, d], [b, c, d], [b, d, a]],
         });
         let found = halves.map(|corners| {
-            let points: [&Point; 3] = corners.map(|row| self.growth.point(row));
+            let points: [&Point; 3] = corners.map(|row| self.mesh.point(row));
             Found { depth: (interior::offset(motion, points), corners.map(Some)), ..Found::default() }
         });
         (found.fold(Found::default(), Found::or), shown)

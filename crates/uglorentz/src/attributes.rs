@@ -6,8 +6,8 @@ use ugparse::{Color, ColorId, ColorValue, Scene, Vertex};
 use ugphysics::Hsv;
 use ugscene::HueScale;
 
-use crate::growth::Recipe;
 use crate::motion::{Motion, Point};
+use crate::refined_mesh::Recipe;
 
 /// What the names of new vertices and colours begin with; a number follows.
 const PREFIX: &str = "s#";

@@ -5,18 +5,18 @@ use rustc_hash::FxHashMap;
 use ugparse::Scene;
 
 use crate::adaptive::MAX_PIECES;
-use crate::growth::{Growth, Recipe};
 use crate::pieces::{Cut, Outcome, Piece, Polyline, Shape, shape};
+use crate::refined_mesh::{Recipe, RefinedMesh};
 
 /// Cuts all edges into `n` pieces.
 ///
 /// # Errors
 /// The number of pieces, if that is above [`MAX_PIECES`].
-pub(crate) fn cut(scene: &Scene, growth: &mut Growth, n: u32) -> Result<Outcome, usize> {
+pub(crate) fn cut(scene: &Scene, mesh: &mut RefinedMesh, n: u32) -> Result<Outcome, usize> {
     if n <= 1 {
         return Ok(Outcome::default());
     }
-    let rest = |vertex: ugparse::VertexId| growth.point(vertex.0).rest;
+    let rest = |vertex: ugparse::VertexId| mesh.point(vertex.0).rest;
     let mut shapes: Vec<Piece> = Vec::new();
     let mut lines: Vec<Polyline> = Vec::new();
     for (idx, face) in scene.faces.iter().enumerate() {
@@ -38,7 +38,7 @@ pub(crate) fn cut(scene: &Scene, growth: &mut Growth, n: u32) -> Result<Outcome,
         return Err(n_pieces);
     }
 
-    let mut grid = Grid { growth, n, edges: FxHashMap::default() };
+    let mut grid = Grid { mesh, n, edges: FxHashMap::default() };
     let mut outcome = Outcome::default();
     for Piece { face, shape } in shapes {
         let pieces = match shape {
@@ -53,7 +53,7 @@ pub(crate) fn cut(scene: &Scene, growth: &mut Growth, n: u32) -> Result<Outcome,
 
 /// Makes the vertices of the pieces.
 struct Grid<'a, 'b> {
-    growth: &'a mut Growth<'b>,
+    mesh: &'a mut RefinedMesh<'b>,
     n: usize,
     /// First of the N − 1 new vertices of an edge, from its lower end to its higher.
     edges: FxHashMap<(u32, u32), u32>,
@@ -73,11 +73,11 @@ impl Grid<'_, '_> {
         if let Some(first) = self.edges.get(&(low, high)) {
             return first + (k - 1) as u32;
         }
-        let first = self.growth.points.len() as u32;
+        let first = self.mesh.points.len() as u32;
         self.edges.insert((low, high), first);
         for step in 1..self.n {
             let part = step as f64 / self.n as f64;
-            self.growth.add(Recipe { parents: [low, high, 0, 0], weights: [1.0 - part, part, 0.0, 0.0] });
+            self.mesh.add(Recipe { parents: [low, high, 0, 0], weights: [1.0 - part, part, 0.0, 0.0] });
         }
         first + (k - 1) as u32
     }
@@ -111,7 +111,7 @@ impl Grid<'_, '_> {
         } else {
             let part = |k: usize| k as f64 / n as f64;
             let weights = [part(n - i - j), part(i), part(j), 0.0];
-            self.growth.add(Recipe { parents: [a, b, c, 0], weights })
+            self.mesh.add(Recipe { parents: [a, b, c, 0], weights })
         }
     }
 
@@ -140,7 +140,7 @@ impl Grid<'_, '_> {
             _ => {
                 let (s, t) = (i as f64 / n as f64, j as f64 / n as f64);
                 let weights = [(1.0 - s) * (1.0 - t), s * (1.0 - t), s * t, (1.0 - s) * t];
-                self.growth.add(Recipe { parents: [a, b, c, d], weights })
+                self.mesh.add(Recipe { parents: [a, b, c, d], weights })
             }
         }
     }

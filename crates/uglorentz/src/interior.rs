@@ -7,7 +7,7 @@
 //! ```
 //!
 //! (The minimax theorem: |p| is the largest of u·p.) Any u gives an upper bound, so corners seen close together
-//! say at once that a whole piece is right, its edges with it ([`crate::quick`]). And where p lies inside a triangle and is
+//! say at once that a whole piece is right, its edges with it ([`crate::early_accept`]). And where p lies inside a triangle and is
 //! not on an edge, δ is stationary: u is then the direction of p, and the three differences are equal.
 
 use glam::DVec3;

@@ -30,7 +30,7 @@
 //! # Parts
 //!
 //! ```text
-//! Scene ─separate bodies─ placement ─ smooth normals ─┬─ adaptive (judge) ─┬─ positions ─ attributes → Scene
+//! Scene ─separate bodies─ placement ─ smooth normals ─┬─ adaptive (criterion) ─┬─ positions ─ attributes → Scene
 //!                         (P5)                        └─ equal ────────────┘  (P3)
 //! ```
 //!
@@ -60,22 +60,22 @@ mod adaptive;
 mod attributes;
 mod cli;
 mod color;
+mod criterion;
 mod cull;
+mod early_accept;
 mod edge;
 mod edge_on;
 mod equal;
 mod error;
 mod frame;
-mod growth;
 mod interior;
-mod judge;
 mod lit;
 mod measurement;
 mod motion;
 mod notes;
 mod pieces;
 mod placement;
-mod quick;
+mod refined_mesh;
 mod remote;
 mod split;
 mod viewpoint;
@@ -92,13 +92,13 @@ pub use error::Error;
 pub use measurement::{Measurement, Table, measure};
 pub use notes::{Achieved, Notes, Worst};
 
+use crate::criterion::Bounds;
 use crate::cull::Sight;
 use crate::edge::Tolerance;
-use crate::growth::Growth;
-use crate::judge::Bounds;
 use crate::lit::Lit;
 use crate::motion::{Motion, Point};
 use crate::pieces::Outcome;
+use crate::refined_mesh::RefinedMesh;
 
 /// Default of [`Pieces::UpTo`]: 0.1 milliradians, in radians. A pixel of a picture 40° wide and 1920 pixels
 /// across is 0.36, so no edge is off by a third of one.
@@ -293,24 +293,24 @@ fn transform_owned(mut scene: Scene, config: &Config) -> Result<(Scene, Notes), 
     let tolerance = Tolerance::new(error, config.color_error);
     let tolerances = parts.iter().map(|&part| tolerance.with_depth(part)).collect();
     let bounds = Bounds::new(tolerances, lit, sight, &motions);
-    let mut growth = Growth::new(&motions, points);
+    let mut mesh = RefinedMesh::new(&motions, points);
     let outcome = match config.pieces {
-        Pieces::UpTo(_) => adaptive::cut(&scene, &mut growth, &bounds, adaptive::MAX_PIECES),
+        Pieces::UpTo(_) => adaptive::cut(&scene, &mut mesh, &bounds, adaptive::MAX_PIECES),
         Pieces::PerEdge(n) => {
-            equal::cut(&scene, &mut growth, n).map_err(|n_pieces| Error::TooManyPieces { n_pieces })?
+            equal::cut(&scene, &mut mesh, n).map_err(|n_pieces| Error::TooManyPieces { n_pieces })?
         }
     };
     put_pieces(&mut scene, &outcome);
-    attributes::add_vertices(&mut scene, &growth.recipes);
-    set_positions(&mut scene, &growth, &shifts, eye)?;
+    attributes::add_vertices(&mut scene, &mesh.recipes);
+    set_positions(&mut scene, &mesh, &shifts, eye)?;
     scene.escapes.extend(config.geometry.escape());
     ugscene::record(&mut scene, PROGRAM, env!("CARGO_PKG_VERSION"), &config.command_line);
 
     let is_short = outcome.is_full || outcome.n_too_deep + outcome.n_uncut > 0;
-    let achieved = (config.measure || is_short).then(|| achieved::measure(&scene, &growth, &bounds));
+    let achieved = (config.measure || is_short).then(|| achieved::measure(&scene, &mesh, &bounds));
     let notes = Notes {
         was_seen_before,
-        n_new_vertices: growth.recipes.len(),
+        n_new_vertices: mesh.recipes.len(),
         n_new_faces: scene.faces.len() + n_culled - n_faces,
         n_culled,
         n_uncut: outcome.n_uncut,
@@ -386,16 +386,16 @@ fn put_pieces(scene: &mut Scene, outcome: &Outcome) {
 }
 
 /// Where vertices are seen. A body at rest that was not moved keeps its numbers to the bit.
-fn set_positions(scene: &mut Scene, growth: &Growth, shifts: &[DVec3], eye: DVec3) -> Result<(), Error> {
-    let n_old = growth.points.len() - growth.recipes.len();
-    let stays = |body: usize| growth.motions[body].is_at_rest() && shifts[body] == DVec3::ZERO;
+fn set_positions(scene: &mut Scene, mesh: &RefinedMesh, shifts: &[DVec3], eye: DVec3) -> Result<(), Error> {
+    let n_old = mesh.points.len() - mesh.recipes.len();
+    let stays = |body: usize| mesh.motions[body].is_at_rest() && shifts[body] == DVec3::ZERO;
     let is_finite = |(row, (vertex, point)): (usize, (&mut Vertex, &Point))| {
         if row >= n_old || !stays(point.body as usize) {
             vertex.position = point.seen + eye;
         }
         vertex.position.is_finite()
     };
-    let places = scene.vertices.par_iter_mut().zip(&growth.points).enumerate().map(is_finite);
+    let places = scene.vertices.par_iter_mut().zip(&mesh.points).enumerate().map(is_finite);
     if places.reduce(|| true, |all, one| all & one) {
         return Ok(());
     }

@@ -10,9 +10,9 @@ use ugparse::Scene;
 use ugphysics::{Velocity, illumination};
 use ugscene::{HueScale, LampPlace, lamps};
 
+use crate::early_accept::MOST_BEND;
 use crate::motion::{Motion, Point};
 use crate::placement::body;
-use crate::quick::MOST_BEND;
 
 /// Where an edge is compared with the straight line, parts of it.
 const SAMPLES: [f64; 3] = [0.25, 0.5, 0.75];

@@ -3,7 +3,7 @@
 use std::fmt::{self, Display, Formatter};
 
 use crate::adaptive::MAX_PIECES;
-use crate::judge::MAX_GENERATION;
+use crate::criterion::MAX_GENERATION;
 
 /// What was done.
 #[derive(Clone, Debug, Default, PartialEq)]

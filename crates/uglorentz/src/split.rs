@@ -4,34 +4,35 @@
 //! is more right, and of two that are as right the shorter. So pieces of a floor near the eye become long where D hardly
 //! changes, towards the eye and away from it.
 
-use crate::growth::Growth;
-use crate::judge::{Bounds, Judge, Marks};
+use crate::criterion::{Bounds, Criterion, Marks};
 use crate::pieces::Shape;
+use crate::refined_mesh::RefinedMesh;
 
 /// Halves the marked edges of a piece, or cuts it inside if that is marked.
-pub(crate) fn split(growth: &mut Growth, bounds: &Bounds, shape: &Shape, marks: Marks) -> Vec<Shape> {
+pub(crate) fn split(mesh: &mut RefinedMesh, bounds: &Bounds, shape: &Shape, marks: Marks) -> Vec<Shape> {
     match *shape {
         Shape::Triangle(corners) => {
             let [a, b, c, _] = marks.edges;
-            if marks.inside {
-                fan(growth, corners)
-            } else {
-                split_triangle(growth, bounds, corners, [a, b, c])
-            }
+            if marks.inside { fan(mesh, corners) } else { split_triangle(mesh, bounds, corners, [a, b, c]) }
         }
-        Shape::Quad(corners) => split_quad(growth, bounds, corners, marks.edges),
+        Shape::Quad(corners) => split_quad(mesh, bounds, corners, marks.edges),
     }
 }
 
 /// Three triangles round the mean. In the shape of an equilateral one they are obtuse, so that no inside is worse
 /// than its edges.
-fn fan(growth: &mut Growth, [a, b, c]: [u32; 3]) -> Vec<Shape> {
-    let center = growth.center([a, b, c]);
+fn fan(mesh: &mut RefinedMesh, [a, b, c]: [u32; 3]) -> Vec<Shape> {
+    let center = mesh.center([a, b, c]);
     [[a, b, center], [b, c, center], [c, a, center]].map(Shape::Triangle).to_vec()
 }
 
 /// `marks`: from each corner to the next.
-fn split_triangle(growth: &mut Growth, bounds: &Bounds, corners: [u32; 3], marks: [bool; 3]) -> Vec<Shape> {
+fn split_triangle(
+    mesh: &mut RefinedMesh,
+    bounds: &Bounds,
+    corners: [u32; 3],
+    marks: [bool; 3],
+) -> Vec<Shape> {
     let n_marks = marks.iter().filter(|&&mark| mark).count();
     // Turn it so that the first edge is marked, and the last is not if one is not.
     let turn = (0..3).find(|&k| marks[k] && (n_marks == 3 || !marks[(k + 2) % 3])).unwrap_or(0);
@@ -39,25 +40,25 @@ fn split_triangle(growth: &mut Growth, bounds: &Bounds, corners: [u32; 3], marks
     match n_marks {
         0 => vec![Shape::Triangle([a, b, c])],
         1 => {
-            let ab = growth.middle(a, b);
+            let ab = mesh.middle(a, b);
             vec![Shape::Triangle([a, ab, c]), Shape::Triangle([ab, b, c])]
         }
         2 => {
-            let (ab, bc) = (growth.middle(a, b), growth.middle(b, c));
+            let (ab, bc) = (mesh.middle(a, b), mesh.middle(b, c));
             let mut shapes = vec![Shape::Triangle([ab, b, bc])];
-            shapes.extend(halves(growth, bounds, [a, ab, bc, c]).map(Shape::Triangle));
+            shapes.extend(halves(mesh, bounds, [a, ab, bc, c]).map(Shape::Triangle));
             shapes
         }
-        _ => quarters(growth, bounds, [a, b, c]).map(Shape::Triangle).to_vec(),
+        _ => quarters(mesh, bounds, [a, b, c]).map(Shape::Triangle).to_vec(),
     }
 }
 
 /// Four triangles between the corners and the middles of the sides: one at each corner and one in the middle, but two of them
 /// joined otherwise, across the middle, where that gains most.
-fn quarters(growth: &mut Growth, bounds: &Bounds, [a, b, c]: [u32; 3]) -> [[u32; 3]; 4] {
-    let (ab, bc, ca) = (growth.middle(a, b), growth.middle(b, c), growth.middle(c, a));
-    let judge = Judge { growth, bounds };
-    let excess = |(a, b): (u32, u32)| judge.excess(a, b);
+fn quarters(mesh: &mut RefinedMesh, bounds: &Bounds, [a, b, c]: [u32; 3]) -> [[u32; 3]; 4] {
+    let (ab, bc, ca) = (mesh.middle(a, b), mesh.middle(b, c), mesh.middle(c, a));
+    let criterion = Criterion { mesh, bounds };
+    let excess = |(a, b): (u32, u32)| criterion.excess(a, b);
     let gain = |[a, ab, bc, ca, ..]: &[u32; 6]| excess((*ab, *ca)) - excess((*a, *bc));
     let turns = [[a, ab, bc, ca, b, c], [b, bc, ca, ab, c, a], [c, ca, ab, bc, a, b]];
     let [first, rest @ ..] = turns.map(|turn| (gain(&turn), turn));
@@ -68,12 +69,12 @@ fn quarters(growth: &mut Growth, bounds: &Bounds, [a, b, c]: [u32; 3]) -> [[u32;
 }
 
 /// `marks`: from each corner to the next.
-fn split_quad(growth: &mut Growth, bounds: &Bounds, corners: [u32; 4], marks: [bool; 4]) -> Vec<Shape> {
+fn split_quad(mesh: &mut RefinedMesh, bounds: &Bounds, corners: [u32; 4], marks: [bool; 4]) -> Vec<Shape> {
     let [a, b, c, d] = corners;
     match marks {
-        [true, true, true, true] if !has_right_diagonal(growth, bounds, corners) => {
-            let middle = growth.mean(corners);
-            let [ab, bc, cd, da] = [(a, b), (b, c), (c, d), (d, a)].map(|(p, q)| growth.middle(p, q));
+        [true, true, true, true] if !has_right_diagonal(mesh, bounds, corners) => {
+            let middle = mesh.mean(corners);
+            let [ab, bc, cd, da] = [(a, b), (b, c), (c, d), (d, a)].map(|(p, q)| mesh.middle(p, q));
             vec![
                 Shape::Quad([a, ab, middle, da]),
                 Shape::Quad([ab, b, bc, middle]),
@@ -82,44 +83,44 @@ fn split_quad(growth: &mut Growth, bounds: &Bounds, corners: [u32; 4], marks: [b
             ]
         }
         [true, false, true, false] => {
-            let (ab, cd) = (growth.middle(a, b), growth.middle(c, d));
+            let (ab, cd) = (mesh.middle(a, b), mesh.middle(c, d));
             vec![Shape::Quad([a, ab, cd, d]), Shape::Quad([ab, b, c, cd])]
         }
         [false, true, false, true] => {
-            let (bc, da) = (growth.middle(b, c), growth.middle(d, a));
+            let (bc, da) = (mesh.middle(b, c), mesh.middle(d, a));
             vec![Shape::Quad([a, b, bc, da]), Shape::Quad([da, bc, c, d])]
         }
         _ => {
             // Turned so that the diagonal to cut along runs from the first corner.
-            let turn = usize::from(is_second_diagonal_better(growth, bounds, corners));
+            let turn = usize::from(is_second_diagonal_better(mesh, bounds, corners));
             let [a, b, c, d] = std::array::from_fn(|idx| corners[(idx + turn) % 4]);
             let [ab, bc, cd, da] = std::array::from_fn(|idx| marks[(idx + turn) % 4]);
-            let mut shapes = split_triangle(growth, bounds, [a, b, c], [ab, bc, false]);
-            shapes.extend(split_triangle(growth, bounds, [a, c, d], [false, cd, da]));
+            let mut shapes = split_triangle(mesh, bounds, [a, b, c], [ab, bc, false]);
+            shapes.extend(split_triangle(mesh, bounds, [a, c, d], [false, cd, da]));
             shapes
         }
     }
 }
 
 /// Two triangles, by the better diagonal.
-fn halves(growth: &Growth, bounds: &Bounds, [a, b, c, d]: [u32; 4]) -> [[u32; 3]; 2] {
-    if is_second_diagonal_better(growth, bounds, [a, b, c, d]) {
+fn halves(mesh: &RefinedMesh, bounds: &Bounds, [a, b, c, d]: [u32; 4]) -> [[u32; 3]; 2] {
+    if is_second_diagonal_better(mesh, bounds, [a, b, c, d]) {
         [[b, c, d], [b, d, a]]
     } else {
         [[a, b, c], [a, c, d]]
     }
 }
 
-fn has_right_diagonal(growth: &Growth, bounds: &Bounds, [a, b, c, d]: [u32; 4]) -> bool {
-    let judge = Judge { growth, bounds };
-    !judge.bends_at_any_depth(a, c) || !judge.bends_at_any_depth(b, d)
+fn has_right_diagonal(mesh: &RefinedMesh, bounds: &Bounds, [a, b, c, d]: [u32; 4]) -> bool {
+    let criterion = Criterion { mesh, bounds };
+    !criterion.bends_at_any_depth(a, c) || !criterion.bends_at_any_depth(b, d)
 }
 
 /// More right, or as right and shorter.
-fn is_second_diagonal_better(growth: &Growth, bounds: &Bounds, [a, b, c, d]: [u32; 4]) -> bool {
-    let judge = Judge { growth, bounds };
-    let (first, second) = (judge.excess(a, c), judge.excess(b, d));
-    let length = |a: u32, b: u32| (growth.point(a).rest - growth.point(b).rest).length_squared();
+fn is_second_diagonal_better(mesh: &RefinedMesh, bounds: &Bounds, [a, b, c, d]: [u32; 4]) -> bool {
+    let criterion = Criterion { mesh, bounds };
+    let (first, second) = (criterion.excess(a, c), criterion.excess(b, d));
+    let length = |a: u32, b: u32| (mesh.point(a).rest - mesh.point(b).rest).length_squared();
     second < first || (second == first && length(b, d) < length(a, c))
 }
 
@@ -149,28 +150,28 @@ mod tests {
             let corners =
                 [corner(0.618_034, 0.414_214), corner(0.236_068, 0.645_751), corner(0.872_983, 0.123_106)];
             let points = corners.map(|corner| motions[0].point(0, corner)).to_vec();
-            let mut growth = Growth::new(&motions, points);
+            let mut mesh = RefinedMesh::new(&motions, points);
             let marks = Marks { edges: [true, true, true, false], inside: false };
-            let pieces = split(&mut growth, &bounds, &Shape::Triangle([0, 1, 2]), marks);
+            let pieces = split(&mut mesh, &bounds, &Shape::Triangle([0, 1, 2]), marks);
             let area = |corners: &[u32]| {
-                let [a, b, c] = [0, 1, 2].map(|idx| growth.point(corners[idx]).rest);
+                let [a, b, c] = [0, 1, 2].map(|idx| mesh.point(corners[idx]).rest);
                 (b - a).cross(c - a)
             };
             let sum: DVec3 = pieces.iter().map(|piece| area(piece.corners())).sum();
             assert!((sum - area(&[0, 1, 2])).length() < 1e-12 && pieces.len() == 4);
 
-            let judge = Judge { growth: &growth, bounds: &bounds };
+            let criterion = Criterion { mesh: &mesh, bounds: &bounds };
             let mut inner: Vec<(u32, u32)> =
                 pieces.iter().flat_map(Shape::edges).map(|(a, b)| (a.min(b), a.max(b))).collect();
             inner.sort_unstable();
             let shared: Vec<(u32, u32)> =
                 inner.windows(2).filter(|pair| pair[0] == pair[1]).map(|pair| pair[0]).collect();
             assert_eq!(shared.len(), 3);
-            let total = |edges: &[(u32, u32)]| edges.iter().map(|&(a, b)| judge.excess(a, b)).sum::<f64>();
+            let total =
+                |edges: &[(u32, u32)]| edges.iter().map(|&(a, b)| criterion.excess(a, b)).sum::<f64>();
             // Each middle is made of two corners, and lies across from the third.
             let middles: Vec<u32> = (3..6).collect();
-            let across =
-                |middle: u32| 3 - growth.recipes[middle as usize - 3].parents[..2].iter().sum::<u32>();
+            let across = |middle: u32| 3 - mesh.recipes[middle as usize - 3].parents[..2].iter().sum::<u32>();
             let round = [(3, 4), (4, 5), (3, 5)];
             let turned = middles.iter().map(|&middle| {
                 let others = round.iter().copied().filter(|&(a, b)| a == middle || b == middle);

@@ -5,10 +5,10 @@ use rayon::prelude::*;
 
 use crate::Source;
 use crate::diagnostic::Diagnostic;
+use crate::expand::Origins;
 use crate::history::history;
-use crate::place::Origins;
+use crate::resolve::face_name;
 use crate::scene::{Face, Scene, newell_normal};
-use crate::settle::face_name;
 use crate::source::Span;
 
 /// A face is flat if no corner is farther from its plane than this part of its size: files are rounded.

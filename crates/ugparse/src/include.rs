@@ -10,7 +10,7 @@ use std::path::{Component, Path, PathBuf};
 
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::options::{Limit, Options};
-use crate::parts::read_all;
+use crate::parallel::read_all;
 use crate::reader::RequestStatement;
 use crate::refuse_errors;
 use crate::source::{LineMark, Source};

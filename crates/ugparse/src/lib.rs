@@ -5,7 +5,7 @@
 //! placed by instances and arrays. This crate reads it in three steps:
 //!
 //! ```text
-//! bytes ─reader→ groups ─settle→ groups ─place→ Scene (flat) ─write→ bytes
+//! bytes ─reader→ groups ─resolve→ groups ─expand→ Scene (flat) ─write→ bytes
 //!        tables for the  names are rows  instances expanded
 //!        file, each def
 //! ```
@@ -33,10 +33,13 @@
 //! the program of the same name, and what it stands on. Libraries do without.
 
 mod cameras;
+mod chunked_writer;
 #[cfg(feature = "cli")]
 mod cli;
 mod contours;
 mod diagnostic;
+mod expand;
+mod fast_path;
 mod flatness;
 mod grammar;
 mod group;
@@ -46,15 +49,12 @@ mod named;
 mod names;
 mod numbered;
 mod options;
-mod outlet;
-mod parts;
+mod parallel;
 #[cfg(feature = "pipe")]
 pub mod pipe;
-mod place;
-mod quick;
 mod reader;
+mod resolve;
 mod scene;
-mod settle;
 mod source;
 mod statement;
 mod suggest;
@@ -68,12 +68,12 @@ mod writer;
 pub use cli::main;
 pub use contours::Contours;
 pub use diagnostic::{Diagnostic, Diagnostics, MAX_ERRORS, Place, Severity};
+pub use expand::Origins;
 pub use flatness::{BentFace, FLAT, TOO_BENT, thickness};
 pub use history::{history, record};
 pub use include::{Request, RequestError, RequestKind, include};
 pub use names::{NameId, Names, UniqueNames};
 pub use options::{Limit, Limits, Options};
-pub use place::Origins;
 pub use scene::*;
 pub use source::{Source, Span};
 pub use tidy::tidy;
@@ -100,15 +100,15 @@ pub fn parse(source: &Source, options: &Options) -> Result<Parsed, Diagnostics> 
     let text = &source.text[..];
     check_length(source, options)?;
     let mut findings = Vec::new();
-    let mut document = parts::read_all(text, options, &mut findings);
+    let mut document = parallel::read_all(text, options, &mut findings);
     findings.extend(document.requests.iter().map(include::not_followed));
     refuse_errors(source, &mut findings)?;
 
     let mut scene = Scene::default();
-    let links = settle::settle(text, &mut document.groups, &mut scene, &options.limits, &mut findings);
+    let links = resolve::resolve(text, &mut document.groups, &mut scene, &options.limits, &mut findings);
     refuse_errors(source, &mut findings)?;
 
-    let (scene, origins) = place::place(text, &mut document, &links, scene, &mut findings);
+    let (scene, origins) = expand::expand(text, &mut document, &links, scene, &mut findings);
     refuse_errors(source, &mut findings)?;
     let bent = flatness::bent_faces(&scene);
     findings.extend(flatness::warning(source, &origins, &bent));

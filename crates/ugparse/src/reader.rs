@@ -1,11 +1,11 @@
 //! Text to groups: statement after statement, with recovery at the next `;`.
 
 use crate::diagnostic::{Diagnostic, MAX_ERRORS};
+use crate::fast_path;
 use crate::grammar::{Grammar, NAME};
 use crate::group::Group;
 use crate::include::RequestKind;
 use crate::options::{Limit, Options};
-use crate::quick;
 use crate::source::{LineMark, Span};
 use crate::statement::References;
 use crate::token::{
@@ -166,7 +166,7 @@ impl<'t, 'f> Reader<'t, 'f> {
     fn statement(&mut self, input: Input<'t>) -> Input<'t> {
         let start = self.grammar.position(input);
         let group = &mut self.document.groups[self.open[self.open.len() - 1]];
-        if let Some(end) = quick::statement(self.grammar.text, start as usize, group) {
+        if let Some(end) = fast_path::statement(self.grammar.text, start as usize, group) {
             self.document.first_statement.get_or_insert(start);
             self.line_has_statement = true;
             return &self.grammar.text[end..];

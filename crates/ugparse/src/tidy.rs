@@ -5,7 +5,7 @@
 
 use crate::diagnostic::Diagnostics;
 use crate::grammar::KEYWORDS;
-use crate::parts::read_all;
+use crate::parallel::read_all;
 use crate::source::Source;
 use crate::token::{Input, comment, escape, found, integer, is_blank, number, skip_statement, word};
 use crate::writer::push_number;

@@ -4,9 +4,9 @@ use std::io::{self, Write};
 
 use glam::DVec3;
 
+use crate::chunked_writer::ChunkedWriter;
 use crate::contours::Contours;
 use crate::names::NameId;
-use crate::outlet::Outlet;
 use crate::scene::{
     Camera, Color, ColorId, ColorValue, Comment, Illum, Item, Light, LightKind, Projection, Scene, Surface,
     VelocityId,
@@ -32,13 +32,13 @@ pub fn write(scene: &Scene) -> Vec<u8> {
 /// # Errors
 /// Those of `out`. It may have got a part of the text.
 pub fn write_to(scene: &Scene, out: &mut dyn Write) -> io::Result<()> {
-    Tables { scene, outlet: Outlet::new(out), comments: &scene.comments }.send()
+    Tables { scene, chunked_writer: ChunkedWriter::new(out), comments: &scene.comments }.send()
 }
 
 /// The tables of a scene, on their way out.
 struct Tables<'s, 'o> {
     scene: &'s Scene,
-    outlet: Outlet<'o>,
+    chunked_writer: ChunkedWriter<'o>,
     /// Comments not given to a block yet; they are sorted by statement.
     comments: &'s [Comment],
 }
@@ -47,7 +47,7 @@ impl<'s> Tables<'s, '_> {
     fn send(mut self) -> io::Result<()> {
         let scene = self.scene;
         for text in &scene.head {
-            self.outlet.append(|out| Writer::on(out, scene, &[], |w| w.comment_line(text)));
+            self.chunked_writer.append(|out| Writer::on(out, scene, &[], |w| w.comment_line(text)));
         }
         self.rows(&scene.escapes, Item::Escape, |w, text| {
             w.text("(");
@@ -85,8 +85,9 @@ impl<'s> Tables<'s, '_> {
         self.rows(&scene.lights, Item::Light, Writer::light)?;
         self.rows(&scene.cameras, Item::Camera, Writer::camera)?;
         let comments = self.comments;
-        self.outlet.append(|out| Writer::on(out, scene, comments, |w| w.comments_at(Item::End, false)));
-        self.outlet.send()
+        self.chunked_writer
+            .append(|out| Writer::on(out, scene, comments, |w| w.comments_at(Item::End, false)));
+        self.chunked_writer.send()
     }
 
     /// One line for each row, in blocks that are written on all threads.
@@ -108,8 +109,8 @@ impl<'s> Tables<'s, '_> {
         for round in blocks.chunks(BLOCKS_PER_THREAD * rayon::current_num_threads()) {
             match round {
                 // Waking a thread would take longer than a small table.
-                [block] => self.outlet.append(|out| write(block, out)),
-                _ => self.outlet.round(round, write)?,
+                [block] => self.chunked_writer.append(|out| write(block, out)),
+                _ => self.chunked_writer.round(round, write)?,
             }
         }
         Ok(())

@@ -11,8 +11,8 @@ use ugphysics::srgb_decode;
 use crate::config::{Background, Config, Exposure};
 use crate::planes::{Finder, front, planes};
 use crate::raster::{Direct, Filter, Finish, Gathered, RUN, Seen, Tally};
+use crate::render_layers::RenderLayers;
 use crate::setup::Setup;
-use crate::sheet::Sheet;
 
 /// Pixels that one task develops.
 const CHUNK: usize = 1 << 14;
@@ -46,13 +46,13 @@ pub struct Canvas {
 }
 
 impl Canvas {
-    /// Draws a sheet.
-    pub fn new(setup: &Setup<'_>, sheet: &Sheet<'_>, config: &Config) -> Self {
+    /// Draws a layers.
+    pub fn new(setup: &Setup<'_>, layers: &RenderLayers<'_>, config: &Config) -> Self {
         let is_deep = config.output.format().is_some_and(|format| format.is_deep());
         if !is_deep && !setup.is_uncut {
-            return Self::display(setup, sheet, config);
+            return Self::display(setup, layers, config);
         }
-        let (mut frame, tally) = light(setup, sheet, config);
+        let (mut frame, tally) = light(setup, layers, config);
         if config.is_linear() {
             return Self { drawn: Drawn::Light(frame), tally, development: None };
         }
@@ -65,10 +65,10 @@ impl Canvas {
     }
 
     /// Straight to 8 bits, when nothing in between is asked for.
-    fn display(setup: &Setup<'_>, sheet: &Sheet<'_>, config: &Config) -> Self {
+    fn display(setup: &Setup<'_>, layers: &RenderLayers<'_>, config: &Config) -> Self {
         let grid = &setup.grid;
         let finish = Display::new(config);
-        let (pixels, tally) = sheet.paint_filtered(grid, config.filter, &setup.shader, &finish);
+        let (pixels, tally) = layers.paint_filtered(grid, config.filter, &setup.shader, &finish);
         let frame = Frame::new([grid.width, grid.height], finish.ground.is_opaque(), pixels);
         Self { drawn: Drawn::Display(frame), tally, development: None }
     }
@@ -148,22 +148,22 @@ fn bytes<S: Simd>(simd: S, levels: &[f32; LANES]) -> i32x16<S> {
 }
 
 /// The whole picture as light, with the planes that are asked for.
-pub fn light(setup: &Setup<'_>, sheet: &Sheet<'_>, config: &Config) -> (LinearFrame, Tally) {
+pub fn light(setup: &Setup<'_>, layers: &RenderLayers<'_>, config: &Config) -> (LinearFrame, Tally) {
     let grid = &setup.grid;
     let ground = Ground::new(config);
     let frame = |pixels| LinearFrame::new([grid.width, grid.height], ground.is_opaque(), pixels);
     if config.channels.is_empty() || config.filter != Filter::Box {
         let light = |all: &Gathered<'_, ()>| ground.pixel(all);
-        let (pixels, tally) = sheet.paint_filtered(grid, config.filter, &setup.shader, &light);
+        let (pixels, tally) = layers.paint_filtered(grid, config.filter, &setup.shader, &light);
         let mut frame = frame(pixels);
         if !config.channels.is_empty() {
             // What is in the middle of a pixel is not filtered.
             let front = |all: &Gathered<'_, u32>| front(&setup.view, all);
-            push_planes(&mut frame, setup, config, &sheet.paint(grid, &setup.shader, &front).0);
+            push_planes(&mut frame, setup, config, &layers.paint(grid, &setup.shader, &front).0);
         }
         return (frame, tally);
     }
-    let (pixels, tally) = sheet
+    let (pixels, tally) = layers
         .paint(grid, &setup.shader, &|all: &Gathered<'_, u32>| (ground.pixel(all), front(&setup.view, all)));
     let (pixels, seen): (Vec<[f32; 4]>, Vec<Option<Seen<u32>>>) = pixels.into_iter().unzip();
     let mut frame = frame(pixels);
@@ -215,7 +215,7 @@ impl Ground {
     /// That of a picture.
     pub fn new(config: &Config) -> Self {
         let behind = match config.background {
-            Background::Clear => None,
+            Background::Transparent => None,
             Background::Color(color) => Some(color.to_rgb().map(|channel| srgb_decode(channel) as f32)),
         };
         Self { behind, n_samples: (config.samples * config.samples) as f32 }

@@ -316,7 +316,7 @@ impl Args {
 
     fn background(&self) -> Result<Background, Failure> {
         if self.tb {
-            return Ok(Background::Clear);
+            return Ok(Background::Transparent);
         }
         let black = [0.0];
         color("background -bg", self.bg.as_deref().unwrap_or(&black)).map(Background::Color)

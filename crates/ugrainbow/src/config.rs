@@ -7,7 +7,7 @@ use ugscene::{CameraOptions, HueScale};
 use crate::figures::Figures;
 use crate::planes::Channel;
 use crate::raster::Filter;
-use crate::sheet::Manner;
+use crate::render_layers::DrawMode;
 
 /// Everything that decides the bytes of a picture besides the scene.
 #[derive(Clone, Debug, PartialEq)]
@@ -94,8 +94,8 @@ impl Config {
     }
 
     /// How the scene is drawn.
-    pub(crate) fn manner(&self) -> Manner {
-        Manner { exact: self.exact, wireframe: self.wireframe, line_width: self.line_width }
+    pub(crate) fn draw_mode(&self) -> DrawMode {
+        DrawMode { exact: self.exact, wireframe: self.wireframe, line_width: self.line_width }
     }
 
     /// True if the file is to hold light, uncut.
@@ -184,7 +184,7 @@ pub enum Background {
     /// A colour; it is not attenuated.
     Color(Hsv),
     /// Nothing: the picture is transparent there.
-    Clear,
+    Transparent,
 }
 
 /// Kind of file.

@@ -8,7 +8,7 @@ use ugparse::{Face, VertexId};
 use crate::clip::{Vertex, clip_polygon};
 use crate::painter::{Common, Painter};
 use crate::raster::{BLOCK, Block, Bounds, Corner, Drawn, Point, PolygonList, Shapes, Table};
-use crate::sheet::Pack;
+use crate::render_layers::Pack;
 
 /// Faces that are looked at together: more than a block of triangles, so that while one is looked at the next is filled.
 const TOGETHER: usize = 4 * BLOCK;

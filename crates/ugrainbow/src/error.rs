@@ -99,7 +99,7 @@ pub fn check_output(config: &Config) -> Result<(), Error> {
             "EXR, PFM and HDR pictures hold the light as it is: leave out -ex and -tc, or write -dt png16",
         ));
     }
-    if config.background == Background::Clear && format.is_some_and(|format| !format.has_alpha()) {
+    if config.background == Background::Transparent && format.is_some_and(|format| !format.has_alpha()) {
         return Err(Error::Options(
             "PFM and HDR pictures have no transparency: leave out -tb, or write -dt exr",
         ));

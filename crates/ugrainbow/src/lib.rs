@@ -78,9 +78,9 @@ mod painter;
 mod palette;
 mod planes;
 mod raster;
+mod render_layers;
 mod setup;
 mod shade;
-mod sheet;
 mod surface;
 mod vector;
 mod words;
@@ -101,8 +101,8 @@ pub use ugscene::{CameraError, CameraOptions, HueScale};
 use canvas::{Canvas, Drawn};
 use figures::{Annotations, Plan};
 use notes::Outcome;
+use render_layers::RenderLayers;
 use setup::Setup;
-use sheet::Sheet;
 
 /// A picture as a file.
 #[derive(Clone, Debug)]
@@ -175,8 +175,8 @@ impl<'a> Prepared<'a> {
 
     /// Draws it: from vertices in the scene to 8 bits a channel.
     pub fn draw(&self) -> Frame {
-        let sheet = Sheet::new(self.setup.painter(), &self.config.manner());
-        Canvas::new(&self.setup, &sheet, self.config).drawn.into_frame()
+        let layers = RenderLayers::new(self.setup.painter(), &self.config.draw_mode());
+        Canvas::new(&self.setup, &layers, self.config).drawn.into_frame()
     }
 }
 
@@ -192,11 +192,11 @@ struct Painted {
 fn paint(scene: &Scene, plan: &Plan, config: &Config, progress: &dyn Progress) -> Result<Painted, Error> {
     progress.step("preparing", 0);
     let setup = Setup::new(scene, config)?;
-    let sheet = Sheet::new(setup.painter(), &config.manner()).telling(progress);
-    let canvas = Canvas::new(&setup, &sheet, config);
+    let layers = RenderLayers::new(setup.painter(), &config.draw_mode()).telling(progress);
+    let canvas = Canvas::new(&setup, &layers, config);
     let Canvas { drawn, tally, development } = canvas;
     progress.step("annotating", 0);
-    let outcome = Outcome { reach: sheet.reach(), tally, development };
+    let outcome = Outcome { reach: layers.reach(), tally, development };
     let mut notes = notes::notes(&setup, config, &outcome);
     let annotations = plan.annotations(&setup, config, development)?;
     notes.extend(annotations.notes.iter().cloned());

@@ -7,13 +7,13 @@ use ugparse::{ColorId, ColorValue, Scene, VelocityId, VertexId};
 
 use crate::config::{Config, DepthCue, Exact};
 use crate::error::{self, Error};
-use crate::explain::Story;
+use crate::explain::Provenance;
 use crate::light::Lighting;
 use crate::painter::Painter;
 use crate::palette::Palette;
 use crate::raster::{Cue, Gathered, Grid};
+use crate::render_layers::RenderLayers;
 use crate::shade::Shader;
-use crate::sheet::Sheet;
 use crate::surface::Surface;
 use ugscene::{Geometry, View};
 
@@ -75,8 +75,8 @@ impl<'a> Setup<'a> {
 
     /// The least and greatest depth seen, to four digits so that they can be told.
     fn depths(&self, config: &Config) -> Option<[f64; 2]> {
-        let sheet = Sheet::new(self.painter(), &config.manner());
-        let (keys, _) = sheet.paint(&self.grid, &self.shader, &|all: &Gathered<'_, u32>| {
+        let layers = RenderLayers::new(self.painter(), &config.draw_mode());
+        let (keys, _) = layers.paint(&self.grid, &self.shader, &|all: &Gathered<'_, u32>| {
             let solid = all.center.iter().map(|seen| seen.key);
             let keys = solid.chain(all.layers.iter().map(|layer| layer.key));
             keys.fold([f32::INFINITY, f32::NEG_INFINITY], |[low, high], key| [low.min(key), high.max(key)])
@@ -116,7 +116,7 @@ impl<'a> Setup<'a> {
 
 /// Refuses what rays do not find, or what would be shifted twice.
 fn check_exact(scene: &Scene, view: &View) -> Result<(), Error> {
-    if Story::of(scene).doppler.is_some() {
+    if Provenance::of(scene).doppler.is_some() {
         return Err(Error::Exact(
             "-xc shifts colours itself, at every sample, and those of this scene have been shifted by ugdoppler: \
              leave ugdoppler out, and give -br, --no-doppler or --no-flux here; or, for ugdoppler -sp and -li, leave out -xc",

@@ -43,7 +43,7 @@ fn the_scene_is_drawn_as_it_would_be_alone_in_less_room() {
     let plain = Config { size: [320, 240], samples: 1, ..Config::default() };
     let caption = Figures { legend: false, ..strips() };
     let legend = Figures { caption: String::new(), ..strips() };
-    for background in [plain.background, white(), Background::Clear] {
+    for background in [plain.background, white(), Background::Transparent] {
         for (figures, output, exact) in [
             (strips(), Output::Color(Format::Png), None),
             (caption.clone(), Output::Color(Format::Png16), None),

@@ -125,7 +125,7 @@ fn covered_is_covered() {
     for (filter, samples) in
         Filter::ALL.into_iter().flat_map(|filter| [(filter, 1), (filter, 3), (filter, 4)])
     {
-        let config = Config { filter, background: Background::Clear, ..config(40, samples) };
+        let config = Config { filter, background: Background::Transparent, ..config(40, samples) };
         assert!(draw(text, &config).pixels().iter().all(|pixel| *pixel == [64, 128, 191, 255]), "{filter:?}");
         let exposed = Config { exposure: Some(Exposure::Stops(0.0)), ..config.clone() };
         assert!(draw(text, &exposed).pixels().iter().all(|pixel| pixel[3] == 255), "{filter:?}");

@@ -211,7 +211,7 @@ fn what_a_format_has_no_place_for_is_refused() {
         check(&Config { tone: Tone::Filmic, ..to(format) }, "leave out -ex and -tc");
     }
     for format in [Format::Pfm, Format::Hdr] {
-        check(&Config { background: Background::Clear, ..to(format) }, "write -dt exr");
+        check(&Config { background: Background::Transparent, ..to(format) }, "write -dt exr");
     }
     for format in [Format::Png, Format::Pfm, Format::Png16] {
         check(&Config { channels: vec![Channel::Time], ..to(format) }, "with -ch write -dt exr");

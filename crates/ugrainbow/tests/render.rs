@@ -266,7 +266,7 @@ fn pixels_are_averaged_in_linear_light() {
     assert_eq!(frame.pixel(4, 3)[0], level(mean));
     assert_eq!(frame.pixel(7, 3)[0], 128);
     // Transparent: the colour of what is there, and how much of it.
-    let frame = draw(&text, &Config { samples: 4, background: Background::Clear, ..config });
+    let frame = draw(&text, &Config { samples: 4, background: Background::Transparent, ..config });
     assert!(!frame.is_opaque());
     assert_eq!(frame.pixel(3, 3), [255; 4]);
     assert_eq!(frame.pixel(4, 3), [255, 255, 255, 128]);

@@ -67,7 +67,7 @@ fn what_passes_shows_the_background() {
     let frame = draw(&panes, &Config { background: blue, ..config(2, 1) });
     assert_pixel(&frame, [1, 1], [0.5, 0.5 * 0.6, 0.5 * 0.4]);
     // On nothing the covered part is what does not pass, and colour is that of this part.
-    let frame = draw(&panes, &Config { background: Background::Clear, ..config(2, 1) });
+    let frame = draw(&panes, &Config { background: Background::Transparent, ..config(2, 1) });
     assert_eq!(frame.pixel(0, 0)[3], (255.0f64 * 0.8).round() as u8);
     assert_pixel(&frame, [0, 0], [0.5 / 0.8, 0.3 / 0.8, 0.0]);
 }
@@ -202,13 +202,13 @@ fn a_face_of_its_own_colour_is_as_clear_everywhere() {
     let text = "l 1; c glass 1 0 1 .5; c post 1 120;
                 v a -4 -4 0; v b -2 -4 0; v c 2 -4 0; v d 4 -4 0; v e -4 4 0; v f -2 4 0; v g 2 4 0; v h 4 4 0;
                 f (a b f e) post; f (b c g f) glass; f (c d h g) post;";
-    let frame = draw(text, &Config { background: Background::Clear, ..config(8, 1) });
+    let frame = draw(text, &Config { background: Background::Transparent, ..config(8, 1) });
     let alpha = |x: u32| frame.pixel(x, 4)[3];
     assert_eq!([0, 1, 2, 3, 4, 5, 6, 7].map(alpha), [255, 255, 128, 128, 128, 128, 255, 255]);
     // Without a colour of its own it has that of its corners, here from clear at the left to opaque at the right.
     let text = "l 1; c clear 1 0 1 1; c red 1 0;
                 v a -4 -4 0 clear; v b 4 -4 0 red; v c 4 4 0 red; v d -4 4 0 clear; f (a b c d);";
-    let frame = draw(text, &Config { background: Background::Clear, ..config(8, 1) });
+    let frame = draw(text, &Config { background: Background::Transparent, ..config(8, 1) });
     for x in 0..8 {
         let expected = 255.0 * (f64::from(x) + 0.5) / 8.0;
         assert!((f64::from(frame.pixel(x, 3)[3]) - expected).abs() <= 1.0, "column {x}");

@@ -85,7 +85,9 @@ fn what_cannot_be_a_figure_is_refused() {
         let config = Config { size: [8, 8], output, background, ..Config::default() };
         run(&config, &ugparse::Source::new("test.ug", glass))
     };
-    assert!(matches!(clear(Background::Clear).unwrap_err(), Error::Figure(text) if text.contains("-bg 1")));
+    assert!(
+        matches!(clear(Background::Transparent).unwrap_err(), Error::Figure(text) if text.contains("-bg 1"))
+    );
     assert!(clear(Config::default().background).is_ok());
 }
 

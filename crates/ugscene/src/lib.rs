@@ -24,6 +24,7 @@
 
 mod bodies;
 mod camera;
+mod camera_motion;
 mod colors;
 mod eye;
 mod geometry;
@@ -33,10 +34,10 @@ mod polygon;
 mod read;
 mod shares;
 mod split;
-mod traveller;
 
 pub use bodies::{Bodies, is_one_body, separate_bodies, vertex_velocities};
 pub use camera::{CameraError, CameraOptions, HalfSpace, Place, Slab, View};
+pub use camera_motion::{axes_from_scene, camera_velocity, record_camera_velocity};
 pub use colors::{HueScale, VertexColor, hsv, is_light, light, spectra_note, spectrum, vertex_colors};
 pub use eye::{at_eye_error, eye, vertex_at_eye};
 pub use geometry::{Geometry, rest_positions};
@@ -46,5 +47,4 @@ pub use polygon::{Triangle, is_convex, triangulate};
 pub use read::read;
 pub use shares::{Shares, vertex_shares};
 pub use split::{split_corners, split_vertices};
-pub use traveller::{axes_from_scene, camera_velocity, record_camera_velocity};
 pub use ugparse::{history, record};

@@ -8,7 +8,7 @@ use serde_json::{Map, Value, json};
 use crate::cli::measure::{Edges, bodies, corner_count, thickest_face};
 use crate::diagnostic::Place;
 use crate::group::Group;
-use crate::parts::read_all;
+use crate::parallel::read_all;
 use crate::reader::line_marks;
 use crate::scene::{Scene, VelocityId};
 use crate::statement::Repeat;

@@ -19,7 +19,7 @@ use crate::config::Exact;
 use crate::drawlist::Reach;
 use crate::painter::Painter;
 use crate::raster::{Bins, Grid, Layer, Scanner, Sink};
-use crate::sheet::Pack;
+use crate::render_layers::Pack;
 
 /// Faces and the rays that meet them.
 pub struct Faces<'a, const N: usize> {

@@ -7,7 +7,7 @@ use super::{Corner, Explanation, Item, LayerShown, SampleColor, Shown};
 
 /// The explanation as JSON, with a line break at its end.
 pub fn json(explanation: &Explanation) -> String {
-    let Explanation { pixel, size, samples, covers, n_free, story, is_at_rest, sample, pixel_steps } =
+    let Explanation { pixel, size, samples, covers, n_free, provenance, is_at_rest, sample, pixel_steps } =
         explanation;
     let n_samples = (samples * samples) as usize;
     let part = |count: usize| count as f64 / n_samples as f64;
@@ -28,9 +28,9 @@ pub fn json(explanation: &Explanation) -> String {
         "samples": n_samples,
         "covers": covers,
         "background_part": part(*n_free),
-        "history": story.lines,
+        "history": provenance.lines,
         "is_at_rest": is_at_rest,
-        "brightness_law": story.doppler.as_ref().map(|doppler| &doppler.law),
+        "brightness_law": provenance.doppler.as_ref().map(|doppler| &doppler.law),
         "sample": sample.as_ref().map(shown),
         "filter": pixel_steps.filter.name(),
         "mean_linear": pixel_steps.mean[..3],

@@ -1,7 +1,7 @@
 //! Why a pixel has its colour: from the face and its motion to the bytes.
 
 mod json;
-mod story;
+mod provenance;
 mod text;
 
 use glam::DVec3;
@@ -16,12 +16,12 @@ use crate::figures::Plan;
 use crate::palette::Swatch;
 use crate::planes::{self, Finder};
 use crate::raster::{Filter, Finish, Fragment, Gathered, Sample, Seen};
+use crate::render_layers::RenderLayers;
 use crate::setup::Setup;
-use crate::sheet::Sheet;
 use crate::{Error, canvas};
 
 pub use json::json;
-pub use story::Story;
+pub use provenance::Provenance;
 pub use text::text;
 
 /// What there is to say about a pixel.
@@ -39,7 +39,7 @@ pub struct Explanation {
     /// How many samples show the background, if only through something.
     pub n_free: usize,
     /// What the scene says of how it was made.
-    pub story: Story,
+    pub provenance: Provenance,
     /// True if nothing in the scene moves.
     pub is_at_rest: bool,
     /// The covered sample nearest to the centre of the pixel.
@@ -175,18 +175,18 @@ pub fn explain(
     if pixel[0] >= config.size[0] || pixel[1] >= config.size[1] {
         return Err(Error::Pixel { pixel, size: config.size });
     }
-    let sheet = Sheet::new(setup.painter(), &config.manner());
+    let layers = RenderLayers::new(setup.painter(), &config.draw_mode());
     let (display, ground) = (Display::new(config), Ground::new(config));
-    let (samples, gathered, bytes) = sheet.probe(&setup.grid, &setup.shader, &display, pixel);
+    let (samples, gathered, bytes) = layers.probe(&setup.grid, &setup.shader, &display, pixel);
     let (mean, bytes) = match config.filter {
         Filter::Box => (ground.pixel(&gathered), bytes),
         filter => {
             let both = |all: &Gathered<'_, ()>| (ground.pixel(all), display.pixel(all));
-            sheet.probe_filtered(&setup.grid, filter, &setup.shader, &both, pixel)
+            layers.probe_filtered(&setup.grid, filter, &setup.shader, &both, pixel)
         }
     };
-    let story = Story::of(&parsed.scene);
-    let teller = Teller { setup: &setup, config, source, parsed: &parsed, story: &story };
+    let provenance = Provenance::of(&parsed.scene);
+    let teller = Teller { setup: &setup, config, source, parsed: &parsed, provenance: &provenance };
     let explanation = Explanation {
         pixel,
         size: config.size,
@@ -196,8 +196,8 @@ pub fn explain(
             - samples.iter().filter(|sample| !is_free(sample)).count(),
         is_at_rest: parsed.scene.velocities.iter().all(|beta| *beta == DVec3::ZERO),
         sample: nearest(&samples, pixel, config.samples).map(|sample| teller.shown(sample)),
-        pixel_steps: pixel_steps(&setup, &sheet, config, mean, bytes),
-        story,
+        pixel_steps: pixel_steps(&setup, &layers, config, mean, bytes),
+        provenance,
     };
     Ok((explanation, parsed.warnings))
 }
@@ -214,14 +214,14 @@ fn nearest(samples: &[Sample], pixel: [u32; 2], n: u32) -> Option<&Sample> {
 
 fn pixel_steps(
     setup: &Setup<'_>,
-    sheet: &Sheet<'_>,
+    layers: &RenderLayers<'_>,
     config: &Config,
     mean: [f32; 4],
     bytes: [u8; 4],
 ) -> PixelSteps {
     let [red, green, blue, _] = mean;
     let development = setup.is_uncut.then(|| {
-        let development = development(|| canvas::light(setup, sheet, config).0, config);
+        let development = development(|| canvas::light(setup, layers, config).0, config);
         (development, development.steps([red, green, blue]))
     });
     let bytes = development.map_or(bytes, |(development, _)| {
@@ -266,7 +266,7 @@ struct Teller<'a> {
     config: &'a Config,
     source: &'a Source,
     parsed: &'a Parsed,
-    story: &'a Story,
+    provenance: &'a Provenance,
 }
 
 impl Teller<'_> {
@@ -362,7 +362,7 @@ impl Teller<'_> {
         stack.into_iter().map(shown).collect()
     }
 
-    /// What the interpolated numbers mean: see [`Sheet`].
+    /// What the interpolated numbers mean: see [`RenderLayers`].
     fn color(&self, values: &[f32], doppler: f64) -> SampleColor {
         let numbers: Vec<f64> = values.iter().map(|&number| f64::from(number)).collect();
         let is_light = matches!(numbers.len(), 4 | 7) && numbers[numbers.len() - 1] > 0.5;
@@ -383,7 +383,7 @@ impl Teller<'_> {
         let wavelength = (!swatch.is_grey()).then(|| {
             let seen_nm = self.setup.palette.wavelength_nm(&swatch);
             Wavelength {
-                rest_nm: if self.story.shifts() { seen_nm * doppler } else { seen_nm },
+                rest_nm: if self.provenance.shifts() { seen_nm * doppler } else { seen_nm },
                 seen_nm,
                 attenuation: attenuation(seen_nm),
                 is_at_end: self.config.interpolated() == Interpolation::Hue && !(-60.0 < hue && hue < 300.0),

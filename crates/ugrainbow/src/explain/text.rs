@@ -2,7 +2,7 @@
 
 use std::fmt::{self, Write};
 
-use super::{Corner, Explanation, Item, PixelSteps, SampleColor, Shown, Story};
+use super::{Corner, Explanation, Item, PixelSteps, Provenance, SampleColor, Shown};
 use crate::raster::Filter;
 
 /// Corners shown; a face may have thousands.
@@ -57,7 +57,7 @@ fn write_sample(out: &mut String, shown: &Shown, explanation: &Explanation) -> f
         row(out, "seen at", text)?;
     }
     row(out, "D", format!("{} (P10)", number(shown.doppler)))?;
-    write_story(out, &explanation.story, shown.doppler)?;
+    write_provenance(out, &explanation.provenance, shown.doppler)?;
     for corner in shown.corners.iter().take(MAX_CORNERS) {
         row(out, "corner", corner_text(corner))?;
     }
@@ -65,7 +65,7 @@ fn write_sample(out: &mut String, shown: &Shown, explanation: &Explanation) -> f
         row(out, "", format!("and {} more", shown.corners.len() - MAX_CORNERS))?;
     }
     if let Some(color) = &shown.color {
-        write_color(out, color, &explanation.story)?;
+        write_color(out, color, &explanation.provenance)?;
     }
     row(out, "light", format!("{} linear", numbers(&shown.light.map(f64::from))))?;
     if let Some(cue) = shown.cue {
@@ -89,7 +89,7 @@ fn body(shown: &Shown, explanation: &Explanation) -> String {
     let beta = numbers(&shown.beta.to_array());
     let mut text =
         format!("velocity {beta}, beta {}, gamma {}", number(shown.beta.length()), number(shown.gamma));
-    if !explanation.story.has_lorentz {
+    if !explanation.provenance.has_lorentz {
         text += "; the scene never went through uglorentz, and is taken as if it had";
     }
     text
@@ -100,8 +100,8 @@ fn event(time: Option<f64>, place: [f64; 3], frame: &str) -> String {
     format!("t {time}, x {} ({frame})", numbers(&place))
 }
 
-fn write_story(out: &mut String, story: &Story, doppler: f64) -> fmt::Result {
-    let text = match &story.doppler {
+fn write_provenance(out: &mut String, provenance: &Provenance, doppler: f64) -> fmt::Result {
+    let text = match &provenance.doppler {
         None => "the scene never went through ugdoppler: colours are as at rest".to_owned(),
         Some(told) => {
             let shift = if told.shifts { "wavelengths over D (P11)" } else { "wavelengths not shifted" };
@@ -142,7 +142,7 @@ fn level(level: &[f64; 3]) -> String {
     }
 }
 
-fn write_color(out: &mut String, color: &SampleColor, story: &Story) -> fmt::Result {
+fn write_color(out: &mut String, color: &SampleColor, provenance: &Provenance) -> fmt::Result {
     match color {
         SampleColor::Light { xyz, chromaticity } => {
             row(out, "colour", format!("X Y Z {}, lit", numbers(xyz)))?;
@@ -164,7 +164,7 @@ fn write_color(out: &mut String, color: &SampleColor, story: &Story) -> fmt::Res
             );
             row(out, "colour", text)?;
             let end = if wavelength.is_at_end { ", the end of the range, or anything beyond" } else { "" };
-            let rest = if story.shifts() { "at rest" } else { "at rest, as far as the history tells" };
+            let rest = if provenance.shifts() { "at rest" } else { "at rest, as far as the history tells" };
             let (rest_nm, seen_nm) = (number(wavelength.rest_nm), number(wavelength.seen_nm));
             row(out, "wavelength", format!("{rest_nm} nm {rest}, {seen_nm} nm seen{end} (P16)"))?;
             row(out, "attenuation", format!("hue times {} (P17)", number(wavelength.attenuation)))

@@ -6,8 +6,8 @@ use ugscene::View;
 
 use crate::config::Config;
 use crate::raster::{Gathered, Seen};
+use crate::render_layers::{DrawMode, RenderLayers};
 use crate::setup::Setup;
-use crate::sheet::{Manner, Sheet};
 
 /// A line as far behind a face as this part of its distance is still on it: lines follow edges and grounds.
 const SLACK: f64 = 2e-3;
@@ -35,11 +35,11 @@ pub struct Depths {
 }
 
 impl Depths {
-    /// `setup` and `manner`: with one sample for each pixel.
-    pub fn new(setup: &Setup<'_>, manner: &Manner) -> Self {
+    /// `setup` and `mode`: with one sample for each pixel.
+    pub fn new(setup: &Setup<'_>, mode: &DrawMode) -> Self {
         let grid = &setup.grid;
-        let sheet = Sheet::new(setup.painter(), manner);
-        let (seen, _) = sheet.paint(grid, &setup.shader, &|all: &Gathered<'_, u32>| all.center);
+        let layers = RenderLayers::new(setup.painter(), mode);
+        let (seen, _) = layers.paint(grid, &setup.shader, &|all: &Gathered<'_, u32>| all.center);
         Self { size: [grid.width, grid.height], is_perspective: grid.is_perspective, seen }
     }
 

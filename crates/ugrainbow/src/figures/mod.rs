@@ -123,7 +123,7 @@ impl Plan {
             let options = coarse(config);
             let coarse = Setup::new(setup.scene(), &options)?;
             if grid || legend {
-                let depths = Depths::new(&coarse, &options.manner());
+                let depths = Depths::new(&coarse, &options.draw_mode());
                 if grid {
                     all.notes.extend(grid::draw(&coarse, &depths, style, &mut all.over)?);
                 }

@@ -6,7 +6,7 @@ use ugscene::View;
 
 use super::depths::Depths;
 use crate::config::Config;
-use crate::explain::Story;
+use crate::explain::Provenance;
 use crate::planes::Finder;
 use crate::setup::Setup;
 
@@ -56,7 +56,7 @@ impl Motion {
         let directions = velocities.iter().map(direction).collect();
         let is_shifted = match config.exact {
             Some(exact) => exact.doppler,
-            None => Story::of(setup.scene()).shifts(),
+            None => Provenance::of(setup.scene()).shifts(),
         };
         Self { velocities, directions, doppler, is_shifted }
     }

@@ -53,7 +53,7 @@ pub fn draw(
     still.camera.eye = Some(setup.view.eye);
     still.camera.center = Some(setup.view.eye + setup.view.distance * setup.view.forward);
     let ideal = Setup::new(&ideal, &still)?;
-    let depths = Depths::new(&ideal, &still.manner());
+    let depths = Depths::new(&ideal, &still.draw_mode());
     let mut lines = Vec::new();
     let faces = Faces { scene, places: &places, view: &setup.view };
     for edge in edges(scene, &is_moving).iter().filter(|edge| edge.is_shown(&faces)) {

@@ -23,8 +23,8 @@ use crate::drawlist::Reach;
 use crate::exact::Bend;
 use crate::painter::Painter;
 use crate::palette::Swatch;
-use crate::raster::{CLEAR_VALUES, Corner, PolygonList};
-use crate::sheet::pack_clear;
+use crate::raster::{Corner, PolygonList, TRANSPARENT_VALUES};
+use crate::render_layers::pack_clear;
 use edges::{Edge, edges};
 pub use hidden::{Hiders, Shown, hidden_by};
 
@@ -54,7 +54,7 @@ pub struct Stroke {
     /// See [`Line`].
     pub item: u32,
     /// The middles of its ends.
-    pub ends: [Corner<CLEAR_VALUES>; 2],
+    pub ends: [Corner<TRANSPARENT_VALUES>; 2],
     /// True where the line ends, false where it becomes hidden. There it stands out by half its width, so that the
     /// pieces of a polyline join.
     pub is_end: [bool; 2],
@@ -119,7 +119,7 @@ fn plain(color: Hsv) -> Swatch {
 /// Straight pieces of lines in the picture, hidden or not, and how many lines came how far.
 pub fn pieces(painter: &Painter<'_>, lines: &[Line], bend: Option<&Bend<'_>>) -> (Vec<Stroke>, Reach) {
     let of = |line: &Line| {
-        let joints: Vec<Vertex<CLEAR_VALUES>> = match bend {
+        let joints: Vec<Vertex<TRANSPARENT_VALUES>> = match bend {
             Some(bend) => bend
                 .joints(line)
                 .iter()
@@ -146,7 +146,7 @@ pub fn pieces(painter: &Painter<'_>, lines: &[Line], bend: Option<&Bend<'_>>) ->
 }
 
 /// The piece between two joints, if it is before the eye.
-fn piece(painter: &Painter<'_>, item: u32, ends: [Vertex<CLEAR_VALUES>; 2]) -> Option<Stroke> {
+fn piece(painter: &Painter<'_>, item: u32, ends: [Vertex<TRANSPARENT_VALUES>; 2]) -> Option<Stroke> {
     let view = painter.view;
     let ends = clip_segment(view.slab, ends)?.map(|end| lifted(painter, end).project(view.is_perspective));
     let mut numbers = ends.iter().flat_map(|end| [end.x, end.y, end.key].into_iter().chain(end.values));
@@ -180,12 +180,12 @@ pub fn strokes(pieces: &[Stroke], shown: &Shown<'_>) -> Vec<Stroke> {
     pieces.par_iter().flat_map_iter(|piece| piece.visible(shown)).collect()
 }
 
-fn vertex(place: Place, color: &Swatch) -> Vertex<CLEAR_VALUES> {
+fn vertex(place: Place, color: &Swatch) -> Vertex<TRANSPARENT_VALUES> {
     Vertex { place, values: pack_clear(color, DVec3::ONE) }
 }
 
 /// Moved toward the eye along its own ray.
-fn lifted(painter: &Painter<'_>, end: Vertex<CLEAR_VALUES>) -> Vertex<CLEAR_VALUES> {
+fn lifted(painter: &Painter<'_>, end: Vertex<TRANSPARENT_VALUES>) -> Vertex<TRANSPARENT_VALUES> {
     let Place { x, y, z } = end.place;
     let place = if painter.view.is_perspective {
         let ratio = 1.0 - LIFT;
@@ -197,7 +197,11 @@ fn lifted(painter: &Painter<'_>, end: Vertex<CLEAR_VALUES>) -> Vertex<CLEAR_VALU
 }
 
 /// The point at a part of the way in the picture.
-pub fn between(a: &Corner<CLEAR_VALUES>, b: &Corner<CLEAR_VALUES>, part: f64) -> Corner<CLEAR_VALUES> {
+pub fn between(
+    a: &Corner<TRANSPARENT_VALUES>,
+    b: &Corner<TRANSPARENT_VALUES>,
+    part: f64,
+) -> Corner<TRANSPARENT_VALUES> {
     let mix = |a: f64, b: f64| if part == 1.0 { b } else { a + (b - a) * part };
     Corner {
         x: mix(a.x, b.x),
@@ -208,14 +212,14 @@ pub fn between(a: &Corner<CLEAR_VALUES>, b: &Corner<CLEAR_VALUES>, part: f64) ->
 }
 
 /// Strokes as strips of this width, in samples.
-pub fn strips(painter: &Painter<'_>, strokes: &[Stroke], width: f64) -> PolygonList<CLEAR_VALUES> {
+pub fn strips(painter: &Painter<'_>, strokes: &[Stroke], width: f64) -> PolygonList<TRANSPARENT_VALUES> {
     let mut list = PolygonList::default();
     for Stroke { item, ends: [a, b], is_end } in strokes {
         let length = libm::hypot(b.x - a.x, b.y - a.y);
         let along = if length > 0.0 { [(b.x - a.x) / length, (b.y - a.y) / length] } else { [1.0, 0.0] };
         let [along_x, along_y] = along.map(|part| 0.5 * width * part);
         let [before, behind] = is_end.map(|is_end| f64::from(u8::from(is_end)));
-        let corner = |end: &Corner<CLEAR_VALUES>, forth: f64, aside: f64| Corner {
+        let corner = |end: &Corner<TRANSPARENT_VALUES>, forth: f64, aside: f64| Corner {
             x: end.x + forth * along_x - aside * along_y,
             y: end.y + forth * along_y + aside * along_x,
             ..*end

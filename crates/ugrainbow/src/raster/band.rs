@@ -9,11 +9,11 @@ use ugpipe::Progress;
 
 use super::cue::Cue;
 use super::edges::Scanner;
-use super::glass::{Clear, Glass, Keep};
 use super::polygons::{Drawn, PolygonList};
 use super::resolve::{Finish, Gathered, Resolver};
 use super::shading::{Shading, Tally};
 use super::spans::{Sink, Tag, Tile};
+use super::transparency::{KeepFragments, TransparencyBuffer, TransparentLayer};
 use super::triangles::{Table, Traces};
 
 /// Samples a tile should have: with some 16 bytes each they stay in a core's cache.
@@ -177,7 +177,7 @@ impl<const N: usize, C: Table<N> + ?Sized> Shapes<'_, N, C> {
 pub fn paint<const N: usize, L, T, P, S, F>(
     grid: &Grid,
     layer: &L,
-    clear: Option<&dyn Clear>,
+    clear: Option<&dyn TransparentLayer>,
     shader: &S,
     finish: &F,
     progress: &dyn Progress,
@@ -191,9 +191,9 @@ where
 {
     let empty = finish.pixel(&Gathered::EMPTY);
     paint_parts(grid, grid.band_rows(), empty, progress, |buffers, band, pixels| {
-        let (scanner, tile, glass) = buffers;
+        let (scanner, tile, transparency) = buffers;
         let mut resolver = Resolver::new(shader, finish, grid);
-        Band { grid, layer, clear, band, scanner, tile, glass }.paint(&mut resolver, pixels);
+        Band { grid, layer, clear, band, scanner, tile, transparency }.paint(&mut resolver, pixels);
         resolver.tally
     })
 }
@@ -266,11 +266,11 @@ impl<B: Default> Buffers<B> {
 pub struct Band<'a, const N: usize, L: ?Sized, T> {
     pub grid: &'a Grid,
     pub layer: &'a L,
-    pub clear: Option<&'a dyn Clear>,
+    pub clear: Option<&'a dyn TransparentLayer>,
     pub band: usize,
     pub scanner: &'a mut Scanner<N>,
     pub tile: &'a mut Tile<N, T>,
-    pub glass: &'a mut Glass,
+    pub transparency: &'a mut TransparencyBuffer,
 }
 
 impl<const N: usize, L: Layer<N> + ?Sized, T: Tag> Band<'_, N, L, T> {
@@ -305,11 +305,11 @@ impl<const N: usize, L: Layer<N> + ?Sized, T: Tag> Band<'_, N, L, T> {
         let end_column = (column + grid.tile_columns()).min(grid.width);
         let n_rows = rows.len() as u32 / grid.width;
         self.draw([column, end_column], [row, row + n_rows]);
-        let clear = self.draw_clear(if T::IS_KEPT { Keep::Centers } else { Keep::None });
+        let clear = self.draw_clear(if T::IS_KEPT { KeepFragments::Centers } else { KeepFragments::None });
         resolver.tally = resolver.tally.merge(clear);
         for (row, pixels) in (row..).zip(rows.chunks_mut(grid.width as usize)) {
             let pixels = &mut pixels[column as usize..end_column as usize];
-            resolver.paint(self.tile, self.glass, column, row, pixels);
+            resolver.paint(self.tile, self.transparency, column, row, pixels);
         }
     }
 
@@ -321,9 +321,9 @@ impl<const N: usize, L: Layer<N> + ?Sized, T: Tag> Band<'_, N, L, T> {
     }
 
     /// Draws what is clear over the tile.
-    pub fn draw_clear(&mut self, keep: Keep) -> Tally {
+    pub fn draw_clear(&mut self, keep: KeepFragments) -> Tally {
         match self.clear {
-            Some(clear) => self.glass.draw(clear, self.grid, self.band, self.tile, keep),
+            Some(clear) => self.transparency.draw(clear, self.grid, self.band, self.tile, keep),
             None => Tally::default(),
         }
     }

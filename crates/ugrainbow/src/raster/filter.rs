@@ -11,10 +11,10 @@ use ugpipe::Progress;
 
 use super::band::{Band, Grid, Layer, paint_parts};
 use super::edges::Scanner;
-use super::glass::{Clear, Glass, Keep};
 use super::resolve::{Finish, Gathered, Resolver};
 use super::shading::{Shading, Tally};
 use super::spans::Tile;
+use super::transparency::{KeepFragments, TransparencyBuffer, TransparentLayer};
 
 /// Rows of pixels of a strip: many, beside those that are drawn twice.
 const STRIP_ROWS: u32 = 32;
@@ -89,7 +89,7 @@ pub fn paint_filtered<const N: usize, L, P, S, F>(
     grid: &Grid,
     filter: Filter,
     layer: &L,
-    clear: Option<&dyn Clear>,
+    clear: Option<&dyn TransparentLayer>,
     shader: &S,
     finish: &F,
     progress: &dyn Progress,
@@ -122,7 +122,7 @@ pub fn probe_filtered<const N: usize, L, P, S, F>(
     grid: &Grid,
     filter: Filter,
     layer: &L,
-    clear: Option<&dyn Clear>,
+    clear: Option<&dyn TransparentLayer>,
     shader: &S,
     finish: &F,
     [column, row]: [u32; 2],
@@ -145,7 +145,7 @@ where
 struct Own<const N: usize> {
     scanner: Scanner<N>,
     tile: Tile<N, ()>,
-    glass: Glass,
+    transparency: TransparencyBuffer,
     /// Of the rows of pixels that have samples and wait for more, from the uppermost.
     waiting: VecDeque<Sums>,
     spare: Vec<Sums>,
@@ -156,7 +156,7 @@ impl<const N: usize> Default for Own<N> {
         Self {
             scanner: Scanner::default(),
             tile: Tile::default(),
-            glass: Glass::default(),
+            transparency: TransparencyBuffer::default(),
             waiting: VecDeque::new(),
             spare: Vec::new(),
         }
@@ -212,7 +212,7 @@ impl Sums {
 struct Strip<'a, const N: usize, L: ?Sized> {
     grid: &'a Grid,
     layer: &'a L,
-    clear: Option<&'a dyn Clear>,
+    clear: Option<&'a dyn TransparentLayer>,
     margin: u32,
     /// Along a side of a pixel.
     weights: &'a [f32],
@@ -292,13 +292,14 @@ impl<const N: usize, L: Layer<N> + ?Sized> Strip<'_, N, L> {
         let n = grid.samples;
         let samples = rows[0] * n..rows[1] * n;
         let band = grid.bands().of(&samples).start as usize;
-        let Own { scanner, tile, glass, waiting: all_sums, .. } = &mut *self.own;
-        let mut one = Band { grid, layer, clear, band, scanner, tile, glass };
+        let Own { scanner, tile, transparency, waiting: all_sums, .. } = &mut *self.own;
+        let mut one = Band { grid, layer, clear, band, scanner, tile, transparency };
         one.draw(columns, rows);
-        let clear = one.draw_clear(Keep::None);
+        let clear = one.draw_clear(KeepFragments::None);
         resolver.tally = resolver.tally.merge(clear);
         for sample in samples {
-            let Some(lit) = resolver.light(tile, glass, sample, columns.map(|column| column * n)) else {
+            let Some(lit) = resolver.light(tile, transparency, sample, columns.map(|column| column * n))
+            else {
                 continue;
             };
             for (pixel, sums) in (waiting..).zip(&mut *all_sums) {

@@ -10,7 +10,7 @@
 //! 3. [`spans`]: the samples between two crossings, and the depth test;
 //! 4. [`triangles`]: the same for triangles, the usual case, shorter: eight of them in a [`block`], their [`sides`],
 //!    [`slopes`] of numbers over the picture, and samples row by row ([`rows`]), all many at once;
-//! 5. [`glass`]: translucent faces and lines in front of them, sample by sample;
+//! 5. [`transparency`]: translucent faces and lines in front of them, sample by sample;
 //! 6. [`shading`]: the light of samples, many at once;
 //! 7. [`resolve`]: samples to pixels, averaged in linear light, what is far faded ([`cue`]);
 //! 8. [`band`]: bands in parallel, each with its own small sample buffer;
@@ -42,7 +42,6 @@ mod block;
 mod cue;
 mod edges;
 mod filter;
-mod glass;
 mod polygons;
 mod probe;
 mod resolve;
@@ -53,6 +52,7 @@ mod slopes;
 mod spans;
 #[cfg(test)]
 mod tests;
+mod transparency;
 mod triangles;
 
 pub use band::{Grid, Layer, Shapes, paint};
@@ -61,10 +61,10 @@ pub use block::{BLOCK, Block};
 pub use cue::Cue;
 pub use edges::Scanner;
 pub use filter::{Filter, paint_filtered, probe_filtered};
-pub use glass::{CLEAR_VALUES, Clear, Fragment, Pane};
 pub use polygons::{Bounds, Corner, Drawn, PolygonList, greater, lesser};
 pub use probe::{Sample, probe};
 pub use resolve::{Direct, Finish, Gathered};
 pub use shading::{RUN, Scale, Shade, Shades, Shading, Tally};
 pub use spans::{Seen, Sink, Tag};
+pub use transparency::{Fragment, FragmentTarget, TRANSPARENT_VALUES, TransparentLayer};
 pub use triangles::{NoTable, Point, Table};

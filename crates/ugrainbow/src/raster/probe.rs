@@ -2,10 +2,10 @@
 
 use super::band::{Band, Grid, Layer};
 use super::edges::Scanner;
-use super::glass::{Clear, Fragment, Glass, Keep};
 use super::resolve::{Finish, Gathered, Resolver};
 use super::shading::{Scale, Shade, Shades, Shading};
 use super::spans::{Seen, Tile};
+use super::transparency::{Fragment, KeepFragments, TransparencyBuffer, TransparentLayer};
 
 /// A sample of a pixel that shows something.
 #[derive(Clone, Debug, PartialEq)]
@@ -34,18 +34,26 @@ pub struct Surface {
 pub fn probe<const N: usize, L: Layer<N> + ?Sized, P: Copy>(
     grid: &Grid,
     layer: &L,
-    clear: Option<&dyn Clear>,
+    clear: Option<&dyn TransparentLayer>,
     shader: &impl Shading<N>,
     finish: &impl Finish<u32, P>,
     [column, row]: [u32; 2],
 ) -> (Vec<Sample>, Gathered<'static, u32>, P) {
-    let (mut scanner, mut tile, mut glass) = (Scanner::default(), Tile::default(), Glass::default());
+    let (mut scanner, mut tile, mut transparency) =
+        (Scanner::default(), Tile::default(), TransparencyBuffer::default());
     let n = grid.samples;
     let band = grid.bands().of(&(row * n..(row + 1) * n)).start as usize;
-    let mut one =
-        Band { grid, layer, clear, band, scanner: &mut scanner, tile: &mut tile, glass: &mut glass };
+    let mut one = Band {
+        grid,
+        layer,
+        clear,
+        band,
+        scanner: &mut scanner,
+        tile: &mut tile,
+        transparency: &mut transparency,
+    };
     one.draw([column, column + 1], [row, row + 1]);
-    one.draw_clear(Keep::All);
+    one.draw_clear(KeepFragments::All);
     let mut shades = Shades::default();
     let mut samples = Vec::new();
     for sample_row in row * n..(row + 1) * n {
@@ -55,15 +63,15 @@ pub fn probe<const N: usize, L: Layer<N> + ?Sized, P: Copy>(
                 shader.shade(values, Scale::Linear, &mut shades);
                 Surface { seen, values: values.concat(), shade: shades.get(0) }
             });
-            let layers = glass.fragments(sample_row, sample_column).to_vec();
+            let layers = transparency.fragments(sample_row, sample_column).to_vec();
             if surface.is_some() || !layers.is_empty() {
                 samples.push(Sample { place: [sample_column, sample_row], surface, layers });
             }
         }
     }
     let mut resolver = Resolver::new(shader, finish, grid);
-    let Gathered { sum, covered, center, .. } = resolver.gather(&tile, &glass, [column, row]);
+    let Gathered { sum, covered, center, .. } = resolver.gather(&tile, &transparency, [column, row]);
     let mut pixel = [finish.pixel(&Gathered::EMPTY)];
-    resolver.paint(&tile, &glass, column, row, &mut pixel);
+    resolver.paint(&tile, &transparency, column, row, &mut pixel);
     (samples, Gathered { sum, covered, center, layers: &[] }, pixel[0])
 }

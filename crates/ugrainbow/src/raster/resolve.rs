@@ -1,9 +1,9 @@
 //! Samples to pixels: shading, and adding up in linear light.
 
 use super::band::Grid;
-use super::glass::{Fragment, Glass};
 use super::shading::{RUN, Scale, Shades, Shading, Tally};
 use super::spans::{EMPTY, Seen, Tag, Tile};
+use super::transparency::{Fragment, TransparencyBuffer};
 
 /// The samples of a pixel together.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -87,7 +87,7 @@ impl<'a, S, F> Resolver<'a, S, F> {
     pub fn paint<const N: usize, T: Tag, P: Copy>(
         &mut self,
         tile: &Tile<N, T>,
-        glass: &Glass,
+        transparency: &TransparencyBuffer,
         first: u32,
         row: u32,
         pixels: &mut [P],
@@ -95,12 +95,12 @@ impl<'a, S, F> Resolver<'a, S, F> {
         S: Shading<N>,
         F: Finish<T, P>,
     {
-        if let Some(direct) = self.finish.direct().filter(|_| self.is_direct(glass)) {
+        if let Some(direct) = self.finish.direct().filter(|_| self.is_direct(transparency)) {
             return self.paint_direct(tile, direct, first, row, pixels);
         }
-        self.add_up(tile, glass, first, row, pixels.len() as u32);
+        self.add_up(tile, transparency, first, row, pixels.len() as u32);
         for ((column, sums), pixel) in (first..).zip(&self.sums).zip(pixels) {
-            let all = gathered(self.grid, tile, glass, [column, row], sums);
+            let all = gathered(self.grid, tile, transparency, [column, row], sums);
             if !all.is_empty() {
                 *pixel = self.finish.pixel(&all);
             }
@@ -108,8 +108,8 @@ impl<'a, S, F> Resolver<'a, S, F> {
     }
 
     /// True if a pixel is what its only sample shows.
-    fn is_direct(&self, glass: &Glass) -> bool {
-        self.grid.samples == 1 && self.grid.cue.is_none() && glass.is_empty()
+    fn is_direct(&self, transparency: &TransparencyBuffer) -> bool {
+        self.grid.samples == 1 && self.grid.cue.is_none() && transparency.is_empty()
     }
 
     fn paint_direct<const N: usize, T: Tag, P>(
@@ -139,21 +139,21 @@ impl<'a, S, F> Resolver<'a, S, F> {
     pub fn gather<'g, const N: usize, T: Tag>(
         &mut self,
         tile: &Tile<N, T>,
-        glass: &'g Glass,
+        transparency: &'g TransparencyBuffer,
         [column, row]: [u32; 2],
     ) -> Gathered<'g, T>
     where
         S: Shading<N>,
     {
-        self.add_up(tile, glass, column, row, 1);
-        gathered(self.grid, tile, glass, [column, row], &self.sums[0])
+        self.add_up(tile, transparency, column, row, 1);
+        gathered(self.grid, tile, transparency, [column, row], &self.sums[0])
     }
 
     /// Adds up the samples of `n_pixels` pixels of a row: down each column of samples, then from the left.
     fn add_up<const N: usize, T: Tag>(
         &mut self,
         tile: &Tile<N, T>,
-        glass: &Glass,
+        transparency: &TransparencyBuffer,
         first: u32,
         row: u32,
         n_pixels: u32,
@@ -166,7 +166,7 @@ impl<'a, S, F> Resolver<'a, S, F> {
             all.resize((n_pixels * n) as usize, 0.0);
         }
         for sample_row in row * n..(row + 1) * n {
-            self.light(tile, glass, sample_row, [first * n, (first + n_pixels) * n]);
+            self.light(tile, transparency, sample_row, [first * n, (first + n_pixels) * n]);
             for (sums, lit) in self.columns.iter_mut().zip(&self.lit) {
                 sums.iter_mut().zip(lit).for_each(|(sum, lit)| *sum += lit);
             }
@@ -186,7 +186,7 @@ impl<'a, S, F> Resolver<'a, S, F> {
     pub fn light<const N: usize, T: Tag>(
         &mut self,
         tile: &Tile<N, T>,
-        glass: &Glass,
+        transparency: &TransparencyBuffer,
         row: u32,
         [first, end]: [u32; 2],
     ) -> Option<&[Vec<f32>; 4]>
@@ -194,8 +194,8 @@ impl<'a, S, F> Resolver<'a, S, F> {
         S: Shading<N>,
     {
         let mut is_lit = self.light_row(tile, row, [first, end]);
-        if !glass.is_empty() || self.grid.cue.is_some() {
-            self.look_through(tile, glass, row, first);
+        if !transparency.is_empty() || self.grid.cue.is_some() {
+            self.look_through(tile, transparency, row, first);
             is_lit = true;
         }
         is_lit.then_some(&self.lit)
@@ -241,19 +241,19 @@ impl<'a, S, F> Resolver<'a, S, F> {
     fn look_through<const N: usize, T: Tag>(
         &mut self,
         tile: &Tile<N, T>,
-        glass: &Glass,
+        transparency: &TransparencyBuffer,
         row: u32,
         first: u32,
     ) {
         let (keys, _) = tile.row_part(row, first, first + self.lit[0].len() as u32);
         for (idx, &key) in keys.iter().enumerate() {
-            let veil = glass.veil(row, first + idx as u32);
-            let part = if key > EMPTY { veil.pass * self.grid.cue_at(key) } else { 0.0 };
+            let composite = transparency.composite(row, first + idx as u32);
+            let part = if key > EMPTY { composite.pass * self.grid.cue_at(key) } else { 0.0 };
             let [light @ .., cover] = &mut self.lit;
-            for (light, veil) in light.iter_mut().zip(veil.light) {
-                light[idx] = veil + part * light[idx];
+            for (light, composite) in light.iter_mut().zip(composite.light) {
+                light[idx] = composite + part * light[idx];
             }
-            cover[idx] = veil.cover + part;
+            cover[idx] = composite.cover + part;
         }
     }
 }
@@ -268,7 +268,7 @@ fn is_empty(keys: &[f32]) -> bool {
 fn gathered<'g, const N: usize, T: Tag>(
     grid: &Grid,
     tile: &Tile<N, T>,
-    glass: &'g Glass,
+    transparency: &'g TransparencyBuffer,
     [column, row]: [u32; 2],
     &[red, green, blue, covered]: &[f32; 4],
 ) -> Gathered<'g, T> {
@@ -277,6 +277,6 @@ fn gathered<'g, const N: usize, T: Tag>(
         sum: [red, green, blue],
         covered,
         center: if T::IS_KEPT { tile.seen(row, column) } else { None },
-        layers: if glass.is_empty() { &[] } else { glass.fragments(row, column) },
+        layers: if transparency.is_empty() { &[] } else { transparency.fragments(row, column) },
     }
 }

@@ -6,16 +6,16 @@ use ugphysics::srgb_encode;
 
 use super::patch::Patch;
 use crate::canvas::developed;
-use crate::raster::{CLEAR_VALUES, Corner, Grid, Shade};
+use crate::raster::{Corner, Grid, Shade, TRANSPARENT_VALUES};
+use crate::render_layers::{RenderLayers, clear_shade};
 use crate::shade::Shader;
-use crate::sheet::{Sheet, clear_shade};
 
 /// Display-encoded red, green and blue, from 0 to 255, not rounded.
 pub type Levels = [f64; 3];
 
 /// Turns numbers of the draw list into colours on the display.
 pub struct Palette<'a> {
-    pub sheet: &'a Sheet<'a>,
+    pub layers: &'a RenderLayers<'a>,
     pub shader: &'a Shader,
     /// How light is developed; `None` if it fits a display as it is.
     pub development: Option<Development>,
@@ -40,7 +40,11 @@ impl Palette<'_> {
     }
 
     /// The colour of a point of a line behind translucent patches, in any order.
-    pub fn on_line<'p>(&self, at: &Corner<CLEAR_VALUES>, panes: impl Iterator<Item = &'p Patch>) -> Levels {
+    pub fn on_line<'p>(
+        &self,
+        at: &Corner<TRANSPARENT_VALUES>,
+        panes: impl Iterator<Item = &'p Patch>,
+    ) -> Levels {
         let scale = if self.grid.is_perspective { 1.0 / at.key } else { 1.0 };
         let values = at.values.map(|value| (value * scale) as f32);
         let line = Film { light: self.cued(clear_shade(self.shader, &values).0, at.key), pass: 0.0 };
@@ -57,7 +61,7 @@ impl Palette<'_> {
         let (shade, pass) = if patch.is_clear {
             clear_shade(self.shader, values)
         } else {
-            (self.sheet.shade(self.shader, values), 0.0)
+            (self.layers.shade(self.shader, values), 0.0)
         };
         Film { light: self.cued(shade, *key), pass }
     }
@@ -96,7 +100,7 @@ struct Film {
 
 /// What is interpolated, at a place.
 pub struct Numbers {
-    pub values: [f32; CLEAR_VALUES],
+    pub values: [f32; TRANSPARENT_VALUES],
     pub key: f64,
 }
 

@@ -8,8 +8,8 @@ use std::collections::{HashMap, HashSet};
 use ugimage::figure::{Point, Rgb, Written, edges, written};
 
 use super::convex::{Convex, doubled_area};
-use super::glass::Coat;
 use super::index::Index;
+use super::transparency::Coat;
 
 /// Areas that overlap by less, in square pixels, lie beside each other.
 const LEAST_OVERLAP: f64 = 0.005;

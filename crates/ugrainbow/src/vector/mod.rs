@@ -5,14 +5,13 @@
 //!    sample those that are wholly hidden ([`hidden`]).
 //! 3. The rest is put in order, from behind ([`order`]), and cut only where faces cut each other or hide each
 //!    other in a ring. Parts that are hidden are painted over, not cut out.
-//! 4. Where a translucent face comes, what is seen through it is painted once more ([`glass`]).
+//! 4. Where a translucent face comes, what is seen through it is painted once more ([`transparency`]).
 //! 5. Neighbours of one colour become one area ([`merge`]).
 //! 6. What has several colours becomes smooth areas, cut until their colours are right ([`smooth`]).
 //! 7. Lines come last, without their hidden parts, and in other colours behind translucent faces ([`lines`]).
 
 mod color;
 mod convex;
-mod glass;
 mod hidden;
 mod index;
 mod lines;
@@ -21,6 +20,7 @@ mod order;
 mod patch;
 mod seen;
 mod smooth;
+mod transparency;
 
 use ugimage::figure::{self, Element, Figure};
 use ugimage::{Development, Format, Label};
@@ -30,16 +30,16 @@ use crate::config::Config;
 use crate::error::{Error, MAX_PIXELS};
 use crate::figures::Annotations;
 use crate::lines::Stroke;
+use crate::render_layers::RenderLayers;
 use crate::setup::Setup;
-use crate::sheet::Sheet;
 use color::{Palette, rounded};
 pub use convex::{Convex, Place as PlanePlace};
-use glass::Coat;
 pub use index::Index;
 use merge::Paint;
 use patch::Patch;
 pub use patch::{near_picture, parts};
 use smooth::{Smooth, plain_color, push_smooth};
+use transparency::Coat;
 use ugparse::Scene;
 
 /// Rows of samples a pixel, if the picture is not too large.
@@ -79,19 +79,19 @@ fn figure<S: Smooth>(
     let scale = scale(config.size);
     let fine = Config { size: config.size.map(|side| side * scale), samples: 1, ..config.clone() };
     let setup = Setup::new(scene, &fine)?;
-    let sheet = Sheet::new(setup.painter(), &fine.manner());
+    let layers = RenderLayers::new(setup.painter(), &fine.draw_mode());
     let ground = canvas::ground(config, None);
-    if ground.is_none() && sheet.has_clear_faces() {
+    if ground.is_none() && layers.has_clear_faces() {
         return Err(Error::Figure(
             "what is seen through translucent faces of a figure of areas must be known: give a background (-bg 1 for paper) in place of -tb",
         ));
     }
-    let seen = seen::faces(&setup, &sheet);
-    let faces = patches(&sheet, &setup, config.size, f64::from(scale), &seen.is_near);
+    let seen = seen::faces(&setup, &layers);
+    let faces = patches(&layers, &setup, config.size, f64::from(scale), &seen.is_near);
     let index = Index::new(faces.iter().map(Patch::bounds), config.size);
     let faces = hidden::without_hidden(faces, &index, &seen.is_seen);
     let palette = Palette {
-        sheet: &sheet,
+        layers: &layers,
         shader: &setup.shader,
         development,
         grid: &setup.grid,
@@ -99,7 +99,7 @@ fn figure<S: Smooth>(
     };
     let index = Index::new(faces.iter().map(Patch::bounds), config.size);
     let mut elements = painted(&palette, &faces, &index, config.size)?;
-    let strokes = sheet.strokes().iter().map(|stroke| scaled(*stroke, scale)).collect();
+    let strokes = layers.strokes().iter().map(|stroke| scaled(*stroke, scale)).collect();
     let panes = lines::Panes { patches: &faces, index: &index };
     lines::push_lines(&palette, &panes, strokes, config.line_width, &mut elements);
     let background = ground.map(|light| rounded(palette.levels(light)));
@@ -115,7 +115,7 @@ fn painted<S: Smooth>(
     index: &Index,
     size: [u32; 2],
 ) -> Result<Vec<Element<S>>, Error> {
-    let coats = glass::coats(faces, &order::painting_order(faces, index), size)?;
+    let coats = transparency::coats(faces, &order::painting_order(faces, index), size)?;
     let with_color = |coat: Coat| {
         let color = plain_color(palette, faces, &coat);
         (coat, color)
@@ -148,14 +148,14 @@ fn scale([width, height]: [u32; 2]) -> u32 {
 
 /// Faces that are shown.
 fn patches(
-    sheet: &Sheet<'_>,
+    layers: &RenderLayers<'_>,
     setup: &Setup<'_>,
     size: [u32; 2],
     scale: f64,
     is_shown: &[bool],
 ) -> Vec<Patch> {
     let mut faces = Vec::new();
-    sheet.for_each_polygon(|item, is_clear, mut contours| {
+    layers.for_each_polygon(|item, is_clear, mut contours| {
         if !is_shown[item as usize] {
             return;
         }

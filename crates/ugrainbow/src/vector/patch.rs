@@ -2,7 +2,7 @@
 
 use super::color::Numbers;
 use super::convex::{Convex, Place, clip, doubled_area, sides};
-use crate::raster::{CLEAR_VALUES, Corner};
+use crate::raster::{Corner, TRANSPARENT_VALUES};
 
 /// What is drawn so far outside the picture, in pixels; the rest is cut away.
 const MARGIN: f64 = 4.0;
@@ -15,7 +15,7 @@ pub struct Patch {
     /// True if that is translucent.
     pub is_clear: bool,
     /// As drawn by the raster; its colours come from here.
-    contours: Vec<Vec<Corner<CLEAR_VALUES>>>,
+    contours: Vec<Vec<Corner<TRANSPARENT_VALUES>>>,
     /// What of it is in and near the picture; counterclockwise as [`Convex`], holes clockwise.
     pub outline: Vec<Vec<Place>>,
     /// The same in convex flat parts.
@@ -28,11 +28,11 @@ impl Patch {
     pub fn new(
         item: u32,
         is_clear: bool,
-        contours: Vec<Vec<Corner<CLEAR_VALUES>>>,
+        contours: Vec<Vec<Corner<TRANSPARENT_VALUES>>>,
         size: [u32; 2],
         is_perspective: bool,
     ) -> Option<Self> {
-        let place = |corner: &Corner<CLEAR_VALUES>| [corner.x, corner.y, corner.key];
+        let place = |corner: &Corner<TRANSPARENT_VALUES>| [corner.x, corner.y, corner.key];
         let outline =
             contours.iter().map(|contour| near_picture(contour.iter().map(place).collect(), size, MARGIN));
         let outline = oriented(outline.filter(|contour| contour.len() > 2).collect());
@@ -48,7 +48,7 @@ impl Patch {
         // On the lowest row an outline ends, so the row just above it is asked.
         let inset = 1e-9 * (bottom - top);
         let y = y.max(top + inset).min(bottom - inset);
-        let mut crossings: Vec<Corner<CLEAR_VALUES>> = self
+        let mut crossings: Vec<Corner<TRANSPARENT_VALUES>> = self
             .contours
             .iter()
             .flat_map(|contour| contour.iter().zip(contour.iter().cycle().skip(1)))
@@ -56,7 +56,7 @@ impl Patch {
             .map(|(a, b)| mixed(a, b, (y - a.y) / (b.y - a.y)))
             .collect();
         crossings.sort_by(|a, b| a.x.total_cmp(&b.x));
-        let distance = |pair: &[Corner<CLEAR_VALUES>]| (pair[0].x - x).max(x - pair[1].x).max(0.0);
+        let distance = |pair: &[Corner<TRANSPARENT_VALUES>]| (pair[0].x - x).max(x - pair[1].x).max(0.0);
         let nearest = crossings.chunks_exact(2).min_by(|a, b| distance(a).total_cmp(&distance(b)));
         let here = match nearest {
             Some([left, right]) if right.x > left.x => {
@@ -75,8 +75,8 @@ impl Patch {
     }
 
     /// The numbers at all corners if they are the same.
-    pub fn single_values(&self) -> Option<[f32; CLEAR_VALUES]> {
-        let values = |corner: &Corner<CLEAR_VALUES>| {
+    pub fn single_values(&self) -> Option<[f32; TRANSPARENT_VALUES]> {
+        let values = |corner: &Corner<TRANSPARENT_VALUES>| {
             let scale = if self.is_perspective { 1.0 / corner.key } else { 1.0 };
             corner.values.map(|value| (value * scale) as f32)
         };
@@ -85,7 +85,11 @@ impl Patch {
     }
 }
 
-fn mixed(a: &Corner<CLEAR_VALUES>, b: &Corner<CLEAR_VALUES>, part: f64) -> Corner<CLEAR_VALUES> {
+fn mixed(
+    a: &Corner<TRANSPARENT_VALUES>,
+    b: &Corner<TRANSPARENT_VALUES>,
+    part: f64,
+) -> Corner<TRANSPARENT_VALUES> {
     let mix = |a: f64, b: f64| a + (b - a) * part;
     Corner {
         x: mix(a.x, b.x),

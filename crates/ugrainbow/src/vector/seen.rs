@@ -3,8 +3,8 @@
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::raster::Gathered;
+use crate::render_layers::RenderLayers;
 use crate::setup::Setup;
-use crate::sheet::Sheet;
 
 /// Which faces are seen.
 pub struct Faces {
@@ -16,11 +16,11 @@ pub struct Faces {
 }
 
 /// Finds out by the samples of a picture.
-pub fn faces(setup: &Setup<'_>, sheet: &Sheet<'_>) -> Faces {
+pub fn faces(setup: &Setup<'_>, layers: &RenderLayers<'_>) -> Faces {
     let scene = setup.scene();
     let is_seen: Vec<AtomicBool> = scene.faces.iter().map(|_| AtomicBool::new(false)).collect();
     // Pixels of nothing take no memory. In which order faces are found makes no difference.
-    sheet.paint(&setup.grid, &setup.shader, &|all: &Gathered<'_, u32>| {
+    layers.paint(&setup.grid, &setup.shader, &|all: &Gathered<'_, u32>| {
         let clear = all.layers.iter().filter(|layer| !layer.is_line).map(|layer| layer.item);
         for item in all.center.iter().map(|seen| seen.tag).chain(clear) {
             if let Some(face) = is_seen.get(item as usize) {

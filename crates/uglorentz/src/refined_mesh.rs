@@ -24,7 +24,7 @@ pub(crate) struct Recipe {
 }
 
 /// The vertices of the scene and those that cutting adds.
-pub(crate) struct Growth<'a> {
+pub(crate) struct RefinedMesh<'a> {
     /// How the bodies move; [`Point::body`] is a row of it.
     pub motions: &'a [Motion],
     /// All vertices, those of the scene first.
@@ -36,9 +36,9 @@ pub(crate) struct Growth<'a> {
     rims: FxHashSet<(u32, u32)>,
 }
 
-impl<'a> Growth<'a> {
-    pub(crate) fn new(motions: &'a [Motion], points: Vec<Point>) -> Growth<'a> {
-        Growth {
+impl<'a> RefinedMesh<'a> {
+    pub(crate) fn new(motions: &'a [Motion], points: Vec<Point>) -> RefinedMesh<'a> {
+        RefinedMesh {
             motions,
             points,
             recipes: Vec::new(),

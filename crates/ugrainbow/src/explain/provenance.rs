@@ -4,7 +4,7 @@ use ugparse::Scene;
 
 /// How a scene was made, as far as its head comments tell.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Story {
+pub struct Provenance {
     /// The command lines, oldest first.
     pub lines: Vec<String>,
     /// Whether `uglorentz` is among them.
@@ -22,7 +22,7 @@ pub struct DopplerStory {
     pub law: String,
 }
 
-impl Story {
+impl Provenance {
     /// That of a scene.
     pub fn of(scene: &Scene) -> Self {
         let lines: Vec<String> = ugscene::history(scene).into_iter().map(str::to_owned).collect();
@@ -53,11 +53,11 @@ mod tests {
 
     #[test]
     fn command_lines_are_read() {
-        let story = |line: &str| {
+        let provenance = |line: &str| {
             let mut scene = Scene::default();
             ugscene::record(&mut scene, "uglorentz", "0.1.0", "uglorentz -vel .9 0 0");
             ugscene::record(&mut scene, "ugdoppler", "0.1.0", line);
-            Story::of(&scene)
+            Provenance::of(&scene)
         };
         for (line, shifts, law) in [
             ("ugdoppler", true, "report"),
@@ -65,10 +65,12 @@ mod tests {
             ("ugdoppler --no-doppler", false, "report"),
             ("ugdoppler -br photon --no-flux", true, "none"),
         ] {
-            let Story { has_lorentz, doppler: Some(doppler), .. } = story(line) else { panic!("{line}") };
+            let Provenance { has_lorentz, doppler: Some(doppler), .. } = provenance(line) else {
+                panic!("{line}")
+            };
             assert!(has_lorentz);
             assert_eq!((doppler.shifts, &*doppler.law), (shifts, law));
         }
-        assert_eq!(Story::of(&Scene::default()).doppler, None);
+        assert_eq!(Provenance::of(&Scene::default()).doppler, None);
     }
 }

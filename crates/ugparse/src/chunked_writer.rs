@@ -8,14 +8,14 @@ use rayon::prelude::*;
 ///
 /// While the pieces of one round are made, those of the round before are sent,
 /// so no more than two rounds of text are in memory, and their buffers serve again.
-pub(crate) struct Outlet<'o> {
+pub(crate) struct ChunkedWriter<'o> {
     out: &'o mut dyn Write,
     ready: Vec<Vec<u8>>,
     /// Empty buffers of a round that was sent.
     spare: Vec<Vec<u8>>,
 }
 
-impl<'o> Outlet<'o> {
+impl<'o> ChunkedWriter<'o> {
     pub(crate) fn new(out: &'o mut dyn Write) -> Self {
         Self { out, ready: Vec::new(), spare: Vec::new() }
     }

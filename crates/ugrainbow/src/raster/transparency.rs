@@ -20,15 +20,21 @@ use super::slopes::{FindPlanes, Planes};
 use super::spans::{EMPTY, Sink, Tag, Tile};
 
 /// Numbers that are interpolated for what is clear.
-pub const CLEAR_VALUES: usize = 8;
+pub const TRANSPARENT_VALUES: usize = 8;
 
 /// Fragments that are kept at once, if more than a row of samples is drawn: 64 MiB.
 const MOST_FRAGMENTS: usize = 1 << 21;
 
 /// What is clear and how it looks.
-pub trait Clear: Sync {
+pub trait TransparentLayer: Sync {
     /// Draws what of it is in a band.
-    fn draw(&self, grid: &Grid, band: usize, scanner: &mut Scanner<CLEAR_VALUES>, pane: &mut Pane<'_>);
+    fn draw(
+        &self,
+        grid: &Grid,
+        band: usize,
+        scanner: &mut Scanner<TRANSPARENT_VALUES>,
+        target: &mut FragmentTarget<'_>,
+    );
 }
 
 /// A sample of something clear.
@@ -51,13 +57,13 @@ pub struct Fragment {
 /// What a sample shows, blended: to the light behind times `pass`, `light` is added, and `cover` is the part of the
 /// sample that is not the ground behind everything.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Veil {
+pub struct Composite {
     pub light: [f32; 3],
     pub cover: f32,
     pub pass: f32,
 }
 
-impl Veil {
+impl Composite {
     /// Nothing.
     pub const NONE: Self = Self { light: [0.0; 3], cover: 0.0, pass: 1.0 };
 
@@ -75,7 +81,7 @@ impl Veil {
 
 /// Which fragments are kept after blending.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Keep {
+pub enum KeepFragments {
     #[default]
     None,
     /// Those of the samples nearest to the middles of pixels.
@@ -85,30 +91,30 @@ pub enum Keep {
 
 /// What is clear in a tile.
 #[derive(Default)]
-pub struct Glass {
-    scanner: Scanner<CLEAR_VALUES>,
+pub struct TransparencyBuffer {
+    scanner: Scanner<TRANSPARENT_VALUES>,
     fragments: Vec<Fragment>,
     /// Depth keys of the nearest of them that lets nothing through, for each sample of the tile.
     front: Vec<f32>,
     /// One for each sample of the tile; none at all if nothing in it is clear.
-    veils: Vec<Veil>,
+    composites: Vec<Composite>,
     kept: Vec<Fragment>,
     columns: [u32; 2],
     rows: [u32; 2],
 }
 
-impl Glass {
+impl TransparencyBuffer {
     /// Draws what is clear over a tile.
     pub fn draw<const N: usize, T: Tag>(
         &mut self,
-        clear: &dyn Clear,
+        clear: &dyn TransparentLayer,
         grid: &Grid,
         band: usize,
         tile: &Tile<N, T>,
-        keep: Keep,
+        keep: KeepFragments,
     ) -> Tally {
         (self.columns, self.rows) = (tile.columns(), tile.rows());
-        self.veils.clear();
+        self.composites.clear();
         self.kept.clear();
         let mut tally = Tally::default();
         let mut parts = vec![self.rows];
@@ -116,7 +122,7 @@ impl Glass {
             self.fragments.clear();
             self.front.clear();
             self.front.resize(tile.keys().len(), EMPTY);
-            let mut pane = Pane {
+            let mut target = FragmentTarget {
                 rows,
                 columns: self.columns,
                 top: self.rows[0],
@@ -126,9 +132,9 @@ impl Glass {
                 most: if rows[1] - rows[0] > 1 { MOST_FRAGMENTS } else { usize::MAX },
                 tally: Tally::default(),
             };
-            clear.draw(grid, band, &mut self.scanner, &mut pane);
-            if pane.fragments.len() < pane.most {
-                tally = tally.merge(pane.tally);
+            clear.draw(grid, band, &mut self.scanner, &mut target);
+            if target.fragments.len() < target.most {
+                tally = tally.merge(target.tally);
                 self.blend(grid, keep);
             } else {
                 let middle = rows[0] + (rows[1] - rows[0]) / 2;
@@ -140,27 +146,27 @@ impl Glass {
 
     /// True if nothing in the tile is clear.
     pub fn is_empty(&self) -> bool {
-        self.veils.is_empty()
+        self.composites.is_empty()
     }
 
-    fn blend(&mut self, grid: &Grid, keep: Keep) {
+    fn blend(&mut self, grid: &Grid, keep: KeepFragments) {
         if self.fragments.is_empty() {
             return;
         }
         let width = self.columns[1] - self.columns[0];
-        self.veils.resize((width * (self.rows[1] - self.rows[0])) as usize, Veil::NONE);
+        self.composites.resize((width * (self.rows[1] - self.rows[0])) as usize, Composite::NONE);
         // From behind; of equals the first drawn is in front.
         self.fragments.reverse();
         self.fragments.sort_by(|a, b| a.sample.cmp(&b.sample).then(a.key.total_cmp(&b.key)));
         let middle = |place: u32| place % grid.samples == grid.samples / 2;
         for fragment in &self.fragments {
-            let veil = &mut self.veils[fragment.sample as usize];
-            *veil = veil.behind(fragment, grid.cue_at(fragment.key));
+            let composite = &mut self.composites[fragment.sample as usize];
+            *composite = composite.behind(fragment, grid.cue_at(fragment.key));
             let is_center = || {
                 middle(self.columns[0] + fragment.sample % width)
                     && middle(self.rows[0] + fragment.sample / width)
             };
-            if keep == Keep::All || keep == Keep::Centers && is_center() {
+            if keep == KeepFragments::All || keep == KeepFragments::Centers && is_center() {
                 self.kept.push(*fragment);
             }
         }
@@ -168,8 +174,8 @@ impl Glass {
 
     /// What is in front of a sample.
     #[inline]
-    pub fn veil(&self, row: u32, column: u32) -> Veil {
-        self.veils.get(self.sample(row, column) as usize).copied().unwrap_or(Veil::NONE)
+    pub fn composite(&self, row: u32, column: u32) -> Composite {
+        self.composites.get(self.sample(row, column) as usize).copied().unwrap_or(Composite::NONE)
     }
 
     /// The fragments of a sample, from behind, if they are kept.
@@ -188,7 +194,7 @@ impl Glass {
 }
 
 /// A part of a tile on which what is clear is drawn.
-pub struct Pane<'a> {
+pub struct FragmentTarget<'a> {
     rows: [u32; 2],
     columns: [u32; 2],
     /// First row of the tile.
@@ -202,10 +208,10 @@ pub struct Pane<'a> {
     tally: Tally,
 }
 
-impl<'a> Pane<'a> {
+impl<'a> FragmentTarget<'a> {
     /// Takes faces, or lines. `shader`: the light of interpolated numbers, and the part of what is behind that passes.
-    pub fn sink<S>(&mut self, shader: S, is_line: bool) -> PaneSink<'_, 'a, S> {
-        PaneSink { pane: self, shader, is_line }
+    pub fn sink<S>(&mut self, shader: S, is_line: bool) -> FragmentSink<'_, 'a, S> {
+        FragmentSink { target: self, shader, is_line }
     }
 
     fn samples(&self, row: u32, columns: &Range<u32>) -> Range<usize> {
@@ -216,62 +222,62 @@ impl<'a> Pane<'a> {
     }
 }
 
-/// Puts samples of shapes on a pane.
-pub struct PaneSink<'p, 'a, S> {
-    pane: &'p mut Pane<'a>,
+/// Puts samples of shapes on a target.
+pub struct FragmentSink<'p, 'a, S> {
+    target: &'p mut FragmentTarget<'a>,
     shader: S,
     is_line: bool,
 }
 
-impl<S: Fn(&[f32; CLEAR_VALUES]) -> (Shade, f32)> PaneSink<'_, '_, S> {
-    fn push(&mut self, sample: usize, item: u32, key: f32, values: &[f32; CLEAR_VALUES]) {
+impl<S: Fn(&[f32; TRANSPARENT_VALUES]) -> (Shade, f32)> FragmentSink<'_, '_, S> {
+    fn push(&mut self, sample: usize, item: u32, key: f32, values: &[f32; TRANSPARENT_VALUES]) {
         let (shade, pass) = (self.shader)(values);
-        let pane = &mut *self.pane;
+        let target = &mut *self.target;
         // What is all clear is as if it were not there.
-        if pass < 1.0 && pane.fragments.len() < pane.most {
-            pane.tally.count(&shade);
+        if pass < 1.0 && target.fragments.len() < target.most {
+            target.tally.count(&shade);
             if pass == 0.0 {
-                pane.front[sample] = greater(pane.front[sample], key);
+                target.front[sample] = greater(target.front[sample], key);
             }
             let (sample, light) = (sample as u32, shade.light);
-            pane.fragments.push(Fragment { sample, key, item, is_line: self.is_line, light, pass });
+            target.fragments.push(Fragment { sample, key, item, is_line: self.is_line, light, pass });
         }
     }
 
     /// What is not nearer than this depth key is hidden. Lines have had their hidden parts removed; what hides is not looked at
     /// again, beside their middle. Of equals the first drawn is in front.
     fn hiding(&self, sample: usize) -> f32 {
-        let front = self.pane.front[sample];
-        if self.is_line { front } else { greater(front, self.pane.keys[sample]) }
+        let front = self.target.front[sample];
+        if self.is_line { front } else { greater(front, self.target.keys[sample]) }
     }
 }
 
-impl<S: Fn(&[f32; CLEAR_VALUES]) -> (Shade, f32)> Sink<CLEAR_VALUES> for PaneSink<'_, '_, S> {
+impl<S: Fn(&[f32; TRANSPARENT_VALUES]) -> (Shade, f32)> Sink<TRANSPARENT_VALUES> for FragmentSink<'_, '_, S> {
     const KEEPS_ALL: bool = true;
 
     fn rows(&self) -> [u32; 2] {
-        self.pane.rows
+        self.target.rows
     }
 
     fn columns(&self) -> [u32; 2] {
-        self.pane.columns
+        self.target.columns
     }
 
     fn draw(
         &mut self,
         row: u32,
-        left: &Crossing<CLEAR_VALUES>,
-        right: &Crossing<CLEAR_VALUES>,
+        left: &Crossing<TRANSPARENT_VALUES>,
+        right: &Crossing<TRANSPARENT_VALUES>,
         is_perspective: bool,
         item: u32,
     ) {
-        let [start, end] = self.pane.columns;
+        let [start, end] = self.target.columns;
         let columns = first_center(left.x, end).max(start)..first_center(right.x, end);
         if columns.is_empty() {
             return;
         }
         let per_column = 1.0 / (right.x - left.x);
-        for (column, sample) in columns.clone().zip(self.pane.samples(row, &columns)) {
+        for (column, sample) in columns.clone().zip(self.target.samples(row, &columns)) {
             let across = f64::from(column) + 0.5 - left.x;
             let mix = |a: f64, b: f64| a + across * ((b - a) * per_column);
             let key = mix(left.key, right.key);
@@ -290,11 +296,11 @@ impl<S: Fn(&[f32; CLEAR_VALUES]) -> (Shade, f32)> Sink<CLEAR_VALUES> for PaneSin
         line: &TriangleRow,
         is_perspective: bool,
         item: u32,
-        planes: &mut Planes<CLEAR_VALUES, impl FindPlanes<CLEAR_VALUES>>,
+        planes: &mut Planes<TRANSPARENT_VALUES, impl FindPlanes<TRANSPARENT_VALUES>>,
     ) {
         let columns = line.columns[0]..line.columns[1];
         let planes = planes.get();
-        for (column, sample) in columns.clone().zip(self.pane.samples(line.row, &columns)) {
+        for (column, sample) in columns.clone().zip(self.target.samples(line.row, &columns)) {
             let place = f64::from(column) + 0.5;
             let key = line.key_at(place);
             if key as f32 <= self.hiding(sample) {
@@ -312,9 +318,9 @@ impl<S: Fn(&[f32; CLEAR_VALUES]) -> (Shade, f32)> Sink<CLEAR_VALUES> for PaneSin
         row: u32,
         columns: Range<u32>,
         item: u32,
-        mut sample: impl FnMut(u32, f32) -> Option<(f32, [f32; CLEAR_VALUES])>,
+        mut sample: impl FnMut(u32, f32) -> Option<(f32, [f32; TRANSPARENT_VALUES])>,
     ) {
-        for (column, place) in columns.clone().zip(self.pane.samples(row, &columns)) {
+        for (column, place) in columns.clone().zip(self.target.samples(row, &columns)) {
             if let Some((key, values)) = sample(column, self.hiding(place)) {
                 self.push(place, item, key, &values);
             }

@@ -2,8 +2,8 @@
 
 use super::Placer;
 use crate::group::{Group, as_str};
+use crate::resolve::{flatness, is_short, left_out, short_wire, undefined};
 use crate::scene::{Face, VertexId};
-use crate::settle::{flatness, is_short, left_out, short_wire, undefined};
 use crate::source::Span;
 
 impl Placer<'_, '_> {

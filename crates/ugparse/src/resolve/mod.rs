@@ -44,7 +44,7 @@ pub(crate) struct Link {
 }
 
 /// Resolves all names of `groups`; colours go into `scene` on the way.
-pub(crate) fn settle(
+pub(crate) fn resolve(
     text: &[u8],
     groups: &mut [Group<'_>],
     scene: &mut Scene,

@@ -11,8 +11,9 @@ use crate::lines::{Hiders, Shown, Stroke, lines, pieces, strips, strokes};
 use crate::painter::Painter;
 use crate::palette::Swatch;
 use crate::raster::{
-    CLEAR_VALUES, Clear, Corner, Filter, Finish, Gathered, Grid, Layer, NoTable, Pane, PolygonList, Sample,
-    Scanner, Shade, Shapes, Sink, Tag, Tally, paint, paint_filtered, probe, probe_filtered,
+    Corner, Filter, Finish, FragmentTarget, Gathered, Grid, Layer, NoTable, PolygonList, Sample, Scanner,
+    Shade, Shapes, Sink, TRANSPARENT_VALUES, Tag, Tally, TransparentLayer, paint, paint_filtered, probe,
+    probe_filtered,
 };
 use crate::shade::Shader;
 
@@ -21,7 +22,7 @@ pub type Pack<const N: usize> = fn(&Swatch, DVec3) -> [f64; N];
 
 /// How a scene is drawn, apart from its camera.
 #[derive(Clone, Copy, Debug)]
-pub struct Manner {
+pub struct DrawMode {
     /// Faces are found by rays.
     pub exact: Option<Exact>,
     /// Edges of faces are drawn.
@@ -30,7 +31,7 @@ pub struct Manner {
     pub line_width: f64,
 }
 
-impl Manner {
+impl DrawMode {
     /// False if only their edges are drawn.
     fn has_faces(&self) -> bool {
         self.wireframe.is_none_or(|wireframe| wireframe.has_faces)
@@ -38,7 +39,7 @@ impl Manner {
 }
 
 /// Everything to be drawn.
-pub struct Sheet<'a> {
+pub struct RenderLayers<'a> {
     solid: Solid<'a>,
     clear: ClearLayers<'a>,
     has_faces: bool,
@@ -85,13 +86,13 @@ enum Surfaces<'a, const N: usize> {
 }
 
 impl<'a, const N: usize> Layers<'a, N> {
-    fn new(painter: Painter<'a>, manner: &Manner, is_clear: bool, pack: Pack<N>) -> Self {
+    fn new(painter: Painter<'a>, mode: &DrawMode, is_clear: bool, pack: Pack<N>) -> Self {
         let is_one = |face: &Face| painter.is_clear(face) == is_clear;
-        let surfaces = match manner.exact {
+        let surfaces = match mode.exact {
             None => Surfaces::Polygons(DrawList::new(painter, is_one, pack)),
             Some(exact) => Surfaces::Rays(Faces::new(painter, exact, is_one, pack)),
         };
-        Self { surfaces, is_drawn: manner.has_faces() }
+        Self { surfaces, is_drawn: mode.has_faces() }
     }
 
     fn reach(&self) -> Reach {
@@ -135,11 +136,11 @@ impl<const N: usize> Layer<N> for Layers<'_, N> {
 /// What does not hide what is behind it: translucent faces, and lines, from which that has been taken away.
 struct ClearLayers<'a> {
     /// None if no face is translucent.
-    faces: Option<Layers<'a, CLEAR_VALUES>>,
+    faces: Option<Layers<'a, TRANSPARENT_VALUES>>,
     /// Their visible parts.
     strokes: Vec<Stroke>,
     /// The same as strips.
-    lines: [PolygonList<CLEAR_VALUES>; 1],
+    lines: [PolygonList<TRANSPARENT_VALUES>; 1],
 }
 
 /// What is clear, with what gives it light.
@@ -148,9 +149,15 @@ struct Lit<'a, 's> {
     shader: &'s Shader,
 }
 
-impl Clear for Lit<'_, '_> {
-    fn draw(&self, grid: &Grid, band: usize, scanner: &mut Scanner<CLEAR_VALUES>, pane: &mut Pane<'_>) {
-        let shade = |values: &[f32; CLEAR_VALUES]| clear_shade(self.shader, values);
+impl TransparentLayer for Lit<'_, '_> {
+    fn draw(
+        &self,
+        grid: &Grid,
+        band: usize,
+        scanner: &mut Scanner<TRANSPARENT_VALUES>,
+        pane: &mut FragmentTarget<'_>,
+    ) {
+        let shade = |values: &[f32; TRANSPARENT_VALUES]| clear_shade(self.shader, values);
         if let Some(faces) = &self.layers.faces {
             faces.draw(grid, band, scanner, &mut pane.sink(shade, false));
         }
@@ -160,31 +167,33 @@ impl Clear for Lit<'_, '_> {
 }
 
 /// Light of the numbers of [`pack_clear`], and the part of what is behind that passes.
-pub fn clear_shade(shader: &Shader, &[a, b, c, d, e, f, g, pass]: &[f32; CLEAR_VALUES]) -> (Shade, f32) {
+pub fn clear_shade(
+    shader: &Shader,
+    &[a, b, c, d, e, f, g, pass]: &[f32; TRANSPARENT_VALUES],
+) -> (Shade, f32) {
     (shader.mixed_colored(&[a, b, c, d, e, f, g]), pass.clamp(0.0, 1.0))
 }
 
-impl<'a> Sheet<'a> {
+impl<'a> RenderLayers<'a> {
     /// All faces and wires.
-    pub fn new(painter: Painter<'a>, manner: &Manner) -> Self {
+    pub fn new(painter: Painter<'a>, mode: &DrawMode) -> Self {
         let solid = match (painter.palette.has_light(), painter.lighting.is_colored()) {
-            (false, false) => Solid::Plain(Layers::new(painter, manner, false, pack_plain)),
-            (false, true) => Solid::Colored(Layers::new(painter, manner, false, pack_colored)),
-            (true, false) => Solid::Mixed(Layers::new(painter, manner, false, pack_mixed)),
-            (true, true) => Solid::MixedColored(Layers::new(painter, manner, false, pack_mixed_colored)),
+            (false, false) => Solid::Plain(Layers::new(painter, mode, false, pack_plain)),
+            (false, true) => Solid::Colored(Layers::new(painter, mode, false, pack_colored)),
+            (true, false) => Solid::Mixed(Layers::new(painter, mode, false, pack_mixed)),
+            (true, true) => Solid::MixedColored(Layers::new(painter, mode, false, pack_mixed_colored)),
         };
-        let faces =
-            painter.palette.has_translucency().then(|| Layers::new(painter, manner, true, pack_clear));
-        let bend = manner.exact.map(|exact| Bend::new(painter, exact));
-        let lines = lines(&painter, manner.wireframe, bend.as_ref());
+        let faces = painter.palette.has_translucency().then(|| Layers::new(painter, mode, true, pack_clear));
+        let bend = mode.exact.map(|exact| Bend::new(painter, exact));
+        let lines = lines(&painter, mode.wireframe, bend.as_ref());
         let (pieces, mut reach) = pieces(&painter, &lines, bend.as_ref());
-        let width = manner.line_width * f64::from(painter.grid.samples);
+        let width = mode.line_width * f64::from(painter.grid.samples);
         let strokes = if pieces.is_empty() {
             Vec::new()
         } else {
             with_layers!(&solid, |layers| layers.shown(&painter, &pieces, width))
         };
-        if manner.has_faces() {
+        if mode.has_faces() {
             reach = reach.merge(with_layers!(&solid, |layers| layers.reach()));
             reach = faces.iter().fold(reach, |reach, faces| reach.merge(faces.reach()));
         }
@@ -192,7 +201,7 @@ impl<'a> Sheet<'a> {
         Self {
             solid,
             clear: ClearLayers { faces, strokes, lines },
-            has_faces: manner.has_faces(),
+            has_faces: mode.has_faces(),
             reach,
             progress: &(),
         }
@@ -221,7 +230,7 @@ impl<'a> Sheet<'a> {
         finish: &impl Finish<T, P>,
     ) -> (Vec<P>, Tally) {
         let lit = self.lit(shader);
-        let clear = lit.as_ref().map(|lit| lit as &dyn Clear);
+        let clear = lit.as_ref().map(|lit| lit as &dyn TransparentLayer);
         let progress = self.progress;
         with_layers!(&self.solid, |layers| paint(grid, layers, clear, shader, finish, progress))
     }
@@ -238,14 +247,14 @@ impl<'a> Sheet<'a> {
             return self.paint(grid, shader, finish);
         }
         let lit = self.lit(shader);
-        let clear = lit.as_ref().map(|lit| lit as &dyn Clear);
+        let clear = lit.as_ref().map(|lit| lit as &dyn TransparentLayer);
         let progress = self.progress;
         with_layers!(&self.solid, |layers| {
             paint_filtered(grid, filter, layers, clear, shader, finish, progress)
         })
     }
 
-    /// A pixel of [`Sheet::paint_filtered`].
+    /// A pixel of [`RenderLayers::paint_filtered`].
     pub fn probe_filtered<P: Copy>(
         &self,
         grid: &Grid,
@@ -255,7 +264,7 @@ impl<'a> Sheet<'a> {
         pixel: [u32; 2],
     ) -> P {
         let lit = self.lit(shader);
-        let clear = lit.as_ref().map(|lit| lit as &dyn Clear);
+        let clear = lit.as_ref().map(|lit| lit as &dyn TransparentLayer);
         with_layers!(&self.solid, |layers| {
             probe_filtered(grid, filter, layers, clear, shader, finish, pixel)
         })
@@ -270,13 +279,13 @@ impl<'a> Sheet<'a> {
         pixel: [u32; 2],
     ) -> (Vec<Sample>, Gathered<'static, u32>, P) {
         let lit = self.lit(shader);
-        let clear = lit.as_ref().map(|lit| lit as &dyn Clear);
+        let clear = lit.as_ref().map(|lit| lit as &dyn TransparentLayer);
         with_layers!(&self.solid, |layers| probe(grid, layers, clear, shader, finish, pixel))
     }
 }
 
 /// For figures.
-impl Sheet<'_> {
+impl RenderLayers<'_> {
     /// True if a face that is drawn is translucent.
     pub fn has_clear_faces(&self) -> bool {
         self.has_faces && self.clear.faces.as_ref().is_some_and(|faces| faces.reach().in_picture > 0)
@@ -284,10 +293,10 @@ impl Sheet<'_> {
 
     /// Gives `take` every polygon, as its item, whether it is translucent, and its contours: first those of what hides, whose
     /// corners have zeros behind their numbers.
-    pub fn for_each_polygon(&self, mut take: impl FnMut(u32, bool, Vec<Vec<Corner<CLEAR_VALUES>>>)) {
+    pub fn for_each_polygon(&self, mut take: impl FnMut(u32, bool, Vec<Vec<Corner<TRANSPARENT_VALUES>>>)) {
         fn all<const N: usize>(
             layers: &Layers<'_, N>,
-            mut take: impl FnMut(u32, Vec<Vec<Corner<CLEAR_VALUES>>>),
+            mut take: impl FnMut(u32, Vec<Vec<Corner<TRANSPARENT_VALUES>>>),
         ) {
             let Surfaces::Polygons(list) = &layers.surfaces else { return };
             let padded = |corner: &Corner<N>| Corner {
@@ -316,8 +325,8 @@ impl Sheet<'_> {
         &self.clear.strokes
     }
 
-    /// The light of numbers interpolated between corners of what hides, by [`Sheet::for_each_polygon`].
-    pub fn shade(&self, shader: &Shader, &[a, b, c, d, e, f, g, _]: &[f32; CLEAR_VALUES]) -> Shade {
+    /// The light of numbers interpolated between corners of what hides, by [`RenderLayers::for_each_polygon`].
+    pub fn shade(&self, shader: &Shader, &[a, b, c, d, e, f, g, _]: &[f32; TRANSPARENT_VALUES]) -> Shade {
         match &self.solid {
             Solid::Plain(_) => shader.plain(&[a, b, c]),
             Solid::Colored(_) => shader.colored(&[a, b, c, d, e, f]),
@@ -364,7 +373,7 @@ fn pack_mixed_colored(swatch: &Swatch, level: DVec3) -> [f64; 7] {
 }
 
 /// In every scene all numbers, and the translucency.
-pub fn pack_clear(swatch: &Swatch, level: DVec3) -> [f64; CLEAR_VALUES] {
+pub fn pack_clear(swatch: &Swatch, level: DVec3) -> [f64; TRANSPARENT_VALUES] {
     let [a, b, c, d, e, f, g] = pack_mixed_colored(swatch, level);
     [a, b, c, d, e, f, g, swatch.translucency]
 }

@@ -10,11 +10,11 @@ use ugparse::{Face, Scene, VertexId};
 
 use crate::cull::Sight;
 use crate::edge::{self, Shown, Tolerance};
-use crate::growth::Growth;
 use crate::lit::Lit;
 use crate::motion::{Motion, Point};
 use crate::pieces::{Cut, Polyline, Shape, as_contours, shape};
-use crate::{edge_on, interior, quick};
+use crate::refined_mesh::RefinedMesh;
+use crate::{early_accept, edge_on, interior};
 
 /// An edge is halved this often at most. Each halving divides the sagitta by 4, so 12 take the worst arc down
 /// to the default bound; the rest are for edges that pass the eye at a millionth of their length.
@@ -27,14 +27,14 @@ pub(crate) struct Bounds {
     tolerances: Vec<Tolerance>,
     pub lit: Lit,
     sight: Sight,
-    /// [`quick::most_spread`] of each body.
+    /// [`early_accept::most_spread`] of each body.
     spreads: Vec<f64>,
 }
 
 impl Bounds {
     /// `tolerances`: of each body.
     pub(crate) fn new(tolerances: Vec<Tolerance>, lit: Lit, sight: Sight, motions: &[Motion]) -> Bounds {
-        let of_body = |(motion, tolerance)| quick::most_spread(motion, tolerance);
+        let of_body = |(motion, tolerance)| early_accept::most_spread(motion, tolerance);
         let spreads = motions.iter().zip(&tolerances).map(of_body).collect();
         Bounds { tolerances, lit, sight, spreads }
     }
@@ -96,25 +96,25 @@ impl Verdict {
 }
 
 /// Says which edges bend.
-pub(crate) struct Judge<'a, 'b> {
-    pub growth: &'a Growth<'b>,
+pub(crate) struct Criterion<'a, 'b> {
+    pub mesh: &'a RefinedMesh<'b>,
     pub bounds: &'a Bounds,
 }
 
-impl Judge<'_, '_> {
+impl Criterion<'_, '_> {
     /// Does this edge bend? Asked in one order of its ends, so that all who share it hear the same.
     fn bends(&self, a: u32, b: u32) -> bool {
         self.generation(a, b) < MAX_GENERATION && self.bends_at_any_depth(a, b)
     }
 
     pub(crate) fn generation(&self, a: u32, b: u32) -> u32 {
-        self.growth.point(a).generation.max(self.growth.point(b).generation)
+        self.mesh.point(a).generation.max(self.mesh.point(b).generation)
     }
 
     pub(crate) fn bends_at_any_depth(&self, a: u32, b: u32) -> bool {
         let (low, high) = (a.min(b), a.max(b));
-        let growth = self.growth;
-        let (from, to, motion) = (growth.point(low), growth.point(high), growth.motion(low));
+        let mesh = self.mesh;
+        let (from, to, motion) = (mesh.point(low), mesh.point(high), mesh.motion(low));
         edge::bends(from, to, motion, self.bounds.tolerance(from))
             || self.bounds.lit.is_uneven(from, to, motion)
     }
@@ -122,7 +122,7 @@ impl Judge<'_, '_> {
     /// The largest error of an edge in parts of its bound: what new edges inside a face are chosen by. Light is left out.
     pub(crate) fn excess(&self, a: u32, b: u32) -> f64 {
         let (low, high) = (a.min(b), a.max(b));
-        let (from, to, motion) = (self.growth.point(low), self.growth.point(high), self.growth.motion(low));
+        let (from, to, motion) = (self.mesh.point(low), self.mesh.point(high), self.mesh.motion(low));
         edge::excess(from, to, motion, self.bounds.tolerance(from))
     }
 
@@ -135,11 +135,11 @@ impl Judge<'_, '_> {
     /// `None` if the face can stay as it is.
     fn first_cut(&self, scene: &Scene, face: &Face) -> Option<Cut> {
         let corners = scene.contours.corners(face.contours.clone());
-        let motion = self.growth.motion(corners.first()?.0);
+        let motion = self.mesh.motion(corners.first()?.0);
         if self.is_right_for_sure(motion, corners.iter().map(|corner| corner.0)) {
             return None;
         }
-        let rest = |vertex: VertexId| -> DVec3 { self.growth.point(vertex.0).rest };
+        let rest = |vertex: VertexId| -> DVec3 { self.mesh.point(vertex.0).rest };
         let cut = if edge_on::is_edge_on(scene, face, motion, rest) {
             Cut::EdgeOn(as_contours(scene, face))
         } else {
@@ -157,13 +157,13 @@ impl Judge<'_, '_> {
     /// True only if no line between these corners of a body bends, and nothing inside.
     fn is_right_for_sure(&self, motion: &Motion, corners: impl Iterator<Item = u32> + Clone) -> bool {
         let Bounds { tolerances, lit, spreads, .. } = self.bounds;
-        let points = corners.map(|corner| self.growth.point(corner));
+        let points = corners.map(|corner| self.mesh.point(corner));
         let body = points.clone().next().map_or(0, |point| point.body as usize);
         let tolerance = &tolerances[body];
         let is_shape_right = || {
             motion.is_at_rest()
-                || quick::is_close(points.clone(), spreads[body])
-                || quick::is_right(motion, points.clone(), tolerance)
+                || early_accept::is_close(points.clone(), spreads[body])
+                || early_accept::is_right(motion, points.clone(), tolerance)
         };
         is_shape_right() && lit.is_even(motion, points.clone())
     }
@@ -183,14 +183,14 @@ impl Judge<'_, '_> {
     /// What bends in a piece, and shows.
     pub(crate) fn piece(&self, shape: &Shape) -> Verdict {
         let mut verdict = Verdict::default();
-        let motion = self.growth.motion(shape.corners()[0]);
+        let motion = self.mesh.motion(shape.corners()[0]);
         if self.is_right_for_sure(motion, shape.corners().iter().copied()) {
             return verdict;
         }
         for (mark, (a, b)) in verdict.bends.iter_mut().zip(shape.edges()) {
             *mark = self.bends(a, b);
         }
-        let points: Vec<&Point> = shape.corners().iter().map(|&corner| self.growth.point(corner)).collect();
+        let points: Vec<&Point> = shape.corners().iter().map(|&corner| self.mesh.point(corner)).collect();
         let Some(shown) = self.bounds.shown(motion, &points) else { return verdict };
         let shows = &mut verdict.shows;
         for ((mark, bends), (a, b)) in shows.edges.iter_mut().zip(verdict.bends).zip(shape.edges()) {
@@ -204,9 +204,9 @@ impl Judge<'_, '_> {
     /// `shown`: of the piece, if the edge lies within a face. All of an edge of the scene is, for what is beside it may have been
     /// modelled with other corners, and two lines that are drawn in different pieces leave a slit.
     fn shows(&self, a: u32, b: u32, shown: Shown) -> bool {
-        let shown = if self.growth.is_rim(a, b) { Shown::All } else { shown };
+        let shown = if self.mesh.is_rim(a, b) { Shown::All } else { shown };
         let (low, high) = (a.min(b), a.max(b));
-        let (from, to, motion) = (self.growth.point(low), self.growth.point(high), self.growth.motion(low));
+        let (from, to, motion) = (self.mesh.point(low), self.mesh.point(high), self.mesh.motion(low));
         edge::shows(from, to, motion, self.bounds.tolerance(from), shown)
             || self.bounds.lit.is_uneven(from, to, motion)
     }
@@ -225,8 +225,8 @@ impl Judge<'_, '_> {
 
     /// Is the true face too far from the inside of this triangle?
     fn bulges(&self, corners: [u32; 3]) -> bool {
-        let motion = self.growth.motion(corners[0]);
-        let points: [&Point; 3] = corners.map(|corner| self.growth.point(corner));
+        let motion = self.mesh.motion(corners[0]);
+        let points: [&Point; 3] = corners.map(|corner| self.mesh.point(corner));
         let is_deep = points.iter().any(|point| point.generation >= MAX_GENERATION);
         motion.has_flight_time()
             && !is_deep

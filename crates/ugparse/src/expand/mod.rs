@@ -17,8 +17,8 @@ use rustc_hash::FxHashMap;
 use crate::diagnostic::Diagnostic;
 use crate::group::{Call, Counts, Group, Velocities};
 use crate::reader::Document;
+use crate::resolve::{Link, Links};
 use crate::scene::{ColorId, Item, Scene, VelocityId, Vertex, VertexId};
-use crate::settle::{Link, Links};
 use crate::source::Span;
 use crate::statement::Repeat;
 
@@ -43,7 +43,7 @@ const SHORT_CHAIN: usize = 200;
 const STACK_PER_LEVEL: usize = 1 << 15;
 
 /// Builds the flat scene; colours, surfaces, and the names of the file, are in it already.
-pub(crate) fn place(
+pub(crate) fn expand(
     text: &[u8],
     document: &mut Document<'_>,
     links: &Links,
@@ -51,12 +51,12 @@ pub(crate) fn place(
     findings: &mut Vec<Diagnostic>,
 ) -> (Scene, Origins) {
     if links.levels <= SHORT_CHAIN {
-        return place_here(text, document, links, scene, findings);
+        return expand_here(text, document, links, scene, findings);
     }
     // Placing recurses, so a long chain gets a thread with a stack of its length.
     let mut outcome = None;
     let started = std::thread::scope(|scope| {
-        let work = || outcome = Some(place_here(text, document, links, scene, findings));
+        let work = || outcome = Some(expand_here(text, document, links, scene, findings));
         let thread = std::thread::Builder::new().stack_size(links.levels * STACK_PER_LEVEL);
         thread.spawn_scoped(scope, work).map(|_| ())
     });
@@ -68,7 +68,7 @@ pub(crate) fn place(
     })
 }
 
-fn place_here(
+fn expand_here(
     text: &[u8],
     document: &mut Document<'_>,
     links: &Links,

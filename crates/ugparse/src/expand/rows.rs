@@ -8,8 +8,8 @@ use super::Placer;
 use super::frame::Placement;
 use crate::diagnostic::Diagnostic;
 use crate::group::Counts;
+use crate::resolve::{face_name, has_three, is_short, short_wire};
 use crate::scene::{Camera, Face, IllumId, Item, Light, LightKind, VertexId, Wire, newell_normal};
-use crate::settle::{face_name, has_three, is_short, short_wire};
 use crate::source::Span;
 
 impl Placer<'_, '_> {
