@@ -562,7 +562,7 @@ fn bad_numbers_are_refused_with_a_remedy() {
         moving(DVec3::X),
         "-vel: speed is 1 c: it must be below 1 (velocities are fractions of the speed of light)",
     );
-    check(moving(DVec3::NAN), "-vel: velocity is not finite: its numbers must not be infinite or NaN");
+    check(moving(DVec3::NAN), "-vel: velocity is not finite: its components must not be infinite or NaN");
     check(pieces(Pieces::UpTo(0.0)), "the bound of -se is 0 milliradians: give a number above 0");
     check(pieces(Pieces::UpTo(f64::NAN)), "the bound of -se is NaN milliradians: give a number above 0");
     check(pieces(Pieces::PerEdge(0)), "-sd 0 leaves no pieces: give 1 or more");

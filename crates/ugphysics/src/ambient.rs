@@ -1,4 +1,4 @@
-//! Light from everywhere on a surface that moves through it.
+//! Ambient light (a uniform sky) on a surface that moves relative to it.
 
 use core::f64::consts::PI;
 
@@ -6,7 +6,8 @@ use glam::DVec3;
 
 use crate::Velocity;
 
-/// Nodes and weights of Gauss and Legendre on −1…1: eight points (Abramowitz and Stegun, table 25.4).
+/// Nodes and weights of eight-point Gauss–Legendre quadrature on −1…1 (Abramowitz and Stegun, table
+/// 25.4).
 const NODES: [(f64, f64); 8] = [
     (-0.960_289_856_497_536_3, 0.101_228_536_290_376_3),
     (-0.796_666_477_413_626_7, 0.222_381_034_453_374_5),
@@ -18,25 +19,28 @@ const NODES: [(f64, f64); 8] = [
     (0.960_289_856_497_536_3, 0.101_228_536_290_376_3),
 ];
 
-/// A part of the sky round a surface that has one Doppler factor.
+/// A ring of the sky round a surface, on which the Doppler factor is constant.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SkyRing {
-    /// What the ring adds to the light level, if D were 1.
+    /// The ring's contribution to the light level, before any power of `doppler` is applied.
     pub level: f64,
-    /// Its Doppler factor D_l.
+    /// Its Doppler factor D_l = f_surface/f_sky.
     pub doppler: f64,
 }
 
-/// The light on a surface with the unit normal `normal` from a sky that is equally bright all round in its own
-/// frame and gives level 1 there. `v_sky` is the velocity of that frame in the frame of the surface.  Eq. (P14)
+/// The light on a surface with unit normal `normal` from a sky that is uniformly bright in its own
+/// frame, where it gives level 1. `v_sky` is the velocity of the sky's frame in the frame of the
+/// surface.  Eq. (P14)
 ///
-/// With μ'' the cosine between v_sky and the direction to a point of the sky, in the sky's frame, D_l = γ(1 − βμ''),
-/// so D_l is one on a ring. In the surface's frame the ring is at μ' = (μ'' − β)/(1 − βμ''), and the mean of
-/// max(0, n·l) over it has a closed form. What is left, the integral 2∫ ⟨max(0, n·l)⟩ dμ'', is summed over the part
-/// of the rings that are all above the horizon and the part that are cut by it, eight rings each. Rings below
-/// the horizon are left out. At rest the levels add up to 1 within 10⁻³.
+/// With μ'' the cosine between v_sky and the direction to a point of the sky, in the sky's frame,
+/// D_l = γ(1 − βμ''), so D_l is constant on a ring. In the surface's frame the ring is at μ' = (μ''
+/// − β)/(1 − βμ''), and the mean of max(0, n·l) over it has a closed form. The remaining integral,
+/// 2∫ ⟨max(0, n·l)⟩ dμ'', is evaluated with eight rings over the range of μ'' where rings lie
+/// wholly above the horizon, and eight over the range where the horizon cuts them. Rings below the
+/// horizon are omitted. At rest the levels add up to 1 within 10⁻³.
 ///
-/// Power per area is Σ level · D_l², as for any light from afar: the ring's solid angle is the one in its frame.
+/// Irradiance is Σ level · D_l², as for any directional light, because `level` counts the ring's
+/// solid angle in the sky's frame.
 pub fn ambient_illumination(normal: DVec3, v_sky: Velocity) -> impl Iterator<Item = SkyRing> {
     let along = normal.dot(v_sky.direction()).clamp(-1.0, 1.0);
     let across = ((1.0 - along) * (1.0 + along)).sqrt();

@@ -1,13 +1,15 @@
-//! How fast things seem to move, and how planes stand.
+//! Apparent velocity, and the normals of contracted bodies.
 
 use glam::DVec3;
 
 use crate::{Velocity, doppler_factor};
 
-/// The velocity at which the place moves where a body is *seen*: **v**/(1 − **v**·n) = γD**v**.  Eq. (P31)
+/// The velocity of a body's *seen* position (its apparent velocity): **v**/(1 − **v**·n) = γD**v**.
+/// Eq. (P31)
 ///
-/// `to_observer` is n as in [`doppler_factor`]. It may be far above that of light: a body that comes nearly at the eye
-/// catches up with its own light (Rees 1966).
+/// `to_observer` is n as in [`doppler_factor`]. The result may exceed the speed of light
+/// (superluminal motion): a body that moves almost straight towards the eye nearly keeps up with
+/// its own light (Rees 1966).
 ///
 /// ```
 /// use glam::DVec3;
@@ -22,17 +24,20 @@ pub fn apparent_velocity(to_observer: DVec3, v: Velocity) -> DVec3 {
     v.proper() * doppler_factor(to_observer, v)
 }
 
-/// The unit normal, at one moment of S, of a plane of a body that moves with `v`: along (γ n_along, n_across) of its
-/// normal in the body's frame, which may have any length but 0.  Eq. (P34)
+/// The unit normal, in S at one instant, of a plane of a body that moves with `v`: along (γ
+/// n_along, n_across), where n is the normal in the body's frame. `rest_normal` may have any
+/// length; the zero vector gives the zero vector.  Eq. (P34)
 ///
-/// This is the normal of a contracted body, not of its picture, whose faces the time of flight bends.
+/// This is the normal of the contracted body. The body as seen has other normals, since light
+/// travel time bends its faces.
 ///
 /// ```
 /// use glam::DVec3;
 /// use ugphysics::{Velocity, contracted_normal};
 ///
 /// let v = Velocity::from_beta(DVec3::new(0.6, 0.0, 0.0))?;
-/// assert!((contracted_normal(DVec3::new(0.6, 1.0, 0.0), v) - DVec3::new(0.6, 0.8, 0.0)).length() < 1e-15);
+/// let normal = contracted_normal(DVec3::new(0.6, 1.0, 0.0), v);
+/// assert!((normal - DVec3::new(0.6, 0.8, 0.0)).length() < 1e-15);
 /// # Ok::<(), ugphysics::VelocityError>(())
 /// ```
 #[must_use]

@@ -1,13 +1,13 @@
-//! Colours as hue, saturation and value, and the sRGB coding of light.
+//! Colours as hue, saturation and value, and the sRGB transfer function.
 
-/// A colour as the hexcone model of Smith 1978 has it, over display-encoded RGB.
+/// A colour in the hexcone model (HSV, Smith 1978), over display-encoded RGB.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hsv {
-    /// Degrees: 0 red, 120 green, 240 blue; any number of turns.
+    /// Hue in degrees: 0 red, 120 green, 240 blue. Any number of whole turns may be added.
     pub hue: f64,
     /// 0 (grey) to 1 (pure).
     pub saturation: f64,
-    /// 0 (black) upwards; 1 is the brightest a display shows.
+    /// 0 (black) or more; 1 is the brightest a display can show.
     pub value: f64,
 }
 
@@ -24,7 +24,7 @@ impl Hsv {
     #[inline]
     pub fn to_rgb(self) -> [f64; 3] {
         let sixth = within_a_turn(self.hue) / 60.0;
-        // How far each primary is from its own sixths of the circle, 0 inside to 1 two sixths away.
+        // For each primary: 0 within 60° of its hue, rising linearly to 1 at 120° and beyond.
         [0.0, 2.0, 4.0].map(|primary| {
             let apart = (sixth - primary).abs();
             let away = (apart.min(6.0 - apart) - 1.0).clamp(0.0, 1.0);
@@ -32,8 +32,9 @@ impl Hsv {
         })
     }
 
-    /// What the eye sees of it: of the white and the pure hue that it is made of, V(1 − S) and V S, the hue
-    /// times `attenuation`, 0 to 1, of its wavelength.  Eq. (P17)
+    /// The colour with its pure hue attenuated. A colour is a sum of white, V(1 − S), and of a pure
+    /// hue, V S; the pure hue is multiplied by `attenuation` (0 to 1, from [`crate::attenuation`]
+    /// of its wavelength) and the white is kept.  Eq. (P17)
     ///
     /// ```
     /// use ugphysics::Hsv;
@@ -46,13 +47,15 @@ impl Hsv {
     #[inline]
     pub fn attenuated(self, attenuation: f64) -> Hsv {
         let pure = self.saturation * attenuation;
-        // Exactly 1 if nothing is attenuated, and the attenuation of a pure hue.
+        // In this form `kept` is exactly 1 for attenuation 1, and exactly `attenuation` for
+        // saturation 1.
         let kept = (1.0 - self.saturation) + pure;
         Hsv { saturation: if pure > 0.0 { pure / kept } else { 0.0 }, value: self.value * kept, ..self }
     }
 
-    /// The colour of the same hue that [`Hsv::attenuated`] makes this one; or, if that is of a value above `limit`,
-    /// the nearest to it that is not, with the same white. Above its own value nothing is limited.  Eq. (P17)
+    /// The inverse of [`Hsv::attenuated`]: the colour of the same hue and the same white part that
+    /// `attenuated` turns into this one. Its value is limited to `limit`, or to the value of this
+    /// colour if that is larger.  Eq. (P17)
     ///
     /// ```
     /// use ugphysics::Hsv;
@@ -71,9 +74,9 @@ impl Hsv {
         Hsv { saturation: pure / (white + pure), value: white + pure, ..self }
     }
 
-    /// The hue, saturation and value of display-encoded red, green and blue, none of them negative. The hue is
-    /// above −60 and at most 300, as [`crate::hue_to_wavelength`] has it, and 0 for greys; the saturation of black
-    /// is 0.
+    /// The hue, saturation and value of display-encoded red, green and blue, which must not be
+    /// negative. The hue is in (−60, 300], the range of [`crate::hue_to_wavelength`], and 0 for
+    /// greys. Black has saturation 0.
     ///
     /// ```
     /// use ugphysics::Hsv;
@@ -96,13 +99,14 @@ impl Hsv {
         } else {
             240.0 + 60.0 * ((red - green) / chroma)
         };
-        // Red comes first above, so magenta came out as −60; it is violet, the other end.
+        // The red branch gives −60 for magenta; use 300 instead, the violet end of the range.
         let hue = if hue <= -60.0 { hue + 360.0 } else { hue };
         Hsv { hue, saturation: chroma / value, value }
     }
 }
 
-/// The same hue in 0…360 degrees. Nearly all are within a turn, where no slow remainder is needed for the same bits.
+/// The same hue in 0…360 degrees. Most hues are within one turn of that range; an addition gives
+/// them the same bits as the slow remainder would.
 #[inline]
 fn within_a_turn(hue: f64) -> f64 {
     if (0.0..360.0).contains(&hue) {
@@ -114,8 +118,8 @@ fn within_a_turn(hue: f64) -> f64 {
     }
 }
 
-/// Linear light from a display-encoded sRGB value (IEC 61966-2-1). 0 and 1 stay; values above 1 follow the
-/// curve, values below 0 its straight part.
+/// Linear light from a display-encoded sRGB value (IEC 61966-2-1). Maps 0 to 0 and 1 to 1. Values
+/// above 1 continue the power curve, values below 0 the linear part.
 ///
 /// ```
 /// assert!((ugphysics::srgb_decode(0.5) - 0.21404114).abs() < 1e-8);
@@ -125,7 +129,7 @@ pub fn srgb_decode(encoded: f64) -> f64 {
     if encoded <= 0.04045 { encoded / 12.92 } else { libm::pow((encoded + 0.055) / 1.055, 2.4) }
 }
 
-/// The display-encoded sRGB value of linear light (IEC 61966-2-1), the inverse of [`srgb_decode`].
+/// The display-encoded sRGB value of linear light (IEC 61966-2-1): the inverse of [`srgb_decode`].
 ///
 /// ```
 /// assert!((ugphysics::srgb_encode(0.18) - 0.46135612).abs() < 1e-8);
@@ -135,7 +139,8 @@ pub fn srgb_encode(linear: f64) -> f64 {
     if linear <= 0.0031308 { linear * 12.92 } else { 1.055 * libm::pow(linear, 1.0 / 2.4) - 0.055 }
 }
 
-/// Relative luminance Y of linear red, green and blue with the sRGB primaries (ITU-R BT.709): white is 1.
+/// Relative luminance Y of linear red, green and blue with the sRGB primaries (ITU-R BT.709): white
+/// is 1.
 ///
 /// ```
 /// assert_eq!(ugphysics::luminance([0.0, 1.0, 0.0]), 0.7152);

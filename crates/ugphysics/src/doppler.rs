@@ -1,19 +1,21 @@
-//! How light changes colour and strength between a moving body and the eye.
+//! The Doppler factor of a moving body, and the brightness laws.
 
 use glam::DVec3;
 
 use crate::Velocity;
 use crate::exact::power_of_two_below;
 
-/// The Doppler factor D = f_observed/f_emitted = λ_emitted/λ_observed = 1/(γ(1 − **v**·n)), dimensionless.
-/// Eq. (P10)
+/// The Doppler factor D = f_observed/f_emitted = λ_emitted/λ_observed = 1/(γ(1 − **v**·n)),
+/// dimensionless.  Eq. (P10)
 ///
-/// D > 1 is a blueshift. `to_observer` is n, along the light's motion, from the emission event to the eye, in
-/// the camera frame; its length does not matter. `v` is the velocity of the source in that frame.
+/// D > 1 is a blueshift. `to_observer` is n, the direction of the light from the emission event to
+/// the eye, in the camera frame; it may have any length. `v` is the velocity of the source in that
+/// frame.
 ///
-/// With θ between n and the motion, 1/D = γ − |u| cos θ; ahead (cos θ > 0) it is taken as
-/// e^{−η} + |u|(1 − cos θ) and 1 − cos θ = sin²θ/(1 + cos θ), so D is right to a few units in the last place
-/// at every speed and in every direction. The zero vector has no direction; it is taken as abeam, D = 1/γ.
+/// With θ between n and the motion, 1/D = γ − |u| cos θ; Ahead (cos θ > 0) this would cancel, so it
+/// is computed as e^{−η} + |u|(1 − cos θ) with 1 − cos θ = sin²θ/(1 + cos θ). D is then right to a
+/// few units in the last place at every speed and in every direction. The zero vector has no
+/// direction and counts as abeam, D = 1/γ.
 ///
 /// ```
 /// use glam::DVec3;
@@ -41,13 +43,14 @@ pub fn doppler_factor(to_observer: DVec3, v: Velocity) -> f64 {
     1.0 / stretch
 }
 
-/// The Doppler factor of a point seen at `p_seen`, relative to the eye: (P10) with n = −p/|p|.
+/// The Doppler factor of a point seen at `p_seen`, relative to the eye in the camera frame:
+/// n = −p/|p|.  Eq. (P10)
 ///
 /// ```
 /// use glam::DVec3;
 /// use ugphysics::{Velocity, doppler_at, seen_position};
 ///
-/// // A point abreast of the eye in its own frame is seen blue: D = γ.
+/// // A point abeam of the eye in its own rest frame is seen blueshifted: D = γ.
 /// let v = Velocity::from_beta(DVec3::new(0.6, 0.0, 0.0))?;
 /// let p = seen_position(DVec3::new(0.0, 2.0, 0.0), v);
 /// assert_eq!(doppler_at(p, v), 1.25);
@@ -58,7 +61,8 @@ pub fn doppler_at(p_seen: DVec3, v: Velocity) -> f64 {
     doppler_factor(-p_seen, v)
 }
 
-/// The power of D by which a value of brightness is multiplied; a picture says which law it used.  Eq. (P12)
+/// The brightness law: by which power of D brightness is multiplied. Pictures record the law they
+/// used.  Eq. (P12)
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Brightness {
     /// D¹, the photon-flux law of the 1988 report.
@@ -68,15 +72,15 @@ pub enum Brightness {
     Photon,
     /// D⁴, bolometric radiance: power per area and solid angle.
     Bolometric,
-    /// D⁰: brightness is left alone.
+    /// D⁰: brightness is unchanged.
     None,
 }
 
 impl Brightness {
-    /// All of them.
+    /// All laws, in the order of their powers; `None` last.
     pub const ALL: [Self; 4] = [Self::Report, Self::Photon, Self::Bolometric, Self::None];
 
-    /// Its name, as in the table of (P12).
+    /// The name of the law, as in the table of (P12).
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -87,7 +91,7 @@ impl Brightness {
         }
     }
 
-    /// The law called `name`.
+    /// The law of the given name; `None` if there is no such law.
     ///
     /// ```
     /// use ugphysics::Brightness;
@@ -100,7 +104,7 @@ impl Brightness {
         Self::ALL.into_iter().find(|law| law.name() == name)
     }
 
-    /// What brightness is multiplied by at Doppler factor `doppler`.
+    /// The factor on brightness at Doppler factor `doppler`.  Eq. (P12)
     ///
     /// ```
     /// use ugphysics::Brightness;

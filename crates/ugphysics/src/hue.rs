@@ -1,4 +1,5 @@
-//! The 1988 map between hue and wavelength, and how the eye's response ends.
+//! The map between hue and wavelength of the 1988 report, and the attenuation at the ends of the
+//! visible spectrum.
 
 /// One control point of the map between wavelength and hue.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -11,8 +12,8 @@ pub struct ControlPoint {
     pub slope: f64,
 }
 
-/// The control points, from red to violet: three of them are the primaries of the 1931 standard observer
-/// (700, 546.1 and 435.8 nm) at the hues red, green and blue.  Eq. (P16)
+/// The control points, from red to violet. Three of them are the primaries of the CIE 1931 RGB
+/// colour space (700, 546.1 and 435.8 nm), at the hues red, green and blue.  Eq. (P16)
 pub const CONTROL_POINTS: [ControlPoint; 7] = [
     ControlPoint { wavelength_nm: 780.0, hue_deg: -60.0, slope: 60.0 / (700.0 - 780.0) },
     ControlPoint { wavelength_nm: 700.0, hue_deg: 0.0, slope: 120.0 / (605.0 - 780.0) },
@@ -29,10 +30,10 @@ pub const RED_END_NM: f64 = 780.0;
 /// The shortest wavelength of the map, nm; its hue is 300°.
 pub const VIOLET_END_NM: f64 = 380.0;
 
-/// The hue, in degrees from −60 to 300, of light of one wavelength.  Eq. (P16)
+/// The hue, in degrees from −60 to 300, of monochromatic light.  Eq. (P16)
 ///
-/// Strictly decreasing in the wavelength. Outside 380…780 nm there is no hue: the value stops at the end,
-/// 300° or −60°.
+/// Strictly decreasing in the wavelength. Wavelengths outside 380…780 nm have no hue and are
+/// clamped to the nearer end, 300° or −60°.
 ///
 /// ```
 /// use ugphysics::wavelength_to_hue;
@@ -50,8 +51,8 @@ pub fn wavelength_to_hue(wavelength_nm: f64) -> f64 {
 /// The wavelength, in nanometres, of the spectral colour of a hue in degrees: the inverse of
 /// [`wavelength_to_hue`], to rounding.  Eq. (P16)
 ///
-/// Hues from −60 to 300 are taken as they are, so −60 is 780 nm and 300 is 380 nm. Others are first brought
-/// there by whole turns: 300…360 means −60…0.
+/// Hues from −60 to 300 are used as they are, so −60 is 780 nm and 300 is 380 nm. Other hues are
+/// first reduced to that range by whole turns: 330 is −30.
 ///
 /// ```
 /// use ugphysics::hue_to_wavelength;
@@ -66,11 +67,11 @@ pub fn hue_to_wavelength(hue_deg: f64) -> f64 {
     segment_where(|_, hue| hue_deg <= hue).wavelength_nm(hue_deg)
 }
 
-/// How much of a pure hue the eye still sees: 1 from 435.8 to 700 nm, falling linearly to 0 at 380 and at
-/// 780 nm, 0 outside.  Eq. (P17)
+/// The factor by which a pure hue is dimmed near the ends of the visible spectrum: 1 from 435.8 to
+/// 700 nm, falling linearly to 0 at 380 and at 780 nm, and 0 outside.  Eq. (P17)
 ///
-/// A renderer applies it per pixel; a filter never does, since light that is out of sight here may be
-/// shifted back into view by the next one.
+/// Only the renderer applies it, per sample. A filter must not: a filter downstream may shift
+/// invisible light back into the visible range.
 ///
 /// ```
 /// use ugphysics::attenuation;
@@ -88,7 +89,7 @@ pub fn attenuation(wavelength_nm: f64) -> f64 {
     violet.min(red).clamp(0.0, 1.0)
 }
 
-/// The same hue in −60…300: as it is if there already, else by whole turns, with 300 rather than −60.
+/// The hue reduced by whole turns to (−60, 300]. A hue already in [−60, 300] is unchanged.
 fn spectral_hue(hue_deg: f64) -> f64 {
     if (-60.0..=300.0).contains(&hue_deg) {
         return hue_deg;
@@ -97,14 +98,16 @@ fn spectral_hue(hue_deg: f64) -> f64 {
     if hue_deg > 300.0 { hue_deg - 360.0 } else { hue_deg }
 }
 
-/// The first segment, from the red end, whose violet end (wavelength, hue) satisfies `reaches`.
+/// The first segment, from the red end, whose violet end (wavelength in nm, hue in degrees)
+/// satisfies `reaches`; else the last segment.
 fn segment_where(reaches: impl Fn(f64, f64) -> bool) -> Segment {
     let mut segments = CONTROL_POINTS.windows(2).map(|ends| Segment { red: ends[0], violet: ends[1] });
     let last = Segment { red: CONTROL_POINTS[5], violet: CONTROL_POINTS[6] };
     segments.find(|s| reaches(s.violet.wavelength_nm, s.violet.hue_deg)).unwrap_or(last)
 }
 
-/// The cubic Hermite curve between two control points, over s from 0 (its red end) to 1 (its violet end).
+/// The cubic Hermite curve between two control points, over s from 0 (its red end) to 1 (its violet
+/// end).
 struct Segment {
     red: ControlPoint,
     violet: ControlPoint,
@@ -135,11 +138,12 @@ impl Segment {
             * (rest * (1.0 - 3.0 * s) * self.red.slope + s * (3.0 * s - 2.0) * self.violet.slope)
     }
 
-    /// Newton's method from the straight line's answer, kept inside a shrinking bracket by bisection.
+    /// Newton's method, started from linear interpolation and safeguarded by bisection of a
+    /// bracket.
     fn wavelength_nm(&self, hue_deg: f64) -> f64 {
         let (mut low, mut high) = (0.0, 1.0);
         let mut s = (hue_deg - self.red.hue_deg) / (self.violet.hue_deg - self.red.hue_deg);
-        // Newton needs about 5 rounds; bisection alone would need 53.
+        // Newton needs about 5 steps; bisection alone would need 53.
         for _ in 0..53 {
             let excess = self.hue_at(s) - hue_deg;
             if excess == 0.0 || excess.is_nan() {

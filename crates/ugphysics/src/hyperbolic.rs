@@ -1,10 +1,11 @@
-//! Motion with constant proper acceleration.
+//! Hyperbolic motion: constant proper acceleration.
 
 use glam::DVec3;
 
 use crate::{Event, Velocity, VelocityError};
 
-/// A body that feels one acceleration all the time. It is at rest at the event 0, with its clock at 0.  Eq. (P32)
+/// A body with constant proper acceleration. At event 0 it is at rest and its proper time is 0.
+/// Eq. (P32)
 ///
 /// ```
 /// use glam::DVec3;
@@ -18,12 +19,14 @@ use crate::{Event, Velocity, VelocityError};
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hyperbolic {
-    /// Proper acceleration a, a vector; its length times a time is a rapidity.
+    /// Proper acceleration **a**, in units of c per unit of time: |**a**| times a proper time is a
+    /// rapidity.
     pub acceleration: DVec3,
 }
 
 impl Hyperbolic {
-    /// Where it is when its own clock shows `proper_time`: t = sinh(aτ)/a, x = (cosh(aτ) − 1)/a.
+    /// The body's event at proper time τ = `proper_time`: t = sinh(aτ)/a, x = (cosh(aτ) − 1)/a.
+    /// Eq. (P32)
     #[must_use]
     pub fn event(&self, proper_time: f64) -> Event {
         let a = self.acceleration.length();
@@ -31,23 +34,27 @@ impl Hyperbolic {
             return Event { t: proper_time, x: DVec3::ZERO };
         }
         let half = libm::sinh(0.5 * a * proper_time);
-        // cosh − 1 = 2 sinh² of the half, which does not cancel.
+        // cosh(aτ) − 1 = 2 sinh²(aτ/2), which does not cancel.
         Event { t: libm::sinh(a * proper_time) / a, x: self.acceleration * (2.0 * half * half / (a * a)) }
     }
 
-    /// Its velocity then: the rapidity is aτ.
+    /// The body's velocity at proper time τ = `proper_time`: its rapidity is aτ.  Eq. (P32)
     ///
     /// # Errors
-    /// [`VelocityError::RapidityTooLarge`] above [`Velocity::MAX_RAPIDITY`]; [`VelocityError::NotFinite`].
+    /// [`VelocityError::RapidityTooLarge`] if |aτ| is above [`Velocity::MAX_RAPIDITY`];
+    /// [`VelocityError::NotFinite`] if aτ is NaN or infinite.
     pub fn velocity(&self, proper_time: f64) -> Result<Velocity, VelocityError> {
         Velocity::from_rapidity(self.acceleration, self.acceleration.length() * proper_time)
     }
 
-    /// The proper time it takes, from rest, to come as far as `distance` ≥ 0: aτ = acosh(1 + a x).
+    /// The proper time from rest until the body has travelled x = `distance` ≥ 0: aτ = acosh(1 + a
+    /// x).  Eq. (P32)
+    ///
+    /// The acceleration must not be 0; without one the result is NaN or infinite.
     #[must_use]
     pub fn proper_time_to(&self, distance: f64) -> f64 {
         let a = self.acceleration.length();
-        // acosh(1 + s) as 2 asinh √(s/2), good for small s too.
+        // acosh(1 + s) = 2 asinh √(s/2), which is accurate for small s too.
         2.0 * libm::asinh((0.5 * a * distance).sqrt()) / a
     }
 }

@@ -1,35 +1,42 @@
 //! Special relativity and colour physics as pure functions.
 //!
-//! What does a body look like that moves at nearly the speed of light? Three things happen on the way from
-//! the body to a picture, and each is one function here:
+//! What does a body look like that moves at nearly the speed of light? Three effects act between
+//! the body and the picture, and each is one function here:
 //!
-//! * **where** it is seen ([`seen_position`]): light from its far parts left earlier, when the body was
-//!   elsewhere. Contraction and time of flight together are one boost of the event that sent the light;
-//! * **in which colour** ([`doppler_factor`], [`wavelength_to_hue`]): every frequency is multiplied by D;
-//! * **how bright** ([`Brightness`]): by a power of D that depends on what "bright" means.
+//! * **where** it is seen ([`seen_position`]): light from its far parts left earlier, when the body
+//!   was elsewhere. Length contraction and light travel time together are one Lorentz boost of the
+//!   emission event;
+//! * **in which colour** ([`doppler_factor`], [`wavelength_to_hue`]): every frequency is multiplied
+//!   by D;
+//! * **how bright** ([`Brightness`]): radiance is multiplied by a power of D, which depends on the
+//!   quantity that brightness stands for.
 //!
-//! Before that, light fell on the body, perhaps from a source that moves against it ([`illumination`]).
+//! Before that, light fell on the body, possibly from a source that moves relative to it
+//! ([`illumination`]).
 //!
 //! # Conventions
 //!
-//! c = 1: speeds are fractions of that of light, and times and lengths share a unit. The eye rests at the
-//! origin of the camera frame S and takes its picture at t = 0. A body rests in its own frame S', which moves
-//! with velocity **v** in S; axes are parallel and the origins meet at t = t' = 0. Every coordinate handed to
-//! this crate is relative to the eye. Wavelengths are in nanometres, hues in degrees. Equation numbers like
-//! (P3) are those of `docs/physics.md`, which derives them.
+//! c = 1: speeds are fractions of the speed of light, and times and lengths share a unit. The eye
+//! rests at the origin of the camera frame S and takes its picture at t = 0. A body rests in its
+//! own frame S', which moves with velocity **v** in S; the axes are parallel and the origins
+//! coincide at t = t' = 0. Every coordinate passed to this crate is relative to the eye.
+//! Wavelengths are in nanometres, hues in degrees. Equation numbers like (P3) are those of
+//! `docs/physics.md`, which derives them.
 //!
 //! # Guarantees
 //!
-//! * A [`Velocity`] is below that of light; its constructors decide that exactly, and keep γ.
-//! * Nothing here panics, prints, or holds state. Finite input gives finite output as long as the true value
-//!   is one; NaN gives NaN.
-//! * No formula loses digits near the speed of light or near rest, and none changes form at a small speed:
-//!   at rest the general formulas are the identity.
-//! * The same input gives the same bits on every platform: transcendental functions come from `libm`.
+//! * A [`Velocity`] is below the speed of light. Its constructors check this exactly and store γ.
+//! * Nothing here panics, prints, or holds state. Finite input gives finite output wherever the
+//!   true value is finite; NaN gives NaN.
+//! * No formula loses digits near the speed of light or near rest, and none switches to an
+//!   approximation at small speeds: at rest the general formulas are the identity.
+//! * The same input gives the same bits on every platform: transcendental functions come from
+//!   `libm`.
 //!
 //! # Example
 //!
-//! A green point, four units ahead and one to the side, comes towards the eye at a tenth of the speed of light:
+//! A green point, four units ahead and one to the side, comes towards the eye at a tenth of the
+//! speed of light:
 //!
 //! ```
 //! use glam::DVec3;

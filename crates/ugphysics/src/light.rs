@@ -1,26 +1,29 @@
-//! Where a moving point is seen: contraction, time of flight, and both in one boost.
+//! Where a moving point is seen: length contraction, light travel time, and both in one boost.
 //!
-//! All coordinates are relative to the eye. p' are rest coordinates, in the frame S' of the body; p are
-//! coordinates in the camera frame S. The picture is taken at t = 0; the origins coincide at t = t' = 0.
-//! Nothing here fails: the zero vector is seen at zero, and a point that is not finite gives one that is not.
+//! All coordinates are relative to the eye. p' are rest coordinates, in the frame S' of the body; p
+//! are coordinates in the camera frame S. The picture is taken at t = 0; the origins coincide at
+//! t = t' = 0. Nothing here fails: the zero vector is seen at zero, and a NaN or infinite point
+//! gives a NaN or infinite one.
 
 use glam::DVec3;
 
 use crate::Velocity;
 use crate::exact::{mul_add, power_of_two_below};
 
-/// A point of spacetime; time and lengths share one unit (c = 1).
+/// An event: a point of spacetime. Time and lengths share one unit (c = 1).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Event {
     /// Time.
     pub t: f64,
-    /// Place, relative to the eye.
+    /// Position, relative to the eye.
     pub x: DVec3,
 }
 
-/// Where the body's point is in S at t = 0, before light has told: p₀ = p' − (1 − 1/γ)(p'·û)û.  Eq. (P1)
+/// Where the body's point is in S at t = 0, regardless of light travel time: p₀ = p' − (1 −
+/// 1/γ)(p'·û)û.  Eq. (P1)
 ///
-/// Lengths along the motion shrink by 1/γ, with respect to the eye.
+/// Lengths along the motion shrink by 1/γ; the eye (the origin) is the fixed point of the
+/// contraction.
 ///
 /// ```
 /// use glam::DVec3;
@@ -37,17 +40,17 @@ pub fn contracted(p_rest: DVec3, v: Velocity) -> DVec3 {
     mul_add(part.along / v.gamma(), v.direction(), part.across) * scale
 }
 
-/// The (negative) time w at which a point, now at `p_now` and moving with `v`, sent the light that reaches
-/// the eye now: |p_now + w**v**| = −w.  Eq. (P2)
+/// The (negative) time w at which a point, now at p₀ = `p_now` and moving with `v`, emitted the
+/// light that reaches the eye now: |p₀ + w**v**| = −w.  Eq. (P2)
 ///
-/// With b = p₀·**u**, (P2) is w = γ(b − √(b² + p₀²)); for b > 0 it is taken as −γp₀²/(b + √(b² + p₀²)), which
-/// does not cancel.
+/// With b = p₀·**u**, (P2) is w = γ(b − √(b² + p₀²)). For b > 0 it is computed as −γp₀²/(b + √(b² +
+/// p₀²)), which does not cancel.
 ///
 /// ```
 /// use glam::DVec3;
 /// use ugphysics::{Velocity, flight_time};
 ///
-/// // Coming at 0.75 c and now at distance 1: it is seen where it was, at distance 4.
+/// // Approaching at 0.75 c and now at distance 1: it is seen at distance 4, where it was.
 /// let v = Velocity::from_beta(DVec3::new(0.75, 0.0, 0.0))?;
 /// assert!((flight_time(DVec3::new(-1.0, 0.0, 0.0), v) + 4.0).abs() < 1e-14);
 /// # Ok::<(), ugphysics::VelocityError>(())
@@ -63,12 +66,12 @@ pub fn flight_time(p_now: DVec3, v: Velocity) -> f64 {
     v.gamma() * w * scale
 }
 
-/// The event, in S, at which the point at rest at `p_rest` in S' sent the light that reaches the eye at
-/// t = 0: the boost of (−|p'|, p').  Eq. (P3)
+/// The emission event, in S, of the light that reaches the eye at t = 0 from the point at rest at
+/// p' = `p_rest` in S': the boost of (−|p'|, p').  Eq. (P3)
 ///
-/// With a = p'·û, q the part of p' across û and r = |p'|, the parts along and across are
-/// γa − |u|r and q, and t = |u|a − γr = −|p|. For a > 0 both cancel near the speed of light, so they are taken with
-/// r − a = q²/(r + a) and e^{−η} = γ − |u| = 1/(γ + |u|):
+/// With a = p'·û, q the part of p' across û and r = |p'|, the parts along and across are γa − |u|r
+/// and q, and t = |u|a − γr = −|p|. For a > 0 both cancel near the speed of light, so they are
+/// rewritten with r − a = q²/(r + a) and e^{−η} = γ − |u| = 1/(γ + |u|):
 ///
 /// * along: a e^{−η} − |u| q²/(r + a)
 /// * −t:    a e^{−η} + γ q²/(r + a)
@@ -79,7 +82,7 @@ pub fn flight_time(p_now: DVec3, v: Velocity) -> f64 {
 /// use glam::DVec3;
 /// use ugphysics::{Velocity, seen_event};
 ///
-/// // Abreast of the eye in its own frame; seen where it was, γβ behind, γ ago.
+/// // Abeam of the eye in its own rest frame; seen γβ further back, as it was a time γ ago.
 /// let v = Velocity::from_beta(DVec3::new(0.6, 0.0, 0.0))?;
 /// let seen = seen_event(DVec3::new(0.0, 1.0, 0.0), v);
 /// assert_eq!(seen.x, DVec3::new(-0.75, 1.0, 0.0));
@@ -103,15 +106,15 @@ pub fn seen_event(p_rest: DVec3, v: Velocity) -> Event {
     Event { t: t * scale, x: mul_add(along, v.direction(), part.across) * scale }
 }
 
-/// Where the point at rest at `p_rest` in S' is seen in S, relative to the eye: the place of
+/// Where the point at rest at `p_rest` in S' is seen in S, relative to the eye: the position of
 /// [`seen_event`].  Eq. (P3)
 #[must_use]
 pub fn seen_position(p_rest: DVec3, v: Velocity) -> DVec3 {
     seen_event(p_rest, v).x
 }
 
-/// The rest coordinates in S' of the point seen at `p_seen` in S: the inverse of [`seen_position`], which is
-/// the same boost with −v.  Eq. (P4)
+/// The rest coordinates in S' of the point seen at `p_seen` in S. The inverse of [`seen_position`],
+/// which is the same boost with −v.  Eq. (P4)
 ///
 /// ```
 /// use glam::DVec3;
@@ -128,11 +131,11 @@ pub fn rest_position(p_seen: DVec3, v: Velocity) -> DVec3 {
     seen_position(p_seen, -v)
 }
 
-/// What to add to rest coordinates when the picture is taken at time `t_observer` instead of 0: γ**v**t_o.
-/// Eq. (P5)
+/// The offset of rest coordinates when the picture is taken at time t_o = `t_observer` instead of
+/// 0: γ**v**t_o.  Eq. (P5)
 ///
-/// At that moment the eye, at rest in S, is at −γ**v**t_o in S'. Rest coordinates relative to it go through
-/// (P3) as before.
+/// At that moment the eye, at rest in S, is at −γ**v**t_o in S'. Rest coordinates relative to it go
+/// through (P3) as before.
 #[must_use]
 pub fn observer_shift(v: Velocity, t_observer: f64) -> DVec3 {
     v.proper() * t_observer

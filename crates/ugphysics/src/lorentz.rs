@@ -1,4 +1,4 @@
-//! Changes of frame as 4×4 matrices, and the composition of velocities.
+//! Lorentz transformations as 4×4 matrices, and the composition of velocities.
 
 use core::ops::Mul;
 
@@ -6,20 +6,22 @@ use glam::{DMat4, DQuat, DVec3, DVec4, Vec4Swizzles};
 
 use crate::{Event, Velocity, VelocityError};
 
-/// A linear change of frame that keeps the light cone: boosts, rotations, and their products.  Eq. (P7)
+/// A Lorentz transformation: a linear change of frame that preserves the light cone, such as
+/// boosts, rotations, and their products.  Eq. (P7)
 ///
-/// The matrix acts on columns (t, x, y, z) and gives target from source coordinates, so `a * b` applies `b`
-/// first. Two boosts that are not parallel multiply to a boost and a rotation; that is why several bodies
-/// and a moving camera are composed with matrices and not by adding velocities.
+/// The matrix acts on columns (t, x, y, z) and gives target from source coordinates, so `a * b`
+/// applies `b` first. The product of two boosts that are not parallel is a boost and a rotation.
+/// That is why several bodies and a moving camera cannot be combined by composing velocities alone.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lorentz(DMat4);
 
 impl Lorentz {
-    /// No change.
+    /// The identity.
     pub const IDENTITY: Lorentz = Lorentz(DMat4::IDENTITY);
 
-    /// From the frame that moves with `v`, axes parallel, to the frame in which `v` is measured: S from S'.
-    /// What rests in the source moves with `v` in the target.
+    /// The boost from the frame that moves with `v`, axes parallel, to the frame in which `v` is
+    /// measured: S from S'. A body at rest in the source frame moves with `v` in the target frame.
+    /// Eq. (P7)
     ///
     /// ```
     /// use glam::DVec3;
@@ -43,13 +45,14 @@ impl Lorentz {
         ))
     }
 
-    /// This change, and `next` after it.
+    /// This transformation, followed by `next`.
     #[must_use]
     pub fn then(self, next: Lorentz) -> Lorentz {
         next * self
     }
 
-    /// The change back: the transpose with the signs of the mixed terms turned, exact to the bit.
+    /// The inverse transformation: the transpose with the signs of the time-space terms flipped,
+    /// without any rounding.
     #[must_use]
     pub fn inverse(self) -> Lorentz {
         let metric = DMat4::from_diagonal(DVec4::new(-1.0, 1.0, 1.0, 1.0));
@@ -63,10 +66,11 @@ impl Lorentz {
         Event { t: moved.x, x: moved.yzw() }
     }
 
-    /// The velocity, in the target frame, of what rests in the source frame.
+    /// The velocity, in the target frame, of a body at rest in the source frame.
     ///
     /// # Errors
-    /// When the product of several boosts passed [`Velocity::MAX_RAPIDITY`] or overflowed.
+    /// [`VelocityError`] if the product of several boosts exceeds [`Velocity::MAX_RAPIDITY`] or
+    /// overflowed.
     pub fn velocity_of_frame(self) -> Result<Velocity, VelocityError> {
         Velocity::from_proper(self.0.x_axis.yzw())
     }
@@ -87,12 +91,13 @@ impl Mul for Lorentz {
     }
 }
 
-/// The velocity in S of what moves with `u` in a frame that moves with `v` in S: the relativistic sum.
-/// Eq. (P15), with −v in place of v
+/// The velocity in S of a body that moves with `u` in a frame that moves with `v` in S: the
+/// relativistic sum.  Eq. (P15), with −v in place of v
 ///
-/// `compose(u, -v)` is the velocity of a body moving with `u` in S as found in the frame moving with `v`,
-/// which is (P15) as it stands. The order matters: `compose(u, v)` and `compose(v, u)` have the same
-/// speed and differ in direction by the Wigner rotation. A sum above [`Velocity::MAX_RAPIDITY`] stops there.
+/// `compose(u, -v)` is the velocity of a body moving with `u` in S as found in the frame moving
+/// with `v`, which is (P15) as it stands. The order matters: `compose(u, v)` and `compose(v, u)`
+/// have the same speed and differ in direction by the Wigner rotation. A sum above
+/// [`Velocity::MAX_RAPIDITY`] is limited to it.
 ///
 /// ```
 /// use glam::DVec3;
@@ -107,8 +112,8 @@ pub fn compose(u: Velocity, v: Velocity) -> Velocity {
     let part = v.split(u.proper());
     let (object, frame) = (part.along, v.proper_speed());
     let along = if object < 0.0 {
-        // Opposite motions cancel. The same difference as a quotient of squares, with γ² = 1 + u² put in by
-        // hand, does not.
+        // For opposite motions the sum cancels. Rewritten as a quotient with a difference of
+        // squares, using γ² = 1 + u², it does not.
         let difference = (frame - object.abs()) * (frame + object.abs());
         let transverse = frame * frame * part.across.length_squared();
         (difference + transverse) / (frame * u.gamma() - v.gamma() * object)
@@ -116,7 +121,8 @@ pub fn compose(u: Velocity, v: Velocity) -> Velocity {
         frame * u.gamma() + v.gamma() * object
     };
     let proper = part.across + along * v.direction();
-    // Both γ are bounded, so the sum is finite and can only be too fast; then its direction is not zero.
+    // Both γ are bounded, so the sum is finite. The only possible error is a rapidity above the
+    // limit, and then the direction is not zero.
     Velocity::from_proper(proper)
         .or_else(|_| Velocity::from_rapidity(proper, Velocity::MAX_RAPIDITY))
         .unwrap_or_default()
@@ -124,12 +130,12 @@ pub fn compose(u: Velocity, v: Velocity) -> Velocity {
 
 /// The Wigner rotation W of two motions: Λ(v)Λ(u) = Λ(w)W with w = [`compose`]`(u, v)`.  Eq. (P25)
 ///
-/// It turns the axes of a body that moves with `u` in a frame that moves with `v` in S, both boosts with
-/// parallel axes, into the axes a single boost with w would give it. The rotation back is
-/// `wigner_rotation(v, u)`, and also `wigner_rotation(w, -v)`.
+/// It rotates the axes of a body that moves with `u` in a frame that moves with `v` in S (both
+/// boosts with parallel axes) into the axes that a single boost with w would give it. The inverse
+/// rotation is `wigner_rotation(v, u)`, and also `wigner_rotation(w, -v)`.
 ///
-/// Angles are right to about 10⁻¹⁶ divided by 1 + b·b', (P25): a few units in the last place unless nearly
-/// opposite motions are both close to the speed of light.
+/// The error of the angle is about 10⁻¹⁶/(1 + b·b') (P25): a few units in the last place, unless
+/// both motions are close to the speed of light and nearly opposite.
 ///
 /// ```
 /// use glam::DVec3;
@@ -144,8 +150,8 @@ pub fn compose(u: Velocity, v: Velocity) -> Velocity {
 /// ```
 #[must_use]
 pub fn wigner_rotation(u: Velocity, v: Velocity) -> DQuat {
-    // The sum of the directions is exact where they are nearly opposite, and there their cross product and
-    // 1 + cos φ must not come from a difference of rounded products.
+    // For nearly opposite directions the sum is exact. The cross product and 1 + cos φ are computed
+    // from it, since differences of rounded products would cancel there.
     let sum = u.direction() + v.direction();
     let cross = sum.cross(v.direction());
     let (b, gap) = half_speed(u);
@@ -159,7 +165,7 @@ pub fn wigner_rotation(u: Velocity, v: Velocity) -> DQuat {
     DQuat::from_xyzw(axis.x, axis.y, axis.z, real).normalize()
 }
 
-/// tanh η/2 = |u|/(γ+1), and what it lacks of 1: (1 + e^{−η})/(γ+1).
+/// (tanh η/2, 1 − tanh η/2) = (|u|/(γ+1), (1 + e^{−η})/(γ+1)).
 fn half_speed(v: Velocity) -> (f64, f64) {
     let per = 1.0 / (v.gamma() + 1.0);
     (v.proper_speed() * per, (1.0 + v.exp_minus_rapidity()) * per)

@@ -1,13 +1,13 @@
-//! Moving lamps.
+//! Irradiance from a moving lamp.
 
 use core::f64::consts::PI;
 
-/// The energy per area and time that a small lamp, which sends `power` evenly into all directions of its own frame, gives a
-/// surface that faces it: P D⁴/(4π r²).  Eq. (P33)
+/// Irradiance (power per area) on a surface that faces a small lamp of power P = `power`, isotropic
+/// in its own frame: P D⁴/(4π r²).  Eq. (P33)
 ///
-/// `distance` is r, from the surface to where the lamp is *seen*, in the frame of the surface; `doppler` is D of that light.
-/// Where r' = r/D, the same distance in the lamp's frame, is known instead, D² takes the place of D⁴. Per unit of
-/// wavelength both have one D more, as in (P12).
+/// `distance` is r, from the surface to where the lamp is *seen*, in the frame of the surface;
+/// `doppler` is D of that light. In terms of r' = r/D, the same distance in the lamp's frame, it is
+/// P D²/(4π r'²). Per unit of wavelength both have one more factor D, as in (P12).
 ///
 /// ```
 /// use ugphysics::irradiance;

@@ -1,4 +1,4 @@
-//! A velocity below that of light, held so that nothing is lost near it.
+//! A velocity below the speed of light, stored without loss of precision near it.
 
 use core::fmt;
 use core::ops::Neg;
@@ -9,10 +9,9 @@ use crate::exact::{mul_add, one_minus_square, power_of_two_below};
 
 /// A velocity in the camera frame S, as a fraction of the speed of light, below 1 by construction.
 ///
-/// γ and the proper velocity **u** = γ**β** are computed once, from the numbers given and with the rounding
-/// of 1 − β² kept, so they are right to a few units in the last place at every speed. The direction is kept
-/// as it was given, which keeps every formula built on it well conditioned: a direction rounded once more
-/// would cost a factor γ in the pictures of fast bodies.
+/// γ and the proper velocity **u** = γ**β** are computed once, from the unrounded 1 − β², so they
+/// are right to a few units in the last place at every speed. The direction is stored exactly as
+/// given. A rounded direction would magnify errors by a factor γ in the positions of fast bodies.
 ///
 /// ```
 /// use glam::DVec3;
@@ -25,7 +24,8 @@ use crate::exact::{mul_add, one_minus_square, power_of_two_below};
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Velocity {
-    /// Exactly parallel to the velocity: the vector given, times a power of two that brings it near length 1.
+    /// Exactly parallel to the velocity: the given vector times a power of two that brings its
+    /// length near 1.
     axis: DVec3,
     /// û, the unit vector of `axis`.
     direction: DVec3,
@@ -40,15 +40,16 @@ impl Velocity {
     pub const ZERO: Velocity =
         Velocity { axis: DVec3::X, direction: DVec3::X, beta: DVec3::ZERO, gamma: 1.0, proper_speed: 0.0 };
 
-    /// The largest rapidity accepted: 1 − β is about 10⁻⁸⁷ there. The bound keeps products of several γ finite.
+    /// The largest accepted rapidity, at which 1 − β is about 10⁻⁸⁷. The bound keeps products of
+    /// several γ finite.
     pub const MAX_RAPIDITY: f64 = 100.0;
 
     /// The velocity **β**, in fractions of the speed of light.
     ///
-    /// Whether |**β**| < 1 is decided on the exact sum of the squares.
+    /// |**β**| < 1 is checked on the exact sum of the squares.
     ///
     /// # Errors
-    /// [`VelocityError::NotFinite`], or [`VelocityError::NotBelowLight`] when |**β**| ≥ 1.
+    /// [`VelocityError::NotFinite`], or [`VelocityError::NotBelowLight`] if |**β**| ≥ 1.
     ///
     /// ```
     /// use glam::DVec3;
@@ -80,11 +81,11 @@ impl Velocity {
         Ok(Velocity { axis, direction: axis / length, beta, gamma, proper_speed: gamma * speed })
     }
 
-    /// The velocity of rapidity η (β = tanh η) along `direction`, a vector of any length. A negative rapidity
-    /// moves the other way; rapidity 0 needs no direction.
+    /// The velocity of rapidity η (β = tanh η) along `direction`, a vector of any length. A
+    /// negative rapidity reverses the direction; rapidity 0 needs no direction.
     ///
-    /// The way to speeds that β cannot say: 1 − β = 10⁻¹² is η = ½ ln((2 − 10⁻¹²)/10⁻¹²), exactly as good as
-    /// any other number.
+    /// Rapidity can express speeds too close to 1 for β to represent: 1 − β = 10⁻¹² is η = ½ ln((2
+    /// − 10⁻¹²)/10⁻¹²), with full precision.
     ///
     /// # Errors
     /// [`VelocityError::NotFinite`], [`VelocityError::NoDirection`], or
@@ -111,8 +112,8 @@ impl Velocity {
         Velocity::along(direction, libm::cosh(rapidity), libm::sinh(rapidity.abs()))
     }
 
-    /// The velocity with Lorentz factor γ ≥ 1 along `direction`, a vector of any length. γ = 1 is at rest and
-    /// needs no direction.
+    /// The velocity with Lorentz factor γ ≥ 1 along `direction`, a vector of any length. γ = 1 is
+    /// at rest and needs no direction.
     ///
     /// # Errors
     /// [`VelocityError::NotFinite`], [`VelocityError::NoDirection`],
@@ -156,7 +157,7 @@ impl Velocity {
         Velocity::along(proper, (1.0 + proper_speed * proper_speed).sqrt(), proper_speed)
     }
 
-    /// A consistent pair (γ, |u|) put along `direction`, whose length does not matter.
+    /// The velocity with the consistent pair (γ, |u|) along `direction`, a vector of any length.
     fn along(direction: DVec3, gamma: f64, proper_speed: f64) -> Result<Velocity, VelocityError> {
         if !direction.is_finite() {
             return Err(VelocityError::NotFinite);
@@ -172,15 +173,15 @@ impl Velocity {
         Ok(Velocity { axis, direction, beta: direction * (proper_speed / gamma), gamma, proper_speed })
     }
 
-    /// **β**, the velocity in fractions of the speed of light; exactly the vector given to
+    /// **β**, the velocity in fractions of the speed of light; exactly the vector passed to
     /// [`Velocity::from_beta`].
     #[must_use]
     pub fn beta(self) -> DVec3 {
         self.beta
     }
 
-    /// β = |**β**|. Rounds to 1 above rapidity 19; [`Velocity::gamma`] and [`Velocity::rapidity`] do not
-    /// saturate.
+    /// β = |**β**|. Rounds to 1 above rapidity 19; [`Velocity::gamma`] and [`Velocity::rapidity`]
+    /// do not saturate.
     #[must_use]
     pub fn speed(self) -> f64 {
         self.proper_speed / self.gamma
@@ -210,13 +211,13 @@ impl Velocity {
         libm::asinh(self.proper_speed)
     }
 
-    /// û, the unit vector of the motion; +x when at rest.
+    /// û, the unit vector along the motion; +x at rest.
     #[must_use]
     pub fn direction(self) -> DVec3 {
         self.direction
     }
 
-    /// Is this the velocity 0, exactly?
+    /// Whether the velocity is exactly 0.
     #[must_use]
     pub fn is_zero(self) -> bool {
         self.proper_speed == 0.0
@@ -227,16 +228,18 @@ impl Velocity {
         self.proper_speed * (self.proper_speed / (self.gamma + 1.0))
     }
 
-    /// e^{−η} = γ − |u|, without cancellation: the Doppler factor of a body straight behind its motion.
+    /// e^{−η} = γ − |u|, without cancellation: the Doppler factor of a body that moves straight
+    /// away.
     pub(crate) fn exp_minus_rapidity(self) -> f64 {
         1.0 / (self.gamma + self.proper_speed)
     }
 
-    /// The parts of `p` along and across the motion. `p` must be of a size whose squares are normal numbers.
+    /// The components of `p` along and across the motion. The squares of its coordinates must be
+    /// normal numbers.
     ///
-    /// The part across is right relative to its own length, however small against |p|: it is projected twice
-    /// ("twice is enough", Parlett 1980), against the direction as it was given. For a motion along a
-    /// coordinate axis the other two coordinates pass through unchanged, to the bit.
+    /// The component across is accurate relative to its own length, however small that is compared
+    /// with |p|: it is projected twice ("twice is enough", Parlett 1980), along the direction as
+    /// given. For motion along a coordinate axis the other two coordinates keep their bits.
     pub(crate) fn split(self, p: DVec3) -> Split {
         let per_square = 1.0 / self.axis.length_squared();
         let first = mul_add(-p.dot(self.axis) * per_square, self.axis, p);
@@ -245,7 +248,7 @@ impl Velocity {
     }
 }
 
-/// A vector taken apart by a motion.
+/// A vector decomposed along and across a motion.
 pub(crate) struct Split {
     /// p·û.
     pub(crate) along: f64,
@@ -262,7 +265,7 @@ impl Default for Velocity {
 impl Neg for Velocity {
     type Output = Velocity;
 
-    /// The same speed the other way.
+    /// The opposite velocity, of the same speed.
     fn neg(self) -> Velocity {
         if self.is_zero() {
             return self;
@@ -271,26 +274,26 @@ impl Neg for Velocity {
     }
 }
 
-/// Why numbers are not a velocity.
+/// Why a velocity is invalid.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum VelocityError {
     /// A component, a direction, a rapidity or a γ is NaN or infinite.
     NotFinite,
-    /// The speed is that of light or above.
+    /// The speed is not below the speed of light.
     NotBelowLight {
-        /// The speed given, at least 1.
+        /// The given speed, at least 1.
         speed: f64,
     },
     /// The direction is the zero vector, and the speed is not 0.
     NoDirection,
     /// γ is below 1.
     GammaBelowOne {
-        /// The γ given.
+        /// The given γ.
         gamma: f64,
     },
     /// The rapidity is above [`Velocity::MAX_RAPIDITY`] in absolute value.
     RapidityTooLarge {
-        /// The rapidity given, or that of the γ given.
+        /// The given rapidity, or the rapidity of the given γ.
         rapidity: f64,
     },
 }
@@ -299,14 +302,14 @@ impl fmt::Display for VelocityError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             VelocityError::NotFinite => {
-                write!(f, "velocity is not finite: its numbers must not be infinite or NaN")
+                write!(f, "velocity is not finite: its components must not be infinite or NaN")
             }
             VelocityError::NotBelowLight { speed } => write!(
                 f,
                 "speed is {speed} c: it must be below 1 (velocities are fractions of the speed of light)"
             ),
             VelocityError::NoDirection => {
-                write!(f, "direction is the zero vector: give one that is not, or speed 0")
+                write!(f, "direction is the zero vector: give a nonzero direction, or speed 0")
             }
             VelocityError::GammaBelowOne { gamma } => {
                 write!(f, "gamma is {gamma}: it must be 1 (at rest) or above")

@@ -1,29 +1,31 @@
-//! Light at a place: its frequency and where it runs, from frame to frame, off mirrors and through glass.
+//! Relativistic optics: a light wave in another frame, and its reflection and refraction at moving
+//! surfaces.
 
 use glam::DVec3;
 
 use crate::{Event, Velocity, aberrate, compose, doppler_factor};
 
-/// Light at an event: its frequency, in any unit, and the unit vector along its motion.
+/// A plane light wave: its frequency, in any unit, and its direction of propagation.
 ///
-/// A viewing direction points the other way. In spacetime it is the null vector f(1, n), and a change of frame is the
-/// boost of that; [`Wave::in_frame`] computes it as (P6) and (P10) do, which lose no digits.
+/// A viewing direction points the other way. The wave 4-vector is the null vector f(1, n), and a
+/// change of frame boosts it. [`Wave::in_frame`] computes the boost by (P6) and (P10), which lose
+/// no digits.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Wave {
-    /// Above 0.
+    /// Frequency f, above 0.
     pub frequency: f64,
-    /// n, a unit vector.
+    /// n, the unit vector along the light's motion.
     pub direction: DVec3,
 }
 
 impl Wave {
-    /// The same light as found in the frame that moves with `v`, axes parallel.  Eq. (P6), (P10)
+    /// The same light in the frame that moves with `v`, axes parallel.  Eq. (P6), (P10)
     ///
     /// ```
     /// use glam::DVec3;
     /// use ugphysics::{Velocity, Wave};
     ///
-    /// // Who runs ahead of light finds it red.
+    /// // An observer who moves away from the source sees its light redshifted.
     /// let light = Wave { frequency: 1.0, direction: DVec3::X };
     /// let v = Velocity::from_beta(DVec3::new(0.6, 0.0, 0.0))?;
     /// assert_eq!(light.in_frame(v), Wave { frequency: 0.5, direction: DVec3::X });
@@ -31,29 +33,30 @@ impl Wave {
     /// ```
     #[must_use]
     pub fn in_frame(self, v: Velocity) -> Wave {
-        // What a source at rest here sends, an observer with v in this frame receives with the D of −v: of that
-        // source as seen from there.
+        // For an observer with velocity v the source has velocity −v, so D is that of −v.
         let direction = -aberrate(-self.direction, v);
         Wave { frequency: self.frequency * doppler_factor(direction, -v), direction }
     }
 
-    /// The same light, given in the frame that moves with `v`, as found in the frame in which `v` is measured.
+    /// The inverse of [`Wave::in_frame`]: light given in the frame that moves with `v`, transformed
+    /// to the frame in which `v` is measured.  Eq. (P6), (P10)
     #[must_use]
     pub fn out_of_frame(self, v: Velocity) -> Wave {
         self.in_frame(-v)
     }
 }
 
-/// The light that a mirror throws back, from either side. The mirror moves with `v`; `rest_normal` is its normal in its own
-/// frame, of any length but 0.  Eq. (P23)
+/// The light reflected by a mirror, from either side. The mirror moves with `v`; `rest_normal` is
+/// its normal in its own frame, of any length but 0.  Eq. (P23)
 ///
-/// In the mirror's frame the part of the direction along the normal turns round, and the frequency stays.
+/// In the mirror's frame the component of the direction along the normal is reversed, and the
+/// frequency is unchanged.
 ///
 /// ```
 /// use glam::DVec3;
 /// use ugphysics::{Velocity, Wave, reflect};
 ///
-/// // A mirror coming at 0.5 c makes light three times as fast.
+/// // A mirror that approaches at 0.5 c triples the frequency.
 /// let light = Wave { frequency: 1.0, direction: DVec3::NEG_X };
 /// let v = Velocity::from_beta(DVec3::new(0.5, 0.0, 0.0))?;
 /// let back = reflect(light, DVec3::X, v);
@@ -67,11 +70,11 @@ pub fn reflect(light: Wave, rest_normal: DVec3, v: Velocity) -> Wave {
     Wave { direction: there.direction - push * rest_normal, ..there }.out_of_frame(v)
 }
 
-/// The direction of light behind a surface, in the surface's frame: Snell's law. None if all light is thrown back.
-/// Eq. (P23)
+/// The direction of refracted light, in the frame of the surface: Snell's law. `None` at total
+/// internal reflection.  Eq. (P23)
 ///
-/// `direction` is a unit vector along the light's motion, `normal` a unit vector on either side; `ratio` is the index of
-/// refraction before the surface over that behind it.
+/// `direction` is a unit vector along the light's motion, `normal` a unit vector on either side;
+/// `ratio` is n₁/n₂, the refractive index before the surface over the one behind it.
 ///
 /// ```
 /// use glam::DVec3;
@@ -88,14 +91,15 @@ pub fn refract(direction: DVec3, normal: DVec3, ratio: f64) -> Option<DVec3> {
     (cos_out_squared >= 0.0).then(|| sideways + cos_out_squared.sqrt().copysign(cos_in) * normal)
 }
 
-/// The velocity of light inside glass of an index of refraction above 1 that moves with `v`; `direction`, of any length
-/// but 0, is its direction in the glass's frame. None if the index is not above 1.  Eq. (P35)
+/// The velocity of light inside glass that moves with `v`. `index` is the refractive index, above
+/// 1; `direction`, of any length but 0, is the light's direction in the frame of the glass. `None`
+/// if `index` is not above 1, or if `direction` is not finite.  Eq. (P35)
 ///
 /// ```
 /// use glam::DVec3;
 /// use ugphysics::{Velocity, light_in_glass};
 ///
-/// // Fizeau's experiment: glass drags light along, but not by the whole of its speed.
+/// // Fizeau's experiment: moving glass drags light along, but only by part of its own speed.
 /// let v = Velocity::from_beta(DVec3::new(0.1, 0.0, 0.0))?;
 /// let light = light_in_glass(DVec3::X, 1.5, v).ok_or("no glass")?;
 /// assert!((light.speed() - 0.71875).abs() < 1e-15);
@@ -108,23 +112,24 @@ pub fn light_in_glass(direction: DVec3, index: f64, v: Velocity) -> Option<Veloc
     Some(compose(slower, v))
 }
 
-/// A plate of glass with parallel faces, in its own frame.
+/// A plate with parallel faces, of glass for example, in its own frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Slab {
-    /// Across its faces; a unit vector.
+    /// Unit normal of the faces.
     pub normal: DVec3,
     /// Above 0.
     pub thickness: f64,
-    /// Index of refraction, 1 or more.
+    /// Refractive index, 1 or more.
     pub index: f64,
 }
 
 impl Slab {
-    /// Where and when light that runs along `direction` and enters the slab at the event 0 leaves it. The slab moves with
-    /// `v`; direction and event are in the frame in which `v` is measured.  Eq. (P35)
+    /// The event at which light that travels along `direction` and enters the slab at event 0
+    /// leaves it. The slab moves with `v`; `direction`, a unit vector, and the event are in the
+    /// frame in which `v` is measured.  Eq. (P35)
     ///
-    /// Light leaves in the direction and with the frequency it came with. Light along the faces in the slab's frame never
-    /// leaves: its event is not finite.
+    /// Light leaves with the direction and frequency with which it entered. Light that travels
+    /// parallel to the faces in the slab's frame never leaves: the event is not finite.
     ///
     /// ```
     /// use glam::DVec3;
@@ -137,7 +142,7 @@ impl Slab {
     #[must_use]
     pub fn exit(&self, direction: DVec3, v: Velocity) -> Event {
         let there = Wave { frequency: 1.0, direction }.in_frame(v).direction;
-        // Into a denser medium light always enters.
+        // The index is at least 1, so there is no total internal reflection on entering.
         let inside = refract(there, self.normal, 1.0 / self.index).unwrap_or(there);
         let path = self.thickness / inside.dot(self.normal).abs();
         let leaves = Event { t: path * self.index, x: path * inside };

@@ -1,18 +1,20 @@
-//! Between CIE X, Y, Z and the red, green and blue of a screen.
+//! Conversion between CIE XYZ and linear sRGB.
 
-/// X, Y, Z of the white of the screen: CIE illuminant D65 weighed by the CIE 1931 observer, Y = 1.  Eq. (P19)
+/// X, Y, Z of the sRGB white point: CIE illuminant D65 weighted by the CIE 1931 observer,
+/// normalized to Y = 1.  Eq. (P19)
 ///
-/// By the tables at 1 nm; the standard rounds its chromaticity to four digits, and so Z to 1.089.
+/// Computed from the tables at 1 nm. The sRGB standard rounds the chromaticity to four digits,
+/// which gives Z = 1.089.
 pub const WHITE_XYZ: [f64; 3] = [0.9504693596190847, 1.0, 1.0888220674507918];
 
-/// Chromaticities x, y of the primaries (IEC 61966-2-1).
+/// Chromaticities x, y of the sRGB primaries (IEC 61966-2-1).
 const PRIMARIES: [[f64; 2]; 3] = [[0.64, 0.33], [0.30, 0.60], [0.15, 0.06]];
 
 const XYZ_FROM_RGB: [[f64; 3]; 3] = xyz_from_rgb();
 const RGB_FROM_XYZ: [[f64; 3]; 3] = inverse(XYZ_FROM_RGB);
 
-/// Linear red, green and blue with the sRGB primaries from X, Y, Z; the white of D65 is 1 1 1. A colour outside of the
-/// triangle of the primaries has a negative channel.  Eq. (P19)
+/// Linear sRGB from X, Y, Z; [`WHITE_XYZ`] gives 1, 1, 1. A colour outside the sRGB gamut has a
+/// negative channel.  Eq. (P19)
 ///
 /// ```
 /// let [red, green, blue] = ugphysics::xyz_to_linear_srgb(ugphysics::WHITE_XYZ);
@@ -23,7 +25,7 @@ pub fn xyz_to_linear_srgb(xyz: [f64; 3]) -> [f64; 3] {
     times(RGB_FROM_XYZ, xyz)
 }
 
-/// X, Y, Z of linear red, green and blue with the sRGB primaries: the inverse of [`xyz_to_linear_srgb`].  Eq. (P19)
+/// X, Y, Z from linear sRGB: the inverse of [`xyz_to_linear_srgb`].  Eq. (P19)
 ///
 /// ```
 /// let [_, luminance, _] = ugphysics::linear_srgb_to_xyz([0.0, 1.0, 0.0]);
@@ -42,7 +44,7 @@ const fn times(m: [[f64; 3]; 3], v: [f64; 3]) -> [f64; 3] {
     ]
 }
 
-/// Columns are the primaries, each as bright as makes their sum white.
+/// The columns are the X, Y, Z of the primaries, scaled so that their sum is the white point.
 const fn xyz_from_rgb() -> [[f64; 3]; 3] {
     let [[xr, yr], [xg, yg], [xb, yb]] = PRIMARIES;
     let columns = [

@@ -1,4 +1,4 @@
-//! Two hundred bits of everything: vectors, velocities and the formulas of the papers, written straight.
+//! 200-bit arithmetic: vectors, velocities and the formulas of the papers, written literally.
 
 use dashu_float::round::mode::HalfEven;
 use glam::DVec3;
@@ -8,7 +8,7 @@ pub type BigVector = [Big; 3];
 
 const PRECISION: usize = 200;
 
-/// Exactly `x`, ready for arithmetic at 200 bits.
+/// Exactly `x`, with 200 bits of precision.
 pub fn big(x: f64) -> Big {
     Big::try_from(x).expect("tests compute with finite numbers").with_precision(PRECISION).value()
 }
@@ -42,7 +42,7 @@ pub fn relative_vector_error(got: DVec3, want: &BigVector) -> f64 {
     (length(&difference) / length(want)).to_f64().value()
 }
 
-/// A velocity by its direction and β.
+/// A velocity, given by its direction and β.
 pub struct BigVelocity {
     pub axis: BigVector,
     pub beta: Big,

@@ -1,4 +1,4 @@
-//! The hue map, attenuation, and colour coding.
+//! The hue map, attenuation, and the sRGB transfer function.
 
 use proptest::prelude::*;
 use ugphysics::{
@@ -25,7 +25,8 @@ fn hue_spot_values() {
 
 #[test]
 fn slopes_at_the_control_points() {
-    // One-sided differences of second order, so a kink between two segments would show.
+    // One-sided differences of second order on both sides, which would reveal a kink between
+    // segments.
     for point in CONTROL_POINTS {
         let h = 1e-4;
         let hue = |steps: f64| wavelength_to_hue(point.wavelength_nm + steps * h);
@@ -116,7 +117,7 @@ fn srgb_published() {
     near("white", luminance([1.0; 3]), 1.0, 1e-15);
 }
 
-/// The chromaticities of IEC 61966-2-1, and that red, green and blue together are its white.
+/// The chromaticities of IEC 61966-2-1; red, green and blue together are its white point.
 #[test]
 fn primaries_have_their_published_chromaticities() {
     let rows = [
@@ -148,7 +149,7 @@ proptest! {
     #[test]
     fn hsv_and_rgb_are_inverse(hue in -59.999..300.0_f64, saturation in 0.01..1.0_f64, value in 0.01..5.0_f64) {
         let back = Hsv::from_rgb(Hsv { hue, saturation, value }.to_rgb());
-        // A weak colour says its hue less precisely, as 1/saturation.
+        // The error of the hue grows as 1/saturation.
         prop_assert!((back.hue - hue).abs() * saturation < 1e-12, "{back:?}");
         prop_assert!((back.saturation - saturation).abs() < 1e-14, "{back:?}");
         prop_assert_eq!(back.value, value);

@@ -14,7 +14,8 @@ fn light_on(p: DVec3, v: Velocity, light: DVec3, v_light: Velocity) -> Illuminat
     illumination(p, v, light, v_light).expect("the light is away from the surface")
 }
 
-/// Surface, its velocity, light, its velocity; across, along and against each other, slow and fast.
+/// Surface point, its velocity, light, its velocity: across, along and against each other, slow and
+/// fast.
 fn settings() -> Vec<(DVec3, Velocity, DVec3, Velocity)> {
     let points = [DVec3::new(3.0, 4.0, -1.0), DVec3::new(-2.0, 0.1, 7.0), DVec3::new(0.5, 9.0, 0.3)];
     let lights = [DVec3::new(0.0, 5.0, 5.0), DVec3::new(-40.0, 2.0, 1.0), DVec3::new(2.0, -3.0, -0.5)];
@@ -29,7 +30,7 @@ fn settings() -> Vec<(DVec3, Velocity, DVec3, Velocity)> {
     all
 }
 
-/// T25, by both of its forms: r is the distance at which a light coming head-on shone.
+/// T25, in both forms: r is the distance of a head-on light at emission.
 #[test]
 fn t25_irradiance_of_a_moving_lamp() {
     for (speed, power_per_area, doppler) in
@@ -61,7 +62,7 @@ fn t26_distances_differ_by_d() {
     }
 }
 
-/// A light that moves along is a light at rest.
+/// A light that moves with the surface acts like a light at rest.
 #[test]
 fn light_in_the_same_frame_is_static() {
     for (p, v, l, _) in settings() {
@@ -75,8 +76,8 @@ fn light_in_the_same_frame_is_static() {
     }
 }
 
-/// The event at which the light shone, by bisection along its worldline in the camera frame, and all that
-/// follows from 4×4 matrices.
+/// The emission event, found by bisection along the light's world line in the camera frame, and
+/// everything else from 4×4 matrices.
 #[test]
 fn a_slow_search_finds_the_same_event() {
     for (p, v, l, v_light) in settings() {
@@ -92,7 +93,8 @@ fn a_slow_search_finds_the_same_event() {
         let to_surface = Lorentz::boost(v).inverse();
         let (here, there) = (to_surface.apply(scatter), to_surface.apply(shone));
         let light = light_on(p, v, l, v_light);
-        // The search knows the event to 1e4 · 2⁻⁵³ · γ of its time, and boosts magnify it by γ².
+        // The bisection finds the time of the event to 1e4 · 2⁻⁵³ · γ, and boosts magnify that by
+        // γ².
         near_vector("light", light.toward * light.distance, there.x - here.x, 1e-8);
         // The photon's energy in a frame is −k·u.
         let k = scatter.x - shone.x;
@@ -101,7 +103,8 @@ fn a_slow_search_finds_the_same_event() {
     }
 }
 
-/// Seen from another frame, the same lights fall on the same surface: only its axes are turned.
+/// Computed from another camera frame, the light on a surface is the same: only the axes are
+/// rotated.
 #[test]
 fn any_camera_frame_gives_the_same_light() {
     let camera = beta(0.2, -0.5, 0.6);
@@ -116,8 +119,9 @@ fn any_camera_frame_gives_the_same_light() {
     }
 }
 
-/// What rests at `p` in the frame moving with `v`, described by a camera that moves with `camera` and meets the
-/// old one at t = 0: rest position and velocity there, and the turn of the rest frame's axes.
+/// A point at rest at `p` in the frame that moves with `v`, described by a camera that moves with
+/// `camera` and coincides with the first one at t = 0: its rest position and velocity there, and
+/// the rotation of the rest frame's axes.
 fn from_camera(p: DVec3, v: Velocity, camera: Velocity) -> (DVec3, Velocity, DMat3) {
     let change = Lorentz::boost(v).then(Lorentz::boost(camera).inverse());
     let turned = compose(v, -camera);
@@ -126,7 +130,7 @@ fn from_camera(p: DVec3, v: Velocity, camera: Velocity) -> (DVec3, Velocity, DMa
     (turn * p, turned, turn)
 }
 
-/// A directional light is a lamp far away.
+/// A directional light is the limit of a distant lamp.
 #[test]
 fn a_distant_lamp_is_a_directional_light() {
     for (p, v, l, v_light) in settings() {
@@ -138,14 +142,14 @@ fn a_distant_lamp_is_a_directional_light() {
     }
 }
 
-/// From afar, all is as if the surface were an eye: (P6) and (P10) of the relative velocity.
+/// For directional light the surface acts like an eye: (P6) and (P10) with the relative velocity.
 #[test]
 fn a_surface_finds_what_an_eye_there_would() {
     for direction in directions() {
         for v_light in [along_x(0.6), beta(0.3, -0.8, 0.2), beta(0.0, 0.0, 0.999)] {
             let light = illumination_from_afar(Velocity::ZERO, direction, v_light).expect("a direction");
             near("D", light.doppler, doppler_factor(-light.toward, v_light), 1e-12);
-            // And in the light's own frame the surface is what moves.
+            // The reverse transformation, in the frame of the light, where the surface moves.
             let back = illumination_from_afar(v_light, light.toward, Velocity::ZERO).expect("a direction");
             near("there and back", light.doppler * back.doppler, 1.0, 1e-12);
             near_vector("the same way", back.toward, direction, 1e-11);
@@ -153,12 +157,14 @@ fn a_surface_finds_what_an_eye_there_would() {
     }
 }
 
-/// The irradiance summed over a sphere round the place where a lamp shone: ∫E r² dΩ = P ⟨D⁴⟩ = P γ²(1 + β²/3) (T21).
+/// The irradiance summed over a sphere round the lamp's place at emission: ∫E r² dΩ = P ⟨D⁴⟩ = P
+/// γ²(1 + β²/3) (T21).
 #[test]
 fn power_through_a_sphere() {
     let speed = 0.8;
     let v_light = along_x(speed);
-    // Where the light shone: fixed at the origin of the surface's frame; surfaces all round at distance 1.
+    // The lamp emits at the origin of the surface's frame; surface points lie all round it at
+    // distance 1.
     let steps = 4000;
     let sum: f64 = (0..steps)
         .map(|step| {
@@ -183,12 +189,12 @@ fn extremes() {
         let behind = light_on(DVec3::ZERO, Velocity::ZERO, DVec3::X, fast(rapidity));
         near("D behind", behind.doppler * libm::exp(rapidity), 1.0, 1e-13);
     }
-    // A lamp just at the surface has no direction; nor has a directional light without one.
+    // A lamp at the surface point has no direction, nor has a directional light with a zero vector.
     let p = DVec3::new(1.0, 2.0, 3.0);
     assert_eq!(illumination(p, along_x(0.5), p, along_x(0.5)), None);
     assert_eq!(illumination(DVec3::ZERO, along_x(0.5), DVec3::ZERO, Velocity::ZERO), None);
     assert_eq!(illumination_from_afar(along_x(0.5), DVec3::ZERO, Velocity::ZERO), None);
-    // Lengths whose squares have no f64.
+    // Lengths whose squares overflow or underflow.
     for scale in [1e-200, 1e200] {
         let light = light_on(DVec3::ZERO, Velocity::ZERO, DVec3::Y * scale, along_x(0.9));
         near("D", light.doppler, 2.294_157_339, 1e-9);
@@ -204,7 +210,7 @@ fn a_sky_at_rest_is_ambient_light() {
     }
 }
 
-/// Levels and powers of a moving sky against a sum over its points, each a light from afar.
+/// Levels and powers of a moving sky against a sum over its points, each a directional light.
 #[test]
 fn a_moving_sky_is_many_lights() {
     let (n_rings, n_points) = (500, 100);

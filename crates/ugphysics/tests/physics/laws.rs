@@ -1,4 +1,4 @@
-//! Laws that must hold for every body, direction and speed.
+//! Laws that hold for every body, direction and speed, tested on random ones.
 
 use glam::{DMat3, DQuat, DVec3, Vec3Swizzles, Vec4Swizzles};
 use proptest::prelude::*;
@@ -37,12 +37,12 @@ fn rotations() -> impl Strategy<Value = DQuat> {
         .prop_map(|(axis, w)| DQuat::from_xyzw(axis.x, axis.y, axis.z, w).normalize())
 }
 
-/// Rounding, magnified by `factor`.
+/// A tolerance of a few roundings, magnified by `factor`.
 fn rounding(factor: f64) -> f64 {
     1e-15 * factor
 }
 
-/// Where a flash seen at `x` and sent at `t` is, as a distance from the light cone of the eye.
+/// The distance of the emission event (`t`, `x`) from the past light cone of the eye.
 fn off_light_cone(event: Event) -> f64 {
     (event.t + event.x.length()).abs() / event.x.length()
 }
@@ -97,7 +97,8 @@ proptest! {
         near("unit", aberrate(d, v).length(), 1.0, rounding(1.0));
     }
 
-    /// D is the energy of a photon in S that has energy 1 in S', and the ratio of the two distances.
+    /// D is the energy of a photon in S that has energy 1 in S', and the ratio of the two
+    /// distances.
     #[test]
     fn doppler_is_photon_energy(p in points(), v in velocities()) {
         let photon = Event { t: 1.0, x: -p.normalize() };
@@ -158,7 +159,8 @@ proptest! {
         prop_assert!((compose(compose(u, v), -v).beta() - ub).length() < 1e-13);
     }
 
-    /// The boosts are a group: identity, inverse, parallel ones add rapidities, and the light cone stays.
+    /// Boosts: identity and inverse, rapidities of parallel boosts add, and the light cone is
+    /// preserved.
     #[test]
     fn group_law(v in velocities(), rapidity in -3.0..3.0_f64, t in -5.0..5.0_f64, x in points()) {
         let event = Event { t, x };
@@ -180,8 +182,8 @@ proptest! {
         prop_assert!((interval(moved) - interval(event)).abs() <= tolerance * size);
     }
 
-    /// A camera that moves in some frame F sees what it sees, whichever frame it is computed in: the body's
-    /// rest axes are turned by the Wigner rotation, seen in F, and boosted back to the camera.
+    /// What a moving camera sees does not depend on the frame F of the computation: the body's rest
+    /// axes are rotated by the Wigner rotation, seen in F, and boosted back to the camera.
     #[test]
     fn picture_does_not_depend_on_the_frame(
         p in points(), u in velocities_up_to(1.5), camera in velocities_up_to(1.5),
@@ -190,7 +192,8 @@ proptest! {
         let in_frame = compose(u, camera);
         let wigner = Lorentz::boost(in_frame).inverse() * frame_from_body;
         let turned = wigner.apply(Event { t: 0.0, x: p });
-        // Five matrices, each of which magnifies rounding by its γ of up to 2.4, two of them by up to 10.
+        // Five matrices, each of which magnifies rounding by its γ of up to 2.4, two of them by up
+        // to 10.
         let tolerance = 1e-12;
         near("a rotation", turned.x.length() / p.length(), 1.0, tolerance);
         prop_assert!(turned.t.abs() <= tolerance * p.length());
@@ -209,17 +212,18 @@ proptest! {
         let want = Lorentz::boost(u).then(Lorentz::boost(v)).apply(event);
         let turned = Event { t, x: wigner_rotation(u, v) * p };
         let got = Lorentz::boost(compose(u, v)).apply(turned);
-        // γ of both is below 4, so numbers are up to 30 times as long as they were.
+        // Both γ are below 4, so components grow by up to a factor 30.
         let tolerance = rounding(30.0 * 4.0) * (p.length() + t.abs());
         prop_assert!((got.x - want.x).length() <= tolerance && (got.t - want.t).abs() <= tolerance);
     }
 
-    /// The same rotation from the composed motion, and back, at speeds where matrices lose all digits.
+    /// The same rotation from the composed velocity, and its inverse, at speeds where matrices lose
+    /// all digits.
     #[test]
     fn wigner_rotations_undo_each_other(u in velocities_up_to(12.0), v in velocities_up_to(12.0), d in unit_vectors()) {
         let turned = wigner_rotation(u, v) * d;
         near_vector("swapped", wigner_rotation(v, u) * turned, d, 1e-14);
-        // Taking v away again from a sum in which it hides u magnifies rounding.
+        // Subtracting v again from a sum dominated by it magnifies rounding.
         let w = compose(u, v);
         prop_assume!(w.gamma() * v.gamma() < 1e6 * u.gamma());
         near_vector("undone", wigner_rotation(w, -v) * turned, d, rounding(16.0) * w.gamma() * v.gamma());
@@ -243,7 +247,8 @@ proptest! {
         prop_assert_eq!(aberrate(p * scale, v), aberrate(p, v));
     }
 
-    /// (P5): the event seen at t_o is on the worldline of the point and on the light cone of the eye at t_o.
+    /// (P5): the event seen at t_o is on the worldline of the point and on the light cone of the
+    /// eye at t_o.
     #[test]
     fn a_later_picture_shows_the_same_worldline(p in points(), v in velocities(), t_o in -50.0..50.0_f64) {
         let seen = seen_event(p + observer_shift(v, t_o), v);
@@ -254,12 +259,12 @@ proptest! {
         prop_assert!((in_body.x - p).length() <= rounding(16.0) * size);
     }
 
-    /// Every sphere has a circle for an outline: its directions lie in a plane.
+    /// The outline of every sphere is a circle: its directions lie in a plane.
     #[test]
     fn sphere_outlines_are_circles(centre in unit_vectors(), sine in 0.01..0.99_f64, v in velocities()) {
         let outline = sphere_outline(centre, sine, v, 36);
         let (axis, radius_deg) = circle_through(&outline);
-        // A small circle says its plane less well.
+        // The plane of a small circle is less well determined.
         let tolerance = 5e-15 / libm::sin(radius_deg.to_radians());
         for d in outline {
             near("in the plane", d.dot(axis), libm::cos(radius_deg.to_radians()), tolerance);
@@ -267,8 +272,8 @@ proptest! {
     }
 }
 
-/// Directions in S of the outline of a sphere that, in its rest frame, is centred along `centre` with angular
-/// radius asin `sine`.
+/// Directions in S of the outline of a sphere that, in its rest frame, is centred along `centre`
+/// with angular radius asin `sine`.
 pub fn sphere_outline(centre: DVec3, sine: f64, v: Velocity, n_points: u32) -> Vec<DVec3> {
     let (side, up) = centre.any_orthonormal_pair();
     let cosine = (1.0 - sine * sine).sqrt();
@@ -279,8 +284,8 @@ pub fn sphere_outline(centre: DVec3, sine: f64, v: Velocity, n_points: u32) -> V
     rim.map(|d| aberrate(d, -v)).collect()
 }
 
-/// The axis and the angular radius in degrees of the circle through three directions, chosen far apart since
-/// aberration crowds them.
+/// The axis and the angular radius in degrees of the circle through three directions, chosen far
+/// apart since aberration crowds them.
 pub fn circle_through(directions: &[DVec3]) -> (DVec3, f64) {
     let furthest = |measure: &dyn Fn(DVec3) -> f64| {
         directions.iter().copied().max_by(|&p, &q| measure(p).total_cmp(&measure(q))).unwrap_or_default()
@@ -355,7 +360,7 @@ fn small_speeds_act_to_first_order() {
             }
         }
     }
-    // No threshold: the tiniest velocity still moves a point at the origin of its axis.
+    // There is no threshold: even the smallest velocity displaces a point abeam.
     assert_eq!(seen_position(DVec3::Y, along_x(1e-300)).x, -1e-300);
 }
 
@@ -394,7 +399,8 @@ fn averages_over_the_sky() {
     for speed in [0.0, 0.5, 0.9] {
         let v = along_x(speed);
         let gamma = v.gamma();
-        // D depends on cos θ alone, in which the sphere is uniform; Simpson's rule, error far below 10⁻¹¹.
+        // D depends on cos θ alone, and the sphere's area is uniform in cos θ. Simpson's rule,
+        // error far below 10⁻¹¹.
         let n_steps = 20_000_u32;
         let mean = |power: &dyn Fn(f64) -> f64| {
             let sum: f64 = (0..=n_steps)
@@ -449,7 +455,7 @@ fn composition_saturates_and_matrices_refuse() {
     let fast = Velocity::from_rapidity(DVec3::X, 90.0).unwrap();
     assert_eq!(compose(fast, fast).rapidity(), Velocity::MAX_RAPIDITY);
     assert!(Lorentz::boost(fast).then(Lorentz::boost(fast)).velocity_of_frame().is_err());
-    // Opposite motions near the speed of light leave what is left, to rounding.
+    // The sum of opposite motions near the speed of light is right to rounding.
     let slower = Velocity::from_rapidity(DVec3::NEG_X, 89.5).unwrap();
     near("90 − 89.5", compose(fast, slower).rapidity(), 0.5, 1e-12);
 }

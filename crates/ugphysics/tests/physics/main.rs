@@ -43,12 +43,13 @@ fn at_angle(angle_deg: f64) -> DVec3 {
     DVec3::new(cos, sin, 0.0)
 }
 
-/// The angle in degrees between two vectors, good at every angle.
+/// The angle in degrees between two vectors, accurate at every angle.
 fn angle_deg(a: DVec3, b: DVec3) -> f64 {
     libm::atan2(a.cross(b).length(), a.dot(b)).to_degrees()
 }
 
-/// A fixed, well spread set of unit vectors: the axes, the diagonals, and a spiral over the sphere.
+/// A fixed, well distributed set of unit vectors: the axes, the diagonals, and a spiral over the
+/// sphere.
 fn directions() -> Vec<DVec3> {
     let mut all = vec![DVec3::X, DVec3::Y, DVec3::Z, DVec3::NEG_X, DVec3::NEG_Y, DVec3::NEG_Z];
     for signs in 0..8 {

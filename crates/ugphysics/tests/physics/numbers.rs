@@ -12,11 +12,11 @@ use crate::{along_x, angle_deg, at_angle, beta, near, near_vector};
 /// The numbers are given to ten digits.
 const TEN_DIGITS: f64 = 1e-9;
 
-/// So far away that a body of size 1 is small; second-order terms are 10⁻¹², rounding 10⁻¹⁰.
+/// A distance at which a body of size 1 is small: second-order terms are 10⁻¹², rounding is 10⁻¹⁰.
 const FAR: f64 = 1e6;
 
-/// Rest coordinates of a point seen from afar, with `angle` degrees between its motion along +x and the
-/// direction from it to the eye.
+/// Rest coordinates of a point seen from afar, with `angle` degrees between its motion along +x and
+/// the direction from it to the eye.
 fn far_point(angle: f64, v: Velocity) -> DVec3 {
     rest_position(-FAR * at_angle(angle), v)
 }
@@ -141,8 +141,8 @@ fn t10_straight_edge_is_a_hyperbola() {
         near("x", x(y), want, TEN_DIGITS);
     }
     near("sagitta", x(0.0) - x(1.0), 0.8552439755, TEN_DIGITS);
-    // Greatest distance from N equal chords, by ternary search in another program; it tends to 4 times less per
-    // halving.
+    // Greatest distance from N equal chords, computed by ternary search in another program. It
+    // approaches a quarter per doubling of N.
     for (n_segments, want) in [
         (1, 0.8552439755),
         (2, 0.1854556668),
@@ -221,7 +221,7 @@ fn t13_aberration() {
 #[test]
 fn t14_headlight() {
     for (speed, half_angle) in [(0.9, 25.84193276), (0.99, 8.109614456), (0.999, 2.562558733)] {
-        // Light that leaves at right angles in the body's frame.
+        // Light emitted at right angles in the body's frame.
         let n = -aberrate(DVec3::NEG_Y, along_x(-speed));
         near("half angle", angle_deg(n, DVec3::X), half_angle, TEN_DIGITS);
     }
@@ -252,7 +252,8 @@ fn t15_field_of_view() {
 
 #[test]
 fn t17_astronomers_aberration() {
-    // The test vector of ERFA's `ab`, without the Sun's potential. A first-order code is off by 10⁻⁹.
+    // The test vector of ERFA's `ab`, without the Sun's potential. A first-order code is off by
+    // 10⁻⁹.
     let natural = DVec3::new(-0.763_219_685_467_379_5, -0.608_694_539_830_603_8, -0.216_764_085_806_398_83);
     let v = beta(2.104_401_889_365_378_6e-5, -8.910_892_330_442_932e-5, -3.863_371_479_771_657e-5);
     near("1/γ", 1.0 / v.gamma(), 0.999_999_995_062_092_6, 1e-15);
@@ -283,8 +284,8 @@ fn t19_doppler() {
         near("coming", doppler_factor(DVec3::X, v), coming, TEN_DIGITS);
         near("going", doppler_factor(DVec3::NEG_X, v), going, TEN_DIGITS);
         near("abeam", doppler_factor(DVec3::Z, v), abeam, TEN_DIGITS);
-        // Abeam in the source's frame, or abreast at the moment of the picture: γ.
-        near("abreast", doppler_at(seen_position(DVec3::Y, v), v), v.gamma(), 1e-14);
+        // Abeam in the source's rest frame: γ.
+        near("abeam in the rest frame", doppler_at(seen_position(DVec3::Y, v), v), v.gamma(), 1e-14);
     }
     for (cos_in_body, cos_seen, doppler) in [
         (1.0, 1.0, 2.0),

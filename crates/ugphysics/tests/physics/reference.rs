@@ -6,7 +6,7 @@ use ugphysics::{Velocity, doppler_at, doppler_factor, flight_time, rest_position
 use crate::big::{BigVelocity, length, relative_error, relative_vector_error, vector};
 use crate::directions;
 
-/// Worst errors met, relative to the true value.
+/// The largest errors found, relative to the true value.
 #[derive(Debug, Default)]
 struct Worst {
     seen: f64,
@@ -43,8 +43,8 @@ impl Worst {
     }
 }
 
-/// Points all around, and near the line of motion, where cancellation would show: from 10⁻¹² of the distance
-/// aside to well beyond 1/γ.
+/// Points in all directions, and near the line of motion, where cancellation would show: at angles
+/// from 10⁻¹² to well beyond 1/γ.
 fn points(axis: DVec3, gamma: f64) -> Vec<DVec3> {
     let mut all: Vec<DVec3> =
         directions().into_iter().map(|d| 3.7 * d + DVec3::new(0.2, -0.1, 0.05)).collect();
@@ -65,14 +65,14 @@ fn velocities_given_as_beta() {
             worst.look(Velocity::from_beta(beta).unwrap(), &BigVelocity::from_beta(beta));
         }
     }
-    // Measured 7.6·10⁻¹⁶. (P2) has a plain scalar product in it, which can cost a factor γ = 707.
+    // Measured: 7.6·10⁻¹⁶. (P2) contains a plain scalar product, which can cost a factor γ = 707.
     worst.check(40_000, 2e-15, 2e-13);
 }
 
 #[test]
 fn velocities_given_as_rapidity() {
     let mut worst = Worst::default();
-    // The third is 1 − β = 10⁻¹², the last 1 − β = 8·10⁻¹⁸, which no double below 1 can say.
+    // The third is 1 − β = 10⁻¹², the last 1 − β = 8·10⁻¹⁸, closer to 1 than any double below 1.
     let near_light = 0.5 * libm::log((2.0 - 1e-12) / 1e-12);
     for rapidity in [1e-9, 3.0, near_light, 20.0] {
         for direction in directions() {

@@ -1,4 +1,5 @@
-//! Mirrors, glass, lamps and accelerated bodies: published numbers, and laws on random ones.
+//! Mirrors, glass, lamps and accelerated bodies: published numbers, and laws tested on random
+//! input.
 
 use glam::DVec3;
 use proptest::prelude::*;
@@ -28,7 +29,7 @@ fn t27_moving_mirrors() {
         near("angle", angle_deg(back.direction, DVec3::X), out_deg, TEN_DIGITS);
         near("frequency", back.frequency, frequency, TEN_DIGITS);
     }
-    // Slow to run away from, the light still goes the mirror's way.
+    // After reflection the light still travels in the mirror's direction of motion.
     let back = reflect(wave(-at_angle(-60.0)), DVec3::X, along_x(-0.3));
     near("cos", -back.direction.x, 0.06962025316, TEN_DIGITS);
     let sliding = reflect(wave(DVec3::new(-0.6, 0.0, 0.8)), DVec3::X, beta(0.0, 0.9, 0.3));
@@ -51,7 +52,7 @@ fn t28_moving_glass() {
         near("t", exit.t, t, TEN_DIGITS);
         near("x", exit.x.x, x, TEN_DIGITS);
     }
-    // Beyond asin(1/1.5) nothing gets out.
+    // Total internal reflection beyond asin(1/1.5).
     assert!(
         refract(at_angle(41.9), DVec3::X, 1.5).is_none() && refract(at_angle(41.8), DVec3::X, 1.5).is_some()
     );
@@ -98,7 +99,7 @@ proptest! {
         near("there and back", back.frequency, 1.0, 1e-13 * scale);
     }
 
-    /// Light sent back along its way comes out of a mirror as it went in.
+    /// Light sent back along its path is reflected to the original wave.
     #[test]
     fn mirrors_undo_themselves(v in velocities(), n in directions(), normal in directions()) {
         let scale = v.gamma() * v.gamma();
@@ -110,7 +111,8 @@ proptest! {
         near("direction", twice.direction.dot(n), 1.0, 1e-12 * scale);
     }
 
-    /// The seen place moves with the apparent velocity, and a lamp's light is counted alike in both frames.
+    /// The seen position moves with the apparent velocity, and photons of a lamp are counted
+    /// equally in both frames.
     #[test]
     fn what_is_seen_moves_with_the_apparent_velocity(v in velocities(), d in directions()) {
         let p_rest = 3.0 * d;
@@ -125,7 +127,7 @@ proptest! {
         near("irradiance", irradiance(1.0, p.length(), doppler) / (photons_there * doppler * doppler), 1.0, 1e-11);
     }
 
-    /// Lines in a plane stay across its normal.
+    /// Lines in a contracted plane are perpendicular to its contracted normal.
     #[test]
     fn normals_stay_normal(v in velocities(), normal in directions()) {
         let line = normal.any_orthonormal_vector();

@@ -75,7 +75,7 @@ fn messages() {
     let check = |got: Result<Velocity, VelocityError>, message: &str| {
         assert_eq!(got.unwrap_err().to_string(), message);
     };
-    let not_finite = "velocity is not finite: its numbers must not be infinite or NaN";
+    let not_finite = "velocity is not finite: its components must not be infinite or NaN";
     check(
         Velocity::from_beta(DVec3::new(0.0, 1.2, 0.0)),
         "speed is 1.2 c: it must be below 1 (velocities are fractions of the speed of light)",
@@ -91,7 +91,7 @@ fn messages() {
     check(Velocity::from_rapidity(DVec3::X, 101.0), "rapidity is 101: it must be at most 100");
     check(
         Velocity::from_rapidity(DVec3::ZERO, 1.0),
-        "direction is the zero vector: give one that is not, or speed 0",
+        "direction is the zero vector: give a nonzero direction, or speed 0",
     );
     check(Velocity::from_gamma(DVec3::X, 0.5), "gamma is 0.5: it must be 1 (at rest) or above");
     check(Velocity::from_gamma(DVec3::X, f64::INFINITY), not_finite);
@@ -122,9 +122,9 @@ proptest! {
         near("rapidity", v.rapidity(), rapidity, 1e-14);
         near("tanh", v.speed(), libm::tanh(rapidity), 1e-15);
         let by_gamma = Velocity::from_gamma(direction, v.gamma()).unwrap();
-        // γ − 1 is η²/2, so a rounded γ says η² to 10⁻¹⁶ only.
+        // γ − 1 is η²/2, so a rounded γ determines η² only to 10⁻¹⁶.
         prop_assert!((by_gamma.proper_speed() - v.proper_speed()).abs() * v.proper_speed() <= 1e-15 * v.gamma() * v.gamma());
-        // β says 1 − β to half a unit, which γ² magnifies.
+        // β determines 1 − β to half a unit in the last place, an error that γ² magnifies.
         if let Ok(by_beta) = Velocity::from_beta(v.beta()) {
             prop_assert!((by_beta.gamma() / v.gamma() - 1.0).abs() <= 1e-15 * v.gamma() * v.gamma());
         }
