@@ -225,7 +225,7 @@ fn numbers(text: &[u8]) -> Vec<(String, [f64; 3])> {
     let of = |vertex: &ugparse::Vertex| {
         let color = vertex.color.map(|color| &scene.colors[color.index()]);
         let rgb =
-            color.map_or([1.0; 3], |color| ugscene::hsv(&scene, color, ugscene::HueScale::Degrees).to_rgb());
+            color.map_or([1.0; 3], |color| uglight::hsv(&scene, color, uglight::HueScale::Degrees).to_rgb());
         (scene.names.get(vertex.name).to_string(), rgb)
     };
     scene.vertices.iter().map(of).collect()

@@ -2,9 +2,9 @@
 
 use glam::DVec3;
 use rayon::prelude::*;
-use ugparse::{Face, Light, LightKind, Scene, VelocityId, VertexId};
-use ugphysics::{SkyRing, ambient_illumination, compose, illumination, illumination_from_afar};
-use ugscene::{Bodies, HueScale, Lamp, LampPlace, lamps, seen_normal, shading_normal};
+use uglight::{HueScale, Irradiance, Lamp, SurfaceElement, lamps};
+use ugparse::{Face, Light, LightKind, Scene, VertexId};
+use ugscene::{Bodies, seen_normal, shading_normal};
 
 /// Normals nearer to each other than this in all components are one, so that the pieces of a face that was cut
 /// share their vertices. A level is off by as much at most.
@@ -14,19 +14,7 @@ const NORMAL_STEP: f64 = 1e-5;
 pub(crate) struct Illumination {
     pub lamps: Vec<Lamp>,
     /// `None` for vertices that are not lit: of wires, and of faces with a light level of their own.
-    pub of_vertex: Vec<Option<Vec<Contribution>>>,
-}
-
-/// What one light, or a part of it, adds to the light on a vertex.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Contribution {
-    /// Row of [`Illumination::lamps`], which has intensity and colour.
-    pub lamp: u32,
-    /// What part of the lamp's intensity falls here, but for powers of D_l: max(0, n·l).
-    pub level: f64,
-    /// D_l, from the lamp to the surface. The irradiance is multiplied by a power of it that depends on what is
-    /// counted: [`ugphysics::Brightness::irradiance_factor`]; per wavelength it is D_l³.
-    pub doppler: f64,
+    pub of_vertex: Vec<Option<Vec<Irradiance>>>,
 }
 
 /// Vertices apart where the light on them differs: faces that meet at an edge have vertices of their own there,
@@ -89,62 +77,11 @@ impl Illumination {
         let velocities = ugscene::vertex_velocities(scene);
         let of_vertex = (rest.par_iter().zip(normals).zip(&velocities))
             .map(|((&point, normal), &velocity)| {
-                let surface = Surface { point, normal: (*normal)?, velocity };
-                Some(surface.contributions(&lamps, bodies))
+                let surface = SurfaceElement { point, normal: (*normal)?, velocity };
+                Some(surface.irradiances(&lamps, bodies))
             })
             .collect();
         Self { lamps, of_vertex }
-    }
-}
-
-/// A point of a surface in its rest frame, in the axes of the scene.
-struct Surface {
-    point: DVec3,
-    normal: DVec3,
-    velocity: Option<VelocityId>,
-}
-
-impl Surface {
-    fn contributions(&self, lamps: &[Lamp], bodies: &Bodies) -> Vec<Contribution> {
-        let mut all = Vec::with_capacity(lamps.len());
-        for (row, lamp) in lamps.iter().enumerate() {
-            let mut add = |level: f64, doppler: f64| {
-                if level > 0.0 {
-                    all.push(Contribution { lamp: row as u32, level, doppler });
-                }
-            };
-            match self.motion_of(lamp.velocity, bodies) {
-                None => add(lamp.level_at_rest(self.point, self.normal), 1.0),
-                Some(motion) => self.moving_light(lamp, motion, bodies, &mut add),
-            }
-        }
-        all
-    }
-
-    /// The velocity of a light that moves against the surface.
-    fn motion_of(&self, velocity: Option<VelocityId>, bodies: &Bodies) -> Option<VelocityId> {
-        velocity.filter(|_| bodies.of(velocity) != bodies.of(self.velocity))
-    }
-
-    fn moving_light(&self, lamp: &Lamp, motion: VelocityId, bodies: &Bodies, add: &mut impl FnMut(f64, f64)) {
-        // Between two frames their axes have to be those of the camera, which boosts keep.  Eq. (P25)
-        let axes_of = |velocity: Option<VelocityId>| bodies.scene_from_axes(velocity).inverse();
-        let (of_surface, of_lamp) = (axes_of(self.velocity), axes_of(Some(motion)));
-        let (point, normal) = (of_surface * self.point, of_surface * self.normal);
-        let (velocity, motion) = (bodies.of(self.velocity), bodies.of(Some(motion)));
-        let light = match lamp.place {
-            LampPlace::Everywhere => {
-                for SkyRing { level, doppler } in ambient_illumination(normal, compose(motion, -velocity)) {
-                    add(level, doppler);
-                }
-                return;
-            }
-            LampPlace::Afar(toward) => illumination_from_afar(velocity, of_lamp * toward, motion),
-            LampPlace::At(place) => illumination(point, velocity, of_lamp * place, motion),
-        };
-        if let Some(light) = light {
-            add(normal.dot(light.toward), light.doppler);
-        }
     }
 }
 

@@ -42,10 +42,11 @@ use std::fmt;
 
 use glam::DVec3;
 use rayon::prelude::*;
+use uglight::{HueScale, VertexColor};
 use ugparse::{Diagnostics, Face, Options, Scene, Source};
 use ugphysics::{Brightness, Hsv, Velocity, VelocityError, doppler_at};
 use ugpipe::Progress;
-use ugscene::{Bodies, HueScale, VertexColor};
+use ugscene::Bodies;
 
 pub use cli::{Args, main};
 
@@ -205,11 +206,11 @@ fn colour(mut scene: Scene, config: &Config, eye: DVec3, bodies: &Bodies) -> (Sc
         let lit = light.map(|light| lit_spectra::seen(&scene, config, &shares, &factors, &light));
         spectral::paint(&mut scene, config, &shares, &factors, &used, lit.as_deref())
     } else {
-        let mut colors = ugscene::vertex_colors(&scene, &rest, HueScale::Degrees);
+        let mut colors = uglight::vertex_colors(&scene, &rest, HueScale::Degrees);
         let light = put_light(&mut scene, config, eye, bodies, rest, &mut colors);
         let (factors, used) = (doppler_factors(&scene, eye, bodies), used_vertices(&scene));
         let lit = light.map(|light| lit_colors(&scene, config, &colors, &factors, &light));
-        let spectra_note = ugscene::spectra_note(&scene);
+        let spectra_note = uglight::spectra_note(&scene);
         let mut palette = Palette::new(&mut scene, config);
         for (row, (&color, &doppler)) in colors.iter().zip(&factors).enumerate() {
             match lit.as_ref().and_then(|lit| lit[row]) {
@@ -268,7 +269,7 @@ fn lit_colors(
 
 fn surface_hsv(scene: &Scene, color: VertexColor) -> Hsv {
     match color {
-        VertexColor::Named(id) => ugscene::hsv(scene, &scene.colors[id.index()], HueScale::Degrees),
+        VertexColor::Named(id) => uglight::hsv(scene, &scene.colors[id.index()], HueScale::Degrees),
         VertexColor::White => Hsv { hue: 0.0, saturation: 0.0, value: 1.0 },
         VertexColor::Mixed { hsv, .. } => hsv,
     }

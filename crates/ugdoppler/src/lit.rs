@@ -1,10 +1,9 @@
 //! Colours of lit surfaces as seen, in the way of 1988: a hue is a wavelength.
 
+use uglight::{Irradiance, Lamp};
 use ugphysics::{Hsv, attenuation, hue_to_wavelength, wavelength_to_hue};
-use ugscene::Lamp;
 
 use crate::Config;
-use crate::illumination::Contribution;
 
 /// A colour as seen, with its light in it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,7 +30,7 @@ impl Seen {
 ///
 /// Each light is reflected and seen by itself: the surface's colour times the light's, its hue shifted by D_l D and its
 /// value changed by the brightness law for both factors (P14). Then they are added, [`mix`].
-pub(crate) fn look(base: Hsv, doppler: f64, light: &[Contribution], lamps: &[Lamp], config: &Config) -> Seen {
+pub(crate) fn look(base: Hsv, doppler: f64, light: &[Irradiance], lamps: &[Lamp], config: &Config) -> Seen {
     let base_nm = if base.saturation > 0.0 { hue_to_wavelength(base.hue) } else { 0.0 };
     let parts: Vec<Seen> = light
         .iter()

@@ -2,12 +2,13 @@
 
 use glam::DVec3;
 use rayon::prelude::*;
+use uglight::Irradiance;
 use ugparse::{ColorId, Scene};
 use ugscene::Shares;
 use ugspectrum::{Lamplight, Spectrum};
 
 use crate::Config;
-use crate::illumination::{Contribution, Illumination};
+use crate::illumination::Illumination;
 use crate::spectral::parts;
 
 /// X, Y, Z of every vertex with the light on it; `None` where it is not lit.
@@ -23,7 +24,7 @@ pub(crate) fn seen(
     light: &Illumination,
 ) -> Vec<Option<[f64; 3]>> {
     let spectrum = |color: Option<ColorId>| match color {
-        Some(color) => ugscene::spectrum(scene, &scene.colors[color.index()]).0,
+        Some(color) => uglight::spectrum(scene, &scene.colors[color.index()]).0,
         None => Spectrum::from_linear_srgb([1.0; 3]),
     };
     let lamps: Vec<(Lamplight, f64)> = (scene.lights.iter())
@@ -53,7 +54,7 @@ struct View<'a> {
 }
 
 impl View<'_> {
-    fn of(&self, surface: &Spectrum, light: &[Contribution]) -> DVec3 {
+    fn of(&self, surface: &Spectrum, light: &[Irradiance]) -> DVec3 {
         let shift = |doppler: f64| if self.config.doppler { doppler } else { 1.0 };
         let flux = |factor: f64| if self.config.flux { factor } else { 1.0 };
         let square = self.doppler * self.doppler;

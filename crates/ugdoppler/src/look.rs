@@ -35,7 +35,7 @@ impl Look {
     /// Of a colour of the scene, or white; tabulated if there is a grid.
     pub fn new(scene: &Scene, color: Option<ColorId>, grid: Option<&Grid>) -> Self {
         let (spectrum, is_exact) = match color {
-            Some(color) => ugscene::spectrum(scene, &scene.colors[color.index()]),
+            Some(color) => uglight::spectrum(scene, &scene.colors[color.index()]),
             None => (Spectrum::from_linear_srgb([1.0; 3]), true),
         };
         Self { table: grid.map(|grid| grid.table(&spectrum)), spectrum, is_exact }

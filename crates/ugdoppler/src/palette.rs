@@ -1,9 +1,9 @@
 //! Colours as seen: made once for each base colour and Doppler factor, and reused.
 
 use rustc_hash::FxHashMap;
+use uglight::{HueScale, VertexColor, hsv};
 use ugparse::{Color, ColorId, ColorValue, NameId, Scene, UniqueNames};
 use ugphysics::{Hsv, hue_to_wavelength, wavelength_to_hue};
-use ugscene::{HueScale, VertexColor, hsv};
 
 use crate::Config;
 use crate::lit::Seen;

@@ -90,7 +90,7 @@ fn black_bodies_on_the_line_of_motion() {
         assert!(cold.is_nan() || (behind[1] / cold - 1.0).abs() < 1e-5, "{behind:?}");
     }
     let (scene, _) = colour(&ahead_and_behind("c_bb sun 5800;", "sun"), &moving(-0.5, 0.0, 0.0));
-    assert_eq!(ugscene::spectra_note(&scene), None, "they are shifted");
+    assert_eq!(uglight::spectra_note(&scene), None, "they are shifted");
     let [x, y, z] = named(&scene, "a");
     let sum = x + y + z;
     assert!((x / sum - 0.2803813).abs() < 1e-6 && (y / sum - 0.2879898).abs() < 1e-6);

@@ -2,9 +2,9 @@
 
 use glam::DVec3;
 use rustc_hash::FxHashMap;
+use uglight::HueScale;
 use ugparse::{Color, ColorId, ColorValue, Scene, Vertex};
 use ugphysics::Hsv;
-use ugscene::HueScale;
 
 use crate::motion::{Motion, Point};
 use crate::refined_mesh::Recipe;
@@ -105,7 +105,7 @@ fn blend(scene: &Scene, parts: &[(ColorId, f64)]) -> (ColorValue, f64) {
         (Hsv { hue: 0.0, saturation: 0.0, value: 0.0 }, 0.0, 0.0);
     for &(id, weight) in parts {
         let color = &scene.colors[id.index()];
-        let hsv = ugscene::hsv(scene, color, HueScale::Degrees);
+        let hsv = uglight::hsv(scene, color, HueScale::Degrees);
         mean.value += weight * hsv.value;
         mean.saturation += weight * hsv.saturation;
         translucency += weight * color.translucency;

@@ -6,9 +6,9 @@
 //! change along an edge.
 
 use glam::DVec3;
+use uglight::{HueScale, LampPlace, lamps};
 use ugparse::Scene;
 use ugphysics::{Velocity, illumination};
-use ugscene::{HueScale, LampPlace, lamps};
 
 use crate::early_accept::MOST_BEND;
 use crate::motion::{Motion, Point};

@@ -1,8 +1,8 @@
 //! A scene as mesh formats have it: one colour for each vertex, polygons without holes.
 
 use glam::DVec3;
+use uglight::{HueScale, hsv};
 use ugparse::{ColorId, ColorValue, Contours, Scene, VertexId};
-use ugscene::{HueScale, hsv};
 
 /// Which polygons a format can hold.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -5,10 +5,11 @@ use std::path::Path;
 use clap::{ArgAction, Parser};
 use glam::DVec3;
 use ugimage::{Format, Tone};
+use uglight::HueScale;
 use ugparse::{Source, pipe};
 use ugphysics::{Brightness, Hsv};
 use ugpipe::{CommonArgs, Failure, Stage, ToolArgs, finite, vector, view_angle};
-use ugscene::{CameraOptions, HueScale};
+use ugscene::CameraOptions;
 
 use crate::config::{
     Background, Config, DepthCue, Exact, Exposure, Interpolation, LINE_WIDTH, Output, Wireframe,

@@ -1,8 +1,9 @@
 //! What is asked of the renderer, apart from the scene.
 
 use ugimage::{Format, Tone};
+use uglight::HueScale;
 use ugphysics::{Brightness, Hsv};
-use ugscene::{CameraOptions, HueScale};
+use ugscene::CameraOptions;
 
 use crate::figures::Figures;
 use crate::planes::Channel;

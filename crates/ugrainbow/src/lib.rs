@@ -69,7 +69,6 @@ mod error;
 mod exact;
 mod explain;
 mod figures;
-mod light;
 mod lines;
 #[cfg(test)]
 mod noise;
@@ -96,7 +95,8 @@ pub use figures::Figures;
 pub use planes::Channel;
 pub use raster::Filter;
 pub use ugimage::Tone;
-pub use ugscene::{CameraError, CameraOptions, HueScale};
+pub use uglight::HueScale;
+pub use ugscene::{CameraError, CameraOptions};
 
 use canvas::{Canvas, Drawn};
 use figures::{Annotations, Plan};

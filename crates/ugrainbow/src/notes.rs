@@ -79,7 +79,7 @@ fn scene_notes(scene: &Scene, is_exact: bool) -> Vec<String> {
         ));
     }
     // Spectra at rest are as they are, and exact pictures have no others.
-    notes.extend(ugscene::spectra_note(scene).filter(|_| !is_exact));
+    notes.extend(uglight::spectra_note(scene).filter(|_| !is_exact));
     notes
 }
 

@@ -1,10 +1,10 @@
 //! What faces and wires are drawn from, and the colour and light of their corners.
 
 use glam::DVec3;
+use uglight::Lighting;
 use ugparse::{Face, Scene, VertexId, Wire, newell_normal};
 
 use crate::clip::Vertex;
-use crate::light::Lighting;
 use crate::palette::{Palette, Swatch};
 use crate::raster::{Corner, Grid, Point};
 use crate::surface::Surface;

@@ -1,9 +1,9 @@
 //! Colours of the scene as what is interpolated.
 
 use glam::DVec3;
+use uglight::HueScale;
 use ugparse::{Color, ColorValue, Scene};
 use ugphysics::{Hsv, attenuation, hue_to_wavelength, srgb_decode, wavelength_to_hue};
-use ugscene::HueScale;
 
 use crate::config::{Config, Interpolation};
 
@@ -47,7 +47,7 @@ pub struct Palette {
 impl Palette {
     /// Reads all colours of a scene.
     pub fn new(scene: &Scene, config: &Config) -> Self {
-        let has_light = scene.colors.iter().any(ugscene::is_light);
+        let has_light = scene.colors.iter().any(uglight::is_light);
         let has_translucency = scene.colors.iter().any(|color| color.translucency > 0.0);
         let (interpolation, scale) = (config.interpolated(), config.hue_scale);
         let mut palette = Self { swatches: Vec::new(), interpolation, scale, has_light, has_translucency };
@@ -123,9 +123,9 @@ impl Palette {
                 Swatch { tint, saturation, value, light: None, translucency }
             }
             _ => Swatch {
-                light: ugscene::light(scene, color).map(DVec3::from_array),
+                light: uglight::light(scene, color).map(DVec3::from_array),
                 translucency,
-                ..self.swatch(ugscene::hsv(scene, color, self.scale))
+                ..self.swatch(uglight::hsv(scene, color, self.scale))
             },
         }
     }

@@ -3,12 +3,12 @@
 use std::borrow::Cow;
 use std::ops::Range;
 
+use uglight::Lighting;
 use ugparse::{ColorId, ColorValue, Scene, VelocityId, VertexId};
 
 use crate::config::{Config, DepthCue, Exact};
 use crate::error::{self, Error};
 use crate::explain::Provenance;
-use crate::light::Lighting;
 use crate::painter::Painter;
 use crate::palette::Palette;
 use crate::raster::{Cue, Gathered, Grid};
@@ -49,7 +49,7 @@ impl<'a> Setup<'a> {
         let grid =
             Grid { width, height, samples: config.samples, is_perspective: view.is_perspective, cue: None };
         let palette = Palette::new(&scene, config);
-        let lighting = Lighting::new(&scene, config.hue_scale, &view);
+        let lighting = Lighting::new(&scene, config.hue_scale, view.eye, view.forward);
         let surface = Surface::new(&scene, view.eye, &palette, config.hue_scale)?;
         let is_uncut = palette.has_light() || config.keeps_light();
         if let Some(exact) = config.exact {
@@ -150,7 +150,7 @@ fn check_spectra(scene: &Scene, surface: &Surface, exact: Exact) -> Result<(), E
     };
     let mut faces = scene.faces.iter().map(|face| moves(face.velocity, &face.contours, face.color));
     let mut wires = scene.wires.iter().map(|wire| moves(wire.velocity, &wire.contours, wire.color));
-    let has_spectra = scene.colors.iter().any(ugscene::is_light);
+    let has_spectra = scene.colors.iter().any(uglight::is_light);
     if has_spectra && exact != Exact::NONE && (faces.any(|moves| moves) || wires.any(|moves| moves)) {
         return Err(Error::Exact(
             "-xc shifts hues, and a black body or spectrum of this scene moves: leave out -xc and draw it with \

@@ -2,9 +2,10 @@
 
 use glam::{DQuat, DVec3};
 use rayon::prelude::*;
+use uglight::{HueScale, VertexColor, vertex_colors};
 use ugparse::{ColorId, Scene, VelocityId, VertexId};
 use ugphysics::{Velocity, VelocityError, aberrate};
-use ugscene::{Bodies, HueScale, VertexColor, rest_positions, vertex_colors};
+use ugscene::{Bodies, rest_positions};
 
 use crate::palette::{Palette, Swatch};
 

@@ -4,11 +4,10 @@
 //! which body a vertex belongs to and how that body moves ([`Bodies`],
 //! [`separate_bodies`]), where it rests when it is seen here ([`Geometry`],
 //! [`rest_positions`], equation (P4)), its normal ([`smooth_normals`], and [`shading_normal`]
-//! under a light), what lights it ([`lamps`]), the colour it gets from the faces round it
-//! ([`vertex_colors`]), the spectrum a colour stands for ([`spectrum`]), what triangles
+//! under a light), which colours meet at it ([`vertex_shares`]), what triangles
 //! make up a polygon ([`triangulate`]), or a face that is not flat ([`read`]), and what
 //! the camera sees ([`View`]). All programs
-//! must agree on these, so they are written once, here.
+//! must agree on these, so they are written once, here. Lamps and the appearance of colours are in `uglight`.
 //!
 //! ```
 //! use glam::DVec3;
@@ -25,10 +24,8 @@
 mod bodies;
 mod camera;
 mod camera_motion;
-mod colors;
 mod eye;
 mod geometry;
-mod lights;
 mod normals;
 mod polygon;
 mod read;
@@ -38,10 +35,8 @@ mod split;
 pub use bodies::{Bodies, is_one_body, separate_bodies, vertex_velocities};
 pub use camera::{CameraError, CameraOptions, HalfSpace, Place, Slab, View};
 pub use camera_motion::{axes_from_scene, camera_velocity, record_camera_velocity};
-pub use colors::{HueScale, VertexColor, hsv, is_light, light, spectra_note, spectrum, vertex_colors};
 pub use eye::{at_eye_error, eye, vertex_at_eye};
 pub use geometry::{Geometry, rest_positions};
-pub use lights::{Lamp, LampPlace, lamps};
 pub use normals::{corner_angle, seen_normal, shading_normal, smooth_normals};
 pub use polygon::{Triangle, is_convex, triangulate};
 pub use read::read;

@@ -12,7 +12,7 @@
 //! 5. [`sections`]: where in a row rays begin and cease to do so;
 //! 6. [`nearest`]: which face is nearest, sample by sample;
 //! 7. [`look`]: colour and light at a point of a face at rest, for what is nearest alone;
-//! 8. [`motion`], [`hues`]: colour as seen;
+//! 8. [`motion`]: colour as seen;
 //! 9. [`faces`]: all faces of a scene as a layer of the raster, the nearest alone or, if light passes them, all;
 //! 10. [`wires`]: lines as polylines fine enough for the picture.
 //!
@@ -34,7 +34,6 @@ mod faces;
 mod film;
 mod footprint;
 mod frame;
-mod hues;
 mod look;
 mod motion;
 mod nearest;

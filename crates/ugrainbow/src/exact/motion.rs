@@ -1,6 +1,7 @@
 //! Colour as seen.
 
-use super::hues::Hues;
+use uglight::HueTable;
+
 use crate::config::{Exact, Interpolation};
 use crate::palette::{Palette, Swatch};
 
@@ -9,13 +10,13 @@ use crate::palette::{Palette, Swatch};
 pub struct Motion<'a> {
     exact: Exact,
     palette: &'a Palette,
-    hues: &'static Hues,
+    hues: &'static HueTable,
 }
 
 impl<'a> Motion<'a> {
     /// As asked for.
     pub fn new(exact: Exact, palette: &'a Palette) -> Self {
-        Self { exact, palette, hues: Hues::get() }
+        Self { exact, palette, hues: HueTable::get() }
     }
 
     /// True if colours of bodies that move stay as they are.

@@ -14,20 +14,20 @@ const CELLS: usize = 128;
 const FIRST: f64 = CONTROL_POINTS[0].hue_deg;
 const STEP: f64 = 60.0 / CELLS as f64;
 
-/// The map in both directions.  Eq. (P16)
-pub struct Hues {
+/// The map between hue and wavelength in both directions, tabulated.  Eq. (P16)
+pub struct HueTable {
     /// For each interval the longest wavelength, and the cubic's coefficients behind it.
     cubics: [[f64; 5]; INTERVALS],
     /// Wavelengths and their slopes by hue, a step apart.
     points: Vec<[f64; 2]>,
 }
 
-static HUES: LazyLock<Hues> = LazyLock::new(Hues::new);
+static TABLE: LazyLock<HueTable> = LazyLock::new(HueTable::new);
 
-impl Hues {
+impl HueTable {
     /// The map.
     pub fn get() -> &'static Self {
-        &HUES
+        &TABLE
     }
 
     fn new() -> Self {
@@ -99,7 +99,7 @@ mod tests {
 
     #[test]
     fn both_ways_are_those_of_the_map() {
-        let hues = Hues::get();
+        let hues = HueTable::get();
         for step in 0..=100_000 {
             let part = f64::from(step) / 1e5;
             let (hue, nm) = (FIRST + 360.0 * part, 370.0 + 420.0 * part);

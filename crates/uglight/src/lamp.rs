@@ -15,7 +15,7 @@ pub struct Lamp {
     /// Red, green and blue, display-encoded, times the intensity. Levels of several lights add up so, and
     /// multiply the colour of a surface.
     pub color: DVec3,
-    /// The same linear, which multiplies what is given as light, [`crate::light`].
+    /// The same linear, which multiplies what is given as light, [`light`].
     pub linear: DVec3,
     /// True if the light is neither white nor grey.
     pub is_colored: bool,

@@ -2,7 +2,8 @@
 
 use glam::DVec3;
 use ugparse::Scene;
-use ugscene::{HueScale, Lamp, LampPlace, View, lamps};
+
+use crate::{HueScale, Lamp, LampPlace, lamps};
 
 /// The lights of a scene, as they fall on a face at rest.
 ///
@@ -23,13 +24,15 @@ pub struct Lighting {
 
 impl Lighting {
     /// The lights of the scene; if it has none, ambient 0.3 and 0.7 from the eye.
-    pub fn new(scene: &Scene, scale: HueScale, view: &View) -> Self {
+    ///
+    /// `eye`: in scene coordinates. `forward`: unit vector along the view.
+    pub fn new(scene: &Scene, scale: HueScale, eye: DVec3, forward: DVec3) -> Self {
         if scene.lights.is_empty() {
-            let from_eye = Lamp::white(LampPlace::Afar(-view.forward), 0.7);
+            let from_eye = Lamp::white(LampPlace::Afar(-forward), 0.7);
             let ambient = Lamp::white(LampPlace::Everywhere, 0.3);
             return Self { ambient, lamps: vec![from_eye], is_colored: false };
         }
-        let all = lamps(scene, view.eye, scale);
+        let all = lamps(scene, eye, scale);
         let is_colored = all.iter().any(|lamp| lamp.is_colored);
         let (ambient, lamps): (Vec<Lamp>, Vec<Lamp>) =
             all.into_iter().partition(|lamp| lamp.place == LampPlace::Everywhere);
@@ -42,16 +45,19 @@ impl Lighting {
     }
 
     /// True if a light is not white or grey, so that levels differ between red, green and blue.
+    #[inline]
     pub fn is_colored(&self) -> bool {
         self.is_colored
     }
 
     /// True if the level depends on where a face is and how it lies.
+    #[inline]
     pub fn needs_geometry(&self) -> bool {
         !self.lamps.is_empty()
     }
 
     /// True if the level depends on where a point of a face is.
+    #[inline]
     pub fn needs_places(&self) -> bool {
         self.lamps.iter().any(|lamp| matches!(lamp.place, LampPlace::At(_)))
     }

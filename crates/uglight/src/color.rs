@@ -3,9 +3,8 @@
 use glam::DVec3;
 use ugparse::{Color, ColorId, ColorValue, Scene};
 use ugphysics::{Hsv, srgb_decode, srgb_encode, wavelength_to_hue, xyz_to_linear_srgb};
+use ugscene::{Shares, vertex_shares};
 use ugspectrum::Spectrum;
-
-use crate::{Shares, vertex_shares};
 
 /// What the hue field of `c` statements holds.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -1,0 +1,78 @@
+//! What lamps, at rest and in motion, contribute to the light on a point of a surface.  Eq. (P14)
+
+use glam::DVec3;
+use ugparse::VelocityId;
+use ugphysics::{SkyRing, ambient_illumination, compose, illumination, illumination_from_afar};
+use ugscene::Bodies;
+
+use crate::{Lamp, LampPlace};
+
+/// A point of a surface in its rest frame, in the axes of the scene.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SurfaceElement {
+    /// Relative to the eye, (P4).
+    pub point: DVec3,
+    /// Unit vector on the side that is seen, or zero for a surface without one.
+    pub normal: DVec3,
+    /// The velocity of the surface.
+    pub velocity: Option<VelocityId>,
+}
+
+/// The irradiance that one lamp, or a ring of a moving ambient lamp, causes in the rest frame of a
+/// surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Irradiance {
+    /// Row of the lamps, which have intensity and colour.
+    pub lamp: u32,
+    /// The part of the lamp's intensity that falls on the surface, without powers of D_l: max(0, n·l).
+    pub level: f64,
+    /// D_l, from the lamp to the surface. The irradiance has a factor of a power of it that depends on
+    /// what is counted: [`ugphysics::Brightness::irradiance_factor`]; per wavelength it is D_l³.
+    pub doppler: f64,
+}
+
+impl SurfaceElement {
+    /// What each lamp contributes, in their order; nothing from those behind the surface.
+    #[must_use]
+    pub fn irradiances(&self, lamps: &[Lamp], bodies: &Bodies) -> Vec<Irradiance> {
+        let mut all = Vec::with_capacity(lamps.len());
+        for (row, lamp) in lamps.iter().enumerate() {
+            let mut add = |level: f64, doppler: f64| {
+                if level > 0.0 {
+                    all.push(Irradiance { lamp: row as u32, level, doppler });
+                }
+            };
+            match self.velocity_of(lamp, bodies) {
+                None => add(lamp.level_at_rest(self.point, self.normal), 1.0),
+                Some(velocity) => self.of_moving(lamp, velocity, bodies, &mut add),
+            }
+        }
+        all
+    }
+
+    /// The velocity of a lamp that moves against the surface.
+    fn velocity_of(&self, lamp: &Lamp, bodies: &Bodies) -> Option<VelocityId> {
+        lamp.velocity.filter(|_| bodies.of(lamp.velocity) != bodies.of(self.velocity))
+    }
+
+    fn of_moving(&self, lamp: &Lamp, motion: VelocityId, bodies: &Bodies, add: &mut impl FnMut(f64, f64)) {
+        // Between two frames their axes have to be those of the camera, which boosts keep.  Eq. (P25)
+        let axes_of = |velocity: Option<VelocityId>| bodies.scene_from_axes(velocity).inverse();
+        let (of_surface, of_lamp) = (axes_of(self.velocity), axes_of(Some(motion)));
+        let (point, normal) = (of_surface * self.point, of_surface * self.normal);
+        let (velocity, motion) = (bodies.of(self.velocity), bodies.of(Some(motion)));
+        let light = match lamp.place {
+            LampPlace::Everywhere => {
+                for SkyRing { level, doppler } in ambient_illumination(normal, compose(motion, -velocity)) {
+                    add(level, doppler);
+                }
+                return;
+            }
+            LampPlace::Afar(toward) => illumination_from_afar(velocity, of_lamp * toward, motion),
+            LampPlace::At(place) => illumination(point, velocity, of_lamp * place, motion),
+        };
+        if let Some(light) = light {
+            add(normal.dot(light.toward), light.doppler);
+        }
+    }
+}

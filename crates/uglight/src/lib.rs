@@ -1,0 +1,40 @@
+//! Light of a scene: its lamps, the irradiance they cause, and what colours look like in motion.
+//!
+//! Several programs need the same answers. A filter that puts light into vertex colours, a renderer
+//! that shades corners or samples, a program that refines edges where light changes: each asks which
+//! [`lamps`] a scene has, how much of their light falls on a surface ([`Lighting`] for lamps at rest
+//! with what they light, [`SurfaceElement`] for lamps that move against it), and which [`Hsv`],
+//! linear light or [`Spectrum`] a colour statement stands for ([`hsv`], [`light`], [`spectrum`]).
+//!
+//! Physics without a scene is in `ugphysics` and `ugspectrum`; this crate applies it to the
+//! statements of a [`Scene`].
+//!
+//! ```
+//! use glam::DVec3;
+//! use uglight::{HueScale, lamps};
+//!
+//! let source = ugparse::Source::new("lamp.ug", "c blue 1 240; l 0.5 0 0 1 blue;");
+//! let scene = ugparse::parse(&source, &ugparse::Options::default())?.scene;
+//! let lamp = lamps(&scene, DVec3::ZERO, HueScale::Degrees)[0];
+//! // Light that comes in at 60 degrees to the normal.
+//! let normal = DVec3::new(0.75f64.sqrt(), 0.0, 0.5);
+//! assert_eq!(lamp.color, DVec3::new(0.0, 0.0, 0.5));
+//! assert!((lamp.level_at_rest(DVec3::ZERO, normal) - 0.5).abs() < 1e-15);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! [`Hsv`]: ugphysics::Hsv
+//! [`Spectrum`]: ugspectrum::Spectrum
+//! [`Scene`]: ugparse::Scene
+
+mod color;
+mod hue_table;
+mod irradiance;
+mod lamp;
+mod lighting;
+
+pub use color::{HueScale, VertexColor, hsv, is_light, light, spectra_note, spectrum, vertex_colors};
+pub use hue_table::HueTable;
+pub use irradiance::{Irradiance, SurfaceElement};
+pub use lamp::{Lamp, LampPlace, lamps};
+pub use lighting::Lighting;
