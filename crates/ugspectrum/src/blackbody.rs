@@ -1,9 +1,10 @@
-//! Light of a black body.
+//! Black-body radiation.
 
 use crate::cie_1931::FIRST_NM;
 use crate::observer::{SUM_Y, weigh};
 
-/// Planck's constant, J s, the speed of light, m/s, and Boltzmann's constant, J/K: exact, by the SI of 2019.
+/// Planck's constant (J s), the speed of light (m/s), and Boltzmann's constant (J/K), exact in the
+/// SI of 2019.
 const PLANCK: f64 = 6.62607015e-34;
 const LIGHT: f64 = 299_792_458.0;
 const BOLTZMANN: f64 = 1.380649e-23;
@@ -11,18 +12,19 @@ const BOLTZMANN: f64 = 1.380649e-23;
 /// The second radiation constant hc/k, nm K: 1.4387768775039338·10⁷.
 const SECOND_RADIATION_NM_K: f64 = PLANCK * LIGHT / BOLTZMANN * 1e9;
 
-/// The first radiation constant for radiance 2hc², W nm⁴ m⁻² sr⁻¹: so that λ in nm gives radiance per nm.
+/// The first radiation constant for radiance, 2hc², in W nm⁴ m⁻² sr⁻¹: with λ in nm it gives
+/// radiance per nm.
 const FIRST_RADIATION: f64 = 2.0 * PLANCK * LIGHT * LIGHT * 1e36;
 
-/// Temperatures are taken from this range, kelvins.
+/// Temperatures are clamped to this range, kelvins.
 const COLDEST: f64 = 1e-6;
 const HOTTEST: f64 = 1e15;
 
-/// Spectral radiance of a black body, W m⁻² sr⁻¹ nm⁻¹, at a wavelength in nm and a temperature in kelvins, both
-/// above 0: Planck's law.  Eq. (P13)
+/// Planck's law: the spectral radiance of a black body, W m⁻² sr⁻¹ nm⁻¹, at a wavelength in nm and
+/// a temperature in kelvins, both above 0.  Eq. (P13)
 ///
 /// ```
-/// // The Sun, nearly, and where it is brightest (Wien).
+/// // About the Sun's temperature: the maximum is at 499.6 nm (Wien's law).
 /// let at = |nm| ugspectrum::planck(nm, 5800.0);
 /// assert!(at(499.6) > at(498.0) && at(499.6) > at(501.0));
 /// ```
@@ -33,19 +35,20 @@ pub fn planck(wavelength_nm: f64, kelvin: f64) -> f64 {
     FIRST_RADIATION / (fifth * libm::expm1(SECOND_RADIATION_NM_K / (wavelength_nm * kelvin)))
 }
 
-/// ln X, ln Y, ln Z of a black body's radiance, in one unit for all temperatures. Logarithms, because what is cold
-/// shines too faintly for an f64: at 30 K, Y is e⁻⁵⁷⁸.  Eq. (P13), (P19)
+/// ln X, ln Y, ln Z of a black body's radiance, in the same unit for all temperatures. Logarithms,
+/// because the visible light of cold bodies underflows: at 30 K, Y is e⁻⁵⁷⁸, and at 20 K it is
+/// below the smallest f64.  Eq. (P13), (P19)
 pub(crate) fn ln_xyz(kelvin: f64) -> [f64; 3] {
-    // Beyond, exponents are no numbers any more.
+    // Outside this range the exponents would overflow.
     let kelvin = kelvin.clamp(COLDEST, HOTTEST);
     let exponent = |wavelength_nm: f64| SECOND_RADIATION_NM_K / (wavelength_nm * kelvin);
-    // The least exponent, at the red end of the table.
+    // The smallest exponent, at the red end of the table.
     let least = exponent((FIRST_NM + crate::cie_1931::CIE_1931.len() - 1) as f64);
     let fifth = |nm: f64| 1e13 / (nm * nm * (nm * nm) * nm);
     if least < 1.0 {
         return weigh(|_, nm| fifth(nm) / libm::expm1(exponent(nm))).map(|sum| libm::log(sum / SUM_Y));
     }
-    // 1/(e^x − 1) without its factor e^(−least).
+    // 1/(e^x − 1), without the factor e^(−least).
     let factor = libm::exp(-least);
     let sums = weigh(|_, nm| {
         let rest = libm::exp(least - exponent(nm));
@@ -54,10 +57,10 @@ pub(crate) fn ln_xyz(kelvin: f64) -> [f64; 3] {
     sums.map(|sum| libm::log(sum / SUM_Y) - least)
 }
 
-/// How many times brighter (Y) a black body is than another, by their temperatures in kelvins.
+/// The ratio of the luminances (Y) of two black bodies, given their temperatures in kelvins.
 ///
-/// To give black bodies of one scene the brightness that their temperatures have: the scale of each is its
-/// ratio to a common reference.
+/// Use it to give the black bodies of a scene physical relative brightness: the scale of each is
+/// its ratio to a common reference.
 ///
 /// ```
 /// let ratio = ugspectrum::blackbody_luminance_ratio(3348.631561, 5800.0);

@@ -1,11 +1,11 @@
 //! The CIE 1931 standard observer (2°) at every nanometre from 360 to 830.
 //!
-//! ISO/CIE 11664-1; the values of the table that the CIE publishes.
+//! The table of colour matching functions that the CIE publishes with ISO/CIE 11664-1.
 
 /// Wavelength of the first row of [`CIE_1931`], nm.
 pub(crate) const FIRST_NM: usize = 360;
 
-/// x̄, ȳ, z̄ of each nanometre.
+/// x̄, ȳ, z̄ at each nanometre.
 #[rustfmt::skip]
 pub(crate) const CIE_1931: [[f64; 3]; 471] = [
     [0.0001299, 3.917e-6, 0.0006061], [0.000145847, 4.393581e-6, 0.0006808792],

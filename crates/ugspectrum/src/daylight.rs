@@ -1,19 +1,22 @@
-//! The light that shines on surface colours: daylight where we see, a black body beyond.
+//! The illuminant of surface colours: D65 in the visible range, a black body outside.
 
 use crate::blackbody::planck;
 
-/// Temperature of the black body that continues daylight, kelvins: the correlated colour temperature of D65.
+/// Temperature of the black body that continues daylight, kelvins: the correlated colour
+/// temperature of D65.
 pub const DAYLIGHT_KELVIN: f64 = 6504.0;
 
 const FIRST_NM: f64 = 380.0;
 const LAST_NM: f64 = 780.0;
 const STEP_NM: f64 = 5.0;
 
-/// The illuminant of surface colours at a wavelength in nm, 1 at 560 nm.  Eq. (P20)
+/// The illuminant of surface colours at a wavelength in nm: relative spectral power, 1 at 560 nm.
+/// Eq. (P20)
 ///
-/// CIE standard illuminant D65 from 380 to 780 nm, linear between its values every 5 nm. Outside, where the Doppler
-/// effect looks too, Planck's law at 6504 K, at either end times what joins it to the table: so sunlight above the
-/// air, which would take the ultraviolet away.
+/// CIE standard illuminant D65 from 380 to 780 nm, interpolated linearly between its values every 5
+/// nm. Outside, where Doppler-shifted visible light comes from, Planck's law at 6504 K, scaled at
+/// each end to be continuous with the table. This is sunlight above the atmosphere, which would
+/// absorb the ultraviolet.
 ///
 /// ```
 /// use ugspectrum::daylight;
@@ -30,17 +33,18 @@ pub fn daylight(wavelength_nm: f64) -> f64 {
         return tail(wavelength_nm, LAST_NM, D65[D65.len() - 1]);
     }
     let at = (wavelength_nm - FIRST_NM) / STEP_NM;
-    // NaN counts as the first row, and stays NaN by its part.
+    // NaN is cast to row 0; the interpolation then gives NaN.
     let row = (at as usize).min(D65.len() - 2);
     (D65[row] + (at - row as f64) * (D65[row + 1] - D65[row])) / 100.0
 }
 
+/// Planck's law at [`DAYLIGHT_KELVIN`], scaled to `value`/100 at `joint_nm`.
 fn tail(wavelength_nm: f64, joint_nm: f64, value: f64) -> f64 {
     let at_joint = planck(joint_nm, DAYLIGHT_KELVIN);
     value / 100.0 * (planck(wavelength_nm, DAYLIGHT_KELVIN) / at_joint)
 }
 
-/// Standard illuminant D65 at every 5 nm from 380 to 780 (ISO/CIE 11664-2), 100 at 560 nm.
+/// CIE standard illuminant D65, every 5 nm from 380 to 780 nm (ISO/CIE 11664-2), 100 at 560 nm.
 #[rustfmt::skip]
 const D65: [f64; 81] = [
     49.9755, 52.3118, 54.6482, 68.7015, 82.7549, 87.1204, 91.486, 92.4589, 93.4318, 90.057, 86.6823,

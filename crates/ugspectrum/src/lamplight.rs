@@ -1,15 +1,15 @@
-//! Surfaces under light of any spectrum, which may move against them.
+//! Surfaces under a light of any spectrum, which may move relative to them.
 
 use crate::daylight::daylight;
 use crate::observer::integrate;
 use crate::spectrum::{Kind, Spectrum};
 use crate::{Reflectance, planck};
 
-/// The spectrum of a light, as it is in the frame of the light.
+/// The spectrum of a light, in the light's rest frame.
 #[derive(Clone, Debug)]
 pub struct Lamplight {
     source: Source,
-    /// What brings the Y of a white surface at rest to that of the spectrum.
+    /// Factor that gives a white surface at rest the Y of the spectrum.
     scale: f64,
 }
 
@@ -21,7 +21,8 @@ enum Source {
 }
 
 impl Lamplight {
-    /// Daylight through a filter of that colour, a black body, or samples; of a light whose colour the spectrum is.
+    /// The light whose colour is `spectrum`. A surface colour becomes daylight through a filter of
+    /// that transmittance; black bodies and samples shine as they are.
     #[must_use]
     pub fn new(spectrum: &Spectrum) -> Self {
         match &spectrum.0 {
@@ -40,7 +41,7 @@ impl Lamplight {
         }
     }
 
-    /// Its part at a wavelength in nm, 1 for a table of value 1.
+    /// Relative spectral power at a wavelength in nm: 1 for a table of value 1.
     #[must_use]
     pub fn at(&self, wavelength_nm: f64) -> f64 {
         let light = match &self.source {
@@ -52,6 +53,7 @@ impl Lamplight {
     }
 }
 
+/// Linear interpolation of samples (nm, value), 0 outside.
 fn between(samples: &[[f64; 2]], wavelength_nm: f64) -> f64 {
     let next = samples.partition_point(|&[nm, _]| nm <= wavelength_nm);
     match (next.checked_sub(1).map(|row| samples[row]), samples.get(next)) {
@@ -62,15 +64,16 @@ fn between(samples: &[[f64; 2]], wavelength_nm: f64) -> f64 {
 }
 
 impl Spectrum {
-    /// X, Y, Z of a surface under a light with the Doppler factor D_l between them, seen with D: of
-    /// L(λ) = R(λD) S(λ D D_l), without D⁵ and D_l³. `None` for what is no surface, but shines by itself.
-    /// Eq. (P14), (P19), (P20)
+    /// X, Y, Z of a surface seen with D = `doppler` under a light that it receives with
+    /// D_l = `light_doppler`: of L(λ) = R(λD) S(λ D D_l), without the factors D⁵ and D_l³. `None`
+    /// if this spectrum is not a surface but emits light itself.  Eq. (P14), (P19), (P20)
     ///
     /// ```
     /// use ugspectrum::{Lamplight, Spectrum};
     ///
-    /// // White under a green lamp is green; under daylight a surface has its own colour.
-    /// let (white, green) = (Spectrum::from_linear_srgb([1.0; 3]), Spectrum::from_linear_srgb([0.1, 0.5, 0.1]));
+    /// // White under a green lamp looks green; a surface under white light has its own colour.
+    /// let white = Spectrum::from_linear_srgb([1.0; 3]);
+    /// let green = Spectrum::from_linear_srgb([0.1, 0.5, 0.1]);
     /// for (surface, lamp) in [(&white, &green), (&green, &white)] {
     ///     let seen = surface.under(&Lamplight::new(lamp), 1.0, 1.0).ok_or("a surface")?;
     ///     assert!(seen.iter().zip(green.seen(1.0)).all(|(a, b)| (a - b).abs() < 1e-9));

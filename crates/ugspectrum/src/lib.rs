@@ -1,15 +1,17 @@
-//! Spectra of surfaces and of light, shifted by the Doppler effect and weighed by the eye.
+//! Spectra of surfaces and lights, Doppler-shifted and converted to CIE XYZ.
 //!
-//! A colour of three numbers does not say what it looks like in motion: light that was infrared comes into
-//! view, and what was visible leaves it. So every colour becomes a [`Spectrum`] L'(λ) over all wavelengths. Seen
-//! with Doppler factor D it is L(λ) = D⁵ L'(λD) (P12), and the eye makes X, Y, Z of it (P19).
+//! Three numbers per colour do not determine what the colour looks like in motion: infrared light
+//! is shifted into the visible range, and visible light out of it. So every colour becomes a
+//! [`Spectrum`], a spectral radiance L'(λ) over all wavelengths. With Doppler factor D it is seen
+//! as L(λ) = D⁵ L'(λD) (P12), whose integrals with the CIE 1931 observer are X, Y, Z (P19).
 //!
-//! * **Black bodies** stay black bodies: T seen with D is D·T (P13).
-//! * **Tables** of wavelength and radiance are taken as they are.
-//! * **Surface colours** in red, green and blue are raised to a smooth reflectance under daylight (P20), and give
-//!   back their own red, green and blue at rest.
+//! * **Black bodies** remain black bodies: temperature T seen with D is D·T (P13).
+//! * **Tables** of wavelength and radiance are used as given.
+//! * **Surface colours** in red, green and blue are upsampled to a smooth reflectance under
+//!   daylight (P20), which reproduces the same red, green and blue at rest.
 //!
-//! Asking for one D is a sum over 471 wavelengths. For many, a [`Grid`] makes tables of X, Y, Z over ln D.
+//! Each evaluation at a D is a sum over 471 wavelengths. For many values of D, a [`Grid`] tabulates
+//! X, Y, Z over ln D.
 //!
 //! ```
 //! use ugspectrum::Spectrum;
@@ -22,9 +24,9 @@
 //!
 //! # Units
 //!
-//! Wavelengths in nanometres, temperatures in kelvins. Y is relative: 1 is a perfectly white surface under the
-//! illuminant, an equal-energy table of value 1, a black body of scale 1 at rest. Nothing here panics on finite
-//! input.
+//! Wavelengths in nanometres, temperatures in kelvins. Y is relative: Y = 1 for a perfectly white
+//! surface under the illuminant, for a table of value 1 at every wavelength, and for a black body
+//! of scale 1, all at rest. Nothing here panics on finite input.
 
 mod blackbody;
 mod cie_1931;

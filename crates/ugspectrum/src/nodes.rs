@@ -1,22 +1,23 @@
-//! Sums over a smooth reflectance from few of its values.
+//! Quadrature: integrals over a smooth reflectance from few of its values.
 
 use crate::reflectance::{CURVE_NM, Illumination};
 use crate::solve::Coefficients;
 
-/// How many nodes colours in motion are made from: one every 4 nm.
+/// Number of nodes for colours in motion: one every 4 nm.
 pub(crate) const N_NODES: usize = 101;
 
-/// Points of the polynomials between nodes.
+/// Number of nodes that each interpolation polynomial passes through.
 const N_POINTS: usize = 6;
 
-/// Values of a curve at even steps from 380 to 780 nm, each with the X, Y, Z that a 1 there adds to what is seen, or
-/// with its red, green and blue.
+/// Evenly spaced nodes from 380 to 780 nm, each with a weight for X, Y and Z (or for red, green and
+/// blue): the contribution of a reflectance of 1 at that node.
 ///
-/// Between nodes the curve counts as the polynomial through the six next to it, and daylight and the observer have their
-/// value at every nanometre at the eye. So it is the curve alone that has to be smooth.
+/// Between nodes the reflectance is interpolated by the polynomial through the six nearest nodes.
+/// Daylight and the observer are still evaluated at every nanometre at the eye, so only the
+/// reflectance has to be smooth.
 #[derive(Clone, Debug)]
 pub(crate) struct Nodes<const N: usize> {
-    /// Legendre's first and second polynomial at each node, see [`Coefficients`].
+    /// The Legendre polynomial P₁ at each node, and P₂ in `quadratic`; see [`Coefficients`].
     t: [f64; N],
     quadratic: [f64; N],
     /// The weights, by channel.
@@ -24,13 +25,13 @@ pub(crate) struct Nodes<const N: usize> {
 }
 
 impl<const N: usize> Nodes<N> {
-    /// Of what shines on the surface and is seen.
+    /// The weights for the given light on the surface.
     pub fn new(light: &Illumination) -> Self {
         let [first, last] = CURVE_NM;
         let step_nm = (last - first) / (N - 1) as f64;
         let mut weights = [[0.0; N]; 3];
         for (channel, weights) in weights.iter_mut().enumerate() {
-            // Outside, the curve stays as it is at its ends.
+            // Outside 380…780 nm the reflectance is constant.
             weights[0] += light.outside[0][channel];
             weights[N - 1] += light.outside[1][channel];
             for (nm, weight) in light.wavelengths().zip(&light.inside[channel]) {
@@ -48,7 +49,7 @@ impl<const N: usize> Nodes<N> {
         }
     }
 
-    /// The same with other channels.
+    /// The same with the channels converted by `mix`, a linear map.
     pub fn mixed(mut self, mix: impl Fn([f64; 3]) -> [f64; 3]) -> Self {
         for row in 0..N {
             let mixed = mix(std::array::from_fn(|i| self.weights[i][row]));
@@ -57,7 +58,7 @@ impl<const N: usize> Nodes<N> {
         self
     }
 
-    /// The sums of a curve by channel.
+    /// The integral for each channel, from the values of a curve at the nodes.
     pub fn sums(&self, values: &[f64; N]) -> [f64; 3] {
         self.weights.each_ref().map(|weights| dot(values, weights))
     }
@@ -67,9 +68,9 @@ impl<const N: usize> Nodes<N> {
         self.arguments(curve).map(|x| 0.5 + 0.5 * x / (1.0 + x * x).sqrt())
     }
 
-    /// The curve, and its derivative by the three coefficients.
+    /// The curve at every node, and its derivatives with respect to the three coefficients.
     pub fn curve_and_slopes(&self, curve: Coefficients) -> ([f64; N], [[f64; N]; 3]) {
-        // One table after the other, which processors do several rows of at once.
+        // Table by table, so that the compiler vectorizes the loops over nodes.
         let arguments = self.arguments(curve);
         let roots = arguments.map(|x| 1.0 / (1.0 + x * x).sqrt());
         let slope = roots.map(|root| 0.5 * root * root * root);
@@ -83,7 +84,8 @@ impl<const N: usize> Nodes<N> {
     }
 }
 
-/// The first of the nodes that a value `at` steps from the first depends on, and the weights of it and the next.
+/// Lagrange interpolation at `at`, in steps from the first node: the first node used, and the
+/// weights of it and the ones after it.
 fn polynomial(at: f64, n_nodes: usize) -> (usize, [f64; N_POINTS]) {
     let row = (at as usize).saturating_sub(N_POINTS / 2 - 1).min(n_nodes - N_POINTS);
     let at = at - row as f64;
@@ -94,7 +96,7 @@ fn polynomial(at: f64, n_nodes: usize) -> (usize, [f64; N_POINTS]) {
     (row, std::array::from_fn(weight))
 }
 
-/// Σ a b, in four sums at once, in one order on every machine.
+/// Σ a b, in four partial sums (for SIMD), in the same order on every machine.
 pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
     let (a_chunks, a_rest) = a.as_chunks::<4>();
     let (b_chunks, b_rest) = b.as_chunks::<4>();

@@ -1,4 +1,4 @@
-//! What the eye makes of a spectrum.
+//! The CIE 1931 standard observer, and X, Y, Z of a spectrum.
 
 use crate::cie_1931::{CIE_1931, FIRST_NM};
 
@@ -15,8 +15,8 @@ const fn sum_y() -> f64 {
     sum
 }
 
-/// x̄, ȳ, z̄ of the CIE 1931 standard observer (2°) at a wavelength in nm: linear between the nanometres, 0 outside
-/// 360…830.  Eq. (P19)
+/// The colour matching functions x̄, ȳ, z̄ of the CIE 1931 standard observer (2°) at a wavelength
+/// in nm: interpolated linearly between whole nanometres, 0 outside 360…830 nm.  Eq. (P19)
 ///
 /// ```
 /// assert_eq!(ugspectrum::observer(555.0)[1], 1.0);
@@ -34,8 +34,8 @@ pub fn observer(wavelength_nm: f64) -> [f64; 3] {
     std::array::from_fn(|i| CIE_1931[row][i] + part * (CIE_1931[row + 1][i] - CIE_1931[row][i]))
 }
 
-/// X, Y, Z of a spectral radiance over wavelength in nm, as the sum over every nanometre from 360 to 830; a radiance
-/// of 1 at every wavelength has Y = 1.  Eq. (P19)
+/// X, Y, Z of a spectral radiance, a function of the wavelength in nm: the sum over every nanometre
+/// from 360 to 830. A radiance of 1 at every wavelength has Y = 1.  Eq. (P19)
 ///
 /// ```
 /// let [x, y, z] = ugspectrum::integrate(|_| 1.0);
@@ -46,7 +46,7 @@ pub fn integrate(radiance: impl Fn(f64) -> f64) -> [f64; 3] {
     weigh(|_, wavelength_nm| radiance(wavelength_nm)).map(|sum| sum / SUM_Y)
 }
 
-/// Σ L x̄, Σ L ȳ, Σ L z̄ over the table; `radiance` gets row and wavelength.
+/// Σ L x̄, Σ L ȳ, Σ L z̄ over the table; `radiance` is called with row and wavelength in nm.
 pub(crate) fn weigh(radiance: impl Fn(usize, f64) -> f64) -> [f64; 3] {
     let mut sums = [0.0; 3];
     for (row, weights) in CIE_1931.iter().enumerate() {

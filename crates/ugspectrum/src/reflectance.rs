@@ -1,4 +1,4 @@
-//! Surface colours raised to spectra.
+//! Surface colours upsampled to reflectance spectra.
 
 use crate::cie_1931::{CIE_1931, FIRST_NM};
 use crate::daylight::daylight;
@@ -6,18 +6,20 @@ use crate::nodes::dot;
 use crate::observer::weigh;
 use crate::solve::{Coefficients, solve};
 
-/// Where the curve ends; beyond, the reflectance stays as it is there.
+/// The range of the curve, nm; outside it the reflectance is constant.
 pub(crate) const CURVE_NM: [f64; 2] = [380.0, 780.0];
 
-/// The brightest channel that a curve is solved for: at 1 its coefficients grow without bound toward white. Colours
-/// outside of the triangle of the primaries are so saturated only if the surface is dim, and get another try.
+/// The value of the largest channel for which a curve is solved: with 1 the coefficients would grow
+/// without bound towards white. Colours outside the sRGB gamut need a dimmer surface to be that
+/// saturated, so they get a second try with the second value.
 const BRIGHTEST: [f64; 2] = [0.98, 0.25];
 
-/// A smooth reflectance under [`daylight`]: a factor times a sigmoid of a quadratic in the wavelength (Jakob and
-/// Hanika 2019), constant outside 380…780 nm.  Eq. (P20)
+/// A smooth reflectance under [`daylight`]: a factor times a sigmoid of a quadratic in the
+/// wavelength (Jakob and Hanika 2019), constant outside 380…780 nm.  Eq. (P20)
 ///
-/// Greys reflect alike at every wavelength, so white stays the white of the light that shines on it. Colours of one
-/// hue and saturation differ by the factor alone. A colour of at most 1 reflects at most 1/0.98.
+/// Greys have a constant reflectance, so white keeps the chromaticity of the illuminant. Colours
+/// with the same ratios of channels differ only by the factor. A colour with channels up to 1 has a
+/// reflectance up to 1/0.98.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Reflectance {
     factor: f64,
@@ -26,14 +28,14 @@ pub struct Reflectance {
 }
 
 impl Reflectance {
-    /// The surface that shows this linear red, green and blue (sRGB primaries, 1 1 1 is white) at rest, to 10⁻⁹. They
-    /// may be above 1: it shines. Negative channels lie outside of the triangle of the primaries; what is not so
-    /// far outside that no smooth surface has the colour still comes out. `None` for the rest.
+    /// The surface that has this linear sRGB colour (white is 1, 1, 1) at rest, to 10⁻⁹. Channels
+    /// may be above 1, for surfaces brighter than white. Negative channels are colours outside the
+    /// sRGB gamut; they are found too, up to a limit. `None` if no smooth surface has the colour.
     ///
     /// ```
     /// use ugspectrum::Reflectance;
     ///
-    /// let brick = Reflectance::from_linear_srgb([0.45, 0.07, 0.03]).expect("a colour of the screen");
+    /// let brick = Reflectance::from_linear_srgb([0.45, 0.07, 0.03]).expect("in the sRGB gamut");
     /// assert!(brick.at(650.0) > 4.0 * brick.at(450.0));
     /// assert_eq!(brick.at(2000.0), brick.at(780.0));
     /// ```
@@ -61,12 +63,12 @@ impl Reflectance {
         self.factor * self.curve.map_or(1.0, |curve| curve.at(wavelength_nm.clamp(first, last)))
     }
 
-    /// X, Y, Z of L(λ) = L'(λD), with what shines on it and is seen: (P12) without D⁵.
+    /// X, Y, Z of L(λ) = L'(λD) under daylight: (P12) without D⁵.
     pub(crate) fn xyz(&self, doppler: f64) -> [f64; 3] {
         self.lit(&Illumination::new(doppler))
     }
 
-    /// The same with the light worked out before.
+    /// The same with a light computed beforehand.
     pub(crate) fn lit(&self, light: &Illumination) -> [f64; 3] {
         let ends = CURVE_NM.map(|nm| self.at(nm));
         let [ultraviolet, infrared] = &light.outside;
@@ -80,21 +82,21 @@ impl Reflectance {
         })
     }
 
-    /// The curve times a factor; without a curve, 1 times it.
+    /// The factor, and the curve that it multiplies (`None`: the constant 1).
     pub(crate) fn parts(&self) -> (f64, Option<Coefficients>) {
         (self.factor, self.curve)
     }
 }
 
-/// The light on a surface as seen with a Doppler factor, weighed by the observer: white has Y = 1 at rest.
+/// Daylight seen with a Doppler factor, weighted by the observer: white has Y = 1 at rest.
 #[derive(Clone, Debug)]
 pub(crate) struct Illumination {
     doppler: f64,
-    /// X, Y, Z of all that comes from below 380 nm, and from above 780.
+    /// X, Y, Z of the light emitted below 380 nm, and of that emitted above 780 nm.
     pub outside: [[f64; 3]; 2],
     /// Wavelength at the eye, nm, of the first row of `inside`.
     first_nm: f64,
-    /// X, then Y, then Z of each nanometre at the eye whose light comes from 380…780 nm.
+    /// X, then Y, then Z of each nanometre at the eye whose light was emitted at 380…780 nm.
     pub inside: [Vec<f64>; 3],
 }
 
@@ -123,13 +125,13 @@ impl Illumination {
         light
     }
 
-    /// Wavelengths at the surface of the rows of `inside`, nm.
+    /// Emitted wavelengths of the rows of `inside`, nm.
     pub fn wavelengths(&self) -> impl Iterator<Item = f64> {
         (0..self.inside[0].len()).map(|row| (self.first_nm + row as f64) * self.doppler)
     }
 }
 
-/// Σ daylight ȳ.
+/// Σ S ȳ of daylight S, computed once.
 fn white_luminance() -> f64 {
     static SUM: std::sync::OnceLock<f64> = std::sync::OnceLock::new();
     *SUM.get_or_init(|| weigh(|_, nm| daylight(nm))[1])

@@ -1,12 +1,13 @@
-//! Spectra given by samples, linear between them and 0 outside.
+//! Spectra given by samples, interpolated linearly between them and 0 outside.
 
 use crate::cie_1931::{CIE_1931, FIRST_NM};
 use crate::observer::{SUM_Y, observer};
 
-/// X, Y, Z of L(λ) = L'(λD) for samples (nm, radiance) of L' at rising wavelengths.  Eq. (P12) without D⁵, (P19)
+/// X, Y, Z of L(λ) = L'(λD) for samples (nm, radiance) of L' at increasing wavelengths.  Eq. (P12)
+/// without D⁵, (P19)
 ///
-/// Both the spectrum and the observer are straight between their points, so the integral over each piece is exact
-/// by Simpson's rule: a line much narrower than a nanometre loses nothing.
+/// Both the spectrum and the observer are piecewise linear, so Simpson's rule integrates each piece
+/// exactly. Even a spectral line much narrower than a nanometre is integrated without loss.
 pub(crate) fn xyz(samples: &[[f64; 2]], doppler: f64) -> [f64; 3] {
     let mut sums = [0.0; 3];
     for ends in samples.windows(2) {
@@ -25,7 +26,8 @@ pub(crate) fn xyz(samples: &[[f64; 2]], doppler: f64) -> [f64; 3] {
     sums.map(|sum| sum / SUM_Y)
 }
 
-/// Calls `each` for every piece between whole nanometres of the observer's range.
+/// Splits the range at whole nanometres, clips it to the observer's, and calls `each` with the ends
+/// of every piece.
 fn pieces(from_nm: f64, to_nm: f64, mut each: impl FnMut(f64, f64)) {
     let first = FIRST_NM as f64;
     let last = (FIRST_NM + CIE_1931.len() - 1) as f64;

@@ -1,4 +1,4 @@
-//! Finding the curve that has a colour.
+//! Spectral upsampling: finds the reflectance curve of a colour (Jakob and Hanika 2019).
 
 use std::sync::OnceLock;
 
@@ -7,8 +7,8 @@ use ugphysics::xyz_to_linear_srgb;
 use crate::nodes::{N_NODES, Nodes, dot};
 use crate::reflectance::Illumination;
 
-/// A sigmoid of a quadratic: S(x) = 1/2 + x/(2√(1 + x²)) with x = a + b t + c (3t² − 1)/2 and t from −1 at 380 nm to 1 at
-/// 780.
+/// The coefficients a, b, c of a curve, a sigmoid of a quadratic: S(x) = 1/2 + x/(2√(1 + x²)) with
+/// x = a + b t + c (3t² − 1)/2, and t from −1 at 380 nm to 1 at 780 nm.  Eq. (P20)
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Coefficients(pub [f64; 3]);
 
@@ -20,34 +20,37 @@ impl Coefficients {
         0.5 + 0.5 * x / (1.0 + x * x).sqrt()
     }
 
-    /// Legendre's polynomials, which keep the three unknowns apart better than powers of t.
+    /// The Legendre polynomials P₀, P₁, P₂ at t. They are orthogonal, so the equations for the
+    /// coefficients are better conditioned than with powers of t.
     pub fn basis(wavelength_nm: f64) -> [f64; 3] {
         let t = (wavelength_nm - 580.0) / 200.0;
         [1.0, t, 1.5 * t * t - 0.5]
     }
 }
 
-/// How near the colour must come, in linear light.
+/// The iteration stops at this error, in linear light.
 const NEAR: f64 = 1e-10;
 
-/// What a solution has to reach to count.
+/// The largest error of an accepted solution, in linear light.
 const NEAR_ENOUGH: f64 = 1e-9;
 
-/// From here on one step is enough: slopes on the middle grid are right to some 10⁻³ for the steepest curves.
+/// Below this error one more step is enough: the derivatives on the middle grid are right to about
+/// 10⁻³ for the steepest curves.
 const ONE_STEP: f64 = 1e-7;
 
-/// Rounds of the iterations.
+/// Largest number of damped steps.
 const ROUNDS: usize = 200;
 
-/// Rounds of the last, each of which divides the error by a thousand or so.
+/// Largest number of final Newton steps; each divides the error by about a thousand.
 const LAST_ROUNDS: usize = 4;
 
-/// The curve whose colour under daylight is this linear sRGB, by the Gauss–Newton method with damping (Levenberg
-/// and Marquardt): first on nodes every 20 nm, then every 4, then on all wavelengths.
+/// The curve whose colour under daylight is this linear sRGB, by the Levenberg–Marquardt method:
+/// first on nodes every 20 nm, then every 4 nm, then on every nanometre. `None` if no curve is
+/// found.
 pub(crate) fn solve(wanted: [f64; 3]) -> Option<Coefficients> {
     let (coarse, middle, fine) = grids();
     let start = descend(coarse, wanted, through(wanted), 1e-4, 1e-3);
-    // The grids are nearly alike, so behind the first no damping is needed.
+    // The grids give nearly the same colours, so almost no damping is needed after the first.
     let near = descend(middle, wanted, start.curve, ONE_STEP, 1e-9);
     refine(fine, wanted, &near).or_else(|| {
         let found = descend(fine, wanted, grey(wanted), NEAR, 1e-3);
@@ -55,23 +58,23 @@ pub(crate) fn solve(wanted: [f64; 3]) -> Option<Coefficients> {
     })
 }
 
-/// The inverse of S, for what is neither black nor white.
+/// The inverse of S, with the reflectance clamped away from black and white.
 fn argument(reflected: f64) -> f64 {
     let reflected = reflected.clamp(0.02, 0.98);
     (reflected - 0.5) / (reflected * (1.0 - reflected)).sqrt()
 }
 
-/// The grey of that level.
+/// The constant curve at the mean of the channels.
 fn grey(wanted: [f64; 3]) -> Coefficients {
     Coefficients([argument((wanted[0] + wanted[1] + wanted[2]) / 3.0), 0.0, 0.0])
 }
 
-/// The curve that reflects as much as is wanted of blue at 455 nm, of green at 545 and of red at 600, where each is seen
-/// best: not far from the one that is sought.
+/// The initial guess: the curve that equals the blue channel at 455 nm, the green one at 545 nm and
+/// the red one at 600 nm, where each has most effect.
 fn through([red, green, blue]: [f64; 3]) -> Coefficients {
     const AT: [f64; 3] = [-0.625, -0.175, 0.1];
     let [low, middle, high] = [blue, green, red].map(argument);
-    // Newton's divided differences, and from powers of t to Legendre's polynomials.
+    // Newton's divided differences, converted from powers of t to Legendre polynomials.
     let first = (middle - low) / (AT[1] - AT[0]);
     let second = ((high - middle) / (AT[2] - AT[1]) - first) / (AT[2] - AT[0]);
     let quadratic = second / 1.5;
@@ -80,7 +83,8 @@ fn through([red, green, blue]: [f64; 3]) -> Coefficients {
     Coefficients([level + 0.5 * quadratic, slope, quadratic])
 }
 
-/// Newton's method on all wavelengths, by slopes that hold already nearby. `None` if it does not come near enough.
+/// Newton's method on every nanometre, with the derivatives of the nearby solution on the middle
+/// grid. `None` if it does not converge.
 fn refine(fine: &Fine, wanted: [f64; 3], near: &Found) -> Option<Coefficients> {
     let mut curve = near.curve;
     for _ in 0..LAST_ROUNDS {
@@ -98,11 +102,11 @@ fn refine(fine: &Fine, wanted: [f64; 3], near: &Found) -> Option<Coefficients> {
     None
 }
 
-/// Nodes every 20 nm, every 4, and at every nanometre.
+/// Nodes every 20 nm, every 4 nm, and at every nanometre.
 type Grids = (Nodes<21>, Nodes<N_NODES>, Fine);
 type Fine = Nodes<401>;
 
-/// Linear red, green and blue of the light on a surface at rest.
+/// The grids with weights for linear red, green and blue at rest.
 fn grids() -> &'static Grids {
     static GRIDS: OnceLock<Grids> = OnceLock::new();
     GRIDS.get_or_init(|| {
@@ -112,14 +116,15 @@ fn grids() -> &'static Grids {
     })
 }
 
-/// A curve, and how far its colour is off with its derivatives: row channel, column coefficient.
+/// A curve, the error of its colour, and the derivatives of that error: row channel, column
+/// coefficient.
 struct Found {
     curve: Coefficients,
     error: [f64; 3],
     slopes: [[f64; 3]; 3],
 }
 
-/// Levenberg–Marquardt until the largest error is below `near`; the best curve.
+/// Levenberg–Marquardt steps until the largest error is below `near`; returns the best curve.
 fn descend<const N: usize>(
     grid: &Nodes<N>,
     wanted: [f64; 3],
@@ -163,7 +168,7 @@ fn size(error: [f64; 3]) -> f64 {
     error.iter().fold(0.0, |largest: f64, part| largest.max(part.abs()))
 }
 
-/// The damped step: (JᵀJ + damping diag JᵀJ) step = −Jᵀ error, by Cramer's rule.
+/// The damped step: solves (JᵀJ + damping diag JᵀJ) step = −Jᵀ error by Cramer's rule.
 fn step(error: [f64; 3], slopes: [[f64; 3]; 3], damping: f64) -> Option<[f64; 3]> {
     let entry =
         |i: usize, j: usize| (0..3).map(|channel| slopes[channel][i] * slopes[channel][j]).sum::<f64>();

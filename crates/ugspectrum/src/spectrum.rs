@@ -1,4 +1,4 @@
-//! A spectrum, and what it looks like in motion.
+//! Spectra, and X, Y, Z of them as seen in motion.
 
 use std::sync::Arc;
 
@@ -8,13 +8,13 @@ use crate::reflectance::Reflectance;
 use crate::shifted::MOST;
 use crate::{blackbody, samples};
 
-/// Light over all wavelengths, as it is at rest.
+/// Spectral radiance L'(λ) over all wavelengths, in the rest frame of its source.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Spectrum(pub(crate) Kind);
 
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Kind {
-    /// What a surface sends back of daylight.
+    /// Daylight reflected by a surface.
     Reflected(Reflectance),
     /// Planck's law with a given Y at rest.
     Blackbody { kelvin: f64, luminance: f64 },
@@ -23,20 +23,19 @@ pub(crate) enum Kind {
 }
 
 impl Spectrum {
-    /// A surface of that linear red, green and blue (sRGB primaries) under daylight, (P20). Channels below 0 and colours
-    /// outside of what smooth surfaces can have: see [`Spectrum::from_xyz`].
+    /// A surface with the given linear sRGB colour under daylight. Negative channels, and colours
+    /// that no smooth surface has, are handled as in [`Spectrum::from_xyz`].  Eq. (P20)
     #[must_use]
     pub fn from_linear_srgb(rgb: [f64; 3]) -> Self {
         Self::from_xyz(linear_srgb_to_xyz(rgb)).0
     }
 
-    /// A surface of that X, Y, Z under daylight, (P20); true if it has exactly this colour at rest. Colours more
-    /// saturated than a smooth surface can be are brought toward the grey of the same Y, to the edge of what a screen shows; a
-    /// negative Y is black.
+    /// A surface with the given X, Y, Z under daylight, and whether it has exactly this colour at
+    /// rest. Colours more saturated than any smooth surface are mixed with the grey of the same Y,
+    /// to the boundary of the sRGB gamut; a negative Y becomes black.  Eq. (P20)
     #[must_use]
     pub fn from_xyz(xyz: [f64; 3]) -> (Self, bool) {
         let rgb = tidy(xyz_to_linear_srgb(xyz));
-        // Outside of the triangle only dim surfaces are saturated enough, so the factor is larger.
         let exact = Reflectance::from_linear_srgb(rgb);
         let is_exact = exact.is_some();
         let surface = exact.or_else(|| Reflectance::from_linear_srgb(in_gamut(rgb)));
@@ -44,13 +43,14 @@ impl Spectrum {
         (Self(Kind::Reflected(surface.unwrap_or(black))), is_exact)
     }
 
-    /// A black body of that temperature, above 0, whose Y at rest is `scale`, (P13).
+    /// A black body of temperature `kelvin`, above 0, whose Y at rest is `scale`.  Eq. (P13)
     #[must_use]
     pub fn blackbody(kelvin: f64, scale: f64) -> Self {
         Self(Kind::Blackbody { kelvin, luminance: scale })
     }
 
-    /// Radiance by samples (nm, value) at rising wavelengths, linear between them and 0 outside.
+    /// Spectral radiance from samples (nm, value) at increasing wavelengths, interpolated linearly
+    /// between them and 0 outside.
     #[must_use]
     pub fn samples(samples: &[[f64; 2]]) -> Self {
         Self(Kind::Samples(samples.into()))
@@ -61,7 +61,7 @@ impl Spectrum {
     /// ```
     /// use ugspectrum::Spectrum;
     ///
-    /// // White is the white of the screen, and bluish and brighter when it comes nearer.
+    /// // White at rest has Y = 1; approaching, it is bluer and brighter.
     /// let white = Spectrum::from_linear_srgb([1.0; 3]);
     /// assert!((white.seen(1.0)[1] - 1.0).abs() < 1e-12);
     /// let [_, y, z] = white.seen(1.2);
@@ -73,7 +73,8 @@ impl Spectrum {
         self.shifted(doppler).map(|part| part * (square * square * doppler))
     }
 
-    /// X, Y, Z of the shifted spectrum L(λ) = L'(λD), without the factor D⁵ of (P12). D is taken from e⁻¹⁰⁰ to e¹⁰⁰.
+    /// X, Y, Z of the shifted spectrum L(λ) = L'(λD), without the factor D⁵ of (P12). D is clamped
+    /// to e⁻¹⁰⁰…e¹⁰⁰.
     #[must_use]
     pub fn shifted(&self, doppler: f64) -> [f64; 3] {
         let doppler = doppler.clamp(libm::exp(-MOST), libm::exp(MOST));
@@ -84,7 +85,7 @@ impl Spectrum {
         }
     }
 
-    /// ln of [`Spectrum::shifted`]; −∞ for no light.
+    /// ln of [`Spectrum::shifted`]; −∞ where there is no light.
     pub(crate) fn ln_shifted(&self, doppler: f64) -> [f64; 3] {
         match self.0 {
             Kind::Blackbody { kelvin, luminance } => {
@@ -97,7 +98,7 @@ impl Spectrum {
     }
 }
 
-/// Channels that are 0, or grey, but for the rounding of X, Y, Z.
+/// Removes rounding: makes nearly grey colours exactly grey, and nearly zero channels exactly 0.
 fn tidy(rgb: [f64; 3]) -> [f64; 3] {
     const ROUNDING: f64 = 1e-12;
     let largest = rgb.iter().fold(0.0, |largest: f64, channel| largest.max(channel.abs()));
@@ -107,7 +108,7 @@ fn tidy(rgb: [f64; 3]) -> [f64; 3] {
     rgb.map(|channel| if channel.abs() <= ROUNDING * largest { 0.0 } else { channel })
 }
 
-/// The colour mixed with the grey of its luminance until no channel is below 0.
+/// Gamut mapping: the colour mixed with the grey of its luminance until no channel is below 0.
 fn in_gamut(rgb: [f64; 3]) -> [f64; 3] {
     let grey = luminance(rgb).max(0.0);
     let least = rgb[0].min(rgb[1]).min(rgb[2]);

@@ -1,4 +1,4 @@
-//! Surfaces, samples and tables, against the laws they follow and slow sums.
+//! Surfaces, samples and tables, against physical laws and slow sums.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, its helpers too")]
 
 use proptest::prelude::*;
@@ -26,7 +26,7 @@ fn check(found: [f64; 3], expected: [f64; 3], tolerance: f64) {
     assert!(found.iter().zip(&expected).all(is_near), "{found:?} is not {expected:?}");
 }
 
-/// All colours of so many levels of red, green and blue, evenly spaced as displayed.
+/// All colours with `n_levels` levels of red, green and blue, evenly spaced in display encoding.
 fn surfaces(n_levels: i32) -> Vec<[f64; 3]> {
     let level = |row: i32| srgb_decode(f64::from(row) / f64::from(n_levels - 1));
     let row = || 0..n_levels;
@@ -71,13 +71,13 @@ fn surfaces_in_motion_are_the_slow_sum() {
 
 #[test]
 fn colours_beyond_the_screen() {
-    // Between the primaries and the spectrum: a smooth surface has them, if it is dim.
+    // Between the sRGB gamut and the spectrum locus: dim smooth surfaces have these colours.
     for xyz in [[0.5, 0.4, 0.01], [0.1, 0.3, 0.05], [0.15, 0.05, 0.8]] {
         let (spectrum, is_exact) = Spectrum::from_xyz(xyz);
         assert!(is_exact, "{xyz:?}");
         check(spectrum.seen(1.0), xyz, 1e-7);
     }
-    // No light at all has these; the luminance stays.
+    // Outside the spectrum locus, where no light has the colour: the luminance is kept.
     for xyz in [[0.0, 0.5, 0.0], [1.0, 0.1, 0.0]] {
         let (spectrum, is_exact) = Spectrum::from_xyz(xyz);
         assert!(!is_exact, "{xyz:?}");
@@ -88,7 +88,8 @@ fn colours_beyond_the_screen() {
     }
 }
 
-/// (P13), through the general formula: the samples of a black body, seen with D, are those of one at D·T.
+/// (P13), through the general formula: the samples of a black body, seen with D, are those of one
+/// at D·T.
 #[test]
 fn a_black_body_stays_a_black_body() {
     for kelvin in [1000.0, 3500.0, 5900.0, 40_000.0] {
@@ -111,7 +112,7 @@ fn a_narrow_line_is_the_observer() {
     // Area 1 at 500 nm, a hundredth of a nanometre wide.
     let line = Spectrum::samples(&[[499.99, 0.0], [500.0, 100.0], [500.01, 0.0]]);
     for doppler in [0.7, 0.9, 1.0, 1.2] {
-        // λ is divided by D, and so is the width: D⁴.
+        // λ and the width of the line are both divided by D, which leaves D⁴.
         let expected =
             observer(500.0 / doppler).map(|part| part * doppler * doppler * doppler * doppler / 106.856917);
         check(line.seen(doppler), expected, 2e-3);
@@ -120,8 +121,8 @@ fn a_narrow_line_is_the_observer() {
     assert_eq!(Spectrum::samples(&[[500.0, 3.0]]).seen(1.0), [0.0; 3]);
 }
 
-/// What interpolation may lose of X, Y and Z: of surfaces a difference ΔE*ab of 0.1 at most, of black bodies, which are
-/// smoother, nothing that shows in five digits.
+/// Interpolation errors of X, Y and Z: for surfaces a colour difference ΔE*ab of at most 0.1, and
+/// less for black bodies, which are smoother.
 #[test]
 fn tables_are_near_what_they_tabulate() {
     let surfaces = surfaces(5).into_iter().map(|rgb| (Spectrum::from_linear_srgb(rgb), 3e-4));
@@ -131,7 +132,7 @@ fn tables_are_near_what_they_tabulate() {
     for (spectrum, tolerance) in surfaces.chain(bodies) {
         let table = grid.table(&spectrum);
         for row in 0..480 {
-            // At the middle of cells and off it.
+            // At the middle of cells and away from it.
             let ln = -2.4 + 0.01 * (f64::from(row) + 0.5 - 0.3 * f64::from(row % 2));
             let exact = spectrum.shifted(libm::exp(ln));
             check(table.xyz(ln), exact, tolerance);
@@ -173,7 +174,7 @@ proptest! {
         prop_assert!(seen.iter().zip(rgb).all(|(a, b)| (a - b).abs() < 2e-9 * scale), "{:?} {:?}", seen, rgb);
     }
 
-    /// Brighter and of shorter waves, or darker: X, Y, Z of a surface that reflects as much at all wavelengths grow with D.
+    /// X, Y, Z of a surface of constant reflectance increase with D.
     #[test]
     fn what_comes_nearer_is_brighter(doppler in 0.1..9.0_f64) {
         let white = Spectrum::from_linear_srgb([1.0; 3]);

@@ -22,7 +22,8 @@ fn check_xy(xyz: [f64; 3], expected: [f64; 2], tolerance: f64) {
     );
 }
 
-/// The sums of the three columns as the CIE gives them with its table: a slip in any row changes one.
+/// The sums of the three columns as published by the CIE with its table: an error in any row
+/// changes one of them.
 #[test]
 fn the_observer_is_that_of_the_cie() {
     let sums = (360..=830)
@@ -46,7 +47,7 @@ fn daylight_is_the_white_of_the_screen() {
     for (part, expected) in white.map(|part| part / white[1]).into_iter().zip(WHITE_XYZ) {
         check(part, expected, 1e-14);
     }
-    // Joined, and about as bright in the infrared as the black body of its temperature.
+    // Continuous at the joints, and in the infrared close to a black body of the same temperature.
     for joint in [380.0, 780.0] {
         check(daylight(joint - 1e-6), daylight(joint + 1e-6), 1e-6);
     }
@@ -54,7 +55,7 @@ fn daylight_is_the_white_of_the_screen() {
     check(daylight(1000.0) / planckian, 1.0, 0.1);
 }
 
-/// Primaries and white as IEC 61966-2-1 has them, to its four decimals.
+/// Primaries and white as in IEC 61966-2-1, to its four decimals.
 #[test]
 fn red_green_and_blue_are_those_of_the_standard() {
     let primaries = [
@@ -78,7 +79,7 @@ fn the_equal_energy_spectrum_is_in_the_middle() {
     let flat = Spectrum::samples(&[[100.0, 1.0], [3000.0, 1.0]]);
     check(flat.seen(1.0)[1], 1.0, 1e-7);
     check_xy(flat.seen(1.0), [0.33331, 0.33329], 3e-5);
-    // Flat stays flat, D⁵ times as bright.
+    // A flat spectrum stays flat and is D⁵ times as bright.
     check(flat.seen(2.0)[1], 32.0, 1e-5);
 }
 
@@ -96,7 +97,7 @@ fn black_bodies_have_the_colours_of_t22() {
     ] {
         check_xy(Spectrum::blackbody(kelvin, 1.0).seen(1.0), xy, 1e-7);
         check(Spectrum::blackbody(kelvin, 3.0).seen(1.0)[1], 3.0, 1e-12);
-        // The same by the plain sum.
+        // The same by direct summation.
         check_xy(integrate(|nm| planck(nm, kelvin)), xy, 1e-7);
     }
     for (doppler, luminance) in [(10045.89468, 7.127772), (3348.631561, 0.0387105), (25281.61387, 49.434003)]
@@ -128,7 +129,7 @@ fn plancks_law() {
     let step = 1e-3;
     let slope = |nm: f64| planck(nm + step, 5800.0) - planck(nm - step, 5800.0);
     assert!(slope(499.6158543 - 0.01) > 0.0 && slope(499.6158543 + 0.01) < 0.0);
-    // The whole of it is σT⁴/π (Stefan and Boltzmann).
+    // The integral is σT⁴/π (Stefan–Boltzmann law).
     let whole: f64 = (1..200_000).map(|row| planck(f64::from(row) * 0.5, 5800.0) * 0.5).sum();
     check(whole / (5.670374419e-8 * 5800.0_f64 * 5800.0 * 5800.0 * 5800.0 / std::f64::consts::PI), 1.0, 1e-4);
 }
