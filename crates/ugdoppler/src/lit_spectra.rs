@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use uglight::Irradiance;
 use ugparse::{ColorId, Scene};
 use ugscene::Shares;
-use ugspectrum::{Lamplight, Spectrum};
+use ugspectrum::{LightSpectrum, Spectrum};
 
 use crate::Config;
 use crate::illumination::Illumination;
@@ -27,8 +27,8 @@ pub(crate) fn seen(
         Some(color) => uglight::spectrum(scene, &scene.colors[color.index()]).0,
         None => Spectrum::from_linear_srgb([1.0; 3]),
     };
-    let lamps: Vec<(Lamplight, f64)> = (scene.lights.iter())
-        .map(|light| (Lamplight::new(&spectrum(light.color)), light.intensity))
+    let lamps: Vec<(LightSpectrum, f64)> = (scene.lights.iter())
+        .map(|light| (LightSpectrum::new(&spectrum(light.color)), light.intensity))
         .collect();
     let colors: Vec<Spectrum> =
         (0..scene.colors.len()).map(|row| spectrum(Some(ColorId::from_index(row)))).collect();
@@ -49,7 +49,7 @@ pub(crate) fn seen(
 struct View<'a> {
     config: &'a Config,
     /// Spectra and intensities.
-    lamps: &'a [(Lamplight, f64)],
+    lamps: &'a [(LightSpectrum, f64)],
     doppler: f64,
 }
 

@@ -1,7 +1,7 @@
 //! How one colour of a scene looks in motion.
 
 use ugparse::{ColorId, Scene};
-use ugspectrum::{Grid, Shifted, Spectrum};
+use ugspectrum::{DopplerGrid, DopplerTable, Spectrum};
 
 /// Which parts of (P12) are done: L(λ) = D⁵ L'(λD) has a shift, and a factor.
 #[derive(Clone, Copy, Debug)]
@@ -28,12 +28,12 @@ impl Motion {
 pub(crate) struct Look {
     spectrum: Spectrum,
     is_exact: bool,
-    table: Option<Shifted>,
+    table: Option<DopplerTable>,
 }
 
 impl Look {
     /// Of a colour of the scene, or white; tabulated if there is a grid.
-    pub fn new(scene: &Scene, color: Option<ColorId>, grid: Option<&Grid>) -> Self {
+    pub fn new(scene: &Scene, color: Option<ColorId>, grid: Option<&DopplerGrid>) -> Self {
         let (spectrum, is_exact) = match color {
             Some(color) => uglight::spectrum(scene, &scene.colors[color.index()]),
             None => (Spectrum::from_linear_srgb([1.0; 3]), true),
@@ -46,12 +46,12 @@ impl Look {
         self.is_exact
     }
 
-    pub fn table(&self) -> Option<&Shifted> {
+    pub fn table(&self) -> Option<&DopplerTable> {
         self.table.as_ref()
     }
 
     /// X, Y, Z under a ln D.
-    pub fn seen(&self, grid: &Grid, ln_doppler: f64, motion: Motion) -> [f64; 3] {
+    pub fn seen(&self, grid: &DopplerGrid, ln_doppler: f64, motion: Motion) -> [f64; 3] {
         let shift = motion.shift(ln_doppler);
         let xyz = match &self.table {
             Some(table) => table.xyz(shift),

@@ -1,6 +1,6 @@
 //! Steps of the Doppler factor within which no colour of a scene changes visibly.
 
-use ugspectrum::{Grid, LN_STEP, Shifted};
+use ugspectrum::{DopplerGrid, DopplerTable, LN_STEP};
 
 use crate::look::Motion;
 
@@ -20,8 +20,8 @@ pub(crate) struct Ruler {
 impl Ruler {
     /// `tolerance`: X, Y and Z may be off by this part of themselves; 0 keeps every D apart.
     pub fn new<'t>(
-        grid: &Grid,
-        tables: impl Iterator<Item = &'t Shifted>,
+        grid: &DopplerGrid,
+        tables: impl Iterator<Item = &'t DopplerTable>,
         motion: Motion,
         tolerance: f64,
     ) -> Self {

@@ -5,7 +5,7 @@ use rustc_hash::FxHashMap;
 use ugparse::{Color, ColorId, ColorValue, Scene, UniqueNames};
 use ugphysics::xyz_to_linear_srgb;
 use ugscene::Shares;
-use ugspectrum::Grid;
+use ugspectrum::DopplerGrid;
 
 use crate::Config;
 use crate::look::{Look, Motion};
@@ -26,7 +26,7 @@ pub(crate) fn paint(
     let used = &*lit.others;
     let motion = Motion { doppler: config.doppler, flux: config.flux };
     let ln_factors: Vec<f64> = factors.par_iter().map(|&doppler| libm::log(doppler)).collect();
-    let grid = Grid::new(range(&ln_factors, used));
+    let grid = DopplerGrid::new(range(&ln_factors, used));
     let looks = looks(scene, shares, used, &grid);
     let tolerance = config.tolerance / 100.0;
     let ruler = Ruler::new(&grid, looks.iter().flatten().filter_map(Look::table), motion, tolerance);
@@ -68,7 +68,7 @@ pub(crate) fn parts(shares: &Shares) -> impl Iterator<Item = (Option<ColorId>, f
 }
 
 /// How each used colour looks; tabulated if more vertices ask than the table has points.
-fn looks(scene: &Scene, shares: &[Shares], used: &[bool], grid: &Grid) -> Vec<Option<Look>> {
+fn looks(scene: &Scene, shares: &[Shares], used: &[bool], grid: &DopplerGrid) -> Vec<Option<Look>> {
     let mut n_users = vec![0usize; scene.colors.len() + 1];
     for (shares, _) in shares.iter().zip(used).filter(|(_, used)| **used) {
         parts(shares).for_each(|(color, _)| n_users[row(color)] += 1);
@@ -137,7 +137,7 @@ impl Plan {
 
 impl Slot {
     /// X, Y, Z: those of the spectra that meet, each by its share.
-    fn xyz(&self, looks: &[Option<Look>], grid: &Grid, motion: Motion, shares: &[Shares]) -> [f64; 3] {
+    fn xyz(&self, looks: &[Option<Look>], grid: &DopplerGrid, motion: Motion, shares: &[Shares]) -> [f64; 3] {
         let mut sum = [0.0; 3];
         for (color, share) in parts(&shares[self.vertex]) {
             let Some(look) = &looks[row(color)] else { continue };

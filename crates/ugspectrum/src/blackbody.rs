@@ -1,7 +1,7 @@
 //! Black-body radiation.
 
 use crate::cie_1931::FIRST_NM;
-use crate::observer::{SUM_Y, weigh};
+use crate::observer::{SUM_Y, weighted_sums};
 
 /// Planck's constant (J s), the speed of light (m/s), and Boltzmann's constant (J/K), exact in the
 /// SI of 2019.
@@ -17,8 +17,8 @@ const SECOND_RADIATION_NM_K: f64 = PLANCK * LIGHT / BOLTZMANN * 1e9;
 const FIRST_RADIATION: f64 = 2.0 * PLANCK * LIGHT * LIGHT * 1e36;
 
 /// Temperatures are clamped to this range, kelvins.
-const COLDEST: f64 = 1e-6;
-const HOTTEST: f64 = 1e15;
+const MIN_KELVIN: f64 = 1e-6;
+const MAX_KELVIN: f64 = 1e15;
 
 /// Planck's law: the spectral radiance of a black body, W m⁻² sr⁻¹ nm⁻¹, at a wavelength in nm and
 /// a temperature in kelvins, both above 0.  Eq. (P13)
@@ -40,17 +40,18 @@ pub fn planck(wavelength_nm: f64, kelvin: f64) -> f64 {
 /// below the smallest f64.  Eq. (P13), (P19)
 pub(crate) fn ln_xyz(kelvin: f64) -> [f64; 3] {
     // Outside this range the exponents would overflow.
-    let kelvin = kelvin.clamp(COLDEST, HOTTEST);
+    let kelvin = kelvin.clamp(MIN_KELVIN, MAX_KELVIN);
     let exponent = |wavelength_nm: f64| SECOND_RADIATION_NM_K / (wavelength_nm * kelvin);
     // The smallest exponent, at the red end of the table.
     let least = exponent((FIRST_NM + crate::cie_1931::CIE_1931.len() - 1) as f64);
     let fifth = |nm: f64| 1e13 / (nm * nm * (nm * nm) * nm);
     if least < 1.0 {
-        return weigh(|_, nm| fifth(nm) / libm::expm1(exponent(nm))).map(|sum| libm::log(sum / SUM_Y));
+        return weighted_sums(|_, nm| fifth(nm) / libm::expm1(exponent(nm)))
+            .map(|sum| libm::log(sum / SUM_Y));
     }
     // 1/(e^x − 1), without the factor e^(−least).
     let factor = libm::exp(-least);
-    let sums = weigh(|_, nm| {
+    let sums = weighted_sums(|_, nm| {
         let rest = libm::exp(least - exponent(nm));
         fifth(nm) * rest / (1.0 - rest * factor)
     });

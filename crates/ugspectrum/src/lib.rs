@@ -10,8 +10,8 @@
 //! * **Surface colours** in red, green and blue are upsampled to a smooth reflectance under
 //!   daylight (P20), which reproduces the same red, green and blue at rest.
 //!
-//! Each evaluation at a D is a sum over 471 wavelengths. For many values of D, a [`Grid`] tabulates
-//! X, Y, Z over ln D.
+//! Each evaluation at a D is a sum over 471 wavelengths. For many values of D, a [`DopplerGrid`]
+//! tabulates X, Y, Z over ln D.
 //!
 //! ```
 //! use ugspectrum::Spectrum;
@@ -31,19 +31,20 @@
 mod blackbody;
 mod cie_1931;
 mod daylight;
-mod lamplight;
-mod nodes;
+mod doppler_table;
+mod light_spectrum;
 mod observer;
+mod quadrature;
 mod reflectance;
 mod samples;
-mod shifted;
-mod solve;
 mod spectrum;
+mod upsampling;
+mod weighted_daylight;
 
 pub use blackbody::{blackbody_luminance_ratio, planck};
 pub use daylight::{DAYLIGHT_KELVIN, daylight};
-pub use lamplight::Lamplight;
+pub use doppler_table::{DopplerGrid, DopplerTable, LN_STEP};
+pub use light_spectrum::LightSpectrum;
 pub use observer::{integrate, observer};
 pub use reflectance::Reflectance;
-pub use shifted::{Grid, LN_STEP, Shifted};
 pub use spectrum::Spectrum;

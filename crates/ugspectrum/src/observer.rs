@@ -43,11 +43,11 @@ pub fn observer(wavelength_nm: f64) -> [f64; 3] {
 /// ```
 #[must_use]
 pub fn integrate(radiance: impl Fn(f64) -> f64) -> [f64; 3] {
-    weigh(|_, wavelength_nm| radiance(wavelength_nm)).map(|sum| sum / SUM_Y)
+    weighted_sums(|_, wavelength_nm| radiance(wavelength_nm)).map(|sum| sum / SUM_Y)
 }
 
 /// Σ L x̄, Σ L ȳ, Σ L z̄ over the table; `radiance` is called with row and wavelength in nm.
-pub(crate) fn weigh(radiance: impl Fn(usize, f64) -> f64) -> [f64; 3] {
+pub(crate) fn weighted_sums(radiance: impl Fn(usize, f64) -> f64) -> [f64; 3] {
     let mut sums = [0.0; 3];
     for (row, weights) in CIE_1931.iter().enumerate() {
         let light = radiance(row, (FIRST_NM + row) as f64);

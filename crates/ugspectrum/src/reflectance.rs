@@ -1,10 +1,8 @@
 //! Surface colours upsampled to reflectance spectra.
 
-use crate::cie_1931::{CIE_1931, FIRST_NM};
-use crate::daylight::daylight;
-use crate::nodes::dot;
-use crate::observer::weigh;
-use crate::solve::{Coefficients, solve};
+use crate::quadrature::dot;
+use crate::upsampling::{Coefficients, solve};
+use crate::weighted_daylight::WeightedDaylight;
 
 /// The range of the curve, nm; outside it the reflectance is constant.
 pub(crate) const CURVE_NM: [f64; 2] = [380.0, 780.0];
@@ -12,10 +10,10 @@ pub(crate) const CURVE_NM: [f64; 2] = [380.0, 780.0];
 /// The value of the largest channel for which a curve is solved: with 1 the coefficients would grow
 /// without bound towards white. Colours outside the sRGB gamut need a dimmer surface to be that
 /// saturated, so they get a second try with the second value.
-const BRIGHTEST: [f64; 2] = [0.98, 0.25];
+const LARGEST_CHANNEL: [f64; 2] = [0.98, 0.25];
 
-/// A smooth reflectance under [`daylight`]: a factor times a sigmoid of a quadratic in the
-/// wavelength (Jakob and Hanika 2019), constant outside 380…780 nm.  Eq. (P20)
+/// A smooth reflectance under [`daylight`](crate::daylight): a factor times a sigmoid of a
+/// quadratic in the wavelength (Jakob and Hanika 2019), constant outside 380…780 nm.  Eq. (P20)
 ///
 /// Greys have a constant reflectance, so white keeps the chromaticity of the illuminant. Colours
 /// with the same ratios of channels differ only by the factor. A colour with channels up to 1 has a
@@ -49,7 +47,7 @@ impl Reflectance {
         if !(largest > 0.0 && rgb.iter().all(|channel| channel.is_finite())) {
             return None;
         }
-        BRIGHTEST.into_iter().find_map(|brightest| {
+        LARGEST_CHANNEL.into_iter().find_map(|brightest| {
             let factor = largest / brightest;
             let curve = solve(rgb.map(|channel| channel / factor))?;
             Some(Self { factor, curve: Some(curve) })
@@ -65,11 +63,11 @@ impl Reflectance {
 
     /// X, Y, Z of L(λ) = L'(λD) under daylight: (P12) without D⁵.
     pub(crate) fn xyz(&self, doppler: f64) -> [f64; 3] {
-        self.lit(&Illumination::new(doppler))
+        self.xyz_under(&WeightedDaylight::new(doppler))
     }
 
     /// The same with a light computed beforehand.
-    pub(crate) fn lit(&self, light: &Illumination) -> [f64; 3] {
+    pub(crate) fn xyz_under(&self, light: &WeightedDaylight) -> [f64; 3] {
         let ends = CURVE_NM.map(|nm| self.at(nm));
         let [ultraviolet, infrared] = &light.outside;
         let reflected: Vec<f64> = match self.curve {
@@ -86,53 +84,4 @@ impl Reflectance {
     pub(crate) fn parts(&self) -> (f64, Option<Coefficients>) {
         (self.factor, self.curve)
     }
-}
-
-/// Daylight seen with a Doppler factor, weighted by the observer: white has Y = 1 at rest.
-#[derive(Clone, Debug)]
-pub(crate) struct Illumination {
-    doppler: f64,
-    /// X, Y, Z of the light emitted below 380 nm, and of that emitted above 780 nm.
-    pub outside: [[f64; 3]; 2],
-    /// Wavelength at the eye, nm, of the first row of `inside`.
-    first_nm: f64,
-    /// X, then Y, then Z of each nanometre at the eye whose light was emitted at 380…780 nm.
-    pub inside: [Vec<f64>; 3],
-}
-
-impl Illumination {
-    pub fn new(doppler: f64) -> Self {
-        let inside = [0; 3].map(|_| Vec::new());
-        let mut light = Self { doppler, outside: [[0.0; 3]; 2], first_nm: 0.0, inside };
-        let scale = 1.0 / white_luminance();
-        for (row, weights) in CIE_1931.iter().enumerate() {
-            let seen_nm = (FIRST_NM + row) as f64;
-            let level = daylight(seen_nm * doppler) * scale;
-            let xyz = weights.map(|weight| weight * level);
-            let into = if seen_nm * doppler < CURVE_NM[0] {
-                &mut light.outside[0]
-            } else if seen_nm * doppler > CURVE_NM[1] {
-                &mut light.outside[1]
-            } else {
-                if light.inside[0].is_empty() {
-                    light.first_nm = seen_nm;
-                }
-                light.inside.iter_mut().zip(xyz).for_each(|(channel, part)| channel.push(part));
-                continue;
-            };
-            into.iter_mut().zip(xyz).for_each(|(sum, part)| *sum += part);
-        }
-        light
-    }
-
-    /// Emitted wavelengths of the rows of `inside`, nm.
-    pub fn wavelengths(&self) -> impl Iterator<Item = f64> {
-        (0..self.inside[0].len()).map(|row| (self.first_nm + row as f64) * self.doppler)
-    }
-}
-
-/// Σ S ȳ of daylight S, computed once.
-fn white_luminance() -> f64 {
-    static SUM: std::sync::OnceLock<f64> = std::sync::OnceLock::new();
-    *SUM.get_or_init(|| weigh(|_, nm| daylight(nm))[1])
 }

@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use ugphysics::{linear_srgb_to_xyz, luminance, xyz_to_linear_srgb};
 
+use crate::doppler_table::MAX_LN_DOPPLER;
 use crate::reflectance::Reflectance;
-use crate::shifted::MOST;
 use crate::{blackbody, samples};
 
 /// Spectral radiance L'(λ) over all wavelengths, in the rest frame of its source.
@@ -35,7 +35,7 @@ impl Spectrum {
     /// to the boundary of the sRGB gamut; a negative Y becomes black.  Eq. (P20)
     #[must_use]
     pub fn from_xyz(xyz: [f64; 3]) -> (Self, bool) {
-        let rgb = tidy(xyz_to_linear_srgb(xyz));
+        let rgb = remove_rounding(xyz_to_linear_srgb(xyz));
         let exact = Reflectance::from_linear_srgb(rgb);
         let is_exact = exact.is_some();
         let surface = exact.or_else(|| Reflectance::from_linear_srgb(in_gamut(rgb)));
@@ -77,7 +77,7 @@ impl Spectrum {
     /// to e⁻¹⁰⁰…e¹⁰⁰.
     #[must_use]
     pub fn shifted(&self, doppler: f64) -> [f64; 3] {
-        let doppler = doppler.clamp(libm::exp(-MOST), libm::exp(MOST));
+        let doppler = doppler.clamp(libm::exp(-MAX_LN_DOPPLER), libm::exp(MAX_LN_DOPPLER));
         match &self.0 {
             Kind::Reflected(surface) => surface.xyz(doppler),
             Kind::Blackbody { .. } => self.ln_shifted(doppler).map(libm::exp),
@@ -99,7 +99,7 @@ impl Spectrum {
 }
 
 /// Removes rounding: makes nearly grey colours exactly grey, and nearly zero channels exactly 0.
-fn tidy(rgb: [f64; 3]) -> [f64; 3] {
+fn remove_rounding(rgb: [f64; 3]) -> [f64; 3] {
     const ROUNDING: f64 = 1e-12;
     let largest = rgb.iter().fold(0.0, |largest: f64, channel| largest.max(channel.abs()));
     if rgb.iter().all(|channel| (channel - rgb[1]).abs() <= ROUNDING * largest) {

@@ -3,7 +3,7 @@
 
 use proptest::prelude::*;
 use ugphysics::{linear_srgb_to_xyz, srgb_decode, xyz_to_linear_srgb};
-use ugspectrum::{Grid, Reflectance, Spectrum, daylight, integrate, observer, planck};
+use ugspectrum::{DopplerGrid, Reflectance, Spectrum, daylight, integrate, observer, planck};
 
 /// L(λ) = D⁵ L'(λD), (P12), summed every tenth of a nanometre; white under daylight has Y = 1.
 fn slow(radiance: impl Fn(f64) -> f64, doppler: f64) -> [f64; 3] {
@@ -128,7 +128,7 @@ fn tables_are_near_what_they_tabulate() {
     let surfaces = surfaces(5).into_iter().map(|rgb| (Spectrum::from_linear_srgb(rgb), 3e-4));
     let bodies =
         [1000.0, 6000.0, 40_000.0].into_iter().map(|kelvin| (Spectrum::blackbody(kelvin, 2.0), 3e-7));
-    let grid = Grid::new(-2.4..=2.4);
+    let grid = DopplerGrid::new(-2.4..=2.4);
     for (spectrum, tolerance) in surfaces.chain(bodies) {
         let table = grid.table(&spectrum);
         for row in 0..480 {
@@ -143,7 +143,7 @@ fn tables_are_near_what_they_tabulate() {
 
 #[test]
 fn extreme_factors_break_nothing() {
-    let grid = Grid::new(-200.0..=7.0);
+    let grid = DopplerGrid::new(-200.0..=7.0);
     let spectra = [
         Spectrum::from_linear_srgb([0.9, 0.1, 0.1]),
         Spectrum::blackbody(1e-300, 1.0),

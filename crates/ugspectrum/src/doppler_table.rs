@@ -3,9 +3,10 @@
 use std::ops::RangeInclusive;
 use std::sync::OnceLock;
 
-use crate::nodes::{N_NODES, Nodes};
-use crate::reflectance::{Illumination, Reflectance};
+use crate::quadrature::{N_NODES, Quadrature};
+use crate::reflectance::Reflectance;
 use crate::spectrum::{Kind, Spectrum};
+use crate::weighted_daylight::WeightedDaylight;
 
 /// Step of a table in ln D. A step shifts wavelengths by one percent, about 5 nm.
 ///
@@ -18,24 +19,24 @@ pub const LN_STEP: f64 = 0.01;
 const MARGIN: i32 = 2;
 
 /// |ln D| is clamped to this value: beyond it nothing visible is left.
-pub(crate) const MOST: f64 = 100.0;
+pub(crate) const MAX_LN_DOPPLER: f64 = 100.0;
 
 /// The Doppler factors of tables: e^(0.01 k) over a range with margins, always including D = 1.
 #[derive(Debug)]
-pub struct Grid {
+pub struct DopplerGrid {
     first: i32,
     last: i32,
     /// Weighted daylight at each factor, computed once for all surfaces.
-    light: OnceLock<Vec<Illumination>>,
-    /// Quadrature weights at each factor, for [`Grid::xyz`].
-    nodes: OnceLock<Vec<Nodes<N_NODES>>>,
+    light: OnceLock<Vec<WeightedDaylight>>,
+    /// Quadrature weights at each factor, for [`DopplerGrid::xyz`].
+    nodes: OnceLock<Vec<Quadrature<N_NODES>>>,
 }
 
-impl Grid {
+impl DopplerGrid {
     /// A grid that covers a range of ln D.
     #[must_use]
     pub fn new(ln_doppler: RangeInclusive<f64>) -> Self {
-        let row = |ln: f64| (ln.clamp(-MOST, MOST) / LN_STEP).floor() as i32;
+        let row = |ln: f64| (ln.clamp(-MAX_LN_DOPPLER, MAX_LN_DOPPLER) / LN_STEP).floor() as i32;
         Self {
             first: row(*ln_doppler.start()).min(0) - MARGIN,
             last: row(*ln_doppler.end()).max(0) + 1 + MARGIN,
@@ -57,14 +58,14 @@ impl Grid {
 
     /// Tabulates a spectrum at every Doppler factor of the grid.
     #[must_use]
-    pub fn table(&self, spectrum: &Spectrum) -> Shifted {
+    pub fn table(&self, spectrum: &Spectrum) -> DopplerTable {
         let points = match &spectrum.0 {
             Kind::Reflected(surface) => {
-                self.light().iter().map(|light| surface.lit(light).map(libm::log)).collect()
+                self.light().iter().map(|light| surface.xyz_under(light).map(libm::log)).collect()
             }
             _ => self.factors().map(|doppler| spectrum.ln_shifted(doppler)).collect(),
         };
-        Shifted { first: self.first, points }
+        DopplerTable { first: self.first, points }
     }
 
     /// X, Y, Z as from [`Spectrum::shifted`], at one ln D and without a table. For surfaces the
@@ -73,16 +74,16 @@ impl Grid {
     #[must_use]
     pub fn xyz(&self, spectrum: &Spectrum, ln_doppler: f64) -> [f64; 3] {
         let Kind::Reflected(surface) = &spectrum.0 else { return spectrum.shifted(libm::exp(ln_doppler)) };
-        let place = Place::new(self.first, self.n_points(), ln_doppler);
-        if place.part == 0.0 {
-            return surface.lit(&self.light()[place.cell]);
+        let cell = Cell::new(self.first, self.n_points(), ln_doppler);
+        if cell.fraction == 0.0 {
+            return surface.xyz_under(&self.light()[cell.idx]);
         }
-        let nodes = self.nodes.get_or_init(|| self.light().iter().map(Nodes::new).collect());
-        place.between(points(surface, &nodes[place.cell - 1..place.cell + 3]))
+        let nodes = self.nodes.get_or_init(|| self.light().iter().map(Quadrature::new).collect());
+        cell.interpolate(ln_xyz_at_nodes(surface, &nodes[cell.idx - 1..cell.idx + 3]))
     }
 
-    fn light(&self) -> &[Illumination] {
-        self.light.get_or_init(|| self.factors().map(Illumination::new).collect())
+    fn light(&self) -> &[WeightedDaylight] {
+        self.light.get_or_init(|| self.factors().map(WeightedDaylight::new).collect())
     }
 
     fn factors(&self) -> impl Iterator<Item = f64> {
@@ -91,7 +92,7 @@ impl Grid {
 }
 
 /// ln X, ln Y, ln Z of a surface at four points.
-fn points(surface: &Reflectance, around: &[Nodes<N_NODES>]) -> [[f64; 3]; 4] {
+fn ln_xyz_at_nodes(surface: &Reflectance, around: &[Quadrature<N_NODES>]) -> [[f64; 3]; 4] {
     let (factor, curve) = surface.parts();
     let values = curve.map_or([1.0; N_NODES], |curve| around[0].curve(curve));
     // Interpolation polynomials can fall slightly below 0.
@@ -104,29 +105,29 @@ fn points(surface: &Reflectance, around: &[Nodes<N_NODES>]) -> [[f64; 3]; 4] {
 /// through four points does not follow it well, but its logarithm is nearly linear. Where a point
 /// has no light (logarithm −∞), X, Y, Z themselves are interpolated linearly instead.
 #[derive(Clone, Debug)]
-pub struct Shifted {
+pub struct DopplerTable {
     /// ln D of the first point, in steps of [`LN_STEP`].
     first: i32,
     points: Vec<[f64; 3]>,
 }
 
-impl Shifted {
+impl DopplerTable {
     /// X, Y, Z as from [`Spectrum::shifted`], interpolated at a ln D. Outside the table's range,
     /// the values at its nearer end.
     ///
     /// ```
-    /// use ugspectrum::{Grid, Spectrum};
+    /// use ugspectrum::{DopplerGrid, Spectrum};
     ///
     /// let green = Spectrum::from_linear_srgb([0.1, 0.5, 0.1]);
-    /// let table = Grid::new(-1.0..=1.0).table(&green);
+    /// let table = DopplerGrid::new(-1.0..=1.0).table(&green);
     /// let [_, near, _] = table.xyz(0.123_f64);
     /// let [_, exact, _] = green.shifted(1.130_884_420_947_05);
     /// assert!((near / exact - 1.0).abs() < 3e-4);
     /// ```
     #[must_use]
     pub fn xyz(&self, ln_doppler: f64) -> [f64; 3] {
-        let place = Place::new(self.first, self.points.len(), ln_doppler);
-        place.between(std::array::from_fn(|i| self.points[place.cell + i - 1]))
+        let cell = Cell::new(self.first, self.points.len(), ln_doppler);
+        cell.interpolate(std::array::from_fn(|i| self.points[cell.idx + i - 1]))
     }
 
     /// ln X, ln Y, ln Z at the points of the grid; −∞ where there is no light.
@@ -137,31 +138,31 @@ impl Shifted {
 }
 
 /// The cell of a table in which a ln D lies.
-struct Place {
+struct Cell {
     /// Index of the point at the cell's start.
-    cell: usize,
+    idx: usize,
     /// Position within the cell, 0 to 1.
-    part: f64,
+    fraction: f64,
 }
 
-impl Place {
+impl Cell {
     fn new(first: i32, n_points: usize, ln_doppler: f64) -> Self {
         let last_cell = n_points - 1 - MARGIN as usize;
         let at = (ln_doppler / LN_STEP - f64::from(first)).clamp(1.0, last_cell as f64 + 1.0);
-        let cell = (at as usize).min(last_cell);
-        Self { cell, part: at - cell as f64 }
+        let idx = (at as usize).min(last_cell);
+        Self { idx, fraction: at - idx as f64 }
     }
 
     /// X, Y, Z interpolated from the logarithms at the point before the cell, its two ends, and the
     /// point after it.
-    fn between(&self, [before, from, to, behind]: [[f64; 3]; 4]) -> [f64; 3] {
+    fn interpolate(&self, [before, from, to, behind]: [[f64; 3]; 4]) -> [f64; 3] {
         std::array::from_fn(|i| {
             let ends = [before[i], from[i], to[i], behind[i]];
             if ends.iter().all(|ln| ln.is_finite()) {
-                libm::exp(cubic(ends, self.part))
+                libm::exp(cubic(ends, self.fraction))
             } else {
                 let (from, to) = (libm::exp(from[i]), libm::exp(to[i]));
-                from + self.part * (to - from)
+                from + self.fraction * (to - from)
             }
         })
     }

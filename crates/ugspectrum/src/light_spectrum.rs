@@ -7,7 +7,7 @@ use crate::{Reflectance, planck};
 
 /// The spectrum of a light, in the light's rest frame.
 #[derive(Clone, Debug)]
-pub struct Lamplight {
+pub struct LightSpectrum {
     source: Source,
     /// Factor that gives a white surface at rest the Y of the spectrum.
     scale: f64,
@@ -20,7 +20,7 @@ enum Source {
     Samples(Vec<[f64; 2]>),
 }
 
-impl Lamplight {
+impl LightSpectrum {
     /// The light whose colour is `spectrum`. A surface colour becomes daylight through a filter of
     /// that transmittance; black bodies and samples shine as they are.
     #[must_use]
@@ -47,14 +47,14 @@ impl Lamplight {
         let light = match &self.source {
             Source::Filtered(filter) => filter.at(wavelength_nm) * daylight(wavelength_nm),
             Source::Blackbody(kelvin) => planck(wavelength_nm, *kelvin),
-            Source::Samples(samples) => between(samples, wavelength_nm),
+            Source::Samples(samples) => interpolate(samples, wavelength_nm),
         };
         light * self.scale
     }
 }
 
 /// Linear interpolation of samples (nm, value), 0 outside.
-fn between(samples: &[[f64; 2]], wavelength_nm: f64) -> f64 {
+fn interpolate(samples: &[[f64; 2]], wavelength_nm: f64) -> f64 {
     let next = samples.partition_point(|&[nm, _]| nm <= wavelength_nm);
     match (next.checked_sub(1).map(|row| samples[row]), samples.get(next)) {
         (Some([low, from]), Some(&[high, to])) => from + (to - from) * ((wavelength_nm - low) / (high - low)),
@@ -69,19 +69,19 @@ impl Spectrum {
     /// if this spectrum is not a surface but emits light itself.  Eq. (P14), (P19), (P20)
     ///
     /// ```
-    /// use ugspectrum::{Lamplight, Spectrum};
+    /// use ugspectrum::{LightSpectrum, Spectrum};
     ///
     /// // White under a green lamp looks green; a surface under white light has its own colour.
     /// let white = Spectrum::from_linear_srgb([1.0; 3]);
     /// let green = Spectrum::from_linear_srgb([0.1, 0.5, 0.1]);
     /// for (surface, lamp) in [(&white, &green), (&green, &white)] {
-    ///     let seen = surface.under(&Lamplight::new(lamp), 1.0, 1.0).ok_or("a surface")?;
+    ///     let seen = surface.under(&LightSpectrum::new(lamp), 1.0, 1.0).ok_or("a surface")?;
     ///     assert!(seen.iter().zip(green.seen(1.0)).all(|(a, b)| (a - b).abs() < 1e-9));
     /// }
     /// # Ok::<(), &str>(())
     /// ```
     #[must_use]
-    pub fn under(&self, light: &Lamplight, doppler: f64, light_doppler: f64) -> Option<[f64; 3]> {
+    pub fn under(&self, light: &LightSpectrum, doppler: f64, light_doppler: f64) -> Option<[f64; 3]> {
         let Kind::Reflected(surface) = &self.0 else { return None };
         Some(integrate(|nm| surface.at(nm * doppler) * light.at(nm * doppler * light_doppler)))
     }

@@ -4,8 +4,8 @@ use std::sync::OnceLock;
 
 use ugphysics::xyz_to_linear_srgb;
 
-use crate::nodes::{N_NODES, Nodes, dot};
-use crate::reflectance::Illumination;
+use crate::quadrature::{N_NODES, Quadrature, dot};
+use crate::weighted_daylight::WeightedDaylight;
 
 /// The coefficients a, b, c of a curve, a sigmoid of a quadratic: S(x) = 1/2 + x/(2√(1 + x²)) with
 /// x = a + b t + c (3t² − 1)/2, and t from −1 at 380 nm to 1 at 780 nm.  Eq. (P20)
@@ -29,32 +29,32 @@ impl Coefficients {
 }
 
 /// The iteration stops at this error, in linear light.
-const NEAR: f64 = 1e-10;
+const TOLERANCE: f64 = 1e-10;
 
 /// The largest error of an accepted solution, in linear light.
-const NEAR_ENOUGH: f64 = 1e-9;
+const ACCEPTED_ERROR: f64 = 1e-9;
 
 /// Below this error one more step is enough: the derivatives on the middle grid are right to about
 /// 10⁻³ for the steepest curves.
-const ONE_STEP: f64 = 1e-7;
+const ONE_STEP_ERROR: f64 = 1e-7;
 
 /// Largest number of damped steps.
-const ROUNDS: usize = 200;
+const MAX_DAMPED_STEPS: usize = 200;
 
 /// Largest number of final Newton steps; each divides the error by about a thousand.
-const LAST_ROUNDS: usize = 4;
+const MAX_NEWTON_STEPS: usize = 4;
 
 /// The curve whose colour under daylight is this linear sRGB, by the Levenberg–Marquardt method:
 /// first on nodes every 20 nm, then every 4 nm, then on every nanometre. `None` if no curve is
 /// found.
-pub(crate) fn solve(wanted: [f64; 3]) -> Option<Coefficients> {
+pub(crate) fn solve(target: [f64; 3]) -> Option<Coefficients> {
     let (coarse, middle, fine) = grids();
-    let start = descend(coarse, wanted, through(wanted), 1e-4, 1e-3);
+    let start = levenberg_marquardt(coarse, target, initial_guess(target), 1e-4, 1e-3);
     // The grids give nearly the same colours, so almost no damping is needed after the first.
-    let near = descend(middle, wanted, start.curve, ONE_STEP, 1e-9);
-    refine(fine, wanted, &near).or_else(|| {
-        let found = descend(fine, wanted, grey(wanted), NEAR, 1e-3);
-        (size(found.error) < NEAR_ENOUGH).then_some(found.curve)
+    let near = levenberg_marquardt(middle, target, start.curve, ONE_STEP_ERROR, 1e-9);
+    refine(fine, target, &near).or_else(|| {
+        let found = levenberg_marquardt(fine, target, constant_curve(target), TOLERANCE, 1e-3);
+        (max_norm(found.error) < ACCEPTED_ERROR).then_some(found.curve)
     })
 }
 
@@ -65,13 +65,13 @@ fn argument(reflected: f64) -> f64 {
 }
 
 /// The constant curve at the mean of the channels.
-fn grey(wanted: [f64; 3]) -> Coefficients {
-    Coefficients([argument((wanted[0] + wanted[1] + wanted[2]) / 3.0), 0.0, 0.0])
+fn constant_curve(target: [f64; 3]) -> Coefficients {
+    Coefficients([argument((target[0] + target[1] + target[2]) / 3.0), 0.0, 0.0])
 }
 
 /// The initial guess: the curve that equals the blue channel at 455 nm, the green one at 545 nm and
 /// the red one at 600 nm, where each has most effect.
-fn through([red, green, blue]: [f64; 3]) -> Coefficients {
+fn initial_guess([red, green, blue]: [f64; 3]) -> Coefficients {
     const AT: [f64; 3] = [-0.625, -0.175, 0.1];
     let [low, middle, high] = [blue, green, red].map(argument);
     // Newton's divided differences, converted from powers of t to Legendre polynomials.
@@ -85,17 +85,17 @@ fn through([red, green, blue]: [f64; 3]) -> Coefficients {
 
 /// Newton's method on every nanometre, with the derivatives of the nearby solution on the middle
 /// grid. `None` if it does not converge.
-fn refine(fine: &Fine, wanted: [f64; 3], near: &Found) -> Option<Coefficients> {
+fn refine(fine: &Fine, target: [f64; 3], near: &Evaluation) -> Option<Coefficients> {
     let mut curve = near.curve;
-    for _ in 0..LAST_ROUNDS {
+    for _ in 0..MAX_NEWTON_STEPS {
         let sums = fine.sums(&fine.curve(curve));
-        let error: [f64; 3] = std::array::from_fn(|i| sums[i] - wanted[i]);
-        if size(error) < NEAR {
+        let error: [f64; 3] = std::array::from_fn(|i| sums[i] - target[i]);
+        if max_norm(error) < TOLERANCE {
             return Some(curve);
         }
         let step = step(error, near.slopes, 0.0)?;
         curve = Coefficients(std::array::from_fn(|i| curve.0[i] + step[i]));
-        if size(error) < ONE_STEP {
+        if max_norm(error) < ONE_STEP_ERROR {
             return Some(curve);
         }
     }
@@ -103,44 +103,48 @@ fn refine(fine: &Fine, wanted: [f64; 3], near: &Found) -> Option<Coefficients> {
 }
 
 /// Nodes every 20 nm, every 4 nm, and at every nanometre.
-type Grids = (Nodes<21>, Nodes<N_NODES>, Fine);
-type Fine = Nodes<401>;
+type Grids = (Quadrature<21>, Quadrature<N_NODES>, Fine);
+type Fine = Quadrature<401>;
 
 /// The grids with weights for linear red, green and blue at rest.
 fn grids() -> &'static Grids {
     static GRIDS: OnceLock<Grids> = OnceLock::new();
     GRIDS.get_or_init(|| {
-        let light = Illumination::new(1.0);
+        let light = WeightedDaylight::new(1.0);
         let mix = xyz_to_linear_srgb;
-        (Nodes::new(&light).mixed(mix), Nodes::new(&light).mixed(mix), Nodes::new(&light).mixed(mix))
+        (
+            Quadrature::new(&light).mixed(mix),
+            Quadrature::new(&light).mixed(mix),
+            Quadrature::new(&light).mixed(mix),
+        )
     })
 }
 
 /// A curve, the error of its colour, and the derivatives of that error: row channel, column
 /// coefficient.
-struct Found {
+struct Evaluation {
     curve: Coefficients,
     error: [f64; 3],
     slopes: [[f64; 3]; 3],
 }
 
-/// Levenberg–Marquardt steps until the largest error is below `near`; returns the best curve.
-fn descend<const N: usize>(
-    grid: &Nodes<N>,
-    wanted: [f64; 3],
+/// Levenberg–Marquardt steps until the largest error is below `tolerance`; returns the best curve.
+fn levenberg_marquardt<const N: usize>(
+    grid: &Quadrature<N>,
+    target: [f64; 3],
     start: Coefficients,
-    near: f64,
+    tolerance: f64,
     mut damping: f64,
-) -> Found {
-    let mut best = colour(grid, wanted, start);
-    for _ in 0..ROUNDS {
-        if size(best.error) < near {
+) -> Evaluation {
+    let mut best = evaluate(grid, target, start);
+    for _ in 0..MAX_DAMPED_STEPS {
+        if max_norm(best.error) < tolerance {
             break;
         }
         let Some(step) = step(best.error, best.slopes, damping) else { break };
         let next = Coefficients(std::array::from_fn(|i| best.curve.0[i] + step[i]));
-        let next = colour(grid, wanted, next);
-        if square(next.error) < square(best.error) {
+        let next = evaluate(grid, target, next);
+        if squared_norm(next.error) < squared_norm(best.error) {
             best = next;
             damping *= 0.1;
         } else {
@@ -153,18 +157,18 @@ fn descend<const N: usize>(
     best
 }
 
-fn colour<const N: usize>(grid: &Nodes<N>, wanted: [f64; 3], curve: Coefficients) -> Found {
+fn evaluate<const N: usize>(grid: &Quadrature<N>, target: [f64; 3], curve: Coefficients) -> Evaluation {
     let (values, basis) = grid.curve_and_slopes(curve);
     let sums = grid.sums(&values);
     let slopes = std::array::from_fn(|i| std::array::from_fn(|j| dot(&basis[j], &grid.weights[i])));
-    Found { curve, error: std::array::from_fn(|i| sums[i] - wanted[i]), slopes }
+    Evaluation { curve, error: std::array::from_fn(|i| sums[i] - target[i]), slopes }
 }
 
-fn square(error: [f64; 3]) -> f64 {
+fn squared_norm(error: [f64; 3]) -> f64 {
     error.iter().map(|part| part * part).sum()
 }
 
-fn size(error: [f64; 3]) -> f64 {
+fn max_norm(error: [f64; 3]) -> f64 {
     error.iter().fold(0.0, |largest: f64, part| largest.max(part.abs()))
 }
 
@@ -177,11 +181,11 @@ fn step(error: [f64; 3], slopes: [[f64; 3]; 3], damping: f64) -> Option<[f64; 3]
         row[i] *= 1.0 + damping;
     }
     let right: [f64; 3] = std::array::from_fn(|i| -(0..3).map(|ch| slopes[ch][i] * error[ch]).sum::<f64>());
-    let whole = determinant(matrix);
+    let det = determinant(matrix);
     let part = |column: usize| {
         let mut replaced = matrix;
         (0..3).for_each(|row| replaced[row][column] = right[row]);
-        determinant(replaced) / whole
+        determinant(replaced) / det
     };
     let step = [part(0), part(1), part(2)];
     step.iter().all(|part| part.is_finite()).then_some(step)

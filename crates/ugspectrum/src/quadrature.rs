@@ -1,7 +1,8 @@
 //! Quadrature: integrals over a smooth reflectance from few of its values.
 
-use crate::reflectance::{CURVE_NM, Illumination};
-use crate::solve::Coefficients;
+use crate::reflectance::CURVE_NM;
+use crate::upsampling::Coefficients;
+use crate::weighted_daylight::WeightedDaylight;
 
 /// Number of nodes for colours in motion: one every 4 nm.
 pub(crate) const N_NODES: usize = 101;
@@ -16,7 +17,7 @@ const N_POINTS: usize = 6;
 /// Daylight and the observer are still evaluated at every nanometre at the eye, so only the
 /// reflectance has to be smooth.
 #[derive(Clone, Debug)]
-pub(crate) struct Nodes<const N: usize> {
+pub(crate) struct Quadrature<const N: usize> {
     /// The Legendre polynomial P₁ at each node, and P₂ in `quadratic`; see [`Coefficients`].
     t: [f64; N],
     quadratic: [f64; N],
@@ -24,9 +25,9 @@ pub(crate) struct Nodes<const N: usize> {
     pub weights: [[f64; N]; 3],
 }
 
-impl<const N: usize> Nodes<N> {
+impl<const N: usize> Quadrature<N> {
     /// The weights for the given light on the surface.
-    pub fn new(light: &Illumination) -> Self {
+    pub fn new(light: &WeightedDaylight) -> Self {
         let [first, last] = CURVE_NM;
         let step_nm = (last - first) / (N - 1) as f64;
         let mut weights = [[0.0; N]; 3];

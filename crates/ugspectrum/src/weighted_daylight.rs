@@ -1,0 +1,55 @@
+//! Daylight seen with a Doppler factor, weighted by the standard observer.
+
+use crate::cie_1931::{CIE_1931, FIRST_NM};
+use crate::daylight::daylight;
+use crate::observer::weighted_sums;
+use crate::reflectance::CURVE_NM;
+
+/// Daylight seen with a Doppler factor, weighted by the observer: white has Y = 1 at rest.
+#[derive(Clone, Debug)]
+pub(crate) struct WeightedDaylight {
+    doppler: f64,
+    /// X, Y, Z of the light emitted below 380 nm, and of that emitted above 780 nm.
+    pub outside: [[f64; 3]; 2],
+    /// Wavelength at the eye, nm, of the first row of `inside`.
+    first_nm: f64,
+    /// X, then Y, then Z of each nanometre at the eye whose light was emitted at 380…780 nm.
+    pub inside: [Vec<f64>; 3],
+}
+
+impl WeightedDaylight {
+    pub fn new(doppler: f64) -> Self {
+        let inside = [0; 3].map(|_| Vec::new());
+        let mut light = Self { doppler, outside: [[0.0; 3]; 2], first_nm: 0.0, inside };
+        let scale = 1.0 / white_luminance();
+        for (row, weights) in CIE_1931.iter().enumerate() {
+            let seen_nm = (FIRST_NM + row) as f64;
+            let level = daylight(seen_nm * doppler) * scale;
+            let xyz = weights.map(|weight| weight * level);
+            let into = if seen_nm * doppler < CURVE_NM[0] {
+                &mut light.outside[0]
+            } else if seen_nm * doppler > CURVE_NM[1] {
+                &mut light.outside[1]
+            } else {
+                if light.inside[0].is_empty() {
+                    light.first_nm = seen_nm;
+                }
+                light.inside.iter_mut().zip(xyz).for_each(|(channel, part)| channel.push(part));
+                continue;
+            };
+            into.iter_mut().zip(xyz).for_each(|(sum, part)| *sum += part);
+        }
+        light
+    }
+
+    /// Emitted wavelengths of the rows of `inside`, nm.
+    pub fn wavelengths(&self) -> impl Iterator<Item = f64> {
+        (0..self.inside[0].len()).map(|row| (self.first_nm + row as f64) * self.doppler)
+    }
+}
+
+/// Σ S ȳ of daylight S, computed once.
+fn white_luminance() -> f64 {
+    static SUM: std::sync::OnceLock<f64> = std::sync::OnceLock::new();
+    *SUM.get_or_init(|| weighted_sums(|_, nm| daylight(nm))[1])
+}
