@@ -25,6 +25,7 @@
 //! ```
 
 mod builder;
+#[cfg(feature = "cli")]
 mod cli;
 mod error;
 mod format;
@@ -37,6 +38,7 @@ use std::io;
 
 use ugparse::{Diagnostics, Options, Scene, Source};
 
+#[cfg(feature = "cli")]
 pub use cli::{Args, main};
 pub use error::{Error, Problem};
 pub use format::{Axis, Format, Target};

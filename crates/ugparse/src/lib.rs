@@ -29,8 +29,8 @@
 //!
 //! Nothing here knows physics or pixels: velocities are carried, not used.
 //!
-//! The feature `pipe` adds how programs read scenes, files included; the feature `cli`
-//! the program of the same name, and what it stands on. Libraries do without.
+//! The feature `cli` adds the program of the same name, and how all programs read scenes,
+//! included files among them (`pipe`). Libraries do without.
 
 mod cameras;
 mod chunked_writer;
@@ -50,7 +50,7 @@ mod names;
 mod numbered;
 mod options;
 mod parallel;
-#[cfg(feature = "pipe")]
+#[cfg(feature = "cli")]
 pub mod pipe;
 mod reader;
 mod resolve;

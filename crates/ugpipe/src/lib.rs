@@ -39,6 +39,9 @@
 //! may undo a finished run; and a program that is killed while it writes a file leaves the
 //! temporary file, `.ug-` and six letters, beside it.
 //!
+//! A library that only reports its progress does without the feature `cli`: then
+//! [`Progress`] is all there is, and clap is not built.
+//!
 //! # A whole program
 //!
 //! ```no_run
@@ -81,23 +84,44 @@
 //! }
 //! ```
 
+#[cfg(feature = "cli")]
 mod args;
+#[cfg(feature = "cli")]
 mod argv;
+#[cfg(feature = "cli")]
 mod failure;
+#[cfg(feature = "cli")]
 mod files;
+#[cfg(feature = "cli")]
 mod input;
+#[cfg(feature = "cli")]
 mod messages;
+#[cfg(feature = "cli")]
 mod output;
 mod progress;
+#[cfg(feature = "cli")]
 mod provenance;
+#[cfg(feature = "cli")]
 mod run;
+#[cfg(feature = "cli")]
 mod stage;
+#[cfg(feature = "cli")]
+mod steps;
+#[cfg(feature = "cli")]
 mod text;
 
+#[cfg(feature = "cli")]
 pub use args::{CommonArgs, ONE_DASH, finite, vector, view_angle};
+#[cfg(feature = "cli")]
 pub use failure::Failure;
+#[cfg(feature = "cli")]
 pub use files::{Printed, read_file, run_program};
+#[cfg(feature = "cli")]
 pub use input::Input;
-pub use progress::{Progress, Steps};
+pub use progress::Progress;
+#[cfg(feature = "cli")]
 pub use run::{ToolArgs, main};
+#[cfg(feature = "cli")]
 pub use stage::Stage;
+#[cfg(feature = "cli")]
+pub use steps::Steps;

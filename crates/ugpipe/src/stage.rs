@@ -9,7 +9,7 @@ use crate::failure::Failure;
 use crate::input::{self, Input};
 use crate::messages::Messages;
 use crate::output::Output;
-use crate::progress::Steps;
+use crate::steps::Steps;
 use crate::text;
 
 /// What a program sees of the world: its input, its output and its messages.

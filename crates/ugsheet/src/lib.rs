@@ -22,6 +22,7 @@
 //! # Ok::<(), ugsheet::Error>(())
 //! ```
 
+#[cfg(feature = "cli")]
 mod cli;
 mod error;
 mod labels;
@@ -31,6 +32,7 @@ mod words;
 use ugimage::{Frame, Label};
 use uglabel::Drawing;
 
+#[cfg(feature = "cli")]
 pub use cli::main;
 pub use error::Error;
 pub use labels::Labels;

@@ -1,0 +1,83 @@
+//! Progress for the user of a program: the time of each step under `-vb`, and a bar for long runs.
+
+use std::io::{self, IsTerminal};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
+
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+
+use crate::messages::Messages;
+use crate::progress::Progress;
+
+/// A bar appears after this time.
+const PATIENCE: Duration = Duration::from_secs(1);
+
+/// Shows progress to the user of a program, see [`crate::Stage::steps`].
+pub struct Steps<'m> {
+    messages: &'m Messages,
+    is_bar_wanted: bool,
+    current: Mutex<Option<Step>>,
+}
+
+struct Step {
+    name: &'static str,
+    begun: Instant,
+    /// Hidden until [`PATIENCE`] is over.
+    bar: Option<ProgressBar>,
+}
+
+impl<'m> Steps<'m> {
+    pub(crate) fn new(messages: &'m Messages) -> Self {
+        let is_bar_wanted = !messages.is_quiet() && io::stderr().is_terminal();
+        Self { messages, is_bar_wanted, current: Mutex::new(None) }
+    }
+
+    fn bar(&self, name: &'static str, parts: u64) -> ProgressBar {
+        let bar = ProgressBar::with_draw_target(Some(parts), ProgressDrawTarget::hidden());
+        // Our template is valid; if it were not, the bar would have its default style.
+        if let Ok(style) = ProgressStyle::with_template("{prefix}: {msg} [{bar:40}] {percent}%") {
+            bar.set_style(style.progress_chars("=> "));
+        }
+        bar.with_prefix(self.messages.program().to_owned()).with_message(name)
+    }
+
+    /// Ends the step, and begins the next if there is one.
+    fn turn(&self, next: Option<(&'static str, u64)>) {
+        let mut current = self.lock();
+        if let Some(Step { name, begun, bar }) = current.take() {
+            bar.iter().for_each(ProgressBar::finish_and_clear);
+            let seconds = begun.elapsed().as_secs_f64();
+            self.messages.detail(&format!("{name} took {seconds:.3} s"));
+        }
+        *current = next.map(|(name, parts)| {
+            let bar = (self.is_bar_wanted && parts > 0).then(|| self.bar(name, parts));
+            Step { name, begun: Instant::now(), bar }
+        });
+    }
+
+    fn lock(&self) -> MutexGuard<'_, Option<Step>> {
+        // A panic leaves no half-changed state behind.
+        self.current.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl Progress for Steps<'_> {
+    fn step(&self, name: &'static str, parts: u64) {
+        self.turn(Some((name, parts)));
+    }
+
+    fn done(&self, parts: u64) {
+        if let Some(Step { bar: Some(bar), .. }) = &*self.lock() {
+            if bar.is_hidden() && self.messages.elapsed() >= PATIENCE {
+                bar.set_draw_target(ProgressDrawTarget::stderr());
+            }
+            bar.inc(parts);
+        }
+    }
+}
+
+impl Drop for Steps<'_> {
+    fn drop(&mut self) {
+        self.turn(None);
+    }
+}
