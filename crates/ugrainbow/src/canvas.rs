@@ -7,10 +7,10 @@ use fearless_simd::{Level, Simd, dispatch, f32x16, i32x16};
 use rayon::prelude::*;
 use ugimage::{Development, Frame, HALF, LinearFrame, Quantizer, auto_exposure, display_pixel};
 use ugphysics::srgb_decode;
+use ugraster::{Direct, Filter, Finish, Gathered, RUN, Seen, Tally};
 
 use crate::config::{Background, Config, Exposure};
 use crate::planes::{Finder, front, planes};
-use crate::raster::{Direct, Filter, Finish, Gathered, RUN, Seen, Tally};
 use crate::render_layers::RenderLayers;
 use crate::setup::Setup;
 

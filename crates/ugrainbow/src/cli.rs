@@ -9,6 +9,7 @@ use uglight::HueScale;
 use ugparse::{Source, pipe};
 use ugphysics::{Brightness, Hsv};
 use ugpipe::{CommonArgs, Failure, Stage, ToolArgs, finite, vector, view_angle};
+use ugraster::Filter;
 use ugscene::CameraOptions;
 
 use crate::config::{
@@ -16,7 +17,6 @@ use crate::config::{
 };
 use crate::explain::{self, explain};
 use crate::figures::Figures;
-use crate::raster::Filter;
 use crate::words::{
     Channels, Kind, Pixel, Report, channels, color, exposure, filter, format_named, kind_named, law,
     line_width, pixel, tone,

@@ -2,7 +2,7 @@
 
 use ugscene::{Place, Slab};
 
-use crate::raster::Corner;
+use ugraster::Corner;
 
 /// A corner before projection, with the numbers to interpolate.
 #[derive(Clone, Copy, Debug, PartialEq)]

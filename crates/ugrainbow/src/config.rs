@@ -3,11 +3,11 @@
 use ugimage::{Format, Tone};
 use uglight::HueScale;
 use ugphysics::{Brightness, Hsv};
+use ugraster::Filter;
 use ugscene::CameraOptions;
 
 use crate::figures::Figures;
 use crate::planes::Channel;
-use crate::raster::Filter;
 use crate::render_layers::DrawMode;
 
 /// Everything that decides the bytes of a picture besides the scene.

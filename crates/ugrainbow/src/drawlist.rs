@@ -4,10 +4,10 @@ use fearless_simd::Level;
 use glam::DVec3;
 use rayon::prelude::*;
 use ugparse::{Face, VertexId};
+use ugraster::{BLOCK, Block, Bounds, Corner, Drawn, Point, PolygonList, Shapes, Table};
 
 use crate::clip::{Vertex, clip_polygon};
 use crate::painter::{Common, Painter};
-use crate::raster::{BLOCK, Block, Bounds, Corner, Drawn, Point, PolygonList, Shapes, Table};
 use crate::render_layers::Pack;
 
 /// Faces that are looked at together: more than a block of triangles, so that while one is looked at the next is filled.

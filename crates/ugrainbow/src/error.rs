@@ -6,10 +6,10 @@ use ugimage::{Format, Tone};
 use uglabel::MissingCharacter;
 use ugparse::Diagnostics;
 use ugphysics::VelocityError;
+use ugraster::Filter;
 use ugscene::CameraError;
 
 use crate::config::{Background, Config, Output};
-use crate::raster::Filter;
 
 /// Most pixels of a picture; in memory they are a gibibyte, as light four.
 pub const MAX_PIXELS: u64 = 1 << 28;

@@ -76,7 +76,6 @@ mod notes;
 mod painter;
 mod palette;
 mod planes;
-mod raster;
 mod render_layers;
 mod setup;
 mod shade;
@@ -93,9 +92,9 @@ pub use config::{Background, Config, DepthCue, Exact, Exposure, Interpolation, O
 pub use error::{Error, MAX_PIXELS, MAX_SIDE};
 pub use figures::Figures;
 pub use planes::Channel;
-pub use raster::Filter;
 pub use ugimage::Tone;
 pub use uglight::HueScale;
+pub use ugraster::Filter;
 pub use ugscene::{CameraError, CameraOptions};
 
 use canvas::{Canvas, Drawn};

@@ -2,10 +2,10 @@
 
 use ugimage::{Development, Tone};
 use ugparse::Scene;
+use ugraster::{Cue, Tally};
 
 use crate::config::{Config, DepthCue, Exposure};
 use crate::drawlist::Reach;
-use crate::raster::{Cue, Tally};
 use crate::setup::Setup;
 
 /// Brightness that is worth the message that it was clipped; less does not show in 8 bits.

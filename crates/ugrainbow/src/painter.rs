@@ -3,10 +3,10 @@
 use glam::DVec3;
 use uglight::Lighting;
 use ugparse::{Face, Scene, VertexId, Wire, newell_normal};
+use ugraster::{Corner, Grid, Point};
 
 use crate::clip::Vertex;
 use crate::palette::{Palette, Swatch};
-use crate::raster::{Corner, Grid, Point};
 use crate::surface::Surface;
 use ugscene::{Place, Slab, View};
 

@@ -4,11 +4,11 @@ use glam::DVec3;
 use rayon::prelude::*;
 use ugimage::{Plane, Samples};
 use ugphysics::{Velocity, doppler_at};
+use ugraster::{Fragment, Gathered, Grid, Seen};
 use ugscene::{Geometry, View};
 
 use crate::lines::LIFT;
 use crate::painter::Painter;
-use crate::raster::{Fragment, Gathered, Grid, Seen};
 
 /// A number for each pixel, or three: of what is seen at the sample nearest to its centre, never a mean.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -146,7 +146,7 @@ pub fn planes(channel: Channel, finder: &Finder<'_>, grid: &Grid, seen: &[Option
     }
 }
 
-/// The sample nearest to the centre of a pixel, of equals the last: see [`crate::raster::Gathered`].
+/// The sample nearest to the centre of a pixel, of equals the last: see [`ugraster::Gathered`].
 fn middle(grid: &Grid, idx: usize) -> [u32; 2] {
     let width = grid.width as usize;
     // The pixels of a picture are fewer than 2^32.

@@ -3,6 +3,11 @@
 use glam::DVec3;
 use ugparse::Face;
 use ugpipe::Progress;
+use ugraster::{
+    Corner, Filter, Finish, FragmentTarget, Gathered, Grid, Layer, NoTable, PolygonList, Sample, Scanner,
+    Shade, Shapes, Sink, TRANSPARENT_VALUES, Tag, Tally, TransparentLayer, paint, paint_filtered, probe,
+    probe_filtered,
+};
 
 use crate::config::{Exact, Wireframe};
 use crate::drawlist::{DrawList, Reach};
@@ -10,15 +15,23 @@ use crate::exact::{Bend, Faces};
 use crate::lines::{Hiders, Shown, Stroke, lines, pieces, strips, strokes};
 use crate::painter::Painter;
 use crate::palette::Swatch;
-use crate::raster::{
-    Corner, Filter, Finish, FragmentTarget, Gathered, Grid, Layer, NoTable, PolygonList, Sample, Scanner,
-    Shade, Shapes, Sink, TRANSPARENT_VALUES, Tag, Tally, TransparentLayer, paint, paint_filtered, probe,
-    probe_filtered,
-};
 use crate::shade::Shader;
 
 /// Turns a colour and the level of red, green and blue light into the numbers to interpolate.
 pub type Pack<const N: usize> = fn(&Swatch, DVec3) -> [f64; N];
+
+/// Reports painted parts of a picture as parts of a step of the program.
+struct Drawing<'a>(&'a dyn Progress);
+
+impl ugraster::Progress for Drawing<'_> {
+    fn begin(&self, parts: u64) {
+        self.0.step("drawing", parts);
+    }
+
+    fn done(&self) {
+        self.0.done(1);
+    }
+}
 
 /// How a scene is drawn, apart from its camera.
 #[derive(Clone, Copy, Debug)]
@@ -231,7 +244,7 @@ impl<'a> RenderLayers<'a> {
     ) -> (Vec<P>, Tally) {
         let lit = self.lit(shader);
         let clear = lit.as_ref().map(|lit| lit as &dyn TransparentLayer);
-        let progress = self.progress;
+        let progress = &Drawing(self.progress);
         with_layers!(&self.solid, |layers| paint(grid, layers, clear, shader, finish, progress))
     }
 
@@ -248,7 +261,7 @@ impl<'a> RenderLayers<'a> {
         }
         let lit = self.lit(shader);
         let clear = lit.as_ref().map(|lit| lit as &dyn TransparentLayer);
-        let progress = self.progress;
+        let progress = &Drawing(self.progress);
         with_layers!(&self.solid, |layers| {
             paint_filtered(grid, filter, layers, clear, shader, finish, progress)
         })

@@ -5,13 +5,13 @@ use std::ops::Range;
 
 use uglight::Lighting;
 use ugparse::{ColorId, ColorValue, Scene, VelocityId, VertexId};
+use ugraster::{Cue, Gathered, Grid};
 
 use crate::config::{Config, DepthCue, Exact};
 use crate::error::{self, Error};
 use crate::explain::Provenance;
 use crate::painter::Painter;
 use crate::palette::Palette;
-use crate::raster::{Cue, Gathered, Grid};
 use crate::render_layers::RenderLayers;
 use crate::shade::Shader;
 use crate::surface::Surface;

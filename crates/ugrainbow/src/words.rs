@@ -3,10 +3,10 @@
 use ugimage::{Format, Tone};
 use ugphysics::{Brightness, Hsv};
 use ugpipe::{Failure, finite};
+use ugraster::Filter;
 
 use crate::config::{Exposure, MAX_LINE_WIDTH};
 use crate::planes::Channel;
-use crate::raster::Filter;
 
 /// What `-ch` names.
 #[derive(Clone, Debug, Default)]

@@ -6,6 +6,7 @@ use std::sync::{Mutex, PoisonError};
 use glam::DVec3;
 use rayon::prelude::*;
 use ugparse::Face;
+use ugraster::{Bins, Grid, Layer, Scanner, Sink};
 
 use super::film::{Film, Form, Lengths, center};
 use super::footprint::{Rect, footprint};
@@ -18,7 +19,6 @@ use super::sections::{Cutter, Side};
 use crate::config::Exact;
 use crate::drawlist::Reach;
 use crate::painter::Painter;
-use crate::raster::{Bins, Grid, Layer, Scanner, Sink};
 use crate::render_layers::Pack;
 
 /// Faces and the rays that meet them.

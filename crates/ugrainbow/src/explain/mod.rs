@@ -8,6 +8,7 @@ use glam::DVec3;
 use ugimage::{Development, Quantizer, Steps, display_pixel};
 use ugparse::{Diagnostic, Diagnostics, Parsed, Source, VertexId};
 use ugphysics::{attenuation, doppler_at, linear_srgb_to_xyz, wavelength_to_hue};
+use ugraster::{Filter, Finish, Fragment, Gathered, Sample, Seen};
 use ugscene::Geometry;
 
 use crate::canvas::{Display, Ground, development};
@@ -15,7 +16,6 @@ use crate::config::{Config, Interpolation};
 use crate::figures::Plan;
 use crate::palette::Swatch;
 use crate::planes::{self, Finder};
-use crate::raster::{Filter, Finish, Fragment, Gathered, Sample, Seen};
 use crate::render_layers::RenderLayers;
 use crate::setup::Setup;
 use crate::{Error, canvas};

@@ -1,9 +1,9 @@
 //! An explanation for people.
 
 use std::fmt::{self, Write};
+use ugraster::Filter;
 
 use super::{Corner, Explanation, Item, PixelSteps, Provenance, SampleColor, Shown};
-use crate::raster::Filter;
 
 /// Corners shown; a face may have thousands.
 const MAX_CORNERS: usize = 8;

@@ -2,10 +2,10 @@
 
 use glam::DVec3;
 use uglabel::Point;
+use ugraster::{Gathered, Seen};
 use ugscene::View;
 
 use crate::config::Config;
-use crate::raster::{Gathered, Seen};
 use crate::render_layers::{DrawMode, RenderLayers};
 use crate::setup::Setup;
 

@@ -15,6 +15,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 use ugparse::{VelocityId, VertexId, Wire};
 use ugphysics::{Hsv, srgb_decode};
+use ugraster::{Corner, PolygonList, TRANSPARENT_VALUES};
 use ugscene::Place;
 
 use crate::clip::{Vertex, clip_segment};
@@ -23,7 +24,6 @@ use crate::drawlist::Reach;
 use crate::exact::Bend;
 use crate::painter::Painter;
 use crate::palette::Swatch;
-use crate::raster::{Corner, PolygonList, TRANSPARENT_VALUES};
 use crate::render_layers::pack_clear;
 use edges::{Edge, edges};
 pub use hidden::{Hiders, Shown, hidden_by};

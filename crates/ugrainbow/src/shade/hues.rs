@@ -1,10 +1,10 @@
 //! Hues to red, green and blue.
 
 use fearless_simd::{Level, Simd, dispatch};
+use ugraster::{RUN, Scale, Shades, greater, lesser};
 
 use super::linear;
 use super::transfer::decode;
-use crate::raster::{RUN, Scale, Shades, greater, lesser};
 
 /// Levels of red, green and blue light on every sample; none if it is white and in the value.
 pub type Lights<'a> = Option<[&'a [f32]; 3]>;

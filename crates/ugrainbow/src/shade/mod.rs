@@ -5,9 +5,9 @@ mod transfer;
 
 use fearless_simd::Level;
 use ugphysics::{attenuation, hue_to_wavelength, srgb_decode, srgb_encode, wavelength_to_hue};
+use ugraster::{RUN, Scale, Shade, Shades, Shading};
 
 use crate::config::Interpolation;
-use crate::raster::{RUN, Scale, Shade, Shades, Shading};
 use hues::{Lights, Pure, all_between, encode, encode_all};
 use transfer::decode;
 

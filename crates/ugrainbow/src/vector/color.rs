@@ -3,10 +3,10 @@
 use ugimage::Development;
 use ugimage::figure::Rgb;
 use ugphysics::srgb_encode;
+use ugraster::{Corner, Grid, Shade, TRANSPARENT_VALUES};
 
 use super::patch::Patch;
 use crate::canvas::developed;
-use crate::raster::{Corner, Grid, Shade, TRANSPARENT_VALUES};
 use crate::render_layers::{RenderLayers, clear_shade};
 use crate::shade::Shader;
 

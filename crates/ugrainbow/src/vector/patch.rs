@@ -1,8 +1,9 @@
 //! Faces as polygons to be painted.
 
+use ugraster::{Corner, TRANSPARENT_VALUES};
+
 use super::color::Numbers;
 use super::convex::{Convex, Place, clip, doubled_area, sides};
-use crate::raster::{Corner, TRANSPARENT_VALUES};
 
 /// What is drawn so far outside the picture, in pixels; the rest is cut away.
 const MARGIN: f64 = 4.0;

@@ -1,8 +1,8 @@
 //! Which faces are seen.
 
 use std::sync::atomic::{AtomicBool, Ordering};
+use ugraster::Gathered;
 
-use crate::raster::Gathered;
 use crate::render_layers::RenderLayers;
 use crate::setup::Setup;
 

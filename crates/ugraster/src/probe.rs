@@ -1,11 +1,11 @@
 //! One pixel alone, to be looked at closely.
 
-use super::band::{Band, Grid, Layer};
-use super::edges::Scanner;
-use super::resolve::{Finish, Gathered, Resolver};
-use super::shading::{Scale, Shade, Shades, Shading};
-use super::spans::{Seen, Tile};
-use super::transparency::{Fragment, KeepFragments, TransparencyBuffer, TransparentLayer};
+use crate::band::{Band, Grid, Layer};
+use crate::edges::Scanner;
+use crate::resolve::{Finish, Gathered, Resolver};
+use crate::shading::{Scale, Shade, Shades, Shading};
+use crate::spans::{Seen, Tile};
+use crate::transparency::{Fragment, KeepFragments, TransparencyBuffer, TransparentLayer};
 
 /// A sample of a pixel that shows something.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,7 +30,7 @@ pub struct Surface {
 }
 
 /// The samples of a pixel that show something, row after row, what they add up to, and the pixel: the very numbers that
-/// [`super::paint`] computes, for no sample depends on where a tile begins.
+/// [`crate::paint`] computes, for no sample depends on where a tile begins.
 pub fn probe<const N: usize, L: Layer<N> + ?Sized, P: Copy>(
     grid: &Grid,
     layer: &L,

@@ -1,9 +1,9 @@
 //! Samples to pixels: shading, and adding up in linear light.
 
-use super::band::Grid;
-use super::shading::{RUN, Scale, Shades, Shading, Tally};
-use super::spans::{EMPTY, Seen, Tag, Tile};
-use super::transparency::{Fragment, TransparencyBuffer};
+use crate::band::Grid;
+use crate::shading::{RUN, Scale, Shades, Shading, Tally};
+use crate::spans::{EMPTY, Seen, Tag, Tile};
+use crate::transparency::{Fragment, TransparencyBuffer};
 
 /// The samples of a pixel together.
 #[derive(Clone, Copy, Debug, PartialEq)]

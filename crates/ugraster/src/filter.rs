@@ -7,14 +7,14 @@
 use std::collections::VecDeque;
 
 use fearless_simd::{Level, Simd, dispatch};
-use ugpipe::Progress;
 
-use super::band::{Band, Grid, Layer, paint_parts};
-use super::edges::Scanner;
-use super::resolve::{Finish, Gathered, Resolver};
-use super::shading::{Shading, Tally};
-use super::spans::Tile;
-use super::transparency::{KeepFragments, TransparencyBuffer, TransparentLayer};
+use crate::band::{Band, Grid, Layer, paint_parts};
+use crate::edges::Scanner;
+use crate::progress::Progress;
+use crate::resolve::{Finish, Gathered, Resolver};
+use crate::shading::{Shading, Tally};
+use crate::spans::Tile;
+use crate::transparency::{KeepFragments, TransparencyBuffer, TransparentLayer};
 
 /// Rows of pixels of a strip: many, beside those that are drawn twice.
 const STRIP_ROWS: u32 = 32;
@@ -84,7 +84,7 @@ impl Filter {
     }
 }
 
-/// Draws a layer, and what is clear before it, as [`super::paint`] does, by a filter. `finish` is told nothing but light.
+/// Draws a layer, and what is clear before it, as [`crate::paint`] does, by a filter. `finish` is told nothing but light.
 pub fn paint_filtered<const N: usize, L, P, S, F>(
     grid: &Grid,
     filter: Filter,

@@ -7,13 +7,13 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x8};
 
-use super::block::{BLOCK, Block, Corners, Each, first_centers, whole};
-use super::rows::{STEPS, TriangleRow};
-use super::sides::{KeptOutlines, Outlines, Spans};
-use super::slopes::{FindPlanes, KeptSlopes, Plane, Planes, Slopes};
-use super::spans::Sink;
+use crate::block::{BLOCK, Block, Corners, Each, first_centers, whole};
+use crate::rows::{STEPS, TriangleRow};
+use crate::sides::{KeptOutlines, Outlines, Spans};
+use crate::slopes::{FindPlanes, KeptSlopes, Plane, Planes, Slopes};
+use crate::spans::Sink;
 
-/// A corner in the picture plane, without the numbers to interpolate; see [`super::Corner`].
+/// A corner in the picture plane, without the numbers to interpolate; see [`crate::Corner`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Point {
     /// Column, in samples from the left edge of the picture.
@@ -75,7 +75,7 @@ impl Default for Traces {
 }
 
 impl Traces {
-    /// Adds a [regular](super::block::Findings) triangle. True if there is no room for another.
+    /// Adds a [regular](crate::block::Findings) triangle. True if there is no room for another.
     #[inline(always)]
     pub fn push(&mut self, item: u32, corners: [u32; 3], points: [Point; 3]) -> bool {
         self.items[self.n] = item;

@@ -11,13 +11,13 @@ use std::ops::Range;
 
 use fearless_simd::Simd;
 
-use super::band::Grid;
-use super::edges::{Crossing, Scanner};
-use super::polygons::{first_center, greater};
-use super::rows::TriangleRow;
-use super::shading::{Shade, Tally};
-use super::slopes::{FindPlanes, Planes};
-use super::spans::{EMPTY, Sink, Tag, Tile};
+use crate::band::Grid;
+use crate::edges::{Crossing, Scanner};
+use crate::polygons::{first_center, greater};
+use crate::rows::TriangleRow;
+use crate::shading::{Shade, Tally};
+use crate::slopes::{FindPlanes, Planes};
+use crate::spans::{EMPTY, Sink, Tag, Tile};
 
 /// Numbers that are interpolated for what is clear.
 pub const TRANSPARENT_VALUES: usize = 8;

@@ -2,8 +2,8 @@
 
 use std::ops::Range;
 
-use super::band::Grid;
-use super::bins::Bins;
+use crate::band::Grid;
+use crate::bins::Bins;
 
 /// A corner in the picture plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -19,7 +19,7 @@ pub struct Corner<const N: usize> {
 }
 
 /// Shapes in drawing order: polygons with all their corners in one buffer, and triangles whose corners are in a
-/// [`super::Table`].
+/// [`crate::Table`].
 #[derive(Clone, Debug, Default)]
 pub struct PolygonList<const N: usize> {
     corners: Vec<Corner<N>>,
@@ -51,7 +51,7 @@ enum Outline {
 pub enum Drawn<C> {
     /// Its contours.
     Polygon(C),
-    /// The rows of its corners in the [`super::Table`].
+    /// The rows of its corners in the [`crate::Table`].
     Triangle([u32; 3]),
 }
 

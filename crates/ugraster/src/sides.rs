@@ -3,7 +3,7 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x8};
 
-use super::block::{BLOCK, Corners, Each, first_centers, whole};
+use crate::block::{BLOCK, Corners, Each, first_centers, whole};
 
 /// Edges as functions of the row.
 #[derive(Clone, Copy)]
@@ -15,7 +15,7 @@ struct Sides<S: Simd> {
 }
 
 impl<S: Simd> Sides<S> {
-    /// The very numbers of [`super::Scanner`], so that triangles and polygons share edges exactly.
+    /// The very numbers of [`crate::Scanner`], so that triangles and polygons share edges exactly.
     #[inline(always)]
     fn new(simd: S, top: &Corners<S>, bottom: &Corners<S>) -> Self {
         let per_row = f64x8::splat(simd, 1.0) / (bottom.y - top.y);

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::band::Grid;
+use crate::band::Grid;
 
 /// For each band of a grid the shapes that touch it, in drawing order.
 #[derive(Clone, Debug, Default)]

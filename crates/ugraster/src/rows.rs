@@ -3,8 +3,8 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x8, f64x8};
 
-use super::slopes::{FindPlanes, Planes};
-use super::spans::{Tag, Tile, lanes};
+use crate::slopes::{FindPlanes, Planes};
+use crate::spans::{Tag, Tile, lanes};
 
 /// Samples of a row that are computed together.
 pub const LANES: usize = 8;

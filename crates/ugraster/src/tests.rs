@@ -2,9 +2,9 @@
 
 use fearless_simd::Level;
 
-use super::edges::Scanner;
-use super::*;
+use crate::edges::Scanner;
 use crate::noise::Noise;
+use crate::*;
 
 /// A corner at a place, at depth key 1, without values.
 fn at(x: f64, y: f64) -> Corner<0> {

@@ -5,16 +5,16 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use fearless_simd::{Level, Simd, dispatch};
 use rayon::prelude::*;
-use ugpipe::Progress;
 
-use super::cue::Cue;
-use super::edges::Scanner;
-use super::polygons::{Drawn, PolygonList};
-use super::resolve::{Finish, Gathered, Resolver};
-use super::shading::{Shading, Tally};
-use super::spans::{Sink, Tag, Tile};
-use super::transparency::{KeepFragments, TransparencyBuffer, TransparentLayer};
-use super::triangles::{Table, Traces};
+use crate::cue::Cue;
+use crate::edges::Scanner;
+use crate::polygons::{Drawn, PolygonList};
+use crate::progress::Progress;
+use crate::resolve::{Finish, Gathered, Resolver};
+use crate::shading::{Shading, Tally};
+use crate::spans::{Sink, Tag, Tile};
+use crate::transparency::{KeepFragments, TransparencyBuffer, TransparentLayer};
+use crate::triangles::{Table, Traces};
 
 /// Samples a tile should have: with some 16 bytes each they stay in a core's cache.
 const TILE_SAMPLES: u32 = 1 << 15;
@@ -172,8 +172,8 @@ impl<const N: usize, C: Table<N> + ?Sized> Shapes<'_, N, C> {
 
 /// Draws a layer, and what is clear before it: the pixels of the grid, row after row.
 ///
-/// They do not depend on the number of threads. `finish` makes a pixel of its samples. `progress` is told of a step
-/// of as many parts as there are bands.
+/// They do not depend on the number of threads. `finish` makes a pixel of its samples. `progress` counts
+/// bands.
 pub fn paint<const N: usize, L, T, P, S, F>(
     grid: &Grid,
     layer: &L,
@@ -209,7 +209,7 @@ pub fn paint_parts<P: Copy + Send + Sync, B: Default + Send>(
 ) -> (Vec<P>, Tally) {
     let part_pixels = n_rows as usize * grid.width as usize;
     let mut pixels = filled(empty, grid.width as usize * grid.height as usize);
-    progress.step("drawing", pixels.len().div_ceil(part_pixels) as u64);
+    progress.begin(pixels.len().div_ceil(part_pixels) as u64);
     // Buffers go from part to part: as many as there are threads, and touched once.
     let buffers = Buffers::default();
     let tally = pixels
@@ -220,7 +220,7 @@ pub fn paint_parts<P: Copy + Send + Sync, B: Default + Send>(
             let mut own = buffers.take();
             let tally = paint(&mut own, part, pixels);
             buffers.put_back(own);
-            progress.done(1);
+            progress.done();
             tally
         })
         .reduce(Tally::default, Tally::merge);

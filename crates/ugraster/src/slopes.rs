@@ -5,8 +5,8 @@ use std::ops::{Mul, Sub};
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x8};
 
-use super::block::{Corners, Each};
-use super::rows::TriangleRow;
+use crate::block::{Corners, Each};
+use crate::rows::TriangleRow;
 
 /// What turns numbers at three corners into planes over the picture, measured from the highest corner: of one triangle,
 /// or of several at once.

@@ -3,9 +3,9 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{Level, Simd, dispatch, f64x8};
 
-use super::band::Grid;
-use super::polygons::ROUNDING;
-use super::triangles::Point;
+use crate::band::Grid;
+use crate::polygons::ROUNDING;
+use crate::triangles::Point;
 
 /// Triangles that are looked at together.
 pub const BLOCK: usize = 8;

@@ -1,6 +1,6 @@
 //! Where the outline of a polygon crosses the rows of samples.
 
-use super::polygons::{Corner, first_center};
+use crate::polygons::{Corner, first_center};
 
 /// A place on a row: what a corner holds, but for the row.
 #[derive(Clone, Copy, Debug)]

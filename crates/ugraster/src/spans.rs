@@ -2,10 +2,10 @@
 
 use fearless_simd::Simd;
 
-use super::edges::Crossing;
-use super::polygons::first_center;
-use super::rows::{LANES, TriangleRow};
-use super::slopes::{FindPlanes, Planes};
+use crate::edges::Crossing;
+use crate::polygons::first_center;
+use crate::rows::{LANES, TriangleRow};
+use crate::slopes::{FindPlanes, Planes};
 
 /// What a sample remembers of the polygon it shows.
 pub trait Tag: Copy + Default + Send {
@@ -111,10 +111,10 @@ pub struct Tile<const N: usize, T> {
     columns: [u32; 2],
     rows: [u32; 2],
     /// Depth keys; [`EMPTY`] where nothing has been drawn.
-    pub(super) keys: Vec<f32>,
+    pub(crate) keys: Vec<f32>,
     /// Each number of all samples together, so that they can be shaded many at once.
-    pub(super) values: [Vec<f32>; N],
-    pub(super) tags: Vec<T>,
+    pub(crate) values: [Vec<f32>; N],
+    pub(crate) tags: Vec<T>,
 }
 
 /// What is seen at a sample.
@@ -127,7 +127,7 @@ pub struct Seen<T> {
 }
 
 /// Part of a row of a [`Tile`].
-pub(super) struct Part<'a, const N: usize, T> {
+pub(crate) struct Part<'a, const N: usize, T> {
     pub keys: &'a mut [f32],
     pub values: [&'a mut [f32]; N],
     pub tags: &'a mut [T],
@@ -147,12 +147,12 @@ impl<const N: usize, T: Copy> Part<'_, N, T> {
 
 /// Some elements from one on.
 #[inline(always)]
-pub(super) fn lanes<T>(all: &mut [T], start: usize) -> &mut [T; LANES] {
+pub(crate) fn lanes<T>(all: &mut [T], start: usize) -> &mut [T; LANES] {
     all[start..].first_chunk_mut().expect("more stand behind the samples of a tile")
 }
 
 /// Farther than everything.
-pub(super) const EMPTY: f32 = f32::NEG_INFINITY;
+pub(crate) const EMPTY: f32 = f32::NEG_INFINITY;
 
 impl<const N: usize, T> Default for Tile<N, T> {
     fn default() -> Self {
@@ -242,7 +242,7 @@ impl<const N: usize, T: Tag> Tile<N, T> {
 
     /// The samples of part of a row, to be drawn on.
     #[inline]
-    pub(super) fn part(&mut self, row: u32, first: u32, end: u32) -> Part<'_, N, T> {
+    pub(crate) fn part(&mut self, row: u32, first: u32, end: u32) -> Part<'_, N, T> {
         let samples = self.samples(row, first, end);
         Part {
             keys: &mut self.keys[samples.clone()],
@@ -266,7 +266,7 @@ impl<const N: usize, T: Tag> Tile<N, T> {
     }
 
     #[inline(always)]
-    pub(super) fn samples(&self, row: u32, first: u32, end: u32) -> std::ops::Range<usize> {
+    pub(crate) fn samples(&self, row: u32, first: u32, end: u32) -> std::ops::Range<usize> {
         let width = (self.columns[1] - self.columns[0]) as usize;
         let start = (row - self.rows[0]) as usize * width;
         start + (first - self.columns[0]) as usize..start + (end - self.columns[0]) as usize

@@ -1,0 +1,16 @@
+//! Progress of a picture that is being painted.
+
+/// Receives how much of a picture is painted. It is called from any thread and has no influence on the result.
+pub trait Progress: Sync {
+    /// Painting begins; it has this many parts.
+    fn begin(&self, parts: u64);
+
+    /// One more part is painted.
+    fn done(&self);
+}
+
+/// Progress is not reported.
+impl Progress for () {
+    fn begin(&self, _parts: u64) {}
+    fn done(&self) {}
+}
