@@ -1,28 +1,30 @@
-//! From light to what a display can show: exposure, tone curve, gamut.  Eq. (P30)
+//! From linear light to the range of a display: exposure, tone mapping, gamut mapping.  Eq. (P30)
 
 use ugphysics::luminance;
 
 use crate::LinearFrame;
 
-/// How luminance is brought into the range of a display. White is the light that is shown as white, 1.
+/// The tone curve, which maps luminance to the range of a display, 0…1. The *white point* is the
+/// smallest luminance that maps to 1.
 ///
-/// Both curves rise and take 0 to 0, and are applied to luminance while the ratio of red to green to blue
-/// stays: greys stay grey, and no colour changes its hue.
+/// Both curves are increasing and map 0 to 0. They are applied to luminance, and the ratios of red,
+/// green and blue are kept: greys stay grey, and no hue changes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Tone {
-    /// Straight up to 1, and 1 from there. White is 1.
+    /// Linear up to 1 and clipped there. The white point is 1.
     #[default]
     Clip,
-    /// The curve of J. Hable, *Filmic Tonemapping Operators* (filmicworlds.com, 2010): a toe, a straight part and
-    /// a shoulder. White is 5.6: his linear white point 11.2 over his exposure bias 2.
+    /// The curve of J. Hable, *Filmic Tonemapping Operators* (filmicworlds.com, 2010): a toe, a
+    /// linear part and a shoulder. The white point is 5.6: Hable's linear white point 11.2 divided
+    /// by his exposure bias 2.
     Filmic,
 }
 
 impl Tone {
-    /// All of them, the default first.
+    /// All curves, the default first.
     pub const ALL: [Self; 2] = [Self::Clip, Self::Filmic];
 
-    /// Its name.
+    /// The name of the curve.
     pub fn name(self) -> &'static str {
         match self {
             Self::Clip => "clip",
@@ -30,12 +32,12 @@ impl Tone {
         }
     }
 
-    /// The curve called `name`.
+    /// The curve of the given name; `None` if there is no such curve.
     pub fn from_name(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|tone| name == tone.name())
     }
 
-    /// The least luminance that is shown as white.
+    /// The white point: the smallest luminance that is shown as white.
     pub fn white(self) -> f64 {
         match self {
             Self::Clip => 1.0,
@@ -43,7 +45,7 @@ impl Tone {
         }
     }
 
-    /// The luminance shown, 0…1, for a luminance of 0 and more.
+    /// The displayed luminance, 0…1, of a `luminance` ≥ 0.
     pub fn at(self, luminance: f64) -> f64 {
         if luminance >= self.white() {
             return 1.0;
@@ -58,7 +60,7 @@ impl Tone {
 const LINEAR_WHITE: f64 = 11.2;
 const EXPOSURE_BIAS: f64 = 2.0;
 
-/// The curve as published; the parameters have their names and values there.
+/// The curve as published, with its published parameter names and values.
 fn hable(x: f64) -> f64 {
     const SHOULDER: f64 = 0.15;
     const LINEAR: f64 = 0.50;
@@ -71,28 +73,28 @@ fn hable(x: f64) -> f64 {
     above / below - NUMERATOR / DENOMINATOR
 }
 
-/// How light becomes a picture on a display.
+/// How linear light is converted for a display.  Eq. (P30)
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Development {
-    /// Light is multiplied by 2 to this power first.
+    /// The exposure: light is first multiplied by 2 to this power.
     pub stops: f64,
-    /// The curve.
+    /// The tone curve.
     pub tone: Tone,
 }
 
-/// What one pixel becomes, step by step, as linear red, green and blue.
+/// The intermediate results for one pixel, as linear red, green and blue.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Steps {
     /// After the exposure.
     pub exposed: [f64; 3],
     /// After the tone curve.
     pub toned: [f64; 3],
-    /// Brought into the gamut: each part 0…1.
+    /// After gamut mapping: each channel 0…1.
     pub shown: [f64; 3],
 }
 
 impl Development {
-    /// Every step for one pixel.
+    /// Converts one pixel and returns the result of every step.
     pub fn steps(&self, light: [f32; 3]) -> Steps {
         let gain = libm::exp2(self.stops);
         let exposed = light.map(|channel| f64::from(channel) * gain);
@@ -100,7 +102,8 @@ impl Development {
         Steps { exposed, toned, shown: into_gamut(toned) }
     }
 
-    /// The light a display shows: each part 0…1. Light that fits is left as it is, to the bit, if nothing is asked for.
+    /// Converts one pixel: each channel of the result is 0…1. With the default settings, light
+    /// already in that range keeps its bits.
     pub fn apply(&self, light: [f32; 3]) -> [f32; 3] {
         let is_plain = self.stops == 0.0 && self.tone == Tone::Clip;
         if is_plain && light.iter().all(|channel| (0.0..=1.0).contains(channel)) {
@@ -111,7 +114,7 @@ impl Development {
 
     fn toned(&self, exposed: [f64; 3]) -> [f64; 3] {
         let before = luminance(exposed);
-        // Less than black is black.
+        // Negative and NaN luminance becomes black.
         if before.is_nan() || before <= 0.0 {
             return [0.0; 3];
         }
@@ -123,11 +126,11 @@ impl Development {
     }
 }
 
-/// Brings a colour of luminance 0…1 among those a display shows: it is mixed with the grey of its own
-/// luminance, and only as far as needed. So luminance stays, and so does hue as dominant wavelength: the
-/// colour moves in the chromaticity diagram straight towards white.
+/// Gamut mapping of a colour of luminance 0…1: mixes it with the grey of its own luminance, as
+/// little as possible. This keeps luminance and dominant wavelength, since the colour moves
+/// straight towards white in the chromaticity diagram.
 fn into_gamut(rgb: [f64; 3]) -> [f64; 3] {
-    // The weights add up to 1 but for rounding.
+    // The clamp removes rounding: the weights of luminance add up to 1 only approximately.
     let grey = luminance(rgb).clamp(0.0, 1.0);
     let part = rgb.iter().fold(1.0f64, |part, &channel| {
         let away = channel - grey;
@@ -142,12 +145,12 @@ fn into_gamut(rgb: [f64; 3]) -> [f64; 3] {
     if part == 1.0 { rgb } else { rgb.map(|channel| (grey + part * (channel - grey)).clamp(0.0, 1.0)) }
 }
 
-/// The part of the pixels with light that an automatic exposure shows below white.
+/// The fraction of lit pixels that automatic exposure keeps at or below the white point.
 const BELOW_WHITE: f64 = 0.99;
 
-/// The exposure, in stops, that shows 99 of 100 pixels at or below the white of the curve: of the pixels on which
-/// something was drawn that is not black. Rounded to hundredths, so that it can be said and given again; 0 if
-/// all is black.
+/// The automatic exposure, in stops: it puts 99 percent of the lit pixels at or below the white
+/// point of the curve. Lit pixels are covered (alpha above 0) and not black. Rounded to hundredths,
+/// so that it can be printed and passed again exactly; 0 if there are no lit pixels.
 pub fn auto_exposure(frame: &LinearFrame, tone: Tone) -> f64 {
     let luminance_of = |&[r, g, b, _]: &[f32; 4]| luminance([r, g, b].map(f64::from)) as f32;
     let mut seen: Vec<f32> = frame
@@ -168,7 +171,7 @@ pub fn auto_exposure(frame: &LinearFrame, tone: Tone) -> f64 {
 mod tests {
     use super::*;
 
-    /// The published code, written out for one number.
+    /// The published code, for a scalar.
     #[test]
     fn filmic_is_as_published() {
         let f = |x: f64| ((x * (0.15 * x + 0.05) + 0.004) / (x * (0.15 * x + 0.5) + 0.06)) - 0.02 / 0.3;
@@ -202,7 +205,8 @@ mod tests {
         (0..count).map(|_| [next(), next(), next()].map(|x| scale * (x - 0.25))).collect()
     }
 
-    /// Chromaticities lie on a line through white if the three parts less the least are in one ratio.
+    /// Gamut mapping moves a colour on a line through the grey of its luminance, so the difference
+    /// from that grey keeps its direction.
     #[test]
     fn hue_and_luminance_stay() {
         for scale in [1.0, 3.0, 40.0] {
@@ -221,7 +225,8 @@ mod tests {
                     let wanted = development.tone.at(luminance(exposed));
                     assert!((luminance(toned) - wanted).abs() < 1e-12);
                     assert!((luminance(shown) - wanted).abs() < 1e-12, "{light:?}: {shown:?}");
-                    // What is left of the colour is parallel to what was: no hue is changed or turned round.
+                    // The chroma vector after is parallel to the one before and not reversed: no
+                    // hue changes.
                     let away = |rgb: [f64; 3]| rgb.map(|channel| channel - luminance(rgb));
                     let (before, after) = (away(exposed), away(shown));
                     let across = cross(before, after);
@@ -274,12 +279,12 @@ mod tests {
         for tone in Tone::ALL {
             let gain = libm::exp2(auto_exposure(&frame, tone));
             let white = frame.pixels().iter().filter(|p| f64::from(p[0]) * gain >= tone.white()).count();
-            // A hundredth of a stop is 0.7 percent.
+            // Rounding the exposure to a hundredth of a stop changes light by up to 0.35 percent.
             assert!((4..=17).contains(&white), "{tone:?}: {white}");
         }
         let black = LinearFrame::new([1, 1], true, vec![[0.0, 0.0, 0.0, 1.0]]);
         assert_eq!(auto_exposure(&black, Tone::Clip), 0.0);
-        // What nothing was drawn on does not count.
+        // Uncovered pixels do not count.
         let back = LinearFrame::new([2, 1], true, vec![[9.0, 9.0, 9.0, 0.0], [0.25, 0.25, 0.25, 0.5]]);
         assert_eq!(auto_exposure(&back, Tone::Clip), 2.0);
     }

@@ -1,14 +1,14 @@
-//! Encapsulated PostScript: a picture for a document, in colour.
+//! Encapsulated PostScript: a colour image to be placed in a document.
 
 use crate::postscript::{color_image, history_comments, label_comments};
 use crate::{Frame, Label};
 
-/// The frame as an EPS file, one pixel a point.
+/// The frame as an EPS file, one pixel per point.
 pub fn encode(frame: &Frame, label: &Label) -> Vec<u8> {
     wrap([frame.width(), frame.height()], 2, label, &color_image(frame))
 }
 
-/// What draws a picture of `width` × `height` points, made an EPS file.
+/// Makes an EPS file of the PostScript code `drawing`, which draws `width` × `height` points.
 pub fn wrap([width, height]: [u32; 2], level: u32, label: &Label, drawing: &[u8]) -> Vec<u8> {
     let mut file = format!(
         "%!PS-Adobe-3.0 EPSF-3.0\n\

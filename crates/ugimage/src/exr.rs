@@ -1,4 +1,4 @@
-//! OpenEXR, by the `exr` crate.
+//! OpenEXR, written with the `exr` crate.
 
 use exr::image::{AnyChannel, AnyChannels, Encoding, FlatSamples, Image, Layer, write::WritableImage};
 use exr::math::Vec2;
@@ -8,9 +8,10 @@ use exr::meta::header::LayerAttributes;
 use crate::linear::Samples;
 use crate::{Label, LinearFrame};
 
-/// The light as an OpenEXR file: channels `R`, `G`, `B` and, unless the frame is opaque, `A`, 32-bit floating point,
-/// nothing cut; then the frame's planes under their names. Colours are multiplied by `A`, as OpenEXR has it.
-/// The chromaticities are those of sRGB; the label is in `software` and `comments`.
+/// The light as an OpenEXR file: channels `R`, `G`, `B` and, unless the frame is opaque, `A`,
+/// 32-bit floating point, unclipped; then the frame's planes under their names. Colours are
+/// premultiplied by `A`, as OpenEXR requires. The chromaticities are those of sRGB; the label is in
+/// `software` and `comments`.
 pub fn encode(frame: &LinearFrame, label: &Label) -> Vec<u8> {
     let attributes = LayerAttributes {
         software_name: text(&label.software),
@@ -27,7 +28,7 @@ pub fn encode(frame: &LinearFrame, label: &Label) -> Vec<u8> {
         white: Vec2(0.3127, 0.3290),
     });
     let mut file = std::io::Cursor::new(Vec::new());
-    // On one thread; the bytes do not depend on it.
+    // On one thread; the bytes would be the same on several.
     let written = image.write().non_parallel().to_unbuffered(&mut file);
     written.expect("a frame with pixels is a valid image and a vector takes every write");
     file.into_inner()
@@ -51,12 +52,12 @@ fn float(name: &str, numbers: Vec<f32>) -> AnyChannel<FlatSamples> {
     AnyChannel::new(latin(name), FlatSamples::F32(numbers))
 }
 
-/// `None` for no text: an attribute is never empty.
+/// `None` for empty text, so that no empty attribute is written.
 fn text(text: &str) -> Option<Text> {
     (!text.is_empty()).then(|| latin(text))
 }
 
-/// OpenEXR text is bytes: Latin-1 here, without what ends a text.
+/// OpenEXR text is a byte string: Latin-1 here, with `?` for NUL and other characters.
 fn latin(text: &str) -> Text {
     let byte = |c: char| u8::try_from(u32::from(c)).ok().filter(|byte| *byte != 0).unwrap_or(b'?');
     Text::from_bytes_unchecked(text.chars().map(byte).collect())

@@ -1,44 +1,44 @@
-//! The formats, their names, and what is written beside the pixels.
+//! The file formats, their names, and the text written beside the pixels.
 
 use crate::png::Packing;
 use crate::{Frame, LinearFrame, eps, exr, hdr, pdf, pfm, png, ppm, ps, svg};
 
-/// What a file says about where it comes from.
+/// What a file records about its origin.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Label {
     /// Name and version of the program.
     pub software: String,
-    /// How the picture was made: the command lines of the pipe, one a line.
+    /// How the image was made: the command lines of the pipe, one per line.
     pub comment: String,
 }
 
-/// A colour format.
+/// A file format for colour images.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
     /// Portable Network Graphics.
     Png,
-    /// The same with 16 bits a channel.
+    /// Portable Network Graphics with 16 bits per channel.
     Png16,
-    /// Encapsulated PostScript, to be put into a document.
+    /// Encapsulated PostScript, to be placed in a document.
     Eps,
-    /// PostScript, one page the size of the picture.
+    /// PostScript, one page of the size of the image.
     Ps,
-    /// Portable Document Format, one page the size of the picture.
+    /// Portable Document Format, one page of the size of the image.
     Pdf,
     /// Scalable Vector Graphics.
     Svg,
     /// Portable pixmap, binary.
     Ppm,
-    /// OpenEXR: light, and any other planes.
+    /// OpenEXR: linear light, and extra planes.
     Exr,
-    /// Portable float map: light.
+    /// Portable float map: linear light.
     Pfm,
-    /// Radiance HDR: light, to 8 bits with a common exponent.
+    /// Radiance HDR: linear light, as 8-bit mantissas with a shared exponent.
     Hdr,
 }
 
 impl Format {
-    /// All of them, the default first.
+    /// All formats, the default first.
     pub const ALL: [Self; 10] = [
         Self::Png,
         Self::Png16,
@@ -52,7 +52,7 @@ impl Format {
         Self::Hdr,
     ];
 
-    /// Its name, which is also the usual ending of its files, but for `png16`.
+    /// The name of the format, which except for `png16` is also the usual file extension.
     pub fn name(self) -> &'static str {
         match self {
             Self::Png => "png",
@@ -68,37 +68,39 @@ impl Format {
         }
     }
 
-    /// The format called `name`, in small or capital letters.
+    /// The format of the given name, in lower or upper case; `None` if there is no such format.
     pub fn from_name(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|format| name.eq_ignore_ascii_case(format.name()))
     }
 
-    /// All names with commas between, for messages.
+    /// All names, separated by commas, for messages.
     pub fn list() -> String {
         Self::ALL.map(Self::name).join(", ")
     }
 
-    /// True if the file is not text, and would garble a terminal.
+    /// True if the file is binary, so that it must not be printed to a terminal.
     pub fn is_binary(self) -> bool {
         !matches!(self, Self::Eps | Self::Ps | Self::Svg)
     }
 
-    /// True if it holds light, uncut, and not what a display shows of it.
+    /// True if the file holds linear, unclipped light rather than display-encoded colours.
     pub fn is_linear(self) -> bool {
         matches!(self, Self::Exr | Self::Pfm | Self::Hdr)
     }
 
-    /// True if it has areas and lines as well as pixels, see [`crate::figure`].
+    /// True if the format has vector graphics (areas and lines) as well as pixels, see
+    /// [`crate::figure`].
     pub fn has_vectors(self) -> bool {
         matches!(self, Self::Eps | Self::Ps | Self::Pdf | Self::Svg)
     }
 
-    /// True if it needs more than a [`Frame`] of 8 bits holds.
+    /// True if the format has more precision than an 8-bit [`Frame`].
     pub fn is_deep(self) -> bool {
         self.is_linear() || self == Self::Png16
     }
 
-    /// True if transparency is kept, or put on white; else light counts as if the rest were black.
+    /// True if transparency is kept or composited over white; otherwise it is composited over
+    /// black.
     pub fn has_alpha(self) -> bool {
         !matches!(self, Self::Pfm | Self::Hdr)
     }
@@ -108,7 +110,7 @@ impl Format {
         self.pack(frame, label, Packing::Fast)
     }
 
-    /// The same; PNG files packed as asked.
+    /// Like [`Format::encode`], with the given compression for PNG files.
     pub fn pack(self, frame: &Frame, label: &Label, packing: Packing) -> Vec<u8> {
         match self {
             Self::Png => png::encode(frame, label, packing),
@@ -123,13 +125,13 @@ impl Format {
         }
     }
 
-    /// Light as a file of this format. What a display cannot show is clipped unless the format
-    /// [is linear](Format::is_linear): develop it before.
+    /// Linear light as a file of this format. Unless the format [is linear](Format::is_linear),
+    /// light outside 0…1 is clipped: apply a [`Development`](crate::Development) first.
     pub fn encode_linear(self, frame: &LinearFrame, label: &Label) -> Vec<u8> {
         self.pack_linear(frame, label, Packing::Fast)
     }
 
-    /// The same; PNG files packed as asked.
+    /// Like [`Format::encode_linear`], with the given compression for PNG files.
     pub fn pack_linear(self, frame: &LinearFrame, label: &Label, packing: Packing) -> Vec<u8> {
         match self {
             Self::Png16 => png::encode_16(frame, label, packing),

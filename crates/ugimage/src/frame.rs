@@ -1,9 +1,9 @@
-//! The frame: a rectangle of display-encoded pixels.
+//! The frame: an image of display-encoded pixels.
 
-/// A picture in memory, rows from top to bottom, four bytes a pixel: red,
-/// green, blue encoded with the sRGB transfer function, and alpha.
+/// An image in memory, rows from top to bottom, four bytes per pixel: red, green, blue encoded with
+/// the sRGB transfer function, and alpha.
 ///
-/// Colours are not multiplied by alpha. In an opaque frame every alpha is 255.
+/// Colours are not premultiplied by alpha. In an opaque frame every alpha is 255.
 ///
 /// # Guarantees
 /// There are exactly width × height pixels, and neither side is 0.
@@ -24,7 +24,7 @@ impl Frame {
         Self::filled(width, height, true, [0, 0, 0, 255])
     }
 
-    /// A frame with transparency, clear everywhere.
+    /// A fully transparent frame.
     ///
     /// # Panics
     /// If a side is 0.
@@ -36,17 +36,17 @@ impl Frame {
         Self::new([width, height], is_opaque, vec![pixel; width as usize * height as usize])
     }
 
-    /// A frame of these pixels; if it is opaque, with alpha 255.
+    /// A frame of the given pixels. If it is opaque, every alpha must be 255.
     ///
     /// # Panics
-    /// If a side is 0, or there are not as many pixels as the sides say.
+    /// If a side is 0, or the number of pixels is not width × height.
     pub fn new([width, height]: [u32; 2], is_opaque: bool, pixels: Vec<[u8; 4]>) -> Self {
         assert!(width > 0 && height > 0, "a frame has at least one pixel");
         assert_eq!(pixels.len(), width as usize * height as usize, "a frame has all its pixels");
         Self { width, height, is_opaque, pixels }
     }
 
-    /// Pixels in a row.
+    /// Number of pixels per row.
     pub fn width(&self) -> u32 {
         self.width
     }
@@ -56,7 +56,7 @@ impl Frame {
         self.height
     }
 
-    /// True if the frame has no transparency, so that alpha need not be written.
+    /// True if the frame has no transparency, so that writers can omit alpha.
     pub fn is_opaque(&self) -> bool {
         self.is_opaque
     }
@@ -66,7 +66,7 @@ impl Frame {
         &self.pixels
     }
 
-    /// The same, to be painted. Whoever paints an opaque frame leaves alpha at 255.
+    /// All pixels, mutable. In an opaque frame alpha must stay 255.
     pub fn pixels_mut(&mut self) -> &mut [[u8; 4]] {
         &mut self.pixels
     }
@@ -74,14 +74,14 @@ impl Frame {
     /// The pixel in column `x` of row `y`, counted from the top left.
     ///
     /// # Panics
-    /// If it lies outside.
+    /// If the pixel lies outside the frame.
     pub fn pixel(&self, x: u32, y: u32) -> [u8; 4] {
         assert!(x < self.width && y < self.height, "the pixel lies in the frame");
         self.pixels[y as usize * self.width as usize + x as usize]
     }
 }
 
-/// Frames that exercise writers: one pixel, odd sizes, long runs, noise, transparency.
+/// Frames for testing writers: one pixel, odd sizes, long runs, noise, transparency.
 #[cfg(test)]
 pub(crate) fn test_frames() -> Vec<Frame> {
     let mut noise = Frame::opaque(37, 19);

@@ -1,18 +1,18 @@
-//! Black-and-white PostScript, as the 1988 renderer wrote it for laser printers:
-//! level 1, an 8-bit `image` in hexadecimal.
+//! Greyscale PostScript, as the 1988 renderer wrote it for laser printers: level 1, an 8-bit
+//! `image` in hexadecimal.
 
 use ugphysics::{luminance, srgb_encode};
 
 use crate::postscript::{decode_table, history_comments, label_comments, over_white};
 use crate::{Frame, Label};
 
-/// Longest string a level 1 interpreter can hold.
+/// Longest string of a PostScript level 1 interpreter, in bytes.
 const MAX_STRING: u32 = 65_535;
 
-/// The frame as a grey PostScript picture, one pixel a point.
+/// The frame as greyscale PostScript, one pixel per point.
 ///
-/// Grey is the display-encoded luminance, which is computed in linear light; transparent
-/// pixels lie on white.
+/// The grey level is the display-encoded luminance, computed in linear light. Transparent pixels
+/// are composited over white.
 pub fn grey_postscript(frame: &Frame, label: &Label) -> Vec<u8> {
     let (width, height) = (frame.width(), frame.height());
     let mut file = format!(
@@ -36,8 +36,8 @@ pub fn grey_postscript(frame: &Frame, label: &Label) -> Vec<u8> {
     file
 }
 
-/// Length of the pieces the data is read in: a whole number of them makes a row, so that
-/// the last one ends with the picture.
+/// Length of the string that each `readhexstring` fills. It divides the row length, so that the
+/// last string ends with the image data.
 fn string_len(width: u32) -> u32 {
     (1..=width.min(MAX_STRING)).rev().find(|len| width.is_multiple_of(*len)).unwrap_or(1)
 }
@@ -78,7 +78,7 @@ mod tests {
             let levels = decode::hex(decode::between(&file, "image\n", "grestore"));
             assert_eq!(levels.len(), frame.pixels().len());
             for (level, [r, g, b]) in levels.into_iter().zip(over_white(&frame)) {
-                // Rec. 709 luminance, by its published weights.
+                // Luminance with the published weights of ITU-R BT.709.
                 let [r, g, b] = [r, g, b].map(|level| ugphysics::srgb_decode(f64::from(level) / 255.0));
                 let light = 0.2126 * r + 0.7152 * g + 0.0722 * b;
                 let exact = 255.0 * srgb_encode(light);

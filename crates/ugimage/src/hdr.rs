@@ -1,15 +1,16 @@
-//! Radiance HDR: eight bits each for red, green, blue and a common exponent (G. Ward, *Real Pixels*, 1991).
+//! Radiance HDR (RGBE): eight bits each for red, green, blue and a shared exponent (G. Ward, *Real
+//! Pixels*, 1991).
 
 use crate::{Label, LinearFrame};
 
-/// Widths that the run-length coding can be used for.
+/// Image widths for which the format allows run-length encoding.
 const CODED_WIDTHS: std::ops::Range<u32> = 8..0x8000;
 
-/// Brightest exponent byte.
+/// Largest exponent byte.
 const MAX_EXPONENT: i32 = 255;
 
-/// The light as a Radiance HDR file, to one part in 256 of the brightest channel. What is below 0 is cut; there is
-/// no transparency. The label stands in the header.
+/// The light as a Radiance HDR file, with a precision of 1/256 of the brightest channel. Negative
+/// light is clipped to 0, and transparency is composited over black. The label is in the header.
 pub fn encode(frame: &LinearFrame, label: &Label) -> Vec<u8> {
     let mut file = b"#?RADIANCE\n".to_vec();
     if !label.software.is_empty() {
@@ -30,13 +31,14 @@ pub fn encode(frame: &LinearFrame, label: &Label) -> Vec<u8> {
     file
 }
 
-/// A line of the header, which ends at an empty one.
+/// Appends a header line. The text must not contain a line break: an empty line ends the header.
 fn push_line(file: &mut Vec<u8>, key: &str, text: &str) {
     let text: String = text.chars().map(|c| if c.is_control() { '?' } else { c }).collect();
     file.extend_from_slice(format!("{key}{text}\n").as_bytes());
 }
 
-/// Light as mantissas of 8 bits with the exponent of the brightest: (m + ½)/256 · 2^(e − 128).
+/// Light as 8-bit mantissas m with the exponent of the brightest channel: (m + ½)/256 · 2^(e −
+/// 128).
 fn rgbe(light: [f32; 3]) -> [u8; 4] {
     let light = light.map(|channel| f64::from(channel.clamp(0.0, f32::MAX)));
     let brightest = light.into_iter().fold(0.0, f64::max);
@@ -52,7 +54,8 @@ fn rgbe(light: [f32; 3]) -> [u8; 4] {
     [r, g, b, exponent_byte as u8]
 }
 
-/// A row channel after channel: a length above 128 and a byte to repeat, or a length and bytes as they are.
+/// A run-length encoded row, channel after channel: either 128 + n and one byte to repeat n times,
+/// or n and n literal bytes.
 fn push_coded(file: &mut Vec<u8>, row: &[[u8; 4]]) {
     const LONGEST: usize = 127;
     file.extend([2, 2, (row.len() >> 8) as u8, row.len() as u8]);
@@ -74,7 +77,7 @@ fn push_coded(file: &mut Vec<u8>, row: &[[u8; 4]]) {
     }
 }
 
-/// How often the first byte stands there, counted up to `longest`.
+/// The number of leading bytes equal to the first, counted up to `longest`.
 fn run_len(bytes: &[u8], longest: usize) -> usize {
     bytes.iter().take(longest).take_while(|byte| **byte == bytes[0]).count()
 }

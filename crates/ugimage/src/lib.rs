@@ -1,31 +1,32 @@
-//! Pictures as bytes: frames of pixels, and the formats they are written in.
+//! Images in memory, and the file formats they are written in.
 //!
-//! A [`LinearFrame`] holds light: linear red, green and blue of the sRGB primaries, uncut, and
-//! any other number for each pixel. A [`Development`] makes it fit for a display: exposure, tone
-//! curve, and colours brought into the gamut without a change of hue.
+//! A [`LinearFrame`] holds linear light: red, green and blue of the sRGB primaries, unclipped, and
+//! any number of extra channels. A [`Development`] converts it for a display: exposure, tone
+//! mapping, and gamut mapping that preserves hue.
 //!
-//! A [`Frame`] holds what a display shows: four bytes a pixel, red, green, blue
-//! and alpha, the colours encoded with the sRGB transfer function. Everything
-//! that computes with light works in linear light; [`Quantizer`] is the one way
-//! from there to bytes, and it rounds to the nearest of the 256 levels exactly.
+//! A [`Frame`] holds display-encoded pixels: four bytes per pixel, red, green, blue and alpha, the
+//! colours encoded with the sRGB transfer function. All computations use linear light. Only
+//! [`Quantizer`] converts it to bytes, and it rounds exactly to the nearest of the 256 levels.
 //!
-//! The writers ([`Format::encode`], [`Format::encode_linear`], [`grey_postscript`]) return the whole file in
-//! a `Vec<u8>`. They do no I/O, read no clock and are given everything that
-//! stands in the file besides pixels in a [`Label`], so the same frame gives the
-//! same bytes.
+//! The writers ([`Format::encode`], [`Format::encode_linear`], [`grey_postscript`]) return the
+//! whole file as a `Vec<u8>`. They do no I/O and read no clock. Everything in the file besides
+//! pixels is passed in a [`Label`], so the same frame and label give the same bytes.
 //!
-//! [`read_png`] reads what PNG files hold, with the label.
+//! [`read_png`] reads PNG files with their label.
 //!
 //! | format | pixels | transparency |
 //! | --- | --- | --- |
 //! | [`Format::Png`], [`Format::Png16`] | RGB or RGBA, 8 or 16 bits, tagged sRGB | kept |
-//! | [`Format::Pdf`], [`Format::Svg`] | an embedded RGB picture, one pixel a point | kept |
-//! | [`Format::Ppm`] | RGB, 8 bits | put on white |
-//! | [`Format::Exr`] | light, 32-bit floats, and other planes | kept |
-//! | [`Format::Pfm`] | light, 32-bit floats | put on black |
-//! | [`Format::Hdr`] | light, 8 bits with a common exponent, nothing below 0 | put on black |
-//! | [`Format::Eps`], [`Format::Ps`] | DeviceRGB, PostScript level 2, one pixel is one point | put on white |
-//! | [`grey_postscript`] | luminance, PostScript level 1, one pixel is one point | put on white |
+//! | [`Format::Pdf`], [`Format::Svg`] | embedded RGB image | kept |
+//! | [`Format::Ppm`] | RGB, 8 bits | over white |
+//! | [`Format::Exr`] | linear light, 32-bit floats, and extra planes | kept |
+//! | [`Format::Pfm`] | linear light, 32-bit floats | over black |
+//! | [`Format::Hdr`] | linear light ≥ 0, 8-bit mantissas with a shared exponent | over black |
+//! | [`Format::Eps`], [`Format::Ps`] | DeviceRGB, PostScript level 2 | over white |
+//! | [`grey_postscript`] | luminance, PostScript level 1 | over white |
+//!
+//! "Over white" means that transparent pixels are composited over a white background. In page
+//! formats one pixel is one point (1/72 inch).
 //!
 //! ```
 //! use ugimage::{Format, Frame, Label};

@@ -1,18 +1,18 @@
-//! The linear frame: a rectangle of light before it is made fit for a display.
+//! The linear frame: an image of linear, unclipped light.
 
 use ugphysics::srgb_decode;
 
 use crate::{Frame, Quantizer};
 
-/// A picture as light, rows from top to bottom: linear red, green and blue of the sRGB primaries, and the
-/// part of the pixel that something was drawn on, 0…1.
+/// An image of linear light, rows from top to bottom: linear red, green and blue of the sRGB
+/// primaries, and alpha, the covered fraction of the pixel, 0…1.
 ///
-/// White is 1 1 1. Nothing is cut: light brighter than white is above 1, and a colour that the primaries
-/// cannot mix has a part below 0. In an opaque frame the light is that of the whole pixel, background
-/// included; else that of its covered part, not multiplied by it.
+/// White is 1, 1, 1. Nothing is clipped: light brighter than white is above 1, and a colour outside
+/// the sRGB gamut has a negative channel. In an opaque frame the light is that of the whole pixel,
+/// including the background; otherwise it is that of the covered part, not premultiplied by alpha.
 ///
 /// # Guarantees
-/// There are exactly width × height pixels, and as many numbers in every plane. Neither side is 0.
+/// There are exactly width × height pixels, and as many samples in every plane. Neither side is 0.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LinearFrame {
     width: u32,
@@ -22,21 +22,21 @@ pub struct LinearFrame {
     planes: Vec<Plane>,
 }
 
-/// One more number for each pixel.
+/// An extra channel (AOV): one number per pixel.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plane {
-    /// Its name in the file.
+    /// The name of the channel in the file.
     pub name: String,
-    /// The numbers.
+    /// The value of each pixel.
     pub samples: Samples,
 }
 
-/// The numbers of a [`Plane`], rows from top to bottom.
+/// The values of a [`Plane`], rows from top to bottom.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Samples {
-    /// Measured ones.
+    /// Real numbers.
     Float(Vec<f32>),
-    /// Counted ones.
+    /// Unsigned integers, such as indices.
     Whole(Vec<u32>),
 }
 
@@ -50,10 +50,10 @@ impl Samples {
 }
 
 impl LinearFrame {
-    /// A frame of these pixels.
+    /// A frame of the given pixels, without extra planes.
     ///
     /// # Panics
-    /// If a side is 0, or there are not as many pixels as the sides say.
+    /// If a side is 0, or the number of pixels is not width × height.
     pub fn new(size: [u32; 2], is_opaque: bool, pixels: Vec<[f32; 4]>) -> Self {
         let [width, height] = size;
         assert!(width > 0 && height > 0, "a frame has at least one pixel");
@@ -64,13 +64,13 @@ impl LinearFrame {
     /// Adds a plane.
     ///
     /// # Panics
-    /// If it has not one number for each pixel.
+    /// If the number of its samples is not that of the pixels.
     pub fn push_plane(&mut self, plane: Plane) {
         assert_eq!(plane.samples.len(), self.pixels.len(), "a plane has a number for each pixel");
         self.planes.push(plane);
     }
 
-    /// Pixels in a row.
+    /// Number of pixels per row.
     pub fn width(&self) -> u32 {
         self.width
     }
@@ -90,23 +90,24 @@ impl LinearFrame {
         &self.pixels
     }
 
-    /// The same, to be changed.
+    /// All pixels, mutable.
     pub fn pixels_mut(&mut self) -> &mut [[f32; 4]] {
         &mut self.pixels
     }
 
-    /// What there is besides colour.
+    /// The extra planes.
     pub fn planes(&self) -> &[Plane] {
         &self.planes
     }
 
-    /// The light that comes from one of its pixels: that of the covered part, times that part.
+    /// The light of one of its pixels over black: premultiplied by alpha unless the frame is
+    /// opaque.
     pub fn light_of(&self, [red, green, blue, part]: [f32; 4]) -> [f32; 3] {
         let part = if self.is_opaque { 1.0 } else { part };
         [red * part, green * part, blue * part]
     }
 
-    /// The frame with 8 bits a channel; light outside 0…1 is clipped.
+    /// The frame display-encoded with 8 bits per channel; light outside 0…1 is clipped.
     pub fn to_display(&self) -> Frame {
         let quantizer = Quantizer::new();
         let empty = if self.is_opaque { Frame::opaque } else { Frame::clear };
@@ -118,7 +119,7 @@ impl LinearFrame {
     }
 }
 
-/// A pixel of light as 8 bits a channel: red, green, blue and alpha.
+/// A pixel display-encoded with 8 bits per channel: red, green, blue and alpha.
 #[inline]
 pub fn display_pixel(quantizer: &Quantizer, [red, green, blue, part]: [f32; 4], is_opaque: bool) -> [u8; 4] {
     if !is_opaque && part == 0.0 {
@@ -141,7 +142,8 @@ impl From<&Frame> for LinearFrame {
     }
 }
 
-/// Frames that exercise writers of light: bright, negative, tiny, transparent, one pixel, wide.
+/// Frames for testing writers of linear light: bright, negative, tiny, transparent, one pixel,
+/// wide.
 #[cfg(test)]
 pub(crate) fn test_frames() -> Vec<LinearFrame> {
     let frame = |size: [u32; 2], is_opaque, pixel: &dyn Fn(usize) -> [f32; 4]| {

@@ -1,4 +1,4 @@
-//! PDF: one page with an embedded picture, one pixel a point.
+//! PDF: one page with an embedded image, one pixel per point.
 
 use miniz_oxide::deflate::compress_to_vec_zlib;
 use pdf_writer::writers::Resources;
@@ -6,10 +6,10 @@ use pdf_writer::{Content, Filter, Finish, Name, Pdf, Rect, Ref, TextStr};
 
 use crate::{Frame, Label};
 
-/// DEFLATE's own default, a good trade.
+/// DEFLATE compression level: the usual default, a compromise between time and size.
 const LEVEL: u8 = 6;
 
-/// Longest side of a page in points that PDF allows without a unit of its own.
+/// Longest page side in points that PDF allows with the default user unit.
 const MAX_SIDE: u32 = 14_400;
 
 const CATALOG: Ref = Ref::new(1);
@@ -17,7 +17,7 @@ const PAGES: Ref = Ref::new(2);
 const PAGE: Ref = Ref::new(3);
 const CONTENT: Ref = Ref::new(4);
 const INFO: Ref = Ref::new(5);
-/// Of the first object besides these.
+/// Number of the first object after these.
 pub const FIRST: i32 = 6;
 
 const IMAGE: Ref = Ref::new(FIRST);
@@ -42,7 +42,7 @@ pub fn encode(frame: &Frame, label: &Label) -> Vec<u8> {
     })
 }
 
-/// What a picture is made of.
+/// The channels of an embedded image.
 #[derive(Clone, Copy)]
 enum Channels {
     Colors,
@@ -53,7 +53,7 @@ fn image(pdf: &mut Pdf, id: Ref, size: [u32; 2], channels: Channels, bytes: &[u8
     let data = deflate(bytes);
     let mut image = pdf.image_xobject(id, &data);
     image.filter(Filter::FlateDecode);
-    // A side is at most 2^24 pixels.
+    // The casts do not overflow: a side is at most 2^24 pixels.
     image.width(size[0] as i32).height(size[1] as i32).bits_per_component(8);
     match channels {
         Channels::Colors => image.color_space().device_rgb(),
@@ -64,13 +64,13 @@ fn image(pdf: &mut Pdf, id: Ref, size: [u32; 2], channels: Channels, bytes: &[u8
     }
 }
 
-/// Bytes for `FlateDecode`.
+/// Compresses bytes for the filter `FlateDecode`.
 pub fn deflate(bytes: &[u8]) -> Vec<u8> {
     compress_to_vec_zlib(bytes, LEVEL)
 }
 
-/// Makes a file of one page of `size` points, in which `pdf` holds all that `resources` names. The label becomes the
-/// document's information; there is no date and no id.
+/// Makes a file with one page of `size` points. `pdf` already contains the objects that `resources`
+/// refers to. The label becomes the document information; there is no date and no id.
 pub fn document(
     mut pdf: Pdf,
     size: [u32; 2],
@@ -86,7 +86,7 @@ pub fn document(
     page.media_box(Rect::new(0.0, 0.0, width, height)).parent(PAGES).contents(CONTENT);
     let mut drawing = Content::new();
     if unit > 1.0 {
-        // The page is as large as it should be: its unit is so many points.
+        // The page keeps its size: its user unit is `unit` points.
         page.user_unit(unit);
         drawing.transform([1.0 / unit, 0.0, 0.0, 1.0 / unit, 0.0, 0.0]);
     }

@@ -1,9 +1,10 @@
-//! PFM: 32-bit floating point, after P. Debevec: a header of three lines, and rows from the bottom up.
+//! PFM (P. Debevec): a header of three lines and 32-bit floating point samples, rows from bottom to
+//! top.
 
 use crate::LinearFrame;
 
-/// The light as a PFM file: linear red, green and blue as little-endian `f32`, nothing cut. There is no place
-/// for a label or for transparency in it: light of pixels partly covered counts as if the rest were black.
+/// The light as a PFM file: linear red, green and blue as little-endian `f32`, unclipped. The
+/// format has neither text nor alpha: transparent pixels are composited over black.
 pub fn encode(frame: &LinearFrame) -> Vec<u8> {
     let mut file = format!("PF\n{} {}\n-1.0\n", frame.width(), frame.height()).into_bytes();
     file.reserve(12 * frame.pixels().len());

@@ -1,4 +1,4 @@
-//! PNG, by the `png` crate.
+//! PNG, written with the `png` crate.
 
 use std::borrow::Cow;
 
@@ -8,18 +8,18 @@ use ugphysics::srgb_encode;
 
 use crate::{Frame, Label, LinearFrame};
 
-/// How much work is put into small files.
+/// How hard PNG files are compressed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Packing {
-    /// Little: packing takes less time than drawing.
+    /// Fast: compression takes less time than rendering.
     #[default]
     Fast,
-    /// Much: some two thirds of the size, for many times the time.
+    /// Small: about two thirds of the size of `Fast`, for many times the time.
     Small,
 }
 
-/// The frame as a PNG file: RGB if it is opaque, else RGBA; tagged as sRGB; the label
-/// in text chunks `Software` and `Comment`; no date.
+/// The frame as a PNG file: RGB if it is opaque, otherwise RGBA; tagged as sRGB. The label is in
+/// the text chunks `Software` and `Comment`; there is no date.
 pub fn encode(frame: &Frame, label: &Label, packing: Packing) -> Vec<u8> {
     let data: Cow<'_, [u8]> = if frame.is_opaque() {
         let mut data = vec![0; 3 * frame.pixels().len()];
@@ -34,7 +34,8 @@ pub fn encode(frame: &Frame, label: &Label, packing: Packing) -> Vec<u8> {
         .expect("a frame with pixels fits a PNG and a vector takes every write")
 }
 
-/// Light as a PNG file with 16 bits a channel, encoded as sRGB: RGB or RGBA; light outside 0…1 is clipped.
+/// Linear light as a PNG file with 16 bits per channel, encoded as sRGB: RGB or RGBA. Light outside
+/// 0…1 is clipped.
 pub fn encode_16(frame: &LinearFrame, label: &Label, packing: Packing) -> Vec<u8> {
     let whole = |part: f64| (65535.0 * part).round() as u16;
     let level = |light: f32| whole(srgb_encode(f64::from(light).clamp(0.0, 1.0))).to_be_bytes();
@@ -77,12 +78,13 @@ fn write(
     Ok(file)
 }
 
-/// Adds a text chunk: `tEXt`, which every reader knows, if the text is Latin-1, else `iTXt`.
+/// Adds a text chunk: `tEXt`, which every PNG reader supports, if the text is Latin-1, otherwise
+/// `iTXt`.
 fn add_text(encoder: &mut Encoder<'_, &mut Vec<u8>>, key: &str, text: &str) -> Result<(), EncodingError> {
     if text.is_empty() {
         return Ok(());
     }
-    // NUL ends a text chunk, so it cannot stand in one.
+    // NUL is not allowed in text chunks.
     let text = text.replace('\0', "");
     if text.chars().all(|c| u32::from(c) < 256) {
         encoder.add_text_chunk(key.into(), text)
@@ -122,7 +124,7 @@ mod tests {
         }
     }
 
-    /// Smoothly coloured, as pictures are.
+    /// A smooth image, as rendered images usually are.
     #[test]
     fn small_files_have_the_same_pixels() {
         let level = |part: f64| (255.0 * part).round() as u8;
@@ -154,7 +156,7 @@ mod tests {
                     bytes.chunks(2).map(|pair| f64::from(u16::from_be_bytes([pair[0], pair[1]]))).collect();
                 for (level, light) in levels.iter().zip(&light[..3]) {
                     let back = ugphysics::srgb_decode(level / 65535.0);
-                    // Half a level, where the curve is steepest: 2.4/1.055 a unit.
+                    // Half a level, where decoding is steepest: 2.4/1.055 per unit.
                     assert!((back - f64::from(*light).clamp(0.0, 1.0)).abs() < 0.51 * 2.3 / 65535.0);
                 }
                 if let Some(alpha) = levels.get(3) {

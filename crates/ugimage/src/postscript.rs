@@ -1,14 +1,14 @@
-//! What the PostScript formats share: comments, transparency put on white, and the
-//! colour image operator with its two filters.
+//! Shared by the PostScript formats: comments, compositing over white, and the colour image
+//! operator with its two filters.
 
 use ugphysics::srgb_decode;
 
 use crate::{Frame, Label, Quantizer};
 
-/// Longest comment line we write; the document structuring conventions allow 255.
+/// Longest comment line written; the document structuring conventions allow 255 characters.
 const MAX_COMMENT: usize = 250;
 
-/// The `%%Creator` comment, and the label's comment as plain `%` lines.
+/// The `%%Creator` comment; empty if the label has no software.
 pub fn label_comments(label: &Label) -> String {
     let mut text = String::new();
     if !label.software.is_empty() {
@@ -17,21 +17,21 @@ pub fn label_comments(label: &Label) -> String {
     text
 }
 
-/// The label's comment as plain `%` lines, to stand behind `%%EndComments`.
+/// The label's comment as plain `%` lines, to be placed after `%%EndComments`.
 pub fn history_comments(label: &Label) -> String {
     label.comment.lines().map(|line| format!("% {}\n", comment_line(line))).collect()
 }
 
-/// One line of printable ASCII, short enough for a comment.
+/// `text` as printable ASCII, truncated to the length of a comment line.
 fn comment_line(text: &str) -> String {
     text.chars().map(|c| if c == ' ' || c.is_ascii_graphic() { c } else { '?' }).take(MAX_COMMENT).collect()
 }
 
-/// The picture as PostScript level 2, drawn with its lower left corner at the origin, one
-/// pixel a point.
+/// PostScript level 2 code that draws the frame with its lower left corner at the origin, one pixel
+/// per point.
 ///
-/// The filters stand in variables so that, when all pixels have been read, both can be
-/// run to their ends and the interpreter goes on right behind the data.
+/// The filters are stored in variables so that both can be flushed after the last pixel. The
+/// interpreter then continues directly after the data.
 pub fn color_image(frame: &Frame) -> Vec<u8> {
     let (width, height) = (frame.width(), frame.height());
     let mut out = format!(
@@ -57,7 +57,7 @@ pub fn color_image(frame: &Frame) -> Vec<u8> {
     out
 }
 
-/// The colours of a frame, transparent pixels laid over white in linear light.
+/// The colours of a frame, transparent pixels composited over white in linear light.
 pub fn over_white(frame: &Frame) -> Vec<[u8; 3]> {
     if frame.is_opaque() {
         return frame.pixels().iter().map(|&[r, g, b, _]| [r, g, b]).collect();
@@ -71,13 +71,13 @@ pub fn over_white(frame: &Frame) -> Vec<[u8; 3]> {
     frame.pixels().iter().map(|&[r, g, b, a]| [r, g, b].map(|level| blend(level, a))).collect()
 }
 
-/// Linear light of each display level.
+/// The linear light of each of the 256 display levels.
 pub fn decode_table() -> [f64; 256] {
     std::array::from_fn(|level| srgb_decode(level as f64 / 255.0))
 }
 
-/// The run-length coding of PostScript (PackBits): a length byte n, then n + 1 bytes as
-/// they are if n < 128, or one byte to be repeated 257 − n times; 128 ends.
+/// The run-length encoding of PostScript (PackBits): a length byte n, then n + 1 literal bytes if
+/// n < 128, or one byte to be repeated 257 − n times if n > 128; n = 128 ends the data.
 fn run_length(bytes: &[u8], mut put: impl FnMut(u8)) {
     const LONGEST: usize = 128;
     let run_at = |at: usize| bytes[at..].iter().take(LONGEST).take_while(|&&byte| byte == bytes[at]).count();
@@ -90,7 +90,7 @@ fn run_length(bytes: &[u8], mut put: impl FnMut(u8)) {
             at += run;
             continue;
         }
-        // Bytes as they are, up to the next run worth its two bytes.
+        // Literal bytes, up to the next run of three or more.
         let start = at;
         while at < bytes.len() && at - start < LONGEST && !starts_run(&bytes[at..]) {
             at += 1;
@@ -120,7 +120,7 @@ impl<'a> Ascii85<'a> {
         Self { out, word: 0, len: 0, column: 0 }
     }
 
-    /// Adds all these bytes and the end.
+    /// Encodes all of `bytes` and the end mark.
     pub fn encode(bytes: &[u8], out: &'a mut Vec<u8>) {
         let mut text = Self::new(out);
         bytes.iter().for_each(|&byte| text.push(byte));
@@ -140,7 +140,8 @@ impl<'a> Ascii85<'a> {
         (self.word, self.len) = (0, 0);
     }
 
-    /// A last group of n bytes is padded with zeros, and n + 1 of its digits are written.
+    /// Writes the end mark. A last group of n < 4 bytes is padded with zeros, and its first n + 1
+    /// digits are written.
     fn finish(mut self) {
         if self.len > 0 {
             let word = self.word << (8 * (4 - self.len));
@@ -150,8 +151,8 @@ impl<'a> Ascii85<'a> {
     }
 
     fn print(&mut self, digit: u8) {
-        // A line that starts with `%%` would be taken for a structuring comment by
-        // spoolers; a blank before it is skipped by the decoder.
+        // Spoolers would interpret a line that starts with `%%` as a structuring comment. The
+        // decoder skips the space before it.
         if self.column == 0 && digit == b'%' {
             self.out.push(b' ');
         }
@@ -169,7 +170,7 @@ fn digits(word: u32) -> [u8; 5] {
     [52_200_625, 614_125, 7_225, 85, 1].map(|unit| b'!' + (word / unit % 85) as u8)
 }
 
-/// Decoders of their own, so that the writers are not tested against themselves.
+/// Independent decoders, so that the writers are not tested against themselves.
 #[cfg(test)]
 pub(crate) mod decode {
     /// The text between the lines `start` and `end`.
@@ -294,7 +295,7 @@ mod tests {
     fn transparency_lies_on_white() {
         let mut frame = Frame::clear(3, 1);
         frame.pixels_mut().copy_from_slice(&[[0, 0, 0, 0], [10, 20, 30, 255], [0, 0, 0, 128]]);
-        // 1 − 128/255 of white light is 0.498, level 187.5 + …: encode(0.49804) · 255 = 187.2.
+        // A share of 1 − 128/255 = 0.49804 of white light: encode(0.49804) · 255 = 187.2.
         assert_eq!(over_white(&frame), [[255; 3], [10, 20, 30], [187; 3]]);
     }
 

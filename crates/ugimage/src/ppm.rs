@@ -1,9 +1,10 @@
-//! PPM: the plain picture of the netpbm programs.
+//! PPM: the portable pixmap of the netpbm programs.
 
 use crate::postscript::over_white;
 use crate::{Frame, Label};
 
-/// The frame as a binary PPM file (P6, 8 bits), transparent pixels on white, the label in comments.
+/// The frame as a binary PPM file (P6, 8 bits), transparent pixels composited over white, the label
+/// in comments.
 pub fn encode(frame: &Frame, label: &Label) -> Vec<u8> {
     let mut file = b"P6\n".to_vec();
     for line in [&label.software[..]].into_iter().chain(label.comment.lines()).filter(|line| !line.is_empty())

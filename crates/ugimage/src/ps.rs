@@ -1,14 +1,15 @@
-//! PostScript: one page in colour, cut to the size of the picture.
+//! PostScript: one colour page of the size of the image.
 
 use crate::postscript::{color_image, history_comments, label_comments};
 use crate::{Frame, Label};
 
-/// The frame as a PostScript document of one page, one pixel a point.
+/// The frame as a PostScript document of one page, one pixel per point.
 pub fn encode(frame: &Frame, label: &Label) -> Vec<u8> {
     wrap([frame.width(), frame.height()], 2, label, &color_image(frame))
 }
 
-/// What draws a picture of `width` × `height` points, made a document of one page.
+/// Makes a one-page document of the PostScript code `drawing`, which draws `width` × `height`
+/// points.
 pub fn wrap([width, height]: [u32; 2], level: u32, label: &Label, drawing: &[u8]) -> Vec<u8> {
     let mut file = format!(
         "%!PS-Adobe-3.0\n\

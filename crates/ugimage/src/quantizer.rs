@@ -1,34 +1,38 @@
-//! From linear light to 8-bit display levels, exactly and fast.
+//! Quantization of linear light to 8-bit sRGB levels, exact and fast.
 
 use ugphysics::srgb_decode;
 
-/// Number of cells of equal width that [0, 1] is cut into. The transfer function is
-/// steepest at 0, 12.92, where 255 levels × 12.92 / 4096 is below one level a cell:
-/// no cell has two thresholds, and a look-up is never more than one away from the answer.
+/// Number of cells of equal width into which [0, 1] is divided. The sRGB encoding is steepest at 0,
+/// with slope 12.92, and 255 levels × 12.92 / 4096 is below one level per cell. So no cell contains
+/// two thresholds, and the level of its lower end is at most one too low.
 const CELLS: usize = 4096;
 
-/// What is rounded up to 1 when a number of a cell is added to 1: half the distance of numbers there.
+/// Half the spacing of `f32` above 1: numbers up to this much below the end of a cell round up into
+/// the next one when 1 is added.
 const ROUNDING: f32 = 1.0 / (1 << 24) as f32;
 
-/// What is added to a display level before what stands behind its point is cut off: a little more than a half, so that
-/// what lies halfway, as grey 0.5 does, goes up even if its light was computed a few 10⁻⁷ too small.
+/// Offset added to a level before truncation to an integer: slightly more than a half. Values
+/// halfway between two levels, such as grey 0.5, then round up even if rounding errors made their
+/// light a few 10⁻⁷ too small.
 pub const HALF: f64 = 0.500_25;
 
-/// Rounds linear light to the nearest display level: round(255 · encode(x)), without
-/// the power function of the sRGB transfer curve.
+/// Rounds linear light to the nearest display level, round(255 · encode(x)), without evaluating the
+/// power function of the sRGB transfer function.
 ///
-/// The 255 places where the rounded level changes are computed once with the exact
-/// curve; a table then gives a level just at or below the answer.
+/// The 255 thresholds at which the rounded level changes are computed once with the exact curve.
+/// For each cell a table gives the level at its lower end, and one comparison with the next
+/// threshold gives the result.
 #[derive(Clone, Debug)]
 pub struct Quantizer {
-    /// `thresholds[k]`: the linear value at which level k + 1 begins; for the last, NaN, which nothing reaches.
+    /// `thresholds[k]`: the linear value at which level k + 1 begins. The last is NaN, which no
+    /// value reaches.
     thresholds: [f32; 256],
     /// The level of the lower end of each cell.
     start: [u8; CELLS],
 }
 
 impl Quantizer {
-    /// Computes the tables, some ten microseconds.
+    /// Computes the tables, which takes about ten microseconds.
     pub fn new() -> Self {
         let thresholds: [f32; 256] = std::array::from_fn(|level| match level {
             255 => f32::NAN,
@@ -37,7 +41,7 @@ impl Quantizer {
         let (mut start, mut level) = ([0; CELLS], 0u8);
         for (cell, of_cell) in start.iter_mut().enumerate() {
             let low = cell as f32 / CELLS as f32 - ROUNDING;
-            // Cells are narrower than levels, and the last threshold is never reached.
+            // A cell contains at most one threshold, and the last one is never reached.
             level += u8::from(thresholds[usize::from(level)] <= low);
             *of_cell = level;
         }
@@ -52,12 +56,13 @@ impl Quantizer {
     }
 }
 
-/// The cell of a number: of 1 plus it the first bits behind the point, which is faster than a cast.
+/// The index of the cell of a number: the leading mantissa bits of 1 + `linear`, which is faster
+/// than a cast.
 #[inline]
 fn cell(linear: f32) -> usize {
     // NaN becomes 0.
     let low = if linear > 0.0 { linear } else { 0.0 };
-    // The greatest number that stays below 2 when 1 is added.
+    // Limited to the largest number that stays below 2 when 1 is added.
     let inside = low.min(1.0 - 2.0 * ROUNDING);
     const SHIFT: u32 = f32::MANTISSA_DIGITS - 1 - CELLS.ilog2();
     ((1.0 + inside).to_bits() >> SHIFT) as usize % CELLS
@@ -81,7 +86,8 @@ mod tests {
         for step in 0..=steps {
             let linear = step as f32 / steps as f32;
             let exact = 255.0 * srgb_encode(f64::from(linear));
-            // Thresholds are rounded to f32, 6e-8 of their size: 1e-4 of a level at most.
+            // Thresholds are rounded to f32, a relative error of 6e-8, which is at most 1e-4 of a
+            // level.
             let error = (f64::from(quantizer.level(linear)) - exact).abs();
             assert!(error <= HALF + 1e-4, "{linear}: {error}");
         }
@@ -105,7 +111,7 @@ mod tests {
         }
     }
 
-    /// Next to every place where the level changes, and next to the ends of all cells.
+    /// Checked around every threshold and around the ends of all cells.
     #[test]
     fn levels_change_where_they_should() {
         let quantizer = Quantizer::new();

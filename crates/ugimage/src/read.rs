@@ -1,4 +1,4 @@
-//! PNG files as frames.
+//! Reads PNG files.
 
 use std::fmt;
 use std::io::Cursor;
@@ -7,10 +7,10 @@ use png::{ColorType, Decoder, Transformations};
 
 use crate::{Frame, Label};
 
-/// Most pixels that are read.
+/// Largest number of pixels that is accepted.
 const MAX_PIXELS: u64 = 1 << 28;
 
-/// Why a file is no picture.
+/// Why a file cannot be read as an image.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ReadError(String);
 
@@ -22,24 +22,25 @@ impl fmt::Display for ReadError {
 
 impl std::error::Error for ReadError {}
 
-/// A PNG file of any kind with 8 bits a channel, and what it says of how it was made. Its colours are taken for sRGB.
+/// The image of a PNG file of any kind, converted to 8 bits per channel, and its label. Colours are
+/// assumed to be sRGB.
 ///
 /// # Errors
-/// The file is no PNG, is cut off or broken, or has more than 2²⁸ pixels.
+/// [`ReadError`] if the file is not a PNG, is truncated or corrupt, or has more than 2²⁸ pixels.
 pub fn read_png(file: &[u8]) -> Result<(Frame, Label), ReadError> {
-    let broken = |error: png::DecodingError| ReadError(format!("no PNG that can be read: {error}"));
+    let broken = |error: png::DecodingError| ReadError(format!("not a readable PNG file: {error}"));
     let mut decoder = Decoder::new(Cursor::new(file));
     decoder.set_transformations(Transformations::normalize_to_color8());
     let info = decoder.read_header_info().map_err(broken)?;
     let (width, height) = (info.width, info.height);
     if u64::from(width) * u64::from(height) > MAX_PIXELS {
-        return Err(ReadError(format!("{width} x {height} pixels are more than {MAX_PIXELS}")));
+        return Err(ReadError(format!("{width} x {height} pixels exceed the limit of {MAX_PIXELS}")));
     }
     let mut reader = decoder.read_info().map_err(broken)?;
     let size = reader.output_buffer_size().ok_or_else(|| ReadError("too large".to_owned()))?;
     let mut data = vec![0; size];
     let output = reader.next_frame(&mut data).map_err(broken)?;
-    // What stands behind the pixels; a file cut off there is a picture still.
+    // Reads the chunks after the pixels. A file truncated there still has its whole image.
     let _ = reader.finish();
     let data = &data[..output.buffer_size()];
     let (n_channels, is_opaque) = match output.color_type {
@@ -111,7 +112,7 @@ mod tests {
     fn broken_files_are_refused() {
         let file = Format::Png.encode(&test_frames()[2], &Label::default());
         assert!(read_png(b"").is_err());
-        assert!(read_png(b"GIF89a").unwrap_err().to_string().starts_with("no PNG that can be read"));
+        assert!(read_png(b"GIF89a").unwrap_err().to_string().starts_with("not a readable PNG file"));
         for length in 0..file.len() - 30 {
             assert!(read_png(&file[..length]).is_err(), "{length}");
         }

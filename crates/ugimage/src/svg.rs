@@ -1,4 +1,4 @@
-//! SVG: a picture embedded as PNG, one pixel a unit.
+//! SVG: an image embedded as PNG, one pixel per user unit.
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
@@ -9,7 +9,7 @@ use crate::{Frame, Label, png};
 /// The frame as an SVG file; transparency is kept.
 pub fn encode(frame: &Frame, label: &Label) -> Vec<u8> {
     let size @ [width, height] = [frame.width(), frame.height()];
-    // The history stands in the file once, as text of its own.
+    // No label in the embedded PNG: the SVG file has it already.
     let picture = STANDARD.encode(png::encode(frame, &Label::default(), Packing::Fast));
     let image = format!(
         "<image width=\"{width}\" height=\"{height}\" image-rendering=\"pixelated\" \
@@ -18,7 +18,8 @@ pub fn encode(frame: &Frame, label: &Label) -> Vec<u8> {
     document(size, label, &image)
 }
 
-/// What draws a picture of `width` × `height` units, made a file. The label becomes its description.
+/// Makes a file of the SVG elements `drawing`, which draw `width` × `height` units. The label
+/// becomes its description.
 pub fn document([width, height]: [u32; 2], label: &Label, drawing: &str) -> Vec<u8> {
     let words = [label.software.as_str(), label.comment.as_str()];
     let words: Vec<String> = words.into_iter().filter(|text| !text.is_empty()).map(escaped).collect();
@@ -31,7 +32,7 @@ pub fn document([width, height]: [u32; 2], label: &Label, drawing: &str) -> Vec<
     .into_bytes()
 }
 
-/// Text between tags. XML has no place for most control characters.
+/// Escapes text for XML. Most control characters are not allowed in XML and become `?`.
 fn escaped(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {

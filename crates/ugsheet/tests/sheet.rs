@@ -178,7 +178,7 @@ fn the_program_says_what_is_wrong() {
         assert_eq!(output.status.code(), Some(status), "{talk}");
         assert!(output.stdout.is_empty() && talk.contains(message), "{talk}");
     };
-    check(&["text.png"], 1, "`text.png`: no PNG that can be read");
+    check(&["text.png"], 1, "`text.png`: not a readable PNG file");
     check(&["rest.png", "none.png"], 1, "none.png");
     check(&["-label", "x", "rest.png", "fast.png"], 2, "give -label once for each picture");
     check(&["-cap", "漢", "rest.png"], 2, "the font has no `漢`");

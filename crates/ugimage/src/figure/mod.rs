@@ -1,17 +1,22 @@
-//! Figures: areas and lines in paint order instead of pixels, and their files.
+//! Vector figures: areas and lines in painting order, and the files they are written to.
 //!
-//! A [`Figure`] is measured in pixels from the upper left corner; a pixel is a point of paper. What is painted
-//! later covers what was painted before. Smooth colour is what a format has for it: [`Triangle`]s between whose
-//! corners PostScript level 3 and PDF interpolate (shading type 4), and [`Gradient`]s along a line for SVG.
+//! Coordinates of a [`Figure`] are in pixels from the upper left corner; one pixel is one point
+//! (1/72 inch). Later elements cover earlier ones. How smooth colour is represented depends on the
+//! format: PostScript level 3 and PDF interpolate between the corners of [`Triangle`]s (shading
+//! type 4), and SVG has [`Gradient`]s along a line.
 //!
-//! Colours are display-encoded, as these formats interpolate them.
+//! Colours are display-encoded, because these formats interpolate encoded colours.
 //!
 //! # Seams
 //!
-//! Where two areas share an edge, a renderer that smooths edges lets some of what lies behind shine through: each
-//! covers half of a pixel, and half of a half stays free. So of two areas the one painted first reaches under the
-//! other by three quarters of a pixel, with a line of its own colour along the edge. Outlines against something else stay as they are,
-//! also if something on the same side has the same edge: so all outlines must run the same way round what they enclose.
+//! Where two areas share an edge, viewers that antialias each area separately let the background
+//! show through: each area covers half of a pixel on the edge, so a quarter of the background
+//! remains. To hide this seam, the area painted first is extended under the other one by three
+//! quarters of a pixel, with a line of its own colour along the shared edge. Other edges are not
+//! extended.
+//!
+//! An edge is shared only between areas on opposite sides of it. This is decided by the direction
+//! of the edge, so all outlines must have the same orientation (clockwise, say).
 
 mod pdf;
 mod postscript;
@@ -23,80 +28,85 @@ pub use pdf::pdf;
 pub use postscript::{eps, ps};
 pub use svg::svg;
 
-/// Display-encoded red, green, blue.
+/// Display-encoded (sRGB) red, green, blue.
 pub type Rgb = [u8; 3];
 
-/// A place, in pixels right of and below the upper left corner.
+/// A point, in pixels to the right of and below the upper left corner.
 pub type Point = [f64; 2];
 
-/// A picture of areas and lines. `S` is its smooth colour.
+/// A figure of areas and lines. `S` is the type of its areas of smooth colour: [`Triangle`] or
+/// [`Gradient`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Figure<S> {
     /// Width and height in pixels.
     pub size: [u32; 2],
-    /// What stands behind everything; `None` for a clear ground.
+    /// The background colour; `None` for a transparent background.
     pub background: Option<Rgb>,
-    /// In the order of painting.
+    /// The elements, in painting order.
     pub elements: Vec<Element<S>>,
 }
 
-/// What is painted in one go.
+/// An element of a figure.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Element<S> {
-    /// An area of one colour; inside by the even-odd rule.
+    /// An area of one colour, filled by the even-odd rule.
     Area {
-        /// Its outline, and those of its holes, which run the other way round.
+        /// The outline, and the outlines of holes, which have the opposite orientation.
         contours: Vec<Vec<Point>>,
         /// Its colour.
         color: Rgb,
-        /// True if it lies on an area painted before that is as good as it but in colour; so it needs no seams.
+        /// True if it lies inside an area painted before and differs from it only in colour, so
+        /// that its edges need no extension (see [Seams](self#seams)).
         is_inside: bool,
     },
     /// An area of smooth colour.
     Smooth(S),
-    /// A line of one colour with ends cut straight.
+    /// A line of one colour with butt ends.
     Line {
-        /// From where to where.
+        /// Its two ends.
         ends: [Point; 2],
         /// Its width in pixels.
         width: f64,
         /// Its colour.
         color: Rgb,
     },
-    /// What follows is cut off below so many pixel rows; if none, no more.
+    /// Clips the following elements to the given number of pixel rows from the top; `None` ends the
+    /// clipping.
     CutBelow(Option<u32>),
 }
 
-/// A triangle with a colour at each corner; between them it is linear in the encoded colours.
+/// A triangle with a colour at each corner, interpolated linearly between them in display encoding.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Triangle {
-    /// Its corners.
+    /// The corners.
     pub corners: [Point; 3],
-    /// Their colours.
+    /// The colours at the corners.
     pub colors: [Rgb; 3],
 }
 
-/// An area whose encoded colour changes linearly along a line, and not across it.
+/// An area with a linear gradient: its display-encoded colour changes along a line and is constant
+/// across it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Gradient {
-    /// Its outline, and those of its holes; even-odd rule.
+    /// The outline and the outlines of holes, filled by the even-odd rule.
     pub contours: Vec<Vec<Point>>,
-    /// Where the colours are.
+    /// The points at which the gradient has its end colours.
     pub ends: [Point; 2],
-    /// The colours there.
+    /// The colours at the ends.
     pub colors: [Rgb; 2],
-    /// As that of an [`Element::Area`].
+    /// As in [`Element::Area`].
     pub is_inside: bool,
 }
 
-/// Width of the lines along shared edges. With 1 some 5 percent of what lies behind would still shine through, where
-/// the edge is not in the middle of its pixels.
+/// Width in pixels of the lines along shared edges. With 1, about 5 percent of the background would
+/// still show through where an edge is not at the middle of its pixels.
 const SEAM_WIDTH: f64 = 1.5;
 
-/// For each outline, the edges on whose other side an outline painted later lies. That on this side has none later.
+/// For each element, the edges that it shares with an element painted later on the other side, and
+/// with none painted later on its own side.
 fn seams<'a>(outlines: impl Iterator<Item = Option<&'a [Vec<Point>]>>) -> Vec<Vec<[Point; 2]>> {
     let outlines: Vec<_> = outlines.collect();
-    // Only looked up, so its order is never seen.
+    // Used for look-up only, so the hash order never affects the output.
     let mut last = HashMap::new();
     for (element, contours) in outlines.iter().enumerate() {
         contours.iter().copied().flat_map(edges).for_each(|edge| {
@@ -113,7 +123,7 @@ fn seams<'a>(outlines: impl Iterator<Item = Option<&'a [Vec<Point>]>>) -> Vec<Ve
     outlines.iter().enumerate().map(covered).collect()
 }
 
-/// The edges of outlines.
+/// The directed edges of outlines.
 pub fn edges(contours: &[Vec<Point>]) -> impl Iterator<Item = [Point; 2]> {
     contours.iter().flat_map(|contour| {
         let ahead = contour.iter().cycle().skip(1);
@@ -121,20 +131,20 @@ pub fn edges(contours: &[Vec<Point>]) -> impl Iterator<Item = [Point; 2]> {
     })
 }
 
-/// The ends of an edge in hundredths of a pixel, the finest that is written.
+/// The ends of an edge in hundredths of a pixel, the resolution of the files.
 pub type Written = [[i64; 2]; 2];
 
-/// An edge as it is written.
+/// An edge rounded to the resolution of the files.
 pub fn written(edge: [Point; 2]) -> Written {
     edge.map(|point| point.map(hundredths))
 }
 
-/// The finest place that is written.
+/// A coordinate in hundredths of a pixel.
 fn hundredths(coordinate: f64) -> i64 {
     (coordinate * 100.0).round() as i64
 }
 
-/// A coordinate as text, to a hundredth.
+/// A coordinate as text, rounded to hundredths, without redundant zeros.
 fn number(coordinate: f64) -> String {
     let hundredths = hundredths(coordinate);
     let (sign, size) = (if hundredths < 0 { "-" } else { "" }, hundredths.unsigned_abs());
@@ -148,19 +158,19 @@ fn number(coordinate: f64) -> String {
     }
 }
 
-/// What PostScript and PDF paint in one go.
+/// A painting operation of PostScript and PDF.
 enum Painted<'a> {
-    /// An area of one colour, and those of its edges that an area painted later has too.
+    /// An area of one colour, and the edges along which it is extended.
     Area { contours: &'a [Vec<Point>], color: Rgb, seams: Vec<[Point; 2]> },
     /// A line.
     Line { ends: [Point; 2], width: f64, color: Rgb },
-    /// All triangles up to the next area or line.
+    /// All consecutive triangles.
     Mesh(Mesh),
-    /// As [`Element::CutBelow`].
+    /// See [`Element::CutBelow`].
     CutBelow(Option<u32>),
 }
 
-/// The elements of a figure in the order of painting.
+/// The painting operations of a figure.
 fn painted(figure: &Figure<Triangle>) -> impl Iterator<Item = Painted<'_>> {
     let seams = seams(figure.elements.iter().map(|element| match element {
         Element::Area { contours, .. } => Some(&contours[..]),
@@ -188,11 +198,12 @@ fn painted(figure: &Figure<Triangle>) -> impl Iterator<Item = Painted<'_>> {
     })
 }
 
-/// Triangles for shading type 4: a flag, two coordinates and three colours a corner, the corners of a triangle in
-/// succession. Coordinates are of 24 bits in steps of 1/256 pixel.
+/// The data of shading type 4 (free-form triangle mesh). Each corner has a flag, two coordinates of
+/// 24 bits in steps of 1/256 pixel, and three colour channels; the corners of a triangle follow
+/// each other.
 struct Mesh(Vec<u8>);
 
-/// Places of a mesh begin so far left of and above the picture.
+/// The coordinate range of a mesh begins this many pixels left of and above the figure.
 const MESH_MARGIN: f64 = 1024.0;
 
 const MESH_STEPS: f64 = 256.0;
@@ -215,7 +226,7 @@ impl Mesh {
         }
     }
 
-    /// The least and the greatest number of each coordinate and colour.
+    /// The `Decode` array: the smallest and largest value of each coordinate and colour channel.
     fn decode() -> [f64; 10] {
         let end = f64::from((1u32 << MESH_BITS) - 1) / MESH_STEPS - MESH_MARGIN;
         [-MESH_MARGIN, end, -MESH_MARGIN, end, 0.0, 1.0, 0.0, 1.0, 0.0, 1.0]

@@ -7,7 +7,7 @@ use super::{Figure, MESH_BITS, Mesh, Painted, Point, Rgb, SEAM_WIDTH, Triangle, 
 use crate::Label;
 use crate::pdf::{FIRST, deflate, document};
 
-/// The figure as a PDF file, one pixel a point.
+/// The figure as a PDF file, one pixel per point.
 pub fn pdf(figure: &Figure<Triangle>, label: &Label) -> Vec<u8> {
     let [width, height] = figure.size.map(|side| side as f32);
     let mut page = Page { content: Content::new(), meshes: Vec::new(), color: None, width: None };
@@ -42,7 +42,7 @@ fn mesh_name(number: usize) -> String {
     format!("M{number}")
 }
 
-/// The drawing so far, and the colour and width that are set.
+/// The page content so far, and the current colour and line width.
 struct Page {
     content: Content,
     meshes: Vec<Mesh>,
@@ -73,7 +73,8 @@ impl Page {
         }
     }
 
-    /// What was set since is forgotten with the cut.
+    /// Begins or ends clipping. Saving and restoring the graphics state also affects colour and
+    /// line width, so they are set again.
     fn cut_below(&mut self, width: u32, rows: Option<u32>) {
         (self.color, self.width) = (None, None);
         match rows {
@@ -115,14 +116,14 @@ impl Page {
     fn set_color(&mut self, color: Rgb) {
         if self.color != Some(color) {
             self.color = Some(color);
-            // Three decimals tell 256 levels apart.
+            // Three decimals distinguish all 256 levels.
             let [r, g, b] = color.map(|level| (f32::from(level) / 0.255).round() / 1000.0);
             self.content.set_fill_rgb(r, g, b).set_stroke_rgb(r, g, b);
         }
     }
 }
 
-/// To hundredths, which keeps files short.
+/// Rounded to hundredths, to keep files small.
 fn rounded(point: &Point) -> [f32; 2] {
     point.map(|coordinate| ((coordinate * 100.0).round() / 100.0) as f32)
 }

@@ -5,17 +5,18 @@ use crate::pdf::deflate;
 use crate::postscript::Ascii85;
 use crate::{Label, eps as eps_file, ps as ps_file};
 
-/// The figure as an EPS file, one pixel a point.
+/// The figure as an EPS file, one pixel per point.
 pub fn eps(figure: &Figure<Triangle>, label: &Label) -> Vec<u8> {
     eps_file::wrap(figure.size, 3, label, &drawing(figure))
 }
 
-/// The figure as a document of one page, one pixel a point.
+/// The figure as a PostScript document of one page, one pixel per point.
 pub fn ps(figure: &Figure<Triangle>, label: &Label) -> Vec<u8> {
     ps_file::wrap(figure.size, 3, label, &drawing(figure))
 }
 
-/// As with images, the filters stand in variables so that both can be run to their ends behind the data.
+/// Definitions at the start of the drawing. As for images, the filters are stored in variables so
+/// that both can be flushed after the data.
 fn prologue([width, height]: [u32; 2]) -> String {
     let decode = Mesh::decode().map(|number| number.to_string()).join(" ");
     format!(
@@ -72,7 +73,7 @@ fn drawing(figure: &Figure<Triangle>) -> Vec<u8> {
     page.out
 }
 
-/// Outlines.
+/// The path of outlines.
 fn path(contours: &[Vec<Point>]) -> String {
     let step =
         |(idx, [x, y]): (usize, [String; 2])| format!("{x} {y} {}\n", if idx == 0 { 'm' } else { 'l' });
@@ -88,7 +89,7 @@ fn line([a, b]: &[Point; 2]) -> String {
     format!("{} {} m {x} {y} l\n", number(a[0]), number(a[1]))
 }
 
-/// The drawing so far, and the colour and width that are set.
+/// The code so far, and the current colour and line width.
 struct Page {
     out: Vec<u8>,
     color: Option<Rgb>,
@@ -100,7 +101,8 @@ impl Page {
         self.out.extend_from_slice(text.as_bytes());
     }
 
-    /// What was set since is forgotten with the cut.
+    /// Begins or ends clipping. Saving and restoring the graphics state also affects colour and
+    /// line width, so they are set again.
     fn cut_below(&mut self, width: u32, rows: Option<u32>) {
         (self.color, self.width) = (None, None);
         match rows {

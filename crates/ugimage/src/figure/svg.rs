@@ -4,7 +4,7 @@ use super::{Element, Figure, Gradient, Point, Rgb, SEAM_WIDTH, number, seams};
 use crate::Label;
 use crate::svg::document;
 
-/// The figure as an SVG file, one pixel a unit.
+/// The figure as an SVG file, one pixel per user unit.
 pub fn svg(figure: &Figure<Gradient>, label: &Label) -> Vec<u8> {
     let mut out = String::new();
     if let Some(background) = figure.background {
@@ -47,7 +47,7 @@ pub fn svg(figure: &Figure<Gradient>, label: &Label) -> Vec<u8> {
     document(figure.size, label, &out)
 }
 
-/// An area, and the lines by which it reaches under others.
+/// An area, and the lines that extend it along shared edges.
 fn area(contours: &[Vec<Point>], seams: &[[Point; 2]], paint: &str) -> String {
     let path = outline(contours);
     let mut text = format!("<path fill=\"{paint}\" d=\"{}\"/>", path);
