@@ -7,6 +7,7 @@ use glam::DVec3;
 use ugparse::pipe;
 use ugphysics::{Brightness, Velocity};
 use ugpipe::{CommonArgs, Failure, Stage, ToolArgs};
+use ugscene::cli::EyeArgs;
 
 use crate::{Config, DEFAULT_TOLERANCE, Error};
 
@@ -23,16 +24,8 @@ pub struct Args {
           action = ArgAction::Set, allow_hyphen_values = true, value_parser = ugpipe::finite)]
     vel: Option<Vec<f64>>,
 
-    /// The camera of this name [default: the first without a name, else the first]
-    ///
-    /// It then has no name in what is written, so that it counts in the programs behind this one, too.
-    #[arg(long, value_name = "NAME", visible_alias = "camera")]
-    cam: Option<String>,
-
-    /// Eye point; else the camera's, else the origin
-    #[arg(long, visible_alias = "eye", num_args = 3, value_names = ["X", "Y", "Z"],
-          action = ArgAction::Set, allow_hyphen_values = true, value_parser = ugpipe::finite)]
-    ep: Option<Vec<f64>>,
+    #[command(flatten)]
+    eye: EyeArgs,
 
     /// Write wavelengths (nm) in place of hues; draw with ugrainbow -wi
     #[arg(long, visible_alias = "wavelengths")]
@@ -116,8 +109,8 @@ impl Args {
         let beta = vector(&self.vel).unwrap_or_default();
         Ok(Config {
             velocity: Velocity::from_beta(beta).map_err(Failure::usage)?,
-            camera: self.cam.clone(),
-            eye: vector(&self.ep),
+            camera: self.eye.name(),
+            eye: self.eye.eye(),
             wavelengths: self.gw,
             law: match self.br.unwrap_or(Law::Report) {
                 Law::Report => Brightness::Report,

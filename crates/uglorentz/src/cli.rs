@@ -6,8 +6,9 @@ use std::process::ExitCode;
 use clap::{ArgAction, Parser};
 use glam::DVec3;
 use ugparse::pipe;
-use ugpipe::{CommonArgs, Failure, Stage, ToolArgs, finite, vector, view_angle};
-use ugscene::{CameraOptions, Geometry};
+use ugpipe::{CommonArgs, Failure, Stage, ToolArgs, finite, vector};
+use ugscene::Geometry;
+use ugscene::cli::CameraArgs;
 
 use crate::{Anchor, Config, DEFAULT_COLOR_ERROR, DEFAULT_ERROR, Error, Pieces, Table};
 
@@ -30,17 +31,6 @@ pub struct Args {
     #[arg(long = "cv", visible_alias = "camera-velocity", value_names = ["X", "Y", "Z"], num_args = 3,
           action = ArgAction::Set, allow_hyphen_values = true, value_parser = finite)]
     camera_velocity: Option<Vec<f64>>,
-
-    /// The camera of this name [default: the first without a name, else the first]
-    ///
-    /// It then has no name in what is written, so that it counts in the programs behind this one, too.
-    #[arg(long, value_name = "NAME", visible_alias = "camera")]
-    cam: Option<String>,
-
-    /// Eye point [default: that of the scene's camera, else the origin]
-    #[arg(long = "ep", visible_alias = "eye", value_names = ["X", "Y", "Z"], num_args = 3,
-          action = ArgAction::Set, allow_hyphen_values = true, value_parser = finite)]
-    eye: Option<Vec<f64>>,
 
     /// Time of the picture on the observer's clock
     ///
@@ -109,26 +99,8 @@ pub struct Args {
     #[arg(long = "cull", help_heading = CAMERA)]
     cull: bool,
 
-    /// View centre, written into the scene's camera
-    #[arg(long = "vc", visible_alias = "center", value_names = ["X", "Y", "Z"], num_args = 3,
-          action = ArgAction::Set, allow_hyphen_values = true, value_parser = finite, help_heading = CAMERA)]
-    center: Option<Vec<f64>>,
-
-    /// Up direction, written into the scene's camera
-    #[arg(long = "ud", visible_alias = "up", value_names = ["X", "Y", "Z"], num_args = 3,
-          action = ArgAction::Set, allow_hyphen_values = true, value_parser = finite, help_heading = CAMERA)]
-    up: Option<Vec<f64>>,
-
-    /// View angle across and, if given, down, in degrees, written into the scene's camera
-    ///
-    /// The angle down is for -cull alone: give it to ugrainbow, too.
-    #[arg(long = "va", visible_alias = "view-angle", num_args = 1..=2, value_names = ["A", "B"],
-          action = ArgAction::Set, value_parser = view_angle, help_heading = CAMERA)]
-    view_angle: Option<Vec<f64>>,
-
-    /// Orthographic projection, written into the scene's camera
-    #[arg(long = "og", visible_alias = "orthographic", help_heading = CAMERA)]
-    is_orthographic: bool,
+    #[command(flatten)]
+    camera: CameraArgs,
 
     /// Size of the picture in pixels, for -cull: its shape counts
     #[arg(long = "sz", visible_alias = "size", num_args = 2, value_names = ["W", "H"], action = ArgAction::Set,
@@ -196,11 +168,12 @@ impl Args {
             (None, Some(milliradians)) => Pieces::UpTo(milliradians * 1e-3),
             (None, None) => Pieces::UpTo(DEFAULT_ERROR),
         };
+        let camera = self.camera.options();
         Ok(Config {
             velocity: vector(self.velocity.as_deref()).map(DVec3::from_array),
             camera_velocity: vector(self.camera_velocity.as_deref()).map(DVec3::from_array),
-            eye: vector(self.eye.as_deref()).map(DVec3::from_array),
-            camera: self.camera(),
+            eye: camera.eye,
+            camera,
             cull: self.cull.then(|| [self.size[0], self.size[1]]),
             time: self.time,
             anchor: self.anchor.as_deref().map(anchor).transpose()?,
@@ -215,17 +188,6 @@ impl Args {
             reading: pipe::options(&self.common)?,
             command_line: command_line.to_string(),
         })
-    }
-
-    fn camera(&self) -> CameraOptions {
-        CameraOptions {
-            name: self.cam.clone(),
-            eye: None,
-            center: vector(self.center.as_deref()).map(DVec3::from_array),
-            up: vector(self.up.as_deref()).map(DVec3::from_array),
-            view_angle: self.view_angle.as_ref().map(|angles| (angles[0], angles.get(1).copied())),
-            is_orthographic: self.is_orthographic,
-        }
     }
 }
 

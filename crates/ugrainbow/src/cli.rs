@@ -3,14 +3,13 @@
 use std::path::Path;
 
 use clap::{ArgAction, Parser};
-use glam::DVec3;
 use ugimage::{Format, Tone};
 use uglight::HueScale;
 use ugparse::{Source, pipe};
 use ugphysics::{Brightness, Hsv};
-use ugpipe::{CommonArgs, Failure, Stage, ToolArgs, finite, vector, view_angle};
+use ugpipe::{CommonArgs, Failure, Stage, ToolArgs, finite};
 use ugraster::Filter;
-use ugscene::CameraOptions;
+use ugscene::cli::CameraArgs;
 
 use crate::config::{
     Background, Config, DepthCue, Exact, Exposure, Interpolation, LINE_WIDTH, Output, Wireframe,
@@ -70,38 +69,8 @@ pub struct Args {
     #[arg(long, visible_alias = "vector", conflicts_with_all = ["dp", "explain", "xc"])]
     vec: bool,
 
-    /// The camera of this name [default: the first without a name, else the first]
-    #[arg(long, value_name = "NAME", visible_alias = "camera", help_heading = CAMERA)]
-    cam: Option<String>,
-
-    /// Eye point [default: that of the scene, else the origin]
-    #[arg(long, num_args = 3, value_names = ["X", "Y", "Z"], action = ArgAction::Set,
-          allow_hyphen_values = true, value_parser = finite, visible_alias = "eye", help_heading = CAMERA)]
-    ep: Option<Vec<f64>>,
-
-    /// View centre, shown in the middle [default: that of the scene, else its middle]
-    #[arg(long, num_args = 3, value_names = ["X", "Y", "Z"], action = ArgAction::Set,
-          allow_hyphen_values = true, value_parser = finite, visible_alias = "center", help_heading = CAMERA)]
-    vc: Option<Vec<f64>>,
-
-    /// Up direction [default: that of the scene, else 0 0 1]
-    #[arg(long, num_args = 3, value_names = ["X", "Y", "Z"], action = ArgAction::Set,
-          allow_hyphen_values = true, value_parser = finite, visible_alias = "up", help_heading = CAMERA)]
-    ud: Option<Vec<f64>>,
-
-    /// Full view angle across the picture and, if given, down it, in degrees
-    ///
-    /// Default: that of the scene across, else 40. Pixels are square unless both are given.
-    #[arg(long, num_args = 1..=2, value_names = ["A", "B"], action = ArgAction::Set,
-          value_parser = view_angle, visible_alias = "view-angle", help_heading = CAMERA)]
-    va: Option<Vec<f64>>,
-
-    /// Orthographic projection
-    ///
-    /// What is at the distance of the view centre is as large as in perspective.
-    /// Without clipping distances in the scene, what is behind the eye is drawn too.
-    #[arg(long, visible_alias = "orthographic", help_heading = CAMERA)]
-    og: bool,
+    #[command(flatten)]
+    camera: CameraArgs,
 
     /// Size of the picture in pixels
     #[arg(long, num_args = 2, value_names = ["W", "H"], action = ArgAction::Set,
@@ -247,7 +216,6 @@ pub struct Args {
 }
 
 const FIGURES: &str = "Figures";
-const CAMERA: &str = "Camera";
 const PICTURE: &str = "Picture";
 const LINES: &str = "Lines";
 const EXACT: &str = "Exact pictures";
@@ -268,7 +236,7 @@ impl Args {
         Ok(Config {
             interpolation: if self.iw { Interpolation::Wavelength } else { Interpolation::Hue },
             hue_scale: if self.wi { HueScale::Wavelengths } else { HueScale::Degrees },
-            camera: self.camera(),
+            camera: self.camera.options(),
             size: [self.sz[0], self.sz[1]],
             samples: self.aa,
             filter: self.fl,
@@ -301,18 +269,6 @@ impl Args {
     fn exact(&self) -> Exact {
         let law = if self.no_flux { Brightness::None } else { self.br.unwrap_or_default() };
         Exact { law, doppler: !self.no_doppler }
-    }
-
-    fn camera(&self) -> CameraOptions {
-        let point = |numbers: &Option<Vec<f64>>| vector(numbers.as_deref()).map(DVec3::from_array);
-        CameraOptions {
-            name: self.cam.clone(),
-            eye: point(&self.ep),
-            center: point(&self.vc),
-            up: point(&self.ud),
-            view_angle: self.va.as_ref().map(|angles| (angles[0], angles.get(1).copied())),
-            is_orthographic: self.og,
-        }
     }
 
     fn background(&self) -> Result<Background, Failure> {

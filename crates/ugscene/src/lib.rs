@@ -24,6 +24,8 @@
 mod bodies;
 mod camera;
 mod camera_motion;
+#[cfg(feature = "cli")]
+pub mod cli;
 mod eye;
 mod geometry;
 mod normals;

@@ -1,0 +1,89 @@
+//! The camera's options on the command line, the same in every program.
+
+use clap::{ArgAction, Args};
+use glam::DVec3;
+use ugpipe::{finite, vector, view_angle};
+
+use crate::CameraOptions;
+
+/// Heading of these options in `--help`.
+const CAMERA: &str = "Camera";
+
+/// Which camera, and where its eye is: flatten it into the arguments of a program that asks no more.
+#[derive(Args, Clone, Debug, Default, PartialEq)]
+pub struct EyeArgs {
+    /// The camera of this name [default: the first without a name, else the first]
+    ///
+    /// A scene that is written has it without its name, so that programs downstream use it as well.
+    #[arg(long, value_name = "NAME", visible_alias = "camera", help_heading = CAMERA)]
+    cam: Option<String>,
+
+    /// Eye point [default: that of the scene's camera, else the origin]
+    #[arg(long, num_args = 3, value_names = ["X", "Y", "Z"], action = ArgAction::Set,
+          allow_hyphen_values = true, value_parser = finite, visible_alias = "eye", help_heading = CAMERA)]
+    ep: Option<Vec<f64>>,
+}
+
+impl EyeArgs {
+    /// Name of the camera.
+    pub fn name(&self) -> Option<String> {
+        self.cam.clone()
+    }
+
+    /// Eye point.
+    pub fn eye(&self) -> Option<DVec3> {
+        point(&self.ep)
+    }
+}
+
+/// The whole camera: flatten it into the arguments of a program.
+#[derive(Args, Clone, Debug, Default, PartialEq)]
+pub struct CameraArgs {
+    #[command(flatten)]
+    eye: EyeArgs,
+
+    /// View centre, shown in the middle of the picture [default: that of the scene's camera, else the scene's middle]
+    ///
+    /// A scene that is written has this, and the options below, in its camera.
+    #[arg(long, num_args = 3, value_names = ["X", "Y", "Z"], action = ArgAction::Set,
+          allow_hyphen_values = true, value_parser = finite, visible_alias = "center", help_heading = CAMERA)]
+    vc: Option<Vec<f64>>,
+
+    /// Up direction [default: that of the scene's camera, else 0 0 1]
+    #[arg(long, num_args = 3, value_names = ["X", "Y", "Z"], action = ArgAction::Set,
+          allow_hyphen_values = true, value_parser = finite, visible_alias = "up", help_heading = CAMERA)]
+    ud: Option<Vec<f64>>,
+
+    /// Full view angle across the picture and, if given, down it, in degrees
+    ///
+    /// Default: that of the scene's camera across, else 40. Pixels are square unless both are given. A scene that is
+    /// written keeps the angle across alone; give the angle down to the renderer as well.
+    #[arg(long, num_args = 1..=2, value_names = ["A", "B"], action = ArgAction::Set,
+          value_parser = view_angle, visible_alias = "view-angle", help_heading = CAMERA)]
+    va: Option<Vec<f64>>,
+
+    /// Orthographic projection
+    ///
+    /// What is at the distance of the view centre is as large as in perspective.
+    /// Without clipping distances in the scene, what is behind the eye is drawn too.
+    #[arg(long, visible_alias = "orthographic", help_heading = CAMERA)]
+    og: bool,
+}
+
+impl CameraArgs {
+    /// The same as values.
+    pub fn options(&self) -> CameraOptions {
+        CameraOptions {
+            name: self.eye.name(),
+            eye: self.eye.eye(),
+            center: point(&self.vc),
+            up: point(&self.ud),
+            view_angle: self.va.as_ref().map(|angles| (angles[0], angles.get(1).copied())),
+            is_orthographic: self.og,
+        }
+    }
+}
+
+fn point(numbers: &Option<Vec<f64>>) -> Option<DVec3> {
+    vector(numbers.as_deref()).map(DVec3::from_array)
+}
