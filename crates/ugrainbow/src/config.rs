@@ -3,12 +3,11 @@
 use ugimage::{Format, Tone};
 use uglight::HueScale;
 use ugphysics::{Brightness, Hsv};
-use ugraster::Filter;
+use ugraster::{Cue, Filter};
 use ugscene::CameraOptions;
 
 use crate::figures::Figures;
 use crate::planes::Channel;
-use crate::render_layers::DrawMode;
 
 /// Everything that decides the bytes of a picture besides the scene.
 #[derive(Clone, Debug, PartialEq)]
@@ -137,6 +136,11 @@ pub struct DepthCue {
 impl DepthCue {
     /// What is left at the far end unless given.
     pub const LEAST: f64 = 0.2;
+
+    /// The same between two depths.
+    pub(crate) fn between(self, [near, far]: [f64; 2]) -> Cue {
+        Cue { near, far, least: self.least }
+    }
 }
 
 /// How motion changes the colours of a picture that is drawn by rays.
@@ -206,5 +210,23 @@ impl Output {
             Self::Color(format) | Self::Vector(format) => Some(format),
             Self::Grey => None,
         }
+    }
+}
+
+/// What of a scene is drawn, and how; apart from its camera and colours.
+#[derive(Clone, Copy, Debug)]
+pub struct DrawMode {
+    /// Faces are intersected by rays; else they are rasterized.
+    pub exact: Option<Exact>,
+    /// Edges of faces are drawn.
+    pub wireframe: Option<Wireframe>,
+    /// Width of lines in pixels.
+    pub line_width: f64,
+}
+
+impl DrawMode {
+    /// False if faces only occlude lines.
+    pub fn has_faces(&self) -> bool {
+        self.wireframe.is_none_or(|wireframe| wireframe.has_faces)
     }
 }

@@ -6,9 +6,9 @@ use rayon::prelude::*;
 use ugparse::{Face, VertexId};
 use ugraster::{BLOCK, Block, Bounds, Corner, Drawn, Point, PolygonList, Shapes, Table};
 
-use crate::clip::{Vertex, clip_polygon};
+use crate::clip::{ClipCounts, Vertex, clip_polygon};
+use crate::packing::Pack;
 use crate::painter::{Common, Painter};
-use crate::render_layers::Pack;
 
 /// Faces that are looked at together: more than a block of triangles, so that while one is looked at the next is filled.
 const TOGETHER: usize = 4 * BLOCK;
@@ -17,13 +17,13 @@ const TOGETHER: usize = 4 * BLOCK;
 /// for every band looks into every list.
 const CHUNKS: [usize; 2] = [1 << 10, 1 << 13];
 
-/// Shapes in drawing order, and how many faces came how far.
+/// Shapes in drawing order, and how many faces were clipped.
 pub struct DrawList<'a, const N: usize> {
     /// Sorted into bands.
     lists: Vec<PolygonList<N>>,
     corners: Corners<'a, N>,
-    /// How many faces came how far.
-    pub reach: Reach,
+    /// How many faces were clipped.
+    pub clip_counts: ClipCounts,
 }
 
 /// Where vertices are in the picture, and what faces look like at them.
@@ -75,22 +75,6 @@ impl<'a> FaceLook<'a> {
     }
 }
 
-/// How many faces and lines came how far.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Reach {
-    /// Between the clipping planes, at least in part.
-    pub in_front: usize,
-    /// In the picture as well.
-    pub in_picture: usize,
-}
-
-impl Reach {
-    /// Those of two parts of a scene together.
-    pub fn merge(self, other: Self) -> Self {
-        Self { in_front: self.in_front + other.in_front, in_picture: self.in_picture + other.in_picture }
-    }
-}
-
 impl<'a, const N: usize> DrawList<'a, N> {
     /// The faces that `is_drawn` says, in the order of the scene; their items are their rows. `pack` turns a colour and
     /// the level of red, green and blue light into the numbers to interpolate.
@@ -110,10 +94,14 @@ impl<'a, const N: usize> DrawList<'a, N> {
         Self::of(parts, corners)
     }
 
-    fn of(parts: Vec<(PolygonList<N>, Reach)>, corners: Corners<'a, N>) -> Self {
-        let (lists, reaches): (Vec<PolygonList<N>>, Vec<_>) = parts.into_iter().unzip();
+    fn of(parts: Vec<(PolygonList<N>, ClipCounts)>, corners: Corners<'a, N>) -> Self {
+        let (lists, counts): (Vec<PolygonList<N>>, Vec<_>) = parts.into_iter().unzip();
         let lists = lists.into_iter().filter(|list| !list.is_empty()).collect();
-        Self { lists, corners, reach: reaches.into_iter().fold(Reach::default(), Reach::merge) }
+        Self {
+            lists,
+            corners,
+            clip_counts: counts.into_iter().fold(ClipCounts::default(), ClipCounts::merge),
+        }
     }
 
     /// What is drawn.
@@ -160,7 +148,7 @@ struct Chunk<'a, const N: usize> {
     /// Of the face in work.
     item: u32,
     list: PolygonList<N>,
-    reach: Reach,
+    clip_counts: ClipCounts,
     /// Triangles that are looked at together.
     blocks: [Block; TOGETHER / BLOCK],
     /// What the processor can do to many numbers at once. It changes no result.
@@ -180,7 +168,7 @@ impl<'a, const N: usize> Chunk<'a, N> {
             item: first as u32,
             // Asked for once, for threads that ask for memory wait for each other.
             list: PolygonList::with_capacity(n_faces),
-            reach: Reach::default(),
+            clip_counts: ClipCounts::default(),
             blocks: Default::default(),
             level,
             contour: Vec::new(),
@@ -188,14 +176,14 @@ impl<'a, const N: usize> Chunk<'a, N> {
         }
     }
 
-    fn all(mut self, faces: &[Face], is_drawn: impl Fn(&Face) -> bool) -> (PolygonList<N>, Reach) {
+    fn all(mut self, faces: &[Face], is_drawn: impl Fn(&Face) -> bool) -> (PolygonList<N>, ClipCounts) {
         let first = self.item;
         for (idx, faces) in faces.chunks(TOGETHER).enumerate() {
             // A chunk is short.
             self.push_faces(first + (idx * TOGETHER) as u32, faces, &is_drawn);
         }
         self.list.sort_into_bands(self.painter.grid);
-        (self.list, self.reach)
+        (self.list, self.clip_counts)
     }
 
     /// Takes some faces, the first of which is item `first`.
@@ -230,8 +218,8 @@ impl<'a, const N: usize> Chunk<'a, N> {
         }
         // What stands in other places of a block is left from before.
         let regular = regular & triangles;
-        self.reach.in_front += regular.count_ones() as usize;
-        self.reach.in_picture += (regular & in_picture).count_ones() as usize;
+        self.clip_counts.in_front += regular.count_ones() as usize;
+        self.clip_counts.in_picture += (regular & in_picture).count_ones() as usize;
         let mut left = (drawn & triangles) | (triangles & !regular) | others;
         while left != 0 {
             let idx = left.trailing_zeros() as usize;
@@ -255,16 +243,16 @@ impl<'a, const N: usize> Chunk<'a, N> {
         // samples costs no more.
         if points.clone().all(|point| point.is_finite()) {
             let rows = Bounds::new(points.map(|point| [point.x, point.y])).rows(self.painter.grid);
-            self.reach.in_front += 1;
-            self.reach.in_picture += usize::from(rows.is_some());
+            self.clip_counts.in_front += 1;
+            self.clip_counts.in_picture += usize::from(rows.is_some());
             if rows.is_some_and(|rows| !rows.is_empty()) && !self.is_left_out(face) {
                 self.push_contours(face);
                 self.list.end_polygon(self.painter.grid, self.item);
             }
         } else if self.is_left_out(face) {
             // What cannot be seen is not looked at more closely.
-            self.reach.in_front += 1;
-            self.reach.in_picture += 1;
+            self.clip_counts.in_front += 1;
+            self.clip_counts.in_picture += 1;
         } else if self.push_contours(face) {
             self.end_polygon();
         }
@@ -303,7 +291,7 @@ impl<'a, const N: usize> Chunk<'a, N> {
     }
 
     fn end_polygon(&mut self) {
-        self.reach.in_front += 1;
-        self.reach.in_picture += usize::from(self.list.end_polygon(self.painter.grid, self.item));
+        self.clip_counts.in_front += 1;
+        self.clip_counts.in_picture += usize::from(self.list.end_polygon(self.painter.grid, self.item));
     }
 }

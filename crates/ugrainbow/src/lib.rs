@@ -64,6 +64,7 @@ mod canvas;
 mod cli;
 mod clip;
 mod config;
+mod depth_cue;
 mod drawlist;
 mod error;
 mod exact;
@@ -73,9 +74,12 @@ mod lines;
 #[cfg(test)]
 mod noise;
 mod notes;
+mod packing;
 mod painter;
 mod palette;
+mod planar;
 mod planes;
+mod provenance;
 mod render_layers;
 mod setup;
 mod shade;
@@ -98,6 +102,7 @@ pub use ugraster::Filter;
 pub use ugscene::{CameraError, CameraOptions};
 
 use canvas::{Canvas, Drawn};
+use depth_cue::prepare;
 use figures::{Annotations, Plan};
 use notes::Outcome;
 use render_layers::RenderLayers;
@@ -169,7 +174,7 @@ impl<'a> Prepared<'a> {
     /// # Errors
     /// As of [`render`].
     pub fn new(scene: &'a Scene, config: &'a Config) -> Result<Self, Error> {
-        Ok(Self { setup: Setup::new(scene, config)?, config })
+        Ok(Self { setup: prepare(scene, config)?, config })
     }
 
     /// Draws it: from vertices in the scene to 8 bits a channel.
@@ -190,12 +195,12 @@ struct Painted {
 /// `config`: what is asked of the picture of the scene in the plan.
 fn paint(scene: &Scene, plan: &Plan, config: &Config, progress: &dyn Progress) -> Result<Painted, Error> {
     progress.step("preparing", 0);
-    let setup = Setup::new(scene, config)?;
+    let setup = prepare(scene, config)?;
     let layers = RenderLayers::new(setup.painter(), &config.draw_mode()).telling(progress);
     let canvas = Canvas::new(&setup, &layers, config);
     let Canvas { drawn, tally, development } = canvas;
     progress.step("annotating", 0);
-    let outcome = Outcome { reach: layers.reach(), tally, development };
+    let outcome = Outcome { clip_counts: layers.clip_counts(), tally, development };
     let mut notes = notes::notes(&setup, config, &outcome);
     let annotations = plan.annotations(&setup, config, development)?;
     notes.extend(annotations.notes.iter().cloned());

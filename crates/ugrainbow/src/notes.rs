@@ -4,8 +4,8 @@ use ugimage::{Development, Tone};
 use ugparse::Scene;
 use ugraster::{Cue, Tally};
 
+use crate::clip::ClipCounts;
 use crate::config::{Config, DepthCue, Exposure};
-use crate::drawlist::Reach;
 use crate::setup::Setup;
 
 /// Brightness that is worth the message that it was clipped; less does not show in 8 bits.
@@ -14,8 +14,8 @@ const CLIPPED: f32 = 1.001;
 /// How drawing went.
 #[derive(Clone, Copy, Debug)]
 pub struct Outcome {
-    /// How many faces and wires came how far.
-    pub reach: Reach,
+    /// How many faces and lines were clipped.
+    pub clip_counts: ClipCounts,
     /// What the samples were.
     pub tally: Tally,
     /// How light was developed, if more than white was kept for it.
@@ -83,14 +83,17 @@ fn scene_notes(scene: &Scene, is_exact: bool) -> Vec<String> {
     notes
 }
 
-fn why_nothing_is_seen(config: &Config, Outcome { reach, tally, .. }: &Outcome) -> Option<&'static str> {
-    if reach.in_front == 0 {
+fn why_nothing_is_seen(
+    config: &Config,
+    Outcome { clip_counts, tally, .. }: &Outcome,
+) -> Option<&'static str> {
+    if clip_counts.in_front == 0 {
         return Some(
             "nothing is drawn: everything is behind the eye or outside the clipping distances; \
              try `uglorentz -in`, another -ep or -vc",
         );
     }
-    if reach.in_picture == 0 {
+    if clip_counts.in_picture == 0 {
         return Some(
             "nothing is drawn: everything is outside the picture, where fast bodies often are; \
              try `uglorentz -in`, another -vc or a wider -va",

@@ -1,6 +1,5 @@
 //! Everything to be drawn, packed as the scene needs it.
 
-use glam::DVec3;
 use ugparse::Face;
 use ugpipe::Progress;
 use ugraster::{
@@ -9,16 +8,16 @@ use ugraster::{
     probe_filtered,
 };
 
-use crate::config::{Exact, Wireframe};
-use crate::drawlist::{DrawList, Reach};
-use crate::exact::{Bend, Faces};
-use crate::lines::{Hiders, Shown, Stroke, lines, pieces, strips, strokes};
+use crate::clip::ClipCounts;
+use crate::config::DrawMode;
+use crate::drawlist::DrawList;
+use crate::exact::{CurvedLines, Faces};
+use crate::lines::{Hiders, LineShape, Shown, StraightLines, Stroke, lines, pieces, strips, strokes};
+use crate::packing::{
+    Pack, pack_colored, pack_mixed, pack_mixed_colored, pack_plain, pack_transparent, shade_transparent,
+};
 use crate::painter::Painter;
-use crate::palette::Swatch;
 use crate::shade::Shader;
-
-/// Turns a colour and the level of red, green and blue light into the numbers to interpolate.
-pub type Pack<const N: usize> = fn(&Swatch, DVec3) -> [f64; N];
 
 /// Reports painted parts of a picture as parts of a step of the program.
 struct Drawing<'a>(&'a dyn Progress);
@@ -33,30 +32,12 @@ impl ugraster::Progress for Drawing<'_> {
     }
 }
 
-/// How a scene is drawn, apart from its camera.
-#[derive(Clone, Copy, Debug)]
-pub struct DrawMode {
-    /// Faces are found by rays.
-    pub exact: Option<Exact>,
-    /// Edges of faces are drawn.
-    pub wireframe: Option<Wireframe>,
-    /// Width of lines in pixels.
-    pub line_width: f64,
-}
-
-impl DrawMode {
-    /// False if only their edges are drawn.
-    fn has_faces(&self) -> bool {
-        self.wireframe.is_none_or(|wireframe| wireframe.has_faces)
-    }
-}
-
 /// Everything to be drawn.
 pub struct RenderLayers<'a> {
     solid: Solid<'a>,
     clear: ClearLayers<'a>,
     has_faces: bool,
-    reach: Reach,
+    clip_counts: ClipCounts,
     progress: &'a dyn Progress,
 }
 
@@ -108,10 +89,10 @@ impl<'a, const N: usize> Layers<'a, N> {
         Self { surfaces, is_drawn: mode.has_faces() }
     }
 
-    fn reach(&self) -> Reach {
+    fn clip_counts(&self) -> ClipCounts {
         match &self.surfaces {
-            Surfaces::Rays(faces) => faces.reach,
-            Surfaces::Polygons(list) => list.reach,
+            Surfaces::Rays(faces) => faces.clip_counts,
+            Surfaces::Polygons(list) => list.clip_counts,
         }
     }
 
@@ -170,21 +151,13 @@ impl TransparentLayer for Lit<'_, '_> {
         scanner: &mut Scanner<TRANSPARENT_VALUES>,
         pane: &mut FragmentTarget<'_>,
     ) {
-        let shade = |values: &[f32; TRANSPARENT_VALUES]| clear_shade(self.shader, values);
+        let shade = |values: &[f32; TRANSPARENT_VALUES]| shade_transparent(self.shader, values);
         if let Some(faces) = &self.layers.faces {
             faces.draw(grid, band, scanner, &mut pane.sink(shade, false));
         }
         let lines = Shapes { lists: &self.layers.lines, table: &NoTable };
         lines.draw(grid, band, scanner, &mut pane.sink(shade, true));
     }
-}
-
-/// Light of the numbers of [`pack_clear`], and the part of what is behind that passes.
-pub fn clear_shade(
-    shader: &Shader,
-    &[a, b, c, d, e, f, g, pass]: &[f32; TRANSPARENT_VALUES],
-) -> (Shade, f32) {
-    (shader.mixed_colored(&[a, b, c, d, e, f, g]), pass.clamp(0.0, 1.0))
 }
 
 impl<'a> RenderLayers<'a> {
@@ -196,10 +169,14 @@ impl<'a> RenderLayers<'a> {
             (true, false) => Solid::Mixed(Layers::new(painter, mode, false, pack_mixed)),
             (true, true) => Solid::MixedColored(Layers::new(painter, mode, false, pack_mixed_colored)),
         };
-        let faces = painter.palette.has_translucency().then(|| Layers::new(painter, mode, true, pack_clear));
-        let bend = mode.exact.map(|exact| Bend::new(painter, exact));
-        let lines = lines(&painter, mode.wireframe, bend.as_ref());
-        let (pieces, mut reach) = pieces(&painter, &lines, bend.as_ref());
+        let faces =
+            painter.palette.has_translucency().then(|| Layers::new(painter, mode, true, pack_transparent));
+        let shape: Box<dyn LineShape> = match mode.exact {
+            Some(exact) => Box::new(CurvedLines::new(painter, exact)),
+            None => Box::new(StraightLines::new(painter)),
+        };
+        let lines = lines(&painter, mode.wireframe, &*shape);
+        let (pieces, mut clip_counts) = pieces(&painter, &lines, &*shape);
         let width = mode.line_width * f64::from(painter.grid.samples);
         let strokes = if pieces.is_empty() {
             Vec::new()
@@ -207,15 +184,15 @@ impl<'a> RenderLayers<'a> {
             with_layers!(&solid, |layers| layers.shown(&painter, &pieces, width))
         };
         if mode.has_faces() {
-            reach = reach.merge(with_layers!(&solid, |layers| layers.reach()));
-            reach = faces.iter().fold(reach, |reach, faces| reach.merge(faces.reach()));
+            clip_counts = clip_counts.merge(with_layers!(&solid, |layers| layers.clip_counts()));
+            clip_counts = faces.iter().fold(clip_counts, |all, faces| all.merge(faces.clip_counts()));
         }
         let lines = [strips(&painter, &strokes, width)];
         Self {
             solid,
             clear: ClearLayers { faces, strokes, lines },
             has_faces: mode.has_faces(),
-            reach,
+            clip_counts,
             progress: &(),
         }
     }
@@ -226,8 +203,8 @@ impl<'a> RenderLayers<'a> {
     }
 
     /// How many faces and lines came how far.
-    pub fn reach(&self) -> Reach {
-        self.reach
+    pub fn clip_counts(&self) -> ClipCounts {
+        self.clip_counts
     }
 
     fn lit<'s>(&'s self, shader: &'s Shader) -> Option<Lit<'a, 's>> {
@@ -301,7 +278,7 @@ impl<'a> RenderLayers<'a> {
 impl RenderLayers<'_> {
     /// True if a face that is drawn is translucent.
     pub fn has_clear_faces(&self) -> bool {
-        self.has_faces && self.clear.faces.as_ref().is_some_and(|faces| faces.reach().in_picture > 0)
+        self.has_faces && self.clear.faces.as_ref().is_some_and(|faces| faces.clip_counts().in_picture > 0)
     }
 
     /// Gives `take` every polygon, as its item, whether it is translucent, and its contours: first those of what hides, whose
@@ -347,46 +324,4 @@ impl RenderLayers<'_> {
             Solid::MixedColored(_) => shader.mixed_colored(&[a, b, c, d, e, f, g]),
         }
     }
-}
-
-/// White light of one level goes into the value.
-fn pack_plain(swatch: &Swatch, level: DVec3) -> [f64; 3] {
-    [swatch.tint, swatch.saturation, swatch.value * level.x]
-}
-
-/// Coloured light is carried beside the colour.
-fn pack_colored(swatch: &Swatch, level: DVec3) -> [f64; 6] {
-    [swatch.tint, swatch.saturation, swatch.value, level.x, level.y, level.z]
-}
-
-fn pack_mixed(swatch: &Swatch, level: DVec3) -> [f64; 4] {
-    match swatch.light {
-        Some(light) => {
-            let [red, green, blue] = (light * level).to_array();
-            [red, green, blue, 1.0]
-        }
-        None => {
-            let [tint, saturation, value] = pack_plain(swatch, level);
-            [tint, saturation, value, 0.0]
-        }
-    }
-}
-
-fn pack_mixed_colored(swatch: &Swatch, level: DVec3) -> [f64; 7] {
-    match swatch.light {
-        Some(light) => {
-            let [red, green, blue] = (light * level).to_array();
-            [red, green, blue, 1.0, 1.0, 1.0, 1.0]
-        }
-        None => {
-            let [tint, saturation, value, red, green, blue] = pack_colored(swatch, level);
-            [tint, saturation, value, red, green, blue, 0.0]
-        }
-    }
-}
-
-/// In every scene all numbers, and the translucency.
-pub fn pack_clear(swatch: &Swatch, level: DVec3) -> [f64; TRANSPARENT_VALUES] {
-    let [a, b, c, d, e, f, g] = pack_mixed_colored(swatch, level);
-    [a, b, c, d, e, f, g, swatch.translucency]
 }

@@ -5,14 +5,13 @@ use std::ops::Range;
 
 use uglight::Lighting;
 use ugparse::{ColorId, ColorValue, Scene, VelocityId, VertexId};
-use ugraster::{Cue, Gathered, Grid};
+use ugraster::Grid;
 
-use crate::config::{Config, DepthCue, Exact};
+use crate::config::{Config, Exact};
 use crate::error::{self, Error};
-use crate::explain::Provenance;
 use crate::painter::Painter;
 use crate::palette::Palette;
-use crate::render_layers::RenderLayers;
+use crate::provenance::Provenance;
 use crate::shade::Shader;
 use crate::surface::Surface;
 use ugscene::{Geometry, View};
@@ -46,8 +45,8 @@ impl<'a> Setup<'a> {
         let scene = with_separate_bodies(scene);
         let [width, height] = config.size;
         let view = View::new(&scene, &config.camera, config.size.map(|pixels| pixels * config.samples))?;
-        let grid =
-            Grid { width, height, samples: config.samples, is_perspective: view.is_perspective, cue: None };
+        let cue = config.depth_cue.and_then(|cue| Some(cue.between(cue.range?)));
+        let grid = Grid { width, height, samples: config.samples, is_perspective: view.is_perspective, cue };
         let palette = Palette::new(&scene, config);
         let lighting = Lighting::new(&scene, config.hue_scale, view.eye, view.forward);
         let surface = Surface::new(&scene, view.eye, &palette, config.hue_scale)?;
@@ -58,36 +57,7 @@ impl<'a> Setup<'a> {
         }
         let shader = Shader::new(config.interpolated(), !is_uncut);
         let is_culled = config.cull;
-        let mut setup = Self { scene, view, grid, palette, lighting, surface, shader, is_culled, is_uncut };
-        setup.grid.cue = config.depth_cue.and_then(|cue| setup.cue(&cue, config));
-        Ok(setup)
-    }
-
-    /// The depths between which light falls, found from what is seen at the middles of pixels unless given. `None` if
-    /// nothing is seen.
-    fn cue(&self, &DepthCue { range, least }: &DepthCue, config: &Config) -> Option<Cue> {
-        let [near, far] = match range {
-            Some(range) => range,
-            None => self.depths(config)?,
-        };
-        Some(Cue { near, far, least })
-    }
-
-    /// The least and greatest depth seen, to four digits so that they can be told.
-    fn depths(&self, config: &Config) -> Option<[f64; 2]> {
-        let layers = RenderLayers::new(self.painter(), &config.draw_mode());
-        let (keys, _) = layers.paint(&self.grid, &self.shader, &|all: &Gathered<'_, u32>| {
-            let solid = all.center.iter().map(|seen| seen.key);
-            let keys = solid.chain(all.layers.iter().map(|layer| layer.key));
-            keys.fold([f32::INFINITY, f32::NEG_INFINITY], |[low, high], key| [low.min(key), high.max(key)])
-        });
-        let join = |[a, b]: [f32; 2], [c, d]: [f32; 2]| [a.min(c), b.max(d)];
-        let [farthest, nearest] = keys.into_iter().reduce(join)?;
-        let depth = |key: f32| {
-            let depth = self.grid.depth(f64::from(key));
-            format!("{depth:.3e}").parse().unwrap_or(depth)
-        };
-        (farthest <= nearest).then(|| [depth(nearest), depth(farthest)])
+        Ok(Self { scene, view, grid, palette, lighting, surface, shader, is_culled, is_uncut })
     }
 
     /// The scene, with vertices of one velocity each. Faces and wires have the order of the scene given.

@@ -16,10 +16,10 @@ use super::motion::Motion;
 use super::nearest::{Nearest, PlaneRow, limited};
 use super::outline::Outline;
 use super::sections::{Cutter, Side};
+use crate::clip::ClipCounts;
 use crate::config::Exact;
-use crate::drawlist::Reach;
+use crate::packing::Pack;
 use crate::painter::Painter;
-use crate::render_layers::Pack;
 
 /// Faces and the rays that meet them.
 pub struct Faces<'a, const N: usize> {
@@ -33,8 +33,8 @@ pub struct Faces<'a, const N: usize> {
     /// Least and greatest key of what is neither clipped nor behind the eye.
     limits: [f64; 2],
     pool: Mutex<Vec<Scratch>>,
-    /// How many faces came how far.
-    pub reach: Reach,
+    /// How many faces were clipped.
+    pub clip_counts: ClipCounts,
 }
 
 /// What is needed for a tile.
@@ -74,13 +74,13 @@ impl<'a, const N: usize> Faces<'a, N> {
             .collect();
         let in_front = built.iter().filter(|built| !matches!(built, Built::Behind)).count();
         let shapes: Vec<Shape> = built.into_iter().filter_map(Built::shape).collect();
-        let reach = Reach { in_front, in_picture: shapes.len() };
+        let clip_counts = ClipCounts { in_front, in_picture: shapes.len() };
         let bins = Bins::new(painter.grid, shapes.iter().map(|shape| painter.grid.bands().of(&shape.rows)));
         let slab = painter.view.slab;
         let limits = [(1.0 / slab.far).max(f64::MIN_POSITIVE), 1.0 / slab.near];
         let film = Film::new(painter.view.rays());
         let pool = Mutex::default();
-        Self { painter, motion, pack, frames, shapes, bins, film, limits, pool, reach }
+        Self { painter, motion, pack, frames, shapes, bins, film, limits, pool, clip_counts }
     }
 
     /// True if a face is nearer than `key` on the ray through a place of the picture, in samples.

@@ -42,4 +42,4 @@ mod sections;
 mod wires;
 
 pub use faces::Faces;
-pub use wires::Bend;
+pub use wires::CurvedLines;

@@ -1,4 +1,4 @@
-//! Lines, bent as they are seen.
+//! Lines as curves, as moving straight lines are seen.
 
 use glam::DVec3;
 use ugparse::VelocityId;
@@ -7,7 +7,7 @@ use ugphysics::doppler_at;
 use super::frame::{Frame, frame_of, frames};
 use super::motion::Motion;
 use crate::config::Exact;
-use crate::lines::Line;
+use crate::lines::{Joint, Line, LineShape};
 use crate::painter::Painter;
 use crate::palette::Swatch;
 
@@ -23,47 +23,39 @@ const MOST_CHANGE: f64 = 2e-3;
 /// How often a line is halved at most.
 const MOST_HALVINGS: u32 = 12;
 
-/// Cuts lines into pieces that are straight in the picture, and of one Doppler factor, as far as one can see.
-pub struct Bend<'a> {
+/// Approximates lines by polylines whose pieces are straight in the picture and of one Doppler factor,
+/// as far as can be seen.
+pub struct CurvedLines<'a> {
     painter: Painter<'a>,
     motion: Motion<'a>,
     frames: Vec<Frame>,
 }
 
-/// A point of a line.
-#[derive(Clone, Copy, Debug)]
-pub struct Joint {
-    /// Where it is seen, relative to the eye.
-    pub seen: DVec3,
-    /// Its colour as seen.
-    pub color: Swatch,
-}
-
-impl<'a> Bend<'a> {
+impl<'a> CurvedLines<'a> {
     /// The lines of a scene.
     pub fn new(painter: Painter<'a>, exact: Exact) -> Self {
         Self { painter, motion: Motion::new(exact, painter.palette), frames: frames(&painter) }
     }
+}
 
-    /// The joints of a line.
-    pub fn joints(&self, line: &Line) -> Vec<Joint> {
+impl LineShape for CurvedLines<'_> {
+    fn joints(&self, line: &Line) -> Vec<Joint> {
         let painter = &self.painter;
         let frame = &self.frames[frame_of(line.velocity)];
         let rest = line.ends.map(|end| frame.axes_from_scene(painter.surface.rest(end)));
         let near = painter.view.slab.near;
-        let bent = Bent { frame, motion: self.motion, rest, colors: line.colors, near };
-        let mut joints = vec![bent.joint(0.0)];
-        bent.add([0.0, 1.0], MOST_HALVINGS, &mut joints);
+        let curve = Curve { frame, motion: self.motion, rest, colors: line.colors, near };
+        let mut joints = vec![curve.joint(0.0)];
+        curve.add([0.0, 1.0], MOST_HALVINGS, &mut joints);
         joints
     }
 
-    /// True if light stays light on a body of this velocity: else hues are shifted, and stand for it.
-    pub fn keeps_light(&self, velocity: Option<VelocityId>) -> bool {
+    fn keeps_light(&self, velocity: Option<VelocityId>) -> bool {
         self.motion.keeps_colors() || self.frames[frame_of(velocity)].velocity.is_zero()
     }
 }
 
-struct Bent<'a> {
+struct Curve<'a> {
     frame: &'a Frame,
     motion: Motion<'a>,
     /// In the axes of the frame.
@@ -72,7 +64,7 @@ struct Bent<'a> {
     near: f64,
 }
 
-impl Bent<'_> {
+impl Curve<'_> {
     fn point(&self, part: f64) -> DVec3 {
         self.frame.seen(self.rest[0] + part * (self.rest[1] - self.rest[0]))
     }

@@ -1,7 +1,6 @@
 //! Why a pixel has its colour: from the face and its motion to the bytes.
 
 mod json;
-mod provenance;
 mod text;
 
 use glam::DVec3;
@@ -11,17 +10,20 @@ use ugphysics::{attenuation, doppler_at, linear_srgb_to_xyz, wavelength_to_hue};
 use ugraster::{Filter, Finish, Fragment, Gathered, Sample, Seen};
 use ugscene::Geometry;
 
+use crate::canvas;
 use crate::canvas::{Display, Ground, development};
 use crate::config::{Config, Interpolation};
+use crate::depth_cue::prepare;
+use crate::error::Error;
 use crate::figures::Plan;
+use crate::packing::{Interpolated, unpack};
 use crate::palette::Swatch;
 use crate::planes::{self, Finder};
+use crate::provenance::Provenance;
 use crate::render_layers::RenderLayers;
 use crate::setup::Setup;
-use crate::{Error, canvas};
 
 pub use json::json;
-pub use provenance::Provenance;
 pub use text::text;
 
 /// What there is to say about a pixel.
@@ -171,7 +173,7 @@ pub fn explain(
         return Err(Error::Options("--explain tells of the scanline mode only: leave out -xc"));
     }
     let config = &*Plan::new(config)?.of_scene(config);
-    let setup = Setup::new(&parsed.scene, config)?;
+    let setup = prepare(&parsed.scene, config)?;
     if pixel[0] >= config.size[0] || pixel[1] >= config.size[1] {
         return Err(Error::Pixel { pixel, size: config.size });
     }
@@ -362,19 +364,17 @@ impl Teller<'_> {
         stack.into_iter().map(shown).collect()
     }
 
-    /// What the interpolated numbers mean: see [`RenderLayers`].
+    /// The colour of interpolated numbers.
     fn color(&self, values: &[f32], doppler: f64) -> SampleColor {
-        let numbers: Vec<f64> = values.iter().map(|&number| f64::from(number)).collect();
-        let is_light = matches!(numbers.len(), 4 | 7) && numbers[numbers.len() - 1] > 0.5;
-        if is_light {
-            let xyz = linear_srgb_to_xyz([numbers[0], numbers[1], numbers[2]]);
-            let sum: f64 = xyz.iter().sum();
-            return SampleColor::Light {
-                xyz,
-                chromaticity: (sum > 0.0).then(|| [xyz[0] / sum, xyz[1] / sum]),
-            };
-        }
-        let [tint, saturation, value] = [numbers[0], numbers[1], numbers[2]];
+        let ([tint, saturation, value], level) = match unpack(values) {
+            Interpolated::Light(light) => {
+                let xyz = linear_srgb_to_xyz(light);
+                let sum: f64 = xyz.iter().sum();
+                let chromaticity = (sum > 0.0).then(|| [xyz[0] / sum, xyz[1] / sum]);
+                return SampleColor::Light { xyz, chromaticity };
+            }
+            Interpolated::Hue { color, level } => (color, level),
+        };
         let swatch = Swatch { tint, saturation, value, ..Swatch::WHITE };
         let hue = match self.config.interpolated() {
             Interpolation::Hue => tint,
@@ -389,7 +389,6 @@ impl Teller<'_> {
                 is_at_end: self.config.interpolated() == Interpolation::Hue && !(-60.0 < hue && hue < 300.0),
             }
         });
-        let level = (numbers.len() >= 6).then(|| [numbers[3], numbers[4], numbers[5]]);
         SampleColor::Hue { hue, saturation, value, level, wavelength }
     }
 

@@ -3,7 +3,8 @@
 use std::fmt::{self, Write};
 use ugraster::Filter;
 
-use super::{Corner, Explanation, Item, PixelSteps, Provenance, SampleColor, Shown};
+use super::{Corner, Explanation, Item, PixelSteps, SampleColor, Shown};
+use crate::provenance::Provenance;
 
 /// Corners shown; a face may have thousands.
 const MAX_CORNERS: usize = 8;

@@ -5,8 +5,8 @@ use uglabel::Point;
 use ugraster::{Gathered, Seen};
 use ugscene::View;
 
-use crate::config::Config;
-use crate::render_layers::{DrawMode, RenderLayers};
+use crate::config::{Config, DrawMode};
+use crate::render_layers::RenderLayers;
 use crate::setup::Setup;
 
 /// A line as far behind a face as this part of its distance is still on it: lines follow edges and grounds.

@@ -6,8 +6,8 @@ use ugscene::View;
 
 use super::depths::Depths;
 use crate::config::Config;
-use crate::explain::Provenance;
 use crate::planes::Finder;
+use crate::provenance::Provenance;
 use crate::setup::Setup;
 
 /// The motion in a picture.

@@ -1,6 +1,6 @@
 //! The parts of lines that no face hides.
 
-use crate::vector::{Convex, Index, PlanePlace, near_picture, parts};
+use crate::planar::{BoxIndex, Convex, DepthPoint, clipped_to_picture, convex_parts};
 
 /// Cells along a side of the grid by which faces are found that lie near no line.
 const CELLS: usize = 256;
@@ -39,7 +39,7 @@ impl<'a> Shown<'a> {
     }
 
     /// The parts of the way from `a` to `b` that are in the picture and not hidden.
-    pub fn parts(&self, a: PlanePlace, b: PlanePlace) -> Vec<[f64; 2]> {
+    pub fn parts(&self, a: DepthPoint, b: DepthPoint) -> Vec<[f64; 2]> {
         let Some(within) = self.picture.as_ref().and_then(|picture| picture.over(a, b)) else {
             return Vec::new();
         };
@@ -55,14 +55,14 @@ fn picture(size: [u32; 2], margin: f64) -> Option<Convex> {
     Convex::new(vec![[low, low, 0.0], [right, low, 0.0], [right, bottom, 0.0], [low, bottom, 0.0]])
 }
 
-fn along(a: PlanePlace, b: PlanePlace, part: f64) -> PlanePlace {
+fn along(a: DepthPoint, b: DepthPoint, part: f64) -> DepthPoint {
     [0, 1, 2].map(|i| a[i] + (b[i] - a[i]) * part)
 }
 
 /// Looks in the middles of short steps.
 fn by_rays(
-    a: PlanePlace,
-    b: PlanePlace,
+    a: DepthPoint,
+    b: DepthPoint,
     [start, end]: [f64; 2],
     is_hidden: &(dyn Fn([f64; 2], f64) -> bool + Sync),
 ) -> Vec<[f64; 2]> {
@@ -90,14 +90,14 @@ fn by_rays(
 /// Faces that may hide lines, in convex flat parts.
 pub struct Hiders {
     parts: Vec<Convex>,
-    index: Index,
+    index: BoxIndex,
 }
 
 impl Hiders {
     /// Those of some polygons, given as their contours, that lie near one of the lines whose boxes are given. `size`: of
     /// the picture, in samples.
     pub fn new(
-        outlines: impl Iterator<Item = Vec<Vec<PlanePlace>>>,
+        outlines: impl Iterator<Item = Vec<Vec<DepthPoint>>>,
         lines: impl Iterator<Item = [[f64; 2]; 2]>,
         size: [u32; 2],
         margin: f64,
@@ -108,16 +108,16 @@ impl Hiders {
             if !near.has_line(&contours) {
                 continue;
             }
-            let outline = contours.into_iter().map(|contour| near_picture(contour, size, margin));
-            let outline: Vec<Vec<PlanePlace>> = outline.filter(|contour| contour.len() > 2).collect();
-            all.extend(parts(&outline));
+            let outline = contours.into_iter().map(|contour| clipped_to_picture(contour, size, margin));
+            let outline: Vec<Vec<DepthPoint>> = outline.filter(|contour| contour.len() > 2).collect();
+            all.extend(convex_parts(&outline));
         }
-        let index = Index::new(all.iter().map(|part| [part.low, part.high]), size);
+        let index = BoxIndex::new(all.iter().map(|part| [part.low, part.high]), size);
         Self { parts: all, index }
     }
 
     /// The parts of the way from `a` to `b`, within one part, that no face hides.
-    fn visible(&self, a: PlanePlace, b: PlanePlace, [start, end]: [f64; 2]) -> Vec<[f64; 2]> {
+    fn visible(&self, a: DepthPoint, b: DepthPoint, [start, end]: [f64; 2]) -> Vec<[f64; 2]> {
         let (from, to) = (along(a, b, start), along(a, b, end));
         let low = [0, 1].map(|axis| from[axis].min(to[axis]));
         let high = [0, 1].map(|axis| from[axis].max(to[axis]));
@@ -139,7 +139,7 @@ impl Hiders {
 }
 
 /// The part of the way on which `part` is nearer.
-pub fn hidden_by(part: &Convex, a: PlanePlace, b: PlanePlace) -> Option<[f64; 2]> {
+pub fn hidden_by(part: &Convex, a: DepthPoint, b: DepthPoint) -> Option<[f64; 2]> {
     let [start, end] = part.over(a, b)?;
     let ahead = |at: f64| {
         let [x, y, key] = along(a, b, at);
@@ -173,7 +173,7 @@ impl Near {
         near
     }
 
-    fn has_line(&self, contours: &[Vec<PlanePlace>]) -> bool {
+    fn has_line(&self, contours: &[Vec<DepthPoint>]) -> bool {
         let places = || contours.iter().flatten();
         let low = [0, 1].map(|axis| places().map(|at| at[axis]).fold(f64::INFINITY, f64::min));
         let high = [0, 1].map(|axis| places().map(|at| at[axis]).fold(f64::NEG_INFINITY, f64::max));

@@ -1,7 +1,7 @@
 //! Lines of the picture: wires, and edges of faces.
 //!
 //! 1. [`edges`]: which edges of faces are drawn;
-//! 2. here: lines with their colours, where they are in the picture, bent under `-xc`;
+//! 2. here: lines with their colours, projected; curved under `-xc` ([`LineShape`]);
 //! 3. [`hidden`]: the parts of them that no face hides, computed and not sampled;
 //! 4. these parts as strips, for the raster, or as they are, for figures.
 //!
@@ -18,13 +18,11 @@ use ugphysics::{Hsv, srgb_decode};
 use ugraster::{Corner, PolygonList, TRANSPARENT_VALUES};
 use ugscene::Place;
 
-use crate::clip::{Vertex, clip_segment};
+use crate::clip::{ClipCounts, Vertex, clip_segment};
 use crate::config::Wireframe;
-use crate::drawlist::Reach;
-use crate::exact::Bend;
+use crate::packing::pack_transparent;
 use crate::painter::Painter;
 use crate::palette::Swatch;
-use crate::render_layers::pack_clear;
 use edges::{Edge, edges};
 pub use hidden::{Hiders, Shown, hidden_by};
 
@@ -48,6 +46,52 @@ pub struct Line {
     pub colors: [Swatch; 2],
 }
 
+/// How lines at rest run as they are seen.
+pub trait LineShape: Sync {
+    /// A polyline that is straight in the picture between its joints.
+    fn joints(&self, line: &Line) -> Vec<Joint>;
+
+    /// False if colours on a body of this velocity are Doppler shifted as hues, so that colours given as light
+    /// have to be converted to hues.
+    fn keeps_light(&self, velocity: Option<VelocityId>) -> bool;
+}
+
+/// A corner of a polyline.
+#[derive(Clone, Copy, Debug)]
+pub struct Joint {
+    /// Where it is seen, relative to the eye.
+    pub seen: DVec3,
+    /// Its colour as seen.
+    pub color: Swatch,
+}
+
+/// Lines that are straight between vertices as they are seen.
+pub struct StraightLines<'a> {
+    painter: Painter<'a>,
+}
+
+impl<'a> StraightLines<'a> {
+    /// The lines of a scene.
+    pub fn new(painter: Painter<'a>) -> Self {
+        Self { painter }
+    }
+}
+
+impl LineShape for StraightLines<'_> {
+    fn joints(&self, line: &Line) -> Vec<Joint> {
+        let Painter { scene, view, .. } = self.painter;
+        let joint = |idx: usize| {
+            let seen = scene.vertices[line.ends[idx].index()].position - view.eye;
+            Joint { seen, color: line.colors[idx] }
+        };
+        [0, 1].map(joint).to_vec()
+    }
+
+    fn keeps_light(&self, _: Option<VelocityId>) -> bool {
+        true
+    }
+}
+
 /// A visible straight part of a line in the picture, in samples.
 #[derive(Clone, Copy, Debug)]
 pub struct Stroke {
@@ -61,23 +105,23 @@ pub struct Stroke {
 }
 
 /// Wires, and the edges that are asked for.
-pub fn lines(painter: &Painter<'_>, wireframe: Option<Wireframe>, bend: Option<&Bend<'_>>) -> Vec<Line> {
+pub fn lines(painter: &Painter<'_>, wireframe: Option<Wireframe>, shape: &dyn LineShape) -> Vec<Line> {
     let n_faces = painter.scene.faces.len();
     let mut lines = Vec::new();
     for (row, wire) in painter.scene.wires.iter().enumerate() {
         // The text of a scene is below 4 GiB, and so are its rows.
-        push_wire(painter, (n_faces + row) as u32, wire, bend, &mut lines);
+        push_wire(painter, (n_faces + row) as u32, wire, shape, &mut lines);
     }
     if let Some(wireframe) = wireframe {
         let edges = edges(painter);
-        lines.extend(edges.iter().map(|edge| edge_line(painter, edge, wireframe, bend)));
+        lines.extend(edges.iter().map(|edge| edge_line(painter, edge, wireframe, shape)));
     }
     lines
 }
 
-fn push_wire(painter: &Painter<'_>, item: u32, wire: &Wire, bend: Option<&Bend<'_>>, lines: &mut Vec<Line>) {
+fn push_wire(painter: &Painter<'_>, item: u32, wire: &Wire, shape: &dyn LineShape, lines: &mut Vec<Line>) {
     let color = painter.wire_swatch(wire);
-    let keeps_light = bend.is_none_or(|bend| bend.keeps_light(wire.velocity));
+    let keeps_light = shape.keeps_light(wire.velocity);
     // One end given as light makes all of the wire light, as with faces.
     let is_light = keeps_light && painter.is_light_wire(wire, &color);
     let end = |vertex| {
@@ -93,12 +137,12 @@ fn push_wire(painter: &Painter<'_>, item: u32, wire: &Wire, bend: Option<&Bend<'
 }
 
 /// An edge has the colour of its face, unlit, or the one that is asked for.
-fn edge_line(painter: &Painter<'_>, edge: &Edge, wireframe: Wireframe, bend: Option<&Bend<'_>>) -> Line {
+fn edge_line(painter: &Painter<'_>, edge: &Edge, wireframe: Wireframe, shape: &dyn LineShape) -> Line {
     let face = &painter.scene.faces[edge.face as usize];
     let colors = match wireframe.color {
         Some(color) => [plain(color); 2],
         None => {
-            let keeps_light = bend.is_none_or(|bend| bend.keeps_light(face.velocity));
+            let keeps_light = shape.keeps_light(face.velocity);
             let common = painter.common(face);
             let common = if keeps_light { common } else { common.without_light() };
             edge.ends.map(|end| {
@@ -116,22 +160,11 @@ fn plain(color: Hsv) -> Swatch {
     Swatch { light: Some(DVec3::from_array(color.to_rgb().map(srgb_decode))), ..Swatch::WHITE }
 }
 
-/// Straight pieces of lines in the picture, hidden or not, and how many lines came how far.
-pub fn pieces(painter: &Painter<'_>, lines: &[Line], bend: Option<&Bend<'_>>) -> (Vec<Stroke>, Reach) {
+/// Straight pieces of lines in the picture, hidden or not, and how many were clipped.
+pub fn pieces(painter: &Painter<'_>, lines: &[Line], shape: &dyn LineShape) -> (Vec<Stroke>, ClipCounts) {
     let of = |line: &Line| {
-        let joints: Vec<Vertex<TRANSPARENT_VALUES>> = match bend {
-            Some(bend) => bend
-                .joints(line)
-                .iter()
-                .map(|joint| vertex(painter.view.place(joint.seen), &joint.color))
-                .collect(),
-            None => [0, 1]
-                .map(|i| {
-                    let position = painter.scene.vertices[line.ends[i].index()].position;
-                    vertex(painter.view.place(position - painter.view.eye), &line.colors[i])
-                })
-                .to_vec(),
-        };
+        let joint = |joint: &Joint| vertex(painter.view.place(joint.seen), &joint.color);
+        let joints: Vec<_> = shape.joints(line).iter().map(joint).collect();
         joints.windows(2).filter_map(|ends| piece(painter, line.item, [ends[0], ends[1]])).collect::<Vec<_>>()
     };
     let pieces: Vec<Stroke> = lines.par_iter().flat_map_iter(of).collect();
@@ -141,8 +174,8 @@ pub fn pieces(painter: &Painter<'_>, lines: &[Line], bend: Option<&Bend<'_>>) ->
         (0..2).all(|axis| high[axis] > 0.0 && low[axis] < size[axis])
     };
     let in_picture = pieces.iter().filter(is_in_picture).count();
-    let reach = Reach { in_front: pieces.len(), in_picture };
-    (pieces, reach)
+    let clip_counts = ClipCounts { in_front: pieces.len(), in_picture };
+    (pieces, clip_counts)
 }
 
 /// The piece between two joints, if it is before the eye.
@@ -181,7 +214,7 @@ pub fn strokes(pieces: &[Stroke], shown: &Shown<'_>) -> Vec<Stroke> {
 }
 
 fn vertex(place: Place, color: &Swatch) -> Vertex<TRANSPARENT_VALUES> {
-    Vertex { place, values: pack_clear(color, DVec3::ONE) }
+    Vertex { place, values: pack_transparent(color, DVec3::ONE) }
 }
 
 /// Moved toward the eye along its own ray.

@@ -7,7 +7,8 @@ use ugraster::{Corner, Grid, Shade, TRANSPARENT_VALUES};
 
 use super::patch::Patch;
 use crate::canvas::developed;
-use crate::render_layers::{RenderLayers, clear_shade};
+use crate::packing::shade_transparent;
+use crate::render_layers::RenderLayers;
 use crate::shade::Shader;
 
 /// Display-encoded red, green and blue, from 0 to 255, not rounded.
@@ -47,7 +48,7 @@ impl Palette<'_> {
     ) -> Levels {
         let scale = if self.grid.is_perspective { 1.0 / at.key } else { 1.0 };
         let values = at.values.map(|value| (value * scale) as f32);
-        let line = Film { light: self.cued(clear_shade(self.shader, &values).0, at.key), pass: 0.0 };
+        let line = Film { light: self.cued(shade_transparent(self.shader, &values).0, at.key), pass: 0.0 };
         let film = |patch: &'p Patch| {
             let numbers = patch.numbers_at([at.x, at.y]);
             (numbers.key, self.film(patch, &numbers))
@@ -59,7 +60,7 @@ impl Palette<'_> {
 
     fn film(&self, patch: &Patch, Numbers { values, key }: &Numbers) -> Film {
         let (shade, pass) = if patch.is_clear {
-            clear_shade(self.shader, values)
+            shade_transparent(self.shader, values)
         } else {
             (self.layers.shade(self.shader, values), 0.0)
         };

@@ -1,20 +1,20 @@
 //! Which patches are wholly hidden.
 
-use super::convex::Convex;
-use super::index::Index;
 use super::patch::Patch;
+use crate::planar::BoxIndex;
+use crate::planar::Convex;
 
 /// Most parts a patch is cut into to find out; with more it counts as seen.
 const MOST_PARTS: usize = 64;
 
 /// The patches without those that others hide wholly. What `is_seen` says is kept without more ado.
-pub fn without_hidden(patches: Vec<Patch>, index: &Index, is_seen: &[bool]) -> Vec<Patch> {
+pub fn without_hidden(patches: Vec<Patch>, index: &BoxIndex, is_seen: &[bool]) -> Vec<Patch> {
     let is_kept = |patch: &Patch| is_seen[patch.item as usize] || !is_hidden(patch, &patches, index);
     let is_kept: Vec<bool> = patches.iter().map(is_kept).collect();
     patches.into_iter().zip(is_kept).filter_map(|(patch, is_kept)| is_kept.then_some(patch)).collect()
 }
 
-fn is_hidden(patch: &Patch, patches: &[Patch], index: &Index) -> bool {
+fn is_hidden(patch: &Patch, patches: &[Patch], index: &BoxIndex) -> bool {
     let mut rest = patch.parts.clone();
     for idx in index.in_box(patch.bounds()) {
         let other = &patches[idx];

@@ -3,9 +3,9 @@
 use ugimage::figure::Element;
 
 use super::color::{Levels, Palette, distance, mean, rounded};
-use super::index::Index;
 use super::patch::Patch;
 use crate::lines::{Stroke, between, hidden_by};
+use crate::planar::BoxIndex;
 
 /// How much colour changes along a piece of a line, in levels of 255.
 const STEP: f64 = 4.0;
@@ -19,7 +19,7 @@ const SHORTEST: f64 = 0.01;
 /// Translucent faces that may stand before lines.
 pub struct Panes<'a> {
     pub patches: &'a [Patch],
-    pub index: &'a Index,
+    pub index: &'a BoxIndex,
 }
 
 impl Panes<'_> {

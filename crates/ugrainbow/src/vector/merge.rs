@@ -7,9 +7,9 @@ use std::collections::{HashMap, HashSet};
 
 use ugimage::figure::{Point, Rgb, Written, edges, written};
 
-use super::convex::{Convex, doubled_area};
-use super::index::Index;
 use super::transparency::Coat;
+use crate::planar::BoxIndex;
+use crate::planar::{Convex, doubled_area};
 
 /// Areas that overlap by less, in square pixels, lie beside each other.
 const LEAST_OVERLAP: f64 = 0.005;
@@ -61,7 +61,7 @@ fn paint(coats: &[(Coat, Option<Rgb>)], members: &[usize]) -> Paint {
 /// Coats that are painted at once.
 struct Groups<'a> {
     coats: &'a [(Coat, Option<Rgb>)],
-    index: Index,
+    index: BoxIndex,
     /// Of each coat, its group.
     group: Vec<usize>,
     /// Of each group, its coats, none if it is part of another now.
@@ -74,7 +74,7 @@ struct Groups<'a> {
 
 impl<'a> Groups<'a> {
     fn new(coats: &'a [(Coat, Option<Rgb>)], size: [u32; 2]) -> Self {
-        let index = Index::new(coats.iter().map(|(coat, _)| Convex::bounds(&coat.parts)), size);
+        let index = BoxIndex::new(coats.iter().map(|(coat, _)| Convex::bounds(&coat.parts)), size);
         let numbers = 0..coats.len();
         Self {
             coats,

@@ -11,9 +11,7 @@
 //! 7. Lines come last, without their hidden parts, and in other colours behind translucent faces ([`lines`]).
 
 mod color;
-mod convex;
 mod hidden;
-mod index;
 mod lines;
 mod merge;
 mod order;
@@ -27,17 +25,16 @@ use ugimage::{Development, Format, Label};
 
 use crate::canvas;
 use crate::config::Config;
+use crate::depth_cue::prepare;
 use crate::error::{Error, MAX_PIXELS};
 use crate::figures::Annotations;
 use crate::lines::Stroke;
+use crate::planar::BoxIndex;
 use crate::render_layers::RenderLayers;
 use crate::setup::Setup;
 use color::{Palette, rounded};
-pub use convex::{Convex, Place as PlanePlace};
-pub use index::Index;
 use merge::Paint;
 use patch::Patch;
-pub use patch::{near_picture, parts};
 use smooth::{Smooth, plain_color, push_smooth};
 use transparency::Coat;
 use ugparse::Scene;
@@ -78,7 +75,7 @@ fn figure<S: Smooth>(
 ) -> Result<Figure<S>, Error> {
     let scale = scale(config.size);
     let fine = Config { size: config.size.map(|side| side * scale), samples: 1, ..config.clone() };
-    let setup = Setup::new(scene, &fine)?;
+    let setup = prepare(scene, &fine)?;
     let layers = RenderLayers::new(setup.painter(), &fine.draw_mode());
     let ground = canvas::ground(config, None);
     if ground.is_none() && layers.has_clear_faces() {
@@ -88,7 +85,7 @@ fn figure<S: Smooth>(
     }
     let seen = seen::faces(&setup, &layers);
     let faces = patches(&layers, &setup, config.size, f64::from(scale), &seen.is_near);
-    let index = Index::new(faces.iter().map(Patch::bounds), config.size);
+    let index = BoxIndex::new(faces.iter().map(Patch::bounds), config.size);
     let faces = hidden::without_hidden(faces, &index, &seen.is_seen);
     let palette = Palette {
         layers: &layers,
@@ -97,7 +94,7 @@ fn figure<S: Smooth>(
         grid: &setup.grid,
         ground: ground.unwrap_or([1.0; 3]),
     };
-    let index = Index::new(faces.iter().map(Patch::bounds), config.size);
+    let index = BoxIndex::new(faces.iter().map(Patch::bounds), config.size);
     let mut elements = painted(&palette, &faces, &index, config.size)?;
     let strokes = layers.strokes().iter().map(|stroke| scaled(*stroke, scale)).collect();
     let panes = lines::Panes { patches: &faces, index: &index };
@@ -112,7 +109,7 @@ fn figure<S: Smooth>(
 fn painted<S: Smooth>(
     palette: &Palette<'_>,
     faces: &[Patch],
-    index: &Index,
+    index: &BoxIndex,
     size: [u32; 2],
 ) -> Result<Vec<Element<S>>, Error> {
     let coats = transparency::coats(faces, &order::painting_order(faces, index), size)?;

@@ -5,9 +5,9 @@
 //! cut along each other's planes until they have one (binary space partition, Fuchs, Kedem and Naylor 1980). In a
 //! picture with its depth key everything flat is a plane, and the eye is above all of them: below it is painted first.
 
-use super::convex::{Convex, Relation};
-use super::index::Index;
 use super::patch::Patch;
+use crate::planar::BoxIndex;
+use crate::planar::{Convex, DepthOrder};
 
 /// What is painted at once.
 #[derive(Clone, Debug)]
@@ -22,7 +22,7 @@ pub enum Piece {
 const CANDIDATES: usize = 8;
 
 /// All patches, or their parts, from the farthest to the nearest.
-pub fn painting_order(patches: &[Patch], index: &Index) -> Vec<Piece> {
+pub fn painting_order(patches: &[Patch], index: &BoxIndex) -> Vec<Piece> {
     let behind = relations(patches, index);
     let mut pieces = Vec::new();
     for group in strong_components(&behind) {
@@ -35,7 +35,7 @@ pub fn painting_order(patches: &[Patch], index: &Index) -> Vec<Piece> {
 }
 
 /// For each patch, what it hides in part.
-fn relations(patches: &[Patch], index: &Index) -> Vec<Vec<usize>> {
+fn relations(patches: &[Patch], index: &BoxIndex) -> Vec<Vec<usize>> {
     let mut behind = vec![Vec::new(); patches.len()];
     for (first, patch) in patches.iter().enumerate() {
         for second in index.in_box(patch.bounds()).into_iter().filter(|&second| second > first) {
@@ -53,9 +53,9 @@ fn relations(patches: &[Patch], index: &Index) -> Vec<Vec<usize>> {
     behind
 }
 
-fn relation(first: &Patch, second: &Patch) -> Relation {
+fn relation(first: &Patch, second: &Patch) -> DepthOrder {
     let pairs = first.parts.iter().flat_map(|a| second.parts.iter().map(move |b| a.relation(b)));
-    pairs.fold(Relation::default(), |all, one| Relation {
+    pairs.fold(DepthOrder::default(), |all, one| DepthOrder {
         is_before: all.is_before || one.is_before,
         is_behind: all.is_behind || one.is_behind,
         is_level: all.is_level || one.is_level,

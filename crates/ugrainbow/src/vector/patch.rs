@@ -3,7 +3,7 @@
 use ugraster::{Corner, TRANSPARENT_VALUES};
 
 use super::color::Numbers;
-use super::convex::{Convex, Place, clip, doubled_area, sides};
+use crate::planar::{Convex, DepthPoint, clipped_to_picture, convex_parts, doubled_area, sides};
 
 /// What is drawn so far outside the picture, in pixels; the rest is cut away.
 const MARGIN: f64 = 4.0;
@@ -18,7 +18,7 @@ pub struct Patch {
     /// As drawn by the raster; its colours come from here.
     contours: Vec<Vec<Corner<TRANSPARENT_VALUES>>>,
     /// What of it is in and near the picture; counterclockwise as [`Convex`], holes clockwise.
-    pub outline: Vec<Vec<Place>>,
+    pub outline: Vec<Vec<DepthPoint>>,
     /// The same in convex flat parts.
     pub parts: Vec<Convex>,
     is_perspective: bool,
@@ -34,10 +34,11 @@ impl Patch {
         is_perspective: bool,
     ) -> Option<Self> {
         let place = |corner: &Corner<TRANSPARENT_VALUES>| [corner.x, corner.y, corner.key];
-        let outline =
-            contours.iter().map(|contour| near_picture(contour.iter().map(place).collect(), size, MARGIN));
+        let outline = contours
+            .iter()
+            .map(|contour| clipped_to_picture(contour.iter().map(place).collect(), size, MARGIN));
         let outline = oriented(outline.filter(|contour| contour.len() > 2).collect());
-        let parts = parts(&outline);
+        let parts = convex_parts(&outline);
         (!parts.is_empty()).then_some(Self { item, is_clear, contours, outline, parts, is_perspective })
     }
 
@@ -100,24 +101,10 @@ fn mixed(
     }
 }
 
-/// A contour without what is farther outside the picture than `margin`.
-pub fn near_picture(mut contour: Vec<Place>, size: [u32; 2], margin: f64) -> Vec<Place> {
-    for axis in 0..2 {
-        let end = f64::from(size[axis]) + margin;
-        if contour.iter().any(|place| place[axis] < -margin) {
-            contour = clip(&contour, |place| place[axis] + margin);
-        }
-        if contour.iter().any(|place| place[axis] > end) {
-            contour = clip(&contour, |place| end - place[axis]);
-        }
-    }
-    contour
-}
-
 /// Contours that run all the same way round what they enclose.
-fn oriented(mut outline: Vec<Vec<Place>>) -> Vec<Vec<Place>> {
+fn oriented(mut outline: Vec<Vec<DepthPoint>>) -> Vec<Vec<DepthPoint>> {
     let is_hole = |idx: usize| {
-        let within = |other: &Vec<Place>| is_inside(other, outline[idx][0]);
+        let within = |other: &Vec<DepthPoint>| is_inside(other, outline[idx][0]);
         let others = outline.iter().enumerate().filter(|(other, _)| *other != idx);
         others.filter(|(_, other)| within(other)).count() % 2 == 1
     };
@@ -128,75 +115,9 @@ fn oriented(mut outline: Vec<Vec<Place>>) -> Vec<Vec<Place>> {
 }
 
 /// True if a place is inside of a contour, by the even-odd rule.
-fn is_inside(contour: &[Place], [x, y, _]: Place) -> bool {
-    let crosses = |(a, b): &(Place, Place)| {
+fn is_inside(contour: &[DepthPoint], [x, y, _]: DepthPoint) -> bool {
+    let crosses = |(a, b): &(DepthPoint, DepthPoint)| {
         (a[1] <= y) != (b[1] <= y) && a[0] + (b[0] - a[0]) * (y - a[1]) / (b[1] - a[1]) > x
     };
     sides(contour).filter(crosses).count() % 2 == 1
-}
-
-/// Convex flat parts of a polygon.
-pub fn parts(outline: &[Vec<Place>]) -> Vec<Convex> {
-    if let [contour] = outline
-        && is_convex(contour)
-    {
-        return flat_parts(contour.clone());
-    }
-    trapezoids(outline).into_iter().flat_map(flat_parts).collect()
-}
-
-/// A convex polygon in flat parts: itself, or a fan of triangles.
-fn flat_parts(corners: Vec<Place>) -> Vec<Convex> {
-    let Some(whole) = Convex::new(corners) else { return Vec::new() };
-    if whole.is_flat() {
-        return vec![whole];
-    }
-    let first = whole.corners[0];
-    whole.corners[1..].windows(2).filter_map(|pair| Convex::new(vec![first, pair[0], pair[1]])).collect()
-}
-
-/// True if the outline turns one way only, and once round.
-fn is_convex(contour: &[Place]) -> bool {
-    let n = contour.len();
-    let direction = doubled_area(contour).signum();
-    let turns_back = (0..n).any(|idx| {
-        let [a, b, c] = [0, 1, 2].map(|step| contour[(idx + step) % n]);
-        ((b[0] - a[0]) * (c[1] - b[1]) - (b[1] - a[1]) * (c[0] - b[0])) * direction < 0.0
-    });
-    // A star turns one way, too, but goes up and down more than once.
-    let n_tops = sides(contour)
-        .zip(sides(contour).skip(1).chain(sides(contour).take(1)))
-        .filter(|((a, b), (_, c))| a[1] < b[1] && c[1] <= b[1])
-        .count();
-    !turns_back && n_tops <= 1
-}
-
-/// The polygon between the rows of its corners, by the even-odd rule.
-fn trapezoids(outline: &[Vec<Place>]) -> Vec<Vec<Place>> {
-    let mut rows: Vec<f64> = outline.iter().flatten().map(|place| place[1]).collect();
-    rows.sort_by(f64::total_cmp);
-    rows.dedup();
-    let edges: Vec<(Place, Place)> = outline.iter().flat_map(|contour| sides(contour)).collect();
-    let mut trapezoids = Vec::new();
-    for pair in rows.windows(2) {
-        let [top, bottom] = [pair[0], pair[1]];
-        let at = |(a, b): (Place, Place), y: f64| {
-            // From the upper end, so that both parts beside an edge get the same place.
-            let (a, b) = if a[1] < b[1] { (a, b) } else { (b, a) };
-            let part = (y - a[1]) / (b[1] - a[1]);
-            [a[0] + (b[0] - a[0]) * part, y, a[2] + (b[2] - a[2]) * part]
-        };
-        let spans = |(a, b): &(Place, Place)| a[1].min(b[1]) <= top && a[1].max(b[1]) >= bottom;
-        let mut crossings: Vec<[Place; 2]> = edges
-            .iter()
-            .filter(|edge| spans(edge))
-            .map(|&edge| [top, bottom].map(|row| at(edge, row)))
-            .collect();
-        crossings.sort_by(|a, b| (a[0][0] + a[1][0]).total_cmp(&(b[0][0] + b[1][0])));
-        for pair in crossings.chunks_exact(2) {
-            let ([a, d], [b, c]) = (pair[0], pair[1]);
-            trapezoids.push(vec![a, b, c, d]);
-        }
-    }
-    trapezoids
 }

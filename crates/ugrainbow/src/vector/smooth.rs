@@ -4,9 +4,9 @@
 use ugimage::figure::{Element, Gradient, Point, Rgb, Triangle};
 
 use super::color::{Levels, Palette, distance, mean, rounded};
-use super::convex::{Convex, sides};
 use super::patch::Patch;
 use super::transparency::Coat;
+use crate::planar::{Convex, sides};
 
 /// How far, in levels of 255, the colours of a figure are from those of the scene where that is tried: at corners,
 /// middles of edges and middles of pieces.

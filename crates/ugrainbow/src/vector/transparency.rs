@@ -6,11 +6,11 @@
 
 use ugimage::figure::Point;
 
-use super::convex::Convex;
-use super::index::Index;
 use super::order::Piece;
 use super::patch::Patch;
 use crate::error::Error;
+use crate::planar::BoxIndex;
+use crate::planar::Convex;
 
 /// Most coats of a figure. Each pane before others adds what is seen through it.
 const MOST_COATS: usize = 1 << 16;
@@ -37,7 +37,7 @@ pub struct Coat {
 pub fn coats(patches: &[Patch], pieces: &[Piece], size: [u32; 2]) -> Result<Vec<Coat>, Error> {
     let has_clear = patches.iter().any(|patch| patch.is_clear);
     let n_shapes = if has_clear { MOST_COATS } else { 1 };
-    let mut coats = Coats { index: Index::empty(n_shapes, size), all: Vec::new() };
+    let mut coats = Coats { index: BoxIndex::empty(n_shapes, size), all: Vec::new() };
     for piece in pieces {
         let coat = whole(patches, piece);
         if patches[coat.layers[0]].is_clear {
@@ -74,7 +74,7 @@ fn of_parts(layers: Vec<usize>, parts: Vec<Convex>) -> Coat {
 /// What has been painted so far.
 struct Coats {
     all: Vec<Coat>,
-    index: Index,
+    index: BoxIndex,
 }
 
 impl Coats {

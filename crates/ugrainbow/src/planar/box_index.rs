@@ -1,10 +1,11 @@
-//! Which shapes are where in the picture.
+//! A spatial index of bounding boxes in the picture.
 
 use std::ops::RangeInclusive;
 
-/// Grids of cells over the picture, each twice as fine as the one before. A shape is in the finest in which its box touches no
-/// more than two cells either way: large ones take no more memory than small ones.
-pub struct Index {
+/// A hierarchy of grids over the picture, each twice as coarse as the one before. A box is stored in the
+/// finest grid in which it touches at most two cells either way, so large boxes take no more memory
+/// than small ones.
+pub struct BoxIndex {
     /// From the finest grid to that of one cell; the shapes of each cell.
     grids: Vec<Vec<Vec<usize>>>,
     /// Cells along a side of the finest.
@@ -17,8 +18,8 @@ pub struct Index {
 /// Most cells along a side.
 const MAX_CELLS: usize = 256;
 
-impl Index {
-    /// Of shapes of these boxes, in a picture of this size.
+impl BoxIndex {
+    /// Of these boxes, in a picture of this size.
     pub fn new(boxes: impl Iterator<Item = [[f64; 2]; 2]>, size: [u32; 2]) -> Self {
         let boxes: Vec<_> = boxes.collect();
         let mut index = Self::empty(boxes.len(), size);
@@ -26,7 +27,7 @@ impl Index {
         index
     }
 
-    /// Of nothing as yet; made for so many shapes.
+    /// Empty, with cells for `n_shapes` boxes.
     pub fn empty(n_shapes: usize, size: [u32; 2]) -> Self {
         let side = (n_shapes as f64).sqrt().ceil() as usize;
         let n = side.clamp(1, MAX_CELLS).next_power_of_two();
@@ -34,21 +35,21 @@ impl Index {
         Self { grids: grids.collect(), n, size: size.map(f64::from), boxes: Vec::new() }
     }
 
-    /// Adds a shape.
+    /// Adds a box; its number is the count of boxes before it.
     pub fn push(&mut self, its_box: [[f64; 2]; 2]) {
         let shape = self.boxes.len();
         self.boxes.push(its_box);
         let ends = self.ends(its_box);
         let is_small =
             |coarser: &usize| ends.iter().all(|[low, high]| (high >> coarser) - (low >> coarser) < 2);
-        // In the grid of one cell everything is.
+        // Everything fits the grid of one cell.
         let coarser = (0..self.grids.len()).find(is_small).unwrap_or(self.grids.len() - 1);
         for cell in self.cells(ends, coarser) {
             self.grids[coarser][cell].push(shape);
         }
     }
 
-    /// The shapes whose boxes overlap a box, each once, in order.
+    /// Numbers of the boxes that overlap a box, each once, in order.
     pub fn in_box(&self, asked: [[f64; 2]; 2]) -> Vec<usize> {
         let [low, high] = asked;
         let overlaps = |shape: &usize| {
@@ -66,16 +67,16 @@ impl Index {
         found
     }
 
-    /// The first and last column, and row, of the finest cells that a box touches.
+    /// First and last column, and row, of the cells of the finest grid that a box touches.
     fn ends(&self, [low, high]: [[f64; 2]; 2]) -> [[usize; 2]; 2] {
         [0, 1].map(|axis| {
-            // The cast saturates, so what is outside lies in the outermost cells.
+            // The cast saturates, so boxes outside the picture fall into the outermost cells.
             let cell = |x: f64| ((x / self.size[axis] * self.n as f64) as usize).min(self.n - 1);
             [cell(low[axis]), cell(high[axis])]
         })
     }
 
-    /// Cells of a grid so many times coarser.
+    /// The same cells in the grid that is 2^`coarser` times coarser.
     fn cells(&self, ends: [[usize; 2]; 2], coarser: usize) -> impl Iterator<Item = usize> + use<> {
         let width = self.n >> coarser;
         let [columns, rows] =
@@ -100,7 +101,7 @@ mod tests {
         };
         let boxes: Vec<_> =
             (0..2000).map(|idx| random_box(if idx % 100 == 0 { 1e12 } else { 300.0 })).collect();
-        let index = Index::new(boxes.iter().copied(), [300, 100]);
+        let index = BoxIndex::new(boxes.iter().copied(), [300, 100]);
         let mut n_found = 0;
         for scale in [0.0, 3.0, 40.0, 400.0, 1e9] {
             for _ in 0..50 {

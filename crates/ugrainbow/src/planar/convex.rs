@@ -1,30 +1,31 @@
-//! Convex flat polygons in the picture plane with depth.
+//! Convex polygons in the picture plane that are planar in depth.
 
-/// A place in the picture, and its depth key, larger for what is nearer.
-pub type Place = [f64; 3];
+/// Column, row and depth key; the key is larger for what is nearer.
+pub type DepthPoint = [f64; 3];
 
-/// Areas below this many square pixels are none: rounding makes such slivers along shared edges.
+/// Areas below this many square pixels count as empty: rounding makes such slivers along shared edges.
 const LEAST_AREA: f64 = 1e-6;
 
-/// Keys closer than this, relative to them, are equal: the raster compares them in single precision.
+/// Relative difference up to which two keys count as equal: the rasterizer compares them in single precision.
 const SAME_KEY: f64 = 1e-6;
 
 /// A convex polygon on one plane.
 #[derive(Clone, Debug)]
 pub struct Convex {
     /// Counterclockwise in coordinates with y up; so the signed area is positive.
-    pub corners: Vec<Place>,
+    pub corners: Vec<DepthPoint>,
     /// Least and greatest x and y.
     pub low: [f64; 2],
     pub high: [f64; 2],
-    /// Change of the key per x and y, and the key at the origin of `anchor`.
+    /// Change of the key per unit of x and of y.
     slope: [f64; 2],
-    anchor: Place,
+    /// A point of the plane.
+    anchor: DepthPoint,
 }
 
-/// How two polygons lie to each other where they overlap in the picture.
+/// Order in depth of two polygons where they overlap in the picture.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Relation {
+pub struct DepthOrder {
     /// The first is nearer somewhere.
     pub is_before: bool,
     /// The first is farther somewhere.
@@ -34,8 +35,8 @@ pub struct Relation {
 }
 
 impl Convex {
-    /// `None` if there is no area. The plane is that of the widest triangle at the first corner.
-    pub fn new(mut corners: Vec<Place>) -> Option<Self> {
+    /// `None` if the area is empty. The plane is that of the widest triangle at the first corner.
+    pub fn new(mut corners: Vec<DepthPoint>) -> Option<Self> {
         let area = doubled_area(&corners);
         if !area.is_finite() || area.abs() < LEAST_AREA {
             return None;
@@ -44,7 +45,7 @@ impl Convex {
             corners.reverse();
         }
         let anchor = corners[0];
-        let triangle = |pair: &[Place]| {
+        let triangle = |pair: &[DepthPoint]| {
             let [u, v] = [pair[0], pair[1]].map(|corner| [0, 1, 2].map(|i| corner[i] - anchor[i]));
             (u[0] * v[1] - u[1] * v[0], u, v)
         };
@@ -59,24 +60,24 @@ impl Convex {
         Some(Self { corners, low, high, slope, anchor })
     }
 
-    /// The key of its plane.
+    /// The depth key of its plane at a point.
     pub fn key(&self, x: f64, y: f64) -> f64 {
         self.anchor[2] + self.slope[0] * (x - self.anchor[0]) + self.slope[1] * (y - self.anchor[1])
     }
 
-    /// True if all its corners lie on its plane.
+    /// True if all corners lie in its plane.
     pub fn is_flat(&self) -> bool {
         self.corners.iter().all(|&[x, y, key]| side(key, self.key(x, y)) == 0)
     }
 
-    /// True if their boxes do not overlap.
+    /// True if their bounding boxes do not overlap.
     pub fn is_apart(&self, other: &Self) -> bool {
         (0..2).any(|axis| self.high[axis] <= other.low[axis] || other.high[axis] <= self.low[axis])
     }
 
-    /// Where it is nearer than another and where farther.
-    pub fn relation(&self, other: &Self) -> Relation {
-        let mut relation = Relation::default();
+    /// Whether it is nearer than another somewhere, and farther somewhere.
+    pub fn relation(&self, other: &Self) -> DepthOrder {
+        let mut relation = DepthOrder::default();
         if self.is_apart(other) {
             return relation;
         }
@@ -94,8 +95,8 @@ impl Convex {
         relation
     }
 
-    /// The corners of what of it lies over another in the picture.
-    fn clipped(&self, other: &Self) -> Vec<Place> {
+    /// The corners of its intersection with another in the picture.
+    fn clipped(&self, other: &Self) -> Vec<DepthPoint> {
         let mut rest = self.corners.clone();
         for side in sides(&other.corners) {
             rest = clip(&rest, |place| inside(side, place));
@@ -106,12 +107,12 @@ impl Convex {
         rest
     }
 
-    /// What of it lies over another in the picture.
+    /// Its intersection with another in the picture, in its own plane.
     pub fn common(&self, other: &Self) -> Option<Self> {
         if self.is_apart(other) { None } else { Self::new(self.clipped(other)) }
     }
 
-    /// What of it lies beside another in the picture, in convex parts.
+    /// Its difference with another in the picture, in convex parts.
     pub fn beside(&self, other: &Self) -> Vec<Self> {
         if self.is_apart(other) {
             return vec![self.clone()];
@@ -125,7 +126,7 @@ impl Convex {
         beside
     }
 
-    /// On which side of the plane of `self` another lies: 1 nearer, −1 farther, 0 on it; `None` if on both.
+    /// On which side of the plane of `self` another lies: 1 nearer, −1 farther, 0 in it; `None` on both.
     pub fn side_of(&self, other: &Self) -> Option<i8> {
         let mut sides = [false; 2];
         for &[x, y, key] in &other.corners {
@@ -143,14 +144,14 @@ impl Convex {
         }
     }
 
-    /// The parts of another behind and before the plane of `self`.
+    /// The parts of another behind and in front of the plane of `self`.
     pub fn split(&self, other: &Self) -> [Option<Self>; 2] {
-        let ahead = |[x, y, key]: Place| key - self.key(x, y);
+        let ahead = |[x, y, key]: DepthPoint| key - self.key(x, y);
         [Self::new(clip(&other.corners, |place| -ahead(place))), Self::new(clip(&other.corners, ahead))]
     }
 
-    /// The part of the segment from `a` to `b` over it, as parts of the way, if any.
-    pub fn over(&self, a: Place, b: Place) -> Option<[f64; 2]> {
+    /// The part of the segment from `a` to `b` that lies over it, as parameters in 0…1.
+    pub fn over(&self, a: DepthPoint, b: DepthPoint) -> Option<[f64; 2]> {
         let (mut start, mut end) = (0.0f64, 1.0f64);
         for side in sides(&self.corners) {
             let (at_a, at_b) = (inside(side, a), inside(side, b));
@@ -164,7 +165,7 @@ impl Convex {
         (start < end).then_some([start, end])
     }
 
-    /// The parts on both sides of the line across the middle of its greater extent.
+    /// Its two halves, cut across the middle of its greater extent.
     pub fn halves(&self) -> [Option<Self>; 2] {
         let extent = [0, 1].map(|axis| self.high[axis] - self.low[axis]);
         let axis = usize::from(extent[1] > extent[0]);
@@ -175,18 +176,18 @@ impl Convex {
         ]
     }
 
-    /// The mean of its corners.
+    /// Mean of its corners.
     pub fn middle(&self) -> [f64; 2] {
         let n_corners = self.corners.len() as f64;
         [0, 1].map(|axis| self.corners.iter().map(|corner| corner[axis]).sum::<f64>() / n_corners)
     }
 
-    /// Its corners in the picture.
+    /// Its corners without their depth.
     pub fn outline(&self) -> Vec<[f64; 2]> {
         self.corners.iter().map(|&[x, y, _]| [x, y]).collect()
     }
 
-    /// The least and greatest x and y of several.
+    /// Bounding box of several: least and greatest x and y.
     pub fn bounds(parts: &[Self]) -> [[f64; 2]; 2] {
         let fold = |start: f64, pick: fn(f64, f64) -> f64, corner: fn(&Self) -> [f64; 2]| {
             [0, 1].map(|axis| parts.iter().map(|part| corner(part)[axis]).fold(start, pick))
@@ -194,7 +195,7 @@ impl Convex {
         [fold(f64::INFINITY, f64::min, |part| part.low), fold(f64::NEG_INFINITY, f64::max, |part| part.high)]
     }
 
-    /// The greater of its extents across and down.
+    /// Greater side of its bounding box.
     pub fn extent(&self) -> f64 {
         (self.high[0] - self.low[0]).max(self.high[1] - self.low[1])
     }
@@ -212,27 +213,27 @@ fn side(key: f64, other: f64) -> i8 {
     }
 }
 
-/// Not negative for places inside of a side of a polygon.
-fn inside((a, b): (Place, Place), [x, y, _]: Place) -> f64 {
+/// Not negative on the inner side of a side of a polygon.
+fn inside((a, b): (DepthPoint, DepthPoint), [x, y, _]: DepthPoint) -> f64 {
     (b[0] - a[0]) * (y - a[1]) - (b[1] - a[1]) * (x - a[0])
 }
 
 /// The sides of a polygon.
-pub fn sides(corners: &[Place]) -> impl Iterator<Item = (Place, Place)> {
+pub fn sides(corners: &[DepthPoint]) -> impl Iterator<Item = (DepthPoint, DepthPoint)> {
     let ahead = corners.iter().cycle().skip(1);
     corners.iter().copied().zip(ahead.copied())
 }
 
 /// Twice the signed area.
-pub fn doubled_area(corners: &[Place]) -> f64 {
+pub fn doubled_area(corners: &[DepthPoint]) -> f64 {
     let Some(&[x0, y0, _]) = corners.first() else { return 0.0 };
     sides(corners).map(|(a, b)| (a[0] - x0) * (b[1] - y0) - (a[1] - y0) * (b[0] - x0)).sum()
 }
 
-/// The part of a polygon where `inside` is not negative. It is linear. Crossings are computed from the corner inside, whichever
-/// way the polygon runs.
-pub fn clip(corners: &[Place], inside: impl Fn(Place) -> f64) -> Vec<Place> {
-    let crossing = |a: Place, b: Place| {
+/// Clips a polygon to where the linear function `inside` is not negative. Crossings are computed from
+/// the inner corner, so two polygons that share an edge share the crossing exactly.
+pub fn clip(corners: &[DepthPoint], inside: impl Fn(DepthPoint) -> f64) -> Vec<DepthPoint> {
+    let crossing = |a: DepthPoint, b: DepthPoint| {
         let part = inside(a) / (inside(a) - inside(b));
         [0, 1, 2].map(|i| a[i] + (b[i] - a[i]) * part)
     };

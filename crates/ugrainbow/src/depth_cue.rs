@@ -1,0 +1,39 @@
+//! Depth cueing whose range is found from what is seen.
+
+use ugparse::Scene;
+
+use crate::config::Config;
+use crate::error::Error;
+use crate::render_layers::RenderLayers;
+use crate::setup::Setup;
+use ugraster::Gathered;
+
+/// Prepares a scene. Depth cueing without depths runs from the nearest to the farthest that is seen at the middle of
+/// a pixel; it is left out if nothing is seen.
+///
+/// # Errors
+/// As [`Setup::new`].
+pub fn prepare<'a>(scene: &'a Scene, config: &Config) -> Result<Setup<'a>, Error> {
+    let mut setup = Setup::new(scene, config)?;
+    if let Some(cue) = config.depth_cue.filter(|cue| cue.range.is_none()) {
+        setup.grid.cue = visible_depths(&setup, config).map(|range| cue.between(range));
+    }
+    Ok(setup)
+}
+
+/// The least and greatest depth seen, rounded to four digits so that a note can tell them exactly.
+fn visible_depths(setup: &Setup<'_>, config: &Config) -> Option<[f64; 2]> {
+    let layers = RenderLayers::new(setup.painter(), &config.draw_mode());
+    let (keys, _) = layers.paint(&setup.grid, &setup.shader, &|all: &Gathered<'_, u32>| {
+        let solid = all.center.iter().map(|seen| seen.key);
+        let keys = solid.chain(all.layers.iter().map(|layer| layer.key));
+        keys.fold([f32::INFINITY, f32::NEG_INFINITY], |[low, high], key| [low.min(key), high.max(key)])
+    });
+    let join = |[a, b]: [f32; 2], [c, d]: [f32; 2]| [a.min(c), b.max(d)];
+    let [farthest, nearest] = keys.into_iter().reduce(join)?;
+    let depth = |key: f32| {
+        let depth = setup.grid.depth(f64::from(key));
+        format!("{depth:.3e}").parse().unwrap_or(depth)
+    };
+    (farthest <= nearest).then(|| [depth(nearest), depth(farthest)])
+}

@@ -1,0 +1,10 @@
+//! Geometry in the picture plane: convex polygons with depth, decomposition into them, and a spatial
+//! index of their bounding boxes.
+
+mod box_index;
+mod convex;
+mod decompose;
+
+pub use box_index::BoxIndex;
+pub use convex::{Convex, DepthOrder, DepthPoint, doubled_area, sides};
+pub use decompose::{clipped_to_picture, convex_parts};
