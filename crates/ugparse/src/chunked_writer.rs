@@ -2,8 +2,6 @@
 
 use std::io::{self, Write};
 
-use rayon::prelude::*;
-
 /// Where text goes, with the pieces of it that wait to be sent.
 ///
 /// While the pieces of one round are made, those of the round before are sent,
@@ -30,21 +28,15 @@ impl<'o> ChunkedWriter<'o> {
         }
     }
 
-    /// Makes a piece of each job on threads, and sends what was ready meanwhile.
-    pub(crate) fn round<J: Sync>(
+    /// Makes pieces on all threads, `make` one at a time, and sends what was ready meanwhile.
+    pub(crate) fn round(
         &mut self,
-        jobs: &[J],
-        make: impl Fn(&J, &mut Vec<u8>) + Sync,
+        n_pieces: usize,
+        make: &(dyn Fn(usize, &mut Vec<u8>) + Sync),
     ) -> io::Result<()> {
         let mut pieces = std::mem::take(&mut self.spare);
-        pieces.resize_with(jobs.len(), Vec::new);
-        let sent = rayon::in_place_scope(|scope| {
-            scope.spawn(|_| {
-                let pairs = jobs.par_iter().zip(&mut pieces).with_max_len(1);
-                pairs.for_each(|(job, piece)| make(job, piece));
-            });
-            self.send()
-        });
+        pieces.resize_with(n_pieces, Vec::new);
+        let sent = ugparallel::for_jobs_while(&mut pieces, make, || self.send());
         self.spare = std::mem::replace(&mut self.ready, pieces);
         sent
     }

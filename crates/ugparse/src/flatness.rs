@@ -1,7 +1,6 @@
 //! How flat faces are.
 
 use glam::DVec3;
-use rayon::prelude::*;
 
 use crate::Source;
 use crate::diagnostic::Diagnostic;
@@ -51,7 +50,8 @@ pub fn thickness(scene: &Scene, face: &Face) -> f64 {
 /// The faces that are not flat, in order. A scene as seen has none: there it is
 /// no mistake that faces are bent.
 pub(crate) fn bent_faces(scene: &Scene) -> Vec<BentFace> {
-    let bent = |(row, face): (usize, &Face)| {
+    let bent = |row: usize| {
+        let face = &scene.faces[row];
         // Triangles are flat.
         if face.contours.len() == 1 && scene.contours.get(face.contours.start).len() == 3 {
             return None;
@@ -63,7 +63,7 @@ pub(crate) fn bent_faces(scene: &Scene) -> Vec<BentFace> {
     if scene.contours.corner_count() == 3 * scene.faces.len() || is_as_seen(scene) {
         return Vec::new();
     }
-    scene.faces.par_iter().enumerate().with_min_len(MANY_FACES).filter_map(bent).collect()
+    ugparallel::collect(scene.faces.len(), MANY_FACES, |rows, found| found.extend(rows.filter_map(&bent)))
 }
 
 /// True if `uglorentz` has been at it.

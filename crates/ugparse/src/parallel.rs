@@ -7,8 +7,6 @@
 //! falls into a comment or a definition, or if anything is wrong, then a part
 //! shows it, and the whole is read again in one go, which finds the words for it.
 
-use rayon::prelude::*;
-
 use crate::Options;
 use crate::contours::Contours;
 use crate::diagnostic::Diagnostic;
@@ -29,7 +27,7 @@ pub(crate) fn read_all<'t>(
     options: &Options,
     findings: &mut Vec<Diagnostic>,
 ) -> Document<'t> {
-    let n_parts = rayon::current_num_threads().min(text.len() / MIN_PART);
+    let n_parts = ugparallel::n_threads().min(text.len() / MIN_PART);
     if n_parts > 1
         && let Some((document, warnings)) = read_parts(text, n_parts, options)
     {
@@ -46,8 +44,8 @@ fn read_parts<'t>(
 ) -> Option<(Document<'t>, Vec<Diagnostic>)> {
     let mut cuts: Vec<usize> = (0..=n_parts).map(|part| cut(text, part, n_parts)).collect();
     cuts.dedup();
-    let parts: Option<Vec<_>> =
-        cuts.par_windows(2).map(|cuts| read_part(&text[..cuts[1]], cuts[0], options)).collect();
+    let read_part = |part: usize| read_part(&text[..cuts[part + 1]], cuts[part], options);
+    let parts: Option<Vec<_>> = ugparallel::map(cuts.len() - 1, 1, read_part).into_iter().collect();
     let (mut documents, warnings): (Vec<_>, Vec<_>) = parts?.into_iter().unzip();
     let groups = documents.iter_mut().filter_map(|document| document.groups.pop()).collect();
     let document = Document {
@@ -266,79 +264,65 @@ impl Place {
     }
 }
 
-/// One table of all parts in one; `change` makes a row of a part one of the file.
-fn join_tables<'t, T: Clone + Send + Sync>(
+/// Joins one table of all parts; `change` turns a row of a part into a row of the file.
+fn join_tables<'t, T: Send>(
     parts: &mut [Group<'t>],
     places: &[Place],
     table: impl for<'p> Fn(&'p mut Group<'t>) -> &'p mut Rows<T>,
-    change: impl Fn(&mut T, &Place) + Send + Sync,
+    change: impl Fn(&mut T, &Place) + Sync,
 ) -> Rows<T> {
-    let (rows, spans) = parts.iter_mut().map(|part| std::mem::take(table(part)).into_parts()).unzip();
-    let is_same = |part: usize| places[part].is_same;
-    Rows {
-        rows: join_rows(rows, is_same, |row, part| change(row, &places[part])),
-        spans: join_rows(spans, |_| true, |_, _| {}),
+    let (rows, spans): (Vec<_>, _) =
+        parts.iter_mut().map(|part| std::mem::take(table(part)).into_parts()).unzip();
+    let ends = ends(&rows);
+    let mut rows = join_rows(rows);
+    for (place, range) in places.iter().zip(ends.windows(2)) {
+        if !place.is_same {
+            let rows = &mut rows[range[0]..range[1]];
+            ugparallel::for_each_mut(rows, MIN_ROWS, |_, row| change(row, place));
+        }
     }
+    Rows { rows, spans: join_rows(spans) }
 }
 
-/// Rows of all parts in order, put together on all threads. A part that is not
-/// changed, and holds by far the most, is not copied.
-fn join_rows<T: Clone + Send + Sync>(
-    mut parts: Vec<Vec<T>>,
-    is_same: impl Fn(usize) -> bool,
-    change: impl Fn(&mut T, usize) + Send + Sync,
-) -> Vec<T> {
+/// The rows of all parts in order. Those of the first part are seldom copied.
+fn join_rows<T>(mut parts: Vec<Vec<T>>) -> Vec<T> {
     let n_rows: usize = parts.iter().map(Vec::len).sum();
-    let largest = (0..parts.len()).max_by_key(|&part| parts[part].len()).unwrap_or(0);
-    if n_rows - parts[largest].len() <= n_rows / 8 {
-        for (part, rows) in parts.iter_mut().enumerate().filter(|(part, _)| !is_same(*part)) {
-            rows.par_iter_mut().with_min_len(MIN_ROWS).for_each(|row| change(row, part));
-        }
-        let mut behind = parts.split_off(largest);
-        let mut rows = behind.remove(0);
-        rows.splice(0..0, parts.into_iter().flatten());
-        rows.extend(behind.into_iter().flatten());
-        return rows;
+    let first = parts.iter().position(|part| !part.is_empty()).unwrap_or(0);
+    let mut behind = parts.drain(first..);
+    let mut rows = behind.next().unwrap_or_default();
+    rows.reserve_exact(n_rows - rows.len());
+    behind.for_each(|mut part| rows.append(&mut part));
+    rows
+}
+
+/// Where the rows of each part begin in the file, and where the last ones end.
+fn ends<T>(parts: &[Vec<T>]) -> Vec<usize> {
+    let mut ends = vec![0];
+    for part in parts {
+        ends.push(ends[ends.len() - 1] + part.len());
     }
-    let ends: Vec<usize> = parts
-        .iter()
-        .scan(0, |end, part| {
-            *end += part.len();
-            Some(*end)
-        })
-        .collect();
-    let row_of = |part: &mut usize, idx: usize| {
-        while idx >= ends[*part] {
-            *part += 1;
-        }
-        let mut row = parts[*part][idx + parts[*part].len() - ends[*part]].clone();
-        change(&mut row, *part);
-        row
-    };
-    (0..n_rows).into_par_iter().with_min_len(MIN_ROWS).map_with(0, row_of).collect()
+    ends
 }
 
 /// Contours of all parts, with rows of vertices for corners: those of the first
 /// part by `first_rows`, of the others by `other_rows`.
 fn join_contours(parts: &mut [Group<'_>], first_rows: &[u32], other_rows: &[Vec<u32>]) -> Contours {
-    let (mut corners, mut ends) = (Vec::new(), Vec::new());
-    let mut first_corners = Vec::new();
-    let mut first_corner = 0;
+    let (mut corners, mut contour_ends) = (Vec::new(), Vec::new());
     for part in parts {
         let (part_corners, part_ends) = part.contours.parts_mut();
-        first_corners.push(first_corner);
-        first_corner += part_corners.len() as u32;
         corners.push(std::mem::take(part_corners));
-        ends.push(std::mem::take(part_ends));
+        contour_ends.push(std::mem::take(part_ends));
     }
-    let corners = join_rows(
-        corners,
-        |_| false,
-        |corner: &mut VertexId, part| {
-            let rows = part.checked_sub(1).map_or(first_rows, |other| &other_rows[other][..]);
-            *corner = VertexId(rows[corner.index()]);
-        },
-    );
-    let ends = join_rows(ends, |part| first_corners[part] == 0, |end, part| *end += first_corners[part]);
-    Contours::from_parts(corners, ends)
+    let (of_corners, of_ends) = (ends(&corners), ends(&contour_ends));
+    let (mut corners, mut contour_ends) = (join_rows(corners), join_rows(contour_ends));
+    for (part, (corner_range, end_range)) in of_corners.windows(2).zip(of_ends.windows(2)).enumerate() {
+        let rows = part.checked_sub(1).map_or(first_rows, |other| &other_rows[other][..]);
+        let corners = &mut corners[corner_range[0]..corner_range[1]];
+        ugparallel::for_each_mut(corners, MIN_ROWS, |_, corner| *corner = VertexId(rows[corner.index()]));
+        let first_corner = corner_range[0] as u32;
+        if first_corner > 0 {
+            contour_ends[end_range[0]..end_range[1]].iter_mut().for_each(|end| *end += first_corner);
+        }
+    }
+    Contours::from_parts(corners, contour_ends)
 }

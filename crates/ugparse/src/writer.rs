@@ -27,7 +27,7 @@ pub fn write(scene: &Scene) -> Vec<u8> {
 }
 
 /// Sends the text of a scene, as [`write()`] gives it, to `out` while it is made
-/// on rayon's threads: less memory, and the same bytes on any number of them.
+/// on all threads: less memory, and the same bytes on any number of them.
 ///
 /// # Errors
 /// Those of `out`. It may have got a part of the text.
@@ -106,11 +106,11 @@ impl<'s> Tables<'s, '_> {
             .enumerate()
             .map(|(idx, rows)| self.take_block(idx * BLOCK_ROWS, rows, item))
             .collect();
-        for round in blocks.chunks(BLOCKS_PER_THREAD * rayon::current_num_threads()) {
+        for round in blocks.chunks(BLOCKS_PER_THREAD * ugparallel::n_threads()) {
             match round {
                 // Waking a thread would take longer than a small table.
                 [block] => self.chunked_writer.append(|out| write(block, out)),
-                _ => self.chunked_writer.round(round, write)?,
+                _ => self.chunked_writer.round(round.len(), &|idx, out| write(&round[idx], out))?,
             }
         }
         Ok(())

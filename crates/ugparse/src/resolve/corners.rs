@@ -1,7 +1,5 @@
 //! Corners of faces and wires: from names to rows of vertices.
 
-use rayon::prelude::*;
-
 use super::complaints::read_again;
 use super::left_out::is_linked;
 use crate::group::{Group, NO_ROW, PathCorner};
@@ -9,8 +7,8 @@ use crate::scene::VertexId;
 use crate::source::Span;
 use crate::statement::References;
 
-/// Rows from which on threads are worth their start.
-const MANY_ROWS: usize = 1 << 16;
+/// Rows that a thread should have at least.
+pub(super) const LEAST_ROWS: usize = 1 << 15;
 
 /// Turns numbers of names into rows of vertices; false if a vertex is not defined.
 pub(super) fn link_corners(group: &mut Group<'_>) -> bool {
@@ -20,7 +18,7 @@ pub(super) fn link_corners(group: &mut Group<'_>) -> bool {
     let (corners, _) = group.contours.parts_mut();
     let in_order = rows.iter().enumerate().all(|(number, &row)| number == row as usize);
     if !group.is_linked && !in_order {
-        for_all(corners, |corner| *corner = VertexId(rows[corner.index()]));
+        ugparallel::for_each_mut(corners, LEAST_ROWS, |_, corner| *corner = VertexId(rows[corner.index()]));
     }
     let is_complete = in_order || !corners.contains(&VertexId(NO_ROW));
     group.vertex_names = names;
@@ -50,22 +48,4 @@ pub(super) fn path_corners(text: &[u8], group: &Group<'_>) -> Vec<PathCorner> {
         );
     }
     paths
-}
-
-/// On several threads if there are many.
-pub(super) fn for_all<T: Send>(rows: &mut [T], change: impl Fn(&mut T) + Send + Sync) {
-    if rows.len() < MANY_ROWS {
-        rows.iter_mut().for_each(change);
-    } else {
-        rows.par_iter_mut().with_min_len(MANY_ROWS / 4).for_each(change);
-    }
-}
-
-/// The rows that `test` holds for, on several threads if there are many.
-pub(super) fn rows_where<T: Sync>(rows: &[T], test: impl Fn(&T) -> bool + Sync) -> Vec<usize> {
-    let keep = |(row, value)| test(value).then_some(row);
-    if rows.len() < MANY_ROWS {
-        return rows.iter().enumerate().filter_map(keep).collect();
-    }
-    rows.par_iter().enumerate().with_min_len(MANY_ROWS / 4).filter_map(keep).collect()
 }

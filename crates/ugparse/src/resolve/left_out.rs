@@ -1,7 +1,7 @@
 //! Faces and wires that would draw nothing.
 
 use super::complaints::{read_again, show};
-use super::corners::rows_where;
+use super::corners::LEAST_ROWS;
 use crate::contours::Contours;
 use crate::diagnostic::Diagnostic;
 use crate::group::{Group, NO_ROW};
@@ -18,7 +18,9 @@ pub(super) fn leave_out_flat_faces(
 ) {
     let is_whole = |face: &Face| has_corners || is_linked(group.contours.corners(face.contours.clone()));
     let problem = |face: &Face| flatness(&group.contours, &group.vertices.rows, face);
-    let flat = rows_where(&group.faces.rows, |face| is_whole(face) && problem(face).is_some());
+    let faces = &group.faces.rows;
+    let is_flat = |row: usize| is_whole(&faces[row]) && problem(&faces[row]).is_some();
+    let flat = ugparallel::positions(faces.len(), LEAST_ROWS, is_flat);
     for &row in &flat {
         let problem = problem(&group.faces.rows[row]).unwrap_or_default();
         let span = group.faces.spans[row];
@@ -33,10 +35,10 @@ pub(super) fn leave_out_short_wires(
     has_corners: bool,
     findings: &mut Vec<Diagnostic>,
 ) {
-    let short = rows_where(&group.wires.rows, |wire| {
-        let is_whole = has_corners || is_linked(group.contours.corners(wire.contours.clone()));
-        is_whole && is_short(&group.contours, wire)
-    });
+    let wires = &group.wires.rows;
+    let is_whole = |wire: &Wire| has_corners || is_linked(group.contours.corners(wire.contours.clone()));
+    let is_short = |row: usize| is_whole(&wires[row]) && is_short(&group.contours, &wires[row]);
+    let short = ugparallel::positions(wires.len(), LEAST_ROWS, is_short);
     findings.extend(short.iter().map(|&row| short_wire(text, group.wires.spans[row])));
     group.remove_wires(&short);
 }

@@ -1,7 +1,7 @@
 //! Colours and surfaces: from the tables of the scopes into the scene, and from names to rows.
 
 use super::complaints::show;
-use super::corners::for_all;
+use super::corners::LEAST_ROWS;
 use super::scopes;
 use crate::diagnostic::Diagnostic;
 use crate::group::{Group, shifted};
@@ -104,8 +104,8 @@ pub(super) fn paint(group: &mut Group<'_>, colors: &[Option<usize>]) -> bool {
     }
     let colors: Vec<_> = colors.iter().map(|color| color.map(ColorId::from_index)).collect();
     let paint = |color: &mut Option<ColorId>| *color = color.and_then(|name| colors[name.index()]);
-    for_all(&mut group.vertices.rows, |vertex| paint(&mut vertex.color));
-    for_all(&mut group.faces.rows, |face| paint(&mut face.color));
+    ugparallel::for_each_mut(&mut group.vertices.rows, LEAST_ROWS, |_, vertex| paint(&mut vertex.color));
+    ugparallel::for_each_mut(&mut group.faces.rows, LEAST_ROWS, |_, face| paint(&mut face.color));
     group.wires.rows.iter_mut().for_each(|wire| paint(&mut wire.color));
     group.lights.rows.iter_mut().for_each(|light| paint(&mut light.color));
     group.calls.rows.iter_mut().for_each(|call| paint(&mut call.color));
