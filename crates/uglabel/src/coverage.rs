@@ -1,20 +1,21 @@
-//! How much of each pixel a shape covers.
+//! Pixel coverage of shapes (antialiasing).
 
 use tiny_skia::{FillRule, Mask, Path, PathBuilder, Transform};
 use ugimage::figure::Point;
 
 use crate::drawing::Shape;
 
-/// Rows and columns of a mask for a pixel; tiny-skia takes 4 × 4 samples for each cell of it.
+/// Mask cells per pixel, along each axis; tiny-skia takes 4 × 4 samples per cell.
 const FINE: u32 = 4;
 
-/// Pixels along a side of a tile, which is covered at once.
+/// Largest side of a tile, in pixels. Coverage is computed tile by tile.
 pub const TILE: u32 = 256;
 
-/// What is farther from a tile than this, in pixels, is moved there: coordinates are single precision.
+/// Coordinates are clamped to this distance from a tile, in pixels, because tiny-skia uses single
+/// precision.
 const FAR: f64 = 1e4;
 
-/// A rectangle of pixels.
+/// A rectangle of pixels whose coverage is computed at once.
 #[derive(Clone, Copy, Debug)]
 pub struct Tile {
     /// Column and row of its upper left pixel.
@@ -24,7 +25,8 @@ pub struct Tile {
 }
 
 impl Tile {
-    /// The covered part of each of its pixels, row after row; `None` if it is nothing.
+    /// The coverage, 0…1, of each pixel of the tile, row after row; `None` if the shape does not
+    /// reach into the tile.
     pub fn coverage(self, shape: &Shape) -> Option<Vec<f32>> {
         let (path, rule) = match shape {
             Shape::Area { contours, .. } => {
@@ -32,7 +34,8 @@ impl Tile {
             }
             Shape::Lines { lines, width, .. } => {
                 let strips: Vec<Vec<Point>> = lines.iter().map(|&line| strip(line, 0.5 * width)).collect();
-                // All run round the same way, so that they are one where they overlap.
+                // All strips have the same orientation, so the nonzero winding rule fills their
+                // union.
                 (self.path(strips.iter().map(Vec::as_slice)), FillRule::Winding)
             }
         };
@@ -61,7 +64,8 @@ impl Tile {
         parts
     }
 
-    /// The outlines that reach into the tile, in cells of its mask.
+    /// The outlines that may reach into the tile, in mask cells. Outlines with NaN coordinates are
+    /// skipped.
     fn path<'a>(self, contours: impl Iterator<Item = &'a [Point]>) -> Option<Path> {
         let [left, top] = self.first.map(f64::from);
         let [right, bottom] = [left + f64::from(self.size[0]), top + f64::from(self.size[1])];
@@ -87,7 +91,7 @@ impl Tile {
     }
 }
 
-/// A line as a rectangle.
+/// A line as a rectangle of half width `half`; empty if its ends coincide.
 fn strip([a, b]: [Point; 2], half: f64) -> Vec<Point> {
     let (x, y) = (b[0] - a[0], b[1] - a[1]);
     let length = libm::hypot(x, y);

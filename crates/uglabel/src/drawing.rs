@@ -1,29 +1,29 @@
-//! Shapes of one colour, in the order of painting.
+//! Shapes of one colour each, in painting order.
 
 use ugimage::figure::{Element, Point, Rgb};
 
 use crate::text::Line;
 
-/// What is drawn on a picture.
+/// A list of shapes to be painted over an image.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Drawing {
-    /// In the order of painting.
+    /// The shapes, in painting order.
     pub shapes: Vec<Shape>,
 }
 
-/// What is painted in one go.
+/// A shape of one colour.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Shape {
-    /// An area; inside by the even-odd rule.
+    /// An area, filled by the even-odd rule.
     Area {
-        /// Its outlines.
+        /// The outlines.
         contours: Vec<Vec<Point>>,
-        /// Its colour.
+        /// The fill colour.
         color: Rgb,
     },
-    /// Lines with ends cut straight; where they overlap they are one.
+    /// Lines with butt ends. Overlapping lines are painted as one shape.
     Lines {
-        /// From where to where.
+        /// The two ends of each line.
         lines: Vec<[Point; 2]>,
         /// Their width in pixels.
         width: f64,
@@ -50,7 +50,7 @@ impl Drawing {
         }
     }
 
-    /// Adds a line of text whose base line begins at `origin`.
+    /// Adds a line of text whose baseline begins at `origin`.
     pub fn text(&mut self, line: &Line, origin: Point, color: Rgb) {
         let contours = line.contours(origin);
         if !contours.is_empty() {
@@ -58,7 +58,7 @@ impl Drawing {
         }
     }
 
-    /// Adds an arrow from one place to another; `width` is that of its shaft.
+    /// Adds an arrow from one point to another; `width` is the width of its shaft.
     pub fn arrow(&mut self, [from, to]: [Point; 2], width: f64, color: Rgb) {
         let (x, y) = (to[0] - from[0], to[1] - from[1]);
         let length = libm::hypot(x, y);
@@ -69,7 +69,7 @@ impl Drawing {
         let head = (6.0 * width).min(0.7 * length);
         let neck = [to[0] - head * x, to[1] - head * y];
         let side = |by: f64| [neck[0] - by * y, neck[1] + by * x];
-        // The shaft ends within the head, so that no gap shows.
+        // The shaft ends inside the head, so that there is no gap between them.
         let end = [neck[0] + 0.5 * head * x, neck[1] + 0.5 * head * y];
         self.lines(vec![[from, end]], width, color);
         self.area(vec![to, side(0.42 * head), side(-0.42 * head)], color);
@@ -80,7 +80,7 @@ impl Drawing {
         self.shapes.extend(other.shapes);
     }
 
-    /// The same as elements of a figure of areas.
+    /// The shapes as elements of a vector figure.
     pub fn elements<S>(&self) -> Vec<Element<S>> {
         let mut elements = Vec::new();
         for shape in &self.shapes {

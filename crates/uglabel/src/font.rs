@@ -1,17 +1,17 @@
-//! The font: characters as outlines of straight lines.
+//! The font: glyph outlines, flattened to straight lines.
 
 use std::fmt;
 
 use ab_glyph::{Font, FontRef, GlyphId, OutlineCurve};
 use ugimage::figure::Point;
 
-/// DejaVu Sans; its licence stands beside it.
+/// DejaVu Sans; its licence is in the same folder.
 const FONT: &[u8] = include_bytes!("../font/DejaVuSans.ttf");
 
-/// How far an outline may be from the curve it stands for, in pixels.
+/// Largest distance in pixels between a Bézier curve and its flattened outline.
 const TOLERANCE: f64 = 0.01;
 
-/// A character that the font lacks.
+/// The font has no glyph for this character.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct MissingCharacter(pub char);
 
@@ -21,8 +21,8 @@ impl fmt::Display for MissingCharacter {
         let shown = if character.is_control() { '\u{fffd}' } else { character };
         write!(
             f,
-            "the font has no `{shown}` (U+{:04X}); it has Latin and Greek letters, superscripts and subscripts, arrows and \
-             signs such as × ° − ≈ √",
+            "the font has no `{shown}` (U+{:04X}); it has Latin and Greek letters, superscripts and \
+             subscripts, arrows and signs such as × ° − ≈ √",
             u32::from(character)
         )
     }
@@ -33,19 +33,19 @@ impl std::error::Error for MissingCharacter {}
 /// The font at a size.
 pub struct Sized {
     font: FontRef<'static>,
-    /// Pixels a unit of the font.
+    /// Pixels per font unit.
     scale: f64,
 }
 
-/// A character of it.
+/// A glyph of the font.
 #[derive(Clone, Copy, PartialEq)]
 pub struct Glyph(GlyphId);
 
 impl Sized {
-    /// `size`: of the em, in pixels.
+    /// The font at em size `size`, in pixels.
     pub fn new(size: f64) -> Self {
-        let font = FontRef::try_from_slice(FONT).expect("the font that is part of the program is sound");
-        let units = font.units_per_em().expect("the font says its units");
+        let font = FontRef::try_from_slice(FONT).expect("the embedded font is valid");
+        let units = font.units_per_em().expect("the embedded font has units per em");
         Self { font, scale: size / f64::from(units) }
     }
 
@@ -57,13 +57,13 @@ impl Sized {
         }
     }
 
-    /// How far it is from one glyph to the next, in pixels.
+    /// The distance from one glyph's origin to that of the next, in pixels, including kerning.
     pub fn advance(&self, glyph: Glyph, next: Option<Glyph>) -> f64 {
         let kern = next.map_or(0.0, |next| self.font.kern_unscaled(glyph.0, next.0));
         self.scale * f64::from(self.font.h_advance_unscaled(glyph.0) + kern)
     }
 
-    /// The outlines of a glyph whose origin, on the base line, is at a place.
+    /// The outlines of a glyph whose origin, on the baseline, is at `origin`.
     pub fn contours(&self, glyph: Glyph, origin: Point) -> Vec<Vec<Point>> {
         let mut contours: Vec<Vec<Point>> = Vec::new();
         let Some(outline) = self.font.outline(glyph.0) else { return contours };
@@ -93,20 +93,21 @@ impl Sized {
     }
 }
 
-/// Adds a Bézier curve of straight lines, without its last point.
+/// Appends a Bézier curve, flattened to straight lines, without its last point.
 fn push_curve(controls: &[Point], contour: &mut Vec<Point>) {
     let bend = controls.windows(3).map(|triple| {
         let [x, y] = [0, 1].map(|i| triple[0][i] - 2.0 * triple[1][i] + triple[2][i]);
         libm::hypot(x, y)
     });
-    // Enough lines for a cubic curve with this bend, and more than enough for a quadratic one.
+    // The error bound of flattening a cubic curve with these second differences; a quadratic curve
+    // needs fewer lines.
     let n_lines = libm::sqrt(0.75 * bend.fold(0.0, f64::max) / TOLERANCE).ceil().max(1.0);
     for step in 0..n_lines as u32 {
         contour.push(at(controls.to_vec(), f64::from(step) / n_lines));
     }
 }
 
-/// The point of a Bézier curve, by de Casteljau.
+/// The point of a Bézier curve at parameter `part`, by de Casteljau's algorithm.
 fn at(mut points: Vec<Point>, part: f64) -> Point {
     while points.len() > 1 {
         points = points
@@ -129,7 +130,7 @@ mod tests {
             .chain('α'..='ω')
             .chain("βγλν×°−→⟵←↑↓≈≤≥⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁺₀₁₂₃′″–—‘’“”…√∞⊙⊗".chars())
         {
-            // The long arrow is not in the list of the font.
+            // The long arrow is not among the characters of the subset font.
             assert_eq!(font.glyph(character).is_ok(), character != '⟵', "{character}");
         }
     }
@@ -140,7 +141,8 @@ mod tests {
         assert!(missing.to_string().starts_with("the font has no `漢` (U+6F22); it has"), "{missing}");
     }
 
-    /// Figures of areas fill by the even-odd rule, fonts are made for the other.
+    /// Vector figures are filled by the even-odd rule, but fonts are designed for the nonzero
+    /// winding rule. Both agree if no outlines overlap.
     #[test]
     fn no_glyph_has_outlines_that_overlap() {
         let font = Sized::new(200.0);

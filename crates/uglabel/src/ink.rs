@@ -1,12 +1,13 @@
-//! The colour of text.
+//! The text colour for a background.
 
 use ugimage::figure::Rgb;
 use ugphysics::{luminance, srgb_decode};
 
-/// A ground that is lighter than this, in linear light, contrasts more with black than with white.
+/// A background of higher luminance (in linear light) than this has more contrast to black than to
+/// white.
 const MIDDLE: f64 = 0.179;
 
-/// Black or white, whichever contrasts more with a ground.
+/// Black or white, whichever has more contrast to a background.
 pub fn ink_on(ground: Rgb) -> Rgb {
     let light = luminance(ground.map(|level| srgb_decode(f64::from(level) / 255.0)));
     if light > MIDDLE { [0; 3] } else { [255; 3] }

@@ -1,15 +1,17 @@
-//! Text and lines on pictures: captions, legends, grids.
+//! Text and lines on images: captions, legends, grids.
 //!
-//! A [`Drawing`] is a list of shapes, areas and lines of one colour each, in pixels from the upper left corner. It
-//! is painted on a frame ([`Drawing::paint`], [`Drawing::paint_light`]), with smooth edges, or
-//! becomes the elements of a figure of areas ([`Drawing::elements`]), so both show the same.
+//! A [`Drawing`] is a list of shapes, areas and lines of one colour each, in pixels from the upper
+//! left corner. It is painted, antialiased, on a frame ([`Drawing::paint`],
+//! [`Drawing::paint_light`]), or converted to elements of a vector figure ([`Drawing::elements`]);
+//! both look the same.
 //!
-//! Text ([`Line`], [`wrapped`]) is areas, too: the outlines of a font that is part of the program, DejaVu Sans with Latin,
-//! Greek, figures above and below the line, arrows and signs of mathematics. A character that it lacks is an error
-//! ([`MissingCharacter`]), not a box. Text runs from left to right, and a character is one glyph.
+//! Text ([`Line`], [`wrapped`]) consists of areas, too: the glyph outlines of an embedded font,
+//! DejaVu Sans with Latin and Greek letters, superscript and subscript digits, arrows and
+//! mathematical signs. A character that the font lacks is an error ([`MissingCharacter`]); no
+//! placeholder box is drawn. Text runs from left to right, with one glyph per character.
 //!
-//! The same drawing gives the same bytes everywhere: outlines are made of straight lines, and their coverage of pixels
-//! is counted in whole numbers.
+//! The same drawing gives the same bytes on every platform: outlines consist of straight lines, and
+//! their pixel coverage is computed in integers.
 //!
 //! ```
 //! use uglabel::{Drawing, Line};

@@ -1,8 +1,9 @@
-//! Numbers as a textbook prints them.
+//! Numbers formatted as in textbooks.
 
 use ugphysics::Velocity;
 
-/// A number with so many digits that count, trailing zeros left out: `2.294`, `1.3×10⁻⁵`, `−0.5`.
+/// A number rounded to `digits` significant digits, without trailing zeros: `2.294`, `1.3×10⁻⁵`,
+/// `−0.5`.
 pub fn significant(number: f64, digits: usize) -> String {
     let scientific = format!("{:.*e}", digits - 1, number);
     let Some((mantissa, exponent)) = scientific.split_once('e') else { return scientific };
@@ -14,10 +15,11 @@ pub fn significant(number: f64, digits: usize) -> String {
     format!("{}×10{}", minus(trimmed(mantissa)), raised(exponent))
 }
 
-/// β, with as many decimals as tell it from 1.
+/// The speed β, with enough decimals to distinguish it from 1; as `1 − …` if that takes more than
+/// 10.
 pub fn speed(v: Velocity) -> String {
     let beta = v.speed();
-    // 1 − β, without cancellation.
+    // 1 − β = 1/(γ²(1 + β)), without cancellation.
     let slack = 1.0 / (v.gamma() * v.gamma() * (1.0 + beta));
     if beta < 0.1 {
         return significant(beta, 3);
@@ -29,7 +31,8 @@ pub fn speed(v: Velocity) -> String {
     trimmed(&format!("{beta:.*}", decimals as usize)).to_owned()
 }
 
-/// Several numbers: all of them if they are few, else the first and the last. Equal ones are one.
+/// A list of formatted numbers in order: up to three are listed, more become a range from the first
+/// to the last. Repeated neighbours count once.
 pub fn few(mut texts: Vec<String>) -> String {
     texts.dedup();
     match texts.as_slice() {
@@ -38,7 +41,7 @@ pub fn few(mut texts: Vec<String>) -> String {
     }
 }
 
-/// From one number to another.
+/// A range, or a single number if both ends are equal.
 pub fn range(low: &str, high: &str) -> String {
     if low == high { low.to_owned() } else { format!("{low} – {high}") }
 }

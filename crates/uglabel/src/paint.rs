@@ -1,7 +1,7 @@
-//! Drawings on frames of pixels.
+//! Painting drawings on frames of pixels.
 //!
-//! Ink and ground are mixed as display-encoded levels, not as light: so do all programs that show PDF, PostScript and SVG,
-//! and so letters have one weight, black on white and white on black.
+//! Ink and background are blended in display encoding, not in linear light. PDF, PostScript and SVG
+//! viewers do the same, and letters look equally bold black on white and white on black.
 
 use ugimage::{Frame, LinearFrame};
 use ugphysics::{srgb_decode, srgb_encode};
@@ -10,7 +10,7 @@ use crate::coverage::{TILE, Tile};
 use crate::drawing::{Drawing, Shape};
 
 impl Drawing {
-    /// Paints it on a frame. Pixels that no shape touches keep their bytes.
+    /// Paints the drawing on a frame. Pixels that no shape covers keep their bytes.
     pub fn paint(&self, frame: &mut Frame) {
         let is_opaque = frame.is_opaque();
         let size = [frame.width(), frame.height()];
@@ -19,12 +19,13 @@ impl Drawing {
             let [red, green, blue, alpha] = pixels[idx].map(f32::from);
             let below = if is_opaque { 1.0 } else { alpha / 255.0 };
             let ([red, green, blue], all) = over(color.map(f32::from), part, [red, green, blue], below);
-            // A cast from float to integer saturates.
+            // The casts to integers saturate.
             pixels[idx] = [red, green, blue, 255.0 * all].map(|level| level.round() as u8);
         });
     }
 
-    /// Paints it on a frame of light that has been developed, so that white is 1.
+    /// Paints the drawing on a frame of linear light that is already tone-mapped, so that white is
+    /// 1.
     pub fn paint_light(&self, frame: &mut LinearFrame) {
         let size = [frame.width(), frame.height()];
         let is_opaque = frame.is_opaque();
@@ -39,7 +40,8 @@ impl Drawing {
         });
     }
 
-    /// Gives `mix` the number of each pixel that a shape covers, with the colour of the shape and how much of it.
+    /// Calls `mix` for each pixel that a shape covers, with the pixel's index, the colour of the
+    /// shape and the coverage, 0…1.
     fn for_each_covered(&self, [width, height]: [u32; 2], mut mix: impl FnMut(usize, [u8; 3], f32)) {
         for shape in &self.shapes {
             let (Shape::Area { color, .. } | Shape::Lines { color, .. }) = shape;
@@ -59,7 +61,8 @@ impl Drawing {
     }
 }
 
-/// Ink that covers a part, over levels of which a part is there: levels, and the part that is there then.
+/// Porter–Duff "over", not premultiplied: `ink` with alpha `part` over `under` with alpha `below`.
+/// Returns the blended colour and alpha.
 fn over(ink: [f32; 3], part: f32, under: [f32; 3], below: f32) -> ([f32; 3], f32) {
     let left = below * (1.0 - part);
     let all = part + left;
@@ -101,7 +104,7 @@ mod tests {
         }
     }
 
-    /// Letters have one weight on both grounds.
+    /// Letters are equally bold on black and on white.
     #[test]
     fn black_on_white_is_white_on_black() {
         let mut frames = [Frame::opaque(60, 20), Frame::opaque(60, 20)];
@@ -113,7 +116,7 @@ mod tests {
         }
         let [black, white] = &frames;
         for (light, dark) in black.pixels().iter().zip(white.pixels()) {
-            // Rounding may go either way.
+            // The results may be rounded in opposite directions.
             assert!(light[0].abs_diff(255 - dark[0]) <= 1, "{light:?} {dark:?}");
         }
     }
@@ -128,7 +131,7 @@ mod tests {
         assert!(alpha.abs_diff(128) <= 1, "{alpha}");
     }
 
-    /// Lines that overlap, of any direction, cover as one.
+    /// Overlapping lines of any direction are covered as their union.
     #[test]
     fn lines_that_cross_are_one() {
         let mut frame = Frame::opaque(20, 20);

@@ -1,28 +1,28 @@
-//! Text: lines of characters, and paragraphs of lines.
+//! Lines of text, and paragraphs broken into lines.
 
 use ugimage::figure::Point;
 
 use crate::font::{Glyph, MissingCharacter, Sized};
 
-/// How far letters reach above the base line, accents of small letters included, in parts of the size.
+/// Height of letters above the baseline, including accents on lower-case letters, in em.
 pub const ASCENT: f64 = 0.8;
 
-/// How far they reach below it.
+/// Depth of letters below the baseline, in em.
 pub const DESCENT: f64 = 0.25;
 
-/// From one base line to the next.
+/// Distance from one baseline to the next, in em.
 pub const SPACING: f64 = 1.35;
 
 /// A line of text at a size.
 pub struct Line {
     font: Sized,
-    /// Each with its distance from the left end.
+    /// Each glyph with the distance of its origin from the left end, in pixels.
     glyphs: Vec<(Glyph, f64)>,
     width: f64,
 }
 
 impl Line {
-    /// `size`: of the em, in pixels. Tabs and line ends count as blanks.
+    /// Sets `text` at em size `size`, in pixels. Tabs and line breaks become spaces.
     ///
     /// # Errors
     /// The font lacks a character.
@@ -45,16 +45,16 @@ impl Line {
         self.width
     }
 
-    /// The outlines of all its characters; `origin`: the left end of the base line.
+    /// The outlines of all characters, for a baseline that begins at `[x, y]`.
     pub fn contours(&self, [x, y]: Point) -> Vec<Vec<Point>> {
         let contours = |&(glyph, place): &(Glyph, f64)| self.font.contours(glyph, [x + place, y]);
         self.glyphs.iter().flat_map(contours).collect()
     }
 }
 
-/// Text in lines not wider than `width` pixels: broken at line ends, else between words, and within a word only if it
-/// is too wide alone. Blanks at either end of a line are left out, and lines are lost that have nothing else at the
-/// end of the text.
+/// Text broken into lines of at most `width` pixels: at line breaks, between words, and inside a
+/// word only if the word alone is too wide. Spaces at both ends of a line and blank lines at the
+/// end of the text are removed.
 ///
 /// # Errors
 /// The font lacks a character.
@@ -78,7 +78,7 @@ pub fn wrapped(text: &str, size: f64, width: f64) -> Result<Vec<Line>, MissingCh
     Ok(lines)
 }
 
-/// Adds full lines of a word that is too wide; what is left of it.
+/// Breaks a word that may be too wide: adds its full lines to `lines` and returns the rest.
 fn broken(word: &str, size: f64, width: f64, lines: &mut Vec<Line>) -> Result<String, MissingCharacter> {
     let mut part = String::new();
     for character in word.chars() {
@@ -106,7 +106,7 @@ mod tests {
             let lines = wrapped(text, 12.0, width).unwrap();
             assert!(lines.iter().all(|line| line.width() <= width));
             let glyphs: usize = lines.iter().map(|line| line.glyphs.len()).sum();
-            // Blanks within lines come on top.
+            // At least, because spaces within lines also count.
             assert!(glyphs >= whole, "{width}");
             assert!(lines.iter().any(|line| line.glyphs.is_empty()), "the empty line stays");
         }
@@ -125,7 +125,7 @@ mod tests {
         for text in ["Éßgjpqy|ﬁ", "(γ = 2,29)²", "ÀÂÅ Ωβ∫"] {
             let contours = Line::new(text, 100.0).unwrap().contours([0.0, 0.0]);
             let rows: Vec<f64> = contours.iter().flatten().map(|place| place[1]).collect();
-            // Accents of capitals reach higher than other letters.
+            // Accents on capitals reach higher than ASCENT.
             assert!(
                 rows.iter().all(|row| (-100.0 * (ASCENT + 0.2)..=100.0 * DESCENT).contains(row)),
                 "{text}"

@@ -1,4 +1,5 @@
-//! A small program on `ugpipe`: copies its input to its output, and says and fails as told.
+//! A small program that uses `ugpipe`: copies its input to its output, and prints messages or fails
+//! on request.
 
 use std::process::ExitCode;
 
@@ -9,16 +10,16 @@ use ugpipe::{CommonArgs, Failure, Progress, Stage, ToolArgs};
 #[derive(Parser)]
 #[command(name = "ugcat", version, before_help = ugpipe::ONE_DASH)]
 struct Args {
-    /// Velocity, for the head line only
+    /// Velocity, recorded in the head comment only
     #[arg(long, visible_alias = "velocity", value_names = ["X", "Y", "Z"], num_args = 3,
           action = ArgAction::Set, allow_hyphen_values = true, value_parser = ugpipe::finite)]
     vel: Option<Vec<f64>>,
 
-    /// View angle, for the head line only
+    /// View angle, recorded in the head comment only
     #[arg(long, value_names = ["A", "B"], num_args = 1..=2, value_parser = ugpipe::finite)]
     va: Option<Vec<f64>>,
 
-    /// Title, for the head line only
+    /// Title, recorded in the head comment only
     #[arg(long, allow_hyphen_values = true)]
     title: Option<String>,
 
@@ -26,15 +27,15 @@ struct Args {
     #[arg(long)]
     head: bool,
 
-    /// Say one of everything
+    /// Print a message of every kind
     #[arg(long)]
     say: bool,
 
-    /// Work in two steps, the second for so many seconds
+    /// Work in two steps, the second of which takes WORK seconds
     #[arg(long, value_parser = ugpipe::finite)]
     work: Option<f64>,
 
-    /// Fail in this way when all is written
+    /// Fail in this way after writing the output
     #[arg(long)]
     fail: Option<Way>,
 

@@ -1,21 +1,22 @@
-//! Options that mean the same in every program, and readers of numbers.
+//! Options that are the same in every program, and value parsers for numbers.
 
 use std::path::{Path, PathBuf};
 
-/// One sentence for the help of every program: `#[command(before_help = ugpipe::ONE_DASH)]`.
+/// A sentence for the help of every program: `#[command(before_help = ugpipe::ONE_DASH)]`.
 pub const ONE_DASH: &str =
     "Every long option may be written with one dash, as in 1988: -fi FILE is --fi FILE.";
 
-/// Ids of options that choose streams, talk and threads: those below, `files` for more files to read
-/// ([`crate::Stage::input_file`]), and `at` for a second file to write ([`crate::Stage::write_file`]). They do not change what is computed, so the recorded command line leaves
-/// them out.
+/// Ids of the options for files, messages and threads: those below, `files` for additional input
+/// files ([`crate::Stage::input_file`]), and `at` for a second output file
+/// ([`crate::Stage::write_file`]). They do not affect the content of the output, so the recorded
+/// command line omits them.
 pub(crate) const WITHOUT_EFFECT: [&str; 9] = ["file", "files", "fi", "fo", "fm", "qt", "vb", "nt", "at"];
 
-/// Options of every program. Put it last in the program's own arguments:
+/// The options that every program has. Put them last in the program's own arguments:
 /// `#[command(flatten)] common: CommonArgs`.
 #[derive(clap::Args, Clone, Debug, Default, PartialEq, Eq)]
 pub struct CommonArgs {
-    /// File to read; `-` or none is standard input
+    /// File to read [default: `-`, standard input]
     #[arg(id = "file", value_name = "FILE", conflicts_with = "fi")]
     file: Option<PathBuf>,
 
@@ -27,8 +28,8 @@ pub struct CommonArgs {
 
     /// Write FILE; `-` is standard output
     ///
-    /// A regular FILE appears whole or not at all: it is written beside its place and
-    /// renamed when all went well. May be written with one dash: -fo FILE.
+    /// A regular FILE is written atomically: to a temporary file in the same folder, which is
+    /// renamed when the program succeeds. May be written with one dash: -fo FILE.
     #[arg(long, value_name = "FILE", visible_alias = "output", help_heading = COMMON)]
     fo: Option<PathBuf>,
 
@@ -40,31 +41,31 @@ pub struct CommonArgs {
 
     /// Warn about unknown statements and pass them on
     ///
-    /// Otherwise they are errors. May be written with one dash: -lax.
+    /// Without this option they are errors. May be written with one dash: -lax.
     #[arg(long, help_heading = COMMON)]
     lax: bool,
 
     /// Run the programs that `execute` statements name
     ///
-    /// They may do whatever you may: only for scenes you trust. Otherwise such statements are errors.
-    /// May be written with one dash: -allow-execute.
+    /// These programs run with your permissions, so use this only for scenes you trust. Without
+    /// this option such statements are errors. May be written with one dash: -allow-execute.
     #[arg(long, help_heading = COMMON)]
     allow_execute: bool,
 
-    /// Set a limit of what a scene may ask for, as in statements=100000000
+    /// Change a limit on the size of scenes, as in statements=100000000
     ///
-    /// Names of limits: text, includes, files, nesting, chain, statements, corners, names; the page on UniGrafix
-    /// says what they are. May be written with one dash, and more than once: -limit NAME=N.
+    /// Names of limits: text, includes, files, nesting, chain, statements, corners, names; see
+    /// docs/unigrafix.md. May be written with one dash, and more than once: -limit NAME=N.
     #[arg(long, value_name = "NAME=N", value_parser = limit, help_heading = COMMON)]
     limit: Vec<(String, u64)>,
 
-    /// Print errors only, no notes and warnings
+    /// Print only errors, no notes or warnings
     ///
     /// May be written with one dash: -qt.
     #[arg(long, visible_alias = "quiet", conflicts_with = "vb", help_heading = COMMON)]
     qt: bool,
 
-    /// Say what was done, with times
+    /// Print what was done, with timings
     ///
     /// May be written with one dash: -vb.
     #[arg(long, visible_alias = "verbose", help_heading = COMMON)]
@@ -72,7 +73,7 @@ pub struct CommonArgs {
 
     /// Use N threads [default: all]
     ///
-    /// The bytes written do not depend on N. May be written with one dash: -nt N.
+    /// The output does not depend on N. May be written with one dash: -nt N.
     #[arg(long, value_name = "N", visible_alias = "threads", help_heading = COMMON,
           value_parser = clap::value_parser!(u16).range(1..=1024))]
     nt: Option<u16>,
@@ -81,52 +82,52 @@ pub struct CommonArgs {
 const COMMON: &str = "Common options";
 
 impl CommonArgs {
-    /// File to read; none is standard input.
+    /// The input file; `None` is standard input.
     pub fn input(&self) -> Option<&Path> {
         self.input_named().filter(|path| !is_dash(path))
     }
 
-    /// File to write; none is standard output.
+    /// The output file; `None` is standard output.
     pub fn output(&self) -> Option<&Path> {
         self.fo.as_deref().filter(|path| !is_dash(path))
     }
 
-    /// File for messages; none is standard error.
+    /// The file for messages; `None` is standard error.
     pub fn messages(&self) -> Option<&Path> {
         self.fm.as_deref().filter(|path| !is_dash(path))
     }
 
-    /// Unknown statements are warned about and passed on, not refused.
+    /// True if unknown statements cause warnings and are passed on, rather than being errors.
     pub fn lax(&self) -> bool {
         self.lax
     }
 
-    /// Programs that the input names may be run.
+    /// True if programs that the input names may be run.
     pub fn allow_execute(&self) -> bool {
         self.allow_execute
     }
 
-    /// Limits that were set, in order; what their names mean is not known here.
+    /// The limits that were set, in order. Their names are not checked here.
     pub fn limits(&self) -> &[(String, u64)] {
         &self.limit
     }
 
-    /// Notes and warnings are not wanted.
+    /// True if notes and warnings are suppressed.
     pub fn quiet(&self) -> bool {
         self.qt
     }
 
-    /// Details are wanted.
+    /// True if details are printed.
     pub fn verbose(&self) -> bool {
         self.vb
     }
 
-    /// Number of threads asked for; none is all there are.
+    /// The requested number of threads; `None` means one per core.
     pub fn threads(&self) -> Option<usize> {
         self.nt.map(usize::from)
     }
 
-    /// Input as named by the user, `-` included.
+    /// The input file as given by the user, including `-`.
     pub(crate) fn input_named(&self) -> Option<&Path> {
         self.fi.as_deref().or(self.file.as_deref())
     }
@@ -136,21 +137,21 @@ fn is_dash(path: &Path) -> bool {
     path.as_os_str() == "-"
 }
 
-/// `NAME=N`
+/// Value parser for `NAME=N`.
 fn limit(word: &str) -> Result<(String, u64), String> {
     let (name, value) = word.split_once('=').ok_or("write NAME=N")?;
     let is_whole = !value.is_empty() && value.bytes().all(|byte| byte.is_ascii_digit());
-    let value = value.parse().ok().filter(|_| is_whole).ok_or("N is not a whole number, or too large")?;
+    let value = value.parse().ok().filter(|_| is_whole).ok_or("N must be a whole number below 2^64")?;
     Ok((name.to_owned(), value))
 }
 
 /// Value parser of every option that takes a number: `value_parser = ugpipe::finite`.
 ///
-/// Takes what `f64` takes (`.9`, `5.`, `+1`, `-1e-3`) but no infinities and no NaN,
-/// so `1e999` is refused too.
+/// Accepts the same syntax as `f64` (`.9`, `5.`, `+1`, `-1e-3`), but neither infinities nor NaN; so
+/// `1e999` is an error, too.
 ///
 /// # Errors
-/// Says that the word is not a finite number; clap names the word and the option.
+/// The word is not a finite number. clap adds the word and the option to the message.
 pub fn finite(word: &str) -> Result<f64, String> {
     word.parse()
         .ok()
@@ -158,16 +159,16 @@ pub fn finite(word: &str) -> Result<f64, String> {
         .ok_or_else(|| "not a finite number".to_owned())
 }
 
-/// Value parser of options that take a view angle, in degrees: it is above 0 and below 180.
+/// Value parser of options that take a view angle, in degrees, above 0 and below 180.
 ///
 /// # Errors
-/// Says so; clap names the word and the option.
+/// The word is not such an angle. clap adds the word and the option to the message.
 pub fn view_angle(word: &str) -> Result<f64, String> {
     let degrees = finite(word)?;
     if 0.0 < degrees && degrees < 180.0 {
         Ok(degrees)
     } else {
-        Err("a view angle is more than 0 and less than 180 degrees".to_owned())
+        Err("the view angle must be above 0 and below 180 degrees".to_owned())
     }
 }
 
@@ -184,10 +185,10 @@ pub fn view_angle(word: &str) -> Result<f64, String> {
 /// assert_eq!(ugpipe::vector(args.vel.as_deref()), Some([-0.9, 0.0, 0.001]));
 /// ```
 ///
-/// `action = Set` refuses a second `-vel` (a `Vec` would otherwise grow to six numbers), and
-/// `allow_hyphen_values` is needed for `-.9`, which clap does not take for a number.
+/// `action = Set` makes a second `-vel` an error (otherwise the `Vec` would grow to six numbers).
+/// `allow_hyphen_values` is needed for `-.9`, which clap does not recognize as a number.
 ///
-/// None when the option was not given.
+/// `None` if the option was not given.
 pub fn vector(numbers: Option<&[f64]>) -> Option<[f64; 3]> {
     numbers?.try_into().ok()
 }

@@ -1,12 +1,12 @@
 //! Historical spelling of options: `-vel .9 0 0` for `--vel .9 0 0`.
 //!
-//! clap knows long options with two dashes only and reads `-vel` as the cluster
-//! `-v -e -l`. So words are rewritten before clap sees them, for exactly the long
-//! names the [`Command`] declares. Values of options are stepped over, as is all
-//! after `--`. A long name wins over a cluster of short ones.
+//! clap accepts long options only with two dashes and parses `-vel` as the cluster `-v -e -l`. So
+//! the arguments are rewritten before clap parses them, for exactly the long names that the
+//! [`Command`] declares. Values of options are skipped, as is everything after `--`. A long name
+//! takes precedence over a cluster of short ones.
 //!
-//! Known limit: the value in the word after a *short* option is not stepped over. The
-//! only short options of our programs are `-h` and `-V`, which take none.
+//! Known limitation: a value in the argument after a *short* option is not skipped. The only short
+//! options of our programs are `-h` and `-V`, which take no values.
 
 use std::ffi::{OsStr, OsString};
 use std::iter::Peekable;
@@ -16,14 +16,14 @@ use clap::{Arg, ArgAction, Command};
 
 use crate::args::finite;
 
-/// Word that ends the values of an option with a variable number of them.
-/// The rewriter writes it for clap; no user has to.
+/// Terminates the values of an option with a variable number of them. [`rewrite`] inserts it for
+/// clap; users do not write it.
 const END_OF_VALUES: &str = ";";
 
-/// Completes a command, with `--help` and `--version`, for [`rewrite`].
+/// Prepares a command for [`rewrite`], including `--help` and `--version`.
 ///
-/// An option with a variable number of values (`-va A [B]`) gets an end mark, so that
-/// the file in `-va 40 ship.ug` is not taken for its second value.
+/// An option with a variable number of values (`-va A [B]`) gets a value terminator, so that the
+/// file in `-va 40 ship.ug` is not parsed as its second value.
 pub(crate) fn prepare(command: Command) -> Command {
     let mut command = command.mut_args(|arg| match arg.get_num_args() {
         Some(range) if is_variable(range) && arg.get_long().is_some() => {
@@ -35,7 +35,7 @@ pub(crate) fn prepare(command: Command) -> Command {
     command
 }
 
-/// The arguments as clap wants them. The first is the name of the program and stays.
+/// Rewrites the arguments for clap. The first is the program name and is not changed.
 pub(crate) fn rewrite(command: &Command, argv: impl IntoIterator<Item = OsString>) -> Vec<OsString> {
     let mut words = argv.into_iter().peekable();
     let mut rewritten = Vec::from_iter(words.next());
@@ -57,11 +57,11 @@ pub(crate) fn rewrite(command: &Command, argv: impl IntoIterator<Item = OsString
     rewritten
 }
 
-/// A word that names a long option.
+/// An argument that names a long option.
 struct Spelled<'a> {
     arg: &'a Arg,
     has_two_dashes: bool,
-    /// The value is in the same word: `-fi=ship.ug`.
+    /// The value is in the same argument: `-fi=ship.ug`.
     has_value: bool,
 }
 
@@ -72,7 +72,7 @@ impl<'a> Spelled<'a> {
         let name_and_value = after_dashes.unwrap_or(after_dash);
         let equals = name_and_value.iter().position(|&byte| byte == b'=');
         let name = str::from_utf8(&name_and_value[..equals.unwrap_or(name_and_value.len())]).ok()?;
-        // One letter after one dash is a short option, and clap's own business.
+        // One letter after one dash is a short option, which clap parses itself.
         let arg = command.get_arguments().find(|arg| name.len() > 1 && has_long_name(arg, name))?;
         Some(Self { arg, has_two_dashes: after_dashes.is_some(), has_value: equals.is_some() })
     }
@@ -91,10 +91,10 @@ fn has_long_name(arg: &Arg, name: &str) -> bool {
     arg.get_long() == Some(name) || arg.get_all_aliases().is_some_and(|aliases| aliases.contains(&name))
 }
 
-/// Moves the values of `arg` over as they are.
+/// Copies the values of `arg` unchanged.
 ///
-/// First come as many as the option needs. Those it may have in addition are numbers in
-/// all our programs, which tells them from a file name.
+/// The required values come first. Optional values are numbers in all our programs, which
+/// distinguishes them from file names.
 fn take_values(arg: &Arg, words: &mut Peekable<impl Iterator<Item = OsString>>, out: &mut Vec<OsString>) {
     let Some(range) = arg.get_num_args().filter(|_| arg.get_action().takes_values()) else { return };
     let mut n_taken = 0;
@@ -110,8 +110,8 @@ fn take_values(arg: &Arg, words: &mut Peekable<impl Iterator<Item = OsString>>, 
     }
 }
 
-/// Whether clap would take `word` for a value of `arg`. Elsewhere a word with a dash is
-/// the next option, so that in `-fi -fo x` the missing value is reported, not `-fo`.
+/// True if clap would accept `word` as a value of `arg`. For most options a word with a leading
+/// dash is the next option, so that `-fi -fo x` is reported as a missing value of `-fi`.
 fn may_be_value(arg: &Arg, word: &OsStr) -> bool {
     arg.is_allow_hyphen_values_set() || word == "-" || !word.as_encoded_bytes().starts_with(b"-")
 }
@@ -185,7 +185,7 @@ mod tests {
         check("-ti=-.5 -gw", "--ti=-.5 --gw");
         check("--ti=-.5 -gw", "--ti=-.5 --gw");
         check("-no-flux ship.ug", "--no-flux ship.ug");
-        // A dash alone is a file.
+        // A single dash is a file name.
         check("-", "-");
         check("-fi -", "--fi -");
         check("-fi - -gw", "--fi - --gw");
@@ -195,10 +195,10 @@ mod tests {
         check("-title -vel -gw", "--title -vel --gw");
         check("-title -- -gw", "--title -- --gw");
         check("-title=-vel", "--title=-vel");
-        // Neither are files after two dashes.
+        // Nor are files after two dashes.
         check("-- -vel", "-- -vel");
         check("-gw -- -gw", "--gw -- -gw");
-        // Short options, alone and in clusters, are left alone; a long name wins.
+        // Short options, single and in clusters, are not changed; a long name takes precedence.
         check("-w", "-w");
         check("-wg", "-wg");
         check("-gw", "--gw");

@@ -1,34 +1,33 @@
-//! Why a program ends without having done its work.
+//! The errors that end a program.
 
 use std::error::Error;
 use std::fmt;
 use std::io;
 
-/// Why a run ended early. [`crate::main`] prints it and sets the exit status.
+/// The error that ended a run. [`crate::main`] prints it and sets the exit status.
 ///
-/// Any error of a library turns into [`Failure::Failed`] by `?`; where the command line
-/// is to blame, say `.map_err(Failure::usage)?`.
+/// The operator `?` converts any library error to [`Failure::Failed`]. For errors in the command
+/// line, write `.map_err(Failure::usage)?`.
 #[derive(Debug)]
 pub enum Failure {
-    /// The command line asks for something impossible. Status 2.
+    /// The command line is invalid. Status 2.
     Usage(String),
-    /// The work cannot be done, in one sentence. Status 1.
+    /// Any other error, described in one sentence. Status 1.
     Failed(String),
-    /// Finished diagnostics with their own places and headings, printed as they are.
-    /// They may carry terminal styles, which are left out where they do not belong.
-    /// Status 1.
+    /// Rendered diagnostics with their own locations and headings, printed as they are. They may
+    /// contain terminal styles, which are removed if the output is not a terminal. Status 1.
     Report(String),
     /// An input cannot be read. Status 1.
     Read {
-        /// The input as shown to the user.
+        /// The name of the input for messages.
         name: String,
         /// What the system said.
         error: io::Error,
     },
-    /// An output cannot be written. Status 1; but when the reader of a pipe has left,
-    /// the program dies of SIGPIPE without a word.
+    /// An output cannot be written. Status 1; but if the reading end of a pipe was closed, the
+    /// program dies of SIGPIPE without a message.
     Write {
-        /// The output as shown to the user.
+        /// The name of the output for messages.
         name: String,
         /// What the system said.
         error: io::Error,
@@ -36,23 +35,23 @@ pub enum Failure {
 }
 
 impl Failure {
-    /// The command line is to blame for `error`.
+    /// A [`Failure::Usage`] with the message of `error`.
     pub fn usage(error: impl fmt::Display) -> Self {
         Self::Usage(error.to_string())
     }
 
-    /// The work cannot be done because of `error`.
+    /// A [`Failure::Failed`] with the message of `error`.
     pub fn failed(error: impl fmt::Display) -> Self {
         Self::Failed(error.to_string())
     }
 
-    /// The reader of our output has closed the pipe.
+    /// True if the reading end of the output pipe was closed.
     pub fn is_closed_pipe(&self) -> bool {
         matches!(self, Self::Write { error, .. } if error.kind() == io::ErrorKind::BrokenPipe)
     }
 }
 
-/// `Failure` itself is no [`Error`], so that every error can become one by `?`.
+/// `Failure` itself does not implement [`Error`], so that `?` can convert every error to it.
 impl<E: Error> From<E> for Failure {
     fn from(error: E) -> Self {
         Self::failed(error)
@@ -69,7 +68,7 @@ impl fmt::Display for Failure {
     }
 }
 
-/// The system's words without the number Rust adds to them.
+/// The system's error message, without the error number that Rust appends.
 pub(crate) fn reason(error: &io::Error) -> String {
     let text = error.to_string();
     match text.rsplit_once(" (os error ") {

@@ -1,4 +1,4 @@
-//! Files and programs that an input names: read and run with bounds.
+//! Reading files and running programs that an input names, with limits on their size.
 
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read};
@@ -8,35 +8,36 @@ use std::thread;
 
 use crate::failure::reason;
 
-/// Bytes of a complaint that are looked at.
+/// Largest number of bytes of standard error that are examined.
 const MAX_COMPLAINT: u64 = 1 << 16;
 
-/// What a program has printed.
+/// The output of a program that was run.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Printed {
     /// Its standard output.
     pub text: Vec<u8>,
-    /// The first line of its standard error; may be empty.
+    /// The first line of its standard error; empty if there is none.
     pub complaint: String,
-    /// How it ended (`exit status: 3`), unless all went well.
+    /// Its exit status (`exit status: 3`), unless it succeeded.
     pub failure: Option<String>,
 }
 
-/// Reads a file, but not much beyond `room` bytes: one more shows that there is no room for it.
+/// Reads a file, up to `room` + 1 bytes. The caller recognizes a file that is too large by the
+/// extra byte.
 ///
 /// # Errors
-/// The file cannot be read; the error has the system's words alone.
+/// The file cannot be read; the error is the system's message.
 pub fn read_file(path: &Path, room: u64) -> io::Result<Vec<u8>> {
     File::open(path).and_then(|file| read_up_to(file, room)).map_err(in_words)
 }
 
-/// Runs a program, without a shell, arguments or input, and reads what it prints: not much
-/// beyond `room` bytes. A program that prints more is stopped.
+/// Runs a program, without a shell, arguments or input, and reads its standard output, up to `room`
+/// + 1 bytes. A program that prints more is killed.
 ///
-/// `path` is the program itself; it is not searched for.
+/// `path` is the path of the program; `PATH` is not searched.
 ///
 /// # Errors
-/// The program cannot be run; the error has the system's words alone.
+/// The program cannot be run; the error is the system's message.
 pub fn run_program(path: &Path, room: u64) -> io::Result<Printed> {
     let mut child = Command::new(not_searched(path))
         .stdin(Stdio::null())
@@ -47,12 +48,12 @@ pub fn run_program(path: &Path, room: u64) -> io::Result<Printed> {
     let stdout = child.stdout.take().expect("standard output is a pipe");
     let stderr = child.stderr.take().expect("standard error is a pipe");
     thread::scope(|scope| {
-        // Both are read at once, so that the program never waits for us.
+        // Both streams are read concurrently, so that the program never blocks on a full pipe.
         let complaint = scope.spawn(|| first_line(stderr));
         let text = read_up_to(stdout, room);
         let is_whole = text.as_ref().is_ok_and(|text| text.len() as u64 <= room);
         if !is_whole {
-            // It may have ended by itself.
+            // Fails if the program has already ended, which is fine.
             let _ = child.kill();
         }
         let status = child.wait().map_err(in_words)?;
@@ -62,7 +63,7 @@ pub fn run_program(path: &Path, room: u64) -> io::Result<Printed> {
     })
 }
 
-/// A name alone would be looked for in the folders of `PATH`.
+/// Prefixes a bare file name with `./`: otherwise it would be searched for in `PATH`.
 fn not_searched(path: &Path) -> PathBuf {
     if path.components().count() == 1 { Path::new(".").join(path) } else { path.to_owned() }
 }
@@ -73,18 +74,18 @@ fn read_up_to(from: impl Read, room: u64) -> io::Result<Vec<u8>> {
     Ok(text)
 }
 
-/// The first line, with all behind it read and dropped.
+/// The first line. The rest is read and discarded.
 fn first_line(from: impl Read) -> String {
     let mut from = BufReader::new(from);
     let mut line = Vec::new();
     let read = from.by_ref().take(MAX_COMPLAINT).read_until(b'\n', &mut line);
     let drained = io::copy(&mut from, &mut io::sink());
-    // What cannot be read is not told.
+    // If it cannot be read, the message is empty.
     let is_read = read.is_ok() && drained.is_ok();
     if is_read { String::from_utf8_lossy(&line).trim().to_owned() } else { String::new() }
 }
 
-/// The system's words without the number Rust adds to them.
+/// The error with the system's message alone, without the error number that Rust appends.
 fn in_words(error: io::Error) -> io::Error {
     io::Error::new(error.kind(), reason(&error))
 }
@@ -97,10 +98,11 @@ mod tests {
 
     use super::*;
 
-    /// A program that is being written cannot be run, and what one test writes is open in the children of others.
+    /// Serializes these tests. A program that is open for writing cannot be run, and a child of a
+    /// concurrent test would inherit the open file.
     static ALONE: Mutex<()> = Mutex::new(());
 
-    /// What a shell script prints, with that much room.
+    /// Runs a shell script with a limit of `room` bytes.
     fn printed(script: &str, room: u64) -> io::Result<Printed> {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("program");
@@ -118,10 +120,10 @@ mod tests {
         assert_eq!((ran.failure.as_deref(), ran.complaint.as_str()), (Some("exit status: 3"), "no"));
         let ran = printed("kill -9 $$", 100).unwrap();
         assert!(ran.failure.unwrap().starts_with("signal: 9"));
-        // Without end, on both streams.
+        // Endless output on both streams.
         let ran = printed("while :; do echo text; echo words >&2; done", 1000).unwrap();
         assert_eq!((ran.text.len(), ran.failure, ran.complaint.as_str()), (1001, None, "words"));
-        // There is no input.
+        // Standard input is empty.
         assert_eq!(printed("cat", 100).unwrap().text, b"");
         assert_eq!(printed("echo $#", 100).unwrap().text, b"0\n");
     }
@@ -134,7 +136,7 @@ mod tests {
             run_program(Path::new("no-such"), 9).map_err(words),
             Err("No such file or directory".into())
         );
-        // Not one of `PATH` either.
+        // Programs in `PATH` are not found either.
         assert_eq!(run_program(Path::new("sh"), 9).map_err(words), Err("No such file or directory".into()));
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("text");

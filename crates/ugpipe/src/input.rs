@@ -1,4 +1,4 @@
-//! The whole input in memory.
+//! Reading the whole input into memory.
 
 use std::fs;
 use std::io::{self, IsTerminal, Read};
@@ -7,18 +7,18 @@ use std::path::Path;
 use crate::failure::Failure;
 use crate::text;
 
-/// All of an input.
+/// An input, read completely.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Input {
     /// Name for messages: the file as the user named it, or `<stdin>`.
     pub name: String,
-    /// Every byte of it.
+    /// Its bytes.
     pub text: Vec<u8>,
 }
 
 const STDIN: &str = "<stdin>";
 
-/// Reads a file, or standard input if there is none.
+/// Reads a file, or standard input if `path` is `None`.
 pub(crate) fn read(path: Option<&Path>) -> Result<Input, Failure> {
     let (name, text) = match path {
         Some(path) => (text::path(path), fs::read(path)),
@@ -36,7 +36,8 @@ fn read_stdin() -> io::Result<Vec<u8>> {
     Ok(text)
 }
 
-/// A person sits before the screen and may not know that we wait for text.
+/// True if standard input is a terminal, so that the user may not know that the program waits for
+/// input.
 pub(crate) fn stdin_is_terminal() -> bool {
     io::stdin().is_terminal()
 }

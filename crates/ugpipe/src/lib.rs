@@ -1,46 +1,46 @@
-//! The Unix edge of the ug programs: arguments, streams, messages, exit status.
+//! The Unix interface of the ug programs: arguments, streams, messages, exit status.
 //!
-//! Every program of the family is a filter: it reads a scene, computes, and writes a
-//! scene or a picture.
+//! Every ug program is a filter: it reads a scene, computes, and writes a scene or a picture.
 //!
 //! ```text
 //! uglorentz -vel .9 0 0 < ship.ug | ugdoppler | ugrainbow > ship.png
 //! ```
 //!
-//! What makes a filter a good neighbour in a pipe is the same for all of them, so it is
-//! here once, and the programs do not touch the process at all.
+//! What a well-behaved filter has to do is the same for all of them. It is implemented here once,
+//! and the programs themselves do not access the process.
 //!
-//! - **Options.** The names of 1988 work as they did, with one dash and separate values,
-//!   negative numbers included: `-vel -.9 0 0`. They are ordinary long options to clap
-//!   ([`finite`] and [`vector`] read their numbers), and get their second dash before clap
-//!   sees them. An option with a variable number of values (`num_args = 1..=2`) takes those
-//!   it needs and then only numbers, so a file name may follow it; nothing but `num_args`
-//!   has to be declared for that.
-//! - **Streams.** Data on standard output only, all talk on standard error. [`CommonArgs`]
-//!   sends them to files instead. A program reads all, computes, and writes all, so that a
-//!   mistake on the last line of a scene cannot leave half a scene to the next program.
-//! - **Files and programs** that an input names are read and run ([`read_file`],
-//!   [`run_program`]) with bounds, and never searched for.
-//! - **Files** appear whole or not at all: written beside their place and renamed when the
-//!   run has ended well. Links are followed, permissions kept, devices written to directly.
-//! - **Messages** are lines such as `uglorentz: warning: …`, each written in one piece since
-//!   programs of a pipe share the terminal. Colour appears only on a terminal, and not
-//!   under `NO_COLOR`.
-//! - **Long runs** show a bar on a terminal after a second, and tell the times of their steps
-//!   under `-vb`: computations tell a [`Progress`] how far they are, and do not know who listens.
-//! - **Exit status** 0 when done, 1 for a bad scene or failed input and output, 2 for bad
-//!   usage. When the reader of a pipe leaves early, the program dies of SIGPIPE without a
-//!   word, as C filters do.
-//! - **The same bytes** whatever `-nt` says and wherever the files are:
-//!   [`Stage::command_line`], made for the comment at the head of an output, names only the
-//!   options that affect the content.
+//! - **Options.** The options of 1988 keep their syntax, with one dash and separate values,
+//!   including negative numbers: `-vel -.9 0 0`. For clap they are ordinary long options
+//!   ([`finite`] and [`vector`] parse their numbers); the second dash is added before clap parses
+//!   them. An option with a variable number of values (`num_args = 1..=2`) takes the required
+//!   values and then only numbers, so a file name may follow it; only `num_args` has to be declared
+//!   for that.
+//! - **Streams.** Data goes to standard output, messages to standard error; [`CommonArgs`]
+//!   redirects both to files. A program reads the whole input, computes, and then writes the whole
+//!   output, so an error on the last line of a scene cannot pass half a scene downstream.
+//! - **Files and programs** that an input names are read and run with size limits and without
+//!   searching any path ([`read_file`], [`run_program`]).
+//! - **Output files** are replaced atomically: written to a temporary file in the same folder,
+//!   which is renamed when the run succeeds. Links are followed, permissions kept, devices written
+//!   to directly.
+//! - **Messages** are lines such as `uglorentz: warning: …`, each written with one system call
+//!   because the programs of a pipe share the terminal. They are coloured only on a terminal, and
+//!   not if `NO_COLOR` is set.
+//! - **Progress.** On a terminal, runs longer than a second show a progress bar; `-vb` prints the
+//!   time of each step. Computations report to a [`Progress`] and do not depend on how it is shown.
+//! - **Exit status** 0 for success, 1 for an invalid scene or an I/O error, 2 for invalid usage. If
+//!   the reading end of the output pipe is closed early, the program dies of SIGPIPE without a
+//!   message, like filters written in C.
+//! - **Reproducible output.** The bytes do not depend on `-nt` or on file names:
+//!   [`Stage::command_line`], which is recorded in the output, contains only the options that
+//!   affect the content.
 //!
-//! What we do not do: no output is flushed to the disk itself (`fsync`), so a power failure
-//! may undo a finished run; and a program that is killed while it writes a file leaves the
-//! temporary file, `.ug-` and six letters, beside it.
+//! Limitations: output is not flushed to disk (`fsync`), so a power failure may undo a finished
+//! run. A program that is killed while it writes a file leaves the temporary file, `.ug-` and six
+//! letters, in the same folder.
 //!
-//! A library that only reports its progress does without the feature `cli`: then
-//! [`Progress`] is all there is, and clap is not built.
+//! A library that only reports progress disables the feature `cli`. Only [`Progress`] is then left,
+//! and clap is not built.
 //!
 //! # A whole program
 //!
@@ -50,7 +50,7 @@
 //! use clap::{ArgAction, Parser};
 //! use ugpipe::{CommonArgs, Failure, Stage, ToolArgs};
 //!
-//! /// Moves nothing, and says so
+//! /// Copies a scene at rest
 //! #[derive(Parser)]
 //! #[command(name = "ugstill", version, before_help = ugpipe::ONE_DASH)]
 //! struct Args {

@@ -16,7 +16,7 @@ const ERROR: Style = AnsiColor::Red.on_default().bold();
 const WARNING: Style = AnsiColor::Yellow.on_default().bold();
 const NOTE: Style = AnsiColor::Cyan.on_default().bold();
 
-/// Where messages go, and which are wanted.
+/// Prints messages, as far as the options allow.
 pub(crate) struct Messages {
     program: String,
     file: Option<File>,
@@ -26,13 +26,13 @@ pub(crate) struct Messages {
 }
 
 impl Messages {
-    /// Everything to standard error, until the options are known.
+    /// All messages go to standard error until [`Messages::follow`] applies the options.
     pub(crate) fn new(program: &str) -> Self {
         let program = program.to_owned();
         Self { program, file: None, is_quiet: false, is_verbose: false, start: Instant::now() }
     }
 
-    /// Does as the options say. The file of `-fm` is emptied now.
+    /// Applies the options `-qt`, `-vb` and `-fm`. The file of `-fm` is truncated immediately.
     pub(crate) fn follow(&mut self, common: &CommonArgs) -> Result<(), Failure> {
         self.is_quiet = common.quiet();
         self.is_verbose = common.verbose();
@@ -51,7 +51,7 @@ impl Messages {
         self.is_quiet
     }
 
-    /// Time since the program began.
+    /// Time since the start of the program.
     pub(crate) fn elapsed(&self) -> Duration {
         self.start.elapsed()
     }
@@ -95,9 +95,10 @@ impl Messages {
         self.print(&format!("{}: {style}{heading}:{style:#} {text}", self.program));
     }
 
-    /// Prints lines, in one piece: programs of a pipe share the terminal.
+    /// Prints a message with a single write, because the programs of a pipe share the terminal.
     ///
-    /// A message that cannot be printed has no other way to the user, so it is dropped.
+    /// A message that cannot be written to the file goes to standard error. If that fails too, it
+    /// is lost.
     fn print(&self, text: &str) {
         let text = format!("{}\n", text.trim_end_matches('\n'));
         let plain = strip_str(&text).to_string();

@@ -1,4 +1,4 @@
-//! The output: standard output, or a file that appears whole or not at all.
+//! The output: standard output, or a file that is replaced atomically.
 
 use std::fs::{self, File, OpenOptions, Permissions};
 use std::io::{self, IsTerminal, Write};
@@ -10,19 +10,19 @@ use tempfile::NamedTempFile;
 use crate::failure::Failure;
 use crate::text;
 
-/// Where the output goes. Dropped without [`Output::finish`], it leaves no file behind.
+/// An output. If it is dropped without [`Output::finish`], no file is left behind.
 pub(crate) struct Output {
-    /// None is standard output.
+    /// `None` is standard output.
     path: Option<PathBuf>,
-    /// Open since the first write.
+    /// Opened by the first write.
     sink: Option<Sink>,
 }
 
 enum Sink {
     Stdout,
-    /// A device or named pipe, which cannot be replaced.
+    /// A device or named pipe, which is written to directly.
     Device(File),
-    /// A file beside the target, to be renamed.
+    /// A temporary file in the target's folder, to be renamed to the target.
     Beside {
         temporary: NamedTempFile,
         target: PathBuf,
@@ -46,7 +46,7 @@ impl Output {
         self.path.is_none() && io::stdout().is_terminal()
     }
 
-    /// Writes what `fill` sends.
+    /// Writes the data that `fill` produces.
     pub(crate) fn write_with(
         &mut self,
         fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
@@ -54,7 +54,7 @@ impl Output {
         self.try_write(fill).map_err(|error| self.failure(error))
     }
 
-    /// Puts the file in its place.
+    /// Renames the temporary file to its target.
     pub(crate) fn finish(&mut self) -> Result<(), Failure> {
         match self.sink.take() {
             Some(Sink::Beside { temporary, target }) => {
@@ -81,8 +81,8 @@ impl Output {
 impl Sink {
     fn open(path: Option<&Path>) -> io::Result<Self> {
         let Some(path) = path else { return Ok(Self::Stdout) };
-        // Opening what is there for writing asks the system whether we may, and tells
-        // files from devices without a race. Nothing is created or cut off by it.
+        // Opening an existing file for writing checks the permissions and distinguishes files from
+        // devices without a race. It neither creates nor truncates anything.
         match OpenOptions::new().write(true).open(path) {
             Ok(existing) => {
                 let metadata = existing.metadata()?;
@@ -97,9 +97,9 @@ impl Sink {
         }
     }
 
-    /// Makes the temporary file, in the target's folder because only there is
-    /// renaming atomic. It has the permissions of the file it replaces; a new one
-    /// gets what the user's umask leaves.
+    /// Creates the temporary file, in the target's folder because renaming is atomic only within a
+    /// file system. It has the permissions of the file that it replaces, or for a new file those of
+    /// the user's umask.
     fn beside(path: &Path, permissions: Option<Permissions>) -> io::Result<Self> {
         let target = without_links(path);
         let folder = match target.parent() {
@@ -127,14 +127,14 @@ impl Sink {
     }
 }
 
-/// The place a chain of symbolic links leads to, whether or not something is there.
+/// Resolves a chain of symbolic links. The final target need not exist.
 fn without_links(path: &Path) -> PathBuf {
-    /// As many as Linux follows; opening a longer chain has failed before.
+    /// The limit of Linux. Opening a longer chain has already failed.
     const MAX_LINKS: usize = 40;
     let mut place = path.to_owned();
     for _ in 0..MAX_LINKS {
         let Ok(next) = fs::read_link(&place) else { break };
-        // An absolute link replaces the folder it is joined to.
+        // `join` with an absolute path gives that path.
         place = place.parent().unwrap_or(Path::new("")).join(next);
     }
     place
@@ -144,7 +144,8 @@ fn without_links(path: &Path) -> PathBuf {
 mod tests {
     use super::*;
 
-    /// Never calls [`Output::finish`]: with a bug here, root would replace the device.
+    /// Never calls [`Output::finish`]: if this code had a bug, tests run as root would replace the
+    /// device.
     #[test]
     fn devices_are_written_to_and_stay() {
         assert!(matches!(Sink::open(Some(Path::new("/dev/null"))), Ok(Sink::Device(_))));

@@ -1,15 +1,16 @@
-//! What a computation reports its progress to.
+//! The interface to which computations report progress.
 
-/// Receives the progress of a computation, from any thread. The result does not depend on it.
+/// Receives progress reports of a computation, from any thread. They do not affect its result.
 pub trait Progress: Sync {
-    /// A step begins; the one before has ended. `parts`: the total that [`Progress::done`] counts up to; 0 if it is not called.
+    /// Begins a step, which ends the previous one. `parts` is the total that [`Progress::done`]
+    /// counts up to, or 0 if the step does not call it.
     fn step(&self, name: &'static str, parts: u64);
 
-    /// This many more parts of the current step are done.
+    /// Reports that `parts` more parts of the current step are done.
     fn done(&self, parts: u64);
 }
 
-/// Progress is not shown.
+/// Ignores all progress reports.
 impl Progress for () {
     fn step(&self, _name: &'static str, _parts: u64) {}
     fn done(&self, _parts: u64) {}

@@ -1,4 +1,4 @@
-//! The command line as recorded in the output.
+//! The command line that is recorded in the output.
 
 use std::ffi::OsStr;
 
@@ -8,11 +8,11 @@ use clap::{Arg, ArgMatches, Command};
 use crate::args::WITHOUT_EFFECT;
 use crate::text;
 
-/// Program and options that affect the content, in the historical spelling and the
+/// The program and the options that affect the content, in the historical spelling and in the
 /// user's order: `uglorentz -vel .9 0 0 -sm`.
 ///
-/// The line can stand in a `{ … }` comment: it holds no braces and no control
-/// characters. A shell reads back every other argument as it was given.
+/// The line is safe inside a `{ … }` comment: braces and control characters are replaced. All other
+/// arguments are quoted such that a shell parses them back unchanged.
 pub(crate) fn command_line(command: &Command, matches: &ArgMatches) -> String {
     let mut options: Vec<_> = command
         .get_arguments()
@@ -40,7 +40,7 @@ fn append(line: &mut String, word: &str) {
     }
 }
 
-/// One dash before the names of 1988, of two or three letters, and two before later ones.
+/// One dash for the option names of 1988, which have two or three letters, and two for later ones.
 fn spelling(arg: &Arg) -> String {
     match (arg.get_long(), arg.get_short()) {
         (Some(long), _) if long.len() <= 3 => format!("-{long}"),
@@ -50,7 +50,7 @@ fn spelling(arg: &Arg) -> String {
     }
 }
 
-/// `word` for a POSIX shell, safe within a comment.
+/// `word` quoted for a POSIX shell and safe inside a comment.
 fn quoted(word: &OsStr) -> String {
     let safe = text::printable(&word.to_string_lossy()).replace(['{', '}', char::REPLACEMENT_CHARACTER], "?");
     let is_plain = |c: char| c.is_alphanumeric() || "-_+.,:/@%=".contains(c);
@@ -72,7 +72,7 @@ mod tests {
     use crate::CommonArgs;
     use crate::argv;
 
-    /// The line recorded for `words`, with an option of every kind.
+    /// The command line recorded for `words`, by a program with an option of every kind.
     fn recorded(words: Vec<OsString>) -> String {
         let option = |name| Arg::new(name).long(name).allow_hyphen_values(true);
         let command = Command::new("tool")

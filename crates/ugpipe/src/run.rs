@@ -1,4 +1,4 @@
-//! From the command line to the exit status.
+//! The `main` of every program: from the command line to the exit status.
 
 use std::env;
 use std::io;
@@ -14,24 +14,24 @@ use crate::messages::Messages;
 use crate::stage::Stage;
 use crate::{argv, provenance};
 
-/// Arguments of a program of the family.
+/// The arguments of a ug program.
 pub trait ToolArgs: clap::Parser {
-    /// The options every program has.
+    /// The options that every program has.
     fn common(&self) -> &CommonArgs;
 }
 
 const BAD_INPUT: u8 = 1;
 const BAD_USAGE: u8 = 2;
 
-/// The whole `main` of a program: reads the command line, runs `run`, and turns the
-/// result into an exit status.
+/// The whole `main` of a program: parses the command line, calls `run`, and converts the result to
+/// an exit status.
 ///
 /// | status | meaning |
 /// | --- | --- |
-/// | 0 | done |
-/// | 1 | bad scene, or input and output failed |
-/// | 2 | bad usage |
-/// | killed by SIGPIPE (141 in a shell) | the reader of the output left early |
+/// | 0 | success |
+/// | 1 | invalid scene, or I/O error |
+/// | 2 | invalid usage |
+/// | killed by SIGPIPE (141 in a shell) | the reading end of the output pipe was closed |
 pub fn main<A: ToolArgs>(run: impl FnOnce(&A, &mut Stage) -> Result<(), Failure>) -> ExitCode {
     let mut command = argv::prepare(A::command());
     let (args, matches) = match parse::<A>(&mut command) {
@@ -58,7 +58,7 @@ fn parse<A: ToolArgs>(command: &mut Command) -> Result<(A, ArgMatches), clap::Er
     Ok((args, matches))
 }
 
-/// Prints help and version to standard output, complaints to standard error.
+/// Prints help and version to standard output, errors to standard error.
 fn answer(error: &clap::Error) -> ExitCode {
     match error.print() {
         Err(error) if error.kind() == io::ErrorKind::BrokenPipe => die_of_sigpipe(),
@@ -68,9 +68,9 @@ fn answer(error: &clap::Error) -> ExitCode {
     }
 }
 
-/// Sets the number of threads for the process.
+/// Sets the number of worker threads of the process.
 ///
-/// The run itself stays on the main thread and has its stack, whatever `-nt` says.
+/// The run itself stays on the main thread with its larger stack, for any value of `-nt`.
 fn start_threads(n_threads: Option<usize>) -> Result<(), Failure> {
     let Some(n_threads) = n_threads else { return Ok(()) };
     rayon::ThreadPoolBuilder::new()
@@ -79,10 +79,10 @@ fn start_threads(n_threads: Option<usize>) -> Result<(), Failure> {
         .map_err(|error| Failure::Failed(format!("cannot start {n_threads} threads: {error}")))
 }
 
-/// Ends as every C filter does when its reader has left. Rust ignores the signal at
-/// the start, so its default action is brought back first.
+/// Ends like filters written in C when the reading end of their pipe is closed. Rust programs
+/// ignore the signal by default, so its default action is restored first.
 fn die_of_sigpipe() -> ExitCode {
-    // Returns only where the system refuses; the status then says what a shell would.
+    // Returns only if this fails; the exit status is then the one that a shell would report.
     let _ = emulate_default_handler(SIGPIPE);
     ExitCode::from(141)
 }

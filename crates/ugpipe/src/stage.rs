@@ -1,4 +1,4 @@
-//! One program's place in a pipe.
+//! The input, output and messages of a program.
 
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -12,15 +12,15 @@ use crate::output::Output;
 use crate::steps::Steps;
 use crate::text;
 
-/// What a program sees of the world: its input, its output and its messages.
+/// The interface of a program to the system: its input, its output and its messages.
 ///
-/// Read all, compute, then write all: a filter that fails has written nothing, so the
-/// next program never draws half a scene.
+/// A filter reads the whole input, computes, and then writes the whole output. If it fails, it has
+/// written nothing, so half a scene never goes downstream.
 pub struct Stage {
     input: Option<PathBuf>,
     is_input_named: bool,
     output: Output,
-    /// Beside it.
+    /// Additional output files.
     others: Vec<Output>,
     messages: Messages,
     command_line: String,
@@ -38,8 +38,8 @@ impl Stage {
         }
     }
 
-    /// Reads the whole input: the file the user named, or standard input. Call it once,
-    /// for standard input is empty the second time.
+    /// Reads the whole input: the file that the user named, or standard input. Call it only once: a
+    /// second call would find standard input empty.
     ///
     /// # Errors
     /// [`Failure::Read`] if there is no such file or it cannot be read.
@@ -50,7 +50,7 @@ impl Stage {
         input::read(self.input.as_deref())
     }
 
-    /// Reads another input, from a file.
+    /// Reads an additional input file.
     ///
     /// # Errors
     /// [`Failure::Read`] if there is no such file or it cannot be read.
@@ -58,31 +58,30 @@ impl Stage {
         input::read(Some(path))
     }
 
-    /// The program and those of its options that affect the content, for the output's
-    /// head comment: `uglorentz -vel .9 0 0`.
+    /// The program and those of its options that affect the content, for the history comment at the
+    /// head of the output: `uglorentz -vel .9 0 0`.
     ///
-    /// Options stand in the historical spelling and the user's order; files, threads and
-    /// talk (`-fi -fo -fm -nt -qt -vb`) are left out, since equal content must be equal
-    /// bytes. There are no braces and no control characters in it: they show as `?`.
+    /// Options have the historical spelling and the user's order. Options for files, threads and
+    /// messages (`-fi -fo -fm -nt -qt -vb`) are omitted, since equal content must give equal bytes.
+    /// Braces and control characters are replaced by `?`.
     pub fn command_line(&self) -> &str {
         &self.command_line
     }
 
-    /// Writes the whole output. Call it once, when everything else has succeeded.
+    /// Writes the whole output. Call it once, after everything else has succeeded.
     ///
-    /// A named file takes its place when the program ends well, not before. A second
-    /// call appends.
+    /// A named file is replaced when the program succeeds, not before. A second call appends.
     ///
     /// # Errors
-    /// [`Failure::Write`] if the disk is full, the reader has left, or the place is not ours
-    /// to write to.
+    /// [`Failure::Write`] if the disk is full, the reading end of the pipe is closed, or the user
+    /// has no permission to write.
     pub fn write(&mut self, data: &[u8]) -> Result<(), Failure> {
         self.write_with(|out| out.write_all(data))
     }
 
-    /// The same for an output that is sent in pieces while it is made, so that it need not
-    /// be in memory as a whole. `fill` sends it, in large pieces, and can fail by writing only:
-    /// with one half written there is no way back.
+    /// Like [`Stage::write`], for an output that is written in chunks while it is computed, so that
+    /// it need not be in memory as a whole. `fill` writes it, in large chunks. Only writing may
+    /// fail in it, since a chunk that has been written cannot be taken back.
     ///
     /// # Errors
     /// [`Failure::Write`] with the error of `fill`.
@@ -93,11 +92,12 @@ impl Stage {
         Ok(())
     }
 
-    /// Writes another file beside the output, whole or not at all: it takes its place when the program ends
-    /// well, before the output does.
+    /// Writes an additional output file. Like the output it is replaced atomically when the program
+    /// succeeds, just before the output.
     ///
     /// # Errors
-    /// [`Failure::Usage`] if the output goes to that file; [`Failure::Write`] as for [`Stage::write`].
+    /// [`Failure::Usage`] if the output goes to the same file; [`Failure::Write`] as in
+    /// [`Stage::write`].
     pub fn write_file(&mut self, path: &Path, data: &[u8]) -> Result<(), Failure> {
         if self.output.path() == Some(path) {
             return Err(Failure::Usage(format!("two outputs cannot go to one file, `{}`", text::path(path))));
@@ -108,54 +108,54 @@ impl Stage {
         Ok(())
     }
 
-    /// Whether the output would appear on the screen of a person: pictures must not.
+    /// True if the output goes to a terminal, where binary files must not be printed.
     pub fn output_is_terminal(&self) -> bool {
         self.output.is_terminal()
     }
 
-    /// File of the output, if it is not standard output. Its ending may choose a format.
+    /// The output file, unless it is standard output. Its extension may select a format.
     pub fn output_name(&self) -> Option<&Path> {
         self.output.path()
     }
 
-    /// Sends the output to a file the user did not name, as some programs did in 1988
-    /// when their output was a terminal. Call it before [`Stage::write`].
+    /// Redirects the output to a file that the user did not name, as some programs did in 1988 when
+    /// their output was a terminal. Call it before [`Stage::write`].
     pub fn set_output_name(&mut self, path: impl AsRef<Path>) {
         self.output.set_path(path.as_ref());
     }
 
-    /// Tells the user something worth knowing. Silent under `-qt`.
+    /// Prints a note, unless `-qt` is given.
     pub fn note(&self, text: &str) {
         self.messages.note(text);
     }
 
-    /// Tells the user of something that may be wrong. Silent under `-qt`.
+    /// Prints a warning, unless `-qt` is given.
     pub fn warn(&self, text: &str) {
         self.messages.warn(text);
     }
 
-    /// Prints finished diagnostics as they are: warnings with their own places and
-    /// headings. Terminal styles in them are left out where they do not belong, so render
-    /// them styled always. Silent under `-qt`.
+    /// Prints rendered diagnostics as they are: warnings with their own locations and headings.
+    /// Always render them with terminal styles, which are removed if the output is not a terminal.
+    /// Prints nothing if `-qt` is given.
     ///
-    /// Errors of this kind end the run as [`Failure::Report`].
+    /// For errors, end the run with [`Failure::Report`] instead.
     pub fn report(&self, text: &str) {
         self.messages.warn_report(text);
     }
 
-    /// Says what was done, with the time since the start. Only under `-vb`.
+    /// Prints what was done, with the time since the start, if `-vb` is given.
     pub fn detail(&self, text: &str) {
         self.messages.detail(text);
     }
 
-    /// Whom a computation tells how far it is. `-vb` says what each step took; a step that is not done when
-    /// the program has run for a second shows a bar, if standard error is a terminal, but not under `-qt`.
-    /// Drop it before other messages are to appear.
+    /// The receiver of progress reports. With `-vb` it prints the time of each step. If standard
+    /// error is a terminal and `-qt` is not given, a progress bar appears for a step that is still
+    /// running one second after the start of the program. Drop it before printing other messages.
     pub fn steps(&self) -> Steps<'_> {
         Steps::new(&self.messages)
     }
 
-    /// Keeps or discards the output, and says why a run failed.
+    /// Completes or discards the output, and prints why a run failed.
     pub(crate) fn end(mut self, outcome: Result<(), Failure>) -> Result<(), Failure> {
         let outcome = outcome.and_then(|()| self.others.iter_mut().try_for_each(Output::finish));
         let outcome = outcome.and_then(|()| self.output.finish());

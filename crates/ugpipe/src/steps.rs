@@ -1,4 +1,4 @@
-//! Progress for the user of a program: the time of each step under `-vb`, and a bar for long runs.
+//! Progress shown to the user: the time of each step with `-vb`, and a progress bar for long runs.
 
 use std::io::{self, IsTerminal};
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -9,7 +9,7 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use crate::messages::Messages;
 use crate::progress::Progress;
 
-/// A bar appears after this time.
+/// The progress bar appears after this time.
 const PATIENCE: Duration = Duration::from_secs(1);
 
 /// Shows progress to the user of a program, see [`crate::Stage::steps`].
@@ -22,7 +22,7 @@ pub struct Steps<'m> {
 struct Step {
     name: &'static str,
     begun: Instant,
-    /// Hidden until [`PATIENCE`] is over.
+    /// Hidden until the program has run for [`PATIENCE`].
     bar: Option<ProgressBar>,
 }
 
@@ -34,14 +34,14 @@ impl<'m> Steps<'m> {
 
     fn bar(&self, name: &'static str, parts: u64) -> ProgressBar {
         let bar = ProgressBar::with_draw_target(Some(parts), ProgressDrawTarget::hidden());
-        // Our template is valid; if it were not, the bar would have its default style.
+        // The template is valid; otherwise the bar would keep its default style.
         if let Ok(style) = ProgressStyle::with_template("{prefix}: {msg} [{bar:40}] {percent}%") {
             bar.set_style(style.progress_chars("=> "));
         }
         bar.with_prefix(self.messages.program().to_owned()).with_message(name)
     }
 
-    /// Ends the step, and begins the next if there is one.
+    /// Ends the current step and begins the next, if there is one.
     fn turn(&self, next: Option<(&'static str, u64)>) {
         let mut current = self.lock();
         if let Some(Step { name, begun, bar }) = current.take() {
@@ -56,7 +56,7 @@ impl<'m> Steps<'m> {
     }
 
     fn lock(&self) -> MutexGuard<'_, Option<Step>> {
-        // A panic leaves no half-changed state behind.
+        // A poisoned lock is usable: a panic cannot leave the state inconsistent.
         self.current.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }

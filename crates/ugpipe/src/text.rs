@@ -1,14 +1,14 @@
-//! Text that may come from anywhere, made fit to show.
+//! Makes untrusted text safe to print.
 
 use std::path::Path;
 
-/// Name of a file for messages. What is not text, or would move the cursor, shows as
-/// a replacement character.
+/// The name of a file for messages. Bytes that are not UTF-8, and control characters, become
+/// replacement characters.
 pub(crate) fn path(path: &Path) -> String {
     printable(&path.to_string_lossy())
 }
 
-/// `text` without control characters.
+/// `text` with control characters replaced.
 pub(crate) fn printable(text: &str) -> String {
     text.chars().map(|c| if c.is_control() { char::REPLACEMENT_CHARACTER } else { c }).collect()
 }

@@ -1,4 +1,4 @@
-//! What a user and a shell see of a program, on `examples/ugcat.rs`.
+//! The behaviour of a program on the command line, tested on `examples/ugcat.rs`.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, its helpers too")]
 
 use std::env;
@@ -16,7 +16,7 @@ use tempfile::TempDir;
 const SHIP: &str = "v A 0 0 0;\n";
 const SIGPIPE: i32 = 13;
 
-/// The example, which cargo builds beside the tests.
+/// The example program, which cargo builds together with the tests.
 fn ugcat() -> PathBuf {
     let test = env::current_exe().unwrap();
     let example = test.parent().and_then(Path::parent).unwrap().join("examples/ugcat");
@@ -31,7 +31,7 @@ fn folder() -> TempDir {
     folder
 }
 
-/// `ugcat` in `folder`, with no terminal to colour for.
+/// `ugcat` in `folder`, without a terminal, so without colours.
 fn command(folder: &TempDir, args: &[&str]) -> Command {
     let mut command = Command::new(ugcat());
     command.current_dir(folder).args(args).stdin(Stdio::null());
@@ -42,7 +42,7 @@ fn run(folder: &TempDir, args: &[&str]) -> Output {
     command(folder, args).output().unwrap()
 }
 
-/// Runs with `input` on standard input.
+/// Runs `ugcat` with `input` on standard input.
 fn feed(mut command: Command, input: &str) -> Output {
     command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
     let mut child = command.spawn().unwrap();
@@ -57,7 +57,7 @@ fn shell(folder: &TempDir, line: &str) -> Output {
     command.output().unwrap()
 }
 
-/// Asserts status, standard output and standard error, to the letter.
+/// Asserts the exact status, standard output and standard error.
 #[track_caller]
 fn assert_run(output: &Output, status: i32, stdout: &str, stderr: &str) {
     assert_eq!(String::from_utf8_lossy(&output.stderr), stderr);
@@ -65,7 +65,7 @@ fn assert_run(output: &Output, status: i32, stdout: &str, stderr: &str) {
     assert_eq!(output.status.code(), Some(status));
 }
 
-/// Names of all files in `folder`, sorted: temporary ones must not be left.
+/// The names of all files in `folder`, sorted, to check that no temporary files are left.
 fn files(folder: &TempDir) -> Vec<String> {
     let entries = fs::read_dir(folder).unwrap();
     let mut names = Vec::from_iter(entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()));
@@ -200,7 +200,7 @@ fn messages_go_to_standard_error_or_a_file() {
     assert_eq!(read(&folder, "log"), notes("1", "None"));
     assert_run(&run(&folder, &["-fm", "log", "-fail", "report"]), 1, "", "");
     assert_eq!(read(&folder, "log"), "error: no face\n --> x.ug:1:2\n");
-    // An error has to reach someone.
+    // If the message file is full, the error goes to standard error.
     let full = run(&folder, &["-fm", "/dev/full", "-fail", "work"]);
     assert_run(&full, 1, "", "ugcat: error: invalid digit found in string\n");
 }
@@ -220,7 +220,7 @@ fn output_files_appear_whole() {
     assert_run(&run(&folder, &["ship.ug", "-fo", "out.ug"]), 0, "", "");
     assert_eq!(read(&folder, "out.ug"), SHIP);
     assert_eq!(files(&folder), ["out.ug", "ship.ug"]);
-    // In place: all has been read before the file is replaced.
+    // In place: the whole file has been read before it is replaced.
     assert_run(&run(&folder, &["ship.ug", "-fo", "ship.ug", "-head"]), 0, "", "");
     assert_eq!(read(&folder, "ship.ug"), format!("{{ ugcat --head }}\n{SHIP}"));
 }
@@ -245,7 +245,7 @@ fn a_disk_that_fills_up_leaves_nothing() {
     let help = shell(&folder, "\"$ugcat\" --help > /dev/full");
     assert_run(&help, 1, "", "");
 
-    // The largest file allowed stands for a disk: half the output fits.
+    // A limit on the file size simulates a full disk: half of the output fits.
     fs::write(folder.path().join("old.ug"), "old").unwrap();
     let line = "trap '' XFSZ; ulimit -f 64; head -c 99999 /dev/zero | \"$ugcat\" -fo ";
     for name in ["new.ug", "old.ug"] {
@@ -291,8 +291,8 @@ fn permissions_are_those_of_the_umask_or_the_old_file() {
 #[test]
 fn named_pipes_are_written_to() {
     let folder = folder();
-    // Here a pipe. That devices are left in place is tested in `src/output.rs`, where no
-    // mistake of ours, made as root, can replace one.
+    // Tests a named pipe. That devices are not replaced is tested in `src/output.rs`, where a bug
+    // cannot replace one, even for root.
     assert_run(&run(&folder, &["ship.ug", "-fo", "/dev/stdout"]), 0, SHIP, "");
     let output = shell(&folder, "mkfifo pipe && { \"$ugcat\" ship.ug -fo pipe & cat pipe; wait; }");
     assert_run(&output, 0, SHIP, "");
@@ -309,7 +309,7 @@ fn a_closed_pipe_kills_quietly() {
         assert_eq!(output.status.signal(), Some(SIGPIPE), "{args:?}");
         assert_eq!(String::from_utf8_lossy(&output.stderr), "");
     }
-    // As a shell sees it, with more than a pipe holds.
+    // The status that a shell sees, with more output than a pipe can buffer.
     fs::write(folder.path().join("big"), vec![b'x'; 1 << 20]).unwrap();
     let line = "{ \"$ugcat\" big; echo $? >&2; } | head -c 1";
     assert_run(&shell(&folder, line), 0, "x", "141\n");
@@ -322,8 +322,8 @@ fn a_megabyte_passes_a_pipe_unchanged() {
     assert_run(&feed(command(&folder, &[]), &text), 0, &text, "");
 }
 
-/// Runs `command` with all streams on a new terminal on which the user types `typed`.
-/// Status and all that appeared on the screen.
+/// Runs `command` with all streams on a new terminal on which the user types `typed`. Returns the
+/// status and everything that appeared on the screen.
 fn on_terminal(mut command: Command, typed: &[u8]) -> (Option<i32>, String) {
     use rustix::pty::{OpenptFlags, grantpt, openpt, ptsname, unlockpt};
 
@@ -333,18 +333,19 @@ fn on_terminal(mut command: Command, typed: &[u8]) -> (Option<i32>, String) {
     let name = ptsname(&master, Vec::new()).unwrap();
     let open = || File::options().read(true).write(true).open(OsStr::from_bytes(name.as_bytes())).unwrap();
     let mut child = command.stdin(open()).stdout(open()).stderr(open()).spawn().unwrap();
-    // The command holds our copies of the terminal; while they live, there is no end to read.
+    // The command owns copies of the terminal; as long as they are open, reading does not end.
     drop(command);
 
     let mut master = File::from(master);
     master.write_all(typed).unwrap();
     let mut screen = Vec::new();
-    // Linux reports the end of a terminal as an error.
+    // Linux reports the end of a terminal's data as an error.
     let _ = master.read_to_end(&mut screen);
     (child.wait().unwrap().code(), String::from_utf8(screen).unwrap().replace('\r', ""))
 }
 
-/// As [`command`], on a terminal that can show colours, and without the tester's wishes.
+/// Like [`command`], on a terminal with colours, and without the colour settings of the tester's
+/// environment.
 fn command_in_color(folder: &TempDir, args: &[&str]) -> Command {
     let mut command = command(folder, args);
     command.env("TERM", "xterm");
@@ -411,7 +412,7 @@ fn a_long_run_shows_a_bar_to_people_only() {
     };
     let long = screen(&["-work", "1.4", "ship.ug", "-fo", "out.ug"]);
     assert!(long.contains("ugcat: working [") && long.contains("75%"), "{long:?}");
-    // The bar is gone at the end.
+    // The bar has been cleared at the end.
     assert!(long.ends_with("\x1b[2K") || long.trim_end().ends_with("\x1b[2K"), "{long:?}");
     assert_eq!(screen(&["-work", "1.4", "ship.ug", "-qt", "-fo", "out.ug"]), "");
     assert_eq!(screen(&["-work", "0", "ship.ug", "-fo", "out.ug"]), "");

@@ -117,7 +117,7 @@ fn bad_usage_ends_with_2() {
     check("-vec -dt pdf -fl spline", "areas have no samples to be weighed: leave out -fl, or -vec");
     check("-aa 17", "17 is not in 1..=16");
     check("-aa 0", "0 is not in 1..=16");
-    check("-va 180", "a view angle is more than 0 and less than 180 degrees");
+    check("-va 180", "the view angle must be above 0 and below 180 degrees");
     check("-va nan", "not a finite number");
     check("-ep 1 2", "3 values required");
     check("-bg 1.5", "lightness and saturation of the background -bg are from 0 to 1");
