@@ -7,7 +7,8 @@ use std::collections::BTreeMap;
 use std::fmt::Debug;
 
 use proptest::prelude::*;
-use ugparse::{ColorId, ColorValue, LightKind, NameId, Projection, Scene, VelocityId, VertexId};
+use ugparse::{BodyId, ColorId, ColorValue, LightKind, NameId, Projection, Scene, VertexId};
+use ugphysics::Velocity;
 use ugtests::scenes;
 use ugtests::slow_reader::{self, Camera, Face, Flat, Light, Paint, Triple, Vertex, Wire};
 
@@ -19,7 +20,8 @@ const TOLERANCE: f64 = 1e-12;
 fn flat(scene: &Scene) -> Flat {
     let text = |id: NameId| scene.names.get(id).to_string();
     let name = |id: Option<NameId>| id.map(text);
-    let velocity = |id: Option<VelocityId>| id.map(|id| scene.velocities[id.index()].to_array());
+    let velocity = |velocity: Option<Velocity>| velocity.map(|velocity| velocity.beta().to_array());
+    let motion = |body: BodyId| velocity(scene.bodies.stated_velocity(body));
     let color = |id: Option<ColorId>| {
         let color = &scene.colors[id?.index()];
         Some(match color.value {
@@ -50,13 +52,13 @@ fn flat(scene: &Scene) -> Flat {
         surface: scene
             .surface(face)
             .map(|s| [s.diffuse, s.specular, s.transmitted, s.refraction, s.exponent]),
-        velocity: velocity(face.velocity),
+        velocity: motion(face.body),
     });
     let wires = scene.wires.iter().map(|wire| Wire {
         name: name(wire.name),
         contours: scene.wire_contours(wire).map(contour).collect(),
         color: color(wire.color),
-        velocity: velocity(wire.velocity),
+        velocity: motion(wire.body),
     });
     let lights = scene.lights.iter().map(|light| {
         let (place, radius) = match light.kind {
@@ -65,7 +67,8 @@ fn flat(scene: &Scene) -> Flat {
             LightKind::Local { position, radius } => (Some(position.to_array()), Some(radius)),
         };
         let (name, color) = (name(light.name), color(light.color));
-        Light { name, intensity: light.intensity, place, radius, color, velocity: velocity(light.velocity) }
+        let velocity = light.motion.body().and_then(motion);
+        Light { name, intensity: light.intensity, place, radius, color, velocity }
     });
     let cameras = scene.cameras.iter().map(|camera| Camera {
         name: name(camera.name),

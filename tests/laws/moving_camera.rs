@@ -73,9 +73,9 @@ fn bodies_are_lit_in_the_axes_of_the_scene() {
         let expected = 255.0 * level.min(1.0);
         assert!((f64::from(pixel[0]) - expected).abs() <= 1.0, "case {case}: {pixel:?} for {expected}");
         n_lit += usize::from(level > 0.15);
-        let w = parse(&seen).velocities[0];
-        let turn =
-            ugscene::axes_from_scene(Velocity::from_beta(w).unwrap(), Velocity::from_beta(camera).unwrap());
+        let scene = parse(&seen);
+        let w = scene.bodies.stated_velocity(scene.faces[0].body).unwrap();
+        let turn = ugscene::axes_from_scene(w, Velocity::from_beta(camera).unwrap());
         n_turned += usize::from((turn * normal).dot(normal) < 0.9);
     }
     assert!(n_lit > 30 && n_turned > 30, "{n_lit} lit, {n_turned} turned");

@@ -1,16 +1,17 @@
 //! At rest the pipe is nothing: its picture is that of `ugrainbow` alone.
 
 use glam::DVec3;
+use ugparse::BodyId;
 use ugrainbow::HueScale;
 use ugtests::picture::{assert_same, decode};
 use ugtests::pipe::{Pipe, rainbow};
 use ugtests::scenes;
 
-/// The scene without velocities of its own, which `-vel` beats.
+/// The scene without velocities of its own, which `-vel` overrides.
 fn without_velocities(text: &[u8]) -> Vec<u8> {
     let mut scene = scenes::parse(text);
-    scene.faces.iter_mut().for_each(|face| face.velocity = None);
-    scene.wires.iter_mut().for_each(|wire| wire.velocity = None);
+    scene.faces.iter_mut().for_each(|face| face.body = BodyId::UNSTATED);
+    scene.wires.iter_mut().for_each(|wire| wire.body = BodyId::UNSTATED);
     ugparse::write(&scene)
 }
 

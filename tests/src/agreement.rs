@@ -7,7 +7,7 @@ use std::fmt::{self, Display, Formatter};
 
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
-use ugparse::{Color, ColorId, ColorValue, Face, Light, LightKind, Scene};
+use ugparse::{Color, ColorId, ColorValue, Face, Light, LightKind, LightMotion, Scene};
 
 use crate::oracle::{Oracle, Pinhole};
 use crate::picture::Picture;
@@ -63,8 +63,13 @@ pub fn recolored(mut scene: Scene) -> Scene {
     scene.colors.clear();
     scene.wires.clear();
     scene.comments.clear();
-    scene.lights =
-        vec![Light { name: None, intensity: 1.0, kind: LightKind::Ambient, color: None, velocity: None }];
+    scene.lights = vec![Light {
+        name: None,
+        intensity: 1.0,
+        kind: LightKind::Ambient,
+        color: None,
+        motion: LightMotion::WithWhatItLights,
+    }];
     for vertex in &mut scene.vertices {
         vertex.color = None;
     }

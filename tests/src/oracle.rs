@@ -12,6 +12,7 @@ use std::ops::Range;
 use glam::{DMat4, DVec2, DVec3, DVec4};
 use rayon::prelude::*;
 use ugparse::{Camera, Face, Scene};
+use ugphysics::Velocity;
 
 /// A pinhole camera: `-ep`, `-vc`, `-ud` and the angle across of `-va`; pixels are square.
 #[derive(Clone, Debug)]
@@ -245,10 +246,10 @@ pub struct Oracle {
 const TILE: u32 = 16;
 
 impl Oracle {
-    /// `beta`: beats the velocities of the scene. `in_place`: a body's middle is seen where it is at rest.
+    /// `beta`: overrides the velocities of the scene. `in_place`: a body's middle is seen where it is at rest.
     pub fn new(scene: &Scene, eye: DVec3, beta: Option<DVec3>, in_place: bool) -> Self {
         let beta_of = |face: &Face| {
-            let own = face.velocity.map(|id| scene.velocities[id.index()]);
+            let own = scene.bodies.stated_velocity(face.body).map(Velocity::beta);
             beta.or(own).unwrap_or(DVec3::ZERO)
         };
         let mut betas: Vec<DVec3> = Vec::new();

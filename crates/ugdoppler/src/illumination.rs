@@ -3,8 +3,8 @@
 use glam::DVec3;
 use rayon::prelude::*;
 use uglight::{HueScale, Irradiance, Lamp, SurfaceElement, lamps};
-use ugparse::{Face, Light, LightKind, Scene, VertexId};
-use ugscene::{Bodies, seen_normal, shading_normal};
+use ugparse::{Face, Light, LightKind, LightMotion, Scene, VertexId};
+use ugscene::{RestFrames, seen_normal, shading_normal};
 
 /// Normals nearer to each other than this in all components are one, so that the pieces of a face that was cut
 /// share their vertices. A level is off by as much at most.
@@ -69,16 +69,16 @@ impl Illumination {
     pub fn new(
         scene: &Scene,
         eye: DVec3,
-        bodies: &Bodies,
+        frames: &RestFrames,
         rest: &[DVec3],
         normals: &[Option<DVec3>],
     ) -> Self {
         let lamps = lamps(scene, eye, HueScale::Degrees);
-        let velocities = ugscene::vertex_velocities(scene);
-        let of_vertex = (rest.par_iter().zip(normals).zip(&velocities))
-            .map(|((&point, normal), &velocity)| {
-                let surface = SurfaceElement { point, normal: (*normal)?, velocity };
-                Some(surface.irradiances(&lamps, bodies))
+        let bodies = ugscene::vertex_bodies(scene);
+        let of_vertex = (rest.par_iter().zip(normals).zip(&bodies))
+            .map(|((&point, normal), &body)| {
+                let surface = SurfaceElement { point, normal: (*normal)?, body };
+                Some(surface.irradiances(&lamps, frames))
             })
             .collect();
         Self { lamps, of_vertex }
@@ -88,8 +88,13 @@ impl Illumination {
 /// One ambient light in place of all lights, so that colours with light in them are drawn as they are. Comments
 /// at the lights stay.
 pub(crate) fn replace_lights(scene: &mut Scene) {
-    scene.lights =
-        vec![Light { name: None, intensity: 1.0, kind: LightKind::Ambient, color: None, velocity: None }];
+    scene.lights = vec![Light {
+        name: None,
+        intensity: 1.0,
+        kind: LightKind::Ambient,
+        color: None,
+        motion: LightMotion::WithWhatItLights,
+    }];
     for comment in &mut scene.comments {
         if let ugparse::Item::Light(row) = &mut comment.at {
             comment.trailing = false;

@@ -46,7 +46,7 @@ use uglight::{HueScale, VertexColor};
 use ugparse::{Diagnostics, Face, Options, Scene, Source};
 use ugphysics::{Brightness, Hsv, Velocity, VelocityError, doppler_at};
 use ugpipe::Progress;
-use ugscene::Bodies;
+use ugscene::RestFrames;
 
 pub use cli::{Args, main};
 
@@ -185,30 +185,30 @@ pub fn run(config: &Config, source: &Source) -> Result<Report, Error> {
 pub fn run_with(config: &Config, source: &Source, progress: &dyn Progress) -> Result<Report, Error> {
     progress.step("reading", 0);
     let parsed = ugscene::read(source, &config.reading, config.camera.as_deref())?;
-    let bodies = Bodies::new(&parsed.scene, config.velocity)?;
+    let frames = RestFrames::new(&parsed.scene)?.with_unstated(config.velocity);
     let eye = ugscene::eye(&parsed.scene, config.eye);
-    if let Some(vertex) = ugscene::vertex_at_eye(&parsed.scene, eye, &bodies) {
+    if let Some(vertex) = ugscene::vertex_at_eye(&parsed.scene, eye, &frames) {
         return Err(ugscene::at_eye_error(source, &parsed, vertex).into());
     }
     progress.step("colouring", 0);
-    let (scene, notes) = colour(parsed.scene, config, eye, &bodies);
+    let (scene, notes) = colour(parsed.scene, config, eye, &frames);
     Ok(Report { scene, notes, warnings: parsed.warnings })
 }
 
-fn colour(mut scene: Scene, config: &Config, eye: DVec3, bodies: &Bodies) -> (Scene, Vec<String>) {
+fn colour(mut scene: Scene, config: &Config, eye: DVec3, frames: &RestFrames) -> (Scene, Vec<String>) {
     ugscene::separate_bodies(&mut scene);
     repeat_vertices(&mut scene, config.repeat);
-    let rest = ugscene::rest_positions(&scene, eye, bodies);
+    let rest = ugscene::rest_positions(&scene, eye, frames);
     let mut notes = if config.spectral {
         let mut shares = ugscene::vertex_shares(&scene, &rest);
-        let light = put_light(&mut scene, config, eye, bodies, rest, &mut shares);
-        let (factors, used) = (doppler_factors(&scene, eye, bodies), used_vertices(&scene));
+        let light = put_light(&mut scene, config, eye, frames, rest, &mut shares);
+        let (factors, used) = (doppler_factors(&scene, eye, frames), used_vertices(&scene));
         let lit = light.map(|light| lit_spectra::seen(&scene, config, &shares, &factors, &light));
         spectral::paint(&mut scene, config, &shares, &factors, &used, lit.as_deref())
     } else {
         let mut colors = uglight::vertex_colors(&scene, &rest, HueScale::Degrees);
-        let light = put_light(&mut scene, config, eye, bodies, rest, &mut colors);
-        let (factors, used) = (doppler_factors(&scene, eye, bodies), used_vertices(&scene));
+        let light = put_light(&mut scene, config, eye, frames, rest, &mut colors);
+        let (factors, used) = (doppler_factors(&scene, eye, frames), used_vertices(&scene));
         let lit = light.map(|light| lit_colors(&scene, config, &colors, &factors, &light));
         let spectra_note = uglight::spectra_note(&scene);
         let mut palette = Palette::new(&mut scene, config);
@@ -236,7 +236,7 @@ fn put_light<T: Clone>(
     scene: &mut Scene,
     config: &Config,
     eye: DVec3,
-    bodies: &Bodies,
+    frames: &RestFrames,
     mut rest: Vec<DVec3>,
     of_vertex: &mut Vec<T>,
 ) -> Option<Illumination> {
@@ -248,7 +248,7 @@ fn put_light<T: Clone>(
         rest.push(rest[original.index()]);
         of_vertex.push(of_vertex[original.index()].clone());
     }
-    Some(Illumination::new(scene, eye, bodies, &rest, &normals))
+    Some(Illumination::new(scene, eye, frames, &rest, &normals))
 }
 
 /// Of every vertex, with its light; `None` where it is not lit.
@@ -301,9 +301,9 @@ fn repeat_vertices(scene: &mut Scene, each_face_color: bool) {
 }
 
 /// D of every vertex, in its body's motion. (P10)
-pub fn doppler_factors(scene: &Scene, eye: DVec3, bodies: &Bodies) -> Vec<f64> {
-    let velocities = ugscene::vertex_velocities(scene);
-    (scene.vertices.par_iter().zip(velocities.par_iter()))
-        .map(|(vertex, &velocity)| doppler_at(vertex.position - eye, bodies.of(velocity)))
+pub fn doppler_factors(scene: &Scene, eye: DVec3, frames: &RestFrames) -> Vec<f64> {
+    let bodies = ugscene::vertex_bodies(scene);
+    (scene.vertices.par_iter().zip(bodies.par_iter()))
+        .map(|(vertex, &body)| doppler_at(vertex.position - eye, frames.velocity(body)))
         .collect()
 }

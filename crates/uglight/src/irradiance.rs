@@ -1,9 +1,9 @@
 //! What lamps, at rest and in motion, contribute to the light on a point of a surface.  Eq. (P14)
 
 use glam::DVec3;
-use ugparse::VelocityId;
+use ugparse::BodyId;
 use ugphysics::{SkyRing, ambient_illumination, compose, illumination, illumination_from_afar};
-use ugscene::Bodies;
+use ugscene::RestFrames;
 
 use crate::{Lamp, LampPlace};
 
@@ -14,8 +14,8 @@ pub struct SurfaceElement {
     pub point: DVec3,
     /// Unit vector on the side that is seen, or zero for a surface without one.
     pub normal: DVec3,
-    /// The velocity of the surface.
-    pub velocity: Option<VelocityId>,
+    /// The body it is part of.
+    pub body: BodyId,
 }
 
 /// The irradiance that one lamp, or a ring of a moving ambient lamp, causes in the rest frame of a
@@ -34,7 +34,7 @@ pub struct Irradiance {
 impl SurfaceElement {
     /// What each lamp contributes, in their order; nothing from those behind the surface.
     #[must_use]
-    pub fn irradiances(&self, lamps: &[Lamp], bodies: &Bodies) -> Vec<Irradiance> {
+    pub fn irradiances(&self, lamps: &[Lamp], frames: &RestFrames) -> Vec<Irradiance> {
         let mut all = Vec::with_capacity(lamps.len());
         for (row, lamp) in lamps.iter().enumerate() {
             let mut add = |level: f64, doppler: f64| {
@@ -42,25 +42,26 @@ impl SurfaceElement {
                     all.push(Irradiance { lamp: row as u32, level, doppler });
                 }
             };
-            match self.velocity_of(lamp, bodies) {
+            match self.moving_body(lamp, frames) {
                 None => add(lamp.level_at_rest(self.point, self.normal), 1.0),
-                Some(velocity) => self.of_moving(lamp, velocity, bodies, &mut add),
+                Some(body) => self.of_moving(lamp, body, frames, &mut add),
             }
         }
         all
     }
 
-    /// The velocity of a lamp that moves against the surface.
-    fn velocity_of(&self, lamp: &Lamp, bodies: &Bodies) -> Option<VelocityId> {
-        lamp.velocity.filter(|_| bodies.of(lamp.velocity) != bodies.of(self.velocity))
+    /// The body of a lamp that moves relative to the surface.
+    fn moving_body(&self, lamp: &Lamp, frames: &RestFrames) -> Option<BodyId> {
+        let body = lamp.motion.body()?;
+        (frames.velocity(body) != frames.velocity(self.body)).then_some(body)
     }
 
-    fn of_moving(&self, lamp: &Lamp, motion: VelocityId, bodies: &Bodies, add: &mut impl FnMut(f64, f64)) {
+    fn of_moving(&self, lamp: &Lamp, body: BodyId, frames: &RestFrames, add: &mut impl FnMut(f64, f64)) {
         // Between two frames their axes have to be those of the camera, which boosts keep.  Eq. (P25)
-        let axes_of = |velocity: Option<VelocityId>| bodies.scene_from_axes(velocity).inverse();
-        let (of_surface, of_lamp) = (axes_of(self.velocity), axes_of(Some(motion)));
+        let axes_of = |body: BodyId| frames.scene_from_axes(body).inverse();
+        let (of_surface, of_lamp) = (axes_of(self.body), axes_of(body));
         let (point, normal) = (of_surface * self.point, of_surface * self.normal);
-        let (velocity, motion) = (bodies.of(self.velocity), bodies.of(Some(motion)));
+        let (velocity, motion) = (frames.velocity(self.body), frames.velocity(body));
         let light = match lamp.place {
             LampPlace::Everywhere => {
                 for SkyRing { level, doppler } in ambient_illumination(normal, compose(motion, -velocity)) {

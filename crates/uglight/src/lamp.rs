@@ -1,7 +1,7 @@
 //! The lights of a scene, as all programs understand them.
 
 use glam::DVec3;
-use ugparse::{Light, LightKind, Scene, VelocityId};
+use ugparse::{Light, LightKind, LightMotion, Scene};
 
 use ugphysics::srgb_decode;
 
@@ -19,8 +19,8 @@ pub struct Lamp {
     pub linear: DVec3,
     /// True if the light is neither white nor grey.
     pub is_colored: bool,
-    /// Its own velocity; without one it rests with whatever it lights.
-    pub velocity: Option<VelocityId>,
+    /// How it moves.
+    pub motion: LightMotion,
 }
 
 /// Where a light is.
@@ -50,7 +50,7 @@ fn lamp(scene: &Scene, statement: &Light, eye: DVec3, scale: HueScale) -> Lamp {
         }
         LightKind::Local { position, .. } => LampPlace::At(position - eye),
     };
-    let white = Lamp { velocity: statement.velocity, ..Lamp::white(place, statement.intensity) };
+    let white = Lamp { motion: statement.motion, ..Lamp::white(place, statement.intensity) };
     let Some(id) = statement.color else { return white };
     let color = &scene.colors[id.index()];
     let shown = hsv(scene, color, scale);
@@ -68,7 +68,7 @@ impl Lamp {
     /// A white light that rests with whatever it lights.
     pub fn white(place: LampPlace, intensity: f64) -> Lamp {
         let color = DVec3::splat(intensity);
-        Lamp { place, color, linear: color, is_colored: false, velocity: None }
+        Lamp { place, color, linear: color, is_colored: false, motion: LightMotion::WithWhatItLights }
     }
 
     /// What part of its intensity falls on a surface if both are at rest: max(0, n·l), 1 for ambient light.

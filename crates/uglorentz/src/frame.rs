@@ -1,8 +1,7 @@
 //! From the frame of the scene to that of a camera that moves in it.
 
-use glam::DVec3;
 use rayon::prelude::*;
-use ugparse::{Scene, VelocityId};
+use ugparse::{BodyId, Motion, Scene};
 use ugphysics::{Velocity, compose};
 
 use crate::{Config, Error, PROGRAM};
@@ -10,36 +9,34 @@ use crate::{Config, Error, PROGRAM};
 /// The velocity of the camera in the frame of the scene: the option, else that of the scene's camera, which
 /// loses it, for downstream the camera is at rest.
 pub(crate) fn take_camera_velocity(scene: &mut Scene, config: &Config) -> Result<Velocity, Error> {
-    let own = scene
-        .camera_row()
-        .and_then(|row| scene.cameras[row].velocity.take())
-        .map(|id| scene.velocities[id.index()]);
-    match (config.camera_velocity, own) {
-        (Some(beta), _) => Velocity::from_beta(beta).map_err(Error::CameraVelocity),
-        (None, Some(beta)) => Velocity::from_beta(beta).map_err(Error::SceneVelocity),
-        (None, None) => Ok(Velocity::ZERO),
+    let own = scene.camera_row().and_then(|row| scene.cameras[row].velocity.take());
+    match config.camera_velocity {
+        Some(beta) => Velocity::from_beta(beta).map_err(Error::CameraVelocity),
+        None => Ok(own.unwrap_or_default()),
     }
 }
 
-/// Gives all faces and wires one velocity. At rest, those that had none still have none.
-pub(crate) fn set_velocity(scene: &mut Scene, velocity: DVec3) {
-    let id = scene.velocity_id(velocity);
-    let set = |slot: &mut Option<VelocityId>| {
-        if velocity != DVec3::ZERO || slot.is_some() {
-            *slot = Some(id);
+/// Makes all faces and wires one body. At rest, those whose motion was not stated keep it so.
+pub(crate) fn set_velocity(scene: &mut Scene, velocity: Velocity) {
+    let body = scene.bodies.moving_with(Motion::Inertial(velocity));
+    let set = |slot: &mut BodyId| {
+        if !velocity.is_zero() || *slot != BodyId::UNSTATED {
+            *slot = body;
         }
     };
-    scene.faces.par_iter_mut().for_each(|face| set(&mut face.velocity));
-    scene.wires.par_iter_mut().for_each(|wire| set(&mut wire.velocity));
+    scene.faces.par_iter_mut().for_each(|face| set(&mut face.body));
+    scene.wires.par_iter_mut().for_each(|wire| set(&mut wire.body));
 }
 
-/// Gives everything that is drawn a velocity, for what rests in the scene moves in the frame of the camera.
-/// `default`: of what carries none.
-pub(crate) fn give_velocities(scene: &mut Scene, default: Velocity) {
-    let id = scene.velocity_id(default.beta());
-    let faces = scene.faces.iter_mut().map(|face| &mut face.velocity);
-    for slot in faces.chain(scene.wires.iter_mut().map(|wire| &mut wire.velocity)) {
-        slot.get_or_insert(id);
+/// States the motion of everything that is drawn, for what rests in the scene moves in the frame of the camera.
+/// `default`: of what states none.
+pub(crate) fn state_motions(scene: &mut Scene, default: Velocity) {
+    let body = scene.bodies.moving_with(Motion::Inertial(default));
+    let faces = scene.faces.iter_mut().map(|face| &mut face.body);
+    for slot in faces.chain(scene.wires.iter_mut().map(|wire| &mut wire.body)) {
+        if *slot == BodyId::UNSTATED {
+            *slot = body;
+        }
     }
 }
 
@@ -61,9 +58,13 @@ pub(crate) fn in_camera_frame(body: Velocity, camera: Velocity) -> Result<Veloci
 /// Carries all velocities of a scene over, and notes in it from where.
 pub(crate) fn carry_velocities(scene: &mut Scene, camera: Velocity) -> Result<(), Error> {
     if !camera.is_zero() {
-        for beta in &mut scene.velocities {
-            let body = Velocity::from_beta(*beta).map_err(Error::SceneVelocity)?;
-            *beta = in_camera_frame(body, camera)?.beta();
+        // What states no motion is not drawn any more: it goes on without saying so.
+        for body in scene.bodies.iter_mut().skip(1) {
+            let Motion::Inertial(velocity) = &mut body.motion;
+            *velocity = in_camera_frame(*velocity, camera)?;
+        }
+        for velocity in scene.cameras.iter_mut().filter_map(|other| other.velocity.as_mut()) {
+            *velocity = in_camera_frame(*velocity, camera)?;
         }
     }
     ugscene::record_camera_velocity(scene, camera);

@@ -82,10 +82,10 @@ mod viewpoint;
 
 use glam::DVec3;
 use rayon::prelude::*;
-use ugparse::{Diagnostics, Item, Options, Scene, Source, VelocityId, Vertex};
+use ugparse::{BodyId, Diagnostics, Item, Options, Scene, Source, Vertex};
 use ugphysics::Velocity;
 use ugpipe::Progress;
-use ugscene::{Bodies, CameraOptions, Geometry};
+use ugscene::{CameraOptions, Geometry};
 
 pub use cli::{Args, main};
 pub use error::Error;
@@ -260,20 +260,20 @@ fn transform_owned(mut scene: Scene, config: &Config) -> Result<(Scene, Notes), 
     let was_seen_before = frame::was_seen_before(&scene);
     let n_faces = scene.faces.len();
 
-    if let Some(velocity) = config.velocity {
+    if config.velocity.is_some() {
         frame::set_velocity(&mut scene, velocity);
     }
     let camera = frame::take_camera_velocity(&mut scene, config)?;
     if !camera.is_zero() {
-        frame::give_velocities(&mut scene, velocity);
+        frame::state_motions(&mut scene, velocity);
     }
     ugscene::separate_bodies(&mut scene);
     let eye = ugscene::eye(&scene, config.eye);
-    let velocities = ugscene::vertex_velocities(&scene);
+    let bodies = ugscene::vertex_bodies(&scene);
     let motions = motions(&scene, velocity, camera, config.geometry)?;
     frame::carry_velocities(&mut scene, camera)?;
-    let shifts = placement::shifts(&scene, &velocities, &motions, eye, config);
-    let mut points = points(&scene, &velocities, &motions, &shifts, eye);
+    let shifts = placement::shifts(&scene, &bodies, &motions, eye, config);
+    let mut points = points(&scene, &bodies, &motions, &shifts, eye);
     viewpoint::refuse_vertices_at_eye(&scene, &points, &motions)?;
     placement::shift_lights(&mut scene, &motions, &shifts);
     if config.smooth {
@@ -323,7 +323,7 @@ fn transform_owned(mut scene: Scene, config: &Config) -> Result<(Scene, Notes), 
 
 const PROGRAM: &str = env!("CARGO_PKG_NAME");
 
-/// The velocity of what carries none.
+/// The velocity of what states none.
 fn check(config: &Config) -> Result<Velocity, Error> {
     match config.pieces {
         Pieces::UpTo(error) if !(error > 0.0 && error.is_finite()) => return Err(Error::NoBound { error }),
@@ -339,29 +339,25 @@ fn check(config: &Config) -> Result<Velocity, Error> {
     Velocity::from_beta(config.velocity.unwrap_or(DVec3::ZERO)).map_err(Error::Velocity)
 }
 
-/// Of each body, in the order of [`placement::body`].
+/// Of each body, in the order of [`Scene::bodies`]. `default`: of what states none.
 fn motions(
     scene: &Scene,
     default: Velocity,
     camera: Velocity,
     geometry: Geometry,
 ) -> Result<Vec<Motion>, Error> {
-    let bodies = Bodies::new(scene, default).map_err(Error::SceneVelocity)?;
-    let velocities = [bodies.of(None)].into_iter().chain(bodies.all().iter().copied());
-    velocities.map(|velocity| Motion::seen_by(camera, velocity, geometry)).collect()
+    let velocity = |body: BodyId| match scene.bodies[body].motion {
+        _ if body == BodyId::UNSTATED => default,
+        ugparse::Motion::Inertial(velocity) => velocity,
+    };
+    scene.bodies.ids().map(|body| Motion::seen_by(camera, velocity(body), geometry)).collect()
 }
 
-fn points(
-    scene: &Scene,
-    velocities: &[Option<VelocityId>],
-    motions: &[Motion],
-    shifts: &[DVec3],
-    eye: DVec3,
-) -> Vec<Point> {
-    let vertices = scene.vertices.par_iter().zip(velocities.par_iter());
+fn points(scene: &Scene, bodies: &[BodyId], motions: &[Motion], shifts: &[DVec3], eye: DVec3) -> Vec<Point> {
+    let vertices = scene.vertices.par_iter().zip(bodies.par_iter());
     vertices
-        .map(|(vertex, &velocity)| {
-            let body = placement::body(velocity);
+        .map(|(vertex, body)| {
+            let body = body.index();
             let rest = motions[body].turned(vertex.position - eye) + shifts[body];
             motions[body].point(body as u32, rest)
         })

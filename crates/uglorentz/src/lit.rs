@@ -12,7 +12,6 @@ use ugphysics::{Velocity, illumination};
 
 use crate::early_accept::MOST_BEND;
 use crate::motion::{Motion, Point};
-use crate::placement::body;
 
 /// Where an edge is compared with the straight line, parts of it.
 const SAMPLES: [f64; 3] = [0.25, 0.5, 0.75];
@@ -47,7 +46,7 @@ impl Lit {
         }
         let near = lamps(scene, eye, HueScale::Degrees).into_iter().filter_map(|lamp| {
             let LampPlace::At(place) = lamp.place else { return None };
-            let motion = lamp.velocity.map(|id| &motions[body(Some(id))]);
+            let motion = lamp.motion.body().map(|body| &motions[body.index()]);
             let place = motion.map_or(place, |motion| motion.turned(place));
             let velocity = motion.map(Motion::velocity);
             Some(NearLamp { intensity: lamp.color.max_element(), place, velocity })

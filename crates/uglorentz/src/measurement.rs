@@ -5,7 +5,7 @@ use std::fmt::Write;
 use glam::DVec3;
 use ugparse::{Face, Scene, VertexId};
 use ugphysics::{Velocity, VelocityError, aberrate, doppler_at};
-use ugscene::{Bodies, Geometry};
+use ugscene::{Geometry, RestFrames};
 
 /// How one vertex is seen.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,11 +31,11 @@ pub struct Measurement {
 /// `eye`: in scene coordinates. `time`: of the picture, on the clock of the camera.
 ///
 /// # Errors
-/// A velocity of the scene is not below that of light.
+/// The velocity of the camera is invalid.
 pub fn measure(scene: &Scene, eye: DVec3, time: f64) -> Result<Vec<Measurement>, VelocityError> {
-    let bodies = Bodies::new(scene, Velocity::ZERO)?;
+    let frames = RestFrames::new(scene)?;
     let has_flight_time = Geometry::of(scene).flight_time;
-    let velocities = ugscene::vertex_velocities(scene);
+    let bodies = ugscene::vertex_bodies(scene);
     let one = |seen: DVec3, v: Velocity| {
         let distance = seen.length();
         Measurement {
@@ -46,8 +46,8 @@ pub fn measure(scene: &Scene, eye: DVec3, time: f64) -> Result<Vec<Measurement>,
             rest_emission_angle_deg: angle_to_motion_deg(-aberrate(seen, v), v),
         }
     };
-    let vertices = scene.vertices.iter().zip(velocities);
-    Ok(vertices.map(|(vertex, velocity)| one(vertex.position - eye, bodies.of(velocity))).collect())
+    let vertices = scene.vertices.iter().zip(bodies);
+    Ok(vertices.map(|(vertex, body)| one(vertex.position - eye, frames.velocity(body))).collect())
 }
 
 fn angle_to_motion_deg(direction: DVec3, v: Velocity) -> f64 {

@@ -4,23 +4,18 @@
 //! coordinates alone, and rest geometry recovered from the output has its shape unchanged.
 
 use glam::DVec3;
-use ugparse::{LightKind, Scene, VelocityId};
+use ugparse::{BodyId, LightKind, Scene};
 use ugphysics::observer_shift;
 
 use crate::motion::{Motion, gamma_minus_one};
 use crate::{Anchor, Config};
 
-/// Row of a body in the tables of this module: 0 for what carries no velocity.
-pub(crate) fn body(velocity: Option<VelocityId>) -> usize {
-    velocity.map_or(0, |id| id.index() + 1)
-}
-
 /// What to add to the rest coordinates of each body, in the axes of [`Motion::turned`].
 ///
-/// `velocities`: of each vertex. `motions`: of each body.
+/// `bodies`: of each vertex. `motions`: of each body.
 pub(crate) fn shifts(
     scene: &Scene,
-    velocities: &[Option<VelocityId>],
+    bodies: &[BodyId],
     motions: &[Motion],
     eye: DVec3,
     config: &Config,
@@ -30,11 +25,7 @@ pub(crate) fn shifts(
         None => config.in_place,
     };
     // They take a look at every vertex.
-    let centers = if is_center_asked {
-        centers(scene, velocities, motions.len())
-    } else {
-        vec![DVec3::ZERO; motions.len()]
-    };
+    let centers = if is_center_asked { centers(scene, bodies) } else { vec![DVec3::ZERO; motions.len()] };
     let shift = |(motion, &center): (&Motion, &DVec3)| {
         let point = match config.anchor {
             Some(Anchor::Eye) => DVec3::ZERO,
@@ -47,7 +38,7 @@ pub(crate) fn shifts(
         anchor_shift(motion, point, config.in_place) + time_shift(motion, config.time)
     };
     let mut shifts: Vec<DVec3> = motions.iter().zip(&centers).map(shift).collect();
-    // Vertices that nothing uses carry no velocity; they stay with the body that moves as they do.
+    // Vertices that nothing uses have no stated motion; they stay with the body that moves as they do.
     let twin = (1..motions.len()).find(|&row| motions[row].in_scene() == motions[0].in_scene());
     if let Some(row) = twin {
         shifts[0] = shifts[row];
@@ -82,20 +73,21 @@ fn time_shift(motion: &Motion, time: f64) -> DVec3 {
 }
 
 /// Middle of the box round each body, in scene coordinates. Lamps count only for what has no vertices.
-fn centers(scene: &Scene, velocities: &[Option<VelocityId>], n_bodies: usize) -> Vec<DVec3> {
+fn centers(scene: &Scene, bodies: &[BodyId]) -> Vec<DVec3> {
     const EMPTY: (DVec3, DVec3) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     let grow = |(low, high): &mut (DVec3, DVec3), position: DVec3| {
         *low = low.min(position);
         *high = high.max(position);
     };
-    let mut boxes = vec![EMPTY; n_bodies];
+    let mut boxes = vec![EMPTY; scene.bodies.len()];
     let mut lamp_boxes = boxes.clone();
-    for (vertex, &velocity) in scene.vertices.iter().zip(velocities) {
-        grow(&mut boxes[body(velocity)], vertex.position);
+    for (vertex, body) in scene.vertices.iter().zip(bodies) {
+        grow(&mut boxes[body.index()], vertex.position);
     }
     for light in &scene.lights {
         if let LightKind::Local { position, .. } = light.kind {
-            grow(&mut lamp_boxes[body(light.velocity)], position);
+            let body = light.motion.body().unwrap_or(BodyId::UNSTATED);
+            grow(&mut lamp_boxes[body.index()], position);
         }
     }
     let middle = |(low, high): (DVec3, DVec3)| (low.x <= high.x).then(|| low.midpoint(high));
@@ -109,12 +101,12 @@ pub(crate) fn shift_lights(scene: &mut Scene, motions: &[Motion], shifts: &[DVec
     if !scene.lights.iter().any(|light| matches!(light.kind, LightKind::Local { .. })) {
         return;
     }
-    let users = scene.faces.iter().map(|face| face.velocity).chain(scene.wires.iter().map(|w| w.velocity));
+    let users = scene.faces.iter().map(|face| face.body).chain(scene.wires.iter().map(|wire| wire.body));
     let mut users = users.peekable();
     let first = users.peek().copied();
-    let of_all = first.filter(|&first| users.all(|velocity| velocity == first)).map(body);
+    let of_all = first.filter(|&first| users.all(|body| body == first));
     for light in &mut scene.lights {
-        let body = light.velocity.map(|velocity| body(Some(velocity))).or(of_all);
+        let body = light.motion.body().or(of_all).map(BodyId::index);
         if let (LightKind::Local { position, .. }, Some(body)) = (&mut light.kind, body) {
             *position += motions[body].turned_back(shifts[body]);
         }

@@ -8,9 +8,9 @@ use std::fmt::Write;
 use common::{Random, find, parse, place, run, seen};
 use glam::DVec3;
 use uglorentz::{Anchor, Config, Pieces};
-use ugparse::{LightKind, Scene};
+use ugparse::{BodyId, LightKind, LightMotion, Scene};
 use ugphysics::{Velocity, compose, doppler_at, rest_position, wigner_rotation};
-use ugscene::{Bodies, Geometry, rest_positions};
+use ugscene::{Geometry, RestFrames, rest_positions};
 
 /// Bodies of one triangle each.
 struct Fleet {
@@ -181,15 +181,15 @@ fn rest_positions_come_back_in_the_axes_of_the_scene() {
             let fleet = Fleet::new(&mut random, 12, speed);
             let geometry = Geometry { contraction, flight_time };
             let scene = seen(&fleet.text(), &Config { geometry, ..fleet.config() });
-            let bodies = Bodies::new(&scene, Velocity::ZERO).unwrap();
-            let rest = rest_positions(&scene, fleet.eye, &bodies);
+            let frames = RestFrames::new(&scene).unwrap();
+            let rest = rest_positions(&scene, fleet.eye, &frames);
             for (idx, body) in fleet.bodies.iter().enumerate() {
                 for (corner, &p) in body.corners.iter().enumerate() {
                     let row = find(&scene, &format!("b{idx}:{corner}"));
                     let (found, p) = (rest[row.index()], p - fleet.eye);
                     // Seen places are written to the last digit relative to the origin, not the eye; undoing the
                     // boost magnifies that by up to 2γ.
-                    let gamma = bodies.of(scene.faces[idx].velocity).gamma();
+                    let gamma = frames.velocity(scene.faces[idx].body).gamma();
                     let tolerance = 1e-12 * p.length() + 1e-15 * gamma * place(&scene, row).length();
                     assert!((found - p).length() <= tolerance, "{speed} {idx}: {found} {p}");
                 }
@@ -238,8 +238,7 @@ fn a_common_boost_of_scene_and_camera_changes_nothing() {
         let turn = wigner_rotation(velocity(here.camera), boost);
         let (one, other) = (seen(&here.text(), &here.config()), seen(&there.text(), &there.config()));
         let betas = |scene: &Scene| -> Vec<Velocity> {
-            let beta = |face: &ugparse::Face| scene.velocities[face.velocity.unwrap().index()];
-            scene.faces.iter().map(|face| velocity(beta(face))).collect()
+            scene.faces.iter().map(|face| scene.bodies.stated_velocity(face.body).unwrap()).collect()
         };
         for (idx, (v, w)) in betas(&one).into_iter().zip(betas(&other)).enumerate() {
             // Velocities in text are right to γ²·10⁻¹⁶, and there are four roundings of them.
@@ -265,7 +264,7 @@ fn crossing_bodies_are_turned_by_the_wigner_rotation() {
     for (speed, degrees) in [(0.5, 8.213210702), (0.6, 12.68038349), (0.8, 28.07248694), (0.9, 42.89619887)] {
         let text = format!("v a 3 0 0; v b 0 4 0; v c 0 0 5; f (a b c) <0 {speed} 0>;");
         let scene = seen(&text, &Config { camera_velocity: Some(DVec3::X * speed), ..Config::default() });
-        let beta = scene.velocities[scene.faces[0].velocity.unwrap().index()];
+        let beta = scene.bodies.stated_velocity(scene.faces[0].body).unwrap().beta();
         let gamma = 1.0 / (1.0 - speed * speed).sqrt();
         // (P15): along the camera's way the body falls back, across it moves on slower by γ.
         assert!((beta - DVec3::new(-speed, speed / gamma, 0.0)).length() < 1e-15, "{beta}");
@@ -309,28 +308,31 @@ fn the_camera_of_the_scene_may_move() {
     assert_eq!(by_itself.camera().unwrap().velocity, None, "downstream the camera is at rest");
     assert_eq!(by_itself.escapes, ["uglorentz camera-velocity 0.6 0 0"]);
 
-    // The option beats it, and -vel beats faces but not what rests in no frame.
+    // The option overrides it, and -vel overrides faces but not what rests in no frame.
     let still = seen(CAR, &Config { camera_velocity: Some(DVec3::ZERO), ..Config::default() });
     assert_eq!(still.escapes, [""; 0]);
-    let beta = |scene: &Scene, id: Option<ugparse::VelocityId>| id.map(|id| scene.velocities[id.index()]);
-    assert_eq!(beta(&still, still.faces[0].velocity), Some(DVec3::new(0.0, 0.5, 0.0)));
-    assert_eq!(still.faces.last().unwrap().velocity, None);
+    let beta = |scene: &Scene, body| scene.bodies.stated_velocity(body).map(Velocity::beta);
+    assert_eq!(beta(&still, still.faces[0].body), Some(DVec3::new(0.0, 0.5, 0.0)));
+    assert_eq!(still.faces.last().unwrap().body, BodyId::UNSTATED);
 
     // All velocities are those in the frame of the camera, (P15).
     let expected = |u: DVec3| compose(velocity(u), velocity(DVec3::X * -0.6)).beta();
     let scene = &by_itself;
-    assert_eq!(beta(scene, scene.faces[0].velocity), Some(expected(DVec3::Y * 0.5)));
-    assert_eq!(beta(scene, scene.faces.last().unwrap().velocity), Some(DVec3::X * -0.6));
-    assert_eq!(beta(scene, scene.wires[0].velocity), Some(DVec3::X * -0.6));
-    assert_eq!(scene.lights[0].velocity, None);
-    assert_eq!(beta(scene, scene.lights[1].velocity), Some(expected(DVec3::new(0.1, 0.0, 0.2))));
+    assert_eq!(beta(scene, scene.faces[0].body), Some(expected(DVec3::Y * 0.5)));
+    assert_eq!(beta(scene, scene.faces.last().unwrap().body), Some(DVec3::X * -0.6));
+    assert_eq!(beta(scene, scene.wires[0].body), Some(DVec3::X * -0.6));
+    assert_eq!(scene.lights[0].motion, LightMotion::WithWhatItLights);
+    assert_eq!(
+        beta(scene, scene.lights[1].motion.body().unwrap()),
+        Some(expected(DVec3::new(0.1, 0.0, 0.2)))
+    );
     assert_eq!(scene.lights[1].kind, LightKind::Directional(DVec3::Z));
 
     // A second pass finds a camera at rest, and says that shapes are seen ones.
     let text = String::from_utf8(ugparse::write(scene)).unwrap();
     let again = run(&text, &Config::default());
     assert!(again.notes.was_seen_before);
-    assert_eq!(again.scene.velocities, scene.velocities);
+    assert_eq!(again.scene.bodies, scene.bodies);
     assert_eq!(ugscene::camera_velocity(&again.scene), Ok(Velocity::ZERO));
 }
 
@@ -340,7 +342,7 @@ fn velocities_take_precedence_as_without_a_moving_camera() {
         def pair; i (tile) <0 0.2 0>; i (tile); end;
         i (pair) <0 0 0.3>; i (pair); i (tile);";
     let betas = |scene: &Scene| -> Vec<DVec3> {
-        let of = |face: &ugparse::Face| face.velocity.map_or(DVec3::ZERO, |id| scene.velocities[id.index()]);
+        let of = |face: &ugparse::Face| scene.bodies.stated_velocity(face.body).unwrap_or_default().beta();
         scene.faces.iter().map(of).collect()
     };
     let camera = DVec3::new(0.0, 0.0, 0.3);
@@ -367,7 +369,7 @@ fn a_local_light_moves_with_the_only_body() {
     let config =
         Config { camera_velocity: Some(camera), time: 3.0, pieces: Pieces::PerEdge(1), ..Config::default() };
     let scene = seen(text, &config);
-    let rest = rest_positions(&scene, DVec3::ZERO, &Bodies::new(&scene, Velocity::ZERO).unwrap());
+    let rest = rest_positions(&scene, DVec3::ZERO, &RestFrames::new(&scene).unwrap());
     let LightKind::Local { position, .. } = scene.lights[0].kind else { panic!("it is local") };
     let lamp_from_a = DVec3::new(4.0, 5.0, 6.0) - DVec3::new(1.0, 2.0, 3.0);
     assert!((position - rest[0] - lamp_from_a).length() < 1e-13, "the lamp stays with the body");
@@ -396,6 +398,6 @@ fn what_meets_too_fast_is_refused() {
     let config = Config { camera_velocity: Some(DVec3::Y * 0.999_999_999_8), ..Config::default() };
     let scene = seen(text, &config);
     // (b − c)/(1 − bc), whose rounding is 10⁻¹⁶ over 3·10⁻¹⁰.
-    let beta = scene.velocities[0].y;
+    let beta = scene.bodies.stated_velocity(scene.faces[0].body).unwrap().beta().y;
     assert!((beta - 1.0 / 3.0).abs() < 1e-6, "{beta}");
 }

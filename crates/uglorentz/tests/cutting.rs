@@ -11,7 +11,7 @@ use glam::DVec3;
 use uglorentz::{Config, DEFAULT_COLOR_ERROR, Pieces};
 use ugparse::{Item, Scene, VertexId};
 use ugphysics::{Velocity, doppler_at, seen_position};
-use ugscene::{Bodies, Geometry};
+use ugscene::{Geometry, RestFrames};
 
 type Mesh = (Vec<DVec3>, Vec<Vec<usize>>);
 
@@ -30,9 +30,9 @@ fn meshes(random: &mut Random) -> Vec<Mesh> {
 
 /// Rest positions recovered from what was written, by (P4).
 fn rest(scene: &Scene) -> Vec<DVec3> {
-    let bodies = Bodies::new(scene, Velocity::ZERO).unwrap();
+    let frames = RestFrames::new(scene).unwrap();
     let eye = ugscene::eye(scene, None);
-    ugscene::rest_positions(scene, eye, &bodies)
+    ugscene::rest_positions(scene, eye, &frames)
 }
 
 #[test]
@@ -388,7 +388,7 @@ fn comments_and_attributes_go_with_their_faces() {
     assert_eq!(found, expected.map(|(text, at)| (text, at.to_string())));
     for (row, face) in scene.faces.iter().enumerate() {
         assert_eq!(scene.light_level(face), (named(row as u32) == "up").then_some(0.5));
-        assert!(face.color.is_some() && scene.velocities[face.velocity.unwrap().index()].x == 0.9);
+        assert!(face.color.is_some() && scene.bodies.stated_velocity(face.body).unwrap().beta().x == 0.9);
     }
     assert_eq!(scene.head, [" head ", " uglorentz 0.1.0: uglorentz "]);
 }

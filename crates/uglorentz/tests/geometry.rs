@@ -210,7 +210,7 @@ fn bodies_with_their_own_velocities() {
     let scene = seen(text, &uncut);
     let beta = |name: &str| {
         let face = scene.faces.iter().find(|f| f.name.map(|n| scene.names.get(n)) == Some(name)).unwrap();
-        let velocity = face.velocity.map(|id| scene.velocities[id.index()]);
+        let velocity = scene.bodies.stated_velocity(face.body).map(Velocity::beta);
         (velocity, scene.face_contours(face).next().unwrap()[0])
     };
     for (name, expected) in [("still", None), ("left", Some(-0.5)), ("right", Some(0.5))] {
@@ -222,14 +222,14 @@ fn bodies_with_their_own_velocities() {
         assert!((found - a).length() < 1e-13, "{name}: {found} {a}");
     }
     assert_eq!(place(&scene, find(&scene, "lone")), DVec3::splat(7.0));
-    // -vel beats them all, and unused vertices follow.
+    // -vel overrides them all, and unused vertices follow.
     let scene = seen(text, &moving(DVec3::new(0.0, 0.0, 0.6)));
-    assert!(scene.faces.iter().all(|f| scene.velocities[f.velocity.unwrap().index()].z == 0.6));
+    assert!(scene.faces.iter().all(|f| scene.bodies.stated_velocity(f.body).unwrap().beta().z == 0.6));
     let v = Velocity::from_beta(DVec3::new(0.0, 0.0, 0.6)).unwrap();
     assert!((place(&scene, find(&scene, "lone")) - seen_position(DVec3::splat(7.0), v)).length() < 1e-13);
     // -vel 0 stops them; who had a velocity says so.
     let scene = seen(text, &moving(DVec3::ZERO));
-    let said: Vec<bool> = scene.faces.iter().map(|f| f.velocity.is_some()).collect();
+    let said: Vec<bool> = scene.faces.iter().map(|f| f.body != ugparse::BodyId::UNSTATED).collect();
     assert_eq!(said, [false, true, true]);
     assert_eq!(scene.vertices[0].position, DVec3::new(1.0, 2.0, 3.0));
 }

@@ -121,7 +121,7 @@ fn rows_are_those_of_the_scene_and_of_the_equations() {
     for pieces in [Pieces::PerEdge(3), Pieces::UpTo(1e-4)] {
         let config = Config { time: 1.5, table: Some(Table::Csv), pieces, ..Config::default() };
         let report = run(&text, &config);
-        let (eye, bodies) = (DVec3::new(1.0, 2.0, 3.0), ugscene::vertex_velocities(&report.scene));
+        let (eye, bodies) = (DVec3::new(1.0, 2.0, 3.0), ugscene::vertex_bodies(&report.scene));
         let table = String::from_utf8(report.table.unwrap()).unwrap();
         assert_eq!(table.lines().count(), 1 + report.scene.vertices.len());
         for ((line, vertex), body) in table.lines().skip(1).zip(&report.scene.vertices).zip(bodies) {
@@ -129,7 +129,7 @@ fn rows_are_those_of_the_scene_and_of_the_equations() {
             assert_eq!(words[0], report.scene.names.get(vertex.name));
             let number = |idx: usize| words[idx].parse::<f64>().unwrap();
             assert_eq!(DVec3::new(number(1), number(2), number(3)), vertex.position);
-            let v = Velocity::from_beta(report.scene.velocities[body.unwrap().index()]).unwrap();
+            let v = report.scene.bodies.stated_velocity(body).unwrap();
             let seen = vertex.position - eye;
             near(number(5), doppler_at(seen, v), 0.0);
             near(number(4) - 1.5, seen_event(rest_position(seen, v), v).t, 1e-13);

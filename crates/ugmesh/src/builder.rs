@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use rustc_hash::FxHashMap;
-use ugparse::{Color, ColorId, ColorValue, Face, NameId, Scene, Vertex, VertexId, newell_normal};
+use ugparse::{BodyId, Color, ColorId, ColorValue, Face, NameId, Scene, Vertex, VertexId, newell_normal};
 
 use crate::error::Problem;
 
@@ -125,7 +125,7 @@ impl Builder {
             return Err(Problem::new(format!("more than {MAX_CORNERS} corners of faces; split the mesh")));
         }
         let contours = self.scene.contours.push_all([corners]);
-        self.scene.faces.push(Face { name: None, contours, color, illum: None, velocity: None });
+        self.scene.faces.push(Face { name: None, contours, color, illum: None, body: BodyId::UNSTATED });
         Ok(())
     }
 

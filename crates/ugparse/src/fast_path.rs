@@ -6,6 +6,7 @@
 
 use glam::DVec3;
 
+use crate::body::BodyId;
 use crate::group::Group;
 use crate::numbered::Name;
 use crate::scene::{ColorId, Face, VertexId};
@@ -46,12 +47,21 @@ fn face<'t>(mut cursor: Cursor<'t>, start: usize, group: &mut Group<'t>) -> Opti
         group.contours.truncate(first);
         return None;
     };
+    let body = match tail.beta.map(|beta| group.bodies.moving_with_beta(beta)) {
+        None => BodyId::UNSTATED,
+        Some(Some(body)) => body,
+        // Too fast: the grammar says so.
+        Some(None) => {
+            group.contours.truncate(first);
+            return None;
+        }
+    };
     let face = Face {
         name: name.map(|name| group.add_name(name)),
         contours: first as u32..group.contours.row_count(),
         color: tail.color.map(|color| ColorId::from_index(group.colors.names.enter(color))),
         illum: None,
-        velocity: tail.velocity.map(|velocity| group.velocities.id(velocity)),
+        body,
     };
     group.n_statements += 1;
     group.faces.push(face, Span { start: start as u32, end: cursor.at as u32 });
@@ -86,7 +96,7 @@ fn contours<'t>(cursor: &mut Cursor<'t>, group: &mut Group<'t>) -> Option<()> {
 /// What follows the contours of a face.
 struct Tail<'t> {
     color: Option<&'t [u8]>,
-    velocity: Option<DVec3>,
+    beta: Option<DVec3>,
 }
 
 impl<'t> Tail<'t> {
@@ -94,9 +104,9 @@ impl<'t> Tail<'t> {
     fn read(cursor: &mut Cursor<'t>) -> Option<Self> {
         let color = cursor.identifier();
         cursor.skip_blank();
-        let velocity = if cursor.next_is(b'<') { Some(cursor.velocity()?) } else { None };
+        let beta = if cursor.next_is(b'<') { Some(cursor.beta()?) } else { None };
         cursor.mark(b';')?;
-        Some(Self { color, velocity })
+        Some(Self { color, beta })
     }
 }
 
@@ -182,11 +192,11 @@ impl<'t> Cursor<'t> {
         Some(DVec3::new(self.number()?, self.number()?, self.number()?))
     }
 
-    /// `< x y z >`, slower than light.
-    fn velocity(&mut self) -> Option<DVec3> {
+    /// `< x y z >`, of any length.
+    fn beta(&mut self) -> Option<DVec3> {
         self.at += 1;
-        let velocity = self.point()?;
+        let beta = self.point()?;
         self.mark(b'>')?;
-        (velocity.length_squared() < 1.0).then_some(velocity)
+        Some(beta)
     }
 }

@@ -8,14 +8,16 @@
 
 use glam::DVec3;
 use rustc_hash::FxHashMap;
+use ugphysics::Velocity;
 
+use crate::body::{Bodies, Body, BodyId, Motion};
 use crate::contours::Contours;
 use crate::named::Named;
 use crate::names::{NameId, Names};
 use crate::numbered::{Name, NumberedNames};
 use crate::scene::{
-    Camera, Color, ColorId, ColorValue, Face, Illum, IllumId, Light, LightKind, Surface, SurfaceId,
-    VelocityId, Vertex, VertexId, Wire,
+    Camera, Color, ColorId, ColorValue, Face, Illum, IllumId, Light, LightKind, LightMotion, Surface,
+    SurfaceId, Vertex, VertexId, Wire,
 };
 use crate::source::Span;
 use crate::statement::{
@@ -85,7 +87,7 @@ pub(crate) struct Group<'t> {
     pub parent: Option<usize>,
     /// Names of all but colours and surfaces.
     pub names: Names,
-    pub velocities: Velocities,
+    pub bodies: BodyTable,
 
     /// Spans are those of the names, see [`Group::vertex_statement`].
     pub vertices: Rows<Vertex>,
@@ -256,7 +258,7 @@ impl<'t> Group<'t> {
             contours,
             color: self.color(text, face.color),
             illum: face.illum.map(|illum| self.add_illum(text, illum)),
-            velocity: face.velocity.map(|velocity| self.velocities.id(velocity)),
+            body: self.bodies.of_stated(face.velocity),
         };
         self.faces.push(face, span);
     }
@@ -285,7 +287,7 @@ impl<'t> Group<'t> {
             name: self.name(text, wire.name),
             contours,
             color: self.color(text, wire.color),
-            velocity: wire.velocity.map(|velocity| self.velocities.id(velocity)),
+            body: self.bodies.of_stated(wire.velocity),
         };
         self.wires.push(wire, span);
     }
@@ -339,15 +341,16 @@ impl<'t> Group<'t> {
             intensity: light.intensity,
             kind,
             color: self.color(text, light.color),
-            velocity: light.velocity.map(|velocity| self.velocities.id(velocity)),
+            motion: light.velocity.map_or(LightMotion::WithWhatItLights, |velocity| {
+                LightMotion::Body(self.bodies.moving_with(velocity))
+            }),
         };
         self.lights.push(light, span);
     }
 
     fn add_camera(&mut self, text: &[u8], span: Span, statement: CameraStatement) {
         let name = self.name(text, statement.name);
-        let velocity = statement.velocity.map(|velocity| self.velocities.id(velocity));
-        self.cameras.push(Camera { name, velocity, ..statement.camera }, span);
+        self.cameras.push(Camera { name, ..statement.camera }, span);
     }
 
     fn add_call(&mut self, text: &'t [u8], span: Span, statement: CallStatement) {
@@ -453,31 +456,66 @@ fn lossy(text: &[u8], span: Span) -> String {
     String::from_utf8_lossy(span.of(text)).into_owned()
 }
 
-/// Distinct velocities.
+/// Bodies by their velocities, each once.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Velocities {
-    pub list: Vec<DVec3>,
-    /// By the bits of their numbers.
-    rows: FxHashMap<[u64; 3], VelocityId>,
+pub(crate) struct BodyTable {
+    pub bodies: Bodies,
+    /// By the bits of β.
+    rows: FxHashMap<[u64; 3], BodyId>,
     /// The one asked for last: neighbours mostly move alike.
-    last: Option<([u64; 3], VelocityId)>,
+    last: Option<([u64; 3], BodyId)>,
 }
 
-impl Velocities {
-    /// The row of a velocity, which is entered if it is new.
-    pub fn id(&mut self, velocity: DVec3) -> VelocityId {
-        // Adding 0 makes -0 the same as 0.
-        let bits = (velocity + DVec3::ZERO).to_array().map(f64::to_bits);
-        if let Some((last, id)) = self.last
-            && last == bits
-        {
-            return id;
+impl BodyTable {
+    /// The body of a face or wire with this velocity, if it has one.
+    pub fn of_stated(&mut self, velocity: Option<Velocity>) -> BodyId {
+        velocity.map_or(BodyId::UNSTATED, |velocity| self.moving_with(velocity))
+    }
+
+    /// The body of this velocity, which is added if it is new.
+    pub fn moving_with(&mut self, velocity: Velocity) -> BodyId {
+        let bits = bits(velocity.beta());
+        self.known(bits).unwrap_or_else(|| self.add(bits, velocity))
+    }
+
+    /// The body of this velocity in fractions of c, which is added if it is new; `None` if it is invalid.
+    pub fn moving_with_beta(&mut self, beta: DVec3) -> Option<BodyId> {
+        let bits = bits(beta);
+        if let Some(id) = self.known(bits) {
+            return Some(id);
         }
-        let id = *self.rows.entry(bits).or_insert_with(|| {
-            self.list.push(velocity);
-            VelocityId::from_index(self.list.len() - 1)
-        });
+        Some(self.add(bits, Velocity::from_beta(beta).ok()?))
+    }
+
+    fn known(&mut self, bits: [u64; 3]) -> Option<BodyId> {
+        match self.last {
+            Some((last, id)) if last == bits => Some(id),
+            _ => {
+                let id = *self.rows.get(&bits)?;
+                self.last = Some((bits, id));
+                Some(id)
+            }
+        }
+    }
+
+    fn add(&mut self, bits: [u64; 3], velocity: Velocity) -> BodyId {
+        let id = self.bodies.push(Body::inertial(velocity));
+        self.rows.insert(bits, id);
         self.last = Some((bits, id));
         id
     }
+
+    /// The rows here of the bodies of another table, which are added where they are new.
+    pub fn enter_all(&mut self, other: &Self) -> Vec<BodyId> {
+        let stated = other.bodies.iter().skip(1).map(|body| {
+            let Motion::Inertial(velocity) = body.motion;
+            self.moving_with(velocity)
+        });
+        std::iter::once(BodyId::UNSTATED).chain(stated).collect()
+    }
+}
+
+fn bits(beta: DVec3) -> [u64; 3] {
+    // Adding 0 makes -0 the same as 0.
+    (beta + DVec3::ZERO).to_array().map(f64::to_bits)
 }

@@ -27,11 +27,12 @@
 //! # Ok::<(), ugparse::Diagnostics>(())
 //! ```
 //!
-//! Nothing here knows physics or pixels: velocities are carried, not used.
+//! Nothing here computes with physics or pixels: bodies carry their motion for other programs.
 //!
 //! The feature `cli` adds the program of the same name, and how all programs read scenes,
 //! included files among them (`pipe`). Libraries do without.
 
+mod body;
 mod cameras;
 mod chunked_writer;
 #[cfg(feature = "cli")]
@@ -64,6 +65,7 @@ mod transform;
 mod wording;
 mod writer;
 
+pub use body::{Bodies, Body, BodyId, Motion};
 #[cfg(feature = "cli")]
 pub use cli::main;
 pub use contours::Contours;

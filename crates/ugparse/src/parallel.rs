@@ -8,12 +8,13 @@
 //! shows it, and the whole is read again in one go, which finds the words for it.
 
 use crate::Options;
+use crate::body::BodyId;
 use crate::contours::Contours;
 use crate::diagnostic::Diagnostic;
 use crate::group::{DefaultColor, Group, NO_ROW, Rows, shifted};
 use crate::names::NameId;
 use crate::reader::{Document, read, read_part};
-use crate::scene::{ColorId, Illum, IllumId, SurfaceId, VelocityId, VertexId};
+use crate::scene::{ColorId, Illum, IllumId, LightMotion, SurfaceId, VertexId};
 
 /// Bytes a part should have at least.
 const MIN_PART: usize = 1 << 19;
@@ -105,7 +106,7 @@ fn join<'t>(mut parts: Vec<Group<'t>>) -> Option<Group<'t>> {
             face.contours =
                 face.contours.start + place.first_contour..face.contours.end + place.first_contour;
             face.color = place.color(face.color);
-            face.velocity = place.velocity(face.velocity);
+            face.body = place.body(face.body);
             face.illum = face.illum.map(|illum| IllumId::from_index(place.first_illum + illum.index()));
         },
     );
@@ -118,7 +119,7 @@ fn join<'t>(mut parts: Vec<Group<'t>>) -> Option<Group<'t>> {
             wire.contours =
                 wire.contours.start + place.first_contour..wire.contours.end + place.first_contour;
             wire.color = place.color(wire.color);
-            wire.velocity = place.velocity(wire.velocity);
+            wire.body = place.body(wire.body);
         },
     );
     file.lights = join_tables(
@@ -128,7 +129,9 @@ fn join<'t>(mut parts: Vec<Group<'t>>) -> Option<Group<'t>> {
         |light, place| {
             light.name = light.name.map(|name| place.name(name));
             light.color = place.color(light.color);
-            light.velocity = place.velocity(light.velocity);
+            if let LightMotion::Body(body) = &mut light.motion {
+                *body = place.body(*body);
+            }
         },
     );
     file.cameras = join_tables(
@@ -137,7 +140,6 @@ fn join<'t>(mut parts: Vec<Group<'t>>) -> Option<Group<'t>> {
         |part| &mut part.cameras,
         |camera, place| {
             camera.name = camera.name.map(|name| place.name(name));
-            camera.velocity = place.velocity(camera.velocity);
         },
     );
     file.colors.table = join_tables(
@@ -207,21 +209,20 @@ struct Place {
     first_illum: usize,
     first_sample: usize,
     colors: Vec<ColorId>,
-    velocities: Vec<VelocityId>,
+    bodies: Vec<BodyId>,
     /// Nothing in the part's rows has to change.
     is_same: bool,
 }
 
 impl Place {
-    /// Behind what is in `file` already. Names of all kinds and velocities go there at
+    /// Behind what is in `file` already. Names of all kinds and bodies go there at
     /// once. `None` if a colour or surface is defined twice.
     fn behind<'t>(file: &mut Group<'t>, before: Before, part: &mut Group<'t>) -> Option<Self> {
         let first_color = file.colors.spans.len() as u32;
         let colors = file.colors.append_names(&mut part.colors)?;
         let colors: Vec<_> = colors.into_iter().map(ColorId::from_index).collect();
         let surfaces = file.surfaces.append_names(&mut part.surfaces)?;
-        let velocities: Vec<_> =
-            part.velocities.list.iter().map(|&velocity| file.velocities.id(velocity)).collect();
+        let bodies = file.bodies.enter_all(&part.bodies);
         let place = Self {
             first_name: file.names.len(),
             first_contour: before.contours,
@@ -232,9 +233,9 @@ impl Place {
                 && (file.illums.is_empty() || part.illums.is_empty())
                 && (file.names.len() == 0 || part.names.len() == 0)
                 && colors.iter().enumerate().all(|(row, color)| color.index() == row)
-                && velocities.iter().enumerate().all(|(row, velocity)| velocity.index() == row),
+                && bodies.iter().enumerate().all(|(row, body)| body.index() == row),
             colors,
-            velocities,
+            bodies,
         };
         file.defaults.extend(part.defaults.iter().map(|default| DefaultColor {
             color: first_color + default.color,
@@ -259,8 +260,8 @@ impl Place {
         color.map(|color| self.colors[color.index()])
     }
 
-    fn velocity(&self, velocity: Option<VelocityId>) -> Option<VelocityId> {
-        velocity.map(|velocity| self.velocities[velocity.index()])
+    fn body(&self, body: BodyId) -> BodyId {
+        self.bodies[body.index()]
     }
 }
 

@@ -4,7 +4,7 @@
 //! A [`Scene`] is plain data in index buffers. Its guarantees, made by
 //! [`crate::parse`] and kept by everyone who builds one:
 //!
-//! - every id is in range, every number finite, every speed below 1;
+//! - every id is in range, every number finite;
 //! - every contour of a face has three vertices or more, every contour of a
 //!   wire two or more;
 //! - names are unique within colours, within surfaces and within vertices.
@@ -14,7 +14,9 @@ use std::num::NonZeroU32;
 use std::ops::Range;
 
 use glam::DVec3;
+use ugphysics::Velocity;
 
+use crate::body::{Bodies, BodyId};
 use crate::contours::Contours;
 use crate::names::{NameId, Names};
 
@@ -84,8 +86,6 @@ optional_index! {
     ColorId
     /// Row of [`Scene::surfaces`].
     SurfaceId
-    /// Row of [`Scene::velocities`].
-    VelocityId
     /// Row of [`Scene::illums`].
     IllumId
 }
@@ -110,9 +110,8 @@ pub struct Scene {
     pub samples: Vec<[f64; 2]>,
     /// `surf`.
     pub surfaces: Vec<Surface>,
-    /// Distinct velocities carried by faces, wires, lights and cameras,
-    /// fractions of c, each shorter than 1.
-    pub velocities: Vec<DVec3>,
+    /// What moves as one, and how: every distinct velocity of the text is a body.
+    pub bodies: Bodies,
     /// `v`.
     pub vertices: Vec<Vertex>,
     /// Contours of faces and wires.
@@ -227,8 +226,8 @@ pub struct Face {
     pub color: Option<ColorId>,
     /// What is known of its light, see [`Scene::light_level`] and [`Scene::surface`].
     pub illum: Option<IllumId>,
-    /// Its velocity, if given.
-    pub velocity: Option<VelocityId>,
+    /// The body it is part of.
+    pub body: BodyId,
 }
 
 /// What a face says about its light.
@@ -249,8 +248,8 @@ pub struct Wire {
     pub contours: Range<u32>,
     /// Colour; `None` as for faces.
     pub color: Option<ColorId>,
-    /// Its velocity, inherited from instances.
-    pub velocity: Option<VelocityId>,
+    /// The body it is part of.
+    pub body: BodyId,
 }
 
 /// A light.
@@ -264,8 +263,27 @@ pub struct Light {
     pub kind: LightKind,
     /// Its colour; default white.
     pub color: Option<ColorId>,
-    /// Its velocity; without one it rests in the frame of the face it lights.
-    pub velocity: Option<VelocityId>,
+    /// How it moves.
+    pub motion: LightMotion,
+}
+
+/// How a light moves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LightMotion {
+    /// It rests in the frame of whatever it lights, as in the report of 1988. The text gives it no velocity.
+    WithWhatItLights,
+    /// It is part of a body, and lights others from where that is.
+    Body(BodyId),
+}
+
+impl LightMotion {
+    /// The body it is part of, if its motion is stated.
+    pub fn body(self) -> Option<BodyId> {
+        match self {
+            Self::WithWhatItLights => None,
+            Self::Body(body) => Some(body),
+        }
+    }
 }
 
 /// What kind of light.
@@ -308,7 +326,7 @@ pub struct Camera {
     /// `-fl`: focal length.
     pub focal_length: Option<f64>,
     /// Its velocity in the scene's frame.
-    pub velocity: Option<VelocityId>,
+    pub velocity: Option<Velocity>,
 }
 
 /// Kind of projection.
@@ -387,18 +405,6 @@ impl Scene {
     /// The polylines of a wire.
     pub fn wire_contours(&self, wire: &Wire) -> impl ExactSizeIterator<Item = &[VertexId]> + Clone {
         self.contours.iter(wire.contours.clone())
-    }
-
-    /// The row of `velocity` in [`Scene::velocities`], added if it is new.
-    ///
-    /// Scenes have few bodies, so a linear search does.
-    pub fn velocity_id(&mut self, velocity: DVec3) -> VelocityId {
-        let known = self.velocities.iter().position(|&other| other == velocity);
-        let idx = known.unwrap_or_else(|| {
-            self.velocities.push(velocity);
-            self.velocities.len() - 1
-        });
-        VelocityId::from_index(idx)
     }
 
     /// Corners of the axis-parallel box round all vertices; `None` without vertices.

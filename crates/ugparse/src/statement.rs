@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use glam::DVec3;
+use ugphysics::Velocity;
 
 use crate::scene::{Camera, Surface};
 use crate::source::Span;
@@ -55,7 +56,7 @@ pub(crate) struct FaceStatement {
     pub name: Option<Span>,
     pub color: Option<Span>,
     pub illum: Option<IllumStatement>,
-    pub velocity: Option<DVec3>,
+    pub velocity: Option<Velocity>,
 }
 
 /// What stands behind the colour of a face.
@@ -88,15 +89,14 @@ pub(crate) struct LightStatement {
     pub vector: Option<DVec3>,
     pub radius: Option<f64>,
     pub color: Option<Span>,
-    pub velocity: Option<DVec3>,
+    pub velocity: Option<Velocity>,
 }
 
-/// A camera; the name and velocity inside are not set.
+/// A camera; the name inside is not set.
 #[derive(Debug, Default)]
 pub(crate) struct CameraStatement {
     pub name: Option<Span>,
     pub camera: Camera,
-    pub velocity: Option<DVec3>,
 }
 
 /// An instance, or an array of them.
@@ -107,7 +107,7 @@ pub(crate) struct CallStatement {
     pub color: Option<Span>,
     pub inner: Transform,
     pub repeat: Repeat,
-    pub velocity: Option<DVec3>,
+    pub velocity: Option<Velocity>,
 }
 
 /// How often a definition is placed.

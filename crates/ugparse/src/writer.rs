@@ -3,13 +3,14 @@
 use std::io::{self, Write};
 
 use glam::DVec3;
+use ugphysics::Velocity;
 
+use crate::body::BodyId;
 use crate::chunked_writer::ChunkedWriter;
 use crate::contours::Contours;
 use crate::names::NameId;
 use crate::scene::{
     Camera, Color, ColorId, ColorValue, Comment, Illum, Item, Light, LightKind, Projection, Scene, Surface,
-    VelocityId,
 };
 
 /// Rows that one piece of text is made of.
@@ -71,7 +72,7 @@ impl<'s> Tables<'s, '_> {
             w.contours(&scene.contours, face.contours.clone());
             w.optional_color(face.color);
             face.illum.into_iter().for_each(|illum| w.illum(scene.illums[illum.index()]));
-            w.optional_velocity(face.velocity);
+            w.body(face.body);
             w.text(";");
         })?;
         self.rows(&scene.wires, Item::Wire, |w, wire| {
@@ -79,7 +80,7 @@ impl<'s> Tables<'s, '_> {
             wire.name.into_iter().for_each(|name| w.name(name));
             w.contours(&scene.contours, wire.contours.clone());
             w.optional_color(wire.color);
-            w.optional_velocity(wire.velocity);
+            w.body(wire.body);
             w.text(";");
         })?;
         self.rows(&scene.lights, Item::Light, Writer::light)?;
@@ -139,9 +140,9 @@ struct Writer<'s> {
     /// Comments not written yet; they are sorted by statement.
     comments: &'s [Comment],
     numbers: zmij::Buffer,
-    /// The velocity written last, and its text: neighbouring faces mostly share one.
-    velocity: Option<VelocityId>,
-    velocity_text: Vec<u8>,
+    /// The body of the row written last, and the text of its motion: neighbours mostly share one.
+    body: Option<BodyId>,
+    motion_text: Vec<u8>,
 }
 
 impl<'s> Writer<'s> {
@@ -152,8 +153,8 @@ impl<'s> Writer<'s> {
             out: std::mem::take(out),
             comments,
             numbers: zmij::Buffer::new(),
-            velocity: None,
-            velocity_text: Vec::new(),
+            body: None,
+            motion_text: Vec::new(),
         };
         write(&mut writer);
         *out = writer.out;
@@ -235,20 +236,16 @@ impl<'s> Writer<'s> {
         }
     }
 
-    fn optional_velocity(&mut self, velocity: Option<VelocityId>) {
-        let Some(id) = velocity else { return };
-        if self.velocity != velocity {
-            self.velocity = velocity;
-            self.velocity_text.clear();
-            let mut mark: &[u8] = b" <";
-            for part in self.scene.velocities[id.index()].to_array() {
-                self.velocity_text.extend_from_slice(mark);
-                push_number(&mut self.velocity_text, &mut self.numbers, part);
-                mark = b" ";
+    /// The motion of a face, wire or light.
+    fn body(&mut self, body: BodyId) {
+        if self.body != Some(body) {
+            self.body = Some(body);
+            self.motion_text.clear();
+            if let Some(velocity) = self.scene.bodies.stated_velocity(body) {
+                push_velocity(&mut self.motion_text, &mut self.numbers, velocity);
             }
-            self.velocity_text.push(b'>');
         }
-        self.out.extend_from_slice(&self.velocity_text);
+        self.out.extend_from_slice(&self.motion_text);
     }
 
     fn contours(&mut self, contours: &Contours, rows: std::ops::Range<u32>) {
@@ -335,7 +332,7 @@ impl<'s> Writer<'s> {
             }
         }
         self.optional_color(light.color);
-        self.optional_velocity(light.velocity);
+        light.motion.body().into_iter().for_each(|body| self.body(body));
         self.text(";");
     }
 
@@ -365,9 +362,22 @@ impl<'s> Writer<'s> {
             Some(Projection::Perspective) => self.text(" -ps"),
             None => {}
         }
-        self.optional_velocity(camera.velocity);
+        if let Some(velocity) = camera.velocity {
+            push_velocity(&mut self.out, &mut self.numbers, velocity);
+        }
         self.text(";");
     }
+}
+
+/// ` <x y z>`, fractions of c.
+fn push_velocity(out: &mut Vec<u8>, numbers: &mut zmij::Buffer, velocity: Velocity) {
+    let mut mark: &[u8] = b" <";
+    for part in velocity.beta().to_array() {
+        out.extend_from_slice(mark);
+        push_number(out, numbers, part);
+        mark = b" ";
+    }
+    out.push(b'>');
 }
 
 /// The shortest decimal that reads back to the same bits.

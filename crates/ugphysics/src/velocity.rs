@@ -66,7 +66,8 @@ impl Velocity {
             return Err(VelocityError::NotFinite);
         }
         if beta == DVec3::ZERO {
-            return Ok(Velocity::ZERO);
+            // The signs of its zeros are kept.
+            return Ok(Velocity { beta, ..Velocity::ZERO });
         }
         let scale = power_of_two_below(beta);
         let axis = beta / scale;

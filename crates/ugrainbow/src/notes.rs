@@ -71,7 +71,7 @@ fn scene_notes(scene: &Scene, is_exact: bool) -> Vec<String> {
     if scene.lights.is_empty() && scene.faces.iter().any(|face| scene.light_level(face).is_none()) {
         notes.push("no lights in the scene: drawn with ambient light 0.3 and 0.7 from the eye".into());
     }
-    if scene.lights.iter().any(|light| light.velocity.is_some()) {
+    if scene.lights.iter().any(|light| light.motion.body().is_some()) {
         let remedy = if is_exact { "leave out -xc: " } else { "" };
         notes.push(format!(
             "velocities of lights are left out: each light rests with the faces it lights; \

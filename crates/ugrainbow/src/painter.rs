@@ -162,7 +162,7 @@ impl Painter<'_> {
         if self.view.is_perspective {
             -self.surface.rest(corner)
         } else {
-            -self.surface.rest_direction(self.view.forward, face.velocity)
+            -self.surface.rest_direction(self.view.forward, face.body)
         }
     }
 

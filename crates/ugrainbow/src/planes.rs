@@ -103,13 +103,14 @@ impl<'a> Finder<'a> {
         let Painter { scene, view, surface, .. } = self.painter;
         let key = f64::from(seen.key);
         let depth = if view.is_perspective { 1.0 / key } else { -key };
-        let velocity = match scene.faces.get(seen.tag as usize) {
-            Some(face) => face.velocity,
-            None => scene.wires.get(seen.tag as usize - scene.faces.len()).and_then(|wire| wire.velocity),
+        let body = match scene.faces.get(seen.tag as usize) {
+            Some(face) => Some(face.body),
+            None => scene.wires.get(seen.tag as usize - scene.faces.len()).map(|wire| wire.body),
         };
+        let velocity = body.map_or(Velocity::ZERO, |body| surface.velocity(body));
         let place = view.point([f64::from(column) + 0.5, f64::from(row) + 0.5], depth);
         let time = if self.has_flight_time { -place.length() } else { 0.0 };
-        Emission { item: seen.tag, place, depth, time, velocity: surface.velocity(velocity) }
+        Emission { item: seen.tag, place, depth, time, velocity }
     }
 }
 

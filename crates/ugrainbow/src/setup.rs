@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::ops::Range;
 
 use uglight::Lighting;
-use ugparse::{ColorId, ColorValue, Scene, VelocityId, VertexId};
+use ugparse::{BodyId, ColorId, ColorValue, Scene, VertexId};
 use ugraster::Grid;
 
 use crate::config::{Config, Exact};
@@ -113,13 +113,13 @@ fn check_spectra(scene: &Scene, surface: &Surface, exact: Exact) -> Result<(), E
         let value = scene.colors[color.index()].value;
         matches!(value, ColorValue::Blackbody { .. } | ColorValue::Spectrum { .. })
     };
-    let moves = |velocity: Option<VelocityId>, contours: &Range<u32>, color: Option<ColorId>| {
+    let moves = |body: BodyId, contours: &Range<u32>, color: Option<ColorId>| {
         let corners = scene.contours.corners(contours.clone());
         let color_of = |corner: &VertexId| scene.vertices[corner.index()].color.or(color);
-        !surface.velocity(velocity).is_zero() && corners.iter().filter_map(color_of).any(is_spectrum)
+        !surface.velocity(body).is_zero() && corners.iter().filter_map(color_of).any(is_spectrum)
     };
-    let mut faces = scene.faces.iter().map(|face| moves(face.velocity, &face.contours, face.color));
-    let mut wires = scene.wires.iter().map(|wire| moves(wire.velocity, &wire.contours, wire.color));
+    let mut faces = scene.faces.iter().map(|face| moves(face.body, &face.contours, face.color));
+    let mut wires = scene.wires.iter().map(|wire| moves(wire.body, &wire.contours, wire.color));
     let has_spectra = scene.colors.iter().any(uglight::is_light);
     if has_spectra && exact != Exact::NONE && (faces.any(|moves| moves) || wires.any(|moves| moves)) {
         return Err(Error::Exact(
@@ -130,7 +130,7 @@ fn check_spectra(scene: &Scene, surface: &Surface, exact: Exact) -> Result<(), E
     Ok(())
 }
 
-/// The scene with vertices of one velocity each, copied only if it has several.
+/// The scene with vertices of one body each, copied only if it has several.
 fn with_separate_bodies(scene: &Scene) -> Cow<'_, Scene> {
     if ugscene::is_one_body(scene) {
         return Cow::Borrowed(scene);

@@ -3,9 +3,9 @@
 use glam::{DQuat, DVec3};
 use rayon::prelude::*;
 use uglight::{HueScale, VertexColor, vertex_colors};
-use ugparse::{ColorId, Scene, VelocityId, VertexId};
+use ugparse::{BodyId, ColorId, Scene, VertexId};
 use ugphysics::{Velocity, VelocityError, aberrate};
-use ugscene::{Bodies, rest_positions};
+use ugscene::{RestFrames, rest_positions};
 
 use crate::palette::{Palette, Swatch};
 
@@ -17,24 +17,24 @@ pub struct Surface {
     /// For each vertex a row of the swatches; most vertices share theirs with others.
     rows: Vec<u32>,
     rest: Vec<DVec3>,
-    bodies: Bodies,
+    frames: RestFrames,
 }
 
 impl Surface {
-    /// `scene`: its vertices belong to one velocity each.
+    /// `scene`: its vertices are part of one body each.
     ///
     /// # Errors
-    /// A velocity of the scene is not below that of light.
+    /// The velocity of the camera is invalid.
     pub fn new(scene: &Scene, eye: DVec3, palette: &Palette, scale: HueScale) -> Result<Self, VelocityError> {
-        let bodies = Bodies::new(scene, Velocity::ZERO)?;
-        let rest = rest_positions(scene, eye, &bodies);
+        let frames = RestFrames::new(scene)?;
+        let rest = rest_positions(scene, eye, &frames);
         let mut swatches = palette.all().to_vec();
         let own = scene.vertices.par_iter().map(|vertex| vertex.color.map(row));
         let rows = match own.collect() {
             Some(rows) => rows,
             None => mixed_rows(scene, &rest, palette, scale, &mut swatches),
         };
-        Ok(Self { swatches, rows, rest, bodies })
+        Ok(Self { swatches, rows, rest, frames })
     }
 
     /// Its own colour, else the mix of its faces' colours, else white.
@@ -48,19 +48,19 @@ impl Surface {
         self.rest[vertex.index()]
     }
 
-    /// The velocity of a face or wire.
-    pub fn velocity(&self, velocity: Option<VelocityId>) -> Velocity {
-        self.bodies.of(velocity)
+    /// The velocity of a body in the frame of the camera.
+    pub fn velocity(&self, body: BodyId) -> Velocity {
+        self.frames.velocity(body)
     }
 
     /// Turns rest coordinates of a body, as (P4) gives them, into the axes of the scene.  Eq. (P25)
-    pub fn scene_from_axes(&self, velocity: Option<VelocityId>) -> DQuat {
-        self.bodies.scene_from_axes(velocity)
+    pub fn scene_from_axes(&self, body: BodyId) -> DQuat {
+        self.frames.scene_from_axes(body)
     }
 
     /// A viewing direction in the rest frame of a body, in the axes of the scene.  Eq. (P6), (P25)
-    pub fn rest_direction(&self, direction: DVec3, velocity: Option<VelocityId>) -> DVec3 {
-        self.scene_from_axes(velocity) * aberrate(direction, self.bodies.of(velocity))
+    pub fn rest_direction(&self, direction: DVec3, body: BodyId) -> DVec3 {
+        self.scene_from_axes(body) * aberrate(direction, self.frames.velocity(body))
     }
 }
 

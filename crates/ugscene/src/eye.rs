@@ -3,7 +3,7 @@
 use glam::DVec3;
 use ugparse::{Diagnostic, Diagnostics, Parsed, Scene, Source, VertexId};
 
-use crate::{Bodies, vertex_velocities};
+use crate::{RestFrames, vertex_bodies};
 
 /// The eye point in scene coordinates: the option if given, else the one of the
 /// scene's camera, else the origin. All programs of a pipe choose it alike.
@@ -13,11 +13,11 @@ pub fn eye(scene: &Scene, option: Option<DVec3>) -> DVec3 {
 
 /// The first vertex of a moving body that lies exactly at the eye, where no
 /// direction to it exists, and so neither a place nor a Doppler factor.
-pub fn vertex_at_eye(scene: &Scene, eye: DVec3, bodies: &Bodies) -> Option<VertexId> {
+pub fn vertex_at_eye(scene: &Scene, eye: DVec3, frames: &RestFrames) -> Option<VertexId> {
     let row = scene.vertices.iter().position(|vertex| vertex.position == eye)?;
-    let velocities = vertex_velocities(scene);
+    let bodies = vertex_bodies(scene);
     (row..scene.vertices.len())
-        .find(|&row| scene.vertices[row].position == eye && !bodies.of(velocities[row]).is_zero())
+        .find(|&row| scene.vertices[row].position == eye && !frames.velocity(bodies[row]).is_zero())
         .map(VertexId::from_index)
 }
 

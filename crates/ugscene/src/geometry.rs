@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use ugparse::Scene;
 use ugphysics::{Velocity, contracted, flight_time, rest_position, seen_position};
 
-use crate::{Bodies, vertex_velocities};
+use crate::{RestFrames, vertex_bodies};
 
 /// First word of the escape that tells later stages what was left out.
 pub(crate) const MARK: &str = "uglorentz";
@@ -76,21 +76,22 @@ impl Geometry {
 
 /// Rest position of every vertex of a seen scene, relative to the eye, each in
 /// the frame of its own body and in the axes of the scene. (P4), (P25)
-pub fn rest_positions(scene: &Scene, eye: DVec3, bodies: &Bodies) -> Vec<DVec3> {
-    if bodies.are_at_rest() {
+pub fn rest_positions(scene: &Scene, eye: DVec3, frames: &RestFrames) -> Vec<DVec3> {
+    if frames.are_at_rest() {
         return scene.vertices.par_iter().map(|vertex| vertex.position - eye).collect();
     }
     let geometry = Geometry::of(scene);
-    let velocities = vertex_velocities(scene);
-    (scene.vertices.par_iter().zip(velocities.par_iter()))
-        .map(|(vertex, &velocity)| {
-            bodies.scene_from_axes(velocity) * geometry.rest(vertex.position - eye, bodies.of(velocity))
+    let bodies = vertex_bodies(scene);
+    (scene.vertices.par_iter().zip(bodies.par_iter()))
+        .map(|(vertex, &body)| {
+            frames.scene_from_axes(body) * geometry.rest(vertex.position - eye, frames.velocity(body))
         })
         .collect()
 }
 
 #[cfg(test)]
 mod tests {
+    use ugparse::Body;
     use ugphysics::{Event, Lorentz};
 
     use super::*;
@@ -129,16 +130,17 @@ mod tests {
         let betas = [DVec3::ZERO, DVec3::new(0.0, 0.7, -0.2)];
         for (face, beta) in betas.into_iter().enumerate() {
             let to_camera = Lorentz::boost(Velocity::from_beta(beta).unwrap()).then(Lorentz::boost(-camera));
-            let velocity = scene.velocity_id(to_camera.velocity_of_frame().unwrap().beta());
-            scene.faces[face].velocity = Some(velocity);
+            let beta = to_camera.velocity_of_frame().unwrap().beta();
+            let body = Body::inertial(Velocity::from_beta(beta).unwrap());
+            scene.faces[face].body = scene.bodies.push(body);
             for vertex in &mut scene.vertices[3 * face..3 * face + 3] {
                 let leaves = Event { t: -vertex.position.length(), x: vertex.position };
                 vertex.position = to_camera.apply(leaves).x;
             }
         }
         crate::record_camera_velocity(&mut scene, camera);
-        let bodies = Bodies::new(&scene, Velocity::ZERO).unwrap();
-        for (found, rest) in rest_positions(&scene, DVec3::ZERO, &bodies).into_iter().zip(rest) {
+        let frames = RestFrames::new(&scene).unwrap();
+        for (found, rest) in rest_positions(&scene, DVec3::ZERO, &frames).into_iter().zip(rest) {
             assert!((found - rest).length() < 1e-14 * 20.0, "{found} {rest}");
         }
     }

@@ -1,7 +1,7 @@
 //! What the ug programs ask of a flat [`ugparse::Scene`].
 //!
 //! A scene is geometry and colour as text gives it; the filters need more:
-//! which body a vertex belongs to and how that body moves ([`Bodies`],
+//! which body a vertex is part of and how that moves ([`RestFrames`],
 //! [`separate_bodies`]), where it rests when it is seen here ([`Geometry`],
 //! [`rest_positions`], equation (P4)), its normal ([`smooth_normals`], and [`shading_normal`]
 //! under a light), which colours meet at it ([`vertex_shares`]), what triangles
@@ -14,14 +14,13 @@
 //! let text = "v a 3 4 0; v b 3 5 0; v c 4 4 0; f (a b c) <0.5 0 0>;";
 //! let source = ugparse::Source::new("scene.ug", text);
 //! let scene = ugparse::parse(&source, &ugparse::Options::default())?.scene;
-//! let bodies = ugscene::Bodies::new(&scene, ugphysics::Velocity::ZERO)?;
-//! let rest = ugscene::rest_positions(&scene, DVec3::ZERO, &bodies);
-//! let seen = ugphysics::seen_position(rest[0], bodies.all()[0]);
+//! let frames = ugscene::RestFrames::new(&scene)?;
+//! let rest = ugscene::rest_positions(&scene, DVec3::ZERO, &frames);
+//! let seen = ugphysics::seen_position(rest[0], frames.velocity(scene.faces[0].body));
 //! assert!((seen - DVec3::new(3.0, 4.0, 0.0)).length() < 1e-14);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-mod bodies;
 mod camera;
 mod camera_motion;
 #[cfg(feature = "cli")]
@@ -31,10 +30,10 @@ mod geometry;
 mod normals;
 mod polygon;
 mod read;
+mod rest_frames;
 mod shares;
 mod split;
 
-pub use bodies::{Bodies, is_one_body, separate_bodies, vertex_velocities};
 pub use camera::{CameraError, CameraOptions, HalfSpace, Place, Slab, View};
 pub use camera_motion::{axes_from_scene, camera_velocity, record_camera_velocity};
 pub use eye::{at_eye_error, eye, vertex_at_eye};
@@ -42,6 +41,7 @@ pub use geometry::{Geometry, rest_positions};
 pub use normals::{corner_angle, seen_normal, shading_normal, smooth_normals};
 pub use polygon::{Triangle, is_convex, triangulate};
 pub use read::read;
+pub use rest_frames::{RestFrames, is_one_body, separate_bodies, vertex_bodies};
 pub use shares::{Shares, vertex_shares};
 pub use split::{split_corners, split_vertices};
 pub use ugparse::{history, record};

@@ -4,13 +4,14 @@ use std::fmt::Write;
 
 use glam::DVec3;
 use serde_json::{Map, Value, json};
+use ugphysics::Velocity;
 
 use crate::cli::measure::{Edges, bodies, corner_count, thickest_face};
 use crate::diagnostic::Place;
 use crate::group::Group;
 use crate::parallel::read_all;
 use crate::reader::line_marks;
-use crate::scene::{Scene, VelocityId};
+use crate::scene::Scene;
 use crate::statement::Repeat;
 use crate::{Options, Parsed, Source};
 
@@ -43,7 +44,7 @@ struct FacePlace {
 }
 
 struct Body {
-    velocity: Option<DVec3>,
+    velocity: Option<Velocity>,
     faces: usize,
     wires: usize,
 }
@@ -67,7 +68,11 @@ impl Counts {
             edges,
             bodies: bodies(scene)
                 .into_iter()
-                .map(|(velocity, faces, wires)| Body { velocity: value(scene, velocity), faces, wires })
+                .map(|(body, faces, wires)| Body {
+                    velocity: scene.bodies.stated_velocity(body),
+                    faces,
+                    wires,
+                })
                 .collect(),
         }
     }
@@ -100,7 +105,8 @@ impl Counts {
             line("turned face", format!("{}, at {n_edges} of its edges", face.text()));
         }
         for (row, body) in self.bodies.iter().enumerate() {
-            let velocity = body.velocity.map_or("no velocity".to_string(), |v| format!("<{}>", point(v)));
+            let velocity =
+                body.velocity.map_or("no velocity".to_string(), |v| format!("<{}>", point(v.beta())));
             let label = if row == 0 { format!("bodies {:>10} ", self.bodies.len()) } else { String::new() };
             line(&label, format!("{velocity}: {} faces, {} wires", body.faces, body.wires));
         }
@@ -116,7 +122,7 @@ impl Counts {
             .filter_map(|row| Some((row.kind.to_string(), row.placed?.into())))
             .collect();
         let bodies = self.bodies.iter().map(|body| {
-            let velocity = body.velocity.map(|velocity| velocity.to_array());
+            let velocity = body.velocity.map(|velocity| velocity.beta().to_array());
             json!({ "velocity": velocity, "faces": body.faces, "wires": body.wires })
         });
         json!({
@@ -158,10 +164,6 @@ impl FacePlace {
 
 fn point(p: DVec3) -> String {
     format!("{} {} {}", p.x, p.y, p.z)
-}
-
-fn value(scene: &Scene, velocity: Option<VelocityId>) -> Option<DVec3> {
-    velocity.map(|velocity| scene.velocities[velocity.index()])
 }
 
 /// Statements by kind. The text is read a second time, since placing it used its tables up.

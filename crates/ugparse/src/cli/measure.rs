@@ -3,8 +3,9 @@
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 
+use crate::body::BodyId;
 use crate::flatness::thickness;
-use crate::scene::{Face, Scene, VelocityId, VertexId, newell_normal};
+use crate::scene::{Face, Scene, VertexId, newell_normal};
 
 /// Corners of all faces.
 pub(crate) fn corner_count(scene: &Scene) -> usize {
@@ -115,14 +116,11 @@ fn places(scene: &Scene) -> Vec<u32> {
     scene.vertices.iter().map(|vertex| vertex.position).enumerate().map(place).collect()
 }
 
-/// Velocities that faces and wires carry, with the numbers of faces and wires:
-/// those without one first.
-pub(crate) fn bodies(scene: &Scene) -> Vec<(Option<VelocityId>, usize, usize)> {
-    let row = |velocity: Option<VelocityId>| velocity.map_or(0, |velocity| velocity.index() + 1);
-    let ids = (0..scene.velocities.len()).map(|idx| Some(VelocityId::from_index(idx)));
-    let mut bodies: Vec<_> = std::iter::once(None).chain(ids).map(|velocity| (velocity, 0, 0)).collect();
-    scene.faces.iter().for_each(|face| bodies[row(face.velocity)].1 += 1);
-    scene.wires.iter().for_each(|wire| bodies[row(wire.velocity)].2 += 1);
+/// The bodies that have faces or wires, with the numbers of these.
+pub(crate) fn bodies(scene: &Scene) -> Vec<(BodyId, usize, usize)> {
+    let mut bodies: Vec<_> = scene.bodies.ids().map(|body| (body, 0, 0)).collect();
+    scene.faces.iter().for_each(|face| bodies[face.body.index()].1 += 1);
+    scene.wires.iter().for_each(|wire| bodies[wire.body.index()].2 += 1);
     bodies.retain(|&(_, faces, wires)| faces + wires > 0);
     bodies
 }

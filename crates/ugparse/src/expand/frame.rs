@@ -4,8 +4,9 @@ use std::ops::Range;
 
 use rustc_hash::FxHashMap;
 
+use crate::body::BodyId;
 use crate::group::{DefaultColor, Group, NO_ROW};
-use crate::scene::{ColorId, VelocityId, VertexId};
+use crate::scene::{ColorId, LightMotion, VertexId};
 use crate::transform::Transform;
 
 /// What a group inherits from the calls that place it.
@@ -14,13 +15,14 @@ pub(super) struct Frame {
     /// Path of the names made here, without the last `:`.
     pub prefix: String,
     pub color: Option<ColorId>,
-    pub velocity: Option<VelocityId>,
+    /// The body that all it holds is part of, if a call states a velocity.
+    pub body: Option<BodyId>,
 }
 
 impl Frame {
     /// That of the file itself, which nothing places.
     pub fn file() -> Self {
-        Self { transform: Transform::IDENTITY, prefix: String::new(), color: None, velocity: None }
+        Self { transform: Transform::IDENTITY, prefix: String::new(), color: None, body: None }
     }
 }
 
@@ -32,8 +34,8 @@ pub(super) struct Placement<'p> {
     pub first_vertex: u32,
     /// The vertices at corners that name those of instances.
     pub paths: FxHashMap<usize, VertexId>,
-    /// Velocities of the group in the scene.
-    pub velocities: &'p [VelocityId],
+    /// Rows in the scene of the group's bodies.
+    pub bodies: &'p [BodyId],
     pub first_time: bool,
     /// Row of the group's first colour in the scene.
     pub first_color: usize,
@@ -56,8 +58,17 @@ impl Placement<'_> {
         if local == NO_ROW { self.paths[&idx] } else { VertexId(self.first_vertex + local) }
     }
 
-    pub fn velocity(&self, velocity: Option<VelocityId>) -> Option<VelocityId> {
-        velocity.map(|id| self.velocities[id.index()])
+    /// The body in the scene of a face or wire.
+    pub fn body(&self, own: BodyId) -> BodyId {
+        self.frame.body.unwrap_or(self.bodies[own.index()])
+    }
+
+    /// A light keeps its own motion.
+    pub fn light_motion(&self, own: LightMotion) -> LightMotion {
+        match own {
+            LightMotion::WithWhatItLights => own,
+            LightMotion::Body(body) => LightMotion::Body(self.bodies[body.index()]),
+        }
     }
 
     /// The colour of face or wire `row`; `first` says from which row on an unnamed colour is in force.

@@ -15,10 +15,10 @@ use std::collections::BTreeMap;
 use rustc_hash::FxHashMap;
 
 use crate::diagnostic::Diagnostic;
-use crate::group::{Call, Counts, Group, Velocities};
+use crate::group::{BodyTable, Call, Counts, Group};
 use crate::reader::Document;
 use crate::resolve::{Link, Links};
-use crate::scene::{ColorId, Item, Scene, VelocityId, Vertex, VertexId};
+use crate::scene::{ColorId, Item, Scene, Vertex, VertexId};
 use crate::source::Span;
 use crate::statement::Repeat;
 
@@ -92,7 +92,7 @@ fn expand_here(
         has_linked_paths: false,
         undefined: BTreeMap::new(),
         first_illums: vec![None; document.groups.len()],
-        velocities: Velocities::default(),
+        bodies: BodyTable::default(),
         trouble: None,
         flattened: BTreeMap::new(),
     };
@@ -103,7 +103,7 @@ fn expand_here(
     placer.place_comments(&document.comments, first_statement);
     findings.extend(placer.trouble);
     findings.extend(placer.flattened.into_values());
-    placer.scene.velocities = placer.velocities.list;
+    placer.scene.bodies = placer.bodies.bodies;
     (placer.scene, placer.origins)
 }
 
@@ -128,7 +128,7 @@ struct Placer<'d, 't> {
     undefined: BTreeMap<u32, Diagnostic>,
     /// For each group that has been placed, the row of its first illum.
     first_illums: Vec<Option<usize>>,
-    velocities: Velocities,
+    bodies: BodyTable,
     /// The first thing that cannot be placed.
     trouble: Option<Diagnostic>,
     /// Warnings for faces that have no area where they are placed, once for
@@ -139,7 +139,7 @@ struct Placer<'d, 't> {
 impl Placer<'_, '_> {
     /// The file's tables become the scene's, with what calls give in between.
     fn file(&mut self, mut file: Group<'_>) {
-        self.velocities = std::mem::take(&mut file.velocities);
+        self.bodies = std::mem::take(&mut file.bodies);
         if self.emitted.is_some() {
             let names = file.vertices.spans.iter();
             let spans: Vec<Span> = names.map(|&name| Group::vertex_statement(self.text, name)).collect();
@@ -199,8 +199,7 @@ impl Placer<'_, '_> {
     /// Copies all but the vertices, which come in the same order as before.
     fn group(&mut self, row: usize, frame: &Frame) {
         let group = &self.groups[row];
-        let velocities: Vec<VelocityId> =
-            group.velocities.list.iter().map(|&velocity| self.velocities.id(velocity)).collect();
+        let bodies = self.bodies.enter_all(&group.bodies);
         let first_vertex = self.next_vertex as u32;
         self.next_vertex += group.vertices.len();
         let paths = group.paths.iter();
@@ -220,7 +219,7 @@ impl Placer<'_, '_> {
             frame,
             first_vertex,
             paths,
-            velocities: &velocities,
+            bodies: &bodies,
             first_time,
             first_color: self.links.first_colors[row],
             first_illum,
@@ -240,13 +239,13 @@ impl Placer<'_, '_> {
     fn call(&mut self, call: &Call, link: &Link, frame: &Frame, place: fn(&mut Self, usize, &Frame)) {
         let (Some(target), label) = (link.target, &link.label) else { return };
         let Call { statement: call, color, .. } = call;
-        let own_velocity = call.velocity.map(|velocity| self.velocities.id(velocity));
+        let own_body = call.velocity.map(|velocity| self.bodies.moving_with(velocity));
         let colon = if frame.prefix.is_empty() || label.is_empty() { "" } else { ":" };
         let mut inner = Frame {
             transform: call.inner.then(&frame.transform),
             prefix: format!("{}{colon}{label}", frame.prefix),
             color: color.or(frame.color),
-            velocity: frame.velocity.or(own_velocity),
+            body: frame.body.or(own_body),
         };
         match &call.repeat {
             Repeat::Once => place(self, target, &inner),

@@ -55,7 +55,7 @@ impl Placer<'_, '_> {
             contours: self.contours(placement, face.contours.clone(), frame.transform.mirrored),
             color: placement.color(face.color, row, |default| default.first_face),
             illum: face.illum.map(|illum| IllumId::from_index(placement.first_illum + illum.index())),
-            velocity: frame.velocity.or(placement.velocity(face.velocity)),
+            body: placement.body(face.body),
         };
         self.scene.faces.push(placed);
         self.origins.faces.push(span);
@@ -74,7 +74,7 @@ impl Placer<'_, '_> {
             name: self.optional_name(group, wire.name, frame),
             contours: self.contours(placement, wire.contours.clone(), false),
             color: placement.color(wire.color, row, |default| default.first_wire),
-            velocity: frame.velocity.or(placement.velocity(wire.velocity)),
+            body: placement.body(wire.body),
         };
         self.scene.wires.push(placed);
     }
@@ -136,7 +136,7 @@ impl Placer<'_, '_> {
         let placed = Light {
             name: self.optional_name(group, light.name, frame),
             kind,
-            velocity: placement.velocity(light.velocity),
+            motion: placement.light_motion(light.motion),
             ..light.clone()
         };
         self.scene.lights.push(placed);
@@ -151,7 +151,6 @@ impl Placer<'_, '_> {
             center: camera.center.map(|point| frame.transform.point(point)),
             eye: camera.eye.map(|point| frame.transform.point(point)),
             up: camera.up.map(|up| frame.transform.direction(up)),
-            velocity: placement.velocity(camera.velocity),
             ..camera.clone()
         };
         for point in [placed.center, placed.eye].into_iter().flatten() {

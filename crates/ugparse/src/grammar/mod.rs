@@ -9,6 +9,7 @@ mod transforms;
 use glam::DVec3;
 use nom::Parser;
 use nom::combinator::opt;
+use ugphysics::Velocity;
 
 use crate::names::NameId;
 use crate::scene::{Camera, ColorValue, Surface};
@@ -269,7 +270,7 @@ impl<'t> Grammar<'t> {
             input = camera_option(&mut camera, name, input, rest)?.0;
         }
         let (input, velocity) = opt(velocity).parse(input)?;
-        Ok((input, Statement::Camera(CameraStatement { name, camera, velocity })))
+        Ok((input, Statement::Camera(CameraStatement { name, camera: Camera { velocity, ..camera } })))
     }
 
     /// `i [ID] ( def [color] tforms ) [< x y z >]`,
@@ -319,23 +320,22 @@ fn number_from<'a>(
 }
 
 /// `< x y z >`, fractions of c.
-fn velocity(input: Input<'_>) -> Parsed<'_, DVec3> {
+fn velocity(input: Input<'_>) -> Parsed<'_, Velocity> {
     let (input, ()) = mark(b'<', "`<` and a velocity")(input)?;
     let at = blank(input)?.0;
-    let (input, velocity) = require(point(input))?;
+    let (input, beta) = require(point(input))?;
     let (input, ()) = require(mark(b'>', "`>`")(input))?;
-    // The exact test is made by those who compute with it; this one catches what is plainly wrong.
-    if velocity.length_squared() >= 1.0 {
-        return fail(
+    match Velocity::from_beta(beta) {
+        Ok(velocity) => Ok((input, velocity)),
+        Err(_) => fail(
             at,
             Reason::Impossible(
                 3,
                 "the speed is not below 1",
                 "give x, y and z as fractions of the speed of light, together shorter than 1",
             ),
-        );
+        ),
     }
-    Ok((input, velocity))
 }
 
 /// `-` and letters, without the dash.

@@ -82,15 +82,12 @@ fn the_outermost_velocity_counts() {
 }
 
 #[test]
-fn velocities_are_shared() {
+fn what_moves_alike_is_one_body() {
     let scene = parse(format!(
         "{TRIANGLE} f (a b c) <0 0 .1>; f (b c a) <0 .1 0>; f (c a b) <0 0 .1>; f (a b c) <-0 0 .1>;"
     ));
-    assert_eq!(scene.velocities.len(), 2);
-    assert_eq!(
-        scene.faces.iter().map(|face| face.velocity.unwrap().index()).collect::<Vec<_>>(),
-        [0, 1, 0, 0]
-    );
+    assert_eq!(scene.bodies.len(), 3);
+    assert_eq!(scene.faces.iter().map(|face| face.body.index()).collect::<Vec<_>>(), [1, 2, 1, 1]);
 }
 
 #[test]

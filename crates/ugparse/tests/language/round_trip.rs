@@ -131,7 +131,7 @@ fn same(a: &Scene, b: &Scene) -> Result<(), TestCaseError> {
     let faces = |scene: &Scene| -> Vec<String> {
         let row = |f: &ugparse::Face| {
             let contours: Vec<_> = scene.face_contours(f).collect();
-            let velocity = f.velocity.map(|velocity| scene.velocities[velocity.index()]);
+            let velocity = scene.bodies.stated_velocity(f.body);
             format!(
                 "{:?} {contours:?} {:?} {:?} {velocity:?}",
                 f.name.map(|name| scene.names.get(name)),

@@ -17,7 +17,7 @@ fn outcome(text: &str, n_threads: usize) -> (Vec<u8>, String) {
             let scene = &parsed.scene;
             let light = |face| (scene.light_level(face), scene.surface(face));
             let colors: Vec<_> =
-                scene.faces.iter().map(|face| (face.color, face.velocity, light(face))).collect();
+                scene.faces.iter().map(|face| (face.color, face.body, light(face))).collect();
             let what = format!("{:?} {:?} {}", parsed.origins, colors, parsed.warnings.render(false));
             (ugparse::write(scene), what)
         }

@@ -10,7 +10,7 @@ use ugraster::{Bins, Grid, Layer, Scanner, Sink};
 
 use super::film::{Film, Form, Lengths, center};
 use super::footprint::{Rect, footprint};
-use super::frame::{Frame, Ray, frame_of, frames};
+use super::frame::{Frame, Ray, frames};
 use super::look::Look;
 use super::motion::Motion;
 use super::nearest::{Nearest, PlaneRow, limited};
@@ -270,7 +270,7 @@ impl Built {
 }
 
 fn build(painter: &Painter<'_>, motion: &Motion<'_>, frames: &[Frame], row: usize, face: &Face) -> Built {
-    let at = frame_of(face.velocity);
+    let at = face.body.index();
     let frame = &frames[at];
     let contours: Vec<Vec<DVec3>> = painter
         .scene

@@ -1,7 +1,7 @@
 //! Rays of the picture in the rest frame of a body, and back.
 
 use glam::{DMat3, DVec3};
-use ugparse::VelocityId;
+use ugparse::BodyId;
 use ugphysics::Velocity;
 
 use super::film::{Form, center};
@@ -34,25 +34,19 @@ pub struct Ray {
     pub stretch: f64,
 }
 
-/// The frames of a scene: of what rests, and then of its velocities, row by row. See [`frame_of`].
+/// The rest frames of a scene's bodies, in their order.
 pub fn frames(painter: &Painter<'_>) -> Vec<Frame> {
-    let rows = (0..painter.scene.velocities.len()).map(VelocityId::from_index).map(Some);
-    std::iter::once(None).chain(rows).map(|row| Frame::new(painter, row)).collect()
-}
-
-/// The row of a face's or wire's frame in [`frames`].
-pub fn frame_of(velocity: Option<VelocityId>) -> usize {
-    velocity.map_or(0, |id| id.index() + 1)
+    painter.scene.bodies.ids().map(|body| Frame::new(painter, body)).collect()
 }
 
 impl Frame {
-    fn new(painter: &Painter<'_>, row: Option<VelocityId>) -> Self {
-        let velocity = painter.surface.velocity(row);
+    fn new(painter: &Painter<'_>, body: BodyId) -> Self {
+        let velocity = painter.surface.velocity(body);
         let along = velocity.direction();
         let (e1, e2) = along.any_orthonormal_pair();
         let camera_from_axes = DMat3::from_cols(along, e1, e2);
         let axes_from_camera = camera_from_axes.transpose();
-        let scene_from_camera = DMat3::from_quat(painter.surface.scene_from_axes(row));
+        let scene_from_camera = DMat3::from_quat(painter.surface.scene_from_axes(body));
         let place = |axis: DVec3| {
             let place = painter.view.place(axis);
             DVec3::new(place.x, place.y, place.z)

@@ -1,10 +1,10 @@
 //! Lines as curves, as moving straight lines are seen.
 
 use glam::DVec3;
-use ugparse::VelocityId;
+use ugparse::BodyId;
 use ugphysics::doppler_at;
 
-use super::frame::{Frame, frame_of, frames};
+use super::frame::{Frame, frames};
 use super::motion::Motion;
 use crate::config::Exact;
 use crate::lines::{Joint, Line, LineShape};
@@ -41,7 +41,7 @@ impl<'a> CurvedLines<'a> {
 impl LineShape for CurvedLines<'_> {
     fn joints(&self, line: &Line) -> Vec<Joint> {
         let painter = &self.painter;
-        let frame = &self.frames[frame_of(line.velocity)];
+        let frame = &self.frames[line.body.index()];
         let rest = line.ends.map(|end| frame.axes_from_scene(painter.surface.rest(end)));
         let near = painter.view.slab.near;
         let curve = Curve { frame, motion: self.motion, rest, colors: line.colors, near };
@@ -50,8 +50,8 @@ impl LineShape for CurvedLines<'_> {
         joints
     }
 
-    fn keeps_light(&self, velocity: Option<VelocityId>) -> bool {
-        self.motion.keeps_colors() || self.frames[frame_of(velocity)].velocity.is_zero()
+    fn keeps_light(&self, body: BodyId) -> bool {
+        self.motion.keeps_colors() || self.frames[body.index()].velocity.is_zero()
     }
 }
 

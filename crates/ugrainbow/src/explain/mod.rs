@@ -5,7 +5,7 @@ mod text;
 
 use glam::DVec3;
 use ugimage::{Development, Quantizer, Steps, display_pixel};
-use ugparse::{Diagnostic, Diagnostics, Parsed, Source, VertexId};
+use ugparse::{Diagnostic, Diagnostics, Motion, Parsed, Source, VertexId};
 use ugphysics::{attenuation, doppler_at, linear_srgb_to_xyz, wavelength_to_hue};
 use ugraster::{Filter, Finish, Fragment, Gathered, Sample, Seen};
 use ugscene::Geometry;
@@ -196,7 +196,7 @@ pub fn explain(
         covers: teller.covers(&samples),
         n_free: (config.samples * config.samples) as usize
             - samples.iter().filter(|sample| !is_free(sample)).count(),
-        is_at_rest: parsed.scene.velocities.iter().all(|beta| *beta == DVec3::ZERO),
+        is_at_rest: parsed.scene.bodies.iter().all(|body| body.motion == Motion::default()),
         sample: nearest(&samples, pixel, config.samples).map(|sample| teller.shown(sample)),
         pixel_steps: pixel_steps(&setup, &layers, config, mean, bytes),
         provenance,

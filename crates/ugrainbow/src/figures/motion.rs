@@ -40,8 +40,7 @@ impl Motion {
             doppler = Some(doppler.map_or([factor; 2], |[low, high]| [low.min(factor), high.max(factor)]));
         }
         if velocities.is_empty() {
-            velocities =
-                setup.scene().faces.iter().map(|face| setup.surface.velocity(face.velocity)).collect();
+            velocities = setup.scene().faces.iter().map(|face| setup.surface.velocity(face.body)).collect();
             velocities.dedup();
         }
         velocities.sort_by(|a, b| a.rapidity().total_cmp(&b.rapidity()));

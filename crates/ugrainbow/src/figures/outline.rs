@@ -10,8 +10,8 @@ use std::collections::HashMap;
 
 use glam::DVec3;
 use uglabel::{Drawing, Point};
-use ugparse::{Scene, VelocityId, VertexId, newell_normal};
-use ugscene::{Geometry, View, vertex_velocities};
+use ugparse::{BodyId, Scene, VertexId, newell_normal};
+use ugscene::{Geometry, View, vertex_bodies};
 
 use super::depths::{Depths, Spot};
 use super::style::Style;
@@ -42,8 +42,8 @@ pub fn draw(
     drawing: &mut Drawing,
 ) -> Result<Option<String>, Error> {
     let scene = setup.scene();
-    let is_moving = |velocity: Option<VelocityId>| !setup.surface.velocity(velocity).is_zero();
-    if !scene.faces.iter().any(|face| is_moving(face.velocity)) {
+    let is_moving = |body: BodyId| !setup.surface.velocity(body).is_zero();
+    if !scene.faces.iter().any(|face| is_moving(face.body)) {
         return Ok(Some("nothing moves, so there is no undistorted outline (-dl) beside the picture".into()));
     }
     let places = ideal_places(setup);
@@ -72,28 +72,26 @@ pub fn draw(
 fn ideal_places(setup: &Setup<'_>) -> Vec<DVec3> {
     let scene = setup.scene();
     let geometry = Geometry::of(scene);
-    let velocities = vertex_velocities(scene);
-    let mut shifts: Vec<Option<DVec3>> = vec![None; scene.velocities.len()];
-    for (idx, shift) in shifts.iter_mut().enumerate() {
-        let id = Some(VelocityId::from_index(idx));
-        let rest = (0..scene.vertices.len()).filter(|&vertex| velocities[vertex] == id);
+    let bodies = vertex_bodies(scene);
+    let shift = |body: BodyId| {
+        let rest = (0..scene.vertices.len()).filter(|&vertex| bodies[vertex] == body);
         let rest = rest.map(|vertex| setup.surface.rest(VertexId::from_index(vertex)));
         let bounds = rest.fold(None, |bounds: Option<[DVec3; 2]>, place| {
             Some(bounds.map_or([place; 2], |[low, high]| [low.min(place), high.max(place)]))
         });
-        let velocity = setup.surface.velocity(id);
-        if let Some([low, high]) = bounds.filter(|_| !velocity.is_zero()) {
+        let velocity = setup.surface.velocity(body);
+        bounds.filter(|_| !velocity.is_zero()).map(|[low, high]| {
             let center = 0.5 * low + 0.5 * high;
-            let of_body = setup.surface.scene_from_axes(id).inverse() * center;
-            *shift = Some(geometry.seen(of_body, velocity) - center);
-        }
-    }
-    let place =
-        |(vertex, velocity): (usize, &Option<VelocityId>)| match velocity.and_then(|id| shifts[id.index()]) {
-            Some(shift) => setup.surface.rest(VertexId::from_index(vertex)) + shift,
-            None => scene.vertices[vertex].position - setup.view.eye,
-        };
-    velocities.iter().enumerate().map(place).collect()
+            let of_body = setup.surface.scene_from_axes(body).inverse() * center;
+            geometry.seen(of_body, velocity) - center
+        })
+    };
+    let shifts: Vec<Option<DVec3>> = scene.bodies.ids().map(shift).collect();
+    let place = |(vertex, body): (usize, &BodyId)| match shifts[body.index()] {
+        Some(shift) => setup.surface.rest(VertexId::from_index(vertex)) + shift,
+        None => scene.vertices[vertex].position - setup.view.eye,
+    };
+    bodies.iter().enumerate().map(place).collect()
 }
 
 /// The scene with its vertices there, and nothing in motion.
@@ -102,7 +100,7 @@ fn ideal_scene(scene: &Scene, eye: DVec3, places: &[DVec3]) -> Scene {
     for (vertex, place) in ideal.vertices.iter_mut().zip(places) {
         vertex.position = eye + *place;
     }
-    ideal.faces.iter_mut().for_each(|face| face.velocity = None);
+    ideal.faces.iter_mut().for_each(|face| face.body = BodyId::UNSTATED);
     ideal.wires.clear();
     ideal
 }
@@ -150,17 +148,17 @@ struct Edge {
 }
 
 /// Edges of moving bodies, in the order of the scene.
-fn edges(scene: &Scene, is_moving: &dyn Fn(Option<VelocityId>) -> bool) -> Vec<Edge> {
+fn edges(scene: &Scene, is_moving: &dyn Fn(BodyId) -> bool) -> Vec<Edge> {
     // A vertex that was repeated, for another colour, is in the same place.
     let spot = |vertex: VertexId| scene.vertices[vertex.index()].position.to_array().map(f64::to_bits);
     let mut edges: Vec<Edge> = Vec::new();
     // Only looked up, so its order is never seen.
     let mut known = HashMap::new();
-    for (idx, face) in scene.faces.iter().enumerate().filter(|(_, face)| is_moving(face.velocity)) {
+    for (idx, face) in scene.faces.iter().enumerate().filter(|(_, face)| is_moving(face.body)) {
         for contour in scene.face_contours(face) {
             for (&a, &b) in contour.iter().zip(contour.iter().cycle().skip(1)) {
                 let (from, to) = (spot(a), spot(b));
-                let key = (from.min(to), from.max(to), face.velocity);
+                let key = (from.min(to), from.max(to), face.body);
                 let edge = *known.entry(key).or_insert_with(|| {
                     edges.push(Edge { ends: [a, b], faces: Vec::new() });
                     edges.len() - 1

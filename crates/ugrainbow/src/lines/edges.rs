@@ -45,7 +45,7 @@ pub fn edges(painter: &Painter<'_>) -> Vec<Edge> {
 /// True if two faces are parts of one.
 fn is_inside(painter: &Painter<'_>, faces: [u32; 2]) -> bool {
     let [one, other] = faces.map(|row| &painter.scene.faces[row as usize]);
-    if one.color != other.color || one.velocity != other.velocity {
+    if one.color != other.color || one.body != other.body {
         return false;
     }
     let normal = |face: &Face| {

@@ -13,7 +13,7 @@ mod hidden;
 
 use glam::DVec3;
 use rayon::prelude::*;
-use ugparse::{VelocityId, VertexId, Wire};
+use ugparse::{BodyId, VertexId, Wire};
 use ugphysics::{Hsv, srgb_decode};
 use ugraster::{Corner, PolygonList, TRANSPARENT_VALUES};
 use ugscene::Place;
@@ -38,8 +38,8 @@ const LEAST: f64 = 1e-3;
 pub struct Line {
     /// Of its wire, or of the face whose edge it is.
     pub item: u32,
-    /// Of its body.
-    pub velocity: Option<VelocityId>,
+    /// The body it is part of.
+    pub body: BodyId,
     /// From where to where.
     pub ends: [VertexId; 2],
     /// Colours of the ends.
@@ -51,9 +51,9 @@ pub trait LineShape: Sync {
     /// A polyline that is straight in the picture between its joints.
     fn joints(&self, line: &Line) -> Vec<Joint>;
 
-    /// False if colours on a body of this velocity are Doppler shifted as hues, so that colours given as light
+    /// False if colours on this body are Doppler shifted as hues, so that colours given as light
     /// have to be converted to hues.
-    fn keeps_light(&self, velocity: Option<VelocityId>) -> bool;
+    fn keeps_light(&self, body: BodyId) -> bool;
 }
 
 /// A corner of a polyline.
@@ -87,7 +87,7 @@ impl LineShape for StraightLines<'_> {
         [0, 1].map(joint).to_vec()
     }
 
-    fn keeps_light(&self, _: Option<VelocityId>) -> bool {
+    fn keeps_light(&self, _: BodyId) -> bool {
         true
     }
 }
@@ -121,7 +121,7 @@ pub fn lines(painter: &Painter<'_>, wireframe: Option<Wireframe>, shape: &dyn Li
 
 fn push_wire(painter: &Painter<'_>, item: u32, wire: &Wire, shape: &dyn LineShape, lines: &mut Vec<Line>) {
     let color = painter.wire_swatch(wire);
-    let keeps_light = shape.keeps_light(wire.velocity);
+    let keeps_light = shape.keeps_light(wire.body);
     // One end given as light makes all of the wire light, as with faces.
     let is_light = keeps_light && painter.is_light_wire(wire, &color);
     let end = |vertex| {
@@ -131,7 +131,7 @@ fn push_wire(painter: &Painter<'_>, item: u32, wire: &Wire, shape: &dyn LineShap
     for contour in painter.scene.wire_contours(wire) {
         for ends in contour.windows(2) {
             let ends = [ends[0], ends[1]];
-            lines.push(Line { item, velocity: wire.velocity, ends, colors: ends.map(end) });
+            lines.push(Line { item, body: wire.body, ends, colors: ends.map(end) });
         }
     }
 }
@@ -142,7 +142,7 @@ fn edge_line(painter: &Painter<'_>, edge: &Edge, wireframe: Wireframe, shape: &d
     let colors = match wireframe.color {
         Some(color) => [plain(color); 2],
         None => {
-            let keeps_light = shape.keeps_light(face.velocity);
+            let keeps_light = shape.keeps_light(face.body);
             let common = painter.common(face);
             let common = if keeps_light { common } else { common.without_light() };
             edge.ends.map(|end| {
@@ -152,7 +152,7 @@ fn edge_line(painter: &Painter<'_>, edge: &Edge, wireframe: Wireframe, shape: &d
             })
         }
     };
-    Line { item: edge.face, velocity: face.velocity, ends: edge.ends, colors }
+    Line { item: edge.face, body: face.body, ends: edge.ends, colors }
 }
 
 /// A colour that stays as it is: not shifted, and not attenuated.
