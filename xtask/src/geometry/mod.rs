@@ -1,8 +1,9 @@
-//! How right the outlines in pictures are, and what it costs, as Markdown.
+//! Measures errors of drawn outlines and the number of faces they need, as tables in Markdown.
 //!
-//! Everything is measured on what `uglorentz` writes and `ugrainbow` draws, against the oracle of the tests, which
-//! shares no code with them: from points of drawn edges, and from pixels, a ray into the past goes into the rest
-//! frame by a matrix and meets the scene as it was written.
+//! The output of `uglorentz` and `ugrainbow` is compared with the oracle of the tests, which shares no
+//! code with them: from points of drawn edges, and from pixels, it transforms a ray into the past to the
+//! rest frame with a 4×4 matrix and intersects it with the scene as written. `docs/geometry.md`
+//! explains the tables.
 
 mod view;
 
@@ -31,23 +32,23 @@ const BOUNDS: [f64; 7] = [10.0, 3.0, 1.0, 0.3, 0.1, 0.03, 0.01];
 /// Speeds of the second table.
 const BOUND_SPEEDS: [f64; 2] = [0.9, 0.99];
 
-/// What outlines may be off by, pixels.
+/// The largest allowed outline error, pixels.
 const MOST_PIXELS: f64 = 0.5;
 
-/// Equal pieces an edge are tried up to this many.
+/// The largest uniform subdivision tried, pieces per edge.
 const MOST_PIECES: usize = 1 << 16;
 
-/// Faces whose distances differ by less than this part of them may hide each other: the bound of depth, once for
-/// each face.
+/// Faces whose distances differ by less than this fraction may occlude each other wrongly: the tolerance of
+/// depth, twice, because both faces have an error.
 const DEPTH: f64 = 2e-4;
 
-/// What to measure.
+/// Selects what is measured.
 #[derive(clap::Args)]
 pub struct Args {
-    /// Pixels across and down
+    /// Size of the pictures in pixels
     #[arg(long = "sz", num_args = 2, value_names = ["W", "H"], default_values_t = [1920, 1080])]
     size: Vec<u32>,
-    /// Only scenes whose name begins so
+    /// Only scenes whose name begins with NAME
     #[arg(long, value_name = "NAME")]
     only: Option<String>,
     /// Only one of the tables
@@ -59,13 +60,13 @@ pub struct Args {
     /// Only these flights, separated by commas
     #[arg(long, value_enum, value_name = "FLIGHT", value_delimiter = ',', default_values_t = Flight::ALL)]
     direction: Vec<Flight>,
-    /// Scenes besides those of the repository
+    /// Additional scenes
     #[arg(value_name = "FILE", value_parser = is_file)]
     files: Vec<PathBuf>,
 }
 
 impl Args {
-    /// The speeds and flights of a table.
+    /// The combinations of speed and flight in a table.
     fn motions(&self, speeds: &[f64]) -> Vec<(f64, Flight)> {
         let speeds = if self.speed.is_empty() { speeds } else { &self.speed };
         let of_speed = |&speed: &f64| self.direction.iter().map(move |&flight| (speed, flight));
@@ -106,7 +107,7 @@ fn pictures(
     writeln!(out, "### At the default bound, {width}×{height}, 1 sample\n")?;
     writeln!(
         out,
-        "| scene | β | camera flies | outline off by, px | pixels that differ | of them further than 0.5 px, faces close | slits | others | faces | `-cull -sc off`: off by, px | faces | uniform: pieces an edge | uniform: faces | ratio |"
+        "| scene | β | camera motion | outline error, px | different pixels | close faces, pixels | slits, pixels | unexplained, pixels | faces | `-cull -sc off`: outline error, px | faces | uniform: pieces per edge | uniform: faces | ratio |"
     )?;
     writeln!(
         out,
@@ -120,27 +121,29 @@ fn pictures(
             let (errors, pieces) = view.measure(&config, &oracle)?;
             let n_faces = pieces.len();
             let what = format!("{speed}-{flight}");
-            let Pixels { different, close, at_slits, others } = pixels(view, beta, &oracle, &what, failures)?;
-            let (seen_errors, mut seen) = view.measure(&view.config_of_shape(beta), &oracle)?;
-            let n_seen = seen.len();
-            seen.dedup();
-            let n = uniform(view, &oracle, seen_errors.pixels);
-            let n_uniform = n.map(|n| n_pieces(&view.scene, &seen, n));
+            let Differences { different, close, at_slits, unexplained } =
+                differences(view, beta, &oracle, &what, failures)?;
+            let (visible_errors, mut visible) =
+                view.measure(&view.config_of_shape(beta), &oracle)?;
+            let n_visible = visible.len();
+            visible.dedup();
+            let n = uniform(view, &oracle, visible_errors.pixels);
+            let n_uniform = n.map(|n| n_pieces(&view.scene, &visible, n));
             let number = |n: Option<usize>| n.map_or("—".to_string(), |n| n.to_string());
             writeln!(
                 out,
-                "| {} | {speed} | {flight} | {:.3} | {different} | {close} | {at_slits} | {others} | {n_faces} | {:.3} | {n_seen} | {} | {} | {} |",
+                "| {} | {speed} | {flight} | {:.3} | {different} | {close} | {at_slits} | {unexplained} | {n_faces} | {:.3} | {n_visible} | {} | {} | {} |",
                 view.name,
                 errors.pixels,
-                seen_errors.pixels,
+                visible_errors.pixels,
                 number(n),
                 number(n_uniform),
-                n_uniform.map_or("—".to_string(), |n| format!("{:.1}", n as f64 / n_seen as f64)),
+                n_uniform.map_or("—".to_string(), |n| format!("{:.1}", n as f64 / n_visible as f64)),
             )?;
             out.flush()?;
-            let off = errors.and(seen_errors).pixels;
-            if off >= MOST_PIXELS {
-                failures.push(format!("{} at {what}: {off:.3} px", view.name));
+            let error = errors.and(visible_errors).pixels;
+            if error >= MOST_PIXELS {
+                failures.push(format!("{} at {what}: outline error {error:.3} px", view.name));
             }
         }
     }
@@ -148,28 +151,29 @@ fn pictures(
     Ok(())
 }
 
-/// Pixels that show another face than the oracle sees, and those of them that are not near one it sees.
+/// Numbers of pixels that show another face than the oracle sees, by cause.
 #[derive(Default)]
-struct Pixels {
+struct Differences {
+    /// All of them.
     different: usize,
-    /// The two faces are as close to each other as the bound of depth.
+    /// The two faces are as close to each other as the tolerance of depth.
     close: usize,
-    /// An edge is part of a longer one of another face.
+    /// An edge lies along a longer one of another face.
     at_slits: usize,
-    /// Edges within their bound do not explain them.
-    others: usize,
+    /// Not explained by edges within their bound.
+    unexplained: usize,
 }
 
-/// Counts pixels of the picture that the programs draw.
-fn pixels(
+/// Compares the picture drawn by the programs with the oracle.
+fn differences(
     view: &View,
     beta: DVec3,
     oracle: &Oracle,
     what: &str,
     failures: &mut Vec<String>,
-) -> Outcome<Pixels> {
+) -> Outcome<Differences> {
     if view.scene.faces.len() > MOST_FACES {
-        return Err(format!("{}: there are colours for {MOST_FACES} faces only", view.name).into());
+        return Err(format!("{}: more than {MOST_FACES} faces cannot be told apart by colour", view.name).into());
     }
     let mut scene = recolored(view.scene.clone());
     scene.cameras =
@@ -183,21 +187,22 @@ fn pixels(
     let picture = pipe.draw(&ugparse::write(&scene));
     let camera = view.pinhole();
     let agreement = compare(&picture, oracle, &camera, MOST_PIXELS);
-    let mut counts = Pixels { different: agreement.n_pixels - agreement.n_same, ..Pixels::default() };
+    let different = agreement.n_pixels - agreement.n_same;
+    let mut counts = Differences { different, ..Differences::default() };
     for wrong in &agreement.wrong {
         let Wrong { pixel, shown, expected, .. } = wrong;
         if are_close(oracle, &camera, wrong, MOST_PIXELS, DEPTH) {
             counts.close += 1;
         } else if are_edges_near(oracle, &camera, wrong, MOST_PIXELS, DEPTH) {
-            // As if it saw the oracle's face within reach.
+            // The expected face is within reach: an edge is displaced within its bound.
         } else if is_at_slit(oracle, &camera, wrong, MOST_PIXELS) {
             counts.at_slits += 1;
         } else {
-            counts.others += 1;
-            failures.push(format!("{} at {what}: {pixel:?} shows {shown:?} for {expected:?}", view.name));
+            counts.unexplained += 1;
+            failures.push(format!("{} at {what}: {pixel:?} shows {shown:?} instead of {expected:?}", view.name));
         }
     }
-    if counts.others > 0 {
+    if counts.unexplained > 0 {
         let folder = crate::bench::target_dir().join("geometry");
         std::fs::create_dir_all(&folder)?;
         picture.save(folder.join(format!("{}-{what}-pipe.png", view.name)))?;
@@ -206,7 +211,9 @@ fn pixels(
     Ok(counts)
 }
 
-/// Equal pieces an edge that are as right as `error` pixels; `None` if there is no edge in the picture.
+/// The least number of equal pieces per edge with an outline error of at most `error` pixels.
+///
+/// `None` if no edge is in the picture.
 fn uniform(view: &View, oracle: &Oracle, error: f64) -> Option<usize> {
     let camera = view.pinhole();
     let outlines = (0..view.scene.faces.len()).filter_map(|face| oracle.outline(face));
@@ -223,7 +230,7 @@ fn uniform(view: &View, oracle: &Oracle, error: f64) -> Option<usize> {
     while let Some(at) = rest.par_iter().position_first(|(outline, edge)| !is_right(outline, *edge, n)) {
         let (outline, edge) = &rest[at];
         rest = &rest[at + 1..];
-        // Errors fall with the square of n: up by halves, then down.
+        // Increase n by half until the edge is within the error, then bisect.
         let mut low = n;
         while n < MOST_PIECES && !is_right(outline, *edge, n) {
             low = n;
@@ -252,10 +259,10 @@ fn bounds(
     motions: &[(f64, Flight)],
     failures: &mut Vec<String>,
 ) -> Outcome<()> {
-    let motions_told: Vec<String> =
+    let motion_names: Vec<String> =
         motions.iter().map(|(speed, flight)| format!("{speed} c {}", flight.name())).collect();
-    writeln!(out, "### Bound, error and faces: {} together\n", motions_told.join(", "))?;
-    writeln!(out, "| scene | bound, mrad | greatest error, mrad | faces | growth |")?;
+    writeln!(out, "### Bound, error and faces: {} together\n", motion_names.join(", "))?;
+    writeln!(out, "| scene | bound, mrad | largest error, mrad | faces | growth |")?;
     writeln!(out, "| --- | ---: | ---: | ---: | ---: |")?;
     for view in views {
         let mut last: Option<(f64, usize)> = None;
@@ -264,11 +271,11 @@ fn bounds(
             for &(speed, flight) in motions {
                 let beta = view.beta(speed, flight);
                 let config = view.config(beta, uglorentz::Pieces::UpTo(bound * 1e-3));
-                let (found, pieces) = view.measure(&config, &view.oracle(beta))?;
-                errors = errors.and(found);
+                let (of_motion, pieces) = view.measure(&config, &view.oracle(beta))?;
+                errors = errors.and(of_motion);
                 n_faces += pieces.len();
             }
-            // The power of 1/bound by which the number of faces has grown.
+            // The exponent with which the number of faces grows with 1/bound.
             let growth =
                 last.map(|(coarser, n)| libm::log(n_faces as f64 / n as f64) / libm::log(coarser / bound));
             let growth = growth.map_or(String::new(), |power| format!("{power:.2}"));
@@ -276,7 +283,7 @@ fn bounds(
             writeln!(out, "| {} | {bound} | {angle:.4} | {n_faces} | {growth} |", view.name)?;
             out.flush()?;
             if angle > bound {
-                failures.push(format!("{} at {bound} mrad: {angle} mrad", view.name));
+                failures.push(format!("{} at a bound of {bound} mrad: error {angle} mrad", view.name));
             }
             last = Some((bound, n_faces));
         }

@@ -1,4 +1,4 @@
-//! Scenes to measure, their cameras, and how these fly.
+//! The measured scenes, their cameras, and the motions of these.
 
 use std::path::{Path, PathBuf};
 
@@ -10,7 +10,7 @@ use ugtests::scenes;
 
 use super::Outcome;
 
-/// Scenes, and whether they are put in place (`-in`), so that they stay in the picture.
+/// Names of scenes, and whether they are placed with `-in`, so that they stay in the picture.
 const SCENES: [(&str, bool); 6] = [
     ("ship", true),
     ("street", false),
@@ -20,12 +20,12 @@ const SCENES: [(&str, bool); 6] = [
     ("teapot", true),
 ];
 
-/// Where the camera flies.
+/// The direction in which the camera flies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub enum Flight {
-    /// Where it looks.
+    /// In the view direction.
     Forward,
-    /// Away from where it looks.
+    /// Against the view direction.
     Backward,
     /// To the left.
     Sideways,
@@ -66,9 +66,9 @@ pub fn views(size: [u32; 2], files: &[PathBuf]) -> Outcome<Vec<View>> {
             ugparse::parse(&source, &ugparse::Options { lax: true, ..ugparse::Options::default() })?.scene;
         let scene = without_wires(scene);
         let name = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        for (place, camera, in_place) in cameras(&scene) {
+        for (label, camera, in_place) in cameras(&scene) {
             views.push(View {
-                name: format!("{name}, {place}"),
+                name: format!("{name}, {label}"),
                 scene: scene.clone(),
                 camera,
                 in_place,
@@ -79,13 +79,13 @@ pub fn views(size: [u32; 2], files: &[PathBuf]) -> Outcome<Vec<View>> {
     Ok(views)
 }
 
-/// The oracle sees faces only, and does not count wires when it puts bodies in place.
+/// The scene without wires, which the oracle does not support.
 fn without_wires(scene: Scene) -> Scene {
     Scene { wires: Vec::new(), comments: Vec::new(), ..scene }
 }
 
-/// The camera of the scene if it says enough; else one in the middle of its box, at the height of a person's head
-/// were it a storey, looking along it, and one outside.
+/// The camera of the scene if eye, view centre and angle are given; else two: one near the middle of the
+/// bounding box, looking along its longer side, and one outside.
 fn cameras(scene: &Scene) -> Vec<(&'static str, Camera, bool)> {
     if let Some(camera) = scene.camera()
         && camera.eye.is_some()
@@ -94,12 +94,12 @@ fn cameras(scene: &Scene) -> Vec<(&'static str, Camera, bool)> {
     {
         return vec![("its camera", camera.clone(), false)];
     }
-    let places = scene.vertices.iter().map(|vertex| vertex.position);
+    let positions = scene.vertices.iter().map(|vertex| vertex.position);
     let (low, high) =
-        places.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| (low.min(p), high.max(p)));
+        positions.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| (low.min(p), high.max(p)));
     let (middle, reach) = (low.midpoint(high), high - low);
     let along = if reach.x > reach.y { DVec3::X } else { DVec3::Y };
-    // Not on a coordinate of the scene.
+    // Offset, so that the eye has no coordinate in common with the scene.
     let inside = middle + reach * DVec3::new(0.017, 0.013, 0.041);
     let camera = |eye, center, across: f64| Camera {
         eye: Some(eye),
@@ -120,7 +120,7 @@ impl View {
         self.camera.eye.unwrap_or(DVec3::ZERO)
     }
 
-    /// The velocity of the scene in the frame of a camera that flies so.
+    /// The velocity of the scene in the frame of the flying camera.
     pub fn beta(&self, speed: f64, flight: Flight) -> DVec3 {
         let ahead = (self.camera.center.unwrap_or(DVec3::Y) - self.eye()).normalize();
         let right = ahead.cross(self.camera.up.unwrap_or(DVec3::Z)).normalize();
@@ -150,7 +150,7 @@ impl View {
         Oracle::new(&self.scene, self.eye(), Some(beta), self.in_place)
     }
 
-    /// The configuration for what the camera sees and how it is shaped: no more than outlines and depth need.
+    /// The configuration for visible faces only, cut only as outlines and depth require.
     pub fn config_of_shape(&self, beta: DVec3) -> uglorentz::Config {
         let mut config = self.config(beta, uglorentz::Pieces::UpTo(uglorentz::DEFAULT_ERROR));
         config.color_error = f64::INFINITY;
@@ -159,7 +159,7 @@ impl View {
         config
     }
 
-    /// Errors of the outlines of what a configuration writes, and of which face each piece is.
+    /// Outline errors of the output with a configuration, and the original face of each piece.
     pub fn measure(&self, config: &uglorentz::Config, oracle: &Oracle) -> Outcome<(Errors, Vec<usize>)> {
         let mut scene = Scene { cameras: vec![self.camera.clone()], ..self.scene.clone() };
         for row in 0..scene.faces.len() {
