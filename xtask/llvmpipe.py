@@ -1,15 +1,16 @@
 #!/usr/bin/env python3
-"""Draws a mesh with Mesa llvmpipe, OpenGL in software, on request: the other side of `cargo xtask bench-raster`.
+"""Draws a mesh with Mesa llvmpipe (OpenGL in software), for comparison in `cargo xtask bench-raster`.
 
     python3 xtask/llvmpipe.py MESH
 
-Debian: libegl1 libegl-mesa0 libgl1-mesa-dri.  Python: numpy moderngl.  LP_NUM_THREADS says how many threads.
+Requires the Debian packages libegl1 libegl-mesa0 libgl1-mesa-dri and the Python packages numpy and moderngl.
+LP_NUM_THREADS sets the number of threads.
 
-MESH: the numbers of vertices and triangles as two u32; for each vertex place and colour as six f32; for each triangle
-three u32; all little-endian. Then requests come on standard input, one a line: width, height, 1 to leave out what is
-seen from behind or else 0, the 16 numbers of the matrix from places to clip space, column after column, and a file or
-"-". Each is answered with the seconds from the clear to the end of drawing. The file is given the pixels, four bytes
-each, rows from the top.
+MESH contains the numbers of vertices and triangles as two u32, position and colour of each vertex as six f32, and
+three u32 for each triangle; all little-endian. Requests are read from standard input, one per line: width, height, 1
+to cull back faces or else 0, the 16 numbers of the matrix from scene to clip space in column-major order, and a file
+or "-". The answer is the time in seconds from clearing the frame to the end of drawing. The pixels are written to the
+file, four bytes each, rows from the top.
 """
 import os
 import sys
@@ -24,15 +25,15 @@ import numpy as np
 
 VERTEX = """#version 330
 uniform mat4 clip_from_scene;
-in vec3 place;
+in vec3 position;
 in vec3 color;
-out vec3 mixed;
-void main() { gl_Position = clip_from_scene * vec4(place, 1.0); mixed = color; }
+out vec3 interpolated;
+void main() { gl_Position = clip_from_scene * vec4(position, 1.0); interpolated = color; }
 """
 FRAGMENT = """#version 330
-in vec3 mixed;
+in vec3 interpolated;
 out vec4 pixel;
-void main() { pixel = vec4(mixed, 1.0); }
+void main() { pixel = vec4(interpolated, 1.0); }
 """
 
 
@@ -46,7 +47,7 @@ def main():
         table = gl.buffer(np.fromfile(file, "<f4", 6 * vertices).tobytes())
         corners = gl.buffer(np.fromfile(file, "<u4", 3 * triangles).tobytes())
     program = gl.program(vertex_shader=VERTEX, fragment_shader=FRAGMENT)
-    mesh = gl.vertex_array(program, [(table, "3f 3f", "place", "color")], corners)
+    mesh = gl.vertex_array(program, [(table, "3f 3f", "position", "color")], corners)
     gl.enable(moderngl.DEPTH_TEST)
     frames = {}
     for line in sys.stdin:

@@ -1,7 +1,7 @@
-//! Times the programs beside `cat` of the same file, in one run, as Markdown.
+//! Measures the running time of every program, relative to `cat` of the same file, as Markdown.
 //!
-//! Machines differ and are busy, so what counts is the ratio to the floor: the
-//! time `cat` takes to read the file and throw it away.
+//! Absolute times depend on the machine and its load. The ratio to `cat`, which reads the file and
+//! discards it, varies less.
 
 use std::error::Error;
 use std::fs::File;
@@ -15,7 +15,7 @@ use crate::mesh;
 /// Runs of each command; the fastest and the median are shown.
 const RUNS: usize = 7;
 
-/// Benchmarks meshes of about these many triangles and prints a table for each.
+/// Benchmarks meshes of about these numbers of triangles and prints a table for each.
 pub fn write(out: &mut impl Write, sizes: &[u32]) -> Result<(), Box<dyn Error>> {
     build(&[])?;
     let dir = target_dir().join("bench");
@@ -25,24 +25,24 @@ pub fn write(out: &mut impl Write, sizes: &[u32]) -> Result<(), Box<dyn Error>> 
         let bench = Bench { dir: &dir, triangles };
         bench.prepare()?;
         writeln!(out, "### {triangles} triangles, {:.1} MB of text\n", bench.megabytes("mesh")?)?;
-        writeln!(out, "| what | fastest | median | beside `cat` | MB/s in |")?;
+        writeln!(out, "| task | fastest time | median time | time / `cat` | input, MB/s |")?;
         writeln!(out, "| --- | ---: | ---: | ---: | ---: |")?;
-        let mut floor = None;
+        let mut baseline = None;
         for row in bench.rows() {
             let times = match &row.work {
                 Work::Shell(command) => time(RUNS, || bench.run(command))?,
-                Work::Inside(work) => time(RUNS, work)?,
+                Work::InProcess(work) => time(RUNS, work)?,
             };
             let megabytes = bench.megabytes(row.input)?;
-            // The first row is the floor.
-            let floor = *floor.get_or_insert(times.fastest);
+            // The first row is `cat`.
+            let baseline = *baseline.get_or_insert(times.fastest);
             writeln!(
                 out,
                 "| {} | {:.1} ms | {:.1} ms | {:.1} | {:.0} |",
                 row.name,
                 ms(times.fastest),
                 ms(times.median),
-                ms(times.fastest) / ms(floor),
+                ms(times.fastest) / ms(baseline),
                 megabytes / times.fastest.as_secs_f64(),
             )?;
         }
@@ -59,16 +59,16 @@ struct Bench<'a> {
 
 struct Row {
     name: &'static str,
-    /// Which file goes in.
+    /// The file that is read: the stage of [`Bench::file`].
     input: &'static str,
     work: Work,
 }
 
 enum Work {
-    /// A whole process, or a pipe of them.
+    /// A process, or a pipe of several.
     Shell(String),
     /// A library call on data in memory.
-    Inside(Kernel),
+    InProcess(Kernel),
 }
 
 impl Bench<'_> {
@@ -80,7 +80,7 @@ impl Bench<'_> {
         Ok(std::fs::metadata(self.file(stage))?.len() as f64 / 1e6)
     }
 
-    /// Writes the mesh, and what each stage makes of it.
+    /// Writes the mesh, and the output of each program for the next one.
     fn prepare(&self) -> Result<(), Box<dyn Error>> {
         let mut file = io::BufWriter::new(File::create(self.file("mesh"))?);
         mesh::write(&mut file, self.triangles, false)?;
@@ -109,18 +109,18 @@ impl Bench<'_> {
         let (mesh, seen, coloured) = (self.file("mesh"), self.file("seen"), self.file("coloured"));
         let each = self.file("each-seen");
         let shell = |name, input, command: String| Row { name, input, work: Work::Shell(command) };
-        let inside = |name, input, kernel| Row { name, input, work: Work::Inside(kernel) };
+        let in_process = |name, input, kernel| Row { name, input, work: Work::InProcess(kernel) };
         vec![
             shell("`cat`", "mesh", format!("cat {mesh} > /dev/null")),
-            inside("reading (library)", "mesh", read(&mesh)),
-            inside("writing (library)", "mesh", write_back(&mesh)),
-            inside("drawing (library), 1280×720, 1 sample", "coloured", draw(&coloured)),
+            in_process("reading (library)", "mesh", read(&mesh)),
+            in_process("writing (library)", "mesh", write_back(&mesh)),
+            in_process("drawing (library), 1280×720, 1 sample", "coloured", draw(&coloured)),
             shell("`ugparse flatten`", "mesh", format!("ugparse flatten {mesh} > /dev/null")),
             shell("`uglorentz -vel .3 0 0`", "mesh", format!("{LORENTZ} {mesh} > /dev/null")),
             shell("`ugdoppler`", "seen", format!("{DOPPLER} {seen} > /dev/null")),
             shell("`ugdoppler -sp`", "seen", format!("{DOPPLER} -sp {seen} > /dev/null")),
-            shell("`ugdoppler`, a colour each", "each-seen", format!("{DOPPLER} {each} > /dev/null")),
-            shell("`ugdoppler -sp`, a colour each", "each-seen", format!("{DOPPLER} -sp {each} > /dev/null")),
+            shell("`ugdoppler`, own colours", "each-seen", format!("{DOPPLER} {each} > /dev/null")),
+            shell("`ugdoppler -sp`, own colours", "each-seen", format!("{DOPPLER} -sp {each} > /dev/null")),
             shell("`ugrainbow -sz 1280 720 -aa 1`", "coloured", format!("{RAINBOW} {coloured} > /dev/null")),
             shell("the whole pipe", "mesh", format!("{LORENTZ} {mesh} | {DOPPLER} | {RAINBOW} > /dev/null")),
         ]
@@ -172,7 +172,7 @@ struct Times {
     median: Duration,
 }
 
-/// Times `work`, after one run that does not count.
+/// Measures `work`, after one warm-up run.
 fn time(runs: usize, work: impl Fn() -> Result<(), Box<dyn Error>>) -> Result<Times, Box<dyn Error>> {
     work()?;
     let mut times = Vec::with_capacity(runs);
@@ -189,7 +189,7 @@ fn ms(time: Duration) -> f64 {
     time.as_secs_f64() * 1e3
 }
 
-/// Builds programs, all if none is named.
+/// Builds the named programs, or all if none is named.
 pub fn build(programs: &[&str]) -> Result<(), Box<dyn Error>> {
     let packages = programs.iter().flat_map(|program| ["--package", program]);
     let status =
@@ -197,26 +197,26 @@ pub fn build(programs: &[&str]) -> Result<(), Box<dyn Error>> {
     if status.success() { Ok(()) } else { Err("the programs do not build".into()) }
 }
 
-/// Where cargo puts things: this program was built there.
+/// Cargo's target folder, in which this program was built.
 pub fn target_dir() -> PathBuf {
     let exe = std::env::current_exe().unwrap_or_default();
     exe.ancestors().nth(2).map_or_else(|| PathBuf::from("target"), Path::to_path_buf)
 }
 
-/// A program of the project.
+/// The path of a program of the project.
 pub fn program(name: &str) -> PathBuf {
     target_dir().join("release").join(name)
 }
 
-/// What a shell command with the programs on its path says on standard error.
-pub fn said(command: &str) -> Result<String, Box<dyn Error>> {
+/// Runs a shell command with the programs on its path and returns its standard error.
+pub fn stderr_of(command: &str) -> Result<String, Box<dyn Error>> {
     let output = Command::new("bash")
         .args(["-c", &format!("set -euo pipefail; {command}")])
         .env("PATH", path_with_programs()?)
         .stdin(Stdio::null())
         .output()?;
-    let said = String::from_utf8_lossy(&output.stderr).into_owned();
-    if output.status.success() { Ok(said) } else { Err(format!("`{command}` failed: {said}").into()) }
+    let stderr = String::from_utf8_lossy(&output.stderr).into_owned();
+    if output.status.success() { Ok(stderr) } else { Err(format!("`{command}` failed: {stderr}").into()) }
 }
 
 fn path_with_programs() -> Result<std::ffi::OsString, Box<dyn Error>> {
@@ -225,7 +225,7 @@ fn path_with_programs() -> Result<std::ffi::OsString, Box<dyn Error>> {
     Ok(std::env::join_paths(std::iter::once(programs).chain(std::env::split_paths(&path)))?)
 }
 
-/// Processor, threads and compiler, as far as the system tells.
+/// Describes processor, number of threads and compiler, as far as they are known.
 pub fn machine() -> String {
     let cpuinfo = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
     let model =

@@ -1,7 +1,8 @@
-//! Times exact pictures (`ugrainbow -xc`) beside the pipe that cuts faces and interpolates, as Markdown.
+//! Measures the running time of exact pictures (`ugrainbow -xc`) and of the pipe that subdivides faces and
+//! interpolates, as Markdown.
 //!
-//! The pipe is measured with its default bounds, and with bounds so fine that its picture is as right. Runs of both take
-//! turns, so that a busy machine slows both.
+//! The pipe is measured with its default bounds, and with bounds so fine that its picture is as correct.
+//! Runs alternate, so that other load on the machine affects both.
 
 use std::error::Error;
 use std::io::Write;
@@ -16,7 +17,7 @@ use crate::bench;
 
 type Outcome<T> = Result<T, Box<dyn Error>>;
 
-/// Scenes, whether they are put in place (`-in`), and how they move.
+/// Names of scenes, whether they are placed with `-in`, and velocities.
 const SCENES: [(&str, bool, DVec3); 6] = [
     ("ship", true, DVec3::new(0.9, 0.0, 0.0)),
     ("cubes", true, DVec3::new(0.72, -0.54, 0.0)),
@@ -26,13 +27,13 @@ const SCENES: [(&str, bool, DVec3); 6] = [
     ("teapot", true, DVec3::new(0.9, 0.0, 0.0)),
 ];
 
-/// Bounds are divided by these until the picture is right.
+/// The bounds are divided by these numbers until the picture is correct.
 const FINER: [u32; 5] = [1, 4, 16, 64, 256];
 
-/// A picture is right if so large a part of the pixels that show something are within a level of the exact ones.
-const RIGHT: f64 = 0.999;
+/// A picture is correct if this fraction of its non-black pixels are within a level of the exact ones.
+const CORRECT: f64 = 0.999;
 
-/// Finer bounds are not tried when a picture took longer.
+/// If a picture took longer, finer bounds are not tried.
 const LONGEST: Duration = Duration::from_secs(8);
 
 /// Runs of each command; the fastest counts.
@@ -44,7 +45,7 @@ pub fn write(out: &mut impl Write, only: Option<&str>) -> Outcome<()> {
     writeln!(out, "{}\n", bench::machine())?;
     writeln!(
         out,
-        "| scene | `-aa` | `-xc` | pipe | beside `-xc` | right | bounds | pipe then | beside `-xc` | right |"
+        "| scene | `-aa` | `-xc`, s | pipe, s | pipe / `-xc` | correct | bounds | finer pipe, s | finer pipe / `-xc` | correct |"
     )?;
     writeln!(out, "| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |")?;
     for (name, in_place, beta) in
@@ -54,15 +55,15 @@ pub fn write(out: &mut impl Write, only: Option<&str>) -> Outcome<()> {
             let view = View { name, in_place, beta, samples };
             let text = scenes::text(name);
             let exact = view.exact(&text);
-            let (finer, parts) = view.finer(&text, &exact);
-            let [ours, rough, fine] = view.time(finer)?;
+            let (finer, correct) = view.finer(&text, &exact);
+            let [exact, default, fine] = view.time(finer)?;
             writeln!(
                 out,
-                "| {name} | {samples} | {ours} | {rough} | {:.2} | {:.1} % | 1/{finer} | {fine} | {:.2} | {:.2} % |",
-                rough.user / ours.user,
-                100.0 * parts[0],
-                fine.user / ours.user,
-                100.0 * parts[1],
+                "| {name} | {samples} | {exact} | {default} | {:.2} | {:.1} % | 1/{finer} | {fine} | {:.2} | {:.2} % |",
+                default.user / exact.user,
+                100.0 * correct[0],
+                fine.user / exact.user,
+                100.0 * correct[1],
             )?;
             out.flush()?;
         }
@@ -93,9 +94,10 @@ impl View {
         decode(&rainbow(&lorentz(text, &pipe.lorentz), &pipe.rainbow))
     }
 
-    /// The first bounds with which the picture is right, and how right it is by default and with these.
+    /// The first divisor of the bounds with which the picture is correct, and the fraction of correct pixels with
+    /// default bounds and with these.
     fn finer(&self, text: &[u8], exact: &Picture) -> (u32, [f64; 2]) {
-        let mut parts = Vec::new();
+        let mut fractions = Vec::new();
         for finer in FINER {
             let mut pipe = self.pipe();
             pipe.lorentz.pieces = uglorentz::Pieces::UpTo(uglorentz::DEFAULT_ERROR / f64::from(finer));
@@ -103,15 +105,16 @@ impl View {
             pipe.doppler.keep = true;
             let start = Instant::now();
             let seen = doppler(&lorentz(text, &pipe.lorentz), &pipe.doppler);
-            parts.push(right(&decode(&rainbow(&seen, &pipe.rainbow)), exact));
-            if parts[parts.len() - 1] >= RIGHT || start.elapsed() > LONGEST {
+            fractions.push(fraction_correct(&decode(&rainbow(&seen, &pipe.rainbow)), exact));
+            if fractions[fractions.len() - 1] >= CORRECT || start.elapsed() > LONGEST {
                 break;
             }
         }
-        (FINER[parts.len() - 1], [parts[0], parts[parts.len() - 1]])
+        let last = fractions.len() - 1;
+        (FINER[last], [fractions[0], fractions[last]])
     }
 
-    /// Exact, with default bounds, and with finer ones.
+    /// Times of the exact picture, and of the pipe with default bounds and with finer ones.
     fn time(&self, finer: u32) -> Outcome<[Times; 3]> {
         let DVec3 { x, y, z } = self.beta;
         let in_place = if self.in_place { " -in" } else { "" };
@@ -136,23 +139,24 @@ impl View {
     }
 }
 
-/// The part of the pixels that show something in either picture whose channels differ by no more than a level.
-fn right(picture: &Picture, exact: &Picture) -> f64 {
+/// Of the pixels that are not black in both pictures, the fraction whose channels differ by at most a level.
+fn fraction_correct(picture: &Picture, exact: &Picture) -> f64 {
     let pairs = picture.pixels().zip(exact.pixels()).map(|(a, b)| (a.0, b.0));
     let shown = pairs.filter(|pair| *pair != ([0, 0, 0, 255], [0, 0, 0, 255]));
-    let (mut n_shown, mut n_right) = (0.0, 0.0);
+    let (mut n_shown, mut n_correct) = (0.0, 0.0);
     for (a, b) in shown {
         n_shown += 1.0;
-        n_right += f64::from(u8::from(a.iter().zip(b).all(|(a, b)| a.abs_diff(b) <= 1)));
+        n_correct += f64::from(u8::from(a.iter().zip(b).all(|(a, b)| a.abs_diff(b) <= 1)));
     }
-    n_right / n_shown
+    n_correct / n_shown
 }
 
-/// Seconds.
+/// Times in seconds.
 #[derive(Clone, Copy)]
 struct Times {
-    /// Of all processors, in the programs.
+    /// Processor time in user mode, summed over threads.
     user: f64,
+    /// Wall-clock time.
     wall: f64,
 }
 
@@ -167,11 +171,11 @@ impl Times {
 
     fn of(command: &str) -> Outcome<Self> {
         let times =
-            bench::said(&format!("TIMEFORMAT='%U %R'; time {{ {command} > /dev/null 2> /dev/null; }}"))?;
+            bench::stderr_of(&format!("TIMEFORMAT='%U %R'; time {{ {command} > /dev/null 2> /dev/null; }}"))?;
         let mut numbers = times.split_whitespace().map(str::parse::<f64>);
         match (numbers.next(), numbers.next()) {
             (Some(Ok(user)), Some(Ok(wall))) => Ok(Self { user, wall }),
-            _ => Err(format!("`time` said `{times}`").into()),
+            _ => Err(format!("`time` printed `{times}`").into()),
         }
     }
 }

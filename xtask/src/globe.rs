@@ -1,35 +1,35 @@
-//! The net of a globe: one vertex at each pole, rings of vertices between, and
-//! the cells that join them.
+//! The mesh of a globe: one vertex at each pole, rings of vertices between, and the cells that connect them.
 
 use std::f64::consts::{PI, TAU};
 
-/// Bands from pole to pole, sectors around.
+/// A division of the sphere into bands from pole to pole and sectors of longitude.
 pub struct Globe {
     pub bands: u32,
     pub sectors: u32,
 }
 
-/// Colatitude and longitude in radians.
+/// A direction by colatitude and longitude, in radians.
 #[derive(Clone, Copy)]
-pub struct Place {
+pub struct Direction {
     pub theta: f64,
     pub phi: f64,
 }
 
 impl Globe {
-    /// As many bands as give cells about as high as wide.
+    /// Twice as many sectors as bands, so that cells at the equator are about square.
     pub fn with_bands(bands: u32) -> Self {
         Self { bands, sectors: 2 * bands }
     }
 
-    /// Every vertex by its index: the north pole, the rings southward, the south pole.
-    pub fn places(&self) -> impl Iterator<Item = Place> {
+    /// The directions of all vertices by index: the north pole, the rings southward, the south pole.
+    pub fn directions(&self) -> impl Iterator<Item = Direction> {
         let ring = move |i: u32| {
             let theta = PI * f64::from(i) / f64::from(self.bands);
-            (0..self.sectors).map(move |j| Place { theta, phi: TAU * f64::from(j) / f64::from(self.sectors) })
+            (0..self.sectors)
+                .map(move |j| Direction { theta, phi: TAU * f64::from(j) / f64::from(self.sectors) })
         };
-        let north = Place { theta: 0.0, phi: 0.0 };
-        let south = Place { theta: PI, phi: 0.0 };
+        let north = Direction { theta: 0.0, phi: 0.0 };
+        let south = Direction { theta: PI, phi: 0.0 };
         std::iter::once(north).chain((1..self.bands).flat_map(ring)).chain([south])
     }
 
@@ -83,6 +83,6 @@ mod tests {
         for (&(from, to), &count) in &edges {
             assert_eq!((count, edges.get(&(to, from))), (1, Some(&1)), "edge {from}-{to}");
         }
-        assert_eq!(globe.places().count() + n_faces, edges.len() / 2 + 2);
+        assert_eq!(globe.directions().count() + n_faces, edges.len() / 2 + 2);
     }
 }

@@ -1,29 +1,28 @@
-//! A bumpy sphere with coloured vertices, of any number of triangles: something
-//! to measure speed on.
+//! A bumpy sphere with coloured vertices and any number of triangles, for benchmarks.
 
-use crate::globe::{Globe, Place};
+use crate::globe::{Direction, Globe};
 use crate::short::{Short, ShortPoint};
 use crate::sphere;
 use std::f64::consts::{PI, TAU};
 use std::io::{self, Write};
 
-/// The palette: hues from red to blue and back by longitude, saturations by colatitude. Purples are left out,
-/// since they have no wavelength.
+/// The palette: hues from red to blue and back by longitude, saturations by colatitude. It has no purples, which
+/// have no wavelength.
 const HUES: u32 = 36;
 const SATURATIONS: u32 = 8;
 
-/// The usual lights and camera.
+/// Default lights and camera.
 const TAIL: &str = "l 0.3 ;
 l sun 0.7 -1 -2 1.5 ;
 cam -ep 0 -6 1 -vc 0 0 0 -ud 0 0 1 -ps -va 30 24 ;
 ";
 
-/// Writes a mesh of about `triangles` triangles; if `each`, every vertex has a colour of its own.
+/// Writes a mesh of about `triangles` triangles; if `each`, every vertex has its own colour.
 pub fn write(out: &mut impl Write, triangles: u32, each: bool) -> io::Result<()> {
     write_with(out, triangles, each, TAIL)
 }
 
-/// The same with other lights and another camera.
+/// Like [`write`], with other lights and another camera.
 pub fn write_with(out: &mut impl Write, triangles: u32, each: bool, tail: &str) -> io::Result<()> {
     // A globe of n bands and 2 n sectors has 4 n (n - 1) triangles.
     let bands = (f64::from(triangles) / 4.0).sqrt().round() as u32;
@@ -40,15 +39,15 @@ pub fn write_with(out: &mut impl Write, triangles: u32, each: bool, tail: &str) 
         if each { " --each" } else { "" },
     )?;
     if each {
-        for (i, place) in globe.places().enumerate() {
-            writeln!(out, "c c{i} {} ;", own_color(i, place))?;
+        for (i, direction) in globe.directions().enumerate() {
+            writeln!(out, "c c{i} {} ;", own_color(i, direction))?;
         }
     } else {
         write_palette(out)?;
     }
-    for (i, place) in globe.places().enumerate() {
-        let p = bump(place) * sphere::direction(place);
-        let color = if each { format!("c{i}") } else { color_name(place) };
+    for (i, direction) in globe.directions().enumerate() {
+        let p = radius(direction) * sphere::unit_vector(direction);
+        let color = if each { format!("c{i}") } else { color_name(direction) };
         writeln!(out, "v v{i} {} {color} ;", ShortPoint(p))?;
     }
     for cell in (0..bands).flat_map(|band| globe.cells(band)) {
@@ -70,23 +69,23 @@ fn write_palette(out: &mut impl Write) -> io::Result<()> {
     Ok(())
 }
 
-/// Value, hue and saturation like those of the palette at that place, but no two alike.
-fn own_color(i: usize, place: Place) -> String {
-    let there_and_back = 1.0 - (2.0 * place.phi / TAU - 1.0).abs();
-    // Steps of the golden ratio: spread evenly, and not alike before many millions.
+/// Value, hue and saturation similar to the palette in that direction, but unique for every vertex.
+fn own_color(i: usize, direction: Direction) -> String {
+    let there_and_back = 1.0 - (2.0 * direction.phi / TAU - 1.0).abs();
+    // Multiples of the golden ratio are evenly distributed and do not repeat for many millions of steps.
     let value = 0.5 + 0.5 * (i as f64 * 0.618_033_988_749_895).fract();
-    format!("{value:.9} {} {}", Short(240.0 * there_and_back), Short(0.1 + 0.9 * place.theta / PI))
+    format!("{value:.9} {} {}", Short(240.0 * there_and_back), Short(0.1 + 0.9 * direction.theta / PI))
 }
 
-fn bump(place: Place) -> f64 {
-    1.0 + 0.05 * libm::sin(12.0 * place.theta) * libm::cos(9.0 * place.phi)
+fn radius(direction: Direction) -> f64 {
+    1.0 + 0.05 * libm::sin(12.0 * direction.theta) * libm::cos(9.0 * direction.phi)
 }
 
-fn color_name(place: Place) -> String {
+fn color_name(direction: Direction) -> String {
     let step = |part: f64, steps: u32| ((part * f64::from(steps)) as u32).min(steps - 1);
-    // 0 at both ends of the way around, 1 half-way.
-    let there_and_back = 1.0 - (2.0 * place.phi / TAU - 1.0).abs();
-    name(step(there_and_back, HUES), step(place.theta / PI, SATURATIONS))
+    // 0 at longitude 0, 1 on the opposite side.
+    let there_and_back = 1.0 - (2.0 * direction.phi / TAU - 1.0).abs();
+    name(step(there_and_back, HUES), step(direction.theta / PI, SATURATIONS))
 }
 
 fn name(hue_step: u32, saturation_step: u32) -> String {

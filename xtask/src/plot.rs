@@ -2,15 +2,15 @@
 
 use std::fmt::Write;
 
-/// One plot beside others.
+/// One of several plots in a row.
 pub struct Panel<'a> {
     pub title: &'a str,
-    /// Of the axis across.
+    /// Unit of the horizontal axis.
     pub unit: &'a str,
     pub series: [Series<'a>; 2],
 }
 
-/// Points joined by a line.
+/// Points connected by a line.
 pub struct Series<'a> {
     pub name: &'a str,
     pub points: Vec<[f64; 2]>,
@@ -24,7 +24,8 @@ const TOP: f64 = 36.0;
 /// Length of each axis.
 const SIDE: f64 = 260.0;
 
-/// The panels side by side. All have the same decades down, and as many across, so that a slope of 1 is the same everywhere.
+/// Draws panels side by side. All have the same vertical range and as many decades horizontally, so that a slope of
+/// 1 looks the same in all.
 pub fn svg(panels: &[Panel<'_>]) -> String {
     let mut text = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {} {HEIGHT}\" font-family=\"sans-serif\" \
@@ -48,7 +49,7 @@ pub fn svg(panels: &[Panel<'_>]) -> String {
     text
 }
 
-/// Whole decades that hold these numbers.
+/// The exponents of the powers of ten that enclose these numbers.
 fn decades(numbers: impl Iterator<Item = f64>) -> [i32; 2] {
     let (low, high) = numbers
         .map(libm::log10)
@@ -57,10 +58,10 @@ fn decades(numbers: impl Iterator<Item = f64>) -> [i32; 2] {
 }
 
 struct Axes {
-    /// Powers of ten where the axes begin.
+    /// Exponents of ten at the beginning of the axes.
     across: i32,
     down: i32,
-    /// Length of a decade.
+    /// Length of a decade in the plot.
     decade: f64,
     /// Decades of each axis.
     most: i32,
@@ -107,24 +108,24 @@ impl Axes {
     }
 
     fn draw_series(&self, text: &mut String, series: &Series<'_>, color: &str, name_at: f64) {
-        let places = series.points.iter().map(|[x, y]| format!("{:.1},{:.1}", self.x(*x), self.y(*y)));
-        let places: Vec<String> = places.collect();
+        let points = series.points.iter().map(|[x, y]| format!("{:.1},{:.1}", self.x(*x), self.y(*y)));
+        let points: Vec<String> = points.collect();
         let _ = writeln!(
             text,
             "<polyline points=\"{}\" fill=\"none\" stroke=\"{color}\" stroke-width=\"2\"/>\n\
              <text x=\"{}\" y=\"{name_at}\" fill=\"{color}\">{}</text>",
-            places.join(" "),
+            points.join(" "),
             LEFT + 8.0,
             series.name
         );
-        for place in places {
-            let (x, y) = place.split_once(',').unwrap_or_default();
+        for point in points {
+            let (x, y) = point.split_once(',').unwrap_or_default();
             let _ = writeln!(text, "<circle cx=\"{x}\" cy=\"{y}\" r=\"3\" fill=\"{color}\"/>");
         }
     }
 }
 
-/// A power of ten, written out.
+/// A power of ten as SVG text.
 fn power(exponent: i32) -> String {
     match u32::try_from(exponent) {
         Ok(exponent) if exponent > 3 => format!("10<tspan dy=\"-4\" font-size=\"9\">{exponent}</tspan>"),

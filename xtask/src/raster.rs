@@ -1,8 +1,8 @@
-//! Times drawing beside Mesa llvmpipe, OpenGL in software, and the whole program beside POV-Ray's reading, on the
-//! same mesh, in turns, as Markdown.
+//! Measures the time of drawing, relative to Mesa llvmpipe (OpenGL in software), and of the whole program, relative to
+//! reading by POV-Ray, alternately on the same mesh, as Markdown.
 //!
-//! llvmpipe is driven by `llvmpipe.py`, whose head says what must be installed. The mesh has colours on its vertices and white
-//! light from everywhere, since OpenGL draws colours as they are. Places are rounded to f32, so that both draw the same triangles.
+//! `llvmpipe.py` runs llvmpipe; its head lists what must be installed. The mesh has vertex colours and white ambient light,
+//! because the OpenGL shader does no lighting. Positions are rounded to f32, so that both draw the same triangles.
 
 use std::error::Error;
 use std::f64::consts::PI;
@@ -21,34 +21,34 @@ use ugrainbow::{Config, Prepared};
 use crate::bench::{build, machine, program, target_dir};
 use crate::mesh;
 
-/// Pictures drawn by each side in turn; the fastest counts.
+/// Pictures drawn by each program alternately; the fastest counts.
 const ROUNDS: usize = 25;
 
 /// Runs of POV-Ray and of the whole program.
 const PROCESS_ROUNDS: usize = 5;
 
-/// Pixels of the pictures.
+/// Sizes of the pictures in pixels.
 const SIZES: [[u32; 2]; 2] = [[1280, 720], [1920, 1080]];
 
 const EYE: DVec3 = DVec3::new(0.0, -3.2, 0.6);
 
-/// Across, in degrees.
+/// Horizontal view angle, degrees.
 const VIEW_ANGLE: f64 = 52.0;
 
 /// The light and the camera of the mesh.
 const TAIL: &str = "l 1;\ncam -ep 0 -3.2 .6 -vc 0 0 0 -ud 0 0 1 -va 52 30 -ps;\n";
 
-/// What is installed.
+/// The external programs.
 pub struct Tools<'a> {
-    /// A Python with numpy and moderngl.
+    /// Python interpreter with numpy and moderngl.
     pub python: &'a str,
-    /// POV-Ray.
+    /// POV-Ray executable.
     pub povray: &'a str,
-    /// Threads of each side.
+    /// Threads for each program.
     pub threads: usize,
 }
 
-/// Measures meshes of about these many triangles.
+/// Benchmarks meshes of about these numbers of triangles.
 pub fn write(out: &mut impl Write, sizes: &[u32], tools: &Tools<'_>) -> Result<(), Box<dyn Error>> {
     build(&["ugrainbow"])?;
     let dir = target_dir().join("bench");
@@ -61,7 +61,7 @@ pub fn write(out: &mut impl Write, sizes: &[u32], tools: &Tools<'_>) -> Result<(
             writeln!(out, "{}\n", mesa.name)?;
             writeln!(
                 out,
-                "| triangles | picture | back faces | llvmpipe | drawing | ratio | with colours | ratio |"
+                "| triangles | picture, pixels | back faces | llvmpipe | drawing | llvmpipe / drawing | with colours | llvmpipe / with colours |"
             )?;
             writeln!(out, "| ---: | --- | --- | ---: | ---: | ---: | ---: | ---: |")?;
         }
@@ -71,15 +71,15 @@ pub fn write(out: &mut impl Write, sizes: &[u32], tools: &Tools<'_>) -> Result<(
             }
         }
     }
-    writeln!(out, "\n| triangles | POV-Ray reads | `ugrainbow`, 1280×720 | ratio |")?;
+    writeln!(out, "\n| triangles | reading by POV-Ray | `ugrainbow`, 1280×720 | ratio |")?;
     writeln!(out, "| ---: | ---: | ---: | ---: |")?;
     for mesh in &meshes {
-        beside_povray(out, mesh, &dir, tools)?;
+        compare_with_povray(out, mesh, &dir, tools)?;
     }
     Ok(())
 }
 
-/// A mesh in the forms of all sides.
+/// A mesh in the formats of all programs.
 struct Mesh {
     scene: Scene,
     /// The scene as text.
@@ -114,7 +114,7 @@ fn corners(scene: &Scene) -> impl Iterator<Item = [u32; 3]> {
     })
 }
 
-/// As `llvmpipe.py` reads it.
+/// The binary format that `llvmpipe.py` reads.
 fn to_binary(scene: &Scene) -> Result<Vec<u8>, Box<dyn Error>> {
     let mut bytes = Vec::new();
     for count in [scene.vertices.len(), scene.faces.len()] {
@@ -123,7 +123,7 @@ fn to_binary(scene: &Scene) -> Result<Vec<u8>, Box<dyn Error>> {
     for vertex in &scene.vertices {
         let color = vertex.color.ok_or("a vertex has no colour")?;
         let ColorValue::Hsv { value, hue, saturation } = scene.colors[color.index()].value else {
-            return Err("a colour is no hue".into());
+            return Err("a colour has no hue".into());
         };
         let [red, green, blue] = Hsv { hue, saturation, value }.to_rgb();
         let [x, y, z] = vertex.position.to_array();
@@ -133,7 +133,7 @@ fn to_binary(scene: &Scene) -> Result<Vec<u8>, Box<dyn Error>> {
     Ok(bytes)
 }
 
-/// llvmpipe, waiting for requests.
+/// A running `llvmpipe.py` that waits for requests.
 struct Mesa {
     child: Child,
     requests: ChildStdin,
@@ -158,7 +158,7 @@ impl Mesa {
         Ok(mesa)
     }
 
-    /// Draws a picture; the answer is seconds.
+    /// Draws a picture and returns the time in seconds.
     fn draw(&mut self, size: [u32; 2], cull: bool, file: Option<&Path>) -> Result<f64, Box<dyn Error>> {
         let matrix = clip_from_scene(size).map(|number| number.to_string()).join(" ");
         let file = file.map_or("-".into(), |file| file.display().to_string());
@@ -178,13 +178,13 @@ impl Mesa {
 
 impl Drop for Mesa {
     fn drop(&mut self) {
-        // It ends when its input does; a failure to end it is none of measuring.
+        // The script ends with its input anyway, so a failure to kill it can be ignored.
         let _ = self.child.kill();
         let _ = self.child.wait();
     }
 }
 
-/// The camera of [`TAIL`], as OpenGL has it: from places of the scene to clip space, column after column.
+/// The camera of [`TAIL`] as an OpenGL matrix from scene to clip space, in column-major order.
 fn clip_from_scene([width, height]: [u32; 2]) -> [f64; 16] {
     const NEAR: f64 = 0.1;
     const FAR: f64 = 100.0;
@@ -202,7 +202,7 @@ fn clip_from_scene([width, height]: [u32; 2]) -> [f64; 16] {
     std::array::from_fn(|idx| rows[idx % 4][idx / 4])
 }
 
-/// One row: everything in turns.
+/// Measures all programs alternately and writes a row of the table.
 fn compare(
     out: &mut impl Write,
     mesh: &Mesh,
@@ -212,7 +212,7 @@ fn compare(
     tools: &Tools<'_>,
 ) -> Result<(), Box<dyn Error>> {
     let pool = ThreadPoolBuilder::new().num_threads(tools.threads).build()?;
-    // The camera has two angles; one alone gives square pixels.
+    // The scene's camera has two angles; a single one gives square pixels.
     let camera = ugrainbow::CameraOptions { view_angle: Some((VIEW_ANGLE, None)), ..Default::default() };
     let config = Config { size, samples: 1, cull, camera, ..Config::default() };
     let prepared = Prepared::new(&mesh.scene, &config)?;
@@ -231,7 +231,7 @@ fn compare(
         }
     }
     let [theirs, drawn, all] = fastest.map(|seconds| seconds * 1e3);
-    let back = if cull { "left out" } else { "drawn" };
+    let back = if cull { "culled" } else { "drawn" };
     Ok(writeln!(
         out,
         "| {} | {}×{} | {back} | {theirs:.1} ms | {drawn:.1} ms | {:.2} | {all:.1} ms | {:.2} |",
@@ -243,8 +243,8 @@ fn compare(
     )?)
 }
 
-/// Refuses to compare what does not show the same: colours between the corners may differ, for
-/// one side mixes hues and the other red, green and blue.
+/// Fails if the pictures show different things. Colours may differ between vertices, because one program
+/// interpolates hues and the other red, green and blue.
 fn check_same(
     prepared: &Prepared<'_>,
     mesa: &mut Mesa,
@@ -268,8 +268,8 @@ fn check_same(
     Ok(())
 }
 
-/// POV-Ray reads the places and triangles, without colours; `ugrainbow` reads all, draws it and writes a PNG.
-fn beside_povray(
+/// POV-Ray reads vertices and triangles without colours; `ugrainbow` reads everything, draws, and writes a PNG.
+fn compare_with_povray(
     out: &mut impl Write,
     mesh: &Mesh,
     dir: &Path,
@@ -315,7 +315,7 @@ fn to_povray(mesh: &Mesh) -> Result<Vec<u8>, Box<dyn Error>> {
     Ok(text)
 }
 
-/// What POV-Ray says it took to read a scene, in seconds.
+/// The time that POV-Ray reports for parsing a scene, in seconds.
 fn parse_time(scene: &Path, dir: &Path, tools: &Tools<'_>) -> Result<f64, Box<dyn Error>> {
     let output = Command::new(tools.povray)
         .arg(format!("+I{}", scene.display()))
@@ -323,7 +323,8 @@ fn parse_time(scene: &Path, dir: &Path, tools: &Tools<'_>) -> Result<f64, Box<dy
         .args(["+W16", "+H9", "-A", "-D", &format!("+WT{}", tools.threads)])
         .output()?;
     let text = String::from_utf8_lossy(&output.stderr);
-    let line = text.lines().find(|line| line.contains("Parse Time")).ok_or("POV-Ray tells no parse time")?;
+    let line =
+        text.lines().find(|line| line.contains("Parse Time")).ok_or("POV-Ray reports no parse time")?;
     let seconds = line.rsplit('(').next().and_then(|rest| rest.split_whitespace().next());
-    Ok(seconds.ok_or("POV-Ray tells no seconds")?.parse()?)
+    Ok(seconds.ok_or("POV-Ray reports no seconds")?.parse()?)
 }

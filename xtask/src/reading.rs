@@ -1,9 +1,8 @@
-//! Times reading and writing scenes beside `tobj` on the equal mesh as OBJ, and
-//! measures memory, in one run, as Markdown.
+//! Measures the time of reading and writing scenes, relative to `tobj` on the same mesh as OBJ, and memory, as
+//! Markdown.
 //!
-//! Everything is in memory before the clock starts. Rates are by the bytes of
-//! each one's own text; the runs of all take turns, so that a busy machine
-//! slows all of them.
+//! All input is in memory before the measurement begins. Rates refer to the size of each format's own text. Runs
+//! alternate, so that other load on the machine affects all of them.
 
 use std::error::Error;
 use std::hint::black_box;
@@ -21,16 +20,16 @@ use crate::mesh;
 /// Rounds of all measurements; the fastest of each counts.
 const ROUNDS: usize = 9;
 
-/// Something to time.
+/// A function to measure.
 struct Work<'w> {
     name: &'static str,
-    /// Of the text it reads or writes.
+    /// Size of the text it reads or writes.
     megabytes: f64,
-    /// False if it failed.
+    /// Returns false on failure.
     run: &'w dyn Fn() -> bool,
 }
 
-/// Benchmarks a mesh of about so many triangles.
+/// Benchmarks a mesh of about this number of triangles.
 pub fn write(out: &mut impl Write, triangles: u32) -> Result<(), Box<dyn Error>> {
     let dir = target_dir().join("bench");
     std::fs::create_dir_all(&dir)?;
@@ -49,7 +48,7 @@ pub fn write(out: &mut impl Write, triangles: u32) -> Result<(), Box<dyn Error>>
         "### {triangles} triangles, {megabytes:.1} MB of text, {:.1} MB as OBJ\n",
         obj.len() as f64 / 1e6
     )?;
-    writeln!(out, "| what | fastest | MB/s | beside `tobj` |")?;
+    writeln!(out, "| task | fastest time | MB/s | speed / `tobj` |")?;
     writeln!(out, "| --- | ---: | ---: | ---: |")?;
     let pools = [pool(1)?, pool(2)?];
     let [one, two] = &pools;
@@ -79,14 +78,14 @@ pub fn write(out: &mut impl Write, triangles: u32) -> Result<(), Box<dyn Error>>
     Ok(())
 }
 
-/// Reads a scene once and tells the peak memory of this process in bytes.
+/// Reads a scene once and prints the peak memory of this process in bytes.
 pub fn read_once(out: &mut impl Write, path: &Path, n_threads: usize) -> Result<(), Box<dyn Error>> {
     let source = Source::new("mesh", std::fs::read(path)?);
     black_box(pool(n_threads)?.install(|| ugparse::parse(&source, &Options::default()))?);
     Ok(writeln!(out, "{}", peak_memory()?)?)
 }
 
-/// Greatest memory of this process so far, in bytes.
+/// Peak memory of this process so far, in bytes.
 pub fn peak_memory() -> Result<u64, Box<dyn Error>> {
     let status = std::fs::read_to_string("/proc/self/status")?;
     let peak =
@@ -115,7 +114,7 @@ fn fastest(works: &[Work<'_>]) -> Result<Vec<f64>, Box<dyn Error>> {
         for (work, fastest) in works.iter().zip(&mut fastest) {
             let start = Instant::now();
             if !(work.run)() {
-                return Err("a reader refuses the mesh".into());
+                return Err("the mesh cannot be read".into());
             }
             *fastest = start.elapsed().as_secs_f64().min(*fastest);
         }
@@ -123,7 +122,7 @@ fn fastest(works: &[Work<'_>]) -> Result<Vec<f64>, Box<dyn Error>> {
     Ok(fastest)
 }
 
-/// The same vertices and faces as OBJ.
+/// Converts vertices and faces to OBJ.
 fn to_obj(scene: &Scene) -> io::Result<Vec<u8>> {
     let mut obj = Vec::new();
     for vertex in &scene.vertices {

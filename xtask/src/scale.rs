@@ -1,4 +1,4 @@
-//! Time and memory of the whole work of `ugrainbow` over the number of faces and of pixels, as Markdown and as a plot.
+//! Measures time and memory of `ugrainbow` as functions of the number of faces and pixels, as Markdown and as a plot.
 
 use std::error::Error;
 use std::io::Write;
@@ -13,30 +13,30 @@ use crate::bench::{machine, target_dir};
 use crate::mesh;
 use crate::plot::{Panel, Series, svg};
 
-/// Runs of each; the fastest counts, and the least memory.
+/// Runs of each measurement; the fastest and the least memory count.
 const ROUNDS: usize = 3;
 
-/// Triangles, roughly, drawn on [`FEW_PIXELS`].
+/// Approximate numbers of triangles, drawn with [`FEW_PIXELS`].
 const TRIANGLES: [u32; 7] = [10_000, 30_000, 100_000, 300_000, 1_000_000, 3_000_000, 10_000_000];
 const FEW_PIXELS: [u32; 2] = [1280, 720];
 
-/// Pixels across and down, with [`FEW_TRIANGLES`].
+/// Widths and heights of the pictures of [`FEW_TRIANGLES`], pixels.
 const PICTURES: [u32; 6] = [512, 1024, 2048, 4096, 8192, 16384];
 const FEW_TRIANGLES: u32 = 100_000;
 
-/// Samples along a side of a pixel of the last table.
+/// Samples along a side of a pixel, for the last table.
 const SAMPLES: [u32; 4] = [1, 2, 4, 16];
 const SAMPLED_PICTURE: u32 = 4096;
 
-/// What drawing cost.
+/// Time and memory of one run.
 struct Cost {
-    /// Of reading, drawing and making the file.
+    /// Time of reading, drawing and encoding the file.
     seconds: f64,
-    /// Greatest memory of the process in megabytes.
+    /// Peak memory of the process in megabytes.
     megabytes: f64,
 }
 
-/// Measures all, prints tables, and draws the plot into a file.
+/// Runs all measurements, prints tables, and writes the plot to a file.
 pub fn write(out: &mut impl Write, plot: &Path) -> Result<(), Box<dyn Error>> {
     let dir = target_dir().join("bench");
     std::fs::create_dir_all(&dir)?;
@@ -108,7 +108,8 @@ fn in_a_child(scene: &Path, size: [u32; 2], samples: u32) -> Result<[f64; 2], Bo
     Ok([seconds.parse()?, megabytes.parse()?])
 }
 
-/// Reads a scene, draws it, makes a PNG, and tells the seconds and the peak memory of this process in megabytes.
+/// Reads a scene, draws it, encodes a PNG, and prints the time in seconds and the peak memory of this process in
+/// megabytes.
 pub fn draw_once(
     out: &mut impl Write,
     scene: &Path,
@@ -117,7 +118,7 @@ pub fn draw_once(
 ) -> Result<(), Box<dyn Error>> {
     let start = Instant::now();
     let source = Source::new("mesh", std::fs::read(scene)?);
-    // The view angle down is for another shape of picture.
+    // The vertical view angle of the scene's camera is for another aspect ratio.
     let camera = ugrainbow::CameraOptions { view_angle: Some((30.0, None)), ..Default::default() };
     let config = Config { size, samples, camera, ..Config::default() };
     std::hint::black_box(ugrainbow::run(&config, &source)?);

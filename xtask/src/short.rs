@@ -1,12 +1,11 @@
-//! Numbers as a person would type them.
+//! Numbers with few digits, as a person would type them.
 
 use glam::DVec3;
 use std::fmt;
 
-/// Displays a number with at most 6 significant digits and nothing to spare:
-/// `0.333333`, `-1.5`, `2`.
+/// Displays a number with at most 6 significant digits, without trailing zeros: `0.333333`, `-1.5`, `2`.
 ///
-/// Below a billionth is rounding of the arithmetic, and shows as `0`.
+/// Numbers below 10⁻⁹ are rounding errors and displayed as `0`.
 pub struct Short(pub f64);
 
 impl fmt::Display for Short {

@@ -1,19 +1,18 @@
-//! Spheres of radius 1 whose faces share their vertices.
+//! Spheres of radius 1 whose faces share vertices.
 
-use crate::globe::{Globe, Place};
+use crate::globe::{Direction, Globe};
 use crate::short::ShortPoint;
 use glam::DVec3;
 use std::io::{self, Write};
 
-/// The unit vector that points to a place.
-pub fn direction(place: Place) -> DVec3 {
-    let (sin_theta, cos_theta) = libm::sincos(place.theta);
-    let (sin_phi, cos_phi) = libm::sincos(place.phi);
+/// The unit vector in a direction.
+pub fn unit_vector(direction: Direction) -> DVec3 {
+    let (sin_theta, cos_theta) = libm::sincos(direction.theta);
+    let (sin_phi, cos_phi) = libm::sincos(direction.phi);
     DVec3::new(sin_theta * cos_phi, sin_theta * sin_phi, cos_theta)
 }
 
-/// Writes a sphere of one colour. Its vertices carry their normals, so that it
-/// is shaded smooth.
+/// Writes a sphere of one colour with vertex normals, for smooth shading.
 pub fn write(out: &mut impl Write, bands: u32) -> io::Result<()> {
     let globe = Globe::with_bands(bands);
     writeln!(
@@ -24,8 +23,8 @@ pub fn write(out: &mut impl Write, bands: u32) -> io::Result<()> {
 }}
 c 0.9 210 0.4 ;"
     )?;
-    for (i, place) in globe.places().enumerate() {
-        let p = ShortPoint(direction(place));
+    for (i, direction) in globe.directions().enumerate() {
+        let p = ShortPoint(unit_vector(direction));
         writeln!(out, "v v{i} {p} {p} ;")?;
     }
     for cell in (0..bands).flat_map(|band| globe.cells(band)) {
@@ -34,8 +33,8 @@ c 0.9 210 0.4 ;"
     write_view(out)
 }
 
-/// Writes a sphere whose northern half is red and southern half green. Vertices
-/// carry no normals, and those on the equator belong to both halves.
+/// Writes a sphere whose northern half is red and southern half green. Vertices have no normals, and both halves
+/// share those on the equator.
 pub fn write_halves(out: &mut impl Write, bands: u32) -> io::Result<()> {
     let globe = Globe::with_bands(bands);
     writeln!(
@@ -52,8 +51,8 @@ pub fn write_halves(out: &mut impl Write, bands: u32) -> io::Result<()> {
 c red   0.9   0 0.8 ;
 c green 0.8 120 0.8 ;"
     )?;
-    for (i, place) in globe.places().enumerate() {
-        writeln!(out, "v v{i} {} ;", ShortPoint(direction(place)))?;
+    for (i, direction) in globe.directions().enumerate() {
+        writeln!(out, "v v{i} {} ;", ShortPoint(unit_vector(direction)))?;
     }
     for band in 0..bands {
         let color = if 2 * band < bands { "red" } else { "green" };

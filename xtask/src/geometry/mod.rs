@@ -123,8 +123,7 @@ fn pictures(
             let what = format!("{speed}-{flight}");
             let Differences { different, close, at_slits, unexplained } =
                 differences(view, beta, &oracle, &what, failures)?;
-            let (visible_errors, mut visible) =
-                view.measure(&view.config_of_shape(beta), &oracle)?;
+            let (visible_errors, mut visible) = view.measure(&view.config_of_shape(beta), &oracle)?;
             let n_visible = visible.len();
             visible.dedup();
             let n = uniform(view, &oracle, visible_errors.pixels);
@@ -173,7 +172,9 @@ fn differences(
     failures: &mut Vec<String>,
 ) -> Outcome<Differences> {
     if view.scene.faces.len() > MOST_FACES {
-        return Err(format!("{}: more than {MOST_FACES} faces cannot be told apart by colour", view.name).into());
+        return Err(
+            format!("{}: more than {MOST_FACES} faces cannot be told apart by colour", view.name).into()
+        );
     }
     let mut scene = recolored(view.scene.clone());
     scene.cameras =
@@ -199,7 +200,8 @@ fn differences(
             counts.at_slits += 1;
         } else {
             counts.unexplained += 1;
-            failures.push(format!("{} at {what}: {pixel:?} shows {shown:?} instead of {expected:?}", view.name));
+            failures
+                .push(format!("{} at {what}: {pixel:?} shows {shown:?} instead of {expected:?}", view.name));
         }
     }
     if counts.unexplained > 0 {

@@ -1,4 +1,4 @@
-//! The Utah teapot.
+//! Generates the Utah teapot as a scene.
 
 mod patches;
 
@@ -8,7 +8,7 @@ use patches::{Part, Patch};
 use std::collections::BTreeMap;
 use std::io::{self, Write};
 
-/// Writes the teapot with `squares` × `squares` squares to a patch.
+/// Writes the teapot with `squares` × `squares` squares per patch.
 pub fn write(out: &mut impl Write, squares: u32) -> io::Result<()> {
     writeln!(
         out,
@@ -24,13 +24,13 @@ pub fn write(out: &mut impl Write, squares: u32) -> io::Result<()> {
 c 0.95 35 0.55 ;"
     )?;
     for part in patches::parts() {
-        let net = Net::of(&part, squares);
+        let mesh = Mesh::of(&part, squares);
         let initial = part.name.chars().next().unwrap_or('v');
         writeln!(out, "{{ {} }}", part.name)?;
-        for (i, (point, normal)) in (0..).zip(&net.vertices) {
+        for (i, (point, normal)) in (0..).zip(&mesh.vertices) {
             writeln!(out, "v {initial}{i} {} {} ;", ShortPoint(*point), Coarse(*normal))?;
         }
-        for [a, b, c] in &net.triangles {
+        for [a, b, c] in &mesh.triangles {
             writeln!(out, "f ({initial}{a} {initial}{b} {initial}{c}) ;")?;
         }
     }
@@ -42,7 +42,7 @@ cam -ep 0 -12 4.5 -vc 0.2 0 1.5 -ud 0 0 1 -ps -va 38 29 ;"
     )
 }
 
-/// A normal needs no more than a thousandth.
+/// Displays a normal rounded to thousandths, which is precise enough for shading.
 struct Coarse(DVec3);
 
 impl std::fmt::Display for Coarse {
@@ -52,25 +52,25 @@ impl std::fmt::Display for Coarse {
     }
 }
 
-/// Triangles of one part; patches share the vertices of their common edges.
+/// The triangles of one part; patches share the vertices of their common edges.
 #[derive(Default)]
-struct Net {
+struct Mesh {
     /// Points with unit normals.
     vertices: Vec<(DVec3, DVec3)>,
     triangles: Vec<[usize; 3]>,
 }
 
-impl Net {
+impl Mesh {
     fn of(part: &Part, squares: u32) -> Self {
-        let mut net = Self::default();
+        let mut mesh = Self::default();
         let mut known = BTreeMap::new();
         for patch in &part.patches {
-            net.add(patch, squares, &mut known);
+            mesh.add(patch, squares, &mut known);
         }
-        for (_, normal) in &mut net.vertices {
+        for (_, normal) in &mut mesh.vertices {
             *normal = normal.normalize();
         }
-        net
+        mesh
     }
 
     fn add(&mut self, patch: &Patch, squares: u32, known: &mut BTreeMap<[i64; 3], usize>) {
@@ -83,7 +83,7 @@ impl Net {
                 triangles.extend([[a, d, c], [a, c, b]]);
             }
         }
-        // An edge of a patch may be one point (the tip of the lid): half of its triangles vanish.
+        // If an edge of a patch is a single point (the tip of the lid), half of its triangles are degenerate.
         self.triangles.extend(triangles.into_iter().filter(|[a, b, c]| a != b && b != c && c != a));
     }
 
@@ -99,8 +99,8 @@ impl Net {
     }
 }
 
-/// The unit normal. Where an edge of the patch is one point, its tangent plane
-/// is known only as a limit, hence the step inside.
+/// The unit normal. Where an edge of the patch is a single point, the tangent plane exists only as a limit, so
+/// the derivatives are taken a step inside.
 fn normal(patch: &Patch, s: f64, t: f64) -> DVec3 {
     const STEP: f64 = 1e-4;
     let (s, t) = (s.clamp(STEP, 1.0 - STEP), t.clamp(STEP, 1.0 - STEP));
@@ -113,7 +113,7 @@ fn on_patch(patch: &Patch, s: f64, t: f64) -> DVec3 {
     on_curve(patch.map(|row| on_curve(row, t)), s)
 }
 
-/// De Casteljau's construction.
+/// De Casteljau's algorithm.
 fn on_curve([a, b, c, d]: [DVec3; 4], t: f64) -> DVec3 {
     let (ab, bc, cd) = (a.lerp(b, t), b.lerp(c, t), c.lerp(d, t));
     ab.lerp(bc, t).lerp(bc.lerp(cd, t), t)
@@ -121,30 +121,34 @@ fn on_curve([a, b, c, d]: [DVec3; 4], t: f64) -> DVec3 {
 
 #[cfg(test)]
 mod tests {
-    use super::{Net, patches};
+    use super::{Mesh, patches};
 
-    /// 32 patches with the degenerate triangles at the lid's tip and the foot's centre gone.
+    /// 32 patches, without the degenerate triangles at the lid's tip and the foot's centre.
     #[test]
-    fn counts() {
+    fn number_of_triangles() {
         let squares = 4;
         let parts = patches::parts();
         assert_eq!(parts.iter().map(|part| part.patches.len()).sum::<usize>(), 32);
-        let n: usize = parts.iter().map(|part| Net::of(part, squares).triangles.len()).sum();
+        let n: usize = parts.iter().map(|part| Mesh::of(part, squares).triangles.len()).sum();
         assert_eq!(n, 32 * 16 * 2 - 8 * 4);
     }
 
-    /// The body is a bowl round the z axis: all but its rim's inner side faces away from a point on the axis.
+    /// The body is a bowl around the z axis: all of it except the inner side of its rim faces away from the axis.
     #[test]
-    fn outside_is_outside() {
+    fn faces_point_outward() {
         for part in patches::parts() {
-            let net = Net::of(&part, 6);
-            for &[a, b, c] in &net.triangles {
-                let [a, b, c] = [a, b, c].map(|i| net.vertices[i]);
+            let mesh = Mesh::of(&part, 6);
+            for &[a, b, c] in &mesh.triangles {
+                let [a, b, c] = [a, b, c].map(|i| mesh.vertices[i]);
                 let face = (b.0 - a.0).cross(c.0 - a.0);
-                assert!(face.dot(a.1 + b.1 + c.1) > 0.0, "{}: a face and its normals disagree", part.name);
+                assert!(
+                    face.dot(a.1 + b.1 + c.1) > 0.0,
+                    "{}: the orientation of a face contradicts its normals",
+                    part.name
+                );
             }
         }
-        let body = Net::of(&patches::parts()[0], 6);
+        let body = Mesh::of(&patches::parts()[0], 6);
         for (point, normal) in &body.vertices {
             let below_rim = point.z < 2.3;
             let outward = point.with_z(point.z - 1.0).dot(*normal) > 0.0;

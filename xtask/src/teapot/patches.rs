@@ -1,14 +1,13 @@
-//! Martin Newell's teapot (University of Utah, 1975; public data): 32 bicubic
-//! Bézier patches, in the proportions in which it has been handed on since.
+//! Martin Newell's teapot (University of Utah, 1975; public data): 32 bicubic Bézier patches, in the proportions of
+//! the data set in common use.
 //!
-//! 24 patches are quarters of surfaces of revolution, the other 8 are halves of
-//! the handle and the spout, so the data are kept as profiles and half sections.
+//! 24 patches are quarters of surfaces of revolution, the other 8 are halves of the handle and the spout, so
+//! the data are stored as profiles and half sections.
 
 use glam::DVec3;
 
-/// A patch's control points. The first index runs down along the part or away
-/// from the body, the second clockwise seen from there, so that
-/// (∂/∂second) × (∂/∂first) points outside.
+/// Control points of a patch. The first index runs downward or away from the body, the second clockwise
+/// around the part, so that (∂/∂second) × (∂/∂first) points outward.
 pub type Patch = [[DVec3; 4]; 4];
 
 /// A part of the teapot whose patches join smoothly.
@@ -17,11 +16,11 @@ pub struct Part {
     pub patches: Vec<Patch>,
 }
 
-/// A ring of control points about the z axis: its radius, the lesser coordinate
-/// of the points between the axes, its height.
+/// A ring of control points about the z axis: its radius, the smaller coordinate of the points between
+/// the axes, its height.
 type Ring = (f64, f64, f64);
 
-/// Four rings from rim to foot, each last one the first of the next patch.
+/// Four rings per patch from rim to foot; the last ring of a patch is the first of the next.
 const BODY: [[Ring; 4]; 4] = [
     [(1.4, 0.784, 2.4), (1.3375, 0.749, 2.53125), (1.4375, 0.805, 2.53125), (1.5, 0.84, 2.4)],
     [(1.5, 0.84, 2.4), (1.75, 0.98, 1.875), (2.0, 1.12, 1.35), (2.0, 1.12, 0.9)],
@@ -29,14 +28,13 @@ const BODY: [[Ring; 4]; 4] = [
     [(1.5, 0.84, 0.15), (1.5, 0.84, 0.075), (1.425, 0.798, 0.0), (0.0, 0.0, 0.0)],
 ];
 
-/// From the tip of the knob to the edge. The tip is one point.
+/// From the tip of the knob to the edge. The tip is a single point.
 const LID: [[Ring; 4]; 2] = [
     [(0.0, 0.0, 3.15), (0.8, 0.45, 3.15), (0.0, 0.0, 2.85), (0.2, 0.112, 2.7)],
     [(0.2, 0.112, 2.7), (0.4, 0.224, 2.55), (1.3, 0.728, 2.55), (1.3, 0.728, 2.4)],
 ];
 
-/// Half of a cross-section, y ≤ 0: where it starts and ends in the plane y = 0,
-/// (x, z) each, and its half width.
+/// Half of a cross-section, y ≤ 0: start and end in the plane y = 0 as (x, z), and half of the width.
 type HalfSection = ((f64, f64), (f64, f64), f64);
 
 /// From the upper joint to the lower one.
@@ -55,7 +53,7 @@ const HANDLE: [[HalfSection; 4]; 2] = [
     ],
 ];
 
-/// From the body out to the lip and a little way back inside.
+/// From the body to the lip, and a short distance back inside.
 const SPOUT: [[HalfSection; 4]; 2] = [
     [
         ((1.7, 1.425), (1.7, 0.6), 0.66),
@@ -98,7 +96,7 @@ fn mirrored(sections: &[HalfSection; 4]) -> [Patch; 2] {
     let half = sections.map(|((x0, z0), (x1, z1), width)| {
         [(x0, 0.0, z0), (x0, -width, z0), (x1, -width, z1), (x1, 0.0, z1)].map(DVec3::from)
     });
-    // Run backwards, so that the outside stays outside.
+    // Reversed, so that the normals still point outward.
     let image = half.map(|[a, b, c, d]| [d, c, b, a].map(|p| DVec3::new(p.x, -p.y, p.z)));
     [half, image]
 }
