@@ -1,4 +1,4 @@
-//! Any bytes: no panic, and every message can be drawn.
+//! No input causes a panic, and every diagnostic can be rendered.
 #![no_main]
 
 use ugparse::{
@@ -6,8 +6,8 @@ use ugparse::{
 };
 
 libfuzzer_sys::fuzz_target!(|text: &[u8]| {
-    // Both ways of reading, and both ways of drawing, without doing each twice. Drawing takes most of the time,
-    // so it is done for two lengths of eight.
+    // The length of the input selects the options. Rendering of diagnostics takes most of the time, so it is done
+    // for two of eight lengths, once with and once without colour.
     let options = Options { lax: text.len() % 2 == 0, execute: text.len() % 3 > 0, limits: limits() };
     let messages = read(text, &options).unwrap_or_else(|findings| findings);
     if text.len() % 8 < 2 {
@@ -15,13 +15,13 @@ libfuzzer_sys::fuzz_target!(|text: &[u8]| {
     }
 });
 
-/// Gives the warnings.
+/// Parses the text and returns its warnings, or its errors.
 fn read(text: &[u8], options: &Options) -> Result<Diagnostics, Diagnostics> {
     let source = include(Source::new("fuzz.ug", text), options, load)?;
     Ok(parse(&source, options)?.warnings)
 }
 
-/// Small files `a` and `b`, and nothing else.
+/// Serves two small files, `a` and `b`.
 fn load(request: &Request<'_>) -> Result<Vec<u8>, RequestError> {
     match (request.path.to_str(), request.kind) {
         (Some("a"), _) => Ok(b"v a 0 0 0 ;\ninclude b ;\n".to_vec()),
@@ -33,7 +33,7 @@ fn load(request: &Request<'_>) -> Result<Vec<u8>, RequestError> {
     }
 }
 
-/// Large scenes take long and show nothing new, so what is small is enough.
+/// Small limits, because large scenes take long and reach no further code.
 fn limits() -> Limits {
     let small = [(Limit::Statements, 1000), (Limit::Corners, 4000), (Limit::Names, 1 << 16), (Limit::Files, 20)];
     small.into_iter().fold(Limits::default(), |limits, (limit, value)| limits.with(limit, value))
