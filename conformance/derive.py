@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
-"""Computes the expected numbers of cases/*.tsv anew, from first principles.
+"""Computes the expected numbers of cases/*.tsv from first principles.
 
     pip install mpmath colour-science
     python3 conformance/derive.py            # writes conformance/cases/
-    python3 conformance/derive.py --check    # compares instead, status 1 on a difference
+    python3 conformance/derive.py --check    # compares instead; status 1 if they differ
 
-It shares nothing with the programs of this project: 50-digit arithmetic, and slow, plain methods. Where a point is
-seen is found by bracketing the moment its light left; frequencies by the time between two flashes as they arrive;
-other frames by 4x4 matrices; means and greatest distances by quadrature and search. Only black bodies use tables
-(CIE 1931, 1 nm, from colour-science) and double precision.
+It shares no code with the programs of this project and uses 50-digit arithmetic and slow, simple methods: emission
+times by bracketing, frequencies from the arrival times of two flashes, changes of frame by 4x4 matrices, means by
+quadrature, and maxima by search. Only black bodies use tables (CIE 1931, 1 nm, from colour-science) and double
+precision.
 
 Conventions are those of README.md: c = 1, degrees, nm, the observer at the origin at t = 0.
 """

@@ -12,15 +12,15 @@ use crate::picture::{self, PictureCase};
 use crate::scorecard::{Answers, Scorecard, read_answers};
 use crate::suite::{Topic, topics};
 
-/// Judges relativistic renderers
+/// Tests relativistic renderers
 ///
-/// Any program can answer the questions or draw the pictures; conformance/README.md says what they mean.
+/// Any program can answer the questions or draw the pictures; conformance/README.md defines them.
 #[derive(Parser, Debug)]
 #[command(name = "ugconformance", version, before_help = ugpipe::ONE_DASH, after_help = EXAMPLES,
-          disable_help_subcommand = true, subcommand_required = true, mut_args(before_the_job))]
+          disable_help_subcommand = true, subcommand_required = true, mut_args(globally))]
 struct Args {
     #[command(subcommand)]
-    job: Job,
+    command: Command,
 
     #[command(flatten)]
     rest: CommonArgs,
@@ -32,18 +32,18 @@ const EXAMPLES: &str = "Examples:
   ugconformance draw sphere > sphere.png
   ugconformance score-image sphere sphere.png";
 
-/// Options may stand before the job as well as behind it, but for the one that names the file.
-fn before_the_job(arg: Arg) -> Arg {
+/// Allows options before the command as well as after it, except the one that names the file.
+fn globally(arg: Arg) -> Arg {
     if arg.is_positional() || arg.get_id() == "fi" { arg } else { arg.global(true) }
 }
 
 #[derive(Subcommand, Debug)]
-enum Job {
-    /// Write the questions, one a line
+enum Command {
+    /// Write the questions, one per line
     Questions(CommonArgs),
     /// Answer questions with the crates of this project
     Answer(CommonArgs),
-    /// Compare answers with what is right; status 1 if one is wrong
+    /// Compare answers with the expected ones; status 1 if one is wrong
     Score(CommonArgs),
     /// Measure a PNG of a scene; status 1 if a number is wrong
     ScoreImage(ImageArgs),
@@ -55,7 +55,7 @@ enum Job {
 
 #[derive(clap::Args, Debug)]
 struct ImageArgs {
-    /// Which picture
+    /// Name of the picture
     #[arg(value_parser = picture_case)]
     case: &'static str,
 
@@ -66,22 +66,25 @@ struct ImageArgs {
 fn picture_case(name: &str) -> Result<&'static str, String> {
     picture::case(name).map(|case| case.name).ok_or_else(|| {
         let names = picture::CASES.iter().map(|case| case.name);
-        format!("there is no such picture; there are {}", names.collect::<Vec<_>>().join(", "))
+        format!("unknown picture; choose one of {}", names.collect::<Vec<_>>().join(", "))
     })
 }
 
 impl ToolArgs for Args {
     fn common(&self) -> &CommonArgs {
-        match &self.job {
-            Job::Questions(common) | Job::Answer(common) | Job::Score(common) | Job::Check(common) => common,
-            Job::ScoreImage(image) | Job::Draw(image) => &image.common,
+        match &self.command {
+            Command::Questions(common)
+            | Command::Answer(common)
+            | Command::Score(common)
+            | Command::Check(common) => common,
+            Command::ScoreImage(image) | Command::Draw(image) => &image.common,
         }
     }
 }
 
-/// The whole program.
+/// Runs the program.
 pub fn main() -> ExitCode {
-    // A score that says what is wrong has done its work, so it is kept; only the status tells.
+    // Wrong answers are a result and not an error: the output is kept, and only the exit status is 1.
     let is_right = Cell::new(true);
     let status = ugpipe::main(|args: &Args, stage: &mut Stage| {
         is_right.set(run(args, stage)?);
@@ -90,19 +93,19 @@ pub fn main() -> ExitCode {
     if is_right.get() { status } else { ExitCode::FAILURE }
 }
 
-/// Does the job; false if something was found wrong.
+/// Runs the command; returns false if something is wrong.
 fn run(args: &Args, stage: &mut Stage) -> Result<bool, Failure> {
     if args.rest.input().is_some() {
-        return Err(Failure::usage("the job stands before the file: `ugconformance score FILE`"));
+        return Err(Failure::usage("the command must come before the file: `ugconformance score FILE`"));
     }
     let topics = topics().map_err(Failure::failed)?;
-    match &args.job {
-        Job::Questions(_) => stage.write(questions(&topics).as_bytes())?,
-        Job::Answer(_) => {
+    match &args.command {
+        Command::Questions(_) => stage.write(questions(&topics).as_bytes())?,
+        Command::Answer(_) => {
             let input = stage.input()?;
             stage.write(answers(&String::from_utf8_lossy(&input.text)).as_bytes())?;
         }
-        Job::Score(_) => {
+        Command::Score(_) => {
             let input = stage.input()?;
             let answers = read_answers(&String::from_utf8_lossy(&input.text), &topics)
                 .map_err(|error| Failure::failed(format!("{}:{error}", input.name)))?;
@@ -110,7 +113,7 @@ fn run(args: &Args, stage: &mut Stage) -> Result<bool, Failure> {
             stage.write(card.to_string().as_bytes())?;
             return Ok(card.counts()[1] == 0);
         }
-        Job::ScoreImage(image) => {
+        Command::ScoreImage(image) => {
             let case = known(image.case)?;
             let input = stage.input()?;
             let (text, is_right) = score_image(case, &input.text)
@@ -118,7 +121,7 @@ fn run(args: &Args, stage: &mut Stage) -> Result<bool, Failure> {
             stage.write(text.as_bytes())?;
             return Ok(is_right);
         }
-        Job::Draw(image) => {
+        Command::Draw(image) => {
             if stage.output_is_terminal() {
                 return Err(Failure::usage(
                     "a picture is not written to a terminal; add `> FILE` or -fo FILE",
@@ -126,7 +129,7 @@ fn run(args: &Args, stage: &mut Stage) -> Result<bool, Failure> {
             }
             stage.write(&known(image.case)?.draw().map_err(Failure::failed)?)?;
         }
-        Job::Check(_) => {
+        Command::Check(_) => {
             let (text, is_right) = check(&topics);
             stage.write(text.as_bytes())?;
             return Ok(is_right);
@@ -136,16 +139,16 @@ fn run(args: &Args, stage: &mut Stage) -> Result<bool, Failure> {
 }
 
 fn known(name: &str) -> Result<&'static PictureCase, Failure> {
-    picture::case(name).ok_or_else(|| Failure::usage("there is no such picture"))
+    picture::case(name).ok_or_else(|| Failure::usage("unknown picture"))
 }
 
-/// All questions as text.
+/// Writes all questions as text.
 pub fn questions(topics: &[Topic]) -> String {
     let cases = topics.iter().flat_map(|topic| &topic.cases);
     cases.map(|case| case.question() + "\n").collect()
 }
 
-/// Answers to questions as text; a question that is not understood gets `-`.
+/// Answers questions, as text; the answer to an unknown or invalid question is `-`.
 pub fn answers(questions: &str) -> String {
     let mut text = String::new();
     for line in questions.lines() {
@@ -153,7 +156,7 @@ pub fn answers(questions: &str) -> String {
         let Some(id) = words.next().filter(|word| !word.starts_with('#')) else { continue };
         let kind = words.next().unwrap_or_default();
         let given: Option<Vec<f64>> = words.map(|word| word.parse().ok()).collect();
-        // Writing to a string does not fail.
+        // Writing to a string cannot fail.
         let _ = write!(text, "{id}");
         match given.and_then(|given| answer(kind, &given)) {
             Some(values) => values.iter().for_each(|value| {
@@ -166,7 +169,7 @@ pub fn answers(questions: &str) -> String {
     text
 }
 
-/// What was measured, one line each, and whether all of it is right.
+/// Returns the measurements as lines of text, and whether all are within their tolerance.
 ///
 /// # Errors
 /// The picture cannot be measured.
@@ -174,12 +177,12 @@ pub fn score_image(case: &PictureCase, png: &[u8]) -> Result<(String, bool), Str
     let measured = case.measure(png)?;
     let mut text = format!("{}: {}\n", case.name, case.about);
     measured.iter().for_each(|number| text += &format!("{number}\n"));
-    Ok((text, measured.iter().all(picture::Measured::passes)))
+    Ok((text, measured.iter().all(picture::Measurement::passes)))
 }
 
-/// The scorecard of this project, and its pictures; then a line with all that is wrong.
+/// Returns the scorecard and the measurements of this project's programs, with a last line that lists everything wrong.
 fn check(topics: &[Topic]) -> (String, bool) {
-    // A mistake in a program may make its answers impossible to read, too.
+    // A mistake in our crates may also produce answers that cannot be parsed.
     let answers = read_answers(&answers(&questions(topics)), topics).unwrap_or_else(|_| Answers::new());
     let card = Scorecard::new(topics, &answers);
     let mut text = card.to_string();

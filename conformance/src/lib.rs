@@ -1,13 +1,14 @@
-//! What a relativistic renderer must get right: questions with known answers, pictures with known measures, and a
-//! scorecard for any program.
+//! A test suite for any relativistic renderer: questions with known answers, pictures with known measures, and a
+//! scorecard.
 //!
 //! ```text
 //! ugconformance questions | my-program | ugconformance score
 //! ugconformance score-image sphere sphere.png
 //! ```
 //!
-//! The right numbers lie in `conformance/cases/`, one file for each topic. They were computed by `conformance/derive.py`,
-//! which shares nothing with the crates of this project. `conformance/README.md` says what every question means.
+//! The expected numbers are in `conformance/cases/`, one file for each topic. They were computed by
+//! `conformance/derive.py`, which shares no code with the crates of this project. `conformance/README.md` defines
+//! every question.
 //!
 //! ```
 //! use ugconformance::suite;

@@ -1,4 +1,4 @@
-//! Answers against the suite.
+//! Compares answers with the suite.
 
 use std::collections::BTreeMap;
 use std::fmt::{self, Write};
@@ -9,37 +9,37 @@ use crate::suite::{Case, Topic};
 /// The answers of a program, by the id of the question.
 pub type Answers = BTreeMap<String, Vec<f64>>;
 
-/// A line of answers that cannot be read.
+/// An invalid line of answers.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct BadAnswer {
-    /// From 1.
+pub struct AnswerError {
+    /// Line number, from 1.
     pub line: usize,
-    /// From 1, in bytes.
+    /// Column in bytes, from 1.
     pub column: usize,
-    /// The word that is wrong.
+    /// The invalid word.
     pub word: String,
-    /// What is wrong with it.
+    /// The error in it.
     pub what: &'static str,
 }
 
-impl fmt::Display for BadAnswer {
+impl fmt::Display for AnswerError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}:{}: `{}` {}", self.line, self.column, self.word, self.what)
     }
 }
 
-impl std::error::Error for BadAnswer {}
+impl std::error::Error for AnswerError {}
 
-/// Reads answers: on each line an id and numbers. `-` in place of numbers is no answer, and neither are empty lines and
-/// those that begin with `#`. Numbers that are not finite can be given; they are wrong.
+/// Parses answers: an id and numbers on each line. `-` instead of numbers means that there is no answer. Empty lines and those
+/// that begin with `#` are ignored. Infinities and NaN are parsed, but are always wrong.
 ///
 /// # Errors
-/// A word is not a number, an id is not one of the suite's, or stands twice.
-pub fn read_answers(text: &str, topics: &[Topic]) -> Result<Answers, BadAnswer> {
+/// A word is not a number, or an id is unknown or repeated.
+pub fn read_answers(text: &str, topics: &[Topic]) -> Result<Answers, AnswerError> {
     let is_known = |id: &str| topics.iter().flat_map(|topic| &topic.cases).any(|case| case.id == id);
     let mut answers = Answers::new();
     for (row, line) in text.lines().enumerate() {
-        let bad = |word: &str, what| BadAnswer {
+        let bad = |word: &str, what| AnswerError {
             line: row + 1,
             column: word.as_ptr() as usize - line.as_ptr() as usize + 1,
             word: word.chars().filter(|c| !c.is_control()).take(40).collect(),
@@ -64,7 +64,7 @@ pub fn read_answers(text: &str, topics: &[Topic]) -> Result<Answers, BadAnswer> 
     Ok(answers)
 }
 
-/// How a program did.
+/// The result of a program.
 #[derive(Clone, Debug)]
 pub struct Scorecard<'a> {
     rows: Vec<Row<'a>>,
@@ -76,7 +76,7 @@ struct Row<'a> {
     topic: &'a Topic,
     passed: usize,
     failed: usize,
-    /// Of the answers given, relative to the tolerance.
+    /// The largest error of an answer, in units of the tolerance.
     worst: f64,
 }
 
@@ -93,7 +93,7 @@ struct Failure<'a> {
 }
 
 impl<'a> Scorecard<'a> {
-    /// Compares.
+    /// Compares answers with the expected ones.
     pub fn new(topics: &'a [Topic], answers: &'a Answers) -> Self {
         let mut failures = Vec::new();
         let rows = topics
@@ -104,7 +104,7 @@ impl<'a> Scorecard<'a> {
                     let Some(answer) = answers.get(&case.id) else { continue };
                     let error = case.error(answer) / case.tolerance;
                     row.worst = if error <= row.worst { row.worst } else { error };
-                    // A NaN is not within.
+                    // NaN fails the comparison.
                     if error <= 1.0 {
                         row.passed += 1;
                     } else {
@@ -135,7 +135,7 @@ impl fmt::Display for Scorecard<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(f, "topic  passed  failed  unanswered  worst error  about")?;
         for row in &self.rows {
-            // In units of the tolerance, so that 1 is just right.
+            // In units of the tolerance: up to 1 is correct.
             let worst = if row.passed + row.failed == 0 { "-".to_string() } else { short(row.worst) };
             writeln!(
                 f,
@@ -149,21 +149,21 @@ impl fmt::Display for Scorecard<'_> {
         }
         let [passed, failed, unanswered] = self.counts();
         writeln!(f, "all    {passed:6}  {failed:6}  {unanswered:10}\n")?;
-        writeln!(f, "The worst error is in units of the tolerance: up to 1 is right.")?;
+        writeln!(f, "The worst error is in units of the tolerance: up to 1 is correct.")?;
         for Failure { case, answer } in &self.failures {
             writeln!(f, "\n{}", case.question())?;
             writeln!(f, "  answered {}", list(answer))?;
-            writeln!(f, "  right is {}  ({})", list(&case.expected), case.source)?;
+            writeln!(f, "  expected {}  ({})", list(&case.expected), case.source)?;
             writeln!(f, "  error {}, tolerance {:e}", short(case.error(answer)), case.tolerance)?;
             for name in case.recognized(answer) {
-                writeln!(f, "  looks like {name}: {}", mistakes::what(name))?;
+                writeln!(f, "  looks like {name}: {}", mistakes::describe(name))?;
             }
         }
         Ok(())
     }
 }
 
-/// A few digits.
+/// Formats an error with two digits.
 fn short(value: f64) -> String {
     if value == 0.0 { "0".to_string() } else { format!("{value:.1e}") }
 }

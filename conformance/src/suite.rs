@@ -1,4 +1,4 @@
-//! The cases: what is asked, and what is right.
+//! The cases: questions and their expected answers.
 
 use std::fmt;
 
@@ -47,60 +47,60 @@ const FILES: [&str; 36] = [
 pub struct Topic {
     /// `T01` and so on.
     pub name: String,
-    /// What it is about.
+    /// Its title.
     pub title: String,
     /// At least one.
     pub cases: Vec<Case>,
 }
 
-/// A question with its right answer.
+/// A question with its expected answer.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Case {
-    /// `T01.01` and so on; none occurs twice.
+    /// `T01.01` and so on; unique.
     pub id: String,
-    /// What is asked for, one word.
+    /// The kind of question, one word.
     pub kind: String,
-    /// The numbers given, as they stand in the file.
+    /// The numbers given, as written in the file.
     pub given: Vec<String>,
-    /// The right numbers.
+    /// The expected numbers.
     pub expected: Vec<f64>,
-    /// How far an answer may be off: see [`Case::error`].
+    /// The largest allowed [`Case::error`].
     pub tolerance: f64,
-    /// Wrong answers that tell a known mistake, `M1` and so on.
+    /// Wrong answers that known mistakes give, `M1` and so on.
     pub mistakes: Vec<(String, Vec<f64>)>,
-    /// Author, year, place.
+    /// Source of the law: author, year, section.
     pub source: String,
 }
 
-/// What is wrong with a file of cases.
+/// An error in a file of cases.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct BadCase {
-    /// The line, as it stands.
+pub struct CaseError {
+    /// The invalid line.
     pub line: String,
-    /// What is wrong with it.
+    /// The error in it.
     pub what: &'static str,
 }
 
-impl fmt::Display for BadCase {
+impl fmt::Display for CaseError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{} in `{}`", self.what, self.line)
     }
 }
 
-impl std::error::Error for BadCase {}
+impl std::error::Error for CaseError {}
 
 /// All topics, in order.
 ///
 /// # Errors
-/// The files belong to the program, so there are none unless they were edited badly.
-pub fn topics() -> Result<Vec<Topic>, BadCase> {
+/// A file of cases has an invalid line. The files are part of the program, so a test excludes this.
+pub fn topics() -> Result<Vec<Topic>, CaseError> {
     FILES.into_iter().map(topic).collect()
 }
 
-/// A file: its first line is `# T01 title`; other lines that begin with `#` are not cases.
-fn topic(text: &str) -> Result<Topic, BadCase> {
+/// Parses a file: its first line is `# T01 title`; other lines that begin with `#` are comments.
+fn topic(text: &str) -> Result<Topic, CaseError> {
     let head = text.lines().next().unwrap_or_default();
-    let bad = |what| BadCase { line: head.to_string(), what };
+    let bad = |what| CaseError { line: head.to_string(), what };
     let (name, title) = head
         .strip_prefix("# ")
         .and_then(|head| head.split_once(' '))
@@ -113,8 +113,8 @@ fn topic(text: &str) -> Result<Topic, BadCase> {
     Ok(Topic { name: name.to_string(), title: title.to_string(), cases })
 }
 
-fn case(line: &str) -> Result<Case, BadCase> {
-    let bad = |what| BadCase { line: line.to_string(), what };
+fn case(line: &str) -> Result<Case, CaseError> {
+    let bad = |what| CaseError { line: line.to_string(), what };
     let Ok([id, question, expected, tolerance, mistakes, source]) =
         <[&str; 6]>::try_from(line.split('\t').collect::<Vec<_>>())
     else {
@@ -124,11 +124,11 @@ fn case(line: &str) -> Result<Case, BadCase> {
     let mut words = question.split(' ').map(str::to_string);
     let mistakes = match mistakes {
         "-" => Vec::new(),
-        told => told
+        list => list
             .split("; ")
-            .map(|told| {
+            .map(|mistake| {
                 let (name, values) =
-                    told.split_once(": ").ok_or_else(|| bad("a mistake is `M1: numbers`"))?;
+                    mistake.split_once(": ").ok_or_else(|| bad("a mistake is `M1: numbers`"))?;
                 Ok((name.to_string(), numbers(values)?))
             })
             .collect::<Result<_, _>>()?,
@@ -158,49 +158,49 @@ impl Case {
         self.given.iter().map(|word| word.parse().ok()).collect()
     }
 
-    /// The line that asks: id, kind, numbers.
+    /// The question as a line: id, kind, numbers.
     pub fn question(&self) -> String {
         [&[self.id.clone(), self.kind.clone()][..], &self.given].concat().join(" ")
     }
 
-    /// How far `answer` is off: its largest difference, relative to the largest of the right numbers, or as it is where all
-    /// of these are 0. Infinite if it has not as many numbers.
+    /// The error of `answer`: its largest difference from the expected numbers, relative to the largest of these, or
+    /// absolute if these are all 0. Infinite if the count of numbers differs.
     pub fn error(&self, answer: &[f64]) -> f64 {
         distance(answer, &self.expected)
     }
 
     /// The known mistakes that give this answer.
     pub fn recognized(&self, answer: &[f64]) -> Vec<&str> {
-        /// Programs that make a mistake may be rounded as well.
-        const ALIKE: f64 = 1e-5;
-        let mut found: Vec<&str> = self
+        /// Relative tolerance: a program with a mistake may also print rounded numbers.
+        const TOLERANCE: f64 = 1e-5;
+        let mut names: Vec<&str> = self
             .mistakes
             .iter()
-            .filter(|(_, wrong)| distance(answer, wrong) <= ALIKE.min(0.1 * self.error(wrong)))
+            .filter(|(_, wrong)| distance(answer, wrong) <= TOLERANCE.min(0.1 * self.error(wrong)))
             .map(|(name, _)| name.as_str())
             .collect();
-        found.dedup();
+        names.dedup();
         let is_close = self.error(answer) < 1e-4;
-        if found.is_empty() && is_close && answer.iter().all(|&value| is_single_precision(value)) {
-            found.push("M16");
+        if names.is_empty() && is_close && answer.iter().all(|&value| is_single_precision(value)) {
+            names.push("M16");
         }
-        found
+        names
     }
 }
 
 /// See [`Case::error`].
-fn distance(answer: &[f64], right: &[f64]) -> f64 {
-    if answer.len() != right.len() {
+fn distance(answer: &[f64], expected: &[f64]) -> f64 {
+    if answer.len() != expected.len() {
         return f64::INFINITY;
     }
-    let largest = right.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
+    let largest = expected.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
     let scale = if largest > 0.0 { largest } else { 1.0 };
-    let gaps = answer.iter().zip(right).map(|(answer, right)| (answer - right).abs());
-    // Not `f64::max`, which would lose a NaN.
-    gaps.fold(0.0, |worst, gap| if gap <= worst { worst } else { gap }) / scale
+    let errors = answer.iter().zip(expected).map(|(answer, expected)| (answer - expected).abs());
+    // Not `f64::max`, which ignores NaN.
+    errors.fold(0.0, |worst, error| if error <= worst { worst } else { error }) / scale
 }
 
-/// True of what a program prints that computes in single precision: f32 knows it by so many digits.
+/// Is this a number that a program in single precision would print: the digits of an f32?
 fn is_single_precision(value: f64) -> bool {
     (value as f32).to_string().parse() == Ok(value) || f64::from(value as f32) == value
 }
@@ -210,7 +210,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn files_are_read_and_mistakes_named() {
+    fn cases_are_parsed_and_mistakes_recognized() {
         let line = "T01.01\tgamma 0.6\t1.25\t1e-12\tM2: 1.5625; M2: 0.64\tEinstein 1905";
         let case = case(line).unwrap();
         assert_eq!(case.question(), "T01.01 gamma 0.6");
@@ -225,7 +225,7 @@ mod tests {
     }
 
     #[test]
-    fn bad_files_are_refused() {
+    fn invalid_files_are_refused() {
         let refused = |text: &str| topic(text).unwrap_err().what;
         assert_eq!(refused(""), "the first line is not `# T01 title`");
         assert_eq!(refused("# T01 a title\n"), "no cases, or cases of another topic");

@@ -1,4 +1,4 @@
-//! The program: its jobs, its files and its status.
+//! The program: its commands, files and exit status.
 
 use std::fs;
 use std::io::Write;
@@ -14,7 +14,7 @@ fn run(args: &[&str], input: &[u8]) -> Output {
         .expect("the program starts");
     let mut pipe = child.stdin.take().expect("a pipe");
     let input = input.to_vec();
-    // Beside it, so that no pipe runs full. The program may end without reading.
+    // On another thread, so that no pipe fills up. The program may exit without reading.
     let writer = std::thread::spawn(move || {
         let _ = pipe.write_all(&input);
     });
@@ -50,7 +50,7 @@ fn mistakes_are_named() {
     let shown = "
 T01.04 gamma 0.5
   answered 1.33333333333333
-  right is 1.1547005383792515  (Einstein 1905, sec. 4)
+  expected 1.1547005383792515  (Einstein 1905, sec. 4)
   error 1.5e-1, tolerance 1e-12
   looks like M2: gamma without its square root
 ";
@@ -58,7 +58,7 @@ T01.04 gamma 0.5
 }
 
 #[test]
-fn bad_answers_are_refused() {
+fn invalid_answers_are_refused() {
     let folder = tempfile::tempdir().expect("a folder");
     let file = folder.path().join("answers");
     fs::write(&file, "T01.01 one\n").expect("a file");
@@ -78,7 +78,7 @@ fn pictures_are_drawn_and_measured() {
     let score = run(&["score-image", "cube", &file], b"");
     assert!(score.status.success(), "{}", text(&score));
     assert!(text(&score).starts_with("cube: T08, T09: "));
-    // The other way round, what was a trailing side would lead.
+    // Mirrored, the trailing side is on the wrong side.
     let picture = image::open(&file).expect("a picture").fliph();
     picture.save(&file).expect("a picture");
     let score = run(&["score-image", "cube", &file], b"");
@@ -91,14 +91,14 @@ fn pictures_are_drawn_and_measured() {
 }
 
 #[test]
-fn bad_usage_is_said() {
-    for (args, said) in [
-        (&["score-image", "moon"][..], "there is no such picture; there are sphere, cube, "),
+fn wrong_usage_is_reported() {
+    for (args, message) in [
+        (&["score-image", "moon"][..], "unknown picture; choose one of sphere, cube, "),
         (&["sphere.png"], "requires a subcommand"),
         (&[], "ugconformance"),
     ] {
         let output = run(args, b"");
         assert_eq!(output.status.code(), Some(2), "{args:?}");
-        assert!(String::from_utf8_lossy(&output.stderr).contains(said), "{args:?}");
+        assert!(String::from_utf8_lossy(&output.stderr).contains(message), "{args:?}");
     }
 }

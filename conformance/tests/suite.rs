@@ -1,4 +1,4 @@
-//! The suite as it is: complete, documented, and answered by this project.
+//! The suite is complete and documented, and this project's crates pass it.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -9,7 +9,7 @@ use ugconformance::scorecard::{Answers, Scorecard, read_answers};
 use ugconformance::suite::{Case, topics};
 use ugconformance::{answers, questions};
 
-/// Least number of cases; there are more.
+/// The least number of cases, to notice lost files.
 const LEAST_CASES: usize = 390;
 
 fn cases() -> Vec<Case> {
@@ -22,7 +22,7 @@ fn readme() -> String {
 }
 
 #[test]
-fn the_suite_is_whole() {
+fn the_suite_is_complete() {
     let topics = topics().unwrap();
     let names: Vec<String> = (1..=36).map(|number| format!("T{number:02}")).collect();
     assert_eq!(topics.iter().map(|topic| &topic.name).collect::<Vec<_>>(), names.iter().collect::<Vec<_>>());
@@ -32,7 +32,7 @@ fn the_suite_is_whole() {
     assert_eq!(ids.len(), cases.len(), "ids are unique");
     for case in &cases {
         assert!((1e-13..=1e-4).contains(&case.tolerance), "{}", case.id);
-        // What is right is right, and no mistake is.
+        // The expected answer passes, and no mistake does.
         assert_eq!(case.error(&case.expected), 0.0, "{}", case.id);
         for (name, wrong) in &case.mistakes {
             assert!(case.error(wrong) > case.tolerance, "{}: {name}", case.id);
@@ -68,7 +68,7 @@ fn every_kind_and_picture_is_explained() {
 }
 
 #[test]
-fn our_crates_answer_rightly() {
+fn our_crates_answer_correctly() {
     let topics = topics().unwrap();
     let answers = read_answers(&answers(&questions(&topics)), &topics).unwrap();
     let card = Scorecard::new(&topics, &answers);
@@ -79,7 +79,7 @@ fn our_crates_answer_rightly() {
 }
 
 #[test]
-fn our_programs_draw_rightly() {
+fn our_programs_draw_correctly() {
     for case in &CASES {
         let png = case.draw().unwrap();
         let (text, is_right) = ugconformance::score_image(case, &png).unwrap();
@@ -88,7 +88,7 @@ fn our_programs_draw_rightly() {
 }
 
 #[test]
-fn no_answers_are_no_mistakes() {
+fn missing_answers_are_not_wrong() {
     let topics = topics().unwrap();
     let card_of = |text: &str| {
         let answers = read_answers(text, &topics).unwrap();
@@ -103,7 +103,7 @@ fn no_answers_are_no_mistakes() {
 }
 
 #[test]
-fn bad_answers_have_a_place() {
+fn errors_in_answers_have_a_location() {
     let topics = topics().unwrap();
     let refused = |text: &str| read_answers(text, &topics).unwrap_err().to_string();
     assert_eq!(refused("\nT01.01 1 x"), "2:10: `x` is not a number");
@@ -115,7 +115,7 @@ fn bad_answers_have_a_place() {
 }
 
 #[test]
-fn questions_that_make_no_sense_have_no_answer() {
+fn invalid_questions_have_no_answer() {
     for question in [
         "a",
         "a gamma",
@@ -148,10 +148,10 @@ fn a_picture_of_something_else_is_refused() {
     let black = image::RgbImage::new(600, 600);
     let mut png = std::io::Cursor::new(Vec::new());
     black.write_to(&mut png, image::ImageFormat::Png).unwrap();
-    assert_eq!(refused(png.get_ref()), "no outline of a sphere is found");
+    assert_eq!(refused(png.get_ref()), "no outline of a sphere is visible");
 }
 
-/// Scenes say how they are drawn; none has anything to warn of.
+/// Scenes name the command that draws them, and none causes a warning.
 #[test]
 fn scenes_are_clean() {
     for case in &CASES {

@@ -1,4 +1,4 @@
-//! Wavelengths and what a screen shows.
+//! Questions about wavelengths and displayed colours.
 
 use ugparse::{ColorValue, Options, Source};
 use ugphysics::{RED_END_NM, VIOLET_END_NM, srgb_encode, wavelength_to_hue};
@@ -9,12 +9,12 @@ use super::numbers::{Answer, exactly};
 pub const KINDS: &[(&str, Answer)] = &[
     ("blackbody_temperature", |given| {
         let [kelvin, doppler] = exactly(given)?;
-        // Every wavelength is divided by D, that of the maximum, too.
+        // Every wavelength is divided by D, including that of the maximum.
         Some(vec![kelvin * doppler])
     }),
     ("blackbody_radiance_ratio", |given| {
         let [kelvin, doppler, wavelength_nm] = exactly(given)?;
-        // What is seen there was sent at λD, and a unit of wavelength here is D units there (P12).
+        // Light observed at λ was emitted at λD, and a unit of wavelength at the eye is D units at the source (P12).
         let square = doppler * doppler;
         let seen = square * square * doppler * planck(wavelength_nm * doppler, kelvin);
         Some(vec![seen / planck(wavelength_nm, kelvin)])
@@ -38,14 +38,14 @@ pub const KINDS: &[(&str, Answer)] = &[
     }),
 ];
 
-/// Sends a triangle of one wavelength through `ugdoppler`, moving straight at the eye or away from it.
+/// Runs `ugdoppler` on a triangle of one wavelength that moves straight towards the eye or away from it.
 fn wavelength_seen(wavelength_nm: f64, doppler: f64) -> Option<f64> {
-    // Only what is in sight has a hue to begin with.
+    // Only visible wavelengths have a hue at rest.
     if !(VIOLET_END_NM..=RED_END_NM).contains(&wavelength_nm) {
         return None;
     }
     let square = doppler * doppler;
-    // D straight ahead is √((1 + β)/(1 − β)).
+    // On the line of motion D = √((1 + β)/(1 − β)).
     let toward = (square - 1.0) / (square + 1.0);
     let hue = wavelength_to_hue(wavelength_nm);
     let scene = format!(

@@ -1,10 +1,10 @@
-//! Changes of frame: factors, directions, velocities, accelerated motion.
+//! Questions about changes of frame: factors, directions, velocities, accelerated motion.
 
 use glam::{DMat3, DVec3, Vec4Swizzles};
 use ugphysics::{Event, Hyperbolic, Lorentz, Wave, aberrate, compose};
 
 use super::numbers::{Answer, along_x, angle, at, exactly, list, vectors, velocity};
-use super::places::retarded;
+use super::positions::retarded;
 
 const SPEED_OF_LIGHT_KM_S: f64 = 299_792.458;
 const METRES_PER_KPC: f64 = 3.085_677_581_491_367e19;
@@ -75,8 +75,8 @@ pub const KINDS: &[(&str, Answer)] = &[
     ("wigner", |given| {
         let [u, v] = vectors(given)?;
         let both = Lorentz::boost(velocity(u)?) * Lorentz::boost(velocity(v)?);
-        let turn = Lorentz::boost(both.velocity_of_frame().ok()?).inverse() * both;
-        Some(vec![turn_angle(turn)])
+        let rotation = Lorentz::boost(both.velocity_of_frame().ok()?).inverse() * both;
+        Some(vec![rotation_angle(rotation)])
     }),
     ("camera_sees", |given| {
         let (&t, rest) = given.split_first()?;
@@ -106,8 +106,8 @@ pub const KINDS: &[(&str, Answer)] = &[
     }),
     ("jet", |given| {
         let [near, far, kpc] = exactly(given)?;
-        // The seen speeds of both sides, β sin θ/(1 ∓ β cos θ) (P31), give β cos θ by their ratio, and β sin θ is the
-        // first times 1 − β cos θ.
+        // The ratio of the apparent speeds of both sides, β sin θ/(1 ∓ β cos θ) (P31), gives β cos θ, and β sin θ is
+        // the first times 1 − β cos θ.
         let along = (near - far) / (near + far);
         let radians_per_s = (near / 3_600_000.0_f64).to_radians() / SECONDS_PER_DAY;
         let across = radians_per_s * kpc * METRES_PER_KPC / METRES_PER_SECOND * (1.0 - along);
@@ -115,20 +115,20 @@ pub const KINDS: &[(&str, Answer)] = &[
     }),
 ];
 
-/// The angle from the motion, in degrees, at which a moving eye sees what is at `theta` for one at rest.
+/// The angle from the motion, in degrees, at which a moving eye sees what an eye at rest sees at `theta`.
 fn aberration(speed: f64, theta: f64) -> Option<f64> {
     Some(angle(aberrate(at(theta), along_x(speed)?), DVec3::X))
 }
 
-/// What part of the scene a camera of this view angle shows that looks ahead, and one that looks back.
+/// The angles of the scene that a camera of this view angle covers looking forward and looking backward.
 fn covers(speed: f64, view_angle: f64) -> Option<[f64; 2]> {
-    // From the camera to the scene is the way back.
+    // The transformation from the camera to the scene is the inverse one.
     Some([2.0 * aberration(-speed, 0.5 * view_angle)?, 2.0 * aberration(speed, 0.5 * view_angle)?])
 }
 
 /// The angle of a rotation in degrees.
-fn turn_angle(turn: Lorentz) -> f64 {
-    let matrix = turn.matrix();
+fn rotation_angle(rotation: Lorentz) -> f64 {
+    let matrix = rotation.matrix();
     let m = DMat3::from_cols(matrix.y_axis.yzw(), matrix.z_axis.yzw(), matrix.w_axis.yzw());
     let axis = DVec3::new(m.y_axis.z - m.z_axis.y, m.z_axis.x - m.x_axis.z, m.x_axis.y - m.y_axis.x);
     let trace = m.x_axis.x + m.y_axis.y + m.z_axis.z;

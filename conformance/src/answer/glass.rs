@@ -1,4 +1,4 @@
-//! Light in moving glass.
+//! Questions about light in moving glass.
 
 use glam::DVec3;
 use ugphysics::{Slab, Wave, light_in_glass, refract};

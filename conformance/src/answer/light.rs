@@ -1,10 +1,10 @@
-//! Frequencies, brightness, lamps and mirrors.
+//! Questions about frequencies, brightness, lamps and mirrors.
 
 use glam::DVec3;
 use ugphysics::{Brightness, Velocity, Wave, doppler_at, doppler_factor, irradiance, reflect, rest_position};
 
 use super::numbers::{Answer, along_x, angle, at, exactly, list, vectors, velocity};
-use super::places::retarded;
+use super::positions::retarded;
 
 const SPEED_OF_LIGHT_KM_S: f64 = 299_792.458;
 
@@ -40,12 +40,12 @@ pub const KINDS: &[(&str, Answer)] = &[
         let [speed] = exactly(given)?;
         let v = along_x(speed)?;
         let ahead = doppler_factor(DVec3::X, v);
-        // In one frame the light runs at tan²(θ/2) = 1/D(0) from the motion, and at the supplement in the other.
+        // If D = 1, tan²(θ/2) = 1/D(0) in one frame, and the angle in the other frame is the supplement.
         Some(vec![2.0 * libm::atan((1.0 / ahead).sqrt()).to_degrees()])
     }),
     ("radiance_photons", |given| Some(vec![Brightness::Photon.factor(doppler(given)?)])),
     ("radiance", |given| Some(vec![Brightness::Bolometric.factor(doppler(given)?)])),
-    // Per unit of frequency: a unit of it at the eye is 1/D units at the source, and energy has one D more.
+    // Per unit of frequency: a unit at the eye is 1/D units at the source, so there is one factor D less.
     ("radiance_per_frequency", |given| {
         let d = doppler(given)?;
         Some(vec![Brightness::Bolometric.factor(d) / d])
@@ -69,7 +69,7 @@ pub const KINDS: &[(&str, Answer)] = &[
     ("dipole", |given| {
         let [kelvin, km_per_s] = exactly(given)?;
         let v = along_x(km_per_s / SPEED_OF_LIGHT_KM_S)?;
-        // What a moving eye meets comes at it.
+        // Radiation from ahead has the factor of an approaching source.
         let [ahead, behind] = [DVec3::X, DVec3::NEG_X].map(|n| doppler_factor(n, v));
         Some(vec![0.5 * kelvin * (ahead - behind)])
     }),
@@ -85,7 +85,7 @@ pub const KINDS: &[(&str, Answer)] = &[
     ("irradiance_by_light_distance", |given| {
         let [power, light_distance, speed, theta] = exactly(given)?;
         let v = along_x(speed)?;
-        // Back to the receiver's frame: the lamp is seen along −n.
+        // Converts to the receiver's frame: the lamp is seen in the direction −n.
         let seen = -at(theta);
         let distance = light_distance / rest_position(seen, v).length();
         Some(vec![irradiance(power, distance, doppler_at(seen, v))])
@@ -105,22 +105,22 @@ pub const KINDS: &[(&str, Answer)] = &[
     }),
 ];
 
-/// D of a source that moves along +x, from which light comes at `theta` from the motion.
+/// D of a source that moves along +x and whose light propagates at `theta` from the motion.
 fn doppler(given: &[f64]) -> Option<f64> {
     let [speed, theta] = exactly(given)?;
     Some(doppler_factor(at(theta), along_x(speed)?))
 }
 
-/// The mean of D to a whole power over all directions, by Simpson's rule over cos θ.
+/// The mean of a power of D over all directions, by Simpson's rule over cos θ.
 fn sky_mean(v: Velocity, power: f64) -> f64 {
-    /// Steps of 1e-5 are 1/1000 of the scale on which D changes at 0.99 c; the error goes with its fourth power.
+    /// At 0.99 c a step of 1e-5 is 1/1000 of the scale on which D changes; the error is of fourth order in this ratio.
     const STEPS: u32 = 200_000;
     let at = |step: u32| {
         let cos = 2.0 * f64::from(step) / f64::from(STEPS) - 1.0;
         let n = DVec3::new(cos, ((1.0 - cos) * (1.0 + cos)).sqrt(), 0.0);
         libm::pow(doppler_factor(n, v), power)
     };
-    let inside: f64 =
+    let interior: f64 =
         (1..STEPS).map(|step| if step % 2 == 1 { 4.0 * at(step) } else { 2.0 * at(step) }).sum();
-    (at(0) + inside + at(STEPS)) / (3.0 * f64::from(STEPS))
+    (at(0) + interior + at(STEPS)) / (3.0 * f64::from(STEPS))
 }

@@ -1,4 +1,4 @@
-//! How this project answers: every kind of question, with the functions that its programs are made of.
+//! Answers every kind of question with the functions of this project's crates.
 
 mod colour;
 mod frames;
@@ -6,7 +6,7 @@ mod glass;
 mod light;
 mod numbers;
 mod outlines;
-mod places;
+mod positions;
 
 use numbers::Answer;
 
@@ -17,14 +17,13 @@ struct Kind {
 }
 
 fn kinds() -> impl Iterator<Item = Kind> {
-    [places::KINDS, outlines::KINDS, frames::KINDS, light::KINDS, glass::KINDS, colour::KINDS]
+    [positions::KINDS, outlines::KINDS, frames::KINDS, light::KINDS, glass::KINDS, colour::KINDS]
         .into_iter()
         .flatten()
         .map(|&(name, answer)| Kind { name, answer })
 }
 
-/// The answer of this project's crates. None if they have none: the kind is not known, the numbers are too few or too
-/// many, or make no sense.
+/// The answer of this project's crates. `None` if the kind is unknown, or the count or values of the numbers are invalid.
 pub fn answer(kind: &str, given: &[f64]) -> Option<Vec<f64>> {
     let kind = kinds().find(|known| known.name == kind)?;
     (kind.answer)(given).filter(|answer| answer.iter().all(|number| number.is_finite()))

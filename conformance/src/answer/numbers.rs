@@ -1,17 +1,17 @@
-//! Numbers of questions as vectors and velocities.
+//! Converts the numbers of questions to vectors and velocities.
 
 use glam::DVec3;
 use ugphysics::Velocity;
 
-/// From the numbers of a question to those of the answer.
+/// A function from the numbers of a question to those of the answer.
 pub type Answer = fn(&[f64]) -> Option<Vec<f64>>;
 
-/// So many numbers; none if there are more or less.
+/// The numbers as an array of N; `None` if the count differs.
 pub fn exactly<const N: usize>(given: &[f64]) -> Option<[f64; N]> {
     given.try_into().ok()
 }
 
-/// So many vectors.
+/// The numbers as N vectors; `None` if the count differs.
 pub fn vectors<const N: usize>(given: &[f64]) -> Option<[DVec3; N]> {
     if given.len() != 3 * N {
         return None;
@@ -19,7 +19,7 @@ pub fn vectors<const N: usize>(given: &[f64]) -> Option<[DVec3; N]> {
     Some(std::array::from_fn(|i| DVec3::from_slice(&given[3 * i..])))
 }
 
-/// Motion along +x.
+/// The velocity `beta` along +x.
 pub fn along_x(beta: f64) -> Option<Velocity> {
     velocity(beta * DVec3::X)
 }
@@ -30,7 +30,7 @@ pub fn velocity(beta: DVec3) -> Option<Velocity> {
 
 /// The unit vector at `angle_deg` from +x, towards +y.
 pub fn at(angle_deg: f64) -> DVec3 {
-    // The right angle exactly: its cosine must be 0.
+    // Exact at the right angle, where the cosine must be 0.
     if angle_deg == 90.0 {
         return DVec3::Y;
     }
@@ -38,12 +38,12 @@ pub fn at(angle_deg: f64) -> DVec3 {
     DVec3::new(cos, sin, 0.0)
 }
 
-/// Degrees between two vectors, good for small angles, too.
+/// The angle between two vectors in degrees, precise for small angles, too.
 pub fn angle(a: DVec3, b: DVec3) -> f64 {
     libm::atan2(a.cross(b).length(), a.dot(b)).to_degrees()
 }
 
-/// A vector, then more numbers.
+/// The components of a vector, followed by more numbers.
 pub fn list(vector: DVec3, more: &[f64]) -> Vec<f64> {
     [&vector.to_array()[..], more].concat()
 }

@@ -1,4 +1,4 @@
-//! Circles in the sphere of directions.
+//! Questions about circles on the sphere of directions.
 
 use glam::DVec3;
 use ugphysics::{Event, Lorentz, seen_position};
@@ -11,7 +11,7 @@ pub const KINDS: &[(&str, Answer)] = &[
         let v = along_x(speed)?;
         let (sin, center) = (radius / distance, at(psi));
         let circle = Circle { axis: center, sin, cos: ((1.0 - sin) * (1.0 + sin)).sqrt() };
-        let (axis, radius_deg) = circle.through(Lorentz::boost(v));
+        let (axis, radius_deg) = circle.in_frame(Lorentz::boost(v));
         let seen = seen_position(distance * center, v);
         Some(vec![radius_deg, angle(axis, DVec3::X), angle(seen, DVec3::X)])
     }),
@@ -19,7 +19,7 @@ pub const KINDS: &[(&str, Answer)] = &[
         let [speed, axis_deg, radius_deg] = exactly(given)?;
         let (sin, cos) = libm::sincos(radius_deg.to_radians());
         let circle = Circle { axis: at(axis_deg), sin, cos };
-        let (axis, radius_deg) = circle.through(Lorentz::boost(along_x(speed)?).inverse());
+        let (axis, radius_deg) = circle.in_frame(Lorentz::boost(along_x(speed)?).inverse());
         Some(vec![angle(axis, DVec3::X), radius_deg])
     }),
 ];
@@ -34,9 +34,10 @@ struct Circle {
 impl Circle {
     /// Axis and angular radius, in degrees, in another frame.
     ///
-    /// A viewing direction is the null vector (−1, d), and the circle is what is orthogonal to N = (−cos, axis): in
-    /// signature (−,+,+,+) the product is d·axis − cos. So N is boosted as an event is, and its length, sin, stays.
-    fn through(&self, change: Lorentz) -> (DVec3, f64) {
+    /// A viewing direction is the null vector (−1, d), and the circle consists of those orthogonal to
+    /// N = (−cos, axis): in signature (−,+,+,+) the product is d·axis − cos. So N transforms like an event, and its
+    /// length, sin, is invariant.
+    fn in_frame(&self, change: Lorentz) -> (DVec3, f64) {
         let normal = change.apply(Event { t: -self.cos, x: self.axis });
         (normal.x, libm::atan2(self.sin, -normal.t).to_degrees())
     }

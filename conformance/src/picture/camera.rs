@@ -1,20 +1,20 @@
-//! From pixels to directions.
+//! Maps pixels to viewing directions.
 
 use glam::DVec3;
 use ugparse::Camera;
 
-/// A pinhole at the origin before a flat film with square pixels.
+/// A pinhole camera at the origin with a flat film and square pixels.
 pub struct Pinhole {
     forward: DVec3,
-    /// To the neighbour pixel on the right, on the film at distance 1.
+    /// Step to the next pixel on the right, on the film at distance 1.
     right: DVec3,
-    /// To the neighbour pixel below.
+    /// Step to the next pixel below.
     down: DVec3,
     middle: [f64; 2],
 }
 
 impl Pinhole {
-    /// None if the camera does not say where it looks and how wide.
+    /// `None` if eye, view centre or view angle are missing.
     pub fn new(camera: &Camera, size: [u32; 2]) -> Option<Self> {
         let [across_deg, _] = camera.view_angle?;
         let forward = (camera.center? - camera.eye?).try_normalize()?;
@@ -30,12 +30,12 @@ impl Pinhole {
         (self.forward + self.right * (x - middle_x) + self.down * (y - middle_y)).normalize()
     }
 
-    /// The angle of the pixel in the middle, radians.
+    /// The angular size of the pixel at the centre, radians.
     pub fn pixel(&self) -> f64 {
         self.right.length()
     }
 
-    /// The middle of the picture, in pixels.
+    /// The centre of the picture, in pixels.
     pub fn middle(&self) -> [f64; 2] {
         self.middle
     }

@@ -1,7 +1,7 @@
-//! T36: green, flying away, is seen before red; blue, coming, behind it.
+//! T36: the receding green square occludes the red one; the approaching blue square is occluded by it.
 
-use super::sight::Hue;
-use super::{Measured, Sight};
+use super::pixels::Dominant;
+use super::{Measurement, Picture};
 
 /// Half the width of the picture at distance 1: 15 degrees.
 const HALF_ANGLE_DEG: f64 = 15.0;
@@ -13,23 +13,23 @@ const RED_HALF: f64 = 2.0;
 /// Height of a line over the green square, at the distance of the red one.
 const GREEN_HEIGHT: f64 = 0.5;
 
-pub fn measure(sight: &Sight) -> Result<Vec<Measured>, String> {
-    let [width, height] = sight.size();
-    let [middle_x, middle_y] = sight.camera.middle();
+pub fn measure(picture: &Picture) -> Result<Vec<Measurement>, String> {
+    let [width, height] = picture.size();
+    let [middle_x, middle_y] = picture.camera.middle();
     let per_unit = middle_x / libm::tan(HALF_ANGLE_DEG.to_radians());
     let gamma = 1.0 / (1.0 - GREEN_SPEED * GREEN_SPEED).sqrt();
-    // Where the ends of the line z = 0.5 of green are seen: (P3).
+    // The apparent distance of the ends of the line z = 0.5 of the green square: (P3).
     let rest_distance = (GREEN_AT * GREEN_AT + 1.0 + GREEN_HEIGHT * GREEN_HEIGHT).sqrt();
     let seen_at = gamma * (GREEN_AT - GREEN_SPEED * rest_distance);
     let row = (middle_y - per_unit * GREEN_HEIGHT / seen_at) as u32;
-    let count = |hue, row| (0..width).filter(|&x| sight.hue(x, row) == hue).count() as f64;
-    let (green, red) = (count(Hue::Green, row), count(Hue::Red, row));
+    let count = |hue, row| (0..width).filter(|&x| picture.dominant(x, row) == hue).count() as f64;
+    let (green, red) = (count(Dominant::Green, row), count(Dominant::Red, row));
     let (green_width, red_width) = (2.0 * per_unit / seen_at, 2.0 * RED_HALF * per_unit / RED_AT);
-    let blue = (0..height).map(|y| count(Hue::Blue, y)).sum();
-    // Both ends of each are known to half a pixel.
+    let blue = (0..height).map(|y| count(Dominant::Blue, y)).sum();
+    // Both ends of each are uncertain by half a pixel.
     Ok(vec![
-        Measured::new("green square before the red one, pixels across", green, green_width, 1.2),
-        Measured::new("red square beside it, pixels across", red, red_width - green_width, 2.2),
-        Measured::new("blue square behind the red one, pixels", blue, 0.0, 0.0),
+        Measurement::new("green square in front of the red one, width in pixels", green, green_width, 1.2),
+        Measurement::new("red square next to it, width in pixels", red, red_width - green_width, 2.2),
+        Measurement::new("blue square behind the red one, pixels", blue, 0.0, 0.0),
     ])
 }

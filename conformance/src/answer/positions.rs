@@ -1,4 +1,4 @@
-//! Where things are seen, how large, and how fast they seem to move.
+//! Questions about apparent positions, sizes and velocities.
 
 use glam::DVec3;
 use ugphysics::{
@@ -46,7 +46,7 @@ pub const KINDS: &[(&str, Answer)] = &[
     ("cube_abeam", |given| {
         let [speed] = exactly(given)?;
         let v = along_x(speed)?;
-        // Light from the far end of the trailing side leaves one unit of time before that from its near end.
+        // Light from the far end of the trailing side is emitted one unit of time before that from its near end.
         Some(vec![contracted(DVec3::X, v).x, v.speed()])
     }),
     ("edge_x", |given| {
@@ -61,7 +61,7 @@ pub const KINDS: &[(&str, Answer)] = &[
         let [height, speed, camera] = exactly(given)?;
         let v = along_x(speed)?;
         let (_, plate) = retarded(DVec3::new(0.0, 0.0, height - camera), v);
-        // Light passes the plate `height` earlier than it meets the ground, so the shadow lags (P24).
+        // Light passes the plate a time `height` before it reaches the ground, so the shadow lags (P24).
         let (_, shadow) = retarded(DVec3::new(-speed * height, 0.0, -camera), v);
         Some(vec![plate.x, shadow.x])
     }),
@@ -71,7 +71,7 @@ pub const KINDS: &[(&str, Answer)] = &[
     }),
 ];
 
-/// When light left what is now at `p`, and where that was.
+/// The emission time and the retarded position of a point that is now at `p`.
 pub fn retarded(p: DVec3, v: Velocity) -> (f64, DVec3) {
     let w = flight_time(p, v);
     (w, p + w * v.beta())
@@ -82,7 +82,7 @@ fn seen_velocity(given: &[f64], theta: f64) -> Option<DVec3> {
     Some(apparent_velocity(at(theta), along_x(speed)?))
 }
 
-/// A rod of length 1 on the line of motion, from 1 to 2 on that side of the eye.
+/// The apparent length of a rod on the line of motion, from 1 to 2 on the given side of the eye.
 fn rod_end_on(given: &[f64], side: f64) -> Option<Vec<f64>> {
     let [speed] = exactly(given)?;
     let v = along_x(speed)?;
@@ -94,7 +94,7 @@ fn edge_x(v: Velocity, z: f64, y: f64) -> f64 {
     seen_position(DVec3::new(0.0, y, z), v).x
 }
 
-/// The greatest distance along the motion between the seen edge over |y| ≤ `half` and `n` chords of equal width in y.
+/// The greatest distance along the motion between the apparent edge over |y| ≤ `half` and `n` chords of equal width in y.
 fn chord_error(v: Velocity, z: f64, half: f64, n: f64) -> Option<f64> {
     if !(1.0..=1e6).contains(&n) {
         return None;
@@ -104,10 +104,10 @@ fn chord_error(v: Velocity, z: f64, half: f64, n: f64) -> Option<f64> {
         let y = -half + width * f64::from(chord);
         let (start, end) = (edge_x(v, z, y), edge_x(v, z, y + width));
         let slope = (end - start) / width;
-        // The curve x = −|u| √(y² + z²) is farthest from its chord where it runs parallel to it.
+        // The curve x = −|u| √(y² + z²) is farthest from its chord where its tangent is parallel to it.
         let sine = -slope / v.proper_speed();
-        let touch = z * sine / (1.0 - sine * sine).sqrt();
-        (edge_x(v, z, touch) - (start + slope * (touch - y))).abs()
+        let parallel = z * sine / (1.0 - sine * sine).sqrt();
+        (edge_x(v, z, parallel) - (start + slope * (parallel - y))).abs()
     });
     Some(errors.fold(0.0, f64::max))
 }

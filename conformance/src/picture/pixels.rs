@@ -1,17 +1,17 @@
-//! What is asked of a picture: which pixels are lit, and in which colour.
+//! Classifies pixels: lit or dark, and by their dominant channel.
 
-use super::Sight;
+use super::Picture;
 
-/// The colour that prevails in a pixel.
+/// The dominant channel of a pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Hue {
+pub enum Dominant {
     Dark,
     Red,
     Green,
     Blue,
 }
 
-impl Sight {
+impl Picture {
     pub fn size(&self) -> [u32; 2] {
         [self.pixels.width(), self.pixels.height()]
     }
@@ -20,27 +20,27 @@ impl Sight {
         self.pixels.get_pixel(x, y).0
     }
 
-    /// True where the body is, at least in half of the pixel.
+    /// Is at least half of the pixel covered by the body?
     pub fn is_lit(&self, x: u32, y: u32) -> bool {
         u32::from(*self.color(x, y).iter().max().unwrap_or(&0)) * 2 > u32::from(self.brightest)
     }
 
-    pub fn hue(&self, x: u32, y: u32) -> Hue {
+    pub fn dominant(&self, x: u32, y: u32) -> Dominant {
         let [red, green, blue] = self.color(x, y);
         match red.max(green).max(blue) {
-            most if most < 64 => Hue::Dark,
-            most if most == red => Hue::Red,
-            most if most == green => Hue::Green,
-            _ => Hue::Blue,
+            most if most < 64 => Dominant::Dark,
+            most if most == red => Dominant::Red,
+            most if most == green => Dominant::Green,
+            _ => Dominant::Blue,
         }
     }
 
-    /// Edges of the lit part of a row, in pixels from the left: its first and its last.
+    /// The first and last edge of the lit part of a row, in pixels from the left.
     pub fn ends_of_row(&self, y: u32) -> Option<[f64; 2]> {
         ends((0..self.size()[0]).filter(|&x| self.is_lit(x, y)))
     }
 
-    /// The same of a column, from the top.
+    /// The first and last edge of the lit part of a column, in pixels from the top.
     pub fn ends_of_column(&self, x: u32) -> Option<[f64; 2]> {
         ends((0..self.size()[1]).filter(|&y| self.is_lit(x, y)))
     }
