@@ -1,4 +1,4 @@
-//! The same input gives the same bytes: on any number of threads, on every run, and with every profile.
+//! The same input gives the same bytes with any number of threads, on every run, and in every build profile.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
@@ -9,7 +9,7 @@ use glam::DVec3;
 use ugtests::pipe::{Pipe, Stages};
 use ugtests::{programs, scenes};
 
-/// Pipes that take different ways through the programs.
+/// Pipes that use different code paths of the programs.
 fn pipes() -> Vec<(&'static str, Pipe)> {
     let size = [160, 120];
     let mut ship = Pipe::new(0.3 * DVec3::X, size).in_place();
@@ -53,7 +53,7 @@ fn pipes() -> Vec<(&'static str, Pipe)> {
     ]
 }
 
-/// Runs the pipe on as many threads.
+/// Runs the pipe with a number of threads.
 fn run_on(n_threads: usize, pipe: &Pipe, text: &[u8]) -> Stages {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(n_threads).build().unwrap();
     pool.install(|| pipe.run(text))
@@ -70,7 +70,7 @@ fn bytes_do_not_depend_on_threads_or_runs() {
     }
 }
 
-/// What each stage of a real pipe writes, with the programs of a folder.
+/// The output of every program in a shell pipe, with the programs in a folder.
 fn through_a_shell(programs: &Path, scene: &Path) -> Stages {
     const SCRIPT: &str = r#"
         PATH="$1:$PATH"
@@ -87,9 +87,9 @@ fn through_a_shell(programs: &Path, scene: &Path) -> Stages {
     Stages { seen: stage("seen"), colored: stage("colored"), file: stage("file") }
 }
 
-/// The libraries in this process are of one profile, the programs of the other.
+/// This process uses the libraries in one profile, and the shell pipe the programs in the other.
 #[test]
-fn a_shell_pipe_gives_the_same_bytes_whoever_built_it() {
+fn a_shell_pipe_gives_the_same_bytes_in_both_profiles() {
     let scene = scenes::root().join("scenes").join("cubes.ug");
     let programs = programs::of_other_profile();
     let there = through_a_shell(&programs, &scene);

@@ -1,4 +1,4 @@
-//! PDF, SVG and figures of areas, as independent programs see them: the same picture as the PNG.
+//! PDF, SVG and vector figures rendered by other programs show the same picture as the PNG.
 //!
 //! Without `gs`, `pdftoppm`, `rsvg-convert` and `chromium` on the path the tests are skipped, unless `UG_REQUIRE_TOOLS=1`.
 
@@ -22,18 +22,18 @@ const TOOLS: [tools::Tool<'_>; 4] = [
     ("chromium", "--version", "chromium"),
 ];
 
-/// What draws a file.
+/// A program that renders a file.
 #[derive(Clone, Copy, Debug)]
 enum Tool {
     Ghostscript,
     Poppler,
-    /// Takes the picture out of the page; pdftoppm resamples pictures even at one pixel a point.
+    /// Extracts the picture from the page, because pdftoppm resamples pictures even at one pixel per point.
     PopplerImages,
     Rsvg,
     Chromium,
 }
 
-/// The file drawn at one pixel a point, with smoothed edges.
+/// Renders the file at one pixel per point, with anti-aliasing.
 fn drawn(tool: Tool, format: Format, file: &[u8]) -> Picture {
     let folder = tempfile::tempdir().unwrap();
     let input = folder.path().join(format!("in.{}", format.name()));
@@ -45,11 +45,11 @@ fn drawn(tool: Tool, format: Format, file: &[u8]) -> Picture {
         if run.status.success() || !matches!(tool, Tool::Chromium) {
             break;
         }
-        // Browsers sometimes hang as they start.
+        // Browsers sometimes hang at startup.
         run = command(tool, &input, &output).output().unwrap();
     }
     let messages = String::from_utf8_lossy(&run.stdout) + String::from_utf8_lossy(&run.stderr);
-    // Browsers talk of the desktop that is not there.
+    // Browsers print warnings about the missing desktop.
     let is_content = messages.is_empty() || matches!(tool, Tool::Chromium);
     assert!(run.status.success() && is_content, "{tool:?}: {}: {messages}", run.status);
     read(&output)
@@ -81,7 +81,7 @@ fn command(tool: Tool, input: &Path, output: &PathBuf) -> Command {
         Tool::Chromium => {
             let mut chromium = Command::new("timeout");
             chromium.args(["60", "chromium"]);
-            // Without a sandbox, so that it runs for root; it is shown nothing but our file.
+            // Without a sandbox, so that it also runs as root; it opens only our file.
             chromium.args(["--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage"]);
             chromium.args(["--hide-scrollbars", "--force-device-scale-factor=1"]);
             chromium.arg(format!("--window-size={},{}", SIZE[0], SIZE[1]));
@@ -93,7 +93,7 @@ fn command(tool: Tool, input: &Path, output: &PathBuf) -> Command {
     }
 }
 
-/// Formats of areas, and who draws them.
+/// Vector formats, and the programs that render them.
 const DRAWN_BY: [(Format, Tool); 6] = [
     (Format::Eps, Tool::Ghostscript),
     (Format::Ps, Tool::Ghostscript),
@@ -103,10 +103,10 @@ const DRAWN_BY: [(Format, Tool); 6] = [
     (Format::Svg, Tool::Chromium),
 ];
 
-/// The part of the pixels that differ: those with a channel more than `LEVELS` outside the range that the pixel of the
-/// PNG and its eight neighbours have. So an edge may be smoothed in another way, but not lie elsewhere; and where the
-/// PNG changes little, as within faces, nothing but its colour passes.
-fn part_that_differs(png: &Picture, drawn: &Picture) -> f64 {
+/// The fraction of pixels with a channel more than `LEVELS` outside the range of the PNG's pixel and its eight
+/// neighbours. So an edge may be anti-aliased differently, but not displaced; and where the PNG changes little, as
+/// within faces, only its colour passes.
+fn fraction_different(png: &Picture, drawn: &Picture) -> f64 {
     const LEVELS: u8 = 8;
     assert_eq!(png.dimensions(), drawn.dimensions());
     let (width, height) = png.dimensions();
@@ -126,7 +126,7 @@ fn part_that_differs(png: &Picture, drawn: &Picture) -> f64 {
     n_different.count() as f64 / f64::from(width * height)
 }
 
-/// On white, as programs that show figures blend: encoded.
+/// Composes on white in display encoding, as viewers do.
 fn on_paper(mut picture: Picture) -> Picture {
     for pixel in picture.pixels_mut() {
         let part = f64::from(pixel[3]) / 255.0;
@@ -163,14 +163,14 @@ fn embedded_pictures_are_the_png() {
 }
 
 #[test]
-fn figures_of_areas_show_the_same_as_the_png() {
+fn vector_figures_show_the_same_as_the_png() {
     if !tools::has(&TOOLS) {
         return;
     }
     let mut white = ship();
     white.rainbow.background =
         ugrainbow::Background::Color(ugphysics::Hsv { hue: 0.0, saturation: 0.0, value: 1.0 });
-    // Text and lines are the same outlines, as areas or as pixels.
+    // Text and lines have the same outlines as areas and as pixels.
     let mut annotated = white.clone();
     annotated.rainbow.figures = ugrainbow::Figures {
         caption: "A ship at β = 0.2, γ = 1.021: where it would be seen at rest, and the ground below it."
@@ -192,11 +192,11 @@ fn figures_of_areas_show_the_same_as_the_png() {
     wires.rainbow.wireframe = edges(false);
     let mut edged = ship();
     edged.rainbow.wireframe = edges(true);
-    // Panes that cut through each other, with edges before and behind them.
+    // Intersecting translucent faces, with edges in front and behind.
     let glass = Pipe::new(0.9 * DVec3::X, SIZE).in_place().shape();
     let mut glass_at_rest = Pipe::new(DVec3::ZERO, SIZE);
     glass_at_rest.rainbow.wireframe = edges(true);
-    // Over nothing, which all show as white paper.
+    // On a transparent background, which all viewers show as white paper.
     let mut clear = annotated.clone();
     clear.rainbow.background = ugrainbow::Background::Transparent;
     let figures = [
@@ -223,20 +223,20 @@ fn figures_of_areas_show_the_same_as_the_png() {
         let is_clear = pipe.rainbow.background == ugrainbow::Background::Transparent;
         for (format, tool) in DRAWN_BY.into_iter().filter(|(format, _)| !is_clear || format.has_alpha()) {
             let picture = on_paper(drawn(tool, format, &draw(Output::Vector(format))));
-            let part = part_that_differs(&png, &picture);
+            let part = fraction_different(&png, &picture);
             println!("{name} {} {tool:?}: {:.3} % of the pixels differ", format.name(), 100.0 * part);
             assert!(part <= 0.02, "{name} {} {tool:?}: {part} of the pixels differ", format.name());
         }
     });
 }
 
-/// A figure for a page must not be larger than the picture it is drawn for.
+/// A vector figure must be smaller than a picture at print resolution.
 #[test]
-fn figures_of_areas_are_smaller_than_pictures_for_print() {
+fn vector_figures_are_smaller_than_pictures_for_print() {
     let pipe = ship();
     let colored = pipe.run(&scenes::text("ship")).colored;
     let draw = |config| rainbow(&colored, &config).len();
-    // 6 x 4.5 inches of paper: points, and pixels of 1200 dpi.
+    // 6 x 4.5 inches on paper: in points, and in pixels at 1200 dpi.
     let print = ugrainbow::Config { size: [7200, 5400], samples: 1, ..pipe.rainbow.clone() };
     let png = draw(print);
     for format in [Format::Eps, Format::Ps, Format::Pdf, Format::Svg] {

@@ -1,6 +1,6 @@
-//! Small pictures, one idea each, exactly as they were when somebody looked at them.
+//! Compares small pictures, one idea each, with the recorded ones, which somebody has reviewed.
 //!
-//! `UG_BLESS=1 cargo test -p ugtests --test golden` records them anew; look at what changed.
+//! `UG_BLESS=1 cargo test -p ugtests --test golden` re-records them; review every change.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
@@ -120,7 +120,7 @@ fn the_camera_moves_among_cars() {
     check("moving-camera-traffic", "traffic", &traffic);
 }
 
-/// Bluer ahead, as bright as at rest: figure 3c of Weiskopf 2000.
+/// Bluer ahead, with the brightness at rest: figure 3c of Weiskopf 2000.
 #[test]
 fn a_tunnel_of_black_bodies_turns_blue_ahead() {
     let mut tunnel = Pipe::default();
@@ -131,7 +131,7 @@ fn a_tunnel_of_black_bodies_turns_blue_ahead() {
     check("doppler-alone-tunnel-0.6c", "tunnel", &tunnel);
 }
 
-/// Coming at us, at rest and going, all of one temperature: as 3674, 3000 and 2449 K, with D⁵.
+/// Approaching, at rest and receding, all at 3000 K: they appear as 3674, 3000 and 2449 K, with D⁵.
 #[test]
 fn black_bodies_change_their_temperature() {
     const BODIES: &[u8] = b"c_bb ember 3000 1;
@@ -154,7 +154,7 @@ fn a_lamp_that_moves_makes_a_rainbow() {
     check("rainbow-under-a-lamp-0.4c", "lamp", &lamp);
 }
 
-/// For the pot they come from ahead.
+/// Lights at rest behind the pot: in its frame they are ahead.
 #[test]
 fn lights_behind_light_the_front() {
     let mut pot = pipe(0.6, 0.0, 0.0).in_place();
@@ -181,7 +181,7 @@ fn the_rainbow_of_1988() {
     assert_golden("wavelengths-380-to-780-rainbow", &decode(&rainbow(&scenes::text("rainbow"), &config)));
 }
 
-/// Between red and blue lies the rainbow; by hue and by wavelength it is divided differently.
+/// Interpolation from red to blue passes through the spectrum, at different places by hue and by wavelength.
 #[test]
 fn hue_and_wavelength() {
     const STRIPES: &[u8] = b"c red 1 0; c blue 1 240; c_rgb white 1 1 1; l 1;
@@ -197,7 +197,7 @@ fn hue_and_wavelength() {
     }
 }
 
-/// Samples hold no background: edges are half clear.
+/// Edges are partly transparent.
 #[test]
 fn transparent_background() {
     let mut cubes = pipe(0.6, 0.0, 0.0).in_place().shape();
@@ -205,10 +205,10 @@ fn transparent_background() {
     check("transparent-background-cubes", "cubes", &cubes);
 }
 
-/// Wires lie on the faces whose edges they follow, and bend with them.
+/// Wires follow the bent edges of faces.
 #[test]
 fn wires_follow_edges() {
-    // The wires have vertices of their own, so that their colour is not mixed with that of the faces.
+    // The wires have their own vertices, so that their colour is not mixed with that of the faces.
     const BOX: &[u8] = b"c pale 0.7 200 0.3; c line 1 55 0.9; l 1;
         def corners; v a -1 7 -1; v b 1 7 -1; v c 1 7 1; v d -1 7 1; v e -1 9 -1; v f 1 9 -1; v g 1 9 1; v h -1 9 1;
         f (a b c d); f (e a d h); f (b f g c); f (f e h g); f (d c g h); f (e f b a); end;

@@ -1,4 +1,5 @@
-//! Pictures that hold light, as another program reads them: OpenImageIO, whose OpenEXR is the reference.
+//! Checks pictures in linear light with another program: OpenImageIO, which uses the reference implementation of
+//! OpenEXR.
 //!
 //! Without `oiiotool` on the path the tests are skipped, unless `UG_REQUIRE_TOOLS=1`.
 
@@ -24,7 +25,7 @@ const GLARE: &str = "c_xyz hot 900 400 1; c_xyz green .2 3 .1; c blue .7 220 .8;
 
 const OIIOTOOL: Tool<'_> = ("oiiotool", "--help", "openimageio-tools");
 
-/// What `oiiotool` says; it is to be content.
+/// Runs `oiiotool`, which must succeed without messages, and returns its output.
 #[track_caller]
 fn oiiotool(args: &[&str], files: &[&Path]) -> String {
     let output = Command::new("oiiotool").args(args).args(files).output().unwrap();
@@ -33,7 +34,7 @@ fn oiiotool(args: &[&str], files: &[&Path]) -> String {
     text
 }
 
-/// The numbers of every pixel as `oiiotool` prints them: floats, or whole levels where there are some.
+/// The numbers of every pixel as printed by `oiiotool`: floats, or integer levels.
 #[track_caller]
 fn read(path: &Path) -> Vec<Vec<f64>> {
     let text = oiiotool(&["-v", "--dumpdata"], &[path]);
@@ -66,7 +67,7 @@ fn another_program_reads_the_same_light() {
         rainbow(GLARE.as_bytes(), &config)
     };
     let black = config.background;
-    // The numbers as PFM has them: three floats a pixel, rows from the bottom.
+    // The numbers in the PFM file: three floats per pixel, rows from the bottom.
     let pfm = draw(Format::Pfm, black);
     let [width, height] = SIZE.map(|side| side as usize);
     let floats: Vec<f64> = pfm[pfm.len() - 12 * width * height..]
@@ -80,7 +81,7 @@ fn another_program_reads_the_same_light() {
 
     for (name, bytes) in [("a.pfm", pfm.clone()), ("a.exr", draw(Format::Exr, black))] {
         for (ours, light) in read(&write(folder.path(), name, &bytes)).iter().zip(&light) {
-            // Nine decimals are printed.
+            // `oiiotool` prints nine decimals.
             let is_same = ours.iter().zip(*light).all(|(a, b)| (a - b).abs() < 1e-9 + 1e-8 * b.abs());
             assert!(ours.len() == 3 && is_same, "{name}: {ours:?} for {light:?}");
         }
@@ -90,7 +91,7 @@ fn another_program_reads_the_same_light() {
         let is_near = ours.iter().zip(*light).all(|(a, b)| (a - b.max(0.0)).abs() <= brightest / 128.0);
         assert!(is_near, "{ours:?} for {light:?}");
     }
-    // With transparency: colours multiplied by alpha, which on black is what the light is.
+    // With transparency, colours are premultiplied by alpha, which equals the light on black.
     let clear = read(&write(folder.path(), "clear.exr", &draw(Format::Exr, Background::Transparent)));
     for (ours, light) in clear.iter().zip(&light) {
         let is_same = ours.iter().zip(*light).all(|(a, b)| (a - b).abs() < 1e-6 * b.abs().max(1.0));
@@ -121,10 +122,10 @@ fn another_program_reads_the_same_levels() {
     assert!(deep.iter().flatten().any(|level| level % 257.0 != 0.0));
 }
 
-/// A plane y = 10 that moves: for each pixel's ray the place and time where its light left are known. With t = −r and
-/// x = r d, the rest coordinates are r (d + (γ−1)(d·û)û + γv), and their y is 10.
+/// A moving plane y = 10: for each pixel's ray the emission event is known. With t = −r and x = r d, the rest
+/// coordinates are r (d + (γ−1)(d·û)û + γv), and their y is 10.
 #[test]
-fn channels_are_where_and_when_light_was_sent() {
+fn channels_describe_the_emission_event() {
     if !tools::has(&[OIIOTOOL]) {
         return;
     }
@@ -171,7 +172,7 @@ fn channels_are_where_and_when_light_was_sent() {
         ];
         for (name, expected) in expected {
             let ours = pixel[row(name)];
-            // Edges are cut until they are right to a ten-thousandth as seen from the eye.
+            // Subdivision has a relative error of a ten-thousandth as seen from the eye.
             assert!(
                 (ours - expected).abs() < 1e-3 * expected.abs(),
                 "{name} at {x} {y}: {ours} for {expected}"
@@ -181,7 +182,7 @@ fn channels_are_where_and_when_light_was_sent() {
 }
 
 #[test]
-fn faces_have_their_numbers() {
+fn the_id_channel_numbers_faces() {
     if !tools::has(&[OIIOTOOL]) {
         return;
     }
@@ -204,7 +205,7 @@ fn faces_have_their_numbers() {
     let text = [0, 1, 3].map(column).concat() + "cam -ep 0 0 0 -vc 0 4 0 -va 53.1301023542 40;";
     let path = write(folder.path(), "a.exr", &rainbow(text.as_bytes(), &config));
     let counted = folder.path().join("id.exr");
-    // It reads whole numbers as parts of the largest.
+    // `oiiotool` scales integers by the largest one.
     let [from, to] = [&path, &counted].map(|path| path.to_str().unwrap());
     oiiotool(&[from, "--ch", "id", "--mulc", "4294967295", "-d", "float", "-o", to], &[]);
     for (idx, pixel) in read(&counted).iter().enumerate() {

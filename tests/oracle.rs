@@ -1,5 +1,5 @@
-//! The whole pipe against a picture computed the other way round: a ray from each pixel into the rest
-//! frames, see [`ugtests::oracle`] and [`ugtests::agreement`].
+//! Compares the whole pipe with an independent renderer that intersects a ray from each pixel in the rest frames, see
+//! [`ugtests::oracle`] and [`ugtests::agreement`].
 
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test fails by panicking")]
 
@@ -14,31 +14,31 @@ use ugtests::scenes;
 
 const SIZE: [u32; 2] = [640, 480];
 
-/// Pixels; a face may be seen this far from where it should be.
+/// The allowed displacement of a face, pixels.
 const REACH: f64 = 0.5;
 
-/// A scene and how it moves.
+/// A scene and its motion.
 #[derive(Clone, Copy)]
 struct Case {
     scene: &'static str,
-    /// Of everything; `None` leaves the velocities of the scene.
+    /// Velocity of all bodies; `None` keeps those of the scene.
     beta: Option<DVec3>,
     in_place: bool,
     eye: Option<DVec3>,
-    /// Of the camera in the scene.
+    /// Velocity of the camera in the scene.
     camera: Option<DVec3>,
-    /// In place of the file of the scene.
+    /// Text that replaces the file of the scene.
     text: Option<&'static str>,
 }
 
 impl Case {
-    /// A scene as it stands, cut as finely as by default.
+    /// A scene with its own velocities and the default bounds.
     const fn new(scene: &'static str) -> Self {
         Self { scene, beta: None, in_place: false, eye: None, camera: None, text: None }
     }
 }
 
-/// Draws a case both ways. The error says what differs, and where to look at it.
+/// Draws a case with the pipe and with the oracle. The error describes the difference and names the saved pictures.
 fn check(case: Case) -> Result<(), String> {
     let text = case.text.map_or_else(|| scenes::text(case.scene), |text| text.as_bytes().to_vec());
     let scene = recolored(scenes::parse(&text));
@@ -73,7 +73,7 @@ fn check(case: Case) -> Result<(), String> {
     Err(format!("{summary}; see {} and {}", ours.display(), theirs.display()))
 }
 
-/// Checks all cases before it fails.
+/// Checks all cases, and then fails with all errors.
 #[track_caller]
 fn check_all(cases: impl IntoIterator<Item = Case>) {
     let failures: Vec<String> = cases.into_iter().filter_map(|case| check(case).err()).collect();
@@ -127,9 +127,9 @@ fn traffic_is_seen_from_a_car() {
     check_all([Case { camera: Some(aside), ..Case::new("traffic") }]);
 }
 
-/// Where plates of different velocity cut through each other, the later emission is seen, (P22).
+/// Where plates of different velocity intersect, the later emission is visible, (P22).
 #[test]
-fn moving_bodies_cut_through_each_other() {
+fn moving_bodies_intersect() {
     const PLATES: &str = "cam -ep 0 -1 0 -vc 0 6 0 -ud 0 0 1 -va 60 45;
         v a -3 4 -2; v b 3 8 -2; v c 3 8 2; v d -3 4 2; f (a b c d) <0.7 0 0>;
         v e -3 8 -2; v f 3 4 -2; v g 3 4 2; v h -3 8 2; f (e f g h) <-0.5 0.3 0>;
@@ -143,9 +143,9 @@ fn moving_bodies_cut_through_each_other() {
     }));
 }
 
-/// A reduced form of what `cargo xtask geometry` measures.
+/// A reduced form of `cargo xtask geometry`.
 #[test]
-fn outlines_are_right_to_the_bound() {
+fn outline_errors_are_within_the_bound() {
     for (name, in_place, beta) in [
         ("cubes", true, DVec3::new(0.9, 0.0, 0.0)),
         ("sphere", true, DVec3::new(0.0, -0.9, 0.0)),
@@ -178,8 +178,8 @@ fn outlines_are_right_to_the_bound() {
     }
 }
 
-/// A post before two walls that meet a tenth of a pixel beside one of its edges: whatever is drawn aside by half a pixel explains
-/// that either wall shows there, and nothing explains what shows further inside the post, or through it.
+/// A post in front of two walls that meet a tenth of a pixel from one of its edges. Edges displaced by half a pixel
+/// explain that either wall is visible there, but not further inside the post or through it.
 #[test]
 fn edges_explain_what_they_can_and_no_more() {
     // 100 pixels across a film 2 wide: a pixel is a fiftieth of the distance.
@@ -195,18 +195,18 @@ fn edges_explain_what_they_can_and_no_more() {
         let wrong = Wrong { pixel: [x, 50], is_at_boundary: true, shown: Ok(shown), expected: Some(0) };
         are_edges_near(&oracle, &camera, &wrong, reach, 1e-4)
     };
-    // The post ends at 52.0 and the walls meet at 52.1; the middle of pixel 51 is half a pixel inside.
+    // The post ends at 52.0 and the walls meet at 52.1; the centre of pixel 51 is half a pixel inside.
     assert_eq!(oracle.faces(&[camera.direction(51.5, 50.5)]), [Some(0)]);
     assert!(is_explained(51, Some(1), 0.65) && is_explained(51, Some(2), 0.65));
-    assert!(!is_explained(51, Some(2), 0.55), "the walls meet further off");
-    assert!(!is_explained(51, Some(3), 0.65), "it has no edge here, and the walls hide it");
+    assert!(!is_explained(51, Some(2), 0.55), "the walls meet farther away");
+    assert!(!is_explained(51, Some(3), 0.65), "it has no edge here, and the walls occlude it");
     assert!(!is_explained(51, None, 0.65) && !is_explained(50, Some(2), 0.65));
 }
 
-/// Below a long edge two faces that have it in common with the upper one, a corner more, and one that has not: slits are there, and
-/// neither beside it, nor where both have the same corners, nor round a corner.
+/// A long edge of the upper face coincides with shorter edges of faces below it. Slits are possible there, but not next to
+/// the edge, nor where both sides have the same vertices, nor around a corner.
 #[test]
-fn slits_are_where_edges_have_other_corners() {
+fn slits_are_where_edges_have_different_vertices() {
     const SCENE: &str = "cam -ep 0 0 0 -vc 0 9 0 -ud 0 0 1 -va 90 90;
         v a -8 10 0; v b 0 10 0; v c 4 10 0; v d 8 10 0; v e -8 10 8; v f 0 10 8; v g 8 10 8;
         v h -8 10 -8; v i 0 10 -8; v j 4 10 -8; v k 8 10 -8;
@@ -220,7 +220,10 @@ fn slits_are_where_edges_have_other_corners() {
         assert!(expected.is_some());
         is_at_slit(&oracle, &camera, &wrong, 0.6)
     };
-    assert!(is_slit(60, 50) && is_slit(60, 49) && is_slit(80, 50), "along the edge of 8 beside edges of 4");
+    assert!(
+        is_slit(60, 50) && is_slit(60, 49) && is_slit(80, 50),
+        "along the edge of length 8 next to edges of length 4"
+    );
     assert!(!is_slit(60, 51) && !is_slit(30, 50) && !is_slit(30, 49) && !is_slit(70, 60));
-    assert!(!is_slit(49, 50), "this face has all its corners in common with the others");
+    assert!(!is_slit(49, 50), "this face shares all its vertices with the others");
 }

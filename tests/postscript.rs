@@ -1,4 +1,4 @@
-//! PostScript, as Ghostscript sees it: the same pixels as the PNG.
+//! PostScript rendered by Ghostscript has the same pixels as the PNG.
 //!
 //! Without `gs` on the path the test is skipped, unless `UG_REQUIRE_TOOLS=1`.
 
@@ -18,7 +18,7 @@ use ugtests::tools::{self, Tool};
 
 const GHOSTSCRIPT: Tool<'_> = ("gs", "--version", "ghostscript");
 
-/// Renders PostScript at one pixel a point. EPS pages are cut to their box; others set their size.
+/// Renders PostScript at one pixel per point. EPS pages are cropped to their bounding box; others set their size.
 fn ghostscript(file: &[u8]) -> Picture {
     let folder = tempfile::tempdir().unwrap();
     let (input, output) = (folder.path().join("in.ps"), folder.path().join("out.png"));
@@ -43,7 +43,7 @@ fn grey(picture: &Picture) -> Picture {
     grey
 }
 
-/// Pictures laid on white, in linear light.
+/// Composes pictures on white, in linear light.
 fn on_white(picture: &Picture) -> Picture {
     let mut flat = picture.clone();
     for Rgba([r, g, b, alpha]) in flat.pixels_mut() {

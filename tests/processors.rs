@@ -1,7 +1,7 @@
-//! The same bytes from processors that know other instructions: the programs run on emulated ones.
+//! Processors with other instruction sets give the same bytes: runs the programs on emulated ones.
 //!
-//! Without `qemu-x86_64` on the path the test is skipped, unless `UG_REQUIRE_TOOLS=1`. It is for x86-64 and Linux, where
-//! the emulator runs single programs of its host's own kind.
+//! Without `qemu-x86_64` on the path the test is skipped, unless `UG_REQUIRE_TOOLS=1`. It requires x86-64 and Linux, where
+//! the emulator can run single programs built for the host.
 
 #![cfg(all(target_arch = "x86_64", target_os = "linux"))]
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
@@ -12,7 +12,7 @@ use std::process::Command;
 use rayon::prelude::*;
 use ugtests::{programs, scenes, tools};
 
-/// The programs as shell functions of those names. `$1` is their folder, `$2` what runs them.
+/// The programs as shell functions of the same names. `$1` is their folder, `$2` the emulator command.
 const FUNCTIONS: &str = r#"
     programs=$1 processor=$2
     uglorentz() { $processor "$programs/uglorentz" -qt "$@"; }
@@ -20,7 +20,7 @@ const FUNCTIONS: &str = r#"
     ugrainbow() { $processor "$programs/ugrainbow" -qt -sz 160 120 "$@"; }
 "#;
 
-/// Ways through the programs that take other loops, and the scene of each.
+/// Pipes that use different loops of the programs, and a scene for each.
 const PIPES: [(&str, &str); 11] = [
     ("ship", "uglorentz -vel .3 -.2 0 -in | ugdoppler | ugrainbow"),
     ("ship", "uglorentz -vel .6 0 0 -in | ugdoppler | ugrainbow -vec -dt pdf"),
@@ -38,7 +38,7 @@ const PIPES: [(&str, &str); 11] = [
     ("sphere", "uglorentz -vel .99 0 0 -in -og | ugdoppler -ct 0 | ugrainbow -dt eps"),
 ];
 
-/// What is written on a processor of this name, or on that of this machine.
+/// The output on an emulated processor, or on that of this machine.
 fn written(scene: &str, pipe: &str, programs: &Path, processor: Option<&str>) -> Vec<u8> {
     let text = std::fs::File::open(scenes::root().join("scenes").join(format!("{scene}.ug"))).unwrap();
     let mut shell = Command::new("sh");
@@ -50,7 +50,7 @@ fn written(scene: &str, pipe: &str, programs: &Path, processor: Option<&str>) ->
     output.stdout
 }
 
-/// Conroe has SSE up to SSSE3, Nehalem up to 4.2; `max` is all that is emulated, with AVX2 and FMA.
+/// Conroe has SSE up to SSSE3, Nehalem up to 4.2; `max` has everything that is emulated, including AVX2 and FMA.
 #[test]
 fn bytes_do_not_depend_on_the_processor() {
     if !tools::has(&[("qemu-x86_64", "--version", "qemu-user")]) {

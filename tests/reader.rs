@@ -1,5 +1,5 @@
-//! The reader of scenes against a slow one that was written from the language document, see
-//! [`ugtests::slow_reader`]; and on two threads against itself on one.
+//! Compares the reader of scenes with a slow, independent one that was written from the language page (see
+//! [`ugtests::slow_reader`]), and its results on several threads with those on one.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
@@ -12,11 +12,11 @@ use ugphysics::Velocity;
 use ugtests::scenes;
 use ugtests::slow_reader::{self, Camera, Face, Flat, Light, Paint, Triple, Vertex, Wire};
 
-/// Relative to the largest coordinate: the two multiply matrices in different orders, which costs a few
-/// roundings for each transformation.
+/// Relative to the largest coordinate: the two readers multiply matrices in different orders, which causes a few
+/// rounding errors per transformation.
 const TOLERANCE: f64 = 1e-12;
 
-/// A scene in the words of the slow reader.
+/// Converts a scene to the types of the slow reader.
 fn flat(scene: &Scene) -> Flat {
     let text = |id: NameId| scene.names.get(id).to_string();
     let name = |id: Option<NameId>| id.map(text);
@@ -105,7 +105,8 @@ fn camera_options(camera: &ugparse::Camera) -> BTreeMap<String, Vec<f64>> {
     options.into_iter().filter_map(given).collect()
 }
 
-/// Compares lists row by row, each with its places and directions taken out first.
+/// Compares lists row by row: `take` removes positions and directions, which are compared with a tolerance; the rest
+/// must be equal.
 #[track_caller]
 fn assert_rows<T: Clone + Debug + PartialEq>(ours: &[T], slow: &[T], take: impl Fn(&mut T) -> Vec<f64>) {
     let size = slow.iter().flat_map(|row| take(&mut row.clone())).fold(0.0, |size: f64, x| size.max(x.abs()));
@@ -119,12 +120,12 @@ fn assert_rows<T: Clone + Debug + PartialEq>(ours: &[T], slow: &[T], take: impl 
     assert_eq!(ours.len(), slow.len(), "rows");
 }
 
-/// Takes a place or direction, and leaves whether there was one.
+/// Takes out the numbers of a position or direction, if there is one.
 fn take_triple(triple: &mut Option<Triple>) -> Vec<f64> {
     triple.as_mut().map_or_else(Vec::new, |triple| std::mem::take(triple).to_vec())
 }
 
-/// Asserts that the two readers read the same.
+/// Asserts that both readers give the same scene.
 #[track_caller]
 fn check(text: &str) -> Flat {
     let slow = slow_reader::read(text);
@@ -147,7 +148,7 @@ fn check(text: &str) -> Flat {
 }
 
 #[test]
-fn our_scenes_are_read_alike() {
+fn both_readers_agree_on_our_scenes() {
     let names = scenes::names();
     assert!(names.len() >= 9, "{} scenes", names.len());
     for name in names {
@@ -224,13 +225,13 @@ v car:a 1 2 3 ;
 ";
 
 #[test]
-fn every_statement_is_read_alike() {
+fn both_readers_agree_on_every_statement() {
     let slow = check(ALL);
     assert!(slow.faces.len() > 200 && slow.lights.len() > 15 && slow.cameras.len() > 10, "{slow:?}");
 }
 
-// Random scenes. A strategy makes a tree of statements whose names are numbers; `Writer` turns these into
-// names that are seen where they stand.
+// Random scenes. A strategy generates a tree of statements whose names are numbers; `Writer` converts these to names
+// that are visible in their scope.
 
 /// A statement of a random scene.
 #[derive(Clone, Debug)]
@@ -281,7 +282,7 @@ enum Statement {
     Definition(Vec<Statement>),
 }
 
-/// What a face says of its light; a surface only behind a colour.
+/// The light level or surface of a face; a surface requires a colour.
 #[derive(Clone, Copy, Debug)]
 enum Illum {
     None,
@@ -296,7 +297,7 @@ fn number() -> impl Strategy<Value = f64> {
     prop_oneof![(-5..=5i32).prop_map(f64::from), -10.0..10.0]
 }
 
-/// Three numbers of which none is 0.
+/// Three numbers, none of them 0.
 fn direction() -> impl Strategy<Value = [f64; 3]> {
     prop::array::uniform3(prop_oneof![0.1..3.0, -3.0..-0.1])
 }
@@ -317,7 +318,7 @@ fn words(numbers: &[f64]) -> String {
     numbers.iter().map(|number| format!(" {number}")).collect()
 }
 
-/// Transformations, none of which flattens anything.
+/// Transformations, none of them singular.
 fn transformations() -> impl Strategy<Value = Vec<String>> {
     let axis = prop::sample::select(vec!['x', 'y', 'z']);
     let degrees = prop_oneof![(-5..=5i32).prop_map(|turns| 90.0 * f64::from(turns)), -400.0..400.0];
@@ -459,13 +460,13 @@ fn scope(depth: usize) -> BoxedStrategy<Vec<Statement>> {
     all.prop_shuffle().boxed()
 }
 
-/// How words are set.
+/// The layout of words in the text.
 #[derive(Clone, Copy, Debug)]
 enum Layout {
     Lines,
     /// A comment or line end before each word.
     Comments,
-    /// No blank where none is needed.
+    /// No blanks except where they are required.
     Tight,
 }
 
@@ -474,7 +475,7 @@ struct Level {
     n_colors: usize,
     n_surfaces: usize,
     n_definitions: usize,
-    /// Number of definitions that have begun.
+    /// Number of definitions begun so far.
     n_begun: usize,
 }
 
@@ -482,7 +483,7 @@ struct Level {
 struct Writer {
     words: Vec<String>,
     levels: Vec<Level>,
-    /// Whether definitions use those behind them, or those before: either way none contains itself.
+    /// Do definitions use later ones, or earlier ones? Either way none contains itself.
     uses_later: bool,
 }
 
@@ -497,7 +498,7 @@ impl Writer {
         }
     }
 
-    /// False if there is none to be seen.
+    /// Returns false if no colour is visible.
     fn color(&mut self, color: Option<usize>) -> bool {
         let n_seen = self.levels.iter().map(|level| level.n_colors).max().unwrap();
         let color = color.filter(|_| n_seen > 0);
@@ -523,7 +524,7 @@ impl Writer {
         self.word(";");
     }
 
-    /// The names may repeat, but are never those that are made when others do.
+    /// Names may repeat, but never equal those that the reader generates for repeated names.
     fn name(&mut self, name: Option<usize>) {
         if let Some(name) = name {
             self.word(["i", "a", "box", "box", "_b:x", "end", "f", "x#1", "box"][name]);
@@ -538,7 +539,7 @@ impl Writer {
         }
     }
 
-    /// The definitions that may be placed here.
+    /// The definitions that may be instantiated here.
     fn usable(&self) -> Vec<usize> {
         let innermost = self.levels.len() - 1;
         let mut n_hidden = 0;
@@ -683,7 +684,7 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: 400, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
-    fn random_scenes_are_read_alike(
+    fn both_readers_agree_on_random_scenes(
         statements in scope(3),
         uses_later in any::<bool>(),
         layout in prop::sample::select(vec![Layout::Lines, Layout::Comments, Layout::Tight]),
@@ -694,7 +695,7 @@ proptest! {
     }
 }
 
-/// A scene of several MB, long enough to be read in parts.
+/// A scene of several MB, long enough to be read in parallel.
 fn long_text() -> String {
     let mut text = String::from("{ long }\n");
     for n in 0..20_000 {
@@ -727,6 +728,6 @@ fn threads_do_not_change_a_long_scene() {
     for n_threads in [2, 3] {
         assert!(on(n_threads) == one, "{n_threads} threads");
     }
-    // And what they agree on is right.
+    // The common result is correct.
     check(&text);
 }

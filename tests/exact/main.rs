@@ -1,5 +1,5 @@
-//! Pictures drawn by rays (`ugrainbow -xc`): every sample against the oracle, which finds it with 4×4 matrices
-//! in the scene as it was written, and against the formulas of `ugphysics`.
+//! Compares every sample of exact pictures (`ugrainbow -xc`) with the oracle, which uses 4×4 matrices and the scene as
+//! written, and with the formulas of `ugphysics`.
 
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test fails by panicking")]
 
@@ -16,7 +16,7 @@ use ugrainbow::{Channel, Exact, Output};
 use ugtests::pipe::{Pipe, lorentz, rainbow};
 
 const SIZE: [u32; 2] = [96, 72];
-/// The pipe of an exact picture: nothing is cut.
+/// The pipe of an exact picture, without subdivision.
 fn exact(beta: Option<DVec3>) -> Pipe {
     let mut pipe = Pipe::default();
     pipe.lorentz.velocity = beta;
@@ -27,7 +27,7 @@ fn exact(beta: Option<DVec3>) -> Pipe {
     pipe
 }
 
-/// The channels of the picture, pixel by pixel.
+/// The channels of the picture.
 fn channels(pipe: &Pipe, text: &[u8]) -> BTreeMap<String, Vec<f64>> {
     let mut pipe = pipe.clone();
     pipe.rainbow.output = Output::Color(Format::Exr);
@@ -49,6 +49,6 @@ fn channels(pipe: &Pipe, text: &[u8]) -> BTreeMap<String, Vec<f64>> {
     .collect()
 }
 
-/// A square that fills the picture and comes with a velocity across and toward the eye.
+/// A square that fills the picture and moves sideways and towards the eye.
 const SQUARE: &str = "c green .9 130 .8; l .2; l .7 1 -2 .5; cam -ep 0 0 0 -vc 0 9 0 -va 60 50;
     v a -40 9 -40; v b 40 9 -40; v c 40 9 40; v d -40 9 40; f (a b c d) green <.2 -.1 0>;";

@@ -1,4 +1,4 @@
-//! What does not show in exact pictures, what is refused, and what is said.
+//! Exact pictures: independence of threads, refused input, and notes.
 
 use glam::DVec3;
 use ugrainbow::Exact;
@@ -8,7 +8,7 @@ use ugtests::scenes;
 use crate::{SQUARE, exact};
 
 #[test]
-fn threads_and_tiles_do_not_show() {
+fn threads_do_not_change_the_picture() {
     let text = scenes::text("street");
     let mut pipe = exact(Some(0.9 * DVec3::NEG_Y));
     pipe.rainbow.samples = 3;
@@ -21,7 +21,7 @@ fn threads_and_tiles_do_not_show() {
 }
 
 #[test]
-fn what_rays_cannot_find_is_refused() {
+fn unsupported_scenes_are_refused() {
     let refusal = |pipe: &Pipe, text: &[u8]| {
         let source = ugparse::Source::new("test.ug", text);
         ugrainbow::run(&pipe.rainbow, &source).err().map(|error| error.to_string())
@@ -46,9 +46,9 @@ fn what_rays_cannot_find_is_refused() {
     assert!(refusal(&pipe, &seen).unwrap().contains("orthographic"));
 }
 
-/// Lights that move are not followed, and the note says what does.
+/// Motion of lights is ignored, with a note that names the program that supports it.
 #[test]
-fn of_lights_that_move_there_is_a_note() {
+fn moving_lights_cause_a_note() {
     let notes = |text: &str| {
         let (_, notes) = ugrainbow::render(&scenes::parse(text.as_bytes()), &exact(None).rainbow).unwrap();
         notes.join("; ")
@@ -56,7 +56,7 @@ fn of_lights_that_move_there_is_a_note() {
     assert_eq!(notes(SQUARE), "");
     let moving = notes(&SQUARE.replace("l .7 1 -2 .5;", "l .7 1 -2 .5 <0 .5 0>;"));
     assert!(moving.contains("leave out -xc") && moving.contains("ugdoppler -li"), "{moving}");
-    // At rest a spectrum is as it is: there is nothing to say.
+    // At rest a spectrum is not shifted, so there is no note.
     let glowing = SQUARE.replace("c green .9 130 .8;", "c_bb green 5000;").replace("<.2 -.1 0>", "");
     assert!(!notes(&glowing).contains("ugdoppler"), "{}", notes(&glowing));
 }

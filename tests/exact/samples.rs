@@ -1,4 +1,4 @@
-//! Every sample against the oracle and the formulas.
+//! Compares every sample with the oracle and the formulas.
 
 use glam::DVec3;
 use ugparse::{Face, Scene, VertexId};
@@ -15,13 +15,13 @@ use crate::{SIZE, SQUARE, channels, exact};
 
 const SPEEDS: [f64; 4] = [0.3, 0.9, 0.99, 0.999];
 
-/// Depth keys are single precision numbers.
+/// Depth is compared in single precision.
 const SINGLE: f64 = 2e-7;
 
-/// Hues are single precision numbers, and their attenuation comes from a table.
+/// Hues are in single precision, and their attenuation comes from a table.
 const LIGHT: f64 = 1e-5;
 
-/// A sample may show another face than the oracle's only where another is as near, or next to it to rounding.
+/// A sample may show another face than the oracle's only if that face is equally near, or adjacent up to rounding.
 fn is_on_boundary(oracle: &Oracle, camera: &Pinhole, [x, y]: [f64; 2], face: Option<usize>) -> bool {
     const NEXT: f64 = 1e-7;
     let steps = [-NEXT, 0.0, NEXT];
@@ -35,24 +35,24 @@ fn is_on_boundary(oracle: &Oracle, camera: &Pinhole, [x, y]: [f64; 2], face: Opt
     })
 }
 
-/// The scene with its faces in triangles: on a face that is not quite flat an outline seen from the eye and
-/// one in a mean plane differ by as much.
+/// The scene with its faces triangulated, because the outline of a face that is not quite flat differs from the outline in
+/// its mean plane.
 fn triangles(mut scene: Scene) -> Scene {
     for face in std::mem::take(&mut scene.faces) {
         let rings: Vec<Vec<VertexId>> = scene.face_contours(&face).map(<[VertexId]>::to_vec).collect();
-        let places =
+        let positions =
             |ring: &Vec<VertexId>| ring.iter().map(|id| scene.vertices[id.index()].position).collect();
-        let places: Vec<Vec<DVec3>> = rings.iter().map(places).collect();
+        let positions: Vec<Vec<DVec3>> = rings.iter().map(positions).collect();
         let corners = rings.concat();
         let is_flat =
-            ugparse::newell_normal(places[0].iter().copied()).try_normalize().is_some_and(|normal| {
-                places.concat().iter().all(|p| normal.dot(*p - places[0][0]).abs() < 1e-12)
+            ugparse::newell_normal(positions[0].iter().copied()).try_normalize().is_some_and(|normal| {
+                positions.concat().iter().all(|p| normal.dot(*p - positions[0][0]).abs() < 1e-12)
             });
         if is_flat {
             scene.faces.push(face);
             continue;
         }
-        let cut = ugscene::triangulate(&places).unwrap();
+        let cut = ugscene::triangulate(&positions).unwrap();
         let cut = cut.iter().map(|triangle| triangle.map(|corner| corners[corner as usize]));
         for row in scene.contours.push_all(cut) {
             scene.faces.push(Face { contours: row..row + 1, ..face.clone() });
@@ -61,7 +61,7 @@ fn triangles(mut scene: Scene) -> Scene {
     scene
 }
 
-/// A scene, and how it and the camera move.
+/// A scene, and the motions of its bodies and the camera.
 #[derive(Clone, Copy)]
 struct Case {
     scene: &'static str,
@@ -100,12 +100,12 @@ impl Case {
     }
 }
 
-/// Every sample that is not on a boundary shows the face, distance, D, hue and light that the oracle finds.
+/// Checks that every sample not on a boundary shows the face, distance, D, hue and light that the oracle computes.
 #[track_caller]
 fn check(case: Case) {
     let name = case.name();
     let mut scene = triangles(scenes::parse(&scenes::text(case.scene)));
-    // The oracle knows no wires, and places bodies by their faces.
+    // The oracle does not support wires, and places bodies by their faces.
     scene.wires.clear();
     let mut pipe = exact(case.beta);
     pipe.lorentz.in_place = case.in_place;
@@ -127,7 +127,7 @@ fn check(case: Case) {
         if face != expected {
             assert!(
                 is_on_boundary(&oracle, &camera, [x, y], face),
-                "{name} at {x}, {y}: face {face:?} in place of {expected:?}"
+                "{name} at {x}, {y}: face {face:?} instead of {expected:?}"
             );
             n_boundary += 1;
             continue;
@@ -173,7 +173,7 @@ fn street_is_exact() {
 
 #[test]
 fn lattice_is_exact() {
-    // From its middle many samples would look exactly at edges.
+    // From the exact centre, many samples would hit edges.
     let eye = Some(DVec3::new(0.013, 0.0, 0.007));
     SPEEDS.into_iter().for_each(|speed| check(Case { eye, ..Case::moving("lattice", speed * DVec3::NEG_Y) }));
 }
@@ -195,7 +195,7 @@ fn grid_is_exact() {
     SPEEDS.into_iter().for_each(|speed| check(Case::in_place("grid", speed * DVec3::new(0.6, 0.0, 0.8))));
 }
 
-/// Black bodies in it are not for hues.
+/// The tunnel's black bodies have no hues, so only the shape is checked.
 #[test]
 fn tunnel_is_exact() {
     let exact = Exact::NONE;
@@ -222,7 +222,7 @@ fn bodies_of_several_velocities_are_exact() {
     check(Case::new("lamp"));
 }
 
-/// Houses, cars and the camera are in four frames.
+/// Houses, cars and the camera have four rest frames.
 #[test]
 fn traffic_is_exact_for_a_camera_that_moves() {
     SPEEDS

@@ -1,4 +1,4 @@
-//! `-cull` leaves out what cannot be seen, and nothing else.
+//! `-cull` omits invisible faces, and no others.
 
 use glam::DVec3;
 use ugparse::Source;
@@ -9,7 +9,7 @@ use ugtests::scenes;
 
 const SIZE: [u32; 2] = [160, 120];
 
-/// How many faces were left out, after the picture has been found the same.
+/// Checks that culling does not change the picture, and returns the number of culled faces.
 fn culled(name: &str, scene: &str, pipe: &Pipe) -> usize {
     let text = scenes::text(scene);
     let whole = pipe.draw(&text);
@@ -69,7 +69,7 @@ fn pictures_stay_the_same_to_the_pixel() {
             }
         }
     }
-    // There are 5434 faces in all, drawn 15 times.
+    // There are 5434 faces in total, drawn 15 times.
     assert!(n_culled > 5434 * 15 / 3, "{n_culled}");
 }
 
@@ -98,7 +98,7 @@ fn teaching_switches_are_culled_right() {
     assert!(n_culled > 500, "{n_culled}");
 }
 
-/// A face in whose middle one looks, with all corners and edges out of the picture.
+/// The camera looks at the middle of a large face, whose corners and edges are outside the picture.
 #[test]
 fn large_faces_are_not_lost() {
     let tile = b"v a -9 2 -9; v b 9 2 -9; v c 9 2 9; v d -9 2 9; f (a b c d); l 1; cam -vc 0 1 0 -va 2 2;";
@@ -120,7 +120,7 @@ fn where_the_camera_looks_must_be_known() {
         error.to_string(),
         "-cull does not know where the camera looks: give the view centre with -vc, or in the `cam` statement of the scene"
     );
-    // Behind the camera there is everything; one face is kept, for a scene without any is no scene.
+    // Everything is behind the camera; one face is kept, because a scene without faces is invalid.
     let camera = CameraOptions { center: Some(DVec3::NEG_ONE), ..Default::default() };
     let report = uglorentz::run(&uglorentz::Config { camera, ..config }, &source).unwrap();
     assert_eq!((report.scene.faces.len(), report.notes.n_culled), (1, 0));

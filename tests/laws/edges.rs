@@ -1,4 +1,4 @@
-//! Edges drawn as lines do not tell how a scene was cut, nor how it was drawn.
+//! Edges drawn as lines depend neither on the subdivision of faces nor on the drawing mode.
 
 use glam::DVec3;
 use ugphysics::Hsv;
@@ -26,7 +26,7 @@ fn cube() -> String {
     text + "cam -ep 1 -7 4 -vc 0 0 0 -va 40 40;"
 }
 
-/// As seen at 0.9c, with edges cut into so many pieces, drawn in this way.
+/// Draws the cube at 0.9c, with edges cut into `n_pieces`.
 fn drawn(n_pieces: u32, config: &Config) -> Picture {
     let cut = uglorentz::Config {
         velocity: Some(0.9 * DVec3::X),
@@ -37,7 +37,7 @@ fn drawn(n_pieces: u32, config: &Config) -> Picture {
     decode(&rainbow(&lorentz(cube().as_bytes(), &cut), config))
 }
 
-/// How many pixels are lit in the first, and how many differ much.
+/// The number of lit pixels in the first picture, and of those that differ much.
 fn compared(one: &Picture, other: &Picture) -> (usize, usize) {
     let n_lit = one.pixels().filter(|pixel| pixel[0] > 128).count();
     let differs = |(a, b): &(&image::Rgba<u8>, &image::Rgba<u8>)| a[0].abs_diff(b[0]) > 90;
@@ -56,7 +56,7 @@ fn edges() -> Config {
 
 #[test]
 fn the_edges_of_a_cut_face_are_those_it_had() {
-    // Pieces are straight, so finer ones are near the coarser; a cut drawn would light every pixel of some rows.
+    // Finer pieces are close to coarser ones; if cuts were drawn, they would light every pixel of some rows.
     let (n_lit, n_different) = compared(&drawn(16, &edges()), &drawn(32, &edges()));
     assert!(n_lit > 400 && n_lit < 2400 && n_different * 50 < n_lit, "{n_different} of {n_lit}");
 }

@@ -1,4 +1,4 @@
-//! Places and colours that come out of the pipe's text, against the papers' formulas at 200 bits.
+//! Compares positions and colours in the text of the pipe with the papers' formulas at 200 bits.
 
 use dashu_float::FBig;
 use dashu_float::round::mode::HalfEven;
@@ -13,7 +13,7 @@ use crate::{color_of, named, triangles};
 type Big = FBig<HalfEven, 2>;
 type BigVector = [Big; 3];
 
-/// Exactly `x`.
+/// `x`, converted exactly.
 fn big(x: f64) -> Big {
     Big::try_from(x).unwrap().with_precision(200).value()
 }
@@ -43,7 +43,7 @@ impl Motion {
         Self { beta, rest }
     }
 
-    /// (P1) and then (P2), as the report has them.
+    /// (P1) and then (P2), as in the report.
     fn seen(&self, p: &BigVector) -> BigVector {
         let square = big(1.0) - &self.rest;
         if square == big(0.0) {
@@ -56,7 +56,7 @@ impl Motion {
         add_scaled(&now, &((approach - root) / &self.rest), &self.beta)
     }
 
-    /// (P10) for what is seen at `p`: n = −p/|p|.
+    /// (P10) for a point seen at `p`: n = −p/|p|.
     fn doppler(&self, p: &BigVector) -> Big {
         self.rest.sqrt() / (big(1.0) + dot(p, &self.beta) / dot(p, p).sqrt())
     }
@@ -79,9 +79,9 @@ fn speeds() -> impl Iterator<Item = f64> {
 }
 
 #[test]
-fn vertices_are_where_p3_says_and_shine_as_p10_says() {
-    /// Relative to the distance from the eye. Near the speed of light what is seen is up to γ = 707 times as
-    /// sensitive as the numbers it comes from are exact.
+fn vertices_have_positions_by_p3_and_doppler_factors_by_p10() {
+    /// Relative to the distance from the eye. Near the speed of light, rounding errors of the input are amplified by
+    /// up to γ = 707.
     const TOLERANCE: f64 = 1e-12;
     /// Hue 120, (P16).
     const GREEN_NM: f64 = 546.1;

@@ -1,4 +1,4 @@
-//! Light put into colours by `ugdoppler -li`, against `ugrainbow`'s own lighting and against numbers.
+//! Compares the lighting by `ugdoppler -li` with that of `ugrainbow` and with known numbers.
 
 use glam::DVec3;
 use ugdoppler::Config;
@@ -13,8 +13,8 @@ fn lit() -> Config {
     Config { light: true, tolerance: 0.0, ..Config::default() }
 }
 
-/// Walls, flat and smooth, seen from both sides, a face that shines, wires, and lights of all kinds:
-/// ambient, directional, local, coloured.
+/// Flat and smooth walls, seen from both sides, a face with a light level, wires, and lights of all kinds: ambient,
+/// directional, local, coloured.
 const ROOM: &str = "c red 0.8 10 0.7; c blue 0.9 220 0.6; c warm 1 30 0.5; c cool 0.8 200;
     v a -2 6 -1; v b 0 7 -1; v c 0 7 1; v d -2 6 1; v e 2 6 -1; v f 2 6 1;
     v n -1 5 -2 0.1 -1 0.2; v o 1 5 -2 -0.1 -1 0.2; v p 1 5 -1 0.1 -1 0.6; v q -1 5 -1 0 1 -0.6;
@@ -30,13 +30,13 @@ fn room(lights: &str) -> Vec<u8> {
 const LIGHTS: &str =
     "l 0.2; l 0.3 warm; l 0.3 -1 -2 1; l 0.3 2 -1 0.5 cool; l 0.4 1 3 2 0.1 warm; l 0.3 -2 4 0;";
 
-/// The same lights, all with a velocity.
+/// [`LIGHTS`], all with a velocity.
 fn with_velocity(velocity: &str) -> String {
     LIGHTS.replace(';', &format!(" {velocity};"))
 }
 
 #[test]
-fn light_at_rest_in_the_colours_is_light_at_rest_in_the_picture() {
+fn lighting_at_rest_equals_that_of_ugrainbow() {
     let mut pipe = Pipe::default();
     pipe.rainbow.size = [160, 120];
     let check = |name: &str, text: &[u8], levels: u8| {
@@ -47,7 +47,7 @@ fn light_at_rest_in_the_colours_is_light_at_rest_in_the_picture() {
     for name in ["cubes", "teapot", "ship", "street", "halves"] {
         check(name, &scenes::text(name), 1);
     }
-    // Coloured light: levels of red, green and blue are interpolated apart there, hue and saturation here.
+    // With coloured light, `ugrainbow` interpolates levels of red, green and blue, and `ugdoppler` hue and saturation.
     check("white-room", &room("l 0.2; l 0.3 -1 -2 1; l 0.4 1 3 2 0.1;"), 1);
     check("room", &room(LIGHTS), 12);
 }
@@ -65,7 +65,7 @@ fn light_at_rest_in_a_moving_body_moves_along() {
     }
 }
 
-/// Standing still is a velocity like others; and nearly standing still is nearly that.
+/// The velocity 0 gives the same as no velocity, and a small velocity nearly the same.
 #[test]
 fn rest_is_the_limit_of_slow_lights() {
     let still = numbers(&doppler(&room(LIGHTS), &lit()));
@@ -73,17 +73,17 @@ fn rest_is_the_limit_of_slow_lights() {
     for speed in [1e-3, 1e-5, 1e-7] {
         let slow = numbers(&doppler(&room(&with_velocity(&format!("<{speed} 0 {speed}>"))), &lit()));
         for ((name, slow), (_, still)) in slow.iter().zip(&still) {
-            // Of the ambient light 10⁻³ may be lost to summing over its directions.
+            // The integral of ambient light over directions has an error of up to 10⁻³.
             let off = (0..3).map(|part| (slow[part] - still[part]).abs()).fold(0.0, f64::max);
             assert!(off < 20.0 * speed + 1e-3, "{name} at {speed}: {slow:?}, {still:?}");
         }
     }
 }
 
-/// A mirror of the formulas: one white face, facing the light and the eye, each straight ahead or straight behind.
+/// A face that faces the light and the eye, all on one line: D and D_l are powers of 2.
 #[test]
 fn both_factors_shift_and_dim() {
-    // β = 0.6 is D = 2 towards and 0.5 away; (P15) gives 15/17 for the two against each other, D_l = 4.
+    // β = 0.6 gives D = 2 approaching and 0.5 receding; for opposite motions (P15) gives 15/17, so D_l = 4.
     let face = "c green 0.1 120; v a 9 0 -1e-9; v b 9 1e-9 0; v c 9 -1e-9 0; f (a b c) green";
     for (body, light, d, d_light) in [
         ("<0.6 0 0>", "<0 0 0>", 0.5, 0.5),
@@ -106,7 +106,7 @@ fn both_factors_shift_and_dim() {
                 let scene = scenes::parse(&doppler(text.as_bytes(), &config));
                 let (wavelength, value) = wavelength_and_value(&scene);
                 assert!((wavelength - 546.1 / (d * d_light)).abs() < 1e-5, "{text}: {wavelength}");
-                // The iris makes it 1, and says what it was.
+                // The iris scales the value to 1.
                 assert!((value - 1.0).abs() < 1e-12);
                 let dim = Config { iris: false, ..config };
                 let value = wavelength_and_value(&scenes::parse(&doppler(text.as_bytes(), &dim))).1;
@@ -124,7 +124,7 @@ fn wavelength_and_value(scene: &Scene) -> (f64, f64) {
     }
 }
 
-/// A lamp flies over a floor: the floor lights up where the lamp was seen from there, not where it is.
+/// A lamp flies over a floor: the brightest point is below its retarded position, not below its present one.
 #[test]
 fn lamplight_lags() {
     let speed = 0.8;
@@ -146,9 +146,8 @@ fn lamplight_lags() {
     };
     let brightest = scene.vertices.iter().filter(|v| scene.names.get(v.name).starts_with('a'));
     let brightest = brightest.max_by(|a, b| bright(a).total_cmp(&bright(b))).expect("a vertex");
-    // Light that left the lamp at x_l overhead takes 3 to the floor, and |(x, 20, −5)| to the eye: n·l is largest
-    // right below where it shone, x = v t with t = −√(x² + 20² + 5²) − 3. That the floor moves in no way leaves it
-    // to x alone.
+    // Light emitted directly above needs the time 3 to the floor and |(x, 20, −5)| to the eye. n·l is largest directly
+    // below the emission event, x = v t with t = −√(x² + 20² + 5²) − 3.
     let lag = |x: f64| speed * (-(x * x + 425.0).sqrt() - 3.0) - x;
     let (mut low, mut high) = (-1000.0, 0.0);
     for _ in 0..100 {
@@ -159,9 +158,9 @@ fn lamplight_lags() {
     assert!(low < -25.0, "{low}");
 }
 
-/// How a moving light falls on a moving surface is a matter between the two: a camera that passes the eye at any
-/// velocity (`-cv`) sees the same light leave the same event, but for its own Doppler factor, which divides out
-/// against lights that rest with the surface.
+/// The illumination of a moving surface by a moving light does not depend on the camera. A camera with any velocity
+/// (`-cv`) sees the same events with another Doppler factor, which cancels in the ratio to lights that rest with the
+/// surface.
 #[test]
 fn the_camera_does_not_change_what_falls_on_a_surface() {
     let mut random = Random(19);
@@ -201,13 +200,13 @@ fn the_camera_does_not_change_what_falls_on_a_surface() {
             values(&moving, camera).iter().zip(values(&resting, camera)).map(|(a, b)| a / b).collect()
         };
         for (still, driven) in ratio(DVec3::ZERO).into_iter().zip(ratio(camera)) {
-            // Ambient light is a sum over rings of directions, whose places depend on how the axes lie.
+            // The integral of ambient light over rings of directions depends slightly on the axes.
             assert!((still / driven - 1.0).abs() < 1e-3, "case {case}: {still}, {driven}");
         }
     }
 }
 
-/// Without lights there is nothing to put in, and the renderer's own light stays.
+/// Without lights nothing changes, and the renderer uses its default lights.
 #[test]
 fn no_lights_no_change() {
     let text = room("");
@@ -231,7 +230,7 @@ fn numbers(text: &[u8]) -> Vec<(String, [f64; 3])> {
     scene.vertices.iter().map(of).collect()
 }
 
-/// What moves at all speeds stays finite.
+/// Colours stay finite at all speeds.
 #[test]
 fn no_speed_breaks_it() {
     for (body, light) in
@@ -247,7 +246,8 @@ fn no_speed_breaks_it() {
     }
 }
 
-/// White under a black body: Planck's law at D_l D T, times D_l⁻² for the solid angle of the lamp, (P13) and (P14).
+/// A white surface lit by a black body: Planck's law at D_l D T, times D_l⁻² for the solid angle of the lamp, (P13) and
+/// (P14).
 #[test]
 fn spectra_of_lights_pass_both_shifts() {
     let face = "v a 9 0 -1e-9; v b 9 1e-9 0; v c 9 -1e-9 0; f (a b c)";
@@ -270,7 +270,7 @@ fn spectra_of_lights_pass_both_shifts() {
     }
 }
 
-/// A lamp of daylight at rest, straight on, shows colours as they are.
+/// A lamp of daylight at rest, at normal incidence, does not change colours.
 #[test]
 fn full_daylight_shows_colours_as_they_are() {
     let text = "c_rgb brick 0.7 0.3 0.2; c_spd line 500 1 510 2 520 0; c_bb glow 3000 0.4;
@@ -292,7 +292,8 @@ fn full_daylight_shows_colours_as_they_are() {
     }
 }
 
-/// Four tiles under a lamp that flies by: cut for its light (`-sl`), the picture is that of many equal pieces.
+/// Four tiles under a lamp that flies by: subdivided for its light (`-sl`), the picture equals that of many uniform
+/// pieces.
 #[test]
 fn large_faces_get_the_vertices_that_their_light_needs() {
     let floor = "c grey 0.9; v a -12 -6 0; v b 0 -6 0; v c 12 -6 0; v d -12 0 0; v e 0 0 0; v f 12 0 0;
@@ -318,15 +319,15 @@ fn large_faces_get_the_vertices_that_their_light_needs() {
         let (n_lines, found) = draw(&uglorentz::Config { light_error: 0.02, ..base });
         let off =
             |picture| ugtests::picture::difference(&expected, picture).map_or(u8::MAX, |found| found.levels);
-        // Two percent of the light are five levels; D of the lamp makes some of them brighter.
+        // Two percent of the light are five levels, and more where D of the lamp is above 1.
         assert!(off(&found) <= 8, "{light}: {}", off(&found));
         assert!(off(&few) > 16, "{light}: {}", off(&few));
         assert!(n_lines < 6000, "{light}: {n_few} and {n_lines} lines");
     }
 }
 
-/// The same from a moving camera, which sees the floor bent, so the floor reaches beyond the picture: where outlines are off
-/// by a hair, a sample more or less is many levels.
+/// The same with a moving camera. The floor, whose edges look curved, extends beyond the picture, because one sample more or
+/// less at an outline would change many levels.
 #[test]
 fn the_camera_may_move_over_large_faces() {
     let floor = "c grey 0.9; v a -60 -8 0; v b 60 -8 0; v c 60 60 0; v d -60 60 0; f (a b c d) grey;
@@ -335,7 +336,7 @@ fn the_camera_may_move_over_large_faces() {
     pipe.rainbow.size = [80, 60];
     for camera in [DVec3::new(0.3, 0.2, 0.0), DVec3::new(0.0, 0.2, 0.0), DVec3::new(-0.3, 0.1, 0.1)] {
         let text = format!("{floor} l 0.1; l 0.3 3 -1 2 0 <0 0.3 0>; l 0.2 -6 2 3 0;").into_bytes();
-        // Coarse, so that the bent floor is not cut finely enough for its light anyway.
+        // Coarse, so that subdivision for the shape is not fine enough for the light.
         let base = uglorentz::Config {
             camera_velocity: Some(camera),
             pieces: uglorentz::Pieces::UpTo(5e-3),

@@ -1,4 +1,4 @@
-//! Laws of the whole pipe: what an observer can measure in its text and pictures.
+//! Physical laws, tested on the text and pictures of the whole pipe.
 //!
 //! Numbers named T08, T11… are facts listed at the end of `docs/physics.md`.
 
@@ -37,7 +37,7 @@ fn triangles(random: &mut Random, n: usize, colors: &[&str]) -> (String, HashMap
     (text, points)
 }
 
-/// The vertices that stand in `points`, by name.
+/// The vertices with a name in `points`.
 fn named<'s>(scene: &'s Scene, points: &HashMap<String, DVec3>) -> HashMap<String, &'s Vertex> {
     let vertices = scene.vertices.iter().map(|vertex| (scene.names.get(vertex.name).to_string(), vertex));
     let found: HashMap<String, &Vertex> = vertices.filter(|(name, _)| points.contains_key(name)).collect();
@@ -45,7 +45,7 @@ fn named<'s>(scene: &'s Scene, points: &HashMap<String, DVec3>) -> HashMap<Strin
     found
 }
 
-/// The colour a vertex has.
+/// The colour of a vertex.
 fn color_of<'s>(scene: &'s Scene, vertex: &Vertex) -> &'s Color {
     &scene.colors[vertex.color.expect("every vertex in use has a colour").index()]
 }

@@ -1,4 +1,4 @@
-//! A camera that moves in the scene: pictures, and the light on bodies. (P7), (P25)
+//! A camera that moves in the scene: pictures, and the lighting of bodies. (P7), (P25)
 
 use glam::DVec3;
 use ugphysics::Velocity;
@@ -7,9 +7,9 @@ use ugtests::pipe::{self, Pipe};
 use ugtests::random::Random;
 use ugtests::scenes::{self, parse};
 
-/// The whole pipe, colours included, does not tell a scene that comes from a camera that goes.
+/// A moving camera in a scene at rest gives the same picture as the scene moving the opposite way, colours included.
 #[test]
-fn a_camera_that_goes_sees_what_a_scene_that_comes_shows() {
+fn a_moving_camera_equals_a_scene_moving_the_opposite_way() {
     for (name, beta) in [("ship", DVec3::new(0.1, -0.5, 0.2)), ("street", DVec3::new(0.0, -0.9, 0.1))] {
         let text = scenes::text(name);
         let mut scene = Pipe::new(beta, [240, 180]);
@@ -20,8 +20,8 @@ fn a_camera_that_goes_sees_what_a_scene_that_comes_shows() {
     }
 }
 
-/// One flat tile in sight of a camera, both with random velocities. Its corners in the scene are its rest
-/// coordinates, and there, by hand, is its light; the pixel in its middle shows it.
+/// A triangle and a camera, both with random velocities. The expected light level is computed from the rest
+/// coordinates in the scene, and compared with the pixel at the triangle's centre.
 #[test]
 fn bodies_are_lit_in_the_axes_of_the_scene() {
     const SUN: DVec3 = DVec3::new(0.3, -0.5, 0.8);

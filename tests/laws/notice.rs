@@ -1,10 +1,10 @@
-//! What a scene says stays with it through the pipe: its notice, and what only other programs read.
+//! The licence of a scene, and data for other programs, pass through the pipe unchanged.
 
 use glam::DVec3;
 use ugtests::pipe::Pipe;
 use ugtests::scenes;
 
-/// A licence at the head, as old files have it, and surfaces that no program here reads.
+/// A scene with a licence in its head comment, as in old files, and with surfaces, which our programs do not use.
 const SCENE: &str = "{ A room. Copyright of nobody.\n  { Keep this notice. } }\n{ Second comment. }\n\
     c grey 0.6 ; c_rgb brick 0.7 0.3 0.2 ; surf dull 1 0 0 ; surf shiny 0.25 0.75 0 1 60 ;\n\
     def wall ; surf waxed 0.5 0.5 0 1.5 ;\n\
@@ -24,7 +24,7 @@ fn the_notice_stays_at_the_head_and_surfaces_on_their_faces() {
         assert_eq!(ugparse::history(&scene).len(), programs, "{name}");
         let names: Vec<&str> = scene.surfaces.iter().map(|row| scene.names.get(row.name)).collect();
         assert_eq!(names, ["dull", "shiny", "wall:waxed"], "{name}");
-        // Every piece of a face has the surface or level of the face.
+        // Every piece of a face keeps the surface or level of the face.
         let mut n_pieces = [0; 3];
         for face in &scene.faces {
             let is = |end: &str| face.name.is_some_and(|name| scene.names.get(name).ends_with(end));
@@ -43,7 +43,7 @@ fn the_notice_stays_at_the_head_and_surfaces_on_their_faces() {
     }
 }
 
-/// A surface changes nothing of a picture: such a face is lit as others are.
+/// Surfaces do not change a picture: such faces are lit like others.
 #[test]
 fn faces_with_surfaces_are_lit() {
     let pipe = Pipe::new(DVec3::ZERO, [64, 48]);

@@ -1,4 +1,4 @@
-//! What is measured in pictures: Terrell's rotation, and the circle a sphere is seen as.
+//! Measurements in pictures: the Terrell rotation, and the circular outline of a sphere.
 
 use glam::{DMat3, DVec3};
 use ugtests::oracle::Pinhole;
@@ -14,14 +14,14 @@ const CUBE: &str = "
     f (a b c d) red; f (e a d h) green; f (b f g c) blue; f (f e h g) blue; f (d c g h) blue; f (e f b a) blue;
     cam -ep 0 0 0 -vc 0 1000 0 -ud 0 0 1;";
 
-/// Pixels across the picture and for a unit at the cube's middle.
+/// Width of the picture in pixels, and pixels per unit at the cube's centre.
 const WIDTH: u32 = 800;
 const PER_UNIT: f64 = 400.0;
 
 const RED: [u8; 4] = [255, 0, 0, 255];
 const GREEN: [u8; 4] = [0, 255, 0, 255];
 
-/// The middle row of the cube passing at right angles.
+/// Draws the cube seen at right angles to its motion; returns the picture and its middle row.
 fn cube_abeam(speed: f64) -> (Picture, Vec<[u8; 4]>) {
     let half_angle = libm::atan(f64::from(WIDTH) / 2.0 / PER_UNIT / 1000.0);
     let view_angle_deg = 2.0 * half_angle.to_degrees();
@@ -33,17 +33,17 @@ fn cube_abeam(speed: f64) -> (Picture, Vec<[u8; 4]>) {
     (picture, row)
 }
 
-/// T08, T09: seen at right angles a distant cube shows a front of 1/γ and a trailing side of β, as if it
-/// were turned by asin β.
+/// T08, T09: seen at right angles, a distant cube shows a front of 1/γ and a trailing side of β, as if it
+/// were rotated by asin β.
 #[test]
-fn a_cube_abeam_looks_turned_by_asin_beta() {
+fn a_cube_seen_at_right_angles_looks_rotated_by_asin_beta() {
     for speed in [0.0, 0.3, 0.6, 0.8, 0.9, 0.99] {
         let (picture, row) = cube_abeam(speed);
         let count = |color| row.iter().filter(|&&pixel| pixel == color).count() as f64;
         let (front, side) = (count(RED), count(GREEN));
         let expected = ((1.0 - speed * speed).sqrt() * PER_UNIT, speed * PER_UNIT);
         println!("{speed} c: front {front} of {:.1}, trailing side {side} of {:.1}", expected.0, expected.1);
-        // Half a pixel at both ends, and the depth of the cube: 1 in 2000.
+        // Half a pixel at both ends, and the effect of perspective over the cube's depth: 1 in 2000.
         let is_right = (front - expected.0).abs() <= 1.2 && (side - expected.1).abs() <= 1.2;
         if !is_right {
             panic!("{speed} c: see {}", save("terrell", &picture).display());
@@ -51,14 +51,14 @@ fn a_cube_abeam_looks_turned_by_asin_beta() {
         // Two ends of a pixel in 400.
         let turned_deg = libm::atan2(side, front).to_degrees();
         assert!((turned_deg - libm::asin(speed).to_degrees()).abs() < 0.25, "{speed} c: {turned_deg}");
-        // What flies to the right trails on the left.
+        // The cube moves to the right, so its trailing side is on the left.
         let last_green = row.iter().rposition(|&pixel| pixel == GREEN);
         let first_red = row.iter().position(|&pixel| pixel == RED);
         assert!(last_green < first_red);
     }
 }
 
-/// A sphere of `n` strips round its axis as text, radius 1 about `center`.
+/// The text of a sphere of radius 1 about `center`, with `n` sectors of longitude.
 fn sphere(center: DVec3, n: usize) -> String {
     let mut text = String::from("l 1;\n");
     let angle = |step: usize| std::f64::consts::TAU * step as f64 / n as f64;
@@ -98,8 +98,8 @@ fn outline(picture: &Picture, camera: &Pinhole) -> Vec<DVec3> {
     directions
 }
 
-/// The circle on the sphere of directions that lies best: the plane n·d = 1 by least squares. Its axis, its
-/// angular radius, and the largest distance from it, in degrees.
+/// Fits a circle on the sphere of directions by least squares, as the plane n·d = 1. Returns its axis, its angular
+/// radius, and the largest distance from it, both in degrees.
 fn circle(directions: &[DVec3]) -> (DVec3, f64, f64) {
     let outer = |d: &DVec3| DMat3::from_cols(d.x * *d, d.y * *d, d.z * *d);
     let matrix = directions.iter().map(outer).fold(DMat3::ZERO, |sum, matrix| sum + matrix);
@@ -109,8 +109,8 @@ fn circle(directions: &[DVec3]) -> (DVec3, f64, f64) {
     (axis, radius.to_degrees(), gaps.fold(0.0, f64::max).to_degrees())
 }
 
-/// T11: a sphere of radius 1, at distance 3 abeam in its own frame, is seen as a circle, which is not centred
-/// on the image of the centre.
+/// T11: a sphere of radius 1, at distance 3 perpendicular to the motion in its own frame, has a circular outline, which
+/// is not centred on the image of its centre.
 #[test]
 fn the_outline_of_a_sphere_is_a_circle() {
     const SIDE: u32 = 600;
@@ -135,8 +135,8 @@ fn the_outline_of_a_sphere_is_a_circle() {
         println!(
             "{speed} c: radius {found_deg:.4} of {radius_deg:.4}, axis {found_axis_deg:.4} of {axis_deg:.4}, gap {gap_deg:.4}"
         );
-        // Edges are known to half a pixel each way, and the mean of 1500 of them to a twentieth; the
-        // polyhedron's outline is smaller than the sphere's by up to 1 − cos 1.5° of the radius.
+        // An edge is uncertain by half a pixel, and the mean of 1500 edges by a twentieth; the polyhedron's outline is
+        // smaller than the sphere's by up to 1 − cos 1.5° of the radius.
         let pixel_deg = view_angle_deg / f64::from(SIDE);
         assert!(gap_deg < pixel_deg, "{speed} c: {gap_deg} of {pixel_deg}");
         assert!(

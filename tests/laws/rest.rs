@@ -1,4 +1,4 @@
-//! At rest the pipe is nothing: its picture is that of `ugrainbow` alone.
+//! At rest the pipe draws the same picture as `ugrainbow` alone.
 
 use glam::DVec3;
 use ugparse::BodyId;

@@ -1,4 +1,4 @@
-//! Each teaching option switches off one thing, and nothing else.
+//! Each teaching option disables one effect, and no other.
 
 use std::collections::HashMap;
 
@@ -43,7 +43,7 @@ fn hsv(scene: &Scene, vertex: &ugparse::Vertex) -> [f64; 3] {
     }
 }
 
-/// (P10), straight.
+/// (P10), evaluated directly.
 fn doppler(seen: DVec3) -> f64 {
     (1.0 - BETA.length_squared()).sqrt() / (1.0 + BETA.dot(seen) / seen.length())
 }
@@ -52,8 +52,8 @@ fn near(got: f64, want: f64) -> bool {
     (got - want).abs() <= 1e-12 * want.abs()
 }
 
-/// Runs `ugdoppler` as it is and with a change, and compares the colours of every vertex: `law` is given
-/// [hue, saturation, value] at rest, in full, with the change, and D.
+/// Runs `ugdoppler` with default options and with a change, and compares the colours of every vertex. `law` receives
+/// [hue, saturation, value] at rest, by default and with the change, and D.
 fn check_colors(
     change: impl Fn(&mut ugdoppler::Config),
     law: impl Fn([f64; 3], [f64; 3], [f64; 3], f64) -> bool,
@@ -138,7 +138,7 @@ fn wavelengths_are_divided_by_d() {
 fn a_colour_depends_on_the_direction_it_is_seen_in_only() {
     let (text, points) = still();
     let near_by = seen(&text, |config| config.pieces = uglorentz::Pieces::PerEdge(1));
-    // Every vertex somewhere else on its ray.
+    // Every vertex is moved along its ray.
     let mut random = Random(3);
     let mut scene = parse(&near_by);
     for vertex in &mut scene.vertices {
@@ -149,15 +149,15 @@ fn a_colour_depends_on_the_direction_it_is_seen_in_only() {
     let (a_points, b_points) = (named(&a, &points), named(&b, &points));
     for name in points.keys() {
         let pair = (hsv(&a, a_points[name]), hsv(&b, b_points[name]));
-        // Hues are steeper than wavelengths by up to 1.6 degrees for a nanometre, and may be near 0.
+        // Hue changes by up to 1.6 degrees per nanometre, and may be near 0.
         let is_same = pair.0.iter().zip(pair.1).all(|(a, b)| (a - b).abs() <= 1e-11 * (1.0 + a.abs()));
         assert!(is_same, "{name}: {pair:?}");
     }
 }
 
-/// Runs `uglorentz` with a change and compares the place of every vertex with `law`, a function of its place
-/// at rest, all relative to the eye. Everything but places is as without the change.
-fn check_places(change: impl Fn(&mut uglorentz::Config), law: impl Fn(DVec3) -> DVec3) {
+/// Runs `uglorentz` with a change and compares the position of every vertex with `law`, a function of its rest position,
+/// both relative to the eye. Everything but positions must be the same as without the change.
+fn check_positions(change: impl Fn(&mut uglorentz::Config), law: impl Fn(DVec3) -> DVec3) {
     let (text, points) = still();
     let pieces = uglorentz::Pieces::PerEdge(2);
     let full = parse(&seen(&text, |config| config.pieces = pieces));
@@ -189,23 +189,23 @@ fn contracted(p: DVec3) -> DVec3 {
 }
 
 #[test]
-fn without_contraction_places_are_p2_of_rest() {
-    check_places(|config| config.geometry.contraction = false, retarded);
+fn without_contraction_positions_are_p2_of_rest() {
+    check_positions(|config| config.geometry.contraction = false, retarded);
 }
 
 #[test]
-fn without_flight_time_places_are_p1() {
-    check_places(|config| config.geometry.flight_time = false, contracted);
+fn without_flight_time_positions_are_p1() {
+    check_positions(|config| config.geometry.flight_time = false, contracted);
 }
 
 #[test]
-fn with_both_places_are_p1_and_then_p2() {
-    check_places(|_| {}, |p| retarded(contracted(p)));
+fn with_both_positions_are_p1_and_then_p2() {
+    check_positions(|_| {}, |p| retarded(contracted(p)));
 }
 
 #[test]
-fn without_both_places_are_as_at_rest() {
-    check_places(
+fn without_both_positions_are_as_at_rest() {
+    check_positions(
         |config| config.geometry = ugscene::Geometry { contraction: false, flight_time: false },
         |p| p,
     );

@@ -1,7 +1,7 @@
-//! How far a picture drawn by the programs agrees with the oracle.
+//! Compares a picture drawn by the programs with the oracle.
 //!
-//! Every face gets a colour of its own, light comes from everywhere and colours stay as they are, so each
-//! pixel names the face it shows.
+//! Every face gets its own colour, the light is ambient and colours are not shifted, so the colour of a pixel
+//! identifies the face it shows.
 
 use std::fmt::{self, Display, Formatter};
 
@@ -12,20 +12,20 @@ use ugparse::{Color, ColorId, ColorValue, Face, Light, LightKind, LightMotion, S
 use crate::oracle::{Oracle, Pinhole};
 use crate::picture::Picture;
 
-/// Least part of the pixels that show the very face.
+/// The least fraction of the pixels that show the expected face.
 const LEAST_AGREEMENT: f64 = 0.995;
 
-/// Pixels that show a wrong face before the search for more is given up.
+/// The search stops after this number of wrong pixels.
 const MOST_WRONG: usize = 2000;
 
-/// Levels between colours of faces. They are exact to one level.
+/// Levels between colours of faces. Pixels are exact to one level.
 const STEP: usize = 4;
 /// Darkest level of a colour, well above the black background.
 const DARKEST: usize = 28;
 /// Colours of one plane: two channels, the third is 0.
 const SIDE: usize = 57;
 
-/// Faces that have a colour of their own.
+/// The largest number of faces that have distinct colours.
 pub const MOST_FACES: usize = 2 * SIDE * SIDE;
 
 /// The colour of a face: without blue, then without red. Its hue lies in 0…240 degrees, where
@@ -41,10 +41,10 @@ pub fn color_of(face: usize) -> [u8; 3] {
     }
 }
 
-/// What a pixel shows: a face, or nothing. `Err` for a colour that no face has.
+/// The content of a pixel: a face, or the background. `Err` for a colour that no face has.
 pub type Shown = Result<Option<usize>, [u8; 4]>;
 
-/// What a pixel of a [`recolored`] scene shows.
+/// The face that a pixel of a [`recolored`] scene shows.
 pub fn face_of(pixel: [u8; 4]) -> Shown {
     let step = |level: u8| {
         let above = usize::from(level).checked_sub(DARKEST - 1)?;
@@ -58,7 +58,7 @@ pub fn face_of(pixel: [u8; 4]) -> Shown {
     }
 }
 
-/// The scene with a colour for each face, lit from everywhere.
+/// The scene with a distinct colour for each face, and ambient light.
 pub fn recolored(mut scene: Scene) -> Scene {
     scene.colors.clear();
     scene.wires.clear();
@@ -82,22 +82,22 @@ pub fn recolored(mut scene: Scene) -> Scene {
     scene
 }
 
-/// How far the pipe and the oracle agree.
+/// The result of a comparison of the pipe with the oracle.
 #[derive(Debug, Default)]
 pub struct Agreement {
-    /// Pixels of the picture.
+    /// Number of pixels.
     pub n_pixels: usize,
-    /// Pixels where both show the same face, or two that coincide there.
+    /// Pixels where both show the same face, or two faces that coincide there.
     pub n_same: usize,
-    /// Pixels where both see nothing.
+    /// Pixels where the oracle sees the background.
     pub n_empty: usize,
-    /// Pixels with a face that is not seen within reach.
+    /// Pixels with a face that is not visible within reach.
     pub wrong: Vec<Wrong>,
 }
 
 impl Agreement {
-    /// The part of the pixels that show the very face.
-    pub fn part(&self) -> f64 {
+    /// The fraction of the pixels that show the expected face.
+    pub fn fraction(&self) -> f64 {
         self.n_same as f64 / self.n_pixels as f64
     }
 
@@ -106,54 +106,54 @@ impl Agreement {
         self.wrong.iter().filter(|wrong| !wrong.is_at_boundary).count()
     }
 
-    /// Do all pixels show what is seen within reach, nearly all the very face, and some anything?
+    /// Do all pixels show a face that is visible within reach, nearly all the expected face, and not all the background?
     pub fn is_good(&self) -> bool {
         let shows_something = self.n_empty < self.n_pixels * 98 / 100;
-        self.part() >= LEAST_AGREEMENT && self.n_far() == 0 && self.wrong.is_empty() && shows_something
+        self.fraction() >= LEAST_AGREEMENT && self.n_far() == 0 && self.wrong.is_empty() && shows_something
     }
 }
 
 impl Display for Agreement {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        write!(f, "{:.3} % agree, {} differ", 100.0 * self.part(), self.n_pixels - self.n_same)?;
+        write!(f, "{:.3} % agree, {} differ", 100.0 * self.fraction(), self.n_pixels - self.n_same)?;
         write!(f, ", {:.0} % empty", 100.0 * self.n_empty as f64 / self.n_pixels as f64)?;
-        write!(f, ", {} seen through seams", self.wrong.len() - self.n_far())?;
+        write!(f, ", {} at boundaries of faces", self.wrong.len() - self.n_far())?;
         write!(f, ", {} far off", self.n_far())?;
         for Wrong { pixel, shown, expected, .. } in self.wrong.iter().take(8) {
-            write!(f, ", {pixel:?} shows {shown:?} for {expected:?}")?;
+            write!(f, ", {pixel:?} shows {shown:?} instead of {expected:?}")?;
         }
         Ok(())
     }
 }
 
-/// A pixel that shows what it should not.
+/// A pixel that shows a wrong face.
 #[derive(Debug)]
 pub struct Wrong {
     /// Column and row.
     pub pixel: [u32; 2],
-    /// Within reach something else than expected is seen, too.
+    /// Within reach another face than the expected one is visible, too.
     pub is_at_boundary: bool,
-    /// What the picture shows.
+    /// The face in the picture.
     pub shown: Shown,
-    /// What the oracle sees.
+    /// The face the oracle sees.
     pub expected: Option<usize>,
 }
 
-/// Between the middles of pixels that touch at a corner, just.
+/// Slightly more than the distance between the centres of diagonal neighbours, pixels.
 const DIAGONAL: f64 = 1.415;
 
-/// What is seen near a pixel.
+/// Determines which faces are visible near a pixel.
 struct Neighbourhood<'a> {
     oracle: &'a Oracle,
     camera: &'a Pinhole,
-    /// What the oracle sees in the middle of each pixel.
+    /// The face the oracle sees at the centre of each pixel.
     picture: &'a [Option<usize>],
-    /// Pixels; a face may be seen this far from where it should be.
+    /// The allowed displacement of a face, pixels.
     reach: f64,
 }
 
 impl Neighbourhood<'_> {
-    /// Is the face, or nothing, seen within reach of the middle of a pixel?
+    /// Is the face, or the background, visible within reach of a pixel's centre?
     fn shows(&self, face: Option<usize>, center: DVec2) -> bool {
         (self.reach >= DIAGONAL && self.neighbours(center).any(|neighbour| neighbour == face))
             || self.rings(center).contains(&face)
@@ -161,7 +161,7 @@ impl Neighbourhood<'_> {
             || self.grid(center).contains(&face)
     }
 
-    /// What the eight pixels round it show.
+    /// The faces in the eight neighbouring pixels.
     fn neighbours(&self, center: DVec2) -> impl Iterator<Item = Option<usize>> {
         let [width, height] = self.camera.size().map(|side| side as usize);
         let (x, y) = (center.x as usize, center.y as usize);
@@ -170,7 +170,7 @@ impl Neighbourhood<'_> {
         rows.flat_map(move |y| columns().map(move |x| self.picture[y * width + x]))
     }
 
-    /// What is seen at 48 points on each of five rings.
+    /// The faces visible at 48 points on each of five rings.
     fn rings(&self, center: DVec2) -> Vec<Option<usize>> {
         let radii = (1..=5).map(|ring| self.reach * f64::from(ring) / 5.0);
         let angles = || (0..48).map(|step| f64::from(step) / 48.0 * std::f64::consts::TAU);
@@ -184,7 +184,7 @@ impl Neighbourhood<'_> {
         self.oracle.faces(&directions)
     }
 
-    /// What is seen at points a fiftieth of the reach apart: slow, for slits and for corners.
+    /// The faces visible at points a fiftieth of the reach apart. Slow; necessary for slits and corners.
     fn grid(&self, center: DVec2) -> Vec<Option<usize>> {
         const N_STEPS: i32 = 50;
         let steps = || (-N_STEPS..=N_STEPS).map(|step| f64::from(step) / f64::from(N_STEPS));
@@ -194,24 +194,24 @@ impl Neighbourhood<'_> {
         self.oracle.faces(&directions)
     }
 
-    /// For faces so thin that no point of a ring hits them.
+    /// Necessary for faces so thin that no point of a ring hits them.
     fn has_edge(&self, face: usize, center: DVec2) -> bool {
-        /// Faces that share the edge do not hide it.
+        /// Relative tolerance of depth, so that faces that share the edge do not occlude it.
         const BESIDE: f64 = 1e-6;
         has_edge(self.oracle, self.camera, face, center, self.reach, BESIDE)
     }
 }
 
-/// Is an edge of the face within `reach` pixels, hidden by nothing that is nearer by more than `beside`?
+/// Is an edge of the face within `reach` pixels and not occluded by a face nearer by more than the fraction `beside`?
 fn has_edge(oracle: &Oracle, camera: &Pinhole, face: usize, center: DVec2, reach: f64, beside: f64) -> bool {
     let edges = oracle.edges_near(face, camera.direction(center.x, center.y), beside);
     let mut pixels = edges.into_iter().filter_map(|direction| camera.pixel(direction));
     pixels.any(|pixel| pixel.distance(center) <= reach)
 }
 
-/// Compares a picture of a [`recolored`] scene with what the oracle sees.
+/// Compares a picture of a [`recolored`] scene with the oracle.
 ///
-/// `reach`: pixels; a face may be seen this far from where it should be.
+/// `reach`: the allowed displacement of a face, pixels.
 pub fn compare(actual: &Picture, oracle: &Oracle, camera: &Pinhole, reach: f64) -> Agreement {
     let near = Neighbourhood { oracle, camera, picture: &oracle.picture(camera), reach };
     let mut agreement = Agreement::default();
@@ -231,7 +231,7 @@ pub fn compare(actual: &Picture, oracle: &Oracle, camera: &Pinhole, reach: f64) 
             different.push(([x, y], center, shown, expected));
         }
     }
-    // A few at a time, since it is no use to look at all of a picture that is all wrong.
+    // In chunks, to stop early if the whole picture is wrong.
     for some in different.chunks(1024) {
         let wrong = some
             .par_iter()
@@ -247,8 +247,8 @@ pub fn compare(actual: &Picture, oracle: &Oracle, camera: &Pinhole, reach: f64) 
     agreement
 }
 
-/// Would the pixel be right if what hides the face it shows, by less than `part` of the distance, did not? The
-/// face may lie beside the pixel's middle, by `reach` pixels.
+/// Is the shown face occluded only by faces that are nearer by less than the fraction `part` of the distance? The face
+/// may be up to `reach` pixels from the pixel's centre.
 pub fn are_close(oracle: &Oracle, camera: &Pinhole, wrong: &Wrong, reach: f64, part: f64) -> bool {
     let center = DVec2::from_array(wrong.pixel.map(f64::from)) + 0.5;
     let direction = camera.direction(center.x, center.y);
@@ -261,7 +261,7 @@ pub fn are_close(oracle: &Oracle, camera: &Pinhole, wrong: &Wrong, reach: f64, p
     is_hit || has_edge(oracle, camera, shown, center, reach, part)
 }
 
-/// Two faces in one place: rods that cross have faces in common planes.
+/// Do two faces coincide in a direction? Crossing rods have faces in common planes.
 fn coincide(oracle: &Oracle, a: usize, b: usize, direction: DVec3) -> bool {
     match (oracle.distance(a, direction), oracle.distance(b, direction)) {
         (Some(a), Some(b)) => (a - b).abs() <= 1e-9 * a,
@@ -269,7 +269,7 @@ fn coincide(oracle: &Oracle, a: usize, b: usize, direction: DVec3) -> bool {
     }
 }
 
-/// The picture the oracle sees, in the colours of the faces.
+/// The oracle's picture, in the colours of the faces.
 pub fn painted(oracle: &Oracle, camera: &Pinhole) -> Picture {
     let [width, height] = camera.size();
     let pixels = oracle.picture(camera).into_iter().flat_map(|face| {

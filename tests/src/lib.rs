@@ -1,17 +1,17 @@
 //! Helpers shared by the cross-crate tests.
 //!
 //! - [`pipe`]: the three programs in one process, from text to a decoded picture;
-//! - [`programs`]: the programs as files;
+//! - [`programs`]: the built programs;
 //! - [`scenes`]: the scenes of the repository;
-//! - [`picture`]: comparing pictures, golden ones included;
-//! - [`oracle`]: what every pixel must show, found by a slow method of its own;
-//! - [`agreement`]: how far a picture agrees with the oracle;
-//! - [`explanation`]: what explains that they differ in a pixel;
-//! - [`outline`]: how far drawn edges are from where they are seen;
-//! - [`shading`]: colour and light of a point, by the formulas;
+//! - [`picture`]: comparison of pictures, golden ones included;
+//! - [`oracle`]: a slow, independent reference renderer that determines which face each pixel must show;
+//! - [`agreement`]: comparison of a picture with the oracle;
+//! - [`explanation`]: known causes of differences between them;
+//! - [`outline`]: errors of drawn edges;
+//! - [`shading`]: the expected colour of a point, from the formulas;
 //! - [`random`]: reproducible random numbers;
-//! - [`slow_reader`]: a second reader of the scene language, to check the first;
-//! - [`tools`]: whether programs of others are there.
+//! - [`slow_reader`]: a second, independent reader of the scene language;
+//! - [`tools`]: whether required external programs are installed.
 
 #![allow(clippy::missing_panics_doc, reason = "a test helper fails by panicking")]
 

@@ -1,9 +1,9 @@
-//! What every pixel must show, found the slow way.
+//! A slow, independent reference renderer that determines which face every pixel must show.
 //!
-//! The programs carry every vertex to where it is seen and then draw an ordinary picture. The oracle goes
-//! the other way: from each pixel a ray into the past, carried into the rest frame of every body by a 4×4
-//! matrix, and intersected there with the scene as it was written. Nothing is cut into pieces, projected
-//! or interpolated, and no function of the programs is used.
+//! The programs compute the apparent position of every vertex and then draw an ordinary picture. The oracle works
+//! in the opposite direction: it transforms a ray into the past from each pixel to the rest frame of every body with a
+//! 4×4 matrix, and intersects it there with the scene as written. Nothing is subdivided, projected or interpolated,
+//! and no function of the programs is used.
 //!
 //! Coordinates are relative to the eye; events are (x, y, z, t).
 
@@ -14,19 +14,19 @@ use rayon::prelude::*;
 use ugparse::{Camera, Face, Scene};
 use ugphysics::Velocity;
 
-/// A pinhole camera: `-ep`, `-vc`, `-ud` and the angle across of `-va`; pixels are square.
+/// A pinhole camera with square pixels: `-ep`, `-vc`, `-ud` and the horizontal angle of `-va`.
 #[derive(Clone, Debug)]
 pub struct Pinhole {
     forward: DVec3,
-    /// To the neighbour pixel on the right, on the film at distance 1.
+    /// Step to the next pixel on the right, on the film at distance 1.
     right: DVec3,
-    /// To the neighbour pixel below.
+    /// Step to the next pixel below.
     down: DVec3,
     size: [u32; 2],
 }
 
 impl Pinhole {
-    /// The camera of a scene, which must say where it looks and how wide.
+    /// The camera of a scene, which must have a view centre and a view angle.
     pub fn new(camera: &Camera, eye: DVec3, size: [u32; 2]) -> Self {
         let center = camera.center.expect("the camera has a view centre");
         let [across_deg, _] = camera.view_angle.expect("the camera has a view angle");
@@ -42,7 +42,7 @@ impl Pinhole {
         (self.forward + self.right * (x - width / 2.0) + self.down * (y - height / 2.0)).normalize()
     }
 
-    /// The point of the film, in pixels, that shows what lies in a direction; `None` if none does.
+    /// The point of the film, in pixels, in a viewing direction; `None` if it is behind the camera.
     pub fn pixel(&self, direction: DVec3) -> Option<DVec2> {
         let depth = direction.dot(self.forward);
         let [width, height] = self.size.map(f64::from);
@@ -51,13 +51,13 @@ impl Pinhole {
         (depth > 0.0).then_some(DVec2::new(column, row))
     }
 
-    /// Pixels across and down.
+    /// Width and height in pixels.
     pub fn size(&self) -> [u32; 2] {
         self.size
     }
 }
 
-/// The boost from the camera's frame into that of a body with velocity `beta`: (P7), Λ(v)⁻¹, with time as
+/// The boost from the camera's frame to that of a body with velocity `beta`: (P7), Λ(v)⁻¹, with time as
 /// the last coordinate.
 pub fn boost(beta: DVec3) -> DMat4 {
     let square = beta.length_squared();
@@ -73,8 +73,8 @@ pub fn boost(beta: DVec3) -> DMat4 {
     DMat4::from_cols(column(DVec3::X), column(DVec3::Y), column(DVec3::Z), time)
 }
 
-/// The light that arrives from direction `d` when the picture is taken, one unit of time before: a null
-/// vector into the past.
+/// The event, one unit of time before the picture, of the light that arrives from direction `d`: a null vector into
+/// the past.
 fn past(d: DVec3) -> DVec4 {
     d.extend(-1.0)
 }
@@ -82,16 +82,16 @@ fn past(d: DVec3) -> DVec4 {
 /// A face at rest.
 #[derive(Clone, Debug)]
 struct Polygon {
-    /// Row of the face in the scene.
+    /// Index of the face in the scene.
     face: usize,
     normal: DVec3,
     /// A point of its plane.
     point: DVec3,
-    /// Coordinates to leave out: the plane is seen best along this axis.
+    /// The projection drops this axis, the one closest to the normal.
     axis: usize,
     contours: Vec<Vec<DVec2>>,
     edges: Vec<(DVec3, DVec3)>,
-    /// A sphere round it.
+    /// Bounding sphere.
     center: DVec3,
     radius: f64,
 }
@@ -124,7 +124,7 @@ impl Polygon {
         Some(Self { face, normal, point: center, axis, contours, edges, center, radius })
     }
 
-    /// How often the vector `ray` goes from the eye to the face; `None` if the ray misses it.
+    /// The multiple of the vector `ray` that reaches the face from the eye; `None` if the ray misses it.
     fn hit(&self, ray: DVec3) -> Option<f64> {
         let times = self.normal.dot(self.point) / self.normal.dot(ray);
         let is_ahead = times > 0.0 && times.is_finite();
@@ -144,13 +144,13 @@ impl Polygon {
         crossings.sum::<usize>() % 2 == 1
     }
 
-    /// The point of each edge that lies nearest to the half-line along `ray`.
+    /// The point of each edge that is nearest to the ray.
     fn edge_points(&self, ray: DVec3) -> impl Iterator<Item = DVec3> {
         let along = ray.normalize();
         self.edges.iter().map(move |&(a, b)| nearest_to_ray(a, b, along))
     }
 
-    /// False only if no ray within `cone` meets the sphere round the face.
+    /// False only if no ray within `cone` intersects the bounding sphere.
     fn may_meet(&self, cone: &Cone) -> bool {
         let distance = self.center.length();
         if distance <= self.radius {
@@ -165,12 +165,13 @@ fn without(p: DVec3, axis: usize) -> DVec2 {
     DVec2::new(p[(axis + 1) % 3], p[(axis + 2) % 3])
 }
 
-/// The point of the segment from `a` to `b` that is seen nearest to the unit vector `ray`, by angle.
+/// The point of the segment from `a` to `b` whose direction has the least angle to the unit vector `ray`.
 fn nearest_to_ray(a: DVec3, b: DVec3, ray: DVec3) -> DVec3 {
-    // Directions of the segment are those of a great circle; the nearest of it is the ray dropped onto its plane.
+    // The directions of the segment are an arc of a great circle; the nearest direction is the projection of the ray
+    // onto its plane.
     let plane = a.cross(b - a);
     let foot = ray - plane * (ray.dot(plane) / plane.length_squared());
-    // a + s (b - a) along the foot: both crossed with it, in the plane, agree.
+    // a + s (b - a) is parallel to the foot: their cross product vanishes.
     let (from, step) = (a.cross(foot).dot(plane), (b - a).cross(foot).dot(plane));
     let part = -from / step;
     let point = a + part * (b - a);
@@ -180,7 +181,7 @@ fn nearest_to_ray(a: DVec3, b: DVec3, ray: DVec3) -> DVec3 {
     if ray.angle_between(a) <= ray.angle_between(b) { a } else { b }
 }
 
-/// The rays of some pixels.
+/// A cone around the rays of some pixels.
 struct Cone {
     axis: DVec3,
     half_angle: f64,
@@ -193,33 +194,33 @@ impl Cone {
     }
 }
 
-/// Faces that move together.
+/// Faces with one velocity.
 #[derive(Clone, Debug)]
 struct Body {
-    /// From the camera's frame into the body's.
+    /// From the camera's frame to the body's.
     boost: DMat4,
-    /// What was added to coordinates as they are written.
+    /// Added to the coordinates as written.
     offset: DVec3,
     polygons: Vec<Polygon>,
 }
 
-/// Where a ray meets a face at rest.
+/// The intersection of a ray with a face at rest.
 #[derive(Clone, Copy, Debug)]
 pub struct Hit {
-    /// Relative to the eye.
+    /// The point relative to the eye.
     pub point: DVec3,
-    /// The same in the coordinates the face is written in.
+    /// The point in the coordinates as written.
     pub written: DVec3,
-    /// Of the face, on any side.
+    /// Normal of the face, of either orientation.
     pub normal: DVec3,
     /// The Doppler factor of its light.
     pub doppler: f64,
 }
 
 impl Body {
-    /// The viewing direction `d` in the body's frame, (P6). Its length is not 1: where it is taken s times
-    /// to reach a point, light from there has travelled the distance s in the camera's frame, since the
-    /// boost is linear and keeps the eye at the origin.
+    /// The viewing direction `d` in the body's frame, (P6). Its length is not 1: if s times this vector reaches a
+    /// point, light from there has travelled the distance s in the camera's frame, because the boost is linear and
+    /// keeps the eye at the origin.
     fn ray(&self, d: DVec3) -> DVec3 {
         (self.boost * past(d)).truncate()
     }
@@ -230,23 +231,23 @@ impl Body {
         })
     }
 
-    /// Where a point at rest is seen: its light leaves at −|p| on the clocks of the body.
+    /// The apparent position of a point at rest: its light is emitted at −|p| in the body's time.
     fn seen(&self, p: DVec3) -> DVec3 {
         (self.boost.inverse() * p.extend(-p.length())).truncate()
     }
 }
 
-/// A scene at rest and how its bodies move.
+/// A scene at rest and the velocities of its bodies.
 #[derive(Clone, Debug)]
 pub struct Oracle {
     bodies: Vec<Body>,
 }
 
-/// Pixels that share one [`Cone`], along a side.
+/// Side of a square of pixels that share one [`Cone`].
 const TILE: u32 = 16;
 
 impl Oracle {
-    /// `beta`: overrides the velocities of the scene. `in_place`: a body's middle is seen where it is at rest.
+    /// `beta`: overrides the velocities of the scene. `in_place`: the centre of a body appears at its rest position.
     pub fn new(scene: &Scene, eye: DVec3, beta: Option<DVec3>, in_place: bool) -> Self {
         let beta_of = |face: &Face| {
             let own = scene.bodies.stated_velocity(face.body).map(Velocity::beta);
@@ -262,14 +263,14 @@ impl Oracle {
             let faces: Vec<usize> =
                 (0..scene.faces.len()).filter(|&face| beta_of(&scene.faces[face]) == beta).collect();
             let boost = boost(beta);
-            let shift = if in_place { place(boost, middle(scene, &faces) - eye) } else { DVec3::ZERO };
+            let shift = if in_place { placement(boost, middle(scene, &faces) - eye) } else { DVec3::ZERO };
             let polygons = faces.iter().filter_map(|&face| Polygon::new(scene, face, shift - eye));
             Body { boost, offset: shift - eye, polygons: polygons.collect() }
         };
         Self { bodies: betas.into_iter().map(body).collect() }
     }
 
-    /// The row of the face that every pixel shows at its centre, row by row.
+    /// The index of the face at the centre of every pixel, row by row.
     pub fn picture(&self, camera: &Pinhole) -> Vec<Option<usize>> {
         let [width, height] = camera.size();
         let tops: Vec<u32> = (0..height).step_by(TILE as usize).collect();
@@ -302,8 +303,8 @@ impl Oracle {
         }
     }
 
-    /// The same seen by a camera that moves with `camera`; velocities are then those in the frame of the
-    /// scene. From the camera's frame a ray goes through that of the scene into those of the bodies, (P7).
+    /// The scene seen by a camera with velocity `camera`; velocities of bodies are then relative to the scene. A ray
+    /// is transformed from the camera's frame to that of the scene, and then to those of the bodies, (P7).
     #[must_use]
     pub fn seen_by(mut self, camera: DVec3) -> Self {
         for body in &mut self.bodies {
@@ -312,7 +313,7 @@ impl Oracle {
         self
     }
 
-    /// What is seen in each of some neighbouring directions.
+    /// The faces visible in neighbouring directions.
     pub fn faces(&self, directions: &[DVec3]) -> Vec<Option<usize>> {
         let mut nearest: Vec<(f64, Option<usize>)> = vec![(f64::INFINITY, None); directions.len()];
         for body in &self.bodies {
@@ -320,7 +321,7 @@ impl Oracle {
             let cone = Cone::around(&rays);
             for polygon in body.polygons.iter().filter(|polygon| polygon.may_meet(&cone)) {
                 for (ray, best) in rays.iter().zip(&mut nearest) {
-                    // (P22): the latest emission is the one with the shortest way in the camera's frame.
+                    // (P22): the latest emission has the least distance in the camera's frame.
                     if let Some(distance) = polygon.hit(*ray)
                         && distance < best.0
                     {
@@ -332,10 +333,10 @@ impl Oracle {
         nearest.into_iter().map(|(_, face)| face).collect()
     }
 
-    /// Directions to the edges of a face near direction `d`, one for each edge, where nothing hides it.
+    /// Directions to the visible edges of a face near direction `d`, one for each edge.
     ///
-    /// A face seen edge-on can be too thin for any ray to meet it; its edges are still there. `beside`: what is
-    /// nearer by no more than this part of the distance does not hide an edge.
+    /// A face seen edge-on can be too thin for any ray to hit it, but its edges can be found. `beside`: a face nearer
+    /// by at most this fraction of the distance does not occlude an edge.
     pub fn edges_near(&self, face: usize, d: DVec3, beside: f64) -> Vec<DVec3> {
         let is_visible = |point: &DVec3| {
             let direction = point.normalize();
@@ -345,7 +346,7 @@ impl Oracle {
         self.edge_points(face, d).into_iter().filter(is_visible).map(DVec3::normalize).collect()
     }
 
-    /// The point of each edge of a face that is seen nearest to direction `d`, were the face alone.
+    /// The apparent point of each edge of a face nearest to direction `d`, ignoring other faces.
     pub fn edge_points(&self, face: usize, d: DVec3) -> Vec<DVec3> {
         let find = |body: &Body| {
             let polygon = body.polygons.iter().find(|polygon| polygon.face == face)?;
@@ -354,7 +355,7 @@ impl Oracle {
         self.bodies.iter().find_map(find).unwrap_or_default()
     }
 
-    /// All faces in a direction, hidden ones too, and their distances.
+    /// All faces in a direction, occluded ones too, and their distances.
     pub fn hits(&self, direction: DVec3) -> Vec<(usize, f64)> {
         let of_body = |body: &Body| {
             let ray = body.ray(direction);
@@ -374,13 +375,13 @@ impl Oracle {
         self.bodies.iter().flat_map(Body::outlines)
     }
 
-    /// Where one face is seen in a direction, a unit vector, were it alone.
+    /// The intersection with one face in a direction (unit vector), ignoring other faces.
     pub fn hit(&self, face: usize, direction: DVec3) -> Option<Hit> {
         self.bodies.iter().find_map(|body| {
             let polygon = body.polygons.iter().find(|polygon| polygon.face == face)?;
             let ray = body.ray(direction);
             let point = polygon.hit(ray)? * ray;
-            // Frequencies are as the times, and so the lengths, of null vectors.
+            // Frequencies are proportional to the time components, and so to the lengths, of null vectors.
             Some(Hit {
                 point,
                 written: point - body.offset,
@@ -390,7 +391,7 @@ impl Oracle {
         })
     }
 
-    /// The distance at which one face is seen in a direction, were it alone.
+    /// The apparent distance of one face in a direction, ignoring other faces.
     pub fn distance(&self, face: usize, direction: DVec3) -> Option<f64> {
         self.bodies.iter().find_map(|body| {
             let polygon = body.polygons.iter().find(|polygon| polygon.face == face)?;
@@ -399,7 +400,7 @@ impl Oracle {
     }
 }
 
-/// The edges of one face, as they are seen.
+/// The apparent edges of one face.
 #[derive(Clone, Copy, Debug)]
 pub struct Outline<'a> {
     body: &'a Body,
@@ -408,25 +409,25 @@ pub struct Outline<'a> {
 }
 
 impl Outline<'_> {
-    /// Edges, holes included.
+    /// Number of edges, those of holes included.
     pub fn n_edges(&self) -> usize {
         self.edges.len()
     }
 
-    /// Where the point at `part`, 0…1, of an edge is seen.
+    /// The apparent position of the point at `part`, 0…1, of an edge.
     pub fn point(&self, edge: usize, part: f64) -> DVec3 {
         let (a, b) = self.edges[edge];
         self.body.seen(a + part * (b - a))
     }
 
-    /// Where the ends of an edge are seen.
+    /// The apparent positions of the ends of an edge.
     pub fn ends(&self, edge: usize) -> [DVec3; 2] {
         [0.0, 1.0].map(|part| self.point(edge, part))
     }
 
-    /// The parts of an edge at which two seen points lie; `None` if one of them does not lie on it.
+    /// The parameters, 0…1, of two apparent points on an edge; `None` if one of them is not on it.
     pub fn parts(&self, edge: usize, seen: [DVec3; 2]) -> Option<[f64; 2]> {
-        /// Of the size of the face. The boost back loses some γ² units in the last place.
+        /// Relative to the size of the face. The inverse boost has an error of some γ² units in the last place.
         const ON_EDGE: f64 = 1e-8;
         let (a, b) = self.edges[edge];
         let along = b - a;
@@ -440,20 +441,20 @@ impl Outline<'_> {
         Some([first?, second?])
     }
 
-    /// Where the point of an edge nearest to direction `d` is seen.
+    /// The apparent position of the point of an edge nearest to direction `d`.
     pub fn nearest(&self, edge: usize, d: DVec3) -> DVec3 {
         let (a, b) = self.edges[edge];
         self.body.seen(nearest_to_ray(a, b, self.body.ray(d).normalize()))
     }
 }
 
-/// What to add to rest coordinates so that what rested at `point` is seen there.
-fn place(boost: DMat4, point: DVec3) -> DVec3 {
-    // Light seen there left at −|point|; where that event is in the body's frame, the point must rest.
+/// The offset of rest coordinates with which a point written at `point` appears there.
+fn placement(boost: DMat4, point: DVec3) -> DVec3 {
+    // Light seen there was emitted at −|point|. The rest position is that of this event in the body's frame.
     (boost * point.extend(-point.length())).truncate() - point
 }
 
-/// The middle of the box round some faces.
+/// The centre of the bounding box of some faces.
 fn middle(scene: &Scene, faces: &[usize]) -> DVec3 {
     let corners = faces.iter().flat_map(|&face| scene.face_contours(&scene.faces[face]).flatten());
     let points = corners.map(|id| scene.vertices[id.index()].position);
@@ -470,7 +471,7 @@ mod tests {
     #[test]
     fn the_boost_keeps_the_interval_and_aberrates() {
         let boost = boost(DVec3::new(0.6, 0.0, 0.0));
-        // (P6), γ = 1.25: what is seen abeam lies, in the body's frame, 53.13 degrees from the motion.
+        // (P6), γ = 1.25: a viewing direction at right angles is 53.13 degrees from the motion in the body's frame.
         let ray = (boost * past(DVec3::Y)).truncate();
         assert!((ray - DVec3::new(0.75, 1.0, 0.0)).length() < 1e-15, "{ray}");
         let event = DVec4::new(1.0, -2.0, 3.0, 0.5);
@@ -479,7 +480,7 @@ mod tests {
     }
 
     #[test]
-    fn a_hole_is_a_hole_and_the_nearer_is_seen() {
+    fn holes_are_open_and_the_nearer_face_is_visible() {
         let scene = parse(
             b"v a -2 4 -2; v b 2 4 -2; v c 2 4 2; v d -2 4 2; v e -1 4 -1; v f 1 4 -1; v g 1 4 1; v h -1 4 1;
               v i -3 8 -3; v j 3 8 -3; v k 3 8 3; v l -3 8 3; f (a b c d) (e f g h); f (i j k l);",

@@ -1,7 +1,8 @@
-//! How far the edges that the programs draw are from where the oracle sees them.
+//! Measures the errors of drawn edges against the oracle.
 //!
-//! Only positions in the written scene are used. An edge of a piece counts if both its ends, carried back into
-//! the rest frame by the oracle's matrix, lie on one edge of the face as it was; edges within a face show nothing.
+//! Only positions in the output of the programs are used. An edge of a piece is measured if both its ends,
+//! transformed back to the rest frame by the oracle's matrix, lie on one edge of the original face; edges within a
+//! face are ignored.
 
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
@@ -9,13 +10,13 @@ use ugparse::Scene;
 
 use crate::oracle::{Oracle, Outline, Pinhole};
 
-/// Points along each drawn edge that are measured.
+/// Each drawn edge is measured at this number of intervals.
 const N_POINTS: u32 = 12;
 
 /// The greatest errors of drawn outlines.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Errors {
-    /// Angle at the eye, radians, in all directions.
+    /// Angle at the eye, radians, over all directions.
     pub angle: f64,
     /// Pixels, within the picture.
     pub pixels: f64,
@@ -24,7 +25,7 @@ pub struct Errors {
 }
 
 impl Errors {
-    /// The larger of each, and the sum of the edges.
+    /// The larger of both errors, and the sum of the edges.
     #[must_use]
     pub fn and(self, other: Errors) -> Errors {
         Errors {
@@ -35,8 +36,8 @@ impl Errors {
     }
 }
 
-/// Measures every edge of `seen`, which is relative to `eye`. `origin`: which face of the oracle's scene each
-/// face is a piece of.
+/// Measures every edge of `seen`, relative to `eye`. `origin`: for each face, the face of the oracle's scene of
+/// which it is a piece.
 pub fn errors(seen: &Scene, origin: &[usize], eye: DVec3, oracle: &Oracle, camera: &Pinhole) -> Errors {
     let n_faces = origin.iter().max().map_or(0, |last| last + 1);
     let outlines: Vec<Option<Outline>> =
@@ -45,8 +46,8 @@ pub fn errors(seen: &Scene, origin: &[usize], eye: DVec3, oracle: &Oracle, camer
         let Some(outline) = outlines[face] else { return Errors::default() };
         let contours = seen.face_contours(&seen.faces[row]);
         let ends = contours.flat_map(|corners| corners.iter().zip(corners.iter().cycle().skip(1)));
-        let place = |id: &ugparse::VertexId| seen.vertices[id.index()].position - eye;
-        ends.map(|(a, b)| of_chord(&outline, [place(a), place(b)], camera))
+        let position = |id: &ugparse::VertexId| seen.vertices[id.index()].position - eye;
+        ends.map(|(a, b)| of_chord(&outline, [position(a), position(b)], camera))
             .fold(Errors::default(), Errors::and)
     };
     origin.par_iter().enumerate().map(of_face).reduce(Errors::default, Errors::and)
@@ -57,7 +58,7 @@ fn of_chord(outline: &Outline, ends: [DVec3; 2], camera: &Pinhole) -> Errors {
     edge.map_or_else(Errors::default, |edge| chord_error(outline, edge, ends, camera))
 }
 
-/// The error of a straight line between two seen points of one edge.
+/// The error of a straight line between two apparent points of one edge.
 pub fn chord_error(outline: &Outline, edge: usize, ends: [DVec3; 2], camera: &Pinhole) -> Errors {
     let mut errors = Errors { n_edges: 1, ..Errors::default() };
     for drawn in drawn(ends) {
@@ -70,16 +71,16 @@ pub fn chord_error(outline: &Outline, edge: usize, ends: [DVec3; 2], camera: &Pi
     errors
 }
 
-/// Is a straight line between two seen points of one edge right to `pixels` wherever it is in the picture?
-pub fn is_right(outline: &Outline, edge: usize, ends: [DVec3; 2], camera: &Pinhole, pixels: f64) -> bool {
+/// Is the error of a straight line between two apparent points of one edge at most `pixels` within the picture?
+pub fn is_within(outline: &Outline, edge: usize, ends: [DVec3; 2], camera: &Pinhole, pixels: f64) -> bool {
     drawn(ends).all(|drawn| {
-        // Most of a scene is not in the picture, and need not be looked for.
-        let off = |pixel| distance(camera, outline.nearest(edge, drawn).normalize(), pixel);
-        pixel_within(camera, drawn).is_none_or(|pixel| off(pixel) <= pixels)
+        // Points outside the picture, which are most, need no exact direction.
+        let error = |pixel| distance(camera, outline.nearest(edge, drawn).normalize(), pixel);
+        pixel_within(camera, drawn).is_none_or(|pixel| error(pixel) <= pixels)
     })
 }
 
-/// Directions along a drawn line, in equal steps of the picture, not of space: between those of the ends.
+/// Directions along a drawn line, in equal steps between the directions of its ends.
 fn drawn(ends: [DVec3; 2]) -> impl Iterator<Item = DVec3> {
     let [from, to] = ends.map(DVec3::normalize);
     (1..N_POINTS).map(move |step| from.lerp(to, f64::from(step) / f64::from(N_POINTS)).normalize())

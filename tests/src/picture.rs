@@ -1,4 +1,4 @@
-//! Pictures: decoding, comparing, and golden pictures.
+//! Decodes and compares pictures, golden ones included.
 
 use std::path::{Path, PathBuf};
 
@@ -13,7 +13,7 @@ pub type Picture = RgbaImage;
 #[track_caller]
 pub fn decode(png: &[u8]) -> Picture {
     let picture = image::load_from_memory_with_format(png, image::ImageFormat::Png);
-    picture.unwrap_or_else(|error| panic!("the picture is no PNG: {error}")).into_rgba8()
+    picture.unwrap_or_else(|error| panic!("the picture is not a PNG: {error}")).into_rgba8()
 }
 
 /// Reads a PNG file.
@@ -22,7 +22,7 @@ pub fn read(path: &Path) -> Picture {
     decode(&std::fs::read(path).unwrap_or_else(|error| panic!("{}: {error}", path.display())))
 }
 
-/// How far two pictures of one size are apart.
+/// The difference between two pictures of one size.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Difference {
     /// The largest difference of a channel, in levels.
@@ -81,12 +81,12 @@ pub fn assert_golden(name: &str, actual: &Picture) {
     } else if path.exists() {
         assert_same(name, &read(&path), actual, 0);
     } else {
-        let seen = save(name, actual);
-        panic!("{name} is not recorded: look at {}, then record it with UG_BLESS=1", seen.display());
+        let path = save(name, actual);
+        panic!("{name} is not recorded: look at {}, then record it with UG_BLESS=1", path.display());
     }
 }
 
-/// Writes a picture into the target folder, for people to look at.
+/// Saves a picture in the target folder, for inspection.
 pub fn save(name: &str, picture: &Picture) -> PathBuf {
     let folder = target_dir().join("pictures");
     std::fs::create_dir_all(&folder).expect("the target folder can be written");
@@ -95,8 +95,8 @@ pub fn save(name: &str, picture: &Picture) -> PathBuf {
     path
 }
 
-/// Expected, difference, actual, side by side. Differences are shown from mid grey up, so that one
-/// level is seen as well as many.
+/// Expected picture, difference and actual picture, side by side. Differences start at mid grey, so that a single
+/// level is visible.
 fn panels(expected: &Picture, actual: &Picture) -> Picture {
     const GAP: u32 = 4;
     let width = expected.width().max(actual.width());

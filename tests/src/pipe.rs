@@ -1,4 +1,4 @@
-//! The pipe in one process: each program is its library's `run`, and text goes between them.
+//! Runs the pipe in one process: calls the `run` function of each program's library and passes text between them.
 
 use glam::DVec3;
 use ugparse::Source;
@@ -16,14 +16,14 @@ pub struct Pipe {
     pub rainbow: ugrainbow::Config,
 }
 
-/// What came out of every stage.
+/// The output of every program.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Stages {
-    /// Of `uglorentz`: the scene as seen.
+    /// From `uglorentz`: the scene as seen.
     pub seen: Vec<u8>,
-    /// Of `ugdoppler`: the same with colours.
+    /// From `ugdoppler`: the same with observed colours.
     pub colored: Vec<u8>,
-    /// Of `ugrainbow`: the file.
+    /// From `ugrainbow`: the picture file.
     pub file: Vec<u8>,
 }
 
@@ -36,14 +36,14 @@ impl Pipe {
         pipe
     }
 
-    /// Bodies are seen where they stand (`-in`).
+    /// Bodies appear at their coordinates in the scene (`-in`).
     #[must_use]
     pub fn in_place(mut self) -> Self {
         self.lorentz.in_place = true;
         self
     }
 
-    /// Colours as at rest (`--no-doppler --no-flux`).
+    /// Rest-frame colours (`--no-doppler --no-flux`).
     #[must_use]
     pub fn shape(mut self) -> Self {
         self.doppler.doppler = false;
@@ -51,14 +51,14 @@ impl Pipe {
         self
     }
 
-    /// The full view angle across the picture, degrees.
+    /// The full horizontal view angle, degrees.
     #[must_use]
     pub fn view_angle(mut self, across_deg: f64) -> Self {
         self.rainbow.camera.view_angle = Some((across_deg, None));
         self
     }
 
-    /// Runs the pipe.
+    /// Runs the pipe and returns the output of every program.
     #[track_caller]
     pub fn run(&self, text: &[u8]) -> Stages {
         let seen = lorentz(text, &self.lorentz);
@@ -67,7 +67,7 @@ impl Pipe {
         Stages { seen, colored, file }
     }
 
-    /// Runs the pipe for its picture.
+    /// Runs the pipe and decodes the picture.
     #[track_caller]
     pub fn draw(&self, text: &[u8]) -> Picture {
         decode(&self.run(text).file)

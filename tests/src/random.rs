@@ -1,4 +1,4 @@
-//! Random numbers that are the same on every run (SplitMix64).
+//! Reproducible random numbers (SplitMix64).
 
 use glam::DVec3;
 
@@ -7,7 +7,7 @@ use glam::DVec3;
 pub struct Random(pub u64);
 
 impl Random {
-    /// In 0…1.
+    /// A number in 0…1.
     pub fn unit(&mut self) -> f64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.0;
@@ -16,7 +16,7 @@ impl Random {
         ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
     }
 
-    /// In `low`…`high`.
+    /// A number in `low`…`high`.
     pub fn between(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * self.unit()
     }
@@ -26,7 +26,7 @@ impl Random {
         DVec3::from_array([(); 3].map(|()| self.between(-half, half)))
     }
 
-    /// A unit vector, all directions alike.
+    /// A unit vector, uniformly distributed over the sphere.
     pub fn direction(&mut self) -> DVec3 {
         loop {
             let point = self.in_cube(1.0);

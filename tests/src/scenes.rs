@@ -1,4 +1,4 @@
-//! The scenes of the repository, and where things are.
+//! The scenes of the repository, and the paths of its folders.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -10,14 +10,14 @@ pub fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("the package is a folder of the repository")
 }
 
-/// The target folder this test was built into.
+/// The target folder in which this test was built.
 pub fn target_dir() -> PathBuf {
     let program = std::env::current_exe().expect("a running program has a path");
     // target/PROFILE/deps/PROGRAM
     program.ancestors().nth(3).expect("tests lie three folders deep").to_owned()
 }
 
-/// Names of all scenes, without `.ug`, in order.
+/// Names of all scenes, without `.ug`, sorted.
 pub fn names() -> Vec<String> {
     let folder = root().join("scenes");
     let files = fs::read_dir(&folder).expect("the folder of scenes can be read");
@@ -36,7 +36,7 @@ pub fn text(name: &str) -> Vec<u8> {
     fs::read(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
 }
 
-/// A flat scene from text.
+/// Parses a scene.
 #[track_caller]
 pub fn parse(text: &[u8]) -> Scene {
     let parsed = ugparse::parse(&Source::new("test.ug", text), &ugparse::Options::default());

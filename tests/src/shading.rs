@@ -1,4 +1,4 @@
-//! Colour and light of points of faces, by the formulas: a hue, its wavelength, and the light at rest.
+//! The expected colour of a point on a face, directly from the formulas: hue, wavelength, and lighting at rest.
 
 use glam::DVec3;
 use ugparse::{ColorId, ColorValue, Face, LightKind, Scene, VertexId};
@@ -7,15 +7,15 @@ use ugrainbow::Exact;
 
 use crate::oracle::Hit;
 
-/// A scene whose colours are hues, and whose lights are white.
+/// Computes colours of a scene with hues and white lights.
 pub struct Shading<'a> {
     scene: &'a Scene,
     eye: DVec3,
-    /// Of each vertex; none where several colours meet.
+    /// The colour of each vertex; `None` where several colours meet.
     colors: Vec<Option<Hsv>>,
 }
 
-/// A point of a face: weights of its corners.
+/// A point of a face, as barycentric weights of its corners.
 type Weights<'a> = &'a [(VertexId, f64)];
 
 impl<'a> Shading<'a> {
@@ -38,7 +38,7 @@ impl<'a> Shading<'a> {
         Self { scene, eye, colors: scene.vertices.iter().zip(&around).map(color).collect() }
     }
 
-    /// Linear red, green and blue that a point is seen with; `None` if that is not for this page to tell.
+    /// Observed linear red, green and blue of a point; `None` for cases that this module does not cover.
     pub fn seen(&self, face: usize, hit: &Hit, doppler: f64, exact: Exact) -> Option<[f64; 3]> {
         let face = &self.scene.faces[face];
         let corners: Vec<VertexId> = self.scene.face_contours(face).flatten().copied().collect();
@@ -61,7 +61,7 @@ impl<'a> Shading<'a> {
         Some(seen.to_rgb().map(srgb_decode))
     }
 
-    /// Areas of the triangles opposite to each corner.
+    /// Barycentric weights: areas of the triangles opposite to each corner.
     fn weights(&self, corners: [VertexId; 3], point: DVec3) -> [(VertexId, f64); 3] {
         let [a, b, c] = corners.map(|id| self.scene.vertices[id.index()].position);
         let all = (b - a).cross(c - a);
@@ -75,7 +75,7 @@ impl<'a> Shading<'a> {
             weights.iter().map(|&(id, weight)| Some((self.colors[id.index()]?, weight))).collect();
         let colors = colors?;
         let mean = |of: fn(&Hsv) -> f64| colors.iter().map(|(color, weight)| of(color) * weight).sum::<f64>();
-        // A grey corner takes the hue of the others, which is more than one page.
+        // A grey corner takes the hue of the others: not covered.
         let has_hue = |color: &Hsv| color.saturation > 0.0;
         let is_mixed = colors.iter().any(|(color, _)| has_hue(color) != has_hue(&colors[0].0));
         (!is_mixed).then(|| Hsv {

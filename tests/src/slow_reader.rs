@@ -1,14 +1,14 @@
-//! A second reader of scenes, written from `docs/unigrafix.md` alone: small, slow and plain.
+//! A second, independent reader of scenes, written from `docs/unigrafix.md` alone: small, slow and simple.
 //!
-//! It cuts the text into words, turns statements into structs with maps by name, and expands instances by
-//! recursion with 4×4 matrices. It knows valid scenes only, no `include`, and panics on the rest.
+//! It splits the text into words, parses statements into structs with maps by name, and expands instances
+//! recursively with 4×4 matrices. It accepts only valid scenes without `include`, and panics otherwise.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 /// x, y, z.
 pub type Triple = [f64; 3];
 
-/// What a scene comes to when everything in it is placed.
+/// A scene with all instances expanded.
 #[derive(Clone, Debug, Default)]
 pub struct Flat {
     /// `v`.
@@ -25,7 +25,7 @@ pub struct Flat {
     pub escapes: Vec<String>,
 }
 
-/// A placed vertex.
+/// An expanded vertex.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Vertex {
     /// Its path.
@@ -38,65 +38,65 @@ pub struct Vertex {
     pub normal: Option<Triple>,
 }
 
-/// A placed face.
+/// An expanded face.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Face {
     /// Its path, if it has a name.
     pub name: Option<String>,
     /// Names of its vertices.
     pub contours: Vec<Vec<String>>,
-    /// What it is painted with, of whatever name.
+    /// Its colour, without the name.
     pub color: Option<Paint>,
     /// Its fixed light level.
     pub illum: Option<f64>,
-    /// kd, ks, kt, n and exponent of its surface, of whatever name.
+    /// kd, ks, kt, n and exponent of its surface, without the name.
     pub surface: Option<[f64; 5]>,
     /// Its velocity.
     pub velocity: Option<Triple>,
 }
 
-/// A placed wire.
+/// An expanded wire.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Wire {
     /// Its path, if it has a name.
     pub name: Option<String>,
     /// Names of its vertices.
     pub contours: Vec<Vec<String>>,
-    /// What it is painted with.
+    /// Its colour.
     pub color: Option<Paint>,
     /// Its velocity.
     pub velocity: Option<Triple>,
 }
 
-/// A placed light.
+/// An expanded light.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Light {
     /// Its path, if it has a name.
     pub name: Option<String>,
     /// Its intensity.
     pub intensity: f64,
-    /// The direction toward it, or its place if it has a radius; an ambient light has neither.
+    /// The direction toward it, or its position if it has a radius; `None` for an ambient light.
     pub place: Option<Triple>,
     /// The radius of a lamp.
     pub radius: Option<f64>,
-    /// What it is painted with.
+    /// Its colour.
     pub color: Option<Paint>,
     /// Its velocity.
     pub velocity: Option<Triple>,
 }
 
-/// A placed camera.
+/// An expanded camera.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Camera {
     /// Its path, if it has a name.
     pub name: Option<String>,
-    /// Option and numbers; of `-og` and `-ps` the one that counts.
+    /// Options and numbers; of `-og` and `-ps` the last one.
     pub options: BTreeMap<String, Vec<f64>>,
     /// Its velocity.
     pub velocity: Option<Triple>,
 }
 
-/// The numbers of a colour and its translucency.
+/// A colour: its numbers and translucency.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Paint {
     /// Lightness, hue, saturation, translucency.
@@ -115,16 +115,16 @@ pub enum Paint {
 pub fn read(text: &str) -> Flat {
     let mut words = Words { words: words(text), next: 0 };
     let root = read_scope(&mut words, "", None);
-    let mut placing = Placing::default();
+    let mut expansion = Expansion::default();
     let scene =
-        Place { path: String::new(), matrix: IDENTITY, is_mirrored: false, color: None, velocity: None };
-    placing.scope(&[&root], &scene);
-    placing.flat
+        Placement { path: String::new(), matrix: IDENTITY, is_mirrored: false, color: None, velocity: None };
+    expansion.scope(&[&root], &scene);
+    expansion.flat
 }
 
 // Words.
 
-/// The words of a text. An escape is one word, from its first parenthesis to its last.
+/// Splits a text into words. An escape is one word, including its outer parentheses.
 fn words(text: &str) -> Vec<String> {
     let mut words: Vec<String> = Vec::new();
     let mut word = String::new();
@@ -158,7 +158,7 @@ fn words(text: &str) -> Vec<String> {
     words
 }
 
-/// The text up to the bracket that closes the one before it.
+/// The text up to the matching closing bracket.
 fn nested(rest: &mut std::str::Chars, open: char, close: char) -> String {
     let mut depth = 1;
     let mut inside = String::new();
@@ -172,7 +172,7 @@ fn nested(rest: &mut std::str::Chars, open: char, close: char) -> String {
     panic!("`{open}` is not closed");
 }
 
-/// The words that are left.
+/// The words that are not yet parsed.
 struct Words {
     words: Vec<String>,
     next: usize,
@@ -229,7 +229,7 @@ impl Words {
         self.is_number().then(|| self.triple())
     }
 
-    /// `< x y z >`, if it stands there.
+    /// Parses `< x y z >`, if present.
     fn velocity(&mut self) -> Option<Triple> {
         if self.peek() != "<" {
             return None;
@@ -260,7 +260,7 @@ impl Words {
 /// A scene or a definition: its statements as written.
 #[derive(Default)]
 struct Scope {
-    /// Names of the definitions round it and its own, each with a `:` behind it.
+    /// Names of the enclosing definitions and its own, each followed by `:`.
     prefix: String,
     colors: BTreeMap<String, Paint>,
     surfaces: BTreeMap<String, [f64; 5]>,
@@ -287,7 +287,7 @@ enum Statement {
         illum: Option<f64>,
         velocity: Option<Triple>,
     },
-    /// `numbers`: intensity, then those of its place.
+    /// `numbers`: intensity, then direction or position and radius.
     Light {
         name: Option<String>,
         numbers: Vec<f64>,
@@ -295,7 +295,7 @@ enum Statement {
         velocity: Option<Triple>,
     },
     Camera(Camera),
-    /// Each copy has `first`, then its number of times `step`. An instance has no `size`.
+    /// To copy k applies `first`, then k times `step`. An instance has no `size`.
     Placed {
         name: Option<String>,
         definition: String,
@@ -308,7 +308,7 @@ enum Statement {
     Escape(String),
 }
 
-/// Reads statements up to `end`, or to the end of the text.
+/// Parses statements up to `end`, or to the end of the text.
 fn read_scope(words: &mut Words, prefix: &str, mut unnamed: Option<Paint>) -> Scope {
     let mut scope = Scope { prefix: prefix.to_string(), ..Scope::default() };
     while !matches!(words.peek(), "" | "end") {
@@ -370,7 +370,7 @@ fn paint(keyword: &str, numbers: &[f64]) -> Paint {
     }
 }
 
-// Fields of a struct are read in the order in which they stand, so each is that of the text.
+// Rust evaluates struct fields in the order in which they are written, which here is that of the text.
 fn read_statement(keyword: &str, words: &mut Words, unnamed: Option<Paint>) -> Statement {
     match keyword {
         "v" => Statement::Vertex {
@@ -496,7 +496,7 @@ fn steps(words: &mut Words) -> Vec<Step> {
     steps
 }
 
-/// The matrix that takes each axis to what `image` says, and the origin to itself.
+/// The matrix that maps each axis to its `image`, and the origin to itself.
 fn linear(image: impl Fn(usize) -> Triple) -> Matrix {
     let mut matrix = IDENTITY;
     for (axis, row) in matrix[..3].iter_mut().enumerate() {
@@ -519,7 +519,7 @@ fn stretch(direction: Triple, k: f64) -> Matrix {
     })
 }
 
-/// Turns about a unit vector, counterclockwise seen from its tip (Rodrigues).
+/// Rotates about a unit vector, counterclockwise seen from its tip (Rodrigues).
 fn turn(n: Triple, degrees: f64) -> Matrix {
     let (sin, cos) = match degrees.rem_euclid(360.0) {
         0.0 => (0.0, 1.0),
@@ -569,23 +569,23 @@ fn unit(a: Triple) -> Triple {
     scaled(a, 1.0 / length(a))
 }
 
-// Placing.
+// Expansion.
 
-/// Where a scope is placed, and what it takes over from there.
+/// The placement of a scope: transformation and inherited properties.
 #[derive(Clone)]
-struct Place {
+struct Placement {
     /// The path of its instance.
     path: String,
-    /// Scene from scope.
+    /// From the scope to the scene.
     matrix: Matrix,
     is_mirrored: bool,
-    /// Colour of the innermost instance that names one.
+    /// Colour of the innermost instance with a colour.
     color: Option<Paint>,
-    /// Velocity of the outermost instance that has one.
+    /// Velocity of the outermost instance with a velocity.
     velocity: Option<Triple>,
 }
 
-impl Place {
+impl Placement {
     fn name(&self, name: &str) -> String {
         if self.path.is_empty() { name.to_string() } else { format!("{}:{name}", self.path) }
     }
@@ -604,7 +604,7 @@ impl Place {
         std::array::from_fn(|column| (0..3).map(|row| d[row] * self.matrix[row][column]).sum())
     }
 
-    /// A normal stays at right angles to its plane, which the images of two directions in it span.
+    /// Transforms a normal, so that it stays perpendicular to its plane.
     fn normal(&self, n: Triple) -> Triple {
         let [x, y, z] = [0, 1, 2].map(|axis| self.direction(basis(axis)));
         // Rows of the inverse transpose, times the determinant.
@@ -613,7 +613,7 @@ impl Place {
         scaled(unit(turned), length(n).copysign(dot(x, a)))
     }
 
-    /// The place of copy `k` of what is placed here.
+    /// The placement of copy `k` of an array or instance.
     fn copy(&self, first: &[Step], step: &[Step], k: usize) -> Self {
         let mut matrix = IDENTITY;
         let mut is_mirrored = self.is_mirrored;
@@ -626,7 +626,7 @@ impl Place {
     }
 }
 
-/// The innermost scope that has it.
+/// Searches the scopes from the innermost outwards.
 fn seen<'s, T>(scopes: &[&'s Scope], get: impl Fn(&'s Scope) -> Option<T>) -> Option<(usize, T)> {
     (0..scopes.len()).rev().find_map(|level| get(scopes[level]).map(|found| (level, found)))
 }
@@ -637,7 +637,7 @@ fn find_paint(scopes: &[&Scope], name: &Option<String>) -> Option<Paint> {
     Some(paint.clone())
 }
 
-/// `wanted`, or with the first of `_2`, `_3`, … that makes it new.
+/// `wanted`, or `wanted` with the first unused suffix of `_2`, `_3`, …
 fn fresh(taken: &mut BTreeSet<String>, wanted: String) -> String {
     let names = std::iter::once(wanted.clone()).chain((2..).map(|n| format!("{wanted}_{n}")));
     let new = names.into_iter().find(|name| !taken.contains(name)).expect("numbers do not end");
@@ -645,23 +645,23 @@ fn fresh(taken: &mut BTreeSet<String>, wanted: String) -> String {
     new
 }
 
-/// What a scope calls a vertex: its position, and its name in the scene.
+/// A vertex as a scope refers to it: its position, and its name in the scene.
 type Local<'s> = BTreeMap<&'s str, (Triple, String)>;
 
 #[derive(Default)]
-struct Placing {
+struct Expansion {
     flat: Flat,
     /// Names of vertices, and paths of instances.
     vertices: BTreeSet<String>,
     paths: BTreeSet<String>,
-    /// Escapes that were met, by their address in the scopes.
+    /// Escapes already written, by their address in the scopes.
     escapes: BTreeSet<usize>,
 }
 
-impl Placing {
-    /// Places the last of `scopes`; the others are those round it. Vertices of a scope come before those
-    /// placed in it, as shapes may use those that stand behind them; all else keeps its order.
-    fn scope(&mut self, scopes: &[&Scope], place: &Place) {
+impl Expansion {
+    /// Expands the last of `scopes`; the others enclose it. Vertices of a scope come before those of its instances,
+    /// because shapes may use later vertices; everything else keeps its order.
+    fn scope(&mut self, scopes: &[&Scope], place: &Placement) {
         let statements = &scopes[scopes.len() - 1].statements;
         let mut local = Local::new();
         for statement in statements {
@@ -687,7 +687,7 @@ impl Placing {
         }
     }
 
-    fn vertex(&mut self, vertex: &Statement, scopes: &[&Scope], place: &Place) {
+    fn vertex(&mut self, vertex: &Statement, scopes: &[&Scope], place: &Placement) {
         let Statement::Vertex { name, position, color, normal } = vertex else {
             unreachable!("the caller matched a vertex")
         };
@@ -702,7 +702,7 @@ impl Placing {
         });
     }
 
-    fn shape(&mut self, shape: &Statement, scopes: &[&Scope], place: &Place, local: &Local) {
+    fn shape(&mut self, shape: &Statement, scopes: &[&Scope], place: &Placement, local: &Local) {
         let Statement::Shape { is_wire, name, contours, color, unnamed, surface, illum, velocity } = shape
         else {
             unreachable!("the caller matched a face or wire")
@@ -734,7 +734,7 @@ impl Placing {
         }
     }
 
-    fn light(&mut self, light: &Statement, scopes: &[&Scope], place: &Place) {
+    fn light(&mut self, light: &Statement, scopes: &[&Scope], place: &Placement) {
         let Statement::Light { name, numbers, color, velocity } = light else {
             unreachable!("the caller matched a light")
         };
@@ -751,14 +751,14 @@ impl Placing {
         });
     }
 
-    fn placed(&mut self, placed: &Statement, scopes: &[&Scope], place: &Place) {
+    fn placed(&mut self, placed: &Statement, scopes: &[&Scope], place: &Placement) {
         let Statement::Placed { name, definition, color, first, size, step, velocity } = placed else {
             unreachable!("the caller matched an instance or array")
         };
         let found = seen(scopes, |scope| scope.definitions.get(definition));
         let (level, inside) = found.expect("a definition that is seen");
         let inside_scopes = [&scopes[..=level], &[inside]].concat();
-        // A nameless array that is alone has no word of its own.
+        // An unnamed array that is the only one in its scope contributes no name to the path.
         let is_placed = |statement: &&Statement| matches!(statement, Statement::Placed { .. });
         let is_alone = scopes[scopes.len() - 1].statements.iter().filter(is_placed).count() == 1;
         let path = if size.is_some() && name.is_none() && is_alone {
@@ -777,9 +777,9 @@ impl Placing {
     }
 }
 
-impl Placing {
-    /// The first of `_2`, `_3`, … that nothing else has or, in this scope, asks for.
-    fn second_path(&mut self, wanted: &str, scopes: &[&Scope], place: &Place) -> String {
+impl Expansion {
+    /// The first suffix of `_2`, `_3`, … that is not used or requested by another name of this scope.
+    fn second_path(&mut self, wanted: &str, scopes: &[&Scope], place: &Placement) -> String {
         let written = scopes[scopes.len() - 1].statements.iter().filter_map(|statement| match statement {
             Statement::Placed { name, definition, .. } => {
                 Some(place.name(name.as_ref().unwrap_or(definition)))
@@ -793,7 +793,7 @@ impl Placing {
     }
 }
 
-fn placed_camera(camera: &Camera, place: &Place) -> Camera {
+fn placed_camera(camera: &Camera, place: &Placement) -> Camera {
     let mut camera = Camera { name: place.optional_name(&camera.name), ..camera.clone() };
     for (option, numbers) in &mut camera.options {
         match (&option[..], &numbers[..]) {
@@ -805,7 +805,7 @@ fn placed_camera(camera: &Camera, place: &Place) -> Camera {
     camera
 }
 
-/// Whether every contour has three different vertices, and the outline an area.
+/// Do all contours have three different vertices, and does the outline have an area?
 fn is_polygon(contours: &[Vec<String>], position: impl Fn(&str) -> Triple) -> bool {
     let n_different = |contour: &Vec<String>| contour.iter().collect::<BTreeSet<_>>().len();
     if contours.iter().any(|contour| n_different(contour) < 3) {

@@ -1,8 +1,8 @@
-//! Programs of others, which some tests need.
+//! Checks whether external programs are installed that some tests require.
 
 use std::process::Command;
 
-/// Those that are needed: the program, an option with which it ends well at once, and the Debian package that has it.
+/// A required program, an option with which it exits successfully at once, and the Debian package that contains it.
 pub type Tool<'a> = (&'a str, &'a str, &'a str);
 
 /// False, with a word about it, if a program is missing and need not be there.

@@ -223,7 +223,7 @@ fn uniform(view: &View, oracle: &Oracle, error: f64) -> Option<usize> {
         outlines.flat_map(|outline| (0..outline.n_edges()).map(move |edge| (outline, edge))).collect();
     let is_right = |outline: &Outline, edge: usize, n: usize| {
         let at = |k: usize| outline.point(edge, k as f64 / n as f64);
-        (0..n).all(|k| outline::is_right(outline, edge, [at(k), at(k + 1)], &camera, error))
+        (0..n).all(|k| outline::is_within(outline, edge, [at(k), at(k + 1)], &camera, error))
     };
     if error == 0.0 {
         return None;
