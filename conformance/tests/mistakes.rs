@@ -76,8 +76,8 @@ const MISTAKES: [Mistake; 17] = [
     },
     Mistake {
         name: "M7",
-        file: "crates/ugdoppler/src/palette.rs",
-        right: "if shifts { doppler } else { 1.0 }",
+        file: "crates/uglight/src/hue.rs",
+        right: "if self.doppler { doppler } else { 1.0 }",
         wrong: "doppler * doppler",
         found_by: "shift",
     },

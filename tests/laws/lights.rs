@@ -211,11 +211,11 @@ fn the_camera_does_not_change_what_falls_on_a_surface() {
 fn no_lights_no_change() {
     let text = room("");
     let config = lit();
-    let report = ugdoppler::run(&config, &ugparse::Source::new("t.ug", text.clone())).unwrap();
+    let (scene, report) = ugdoppler::apply(scenes::parse(&text), &config).unwrap();
     assert!(report.notes.iter().any(|note| note.starts_with("no lights")), "{:?}", report.notes);
-    assert!(report.scene.lights.is_empty());
+    assert!(scene.lights.is_empty());
     let plain = Config { light: false, ..config };
-    assert_eq!(numbers(&report.text()), numbers(&doppler(&text, &plain)));
+    assert_eq!(numbers(&ugparse::write(&scene)), numbers(&doppler(&text, &plain)));
 }
 
 /// Red, green and blue of every vertex, by name.

@@ -1,4 +1,4 @@
-//! Runs the pipe in one process: calls the `run` function of each program's library and passes text between them.
+//! Runs the pipe in one process: calls the function of each program's library and passes text between them.
 
 use glam::DVec3;
 use ugparse::Source;
@@ -12,6 +12,8 @@ pub struct Pipe {
     pub lorentz: uglorentz::Config,
     /// Options of `ugdoppler`.
     pub doppler: ugdoppler::Config,
+    /// The command line of `ugdoppler` in the history; without options if `None`.
+    pub doppler_command: Option<String>,
     /// Options of `ugrainbow`.
     pub rainbow: ugrainbow::Config,
 }
@@ -62,7 +64,8 @@ impl Pipe {
     #[track_caller]
     pub fn run(&self, text: &[u8]) -> Stages {
         let seen = lorentz(text, &self.lorentz);
-        let colored = doppler(&seen, &self.doppler);
+        let command = self.doppler_command.as_deref().unwrap_or("ugdoppler");
+        let colored = doppler_as(&seen, &self.doppler, command);
         let file = rainbow(&colored, &self.rainbow);
         Stages { seen, colored, file }
     }
@@ -84,8 +87,23 @@ pub fn lorentz(text: &[u8], config: &uglorentz::Config) -> Vec<u8> {
 /// `ugdoppler`
 #[track_caller]
 pub fn doppler(text: &[u8], config: &ugdoppler::Config) -> Vec<u8> {
-    let scene = ugdoppler::run(config, &Source::new("<stdin>", text));
-    scene.unwrap_or_else(|error| panic!("ugdoppler: {error}")).text()
+    doppler_as(text, config, "ugdoppler")
+}
+
+/// `ugdoppler`, called by that command line.
+#[track_caller]
+fn doppler_as(text: &[u8], config: &ugdoppler::Config, command_line: &str) -> Vec<u8> {
+    let applied = ugdoppler::apply(read(text), config);
+    let (mut scene, _) = applied.unwrap_or_else(|error| panic!("ugdoppler: {error}"));
+    ugscene::record(&mut scene, "ugdoppler", env!("CARGO_PKG_VERSION"), command_line);
+    ugparse::write(&scene)
+}
+
+/// A scene as programs read it.
+#[track_caller]
+fn read(text: &[u8]) -> ugparse::Scene {
+    let parsed = ugscene::read(&Source::new("<stdin>", text), &ugparse::Options::default(), None);
+    parsed.unwrap_or_else(|findings| panic!("{findings}")).scene
 }
 
 /// `ugrainbow`

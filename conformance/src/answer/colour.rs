@@ -53,8 +53,8 @@ fn wavelength_seen(wavelength_nm: f64, doppler: f64) -> Option<f64> {
         -toward
     );
     let config = ugdoppler::Config { tolerance: 0.0, wavelengths: true, ..Default::default() };
-    let seen = ugdoppler::run(&config, &Source::new("wavelength.ug", scene)).ok()?.text();
-    let scene = ugparse::parse(&Source::new("seen.ug", seen), &Options::default()).ok()?.scene;
+    let scene = ugparse::parse(&Source::new("wavelength.ug", scene), &Options::default()).ok()?.scene;
+    let (scene, _) = ugdoppler::apply(scene, &config).ok()?;
     let color = scene.vertices.first()?.color?;
     match scene.colors[color.index()].value {
         ColorValue::Hsv { hue, .. } => Some(hue),

@@ -226,11 +226,12 @@ impl PictureCase {
             flux: false,
             ..Default::default()
         };
-        let colored = ugdoppler::run(&doppler, &Source::new(name("ugdoppler"), seen.text()))
+        let seen = ugparse::parse(&Source::new(name("ugdoppler"), seen.text()), &Options::default())
             .map_err(|error| error.to_string())?;
+        let (colored, _) = ugdoppler::apply(seen.scene, &doppler).map_err(|error| error.to_string())?;
         let rainbow =
             ugrainbow::Config { size: self.size, samples: self.options.samples, ..Default::default() };
-        let picture = ugrainbow::run(&rainbow, &Source::new(name("ugrainbow"), colored.text()))
+        let picture = ugrainbow::run(&rainbow, &Source::new(name("ugrainbow"), ugparse::write(&colored)))
             .map_err(|error| error.to_string())?;
         Ok(picture.bytes)
     }

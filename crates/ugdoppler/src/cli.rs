@@ -4,12 +4,14 @@ use std::process::ExitCode;
 
 use clap::{ArgAction, Parser, ValueEnum};
 use glam::DVec3;
-use ugparse::pipe;
+use ugparse::{Diagnostic, Diagnostics, Origins, Source, pipe};
 use ugphysics::{Brightness, Velocity};
-use ugpipe::{CommonArgs, Failure, Stage, ToolArgs};
+use ugpipe::{CommonArgs, Failure, Progress, Stage, ToolArgs};
 use ugscene::cli::EyeArgs;
 
-use crate::{Config, DEFAULT_TOLERANCE, Error};
+use crate::{Config, DEFAULT_TOLERANCE, Error, apply_with};
+
+const PROGRAM: &str = env!("CARGO_PKG_NAME");
 
 /// Colours of a UniGrafix scene as seen in relativistic motion: Doppler shift and photon flux
 ///
@@ -27,7 +29,7 @@ pub struct Args {
     #[command(flatten)]
     eye: EyeArgs,
 
-    /// Write wavelengths (nm) in place of hues; draw with ugrainbow -wi
+    /// Write wavelengths (nm) instead of hues; draw with ugrainbow -wi
     #[arg(long, visible_alias = "wavelengths")]
     gw: bool,
 
@@ -35,8 +37,10 @@ pub struct Args {
     #[arg(long, visible_alias = "brightness", value_name = "LAW", value_enum)]
     br: Option<Law>,
 
-    /// Shift spectra in place of hues, and write X, Y, Z: black bodies and sampled spectra as they are, colours as
-    /// surfaces in daylight. The law is D^5 per wavelength, and nothing is clipped
+    /// Shift spectra instead of hues, and write X, Y, Z
+    ///
+    /// Black bodies and sampled spectra are shifted as they are, other colours as surfaces in daylight. The brightness
+    /// law is D^5 per wavelength, and nothing is clipped.
     #[arg(long, visible_alias = "spectral")]
     sp: bool,
 
@@ -44,7 +48,7 @@ pub struct Args {
     #[arg(long, visible_alias = "repeat-vertices")]
     vr: bool,
 
-    /// Reuse colours within T nm and T percent of value, or of X, Y and Z; 0 makes one for each vertex
+    /// Reuse colours within T nm and T percent of value, or of X, Y and Z; with 0 every vertex has its own
     #[arg(long, visible_alias = "color-tolerance", value_name = "T", allow_hyphen_values = true,
           value_parser = ugpipe::finite, default_value_t = DEFAULT_TOLERANCE)]
     ct: f64,
@@ -53,10 +57,12 @@ pub struct Args {
     #[arg(long, visible_alias = "iris")]
     ir: bool,
 
-    /// Light: put the light of the scene's lights, moving ones included, into the colours, and leave one ambient
-    /// light in place of all
+    /// Light: put the light of the scene's lights, moving ones included, into the colours
+    ///
+    /// One ambient light takes the place of all, under which a renderer draws the colours as they are.
     #[arg(long, visible_alias = "light")]
     li: bool,
+
     /// Keep values above 1 for the exposure of the renderer, instead of clipping them
     #[arg(long, visible_alias = "keep-intensities")]
     hd: bool,
@@ -100,7 +106,7 @@ impl ToolArgs for Args {
 }
 
 impl Args {
-    fn config(&self, command_line: &str) -> Result<Config, Failure> {
+    fn config(&self) -> Result<Config, Failure> {
         if self.ct < 0.0 {
             return Err(Failure::usage("a colour tolerance (-ct) is 0 or more"));
         }
@@ -109,7 +115,6 @@ impl Args {
         let beta = vector(&self.vel).unwrap_or_default();
         Ok(Config {
             velocity: Velocity::from_beta(beta).map_err(Failure::usage)?,
-            camera: self.eye.name(),
             eye: self.eye.eye(),
             wavelengths: self.gw,
             law: match self.br.unwrap_or(Law::Report) {
@@ -126,8 +131,6 @@ impl Args {
             spectral: self.sp,
             doppler: !self.no_doppler,
             flux: !self.no_flux,
-            reading: pipe::options(&self.common)?,
-            command_line: command_line.to_string(),
         })
     }
 
@@ -155,16 +158,33 @@ pub fn main() -> ExitCode {
 }
 
 fn run(args: &Args, stage: &mut Stage) -> Result<(), Failure> {
-    let config = args.config(stage.command_line())?;
-    let source = pipe::read(stage, &config.reading)?;
-    let report = crate::run_with(&config, &source, &stage.steps()).map_err(|error| match error {
-        Error::Scene(findings) => pipe::refused(findings),
-        error => Failure::failed(error),
-    })?;
-    if !report.warnings.is_empty() {
-        stage.report(&report.warnings.render(true));
+    let config = args.config()?;
+    let reading = pipe::options(&args.common)?;
+    let source = pipe::read(stage, &reading)?;
+    let steps = stage.steps();
+    steps.step("reading", 0);
+    let parsed = ugscene::read(&source, &reading, args.eye.name().as_deref()).map_err(pipe::refused)?;
+    let applied = apply_with(parsed.scene, &config, &steps);
+    let (mut scene, report) = applied.map_err(|error| failure(error, &source, &parsed.origins))?;
+    drop(steps);
+    ugscene::record(&mut scene, PROGRAM, env!("CARGO_PKG_VERSION"), stage.command_line());
+    if !parsed.warnings.is_empty() {
+        stage.report(&parsed.warnings.render(true));
     }
     report.notes.iter().for_each(|note| stage.note(note));
-    stage.detail(&format!("{} vertices, {} colours", report.scene.vertices.len(), report.scene.colors.len()));
-    stage.write_with(|out| ugparse::write_to(&report.scene, out))
+    stage.detail(&format!("{} vertices, {} colours", scene.vertices.len(), scene.colors.len()));
+    stage.write_with(|out| ugparse::write_to(&scene, out))
+}
+
+/// Errors at a vertex are shown at its statement.
+fn failure(error: Error, source: &Source, origins: &Origins) -> Failure {
+    match error {
+        Error::VertexAtEye { vertex, .. } => {
+            let span = origins.vertices.get(vertex.index()).copied().unwrap_or_default();
+            let finding = Diagnostic::error(span, error.to_string());
+            let finding = finding.label("here").help("move the eye (-ep) or the vertex");
+            pipe::refused(Diagnostics::one(source, finding))
+        }
+        Error::Velocity(error) => Failure::failed(error),
+    }
 }

@@ -1,4 +1,4 @@
-//! What is said about values above 1.
+//! Notes for the user on values above 1.
 
 pub(crate) fn scaled(largest: f64) -> String {
     format!("max intensity is {}, scaled to 1.0", shown(largest))
@@ -12,7 +12,7 @@ pub(crate) fn kept(largest: f64) -> String {
     format!("max intensity is {}, kept for the renderer; -ir scales it to 1.0", shown(largest))
 }
 
-/// A value for a message, three significant digits or so.
+/// A value with about three significant digits.
 fn shown(value: f64) -> String {
     if value < 10.0 {
         format!("{value:.2}")

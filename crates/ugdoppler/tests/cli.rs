@@ -30,6 +30,24 @@ fn a_scene_goes_through() {
 }
 
 #[test]
+fn a_vertex_at_the_eye_is_shown_in_the_text() {
+    let text = "v a 0 0 0; v b 1 0 0;\nv c 0 1 0; f (a b c) <0.5 0 0>;";
+    let out = ugdoppler(&[], text);
+    assert_eq!(out.status.code(), Some(1));
+    assert_eq!(
+        String::from_utf8_lossy(&out.stderr),
+        "error: vertex `a` lies at the eye, where no direction to it exists
+ --> <stdin>:1:3
+  |
+1 | v a 0 0 0; v b 1 0 0;
+  |   ^ here
+  |
+help: move the eye (-ep) or the vertex
+"
+    );
+}
+
+#[test]
 fn bad_usage_is_status_2() {
     for (args, message) in [
         (&["-vel", "1.2", "0", "0"][..], "speed is 1.2 c"),

@@ -2,15 +2,19 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, its helpers too")]
 
 use glam::DVec3;
-use ugdoppler::{Config, run};
+use ugdoppler::{Config, apply};
 use ugparse::{ColorValue, Options, Scene, Source};
 use ugphysics::{Velocity, WHITE_XYZ, doppler_at, linear_srgb_to_xyz, srgb_decode, xyz_to_linear_srgb};
 use ugspectrum::{Spectrum, blackbody_luminance_ratio};
 
 fn colour(text: &str, config: &Config) -> (Scene, Vec<String>) {
-    let out = run(config, &Source::new("t.ug", text)).unwrap_or_else(|error| panic!("{error}"));
-    let scene = ugparse::parse(&Source::new("out.ug", out.text()), &Options::default());
-    (scene.unwrap_or_else(|findings| panic!("{findings}")).scene, out.notes)
+    let (scene, report) = apply(parsed("t.ug", text), config).unwrap_or_else(|error| panic!("{error}"));
+    (parsed("out.ug", ugparse::write(&scene)), report.notes)
+}
+
+fn parsed(name: &str, text: impl Into<Vec<u8>>) -> Scene {
+    let scene = ugparse::parse(&Source::new(name, text), &Options::default());
+    scene.unwrap_or_else(|findings| panic!("{findings}")).scene
 }
 
 fn moving(x: f64, y: f64, z: f64) -> Config {

@@ -6,6 +6,10 @@
 //! with what they light, [`SurfaceElement`] for lamps that move against it), and which [`Hsv`],
 //! linear light or [`Spectrum`] a colour statement stands for ([`hsv`], [`light`], [`spectrum`]).
 //!
+//! What motion makes of a colour depends on the model: a [`HueColor`] has one wavelength, which a
+//! [`HueShift`] divides by the Doppler factor D; a [`SpectralColor`] is shifted as a whole by a
+//! [`SpectralShift`]. Both hold for a vertex, a sample or a ray.
+//!
 //! Physics without a scene is in `ugphysics` and `ugspectrum`; this crate applies it to the
 //! statements of a [`Scene`].
 //!
@@ -28,13 +32,17 @@
 //! [`Scene`]: ugparse::Scene
 
 mod color;
+mod hue;
 mod hue_table;
 mod irradiance;
 mod lamp;
 mod lighting;
+mod spectral;
 
 pub use color::{HueScale, VertexColor, hsv, is_light, light, spectra_note, spectrum, vertex_colors};
+pub use hue::{HueColor, HueShift};
 pub use hue_table::HueTable;
 pub use irradiance::{Irradiance, SurfaceElement};
 pub use lamp::{Lamp, LampPlace, lamps};
 pub use lighting::Lighting;
+pub use spectral::{SpectralColor, SpectralLamp, SpectralShift, spectral_lamps};

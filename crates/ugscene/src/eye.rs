@@ -1,7 +1,7 @@
 //! Where the eye is, and that nothing sits in it.
 
 use glam::DVec3;
-use ugparse::{Diagnostic, Diagnostics, Parsed, Scene, Source, VertexId};
+use ugparse::{Scene, VertexId};
 
 use crate::{RestFrames, vertex_bodies};
 
@@ -19,14 +19,4 @@ pub fn vertex_at_eye(scene: &Scene, eye: DVec3, frames: &RestFrames) -> Option<V
     (row..scene.vertices.len())
         .find(|&row| scene.vertices[row].position == eye && !frames.velocity(bodies[row]).is_zero())
         .map(VertexId::from_index)
-}
-
-/// The message for [`vertex_at_eye`].
-pub fn at_eye_error(source: &Source, parsed: &Parsed, vertex: VertexId) -> Diagnostics {
-    let name = parsed.scene.names.get(parsed.scene.vertices[vertex.index()].name);
-    let finding = Diagnostic::error(
-        parsed.origins.vertices.get(vertex.index()).copied().unwrap_or_default(),
-        format!("vertex `{name}` lies at the eye, where no direction to it exists"),
-    );
-    Diagnostics::one(source, finding.label("here").help("move the eye (-ep) or the vertex"))
 }

@@ -36,7 +36,7 @@ mod split;
 
 pub use camera::{CameraError, CameraOptions, HalfSpace, Place, Slab, View};
 pub use camera_motion::{axes_from_scene, camera_velocity, record_camera_velocity};
-pub use eye::{at_eye_error, eye, vertex_at_eye};
+pub use eye::{eye, vertex_at_eye};
 pub use geometry::{Geometry, rest_positions};
 pub use normals::{corner_angle, seen_normal, shading_normal, smooth_normals};
 pub use polygon::{Triangle, is_convex, triangulate};

@@ -15,6 +15,17 @@ pub enum Shares {
     Mixed(Vec<(Option<ColorId>, f64)>),
 }
 
+impl Shares {
+    /// Each colour with its share.
+    pub fn parts(&self) -> impl Iterator<Item = (Option<ColorId>, f64)> {
+        let (one, many) = match self {
+            Self::One(color) => (Some((*color, 1.0)), &[][..]),
+            Self::Mixed(parts) => (None, &parts[..]),
+        };
+        one.into_iter().chain(many.iter().copied())
+    }
+}
+
 /// The colours of every vertex: its own, else those of its faces, else of its wires.
 ///
 /// `positions`: one for each vertex, in the rest frame of its body, where

@@ -1,4 +1,4 @@
-//! Light that falls on vertices, from lights at rest and in motion.  Eq. (P14)
+//! Irradiance at the vertices of a scene, from lamps at rest and in motion.  Eq. (P14)
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -6,24 +6,26 @@ use uglight::{HueScale, Irradiance, Lamp, SurfaceElement, lamps};
 use ugparse::{Face, Light, LightKind, LightMotion, Scene, VertexId};
 use ugscene::{RestFrames, seen_normal, shading_normal};
 
-/// Normals nearer to each other than this in all components are one, so that the pieces of a face that was cut
-/// share their vertices. A level is off by as much at most.
+/// Normals that differ by less than this in every component count as equal, so that the pieces of a
+/// face that was cut share their vertices. The error of the irradiance is at most as large.
 const NORMAL_STEP: f64 = 1e-5;
 
-/// The light on every vertex of a scene.
-pub(crate) struct Illumination {
+/// The irradiance of every vertex of a scene, lamp by lamp.
+pub(crate) struct VertexIrradiance {
     pub lamps: Vec<Lamp>,
-    /// `None` for vertices that are not lit: of wires, and of faces with a light level of their own.
+    /// `None` for vertices that are not lit: those of wires, and of faces with a light level of their
+    /// own.
     pub of_vertex: Vec<Option<Vec<Irradiance>>>,
 }
 
-/// Vertices apart where the light on them differs: faces that meet at an edge have vertices of their own there,
-/// unless the vertex carries a normal, and so have faces with a light level of their own.
+/// Repeats vertices where the irradiance differs between faces: faces that meet at an edge get
+/// vertices of their own there, unless the vertex carries a normal, and so do faces with a light level
+/// of their own.
 ///
-/// `rest`: position of each vertex, (P4). Gives the originals of the new vertices, and the normal to light each
-/// vertex with; `None` where it is not lit.
+/// `rest`: position of each vertex, (P4). Returns the originals of the new vertices, and the normal to
+/// light each vertex with; `None` where it is not lit.
 pub(crate) fn split(scene: &mut Scene, rest: &[DVec3]) -> (Vec<VertexId>, Vec<Option<DVec3>>) {
-    /// What a vertex is lit as.
+    /// How a vertex is lit.
     #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     enum Kind {
         Unlit,
@@ -52,7 +54,7 @@ pub(crate) fn split(scene: &mut Scene, rest: &[DVec3]) -> (Vec<VertexId>, Vec<Op
     (originals, of_vertex)
 }
 
-/// The rest normal on the side the eye sees, as `ugrainbow` takes it; `None` for a face that is not lit.
+/// The rest normal of the side that is seen; `None` for a face that is not lit.
 fn face_normal(scene: &Scene, face: &Face, rest: &[DVec3]) -> Option<DVec3> {
     if scene.light_level(face).is_some() {
         return None;
@@ -62,8 +64,8 @@ fn face_normal(scene: &Scene, face: &Face, rest: &[DVec3]) -> Option<DVec3> {
     Some(seen_normal(corners, -rest[outline.first()?.index()]))
 }
 
-impl Illumination {
-    /// The light of a scene's lights on its vertices.
+impl VertexIrradiance {
+    /// What the lamps of a scene cause at its vertices.
     ///
     /// `rest`: position of each vertex, relative to the eye, (P4). `normals`: of [`split`].
     pub fn new(
@@ -85,8 +87,8 @@ impl Illumination {
     }
 }
 
-/// One ambient light in place of all lights, so that colours with light in them are drawn as they are. Comments
-/// at the lights stay.
+/// Replaces all lights by one ambient light of intensity 1, under which a renderer draws colours that
+/// include light as they are. Comments at the lights stay.
 pub(crate) fn replace_lights(scene: &mut Scene) {
     scene.lights = vec![Light {
         name: None,

@@ -1,20 +1,21 @@
-//! Colours as seen by their spectra (`-sp`): every vertex gets X, Y, Z.
+//! Colour statements with X, Y, Z of spectra as seen (`-sp`).
 
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
+use uglight::{SpectralColor, SpectralShift};
 use ugparse::{Color, ColorId, ColorValue, Scene, UniqueNames};
 use ugphysics::xyz_to_linear_srgb;
 use ugscene::Shares;
 use ugspectrum::DopplerGrid;
 
 use crate::Config;
-use crate::look::{Look, Motion};
 use crate::notes::{kept, scaled};
-use crate::ruler::Ruler;
+use crate::quantization::DopplerQuantizer;
 
-/// Gives every used vertex the colour that the spectra of its colours have under its D, or the one in `lit`. Colours of
-/// the scene stay, for lights and for what is not used.
-pub(crate) fn paint(
+/// Gives every used vertex the X, Y, Z with which the spectra of its colours are seen, or those of
+/// `lit`. The colours of the scene stay, for lights and for vertices that nothing uses. Returns what to
+/// tell the user.
+pub(crate) fn write(
     scene: &mut Scene,
     config: &Config,
     shares: &[Shares],
@@ -24,61 +25,54 @@ pub(crate) fn paint(
 ) -> Vec<String> {
     let lit = Lit::new(lit.unwrap_or_default(), used);
     let used = &*lit.others;
-    let motion = Motion { doppler: config.doppler, flux: config.flux };
+    let shift = config.spectral_shift();
     let ln_factors: Vec<f64> = factors.par_iter().map(|&doppler| libm::log(doppler)).collect();
     let grid = DopplerGrid::new(range(&ln_factors, used));
-    let looks = looks(scene, shares, used, &grid);
+    let colors = spectral_colors(scene, shares, used, &grid);
     let tolerance = config.tolerance / 100.0;
-    let ruler = Ruler::new(&grid, looks.iter().flatten().filter_map(Look::table), motion, tolerance);
+    let tables = colors.iter().flatten().filter_map(SpectralColor::table);
+    let quantizer = DopplerQuantizer::new(&grid, tables, shift, tolerance);
 
-    let plan = Plan::new(scene, &looks, &ruler, shares, &ln_factors, used);
+    let plan = Plan::new(scene, &colors, &quantizer, shares, &ln_factors, used);
     let mut seen: Vec<[f64; 3]> =
-        plan.slots.par_iter().map(|slot| slot.xyz(&looks, &grid, motion, shares)).collect();
+        plan.slots.par_iter().map(|slot| slot.xyz(&colors, &grid, shift, shares)).collect();
     seen.extend(lit.vertices.iter().map(|&(_, xyz)| xyz));
-    let notes = expose(&mut seen, config.iris).into_iter().chain(changed_note(scene, &looks)).collect();
+    let notes = expose(&mut seen, config.iris).into_iter().chain(changed_note(scene, &colors)).collect();
     let (unlit, with_light) = seen.split_at(plan.slots.len());
-    push_colors(scene, config, &ruler, shares, &plan, unlit);
+    push_colors(scene, config, &quantizer, shares, &plan, unlit);
     lit.push_colors(scene, config, shares, with_light);
     notes
 }
 
-/// ln D of the used vertices, from the least to the largest.
+/// The range of ln D of the used vertices, and 0.
 fn range(ln_factors: &[f64], used: &[bool]) -> std::ops::RangeInclusive<f64> {
     let used = ln_factors.iter().zip(used).filter(|(_, used)| **used);
     let (least, most) = used.fold((0.0_f64, 0.0_f64), |(low, high), (&ln, _)| (low.min(ln), high.max(ln)));
     least..=most
 }
 
-/// The row of a colour in a table of looks: white first.
-fn row(color: Option<ColorId>) -> usize {
+/// The row of a colour in a table of spectra: white first.
+pub(crate) fn row(color: Option<ColorId>) -> usize {
     color.map_or(0, |color| color.index() + 1)
 }
 
-/// The colours that meet at a vertex.
-pub(crate) fn parts(shares: &Shares) -> impl Iterator<Item = (Option<ColorId>, f64)> {
-    let one = match shares {
-        Shares::One(color) => Some((*color, 1.0)),
-        Shares::Mixed(_) => None,
-    };
-    let many = match shares {
-        Shares::One(_) => &[][..],
-        Shares::Mixed(parts) => parts,
-    };
-    one.into_iter().chain(many.iter().copied())
-}
-
-/// How each used colour looks; tabulated if more vertices ask than the table has points.
-fn looks(scene: &Scene, shares: &[Shares], used: &[bool], grid: &DopplerGrid) -> Vec<Option<Look>> {
+/// The spectrum of each used colour; tabulated if more vertices use it than the table has points.
+fn spectral_colors(
+    scene: &Scene,
+    shares: &[Shares],
+    used: &[bool],
+    grid: &DopplerGrid,
+) -> Vec<Option<SpectralColor>> {
     let mut n_users = vec![0usize; scene.colors.len() + 1];
     for (shares, _) in shares.iter().zip(used).filter(|(_, used)| **used) {
-        parts(shares).for_each(|(color, _)| n_users[row(color)] += 1);
+        shares.parts().for_each(|(color, _)| n_users[row(color)] += 1);
     }
-    let look = |(row, &n_users): (usize, &usize)| {
+    let spectral_color = |(row, &n_users): (usize, &usize)| {
         let color = row.checked_sub(1).map(ColorId::from_index);
-        let grid = (n_users > grid.n_points()).then_some(grid);
-        (n_users > 0).then(|| Look::new(scene, color, grid))
+        let color = (n_users > 0).then(|| SpectralColor::new(scene, color))?;
+        Some(if n_users > grid.n_points() { color.tabulated(grid) } else { color })
     };
-    n_users.par_iter().enumerate().map(look).collect()
+    n_users.par_iter().enumerate().map(spectral_color).collect()
 }
 
 /// Which vertices share a colour.
@@ -88,21 +82,21 @@ struct Plan {
     of_vertex: Vec<Option<u32>>,
 }
 
-/// A colour to be made.
+/// A colour statement to be written.
 struct Slot {
     /// The first vertex that has it.
     vertex: usize,
     ln_doppler: f64,
 }
 
-/// What tells looks apart: one colour, or the bits of a mixture.
+/// Identifies a mixture of colours: each with the bits of its share.
 type Mixture = Vec<(Option<ColorId>, u64)>;
 
 impl Plan {
     fn new(
         scene: &Scene,
-        looks: &[Option<Look>],
-        ruler: &Ruler,
+        colors: &[Option<SpectralColor>],
+        quantizer: &DopplerQuantizer,
         shares: &[Shares],
         ln_factors: &[f64],
         used: &[bool],
@@ -111,21 +105,22 @@ impl Plan {
         let mut mixtures: FxHashMap<Mixture, usize> = FxHashMap::default();
         let mut made: FxHashMap<(usize, u64), u32> = FxHashMap::default();
         for vertex in (0..scene.vertices.len()).filter(|&vertex| used[vertex]) {
-            let look = match &shares[vertex] {
+            let mixture = match &shares[vertex] {
                 Shares::One(color) => row(*color),
                 Shares::Mixed(parts) => {
                     let bits = parts.iter().map(|&(color, share)| (color, share.to_bits())).collect();
                     let n_mixtures = mixtures.len();
-                    looks.len() + *mixtures.entry(bits).or_insert(n_mixtures)
+                    colors.len() + *mixtures.entry(bits).or_insert(n_mixtures)
                 }
             };
-            let is_tabulated = parts(&shares[vertex])
-                .all(|(color, _)| looks[row(color)].as_ref().is_some_and(|look| look.table().is_some()));
+            let is_tabulated = shares[vertex]
+                .parts()
+                .all(|(color, _)| colors[row(color)].as_ref().is_some_and(|color| color.table().is_some()));
             let ln = ln_factors[vertex];
-            // A colour that few vertices have is made for each D as it is.
-            let (step, ln_doppler) = if is_tabulated { ruler.rounded(ln) } else { (ln.to_bits(), ln) };
+            // Colours of few vertices are computed for each D, without quantization.
+            let (step, ln_doppler) = if is_tabulated { quantizer.quantized(ln) } else { (ln.to_bits(), ln) };
             let next = plan.slots.len() as u32;
-            let slot = *made.entry((look, step)).or_insert(next);
+            let slot = *made.entry((mixture, step)).or_insert(next);
             if slot == next {
                 plan.slots.push(Slot { vertex, ln_doppler });
             }
@@ -136,20 +131,31 @@ impl Plan {
 }
 
 impl Slot {
-    /// X, Y, Z: those of the spectra that meet, each by its share.
-    fn xyz(&self, looks: &[Option<Look>], grid: &DopplerGrid, motion: Motion, shares: &[Shares]) -> [f64; 3] {
+    /// X, Y, Z of the spectra that meet at the vertex, each by its share.
+    fn xyz(
+        &self,
+        colors: &[Option<SpectralColor>],
+        grid: &DopplerGrid,
+        shift: SpectralShift,
+        shares: &[Shares],
+    ) -> [f64; 3] {
         let mut sum = [0.0; 3];
-        for (color, share) in parts(&shares[self.vertex]) {
-            let Some(look) = &looks[row(color)] else { continue };
-            let seen = look.seen(grid, self.ln_doppler, motion);
+        for (color, share) in shares[self.vertex].parts() {
+            let Some(color) = &colors[row(color)] else { continue };
+            let seen = color.seen(grid, self.ln_doppler, shift);
             sum.iter_mut().zip(seen).for_each(|(sum, part)| *sum += share * part);
         }
-        // What is too bright for a number stays finite; what is no number is dark.
-        sum.map(|part| if part.is_nan() { 0.0 } else { part.clamp(0.0, f64::MAX) })
+        finite(sum)
     }
 }
 
-/// The largest channel of linear sRGB, told, and with `iris` brought to 1.
+/// X, Y, Z that can be written: clamped to finite numbers, 0 for NaN.
+pub(crate) fn finite(xyz: [f64; 3]) -> [f64; 3] {
+    xyz.map(|part| if part.is_nan() { 0.0 } else { part.clamp(0.0, f64::MAX) })
+}
+
+/// With `iris` scales the largest channel of linear sRGB to 1. Returns what to tell the user of values
+/// above 1.
 fn expose(seen: &mut [[f64; 3]], iris: bool) -> Option<String> {
     let brightest = |&xyz: &[f64; 3]| xyz_to_linear_srgb(xyz).into_iter().fold(0.0, f64::max);
     let largest = seen.iter().map(brightest).fold(0.0, f64::max);
@@ -157,12 +163,12 @@ fn expose(seen: &mut [[f64; 3]], iris: bool) -> Option<String> {
         seen.iter_mut().flatten().for_each(|part| *part /= largest);
         return (largest != 1.0).then(|| scaled(largest));
     }
-    // White comes out a little above 1 by rounding.
+    // By rounding, white may be slightly above 1.
     (largest > 1.0 + 1e-9).then(|| kept(largest))
 }
 
-fn changed_note(scene: &Scene, looks: &[Option<Look>]) -> Option<String> {
-    let row = looks.iter().position(|look| look.as_ref().is_some_and(|look| !look.is_exact()))?;
+fn changed_note(scene: &Scene, colors: &[Option<SpectralColor>]) -> Option<String> {
+    let row = colors.iter().position(|color| color.as_ref().is_some_and(|color| !color.is_exact()))?;
     let name = scene.names.get(scene.colors[row.checked_sub(1)?].name);
     Some(format!(
         "colour `{name}` is more saturated than a smooth spectrum can be, and is brought toward grey; give it by `c_spd`"
@@ -172,7 +178,7 @@ fn changed_note(scene: &Scene, looks: &[Option<Look>]) -> Option<String> {
 fn push_colors(
     scene: &mut Scene,
     config: &Config,
-    ruler: &Ruler,
+    quantizer: &DopplerQuantizer,
     shares: &[Shares],
     plan: &Plan,
     seen: &[[f64; 3]],
@@ -194,10 +200,8 @@ fn push_colors(
                 format!("mixed{n_mixed}")
             }
         };
-        let name = names.fresh(&format!("{base}#{}", ruler.digits(slot.ln_doppler)));
-        let translucency = parts(shares)
-            .map(|(color, share)| color.map_or(0.0, |id| scene.colors[id.index()].translucency) * share)
-            .sum();
+        let name = names.fresh(&format!("{base}#{}", quantizer.digits(slot.ln_doppler)));
+        let translucency = translucency(scene, shares);
         let name = scene.names.add(&name);
         scene.colors.push(Color { name, value: ColorValue::Xyz(xyz), translucency });
         ids.push(ColorId::from_index(scene.colors.len() - 1));
@@ -207,9 +211,16 @@ fn push_colors(
     }
 }
 
-/// The colour itself, if it is X, Y, Z already and looks as it is written.
+fn translucency(scene: &Scene, shares: &Shares) -> f64 {
+    let of = |(color, share): (Option<ColorId>, f64)| {
+        color.map_or(0.0, |id| scene.colors[id.index()].translucency) * share
+    };
+    shares.parts().map(of).sum()
+}
+
+/// The given colour, if it is written as X, Y, Z and is seen so.
 fn unchanged(scene: &Scene, shares: &Shares, seen: [f64; 3]) -> Option<ColorId> {
-    /// A spectrum has its colour at rest to 10⁻⁹ of its brightest channel.
+    /// A spectrum has its colour at rest to 10⁻⁹ of its largest channel.
     const NEAR: f64 = 1e-8;
     let &Shares::One(Some(id)) = shares else { return None };
     let ColorValue::Xyz(given) = scene.colors[id.index()].value else { return None };
@@ -217,10 +228,10 @@ fn unchanged(scene: &Scene, shares: &Shares, seen: [f64; 3]) -> Option<ColorId> 
     given.iter().zip(seen).all(|(a, b)| (a - b).abs() <= NEAR * largest).then_some(id)
 }
 
-/// Used vertices that have their light in their colours already.
+/// Used vertices whose colours include light.
 struct Lit {
     vertices: Vec<(usize, [f64; 3])>,
-    /// Used vertices without.
+    /// True for the other used vertices.
     others: Vec<bool>,
 }
 
@@ -237,7 +248,7 @@ impl Lit {
         Self { vertices, others }
     }
 
-    /// `seen`: X, Y, Z as they are to be written. Steps as wide as the tolerance share a colour.
+    /// `seen`: X, Y, Z to be written. Those that differ by less than the tolerance share a statement.
     fn push_colors(&self, scene: &mut Scene, config: &Config, shares: &[Shares], seen: &[[f64; 3]]) {
         let mut names: UniqueNames = scene.colors.iter().map(|color| scene.names.get(color.name)).collect();
         let mut made: FxHashMap<[u64; 4], ColorId> = FxHashMap::default();
@@ -247,9 +258,7 @@ impl Lit {
             part.to_bits()
         };
         for (&(row, _), &xyz) in self.vertices.iter().zip(seen) {
-            let translucency: f64 = parts(&shares[row])
-                .map(|(color, share)| color.map_or(0.0, |id| scene.colors[id.index()].translucency) * share)
-                .sum();
+            let translucency = translucency(scene, &shares[row]);
             let [x, y, z] = xyz.map(step);
             let n_made = made.len();
             let id = *made.entry([x, y, z, translucency.to_bits()]).or_insert_with(|| {

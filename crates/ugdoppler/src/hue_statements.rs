@@ -1,38 +1,37 @@
-//! Colours as seen: made once for each base colour and Doppler factor, and reused.
+//! Colour statements with hues as seen: one for each colour at rest and quantized Doppler factor.
 
 use rustc_hash::FxHashMap;
-use uglight::{HueScale, VertexColor, hsv};
+use uglight::{HueColor, HueScale, HueShift, VertexColor, hsv};
 use ugparse::{Color, ColorId, ColorValue, NameId, Scene, UniqueNames};
-use ugphysics::{Hsv, hue_to_wavelength, wavelength_to_hue};
+use ugphysics::{Hsv, hue_to_wavelength};
 
 use crate::Config;
-use crate::lit::Seen;
 use crate::notes::{clipped, kept, scaled};
 
-/// The longest visible wavelength, nm: where a relative step of D moves the
-/// wavelength most.
+/// The longest visible wavelength, nm: there a relative step of D changes the wavelength most.
 const LONGEST_NM: f64 = 780.0;
 
-/// The colours of a scene and what they look like.
-pub(crate) struct Palette<'s> {
+/// Writes the colours of vertices into a scene, and reuses statements.
+pub(crate) struct HueStatements<'s> {
     scene: &'s mut Scene,
     config: &'s Config,
-    /// Colours of the scene before any was added.
+    shift: HueShift,
+    /// How many colours the scene had at first.
     n_given: usize,
-    /// Width of a step of ln D; 0 keeps every D apart.
+    /// Step of the quantization of ln D; 0 for none.
     step: f64,
     made: FxHashMap<Key, ColorId>,
-    /// Colours with light in them, by translucency and step of wavelength, saturation and value.
+    /// Colours that include light, by translucency and quantized wavelength, saturation and value.
     lit: FxHashMap<[u64; 4], ColorId>,
     bases: FxHashMap<BaseKey, Base>,
     names: UniqueNames,
     largest_value: f64,
 }
 
-/// A base colour and the step of D it is seen with.
+/// A colour at rest and the quantized D it is seen with.
 type Key = (BaseKey, u64);
 
-/// What tells base colours apart.
+/// Identifies a colour at rest.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 enum BaseKey {
     Named(ColorId),
@@ -44,17 +43,17 @@ enum BaseKey {
 /// A colour at rest.
 #[derive(Clone)]
 struct Base {
-    hsv: Hsv,
+    color: HueColor,
     translucency: f64,
     name: String,
 }
 
-impl<'s> Palette<'s> {
+impl<'s> HueStatements<'s> {
     pub fn new(scene: &'s mut Scene, config: &'s Config) -> Self {
         let names = scene.colors.iter().map(|color| scene.names.get(color.name)).collect();
         Self {
             n_given: scene.colors.len(),
-            // D is taken at the middle of its step, so it is off by half a step at most.
+            // Rounded to the nearest step, ln D is off by half a step at most.
             step: 2.0 * config.tolerance / LONGEST_NM,
             made: FxHashMap::default(),
             lit: FxHashMap::default(),
@@ -62,13 +61,14 @@ impl<'s> Palette<'s> {
             names,
             largest_value: 0.0,
             scene,
+            shift: config.hue_shift(),
             config,
         }
     }
 
-    /// Gives vertex `row` the colour that `color` looks like under `doppler`.
-    pub fn paint(&mut self, row: usize, color: VertexColor, doppler: f64) {
-        let (step, doppler) = self.rounded(doppler);
+    /// Gives vertex `row` the colour at rest `color` as seen with `doppler`.
+    pub fn set(&mut self, row: usize, color: VertexColor, doppler: f64) {
+        let (step, doppler) = self.quantized(doppler);
         let base = key(color);
         let id = match self.made.get(&(base, step)) {
             Some(&id) => id,
@@ -81,8 +81,8 @@ impl<'s> Palette<'s> {
         self.scene.vertices[row].color = Some(id);
     }
 
-    /// Gives vertex `row` a colour that has its light in it already; `color` is that of the surface.
-    pub fn paint_lit(&mut self, row: usize, color: VertexColor, seen: Seen) {
+    /// Gives vertex `row` a colour that includes light already; `color` is that of the surface.
+    pub fn set_lit(&mut self, row: usize, color: VertexColor, seen: HueColor) {
         let base = self.base(key(color), color);
         let (key, n_lit) = (self.lit_key(base.translucency, seen), self.lit.len());
         let id = match self.lit.get(&key) {
@@ -91,13 +91,7 @@ impl<'s> Palette<'s> {
                 self.largest_value = self.largest_value.max(seen.value);
                 let name = self.names.fresh(&format!("{}#lit{}", base.name, n_lit + 1));
                 let name = self.scene.names.add(&name);
-                let hue = match seen.saturation {
-                    0.0 => 0.0,
-                    _ if self.config.wavelengths => seen.wavelength_nm,
-                    _ => seen.hue,
-                };
-                let hsv = Hsv { hue, saturation: seen.saturation, value: seen.value };
-                let id = self.push(name, hsv, base.translucency);
+                let id = self.push(name, seen, base.translucency);
                 self.lit.insert(key, id);
                 id
             }
@@ -105,8 +99,9 @@ impl<'s> Palette<'s> {
         self.scene.vertices[row].color = Some(id);
     }
 
-    /// Steps as wide as the tolerance: the first colour of a step stands for all. What no eye sees has no step.
-    fn lit_key(&self, translucency: f64, seen: Seen) -> [u64; 4] {
+    /// The key under which lit colours that differ by less than the tolerance are found: the first of
+    /// them stands for all.
+    fn lit_key(&self, translucency: f64, seen: HueColor) -> [u64; 4] {
         let tolerance = self.config.tolerance;
         let step = |number: f64, width: f64| {
             let number = if tolerance > 0.0 { (number / width).round() } else { number };
@@ -117,13 +112,13 @@ impl<'s> Palette<'s> {
             translucency.to_bits(),
             step(wavelength, tolerance),
             step(seen.saturation, tolerance / 100.0),
-            // Parts of the value, not of 1: the iris may make dark scenes bright.
+            // Relative to the value, since the iris may scale dark scenes up.
             step(libm::log(seen.value), tolerance / 100.0),
         ]
     }
 
-    /// The step that D falls in, as a key, and D at its middle. D = 1 is a middle.
-    fn rounded(&self, doppler: f64) -> (u64, f64) {
+    /// D rounded to the nearest step of ln D, as a key and as a number. D = 1 stays.
+    fn quantized(&self, doppler: f64) -> (u64, f64) {
         if self.step == 0.0 {
             return (doppler.to_bits(), doppler);
         }
@@ -131,43 +126,30 @@ impl<'s> Palette<'s> {
         (step.to_bits(), libm::exp(step * self.step))
     }
 
-    /// A colour statement for a base colour under D; the given one if it looks the same.
+    /// A colour statement for a colour at rest as seen with D; the given one if nothing changes.
     fn make(&mut self, key: BaseKey, color: VertexColor, doppler: f64) -> ColorId {
         let base = self.base(key, color);
-        let shifts = self.config.doppler && base.hsv.saturation > 0.0 && doppler != 1.0;
-        let fades = self.config.flux && self.config.law.factor(doppler) != 1.0;
-        let value = if fades { base.hsv.value * self.config.law.factor(doppler) } else { base.hsv.value };
-        self.largest_value = self.largest_value.max(value);
-        if !shifts
-            && !fades
-            && let VertexColor::Named(id) = color
-        {
+        let seen = self.shift.seen(base.color, doppler);
+        let is_changed = !self.shift.keeps_wavelength(base.color.saturation, doppler)
+            || self.shift.law.factor(doppler) != 1.0;
+        self.largest_value = self.largest_value.max(seen.value);
+        if let (false, VertexColor::Named(id)) = (is_changed, color) {
             return id;
         }
-        let name =
-            if shifts || fades { format!("{}#{}", base.name, self.digits(doppler)) } else { base.name };
+        let name = if is_changed { format!("{}#{}", base.name, self.digits(doppler)) } else { base.name };
         let name = self.names.fresh(&name);
         let name = self.scene.names.add(&name);
-        let hue = if base.hsv.saturation > 0.0 {
-            let wavelength = hue_to_wavelength(base.hsv.hue) / if shifts { doppler } else { 1.0 };
-            if self.config.wavelengths {
-                wavelength
-            } else {
-                self.shifted_hue(base.hsv.hue, wavelength, shifts)
-            }
-        } else {
-            0.0
+        self.push(name, seen, base.translucency)
+    }
+
+    /// Adds a colour statement. Greys have no hue, and are written with 0.
+    fn push(&mut self, name: NameId, color: HueColor, translucency: f64) -> ColorId {
+        let hue = match color.saturation {
+            0.0 => 0.0,
+            _ if self.config.wavelengths => color.wavelength_nm,
+            _ => color.hue,
         };
-        self.push(name, Hsv { hue, value, ..base.hsv }, base.translucency)
-    }
-
-    /// A hue that was not shifted stays as it was written.
-    fn shifted_hue(&self, hue: f64, wavelength: f64, shifts: bool) -> f64 {
-        if shifts { wavelength_to_hue(wavelength) } else { hue }
-    }
-
-    fn push(&mut self, name: NameId, hsv: Hsv, translucency: f64) -> ColorId {
-        let value = ColorValue::Hsv { value: hsv.value, hue: hsv.hue, saturation: hsv.saturation };
+        let value = ColorValue::Hsv { value: color.value, hue, saturation: color.saturation };
         self.scene.colors.push(Color { name, value, translucency });
         ColorId::from_index(self.scene.colors.len() - 1)
     }
@@ -180,37 +162,38 @@ impl<'s> Palette<'s> {
             VertexColor::Named(id) => {
                 let color = &self.scene.colors[id.index()];
                 Base {
-                    hsv: hsv(self.scene, color, HueScale::Degrees),
+                    color: hsv(self.scene, color, HueScale::Degrees).into(),
                     translucency: color.translucency,
                     name: self.scene.names.get(color.name).to_string(),
                 }
             }
             VertexColor::White => {
                 let hsv = Hsv { hue: 0.0, saturation: 0.0, value: 1.0 };
-                Base { hsv, translucency: 0.0, name: "white".to_string() }
+                Base { color: hsv.into(), translucency: 0.0, name: "white".to_string() }
             }
             VertexColor::Mixed { hsv, translucency, .. } => {
                 let name = format!("mixed{}", self.bases.len() + 1);
-                Base { hsv, translucency, name }
+                Base { color: hsv.into(), translucency, name }
             }
         };
         self.bases.insert(key, base.clone());
         base
     }
 
-    /// D for a name: as many digits as tell the steps apart, `_` for the point.
+    /// D for the name of a colour: as many digits as distinguish the steps, `_` for the point.
     fn digits(&self, doppler: f64) -> String {
         let text = if self.step == 0.0 {
             format!("{doppler}")
         } else {
-            // Digits behind the point so that a unit of the last is below a step of D.
+            // So many decimal places that a unit in the last is below a step of D.
             let places = (-libm::log10(doppler * self.step)).ceil().clamp(0.0, 20.0);
             format!("{doppler:.*}", places as usize)
         };
         text.replace('.', "_")
     }
 
-    /// Brings values above 1 into range, unless they are to be kept, and the given colours to the scale of the output.
+    /// Clips or scales values above 1, unless they are kept, and converts the colours that the scene had
+    /// at first to the scale of the output. Returns what to tell the user.
     pub fn finish(mut self) -> Vec<String> {
         if self.config.wavelengths {
             for color in &mut self.scene.colors[..self.n_given] {
@@ -224,7 +207,7 @@ impl<'s> Palette<'s> {
         if self.config.iris { self.scale_values() } else { self.clip_values() }
     }
 
-    /// The values that vertices have, times the factor that makes the largest 1. Lights keep theirs: they multiply what is
+    /// Divides the values of vertices by the largest. Those of lights stay, for they multiply what is
     /// scaled here.
     fn scale_values(&mut self) -> Vec<String> {
         let largest = self.largest_value;
@@ -251,7 +234,7 @@ impl<'s> Palette<'s> {
         vec![scaled(largest)]
     }
 
-    /// Gives lights that share a colour with vertices a copy of it.
+    /// Gives lights that share a colour with vertices a copy of it, which is not scaled.
     fn keep_lights(&mut self, is_scaled: &[bool]) {
         let mut copies: FxHashMap<ColorId, ColorId> = FxHashMap::default();
         for row in 0..self.scene.lights.len() {

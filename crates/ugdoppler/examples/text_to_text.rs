@@ -1,0 +1,24 @@
+//! The colours of a scene as seen, from text to text in memory.
+
+use std::error::Error;
+
+use ugdoppler::{Config, apply};
+use ugparse::{Options, Source};
+
+const SHIP: &str = "c green 0.5 120; v a 9 0 0; v b 9 1 0; v c 9 0 1; f (a b c) green <-0.3 0 0>;";
+
+/// The program `ugdoppler -gw` as a function.
+fn colored(text: &str) -> Result<Vec<u8>, Box<dyn Error>> {
+    let source = Source::new("ship.ug", text);
+    let scene = ugscene::read(&source, &Options::default(), None)?.scene;
+    let (mut scene, _) = apply(scene, &Config { wavelengths: true, ..Config::default() })?;
+    ugscene::record(&mut scene, "ugdoppler", "0.1.0", "ugdoppler -gw");
+    Ok(ugparse::write(&scene))
+}
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let text = String::from_utf8(colored(SHIP)?)?;
+    // It moves straight at the eye: D = √(1.3/0.7), and 546.1 nm is seen at 400.7 nm.
+    assert!(text.contains(" 0.681") && text.contains(" 400.7"), "{text}");
+    Ok(())
+}

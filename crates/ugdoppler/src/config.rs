@@ -1,0 +1,72 @@
+//! What to compute, apart from the scene.
+
+use glam::DVec3;
+use uglight::{HueShift, SpectralShift};
+use ugphysics::{Brightness, Velocity};
+
+/// What to compute. [`Config::default`] is what the program does without options.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Config {
+    /// Velocity of faces and wires that carry none (`-vel`).
+    pub velocity: Velocity,
+    /// The eye; if `None`, that of the scene's camera, else the origin (`-ep`).
+    pub eye: Option<DVec3>,
+    /// Write wavelengths in nm instead of hues (`-gw`).
+    pub wavelengths: bool,
+    /// The brightness law: how D changes the value of a colour, (P12) (`-br`).
+    pub law: Brightness,
+    /// Give each vertex a copy per colour of its faces, instead of mixing them (`-vr`).
+    pub repeat: bool,
+    /// Vertices share a colour statement if their wavelengths differ by at most this many nm and
+    /// their values by as many percent; with spectra, if their X, Y and Z do. With 0 every vertex has
+    /// its own (`-ct`).
+    pub tolerance: f64,
+    /// Scale all values so that the largest is 1, instead of clipping those above (`-ir`).
+    pub iris: bool,
+    /// Put the light of the scene's lamps, moving ones included, into the colours (`-li`).
+    pub light: bool,
+    /// Keep values above 1, instead of clipping them (`-hd`).
+    pub keep: bool,
+    /// Shift spectra instead of hues, and write X, Y, Z (`-sp`). The brightness law is that of spectral
+    /// radiance, D⁵, and nothing is clipped.
+    pub spectral: bool,
+    /// Shift wavelengths; `--no-doppler` does not.
+    pub doppler: bool,
+    /// Change brightness; `--no-flux` does not.
+    pub flux: bool,
+}
+
+/// The default of [`Config::tolerance`]. A tenth of a nanometre moves the hue by less than one 8-bit
+/// step, a tenth of a percent the value by a quarter of one.
+pub const DEFAULT_TOLERANCE: f64 = 0.1;
+
+impl Default for Config {
+    fn default() -> Self {
+        Self {
+            velocity: Velocity::ZERO,
+            eye: None,
+            wavelengths: false,
+            law: Brightness::Report,
+            repeat: false,
+            tolerance: DEFAULT_TOLERANCE,
+            iris: false,
+            light: false,
+            keep: false,
+            spectral: false,
+            doppler: true,
+            flux: true,
+        }
+    }
+}
+
+impl Config {
+    /// What motion changes in hues.
+    pub(crate) fn hue_shift(&self) -> HueShift {
+        HueShift { doppler: self.doppler, law: if self.flux { self.law } else { Brightness::None } }
+    }
+
+    /// What motion changes in spectra.
+    pub(crate) fn spectral_shift(&self) -> SpectralShift {
+        SpectralShift { doppler: self.doppler, flux: self.flux }
+    }
+}

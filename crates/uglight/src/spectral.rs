@@ -1,0 +1,135 @@
+//! Colours as spectra, as seen in motion.
+
+use glam::DVec3;
+use ugparse::{ColorId, Scene};
+use ugspectrum::{DopplerGrid, DopplerTable, LightSpectrum, Spectrum};
+
+use crate::{Irradiance, spectrum};
+
+/// What motion changes in a spectrum, L(λ) = D⁵ L'(λD): wavelengths, and the radiance at each.  Eq. (P12)
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SpectralShift {
+    /// L'(λD) instead of L'(λ).
+    pub doppler: bool,
+    /// The factor D⁵.
+    pub flux: bool,
+}
+
+impl SpectralShift {
+    /// Spectra stay as they are at rest.
+    pub const NONE: Self = Self { doppler: false, flux: false };
+
+    /// ln of the factor that wavelengths are divided by.
+    #[must_use]
+    pub fn ln_shift(self, ln_doppler: f64) -> f64 {
+        if self.doppler { ln_doppler } else { 0.0 }
+    }
+
+    /// ln of the factor on the radiance.
+    #[must_use]
+    pub fn ln_gain(self, ln_doppler: f64) -> f64 {
+        if self.flux { 5.0 * ln_doppler } else { 0.0 }
+    }
+
+    /// X, Y, Z of a surface under several lamps, seen with the Doppler factor `doppler`: those of
+    /// L(λ) = D⁵ Σ D_l³ · level · intensity · R(λD) S(λ D D_l), over the lamps. R is the reflectance,
+    /// S the lamp's spectrum. What is no surface emits what it emits without lamps.  Eq. (P14)
+    #[must_use]
+    pub fn seen_lit(
+        self,
+        surface: &Spectrum,
+        doppler: f64,
+        light: &[Irradiance],
+        lamps: &[SpectralLamp],
+    ) -> DVec3 {
+        let shift = |doppler: f64| if self.doppler { doppler } else { 1.0 };
+        let flux = |factor: f64| if self.flux { factor } else { 1.0 };
+        let square = doppler * doppler;
+        let gain = flux(square * square * doppler);
+        let mut sum = DVec3::ZERO;
+        for part in light {
+            let lamp = &lamps[part.lamp as usize];
+            let Some(xyz) = surface.under(&lamp.light, shift(doppler), shift(part.doppler)) else {
+                return gain * DVec3::from(surface.shifted(shift(doppler)));
+            };
+            let received = part.level * lamp.intensity * flux(part.doppler * part.doppler * part.doppler);
+            sum += received * gain * DVec3::from(xyz);
+        }
+        sum
+    }
+}
+
+/// The spectrum of a lamp, and its intensity.
+#[derive(Clone, Debug)]
+pub struct SpectralLamp {
+    light: LightSpectrum,
+    intensity: f64,
+}
+
+/// The lamps of a scene, in its order: daylight filtered by the lamp's colour, or the black body or
+/// samples that its colour is.
+#[must_use]
+pub fn spectral_lamps(scene: &Scene) -> Vec<SpectralLamp> {
+    let of_color = |color: Option<ColorId>| SpectralColor::new(scene, color).spectrum;
+    let lamp = |light: &ugparse::Light| SpectralLamp {
+        light: LightSpectrum::new(&of_color(light.color)),
+        intensity: light.intensity,
+    };
+    scene.lights.iter().map(lamp).collect()
+}
+
+/// The spectrum of a colour of a scene.
+#[derive(Clone, Debug)]
+pub struct SpectralColor {
+    spectrum: Spectrum,
+    is_exact: bool,
+    table: Option<DopplerTable>,
+}
+
+impl SpectralColor {
+    /// That of a colour statement, or of white.
+    #[must_use]
+    pub fn new(scene: &Scene, color: Option<ColorId>) -> Self {
+        let (spectrum, is_exact) = match color {
+            Some(color) => spectrum(scene, &scene.colors[color.index()]),
+            None => (Spectrum::from_linear_srgb([1.0; 3]), true),
+        };
+        Self { spectrum, is_exact, table: None }
+    }
+
+    /// The same, tabulated over D: soon found for many factors.
+    #[must_use]
+    pub fn tabulated(self, grid: &DopplerGrid) -> Self {
+        Self { table: Some(grid.table(&self.spectrum)), ..self }
+    }
+
+    /// False if the colour at rest is another than the one that was written.
+    #[must_use]
+    pub fn is_exact(&self) -> bool {
+        self.is_exact
+    }
+
+    /// The spectrum at rest.
+    #[must_use]
+    pub fn spectrum(&self) -> &Spectrum {
+        &self.spectrum
+    }
+
+    /// Its table, if it was [tabulated](Self::tabulated).
+    #[must_use]
+    pub fn table(&self) -> Option<&DopplerTable> {
+        self.table.as_ref()
+    }
+
+    /// X, Y, Z as seen at a ln D.  Eq. (P12), (P19)
+    #[must_use]
+    pub fn seen(&self, grid: &DopplerGrid, ln_doppler: f64, shift: SpectralShift) -> [f64; 3] {
+        let ln_shift = shift.ln_shift(ln_doppler);
+        let xyz = match &self.table {
+            Some(table) => table.xyz(ln_shift),
+            None => grid.xyz(&self.spectrum, ln_shift),
+        };
+        let gain = libm::exp(shift.ln_gain(ln_doppler));
+        xyz.map(|part| part * gain)
+    }
+}
