@@ -14,9 +14,20 @@ mkdir -p "$out/rows"
 out=$(cd "$out" && pwd)
 cd "$(dirname "$0")/.."
 
-cargo build --quiet --release
+n_figures=50
+printf 'Builds the programs, then draws %s figures into %s\n' "$n_figures" "$out"
+printf 'On two cores: some minutes for the first build, then about one for the figures.\n\n'
+cargo build --release -p uglorentz -p ugdoppler -p ugrainbow -p ugsheet
+printf '\nDrawing:\n'
 export PATH="${CARGO_TARGET_DIR:-$PWD/target}/release:$PATH"
 cd scenes
+
+# announce NAME: the progress. Counted in a file, since most figures end in a subshell.
+: > "$out/rows/drawn"
+announce() {
+    printf '%s\n' "$1" >> "$out/rows/drawn"
+    printf '%3d of %d  %s.png\n' "$(wc -l < "$out/rows/drawn")" "$n_figures" "$1"
+}
 
 # The colours of things at rest, so that only the shape is changed.
 shape() { ugdoppler -qt --no-doppler --no-flux; }
@@ -37,7 +48,7 @@ flyby() {
         rows+=("$row")
     done
     tile "$out/$name.png" 1 "${rows[@]}"
-    printf '%s\n' "$name"
+    announce "$name"
 }
 
 # tile SHEET COLUMNS PICTURE...: a contact sheet without labels
@@ -50,7 +61,7 @@ draw() {
     local name=$1
     shift
     ugrainbow -qt -sz "$width" "$height" "$@" -fo "$out/$name.png"
-    printf '%s\n' "$name"
+    announce "$name"
 }
 
 # Nguyen 1988, figure 1: the rainbow.
@@ -86,7 +97,7 @@ for speed in .95 .999; do
         rows+=("$row")
     done
     tile "$out/chang-10-0${speed}c.png" 1 "${rows[@]}"
-    printf '%s\n' "chang-10-0${speed}c"
+    announce "chang-10-0${speed}c"
 done
 
 # Figures 11 and 12: the street at rest, rushing in, rushing out; and in colour. Wavelengths (-gw,
@@ -124,7 +135,7 @@ for time in 00 09 17 28; do
     rows+=("$row")
 done
 tile "$out/chang-17-bands-0.5c.png" 1 "${rows[@]}"
-printf '%s\n' chang-17-bands-0.5c
+announce chang-17-bands-0.5c
 
 # Howard, Dance and Kitchen 1995, figures 4 and 5: flying at a grid, and just through it.
 uglorentz grid.ug | shape | draw howard-04a-rest

@@ -51,7 +51,7 @@ fn commands_in_documents_work() {
             std::fs::copy(entry.path(), scenes.path().join(entry.file_name())).expect("a copy");
         }
     }
-    let programs = programs::released();
+    let programs = programs::of_this_profile();
     let path = std::env::var_os("PATH").unwrap_or_default();
     let path = std::env::join_paths(std::iter::once(programs).chain(std::env::split_paths(&path)));
     let path = path.expect("a path without colons");

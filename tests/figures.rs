@@ -1,6 +1,6 @@
 //! PDF, SVG and vector figures rendered by other programs show the same picture as the PNG.
 //!
-//! Without `gs`, `pdftoppm`, `rsvg-convert` and `chromium` on the path the tests are skipped, unless `UG_REQUIRE_TOOLS=1`.
+//! Without `gs`, `pdftoppm`, `rsvg-convert` and `chromium` on the path the tests are skipped, unless `UG_CI=1`.
 
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test fails by panicking")]
 
@@ -15,12 +15,7 @@ use ugtests::picture::{Picture, assert_same, decode, read};
 use ugtests::pipe::{Pipe, rainbow};
 use ugtests::{scenes, tools};
 
-const TOOLS: [tools::Tool<'_>; 4] = [
-    ("gs", "--version", "ghostscript"),
-    ("pdftoppm", "-v", "poppler-utils"),
-    ("rsvg-convert", "--version", "librsvg2-bin"),
-    ("chromium", "--version", "chromium"),
-];
+const TOOLS: [tools::Tool; 4] = [tools::GHOSTSCRIPT, tools::POPPLER, tools::RSVG, tools::CHROMIUM];
 
 /// A program that renders a file.
 #[derive(Clone, Copy, Debug)]

@@ -1,7 +1,7 @@
 //! Checks pictures in linear light with another program: OpenImageIO, which uses the reference implementation of
 //! OpenEXR.
 //!
-//! Without `oiiotool` on the path the tests are skipped, unless `UG_REQUIRE_TOOLS=1`.
+//! Without `oiiotool` on the path the tests are skipped, unless `UG_CI=1`.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
@@ -14,7 +14,7 @@ use ugparse::{Options, Source, parse};
 use ugrainbow::{Background, Channel, Output};
 use ugtests::oracle::Pinhole;
 use ugtests::pipe::{Pipe, rainbow};
-use ugtests::tools::{self, Tool};
+use ugtests::tools::{self, OIIOTOOL};
 
 const SIZE: [u32; 2] = [24, 18];
 
@@ -22,8 +22,6 @@ const SIZE: [u32; 2] = [24, 18];
 const GLARE: &str = "c_xyz hot 900 400 1; c_xyz green .2 3 .1; c blue .7 220 .8; c dim .001 40; l 1;
     v a -4 9 -3 hot; v b 1 9 -3 green; v c 1 9 3 dim; v d -4 9 3 blue; f (a b c d);
     v e 0.3 8 -3; v g 3.7 8 -2; v h 2 7 3.1; f (e g h) blue; cam -ep 0 0 0 -vc 0 9 0 -va 60 50;";
-
-const OIIOTOOL: Tool<'_> = ("oiiotool", "--help", "openimageio-tools");
 
 /// Runs `oiiotool`, which must succeed without messages, and returns its output.
 #[track_caller]

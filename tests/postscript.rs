@@ -1,6 +1,6 @@
 //! PostScript rendered by Ghostscript has the same pixels as the PNG.
 //!
-//! Without `gs` on the path the test is skipped, unless `UG_REQUIRE_TOOLS=1`.
+//! Without `gs` on the path the test is skipped, unless `UG_CI=1`.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
@@ -14,9 +14,7 @@ use ugrainbow::{Background, Output};
 use ugtests::picture::{Picture, assert_same, decode, read};
 use ugtests::pipe::{Pipe, rainbow};
 use ugtests::scenes;
-use ugtests::tools::{self, Tool};
-
-const GHOSTSCRIPT: Tool<'_> = ("gs", "--version", "ghostscript");
+use ugtests::tools::{self, GHOSTSCRIPT};
 
 /// Renders PostScript at one pixel per point. EPS pages are cropped to their bounding box; others set their size.
 fn ghostscript(file: &[u8]) -> Picture {

@@ -1,6 +1,6 @@
 //! Processors with other instruction sets give the same bytes: runs the programs on emulated ones.
 //!
-//! Without `qemu-x86_64` on the path the test is skipped, unless `UG_REQUIRE_TOOLS=1`. It requires x86-64 and Linux, where
+//! Only `.ci/run` makes this check, since it needs the release build. It requires x86-64 and Linux, where
 //! the emulator can run single programs built for the host.
 
 #![cfg(all(target_arch = "x86_64", target_os = "linux"))]
@@ -53,7 +53,7 @@ fn written(scene: &str, pipe: &str, programs: &Path, processor: Option<&str>) ->
 /// Conroe has SSE up to SSSE3, Nehalem up to 4.2; `max` has everything that is emulated, including AVX2 and FMA.
 #[test]
 fn bytes_do_not_depend_on_the_processor() {
-    if !tools::has(&[("qemu-x86_64", "--version", "qemu-user")]) {
+    if !tools::is_ci_or_skipped(tools::PROCESSORS) || !tools::has(&[tools::QEMU]) {
         return;
     }
     let programs = programs::released();

@@ -5,17 +5,21 @@ use std::process::Command;
 
 use crate::scenes;
 
-/// The folder of the programs with all optimisation.
-///
-/// They are built if need be, all of them at once and in no other way than `scenes/figures.sh` does: cargo chooses the
-/// features of dependencies by what is asked for together, and would compile everything anew for a part of them.
-pub fn released() -> PathBuf {
-    built("release")
+/// The folder of the programs in the profile that this test is built in. They are built if
+/// need be; `cargo test --workspace` has done so already, with the same features.
+pub fn of_this_profile() -> PathBuf {
+    built(if cfg!(debug_assertions) { "dev" } else { "release" })
 }
 
-/// The folder of the programs in the profile, `dev` or `release`, that this test is not built in.
+/// The folder of the programs in the other profile of `dev` and `release`: minutes if they are
+/// not built yet.
 pub fn of_other_profile() -> PathBuf {
     built(if cfg!(debug_assertions) { "release" } else { "dev" })
+}
+
+/// The folder of the optimised programs: minutes if they are not built yet.
+pub fn released() -> PathBuf {
+    built("release")
 }
 
 fn built(profile: &str) -> PathBuf {

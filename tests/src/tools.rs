@@ -1,23 +1,131 @@
-//! Checks whether external programs are installed that some tests require.
+//! What some checks need and may be missing: programs of others, and builds that only `.ci/run` makes.
+//!
+//! A check without its tool is skipped and says so on standard error, past the capture of
+//! output by the test harness. `tests/tools.rs`, the last of the cross-crate tests, repeats
+//! what was skipped. With `UG_CI=1`, as `.ci/run` sets it, nothing is skipped: a missing
+//! tool is a failure.
 
+use std::io::{self, Write};
 use std::process::Command;
 
-/// A required program, an option with which it exits successfully at once, and the Debian package that contains it.
-pub type Tool<'a> = (&'a str, &'a str, &'a str);
+/// A program of others.
+#[derive(Clone, Copy, Debug)]
+pub struct Tool {
+    /// Its name on the path.
+    pub program: &'static str,
+    /// An option with which it exits at once with status 0.
+    pub option: &'static str,
+    /// The Debian package that has it.
+    pub package: &'static str,
+    /// What is checked with it.
+    pub checks: &'static str,
+}
 
-/// False, with a word about it, if a program is missing and need not be there.
-///
-/// With `UG_REQUIRE_TOOLS=1` all have to be there.
+/// Renders PostScript and PDF.
+pub const GHOSTSCRIPT: Tool = Tool {
+    program: "gs",
+    option: "--version",
+    package: "ghostscript",
+    checks: "PostScript and PDF files show the pixels of the PNG",
+};
+
+/// Renders PDF.
+pub const POPPLER: Tool = Tool {
+    program: "pdftoppm",
+    option: "-v",
+    package: "poppler-utils",
+    checks: "PDF figures show the same as the PNG",
+};
+
+/// Renders SVG.
+pub const RSVG: Tool = Tool {
+    program: "rsvg-convert",
+    option: "--version",
+    package: "librsvg2-bin",
+    checks: "SVG figures show the same as the PNG",
+};
+
+/// A browser.
+pub const CHROMIUM: Tool = Tool {
+    program: "chromium",
+    option: "--version",
+    package: "chromium",
+    checks: "SVG figures look the same in a browser",
+};
+
+/// Reads EXR, HDR and PFM.
+pub const OIIOTOOL: Tool = Tool {
+    program: "oiiotool",
+    option: "--help",
+    package: "openimageio-tools",
+    checks: "files of linear light are read by others as they were written",
+};
+
+/// Emulates other processors.
+pub const QEMU: Tool = Tool {
+    program: "qemu-x86_64",
+    option: "--version",
+    package: "qemu-user",
+    checks: "the programs write the same bytes on processors with other instructions",
+};
+
+/// All of them.
+pub const TOOLS: [Tool; 6] = [GHOSTSCRIPT, POPPLER, RSVG, CHROMIUM, OIIOTOOL, QEMU];
+
+/// Needs a release build.
+pub const PROFILES: &str = "debug and release builds write the same bytes";
+/// Needs a release build.
+pub const PROCESSORS: &str = "the programs write the same bytes on emulated processors";
+/// Needs a build of a changed copy of all crates.
+pub const MISTAKES: &str = "the conformance suite finds every mistake that is built in on purpose";
+
+/// Checks that need another build, and so minutes.
+pub const ONLY_IN_CI: [&str; 3] = [PROFILES, PROCESSORS, MISTAKES];
+
+/// True if nothing may be skipped.
+pub fn is_ci() -> bool {
+    std::env::var_os("UG_CI").is_some_and(|value| value == "1")
+}
+
+/// Whether a check that is one of [`ONLY_IN_CI`] is to be made; says so if not.
+pub fn is_ci_or_skipped(check: &str) -> bool {
+    if !is_ci() {
+        say(&only_in_ci(check));
+    }
+    is_ci()
+}
+
+/// The message about one of [`ONLY_IN_CI`].
+pub fn only_in_ci(check: &str) -> String {
+    format!("skipped: {check}: only `.ci/run` checks it")
+}
+
+impl Tool {
+    /// True if the program is there.
+    pub fn is_there(self) -> bool {
+        Command::new(self.program).arg(self.option).output().is_ok_and(|output| output.status.success())
+    }
+
+    /// What is missing, and the remedy.
+    pub fn missing(self) -> String {
+        let Tool { program, package, checks, .. } = self;
+        format!("skipped: {checks}: there is no `{program}`; install {package}")
+    }
+}
+
+/// False, with a message, if a program is missing and need not be there.
 #[track_caller]
-#[expect(clippy::print_stdout, reason = "a skipped test says so")]
-pub fn has(tools: &[Tool<'_>]) -> bool {
-    let must = std::env::var_os("UG_REQUIRE_TOOLS").is_some_and(|value| value == "1");
-    tools.iter().all(|&(tool, option, package)| {
-        let found = Command::new(tool).arg(option).output().is_ok_and(|output| output.status.success());
-        assert!(found || !must, "UG_REQUIRE_TOOLS=1, but there is no `{tool}`: install {package}");
-        if !found {
-            println!("skipped: there is no `{tool}` on the path; install {package} to run this test");
-        }
-        found
-    })
+pub fn has(tools: &[Tool]) -> bool {
+    let missing: Vec<Tool> = tools.iter().copied().filter(|tool| !tool.is_there()).collect();
+    for tool in &missing {
+        assert!(!is_ci(), "UG_CI=1, but there is no `{}`: install {}", tool.program, tool.package);
+        say(&tool.missing());
+    }
+    missing.is_empty()
+}
+
+/// Writes a line to standard error itself: what `eprintln!` writes is hidden while a test passes.
+pub fn say(line: &str) {
+    // A closed standard error is no failure of a test.
+    let _ = writeln!(io::stderr(), "{line}");
 }

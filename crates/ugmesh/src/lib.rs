@@ -1,26 +1,25 @@
-//! Converts meshes of other programs to UniGrafix and back.
+//! Meshes of other programs to UniGrafix and back.
 //!
 //! ```text
 //! ugmesh teapot.obj | uglorentz -vel .9 0 0 | ugmesh -dt ply > distorted.ply
 //! ```
 //!
-//! Reads OBJ with its materials, PLY, STL, OFF, glTF and UniGrafix; writes UniGrafix, OBJ, PLY and
-//! glTF. Every conversion goes through a [`ugparse::Scene`]:
+//! Reads OBJ with its materials, PLY, STL, OFF and glTF, and UniGrafix itself; writes UniGrafix, OBJ, PLY and glTF.
+//! Everything passes through one [`ugparse::Scene`]:
 //!
 //! ```text
 //! bytes ─read→ Builder → Scene (z up) ─place→ Scene ─write→ Surface → bytes
 //!       ugparse ──────────↗                     └──────ugparse──────→ bytes
 //! ```
 //!
-//! Parts of a scene that a mesh format cannot represent are left out with a note. Meshes that a
-//! scene cannot represent are errors, whose messages name a remedy. Counts and offsets in files are
-//! checked before they are used, since files may be damaged or malicious.
+//! What a mesh cannot say is left out with a note; what a scene cannot hold is an error that names the remedy.
+//! Numbers of damaged or hostile files are checked before anything is counted on them.
 //!
 //! ```
 //! let input = ugmesh::Input::new("tile.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n");
 //! let config = ugmesh::Config { command_line: "ugmesh".to_string(), ..Default::default() };
 //! let scene = String::from_utf8(ugmesh::run(&config, &input)?.bytes)?;
-//! // The up axis is y in OBJ and z in UniGrafix.
+//! // OBJ has y up, UniGrafix z.
 //! assert!(scene.ends_with("v v3 1 0 1;\nv v4 0 0 1;\nf (v1 v2 v3 v4);\n"), "{scene}");
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
@@ -49,81 +48,80 @@ use builder::Builder;
 
 const PROGRAM: &str = env!("CARGO_PKG_NAME");
 
-/// The options of a conversion.
+/// What to do.
 #[derive(Clone, Debug, Default)]
 pub struct Config {
-    /// The input format; by default it is detected from the content and the file extension.
+    /// What the input is; else its content or the ending of its name says.
     pub format: Option<Format>,
-    /// The output format.
+    /// What to write.
     pub target: Target,
-    /// The up axis of meshes that are read or written; by default that of the format. In UniGrafix
-    /// it is always z.
+    /// The axis that is up in every mesh read or written; else its format says. In UniGrafix it is z always.
     pub up: Option<Axis>,
-    /// How the mesh is scaled.
+    /// How large the mesh comes out.
     pub size: Size,
-    /// Whether the centre of the mesh's bounding box is moved to the origin.
+    /// Move the middle of the mesh's box to the origin.
     pub is_centered: bool,
-    /// Prefix of the names of vertices and colours that are generated.
+    /// Before the names of vertices and colours made here.
     pub name: String,
-    /// The options for reading UniGrafix.
+    /// How UniGrafix is read.
     pub reading: Options,
-    /// The command line, which is recorded in the history of the scene.
+    /// How the program was called, for the scene's history.
     pub command_line: String,
 }
 
-/// Reads a file that a mesh refers to, such as its materials.
+/// Reads a file that a mesh names, such as its materials.
 type Beside<'a> = &'a dyn Fn(&str) -> io::Result<Vec<u8>>;
 
-/// Replaces the `include` statements of a scene by the files that they name.
+/// Puts the files that a scene includes into it.
 type Follow<'a> = &'a dyn Fn(Source) -> Result<Source, Diagnostics>;
 
-/// A mesh file.
+/// A mesh as it comes.
 pub struct Input<'a> {
     /// File name, or `<stdin>`.
     pub name: String,
-    /// The content of the file.
+    /// All of it.
     pub bytes: Vec<u8>,
-    /// Reads a file by the name that the mesh refers to.
+    /// Reads a file by the name the mesh gives it.
     pub beside: Beside<'a>,
-    /// Resolves the `include` statements of UniGrafix.
+    /// Follows the `include` statements of UniGrafix.
     pub follow: Follow<'a>,
 }
 
 impl<'a> Input<'a> {
-    /// A mesh that refers to no other files.
+    /// A mesh with no files beside it.
     pub fn new(name: impl Into<String>, bytes: impl Into<Vec<u8>>) -> Self {
         let (name, bytes) = (name.into(), bytes.into());
         Self { name, bytes, beside: &|_| Err(io::ErrorKind::NotFound.into()), follow: &Ok }
     }
 
-    /// The same mesh with other files that it refers to, which `beside` reads.
+    /// The same with files beside it, which `beside` reads.
     pub fn with_files(self, beside: Beside<'a>) -> Self {
         Self { beside, ..self }
     }
 
-    /// The same mesh with `include` statements, which `follow` resolves.
+    /// The same, whose `include` statements `follow` follows.
     pub fn with_includes(self, follow: Follow<'a>) -> Self {
         Self { follow, ..self }
     }
 }
 
-/// The result of a conversion.
+/// What came out.
 #[derive(Clone, Debug)]
 pub struct Converted {
-    /// The converted mesh or scene.
+    /// The mesh or scene.
     pub bytes: Vec<u8>,
-    /// Notes for the user, such as parts that are left out.
+    /// What the user should know.
     pub notes: Vec<String>,
-    /// Warnings about possible errors in a mesh.
+    /// What may be wrong with a mesh.
     pub warnings: Vec<String>,
-    /// Warnings about a scene.
+    /// What was wrong with a scene, and mended.
     pub diagnostics: Option<Diagnostics>,
 }
 
-/// Reads a mesh or scene, scales and moves it, and writes it.
+/// Reads a mesh or scene, places it and writes it.
 ///
 /// # Errors
-/// [`Error`] if the input is invalid, or if it cannot be converted with these options.
+/// What is wrong with the input, or with what was asked for: [`Error`].
 pub fn run(config: &Config, input: &Input) -> Result<Converted, Error> {
     let format = config
         .format

@@ -1,4 +1,4 @@
-//! The labels under the pictures.
+//! What stands under a picture.
 
 use glam::DVec3;
 use uglabel::number::{significant, speed};
@@ -7,22 +7,21 @@ use ugphysics::Velocity;
 use crate::error::Error;
 use crate::{Picture, words};
 
-/// How pictures are labelled.
+/// What stands under pictures.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Labels {
-    /// Speed and time from the history of the pictures, as far as the pictures differ in them;
-    /// otherwise their names.
+    /// Speed and time, as far as pictures differ in them by what they say of how they were made; else their names.
     Auto,
-    /// The file names.
+    /// Names of files.
     Names,
-    /// No labels.
+    /// Nothing.
     None,
-    /// The given labels, one for each picture.
+    /// These, one for each picture.
     Given(Vec<String>),
 }
 
 impl Labels {
-    /// The label of each picture.
+    /// The labels of pictures.
     pub fn texts(&self, pictures: &[Picture]) -> Vec<String> {
         let names = || pictures.iter().map(|picture| picture.name.clone()).collect();
         match self {
@@ -33,10 +32,10 @@ impl Labels {
         }
     }
 
-    /// Like [`Labels::texts`], and checks that there is one label for each picture.
+    /// The same, as many as pictures.
     ///
     /// # Errors
-    /// [`Error::Empty`] if there are no pictures, [`Error::Count`] if the numbers differ.
+    /// There is no picture, or another number of labels.
     pub fn checked(&self, pictures: &[Picture]) -> Result<Vec<String>, Error> {
         let texts = self.texts(pictures);
         match (texts.len(), pictures.len()) {
@@ -47,8 +46,7 @@ impl Labels {
     }
 }
 
-/// Labels from the options that `uglorentz` was called with. `None` if they do not distinguish the
-/// pictures.
+/// Labels by what `uglorentz` was told; none if pictures do not differ in it.
 fn by_motion(pictures: &[Picture]) -> Option<Vec<String>> {
     let told: Vec<Told> = pictures.iter().map(|picture| Told::of(&picture.history.comment)).collect();
     let speeds: Vec<Option<String>> = told.iter().map(|told| told.speed.clone()).collect();
@@ -65,7 +63,7 @@ fn by_motion(pictures: &[Picture]) -> Option<Vec<String>> {
         }
     };
     let labels: Vec<String> = speeds.iter().zip(&times).map(label).collect();
-    // If two pictures had the same label, the labels would not show how the pictures differ.
+    // Labels that leave two pictures alike do not tell what is to be seen.
     let is_telling = (1..labels.len()).all(|idx| !labels[..idx].contains(&labels[idx]));
     ((has_speeds || has_times) && is_telling).then_some(labels)
 }
@@ -74,17 +72,17 @@ fn differ(texts: &[Option<String>]) -> bool {
     texts.windows(2).any(|pair| pair[0] != pair[1])
 }
 
-/// The options of `uglorentz` that set speed and time.
+/// What `uglorentz` was told of motion.
 #[derive(Debug, PartialEq)]
 struct Told {
-    /// The speed, as `β = 0.9`; `None` at rest.
+    /// `β = 0.9`; none at rest.
     speed: Option<String>,
-    /// The time of the observer.
+    /// Of the observer.
     time: Option<String>,
 }
 
 impl Told {
-    /// Parses the command lines in the history of a picture.
+    /// By the command lines in a picture.
     fn of(history: &str) -> Self {
         let line = history.lines().rfind(|line| line.split(' ').next() == Some("uglorentz"));
         let words = words::of(line.unwrap_or_default());

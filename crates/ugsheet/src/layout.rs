@@ -1,35 +1,34 @@
-//! The layout of a sheet: positions of pictures and lines of text.
+//! Where pictures and lines of text stand.
 
 use uglabel::{ASCENT, DESCENT, Line, Point, Rgb, SPACING, wrapped};
 
 use crate::error::{Error, MAX_PIXELS};
 use crate::{Config, Picture};
 
-/// Text sizes of the title and of the caption, relative to labels.
+/// Size of titles and of captions, in parts of that of labels.
 const TITLE: f64 = 1.35;
 const CAPTION: f64 = 1.1;
 
-/// Ratio of the size of pictures to the default text size.
+/// Labels are as many times smaller than the pictures.
 const PER_TEXT: f64 = 28.0;
 
-/// Smallest and largest default text size, in pixels.
+/// Least size of text that can be read, and most that is taken without being asked for.
 const SIZES: [f64; 2] = [10.0, 48.0];
 
-/// The positions of everything on a sheet, in pixels.
+/// Where all stands.
 pub struct Layout {
-    /// Width and height of the sheet.
+    /// Of the sheet.
     pub size: [u32; 2],
     /// Upper left corners of the pictures.
     pub pictures: Vec<[u32; 2]>,
-    /// The lines of text, and where their baselines begin.
+    /// Lines, and where their base lines begin.
     pub lines: Vec<(Line, Point)>,
-    /// The colour of the text.
+    /// Of the text.
     pub ink: Rgb,
 }
 
 impl Layout {
-    /// Lays out a sheet. `labels` has one label for each picture, and there is at least one
-    /// picture.
+    /// `labels`: one for each picture.
     ///
     /// # Errors
     /// The font lacks a character, or the sheet is too large.
@@ -81,15 +80,14 @@ impl Layout {
     }
 }
 
-/// The default text size. It depends on the mean area of the pictures only, so that sheets of
-/// similar pictures have the same text size.
+/// By the mean picture, so that text is as large in all sheets of such pictures.
 fn text_size(pictures: &[Picture]) -> f64 {
     let sum: f64 = pictures.iter().map(|picture| picture.frame.pixels().len() as f64).sum();
     let mean = (sum / pictures.len() as f64).sqrt();
     (mean / PER_TEXT).round().clamp(SIZES[0], SIZES[1])
 }
 
-/// The label of a picture, with its letter if `letters` is set.
+/// A label with its letter.
 fn labelled(letters: bool, number: usize, label: &str) -> String {
     if !letters {
         return label.to_owned();
@@ -106,11 +104,11 @@ fn letter(number: usize) -> String {
     }
 }
 
-/// A sheet that is filled from top to bottom.
+/// A sheet being filled from above.
 struct Page {
     width: u32,
     around: u32,
-    /// The first free pixel row.
+    /// The first that is free.
     row: u32,
     lines: Vec<(Line, Point)>,
 }
@@ -121,8 +119,7 @@ impl Page {
         Ok(())
     }
 
-    /// Adds a paragraph of centred lines within `width`, below `top`. Returns its height in pixel
-    /// rows.
+    /// Lines within a width, in the middle, the first with its top at a place; the rows that they take.
     fn label(&mut self, text: &str, size: f64, [left, top]: [u32; 2], width: u32) -> Result<u32, Error> {
         let lines = lines(text, size, f64::from(width))?;
         if lines.is_empty() {
@@ -133,14 +130,14 @@ impl Page {
         for (idx, line) in lines.into_iter().enumerate() {
             let column = f64::from(left) + 0.5 * (f64::from(width) - line.width());
             let base = f64::from(top) + above + size * (ASCENT + SPACING * idx as f64);
-            // Baselines at whole pixel rows are sharp.
+            // Base lines on whole rows are sharp.
             self.lines.push((line, [column, base.round()]));
         }
         Ok(rows.ceil() as u32)
     }
 
     fn room(&self) -> u32 {
-        // At least 4 pixels of margin, so that letters do not touch the edge.
+        // Without a margin letters would touch the edge.
         self.width.saturating_sub(2 * self.around.max(4)).max(1)
     }
 
@@ -151,7 +148,7 @@ impl Page {
         self.down(if rows == 0 { 0 } else { rows + (0.4 * size) as u32 })
     }
 
-    /// Adds the caption: a single line is centred, several lines are left-aligned.
+    /// One line in the middle, several from the left.
     fn caption(&mut self, text: &str, size: f64) -> Result<(), Error> {
         let room = self.room();
         let left = (self.width - room) / 2;
@@ -174,7 +171,7 @@ impl Page {
     }
 }
 
-/// Height of a paragraph in pixels.
+/// Height of lines.
 fn paragraph(n_lines: usize, size: f64) -> f64 {
     size * (ASCENT + DESCENT + SPACING * (n_lines - 1) as f64)
 }

@@ -1,10 +1,8 @@
-//! `ugsheet` arranges several pictures on one sheet, like the figures of papers: in rows, with a
-//! label under each.
+//! `ugsheet` puts several pictures on one sheet, as the figures of papers do: in rows, with a label under each.
 //!
-//! Labels are given, or derived from the history recorded in the pictures: if the pictures differ
-//! in the velocity or the time that `uglorentz` was called with, these are the labels, otherwise
-//! the file names ([`Labels`]). Opaque pixels are copied unchanged; transparent ones are composited
-//! over the background.
+//! Labels are given, or follow from what the pictures say of how they were made: if they differ in the velocity that
+//! `uglorentz` was given, or in the time, that is the label, else the name of the file ([`Labels`]). Pictures keep their
+//! pixels; on the sheet's ground stand only those with transparency.
 //!
 //! # Example
 //!
@@ -41,40 +39,40 @@ pub use labels::Labels;
 use layout::Layout;
 pub use uglabel::Rgb;
 
-/// A picture to be placed on a sheet.
+/// A picture to be put on a sheet.
 #[derive(Clone, Debug)]
 pub struct Picture {
-    /// Its file name, without folder and extension.
+    /// Of its file, without folder and ending.
     pub name: String,
     /// Its pixels.
     pub frame: Frame,
-    /// The history recorded in its file.
+    /// What its file says of how it was made.
     pub history: Label,
 }
 
-/// The options of a sheet.
+/// Everything that decides what a sheet looks like besides the pictures.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Config {
-    /// Pictures per row; by default such that there are about as many columns as rows.
+    /// Pictures in a row; by default as many as make rows and columns about equal.
     pub columns: Option<u32>,
-    /// The labels under the pictures.
+    /// What stands under the pictures.
     pub labels: Labels,
-    /// Whether labels begin with (a), (b), …
+    /// Labels begin with (a), (b), …
     pub letters: bool,
-    /// The title above the pictures; no title if it is blank.
+    /// Above all; none if there is nothing but blanks in it.
     pub title: String,
-    /// The caption below the pictures; no caption if it is blank.
+    /// Below all, likewise.
     pub caption: String,
-    /// The background colour.
+    /// Of the ground.
     pub background: Rgb,
-    /// Pixels between pictures, and margin around them; by default 0.9 of the text size.
+    /// Pixels between pictures, and around all; by default what suits the text.
     pub gap: Option<[u32; 2]>,
-    /// Text size of labels in pixels; by default 1/28 of the size of the pictures.
+    /// Size of labels in pixels; by default what suits the pictures.
     pub text_size: Option<f64>,
 }
 
 impl Default for Config {
-    /// Automatic labels, white background.
+    /// Labels by themselves, on white.
     fn default() -> Self {
         Self {
             columns: None,
@@ -89,11 +87,10 @@ impl Default for Config {
     }
 }
 
-/// Makes a sheet.
+/// The sheet of pictures.
 ///
 /// # Errors
-/// There are no pictures, the number of labels is wrong, the font lacks a character, or the sheet
-/// is too large.
+/// There is no picture, labels are not as many as pictures, the font lacks a character, or the sheet is too large.
 pub fn sheet(config: &Config, pictures: &[Picture]) -> Result<Frame, Error> {
     let labels = config.labels.checked(pictures)?;
     let layout = Layout::new(config, pictures, &labels)?;
@@ -111,14 +108,14 @@ pub fn sheet(config: &Config, pictures: &[Picture]) -> Result<Frame, Error> {
     Ok(frame)
 }
 
-/// The history of a sheet: those of all its pictures, and the command line.
+/// How the sheet was made: what all the pictures say, and the command line.
 pub fn history(pictures: &[Picture], command_line: &str) -> Label {
     let lines = pictures.iter().map(|picture| picture.history.comment.as_str());
     let lines: Vec<&str> = lines.chain([command_line]).filter(|line| !line.is_empty()).collect();
     Label { software: concat!("ugsheet ", env!("CARGO_PKG_VERSION")).to_owned(), comment: lines.join("\n") }
 }
 
-/// Copies a picture to a frame, with its upper left corner at `[left, top]`.
+/// Puts a picture on a frame, with its upper left corner at a place.
 fn put(picture: &Frame, [left, top]: [u32; 2], frame: &mut Frame) {
     let (width, columns) = (frame.width() as usize, picture.width() as usize);
     let rows = picture.pixels().chunks_exact(columns);
@@ -134,7 +131,7 @@ fn put(picture: &Frame, [left, top]: [u32; 2], frame: &mut Frame) {
     }
 }
 
-/// A pixel of alpha `part` composited over an opaque one, in linear light.
+/// A pixel of which a part is there, over one that is there; mixed as light.
 fn over(pixel: [u8; 4], part: f64, under: [u8; 4], quantizer: &ugimage::Quantizer) -> [u8; 4] {
     let light = |level: u8| ugphysics::srgb_decode(f64::from(level) / 255.0);
     let mixed = |i: usize| quantizer.level((part * light(pixel[i]) + (1.0 - part) * light(under[i])) as f32);

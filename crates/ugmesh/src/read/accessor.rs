@@ -1,7 +1,6 @@
-//! Reads the numbers of glTF accessors.
+//! Numbers of glTF accessors.
 //!
-//! The readers of the `gltf` crate trust the counts, offsets and types in the file; here they are
-//! checked first.
+//! The crate's own readers trust counts, offsets and types of the file; here they are checked first.
 
 use std::borrow::Cow;
 
@@ -12,10 +11,10 @@ use gltf::buffer::View;
 
 use crate::error::Problem;
 
-/// Largest number of components of an accessor without a buffer view, which is all zeros.
+/// Numbers an accessor without data of its own may have.
 const MAX_ZEROS: usize = 1 << 24;
 
-/// All components of all rows. Normalized integers are converted to fractions.
+/// All components of all rows; whole numbers as fractions if they are normalized.
 pub(super) fn read(accessor: &Accessor, buffers: &[Cow<'_, [u8]>]) -> Result<Vec<f64>, Problem> {
     let kind = accessor.data_type();
     let n_components = accessor.dimensions().multiplicity();
@@ -56,7 +55,7 @@ pub(super) fn read(accessor: &Accessor, buffers: &[Cow<'_, [u8]>]) -> Result<Vec
     Ok(numbers)
 }
 
-/// The bytes of each row, after a bounds check.
+/// The bytes of each row.
 fn rows<'b>(
     view: &View,
     offset: usize,

@@ -1,17 +1,16 @@
-//! Parses words and numbers of text formats.
+//! Lines of text formats, as words and numbers.
 
 use std::borrow::Cow;
 
 use crate::error::Problem;
 
-/// The text of a file. Bytes that are not UTF-8 are replaced; they should occur only in comments
-/// and names.
+/// The text of a file; bytes that are not UTF-8 stand in comments and names only.
 pub(super) fn text(bytes: &[u8]) -> Cow<'_, str> {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     String::from_utf8_lossy(bytes)
 }
 
-/// Parses a finite number; `what` names its owner for the error message.
+/// A number; `what` says what it belongs to.
 pub(super) fn number(word: &str, line: usize, what: &str) -> Result<f64, Problem> {
     fast_float2::parse(word)
         .ok()
@@ -19,7 +18,7 @@ pub(super) fn number(word: &str, line: usize, what: &str) -> Result<f64, Problem
         .ok_or_else(|| Problem::at(line, format!("`{word}` in a {what} is not a finite number")))
 }
 
-/// Parses the first `N` words as numbers.
+/// The first `N` words as numbers.
 pub(super) fn numbers<'a, const N: usize>(
     words: &mut impl Iterator<Item = &'a str>,
     line: usize,
