@@ -1,4 +1,4 @@
-//! A scene made of mesh data as it comes.
+//! Builds a scene from mesh data.
 
 use glam::DVec3;
 use rustc_hash::FxHashMap;
@@ -6,12 +6,13 @@ use ugparse::{BodyId, Color, ColorId, ColorValue, Face, NameId, Scene, Vertex, V
 
 use crate::error::Problem;
 
-/// Vertices a mesh may have: some 6 GB of scene. A damaged or hostile file must end in a message, not in swapping.
+/// Largest number of vertices of a mesh (about 6 GB of scene). A damaged or malicious file must
+/// cause an error, not exhaust the memory.
 const MAX_VERTICES: usize = 1 << 26;
-/// Corners of faces a mesh may have.
+/// Largest number of face corners of a mesh.
 const MAX_CORNERS: usize = 1 << 29;
 
-/// Red, green and blue, display-encoded, and opacity.
+/// Red, green and blue, display-encoded, and alpha.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Rgba(pub [f64; 4]);
 
@@ -21,12 +22,13 @@ impl Rgba {
     }
 }
 
-/// Keeps the promises of [`Scene`]: numbers finite, faces with corners, names unique.
+/// Builds a scene and ensures the invariants of [`Scene`]: finite numbers, faces with three corners
+/// or more, unique names.
 pub(crate) struct Builder {
     scene: Scene,
-    /// Before names, with its `_`.
+    /// Prefix of names, including its `_`.
     prefix: String,
-    /// By the bits of the clipped colour.
+    /// The colours so far, by the bits of their clipped components.
     colors: FxHashMap<[u64; 4], ColorId>,
     n_corners: usize,
     n_degenerate: usize,
@@ -48,7 +50,7 @@ impl Builder {
         }
     }
 
-    /// A new vertex. A normal without direction counts as none.
+    /// Adds a vertex. A zero, NaN or infinite normal is dropped.
     pub fn vertex(
         &mut self,
         position: DVec3,
@@ -57,7 +59,10 @@ impl Builder {
     ) -> Result<VertexId, Problem> {
         let row = self.scene.vertices.len();
         if !position.is_finite() {
-            return Err(Problem::new(format!("vertex {} is at no finite place; repair the mesh", row + 1)));
+            return Err(Problem::new(format!(
+                "the position of vertex {} is not finite; repair the mesh",
+                row + 1
+            )));
         }
         if row == MAX_VERTICES {
             return Err(Problem::new(format!("more than {MAX_VERTICES} vertices; split the mesh")));
@@ -69,7 +74,7 @@ impl Builder {
         Ok(VertexId::from_index(row))
     }
 
-    /// The vertex of a number counted from 0, if there is one.
+    /// The vertex with the index `idx`, counted from 0, if there is one.
     pub fn known(&self, idx: u64) -> Option<VertexId> {
         (idx < self.n_vertices() as u64).then(|| VertexId::from_index(idx as usize))
     }
@@ -82,7 +87,7 @@ impl Builder {
         self.scene.vertices[id.index()].normal = normal.and_then(usable_normal);
     }
 
-    /// A vertex like another but for its normal.
+    /// Adds a copy of a vertex with another normal.
     pub fn copy(&mut self, id: VertexId, normal: Option<DVec3>) -> Result<VertexId, Problem> {
         let Vertex { position, color, .. } = self.scene.vertices[id.index()];
         let copy = self.vertex(position, normal, None)?;
@@ -90,7 +95,7 @@ impl Builder {
         Ok(copy)
     }
 
-    /// The colour statement for a colour, the same for equal ones.
+    /// The id of a colour; equal colours share one.
     pub fn color(&mut self, Rgba(rgba): Rgba) -> ColorId {
         let clipped = rgba.map(|part| if part.is_nan() { 0.0 } else { part.clamp(0.0, 1.0) + 0.0 });
         let key = clipped.map(f64::to_bits);
@@ -108,7 +113,7 @@ impl Builder {
         id
     }
 
-    /// A new face, unless it has no area: corners repeated in sequence count once.
+    /// Adds a face, unless it has no area. Consecutive repeated corners count once.
     pub fn face(&mut self, corners: &[VertexId], color: Option<ColorId>) -> Result<(), Problem> {
         let mut corners = corners.to_vec();
         corners.dedup();
@@ -129,9 +134,9 @@ impl Builder {
         Ok(())
     }
 
-    /// Text of the source to keep, such as its licence.
+    /// Adds a comment of the source to the head of the scene, such as its licence.
     pub fn comment(&mut self, text: &str) {
-        // Braces would end the comment.
+        // Braces would end the UniGrafix comment.
         let text = text.trim().replace('{', "(").replace('}', ")");
         if !text.is_empty() {
             self.scene.head.push(format!(" {text} "));
@@ -142,7 +147,7 @@ impl Builder {
         self.warnings.push(text.into());
     }
 
-    /// Warns if there is something to count: `3 lines are left out`.
+    /// Adds a warning with a count, `3 lines are left out`, unless the count is 0.
     pub fn warn_of(&mut self, count: usize, one: &str, many: &str) {
         match count {
             0 => {}
@@ -151,7 +156,7 @@ impl Builder {
         }
     }
 
-    /// The scene, and what the user should know.
+    /// The scene, and the warnings.
     pub fn finish(mut self) -> (Scene, Vec<String>) {
         self.warn_of(self.n_degenerate, "face without area is left out", "faces without area are left out");
         self.warn_of(
@@ -165,18 +170,18 @@ impl Builder {
         (self.scene, self.warnings)
     }
 
-    /// `v1`, `v2`, …
+    /// The name of a row, counted from 1: `v1`, `v2`, …
     fn name(&mut self, kind: char, row: usize) -> NameId {
         self.scene.names.add(&format!("{}{kind}{}", self.prefix, row + 1))
     }
 }
 
-/// A normal that has a direction.
+/// The normal, if it is finite and not zero.
 fn usable_normal(normal: DVec3) -> Option<DVec3> {
     (normal.is_finite() && normal.length_squared() > 0.0).then(|| without_sign_of_zero(normal))
 }
 
-/// −0 becomes 0: its sign means nothing here and would show in the text.
+/// Replaces −0 by 0: the sign has no meaning here but would appear in the text.
 fn without_sign_of_zero(v: DVec3) -> DVec3 {
     v + DVec3::ZERO
 }

@@ -11,42 +11,42 @@ use ugpipe::{CommonArgs, Failure, Stage, ToolArgs};
 
 use crate::{Axis, Config, Error, Format, Input, Size, Target};
 
-/// Meshes of other programs to UniGrafix and back
+/// Converts meshes of other programs to UniGrafix and back
 ///
-/// Reads OBJ, PLY, STL, OFF, glTF and UniGrafix. Writes UniGrafix, or OBJ, PLY or glTF as -dt or the ending of -fo
-/// asks. Keeps polygons, normals and the colours of faces and vertices.
+/// Reads OBJ, PLY, STL, OFF, glTF and UniGrafix. Writes UniGrafix, OBJ, PLY or glTF, according to
+/// -dt or the extension of -fo. Keeps polygons, normals and the colours of faces and vertices.
 #[derive(Parser, Debug)]
 #[command(name = "ugmesh", version, before_help = ugpipe::ONE_DASH, after_help = EXAMPLES)]
 pub struct Args {
-    /// Format of the input; else its content or the ending of its name says
+    /// Input format [default: by content and file extension]
     #[arg(id = "if", long = "if", visible_alias = "input-format", value_name = "FMT", value_enum)]
     format: Option<FormatName>,
 
-    /// Format to write; else the ending of -fo says, else ug
+    /// Output format [default: by the extension of -fo, else ug]
     #[arg(long, visible_alias = "device-type", value_name = "FMT", value_enum)]
     dt: Option<TargetName>,
 
-    /// Write PLY as text
+    /// Write PLY as ASCII text
     #[arg(long)]
     ascii: bool,
 
-    /// Axis that is up in the mesh [default: y for OBJ and glTF, z for PLY, STL and OFF]
+    /// Up axis of the mesh [default: y for OBJ and glTF, z for PLY, STL and OFF]
     #[arg(long, value_name = "AXIS", value_enum)]
     up: Option<AxisName>,
 
-    /// Make the mesh S times as large
+    /// Scale the mesh by the factor S
     #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = ugpipe::finite, conflicts_with = "fit")]
     scale: Option<f64>,
 
-    /// Make the longest side of the mesh's box L
+    /// Scale the mesh so that the longest side of its bounding box is L
     #[arg(long, value_name = "L", allow_hyphen_values = true, value_parser = ugpipe::finite)]
     fit: Option<f64>,
 
-    /// Move the middle of the mesh's box to the origin
+    /// Move the centre of the mesh's bounding box to the origin
     #[arg(long)]
     center: bool,
 
-    /// Begin names of vertices and colours with NAME_, to put several meshes into one scene
+    /// Prefix names of vertices and colours with NAME_, to combine several meshes in one scene
     #[arg(long, value_name = "NAME", value_parser = name)]
     name: Option<String>,
 
@@ -86,14 +86,14 @@ enum AxisName {
     Z,
 }
 
-/// What UniGrafix takes for a name, and other programs too.
+/// Value parser for names that are valid in UniGrafix and in other programs.
 fn name(word: &str) -> Result<String, String> {
     let is_fit = word.chars().all(|c| c.is_ascii_alphanumeric() || c == '_')
         && word.starts_with(|c: char| c.is_ascii_alphabetic());
     if is_fit {
         Ok(word.to_string())
     } else {
-        Err("a name has letters, digits and _, a letter first".to_string())
+        Err("a name consists of letters, digits and _, and begins with a letter".to_string())
     }
 }
 
@@ -106,7 +106,7 @@ impl ToolArgs for Args {
 impl Args {
     fn config(&self, command_line: &str) -> Result<Config, Failure> {
         if [self.scale, self.fit].into_iter().flatten().any(|size| size <= 0.0) {
-            return Err(Failure::usage("sizes (-scale, -fit) are above 0"));
+            return Err(Failure::usage("sizes (-scale, -fit) must be above 0"));
         }
         let size = match (self.scale, self.fit) {
             (Some(scale), _) => Size::Times(scale),
@@ -115,7 +115,7 @@ impl Args {
         };
         let target = self.target()?;
         if self.ascii && !matches!(target, Target::Ply { .. }) {
-            return Err(Failure::usage("only PLY has a choice of text (-ascii); add -dt ply"));
+            return Err(Failure::usage("-ascii applies only to PLY; add -dt ply"));
         }
         Ok(Config {
             format: self.format.map(FormatName::format),
@@ -133,13 +133,17 @@ impl Args {
         })
     }
 
-    /// An ending that is no format is an error: a scene in a file of another name surprises.
+    /// The output format. An unknown extension is an error, so that no file has an extension that
+    /// contradicts its content.
     fn target(&self) -> Result<Target, Failure> {
         let target = match (self.dt, self.common.output()) {
             (Some(name), _) => name.target(),
             (None, Some(path)) if path.extension().is_some() && is_file_or_new(path) => {
                 Target::by_ending(path).ok_or_else(|| {
-                    Failure::usage(format!("no format ends like `{}`; choose one with -dt", path.display()))
+                    Failure::usage(format!(
+                        "`{}` has an unknown extension; choose a format with -dt",
+                        path.display()
+                    ))
                 })?
             }
             (None, _) => Target::Ug,
@@ -151,7 +155,7 @@ impl Args {
     }
 }
 
-/// Devices have no format.
+/// False for devices, whose names do not determine a format.
 fn is_file_or_new(path: &Path) -> bool {
     fs::metadata(path).map_or(true, |metadata| metadata.is_file())
 }
@@ -181,10 +185,10 @@ impl TargetName {
     }
 }
 
-/// Reads files in the folder of the mesh; a mesh from a pipe has none.
+/// Reads files in the folder of the mesh. A mesh from a pipe has no folder.
 fn beside(mesh: Option<PathBuf>) -> impl Fn(&str) -> io::Result<Vec<u8>> {
     move |name| match mesh.as_deref().map(|mesh| mesh.parent().unwrap_or(Path::new(""))) {
-        // The system's words alone: the numbers behind them help nobody.
+        // The message without the system's error number.
         Some(folder) => fs::read(folder.join(name)).map_err(|error| io::Error::from(error.kind())),
         None => Err(io::Error::other("standard input has no folder; name the mesh on the command line")),
     }
@@ -196,7 +200,7 @@ pub fn main() -> ExitCode {
         let config = args.config(stage.command_line())?;
         if stage.output_is_terminal() && config.target.is_binary() {
             return Err(Failure::usage(
-                "binary is not written to a terminal; send it to a file with `> FILE` or -fo FILE",
+                "binary data is not written to a terminal; send it to a file with `> FILE` or -fo FILE",
             ));
         }
         let read = stage.input()?;

@@ -1,4 +1,4 @@
-//! Why a mesh was not converted.
+//! The errors of converting a mesh.
 
 use std::fmt;
 
@@ -6,39 +6,39 @@ use ugparse::Diagnostics;
 
 use crate::Format;
 
-/// Why no mesh came out.
+/// Why a mesh cannot be converted.
 #[derive(Debug)]
 pub enum Error {
-    /// The input looks like none of the formats.
+    /// The format of the input cannot be detected.
     UnknownFormat {
-        /// The input as shown to the user.
+        /// The name of the input for messages.
         name: String,
     },
-    /// Input and output are UniGrafix.
+    /// Input and output are both UniGrafix.
     NothingToConvert,
-    /// The input is not what its format says.
+    /// The input is malformed.
     Malformed {
-        /// The input as shown to the user.
+        /// The name of the input for messages.
         name: String,
-        /// What it was read as.
+        /// The format it was read as.
         format: Format,
         /// What is wrong, and where.
         problem: Problem,
     },
-    /// The UniGrafix text is no scene that can be used.
+    /// The UniGrafix text has errors.
     Scene(Diagnostics),
-    /// Scaling made a coordinate too large for a number, or all of them nothing.
+    /// Scaling made a coordinate infinite, or the scale factor underflows to 0.
     Overflow,
-    /// A coordinate does not fit the 32-bit numbers of glTF.
+    /// A coordinate exceeds the range of 32-bit floats, which glTF uses.
     OutOfRange,
-    /// The mesh has more bytes than the format can count.
+    /// The file would be larger than the format allows.
     TooLarge,
 }
 
-/// What is wrong with a mesh.
+/// An error in a mesh file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Problem {
-    /// Line of a text, from 1.
+    /// The line of a text file, counted from 1.
     pub line: Option<usize>,
     /// What is wrong, and what to do.
     pub what: String,
@@ -60,11 +60,11 @@ impl fmt::Display for Error {
             Self::UnknownFormat { name } => {
                 write!(
                     f,
-                    "cannot tell the format of `{name}`; name it with -if ug, obj, ply, stl, off or gltf"
+                    "cannot detect the format of `{name}`; give it with -if ug, obj, ply, stl, off or gltf"
                 )
             }
             Self::NothingToConvert => f.write_str(
-                "the input is a UniGrafix scene already; choose a mesh with -dt obj, ply, gltf or glb",
+                "the input is already a UniGrafix scene; choose an output format with -dt obj, ply, gltf or glb",
             ),
             Self::Malformed { name, format, problem: Problem { line, what } } => {
                 write!(f, "cannot read `{name}` as {format}: ")?;
@@ -73,7 +73,7 @@ impl fmt::Display for Error {
             }
             Self::Scene(findings) => findings.fmt(f),
             Self::Overflow => {
-                f.write_str("scaled coordinates are no numbers any more; choose another -scale or -fit")
+                f.write_str("scaled coordinates are out of range; choose another -scale or -fit")
             }
             Self::OutOfRange => f.write_str(
                 "coordinates do not fit glTF; make the mesh smaller (-fit 1) or write PLY (-dt ply)",

@@ -1,9 +1,9 @@
-//! Formats of meshes, and how to tell them apart.
+//! Mesh formats and their detection.
 
 use std::fmt;
 use std::path::Path;
 
-/// What can be read.
+/// An input format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
     /// UniGrafix.
@@ -20,20 +20,20 @@ pub enum Format {
     Gltf,
 }
 
-/// What can be written.
+/// An output format.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Target {
     /// UniGrafix.
     #[default]
     Ug,
-    /// Wavefront OBJ with colours of vertices.
+    /// Wavefront OBJ with vertex colours.
     Obj,
     /// Stanford PLY.
     Ply {
-        /// As text, not binary.
+        /// Whether it is ASCII text rather than binary.
         is_ascii: bool,
     },
-    /// glTF 2.0 as JSON with its buffer inside.
+    /// glTF 2.0 as JSON with an embedded buffer.
     Gltf,
     /// glTF 2.0 as binary GLB.
     Glb,
@@ -42,16 +42,16 @@ pub enum Target {
 /// A coordinate axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Axis {
-    /// The first.
+    /// The first axis.
     X,
-    /// The second.
+    /// The second axis.
     Y,
-    /// The third.
+    /// The third axis.
     Z,
 }
 
 impl Format {
-    /// The axis that is up where the format, or its habit, says so.
+    /// The up axis by the specification or the convention of the format.
     pub fn up(self) -> Axis {
         match self {
             Self::Obj | Self::Gltf => Axis::Y,
@@ -59,7 +59,7 @@ impl Format {
         }
     }
 
-    /// The format of `bytes`: by what cannot be anything else, then by the ending of the name, then by looks.
+    /// Detects the format of `bytes`: by magic number, then by file extension, then by content.
     pub fn detect(name: &str, bytes: &[u8]) -> Option<Self> {
         Self::by_magic(bytes).or_else(|| Self::by_ending(name)).or_else(|| Self::by_looks(bytes))
     }
@@ -93,7 +93,7 @@ impl Format {
         let text = String::from_utf8_lossy(&bytes[..bytes.len().min(PEEK)]);
         let text = text.trim_start_matches('\u{feff}').trim_start();
         if let Some(inside) = text.strip_prefix('{') {
-            // A JSON object begins with a key, a comment of UniGrafix with anything.
+            // A JSON object begins with a quoted key, a UniGrafix comment with any text.
             let is_json = inside.trim_start().starts_with('"') && text.contains("\"asset\"");
             return Some(if is_json { Self::Gltf } else { Self::Ug });
         }
@@ -114,19 +114,19 @@ impl Format {
     }
 }
 
-/// Bytes looked at: exporters write long head comments.
+/// Number of bytes that are examined: some exporters write long comments at the head.
 const PEEK: usize = 1 << 16;
 
 const UG_KEYWORDS: [&str; 11] = ["v", "w", "f", "c", "c_rgb", "l", "cam", "def", "end", "i", "a"];
 
-/// A binary STL has no magic number, and its header may even begin with `solid`; but its length is given by its
-/// count.
+/// True for binary STL. It has no magic number, and its header may even begin with `solid`, but its
+/// length is determined by its triangle count.
 pub(crate) fn is_binary_stl(bytes: &[u8]) -> bool {
     let count = bytes.get(80..84).and_then(|count| count.try_into().ok()).map(u32::from_le_bytes);
     count.is_some_and(|count| bytes.len() as u64 == 84 + 50 * u64::from(count))
 }
 
-/// `OFF` with its prefixes: texture, colour, normal, 4-D, n-D.
+/// True for `OFF` with any of its prefixes: texture, colour, normal, 4-D, n-D.
 pub(crate) fn is_off_keyword(word: &str) -> bool {
     let Some(prefix) = word.strip_suffix("OFF") else { return false };
     let prefix = prefix.strip_prefix("ST").unwrap_or(prefix);
@@ -136,7 +136,8 @@ pub(crate) fn is_off_keyword(word: &str) -> bool {
     matches!(prefix, "" | "n")
 }
 
-/// OBJ shares `v` and `f` with UniGrafix, whose statements end with `;` and whose vertices have names.
+/// True for a line of OBJ. It shares `v` and `f` with UniGrafix, but UniGrafix statements end with
+/// `;` and its vertices have names.
 fn is_obj_line(line: &str) -> bool {
     if line.contains([';', '{', '(']) {
         return false;
@@ -163,7 +164,7 @@ impl fmt::Display for Format {
 }
 
 impl Target {
-    /// The target that the ending of a file's name asks for.
+    /// The output format for a file extension.
     pub fn by_ending(path: &Path) -> Option<Self> {
         match path.extension()?.to_str()?.to_ascii_lowercase().as_str() {
             "ug" => Some(Self::Ug),
@@ -175,12 +176,12 @@ impl Target {
         }
     }
 
-    /// Whether it is not for the eye.
+    /// True if the format is binary.
     pub fn is_binary(self) -> bool {
         matches!(self, Self::Glb | Self::Ply { is_ascii: false })
     }
 
-    /// The axis that is up in what is written.
+    /// The default up axis of the output.
     pub fn up(self) -> Axis {
         match self {
             Self::Obj | Self::Gltf | Self::Glb => Axis::Y,

@@ -1,25 +1,26 @@
-//! Meshes of other programs to UniGrafix and back.
+//! Converts meshes of other programs to UniGrafix and back.
 //!
 //! ```text
 //! ugmesh teapot.obj | uglorentz -vel .9 0 0 | ugmesh -dt ply > distorted.ply
 //! ```
 //!
-//! Reads OBJ with its materials, PLY, STL, OFF and glTF, and UniGrafix itself; writes UniGrafix, OBJ, PLY and glTF.
-//! Everything passes through one [`ugparse::Scene`]:
+//! Reads OBJ with its materials, PLY, STL, OFF, glTF and UniGrafix; writes UniGrafix, OBJ, PLY and
+//! glTF. Every conversion goes through a [`ugparse::Scene`]:
 //!
 //! ```text
 //! bytes ─read→ Builder → Scene (z up) ─place→ Scene ─write→ Surface → bytes
 //!       ugparse ──────────↗                     └──────ugparse──────→ bytes
 //! ```
 //!
-//! What a mesh cannot say is left out with a note; what a scene cannot hold is an error that names the remedy.
-//! Numbers of damaged or hostile files are checked before anything is counted on them.
+//! Parts of a scene that a mesh format cannot represent are left out with a note. Meshes that a
+//! scene cannot represent are errors, whose messages name a remedy. Counts and offsets in files are
+//! checked before they are used, since files may be damaged or malicious.
 //!
 //! ```
 //! let input = ugmesh::Input::new("tile.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n");
 //! let config = ugmesh::Config { command_line: "ugmesh".to_string(), ..Default::default() };
 //! let scene = String::from_utf8(ugmesh::run(&config, &input)?.bytes)?;
-//! // OBJ has y up, UniGrafix z.
+//! // The up axis is y in OBJ and z in UniGrafix.
 //! assert!(scene.ends_with("v v3 1 0 1;\nv v4 0 0 1;\nf (v1 v2 v3 v4);\n"), "{scene}");
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
@@ -48,80 +49,81 @@ use builder::Builder;
 
 const PROGRAM: &str = env!("CARGO_PKG_NAME");
 
-/// What to do.
+/// The options of a conversion.
 #[derive(Clone, Debug, Default)]
 pub struct Config {
-    /// What the input is; else its content or the ending of its name says.
+    /// The input format; by default it is detected from the content and the file extension.
     pub format: Option<Format>,
-    /// What to write.
+    /// The output format.
     pub target: Target,
-    /// The axis that is up in every mesh read or written; else its format says. In UniGrafix it is z always.
+    /// The up axis of meshes that are read or written; by default that of the format. In UniGrafix
+    /// it is always z.
     pub up: Option<Axis>,
-    /// How large the mesh comes out.
+    /// How the mesh is scaled.
     pub size: Size,
-    /// Move the middle of the mesh's box to the origin.
+    /// Whether the centre of the mesh's bounding box is moved to the origin.
     pub is_centered: bool,
-    /// Before the names of vertices and colours made here.
+    /// Prefix of the names of vertices and colours that are generated.
     pub name: String,
-    /// How UniGrafix is read.
+    /// The options for reading UniGrafix.
     pub reading: Options,
-    /// How the program was called, for the scene's history.
+    /// The command line, which is recorded in the history of the scene.
     pub command_line: String,
 }
 
-/// Reads a file that a mesh names, such as its materials.
+/// Reads a file that a mesh refers to, such as its materials.
 type Beside<'a> = &'a dyn Fn(&str) -> io::Result<Vec<u8>>;
 
-/// Puts the files that a scene includes into it.
+/// Replaces the `include` statements of a scene by the files that they name.
 type Follow<'a> = &'a dyn Fn(Source) -> Result<Source, Diagnostics>;
 
-/// A mesh as it comes.
+/// A mesh file.
 pub struct Input<'a> {
     /// File name, or `<stdin>`.
     pub name: String,
-    /// All of it.
+    /// The content of the file.
     pub bytes: Vec<u8>,
-    /// Reads a file by the name the mesh gives it.
+    /// Reads a file by the name that the mesh refers to.
     pub beside: Beside<'a>,
-    /// Follows the `include` statements of UniGrafix.
+    /// Resolves the `include` statements of UniGrafix.
     pub follow: Follow<'a>,
 }
 
 impl<'a> Input<'a> {
-    /// A mesh with no files beside it.
+    /// A mesh that refers to no other files.
     pub fn new(name: impl Into<String>, bytes: impl Into<Vec<u8>>) -> Self {
         let (name, bytes) = (name.into(), bytes.into());
         Self { name, bytes, beside: &|_| Err(io::ErrorKind::NotFound.into()), follow: &Ok }
     }
 
-    /// The same with files beside it, which `beside` reads.
+    /// The same mesh with other files that it refers to, which `beside` reads.
     pub fn with_files(self, beside: Beside<'a>) -> Self {
         Self { beside, ..self }
     }
 
-    /// The same, whose `include` statements `follow` follows.
+    /// The same mesh with `include` statements, which `follow` resolves.
     pub fn with_includes(self, follow: Follow<'a>) -> Self {
         Self { follow, ..self }
     }
 }
 
-/// What came out.
+/// The result of a conversion.
 #[derive(Clone, Debug)]
 pub struct Converted {
-    /// The mesh or scene.
+    /// The converted mesh or scene.
     pub bytes: Vec<u8>,
-    /// What the user should know.
+    /// Notes for the user, such as parts that are left out.
     pub notes: Vec<String>,
-    /// What may be wrong with a mesh.
+    /// Warnings about possible errors in a mesh.
     pub warnings: Vec<String>,
-    /// What was wrong with a scene, and mended.
+    /// Warnings about a scene.
     pub diagnostics: Option<Diagnostics>,
 }
 
-/// Reads a mesh or scene, places it and writes it.
+/// Reads a mesh or scene, scales and moves it, and writes it.
 ///
 /// # Errors
-/// What is wrong with the input, or with what was asked for: [`Error`].
+/// [`Error`] if the input is invalid, or if it cannot be converted with these options.
 pub fn run(config: &Config, input: &Input) -> Result<Converted, Error> {
     let format = config
         .format

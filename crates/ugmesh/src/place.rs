@@ -1,27 +1,28 @@
-//! Where the mesh stands: which way is up, how large, where its middle is.
+//! Placing a mesh: up axis, scale and centre.
 
 use glam::DVec3;
 use ugparse::Scene;
 
 use crate::{Axis, Error};
 
-/// How large the mesh comes out.
+/// How a mesh is scaled.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Size {
-    /// As it is.
+    /// Not at all.
     #[default]
     Same,
-    /// This many times as large.
+    /// By this factor.
     Times(f64),
-    /// So that the longest side of its box has this length.
+    /// So that the longest side of its bounding box has this length.
     Fit(f64),
 }
 
-/// Turns `up` to z, by moving axes cyclically or by a quarter turn about x: exact.
+/// Rotates the axis `up` to z, by a cyclic permutation of the axes or by a quarter turn about x.
+/// Both are exact.
 pub(crate) fn to_z_up(up: Axis, p: DVec3) -> DVec3 {
     match up {
         Axis::X => DVec3::new(p.y, p.z, p.x),
-        // Not `-p.z`, which makes −0 of 0.
+        // Not `-p.z`, which would give −0 for 0.
         Axis::Y => DVec3::new(p.x, 0.0 - p.z, p.y),
         Axis::Z => p,
     }
@@ -36,7 +37,7 @@ pub(crate) fn from_z_up(up: Axis, p: DVec3) -> DVec3 {
     }
 }
 
-/// Turns all vertices and their normals.
+/// Rotates all vertices and their normals.
 pub(crate) fn turn(scene: &mut Scene, turn: impl Fn(DVec3) -> DVec3) {
     for vertex in &mut scene.vertices {
         vertex.position = turn(vertex.position);
@@ -44,10 +45,11 @@ pub(crate) fn turn(scene: &mut Scene, turn: impl Fn(DVec3) -> DVec3) {
     }
 }
 
-/// Moves the middle of the mesh's box to the origin if asked for, then scales about the origin.
+/// Moves the centre of the mesh's bounding box to the origin if `is_centered`, then scales the mesh
+/// about the origin.
 pub(crate) fn resize(scene: &mut Scene, size: Size, is_centered: bool) -> Result<(), Error> {
     let Some((low, high)) = scene.bounds() else { return Ok(()) };
-    // Halves first: the sum of two large numbers may overflow.
+    // Halved before adding, since the sum of two large numbers may overflow.
     let middle = if is_centered { 0.5 * low + 0.5 * high } else { DVec3::ZERO };
     let longest = (high - low).max_element();
     let scale = match size {
@@ -57,7 +59,7 @@ pub(crate) fn resize(scene: &mut Scene, size: Size, is_centered: bool) -> Result
         Size::Fit(length) => length / longest,
     };
     if scale == 0.0 {
-        // The box is too large for its size to be a number.
+        // The size of the bounding box overflowed.
         return Err(Error::Overflow);
     }
     if middle == DVec3::ZERO && scale == 1.0 {

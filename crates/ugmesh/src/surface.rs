@@ -1,27 +1,29 @@
-//! A scene as mesh formats have it: one colour for each vertex, polygons without holes.
+//! A scene as a polygon mesh, as the mesh formats require it: one colour per vertex, polygons
+//! without holes.
 
 use glam::DVec3;
 use uglight::{HueScale, hsv};
 use ugparse::{ColorId, ColorValue, Contours, Scene, VertexId};
 
-/// Which polygons a format can hold.
+/// The polygons that a format supports.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Polygons {
-    /// Any without holes.
+    /// Any polygons without holes.
     Simple,
     /// Triangles only.
     Triangles,
 }
 
-/// What is written.
+/// The mesh that is written.
 pub(crate) struct Surface {
-    /// Its vertices count, and its head comments.
+    /// The scene, of which the vertices and the head comments are written.
     pub scene: Scene,
-    /// Red, green, blue, display-encoded, and opacity of every vertex; `None` if the scene has no colours.
+    /// Red, green, blue (display-encoded) and alpha of every vertex; `None` if the scene has no
+    /// colours.
     pub colors: Option<Vec<[f64; 4]>>,
-    /// One a row, counterclockwise seen from outside.
+    /// One polygon per row, counterclockwise as seen from outside.
     pub polygons: Contours,
-    /// What the user should know.
+    /// Notes for the user about parts that are left out.
     pub notes: Vec<String>,
 }
 
@@ -37,12 +39,13 @@ impl Surface {
         Self { scene, colors, polygons, notes }
     }
 
-    /// Whether anything shows what is behind it.
+    /// True if any vertex is transparent.
     pub fn is_clear(&self) -> bool {
         self.colors.iter().flatten().any(|color| color[3] < 1.0)
     }
 
-    /// The normals, if every vertex of a face has one: formats with one list for all cannot leave any out.
+    /// The unit normals, if every vertex that a face uses has one: formats with one normal per
+    /// vertex cannot omit single ones.
     pub fn normals(&self) -> Option<Vec<DVec3>> {
         let used = (0..self.polygons.len() as u32).flat_map(|row| self.polygons.get(row));
         let mut has_all = !self.polygons.is_empty();
@@ -54,7 +57,8 @@ impl Surface {
     }
 }
 
-/// Unit vector along a vector of any length but 0. One that is a unit vector stays as it is, to the bit.
+/// The unit vector along `v`, which must not be 0. A vector that is already of unit length keeps
+/// its bits.
 fn unit(v: DVec3) -> DVec3 {
     if (v.length_squared() - 1.0).abs() < 1e-6 { v } else { (v / v.abs().max_element()).normalize() }
 }
@@ -67,13 +71,13 @@ fn note_of(notes: &mut Vec<String>, count: usize, one: &str, many: &str) {
     }
 }
 
-/// Repeats vertices where faces of different colours meet, so that each vertex has one.
+/// Duplicates vertices where faces of different colours meet, so that each vertex has one colour.
 fn separate_colors(scene: &mut Scene) {
     let users: Vec<_> = scene.faces.iter().map(|face| (face.contours.clone(), face.color)).collect();
     ugscene::split_vertices(scene, &users, |vertex| vertex.color.is_none());
 }
 
-/// The colour of every vertex: its own, else that of its faces, else white.
+/// The colour of every vertex: its own, otherwise that of its faces, otherwise white.
 fn vertex_colors(scene: &Scene, notes: &mut Vec<String>) -> Option<Vec<[f64; 4]>> {
     let mut ids: Vec<Option<ColorId>> = scene.vertices.iter().map(|vertex| vertex.color).collect();
     for face in &scene.faces {
@@ -100,7 +104,8 @@ fn vertex_colors(scene: &Scene, notes: &mut Vec<String>) -> Option<Vec<[f64; 4]>
     ids.iter().any(Option::is_some).then(|| ids.into_iter().map(color).collect())
 }
 
-/// Faces as polygons without holes. What cannot be cut is kept as its outline.
+/// Faces as polygons without holes. A face that cannot be triangulated becomes a triangle fan of
+/// its outline.
 fn polygons(scene: &Scene, kind: Polygons, notes: &mut Vec<String>) -> Contours {
     let mut polygons = Contours::default();
     let mut n_uncut = 0;
@@ -125,6 +130,11 @@ fn polygons(scene: &Scene, kind: Polygons, notes: &mut Vec<String>) -> Contours 
             polygons.push(triangle.map(|corner| corners[corner as usize]));
         }
     }
-    note_of(notes, n_uncut, "face without area is cut like a fan", "faces without area are cut like fans");
+    note_of(
+        notes,
+        n_uncut,
+        "face without area is written as a fan",
+        "faces without area are written as fans",
+    );
     polygons
 }

@@ -1,4 +1,4 @@
-//! The program itself: usage, streams, files, exit status.
+//! Tests of the program: usage, streams, files, exit status.
 
 use std::fs;
 use std::io::Write;
@@ -14,7 +14,7 @@ fn ugmesh(folder: &Path, args: &[&str], input: &[u8]) -> Output {
         .stderr(Stdio::piped())
         .spawn()
         .expect("the program starts");
-    // The program may end without reading; a closed pipe is no failure of ours.
+    // Ignores errors: a program that ends without reading closes the pipe.
     let _ = child.stdin.take().expect("a pipe").write_all(input);
     child.wait_with_output().expect("the program ends")
 }
@@ -70,7 +70,7 @@ fn missing_materials_are_a_warning() {
     assert_eq!(
         String::from_utf8_lossy(&out.stderr),
         "ugmesh: warning: colours are missing: cannot read `cube.mtl`: standard input has no folder; name the mesh on \
-         the command line\nugmesh: warning: no colour is known for material `green`, `red`\n"
+         the command line\nugmesh: warning: materials without colour: `green`, `red`\n"
     );
 }
 
@@ -91,16 +91,16 @@ fn scenes_may_include_files() {
 fn bad_usage_is_status_2() {
     let folder = tempfile::tempdir().unwrap();
     for (args, message) in [
-        (&["-scale", "0"][..], "sizes (-scale, -fit) are above 0"),
-        (&["-fit", "-1"][..], "sizes (-scale, -fit) are above 0"),
+        (&["-scale", "0"][..], "sizes (-scale, -fit) must be above 0"),
+        (&["-fit", "-1"][..], "sizes (-scale, -fit) must be above 0"),
         (&["-scale", "2", "-fit", "1"][..], "cannot be used with"),
         (&["-scale", "nan"][..], "not a finite number"),
         (&["-dt", "stl"][..], "invalid value 'stl'"),
-        (&["-ascii"][..], "only PLY has a choice of text (-ascii); add -dt ply"),
-        (&["-fo", "x.stl"][..], "no format ends like `x.stl`; choose one with -dt"),
-        (&["-name", "a b"][..], "a name has letters, digits and _, a letter first"),
+        (&["-ascii"][..], "-ascii applies only to PLY; add -dt ply"),
+        (&["-fo", "x.stl"][..], "`x.stl` has an unknown extension; choose a format with -dt"),
+        (&["-name", "a b"][..], "a name consists of letters, digits and _, and begins with a letter"),
         (&["-up", "w"][..], "invalid value 'w'"),
-        (&["-if", "ug"][..], "the input is a UniGrafix scene already; choose a mesh with -dt"),
+        (&["-if", "ug"][..], "the input is already a UniGrafix scene; choose an output format with -dt"),
     ] {
         let out = ugmesh(folder.path(), args, b"v a 0 0 0;");
         let error = String::from_utf8_lossy(&out.stderr).into_owned();
@@ -114,9 +114,13 @@ fn bad_usage_is_status_2() {
 fn bad_meshes_are_status_1_and_write_nothing() {
     let folder = tempfile::tempdir().unwrap();
     for (args, input, message) in [
-        (&["-fo", "out.ug"][..], "v 0 0 0\nf 1 2 3\n", "`<stdin>` as OBJ: line 2: a face names vertex `2`"),
+        (
+            &["-fo", "out.ug"][..],
+            "v 0 0 0\nf 1 2 3\n",
+            "`<stdin>` as OBJ: line 2: a face refers to vertex `2`",
+        ),
         (&["-fo", "out.glb"][..], "v a 0 0 0;\nf (a b c);\n", "vertex `b` is not defined"),
-        (&["-fo", "out.ug"][..], "hello", "cannot tell the format of `<stdin>`; name it with -if"),
+        (&["-fo", "out.ug"][..], "hello", "cannot detect the format of `<stdin>`; give it with -if"),
     ] {
         let out = ugmesh(folder.path(), args, input.as_bytes());
         let error = String::from_utf8_lossy(&out.stderr).into_owned();

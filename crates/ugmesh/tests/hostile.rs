@@ -1,4 +1,4 @@
-//! Damaged files end in a message, soon and without a panic.
+//! Damaged files cause an error message, quickly and without a panic.
 
 mod common;
 
@@ -9,7 +9,7 @@ use ugmesh::{Config, Target};
 const SCENE: &str =
     "c red 1 0; v a 0 0 0 red 0 0 1; v b 1 0 0 0 0 1; v c 0 1 0; v d 9 9 9; f (a b c d); f (a b d) red;";
 
-/// One of everything that can be read.
+/// One file of every kind that can be read.
 fn samples() -> Vec<(&'static str, Vec<u8>)> {
     let sparse = |bytes: Vec<u8>| {
         let text = String::from_utf8_lossy(&bytes[20..]).into_owned();
@@ -44,7 +44,7 @@ fn samples() -> Vec<(&'static str, Vec<u8>)> {
     ]
 }
 
-/// All samples are good, so that what follows damages something.
+/// All samples are valid, so that the other tests really damage something.
 #[test]
 fn samples_are_read() {
     for (name, bytes) in samples() {
@@ -62,7 +62,7 @@ fn cut_files_do_no_harm() {
     }
 }
 
-/// Numbers a file may hold where a small one is expected.
+/// Numbers that a damaged file may contain where a small one is expected.
 const NUMBERS: [&str; 12] = [
     "-1",
     "0",
@@ -78,7 +78,7 @@ const NUMBERS: [&str; 12] = [
     "1000000000000",
 ];
 
-/// Every number of a text, one after the other, replaced by others.
+/// Replaces every number of a text by each of these, one at a time.
 #[test]
 fn absurd_numbers_do_no_harm() {
     for (name, bytes) in samples() {
@@ -89,7 +89,7 @@ fn absurd_numbers_do_no_harm() {
             for number in NUMBERS {
                 let mut changed = [&bytes[..start], number.as_bytes(), &bytes[end..]].concat();
                 if changed.starts_with(b"glTF") {
-                    // The JSON chunk says how long it is.
+                    // The lengths of the file and of the JSON chunk change, too.
                     let grown = (number.len() as i64) - (end - start) as i64;
                     for at in [8, 12] {
                         let length = u32::from_le_bytes(changed[at..at + 4].try_into().unwrap());
@@ -120,7 +120,7 @@ proptest! {
         let target = [Target::Ug, Target::Obj, Target::Glb][target];
         let config = Config { target, is_centered: true, ..Config::default() };
         if let Ok(converted) = convert(&config, name, bytes) {
-            // What comes out can be read, with nothing infinite in it.
+            // The output can be read again, so it contains only finite numbers.
             let name = ["a.ug", "a.obj", "a.glb"][[Target::Ug, Target::Obj, Target::Glb].iter().position(|t| *t == target).unwrap()];
             let config = Config { target: Target::Ply { is_ascii: true }, ..Config::default() };
             prop_assert!(convert(&config, name, converted.bytes).is_ok());

@@ -1,4 +1,4 @@
-//! What comes out of each format.
+//! Tests of reading each format.
 
 mod common;
 
@@ -114,7 +114,7 @@ fn encodings_of_ply_are_one_scene() {
     );
     assert_eq!(little, expected);
     assert_eq!(big, expected);
-    // Normals in text are 0.6 as a 32-bit number too.
+    // Normals in ASCII are rounded to 32 bits, too.
     assert_eq!(ascii, expected);
 }
 
@@ -135,7 +135,8 @@ fn both_kinds_of_stl_are_one_scene() {
 
 #[test]
 fn nodes_of_gltf_land_where_it_says() {
-    /// `expected`: where (1 1 1) lands, and the normal (1 1 0)/√2, with y up.
+    /// `expected` is the transformed point (1 1 1), and `normal` the transformed normal (1 1 0),
+    /// with y up.
     #[track_caller]
     fn check(nodes: &str, expected: [f64; 3], normal: [f64; 3]) {
         let config = Config { up: Some(Axis::Z), ..Config::default() };
@@ -152,10 +153,10 @@ fn nodes_of_gltf_land_where_it_says() {
     }
     let quarter_about_z = "[0,0,0.7071067811865476,0.7071067811865476]";
     check(r#"[{"mesh":0}]"#, [1.0, 1.0, 1.0], [1.0, 1.0, 0.0]);
-    // In 64 bits: 0.1 is not what it is in 32.
+    // Computed with 64 bits: 0.1 differs from its 32-bit value.
     check(r#"[{"mesh":0,"translation":[0.1,0.2,0.3]}]"#, [1.1, 1.2, 1.3], [1.0, 1.0, 0.0]);
-    // (1 1 1) is scaled to (2 3 4), moved to (3 5 7), turned to (-5 3 7), moved to (5 23 37). The normal is
-    // unscaled to (1/2 1/3 0) and turned to (-1/3 1/2 0).
+    // (1 1 1) is scaled to (2 3 4), translated to (3 5 7), rotated to (-5 3 7), translated to (5 23
+    // 37). The normal is divided by the scale to (1/2 1/3 0) and rotated to (-1/3 1/2 0).
     check(
         &format!(
             r#"[{{"children":[1],"translation":[10,20,30],"rotation":{quarter_about_z}}},
@@ -164,7 +165,8 @@ fn nodes_of_gltf_land_where_it_says() {
         [5.0, 23.0, 37.0],
         [-1.0 / 3.0, 0.5, 0.0],
     );
-    // Turned to (-1 1 1), then scaled by a grandparent to (-2 1 1): no single scale and rotation does this.
+    // Rotated to (-1 1 1), then scaled by a grandparent to (-2 1 1), which no single scale and
+    // rotation can express.
     check(
         &format!(
             r#"[{{"children":[2],"scale":[2,1,1]}},{{"mesh":0,"rotation":{quarter_about_z}}},{{"children":[1]}}]"#
@@ -172,7 +174,7 @@ fn nodes_of_gltf_land_where_it_says() {
         [-2.0, 1.0, 1.0],
         [-0.5, 1.0, 0.0],
     );
-    // A matrix stands by columns: x goes to y, y to z, z to x, and all is moved.
+    // A column-major matrix: x goes to y, y to z, z to x, with a translation.
     check(r#"[{"mesh":0,"matrix":[0,1,0,0, 0,0,1,0, 1,0,0,0, 5,6,7,1]}]"#, [6.0, 7.0, 8.0], [0.0, 1.0, 1.0]);
 }
 
@@ -189,7 +191,8 @@ fn mirrored_nodes_keep_their_outside() {
     );
 }
 
-/// One primitive of five vertices: a flat strip, with what `extra` adds to it and `more` to the document.
+/// One primitive of five vertices, a flat strip. `extra` is added to its attributes and `more` to
+/// the document.
 fn gltf_strip(mode: u32, extra: &str, more: &str, colors: &[u8]) -> Vec<u8> {
     let positions = floats(&[0., 0., 0., 1., 0., 0., 0., 1., 0., 1., 1., 0., 0., 2., 0.]);
     let bytes = [positions, colors.to_vec()].concat();
@@ -217,13 +220,13 @@ fn strips_fans_and_colours_of_gltf() {
     check(gltf_strip(4, "", "", &white), "f (v1 v2 v3);");
     check(gltf_strip(5, "", "", &white), "f (v1 v2 v3); f (v3 v2 v4); f (v3 v4 v5);");
     check(gltf_strip(6, "", "", &white), "f (v1 v2 v3); f (v1 v3 v4); f (v1 v4 v5);");
-    // Linear 0.5 is 188 of 255 on a display.
+    // Linear 0.5 display-encoded, level 188 of 255.
     let half = 0.7353569830524495;
     let linear = r#","materials":[{"pbrMetallicRoughness":{"baseColorFactor":[1,0.5,0,0.25]}}]"#;
     let red = [255, 0, 0, 128].repeat(5);
     let with = |attributes: &str, material: &str| gltf_strip(4, attributes, material, &red);
     let given = |bytes: Vec<u8>| {
-        // The primitive's material, put behind its mode.
+        // Adds a material to the primitive, after its mode.
         let text = [bytes.as_slice()].concat();
         let at = text.windows(8).position(|w| w == b"\"mode\":4").unwrap();
         let json_len = u32::from_le_bytes(text[12..16].try_into().unwrap()) as usize;
@@ -233,10 +236,10 @@ fn strips_fans_and_colours_of_gltf() {
         glb(json.trim_end(), &text[28 + json_len..])
     };
     check(given(with("", linear)), &format!("c_rgb c1 1 {half} 0; f (v1 v2 v3) c1;"));
-    // Only a material that blends is clear.
+    // Only a material with alpha mode BLEND is transparent.
     let blend = linear.replace("[{", r#"[{"alphaMode":"BLEND","#);
     check(given(with("", &blend)), &format!("c_rgb c1 1 {half} 0 0.75; f (v1 v2 v3) c1;"));
-    // Both colours multiply.
+    // The colours of vertex and material are multiplied.
     check(given(with(r#","COLOR_0":1"#, linear)), "c_rgb c1 1 0 0; f (v1 v2 v3);");
     check(with(r#","COLOR_0":1"#, ""), "c_rgb c1 1 0 0; f (v1 v2 v3);");
 }
@@ -272,10 +275,7 @@ fn files_beside_the_mesh() {
     let missing = run("a.obj", &format!("mtllib none.mtl\n{points}usemtl red\nf 1 2 3"));
     assert_eq!(
         missing.warnings,
-        [
-            "colours are missing: cannot read `none.mtl`: entity not found",
-            "no colour is known for material `red`"
-        ]
+        ["colours are missing: cannot read `none.mtl`: entity not found", "materials without colour: `red`"]
     );
 
     let gltf = |uri: &str| {
@@ -287,7 +287,7 @@ fn files_beside_the_mesh() {
         )
     };
     let triangle = "v v1 0 0 0;\nv v2 1 0 0;\nv v3 0 1 0;\nf (v1 v2 v3);\n";
-    // 1.0 is 00 00 80 3f.
+    // The bytes of 1.0 are 00 00 80 3f.
     let data = "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA";
     for uri in ["a%20b.bin", data] {
         let text = String::from_utf8(run("a.gltf", &gltf(uri)).bytes).unwrap();
@@ -297,7 +297,7 @@ fn files_beside_the_mesh() {
         ugmesh::run(&z_up(), &Input::new("a.gltf", gltf("none.bin")).with_files(&beside)).unwrap_err();
     assert_eq!(
         error.to_string(),
-        "cannot read `a.gltf` as glTF: cannot read `none.bin`: entity not found; put it beside the mesh"
+        "cannot read `a.gltf` as glTF: cannot read `none.bin`: entity not found; put it in the folder of the mesh"
     );
 }
 
@@ -325,10 +325,7 @@ fn sizes_that_no_number_can_say() {
         let config = Config { size, ..Config::default() };
         let error =
             convert(&config, "a.obj", format!("v {x} 2 3\nv -{x} 2 3\nv 1 4 3\nf 1 2 3")).unwrap_err();
-        assert_eq!(
-            error.to_string(),
-            "scaled coordinates are no numbers any more; choose another -scale or -fit"
-        );
+        assert_eq!(error.to_string(), "scaled coordinates are out of range; choose another -scale or -fit");
     }
     check(Size::Times(1e300), "1e10");
     check(Size::Fit(1.0), "1.7e308");
@@ -340,53 +337,57 @@ fn what_is_wrong_is_said_with_its_place() {
     fn check(name: &str, bytes: impl Into<Vec<u8>>, expected: &str) {
         assert_eq!(convert(&Config::default(), name, bytes).unwrap_err().to_string(), expected);
     }
-    check("a", "", "cannot tell the format of `a`; name it with -if ug, obj, ply, stl, off or gltf");
-    check("a.ug", "", "the input is a UniGrafix scene already; choose a mesh with -dt obj, ply, gltf or glb");
+    check("a", "", "cannot detect the format of `a`; give it with -if ug, obj, ply, stl, off or gltf");
+    check(
+        "a.ug",
+        "",
+        "the input is already a UniGrafix scene; choose an output format with -dt obj, ply, gltf or glb",
+    );
     let obj = "cannot read `a.obj` as OBJ: ";
     check("a.obj", "v 1 2", &format!("{obj}line 1: a vertex needs 3 numbers or more"));
     check("a.obj", "v 0 0 0\nv 1 2 nan", &format!("{obj}line 2: `nan` in a vertex is not a finite number"));
     check(
         "a.obj",
         "v 0 0 0\nf 1 2 3",
-        &format!("{obj}line 2: a face names vertex `2`, but there are 1 above it"),
+        &format!("{obj}line 2: a face refers to vertex `2`, but there are 1 before it"),
     );
     check(
         "a.obj",
         "v 0 0 0\nf 0 1 1",
-        &format!("{obj}line 2: a face names vertex `0`, but there are 1 above it"),
+        &format!("{obj}line 2: a face refers to vertex `0`, but there are 1 before it"),
     );
     check(
         "a.obj",
         "v 0 0 0\nf 1//1",
-        &format!("{obj}line 2: a face names normal `1`, but there are 0 above it"),
+        &format!("{obj}line 2: a face refers to normal `1`, but there are 0 before it"),
     );
     check("a.obj", "vn 1", &format!("{obj}line 1: a normal needs 3 numbers"));
     let stl = "cannot read `a.stl` as STL: ";
     check("a.stl", "solid\nvertex 0 0 0\nendloop", &format!("{stl}line 3: a facet has 1 corners, not 3"));
-    check("a.stl", "solid\nvertx 0 0 0", &format!("{stl}line 2: `vertx` is no word of STL"));
-    check("a.stl", "solid\nvertex 0 0 0", &format!("{stl}it ends inside a facet; copy it again"));
-    check("a.stl", "", &format!("{stl}it is too short for STL"));
+    check("a.stl", "solid\nvertx 0 0 0", &format!("{stl}line 2: `vertx` is not a keyword of STL"));
+    check("a.stl", "solid\nvertex 0 0 0", &format!("{stl}the file ends inside a facet; copy it again"));
+    check("a.stl", "", &format!("{stl}the file is too short for STL"));
     let cut = &stl_binary()[..200];
     check(
         "a.stl",
         &[b"x", &cut[1..]].concat()[..],
-        &format!("{stl}4 triangles are announced, but it ends after 2; copy it again"),
+        &format!("{stl}4 triangles are declared, but the file ends after 2; copy it again"),
     );
     let off = "cannot read `a.off` as OFF: ";
     check(
         "a.off",
         "OFF\n2 1 0\n0 0 0",
-        &format!("{off}2 vertices are announced, but it ends after 1; copy it again"),
+        &format!("{off}2 vertices are declared, but the file ends after 1; copy it again"),
     );
     check(
         "a.off",
         "OFF\n1 1\n0 0 0\n3 0 0 1",
-        &format!("{off}line 4: a face names vertex `1`, but they are numbered from 0 to 0"),
+        &format!("{off}line 4: a face refers to vertex `1`, but vertices are numbered from 0 to 0"),
     );
     check(
         "a.off",
         "OFF BINARY\n",
-        &format!("{off}line 1: `OFF BINARY` is not read; export plain three-dimensional text OFF, or PLY"),
+        &format!("{off}line 1: `OFF BINARY` is not supported; export three-dimensional ASCII OFF, or PLY"),
     );
     check(
         "a.off",
@@ -398,20 +399,20 @@ fn what_is_wrong_is_said_with_its_place() {
     check(
         "a.ply",
         format!("{head} 1000000000000\nproperty float x\nend_header\n"),
-        &format!("{ply}1000000000000 rows of `vertex` are announced, which are not there"),
+        &format!("{ply}1000000000000 rows of `vertex` are declared, but the file has fewer; copy it again"),
     );
     check(
         "a.ply",
         format!("{head} 9\nend_header\n"),
-        &format!("{ply}9 rows of `vertex` are announced, which are not there"),
+        &format!("{ply}9 rows of `vertex` are declared, but the file has fewer; copy it again"),
     );
     check(
         "a.ply",
         format!("{head} 1\nproperty float x\nend_header\n1\n"),
-        &format!("{ply}its vertices have no property `y`"),
+        &format!("{ply}vertices have no property `y`"),
     );
     let gltf = "cannot read `a.glb` as glTF: ";
-    check("a.glb", "glTF\x02\0\0\0\0\0\0\0", &format!("{gltf}it is cut off; copy it again"));
+    check("a.glb", "glTF\x02\0\0\0\0\0\0\0", &format!("{gltf}the file is truncated; copy it again"));
     check(
         "a.glb",
         glb(r#"{"asset":{"version":"2.0"},"extensionsRequired":["KHR_draco_mesh_compression"]}"#, b""),

@@ -1,4 +1,4 @@
-//! To a mesh and back.
+//! Round trips from a scene to a mesh and back.
 
 mod common;
 
@@ -6,13 +6,14 @@ use common::{Corner, convert, parse, seen, statements, to_mesh, to_scene};
 use ugmesh::{Axis, Config, Target};
 use ugparse::ColorValue;
 
-/// Colours that bytes can say, coordinates that 32 bits can say, corners with and without own colours.
+/// Colours that 8 bits represent exactly, coordinates that 32 bits represent exactly, corners with
+/// and without their own colours.
 const SCENE: &str = "{ a licence }
 c_rgb red 1 0 0.2; c_rgb green 0 0.6 0.4; c_rgb blue 0 0 1;
 v a 0 0 0; v b 1 0 0; v c 1 1 0.5; v d 0 1 0.5; v e 0.5 0.5 2; v f 7 7 7 blue;
 f (a b e) red; f (b c e) green; f (c d e) red; f (d a e); f (d c b a) green; f (a e f) red;";
 
-/// Every corner with a colour, white where none is given.
+/// Every corner with a colour, white if none is given.
 fn coloured(mut faces: Vec<Vec<Corner>>) -> Vec<Vec<Corner>> {
     faces.iter_mut().flatten().for_each(|corner| corner.rgba = Some(corner.rgba.unwrap_or([1.0; 4])));
     faces
@@ -35,7 +36,8 @@ fn faces_places_and_colours_come_back() {
         let back = to_scene(&Config::default(), "<stdin>", to_mesh(target, SCENE.as_bytes()));
         assert_eq!(coloured(seen(&back)), expected, "{target:?}");
     }
-    // glTF has triangles only, and linear colours in 32 bits: the square is cut, a colour is off by 2^-24 or so.
+    // glTF has only triangles, and linear colours in 32 bits: the square is triangulated, and
+    // colours have an error of about 2^-24.
     let triangles = SCENE.replace("f (d c b a) green", "f (d c b) green; f (b a d) green");
     let expected = coloured(seen(&parse(triangles.as_bytes())));
     for target in [Target::Gltf, Target::Glb] {
@@ -48,7 +50,7 @@ fn faces_places_and_colours_come_back() {
 
 #[test]
 fn an_obj_comes_back_to_the_bit() {
-    // 32-bit numbers, in the text other programs write for them, and 64-bit ones.
+    // 32-bit numbers, formatted as other programs do, and 64-bit ones.
     let numbers: Vec<f64> = (0..300u32)
         .map(|n| {
             let bits = n.wrapping_mul(2_654_435_761);
@@ -84,7 +86,8 @@ fn normals_come_back() {
             assert!(worst < 1e-7, "{target:?}: {found:?}");
         }
     }
-    // OBJ gives some corners normals and others none; the rest have one list for all vertices.
+    // OBJ supports faces with and without normals; the other formats have either normals for all
+    // vertices or none.
     let some =
         text.replace("1 0 0;\nf", ";\nf").replace("f (a b c)", "f (a b c); v d 1 1 1 0 0 1; f (a b d)");
     let obj = String::from_utf8(to_mesh(Target::Obj, some.as_bytes())).unwrap();
@@ -98,7 +101,7 @@ fn colours_of_faces_move_to_vertices() {
     let text = "c red 1 0; c pale 0.5 0 0.5; v a 0 0 0; v b 1 0 0; v c 0 1 0; v d 0 0 1; f (a b c) red; f (b a d) pale;";
     let obj = String::from_utf8(to_mesh(Target::Obj, text.as_bytes())).unwrap();
     let lines: Vec<&str> = obj.lines().skip(1).collect();
-    // Up is y in OBJ.
+    // The up axis of OBJ is y.
     assert_eq!(
         lines,
         [
@@ -162,7 +165,7 @@ fn clear_colours_stay_clear_where_they_can() {
         assert!(back.colors.iter().all(|color| (color.translucency - 0.4).abs() < 1e-6), "{target:?}");
     }
     let obj = convert(&Config { target: Target::Obj, ..Config::default() }, "a.ug", text).unwrap();
-    assert_eq!(obj.notes, ["OBJ has no clear vertices: all are written opaque"]);
+    assert_eq!(obj.notes, ["OBJ has no transparent vertices: all are written as opaque"]);
 }
 
 #[test]
@@ -205,7 +208,7 @@ fn meshes_become_meshes() {
 
 #[test]
 fn a_scene_as_seen_keeps_its_colours() {
-    // What `ugdoppler` writes: HSV colours on vertices.
+    // HSV colours on vertices, as `ugdoppler` writes them.
     let text = "c a#1 1 30 1; v a 0 0 0 a#1; v b 1 0 0 a#1; v c 0 1 0 a#1; f (a b c) <0.5 0 0>;";
     let back = to_scene(&Config::default(), "<stdin>", to_mesh(Target::Obj, text.as_bytes()));
     assert_eq!(back.colors[0].value, ColorValue::Rgb([1.0, 0.5, 0.0]));

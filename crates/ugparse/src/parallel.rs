@@ -64,10 +64,21 @@ fn cut(text: &[u8], part: usize, n_parts: usize) -> usize {
     if part == 0 {
         return 0;
     }
+    if part == n_parts {
+        return text.len();
+    }
     let from = text.len() / n_parts * part;
-    let mut ends = memchr::memchr_iter(b'\n', &text[from..]).map(|idx| from + idx);
-    let is_end = |end: &usize| text[..*end].trim_ascii_end().ends_with(b";");
-    if part == n_parts { text.len() } else { ends.find(is_end).map_or(text.len(), |end| end + 1) }
+    let last_of = |text: &[u8]| text.trim_ascii_end().last().copied();
+    // Each byte is looked at once, however long the runs of blanks are.
+    let (mut last, mut line) = (last_of(&text[..from]), from);
+    for end in memchr::memchr_iter(b'\n', &text[from..]).map(|idx| from + idx) {
+        last = last_of(&text[line..end]).or(last);
+        if last == Some(b';') {
+            return end + 1;
+        }
+        line = end;
+    }
+    text.len()
 }
 
 /// The tables of all parts in one; `None` if a name is defined twice.

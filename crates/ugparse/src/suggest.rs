@@ -3,10 +3,14 @@
 /// Names that are compared at most; behind a typo in a large mesh nobody needs a guess.
 const MAX_COMPARED: usize = 10_000;
 
+/// Longer words get no suggestion: the time of a comparison grows with the square of the length, and names that
+/// people type are shorter.
+const MAX_LENGTH: usize = 64;
+
 /// The candidate most like `word`: the same in other case, or one or two slips
 /// of the pen away. `None` if nothing is near. The first of equals.
 pub(crate) fn nearest<'n>(word: &[u8], candidates: impl IntoIterator<Item = &'n [u8]>) -> Option<&'n str> {
-    let word = std::str::from_utf8(word).ok()?;
+    let word = std::str::from_utf8(word).ok().filter(|word| word.len() <= MAX_LENGTH)?;
     let most = match word.len() {
         0..=2 => 0,
         3..=5 => 1,
@@ -27,4 +31,23 @@ pub(crate) fn nearest<'n>(word: &[u8], candidates: impl IntoIterator<Item = &'n 
 
 fn stem(name: &str) -> &str {
     name.trim_end_matches(|c: char| c.is_ascii_digit())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::nearest;
+
+    #[test]
+    fn suggestions() {
+        #[track_caller]
+        fn check(word: &str, candidates: &[&str], expected: Option<&str>) {
+            assert_eq!(nearest(word.as_bytes(), candidates.iter().map(|c| c.as_bytes())), expected);
+        }
+        check("wing", &["body", "wign", "wings"], Some("wign"));
+        check("Wing", &["wign", "wing"], Some("wing"));
+        check("v1000", &["v100"], None);
+        // Long words are not compared.
+        let long = "x".repeat(50_000);
+        check(&long, &[&format!("{long}y")], None);
+    }
 }

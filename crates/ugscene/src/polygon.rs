@@ -1,5 +1,7 @@
 //! Polygons in their rest plane: convexity, and triangles by ear cutting.
 
+mod delaunay;
+
 use earcut::Earcut;
 use glam::{DVec2, DVec3};
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -20,19 +22,33 @@ pub fn is_convex(corners: [DVec3; 4]) -> bool {
     })
 }
 
+/// Ear cutting takes time quadratic in the number of corners, and more where corners coincide. Polygons with
+/// more corners than this go through a constrained Delaunay triangulation, which does not.
+const MAX_EAR_CORNERS: usize = 256;
+
+/// Contours are tested against each other for nesting. A polygon that would need more tests than this is not
+/// triangulated. Contours whose bounding boxes are not nested need no test.
+const MAX_NESTING_TESTS: usize = 1 << 24;
+
 /// Cuts a polygon into triangles that keep its direction and use every corner and every side.
 ///
 /// `rings`: the corners of its contours; the first gives its direction, and inside is decided by the even-odd
-/// rule. Corners are numbered through all rings. `None` if that cannot be done, for polygons that cross
-/// themselves or have no area.
+/// rule. Corners are numbered through all rings. `None` if that cannot be done: for polygons that cross
+/// themselves, that have no area, or whose contours are nested thousands deep.
 pub fn triangulate(rings: &[Vec<DVec3>]) -> Option<Vec<Triangle>> {
-    let normal = newell_normal(rings.first()?.iter().copied());
-    let flat = Flat::new(rings, normal)?;
+    let rings = of_usual_size(rings)?;
+    let normal = newell_normal(rings[0].iter().copied());
+    let flat = Flat::new(&rings, normal)?;
+    let groups = flat.groups()?;
+    let sides = flat.sides(&groups);
     let mut triangles = Vec::new();
-    for group in flat.groups() {
-        flat.cut_group(&group, &mut triangles);
+    for group in &groups {
+        if flat.n_corners(group) <= MAX_EAR_CORNERS {
+            flat.cut_ears(group, &mut triangles);
+        } else {
+            delaunay::triangulate(&flat.contours(group), &mut triangles)?;
+        }
     }
-    let sides = flat.sides();
     let triangles = take_up_dropped_corners(triangles, &sides)?;
     (is_complete(&triangles, &sides) && flat.are_upright(&triangles)).then_some(triangles)
 }
@@ -56,9 +72,8 @@ impl Flat {
             (|p| DVec2::new(p.x, p.y), normal.z)
         };
         let turn = |p: DVec2| if dropped < 0.0 { DVec2::new(-p.x, p.y) } else { p };
-        let origin = *rings.first()?.first()?;
-        let place = |&corner: &DVec3| turn(drop(corner) - drop(origin));
-        let rings: Vec<Vec<DVec2>> = rings.iter().map(|ring| ring.iter().map(place).collect()).collect();
+        let rings: Vec<Vec<DVec2>> =
+            rings.iter().map(|ring| ring.iter().map(|&corner| turn(drop(corner))).collect()).collect();
         let first = rings
             .iter()
             .scan(0, |next, ring| {
@@ -66,31 +81,40 @@ impl Flat {
                 Some(*next - ring.len() as u32)
             })
             .collect();
-        let is_usable = rings.iter().flatten().all(|p| p.is_finite()) && signed_area(&rings[0]) > 0.0;
-        is_usable.then_some(Flat { rings, first })
+        (signed_area(&rings[0]) > 0.0).then_some(Flat { rings, first })
     }
 
-    /// Outlines, each with the holes right inside it, by even-odd nesting.
-    fn groups(&self) -> Vec<Vec<usize>> {
-        let n = self.rings.len();
-        let around: Vec<Vec<usize>> = (0..n)
-            .map(|ring| {
-                (0..n).filter(|&o| o != ring && is_inside(&self.rings[ring], &self.rings[o])).collect()
-            })
-            .collect();
+    /// Outlines, each with the holes directly inside it, by even-odd nesting. `None` beyond
+    /// [`MAX_NESTING_TESTS`].
+    fn groups(&self) -> Option<Vec<Vec<usize>>> {
+        let around = nesting(&self.rings)?;
         let is_outline = |ring: usize| around[ring].len().is_multiple_of(2);
-        (0..n)
-            .filter(|&outline| is_outline(outline))
-            .map(|outline| {
-                let is_its_hole = |&ring: &usize| {
-                    around[ring].len() == around[outline].len() + 1 && around[ring].contains(&outline)
-                };
-                [outline].into_iter().chain((0..n).filter(is_its_hole)).collect()
-            })
-            .collect()
+        let mut groups: Vec<Vec<usize>> = Vec::new();
+        let mut group_of = vec![usize::MAX; self.rings.len()];
+        for outline in (0..self.rings.len()).filter(|&ring| is_outline(ring)) {
+            group_of[outline] = groups.len();
+            groups.push(vec![outline]);
+        }
+        for hole in (0..self.rings.len()).filter(|&ring| !is_outline(ring)) {
+            let n_around = around[hole].len();
+            for &outline in around[hole].iter().filter(|&&outline| around[outline].len() + 1 == n_around) {
+                groups[group_of[outline]].push(hole);
+            }
+        }
+        Some(groups)
     }
 
-    fn cut_group(&self, group: &[usize], triangles: &mut Vec<Triangle>) {
+    fn n_corners(&self, group: &[usize]) -> usize {
+        group.iter().map(|&ring| self.rings[ring].len()).sum()
+    }
+
+    /// The contours of a group, as corners with their numbers.
+    fn contours(&self, group: &[usize]) -> Vec<Vec<(u32, DVec2)>> {
+        let numbered = |&ring: &usize| (self.first[ring]..).zip(self.rings[ring].iter().copied()).collect();
+        group.iter().map(numbered).collect()
+    }
+
+    fn cut_ears(&self, group: &[usize], triangles: &mut Vec<Triangle>) {
         let corners: Vec<[f64; 2]> =
             group.iter().flat_map(|&ring| self.rings[ring].iter().map(|p| p.to_array())).collect();
         let numbers: Vec<u32> =
@@ -122,9 +146,9 @@ impl Flat {
     }
 
     /// The corner after each corner, walking with the inside on the left.
-    fn sides(&self) -> Vec<u32> {
+    fn sides(&self, groups: &[Vec<usize>]) -> Vec<u32> {
         let mut next = Vec::with_capacity(self.rings.iter().map(Vec::len).sum());
-        let holes: FxHashSet<usize> = self.groups().iter().flat_map(|group| group[1..].to_vec()).collect();
+        let holes: FxHashSet<usize> = groups.iter().flat_map(|group| group[1..].to_vec()).collect();
         for (ring, corners) in self.rings.iter().enumerate() {
             let (n, first) = (corners.len() as u32, self.first[ring]);
             let is_ahead = (signed_area(corners) > 0.0) != holes.contains(&ring);
@@ -133,6 +157,63 @@ impl Flat {
         }
         next
     }
+}
+
+/// The corners relative to the first, multiplied by a power of two where their size would let areas overflow or
+/// vanish. `None` if a corner is infinite, or all of them coincide.
+fn of_usual_size(rings: &[Vec<DVec3>]) -> Option<Vec<Vec<DVec3>>> {
+    let origin = *rings.first()?.first()?;
+    let mut rings: Vec<Vec<DVec3>> =
+        rings.iter().map(|ring| ring.iter().map(|&corner| corner - origin).collect()).collect();
+    let largest = rings.iter().flatten().map(|p| p.abs().max_element()).fold(0.0, f64::max);
+    if largest == 0.0 || !rings.iter().flatten().all(|p| p.is_finite()) {
+        return None;
+    }
+    if !(1e-60..1e60).contains(&largest) {
+        // In two steps, since one factor may be too large for a double.
+        let half = libm::ldexp(1.0, -libm::ilogb(largest) / 2);
+        rings.iter_mut().flatten().for_each(|p| *p = *p * half * half);
+    }
+    Some(rings)
+}
+
+/// For each contour, those around it. `None` beyond [`MAX_NESTING_TESTS`].
+fn nesting(rings: &[Vec<DVec2>]) -> Option<Vec<Vec<usize>>> {
+    let boxes: Vec<[DVec2; 2]> = rings.iter().map(|ring| bounds(ring)).collect();
+    let mut around = vec![Vec::new(); rings.len()];
+    let mut n_tests = 0;
+    // Swept from left to right, so that only contours that overlap across are paired.
+    let mut order: Vec<usize> = (0..rings.len()).collect();
+    order.sort_by(|&a, &b| boxes[a][0].x.total_cmp(&boxes[b][0].x));
+    let mut open: Vec<usize> = Vec::new();
+    for ring in order {
+        let [low, high] = boxes[ring];
+        open.retain(|&other| boxes[other][1].x >= low.x);
+        n_tests += open.len();
+        for &other in &open {
+            if boxes[other][0].y <= high.y && boxes[other][1].y >= low.y {
+                n_tests += rings[ring].len() * rings[other].len();
+                if n_tests <= MAX_NESTING_TESTS {
+                    if is_inside(&rings[ring], &rings[other]) {
+                        around[ring].push(other);
+                    }
+                    if is_inside(&rings[other], &rings[ring]) {
+                        around[other].push(ring);
+                    }
+                }
+            }
+        }
+        if n_tests > MAX_NESTING_TESTS {
+            return None;
+        }
+        open.push(ring);
+    }
+    Some(around)
+}
+
+fn bounds(ring: &[DVec2]) -> [DVec2; 2] {
+    let grown = |[low, high]: [DVec2; 2], &p: &DVec2| [low.min(p), high.max(p)];
+    ring.iter().fold([DVec2::INFINITY, DVec2::NEG_INFINITY], grown)
 }
 
 /// Ear cutting drops corners on a straight side. Neighbours do use them, so the triangle at such a side is
@@ -290,6 +371,74 @@ mod tests {
         );
         check("no area", &[(0.0, 0.0), (1.0, 0.0), (2.0, 0.0)], &[], None);
         check("a bow tie", &[(0.0, 0.0), (2.0, 2.0), (2.0, 0.0), (0.0, 3.0)], &[], None);
+    }
+
+    /// A square with `n` × `n` square holes.
+    fn sieve(n: usize) -> Vec<Vec<DVec3>> {
+        let size = n as f64;
+        let mut rings = vec![ring(&[(0.0, 0.0), (size, 0.0), (size, size), (0.0, size)])];
+        for cell in 0..n * n {
+            let (x, y) = ((cell % n) as f64, (cell / n) as f64);
+            let corner = |dx: f64, dy: f64| (x + dx, y + dy);
+            let hole = [corner(0.25, 0.25), corner(0.25, 0.75), corner(0.75, 0.75), corner(0.75, 0.25)];
+            rings.push(ring(&hole));
+        }
+        rings
+    }
+
+    #[test]
+    fn polygons_of_many_corners_take_time_near_linear() {
+        // A polygon with h holes and n corners has n + 2h - 2 triangles.
+        assert_eq!(triangulate(&sieve(71)).unwrap().len(), 4 + 6 * 71 * 71 - 2);
+        let n_teeth = 20_000;
+        let there = (0..n_teeth).map(|idx| (f64::from(idx), f64::from(idx % 2)));
+        let back = (0..n_teeth).rev().map(|idx| (f64::from(idx), 2.0 + f64::from(idx % 2)));
+        let comb: Vec<(f64, f64)> = there.chain(back).collect();
+        assert_eq!(triangulate(&[ring(&comb)]).unwrap().len(), 2 * n_teeth as usize - 2);
+        let spiral: Vec<(f64, f64)> = (0..4000)
+            .chain((0..4000).rev())
+            .enumerate()
+            .map(|(at, step)| {
+                let (sine, cosine) = libm::sincos(f64::from(step) * 0.1);
+                let radius = 10.0 + f64::from(step) * 0.1 + if at < 4000 { 0.0 } else { 2.0 };
+                (radius * cosine, radius * sine)
+            })
+            .collect();
+        assert_eq!(triangulate(&[ring(&spiral)]).unwrap().len(), 8000 - 2);
+    }
+
+    #[test]
+    fn repeated_corners_are_refused_soon() {
+        let corners = ring(&[(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)]);
+        let repeated: Vec<DVec3> = corners.iter().copied().cycle().take(6000).collect();
+        assert_eq!(triangulate(&[repeated]), None);
+        let shared: Vec<DVec3> = corners.iter().copied().cycle().take(MAX_EAR_CORNERS / 3 * 3).collect();
+        assert_eq!(triangulate(&[shared]), None);
+    }
+
+    #[test]
+    fn nesting_beyond_the_limit_is_refused() {
+        let square = |size: f64| ring(&[(-size, -size), (size, -size), (size, size), (-size, size)]);
+        let nested =
+            |n: u32| -> Vec<Vec<DVec3>> { (1..=n).rev().map(|size| square(f64::from(size))).collect() };
+        assert_eq!(triangulate(&nested(101)).unwrap().len(), 50 * 8 + 2);
+        assert_eq!(triangulate(&nested(20_000)), None);
+    }
+
+    #[test]
+    fn any_size_is_triangulated_alike() {
+        let star: Vec<(f64, f64)> = (0..8)
+            .map(|idx| {
+                let (sine, cosine) = libm::sincos(f64::from(idx));
+                (f64::from(1 + idx % 3) * cosine, f64::from(1 + idx % 3) * sine)
+            })
+            .collect();
+        let unit = triangulate(&[ring(&star)]).unwrap();
+        for exponent in [-900, -300, 300, 900] {
+            let scale = libm::ldexp(1.0, exponent);
+            let scaled: Vec<DVec3> = ring(&star).iter().map(|&corner| corner * scale).collect();
+            assert_eq!(triangulate(&[scaled]).as_ref(), Some(&unit), "2^{exponent}");
+        }
     }
 
     #[test]

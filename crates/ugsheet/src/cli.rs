@@ -10,59 +10,60 @@ use ugpipe::{CommonArgs, Failure, Stage, ToolArgs, finite};
 
 use crate::{Config, Error, Labels, Picture, history, sheet};
 
-/// Several pictures on one sheet, with labels
+/// Arranges several pictures on one sheet, with labels
 ///
-/// Reads PNG files and puts them side by side, each with its pixels as they are. Labels are the speeds and times that
-/// the pictures say they were made with, if these differ, else the names of the files.
+/// Reads PNG files and arranges them in a grid without resampling them. By default the labels are
+/// the speeds and times recorded in the history of the pictures, if these differ; otherwise the
+/// file names.
 #[derive(Parser, Debug)]
 #[command(name = "ugsheet", version, before_help = ugpipe::ONE_DASH, after_help = EXAMPLES)]
 pub struct Args {
-    /// Pictures in a row [default: as many as there are rows, or one more]
+    /// Pictures per row [default: about as many as rows]
     #[arg(long, value_name = "N", visible_alias = "columns", value_parser = clap::value_parser!(u32).range(1..))]
     cols: Option<u32>,
 
-    /// Label of a picture; give one for each, in their order
+    /// Label of a picture; give it once for each picture, in order
     #[arg(long, value_name = "TEXT", action = ArgAction::Append, conflicts_with = "lb")]
     label: Vec<String>,
 
-    /// Labels where none are given
+    /// Kind of labels if -label is not given
     #[arg(long, value_name = "KIND", default_value = "auto", visible_alias = "labels", value_enum)]
     lb: Kind,
 
-    /// Begin labels with (a), (b), …
+    /// Number the labels with (a), (b), …
     #[arg(long, visible_alias = "letters")]
     lt: bool,
 
-    /// Title above all
+    /// Title above the pictures
     #[arg(long, value_name = "TEXT")]
     title: Option<String>,
 
-    /// Caption below all, in lines as they fit, or as they are
+    /// Caption below the pictures; long lines are wrapped
     #[arg(long, value_name = "TEXT", visible_alias = "caption")]
     cap: Option<String>,
 
-    /// Size of labels in pixels [default: a 28th of the pictures, 10 to 48]
+    /// Text size of labels in pixels [default: 1/28 of the size of the pictures, 10 to 48]
     #[arg(long, value_name = "PIXELS", value_parser = text_size, visible_alias = "text-size")]
     ts: Option<f64>,
 
-    /// Pixels between pictures and, if given, around all [default: a little less than the size of labels]
+    /// Pixels between pictures, and margin M around all [default: 0.9 of the text size]
     #[arg(long, num_args = 1..=2, value_names = ["N", "M"], action = ArgAction::Set,
           value_parser = clap::value_parser!(u32).range(..=10_000))]
     gap: Option<Vec<u32>>,
 
-    /// Colour of the ground: lightness, hue in degrees, saturation [default: white]
+    /// Background colour: lightness, hue in degrees, saturation [default: white]
     #[arg(long, num_args = 1..=3, value_names = ["L", "H", "S"], action = ArgAction::Set,
           value_parser = finite, visible_alias = "background")]
     bg: Option<Vec<f64>>,
 
-    /// Format of the sheet: png, ppm, eps, ps, pdf, svg [default: by the ending of -fo, else png]
+    /// Output format: png, ppm, eps, ps, pdf, svg [default: by the extension of -fo, else png]
     #[arg(long, value_name = "FMT", visible_alias = "format", value_parser = format_named)]
     dt: Option<Format>,
 
     #[command(flatten)]
     common: CommonArgs,
 
-    /// More files to read
+    /// More files to read, one for each picture
     #[arg(value_name = "FILE")]
     files: Vec<PathBuf>,
 }
@@ -73,15 +74,15 @@ const EXAMPLES: &str = "Examples:
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
 enum Kind {
-    /// Speed and time if pictures say and differ in them, else names
+    /// Speed and time if the pictures differ in them, else file names
     Auto,
-    /// Names of files
+    /// File names
     Names,
-    /// None
+    /// No labels
     None,
 }
 
-/// Most size of text, in pixels.
+/// Largest text size, in pixels.
 const LARGEST: f64 = 1000.0;
 
 fn text_size(word: &str) -> Result<f64, String> {
@@ -89,13 +90,13 @@ fn text_size(word: &str) -> Result<f64, String> {
     if (4.0..=LARGEST).contains(&size) {
         Ok(size)
     } else {
-        Err(format!("text is from 4 to {LARGEST} pixels"))
+        Err(format!("the text size must be from 4 to {LARGEST} pixels"))
     }
 }
 
 fn format_named(name: &str) -> Result<Format, String> {
     let format = Format::from_name(name).filter(|format| !format.is_deep());
-    format.ok_or_else(|| "none of the formats png, ppm, eps, ps, pdf, svg".to_owned())
+    format.ok_or_else(|| "not one of the formats png, ppm, eps, ps, pdf, svg".to_owned())
 }
 
 impl ToolArgs for Args {
@@ -123,14 +124,15 @@ impl Args {
         })
     }
 
-    /// As of `ugrainbow`: lightness alone is grey, with a hue it is pure.
+    /// The background colour. As in `ugrainbow`, the saturation is 0 if only the lightness is
+    /// given, and 1 if a hue is given without saturation.
     fn background(&self) -> Result<[u8; 3], Failure> {
         let numbers = self.bg.as_deref().unwrap_or(&[1.0]);
         let hue = numbers.get(1).copied().unwrap_or(0.0);
         let saturation = numbers.get(2).copied().unwrap_or(if numbers.len() > 1 { 1.0 } else { 0.0 });
         let is_part = |number: f64| (0.0..=1.0).contains(&number);
         if !is_part(numbers[0]) || !is_part(saturation) {
-            return Err(Failure::usage("lightness and saturation of the background -bg are from 0 to 1"));
+            return Err(Failure::usage("lightness and saturation of the background -bg must be from 0 to 1"));
         }
         let color = Hsv { hue, saturation, value: numbers[0] };
         Ok(color.to_rgb().map(|part| (255.0 * part).round() as u8))
@@ -147,7 +149,7 @@ impl Args {
     }
 }
 
-/// A picture of its file. `path`: none for standard input.
+/// Reads the picture of an input. `path` is its file, `None` for standard input.
 fn picture(path: Option<&Path>, input: &ugpipe::Input) -> Result<Picture, Failure> {
     let (frame, history) =
         read_png(&input.text).map_err(|error| Failure::Failed(format!("`{}`: {error}", input.name)))?;

@@ -1,29 +1,29 @@
-//! Why there is no sheet.
+//! The errors of making a sheet.
 
 use std::fmt;
 
 use uglabel::MissingCharacter;
 
-/// Most pixels of a sheet.
+/// Largest number of pixels of a sheet.
 pub const MAX_PIXELS: u64 = 1 << 28;
 
-/// Why there is no sheet.
+/// Why a sheet cannot be made.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Error {
-    /// There is no picture.
+    /// There are no pictures.
     Empty,
-    /// Not as many labels as pictures.
+    /// The number of labels is not the number of pictures.
     Count {
-        /// Of labels.
+        /// The number of labels.
         labels: usize,
-        /// Of pictures.
+        /// The number of pictures.
         pictures: usize,
     },
     /// The font lacks a character of a title, caption or label.
     Text {
         /// The whole text.
         text: String,
-        /// What it lacks.
+        /// The first character that the font lacks.
         missing: MissingCharacter,
     },
     /// The sheet has more than 2²⁸ pixels, or the pictures are too narrow for text.
@@ -36,11 +36,11 @@ impl fmt::Display for Error {
             Self::Empty => f.write_str("there are no pictures; name PNG files"),
             Self::Count { labels, pictures } => write!(
                 f,
-                "there are {labels} labels for {pictures} pictures; give -label once for each picture, in their order, or not \
-                 at all"
+                "there are {labels} labels for {pictures} pictures; give -label once for each picture, in \
+                 order, or not at all"
             ),
             Self::Text { text, missing } => {
-                write!(f, "in `{text}`: {missing}; say it otherwise with -label, or -lb none")
+                write!(f, "in `{text}`: {missing}; change the text, or use -label or -lb none")
             }
             Self::Size => write!(f, "the sheet has more than {MAX_PIXELS} pixels; draw smaller pictures"),
         }

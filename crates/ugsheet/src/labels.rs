@@ -1,4 +1,4 @@
-//! What stands under a picture.
+//! The labels under the pictures.
 
 use glam::DVec3;
 use uglabel::number::{significant, speed};
@@ -7,21 +7,22 @@ use ugphysics::Velocity;
 use crate::error::Error;
 use crate::{Picture, words};
 
-/// What stands under pictures.
+/// How pictures are labelled.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Labels {
-    /// Speed and time, as far as pictures differ in them by what they say of how they were made; else their names.
+    /// Speed and time from the history of the pictures, as far as the pictures differ in them;
+    /// otherwise their names.
     Auto,
-    /// Names of files.
+    /// The file names.
     Names,
-    /// Nothing.
+    /// No labels.
     None,
-    /// These, one for each picture.
+    /// The given labels, one for each picture.
     Given(Vec<String>),
 }
 
 impl Labels {
-    /// The labels of pictures.
+    /// The label of each picture.
     pub fn texts(&self, pictures: &[Picture]) -> Vec<String> {
         let names = || pictures.iter().map(|picture| picture.name.clone()).collect();
         match self {
@@ -32,10 +33,10 @@ impl Labels {
         }
     }
 
-    /// The same, as many as pictures.
+    /// Like [`Labels::texts`], and checks that there is one label for each picture.
     ///
     /// # Errors
-    /// There is no picture, or another number of labels.
+    /// [`Error::Empty`] if there are no pictures, [`Error::Count`] if the numbers differ.
     pub fn checked(&self, pictures: &[Picture]) -> Result<Vec<String>, Error> {
         let texts = self.texts(pictures);
         match (texts.len(), pictures.len()) {
@@ -46,7 +47,8 @@ impl Labels {
     }
 }
 
-/// Labels by what `uglorentz` was told; none if pictures do not differ in it.
+/// Labels from the options that `uglorentz` was called with. `None` if they do not distinguish the
+/// pictures.
 fn by_motion(pictures: &[Picture]) -> Option<Vec<String>> {
     let told: Vec<Told> = pictures.iter().map(|picture| Told::of(&picture.history.comment)).collect();
     let speeds: Vec<Option<String>> = told.iter().map(|told| told.speed.clone()).collect();
@@ -63,7 +65,7 @@ fn by_motion(pictures: &[Picture]) -> Option<Vec<String>> {
         }
     };
     let labels: Vec<String> = speeds.iter().zip(&times).map(label).collect();
-    // Labels that leave two pictures alike do not tell what is to be seen.
+    // If two pictures had the same label, the labels would not show how the pictures differ.
     let is_telling = (1..labels.len()).all(|idx| !labels[..idx].contains(&labels[idx]));
     ((has_speeds || has_times) && is_telling).then_some(labels)
 }
@@ -72,17 +74,17 @@ fn differ(texts: &[Option<String>]) -> bool {
     texts.windows(2).any(|pair| pair[0] != pair[1])
 }
 
-/// What `uglorentz` was told of motion.
+/// The options of `uglorentz` that set speed and time.
 #[derive(Debug, PartialEq)]
 struct Told {
-    /// `β = 0.9`; none at rest.
+    /// The speed, as `β = 0.9`; `None` at rest.
     speed: Option<String>,
-    /// Of the observer.
+    /// The time of the observer.
     time: Option<String>,
 }
 
 impl Told {
-    /// By the command lines in a picture.
+    /// Parses the command lines in the history of a picture.
     fn of(history: &str) -> Self {
         let line = history.lines().rfind(|line| line.split(' ').next() == Some("uglorentz"));
         let words = words::of(line.unwrap_or_default());

@@ -1,34 +1,35 @@
-//! Where pictures and lines of text stand.
+//! The layout of a sheet: positions of pictures and lines of text.
 
 use uglabel::{ASCENT, DESCENT, Line, Point, Rgb, SPACING, wrapped};
 
 use crate::error::{Error, MAX_PIXELS};
 use crate::{Config, Picture};
 
-/// Size of titles and of captions, in parts of that of labels.
+/// Text sizes of the title and of the caption, relative to labels.
 const TITLE: f64 = 1.35;
 const CAPTION: f64 = 1.1;
 
-/// Labels are as many times smaller than the pictures.
+/// Ratio of the size of pictures to the default text size.
 const PER_TEXT: f64 = 28.0;
 
-/// Least size of text that can be read, and most that is taken without being asked for.
+/// Smallest and largest default text size, in pixels.
 const SIZES: [f64; 2] = [10.0, 48.0];
 
-/// Where all stands.
+/// The positions of everything on a sheet, in pixels.
 pub struct Layout {
-    /// Of the sheet.
+    /// Width and height of the sheet.
     pub size: [u32; 2],
     /// Upper left corners of the pictures.
     pub pictures: Vec<[u32; 2]>,
-    /// Lines, and where their base lines begin.
+    /// The lines of text, and where their baselines begin.
     pub lines: Vec<(Line, Point)>,
-    /// Of the text.
+    /// The colour of the text.
     pub ink: Rgb,
 }
 
 impl Layout {
-    /// `labels`: one for each picture.
+    /// Lays out a sheet. `labels` has one label for each picture, and there is at least one
+    /// picture.
     ///
     /// # Errors
     /// The font lacks a character, or the sheet is too large.
@@ -80,14 +81,15 @@ impl Layout {
     }
 }
 
-/// By the mean picture, so that text is as large in all sheets of such pictures.
+/// The default text size. It depends on the mean area of the pictures only, so that sheets of
+/// similar pictures have the same text size.
 fn text_size(pictures: &[Picture]) -> f64 {
     let sum: f64 = pictures.iter().map(|picture| picture.frame.pixels().len() as f64).sum();
     let mean = (sum / pictures.len() as f64).sqrt();
     (mean / PER_TEXT).round().clamp(SIZES[0], SIZES[1])
 }
 
-/// A label with its letter.
+/// The label of a picture, with its letter if `letters` is set.
 fn labelled(letters: bool, number: usize, label: &str) -> String {
     if !letters {
         return label.to_owned();
@@ -104,11 +106,11 @@ fn letter(number: usize) -> String {
     }
 }
 
-/// A sheet being filled from above.
+/// A sheet that is filled from top to bottom.
 struct Page {
     width: u32,
     around: u32,
-    /// The first that is free.
+    /// The first free pixel row.
     row: u32,
     lines: Vec<(Line, Point)>,
 }
@@ -119,7 +121,8 @@ impl Page {
         Ok(())
     }
 
-    /// Lines within a width, in the middle, the first with its top at a place; the rows that they take.
+    /// Adds a paragraph of centred lines within `width`, below `top`. Returns its height in pixel
+    /// rows.
     fn label(&mut self, text: &str, size: f64, [left, top]: [u32; 2], width: u32) -> Result<u32, Error> {
         let lines = lines(text, size, f64::from(width))?;
         if lines.is_empty() {
@@ -130,14 +133,14 @@ impl Page {
         for (idx, line) in lines.into_iter().enumerate() {
             let column = f64::from(left) + 0.5 * (f64::from(width) - line.width());
             let base = f64::from(top) + above + size * (ASCENT + SPACING * idx as f64);
-            // Base lines on whole rows are sharp.
+            // Baselines at whole pixel rows are sharp.
             self.lines.push((line, [column, base.round()]));
         }
         Ok(rows.ceil() as u32)
     }
 
     fn room(&self) -> u32 {
-        // Without a margin letters would touch the edge.
+        // At least 4 pixels of margin, so that letters do not touch the edge.
         self.width.saturating_sub(2 * self.around.max(4)).max(1)
     }
 
@@ -148,7 +151,7 @@ impl Page {
         self.down(if rows == 0 { 0 } else { rows + (0.4 * size) as u32 })
     }
 
-    /// One line in the middle, several from the left.
+    /// Adds the caption: a single line is centred, several lines are left-aligned.
     fn caption(&mut self, text: &str, size: f64) -> Result<(), Error> {
         let room = self.room();
         let left = (self.width - room) / 2;
@@ -171,7 +174,7 @@ impl Page {
     }
 }
 
-/// Height of lines.
+/// Height of a paragraph in pixels.
 fn paragraph(n_lines: usize, size: f64) -> f64 {
     size * (ASCENT + DESCENT + SPACING * (n_lines - 1) as f64)
 }

@@ -1,8 +1,10 @@
-//! `ugsheet` puts several pictures on one sheet, as the figures of papers do: in rows, with a label under each.
+//! `ugsheet` arranges several pictures on one sheet, like the figures of papers: in rows, with a
+//! label under each.
 //!
-//! Labels are given, or follow from what the pictures say of how they were made: if they differ in the velocity that
-//! `uglorentz` was given, or in the time, that is the label, else the name of the file ([`Labels`]). Pictures keep their
-//! pixels; on the sheet's ground stand only those with transparency.
+//! Labels are given, or derived from the history recorded in the pictures: if the pictures differ
+//! in the velocity or the time that `uglorentz` was called with, these are the labels, otherwise
+//! the file names ([`Labels`]). Opaque pixels are copied unchanged; transparent ones are composited
+//! over the background.
 //!
 //! # Example
 //!
@@ -39,40 +41,40 @@ pub use labels::Labels;
 use layout::Layout;
 pub use uglabel::Rgb;
 
-/// A picture to be put on a sheet.
+/// A picture to be placed on a sheet.
 #[derive(Clone, Debug)]
 pub struct Picture {
-    /// Of its file, without folder and ending.
+    /// Its file name, without folder and extension.
     pub name: String,
     /// Its pixels.
     pub frame: Frame,
-    /// What its file says of how it was made.
+    /// The history recorded in its file.
     pub history: Label,
 }
 
-/// Everything that decides what a sheet looks like besides the pictures.
+/// The options of a sheet.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Config {
-    /// Pictures in a row; by default as many as make rows and columns about equal.
+    /// Pictures per row; by default such that there are about as many columns as rows.
     pub columns: Option<u32>,
-    /// What stands under the pictures.
+    /// The labels under the pictures.
     pub labels: Labels,
-    /// Labels begin with (a), (b), …
+    /// Whether labels begin with (a), (b), …
     pub letters: bool,
-    /// Above all; none if there is nothing but blanks in it.
+    /// The title above the pictures; no title if it is blank.
     pub title: String,
-    /// Below all, likewise.
+    /// The caption below the pictures; no caption if it is blank.
     pub caption: String,
-    /// Of the ground.
+    /// The background colour.
     pub background: Rgb,
-    /// Pixels between pictures, and around all; by default what suits the text.
+    /// Pixels between pictures, and margin around them; by default 0.9 of the text size.
     pub gap: Option<[u32; 2]>,
-    /// Size of labels in pixels; by default what suits the pictures.
+    /// Text size of labels in pixels; by default 1/28 of the size of the pictures.
     pub text_size: Option<f64>,
 }
 
 impl Default for Config {
-    /// Labels by themselves, on white.
+    /// Automatic labels, white background.
     fn default() -> Self {
         Self {
             columns: None,
@@ -87,10 +89,11 @@ impl Default for Config {
     }
 }
 
-/// The sheet of pictures.
+/// Makes a sheet.
 ///
 /// # Errors
-/// There is no picture, labels are not as many as pictures, the font lacks a character, or the sheet is too large.
+/// There are no pictures, the number of labels is wrong, the font lacks a character, or the sheet
+/// is too large.
 pub fn sheet(config: &Config, pictures: &[Picture]) -> Result<Frame, Error> {
     let labels = config.labels.checked(pictures)?;
     let layout = Layout::new(config, pictures, &labels)?;
@@ -108,14 +111,14 @@ pub fn sheet(config: &Config, pictures: &[Picture]) -> Result<Frame, Error> {
     Ok(frame)
 }
 
-/// How the sheet was made: what all the pictures say, and the command line.
+/// The history of a sheet: those of all its pictures, and the command line.
 pub fn history(pictures: &[Picture], command_line: &str) -> Label {
     let lines = pictures.iter().map(|picture| picture.history.comment.as_str());
     let lines: Vec<&str> = lines.chain([command_line]).filter(|line| !line.is_empty()).collect();
     Label { software: concat!("ugsheet ", env!("CARGO_PKG_VERSION")).to_owned(), comment: lines.join("\n") }
 }
 
-/// Puts a picture on a frame, with its upper left corner at a place.
+/// Copies a picture to a frame, with its upper left corner at `[left, top]`.
 fn put(picture: &Frame, [left, top]: [u32; 2], frame: &mut Frame) {
     let (width, columns) = (frame.width() as usize, picture.width() as usize);
     let rows = picture.pixels().chunks_exact(columns);
@@ -131,7 +134,7 @@ fn put(picture: &Frame, [left, top]: [u32; 2], frame: &mut Frame) {
     }
 }
 
-/// A pixel of which a part is there, over one that is there; mixed as light.
+/// A pixel of alpha `part` composited over an opaque one, in linear light.
 fn over(pixel: [u8; 4], part: f64, under: [u8; 4], quantizer: &ugimage::Quantizer) -> [u8; 4] {
     let light = |level: u8| ugphysics::srgb_decode(f64::from(level) / 255.0);
     let mixed = |i: usize| quantizer.level((part * light(pixel[i]) + (1.0 - part) * light(under[i])) as f32);

@@ -1,6 +1,7 @@
-//! The words of a recorded command line.
+//! Splits a recorded command line into words.
 
-/// Words as a shell reads them, for what is written there: plain ones, and such in single quotes.
+/// The words of a command line as a POSIX shell splits them. Supports what recorded command lines
+/// contain: plain words, single quotes and backslashes.
 pub fn of(line: &str) -> Vec<String> {
     let (mut words, mut word) = (Vec::new(), None::<String>);
     let (mut is_quoted, mut is_escaped) = (false, false);

@@ -1,4 +1,4 @@
-//! Sheets: where pictures and labels are, and the program itself.
+//! Tests of sheets (positions of pictures and labels) and of the program.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, its helpers too")]
 
@@ -11,7 +11,7 @@ use std::process::{Command, Output, Stdio};
 use ugimage::{Format, Frame, Label, read_png};
 use ugsheet::{Config, Error, Labels, Picture, sheet};
 
-/// A picture of noise, so that no part of it is like another.
+/// A picture of noise, so that it occurs only once on a sheet.
 fn picture(name: &str, width: u32, height: u32, seed: u32) -> Picture {
     let mut frame = Frame::opaque(width, height);
     let mut state = seed;
@@ -23,7 +23,7 @@ fn picture(name: &str, width: u32, height: u32, seed: u32) -> Picture {
     Picture { name: name.into(), frame, history: Label::default() }
 }
 
-/// The places at which a picture stands on a sheet, to the byte.
+/// The positions at which a sheet contains exactly the pixels of a picture.
 fn places(picture: &Frame, sheet: &Frame) -> Vec<[u32; 2]> {
     let is_at = |x: u32, y: u32| {
         (0..picture.height())
@@ -71,7 +71,7 @@ fn without_text_and_margin_a_sheet_is_its_pictures() {
     assert!((0..20).all(|y| (30..34).all(|x| sheet.pixel(x, y) == [64, 64, 64, 255])));
 }
 
-/// Of different sizes each stands in the middle of its cell, and its label in the middle below.
+/// Pictures of different sizes are centred in their cells, and labels are centred below them.
 #[test]
 fn labels_stand_in_the_middle_below() {
     let pictures = [picture("a", 100, 50, 1), picture("b", 40, 80, 2), picture("c", 60, 30, 3)];
@@ -88,7 +88,7 @@ fn labels_stand_in_the_middle_below() {
         assert_eq!(found[0][0] + 50, found[2][0] + 30, "middles of a column");
         for (picture, [x, y]) in pictures.iter().zip(&found).skip(1) {
             let (middle, bottom) = (x + picture.frame.width() / 2, y + picture.frame.height());
-            // A label of 10 pixels is within the next 16.
+            // A label with a text size of 10 pixels lies within the next 16 rows.
             let columns = middle - 20..(middle + 20).min(sheet.width());
             let is_ink = |x: u32, y: u32| sheet.pixel(x, y)[..3] != background;
             let ink: Vec<u32> = columns.filter(|&x| (bottom..bottom + 16).any(|y| is_ink(x, y))).collect();
@@ -136,12 +136,12 @@ fn ugsheet(folder: &Path, args: &[&str]) -> Command {
 
 fn fed(command: &mut Command, input: &[u8]) -> Output {
     let mut child = command.spawn().unwrap();
-    // A program that ends without reading closes the pipe: not this test's business.
+    // Ignores errors: a program that ends without reading closes the pipe.
     let _ = child.stdin.take().unwrap().write_all(input);
     child.wait_with_output().unwrap()
 }
 
-/// A folder with `rest.png` and `fast.png`, which say how they were made.
+/// A folder with `rest.png` and `fast.png`, which have histories.
 fn folder() -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     for (name, line) in [("rest", "uglorentz"), ("fast", "uglorentz -vel .9 0 0")] {
@@ -162,7 +162,7 @@ fn the_program_reads_files_and_standard_input() {
     assert_eq!(named.stdout, piped.stdout);
     let (_, history) = read_png(&named.stdout).unwrap();
     assert_eq!(history.comment, "uglorentz\nuglorentz -vel .9 0 0\nugsheet --cols 2");
-    // By what they say, and not by their names.
+    // The labels come from the histories, not from the file names.
     let given = ["-cols", "2", "-label", "at rest", "-label", "β = 0.9", "rest.png", "fast.png"];
     let given = fed(&mut ugsheet(folder.path(), &given), b"");
     assert_eq!(read_png(&given.stdout).unwrap().0, read_png(&named.stdout).unwrap().0);

@@ -1,6 +1,7 @@
-//! Numbers of glTF accessors.
+//! Reads the numbers of glTF accessors.
 //!
-//! The crate's own readers trust counts, offsets and types of the file; here they are checked first.
+//! The readers of the `gltf` crate trust the counts, offsets and types in the file; here they are
+//! checked first.
 
 use std::borrow::Cow;
 
@@ -11,10 +12,10 @@ use gltf::buffer::View;
 
 use crate::error::Problem;
 
-/// Numbers an accessor without data of its own may have.
+/// Largest number of components of an accessor without a buffer view, which is all zeros.
 const MAX_ZEROS: usize = 1 << 24;
 
-/// All components of all rows; whole numbers as fractions if they are normalized.
+/// All components of all rows. Normalized integers are converted to fractions.
 pub(super) fn read(accessor: &Accessor, buffers: &[Cow<'_, [u8]>]) -> Result<Vec<f64>, Problem> {
     let kind = accessor.data_type();
     let n_components = accessor.dimensions().multiplicity();
@@ -55,7 +56,7 @@ pub(super) fn read(accessor: &Accessor, buffers: &[Cow<'_, [u8]>]) -> Result<Vec
     Ok(numbers)
 }
 
-/// The bytes of each row.
+/// The bytes of each row, after a bounds check.
 fn rows<'b>(
     view: &View,
     offset: usize,

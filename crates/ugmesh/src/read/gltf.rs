@@ -1,4 +1,4 @@
-//! glTF 2.0: the nodes of its scene, with transforms, normals and colours.
+//! Reads glTF 2.0: the nodes of its scene, with transforms, normals and colours.
 
 use std::borrow::Cow;
 use std::rc::Rc;
@@ -36,7 +36,7 @@ pub(super) fn read(input: &Input, builder: &mut Builder) -> Result<(), Problem> 
     reader.scene(&document, &nodes)?;
     let (n_left_out, has_textures) = (reader.n_left_out, reader.has_textures);
     if document.nodes().any(|node| node.skin().is_some()) {
-        builder.warn("bones are not moved: skinned meshes stand as they were made");
+        builder.warn("skins are ignored: skinned meshes are read in their bind pose");
     }
     if has_textures {
         builder.warn("textures are not read");
@@ -47,21 +47,21 @@ pub(super) fn read(input: &Input, builder: &mut Builder) -> Result<(), Problem> 
 
 type Chunks<'a> = (Cow<'a, [u8]>, Option<Cow<'a, [u8]>>);
 
-/// The JSON text, and the buffer in a GLB file.
+/// Splits a file into its JSON text and, for GLB, its binary chunk.
 fn split(bytes: &[u8]) -> Result<Chunks<'_>, Problem> {
     if !bytes.starts_with(b"glTF") {
         return Ok((bytes.into(), None));
     }
-    // The crate subtracts the size of the head from the length without looking.
+    // The crate subtracts the size of the header from the length without a check.
     let length = bytes.get(8..12).and_then(|length| length.try_into().ok()).map(u32::from_le_bytes);
     if length.is_none_or(|length| length < 20 || length as usize > bytes.len()) {
-        return Err(Problem::new("it is cut off; copy it again"));
+        return Err(Problem::new("the file is truncated; copy it again"));
     }
     let glb = gltf::Glb::from_slice(bytes).map_err(|error| Problem::new(error.to_string()))?;
     Ok((glb.json, glb.bin))
 }
 
-/// The document, and its nodes as they stand in the text: the crate has their numbers in 32 bits.
+/// The document, and the JSON of its nodes: the crate rounds their transforms to 32 bits.
 fn parse(json: &[u8]) -> Result<(Document, Vec<Value>), Problem> {
     let bad = |error: serde_json::Error| Problem::new(error.to_string());
     let root: Root = serde_json::from_slice(json).map_err(bad)?;
@@ -74,7 +74,8 @@ fn parse(json: &[u8]) -> Result<(Document, Vec<Value>), Problem> {
     Ok((Document::from_json_without_validation(root), nodes))
 }
 
-/// Extensions that do not move vertices: what uses them can be read without.
+/// Extensions that do not affect the geometry, so that files that use them can be read without
+/// support for them.
 const HARMLESS: [&str; 6] = [
     "KHR_lights_punctual",
     "KHR_materials_",
@@ -84,19 +85,19 @@ const HARMLESS: [&str; 6] = [
     "MSFT_texture_",
 ];
 
-/// Makes sure that every number that points into a table points to a row of it. The crate relies on it.
+/// Checks that every index into a table is in range. The crate relies on it.
 fn check(root: &Root) -> Result<(), Problem> {
-    // The crate's own check takes this one on trust.
+    // The validation of the crate does not check this index.
     let primitives = root.meshes.iter().flat_map(|mesh| &mesh.primitives);
     let positions = primitives.filter_map(|primitive| primitive.attributes.get(&Valid(Semantic::Positions)));
     if let Some(row) = positions.map(|index| index.value()).find(|&row| row >= root.accessors.len()) {
-        return Err(Problem::new(format!("`POSITION` names accessor {row}, which is not there")));
+        return Err(Problem::new(format!("`POSITION` refers to accessor {row}, which does not exist")));
     }
     let mut found = None;
     root.validate(root, Path::new, &mut |path, error| {
         let path = path();
         let path = path.as_str();
-        // Bounds are not used here, and some exporters leave them out.
+        // Bounds are not used here, and some exporters omit them.
         let is_bounds = error == Invalid::Missing && (path.ends_with(".min") || path.ends_with(".max"));
         let is_harmless = error == Invalid::Unsupported && HARMLESS.iter().any(|name| path.contains(name));
         if !is_bounds && !is_harmless && found.is_none() {
@@ -109,7 +110,7 @@ fn check(root: &Root) -> Result<(), Problem> {
     found.map_or(Ok(()), Err)
 }
 
-/// All buffers: of the file itself, from data URIs and from files beside it.
+/// All buffers: of the file itself, from data URIs and from separate files.
 fn buffers<'a>(
     document: &Document,
     mut blob: Option<Cow<'a, [u8]>>,
@@ -119,13 +120,13 @@ fn buffers<'a>(
     for buffer in document.buffers() {
         let bytes: Cow<[u8]> = match buffer.source() {
             gltf::buffer::Source::Bin => {
-                blob.take().ok_or_else(|| Problem::new("its binary chunk is missing; copy it again"))?
+                blob.take().ok_or_else(|| Problem::new("the binary chunk is missing; copy the file again"))?
             }
             gltf::buffer::Source::Uri(uri) => load(uri, input)?.into(),
         };
         if bytes.len() < buffer.length() {
             let (index, length) = (buffer.index(), buffer.length());
-            let what = format!("buffer {index} has {} of {length} bytes; copy it again", bytes.len());
+            let what = format!("buffer {index} has only {} of {length} bytes; copy it again", bytes.len());
             return Err(Problem::new(what));
         }
         buffers.push(bytes);
@@ -133,7 +134,7 @@ fn buffers<'a>(
     Ok(buffers)
 }
 
-/// Exporters differ about `=` at the end.
+/// Some exporters omit the padding `=` at the end.
 const BASE64: GeneralPurpose = GeneralPurpose::new(
     &alphabet::STANDARD,
     GeneralPurposeConfig::new().with_decode_padding_mode(DecodePaddingMode::Indifferent),
@@ -149,11 +150,12 @@ fn load(uri: &str, input: &Input) -> Result<Vec<u8>, Problem> {
     let name = percent_decoded(uri);
     if name.contains("://") {
         return Err(Problem::new(format!(
-            "`{name}` is on a network; load it and name the file in its place"
+            "`{name}` is a network address; download it and refer to the file instead"
         )));
     }
-    (input.beside)(&name)
-        .map_err(|error| Problem::new(format!("cannot read `{name}`: {error}; put it beside the mesh")))
+    (input.beside)(&name).map_err(|error| {
+        Problem::new(format!("cannot read `{name}`: {error}; put it in the folder of the mesh"))
+    })
 }
 
 fn percent_decoded(uri: &str) -> String {
@@ -178,14 +180,15 @@ fn percent_decoded(uri: &str) -> String {
 struct Reader<'a, 'b> {
     builder: &'a mut Builder,
     buffers: Vec<Cow<'b, [u8]>>,
-    /// Of accessors read before: many primitives may share one.
+    /// The numbers of accessors that were already read: primitives may share accessors.
     numbers: FxHashMap<usize, Rc<Vec<f64>>>,
     n_left_out: usize,
     has_textures: bool,
 }
 
 impl Reader<'_, '_> {
-    /// All nodes of the default scene, or of the first, or of none: then those that are nobody's children.
+    /// Reads all nodes of the default scene or, if there is none, of the first scene. Without any
+    /// scene, the nodes without parents are the roots.
     fn scene(&mut self, document: &Document, nodes: &[Value]) -> Result<(), Problem> {
         let scene = document.default_scene().or_else(|| document.scenes().next());
         let roots: Vec<gltf::Node> = match scene {
@@ -234,9 +237,10 @@ impl Reader<'_, '_> {
         let colors = self.colors(primitive, &material)?;
         let corners = self.corners(primitive, n_positions)?;
 
-        // Normals stay upright on surfaces that are scaled unevenly.
+        // The inverse transpose keeps normals perpendicular to surfaces under non-uniform scaling.
         let normal_matrix: DMat3 = scene_from_node.matrix3.inverse().transpose();
-        // Primitives often share one long list of vertices: only those used become vertices of the scene.
+        // Primitives often share one long list of vertices. Only the ones in use become vertices of
+        // the scene.
         let mut is_used = vec![false; n_positions];
         corners.iter().for_each(|&corner| is_used[corner] = true);
         let mut vertices = vec![VertexId(0); n_positions];
@@ -249,7 +253,7 @@ impl Reader<'_, '_> {
         }
         let color = if colors.is_some() { None } else { material.color() };
         let color = color.map(|color| self.builder.color(color));
-        // A mirror image has its outside where the corners run the other way.
+        // A reflection reverses the orientation of triangles.
         let is_mirrored = scene_from_node.matrix3.determinant() < 0.0;
         for [a, b, c] in triangles(primitive.mode(), corners.len()) {
             let triangle = if is_mirrored { [a, c, b] } else { [a, b, c] };
@@ -258,30 +262,30 @@ impl Reader<'_, '_> {
         Ok(())
     }
 
-    /// The rows of the primitive's vertices, one for each corner.
+    /// The index of the primitive's vertex for each corner.
     fn corners(&mut self, primitive: &Primitive, n_positions: usize) -> Result<Vec<usize>, Problem> {
         let Some(accessor) = primitive.indices() else { return Ok((0..n_positions).collect()) };
         if !matches!(accessor.data_type(), DataType::U8 | DataType::U16 | DataType::U32)
             || accessor.dimensions() != Dimensions::Scalar
         {
-            return Err(Problem::new("indices are no whole numbers; export the mesh again"));
+            return Err(Problem::new("indices are not unsigned integers; export the mesh again"));
         }
         let corners: Vec<usize> = self.numbers(&accessor)?.iter().map(|&row| row as usize).collect();
         match corners.iter().find(|&&row| row >= n_positions) {
             Some(row) => {
-                Err(Problem::new(format!("a triangle names vertex {row}, but there are {n_positions}")))
+                Err(Problem::new(format!("a triangle refers to vertex {row}, but there are {n_positions}")))
             }
             None => Ok(corners),
         }
     }
 
-    /// `COLOR_0` times the colour of the material, both linear, as colours for display.
+    /// `COLOR_0` times the colour of the material (both linear), display-encoded.
     fn colors(&mut self, primitive: &Primitive, material: &Material) -> Result<Option<Vec<Rgba>>, Problem> {
         let Some(accessor) = primitive.get(&Semantic::Colors(0)) else { return Ok(None) };
         let n_components = match accessor.dimensions() {
             Dimensions::Vec3 => 3,
             Dimensions::Vec4 => 4,
-            _ => return Err(Problem::new("`COLOR_0` has neither three nor four components")),
+            _ => return Err(Problem::new("`COLOR_0` must have three or four components")),
         };
         let numbers = self.numbers(&accessor)?;
         let colors = numbers.chunks_exact(n_components).map(|part| {
@@ -293,7 +297,7 @@ impl Reader<'_, '_> {
 
     fn vectors(&mut self, accessor: &Accessor, name: &str) -> Result<Rc<Vec<f64>>, Problem> {
         if accessor.dimensions() != Dimensions::Vec3 {
-            return Err(Problem::new(format!("`{name}` has not three components; export the mesh again")));
+            return Err(Problem::new(format!("`{name}` must have three components; export the mesh again")));
         }
         self.numbers(accessor)
     }
@@ -312,7 +316,7 @@ fn vector(numbers: &[f64], row: usize) -> DVec3 {
     DVec3::from_slice(&numbers[3 * row..3 * row + 3])
 }
 
-/// Corners of triangles, by place among `len` corners.
+/// The triangles of `len` corners, as indices of corners.
 fn triangles(mode: Mode, len: usize) -> Vec<[usize; 3]> {
     match mode {
         Mode::TriangleStrip => strip(len).collect(),
@@ -321,7 +325,8 @@ fn triangles(mode: Mode, len: usize) -> Vec<[usize; 3]> {
     }
 }
 
-/// The transform of a node, from the numbers of the text: a matrix by columns, or scale, rotation, translation.
+/// The transform of a node from its JSON: a column-major matrix, or scale, rotation and
+/// translation.
 fn local_transform(node: Option<&Value>) -> DAffine3 {
     let numbers =
         |key: &str| -> Option<Vec<f64>> { node?.get(key)?.as_array()?.iter().map(Value::as_f64).collect() };
@@ -333,7 +338,7 @@ fn local_transform(node: Option<&Value>) -> DAffine3 {
         _ => default,
     };
     let rotation = match numbers("rotation").as_deref() {
-        // Exporters round quaternions to 32 bits; the turn they mean has no scale in it.
+        // Exporters round quaternions to 32 bits, so they are normalized to pure rotations.
         Some(&[x, y, z, w]) if x * x + y * y + z * z + w * w > 0.0 => {
             DQuat::from_xyzw(x, y, z, w).normalize()
         }
@@ -344,7 +349,7 @@ fn local_transform(node: Option<&Value>) -> DAffine3 {
 }
 
 struct Material {
-    /// Linear, with opacity.
+    /// Linear red, green and blue, and alpha.
     factor: [f64; 4],
     is_given: bool,
     is_clear: bool,
@@ -363,10 +368,10 @@ impl Material {
         }
     }
 
-    /// The colour for display of a surface that has the linear colour `part` under this material.
+    /// The display-encoded product of the linear colour `part` and the colour of the material.
     fn tinted(&self, part: [f64; 4]) -> Rgba {
         let [red, green, blue, alpha] = [0, 1, 2, 3].map(|idx| part[idx] * self.factor[idx]);
-        // The ends of the curve are a rounding error away from 1.
+        // Exactly 1 for white, where the transfer function has a rounding error.
         let encode = |linear: f64| if linear == 1.0 { 1.0 } else { srgb_encode(linear) };
         let alpha = if self.is_clear { alpha } else { 1.0 };
         Rgba([encode(red), encode(green), encode(blue), alpha])

@@ -1,4 +1,4 @@
-//! Readers: one for each format, all into a [`Builder`].
+//! Readers: one per format, all of which fill a [`Builder`].
 
 mod accessor;
 mod gltf;
@@ -27,7 +27,8 @@ pub(crate) fn reader(format: Format) -> Option<Reader> {
     }
 }
 
-/// Corners of the triangles of a strip of `len` corners, by place in it; every other one is turned.
+/// The triangles of a strip of `len` corners, as indices of corners. Every second triangle is
+/// reversed, so that all have the same orientation.
 fn strip(len: usize) -> impl Iterator<Item = [usize; 3]> {
     (2..len).map(|last| if last % 2 == 0 { [last - 2, last - 1, last] } else { [last - 1, last - 2, last] })
 }

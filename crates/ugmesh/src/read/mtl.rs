@@ -1,4 +1,4 @@
-//! Colours of a material library (MTL).
+//! Reads the colours of a material library (MTL).
 
 use std::collections::BTreeMap;
 
@@ -13,8 +13,8 @@ pub(super) struct Materials {
 }
 
 impl Materials {
-    /// Adds the materials of a file. What is not a colour or its opacity is passed over, and so is a statement that
-    /// cannot be read: a material is an ornament.
+    /// Adds the materials of a file. Only diffuse colours and opacity are read. Malformed
+    /// statements are ignored, since a mesh is usable without its materials.
     pub fn add(&mut self, bytes: &[u8]) {
         let text = words::text(bytes);
         let mut current: Option<&mut Rgba> = None;
@@ -29,7 +29,7 @@ impl Materials {
                 }
                 ("Kd", Some(color)) => {
                     if let Some(red) = numbers.next() {
-                        // Those left out are like the first.
+                        // Missing components equal the first.
                         let [green, blue] = [(); 2].map(|()| numbers.next().unwrap_or(red));
                         color.0[..3].copy_from_slice(&[red, green, blue]);
                     }
@@ -43,10 +43,10 @@ impl Materials {
     }
 }
 
-/// The colour of a material that names none, as other readers have it.
+/// The colour of a material without `Kd`, the same as in other readers.
 const UNNAMED: Rgba = Rgba([0.8, 0.8, 0.8, 1.0]);
 
-/// Keyword and what follows, without the blanks round it.
+/// The keyword of a line, and the trimmed rest.
 pub(super) fn split(line: &str) -> (&str, &str) {
     let line = line.trim();
     match line.split_once(char::is_whitespace) {

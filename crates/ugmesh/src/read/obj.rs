@@ -1,7 +1,7 @@
-//! Wavefront OBJ: vertices, normals, faces, colours of vertices and materials.
+//! Reads Wavefront OBJ: vertices, normals, faces, colours of vertices and materials.
 //!
-//! Why not a crate: those at hand give every group and every texture seam vertices of its own, in f32, so that
-//! neighbouring faces no longer share edges.
+//! Not with a crate, because the available ones duplicate the vertices of every group and texture
+//! seam, so that neighbouring faces no longer share edges, and read only f32.
 
 use std::borrow::Cow;
 use std::collections::BTreeSet;
@@ -35,7 +35,7 @@ pub(super) fn read(input: &Input, builder: &mut Builder) -> Result<(), Problem> 
     reader.finish()
 }
 
-/// Lines with their numbers; a backslash at the end joins a line to the next.
+/// The lines with their numbers. A backslash at the end of a line continues it on the next.
 fn statements(text: &str) -> impl Iterator<Item = (usize, Cow<'_, str>)> {
     let mut lines = text.lines().enumerate();
     std::iter::from_fn(move || {
@@ -53,12 +53,12 @@ struct Reader<'a> {
     input: &'a Input<'a>,
     builder: &'a mut Builder,
     normals: Vec<DVec3>,
-    /// Of all faces: rows of `v` and of `normals`.
+    /// The corners of all faces: vertex, and index into `normals`.
     corners: Vec<(VertexId, Option<u32>)>,
-    /// End in `corners` and colour.
+    /// For each face, its end in `corners` and its colour.
     faces: Vec<(usize, Option<ColorId>)>,
     materials: Materials,
-    /// Of the faces to come.
+    /// The colour of the following faces.
     color: Option<ColorId>,
     n_left_out: usize,
     unknown_materials: BTreeSet<String>,
@@ -93,7 +93,7 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
-    /// `v x y z`, followed by nothing, a weight, or red, green and blue.
+    /// `v x y z`, optionally followed by a weight or by red, green and blue.
     fn vertex(&mut self, line: usize, rest: &str) -> Result<(), Problem> {
         let mut words = rest.split_whitespace();
         let position = numbers::<3>(&mut words, line, "vertex")?;
@@ -104,7 +104,7 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
-    /// Any numbers will do: some exporters write `nan` for faces without area.
+    /// NaN is accepted: some exporters write `nan` for faces without area.
     fn normal(&mut self, rest: &str) -> Result<(), Problem> {
         let mut parts = rest.split_whitespace().map_while(|word| fast_float2::parse(word).ok());
         let (Some(x), Some(y), Some(z)) = (parts.next(), parts.next(), parts.next()) else {
@@ -123,25 +123,29 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
-    /// `v`, `v/vt`, `v//vn` or `v/vt/vn`: numbers from 1, or backwards from −1.
+    /// A corner `v`, `v/vt`, `v//vn` or `v/vt/vn`, with indices counted from 1, or backwards from
+    /// −1.
     fn corner(&self, word: &str) -> Result<(VertexId, Option<u32>), Problem> {
         let mut parts = word.split('/');
         let (position, normal) = (parts.next().unwrap_or_default(), parts.nth(1).unwrap_or_default());
         let n_vertices = self.builder.n_vertices();
         let vertex = row(position, n_vertices).and_then(|row| self.builder.known(row)).ok_or_else(|| {
-            Problem::new(format!("a face names vertex `{position}`, but there are {n_vertices} above it"))
+            Problem::new(format!(
+                "a face refers to vertex `{position}`, but there are {n_vertices} before it"
+            ))
         })?;
         if normal.is_empty() {
             return Ok((vertex, None));
         }
         let n_normals = self.normals.len();
         let row = row(normal, n_normals).filter(|&row| row < n_normals as u64).ok_or_else(|| {
-            Problem::new(format!("a face names normal `{normal}`, but there are {n_normals} above it"))
+            Problem::new(format!("a face refers to normal `{normal}`, but there are {n_normals} before it"))
         })?;
         Ok((vertex, Some(row as u32)))
     }
 
-    /// `mtllib` takes several names, but names with blanks are more common.
+    /// `mtllib` allows several names, but a single name with spaces is more common, so that is
+    /// tried first.
     fn load_materials(&mut self, rest: &str) {
         let names: Vec<&str> = rest.split_whitespace().collect();
         if let Ok(bytes) = (self.input.beside)(rest) {
@@ -165,7 +169,7 @@ impl<'a> Reader<'a> {
         self.color = known.map(|color| self.builder.color(color));
     }
 
-    /// Makes the faces, now that all vertices of the file are there.
+    /// Builds the faces, after all vertices have been read.
     fn finish(mut self) -> Result<(), Problem> {
         let mut seams = Seams::new(self.builder.n_vertices());
         let mut start = 0;
@@ -187,7 +191,7 @@ impl<'a> Reader<'a> {
             self.unknown_materials.iter().take(5).map(|name| format!("`{name}`")).collect();
         if !names.is_empty() {
             let more = if self.unknown_materials.len() > names.len() { ", …" } else { "" };
-            self.builder.warn(format!("no colour is known for material {}{more}", names.join(", ")));
+            self.builder.warn(format!("materials without colour: {}{more}", names.join(", ")));
         }
         if self.materials.has_textures {
             self.builder.warn("textures are not read");
@@ -200,11 +204,11 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// Bits of a normal: equal ones are one, under whatever number.
+/// The bits of a normal, by which equal normals with different indices are identified.
 type NormalBits = Option<[u64; 3]>;
 
-/// Positions with several normals become several vertices. The first normal stays with the vertex of the file, so
-/// that vertices keep their order; the others come behind them all.
+/// Splits a vertex with several normals into several vertices. The vertex of the file gets the
+/// first normal, so that vertices keep their order; the copies are appended at the end.
 struct Seams {
     first: Vec<Option<NormalBits>>,
     copies: FxHashMap<(VertexId, NormalBits), VertexId>,
@@ -215,7 +219,7 @@ impl Seams {
         Self { first: vec![None; n_vertices], copies: FxHashMap::default() }
     }
 
-    /// The vertex with this normal at the place of `vertex`.
+    /// The vertex with this normal at the position of `vertex`.
     fn vertex(
         &mut self,
         builder: &mut Builder,
@@ -239,7 +243,7 @@ impl Seams {
     }
 }
 
-/// The row of an element counted from 1, or backwards from −1.
+/// The row, counted from 0, for an index counted from 1, or backwards from −1.
 fn row(word: &str, n_rows: usize) -> Option<u64> {
     let number: i64 = word.parse().ok()?;
     let row = if number < 0 { number.checked_add_unsigned(n_rows as u64)? } else { number - 1 };

@@ -1,4 +1,4 @@
-//! Geomview OFF: `[ST][C][N]OFF`, counts, vertices, faces, one a line.
+//! Reads Geomview OFF: the keyword `[ST][C][N]OFF`, counts, vertices and faces, one per line.
 
 use glam::DVec3;
 
@@ -27,7 +27,7 @@ pub(super) fn read(bytes: &[u8], builder: &mut Builder) -> Result<(), Problem> {
     Ok(())
 }
 
-/// What the keyword says a vertex has.
+/// The vertex attributes that the keyword declares.
 #[derive(Clone, Copy, Default)]
 struct Kind {
     has_normal: bool,
@@ -35,12 +35,12 @@ struct Kind {
 }
 
 fn ends_early(announced: u64, what: &str, n_read: u64) -> Problem {
-    Problem::new(format!("{announced} {what} are announced, but it ends after {n_read}; copy it again"))
+    Problem::new(format!("{announced} {what} are declared, but the file ends after {n_read}; copy it again"))
 }
 
-/// The keyword, which may be missing, and the counts, which may stand on its line.
+/// Reads the keyword, which may be missing, and the counts, which may be on the same line.
 fn read_head<'t>(lines: &mut impl Iterator<Item = (usize, &'t str)>) -> Result<(Kind, [u64; 2]), Problem> {
-    let nothing = || Problem::new("it has no counts of vertices and faces");
+    let nothing = || Problem::new("the numbers of vertices and faces are missing");
     let (line, head) = lines.next().ok_or_else(nothing)?;
     let mut words: Vec<&str> = head.split_whitespace().collect();
     let mut kind = Kind::default();
@@ -49,7 +49,7 @@ fn read_head<'t>(lines: &mut impl Iterator<Item = (usize, &'t str)>) -> Result<(
         && is_off_keyword(keyword)
     {
         if keyword.contains(['4', 'n']) || words.contains(&"BINARY") {
-            let what = format!("`{head}` is not read; export plain three-dimensional text OFF, or PLY");
+            let what = format!("`{head}` is not supported; export three-dimensional ASCII OFF, or PLY");
             return Err(Problem::at(line, what));
         }
         // `STOFF` has no normals, `ST` is for texture.
@@ -92,7 +92,10 @@ fn read_face(face: &str, line: usize, builder: &mut Builder) -> Result<(), Probl
             .ok_or_else(|| Problem::at(line, format!("a face of {n_corners} corners ends after {n_read}")))?;
         let corner = word.parse().ok().and_then(|idx| builder.known(idx)).ok_or_else(|| {
             let last = builder.n_vertices() as i64 - 1;
-            Problem::at(line, format!("a face names vertex `{word}`, but they are numbered from 0 to {last}"))
+            Problem::at(
+                line,
+                format!("a face refers to vertex `{word}`, but vertices are numbered from 0 to {last}"),
+            )
         })?;
         corners.push(corner);
     }
@@ -100,8 +103,8 @@ fn read_face(face: &str, line: usize, builder: &mut Builder) -> Result<(), Probl
     builder.face(&corners, color)
 }
 
-/// Three or four numbers: whole ones from 0 to 255, others from 0 to 1. A single one is a row of a colour map that
-/// was never written down.
+/// A colour of three or four numbers: integers from 0 to 255, others from 0 to 1. A single number
+/// is an index into a colour map that the file does not contain, and is ignored.
 fn color<'w>(words: impl Iterator<Item = &'w str>, line: usize) -> Result<Option<Rgba>, Problem> {
     let mut parts = Vec::with_capacity(4);
     for word in words.take(4) {

@@ -1,4 +1,4 @@
-//! Stanford PLY: vertices, faces and triangle strips, in all three encodings.
+//! Reads Stanford PLY: vertices, faces and triangle strips, in all three encodings.
 
 use std::io::Cursor;
 
@@ -41,17 +41,20 @@ pub(super) fn read(bytes: &[u8], builder: &mut Builder) -> Result<(), Problem> {
     Ok(())
 }
 
-/// Refuses what the parser would take: elements that are not there, and vertices without a place.
+/// Rejects what the parser would accept: more rows than the file can contain, and vertices without
+/// coordinates.
 fn check(header: &Header, n_bytes: usize) -> Result<(), Problem> {
     for element in header.elements.values() {
-        // Every row takes a byte at least, unless it has no properties; nobody needs such rows.
+        // Every row takes at least one byte, unless it has no properties, which is useless.
         if element.count > n_bytes || (element.properties.is_empty() && element.count > 0) {
             let (count, name) = (element.count, &element.name);
-            return Err(Problem::new(format!("{count} rows of `{name}` are announced, which are not there")));
+            return Err(Problem::new(format!(
+                "{count} rows of `{name}` are declared, but the file has fewer; copy it again"
+            )));
         }
     }
     let Some(vertex) = header.elements.get("vertex") else {
-        return Err(Problem::new("it has no element `vertex`"));
+        return Err(Problem::new("the element `vertex` is missing"));
     };
     let is_number = |name: &&str| {
         vertex
@@ -60,7 +63,7 @@ fn check(header: &Header, n_bytes: usize) -> Result<(), Problem> {
             .is_some_and(|property| matches!(property.data_type, PropertyType::Scalar(_)))
     };
     match ["x", "y", "z"].iter().find(|name| !is_number(name)) {
-        Some(name) => Err(Problem::new(format!("its vertices have no property `{name}`"))),
+        Some(name) => Err(Problem::new(format!("vertices have no property `{name}`"))),
         None => Ok(()),
     }
 }
@@ -68,11 +71,11 @@ fn check(header: &Header, n_bytes: usize) -> Result<(), Problem> {
 fn corner(builder: &Builder, idx: i64) -> Result<VertexId, Problem> {
     u64::try_from(idx).ok().and_then(|idx| builder.known(idx)).ok_or_else(|| {
         let last = builder.n_vertices() as i64 - 1;
-        Problem::new(format!("a face names vertex {idx}, but they are numbered from 0 to {last}"))
+        Problem::new(format!("a face refers to vertex {idx}, but vertices are numbered from 0 to {last}"))
     })
 }
 
-/// The parser's message is several lines long; the first says it.
+/// The first line of the parser's message, which has several.
 fn problem(error: ply_rs_bw::parser::ParseError) -> Problem {
     let text = error.to_string();
     let first = text.lines().next().unwrap_or_default();
@@ -85,14 +88,14 @@ fn problem(error: ply_rs_bw::parser::ParseError) -> Problem {
 
 /// The properties of a vertex, face or strip that are used here.
 struct Row {
-    /// By place in [`NUMBERS`]; NaN for those the file does not have.
+    /// The properties in the order of [`NUMBERS`]; NaN if the file does not have them.
     numbers: [f64; NUMBERS.len()],
     corners: Vec<i64>,
 }
 
 const NUMBERS: [&str; 10] = ["x", "y", "z", "nx", "ny", "nz", "red", "green", "blue", "alpha"];
 
-/// Other names of colours.
+/// Alternative names of colour properties.
 const ALIASES: [(&str, &str); 6] = [
     ("diffuse_red", "red"),
     ("diffuse_green", "green"),
@@ -120,7 +123,7 @@ impl Row {
 
     fn set(&mut self, name: &str, number: f64, full: f64) -> PropertyAccessResult {
         let Some(place) = Self::place(name) else { return PropertyAccessResult::Ignored };
-        // Colours in whole numbers use their full range.
+        // Integer colours use the full range of their type.
         let is_color = place >= 6;
         self.numbers[place] = if is_color { number / full } else { number };
         PropertyAccessResult::Set

@@ -1,7 +1,7 @@
-//! STL, binary and ASCII. Corners at the same place to the bit are one vertex.
+//! Reads STL, binary and ASCII. Corners with bit-identical positions are merged to one vertex.
 //!
-//! Why not a crate: the one at hand stops at the first `endsolid` and takes a file that begins with a bare `solid`
-//! for binary; both are common.
+//! Not with a crate, because the available one stops at the first `endsolid` and reads a file that
+//! begins with `solid` without a name as binary; both occur in practice.
 
 use glam::DVec3;
 use rustc_hash::FxHashMap;
@@ -31,7 +31,7 @@ impl Merged<'_> {
     fn triangle(&mut self, corners: [[f64; 3]; 3]) -> Result<(), Problem> {
         let mut ids = [VertexId(0); 3];
         for (id, corner) in ids.iter_mut().zip(corners) {
-            // The key takes −0 for 0, as the builder does.
+            // −0 and 0 have the same key, because the builder replaces −0 by 0.
             let key = corner.map(|x| (x + 0.0).to_bits());
             *id = match self.by_place.get(&key) {
                 Some(&known) => known,
@@ -43,15 +43,17 @@ impl Merged<'_> {
     }
 }
 
-/// Header of 80 bytes, count, and for each triangle a normal, three corners and two bytes nobody agrees about.
+/// Binary STL: a header of 80 bytes, the count, and for each triangle a normal, three corners and
+/// two bytes without a standard meaning.
 fn read_binary(bytes: &[u8], merged: &mut Merged) -> Result<(), Problem> {
     let Some((header, triangles)) = bytes.split_at_checked(84) else {
-        return Err(Problem::new("it is too short for STL"));
+        return Err(Problem::new("the file is too short for STL"));
     };
     let count = u32_at(header, 80);
     let available = triangles.len() / 50;
     if (available as u64) < u64::from(count) {
-        let what = format!("{count} triangles are announced, but it ends after {available}; copy it again");
+        let what =
+            format!("{count} triangles are declared, but the file ends after {available}; copy it again");
         return Err(Problem::new(what));
     }
     for triangle in triangles.chunks_exact(50).take(count as usize) {
@@ -67,7 +69,8 @@ fn u32_at(bytes: &[u8], offset: usize) -> u32 {
     u32::from_le_bytes([bytes[offset], bytes[offset + 1], bytes[offset + 2], bytes[offset + 3]])
 }
 
-/// `vertex x y z` in groups of three; the rest only says so. The numbers are meant as 32-bit ones.
+/// ASCII STL: `vertex x y z` in groups of three; all other lines only delimit these. The numbers
+/// are rounded to 32 bits, as in binary STL.
 fn read_text(text: &str, merged: &mut Merged) -> Result<(), Problem> {
     let mut corners = Vec::with_capacity(3);
     for (idx, line) in text.lines().enumerate() {
@@ -88,8 +91,8 @@ fn read_text(text: &str, merged: &mut Merged) -> Result<(), Problem> {
                 corners.clear();
             }
             "solid" | "endsolid" | "facet" | "endfacet" | "outer" | "color" | "" => {}
-            _ => return Err(Problem::at(idx + 1, format!("`{keyword}` is no word of STL"))),
+            _ => return Err(Problem::at(idx + 1, format!("`{keyword}` is not a keyword of STL"))),
         }
     }
-    if corners.is_empty() { Ok(()) } else { Err(Problem::new("it ends inside a facet; copy it again")) }
+    if corners.is_empty() { Ok(()) } else { Err(Problem::new("the file ends inside a facet; copy it again")) }
 }

@@ -1,16 +1,17 @@
-//! Lines of text formats, as words and numbers.
+//! Parses words and numbers of text formats.
 
 use std::borrow::Cow;
 
 use crate::error::Problem;
 
-/// The text of a file; bytes that are not UTF-8 stand in comments and names only.
+/// The text of a file. Bytes that are not UTF-8 are replaced; they should occur only in comments
+/// and names.
 pub(super) fn text(bytes: &[u8]) -> Cow<'_, str> {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     String::from_utf8_lossy(bytes)
 }
 
-/// A number; `what` says what it belongs to.
+/// Parses a finite number; `what` names its owner for the error message.
 pub(super) fn number(word: &str, line: usize, what: &str) -> Result<f64, Problem> {
     fast_float2::parse(word)
         .ok()
@@ -18,7 +19,7 @@ pub(super) fn number(word: &str, line: usize, what: &str) -> Result<f64, Problem
         .ok_or_else(|| Problem::at(line, format!("`{word}` in a {what} is not a finite number")))
 }
 
-/// The first `N` words as numbers.
+/// Parses the first `N` words as numbers.
 pub(super) fn numbers<'a, const N: usize>(
     words: &mut impl Iterator<Item = &'a str>,
     line: usize,

@@ -1,4 +1,4 @@
-//! glTF 2.0: one node, one mesh, one primitive, 32-bit numbers, linear colours.
+//! Writes glTF 2.0: one node, one mesh, one primitive, 32-bit floats, linear colours.
 
 use std::borrow::Cow;
 
@@ -11,7 +11,7 @@ use ugphysics::srgb_decode;
 use crate::Error;
 use crate::surface::Surface;
 
-/// Codes of OpenGL for types and uses of numbers.
+/// OpenGL constants for component types and buffer targets.
 const FLOAT: u32 = 5126;
 const UNSIGNED_INT: u32 = 5125;
 const ARRAY_BUFFER: u32 = 34962;
@@ -21,7 +21,7 @@ pub(super) fn write_glb(surface: &mut Surface) -> Result<Vec<u8>, Error> {
     check_range(surface)?;
     let (document, buffer) = document(surface, None);
     let json = document.to_string().into_bytes();
-    // The head of the file has 32 bits for its length; 64 bytes are for heads and padding.
+    // The file header stores the length in 32 bits. 64 bytes are reserved for headers and padding.
     if u32::try_from(json.len() + buffer.len() + 64).is_err() {
         return Err(Error::TooLarge);
     }
@@ -41,7 +41,8 @@ fn check_range(surface: &Surface) -> Result<(), Error> {
     if is_narrow { Ok(()) } else { Err(Error::OutOfRange) }
 }
 
-/// The document and its buffer, which is also put into the document if there is a `uri` to put before it.
+/// The document and its buffer. If `uri` is given, the buffer is also embedded in the document, as
+/// a data URI with this prefix.
 fn document(surface: &mut Surface, uri: Option<&str>) -> (Value, Vec<u8>) {
     let mut document = json!({
         "asset": {
@@ -51,7 +52,7 @@ fn document(surface: &mut Surface, uri: Option<&str>) -> (Value, Vec<u8>) {
         },
     });
     let mut buffer = Buffer::default();
-    // Lists and accessors without rows are not allowed.
+    // glTF does not allow empty lists and accessors.
     if !surface.polygons.is_empty() {
         document["scene"] = 0.into();
         document["scenes"] = json!([{ "nodes": [0] }]);
@@ -71,7 +72,7 @@ fn document(surface: &mut Surface, uri: Option<&str>) -> (Value, Vec<u8>) {
     (document, buffer.bytes)
 }
 
-/// Dull, and seen from both sides, as scenes are.
+/// A diffuse, two-sided material, as the faces of scenes are.
 fn material(is_clear: bool) -> Value {
     let mut material = json!({
         "pbrMetallicRoughness": { "metallicFactor": 0, "roughnessFactor": 1 },
@@ -125,7 +126,7 @@ fn bounds(positions: &[[f32; 3]]) -> ([f32; 3], [f32; 3]) {
     })
 }
 
-/// The binary buffer, and who describes it. Everything in it is a multiple of four bytes.
+/// The binary buffer, with its views and accessors. All its parts are multiples of four bytes long.
 #[derive(Default)]
 struct Buffer {
     bytes: Vec<u8>,
@@ -139,7 +140,7 @@ impl Buffer {
         self.add(&bytes, rows.len(), FLOAT, kind, ARRAY_BUFFER)
     }
 
-    /// The number of the accessor.
+    /// Appends data and describes it by a view and an accessor. Returns the index of the accessor.
     fn add(&mut self, bytes: &[u8], count: usize, component: u32, kind: &str, target: u32) -> usize {
         self.views.push(json!({
             "buffer": 0,

@@ -1,4 +1,4 @@
-//! Writers: one for each format, all from a [`Surface`].
+//! Writers: one per format, all of which write a [`Surface`].
 
 mod gltf;
 mod obj;
@@ -9,7 +9,7 @@ use ugparse::Scene;
 use crate::surface::{Polygons, Surface};
 use crate::{Error, Target};
 
-/// The bytes of a scene in a format, and notes.
+/// The file content for a scene in a format, and notes.
 pub(crate) fn write(scene: Scene, target: Target) -> Result<(Vec<u8>, Vec<String>), Error> {
     let (polygons, writer): (Polygons, Writer) = match target {
         Target::Ug => return Ok((ugparse::write(&scene), Vec::new())),
@@ -26,8 +26,8 @@ pub(crate) fn write(scene: Scene, target: Target) -> Result<(Vec<u8>, Vec<String
 
 type Writer = fn(&mut Surface) -> Result<Vec<u8>, Error>;
 
-/// The lines of the scene's head comments: licence and history. Control characters in them would end the line for
-/// some readers.
+/// The lines of the scene's head comments (licence and history). Control characters are replaced,
+/// because some readers would take them for line ends.
 fn head_lines(scene: &Scene) -> impl Iterator<Item = String> {
     let printable = |line: &str| line.trim().replace(char::is_control, " ");
     scene.head.iter().flat_map(|comment| comment.lines()).map(printable).filter(|line| !line.is_empty())

@@ -1,4 +1,5 @@
-//! Wavefront OBJ in one file: colours stand behind the coordinates of vertices, as most programs read them.
+//! Writes Wavefront OBJ in one file. Colours follow the coordinates of vertices, an extension that
+//! most programs read.
 
 use std::fmt::Write;
 
@@ -6,10 +7,10 @@ use crate::surface::Surface;
 
 pub(super) fn write(surface: &mut Surface) -> Vec<u8> {
     if surface.is_clear() {
-        surface.notes.push("OBJ has no clear vertices: all are written opaque".to_string());
+        surface.notes.push("OBJ has no transparent vertices: all are written as opaque".to_string());
     }
     let mut text = String::with_capacity(64 * surface.scene.vertices.len());
-    // Writing into a string does not fail.
+    // Writing to a string cannot fail.
     let _ = write_all(surface, &mut text);
     text.into_bytes()
 }

@@ -1,4 +1,4 @@
-//! Stanford PLY, binary little-endian or ASCII.
+//! Writes Stanford PLY, binary little-endian or ASCII.
 
 use std::io::{self, Write};
 
@@ -6,7 +6,7 @@ use crate::surface::Surface;
 
 pub(super) fn write(surface: &mut Surface, is_ascii: bool) -> Vec<u8> {
     let mut bytes = Vec::with_capacity(48 * surface.scene.vertices.len());
-    // Writing into memory does not fail.
+    // Writing to memory cannot fail.
     let _ = write_all(surface, is_ascii, &mut bytes);
     bytes
 }
@@ -68,7 +68,7 @@ fn write_all(surface: &Surface, is_ascii: bool, out: &mut Vec<u8>) -> io::Result
     Ok(())
 }
 
-/// A row of numbers, as words of a line or as bytes.
+/// Writes a row of numbers, as text or as bytes.
 struct Row<'a> {
     out: &'a mut Vec<u8>,
     is_ascii: bool,

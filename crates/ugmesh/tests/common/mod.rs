@@ -1,15 +1,15 @@
-//! Meshes made byte by byte, and a plain view of scenes to compare.
+//! Mesh files made byte by byte, and a simplified view of scenes for comparison.
 #![allow(dead_code, clippy::unwrap_used, reason = "each test uses a part; a test fails by panicking")]
 
 use ugmesh::{Config, Converted, Error, Input, Target};
 use ugparse::{ColorValue, Scene, Source};
 
-/// Converts with the options of `config`.
+/// Converts a mesh with the options of `config`.
 pub fn convert(config: &Config, name: &str, bytes: impl Into<Vec<u8>>) -> Result<Converted, Error> {
     ugmesh::run(config, &Input::new(name, bytes))
 }
 
-/// Reads a mesh and gives its scene.
+/// Converts a mesh to a scene.
 pub fn to_scene(config: &Config, name: &str, bytes: impl Into<Vec<u8>>) -> Scene {
     let converted = convert(config, name, bytes).unwrap_or_else(|error| panic!("{name}: {error}"));
     parse(&converted.bytes)
@@ -28,13 +28,13 @@ pub fn parse(text: &[u8]) -> Scene {
         .scene
 }
 
-/// Statements of a scene without its head comments.
+/// The text of a scene without its head comments.
 pub fn statements(scene: &Scene) -> String {
     let bare = Scene { head: Vec::new(), ..scene.clone() };
     String::from_utf8(ugparse::write(&bare)).unwrap()
 }
 
-/// A corner of a face: its place, normal and colour, whatever the vertex is called.
+/// A corner of a face: position, normal and colour, without the name of the vertex.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Corner {
     pub position: [f64; 3],
@@ -42,7 +42,7 @@ pub struct Corner {
     pub rgba: Option<[f64; 4]>,
 }
 
-/// The corners of all faces, as they are seen.
+/// The corners of all faces.
 pub fn seen(scene: &Scene) -> Vec<Vec<Corner>> {
     let rgba = |id: ugparse::ColorId| {
         let color = &scene.colors[id.index()];
@@ -94,7 +94,7 @@ pub fn glb_with_nodes(nodes: &str) -> Vec<u8> {
     glb(&json, &[positions, normals].concat())
 }
 
-/// How a PLY file writes its numbers.
+/// The encoding of a PLY file.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Encoding {
     Ascii,
@@ -152,7 +152,7 @@ const TETRAHEDRON: [[[f32; 3]; 3]; 4] = [
     [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.1, 0.2, 0.3]],
 ];
 
-/// A tetrahedron in text. It is in two solids, the second without a name, as some exporters do.
+/// A tetrahedron as ASCII STL, in two solids, the second without a name, as some exporters write.
 pub fn stl_text() -> Vec<u8> {
     let facet = |corners: &[[f32; 3]; 3]| {
         let vertex = |[x, y, z]: &[f32; 3]| format!("vertex {x:e} {y:e} {z:e}\n");
@@ -164,7 +164,8 @@ pub fn stl_text() -> Vec<u8> {
     format!("solid a name\n{}endsolid a name\nsolid\n{rest}endsolid\n", facet(first)).into_bytes()
 }
 
-/// The same in binary, with a header that looks like text, as some exporters write.
+/// The same tetrahedron as binary STL, with a header that looks like ASCII STL, as some exporters
+/// write.
 pub fn stl_binary() -> Vec<u8> {
     let mut bytes = vec![b' '; 80];
     bytes[..6].copy_from_slice(b"solid ");
