@@ -50,7 +50,8 @@ fn unsupported_scenes_are_refused() {
 #[test]
 fn moving_lights_cause_a_note() {
     let notes = |text: &str| {
-        let (_, notes) = ugrainbow::render(&scenes::parse(text.as_bytes()), &exact(None).rainbow).unwrap();
+        let seen = format!("(ugstage 1 geometry as-seen eye 0 0 0) {text}");
+        let (_, notes) = ugrainbow::render(&scenes::parse(seen.as_bytes()), &exact(None).rainbow).unwrap();
         notes.join("; ")
     };
     assert_eq!(notes(SQUARE), "");

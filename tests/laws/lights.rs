@@ -13,6 +13,9 @@ fn lit() -> Config {
     Config { light: true, tolerance: 0.0, ..Config::default() }
 }
 
+/// Positions in the scene are as seen from the origin.
+const SEEN: &str = "(ugstage 1 geometry as-seen eye 0 0 0)";
+
 /// Flat and smooth walls, seen from both sides, a face with a light level, wires, and lights of all kinds: ambient,
 /// directional, local, coloured.
 const ROOM: &str = "c red 0.8 10 0.7; c blue 0.9 220 0.6; c warm 1 30 0.5; c cool 0.8 200;
@@ -95,7 +98,7 @@ fn both_factors_shift_and_dim() {
     ] {
         // From the direction of the eye, and from a lamp on the line of sight behind the eye.
         for place in ["-1 0 0", "-30 0 0 0"] {
-            let text = format!("{face} {body}; l 0.5 {place} {light};");
+            let text = format!("{SEEN} {face} {body}; l 0.5 {place} {light};");
             for (law, factor) in [
                 (Brightness::Report, d * d_light),
                 (Brightness::Photon, d * d * d * d_light),
@@ -257,7 +260,7 @@ fn spectra_of_lights_pass_both_shifts() {
         ("<-0.6 0 0>", "<0.6 0 0>", 2.0, 4.0),
         ("<0 0 0>", "<0.6 0 0>", 1.0, 2.0),
     ] {
-        let text = format!("c_bb hot 5000 0.7; {face} {body}; l 0.5 -1 0 0 hot {light};");
+        let text = format!("{SEEN} c_bb hot 5000 0.7; {face} {body}; l 0.5 -1 0 0 hot {light};");
         let config = Config { spectral: true, ..lit() };
         let scene = scenes::parse(&doppler(text.as_bytes(), &config));
         let color = scene.vertices[0].color.expect("a colour on every used vertex");
@@ -279,7 +282,7 @@ fn full_daylight_shows_colours_as_they_are() {
         v g 9 -1 -1e-9; v h 9 -1.0001 0; v i 9 -1 0; f (g h i) glow <0.4 0 0>;";
     let colors = |light: bool| -> Vec<[f64; 3]> {
         let config = Config { spectral: true, light, ..lit() };
-        let scene = scenes::parse(&doppler(format!("{text} l 1 -1 0 0;").as_bytes(), &config));
+        let scene = scenes::parse(&doppler(format!("{SEEN} {text} l 1 -1 0 0;").as_bytes(), &config));
         let of = |vertex: &ugparse::Vertex| match scene.colors[vertex.color.expect("a colour").index()].value
         {
             ColorValue::Xyz(xyz) => xyz,

@@ -49,7 +49,7 @@ fn wavelength_seen(wavelength_nm: f64, doppler: f64) -> Option<f64> {
     let toward = (square - 1.0) / (square + 1.0);
     let hue = wavelength_to_hue(wavelength_nm);
     let scene = format!(
-        "c color 1 {hue:?} 1; v a 10 0 0; v b 11 0 0; v d 10 1 0; f (a b d) color <{:?} 0 0>;",
+        "(ugstage 1 geometry as-seen eye 0 0 0) c color 1 {hue:?} 1; v a 10 0 0; v b 11 0 0; v d 10 1 0; f (a b d) color <{:?} 0 0>;",
         -toward
     );
     let config = ugdoppler::Config { tolerance: 0.0, wavelengths: true, ..Default::default() };

@@ -29,7 +29,7 @@ pub struct Args {
     #[command(flatten)]
     eye: EyeArgs,
 
-    /// Write wavelengths (nm) instead of hues; draw with ugrainbow -wi
+    /// Write wavelengths (nm) instead of hues; ugrainbow reads and interpolates them as such
     #[arg(long, visible_alias = "wavelengths")]
     gw: bool,
 
@@ -81,7 +81,7 @@ pub struct Args {
 
 const EXAMPLES: &str = "Examples:
   uglorentz -vel 0 -.2 0 -in ship.ug | ugdoppler | ugrainbow > ship.png
-  uglorentz -vel 0 -.9 0 lattice.ug | ugdoppler -gw | ugrainbow -wi -va 120 > ring.png
+  uglorentz -vel 0 -.9 0 lattice.ug | ugdoppler -gw | ugrainbow -va 120 > ring.png
   uglorentz lamp.ug | ugdoppler -li | ugrainbow > lamp.png
   uglorentz -vel 0 -.6 0 tunnel.ug | ugdoppler -sp -ir | ugrainbow -va 90 > tunnel.png
   uglorentz -vel .9 0 0 -in ship.ug | ugdoppler --no-doppler --no-flux | ugrainbow > shape.png";
@@ -185,6 +185,6 @@ fn failure(error: Error, source: &Source, origins: &Origins) -> Failure {
             let finding = finding.label("here").help("move the eye (-ep) or the vertex");
             pipe::refused(Diagnostics::one(source, finding))
         }
-        Error::Velocity(error) => Failure::failed(error),
+        Error::Stage(error) => Failure::failed(error),
     }
 }

@@ -3,13 +3,13 @@
 use std::fmt;
 
 use ugparse::VertexId;
-use ugphysics::VelocityError;
+use ugscene::StageError;
 
 /// Why a scene has no colours as seen.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Error {
-    /// A velocity of the scene is not below the speed of light.
-    Velocity(VelocityError),
+    /// The scene is not at the stage at which it can be coloured.
+    Stage(StageError),
     /// A vertex of a moving body lies exactly at the eye, where it has no direction and so no Doppler
     /// factor.
     VertexAtEye {
@@ -23,7 +23,7 @@ pub enum Error {
 impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Velocity(error) => error.fmt(f),
+            Self::Stage(error) => error.fmt(f),
             Self::VertexAtEye { name, .. } => {
                 write!(f, "vertex `{name}` lies at the eye, where no direction to it exists")
             }
@@ -33,8 +33,8 @@ impl fmt::Display for Error {
 
 impl std::error::Error for Error {}
 
-impl From<VelocityError> for Error {
-    fn from(error: VelocityError) -> Self {
-        Self::Velocity(error)
+impl From<StageError> for Error {
+    fn from(error: StageError) -> Self {
+        Self::Stage(error)
     }
 }

@@ -18,7 +18,8 @@
 //! eye in the camera.
 //!
 //! ```
-//! let text = "c green 1 120; v a 9 0 0; v b 10 0 0; v c 10 1 0; f (a b c) green <-0.5 0 0>;";
+//! let text = "(ugstage 1 geometry as-seen eye 0 0 0) c green 1 120;
+//!     v a 9 0 0; v b 10 0 0; v c 10 1 0; f (a b c) green <-0.5 0 0>;";
 //! let source = ugparse::Source::new("scene.ug", text);
 //! let scene = ugparse::parse(&source, &ugparse::Options::default())?.scene;
 //! let config = ugdoppler::Config { tolerance: 0.0, wavelengths: true, ..Default::default() };
@@ -37,6 +38,7 @@ mod hue_statements;
 mod irradiance;
 mod notes;
 mod quantization;
+mod stage;
 mod vertices;
 mod xyz_statements;
 
@@ -78,8 +80,11 @@ pub fn apply(scene: Scene, config: &Config) -> Result<(Scene, Report), Error> {
 /// See [`Error`].
 pub fn apply_with(scene: Scene, config: &Config, progress: &dyn Progress) -> Result<(Scene, Report), Error> {
     progress.step("colouring", 0);
-    let frames = RestFrames::new(&scene)?.with_unstated(config.velocity);
+    let frames = RestFrames::new(&scene).with_unstated(config.velocity);
     let eye = ugscene::eye(&scene, config.eye);
+    ugscene::require_colors_at_rest(&scene)?;
+    ugscene::require_seen_geometry(&scene)?;
+    ugscene::require_eye(&scene, eye)?;
     if let Some(vertex) = ugscene::vertex_at_eye(&scene, eye, &frames) {
         let name = scene.names.get(scene.vertices[vertex.index()].name).to_string();
         return Err(Error::VertexAtEye { vertex, name });
@@ -89,6 +94,7 @@ pub fn apply_with(scene: Scene, config: &Config, progress: &dyn Progress) -> Res
 }
 
 fn color(mut scene: Scene, config: &Config, eye: DVec3, frames: &RestFrames) -> (Scene, Vec<String>) {
+    let stage = stage::with_seen_colors(&scene, config, eye);
     ugscene::separate_bodies(&mut scene);
     vertices::repeat(&mut scene, config.repeat);
     let rest = ugscene::rest_positions(&scene, eye, frames);
@@ -119,6 +125,7 @@ fn color(mut scene: Scene, config: &Config, eye: DVec3, frames: &RestFrames) -> 
     } else if config.light {
         irradiance::replace_lights(&mut scene);
     }
+    scene.stage = stage;
     (scene, notes)
 }
 

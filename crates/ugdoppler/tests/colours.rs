@@ -215,7 +215,7 @@ fn a_hue_outside_the_visible_stops_at_the_end() {
 
 #[test]
 fn a_vertex_at_the_eye_is_refused() {
-    let text = "v a 0 0 0; v b 1 0 0;\nv c 0 1 0; f (a b c) <0.5 0 0>;";
+    let text = "(ugstage 1 geometry as-seen eye 0 0 0) v a 0 0 0; v b 1 0 0; v c 0 1 0; f (a b c) <0.5 0 0>;";
     let error = apply(parsed("t.ug", text), &Config::default()).unwrap_err().to_string();
     assert_eq!(error, "vertex `a` lies at the eye, where no direction to it exists");
     // At rest it has a place and a colour like any other.

@@ -1,20 +1,10 @@
 //! The colour a vertex gets from the faces round it (Nguyen 1988, 4.1).
 
 use glam::DVec3;
-use ugparse::{Color, ColorId, ColorValue, Scene};
+use ugparse::{Color, ColorId, ColorValue, HueScale, Scene};
 use ugphysics::{Hsv, srgb_decode, srgb_encode, wavelength_to_hue, xyz_to_linear_srgb};
 use ugscene::{Shares, vertex_shares};
 use ugspectrum::Spectrum;
-
-/// What the hue field of `c` statements holds.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum HueScale {
-    /// Degrees.
-    #[default]
-    Degrees,
-    /// Wavelengths in nm (`-wi`).
-    Wavelengths,
-}
 
 /// A colour statement as HSV, hue in degrees. Wavelengths outside 380…780 nm
 /// become the hue at that end, (P16). Black bodies and spectra count with their

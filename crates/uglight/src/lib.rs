@@ -39,10 +39,11 @@ mod lamp;
 mod lighting;
 mod spectral;
 
-pub use color::{HueScale, VertexColor, hsv, is_light, light, spectra_note, spectrum, vertex_colors};
+pub use color::{VertexColor, hsv, is_light, light, spectra_note, spectrum, vertex_colors};
 pub use hue::{HueColor, HueShift};
 pub use hue_table::HueTable;
 pub use irradiance::{Irradiance, SurfaceElement};
 pub use lamp::{Lamp, LampPlace, lamps};
 pub use lighting::Lighting;
 pub use spectral::{SpectralColor, SpectralLamp, SpectralShift, spectral_lamps};
+pub use ugparse::HueScale;

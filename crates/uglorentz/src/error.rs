@@ -5,7 +5,7 @@ use std::fmt;
 use glam::DVec3;
 use ugparse::{Diagnostic, Diagnostics, Source, Span};
 use ugphysics::VelocityError;
-use ugscene::CameraError;
+use ugscene::{CameraError, StageError};
 
 use crate::adaptive::MAX_PIECES;
 
@@ -14,17 +14,17 @@ use crate::adaptive::MAX_PIECES;
 pub enum Error {
     /// The text is no scene, or what is wrong with it has a place in the text.
     Scene(Diagnostics),
-    /// [`crate::Config::velocity`] is none.
+    /// Positions or colours of the scene are as seen already.
+    Stage(StageError),
+    /// [`crate::Config::velocity`] is invalid.
     Velocity(VelocityError),
-    /// [`crate::Config::camera_velocity`] is none.
+    /// [`crate::Config::camera_velocity`] is invalid.
     CameraVelocity(VelocityError),
     /// A body and the camera meet so fast that the body's velocity in the camera's frame rounds to that of light.
     TooFast {
         /// The body's velocity in the frame of the scene.
         beta: DVec3,
     },
-    /// A velocity of the scene is none. Readers refuse such scenes.
-    SceneVelocity(VelocityError),
     /// Nobody says where the camera looks, so what it sees is not known ([`crate::Config::cull`]).
     NoViewCenter,
     /// The camera makes no sense.
@@ -97,6 +97,7 @@ impl Error {
     fn problem(&self) -> String {
         match self {
             Error::Scene(diagnostics) => diagnostics.to_string(),
+            Error::Stage(error) => error.to_string(),
             Error::Velocity(error) => format!("-vel: {error}"),
             Error::CameraVelocity(error) => format!("-cv: {error}"),
             Error::TooFast { beta } => format!(
@@ -104,7 +105,6 @@ impl Error {
                  be written as a velocity",
                 beta.x, beta.y, beta.z
             ),
-            Error::SceneVelocity(error) => error.to_string(),
             Error::NoViewCenter => "-cull does not know where the camera looks".to_string(),
             Error::Camera(error) => error.to_string(),
             Error::NoBound { error } => format!("the bound of -se is {} milliradians", error * 1e3),
@@ -126,9 +126,9 @@ impl Error {
     fn remedy(&self) -> &'static str {
         match self {
             Error::Scene(_)
+            | Error::Stage(_)
             | Error::Velocity(_)
             | Error::CameraVelocity(_)
-            | Error::SceneVelocity(_)
             | Error::Camera(_) => "",
             Error::NoViewCenter => "give the view centre with -vc, or in the `cam` statement of the scene",
             Error::TooFast { .. } => "make one of them slower",

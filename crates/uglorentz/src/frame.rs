@@ -4,7 +4,7 @@ use rayon::prelude::*;
 use ugparse::{BodyId, Motion, Scene};
 use ugphysics::{Velocity, compose};
 
-use crate::{Config, Error, PROGRAM};
+use crate::{Config, Error};
 
 /// The velocity of the camera in the frame of the scene: the option, else that of the scene's camera, which
 /// loses it, for downstream the camera is at rest.
@@ -55,7 +55,7 @@ pub(crate) fn in_camera_frame(body: Velocity, camera: Velocity) -> Result<Veloci
     Velocity::from_beta(compose(body, -camera).beta()).map_err(|_| Error::TooFast { beta: body.beta() })
 }
 
-/// Carries all velocities of a scene over, and notes in it from where.
+/// Carries all velocities of a scene over.
 pub(crate) fn carry_velocities(scene: &mut Scene, camera: Velocity) -> Result<(), Error> {
     if !camera.is_zero() {
         // What states no motion is not drawn any more: it goes on without saying so.
@@ -67,11 +67,5 @@ pub(crate) fn carry_velocities(scene: &mut Scene, camera: Velocity) -> Result<()
             *velocity = in_camera_frame(*velocity, camera)?;
         }
     }
-    ugscene::record_camera_velocity(scene, camera);
     Ok(())
-}
-
-/// Has the scene been through this program?
-pub(crate) fn was_seen_before(scene: &Scene) -> bool {
-    ugscene::history(scene).iter().any(|line| line.split(' ').next() == Some(PROGRAM))
 }

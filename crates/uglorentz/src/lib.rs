@@ -82,7 +82,7 @@ mod viewpoint;
 
 use glam::DVec3;
 use rayon::prelude::*;
-use ugparse::{BodyId, Diagnostics, Item, Options, Scene, Source, Vertex};
+use ugparse::{BodyId, Diagnostics, GeometryStage, Item, Options, Scene, SeenGeometry, Source, Vertex};
 use ugphysics::Velocity;
 use ugpipe::Progress;
 use ugscene::{CameraOptions, Geometry};
@@ -241,10 +241,10 @@ pub fn run_with(config: &Config, source: &Source, progress: &dyn Progress) -> Re
         progress.step("measuring", 0);
     }
     let table = config.table.map(|table| {
-        let rows = measure(&scene, ugscene::eye(&scene, None), config.time).map_err(Error::SceneVelocity)?;
-        Ok(table.write(&scene, &rows))
+        let rows = measure(&scene, ugscene::eye(&scene, None), config.time);
+        table.write(&scene, &rows)
     });
-    Ok(Report { scene, table: table.transpose()?, notes, warnings: parsed.warnings })
+    Ok(Report { scene, table, notes, warnings: parsed.warnings })
 }
 
 /// Gives a scene as seen.
@@ -257,7 +257,8 @@ pub fn transform(scene: &Scene, config: &Config) -> Result<(Scene, Notes), Error
 
 fn transform_owned(mut scene: Scene, config: &Config) -> Result<(Scene, Notes), Error> {
     let velocity = check(config)?;
-    let was_seen_before = frame::was_seen_before(&scene);
+    ugscene::require_geometry_at_rest(&scene).map_err(Error::Stage)?;
+    ugscene::require_colors_at_rest(&scene).map_err(Error::Stage)?;
     let n_faces = scene.faces.len();
 
     if config.velocity.is_some() {
@@ -272,6 +273,10 @@ fn transform_owned(mut scene: Scene, config: &Config) -> Result<(Scene, Notes), 
     let bodies = ugscene::vertex_bodies(&scene);
     let motions = motions(&scene, velocity, camera, config.geometry)?;
     frame::carry_velocities(&mut scene, camera)?;
+    let moves = !velocity.is_zero()
+        || !camera.is_zero()
+        || ugscene::has_moving_bodies(&scene)
+        || ugscene::has_moving_lights(&scene);
     let shifts = placement::shifts(&scene, &bodies, &motions, eye, config);
     let mut points = points(&scene, &bodies, &motions, &shifts, eye);
     viewpoint::refuse_vertices_at_eye(&scene, &points, &motions)?;
@@ -303,13 +308,20 @@ fn transform_owned(mut scene: Scene, config: &Config) -> Result<(Scene, Notes), 
     put_pieces(&mut scene, &outcome);
     attributes::add_vertices(&mut scene, &mesh.recipes);
     set_positions(&mut scene, &mesh, &shifts, eye)?;
-    scene.escapes.extend(config.geometry.escape());
+    if moves || config.geometry != Geometry::default() {
+        scene.stage.geometry = GeometryStage::AsSeen(SeenGeometry {
+            eye,
+            time: config.time,
+            camera_velocity: camera,
+            contraction: config.geometry.contraction,
+            flight_time: config.geometry.flight_time,
+        });
+    }
     ugscene::record(&mut scene, PROGRAM, env!("CARGO_PKG_VERSION"), &config.command_line);
 
     let is_short = outcome.is_full || outcome.n_too_deep + outcome.n_uncut > 0;
     let achieved = (config.measure || is_short).then(|| achieved::measure(&scene, &mesh, &bounds));
     let notes = Notes {
-        was_seen_before,
         n_new_vertices: mesh.recipes.len(),
         n_new_faces: scene.faces.len() + n_culled - n_faces,
         n_culled,

@@ -8,8 +8,6 @@ use crate::criterion::MAX_GENERATION;
 /// What was done.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Notes {
-    /// The scene says that this program has written it: what it takes for rest shapes are seen ones.
-    pub was_seen_before: bool,
     /// Vertices added by cutting.
     pub n_new_vertices: usize,
     /// Faces added by cutting.
@@ -54,13 +52,6 @@ impl Notes {
     /// What the user should hear.
     pub fn warnings(&self) -> Vec<String> {
         let mut warnings = Vec::new();
-        if self.was_seen_before {
-            warnings.push(
-                "the scene has been through uglorentz before: seen shapes are taken for rest shapes; \
-                 start from the original"
-                    .to_string(),
-            );
-        }
         let left =
             self.achieved.as_ref().map_or_else(String::new, |achieved| format!("; errors left: {achieved}"));
         if self.is_full {

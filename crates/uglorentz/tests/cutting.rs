@@ -30,7 +30,7 @@ fn meshes(random: &mut Random) -> Vec<Mesh> {
 
 /// Rest positions recovered from what was written, by (P4).
 fn rest(scene: &Scene) -> Vec<DVec3> {
-    let frames = RestFrames::new(scene).unwrap();
+    let frames = RestFrames::new(scene);
     let eye = ugscene::eye(scene, None);
     ugscene::rest_positions(scene, eye, &frames)
 }

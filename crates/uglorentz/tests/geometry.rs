@@ -91,22 +91,23 @@ fn teaching_modes_leave_out_one_thing_each() {
     let (text, vertices) = cloud(&mut random, 10);
     let beta = random.direction() * 0.9;
     let v = Velocity::from_beta(beta).unwrap();
-    let check = |contraction: bool, flight_time: bool, escape: &[&str], expected: &dyn Fn(DVec3) -> DVec3| {
+    let check = |contraction: bool, flight_time: bool, expected: &dyn Fn(DVec3) -> DVec3| {
         let geometry = Geometry { contraction, flight_time };
         let scene = seen(&text, &Config { geometry, ..moving(beta) });
         for (idx, &p) in vertices.iter().enumerate() {
             let found = scene.vertices[idx].position;
             assert!((found - expected(p)).length() < 1e-12, "{geometry:?} {found} {}", expected(p));
         }
-        assert_eq!(scene.escapes, escape);
+        let seen = scene.stage.seen_geometry().unwrap();
+        assert_eq!((seen.contraction, seen.flight_time), (contraction, flight_time));
     };
-    check(true, true, &[], &|p| {
+    check(true, true, &|p| {
         let now = contracted(p, v);
         now + flight_time(now, v) * beta
     });
-    check(true, false, &["uglorentz no-flight-time"], &|p| contracted(p, v));
-    check(false, true, &["uglorentz no-contraction"], &|p| p + flight_time(p, v) * beta);
-    check(false, false, &["uglorentz no-contraction no-flight-time"], &|p| p);
+    check(true, false, &|p| contracted(p, v));
+    check(false, true, &|p| p + flight_time(p, v) * beta);
+    check(false, false, &|p| p);
 }
 
 /// Where the scene of one vertex `a` is seen.
@@ -289,12 +290,19 @@ help: move the eye (-ep) or the vertex"
 }
 
 #[test]
-fn a_scene_seen_twice_is_noticed() {
+fn what_is_as_seen_already_is_refused() {
+    const TILE: &str = "v a 0 0 1; v b 1 0 0; v c 0 1 0; f (a b c);";
     let config = moving(DVec3::X * 0.5);
-    let once = run("v a 0 0 1; v b 1 0 0; v c 0 1 0; f (a b c);", &config);
-    assert!(once.notes.warnings().is_empty());
-    let twice = run(&String::from_utf8(once.text()).unwrap(), &config);
-    assert!(twice.notes.was_seen_before && twice.notes.warnings()[0].contains("start from the original"));
+    let once = run(TILE, &config);
+    let twice = uglorentz::transform(&once.scene, &config).unwrap_err().to_string();
+    assert!(twice.starts_with("positions in this scene are as seen already"), "{twice}");
+    let text = format!("(ugstage 1 colors as-seen hues law none) {TILE}");
+    let colored = uglorentz::transform(&parse(&text), &config).unwrap_err().to_string();
+    assert!(colored.starts_with("colours in this scene are as seen already"), "{colored}");
+    // Nothing moves, so nothing has changed.
+    let still = run(TILE, &Config::default());
+    assert!(still.scene.stage.is_at_rest());
+    run(&String::from_utf8(still.text()).unwrap(), &config);
 }
 
 #[test]

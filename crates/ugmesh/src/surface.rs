@@ -2,8 +2,8 @@
 //! without holes.
 
 use glam::DVec3;
-use uglight::{HueScale, hsv};
-use ugparse::{ColorId, ColorValue, Contours, Scene, VertexId};
+use uglight::hsv;
+use ugparse::{ColorId, ColorValue, Contours, Motion, Scene, VertexId};
 
 /// The polygons that a format supports.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -33,6 +33,9 @@ impl Surface {
         note_of(&mut notes, scene.wires.len(), "wire is left out", "wires are left out");
         note_of(&mut notes, scene.lights.len(), "light is left out", "lights are left out");
         note_of(&mut notes, scene.cameras.len(), "camera is left out", "cameras are left out");
+        if leave_out_rest_normals(&mut scene) {
+            notes.push("normals of moving bodies are left out: they are those of the rest shapes".into());
+        }
         separate_colors(&mut scene);
         let colors = vertex_colors(&scene, &mut notes);
         let polygons = polygons(&scene, kind, &mut notes);
@@ -71,6 +74,21 @@ fn note_of(notes: &mut Vec<String>, count: usize, one: &str, many: &str) {
     }
 }
 
+/// Leaves out normals of bodies whose positions are as seen: a scene has normals at rest. True if there were any.
+fn leave_out_rest_normals(scene: &mut Scene) -> bool {
+    if scene.stage.seen_geometry().is_none() || !ugscene::has_moving_bodies(scene) {
+        return false;
+    }
+    ugscene::separate_bodies(scene);
+    let bodies = ugscene::vertex_bodies(scene);
+    let mut n_left_out = 0;
+    for (vertex, body) in scene.vertices.iter_mut().zip(bodies) {
+        let moves = scene.bodies[body].motion != Motion::default();
+        n_left_out += usize::from(moves && vertex.normal.take().is_some());
+    }
+    n_left_out > 0
+}
+
 /// Duplicates vertices where faces of different colours meet, so that each vertex has one colour.
 fn separate_colors(scene: &mut Scene) {
     let users: Vec<_> = scene.faces.iter().map(|face| (face.contours.clone(), face.color)).collect();
@@ -93,7 +111,7 @@ fn vertex_colors(scene: &Scene, notes: &mut Vec<String>) -> Option<Vec<[f64; 4]>
         .map(|color| {
             let [red, green, blue] = match color.value {
                 ColorValue::Rgb(rgb) => rgb,
-                _ => hsv(scene, color, HueScale::Degrees).to_rgb(),
+                _ => hsv(scene, color, scene.stage.hue_scale()).to_rgb(),
             };
             n_clipped += usize::from(red.max(green).max(blue) > 1.0);
             [red, green, blue, 1.0 - color.translucency].map(|part| part.clamp(0.0, 1.0))

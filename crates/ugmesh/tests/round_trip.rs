@@ -214,3 +214,28 @@ fn a_scene_as_seen_keeps_its_colours() {
     assert_eq!(back.colors[0].value, ColorValue::Rgb([1.0, 0.5, 0.0]));
     assert_eq!(statements(&back).lines().count(), 5);
 }
+
+#[test]
+fn a_scene_as_seen_is_exported_as_seen() {
+    const SCENE: &str =
+        "c green 1 546.1; v a 0 0 0 green 0 0 1; v b 1 0 0 green 0 0 1; v c 0 1 0 green 0 0 1;
+        v d 0 0 5 0 0 1; v e 1 0 5 0 0 1; v f 0 1 5 0 0 1; f (a b c) <.5 0 0>; f (d e f);";
+    let config = Config { target: Target::Ply { is_ascii: true }, ..Config::default() };
+    let seen = "(ugstage 1 geometry as-seen eye 0 0 9 colors as-seen wavelengths law report)";
+    let ply = convert(&config, "scene.ug", format!("{seen} {SCENE}")).unwrap();
+    let text = String::from_utf8(ply.bytes).unwrap();
+    // Hue 120, not 546.1 degrees.
+    assert!(text.contains(" 0 255 0"), "{text}");
+    assert!(!text.contains("nx"), "{text}");
+    let normals = "normals of moving bodies are left out: they are those of the rest shapes";
+    assert!(ply.notes.iter().any(|note| note == normals), "{:?}", ply.notes);
+    // OBJ keeps those of bodies at rest.
+    let obj =
+        convert(&Config { target: Target::Obj, ..config.clone() }, "scene.ug", format!("{seen} {SCENE}"));
+    let text = String::from_utf8(obj.unwrap().bytes).unwrap();
+    assert_eq!(text.matches("vn ").count(), 3, "{text}");
+    // At rest, all normals are right.
+    let rest = convert(&config, "scene.ug", SCENE).unwrap();
+    assert!(!rest.notes.iter().any(|note| note == normals), "{:?}", rest.notes);
+    assert!(String::from_utf8(rest.bytes).unwrap().contains("nx"));
+}

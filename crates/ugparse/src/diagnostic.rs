@@ -203,6 +203,14 @@ impl Diagnostics {
         Self { list, omitted, source: Source { name: source.name.clone(), text } }
     }
 
+    /// With another finding.
+    pub fn with(self, source: &Source, finding: Diagnostic) -> Self {
+        let mut list = self.list;
+        list.push(finding);
+        let all = Self::new(source, list);
+        Self { omitted: all.omitted + self.omitted, ..all }
+    }
+
     /// One finding.
     pub fn one(source: &Source, finding: Diagnostic) -> Self {
         Self::new(source, vec![finding])

@@ -5,7 +5,6 @@ use glam::DVec3;
 use crate::Source;
 use crate::diagnostic::Diagnostic;
 use crate::expand::Origins;
-use crate::history::history;
 use crate::resolve::face_name;
 use crate::scene::{Face, Scene, newell_normal};
 use crate::source::Span;
@@ -60,15 +59,10 @@ pub(crate) fn bent_faces(scene: &Scene) -> Vec<BentFace> {
         (thickness > FLAT).then_some(BentFace { row, thickness })
     };
     // No face has fewer than three corners, so if that is the mean, all are triangles.
-    if scene.contours.corner_count() == 3 * scene.faces.len() || is_as_seen(scene) {
+    if scene.contours.corner_count() == 3 * scene.faces.len() || scene.stage.seen_geometry().is_some() {
         return Vec::new();
     }
     ugparallel::collect(scene.faces.len(), MANY_FACES, |rows, found| found.extend(rows.filter_map(&bent)))
-}
-
-/// True if `uglorentz` has been at it.
-fn is_as_seen(scene: &Scene) -> bool {
-    history(scene).iter().any(|line| line.split(' ').next() == Some("uglorentz"))
 }
 
 /// One warning for all of them.

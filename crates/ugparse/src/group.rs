@@ -410,6 +410,13 @@ impl<'t> Group<'t> {
         self.calls.rows.iter_mut().for_each(|call| call.before.wires = before(call.before.wires));
     }
 
+    /// Removes the escapes of these rows, in order.
+    pub fn remove_escapes(&mut self, rows: &[usize]) {
+        self.escapes.remove(rows);
+        let before = |first: usize| first - rows.partition_point(|&row| row < first);
+        self.calls.rows.iter_mut().for_each(|call| call.before.escapes = before(call.before.escapes));
+    }
+
     /// The whole statement of a vertex, from the span of its name.
     pub fn vertex_statement(text: &[u8], name: Span) -> Span {
         let start = statement_start(&text[..name.start as usize]) as u32;

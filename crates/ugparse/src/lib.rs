@@ -27,7 +27,8 @@
 //! # Ok::<(), ugparse::Diagnostics>(())
 //! ```
 //!
-//! Nothing here computes with physics or pixels: bodies carry their motion for other programs.
+//! Nothing here computes with physics or pixels: motions of bodies, and the [`Stage`] of a scene, are
+//! carried for other programs.
 //!
 //! The feature `cli` adds the program of the same name, and how all programs read scenes,
 //! included files among them (`pipe`). Libraries do without.
@@ -57,6 +58,8 @@ mod reader;
 mod resolve;
 mod scene;
 mod source;
+mod stage;
+mod stage_statement;
 mod statement;
 mod suggest;
 mod tidy;
@@ -78,6 +81,7 @@ pub use names::{NameId, Names, UniqueNames};
 pub use options::{Limit, Limits, Options};
 pub use scene::*;
 pub use source::{Source, Span};
+pub use stage::{ColorScale, ColorStage, GeometryStage, HueScale, SeenColors, SeenGeometry, Stage};
 pub use tidy::tidy;
 pub use writer::{write, write_to};
 
@@ -103,10 +107,12 @@ pub fn parse(source: &Source, options: &Options) -> Result<Parsed, Diagnostics> 
     check_length(source, options)?;
     let mut findings = Vec::new();
     let mut document = parallel::read_all(text, options, &mut findings);
+    stage_statement::take(text, &mut document, &mut findings);
     findings.extend(document.requests.iter().map(include::not_followed));
     refuse_errors(source, &mut findings)?;
 
-    let mut scene = Scene::default();
+    let stage = document.stage.map_or_else(Stage::default, |(stage, _)| stage);
+    let mut scene = Scene { stage, ..Scene::default() };
     let links = resolve::resolve(text, &mut document.groups, &mut scene, &options.limits, &mut findings);
     refuse_errors(source, &mut findings)?;
 

@@ -55,6 +55,7 @@ fn read_parts<'t>(
         requests: documents.iter().flat_map(|document| document.requests.iter().copied()).collect(),
         first_statement: documents.iter().find_map(|document| document.first_statement),
         comments: documents.into_iter().flat_map(|document| document.comments).collect(),
+        stage: None,
     };
     Some((document, warnings.concat()))
 }

@@ -7,6 +7,7 @@ use crate::group::Group;
 use crate::include::RequestKind;
 use crate::options::{Limit, Options};
 use crate::source::{LineMark, Span};
+use crate::stage::Stage;
 use crate::statement::References;
 use crate::token::{
     Input, Reason, Trouble, blank, comment, escape, file_name, found, identifier, integer, mark,
@@ -28,6 +29,8 @@ pub(crate) struct Document<'t> {
     pub line_marks: Vec<LineMark>,
     /// `include` and `execute` statements.
     pub requests: Vec<RequestStatement>,
+    /// The stage of the scene and where it is stated, taken out of the escapes.
+    pub stage: Option<(Stage, Span)>,
 }
 
 /// A comment: the text between its braces.

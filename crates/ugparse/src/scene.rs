@@ -19,6 +19,7 @@ use ugphysics::Velocity;
 use crate::body::{Bodies, BodyId};
 use crate::contours::Contours;
 use crate::names::{NameId, Names};
+use crate::stage::Stage;
 
 macro_rules! index {
     ($($(#[$doc:meta])* $name:ident)*) => {$(
@@ -99,6 +100,8 @@ pub struct Scene {
     /// Comments before the first statement (licence, history), without their
     /// outer braces. They come first in every output.
     pub head: Vec<String>,
+    /// What filters have done to positions and colours: `(ugstage … )`.
+    pub stage: Stage,
     /// All other comments.
     pub comments: Vec<Comment>,
     /// Text of every name used below.
@@ -144,8 +147,8 @@ pub struct Color {
     pub translucency: f64,
 }
 
-/// The ways to give a colour. Numbers are kept as written; what they mean
-/// (hue modulo 360, or a wavelength in nm under `-wi`) is the reader's business.
+/// The ways to give a colour. Numbers are kept as written. Whether the hue is an angle modulo 360
+/// degrees or a wavelength is in [`Stage::hue_scale`], or decided by the caller.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ColorValue {
     /// `c`: HSV. Saturation 0 is grey, whatever the hue.
@@ -352,6 +355,8 @@ pub struct Comment {
 /// A statement of a flat scene, by table and row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Item {
+    /// [`Scene::stage`].
+    Stage,
     /// Row of [`Scene::escapes`].
     Escape(u32),
     /// Row of [`Scene::unknown`].

@@ -7,6 +7,7 @@ use crate::diagnostic::Diagnostics;
 use crate::grammar::KEYWORDS;
 use crate::parallel::read_all;
 use crate::source::Source;
+use crate::stage_statement;
 use crate::token::{Input, comment, escape, found, integer, is_blank, number, skip_statement, word};
 use crate::writer::push_number;
 use crate::{Options, check_length, refuse_errors};
@@ -43,7 +44,8 @@ const INDENT: &str = "  ";
 pub fn tidy(source: &Source, options: &Options) -> Result<Vec<u8>, Diagnostics> {
     check_length(source, options)?;
     let mut findings = Vec::new();
-    read_all(&source.text, options, &mut findings);
+    let mut document = read_all(&source.text, options, &mut findings);
+    stage_statement::take(&source.text, &mut document, &mut findings);
     refuse_errors(source, &mut findings)?;
     let mut layout = Layout { out: Vec::with_capacity(source.text.len()), ..Layout::default() };
     layout.text(&source.text);
@@ -99,7 +101,10 @@ impl Layout {
         if input.first() == Some(&b'(') {
             let rest = escape(input).map_or(&input[..0], |(rest, _)| rest);
             self.begin_line();
-            self.verbatim(taken(input, rest));
+            match taken(input, rest) {
+                text if stage_statement::is_stage(text) => self.stage(text),
+                text => self.verbatim(text),
+            }
             return rest;
         }
         let (body, keyword) = word(input).unwrap_or((&input[..0], input));
@@ -134,6 +139,18 @@ impl Layout {
     fn verbatim(&mut self, text: &[u8]) {
         self.out.extend_from_slice(text);
         self.n_line_ends = 0;
+    }
+
+    /// A stage statement, parentheses included, which holds words and numbers only.
+    fn stage(&mut self, text: &[u8]) {
+        let words = text[1..text.len() - 1].split(|&byte| is_blank(byte)).filter(|word| !word.is_empty());
+        let mut mark = b'(';
+        for text in words {
+            self.out.push(mark);
+            mark = b' ';
+            self.word(text, b"");
+        }
+        self.verbatim(b")");
     }
 
     /// The words of a statement up to its `;`, one blank between them but not

@@ -12,6 +12,7 @@ use crate::names::NameId;
 use crate::scene::{
     Camera, Color, ColorId, ColorValue, Comment, Illum, Item, Light, LightKind, Projection, Scene, Surface,
 };
+use crate::stage_statement;
 
 /// Rows that one piece of text is made of.
 const BLOCK_ROWS: usize = 1 << 11;
@@ -19,7 +20,7 @@ const BLOCK_ROWS: usize = 1 << 11;
 /// Pieces that a thread makes in one round: enough for even work, and little memory.
 const BLOCKS_PER_THREAD: usize = 4;
 
-/// The text of a scene: head comments, then escapes and unknown statements,
+/// The text of a scene: head comments, the stage, then escapes and unknown statements,
 /// colours, surfaces, vertices, faces, wires, lights, cameras, each with its comments.
 pub fn write(scene: &Scene) -> Vec<u8> {
     let mut text = Vec::with_capacity(64 * (scene.vertices.len() + scene.faces.len()) + 1024);
@@ -50,6 +51,7 @@ impl<'s> Tables<'s, '_> {
         for text in &scene.head {
             self.chunked_writer.append(|out| Writer::on(out, scene, &[], |w| w.comment_line(text)));
         }
+        self.stage();
         self.rows(&scene.escapes, Item::Escape, |w, text| {
             w.text("(");
             w.text(text);
@@ -89,6 +91,24 @@ impl<'s> Tables<'s, '_> {
         self.chunked_writer
             .append(|out| Writer::on(out, scene, comments, |w| w.comments_at(Item::End, false)));
         self.chunked_writer.send()
+    }
+
+    /// The stage, if there is something to say of it, with its comments.
+    fn stage(&mut self) {
+        let stage = &self.scene.stage;
+        let (comments, rest) = self.comments.split_at(self.comments.partition_point(|c| c.at <= Item::Stage));
+        self.comments = rest;
+        self.chunked_writer.append(|out| {
+            Writer::on(out, self.scene, comments, |w| {
+                if !stage.is_at_rest() {
+                    w.comments_at(Item::Stage, false);
+                    stage_statement::write(stage, &mut w.out, &mut w.numbers);
+                    w.comments_at(Item::Stage, true);
+                    w.out.push(b'\n');
+                }
+                w.comments.iter().for_each(|comment| w.comment_line(&comment.text));
+            });
+        });
     }
 
     /// One line for each row, in blocks that are written on all threads.

@@ -45,7 +45,7 @@ pub struct Args {
 
     /// Hues in colour statements are wavelengths in nm; implies -iw
     ///
-    /// As `ugdoppler -gw` writes them.
+    /// For scenes written by hand: of what `ugdoppler -gw` writes it is known.
     #[arg(long, visible_alias = "wavelengths")]
     wi: bool,
 

@@ -85,9 +85,9 @@ impl Default for Config {
 }
 
 impl Config {
-    /// What is interpolated, after all options.
-    pub fn interpolated(&self) -> Interpolation {
-        match self.hue_scale {
+    /// What is interpolated between hues of this scale.
+    pub(crate) fn interpolated(&self, scale: HueScale) -> Interpolation {
+        match scale {
             HueScale::Degrees => self.interpolation,
             HueScale::Wavelengths => Interpolation::Wavelength,
         }

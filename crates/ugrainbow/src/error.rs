@@ -5,9 +5,8 @@ use std::fmt;
 use ugimage::{Format, Tone};
 use uglabel::MissingCharacter;
 use ugparse::Diagnostics;
-use ugphysics::VelocityError;
 use ugraster::Filter;
-use ugscene::CameraError;
+use ugscene::{CameraError, StageError};
 
 use crate::config::{Background, Config, Output};
 
@@ -51,8 +50,8 @@ pub enum Error {
     },
     /// The camera makes no sense.
     Camera(CameraError),
-    /// A velocity of the scene is not below that of light.
-    Velocity(VelocityError),
+    /// The scene is not at the stage at which it can be drawn so.
+    Stage(StageError),
 }
 
 impl Error {
@@ -149,7 +148,7 @@ impl fmt::Display for Error {
                  count columns and rows from 0 at the upper left, or give -sz"
             ),
             Self::Camera(error) => error.fmt(f),
-            Self::Velocity(error) => error.fmt(f),
+            Self::Stage(error) => error.fmt(f),
         }
     }
 }
@@ -174,8 +173,8 @@ impl From<CameraError> for Error {
     }
 }
 
-impl From<VelocityError> for Error {
-    fn from(error: VelocityError) -> Self {
-        Self::Velocity(error)
+impl From<StageError> for Error {
+    fn from(error: StageError) -> Self {
+        Self::Stage(error)
     }
 }

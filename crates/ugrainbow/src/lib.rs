@@ -79,7 +79,6 @@ mod painter;
 mod palette;
 mod planar;
 mod planes;
-mod provenance;
 mod render_layers;
 mod setup;
 mod shade;
@@ -88,7 +87,7 @@ mod vector;
 mod words;
 
 use ugimage::{Development, Frame, Label, Packing, grey_postscript};
-use ugparse::{Diagnostics, Scene, Source};
+use ugparse::{Diagnostics, Parsed, Scene, Source};
 use ugpipe::Progress;
 
 pub use cli::{Args, draw};
@@ -149,7 +148,15 @@ pub fn run_with(config: &Config, source: &Source, progress: &dyn Progress) -> Re
         (Output::Color(format), Drawn::Light(frame)) => format.pack_linear(&frame, &label, packing),
         (Output::Grey, drawn) => grey_postscript(&drawn.into_frame(), &label),
     };
-    Ok(Picture { bytes, notes, warnings: parsed.warnings })
+    Ok(Picture { bytes, notes, warnings: warnings(source, parsed) })
+}
+
+/// What the reader found, and that moving bodies are drawn at rest.
+fn warnings(source: &Source, parsed: Parsed) -> Diagnostics {
+    match ugscene::rest_shapes_warning(&parsed) {
+        Some(warning) => parsed.warnings.with(source, warning),
+        None => parsed.warnings,
+    }
 }
 
 /// Draws a scene for a display with 8 bits a channel. The notes say what the user should know, one sentence each.

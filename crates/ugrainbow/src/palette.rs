@@ -5,7 +5,7 @@ use uglight::HueScale;
 use ugparse::{Color, ColorValue, Scene};
 use ugphysics::{Hsv, attenuation, hue_to_wavelength, srgb_decode, wavelength_to_hue};
 
-use crate::config::{Config, Interpolation};
+use crate::config::Interpolation;
 
 /// A colour ready for interpolation.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -46,10 +46,9 @@ pub struct Palette {
 
 impl Palette {
     /// Reads all colours of a scene.
-    pub fn new(scene: &Scene, config: &Config) -> Self {
+    pub fn new(scene: &Scene, interpolation: Interpolation, scale: HueScale) -> Self {
         let has_light = scene.colors.iter().any(uglight::is_light);
         let has_translucency = scene.colors.iter().any(|color| color.translucency > 0.0);
-        let (interpolation, scale) = (config.interpolated(), config.hue_scale);
         let mut palette = Self { swatches: Vec::new(), interpolation, scale, has_light, has_translucency };
         palette.swatches = scene.colors.iter().map(|color| palette.read(scene, color)).collect();
         palette

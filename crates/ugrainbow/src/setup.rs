@@ -11,7 +11,6 @@ use crate::config::{Config, Exact};
 use crate::error::{self, Error};
 use crate::painter::Painter;
 use crate::palette::Palette;
-use crate::provenance::Provenance;
 use crate::shade::Shader;
 use crate::surface::Surface;
 use ugscene::{Geometry, View};
@@ -42,20 +41,25 @@ impl<'a> Setup<'a> {
         if scene.faces.is_empty() && scene.wires.is_empty() {
             return Err(Error::Empty);
         }
-        let scene = with_separate_bodies(scene);
+        if config.exact.is_some() {
+            ugscene::require_seen_geometry(scene)?;
+        }
+        let scene = drawable(scene);
         let [width, height] = config.size;
         let view = View::new(&scene, &config.camera, config.size.map(|pixels| pixels * config.samples))?;
+        ugscene::require_eye(&scene, view.eye)?;
         let cue = config.depth_cue.and_then(|cue| Some(cue.between(cue.range?)));
         let grid = Grid { width, height, samples: config.samples, is_perspective: view.is_perspective, cue };
-        let palette = Palette::new(&scene, config);
-        let lighting = Lighting::new(&scene, config.hue_scale, view.eye, view.forward);
-        let surface = Surface::new(&scene, view.eye, &palette, config.hue_scale)?;
+        let hue_scale = ugscene::hue_scale(&scene, config.hue_scale)?;
+        let palette = Palette::new(&scene, config.interpolated(hue_scale), hue_scale);
+        let lighting = Lighting::new(&scene, hue_scale, view.eye, view.forward);
+        let surface = Surface::new(&scene, view.eye, &palette, hue_scale);
         let is_uncut = palette.has_light() || config.keeps_light();
         if let Some(exact) = config.exact {
             check_exact(&scene, &view)?;
             check_spectra(&scene, &surface, exact)?;
         }
-        let shader = Shader::new(config.interpolated(), !is_uncut);
+        let shader = Shader::new(palette.interpolation(), !is_uncut);
         let is_culled = config.cull;
         Ok(Self { scene, view, grid, palette, lighting, surface, shader, is_culled, is_uncut })
     }
@@ -86,7 +90,7 @@ impl<'a> Setup<'a> {
 
 /// Refuses what rays do not find, or what would be shifted twice.
 fn check_exact(scene: &Scene, view: &View) -> Result<(), Error> {
-    if Provenance::of(scene).doppler.is_some() {
+    if scene.stage.seen_colors().is_some() {
         return Err(Error::Exact(
             "-xc shifts colours itself, at every sample, and those of this scene have been shifted by ugdoppler: \
              leave ugdoppler out, and give -br, --no-doppler or --no-flux here; or, for ugdoppler -sp and -li, leave out -xc",
@@ -130,12 +134,20 @@ fn check_spectra(scene: &Scene, surface: &Surface, exact: Exact) -> Result<(), E
     Ok(())
 }
 
-/// The scene with vertices of one body each, copied only if it has several.
-fn with_separate_bodies(scene: &Scene) -> Cow<'_, Scene> {
-    if ugscene::is_one_body(scene) {
+/// The scene with vertices of one body each, copied only if it has several. Bodies that move and have their rest
+/// shapes are drawn at rest.
+fn drawable(scene: &Scene) -> Cow<'_, Scene> {
+    let is_drawn_at_rest = ugscene::require_seen_geometry(scene).is_err();
+    if ugscene::is_one_body(scene) && !is_drawn_at_rest {
         return Cow::Borrowed(scene);
     }
     let mut scene = scene.clone();
+    if is_drawn_at_rest {
+        let faces = scene.faces.iter_mut().map(|face| &mut face.body);
+        faces
+            .chain(scene.wires.iter_mut().map(|wire| &mut wire.body))
+            .for_each(|body| *body = BodyId::UNSTATED);
+    }
     ugscene::separate_bodies(&mut scene);
     Cow::Owned(scene)
 }

@@ -4,7 +4,7 @@ use glam::{DQuat, DVec3};
 use rayon::prelude::*;
 use uglight::{HueScale, VertexColor, vertex_colors};
 use ugparse::{BodyId, ColorId, Scene, VertexId};
-use ugphysics::{Velocity, VelocityError, aberrate};
+use ugphysics::{Velocity, aberrate};
 use ugscene::{RestFrames, rest_positions};
 
 use crate::palette::{Palette, Swatch};
@@ -22,11 +22,8 @@ pub struct Surface {
 
 impl Surface {
     /// `scene`: its vertices are part of one body each.
-    ///
-    /// # Errors
-    /// The velocity of the camera is invalid.
-    pub fn new(scene: &Scene, eye: DVec3, palette: &Palette, scale: HueScale) -> Result<Self, VelocityError> {
-        let frames = RestFrames::new(scene)?;
+    pub fn new(scene: &Scene, eye: DVec3, palette: &Palette, scale: HueScale) -> Self {
+        let frames = RestFrames::new(scene);
         let rest = rest_positions(scene, eye, &frames);
         let mut swatches = palette.all().to_vec();
         let own = scene.vertices.par_iter().map(|vertex| vertex.color.map(row));
@@ -34,7 +31,7 @@ impl Surface {
             Some(rows) => rows,
             None => mixed_rows(scene, &rest, palette, scale, &mut swatches),
         };
-        Ok(Self { swatches, rows, rest, frames })
+        Self { swatches, rows, rest, frames }
     }
 
     /// Its own colour, else the mix of its faces' colours, else white.

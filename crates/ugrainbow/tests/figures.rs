@@ -9,7 +9,7 @@ use ugimage::Format;
 use ugphysics::Hsv;
 use ugrainbow::{Background, Config, Error, Exact, Figures, MAX_PIXELS, Output, render, run};
 
-const SHIP: &str = "c green 1 120 .8; l 1; cam -ep 0 -9 3 -vc 0 0 .5;
+const SHIP: &str = "(ugstage 1 geometry as-seen eye 0 -9 3) c green 1 120 .8; l 1; cam -ep 0 -9 3 -vc 0 0 .5;
     v a -1 -1 0; v b 1 -1 0; v c 1 1 0; v d -1 1 0; v e -1 -1 1; v f 1 -1 1; v g 1 1 1; v h -1 1 1;
     f (a b f e) green <.5 0 0>; f (b c g f) green <.5 0 0>; f (c d h g) green <.5 0 0>;
     f (d a e h) green <.5 0 0>; f (e f g h) green <.5 0 0>; f (d c b a) green <.5 0 0>;";
@@ -175,7 +175,9 @@ fn the_undistorted_outline_is_that_of_the_body_at_rest() {
             let names: Vec<String> = face.iter().map(|idx| format!("p{idx}")).collect();
             format!("f ({}) grey {velocity};", names.join(" "))
         });
-        let head = "c grey .5; l .3; l .7 1 -2 4; cam -ep 0 -9 3 -vc 0 0 0;".to_owned();
+        let head =
+            "(ugstage 1 geometry as-seen eye 0 -9 3) c grey .5; l .3; l .7 1 -2 4; cam -ep 0 -9 3 -vc 0 0 0;"
+                .to_owned();
         std::iter::once(head).chain(vertices).chain(faces).collect::<Vec<_>>().join(" ")
     };
     let v = ugphysics::Velocity::from_beta(glam::DVec3::new(0.9, 0.1, 0.0)).unwrap();

@@ -342,7 +342,7 @@ fn moving_faces_are_lit_in_their_rest_frame() {
     let check = |points: [DVec3; 4], velocity: &str| {
         let center = points.iter().sum::<DVec3>() / 4.0;
         let text = format!(
-            "l .2; l .8 1 -3 2; {} f (a b c d) {velocity}; cam -ep 0 0 0 -vc {} {} {} -va 1 1;",
+            "(ugstage 1 geometry as-seen eye 0 0 0) l .2; l .8 1 -3 2; {} f (a b c d) {velocity}; cam -ep 0 0 0 -vc {} {} {} -va 1 1;",
             vertices(&points),
             center.x,
             center.y,

@@ -5,10 +5,13 @@ use ugparse::{Scene, VertexId};
 
 use crate::{RestFrames, vertex_bodies};
 
-/// The eye point in scene coordinates: the option if given, else the one of the
-/// scene's camera, else the origin. All programs of a pipe choose it alike.
+/// The eye point in scene coordinates: the option if given, else the one of the scene's camera,
+/// else the one its positions were computed for, else the origin. All programs of a pipe choose it
+/// alike.
 pub fn eye(scene: &Scene, option: Option<DVec3>) -> DVec3 {
-    option.or(scene.camera().and_then(|camera| camera.eye)).unwrap_or(DVec3::ZERO)
+    let of_camera = || scene.camera().and_then(|camera| camera.eye);
+    let of_stage = || scene.stage.seen_geometry().map(|seen| seen.eye);
+    option.or_else(of_camera).or_else(of_stage).unwrap_or(DVec3::ZERO)
 }
 
 /// The first vertex of a moving body that lies exactly at the eye, where no

@@ -8,15 +8,9 @@ use ugphysics::{Velocity, contracted, flight_time, rest_position, seen_position}
 
 use crate::{RestFrames, vertex_bodies};
 
-/// First word of the escape that tells later stages what was left out.
-pub(crate) const MARK: &str = "uglorentz";
-const NO_CONTRACTION: &str = "no-contraction";
-const NO_FLIGHT_TIME: &str = "no-flight-time";
-
 /// Which of the two effects the seen positions of a scene have in them.
 ///
-/// Both, unless the scene says otherwise in an escape such as
-/// `(uglorentz no-contraction)`.
+/// Both, unless the stage of the scene says otherwise.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Geometry {
     /// Lorentz contraction, (P1).
@@ -32,22 +26,12 @@ impl Default for Geometry {
 }
 
 impl Geometry {
-    /// What the escapes of a scene say.
+    /// What the stage of a scene says.
     pub fn of(scene: &Scene) -> Self {
-        let left_out = |what: &str| {
-            scene.escapes.iter().any(|text| {
-                let mut words = text.split_whitespace();
-                words.next() == Some(MARK) && words.any(|word| word == what)
-            })
-        };
-        Self { contraction: !left_out(NO_CONTRACTION), flight_time: !left_out(NO_FLIGHT_TIME) }
-    }
-
-    /// The escape to write; `None` if nothing was left out.
-    pub fn escape(self) -> Option<String> {
-        let words = [(self.contraction, NO_CONTRACTION), (self.flight_time, NO_FLIGHT_TIME)];
-        let left_out: Vec<&str> = words.iter().filter(|(kept, _)| !kept).map(|(_, word)| *word).collect();
-        (!left_out.is_empty()).then(|| format!("{MARK} {}", left_out.join(" ")))
+        match scene.stage.seen_geometry() {
+            Some(seen) => Self { contraction: seen.contraction, flight_time: seen.flight_time },
+            None => Self::default(),
+        }
     }
 
     /// Where a point of a body is seen. Both positions are relative to the eye:
@@ -91,7 +75,7 @@ pub fn rest_positions(scene: &Scene, eye: DVec3, frames: &RestFrames) -> Vec<DVe
 
 #[cfg(test)]
 mod tests {
-    use ugparse::Body;
+    use ugparse::{Body, GeometryStage, SeenGeometry};
     use ugphysics::{Event, Lorentz};
 
     use super::*;
@@ -138,8 +122,14 @@ mod tests {
                 vertex.position = to_camera.apply(leaves).x;
             }
         }
-        crate::record_camera_velocity(&mut scene, camera);
-        let frames = RestFrames::new(&scene).unwrap();
+        scene.stage.geometry = GeometryStage::AsSeen(SeenGeometry {
+            eye: DVec3::ZERO,
+            time: 0.0,
+            camera_velocity: camera,
+            contraction: true,
+            flight_time: true,
+        });
+        let frames = RestFrames::new(&scene);
         for (found, rest) in rest_positions(&scene, DVec3::ZERO, &frames).into_iter().zip(rest) {
             assert!((found - rest).length() < 1e-14 * 20.0, "{found} {rest}");
         }
@@ -152,15 +142,5 @@ mod tests {
         let p0 = ALL[1].seen(p_rest, v);
         let both = ALL[2].seen(p0, v);
         assert!((both - ALL[0].seen(p_rest, v)).length() < 1e-14);
-    }
-
-    #[test]
-    fn escapes_carry_what_was_left_out() {
-        for geometry in ALL {
-            let others = ["other text".to_string(), "uglorentz camera-velocity 0.5 0 0".to_string()];
-            let escapes = geometry.escape().into_iter().chain(others).collect();
-            let scene = Scene { escapes, ..Scene::default() };
-            assert_eq!(Geometry::of(&scene), geometry);
-        }
     }
 }

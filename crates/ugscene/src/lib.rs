@@ -14,7 +14,7 @@
 //! let text = "v a 3 4 0; v b 3 5 0; v c 4 4 0; f (a b c) <0.5 0 0>;";
 //! let source = ugparse::Source::new("scene.ug", text);
 //! let scene = ugparse::parse(&source, &ugparse::Options::default())?.scene;
-//! let frames = ugscene::RestFrames::new(&scene)?;
+//! let frames = ugscene::RestFrames::new(&scene);
 //! let rest = ugscene::rest_positions(&scene, DVec3::ZERO, &frames);
 //! let seen = ugphysics::seen_position(rest[0], frames.velocity(scene.faces[0].body));
 //! assert!((seen - DVec3::new(3.0, 4.0, 0.0)).length() < 1e-14);
@@ -33,9 +33,10 @@ mod read;
 mod rest_frames;
 mod shares;
 mod split;
+mod stage;
 
 pub use camera::{CameraError, CameraOptions, HalfSpace, Place, Slab, View};
-pub use camera_motion::{axes_from_scene, camera_velocity, record_camera_velocity};
+pub use camera_motion::{axes_from_scene, camera_velocity};
 pub use eye::{eye, vertex_at_eye};
 pub use geometry::{Geometry, rest_positions};
 pub use normals::{corner_angle, seen_normal, shading_normal, smooth_normals};
@@ -44,4 +45,8 @@ pub use read::read;
 pub use rest_frames::{RestFrames, is_one_body, separate_bodies, vertex_bodies};
 pub use shares::{Shares, vertex_shares};
 pub use split::{split_corners, split_vertices};
+pub use stage::{
+    StageError, has_moving_bodies, has_moving_lights, hue_scale, require_colors_at_rest, require_eye,
+    require_geometry_at_rest, require_seen_geometry, rest_shapes_warning,
+};
 pub use ugparse::{history, record};

@@ -120,7 +120,7 @@ mod tests {
     fn holes_and_what_was_seen_stay() {
         let hole = "v h .4 .4 0; v i .6 .4 0; v j .5 .6 0; f (a b c e) (h i j);";
         assert_eq!(read_text(&square(0.25, hole)).scene.faces.len(), 1);
-        let seen = format!("{{ uglorentz 0.1.0: uglorentz -vel .9 0 0 }} {}", square(0.25, "f (a b c e);"));
+        let seen = format!("(ugstage 1 geometry as-seen eye 0 0 0) {}", square(0.25, "f (a b c e);"));
         let parsed = read_text(&seen);
         assert_eq!((parsed.scene.faces.len(), parsed.warnings.list.len()), (1, 0));
     }

@@ -2,7 +2,7 @@
 
 use glam::DQuat;
 use ugparse::{BodyId, Motion, Scene};
-use ugphysics::{Velocity, VelocityError};
+use ugphysics::Velocity;
 
 use crate::{axes_from_scene, camera_velocity, split_vertices};
 
@@ -17,15 +17,12 @@ pub struct RestFrames {
 
 impl RestFrames {
     /// Those of the bodies of `scene`.
-    ///
-    /// # Errors
-    /// The velocity of the camera ([`camera_velocity`]) is invalid.
-    pub fn new(scene: &Scene) -> Result<Self, VelocityError> {
+    pub fn new(scene: &Scene) -> Self {
         let velocity = |motion: Motion| match motion {
             Motion::Inertial(velocity) => velocity,
         };
         let velocities = scene.bodies.iter().map(|body| velocity(body.motion)).collect();
-        Ok(Self { velocities, camera: camera_velocity(scene)? })
+        Self { velocities, camera: camera_velocity(scene) }
     }
 
     /// The same, but what states no motion moves with `velocity`.

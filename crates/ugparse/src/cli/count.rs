@@ -12,6 +12,7 @@ use crate::group::Group;
 use crate::parallel::read_all;
 use crate::reader::line_marks;
 use crate::scene::Scene;
+use crate::stage_statement;
 use crate::statement::Repeat;
 use crate::{Options, Parsed, Source};
 
@@ -168,7 +169,8 @@ fn point(p: DVec3) -> String {
 
 /// Statements by kind. The text is read a second time, since placing it used its tables up.
 fn statements(source: &Source, scene: &Scene, options: &Options) -> Vec<Statements> {
-    let document = read_all(&source.text, options, &mut Vec::new());
+    let mut document = read_all(&source.text, options, &mut Vec::new());
+    stage_statement::take(&source.text, &mut document, &mut Vec::new());
     let written = |count: fn(&Group<'_>) -> usize| document.groups.iter().map(count).sum();
     let row =
         |kind, count: fn(&Group<'_>) -> usize, placed| Statements { kind, written: written(count), placed };

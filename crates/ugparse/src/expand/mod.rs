@@ -3,6 +3,7 @@
 //! The file's own tables become those of the scene; definitions are copied
 //! behind them, once for each instance.
 
+mod cameras;
 mod comments;
 mod frame;
 mod names;
@@ -22,6 +23,7 @@ use crate::scene::{ColorId, Item, Scene, Vertex, VertexId};
 use crate::source::Span;
 use crate::statement::Repeat;
 
+use cameras::NestedCamera;
 use frame::{Frame, Placement};
 use queue::{Queue, Queues};
 
@@ -95,12 +97,16 @@ fn expand_here(
         bodies: BodyTable::default(),
         trouble: None,
         flattened: BTreeMap::new(),
+        nested_cameras: Vec::new(),
     };
     placer.note_definitions(&file);
+    let stage = document.stage.map(|(_, span)| span);
+    placer.note(stage.as_slice(), 0, |_| Item::Stage);
     placer.file(file);
     findings.extend(std::mem::take(&mut placer.undefined).into_values());
     placer.make_names_unique();
     placer.place_comments(&document.comments, first_statement);
+    findings.extend(placer.prefer_outer_camera());
     findings.extend(placer.trouble);
     findings.extend(placer.flattened.into_values());
     placer.scene.bodies = placer.bodies.bodies;
@@ -134,6 +140,8 @@ struct Placer<'d, 't> {
     /// Warnings for faces that have no area where they are placed, once for
     /// each statement, by its position.
     flattened: BTreeMap<u32, Diagnostic>,
+    /// In the order of their rows.
+    nested_cameras: Vec<NestedCamera>,
 }
 
 impl Placer<'_, '_> {

@@ -5,6 +5,7 @@ use std::ops::Range;
 use glam::DVec3;
 
 use super::Placer;
+use super::cameras::NestedCamera;
 use super::frame::Placement;
 use crate::diagnostic::Diagnostic;
 use crate::group::Counts;
@@ -157,6 +158,8 @@ impl Placer<'_, '_> {
             self.check_finite(span, point);
         }
         placed.up.into_iter().for_each(|up| self.check_direction(span, up));
+        let path = if placed.name.is_none() { frame.prefix.clone() } else { String::new() };
+        self.nested_cameras.push(NestedCamera { row: self.scene.cameras.len(), path });
         self.scene.cameras.push(placed);
         self.origins.cameras.push(span);
     }

@@ -68,3 +68,37 @@ fn a_camera_that_is_not_there_is_an_error() {
     check("cam -ep 1 0 0;", "a", "1:1", "no camera has a name");
     check("v z 0 0 0;", "a", "1:1", "no camera has a name");
 }
+
+#[test]
+fn one_outside_definitions_takes_precedence() {
+    let check = |text: &str, expected: &[&str], warning: Option<&str>| {
+        check_rest(text, expected);
+        assert_eq!(warnings(text, false), warning.as_slice(), "{text}");
+    };
+    let car = |camera: &str| format!("def car; {camera} -ep 0 0 1; end; i taxi (car -tx 5);");
+    let unused = Some("a camera in a definition is not used");
+    // Whichever comes first in the text, and whichever has a name.
+    check(&format!("{} cam -ep 9 0 0;", car("cam")), &["cam -ep 9 0 0;", "cam taxi -ep 5 0 1;"], unused);
+    check(&format!("{} cam a -ep 9 0 0;", car("cam")), &["cam a -ep 9 0 0;", "cam taxi -ep 5 0 1;"], unused);
+    check(&format!("cam a -ep 9 0 0; {}", car("cam")), &["cam a -ep 9 0 0;", "cam taxi -ep 5 0 1;"], unused);
+    check(
+        &format!("{} cam a -ep 9 0 0;", car("cam b")),
+        &["cam a -ep 9 0 0;", "cam taxi:b -ep 5 0 1;"],
+        unused,
+    );
+    check(&format!("cam -ep 9 0 0; {}", car("cam")), &["cam -ep 9 0 0;", "cam -ep 5 0 1;"], None);
+    check(&format!("{} cam -ep 9 0 0;", car("cam b")), &["cam taxi:b -ep 5 0 1;", "cam -ep 9 0 0;"], None);
+    // Alone it is used; of several copies the first.
+    check(&car("cam"), &["cam -ep 5 0 1;"], None);
+    check(
+        "def car; cam -ep 0 0 1; end; a row (car) 2 -tx 1;",
+        &["cam -ep 0 0 1;", "cam -ep 1 0 1;"],
+        Some("this camera is placed 2 times"),
+    );
+    let text =
+        "def car;\n{ in }\ncam -ep 0 0 1; { here }\nend;\ni taxi (car);\n{ out }\ncam -ep 9 0 0; { there }";
+    let expected = ["{ out }", "cam -ep 9 0 0; { there }", "{ in }", "cam taxi -ep 0 0 1; { here }"];
+    check(text, &expected, unused);
+    let drawn = parse_with(text, false).warnings.render(false);
+    assert!(drawn.contains("test.ug:3:1") && drawn.contains("`-cam taxi`"), "{drawn}");
+}

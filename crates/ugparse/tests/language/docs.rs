@@ -66,3 +66,13 @@ fn the_examples_of_surfaces_are_read_as_told() {
     let rows: Vec<_> = scene.surfaces.iter().map(|s| (s.specular, s.refraction, s.exponent)).collect();
     assert_eq!(rows, [(0.4, 1.0, 20.0), (0.1, 1.5, 60.0)]);
 }
+
+#[test]
+fn the_examples_of_stages_are_read() {
+    let block = block("(ugstage 1 geometry as-seen eye 0 -12 3)");
+    let examples: Vec<&str> = block.lines().map(str::trim).filter(|line| !line.is_empty()).collect();
+    assert_eq!(examples.len(), 2);
+    for example in examples {
+        assert_eq!(flat(example), format!("{example}\n"));
+    }
+}

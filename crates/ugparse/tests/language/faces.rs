@@ -56,7 +56,7 @@ fn faces_that_are_not_flat_are_warned_about_once() {
     );
     row("def t; v a 0 0 0; v b 4 0 0; v c 4 4 .1; v d 0 4 0; f q (a b c d); end; i (t -sz .01);", &[]);
     // As seen, faces are bent, and should be.
-    let seen = format!("{{ uglorentz 1: uglorentz -vel .5 0 0 }}{SQUARE} v up 4 4 .1; f (a b up d);");
+    let seen = format!("(ugstage 1 geometry as-seen eye 0 0 0) {SQUARE} v up 4 4 .1; f (a b up d);");
     assert_eq!(warnings(&seen, false), [""; 0]);
 }
 

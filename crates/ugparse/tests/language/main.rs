@@ -12,6 +12,7 @@ mod limits;
 mod paths;
 mod round_trip;
 mod scopes;
+mod stage;
 mod statements;
 mod surfaces;
 mod threads;

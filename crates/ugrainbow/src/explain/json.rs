@@ -3,11 +3,12 @@
 use glam::DVec3;
 use serde_json::{Value, json};
 
+use super::text::law_name;
 use super::{Corner, Explanation, Item, LayerShown, SampleColor, Shown};
 
 /// The explanation as JSON, with a line break at its end.
 pub fn json(explanation: &Explanation) -> String {
-    let Explanation { pixel, size, samples, covers, n_free, provenance, is_at_rest, sample, pixel_steps } =
+    let Explanation { pixel, size, samples, covers, n_free, history, stage, is_at_rest, sample, pixel_steps } =
         explanation;
     let n_samples = (samples * samples) as usize;
     let part = |count: usize| count as f64 / n_samples as f64;
@@ -28,9 +29,9 @@ pub fn json(explanation: &Explanation) -> String {
         "samples": n_samples,
         "covers": covers,
         "background_part": part(*n_free),
-        "history": provenance.lines,
+        "history": history,
         "is_at_rest": is_at_rest,
-        "brightness_law": provenance.doppler.as_ref().map(|doppler| &doppler.law),
+        "brightness_law": stage.seen_colors().map(law_name),
         "sample": sample.as_ref().map(shown),
         "filter": pixel_steps.filter.name(),
         "mean_linear": pixel_steps.mean[..3],

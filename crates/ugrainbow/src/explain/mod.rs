@@ -5,7 +5,7 @@ mod text;
 
 use glam::DVec3;
 use ugimage::{Development, Quantizer, Steps, display_pixel};
-use ugparse::{Diagnostic, Diagnostics, Motion, Parsed, Source, VertexId};
+use ugparse::{Diagnostic, Diagnostics, Parsed, Source, Stage, VertexId};
 use ugphysics::{attenuation, doppler_at, linear_srgb_to_xyz, wavelength_to_hue};
 use ugraster::{Filter, Finish, Fragment, Gathered, Sample, Seen};
 use ugscene::Geometry;
@@ -19,7 +19,6 @@ use crate::figures::Plan;
 use crate::packing::{Interpolated, unpack};
 use crate::palette::Swatch;
 use crate::planes::{self, Finder};
-use crate::provenance::Provenance;
 use crate::render_layers::RenderLayers;
 use crate::setup::Setup;
 
@@ -40,8 +39,10 @@ pub struct Explanation {
     pub covers: Vec<(Item, usize)>,
     /// How many samples show the background, if only through something.
     pub n_free: usize,
-    /// What the scene says of how it was made.
-    pub provenance: Provenance,
+    /// The command lines that the scene was made with, oldest first.
+    pub history: Vec<String>,
+    /// What was done to its positions and colours.
+    pub stage: Stage,
     /// True if nothing in the scene moves.
     pub is_at_rest: bool,
     /// The covered sample nearest to the centre of the pixel.
@@ -187,8 +188,7 @@ pub fn explain(
             layers.probe_filtered(&setup.grid, filter, &setup.shader, &both, pixel)
         }
     };
-    let provenance = Provenance::of(&parsed.scene);
-    let teller = Teller { setup: &setup, config, source, parsed: &parsed, provenance: &provenance };
+    let teller = Teller { setup: &setup, config, source, parsed: &parsed };
     let explanation = Explanation {
         pixel,
         size: config.size,
@@ -196,12 +196,13 @@ pub fn explain(
         covers: teller.covers(&samples),
         n_free: (config.samples * config.samples) as usize
             - samples.iter().filter(|sample| !is_free(sample)).count(),
-        is_at_rest: parsed.scene.bodies.iter().all(|body| body.motion == Motion::default()),
+        is_at_rest: !ugscene::has_moving_bodies(setup.scene()) && !ugscene::has_moving_lights(setup.scene()),
         sample: nearest(&samples, pixel, config.samples).map(|sample| teller.shown(sample)),
         pixel_steps: pixel_steps(&setup, &layers, config, mean, bytes),
-        provenance,
+        history: ugscene::history(&parsed.scene).into_iter().map(str::to_owned).collect(),
+        stage: parsed.scene.stage,
     };
-    Ok((explanation, parsed.warnings))
+    Ok((explanation, crate::warnings(source, parsed)))
 }
 
 /// The sample nearest to the centre of the pixel; of equals the last, as for channels.
@@ -268,7 +269,6 @@ struct Teller<'a> {
     config: &'a Config,
     source: &'a Source,
     parsed: &'a Parsed,
-    provenance: &'a Provenance,
 }
 
 impl Teller<'_> {
@@ -376,17 +376,19 @@ impl Teller<'_> {
             Interpolated::Hue { color, level } => (color, level),
         };
         let swatch = Swatch { tint, saturation, value, ..Swatch::WHITE };
-        let hue = match self.config.interpolated() {
+        let interpolation = self.setup.palette.interpolation();
+        let hue = match interpolation {
             Interpolation::Hue => tint,
             Interpolation::Wavelength => wavelength_to_hue(tint),
         };
+        let is_shifted = self.setup.scene().stage.seen_colors().is_some_and(|seen| seen.doppler);
         let wavelength = (!swatch.is_grey()).then(|| {
             let seen_nm = self.setup.palette.wavelength_nm(&swatch);
             Wavelength {
-                rest_nm: if self.provenance.shifts() { seen_nm * doppler } else { seen_nm },
+                rest_nm: if is_shifted { seen_nm * doppler } else { seen_nm },
                 seen_nm,
                 attenuation: attenuation(seen_nm),
-                is_at_end: self.config.interpolated() == Interpolation::Hue && !(-60.0 < hue && hue < 300.0),
+                is_at_end: interpolation == Interpolation::Hue && !(-60.0 < hue && hue < 300.0),
             }
         });
         SampleColor::Hue { hue, saturation, value, level, wavelength }

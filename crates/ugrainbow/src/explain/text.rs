@@ -1,10 +1,11 @@
 //! An explanation for people.
 
 use std::fmt::{self, Write};
+
+use ugparse::{ColorScale, SeenColors, Stage};
 use ugraster::Filter;
 
 use super::{Corner, Explanation, Item, PixelSteps, SampleColor, Shown};
-use crate::provenance::Provenance;
 
 /// Corners shown; a face may have thousands.
 const MAX_CORNERS: usize = 8;
@@ -58,7 +59,7 @@ fn write_sample(out: &mut String, shown: &Shown, explanation: &Explanation) -> f
         row(out, "seen at", text)?;
     }
     row(out, "D", format!("{} (P10)", number(shown.doppler)))?;
-    write_provenance(out, &explanation.provenance, shown.doppler)?;
+    write_colors(out, &explanation.stage, shown.doppler)?;
     for corner in shown.corners.iter().take(MAX_CORNERS) {
         row(out, "corner", corner_text(corner))?;
     }
@@ -66,7 +67,7 @@ fn write_sample(out: &mut String, shown: &Shown, explanation: &Explanation) -> f
         row(out, "", format!("and {} more", shown.corners.len() - MAX_CORNERS))?;
     }
     if let Some(color) = &shown.color {
-        write_color(out, color, &explanation.provenance)?;
+        write_color(out, color)?;
     }
     row(out, "light", format!("{} linear", numbers(&shown.light.map(f64::from))))?;
     if let Some(cue) = shown.cue {
@@ -82,18 +83,13 @@ fn write_sample(out: &mut String, shown: &Shown, explanation: &Explanation) -> f
 
 fn body(shown: &Shown, explanation: &Explanation) -> String {
     if explanation.is_at_rest {
-        return "nothing in the scene moves: everything is at rest".to_owned();
+        return "everything is at rest".to_owned();
     }
     if shown.beta.length() == 0.0 {
         return "at rest".to_owned();
     }
     let beta = numbers(&shown.beta.to_array());
-    let mut text =
-        format!("velocity {beta}, beta {}, gamma {}", number(shown.beta.length()), number(shown.gamma));
-    if !explanation.provenance.has_lorentz {
-        text += "; the scene never went through uglorentz, and is taken as if it had";
-    }
-    text
+    format!("velocity {beta}, beta {}, gamma {}", number(shown.beta.length()), number(shown.gamma))
 }
 
 fn event(time: Option<f64>, place: [f64; 3], frame: &str) -> String {
@@ -101,21 +97,32 @@ fn event(time: Option<f64>, place: [f64; 3], frame: &str) -> String {
     format!("t {time}, x {} ({frame})", numbers(&place))
 }
 
-fn write_provenance(out: &mut String, provenance: &Provenance, doppler: f64) -> fmt::Result {
-    let text = match &provenance.doppler {
-        None => "the scene never went through ugdoppler: colours are as at rest".to_owned(),
-        Some(told) => {
-            let shift = if told.shifts { "wavelengths over D (P11)" } else { "wavelengths not shifted" };
-            let power = match &*told.law {
-                "report" => doppler,
-                "photon" => libm::pow(doppler, 3.0),
-                "bolometric" => libm::pow(doppler, 4.0),
-                _ => 1.0,
-            };
-            format!("{shift}, brightness by the law `{}`: times {} (P12)", told.law, number(power))
-        }
+/// What was done to colours.
+fn write_colors(out: &mut String, stage: &Stage, doppler: f64) -> fmt::Result {
+    let Some(seen) = stage.seen_colors() else {
+        return row(out, "colours", "at rest: neither shifted nor changed in brightness");
     };
-    row(out, "ugdoppler", text)
+    let shift = match (seen.doppler, seen.scale) {
+        (false, _) => "wavelengths not shifted",
+        (true, ColorScale::Hues { .. }) => "wavelengths over D (P11)",
+        (true, ColorScale::Spectra { .. }) => "spectra shifted by D (P11)",
+    };
+    let (law, power) = match seen.scale {
+        ColorScale::Hues { law, .. } => (format!("by the law `{}`", law.name()), law.factor(doppler)),
+        ColorScale::Spectra { flux: true } => ("D^5 per wavelength".to_owned(), libm::pow(doppler, 5.0)),
+        ColorScale::Spectra { flux: false } => ("by the law `none`".to_owned(), 1.0),
+    };
+    let lights = if seen.lights { "; the light of lamps is in them (P14)" } else { "" };
+    row(out, "colours", format!("as seen: {shift}, brightness {law}: times {} (P12){lights}", number(power)))
+}
+
+/// The law by which the brightness of colours as seen was changed, for scripts.
+pub(super) fn law_name(seen: &SeenColors) -> &'static str {
+    match seen.scale {
+        ColorScale::Hues { law, .. } => law.name(),
+        ColorScale::Spectra { flux: true } => "D^5",
+        ColorScale::Spectra { flux: false } => "none",
+    }
 }
 
 fn corner_text(corner: &Corner) -> String {
@@ -143,7 +150,7 @@ fn level(level: &[f64; 3]) -> String {
     }
 }
 
-fn write_color(out: &mut String, color: &SampleColor, provenance: &Provenance) -> fmt::Result {
+fn write_color(out: &mut String, color: &SampleColor) -> fmt::Result {
     match color {
         SampleColor::Light { xyz, chromaticity } => {
             row(out, "colour", format!("X Y Z {}, lit", numbers(xyz)))?;
@@ -165,9 +172,8 @@ fn write_color(out: &mut String, color: &SampleColor, provenance: &Provenance) -
             );
             row(out, "colour", text)?;
             let end = if wavelength.is_at_end { ", the end of the range, or anything beyond" } else { "" };
-            let rest = if provenance.shifts() { "at rest" } else { "at rest, as far as the history tells" };
             let (rest_nm, seen_nm) = (number(wavelength.rest_nm), number(wavelength.seen_nm));
-            row(out, "wavelength", format!("{rest_nm} nm {rest}, {seen_nm} nm seen{end} (P16)"))?;
+            row(out, "wavelength", format!("{rest_nm} nm at rest, {seen_nm} nm seen{end} (P16)"))?;
             row(out, "attenuation", format!("hue times {} (P17)", number(wavelength.attenuation)))
         }
     }

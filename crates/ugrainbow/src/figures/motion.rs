@@ -7,7 +7,6 @@ use ugscene::View;
 use super::depths::Depths;
 use crate::config::Config;
 use crate::planes::Finder;
-use crate::provenance::Provenance;
 use crate::setup::Setup;
 
 /// The motion in a picture.
@@ -18,7 +17,7 @@ pub struct Motion {
     pub directions: Vec<DVec3>,
     /// The least and the greatest Doppler factor that is seen, in the middle of a pixel; none if nothing is.  Eq. (P10)
     pub doppler: Option<[f64; 2]>,
-    /// True if colours in the picture are shifted, as far as the history of the scene tells.
+    /// True if colours in the picture are shifted.
     pub is_shifted: bool,
 }
 
@@ -55,7 +54,7 @@ impl Motion {
         let directions = velocities.iter().map(direction).collect();
         let is_shifted = match config.exact {
             Some(exact) => exact.doppler,
-            None => Provenance::of(setup.scene()).shifts(),
+            None => setup.scene().stage.seen_colors().is_some_and(|seen| seen.doppler),
         };
         Self { velocities, directions, doppler, is_shifted }
     }

@@ -1,0 +1,31 @@
+//! What the output says was done to it.
+
+use glam::DVec3;
+use ugparse::{ColorScale, ColorStage, GeometryStage, HueScale, Scene, SeenColors, SeenGeometry, Stage};
+use ugphysics::Velocity;
+
+use crate::Config;
+
+/// The stage of `scene`, which is the input, with its colours as seen.
+pub(crate) fn with_seen_colors(scene: &Scene, config: &Config, eye: DVec3) -> Stage {
+    let mut stage = scene.stage;
+    // Then the colours depend on the eye, and positions were read as seen from it.
+    let depends_on_eye = !config.velocity.is_zero() || config.light && ugscene::has_moving_lights(scene);
+    if stage.geometry == GeometryStage::AtRest && depends_on_eye {
+        stage.geometry = GeometryStage::AsSeen(SeenGeometry {
+            eye,
+            time: 0.0,
+            camera_velocity: Velocity::ZERO,
+            contraction: true,
+            flight_time: true,
+        });
+    }
+    let scale = if config.spectral {
+        ColorScale::Spectra { flux: config.flux }
+    } else {
+        let unit = if config.wavelengths { HueScale::Wavelengths } else { HueScale::Degrees };
+        ColorScale::Hues { unit, law: config.hue_shift().law }
+    };
+    stage.colors = ColorStage::AsSeen(SeenColors { scale, doppler: config.doppler, lights: config.light });
+    stage
+}

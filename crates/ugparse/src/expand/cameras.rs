@@ -1,0 +1,68 @@
+//! Cameras in definitions: one outside takes precedence over them.
+
+use super::Placer;
+use crate::diagnostic::Diagnostic;
+use crate::scene::{Camera, Item};
+use crate::source::Span;
+
+/// A camera that an instance has placed.
+pub(super) struct NestedCamera {
+    /// Row in the table of cameras.
+    pub row: usize,
+    /// Path of the instance; empty if the camera has a name.
+    pub path: String,
+}
+
+impl Placer<'_, '_> {
+    /// Puts cameras outside definitions first, where one inside would be used in place of them, with
+    /// a warning. Comments have been placed.
+    pub(super) fn prefer_outer_camera(&mut self) -> Option<Diagnostic> {
+        let used = self.scene.camera_row()?;
+        let is_nested =
+            |row: &usize| self.nested_cameras.binary_search_by_key(row, |nested| nested.row).is_ok();
+        if !is_nested(&used) {
+            return None;
+        }
+        let (nested, outer): (Vec<usize>, Vec<usize>) = (0..self.scene.cameras.len()).partition(is_nested);
+        let spans = &self.origins.cameras;
+        let Some(&first_outer) = outer.first() else { return several_copies(spans, used) };
+        let (span, outer_span) = (spans[used], spans[first_outer]);
+        for NestedCamera { row, path } in &self.nested_cameras {
+            let name = &mut self.scene.cameras[*row].name;
+            // One without a name would still be used in place of one with a name.
+            *name = name.or_else(|| Some(self.scene.names.add(path)));
+        }
+        let name = self.scene.cameras[used].name.map_or("", |name| self.scene.names.get(name));
+        let help = format!("use this one with `-cam {name}`, or remove one of them");
+        let warning = Diagnostic::warning(span, "a camera in a definition is not used")
+            .label(format!("placed as `{name}`"))
+            .other(outer_span, "this one, outside definitions, is used")
+            .help(help);
+        self.reorder_cameras(&[outer, nested].concat());
+        Some(warning)
+    }
+
+    /// `order`: the old row of each camera.
+    fn reorder_cameras(&mut self, order: &[usize]) {
+        let cameras: Vec<Camera> = order.iter().map(|&row| self.scene.cameras[row].clone()).collect();
+        let spans: Vec<Span> = order.iter().map(|&row| self.origins.cameras[row]).collect();
+        (self.scene.cameras, self.origins.cameras) = (cameras, spans);
+        for comment in &mut self.scene.comments {
+            if let Item::Camera(row) = &mut comment.at {
+                let new = order.iter().position(|&old| old == *row as usize);
+                *row = new.map_or(*row, |new| new as u32);
+            }
+        }
+        self.scene.comments.sort_by_key(|comment| comment.at);
+    }
+}
+
+/// The warning for a camera that is used and of which there are several copies.
+fn several_copies(spans: &[Span], used: usize) -> Option<Diagnostic> {
+    let n_copies = spans.iter().filter(|&&span| span == spans[used]).count();
+    (n_copies > 1).then(|| {
+        Diagnostic::warning(spans[used], format!("this camera is placed {n_copies} times"))
+            .label("the first copy is used")
+            .help("write the `cam` that is to be used outside definitions")
+    })
+}

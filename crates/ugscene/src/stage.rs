@@ -1,0 +1,139 @@
+//! Which steps of the pipe a scene may go through: wrong orders are refused, not drawn.
+
+use std::fmt;
+
+use glam::DVec3;
+use ugparse::{Body, BodyId, Diagnostic, Face, HueScale, Motion, Parsed, Scene};
+
+/// Why a scene cannot go through a program: its stage is not the one the program needs.
+#[derive(Clone, Debug, PartialEq)]
+pub enum StageError {
+    /// Rest shapes are needed, and positions are as seen.
+    GeometryAsSeen,
+    /// Colours at rest are needed, and colours are as seen.
+    ColorsAsSeen,
+    /// Positions as seen are needed. Bodies move, and have their rest shapes.
+    GeometryAtRest,
+    /// Hues were to be taken for wavelengths, and colours as seen are not wavelengths.
+    NotWavelengths,
+    /// Positions are as seen from another eye point.
+    OtherEye {
+        /// The eye point that positions were computed for.
+        made_for: DVec3,
+        /// The one asked for.
+        asked: DVec3,
+    },
+}
+
+impl fmt::Display for StageError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let point = |p: &DVec3| format!("{} {} {}", p.x, p.y, p.z);
+        match self {
+            Self::GeometryAsSeen => f.write_str(
+                "positions in this scene are as seen already, so its rest shapes are not known: \
+                 start again from the scene at rest, and go through uglorentz once",
+            ),
+            Self::ColorsAsSeen => f.write_str(
+                "colours in this scene are as seen already: start again from the scene before ugdoppler; \
+                 the order is uglorentz, ugdoppler, ugrainbow, each once",
+            ),
+            Self::GeometryAtRest => f.write_str(
+                "bodies in this scene move, and their positions are not as seen yet: \
+                 give the scene to uglorentz first (with -nc and --no-flight-time to keep rest shapes)",
+            ),
+            Self::NotWavelengths => f.write_str(
+                "colours in this scene are as seen, and are not written as wavelengths: leave out -wi, \
+                 or give -gw to ugdoppler",
+            ),
+            Self::OtherEye { made_for, asked } => write!(
+                f,
+                "positions in this scene are as seen from the eye point {}, and would be wrong from {}: \
+                 leave out -ep here, or give it to uglorentz (-ep {}) with the scene at rest",
+                point(made_for),
+                point(asked),
+                point(asked),
+            ),
+        }
+    }
+}
+
+impl std::error::Error for StageError {}
+
+/// True if a face or wire moves.
+pub fn has_moving_bodies(scene: &Scene) -> bool {
+    let faces = scene.faces.iter().map(|face| face.body);
+    any_moves(scene, faces.chain(scene.wires.iter().map(|wire| wire.body)))
+}
+
+/// True if a light moves.
+pub fn has_moving_lights(scene: &Scene) -> bool {
+    any_moves(scene, scene.lights.iter().filter_map(|light| light.motion.body()))
+}
+
+fn any_moves(scene: &Scene, mut bodies: impl Iterator<Item = BodyId>) -> bool {
+    let moves = |body: &Body| body.motion != Motion::default();
+    // In most scenes nothing moves, and their faces need not be looked at.
+    scene.bodies.iter().any(moves) && bodies.any(|body| moves(&scene.bodies[body]))
+}
+
+/// The warning for bodies that move and are drawn with their shapes at rest; `None` if there are none.
+pub fn rest_shapes_warning(parsed: &Parsed) -> Option<Diagnostic> {
+    let Parsed { scene, origins, .. } = parsed;
+    require_seen_geometry(scene).err()?;
+    let moves = |face: &Face| any_moves(scene, std::iter::once(face.body));
+    let span = scene.faces.iter().position(moves).and_then(|row| origins.faces.get(row).copied());
+    let message = "bodies in this scene move, and are drawn with their shapes at rest";
+    let finding = Diagnostic::warning(span.unwrap_or_default(), message);
+    Some(finding.label("moves").help("send the scene through uglorentz to draw it as seen"))
+}
+
+/// Refuses positions that are as seen already.
+///
+/// # Errors
+/// [`StageError::GeometryAsSeen`].
+pub fn require_geometry_at_rest(scene: &Scene) -> Result<(), StageError> {
+    scene.stage.seen_geometry().map_or(Ok(()), |_| Err(StageError::GeometryAsSeen))
+}
+
+/// Refuses colours that are as seen already.
+///
+/// # Errors
+/// [`StageError::ColorsAsSeen`].
+pub fn require_colors_at_rest(scene: &Scene) -> Result<(), StageError> {
+    scene.stage.seen_colors().map_or(Ok(()), |_| Err(StageError::ColorsAsSeen))
+}
+
+/// Refuses bodies that move and have their rest shapes.
+///
+/// # Errors
+/// [`StageError::GeometryAtRest`].
+pub fn require_seen_geometry(scene: &Scene) -> Result<(), StageError> {
+    if scene.stage.seen_geometry().is_none() && has_moving_bodies(scene) {
+        return Err(StageError::GeometryAtRest);
+    }
+    Ok(())
+}
+
+/// Refuses another eye point than the one that positions were computed for.
+///
+/// # Errors
+/// [`StageError::OtherEye`].
+pub fn require_eye(scene: &Scene, eye: DVec3) -> Result<(), StageError> {
+    match scene.stage.seen_geometry() {
+        Some(seen) if seen.eye != eye => Err(StageError::OtherEye { made_for: seen.eye, asked: eye }),
+        _ => Ok(()),
+    }
+}
+
+/// What the hue field of `c` statements holds: what the stage says of colours as seen, else what is
+/// asked for.
+///
+/// # Errors
+/// [`StageError::NotWavelengths`].
+pub fn hue_scale(scene: &Scene, asked: HueScale) -> Result<HueScale, StageError> {
+    match (scene.stage.seen_colors(), scene.stage.hue_scale()) {
+        (None, _) => Ok(asked),
+        (Some(_), HueScale::Degrees) if asked == HueScale::Wavelengths => Err(StageError::NotWavelengths),
+        (Some(_), scale) => Ok(scale),
+    }
+}

@@ -1,0 +1,273 @@
+//! The stage of a scene through real pipes: comments tell programs nothing, and wrong orders are refused.
+
+use std::io::Write;
+use std::path::PathBuf;
+use std::process::{Command, Output, Stdio};
+
+use ugtests::programs;
+
+/// Everything that a program might want to know of a scene: bodies at rest and in motion, a face that is far from
+/// flat, one with a hole, normals, spectra, coloured and moving lights, wires, and a comment at each of them.
+const SCENE: &str = "{ A licence. }
+{ ours: nothing } c red 1 20 .8; { a colour }
+c blue .8 230; c_rgb green .2 .8 .3; c_bb glow 4000 .5;
+{ the floor } v a -4 9 -2; v b 4 9 -2; { a corner } v c 4 9 2; v d -4 9 2;
+v e -1 9 -1; v f 1 9 -1; v g 1 9 1; v h -1 9 1;
+f wall (a b c d) (e f g h) blue; { with a hole }
+v i -3 7 -2 red; v j -1 7 -2; v k -1 8 1; v l -3 7 1;
+f bent (i j k l) red <.1 .3 0>;
+v m 1 7 -1 0 -1 0; v n 3 7 -1 0 -1 .1; v o 2 7 1 .1 -1 0;
+f (m n o) green <0 -.2 .1>;
+{ a wire } w (i m o) glow <0 0 .2>;
+l .3; l .6 -1 -2 3 blue; { of the sky } l lamp .4 0 5 2 0 red <.2 0 0>;
+cam -ep 0 0 0 -vc 0 8 0 -va 70 50; { the eye }
+{ the end }
+";
+
+/// The programs, fed by hand so that a test can change what goes from one to the next.
+struct Programs(PathBuf);
+
+impl Programs {
+    fn new() -> Programs {
+        Programs(programs::released())
+    }
+
+    /// Runs `uglorentz -in`, say, with `input` on its standard input.
+    fn feed(&self, command: &str, input: &[u8]) -> Output {
+        let mut words = command.split_whitespace();
+        let program = self.0.join(words.next().expect("a program"));
+        let mut command = Command::new(program);
+        command.args(words).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+        let mut child = command.spawn().expect("the program starts");
+        // A program that refuses its options does not read.
+        let _ = child.stdin.take().expect("a pipe").write_all(input);
+        child.wait_with_output().expect("the program ends")
+    }
+
+    /// What comes out of a pipe, with `joint` applied to all that goes from one program to the next.
+    fn pipe(&self, commands: &[&str], input: &[u8], joint: fn(&[u8]) -> Vec<u8>) -> Vec<u8> {
+        commands.iter().fold(input.to_vec(), |input, command| {
+            let output = self.feed(command, &joint(&input));
+            let messages = String::from_utf8_lossy(&output.stderr);
+            assert!(output.status.success(), "{commands:?}: {messages}");
+            output.stdout
+        })
+    }
+}
+
+/// A scene without any of its comments, which nest.
+fn without_comments(text: &[u8]) -> Vec<u8> {
+    let mut depth = 0;
+    let kept = |&byte: &u8| {
+        depth += i32::from(byte == b'{');
+        let is_outside = depth == 0;
+        depth -= i32::from(byte == b'}');
+        is_outside
+    };
+    text.iter().copied().filter(kept).collect()
+}
+
+#[test]
+fn comments_tell_programs_nothing() {
+    let programs = Programs::new();
+    let lorentz =
+        ["", "-vel 0 -.4 .1 -in -sd 2", "-cv .3 .2 0 -sm", "-nc -ti 2", "--no-flight-time", "-vel 0 0 0"];
+    let doppler =
+        ["", "-gw -vr", "-sp -ir", "-li", "-br photon --no-doppler", "-sp --no-flux -li", "-gw -li -hd"];
+    let rainbow = ["-dt ppm", "-dt pfm", "-dt ppm -lg -dl -gr", "-dt ppm -iw -ed"];
+    let mut n_pictures = 0;
+    let mut check = |commands: &[&str]| {
+        let plain = programs.pipe(commands, SCENE.as_bytes(), <[u8]>::to_vec);
+        let stripped = programs.pipe(commands, SCENE.as_bytes(), without_comments);
+        assert!(plain == stripped, "{commands:?}: comments change the result");
+        n_pictures += 1;
+    };
+    let options = |program: &str, all: &[&str]| -> Vec<String> {
+        all.iter().map(|options| format!("{program} -qt {options}")).collect()
+    };
+    let (lorentz, doppler) = (options("uglorentz", &lorentz), options("ugdoppler", &doppler));
+    let rainbow = options("ugrainbow -sz 40 30 -aa 1", &rainbow);
+    for (row, first) in lorentz.iter().enumerate() {
+        for (column, second) in doppler.iter().enumerate() {
+            // Not all with all, but each with each other kind.
+            check(&[first, second, &rainbow[(row + column) % rainbow.len()]]);
+        }
+        let drawn = &rainbow[row % rainbow.len()];
+        check(&[first, drawn]);
+        let is_complete = !first.contains("-nc") && !first.contains("--no-flight-time");
+        if is_complete && !first.contains("-sm") {
+            let hues = "ugrainbow -qt -sz 40 30 -aa 1 -dt ppm -xc --no-doppler --no-flux";
+            check(&[first, hues]);
+        }
+    }
+    for last in ["ugmesh -dt obj", "ugparse check", "ugparse count -format json"] {
+        let head_of_mesh = |text: Vec<u8>| -> Vec<u8> {
+            let text = String::from_utf8(text).expect("text");
+            text.lines()
+                .filter(|line| !line.starts_with('#'))
+                .flat_map(|line| [line, "\n"])
+                .collect::<String>()
+                .into()
+        };
+        let commands = ["uglorentz -vel 0 -.4 .1 -sm", "ugdoppler -qt -gw", last];
+        let [plain, stripped] = [<[u8]>::to_vec, without_comments].map(|joint: fn(&[u8]) -> Vec<u8>| {
+            head_of_mesh(programs.pipe(&commands, SCENE.as_bytes(), joint))
+        });
+        assert!(plain == stripped, "{commands:?}: comments change the result");
+    }
+    assert!(n_pictures > 40, "{n_pictures}");
+}
+
+/// A pipe whose last program refuses its input.
+struct Refused {
+    pipe: &'static [&'static str],
+    /// What is wrong.
+    problem: &'static str,
+    /// What to do.
+    remedy: &'static str,
+}
+
+#[test]
+fn pipes_that_would_draw_wrong_pictures_are_refused() {
+    const ALL: &[Refused] = &[
+        Refused {
+            pipe: &["uglorentz", "uglorentz"],
+            problem: "positions in this scene are as seen already",
+            remedy: "start again from the scene at rest",
+        },
+        Refused {
+            pipe: &["uglorentz", "ugdoppler", "ugdoppler"],
+            problem: "colours in this scene are as seen already",
+            remedy: "start again from the scene before ugdoppler",
+        },
+        Refused {
+            pipe: &["ugdoppler"],
+            problem: "bodies in this scene move, and their positions are not as seen yet",
+            remedy: "give the scene to uglorentz first",
+        },
+        Refused {
+            pipe: &["uglorentz -vel 0 0 0", "ugdoppler", "uglorentz -vel .1 0 0"],
+            problem: "colours in this scene are as seen already",
+            remedy: "the order is uglorentz, ugdoppler, ugrainbow",
+        },
+        Refused {
+            pipe: &["uglorentz", "ugdoppler -ep 0 0 1"],
+            problem: "positions in this scene are as seen from the eye point 0 0 0, and would be wrong from 0 0 1",
+            remedy: "give it to uglorentz (-ep 0 0 1)",
+        },
+        Refused {
+            pipe: &["uglorentz -ep 0 -1 0", "ugrainbow -ep 0 0 0"],
+            problem: "positions in this scene are as seen from the eye point 0 -1 0, and would be wrong from 0 0 0",
+            remedy: "leave out -ep",
+        },
+        Refused {
+            pipe: &["uglorentz", "ugdoppler", "ugrainbow -ep 1 0 0"],
+            problem: "as seen from the eye point 0 0 0",
+            remedy: "leave out -ep",
+        },
+        Refused {
+            pipe: &["uglorentz", "ugrainbow -ep 1 0 0 --explain 3,3"],
+            problem: "as seen from the eye point 0 0 0",
+            remedy: "leave out -ep",
+        },
+        Refused {
+            pipe: &["uglorentz", "ugrainbow -cam side"],
+            problem: "as seen from the eye point 0 0 0, and would be wrong from 3 0 0",
+            remedy: "leave out -ep",
+        },
+        Refused {
+            pipe: &["uglorentz", "ugdoppler", "ugrainbow -wi"],
+            problem: "colours in this scene are as seen, and are not written as wavelengths",
+            remedy: "give -gw to ugdoppler",
+        },
+        Refused {
+            pipe: &["uglorentz", "ugdoppler -sp", "ugrainbow -wi"],
+            problem: "are not written as wavelengths",
+            remedy: "leave out -wi",
+        },
+        Refused {
+            pipe: &["uglorentz -sd 1", "ugdoppler", "ugrainbow -xc"],
+            problem: "those of this scene have been shifted",
+            remedy: "leave ugdoppler out",
+        },
+        Refused {
+            pipe: &["ugrainbow -xc --no-doppler --no-flux"],
+            problem: "bodies in this scene move, and their positions are not as seen yet",
+            remedy: "give the scene to uglorentz first",
+        },
+        Refused {
+            pipe: &["uglorentz -nc -sd 1", "ugrainbow -xc --no-doppler --no-flux"],
+            problem: "left one of them out",
+            remedy: "leave out -xc",
+        },
+    ];
+    let programs = Programs::new();
+    let scene = SCENE.to_owned() + "cam side -ep 3 0 0 -vc 0 8 0;";
+    for Refused { pipe, problem, remedy } in ALL {
+        let (last, others) = pipe.split_last().expect("a program");
+        let input = programs.pipe(others, scene.as_bytes(), <[u8]>::to_vec);
+        let output = programs.feed(last, &input);
+        let messages = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(1), "{pipe:?}: {messages}");
+        assert!(output.stdout.is_empty(), "{pipe:?}");
+        assert!(messages.contains(problem) && messages.contains(remedy), "{pipe:?}: {messages}");
+    }
+}
+
+#[test]
+fn legitimate_pipes_pass() {
+    let still = "c red 1 20; v a 0 5 0; v b 1 5 0; v c 0 5 1; f (a b c) red; l 1; cam -vc 0 5 0;";
+    let programs = Programs::new();
+    let check = |pipe: &[&str], scene: &str| drop(programs.pipe(pipe, scene.as_bytes(), <[u8]>::to_vec));
+    // Nothing moves, so nothing depends on the eye, and positions stay at rest.
+    check(
+        &["uglorentz -ep 0 -1 0", "uglorentz", "ugdoppler -ep 0 0 1", "ugrainbow -ep 1 1 1 -sz 9 9"],
+        still,
+    );
+    check(&["ugdoppler -vel 0 -.3 0", "ugrainbow -sz 9 9"], still);
+    check(&["uglorentz -nc --no-flight-time", "ugdoppler", "ugrainbow -sz 9 9"], SCENE);
+    // The eye point may be repeated.
+    check(&["uglorentz -ep .1 0 0", "ugdoppler -ep .1 0 0", "ugrainbow -ep .1 0 0 -sz 9 9"], SCENE);
+    check(&["ugrainbow -sz 9 9 -wi"], still);
+}
+
+#[test]
+fn wavelengths_need_no_option() {
+    let programs = Programs::new();
+    let picture =
+        |last: &str| programs.pipe(&["uglorentz", "ugdoppler -gw", last], SCENE.as_bytes(), <[u8]>::to_vec);
+    let [plain, asked] = ["", "-wi"].map(|option| picture(&format!("ugrainbow -sz 60 40 -dt ppm {option}")));
+    assert!(plain == asked, "-wi makes a difference");
+}
+
+#[test]
+fn moving_bodies_at_rest_are_drawn_with_a_warning() {
+    let programs = Programs::new();
+    let output = programs.feed("ugrainbow -sz 9 9", SCENE.as_bytes());
+    let messages = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success() && !output.stdout.is_empty(), "{messages}");
+    assert!(
+        messages.contains("bodies in this scene move, and are drawn with their shapes at rest"),
+        "{messages}"
+    );
+    assert!(messages.contains("<stdin>:8:1") && messages.contains("uglorentz"), "{messages}");
+}
+
+#[test]
+fn explanations_name_the_law_of_spectra() {
+    let programs = Programs::new();
+    for (options, told, law) in [
+        ("-sp", "brightness D^5 per wavelength", "\"D^5\""),
+        ("-sp --no-flux", "brightness by the law `none`", "\"none\""),
+        ("-br photon", "brightness by the law `photon`", "\"photon\""),
+        ("-br photon -li", "the light of lamps is in them", "\"photon\""),
+    ] {
+        let doppler = format!("ugdoppler {options}");
+        for (last, part) in [("", told), (" --format json", &format!("\"brightness_law\": {law}"))] {
+            let last = format!("ugrainbow -sz 40 30 --explain 8,20{last}");
+            let text = programs.pipe(&["uglorentz", &doppler, &last], SCENE.as_bytes(), <[u8]>::to_vec);
+            let text = String::from_utf8(text).expect("text");
+            assert!(text.contains(part), "{options}: {part}\n{text}");
+        }
+    }
+}
