@@ -165,7 +165,7 @@ impl Excerpt {
 
 /// A place in a file, for programs that read messages.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Place {
+pub struct Location {
     /// The file as messages name it.
     pub file: String,
     /// From 1.
@@ -174,7 +174,7 @@ pub struct Place {
     pub column: usize,
 }
 
-impl Place {
+impl Location {
     /// Where a position of a text was written.
     pub(crate) fn new(source: &Source, marks: &[LineMark], position: u32) -> Self {
         let (file, line) = source.reported(marks, position);
@@ -222,17 +222,17 @@ impl Diagnostics {
     }
 
     /// Where each finding of the list is.
-    pub fn places(&self) -> Vec<Place> {
+    pub fn locations(&self) -> Vec<Location> {
         let marks = line_marks(&self.source.text);
-        let place = |finding: &Diagnostic| Place::new(&self.source, &marks, finding.span.start);
+        let place = |finding: &Diagnostic| Location::new(&self.source, &marks, finding.span.start);
         self.list.iter().map(place).collect()
     }
 
     /// The second place of each finding of the list that has one, and the words at it.
-    pub fn other_places(&self) -> Vec<Option<(Place, &str)>> {
+    pub fn other_locations(&self) -> Vec<Option<(Location, &str)>> {
         let marks = line_marks(&self.source.text);
         let others = self.list.iter().map(|finding| finding.other.as_ref());
-        let place = |span: &Span| Place::new(&self.source, &marks, span.start);
+        let place = |span: &Span| Location::new(&self.source, &marks, span.start);
         others.map(|other| other.map(|(span, label)| (place(span), label.as_str()))).collect()
     }
 

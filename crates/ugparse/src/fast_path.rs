@@ -7,25 +7,25 @@
 use glam::DVec3;
 
 use crate::body::BodyId;
-use crate::group::Group;
 use crate::numbered::Name;
 use crate::scene::{ColorId, Face, VertexId};
+use crate::scope::Scope;
 use crate::source::Span;
 use crate::token::{begins_identifier, ends_word, is_blank, is_identifier, number, short_decimal};
 
 /// Reads `v ID x y z [color] ;` or `f [ID] contours [color] [< x y z >] ;` at
 /// `start` and gives the position behind it; `None` for everything else.
 #[inline]
-pub(crate) fn statement<'t>(text: &'t [u8], start: usize, group: &mut Group<'t>) -> Option<usize> {
+pub(crate) fn statement<'t>(text: &'t [u8], start: usize, scope: &mut Scope<'t>) -> Option<usize> {
     let cursor = Cursor { text, at: start + 1 };
     match text.get(start)? {
-        b'v' if is_blank(*text.get(start + 1)?) => vertex(cursor, group),
-        b'f' if is_blank(*text.get(start + 1)?) => face(cursor, start, group),
+        b'v' if is_blank(*text.get(start + 1)?) => vertex(cursor, scope),
+        b'f' if is_blank(*text.get(start + 1)?) => face(cursor, start, scope),
         _ => None,
     }
 }
 
-fn vertex<'t>(mut cursor: Cursor<'t>, group: &mut Group<'t>) -> Option<usize> {
+fn vertex<'t>(mut cursor: Cursor<'t>, scope: &mut Scope<'t>) -> Option<usize> {
     cursor.skip_blank();
     let name = cursor.name()?;
     let span = Span { start: (cursor.at - name.text.len()) as u32, end: cursor.at as u32 };
@@ -33,58 +33,58 @@ fn vertex<'t>(mut cursor: Cursor<'t>, group: &mut Group<'t>) -> Option<usize> {
     cursor.skip_blank();
     let color = cursor.identifier();
     cursor.mark(b';')?;
-    let color = color.map(|color| ColorId::from_index(group.colors.names.enter(color)));
-    group.n_statements += 1;
-    group.push_vertex(name, span, position, color, None);
+    let color = color.map(|color| ColorId::from_index(scope.colors.names.enter(color)));
+    scope.n_statements += 1;
+    scope.push_vertex(name, span, position, color, None);
     Some(cursor.at)
 }
 
-fn face<'t>(mut cursor: Cursor<'t>, start: usize, group: &mut Group<'t>) -> Option<usize> {
+fn face<'t>(mut cursor: Cursor<'t>, start: usize, scope: &mut Scope<'t>) -> Option<usize> {
     cursor.skip_blank();
     let name = cursor.identifier();
-    let first = group.contours.len();
-    let Some(tail) = contours(&mut cursor, group).and_then(|()| Tail::read(&mut cursor)) else {
-        group.contours.truncate(first);
+    let first = scope.contours.len();
+    let Some(tail) = contours(&mut cursor, scope).and_then(|()| Tail::read(&mut cursor)) else {
+        scope.contours.truncate(first);
         return None;
     };
-    let body = match tail.beta.map(|beta| group.bodies.moving_with_beta(beta)) {
+    let body = match tail.beta.map(|beta| scope.bodies.moving_with_beta(beta)) {
         None => BodyId::UNSTATED,
         Some(Some(body)) => body,
         // Too fast: the grammar says so.
         Some(None) => {
-            group.contours.truncate(first);
+            scope.contours.truncate(first);
             return None;
         }
     };
     let face = Face {
-        name: name.map(|name| group.add_name(name)),
-        contours: first as u32..group.contours.row_count(),
-        color: tail.color.map(|color| ColorId::from_index(group.colors.names.enter(color))),
+        name: name.map(|name| scope.add_name(name)),
+        contours: first as u32..scope.contours.row_count(),
+        color: tail.color.map(|color| ColorId::from_index(scope.colors.names.enter(color))),
         illum: None,
         body,
     };
-    group.n_statements += 1;
-    group.faces.push(face, Span { start: start as u32, end: cursor.at as u32 });
+    scope.n_statements += 1;
+    scope.faces.push(face, Span { start: start as u32, end: cursor.at as u32 });
     Some(cursor.at)
 }
 
 /// One or more `( ID … )`.
 #[inline(always)]
-fn contours<'t>(cursor: &mut Cursor<'t>, group: &mut Group<'t>) -> Option<()> {
+fn contours<'t>(cursor: &mut Cursor<'t>, scope: &mut Scope<'t>) -> Option<()> {
     cursor.mark(b'(')?;
     loop {
         cursor.skip_blank();
         // A contour has one corner at least.
         loop {
             let name = cursor.name()?;
-            group.contours.push_corner(VertexId(group.vertex_names.enter(name)));
+            scope.contours.push_corner(VertexId(scope.vertex_names.enter(name)));
             cursor.skip_blank();
             if cursor.next_is(b')') {
                 break;
             }
         }
         cursor.at += 1;
-        group.contours.end_contour();
+        scope.contours.end_contour();
         cursor.skip_blank();
         if !cursor.next_is(b'(') {
             return Some(());

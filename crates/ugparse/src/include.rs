@@ -10,7 +10,7 @@ use std::path::{Component, Path, PathBuf};
 
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::options::{Limit, Options};
-use crate::parallel::read_all;
+use crate::parallel_reader::read_document;
 use crate::reader::RequestStatement;
 use crate::refuse_errors;
 use crate::source::{LineMark, Source};
@@ -125,7 +125,7 @@ struct Text {
 impl Text {
     fn new(source: Source, options: &Options) -> Result<Self, Diagnostics> {
         let mut findings = Vec::new();
-        let document = read_all(&source.text, options, &mut findings);
+        let document = read_document(&source.text, options, &mut findings);
         let (statements, marks) = (document.requests, document.line_marks);
         refuse_errors(&source, &mut findings)?;
         Ok(Self { source, statements, marks, n_followed: 0, n_done: 0 })

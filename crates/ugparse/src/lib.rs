@@ -5,7 +5,7 @@
 //! placed by instances and arrays. This crate reads it in three steps:
 //!
 //! ```text
-//! bytes ─reader→ groups ─resolve→ groups ─expand→ Scene (flat) ─write→ bytes
+//! bytes ─reader→ scopes ─resolve→ scopes ─expand→ Scene (flat) ─write→ bytes
 //!        tables for the  names are rows  instances expanded
 //!        file, each def
 //! ```
@@ -44,19 +44,19 @@ mod expand;
 mod fast_path;
 mod flatness;
 mod grammar;
-mod group;
 mod history;
 mod include;
 mod named;
 mod names;
 mod numbered;
 mod options;
-mod parallel;
+mod parallel_reader;
 #[cfg(feature = "cli")]
 pub mod pipe;
 mod reader;
 mod resolve;
 mod scene;
+mod scope;
 mod source;
 mod stage;
 mod stage_statement;
@@ -72,7 +72,7 @@ pub use body::{Bodies, Body, BodyId, Motion};
 #[cfg(feature = "cli")]
 pub use cli::main;
 pub use contours::Contours;
-pub use diagnostic::{Diagnostic, Diagnostics, MAX_ERRORS, Place, Severity};
+pub use diagnostic::{Diagnostic, Diagnostics, Location, MAX_ERRORS, Severity};
 pub use expand::Origins;
 pub use flatness::{BentFace, FLAT, TOO_BENT, thickness};
 pub use history::{history, record};
@@ -106,14 +106,14 @@ pub fn parse(source: &Source, options: &Options) -> Result<Parsed, Diagnostics> 
     let text = &source.text[..];
     check_length(source, options)?;
     let mut findings = Vec::new();
-    let mut document = parallel::read_all(text, options, &mut findings);
+    let mut document = parallel_reader::read_document(text, options, &mut findings);
     stage_statement::take(text, &mut document, &mut findings);
     findings.extend(document.requests.iter().map(include::not_followed));
     refuse_errors(source, &mut findings)?;
 
     let stage = document.stage.map_or_else(Stage::default, |(stage, _)| stage);
     let mut scene = Scene { stage, ..Scene::default() };
-    let links = resolve::resolve(text, &mut document.groups, &mut scene, &options.limits, &mut findings);
+    let links = resolve::resolve(text, &mut document.scopes, &mut scene, &options.limits, &mut findings);
     refuse_errors(source, &mut findings)?;
 
     let (scene, origins) = expand::expand(text, &mut document, &links, scene, &mut findings);

@@ -2,7 +2,7 @@
 
 use rustc_hash::FxHashMap;
 
-use crate::group::Rows;
+use crate::scope::Rows;
 use crate::source::Span;
 
 /// Colours or surfaces of a scope.

@@ -1,17 +1,17 @@
-//! Text to groups: statement after statement, with recovery at the next `;`.
+//! Text to scopes: statement after statement, with recovery at the next `;`.
 
 use crate::diagnostic::{Diagnostic, MAX_ERRORS};
 use crate::fast_path;
 use crate::grammar::{Grammar, NAME};
-use crate::group::Group;
 use crate::include::RequestKind;
 use crate::options::{Limit, Options};
+use crate::scope::Scope;
 use crate::source::{LineMark, Span};
 use crate::stage::Stage;
 use crate::statement::References;
 use crate::token::{
-    Input, Reason, Trouble, blank, comment, escape, file_name, found, identifier, integer, mark,
-    skip_statement, trouble, wanted, word,
+    Input, Reason, SyntaxError, blank, comment, escape, file_name, found, identifier, integer, mark,
+    skip_statement, syntax_error, wanted, word,
 };
 use crate::wording::{no_statement, shorten, with_usage, word_help};
 
@@ -20,7 +20,7 @@ use crate::wording::{no_statement, shorten, with_usage, word_help};
 pub(crate) struct Document<'t> {
     /// Row 0 is the file itself, the others are its definitions in the order
     /// of their `def`s.
-    pub groups: Vec<Group<'t>>,
+    pub scopes: Vec<Scope<'t>>,
     /// Comments in order.
     pub comments: Vec<CommentSpan>,
     /// Where the first statement begins.
@@ -70,7 +70,7 @@ pub(crate) fn read_part<'t>(
     let mut findings = Vec::new();
     let mut reader = Reader { is_part: true, ..Reader::new(text, start, options, &mut findings) };
     reader.run(start);
-    let is_plain = reader.error_count == 0 && reader.document.groups.len() == 1;
+    let is_plain = reader.error_count == 0 && reader.document.scopes.len() == 1;
     let document = reader.document;
     is_plain.then_some((document, findings))
 }
@@ -89,7 +89,7 @@ pub(crate) fn line_marks(text: &[u8]) -> Vec<LineMark> {
 struct Reader<'t, 'f> {
     grammar: Grammar<'t>,
     document: Document<'t>,
-    /// The groups being read, from the file inwards.
+    /// The scopes being read, from the file inwards.
     open: Vec<usize>,
     options: Options,
     /// Only plain statements are read, up to the first that is not.
@@ -104,10 +104,10 @@ struct Reader<'t, 'f> {
 
 impl<'t, 'f> Reader<'t, 'f> {
     fn new(text: &'t [u8], start: usize, options: &Options, findings: &'f mut Vec<Diagnostic>) -> Self {
-        let file = Group::for_text(text.len() - start);
+        let file = Scope::for_text(text.len() - start);
         Self {
             grammar: Grammar { text },
-            document: Document { groups: vec![file], ..Document::default() },
+            document: Document { scopes: vec![file], ..Document::default() },
             open: vec![0],
             options: *options,
             is_part: false,
@@ -124,8 +124,8 @@ impl<'t, 'f> Reader<'t, 'f> {
             match self.between(input) {
                 Ok([]) => break,
                 Ok(rest) => input = self.statement(rest),
-                Err(trouble) => {
-                    self.complain(&trouble, None);
+                Err(syntax_error) => {
+                    self.complain(&syntax_error, None);
                     break;
                 }
             }
@@ -141,7 +141,7 @@ impl<'t, 'f> Reader<'t, 'f> {
     }
 
     /// Skips white space and notes comments up to the next statement.
-    fn between(&mut self, mut input: Input<'t>) -> Result<Input<'t>, Trouble<'t>> {
+    fn between(&mut self, mut input: Input<'t>) -> Result<Input<'t>, SyntaxError<'t>> {
         loop {
             match input.first() {
                 Some(b'\n') => {
@@ -149,7 +149,7 @@ impl<'t, 'f> Reader<'t, 'f> {
                     input = &input[1..];
                 }
                 Some(b'{') => {
-                    let (rest, text) = comment(input).map_err(trouble)?;
+                    let (rest, text) = comment(input).map_err(syntax_error)?;
                     self.push_comment(text, rest, self.line_has_statement);
                     input = rest;
                 }
@@ -168,8 +168,8 @@ impl<'t, 'f> Reader<'t, 'f> {
     /// Reads one statement; gives what is behind it, or where to go on after an error.
     fn statement(&mut self, input: Input<'t>) -> Input<'t> {
         let start = self.grammar.position(input);
-        let group = &mut self.document.groups[self.open[self.open.len() - 1]];
-        if let Some(end) = fast_path::statement(self.grammar.text, start as usize, group) {
+        let scope = &mut self.document.scopes[self.open[self.open.len() - 1]];
+        if let Some(end) = fast_path::statement(self.grammar.text, start as usize, scope) {
             self.document.first_statement.get_or_insert(start);
             self.line_has_statement = true;
             return &self.grammar.text[end..];
@@ -179,33 +179,33 @@ impl<'t, 'f> Reader<'t, 'f> {
                 self.line_has_statement = true;
                 rest
             }
-            Err(trouble) => match self.next_statement(input, &trouble) {
+            Err(syntax_error) => match self.next_statement(input, &syntax_error) {
                 Some(next) => {
                     self.complain_about_end(input, &next);
                     next.at
                 }
                 None => {
-                    self.complain(&trouble, Some(input));
-                    skip_statement(trouble.at).unwrap_or(&[])
+                    self.complain(&syntax_error, Some(input));
+                    skip_statement(syntax_error.at).unwrap_or(&[])
                 }
             },
         }
     }
 
-    fn try_statement(&mut self, input: Input<'t>) -> Result<Input<'t>, Trouble<'t>> {
+    fn try_statement(&mut self, input: Input<'t>) -> Result<Input<'t>, SyntaxError<'t>> {
         if let Some(rest) = input.strip_prefix(b";") {
             return Ok(rest);
         }
         if input.first() == Some(&b'(') {
-            let (rest, text) = escape(input).map_err(trouble)?;
+            let (rest, text) = escape(input).map_err(syntax_error)?;
             let end = self.grammar.position(rest) - 1;
             let text = Span { start: end - text.len() as u32, end };
             let (source, span) = (self.grammar.text, self.span(input, rest));
-            self.group_for(span).add_escape(source, span, text);
+            self.scope_for(span).add_escape(source, span, text);
             return Ok(rest);
         }
         let (body, keyword) =
-            word(input).map_err(|_| Trouble { at: input, reason: Reason::Expected("a statement") })?;
+            word(input).map_err(|_| SyntaxError { at: input, reason: Reason::Expected("a statement") })?;
         match keyword {
             b"def" => self.begin_definition(input, body),
             b"end" => self.end_definition(input, body),
@@ -227,16 +227,16 @@ impl<'t, 'f> Reader<'t, 'f> {
         input: Input<'t>,
         keyword: Input<'t>,
         body: Input<'t>,
-    ) -> Result<Input<'t>, Trouble<'t>> {
+    ) -> Result<Input<'t>, SyntaxError<'t>> {
         let Some(parsed) = self.grammar.statement(keyword, body, &mut self.references) else {
             return self.unknown_statement(input, keyword, body);
         };
-        let (rest, statement) = parsed.map_err(trouble)?;
-        let (rest, ()) = mark(b';', "`;`")(rest).map_err(trouble)?;
+        let (rest, statement) = parsed.map_err(syntax_error)?;
+        let (rest, ()) = mark(b';', "`;`")(rest).map_err(syntax_error)?;
         let span = self.span(input, rest);
         let row = self.open[self.open.len() - 1];
         self.document.first_statement.get_or_insert(span.start);
-        self.document.groups[row].add(self.grammar.text, span, statement, &self.references);
+        self.document.scopes[row].add(self.grammar.text, span, statement, &self.references);
         self.note_inner_comments(input, rest);
         Ok(rest)
     }
@@ -247,9 +247,9 @@ impl<'t, 'f> Reader<'t, 'f> {
         input: Input<'t>,
         keyword: Input<'t>,
         body: Input<'t>,
-    ) -> Result<Input<'t>, Trouble<'t>> {
+    ) -> Result<Input<'t>, SyntaxError<'t>> {
         if !self.options.lax {
-            return Err(Trouble { at: input, reason: Reason::Expected("a statement") });
+            return Err(SyntaxError { at: input, reason: Reason::Expected("a statement") });
         }
         let rest = match keyword {
             // A line of the C preprocessor ends with the line.
@@ -265,7 +265,7 @@ impl<'t, 'f> Reader<'t, 'f> {
                 .help("remove it if no later program reads it"),
         );
         let (text, span) = (self.grammar.text, self.span(input, rest));
-        self.group_for(span).add_unknown(text, span);
+        self.scope_for(span).add_unknown(text, span);
         Ok(rest)
     }
 
@@ -275,12 +275,12 @@ impl<'t, 'f> Reader<'t, 'f> {
         kind: RequestKind,
         input: Input<'t>,
         body: Input<'t>,
-    ) -> Result<Input<'t>, Trouble<'t>> {
-        let (rest, name) = file_name(body).map_err(trouble)?;
+    ) -> Result<Input<'t>, SyntaxError<'t>> {
+        let (rest, name) = file_name(body).map_err(syntax_error)?;
         let quotes = usize::from(rest.len() + name.len() < body.len() && skip_blank(body).starts_with(b"\""));
         let end = self.grammar.position(rest) - quotes as u32;
         let file = Span { start: end - name.len() as u32, end };
-        let (rest, ()) = mark(b';', "`;`")(rest).map_err(trouble)?;
+        let (rest, ()) = mark(b';', "`;`")(rest).map_err(syntax_error)?;
         self.document.requests.push(RequestStatement { kind, span: self.span(input, rest), file });
         Ok(rest)
     }
@@ -300,16 +300,16 @@ impl<'t, 'f> Reader<'t, 'f> {
 
     /// `def ID ;`
     ///
-    /// Opens a group even if something is wrong with the line, so that the
+    /// Opens a scope even if something is wrong with the line, so that the
     /// `end` of the definition has its `def`.
-    fn begin_definition(&mut self, input: Input<'t>, body: Input<'t>) -> Result<Input<'t>, Trouble<'t>> {
-        let row = self.document.groups.len();
+    fn begin_definition(&mut self, input: Input<'t>, body: Input<'t>) -> Result<Input<'t>, SyntaxError<'t>> {
+        let row = self.document.scopes.len();
         let outer = self.open[self.open.len() - 1];
-        let mut group = Group::new(Span::default(), Some(outer));
-        let around = &self.document.groups[outer];
-        group.outer_default =
+        let mut scope = Scope::new(Span::default(), Some(outer));
+        let around = &self.document.scopes[outer];
+        scope.outer_default =
             around.defaults.last().map(|default| (outer, default.color)).or(around.outer_default);
-        self.document.groups.push(group);
+        self.document.scopes.push(scope);
         self.open.push(row);
         // The file is open, too; the first that is too deep is enough to complain about.
         if self.open.len() as u64 == self.options.limits.get(Limit::Nesting) + 2 {
@@ -318,38 +318,38 @@ impl<'t, 'f> Reader<'t, 'f> {
             let help = self.options.limits.remedy(Limit::Nesting, "use fewer");
             self.report(Diagnostic::error(span, "definitions nest too deeply").label("here").help(help));
         }
-        let (rest, name) = wanted(identifier(body), NAME).map_err(trouble)?;
+        let (rest, name) = wanted(identifier(body), NAME).map_err(syntax_error)?;
         let end = self.grammar.position(rest);
         let name = Span { start: end - name.len() as u32, end };
-        let (rest, ()) = mark(b';', "`;`")(rest).map_err(trouble)?;
-        self.document.groups[row].name = name;
+        let (rest, ()) = mark(b';', "`;`")(rest).map_err(syntax_error)?;
+        self.document.scopes[row].name = name;
         self.document.first_statement.get_or_insert(self.grammar.position(input));
-        self.document.groups[outer].add_definition(self.grammar.text, name, row);
+        self.document.scopes[outer].add_definition(self.grammar.text, name, row);
         self.note_inner_comments(input, rest);
         Ok(rest)
     }
 
     /// `end ;`
-    fn end_definition(&mut self, input: Input<'t>, body: Input<'t>) -> Result<Input<'t>, Trouble<'t>> {
-        let (rest, ()) = mark(b';', "`;`")(body).map_err(trouble)?;
+    fn end_definition(&mut self, input: Input<'t>, body: Input<'t>) -> Result<Input<'t>, SyntaxError<'t>> {
+        let (rest, ()) = mark(b';', "`;`")(body).map_err(syntax_error)?;
         if self.open.len() == 1 {
             let reason = Reason::Impossible(
                 1,
                 "there is no open `def` for this `end`",
                 "remove it, or add `def NAME ;` above",
             );
-            return Err(Trouble { at: input, reason });
+            return Err(SyntaxError { at: input, reason });
         }
         self.open.pop();
         self.note_inner_comments(input, rest);
         Ok(rest)
     }
 
-    /// The group being read, into which the statement at `span` is to go.
-    fn group_for(&mut self, span: Span) -> &mut Group<'t> {
+    /// The scope being read, into which the statement at `span` is to go.
+    fn scope_for(&mut self, span: Span) -> &mut Scope<'t> {
         self.document.first_statement.get_or_insert(span.start);
         let row = self.open[self.open.len() - 1];
-        &mut self.document.groups[row]
+        &mut self.document.scopes[row]
     }
 
     fn span(&self, input: Input<'t>, rest: Input<'t>) -> Span {
@@ -369,10 +369,10 @@ impl<'t, 'f> Reader<'t, 'f> {
     }
 
     /// The statement that begins on a line of its own between `input` and the
-    /// trouble: then what is wrong is that the one at `input` has no end.
-    fn next_statement(&self, input: Input<'t>, trouble: &Trouble<'t>) -> Option<Next<'t>> {
-        let Reason::Expected(wanted) = trouble.reason else { return None };
-        let limit = skip_blank(trouble.at);
+    /// syntax_error: then what is wrong is that the one at `input` has no end.
+    fn next_statement(&self, input: Input<'t>, syntax_error: &SyntaxError<'t>) -> Option<Next<'t>> {
+        let Reason::Expected(wanted) = syntax_error.reason else { return None };
+        let limit = skip_blank(syntax_error.at);
         let mut words = Words { rest: input };
         let mut end = words.next()?.behind;
         for word in words {
@@ -413,13 +413,13 @@ impl<'t, 'f> Reader<'t, 'f> {
         self.report(with_usage(finding, statement));
     }
 
-    fn complain(&mut self, trouble: &Trouble<'t>, statement: Option<Input<'t>>) {
-        let at = skip_blank(trouble.at);
+    fn complain(&mut self, syntax_error: &SyntaxError<'t>, statement: Option<Input<'t>>) {
+        let at = skip_blank(syntax_error.at);
         let start = self.grammar.position(at);
         let what = found(at);
         let span = Span { start, end: start + what.len() as u32 };
         let shown = format!("`{}`", shorten(what));
-        let finding = match trouble.reason {
+        let finding = match syntax_error.reason {
             Reason::Expected("a statement") => no_statement(what, span),
             Reason::Expected(wanted) => {
                 let finding = if what.is_empty() {
@@ -474,7 +474,7 @@ impl<'t, 'f> Reader<'t, 'f> {
         if let Some((statement, next)) = self.swallowed_end(row) {
             return self.complain_about_end(statement, &next);
         }
-        let name = self.document.groups[row].name;
+        let name = self.document.scopes[row].name;
         let shown = shorten(name.of(self.grammar.text));
         self.report(
             Diagnostic::error(name, format!("definition `{shown}` is not closed"))
@@ -485,7 +485,7 @@ impl<'t, 'f> Reader<'t, 'f> {
 
     /// A statement without `;` takes the `end` of the next line for the name of a colour.
     fn swallowed_end(&self, row: usize) -> Option<(Input<'t>, Next<'t>)> {
-        self.document.groups[row].statements(self.grammar.text).into_iter().find_map(|span| {
+        self.document.scopes[row].statements(self.grammar.text).into_iter().find_map(|span| {
             let statement = &self.grammar.text[span.start as usize..];
             let mut words = Words { rest: statement };
             let mut end = words.next()?.behind;

@@ -112,7 +112,7 @@ pub struct Scene {
     /// Linear between, 0 outside.
     pub samples: Vec<[f64; 2]>,
     /// `surf`.
-    pub surfaces: Vec<Surface>,
+    pub surfaces: Vec<SurfaceProperties>,
     /// What moves as one, and how: every distinct velocity of the text is a body.
     pub bodies: Bodies,
     /// `v`.
@@ -182,7 +182,7 @@ pub enum ColorValue {
 
 /// How a surface takes light, for programs that follow rays.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Surface {
+pub struct SurfaceProperties {
     /// Its name.
     pub name: NameId,
     /// kd: part of the light that is scattered all round, 0 or more.
@@ -197,7 +197,7 @@ pub struct Surface {
     pub exponent: f64,
 }
 
-impl Surface {
+impl SurfaceProperties {
     /// Refractive index unless given.
     pub const REFRACTION: f64 = 1.0;
     /// Exponent of highlights unless given.
@@ -400,7 +400,7 @@ impl Scene {
     }
 
     /// How a face takes light, if it says so.
-    pub fn surface(&self, face: &Face) -> Option<&Surface> {
+    pub fn surface(&self, face: &Face) -> Option<&SurfaceProperties> {
         match self.illums[face.illum?.index()] {
             Illum::Level(_) => None,
             Illum::Surface(surface) => Some(&self.surfaces[surface.index()]),

@@ -5,7 +5,7 @@ use std::ops::Range;
 use glam::DVec3;
 use ugphysics::Velocity;
 
-use crate::scene::{Camera, Surface};
+use crate::scene::{Camera, SurfaceProperties};
 use crate::source::Span;
 use crate::transform::Transform;
 
@@ -79,7 +79,7 @@ pub(crate) struct ColorStatement {
 #[derive(Debug)]
 pub(crate) struct SurfaceStatement {
     pub name: Span,
-    pub surface: Surface,
+    pub surface: SurfaceProperties,
 }
 
 #[derive(Debug)]

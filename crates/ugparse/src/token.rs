@@ -10,11 +10,11 @@ use nom::Err;
 pub(crate) type Input<'a> = &'a [u8];
 
 /// Result of a parser of this crate.
-pub(crate) type Parsed<'a, T> = nom::IResult<Input<'a>, T, Trouble<'a>>;
+pub(crate) type Parsed<'a, T> = nom::IResult<Input<'a>, T, SyntaxError<'a>>;
 
 /// What a parser did not like, and where.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Trouble<'a> {
+pub(crate) struct SyntaxError<'a> {
     pub at: Input<'a>,
     pub reason: Reason,
 }
@@ -34,7 +34,7 @@ pub(crate) enum Reason {
     Impossible(usize, &'static str, &'static str),
 }
 
-impl<'a> nom::error::ParseError<Input<'a>> for Trouble<'a> {
+impl<'a> nom::error::ParseError<Input<'a>> for SyntaxError<'a> {
     fn from_error_kind(at: Input<'a>, _: nom::error::ErrorKind) -> Self {
         Self { at, reason: Reason::Expected("something else") }
     }
@@ -46,18 +46,18 @@ impl<'a> nom::error::ParseError<Input<'a>> for Trouble<'a> {
 
 /// "Not this, perhaps something else."
 pub(crate) fn backtrack<T>(at: Input<'_>, reason: Reason) -> Parsed<'_, T> {
-    Err(Err::Error(Trouble { at, reason }))
+    Err(Err::Error(SyntaxError { at, reason }))
 }
 
 /// "Definitely wrong."
 pub(crate) fn fail<T>(at: Input<'_>, reason: Reason) -> Parsed<'_, T> {
-    Err(Err::Failure(Trouble { at, reason }))
+    Err(Err::Failure(SyntaxError { at, reason }))
 }
 
 /// Turns "perhaps something else" into "definitely wrong".
 pub(crate) fn require<'a, T>(result: Parsed<'a, T>) -> Parsed<'a, T> {
     result.map_err(|err| match err {
-        Err::Error(trouble) => Err::Failure(trouble),
+        Err::Error(syntax_error) => Err::Failure(syntax_error),
         other => other,
     })
 }
@@ -65,7 +65,7 @@ pub(crate) fn require<'a, T>(result: Parsed<'a, T>) -> Parsed<'a, T> {
 /// Says what would have been welcome in place of the parser's own words.
 pub(crate) fn wanted<'a, T>(result: Parsed<'a, T>, what: &'static str) -> Parsed<'a, T> {
     result.map_err(|err| match err {
-        Err::Error(Trouble { at, .. }) => Err::Error(Trouble { at, reason: Reason::Expected(what) }),
+        Err::Error(SyntaxError { at, .. }) => Err::Error(SyntaxError { at, reason: Reason::Expected(what) }),
         other => other,
     })
 }
@@ -315,12 +315,12 @@ pub(crate) fn file_name(input: Input<'_>) -> Parsed<'_, Input<'_>> {
 const FILE_NAME: &str = "a file name, in quotes if there are blanks in it";
 
 /// What is behind the next `;` outside comments.
-pub(crate) fn skip_statement(mut input: Input<'_>) -> Result<Input<'_>, Trouble<'_>> {
+pub(crate) fn skip_statement(mut input: Input<'_>) -> Result<Input<'_>, SyntaxError<'_>> {
     loop {
         match memchr2(b';', b'{', input) {
-            None => return Err(Trouble { at: &[], reason: Reason::Expected("`;`") }),
+            None => return Err(SyntaxError { at: &[], reason: Reason::Expected("`;`") }),
             Some(idx) if input[idx] == b';' => return Ok(&input[idx + 1..]),
-            Some(idx) => input = comment(&input[idx..]).map_err(trouble)?.0,
+            Some(idx) => input = comment(&input[idx..]).map_err(syntax_error)?.0,
         }
     }
 }
@@ -342,10 +342,10 @@ pub(crate) fn statement_start(before: Input<'_>) -> usize {
     before[..idx].iter().rposition(|&byte| ends_word(byte)).map_or(0, |end| end + 1)
 }
 
-/// The trouble of a parser; our parsers read whole texts, so nothing is ever incomplete.
-pub(crate) fn trouble(err: Err<Trouble<'_>>) -> Trouble<'_> {
+/// The syntax_error of a parser; our parsers read whole texts, so nothing is ever incomplete.
+pub(crate) fn syntax_error(err: Err<SyntaxError<'_>>) -> SyntaxError<'_> {
     match err {
-        Err::Error(trouble) | Err::Failure(trouble) => trouble,
-        Err::Incomplete(_) => Trouble { at: &[], reason: Reason::Expected("more text") },
+        Err::Error(syntax_error) | Err::Failure(syntax_error) => syntax_error,
+        Err::Incomplete(_) => SyntaxError { at: &[], reason: Reason::Expected("more text") },
     }
 }

@@ -10,7 +10,8 @@ use crate::chunked_writer::ChunkedWriter;
 use crate::contours::Contours;
 use crate::names::NameId;
 use crate::scene::{
-    Camera, Color, ColorId, ColorValue, Comment, Illum, Item, Light, LightKind, Projection, Scene, Surface,
+    Camera, Color, ColorId, ColorValue, Comment, Illum, Item, Light, LightKind, Projection, Scene,
+    SurfaceProperties,
 };
 use crate::stage_statement;
 
@@ -319,14 +320,16 @@ impl<'s> Writer<'s> {
         self.text(";");
     }
 
-    fn surface(&mut self, surface: &Surface) {
+    fn surface(&mut self, surface: &SurfaceProperties) {
         self.text("surf");
         self.name(surface.name);
         self.numbers(&[surface.diffuse, surface.specular, surface.transmitted]);
-        if (surface.refraction, surface.exponent) != (Surface::REFRACTION, Surface::EXPONENT) {
+        if (surface.refraction, surface.exponent)
+            != (SurfaceProperties::REFRACTION, SurfaceProperties::EXPONENT)
+        {
             self.number(surface.refraction);
         }
-        if surface.exponent != Surface::EXPONENT {
+        if surface.exponent != SurfaceProperties::EXPONENT {
             self.number(surface.exponent);
         }
         self.text(";");

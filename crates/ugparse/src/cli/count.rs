@@ -7,11 +7,11 @@ use serde_json::{Map, Value, json};
 use ugphysics::Velocity;
 
 use crate::cli::measure::{Edges, bodies, corner_count, thickest_face};
-use crate::diagnostic::Place;
-use crate::group::Group;
-use crate::parallel::read_all;
+use crate::diagnostic::Location;
+use crate::parallel_reader::read_document;
 use crate::reader::line_marks;
 use crate::scene::Scene;
+use crate::scope::Scope;
 use crate::stage_statement;
 use crate::statement::Repeat;
 use crate::{Options, Parsed, Source};
@@ -23,10 +23,10 @@ pub(crate) struct Counts {
     faces_with_holes: usize,
     bounds: Option<(DVec3, DVec3)>,
     /// The face that is least flat, and its thickness over its size.
-    thickest: Option<(FacePlace, f64)>,
+    thickest: Option<(FaceLocation, f64)>,
     edges: Edges,
     /// The face that disagrees with most of its neighbours, and with how many edges.
-    turned: Option<(FacePlace, u32)>,
+    turned: Option<(FaceLocation, u32)>,
     bodies: Vec<Body>,
 }
 
@@ -39,9 +39,9 @@ struct Statements {
     placed: Option<usize>,
 }
 
-struct FacePlace {
+struct FaceLocation {
     name: Option<String>,
-    place: Place,
+    place: Location,
 }
 
 struct Body {
@@ -54,9 +54,9 @@ impl Counts {
     pub fn new(source: &Source, parsed: &Parsed, options: &Options) -> Self {
         let Parsed { scene, origins, .. } = parsed;
         let marks = line_marks(&source.text);
-        let face_place = |row: usize| FacePlace {
+        let face_place = |row: usize| FaceLocation {
             name: scene.faces[row].name.map(|name| scene.names.get(name).to_string()),
-            place: Place::new(source, &marks, origins.faces[row].start),
+            place: Location::new(source, &marks, origins.faces[row].start),
         };
         let edges = Edges::new(scene);
         Self {
@@ -149,9 +149,9 @@ impl Counts {
     }
 }
 
-impl FacePlace {
+impl FaceLocation {
     fn text(&self) -> String {
-        let Place { file, line, .. } = &self.place;
+        let Location { file, line, .. } = &self.place;
         match &self.name {
             Some(name) => format!("`{name}`, {file}:{line}"),
             None => format!("{file}:{line}"),
@@ -169,28 +169,28 @@ fn point(p: DVec3) -> String {
 
 /// Statements by kind. The text is read a second time, since placing it used its tables up.
 fn statements(source: &Source, scene: &Scene, options: &Options) -> Vec<Statements> {
-    let mut document = read_all(&source.text, options, &mut Vec::new());
+    let mut document = read_document(&source.text, options, &mut Vec::new());
     stage_statement::take(&source.text, &mut document, &mut Vec::new());
-    let written = |count: fn(&Group<'_>) -> usize| document.groups.iter().map(count).sum();
+    let written = |count: fn(&Scope<'_>) -> usize| document.scopes.iter().map(count).sum();
     let row =
-        |kind, count: fn(&Group<'_>) -> usize, placed| Statements { kind, written: written(count), placed };
+        |kind, count: fn(&Scope<'_>) -> usize, placed| Statements { kind, written: written(count), placed };
     vec![
-        row("colours", |group| group.colors.table.len(), Some(scene.colors.len())),
-        row("surfaces", |group| group.surfaces.table.len(), Some(scene.surfaces.len())),
-        row("vertices", |group| group.vertices.len(), Some(scene.vertices.len())),
-        row("faces", |group| group.faces.len(), Some(scene.faces.len())),
-        row("wires", |group| group.wires.len(), Some(scene.wires.len())),
-        row("lights", |group| group.lights.len(), Some(scene.lights.len())),
-        row("cameras", |group| group.cameras.len(), Some(scene.cameras.len())),
-        row("escapes", |group| group.escapes.len(), Some(scene.escapes.len())),
-        row("unknown", |group| group.unknown.len(), Some(scene.unknown.len())),
-        row("definitions", |group| group.definitions.len(), None),
-        row("instances", |group| group.calls.len() - array_count(group), None),
+        row("colours", |scope| scope.colors.table.len(), Some(scene.colors.len())),
+        row("surfaces", |scope| scope.surfaces.table.len(), Some(scene.surfaces.len())),
+        row("vertices", |scope| scope.vertices.len(), Some(scene.vertices.len())),
+        row("faces", |scope| scope.faces.len(), Some(scene.faces.len())),
+        row("wires", |scope| scope.wires.len(), Some(scene.wires.len())),
+        row("lights", |scope| scope.lights.len(), Some(scene.lights.len())),
+        row("cameras", |scope| scope.cameras.len(), Some(scene.cameras.len())),
+        row("escapes", |scope| scope.escapes.len(), Some(scene.escapes.len())),
+        row("unknown", |scope| scope.unknown.len(), Some(scene.unknown.len())),
+        row("definitions", |scope| scope.definitions.len(), None),
+        row("instances", |scope| scope.calls.len() - array_count(scope), None),
         row("arrays", array_count, None),
     ]
 }
 
-fn array_count(group: &Group<'_>) -> usize {
+fn array_count(scope: &Scope<'_>) -> usize {
     let is_array = |repeat: &Repeat| matches!(repeat, Repeat::Times(..));
-    group.calls.rows.iter().filter(|call| is_array(&call.statement.repeat)).count()
+    scope.calls.rows.iter().filter(|call| is_array(&call.statement.repeat)).count()
 }

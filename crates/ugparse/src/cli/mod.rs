@@ -175,7 +175,7 @@ fn summary(findings: &Diagnostics) -> String {
 }
 
 fn findings_json(findings: &Diagnostics) -> Value {
-    let places = findings.places().into_iter().zip(findings.other_places());
+    let places = findings.locations().into_iter().zip(findings.other_locations());
     let rows = findings.list.iter().zip(places).map(|(finding, (place, other))| {
         let other = other.map(|(place, label)| {
             json!({ "file": place.file, "line": place.line, "column": place.column, "label": label })

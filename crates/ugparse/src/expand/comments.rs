@@ -1,20 +1,20 @@
 //! Comments go with the statements they stand at.
 
 use super::Placer;
-use crate::group::Group;
 use crate::reader::CommentSpan;
 use crate::scene::{Comment, Item};
+use crate::scope::Scope;
 use crate::source::Span;
 
 impl Placer<'_, '_> {
     /// Notes where colours and surfaces stand.
-    pub(super) fn note_definitions(&mut self, file: &Group<'_>) {
+    pub(super) fn note_definitions(&mut self, file: &Scope<'_>) {
         let Some(emitted) = &mut self.emitted else { return };
-        let defined = self.groups;
-        let groups = || std::iter::once(file).chain(defined);
-        let colors = groups().flat_map(|group| &group.colors.table.spans);
+        let defined = self.scopes;
+        let scopes = || std::iter::once(file).chain(defined);
+        let colors = scopes().flat_map(|scope| &scope.colors.table.spans);
         emitted.extend(colors.enumerate().map(|(row, &span)| (span, Item::Color(row as u32))));
-        let surfaces = groups().flat_map(|group| &group.surfaces.table.spans);
+        let surfaces = scopes().flat_map(|scope| &scope.surfaces.table.spans);
         emitted.extend(surfaces.enumerate().map(|(row, &span)| (span, Item::Surface(row as u32))));
     }
 

@@ -1,13 +1,13 @@
-//! Puts everything in its place: groups and what they place become a flat scene.
+//! Puts everything in its place: scopes and what they place become a flat scene.
 //!
 //! The file's own tables become those of the scene; definitions are copied
 //! behind them, once for each instance.
 
 mod cameras;
 mod comments;
-mod frame;
 mod names;
 mod paths;
+mod placement;
 mod queue;
 mod rows;
 
@@ -16,15 +16,15 @@ use std::collections::BTreeMap;
 use rustc_hash::FxHashMap;
 
 use crate::diagnostic::Diagnostic;
-use crate::group::{BodyTable, Call, Counts, Group};
 use crate::reader::Document;
 use crate::resolve::{Link, Links};
 use crate::scene::{ColorId, Item, Scene, Vertex, VertexId};
+use crate::scope::{BodyTable, Call, Counts, Scope};
 use crate::source::Span;
 use crate::statement::Repeat;
 
 use cameras::NestedCamera;
-use frame::{Frame, Placement};
+use placement::{Inherited, Placement};
 use queue::{Queue, Queues};
 
 /// Where in the text the rows of a flat scene come from.
@@ -80,22 +80,22 @@ fn expand_here(
     // Only comments behind the head ask where statements stand.
     let first_statement = document.first_statement.unwrap_or(u32::MAX);
     let has_comments = document.comments.last().is_some_and(|comment| comment.text.start > first_statement);
-    let file = std::mem::take(&mut document.groups[0]);
+    let file = std::mem::take(&mut document.scopes[0]);
     let mut placer = Placer {
         text,
-        groups: &document.groups,
+        scopes: &document.scopes,
         links,
         scene,
         origins: Origins::default(),
         emitted: has_comments.then(Vec::new),
-        placed_before: vec![false; document.groups.len()],
+        placed_before: vec![false; document.scopes.len()],
         next_vertex: 0,
         path_rows: FxHashMap::default(),
         has_linked_paths: false,
         undefined: BTreeMap::new(),
-        first_illums: vec![None; document.groups.len()],
+        first_illums: vec![None; document.scopes.len()],
         bodies: BodyTable::default(),
-        trouble: None,
+        syntax_error: None,
         flattened: BTreeMap::new(),
         nested_cameras: Vec::new(),
     };
@@ -107,7 +107,7 @@ fn expand_here(
     placer.make_names_unique();
     placer.place_comments(&document.comments, first_statement);
     findings.extend(placer.prefer_outer_camera());
-    findings.extend(placer.trouble);
+    findings.extend(placer.syntax_error);
     findings.extend(placer.flattened.into_values());
     placer.scene.bodies = placer.bodies.bodies;
     (placer.scene, placer.origins)
@@ -116,15 +116,15 @@ fn expand_here(
 struct Placer<'d, 't> {
     text: &'t [u8],
     /// The definitions; the row of the file is empty.
-    groups: &'d [Group<'t>],
+    scopes: &'d [Scope<'t>],
     links: &'d Links,
     scene: Scene,
     origins: Origins,
     /// Where each statement stands and the first row it gave, if comments ask for it.
     emitted: Option<Vec<(Span, Item)>>,
-    /// Vertices of the group have been placed.
+    /// Vertices of the scope have been placed.
     placed_before: Vec<bool>,
-    /// Where the vertices of the next group begin, when all vertices are placed.
+    /// Where the vertices of the next scope begin, when all vertices are placed.
     next_vertex: usize,
     /// Placed vertices by path, if something names one.
     path_rows: FxHashMap<String, VertexId>,
@@ -132,11 +132,11 @@ struct Placer<'d, 't> {
     has_linked_paths: bool,
     /// Paths that lead nowhere, by their positions.
     undefined: BTreeMap<u32, Diagnostic>,
-    /// For each group that has been placed, the row of its first illum.
+    /// For each scope that has been placed, the row of its first illum.
     first_illums: Vec<Option<usize>>,
     bodies: BodyTable,
     /// The first thing that cannot be placed.
-    trouble: Option<Diagnostic>,
+    syntax_error: Option<Diagnostic>,
     /// Warnings for faces that have no area where they are placed, once for
     /// each statement, by its position.
     flattened: BTreeMap<u32, Diagnostic>,
@@ -146,20 +146,20 @@ struct Placer<'d, 't> {
 
 impl Placer<'_, '_> {
     /// The file's tables become the scene's, with what calls give in between.
-    fn file(&mut self, mut file: Group<'_>) {
+    fn file(&mut self, mut file: Scope<'_>) {
         self.bodies = std::mem::take(&mut file.bodies);
         if self.emitted.is_some() {
             let names = file.vertices.spans.iter();
-            let spans: Vec<Span> = names.map(|&name| Group::vertex_statement(self.text, name)).collect();
+            let spans: Vec<Span> = names.map(|&name| Scope::vertex_statement(self.text, name)).collect();
             self.note(&spans, 0, Item::Vertex);
         }
         self.scene.vertices = std::mem::take(&mut file.vertices.rows);
         self.origins.vertices = std::mem::take(&mut file.vertices.spans);
         // Faces may name vertices that come later, also in instances, so vertices go first.
-        let frame = Frame::file();
+        let inherited = Inherited::file();
         self.next_vertex = self.scene.vertices.len();
         for (call, link) in file.calls.rows.iter().zip(&self.links.calls[0]) {
-            self.call(call, link, &frame, Self::vertices);
+            self.call(call, link, &inherited, Self::vertices);
         }
         self.enter_paths(&file);
         self.link_paths(&mut file);
@@ -177,54 +177,55 @@ impl Placer<'_, '_> {
         };
         for (call, link) in file.calls.rows.iter().zip(&self.links.calls[0]) {
             self.move_rows(&mut queues, call.before);
-            self.call(call, link, &frame, Self::group);
+            self.call(call, link, &inherited, Self::scope);
         }
         self.move_rows(&mut queues, end);
     }
 
     /// Copies the vertices of a definition, and of what it places.
-    fn vertices(&mut self, row: usize, frame: &Frame) {
-        let group = &self.groups[row];
+    fn vertices(&mut self, row: usize, inherited: &Inherited) {
+        let scope = &self.scopes[row];
         let first_time = !std::mem::replace(&mut self.placed_before[row], true);
-        for (vertex, &span) in group.vertices.rows.iter().zip(&group.vertices.spans) {
-            let position = frame.transform.point(vertex.position);
-            let normal = vertex.normal.map(|normal| frame.transform.normal(normal));
+        for (vertex, &span) in scope.vertices.rows.iter().zip(&scope.vertices.spans) {
+            let position = inherited.transform.point(vertex.position);
+            let normal = vertex.normal.map(|normal| inherited.transform.normal(normal));
             self.check_finite(span, position);
             self.check_finite(span, normal.unwrap_or_default());
-            let name = self.name(group, vertex.name, frame);
+            let name = self.name(scope, vertex.name, inherited);
             if first_time && self.emitted.is_some() {
                 let row = self.scene.vertices.len();
-                self.note(&[Group::vertex_statement(self.text, span)], row, Item::Vertex);
+                self.note(&[Scope::vertex_statement(self.text, span)], row, Item::Vertex);
             }
             self.scene.vertices.push(Vertex { name, position, color: vertex.color, normal });
             self.origins.vertices.push(span);
         }
-        for (call, link) in group.calls.rows.iter().zip(&self.links.calls[row]) {
-            self.call(call, link, frame, Self::vertices);
+        for (call, link) in scope.calls.rows.iter().zip(&self.links.calls[row]) {
+            self.call(call, link, inherited, Self::vertices);
         }
     }
 
     /// Copies all but the vertices, which come in the same order as before.
-    fn group(&mut self, row: usize, frame: &Frame) {
-        let group = &self.groups[row];
-        let bodies = self.bodies.enter_all(&group.bodies);
+    fn scope(&mut self, row: usize, inherited: &Inherited) {
+        let scope = &self.scopes[row];
+        let bodies = self.bodies.enter_all(&scope.bodies);
         let first_vertex = self.next_vertex as u32;
-        self.next_vertex += group.vertices.len();
-        let paths = group.paths.iter();
-        let paths = paths.filter_map(|path| Some((path.corner, self.find_path(&frame.prefix, path.name)?)));
+        self.next_vertex += scope.vertices.len();
+        let paths = scope.paths.iter();
+        let paths =
+            paths.filter_map(|path| Some((path.corner, self.find_path(&inherited.prefix, path.name)?)));
         let paths: FxHashMap<usize, VertexId> = paths.collect();
-        if paths.len() < group.paths.len() {
+        if paths.len() < scope.paths.len() {
             return;
         }
-        let default = group.outer_default;
+        let default = scope.outer_default;
         let first_time = self.first_illums[row].is_none();
         let first_illum = *self.first_illums[row].get_or_insert_with(|| {
-            self.scene.illums.extend_from_slice(&group.illums);
-            self.scene.illums.len() - group.illums.len()
+            self.scene.illums.extend_from_slice(&scope.illums);
+            self.scene.illums.len() - scope.illums.len()
         });
         let placement = Placement {
-            group,
-            frame,
+            scope,
+            inherited,
             first_vertex,
             paths,
             bodies: &bodies,
@@ -235,25 +236,31 @@ impl Placer<'_, '_> {
                 .map(|(outer, color)| ColorId::from_index(self.links.first_colors[outer] + color as usize)),
         };
         let mut done = Counts::default();
-        for (call, link) in group.calls.rows.iter().zip(&self.links.calls[row]) {
+        for (call, link) in scope.calls.rows.iter().zip(&self.links.calls[row]) {
             self.rows(&placement, done, call.before);
             done = call.before;
-            self.call(call, link, frame, Self::group);
+            self.call(call, link, inherited, Self::scope);
         }
-        self.rows(&placement, done, group.counts());
+        self.rows(&placement, done, scope.counts());
     }
 
     /// Lets `place` see to every copy that a call asks for.
-    fn call(&mut self, call: &Call, link: &Link, frame: &Frame, place: fn(&mut Self, usize, &Frame)) {
+    fn call(
+        &mut self,
+        call: &Call,
+        link: &Link,
+        inherited: &Inherited,
+        place: fn(&mut Self, usize, &Inherited),
+    ) {
         let (Some(target), label) = (link.target, &link.label) else { return };
         let Call { statement: call, color, .. } = call;
         let own_body = call.velocity.map(|velocity| self.bodies.moving_with(velocity));
-        let colon = if frame.prefix.is_empty() || label.is_empty() { "" } else { ":" };
-        let mut inner = Frame {
-            transform: call.inner.then(&frame.transform),
-            prefix: format!("{}{colon}{label}", frame.prefix),
-            color: color.or(frame.color),
-            body: frame.body.or(own_body),
+        let colon = if inherited.prefix.is_empty() || label.is_empty() { "" } else { ":" };
+        let mut inner = Inherited {
+            transform: call.inner.then(&inherited.transform),
+            prefix: format!("{}{colon}{label}", inherited.prefix),
+            color: color.or(inherited.color),
+            body: inherited.body.or(own_body),
         };
         match &call.repeat {
             Repeat::Once => place(self, target, &inner),
@@ -262,7 +269,7 @@ impl Placer<'_, '_> {
                 let mut steps = call.inner;
                 for copy in 0..*copies {
                     inner.prefix = format!("{base}#{copy}");
-                    inner.transform = steps.then(&frame.transform);
+                    inner.transform = steps.then(&inherited.transform);
                     place(self, target, &inner);
                     steps = steps.then(step);
                 }

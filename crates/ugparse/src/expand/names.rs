@@ -1,33 +1,33 @@
 //! Names of what is placed.
 
 use super::Placer;
-use super::frame::Frame;
-use crate::group::Group;
+use super::placement::Inherited;
 use crate::names::{NameId, Names, UniqueNames};
 use crate::scene::Scene;
+use crate::scope::Scope;
 
 impl Placer<'_, '_> {
-    pub(super) fn name(&mut self, group: &Group<'_>, name: NameId, frame: &Frame) -> NameId {
+    pub(super) fn name(&mut self, scope: &Scope<'_>, name: NameId, inherited: &Inherited) -> NameId {
         self.scene.names.add_parts(&[
-            &frame.prefix,
-            if frame.prefix.is_empty() { "" } else { ":" },
-            group.names.get(name),
+            &inherited.prefix,
+            if inherited.prefix.is_empty() { "" } else { ":" },
+            scope.names.get(name),
         ])
     }
 
     pub(super) fn optional_name(
         &mut self,
-        group: &Group<'_>,
+        scope: &Scope<'_>,
         name: Option<NameId>,
-        frame: &Frame,
+        inherited: &Inherited,
     ) -> Option<NameId> {
-        name.map(|name| self.name(group, name, frame))
+        name.map(|name| self.name(scope, name, inherited))
     }
 
     /// A path, or the name of an unnamed colour, may meet a name that somebody
     /// wrote; the later one in the table gives way.
     pub(super) fn make_names_unique(&mut self) {
-        let is_flat = self.groups.len() == 1;
+        let is_flat = self.scopes.len() == 1;
         let Scene { names, vertices, colors, surfaces, .. } = &mut self.scene;
         rename_duplicates(names, colors.iter_mut().map(|color| &mut color.name));
         rename_duplicates(names, surfaces.iter_mut().map(|surface| &mut surface.name));

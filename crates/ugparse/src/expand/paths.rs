@@ -1,15 +1,15 @@
 //! Vertices of instances, by their paths.
 
 use super::Placer;
-use crate::group::{Group, as_str};
-use crate::resolve::{flatness, is_short, left_out, short_wire, undefined};
+use crate::resolve::{degeneracy, is_short, omitted, short_wire, undefined};
 use crate::scene::{Face, VertexId};
+use crate::scope::{Scope, as_str};
 use crate::source::Span;
 
 impl Placer<'_, '_> {
     /// Notes the names of placed vertices, if anything asks for one.
-    pub(super) fn enter_paths(&mut self, file: &Group<'_>) {
-        if file.paths.is_empty() && self.groups.iter().all(|group| group.paths.is_empty()) {
+    pub(super) fn enter_paths(&mut self, file: &Scope<'_>) {
+        if file.paths.is_empty() && self.scopes.iter().all(|scope| scope.paths.is_empty()) {
             return;
         }
         for (row, vertex) in self.scene.vertices.iter().enumerate().skip(self.next_vertex) {
@@ -33,7 +33,7 @@ impl Placer<'_, '_> {
 
     /// Links the file's corners that name vertices of instances. Faces that turn
     /// out to be flat are left out, and wires that are too short.
-    pub(super) fn link_paths(&mut self, file: &mut Group<'_>) {
+    pub(super) fn link_paths(&mut self, file: &mut Scope<'_>) {
         for path in std::mem::take(&mut file.paths) {
             let Some(vertex) = self.find_path("", path.name) else { continue };
             file.contours.parts_mut().0[path.corner] = vertex;
@@ -42,12 +42,12 @@ impl Placer<'_, '_> {
         if !self.has_linked_paths || !self.undefined.is_empty() {
             return;
         }
-        let problem = |face: &Face| flatness(&file.contours, &self.scene.vertices, face);
+        let problem = |face: &Face| degeneracy(&file.contours, &self.scene.vertices, face);
         let faces = file.faces.rows.iter().enumerate();
         let flat: Vec<_> = faces.filter_map(|(row, face)| Some((row, problem(face)?))).collect();
         for &(row, problem) in &flat {
             let span = file.faces.spans[row];
-            let warning = left_out(self.text, span, "face", problem, "remove it, or mend its vertices");
+            let warning = omitted(self.text, span, "face", problem, "remove it, or mend its vertices");
             self.flattened.insert(span.start, warning);
         }
         file.remove_faces(&flat.into_iter().map(|(row, _)| row).collect::<Vec<_>>());

@@ -1,8 +1,8 @@
 //! Rows of the file on their way into the scene: moved, not copied.
 
 use super::Placer;
-use crate::group::{Counts, Rows};
 use crate::scene::{Camera, Face, Item, Light, Scene, Wire};
+use crate::scope::{Counts, Rows};
 use crate::source::Span;
 
 impl Placer<'_, '_> {

@@ -6,17 +6,17 @@ use glam::DVec3;
 
 use super::Placer;
 use super::cameras::NestedCamera;
-use super::frame::Placement;
+use super::placement::Placement;
 use crate::diagnostic::Diagnostic;
-use crate::group::Counts;
 use crate::resolve::{face_name, has_three, is_short, short_wire};
 use crate::scene::{Camera, Face, IllumId, Item, Light, LightKind, VertexId, Wire, newell_normal};
+use crate::scope::Counts;
 use crate::source::Span;
 
 impl Placer<'_, '_> {
     /// Places all but vertices and calls, from `start` up to `end`.
     pub(super) fn rows(&mut self, placement: &Placement<'_>, start: Counts, end: Counts) {
-        let group = placement.group;
+        let scope = placement.scope;
         for row in start.faces..end.faces {
             self.face(placement, row);
         }
@@ -31,10 +31,10 @@ impl Placer<'_, '_> {
         }
         if placement.first_time {
             let (escapes, unknown) = (start.escapes..end.escapes, start.unknown..end.unknown);
-            self.note(&group.escapes.spans[escapes.clone()], self.scene.escapes.len(), Item::Escape);
-            self.scene.escapes.extend_from_slice(&group.escapes.rows[escapes]);
-            self.note(&group.unknown.spans[unknown.clone()], self.scene.unknown.len(), Item::Unknown);
-            self.scene.unknown.extend_from_slice(&group.unknown.rows[unknown]);
+            self.note(&scope.escapes.spans[escapes.clone()], self.scene.escapes.len(), Item::Escape);
+            self.scene.escapes.extend_from_slice(&scope.escapes.rows[escapes]);
+            self.note(&scope.unknown.spans[unknown.clone()], self.scene.unknown.len(), Item::Unknown);
+            self.scene.unknown.extend_from_slice(&scope.unknown.rows[unknown]);
         }
     }
 
@@ -45,15 +45,15 @@ impl Placer<'_, '_> {
     }
 
     fn face(&mut self, placement: &Placement<'_>, row: usize) {
-        let Placement { group, frame, .. } = placement;
-        let (face, span) = (&group.faces.rows[row], group.faces.spans[row]);
+        let Placement { scope, inherited, .. } = placement;
+        let (face, span) = (&scope.faces.rows[row], scope.faces.spans[row]);
         if !self.has_area(placement, face, span) {
             return;
         }
         self.note_first(placement, span, self.scene.faces.len(), Item::Face);
         let placed = Face {
-            name: self.optional_name(group, face.name, frame),
-            contours: self.contours(placement, face.contours.clone(), frame.transform.mirrored),
+            name: self.optional_name(scope, face.name, inherited),
+            contours: self.contours(placement, face.contours.clone(), inherited.transform.mirrored),
             color: placement.color(face.color, row, |default| default.first_face),
             illum: face.illum.map(|illum| IllumId::from_index(placement.first_illum + illum.index())),
             body: placement.body(face.body),
@@ -63,16 +63,16 @@ impl Placer<'_, '_> {
     }
 
     fn wire(&mut self, placement: &Placement<'_>, row: usize) {
-        let Placement { group, frame, .. } = placement;
-        let (wire, span) = (&group.wires.rows[row], group.wires.spans[row]);
+        let Placement { scope, inherited, .. } = placement;
+        let (wire, span) = (&scope.wires.rows[row], scope.wires.spans[row]);
         // One with corners by path comes as far as this.
-        if is_short(&group.contours, wire) {
+        if is_short(&scope.contours, wire) {
             self.flattened.entry(span.start).or_insert_with(|| short_wire(self.text, span));
             return;
         }
         self.note_first(placement, span, self.scene.wires.len(), Item::Wire);
         let placed = Wire {
-            name: self.optional_name(group, wire.name, frame),
+            name: self.optional_name(scope, wire.name, inherited),
             contours: self.contours(placement, wire.contours.clone(), false),
             color: placement.color(wire.color, row, |default| default.first_wire),
             body: placement.body(wire.body),
@@ -80,7 +80,7 @@ impl Placer<'_, '_> {
         self.scene.wires.push(placed);
     }
 
-    /// Copies contours; a mirrored frame reverses their direction but keeps the first vertex.
+    /// Copies contours; a mirrored inherited reverses their direction but keeps the first vertex.
     fn contours(&mut self, placement: &Placement<'_>, rows: Range<u32>, reversed: bool) -> Range<u32> {
         self.scene.contours.push_all(rows.map(|row| {
             let corners = placement.corners(row);
@@ -118,24 +118,24 @@ impl Placer<'_, '_> {
     }
 
     fn light(&mut self, placement: &Placement<'_>, row: usize) {
-        let Placement { group, frame, .. } = placement;
-        let (light, span) = (&group.lights.rows[row], group.lights.spans[row]);
+        let Placement { scope, inherited, .. } = placement;
+        let (light, span) = (&scope.lights.rows[row], scope.lights.spans[row]);
         self.note_first(placement, span, self.scene.lights.len(), Item::Light);
         let kind = match light.kind {
             LightKind::Ambient => LightKind::Ambient,
             LightKind::Directional(toward) => {
-                let toward = frame.transform.direction(toward);
+                let toward = inherited.transform.direction(toward);
                 self.check_direction(span, toward);
                 LightKind::Directional(toward)
             }
             LightKind::Local { position, radius } => {
-                let position = frame.transform.point(position);
+                let position = inherited.transform.point(position);
                 self.check_finite(span, position);
                 LightKind::Local { position, radius }
             }
         };
         let placed = Light {
-            name: self.optional_name(group, light.name, frame),
+            name: self.optional_name(scope, light.name, inherited),
             kind,
             motion: placement.light_motion(light.motion),
             ..light.clone()
@@ -144,21 +144,21 @@ impl Placer<'_, '_> {
     }
 
     fn camera(&mut self, placement: &Placement<'_>, row: usize) {
-        let Placement { group, frame, .. } = placement;
-        let (camera, span) = (&group.cameras.rows[row], group.cameras.spans[row]);
+        let Placement { scope, inherited, .. } = placement;
+        let (camera, span) = (&scope.cameras.rows[row], scope.cameras.spans[row]);
         self.note_first(placement, span, self.scene.cameras.len(), Item::Camera);
         let placed = Camera {
-            name: self.optional_name(group, camera.name, frame),
-            center: camera.center.map(|point| frame.transform.point(point)),
-            eye: camera.eye.map(|point| frame.transform.point(point)),
-            up: camera.up.map(|up| frame.transform.direction(up)),
+            name: self.optional_name(scope, camera.name, inherited),
+            center: camera.center.map(|point| inherited.transform.point(point)),
+            eye: camera.eye.map(|point| inherited.transform.point(point)),
+            up: camera.up.map(|up| inherited.transform.direction(up)),
             ..camera.clone()
         };
         for point in [placed.center, placed.eye].into_iter().flatten() {
             self.check_finite(span, point);
         }
         placed.up.into_iter().for_each(|up| self.check_direction(span, up));
-        let path = if placed.name.is_none() { frame.prefix.clone() } else { String::new() };
+        let path = if placed.name.is_none() { inherited.prefix.clone() } else { String::new() };
         self.nested_cameras.push(NestedCamera { row: self.scene.cameras.len(), path });
         self.scene.cameras.push(placed);
         self.origins.cameras.push(span);
@@ -166,7 +166,7 @@ impl Placer<'_, '_> {
 
     pub(super) fn check_finite(&mut self, span: Span, place: DVec3) {
         if !place.is_finite() {
-            self.trouble.get_or_insert_with(|| {
+            self.syntax_error.get_or_insert_with(|| {
                 Diagnostic::error(span, "coordinates overflow when this is placed")
                     .label("here")
                     .help("use smaller numbers")
@@ -177,7 +177,7 @@ impl Placer<'_, '_> {
     fn check_direction(&mut self, span: Span, direction: DVec3) {
         self.check_finite(span, direction);
         if direction == DVec3::ZERO {
-            self.trouble.get_or_insert_with(|| {
+            self.syntax_error.get_or_insert_with(|| {
                 Diagnostic::error(span, "this direction is lost when it is placed")
                     .label("has no length there")
                     .help("place it without a scale of 0")

@@ -12,7 +12,7 @@ use nom::combinator::opt;
 use ugphysics::Velocity;
 
 use crate::names::NameId;
-use crate::scene::{Camera, ColorValue, Surface};
+use crate::scene::{Camera, ColorValue, SurfaceProperties};
 use crate::source::Span;
 use crate::statement::{
     CallStatement, CameraStatement, ColorStatement, FaceStatement, IllumStatement, LightStatement,
@@ -233,13 +233,13 @@ impl<'t> Grammar<'t> {
             Some(_) => opt(number_from(0.0, f64::INFINITY, "an exponent is 0 or more")).parse(input)?,
             None => (input, None),
         };
-        let surface = Surface {
+        let surface = SurfaceProperties {
             name: NameId::from_index(0),
             diffuse,
             specular,
             transmitted,
-            refraction: refraction.unwrap_or(Surface::REFRACTION),
-            exponent: exponent.unwrap_or(Surface::EXPONENT),
+            refraction: refraction.unwrap_or(SurfaceProperties::REFRACTION),
+            exponent: exponent.unwrap_or(SurfaceProperties::EXPONENT),
         };
         Ok((input, Statement::Surface(SurfaceStatement { name, surface })))
     }

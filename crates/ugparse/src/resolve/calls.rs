@@ -2,40 +2,40 @@
 
 use rustc_hash::{FxHashMap, FxHashSet};
 
-use super::complaints::{show, undefined_like};
-use super::{Link, scopes};
+use super::undefined::{show, undefined_like};
+use super::{Link, enclosing};
 use crate::diagnostic::Diagnostic;
-use crate::group::{Call, Group};
+use crate::scope::{Call, Scope};
 use crate::statement::Repeat;
 
-/// Definitions and labels of the calls of a group.
+/// Definitions and labels of the calls of a scope.
 pub(super) fn link_calls(
     text: &[u8],
-    groups: &[Group<'_>],
+    scopes: &[Scope<'_>],
     row: usize,
     findings: &mut Vec<Diagnostic>,
 ) -> Vec<Link> {
-    let calls = &groups[row].calls.rows;
+    let calls = &scopes[row].calls.rows;
     let labels = labels(text, calls);
     let links = calls.iter().zip(labels).map(|(Call { statement: call, .. }, label)| {
         let name = call.definition.of(text);
-        let target = scopes(groups, row).find_map(|scope| groups[scope].definitions.get(name));
+        let target = enclosing(scopes, row).find_map(|scope| scopes[scope].definitions.get(name));
         if target.is_none() {
             let remedy = "define it with `def NAME ; … end ;`";
-            let names = scopes(groups, row).flat_map(|scope| groups[scope].definitions.values());
+            let names = enclosing(scopes, row).flat_map(|scope| scopes[scope].definitions.values());
             // The table has no order of its own.
             let mut names: Vec<&[u8]> = names.map(|(_, span)| span.of(text)).collect();
             names.sort_unstable();
             let found = undefined_like(text, "definition", call.definition, remedy, names, findings.len());
             findings.push(found);
         }
-        let target = target.map(|&(group, _)| group);
+        let target = target.map(|&(scope, _)| scope);
         Link { target, label }
     });
     links.collect()
 }
 
-/// For each call of a group its label, unique there: its name, else its definition's name;
+/// For each call of a scope its label, unique there: its name, else its definition's name;
 /// nothing for a nameless array that is alone, whose element number says enough.
 fn labels(text: &[u8], calls: &[Call]) -> Vec<String> {
     let wanted = |Call { statement: call, .. }: &Call| match call.name {

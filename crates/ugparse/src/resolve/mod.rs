@@ -3,33 +3,33 @@
 //! definition is placed.
 
 mod calls;
-mod complaints;
 mod corners;
-mod left_out;
+mod degenerate;
 mod named;
 mod sizes;
+mod undefined;
 
 use crate::diagnostic::Diagnostic;
-use crate::group::Group;
 use crate::options::Limits;
 use crate::scene::Scene;
+use crate::scope::Scope;
 
-pub(crate) use complaints::undefined;
-pub(crate) use left_out::{face_name, flatness, has_three, is_short, left_out, short_wire};
+pub(crate) use degenerate::{degeneracy, face_name, has_three, is_short, omitted, short_wire};
+pub(crate) use undefined::undefined;
 
 use calls::link_calls;
-use complaints::{Complaints, show};
 use corners::{link_corners, path_corners};
-use left_out::{leave_out_flat_faces, leave_out_short_wires};
+use degenerate::{remove_degenerate_faces, remove_short_wires};
 use named::{apply_default_colors, gather_named, name_surfaces, paint, visible};
 use sizes::Sizes;
+use undefined::{UndefinedNames, show};
 
 /// What calls refer to.
 #[derive(Default)]
 pub(crate) struct Links {
-    /// For each group, for each call.
+    /// For each scope, for each call.
     pub calls: Vec<Vec<Link>>,
-    /// For each group, the row of its first colour in the scene.
+    /// For each scope, the row of its first colour in the scene.
     pub first_colors: Vec<usize>,
     /// Length of the longest chain of definitions that place each other.
     pub levels: usize,
@@ -37,22 +37,22 @@ pub(crate) struct Links {
 
 /// What one call refers to.
 pub(crate) struct Link {
-    /// The group that is placed; `None` if it is not defined.
+    /// The scope that is placed; `None` if it is not defined.
     pub target: Option<usize>,
     /// The name to put into paths.
     pub label: String,
 }
 
-/// Resolves all names of `groups`; colours go into `scene` on the way.
+/// Resolves all names of `scopes`; colours go into `scene` on the way.
 pub(crate) fn resolve(
     text: &[u8],
-    groups: &mut [Group<'_>],
+    scopes: &mut [Scope<'_>],
     scene: &mut Scene,
     limits: &Limits,
     findings: &mut Vec<Diagnostic>,
 ) -> Links {
-    for group in groups.iter() {
-        findings.extend(group.duplicates.iter().map(|duplicate| {
+    for scope in scopes.iter() {
+        findings.extend(scope.duplicates.iter().map(|duplicate| {
             let shown = show(text, duplicate.again);
             Diagnostic::error(duplicate.again, format!("{} `{shown}` is defined twice", duplicate.kind))
                 .label("again here")
@@ -60,42 +60,42 @@ pub(crate) fn resolve(
                 .help("give one of them another name")
         }));
     }
-    let own_sizes = groups.iter().map(Group::own_size).collect();
+    let own_sizes = scopes.iter().map(Scope::own_size).collect();
     // The names of the file come first, so that they need not be moved.
-    scene.names = std::mem::take(&mut groups[0].names);
-    let firsts = match gather_named(text, groups, scene, limits) {
+    scene.names = std::mem::take(&mut scopes[0].names);
+    let firsts = match gather_named(text, scopes, scene, limits) {
         Ok(firsts) => firsts,
         Err(finding) => {
             findings.push(finding);
             return Links::default();
         }
     };
-    for row in 0..groups.len() {
-        let colors = visible(groups, row, |group| &group.colors, &firsts.colors);
-        let surfaces = visible(groups, row, |group| &group.surfaces, &firsts.surfaces);
-        let group = &mut groups[row];
-        let has_colors = paint(group, &colors);
-        let has_surfaces = name_surfaces(group, &surfaces);
-        let has_corners = link_corners(group);
+    for row in 0..scopes.len() {
+        let colors = visible(scopes, row, |scope| &scope.colors, &firsts.colors);
+        let surfaces = visible(scopes, row, |scope| &scope.surfaces, &firsts.surfaces);
+        let scope = &mut scopes[row];
+        let has_colors = paint(scope, &colors);
+        let has_surfaces = name_surfaces(scope, &surfaces);
+        let has_corners = link_corners(scope);
         if !(has_colors && has_surfaces && has_corners) {
-            Complaints { text, groups, row, findings }.about_all();
-            groups[row].paths = path_corners(text, &groups[row]);
+            UndefinedNames { text, scopes, row, findings }.report_all();
+            scopes[row].paths = path_corners(text, &scopes[row]);
         }
-        let group = &mut groups[row];
-        leave_out_flat_faces(text, group, has_corners, findings);
-        leave_out_short_wires(text, group, has_corners, findings);
+        let scope = &mut scopes[row];
+        remove_degenerate_faces(text, scope, has_corners, findings);
+        remove_short_wires(text, scope, has_corners, findings);
     }
-    apply_default_colors(&mut groups[0]);
-    let calls = (0..groups.len()).map(|row| link_calls(text, groups, row, findings)).collect();
+    apply_default_colors(&mut scopes[0]);
+    let calls = (0..scopes.len()).map(|row| link_calls(text, scopes, row, findings)).collect();
     let mut links = Links { calls, first_colors: firsts.colors, levels: 0 };
-    match (Sizes { text, groups, own_sizes, links: &links, limits }).check_calls() {
+    match (Sizes { text, scopes, own_sizes, links: &links, limits }).check_calls() {
         Ok(levels) => links.levels = levels,
         Err(finding) => findings.push(finding),
     }
     links
 }
 
-/// A group and those round it, from the inner to the outer.
-fn scopes<'g>(groups: &'g [Group<'_>], row: usize) -> impl Iterator<Item = usize> + use<'g> {
-    std::iter::successors(Some(row), |&scope| groups[scope].parent)
+/// A scope and those round it, from the inner to the outer.
+fn enclosing<'g>(scopes: &'g [Scope<'_>], row: usize) -> impl Iterator<Item = usize> + use<'g> {
+    std::iter::successors(Some(row), |&scope| scopes[scope].parent)
 }

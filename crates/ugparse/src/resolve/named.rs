@@ -1,53 +1,53 @@
 //! Colours and surfaces: from the tables of the scopes into the scene, and from names to rows.
 
-use super::complaints::show;
 use super::corners::LEAST_ROWS;
-use super::scopes;
+use super::enclosing;
+use super::undefined::show;
 use crate::diagnostic::Diagnostic;
-use crate::group::{Group, shifted};
 use crate::named::Named;
 use crate::names::{NameId, Names};
 use crate::options::{Limit, Limits};
-use crate::scene::{Color, ColorId, Illum, Scene, Surface, SurfaceId};
+use crate::scene::{Color, ColorId, Illum, Scene, SurfaceId, SurfaceProperties};
+use crate::scope::{Scope, shifted};
 use crate::source::Span;
 
 /// The names of colours and surfaces, paths included, may have this part of the bytes of all names.
 const PART_OF_NAMES: u64 = 4;
 
-/// For each group, the row of its first colour, and of its first surface, in the scene.
+/// For each scope, the row of its first colour, and of its first surface, in the scene.
 #[derive(Default)]
 pub(super) struct Firsts {
     pub colors: Vec<usize>,
     pub surfaces: Vec<usize>,
 }
 
-/// Puts the colours and surfaces of all groups into the scene.
+/// Puts the colours and surfaces of all scopes into the scene.
 pub(super) fn gather_named(
     text: &[u8],
-    groups: &mut [Group<'_>],
+    scopes: &mut [Scope<'_>],
     scene: &mut Scene,
     limits: &Limits,
 ) -> Result<Firsts, Diagnostic> {
     let mut firsts = Firsts::default();
     let mut room = limits.get(Limit::Names) / PART_OF_NAMES;
-    for row in 0..groups.len() {
+    for row in 0..scopes.len() {
         firsts.colors.push(scene.colors.len());
         firsts.surfaces.push(scene.surfaces.len());
-        let group = &groups[row];
-        if group.colors.spans.is_empty() && group.surfaces.spans.is_empty() {
+        let scope = &scopes[row];
+        if scope.colors.spans.is_empty() && scope.surfaces.spans.is_empty() {
             continue;
         }
-        let prefix = scope_prefix(text, groups, row);
-        let group = &mut groups[row];
+        let prefix = scope_prefix(text, scopes, row);
+        let scope = &mut scopes[row];
         let mut name = |names: &mut Names, own: &str, span: Span| {
             let taken = (prefix.len() + own.len()) as u64;
             room = room.checked_sub(taken).ok_or_else(|| long_names(span, limits))?;
             Ok::<NameId, Diagnostic>(names.add_parts(&[&prefix, own]))
         };
         let first_sample = scene.samples.len();
-        scene.samples.append(&mut group.samples);
-        let colors = std::mem::take(&mut group.colors.table.rows).into_iter();
-        for ((color, &span), own) in colors.zip(&group.colors.table.spans).zip(&group.colors.spans) {
+        scene.samples.append(&mut scope.samples);
+        let colors = std::mem::take(&mut scope.colors.table.rows).into_iter();
+        for ((color, &span), own) in colors.zip(&scope.colors.table.spans).zip(&scope.colors.spans) {
             let own = match own {
                 Some(own) => show(text, *own),
                 None => format!("unnamed#{}", scene.colors.len()),
@@ -55,12 +55,12 @@ pub(super) fn gather_named(
             let name = name(&mut scene.names, &own, span)?;
             scene.colors.push(Color { name, value: shifted(color.value, first_sample), ..color });
         }
-        let surfaces = std::mem::take(&mut group.surfaces.table.rows).into_iter();
+        let surfaces = std::mem::take(&mut scope.surfaces.table.rows).into_iter();
         for ((surface, &span), own) in
-            surfaces.zip(&group.surfaces.table.spans).zip(group.surfaces.spans.iter().flatten())
+            surfaces.zip(&scope.surfaces.table.spans).zip(scope.surfaces.spans.iter().flatten())
         {
             let name = name(&mut scene.names, &show(text, *own), span)?;
-            scene.surfaces.push(Surface { name, ..surface });
+            scene.surfaces.push(SurfaceProperties { name, ..surface });
         }
     }
     Ok(firsts)
@@ -78,43 +78,43 @@ fn long_names(span: Span, limits: &Limits) -> Diagnostic {
 }
 
 /// `outer:inner:` for the colours and surfaces of a nested definition, empty for the file's.
-fn scope_prefix(text: &[u8], groups: &[Group<'_>], row: usize) -> String {
-    scopes(groups, row)
-        .filter(|&scope| groups[scope].parent.is_some())
-        .fold(String::new(), |inner, scope| format!("{}:{inner}", show(text, groups[scope].name)))
+fn scope_prefix(text: &[u8], scopes: &[Scope<'_>], row: usize) -> String {
+    enclosing(scopes, row)
+        .filter(|&scope| scopes[scope].parent.is_some())
+        .fold(String::new(), |inner, scope| format!("{}:{inner}", show(text, scopes[scope].name)))
 }
 
-/// For each name of a kind in a group, the row in the scene of what it means.
+/// For each name of a kind in a scope, the row in the scene of what it means.
 pub(super) fn visible<'g, T: 'g>(
-    groups: &'g [Group<'_>],
+    scopes: &'g [Scope<'_>],
     row: usize,
-    kind: impl Fn(&'g Group<'_>) -> &'g Named<'g, T>,
+    kind: impl Fn(&'g Scope<'_>) -> &'g Named<'g, T>,
     firsts: &[usize],
 ) -> Vec<Option<usize>> {
     let find = |name: &&[u8]| {
-        scopes(groups, row).find_map(|scope| Some(firsts[scope] + kind(&groups[scope]).row(name)?))
+        enclosing(scopes, row).find_map(|scope| Some(firsts[scope] + kind(&scopes[scope]).row(name)?))
     };
-    kind(&groups[row]).names.list.iter().map(find).collect()
+    kind(&scopes[row]).names.list.iter().map(find).collect()
 }
 
 /// Turns names of colours into colours; false if one is not defined.
-pub(super) fn paint(group: &mut Group<'_>, colors: &[Option<usize>]) -> bool {
+pub(super) fn paint(scope: &mut Scope<'_>, colors: &[Option<usize>]) -> bool {
     if colors.iter().enumerate().all(|(row, color)| *color == Some(row)) {
         return true;
     }
     let colors: Vec<_> = colors.iter().map(|color| color.map(ColorId::from_index)).collect();
     let paint = |color: &mut Option<ColorId>| *color = color.and_then(|name| colors[name.index()]);
-    ugparallel::for_each_mut(&mut group.vertices.rows, LEAST_ROWS, |_, vertex| paint(&mut vertex.color));
-    ugparallel::for_each_mut(&mut group.faces.rows, LEAST_ROWS, |_, face| paint(&mut face.color));
-    group.wires.rows.iter_mut().for_each(|wire| paint(&mut wire.color));
-    group.lights.rows.iter_mut().for_each(|light| paint(&mut light.color));
-    group.calls.rows.iter_mut().for_each(|call| paint(&mut call.color));
+    ugparallel::for_each_mut(&mut scope.vertices.rows, LEAST_ROWS, |_, vertex| paint(&mut vertex.color));
+    ugparallel::for_each_mut(&mut scope.faces.rows, LEAST_ROWS, |_, face| paint(&mut face.color));
+    scope.wires.rows.iter_mut().for_each(|wire| paint(&mut wire.color));
+    scope.lights.rows.iter_mut().for_each(|light| paint(&mut light.color));
+    scope.calls.rows.iter_mut().for_each(|call| paint(&mut call.color));
     colors.iter().all(Option::is_some)
 }
 
 /// Turns names of surfaces into surfaces; false if one is not defined.
-pub(super) fn name_surfaces(group: &mut Group<'_>, surfaces: &[Option<usize>]) -> bool {
-    for illum in &mut group.illums {
+pub(super) fn name_surfaces(scope: &mut Scope<'_>, surfaces: &[Option<usize>]) -> bool {
+    for illum in &mut scope.illums {
         if let Illum::Surface(id) = illum
             && let Some(row) = surfaces[id.index()]
         {
@@ -126,8 +126,8 @@ pub(super) fn name_surfaces(group: &mut Group<'_>, surfaces: &[Option<usize>]) -
 
 /// The unnamed colour in force where the faces of the file are written. Those
 /// of definitions get it when they are placed, behind the colours of calls.
-pub(super) fn apply_default_colors(file: &mut Group<'_>) {
-    let Group { defaults, faces, wires, .. } = file;
+pub(super) fn apply_default_colors(file: &mut Scope<'_>) {
+    let Scope { defaults, faces, wires, .. } = file;
     for (idx, default) in defaults.iter().enumerate() {
         let next = defaults.get(idx + 1);
         // The file's colours are the first of the scene.

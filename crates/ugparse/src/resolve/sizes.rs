@@ -3,17 +3,17 @@
 use rustc_hash::FxHashSet;
 
 use super::Links;
-use super::complaints::show;
+use super::undefined::show;
 use crate::diagnostic::Diagnostic;
-use crate::group::Group;
 use crate::options::{Limit, Limits};
+use crate::scope::Scope;
 use crate::source::Span;
 use crate::statement::{CallStatement, Repeat};
 
 /// Measures what calls come to.
 pub(super) struct Sizes<'g, 't> {
     pub text: &'t [u8],
-    pub groups: &'g [Group<'t>],
+    pub scopes: &'g [Scope<'t>],
     pub own_sizes: Vec<Size>,
     pub links: &'g Links,
     pub limits: &'g Limits,
@@ -24,7 +24,7 @@ impl Sizes<'_, '_> {
     /// scenes that would grow without bound: before anything is placed. Gives the
     /// length of the longest chain.
     pub fn check_calls(&self) -> Result<usize, Diagnostic> {
-        let mut sizes: Vec<Option<Size>> = vec![None; self.groups.len()];
+        let mut sizes: Vec<Option<Size>> = vec![None; self.scopes.len()];
         // Definitions that nothing places are checked, too.
         for root in 0..sizes.len() {
             self.measure(root, &mut sizes)?;
@@ -39,7 +39,7 @@ impl Sizes<'_, '_> {
             return Ok(());
         }
         let mut on_path = FxHashSet::from_iter([root]);
-        // Each entry: a group and the call of its that is looked at next.
+        // Each entry: a scope and the call of its that is looked at next.
         let mut path: Vec<(usize, usize)> = vec![(root, 0)];
         while let Some(&mut (row, ref mut next)) = path.last_mut() {
             let idx = *next;
@@ -51,7 +51,7 @@ impl Sizes<'_, '_> {
                 continue;
             };
             let Some(target) = link.target else { continue };
-            let call = &self.groups[row].calls.rows[idx].statement;
+            let call = &self.scopes[row].calls.rows[idx].statement;
             if on_path.contains(&target) {
                 return Err(self.recursion(call));
             }
@@ -68,11 +68,11 @@ impl Sizes<'_, '_> {
         Ok(())
     }
 
-    /// What a group comes to, the groups it places included.
+    /// What a scope comes to, the scopes it places included.
     fn size(&self, row: usize, sizes: &[Option<Size>]) -> Size {
         let mut total = self.own_sizes[row];
         let mut largest = 0;
-        for (call, link) in self.groups[row].calls.rows.iter().zip(&self.links.calls[row]) {
+        for (call, link) in self.scopes[row].calls.rows.iter().zip(&self.links.calls[row]) {
             let Some(target) = link.target else { continue };
             let each = sizes[target].unwrap_or_default();
             let own = each.placed(copies(&call.statement), link.label.len());
@@ -121,14 +121,14 @@ impl Sizes<'_, '_> {
     }
 }
 
-/// What a group comes to when it is placed; sums stop at the largest number.
+/// What a scope comes to when it is placed; sums stop at the largest number.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Size {
     statements: u64,
     corners: u64,
     names: u64,
     name_bytes: u64,
-    /// Length of the longest chain of groups that place each other.
+    /// Length of the longest chain of scopes that place each other.
     levels: usize,
     /// Where most of it comes from.
     largest_call: Option<Span>,
@@ -158,8 +158,8 @@ impl Size {
     }
 }
 
-impl Group<'_> {
-    /// What a group comes to without its calls. Faces that are left out count, too.
+impl Scope<'_> {
+    /// What a scope comes to without its calls. Faces that are left out count, too.
     pub(super) fn own_size(&self) -> Size {
         let (corners, names) = (self.contours.corner_count() as u64, self.names.len() as u64);
         let name_bytes = self.names.len_bytes() as u64;

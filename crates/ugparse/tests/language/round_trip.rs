@@ -116,7 +116,7 @@ fn survives(bytes: &[u8]) -> Result<(), TestCaseError> {
 
 fn surface(scene: &Scene, face: &ugparse::Face) -> Option<(String, [f64; 5])> {
     let surface = scene.surface(face)?;
-    let ugparse::Surface { diffuse, specular, transmitted, refraction, exponent, .. } = *surface;
+    let ugparse::SurfaceProperties { diffuse, specular, transmitted, refraction, exponent, .. } = *surface;
     let name = scene.names.get(surface.name).to_string();
     Some((name, [diffuse, specular, transmitted, refraction, exponent]))
 }

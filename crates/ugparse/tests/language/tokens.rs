@@ -228,7 +228,7 @@ fn columns_count_from_the_beginning_of_the_line() {
         let text =
             format!("c red 1; {}v a 0 0 ü0;\n{}f (q);", "v v 0 0 0; ".repeat(n_before), " ".repeat(n_before));
         let findings = ugparse::parse(&ugparse::Source::new("t.ug", text), &Default::default()).unwrap_err();
-        let places = findings.places();
+        let places = findings.locations();
         let drawn = findings.render(false);
         let column = 9 + 11 * n_before + "v a 0 0 ".len() + 1;
         assert!(drawn.contains(&format!(" t.ug:1:{column}\n")), "{n_before}: {drawn}");

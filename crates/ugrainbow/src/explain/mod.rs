@@ -300,7 +300,7 @@ impl Teller<'_> {
         };
         let place = self.parsed.origins.faces.get(row).and_then(|span| {
             let place =
-                Diagnostics::one(self.source, Diagnostic::error(*span, "")).places().into_iter().next()?;
+                Diagnostics::one(self.source, Diagnostic::error(*span, "")).locations().into_iter().next()?;
             Some((place.file, place.line))
         });
         Item { kind: "face", id, name: name(face.name), place }

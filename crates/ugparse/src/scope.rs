@@ -2,7 +2,7 @@
 //! [`Scene`](crate::Scene), in which names are not yet looked up everywhere.
 //!
 //! A colour or surface stands as the number of its name among those of its kind, a
-//! corner as the number of its vertex's name in [`Group::vertex_names`], so that
+//! corner as the number of its vertex's name in [`Scope::vertex_names`], so that
 //! what is used before it is defined, or defined in a scope outside, costs nothing.
 //! Settling turns all of them into rows.
 
@@ -16,8 +16,8 @@ use crate::named::Named;
 use crate::names::{NameId, Names};
 use crate::numbered::{Name, NumberedNames};
 use crate::scene::{
-    Camera, Color, ColorId, ColorValue, Face, Illum, IllumId, Light, LightKind, LightMotion, Surface,
-    SurfaceId, Vertex, VertexId, Wire,
+    Camera, Color, ColorId, ColorValue, Face, Illum, IllumId, Light, LightKind, LightMotion, SurfaceId,
+    SurfaceProperties, Vertex, VertexId, Wire,
 };
 use crate::source::Span;
 use crate::statement::{
@@ -80,16 +80,16 @@ impl<T> Rows<T> {
 
 /// What a scope has as tables in the order of the text.
 #[derive(Default)]
-pub(crate) struct Group<'t> {
+pub(crate) struct Scope<'t> {
     /// Name of the definition; empty for the file.
     pub name: Span,
-    /// The group this one is defined in.
+    /// The scope this one is defined in.
     pub parent: Option<usize>,
     /// Names of all but colours and surfaces.
     pub names: Names,
     pub bodies: BodyTable,
 
-    /// Spans are those of the names, see [`Group::vertex_statement`].
+    /// Spans are those of the names, see [`Scope::vertex_statement`].
     pub vertices: Rows<Vertex>,
     pub vertex_names: NumberedNames<'t>,
     /// For each number of a name, the row of the vertex or [`NO_ROW`].
@@ -111,10 +111,10 @@ pub(crate) struct Group<'t> {
     /// Of spectra.
     pub samples: Vec<[f64; 2]>,
     pub colors: Named<'t, Color>,
-    pub surfaces: Named<'t, Surface>,
+    pub surfaces: Named<'t, SurfaceProperties>,
     /// Unnamed colours, each with the rows from which on it is in force.
     pub defaults: Vec<DefaultColor>,
-    /// The unnamed colour in force at the `def`: its group, and its row there.
+    /// The unnamed colour in force at the `def`: its scope, and its row there.
     pub outer_default: Option<(usize, u32)>,
 
     pub calls: Rows<Call>,
@@ -157,7 +157,7 @@ pub(crate) struct DefaultColor {
 /// A corner that names a vertex of an instance; until that is placed, it is [`NO_ROW`].
 #[derive(Clone, Copy)]
 pub(crate) struct PathCorner {
-    /// Among the corners of all contours of the group.
+    /// Among the corners of all contours of the scope.
     pub corner: usize,
     pub name: Span,
 }
@@ -169,7 +169,7 @@ pub(crate) struct Duplicate {
     pub first: Span,
 }
 
-impl<'t> Group<'t> {
+impl<'t> Scope<'t> {
     /// Of a definition.
     pub fn new(name: Span, parent: Option<usize>) -> Self {
         Self { name, parent, ..Self::default() }
@@ -216,10 +216,10 @@ impl<'t> Group<'t> {
         self.unknown.push(lossy(text, span), span);
     }
 
-    /// Enters a definition, which has its own group.
-    pub fn add_definition(&mut self, text: &'t [u8], name: Span, group: usize) {
+    /// Enters a definition, which has its own scope.
+    pub fn add_definition(&mut self, text: &'t [u8], name: Span, scope: usize) {
         self.n_statements += 1;
-        if let Some((_, first)) = self.definitions.insert(name.of(text), (group, name)) {
+        if let Some((_, first)) = self.definitions.insert(name.of(text), (scope, name)) {
             self.duplicates.push(Duplicate { kind: "definition", again: name, first });
         }
     }
@@ -319,7 +319,7 @@ impl<'t> Group<'t> {
 
     fn add_surface(&mut self, text: &'t [u8], span: Span, surface: &SurfaceStatement) {
         // The name is made when the surfaces of all scopes are put together.
-        let row = Surface { name: NameId::from_index(0), ..surface.surface };
+        let row = SurfaceProperties { name: NameId::from_index(0), ..surface.surface };
         let before = self.surfaces.push(text, Some(surface.name), row, span);
         self.note_duplicate("surface", Some(surface.name), before);
     }
@@ -370,7 +370,7 @@ impl<'t> Group<'t> {
         }
     }
 
-    /// A name for this group's table.
+    /// A name for this scope's table.
     pub fn add_name(&mut self, name: &[u8]) -> NameId {
         self.names.add(as_str(name))
     }

@@ -1,46 +1,46 @@
 //! Faces and wires that would draw nothing.
 
-use super::complaints::{read_again, show};
 use super::corners::LEAST_ROWS;
+use super::undefined::{read_again, show};
 use crate::contours::Contours;
 use crate::diagnostic::Diagnostic;
-use crate::group::{Group, NO_ROW};
 use crate::scene::{Face, Vertex, VertexId, Wire, newell_normal};
+use crate::scope::{NO_ROW, Scope};
 use crate::source::Span;
 use crate::statement::{References, Statement};
 
 /// Faces with fewer than three different vertices in a contour, or without area, are warned about.
-pub(super) fn leave_out_flat_faces(
+pub(super) fn remove_degenerate_faces(
     text: &[u8],
-    group: &mut Group<'_>,
+    scope: &mut Scope<'_>,
     has_corners: bool,
     findings: &mut Vec<Diagnostic>,
 ) {
-    let is_whole = |face: &Face| has_corners || is_linked(group.contours.corners(face.contours.clone()));
-    let problem = |face: &Face| flatness(&group.contours, &group.vertices.rows, face);
-    let faces = &group.faces.rows;
+    let is_whole = |face: &Face| has_corners || is_linked(scope.contours.corners(face.contours.clone()));
+    let problem = |face: &Face| degeneracy(&scope.contours, &scope.vertices.rows, face);
+    let faces = &scope.faces.rows;
     let is_flat = |row: usize| is_whole(&faces[row]) && problem(&faces[row]).is_some();
     let flat = ugparallel::positions(faces.len(), LEAST_ROWS, is_flat);
     for &row in &flat {
-        let problem = problem(&group.faces.rows[row]).unwrap_or_default();
-        let span = group.faces.spans[row];
-        findings.push(left_out(text, span, "face", problem, "remove it, or mend its vertices"));
+        let problem = problem(&scope.faces.rows[row]).unwrap_or_default();
+        let span = scope.faces.spans[row];
+        findings.push(omitted(text, span, "face", problem, "remove it, or mend its vertices"));
     }
-    group.remove_faces(&flat);
+    scope.remove_faces(&flat);
 }
 
-pub(super) fn leave_out_short_wires(
+pub(super) fn remove_short_wires(
     text: &[u8],
-    group: &mut Group<'_>,
+    scope: &mut Scope<'_>,
     has_corners: bool,
     findings: &mut Vec<Diagnostic>,
 ) {
-    let wires = &group.wires.rows;
-    let is_whole = |wire: &Wire| has_corners || is_linked(group.contours.corners(wire.contours.clone()));
-    let is_short = |row: usize| is_whole(&wires[row]) && is_short(&group.contours, &wires[row]);
+    let wires = &scope.wires.rows;
+    let is_whole = |wire: &Wire| has_corners || is_linked(scope.contours.corners(wire.contours.clone()));
+    let is_short = |row: usize| is_whole(&wires[row]) && is_short(&scope.contours, &wires[row]);
     let short = ugparallel::positions(wires.len(), LEAST_ROWS, is_short);
-    findings.extend(short.iter().map(|&row| short_wire(text, group.wires.spans[row])));
-    group.remove_wires(&short);
+    findings.extend(short.iter().map(|&row| short_wire(text, scope.wires.spans[row])));
+    scope.remove_wires(&short);
 }
 
 pub(super) fn is_linked(corners: &[VertexId]) -> bool {
@@ -48,7 +48,7 @@ pub(super) fn is_linked(corners: &[VertexId]) -> bool {
 }
 
 /// Why a face draws nothing.
-pub(crate) fn flatness(contours: &Contours, vertices: &[Vertex], face: &Face) -> Option<&'static str> {
+pub(crate) fn degeneracy(contours: &Contours, vertices: &[Vertex], face: &Face) -> Option<&'static str> {
     if !contours.iter(face.contours.clone()).all(has_three) {
         return Some("has a contour of fewer than 3 different vertices");
     }
@@ -71,10 +71,10 @@ pub(crate) fn is_short(contours: &Contours, wire: &Wire) -> bool {
 
 /// What is said of it.
 pub(crate) fn short_wire(text: &[u8], span: Span) -> Diagnostic {
-    left_out(text, span, "wire", "has a contour of fewer than 2 vertices", "remove it, or add a vertex")
+    omitted(text, span, "wire", "has a contour of fewer than 2 vertices", "remove it, or add a vertex")
 }
 
-pub(crate) fn left_out(text: &[u8], span: Span, kind: &str, problem: &str, remedy: &str) -> Diagnostic {
+pub(crate) fn omitted(text: &[u8], span: Span, kind: &str, problem: &str, remedy: &str) -> Diagnostic {
     let name = face_name(text, span);
     let shown = name.map_or(String::new(), |name| format!(" `{}`", show(text, name)));
     let span = name.unwrap_or(Span { start: span.start, end: span.start + 1 });

@@ -11,10 +11,10 @@ use crate::Options;
 use crate::body::BodyId;
 use crate::contours::Contours;
 use crate::diagnostic::Diagnostic;
-use crate::group::{DefaultColor, Group, NO_ROW, Rows, shifted};
 use crate::names::NameId;
 use crate::reader::{Document, read, read_part};
 use crate::scene::{ColorId, Illum, IllumId, LightMotion, SurfaceId, VertexId};
+use crate::scope::{DefaultColor, NO_ROW, Rows, Scope, shifted};
 
 /// Bytes a part should have at least.
 const MIN_PART: usize = 1 << 19;
@@ -23,7 +23,7 @@ const MIN_PART: usize = 1 << 19;
 const MIN_ROWS: usize = 1 << 14;
 
 /// Reads a text, in parts if it is large and there are threads.
-pub(crate) fn read_all<'t>(
+pub(crate) fn read_document<'t>(
     text: &'t [u8],
     options: &Options,
     findings: &mut Vec<Diagnostic>,
@@ -48,9 +48,9 @@ fn read_parts<'t>(
     let read_part = |part: usize| read_part(&text[..cuts[part + 1]], cuts[part], options);
     let parts: Option<Vec<_>> = ugparallel::map(cuts.len() - 1, 1, read_part).into_iter().collect();
     let (mut documents, warnings): (Vec<_>, Vec<_>) = parts?.into_iter().unzip();
-    let groups = documents.iter_mut().filter_map(|document| document.groups.pop()).collect();
+    let scopes = documents.iter_mut().filter_map(|document| document.scopes.pop()).collect();
     let document = Document {
-        groups: vec![join(groups)?],
+        scopes: vec![join(scopes)?],
         line_marks: documents.iter().flat_map(|document| document.line_marks.iter().cloned()).collect(),
         requests: documents.iter().flat_map(|document| document.requests.iter().copied()).collect(),
         first_statement: documents.iter().find_map(|document| document.first_statement),
@@ -83,18 +83,18 @@ fn cut(text: &[u8], part: usize, n_parts: usize) -> usize {
 }
 
 /// The tables of all parts in one; `None` if a name is defined twice.
-fn join<'t>(mut parts: Vec<Group<'t>>) -> Option<Group<'t>> {
+fn join<'t>(mut parts: Vec<Scope<'t>>) -> Option<Scope<'t>> {
     // Calls stand between rows of all kinds; texts so large seldom have any.
-    let is_plain = |part: &Group<'_>| part.duplicates.is_empty() && part.calls.rows.is_empty();
+    let is_plain = |part: &Scope<'_>| part.duplicates.is_empty() && part.calls.rows.is_empty();
     if !parts.iter().all(is_plain) {
         return None;
     }
-    let mut file = Group::default();
+    let mut file = Scope::default();
     let vertex_rows = vertices_of_parts(&mut parts, &mut file)?;
-    let mut before = Before::default();
-    let mut places = Vec::with_capacity(parts.len());
+    let mut before = PrecedingRows::default();
+    let mut offsets = Vec::with_capacity(parts.len());
     for part in &mut parts {
-        places.push(Place::behind(&mut file, before, part)?);
+        offsets.push(PartOffsets::behind(&mut file, before, part)?);
         before.add(part);
     }
 
@@ -102,76 +102,76 @@ fn join<'t>(mut parts: Vec<Group<'t>>) -> Option<Group<'t>> {
     file.contours = join_contours(&mut parts, &file.vertex_rows, &vertex_rows);
     file.vertices = join_tables(
         &mut parts,
-        &places,
+        &offsets,
         |part| &mut part.vertices,
-        |vertex, place| {
-            vertex.name = place.name(vertex.name);
-            vertex.color = place.color(vertex.color);
+        |vertex, offset| {
+            vertex.name = offset.name(vertex.name);
+            vertex.color = offset.color(vertex.color);
         },
     );
     file.faces = join_tables(
         &mut parts,
-        &places,
+        &offsets,
         |part| &mut part.faces,
-        |face, place| {
-            face.name = face.name.map(|name| place.name(name));
+        |face, offset| {
+            face.name = face.name.map(|name| offset.name(name));
             face.contours =
-                face.contours.start + place.first_contour..face.contours.end + place.first_contour;
-            face.color = place.color(face.color);
-            face.body = place.body(face.body);
-            face.illum = face.illum.map(|illum| IllumId::from_index(place.first_illum + illum.index()));
+                face.contours.start + offset.first_contour..face.contours.end + offset.first_contour;
+            face.color = offset.color(face.color);
+            face.body = offset.body(face.body);
+            face.illum = face.illum.map(|illum| IllumId::from_index(offset.first_illum + illum.index()));
         },
     );
     file.wires = join_tables(
         &mut parts,
-        &places,
+        &offsets,
         |part| &mut part.wires,
-        |wire, place| {
-            wire.name = wire.name.map(|name| place.name(name));
+        |wire, offset| {
+            wire.name = wire.name.map(|name| offset.name(name));
             wire.contours =
-                wire.contours.start + place.first_contour..wire.contours.end + place.first_contour;
-            wire.color = place.color(wire.color);
-            wire.body = place.body(wire.body);
+                wire.contours.start + offset.first_contour..wire.contours.end + offset.first_contour;
+            wire.color = offset.color(wire.color);
+            wire.body = offset.body(wire.body);
         },
     );
     file.lights = join_tables(
         &mut parts,
-        &places,
+        &offsets,
         |part| &mut part.lights,
-        |light, place| {
-            light.name = light.name.map(|name| place.name(name));
-            light.color = place.color(light.color);
+        |light, offset| {
+            light.name = light.name.map(|name| offset.name(name));
+            light.color = offset.color(light.color);
             if let LightMotion::Body(body) = &mut light.motion {
-                *body = place.body(*body);
+                *body = offset.body(*body);
             }
         },
     );
     file.cameras = join_tables(
         &mut parts,
-        &places,
+        &offsets,
         |part| &mut part.cameras,
-        |camera, place| {
-            camera.name = camera.name.map(|name| place.name(name));
+        |camera, offset| {
+            camera.name = camera.name.map(|name| offset.name(name));
         },
     );
     file.colors.table = join_tables(
         &mut parts,
-        &places,
+        &offsets,
         |part| &mut part.colors.table,
-        |color, place| {
-            color.value = shifted(color.value, place.first_sample);
+        |color, offset| {
+            color.value = shifted(color.value, offset.first_sample);
         },
     );
-    file.surfaces.table = join_tables(&mut parts, &places, |part| &mut part.surfaces.table, |_, _| {});
-    file.escapes = join_tables(&mut parts, &places, |part| &mut part.escapes, |_, _| {});
-    file.unknown = join_tables(&mut parts, &places, |part| &mut part.unknown, |_, _| {});
+    file.surfaces.table = join_tables(&mut parts, &offsets, |part| &mut part.surfaces.table, |_, _| {});
+    file.escapes = join_tables(&mut parts, &offsets, |part| &mut part.escapes, |_, _| {});
+    file.unknown = join_tables(&mut parts, &offsets, |part| &mut part.unknown, |_, _| {});
     Some(file)
 }
 
 /// Puts the names of vertices together, and their rows. Gives, for each part but
 /// the first, for each number of a name there, the row in the whole file or
 /// [`NO_ROW`]. `None` if two vertices have one name.
-fn vertices_of_parts<'t>(parts: &mut [Group<'t>], file: &mut Group<'t>) -> Option<Vec<Vec<u32>>> {
+fn vertices_of_parts<'t>(parts: &mut [Scope<'t>], file: &mut Scope<'t>) -> Option<Vec<Vec<u32>>> {
     let (first, others) = parts.split_first_mut()?;
     file.vertex_names = std::mem::take(&mut first.vertex_names);
     file.vertex_rows = std::mem::take(&mut first.vertex_rows);
@@ -200,14 +200,14 @@ fn vertices_of_parts<'t>(parts: &mut [Group<'t>], file: &mut Group<'t>) -> Optio
 
 /// Rows in the parts before one.
 #[derive(Clone, Copy, Default)]
-struct Before {
+struct PrecedingRows {
     contours: u32,
     faces: usize,
     wires: usize,
 }
 
-impl Before {
-    fn add(&mut self, part: &Group<'_>) {
+impl PrecedingRows {
+    fn add(&mut self, part: &Scope<'_>) {
         self.contours += part.contours.row_count();
         self.faces += part.faces.len();
         self.wires += part.wires.len();
@@ -215,7 +215,7 @@ impl Before {
 }
 
 /// Where the rows of a part come in the whole file.
-struct Place {
+struct PartOffsets {
     first_name: usize,
     first_contour: u32,
     first_illum: usize,
@@ -226,16 +226,16 @@ struct Place {
     is_same: bool,
 }
 
-impl Place {
+impl PartOffsets {
     /// Behind what is in `file` already. Names of all kinds and bodies go there at
     /// once. `None` if a colour or surface is defined twice.
-    fn behind<'t>(file: &mut Group<'t>, before: Before, part: &mut Group<'t>) -> Option<Self> {
+    fn behind<'t>(file: &mut Scope<'t>, before: PrecedingRows, part: &mut Scope<'t>) -> Option<Self> {
         let first_color = file.colors.spans.len() as u32;
         let colors = file.colors.append_names(&mut part.colors)?;
         let colors: Vec<_> = colors.into_iter().map(ColorId::from_index).collect();
         let surfaces = file.surfaces.append_names(&mut part.surfaces)?;
         let bodies = file.bodies.enter_all(&part.bodies);
-        let place = Self {
+        let offset = Self {
             first_name: file.names.len(),
             first_contour: before.contours,
             first_illum: file.illums.len(),
@@ -261,7 +261,7 @@ impl Place {
         }));
         file.samples.append(&mut part.samples);
         file.n_statements += part.n_statements;
-        Some(place)
+        Some(offset)
     }
 
     fn name(&self, name: NameId) -> NameId {
@@ -279,19 +279,19 @@ impl Place {
 
 /// Joins one table of all parts; `change` turns a row of a part into a row of the file.
 fn join_tables<'t, T: Send>(
-    parts: &mut [Group<'t>],
-    places: &[Place],
-    table: impl for<'p> Fn(&'p mut Group<'t>) -> &'p mut Rows<T>,
-    change: impl Fn(&mut T, &Place) + Sync,
+    parts: &mut [Scope<'t>],
+    offsets: &[PartOffsets],
+    table: impl for<'p> Fn(&'p mut Scope<'t>) -> &'p mut Rows<T>,
+    change: impl Fn(&mut T, &PartOffsets) + Sync,
 ) -> Rows<T> {
     let (rows, spans): (Vec<_>, _) =
         parts.iter_mut().map(|part| std::mem::take(table(part)).into_parts()).unzip();
     let ends = ends(&rows);
     let mut rows = join_rows(rows);
-    for (place, range) in places.iter().zip(ends.windows(2)) {
-        if !place.is_same {
+    for (offset, range) in offsets.iter().zip(ends.windows(2)) {
+        if !offset.is_same {
             let rows = &mut rows[range[0]..range[1]];
-            ugparallel::for_each_mut(rows, MIN_ROWS, |_, row| change(row, place));
+            ugparallel::for_each_mut(rows, MIN_ROWS, |_, row| change(row, offset));
         }
     }
     Rows { rows, spans: join_rows(spans) }
@@ -319,7 +319,7 @@ fn ends<T>(parts: &[Vec<T>]) -> Vec<usize> {
 
 /// Contours of all parts, with rows of vertices for corners: those of the first
 /// part by `first_rows`, of the others by `other_rows`.
-fn join_contours(parts: &mut [Group<'_>], first_rows: &[u32], other_rows: &[Vec<u32>]) -> Contours {
+fn join_contours(parts: &mut [Scope<'_>], first_rows: &[u32], other_rows: &[Vec<u32>]) -> Contours {
     let (mut corners, mut contour_ends) = (Vec::new(), Vec::new());
     for part in parts {
         let (part_corners, part_ends) = part.contours.parts_mut();

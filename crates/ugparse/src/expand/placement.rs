@@ -5,12 +5,12 @@ use std::ops::Range;
 use rustc_hash::FxHashMap;
 
 use crate::body::BodyId;
-use crate::group::{DefaultColor, Group, NO_ROW};
 use crate::scene::{ColorId, LightMotion, VertexId};
+use crate::scope::{DefaultColor, NO_ROW, Scope};
 use crate::transform::Transform;
 
-/// What a group inherits from the calls that place it.
-pub(super) struct Frame {
+/// What a scope inherits from the calls that place it.
+pub(super) struct Inherited {
     pub transform: Transform,
     /// Path of the names made here, without the last `:`.
     pub prefix: String,
@@ -19,7 +19,7 @@ pub(super) struct Frame {
     pub body: Option<BodyId>,
 }
 
-impl Frame {
+impl Inherited {
     /// That of the file itself, which nothing places.
     pub fn file() -> Self {
         Self { transform: Transform::IDENTITY, prefix: String::new(), color: None, body: None }
@@ -28,39 +28,39 @@ impl Frame {
 
 /// A definition that is being placed.
 pub(super) struct Placement<'p> {
-    pub group: &'p Group<'p>,
-    pub frame: &'p Frame,
+    pub scope: &'p Scope<'p>,
+    pub inherited: &'p Inherited,
     /// Row of its first vertex in the scene.
     pub first_vertex: u32,
     /// The vertices at corners that name those of instances.
     pub paths: FxHashMap<usize, VertexId>,
-    /// Rows in the scene of the group's bodies.
+    /// Rows in the scene of the scope's bodies.
     pub bodies: &'p [BodyId],
     pub first_time: bool,
-    /// Row of the group's first colour in the scene.
+    /// Row of the scope's first colour in the scene.
     pub first_color: usize,
-    /// Row of the group's first illum in the scene.
+    /// Row of the scope's first illum in the scene.
     pub first_illum: usize,
     /// The unnamed colour in force at the `def`.
     pub outer_default: Option<ColorId>,
 }
 
 impl Placement<'_> {
-    /// Positions of the corners of a contour among those of the group.
+    /// Positions of the corners of a contour among those of the scope.
     pub fn corners(&self, row: u32) -> Range<usize> {
-        let first = self.group.contours.first_corner(row);
-        first..first + self.group.contours.get(row).len()
+        let first = self.scope.contours.first_corner(row);
+        first..first + self.scope.contours.get(row).len()
     }
 
     /// The vertex at a corner.
     pub fn corner(&self, idx: usize) -> VertexId {
-        let VertexId(local) = self.group.contours.corner(idx);
+        let VertexId(local) = self.scope.contours.corner(idx);
         if local == NO_ROW { self.paths[&idx] } else { VertexId(self.first_vertex + local) }
     }
 
     /// The body in the scene of a face or wire.
     pub fn body(&self, own: BodyId) -> BodyId {
-        self.frame.body.unwrap_or(self.bodies[own.index()])
+        self.inherited.body.unwrap_or(self.bodies[own.index()])
     }
 
     /// A light keeps its own motion.
@@ -78,8 +78,8 @@ impl Placement<'_> {
         row: usize,
         first: fn(&DefaultColor) -> usize,
     ) -> Option<ColorId> {
-        own.or(self.frame.color).or_else(|| {
-            let defaults = &self.group.defaults;
+        own.or(self.inherited.color).or_else(|| {
+            let defaults = &self.scope.defaults;
             let behind = defaults.partition_point(|default| first(default) <= row);
             match behind.checked_sub(1) {
                 Some(idx) => Some(ColorId::from_index(self.first_color + defaults[idx].color as usize)),

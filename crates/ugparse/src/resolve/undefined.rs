@@ -1,72 +1,72 @@
 //! What is said of names that are not defined.
 
-use super::scopes;
+use super::enclosing;
 use crate::diagnostic::{Diagnostic, MAX_ERRORS};
 use crate::grammar::Grammar;
-use crate::group::Group;
 use crate::named::Named;
+use crate::scope::Scope;
 use crate::source::Span;
 use crate::statement::{IllumStatement, References, Statement};
 use crate::suggest::nearest;
 use crate::token::word;
 
-/// Reads the statements of a group again, and complains about every name that is not defined.
-pub(super) struct Complaints<'g, 't, 'f> {
+/// Reads the statements of a scope again, and complains about every name that is not defined.
+pub(super) struct UndefinedNames<'g, 't, 'f> {
     pub text: &'t [u8],
-    pub groups: &'g [Group<'t>],
+    pub scopes: &'g [Scope<'t>],
     pub row: usize,
     pub findings: &'f mut Vec<Diagnostic>,
 }
 
-impl Complaints<'_, '_, '_> {
-    pub(super) fn about_all(&mut self) {
+impl UndefinedNames<'_, '_, '_> {
+    pub(super) fn report_all(&mut self) {
         let mut references = References::default();
-        for span in self.groups[self.row].statements(self.text) {
+        for span in self.scopes[self.row].statements(self.text) {
             match read_again(self.text, span, &mut references) {
-                Some(Statement::Vertex(vertex)) => self.about_color(vertex.color),
-                Some(Statement::Light(light)) => self.about_color(light.color),
-                Some(Statement::Call(call)) => self.about_color(call.color),
+                Some(Statement::Vertex(vertex)) => self.check_color(vertex.color),
+                Some(Statement::Light(light)) => self.check_color(light.color),
+                Some(Statement::Call(call)) => self.check_color(call.color),
                 Some(Statement::Face(face) | Statement::Wire(face)) => {
-                    self.about_color(face.color);
+                    self.check_color(face.color);
                     if let Some(IllumStatement::Surface(name)) = face.illum {
-                        self.about_surface(name);
+                        self.check_surface(name);
                     }
-                    references.names.iter().for_each(|&name| self.about_vertex(name));
+                    references.names.iter().for_each(|&name| self.check_vertex(name));
                 }
                 _ => {}
             }
         }
     }
 
-    fn about_color(&mut self, name: Option<Span>) {
+    fn check_color(&mut self, name: Option<Span>) {
         let Some(name) = name else { return };
-        if self.is_seen(name, |group| &group.colors) {
+        if self.is_seen(name, |scope| &scope.colors) {
             return;
         }
-        let remedy = if self.is_seen(name, |group| &group.surfaces) {
+        let remedy = if self.is_seen(name, |scope| &scope.surfaces) {
             "there is a surface of that name; on a face it stands behind the colour, so give one"
         } else {
             "define it with a `c` or `c_rgb` statement"
         };
-        self.undefined("colour", name, remedy, |group| &group.colors);
+        self.undefined("colour", name, remedy, |scope| &scope.colors);
     }
 
-    fn about_surface(&mut self, name: Span) {
-        if self.is_seen(name, |group| &group.surfaces) {
+    fn check_surface(&mut self, name: Span) {
+        if self.is_seen(name, |scope| &scope.surfaces) {
             return;
         }
-        let remedy = if self.is_seen(name, |group| &group.colors) {
+        let remedy = if self.is_seen(name, |scope| &scope.colors) {
             "there is a colour of that name; a face takes one colour, and a surface behind it"
         } else {
             "define it with a `surf` statement"
         };
-        self.undefined("surface", name, remedy, |group| &group.surfaces);
+        self.undefined("surface", name, remedy, |scope| &scope.surfaces);
     }
 
     /// True if something of that kind and name is seen here.
-    fn is_seen<T>(&self, name: Span, kind: for<'g> fn(&'g Group<'_>) -> &'g Named<'g, T>) -> bool {
-        let mut scopes = scopes(self.groups, self.row);
-        scopes.any(|scope| kind(&self.groups[scope]).row(name.of(self.text)).is_some())
+    fn is_seen<T>(&self, name: Span, kind: for<'g> fn(&'g Scope<'_>) -> &'g Named<'g, T>) -> bool {
+        let mut around = enclosing(self.scopes, self.row);
+        around.any(|scope| kind(&self.scopes[scope]).row(name.of(self.text)).is_some())
     }
 
     fn undefined<T>(
@@ -74,17 +74,17 @@ impl Complaints<'_, '_, '_> {
         kind: &str,
         name: Span,
         remedy: &str,
-        of_kind: for<'g> fn(&'g Group<'_>) -> &'g Named<'g, T>,
+        of_kind: for<'g> fn(&'g Scope<'_>) -> &'g Named<'g, T>,
     ) {
-        let spans = scopes(self.groups, self.row).flat_map(|scope| &of_kind(&self.groups[scope]).spans);
+        let spans = enclosing(self.scopes, self.row).flat_map(|scope| &of_kind(&self.scopes[scope]).spans);
         let names = spans.flatten().map(|span| span.of(self.text));
         let found = undefined_like(self.text, kind, name, remedy, names, self.findings.len());
         self.findings.push(found);
     }
 
-    fn about_vertex(&mut self, name: Span) {
+    fn check_vertex(&mut self, name: Span) {
         let own = name.of(self.text);
-        if self.groups[self.row].has_vertex(own) || self.groups[self.row].may_be_path(own) {
+        if self.scopes[self.row].has_vertex(own) || self.scopes[self.row].may_be_path(own) {
             return;
         }
         let remedy = if own.contains(&b':') {
@@ -94,7 +94,7 @@ impl Complaints<'_, '_, '_> {
         } else {
             "define it with a `v` statement in the same `def`: vertices of the scope outside are not seen here"
         };
-        let names = self.groups[self.row].vertices.spans.iter().map(|span| span.of(self.text));
+        let names = self.scopes[self.row].vertices.spans.iter().map(|span| span.of(self.text));
         let found = undefined_like(self.text, "vertex", name, remedy, names, self.findings.len());
         self.findings.push(found);
     }
