@@ -1,4 +1,4 @@
-//! Bodies: what moves as one, and how it moves.
+//! Bodies, the parts of a scene that share a motion, and their motions.
 
 use std::ops::{Index, IndexMut};
 
@@ -27,10 +27,10 @@ impl BodyId {
     }
 }
 
-/// A part of the scene that moves as one. Two bodies may have equal motions.
+/// A part of the scene with one motion. Two bodies may have equal motions.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Body {
-    /// How it moves in the frame of the scene.
+    /// Its motion in the frame of the scene.
     pub motion: Motion,
 }
 
@@ -41,7 +41,7 @@ impl Body {
     }
 }
 
-/// How a body moves.
+/// The motion of a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Motion {
     /// With constant velocity. Text keeps its β, from which [`Velocity::from_beta`] must make it again.
@@ -75,9 +75,9 @@ impl Bodies {
         BodyId::from_index(self.rows.len() - 1)
     }
 
-    /// The first body whose stated motion is `motion`, added if there is none.
+    /// Finds the first body whose stated motion is `motion`, or adds one.
     ///
-    /// Scenes have few bodies, so a linear search does.
+    /// Scenes have few bodies, so the search is linear.
     pub fn moving_with(&mut self, motion: Motion) -> BodyId {
         let known = self.rows.iter().skip(1).position(|body| body.motion == motion);
         known.map_or_else(|| self.push(Body { motion }), |idx| BodyId::from_index(idx + 1))
@@ -94,7 +94,7 @@ impl Bodies {
         self.rows.iter()
     }
 
-    /// All bodies, to be changed.
+    /// All bodies, mutable.
     pub fn iter_mut(&mut self) -> impl ExactSizeIterator<Item = &mut Body> + DoubleEndedIterator {
         self.rows.iter_mut()
     }
@@ -104,7 +104,7 @@ impl Bodies {
         (0..self.rows.len() as u32).map(BodyId)
     }
 
-    /// How many there are, 1 or more.
+    /// The number of bodies, 1 or more.
     #[expect(clippy::len_without_is_empty, reason = "never empty")]
     pub fn len(&self) -> usize {
         self.rows.len()

@@ -1,23 +1,23 @@
-//! Which of several cameras counts.
+//! Selects one of several cameras.
 
 use crate::suggest::nearest;
 use crate::{Camera, Diagnostic, Diagnostics, Item, Parsed, Scene, Source, Span};
 
 impl Scene {
-    /// Row of the camera that counts: the first without a name, else the first.
+    /// Row of the selected camera: the first without a name, else the first.
     pub fn camera_row(&self) -> Option<usize> {
         let unnamed = self.cameras.iter().position(|camera| camera.name.is_none());
         unnamed.or((!self.cameras.is_empty()).then_some(0))
     }
 
-    /// The camera that counts, see [`Scene::camera_row`].
+    /// The selected camera, see [`Scene::camera_row`].
     pub fn camera(&self) -> Option<&Camera> {
         self.camera_row().map(|row| &self.cameras[row])
     }
 
-    /// Lets the camera of row `chosen` count: it loses its name, and goes before others that have none. `spans`: of all
+    /// Selects the camera of row `chosen`: removes its name, and moves it before others without one. `spans`: of all
     /// cameras.
-    fn let_count(&mut self, chosen: usize, spans: &mut [Span]) {
+    fn select_camera(&mut self, chosen: usize, spans: &mut [Span]) {
         self.cameras[chosen].name = None;
         let Some(first) = self.camera_row().filter(|&first| first < chosen) else { return };
         self.cameras[first..=chosen].rotate_right(1);
@@ -36,8 +36,8 @@ impl Scene {
 }
 
 impl Parsed {
-    /// Lets the first camera of this name count (`-cam`), here and in all programs that read the scene when it is
-    /// written: it loses its name, and goes before others without one.
+    /// Selects the first camera of this name (`-cam`), also for programs downstream: removes its name, and moves it
+    /// before others without one.
     ///
     /// # Errors
     /// No camera has this name.
@@ -46,7 +46,7 @@ impl Parsed {
         let names: Vec<Option<&str>> = names.collect();
         match names.iter().position(|&other| other == Some(name)) {
             Some(row) => {
-                self.scene.let_count(row, &mut self.origins.cameras);
+                self.scene.select_camera(row, &mut self.origins.cameras);
                 Ok(())
             }
             None => Err(Diagnostics::one(source, self.no_camera(name, &names))),

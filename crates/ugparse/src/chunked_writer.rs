@@ -1,15 +1,15 @@
-//! Text made in pieces on threads, and sent out in order.
+//! Writes text that is formatted in pieces on several threads.
 
 use std::io::{self, Write};
 
-/// Where text goes, with the pieces of it that wait to be sent.
+/// An output stream with the pieces that wait to be sent.
 ///
-/// While the pieces of one round are made, those of the round before are sent,
-/// so no more than two rounds of text are in memory, and their buffers serve again.
+/// While the pieces of one round are formatted, those of the round before are sent. So at most two rounds of text
+/// are in memory, and their buffers are reused.
 pub(crate) struct ChunkedWriter<'o> {
     out: &'o mut dyn Write,
     ready: Vec<Vec<u8>>,
-    /// Empty buffers of a round that was sent.
+    /// Empty buffers, for reuse.
     spare: Vec<Vec<u8>>,
 }
 
@@ -18,7 +18,7 @@ impl<'o> ChunkedWriter<'o> {
         Self { out, ready: Vec::new(), spare: Vec::new() }
     }
 
-    /// Appends a small piece to what is ready.
+    /// Appends text to the last piece that waits to be sent.
     pub(crate) fn append(&mut self, make: impl FnOnce(&mut Vec<u8>)) {
         if self.ready.is_empty() {
             self.ready.push(Vec::new());
@@ -28,7 +28,7 @@ impl<'o> ChunkedWriter<'o> {
         }
     }
 
-    /// Makes pieces on all threads, `make` one at a time, and sends what was ready meanwhile.
+    /// Formats pieces with `make` on all threads, and meanwhile sends those that are ready.
     pub(crate) fn round(
         &mut self,
         n_pieces: usize,
@@ -41,7 +41,7 @@ impl<'o> ChunkedWriter<'o> {
         sent
     }
 
-    /// Sends what is ready.
+    /// Sends the pieces that are ready.
     pub(crate) fn send(&mut self) -> io::Result<()> {
         for piece in &mut self.ready {
             self.out.write_all(piece)?;

@@ -29,7 +29,7 @@ impl Contours {
         self.push([]);
     }
 
-    /// Drops all but the first `rows` contours, and corners of one not ended.
+    /// Removes all but the first `rows` contours, and the corners of an unfinished one.
     pub(crate) fn truncate(&mut self, rows: usize) {
         self.ends.truncate(rows);
         self.corners.truncate(self.ends.last().map_or(0, |&end| end as usize));
@@ -44,17 +44,17 @@ impl Contours {
         Self { corners: Vec::with_capacity(corners), ends: Vec::with_capacity(contours) }
     }
 
-    /// Contours from corners, and the end of each among them.
+    /// Builds contours from all corners and the end of each contour.
     pub(crate) fn from_parts(corners: Vec<VertexId>, ends: Vec<u32>) -> Self {
         Self { corners, ends }
     }
 
-    /// Corners of all contours together.
+    /// Total number of corners.
     pub(crate) fn corner_count(&self) -> usize {
         self.corners.len()
     }
 
-    /// Appends one face's contours and gives their rows.
+    /// Appends the contours of a face and returns their rows.
     pub fn push_all<C>(&mut self, contours: impl IntoIterator<Item = C>) -> Range<u32>
     where
         C: IntoIterator<Item = VertexId>,
@@ -81,7 +81,7 @@ impl Contours {
         if row == 0 { 0 } else { self.ends[row as usize - 1] as usize }
     }
 
-    /// Corner number `idx` of all contours.
+    /// The corner at position `idx` among those of all contours.
     pub(crate) fn corner(&self, idx: usize) -> VertexId {
         self.corners[idx]
     }
@@ -96,7 +96,7 @@ impl Contours {
         &self.corners[start..self.ends[rows.end as usize - 1] as usize]
     }
 
-    /// The same, to be changed in place.
+    /// All corners of a face or wire, mutable.
     pub fn corners_mut(&mut self, rows: Range<u32>) -> &mut [VertexId] {
         if rows.is_empty() {
             return &mut [];
@@ -110,7 +110,7 @@ impl Contours {
         self.ends.len()
     }
 
-    /// True if there is none.
+    /// True if there are no contours.
     pub fn is_empty(&self) -> bool {
         self.ends.is_empty()
     }

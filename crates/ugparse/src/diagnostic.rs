@@ -1,4 +1,4 @@
-//! Errors and warnings as data with positions; drawn only at the edge.
+//! Errors and warnings as data with positions; only programs render them as text.
 
 use std::fmt;
 
@@ -7,40 +7,40 @@ use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 use crate::reader::line_marks;
 use crate::source::{LineMark, Source, Span};
 
-/// Errors reported together before reading stops.
+/// The largest number of errors reported together.
 pub const MAX_ERRORS: usize = 20;
 
-/// Bytes of a line shown round an error; longer lines are cut.
+/// The largest number of bytes of a line shown with an error; longer lines are truncated.
 const MAX_SHOWN: usize = 160;
 
-/// How bad.
+/// Severity of a diagnostic.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Severity {
-    /// The scene cannot be used.
+    /// The scene is invalid.
     Error,
-    /// The scene is used, with the change the message names.
+    /// The scene is valid, or was changed as the message states.
     Warning,
 }
 
-/// One thing that is wrong with a scene.
+/// An error or warning about a scene.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Diagnostic {
-    /// How bad.
+    /// Error or warning.
     pub severity: Severity,
-    /// What is wrong: lower case, no full stop.
+    /// The problem: lower case, no full stop.
     pub message: String,
-    /// Where.
+    /// Its location.
     pub span: Span,
-    /// A word or two at the place.
+    /// A few words at the location.
     pub label: String,
-    /// A second place that matters, such as the first definition of a name.
+    /// A second location, such as the first definition of a name.
     pub other: Option<(Span, String)>,
-    /// What to do.
+    /// The remedy.
     pub help: Option<String>,
 }
 
 impl Diagnostic {
-    /// An error at a place.
+    /// An error at a location.
     pub fn error(span: Span, message: impl Into<String>) -> Self {
         Self {
             severity: Severity::Error,
@@ -52,18 +52,18 @@ impl Diagnostic {
         }
     }
 
-    /// A warning at a place.
+    /// A warning at a location.
     pub fn warning(span: Span, message: impl Into<String>) -> Self {
         Self { severity: Severity::Warning, ..Self::error(span, message) }
     }
 
-    /// Adds the words at the place.
+    /// Adds the words at the location.
     pub fn label(mut self, label: impl Into<String>) -> Self {
         self.label = label.into();
         self
     }
 
-    /// Adds a second place.
+    /// Adds a second location.
     pub fn other(mut self, span: Span, label: impl Into<String>) -> Self {
         self.other = Some((span, label.into()));
         self
@@ -75,7 +75,7 @@ impl Diagnostic {
         self
     }
 
-    /// The message as a person sees it, with the line and a caret.
+    /// Renders the message as text, with the line and a caret.
     pub fn render(&self, source: &Source, styled: bool) -> String {
         self.render_with(source, &line_marks(&source.text), styled)
     }
@@ -96,7 +96,7 @@ impl Diagnostic {
         places.into_iter().flatten().fold(drawn, |drawn, span| with_whole_column(drawn, source, marks, span))
     }
 
-    /// The lines to show: one snippet if both places are on one screen of text, else two.
+    /// The lines to show: one snippet for each location.
     fn snippets<'a>(
         &'a self,
         source: &'a Source,
@@ -118,7 +118,7 @@ impl Diagnostic {
     }
 }
 
-/// Columns are drawn as they are in the excerpt: puts right that of a line whose beginning was cut off.
+/// Corrects the column in a rendered message if the beginning of the line was cut off.
 fn with_whole_column(drawn: String, source: &Source, marks: &[LineMark], span: Span) -> String {
     let excerpt = Excerpt::new(source, span);
     if excerpt.n_cut == 0 {
@@ -130,17 +130,17 @@ fn with_whole_column(drawn: String, source: &Source, marks: &[LineMark], span: S
     drawn.replacen(&place(column), &place(column + excerpt.n_cut), 1)
 }
 
-/// The one line that is shown for a place.
+/// The line shown for a location.
 struct Excerpt {
     text: String,
     mark: std::ops::Range<usize>,
-    /// Characters cut off at the beginning of the line.
+    /// Number of characters cut off at the beginning of the line.
     n_cut: usize,
 }
 
 impl Excerpt {
-    /// Cuts the line round `span` out of the source: control characters are
-    /// blanked, text that is not UTF-8 replaced, long lines cut.
+    /// Extracts the line around `span`: control characters become blanks, invalid UTF-8 is replaced, long lines are
+    /// truncated.
     fn new(source: &Source, span: Span) -> Self {
         let text = &source.text;
         let start = (span.start as usize).min(text.len());
@@ -163,42 +163,42 @@ impl Excerpt {
     }
 }
 
-/// A place in a file, for programs that read messages.
+/// A location in a file, for programs that process messages.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Location {
-    /// The file as messages name it.
+    /// The name of the file in messages.
     pub file: String,
-    /// From 1.
+    /// Line number, from 1.
     pub line: usize,
-    /// From 1, in bytes.
+    /// Column in bytes, from 1.
     pub column: usize,
 }
 
 impl Location {
-    /// Where a position of a text was written.
+    /// The location of a position in a text.
     pub(crate) fn new(source: &Source, marks: &[LineMark], position: u32) -> Self {
         let (file, line) = source.reported(marks, position);
         Self { file: file.to_string(), line, column: source.line_column(position).1 }
     }
 }
 
-/// All that is wrong with a scene, with its text, ready to show.
+/// All errors and warnings about a scene, with its text.
 #[derive(Clone, Debug)]
 pub struct Diagnostics {
-    /// The findings, in the order of the text.
+    /// Errors, then warnings, each in the order of the text.
     pub list: Vec<Diagnostic>,
-    /// How many more there are than the list holds.
+    /// Number of further ones that are not in the list.
     pub omitted: usize,
     source: Source,
 }
 
 impl Diagnostics {
-    /// Puts findings in the order of the text and keeps the first [`MAX_ERRORS`].
+    /// Sorts findings and keeps the first [`MAX_ERRORS`].
     pub fn new(source: &Source, mut list: Vec<Diagnostic>) -> Self {
         list.sort_by_key(|finding| (finding.severity != Severity::Error, finding.span));
         let omitted = list.len().saturating_sub(MAX_ERRORS);
         list.truncate(MAX_ERRORS);
-        // The text is kept only if there is something to show in it.
+        // The text is necessary only to render messages.
         let text = if list.is_empty() { Vec::new() } else { source.text.clone() };
         Self { list, omitted, source: Source { name: source.name.clone(), text } }
     }
@@ -211,24 +211,24 @@ impl Diagnostics {
         Self { omitted: all.omitted + self.omitted, ..all }
     }
 
-    /// One finding.
+    /// A single finding.
     pub fn one(source: &Source, finding: Diagnostic) -> Self {
         Self::new(source, vec![finding])
     }
 
-    /// True if nothing is wrong.
+    /// True if there are no findings.
     pub fn is_empty(&self) -> bool {
         self.list.is_empty()
     }
 
-    /// Where each finding of the list is.
+    /// The location of each finding in the list.
     pub fn locations(&self) -> Vec<Location> {
         let marks = line_marks(&self.source.text);
         let place = |finding: &Diagnostic| Location::new(&self.source, &marks, finding.span.start);
         self.list.iter().map(place).collect()
     }
 
-    /// The second place of each finding of the list that has one, and the words at it.
+    /// The second location of each finding in the list, if it has one, and the words at it.
     pub fn other_locations(&self) -> Vec<Option<(Location, &str)>> {
         let marks = line_marks(&self.source.text);
         let others = self.list.iter().map(|finding| finding.other.as_ref());
@@ -236,7 +236,7 @@ impl Diagnostics {
         others.map(|other| other.map(|(span, label)| (place(span), label.as_str()))).collect()
     }
 
-    /// Every finding as a person sees it.
+    /// Renders all findings as text.
     pub fn render(&self, styled: bool) -> String {
         let marks = line_marks(&self.source.text);
         let mut parts: Vec<String> =

@@ -1,8 +1,7 @@
-//! The two statements that fill files, vertices and faces, read without ceremony.
+//! A fast parser for the two most frequent statements: vertices and faces in their simple forms.
 //!
-//! Whatever is not plain at once, be it a comment between two words, a normal
-//! or a mistake, is left to the [grammar](crate::grammar), which reads the
-//! statement from its beginning, and says what is wrong.
+//! All other input, such as a comment between two words, a normal or an error, is left to the
+//! [grammar](crate::grammar), which parses the statement from its beginning and reports errors.
 
 use glam::DVec3;
 
@@ -13,8 +12,8 @@ use crate::scope::Scope;
 use crate::source::Span;
 use crate::token::{begins_identifier, ends_word, is_blank, is_identifier, number, short_decimal};
 
-/// Reads `v ID x y z [color] ;` or `f [ID] contours [color] [< x y z >] ;` at
-/// `start` and gives the position behind it; `None` for everything else.
+/// Parses `v ID x y z [color] ;` or `f [ID] contours [color] [< x y z >] ;` at `start` and returns the position
+/// after it; `None` for everything else.
 #[inline]
 pub(crate) fn statement<'t>(text: &'t [u8], start: usize, scope: &mut Scope<'t>) -> Option<usize> {
     let cursor = Cursor { text, at: start + 1 };
@@ -50,7 +49,7 @@ fn face<'t>(mut cursor: Cursor<'t>, start: usize, scope: &mut Scope<'t>) -> Opti
     let body = match tail.beta.map(|beta| scope.bodies.moving_with_beta(beta)) {
         None => BodyId::UNSTATED,
         Some(Some(body)) => body,
-        // Too fast: the grammar says so.
+        // Faster than light: the grammar reports the error.
         Some(None) => {
             scope.contours.truncate(first);
             return None;
@@ -74,7 +73,7 @@ fn contours<'t>(cursor: &mut Cursor<'t>, scope: &mut Scope<'t>) -> Option<()> {
     cursor.mark(b'(')?;
     loop {
         cursor.skip_blank();
-        // A contour has one corner at least.
+        // A contour has at least one corner.
         loop {
             let name = cursor.name()?;
             scope.contours.push_corner(VertexId(scope.vertex_names.enter(name)));
@@ -93,7 +92,7 @@ fn contours<'t>(cursor: &mut Cursor<'t>, scope: &mut Scope<'t>) -> Option<()> {
     }
 }
 
-/// What follows the contours of a face.
+/// The part of a face statement after the contours.
 struct Tail<'t> {
     color: Option<&'t [u8]>,
     beta: Option<DVec3>,
@@ -135,7 +134,7 @@ impl<'t> Cursor<'t> {
         self.next_is(byte).then(|| self.at += 1)
     }
 
-    /// A name that begins here, taken apart on the way.
+    /// A name at this position, split into stem and number in the same pass.
     #[inline(always)]
     fn name(&mut self) -> Option<Name<'t>> {
         let start = self.at;
@@ -161,7 +160,7 @@ impl<'t> Cursor<'t> {
         Some(Name::with_number(&self.text[start..self.at], stem, number))
     }
 
-    /// A name, if one begins here; what is wrong with it shows at the mark behind it.
+    /// A name, if one begins here. If it is invalid, the mark after it does not match.
     #[inline(always)]
     fn identifier(&mut self) -> Option<&'t [u8]> {
         if !self.text.get(self.at).is_some_and(|&byte| begins_identifier(byte)) {
@@ -181,7 +180,7 @@ impl<'t> Cursor<'t> {
             self.at += len;
             return Some(value);
         }
-        // A comment is no plain blank.
+        // A comment before the number is left to the grammar.
         let (behind, value) = number(rest).ok().filter(|_| rest.first() != Some(&b'{'))?;
         self.at = self.text.len() - behind.len();
         Some(value)
@@ -192,7 +191,7 @@ impl<'t> Cursor<'t> {
         Some(DVec3::new(self.number()?, self.number()?, self.number()?))
     }
 
-    /// `< x y z >`, of any length.
+    /// `< x y z >` of any magnitude.
     fn beta(&mut self) -> Option<DVec3> {
         self.at += 1;
         let beta = self.point()?;

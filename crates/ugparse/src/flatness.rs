@@ -1,4 +1,4 @@
-//! How flat faces are.
+//! Measures the flatness of faces.
 
 use glam::DVec3;
 
@@ -9,13 +9,14 @@ use crate::resolve::face_name;
 use crate::scene::{Face, Scene, newell_normal};
 use crate::source::Span;
 
-/// A face is flat if no corner is farther from its plane than this part of its size: files are rounded.
+/// A face is flat if no corner is farther from its plane than this fraction of its size, since coordinates are
+/// rounded in files.
 pub const FLAT: f64 = 1e-3;
 
 /// A face without holes that is less flat than this should be drawn as triangles.
 pub const TOO_BENT: f64 = 3e-2;
 
-/// Faces that a thread should have at least.
+/// The least number of faces per thread.
 const MANY_FACES: usize = 1 << 14;
 
 /// A face that is not flat.
@@ -27,10 +28,10 @@ pub struct BentFace {
     pub thickness: f64,
 }
 
-/// Greatest distance of a corner from the plane of a face, over its size; both in rest coordinates.
+/// The greatest distance of a corner from the plane of a face, divided by its size; both in rest coordinates.
 ///
-/// The plane goes through the mean of all corners, at right angles to the
-/// outline's area vector; the size is the diagonal of the face's box.
+/// The plane contains the mean of all corners and is perpendicular to the outline's area vector; the size is the
+/// diagonal of the face's bounding box.
 pub fn thickness(scene: &Scene, face: &Face) -> f64 {
     let corners = scene.contours.corners(face.contours.clone());
     let positions = || corners.iter().map(|&corner| scene.vertices[corner.index()].position);
@@ -58,14 +59,14 @@ pub(crate) fn bent_faces(scene: &Scene) -> Vec<BentFace> {
         let thickness = thickness(scene, face);
         (thickness > FLAT).then_some(BentFace { row, thickness })
     };
-    // No face has fewer than three corners, so if that is the mean, all are triangles.
+    // No face has fewer than three corners, so if the mean is three, all are triangles.
     if scene.contours.corner_count() == 3 * scene.faces.len() || scene.stage.seen_geometry().is_some() {
         return Vec::new();
     }
     ugparallel::collect(scene.faces.len(), MANY_FACES, |rows, found| found.extend(rows.filter_map(&bent)))
 }
 
-/// One warning for all of them.
+/// A single warning for all of them.
 pub(crate) fn warning(source: &Source, origins: &Origins, bent: &[BentFace]) -> Option<Diagnostic> {
     let first = bent.first()?;
     let span = origins.faces[first.row];

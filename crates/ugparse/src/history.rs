@@ -1,9 +1,8 @@
-//! A scene carries its own history: each filter adds a head comment.
+//! The history of a scene: each filter adds a head comment.
 
 use crate::scene::Scene;
 
-/// Adds a head comment that says which program wrote the scene and how it was
-/// called, behind the comments that were there.
+/// Appends a head comment with the name, version and command line of a program.
 pub fn record(scene: &mut Scene, program: &str, version: &str, command_line: &str) {
     scene.head.push(format!(" {program} {version}: {command_line} "));
 }

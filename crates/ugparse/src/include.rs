@@ -1,9 +1,8 @@
-//! `include` and `execute`: the text of other files, and what programs print, in
-//! place of the statements that name them.
+//! Replaces `include` statements by the text of files, and `execute` statements by the output of programs.
 //!
-//! The outcome is one text, with lines of the C preprocessor where files begin
-//! and go on, so that messages name the file and line where something was written.
-//! Files are read and programs run by whoever asks; nothing here touches the system.
+//! The result is one text, with line marks of the C preprocessor where files begin and continue, so that
+//! messages name the original file and line. The caller reads the files and runs the programs; this module does
+//! not access the system.
 
 use std::io;
 use std::path::{Component, Path, PathBuf};
@@ -15,36 +14,36 @@ use crate::reader::RequestStatement;
 use crate::refuse_errors;
 use crate::source::{LineMark, Source};
 
-/// What a scene asks for.
+/// The kind of a requested text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RequestKind {
     /// `include`: the bytes of a file.
     Include,
-    /// `execute`: what a program writes to its standard output.
+    /// `execute`: the standard output of a program.
     Execute,
 }
 
-/// A text that a scene asks for.
+/// A text requested by a scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Request<'r> {
-    /// A file's, or a program's.
+    /// A file, or the output of a program.
     pub kind: RequestKind,
-    /// The file or program, as seen from the current folder.
+    /// The file or program, relative to the current folder.
     pub path: &'r Path,
-    /// Bytes there is room for; of a longer text, no more than one byte beyond need be read.
+    /// The largest allowed size in bytes; of a longer text, only one byte more has to be read.
     pub room: u64,
 }
 
-/// Why there is no text for a [`Request`].
+/// Failure of a [`Request`].
 #[derive(Debug)]
 pub enum RequestError {
     /// The file cannot be read, or the program cannot be run.
     System(io::Error),
     /// The program has run, and failed.
     Failed {
-        /// How it ended: `exit status: 3`.
+        /// Its exit status: `exit status: 3`.
         status: String,
-        /// The first line of its complaint; may be empty.
+        /// The first line of its standard error; may be empty.
         complaint: String,
     },
 }
@@ -55,14 +54,12 @@ impl From<io::Error> for RequestError {
     }
 }
 
-/// Puts the files that a scene includes in place of its `include` statements, and
-/// what programs print in place of `execute`.
+/// Replaces `include` statements by the text of files, and `execute` statements by the output of programs.
 ///
-/// `load` gives the bytes that are asked for. It is asked to run a program only
-/// under [`Options::execute`]. Names are relative to the file that has the
-/// statement; those in a text without a file (`<stdin>`) to the current folder,
-/// those in what a program prints to the folder of the program. A file holds
-/// whole statements: a definition that begins in it ends in it.
+/// `load` returns the requested bytes. It is called for a program only with [`Options::execute`]. Names are
+/// relative to the file that contains the statement; in a text without a file (`<stdin>`) to the current
+/// folder, in the output of a program to the folder of the program. A file contains whole statements: a
+/// definition that begins in it ends in it.
 ///
 /// ```
 /// let scene = ugparse::Source::new("house/scene.ug", "include colors.ug ; v a 0 0 0 red ;");
@@ -76,32 +73,32 @@ impl From<io::Error> for RequestError {
 /// ```
 ///
 /// # Errors
-/// A file that cannot be loaded, or includes itself; a program that fails, or is
-/// not allowed to run; what is wrong with the statements of a text that asks for others.
+/// A file that cannot be loaded, or includes itself; a program that fails, or is not allowed to run; syntax errors in
+/// a text with such statements.
 pub fn include(
     source: Source,
     options: &Options,
     mut load: impl FnMut(&Request<'_>) -> Result<Vec<u8>, RequestError>,
 ) -> Result<Source, Diagnostics> {
-    if !may_ask(&source.text) {
+    if !may_have_requests(&source.text) {
         return Ok(source);
     }
     let name = source.name.clone();
     let first = Text::new(source, options)?;
-    let path = plain(Path::new(&name));
+    let path = normalized(Path::new(&name));
     let mut inclusion =
-        Inclusion { options, load: &mut load, open: vec![(path, first)], n_files: 0, out: Vec::new() };
+        Inclusion { options, loader: &mut load, open: vec![(path, first)], n_files: 0, out: Vec::new() };
     inclusion.run()?;
     Ok(Source { name, text: inclusion.out })
 }
 
-/// True if one of the words occurs anywhere.
-fn may_ask(text: &[u8]) -> bool {
+/// Does one of the keywords occur anywhere in the text?
+fn may_have_requests(text: &[u8]) -> bool {
     ["include", "execute"].iter().any(|word| memchr::memmem::find(text, word.as_bytes()).is_some())
 }
 
-/// A statement that nobody has followed.
-pub(crate) fn not_followed(statement: &RequestStatement) -> Diagnostic {
+/// The error for a statement in a text that was not passed through [`include`].
+pub(crate) fn not_replaced(statement: &RequestStatement) -> Diagnostic {
     let (message, label) = match statement.kind {
         RequestKind::Include => ("files are not included here", "asks for a file"),
         RequestKind::Execute => ("programs are not run here", "asks for a program"),
@@ -111,14 +108,14 @@ pub(crate) fn not_followed(statement: &RequestStatement) -> Diagnostic {
         .help("put its text here, or use a program that reads files")
 }
 
-/// A text that is being copied.
+/// A text during copying.
 struct Text {
     source: Source,
     statements: Vec<RequestStatement>,
     marks: Vec<LineMark>,
-    /// Statements that were followed.
-    n_followed: usize,
-    /// Bytes that were copied or replaced.
+    /// Number of statements replaced so far.
+    n_replaced: usize,
+    /// Number of bytes copied or replaced so far.
     n_done: usize,
 }
 
@@ -128,41 +125,41 @@ impl Text {
         let document = read_document(&source.text, options, &mut findings);
         let (statements, marks) = (document.requests, document.line_marks);
         refuse_errors(&source, &mut findings)?;
-        Ok(Self { source, statements, marks, n_followed: 0, n_done: 0 })
+        Ok(Self { source, statements, marks, n_replaced: 0, n_done: 0 })
     }
 }
 
 struct Inclusion<'i> {
     options: &'i Options,
-    load: &'i mut dyn FnMut(&Request<'_>) -> Result<Vec<u8>, RequestError>,
-    /// The texts we are in and their files, the scene's own first.
+    loader: &'i mut dyn FnMut(&Request<'_>) -> Result<Vec<u8>, RequestError>,
+    /// The open texts and their files, from the scene itself inwards.
     open: Vec<(PathBuf, Text)>,
     n_files: u64,
     out: Vec<u8>,
 }
 
 impl Inclusion<'_> {
-    /// Copies the texts that are open, and those they ask for.
+    /// Copies the open texts and those they request.
     fn run(&mut self) -> Result<(), Diagnostics> {
         while let Some((_, text)) = self.open.last_mut() {
-            let Some(&statement) = text.statements.get(text.n_followed) else {
+            let Some(&statement) = text.statements.get(text.n_replaced) else {
                 self.out.extend_from_slice(&text.source.text[text.n_done..]);
                 self.open.pop();
                 self.mark();
                 continue;
             };
             self.out.extend_from_slice(&text.source.text[text.n_done..statement.span.start as usize]);
-            text.n_followed += 1;
+            text.n_replaced += 1;
             text.n_done = statement.span.end as usize;
-            let next = self.follow(statement)?;
+            let next = self.load(statement)?;
             self.open.push(next);
             self.mark();
         }
         Ok(())
     }
 
-    /// Loads what a statement of the innermost text asks for.
-    fn follow(&mut self, statement: RequestStatement) -> Result<(PathBuf, Text), Diagnostics> {
+    /// Loads the text requested by a statement of the innermost open text.
+    fn load(&mut self, statement: RequestStatement) -> Result<(PathBuf, Text), Diagnostics> {
         let (_, Text { source, .. }) = self.open.last().expect("a statement stands in an open text");
         let refuse = |message: String, help: String| {
             let label = match statement.kind {
@@ -180,7 +177,7 @@ impl Inclusion<'_> {
                 "a scene can run any program; if you trust this one, allow it with --allow-execute".into(),
             ));
         }
-        let path = beside(&source.name, &shown);
+        let path = relative_to(&source.name, &shown);
         if self.open.iter().any(|(open, _)| *open == path) {
             return Err(refuse(
                 format!("file `{shown}` includes itself"),
@@ -197,7 +194,7 @@ impl Inclusion<'_> {
             return Err(refuse(message, limits.remedy(Limit::Files, "include fewer")));
         }
         let room = limits.get(Limit::Text).saturating_sub(self.out.len() as u64);
-        let text = (self.load)(&Request { kind: statement.kind, path: &path, room }).map_err(|error| {
+        let text = (self.loader)(&Request { kind: statement.kind, path: &path, room }).map_err(|error| {
             refuse(complaint(statement.kind, &path, &error), remedy(statement.kind, &error))
         })?;
         if text.len() as u64 > room {
@@ -208,11 +205,11 @@ impl Inclusion<'_> {
         Ok((path, Text::new(file, self.options)?))
     }
 
-    /// Says where what follows was written, if anything does.
+    /// Writes a line mark for the text that follows, if any.
     fn mark(&mut self) {
         let Some((_, Text { source, marks, n_done, .. })) = self.open.last() else { return };
         let (name, line) = source.reported(marks, *n_done as u32);
-        // A quote or line end would end the name.
+        // A quote or line end would terminate the name.
         let name = name.replace(['"', '\n'], "?");
         self.out.extend_from_slice(format!("\n# {line} \"{name}\"\n").as_bytes());
     }
@@ -232,7 +229,7 @@ fn complaint(kind: RequestKind, path: &Path, error: &RequestError) -> String {
     }
 }
 
-/// At most 200 characters, control characters blanked.
+/// At most 200 characters, with control characters replaced by blanks.
 fn printable(text: &str) -> String {
     text.chars().take(200).map(|c| if c.is_control() { ' ' } else { c }).collect()
 }
@@ -248,22 +245,24 @@ fn remedy(kind: RequestKind, error: &RequestError) -> String {
     .to_string()
 }
 
-/// A name as seen from the file that has it.
-fn beside(file: &str, name: &str) -> PathBuf {
-    plain(&Path::new(file).parent().unwrap_or(Path::new("")).join(name))
+/// The path of `name`, relative to the folder of `file`.
+fn relative_to(file: &str, name: &str) -> PathBuf {
+    normalized(&Path::new(file).parent().unwrap_or(Path::new("")).join(name))
 }
 
-/// Without `.`, and without `..` behind a folder.
-fn plain(path: &Path) -> PathBuf {
-    let mut plain = PathBuf::new();
+/// The path without `.`, and without `..` after a folder.
+fn normalized(path: &Path) -> PathBuf {
+    let mut normalized = PathBuf::new();
     for component in path.components() {
         match component {
             Component::CurDir => {}
-            Component::ParentDir if matches!(plain.components().next_back(), Some(Component::Normal(_))) => {
-                plain.pop();
+            Component::ParentDir
+                if matches!(normalized.components().next_back(), Some(Component::Normal(_))) =>
+            {
+                normalized.pop();
             }
-            other => plain.push(other),
+            other => normalized.push(other),
         }
     }
-    plain
+    normalized
 }

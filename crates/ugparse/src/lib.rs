@@ -1,18 +1,19 @@
 //! UniGrafix scenes: text to [`Scene`] and back.
 //!
-//! UniGrafix is Berkeley's scene language of the 1980s: statements that begin
-//! with a keyword and end with `;`, comments in braces, definitions that are
-//! placed by instances and arrays. This crate reads it in three steps:
+//! UniGrafix is Berkeley's scene language of the 1980s: statements that begin with a keyword and end
+//! with `;`, comments in braces, and definitions that instances and arrays place. This crate
+//! reads it in three steps:
 //!
 //! ```text
 //! bytes ─reader→ scopes ─resolve→ scopes ─expand→ Scene (flat) ─write→ bytes
-//!        tables for the  names are rows  instances expanded
-//!        file, each def
+//!        tables of the   names replaced  instances expanded
+//!        file and of     by rows
+//!        each definition
 //! ```
 //!
-//! What comes out is complete: every name is resolved, every instance has its
-//! own vertices, every number is finite. Whatever is wrong is returned as
-//! [`Diagnostics`], up to 20 at once, each with its place in the text.
+//! The result is complete: every name is resolved, every instance has its own vertices, every
+//! number is finite. Errors are returned as [`Diagnostics`], up to 20 at once, each with its location in
+//! the text.
 //!
 //! ```
 //! let source = ugparse::Source::new(
@@ -27,11 +28,11 @@
 //! # Ok::<(), ugparse::Diagnostics>(())
 //! ```
 //!
-//! Nothing here computes with physics or pixels: motions of bodies, and the [`Stage`] of a scene, are
-//! carried for other programs.
+//! This crate has no physics and no pixels: it stores the motions of bodies and the [`Stage`] of a scene for
+//! other programs.
 //!
-//! The feature `cli` adds the program of the same name, and how all programs read scenes,
-//! included files among them (`pipe`). Libraries do without.
+//! The feature `cli` adds the program of the same name, and the module `pipe`, with which all programs read
+//! scenes and the files these include. Libraries leave it out.
 
 mod body;
 mod cameras;
@@ -85,30 +86,30 @@ pub use stage::{ColorScale, ColorStage, GeometryStage, HueScale, SeenColors, See
 pub use tidy::tidy;
 pub use writer::{write, write_to};
 
-/// A scene that was read.
+/// A parsed scene.
 #[derive(Clone, Debug)]
 pub struct Parsed {
     /// The flat scene.
     pub scene: Scene,
-    /// Where its rows come from.
+    /// The locations of its rows in the text.
     pub origins: Origins,
     /// Faces that are not flat, in order.
     pub bent: Vec<BentFace>,
-    /// What was changed to make it usable, or may look wrong.
+    /// Changes made to the scene, and possible mistakes in it.
     pub warnings: Diagnostics,
 }
 
-/// Reads a scene and flattens it.
+/// Parses a scene and flattens it.
 ///
 /// # Errors
-/// All that is wrong with the text, up to [`MAX_ERRORS`] findings.
+/// All errors in the text, up to [`MAX_ERRORS`].
 pub fn parse(source: &Source, options: &Options) -> Result<Parsed, Diagnostics> {
     let text = &source.text[..];
     check_length(source, options)?;
     let mut findings = Vec::new();
     let mut document = parallel_reader::read_document(text, options, &mut findings);
     stage_statement::take(text, &mut document, &mut findings);
-    findings.extend(document.requests.iter().map(include::not_followed));
+    findings.extend(document.requests.iter().map(include::not_replaced));
     refuse_errors(source, &mut findings)?;
 
     let stage = document.stage.map_or_else(Stage::default, |(stage, _)| stage);
@@ -123,7 +124,7 @@ pub fn parse(source: &Source, options: &Options) -> Result<Parsed, Diagnostics> 
     Ok(Parsed { scene, origins, bent, warnings: Diagnostics::new(source, findings) })
 }
 
-/// Stops if positions in the text do not fit.
+/// Refuses texts whose positions do not fit 32 bits or that exceed the limit.
 fn check_length(source: &Source, options: &Options) -> Result<(), Diagnostics> {
     if source.text.len() as u64 > options.limits.get(Limit::Text) {
         let finding = Diagnostic::error(Span::default(), "the scene is too large")
@@ -133,7 +134,7 @@ fn check_length(source: &Source, options: &Options) -> Result<(), Diagnostics> {
     Ok(())
 }
 
-/// Stops if there is an error among the findings.
+/// Returns the findings as errors if there is an error among them.
 fn refuse_errors(source: &Source, findings: &mut Vec<Diagnostic>) -> Result<(), Diagnostics> {
     if findings.iter().any(|finding| finding.severity == Severity::Error) {
         return Err(Diagnostics::new(source, std::mem::take(findings)));

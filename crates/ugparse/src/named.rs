@@ -1,19 +1,19 @@
-//! What has names of its own kind that are seen in scopes inside: colours and surfaces.
+//! Tables of colours and surfaces, whose names are visible in nested scopes.
 
 use rustc_hash::FxHashMap;
 
 use crate::scope::Rows;
 use crate::source::Span;
 
-/// Colours or surfaces of a scope.
+/// The colours or surfaces of a scope.
 pub(crate) struct Named<'t, T> {
-    /// In the order of the text. The names in the rows are not made yet.
+    /// In the order of the text. The names in the rows are not set yet.
     pub table: Rows<T>,
-    /// Where the name of each row stands, if it has one.
+    /// The span of each row's name, if it has one.
     pub spans: Vec<Option<Span>>,
-    /// Names that are used or defined here.
+    /// Names used or defined in this scope.
     pub names: NameTable<'t>,
-    /// For each of these names its row, if it is defined here.
+    /// For each of these names its row, if it is defined in this scope.
     rows: Vec<Option<u32>>,
 }
 
@@ -24,7 +24,7 @@ impl<T> Default for Named<'_, T> {
 }
 
 impl<'t, T> Named<'t, T> {
-    /// Enters the statement at `span`; gives the first definition of its name if this is the second.
+    /// Adds the statement at `span`. If its name is already defined, returns the first definition.
     pub fn push(&mut self, text: &'t [u8], name: Option<Span>, row: T, span: Span) -> Option<Span> {
         let before = name.and_then(|name| {
             let number = self.names.enter(name.of(text));
@@ -35,7 +35,7 @@ impl<'t, T> Named<'t, T> {
         before.map(|row| self.spans[row as usize].unwrap_or_default())
     }
 
-    /// Says what a name means; gives what it meant before.
+    /// Defines a name; returns its previous definition.
     fn define(&mut self, name: usize, row: u32) -> Option<u32> {
         if name >= self.rows.len() {
             self.rows.resize(name + 1, None);
@@ -43,13 +43,13 @@ impl<'t, T> Named<'t, T> {
         self.rows[name].replace(row)
     }
 
-    /// The row of what is defined here by that name.
+    /// The row with this name, if it is defined in this scope.
     pub fn row(&self, name: &[u8]) -> Option<usize> {
         self.rows.get(self.names.get(name)?).copied().flatten().map(|row| row as usize)
     }
 
-    /// Takes the names of a part of the text that follows, but not its table. Gives,
-    /// for each name there, its number here; `None` if one is defined twice.
+    /// Appends the names of the next part of the text, but not its table. Returns the number of each of them in
+    /// this table; `None` if one is defined twice.
     pub fn append_names(&mut self, part: &mut Self) -> Option<Vec<usize>> {
         let numbers: Vec<usize> = part.names.list.iter().map(|name| self.names.enter(name)).collect();
         let first_row = self.spans.len() as u32;
@@ -69,12 +69,12 @@ impl<'t, T> Named<'t, T> {
 pub(crate) struct NameTable<'t> {
     pub list: Vec<&'t [u8]>,
     numbers: FxHashMap<&'t [u8], usize>,
-    /// The one asked for last: neighbours often have one colour.
+    /// The last result, because consecutive statements often share a colour.
     last: usize,
 }
 
 impl<'t> NameTable<'t> {
-    /// The number of a name, which is entered if it is new.
+    /// The number of a name; adds it if it is new.
     #[inline]
     pub fn enter(&mut self, name: &'t [u8]) -> usize {
         match self.list.get(self.last) {

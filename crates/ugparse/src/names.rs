@@ -1,4 +1,4 @@
-//! Names of a scene, in one buffer, and new ones beside them.
+//! The names of a scene, in one buffer, and generation of unique names.
 
 use std::fmt;
 use std::num::NonZeroU32;
@@ -12,7 +12,7 @@ optional_index! {
     NameId
 }
 
-/// Text of names. Adding never looks up: rows may repeat a text.
+/// A table of names. Adding does not search: rows may have equal text.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Names {
     text: String,
@@ -23,12 +23,12 @@ impl Names {
     /// Adds a name.
     ///
     /// # Panics
-    /// If all names together pass 4 GiB; the reader refuses such scenes.
+    /// If all names together exceed 4 GiB; the reader refuses such scenes.
     pub fn add(&mut self, name: &str) -> NameId {
         self.add_parts(&[name])
     }
 
-    /// Adds a name put together from parts, without building it elsewhere.
+    /// Adds the concatenation of several parts.
     pub fn add_parts(&mut self, parts: &[&str]) -> NameId {
         parts.iter().for_each(|part| self.text.push_str(part));
         let end = u32::try_from(self.text.len()).expect("names together are below 4 GiB");
@@ -41,7 +41,7 @@ impl Names {
         self.ends.len()
     }
 
-    /// Appends another table; its names are numbered on behind those here.
+    /// Appends another table; the ids of its names continue after those of this one.
     pub(crate) fn append(&mut self, other: Self) {
         if self.ends.is_empty() {
             *self = other;
@@ -65,19 +65,19 @@ impl Names {
     }
 }
 
-/// Names that are taken, for making new ones.
+/// A set of used names, to generate unique ones.
 #[derive(Clone, Debug, Default)]
 pub struct UniqueNames {
     taken: FxHashSet<String>,
 }
 
 impl UniqueNames {
-    /// Takes `name` if it is free; false if it was taken before.
+    /// Marks `name` as used; returns false if it was used before.
     pub fn take(&mut self, name: &str) -> bool {
         self.taken.insert(name.to_string())
     }
 
-    /// Takes `name`, or the first free one of `name_2`, `name_3`, …
+    /// Returns `name`, or the first unused of `name_2`, `name_3`, …, and marks it as used.
     pub fn fresh(&mut self, name: &str) -> String {
         let mut candidate = name.to_string();
         let mut count = 1u64;

@@ -1,18 +1,17 @@
-//! Vertex names to numbers.
+//! Assigns numbers to vertex names.
 //!
-//! Most vertices are called by a stem and a number: `v1`, `v2`, … So each stem
-//! has a table that is indexed by the number: nothing is hashed, and neighbours
-//! in the text are neighbours in memory. All other names go through a hash map.
+//! Most names consist of a stem and a number: `v1`, `v2`, … So each stem has a table indexed by the number:
+//! no hashing is necessary, and consecutive names are adjacent in memory. All other names are in a hash map.
 
 use rustc_hash::FxHashMap;
 
-/// Most digits of a number behind a stem; more are a part of the name.
+/// The largest number of digits after a stem; with more, the name is not split.
 const MAX_DIGITS: usize = 9;
 
-/// Table entries a short text may have, whatever its length.
+/// The least number of table entries that any text may have.
 const MIN_ROOM: usize = 1024;
 
-/// A name, taken apart.
+/// A name, split into stem and number.
 #[derive(Clone, Copy)]
 pub(crate) struct Name<'t> {
     pub text: &'t [u8],
@@ -25,7 +24,7 @@ impl<'t> Name<'t> {
     pub fn new(text: &'t [u8]) -> Self {
         let digits = text.iter().rev().take_while(|byte| byte.is_ascii_digit()).count();
         let stem = text.len() - digits;
-        // What is not a number here is not used as one.
+        // If this is not a valid number, `with_number` ignores it.
         let number =
             text[stem..].iter().take(MAX_DIGITS).fold(0, |sum, digit| sum * 10 + u32::from(digit - b'0'));
         Self::with_number(text, stem, number)
@@ -40,37 +39,37 @@ impl<'t> Name<'t> {
     }
 }
 
-/// Numbers for names, from 0 in the order in which they are first asked for.
+/// Numbers of names, from 0 in the order of their first use.
 #[derive(Default)]
 pub(crate) struct NumberedNames<'t> {
     stems: Vec<Stem<'t>>,
     stem_rows: FxHashMap<&'t [u8], usize>,
-    /// The stem asked for last.
+    /// The last stem used.
     last: usize,
     others: FxHashMap<&'t [u8], u32>,
     len: u32,
-    /// Entries the tables may still grow by.
+    /// Number of entries by which the tables may still grow.
     room: usize,
 }
 
 struct Stem<'t> {
     text: &'t [u8],
-    /// For each number one more than what it stands for, 0 for nothing.
+    /// For each number after the stem, the number of the name plus 1, or 0 if the name is unknown.
     entries: Vec<u32>,
 }
 
 impl<'t> NumberedNames<'t> {
-    /// For names of a text of that many bytes, to which the tables stay in proportion.
+    /// For a text of this size in bytes; the size of the tables is limited in proportion.
     pub fn for_text(bytes: usize) -> Self {
         Self { room: (bytes / 4).max(MIN_ROOM), ..Self::default() }
     }
 
-    /// How many different names there are.
+    /// The number of different names.
     pub fn len(&self) -> usize {
         self.len as usize
     }
 
-    /// The number of a name, which is entered if it is new.
+    /// The number of a name; adds it if it is new.
     #[inline]
     pub fn enter(&mut self, name: Name<'t>) -> u32 {
         if let Some(len) = name.stem {
@@ -109,7 +108,7 @@ impl<'t> NumberedNames<'t> {
             entries.resize(wanted, 0);
         }
         if entries[idx] == 0 {
-            // It may have been entered before its table was large enough.
+            // It may have been added to the hash map before its table was large enough.
             if let Some(&known) = self.others.get(name.text) {
                 return known;
             }
@@ -136,7 +135,7 @@ impl<'t> NumberedNames<'t> {
         })
     }
 
-    /// For each name of `other`, by its number there, its number here; those not known here are entered.
+    /// Adds all names of `other`; returns their numbers in this table, indexed by their numbers in `other`.
     pub fn enter_all(&mut self, other: &NumberedNames<'t>) -> Vec<u32> {
         let mut numbers = vec![0; other.len()];
         for stem in &other.stems {
@@ -151,7 +150,7 @@ impl<'t> NumberedNames<'t> {
         numbers
     }
 
-    /// The number of the name that is put together from the last stem and `idx`.
+    /// The number of the name that consists of the last stem and `idx`.
     fn enter_numbered(&mut self, idx: usize) -> u32 {
         let stem = &mut self.stems[self.last];
         if let Some(&entry @ 1..) = stem.entries.get(idx) {
@@ -163,7 +162,7 @@ impl<'t> NumberedNames<'t> {
                 return known;
             }
         }
-        // The other table holds it, so this one stays in proportion, too.
+        // The table of `other` contains it, so this one stays in proportion, too.
         if idx >= stem.entries.len() {
             stem.entries.resize((idx + 1).max(2 * stem.entries.len()), 0);
         }

@@ -1,39 +1,39 @@
-//! How to read: what is allowed, and how much of it.
+//! Options and limits of parsing.
 
-/// How to read. Write `Options { lax: true, ..Options::default() }`: more may come.
+/// Options of parsing. Write `Options { lax: true, ..Options::default() }`, since fields may be added.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Options {
-    /// Unknown statements are warned about and passed on, not refused (`-lax`).
+    /// Pass on unknown statements with a warning, instead of refusing them (`-lax`).
     pub lax: bool,
-    /// `execute` statements are followed (`--allow-execute`), not refused: see [`crate::include`].
+    /// Run the programs of `execute` statements, instead of refusing them (`--allow-execute`): see [`crate::include`].
     pub execute: bool,
-    /// What is refused because it is too much (`--limit`).
+    /// Limits on the size of a scene (`--limit`).
     pub limits: Limits,
 }
 
-/// Something there may be too much of.
+/// A limited quantity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Limit {
-    /// Bytes of text, with all that it includes.
+    /// Bytes of text, included files, too.
     Text,
-    /// Files that include files, in one chain.
+    /// Depth of nested `include`.
     Includes,
-    /// Files included and programs run in all.
+    /// Files included and programs run, in total.
     Files,
-    /// Definitions inside definitions.
+    /// Depth of nested definitions.
     Nesting,
-    /// Definitions that place each other, in one chain.
+    /// Depth of instances within instances.
     Chain,
-    /// Statements of the placed scene; each takes some 200 bytes of memory.
+    /// Statements of the expanded scene; each needs about 200 bytes of memory.
     Statements,
-    /// Corners of its faces and wires; each takes 4 bytes.
+    /// Corners of its faces and wires; each needs 4 bytes.
     Corners,
     /// Bytes of its names.
     Names,
 }
 
 impl Limit {
-    /// All of them.
+    /// All limits.
     pub const ALL: [Self; 8] = [
         Self::Text,
         Self::Includes,
@@ -45,7 +45,7 @@ impl Limit {
         Self::Names,
     ];
 
-    /// The limit of that name.
+    /// Finds a limit by its name.
     pub fn from_name(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|limit| limit.name() == name)
     }
@@ -64,14 +64,14 @@ impl Limit {
         }
     }
 
-    /// What holds unless something else is asked for.
+    /// The default value.
     pub fn default_value(self) -> u64 {
         match self {
             Self::Text => self.most(),
             Self::Includes | Self::Nesting => 64,
             Self::Files => 10_000,
             Self::Chain => 200,
-            // Where memory of common machines ends.
+            // About the memory of common machines.
             Self::Statements => 50_000_000,
             Self::Corners => 500_000_000,
             Self::Names => self.most(),
@@ -120,13 +120,13 @@ impl Limits {
         self.0[limit as usize]
     }
 
-    /// The same with another value for one, or [`Limit::most`] if that is less.
+    /// These limits with another value for one; values above [`Limit::most`] are reduced to it.
     pub fn with(mut self, limit: Limit, value: u64) -> Self {
         self.0[limit as usize] = value.min(limit.most());
         self
     }
 
-    /// What to do if a limit is reached; `else_do`: in place of raising it.
+    /// The remedy if a limit is reached; `else_do`: the alternative to raising it.
     pub(crate) fn remedy(&self, limit: Limit, else_do: &str) -> String {
         let value = self.get(limit);
         let unit = if value == 1 { limit.unit().trim_end_matches('s') } else { limit.unit() };

@@ -1,11 +1,10 @@
-//! Large texts, read in parts on all threads.
+//! Parses large texts in parts, on all threads.
 //!
-//! A text is cut at line ends behind a `;`. Each part is read as if it began
-//! between two statements of the file. The first part does, and if a part ends
-//! between two statements, the next one does, too; so if all parts are read to
-//! their ends without an error, they are what the whole text holds. If a cut
-//! falls into a comment or a definition, or if anything is wrong, then a part
-//! shows it, and the whole is read again in one go, which finds the words for it.
+//! A text is split at line ends after a `;`. Each part is parsed as if it began between two statements of
+//! the file. This is true for the first part, and for every part whose predecessor ends between two
+//! statements. So if all parts are parsed to their ends without error, together they are the whole
+//! text. If a split is inside a comment or a definition, or if there is any other error, a part fails; then the
+//! whole text is parsed again on one thread, which gives the diagnostics.
 
 use crate::Options;
 use crate::body::BodyId;
@@ -16,13 +15,13 @@ use crate::reader::{Document, read, read_part};
 use crate::scene::{ColorId, Illum, IllumId, LightMotion, SurfaceId, VertexId};
 use crate::scope::{DefaultColor, NO_ROW, Rows, Scope, shifted};
 
-/// Bytes a part should have at least.
+/// The least size of a part in bytes.
 const MIN_PART: usize = 1 << 19;
 
-/// Rows that a thread should have at least.
+/// The least number of rows per thread.
 const MIN_ROWS: usize = 1 << 14;
 
-/// Reads a text, in parts if it is large and there are threads.
+/// Parses a text, in parts if it is large and there are several threads.
 pub(crate) fn read_document<'t>(
     text: &'t [u8],
     options: &Options,
@@ -60,7 +59,7 @@ fn read_parts<'t>(
     Some((document, warnings.concat()))
 }
 
-/// Where part `part` of `n_parts` begins: behind the next line that ends in a `;`.
+/// The start of part `part` of `n_parts`: after the next line that ends with `;`.
 fn cut(text: &[u8], part: usize, n_parts: usize) -> usize {
     if part == 0 {
         return 0;
@@ -82,9 +81,9 @@ fn cut(text: &[u8], part: usize, n_parts: usize) -> usize {
     text.len()
 }
 
-/// The tables of all parts in one; `None` if a name is defined twice.
+/// Joins the tables of all parts; `None` if a name is defined twice.
 fn join<'t>(mut parts: Vec<Scope<'t>>) -> Option<Scope<'t>> {
-    // Calls stand between rows of all kinds; texts so large seldom have any.
+    // The order of calls relative to other rows would have to be kept; texts of this size seldom have any.
     let is_plain = |part: &Scope<'_>| part.duplicates.is_empty() && part.calls.rows.is_empty();
     if !parts.iter().all(is_plain) {
         return None;
@@ -94,7 +93,7 @@ fn join<'t>(mut parts: Vec<Scope<'t>>) -> Option<Scope<'t>> {
     let mut before = PrecedingRows::default();
     let mut offsets = Vec::with_capacity(parts.len());
     for part in &mut parts {
-        offsets.push(PartOffsets::behind(&mut file, before, part)?);
+        offsets.push(PartOffsets::append(&mut file, before, part)?);
         before.add(part);
     }
 
@@ -168,9 +167,8 @@ fn join<'t>(mut parts: Vec<Scope<'t>>) -> Option<Scope<'t>> {
     Some(file)
 }
 
-/// Puts the names of vertices together, and their rows. Gives, for each part but
-/// the first, for each number of a name there, the row in the whole file or
-/// [`NO_ROW`]. `None` if two vertices have one name.
+/// Joins the vertex names and their rows. For each part except the first, returns the row in the whole file, or
+/// [`NO_ROW`], for the number of each name. `None` if two vertices have the same name.
 fn vertices_of_parts<'t>(parts: &mut [Scope<'t>], file: &mut Scope<'t>) -> Option<Vec<Vec<u32>>> {
     let (first, others) = parts.split_first_mut()?;
     file.vertex_names = std::mem::take(&mut first.vertex_names);
@@ -190,7 +188,7 @@ fn vertices_of_parts<'t>(parts: &mut [Scope<'t>], file: &mut Scope<'t>) -> Optio
         first_row += part.vertices.len() as u32;
         all_rows.push(numbers);
     }
-    // Only now all vertices are known.
+    // After all parts, every vertex has a row.
     for number in all_rows.iter_mut().flatten() {
         *number = file.vertex_rows[*number as usize];
     }
@@ -198,7 +196,7 @@ fn vertices_of_parts<'t>(parts: &mut [Scope<'t>], file: &mut Scope<'t>) -> Optio
     Some(all_rows)
 }
 
-/// Rows in the parts before one.
+/// Numbers of rows in the preceding parts.
 #[derive(Clone, Copy, Default)]
 struct PrecedingRows {
     contours: u32,
@@ -214,7 +212,7 @@ impl PrecedingRows {
     }
 }
 
-/// Where the rows of a part come in the whole file.
+/// Maps rows and ids of a part to those of the whole file.
 struct PartOffsets {
     first_name: usize,
     first_contour: u32,
@@ -222,14 +220,14 @@ struct PartOffsets {
     first_sample: usize,
     colors: Vec<ColorId>,
     bodies: Vec<BodyId>,
-    /// Nothing in the part's rows has to change.
+    /// True if the part's rows do not have to be changed.
     is_same: bool,
 }
 
 impl PartOffsets {
-    /// Behind what is in `file` already. Names of all kinds and bodies go there at
-    /// once. `None` if a colour or surface is defined twice.
-    fn behind<'t>(file: &mut Scope<'t>, before: PrecedingRows, part: &mut Scope<'t>) -> Option<Self> {
+    /// Appends a part to `file`. Names of all kinds, and bodies, are moved immediately. `None` if a colour or surface is
+    /// defined twice.
+    fn append<'t>(file: &mut Scope<'t>, before: PrecedingRows, part: &mut Scope<'t>) -> Option<Self> {
         let first_color = file.colors.spans.len() as u32;
         let colors = file.colors.append_names(&mut part.colors)?;
         let colors: Vec<_> = colors.into_iter().map(ColorId::from_index).collect();
@@ -277,7 +275,7 @@ impl PartOffsets {
     }
 }
 
-/// Joins one table of all parts; `change` turns a row of a part into a row of the file.
+/// Joins one table of all parts; `change` converts a row of a part to a row of the file.
 fn join_tables<'t, T: Send>(
     parts: &mut [Scope<'t>],
     offsets: &[PartOffsets],
@@ -297,7 +295,7 @@ fn join_tables<'t, T: Send>(
     Rows { rows, spans: join_rows(spans) }
 }
 
-/// The rows of all parts in order. Those of the first part are seldom copied.
+/// Concatenates the rows of all parts; those of the first part are seldom copied.
 fn join_rows<T>(mut parts: Vec<Vec<T>>) -> Vec<T> {
     let n_rows: usize = parts.iter().map(Vec::len).sum();
     let first = parts.iter().position(|part| !part.is_empty()).unwrap_or(0);
@@ -308,7 +306,7 @@ fn join_rows<T>(mut parts: Vec<Vec<T>>) -> Vec<T> {
     rows
 }
 
-/// Where the rows of each part begin in the file, and where the last ones end.
+/// The first row of each part in the file, and the end of the last part.
 fn ends<T>(parts: &[Vec<T>]) -> Vec<usize> {
     let mut ends = vec![0];
     for part in parts {
@@ -317,8 +315,8 @@ fn ends<T>(parts: &[Vec<T>]) -> Vec<usize> {
     ends
 }
 
-/// Contours of all parts, with rows of vertices for corners: those of the first
-/// part by `first_rows`, of the others by `other_rows`.
+/// Joins the contours of all parts, and replaces the numbers of their corners by rows of vertices: `first_rows` for the
+/// first part, `other_rows` for the others.
 fn join_contours(parts: &mut [Scope<'_>], first_rows: &[u32], other_rows: &[Vec<u32>]) -> Contours {
     let (mut corners, mut contour_ends) = (Vec::new(), Vec::new());
     for part in parts {

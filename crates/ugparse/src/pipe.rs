@@ -5,10 +5,10 @@ use ugpipe::{CommonArgs, Failure, Stage};
 
 use crate::{Diagnostics, Limit, Limits, Options, Request, RequestError, RequestKind, Source};
 
-/// What the common options of a program say about reading.
+/// The parsing options among the common options of a program.
 ///
 /// # Errors
-/// [`Failure::Usage`] for a limit that is not known, or cannot be so large.
+/// [`Failure::Usage`] for an unknown limit or a value that is too large.
 pub fn options(common: &CommonArgs) -> Result<Options, Failure> {
     let mut limits = Limits::default();
     for (name, value) in common.limits() {
@@ -24,17 +24,17 @@ pub fn options(common: &CommonArgs) -> Result<Options, Failure> {
     Ok(Options { lax: common.lax(), execute: common.allow_execute(), limits })
 }
 
-/// Reads the scene of a program, with all that it includes.
+/// Reads the input scene of a program, with all included files.
 ///
 /// # Errors
-/// [`Failure::Read`] for the input itself, [`Failure::Report`] for what it includes.
+/// [`Failure::Read`] for the input itself, [`Failure::Report`] for included files.
 pub fn read(stage: &mut Stage, options: &Options) -> Result<Source, Failure> {
     let input = stage.input()?;
     follow(Source::new(input.name, input.text), options, stage).map_err(refused)
 }
 
-/// Follows the `include` and `execute` statements of a scene, see [`crate::include`]. What
-/// programs complain about, though they end well, is told as a note.
+/// Replaces the `include` and `execute` statements of a scene, see [`crate::include`]. Error output of successful
+/// programs is reported as a note.
 ///
 /// # Errors
 /// See [`crate::include`].
@@ -58,7 +58,7 @@ fn load(request: &Request<'_>, stage: &Stage) -> Result<Vec<u8>, RequestError> {
     }
 }
 
-/// Findings that end a run.
+/// The failure of a run because of errors in the scene.
 pub fn refused(findings: Diagnostics) -> Failure {
     Failure::Report(findings.render(true))
 }

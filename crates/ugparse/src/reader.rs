@@ -1,4 +1,4 @@
-//! Text to scopes: statement after statement, with recovery at the next `;`.
+//! Parses a text into scopes, statement by statement. After an error it continues behind the next `;`.
 
 use crate::diagnostic::{Diagnostic, MAX_ERRORS};
 use crate::fast_path;
@@ -15,17 +15,16 @@ use crate::token::{
 };
 use crate::wording::{no_statement, shorten, with_usage, word_help};
 
-/// A text that was read.
+/// A parsed text.
 #[derive(Default)]
 pub(crate) struct Document<'t> {
-    /// Row 0 is the file itself, the others are its definitions in the order
-    /// of their `def`s.
+    /// The first is the file itself, the others are its definitions in the order of their `def`s.
     pub scopes: Vec<Scope<'t>>,
-    /// Comments in order.
+    /// Comments in the order of the text.
     pub comments: Vec<CommentSpan>,
-    /// Where the first statement begins.
+    /// The position of the first statement.
     pub first_statement: Option<u32>,
-    /// Lines of the C preprocessor.
+    /// Line marks of the C preprocessor.
     pub line_marks: Vec<LineMark>,
     /// `include` and `execute` statements.
     pub requests: Vec<RequestStatement>,
@@ -37,7 +36,7 @@ pub(crate) struct Document<'t> {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct CommentSpan {
     pub text: Span,
-    /// It begins on the line on which a statement ends.
+    /// True if it begins on the line on which a statement ends.
     pub trailing: bool,
 }
 
@@ -50,8 +49,7 @@ pub(crate) struct RequestStatement {
     pub file: Span,
 }
 
-/// Reads the whole text. Errors go to `findings`; reading goes on behind them
-/// until there are too many.
+/// Parses the whole text. Errors are added to `findings`; parsing continues after them until there are too many.
 pub(crate) fn read<'t>(text: &'t [u8], options: &Options, findings: &mut Vec<Diagnostic>) -> Document<'t> {
     let mut reader = Reader::new(text, 0, options, findings);
     reader.run(0);
@@ -59,9 +57,9 @@ pub(crate) fn read<'t>(text: &'t [u8], options: &Options, findings: &mut Vec<Dia
     reader.document
 }
 
-/// Reads the statements of `text` from `start` on, if all is well and they hold no definition.
+/// Parses the statements of `text` from `start` on. Returns `None` if there is an error or a definition.
 ///
-/// The text ends where this part of it does.
+/// `text` must end where the part ends.
 pub(crate) fn read_part<'t>(
     text: &'t [u8],
     start: usize,
@@ -75,13 +73,13 @@ pub(crate) fn read_part<'t>(
     is_plain.then_some((document, findings))
 }
 
-/// The lines of the C preprocessor in a text.
+/// The line marks of the C preprocessor in a text.
 pub(crate) fn line_marks(text: &[u8]) -> Vec<LineMark> {
     let may_be_one = |idx: usize| matches!(text[idx + 1..], [b' ' | b'\t', ..] | [b'l', b'i', ..]);
     if !memchr::memchr_iter(b'#', text).any(may_be_one) {
         return Vec::new();
     }
-    // Marks behind more mistakes than are reported are not missed.
+    // Marks after the last reported error do not matter.
     let options = Options { lax: true, ..Options::default() };
     read(text, &options, &mut Vec::new()).line_marks
 }
@@ -89,14 +87,14 @@ pub(crate) fn line_marks(text: &[u8]) -> Vec<LineMark> {
 struct Reader<'t, 'f> {
     grammar: Grammar<'t>,
     document: Document<'t>,
-    /// The scopes being read, from the file inwards.
+    /// The open scopes, from the file inwards.
     open: Vec<usize>,
     options: Options,
-    /// Only plain statements are read, up to the first that is not.
+    /// Read only up to the first error or definition.
     is_part: bool,
-    /// A statement has ended on the line we are on.
+    /// A statement has ended on the current line.
     line_has_statement: bool,
-    /// Of the statement being read.
+    /// The vertex references of the current statement.
     references: References,
     findings: &'f mut Vec<Diagnostic>,
     error_count: usize,
@@ -120,19 +118,19 @@ impl<'t, 'f> Reader<'t, 'f> {
 
     fn run(&mut self, start: usize) {
         let mut input: Input<'t> = &self.grammar.text[start..];
-        while self.goes_on() {
+        while self.continues() {
             match self.between(input) {
                 Ok([]) => break,
                 Ok(rest) => input = self.statement(rest),
                 Err(syntax_error) => {
-                    self.complain(&syntax_error, None);
+                    self.report_syntax_error(&syntax_error, None);
                     break;
                 }
             }
         }
     }
 
-    fn goes_on(&self) -> bool {
+    fn continues(&self) -> bool {
         if self.is_part {
             self.error_count == 0 && self.open.len() == 1
         } else {
@@ -140,7 +138,7 @@ impl<'t, 'f> Reader<'t, 'f> {
         }
     }
 
-    /// Skips white space and notes comments up to the next statement.
+    /// Skips white space and records comments up to the next statement.
     fn between(&mut self, mut input: Input<'t>) -> Result<Input<'t>, SyntaxError<'t>> {
         loop {
             match input.first() {
@@ -165,7 +163,7 @@ impl<'t, 'f> Reader<'t, 'f> {
         self.document.comments.push(CommentSpan { text, trailing });
     }
 
-    /// Reads one statement; gives what is behind it, or where to go on after an error.
+    /// Parses one statement; returns the rest of the text, or where to continue after an error.
     fn statement(&mut self, input: Input<'t>) -> Input<'t> {
         let start = self.grammar.position(input);
         let scope = &mut self.document.scopes[self.open[self.open.len() - 1]];
@@ -181,11 +179,11 @@ impl<'t, 'f> Reader<'t, 'f> {
             }
             Err(syntax_error) => match self.next_statement(input, &syntax_error) {
                 Some(next) => {
-                    self.complain_about_end(input, &next);
+                    self.report_missing_end(input, &next);
                     next.at
                 }
                 None => {
-                    self.complain(&syntax_error, Some(input));
+                    self.report_syntax_error(&syntax_error, Some(input));
                     skip_statement(syntax_error.at).unwrap_or(&[])
                 }
             },
@@ -241,7 +239,7 @@ impl<'t, 'f> Reader<'t, 'f> {
         Ok(rest)
     }
 
-    /// A statement that is not ours is passed on with all that is in it, or refused.
+    /// Passes on an unknown statement unchanged, or refuses it.
     fn unknown_statement(
         &mut self,
         input: Input<'t>,
@@ -252,7 +250,7 @@ impl<'t, 'f> Reader<'t, 'f> {
             return Err(SyntaxError { at: input, reason: Reason::Expected("a statement") });
         }
         let rest = match keyword {
-            // A line of the C preprocessor ends with the line.
+            // A preprocessor directive ends with its line.
             b"#" | b"#line" => &body[memchr::memchr(b'\n', body).unwrap_or(body.len())..],
             _ => skip_statement(body)?,
         };
@@ -285,8 +283,7 @@ impl<'t, 'f> Reader<'t, 'f> {
         Ok(rest)
     }
 
-    /// The rest of `# LINE "FILE" …`, which ends with its line. What follows the
-    /// file name is for the preprocessor.
+    /// Parses the rest of `# LINE "FILE" …`, which ends with its line. Flags after the file name are ignored.
     fn line_mark(&self, body: Input<'t>) -> Option<(Input<'t>, LineMark)> {
         let end = memchr::memchr(b'\n', body).unwrap_or(body.len());
         let (rest, line) = integer(&body[..end]).ok()?;
@@ -300,8 +297,7 @@ impl<'t, 'f> Reader<'t, 'f> {
 
     /// `def ID ;`
     ///
-    /// Opens a scope even if something is wrong with the line, so that the
-    /// `end` of the definition has its `def`.
+    /// Opens a scope even if the line has an error, so that the `end` of the definition matches.
     fn begin_definition(&mut self, input: Input<'t>, body: Input<'t>) -> Result<Input<'t>, SyntaxError<'t>> {
         let row = self.document.scopes.len();
         let outer = self.open[self.open.len() - 1];
@@ -311,7 +307,7 @@ impl<'t, 'f> Reader<'t, 'f> {
             around.defaults.last().map(|default| (outer, default.color)).or(around.outer_default);
         self.document.scopes.push(scope);
         self.open.push(row);
-        // The file is open, too; the first that is too deep is enough to complain about.
+        // The file is open, too. Only the first definition that is nested too deeply is reported.
         if self.open.len() as u64 == self.options.limits.get(Limit::Nesting) + 2 {
             let start = self.grammar.position(input);
             let span = Span { start, end: start + found(input).len() as u32 };
@@ -345,7 +341,7 @@ impl<'t, 'f> Reader<'t, 'f> {
         Ok(rest)
     }
 
-    /// The scope being read, into which the statement at `span` is to go.
+    /// The current scope, for the statement at `span`.
     fn scope_for(&mut self, span: Span) -> &mut Scope<'t> {
         self.document.first_statement.get_or_insert(span.start);
         let row = self.open[self.open.len() - 1];
@@ -356,7 +352,7 @@ impl<'t, 'f> Reader<'t, 'f> {
         Span { start: self.grammar.position(input), end: self.grammar.position(rest) }
     }
 
-    /// Comments between the words of a statement come behind those above it.
+    /// Records the comments between the words of a statement.
     fn note_inner_comments(&mut self, input: Input<'t>, rest: Input<'t>) {
         let text = &input[..input.len() - rest.len()];
         let mut idx = 0;
@@ -368,8 +364,8 @@ impl<'t, 'f> Reader<'t, 'f> {
         }
     }
 
-    /// The statement that begins on a line of its own between `input` and the
-    /// syntax_error: then what is wrong is that the one at `input` has no end.
+    /// Finds a statement that begins on its own line between `input` and the error: then the error is that the
+    /// statement at `input` has no end.
     fn next_statement(&self, input: Input<'t>, syntax_error: &SyntaxError<'t>) -> Option<Next<'t>> {
         let Reason::Expected(wanted) = syntax_error.reason else { return None };
         let limit = skip_blank(syntax_error.at);
@@ -395,7 +391,7 @@ impl<'t, 'f> Reader<'t, 'f> {
             b"def" => identifier(body).is_ok_and(|(rest, _)| semicolon(rest)),
             b"end" => semicolon(body),
             _ => match self.grammar.statement(keyword, body, &mut References::default()) {
-                // It may lack its own `;`. Before a parenthesis it is rather a part of a contour.
+                // It may lack its own `;`. Before a parenthesis, however, it is part of a contour.
                 Some(Ok((rest, _))) => {
                     let in_contour = matches!(skip_blank(rest), [b'(' | b')', ..]);
                     semicolon(rest) || (keyword != b"cam" && !in_contour)
@@ -405,7 +401,7 @@ impl<'t, 'f> Reader<'t, 'f> {
         }
     }
 
-    fn complain_about_end(&mut self, statement: Input<'t>, next: &Next<'t>) {
+    fn report_missing_end(&mut self, statement: Input<'t>, next: &Next<'t>) {
         let place = self.grammar.position(next.end);
         let message = format!("expected {} before the next statement", next.wanted);
         let finding =
@@ -413,7 +409,7 @@ impl<'t, 'f> Reader<'t, 'f> {
         self.report(with_usage(finding, statement));
     }
 
-    fn complain(&mut self, syntax_error: &SyntaxError<'t>, statement: Option<Input<'t>>) {
+    fn report_syntax_error(&mut self, syntax_error: &SyntaxError<'t>, statement: Option<Input<'t>>) {
         let at = skip_blank(syntax_error.at);
         let start = self.grammar.position(at);
         let what = found(at);
@@ -467,12 +463,12 @@ impl<'t, 'f> Reader<'t, 'f> {
 
     fn check_all_closed(&mut self) {
         let Some(&row) = self.open.last() else { return };
-        // Behind an error, an `end` may have been skipped.
+        // After an error, an `end` may have been skipped.
         if self.open.len() == 1 || self.error_count > 0 {
             return;
         }
         if let Some((statement, next)) = self.swallowed_end(row) {
-            return self.complain_about_end(statement, &next);
+            return self.report_missing_end(statement, &next);
         }
         let name = self.document.scopes[row].name;
         let shown = shorten(name.of(self.grammar.text));
@@ -483,7 +479,7 @@ impl<'t, 'f> Reader<'t, 'f> {
         );
     }
 
-    /// A statement without `;` takes the `end` of the next line for the name of a colour.
+    /// A statement without `;` may have parsed the `end` on the next line as the name of a colour.
     fn swallowed_end(&self, row: usize) -> Option<(Input<'t>, Next<'t>)> {
         self.document.scopes[row].statements(self.grammar.text).into_iter().find_map(|span| {
             let statement = &self.grammar.text[span.start as usize..];
@@ -500,22 +496,22 @@ impl<'t, 'f> Reader<'t, 'f> {
     }
 }
 
-/// What is behind white space and comments; an unclosed comment stays.
+/// Skips white space and comments, except an unclosed comment.
 fn skip_blank(input: Input<'_>) -> Input<'_> {
     blank(input).map_or(input, |(rest, ())| rest)
 }
 
-/// Where a statement should have ended: another one begins on the next line.
+/// A missing end of a statement: another one begins on the next line.
 struct Next<'t> {
     /// The next statement.
     at: Input<'t>,
-    /// Behind the last word before it.
+    /// The end of the last word before it.
     end: Input<'t>,
-    /// What should have stood there.
+    /// What was expected there.
     wanted: &'static str,
 }
 
-/// The words and punctuation marks of a text, comments left out.
+/// Iterates over the words and punctuation marks of a text, without comments.
 struct Words<'t> {
     rest: Input<'t>,
 }

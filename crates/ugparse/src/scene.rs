@@ -1,8 +1,8 @@
-//! The flat scene: what every tool reads and writes after names, definitions,
-//! instances and arrays have been resolved.
+//! The flat scene that every program reads and writes, with all names, definitions, instances and arrays
+//! resolved.
 //!
-//! A [`Scene`] is plain data in index buffers. Its guarantees, made by
-//! [`crate::parse`] and kept by everyone who builds one:
+//! A [`Scene`] is plain data in index buffers. [`crate::parse`] establishes these invariants, and all code that
+//! builds or changes a scene must keep them:
 //!
 //! - every id is in range, every number finite;
 //! - every contour of a face has three vertices or more, every contour of a
@@ -53,7 +53,7 @@ macro_rules! optional_index {
     ($($(#[$doc:meta])* $name:ident)*) => {$(
         $(#[$doc])*
         ///
-        /// An `Option` of it takes no more room than itself.
+        /// `Option` of it has the same size.
         #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
         pub struct $name(NonZeroU32);
 
@@ -93,12 +93,11 @@ optional_index! {
 
 /// A flat UniGrafix scene.
 ///
-/// Two scenes are equal if they write the same text: rows of names and
-/// contours may differ.
+/// Two scenes are equal if they are written as the same text; rows of names and contours may differ.
 #[derive(Clone, Debug, Default)]
 pub struct Scene {
-    /// Comments before the first statement (licence, history), without their
-    /// outer braces. They come first in every output.
+    /// Comments before the first statement (licence, history), without their outer braces. They come first in
+    /// the output.
     pub head: Vec<String>,
     /// What filters have done to positions and colours: `(ugstage … )`.
     pub stage: Stage,
@@ -108,12 +107,12 @@ pub struct Scene {
     pub names: Names,
     /// `c`, `c_rgb`, `c_xyz`, `c_bb`, `c_spd`.
     pub colors: Vec<Color>,
-    /// Samples of spectra: wavelength in nm, rising in each, and value, 0 or more.
-    /// Linear between, 0 outside.
+    /// Samples of spectra: wavelength in nm, increasing within each spectrum, and value, 0 or more. Linear between
+    /// samples, 0 outside.
     pub samples: Vec<[f64; 2]>,
     /// `surf`.
     pub surfaces: Vec<SurfaceProperties>,
-    /// What moves as one, and how: every distinct velocity of the text is a body.
+    /// The bodies and their motions: every distinct velocity in the text is a body.
     pub bodies: Bodies,
     /// `v`.
     pub vertices: Vec<Vertex>,
@@ -121,7 +120,7 @@ pub struct Scene {
     pub contours: Contours,
     /// `f`.
     pub faces: Vec<Face>,
-    /// What faces say about their light; few do, so it is kept beside them.
+    /// Light levels and surfaces of faces; stored separately, because few faces have one.
     pub illums: Vec<Illum>,
     /// `w`.
     pub wires: Vec<Wire>,
@@ -132,7 +131,7 @@ pub struct Scene {
     /// Escapes `( … )`: text for other programs, without its outer
     /// parentheses.
     pub escapes: Vec<String>,
-    /// Statements nobody here knows, kept under `-lax`, with their `;`.
+    /// Unknown statements, kept with `-lax`, including their `;`.
     pub unknown: Vec<String>,
 }
 
@@ -141,19 +140,19 @@ pub struct Scene {
 pub struct Color {
     /// Its name.
     pub name: NameId,
-    /// How it was given.
+    /// Its value, as given.
     pub value: ColorValue,
-    /// 0 opaque … 1 clear.
+    /// Translucency: 0 opaque … 1 invisible.
     pub translucency: f64,
 }
 
-/// The ways to give a colour. Numbers are kept as written. Whether the hue is an angle modulo 360
-/// degrees or a wavelength is in [`Stage::hue_scale`], or decided by the caller.
+/// The ways to specify a colour. Numbers are stored as written. [`Stage::hue_scale`], or the caller, determines whether
+/// the hue is an angle modulo 360 degrees or a wavelength.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ColorValue {
     /// `c`: HSV. Saturation 0 is grey, whatever the hue.
     Hsv {
-        /// Lightness V ≥ 0; 1 is full, more is kept.
+        /// Lightness V ≥ 0; 1 is full, and larger values are kept.
         value: f64,
         /// Hue in degrees, or wavelength in nm.
         hue: f64,
@@ -168,39 +167,39 @@ pub enum ColorValue {
     Blackbody {
         /// Its temperature, above 0.
         kelvin: f64,
-        /// What its light is multiplied by, 0 or more.
+        /// Factor of its light, 0 or more.
         scale: f64,
     },
-    /// `c_spd`: a spectrum by samples.
+    /// `c_spd`: a sampled spectrum.
     Spectrum {
         /// First row of [`Scene::samples`].
         start: u32,
-        /// Row behind the last.
+        /// Row after the last sample.
         end: u32,
     },
 }
 
-/// How a surface takes light, for programs that follow rays.
+/// Reflection properties of a surface, for ray tracers.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SurfaceProperties {
     /// Its name.
     pub name: NameId,
-    /// kd: part of the light that is scattered all round, 0 or more.
+    /// kd: fraction of light reflected diffusely, 0 or more.
     pub diffuse: f64,
-    /// ks: part that is mirrored, 0 or more.
+    /// ks: fraction reflected specularly, 0 or more.
     pub specular: f64,
-    /// kt: part that goes through, 0…1.
+    /// kt: fraction transmitted, 0…1.
     pub transmitted: f64,
     /// n: refractive index, above 0.
     pub refraction: f64,
-    /// How sharp highlights are, 0 or more.
+    /// Exponent of highlights, 0 or more.
     pub exponent: f64,
 }
 
 impl SurfaceProperties {
-    /// Refractive index unless given.
+    /// Default refractive index.
     pub const REFRACTION: f64 = 1.0;
-    /// Exponent of highlights unless given.
+    /// Default exponent of highlights.
     pub const EXPONENT: f64 = 20.0;
 }
 
@@ -211,9 +210,9 @@ pub struct Vertex {
     pub name: NameId,
     /// Position in scene coordinates.
     pub position: DVec3,
-    /// Its own colour; beats the colour of the faces.
+    /// Its own colour; overrides the colours of the faces.
     pub color: Option<ColorId>,
-    /// Rest-frame normal for smooth shading; any length but 0.
+    /// Rest-frame normal for smooth shading; any length except 0.
     pub normal: Option<DVec3>,
 }
 
@@ -227,22 +226,22 @@ pub struct Face {
     pub contours: Range<u32>,
     /// Colour; `None` means lightness 1, saturation 0, opaque.
     pub color: Option<ColorId>,
-    /// What is known of its light, see [`Scene::light_level`] and [`Scene::surface`].
+    /// Its light level or surface, see [`Scene::light_level`] and [`Scene::surface`].
     pub illum: Option<IllumId>,
     /// The body it is part of.
     pub body: BodyId,
 }
 
-/// What a face says about its light.
+/// The light level or surface of a face.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Illum {
-    /// Stored light level: lighting is skipped.
+    /// Fixed light level: the face is not lit.
     Level(f64),
-    /// How it takes light.
+    /// Reflection properties.
     Surface(SurfaceId),
 }
 
-/// Lines.
+/// Polylines.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Wire {
     /// Its name, if it has one.
@@ -262,20 +261,20 @@ pub struct Light {
     pub name: Option<NameId>,
     /// Intensity; 1 lights a white face fully.
     pub intensity: f64,
-    /// What kind of light, and where.
+    /// The kind of light, with its direction or position.
     pub kind: LightKind,
     /// Its colour; default white.
     pub color: Option<ColorId>,
-    /// How it moves.
+    /// Its motion.
     pub motion: LightMotion,
 }
 
-/// How a light moves.
+/// The motion of a light.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LightMotion {
     /// It rests in the frame of whatever it lights, as in the report of 1988. The text gives it no velocity.
     WithWhatItLights,
-    /// It is part of a body, and lights others from where that is.
+    /// It is part of a body, and moves with it.
     Body(BodyId),
 }
 
@@ -289,23 +288,23 @@ impl LightMotion {
     }
 }
 
-/// What kind of light.
+/// Kind of light.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LightKind {
-    /// From everywhere.
+    /// Ambient light, equal from all directions.
     Ambient,
-    /// From infinitely far; the vector points toward the light, any length but 0.
+    /// From infinitely far away; the vector points toward the light, with any length except 0.
     Directional(DVec3),
-    /// From a point, or a small sphere.
+    /// From a point or a small sphere.
     Local {
-        /// Its place in scene coordinates.
+        /// Its position in scene coordinates.
         position: DVec3,
         /// Its radius, 0 or more.
         radius: f64,
     },
 }
 
-/// A camera: everything is optional and has its default in the renderer.
+/// A camera: every field is optional and has a default in the renderer.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Camera {
     /// Its name, if it has one.
@@ -316,13 +315,13 @@ pub struct Camera {
     pub eye: Option<DVec3>,
     /// `-ud`: up direction.
     pub up: Option<DVec3>,
-    /// `-cl`: hither and yon, distances from the eye along the view.
+    /// `-cl`: near and far clipping distances from the eye along the view direction.
     pub clip: Option<[f64; 2]>,
     /// `-ph`: sub-rectangle of the film, min x, min y, max x, max y in 0…1.
     pub film: Option<[f64; 4]>,
     /// `-og` or `-ps`.
     pub projection: Option<Projection>,
-    /// `-va`: full view angles across and down, degrees.
+    /// `-va`: full horizontal and vertical view angles, degrees.
     pub view_angle: Option<[f64; 2]>,
     /// `-fs`: film size.
     pub film_size: Option<[f64; 2]>,
@@ -346,9 +345,9 @@ pub enum Projection {
 pub struct Comment {
     /// Text without the outer braces.
     pub text: String,
-    /// The statement it stands before or behind.
+    /// The statement to which it belongs.
     pub at: Item,
-    /// True if it follows `at` on the same line, false if it stands above it.
+    /// True if it follows `at` on the same line, false if it is above it.
     pub trailing: bool,
 }
 
@@ -375,7 +374,7 @@ pub enum Item {
     Light(u32),
     /// Row of [`Scene::cameras`].
     Camera(u32),
-    /// Behind the last statement.
+    /// After the last statement.
     End,
 }
 
@@ -391,7 +390,7 @@ impl Scene {
         self.contours.iter(face.contours.clone())
     }
 
-    /// The stored light level of a face: its lighting is skipped.
+    /// The fixed light level of a face, if it has one; such a face is not lit.
     pub fn light_level(&self, face: &Face) -> Option<f64> {
         match self.illums[face.illum?.index()] {
             Illum::Level(level) => Some(level),
@@ -399,7 +398,7 @@ impl Scene {
         }
     }
 
-    /// How a face takes light, if it says so.
+    /// The reflection properties of a face, if it has any.
     pub fn surface(&self, face: &Face) -> Option<&SurfaceProperties> {
         match self.illums[face.illum?.index()] {
             Illum::Level(_) => None,
@@ -412,7 +411,7 @@ impl Scene {
         self.contours.iter(wire.contours.clone())
     }
 
-    /// Corners of the axis-parallel box round all vertices; `None` without vertices.
+    /// Corners of the bounding box of all vertices; `None` without vertices.
     pub fn bounds(&self) -> Option<(DVec3, DVec3)> {
         let first = self.vertices.first()?.position;
         Some(self.vertices.iter().fold((first, first), |(low, high), vertex| {
@@ -424,8 +423,7 @@ impl Scene {
 /// Area-weighted normal of a polygon by Newell's method: right-handed, its
 /// length twice the area for a planar polygon, zero for a degenerate one.
 ///
-/// Coordinates are taken relative to the first corner, so that a small face far
-/// from the origin keeps its precision.
+/// Coordinates are relative to the first corner, so that a small face far from the origin keeps its precision.
 pub fn newell_normal(corners: impl Iterator<Item = DVec3> + Clone) -> DVec3 {
     let mut rest = corners.clone();
     let Some(origin) = rest.next() else {

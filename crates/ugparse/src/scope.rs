@@ -1,10 +1,9 @@
-//! The file, or a definition, as it is read: tables of the types of a
-//! [`Scene`](crate::Scene), in which names are not yet looked up everywhere.
+//! The statements of the file or of a definition, in tables with the types of a
+//! [`Scene`](crate::Scene), before names are resolved.
 //!
-//! A colour or surface stands as the number of its name among those of its kind, a
-//! corner as the number of its vertex's name in [`Scope::vertex_names`], so that
-//! what is used before it is defined, or defined in a scope outside, costs nothing.
-//! Settling turns all of them into rows.
+//! A colour or surface is stored as the number of its name among those of its kind, and a corner as the
+//! number of its vertex's name in [`Scope::vertex_names`]. So names may be used before they are
+//! defined, or be defined in an enclosing scope. [`resolve`](crate::resolve) replaces all of them by rows.
 
 use glam::DVec3;
 use rustc_hash::FxHashMap;
@@ -26,15 +25,15 @@ use crate::statement::{
 };
 use crate::token::{skip_statement, statement_start};
 
-/// Bytes that short statements take: `v v123 1.25 2.5 1 ;`, `f (v1 v12 v123) ;`, and a corner of that.
+/// Lengths of short statements in bytes, `v v123 1.25 2.5 1 ;` and `f (v1 v12 v123) ;`, and of a corner of the latter.
 const VERTEX_BYTES: usize = 20;
 const FACE_BYTES: usize = 17;
 const CORNER_BYTES: usize = 5;
 
-/// No vertex has this name.
+/// The row of a name without a vertex.
 pub(crate) const NO_ROW: u32 = u32::MAX;
 
-/// A table, and where each row stands in the text.
+/// A table, and the span of each row in the text.
 #[derive(Debug)]
 pub(crate) struct Rows<T> {
     pub rows: Vec<T>,
@@ -65,7 +64,7 @@ impl<T> Rows<T> {
         (self.rows, self.spans)
     }
 
-    /// Removes rows that are given in order.
+    /// Removes the given rows, which must be sorted.
     fn remove(&mut self, rows: &[usize]) {
         if rows.is_empty() {
             return;
@@ -78,27 +77,27 @@ impl<T> Rows<T> {
     }
 }
 
-/// What a scope has as tables in the order of the text.
+/// The tables of a scope, in the order of the text.
 #[derive(Default)]
 pub(crate) struct Scope<'t> {
     /// Name of the definition; empty for the file.
     pub name: Span,
-    /// The scope this one is defined in.
+    /// The enclosing scope.
     pub parent: Option<usize>,
-    /// Names of all but colours and surfaces.
+    /// Names of everything except colours and surfaces.
     pub names: Names,
     pub bodies: BodyTable,
 
-    /// Spans are those of the names, see [`Scope::vertex_statement`].
+    /// The spans are those of the names; see [`Scope::vertex_statement`].
     pub vertices: Rows<Vertex>,
     pub vertex_names: NumberedNames<'t>,
-    /// For each number of a name, the row of the vertex or [`NO_ROW`].
+    /// For the number of each name, the row of its vertex, or [`NO_ROW`].
     pub vertex_rows: Vec<u32>,
 
     pub contours: Contours,
     /// Corners that name vertices of instances: `car:a`, `floor#3:b`.
     pub paths: Vec<PathCorner>,
-    /// Corners are rows of vertices already.
+    /// The corners are already rows of vertices.
     pub is_linked: bool,
     pub faces: Rows<Face>,
     pub illums: Vec<Illum>,
@@ -108,34 +107,34 @@ pub(crate) struct Scope<'t> {
     pub escapes: Rows<String>,
     pub unknown: Rows<String>,
 
-    /// Of spectra.
+    /// Samples of spectra.
     pub samples: Vec<[f64; 2]>,
     pub colors: Named<'t, Color>,
     pub surfaces: Named<'t, SurfaceProperties>,
-    /// Unnamed colours, each with the rows from which on it is in force.
+    /// Unnamed colours, with the first rows to which they apply.
     pub defaults: Vec<DefaultColor>,
-    /// The unnamed colour in force at the `def`: its scope, and its row there.
+    /// The unnamed colour in effect at the `def`: its scope, and its row there.
     pub outer_default: Option<(usize, u32)>,
 
     pub calls: Rows<Call>,
-    /// Definitions written here, by name.
+    /// Definitions in this scope, by name.
     pub definitions: FxHashMap<&'t [u8], (usize, Span)>,
     /// Names defined twice.
     pub duplicates: Vec<Duplicate>,
-    /// Statements other than calls.
+    /// Number of statements other than calls.
     pub n_statements: u64,
 }
 
 /// An instance or array.
 pub(crate) struct Call {
     pub statement: CallStatement,
-    /// Its colour, as a row of the names of colours.
+    /// Its colour, as the number of the colour's name.
     pub color: Option<ColorId>,
-    /// What stands before it.
+    /// The numbers of rows before it.
     pub before: Counts,
 }
 
-/// Rows of the tables that are placed in the order of the text.
+/// Numbers of rows in the tables that are expanded in the order of the text.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Counts {
     pub faces: usize,
@@ -154,10 +153,10 @@ pub(crate) struct DefaultColor {
     pub first_wire: usize,
 }
 
-/// A corner that names a vertex of an instance; until that is placed, it is [`NO_ROW`].
+/// A corner that names a vertex of an instance; it is [`NO_ROW`] until the instance is expanded.
 #[derive(Clone, Copy)]
 pub(crate) struct PathCorner {
-    /// Among the corners of all contours of the scope.
+    /// Its position among the corners of all contours of the scope.
     pub corner: usize,
     pub name: Span,
 }
@@ -170,14 +169,13 @@ pub(crate) struct Duplicate {
 }
 
 impl<'t> Scope<'t> {
-    /// Of a definition.
+    /// The scope of a definition.
     pub fn new(name: Span, parent: Option<usize>) -> Self {
         Self { name, parent, ..Self::default() }
     }
 
-    /// Of the file, or of a part of it: with room for as many rows as so many
-    /// bytes usually hold. Memory that is asked for but not used costs nothing;
-    /// tables that grow are copied.
+    /// The scope of the file, or of a part of it, with capacity for as many rows as a text of this size usually
+    /// has. Reserved memory that is not used costs nothing, but growing a table copies it.
     pub fn for_text(bytes: usize) -> Self {
         Self {
             vertices: Rows::with_capacity(bytes / VERTEX_BYTES),
@@ -188,7 +186,7 @@ impl<'t> Scope<'t> {
         }
     }
 
-    /// Enters a statement that stands at `span`; its contours are in `references`.
+    /// Adds the statement at `span`; its contours are in `references`.
     pub fn add(&mut self, text: &'t [u8], span: Span, statement: Statement, references: &References) {
         if let Statement::Call(statement) = statement {
             return self.add_call(text, span, statement);
@@ -216,7 +214,7 @@ impl<'t> Scope<'t> {
         self.unknown.push(lossy(text, span), span);
     }
 
-    /// Enters a definition, which has its own scope.
+    /// Adds a definition, which has its own scope.
     pub fn add_definition(&mut self, text: &'t [u8], name: Span, scope: usize) {
         self.n_statements += 1;
         if let Some((_, first)) = self.definitions.insert(name.of(text), (scope, name)) {
@@ -270,7 +268,7 @@ impl<'t> Scope<'t> {
                 Illum::Surface(SurfaceId::from_index(self.surfaces.names.enter(name.of(text))))
             }
         };
-        // Neighbours often have the same; -0 and 0 are equal, but are not written alike.
+        // Consecutive faces often share one. -0 and 0 are equal, but written differently.
         let is_same = match (self.illums.last(), illum) {
             (Some(Illum::Level(last)), Illum::Level(level)) => last.to_bits() == level.to_bits(),
             (last, illum) => last == Some(&illum),
@@ -308,7 +306,7 @@ impl<'t> Scope<'t> {
                 first_wire: self.wires.len(),
             });
         }
-        // The name is made when the colours of all scopes are put together.
+        // The name is set when the colours of all scopes are joined.
         let name = NameId::from_index(0);
         let value = shifted(color.value, self.samples.len());
         self.samples.extend_from_slice(&color.samples);
@@ -318,7 +316,7 @@ impl<'t> Scope<'t> {
     }
 
     fn add_surface(&mut self, text: &'t [u8], span: Span, surface: &SurfaceStatement) {
-        // The name is made when the surfaces of all scopes are put together.
+        // The name is set when the surfaces of all scopes are joined.
         let row = SurfaceProperties { name: NameId::from_index(0), ..surface.surface };
         let before = self.surfaces.push(text, Some(surface.name), row, span);
         self.note_duplicate("surface", Some(surface.name), before);
@@ -358,7 +356,7 @@ impl<'t> Scope<'t> {
         self.calls.push(Call { statement, color, before: self.counts() }, span);
     }
 
-    /// Rows of the tables that are placed in the order of the text.
+    /// Numbers of rows in the tables that are expanded in the order of the text.
     pub fn counts(&self) -> Counts {
         Counts {
             faces: self.faces.len(),
@@ -370,7 +368,7 @@ impl<'t> Scope<'t> {
         }
     }
 
-    /// A name for this scope's table.
+    /// Adds a name to this scope's table.
     pub fn add_name(&mut self, name: &[u8]) -> NameId {
         self.names.add(as_str(name))
     }
@@ -383,18 +381,18 @@ impl<'t> Scope<'t> {
         name.map(|name| ColorId::from_index(self.colors.names.enter(name.of(text))))
     }
 
-    /// True if a name may be the path of a vertex of an instance.
+    /// Can this name be the path of a vertex of an instance?
     pub fn may_be_path(&self, name: &[u8]) -> bool {
         name.contains(&b':') && self.calls.len() > 0
     }
 
-    /// True if a vertex of that name is defined here.
+    /// Is a vertex of this name defined in this scope?
     pub fn has_vertex(&self, name: &[u8]) -> bool {
         let number = self.vertex_names.get(Name::new(name));
         number.is_some_and(|number| self.vertex_rows.get(number as usize).is_some_and(|&row| row != NO_ROW))
     }
 
-    /// Removes the faces of these rows, in order.
+    /// Removes the faces of these rows, which must be sorted.
     pub fn remove_faces(&mut self, rows: &[usize]) {
         self.faces.remove(rows);
         let before = |first: usize| first - rows.partition_point(|&row| row < first);
@@ -402,7 +400,7 @@ impl<'t> Scope<'t> {
         self.calls.rows.iter_mut().for_each(|call| call.before.faces = before(call.before.faces));
     }
 
-    /// Removes the wires of these rows, in order.
+    /// Removes the wires of these rows, which must be sorted.
     pub fn remove_wires(&mut self, rows: &[usize]) {
         self.wires.remove(rows);
         let before = |first: usize| first - rows.partition_point(|&row| row < first);
@@ -424,7 +422,7 @@ impl<'t> Scope<'t> {
         Span { start, end: (text.len() - rest) as u32 }
     }
 
-    /// Where all statements stand, in the order of the text.
+    /// The spans of all statements, in the order of the text.
     pub fn statements(&self, text: &[u8]) -> Vec<Span> {
         let vertices = self.vertices.spans.iter().map(|&name| Self::vertex_statement(text, name));
         let others = [
@@ -444,7 +442,7 @@ impl<'t> Scope<'t> {
     }
 }
 
-/// A colour whose samples, if it has any, stand that many rows further on.
+/// The colour with the rows of its samples, if it has any, increased by an offset.
 pub(crate) fn shifted(value: ColorValue, rows: usize) -> ColorValue {
     match value {
         ColorValue::Spectrum { start, end } => {
@@ -463,13 +461,13 @@ fn lossy(text: &[u8], span: Span) -> String {
     String::from_utf8_lossy(span.of(text)).into_owned()
 }
 
-/// Bodies by their velocities, each once.
+/// Bodies indexed by velocity, each velocity once.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct BodyTable {
     pub bodies: Bodies,
-    /// By the bits of β.
+    /// Keys are the bits of β.
     rows: FxHashMap<[u64; 3], BodyId>,
-    /// The one asked for last: neighbours mostly move alike.
+    /// The last result, because consecutive faces mostly share a body.
     last: Option<([u64; 3], BodyId)>,
 }
 
@@ -479,13 +477,13 @@ impl BodyTable {
         velocity.map_or(BodyId::UNSTATED, |velocity| self.moving_with(velocity))
     }
 
-    /// The body of this velocity, which is added if it is new.
+    /// The body with this velocity; adds it if it is new.
     pub fn moving_with(&mut self, velocity: Velocity) -> BodyId {
         let bits = bits(velocity.beta());
         self.known(bits).unwrap_or_else(|| self.add(bits, velocity))
     }
 
-    /// The body of this velocity in fractions of c, which is added if it is new; `None` if it is invalid.
+    /// The body with this velocity in units of c; adds it if it is new. `None` if the velocity is invalid.
     pub fn moving_with_beta(&mut self, beta: DVec3) -> Option<BodyId> {
         let bits = bits(beta);
         if let Some(id) = self.known(bits) {
@@ -512,7 +510,7 @@ impl BodyTable {
         id
     }
 
-    /// The rows here of the bodies of another table, which are added where they are new.
+    /// Adds the bodies of another table where they are new, and returns the rows of all of them in this one.
     pub fn enter_all(&mut self, other: &Self) -> Vec<BodyId> {
         let stated = other.bodies.iter().skip(1).map(|body| {
             let Motion::Inertial(velocity) = body.motion;

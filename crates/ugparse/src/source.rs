@@ -1,13 +1,13 @@
-//! Scene text with a name, and positions in it.
+//! The text of a scene with its name, and positions in it.
 
 use memchr::memchr_iter;
 
-/// A scene text and what to call it in messages.
+/// The text of a scene, and its name in messages.
 #[derive(Clone, Debug)]
 pub struct Source {
     /// File name, or `<stdin>`.
     pub name: String,
-    /// The bytes of the file. Anything is allowed in comments and escapes.
+    /// The bytes of the file. Comments and escapes may contain any bytes.
     pub text: Vec<u8>,
 }
 
@@ -30,19 +30,19 @@ impl Source {
     }
 }
 
-/// From a position on, text that was written elsewhere: `# LINE "FILE"`.
+/// A line mark `# LINE "FILE"`: the text after it comes from another place.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct LineMark {
-    /// The first byte behind the line of the mark.
+    /// The first byte after the line of the mark.
     pub start: u32,
     /// The number of the line that begins there.
     pub line: usize,
-    /// The file; the same as before if there is none.
+    /// The file; `None` if it does not change.
     pub name: Option<String>,
 }
 
 impl Source {
-    /// File and line that a position is to be reported at.
+    /// File and line of a position, according to the line marks.
     pub(crate) fn reported<'s>(&'s self, marks: &'s [LineMark], position: u32) -> (&'s str, usize) {
         let before = &marks[..marks.partition_point(|mark| mark.start <= position)];
         let name = before.iter().rev().find_map(|mark| mark.name.as_deref()).unwrap_or(&self.name);
@@ -57,7 +57,7 @@ impl Source {
 pub struct Span {
     /// First byte.
     pub start: u32,
-    /// Byte behind the last.
+    /// Byte after the last.
     pub end: u32,
 }
 

@@ -1,4 +1,4 @@
-//! A statement as written: names as spans of the text, nothing looked up.
+//! Parsed statements with unresolved names, which are spans of the text.
 
 use std::ops::Range;
 
@@ -23,7 +23,7 @@ impl References {
         self.ends.clear();
     }
 
-    /// Rows of [`References::names`], contour after contour.
+    /// Ranges in [`References::names`], one per contour.
     pub fn contours(&self) -> impl Iterator<Item = Range<usize>> {
         let starts = std::iter::once(0).chain(self.ends.iter().copied());
         starts.zip(&self.ends).map(|(start, &end)| start..end)
@@ -59,7 +59,7 @@ pub(crate) struct FaceStatement {
     pub velocity: Option<Velocity>,
 }
 
-/// What stands behind the colour of a face.
+/// The light level or surface of a face.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum IllumStatement {
     Level(f64),
@@ -69,13 +69,13 @@ pub(crate) enum IllumStatement {
 #[derive(Debug)]
 pub(crate) struct ColorStatement {
     pub name: Option<Span>,
-    /// A spectrum's rows are those of `samples`.
+    /// The rows of a spectrum refer to `samples`.
     pub value: crate::scene::ColorValue,
     pub samples: Vec<[f64; 2]>,
     pub translucency: f64,
 }
 
-/// A surface; the name inside is not set.
+/// A surface; the name in `surface` is not set.
 #[derive(Debug)]
 pub(crate) struct SurfaceStatement {
     pub name: Span,
@@ -92,7 +92,7 @@ pub(crate) struct LightStatement {
     pub velocity: Option<Velocity>,
 }
 
-/// A camera; the name inside is not set.
+/// A camera; the name in `camera` is not set.
 #[derive(Debug, Default)]
 pub(crate) struct CameraStatement {
     pub name: Option<Span>,
@@ -110,11 +110,11 @@ pub(crate) struct CallStatement {
     pub velocity: Option<Velocity>,
 }
 
-/// How often a definition is placed.
+/// The number of copies of a definition.
 #[derive(Debug)]
 pub(crate) enum Repeat {
     /// `i`
     Once,
-    /// `a`: this many copies, each moved on by the step.
+    /// `a`: the number of copies, and the transformation from one to the next.
     Times(u64, Transform),
 }

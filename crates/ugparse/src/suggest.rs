@@ -1,14 +1,14 @@
-//! "Did you mean": the name that is most like a misspelt one.
+//! "Did you mean": finds the name most similar to a misspelt one.
 
-/// Names that are compared at most; behind a typo in a large mesh nobody needs a guess.
+/// The largest number of compared names, to limit the time for large meshes.
 const MAX_COMPARED: usize = 10_000;
 
 /// Longer words get no suggestion: the time of a comparison grows with the square of the length, and names that
 /// people type are shorter.
 const MAX_LENGTH: usize = 64;
 
-/// The candidate most like `word`: the same in other case, or one or two slips
-/// of the pen away. `None` if nothing is near. The first of equals.
+/// The candidate most similar to `word`: equal except for case, or with one or two typing errors. Ties go to the first
+/// candidate; `None` if no candidate is similar.
 pub(crate) fn nearest<'n>(word: &[u8], candidates: impl IntoIterator<Item = &'n [u8]>) -> Option<&'n str> {
     let word = std::str::from_utf8(word).ok().filter(|word| word.len() <= MAX_LENGTH)?;
     let most = match word.len() {
@@ -18,7 +18,7 @@ pub(crate) fn nearest<'n>(word: &[u8], candidates: impl IntoIterator<Item = &'n 
     };
     let near = candidates.into_iter().take(MAX_COMPARED).filter_map(|candidate| {
         let candidate = std::str::from_utf8(candidate).ok()?;
-        // `v100` is no slip for `v1000`.
+        // Names that differ only in their number, `v100` and `v1000`, are not typing errors.
         if stem(candidate) == stem(word) || candidate.len().abs_diff(word.len()) > most {
             return None;
         }

@@ -1,7 +1,7 @@
-//! Canonical layout of a scene as written: nothing is flattened, left out or put in another order.
+//! Formats the text of a scene without flattening, omitting or reordering anything.
 //!
-//! The layout is made from the text itself, word by word. So all that a reader
-//! does not keep, the order of statements and the comments within them, is kept.
+//! The formatter works on the text itself, token by token, and so keeps what the parser does not: the order
+//! of statements and the comments within them.
 
 use crate::diagnostic::Diagnostics;
 use crate::grammar::KEYWORDS;
@@ -12,22 +12,20 @@ use crate::token::{Input, comment, escape, found, integer, is_blank, number, ski
 use crate::writer::push_number;
 use crate::{Options, check_length, refuse_errors};
 
-/// Blanks for each scope round a statement.
+/// Indentation per enclosing scope.
 const INDENT: &str = "  ";
 
-/// Lays a scene out anew: one statement a line, definitions indented, one blank
-/// between words, numbers as short as can be.
+/// Formats a scene: one statement per line, definitions indented, one blank between words, numbers as short as
+/// possible.
 ///
-/// - Statements keep their order, comments their places: on a line of their
-///   own, behind a statement, or within it. The text of comments, escapes and
-///   unknown statements is not touched, nor are file names.
-/// - One empty line between statements is kept; more become one.
-/// - Empty statements (a second `;`) go away.
-/// - Included files are not read, nothing is looked up: a text that is a part of
-///   a scene may be laid out by itself.
+/// - Statements keep their order, comments their places: on their own line, after a statement, or within it.
+///   The text of comments, escapes, unknown statements and file names does not change.
+/// - Several empty lines between statements become one.
+/// - Empty statements (a second `;`) are removed.
+/// - Included files are not read and names not resolved, so a part of a scene can be formatted by itself.
 ///
-/// What comes out is laid out to itself, and reads as what went in. Only a
-/// comment behind several statements on one line goes with the last of them.
+/// `tidy` is idempotent and does not change the scene. A comment after several statements on one line moves
+/// with the last of them.
 ///
 /// ```
 /// let source = ugparse::Source::new("tile.ug", "def tile; v a 0 0.50 +1; {corner} end ;i(tile -tx 1e0);");
@@ -40,7 +38,7 @@ const INDENT: &str = "  ";
 /// ```
 ///
 /// # Errors
-/// Statements that cannot be read.
+/// Syntax errors.
 pub fn tidy(source: &Source, options: &Options) -> Result<Vec<u8>, Diagnostics> {
     check_length(source, options)?;
     let mut findings = Vec::new();
@@ -55,7 +53,7 @@ pub fn tidy(source: &Source, options: &Options) -> Result<Vec<u8>, Diagnostics> 
 #[derive(Default)]
 struct Layout {
     out: Vec<u8>,
-    /// Definitions that are open.
+    /// Number of open definitions.
     depth: usize,
     /// Line ends since the last statement or comment.
     n_line_ends: usize,
@@ -63,7 +61,7 @@ struct Layout {
 }
 
 impl Layout {
-    /// Lays out a text that has been read without errors.
+    /// Formats a text without syntax errors.
     fn text(&mut self, text: &[u8]) {
         let mut input = text;
         while let Some(&byte) = input.first() {
@@ -86,7 +84,7 @@ impl Layout {
         }
     }
 
-    /// A comment between statements stays on its line.
+    /// Writes a comment between statements; it stays on its line.
     fn comment(&mut self, text: &[u8]) {
         if self.n_line_ends == 0 && !self.out.is_empty() {
             self.out.push(b' ');
@@ -96,7 +94,7 @@ impl Layout {
         self.verbatim(text);
     }
 
-    /// Lays out one statement and gives what is behind it.
+    /// Formats one statement and returns the input after it.
     fn statement<'t>(&mut self, input: Input<'t>) -> Input<'t> {
         if input.first() == Some(&b'(') {
             let rest = escape(input).map_or(&input[..0], |(rest, _)| rest);
@@ -118,7 +116,7 @@ impl Layout {
             return rest;
         }
         let rest = match keyword {
-            // For the C preprocessor, or from it: the statement ends with its line.
+            // A preprocessor directive ends with its line.
             b"#" | b"#line" => &body[memchr::memchr(b'\n', body).unwrap_or(body.len())..],
             _ => skip_statement(body).unwrap_or_default(),
         };
@@ -153,8 +151,8 @@ impl Layout {
         self.verbatim(b")");
     }
 
-    /// The words of a statement up to its `;`, one blank between them but not
-    /// inside brackets; gives what is behind.
+    /// Writes the words of a statement up to its `;`, with one blank between them but none after an opening or before a
+    /// closing bracket; returns the input after it.
     fn words<'t>(&mut self, mut input: Input<'t>, keyword: &[u8]) -> Input<'t> {
         let mut is_open = true;
         loop {
@@ -174,12 +172,12 @@ impl Layout {
         }
     }
 
-    /// One word, comment or mark of a statement.
+    /// Writes one word, comment or punctuation mark of a statement.
     fn word(&mut self, text: &[u8], keyword: &[u8]) {
         if matches!(keyword, b"include" | b"execute") {
             self.verbatim(text);
         } else if keyword == b"a" && matches!(integer(text), Ok(([], _))) {
-            // The size of an array has digits only, however many.
+            // The size of an array is an integer with any number of digits.
             let zeros = text.iter().take_while(|&&digit| digit == b'0').count();
             self.verbatim(&text[zeros.min(text.len() - 1)..]);
         } else if let Ok(([], value)) = number(text) {
@@ -194,7 +192,7 @@ fn is_known(keyword: &[u8]) -> bool {
     KEYWORDS.split(' ').any(|known| known.as_bytes() == keyword)
 }
 
-/// What is behind the comment, file name in quotes, word or mark at the beginning of `input`.
+/// The input after its first comment, quoted file name, word or punctuation mark.
 fn behind_word(input: Input<'_>) -> Input<'_> {
     match input {
         [b'{', ..] => comment(input).map_or(&input[..0], |(rest, _)| rest),

@@ -1,36 +1,36 @@
-//! Words of the language, as nom parsers over bytes.
+//! Tokens of the language, as nom parsers over bytes.
 //!
-//! Positions are never counted: the rest of the input says where we are.
+//! No position is counted: it follows from the length of the remaining input.
 
 use glam::DVec3;
 use memchr::memchr2;
 use nom::Err;
 
-/// What is left to read.
+/// The remaining input.
 pub(crate) type Input<'a> = &'a [u8];
 
 /// Result of a parser of this crate.
 pub(crate) type Parsed<'a, T> = nom::IResult<Input<'a>, T, SyntaxError<'a>>;
 
-/// What a parser did not like, and where.
+/// A syntax error and its position.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct SyntaxError<'a> {
     pub at: Input<'a>,
     pub reason: Reason,
 }
 
-/// Why a parser gave up.
+/// The kind of a syntax error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Reason {
-    /// Something else was expected here.
+    /// The named token was expected.
     Expected(&'static str),
     /// The number has no finite value.
     NotFinite,
     /// A comment or escape is not closed; `at` is its first byte.
     Unclosed(&'static str),
-    /// The number is not one of those allowed: what to do.
+    /// The number is outside the allowed range, which the text states.
     OutOfRange(&'static str),
-    /// So many words from here on mean what cannot be: what is wrong, what to do.
+    /// A given number of words are syntactically valid but impossible: message and remedy.
     Impossible(usize, &'static str, &'static str),
 }
 
@@ -44,17 +44,17 @@ impl<'a> nom::error::ParseError<Input<'a>> for SyntaxError<'a> {
     }
 }
 
-/// "Not this, perhaps something else."
+/// Recoverable failure: another parser may match.
 pub(crate) fn backtrack<T>(at: Input<'_>, reason: Reason) -> Parsed<'_, T> {
     Err(Err::Error(SyntaxError { at, reason }))
 }
 
-/// "Definitely wrong."
+/// Final failure.
 pub(crate) fn fail<T>(at: Input<'_>, reason: Reason) -> Parsed<'_, T> {
     Err(Err::Failure(SyntaxError { at, reason }))
 }
 
-/// Turns "perhaps something else" into "definitely wrong".
+/// Makes a recoverable failure final.
 pub(crate) fn require<'a, T>(result: Parsed<'a, T>) -> Parsed<'a, T> {
     result.map_err(|err| match err {
         Err::Error(syntax_error) => Err::Failure(syntax_error),
@@ -62,7 +62,7 @@ pub(crate) fn require<'a, T>(result: Parsed<'a, T>) -> Parsed<'a, T> {
     })
 }
 
-/// Says what would have been welcome in place of the parser's own words.
+/// Replaces what the error message says was expected.
 pub(crate) fn wanted<'a, T>(result: Parsed<'a, T>, what: &'static str) -> Parsed<'a, T> {
     result.map_err(|err| match err {
         Err::Error(SyntaxError { at, .. }) => Err::Error(SyntaxError { at, reason: Reason::Expected(what) }),
@@ -70,13 +70,13 @@ pub(crate) fn wanted<'a, T>(result: Parsed<'a, T>, what: &'static str) -> Parsed
     })
 }
 
-/// What a byte can be, as bits.
+/// Character classes, as bits.
 const BLANK: u8 = 1;
 const ENDS_WORD: u8 = 2;
 const ID_START: u8 = 4;
 const ID: u8 = 8;
 
-/// The bits of every byte: one look-up instead of a chain of comparisons.
+/// The classes of every byte: one look-up instead of several comparisons.
 static CLASS: [u8; 256] = {
     let mut class = [0; 256];
     let mut idx = 0;
@@ -111,7 +111,7 @@ pub(crate) fn ends_word(byte: u8) -> bool {
     is(byte, ENDS_WORD)
 }
 
-/// True for bytes of names, and for those a name may begin with.
+/// True for bytes that a name may contain.
 pub(crate) fn is_identifier(byte: u8) -> bool {
     is(byte, ID)
 }
@@ -135,12 +135,12 @@ pub(crate) fn blank(mut input: Input<'_>) -> Parsed<'_, ()> {
     }
 }
 
-/// A comment, which may hold comments; gives the text between its braces.
+/// A comment, possibly nested; returns the text between its outer braces.
 pub(crate) fn comment(input: Input<'_>) -> Parsed<'_, Input<'_>> {
     nested(input, b'{', b'}', "comment")
 }
 
-/// An escape, which may hold escapes; gives the text between its parentheses.
+/// An escape, possibly nested; returns the text between its outer parentheses.
 pub(crate) fn escape(input: Input<'_>) -> Parsed<'_, Input<'_>> {
     nested(input, b'(', b')', "escape")
 }
@@ -179,12 +179,12 @@ fn word_len(input: Input<'_>) -> usize {
     input.iter().position(|&byte| ends_word(byte)).unwrap_or(input.len())
 }
 
-/// What is there, for messages: a word, a punctuation mark, or nothing at the end.
+/// The next token for messages: a word, a punctuation mark, or nothing at the end.
 pub(crate) fn found(input: Input<'_>) -> Input<'_> {
     &input[..word_len(input).max(1).min(input.len())]
 }
 
-/// What a name consists of, for messages.
+/// Description of names, for messages.
 pub(crate) const NAME_LETTERS: &str = "a name of letters, digits, `:`, `_` and `#`";
 
 /// An identifier: letters, digits, `:`, `_`, `#`, not starting with a digit.
@@ -200,7 +200,7 @@ pub(crate) fn identifier(input: Input<'_>) -> Parsed<'_, Input<'_>> {
     Ok((&input[len..], &input[..len]))
 }
 
-/// A real number. Values without a finite f64 are refused.
+/// A finite real number; overflow is an error.
 pub(crate) fn number(input: Input<'_>) -> Parsed<'_, f64> {
     let (input, ()) = blank(input)?;
     let unsigned = input.strip_prefix(b"+").unwrap_or(input);
@@ -232,8 +232,8 @@ const POWERS_OF_TEN: [f64; 16] =
 
 /// A decimal number of at most 15 digits without exponent, and its length.
 ///
-/// Its digits and the power of ten it is divided by are exact, so the quotient
-/// is the nearest f64 (Clinger 1990): the same as by the general way, sooner.
+/// Its digits and the power of ten are exact as f64, so their quotient is the nearest f64 (Clinger 1990): the same as the
+/// general algorithm, but faster.
 #[inline(always)]
 pub(crate) fn short_decimal(input: Input<'_>) -> Option<(f64, usize)> {
     let is_negative = input.first() == Some(&b'-');
@@ -302,7 +302,7 @@ pub(crate) fn mark<'a>(byte: u8, what: &'static str) -> impl Fn(Input<'a>) -> Pa
     }
 }
 
-/// A file name: a string in quotes, or a run of characters that are no punctuation.
+/// A file name: a string in quotes, or a word.
 pub(crate) fn file_name(input: Input<'_>) -> Parsed<'_, Input<'_>> {
     let (input, ()) = blank(input)?;
     let Some(quoted) = input.strip_prefix(b"\"") else { return wanted(word(input), FILE_NAME) };
@@ -314,7 +314,7 @@ pub(crate) fn file_name(input: Input<'_>) -> Parsed<'_, Input<'_>> {
 
 const FILE_NAME: &str = "a file name, in quotes if there are blanks in it";
 
-/// What is behind the next `;` outside comments.
+/// The input after the next `;` outside comments.
 pub(crate) fn skip_statement(mut input: Input<'_>) -> Result<Input<'_>, SyntaxError<'_>> {
     loop {
         match memchr2(b';', b'{', input) {
@@ -325,13 +325,13 @@ pub(crate) fn skip_statement(mut input: Input<'_>) -> Result<Input<'_>, SyntaxEr
     }
 }
 
-/// Position of the keyword that is followed, past white space and comments, by the end of `before`.
+/// Position of the last keyword in `before`, ignoring white space and comments after it.
 pub(crate) fn statement_start(before: Input<'_>) -> usize {
     let mut idx = before.len();
     let mut depth = 0usize;
     while idx > 0 {
         match before[idx - 1] {
-            // Comments nest, so they can be skipped from behind as well.
+            // Comments nest, so they can be skipped backwards as well.
             b'}' => depth += 1,
             b'{' => depth = depth.saturating_sub(1),
             byte if depth == 0 && !is_blank(byte) => break,
@@ -342,7 +342,7 @@ pub(crate) fn statement_start(before: Input<'_>) -> usize {
     before[..idx].iter().rposition(|&byte| ends_word(byte)).map_or(0, |end| end + 1)
 }
 
-/// The syntax_error of a parser; our parsers read whole texts, so nothing is ever incomplete.
+/// Extracts the error; the parsers have the whole text, so input is never incomplete.
 pub(crate) fn syntax_error(err: Err<SyntaxError<'_>>) -> SyntaxError<'_> {
     match err {
         Err::Error(syntax_error) | Err::Failure(syntax_error) => syntax_error,

@@ -1,11 +1,11 @@
-//! Transformations of instances: an affine map, and whether it turns faces over.
+//! Transformations of instances: an affine map, and whether it reverses the orientation of faces.
 
 use glam::{DAffine3, DMat3, DVec3};
 
-/// What `-sx … -M4` add up to.
+/// The composition of `-sx … -M4`.
 ///
-/// Written for row vectors, options apply from left to right; kept here as the
-/// equal map of column vectors.
+/// In the text, matrices are for row vectors, and options apply from left to right; here the map is stored for column
+/// vectors.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Transform {
     map: DAffine3,
@@ -60,7 +60,7 @@ impl Transform {
         Self { mirrored: signs.x * signs.y * signs.z < 0.0, ..Self::scale(signs) }
     }
 
-    /// `-mv`: in the plane through the origin at right angles to a vector.
+    /// `-mv`: in the plane through the origin perpendicular to a vector.
     /// `None` for the zero vector.
     pub fn mirror_across(vector: DVec3) -> Option<Self> {
         Some(Self { mirrored: true, ..Self::scale_along(vector, -1.0)? })
@@ -92,7 +92,7 @@ impl Transform {
     }
 
     pub fn point(&self, p: DVec3) -> DVec3 {
-        // What is not moved keeps its bits; sums with 0 would lose the sign of -0.
+        // The identity keeps all bits; adding 0 would lose the sign of -0.
         if self.map == DAffine3::IDENTITY { p } else { self.map.transform_point3(p) }
     }
 
@@ -100,19 +100,18 @@ impl Transform {
         if self.map.matrix3 == DMat3::IDENTITY { d } else { self.map.transform_vector3(d) }
     }
 
-    /// A normal: by the inverse transpose. A map that flattens space leaves the
-    /// normal along the flattened direction.
+    /// Transforms a normal by the inverse transpose. For a singular map the result is along the collapsed direction.
     pub fn normal(&self, n: DVec3) -> DVec3 {
         let m = self.map.matrix3;
         let largest = [m.x_axis, m.y_axis, m.z_axis].map(|axis| axis.abs().max_element());
         let largest = largest.into_iter().fold(0.0, f64::max);
-        // What is only moved keeps its normals to the bit.
+        // A translation keeps normals to the bit.
         if m == DMat3::IDENTITY || largest == 0.0 {
             return n;
         }
-        // Entries up to 1, so that their products neither overflow nor vanish.
+        // Scaled to entries up to 1, so that products neither overflow nor underflow.
         let [a, b, c] = [m.x_axis, m.y_axis, m.z_axis].map(|axis| axis / largest);
-        // The cofactor matrix is det times the inverse transpose, and exists always.
+        // The cofactor matrix is the determinant times the inverse transpose, and always exists.
         let image = DMat3::from_cols(b.cross(c), c.cross(a), a.cross(b)) * n;
         let sign = if a.dot(b.cross(c)) < 0.0 { -1.0 } else { 1.0 };
         unit(image).map_or(n, |image| image * (sign * n.length()))
@@ -124,7 +123,7 @@ impl Transform {
     }
 }
 
-/// A vector of length 1, also of one whose square has no f64. `None` for the zero vector.
+/// The unit vector, also if the squared length would overflow or underflow. `None` for the zero vector.
 fn unit(vector: DVec3) -> Option<DVec3> {
     let largest = vector.abs().max_element();
     (largest > 0.0).then(|| (vector / largest).normalize())

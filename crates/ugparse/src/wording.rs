@@ -1,4 +1,4 @@
-//! What messages about single words and statements say.
+//! The text of messages about single words and statements.
 
 use crate::diagnostic::Diagnostic;
 use crate::grammar::{KEYWORDS, NAME};
@@ -6,7 +6,7 @@ use crate::source::Span;
 use crate::suggest::nearest;
 use crate::token::{Input, NAME_LETTERS, word};
 
-/// The message for a first word that is none of ours.
+/// The error for an unknown keyword.
 pub(crate) fn no_statement(word: &[u8], span: Span) -> Diagnostic {
     let finding = Diagnostic::error(span, format!("`{}` is no statement", shorten(word)));
     let lower = word.to_ascii_lowercase();
@@ -28,7 +28,7 @@ pub(crate) fn no_statement(word: &[u8], span: Span) -> Diagnostic {
     }
 }
 
-/// How to write the word that is meant: a number, or a name.
+/// A remedy for an invalid number or name.
 pub(crate) fn word_help(wanted: &str, word: &[u8]) -> Option<String> {
     let shown = shorten(word);
     let looks_like_number = matches!(word, [b'0'..=b'9' | b'+' | b'-' | b'.', ..]);
@@ -49,7 +49,7 @@ pub(crate) fn word_help(wanted: &str, word: &[u8]) -> Option<String> {
     }
 }
 
-/// Adds the form of the statement that begins at `input`.
+/// Adds the syntax of the statement that begins at `input`.
 pub(crate) fn with_usage(finding: Diagnostic, input: Input<'_>) -> Diagnostic {
     match word(input).ok().and_then(|(_, keyword)| usage(keyword)) {
         Some(usage) => finding.help(format!("the form is `{usage}`")),
@@ -57,7 +57,7 @@ pub(crate) fn with_usage(finding: Diagnostic, input: Input<'_>) -> Diagnostic {
     }
 }
 
-/// A word for a message: at most 40 characters, control characters blanked.
+/// A word for a message: at most 40 characters, control characters replaced.
 pub(crate) fn shorten(word: &[u8]) -> String {
     let text = String::from_utf8_lossy(word);
     let clean = |c: char| if c.is_control() { '?' } else { c };
@@ -68,7 +68,7 @@ pub(crate) fn shorten(word: &[u8]) -> String {
     short
 }
 
-/// The form of a statement, for messages.
+/// The syntax of a statement, for messages.
 fn usage(keyword: &[u8]) -> Option<&'static str> {
     Some(match keyword {
         b"v" => "v ID x y z [color] [nx ny nz] ;",

@@ -1,4 +1,4 @@
-//! [`Scene`] to text: one statement a line, numbers that read back to the same bits.
+//! Writes a [`Scene`] as text: one statement per line, with numbers that read back to the same bits.
 
 use std::io::{self, Write};
 
@@ -15,10 +15,10 @@ use crate::scene::{
 };
 use crate::stage_statement;
 
-/// Rows that one piece of text is made of.
+/// Number of rows per piece of text.
 const BLOCK_ROWS: usize = 1 << 11;
 
-/// Pieces that a thread makes in one round: enough for even work, and little memory.
+/// Pieces per thread and round: enough to balance the load, few enough to save memory.
 const BLOCKS_PER_THREAD: usize = 4;
 
 /// The text of a scene: head comments, the stage, then escapes and unknown statements,
@@ -29,20 +29,20 @@ pub fn write(scene: &Scene) -> Vec<u8> {
     text
 }
 
-/// Sends the text of a scene, as [`write()`] gives it, to `out` while it is made
-/// on all threads: less memory, and the same bytes on any number of them.
+/// Writes the same text as [`write()`] to `out` while it is formatted on all threads, which needs less memory. The bytes do not
+/// depend on the number of threads.
 ///
 /// # Errors
-/// Those of `out`. It may have got a part of the text.
+/// Those of `out`, which may have received a part of the text.
 pub fn write_to(scene: &Scene, out: &mut dyn Write) -> io::Result<()> {
     Tables { scene, chunked_writer: ChunkedWriter::new(out), comments: &scene.comments }.send()
 }
 
-/// The tables of a scene, on their way out.
+/// Writes the tables of a scene.
 struct Tables<'s, 'o> {
     scene: &'s Scene,
     chunked_writer: ChunkedWriter<'o>,
-    /// Comments not given to a block yet; they are sorted by statement.
+    /// Comments not yet assigned to a block, sorted by statement.
     comments: &'s [Comment],
 }
 
@@ -112,7 +112,7 @@ impl<'s> Tables<'s, '_> {
         });
     }
 
-    /// One line for each row, in blocks that are written on all threads.
+    /// Writes one line per row, in blocks on all threads.
     fn rows<T: Sync>(
         &mut self,
         rows: &'s [T],
@@ -130,7 +130,7 @@ impl<'s> Tables<'s, '_> {
             .collect();
         for round in blocks.chunks(BLOCKS_PER_THREAD * ugparallel::n_threads()) {
             match round {
-                // Waking a thread would take longer than a small table.
+                // Waking a thread would take longer than formatting a small table.
                 [block] => self.chunked_writer.append(|out| write(block, out)),
                 _ => self.chunked_writer.round(round.len(), &|idx, out| write(&round[idx], out))?,
             }
@@ -147,7 +147,7 @@ impl<'s> Tables<'s, '_> {
     }
 }
 
-/// Neighbouring rows of a table.
+/// Consecutive rows of a table.
 struct Block<'s, T> {
     /// Row in the table.
     first: usize,
@@ -158,16 +158,16 @@ struct Block<'s, T> {
 struct Writer<'s> {
     scene: &'s Scene,
     out: Vec<u8>,
-    /// Comments not written yet; they are sorted by statement.
+    /// Comments not yet written, sorted by statement.
     comments: &'s [Comment],
     numbers: zmij::Buffer,
-    /// The body of the row written last, and the text of its motion: neighbours mostly share one.
+    /// The body of the last row, and the text of its motion, because consecutive rows mostly share one.
     body: Option<BodyId>,
     motion_text: Vec<u8>,
 }
 
 impl<'s> Writer<'s> {
-    /// Appends what `write` writes to `out`.
+    /// Appends the output of `write` to `out`.
     fn on(out: &mut Vec<u8>, scene: &'s Scene, comments: &'s [Comment], write: impl FnOnce(&mut Self)) {
         let mut writer = Self {
             scene,
@@ -181,7 +181,7 @@ impl<'s> Writer<'s> {
         *out = writer.out;
     }
 
-    /// One line for each row, with the comments above and behind it.
+    /// Writes one line per row, with the comments above and after it.
     fn block<T>(&mut self, block: &Block<'s, T>, item: fn(u32) -> Item, line: impl Fn(&mut Self, &'s T)) {
         for (row, idx) in block.rows.iter().zip(block.first..) {
             if self.comments.is_empty() {
@@ -194,14 +194,14 @@ impl<'s> Writer<'s> {
             }
             self.out.push(b'\n');
         }
-        // None is left but where their order is wrong; then, too, they must not be lost.
+        // Comments remain only if they are not sorted; they must not be lost.
         self.comments.iter().for_each(|comment| self.comment_line(&comment.text));
     }
 
-    /// Writes the comments of `item` up to the first that is not `trailing` as asked.
+    /// Writes the comments of `item`: those after it if `trailing`, else those above it.
     fn comments_at(&mut self, item: Item, trailing: bool) {
         while let Some((comment, rest)) = self.comments.split_first() {
-            // A comment of a row that does not exist must not hold up the others.
+            // A comment of a missing row must not block the others.
             let lost = comment.at < item;
             if !lost && (comment.at != item || comment.trailing != trailing) {
                 break;
@@ -257,7 +257,7 @@ impl<'s> Writer<'s> {
         }
     }
 
-    /// The motion of a face, wire or light.
+    /// Writes the motion of a face, wire or light.
     fn body(&mut self, body: BodyId) {
         if self.body != Some(body) {
             self.body = Some(body);
@@ -392,7 +392,7 @@ impl<'s> Writer<'s> {
     }
 }
 
-/// ` <x y z>`, fractions of c.
+/// Writes ` <x y z>` in units of c.
 fn push_velocity(out: &mut Vec<u8>, numbers: &mut zmij::Buffer, velocity: Velocity) {
     let mut mark: &[u8] = b" <";
     for part in velocity.beta().to_array() {
@@ -403,9 +403,9 @@ fn push_velocity(out: &mut Vec<u8>, numbers: &mut zmij::Buffer, velocity: Veloci
     out.push(b'>');
 }
 
-/// The shortest decimal that reads back to the same bits.
+/// Writes the shortest decimal that reads back to the same bits.
 pub(crate) fn push_number(out: &mut Vec<u8>, numbers: &mut zmij::Buffer, value: f64) {
-    // Not `-0.0`: the sign of zero is kept by the general way.
+    // Not `-0.0`, whose sign the general method keeps.
     if value == value.trunc() && value.abs() < 1e6 && (value != 0.0 || value.is_sign_positive()) {
         let mut digits = [0u8; 8];
         out.extend_from_slice(short_integer(value as i32, &mut digits));

@@ -1,4 +1,4 @@
-//! What `ugparse count` prints.
+//! The output of `ugparse count`.
 
 use std::fmt::Write;
 
@@ -16,26 +16,26 @@ use crate::stage_statement;
 use crate::statement::Repeat;
 use crate::{Options, Parsed, Source};
 
-/// All that is counted and measured.
+/// All statistics.
 pub(crate) struct Counts {
     statements: Vec<Statements>,
     corners: usize,
     faces_with_holes: usize,
     bounds: Option<(DVec3, DVec3)>,
-    /// The face that is least flat, and its thickness over its size.
+    /// The least flat face, and its thickness divided by its size.
     thickest: Option<(FaceLocation, f64)>,
     edges: Edges,
-    /// The face that disagrees with most of its neighbours, and with how many edges.
+    /// The face with most edges that a neighbour traverses in the same direction, and their number.
     turned: Option<(FaceLocation, u32)>,
     bodies: Vec<Body>,
 }
 
-/// Statements of a kind.
+/// Numbers of statements of a kind.
 struct Statements {
     kind: &'static str,
-    /// In the text, those in definitions included, once.
+    /// In the text; those of definitions count once.
     written: usize,
-    /// In the flat scene, if the kind is in flat scenes.
+    /// In the flat scene, if this kind occurs there.
     placed: Option<usize>,
 }
 
@@ -80,7 +80,7 @@ impl Counts {
 
     pub fn text(&self) -> String {
         let mut out = String::new();
-        // Writing to a string does not fail.
+        // Writing to a string cannot fail.
         let mut line = |label: &str, text: String| {
             let _ = writeln!(out, "{}", format!("{label:<18}{text}").trim_end());
         };
@@ -167,7 +167,7 @@ fn point(p: DVec3) -> String {
     format!("{} {} {}", p.x, p.y, p.z)
 }
 
-/// Statements by kind. The text is read a second time, since placing it used its tables up.
+/// Numbers of statements by kind. The text is parsed again, because expansion consumes its tables.
 fn statements(source: &Source, scene: &Scene, options: &Options) -> Vec<Statements> {
     let mut document = read_document(&source.text, options, &mut Vec::new());
     stage_statement::take(&source.text, &mut document, &mut Vec::new());

@@ -1,4 +1,4 @@
-//! What can be measured of the faces of a flat scene.
+//! Measures the faces of a flat scene.
 
 use glam::DVec3;
 use rustc_hash::FxHashMap;
@@ -7,15 +7,15 @@ use crate::body::BodyId;
 use crate::flatness::thickness;
 use crate::scene::{Face, Scene, VertexId, newell_normal};
 
-/// Corners of all faces.
+/// Number of corners of all faces.
 pub(crate) fn corner_count(scene: &Scene) -> usize {
     scene.faces.iter().map(|face| scene.contours.corners(face.contours.clone()).len()).sum()
 }
 
-/// The face that is least flat, and how much: see [`thickness`].
+/// The least flat face, and its [`thickness`].
 pub(crate) fn thickest_face(scene: &Scene) -> Option<(usize, f64)> {
     let faces = scene.faces.iter().enumerate().map(|(row, face)| (row, thickness(scene, face)));
-    // Of equals the first; a face too large to measure is never the thickest.
+    // Ties go to the first; a face too large to measure is never the thickest.
     faces.reduce(|worst, face| if face.1 > worst.1 { face } else { worst })
 }
 
@@ -31,40 +31,40 @@ fn normal(scene: &Scene, contour: &[VertexId]) -> DVec3 {
     newell_normal(contour.iter().map(|&vertex| position(scene, vertex)))
 }
 
-/// Edges of faces by how many faces have them, and which way these run.
+/// Numbers of edges by the faces they border.
 ///
-/// Vertices in the same place count as one. Two faces that both run
-/// counterclockwise, seen from outside, run opposite ways along their edge.
+/// Vertices at the same position count as one. Two faces with consistent orientation traverse their common edge in
+/// opposite directions.
 #[derive(Default)]
 pub(crate) struct Edges {
-    /// Of two faces, opposite ways.
+    /// Edges of two faces that traverse them in opposite directions.
     pub opposite: usize,
-    /// Of two faces, the same way: one of them is turned.
+    /// Edges of two faces that traverse them in the same direction: one face is turned.
     pub same: usize,
-    /// Of one face.
+    /// Edges of one face.
     pub border: usize,
-    /// Of more than two.
+    /// Edges of more than two faces.
     pub crowded: usize,
-    /// The first of the faces with most edges that run the same way as a neighbour's, and their number.
+    /// The first face with most edges that a neighbour traverses in the same direction, and their number.
     pub turned: Option<(usize, u32)>,
 }
 
 /// The faces along one edge.
 #[derive(Default)]
 struct Sides {
-    /// How many run from the earlier place to the later one, and how many back.
+    /// Number of faces in each direction.
     n_along: [usize; 2],
-    /// The last two.
+    /// The last two faces.
     faces: [u32; 2],
 }
 
 impl Edges {
     pub fn new(scene: &Scene) -> Self {
-        let places = places(scene);
+        let first = first_at_position(scene);
         let mut sides: FxHashMap<(u32, u32), Sides> = FxHashMap::default();
         for (row, face) in scene.faces.iter().enumerate() {
             each_edge(scene, face, |from, to| {
-                let (from, to) = (places[from.index()], places[to.index()]);
+                let (from, to) = (first[from.index()], first[to.index()]);
                 if from != to {
                     let edge = sides.entry((from.min(to), from.max(to))).or_default();
                     edge.n_along[usize::from(from > to)] += 1;
@@ -74,7 +74,7 @@ impl Edges {
         }
         let mut edges = Self::default();
         let mut n_same = vec![0u32; scene.faces.len()];
-        // Only sums are made, so the order of the table does not matter.
+        // Sums do not depend on the order of the hash table.
         for Sides { n_along, faces } in sides.into_values() {
             match n_along {
                 [1, 1] => edges.opposite += 1,
@@ -92,8 +92,8 @@ impl Edges {
     }
 }
 
-/// The edges of a face, with its inside to their left: holes may be written
-/// either way, and are taken to run against the outline.
+/// Calls `edge` for the edges of a face, with its interior on their left: holes may have either direction, and are
+/// assumed to run opposite to the outline.
 fn each_edge(scene: &Scene, face: &Face, mut edge: impl FnMut(VertexId, VertexId)) {
     let outward = outline_normal(scene, face);
     for (idx, contour) in scene.face_contours(face).enumerate() {
@@ -105,18 +105,18 @@ fn each_edge(scene: &Scene, face: &Face, mut edge: impl FnMut(VertexId, VertexId
     }
 }
 
-/// For each vertex the first one in the same place.
-fn places(scene: &Scene) -> Vec<u32> {
+/// For each vertex the first one at the same position.
+fn first_at_position(scene: &Scene) -> Vec<u32> {
     let mut known: FxHashMap<[u64; 3], u32> = FxHashMap::default();
-    let place = |(row, position): (usize, DVec3)| {
+    let first = |(row, position): (usize, DVec3)| {
         // Adding 0 turns -0 into 0.
         let key = (position + DVec3::ZERO).to_array().map(f64::to_bits);
         *known.entry(key).or_insert(row as u32)
     };
-    scene.vertices.iter().map(|vertex| vertex.position).enumerate().map(place).collect()
+    scene.vertices.iter().map(|vertex| vertex.position).enumerate().map(first).collect()
 }
 
-/// The bodies that have faces or wires, with the numbers of these.
+/// The bodies with faces or wires, and the numbers of these.
 pub(crate) fn bodies(scene: &Scene) -> Vec<(BodyId, usize, usize)> {
     let mut bodies: Vec<_> = scene.bodies.ids().map(|body| (body, 0, 0)).collect();
     scene.faces.iter().for_each(|face| bodies[face.body.index()].1 += 1);

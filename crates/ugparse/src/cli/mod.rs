@@ -13,18 +13,18 @@ use ugpipe::{CommonArgs, Failure, Stage, ToolArgs};
 use crate::pipe::{self, refused};
 use crate::{Diagnostics, Options, Parsed, Severity, Source};
 
-/// Checks, tidies, flattens and measures UniGrafix scenes
+/// Checks, formats, flattens and measures UniGrafix scenes
 ///
-/// Without a job it checks: ugparse FILE is ugparse check FILE.
+/// The default command is check: ugparse FILE is ugparse check FILE.
 #[derive(Parser, Debug)]
 #[command(name = "ugparse", version, before_help = ugpipe::ONE_DASH, after_help = EXAMPLES,
-          disable_help_subcommand = true, mut_args(before_the_job))]
+          disable_help_subcommand = true, mut_args(globally))]
 struct Args {
     #[command(subcommand)]
-    job: Option<Job>,
+    command: Option<Command>,
 
     #[command(flatten)]
-    rest: JobArgs,
+    rest: CommandArgs,
 }
 
 const EXAMPLES: &str = "Examples:
@@ -34,26 +34,26 @@ const EXAMPLES: &str = "Examples:
   ugparse flatten ship.ug | head
   ugparse count ship.ug";
 
-/// Options may stand before the job as well as behind it, but for the one that names the file.
-fn before_the_job(arg: Arg) -> Arg {
+/// Allows options before the command as well as after it, except the one that names the file.
+fn globally(arg: Arg) -> Arg {
     if arg.is_positional() || arg.get_id() == "fi" { arg } else { arg.global(true) }
 }
 
 #[derive(Subcommand, Debug)]
-enum Job {
-    /// Say what is wrong with the scene; status 1 if it cannot be used
-    Check(JobArgs),
-    /// Lay the text out anew: one statement a line, nothing flattened or left out
-    Tidy(JobArgs),
+enum Command {
+    /// Report errors and warnings; status 1 if the scene is invalid
+    Check(CommandArgs),
+    /// Format the text: one statement per line, nothing flattened or omitted
+    Tidy(CommandArgs),
     /// Write the flat scene, as the other programs do
-    Flatten(JobArgs),
-    /// Count statements, and measure the faces
-    Count(JobArgs),
+    Flatten(CommandArgs),
+    /// Count statements, and measure faces
+    Count(CommandArgs),
 }
 
 #[derive(clap::Args, Debug)]
-struct JobArgs {
-    /// What check and count print
+struct CommandArgs {
+    /// Output format of check and count
     #[arg(long, value_name = "FORMAT", value_enum, default_value_t = Format::Text)]
     format: Format,
 
@@ -71,23 +71,24 @@ enum Format {
 
 impl ToolArgs for Args {
     fn common(&self) -> &CommonArgs {
-        &self.job().common
+        &self.command_args().common
     }
 }
 
 impl Args {
-    fn job(&self) -> &JobArgs {
-        match &self.job {
-            Some(Job::Check(args) | Job::Tidy(args) | Job::Flatten(args) | Job::Count(args)) => args,
+    fn command_args(&self) -> &CommandArgs {
+        match &self.command {
+            Some(
+                Command::Check(args) | Command::Tidy(args) | Command::Flatten(args) | Command::Count(args),
+            ) => args,
             None => &self.rest,
         }
     }
 }
 
-/// The whole program.
+/// Runs the program.
 pub fn main() -> ExitCode {
-    // A check of a bad scene that ends with its report written has done its
-    // work, so its output is kept; only the status says what was found.
+    // A report about an invalid scene is a result and not a failure: the output is kept, and only the exit status is 1.
     let is_usable = Cell::new(true);
     let status = ugpipe::main(|args: &Args, stage: &mut Stage| {
         is_usable.set(run(args, stage)?);
@@ -96,28 +97,28 @@ pub fn main() -> ExitCode {
     if is_usable.get() { status } else { ExitCode::FAILURE }
 }
 
-/// Does the job; false if the scene was found to be unusable.
+/// Runs the command; returns false if the scene is invalid.
 fn run(args: &Args, stage: &mut Stage) -> Result<bool, Failure> {
-    let JobArgs { format, common } = args.job();
+    let CommandArgs { format, common } = args.command_args();
     let is_json = *format == Format::Json;
-    if is_json && matches!(args.job, Some(Job::Tidy(_) | Job::Flatten(_))) {
+    if is_json && matches!(args.command, Some(Command::Tidy(_) | Command::Flatten(_))) {
         return Err(Failure::usage("a scene is not written as JSON; -format is for check and count"));
     }
-    if args.job.is_some() && args.rest.common.input().is_some() {
-        return Err(Failure::usage("the job stands before the file: `ugparse tidy FILE`"));
+    if args.command.is_some() && args.rest.common.input().is_some() {
+        return Err(Failure::usage("the command must come before the file: `ugparse tidy FILE`"));
     }
     let options = pipe::options(common)?;
     let input = stage.input()?;
     let source = Source::new(input.name, input.text);
-    match args.job {
-        None | Some(Job::Check(_)) => return check(source, &options, is_json, stage),
-        Some(Job::Tidy(_)) => stage.write(&crate::tidy(&source, &options).map_err(refused)?)?,
-        Some(Job::Flatten(_)) => {
+    match args.command {
+        None | Some(Command::Check(_)) => return check(source, &options, is_json, stage),
+        Some(Command::Tidy(_)) => stage.write(&crate::tidy(&source, &options).map_err(refused)?)?,
+        Some(Command::Flatten(_)) => {
             let (_, parsed) = read(source, &options, stage).map_err(refused)?;
             warn(&parsed.warnings, stage);
             stage.write_with(|out| crate::write_to(&parsed.scene, out))?;
         }
-        Some(Job::Count(_)) => {
+        Some(Command::Count(_)) => {
             let (source, parsed) = read(source, &options, stage).map_err(refused)?;
             warn(&parsed.warnings, stage);
             let counts = count::Counts::new(&source, &parsed, &options);
@@ -140,7 +141,7 @@ fn warn(warnings: &Diagnostics, stage: &Stage) {
     }
 }
 
-/// Reports all findings; false if the scene cannot be used.
+/// Reports all findings; returns false if the scene is invalid.
 fn check(source: Source, options: &Options, is_json: bool, stage: &mut Stage) -> Result<bool, Failure> {
     let name = source.name.clone();
     let (is_usable, findings) = match read(source, options, stage) {

@@ -1,6 +1,6 @@
 //! Cameras in definitions: one outside takes precedence over them.
 
-use super::Placer;
+use super::Expander;
 use crate::diagnostic::Diagnostic;
 use crate::scene::{Camera, Item};
 use crate::source::Span;
@@ -13,7 +13,7 @@ pub(super) struct NestedCamera {
     pub path: String,
 }
 
-impl Placer<'_, '_> {
+impl Expander<'_, '_> {
     /// Puts cameras outside definitions first, where one inside would be used in place of them, with
     /// a warning. Comments have been placed.
     pub(super) fn prefer_outer_camera(&mut self) -> Option<Diagnostic> {

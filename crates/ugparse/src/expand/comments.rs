@@ -1,13 +1,13 @@
-//! Comments go with the statements they stand at.
+//! Attaches comments to statements of the flat scene.
 
-use super::Placer;
+use super::Expander;
 use crate::reader::CommentSpan;
 use crate::scene::{Comment, Item};
 use crate::scope::Scope;
 use crate::source::Span;
 
-impl Placer<'_, '_> {
-    /// Notes where colours and surfaces stand.
+impl Expander<'_, '_> {
+    /// Records the spans of colours and surfaces.
     pub(super) fn note_definitions(&mut self, file: &Scope<'_>) {
         let Some(emitted) = &mut self.emitted else { return };
         let defined = self.scopes;
@@ -18,15 +18,15 @@ impl Placer<'_, '_> {
         emitted.extend(surfaces.enumerate().map(|(row, &span)| (span, Item::Surface(row as u32))));
     }
 
-    /// Notes where statements stand whose rows begin at `first`.
+    /// Records the spans of statements whose rows begin at `first`.
     pub(super) fn note(&mut self, spans: &[Span], first: usize, item: fn(u32) -> Item) {
         if let Some(emitted) = &mut self.emitted {
             emitted.extend(spans.iter().zip(first as u32..).map(|(&span, row)| (span, item(row))));
         }
     }
 
-    /// Comments above the first statement are the head; others go to the row
-    /// of the statement they stand at.
+    /// Comments before the first statement become head comments; others are attached to the row of their
+    /// statement.
     pub(super) fn place_comments(&mut self, comments: &[CommentSpan], first_statement: u32) {
         let mut emitted = self.emitted.take().unwrap_or_default();
         emitted.sort_by_key(|&(span, item)| (span.start, item));
@@ -39,12 +39,12 @@ impl Placer<'_, '_> {
             let (at, trailing) = item_at(self.text, &emitted, comment);
             self.scene.comments.push(Comment { text, at, trailing });
         }
-        // The writer goes through rows and comments side by side.
+        // The writer traverses rows and comments in parallel.
         self.scene.comments.sort_by_key(|comment| comment.at);
     }
 }
 
-/// The statement a comment goes with.
+/// The statement to which a comment belongs.
 fn item_at(text: &[u8], emitted: &[(Span, Item)], comment: &CommentSpan) -> (Item, bool) {
     let position = comment.text.start;
     let behind = emitted.partition_point(|(span, _)| span.start < position);

@@ -1,7 +1,6 @@
-//! Puts everything in its place: scopes and what they place become a flat scene.
+//! Expands instances and arrays into a flat scene.
 //!
-//! The file's own tables become those of the scene; definitions are copied
-//! behind them, once for each instance.
+//! The file's own tables become those of the scene; definitions are copied after them, once for each instance.
 
 mod cameras;
 mod comments;
@@ -27,10 +26,10 @@ use cameras::NestedCamera;
 use placement::{Inherited, Placement};
 use queue::{Queue, Queues};
 
-/// Where in the text the rows of a flat scene come from.
+/// The spans of the text from which the rows of a flat scene originate.
 #[derive(Clone, Debug, Default)]
 pub struct Origins {
-    /// For each vertex, its name in its `v` statement.
+    /// For each vertex, the name in its `v` statement.
     pub vertices: Vec<Span>,
     /// For each face, its statement.
     pub faces: Vec<Span>,
@@ -38,13 +37,13 @@ pub struct Origins {
     pub cameras: Vec<Span>,
 }
 
-/// Chains of definitions that any thread has stack for.
+/// The longest chain of nested instances for which the stack of any thread suffices.
 const SHORT_CHAIN: usize = 200;
 
-/// Bytes of stack for each definition of a longer chain: several times what is needed.
+/// Stack for each level of a longer chain in bytes, several times the measured need.
 const STACK_PER_LEVEL: usize = 1 << 15;
 
-/// Builds the flat scene; colours, surfaces, and the names of the file, are in it already.
+/// Builds the flat scene; it already contains colours, surfaces, and the names of the file.
 pub(crate) fn expand(
     text: &[u8],
     document: &mut Document<'_>,
@@ -55,7 +54,7 @@ pub(crate) fn expand(
     if links.levels <= SHORT_CHAIN {
         return expand_here(text, document, links, scene, findings);
     }
-    // Placing recurses, so a long chain gets a thread with a stack of its length.
+    // Expansion is recursive, so a long chain needs a thread with a larger stack.
     let mut outcome = None;
     let started = std::thread::scope(|scope| {
         let work = || outcome = Some(expand_here(text, document, links, scene, findings));
@@ -77,75 +76,74 @@ fn expand_here(
     scene: Scene,
     findings: &mut Vec<Diagnostic>,
 ) -> (Scene, Origins) {
-    // Only comments behind the head ask where statements stand.
+    // Only comments after the head require the spans of statements.
     let first_statement = document.first_statement.unwrap_or(u32::MAX);
     let has_comments = document.comments.last().is_some_and(|comment| comment.text.start > first_statement);
     let file = std::mem::take(&mut document.scopes[0]);
-    let mut placer = Placer {
+    let mut expander = Expander {
         text,
         scopes: &document.scopes,
         links,
         scene,
         origins: Origins::default(),
         emitted: has_comments.then(Vec::new),
-        placed_before: vec![false; document.scopes.len()],
+        expanded_before: vec![false; document.scopes.len()],
         next_vertex: 0,
         path_rows: FxHashMap::default(),
         has_linked_paths: false,
         undefined: BTreeMap::new(),
         first_illums: vec![None; document.scopes.len()],
         bodies: BodyTable::default(),
-        syntax_error: None,
-        flattened: BTreeMap::new(),
+        error: None,
+        degenerate: BTreeMap::new(),
         nested_cameras: Vec::new(),
     };
-    placer.note_definitions(&file);
+    expander.note_definitions(&file);
     let stage = document.stage.map(|(_, span)| span);
-    placer.note(stage.as_slice(), 0, |_| Item::Stage);
-    placer.file(file);
-    findings.extend(std::mem::take(&mut placer.undefined).into_values());
-    placer.make_names_unique();
-    placer.place_comments(&document.comments, first_statement);
-    findings.extend(placer.prefer_outer_camera());
-    findings.extend(placer.syntax_error);
-    findings.extend(placer.flattened.into_values());
-    placer.scene.bodies = placer.bodies.bodies;
-    (placer.scene, placer.origins)
+    expander.note(stage.as_slice(), 0, |_| Item::Stage);
+    expander.file(file);
+    findings.extend(std::mem::take(&mut expander.undefined).into_values());
+    expander.make_names_unique();
+    expander.place_comments(&document.comments, first_statement);
+    findings.extend(expander.prefer_outer_camera());
+    findings.extend(expander.error);
+    findings.extend(expander.degenerate.into_values());
+    expander.scene.bodies = expander.bodies.bodies;
+    (expander.scene, expander.origins)
 }
 
-struct Placer<'d, 't> {
+struct Expander<'d, 't> {
     text: &'t [u8],
-    /// The definitions; the row of the file is empty.
+    /// The definitions; the first scope, the file, is empty.
     scopes: &'d [Scope<'t>],
     links: &'d Links,
     scene: Scene,
     origins: Origins,
-    /// Where each statement stands and the first row it gave, if comments ask for it.
+    /// The span of each statement and the first row made from it, if there are comments to attach.
     emitted: Option<Vec<(Span, Item)>>,
-    /// Vertices of the scope have been placed.
-    placed_before: Vec<bool>,
-    /// Where the vertices of the next scope begin, when all vertices are placed.
+    /// For each scope, whether its vertices have been expanded before.
+    expanded_before: Vec<bool>,
+    /// The first vertex of the next scope, after all vertices have been expanded.
     next_vertex: usize,
-    /// Placed vertices by path, if something names one.
+    /// Expanded vertices by path, if the scene uses paths.
     path_rows: FxHashMap<String, VertexId>,
-    /// A corner of the file was linked to one of them.
+    /// True if a corner of the file is one of them.
     has_linked_paths: bool,
-    /// Paths that lead nowhere, by their positions.
+    /// Errors for undefined paths, by position.
     undefined: BTreeMap<u32, Diagnostic>,
-    /// For each scope that has been placed, the row of its first illum.
+    /// For each expanded scope, the row of its first illum.
     first_illums: Vec<Option<usize>>,
     bodies: BodyTable,
-    /// The first thing that cannot be placed.
-    syntax_error: Option<Diagnostic>,
-    /// Warnings for faces that have no area where they are placed, once for
-    /// each statement, by its position.
-    flattened: BTreeMap<u32, Diagnostic>,
+    /// The first error of expansion.
+    error: Option<Diagnostic>,
+    /// Warnings for faces without area after transformation, one per statement, by position.
+    degenerate: BTreeMap<u32, Diagnostic>,
     /// In the order of their rows.
     nested_cameras: Vec<NestedCamera>,
 }
 
-impl Placer<'_, '_> {
-    /// The file's tables become the scene's, with what calls give in between.
+impl Expander<'_, '_> {
+    /// Moves the file's tables into the scene, and expands its calls between their rows.
     fn file(&mut self, mut file: Scope<'_>) {
         self.bodies = std::mem::take(&mut file.bodies);
         if self.emitted.is_some() {
@@ -155,7 +153,7 @@ impl Placer<'_, '_> {
         }
         self.scene.vertices = std::mem::take(&mut file.vertices.rows);
         self.origins.vertices = std::mem::take(&mut file.vertices.spans);
-        // Faces may name vertices that come later, also in instances, so vertices go first.
+        // Faces may use later vertices, also those of instances, so vertices are expanded first.
         let inherited = Inherited::file();
         self.next_vertex = self.scene.vertices.len();
         for (call, link) in file.calls.rows.iter().zip(&self.links.calls[0]) {
@@ -182,10 +180,10 @@ impl Placer<'_, '_> {
         self.move_rows(&mut queues, end);
     }
 
-    /// Copies the vertices of a definition, and of what it places.
+    /// Copies the vertices of a definition and of its instances.
     fn vertices(&mut self, row: usize, inherited: &Inherited) {
         let scope = &self.scopes[row];
-        let first_time = !std::mem::replace(&mut self.placed_before[row], true);
+        let first_time = !std::mem::replace(&mut self.expanded_before[row], true);
         for (vertex, &span) in scope.vertices.rows.iter().zip(&scope.vertices.spans) {
             let position = inherited.transform.point(vertex.position);
             let normal = vertex.normal.map(|normal| inherited.transform.normal(normal));
@@ -204,7 +202,7 @@ impl Placer<'_, '_> {
         }
     }
 
-    /// Copies all but the vertices, which come in the same order as before.
+    /// Copies everything except the vertices, which were expanded in the same order.
     fn scope(&mut self, row: usize, inherited: &Inherited) {
         let scope = &self.scopes[row];
         let bodies = self.bodies.enter_all(&scope.bodies);
@@ -244,7 +242,7 @@ impl Placer<'_, '_> {
         self.rows(&placement, done, scope.counts());
     }
 
-    /// Lets `place` see to every copy that a call asks for.
+    /// Calls `place` for every copy of an instance or array.
     fn call(
         &mut self,
         call: &Call,

@@ -1,12 +1,12 @@
-//! Names of what is placed.
+//! Names of expanded rows: paths.
 
-use super::Placer;
+use super::Expander;
 use super::placement::Inherited;
 use crate::names::{NameId, Names, UniqueNames};
 use crate::scene::Scene;
 use crate::scope::Scope;
 
-impl Placer<'_, '_> {
+impl Expander<'_, '_> {
     pub(super) fn name(&mut self, scope: &Scope<'_>, name: NameId, inherited: &Inherited) -> NameId {
         self.scene.names.add_parts(&[
             &inherited.prefix,
@@ -24,14 +24,14 @@ impl Placer<'_, '_> {
         name.map(|name| self.name(scope, name, inherited))
     }
 
-    /// A path, or the name of an unnamed colour, may meet a name that somebody
-    /// wrote; the later one in the table gives way.
+    /// A path, or the generated name of an unnamed colour, may equal a name in the text; the later one in the table
+    /// is renamed.
     pub(super) fn make_names_unique(&mut self) {
         let is_flat = self.scopes.len() == 1;
         let Scene { names, vertices, colors, surfaces, .. } = &mut self.scene;
         rename_duplicates(names, colors.iter_mut().map(|color| &mut color.name));
         rename_duplicates(names, surfaces.iter_mut().map(|surface| &mut surface.name));
-        // Vertices of a flat file have been compared.
+        // The vertex names of a flat file are unique already.
         if !is_flat {
             rename_duplicates(names, vertices.iter_mut().map(|vertex| &mut vertex.name));
         }

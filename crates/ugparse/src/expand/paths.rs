@@ -1,13 +1,13 @@
-//! Vertices of instances, by their paths.
+//! Resolves vertices of instances by their paths.
 
-use super::Placer;
+use super::Expander;
 use crate::resolve::{degeneracy, is_short, omitted, short_wire, undefined};
 use crate::scene::{Face, VertexId};
 use crate::scope::{Scope, as_str};
 use crate::source::Span;
 
-impl Placer<'_, '_> {
-    /// Notes the names of placed vertices, if anything asks for one.
+impl Expander<'_, '_> {
+    /// Indexes expanded vertices by path, if the scene uses paths.
     pub(super) fn enter_paths(&mut self, file: &Scope<'_>) {
         if file.paths.is_empty() && self.scopes.iter().all(|scope| scope.paths.is_empty()) {
             return;
@@ -18,7 +18,7 @@ impl Placer<'_, '_> {
         }
     }
 
-    /// The vertex that a path means where `prefix` is placed.
+    /// The vertex with this path, relative to `prefix`.
     pub(super) fn find_path(&mut self, prefix: &str, name: Span) -> Option<VertexId> {
         let own = as_str(name.of(self.text));
         let colon = if prefix.is_empty() { "" } else { ":" };
@@ -31,8 +31,8 @@ impl Placer<'_, '_> {
         found
     }
 
-    /// Links the file's corners that name vertices of instances. Faces that turn
-    /// out to be flat are left out, and wires that are too short.
+    /// Resolves the file's corners that name vertices of instances. Removes faces that then have no area, and wires
+    /// that are too short.
     pub(super) fn link_paths(&mut self, file: &mut Scope<'_>) {
         for path in std::mem::take(&mut file.paths) {
             let Some(vertex) = self.find_path("", path.name) else { continue };
@@ -48,7 +48,7 @@ impl Placer<'_, '_> {
         for &(row, problem) in &flat {
             let span = file.faces.spans[row];
             let warning = omitted(self.text, span, "face", problem, "remove it, or mend its vertices");
-            self.flattened.insert(span.start, warning);
+            self.degenerate.insert(span.start, warning);
         }
         file.remove_faces(&flat.into_iter().map(|(row, _)| row).collect::<Vec<_>>());
         let wires = file.wires.rows.iter().enumerate();
@@ -56,7 +56,7 @@ impl Placer<'_, '_> {
             wires.filter(|(_, wire)| is_short(&file.contours, wire)).map(|(row, _)| row).collect();
         for &row in &short {
             let span = file.wires.spans[row];
-            self.flattened.insert(span.start, short_wire(self.text, span));
+            self.degenerate.insert(span.start, short_wire(self.text, span));
         }
         file.remove_wires(&short);
     }

@@ -1,4 +1,4 @@
-//! What a definition inherits from what places it.
+//! The context in which a definition is expanded.
 
 use std::ops::Range;
 
@@ -9,24 +9,24 @@ use crate::scene::{ColorId, LightMotion, VertexId};
 use crate::scope::{DefaultColor, NO_ROW, Scope};
 use crate::transform::Transform;
 
-/// What a scope inherits from the calls that place it.
+/// Properties that a definition inherits from the calls that place it.
 pub(super) struct Inherited {
     pub transform: Transform,
-    /// Path of the names made here, without the last `:`.
+    /// Prefix of paths, without the last `:`.
     pub prefix: String,
     pub color: Option<ColorId>,
-    /// The body that all it holds is part of, if a call states a velocity.
+    /// The body of all its contents, if a call states a velocity.
     pub body: Option<BodyId>,
 }
 
 impl Inherited {
-    /// That of the file itself, which nothing places.
+    /// For the file itself, which inherits nothing.
     pub fn file() -> Self {
         Self { transform: Transform::IDENTITY, prefix: String::new(), color: None, body: None }
     }
 }
 
-/// A definition that is being placed.
+/// A definition during expansion.
 pub(super) struct Placement<'p> {
     pub scope: &'p Scope<'p>,
     pub inherited: &'p Inherited,
@@ -41,7 +41,7 @@ pub(super) struct Placement<'p> {
     pub first_color: usize,
     /// Row of the scope's first illum in the scene.
     pub first_illum: usize,
-    /// The unnamed colour in force at the `def`.
+    /// The unnamed colour in effect at the `def`.
     pub outer_default: Option<ColorId>,
 }
 
@@ -71,7 +71,7 @@ impl Placement<'_> {
         }
     }
 
-    /// The colour of face or wire `row`; `first` says from which row on an unnamed colour is in force.
+    /// The colour of face or wire `row`; `first` returns the first row to which an unnamed colour applies.
     pub fn color(
         &self,
         own: Option<ColorId>,

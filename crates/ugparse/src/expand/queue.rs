@@ -1,11 +1,11 @@
-//! Rows of the file on their way into the scene: moved, not copied.
+//! Moves rows of the file into the scene without copying them.
 
-use super::Placer;
+use super::Expander;
 use crate::scene::{Camera, Face, Item, Light, Scene, Wire};
 use crate::scope::{Counts, Rows};
 use crate::source::Span;
 
-impl Placer<'_, '_> {
+impl Expander<'_, '_> {
     /// Moves rows of the file up to `end`.
     pub(super) fn move_rows(&mut self, queues: &mut Queues, end: Counts) {
         let spans = self.move_some(&mut queues.faces, end.faces, |scene| &mut scene.faces, Item::Face);
@@ -35,7 +35,7 @@ impl Placer<'_, '_> {
     }
 }
 
-/// Rows of the file that are not in the scene yet.
+/// Rows of the file that have not been moved yet.
 pub(super) struct Queues {
     pub faces: Queue<Face>,
     pub wires: Queue<Wire>,
@@ -60,7 +60,7 @@ impl<T> Queue<T> {
         let count = end - self.n_taken;
         self.n_taken = end;
         if count >= self.rows.len() {
-            // All that is left: a table that was not touched is moved, not copied.
+            // A table that was not touched is moved as a whole.
             let (rows, spans) = (std::mem::take(&mut self.rows), std::mem::take(&mut self.spans));
             return (rows.collect(), spans.collect());
         }
@@ -68,7 +68,7 @@ impl<T> Queue<T> {
     }
 }
 
-/// Appends, by moving the whole table if there is nothing before it.
+/// Appends rows; moves the whole table if the destination is empty.
 fn append<T>(table: &mut Vec<T>, mut rows: Vec<T>) {
     if table.is_empty() {
         *table = rows;

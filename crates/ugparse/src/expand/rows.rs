@@ -1,10 +1,10 @@
-//! Faces, wires, lights and cameras of a definition, as placed.
+//! Expands faces, wires, lights and cameras of a definition.
 
 use std::ops::Range;
 
 use glam::DVec3;
 
-use super::Placer;
+use super::Expander;
 use super::cameras::NestedCamera;
 use super::placement::Placement;
 use crate::diagnostic::Diagnostic;
@@ -13,8 +13,8 @@ use crate::scene::{Camera, Face, IllumId, Item, Light, LightKind, VertexId, Wire
 use crate::scope::Counts;
 use crate::source::Span;
 
-impl Placer<'_, '_> {
-    /// Places all but vertices and calls, from `start` up to `end`.
+impl Expander<'_, '_> {
+    /// Expands everything except vertices and calls, from `start` up to `end`.
     pub(super) fn rows(&mut self, placement: &Placement<'_>, start: Counts, end: Counts) {
         let scope = placement.scope;
         for row in start.faces..end.faces {
@@ -65,9 +65,9 @@ impl Placer<'_, '_> {
     fn wire(&mut self, placement: &Placement<'_>, row: usize) {
         let Placement { scope, inherited, .. } = placement;
         let (wire, span) = (&scope.wires.rows[row], scope.wires.spans[row]);
-        // One with corners by path comes as far as this.
+        // Only wires with vertices by path can be too short here.
         if is_short(&scope.contours, wire) {
-            self.flattened.entry(span.start).or_insert_with(|| short_wire(self.text, span));
+            self.degenerate.entry(span.start).or_insert_with(|| short_wire(self.text, span));
             return;
         }
         self.note_first(placement, span, self.scene.wires.len(), Item::Wire);
@@ -80,7 +80,7 @@ impl Placer<'_, '_> {
         self.scene.wires.push(placed);
     }
 
-    /// Copies contours; a mirrored inherited reverses their direction but keeps the first vertex.
+    /// Copies contours; mirroring reverses their direction but keeps the first vertex.
     fn contours(&mut self, placement: &Placement<'_>, rows: Range<u32>, reversed: bool) -> Range<u32> {
         self.scene.contours.push_all(rows.map(|row| {
             let corners = placement.corners(row);
@@ -92,12 +92,12 @@ impl Placer<'_, '_> {
         }))
     }
 
-    /// False, with a warning, if a face has no area where it is placed: squashed
-    /// flat by `-sz 0`, or too small beside its distance.
+    /// Returns false and adds a warning if a face has no area after transformation: collapsed by `-sz 0`, or too small
+    /// relative to its distance.
     fn has_area(&mut self, placement: &Placement<'_>, face: &Face, span: Span) -> bool {
         let outline = placement.corners(face.contours.start);
         let position = |corner: usize| self.scene.vertices[placement.corner(corner).index()].position;
-        // Corners by path may turn out to be one vertex.
+        // Several paths may refer to the same vertex.
         let has_three = placement.paths.is_empty()
             || face.contours.clone().all(|row| {
                 let corners: Vec<VertexId> =
@@ -108,7 +108,7 @@ impl Placer<'_, '_> {
             return true;
         }
         let text = self.text;
-        self.flattened.entry(span.start).or_insert_with(|| {
+        self.degenerate.entry(span.start).or_insert_with(|| {
             let shown = face_name(text, span).unwrap_or(Span { start: span.start, end: span.start + 1 });
             Diagnostic::warning(shown, "face has no area where it is placed")
                 .label("left out")
@@ -164,9 +164,9 @@ impl Placer<'_, '_> {
         self.origins.cameras.push(span);
     }
 
-    pub(super) fn check_finite(&mut self, span: Span, place: DVec3) {
-        if !place.is_finite() {
-            self.syntax_error.get_or_insert_with(|| {
+    pub(super) fn check_finite(&mut self, span: Span, position: DVec3) {
+        if !position.is_finite() {
+            self.error.get_or_insert_with(|| {
                 Diagnostic::error(span, "coordinates overflow when this is placed")
                     .label("here")
                     .help("use smaller numbers")
@@ -177,7 +177,7 @@ impl Placer<'_, '_> {
     fn check_direction(&mut self, span: Span, direction: DVec3) {
         self.check_finite(span, direction);
         if direction == DVec3::ZERO {
-            self.syntax_error.get_or_insert_with(|| {
+            self.error.get_or_insert_with(|| {
                 Diagnostic::error(span, "this direction is lost when it is placed")
                     .label("has no length there")
                     .help("place it without a scale of 0")

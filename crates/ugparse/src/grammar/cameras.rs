@@ -6,7 +6,7 @@ use super::{numbers, zero_vector};
 use crate::scene::{Camera, Projection};
 use crate::token::{Input, Parsed, Reason, blank, fail, number, point, require};
 
-/// Reads the arguments of camera option `name`, which stands at `at`; `input` is behind it.
+/// Parses the arguments of camera option `name`, which begins at `at`; `input` begins after it.
 pub(super) fn camera_option<'a>(
     camera: &mut Camera,
     name: Input<'a>,

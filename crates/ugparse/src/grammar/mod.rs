@@ -1,7 +1,7 @@
 //! The statements of the language, as nom parsers.
 //!
-//! Each parser reads one statement behind its keyword, up to but without the
-//! closing `;`. One token of look-ahead decides everything.
+//! Each parser reads one statement after its keyword, up to but without the closing `;`, with one token of
+//! look-ahead.
 
 mod cameras;
 mod transforms;
@@ -29,7 +29,7 @@ use transforms::transforms;
 /// The statement keywords, as messages list them.
 pub(crate) const KEYWORDS: &str = "v w f c c_rgb c_xyz c_bb c_spd surf l cam def end i a include execute";
 
-/// A reader of one text; knows the text's length, and so where a rest of it begins.
+/// A parser of one text; the text's length gives the position of any rest of it.
 pub(crate) struct Grammar<'t> {
     pub text: &'t [u8],
 }
@@ -37,7 +37,7 @@ pub(crate) struct Grammar<'t> {
 impl<'t> Grammar<'t> {
     /// Byte position at which `rest` begins.
     pub fn position(&self, rest: Input<'_>) -> u32 {
-        // Reading refuses texts of 4 GiB and more.
+        // `parse` refuses texts of 4 GiB and more.
         (self.text.len() - rest.len()) as u32
     }
 
@@ -56,7 +56,7 @@ impl<'t> Grammar<'t> {
         opt(|i| self.name(i)).parse(input)
     }
 
-    /// The body of a statement; `None` if the keyword is not one of ours.
+    /// Parses the body of a statement; `None` if the keyword is unknown.
     pub fn statement<'a>(
         &self,
         keyword: &[u8],
@@ -112,7 +112,7 @@ impl<'t> Grammar<'t> {
         Ok((rest, level.map(IllumStatement::Level)))
     }
 
-    /// `w [ID] contours [color] [< x y z >]`; the velocity is ours, for flat scenes.
+    /// `w [ID] contours [color] [< x y z >]`; the velocity is our extension, for flat scenes.
     fn wire<'a>(&self, input: Input<'a>, references: &mut References) -> Parsed<'a, Statement> {
         let (input, name) = self.optional_name(input)?;
         let (input, ()) = self.contours(input, references)?;
@@ -161,7 +161,7 @@ impl<'t> Grammar<'t> {
         let (input, hue) = opt(number).parse(input)?;
         let (input, saturation) = opt(number_from(0.0, 1.0, SHARE)).parse(input)?;
         let (input, translucency) = opt(number_from(0.0, 1.0, SHARE)).parse(input)?;
-        // `c L` is grey, `c L H` is a full colour.
+        // `c L` is grey, `c L H` is fully saturated.
         let saturation = saturation.unwrap_or(if hue.is_some() { 1.0 } else { 0.0 });
         let value = ColorValue::Hsv { value, hue: hue.unwrap_or(0.0), saturation };
         let translucency = translucency.unwrap_or(0.0);

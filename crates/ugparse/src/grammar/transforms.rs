@@ -24,7 +24,7 @@ pub(super) fn transforms(mut input: Input<'_>) -> Parsed<'_, Transform> {
     Ok((input, total))
 }
 
-/// One transformation; `at` is its dash, `input` is behind its name.
+/// Parses one transformation; `at` is its dash, `input` begins after its name.
 fn transform<'a>(name: Input<'a>, at: Input<'a>, input: Input<'a>) -> Parsed<'a, Transform> {
     let axis = |letter: u8| match letter {
         b'x' => DVec3::X,

@@ -1,4 +1,4 @@
-//! Instances and arrays: the definitions they place, and what they are called in paths.
+//! Resolves the definitions of instances and arrays, and their labels in paths.
 
 use rustc_hash::{FxHashMap, FxHashSet};
 
@@ -8,7 +8,7 @@ use crate::diagnostic::Diagnostic;
 use crate::scope::{Call, Scope};
 use crate::statement::Repeat;
 
-/// Definitions and labels of the calls of a scope.
+/// Resolves the calls of a scope.
 pub(super) fn link_calls(
     text: &[u8],
     scopes: &[Scope<'_>],
@@ -23,7 +23,7 @@ pub(super) fn link_calls(
         if target.is_none() {
             let remedy = "define it with `def NAME ; … end ;`";
             let names = enclosing(scopes, row).flat_map(|scope| scopes[scope].definitions.values());
-            // The table has no order of its own.
+            // The order of the hash table is arbitrary.
             let mut names: Vec<&[u8]> = names.map(|(_, span)| span.of(text)).collect();
             names.sort_unstable();
             let found = undefined_like(text, "definition", call.definition, remedy, names, findings.len());
@@ -35,15 +35,15 @@ pub(super) fn link_calls(
     links.collect()
 }
 
-/// For each call of a scope its label, unique there: its name, else its definition's name;
-/// nothing for a nameless array that is alone, whose element number says enough.
+/// The unique label of each call in a scope: its name, else its definition's name; empty for an unnamed array
+/// that is the only call, because its element number is enough.
 fn labels(text: &[u8], calls: &[Call]) -> Vec<String> {
     let wanted = |Call { statement: call, .. }: &Call| match call.name {
         None if calls.len() == 1 && matches!(call.repeat, Repeat::Times(..)) => String::new(),
         name => show(text, name.unwrap_or(call.definition)),
     };
     let wanted: Vec<String> = calls.iter().map(wanted).collect();
-    // A label that was written is never given to another call.
+    // Labels in the text are never used for other calls.
     let mut taken: FxHashSet<String> = wanted.iter().cloned().collect();
     let mut uses: FxHashMap<&str, u64> = FxHashMap::default();
     let mut labels = Vec::with_capacity(wanted.len());

@@ -1,4 +1,4 @@
-//! Corners of faces and wires: from names to rows of vertices.
+//! Resolves the corners of faces and wires.
 
 use super::degenerate::is_linked;
 use super::undefined::read_again;
@@ -7,10 +7,10 @@ use crate::scope::{NO_ROW, PathCorner, Scope};
 use crate::source::Span;
 use crate::statement::References;
 
-/// Rows that a thread should have at least.
+/// The least number of rows per thread.
 pub(super) const LEAST_ROWS: usize = 1 << 15;
 
-/// Turns numbers of names into rows of vertices; false if a vertex is not defined.
+/// Replaces numbers of names by rows of vertices; returns false if a vertex is not defined.
 pub(super) fn link_corners(scope: &mut Scope<'_>) -> bool {
     let names = std::mem::take(&mut scope.vertex_names);
     let mut rows = std::mem::take(&mut scope.vertex_rows);

@@ -1,4 +1,4 @@
-//! Faces and wires that would draw nothing.
+//! Removes degenerate faces and wires, which would draw nothing.
 
 use super::corners::LEAST_ROWS;
 use super::undefined::{read_again, show};
@@ -9,7 +9,7 @@ use crate::scope::{NO_ROW, Scope};
 use crate::source::Span;
 use crate::statement::{References, Statement};
 
-/// Faces with fewer than three different vertices in a contour, or without area, are warned about.
+/// Removes faces with fewer than three different vertices in a contour, or without area, with a warning for each.
 pub(super) fn remove_degenerate_faces(
     text: &[u8],
     scope: &mut Scope<'_>,
@@ -19,14 +19,14 @@ pub(super) fn remove_degenerate_faces(
     let is_whole = |face: &Face| has_corners || is_linked(scope.contours.corners(face.contours.clone()));
     let problem = |face: &Face| degeneracy(&scope.contours, &scope.vertices.rows, face);
     let faces = &scope.faces.rows;
-    let is_flat = |row: usize| is_whole(&faces[row]) && problem(&faces[row]).is_some();
-    let flat = ugparallel::positions(faces.len(), LEAST_ROWS, is_flat);
-    for &row in &flat {
+    let is_degenerate = |row: usize| is_whole(&faces[row]) && problem(&faces[row]).is_some();
+    let degenerate = ugparallel::positions(faces.len(), LEAST_ROWS, is_degenerate);
+    for &row in &degenerate {
         let problem = problem(&scope.faces.rows[row]).unwrap_or_default();
         let span = scope.faces.spans[row];
         findings.push(omitted(text, span, "face", problem, "remove it, or mend its vertices"));
     }
-    scope.remove_faces(&flat);
+    scope.remove_faces(&degenerate);
 }
 
 pub(super) fn remove_short_wires(
@@ -47,7 +47,7 @@ pub(super) fn is_linked(corners: &[VertexId]) -> bool {
     !corners.contains(&VertexId(NO_ROW))
 }
 
-/// Why a face draws nothing.
+/// Why a face is degenerate, if it is.
 pub(crate) fn degeneracy(contours: &Contours, vertices: &[Vertex], face: &Face) -> Option<&'static str> {
     if !contours.iter(face.contours.clone()).all(has_three) {
         return Some("has a contour of fewer than 3 different vertices");
@@ -57,19 +57,19 @@ pub(crate) fn degeneracy(contours: &Contours, vertices: &[Vertex], face: &Face) 
     (newell_normal(corners) == glam::DVec3::ZERO).then_some("has no area")
 }
 
-/// Three different entries.
+/// Does a contour have three different vertices?
 pub(crate) fn has_three(corners: &[VertexId]) -> bool {
     let Some((&a, rest)) = corners.split_first() else { return false };
     let Some(&b) = rest.iter().find(|&&c| c != a) else { return false };
     rest.iter().any(|&c| c != a && c != b)
 }
 
-/// True for a wire that draws nothing.
+/// Is a wire degenerate?
 pub(crate) fn is_short(contours: &Contours, wire: &Wire) -> bool {
     contours.iter(wire.contours.clone()).any(|contour| contour.len() < 2)
 }
 
-/// What is said of it.
+/// The warning for a degenerate wire.
 pub(crate) fn short_wire(text: &[u8], span: Span) -> Diagnostic {
     omitted(text, span, "wire", "has a contour of fewer than 2 vertices", "remove it, or add a vertex")
 }
@@ -81,7 +81,7 @@ pub(crate) fn omitted(text: &[u8], span: Span, kind: &str, problem: &str, remedy
     Diagnostic::warning(span, format!("{kind}{shown} {problem}")).label("left out").help(remedy)
 }
 
-/// Where the name of the face or wire at `span` stands.
+/// The span of the name of the face or wire at `span`.
 pub(crate) fn face_name(text: &[u8], span: Span) -> Option<Span> {
     match read_again(text, span, &mut References::default()) {
         Some(Statement::Face(face) | Statement::Wire(face)) => face.name,

@@ -1,6 +1,5 @@
-//! Names to rows, when all of the text is read: colours, vertices and
-//! definitions of every scope, each looked up and checked once, however often a
-//! definition is placed.
+//! Resolves names after the whole text is parsed: replaces the colours, vertices and definitions of every
+//! scope by rows, and checks each once, however often a definition is placed.
 
 mod calls;
 mod corners;
@@ -24,26 +23,26 @@ use named::{apply_default_colors, gather_named, name_surfaces, paint, visible};
 use sizes::Sizes;
 use undefined::{UndefinedNames, show};
 
-/// What calls refer to.
+/// The resolved calls.
 #[derive(Default)]
 pub(crate) struct Links {
-    /// For each scope, for each call.
+    /// For each scope, the links of its calls.
     pub calls: Vec<Vec<Link>>,
     /// For each scope, the row of its first colour in the scene.
     pub first_colors: Vec<usize>,
-    /// Length of the longest chain of definitions that place each other.
+    /// Length of the longest chain of nested instances.
     pub levels: usize,
 }
 
-/// What one call refers to.
+/// A resolved call.
 pub(crate) struct Link {
-    /// The scope that is placed; `None` if it is not defined.
+    /// The scope of its definition; `None` if it is not defined.
     pub target: Option<usize>,
-    /// The name to put into paths.
+    /// Its name in paths.
     pub label: String,
 }
 
-/// Resolves all names of `scopes`; colours go into `scene` on the way.
+/// Resolves all names of `scopes`, and moves their colours and surfaces to `scene`.
 pub(crate) fn resolve(
     text: &[u8],
     scopes: &mut [Scope<'_>],
@@ -61,7 +60,7 @@ pub(crate) fn resolve(
         }));
     }
     let own_sizes = scopes.iter().map(Scope::own_size).collect();
-    // The names of the file come first, so that they need not be moved.
+    // The names of the file come first, so that their ids do not change.
     scene.names = std::mem::take(&mut scopes[0].names);
     let firsts = match gather_named(text, scopes, scene, limits) {
         Ok(firsts) => firsts,
@@ -95,7 +94,7 @@ pub(crate) fn resolve(
     links
 }
 
-/// A scope and those round it, from the inner to the outer.
+/// A scope and its enclosing scopes, from the inner to the outer.
 fn enclosing<'g>(scopes: &'g [Scope<'_>], row: usize) -> impl Iterator<Item = usize> + use<'g> {
     std::iter::successors(Some(row), |&scope| scopes[scope].parent)
 }

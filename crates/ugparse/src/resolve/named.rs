@@ -1,4 +1,4 @@
-//! Colours and surfaces: from the tables of the scopes into the scene, and from names to rows.
+//! Moves colours and surfaces from the scopes to the scene, and resolves their names.
 
 use super::corners::LEAST_ROWS;
 use super::enclosing;
@@ -11,7 +11,7 @@ use crate::scene::{Color, ColorId, Illum, Scene, SurfaceId, SurfaceProperties};
 use crate::scope::{Scope, shifted};
 use crate::source::Span;
 
-/// The names of colours and surfaces, paths included, may have this part of the bytes of all names.
+/// The limit for names of colours and surfaces, paths included, is the limit for all names divided by this.
 const PART_OF_NAMES: u64 = 4;
 
 /// For each scope, the row of its first colour, and of its first surface, in the scene.
@@ -21,7 +21,7 @@ pub(super) struct Firsts {
     pub surfaces: Vec<usize>,
 }
 
-/// Puts the colours and surfaces of all scopes into the scene.
+/// Moves the colours and surfaces of all scopes to the scene.
 pub(super) fn gather_named(
     text: &[u8],
     scopes: &mut [Scope<'_>],
@@ -84,7 +84,7 @@ fn scope_prefix(text: &[u8], scopes: &[Scope<'_>], row: usize) -> String {
         .fold(String::new(), |inner, scope| format!("{}:{inner}", show(text, scopes[scope].name)))
 }
 
-/// For each name of a kind in a scope, the row in the scene of what it means.
+/// For each name of a kind in a scope, the row in the scene to which it refers.
 pub(super) fn visible<'g, T: 'g>(
     scopes: &'g [Scope<'_>],
     row: usize,
@@ -97,7 +97,7 @@ pub(super) fn visible<'g, T: 'g>(
     kind(&scopes[row]).names.list.iter().map(find).collect()
 }
 
-/// Turns names of colours into colours; false if one is not defined.
+/// Replaces names of colours by rows; returns false if one is not defined.
 pub(super) fn paint(scope: &mut Scope<'_>, colors: &[Option<usize>]) -> bool {
     if colors.iter().enumerate().all(|(row, color)| *color == Some(row)) {
         return true;
@@ -112,7 +112,7 @@ pub(super) fn paint(scope: &mut Scope<'_>, colors: &[Option<usize>]) -> bool {
     colors.iter().all(Option::is_some)
 }
 
-/// Turns names of surfaces into surfaces; false if one is not defined.
+/// Replaces names of surfaces by rows; returns false if one is not defined.
 pub(super) fn name_surfaces(scope: &mut Scope<'_>, surfaces: &[Option<usize>]) -> bool {
     for illum in &mut scope.illums {
         if let Illum::Surface(id) = illum
@@ -124,13 +124,13 @@ pub(super) fn name_surfaces(scope: &mut Scope<'_>, surfaces: &[Option<usize>]) -
     surfaces.iter().all(Option::is_some)
 }
 
-/// The unnamed colour in force where the faces of the file are written. Those
-/// of definitions get it when they are placed, behind the colours of calls.
+/// Applies unnamed colours to the faces and wires of the file. Those of definitions get them during expansion,
+/// because the colours of calls take precedence.
 pub(super) fn apply_default_colors(file: &mut Scope<'_>) {
     let Scope { defaults, faces, wires, .. } = file;
     for (idx, default) in defaults.iter().enumerate() {
         let next = defaults.get(idx + 1);
-        // The file's colours are the first of the scene.
+        // The file's colours are the first in the scene.
         let color = Some(ColorId::from_index(default.color as usize));
         let end = next.map_or(faces.len(), |next| next.first_face);
         for face in &mut faces.rows[default.first_face..end] {

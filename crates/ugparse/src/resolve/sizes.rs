@@ -1,4 +1,4 @@
-//! How large the placed scene would be: known before anything is placed.
+//! Computes the size of the expanded scene before expansion.
 
 use rustc_hash::FxHashSet;
 
@@ -10,7 +10,7 @@ use crate::scope::Scope;
 use crate::source::Span;
 use crate::statement::{CallStatement, Repeat};
 
-/// Measures what calls come to.
+/// Computes the sizes of scopes with their calls.
 pub(super) struct Sizes<'g, 't> {
     pub text: &'t [u8],
     pub scopes: &'g [Scope<'t>],
@@ -20,12 +20,11 @@ pub(super) struct Sizes<'g, 't> {
 }
 
 impl Sizes<'_, '_> {
-    /// Finds definitions that place themselves, chains that are too long, and
-    /// scenes that would grow without bound: before anything is placed. Gives the
-    /// length of the longest chain.
+    /// Detects recursive definitions, chains that are too long, and scenes that exceed a limit. Returns the length of
+    /// the longest chain.
     pub fn check_calls(&self) -> Result<usize, Diagnostic> {
         let mut sizes: Vec<Option<Size>> = vec![None; self.scopes.len()];
-        // Definitions that nothing places are checked, too.
+        // Unused definitions are checked, too.
         for root in 0..sizes.len() {
             self.measure(root, &mut sizes)?;
         }
@@ -33,13 +32,13 @@ impl Sizes<'_, '_> {
         self.too_large(size).map_or(Ok(size.levels), Err)
     }
 
-    /// Sizes of `root` and of all that it places, without recursion.
+    /// Computes the sizes of `root` and of all scopes it places, without recursion.
     fn measure(&self, root: usize, sizes: &mut [Option<Size>]) -> Result<(), Diagnostic> {
         if sizes[root].is_some() {
             return Ok(());
         }
         let mut on_path = FxHashSet::from_iter([root]);
-        // Each entry: a scope and the call of its that is looked at next.
+        // Each entry: a scope and the index of its next call.
         let mut path: Vec<(usize, usize)> = vec![(root, 0)];
         while let Some(&mut (row, ref mut next)) = path.last_mut() {
             let idx = *next;
@@ -55,7 +54,7 @@ impl Sizes<'_, '_> {
             if on_path.contains(&target) {
                 return Err(self.recursion(call));
             }
-            // The file itself is no link of the chain.
+            // The file itself does not count in the chain.
             let below = sizes[target].map_or(1, |size| size.levels);
             if (path.len() - 1 + below) as u64 > self.limits.get(Limit::Chain) {
                 return Err(self.too_long(call));
@@ -68,7 +67,7 @@ impl Sizes<'_, '_> {
         Ok(())
     }
 
-    /// What a scope comes to, the scopes it places included.
+    /// The size of a scope, including the scopes it places.
     fn size(&self, row: usize, sizes: &[Option<Size>]) -> Size {
         let mut total = self.own_sizes[row];
         let mut largest = 0;
@@ -93,7 +92,7 @@ impl Sizes<'_, '_> {
             .help("a definition may not place itself, directly or through others")
     }
 
-    /// The message for a scene that is too large to place.
+    /// The error for a scene that exceeds a limit.
     fn too_large(&self, size: Size) -> Option<Diagnostic> {
         let (count, limit, what) = [
             (size.statements, Limit::Statements, "statements"),
@@ -121,23 +120,23 @@ impl Sizes<'_, '_> {
     }
 }
 
-/// What a scope comes to when it is placed; sums stop at the largest number.
+/// The size of an expanded scope; sums saturate.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Size {
     statements: u64,
     corners: u64,
     names: u64,
     name_bytes: u64,
-    /// Length of the longest chain of scopes that place each other.
+    /// Length of the longest chain of nested instances.
     levels: usize,
-    /// Where most of it comes from.
+    /// The call with the most statements.
     largest_call: Option<Span>,
 }
 
 impl Size {
-    /// The size of that many copies, whose names get a path with `label` in it.
+    /// The size of several copies; `label` is the length of their label in paths.
     fn placed(&self, copies: u64, label: usize) -> Self {
-        // The colon, and the number of a copy of an array.
+        // The colon, and the number of a copy in an array.
         let added = label as u64 + 1 + if copies > 1 { 9 } else { 2 };
         let name_bytes = self.name_bytes.saturating_add(self.names.saturating_mul(added));
         Self {
@@ -159,7 +158,7 @@ impl Size {
 }
 
 impl Scope<'_> {
-    /// What a scope comes to without its calls. Faces that are left out count, too.
+    /// The size of a scope without its calls. Omitted faces count, too.
     pub(super) fn own_size(&self) -> Size {
         let (corners, names) = (self.contours.corner_count() as u64, self.names.len() as u64);
         let name_bytes = self.names.len_bytes() as u64;

@@ -1,4 +1,4 @@
-//! What is said of names that are not defined.
+//! Errors for undefined names.
 
 use super::enclosing;
 use crate::diagnostic::{Diagnostic, MAX_ERRORS};
@@ -10,7 +10,7 @@ use crate::statement::{IllumStatement, References, Statement};
 use crate::suggest::nearest;
 use crate::token::word;
 
-/// Reads the statements of a scope again, and complains about every name that is not defined.
+/// Parses the statements of a scope again, and reports every undefined name.
 pub(super) struct UndefinedNames<'g, 't, 'f> {
     pub text: &'t [u8],
     pub scopes: &'g [Scope<'t>],
@@ -63,7 +63,7 @@ impl UndefinedNames<'_, '_, '_> {
         self.undefined("surface", name, remedy, |scope| &scope.surfaces);
     }
 
-    /// True if something of that kind and name is seen here.
+    /// Is something of this kind and name visible in the scope?
     fn is_seen<T>(&self, name: Span, kind: for<'g> fn(&'g Scope<'_>) -> &'g Named<'g, T>) -> bool {
         let mut around = enclosing(self.scopes, self.row);
         around.any(|scope| kind(&self.scopes[scope]).row(name.of(self.text)).is_some())
@@ -106,7 +106,8 @@ pub(crate) fn undefined(text: &[u8], kind: &str, name: Span, remedy: &str) -> Di
         .help(remedy)
 }
 
-/// The same, with a guess at what was meant, if it will be shown: there are `n_before` findings.
+/// Like [`undefined`], with the most similar name as a suggestion. With `n_before` findings already, the error may not
+/// be shown, and no suggestion is computed.
 pub(super) fn undefined_like<'n>(
     text: &[u8],
     kind: &str,
@@ -122,7 +123,7 @@ pub(super) fn undefined_like<'n>(
     }
 }
 
-/// The statement at `span`, which has been read without an error before.
+/// Parses the statement at `span` again, which has no syntax errors.
 pub(super) fn read_again(text: &[u8], span: Span, references: &mut References) -> Option<Statement> {
     let (body, keyword) = word(&text[span.start as usize..]).ok()?;
     let (_, statement) = Grammar { text }.statement(keyword, body, references)?.ok()?;
