@@ -102,7 +102,7 @@ fn a_shell_pipe_gives_the_same_bytes_in_both_profiles() {
 
     let mut pipe = Pipe::new(DVec3::new(0.3, -0.2, 0.0), [160, 120]).in_place();
     pipe.doppler.iris = true;
-    pipe.lorentz.command_line = "uglorentz -vel .3 -.2 0 -in".to_string();
+    pipe.lorentz_command = Some("uglorentz -vel .3 -.2 0 -in".to_string());
     pipe.doppler_command = Some("ugdoppler -ir".to_string());
     pipe.rainbow.command_line = "ugrainbow -sz 160 120".to_string();
     let here = pipe.run(&std::fs::read(&scene).unwrap());

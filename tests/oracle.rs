@@ -167,7 +167,7 @@ fn outline_errors_are_within_the_bound() {
                 pieces: uglorentz::Pieces::UpTo(bound),
                 ..uglorentz::Config::default()
             };
-            let seen = uglorentz::transform(&scene, &config).unwrap().0;
+            let seen = uglorentz::apply(scene.clone(), &config).unwrap().0;
             let row = |face: &ugparse::Face| seen.names.get(face.name.unwrap())[1..].parse().unwrap();
             let origins: Vec<usize> = seen.faces.iter().map(row).collect();
             let errors = outline::errors(&seen, &origins, eye, &oracle, &camera);

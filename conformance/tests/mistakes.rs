@@ -119,17 +119,17 @@ const MISTAKES: [Mistake; 17] = [
     Mistake {
         name: "M12",
         file: "crates/ugphysics/src/apparent.rs",
-        right: "n + v.gamma_minus_one() * along * v.direction()",
-        wrong: "n - (1.0 - 1.0 / v.gamma()) * along * v.direction()",
+        right: "elongated(n, v).normalize_or_zero()",
+        wrong: "(n - (1.0 - 1.0 / v.gamma()) * n.dot(v.direction()) * v.direction()).normalize_or_zero()",
         found_by: "T35",
     },
     Mistake {
         name: "M13",
         file: "crates/uglorentz/src/refined_mesh.rs",
-        right: "self.motions[body as usize].point(body, rest)",
+        right: "self.motion_of(body).point(body, rest)",
         wrong: "Point {
             seen: used().map(|(parent, weight)| self.point(parent).seen * weight).sum(),
-            ..self.motions[body as usize].point(body, rest)
+            ..self.motion_of(body).point(body, rest)
         }",
         found_by: "edge",
     },

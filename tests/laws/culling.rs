@@ -1,10 +1,9 @@
 //! `-cull` omits invisible faces, and no others.
 
 use glam::DVec3;
-use ugparse::Source;
 use ugscene::{CameraOptions, Geometry};
 use ugtests::picture::assert_same;
-use ugtests::pipe::Pipe;
+use ugtests::pipe::{Pipe, lorentz_scene};
 use ugtests::scenes;
 
 const SIZE: [u32; 2] = [160, 120];
@@ -16,10 +15,10 @@ fn culled(name: &str, scene: &str, pipe: &Pipe) -> usize {
     let mut culling = pipe.clone();
     culling.lorentz.cull = Some(SIZE);
     assert_same(&format!("cull-{name}"), &whole, &culling.draw(&text), 0);
-    let report = uglorentz::run(&culling.lorentz, &Source::new("test.ug", text)).unwrap();
-    let told = format!("{} faces out of sight were left out", report.notes.n_culled);
-    assert_eq!(report.notes.details().contains(&told), report.notes.n_culled > 0);
-    report.notes.n_culled
+    let (_, report) = lorentz_scene(&text, &culling.lorentz).unwrap();
+    let detail = format!("removed {} faces outside the view", report.n_culled);
+    assert_eq!(report.details().contains(&detail), report.n_culled > 0);
+    report.n_culled
 }
 
 fn pipe(lorentz: uglorentz::Config) -> Pipe {
@@ -112,16 +111,16 @@ fn large_faces_are_not_lost() {
 
 #[test]
 fn where_the_camera_looks_must_be_known() {
-    let source = Source::new("t.ug", "v a 1 2 3; v b 2 0 3; v c 1 1 1; f (a b c);");
+    let text = b"v a 1 2 3; v b 2 0 3; v c 1 1 1; f (a b c);";
     let config = uglorentz::Config { cull: Some(SIZE), ..Default::default() };
-    let error = uglorentz::run(&config, &source).unwrap_err();
+    let error = lorentz_scene(text, &config).unwrap_err();
     assert!(error.is_usage());
     assert_eq!(
         error.to_string(),
-        "-cull does not know where the camera looks: give the view centre with -vc, or in the `cam` statement of the scene"
+        "-cull needs the view centre of the camera: give it with -vc, or in the `cam` statement of the scene"
     );
     // Everything is behind the camera; one face is kept, because a scene without faces is invalid.
     let camera = CameraOptions { center: Some(DVec3::NEG_ONE), ..Default::default() };
-    let report = uglorentz::run(&uglorentz::Config { camera, ..config }, &source).unwrap();
-    assert_eq!((report.scene.faces.len(), report.notes.n_culled), (1, 0));
+    let (scene, report) = lorentz_scene(text, &uglorentz::Config { camera, ..config }).unwrap();
+    assert_eq!((scene.faces.len(), report.n_culled), (1, 0));
 }

@@ -1,7 +1,7 @@
 //! Runs the pipe in one process: calls the function of each program's library and passes text between them.
 
 use glam::DVec3;
-use ugparse::Source;
+use ugparse::{Options, Scene, Source};
 
 use crate::picture::{Picture, decode};
 
@@ -10,6 +10,8 @@ use crate::picture::{Picture, decode};
 pub struct Pipe {
     /// Options of `uglorentz`.
     pub lorentz: uglorentz::Config,
+    /// The command line of `uglorentz` in the history; without options if `None`.
+    pub lorentz_command: Option<String>,
     /// Options of `ugdoppler`.
     pub doppler: ugdoppler::Config,
     /// The command line of `ugdoppler` in the history; without options if `None`.
@@ -63,7 +65,8 @@ impl Pipe {
     /// Runs the pipe and returns the output of every program.
     #[track_caller]
     pub fn run(&self, text: &[u8]) -> Stages {
-        let seen = lorentz(text, &self.lorentz);
+        let command = self.lorentz_command.as_deref().unwrap_or("uglorentz");
+        let seen = lorentz_as(text, &self.lorentz, command);
         let command = self.doppler_command.as_deref().unwrap_or("ugdoppler");
         let colored = doppler_as(&seen, &self.doppler, command);
         let file = rainbow(&colored, &self.rainbow);
@@ -80,8 +83,30 @@ impl Pipe {
 /// `uglorentz`
 #[track_caller]
 pub fn lorentz(text: &[u8], config: &uglorentz::Config) -> Vec<u8> {
-    let report = uglorentz::run(config, &Source::new("test.ug", text));
-    report.unwrap_or_else(|error| panic!("uglorentz: {error}")).text()
+    lorentz_as(text, config, "uglorentz")
+}
+
+/// `uglorentz`, called by that command line.
+#[track_caller]
+fn lorentz_as(text: &[u8], config: &uglorentz::Config, command_line: &str) -> Vec<u8> {
+    let (mut scene, _) = lorentz_scene(text, config).unwrap_or_else(|error| panic!("uglorentz: {error}"));
+    ugscene::record(&mut scene, "uglorentz", env!("CARGO_PKG_VERSION"), command_line);
+    ugparse::write(&scene)
+}
+
+/// The scene that `uglorentz` writes, and its report.
+///
+/// # Errors
+/// See [`uglorentz::Error`].
+///
+/// # Panics
+/// If the text is invalid.
+#[track_caller]
+pub fn lorentz_scene(
+    text: &[u8],
+    config: &uglorentz::Config,
+) -> Result<(Scene, uglorentz::Report), uglorentz::Error> {
+    uglorentz::apply(read(text, config.camera.name.as_deref()), config)
 }
 
 /// `ugdoppler`
@@ -93,16 +118,16 @@ pub fn doppler(text: &[u8], config: &ugdoppler::Config) -> Vec<u8> {
 /// `ugdoppler`, called by that command line.
 #[track_caller]
 fn doppler_as(text: &[u8], config: &ugdoppler::Config, command_line: &str) -> Vec<u8> {
-    let applied = ugdoppler::apply(read(text), config);
+    let applied = ugdoppler::apply(read(text, None), config);
     let (mut scene, _) = applied.unwrap_or_else(|error| panic!("ugdoppler: {error}"));
     ugscene::record(&mut scene, "ugdoppler", env!("CARGO_PKG_VERSION"), command_line);
     ugparse::write(&scene)
 }
 
-/// A scene as programs read it.
+/// A scene as programs read it. `camera`: the option `-cam`.
 #[track_caller]
-fn read(text: &[u8]) -> ugparse::Scene {
-    let parsed = ugscene::read(&Source::new("<stdin>", text), &ugparse::Options::default(), None);
+fn read(text: &[u8], camera: Option<&str>) -> Scene {
+    let parsed = ugscene::read(&Source::new("<stdin>", text), &Options::default(), camera);
     parsed.unwrap_or_else(|findings| panic!("{findings}")).scene
 }
 

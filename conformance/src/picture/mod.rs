@@ -216,8 +216,9 @@ impl PictureCase {
     pub fn draw(&self) -> Result<Vec<u8>, String> {
         let name = |what: &str| format!("{}.ug as input of {what}", self.name);
         let lorentz = uglorentz::Config { in_place: self.options.in_place, ..Default::default() };
-        let seen = uglorentz::run(&lorentz, &Source::new(name("uglorentz"), self.scene))
+        let parsed = ugparse::parse(&Source::new(name("uglorentz"), self.scene), &Options::default())
             .map_err(|error| error.to_string())?;
+        let (seen, _) = uglorentz::apply(parsed.scene, &lorentz).map_err(|error| error.to_string())?;
         // `-vr`: faces of one body keep their own colours.
         let doppler = ugdoppler::Config {
             repeat: true,
@@ -226,9 +227,7 @@ impl PictureCase {
             flux: false,
             ..Default::default()
         };
-        let seen = ugparse::parse(&Source::new(name("ugdoppler"), seen.text()), &Options::default())
-            .map_err(|error| error.to_string())?;
-        let (colored, _) = ugdoppler::apply(seen.scene, &doppler).map_err(|error| error.to_string())?;
+        let (colored, _) = ugdoppler::apply(seen, &doppler).map_err(|error| error.to_string())?;
         let rainbow =
             ugrainbow::Config { size: self.size, samples: self.options.samples, ..Default::default() };
         let picture = ugrainbow::run(&rainbow, &Source::new(name("ugrainbow"), ugparse::write(&colored)))

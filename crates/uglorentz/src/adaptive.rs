@@ -208,26 +208,36 @@ fn halve_marked(mesh: &mut RefinedMesh, line: &Polyline, marks: &[bool], least: 
 #[cfg(test)]
 mod tests {
     use glam::DVec3;
+    use ugparse::BodyId;
     use ugphysics::Velocity;
     use ugscene::Geometry;
 
     use super::*;
-    use crate::cull::Sight;
+    use crate::cull::ViewVolume;
     use crate::edge::Tolerance;
-    use crate::lit::Lit;
-    use crate::motion::Motion;
+    use crate::near_lamps::NearLamps;
+    use crate::relative_motion::RelativeMotion;
 
     #[test]
     fn there_are_no_cracks_when_cutting_stops_early() {
         let text = "v a -9 -9 1; v b 9 -9 1; v c 9 9 1; v d -9 9 1; f (a b c d); w (a c);";
         let source = ugparse::Source::new("t.ug", text);
         let scene = ugparse::parse(&source, &ugparse::Options::default()).unwrap().scene;
-        let motions = [Motion::new(Velocity::from_beta(DVec3::X * 0.99).unwrap(), Geometry::default())];
+        let motions =
+            [RelativeMotion::new(Velocity::from_beta(DVec3::X * 0.99).unwrap(), Geometry::default())];
         for max_pieces in [10, 100, 1000, 10_000] {
-            let points = scene.vertices.iter().map(|vertex| motions[0].point(0, vertex.position)).collect();
+            let points = scene
+                .vertices
+                .iter()
+                .map(|vertex| motions[0].point(BodyId::UNSTATED, vertex.position))
+                .collect();
             let mut mesh = RefinedMesh::new(&motions, points);
-            let bounds =
-                Bounds::new(vec![Tolerance::new(1e-9, 2e-3)], Lit::default(), Sight::default(), &motions);
+            let bounds = Bounds::new(
+                vec![Tolerance::new(1e-9, 2e-3)],
+                NearLamps::default(),
+                ViewVolume::default(),
+                &motions,
+            );
             let outcome = cut(&scene, &mut mesh, &bounds, max_pieces);
             assert!(outcome.is_full);
             let n_pieces = outcome.pieces.len();

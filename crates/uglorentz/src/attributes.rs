@@ -1,4 +1,4 @@
-//! Normals, and the names, colours and normals of new vertices.
+//! Names, colours and normals of new vertices, and smooth normals.
 
 use glam::DVec3;
 use rustc_hash::FxHashMap;
@@ -6,39 +6,40 @@ use uglight::HueScale;
 use ugparse::{Color, ColorId, ColorValue, Scene, Vertex};
 use ugphysics::Hsv;
 
-use crate::motion::{Motion, Point};
 use crate::refined_mesh::Recipe;
+use crate::relative_motion::{Point, RelativeMotion};
 
-/// What the names of new vertices and colours begin with; a number follows.
+/// Prefix of the names of new vertices and colours; a number follows.
 const PREFIX: &str = "s#";
 
-/// Adds the vertices that `recipes` make, in order, still without positions.
+/// Adds the vertices of `recipes`, in order, without their positions.
 pub(crate) fn add_vertices(scene: &mut Scene, recipes: &[Recipe]) {
     if recipes.is_empty() {
         return;
     }
     let prefix = free_prefix(scene.vertices.iter().map(|vertex| scene.names.get(vertex.name)));
-    let mut palette = Palette::new(scene);
+    let mut mixer = ColorMixer::new(scene);
     for (idx, recipe) in recipes.iter().enumerate() {
-        let color = palette.mix(scene, recipe);
+        let color = mixer.mix(scene, recipe);
         let normal = mean_normal(scene, recipe);
         let name = scene.names.add_parts(&[&prefix, &(idx + 1).to_string()]);
         scene.vertices.push(Vertex { name, position: DVec3::ZERO, color, normal });
     }
 }
 
-/// Gives vertices without a normal the mean of their faces'. Normals are in the axes of the scene, as its lights are.
-pub(crate) fn smooth(scene: &mut Scene, points: &[Point], motions: &[Motion]) {
+/// Gives vertices without a normal the mean normal of their faces. Normals are in the axes of the
+/// scene, as its lights are.
+pub(crate) fn smooth(scene: &mut Scene, points: &[Point], motions: &[RelativeMotion]) {
     let rest: Vec<DVec3> = points.iter().map(|point| point.rest).collect();
     let normals = ugscene::smooth_normals(scene, &rest);
     for ((vertex, normal), point) in scene.vertices.iter_mut().zip(normals).zip(points) {
         if vertex.normal.is_none() && normal != DVec3::ZERO {
-            vertex.normal = Some(motions[point.body as usize].turned_back(normal));
+            vertex.normal = Some(motions[point.body.index()].turned_back(normal));
         }
     }
 }
 
-/// [`PREFIX`], with as many `#` more as it takes so that no name begins with it.
+/// [`PREFIX`], extended by `#` until no name begins with it.
 fn free_prefix<'a>(names: impl Iterator<Item = &'a str> + Clone) -> String {
     let mut prefix = PREFIX.to_string();
     while names.clone().any(|name| name.starts_with(&prefix)) {
@@ -47,7 +48,7 @@ fn free_prefix<'a>(names: impl Iterator<Item = &'a str> + Clone) -> String {
     prefix
 }
 
-/// Parents with their weights.
+/// Parents and their weights.
 fn parents<'a>(scene: &'a Scene, recipe: &Recipe) -> impl Iterator<Item = (&'a Vertex, f64)> + Clone {
     let pairs = recipe.parents.into_iter().zip(recipe.weights).filter(|&(_, weight)| weight > 0.0);
     pairs.map(|(row, weight)| (&scene.vertices[row as usize], weight))
@@ -61,8 +62,8 @@ fn mean_normal(scene: &Scene, recipe: &Recipe) -> Option<DVec3> {
         .try_normalize()
 }
 
-/// Colours mixed so far, so that equal mixtures share a statement.
-struct Palette {
+/// Mixes colours. Equal mixtures share a statement.
+struct ColorMixer {
     prefix: String,
     mixed: FxHashMap<Mixture, ColorId>,
 }
@@ -70,14 +71,14 @@ struct Palette {
 /// Rows of the parents' colours and the bits of their weights.
 type Mixture = Vec<(ColorId, u64)>;
 
-impl Palette {
-    fn new(scene: &Scene) -> Palette {
+impl ColorMixer {
+    fn new(scene: &Scene) -> ColorMixer {
         let prefix = free_prefix(scene.colors.iter().map(|color| scene.names.get(color.name)));
-        Palette { prefix, mixed: FxHashMap::default() }
+        ColorMixer { prefix, mixed: FxHashMap::default() }
     }
 
-    /// The colour of a new vertex: that of its parents if they agree, a new one between theirs if not, and none
-    /// if one of them has none.
+    /// The colour of a new vertex: that of its parents if they agree, else a mixture; `None` if a parent
+    /// has none.
     fn mix(&mut self, scene: &mut Scene, recipe: &Recipe) -> Option<ColorId> {
         let part = |(vertex, weight): (&Vertex, f64)| Some((vertex.color?, weight));
         let mut parts: Vec<(ColorId, f64)> = parents(scene, recipe).map(part).collect::<Option<_>>()?;
@@ -97,9 +98,9 @@ impl Palette {
     }
 }
 
-/// Hue, saturation and value between those of some colours, each on its own, as the renderer of 1988 takes them
-/// between the corners of a face. Hues may be wavelengths: their numbers are used as they are. A grey has no
-/// hue and does not count for it.
+/// The weighted means of hue, saturation and value, as the renderer of 1988 interpolates them between
+/// the corners of a face. Wavelengths in place of hues are averaged alike. Greys do not contribute to
+/// the hue.
 fn blend(scene: &Scene, parts: &[(ColorId, f64)]) -> (ColorValue, f64) {
     let (mut mean, mut hue_weight, mut translucency) =
         (Hsv { hue: 0.0, saturation: 0.0, value: 0.0 }, 0.0, 0.0);
@@ -120,7 +121,7 @@ fn blend(scene: &Scene, parts: &[(ColorId, f64)]) -> (ColorValue, f64) {
     (ColorValue::Hsv { value: mean.value, hue: mean.hue, saturation: mean.saturation }, translucency)
 }
 
-/// Hues between violet (300) and red (360) lie below red, (P16). Larger numbers are wavelengths.
+/// Maps hues between violet (300) and red (360) to negative ones, (P16). Larger numbers are wavelengths.
 fn below_violet(hue: f64) -> f64 {
     if hue > 300.0 && hue < 360.0 { hue - 360.0 } else { hue }
 }

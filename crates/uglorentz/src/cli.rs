@@ -5,17 +5,18 @@ use std::process::ExitCode;
 
 use clap::{ArgAction, Parser};
 use glam::DVec3;
-use ugparse::pipe;
-use ugpipe::{CommonArgs, Failure, Stage, ToolArgs, finite, vector};
+use ugparse::{Origins, Source, pipe};
+use ugpipe::{CommonArgs, Failure, Progress, Stage, ToolArgs, finite, vector};
 use ugscene::Geometry;
 use ugscene::cli::CameraArgs;
 
-use crate::{Anchor, Config, DEFAULT_COLOR_ERROR, DEFAULT_ERROR, Error, Pieces, Table};
+use crate::{Anchor, Config, DEFAULT_COLOR_ERROR, DEFAULT_ERROR, Error, Pieces, Table, measure};
 
 /// Geometry of a UniGrafix scene as seen in relativistic motion
 ///
-/// Moves every vertex to where its light left it, cuts edges that are then seen bent, and writes a flat
-/// scene whose faces carry their velocity and whose camera carries the eye, ready for ugdoppler.
+/// Moves every vertex to where it was when its light left it, subdivides edges that are seen as
+/// curves, and writes a flat scene for ugdoppler, with the velocity of each face and the eye of the
+/// camera.
 #[derive(Debug, Parser)]
 #[command(name = "uglorentz", version, before_help = ugpipe::ONE_DASH, after_help = EXAMPLES)]
 pub struct Args {
@@ -26,57 +27,58 @@ pub struct Args {
 
     /// Velocity of the camera in the scene, fraction of c [default: the scene's, else 0]
     ///
-    /// Velocities of objects are then those in the scene, too. Where the camera looks, -vc and -ud, is said in
-    /// its own frame.
+    /// Velocities of objects are in the frame of the scene as well. -vc and -ud are in the frame of
+    /// the camera.
     #[arg(long = "cv", visible_alias = "camera-velocity", value_names = ["X", "Y", "Z"], num_args = 3,
           action = ArgAction::Set, allow_hyphen_values = true, value_parser = finite)]
     camera_velocity: Option<Vec<f64>>,
 
     /// Time of the picture on the observer's clock
     ///
-    /// At time 0 the scene's coordinates hold; a unit of time is what light takes for a unit of length.
+    /// The coordinates of the scene are those at time 0. Light travels one unit of length in one unit
+    /// of time.
     #[arg(long = "ti", visible_alias = "time", value_name = "T", default_value = "0",
           allow_hyphen_values = true, value_parser = finite)]
     time: f64,
 
-    /// Point about which bodies contract: eye, origin, center or X Y Z [default: eye]
+    /// Fixed point of the contraction: eye, origin, center or X Y Z [default: eye]
     ///
-    /// center is the middle of the box round each body.
+    /// center is the centre of the bounding box of each body.
     #[arg(long = "an", visible_alias = "anchor", value_name = "POINT", num_args = 1..=3,
           action = ArgAction::Set, allow_hyphen_values = true)]
     anchor: Option<Vec<String>>,
 
-    /// Put each body so that its anchor is seen where the scene has it
+    /// Place each body so that its anchor is seen where the scene has it
     ///
-    /// At time 0. The anchor is then center unless -an says otherwise.
+    /// This holds at time 0. The default of -an is then center.
     #[arg(long = "in", visible_alias = "in-place")]
     in_place: bool,
 
-    /// Cut until the picture is right to ERR milliradians at the eye [default: 0.1]
+    /// Subdivide until the picture is right to ERR milliradians at the eye [default: 0.1]
     ///
-    /// Cutting stops at 4000000 pieces, or after 32 halvings of an edge, with a warning that tells the error left.
-    /// -vb always tells it, and where it is.
+    /// Subdivision stops at 4000000 pieces, or after 32 halvings of an edge, with a warning that states
+    /// the errors left. -vb always states them, and the vertices where they occur.
     #[arg(long = "se", visible_alias = "error", value_name = "ERR", conflicts_with = "equal",
           allow_hyphen_values = true, value_parser = finite)]
     error: Option<f64>,
 
-    /// Cut until the Doppler factor is right to PERCENT between vertices, or off [default: 0.15]
+    /// Subdivide until the Doppler factor is right to PERCENT between vertices, or off [default: 0.15]
     ///
-    /// The default is less than an eye can tell apart. off saves faces where colours are not shown as they are
-    /// seen (ugdoppler --no-doppler --no-flux). It does nothing with -sd.
+    /// The default is below what an eye can distinguish. off makes fewer faces, for pictures without
+    /// Doppler colours (ugdoppler --no-doppler --no-flux). Has no effect with -sd.
     #[arg(long = "sc", visible_alias = "color-error", value_name = "PERCENT", allow_hyphen_values = true,
           value_parser = percent_or_off)]
     color_error: Option<f64>,
 
-    /// Cut also until the light of near lamps is right to PERCENT between vertices [default: off]
+    /// Subdivide also until the light of near lamps is right to PERCENT between vertices [default: off]
     ///
-    /// For ugdoppler -li, which puts light into colours at vertices: large faces near a lamp, at rest too, get the vertices they
-    /// need. 2 is hardly seen. It does nothing with -sd.
+    /// For ugdoppler -li, which adds light to the colours of vertices: it adds vertices to large faces
+    /// near a lamp, also at rest. An error of 2 is hardly visible. Has no effect with -sd.
     #[arg(long = "sl", visible_alias = "light-error", value_name = "PERCENT", allow_hyphen_values = true,
           value_parser = percent_or_off)]
     light_error: Option<f64>,
 
-    /// Cut every edge into N equal pieces instead
+    /// Subdivide every edge into N equal pieces instead
     #[arg(id = "equal", long = "sd", visible_alias = "pieces", value_name = "N")]
     equal: Option<u32>,
 
@@ -84,34 +86,35 @@ pub struct Args {
     #[arg(long = "sm", visible_alias = "smooth")]
     smooth: bool,
 
-    /// For teaching: leave out Lorentz contraction
+    /// For teaching: without Lorentz contraction
     #[arg(long = "nc", visible_alias = "no-contraction")]
     no_contraction: bool,
 
-    /// For teaching: leave out the time light takes
+    /// For teaching: without the time of flight of light
     #[arg(long = "no-flight-time")]
     no_flight_time: bool,
 
-    /// Leave out faces that the camera does not see
+    /// Remove faces that are outside the view of the camera
     ///
-    /// They are not cut either, nor are parts of others that are out of sight. The picture stays the same, if ugrainbow has the same -va and -sz; the
-    /// scene's camera or -vc must say where it looks.
+    /// Parts of other faces outside the view are not subdivided. The picture stays the same if
+    /// ugrainbow gets the same -va and -sz. The scene's camera or -vc must give the view centre.
     #[arg(long = "cull", help_heading = CAMERA)]
     cull: bool,
 
     #[command(flatten)]
     camera: CameraArgs,
 
-    /// Size of the picture in pixels, for -cull: its shape counts
+    /// Size of the picture in pixels, for -cull, which uses its aspect ratio
     #[arg(long = "sz", visible_alias = "size", num_args = 2, value_names = ["W", "H"], action = ArgAction::Set,
           default_values = ["1024", "768"], value_parser = clap::value_parser!(u32).range(1..),
           help_heading = CAMERA)]
     size: Vec<u32>,
 
-    /// Also write what is measured at each vertex, to FILE.csv or FILE.ply
+    /// Also write measurements at each vertex, to FILE.csv or FILE.ply
     ///
-    /// Name, place, emission time on the camera's clock, Doppler factor, apparent distance, and the angle between
-    /// the motion and the light's way to the eye, in degrees: in the camera's frame and in the body's.
+    /// Name, position, emission time on the camera's clock, Doppler factor, apparent distance, and the
+    /// angle between the velocity and the direction of the light to the eye, in degrees: in the frame
+    /// of the camera and in that of the body.
     #[arg(id = "at", long = "at", visible_alias = "attributes", value_name = "FILE")]
     attributes: Option<PathBuf>,
 
@@ -119,11 +122,13 @@ pub struct Args {
     common: CommonArgs,
 }
 
+const PROGRAM: &str = env!("CARGO_PKG_NAME");
+
 const CAMERA: &str = "Camera";
 
 const EXAMPLES: &str = "Examples:
   uglorentz -vel .9 0 0 ship.ug | ugdoppler | ugrainbow > ship.png
-  uglorentz -vel .9 0 0 -in ship.ug        the ship stays in the picture at any speed
+  uglorentz -vel .9 0 0 -in ship.ug        the ship stays in view at any speed
   uglorentz -vel 0 .9 0 -ti -2 street.ug   two units of time earlier
   uglorentz -cv 0 .9 0 street.ug           the camera drives; cars keep their velocities in the street";
 
@@ -133,25 +138,35 @@ pub fn main() -> ExitCode {
 }
 
 fn run(args: &Args, stage: &mut Stage) -> Result<(), Failure> {
-    let config = args.config(stage.command_line())?;
-    let source = pipe::read(stage, &config.reading)?;
-    let report = crate::run_with(&config, &source, &stage.steps()).map_err(failure)?;
-    if !report.warnings.is_empty() {
-        stage.report(&report.warnings.render(true));
+    let config = args.config()?;
+    let table = args.attributes.as_deref().map(table).transpose()?;
+    let reading = pipe::options(&args.common)?;
+    let source = pipe::read(stage, &reading)?;
+    let steps = stage.steps();
+    steps.step("reading", 0);
+    let parsed = ugscene::read(&source, &reading, config.camera.name.as_deref()).map_err(pipe::refused)?;
+    let (mut scene, report) = crate::apply_with_progress(parsed.scene, &config, &steps)
+        .map_err(|error| failure(error, &source, &parsed.origins))?;
+    drop(steps);
+    ugscene::record(&mut scene, PROGRAM, env!("CARGO_PKG_VERSION"), stage.command_line());
+    if !parsed.warnings.is_empty() {
+        stage.report(&parsed.warnings.render(true));
     }
-    report.notes.warnings().iter().for_each(|warning| stage.warn(warning));
-    report.notes.details().iter().for_each(|detail| stage.detail(detail));
-    if let (Some(path), Some(table)) = (&args.attributes, &report.table) {
-        stage.write_file(path, table)?;
+    report.warnings().iter().for_each(|warning| stage.warn(warning));
+    report.details().iter().for_each(|detail| stage.detail(detail));
+    if let (Some(path), Some(table)) = (&args.attributes, table) {
+        stage.steps().step("measuring", 0);
+        let rows = measure(&scene, ugscene::eye(&scene, None), config.time);
+        stage.write_file(path, &table.write(&scene, &rows))?;
     }
-    stage.write_with(|out| ugparse::write_to(&report.scene, out))
+    stage.write_with(|out| ugparse::write_to(&scene, out))
 }
 
-fn failure(error: Error) -> Failure {
-    match error {
-        Error::Scene(findings) => pipe::refused(findings),
-        error if error.is_usage() => Failure::usage(error),
-        error => Failure::failed(error),
+fn failure(error: Error, source: &Source, origins: &Origins) -> Failure {
+    match error.diagnostics(source, origins) {
+        Some(findings) => pipe::refused(findings),
+        None if error.is_usage() => Failure::usage(error),
+        None => Failure::failed(error),
     }
 }
 
@@ -162,7 +177,7 @@ impl ToolArgs for Args {
 }
 
 impl Args {
-    fn config(&self, command_line: &str) -> Result<Config, Failure> {
+    fn config(&self) -> Result<Config, Failure> {
         let pieces = match (self.equal, self.error) {
             (Some(n), _) => Pieces::PerEdge(n),
             (None, Some(milliradians)) => Pieces::UpTo(milliradians * 1e-3),
@@ -184,29 +199,26 @@ impl Args {
             measure: self.common.verbose(),
             smooth: self.smooth,
             geometry: Geometry { contraction: !self.no_contraction, flight_time: !self.no_flight_time },
-            table: self.attributes.as_deref().map(table).transpose()?,
-            reading: pipe::options(&self.common)?,
-            command_line: command_line.to_string(),
         })
     }
 }
 
 /// The format of a file of measurements.
 fn table(path: &Path) -> Result<Table, Failure> {
-    let ending = path.extension().map(|ending| ending.to_string_lossy()).unwrap_or_default();
-    Table::by_ending(&ending).ok_or_else(|| {
-        Failure::Usage("the file of -at is a table: its name ends with .csv or .ply".to_string())
+    let extension = path.extension().map(|extension| extension.to_string_lossy()).unwrap_or_default();
+    Table::by_extension(&extension).ok_or_else(|| {
+        Failure::Usage("-at writes a table: the name of its file must end with .csv or .ply".to_string())
     })
 }
 
-/// A part, from a percentage.
+/// A fraction, from a percentage.
 fn percent_or_off(word: &str) -> Result<f64, String> {
     if word == "off" {
         return Ok(f64::INFINITY);
     }
     match finite(word)? {
         percent if percent > 0.0 => Ok(percent / 100.0),
-        _ => Err("it takes a percentage above 0, or off".to_string()),
+        _ => Err("must be a percentage above 0, or off".to_string()),
     }
 }
 

@@ -17,7 +17,7 @@
 use glam::DVec3;
 use ugphysics::doppler_at;
 
-use crate::motion::{Motion, Point};
+use crate::relative_motion::{Point, RelativeMotion};
 
 /// Edges get this part of the bound. Inside a triangle a quadratic error is at most 4/3 of the largest on its
 /// edges, for an equilateral one.
@@ -27,7 +27,7 @@ pub(crate) const EDGE_SHARE: f64 = 0.75;
 const N_PARTS: u32 = 8;
 
 /// Is the relative error of D above `bound`?
-pub(crate) fn is_off(a: &Point, b: &Point, motion: &Motion, bound: f64) -> bool {
+pub(crate) fn is_off(a: &Point, b: &Point, motion: &RelativeMotion, bound: f64) -> bool {
     if bound == f64::INFINITY {
         return false;
     }
@@ -38,7 +38,7 @@ pub(crate) fn is_off(a: &Point, b: &Point, motion: &Motion, bound: f64) -> bool 
 }
 
 /// An upper bound of the relative errors of D and 1/D, taken linearly between the ends of the edge. (E4)
-pub(crate) fn error(a: &Point, b: &Point, motion: &Motion) -> f64 {
+pub(crate) fn error(a: &Point, b: &Point, motion: &RelativeMotion) -> f64 {
     let chord = Chord::new(a, b, motion);
     chord.total(chord.between_samples(1.0)).min(chord.total(chord.sampled()))
 }
@@ -46,13 +46,13 @@ pub(crate) fn error(a: &Point, b: &Point, motion: &Motion) -> f64 {
 struct Chord<'a> {
     a: &'a Point,
     b: &'a Point,
-    motion: &'a Motion,
+    motion: &'a RelativeMotion,
     along: DVec3,
     q: f64,
 }
 
 impl<'a> Chord<'a> {
-    fn new(a: &'a Point, b: &'a Point, motion: &'a Motion) -> Chord<'a> {
+    fn new(a: &'a Point, b: &'a Point, motion: &'a RelativeMotion) -> Chord<'a> {
         let change = b.inverse_doppler - a.inverse_doppler;
         let q = change * change / (4.0 * a.inverse_doppler * b.inverse_doppler);
         Chord { a, b, motion, along: b.seen - a.seen, q }

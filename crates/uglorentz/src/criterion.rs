@@ -8,12 +8,12 @@ use glam::DVec3;
 use rayon::prelude::*;
 use ugparse::{Face, Scene, VertexId};
 
-use crate::cull::Sight;
+use crate::cull::ViewVolume;
 use crate::edge::{self, Shown, Tolerance};
-use crate::lit::Lit;
-use crate::motion::{Motion, Point};
+use crate::near_lamps::NearLamps;
 use crate::pieces::{Cut, Polyline, Shape, as_contours, shape};
 use crate::refined_mesh::RefinedMesh;
+use crate::relative_motion::{Point, RelativeMotion};
 use crate::{early_accept, edge_on, interior};
 
 /// An edge is halved this often at most. Each halving divides the sagitta by 4, so 12 take the worst arc down
@@ -25,27 +25,32 @@ pub(crate) const MAX_GENERATION: u32 = 32;
 pub(crate) struct Bounds {
     /// Of each body.
     tolerances: Vec<Tolerance>,
-    pub lit: Lit,
-    sight: Sight,
+    pub near_lamps: NearLamps,
+    view_volume: ViewVolume,
     /// [`early_accept::most_spread`] of each body.
     spreads: Vec<f64>,
 }
 
 impl Bounds {
     /// `tolerances`: of each body.
-    pub(crate) fn new(tolerances: Vec<Tolerance>, lit: Lit, sight: Sight, motions: &[Motion]) -> Bounds {
+    pub(crate) fn new(
+        tolerances: Vec<Tolerance>,
+        near_lamps: NearLamps,
+        view_volume: ViewVolume,
+        motions: &[RelativeMotion],
+    ) -> Bounds {
         let of_body = |(motion, tolerance)| early_accept::most_spread(motion, tolerance);
         let spreads = motions.iter().zip(&tolerances).map(of_body).collect();
-        Bounds { tolerances, lit, sight, spreads }
+        Bounds { tolerances, near_lamps, view_volume, spreads }
     }
 
     fn tolerance(&self, point: &Point) -> &Tolerance {
-        &self.tolerances[point.body as usize]
+        &self.tolerances[point.body.index()]
     }
 
     /// What is seen of a flat piece and its edges; `None` if it is out of sight.
-    pub(crate) fn shown(&self, motion: &Motion, corners: &[&Point]) -> Option<Shown> {
-        if self.sight.is_outside(motion, corners) {
+    pub(crate) fn shown(&self, motion: &RelativeMotion, corners: &[&Point]) -> Option<Shown> {
+        if self.view_volume.is_outside(motion, corners) {
             return None;
         }
         let angle = corners.first().map_or(0.0, |corner| 2.0 * self.tolerance(corner).tan_half);
@@ -116,7 +121,7 @@ impl Criterion<'_, '_> {
         let mesh = self.mesh;
         let (from, to, motion) = (mesh.point(low), mesh.point(high), mesh.motion(low));
         edge::bends(from, to, motion, self.bounds.tolerance(from))
-            || self.bounds.lit.is_uneven(from, to, motion)
+            || self.bounds.near_lamps.is_nonlinear(from, to, motion)
     }
 
     /// The largest error of an edge in parts of its bound: what new edges inside a face are chosen by. Light is left out.
@@ -155,17 +160,17 @@ impl Criterion<'_, '_> {
     }
 
     /// True only if no line between these corners of a body bends, and nothing inside.
-    fn is_right_for_sure(&self, motion: &Motion, corners: impl Iterator<Item = u32> + Clone) -> bool {
-        let Bounds { tolerances, lit, spreads, .. } = self.bounds;
+    fn is_right_for_sure(&self, motion: &RelativeMotion, corners: impl Iterator<Item = u32> + Clone) -> bool {
+        let Bounds { tolerances, near_lamps, spreads, .. } = self.bounds;
         let points = corners.map(|corner| self.mesh.point(corner));
-        let body = points.clone().next().map_or(0, |point| point.body as usize);
+        let body = points.clone().next().map_or(0, |point| point.body.index());
         let tolerance = &tolerances[body];
         let is_shape_right = || {
             motion.is_at_rest()
                 || early_accept::is_close(points.clone(), spreads[body])
                 || early_accept::is_right(motion, points.clone(), tolerance)
         };
-        is_shape_right() && lit.is_even(motion, points.clone())
+        is_shape_right() && near_lamps.is_surely_linear(motion, points.clone())
     }
 
     pub(crate) fn bent_wires(&self, scene: &Scene) -> Vec<Polyline> {
@@ -208,7 +213,7 @@ impl Criterion<'_, '_> {
         let (low, high) = (a.min(b), a.max(b));
         let (from, to, motion) = (self.mesh.point(low), self.mesh.point(high), self.mesh.motion(low));
         edge::shows(from, to, motion, self.bounds.tolerance(from), shown)
-            || self.bounds.lit.is_uneven(from, to, motion)
+            || self.bounds.near_lamps.is_nonlinear(from, to, motion)
     }
 
     /// Given that no edge bends so that it shows.

@@ -1,49 +1,56 @@
-//! Leaving out what the camera cannot see, before anything is cut.
+//! Culling of faces outside the view, before subdivision.
 //!
-//! A face is left out if it certainly lies outside one of the half-spaces that hold all there is in the
-//! picture. What is seen is bent, but seen places are linear in rest coordinates p' and their length, so their
-//! distance from a plane has a bound that is largest at a corner, (P27).
+//! A face is removed if all of it is surely outside one of the half-spaces whose intersection is the view
+//! volume. Faces are seen curved, but seen positions are linear in the rest coordinates p' and their
+//! length |p'|, so the distance from a plane has a bound that is attained at a corner, (P27).
 
 use glam::DVec3;
 use rayon::prelude::*;
 use ugparse::{Face, Item, Scene, VertexId, Wire};
+use ugphysics::elongated;
 use ugscene::{HalfSpace, View};
 
-use crate::motion::{Motion, Point};
+use crate::relative_motion::{Point, RelativeMotion};
 
-/// A bound must be below by this part of what it is computed from: rounding of some ten operations.
+/// Relative rounding error of the bound, which is computed with about ten operations.
 const ROUNDING: f64 = 1e-12;
 
-/// The half-spaces that hold all there is in the picture; none if nobody asks.
+/// The half-spaces whose intersection is the view volume; empty without culling.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Sight {
+pub(crate) struct ViewVolume {
     spaces: Vec<HalfSpace>,
 }
 
-impl Sight {
-    pub(crate) fn new(view: &View) -> Sight {
-        Sight { spaces: view.half_spaces().into_iter().flatten().collect() }
+impl ViewVolume {
+    pub(crate) fn new(view: &View) -> ViewVolume {
+        ViewVolume { spaces: view.half_spaces().into_iter().flatten().collect() }
     }
 
-    /// True only if nothing between these corners of a body is in the picture, neither as it is nor as it is drawn.
-    pub(crate) fn is_outside(&self, motion: &Motion, corners: &[&Point]) -> bool {
+    /// True only if no point between these corners of a body is in the picture, neither as seen nor as
+    /// drawn.
+    pub(crate) fn is_outside(&self, motion: &RelativeMotion, corners: &[&Point]) -> bool {
         self.spaces.iter().any(|space| is_outside(space, motion, corners))
     }
 }
 
-/// Leaves out faces that are out of sight, and vertices that only they used; how many faces.
+/// Removes faces outside the view, and vertices that only they use; returns the number of faces.
 ///
-/// Faces that share a vertex with one that is kept are kept, too: colours are mixed from the faces round a
-/// vertex. One face is kept in any case, so that there is a scene.
-pub(crate) fn cull(scene: &mut Scene, points: &mut Vec<Point>, motions: &[Motion], sight: &Sight) -> usize {
-    if sight.spaces.is_empty() {
+/// Faces that share a vertex with a visible one are kept, since colours are mixed from all faces at a
+/// vertex. One face is always kept, since a scene without any is invalid.
+pub(crate) fn cull(
+    scene: &mut Scene,
+    points: &mut Vec<Point>,
+    motions: &[RelativeMotion],
+    view_volume: &ViewVolume,
+) -> usize {
+    if view_volume.spaces.is_empty() {
         return 0;
     }
     let may_be_seen = |face: &Face| {
         let corners = scene.contours.corners(face.contours.clone());
         let corners: Vec<&Point> = corners.iter().map(|corner| &points[corner.index()]).collect();
-        let motion = corners.first().map(|first| &motions[first.body as usize]);
-        motion.is_none_or(|motion| !sight.is_outside(motion, &corners))
+        let motion = corners.first().map(|first| &motions[first.body.index()]);
+        motion.is_none_or(|motion| !view_volume.is_outside(motion, &corners))
     };
     let seen: Vec<bool> = scene.faces.par_iter().map(may_be_seen).collect();
     let mut touched = vec![false; scene.vertices.len()];
@@ -72,11 +79,11 @@ pub(crate) fn cull(scene: &mut Scene, points: &mut Vec<Point>, motions: &[Motion
 }
 
 /// True only if no point between these corners is in the half-space as seen.  Eq. (P27)
-fn is_outside(space: &HalfSpace, motion: &Motion, corners: &[&Point]) -> bool {
+fn is_outside(space: &HalfSpace, motion: &RelativeMotion, corners: &[&Point]) -> bool {
     let direction = motion.direction();
     let along = space.normal.dot(direction);
     let (normal, flight, places): (DVec3, f64, Vec<DVec3>) = if motion.has_flight_time() {
-        let normal = space.normal + direction * (motion.gamma_minus_one() * along);
+        let normal = elongated(space.normal, motion.velocity());
         let places = corners.iter().map(|corner| motion.boosted_rest(corner.rest)).collect();
         (normal, motion.proper_speed() * along, places)
     } else {
@@ -91,7 +98,7 @@ fn is_outside(space: &HalfSpace, motion: &Motion, corners: &[&Point]) -> bool {
     bound + space.offset < -rounding
 }
 
-/// Keeps some faces, all wires, and the vertices that are not left without a user.
+/// Removes faces, and the vertices that are unused then.
 fn remove(scene: &mut Scene, points: &mut Vec<Point>, kept_faces: &[bool]) {
     let mut kept_vertices = vec![true; scene.vertices.len()];
     let mut mark = |rows: std::ops::Range<u32>, is_kept: bool| {
@@ -123,14 +130,14 @@ fn remove(scene: &mut Scene, points: &mut Vec<Point>, kept_faces: &[bool]) {
     });
 }
 
-/// The new row of what is kept; false for what is not.
+/// Updates a row; false if it is removed.
 fn follow(row: &mut u32, kept: &[bool], new_rows: &[u32]) -> bool {
     let old = *row as usize;
     *row = new_rows[old];
     kept[old]
 }
 
-/// How many are kept before each.
+/// The number of kept rows before each row.
 fn new_rows(kept: &[bool]) -> Vec<u32> {
     let mut n_before = 0;
     let next = |&kept: &bool| {

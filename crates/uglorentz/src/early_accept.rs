@@ -1,7 +1,7 @@
 //! Nearly all pieces of a fine mesh are right: one bound over their corners says so.
 
 use crate::edge::{Tolerance, lengths_less_dot};
-use crate::motion::{Motion, Point};
+use crate::relative_motion::{Point, RelativeMotion};
 
 /// √(4/3): the largest value of h √(4 − 3h²/r²)/r, see [`crate::color`].
 pub(crate) const MOST_BEND: f64 = 1.154_700_538_379_251_7;
@@ -11,7 +11,7 @@ pub(crate) const MOST_BEND: f64 = 1.154_700_538_379_251_7;
 ///
 /// With R the reach and r the distance, as seen, rest coordinates change by e^η R at most, and are r e^−η long at
 /// least, since e^±η are the extremes of D; directions differ by 2R/r at most, and so 1/D by 2γβ R/r.
-pub(crate) fn most_spread(motion: &Motion, tolerance: &Tolerance) -> f64 {
+pub(crate) fn most_spread(motion: &RelativeMotion, tolerance: &Tolerance) -> f64 {
     let is_right = |spread: f64| {
         let (reach, least) = (spread.sqrt(), 1.0 / (motion.gamma() + motion.proper_speed()));
         let rest_reach = reach / least;
@@ -43,7 +43,7 @@ pub(crate) fn is_close<'a>(mut corners: impl Iterator<Item = &'a Point>, spread:
 /// True only if everything between these corners is right for sure: every line from one to another, and the
 /// inside. All rules are upper bounds here, and looser than those for edges, which therefore never contradict.
 pub(crate) fn is_right<'a>(
-    motion: &Motion,
+    motion: &RelativeMotion,
     corners: impl Iterator<Item = &'a Point> + Clone,
     tolerance: &Tolerance,
 ) -> bool {
@@ -55,7 +55,7 @@ pub(crate) fn is_right<'a>(
 /// Upper bound of |C − flat|/|C|, by (E5) with u towards the first corner.
 ///
 /// |C| = γ(|p'| − v·p') is at least γ(u − v)·p', and that is linear: least in a corner.
-pub(crate) fn offset<'a>(motion: &Motion, mut corners: impl Iterator<Item = &'a Point>) -> f64 {
+pub(crate) fn offset<'a>(motion: &RelativeMotion, mut corners: impl Iterator<Item = &'a Point>) -> f64 {
     let Some(first) = corners.next() else { return 0.0 };
     let first_rest = motion.boosted_rest(first.rest);
     let (mut delta, mut floor) = (0.0, first.seen_distance);
@@ -71,7 +71,7 @@ pub(crate) fn offset<'a>(motion: &Motion, mut corners: impl Iterator<Item = &'a 
 }
 
 /// Upper bound of the error of D on any chord between the corners, by (E4).
-fn color<'a>(motion: &Motion, mut corners: impl Iterator<Item = &'a Point>) -> f64 {
+fn color<'a>(motion: &RelativeMotion, mut corners: impl Iterator<Item = &'a Point>) -> f64 {
     let Some(first) = corners.next() else { return 0.0 };
     let (mut least, mut most) = (first.inverse_doppler, first.inverse_doppler);
     let (mut reach2, mut nearest) = (0.0, first.seen_distance);
@@ -90,7 +90,7 @@ fn color<'a>(motion: &Motion, mut corners: impl Iterator<Item = &'a Point>) -> f
 }
 
 /// (E4) for 1/D that changes by `change` from `least` on, on chords of twice a reach, `nearest` or more from the eye.
-fn color_of(motion: &Motion, change: f64, least: f64, reach2: f64, nearest: f64) -> f64 {
+fn color_of(motion: &RelativeMotion, change: f64, least: f64, reach2: f64, nearest: f64) -> f64 {
     let q = change * change / (4.0 * least * least);
     let x = motion.proper_speed() * MOST_BEND * 4.0 * reach2 / (8.0 * nearest * nearest * least);
     if x < 1.0 { q + (1.0 + q) * x / (1.0 - x) } else { f64::INFINITY }
@@ -99,6 +99,7 @@ fn color_of(motion: &Motion, change: f64, least: f64, reach2: f64, nearest: f64)
 #[cfg(test)]
 mod tests {
     use glam::DVec3;
+    use ugparse::BodyId;
     use ugphysics::Velocity;
     use ugscene::Geometry;
 
@@ -111,7 +112,7 @@ mod tests {
         for k in 1..4000_u32 {
             let point = |p, q, r| DVec3::new(step(k, p), step(k, q), step(k, r));
             let speed = [0.1, 0.3, 0.7, 0.95][k as usize % 4];
-            let motion = Motion::new(
+            let motion = RelativeMotion::new(
                 Velocity::from_beta(DVec3::new(0.6, 0.0, 0.8) * speed).unwrap(),
                 Geometry::default(),
             );
@@ -119,7 +120,7 @@ mod tests {
             let a = point(0.618_034, 0.414_214, 0.732_051);
             let b = a + point(0.236_068, 0.645_751, 0.316_625) * size;
             let c = a + point(0.872_983, 0.123_106, 0.358_899) * size;
-            let corners = [a, b, c].map(|p| motion.point(0, p));
+            let corners = [a, b, c].map(|p| motion.point(BodyId::UNSTATED, p));
             for tolerance in [Tolerance::new(1e-4, 1.5e-3), Tolerance::new(1e-2, f64::INFINITY)] {
                 if is_close(corners.iter(), most_spread(&motion, &tolerance)) {
                     n_close += 1;

@@ -23,11 +23,12 @@
 //! edge always agree about it. [`shows`] then asks for one piece at a time. Derivations are in `docs/geometry.md`.
 
 use glam::DVec3;
+use ugphysics::elongated;
 
 use crate::color;
-use crate::motion::{Motion, Point};
+use crate::relative_motion::{Point, RelativeMotion};
 
-/// Rule 2 never asks for more than this, a ten-thousandth of the distance, but of bodies far away ([`crate::remote`]).
+/// Rule 2 never asks for more than this, a ten-thousandth of the distance, but of bodies far away ([`crate::distant_bodies`]).
 const LEAST_OFFSET: f64 = 1e-4;
 
 /// Two directions with |d_a + d_b|² below this are opposite: no great circle joins them in particular.
@@ -75,7 +76,7 @@ pub(crate) struct Errors {
 }
 
 /// Must the edge be cut? Give the ends in the same order whenever you ask for the same edge.
-pub(crate) fn bends(a: &Point, b: &Point, motion: &Motion, tolerance: &Tolerance) -> bool {
+pub(crate) fn bends(a: &Point, b: &Point, motion: &RelativeMotion, tolerance: &Tolerance) -> bool {
     if motion.is_at_rest() {
         return false;
     }
@@ -95,7 +96,13 @@ pub(crate) enum Shown {
 }
 
 /// Given that the edge bends: does it do so where it is seen?
-pub(crate) fn shows(a: &Point, b: &Point, motion: &Motion, tolerance: &Tolerance, shown: Shown) -> bool {
+pub(crate) fn shows(
+    a: &Point,
+    b: &Point,
+    motion: &RelativeMotion,
+    tolerance: &Tolerance,
+    shown: Shown,
+) -> bool {
     if motion.is_at_rest() {
         return false;
     }
@@ -110,7 +117,7 @@ pub(crate) fn shows(a: &Point, b: &Point, motion: &Motion, tolerance: &Tolerance
 
 /// The part of the velocity at right angles to a drawn piece, where it is largest: by (E1) nothing on the piece leaves its plane
 /// faster.
-pub(crate) fn slant(corners: &[&Point], motion: &Motion) -> f64 {
+pub(crate) fn slant(corners: &[&Point], motion: &RelativeMotion) -> f64 {
     let n = corners.len();
     let at = |idx: usize| {
         let [before, here, next] = [idx + n - 1, idx, idx + 1].map(|idx| corners[idx % n].seen);
@@ -120,7 +127,7 @@ pub(crate) fn slant(corners: &[&Point], motion: &Motion) -> f64 {
 }
 
 /// All there is to say about an edge.
-pub(crate) fn errors(a: &Point, b: &Point, motion: &Motion, shown: Shown) -> Errors {
+pub(crate) fn errors(a: &Point, b: &Point, motion: &RelativeMotion, shown: Shown) -> Errors {
     if motion.is_at_rest() {
         return Errors::default();
     }
@@ -133,7 +140,7 @@ pub(crate) fn errors(a: &Point, b: &Point, motion: &Motion, shown: Shown) -> Err
 }
 
 /// The largest of the errors of an edge, in parts of its bound; a number in any case.
-pub(crate) fn excess(a: &Point, b: &Point, motion: &Motion, tolerance: &Tolerance) -> f64 {
+pub(crate) fn excess(a: &Point, b: &Point, motion: &RelativeMotion, tolerance: &Tolerance) -> f64 {
     let Errors { angle, offset, color } = errors(a, b, motion, Shown::All);
     let color = if tolerance.color == f64::INFINITY { 0.0 } else { color / tolerance.color };
     let angle = libm::tan(angle / 2.0) / tolerance.tan_half;
@@ -141,7 +148,7 @@ pub(crate) fn excess(a: &Point, b: &Point, motion: &Motion, tolerance: &Toleranc
 }
 
 /// Rules 1 and 2.
-fn leaves_chord(a: &Point, b: &Point, motion: &Motion, tolerance: &Tolerance) -> bool {
+fn leaves_chord(a: &Point, b: &Point, motion: &RelativeMotion, tolerance: &Tolerance) -> bool {
     let edge = Edge::new(a, b, motion);
     // δ ≤ w/(2 min(|a'|, |b'|)), and |C| is at least the smaller end distance less γδ: by (E1) an edge that
     // passes this is straight enough, and nearly all edges of a fine mesh do.
@@ -164,7 +171,7 @@ pub(crate) fn lengths_less_dot(p: DVec3, q: DVec3, product: f64) -> f64 {
 struct Edge<'a> {
     a: &'a Point,
     b: &'a Point,
-    motion: &'a Motion,
+    motion: &'a RelativeMotion,
     /// a', in rest coordinates that (P3) applies to.
     start: DVec3,
     /// b' − a'.
@@ -174,7 +181,7 @@ struct Edge<'a> {
 }
 
 impl<'a> Edge<'a> {
-    fn new(a: &'a Point, b: &'a Point, motion: &'a Motion) -> Edge<'a> {
+    fn new(a: &'a Point, b: &'a Point, motion: &'a RelativeMotion) -> Edge<'a> {
         let (start, end) = (motion.boosted_rest(a.rest), motion.boosted_rest(b.rest));
         let along = end - start;
         let w = lengths_less_dot(start, end, a.rest_distance * b.rest_distance);
@@ -198,7 +205,7 @@ impl<'a> Edge<'a> {
         };
         let direction = self.motion.direction();
         let k = (self.motion.proper_speed() * rest_normal.dot(direction)).abs();
-        let m = rest_normal + direction * (self.motion.gamma_minus_one() * rest_normal.dot(direction));
+        let m = elongated(rest_normal, self.motion.velocity());
 
         let (d_a, d_b) = (self.a.seen / self.a.seen_distance, self.b.seen / self.b.seen_distance);
         let (sum, difference) = (d_a + d_b, d_b - d_a);
@@ -265,18 +272,19 @@ impl<'a> Edge<'a> {
 #[cfg(test)]
 mod tests {
     use glam::DVec3;
+    use ugparse::BodyId;
     use ugphysics::Velocity;
     use ugscene::Geometry;
 
     use super::*;
 
-    fn motion(beta: DVec3) -> Motion {
-        Motion::new(Velocity::from_beta(beta).unwrap(), Geometry::default())
+    fn motion(beta: DVec3) -> RelativeMotion {
+        RelativeMotion::new(Velocity::from_beta(beta).unwrap(), Geometry::default())
     }
 
     /// The sagitta by bisection: the point of the true curve seen at equal angles from both ends.
-    fn sagitta(a: DVec3, b: DVec3, motion: &Motion) -> f64 {
-        let seen = |s: f64| motion.point(0, a.lerp(b, s)).seen.normalize();
+    fn sagitta(a: DVec3, b: DVec3, motion: &RelativeMotion) -> f64 {
+        let seen = |s: f64| motion.point(BodyId::UNSTATED, a.lerp(b, s)).seen.normalize();
         let (d_a, d_b) = (seen(0.0), seen(1.0));
         let (mut low, mut high) = (0.0, 1.0);
         for _ in 0..100 {
@@ -292,7 +300,7 @@ mod tests {
     fn the_sagitta_is_that_of_the_true_curve() {
         fn check(a: DVec3, b: DVec3, beta: DVec3) -> f64 {
             let motion = motion(beta);
-            let (p, q) = (motion.point(0, a), motion.point(0, b));
+            let (p, q) = (motion.point(BodyId::UNSTATED, a), motion.point(BodyId::UNSTATED, b));
             let found = 2.0 * libm::atan(Edge::new(&p, &q, &motion).tan_half_sagitta());
             let expected = sagitta(a, b, &motion);
             assert!((found - expected).abs() < 1e-9, "{a} {b} {beta}: {found} {expected}");
@@ -320,12 +328,12 @@ mod tests {
             let b = a.lerp(b, libm::pow(10.0, -f64::from(k % 4)));
             for speed in [1e-3, 0.5, 0.99, 0.999_99] {
                 let motion = motion(DVec3::new(0.6, 0.0, 0.8) * speed);
-                let (p, q) = (motion.point(0, a), motion.point(0, b));
+                let (p, q) = (motion.point(BodyId::UNSTATED, a), motion.point(BodyId::UNSTATED, b));
                 let found = Edge::new(&p, &q, &motion).offset(Shown::All);
                 let chord = (q.seen - p.seen).normalize();
                 let sampled = (1..1000).map(|step| {
                     let s = f64::from(step) / 1000.0;
-                    let true_point = motion.point(0, a.lerp(b, s)).seen;
+                    let true_point = motion.point(BodyId::UNSTATED, a.lerp(b, s)).seen;
                     (true_point - p.seen).cross(chord).length() / true_point.length()
                 });
                 let sampled = sampled.fold(0.0, f64::max);
@@ -347,7 +355,7 @@ mod tests {
             let a = DVec3::new(libm::sin(turn), libm::cos(turn), libm::sin(turn * 0.7));
             let b = a + DVec3::new(libm::cos(3.0 * turn), libm::sin(5.0 * turn), 0.3) * (2.0 / turn.sqrt());
             let motion = motion(DVec3::new(0.0, 0.9, 0.1));
-            let (p, q) = (motion.point(0, a), motion.point(0, b));
+            let (p, q) = (motion.point(BodyId::UNSTATED, a), motion.point(BodyId::UNSTATED, b));
             let edge = Edge::new(&p, &q, &motion);
             let is_off =
                 edge.tan_half_sagitta() > tolerance.tan_half || edge.offset(Shown::All) > tolerance.offset;
@@ -362,7 +370,9 @@ mod tests {
     fn opposite_and_degenerate_edges() {
         let motion = motion(DVec3::X * 0.9);
         let tolerance = Tolerance::new(0.25e-3, 2e-3);
-        let bends = |a: DVec3, b: DVec3| bends(&motion.point(0, a), &motion.point(0, b), &motion, &tolerance);
+        let bends = |a: DVec3, b: DVec3| {
+            bends(&motion.point(BodyId::UNSTATED, a), &motion.point(BodyId::UNSTATED, b), &motion, &tolerance)
+        };
         assert!(bends(DVec3::Y, -DVec3::Y), "through the eye");
         assert!(bends(DVec3::X, -DVec3::X), "through the eye, along the motion");
         assert!(!bends(DVec3::Y, DVec3::Y), "no length");

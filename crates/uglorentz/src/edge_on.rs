@@ -8,7 +8,7 @@ use glam::DVec3;
 use ugparse::{Face, Scene, VertexId};
 
 use crate::DEFAULT_ERROR;
-use crate::motion::{Motion, Point};
+use crate::relative_motion::{Point, RelativeMotion};
 
 /// A plane through the eye up to rounding: the part of the largest distance of a corner.
 const FLAT: f64 = 1e-12;
@@ -23,7 +23,7 @@ const CLEAR: f64 = 1e-9;
 pub(crate) fn is_edge_on(
     scene: &Scene,
     face: &Face,
-    motion: &Motion,
+    motion: &RelativeMotion,
     rest: impl Fn(VertexId) -> DVec3,
 ) -> bool {
     let corners = || scene.contours.corners(face.contours.clone()).iter().map(|&corner| rest(corner));
@@ -46,7 +46,7 @@ pub(crate) fn is_edge_on(
 /// is linear. That is a band along the circle m·d + k = 0, h'/|p| wide to first order where h'|m|/|p| is small, for
 /// the circle has a radius of 1/|m|. It counts as a line if it is narrower than a quarter of the angle, and of a
 /// tenth of a milliradian: colours are still seen in what is wider.
-pub(crate) fn is_seen_as_line(motion: &Motion, corners: &[&Point], angle: f64) -> bool {
+pub(crate) fn is_seen_as_line(motion: &RelativeMotion, corners: &[&Point], angle: f64) -> bool {
     if !motion.has_flight_time() {
         return false;
     }

@@ -1,33 +1,32 @@
-//! What can go wrong.
+//! Errors.
 
 use std::fmt;
 
 use glam::DVec3;
-use ugparse::{Diagnostic, Diagnostics, Source, Span};
+use ugparse::{Diagnostic, Diagnostics, Origins, Source};
 use ugphysics::VelocityError;
 use ugscene::{CameraError, StageError};
 
 use crate::adaptive::MAX_PIECES;
 
-/// Why there is no scene.
+/// Why a scene cannot be mapped to the scene as seen.
 #[derive(Clone, Debug)]
 pub enum Error {
-    /// The text is no scene, or what is wrong with it has a place in the text.
-    Scene(Diagnostics),
     /// Positions or colours of the scene are as seen already.
     Stage(StageError),
     /// [`crate::Config::velocity`] is invalid.
     Velocity(VelocityError),
     /// [`crate::Config::camera_velocity`] is invalid.
     CameraVelocity(VelocityError),
-    /// A body and the camera meet so fast that the body's velocity in the camera's frame rounds to that of light.
+    /// The velocity of a body relative to the camera rounds to the speed of light.
     TooFast {
         /// The body's velocity in the frame of the scene.
         beta: DVec3,
     },
-    /// Nobody says where the camera looks, so what it sees is not known ([`crate::Config::cull`]).
+    /// [`crate::Config::cull`] needs the view centre, and neither the configuration nor the scene
+    /// has one.
     NoViewCenter,
-    /// The camera makes no sense.
+    /// The camera is invalid.
     Camera(CameraError),
     /// The bound of [`crate::Pieces::UpTo`] is not above 0, or not finite.
     NoBound {
@@ -36,19 +35,19 @@ pub enum Error {
     },
     /// [`crate::Config::color_error`] is not above 0.
     NoColorBound {
-        /// The bound given, a part.
+        /// The bound given, a fraction.
         error: f64,
     },
     /// [`crate::Config::light_error`] is not above 0.
     NoLightBound {
-        /// The bound given, a part.
+        /// The bound given, a fraction.
         error: f64,
     },
     /// [`crate::Pieces::PerEdge`] is 0.
     NoPieces,
     /// [`crate::Pieces::PerEdge`] makes too many pieces.
     TooManyPieces {
-        /// How many there would be.
+        /// The number of pieces it would make.
         n_pieces: usize,
     },
     /// A vertex of a moving body is exactly at the eye.
@@ -58,7 +57,7 @@ pub enum Error {
         /// Its row.
         row: usize,
     },
-    /// A vertex is seen further away than numbers reach.
+    /// The seen position of a vertex overflows.
     OutOfRange {
         /// Its name.
         name: String,
@@ -68,7 +67,7 @@ pub enum Error {
 }
 
 impl Error {
-    /// Is the configuration to blame, not the scene?
+    /// True if the configuration is invalid, false if the scene is.
     pub fn is_usage(&self) -> bool {
         matches!(
             self,
@@ -83,34 +82,29 @@ impl Error {
         )
     }
 
-    /// With the place in the text, if it has one. `origins`: of each vertex.
-    pub(crate) fn located(self, source: &Source, origins: &[Span]) -> Error {
-        let row = match self {
-            Error::VertexAtEye { row, .. } | Error::OutOfRange { row, .. } => row,
-            _ => return self,
-        };
-        let Some(&span) = origins.get(row) else { return self };
-        let finding = Diagnostic::error(span, self.problem()).label("this vertex");
-        Error::Scene(Diagnostics::one(source, finding.help(self.remedy())))
+    /// The error with its place in the text of the scene; `None` if it is not about a vertex.
+    pub fn diagnostics(&self, source: &Source, origins: &Origins) -> Option<Diagnostics> {
+        let (Error::VertexAtEye { row, .. } | Error::OutOfRange { row, .. }) = self else { return None };
+        let finding = Diagnostic::error(*origins.vertices.get(*row)?, self.problem()).label("this vertex");
+        Some(Diagnostics::one(source, finding.help(self.remedy())))
     }
 
     fn problem(&self) -> String {
         match self {
-            Error::Scene(diagnostics) => diagnostics.to_string(),
             Error::Stage(error) => error.to_string(),
             Error::Velocity(error) => format!("-vel: {error}"),
             Error::CameraVelocity(error) => format!("-cv: {error}"),
             Error::TooFast { beta } => format!(
-                "what moves with {} {} {} in the scene meets the camera (-cv) too near the speed of light to \
-                 be written as a velocity",
+                "the body with velocity {} {} {} in the scene moves too close to the speed of light relative to \
+                 the camera (-cv)",
                 beta.x, beta.y, beta.z
             ),
-            Error::NoViewCenter => "-cull does not know where the camera looks".to_string(),
+            Error::NoViewCenter => "-cull needs the view centre of the camera".to_string(),
             Error::Camera(error) => error.to_string(),
             Error::NoBound { error } => format!("the bound of -se is {} milliradians", error * 1e3),
             Error::NoColorBound { error } => format!("the bound of -sc is {} percent", error * 1e2),
             Error::NoLightBound { error } => format!("the bound of -sl is {} percent", error * 1e2),
-            Error::NoPieces => "-sd 0 leaves no pieces".to_string(),
+            Error::NoPieces => "-sd 0 would make no pieces".to_string(),
             Error::TooManyPieces { n_pieces } => {
                 format!("-sd would make {n_pieces} pieces, more than the limit of {MAX_PIECES}")
             }
@@ -118,24 +112,22 @@ impl Error {
                 format!("vertex `{name}` lies at the eye, where no direction to it exists")
             }
             Error::OutOfRange { name, .. } => {
-                format!("vertex `{name}` is seen too far away to be written as a number")
+                format!("the seen position of vertex `{name}` is too far away for a number")
             }
         }
     }
 
     fn remedy(&self) -> &'static str {
         match self {
-            Error::Scene(_)
-            | Error::Stage(_)
-            | Error::Velocity(_)
-            | Error::CameraVelocity(_)
-            | Error::Camera(_) => "",
-            Error::NoViewCenter => "give the view centre with -vc, or in the `cam` statement of the scene",
+            Error::Stage(_) | Error::Velocity(_) | Error::CameraVelocity(_) | Error::Camera(_) => "",
+            Error::NoViewCenter => "give it with -vc, or in the `cam` statement of the scene",
             Error::TooFast { .. } => "make one of them slower",
             Error::NoBound { .. } => "give a number above 0",
             Error::NoColorBound { .. } | Error::NoLightBound { .. } => "give a number above 0, or off",
             Error::NoPieces => "give 1 or more",
-            Error::TooManyPieces { .. } => "give fewer, or use -se, which cuts only where it shows",
+            Error::TooManyPieces { .. } => {
+                "give fewer, or use -se, which subdivides only where it is visible"
+            }
             Error::VertexAtEye { .. } => "move the eye (-ep) or the vertex",
             Error::OutOfRange { .. } => "use smaller coordinates, a smaller time (-ti) or a lower speed",
         }

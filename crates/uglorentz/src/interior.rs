@@ -12,11 +12,11 @@
 
 use glam::DVec3;
 
-use crate::motion::{Motion, Point};
+use crate::relative_motion::{Point, RelativeMotion};
 
 /// Upper bound of the distance of the true face from the flat triangle over its distance from the eye, at
 /// the inner point where δ is largest; 0 if that is on an edge.
-pub(crate) fn offset(motion: &Motion, corners: [&Point; 3]) -> f64 {
+pub(crate) fn offset(motion: &RelativeMotion, corners: [&Point; 3]) -> f64 {
     let Some(delta) = largest_delta(corners.map(|corner| motion.boosted_rest(corner.rest))) else {
         return 0.0;
     };

@@ -1,4 +1,4 @@
-//! What can be measured at every vertex of a seen scene, besides its place.
+//! Measurements at every vertex of a scene as seen (`-at`).
 
 use std::fmt::Write;
 
@@ -7,26 +7,26 @@ use ugparse::{Face, Scene, VertexId};
 use ugphysics::{Velocity, aberrate, doppler_at};
 use ugscene::{Geometry, RestFrames};
 
-/// How one vertex is seen.
+/// Measurements at one vertex.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Measurement {
     /// Apparent distance |p| from the eye, in the frame of the camera.
     pub distance: f64,
-    /// When its light left, on the clock of the camera: the time of the picture less the distance. Without time
-    /// of flight, the time of the picture.
+    /// Emission time on the clock of the camera: the time of the picture minus the distance. Without
+    /// time of flight, the time of the picture.
     pub emission_time: f64,
     /// Doppler factor D = f_observed/f_emitted.  Eq. (P10)
     ///
     /// 1 at rest.
     pub doppler: f64,
-    /// Angle between the motion and the light's way to the eye, in the frame of the camera, degrees. NaN where
-    /// one of them has no direction: at rest, and at the eye.
+    /// Angle between the velocity and the direction of the light to the eye, in the frame of the camera,
+    /// degrees. NaN at rest and at the eye, where it is undefined.
     pub emission_angle_deg: f64,
     /// The same angle in the rest frame of the body, (P6).
     pub rest_emission_angle_deg: f64,
 }
 
-/// Measures a scene as `uglorentz` writes it, one row for each vertex.
+/// Measures the result of [`crate::apply`], one row for each vertex.
 ///
 /// `eye`: in scene coordinates. `time`: of the picture, on the clock of the camera.
 pub fn measure(scene: &Scene, eye: DVec3, time: f64) -> Vec<Measurement> {
@@ -51,36 +51,36 @@ fn angle_to_motion_deg(direction: DVec3, v: Velocity) -> f64 {
     if v.is_zero() || direction == DVec3::ZERO {
         return f64::NAN;
     }
-    // Both parts may be tiny or huge together.
+    // Against overflow and underflow of squares.
     let direction = direction / direction.abs().max_element();
     let (sine, cosine) = (direction.cross(v.direction()).length(), direction.dot(v.direction()));
     libm::atan2(sine, cosine).to_degrees()
 }
 
-/// How measurements are written.
+/// File format of measurements.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Table {
-    /// One line for each vertex, under a line of headings.
+    /// CSV: a header line, then one line for each vertex.
     Csv,
-    /// PLY as text: vertices with properties, faces, and the names of the vertices as lists of bytes.
+    /// ASCII PLY: vertices with properties, faces, and the names of the vertices as lists of bytes.
     Ply,
 }
 
-/// Headings of [`Table::Csv`] behind the name, and vertex properties of [`Table::Ply`].
+/// Columns of [`Table::Csv`] after the name, and vertex properties of [`Table::Ply`].
 const COLUMNS: [&str; 8] =
     ["x", "y", "z", "emission_time", "doppler", "distance", "emission_angle_deg", "rest_emission_angle_deg"];
 
 impl Table {
-    /// The format that the ending of a file's name asks for.
-    pub fn by_ending(ending: &str) -> Option<Table> {
-        match ending.to_ascii_lowercase().as_str() {
+    /// The format of files with this extension.
+    pub fn by_extension(extension: &str) -> Option<Table> {
+        match extension.to_ascii_lowercase().as_str() {
             "csv" => Some(Table::Csv),
             "ply" => Some(Table::Ply),
             _ => None,
         }
     }
 
-    /// The file. `rows`: of [`measure`].
+    /// The contents of the file. `rows`: from [`measure`].
     pub fn write(self, scene: &Scene, rows: &[Measurement]) -> Vec<u8> {
         let mut text = String::new();
         let written = match self {
@@ -95,7 +95,7 @@ impl Table {
 fn write_csv(text: &mut String, scene: &Scene, rows: &[Measurement]) -> std::fmt::Result {
     writeln!(text, "name,{}", COLUMNS.join(","))?;
     for (vertex, row) in scene.vertices.iter().zip(rows) {
-        // Names are letters, digits, `:`, `_` and `#`, and need no quotes.
+        // Names consist of letters, digits, `:`, `_` and `#`, and need no quotes.
         text.push_str(scene.names.get(vertex.name));
         for number in numbers(vertex.position, row) {
             write!(text, ",{number}")?;
@@ -150,7 +150,7 @@ fn numbers(position: DVec3, row: &Measurement) -> [f64; 8] {
     ]
 }
 
-/// A face without holes: itself, or triangles. One that cannot be cut loses its holes.
+/// A face without holes, or its triangles. If triangulation fails, the holes are lost.
 fn polygons(scene: &Scene, face: &Face) -> Vec<Vec<VertexId>> {
     let outline = scene.contours.get(face.contours.start).to_vec();
     if face.contours.len() == 1 {

@@ -1,22 +1,22 @@
-//! Where bodies are put: anchors, observer time, and bodies in place.
+//! Placement of bodies: anchors, observer time, and bodies in place.
 //!
-//! All three add a constant to the rest coordinates of a body, so that everything after works on rest
-//! coordinates alone, and rest geometry recovered from the output has its shape unchanged.
+//! All three add a constant to the rest coordinates of a body. So all later steps work on rest
+//! coordinates alone, and the rest geometry recovered from the output has the same shape.
 
 use glam::DVec3;
 use ugparse::{BodyId, LightKind, Scene};
 use ugphysics::observer_shift;
 
-use crate::motion::{Motion, gamma_minus_one};
+use crate::relative_motion::RelativeMotion;
 use crate::{Anchor, Config};
 
-/// What to add to the rest coordinates of each body, in the axes of [`Motion::turned`].
+/// The offset of the rest coordinates of each body, in the axes of [`RelativeMotion::turned`].
 ///
 /// `bodies`: of each vertex. `motions`: of each body.
 pub(crate) fn shifts(
     scene: &Scene,
     bodies: &[BodyId],
-    motions: &[Motion],
+    motions: &[RelativeMotion],
     eye: DVec3,
     config: &Config,
 ) -> Vec<DVec3> {
@@ -24,9 +24,9 @@ pub(crate) fn shifts(
         Some(anchor) => anchor == Anchor::Center,
         None => config.in_place,
     };
-    // They take a look at every vertex.
+    // This reads every vertex.
     let centers = if is_center_asked { centers(scene, bodies) } else { vec![DVec3::ZERO; motions.len()] };
-    let shift = |(motion, &center): (&Motion, &DVec3)| {
+    let shift = |(motion, &center): (&RelativeMotion, &DVec3)| {
         let point = match config.anchor {
             Some(Anchor::Eye) => DVec3::ZERO,
             Some(Anchor::Origin) => -eye,
@@ -38,33 +38,34 @@ pub(crate) fn shifts(
         anchor_shift(motion, point, config.in_place) + time_shift(motion, config.time)
     };
     let mut shifts: Vec<DVec3> = motions.iter().zip(&centers).map(shift).collect();
-    // Vertices that nothing uses have no stated motion; they stay with the body that moves as they do.
-    let twin = (1..motions.len()).find(|&row| motions[row].in_scene() == motions[0].in_scene());
-    if let Some(row) = twin {
+    // Unused vertices are part of the first body. They get the offset of a body of the same motion.
+    let same_motion = (1..motions.len()).find(|&row| motions[row].in_scene() == motions[0].in_scene());
+    if let Some(row) = same_motion {
         shifts[0] = shifts[row];
     }
     shifts
 }
 
-/// `anchor`: relative to the eye, in the axes of the scene, or of the camera if bodies are put in place.  (P26)
-fn anchor_shift(motion: &Motion, anchor: DVec3, in_place: bool) -> DVec3 {
+/// `anchor`: relative to the eye, in the axes of the scene; in those of the camera for bodies in
+/// place.  (P26)
+fn anchor_shift(motion: &RelativeMotion, anchor: DVec3, in_place: bool) -> DVec3 {
     if in_place {
         if motion.is_at_rest() {
             return DVec3::ZERO;
         }
-        // The rest position that is seen at the anchor, (P4), goes where the anchor is.
+        // The anchor in rest coordinates moves to the rest position that is seen at the anchor, (P4).
         motion.rest(anchor) - motion.turned(anchor)
     } else if motion.has_contraction() {
-        // Contraction about A in place of the eye adds (1 − 1/γ)(A·û)û to (P1): γ times that in rest
-        // coordinates. Bodies contract in the frame of the scene, by their motion there.
+        // The fixed point A instead of the eye adds (1 − 1/γ)(A·û)û to (P1), which is γ times as much
+        // in rest coordinates. The contraction is that in the frame of the scene.
         let v = motion.in_scene();
-        motion.turned(v.direction() * (gamma_minus_one(v) * anchor.dot(v.direction())))
+        motion.turned(v.direction() * (v.gamma_minus_one() * anchor.dot(v.direction())))
     } else {
         DVec3::ZERO
     }
 }
 
-fn time_shift(motion: &Motion, time: f64) -> DVec3 {
+fn time_shift(motion: &RelativeMotion, time: f64) -> DVec3 {
     if motion.has_contraction() {
         observer_shift(motion.velocity(), time) // (P5)
     } else {
@@ -72,7 +73,8 @@ fn time_shift(motion: &Motion, time: f64) -> DVec3 {
     }
 }
 
-/// Middle of the box round each body, in scene coordinates. Lamps count only for what has no vertices.
+/// The centre of the bounding box of each body, in scene coordinates: of its vertices, or of its lamps
+/// if it has no vertices.
 fn centers(scene: &Scene, bodies: &[BodyId]) -> Vec<DVec3> {
     const EMPTY: (DVec3, DVec3) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     let grow = |(low, high): &mut (DVec3, DVec3), position: DVec3| {
@@ -95,9 +97,9 @@ fn centers(scene: &Scene, bodies: &[BodyId]) -> Vec<DVec3> {
     boxes.into_iter().zip(lamp_boxes).map(center).collect()
 }
 
-/// Moves the local lights. One with a velocity belongs to the body of that velocity, or is one by itself. One
-/// without goes along if the scene is all one body; with several nobody knows which of them it belongs to.
-pub(crate) fn shift_lights(scene: &mut Scene, motions: &[Motion], shifts: &[DVec3]) {
+/// Shifts local lights with their body. Lights whose motion is not stated are shifted only if all faces
+/// and wires are one body; with several bodies it is not known which one a light belongs to.
+pub(crate) fn shift_lights(scene: &mut Scene, motions: &[RelativeMotion], shifts: &[DVec3]) {
     if !scene.lights.iter().any(|light| matches!(light.kind, LightKind::Local { .. })) {
         return;
     }

@@ -1,43 +1,46 @@
-//! New vertices: made once, shared by all who meet at them.
+//! The vertices of the subdivided scene. Faces that share an edge share its new vertices.
 
 use glam::DVec3;
 use rustc_hash::{FxHashMap, FxHashSet};
+use ugparse::BodyId;
 
-use crate::motion::{Motion, Point};
+use crate::relative_motion::{Point, RelativeMotion};
 
-/// New vertices keep this part of the size of what is cut away from the eye, where they would have no direction.
+/// New vertices are at least this fraction of the size of what is subdivided away from the eye, where
+/// their direction would be undefined.
 const AT_EYE: f64 = 1e-12;
 
-/// Where an edge is cut that has the eye in its middle. The eye is then well off the middle of the longer part.
+/// Where an edge is divided that has the eye at its midpoint. The eye is then well off the midpoint of
+/// the longer part.
 const BESIDE_MIDDLE: f64 = 0.375;
 
-/// A quarter of the way from the mean to the middle of the first side.
+/// A quarter of the way from the mean to the midpoint of the first side.
 const BESIDE_MEAN: [f64; 4] = [0.3125, 0.3125, 0.1875, 0.1875];
 
-/// What a new vertex is a mean of. Unused parents have weight 0.
+/// A new vertex as a weighted mean. Unused parents have weight 0.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Recipe {
-    /// Rows of the parents; all smaller than the row made.
+    /// Rows of the parents; all smaller than the row of the new vertex.
     pub parents: [u32; 4],
     /// Their weights; the sum is 1.
     pub weights: [f64; 4],
 }
 
-/// The vertices of the scene and those that cutting adds.
+/// The vertices of the scene and those added by subdivision.
 pub(crate) struct RefinedMesh<'a> {
-    /// How the bodies move; [`Point::body`] is a row of it.
-    pub motions: &'a [Motion],
+    /// Of each body.
+    pub motions: &'a [RelativeMotion],
     /// All vertices, those of the scene first.
     pub points: Vec<Point>,
-    /// How the new ones were made.
+    /// One for each new vertex.
     pub recipes: Vec<Recipe>,
     middles: FxHashMap<(u32, u32), u32>,
-    /// Edges of the scene's faces, and what they were halved into, by their ends in order.
+    /// Edges of the scene's faces and the parts they were halved into, by their ordered ends.
     rims: FxHashSet<(u32, u32)>,
 }
 
 impl<'a> RefinedMesh<'a> {
-    pub(crate) fn new(motions: &'a [Motion], points: Vec<Point>) -> RefinedMesh<'a> {
+    pub(crate) fn new(motions: &'a [RelativeMotion], points: Vec<Point>) -> RefinedMesh<'a> {
         RefinedMesh {
             motions,
             points,
@@ -51,21 +54,25 @@ impl<'a> RefinedMesh<'a> {
         &self.points[row as usize]
     }
 
-    pub(crate) fn motion(&self, row: u32) -> &Motion {
-        &self.motions[self.point(row).body as usize]
+    pub(crate) fn motion(&self, row: u32) -> &RelativeMotion {
+        self.motion_of(self.point(row).body)
     }
 
-    /// Notes that this is an edge of a face of the scene, not one within a face.
+    pub(crate) fn motion_of(&self, body: BodyId) -> &RelativeMotion {
+        &self.motions[body.index()]
+    }
+
+    /// Report that this is an edge of a face of the scene, not one within a face.
     pub(crate) fn add_rim(&mut self, a: u32, b: u32) {
         self.rims.insert((a.min(b), a.max(b)));
     }
 
-    /// Is this a part of an edge of the scene, as far as was noted?
+    /// Is this part of an edge that was added?
     pub(crate) fn is_rim(&self, a: u32, b: u32) -> bool {
         self.rims.contains(&(a.min(b), a.max(b)))
     }
 
-    /// The vertex in the middle of an edge, or beside it if the eye is there.
+    /// The vertex at the midpoint of an edge, or beside it if the eye is there.
     pub(crate) fn middle(&mut self, a: u32, b: u32) -> u32 {
         let key = (a.min(b), a.max(b));
         if let Some(&row) = self.middles.get(&key) {
@@ -83,8 +90,9 @@ impl<'a> RefinedMesh<'a> {
         row
     }
 
-    /// The mean of the corners of a convex quadrilateral, not shared; if the eye is there, a point beside it that
-    /// still lies between the middles of the sides, so that the pieces round it are convex too.
+    /// A vertex at the mean of the corners of a convex quadrilateral, not shared. If the eye is there, it
+    /// is beside the mean, still between the midpoints of the sides, so that the pieces around it are
+    /// convex.
     pub(crate) fn mean(&mut self, parents: [u32; 4]) -> u32 {
         let [a, b, c, d] = parents.map(|row| self.point(row).rest);
         let is_at_eye = ((a + b + c + d) / 4.0).length() <= AT_EYE * (a - c).length();
@@ -92,7 +100,7 @@ impl<'a> RefinedMesh<'a> {
         self.add(Recipe { parents, weights })
     }
 
-    /// The mean of the corners of a triangle, or a point beside it if the eye is there, not shared.
+    /// A vertex at the mean of the corners of a triangle, or beside it if the eye is there, not shared.
     pub(crate) fn center(&mut self, [a, b, c]: [u32; 3]) -> u32 {
         let corners = [a, b, c].map(|row| self.point(row).rest);
         let mean = corners.iter().sum::<DVec3>() / 3.0;
@@ -107,8 +115,8 @@ impl<'a> RefinedMesh<'a> {
         let rest = used().map(|(parent, weight)| self.point(parent).rest * weight).sum();
         let generation = used().map(|(parent, _)| self.point(parent).generation).max().unwrap_or(0) + 1;
         let body = self.point(recipe.parents[0]).body;
-        let row = u32::try_from(self.points.len()).expect("cutting stops long before 2^32 vertices");
-        let point = self.motions[body as usize].point(body, rest);
+        let row = u32::try_from(self.points.len()).expect("subdivision stops long before 2^32 vertices");
+        let point = self.motion_of(body).point(body, rest);
         self.points.push(Point { generation, ..point });
         self.recipes.push(recipe);
         row

@@ -127,29 +127,35 @@ fn is_second_diagonal_better(mesh: &RefinedMesh, bounds: &Bounds, [a, b, c, d]: 
 #[cfg(test)]
 mod tests {
     use glam::DVec3;
+    use ugparse::BodyId;
     use ugphysics::Velocity;
     use ugscene::Geometry;
 
     use super::*;
-    use crate::cull::Sight;
+    use crate::cull::ViewVolume;
     use crate::edge::Tolerance;
-    use crate::lit::Lit;
-    use crate::motion::Motion;
+    use crate::near_lamps::NearLamps;
+    use crate::relative_motion::RelativeMotion;
 
     /// Of the ways to join the corners and middles of a triangle, one into four, the one whose inner edges have the least
     /// errors in all; and the pieces cover the triangle.
     #[test]
     fn inner_edges_are_the_more_right_ones() {
         let step = |k: u32, seed: f64| (f64::from(k) * seed).fract() * 2.0 - 1.0;
-        let motions = [Motion::new(Velocity::from_beta(DVec3::X * 0.99).unwrap(), Geometry::default())];
-        let bounds =
-            Bounds::new(vec![Tolerance::new(1e-4, 1e-3)], Lit::default(), Sight::default(), &motions);
+        let motions =
+            [RelativeMotion::new(Velocity::from_beta(DVec3::X * 0.99).unwrap(), Geometry::default())];
+        let bounds = Bounds::new(
+            vec![Tolerance::new(1e-4, 1e-3)],
+            NearLamps::default(),
+            ViewVolume::default(),
+            &motions,
+        );
         let mut n_turned = 0;
         for k in 1..200_u32 {
             let corner = |p, q| DVec3::new(3.0 + step(k, p), step(k, q), 0.01);
             let corners =
                 [corner(0.618_034, 0.414_214), corner(0.236_068, 0.645_751), corner(0.872_983, 0.123_106)];
-            let points = corners.map(|corner| motions[0].point(0, corner)).to_vec();
+            let points = corners.map(|corner| motions[0].point(BodyId::UNSTATED, corner)).to_vec();
             let mut mesh = RefinedMesh::new(&motions, points);
             let marks = Marks { edges: [true, true, true, false], inside: false };
             let pieces = split(&mut mesh, &bounds, &Shape::Triangle([0, 1, 2]), marks);

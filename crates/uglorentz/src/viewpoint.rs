@@ -1,14 +1,15 @@
-//! The camera that is written into the scene, and what it sees.
+//! The camera of the output, and its view.
 
 use glam::DVec3;
 use rayon::prelude::*;
 use ugparse::{Camera, Projection, Scene};
 use ugscene::{CameraOptions, View};
 
-use crate::motion::{Motion, Point};
-use crate::{Error, name};
+use crate::Error;
+use crate::apply::vertex_name;
+use crate::relative_motion::{Point, RelativeMotion};
 
-/// Writes the eye and the options into the camera that counts, so that they need not be repeated.
+/// Writes the eye and the options into the scene's camera, so that programs downstream use them.
 pub(crate) fn set_camera(scene: &mut Scene, eye: DVec3, options: &CameraOptions) {
     if scene.cameras.is_empty() {
         scene.cameras.push(Camera::default());
@@ -23,12 +24,12 @@ pub(crate) fn set_camera(scene: &mut Scene, eye: DVec3, options: &CameraOptions)
     }
     if let Some((across, down)) = options.view_angle {
         camera.view_angle = Some([across, down.unwrap_or(across)]);
-        // A third number would contradict them.
+        // They would contradict the view angle.
         (camera.film_size, camera.focal_length) = (None, None);
     }
 }
 
-/// What the camera of the scene sees, in a picture of `size` pixels.
+/// The view of the scene's camera, for a picture of `size` pixels.
 pub(crate) fn view(scene: &Scene, options: &CameraOptions, size: [u32; 2]) -> Result<View, Error> {
     if scene.camera().is_none_or(|camera| camera.center.is_none()) {
         return Err(Error::NoViewCenter);
@@ -37,13 +38,13 @@ pub(crate) fn view(scene: &Scene, options: &CameraOptions, size: [u32; 2]) -> Re
     View::new(scene, &CameraOptions { eye: None, ..options.clone() }, size).map_err(Error::Camera)
 }
 
-/// A moving point at the eye has no direction, and no Doppler factor.
+/// The direction to a vertex at the eye, and so its Doppler factor, is undefined.
 pub(crate) fn refuse_vertices_at_eye(
     scene: &Scene,
     points: &[Point],
-    motions: &[Motion],
+    motions: &[RelativeMotion],
 ) -> Result<(), Error> {
-    let is_at_eye = |point: &Point| point.rest == DVec3::ZERO && !motions[point.body as usize].is_at_rest();
+    let is_at_eye = |point: &Point| point.rest == DVec3::ZERO && !motions[point.body.index()].is_at_rest();
     if !points.par_iter().any(is_at_eye) {
         return Ok(());
     }
@@ -52,6 +53,8 @@ pub(crate) fn refuse_vertices_at_eye(
     let mut used = users.flat_map(|rows| scene.contours.corners(rows));
     match used.find(|vertex| is_at_eye(&points[vertex.index()])) {
         None => Ok(()),
-        Some(vertex) => Err(Error::VertexAtEye { name: name(scene, vertex.index()), row: vertex.index() }),
+        Some(vertex) => {
+            Err(Error::VertexAtEye { name: vertex_name(scene, vertex.index()), row: vertex.index() })
+        }
     }
 }

@@ -371,17 +371,16 @@ fn a_local_light_moves_with_the_only_body() {
 #[test]
 fn what_meets_too_fast_is_refused() {
     let text = "v a 1 2 3; v b 2 0 3; v c 1 1 1; f (a b c) <0 0.9999999999 0>;";
-    let source = ugparse::Source::new("t.ug", text);
     let config = Config { camera_velocity: Some(DVec3::Y * -0.999_999_999_9), ..Config::default() };
-    let error = uglorentz::run(&config, &source).unwrap_err();
+    let error = uglorentz::apply(parse(text), &config).unwrap_err();
     assert_eq!(
         error.to_string(),
-        "what moves with 0 0.9999999999 0 in the scene meets the camera (-cv) too near the speed of light to be \
-         written as a velocity: make one of them slower"
+        "the body with velocity 0 0.9999999999 0 in the scene moves too close to the speed of light relative \
+         to the camera (-cv): make one of them slower"
     );
     assert!(!error.is_usage());
-    let error = uglorentz::run(&Config { camera_velocity: Some(DVec3::Y), ..Config::default() }, &source)
-        .unwrap_err();
+    let config = Config { camera_velocity: Some(DVec3::Y), ..Config::default() };
+    let error = uglorentz::apply(parse(text), &config).unwrap_err();
     assert!(error.is_usage());
     assert_eq!(
         error.to_string(),

@@ -110,7 +110,7 @@ fn warnings_do_not_stop_it() {
     let quiet = run("-vel .5 0 0 -qt", bent);
     assert_eq!((quiet.stdout, quiet.stderr), (warned.stdout, Vec::new()));
     let talk = String::from_utf8(run("-vel .5 0 0 -vb", TILE).stderr).unwrap();
-    assert!(talk.contains("cutting added"), "{talk}");
+    assert!(talk.contains("subdivision added"), "{talk}");
 }
 
 #[test]

@@ -429,21 +429,21 @@ fn edges_at_the_eye_end_in_bounded_work() {
         "v a -1e6 0 1; v b 1e6 0 1; v c 1e6 1 1; v d -1e6 1 1; f (a b c d);",
     ] {
         let config = Config { pieces: Pieces::UpTo(0.25e-3), ..moving(DVec3::X * 0.99) };
-        let report = run(text, &config);
-        assert!(report.scene.faces.len() < 1_000_000, "{}", report.scene.faces.len());
-        assert!(report.scene.vertices.iter().all(|v| v.position.is_finite() && v.position != DVec3::ZERO));
-        assert!(!report.notes.is_full);
-        assert!(report.notes.n_too_deep == 0 || report.notes.achieved.is_some());
+        let outcome = run(text, &config);
+        assert!(outcome.scene.faces.len() < 1_000_000, "{}", outcome.scene.faces.len());
+        assert!(outcome.scene.vertices.iter().all(|v| v.position.is_finite() && v.position != DVec3::ZERO));
+        assert!(!outcome.report.is_full);
+        assert!(outcome.report.n_too_deep == 0 || outcome.report.remaining_errors.is_some());
     }
     // A face seen edge-on keeps its outline, round the eye too; inside nothing is cut.
     for (text, beta) in [
         ("v a -1 -1 0; v b 1 -1 0; v c 1 1 0; v d -1 1 0; f (a b c d);", DVec3::X),
         ("v a -1 1 0; v b 1 1 0; v c 1 2 0; v d -1 2 0; f (a b c d);", DVec3::new(0.0, 0.6, 0.8)),
     ] {
-        let report = run(text, &Config { measure: true, ..moving(beta * 0.99) });
-        assert_eq!(report.scene.faces.len(), 1);
-        let achieved = report.notes.achieved.unwrap();
-        assert!((50..1000).contains(&report.notes.n_new_vertices), "{}", report.notes.n_new_vertices);
+        let outcome = run(text, &Config { measure: true, ..moving(beta * 0.99) });
+        assert_eq!(outcome.scene.faces.len(), 1);
+        let achieved = outcome.report.remaining_errors.unwrap();
+        assert!((50..1000).contains(&outcome.report.n_new_vertices), "{}", outcome.report.n_new_vertices);
         assert!(achieved.angle.error <= 1e-4 && achieved.depth.error <= 1e-4, "{achieved:?}");
     }
     // A floor close to the eye slides along in its plane and is seen flat; only colours ask for many pieces.
@@ -459,8 +459,8 @@ fn edges_at_the_eye_end_in_bounded_work() {
         let text = "v a -SIZE SIZE 0; v b SIZE SIZE 0; v c 0 SIZE SIZE; f (a b c);".replace("SIZE", size);
         assert!(run(&text, &moving(DVec3::X * 0.999)).scene.faces.len() < 200_000);
     }
-    let report = run("v a -1 0 0; v b 1 0 0; w (a b);", &moving(DVec3::X * 0.99));
-    assert!(report.notes.warnings()[0].contains("still bend after 32 halvings"));
+    let outcome = run("v a -1 0 0; v b 1 0 0; w (a b);", &moving(DVec3::X * 0.99));
+    assert!(outcome.report.warnings()[0].contains("above the bound after 32 halvings"));
 }
 
 #[test]
@@ -469,9 +469,9 @@ fn what_is_told_of_errors_is_what_is_measured() {
     for (vertices, faces) in meshes(&mut random) {
         let beta = random.direction() * 0.9;
         let config = Config { measure: true, pieces: Pieces::UpTo(1e-3), ..moving(beta) };
-        let report = run(&text(&vertices, &faces), &config);
-        let found = errors(&report.scene, Velocity::from_beta(beta).unwrap());
-        let told = report.notes.achieved.as_ref().unwrap();
+        let outcome = run(&text(&vertices, &faces), &config);
+        let found = errors(&outcome.scene, Velocity::from_beta(beta).unwrap());
+        let told = outcome.report.remaining_errors.as_ref().unwrap();
         // Sampling finds nearly all of it, and no more.
         let check = |told: f64, found: f64| {
             assert!(found <= told * 1.000_001 && found > 0.9 * told, "{told} {found}")
@@ -480,7 +480,7 @@ fn what_is_told_of_errors_is_what_is_measured() {
         assert!(found.offset.max(found.inside) <= told.depth.error * 1.000_001);
         assert!(found.offset.max(found.inside) > 0.8 * told.depth.error);
         assert!(found.doppler <= told.doppler.error, "{} {}", found.doppler, told.doppler.error);
-        assert!(told.angle.at.len() == 2 && report.notes.details()[1].contains(&told.angle.at[0]));
+        assert!(told.angle.at.len() == 2 && outcome.report.details()[1].contains(&told.angle.at[0]));
     }
 }
 
@@ -492,13 +492,13 @@ fn what_is_out_of_sight_is_not_cut_further() {
         let whole = Config { measure: true, ..moving(direction * 0.9) };
         let seen = Config { cull: Some([80, 60]), ..whole.clone() };
         let n_faces = |config: &Config| {
-            let report = run(text, config);
-            let achieved = report.notes.achieved.unwrap();
+            let outcome = run(text, config);
+            let achieved = outcome.report.remaining_errors.unwrap();
             assert!(achieved.angle.error <= 1.000_001e-4 && achieved.depth.error <= 1.000_001e-4);
             // Euler's formula holds only if pieces share their edges.
             let euler = |scene: &Scene| scene.vertices.len() + scene.faces.len() - edges(scene).len();
-            assert_eq!(euler(&report.scene), 1);
-            report.scene.faces.len()
+            assert_eq!(euler(&outcome.scene), 1);
+            outcome.scene.faces.len()
         };
         let (all, few) = (n_faces(&whole), n_faces(&seen));
         assert!(few < all * 2 / 3, "{direction}: {few} of {all}");
@@ -510,9 +510,9 @@ fn light_left_over_is_told() {
     let text = "v a -2 3 0; v b 2 3 0; v c 2 3 2; v d -2 3 2; f (a b c d); l 1 0 2 1 0;";
     let told = |light_error: f64| {
         let config = Config { measure: true, light_error, ..Config::default() };
-        let notes = run(text, &config).notes;
-        let is_said = notes.details()[1].contains("light ");
-        (notes.achieved.unwrap().light.map(|worst| worst.error), is_said)
+        let report = run(text, &config).report;
+        let is_said = report.details()[1].contains("light ");
+        (report.remaining_errors.unwrap().light.map(|worst| worst.error), is_said)
     };
     assert_eq!(told(f64::INFINITY), (None, false));
     for bound in [0.1, 0.01] {
@@ -526,7 +526,7 @@ fn colour_is_looked_at_on_request() {
     // Along the motion nothing bends, but D goes from blue to red.
     let text = "v a -9 1 0; v b 9 1 0; w (a b);";
     let n_new =
-        |color_error: f64| run(text, &Config { color_error, ..moving(DVec3::X * 0.9) }).notes.n_new_vertices;
+        |color_error: f64| run(text, &Config { color_error, ..moving(DVec3::X * 0.9) }).report.n_new_vertices;
     let off = n_new(f64::INFINITY);
     let counts = [1e-1, 1e-2, DEFAULT_COLOR_ERROR].map(n_new);
     assert!(off <= counts[0] && counts[0] < counts[1] && counts[1] < counts[2], "{off} {counts:?}");
@@ -553,7 +553,7 @@ fn output_does_not_depend_on_threads() {
 fn bad_numbers_are_refused_with_a_remedy() {
     let check = |config: Config, expected: &str| {
         let error =
-            uglorentz::transform(&parse("v a 0 0 1; v b 1 0 1; v c 0 1 1; f (a b c);"), &config).unwrap_err();
+            uglorentz::apply(parse("v a 0 0 1; v b 1 0 1; v c 0 1 1; f (a b c);"), &config).unwrap_err();
         assert_eq!(error.to_string(), expected);
         assert!(error.is_usage());
     };
@@ -565,10 +565,10 @@ fn bad_numbers_are_refused_with_a_remedy() {
     check(moving(DVec3::NAN), "-vel: velocity is not finite: its components must not be infinite or NaN");
     check(pieces(Pieces::UpTo(0.0)), "the bound of -se is 0 milliradians: give a number above 0");
     check(pieces(Pieces::UpTo(f64::NAN)), "the bound of -se is NaN milliradians: give a number above 0");
-    check(pieces(Pieces::PerEdge(0)), "-sd 0 leaves no pieces: give 1 or more");
+    check(pieces(Pieces::PerEdge(0)), "-sd 0 would make no pieces: give 1 or more");
     check(
         pieces(Pieces::PerEdge(3000)),
-        "-sd would make 9000000 pieces, more than the limit of 4000000: give fewer, or use -se, which cuts only where it shows",
+        "-sd would make 9000000 pieces, more than the limit of 4000000: give fewer, or use -se, which subdivides only where it is visible",
     );
 }
 

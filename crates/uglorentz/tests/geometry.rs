@@ -3,7 +3,7 @@
 
 mod common;
 
-use common::{Random, edges, find, moving, parse, place, run, seen, text};
+use common::{Random, edges, find, moving, parse, place, run, seen, text, try_run};
 use glam::DVec3;
 use uglorentz::{Anchor, Config, Pieces};
 use ugparse::{LightKind, Scene};
@@ -268,10 +268,7 @@ fn the_camera_that_counts_gets_the_eye() {
 
 #[test]
 fn a_vertex_at_the_eye_is_refused_if_it_moves_and_is_used() {
-    let failure = |text: &str| {
-        let source = ugparse::Source::new("t.ug", text);
-        uglorentz::run(&moving(DVec3::X * 0.5), &source).map(drop).map_err(|error| error.to_string())
-    };
+    let failure = |text: &str| try_run(text, &moving(DVec3::X * 0.5));
     assert_eq!(
         failure("v a 0 0 0;\nv b 1 0 0; v c 0 1 0; f (a b c);").unwrap_err(),
         "error: vertex `a` lies at the eye, where no direction to it exists
@@ -285,7 +282,7 @@ help: move the eye (-ep) or the vertex"
     assert!(failure("v lone 0 0 0; v a 0 0 1; v b 1 0 0; v c 0 1 0; f (a b c);").is_ok());
     assert!(failure("v a 1e308 0 0; v b 1 0 0; v c 0 1 0; f (a b c);").is_ok());
     let far = failure("v a -1.7e308 0 0; v b 1 0 0; v c 0 1 0; f (a b c);").unwrap_err();
-    assert!(far.contains("vertex `a` is seen too far away to be written as a number"), "{far}");
+    assert!(far.contains("the seen position of vertex `a` is too far away for a number"), "{far}");
     run("v a 0 0 0; v b 1 0 0; v c 0 1 0; f (a b c);", &Config::default());
 }
 
@@ -294,10 +291,10 @@ fn what_is_as_seen_already_is_refused() {
     const TILE: &str = "v a 0 0 1; v b 1 0 0; v c 0 1 0; f (a b c);";
     let config = moving(DVec3::X * 0.5);
     let once = run(TILE, &config);
-    let twice = uglorentz::transform(&once.scene, &config).unwrap_err().to_string();
+    let twice = uglorentz::apply(once.scene.clone(), &config).unwrap_err().to_string();
     assert!(twice.starts_with("positions in this scene are as seen already"), "{twice}");
     let text = format!("(ugstage 1 colors as-seen hues law none) {TILE}");
-    let colored = uglorentz::transform(&parse(&text), &config).unwrap_err().to_string();
+    let colored = uglorentz::apply(parse(&text), &config).unwrap_err().to_string();
     assert!(colored.starts_with("colours in this scene are as seen already"), "{colored}");
     // Nothing moves, so nothing has changed.
     let still = run(TILE, &Config::default());

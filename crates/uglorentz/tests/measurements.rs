@@ -3,7 +3,7 @@
 
 mod common;
 
-use common::{Random, parse, run};
+use common::{Random, parse, run, table};
 use glam::DVec3;
 use uglorentz::{Config, Pieces, Table};
 use ugphysics::{Velocity, doppler_at, rest_position, seen_event};
@@ -11,9 +11,8 @@ use ugphysics::{Velocity, doppler_at, rest_position, seen_event};
 /// The numbers of vertex `a` of a triangle that moves with `beta`, by heading.
 fn measured(a: DVec3, beta: DVec3, config: Config) -> impl Fn(&str) -> f64 {
     let text = format!("v a {:?} {:?} {:?}; v b 7 8 9; v c 8 7 9; f (a b c);", a.x, a.y, a.z);
-    let config =
-        Config { velocity: Some(beta), pieces: Pieces::PerEdge(1), table: Some(Table::Csv), ..config };
-    let table = String::from_utf8(run(&text, &config).table.unwrap()).unwrap();
+    let config = Config { velocity: Some(beta), pieces: Pieces::PerEdge(1), ..config };
+    let table = table(&text, &config, Table::Csv);
     let mut lines = table.lines();
     let headings: Vec<String> = lines.next().unwrap().split(',').map(str::to_string).collect();
     let words: Vec<String> = lines.next().unwrap().split(',').map(str::to_string).collect();
@@ -119,17 +118,17 @@ fn rows_are_those_of_the_scene_and_of_the_equations() {
     }
     text += "f (p0 p1 p2) <0.9 0 0>; f (p3 p4 p5); f (p6 p7 p8) <0 -0.2 0.3>; cam -ep 1 2 3 <0.3 0.3 0>;";
     for pieces in [Pieces::PerEdge(3), Pieces::UpTo(1e-4)] {
-        let config = Config { time: 1.5, table: Some(Table::Csv), pieces, ..Config::default() };
-        let report = run(&text, &config);
-        let (eye, bodies) = (DVec3::new(1.0, 2.0, 3.0), ugscene::vertex_bodies(&report.scene));
-        let table = String::from_utf8(report.table.unwrap()).unwrap();
-        assert_eq!(table.lines().count(), 1 + report.scene.vertices.len());
-        for ((line, vertex), body) in table.lines().skip(1).zip(&report.scene.vertices).zip(bodies) {
+        let config = Config { time: 1.5, pieces, ..Config::default() };
+        let scene = run(&text, &config).scene;
+        let (eye, bodies) = (DVec3::new(1.0, 2.0, 3.0), ugscene::vertex_bodies(&scene));
+        let table = table(&text, &config, Table::Csv);
+        assert_eq!(table.lines().count(), 1 + scene.vertices.len());
+        for ((line, vertex), body) in table.lines().skip(1).zip(&scene.vertices).zip(bodies) {
             let words: Vec<&str> = line.split(',').collect();
-            assert_eq!(words[0], report.scene.names.get(vertex.name));
+            assert_eq!(words[0], scene.names.get(vertex.name));
             let number = |idx: usize| words[idx].parse::<f64>().unwrap();
             assert_eq!(DVec3::new(number(1), number(2), number(3)), vertex.position);
-            let v = report.scene.bodies.stated_velocity(body).unwrap();
+            let v = scene.bodies.stated_velocity(body).unwrap();
             let seen = vertex.position - eye;
             near(number(5), doppler_at(seen, v), 0.0);
             near(number(4) - 1.5, seen_event(rest_position(seen, v), v).t, 1e-13);
@@ -147,8 +146,7 @@ const HOUSE: &str = "v a:1 1 2 2; v b 3 2 2; v c 3 4 2; v d 1 4 2; v e 2 2.5 2; 
 
 #[test]
 fn at_rest_nothing_is_shifted() {
-    let table = run(HOUSE, &Config { table: Some(Table::Csv), ..Config::default() }).table.unwrap();
-    let table = String::from_utf8(table).unwrap();
+    let table = table(HOUSE, &Config::default(), Table::Csv);
     assert!(table.starts_with("name,x,y,z,emission_time,doppler,distance,emission_angle_deg,rest_emission_angle_deg\na:1,1,2,2,-3,1,3,NaN,NaN\n"), "{table}");
     assert!(table.ends_with("at#eye,0,0,0,0,1,0,NaN,NaN\n"), "{table}");
 }
@@ -164,8 +162,7 @@ fn without_flight_time_light_leaves_at_the_time_of_the_picture() {
 
 #[test]
 fn ply_has_faces_without_holes_and_names() {
-    let table = run(HOUSE, &Config { table: Some(Table::Ply), ..Config::default() }).table.unwrap();
-    let text = String::from_utf8(table).unwrap();
+    let text = table(HOUSE, &Config::default(), Table::Ply);
     let (head, body) = text.split_once("end_header\n").unwrap();
     assert_eq!(
         head,
@@ -193,7 +190,7 @@ fn ply_has_faces_without_holes_and_names() {
 #[test]
 fn endings_choose_the_format() {
     assert_eq!(
-        ["csv", "PLY", "txt", ""].map(Table::by_ending),
+        ["csv", "PLY", "txt", ""].map(Table::by_extension),
         [Some(Table::Csv), Some(Table::Ply), None, None]
     );
 }

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::{Velocity, doppler_factor};
+use crate::{Velocity, doppler_factor, elongated};
 
 /// The velocity of a body's *seen* position (its apparent velocity): **v**/(1 − **v**·n) = γD**v**.
 /// Eq. (P31)
@@ -43,6 +43,5 @@ pub fn apparent_velocity(to_observer: DVec3, v: Velocity) -> DVec3 {
 #[must_use]
 pub fn contracted_normal(rest_normal: DVec3, v: Velocity) -> DVec3 {
     let n = rest_normal.normalize_or_zero();
-    let along = n.dot(v.direction());
-    (n + v.gamma_minus_one() * along * v.direction()).normalize_or_zero()
+    elongated(n, v).normalize_or_zero()
 }

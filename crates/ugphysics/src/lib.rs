@@ -81,7 +81,9 @@ pub use hue::{
 };
 pub use hyperbolic::Hyperbolic;
 pub use illumination::{Illumination, illumination, illumination_from_afar};
-pub use light::{Event, contracted, flight_time, observer_shift, rest_position, seen_event, seen_position};
+pub use light::{
+    Event, contracted, elongated, flight_time, observer_shift, rest_position, seen_event, seen_position,
+};
 pub use lorentz::{Lorentz, compose, wigner_rotation};
 pub use point_light::irradiance;
 pub use velocity::{Velocity, VelocityError};

@@ -40,6 +40,22 @@ pub fn contracted(p_rest: DVec3, v: Velocity) -> DVec3 {
     mul_add(part.along / v.gamma(), v.direction(), part.across) * scale
 }
 
+/// The inverse of [`contracted`]: the rest coordinates p' = p₀ + (γ − 1)(p₀·û)û of the point that is at
+/// p₀ = `p_now` in S at t = 0.  Eq. (P1)
+///
+/// ```
+/// use glam::DVec3;
+/// use ugphysics::{Velocity, elongated};
+///
+/// let v = Velocity::from_beta(DVec3::new(0.6, 0.0, 0.0))?;
+/// assert_eq!(elongated(DVec3::new(4.0, 1.0, 2.0), v), DVec3::new(5.0, 1.0, 2.0));
+/// # Ok::<(), ugphysics::VelocityError>(())
+/// ```
+#[must_use]
+pub fn elongated(p_now: DVec3, v: Velocity) -> DVec3 {
+    p_now + v.direction() * (v.gamma_minus_one() * p_now.dot(v.direction()))
+}
+
 /// The (negative) time w at which a point, now at p₀ = `p_now` and moving with `v`, emitted the
 /// light that reaches the eye now: |p₀ + w**v**| = −w.  Eq. (P2)
 ///

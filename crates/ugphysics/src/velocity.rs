@@ -225,7 +225,8 @@ impl Velocity {
     }
 
     /// γ − 1, without cancellation at small speeds.
-    pub(crate) fn gamma_minus_one(self) -> f64 {
+    #[must_use]
+    pub fn gamma_minus_one(self) -> f64 {
         self.proper_speed * (self.proper_speed / (self.gamma + 1.0))
     }
 

@@ -4,7 +4,7 @@
 use glam::DVec3;
 use rayon::prelude::*;
 use ugparse::Scene;
-use ugphysics::{Velocity, contracted, flight_time, rest_position, seen_position};
+use ugphysics::{Velocity, contracted, elongated, flight_time, rest_position, seen_position};
 
 use crate::{RestFrames, vertex_bodies};
 
@@ -50,7 +50,7 @@ impl Geometry {
     pub fn rest(self, p_seen: DVec3, v: Velocity) -> DVec3 {
         match (self.contraction, self.flight_time) {
             (true, true) => rest_position(p_seen, v),
-            (true, false) => p_seen + (v.gamma() - 1.0) * p_seen.dot(v.direction()) * v.direction(),
+            (true, false) => elongated(p_seen, v),
             // Light left at −|p_seen|; the body moved on with v since.
             (false, true) => p_seen + p_seen.length() * v.beta(),
             (false, false) => p_seen,

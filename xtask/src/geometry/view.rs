@@ -165,8 +165,8 @@ impl View {
         for row in 0..scene.faces.len() {
             scene.faces[row].name = Some(scene.names.add(&format!("f{row}")));
         }
-        let (seen, notes) = uglorentz::transform(&scene, config)?;
-        if notes.is_full {
+        let (seen, report) = uglorentz::apply(scene, config)?;
+        if report.is_full {
             return Err(format!("{} at {:?}: too many pieces", self.name, config.velocity).into());
         }
         // Pieces have the name of their face.

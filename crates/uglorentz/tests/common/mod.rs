@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 
 use glam::DVec3;
-use uglorentz::{Config, Report};
-use ugparse::{Face, Scene, Source, VertexId};
+use uglorentz::{Config, Report, Table};
+use ugparse::{Face, Options, Scene, Source, VertexId};
 
 /// A small generator (SplitMix64), so that every run sees the same scenes.
 pub struct Random(pub u64);
@@ -54,10 +54,9 @@ pub fn text(vertices: &[DVec3], faces: &[Vec<usize>]) -> String {
     text
 }
 
-/// The program on text, and what a reader makes of its text.
+/// The scene as seen, written and read again.
 pub fn seen(text: &str, config: &Config) -> Scene {
-    let report = run(text, config);
-    let text = report.text();
+    let text = run(text, config).text();
     let scene = parse(str::from_utf8(&text).unwrap());
     let again = ugparse::write(&scene);
     let lines = |text: &[u8]| String::from_utf8_lossy(text).lines().map(str::to_owned).collect::<Vec<_>>();
@@ -66,12 +65,45 @@ pub fn seen(text: &str, config: &Config) -> Scene {
     scene
 }
 
-pub fn run(text: &str, config: &Config) -> Report {
-    uglorentz::run(config, &Source::new("test.ug", text)).unwrap_or_else(|error| panic!("{error}"))
+/// What the program makes of a scene.
+#[derive(Debug)]
+pub struct Outcome {
+    pub scene: Scene,
+    pub report: Report,
+}
+
+impl Outcome {
+    pub fn text(&self) -> Vec<u8> {
+        ugparse::write(&self.scene)
+    }
+}
+
+pub fn run(text: &str, config: &Config) -> Outcome {
+    try_run(text, config).unwrap_or_else(|message| panic!("{message}"))
+}
+
+/// Errors have their place in the text if they have one.
+pub fn try_run(text: &str, config: &Config) -> Result<Outcome, String> {
+    let source = Source::new("t.ug", text);
+    let parsed = ugscene::read(&source, &Options::default(), config.camera.name.as_deref());
+    let parsed = parsed.map_err(|error| error.to_string())?;
+    let (mut scene, report) = uglorentz::apply(parsed.scene, config).map_err(|error| {
+        let diagnostics = error.diagnostics(&source, &parsed.origins);
+        diagnostics.map_or_else(|| error.to_string(), |diagnostics| diagnostics.to_string())
+    })?;
+    ugscene::record(&mut scene, "uglorentz", env!("CARGO_PKG_VERSION"), "uglorentz");
+    Ok(Outcome { scene, report })
+}
+
+/// The measurements of a scene as seen, as a file.
+pub fn table(text: &str, config: &Config, table: Table) -> String {
+    let Outcome { scene, .. } = run(text, config);
+    let rows = uglorentz::measure(&scene, ugscene::eye(&scene, None), config.time);
+    String::from_utf8(table.write(&scene, &rows)).unwrap()
 }
 
 pub fn parse(text: &str) -> Scene {
-    let parsed = ugparse::parse(&Source::new("test.ug", text), &ugparse::Options::default());
+    let parsed = ugparse::parse(&Source::new("test.ug", text), &Options::default());
     parsed.unwrap_or_else(|error| panic!("{error}")).scene
 }
 

@@ -1,9 +1,9 @@
-//! Where the light of near lamps changes too much along an edge (`-sl`).
+//! Edges along which the light of near lamps is not linear (`-sl`).
 //!
-//! Programs downstream that put light into vertex colours go in straight lines between. On a point of a face with normal n the
-//! light of a lamp is n·l D_l, with l towards the lamp and D_l of (P14), and neighbouring faces have normals of their
-//! own. So the rule asks for the vector D_l l, which is common to all of them (E6). Lamps far away and ambient light do not
-//! change along an edge.
+//! Programs downstream add light to the colours of vertices and interpolate it linearly. The light of a
+//! lamp on a face with normal n is n·l D_l, with l towards the lamp and D_l of (P14). Faces that share
+//! an edge have different normals, so the criterion tests the vector D_l l, which they share (E6).
+//! Directional and ambient light do not change along an edge.
 
 use glam::DVec3;
 use uglight::{HueScale, LampPlace, lamps};
@@ -11,36 +11,36 @@ use ugparse::Scene;
 use ugphysics::{Velocity, illumination};
 
 use crate::early_accept::MOST_BEND;
-use crate::motion::{Motion, Point};
+use crate::relative_motion::{Point, RelativeMotion};
 
-/// Where an edge is compared with the straight line, parts of it.
+/// Where on an edge the light is compared with its linear interpolation.
 const SAMPLES: [f64; 3] = [0.25, 0.5, 0.75];
 
-/// An edge is halved this often at most for the sake of light: a lamp may lie on a face.
+/// The limit of halvings for light alone, since a lamp may lie on a face.
 const MAX_GENERATION: u32 = 12;
 
-/// The lamps of a scene that edges are cut for; none if nobody asks.
+/// The lamps of a scene that edges are subdivided for; empty if not requested.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Lit {
+pub(crate) struct NearLamps {
     lamps: Vec<NearLamp>,
     bound: f64,
 }
 
 #[derive(Clone, Debug)]
 struct NearLamp {
-    /// The brightest channel of its colour times its intensity.
+    /// The largest component of its colour times its intensity.
     intensity: f64,
-    /// Relative to the eye in the frame of the lamp, in the axes of [`Motion::turned`]; of a lamp without a velocity in those
-    /// of the scene.
+    /// Relative to the eye, in the rest frame of the lamp: in the axes of [`RelativeMotion::turned`], or
+    /// in those of the scene if its velocity is `None`.
     place: DVec3,
-    /// None for a lamp that rests with whatever it lights.
+    /// `None` for a lamp that rests in the frame of whatever it lights.
     velocity: Option<Velocity>,
 }
 
-impl Lit {
-    /// `scene`: with its lights in place. `bound`: part of the light of a lamp that shines straight at a face, infinite
-    /// for any.
-    pub(crate) fn new(scene: &Scene, eye: DVec3, motions: &[Motion], bound: f64) -> Self {
+impl NearLamps {
+    /// `scene`: with its lights shifted. `bound`: relative to the light of a lamp at normal incidence;
+    /// infinite for none.
+    pub(crate) fn new(scene: &Scene, eye: DVec3, motions: &[RelativeMotion], bound: f64) -> Self {
         if bound == f64::INFINITY {
             return Self::default();
         }
@@ -48,34 +48,34 @@ impl Lit {
             let LampPlace::At(place) = lamp.place else { return None };
             let motion = lamp.motion.body().map(|body| &motions[body.index()]);
             let place = motion.map_or(place, |motion| motion.turned(place));
-            let velocity = motion.map(Motion::velocity);
+            let velocity = motion.map(RelativeMotion::velocity);
             Some(NearLamp { intensity: lamp.color.max_element(), place, velocity })
         });
         Self { lamps: near.filter(|lamp| lamp.intensity > 0.0).collect(), bound }
     }
 
-    /// Is there nothing to cut for?
+    /// True if light adds no criterion.
     pub(crate) fn is_empty(&self) -> bool {
         self.lamps.is_empty()
     }
 
-    /// Does the light change by more than a straight line along this edge? Give the ends in the same order whenever you ask for
-    /// the same edge.
-    pub(crate) fn is_uneven(&self, a: &Point, b: &Point, motion: &Motion) -> bool {
+    /// Is the error of linear interpolation along this edge above the bound? The ends of an edge must
+    /// always be given in the same order.
+    pub(crate) fn is_nonlinear(&self, a: &Point, b: &Point, motion: &RelativeMotion) -> bool {
         !self.is_empty()
             && a.generation.max(b.generation) < MAX_GENERATION
             && self.error(a, b, motion) > self.bound
     }
 
     /// The error of the light on an edge, of all lamps.  (E6)
-    pub(crate) fn error(&self, a: &Point, b: &Point, motion: &Motion) -> f64 {
+    pub(crate) fn error(&self, a: &Point, b: &Point, motion: &RelativeMotion) -> f64 {
         self.lamps.iter().map(|lamp| lamp.intensity * lamp.error(a.rest, b.rest, motion)).sum()
     }
 
-    /// True only if the light changes by no more than a straight line between any of these corners.
-    pub(crate) fn is_even<'a>(
+    /// True only if the error is below the bound on every line between these corners.
+    pub(crate) fn is_surely_linear<'a>(
         &self,
-        motion: &Motion,
+        motion: &RelativeMotion,
         corners: impl Iterator<Item = &'a Point> + Clone,
     ) -> bool {
         if self.is_empty() {
@@ -87,9 +87,9 @@ impl Lit {
 }
 
 impl NearLamp {
-    /// How far the light and its wavelength are off the straight line between the ends, in parts of what they are.  (E6)
-    fn error(&self, a: DVec3, b: DVec3, motion: &Motion) -> f64 {
-        // At the lamp itself there is no direction, and nothing to compare with.
+    /// The relative errors of light and wavelength, interpolated linearly between the ends.  (E6)
+    fn error(&self, a: DVec3, b: DVec3, motion: &RelativeMotion) -> f64 {
+        // At the lamp itself the direction is undefined.
         let (Some(from), Some(to)) = (self.light(a, motion), self.light(b, motion)) else { return 0.0 };
         let at = |s: f64| {
             let Some(light) = self.light(a.lerp(b, s), motion) else { return 0.0 };
@@ -100,28 +100,29 @@ impl NearLamp {
         SAMPLES.into_iter().map(at).fold(0.0, f64::max)
     }
 
-    /// Upper bound of [`NearLamp::error`] between any of these corners; infinite for a lamp that moves against them.
+    /// Upper bound of [`NearLamp::error`] between any of these corners; infinite for a lamp that moves
+    /// relative to them.
     ///
-    /// Along a line that comes no nearer than r to the lamp, |d²l/dx²| ≤ 2/√3 / r², as for D in [`crate::color`].
-    fn most_error<'a>(&self, motion: &Motion, mut corners: impl Iterator<Item = &'a Point>) -> f64 {
+    /// Along a line at a distance of at least r from the lamp, |d²l/dx²| ≤ 2/√3 / r², as for D in [`crate::color`].
+    fn most_error<'a>(&self, motion: &RelativeMotion, mut corners: impl Iterator<Item = &'a Point>) -> f64 {
         let Some(first) = corners.next() else { return 0.0 };
-        let Some(place) = self.place_with(motion) else { return f64::INFINITY };
+        let Some(place) = self.position_at_rest_with(motion) else { return f64::INFINITY };
         let reach = corners.map(|corner| (corner.rest - first.rest).length()).fold(0.0, f64::max);
         let nearest = (place - first.rest).length() - reach;
-        // Edges are no longer than twice the reach.
+        // Edges are at most twice as long as `reach`.
         if nearest > 0.0 { MOST_BEND / 2.0 * (reach / nearest) * (reach / nearest) } else { f64::INFINITY }
     }
 
-    /// Where it is in the rest frame of a body, if it rests there.
-    fn place_with(&self, motion: &Motion) -> Option<DVec3> {
+    /// Its position in the rest frame of a body, if it rests there.
+    fn position_at_rest_with(&self, motion: &RelativeMotion) -> Option<DVec3> {
         match self.velocity {
             None => Some(motion.turned(self.place)),
             Some(velocity) => (velocity == motion.velocity()).then_some(self.place),
         }
     }
 
-    fn light(&self, rest: DVec3, motion: &Motion) -> Option<Light> {
-        if let Some(place) = self.place_with(motion) {
+    fn light(&self, rest: DVec3, motion: &RelativeMotion) -> Option<Light> {
+        if let Some(place) = self.position_at_rest_with(motion) {
             return Some(Light { toward: (place - rest).try_normalize()?, doppler: 1.0 });
         }
         let light = illumination(rest, motion.velocity(), self.place, self.velocity?)?;
@@ -129,7 +130,7 @@ impl NearLamp {
     }
 }
 
-/// What falls on a point.
+/// The light of a lamp at a point.
 struct Light {
     /// D_l l.
     toward: DVec3,
@@ -139,15 +140,16 @@ struct Light {
 
 #[cfg(test)]
 mod tests {
+    use ugparse::BodyId;
     use ugscene::Geometry;
 
     use super::*;
 
-    /// On a line that passes a resting lamp at a distance of 1, the light on a floor is 1/√(1 + x²): by hand, the largest
-    /// error of chords of half the length is about a quarter.
+    /// Below a lamp at height 1, the light on a floor is 1/√(1 + x²). Halving a chord reduces its error
+    /// to about a quarter.
     #[test]
     fn the_error_is_that_of_the_chord() {
-        let motion = Motion::new(Velocity::ZERO, Geometry::default());
+        let motion = RelativeMotion::new(Velocity::ZERO, Geometry::default());
         let lamp = NearLamp { intensity: 1.0, place: DVec3::Z, velocity: None };
         let level = |x: f64| 1.0 / (1.0 + x * x).sqrt();
         for (from, to) in [(-0.2, 0.3), (0.5, 0.9), (-3.0, 2.0), (1.0, 1.1)] {
@@ -163,12 +165,14 @@ mod tests {
         assert_eq!(lamp.error(DVec3::Z, DVec3::ZERO, &motion), 0.0);
     }
 
-    /// The same lamp, floor and edge in motion together are as at rest; against each other D_l counts.
+    /// Lamp and edge in common motion are as at rest; in relative motion D_l matters.
     #[test]
-    fn only_motion_against_each_other_counts() {
+    fn only_relative_motion_matters() {
         let fast = Velocity::from_beta(DVec3::new(0.8, 0.0, 0.0)).unwrap();
-        let (at_rest, moving) =
-            (Motion::new(Velocity::ZERO, Geometry::default()), Motion::new(fast, Geometry::default()));
+        let (at_rest, moving) = (
+            RelativeMotion::new(Velocity::ZERO, Geometry::default()),
+            RelativeMotion::new(fast, Geometry::default()),
+        );
         let lamp = |velocity| NearLamp { intensity: 1.0, place: DVec3::new(1.0, 5.0, 2.0), velocity };
         let (a, b) = (DVec3::new(0.0, 5.0, 0.0), DVec3::new(1.5, 6.0, 0.0));
         let rest = lamp(None).error(a, b, &at_rest);
@@ -177,29 +181,33 @@ mod tests {
         assert!((lamp(Some(fast)).error(a, b, &at_rest) - rest).abs() > 1e-3 * rest);
     }
 
-    /// What is called even for sure is so, on lines between any corners.
+    /// `is_surely_linear` is conservative.
     #[test]
-    fn what_is_even_for_sure_is_even() {
+    fn surely_linear_edges_are_linear() {
         let step = |k: u32, seed: f64| (f64::from(k) * seed).fract() * 2.0 - 1.0;
-        let motion = Motion::new(Velocity::from_beta(DVec3::X * 0.6).unwrap(), Geometry::default());
-        let (mut n_even, mut n_uneven) = (0, 0);
+        let motion = RelativeMotion::new(Velocity::from_beta(DVec3::X * 0.6).unwrap(), Geometry::default());
+        let (mut n_linear, mut n_nonlinear) = (0, 0);
         for k in 1..2000_u32 {
             let point = |p, q, r| DVec3::new(step(k, p), step(k, q), step(k, r));
             let place = point(0.123_106, 0.872_983, 0.358_899);
             let lamp = NearLamp { intensity: 1.0, place, velocity: None };
-            let lit = Lit { lamps: vec![lamp], bound: 1e-2 };
+            let near_lamps = NearLamps { lamps: vec![lamp], bound: 1e-2 };
             let size = libm::pow(10.0, -f64::from(k % 12) / 4.0);
             let a = point(0.618_034, 0.414_214, 0.732_051);
             let corners = [a, a + point(0.236_068, 0.645_751, 0.316_625) * size, a + DVec3::Z * size];
-            let corners = corners.map(|corner| motion.point(0, corner));
-            if lit.is_even(&motion, corners.iter()) {
-                n_even += 1;
+            let corners = corners.map(|corner| motion.point(BodyId::UNSTATED, corner));
+            if near_lamps.is_surely_linear(&motion, corners.iter()) {
+                n_linear += 1;
                 let pairs = [(0, 1), (1, 2), (0, 2)];
-                assert!(pairs.iter().all(|&(i, j)| !lit.is_uneven(&corners[i], &corners[j], &motion)));
+                assert!(pairs.iter().all(|&(i, j)| !near_lamps.is_nonlinear(
+                    &corners[i],
+                    &corners[j],
+                    &motion
+                )));
             } else {
-                n_uneven += 1;
+                n_nonlinear += 1;
             }
         }
-        assert!(n_even > 300 && n_uneven > 300, "{n_even} {n_uneven}");
+        assert!(n_linear > 300 && n_nonlinear > 300, "{n_linear} {n_nonlinear}");
     }
 }

@@ -1,14 +1,15 @@
-//! Bodies in motion and points on them.
+//! The motion of a body relative to the camera, and points of bodies.
 
 use glam::{DQuat, DVec3};
-use ugphysics::{Velocity, doppler_at};
+use ugparse::BodyId;
+use ugphysics::{Velocity, doppler_at, elongated};
 use ugscene::Geometry;
 
-use crate::{Error, frame};
+use crate::{Error, camera_frame};
 
-/// How one body moves, and which effects are shown.
+/// How one body moves relative to the camera, and which effects are shown.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Motion {
+pub(crate) struct RelativeMotion {
     /// In the frame of the camera.
     velocity: Velocity,
     in_scene: Velocity,
@@ -16,20 +17,24 @@ pub(crate) struct Motion {
     geometry: Geometry,
 }
 
-impl Motion {
-    /// Of a body that moves with `velocity` in the frame of the camera, which is that of the scene.
-    pub(crate) fn new(velocity: Velocity, geometry: Geometry) -> Motion {
-        Motion { velocity, in_scene: velocity, axes_from_scene: DQuat::IDENTITY, geometry }
+impl RelativeMotion {
+    /// Of a body with `velocity` in the frame of the camera, which is the frame of the scene.
+    pub(crate) fn new(velocity: Velocity, geometry: Geometry) -> RelativeMotion {
+        RelativeMotion { velocity, in_scene: velocity, axes_from_scene: DQuat::IDENTITY, geometry }
     }
 
-    /// Of a body that moves with `in_scene`, seen by a camera that moves with `camera`.
+    /// Of a body and a camera with velocities `in_scene` and `camera` in the frame of the scene.
     ///
     /// # Errors
-    /// They meet too fast.
-    pub(crate) fn seen_by(camera: Velocity, in_scene: Velocity, geometry: Geometry) -> Result<Motion, Error> {
-        let velocity = frame::in_camera_frame(in_scene, camera)?;
+    /// Their relative velocity rounds to that of light.
+    pub(crate) fn seen_by(
+        camera: Velocity,
+        in_scene: Velocity,
+        geometry: Geometry,
+    ) -> Result<RelativeMotion, Error> {
+        let velocity = camera_frame::in_camera_frame(in_scene, camera)?;
         let axes_from_scene = ugscene::axes_from_scene(velocity, camera);
-        Ok(Motion { in_scene, axes_from_scene, ..Motion::new(velocity, geometry) })
+        Ok(RelativeMotion { in_scene, axes_from_scene, ..RelativeMotion::new(velocity, geometry) })
     }
 
     /// In the frame of the camera.
@@ -42,12 +47,13 @@ impl Motion {
         self.in_scene
     }
 
-    /// Rest coordinates, or a direction, in the axes that this module uses; `p` is in those of the scene. (P25)
+    /// Rest coordinates, or a direction, in the axes of [`Point::rest`]; `p` is in the axes of the
+    /// scene.  Eq. (P25)
     pub(crate) fn turned(&self, p: DVec3) -> DVec3 {
         self.axes_from_scene * p
     }
 
-    /// The inverse of [`Motion::turned`].
+    /// The inverse of [`RelativeMotion::turned`].
     pub(crate) fn turned_back(&self, p: DVec3) -> DVec3 {
         self.axes_from_scene.inverse() * p
     }
@@ -56,7 +62,7 @@ impl Motion {
         self.velocity.is_zero()
     }
 
-    /// Are straight edges seen bent?
+    /// Is the time of flight of light taken into account, so that straight edges are seen as curves?
     pub(crate) fn has_flight_time(&self) -> bool {
         self.geometry.flight_time
     }
@@ -66,7 +72,7 @@ impl Motion {
         self.geometry.contraction
     }
 
-    /// The rest coordinates of what is seen at `seen`.
+    /// The rest coordinates of what is seen at `seen`, both relative to the eye.
     pub(crate) fn rest(&self, seen: DVec3) -> DVec3 {
         self.geometry.rest(seen, self.velocity)
     }
@@ -86,22 +92,14 @@ impl Motion {
         self.velocity.proper_speed()
     }
 
-    /// γ − 1 of the motion in the frame of the camera.
-    pub(crate) fn gamma_minus_one(&self) -> f64 {
-        gamma_minus_one(self.velocity)
-    }
-
-    /// The rest coordinates that (P3) maps to where `rest` is seen. Without contraction they are longer along
-    /// the motion by γ, which the contraction in (P3) takes back.
+    /// The vector in rest coordinates that (P3) maps to where `rest` is seen. Without contraction it is
+    /// `rest` elongated along the motion by γ, which cancels the contraction in (P3).
     pub(crate) fn boosted_rest(&self, rest: DVec3) -> DVec3 {
-        if self.geometry.contraction {
-            return rest;
-        }
-        rest + self.direction() * (self.gamma_minus_one() * rest.dot(self.direction()))
+        if self.geometry.contraction { rest } else { elongated(rest, self.velocity) }
     }
 
     /// The point at `rest`, relative to the eye.
-    pub(crate) fn point(&self, body: u32, rest: DVec3) -> Point {
+    pub(crate) fn point(&self, body: BodyId, rest: DVec3) -> Point {
         let seen = if self.is_at_rest() { rest } else { self.geometry.seen(rest, self.velocity) };
         let (rest_distance, seen_distance) = (self.boosted_rest(rest).length(), seen.length());
         let inverse_doppler = if self.is_at_rest() {
@@ -116,17 +114,12 @@ impl Motion {
     }
 }
 
-/// γ − 1 = (γβ)²/(γ + 1), which does not cancel.
-pub(crate) fn gamma_minus_one(v: Velocity) -> f64 {
-    v.proper_speed() * (v.proper_speed() / (v.gamma() + 1.0))
-}
-
-/// A point of a body, relative to the eye.
+/// A point of a body. Both positions are relative to the eye.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Point {
-    /// Rest coordinates, in the axes of [`Motion::turned`].
+    /// Rest coordinates, in the axes of [`RelativeMotion::turned`].
     pub rest: DVec3,
-    /// Where it is seen.
+    /// Seen position.
     pub seen: DVec3,
     /// |p'| of the rest coordinates that (P3) applies to.
     pub rest_distance: f64,
@@ -134,8 +127,8 @@ pub(crate) struct Point {
     pub seen_distance: f64,
     /// 1/D, (P10).
     pub inverse_doppler: f64,
-    /// Row of its body.
-    pub body: u32,
-    /// How many halvings made it: 0 for a vertex of the scene.
+    /// The body it is part of.
+    pub body: BodyId,
+    /// Number of halvings that led to it: 0 for a vertex of the scene.
     pub generation: u32,
 }

@@ -1,5 +1,5 @@
-//! Cutting every edge into the same number of equal pieces (`-sd N`): triangles into N² triangles, convex
-//! quadrilaterals into N² quadrilaterals, other polygons into triangles first, wires into N pieces an edge.
+//! Subdivision of every edge into N equal pieces (`-sd N`): triangles into N² triangles, convex
+//! quadrilaterals into N² quadrilaterals, other polygons into triangles first.
 
 use rustc_hash::FxHashMap;
 use ugparse::Scene;
@@ -8,10 +8,10 @@ use crate::adaptive::MAX_PIECES;
 use crate::pieces::{Cut, Outcome, Piece, Polyline, Shape, shape};
 use crate::refined_mesh::{Recipe, RefinedMesh};
 
-/// Cuts all edges into `n` pieces.
+/// Subdivides all edges into `n` pieces.
 ///
 /// # Errors
-/// The number of pieces, if that is above [`MAX_PIECES`].
+/// The number of pieces, if it is above [`MAX_PIECES`].
 pub(crate) fn cut(scene: &Scene, mesh: &mut RefinedMesh, n: u32) -> Result<Outcome, usize> {
     if n <= 1 {
         return Ok(Outcome::default());
@@ -38,29 +38,29 @@ pub(crate) fn cut(scene: &Scene, mesh: &mut RefinedMesh, n: u32) -> Result<Outco
         return Err(n_pieces);
     }
 
-    let mut grid = Grid { mesh, n, edges: FxHashMap::default() };
+    let mut subdivision = UniformSubdivision { mesh, n, edges: FxHashMap::default() };
     let mut outcome = Outcome::default();
     for Piece { face, shape } in shapes {
         let pieces = match shape {
-            Shape::Triangle(corners) => grid.triangle(corners),
-            Shape::Quad(corners) => grid.quad(corners),
+            Shape::Triangle(corners) => subdivision.triangle(corners),
+            Shape::Quad(corners) => subdivision.quad(corners),
         };
         outcome.pieces.extend(pieces.into_iter().map(|shape| Piece { face, shape }));
     }
-    outcome.lines = lines.into_iter().map(|line| grid.line(&line)).collect();
+    outcome.lines = lines.into_iter().map(|line| subdivision.line(&line)).collect();
     Ok(outcome)
 }
 
-/// Makes the vertices of the pieces.
-struct Grid<'a, 'b> {
+/// Creates the vertices of the pieces.
+struct UniformSubdivision<'a, 'b> {
     mesh: &'a mut RefinedMesh<'b>,
     n: usize,
-    /// First of the N − 1 new vertices of an edge, from its lower end to its higher.
+    /// The first of the N − 1 consecutive new vertices of an edge, from the lower to the higher end row.
     edges: FxHashMap<(u32, u32), u32>,
 }
 
-impl Grid<'_, '_> {
-    /// Vertex `k` of 0…N from `a` to `b`. Neighbours get the same one, since it is made from the lower end.
+impl UniformSubdivision<'_, '_> {
+    /// Vertex `k` of 0…N from `a` to `b`, shared by all faces at the edge.
     fn on_edge(&mut self, a: u32, b: u32, k: usize) -> u32 {
         if k == 0 {
             return a;
@@ -82,7 +82,7 @@ impl Grid<'_, '_> {
         first + (k - 1) as u32
     }
 
-    /// Rows of vertices run along a → b, and one row follows the other along a → c.
+    /// Rows of vertices run along a → b, and follow each other along a → c.
     fn triangle(&mut self, [a, b, c]: [u32; 3]) -> Vec<Shape> {
         let n = self.n;
         let rows: Vec<Vec<u32>> =
@@ -115,7 +115,7 @@ impl Grid<'_, '_> {
         }
     }
 
-    /// Rows of vertices run along a → b and d → c, from ab to dc.
+    /// Rows of vertices run along a → b, and follow each other along a → d.
     fn quad(&mut self, corners: [u32; 4]) -> Vec<Shape> {
         let n = self.n;
         let rows: Vec<Vec<u32>> =

@@ -1,4 +1,4 @@
-//! From the frame of the scene to that of a camera that moves in it.
+//! Velocities: from the frame of the scene to that of a camera that moves in it.
 
 use rayon::prelude::*;
 use ugparse::{BodyId, Motion, Scene};
@@ -6,8 +6,8 @@ use ugphysics::{Velocity, compose};
 
 use crate::{Config, Error};
 
-/// The velocity of the camera in the frame of the scene: the option, else that of the scene's camera, which
-/// loses it, for downstream the camera is at rest.
+/// The velocity of the camera in the frame of the scene: the option, else that of the scene's camera.
+/// It is removed from the scene, since the output is in the frame of the camera.
 pub(crate) fn take_camera_velocity(scene: &mut Scene, config: &Config) -> Result<Velocity, Error> {
     let own = scene.camera_row().and_then(|row| scene.cameras[row].velocity.take());
     match config.camera_velocity {
@@ -16,7 +16,8 @@ pub(crate) fn take_camera_velocity(scene: &mut Scene, config: &Config) -> Result
     }
 }
 
-/// Makes all faces and wires one body. At rest, those whose motion was not stated keep it so.
+/// Makes all faces and wires parts of one body. If that is at rest, those whose motion is not stated
+/// stay what they are.
 pub(crate) fn set_velocity(scene: &mut Scene, velocity: Velocity) {
     let body = scene.bodies.moving_with(Motion::Inertial(velocity));
     let set = |slot: &mut BodyId| {
@@ -28,8 +29,8 @@ pub(crate) fn set_velocity(scene: &mut Scene, velocity: Velocity) {
     scene.wires.par_iter_mut().for_each(|wire| set(&mut wire.body));
 }
 
-/// States the motion of everything that is drawn, for what rests in the scene moves in the frame of the camera.
-/// `default`: of what states none.
+/// States the motion of all faces and wires: what rests in the scene moves in the frame of the camera.
+/// `default`: the velocity of [`BodyId::UNSTATED`].
 pub(crate) fn state_motions(scene: &mut Scene, default: Velocity) {
     let body = scene.bodies.moving_with(Motion::Inertial(default));
     let faces = scene.faces.iter_mut().map(|face| &mut face.body);
@@ -40,12 +41,13 @@ pub(crate) fn state_motions(scene: &mut Scene, default: Velocity) {
     }
 }
 
-/// The velocity in the frame of the camera of what moves with `body` in the scene, as it will be written: (P15).
+/// A body's velocity in the frame of the camera, rounded to what the text can express: (P15).  `body`,
+/// `camera`: in the frame of the scene.
 ///
-/// Rounding to what text can say comes first, so that all that is computed from it agrees: places here, rest
-/// places and colours downstream.
+/// It is rounded before use, so that seen positions here agree with rest positions and colours that
+/// programs downstream compute from the text.
 pub(crate) fn in_camera_frame(body: Velocity, camera: Velocity) -> Result<Velocity, Error> {
-    // What rests in one of the frames needs no sum, and gets none, so that nothing is rounded.
+    // At rest in one of the frames the result is exact.
     if camera.is_zero() || body.is_zero() {
         return Ok(if camera.is_zero() { body } else { -camera });
     }
@@ -55,10 +57,10 @@ pub(crate) fn in_camera_frame(body: Velocity, camera: Velocity) -> Result<Veloci
     Velocity::from_beta(compose(body, -camera).beta()).map_err(|_| Error::TooFast { beta: body.beta() })
 }
 
-/// Carries all velocities of a scene over.
-pub(crate) fn carry_velocities(scene: &mut Scene, camera: Velocity) -> Result<(), Error> {
+/// Transforms all velocities of a scene to the frame of the camera.
+pub(crate) fn transform_velocities(scene: &mut Scene, camera: Velocity) -> Result<(), Error> {
     if !camera.is_zero() {
-        // What states no motion is not drawn any more: it goes on without saying so.
+        // The first body has no faces and wires any more.
         for body in scene.bodies.iter_mut().skip(1) {
             let Motion::Inertial(velocity) = &mut body.motion;
             *velocity = in_camera_frame(*velocity, camera)?;

@@ -1,0 +1,95 @@
+//! What `apply` does: velocities, eye, time, subdivision.
+
+use glam::DVec3;
+use ugscene::{CameraOptions, Geometry};
+
+/// Default of [`Pieces::UpTo`]: 0.1 milliradians, in radians. A pixel of a picture 40° wide and
+/// 1920 pixels across is 0.36, so every edge is right to a third of a pixel.
+pub const DEFAULT_ERROR: f64 = 0.1e-3;
+
+/// Default of [`Config::color_error`]: 0.15 percent, or 0.8 nm at 550 nm. The best an eye can do is
+/// to distinguish wavelengths that differ by 1 nm (W. D. Wright and F. H. G. Pitt, 1934).
+pub const DEFAULT_COLOR_ERROR: f64 = 1.5e-3;
+
+/// What to do.
+#[derive(Clone, Debug)]
+pub struct Config {
+    /// Velocity of everything, fraction of c; overrides velocities in the scene (`-vel`).
+    pub velocity: Option<DVec3>,
+    /// Velocity of the camera in the frame of the scene, fraction of c; overrides that of the
+    /// scene's camera (`-cv`). Velocities of the input are in the frame of the scene, those of the
+    /// output in the frame of the camera.
+    pub camera_velocity: Option<DVec3>,
+    /// The eye in scene coordinates; overrides the scene's camera (`-ep`).
+    pub eye: Option<DVec3>,
+    /// Other properties of the camera to write into the scene (`-vc`, `-ud`, `-va`, `-og`). Its eye
+    /// is ignored, see [`Config::eye`].
+    pub camera: CameraOptions,
+    /// Remove faces that are outside the view of a picture of this many pixels across and down
+    /// (`-cull`, `-sz`).
+    pub cull: Option<[u32; 2]>,
+    /// Time of the picture on the observer's clock, (P5) (`-ti`).
+    pub time: f64,
+    /// The fixed point of the contraction (`-an`). Default: the eye, but the centre of each body if
+    /// `in_place` is set.
+    pub anchor: Option<Anchor>,
+    /// Place each body so that its anchor is seen, at time 0, where the scene has it (`-in`).
+    pub in_place: bool,
+    /// How edges are subdivided (`-se`, `-sd`).
+    pub pieces: Pieces,
+    /// Bound of the relative error of the Doppler factor, and of its inverse, interpolated linearly
+    /// along an edge; infinite for none (`-sc`). Used with [`Pieces::UpTo`].
+    pub color_error: f64,
+    /// Bound of the relative error of the light of near lamps, interpolated linearly along an edge;
+    /// infinite, the default, for none (`-sl`). Used with [`Pieces::UpTo`].
+    pub light_error: f64,
+    /// Measure the remaining errors, for [`crate::Report::remaining_errors`] (`-vb`).
+    pub measure: bool,
+    /// Give vertices without a normal the mean normal of their faces (`-sm`).
+    pub smooth: bool,
+    /// Which effects to show (`-nc`, `--no-flight-time`).
+    pub geometry: Geometry,
+}
+
+impl Default for Config {
+    fn default() -> Config {
+        Config {
+            velocity: None,
+            camera_velocity: None,
+            eye: None,
+            camera: CameraOptions::default(),
+            cull: None,
+            time: 0.0,
+            anchor: None,
+            in_place: false,
+            pieces: Pieces::UpTo(DEFAULT_ERROR),
+            color_error: DEFAULT_COLOR_ERROR,
+            light_error: f64::INFINITY,
+            measure: false,
+            smooth: false,
+            geometry: Geometry::default(),
+        }
+    }
+}
+
+/// The fixed point of the contraction of a body.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Anchor {
+    /// The eye, as in the report of 1988.
+    Eye,
+    /// The origin of scene coordinates.
+    Origin,
+    /// The centre of the bounding box of each body.
+    Center,
+    /// A point in scene coordinates.
+    Point(DVec3),
+}
+
+/// How edges are subdivided.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Pieces {
+    /// Until the error of the picture is at most this angle at the eye, radians.
+    UpTo(f64),
+    /// Into this many equal pieces each, 1 or more.
+    PerEdge(u32),
+}
