@@ -1,6 +1,6 @@
-//! Every scene in `scenes/bad/` fails with the message written beside it.
+//! Every scene in `scenes/bad/` fails with the message recorded next to it.
 //!
-//! `UG_BLESS=1` records the messages anew; the difference is to be reviewed.
+//! `UG_BLESS=1` re-records the messages; review the difference.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, its helpers too")]
 
 use std::path::{Path, PathBuf};
@@ -10,7 +10,7 @@ use ugparse::{Options, Source};
 const MIN_SCENES: usize = 40;
 
 #[test]
-fn bad_scenes_fail_as_written() {
+fn bad_scenes_fail_with_their_recorded_message() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/bad");
     let scenes = files(&folder, "ug");
     assert!(scenes.len() >= MIN_SCENES, "only {} scenes in {}", scenes.len(), folder.display());

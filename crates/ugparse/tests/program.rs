@@ -1,4 +1,4 @@
-//! The program itself: what each job prints, and its exit status.
+//! The program: the output and exit status of each command.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, its helpers too")]
 
 use std::fs;
@@ -18,7 +18,7 @@ fn ugparse(args: &[&str], input: &[u8]) -> Output {
         .stderr(Stdio::piped())
         .spawn()
         .expect("the program starts");
-    // The program may end without reading; a closed pipe is no failure of ours.
+    // The program may exit without reading, so a closed pipe is not an error here.
     let _ = child.stdin.take().expect("a pipe").write_all(input);
     child.wait_with_output().expect("the program ends")
 }
@@ -27,7 +27,7 @@ fn repository() -> &'static Path {
     Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))
 }
 
-/// What a successful run prints.
+/// The output of a successful run.
 #[track_caller]
 fn printed(args: &[&str], input: &[u8]) -> String {
     let out = ugparse(args, input);
@@ -60,7 +60,7 @@ const BAD: &str = "v a 0 0 0;\nv b 1 0 0;\nv c 0 1 0;\nf (a b c) red;\nf (a b d)
 const POOR: &str = "v a 0 0 0;\nv b 1 0 0;\nf (a b);\n";
 
 #[test]
-fn check_is_what_is_done_without_a_job() {
+fn check_is_the_default_command() {
     for args in
         [&["scenes/ship.ug"][..], &["check", "scenes/ship.ug"], &["-fi", "scenes/ship.ug", "-nt", "1"]]
     {
@@ -86,7 +86,7 @@ fn a_check_prints_findings_as_other_programs_do() {
 }
 
 #[test]
-fn a_check_for_programs_is_json() {
+fn check_can_print_json() {
     let out = ugparse(&["check", "-format", "json"], BAD.as_bytes());
     assert_eq!((out.status.code(), out.stderr.len()), (Some(1), 0));
     let report: Value = serde_json::from_slice(&out.stdout).unwrap();
@@ -112,7 +112,7 @@ fn a_check_for_programs_is_json() {
 }
 
 #[test]
-fn a_check_for_programs_has_second_places_and_what_it_omits() {
+fn check_as_json_has_second_locations_and_omitted_findings() {
     let twice = b"v a 0 0 0;\n# 7 \"old.ug\"\n v a 1 0 0;\n";
     let report: Value = serde_json::from_slice(&ugparse(&["-format", "json"], twice).stdout).unwrap();
     let row = &report["findings"][0];
@@ -135,7 +135,7 @@ fn findings_are_placed_in_the_file_that_has_them() {
     let report = path("report.json");
     let out = ugparse(&["check", "-format", "json", "-fo", &report, &path("house.ug")], b"");
     assert_eq!(out.status.code(), Some(1), "{}", String::from_utf8_lossy(&out.stderr));
-    // The report is the work, and is kept.
+    // The report is written even for an invalid scene.
     let report: Value = serde_json::from_slice(&fs::read(report).unwrap()).unwrap();
     let rows = &report["findings"];
     let place = |row: usize| (rows[row]["file"].as_str().unwrap().to_string(), rows[row]["line"].clone());
@@ -143,7 +143,7 @@ fn findings_are_placed_in_the_file_that_has_them() {
     assert_eq!(place(1), (path("house.ug"), json!(3)));
 }
 
-/// A folder with a scene that runs `stars`, a script of these lines.
+/// A folder with a scene that runs the script `stars`.
 fn scene_with_program(script: &str) -> tempfile::TempDir {
     use std::os::unix::fs::PermissionsExt;
     let folder = tempfile::tempdir().unwrap();
@@ -155,7 +155,7 @@ fn scene_with_program(script: &str) -> tempfile::TempDir {
 }
 
 #[test]
-fn programs_of_a_scene_are_run_only_if_that_is_allowed() {
+fn programs_of_a_scene_are_run_only_if_allowed() {
     let check = |script: &str, args: &[&str], status: i32, expected: &str| {
         let folder = scene_with_program(script);
         let scene = folder.path().join("sky.ug").display().to_string();
@@ -168,7 +168,7 @@ fn programs_of_a_scene_are_run_only_if_that_is_allowed() {
     };
     check("echo 'v a 1 2 3;'", &["-allow-execute"], 0, "{ sky }\nv a 1 2 3;\n");
     check("echo 'v a 1 2 3;'", &[], 1, "error: program `stars` is not run\n --> /sky.ug:2:9");
-    // It has no arguments, no input, and is run where we are.
+    // It gets no arguments and no input, and runs in the current folder.
     check("echo \"{ $# $(cat) }\"; test -d crates || exit 1", &["-allow-execute"], 0, "{ sky }\n{ 0  }\n");
     check(
         "echo no fuel >&2; exit 3",
@@ -200,7 +200,7 @@ fn limits_are_set_on_the_command_line() {
 }
 
 #[test]
-fn bad_usage_is_status_2() {
+fn wrong_usage_has_status_2() {
     for args in [
         &["tidy", "-format", "json"][..],
         &["flatten", "-format", "json"],
@@ -218,7 +218,7 @@ fn bad_usage_is_status_2() {
 }
 
 #[test]
-fn options_stand_on_either_side_of_the_job() {
+fn options_may_precede_or_follow_the_command() {
     let unknown = b"shine 1;\n";
     for args in [
         &["tidy", "-lax", "-qt"][..],
@@ -234,12 +234,12 @@ fn options_stand_on_either_side_of_the_job() {
 }
 
 #[test]
-fn jobs_that_write_scenes_write_nothing_of_bad_ones() {
+fn invalid_scenes_give_no_output() {
     for job in ["flatten", "count"] {
         let out = ugparse(&[job], BAD.as_bytes());
         assert_eq!((out.status.code(), out.stdout.len()), (Some(1), 0), "{job}");
     }
-    // Tidying looks nothing up: what cannot be read is a matter of statements.
+    // `tidy` does not resolve names: only syntax errors are refused.
     assert_eq!(printed(&["tidy"], BAD.as_bytes()), BAD);
     let out = ugparse(&["tidy"], b"v a 0 0;\n");
     assert_eq!((out.status.code(), out.stdout.len()), (Some(1), 0));
@@ -255,7 +255,7 @@ fn flatten_writes_the_flat_scene() {
 }
 
 #[test]
-fn tidy_keeps_scenes_and_is_done_once() {
+fn tidy_keeps_scenes_and_is_idempotent() {
     for path in scenes() {
         let text = fs::read(&path).unwrap();
         let tidy = printed(&["tidy", path.to_str().unwrap()], b"");
@@ -270,7 +270,7 @@ fn tidy_keeps_scenes_and_is_done_once() {
 }
 
 #[test]
-fn tidy_lays_out() {
+fn tidy_formats() {
     #[track_caller]
     fn check(text: &str, expected: &str) {
         let tidy = |text: &str| printed(&["tidy", "-lax", "-qt"], text.as_bytes());
@@ -285,7 +285,7 @@ fn tidy_lays_out() {
     check("", "");
     check(" \n\n", "");
     check("{ only a comment }", "{ only a comment }\n");
-    // One statement a line, one blank between words.
+    // One statement per line, one blank between words.
     check("v a 0 0 0;v b 1 0 0 ;\tv\tc\n0 1 0\n;", "v a 0 0 0;\nv b 1 0 0;\nv c 0 1 0;\n");
     check(
         "c red 1 0; v a 0 0 0; v b 1 0 0; v c 0 1 0; f up( a b c )( c b a )red < 0 .5 0 > ;",
@@ -293,18 +293,18 @@ fn tidy_lays_out() {
     );
     check("v\x0Ba 0\x0C0 0;\r\nv b 0 0 1;\r\n", "v a 0 0 0;\nv b 0 0 1;\n");
     check(";;v a 0 0 0;;", "v a 0 0 0;\n");
-    // Numbers are as short as they can be, and mean the same.
+    // Numbers are as short as possible, with the same value.
     check("v a +1.50 -0 1E3;", "v a 1.5 -0 1000;\n");
     check("v a .10000000000000001 1e-7 123456789;", "v a 0.1 1e-7 123456789;\n");
     check("cam -ep 01 2. 3 -va 040 30 -ps;", "cam -ep 1 2 3 -va 40 30 -ps;\n");
     check("def t; end; a(t)004 -tx 1.0;", "def t;\nend;\na (t) 4 -tx 1;\n");
     check("def t; end; a (t) 0 -tx 1;", "def t;\nend;\na (t) 0 -tx 1;\n");
-    // Definitions are indented; empty lines are kept, one at a time.
+    // Definitions are indented; several empty lines become one.
     check(
         "\n\ndef a;def b;v x 0 0 0;end;\n\n\ni (b);end;\ni (a);\n\n",
         "def a;\n  def b;\n    v x 0 0 0;\n  end;\n\n  i (b);\nend;\ni (a);\n",
     );
-    // Comments stay where they are, and as they are.
+    // Comments keep their place and text.
     check(
         "{ head }\n{two}{three}\nv a 0 0 0;  {behind}  {too}\n  {above}v b 0 0 1;",
         "{ head }\n{two} {three}\nv a 0 0 0; {behind} {too}\n{above}\nv b 0 0 1;\n",
@@ -314,7 +314,7 @@ fn tidy_lays_out() {
         "def t;{what}\nv a 0 0 0;{ {nested}\n  lines }\nend;{t}\n",
         "def t; {what}\n  v a 0 0 0; { {nested}\n  lines }\nend; {t}\n",
     );
-    // Text for others is not touched.
+    // Text for other programs does not change.
     check("(  for  (others) 1.0 ; { ) {mine}\nv a 0 0 0;", "(  for  (others) 1.0 ; { ) {mine}\nv a 0 0 0;\n");
     check("shine  a 1.0 {x;}\n  2 ; v a 0 0 0;", "shine  a 1.0 {x;}\n  2 ;\nv a 0 0 0;\n");
     check("v a 0 0 0; # pragma  once \nv b 0 0 1;", "v a 0 0 0;\n# pragma  once \nv b 0 0 1;\n");
@@ -325,7 +325,7 @@ fn tidy_lays_out() {
     check("include  007;include\"a; {b}.ug\" ;", "include 007;\ninclude \"a; {b}.ug\";\n");
 }
 
-/// A cube of side 2 whose face `top` is as told.
+/// A cube of side 2 with the given statement for its face `top`.
 fn cube(top: &str) -> String {
     let mut text = String::new();
     for row in 0..8 {
@@ -338,7 +338,7 @@ fn cube(top: &str) -> String {
 }
 
 #[test]
-fn count_sees_a_face_that_is_turned() {
+fn count_finds_turned_faces() {
     #[track_caller]
     fn check(top: &str, [opposite, same, border, more]: [u32; 4], turned: Value) {
         let counts = json_of(&["count", "-format", "json"], cube(top).as_bytes());
@@ -352,9 +352,9 @@ fn count_sees_a_face_that_is_turned() {
     check("f top (p6 p7 p5 p4);", [8, 4, 0, 0], at_line_14(4));
     check("", [8, 0, 4, 0], Value::Null);
     check("f top (p4 p5 p7 p6); f top (p4 p5 p7 p6);", [8, 0, 0, 4], Value::Null);
-    // Other vertices in the same places.
+    // Other vertices at the same positions.
     check("v a -1 -1 1; v b 1 -1 1; v c 1 1 1; v d -1 1 1;\nf top (a b c d);", [12, 0, 0, 0], Value::Null);
-    // A hole has edges, whichever way it is written.
+    // A hole has edges, in either direction.
     let hole = "v a -.5 -.5 1; v b .5 -.5 1; v c .5 .5 1; v d -.5 .5 1; f lid (a b c d);";
     check(&format!("{hole} f top (p4 p5 p7 p6) (a b c d);"), [16, 0, 0, 0], Value::Null);
     check(&format!("{hole} f top (p4 p5 p7 p6) (d c b a);"), [16, 0, 0, 0], Value::Null);
@@ -376,7 +376,7 @@ fn count_counts_and_measures() {
     assert_eq!((&counts["written"], &counts["placed"]), (&written, &placed));
     assert_eq!((&counts["corners"], &counts["faces_with_holes"]), (&json!(20), &json!(0)));
     assert_eq!(counts["box"], json!([[0.0, 0.0, 0.0], [5.0, 4.0, 5.5]]));
-    // By symmetry the plane is z = 5.25: all corners are 0.25 off it.
+    // By symmetry the plane is z = 5.25, with all corners at distance 0.25.
     let face = json!({ "name": "bent", "file": "<stdin>", "line": 5 });
     assert_eq!(counts["least_flat"]["face"], face);
     let thickness = counts["least_flat"]["thickness_over_size"].as_f64().unwrap();

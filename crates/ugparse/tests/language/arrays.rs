@@ -1,4 +1,4 @@
-//! Arrays, the names of placed vertices, velocities, lights and cameras in definitions.
+//! Arrays, names of expanded vertices, velocities, lights and cameras in definitions.
 
 use crate::{TRIANGLE, check, check_rest, flat, parse};
 
@@ -8,7 +8,7 @@ fn copies_step_on() {
         "def d; v a 1 0 0; end; a row (d -ty 5) 3 -tx 2;",
         &["v row#0:a 1 5 0;", "v row#1:a 3 5 0;", "v row#2:a 5 5 0;"],
     );
-    // The step acts on what stands in place already: the second copy is turned about the origin.
+    // The step is applied after the first transformations: the second copy is rotated about the origin.
     check(
         "def d; v a 1 0 0; end; a ring (d -tx 1) 4 -rz 90;",
         &["v ring#0:a 2 0 0;", "v ring#1:a 0 2 0;", "v ring#2:a -2 0 0;", "v ring#3:a 0 -2 0;"],
@@ -39,7 +39,7 @@ fn placed_vertices_are_named_by_their_path() {
     row("a (d) 1; a (d) 1;", &["d#0:p", "d_2#0:p"]);
     row("def r; a (d) 2; end; a floor (r) 2;", &["floor#0#0:p", "floor#0#1:p", "floor#1#0:p", "floor#1#1:p"]);
     row("def r; i in (d); end; i out (r);", &["out:in:p"]);
-    // What was written has its name; what was made gives way.
+    // Names in the text are kept; generated ones get a suffix.
     row("v car:p 0 0 0; i car (d);", &["car:p", "car:p_2"]);
     row("v car:p 0 0 0; v car:p_2 0 0 0; i car (d);", &["car:p", "car:p_2", "car:p_3"]);
     row("i x (d); i x (d); i x_2 (d);", &["x:p", "x_3:p", "x_2:p"]);
@@ -59,7 +59,7 @@ fn placed_vertices_are_named_by_their_path() {
 }
 
 #[test]
-fn the_outermost_velocity_counts() {
+fn the_outermost_velocity_takes_precedence() {
     let def = format!("def d; {TRIANGLE} f (a b c); f (a b c) <0 0 .1>; w (a b); w (a b) <0 0 .1>; end; ");
     let velocities = |calls: &str| -> Vec<String> {
         flat(format!("{def}{calls}"))
@@ -77,12 +77,12 @@ fn the_outermost_velocity_counts() {
     assert_eq!(velocities("def e; i (d) <0 .2 0>; end; i (e);"), ["0 0.2 0"; 4]);
     assert_eq!(velocities("def e; i (d); end; i (e) <.3 0 0>;"), ["0.3 0 0"; 4]);
     assert_eq!(velocities("a (d) 2 -tx 1 <0 .2 0>;"), ["0 0.2 0"; 8]);
-    // Velocities are given in the scene's frame: nothing turns them.
+    // Velocities are in the scene's frame: transformations do not rotate them.
     assert_eq!(velocities("i (d -rz 90 -sa 3 -mx) <0 .2 0>;"), ["0 0.2 0"; 4]);
 }
 
 #[test]
-fn what_moves_alike_is_one_body() {
+fn equal_velocities_are_one_body() {
     let scene = parse(format!(
         "{TRIANGLE} f (a b c) <0 0 .1>; f (b c a) <0 .1 0>; f (c a b) <0 0 .1>; f (a b c) <-0 0 .1>;"
     ));

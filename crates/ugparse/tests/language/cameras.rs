@@ -1,8 +1,8 @@
-//! Which of several cameras counts.
+//! Selection of one of several cameras.
 
 use super::*;
 
-/// What is written when the camera called `name` was chosen, and read again.
+/// The cameras of the written scene after the camera `name` was selected.
 fn chosen(text: &str, name: &str) -> Result<Vec<String>, String> {
     let source = Source::new("test.ug", text);
     let mut parsed = parse_with(text, false);
@@ -13,7 +13,7 @@ fn chosen(text: &str, name: &str) -> Result<Vec<String>, String> {
 }
 
 #[test]
-fn the_first_without_a_name_counts_else_the_first() {
+fn the_first_without_a_name_is_selected_else_the_first() {
     fn check(text: &str, expected: Option<f64>) {
         assert_eq!(parse(text).camera().map(|camera| camera.eye.unwrap().x), expected, "{text}");
     }
@@ -23,26 +23,26 @@ fn the_first_without_a_name_counts_else_the_first() {
 }
 
 #[test]
-fn one_chosen_by_name_counts() {
+fn a_camera_is_selected_by_name() {
     let check = |text: &str, name: &str, expected: &[&str]| {
         assert_eq!(chosen(text, name).unwrap(), expected, "{text}");
     };
     check("cam a -ep 1 0 0; cam b -ep 2 0 0;", "b", &["cam a -ep 1 0 0;", "cam -ep 2 0 0;"]);
     check("cam a -ep 1 0 0; cam b -ep 2 0 0;", "a", &["cam -ep 1 0 0;", "cam b -ep 2 0 0;"]);
-    // Before the first without a name, whose place is kept among the others.
+    // It comes before the first without a name; the others keep their order.
     check(
         "cam x -ep 9 0 0; cam -ep 1 0 0; cam b -ep 2 0 0; cam -ep 3 0 0;",
         "b",
         &["cam x -ep 9 0 0;", "cam -ep 2 0 0;", "cam -ep 1 0 0;", "cam -ep 3 0 0;"],
     );
-    // Names of cameras need not be unique: the first. Placed ones are called by their path.
+    // Names of cameras need not be unique; the first is selected. Those of instances have paths.
     check("cam b -ep 1 0 0; cam b -ep 2 0 0;", "b", &["cam -ep 1 0 0;", "cam b -ep 2 0 0;"]);
     let car = "def car; cam dash -ep 0 0 1; end; cam -ep 9 9 9; i taxi (car -tx 5);";
     check(car, "taxi:dash", &["cam -ep 5 0 1;", "cam -ep 9 9 9;"]);
 }
 
 #[test]
-fn comments_go_with_their_cameras() {
+fn comments_move_with_their_cameras() {
     let text =
         "v z 0 0 0;\n{ front }\ncam -ep 1 0 0; { from here }\n{ side }\ncam side -ep 2 0 0; { from there }\n";
     let expected = [
@@ -56,7 +56,7 @@ fn comments_go_with_their_cameras() {
 }
 
 #[test]
-fn a_camera_that_is_not_there_is_an_error() {
+fn an_unknown_camera_is_an_error() {
     let check = |text: &str, name: &str, place: &str, help: &str| {
         let shown = chosen(text, name).unwrap_err();
         assert!(shown.starts_with(&format!("error: no camera is called `{name}`")), "{shown}");

@@ -1,11 +1,11 @@
-//! Which colour a face has.
+//! The colour of a face.
 
 use crate::{check, check_error, check_rest};
 
 const FACE: &str = "v a 0 0 0; v b 1 0 0; v c 0 1 0; ";
 
 #[test]
-fn own_color_beats_instance_beats_unnamed_beats_none() {
+fn own_color_overrides_instance_overrides_unnamed() {
     let row = |text: &str, expected: &[&str]| {
         let text = text.replace("FACE", FACE);
         check_rest(
@@ -39,7 +39,7 @@ fn own_color_beats_instance_beats_unnamed_beats_none() {
     };
     row_of(&format!("{def} i (d);"), &[], "");
     row_of(&format!("{def} i (d r);"), &[], " r");
-    // The unnamed colour in force where the face stands, not where it is placed.
+    // The unnamed colour in effect where the face is written, not where it is placed.
     row_of(&format!("{def} c .5; i (d);"), &["c unnamed#2 0.5;"], "");
     row_of(&format!("c .5; {def} i (d);"), &["c unnamed#2 0.5;"], " unnamed#2");
     row_of(&format!("c .5; {def} i (d r);"), &["c unnamed#2 0.5;"], " r");
@@ -51,7 +51,7 @@ fn own_color_beats_instance_beats_unnamed_beats_none() {
 }
 
 #[test]
-fn the_innermost_instance_that_names_a_color_gives_it() {
+fn the_innermost_instance_with_a_color_applies() {
     let text = format!(
         "c r 1 0; c g 1 120; def d; {FACE} f (a b c); end; def e; i (d); i x (d g); end; i (e r); a y (e) 1;"
     );
@@ -79,17 +79,17 @@ fn vertices_and_lights_have_only_their_own() {
 
 #[test]
 fn names_of_colors() {
-    // A colour may be used before it is defined; not twice in one scope.
+    // A colour may be used before it is defined, but not defined twice in one scope.
     check_rest(&format!("{FACE} f (a b c) late; c late 1;"), &["c late 1;", "f (a b c) late;"]);
     check_error("c a 1; c_rgb a 1 1 1;", "colour `a` is defined twice");
-    // An inner scope hides the outer one, and its colours get its name.
+    // An inner scope shadows the outer one, and its colours get its name as a prefix.
     check_rest(
         &format!("c x 1; def d; c x .5; {FACE} f (a b c) x; end; {FACE} f (a b c) x; i (d);"),
         &["c x 1;", "c d:x 0.5;", "f (a b c) x;", "f (d:a d:b d:c) d:x;"],
     );
-    // Colours of a definition are not seen outside.
+    // Colours of a definition are not visible outside.
     check_error(&format!("def d; c x .5; end; {FACE} f (a b c) x;"), "colour `x` is not defined");
-    // A name that we make gives way to one that was written.
+    // Generated names never replace names in the text.
     check_rest("c .5; c unnamed#0 1;", &["c unnamed#0 0.5;", "c unnamed#0_2 1;"]);
     check_rest("c d:x 1; def d; c x .5; end;", &["c d:x 1;", "c d:x_2 0.5;"]);
 }

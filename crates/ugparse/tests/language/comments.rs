@@ -57,7 +57,7 @@ fn comments_in_definitions_appear_once() {
         "c red 1; def d { name } ; v a 0 0 0; end { end } ; i (d);",
         &["c red 1;", "{ name }", "v d:a 0 0 0;", "{ end }"],
     );
-    // Nothing is drawn, yet nothing said is lost.
+    // Comments are kept even if nothing is drawn.
     check(
         "v o 0 0 0;\ndef d; { in } v p 0 0 0; { p } end;\n{ out }",
         &["v o 0 0 0;", "{ in }", "{ p }", "{ out }"],
@@ -65,7 +65,7 @@ fn comments_in_definitions_appear_once() {
 }
 
 #[test]
-fn bytes_that_are_no_text_are_replaced() {
+fn invalid_utf_8_is_replaced() {
     let out = crate::flat(b"{ caf\xe9 }v a 0 0 0;(\xff)");
     assert_eq!(out, "{ caf\u{fffd} }\n(\u{fffd})\nv a 0 0 0;\n");
 }

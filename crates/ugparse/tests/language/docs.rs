@@ -1,4 +1,4 @@
-//! What `docs/unigrafix.md` shows is true.
+//! Checks the examples and tables of `docs/unigrafix.md`.
 
 use crate::{flat, parse};
 
@@ -22,7 +22,7 @@ fn the_first_example_is_a_scene() {
 }
 
 #[test]
-fn the_example_of_transformations_says_where_things_go() {
+fn the_example_of_transformations_has_correct_positions() {
     let out = flat(block("def tile ;  v a 0 0 0 ;  v b 1 0 0 ;  v c 0 1 0 ;  f (a b c) ;  end ;"));
     for line in
         ["v steep:b 1 0 2;", "v steep:c 0 0 3;", "f (left:a left:c left:b);", "f (steep:a steep:b steep:c);"]
@@ -51,7 +51,7 @@ fn numbers_are_written_as_shown() {
 }
 
 #[test]
-fn the_table_of_limits_is_true() {
+fn the_table_of_limits_is_correct() {
     for limit in ugparse::Limit::ALL {
         let begin = format!("| `{}` | ", limit.name());
         let row = PAGE.lines().find(|line| line.starts_with(&begin)).expect("a row for each limit");
@@ -61,7 +61,7 @@ fn the_table_of_limits_is_true() {
 }
 
 #[test]
-fn the_examples_of_surfaces_are_read_as_told() {
+fn the_examples_of_surfaces_have_the_stated_values() {
     let scene = parse(block("surf polished 0.6 0.4 0 ;"));
     let rows: Vec<_> = scene.surfaces.iter().map(|s| (s.specular, s.refraction, s.exponent)).collect();
     assert_eq!(rows, [(0.4, 1.0, 20.0), (0.1, 1.5, 60.0)]);

@@ -1,4 +1,4 @@
-//! Holes, and faces that are none.
+//! Holes and degenerate faces.
 
 use crate::{TRIANGLE, check_rest, parse_with, warnings};
 
@@ -9,7 +9,7 @@ const SQUARE: &str =
 fn holes_are_kept_in_order() {
     check_rest(&format!("{SQUARE} f (a b c d) (e h g f);"), &["f (a b c d) (e h g f);"]);
     check_rest(&format!("{SQUARE} f roof (a b c d)(e f g)(g h e);"), &["f roof (a b c d) (e f g) (g h e);"]);
-    // A mirrored face is turned over, contour by contour, and keeps its first vertices.
+    // In a mirrored face every contour is reversed and keeps its first vertex.
     check_rest(
         &format!("def t; {SQUARE} f (a b c d) (e h g f); end; i m (t -mx);"),
         &["f (m:a m:d m:c m:b) (m:e m:f m:g m:h);"],
@@ -17,7 +17,7 @@ fn holes_are_kept_in_order() {
 }
 
 #[test]
-fn degenerate_faces_are_left_out_with_a_warning() {
+fn degenerate_faces_are_omitted_with_a_warning() {
     let row = |face: &str, expected: &str| {
         let text = format!("{SQUARE} v i 8 0 0; v j 1e-300 0 0; v k 0 1e-300 0; {face}");
         check_rest(&text, &[]);
@@ -36,18 +36,18 @@ fn degenerate_faces_are_left_out_with_a_warning() {
 }
 
 #[test]
-fn faces_that_are_not_flat_are_warned_about_once() {
+fn faces_that_are_not_flat_cause_one_warning() {
     let row = |faces: &str, expected: &[&str]| {
         let text = format!("{SQUARE} v up 4 4 .1; v far 4 4 1e-3; {faces}");
         assert_eq!(warnings(&text, false), expected, "{faces}");
     };
-    // A corner at height h is h / 4 off the plane of the others, in a box of diagonal 4 sqrt 2.
+    // A corner at height h has distance h / 4 from the plane, and the bounding box has the diagonal 4 sqrt 2.
     row("f (a b far d);", &[]);
     row("f (a b up d);", &["face is not flat"]);
     row("f roof (a b up d);", &["face `roof` is not flat"]);
     row("f (a b c d); f roof (a b up d); f (a b up d);", &["face `roof` and one other are not flat"]);
     row("f r (a b up d) (e f g h); f (a b up d); f (a b up d);", &["face `r` and 2 others are not flat"]);
-    // Triangles are flat, and so is what was flat before it was placed.
+    // Triangles are flat, and so are transformed flat faces.
     row("f (a b up); f (a b c d);", &[]);
     row(&format!("def t; {SQUARE} f (a b c d); end; i (t -rv 1 2 3 40 -sv 1 2 3 7);"), &[]);
     row(
@@ -55,7 +55,7 @@ fn faces_that_are_not_flat_are_warned_about_once() {
         &["face `q` and 2 others are not flat"],
     );
     row("def t; v a 0 0 0; v b 4 0 0; v c 4 4 .1; v d 0 4 0; f q (a b c d); end; i (t -sz .01);", &[]);
-    // As seen, faces are bent, and should be.
+    // In a scene as seen, bent faces are correct.
     let seen = format!("(ugstage 1 geometry as-seen eye 0 0 0) {SQUARE} v up 4 4 .1; f (a b up d);");
     assert_eq!(warnings(&seen, false), [""; 0]);
 }
@@ -94,17 +94,17 @@ help: remove it, or mend its vertices"
 }
 
 #[test]
-fn faces_squashed_by_their_instance_are_left_out() {
+fn faces_collapsed_by_their_instance_are_omitted() {
     let text = format!("def t; {TRIANGLE} f roof (a b c); end; a row (t -sx 0) 3 -tz 1; i good (t);");
     check_rest(&text, &["f good:roof (good:a good:b good:c);"]);
     assert_eq!(warnings(&text, false), ["face has no area where it is placed"], "once, not for every copy");
-    // Too far away to have a size in f64.
+    // So far away that their size is lost to rounding.
     let text = format!("def t; {TRIANGLE} f (a b c); end; i (t -tx 1e200);");
     check_rest(&text, &[]);
 }
 
 #[test]
-fn comments_of_faces_left_out_are_kept() {
+fn comments_of_omitted_faces_are_kept() {
     check_rest(
         &format!("{TRIANGLE}\n{{ bad }}\nf (a b);\n{{ good }}\nf (a b c);"),
         &["{ bad }", "{ good }", "f (a b c);"],

@@ -1,4 +1,4 @@
-//! Texts put together: `include`, `execute`, and what the C preprocessor leaves behind.
+//! Texts from several files: `include`, `execute`, and line marks of the C preprocessor.
 
 use std::io;
 use std::path::Path;
@@ -7,13 +7,13 @@ use ugparse::{Limit, Limits, Options, Request, RequestError, RequestKind, Source
 
 use crate::{check, check_error, parse, write};
 
-/// Reads the first of some files; gives what is written, or the messages.
+/// Parses the first of some files; returns the written scene, or the messages.
 fn read(files: &[(&str, &str)]) -> String {
     read_with(files, &Options::default())
 }
 
-/// The same with options. Programs are files whose text begins with `#!`, and print the rest; with
-/// `#!3` they fail with that status.
+/// Like [`read`], with options. Programs are files whose text begins with `#!`, and print the rest; with `#!3` they
+/// fail with that status.
 fn read_with(files: &[(&str, &str)], options: &Options) -> String {
     let load = |request: &Request<'_>| {
         let found = files.iter().find(|(name, _)| Path::new(name) == request.path);
@@ -36,7 +36,7 @@ fn read_with(files: &[(&str, &str)], options: &Options) -> String {
     }
 }
 
-/// The first line of the first message, and the place.
+/// The first line of the first message, and its location.
 fn message(files: &[(&str, &str)]) -> String {
     message_with(files, &Options::default())
 }
@@ -58,20 +58,20 @@ fn files_are_included() {
     let whole = format!("{};", triangle.1);
     let written = read(&[("scene.ug", scene), (triangle.0, &whole), ("colors.ug", "c red 1 0;")]);
     assert_eq!(written, expected);
-    // Names are relative to the file they stand in.
+    // Names are relative to the file that contains them.
     let inner = [
         ("a/scene.ug", "include b/one.ug;"),
         ("a/b/one.ug", "include ../two.ug;"),
         ("a/two.ug", "v p 1 2 3;"),
     ];
     assert_eq!(read(&inner), "v p 1 2 3;\n");
-    // The same file twice is no circle.
+    // Including the same file twice is not recursive.
     assert_eq!(
         read(&[("s.ug", "include c.ug; include c.ug;"), ("c.ug", "{ again }")]).matches("again").count(),
         2
     );
     assert!(read(&[("s.ug", "include colors.ug;"), colors]).contains("c red 1 0 1;"));
-    // `include` is a good name.
+    // `include` is a valid name.
     assert_eq!(read(&[("s.ug", "v include 0 0 0;")]), "v include 0 0 0;\n");
 }
 
@@ -96,7 +96,7 @@ fn messages_name_the_file_that_is_wrong() {
         &[("s.ug", "include t.ug;"), ("t.ug", "def d;\n")],
         "error: definition `d` is not closed at t.ug:1:5",
     );
-    // In the file itself, behind what it includes.
+    // In the file itself, after an included file.
     check(
         &[("s.ug", "{\n}\ninclude t.ug;\nv b 1 2 3;\nf (a b c);"), ("t.ug", "v a 0 0 0;\n\n\n")],
         "error: vertex `c` is not defined at s.ug:5:8",
@@ -127,7 +127,7 @@ fn texts_in_memory_include_nothing() {
 }
 
 #[test]
-fn programs_are_run_if_that_is_allowed() {
+fn programs_are_run_if_allowed() {
     let allowed = Options { execute: true, ..Options::default() };
     let files = [
         ("a/scene.ug", "{ head }\ndef d; execute \"bin/one\"; end; i (d);"),
@@ -151,18 +151,18 @@ fn programs_are_run_if_that_is_allowed() {
         &[("s.ug", "execute p;"), ("p", "#!3")],
         "error: program `p` failed with exit status: 3 at s.ug:1:9",
     );
-    // What a program prints is called after the program.
+    // The output of a program is named after the program.
     check(
         &[("s.ug", "execute p;"), ("p", "#!v a 0 0 0;\nv b 0 0;")],
         "error: expected a number, found `;` at p:2:8",
     );
     check(&[("s.ug", "execute p;"), ("p", "#!execute p;")], "error: file `p` includes itself at p:1:9");
-    // A program that is included is read, not run.
+    // A program in an `include` statement is read, not run.
     check(
         &[("s.ug", "include p;"), ("p", "#!v a 0 0 0;")],
         "error: cannot read `p`: of another kind at s.ug:1:9",
     );
-    // `execute` is a good name.
+    // `execute` is a valid name.
     assert_eq!(read(&[("s.ug", "v execute 0 0 0;")]), "v execute 0 0 0;\n");
 }
 
@@ -181,7 +181,7 @@ fn limits_of_files_can_be_set() {
         found.ends_with("the limit is 2 levels; use fewer, or raise it with --limit includes=N"),
         "{found}"
     );
-    // Far deeper than a stack would bear.
+    // Far deeper than recursion on the stack would allow.
     let deep: Vec<(String, String)> =
         (0..5001).map(|idx| (format!("{idx}"), format!("include {};", idx + 1))).collect();
     let mut deep: Vec<(&str, &str)> = deep.iter().map(|(name, text)| (&name[..], &text[..])).collect();
@@ -211,7 +211,7 @@ fn line_marks_set_file_and_line() {
     assert_eq!(place("f (a);\n# 7 \"old.ug\""), "s.ug:1:4");
     assert_eq!(place("v # 0 0 0;\n  # 30 \"a b.ug\"\r\nf (#0);"), "a b.ug:30:4");
     assert_eq!(place("# 18446744073709551615 \"x\"\nf (a);"), "x:18446744073709551615:4");
-    // They are no statements, and are not written.
+    // They are not statements, and are not written.
     check("# 1 \"s.ug\"\n{ head }\n# 2\nv a 0 0 0;\n# 3", &["{ head }", "v a 0 0 0;"]);
     assert_eq!(parse("def d; # 1 \"x\"\nv p 0 0 0; end; i (d);").vertices.len(), 1);
     check_error("# pragma once\nv a 0 0 0;", "`#` is no statement");

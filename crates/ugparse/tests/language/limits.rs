@@ -1,4 +1,4 @@
-//! Bombs: small texts that ask for too much. Each is refused, or read, in little time and memory.
+//! Small texts that would expand to huge scenes. Each is refused, or parsed, with little time and memory.
 
 use std::time::{Duration, Instant};
 
@@ -6,7 +6,7 @@ use ugparse::{Limit, Limits, Options, Source};
 
 use crate::{TRIANGLE, errors, flat, parse, write};
 
-/// Far above what any row needs, far below what a scene that is really expanded would take.
+/// Far above the need of any row, and far below that of an expanded scene.
 const SOON: Duration = Duration::from_secs(20);
 
 #[track_caller]
@@ -18,7 +18,7 @@ fn refused(text: impl AsRef<[u8]>, expected: &str) {
 }
 
 #[test]
-fn large_arrays_are_refused_before_they_are_placed() {
+fn large_arrays_are_refused_before_expansion() {
     let def = "def d; v p 0 0 0; end; ";
     refused(format!("{def} a (d) 1000000000;"), "the placed scene would have 2000000001 statements");
     refused(
@@ -28,7 +28,7 @@ fn large_arrays_are_refused_before_they_are_placed() {
     refused("def d; end; a (d) 1000000000;", "the placed scene would have 1000000001 statements");
     let nested = format!("{def} def e; a (d) 10000; end; a (e) 10000;");
     refused(nested, "the placed scene would have");
-    // Two to the thousandth, were it not for the length of the chain: two to the sixtieth.
+    // The limit of the chain allows no more than two to the sixtieth.
     let doubling: String = (1..60).fold(def.to_string(), |text, idx| {
         let inner = if idx == 1 { "d".to_string() } else { format!("d{}", idx - 1) };
         text + &format!("def d{idx}; i ({inner}); i ({inner}); end; ")
@@ -53,7 +53,7 @@ fn long_chains_are_refused() {
     };
     refused(chain(100_000) + "i (d99999);", "definitions place each other in too long a chain");
     refused(chain(100_000), "definitions place each other in too long a chain");
-    // Every link placed by itself first, so that each was measured when the next is.
+    // Every level is also placed by itself first, so that its size is already known.
     let calls: String = (0..3000).map(|idx| format!("i (d{idx});\n")).collect();
     refused(chain(3000) + &calls, "definitions place each other in too long a chain");
     let deepest = chain(200) + "i (d199);";
@@ -110,7 +110,7 @@ fn long_words_are_read() {
 }
 
 #[test]
-fn many_bodies_are_read_soon() {
+fn many_bodies_take_little_time() {
     let faces: String =
         (0..100_000).map(|idx| format!("f (a b c) <{} 0 0>;\n", f64::from(idx) / 100_001.0)).collect();
     let start = Instant::now();
@@ -138,7 +138,7 @@ fn odd_bytes_are_refused_outside_comments() {
     assert_eq!(flat(b"{\0\xff}v a 0 0 0;"), "{\0\u{fffd}}\nv a 0 0 0;\n");
 }
 
-/// The first message about a text with one limit set, and its remedy; nothing if it can be read.
+/// The first message about a text with one limit set, and its remedy; `None` if the text is valid.
 fn limited(text: &str, limit: Limit, value: u64) -> Option<(String, String)> {
     let options = Options { limits: Limits::default().with(limit, value), ..Options::default() };
     let found = ugparse::parse(&Source::new("test.ug", text), &options).err()?;
@@ -214,14 +214,14 @@ fn limits_have_names_defaults_and_bounds() {
         assert_eq!(Limits::default().with(limit, 7).get(limit), 7);
     }
     assert_eq!(Limit::from_name("Text"), None);
-    // A limit that cannot be raised does not promise it.
+    // The remedy for a limit at its maximum does not suggest to raise it.
     let (_, help) = limited("def d; v p 0 0 0; end; a (d) 9999999999;", Limit::Statements, u64::MAX).unwrap();
     assert_eq!(help, "the limit is 2000000000 statements, and cannot be raised; use smaller arrays");
 }
 
-/// Each level of a chain takes stack, so a long one gets a stack of its own.
+/// Each level of a chain needs stack, so a long chain gets its own stack.
 #[test]
-fn chains_as_long_as_can_be_are_placed() {
+fn the_longest_chains_are_expanded() {
     let defs: String = (1..10_000).map(|idx| format!("def d{idx}; i x (d{}); end;\n", idx - 1)).collect();
     let text = format!("def d0; v p 0 0 0; end;\n{defs} i x (d9999 -tx 1);");
     let options = Options { limits: Limits::default().with(Limit::Chain, 10_000), ..Options::default() };
@@ -230,13 +230,13 @@ fn chains_as_long_as_can_be_are_placed() {
 }
 
 #[test]
-fn definitions_can_nest_as_deep_as_can_be() {
+fn definitions_nest_up_to_the_largest_limit() {
     let n = Limit::Nesting.most() as usize;
     let text = format!("{}v p 0 0 0;{}", "def d;".repeat(n), "end;".repeat(n));
     assert_eq!(limited(&text, Limit::Nesting, n as u64), None);
 }
 
-/// A scene with one of everything.
+/// A scene with one statement of every kind.
 const EVERYTHING: &str = "{ head {nested} }\nc red 1 0; c_rgb g .5 1 0 .25; c .5 200 .5; surf s .5 .25 .125 1.5 30;\n( escape (nested) )\n\
     v a 0 0 0; v b 1 0 0 red; v c 0 1 0 0 0 1; v d 1 1 0 g 0 0 -1.5e-3; { behind }\n\
     f roof (a b d c) (a c b) red .5 <.1 -.2 0>; f (a b c) red s;\nw edge (a b) (c d) g;\n\
@@ -245,14 +245,14 @@ const EVERYTHING: &str = "{ head {nested} }\nc red 1 0; c_rgb g .5 1 0 .25; c .5
     i car (part -M4 1 0 0 0 0 1 0 0 0 0 1 0 3 4 5 1); l sun .7 1 -1 2 g; l .3; l lamp 1 0 0 5 .25 <0 0 .1>;\n\
     cam eye -ep 0 -12 3 -vc 0 0 0 -ud 0 0 1 -cl 1 99 -ph 0 0 1 1 -va 40 30 -ps; { end }";
 
-/// A scene cut off anywhere is a shorter scene, or an error that says where.
+/// A truncated scene is either valid or has an error with a location.
 #[test]
-fn scenes_cut_off_anywhere_are_read_or_refused() {
+fn truncated_scenes_are_read_or_refused() {
     let mut scenes = vec![EVERYTHING.as_bytes().to_vec()];
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes");
     for entry in std::fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();
-        // Every byte of every scene would take minutes; small ones show it as well.
+        // Truncating every scene at every byte would take minutes; small scenes are enough.
         if path.extension().is_some_and(|extension| extension == "ug") {
             let text = std::fs::read(&path).unwrap();
             if text.len() < 5000 {

@@ -1,4 +1,4 @@
-//! The language, rule by rule: what is accepted, what it means, what is written.
+//! The language, rule by rule: accepted input, its meaning, and the output.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, its helpers too")]
 
 mod arrays;
@@ -21,7 +21,7 @@ mod transforms;
 
 use ugparse::{Options, Parsed, Scene, Source};
 
-/// Three vertices to hang faces on.
+/// Three vertices for faces.
 const TRIANGLE: &str = "v a 0 0 0; v b 1 0 0; v c 0 1 0; ";
 
 fn parse_with(text: impl AsRef<[u8]>, lax: bool) -> Parsed {
@@ -39,7 +39,7 @@ fn write(scene: &Scene) -> String {
     String::from_utf8(ugparse::write(scene)).expect("scenes are written as UTF-8")
 }
 
-/// A scene read and written again; what is written reads back to itself.
+/// Parses and writes a scene; checks the round trip of the output.
 fn flat(text: impl AsRef<[u8]>) -> String {
     let parsed = parse_with(&text, true);
     let out = write(&parsed.scene);
@@ -48,14 +48,14 @@ fn flat(text: impl AsRef<[u8]>) -> String {
     out
 }
 
-/// What is written for `text`, line by line.
+/// Checks the output for `text`, line by line.
 #[track_caller]
 fn check(text: &str, expected: &[&str]) {
     let out = flat(text);
     assert_eq!(out.lines().collect::<Vec<_>>(), expected, "{text}");
 }
 
-/// The same without the vertices.
+/// Like [`check`], without the vertices.
 #[track_caller]
 fn check_rest(text: &str, expected: &[&str]) {
     let out = flat(text);
@@ -63,7 +63,7 @@ fn check_rest(text: &str, expected: &[&str]) {
     assert_eq!(rest, expected, "{text}");
 }
 
-/// The titles of all errors of a scene that cannot be read.
+/// The titles of all errors of an invalid scene.
 fn errors(text: impl AsRef<[u8]>) -> Vec<String> {
     let text = text.as_ref();
     match ugparse::parse(&Source::new("test.ug", text), &Options::default()) {

@@ -1,9 +1,9 @@
-//! Vertices of instances, used outside them by their paths.
+//! Vertices of instances, referred to by their paths.
 
 use crate::{TRIANGLE, check_error, check_rest, errors, parse, warnings};
 
 #[test]
-fn faces_and_wires_reach_into_instances() {
+fn faces_and_wires_use_vertices_of_instances() {
     let def = "def d; v a 0 0 0; v b 1 0 0; v c 0 1 0; end; ";
     let check = |text: &str, expected: &[&str]| check_rest(&format!("{def}{text}"), expected);
     check("i car (d); f (car:a car:b car:c);", &["f (car:a car:b car:c);"]);
@@ -12,10 +12,10 @@ fn faces_and_wires_reach_into_instances() {
         "a row (d) 3 -tz 1; f (row#0:a row#2:b row#1:c) (row#2:a row#2:b row#2:c);",
         &["f (row#0:a row#2:b row#1:c) (row#2:a row#2:b row#2:c);"],
     );
-    // Without names of their own, instances are called as their vertices are.
+    // Unnamed instances have the labels in the names of their vertices.
     check("i (d); i (d -tx 1); w (d:a d_2:a);", &["w (d:a d_2:a);"]);
     check("a (d) 2 -tx 1; w (#0:a #1:a);", &["w (#0:a #1:a);"]);
-    // Deeper, and in a definition that is placed twice.
+    // Nested, and in a definition that is placed twice.
     check("def e; i in (d); end; i out (e); w (out:in:a out:in:b);", &["w (out:in:a out:in:b);"]);
     check(
         "def e; v o 5 5 5; i in (d -tx 1); w line (o in:a); end; i p (e); a q (e) 2;",
@@ -25,21 +25,21 @@ fn faces_and_wires_reach_into_instances() {
         "def e; i in (d); f (in:a in:b in:c) <0 0 .5>; end; i m (e -mx);",
         &["f (m:in:a m:in:c m:in:b) <0 0 0.5>;"],
     );
-    // What is written has the names in it, and reads as it was written.
+    // The output uses these names and survives a round trip.
     let scene = parse(format!("{def} i car (d -tx 5); {TRIANGLE} f (a b car:c);"));
     let corners = scene.face_contours(&scene.faces[0]).next().unwrap();
     assert_eq!(scene.vertices[corners[2].index()].position.to_array(), [5.0, 1.0, 0.0]);
 }
 
 #[test]
-fn instances_of_one_scope_have_paths_of_their_own() {
+fn instances_of_one_scope_have_distinct_paths() {
     let row = |calls: &str, expected: &[&str]| {
         let scene = parse(format!("def d; v a 0 0 0; end; {calls}"));
         let names: Vec<&str> = scene.vertices.iter().map(|vertex| scene.names.get(vertex.name)).collect();
         assert_eq!(names, expected, "{calls}");
     };
     row("i x (d); i x (d); i x (d);", &["x:a", "x_2:a", "x_3:a"]);
-    // A name that was written is kept, and not given to another.
+    // A name in the text is kept, and not used for another instance.
     row("i x (d); i x_2 (d); i x (d);", &["x:a", "x_2:a", "x_3:a"]);
     row("i x (d); i x (d); i x_2 (d);", &["x:a", "x_3:a", "x_2:a"]);
     row(
@@ -50,7 +50,7 @@ fn instances_of_one_scope_have_paths_of_their_own() {
 }
 
 #[test]
-fn wires_of_one_vertex_are_left_out_by_path_too() {
+fn wires_of_one_vertex_are_omitted_by_path_too() {
     let def = "def d; v a 0 0 0; v b 1 0 0; end; def g; i q (d); w (q:a); w (q:a q:b) (q:b); end;";
     let text = format!("{def} i q (d); i h (g); i k (g); w (q:a); w (q:a q:b); w long (q:b);");
     check_rest(&text, &["w (q:a q:b);"]);
@@ -58,14 +58,14 @@ fn wires_of_one_vertex_are_left_out_by_path_too() {
 }
 
 #[test]
-fn a_name_of_its_own_wins_over_a_path() {
+fn a_vertex_name_takes_precedence_over_a_path() {
     let scene = parse("def d; v a 9 9 9; end; i car (d); v car:a 1 2 3; v o 0 0 0; w (o car:a);");
     let corners = scene.wire_contours(&scene.wires[0]).next().unwrap();
     assert_eq!(scene.vertices[corners[1].index()].position.to_array(), [1.0, 2.0, 3.0]);
 }
 
 #[test]
-fn paths_that_lead_nowhere_are_errors() {
+fn undefined_paths_are_errors() {
     let def = "def d; v a 0 0 0; end; def e; i in (d); end; ";
     for path in ["car:b", "car:a:a", "bus:a", "car#0:a", "in:a", "e:in:a", ":a"] {
         let found = errors(format!("{def} i car (d); i car2 (e); v o 0 0 0; w (o {path});"));
@@ -73,7 +73,7 @@ fn paths_that_lead_nowhere_are_errors() {
     }
     check_error("def d; v a 0 0 0; end; a r (d) 2; v o 0 0 0; w (o r#2:a);", "vertex `r#2:a` is not defined");
     check_error("def d; v a 0 0 0; end; a r (d) 0; v o 0 0 0; w (o r#0:a);", "vertex `r#0:a` is not defined");
-    // Once for the statement, however often it is placed.
+    // Once per statement, however often it is placed.
     check_error(
         &format!("{def} def f; v o 0 0 0; i x (d); w (o x:b); end; a (f) 3;"),
         "vertex `x:b` is not defined",
@@ -81,7 +81,7 @@ fn paths_that_lead_nowhere_are_errors() {
 }
 
 #[test]
-fn flat_faces_by_path_are_left_out() {
+fn faces_without_area_by_path_are_omitted() {
     let def = "def d; v a 0 0 0; v b 1 0 0; v c 2 0 0; end; ";
     for text in [
         "i x (d); f (x:a x:b x:c);",
@@ -91,7 +91,7 @@ fn flat_faces_by_path_are_left_out() {
         let text = format!("{def}{text}");
         assert_eq!((warnings(&text, false).len(), parse(&text).faces.len()), (1, 0), "{text}");
     }
-    // The comments of what follows stay where they are.
+    // The comments of later statements keep their place.
     check_rest(
         &format!("{def} v o 0 1 0; i x (d); f (x:a x:b x:c);\n{{ it }}\nf (x:a x:b o); {{ that }}"),
         &["{ it }", "f (x:a x:b o); { that }"],

@@ -1,4 +1,4 @@
-//! Laws of reading and writing, on random scenes and random bytes.
+//! Properties of parsing and writing, tested with random scenes and random bytes.
 
 use std::fmt::Write;
 
@@ -15,7 +15,7 @@ proptest! {
     fn numbers_come_back_to_the_bit(bits in prop::collection::vec(any::<u64>(), 30)) {
         let values: Vec<f64> = bits.into_iter().map(f64::from_bits).filter(|value| value.is_finite()).collect();
         let text: String = values.iter().enumerate().fold(String::new(), |mut text, (idx, value)| {
-            // The standard library's own text for it is the slow, independent way.
+            // The standard library's formatting is the independent reference.
             writeln!(text, "v a{idx} {value:e} {value} 0;").unwrap();
             text
         });
@@ -44,7 +44,7 @@ proptest! {
         prop_assert_eq!(digits(word), digits(&format!("{value:e}")), "{} {:e}", word, value);
     }
 
-    /// What is read, written and read again is equal in everything, and written alike.
+    /// The round trip preserves every table, and gives the same text.
     #[test]
     fn scenes_round_trip(text in scene_text()) {
         let first = parse_with(&text, true).scene;
@@ -89,7 +89,8 @@ proptest! {
     }
 }
 
-/// Reads bytes strictly and loosely: a message that can be shown, or a scene that round-trips.
+/// Parses bytes with and without `lax`: the result is a message that can be rendered, or a scene that survives a round
+/// trip.
 fn survives(bytes: &[u8]) -> Result<(), TestCaseError> {
     for lax in [false, true] {
         match ugparse::parse(&Source::new("any.ug", bytes), &Options { lax, ..Options::default() }) {
@@ -160,7 +161,7 @@ const WORDS: &[&str] = &[
     "v1", "d", "red", "\n", "\"", "é", "\0",
 ];
 
-/// Numbers that people write, and some that they do not.
+/// Typical and unusual numbers.
 fn number() -> impl Strategy<Value = String> {
     prop_oneof![
         4 => (-40..40i32).prop_map(|n| n.to_string()),
@@ -251,7 +252,7 @@ fn body(placeable: &'static [&'static str]) -> impl Strategy<Value = String> {
     (vertices, prop::collection::vec(statement(placeable), 0..12)).prop_map(|(v, rest)| v + &rest.join(" "))
 }
 
-/// A scene with colours, definitions that place each other, and all the rest.
+/// A scene with statements of all kinds and nested definitions.
 fn scene_text() -> impl Strategy<Value = String> {
     (
         body(&["d"]),

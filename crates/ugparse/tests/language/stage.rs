@@ -1,4 +1,4 @@
-//! The stage of a scene: what was done to its positions and colours.
+//! The stage of a scene, which records changes of positions and colours.
 
 use glam::DVec3;
 use ugparse::{ColorScale, ColorStage, GeometryStage, HueScale, SeenColors, SeenGeometry, Stage};
@@ -48,7 +48,7 @@ fn every_stage_reads_back() {
 }
 
 #[test]
-fn it_is_written_behind_the_head() {
+fn it_is_written_after_the_head_comments() {
     let statement = "(ugstage 1 geometry as-seen eye 0 -12 3 time -5 colors as-seen hues law report lights)";
     check(
         &format!("{{ head }} c red 1 0;\n(other)\n{{ above }}\n{statement} {{ behind }}\nv a 0 0 0;"),
@@ -67,17 +67,17 @@ fn it_is_written_behind_the_head() {
     );
     check("( ugstage 1 geometry at-rest colors at-rest ) v a 0 0 0;", &["v a 0 0 0;"]);
     check("(ugstage 1)", &[]);
-    // Behind an instance, too: escapes before and behind it keep their places.
+    // After an instance, too: escapes before and after it keep their order.
     check(
         "def d; (in) end; (one) i (d); (ugstage 1 geometry as-seen eye 0 0 0) (two)",
         &["(ugstage 1 geometry as-seen eye 0 0 0)", "(one)", "(in)", "(two)"],
     );
-    // Text of others, whatever it looks like.
+    // Escapes of other programs, even if they look similar.
     check("(ugstages 1)(stage)(uglorentz)", &["(ugstages 1)", "(stage)", "(uglorentz)"]);
 }
 
 #[test]
-fn tidy_lays_it_out_word_by_word() {
+fn tidy_formats_it_word_by_word() {
     let tidied = |text: &str| {
         let text = ugparse::tidy(&Source::new("test.ug", text), &Options::default());
         text.map(|text| String::from_utf8(text).unwrap()).map_err(|found| found.render(false))
@@ -92,7 +92,7 @@ fn tidy_lays_it_out_word_by_word() {
 }
 
 #[test]
-fn mistakes_have_places_and_remedies() {
+fn errors_have_locations_and_remedies() {
     let check = |text: &str, place: &str, message: &str, help: &str| {
         let source = Source::new("test.ug", text);
         let found = ugparse::parse(&source, &Options::default()).unwrap_err();

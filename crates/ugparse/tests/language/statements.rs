@@ -1,4 +1,4 @@
-//! Every statement with each of its parts there and not.
+//! Every statement with and without each of its optional parts.
 
 use crate::{TRIANGLE, check, check_error, check_rest, warnings};
 
@@ -32,7 +32,7 @@ fn faces() {
     row("f (a b c) 0 <0 0 .9>;", "f (a b c) 0 <0 0 0.9>;");
     row("f roof (a b c) red 0 <0 0 .9>;", "f roof (a b c) red 0 <0 0 0.9>;");
     row("f f (a b c) red;", "f f (a b c) red;");
-    // Levels of neighbours, equal but for their sign.
+    // Levels of consecutive faces that differ only in the sign of zero.
     check_rest(
         &format!("{TRIANGLE}f (a b c) 0; f (a b c) -0; f (a b c) -0; f (a b c) 0;"),
         &["f (a b c) 0;", "f (a b c) -0;", "f (a b c) -0;", "f (a b c) 0;"],
@@ -192,7 +192,7 @@ fn escapes_are_kept_as_they_are() {
 }
 
 #[test]
-fn unknown_statements_pass_under_lax() {
+fn lax_passes_on_unknown_statements() {
     let text = "shine .5 .5 0; v a 0 0 0;\nfuture { with; comment } thing (1 2);\n# pragma;\nv b 0 0 0;";
     check(
         text,
@@ -206,7 +206,7 @@ fn unknown_statements_pass_under_lax() {
             "statement `#` is passed on unread"
         ]
     );
-    // More of them than errors are counted: nothing behind them is lost.
+    // More of them than the limit of errors: later statements are not lost.
     let many: String = (0..100).map(|idx| format!("x{idx};\n")).collect::<String>() + "v last 0 0 0;";
     assert!(crate::flat(&many).ends_with("x99;\nv last 0 0 0;\n"));
     let refused = ugparse::parse(
@@ -217,7 +217,7 @@ fn unknown_statements_pass_under_lax() {
 }
 
 #[test]
-fn a_missing_semicolon_is_told_from_names_that_look_like_keywords() {
+fn a_missing_semicolon_is_distinguished_from_names_equal_to_keywords() {
     const MISSING: &str = "expected `;` before the next statement";
     check_error("v a 0 0 0\nv b 1 0 0;", MISSING);
     assert_eq!(
@@ -229,7 +229,7 @@ fn a_missing_semicolon_is_told_from_names_that_look_like_keywords() {
     check_error("v a 0 0\n{ and }\nv b 1 0 0;", "expected a number before the next statement");
     check_error("c x .5\ncam;", MISSING);
     check_error("v a 0 0 0", "expected `;`, found the end of the file");
-    // Vertices called as statements are, one a line.
+    // Vertices with names of keywords, one per line.
     check_error("f (a\nv\nf\nl 1);", "expected a vertex name or `)`, found `1`");
     check_error("f (a\ncam\nend\nw\n2);", "expected a vertex name or `)`, found `2`");
     check_rest(&format!("{TRIANGLE} v l 0 0 0; f\n(a\nb\nc)\n1\n;"), &["f (a b c) 1;"]);

@@ -1,4 +1,4 @@
-//! `surf`, and faces that name a surface in place of a light level.
+//! `surf`, and faces with a surface instead of a light level.
 
 use crate::{TRIANGLE, check, check_error, check_rest, errors, parse, parse_with};
 
@@ -15,7 +15,7 @@ fn surfaces_and_their_defaults() {
 }
 
 #[test]
-fn what_is_no_surface_is_refused() {
+fn invalid_surfaces_are_refused() {
     for (text, message) in [
         ("surf;", "expected a name that begins with a letter, `:`, `_` or `#`, found `;`"),
         ("surf 1 0 0;", "expected a name that begins with a letter, `:`, `_` or `#`, found `1`"),
@@ -37,7 +37,7 @@ fn what_is_no_surface_is_refused() {
 }
 
 #[test]
-fn one_id_behind_contours_is_the_color_and_a_second_the_surface() {
+fn the_first_name_after_contours_is_the_color_and_the_second_the_surface() {
     let row = |face: &str, expected: &str| {
         let text = format!("c red 1 0; surf s 1 0 0; {TRIANGLE} {face}");
         check_rest(&text, &["c red 1 0 1;", "surf s 1 0 0;", expected]);
@@ -45,7 +45,7 @@ fn one_id_behind_contours_is_the_color_and_a_second_the_surface() {
     row("f (a b c) red s;", "f (a b c) red s;");
     row("f x(a b c)red\ts<0 .5 0>;", "f x (a b c) red s <0 0.5 0>;");
     row("f (a b c) red .5;", "f (a b c) red 0.5;");
-    // Colours and surfaces have names of their own kind.
+    // Colours and surfaces have separate name spaces.
     check_rest(
         &format!("c s 1; surf s 1 0 0; {TRIANGLE} f s (a b c) s s;"),
         &["c s 1;", "surf s 1 0 0;", "f s (a b c) s s;"],
@@ -56,12 +56,12 @@ fn one_id_behind_contours_is_the_color_and_a_second_the_surface() {
 }
 
 #[test]
-fn surfaces_may_come_later_and_from_scopes_outside() {
+fn surfaces_may_come_later_and_from_enclosing_scopes() {
     check_rest(
         &format!("c r 1; {TRIANGLE} f (a b c) r s; surf s 1 0 0;"),
         &["c r 1;", "surf s 1 0 0;", "f (a b c) r s;"],
     );
-    // An inner scope hides the outer one, and its surfaces get its name. Of several scopes at once.
+    // An inner scope shadows the outer one, and its surfaces get its name as a prefix; with several scopes.
     check_rest(
         &format!(
             "c r 1; surf s 1 0 0; surf o 0 1 0; def d; surf s 0 0 1; {TRIANGLE} f (a b c) r s; f (a b c) r o;\
@@ -81,7 +81,7 @@ fn surfaces_may_come_later_and_from_scopes_outside() {
             "f (n:a n:b n:c) r 0.5;",
         ],
     );
-    // A name that we make gives way to one that was written.
+    // Generated names never replace names in the text.
     check_rest("surf d:s 1 0 0; def d; surf s 0 1 0; end;", &["surf d:s 1 0 0;", "surf d:s_2 0 1 0;"]);
     check_error(
         &format!("c r 1; def d; surf s 1 0 0; end; {TRIANGLE} f (a b c) r s;"),
@@ -90,7 +90,7 @@ fn surfaces_may_come_later_and_from_scopes_outside() {
 }
 
 #[test]
-fn surfaces_that_are_not_defined_are_told_from_colours() {
+fn undefined_surfaces_are_distinguished_from_colours() {
     let help = |text: &str| {
         let source = ugparse::Source::new("test.ug", format!("{TRIANGLE} {text}"));
         let found = ugparse::parse(&source, &ugparse::Options::default()).unwrap_err();
@@ -107,7 +107,7 @@ fn surfaces_that_are_not_defined_are_told_from_colours() {
     assert_eq!(message, "surface `r` is not defined");
     assert!(guess.contains("there is a colour of that name"), "{guess}");
     assert_eq!(errors(format!("{TRIANGLE} f (a b c) r s;")).len(), 2);
-    // What a forgotten `;` makes of the next statement.
+    // The effect of a missing `;` on the next statement.
     check_error(&format!("c r 1; {TRIANGLE} f (a b c) r\nc g 1;"), "expected `;` before the next statement");
     check_error(
         &format!("c r 1; def d; {TRIANGLE} f (a b c) r\nend;\ni (d);"),

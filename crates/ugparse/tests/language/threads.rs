@@ -1,14 +1,14 @@
-//! A large text is read in parts and written in pieces: what comes out is the same for any number of threads.
+//! Large texts are parsed in parts and written in pieces, with the same result for any number of threads.
 
 use std::fmt::Write;
 use std::io;
 
 use ugparse::{Options, Source};
 
-/// Statements of a text of some 2 MB: large enough for several parts.
+/// Number of statements in a text of about 2 MB, enough for several parts.
 const ROWS: usize = 12_000;
 
-/// Everything that can be told from outside about reading `text`.
+/// The written scene and all messages for `text`.
 fn outcome(text: &str, n_threads: usize) -> (Vec<u8>, String) {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(n_threads).build().unwrap();
     let source = Source::new("large.ug", text);
@@ -39,7 +39,7 @@ fn check(text: &str, is_read: bool) {
 
 fn vertices(text: &mut String, rows: std::ops::Range<usize>) {
     for row in rows {
-        // Numbered, numbered from far on, numbered with zeros, not numbered.
+        // Names with numbers, with large numbers, with leading zeros, without numbers.
         let (x, y) = (row as f64 / 7.0, row * row % 101);
         writeln!(text, "v v{row} {x} {y} 1e-3 c{};\nv far{}00000 {y} {x} 2;", row % 7, row).unwrap();
         writeln!(text, "v z00{row} {x} 3 {y}; v name{row}_ {y} 4 {x} 0 0 {};", row + 1).unwrap();
@@ -61,7 +61,7 @@ fn colors(text: &mut String) {
     (0..3).for_each(|row| writeln!(text, "surf s{row} .{row} 0 .5;").unwrap());
 }
 
-/// Vertices, then faces, as the programs write them; or the other way round.
+/// Vertices, then faces, as the programs write them; or in the opposite order.
 fn scene(faces_first: bool) -> String {
     let mut text = "{ head }\n".to_string();
     if faces_first {
@@ -99,7 +99,7 @@ fn any_number_of_threads_reads_the_same() {
 }
 
 #[test]
-fn cuts_may_fall_anywhere() {
+fn the_text_may_be_split_anywhere() {
     let scene = scene(false);
     check(&format!("{{ {scene} }} {scene}"), true);
     check(&format!("def d; {scene} end; i (d -tx 1); {scene}"), true);
@@ -110,7 +110,7 @@ fn cuts_may_fall_anywhere() {
 }
 
 #[test]
-fn any_number_of_threads_says_the_same() {
+fn any_number_of_threads_gives_the_same_messages() {
     let scene = scene(false);
     for mistake in [
         "f (v0 v1 nobody) nothing;",
@@ -131,13 +131,13 @@ fn any_number_of_threads_says_the_same() {
     check(&two, false);
 }
 
-/// A scene laid out as scenes are written, with comments above and behind rows,
-/// also where pieces that are written on different threads meet.
+/// A scene in the layout of the writer, with comments above and after rows, also at the boundaries between pieces that
+/// different threads write.
 fn as_written() -> String {
     let mut text = "{ head }\n(escape)\nc red 1 0 1;\n".to_string();
     let rows = 70_000;
     let comment = |row: usize, what: &str| {
-        // The rows round multiples of 1024, whatever power of two the pieces have.
+        // Rows around multiples of 1024, because the size of pieces is a power of two.
         if (row + 1) % 1024 < 3 { format!("{{ {what} {row} }}") } else { String::new() }
     };
     for row in 0..rows {
@@ -165,11 +165,11 @@ fn any_number_of_threads_writes_the_same() {
         assert!(sent == text.as_bytes(), "sent on {n_threads} threads");
         assert!(pool.install(|| ugparse::write(&scene)) == sent, "written on {n_threads} threads");
     }
-    // The caller need not be a thread of the pool.
+    // The caller may be outside the thread pool.
     assert!(ugparse::write(&scene) == text.as_bytes());
 }
 
-/// Takes so many bytes and no more.
+/// Accepts a limited number of bytes.
 struct Full(usize);
 
 impl io::Write for Full {
@@ -185,7 +185,7 @@ impl io::Write for Full {
 }
 
 #[test]
-fn what_cannot_be_sent_is_an_error() {
+fn failed_output_is_an_error() {
     let text = as_written();
     let source = Source::new("written.ug", text.as_str());
     let scene = ugparse::parse(&source, &Options::default()).unwrap().scene;

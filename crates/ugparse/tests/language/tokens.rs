@@ -37,7 +37,7 @@ fn numbers_are_read_to_the_bit() {
 }
 
 #[test]
-fn what_is_no_number_is_refused() {
+fn invalid_numbers_are_refused() {
     let words = [
         "nan",
         "NaN",
@@ -91,13 +91,13 @@ fn numbers_are_written_short_and_exact() {
     }
 }
 
-/// The words of a scene that uses every kind of token.
+/// A scene with every kind of token.
 const WORDS: &str = "c red .9 0 0.8 ; v a 0 0 0 red ; v b 1 0 0 ; v c 1 1 0 red 0 0 -1 ; def d ; v a 0 0 0 ; v b 1 0 0 ; \
     v c 1 1 0 ; f x ( a b c ) ; w ( a b ) ( b c ) red ; l sun .5 0 0 1 ; end ; f f ( a b c ) red .5 < 0 -.5 0 > ; \
     i car ( d red -rz 90 -tx 3 ) < .1 0 0 > ; a ( d ) 2 -tx 5 ; cam -ep 0 -9 0 -og ; (escape) ;";
 
 #[test]
-fn any_layout_will_do() {
+fn the_layout_is_free() {
     let plain = flat(WORDS);
     assert_eq!(plain.lines().count(), 4 + 9 + 1 + 3 + 3 + 1 + 3 + 1, "{plain}");
     let words: Vec<&str> = WORDS.split_ascii_whitespace().collect();
@@ -110,7 +110,7 @@ fn any_layout_will_do() {
         scene.comments.clear();
         String::from_utf8(ugparse::write(&scene)).unwrap()
     };
-    // Not into the escape, whose text is not ours.
+    // Not inside the escape, whose text must not change.
     let scene = WORDS.replace("(escape) ;", "");
     let words: Vec<&str> = scene.split_ascii_whitespace().collect();
     let plain = flat(&scene);
@@ -132,7 +132,7 @@ fn any_layout_will_do() {
 }
 
 #[test]
-fn nothing_is_a_scene() {
+fn an_empty_text_is_a_scene() {
     for text in ["", " ", "\n", ";", ";;\n;", "\r\n\t", "def d; end;"] {
         check(text, &[]);
     }
@@ -194,7 +194,7 @@ fn names_may_be_almost_anything() {
 }
 
 #[test]
-fn bad_names_are_refused() {
+fn invalid_names_are_refused() {
     const BEGINS: &str = "expected a name that begins with a letter, `:`, `_` or `#`, found ";
     const LETTERS: &str = "expected a name of letters, digits, `:`, `_` and `#`, found ";
     for (name, expected) in [
@@ -221,7 +221,7 @@ fn only_the_first_word_is_a_keyword_and_in_lower_case() {
     }
 }
 
-/// Long lines are shown in part, with the place they have in the file.
+/// Long lines are truncated in messages, with the column in the file.
 #[test]
 fn columns_count_from_the_beginning_of_the_line() {
     for n_before in [0, 30, 60, 90, 200, 5000] {

@@ -1,4 +1,4 @@
-//! Transformations against coordinates worked out by hand.
+//! Compares transformations with coordinates computed by hand.
 
 use glam::{DVec3, dvec3};
 
@@ -13,7 +13,7 @@ fn placed(tforms: &str) -> DVec3 {
 fn check(tforms: &str, expected: [f64; 3]) {
     let found = placed(tforms);
     let expected = DVec3::from(expected);
-    // A few roundings of coordinates below 100.
+    // A few rounding errors of coordinates below 100.
     assert!((found - expected).abs().max_element() < 1e-13, "{tforms}: {found} is not {expected}");
 }
 
@@ -27,7 +27,7 @@ fn every_option() {
     check("-sz -2", [1.0, 2.0, -6.0]);
     check("-sa .5", [0.5, 1.0, 1.5]);
     check("-sv 0 0 7 2", [1.0, 2.0, 6.0]);
-    // Along (1 1 0): the part (1.5 1.5 0) is tripled.
+    // Along (1 1 0): the component (1.5 1.5 0) is tripled.
     check("-sv 1 1 0 3", [4.0, 5.0, 3.0]);
     check("-sv 1e-200 1e-200 0 3", [4.0, 5.0, 3.0]);
     check("-sv 1e200 1e200 0 3", [4.0, 5.0, 3.0]);
@@ -88,7 +88,7 @@ fn quarter_turns_are_exact() {
 }
 
 #[test]
-fn mirrors_turn_faces_over_and_scales_do_not() {
+fn mirrors_reverse_faces_and_scales_do_not() {
     let same = "f (d:a d:b d:c);";
     let turned = "f (d:a d:c d:b);";
     for (tforms, expected) in [
@@ -110,7 +110,7 @@ fn mirrors_turn_faces_over_and_scales_do_not() {
         check_rest(&format!("def d; {TRIANGLE} f (a b c); end; i (d {tforms});"), &[expected]);
     }
     check_rest(&format!("def d; {TRIANGLE} w (a b c); end; i (d -mx);"), &["w (d:a d:b d:c);"]);
-    // Two mirrors in two instances undo each other; every other copy of a mirroring step is turned.
+    // Two mirrors in two instances cancel; with a mirroring step every other copy is reversed.
     check_rest(
         &format!("def d; {TRIANGLE} f (a b c); end; def e; i (d -mx); end; i (e -mz);"),
         &["f (e:d:a e:d:b e:d:c);"],
@@ -121,7 +121,7 @@ fn mirrors_turn_faces_over_and_scales_do_not() {
     );
 }
 
-/// Normals stay at right angles to their surface, on its side, and keep their length.
+/// Normals stay perpendicular to their surface, on the same side, and keep their length.
 #[test]
 fn normals_follow_their_surface() {
     let rows = [
@@ -135,7 +135,7 @@ fn normals_follow_their_surface() {
         ("-sy 2", [0.0, 1.0, -1.0], [0.0, 1.0 / 2.5f64.sqrt(), -2.0 / 2.5f64.sqrt()]),
         ("-mz", [0.0, 3.0, 4.0], [0.0, 3.0, -4.0]),
         ("-sz -1", [0.0, 3.0, 4.0], [0.0, 3.0, -4.0]),
-        // Squashed flat in z: only the flattened direction is left.
+        // Collapsed in z: the normal is along the collapsed direction.
         ("-sz 0", [0.0, 3.0, 4.0], [0.0, 0.0, 5.0]),
     ];
     for (tforms, normal, expected) in rows {
@@ -147,7 +147,7 @@ fn normals_follow_their_surface() {
 }
 
 #[test]
-fn bad_transformations_are_refused() {
+fn invalid_transformations_are_refused() {
     let refused = |tforms: &str, expected: &str| {
         check_error(&format!("def d; v p 1 2 3; end; i (d {tforms});"), expected)
     };
