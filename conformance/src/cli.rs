@@ -84,7 +84,8 @@ impl ToolArgs for Args {
 
 /// Runs the program.
 pub fn main() -> ExitCode {
-    // Wrong answers are a result and not an error: the output is kept, and only the exit status is 1.
+    // Wrong answers are a result and not an error: the output is kept, and only the exit status
+    // is 1.
     let is_right = Cell::new(true);
     let status = ugpipe::main(|args: &Args, stage: &mut Stage| {
         is_right.set(run(args, stage)?);
@@ -180,7 +181,8 @@ pub fn score_image(case: &PictureCase, png: &[u8]) -> Result<(String, bool), Str
     Ok((text, measured.iter().all(picture::Measurement::passes)))
 }
 
-/// Returns the scorecard and the measurements of this project's programs, with a last line that lists everything wrong.
+/// Returns the scorecard and the measurements of this project's programs, with a last line that
+/// lists everything wrong.
 fn check(topics: &[Topic]) -> (String, bool) {
     // A mistake in our crates may also produce answers that cannot be parsed.
     let answers = read_answers(&answers(&questions(topics)), topics).unwrap_or_else(|_| Answers::new());

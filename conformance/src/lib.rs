@@ -1,5 +1,5 @@
-//! A test suite for any relativistic renderer: questions with known answers, pictures with known measures, and a
-//! scorecard.
+//! A test suite for any relativistic renderer: questions with known answers, pictures with known
+//! measures, and a scorecard.
 //!
 //! ```text
 //! ugconformance questions | my-program | ugconformance score
@@ -7,8 +7,8 @@
 //! ```
 //!
 //! The expected numbers are in `conformance/cases/`, one file for each topic. They were computed by
-//! `conformance/derive.py`, which shares no code with the crates of this project. `conformance/README.md` defines
-//! every question.
+//! `conformance/derive.py`, which shares no code with the crates of this project.
+//! `conformance/README.md` defines every question.
 //!
 //! ```
 //! use ugconformance::suite;

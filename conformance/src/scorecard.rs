@@ -30,8 +30,9 @@ impl fmt::Display for AnswerError {
 
 impl std::error::Error for AnswerError {}
 
-/// Parses answers: an id and numbers on each line. `-` instead of numbers means that there is no answer. Empty lines and those
-/// that begin with `#` are ignored. Infinities and NaN are parsed, but are always wrong.
+/// Parses answers: an id and numbers on each line. `-` instead of numbers means that there is no
+/// answer. Empty lines and those that begin with `#` are ignored. Infinities and NaN are parsed,
+/// but are always wrong.
 ///
 /// # Errors
 /// A word is not a number, or an id is unknown or repeated.

@@ -163,8 +163,8 @@ impl Case {
         [&[self.id.clone(), self.kind.clone()][..], &self.given].concat().join(" ")
     }
 
-    /// The error of `answer`: its largest difference from the expected numbers, relative to the largest of these, or
-    /// absolute if these are all 0. Infinite if the count of numbers differs.
+    /// The error of `answer`: its largest difference from the expected numbers, relative to the
+    /// largest of these, or absolute if these are all 0. Infinite if the count of numbers differs.
     pub fn error(&self, answer: &[f64]) -> f64 {
         distance(answer, &self.expected)
     }

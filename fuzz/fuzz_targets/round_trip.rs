@@ -1,4 +1,5 @@
-//! The round trip is exact: every scene that parses is written as text that parses and is written equally.
+//! The round trip is exact: every scene that parses is written as text that parses and is written
+//! equally.
 #![no_main]
 
 use ugparse::{Limit, Limits, Options, Source, parse, write};

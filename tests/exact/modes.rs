@@ -1,4 +1,4 @@
-//! Exact pictures beside those of the scanline mode.
+//! Compares exact pictures with those of the default (scanline) mode.
 
 use glam::DVec3;
 use ugtests::picture::decode;
@@ -8,7 +8,8 @@ use ugtests::scenes;
 
 use crate::{SIZE, channels, exact};
 
-/// Colours and normals of corners, and a hole, in triangles at rest. At rest a triangle is the same in both modes.
+/// Colours and normals of corners, and a hole, in triangles at rest. At rest a triangle is the same
+/// in both modes.
 #[test]
 fn at_rest_triangles_are_those_of_the_scanline_mode() {
     const TRIANGLES: &str = "c red 1 0; c blue .8 220 .9; c grey .7; l .3; l .8 1 -2 .5;
@@ -18,11 +19,12 @@ fn at_rest_triangles_are_those_of_the_scanline_mode() {
     let exact = decode(&rainbow(TRIANGLES.as_bytes(), &pipe.rainbow));
     pipe.rainbow.exact = None;
     let scanned = decode(&rainbow(TRIANGLES.as_bytes(), &pipe.rainbow));
-    // Normals are interpolated before the light is computed, not behind.
+    // Normals are interpolated before lighting, not after it.
     ugtests::picture::assert_same("exact-triangles", &scanned, &exact, 12);
 }
 
-/// The scanline mode on a scene that was cut finely shows the same, but for samples at the rims of faces.
+/// The scanline mode on a scene that was cut finely shows the same, but for samples at the rims of
+/// faces.
 #[test]
 fn both_modes_show_the_same_colours() {
     let cases = [("cubes", 0.9 * DVec3::X), ("ship", 0.3 * DVec3::NEG_Y), ("box", 0.9 * DVec3::X)];
@@ -43,16 +45,18 @@ fn both_modes_show_the_same_colours() {
     }
 }
 
-/// What the scanline mode shows of a face, or leaves out, is so exactly within the bound of cutting.
+/// What the scanline mode shows of a face, or leaves out, is so exactly within the bound of
+/// cutting.
 #[test]
 fn both_modes_agree_to_the_bound() {
     /// Samples of the exact picture along a side of a pixel.
     const FINE: u32 = 4;
-    /// What edges may be off by, pixels.
+    /// The largest allowed error of edges, pixels.
     const REACH: f64 = 1.0;
     const ACROSS_DEG: f64 = 60.0;
     let pixel = 2.0 * libm::tan(ACROSS_DEG.to_radians() / 2.0) / f64::from(SIZE[0]);
-    // An angle is the more pixels the farther from the middle; at the corners, with 3 : 4, 5/4 of half the width.
+    // An angle is the more pixels the farther from the middle; at the corners, with 3 : 4, 5/4 of
+    // half the width.
     let slant = 1.25 * pixel * f64::from(SIZE[0]) / 2.0;
     let bound = REACH * pixel / (1.0 + slant * slant);
     let mut random = Random(11);
@@ -94,16 +98,16 @@ fn both_modes_agree_to_the_bound() {
             );
         }
     }
-    // Else this would say nothing.
+    // Otherwise the test would prove nothing.
     assert!(n_other > 20, "{n_other}");
 }
 
-/// A box of wires, which bend.
+/// A box of wires, which look bent.
 const BOX: &str = "c green 1 120; cam -ep 0 -9 1 -vc 0 0 0 -va 70 50; l 1;
     v a -3 -3 -3; v b 3 -3 -3; v c 3 3 -3; v d -3 3 -3; v e -3 -3 3; v f 3 -3 3; v g 3 3 3; v h -3 3 3;
     w (a b c d a e f g h e) green; w (b f) (c g) (d h);";
 
-/// By rays and by polygons: the nearest that lets through less than half of the light.
+/// In both modes, channels describe the nearest surface that transmits less than half of the light.
 #[test]
 fn channels_tell_of_what_hides_more_than_it_shows() {
     for (translucency, first) in [(0.0, 1.0), (0.4, 1.0), (0.6, 2.0), (1.0, 2.0)] {

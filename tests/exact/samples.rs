@@ -21,7 +21,8 @@ const SINGLE: f64 = 2e-7;
 /// Hues are in single precision, and their attenuation comes from a table.
 const LIGHT: f64 = 1e-5;
 
-/// A sample may show another face than the oracle's only if that face is equally near, or adjacent up to rounding.
+/// A sample may show another face than the oracle's only if that face is equally near, or adjacent
+/// up to rounding.
 fn is_on_boundary(oracle: &Oracle, camera: &Pinhole, [x, y]: [f64; 2], face: Option<usize>) -> bool {
     const NEXT: f64 = 1e-7;
     let steps = [-NEXT, 0.0, NEXT];
@@ -35,8 +36,8 @@ fn is_on_boundary(oracle: &Oracle, camera: &Pinhole, [x, y]: [f64; 2], face: Opt
     })
 }
 
-/// The scene with its faces triangulated, because the outline of a face that is not quite flat differs from the outline in
-/// its mean plane.
+/// The scene with its faces triangulated, because the outline of a face that is not quite flat
+/// differs from the outline in its mean plane.
 fn triangles(mut scene: Scene) -> Scene {
     for face in std::mem::take(&mut scene.faces) {
         let rings: Vec<Vec<VertexId>> = scene.face_contours(&face).map(<[VertexId]>::to_vec).collect();
@@ -100,7 +101,8 @@ impl Case {
     }
 }
 
-/// Checks that every sample not on a boundary shows the face, distance, D, hue and light that the oracle computes.
+/// Checks that every sample not on a boundary shows the face, distance, D, hue and light that the
+/// oracle computes.
 #[track_caller]
 fn check(case: Case) {
     let name = case.name();

@@ -6,7 +6,8 @@ use ugrainbow::{Config, Exact, Wireframe};
 use ugtests::picture::{Picture, decode};
 use ugtests::pipe::{lorentz, rainbow};
 
-/// A cube about the origin; its faces are of three colours, so that some edges lie between two of one colour.
+/// A cube about the origin; its faces are of three colours, so that some edges lie between two of
+/// one colour.
 fn cube() -> String {
     let mut text = "l 1; c a .9; c b .8; c c .7;".to_owned();
     for k in 0..8 {
@@ -56,7 +57,8 @@ fn edges() -> Config {
 
 #[test]
 fn the_edges_of_a_cut_face_are_those_it_had() {
-    // Finer pieces are close to coarser ones; if cuts were drawn, they would light every pixel of some rows.
+    // Finer pieces are close to coarser ones; if cuts were drawn, they would light every pixel of
+    // some rows.
     let (n_lit, n_different) = compared(&drawn(16, &edges()), &drawn(32, &edges()));
     assert!(n_lit > 400 && n_lit < 2400 && n_different * 50 < n_lit, "{n_different} of {n_lit}");
 }

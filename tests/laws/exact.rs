@@ -80,8 +80,8 @@ fn speeds() -> impl Iterator<Item = f64> {
 
 #[test]
 fn vertices_have_positions_by_p3_and_doppler_factors_by_p10() {
-    /// Relative to the distance from the eye. Near the speed of light, rounding errors of the input are amplified by
-    /// up to γ = 707.
+    /// Relative to the distance from the eye. Near the speed of light, rounding errors of the input
+    /// are amplified by up to γ = 707.
     const TOLERANCE: f64 = 1e-12;
     /// Hue 120, (P16).
     const GREEN_NM: f64 = 546.1;

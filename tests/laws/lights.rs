@@ -16,8 +16,8 @@ fn lit() -> Config {
 /// Positions in the scene are as seen from the origin.
 const SEEN: &str = "(ugstage 1 geometry as-seen eye 0 0 0)";
 
-/// Flat and smooth walls, seen from both sides, a face with a light level, wires, and lights of all kinds: ambient,
-/// directional, local, coloured.
+/// Flat and smooth walls, seen from both sides, a face with a light level, wires, and lights of all
+/// kinds: ambient, directional, local, coloured.
 const ROOM: &str = "c red 0.8 10 0.7; c blue 0.9 220 0.6; c warm 1 30 0.5; c cool 0.8 200;
     v a -2 6 -1; v b 0 7 -1; v c 0 7 1; v d -2 6 1; v e 2 6 -1; v f 2 6 1;
     v n -1 5 -2 0.1 -1 0.2; v o 1 5 -2 -0.1 -1 0.2; v p 1 5 -1 0.1 -1 0.6; v q -1 5 -1 0 1 -0.6;
@@ -50,7 +50,8 @@ fn lighting_at_rest_equals_that_of_ugrainbow() {
     for name in ["cubes", "teapot", "ship", "street", "halves"] {
         check(name, &scenes::text(name), 1);
     }
-    // With coloured light, `ugrainbow` interpolates levels of red, green and blue, and `ugdoppler` hue and saturation.
+    // With coloured light, `ugrainbow` interpolates levels of red, green and blue, and `ugdoppler`
+    // hue and saturation.
     check("white-room", &room("l 0.2; l 0.3 -1 -2 1; l 0.4 1 3 2 0.1;"), 1);
     check("room", &room(LIGHTS), 12);
 }
@@ -86,7 +87,8 @@ fn rest_is_the_limit_of_slow_lights() {
 /// A face that faces the light and the eye, all on one line: D and D_l are powers of 2.
 #[test]
 fn both_factors_shift_and_dim() {
-    // β = 0.6 gives D = 2 approaching and 0.5 receding; for opposite motions (P15) gives 15/17, so D_l = 4.
+    // β = 0.6 gives D = 2 approaching and 0.5 receding; for opposite motions (P15) gives 15/17, so
+    // D_l = 4.
     let face = "c green 0.1 120; v a 9 0 -1e-9; v b 9 1e-9 0; v c 9 -1e-9 0; f (a b c) green";
     for (body, light, d, d_light) in [
         ("<0.6 0 0>", "<0 0 0>", 0.5, 0.5),
@@ -127,7 +129,8 @@ fn wavelength_and_value(scene: &Scene) -> (f64, f64) {
     }
 }
 
-/// A lamp flies over a floor: the brightest point is below its retarded position, not below its present one.
+/// A lamp flies over a floor: the brightest point is below its retarded position, not below its
+/// present one.
 #[test]
 fn lamplight_lags() {
     let speed = 0.8;
@@ -149,8 +152,8 @@ fn lamplight_lags() {
     };
     let brightest = scene.vertices.iter().filter(|v| scene.names.get(v.name).starts_with('a'));
     let brightest = brightest.max_by(|a, b| bright(a).total_cmp(&bright(b))).expect("a vertex");
-    // Light emitted directly above needs the time 3 to the floor and |(x, 20, −5)| to the eye. n·l is largest directly
-    // below the emission event, x = v t with t = −√(x² + 20² + 5²) − 3.
+    // Light emitted directly above needs the time 3 to the floor and |(x, 20, −5)| to the eye. n·l
+    // is largest directly below the emission event, x = v t with t = −√(x² + 20² + 5²) − 3.
     let lag = |x: f64| speed * (-(x * x + 425.0).sqrt() - 3.0) - x;
     let (mut low, mut high) = (-1000.0, 0.0);
     for _ in 0..100 {
@@ -161,9 +164,9 @@ fn lamplight_lags() {
     assert!(low < -25.0, "{low}");
 }
 
-/// The illumination of a moving surface by a moving light does not depend on the camera. A camera with any velocity
-/// (`-cv`) sees the same events with another Doppler factor, which cancels in the ratio to lights that rest with the
-/// surface.
+/// The illumination of a moving surface by a moving light does not depend on the camera. A camera
+/// with any velocity (`-cv`) sees the same events with another Doppler factor, which cancels in the
+/// ratio to lights that rest with the surface.
 #[test]
 fn the_camera_does_not_change_what_falls_on_a_surface() {
     let mut random = Random(19);
@@ -249,8 +252,8 @@ fn no_speed_breaks_it() {
     }
 }
 
-/// A white surface lit by a black body: Planck's law at D_l D T, times D_l⁻² for the solid angle of the lamp, (P13) and
-/// (P14).
+/// A white surface lit by a black body: Planck's law at D_l D T, times D_l⁻² for the solid angle of
+/// the lamp, (P13) and (P14).
 #[test]
 fn spectra_of_lights_pass_both_shifts() {
     let face = "v a 9 0 -1e-9; v b 9 1e-9 0; v c 9 -1e-9 0; f (a b c)";
@@ -295,8 +298,8 @@ fn full_daylight_shows_colours_as_they_are() {
     }
 }
 
-/// Four tiles under a lamp that flies by: subdivided for its light (`-sl`), the picture equals that of many uniform
-/// pieces.
+/// Four tiles under a lamp that flies by: subdivided for its light (`-sl`), the picture equals that
+/// of many uniform pieces.
 #[test]
 fn large_faces_get_the_vertices_that_their_light_needs() {
     let floor = "c grey 0.9; v a -12 -6 0; v b 0 -6 0; v c 12 -6 0; v d -12 0 0; v e 0 0 0; v f 12 0 0;
@@ -329,8 +332,8 @@ fn large_faces_get_the_vertices_that_their_light_needs() {
     }
 }
 
-/// The same with a moving camera. The floor, whose edges look curved, extends beyond the picture, because one sample more or
-/// less at an outline would change many levels.
+/// The same with a moving camera. The floor, whose edges look curved, extends beyond the picture,
+/// because one sample more or less at an outline would change many levels.
 #[test]
 fn the_camera_may_move_over_large_faces() {
     let floor = "c grey 0.9; v a -60 -8 0; v b 60 -8 0; v c 60 60 0; v d -60 60 0; f (a b c d) grey;

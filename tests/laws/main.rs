@@ -20,8 +20,8 @@ use glam::DVec3;
 use ugparse::{Color, Scene, Vertex};
 use ugtests::random::Random;
 
-/// Triangles with corners anywhere within 10 of the origin, `n` of them, each in a colour of the list
-/// in turn. Vertices are called `a0`, `b0`, `c0`, `a1`, ….
+/// Triangles with corners anywhere within 10 of the origin, `n` of them, each in a colour of the
+/// list in turn. Vertices are called `a0`, `b0`, `c0`, `a1`, ….
 fn triangles(random: &mut Random, n: usize, colors: &[&str]) -> (String, HashMap<String, DVec3>) {
     let mut text = String::new();
     let mut points = HashMap::new();

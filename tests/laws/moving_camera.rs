@@ -7,7 +7,8 @@ use ugtests::pipe::{self, Pipe};
 use ugtests::random::Random;
 use ugtests::scenes::{self, parse};
 
-/// A moving camera in a scene at rest gives the same picture as the scene moving the opposite way, colours included.
+/// A moving camera in a scene at rest gives the same picture as the scene moving the opposite way,
+/// colours included.
 #[test]
 fn a_moving_camera_equals_a_scene_moving_the_opposite_way() {
     for (name, beta) in [("ship", DVec3::new(0.1, -0.5, 0.2)), ("street", DVec3::new(0.0, -0.9, 0.1))] {
@@ -20,8 +21,8 @@ fn a_moving_camera_equals_a_scene_moving_the_opposite_way() {
     }
 }
 
-/// A triangle and a camera, both with random velocities. The expected light level is computed from the rest
-/// coordinates in the scene, and compared with the pixel at the triangle's centre.
+/// A triangle and a camera, both with random velocities. The expected light level is computed from
+/// the rest coordinates in the scene, and compared with the pixel at the triangle's centre.
 #[test]
 fn bodies_are_lit_in_the_axes_of_the_scene() {
     const SUN: DVec3 = DVec3::new(0.3, -0.5, 0.8);

@@ -4,7 +4,8 @@ use glam::DVec3;
 use ugtests::pipe::Pipe;
 use ugtests::scenes;
 
-/// A scene with a licence in its head comment, as in old files, and with surfaces, which our programs do not use.
+/// A scene with a licence in its head comment, as in old files, and with surfaces, which our
+/// programs do not use.
 const SCENE: &str = "{ A room. Copyright of nobody.\n  { Keep this notice. } }\n{ Second comment. }\n\
     c grey 0.6 ; c_rgb brick 0.7 0.3 0.2 ; surf dull 1 0 0 ; surf shiny 0.25 0.75 0 1 60 ;\n\
     def wall ; surf waxed 0.5 0.5 0 1.5 ;\n\

@@ -33,8 +33,8 @@ fn cube_abeam(speed: f64) -> (Picture, Vec<[u8; 4]>) {
     (picture, row)
 }
 
-/// T08, T09: seen at right angles, a distant cube shows a front of 1/γ and a trailing side of β, as if it
-/// were rotated by asin β.
+/// T08, T09: seen at right angles, a distant cube shows a front of 1/γ and a trailing side of β, as
+/// if it were rotated by asin β.
 #[test]
 fn a_cube_seen_at_right_angles_looks_rotated_by_asin_beta() {
     for speed in [0.0, 0.3, 0.6, 0.8, 0.9, 0.99] {
@@ -43,7 +43,8 @@ fn a_cube_seen_at_right_angles_looks_rotated_by_asin_beta() {
         let (front, side) = (count(RED), count(GREEN));
         let expected = ((1.0 - speed * speed).sqrt() * PER_UNIT, speed * PER_UNIT);
         println!("{speed} c: front {front} of {:.1}, trailing side {side} of {:.1}", expected.0, expected.1);
-        // Half a pixel at both ends, and the effect of perspective over the cube's depth: 1 in 2000.
+        // Half a pixel at both ends, and the effect of perspective over the cube's depth: 1
+        // in 2000.
         let is_right = (front - expected.0).abs() <= 1.2 && (side - expected.1).abs() <= 1.2;
         if !is_right {
             panic!("{speed} c: see {}", save("terrell", &picture).display());
@@ -98,8 +99,8 @@ fn outline(picture: &Picture, camera: &Pinhole) -> Vec<DVec3> {
     directions
 }
 
-/// Fits a circle on the sphere of directions by least squares, as the plane n·d = 1. Returns its axis, its angular
-/// radius, and the largest distance from it, both in degrees.
+/// Fits a circle on the sphere of directions by least squares, as the plane n·d = 1. Returns its
+/// axis, its angular radius, and the largest distance from it, both in degrees.
 fn circle(directions: &[DVec3]) -> (DVec3, f64, f64) {
     let outer = |d: &DVec3| DMat3::from_cols(d.x * *d, d.y * *d, d.z * *d);
     let matrix = directions.iter().map(outer).fold(DMat3::ZERO, |sum, matrix| sum + matrix);
@@ -109,12 +110,13 @@ fn circle(directions: &[DVec3]) -> (DVec3, f64, f64) {
     (axis, radius.to_degrees(), gaps.fold(0.0, f64::max).to_degrees())
 }
 
-/// T11: a sphere of radius 1, at distance 3 perpendicular to the motion in its own frame, has a circular outline, which
-/// is not centred on the image of its centre.
+/// T11: a sphere of radius 1, at distance 3 perpendicular to the motion in its own frame, has a
+/// circular outline, which is not centred on the image of its centre.
 #[test]
 fn the_outline_of_a_sphere_is_a_circle() {
     const SIDE: u32 = 600;
-    /// β, angular radius, angles from the motion of the circle's axis and of the centre's image, degrees.
+    /// β, angular radius, angles from the motion of the circle's axis and of the centre's image,
+    /// degrees.
     const ROWS: [[f64; 4]; 3] = [
         [0.0, 19.47122063, 90.0, 90.0],
         [0.5, 17.02386618, 118.5608252, 120.0],
@@ -135,8 +137,8 @@ fn the_outline_of_a_sphere_is_a_circle() {
         println!(
             "{speed} c: radius {found_deg:.4} of {radius_deg:.4}, axis {found_axis_deg:.4} of {axis_deg:.4}, gap {gap_deg:.4}"
         );
-        // An edge is uncertain by half a pixel, and the mean of 1500 edges by a twentieth; the polyhedron's outline is
-        // smaller than the sphere's by up to 1 − cos 1.5° of the radius.
+        // An edge is uncertain by half a pixel, and the mean of 1500 edges by a twentieth; the
+        // polyhedron's outline is smaller than the sphere's by up to 1 − cos 1.5° of the radius.
         let pixel_deg = view_angle_deg / f64::from(SIDE);
         assert!(gap_deg < pixel_deg, "{speed} c: {gap_deg} of {pixel_deg}");
         assert!(

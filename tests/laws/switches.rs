@@ -52,8 +52,8 @@ fn near(got: f64, want: f64) -> bool {
     (got - want).abs() <= 1e-12 * want.abs()
 }
 
-/// Runs `ugdoppler` with default options and with a change, and compares the colours of every vertex. `law` receives
-/// [hue, saturation, value] at rest, by default and with the change, and D.
+/// Runs `ugdoppler` with default options and with a change, and compares the colours of every
+/// vertex. `law` receives [hue, saturation, value] at rest, by default and with the change, and D.
 fn check_colors(
     change: impl Fn(&mut ugdoppler::Config),
     law: impl Fn([f64; 3], [f64; 3], [f64; 3], f64) -> bool,
@@ -155,8 +155,9 @@ fn a_colour_depends_on_the_direction_it_is_seen_in_only() {
     }
 }
 
-/// Runs `uglorentz` with a change and compares the position of every vertex with `law`, a function of its rest position,
-/// both relative to the eye. Everything but positions must be the same as without the change.
+/// Runs `uglorentz` with a change and compares the position of every vertex with `law`, a function
+/// of its rest position, both relative to the eye. Everything but positions must be the same as
+/// without the change.
 fn check_positions(change: impl Fn(&mut uglorentz::Config), law: impl Fn(DVec3) -> DVec3) {
     let (text, points) = still();
     let pieces = uglorentz::Pieces::PerEdge(2);

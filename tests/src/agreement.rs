@@ -1,7 +1,7 @@
 //! Compares a picture drawn by the programs with the oracle.
 //!
-//! Every face gets its own colour, the light is ambient and colours are not shifted, so the colour of a pixel
-//! identifies the face it shows.
+//! Every face gets its own colour, the light is ambient and colours are not shifted, so the colour
+//! of a pixel identifies the face it shows.
 
 use std::fmt::{self, Display, Formatter};
 
@@ -106,7 +106,8 @@ impl Agreement {
         self.wrong.iter().filter(|wrong| !wrong.is_at_boundary).count()
     }
 
-    /// Do all pixels show a face that is visible within reach, nearly all the expected face, and not all the background?
+    /// Do all pixels show a face that is visible within reach, nearly all the expected face, and
+    /// not all the background?
     pub fn is_good(&self) -> bool {
         let shows_something = self.n_empty < self.n_pixels * 98 / 100;
         self.fraction() >= LEAST_AGREEMENT && self.n_far() == 0 && self.wrong.is_empty() && shows_something
@@ -184,7 +185,8 @@ impl Neighbourhood<'_> {
         self.oracle.faces(&directions)
     }
 
-    /// The faces visible at points a fiftieth of the reach apart. Slow; necessary for slits and corners.
+    /// The faces visible at points a fiftieth of the reach apart. Slow; necessary for slits and
+    /// corners.
     fn grid(&self, center: DVec2) -> Vec<Option<usize>> {
         const N_STEPS: i32 = 50;
         let steps = || (-N_STEPS..=N_STEPS).map(|step| f64::from(step) / f64::from(N_STEPS));
@@ -202,7 +204,8 @@ impl Neighbourhood<'_> {
     }
 }
 
-/// Is an edge of the face within `reach` pixels and not occluded by a face nearer by more than the fraction `beside`?
+/// Is an edge of the face within `reach` pixels and not occluded by a face nearer by more than the
+/// fraction `beside`?
 fn has_edge(oracle: &Oracle, camera: &Pinhole, face: usize, center: DVec2, reach: f64, beside: f64) -> bool {
     let edges = oracle.edges_near(face, camera.direction(center.x, center.y), beside);
     let mut pixels = edges.into_iter().filter_map(|direction| camera.pixel(direction));
@@ -247,8 +250,8 @@ pub fn compare(actual: &Picture, oracle: &Oracle, camera: &Pinhole, reach: f64) 
     agreement
 }
 
-/// Is the shown face occluded only by faces that are nearer by less than the fraction `part` of the distance? The face
-/// may be up to `reach` pixels from the pixel's centre.
+/// Is the shown face occluded only by faces that are nearer by less than the fraction `part` of the
+/// distance? The face may be up to `reach` pixels from the pixel's centre.
 pub fn are_close(oracle: &Oracle, camera: &Pinhole, wrong: &Wrong, reach: f64, part: f64) -> bool {
     let center = DVec2::from_array(wrong.pixel.map(f64::from)) + 0.5;
     let direction = camera.direction(center.x, center.y);

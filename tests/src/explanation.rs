@@ -1,12 +1,14 @@
-//! Known causes of pixels that show another face than the oracle sees: edges within their error bound, and slits.
+//! Known causes of pixels that show another face than the oracle sees: edges within their error
+//! bound, and slits.
 
 use glam::{DVec2, DVec3};
 
 use crate::agreement::Wrong;
 use crate::oracle::{Oracle, Outline, Pinhole};
 
-/// Can edges displaced by `reach` pixels explain the pixel? The shown face and all its occluders, which are nearer by
-/// more than the fraction `part` of the distance, have edges that close to the pixel's centre.
+/// Can edges displaced by `reach` pixels explain the pixel? The shown face and all its occluders,
+/// which are nearer by more than the fraction `part` of the distance, have edges that close to the
+/// pixel's centre.
 pub fn are_edges_near(oracle: &Oracle, camera: &Pinhole, wrong: &Wrong, reach: f64, part: f64) -> bool {
     let spot = Spot::new(oracle, camera, wrong.pixel, reach);
     let Ok(Some(shown)) = wrong.shown else { return false };
@@ -15,9 +17,9 @@ pub fn are_edges_near(oracle: &Oracle, camera: &Pinhole, wrong: &Wrong, reach: f
     })
 }
 
-/// Is the shown face, or the background, visible through a slit? All its occluders have edges within `reach` pixels of
-/// the pixel's centre, and one of these edges partly coincides with an edge of another face that has other ends, so
-/// that two different lines are drawn.
+/// Is the shown face, or the background, visible through a slit? All its occluders have edges
+/// within `reach` pixels of the pixel's centre, and one of these edges partly coincides with an
+/// edge of another face that has other ends, so that two different lines are drawn.
 pub fn is_at_slit(oracle: &Oracle, camera: &Pinhole, wrong: &Wrong, reach: f64) -> bool {
     let spot = Spot::new(oracle, camera, wrong.pixel, reach);
     let occluders = match wrong.shown {
@@ -67,7 +69,8 @@ impl<'a> Spot<'a> {
         hits.filter(|&(face, at)| Some(face) != shown && at < distance).map(|(face, _)| face).collect()
     }
 
-    /// Does an edge of the face within reach partly coincide with one of another face that has other ends?
+    /// Does an edge of the face within reach partly coincide with one of another face that has
+    /// other ends?
     fn has_slit(&self, face: usize) -> bool {
         let Some(own) = self.oracle.outline(face) else { return false };
         let edges: Vec<usize> = self.edges(own).collect();

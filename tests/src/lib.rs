@@ -4,7 +4,8 @@
 //! - [`programs`]: the built programs;
 //! - [`scenes`]: the scenes of the repository;
 //! - [`picture`]: comparison of pictures, golden ones included;
-//! - [`oracle`]: a slow, independent reference renderer that determines which face each pixel must show;
+//! - [`oracle`]: a slow, independent reference renderer that determines which face each pixel must
+//!   show;
 //! - [`agreement`]: comparison of a picture with the oracle;
 //! - [`explanation`]: known causes of differences between them;
 //! - [`outline`]: errors of drawn edges;

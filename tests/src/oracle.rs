@@ -1,9 +1,10 @@
 //! A slow, independent reference renderer that determines which face every pixel must show.
 //!
-//! The programs compute the apparent position of every vertex and then draw an ordinary picture. The oracle works
-//! in the opposite direction: it transforms a ray into the past from each pixel to the rest frame of every body with a
-//! 4×4 matrix, and intersects it there with the scene as written. Nothing is subdivided, projected or interpolated,
-//! and no function of the programs is used.
+//! The programs compute the apparent position of every vertex and then draw an ordinary picture.
+//! The oracle works in the opposite direction: it transforms a ray into the past from each pixel to
+//! the rest frame of every body with a 4×4 matrix, and intersects it there with the scene as
+//! written. Nothing is subdivided, projected or interpolated, and no function of the programs is
+//! used.
 //!
 //! Coordinates are relative to the eye; events are (x, y, z, t).
 
@@ -57,8 +58,8 @@ impl Pinhole {
     }
 }
 
-/// The boost from the camera's frame to that of a body with velocity `beta`: (P7), Λ(v)⁻¹, with time as
-/// the last coordinate.
+/// The boost from the camera's frame to that of a body with velocity `beta`: (P7), Λ(v)⁻¹, with
+/// time as the last coordinate.
 pub fn boost(beta: DVec3) -> DMat4 {
     let square = beta.length_squared();
     if square == 0.0 {
@@ -73,8 +74,8 @@ pub fn boost(beta: DVec3) -> DMat4 {
     DMat4::from_cols(column(DVec3::X), column(DVec3::Y), column(DVec3::Z), time)
 }
 
-/// The event, one unit of time before the picture, of the light that arrives from direction `d`: a null vector into
-/// the past.
+/// The event, one unit of time before the picture, of the light that arrives from direction `d`: a
+/// null vector into the past.
 fn past(d: DVec3) -> DVec4 {
     d.extend(-1.0)
 }
@@ -124,7 +125,8 @@ impl Polygon {
         Some(Self { face, normal, point: center, axis, contours, edges, center, radius })
     }
 
-    /// The multiple of the vector `ray` that reaches the face from the eye; `None` if the ray misses it.
+    /// The multiple of the vector `ray` that reaches the face from the eye; `None` if the ray
+    /// misses it.
     fn hit(&self, ray: DVec3) -> Option<f64> {
         let times = self.normal.dot(self.point) / self.normal.dot(ray);
         let is_ahead = times > 0.0 && times.is_finite();
@@ -165,10 +167,11 @@ fn without(p: DVec3, axis: usize) -> DVec2 {
     DVec2::new(p[(axis + 1) % 3], p[(axis + 2) % 3])
 }
 
-/// The point of the segment from `a` to `b` whose direction has the least angle to the unit vector `ray`.
+/// The point of the segment from `a` to `b` whose direction has the least angle to the unit vector
+/// `ray`.
 fn nearest_to_ray(a: DVec3, b: DVec3, ray: DVec3) -> DVec3 {
-    // The directions of the segment are an arc of a great circle; the nearest direction is the projection of the ray
-    // onto its plane.
+    // The directions of the segment are an arc of a great circle; the nearest direction is the
+    // projection of the ray onto its plane.
     let plane = a.cross(b - a);
     let foot = ray - plane * (ray.dot(plane) / plane.length_squared());
     // a + s (b - a) is parallel to the foot: their cross product vanishes.
@@ -218,9 +221,9 @@ pub struct Hit {
 }
 
 impl Body {
-    /// The viewing direction `d` in the body's frame, (P6). Its length is not 1: if s times this vector reaches a
-    /// point, light from there has travelled the distance s in the camera's frame, because the boost is linear and
-    /// keeps the eye at the origin.
+    /// The viewing direction `d` in the body's frame, (P6). Its length is not 1: if s times this
+    /// vector reaches a point, light from there has travelled the distance s in the camera's frame,
+    /// because the boost is linear and keeps the eye at the origin.
     fn ray(&self, d: DVec3) -> DVec3 {
         (self.boost * past(d)).truncate()
     }
@@ -247,7 +250,8 @@ pub struct Oracle {
 const TILE: u32 = 16;
 
 impl Oracle {
-    /// `beta`: overrides the velocities of the scene. `in_place`: the centre of a body appears at its rest position.
+    /// `beta`: overrides the velocities of the scene. `in_place`: the centre of a body appears at
+    /// its rest position.
     pub fn new(scene: &Scene, eye: DVec3, beta: Option<DVec3>, in_place: bool) -> Self {
         let beta_of = |face: &Face| {
             let own = scene.bodies.stated_velocity(face.body).map(Velocity::beta);
@@ -303,8 +307,9 @@ impl Oracle {
         }
     }
 
-    /// The scene seen by a camera with velocity `camera`; velocities of bodies are then relative to the scene. A ray
-    /// is transformed from the camera's frame to that of the scene, and then to those of the bodies, (P7).
+    /// The scene seen by a camera with velocity `camera`; velocities of bodies are then relative to
+    /// the scene. A ray is transformed from the camera's frame to that of the scene, and then to
+    /// those of the bodies, (P7).
     #[must_use]
     pub fn seen_by(mut self, camera: DVec3) -> Self {
         for body in &mut self.bodies {
@@ -335,8 +340,8 @@ impl Oracle {
 
     /// Directions to the visible edges of a face near direction `d`, one for each edge.
     ///
-    /// A face seen edge-on can be too thin for any ray to hit it, but its edges can be found. `beside`: a face nearer
-    /// by at most this fraction of the distance does not occlude an edge.
+    /// A face seen edge-on can be too thin for any ray to hit it, but its edges can be found.
+    /// `beside`: a face nearer by at most this fraction of the distance does not occlude an edge.
     pub fn edges_near(&self, face: usize, d: DVec3, beside: f64) -> Vec<DVec3> {
         let is_visible = |point: &DVec3| {
             let direction = point.normalize();
@@ -381,7 +386,8 @@ impl Oracle {
             let polygon = body.polygons.iter().find(|polygon| polygon.face == face)?;
             let ray = body.ray(direction);
             let point = polygon.hit(ray)? * ray;
-            // Frequencies are proportional to the time components, and so to the lengths, of null vectors.
+            // Frequencies are proportional to the time components, and so to the lengths, of null
+            // vectors.
             Some(Hit {
                 point,
                 written: point - body.offset,
@@ -427,7 +433,8 @@ impl Outline<'_> {
 
     /// The parameters, 0…1, of two apparent points on an edge; `None` if one of them is not on it.
     pub fn parts(&self, edge: usize, seen: [DVec3; 2]) -> Option<[f64; 2]> {
-        /// Relative to the size of the face. The inverse boost has an error of some γ² units in the last place.
+        /// Relative to the size of the face. The inverse boost has an error of some γ² units in the
+        /// last place.
         const ON_EDGE: f64 = 1e-8;
         let (a, b) = self.edges[edge];
         let along = b - a;
@@ -450,7 +457,8 @@ impl Outline<'_> {
 
 /// The offset of rest coordinates with which a point written at `point` appears there.
 fn placement(boost: DMat4, point: DVec3) -> DVec3 {
-    // Light seen there was emitted at −|point|. The rest position is that of this event in the body's frame.
+    // Light seen there was emitted at −|point|. The rest position is that of this event in the
+    // body's frame.
     (boost * point.extend(-point.length())).truncate() - point
 }
 
@@ -471,7 +479,8 @@ mod tests {
     #[test]
     fn the_boost_keeps_the_interval_and_aberrates() {
         let boost = boost(DVec3::new(0.6, 0.0, 0.0));
-        // (P6), γ = 1.25: a viewing direction at right angles is 53.13 degrees from the motion in the body's frame.
+        // (P6), γ = 1.25: a viewing direction at right angles is 53.13 degrees from the motion in
+        // the body's frame.
         let ray = (boost * past(DVec3::Y)).truncate();
         assert!((ray - DVec3::new(0.75, 1.0, 0.0)).length() < 1e-15, "{ray}");
         let event = DVec4::new(1.0, -2.0, 3.0, 0.5);

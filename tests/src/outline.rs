@@ -1,8 +1,8 @@
 //! Measures the errors of drawn edges against the oracle.
 //!
-//! Only positions in the output of the programs are used. An edge of a piece is measured if both its ends,
-//! transformed back to the rest frame by the oracle's matrix, lie on one edge of the original face; edges within a
-//! face are ignored.
+//! Only positions in the output of the programs are used. An edge of a piece is measured if both
+//! its ends, transformed back to the rest frame by the oracle's matrix, lie on one edge of the
+//! original face; edges within a face are ignored.
 
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
@@ -36,8 +36,8 @@ impl Errors {
     }
 }
 
-/// Measures every edge of `seen`, relative to `eye`. `origin`: for each face, the face of the oracle's scene of
-/// which it is a piece.
+/// Measures every edge of `seen`, relative to `eye`. `origin`: for each face, the face of the
+/// oracle's scene of which it is a piece.
 pub fn errors(seen: &Scene, origin: &[usize], eye: DVec3, oracle: &Oracle, camera: &Pinhole) -> Errors {
     let n_faces = origin.iter().max().map_or(0, |last| last + 1);
     let outlines: Vec<Option<Outline>> =
@@ -71,7 +71,8 @@ pub fn chord_error(outline: &Outline, edge: usize, ends: [DVec3; 2], camera: &Pi
     errors
 }
 
-/// Is the error of a straight line between two apparent points of one edge at most `pixels` within the picture?
+/// Is the error of a straight line between two apparent points of one edge at most `pixels` within
+/// the picture?
 pub fn is_within(outline: &Outline, edge: usize, ends: [DVec3; 2], camera: &Pinhole, pixels: f64) -> bool {
     drawn(ends).all(|drawn| {
         // Points outside the picture, which are most, need no exact direction.

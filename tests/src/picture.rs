@@ -95,8 +95,8 @@ pub fn save(name: &str, picture: &Picture) -> PathBuf {
     path
 }
 
-/// Expected picture, difference and actual picture, side by side. Differences start at mid grey, so that a single
-/// level is visible.
+/// Expected picture, difference and actual picture, side by side. Differences start at mid grey, so
+/// that a single level is visible.
 fn panels(expected: &Picture, actual: &Picture) -> Picture {
     const GAP: u32 = 4;
     let width = expected.width().max(actual.width());

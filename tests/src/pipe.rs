@@ -1,4 +1,5 @@
-//! Runs the pipe in one process: calls the function of each program's library and passes text between them.
+//! Runs the pipe in one process: calls the function of each program's library and passes text
+//! between them.
 
 use glam::DVec3;
 use ugparse::{Options, Scene, Source};

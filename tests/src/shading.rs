@@ -1,4 +1,5 @@
-//! The expected colour of a point on a face, directly from the formulas: hue, wavelength, and lighting at rest.
+//! The expected colour of a point on a face, directly from the formulas: hue, wavelength, and
+//! lighting at rest.
 
 use glam::DVec3;
 use ugparse::{ColorId, ColorValue, Face, LightKind, Scene, VertexId};
@@ -38,7 +39,8 @@ impl<'a> Shading<'a> {
         Self { scene, eye, colors: scene.vertices.iter().zip(&around).map(color).collect() }
     }
 
-    /// Observed linear red, green and blue of a point; `None` for cases that this module does not cover.
+    /// Observed linear red, green and blue of a point; `None` for cases that this module does not
+    /// cover.
     pub fn seen(&self, face: usize, hit: &Hit, doppler: f64, exact: Exact) -> Option<[f64; 3]> {
         let face = &self.scene.faces[face];
         let corners: Vec<VertexId> = self.scene.face_contours(face).flatten().copied().collect();

@@ -1,7 +1,9 @@
-//! A second, independent reader of scenes, written from `docs/unigrafix.md` alone: small, slow and simple.
+//! A second, independent reader of scenes, written from `docs/unigrafix.md` alone: small, slow and
+//! simple.
 //!
-//! It splits the text into words, parses statements into structs with maps by name, and expands instances
-//! recursively with 4×4 matrices. It accepts only valid scenes without `include`, and panics otherwise.
+//! It splits the text into words, parses statements into structs with maps by name, and expands
+//! instances recursively with 4×4 matrices. It accepts only valid scenes without `include`, and
+//! panics otherwise.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -370,7 +372,8 @@ fn paint(keyword: &str, numbers: &[f64]) -> Paint {
     }
 }
 
-// Rust evaluates struct fields in the order in which they are written, which here is that of the text.
+// Rust evaluates struct fields in the order in which they are written, which here is that of the
+// text.
 fn read_statement(keyword: &str, words: &mut Words, unnamed: Option<Paint>) -> Statement {
     match keyword {
         "v" => Statement::Vertex {
@@ -659,8 +662,8 @@ struct Expansion {
 }
 
 impl Expansion {
-    /// Expands the last of `scopes`; the others enclose it. Vertices of a scope come before those of its instances,
-    /// because shapes may use later vertices; everything else keeps its order.
+    /// Expands the last of `scopes`; the others enclose it. Vertices of a scope come before those
+    /// of its instances, because shapes may use later vertices; everything else keeps its order.
     fn scope(&mut self, scopes: &[&Scope], place: &Placement) {
         let statements = &scopes[scopes.len() - 1].statements;
         let mut local = Local::new();
@@ -778,7 +781,8 @@ impl Expansion {
 }
 
 impl Expansion {
-    /// The first suffix of `_2`, `_3`, … that is not used or requested by another name of this scope.
+    /// The first suffix of `_2`, `_3`, … that is not used or requested by another name of this
+    /// scope.
     fn second_path(&mut self, wanted: &str, scopes: &[&Scope], place: &Placement) -> String {
         let written = scopes[scopes.len() - 1].statements.iter().filter_map(|statement| match statement {
             Statement::Placed { name, definition, .. } => {

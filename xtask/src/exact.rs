@@ -1,8 +1,8 @@
-//! Measures the running time of exact pictures (`ugrainbow -xc`) and of the pipe that subdivides faces and
-//! interpolates, as Markdown.
+//! Measures the running time of exact pictures (`ugrainbow -xc`) and of the pipe that subdivides
+//! faces and interpolates, as Markdown.
 //!
-//! The pipe is measured with its default bounds, and with bounds so fine that its picture is as correct.
-//! Runs alternate, so that other load on the machine affects both.
+//! The pipe is measured with its default bounds, and with bounds so fine that its picture is as
+//! correct. Runs alternate, so that other load on the machine affects both.
 
 use std::error::Error;
 use std::io::Write;
@@ -30,7 +30,8 @@ const SCENES: [(&str, bool, DVec3); 6] = [
 /// The bounds are divided by these numbers until the picture is correct.
 const FINER: [u32; 5] = [1, 4, 16, 64, 256];
 
-/// A picture is correct if this fraction of its non-black pixels are within a level of the exact ones.
+/// A picture is correct if this fraction of its non-black pixels are within a level of the exact
+/// ones.
 const CORRECT: f64 = 0.999;
 
 /// If a picture took longer, finer bounds are not tried.
@@ -94,8 +95,8 @@ impl View {
         decode(&rainbow(&lorentz(text, &pipe.lorentz), &pipe.rainbow))
     }
 
-    /// The first divisor of the bounds with which the picture is correct, and the fraction of correct pixels with
-    /// default bounds and with these.
+    /// The first divisor of the bounds with which the picture is correct, and the fraction of
+    /// correct pixels with default bounds and with these.
     fn finer(&self, text: &[u8], exact: &Picture) -> (u32, [f64; 2]) {
         let mut fractions = Vec::new();
         for finer in FINER {
@@ -139,7 +140,8 @@ impl View {
     }
 }
 
-/// Of the pixels that are not black in both pictures, the fraction whose channels differ by at most a level.
+/// Of the pixels that are not black in both pictures, the fraction whose channels differ by at most
+/// a level.
 fn fraction_correct(picture: &Picture, exact: &Picture) -> f64 {
     let pairs = picture.pixels().zip(exact.pixels()).map(|(a, b)| (a.0, b.0));
     let shown = pairs.filter(|pair| *pair != ([0, 0, 0, 255], [0, 0, 0, 255]));

@@ -1,4 +1,5 @@
-//! The mesh of a globe: one vertex at each pole, rings of vertices between, and the cells that connect them.
+//! The mesh of a globe: one vertex at each pole, rings of vertices between, and the cells that
+//! connect them.
 
 use std::f64::consts::{PI, TAU};
 
@@ -21,7 +22,8 @@ impl Globe {
         Self { bands, sectors: 2 * bands }
     }
 
-    /// The directions of all vertices by index: the north pole, the rings southward, the south pole.
+    /// The directions of all vertices by index: the north pole, the rings southward, the south
+    /// pole.
     pub fn directions(&self) -> impl Iterator<Item = Direction> {
         let ring = move |i: u32| {
             let theta = PI * f64::from(i) / f64::from(self.bands);

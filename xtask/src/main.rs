@@ -52,7 +52,8 @@ enum Task {
         /// Bands from pole to pole; there are twice as many sectors
         #[arg(long, value_name = "N", default_value_t = 24, value_parser = clap::value_parser!(u32).range(2..=2048))]
         bands: u32,
-        /// Make the northern half red and the southern half green, with shared vertices on the equator
+        /// Make the northern half red and the southern half green, with shared vertices on the
+        /// equator
         #[arg(long)]
         halves: bool,
     },
@@ -71,14 +72,15 @@ enum Task {
         #[arg(default_values_t = [100_000, 1_000_000])]
         triangles: Vec<u32>,
     },
-    /// Measure the time of reading and writing, relative to `tobj` on the same mesh as OBJ, as Markdown
+    /// Measure the time of reading and writing, relative to `tobj` on the same mesh as OBJ, as
+    /// Markdown
     BenchReading {
         /// Triangles, roughly
         #[arg(default_value_t = 1_000_000, value_parser = clap::value_parser!(u32).range(36..=100_000_000))]
         triangles: u32,
     },
-    /// Measure the time of drawing, relative to Mesa llvmpipe, and of the whole program, relative to reading by
-    /// POV-Ray, as Markdown
+    /// Measure the time of drawing, relative to Mesa llvmpipe, and of the whole program, relative
+    /// to reading by POV-Ray, as Markdown
     ///
     /// The head of xtask/llvmpipe.py lists what must be installed.
     BenchRaster {
@@ -95,19 +97,21 @@ enum Task {
         #[arg(long, default_value_t = 2)]
         threads: usize,
     },
-    /// Measure time and memory of drawing as functions of faces, pixels and samples, as Markdown and as a plot
+    /// Measure time and memory of drawing as functions of faces, pixels and samples, as Markdown
+    /// and as a plot
     BenchScale {
         /// SVG file to write
         plot: PathBuf,
     },
-    /// Measure the time of exact pictures and of the subdividing pipe, with default bounds and at equal accuracy, as
-    /// Markdown
+    /// Measure the time of exact pictures and of the subdividing pipe, with default bounds and at
+    /// equal accuracy, as Markdown
     BenchExact {
         /// Only scenes whose name begins with NAME
         #[arg(long, value_name = "NAME")]
         only: Option<String>,
     },
-    /// Measure errors of outlines in pictures against the oracle, and the number of faces, as Markdown
+    /// Measure errors of outlines in pictures against the oracle, and the number of faces, as
+    /// Markdown
     Geometry(geometry::Args),
     /// Draw a scene and print the time in seconds and the peak memory in megabytes
     #[command(hide = true)]

@@ -6,8 +6,8 @@ use crate::sphere;
 use std::f64::consts::{PI, TAU};
 use std::io::{self, Write};
 
-/// The palette: hues from red to blue and back by longitude, saturations by colatitude. It has no purples, which
-/// have no wavelength.
+/// The palette: hues from red to blue and back by longitude, saturations by colatitude. It has no
+/// purples, which have no wavelength.
 const HUES: u32 = 36;
 const SATURATIONS: u32 = 8;
 
@@ -72,7 +72,8 @@ fn write_palette(out: &mut impl Write) -> io::Result<()> {
 /// Value, hue and saturation similar to the palette in that direction, but unique for every vertex.
 fn own_color(i: usize, direction: Direction) -> String {
     let there_and_back = 1.0 - (2.0 * direction.phi / TAU - 1.0).abs();
-    // Multiples of the golden ratio are evenly distributed and do not repeat for many millions of steps.
+    // Multiples of the golden ratio are evenly distributed and do not repeat for many millions of
+    // steps.
     let value = 0.5 + 0.5 * (i as f64 * 0.618_033_988_749_895).fract();
     format!("{value:.9} {} {}", Short(240.0 * there_and_back), Short(0.1 + 0.9 * direction.theta / PI))
 }

@@ -24,8 +24,8 @@ const TOP: f64 = 36.0;
 /// Length of each axis.
 const SIDE: f64 = 260.0;
 
-/// Draws panels side by side. All have the same vertical range and as many decades horizontally, so that a slope of
-/// 1 looks the same in all.
+/// Draws panels side by side. All have the same vertical range and as many decades horizontally, so
+/// that a slope of 1 looks the same in all.
 pub fn svg(panels: &[Panel<'_>]) -> String {
     let mut text = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {} {HEIGHT}\" font-family=\"sans-serif\" \

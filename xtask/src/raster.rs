@@ -1,8 +1,9 @@
-//! Measures the time of drawing, relative to Mesa llvmpipe (OpenGL in software), and of the whole program, relative to
-//! reading by POV-Ray, alternately on the same mesh, as Markdown.
+//! Measures the time of drawing, relative to Mesa llvmpipe (OpenGL in software), and of the whole
+//! program, relative to reading by POV-Ray, alternately on the same mesh, as Markdown.
 //!
-//! `llvmpipe.py` runs llvmpipe; its head lists what must be installed. The mesh has vertex colours and white ambient light,
-//! because the OpenGL shader does no lighting. Positions are rounded to f32, so that both draw the same triangles.
+//! `llvmpipe.py` runs llvmpipe; its head lists what must be installed. The mesh has vertex colours
+//! and white ambient light, because the OpenGL shader does no lighting. Positions are rounded to
+//! f32, so that both draw the same triangles.
 
 use std::error::Error;
 use std::f64::consts::PI;
@@ -243,8 +244,8 @@ fn compare(
     )?)
 }
 
-/// Fails if the pictures show different things. Colours may differ between vertices, because one program
-/// interpolates hues and the other red, green and blue.
+/// Fails if the pictures show different things. Colours may differ between vertices, because one
+/// program interpolates hues and the other red, green and blue.
 fn check_same(
     prepared: &Prepared<'_>,
     mesa: &mut Mesa,
@@ -268,7 +269,8 @@ fn check_same(
     Ok(())
 }
 
-/// POV-Ray reads vertices and triangles without colours; `ugrainbow` reads everything, draws, and writes a PNG.
+/// POV-Ray reads vertices and triangles without colours; `ugrainbow` reads everything, draws, and
+/// writes a PNG.
 fn compare_with_povray(
     out: &mut impl Write,
     mesh: &Mesh,

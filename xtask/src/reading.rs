@@ -1,8 +1,8 @@
-//! Measures the time of reading and writing scenes, relative to `tobj` on the same mesh as OBJ, and memory, as
-//! Markdown.
+//! Measures the time of reading and writing scenes, relative to `tobj` on the same mesh as OBJ, and
+//! memory, as Markdown.
 //!
-//! All input is in memory before the measurement begins. Rates refer to the size of each format's own text. Runs
-//! alternate, so that other load on the machine affects all of them.
+//! All input is in memory before the measurement begins. Rates refer to the size of each format's
+//! own text. Runs alternate, so that other load on the machine affects all of them.
 
 use std::error::Error;
 use std::hint::black_box;

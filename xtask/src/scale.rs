@@ -1,4 +1,5 @@
-//! Measures time and memory of `ugrainbow` as functions of the number of faces and pixels, as Markdown and as a plot.
+//! Measures time and memory of `ugrainbow` as functions of the number of faces and pixels, as
+//! Markdown and as a plot.
 
 use std::error::Error;
 use std::io::Write;
@@ -108,8 +109,8 @@ fn in_a_child(scene: &Path, size: [u32; 2], samples: u32) -> Result<[f64; 2], Bo
     Ok([seconds.parse()?, megabytes.parse()?])
 }
 
-/// Reads a scene, draws it, encodes a PNG, and prints the time in seconds and the peak memory of this process in
-/// megabytes.
+/// Reads a scene, draws it, encodes a PNG, and prints the time in seconds and the peak memory of
+/// this process in megabytes.
 pub fn draw_once(
     out: &mut impl Write,
     scene: &Path,

@@ -3,7 +3,8 @@
 use glam::DVec3;
 use std::fmt;
 
-/// Displays a number with at most 6 significant digits, without trailing zeros: `0.333333`, `-1.5`, `2`.
+/// Displays a number with at most 6 significant digits, without trailing zeros: `0.333333`, `-1.5`,
+/// `2`.
 ///
 /// Numbers below 10⁻⁹ are rounding errors and displayed as `0`.
 pub struct Short(pub f64);

@@ -33,8 +33,8 @@ c 0.9 210 0.4 ;"
     write_view(out)
 }
 
-/// Writes a sphere whose northern half is red and southern half green. Vertices have no normals, and both halves
-/// share those on the equator.
+/// Writes a sphere whose northern half is red and southern half green. Vertices have no normals,
+/// and both halves share those on the equator.
 pub fn write_halves(out: &mut impl Write, bands: u32) -> io::Result<()> {
     let globe = Globe::with_bands(bands);
     writeln!(

@@ -14,7 +14,8 @@ pub const KINDS: &[(&str, Answer)] = &[
     }),
     ("blackbody_radiance_ratio", |given| {
         let [kelvin, doppler, wavelength_nm] = exactly(given)?;
-        // Light observed at λ was emitted at λD, and a unit of wavelength at the eye is D units at the source (P12).
+        // Light observed at λ was emitted at λD, and a unit of wavelength at the eye is D units at
+        // the source (P12).
         let square = doppler * doppler;
         let seen = square * square * doppler * planck(wavelength_nm * doppler, kelvin);
         Some(vec![seen / planck(wavelength_nm, kelvin)])
@@ -38,7 +39,8 @@ pub const KINDS: &[(&str, Answer)] = &[
     }),
 ];
 
-/// Runs `ugdoppler` on a triangle of one wavelength that moves straight towards the eye or away from it.
+/// Runs `ugdoppler` on a triangle of one wavelength that moves straight towards the eye or away
+/// from it.
 fn wavelength_seen(wavelength_nm: f64, doppler: f64) -> Option<f64> {
     // Only visible wavelengths have a hue at rest.
     if !(VIOLET_END_NM..=RED_END_NM).contains(&wavelength_nm) {

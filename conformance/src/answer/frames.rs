@@ -106,8 +106,8 @@ pub const KINDS: &[(&str, Answer)] = &[
     }),
     ("jet", |given| {
         let [near, far, kpc] = exactly(given)?;
-        // The ratio of the apparent speeds of both sides, β sin θ/(1 ∓ β cos θ) (P31), gives β cos θ, and β sin θ is
-        // the first times 1 − β cos θ.
+        // The ratio of the apparent speeds of both sides, β sin θ/(1 ∓ β cos θ) (P31), gives β cos
+        // θ, and β sin θ is the first times 1 − β cos θ.
         let along = (near - far) / (near + far);
         let radians_per_s = (near / 3_600_000.0_f64).to_radians() / SECONDS_PER_DAY;
         let across = radians_per_s * kpc * METRES_PER_KPC / METRES_PER_SECOND * (1.0 - along);
@@ -115,12 +115,14 @@ pub const KINDS: &[(&str, Answer)] = &[
     }),
 ];
 
-/// The angle from the motion, in degrees, at which a moving eye sees what an eye at rest sees at `theta`.
+/// The angle from the motion, in degrees, at which a moving eye sees what an eye at rest sees at
+/// `theta`.
 fn aberration(speed: f64, theta: f64) -> Option<f64> {
     Some(angle(aberrate(at(theta), along_x(speed)?), DVec3::X))
 }
 
-/// The angles of the scene that a camera of this view angle covers looking forward and looking backward.
+/// The angles of the scene that a camera of this view angle covers looking forward and looking
+/// backward.
 fn covers(speed: f64, view_angle: f64) -> Option<[f64; 2]> {
     // The transformation from the camera to the scene is the inverse one.
     Some([2.0 * aberration(-speed, 0.5 * view_angle)?, 2.0 * aberration(speed, 0.5 * view_angle)?])

@@ -40,12 +40,14 @@ pub const KINDS: &[(&str, Answer)] = &[
         let [speed] = exactly(given)?;
         let v = along_x(speed)?;
         let ahead = doppler_factor(DVec3::X, v);
-        // If D = 1, tan²(θ/2) = 1/D(0) in one frame, and the angle in the other frame is the supplement.
+        // If D = 1, tan²(θ/2) = 1/D(0) in one frame, and the angle in the other frame is the
+        // supplement.
         Some(vec![2.0 * libm::atan((1.0 / ahead).sqrt()).to_degrees()])
     }),
     ("radiance_photons", |given| Some(vec![Brightness::Photon.factor(doppler(given)?)])),
     ("radiance", |given| Some(vec![Brightness::Bolometric.factor(doppler(given)?)])),
-    // Per unit of frequency: a unit at the eye is 1/D units at the source, so there is one factor D less.
+    // Per unit of frequency: a unit at the eye is 1/D units at the source, so there is one factor D
+    // less.
     ("radiance_per_frequency", |given| {
         let d = doppler(given)?;
         Some(vec![Brightness::Bolometric.factor(d) / d])
@@ -113,7 +115,8 @@ fn doppler(given: &[f64]) -> Option<f64> {
 
 /// The mean of a power of D over all directions, by Simpson's rule over cos θ.
 fn sky_mean(v: Velocity, power: f64) -> f64 {
-    /// At 0.99 c a step of 1e-5 is 1/1000 of the scale on which D changes; the error is of fourth order in this ratio.
+    /// At 0.99 c a step of 1e-5 is 1/1000 of the scale on which D changes; the error is of fourth
+    /// order in this ratio.
     const STEPS: u32 = 200_000;
     let at = |step: u32| {
         let cos = 2.0 * f64::from(step) / f64::from(STEPS) - 1.0;

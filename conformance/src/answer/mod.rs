@@ -23,7 +23,8 @@ fn kinds() -> impl Iterator<Item = Kind> {
         .map(|&(name, answer)| Kind { name, answer })
 }
 
-/// The answer of this project's crates. `None` if the kind is unknown, or the count or values of the numbers are invalid.
+/// The answer of this project's crates. `None` if the kind is unknown, or the count or values of
+/// the numbers are invalid.
 pub fn answer(kind: &str, given: &[f64]) -> Option<Vec<f64>> {
     let kind = kinds().find(|known| known.name == kind)?;
     (kind.answer)(given).filter(|answer| answer.iter().all(|number| number.is_finite()))

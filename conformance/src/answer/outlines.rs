@@ -34,9 +34,9 @@ struct Circle {
 impl Circle {
     /// Axis and angular radius, in degrees, in another frame.
     ///
-    /// A viewing direction is the null vector (−1, d), and the circle consists of those orthogonal to
-    /// N = (−cos, axis): in signature (−,+,+,+) the product is d·axis − cos. So N transforms like an event, and its
-    /// length, sin, is invariant.
+    /// A viewing direction is the null vector (−1, d), and the circle consists of those orthogonal
+    /// to N = (−cos, axis): in signature (−,+,+,+) the product is d·axis − cos. So N transforms
+    /// like an event, and its length, sin, is invariant.
     fn in_frame(&self, change: Lorentz) -> (DVec3, f64) {
         let normal = change.apply(Event { t: -self.cos, x: self.axis });
         (normal.x, libm::atan2(self.sin, -normal.t).to_degrees())

@@ -46,7 +46,8 @@ pub const KINDS: &[(&str, Answer)] = &[
     ("cube_abeam", |given| {
         let [speed] = exactly(given)?;
         let v = along_x(speed)?;
-        // Light from the far end of the trailing side is emitted one unit of time before that from its near end.
+        // Light from the far end of the trailing side is emitted one unit of time before that from
+        // its near end.
         Some(vec![contracted(DVec3::X, v).x, v.speed()])
     }),
     ("edge_x", |given| {
@@ -61,7 +62,8 @@ pub const KINDS: &[(&str, Answer)] = &[
         let [height, speed, camera] = exactly(given)?;
         let v = along_x(speed)?;
         let (_, plate) = retarded(DVec3::new(0.0, 0.0, height - camera), v);
-        // Light passes the plate a time `height` before it reaches the ground, so the shadow lags (P24).
+        // Light passes the plate a time `height` before it reaches the ground, so the shadow lags
+        // (P24).
         let (_, shadow) = retarded(DVec3::new(-speed * height, 0.0, -camera), v);
         Some(vec![plate.x, shadow.x])
     }),
@@ -94,7 +96,8 @@ fn edge_x(v: Velocity, z: f64, y: f64) -> f64 {
     seen_position(DVec3::new(0.0, y, z), v).x
 }
 
-/// The greatest distance along the motion between the apparent edge over |y| ≤ `half` and `n` chords of equal width in y.
+/// The greatest distance along the motion between the apparent edge over |y| ≤ `half` and `n`
+/// chords of equal width in y.
 fn chord_error(v: Velocity, z: f64, half: f64, n: f64) -> Option<f64> {
     if !(1.0..=1e6).contains(&n) {
         return None;
@@ -104,7 +107,8 @@ fn chord_error(v: Velocity, z: f64, half: f64, n: f64) -> Option<f64> {
         let y = -half + width * f64::from(chord);
         let (start, end) = (edge_x(v, z, y), edge_x(v, z, y + width));
         let slope = (end - start) / width;
-        // The curve x = −|u| √(y² + z²) is farthest from its chord where its tangent is parallel to it.
+        // The curve x = −|u| √(y² + z²) is farthest from its chord where its tangent is parallel to
+        // it.
         let sine = -slope / v.proper_speed();
         let parallel = z * sine / (1.0 - sine * sine).sqrt();
         (edge_x(v, z, parallel) - (start + slope * (parallel - y))).abs()

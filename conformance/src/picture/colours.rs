@@ -48,7 +48,8 @@ pub fn measure_patches(picture: &Picture) -> Result<Vec<Measurement>, String> {
     Ok(measurements)
 }
 
-/// Measures a row of four bodies of 3000 K, which appear as 2000, 3000, 5800 and 10045.89 K; T22 has their chromaticities.
+/// Measures a row of four bodies of 3000 K, which appear as 2000, 3000, 5800 and 10045.89 K; T22
+/// has their chromaticities.
 pub fn measure_moving(picture: &Picture) -> Result<Vec<Measurement>, String> {
     let [cold, rest, white, blue] = [0, 1, 2, 4].map(|idx| BLACK_BODIES[idx]);
     let center = |patch: usize| picture.color(PATCH * patch as u32 + PATCH / 2, PATCH / 2);
@@ -99,8 +100,8 @@ fn xyz(levels: [f64; 3]) -> [f64; 3] {
     ]
 }
 
-/// The largest change of x and y if every channel changes by three quarters of a level, half a level of it from
-/// rounding.
+/// The largest change of x and y if every channel changes by three quarters of a level, half a
+/// level of it from rounding.
 fn rounding(levels: [f64; 3]) -> [f64; 2] {
     let center = chromaticity(levels);
     let mut worst = [0.0_f64; 2];
@@ -134,8 +135,8 @@ pub fn measure_wide(picture: &Picture) -> Result<Vec<Measurement>, String> {
             channel().fold(0.0, f64::max) - channel().fold(255.0, f64::min)
         });
         let spread = spread.fold(0.0, f64::max);
-        // A program may interpolate D linearly. Its error may be half a percent, which is 3 nm, or 16 levels of a
-        // saturated colour.
+        // A program may interpolate D linearly. Its error may be half a percent, which is 3 nm, or
+        // 16 levels of a saturated colour.
         measurements.push(Measurement::new(
             format!("difference of colours {r} pixels from the centre, levels"),
             spread,

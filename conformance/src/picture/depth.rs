@@ -1,4 +1,5 @@
-//! T36: the receding green square occludes the red one; the approaching blue square is occluded by it.
+//! T36: the receding green square occludes the red one; the approaching blue square is occluded by
+//! it.
 
 use super::pixels::Dominant;
 use super::{Measurement, Picture};

@@ -1,7 +1,7 @@
 //! T10: the edge x = 0, z = 1 of a ceiling that passes at 0.9 c.
 //!
-//! In the frame of the ceiling the edge and the eye span the plane x' = 0, so by (P6) the edge is seen in directions whose
-//! angle to the motion has the cosine −0.9.
+//! In the frame of the ceiling the edge and the eye span the plane x' = 0, so by (P6) the edge is
+//! seen in directions whose angle to the motion has the cosine −0.9.
 
 use super::{Measurement, Picture};
 
@@ -30,7 +30,8 @@ pub fn measure(picture: &Picture) -> Result<Vec<Measurement>, String> {
     let worst = gaps.iter().fold(0.0, |worst: f64, gap| worst.max(gap.abs()));
     Ok(vec![
         Measurement::new("mean distance from the hyperbola, pixels", mean / pixel, 0.0, 0.15),
-        // Half a pixel for the position of the row, and up to a third for a program's bound of subdivision.
+        // Half a pixel for the position of the row, and up to a third for a program's bound of
+        // subdivision.
         Measurement::new("largest distance from the hyperbola, pixels", worst / pixel, 0.0, 1.0),
     ])
 }

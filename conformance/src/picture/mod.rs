@@ -1,7 +1,7 @@
 //! Pictures of given scenes, and measurements in them.
 //!
-//! A case consists of a scene in `conformance/scenes/`, which has a camera, and the size of the picture. The
-//! measurements do not depend on lights, the kind of colours, or anti-aliasing.
+//! A case consists of a scene in `conformance/scenes/`, which has a camera, and the size of the
+//! picture. The measurements do not depend on lights, the kind of colours, or anti-aliasing.
 
 mod camera;
 mod colours;

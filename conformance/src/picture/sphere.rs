@@ -7,7 +7,8 @@ use super::{Measurement, Picture};
 const RADIUS_DEG: f64 = 8.760_949_008;
 const AXIS_DEG: f64 = 152.810_381_4;
 
-/// How far the faces of a polyhedron may be inside the sphere (sagitta), relative to its radius: 1 − cos 1.5°.
+/// How far the faces of a polyhedron may be inside the sphere (sagitta), relative to its radius: 1
+/// − cos 1.5°.
 const POLYHEDRON: f64 = 3.5e-4;
 
 pub fn measure(picture: &Picture) -> Result<Vec<Measurement>, String> {
@@ -38,8 +39,8 @@ fn outline(picture: &Picture) -> Vec<DVec3> {
     in_rows.chain(in_columns).collect()
 }
 
-/// Fits a circle by least squares, as the plane n·d = 1. Returns its axis, its angular radius, and the largest distance
-/// from it, both in degrees.
+/// Fits a circle by least squares, as the plane n·d = 1. Returns its axis, its angular radius, and
+/// the largest distance from it, both in degrees.
 fn circle(directions: &[DVec3]) -> (DVec3, f64, f64) {
     let outer = |d: &DVec3| DMat3::from_cols(d.x * *d, d.y * *d, d.z * *d);
     let matrix = directions.iter().map(outer).fold(DMat3::ZERO, |sum, matrix| sum + matrix);

@@ -9,8 +9,9 @@ use ugphysics::Velocity;
 pub struct BodyId(u32);
 
 impl BodyId {
-    /// The first body of every scene: all faces and wires whose motion is not stated. The text gives them no
-    /// velocity. It rests in the frame of the scene, unless a program is given another default (`-vel`).
+    /// The first body of every scene: all faces and wires whose motion is not stated. The text
+    /// gives them no velocity. It rests in the frame of the scene, unless a program is given
+    /// another default (`-vel`).
     pub const UNSTATED: Self = Self(0);
 
     /// The id of the body at position `idx` of its table.
@@ -44,7 +45,8 @@ impl Body {
 /// The motion of a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Motion {
-    /// With constant velocity. Text keeps its β, from which [`Velocity::from_beta`] must make it again.
+    /// Constant velocity. The text stores its β, from which [`Velocity::from_beta`] must recover it
+    /// exactly.
     Inertial(Velocity),
 }
 
@@ -83,7 +85,8 @@ impl Bodies {
         known.map_or_else(|| self.push(Body { motion }), |idx| BodyId::from_index(idx + 1))
     }
 
-    /// The velocity that the text states for what is part of a body; `None` for [`BodyId::UNSTATED`] at rest.
+    /// The velocity that the text states for the parts of a body; `None` for [`BodyId::UNSTATED`]
+    /// at rest.
     pub fn stated_velocity(&self, id: BodyId) -> Option<Velocity> {
         let Motion::Inertial(velocity) = self[id].motion;
         (id != BodyId::UNSTATED || !velocity.is_zero()).then_some(velocity)

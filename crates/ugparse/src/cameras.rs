@@ -15,8 +15,8 @@ impl Scene {
         self.camera_row().map(|row| &self.cameras[row])
     }
 
-    /// Selects the camera of row `chosen`: removes its name, and moves it before others without one. `spans`: of all
-    /// cameras.
+    /// Selects the camera of row `chosen`: removes its name, and moves it before others without
+    /// one. `spans`: of all cameras.
     fn select_camera(&mut self, chosen: usize, spans: &mut [Span]) {
         self.cameras[chosen].name = None;
         let Some(first) = self.camera_row().filter(|&first| first < chosen) else { return };
@@ -36,8 +36,8 @@ impl Scene {
 }
 
 impl Parsed {
-    /// Selects the first camera of this name (`-cam`), also for programs downstream: removes its name, and moves it
-    /// before others without one.
+    /// Selects the first camera of this name (`-cam`), also for programs downstream: removes its
+    /// name, and moves it before others without one.
     ///
     /// # Errors
     /// No camera has this name.

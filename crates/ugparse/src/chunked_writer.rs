@@ -4,8 +4,8 @@ use std::io::{self, Write};
 
 /// An output stream with the pieces that wait to be sent.
 ///
-/// While the pieces of one round are formatted, those of the round before are sent. So at most two rounds of text
-/// are in memory, and their buffers are reused.
+/// While the pieces of one round are formatted, those of the round before are sent. So at most two
+/// rounds of text are in memory, and their buffers are reused.
 pub(crate) struct ChunkedWriter<'o> {
     out: &'o mut dyn Write,
     ready: Vec<Vec<u8>>,

@@ -139,8 +139,8 @@ struct Excerpt {
 }
 
 impl Excerpt {
-    /// Extracts the line around `span`: control characters become blanks, invalid UTF-8 is replaced, long lines are
-    /// truncated.
+    /// Extracts the line around `span`: control characters become blanks, invalid UTF-8 is
+    /// replaced, long lines are truncated.
     fn new(source: &Source, span: Span) -> Self {
         let text = &source.text;
         let start = (span.start as usize).min(text.len());

@@ -9,8 +9,8 @@ use crate::resolve::face_name;
 use crate::scene::{Face, Scene, newell_normal};
 use crate::source::Span;
 
-/// A face is flat if no corner is farther from its plane than this fraction of its size, since coordinates are
-/// rounded in files.
+/// A face is flat if no corner is farther from its plane than this fraction of its size, since
+/// coordinates are rounded in files.
 pub const FLAT: f64 = 1e-3;
 
 /// A face without holes that is less flat than this should be drawn as triangles.
@@ -28,10 +28,11 @@ pub struct BentFace {
     pub thickness: f64,
 }
 
-/// The greatest distance of a corner from the plane of a face, divided by its size; both in rest coordinates.
+/// The greatest distance of a corner from the plane of a face, divided by its size; both in rest
+/// coordinates.
 ///
-/// The plane contains the mean of all corners and is perpendicular to the outline's area vector; the size is the
-/// diagonal of the face's bounding box.
+/// The plane contains the mean of all corners and is perpendicular to the outline's area vector;
+/// the size is the diagonal of the face's bounding box.
 pub fn thickness(scene: &Scene, face: &Face) -> f64 {
     let corners = scene.contours.corners(face.contours.clone());
     let positions = || corners.iter().map(|&corner| scene.vertices[corner.index()].position);

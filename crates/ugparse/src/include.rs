@@ -1,8 +1,9 @@
-//! Replaces `include` statements by the text of files, and `execute` statements by the output of programs.
+//! Replaces `include` statements by the text of files, and `execute` statements by the output of
+//! programs.
 //!
-//! The result is one text, with line marks of the C preprocessor where files begin and continue, so that
-//! messages name the original file and line. The caller reads the files and runs the programs; this module does
-//! not access the system.
+//! The result is one text, with line marks of the C preprocessor where files begin and continue, so
+//! that messages name the original file and line. The caller reads the files and runs the programs;
+//! this module does not access the system.
 
 use std::io;
 use std::path::{Component, Path, PathBuf};
@@ -54,12 +55,13 @@ impl From<io::Error> for RequestError {
     }
 }
 
-/// Replaces `include` statements by the text of files, and `execute` statements by the output of programs.
+/// Replaces `include` statements by the text of files, and `execute` statements by the output of
+/// programs.
 ///
-/// `load` returns the requested bytes. It is called for a program only with [`Options::execute`]. Names are
-/// relative to the file that contains the statement; in a text without a file (`<stdin>`) to the current
-/// folder, in the output of a program to the folder of the program. A file contains whole statements: a
-/// definition that begins in it ends in it.
+/// `load` returns the requested bytes. It is called for a program only with [`Options::execute`].
+/// Names are relative to the file that contains the statement; in a text without a file (`<stdin>`)
+/// to the current folder, in the output of a program to the folder of the program. A file contains
+/// whole statements: a definition that begins in it ends in it.
 ///
 /// ```
 /// let scene = ugparse::Source::new("house/scene.ug", "include colors.ug ; v a 0 0 0 red ;");
@@ -73,8 +75,8 @@ impl From<io::Error> for RequestError {
 /// ```
 ///
 /// # Errors
-/// A file that cannot be loaded, or includes itself; a program that fails, or is not allowed to run; syntax errors in
-/// a text with such statements.
+/// A file that cannot be loaded, or includes itself; a program that fails, or is not allowed to
+/// run; syntax errors in a text with such statements.
 pub fn include(
     source: Source,
     options: &Options,

@@ -1,7 +1,7 @@
 //! UniGrafix scenes: text to [`Scene`] and back.
 //!
-//! UniGrafix is Berkeley's scene language of the 1980s: statements that begin with a keyword and end
-//! with `;`, comments in braces, and definitions that instances and arrays place. This crate
+//! UniGrafix is Berkeley's scene language of the 1980s: statements that begin with a keyword and
+//! end with `;`, comments in braces, and definitions that instances and arrays place. This crate
 //! reads it in three steps:
 //!
 //! ```text
@@ -12,8 +12,8 @@
 //! ```
 //!
 //! The result is complete: every name is resolved, every instance has its own vertices, every
-//! number is finite. Errors are returned as [`Diagnostics`], up to 20 at once, each with its location in
-//! the text.
+//! number is finite. Errors are returned as [`Diagnostics`], up to 20 at once, each with its
+//! location in the text.
 //!
 //! ```
 //! let source = ugparse::Source::new(
@@ -28,11 +28,11 @@
 //! # Ok::<(), ugparse::Diagnostics>(())
 //! ```
 //!
-//! This crate has no physics and no pixels: it stores the motions of bodies and the [`Stage`] of a scene for
-//! other programs.
+//! This crate has no physics and no pixels: it stores the motions of bodies and the [`Stage`] of a
+//! scene for other programs.
 //!
-//! The feature `cli` adds the program of the same name, and the module `pipe`, with which all programs read
-//! scenes and the files these include. Libraries leave it out.
+//! The feature `cli` adds the program of the same name, and the module `pipe`, with which all
+//! programs read scenes and the files these include. Libraries leave it out.
 
 mod body;
 mod cameras;

@@ -48,8 +48,8 @@ impl<'t, T> Named<'t, T> {
         self.rows.get(self.names.get(name)?).copied().flatten().map(|row| row as usize)
     }
 
-    /// Appends the names of the next part of the text, but not its table. Returns the number of each of them in
-    /// this table; `None` if one is defined twice.
+    /// Appends the names of the next part of the text, but not its table. Returns the number of
+    /// each of them in this table; `None` if one is defined twice.
     pub fn append_names(&mut self, part: &mut Self) -> Option<Vec<usize>> {
         let numbers: Vec<usize> = part.names.list.iter().map(|name| self.names.enter(name)).collect();
         let first_row = self.spans.len() as u32;

@@ -1,7 +1,8 @@
 //! Assigns numbers to vertex names.
 //!
-//! Most names consist of a stem and a number: `v1`, `v2`, … So each stem has a table indexed by the number:
-//! no hashing is necessary, and consecutive names are adjacent in memory. All other names are in a hash map.
+//! Most names consist of a stem and a number: `v1`, `v2`, … So each stem has a table indexed by the
+//! number: no hashing is necessary, and consecutive names are adjacent in memory. All other names
+//! are in a hash map.
 
 use rustc_hash::FxHashMap;
 
@@ -135,7 +136,8 @@ impl<'t> NumberedNames<'t> {
         })
     }
 
-    /// Adds all names of `other`; returns their numbers in this table, indexed by their numbers in `other`.
+    /// Adds all names of `other`; returns their numbers in this table, indexed by their numbers in
+    /// `other`.
     pub fn enter_all(&mut self, other: &NumberedNames<'t>) -> Vec<u32> {
         let mut numbers = vec![0; other.len()];
         for stem in &other.stems {

@@ -1,11 +1,13 @@
 //! Options and limits of parsing.
 
-/// Options of parsing. Write `Options { lax: true, ..Options::default() }`, since fields may be added.
+/// Options of parsing. Write `Options { lax: true, ..Options::default() }`, since fields may be
+/// added.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Options {
     /// Pass on unknown statements with a warning, instead of refusing them (`-lax`).
     pub lax: bool,
-    /// Run the programs of `execute` statements, instead of refusing them (`--allow-execute`): see [`crate::include`].
+    /// Run the programs of `execute` statements, instead of refusing them (`--allow-execute`): see
+    /// [`crate::include`].
     pub execute: bool,
     /// Limits on the size of a scene (`--limit`).
     pub limits: Limits,

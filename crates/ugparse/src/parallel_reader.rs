@@ -1,10 +1,11 @@
 //! Parses large texts in parts, on all threads.
 //!
-//! A text is split at line ends after a `;`. Each part is parsed as if it began between two statements of
-//! the file. This is true for the first part, and for every part whose predecessor ends between two
-//! statements. So if all parts are parsed to their ends without error, together they are the whole
-//! text. If a split is inside a comment or a definition, or if there is any other error, a part fails; then the
-//! whole text is parsed again on one thread, which gives the diagnostics.
+//! A text is split at line ends after a `;`. Each part is parsed as if it began between two
+//! statements of the file. This is true for the first part, and for every part whose predecessor
+//! ends between two statements. So if all parts are parsed to their ends without error, together
+//! they are the whole text. If a split is inside a comment or a definition, or if there is any
+//! other error, a part fails; then the whole text is parsed again on one thread, which gives the
+//! diagnostics.
 
 use crate::Options;
 use crate::body::BodyId;
@@ -83,7 +84,8 @@ fn cut(text: &[u8], part: usize, n_parts: usize) -> usize {
 
 /// Joins the tables of all parts; `None` if a name is defined twice.
 fn join<'t>(mut parts: Vec<Scope<'t>>) -> Option<Scope<'t>> {
-    // The order of calls relative to other rows would have to be kept; texts of this size seldom have any.
+    // The order of calls relative to other rows would have to be kept; texts of this size seldom
+    // have any.
     let is_plain = |part: &Scope<'_>| part.duplicates.is_empty() && part.calls.rows.is_empty();
     if !parts.iter().all(is_plain) {
         return None;
@@ -167,8 +169,9 @@ fn join<'t>(mut parts: Vec<Scope<'t>>) -> Option<Scope<'t>> {
     Some(file)
 }
 
-/// Joins the vertex names and their rows. For each part except the first, returns the row in the whole file, or
-/// [`NO_ROW`], for the number of each name. `None` if two vertices have the same name.
+/// Joins the vertex names and their rows. For each part except the first, returns the row in the
+/// whole file, or [`NO_ROW`], for the number of each name. `None` if two vertices have the same
+/// name.
 fn vertices_of_parts<'t>(parts: &mut [Scope<'t>], file: &mut Scope<'t>) -> Option<Vec<Vec<u32>>> {
     let (first, others) = parts.split_first_mut()?;
     file.vertex_names = std::mem::take(&mut first.vertex_names);
@@ -225,8 +228,8 @@ struct PartOffsets {
 }
 
 impl PartOffsets {
-    /// Appends a part to `file`. Names of all kinds, and bodies, are moved immediately. `None` if a colour or surface is
-    /// defined twice.
+    /// Appends a part to `file`. Names of all kinds, and bodies, are moved immediately. `None` if a
+    /// colour or surface is defined twice.
     fn append<'t>(file: &mut Scope<'t>, before: PrecedingRows, part: &mut Scope<'t>) -> Option<Self> {
         let first_color = file.colors.spans.len() as u32;
         let colors = file.colors.append_names(&mut part.colors)?;
@@ -315,8 +318,8 @@ fn ends<T>(parts: &[Vec<T>]) -> Vec<usize> {
     ends
 }
 
-/// Joins the contours of all parts, and replaces the numbers of their corners by rows of vertices: `first_rows` for the
-/// first part, `other_rows` for the others.
+/// Joins the contours of all parts, and replaces the numbers of their corners by rows of vertices:
+/// `first_rows` for the first part, `other_rows` for the others.
 fn join_contours(parts: &mut [Scope<'_>], first_rows: &[u32], other_rows: &[Vec<u32>]) -> Contours {
     let (mut corners, mut contour_ends) = (Vec::new(), Vec::new());
     for part in parts {

@@ -33,8 +33,8 @@ pub fn read(stage: &mut Stage, options: &Options) -> Result<Source, Failure> {
     follow(Source::new(input.name, input.text), options, stage).map_err(refused)
 }
 
-/// Replaces the `include` and `execute` statements of a scene, see [`crate::include`]. Error output of successful
-/// programs is reported as a note.
+/// Replaces the `include` and `execute` statements of a scene, see [`crate::include`]. Error output
+/// of successful programs is reported as a note.
 ///
 /// # Errors
 /// See [`crate::include`].

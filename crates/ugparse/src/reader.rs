@@ -1,4 +1,5 @@
-//! Parses a text into scopes, statement by statement. After an error it continues behind the next `;`.
+//! Parses a text into scopes, statement by statement. After an error it continues behind the next
+//! `;`.
 
 use crate::diagnostic::{Diagnostic, MAX_ERRORS};
 use crate::fast_path;
@@ -49,7 +50,8 @@ pub(crate) struct RequestStatement {
     pub file: Span,
 }
 
-/// Parses the whole text. Errors are added to `findings`; parsing continues after them until there are too many.
+/// Parses the whole text. Errors are added to `findings`; parsing continues after them until there
+/// are too many.
 pub(crate) fn read<'t>(text: &'t [u8], options: &Options, findings: &mut Vec<Diagnostic>) -> Document<'t> {
     let mut reader = Reader::new(text, 0, options, findings);
     reader.run(0);
@@ -57,7 +59,8 @@ pub(crate) fn read<'t>(text: &'t [u8], options: &Options, findings: &mut Vec<Dia
     reader.document
 }
 
-/// Parses the statements of `text` from `start` on. Returns `None` if there is an error or a definition.
+/// Parses the statements of `text` from `start` on. Returns `None` if there is an error or a
+/// definition.
 ///
 /// `text` must end where the part ends.
 pub(crate) fn read_part<'t>(
@@ -283,7 +286,8 @@ impl<'t, 'f> Reader<'t, 'f> {
         Ok(rest)
     }
 
-    /// Parses the rest of `# LINE "FILE" …`, which ends with its line. Flags after the file name are ignored.
+    /// Parses the rest of `# LINE "FILE" …`, which ends with its line. Flags after the file name
+    /// are ignored.
     fn line_mark(&self, body: Input<'t>) -> Option<(Input<'t>, LineMark)> {
         let end = memchr::memchr(b'\n', body).unwrap_or(body.len());
         let (rest, line) = integer(&body[..end]).ok()?;
@@ -364,8 +368,8 @@ impl<'t, 'f> Reader<'t, 'f> {
         }
     }
 
-    /// Finds a statement that begins on its own line between `input` and the error: then the error is that the
-    /// statement at `input` has no end.
+    /// Finds a statement that begins on its own line between `input` and the error: then the error
+    /// is that the statement at `input` has no end.
     fn next_statement(&self, input: Input<'t>, syntax_error: &SyntaxError<'t>) -> Option<Next<'t>> {
         let Reason::Expected(wanted) = syntax_error.reason else { return None };
         let limit = skip_blank(syntax_error.at);

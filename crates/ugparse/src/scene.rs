@@ -1,8 +1,8 @@
-//! The flat scene that every program reads and writes, with all names, definitions, instances and arrays
-//! resolved.
+//! The flat scene that every program reads and writes, with all names, definitions, instances and
+//! arrays resolved.
 //!
-//! A [`Scene`] is plain data in index buffers. [`crate::parse`] establishes these invariants, and all code that
-//! builds or changes a scene must keep them:
+//! A [`Scene`] is plain data in index buffers. [`crate::parse`] establishes these invariants, and
+//! all code that builds or changes a scene must keep them:
 //!
 //! - every id is in range, every number finite;
 //! - every contour of a face has three vertices or more, every contour of a
@@ -93,11 +93,12 @@ optional_index! {
 
 /// A flat UniGrafix scene.
 ///
-/// Two scenes are equal if they are written as the same text; rows of names and contours may differ.
+/// Two scenes are equal if they are written as the same text; rows of names and contours may
+/// differ.
 #[derive(Clone, Debug, Default)]
 pub struct Scene {
-    /// Comments before the first statement (licence, history), without their outer braces. They come first in
-    /// the output.
+    /// Comments before the first statement (licence, history), without their outer braces. They
+    /// come first in the output.
     pub head: Vec<String>,
     /// What filters have done to positions and colours: `(ugstage … )`.
     pub stage: Stage,
@@ -107,8 +108,8 @@ pub struct Scene {
     pub names: Names,
     /// `c`, `c_rgb`, `c_xyz`, `c_bb`, `c_spd`.
     pub colors: Vec<Color>,
-    /// Samples of spectra: wavelength in nm, increasing within each spectrum, and value, 0 or more. Linear between
-    /// samples, 0 outside.
+    /// Samples of spectra: wavelength in nm, increasing within each spectrum, and value, 0 or more.
+    /// Linear between samples, 0 outside.
     pub samples: Vec<[f64; 2]>,
     /// `surf`.
     pub surfaces: Vec<SurfaceProperties>,
@@ -146,8 +147,8 @@ pub struct Color {
     pub translucency: f64,
 }
 
-/// The ways to specify a colour. Numbers are stored as written. [`Stage::hue_scale`], or the caller, determines whether
-/// the hue is an angle modulo 360 degrees or a wavelength.
+/// The ways to specify a colour. Numbers are stored as written. [`Stage::hue_scale`], or the
+/// caller, determines whether the hue is an angle modulo 360 degrees or a wavelength.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ColorValue {
     /// `c`: HSV. Saturation 0 is grey, whatever the hue.
@@ -272,7 +273,8 @@ pub struct Light {
 /// The motion of a light.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LightMotion {
-    /// It rests in the frame of whatever it lights, as in the report of 1988. The text gives it no velocity.
+    /// It rests in the frame of whatever it lights, as in the report of 1988. The text gives it no
+    /// velocity.
     WithWhatItLights,
     /// It is part of a body, and moves with it.
     Body(BodyId),
@@ -423,7 +425,8 @@ impl Scene {
 /// Area-weighted normal of a polygon by Newell's method: right-handed, its
 /// length twice the area for a planar polygon, zero for a degenerate one.
 ///
-/// Coordinates are relative to the first corner, so that a small face far from the origin keeps its precision.
+/// Coordinates are relative to the first corner, so that a small face far from the origin keeps its
+/// precision.
 pub fn newell_normal(corners: impl Iterator<Item = DVec3> + Clone) -> DVec3 {
     let mut rest = corners.clone();
     let Some(origin) = rest.next() else {

@@ -1,9 +1,10 @@
 //! The statements of the file or of a definition, in tables with the types of a
 //! [`Scene`](crate::Scene), before names are resolved.
 //!
-//! A colour or surface is stored as the number of its name among those of its kind, and a corner as the
-//! number of its vertex's name in [`Scope::vertex_names`]. So names may be used before they are
-//! defined, or be defined in an enclosing scope. [`resolve`](crate::resolve) replaces all of them by rows.
+//! A colour or surface is stored as the number of its name among those of its kind, and a corner as
+//! the number of its vertex's name in [`Scope::vertex_names`]. So names may be used before they are
+//! defined, or be defined in an enclosing scope. [`resolve`](crate::resolve) replaces all of them
+//! by rows.
 
 use glam::DVec3;
 use rustc_hash::FxHashMap;
@@ -25,7 +26,8 @@ use crate::statement::{
 };
 use crate::token::{skip_statement, statement_start};
 
-/// Lengths of short statements in bytes, `v v123 1.25 2.5 1 ;` and `f (v1 v12 v123) ;`, and of a corner of the latter.
+/// Lengths of short statements in bytes, `v v123 1.25 2.5 1 ;` and `f (v1 v12 v123) ;`, and of a
+/// corner of the latter.
 const VERTEX_BYTES: usize = 20;
 const FACE_BYTES: usize = 17;
 const CORNER_BYTES: usize = 5;
@@ -174,8 +176,9 @@ impl<'t> Scope<'t> {
         Self { name, parent, ..Self::default() }
     }
 
-    /// The scope of the file, or of a part of it, with capacity for as many rows as a text of this size usually
-    /// has. Reserved memory that is not used costs nothing, but growing a table copies it.
+    /// The scope of the file, or of a part of it, with capacity for as many rows as a text of this
+    /// size usually has. Reserved memory that is not used costs nothing, but growing a table copies
+    /// it.
     pub fn for_text(bytes: usize) -> Self {
         Self {
             vertices: Rows::with_capacity(bytes / VERTEX_BYTES),
@@ -483,7 +486,8 @@ impl BodyTable {
         self.known(bits).unwrap_or_else(|| self.add(bits, velocity))
     }
 
-    /// The body with this velocity in units of c; adds it if it is new. `None` if the velocity is invalid.
+    /// The body with this velocity in units of c; adds it if it is new. `None` if the velocity is
+    /// invalid.
     pub fn moving_with_beta(&mut self, beta: DVec3) -> Option<BodyId> {
         let bits = bits(beta);
         if let Some(id) = self.known(bits) {
@@ -510,7 +514,8 @@ impl BodyTable {
         id
     }
 
-    /// Adds the bodies of another table where they are new, and returns the rows of all of them in this one.
+    /// Adds the bodies of another table where they are new, and returns the rows of all of them in
+    /// this one.
     pub fn enter_all(&mut self, other: &Self) -> Vec<BodyId> {
         let stated = other.bodies.iter().skip(1).map(|body| {
             let Motion::Inertial(velocity) = body.motion;

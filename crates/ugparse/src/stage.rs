@@ -1,73 +1,73 @@
-//! How far a scene is on its way from rest to what a camera sees.
+//! The stage of a scene: which transformations its positions and colours have undergone.
 
 use glam::DVec3;
 use ugphysics::{Brightness, Velocity};
 
-/// What filters have done to a scene. A scene as its author writes it is at rest in both parts.
+/// The changes that filters have made to a scene. An original scene is at rest in both parts.
 ///
-/// In the text it is one statement, see [`crate::Scene::stage`]. Nothing else tells programs
-/// downstream what was done: comments are for people.
+/// In the text it is one statement, see [`crate::Scene::stage`]. Programs downstream depend on it
+/// alone; comments are for people.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Stage {
-    /// What positions are.
+    /// The stage of positions.
     pub geometry: GeometryStage,
-    /// What colours are.
+    /// The stage of colours.
     pub colors: ColorStage,
 }
 
-/// What the positions of a scene are.
+/// The stage of the positions in a scene.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum GeometryStage {
     /// Bodies have their rest shapes.
     #[default]
     AtRest,
-    /// Every point stands where its light came from.
+    /// Every point is at its apparent (retarded) position.
     AsSeen(SeenGeometry),
 }
 
-/// How positions as seen were computed.
+/// Parameters of apparent positions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SeenGeometry {
-    /// The eye point, in scene coordinates. Seen from another one, positions are wrong.
+    /// The eye point in scene coordinates. The positions are wrong for any other.
     pub eye: DVec3,
-    /// When the picture is taken, on the observer's clock.  Eq. (P5)
+    /// Time of the picture on the observer's clock.  Eq. (P5)
     pub time: f64,
-    /// Velocity of the camera in the frame the scene was written in. All velocities in the scene
-    /// are in the camera's frame now.
+    /// Velocity of the camera in the frame of the original scene. All velocities in the scene are
+    /// relative to the camera.
     pub camera_velocity: Velocity,
-    /// Positions show Lorentz contraction.  Eq. (P1)
+    /// Positions include Lorentz contraction.  Eq. (P1)
     pub contraction: bool,
-    /// Positions show the time of flight.  Eq. (P2)
+    /// Positions include the light travel time.  Eq. (P2)
     pub flight_time: bool,
 }
 
-/// What the colours of a scene are.
+/// The stage of the colours in a scene.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum ColorStage {
-    /// Colours of bodies at rest, without light.
+    /// Colours of bodies at rest, without lighting.
     #[default]
     AtRest,
-    /// Every vertex has its colour as the eye sees it.
+    /// Every vertex has its observed colour.
     AsSeen(SeenColors),
 }
 
-/// How colours as seen were computed.
+/// Parameters of observed colours.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SeenColors {
-    /// What colours are, and how their brightness was changed.
+    /// Representation of colours, and the brightness law.
     pub scale: ColorScale,
     /// Wavelengths were shifted.  Eq. (P11)
     pub doppler: bool,
-    /// The light of the scene's lights is in the colours.  Eq. (P14)
+    /// Colours include the lighting by the scene's lights.  Eq. (P14)
     pub lights: bool,
 }
 
-/// What colours as seen consist of.
+/// Representation of observed colours.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ColorScale {
-    /// A hue each, which stands for one wavelength.
+    /// Hues, each of which stands for one wavelength.
     Hues {
-        /// How hues are written.
+        /// Unit of hues in the text.
         unit: HueScale,
         /// Power of the Doppler factor that the value was multiplied by.  Eq. (P12)
         law: Brightness,
@@ -79,7 +79,7 @@ pub enum ColorScale {
     },
 }
 
-/// What the hue field of `c` statements holds.
+/// Unit of the hue in `c` statements.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum HueScale {
     /// Degrees.
@@ -90,12 +90,12 @@ pub enum HueScale {
 }
 
 impl Stage {
-    /// True for a scene as its author writes it.
+    /// True for an original scene.
     pub fn is_at_rest(&self) -> bool {
         *self == Self::default()
     }
 
-    /// How positions were computed; `None` at rest.
+    /// Parameters of apparent positions; `None` at rest.
     pub fn seen_geometry(&self) -> Option<&SeenGeometry> {
         match &self.geometry {
             GeometryStage::AtRest => None,
@@ -103,7 +103,7 @@ impl Stage {
         }
     }
 
-    /// How colours were computed; `None` at rest.
+    /// Parameters of observed colours; `None` at rest.
     pub fn seen_colors(&self) -> Option<&SeenColors> {
         match &self.colors {
             ColorStage::AtRest => None,
@@ -111,7 +111,7 @@ impl Stage {
         }
     }
 
-    /// What the hue field of `c` statements holds.
+    /// Unit of the hue in `c` statements.
     pub fn hue_scale(&self) -> HueScale {
         match self.seen_colors() {
             Some(SeenColors { scale: ColorScale::Hues { unit, .. }, .. }) => *unit,

@@ -40,15 +40,15 @@ const NO_DOPPLER: &str = "no-doppler";
 const NO_FLUX: &str = "no-flux";
 const LIGHTS: &str = "lights";
 
-/// What earlier versions wrote about positions: escapes with these first and second words.
+/// Escapes of earlier versions, which had these first and second words.
 const EARLIER: (&str, [&str; 3]) = ("uglorentz", [NO_CONTRACTION, NO_FLIGHT_TIME, CAMERA_VELOCITY]);
 
-/// True for the text of an escape, parentheses included, that is a stage statement.
+/// Is an escape, given with its parentheses, a stage statement?
 pub(crate) fn is_stage(escape: &[u8]) -> bool {
     escape.len() > 2 && first_word(escape, Span { start: 0, end: escape.len() as u32 }) == KEYWORD.as_bytes()
 }
 
-/// Takes the stage statement of a document out of its escapes, into [`Document::stage`].
+/// Moves the stage statement of a document from its escapes to [`Document::stage`].
 pub(crate) fn take(text: &[u8], document: &mut Document<'_>, findings: &mut Vec<Diagnostic>) {
     for row in 0..document.scopes.len() {
         let scope = &mut document.scopes[row];
@@ -95,7 +95,7 @@ fn keyword_span(text: &[u8], span: Span) -> Span {
     Words::new(text, span).next().map_or(span, |word| word.span)
 }
 
-/// The message for an escape that earlier versions wrote.
+/// The error for an escape of an earlier version.
 fn earlier(text: &[u8], span: Span) -> Option<Diagnostic> {
     let mut words = Words::new(text, span);
     let (program, kinds) = EARLIER;
@@ -108,7 +108,7 @@ fn earlier(text: &[u8], span: Span) -> Option<Diagnostic> {
     )
 }
 
-/// Reads the statement at `span`, parentheses included.
+/// Parses the statement at `span`, parentheses included.
 fn read(text: &[u8], span: Span) -> Result<Stage, Diagnostic> {
     let mut words = Words::new(text, span);
     words.next();
@@ -199,7 +199,7 @@ fn colors(words: &mut Words<'_>) -> Result<ColorStage, Diagnostic> {
     Ok(ColorStage::AsSeen(seen))
 }
 
-/// The message for a word that is none of those expected.
+/// The error for an unexpected word.
 fn unknown(word: Word<'_>, expected: &[&str]) -> Diagnostic {
     let finding = Diagnostic::error(
         word.span,
@@ -230,7 +230,7 @@ struct Words<'t> {
     rest: Input<'t>,
     /// Position of the closing parenthesis.
     end: u32,
-    /// Key words so far, but for those that may come twice.
+    /// Key words so far that must not be repeated.
     known: Vec<Word<'t>>,
 }
 
@@ -257,12 +257,12 @@ impl<'t> Words<'t> {
         self.rest = &self.rest[n_blanks..];
     }
 
-    /// Position of the rest in the text.
+    /// Position of the remaining input in the text.
     fn position(&self) -> u32 {
         self.end - self.rest.len() as u32
     }
 
-    /// The next word if it belongs to the part that is being read.
+    /// The next word, if it belongs to the current part.
     fn next_of_part(&mut self) -> Option<Word<'t>> {
         let before = self.rest;
         let word = self.next();
@@ -273,7 +273,7 @@ impl<'t> Words<'t> {
         word
     }
 
-    /// Refuses a key word that was there before.
+    /// Refuses a repeated key word.
     fn once(&mut self, word: Word<'t>) -> Result<(), Diagnostic> {
         if let Some(first) = self.known.iter().find(|known| known.text == word.text) {
             return Err(Diagnostic::error(word.span, format!("`{}` is given twice", word.as_str()))
@@ -329,7 +329,7 @@ impl<'t> Words<'t> {
         Ok(DVec3::new(self.number()?, self.number()?, self.number()?))
     }
 
-    /// The message for what does not stand where the rest begins.
+    /// The error for a missing word at the current position.
     fn missing(&mut self, what: &str, example: &str) -> Diagnostic {
         self.skip_blanks();
         let start = self.position();
@@ -339,7 +339,7 @@ impl<'t> Words<'t> {
     }
 }
 
-/// The statement, parentheses included. What is at rest, and what has its default, is left out.
+/// Writes the statement, parentheses included, without parts at rest and default values.
 pub(crate) fn write(stage: &Stage, out: &mut Vec<u8>, numbers: &mut zmij::Buffer) {
     out.extend_from_slice(format!("({KEYWORD} {VERSION}").as_bytes());
     let mut add = |word: &str, values: &[f64]| {

@@ -3,12 +3,12 @@
 /// The largest number of compared names, to limit the time for large meshes.
 const MAX_COMPARED: usize = 10_000;
 
-/// Longer words get no suggestion: the time of a comparison grows with the square of the length, and names that
-/// people type are shorter.
+/// Longer words get no suggestion: the time of a comparison grows with the square of the length,
+/// and names that people type are shorter.
 const MAX_LENGTH: usize = 64;
 
-/// The candidate most similar to `word`: equal except for case, or with one or two typing errors. Ties go to the first
-/// candidate; `None` if no candidate is similar.
+/// The candidate most similar to `word`: equal except for case, or with one or two typing errors.
+/// Ties go to the first candidate; `None` if no candidate is similar.
 pub(crate) fn nearest<'n>(word: &[u8], candidates: impl IntoIterator<Item = &'n [u8]>) -> Option<&'n str> {
     let word = std::str::from_utf8(word).ok().filter(|word| word.len() <= MAX_LENGTH)?;
     let most = match word.len() {

@@ -1,7 +1,7 @@
 //! Formats the text of a scene without flattening, omitting or reordering anything.
 //!
-//! The formatter works on the text itself, token by token, and so keeps what the parser does not: the order
-//! of statements and the comments within them.
+//! The formatter works on the text itself, token by token, and so keeps what the parser does not:
+//! the order of statements and the comments within them.
 
 use crate::diagnostic::Diagnostics;
 use crate::grammar::KEYWORDS;
@@ -15,17 +15,18 @@ use crate::{Options, check_length, refuse_errors};
 /// Indentation per enclosing scope.
 const INDENT: &str = "  ";
 
-/// Formats a scene: one statement per line, definitions indented, one blank between words, numbers as short as
-/// possible.
+/// Formats a scene: one statement per line, definitions indented, one blank between words, numbers
+/// as short as possible.
 ///
-/// - Statements keep their order, comments their places: on their own line, after a statement, or within it.
-///   The text of comments, escapes, unknown statements and file names does not change.
+/// - Statements keep their order, comments their places: on their own line, after a statement, or
+///   within it. The text of comments, escapes, unknown statements and file names does not change.
 /// - Several empty lines between statements become one.
 /// - Empty statements (a second `;`) are removed.
-/// - Included files are not read and names not resolved, so a part of a scene can be formatted by itself.
+/// - Included files are not read and names not resolved, so a part of a scene can be formatted by
+///   itself.
 ///
-/// `tidy` is idempotent and does not change the scene. A comment after several statements on one line moves
-/// with the last of them.
+/// `tidy` is idempotent and does not change the scene. A comment after several statements on one
+/// line moves with the last of them.
 ///
 /// ```
 /// let source = ugparse::Source::new("tile.ug", "def tile; v a 0 0.50 +1; {corner} end ;i(tile -tx 1e0);");
@@ -151,8 +152,8 @@ impl Layout {
         self.verbatim(b")");
     }
 
-    /// Writes the words of a statement up to its `;`, with one blank between them but none after an opening or before a
-    /// closing bracket; returns the input after it.
+    /// Writes the words of a statement up to its `;`, with one blank between them but none after an
+    /// opening or before a closing bracket; returns the input after it.
     fn words<'t>(&mut self, mut input: Input<'t>, keyword: &[u8]) -> Input<'t> {
         let mut is_open = true;
         loop {

@@ -232,8 +232,8 @@ const POWERS_OF_TEN: [f64; 16] =
 
 /// A decimal number of at most 15 digits without exponent, and its length.
 ///
-/// Its digits and the power of ten are exact as f64, so their quotient is the nearest f64 (Clinger 1990): the same as the
-/// general algorithm, but faster.
+/// Its digits and the power of ten are exact as f64, so their quotient is the nearest f64 (Clinger
+/// 1990): the same as the general algorithm, but faster.
 #[inline(always)]
 pub(crate) fn short_decimal(input: Input<'_>) -> Option<(f64, usize)> {
     let is_negative = input.first() == Some(&b'-');

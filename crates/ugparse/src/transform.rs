@@ -4,8 +4,8 @@ use glam::{DAffine3, DMat3, DVec3};
 
 /// The composition of `-sx … -M4`.
 ///
-/// In the text, matrices are for row vectors, and options apply from left to right; here the map is stored for column
-/// vectors.
+/// In the text, matrices are for row vectors, and options apply from left to right; here the map is
+/// stored for column vectors.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Transform {
     map: DAffine3,
@@ -100,7 +100,8 @@ impl Transform {
         if self.map.matrix3 == DMat3::IDENTITY { d } else { self.map.transform_vector3(d) }
     }
 
-    /// Transforms a normal by the inverse transpose. For a singular map the result is along the collapsed direction.
+    /// Transforms a normal by the inverse transpose. For a singular map the result is along the
+    /// collapsed direction.
     pub fn normal(&self, n: DVec3) -> DVec3 {
         let m = self.map.matrix3;
         let largest = [m.x_axis, m.y_axis, m.z_axis].map(|axis| axis.abs().max_element());
@@ -123,7 +124,8 @@ impl Transform {
     }
 }
 
-/// The unit vector, also if the squared length would overflow or underflow. `None` for the zero vector.
+/// The unit vector, also if the squared length would overflow or underflow. `None` for the zero
+/// vector.
 fn unit(vector: DVec3) -> Option<DVec3> {
     let largest = vector.abs().max_element();
     (largest > 0.0).then(|| (vector / largest).normalize())

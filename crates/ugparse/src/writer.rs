@@ -1,4 +1,5 @@
-//! Writes a [`Scene`] as text: one statement per line, with numbers that read back to the same bits.
+//! Writes a [`Scene`] as text: one statement per line, with numbers that read back to the same
+//! bits.
 
 use std::io::{self, Write};
 
@@ -29,8 +30,8 @@ pub fn write(scene: &Scene) -> Vec<u8> {
     text
 }
 
-/// Writes the same text as [`write()`] to `out` while it is formatted on all threads, which needs less memory. The bytes do not
-/// depend on the number of threads.
+/// Writes the same text as [`write()`] to `out` while it is formatted on all threads, which needs
+/// less memory. The bytes do not depend on the number of threads.
 ///
 /// # Errors
 /// Those of `out`, which may have received a part of the text.
@@ -161,7 +162,8 @@ struct Writer<'s> {
     /// Comments not yet written, sorted by statement.
     comments: &'s [Comment],
     numbers: zmij::Buffer,
-    /// The body of the last row, and the text of its motion, because consecutive rows mostly share one.
+    /// The body of the last row, and the text of its motion, because consecutive rows mostly share
+    /// one.
     body: Option<BodyId>,
     motion_text: Vec<u8>,
 }

@@ -1,9 +1,9 @@
 //! Measures errors of drawn outlines and the number of faces they need, as tables in Markdown.
 //!
-//! The output of `uglorentz` and `ugrainbow` is compared with the oracle of the tests, which shares no
-//! code with them: from points of drawn edges, and from pixels, it transforms a ray into the past to the
-//! rest frame with a 4×4 matrix and intersects it with the scene as written. `docs/geometry.md`
-//! explains the tables.
+//! The output of `uglorentz` and `ugrainbow` is compared with the oracle of the tests, which shares
+//! no code with them: from points of drawn edges, and from pixels, it transforms a ray into the
+//! past to the rest frame with a 4×4 matrix and intersects it with the scene as written.
+//! `docs/geometry.md` explains the tables.
 
 mod view;
 
@@ -38,8 +38,8 @@ const MOST_PIXELS: f64 = 0.5;
 /// The largest uniform subdivision tried, pieces per edge.
 const MOST_PIECES: usize = 1 << 16;
 
-/// Faces whose distances differ by less than this fraction may occlude each other wrongly: the tolerance of
-/// depth, twice, because both faces have an error.
+/// Faces whose distances differ by less than this fraction may occlude each other wrongly: the
+/// tolerance of depth, twice, because both faces have an error.
 const DEPTH: f64 = 2e-4;
 
 /// Selects what is measured.
@@ -246,7 +246,8 @@ fn uniform(view: &View, oracle: &Oracle, error: f64) -> Option<usize> {
     Some(n)
 }
 
-/// Pieces of `-sd N` of some faces: N² of a triangle or quadrilateral, and of each triangle of other polygons.
+/// Pieces of `-sd N` of some faces: N² of a triangle or quadrilateral, and of each triangle of
+/// other polygons.
 fn n_pieces(scene: &Scene, faces: &[usize], n: usize) -> usize {
     let cells = |face: &ugparse::Face| {
         let n_corners = scene.contours.corners(face.contours.clone()).len();

@@ -84,8 +84,8 @@ fn without_wires(scene: Scene) -> Scene {
     Scene { wires: Vec::new(), comments: Vec::new(), ..scene }
 }
 
-/// The camera of the scene if eye, view centre and angle are given; else two: one near the middle of the
-/// bounding box, looking along its longer side, and one outside.
+/// The camera of the scene if eye, view centre and angle are given; else two: one near the middle
+/// of the bounding box, looking along its longer side, and one outside.
 fn cameras(scene: &Scene) -> Vec<(&'static str, Camera, bool)> {
     if let Some(camera) = scene.camera()
         && camera.eye.is_some()

@@ -83,7 +83,8 @@ impl Mesh {
                 triangles.extend([[a, d, c], [a, c, b]]);
             }
         }
-        // If an edge of a patch is a single point (the tip of the lid), half of its triangles are degenerate.
+        // If an edge of a patch is a single point (the tip of the lid), half of its triangles are
+        // degenerate.
         self.triangles.extend(triangles.into_iter().filter(|[a, b, c]| a != b && b != c && c != a));
     }
 
@@ -99,8 +100,8 @@ impl Mesh {
     }
 }
 
-/// The unit normal. Where an edge of the patch is a single point, the tangent plane exists only as a limit, so
-/// the derivatives are taken a step inside.
+/// The unit normal. Where an edge of the patch is a single point, the tangent plane exists only as
+/// a limit, so the derivatives are taken a step inside.
 fn normal(patch: &Patch, s: f64, t: f64) -> DVec3 {
     const STEP: f64 = 1e-4;
     let (s, t) = (s.clamp(STEP, 1.0 - STEP), t.clamp(STEP, 1.0 - STEP));
@@ -133,7 +134,8 @@ mod tests {
         assert_eq!(n, 32 * 16 * 2 - 8 * 4);
     }
 
-    /// The body is a bowl around the z axis: all of it except the inner side of its rim faces away from the axis.
+    /// The body is a bowl around the z axis: all of it except the inner side of its rim faces away
+    /// from the axis.
     #[test]
     fn faces_point_outward() {
         for part in patches::parts() {

@@ -1,13 +1,13 @@
-//! Martin Newell's teapot (University of Utah, 1975; public data): 32 bicubic Bézier patches, in the proportions of
-//! the data set in common use.
+//! Martin Newell's teapot (University of Utah, 1975; public data): 32 bicubic Bézier patches, in
+//! the proportions of the data set in common use.
 //!
-//! 24 patches are quarters of surfaces of revolution, the other 8 are halves of the handle and the spout, so
-//! the data are stored as profiles and half sections.
+//! 24 patches are quarters of surfaces of revolution, the other 8 are halves of the handle and the
+//! spout, so the data are stored as profiles and half sections.
 
 use glam::DVec3;
 
-/// Control points of a patch. The first index runs downward or away from the body, the second clockwise
-/// around the part, so that (∂/∂second) × (∂/∂first) points outward.
+/// Control points of a patch. The first index runs downward or away from the body, the second
+/// clockwise around the part, so that (∂/∂second) × (∂/∂first) points outward.
 pub type Patch = [[DVec3; 4]; 4];
 
 /// A part of the teapot whose patches join smoothly.
@@ -16,8 +16,8 @@ pub struct Part {
     pub patches: Vec<Patch>,
 }
 
-/// A ring of control points about the z axis: its radius, the smaller coordinate of the points between
-/// the axes, its height.
+/// A ring of control points about the z axis: its radius, the smaller coordinate of the points
+/// between the axes, its height.
 type Ring = (f64, f64, f64);
 
 /// Four rings per patch from rim to foot; the last ring of a patch is the first of the next.
@@ -34,7 +34,8 @@ const LID: [[Ring; 4]; 2] = [
     [(0.2, 0.112, 2.7), (0.4, 0.224, 2.55), (1.3, 0.728, 2.55), (1.3, 0.728, 2.4)],
 ];
 
-/// Half of a cross-section, y ≤ 0: start and end in the plane y = 0 as (x, z), and half of the width.
+/// Half of a cross-section, y ≤ 0: start and end in the plane y = 0 as (x, z), and half of the
+/// width.
 type HalfSection = ((f64, f64), (f64, f64), f64);
 
 /// From the upper joint to the lower one.

@@ -33,8 +33,8 @@ fn normal(scene: &Scene, contour: &[VertexId]) -> DVec3 {
 
 /// Numbers of edges by the faces they border.
 ///
-/// Vertices at the same position count as one. Two faces with consistent orientation traverse their common edge in
-/// opposite directions.
+/// Vertices at the same position count as one. Two faces with consistent orientation traverse their
+/// common edge in opposite directions.
 #[derive(Default)]
 pub(crate) struct Edges {
     /// Edges of two faces that traverse them in opposite directions.
@@ -45,7 +45,8 @@ pub(crate) struct Edges {
     pub border: usize,
     /// Edges of more than two faces.
     pub crowded: usize,
-    /// The first face with most edges that a neighbour traverses in the same direction, and their number.
+    /// The first face with most edges that a neighbour traverses in the same direction, and their
+    /// number.
     pub turned: Option<(usize, u32)>,
 }
 
@@ -92,8 +93,8 @@ impl Edges {
     }
 }
 
-/// Calls `edge` for the edges of a face, with its interior on their left: holes may have either direction, and are
-/// assumed to run opposite to the outline.
+/// Calls `edge` for the edges of a face, with its interior on their left: holes may have either
+/// direction, and are assumed to run opposite to the outline.
 fn each_edge(scene: &Scene, face: &Face, mut edge: impl FnMut(VertexId, VertexId)) {
     let outward = outline_normal(scene, face);
     for (idx, contour) in scene.face_contours(face).enumerate() {

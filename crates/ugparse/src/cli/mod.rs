@@ -88,7 +88,8 @@ impl Args {
 
 /// Runs the program.
 pub fn main() -> ExitCode {
-    // A report about an invalid scene is a result and not a failure: the output is kept, and only the exit status is 1.
+    // A report about an invalid scene is a result and not a failure: the output is kept, and only
+    // the exit status is 1.
     let is_usable = Cell::new(true);
     let status = ugpipe::main(|args: &Args, stage: &mut Stage| {
         is_usable.set(run(args, stage)?);

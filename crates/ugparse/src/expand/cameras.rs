@@ -1,11 +1,11 @@
-//! Cameras in definitions: one outside takes precedence over them.
+//! Cameras outside definitions take precedence over those inside.
 
 use super::Expander;
 use crate::diagnostic::Diagnostic;
 use crate::scene::{Camera, Item};
 use crate::source::Span;
 
-/// A camera that an instance has placed.
+/// A camera placed by an instance.
 pub(super) struct NestedCamera {
     /// Row in the table of cameras.
     pub row: usize,
@@ -14,8 +14,8 @@ pub(super) struct NestedCamera {
 }
 
 impl Expander<'_, '_> {
-    /// Puts cameras outside definitions first, where one inside would be used in place of them, with
-    /// a warning. Comments have been placed.
+    /// Moves cameras outside definitions before those inside, with a warning, if one inside would
+    /// be used instead. Requires that comments are attached already.
     pub(super) fn prefer_outer_camera(&mut self) -> Option<Diagnostic> {
         let used = self.scene.camera_row()?;
         let is_nested =
@@ -29,7 +29,7 @@ impl Expander<'_, '_> {
         let (span, outer_span) = (spans[used], spans[first_outer]);
         for NestedCamera { row, path } in &self.nested_cameras {
             let name = &mut self.scene.cameras[*row].name;
-            // One without a name would still be used in place of one with a name.
+            // An unnamed camera would still take precedence over a named one.
             *name = name.or_else(|| Some(self.scene.names.add(path)));
         }
         let name = self.scene.cameras[used].name.map_or("", |name| self.scene.names.get(name));
@@ -57,7 +57,7 @@ impl Expander<'_, '_> {
     }
 }
 
-/// The warning for a camera that is used and of which there are several copies.
+/// The warning if the used camera has several copies.
 fn several_copies(spans: &[Span], used: usize) -> Option<Diagnostic> {
     let n_copies = spans.iter().filter(|&&span| span == spans[used]).count();
     (n_copies > 1).then(|| {

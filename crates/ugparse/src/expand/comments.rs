@@ -25,8 +25,8 @@ impl Expander<'_, '_> {
         }
     }
 
-    /// Comments before the first statement become head comments; others are attached to the row of their
-    /// statement.
+    /// Comments before the first statement become head comments; others are attached to the row of
+    /// their statement.
     pub(super) fn place_comments(&mut self, comments: &[CommentSpan], first_statement: u32) {
         let mut emitted = self.emitted.take().unwrap_or_default();
         emitted.sort_by_key(|&(span, item)| (span.start, item));

@@ -1,6 +1,7 @@
 //! Expands instances and arrays into a flat scene.
 //!
-//! The file's own tables become those of the scene; definitions are copied after them, once for each instance.
+//! The file's own tables become those of the scene; definitions are copied after them, once for
+//! each instance.
 
 mod cameras;
 mod comments;

@@ -24,8 +24,8 @@ impl Expander<'_, '_> {
         name.map(|name| self.name(scope, name, inherited))
     }
 
-    /// A path, or the generated name of an unnamed colour, may equal a name in the text; the later one in the table
-    /// is renamed.
+    /// A path, or the generated name of an unnamed colour, may equal a name in the text; the later
+    /// one in the table is renamed.
     pub(super) fn make_names_unique(&mut self) {
         let is_flat = self.scopes.len() == 1;
         let Scene { names, vertices, colors, surfaces, .. } = &mut self.scene;

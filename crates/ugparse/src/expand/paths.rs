@@ -31,8 +31,8 @@ impl Expander<'_, '_> {
         found
     }
 
-    /// Resolves the file's corners that name vertices of instances. Removes faces that then have no area, and wires
-    /// that are too short.
+    /// Resolves the file's corners that name vertices of instances. Removes faces that then have no
+    /// area, and wires that are too short.
     pub(super) fn link_paths(&mut self, file: &mut Scope<'_>) {
         for path in std::mem::take(&mut file.paths) {
             let Some(vertex) = self.find_path("", path.name) else { continue };

@@ -71,7 +71,8 @@ impl Placement<'_> {
         }
     }
 
-    /// The colour of face or wire `row`; `first` returns the first row to which an unnamed colour applies.
+    /// The colour of face or wire `row`; `first` returns the first row to which an unnamed colour
+    /// applies.
     pub fn color(
         &self,
         own: Option<ColorId>,

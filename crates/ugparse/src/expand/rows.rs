@@ -92,8 +92,8 @@ impl Expander<'_, '_> {
         }))
     }
 
-    /// Returns false and adds a warning if a face has no area after transformation: collapsed by `-sz 0`, or too small
-    /// relative to its distance.
+    /// Returns false and adds a warning if a face has no area after transformation: collapsed by
+    /// `-sz 0`, or too small relative to its distance.
     fn has_area(&mut self, placement: &Placement<'_>, face: &Face, span: Span) -> bool {
         let outline = placement.corners(face.contours.start);
         let position = |corner: usize| self.scene.vertices[placement.corner(corner).index()].position;

@@ -1,7 +1,7 @@
 //! The statements of the language, as nom parsers.
 //!
-//! Each parser reads one statement after its keyword, up to but without the closing `;`, with one token of
-//! look-ahead.
+//! Each parser reads one statement after its keyword, up to but without the closing `;`, with one
+//! token of look-ahead.
 
 mod cameras;
 mod transforms;

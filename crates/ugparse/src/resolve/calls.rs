@@ -35,8 +35,8 @@ pub(super) fn link_calls(
     links.collect()
 }
 
-/// The unique label of each call in a scope: its name, else its definition's name; empty for an unnamed array
-/// that is the only call, because its element number is enough.
+/// The unique label of each call in a scope: its name, else its definition's name; empty for an
+/// unnamed array that is the only call, because its element number is enough.
 fn labels(text: &[u8], calls: &[Call]) -> Vec<String> {
     let wanted = |Call { statement: call, .. }: &Call| match call.name {
         None if calls.len() == 1 && matches!(call.repeat, Repeat::Times(..)) => String::new(),

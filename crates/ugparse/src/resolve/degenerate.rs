@@ -9,7 +9,8 @@ use crate::scope::{NO_ROW, Scope};
 use crate::source::Span;
 use crate::statement::{References, Statement};
 
-/// Removes faces with fewer than three different vertices in a contour, or without area, with a warning for each.
+/// Removes faces with fewer than three different vertices in a contour, or without area, with a
+/// warning for each.
 pub(super) fn remove_degenerate_faces(
     text: &[u8],
     scope: &mut Scope<'_>,

@@ -1,5 +1,5 @@
-//! Resolves names after the whole text is parsed: replaces the colours, vertices and definitions of every
-//! scope by rows, and checks each once, however often a definition is placed.
+//! Resolves names after the whole text is parsed: replaces the colours, vertices and definitions of
+//! every scope by rows, and checks each once, however often a definition is placed.
 
 mod calls;
 mod corners;

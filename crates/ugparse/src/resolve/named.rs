@@ -11,7 +11,8 @@ use crate::scene::{Color, ColorId, Illum, Scene, SurfaceId, SurfaceProperties};
 use crate::scope::{Scope, shifted};
 use crate::source::Span;
 
-/// The limit for names of colours and surfaces, paths included, is the limit for all names divided by this.
+/// The limit for names of colours and surfaces, paths included, is the limit for all names divided
+/// by this.
 const PART_OF_NAMES: u64 = 4;
 
 /// For each scope, the row of its first colour, and of its first surface, in the scene.
@@ -124,8 +125,8 @@ pub(super) fn name_surfaces(scope: &mut Scope<'_>, surfaces: &[Option<usize>]) -
     surfaces.iter().all(Option::is_some)
 }
 
-/// Applies unnamed colours to the faces and wires of the file. Those of definitions get them during expansion,
-/// because the colours of calls take precedence.
+/// Applies unnamed colours to the faces and wires of the file. Those of definitions get them during
+/// expansion, because the colours of calls take precedence.
 pub(super) fn apply_default_colors(file: &mut Scope<'_>) {
     let Scope { defaults, faces, wires, .. } = file;
     for (idx, default) in defaults.iter().enumerate() {

@@ -20,8 +20,8 @@ pub(super) struct Sizes<'g, 't> {
 }
 
 impl Sizes<'_, '_> {
-    /// Detects recursive definitions, chains that are too long, and scenes that exceed a limit. Returns the length of
-    /// the longest chain.
+    /// Detects recursive definitions, chains that are too long, and scenes that exceed a limit.
+    /// Returns the length of the longest chain.
     pub fn check_calls(&self) -> Result<usize, Diagnostic> {
         let mut sizes: Vec<Option<Size>> = vec![None; self.scopes.len()];
         // Unused definitions are checked, too.

@@ -106,8 +106,8 @@ pub(crate) fn undefined(text: &[u8], kind: &str, name: Span, remedy: &str) -> Di
         .help(remedy)
 }
 
-/// Like [`undefined`], with the most similar name as a suggestion. With `n_before` findings already, the error may not
-/// be shown, and no suggestion is computed.
+/// Like [`undefined`], with the most similar name as a suggestion. With `n_before` findings
+/// already, the error may not be shown, and no suggestion is computed.
 pub(super) fn undefined_like<'n>(
     text: &[u8],
     kind: &str,

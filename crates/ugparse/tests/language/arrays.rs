@@ -8,7 +8,8 @@ fn copies_step_on() {
         "def d; v a 1 0 0; end; a row (d -ty 5) 3 -tx 2;",
         &["v row#0:a 1 5 0;", "v row#1:a 3 5 0;", "v row#2:a 5 5 0;"],
     );
-    // The step is applied after the first transformations: the second copy is rotated about the origin.
+    // The step is applied after the first transformations: the second copy is rotated about the
+    // origin.
     check(
         "def d; v a 1 0 0; end; a ring (d -tx 1) 4 -rz 90;",
         &["v ring#0:a 2 0 0;", "v ring#1:a 0 2 0;", "v ring#2:a -2 0 0;", "v ring#3:a 0 -2 0;"],

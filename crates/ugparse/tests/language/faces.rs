@@ -41,7 +41,8 @@ fn faces_that_are_not_flat_cause_one_warning() {
         let text = format!("{SQUARE} v up 4 4 .1; v far 4 4 1e-3; {faces}");
         assert_eq!(warnings(&text, false), expected, "{faces}");
     };
-    // A corner at height h has distance h / 4 from the plane, and the bounding box has the diagonal 4 sqrt 2.
+    // A corner at height h has distance h / 4 from the plane, and the bounding box has the diagonal
+    // 4 sqrt 2.
     row("f (a b far d);", &[]);
     row("f (a b up d);", &["face is not flat"]);
     row("f roof (a b up d);", &["face `roof` is not flat"]);

@@ -12,8 +12,8 @@ fn read(files: &[(&str, &str)]) -> String {
     read_with(files, &Options::default())
 }
 
-/// Like [`read`], with options. Programs are files whose text begins with `#!`, and print the rest; with `#!3` they
-/// fail with that status.
+/// Like [`read`], with options. Programs are files whose text begins with `#!`, and print the rest;
+/// with `#!3` they fail with that status.
 fn read_with(files: &[(&str, &str)], options: &Options) -> String {
     let load = |request: &Request<'_>| {
         let found = files.iter().find(|(name, _)| Path::new(name) == request.path);

@@ -1,4 +1,5 @@
-//! Small texts that would expand to huge scenes. Each is refused, or parsed, with little time and memory.
+//! Small texts that would expand to huge scenes. Each is refused, or parsed, with little time and
+//! memory.
 
 use std::time::{Duration, Instant};
 

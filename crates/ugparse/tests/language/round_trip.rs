@@ -89,8 +89,8 @@ proptest! {
     }
 }
 
-/// Parses bytes with and without `lax`: the result is a message that can be rendered, or a scene that survives a round
-/// trip.
+/// Parses bytes with and without `lax`: the result is a message that can be rendered, or a scene
+/// that survives a round trip.
 fn survives(bytes: &[u8]) -> Result<(), TestCaseError> {
     for lax in [false, true] {
         match ugparse::parse(&Source::new("any.ug", bytes), &Options { lax, ..Options::default() }) {

@@ -61,7 +61,8 @@ fn surfaces_may_come_later_and_from_enclosing_scopes() {
         &format!("c r 1; {TRIANGLE} f (a b c) r s; surf s 1 0 0;"),
         &["c r 1;", "surf s 1 0 0;", "f (a b c) r s;"],
     );
-    // An inner scope shadows the outer one, and its surfaces get its name as a prefix; with several scopes.
+    // An inner scope shadows the outer one, and its surfaces get its name as a prefix; with several
+    // scopes.
     check_rest(
         &format!(
             "c r 1; surf s 1 0 0; surf o 0 1 0; def d; surf s 0 0 1; {TRIANGLE} f (a b c) r s; f (a b c) r o;\

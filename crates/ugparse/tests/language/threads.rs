@@ -1,4 +1,5 @@
-//! Large texts are parsed in parts and written in pieces, with the same result for any number of threads.
+//! Large texts are parsed in parts and written in pieces, with the same result for any number of
+//! threads.
 
 use std::fmt::Write;
 use std::io;
@@ -131,8 +132,8 @@ fn any_number_of_threads_gives_the_same_messages() {
     check(&two, false);
 }
 
-/// A scene in the layout of the writer, with comments above and after rows, also at the boundaries between pieces that
-/// different threads write.
+/// A scene in the layout of the writer, with comments above and after rows, also at the boundaries
+/// between pieces that different threads write.
 fn as_written() -> String {
     let mut text = "{ head }\n(escape)\nc red 1 0 1;\n".to_string();
     let rows = 70_000;
