@@ -8,8 +8,8 @@ use ugtests::scenes;
 
 use crate::{SIZE, channels, exact};
 
-/// Colours and normals of corners, and a hole, in triangles at rest. At rest a triangle is the same
-/// in both modes.
+/// Colours and normals of corners, and a hole, in triangles at rest. At rest both modes draw a
+/// triangle equally.
 #[test]
 fn at_rest_triangles_are_those_of_the_scanline_mode() {
     const TRIANGLES: &str = "c red 1 0; c blue .8 220 .9; c grey .7; l .3; l .8 1 -2 .5;
@@ -23,8 +23,7 @@ fn at_rest_triangles_are_those_of_the_scanline_mode() {
     ugtests::picture::assert_same("exact-triangles", &scanned, &exact, 12);
 }
 
-/// The scanline mode on a scene that was cut finely shows the same, but for samples at the rims of
-/// faces.
+/// The scanline mode draws a finely cut scene equally, except for samples at the edges of faces.
 #[test]
 fn both_modes_show_the_same_colours() {
     let cases = [("cubes", 0.9 * DVec3::X), ("ship", 0.3 * DVec3::NEG_Y), ("box", 0.9 * DVec3::X)];
@@ -45,8 +44,7 @@ fn both_modes_show_the_same_colours() {
     }
 }
 
-/// What the scanline mode shows of a face, or leaves out, is so exactly within the bound of
-/// cutting.
+/// The scanline mode differs from the exact mode only within the error bound of subdivision.
 #[test]
 fn both_modes_agree_to_the_bound() {
     /// Samples of the exact picture along a side of a pixel.
@@ -55,8 +53,8 @@ fn both_modes_agree_to_the_bound() {
     const REACH: f64 = 1.0;
     const ACROSS_DEG: f64 = 60.0;
     let pixel = 2.0 * libm::tan(ACROSS_DEG.to_radians() / 2.0) / f64::from(SIZE[0]);
-    // An angle is the more pixels the farther from the middle; at the corners, with 3 : 4, 5/4 of
-    // half the width.
+    // Pixels per angle increase with the distance from the centre; the corners, with an aspect
+    // ratio of 4 : 3, are at 5/4 of half the width.
     let slant = 1.25 * pixel * f64::from(SIZE[0]) / 2.0;
     let bound = REACH * pixel / (1.0 + slant * slant);
     let mut random = Random(11);
