@@ -57,6 +57,13 @@ pub fn for_each_mut<T: Send>(table: &mut [T], least: usize, change: impl Fn(usiz
     run_all(parts.len(), &|idx| change_all(ranges.range(idx).start, &mut lock(&parts[idx])));
 }
 
+/// Calls `work` for each element of `jobs`. Threads take one job at a time, which balances jobs of
+/// different length.
+pub fn for_jobs<T: Send>(jobs: &mut [T], work: impl Fn(usize, &mut T) + Sync) {
+    let jobs: Vec<Mutex<&mut T>> = jobs.iter_mut().map(Mutex::new).collect();
+    run_all(jobs.len(), &|idx| work(idx, &mut lock(&jobs[idx])));
+}
+
 /// Calls `work` for each element of `jobs`, one at a time, and returns what `meanwhile` returns,
 /// which runs on the calling thread at the same time.
 pub fn for_jobs_while<T: Send, R>(
@@ -190,6 +197,9 @@ mod tests {
                     let thirds: Vec<usize> = (0..n_rows).step_by(3).collect();
                     assert_eq!(positions(n_rows, 16, |row| row % 3 == 0), thirds);
                     assert_eq!(any(n_rows, 16, |row| row == 10_006), n_rows == 10_007);
+                    let mut jobs = squares.clone();
+                    for_jobs(&mut jobs, |idx, job| *job += idx);
+                    assert!(jobs.iter().enumerate().all(|(idx, job)| *job == squares[idx] + idx));
                     let mut jobs = squares.clone();
                     let end = for_jobs_while(&mut jobs, |idx, job| *job += idx, || 7);
                     assert_eq!(end, 7);

@@ -7,7 +7,7 @@ use fearless_simd::{Level, Simd, dispatch, f32x16, i32x16};
 use rayon::prelude::*;
 use ugimage::{Development, Frame, HALF, LinearFrame, Quantizer, auto_exposure, display_pixel};
 use ugphysics::srgb_decode;
-use ugraster::{Direct, Filter, Finish, Gathered, RUN, Seen, Tally};
+use ugraster::{Center, Filter, Hit, PixelSamples, RUN, Resolve, ResolveSingle, SampleStats};
 
 use crate::config::{Background, Config, Exposure};
 use crate::planes::{Finder, front, planes};
@@ -40,7 +40,7 @@ pub struct Canvas {
     /// Its pixels.
     pub drawn: Drawn,
     /// What its samples were.
-    pub tally: Tally,
+    pub stats: SampleStats,
     /// How its light was developed; `None` if it is light as it is, or fitted a display from the first.
     pub development: Option<Development>,
 }
@@ -52,25 +52,25 @@ impl Canvas {
         if !is_deep && !setup.is_uncut {
             return Self::display(setup, layers, config);
         }
-        let (mut frame, tally) = light(setup, layers, config);
+        let (mut frame, stats) = light(setup, layers, config);
         if config.is_linear() {
-            return Self { drawn: Drawn::Light(frame), tally, development: None };
+            return Self { drawn: Drawn::Light(frame), stats, development: None };
         }
         let development = development(|| &frame, config);
         frame.pixels_mut().par_chunks_mut(CHUNK).flatten().for_each(|pixel| {
             *pixel = developed(&development, *pixel);
         });
         let drawn = if is_deep { Drawn::Light(frame) } else { Drawn::Display(frame.to_display()) };
-        Self { drawn, tally, development: setup.is_uncut.then_some(development) }
+        Self { drawn, stats, development: setup.is_uncut.then_some(development) }
     }
 
     /// Straight to 8 bits, when nothing in between is asked for.
     fn display(setup: &Setup<'_>, layers: &RenderLayers<'_>, config: &Config) -> Self {
         let grid = &setup.grid;
         let finish = Display::new(config);
-        let (pixels, tally) = layers.paint_filtered(grid, config.filter, &setup.shader, &finish);
+        let (pixels, stats) = layers.paint_filtered(grid, config.filter, &setup.shader, &finish);
         let frame = Frame::new([grid.width, grid.height], finish.ground.is_opaque(), pixels);
-        Self { drawn: Drawn::Display(frame), tally, development: None }
+        Self { drawn: Drawn::Display(frame), stats, development: None }
     }
 }
 
@@ -87,17 +87,17 @@ impl Display {
     }
 }
 
-impl<T> Finish<T, [u8; 4]> for Display {
-    fn pixel(&self, all: &Gathered<'_, T>) -> [u8; 4] {
+impl Resolve<[u8; 4]> for Display {
+    fn pixel(&self, all: &PixelSamples<'_>) -> [u8; 4] {
         display_pixel(&self.quantizer, self.ground.pixel(all), self.ground.is_opaque())
     }
 
-    fn direct(&self) -> Option<&dyn Direct<[u8; 4]>> {
+    fn single(&self) -> Option<&dyn ResolveSingle<[u8; 4]>> {
         Some(self)
     }
 }
 
-impl Direct<[u8; 4]> for Display {
+impl ResolveSingle<[u8; 4]> for Display {
     fn pixels(&self, keys: &[f32], levels: &[[f32; RUN]; 3], pixels: &mut [[u8; 4]]) {
         dispatch!(Level::new(), simd => write_levels(simd, keys, levels, pixels));
     }
@@ -148,31 +148,31 @@ fn bytes<S: Simd>(simd: S, levels: &[f32; LANES]) -> i32x16<S> {
 }
 
 /// The whole picture as light, with the planes that are asked for.
-pub fn light(setup: &Setup<'_>, layers: &RenderLayers<'_>, config: &Config) -> (LinearFrame, Tally) {
+pub fn light(setup: &Setup<'_>, layers: &RenderLayers<'_>, config: &Config) -> (LinearFrame, SampleStats) {
     let grid = &setup.grid;
     let ground = Ground::new(config);
     let frame = |pixels| LinearFrame::new([grid.width, grid.height], ground.is_opaque(), pixels);
     if config.channels.is_empty() || config.filter != Filter::Box {
-        let light = |all: &Gathered<'_, ()>| ground.pixel(all);
-        let (pixels, tally) = layers.paint_filtered(grid, config.filter, &setup.shader, &light);
+        let light = |all: &PixelSamples<'_>| ground.pixel(all);
+        let (pixels, stats) = layers.paint_filtered(grid, config.filter, &setup.shader, &light);
         let mut frame = frame(pixels);
         if !config.channels.is_empty() {
             // What is in the middle of a pixel is not filtered.
-            let front = |all: &Gathered<'_, u32>| front(&setup.view, all);
-            push_planes(&mut frame, setup, config, &layers.paint(grid, &setup.shader, &front).0);
+            let front = |center: &Center<'_>| front(&setup.view, center);
+            push_planes(&mut frame, setup, config, &layers.paint_centers(grid, &setup.shader, front));
         }
-        return (frame, tally);
+        return (frame, stats);
     }
-    let (pixels, tally) = layers
-        .paint(grid, &setup.shader, &|all: &Gathered<'_, u32>| (ground.pixel(all), front(&setup.view, all)));
-    let (pixels, seen): (Vec<[f32; 4]>, Vec<Option<Seen<u32>>>) = pixels.into_iter().unzip();
+    let both = |all: &PixelSamples<'_>| (ground.pixel(all), front(&setup.view, &all.center));
+    let (pixels, stats) = layers.paint_with_centers(grid, &setup.shader, &both);
+    let (pixels, seen): (Vec<[f32; 4]>, Vec<Option<Hit>>) = pixels.into_iter().unzip();
     let mut frame = frame(pixels);
     push_planes(&mut frame, setup, config, &seen);
-    (frame, tally)
+    (frame, stats)
 }
 
 /// Puts the channels that are asked for beside the light.
-fn push_planes(frame: &mut LinearFrame, setup: &Setup<'_>, config: &Config, seen: &[Option<Seen<u32>>]) {
+fn push_planes(frame: &mut LinearFrame, setup: &Setup<'_>, config: &Config, seen: &[Option<Hit>]) {
     let painter = setup.painter();
     let finder = Finder::new(&painter);
     for &channel in &config.channels {
@@ -227,7 +227,7 @@ impl Ground {
     }
 
     /// The mean light of a pixel on this ground, or of its covered part if there is none; and that part.
-    pub fn pixel<T>(&self, Gathered { sum, covered: n_covered, .. }: &Gathered<'_, T>) -> [f32; 4] {
+    pub fn pixel(&self, PixelSamples { sum, covered: n_covered, .. }: &PixelSamples<'_>) -> [f32; 4] {
         let n_covered = *n_covered;
         let [red, green, blue] = match self.behind {
             Some(behind) => {

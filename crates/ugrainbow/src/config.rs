@@ -3,7 +3,7 @@
 use ugimage::{Format, Tone};
 use uglight::HueScale;
 use ugphysics::{Brightness, Hsv};
-use ugraster::{Cue, Filter};
+use ugraster::{DepthFade, Filter};
 use ugscene::CameraOptions;
 
 use crate::figures::Figures;
@@ -138,8 +138,8 @@ impl DepthCue {
     pub const LEAST: f64 = 0.2;
 
     /// The same between two depths.
-    pub(crate) fn between(self, [near, far]: [f64; 2]) -> Cue {
-        Cue { near, far, least: self.least }
+    pub(crate) fn between(self, [near, far]: [f64; 2]) -> DepthFade {
+        DepthFade { near, far, least: self.least }
     }
 }
 

@@ -6,7 +6,7 @@ use crate::config::Config;
 use crate::error::Error;
 use crate::render_layers::RenderLayers;
 use crate::setup::Setup;
-use ugraster::Gathered;
+use ugraster::Center;
 
 /// Prepares a scene. Depth cueing without depths runs from the nearest to the farthest that is seen at the middle of
 /// a pixel; it is left out if nothing is seen.
@@ -16,7 +16,7 @@ use ugraster::Gathered;
 pub fn prepare<'a>(scene: &'a Scene, config: &Config) -> Result<Setup<'a>, Error> {
     let mut setup = Setup::new(scene, config)?;
     if let Some(cue) = config.depth_cue.filter(|cue| cue.range.is_none()) {
-        setup.grid.cue = visible_depths(&setup, config).map(|range| cue.between(range));
+        setup.grid.fade = visible_depths(&setup, config).map(|range| cue.between(range));
     }
     Ok(setup)
 }
@@ -24,9 +24,9 @@ pub fn prepare<'a>(scene: &'a Scene, config: &Config) -> Result<Setup<'a>, Error
 /// The least and greatest depth seen, rounded to four digits so that a note can tell them exactly.
 fn visible_depths(setup: &Setup<'_>, config: &Config) -> Option<[f64; 2]> {
     let layers = RenderLayers::new(setup.painter(), &config.draw_mode());
-    let (keys, _) = layers.paint(&setup.grid, &setup.shader, &|all: &Gathered<'_, u32>| {
-        let solid = all.center.iter().map(|seen| seen.key);
-        let keys = solid.chain(all.layers.iter().map(|layer| layer.key));
+    let keys = layers.paint_centers(&setup.grid, &setup.shader, |center: &Center<'_>| {
+        let opaque = center.opaque.iter().map(|hit| hit.key);
+        let keys = opaque.chain(center.fragments.iter().map(|fragment| fragment.key));
         keys.fold([f32::INFINITY, f32::NEG_INFINITY], |[low, high], key| [low.min(key), high.max(key)])
     });
     let join = |[a, b]: [f32; 2], [c, d]: [f32; 2]| [a.min(c), b.max(d)];

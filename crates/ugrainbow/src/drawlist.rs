@@ -4,7 +4,9 @@ use fearless_simd::Level;
 use glam::DVec3;
 use rayon::prelude::*;
 use ugparse::{Face, VertexId};
-use ugraster::{BLOCK, Block, Bounds, Corner, Drawn, Point, PolygonList, Shapes, Table};
+use ugraster::{
+    BLOCK, Bounds, Corner, CornerTable, Point, PolygonLayer, PolygonList, ShapeRef, TriangleBlock,
+};
 
 use crate::clip::{ClipCounts, Vertex, clip_polygon};
 use crate::packing::Pack;
@@ -17,7 +19,7 @@ const TOGETHER: usize = 4 * BLOCK;
 /// for every band looks into every list.
 const CHUNKS: [usize; 2] = [1 << 10, 1 << 13];
 
-/// Shapes in drawing order, and how many faces were clipped.
+/// PolygonLayer in drawing order, and how many faces were clipped.
 pub struct DrawList<'a, const N: usize> {
     /// Sorted into bands.
     lists: Vec<PolygonList<N>>,
@@ -37,13 +39,13 @@ struct Corners<'a, const N: usize> {
     even_level: Option<DVec3>,
 }
 
-impl<const N: usize> Table<N> for Corners<'_, N> {
+impl<const N: usize> CornerTable<N> for Corners<'_, N> {
     #[inline]
     fn point(&self, corner: u32) -> Point {
         self.points[corner as usize]
     }
 
-    fn numbers(&self, item: u32, corners: [u32; 3]) -> [[f64; N]; 3] {
+    fn values(&self, item: u32, corners: [u32; 3]) -> [[f64; N]; 3] {
         let face = &self.painter.scene.faces[item as usize];
         if let (Some(level), None) = (self.even_level, face.illum) {
             let [a, b, c] = corners.map(|corner| self.painter.surface.swatch(VertexId(corner)));
@@ -105,8 +107,8 @@ impl<'a, const N: usize> DrawList<'a, N> {
     }
 
     /// What is drawn.
-    pub fn shapes(&self) -> Shapes<'_, N, impl Table<N> + use<'a, N>> {
-        Shapes { lists: &self.lists, table: &self.corners }
+    pub fn shapes(&self) -> PolygonLayer<'_, N, impl CornerTable<N> + use<'a, N>> {
+        PolygonLayer { lists: &self.lists, corners: &self.corners }
     }
 
     /// Where the contours of every shape are: column, row and depth key.
@@ -117,8 +119,10 @@ impl<'a, const N: usize> DrawList<'a, N> {
             [x, y, key]
         };
         self.lists.iter().flat_map(|list| list.shapes()).map(move |(_, shape)| match shape {
-            Drawn::Polygon(contours) => contours.map(|contour| contour.iter().map(place).collect()).collect(),
-            Drawn::Triangle(corners) => vec![corners.map(point).to_vec()],
+            ShapeRef::Polygon(contours) => {
+                contours.map(|contour| contour.iter().map(place).collect()).collect()
+            }
+            ShapeRef::Triangle(corners) => vec![corners.map(point).to_vec()],
         })
     }
 
@@ -126,9 +130,9 @@ impl<'a, const N: usize> DrawList<'a, N> {
     pub fn for_each_polygon(&self, mut take: impl FnMut(u32, Vec<Vec<Corner<N>>>)) {
         for (item, shape) in self.lists.iter().flat_map(|list| list.shapes()) {
             match shape {
-                Drawn::Polygon(contours) => take(item, contours.map(<[Corner<N>]>::to_vec).collect()),
-                Drawn::Triangle(corners) => {
-                    let numbers = self.corners.numbers(item, corners);
+                ShapeRef::Polygon(contours) => take(item, contours.map(<[Corner<N>]>::to_vec).collect()),
+                ShapeRef::Triangle(corners) => {
+                    let numbers = self.corners.values(item, corners);
                     let corner = |i: usize| {
                         let Point { x, y, key } = self.corners.point(corners[i]);
                         let scale = if self.corners.painter.view.is_perspective { key } else { 1.0 };
@@ -150,7 +154,7 @@ struct Chunk<'a, const N: usize> {
     list: PolygonList<N>,
     clip_counts: ClipCounts,
     /// Triangles that are looked at together.
-    blocks: [Block; TOGETHER / BLOCK],
+    blocks: [TriangleBlock; TOGETHER / BLOCK],
     /// What the processor can do to many numbers at once. It changes no result.
     level: Level,
     /// The contour in work, kept for its buffer.
@@ -210,7 +214,7 @@ impl<'a, const N: usize> Chunk<'a, N> {
             if triangles >> first & ((1 << BLOCK) - 1) == 0 {
                 continue;
             }
-            let found = block.findings(self.level, self.painter.grid, self.painter.is_culled);
+            let found = block.classify(self.level, self.painter.grid, self.painter.is_culled);
             regular |= found.regular << first;
             in_picture |= found.in_picture << first;
             drawn |= found.drawn << first;

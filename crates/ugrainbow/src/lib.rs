@@ -205,9 +205,9 @@ fn paint(scene: &Scene, plan: &Plan, config: &Config, progress: &dyn Progress) -
     let setup = prepare(scene, config)?;
     let layers = RenderLayers::new(setup.painter(), &config.draw_mode()).telling(progress);
     let canvas = Canvas::new(&setup, &layers, config);
-    let Canvas { drawn, tally, development } = canvas;
+    let Canvas { drawn, stats, development } = canvas;
     progress.step("annotating", 0);
-    let outcome = Outcome { clip_counts: layers.clip_counts(), tally, development };
+    let outcome = Outcome { clip_counts: layers.clip_counts(), stats, development };
     let mut notes = notes::notes(&setup, config, &outcome);
     let annotations = plan.annotations(&setup, config, development)?;
     notes.extend(annotations.notes.iter().cloned());

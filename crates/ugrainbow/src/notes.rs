@@ -2,7 +2,7 @@
 
 use ugimage::{Development, Tone};
 use ugparse::Scene;
-use ugraster::{Cue, Tally};
+use ugraster::{DepthFade, SampleStats};
 
 use crate::clip::ClipCounts;
 use crate::config::{Config, DepthCue, Exposure};
@@ -17,7 +17,7 @@ pub struct Outcome {
     /// How many faces and lines were clipped.
     pub clip_counts: ClipCounts,
     /// What the samples were.
-    pub tally: Tally,
+    pub stats: SampleStats,
     /// How light was developed, if more than white was kept for it.
     pub development: Option<Development>,
 }
@@ -32,8 +32,8 @@ pub fn notes(setup: &Setup<'_>, config: &Config, outcome: &Outcome) -> Vec<Strin
     }
     notes.extend(why_nothing_is_seen(config, outcome).map(str::to_owned));
     notes.extend(light_note(config, outcome));
-    if let (Some(DepthCue { range: None, least }), Some(Cue { near, far, .. })) =
-        (config.depth_cue, setup.grid.cue)
+    if let (Some(DepthCue { range: None, least }), Some(DepthFade { near, far, .. })) =
+        (config.depth_cue, setup.grid.fade)
     {
         notes.push(format!(
             "depth cueing is from {near} to {far}; -dc {near} {far} {least} gives the same picture"
@@ -51,7 +51,7 @@ fn light_note(config: &Config, outcome: &Outcome) -> Option<String> {
         return Some(format!("exposure is {stops} stops; -ex {stops} gives the same picture"));
     }
     let is_chosen = config.exposure.is_some() || config.tone != Tone::Clip;
-    let brightest = outcome.tally.max_intensity;
+    let brightest = outcome.stats.max_intensity;
     if brightest <= CLIPPED || is_chosen {
         return None;
     }
@@ -85,7 +85,7 @@ fn scene_notes(scene: &Scene, is_exact: bool) -> Vec<String> {
 
 fn why_nothing_is_seen(
     config: &Config,
-    Outcome { clip_counts, tally, .. }: &Outcome,
+    Outcome { clip_counts, stats, .. }: &Outcome,
 ) -> Option<&'static str> {
     if clip_counts.in_front == 0 {
         return Some(
@@ -99,21 +99,21 @@ fn why_nothing_is_seen(
              try `uglorentz -in`, another -vc or a wider -va",
         );
     }
-    if tally.covered == 0 && config.cull {
+    if stats.covered == 0 && config.cull {
         return Some(
             "nothing is drawn: everything is seen from behind, or smaller than a sample; leave out -cb, \
              or turn the faces round",
         );
     }
-    if tally.covered == 0 {
+    if stats.covered == 0 {
         return Some(
             "nothing is drawn: everything is seen edge-on or smaller than a sample; try another -ep or a narrower -va",
         );
     }
-    if tally.visible > 0 {
+    if stats.visible > 0 {
         return None;
     }
-    if tally.out_of_range > 0 {
+    if stats.out_of_range > 0 {
         return Some(
             "all that is in the picture is black: its wavelengths are outside 380-780 nm; \
              try a lower speed, or `ugdoppler --no-doppler --no-flux` to see the shape",

@@ -14,7 +14,7 @@ use glam::DVec3;
 
 use crate::palette::Swatch;
 use crate::shade::Shader;
-use ugraster::{Shade, TRANSPARENT_VALUES};
+use ugraster::{ShadedSample, TRANSPARENT_VALUES};
 
 /// Packs a colour and the level of red, green and blue light on it.
 pub type Pack<const N: usize> = fn(&Swatch, DVec3) -> [f64; N];
@@ -92,6 +92,6 @@ pub fn pack_transparent(swatch: &Swatch, level: DVec3) -> [f64; TRANSPARENT_VALU
 pub fn shade_transparent(
     shader: &Shader,
     &[a, b, c, d, e, f, g, transmitted]: &[f32; TRANSPARENT_VALUES],
-) -> (Shade, f32) {
+) -> (ShadedSample, f32) {
     (shader.mixed_colored(&[a, b, c, d, e, f, g]), transmitted.clamp(0.0, 1.0))
 }

@@ -3,7 +3,7 @@
 use glam::DVec3;
 use uglight::Lighting;
 use ugparse::{Face, Scene, VertexId, Wire, newell_normal};
-use ugraster::{Corner, Grid, Point};
+use ugraster::{Corner, Point, SampleGrid};
 
 use crate::clip::Vertex;
 use crate::palette::{Palette, Swatch};
@@ -18,7 +18,7 @@ pub struct Painter<'a> {
     /// The camera.
     pub view: &'a View,
     /// The sample grid.
-    pub grid: &'a Grid,
+    pub grid: &'a SampleGrid,
     /// Its colours.
     pub palette: &'a Palette,
     /// Its lights.

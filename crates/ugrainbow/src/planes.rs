@@ -4,7 +4,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 use ugimage::{Plane, Samples};
 use ugphysics::{Velocity, doppler_at};
-use ugraster::{Fragment, Gathered, Grid, Seen};
+use ugraster::{Center, Fragment, Hit, SampleGrid};
 use ugscene::{Geometry, View};
 
 use crate::lines::LIFT;
@@ -56,19 +56,19 @@ impl Channel {
 }
 
 /// What a pixel is taken to show at its middle: the nearest that lets through less than half of what is behind it.
-pub fn front(view: &View, all: &Gathered<'_, u32>) -> Option<Seen<u32>> {
-    let layer = all.layers.iter().rev().find(|layer| layer.pass < 0.5);
-    layer.map_or(all.center, |layer| Some(seen(view, layer)))
+pub fn front(view: &View, center: &Center<'_>) -> Option<Hit> {
+    let fragment = center.fragments.iter().rev().find(|fragment| fragment.transmittance < 0.5);
+    fragment.map_or(center.opaque, |fragment| Some(seen(view, fragment)))
 }
 
 /// What a layer shows, lines where they are.
-pub fn seen(view: &View, layer: &Fragment) -> Seen<u32> {
+pub fn seen(view: &View, layer: &Fragment) -> Hit {
     let key = match (layer.is_line, view.is_perspective) {
         (false, _) => layer.key,
         (true, true) => layer.key * (1.0 - LIFT) as f32,
         (true, false) => layer.key - (LIFT * view.distance) as f32,
     };
-    Seen { key, tag: layer.item }
+    Hit { key, item: layer.item }
 }
 
 /// Where and when light was sent that is seen in the picture.
@@ -99,23 +99,23 @@ impl<'a> Finder<'a> {
     }
 
     /// The emission seen at a sample.
-    pub fn emission(&self, [column, row]: [u32; 2], seen: Seen<u32>) -> Emission {
+    pub fn emission(&self, [column, row]: [u32; 2], seen: Hit) -> Emission {
         let Painter { scene, view, surface, .. } = self.painter;
         let key = f64::from(seen.key);
         let depth = if view.is_perspective { 1.0 / key } else { -key };
-        let body = match scene.faces.get(seen.tag as usize) {
+        let body = match scene.faces.get(seen.item as usize) {
             Some(face) => Some(face.body),
-            None => scene.wires.get(seen.tag as usize - scene.faces.len()).map(|wire| wire.body),
+            None => scene.wires.get(seen.item as usize - scene.faces.len()).map(|wire| wire.body),
         };
         let velocity = body.map_or(Velocity::ZERO, |body| surface.velocity(body));
         let place = view.point([f64::from(column) + 0.5, f64::from(row) + 0.5], depth);
         let time = if self.has_flight_time { -place.length() } else { 0.0 };
-        Emission { item: seen.tag, place, depth, time, velocity }
+        Emission { item: seen.item, place, depth, time, velocity }
     }
 }
 
 /// The planes of a channel. `seen`: at the middle of each pixel of the grid.
-pub fn planes(channel: Channel, finder: &Finder<'_>, grid: &Grid, seen: &[Option<Seen<u32>>]) -> Vec<Plane> {
+pub fn planes(channel: Channel, finder: &Finder<'_>, grid: &SampleGrid, seen: &[Option<Hit>]) -> Vec<Plane> {
     let of = |number: &(dyn Fn(&Emission) -> f64 + Sync), nothing: f32| {
         let numbers = seen.par_iter().enumerate().map(|(idx, seen)| {
             let Some(seen) = *seen else { return nothing };
@@ -133,7 +133,7 @@ pub fn planes(channel: Channel, finder: &Finder<'_>, grid: &Grid, seen: &[Option
         Channel::Distance => vec![plane(name, of(&|emission| emission.place.length(), f32::INFINITY))],
         Channel::Depth => vec![plane(name, of(&|emission| emission.depth, f32::INFINITY))],
         Channel::Id => {
-            let ids = seen.iter().map(|seen| seen.map_or(0, |seen| seen.tag.saturating_add(1)));
+            let ids = seen.iter().map(|seen| seen.map_or(0, |seen| seen.item.saturating_add(1)));
             vec![plane(name, Samples::Whole(ids.collect()))]
         }
         Channel::Velocity => ["X", "Y", "Z"]
@@ -147,8 +147,8 @@ pub fn planes(channel: Channel, finder: &Finder<'_>, grid: &Grid, seen: &[Option
     }
 }
 
-/// The sample nearest to the centre of a pixel, of equals the last: see [`ugraster::Gathered`].
-fn middle(grid: &Grid, idx: usize) -> [u32; 2] {
+/// The sample nearest to the centre of a pixel, of equals the last: see [`ugraster::Center`].
+fn middle(grid: &SampleGrid, idx: usize) -> [u32; 2] {
     let width = grid.width as usize;
     // The pixels of a picture are fewer than 2^32.
     [idx % width, idx / width].map(|pixel| pixel as u32 * grid.samples + grid.samples / 2)

@@ -3,9 +3,9 @@
 use ugparse::Face;
 use ugpipe::Progress;
 use ugraster::{
-    Corner, Filter, Finish, FragmentTarget, Gathered, Grid, Layer, NoTable, PolygonList, Sample, Scanner,
-    Shade, Shapes, Sink, TRANSPARENT_VALUES, Tag, Tally, TransparentLayer, paint, paint_filtered, probe,
-    probe_filtered,
+    Center, Corner, Filter, FragmentTarget, FragmentWriter, NoTriangles, OpaqueLayer, PixelSamples,
+    PolygonLayer, PolygonList, ProbedSample, Rasterizer, Resolve, SampleGrid, SampleStats, Scanner,
+    ShadedSample, TRANSPARENT_VALUES, Tile, TransparentLayer,
 };
 
 use crate::clip::ClipCounts;
@@ -115,14 +115,33 @@ impl<'a, const N: usize> Layers<'a, N> {
     }
 }
 
-impl<const N: usize> Layer<N> for Layers<'_, N> {
-    fn draw(&self, grid: &Grid, band: usize, scanner: &mut Scanner<N>, sink: &mut impl Sink<N>) {
+impl<const N: usize> OpaqueLayer<N> for Layers<'_, N> {
+    fn draw(&self, grid: &SampleGrid, band: usize, scanner: &mut Scanner<N>, tile: &mut Tile<N>) {
         if !self.is_drawn {
             return;
         }
         match &self.surfaces {
-            Surfaces::Rays(faces) => faces.draw(grid, band, scanner, sink),
-            Surfaces::Polygons(list) => list.shapes().draw(grid, band, scanner, sink),
+            Surfaces::Rays(faces) => faces.draw(band, tile),
+            Surfaces::Polygons(list) => list.shapes().draw(grid, band, scanner, tile),
+        }
+    }
+}
+
+impl Layers<'_, TRANSPARENT_VALUES> {
+    /// Draws what the layers have in a band as transparent fragments.
+    fn draw_transparent(
+        &self,
+        grid: &SampleGrid,
+        band: usize,
+        scanner: &mut Scanner<TRANSPARENT_VALUES>,
+        writer: &mut FragmentWriter<'_, '_>,
+    ) {
+        if !self.is_drawn {
+            return;
+        }
+        match &self.surfaces {
+            Surfaces::Rays(faces) => faces.draw_transparent(band, writer),
+            Surfaces::Polygons(list) => list.shapes().draw_transparent(grid, band, scanner, writer),
         }
     }
 }
@@ -146,17 +165,17 @@ struct Lit<'a, 's> {
 impl TransparentLayer for Lit<'_, '_> {
     fn draw(
         &self,
-        grid: &Grid,
+        grid: &SampleGrid,
         band: usize,
         scanner: &mut Scanner<TRANSPARENT_VALUES>,
-        pane: &mut FragmentTarget<'_>,
+        target: &mut FragmentTarget<'_>,
     ) {
         let shade = |values: &[f32; TRANSPARENT_VALUES]| shade_transparent(self.shader, values);
         if let Some(faces) = &self.layers.faces {
-            faces.draw(grid, band, scanner, &mut pane.sink(shade, false));
+            faces.draw_transparent(grid, band, scanner, &mut target.writer(&shade, false));
         }
-        let lines = Shapes { lists: &self.layers.lines, table: &NoTable };
-        lines.draw(grid, band, scanner, &mut pane.sink(shade, true));
+        let lines = PolygonLayer { lists: &self.layers.lines, corners: &NoTriangles };
+        lines.draw_transparent(grid, band, scanner, &mut target.writer(&shade, true));
     }
 }
 
@@ -212,65 +231,99 @@ impl<'a> RenderLayers<'a> {
         (has_faces || !self.clear.strokes.is_empty()).then_some(Lit { layers: &self.clear, shader })
     }
 
-    /// Draws all pixels of the grid, row after row. `finish` makes a pixel of its samples.
-    pub fn paint<T: Tag, P: Copy + Send + Sync>(
+    /// Draws all pixels of the grid, row after row. `resolve` makes a pixel of its samples.
+    pub fn paint<P: Copy + Send + Sync>(
         &self,
-        grid: &Grid,
+        grid: &SampleGrid,
         shader: &Shader,
-        finish: &impl Finish<T, P>,
-    ) -> (Vec<P>, Tally) {
+        resolve: &impl Resolve<P>,
+    ) -> (Vec<P>, SampleStats) {
         let lit = self.lit(shader);
-        let clear = lit.as_ref().map(|lit| lit as &dyn TransparentLayer);
-        let progress = &Drawing(self.progress);
-        with_layers!(&self.solid, |layers| paint(grid, layers, clear, shader, finish, progress))
-    }
-
-    /// The same by a filter.
-    pub fn paint_filtered<P: Copy + Send + Sync>(
-        &self,
-        grid: &Grid,
-        filter: Filter,
-        shader: &Shader,
-        finish: &impl Finish<(), P>,
-    ) -> (Vec<P>, Tally) {
-        if filter == Filter::Box {
-            return self.paint(grid, shader, finish);
-        }
-        let lit = self.lit(shader);
-        let clear = lit.as_ref().map(|lit| lit as &dyn TransparentLayer);
+        let transparent = lit.as_ref().map(|lit| lit as &dyn TransparentLayer);
         let progress = &Drawing(self.progress);
         with_layers!(&self.solid, |layers| {
-            paint_filtered(grid, filter, layers, clear, shader, finish, progress)
+            Rasterizer { grid, opaque: layers, transparent }.paint(shader, resolve, progress)
+        })
+    }
+
+    /// As [`RenderLayers::paint`], and `resolve` receives what is visible at the centres of pixels.
+    pub fn paint_with_centers<P: Copy + Send + Sync>(
+        &self,
+        grid: &SampleGrid,
+        shader: &Shader,
+        resolve: &impl Resolve<P>,
+    ) -> (Vec<P>, SampleStats) {
+        let lit = self.lit(shader);
+        let transparent = lit.as_ref().map(|lit| lit as &dyn TransparentLayer);
+        let progress = &Drawing(self.progress);
+        with_layers!(&self.solid, |layers| {
+            Rasterizer { grid, opaque: layers, transparent }.paint_with_centers(shader, resolve, progress)
+        })
+    }
+
+    /// The pixels of the grid, row after row, each made of what is visible at its centre.
+    pub fn paint_centers<P: Copy + Send + Sync>(
+        &self,
+        grid: &SampleGrid,
+        shader: &Shader,
+        pixel: impl Fn(&Center<'_>) -> P + Sync,
+    ) -> Vec<P> {
+        let lit = self.lit(shader);
+        let transparent = lit.as_ref().map(|lit| lit as &dyn TransparentLayer);
+        let progress = &Drawing(self.progress);
+        with_layers!(&self.solid, |layers| {
+            Rasterizer { grid, opaque: layers, transparent }.paint_centers(pixel, progress)
+        })
+    }
+
+    /// As [`RenderLayers::paint`], with a reconstruction filter.
+    pub fn paint_filtered<P: Copy + Send + Sync>(
+        &self,
+        grid: &SampleGrid,
+        filter: Filter,
+        shader: &Shader,
+        resolve: &impl Resolve<P>,
+    ) -> (Vec<P>, SampleStats) {
+        if filter == Filter::Box {
+            return self.paint(grid, shader, resolve);
+        }
+        let lit = self.lit(shader);
+        let transparent = lit.as_ref().map(|lit| lit as &dyn TransparentLayer);
+        let progress = &Drawing(self.progress);
+        with_layers!(&self.solid, |layers| {
+            Rasterizer { grid, opaque: layers, transparent }.paint_filtered(filter, shader, resolve, progress)
         })
     }
 
     /// A pixel of [`RenderLayers::paint_filtered`].
     pub fn probe_filtered<P: Copy>(
         &self,
-        grid: &Grid,
+        grid: &SampleGrid,
         filter: Filter,
         shader: &Shader,
-        finish: &impl Finish<(), P>,
+        resolve: &impl Resolve<P>,
         pixel: [u32; 2],
     ) -> P {
         let lit = self.lit(shader);
-        let clear = lit.as_ref().map(|lit| lit as &dyn TransparentLayer);
+        let transparent = lit.as_ref().map(|lit| lit as &dyn TransparentLayer);
         with_layers!(&self.solid, |layers| {
-            probe_filtered(grid, filter, layers, clear, shader, finish, pixel)
+            Rasterizer { grid, opaque: layers, transparent }.probe_filtered(filter, shader, resolve, pixel)
         })
     }
 
-    /// The samples of one pixel, what they gather to, and what `finish` makes of it.
+    /// The samples of one pixel, all of them together, and the pixel.
     pub fn probe<P: Copy>(
         &self,
-        grid: &Grid,
+        grid: &SampleGrid,
         shader: &Shader,
-        finish: &impl Finish<u32, P>,
+        resolve: &impl Resolve<P>,
         pixel: [u32; 2],
-    ) -> (Vec<Sample>, Gathered<'static, u32>, P) {
+    ) -> (Vec<ProbedSample>, PixelSamples<'static>, P) {
         let lit = self.lit(shader);
-        let clear = lit.as_ref().map(|lit| lit as &dyn TransparentLayer);
-        with_layers!(&self.solid, |layers| probe(grid, layers, clear, shader, finish, pixel))
+        let transparent = lit.as_ref().map(|lit| lit as &dyn TransparentLayer);
+        with_layers!(&self.solid, |layers| {
+            Rasterizer { grid, opaque: layers, transparent }.probe(shader, resolve, pixel)
+        })
     }
 }
 
@@ -316,7 +369,11 @@ impl RenderLayers<'_> {
     }
 
     /// The light of numbers interpolated between corners of what hides, by [`RenderLayers::for_each_polygon`].
-    pub fn shade(&self, shader: &Shader, &[a, b, c, d, e, f, g, _]: &[f32; TRANSPARENT_VALUES]) -> Shade {
+    pub fn shade(
+        &self,
+        shader: &Shader,
+        &[a, b, c, d, e, f, g, _]: &[f32; TRANSPARENT_VALUES],
+    ) -> ShadedSample {
         match &self.solid {
             Solid::Plain(_) => shader.plain(&[a, b, c]),
             Solid::Colored(_) => shader.colored(&[a, b, c, d, e, f]),

@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use uglight::Lighting;
 use ugparse::{BodyId, ColorId, ColorValue, Scene, VertexId};
-use ugraster::Grid;
+use ugraster::SampleGrid;
 
 use crate::config::{Config, Exact};
 use crate::error::{self, Error};
@@ -19,7 +19,7 @@ use ugscene::{Geometry, View};
 pub struct Setup<'a> {
     scene: Cow<'a, Scene>,
     pub view: View,
-    pub grid: Grid,
+    pub grid: SampleGrid,
     pub palette: Palette,
     pub lighting: Lighting,
     pub surface: Surface,
@@ -48,8 +48,9 @@ impl<'a> Setup<'a> {
         let [width, height] = config.size;
         let view = View::new(&scene, &config.camera, config.size.map(|pixels| pixels * config.samples))?;
         ugscene::require_eye(&scene, view.eye)?;
-        let cue = config.depth_cue.and_then(|cue| Some(cue.between(cue.range?)));
-        let grid = Grid { width, height, samples: config.samples, is_perspective: view.is_perspective, cue };
+        let fade = config.depth_cue.and_then(|cue| Some(cue.between(cue.range?)));
+        let grid =
+            SampleGrid { width, height, samples: config.samples, is_perspective: view.is_perspective, fade };
         let hue_scale = ugscene::hue_scale(&scene, config.hue_scale)?;
         let palette = Palette::new(&scene, config.interpolated(hue_scale), hue_scale);
         let lighting = Lighting::new(&scene, hue_scale, view.eye, view.forward);

@@ -1,22 +1,22 @@
-//! What touches which band.
+//! Shapes sorted into the bands they touch.
 
 use std::ops::Range;
 
-use crate::band::Grid;
+use crate::grid::SampleGrid;
 
 /// For each band of a grid the shapes that touch it, in drawing order.
 #[derive(Clone, Debug, Default)]
 pub struct Bins {
-    /// Where each band's part of `items` starts, and then where the last ends.
+    /// Start of each band's part of `items`, then the end of the last.
     starts: Vec<u32>,
     items: Vec<u32>,
 }
 
 impl Bins {
-    /// `bands`: those that each shape may touch.
-    pub fn new(grid: &Grid, bands: impl Iterator<Item = Range<u32>> + Clone) -> Self {
-        // Counted two places further on, the counts of the bands before add up to where a band starts one place further on;
-        // and when that place has gone through the band it is where the next one starts.
+    /// Sorts shapes, of which `bands` gives the bands that each may touch.
+    pub fn new(grid: &SampleGrid, bands: impl Iterator<Item = Range<u32>> + Clone) -> Self {
+        // A counting sort. Counts of band b are stored at b + 2, so the running sum at b + 1 is
+        // the start of band b. Filling band b moves that entry on to the start of band b + 1.
         let mut starts = vec![0u32; grid.n_bands() + 2];
         for band in bands.clone().flatten() {
             starts[band as usize + 2] += 1;
@@ -25,7 +25,7 @@ impl Bins {
             starts[band] += starts[band - 1];
         }
         let mut items = vec![0; starts[starts.len() - 1] as usize];
-        // The text of a scene is below 4 GiB, and so are these numbers.
+        // The text of a scene is below 4 GiB, so counts of shapes fit 32 bits.
         for (shape, bands) in (0u32..).zip(bands) {
             for band in bands {
                 let next = &mut starts[band as usize + 1];
@@ -36,7 +36,7 @@ impl Bins {
         Self { starts, items }
     }
 
-    /// The shapes that touch a band, by their place in what was sorted.
+    /// Indices of the shapes that touch a band.
     pub fn in_band(&self, band: usize) -> &[u32] {
         &self.items[self.starts[band] as usize..self.starts[band + 1] as usize]
     }

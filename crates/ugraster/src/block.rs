@@ -1,33 +1,32 @@
-//! Some triangles together: which of them are drawn, and on which rows.
+//! Eight triangles together: which of them are drawn, and in which bands.
 
 use fearless_simd::prelude::*;
 use fearless_simd::{Level, Simd, dispatch, f64x8};
 
-use crate::band::Grid;
-use crate::polygons::ROUNDING;
-use crate::triangles::Point;
+use crate::grid::SampleGrid;
+use crate::polygons::{Point, ROUNDING};
 
-/// Triangles that are looked at together.
+/// Triangles in a block.
 pub const BLOCK: usize = 8;
 
 /// A number for each triangle of a block.
-pub type Each = [f64; BLOCK];
+pub type PerTriangle = [f64; BLOCK];
 
-/// Where the corners of some triangles are.
+/// The corners of a block of triangles.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Block {
-    corners: [Places; 3],
+pub struct TriangleBlock {
+    corners: [BlockCorners; 3],
 }
 
-/// The first, second or third corners of all of them.
+/// The first, second or third corners of all triangles.
 #[derive(Clone, Copy, Debug, Default)]
-struct Places {
-    x: Each,
-    y: Each,
-    key: Each,
+struct BlockCorners {
+    x: PerTriangle,
+    y: PerTriangle,
+    key: PerTriangle,
 }
 
-/// One corner of every triangle.
+/// One corner of every triangle of a block, in vector registers.
 #[derive(Clone, Copy)]
 pub struct Corners<S: Simd> {
     /// Columns, rows and depth keys, as in [`Point`].
@@ -36,36 +35,37 @@ pub struct Corners<S: Simd> {
     pub key: f64x8<S>,
 }
 
-/// What is found of the triangles of a block. In sets of them triangle i is bit i.
+/// Classification of the triangles of a block. In bit sets triangle i is bit i.
 #[derive(Clone, Copy, Debug)]
-pub struct Findings {
-    /// All numbers of these can be had from planes through their corners, as precise as along their edges: they are no
-    /// slivers, not far outside the picture, and not much nearer at one corner than at another. Of others nothing is
-    /// known.
+pub struct BlockClasses {
+    /// Triangles on which all values can be computed from planes through the corners as precisely
+    /// as along the edges: no slivers, not far outside the picture, and no corner much nearer than
+    /// another. The other fields are meaningless for other triangles.
     pub regular: u64,
-    /// They touch the picture, if only between samples.
+    /// Triangles that touch the picture, even if only between samples.
     pub in_picture: u64,
-    /// Samples may lie in them, and they are not left out.
+    /// Triangles that may contain samples and are not culled.
     pub drawn: u64,
-    /// The first band that each may touch, and one past the last.
+    /// First band that each triangle may touch, and one past the last.
     pub bands: [[i32; BLOCK]; 2],
 }
 
-/// Samples from the picture's corner within which planes are used.
+/// Distance from the corner of the picture, in samples, up to which planes are used.
 const FAR: f64 = (1u32 << 24) as f64;
 
-/// Twice the area over the square of the extent, below which a triangle is a sliver. The error of a plane at a
-/// corner is some 2⁻⁵³ over this, relative to what the number changes in the triangle: below that of an f32.
+/// A triangle is a sliver if twice its area is less than this times its extent squared. The error
+/// of a plane at a corner is about 2⁻⁵³ over this ratio, relative to the change of the value within
+/// the triangle: less than the precision of f32.
 const SLIVER: f64 = 1.0 / (1u32 << 26) as f64;
 
-/// Between these single precision has all its digits, for a key and for one over it.
+/// Range of depth keys in which both a key and its reciprocal have all digits of f32.
 const KEYS: [f64; 2] = [1e-30, 1e30];
 
-/// How much nearer one corner may be than another.
-const MOST_KEY_RATIO: f64 = 16.0;
+/// Greatest ratio of the depth keys of two corners.
+const MAX_KEY_RATIO: f64 = 16.0;
 
-impl Block {
-    /// Puts a triangle in.
+impl TriangleBlock {
+    /// Sets the corners of one triangle.
     #[inline(always)]
     pub fn set(&mut self, triangle: usize, corners: [Point; 3]) {
         for (all, Point { x, y, key }) in self.corners.iter_mut().zip(corners) {
@@ -73,10 +73,10 @@ impl Block {
         }
     }
 
-    /// First, second or third corners.
+    /// The first, second or third corners.
     #[inline(always)]
     pub fn corners<S: Simd>(&self, simd: S, which: usize) -> Corners<S> {
-        let Places { x, y, key } = &self.corners[which];
+        let BlockCorners { x, y, key } = &self.corners[which];
         Corners {
             x: f64x8::from_slice(simd, x),
             y: f64x8::from_slice(simd, y),
@@ -84,30 +84,30 @@ impl Block {
         }
     }
 
-    /// Looks at all of them. `is_culled`: those that run clockwise are left out.
-    pub fn findings(&self, level: Level, grid: &Grid, is_culled: bool) -> Findings {
-        dispatch!(level, simd => self.find(simd, grid, is_culled))
+    /// Classifies every triangle of the block. `is_culled`: clockwise triangles are not drawn.
+    pub fn classify(&self, level: Level, grid: &SampleGrid, is_culled: bool) -> BlockClasses {
+        dispatch!(level, simd => self.classify_on(simd, grid, is_culled))
     }
 
     #[inline(always)]
-    fn find<S: Simd>(&self, simd: S, grid: &Grid, is_culled: bool) -> Findings {
+    fn classify_on<S: Simd>(&self, simd: S, grid: &SampleGrid, is_culled: bool) -> BlockClasses {
         let number = |number: f64| f64x8::splat(simd, number);
         let (a, b, c) = (self.corners(simd, 0), self.corners(simd, 1), self.corners(simd, 2));
         let (left, right) = range(a.x, b.x, c.x);
         let (top, bottom) = range(a.y, b.y, c.y);
         let (least, most) = range(a.key, b.key, c.key);
-        // Positive if the corners run counterclockwise as the picture is looked at.
+        // Positive if the corners run counterclockwise on the screen, where rows go downwards.
         let twice_area = (b.y - a.y) * (c.x - a.x) - (b.x - a.x) * (c.y - a.y);
         let extent = greater(right - left, bottom - top);
         let is_near = lesser(left, top).simd_ge(number(-FAR)) & greater(right, bottom).simd_le(number(FAR));
-        // What is no number is in no area and no sum that is less than anything.
-        let is_number = (a.key + b.key + c.key).abs().simd_lt(number(f64::INFINITY));
+        // NaN fails every comparison. A NaN coordinate makes the area NaN, and a NaN key this sum.
+        let has_keys = (a.key + b.key + c.key).abs().simd_lt(number(f64::INFINITY));
         let is_wide = twice_area.abs().simd_gt(extent * extent * SLIVER);
-        let mut is_regular = is_near & is_number & is_wide;
+        let mut is_regular = is_near & has_keys & is_wide;
         if grid.is_perspective {
             let [low, high] = KEYS;
             is_regular &= least.simd_gt(number(low)) & most.simd_lt(number(high));
-            is_regular &= most.simd_le(least * MOST_KEY_RATIO);
+            is_regular &= most.simd_le(least * MAX_KEY_RATIO);
         }
         let (columns, rows) = (f64::from(grid.sample_columns()), f64::from(grid.sample_rows()));
         let is_in_picture = right.simd_gt(number(0.0))
@@ -123,26 +123,27 @@ impl Block {
         if is_culled {
             is_drawn &= twice_area.simd_gt(number(0.0));
         }
-        // The middle of a row is half a row from the nearest end of a band, so no rounding moves it there.
+        // Row centres are half a row from the nearest end of a band, so rounding of the product
+        // cannot move one into another band.
         let per_row = 1.0 / f64::from(grid.bands().sample_rows());
         let first_band = ((first_row + 0.5) * per_row).floor();
         let end_band = ((end_row - 0.5) * per_row).floor() + 1.0;
-        Findings {
+        BlockClasses {
             regular: is_regular.to_bitmask(),
             in_picture: is_in_picture.to_bitmask(),
             drawn: is_drawn.to_bitmask(),
-            bands: whole(simd, first_band, end_band),
+            bands: to_integers(simd, first_band, end_band),
         }
     }
 }
 
-/// The lesser of numbers, the second if one is none.
+/// The lesser of numbers, `b` where either is NaN.
 #[inline(always)]
 pub fn lesser<S: Simd>(a: f64x8<S>, b: f64x8<S>) -> f64x8<S> {
     a.simd_lt(b).select(a, b)
 }
 
-/// The greater of numbers, the second if one is none.
+/// The greater of numbers, `b` where either is NaN.
 #[inline(always)]
 pub fn greater<S: Simd>(a: f64x8<S>, b: f64x8<S>) -> f64x8<S> {
     a.simd_gt(b).select(a, b)
@@ -154,15 +155,16 @@ fn range<S: Simd>(p: f64x8<S>, q: f64x8<S>, r: f64x8<S>) -> (f64x8<S>, f64x8<S>)
     (lesser(lesser(p, q), r), greater(greater(p, q), r))
 }
 
-/// The first sample centres, at ½, 1½ and so on, at or behind places, but no less than `start` and no more than `end`.
+/// Indices of the first sample centres (½, 1½, …) at or beyond some places, clamped to
+/// `start`…`end`.
 #[inline(always)]
 pub fn first_centers<S: Simd>(places: f64x8<S>, start: f64x8<S>, end: f64x8<S>) -> f64x8<S> {
     lesser(greater((places - 0.5).ceil(), start), end)
 }
 
-/// Whole numbers, which up to 2²⁴ stay what they are.
+/// Integral numbers as integers; exact up to 2²⁴.
 #[inline(always)]
-pub fn whole<S: Simd>(simd: S, a: f64x8<S>, b: f64x8<S>) -> [[i32; BLOCK]; 2] {
+pub fn to_integers<S: Simd>(simd: S, a: f64x8<S>, b: f64x8<S>) -> [[i32; BLOCK]; 2] {
     let (a, b) = simd.cvt_i32_f32x16(simd.narrow_f64x8(a, b)).split();
     [a.into(), b.into()]
 }

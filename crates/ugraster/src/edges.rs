@@ -1,8 +1,8 @@
-//! Where the outline of a polygon crosses the rows of samples.
+//! Crossings of a polygon's outline with rows of samples.
 
 use crate::polygons::{Corner, first_center};
 
-/// A place on a row: what a corner holds, but for the row.
+/// A crossing of an edge with a row of samples; the fields are those of a [`Corner`].
 #[derive(Clone, Copy, Debug)]
 pub struct Crossing<const N: usize> {
     pub x: f64,
@@ -10,14 +10,14 @@ pub struct Crossing<const N: usize> {
     pub values: [f64; N],
 }
 
-/// An edge of a polygon that crosses at least one row, as linear functions of the row.
+/// An edge that crosses at least one row; all its numbers are linear functions of the row.
 #[derive(Clone, Copy, Debug)]
 struct Edge<const N: usize> {
     first_row: u32,
     end_row: u32,
     /// Its upper end.
     top: Corner<N>,
-    /// Change of `x`, key and values a row downward.
+    /// Change of x, key and values per row downwards.
     slope: Crossing<N>,
 }
 
@@ -25,8 +25,8 @@ impl<const N: usize> Edge<N> {
     /// The edge between two corners, cut to the rows from `first_row` to `end_row`;
     /// `None` if it crosses none of them.
     ///
-    /// Row j crosses if y₀ ≤ j + ½ < y₁. The upper end is taken as the start whichever way
-    /// the polygon runs, so that both polygons at an edge compute the same bits.
+    /// It crosses row j if y₀ ≤ j + ½ < y₁. The upper end is the start whichever way the
+    /// polygon winds, so both polygons at an edge compute the same bits.
     #[inline]
     fn between(a: &Corner<N>, b: &Corner<N>, first_row: u32, end_row: u32) -> Option<Self> {
         let (top, bottom) = if a.y < b.y { (a, b) } else { (b, a) };
@@ -46,8 +46,8 @@ impl<const N: usize> Edge<N> {
 
     #[inline]
     fn at_row(&self, row: u32) -> Crossing<N> {
-        // Always from the end and never from the row above: the answer must not depend
-        // on where a band starts.
+        // From the end of the edge and never from the row above: the result must not depend on
+        // where a band starts.
         let down = f64::from(row) + 0.5 - self.top.y;
         Crossing {
             x: self.top.x + down * self.slope.x,
@@ -57,8 +57,8 @@ impl<const N: usize> Edge<N> {
     }
 }
 
-/// Walks down polygons with a list of the edges that cross the current row. Its buffers
-/// are kept from polygon to polygon.
+/// Scan conversion with a list of the edges that cross the current row. Its buffers are reused from
+/// polygon to polygon.
 #[derive(Debug, Default)]
 pub struct Scanner<const N: usize> {
     edges: Vec<Edge<N>>,
@@ -67,8 +67,8 @@ pub struct Scanner<const N: usize> {
 }
 
 impl<const N: usize> Scanner<N> {
-    /// Gives `span` the row and the two ends of every stretch of the polygon that lies in
-    /// the rows from `first_row` to `end_row`, by the even-odd rule.
+    /// Calls `span` with the row and both ends of every span of the polygon in the rows from
+    /// `first_row` to `end_row`, by the even-odd rule.
     pub fn scan<'a>(
         &mut self,
         contours: impl Iterator<Item = &'a [Corner<N>]>,

@@ -1,28 +1,28 @@
-//! Pixels that weigh the samples around their middles, those of their neighbours among them.
+//! Pixels that weigh the samples around their centres, those of neighbouring pixels among them.
 //!
-//! The picture is drawn in strips of rows of pixels, in parallel; the rows next to a strip are drawn again for their
-//! samples. Each row of samples is added, with its weights, to the rows of pixels it counts for, and a row of pixels is
-//! finished when the last of its samples has come. So memory grows with the width of the picture alone.
+//! The picture is drawn in strips of pixel rows, in parallel; the rows next to a strip are drawn
+//! again for their samples. Each row of samples is added, with its weights, to the pixel rows it
+//! counts for. A pixel row is finished after the last of its samples, so memory grows only with the
+//! width of the picture.
 
 use std::collections::VecDeque;
 
 use fearless_simd::{Level, Simd, dispatch};
 
-use crate::band::{Band, Grid, Layer, paint_parts};
-use crate::edges::Scanner;
 use crate::progress::Progress;
-use crate::resolve::{Finish, Gathered, Resolver};
-use crate::shading::{Shading, Tally};
-use crate::spans::Tile;
-use crate::transparency::{KeepFragments, TransparencyBuffer, TransparentLayer};
+use crate::rasterizer::{Keep, Rasterizer, TileBuffers, paint_parts};
+use crate::resolve::{Center, PixelSamples, Planes, Resolve, Resolver};
+use crate::shading::{SampleStats, Shading};
 
 /// Rows of pixels of a strip: many, beside those that are drawn twice.
 const STRIP_ROWS: u32 = 32;
 
-/// How much samples weigh in a pixel, by their distances x and y from its middle in pixels: w(x) w(y).
+/// How much samples weigh in a pixel, by their distances x and y from its middle in pixels: w(x)
+/// w(y).
 ///
-/// These are B-splines: the weights of a sample in all pixels add up to 1, so wherever something small stands, the picture has
-/// the same light of it. None is negative, so no pixel is darker or brighter than all of its samples.
+/// These are B-splines: the weights of a sample in all pixels add up to 1, so wherever something
+/// small stands, the picture has the same light of it. None is negative, so no pixel is darker or
+/// brighter than all of its samples.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Filter {
     /// The samples of the pixel itself, all alike, as of a detector: w = 1 for |x| < ½.
@@ -30,7 +30,8 @@ pub enum Filter {
     Box,
     /// w = 1 − |x|, up to 1.
     Triangle,
-    /// The quadratic B-spline, nearly a Gaussian with σ = ½: w = ¾ − x² for |x| < ½, else ½ (3/2 − |x|)², up to 3/2.
+    /// The quadratic B-spline, nearly a Gaussian with σ = ½: w = ¾ − x² for |x| < ½, else ½ (3/2 −
+    /// |x|)², up to 3/2.
     Spline,
 }
 
@@ -84,91 +85,70 @@ impl Filter {
     }
 }
 
-/// Draws a layer, and what is clear before it, as [`crate::paint`] does, by a filter. `finish` is told nothing but light.
-pub fn paint_filtered<const N: usize, L, P, S, F>(
-    grid: &Grid,
-    filter: Filter,
-    layer: &L,
-    clear: Option<&dyn TransparentLayer>,
-    shader: &S,
-    finish: &F,
-    progress: &dyn Progress,
-) -> (Vec<P>, Tally)
-where
-    L: Layer<N> + ?Sized,
-    P: Copy + Send + Sync,
-    S: Shading<N>,
-    F: Finish<(), P>,
-{
-    let (weights, margin) = (filter.weights(grid.samples), filter.margin());
-    let empty = finish.pixel(&Gathered::EMPTY);
-    paint_parts(grid, STRIP_ROWS, empty, progress, |own, strip, pixels| {
-        let top = strip as u32 * STRIP_ROWS;
-        let rows = [top, (top + STRIP_ROWS).min(grid.height)];
-        let mut strip = Strip { grid, layer, clear, margin, weights: &weights, own };
-        let mut resolver = Resolver::new(shader, finish, grid);
-        for first in (0..grid.width).step_by(grid.tile_columns() as usize) {
-            let columns = [first, (first + grid.tile_columns()).min(grid.width)];
-            strip.paint(&mut resolver, columns, rows, |[column, row], pixel| {
-                pixels[(row - top) as usize * grid.width as usize + column as usize] = pixel;
-            });
-        }
-        resolver.tally
-    })
-}
+impl<const N: usize> Rasterizer<'_, N> {
+    /// As [`Rasterizer::paint`], with a reconstruction filter. `resolve` receives light and
+    /// coverage only.
+    pub fn paint_filtered<P: Copy + Send + Sync>(
+        &self,
+        filter: Filter,
+        shading: &dyn Shading<N>,
+        resolve: &impl Resolve<P>,
+        progress: &dyn Progress,
+    ) -> (Vec<P>, SampleStats) {
+        let grid = self.grid;
+        let (weights, margin) = (filter.weights(grid.samples), filter.margin());
+        let empty = resolve.pixel(&PixelSamples::EMPTY);
+        paint_parts(grid, STRIP_ROWS, empty, progress, |buffers, strip, pixels| {
+            let top = strip as u32 * STRIP_ROWS;
+            let rows = [top, (top + STRIP_ROWS).min(grid.height)];
+            let mut strip = Strip { rasterizer: self, margin, weights: &weights, buffers };
+            let mut resolver = Resolver::new(grid, shading);
+            for first in (0..grid.width).step_by(grid.tile_columns() as usize) {
+                let columns = [first, (first + grid.tile_columns()).min(grid.width)];
+                strip.paint(&mut resolver, columns, rows, |[column, row], samples| {
+                    pixels[(row - top) as usize * grid.width as usize + column as usize] =
+                        resolve.pixel(samples);
+                });
+            }
+            resolver.stats
+        })
+    }
 
-/// A pixel of [`paint_filtered`]: the very numbers, for sums do not depend on where a strip begins.
-pub fn probe_filtered<const N: usize, L, P, S, F>(
-    grid: &Grid,
-    filter: Filter,
-    layer: &L,
-    clear: Option<&dyn TransparentLayer>,
-    shader: &S,
-    finish: &F,
-    [column, row]: [u32; 2],
-) -> P
-where
-    L: Layer<N> + ?Sized,
-    P: Copy,
-    S: Shading<N>,
-    F: Finish<(), P>,
-{
-    let mut found = finish.pixel(&Gathered::EMPTY);
-    let (weights, margin) = (filter.weights(grid.samples), filter.margin());
-    let mut strip = Strip { grid, layer, clear, margin, weights: &weights, own: &mut Own::default() };
-    let mut resolver = Resolver::new(shader, finish, grid);
-    strip.paint(&mut resolver, [column, column + 1], [row, row + 1], |_, pixel| found = pixel);
-    found
-}
-
-/// Buffers of a strip.
-struct Own<const N: usize> {
-    scanner: Scanner<N>,
-    tile: Tile<N, ()>,
-    transparency: TransparencyBuffer,
-    /// Of the rows of pixels that have samples and wait for more, from the uppermost.
-    waiting: VecDeque<Sums>,
-    spare: Vec<Sums>,
-}
-
-impl<const N: usize> Default for Own<N> {
-    fn default() -> Self {
-        Self {
-            scanner: Scanner::default(),
-            tile: Tile::default(),
-            transparency: TransparencyBuffer::default(),
-            waiting: VecDeque::new(),
-            spare: Vec::new(),
-        }
+    /// A pixel of [`Rasterizer::paint_filtered`]: the same bits, because sums do not depend on
+    /// where a strip starts.
+    pub fn probe_filtered<P>(
+        &self,
+        filter: Filter,
+        shading: &dyn Shading<N>,
+        resolve: &impl Resolve<P>,
+        [column, row]: [u32; 2],
+    ) -> P {
+        let (weights, margin) = (filter.weights(self.grid.samples), filter.margin());
+        let buffers = &mut StripBuffers::default();
+        let mut strip = Strip { rasterizer: self, margin, weights: &weights, buffers };
+        let mut resolver = Resolver::new(self.grid, shading);
+        let mut found = resolve.pixel(&PixelSamples::EMPTY);
+        let take = |_, samples: &PixelSamples<'_>| found = resolve.pixel(samples);
+        strip.paint(&mut resolver, [column, column + 1], [row, row + 1], take);
+        found
     }
 }
 
-/// Weighed sums of linear light, and of cover, down the columns of samples for a row of pixels.
+/// Buffers of a strip.
 #[derive(Default)]
-struct Sums([Vec<f32>; 4]);
+struct StripBuffers<const N: usize> {
+    tile: TileBuffers<N>,
+    /// Sums of the pixel rows that have some of their samples, from the uppermost.
+    pending: VecDeque<RowSums>,
+    spare: Vec<RowSums>,
+}
 
-impl Sums {
-    /// Makes them zero.
+/// Weighted sums of linear light and coverage down the columns of samples, for a row of pixels.
+#[derive(Default)]
+struct RowSums(Planes);
+
+impl RowSums {
+    /// Sets them to zero.
     fn clear(&mut self, n_columns: usize) {
         for sums in &mut self.0 {
             sums.clear();
@@ -176,13 +156,13 @@ impl Sums {
         }
     }
 
-    /// Adds a row of samples, of which the first stands in column `first`.
-    fn add(&mut self, first: usize, weight: f32, lit: &[Vec<f32>; 4]) {
+    /// Adds a row of samples, from column `first` of the sums on.
+    fn add(&mut self, first: usize, weight: f32, lit: &Planes) {
         dispatch!(Level::new(), simd => self.add_on(simd, first, weight, lit));
     }
 
-    #[inline(always)] // Compiled for what the processor can do to many numbers at once.
-    fn add_on<S: Simd>(&mut self, _: S, first: usize, weight: f32, lit: &[Vec<f32>; 4]) {
+    #[inline(always)] // Compiled for several instruction sets.
+    fn add_on<S: Simd>(&mut self, _: S, first: usize, weight: f32, lit: &Planes) {
         for (sums, lit) in self.0.iter_mut().zip(lit) {
             for (sum, lit) in sums[first..].iter_mut().zip(lit) {
                 *sum += weight * lit;
@@ -190,119 +170,117 @@ impl Sums {
         }
     }
 
-    /// What the columns from `first` on add up to with their weights. `weight`: what a column of covered samples adds up
-    /// to.
-    fn pixel(&self, first: usize, weights: &[f32], weight: f32, n_samples: f32) -> Gathered<'static, ()> {
-        let [red, green, blue, cover] = self.0.each_ref().map(|sums| &sums[first..first + weights.len()]);
+    /// The weighted sum of the columns from `first` on. `weight`: the sum of weights down a column.
+    fn pixel(&self, first: usize, weights: &[f32], weight: f32, n_samples: f32) -> PixelSamples<'static> {
+        let [red, green, blue, coverage] = self.0.each_ref().map(|sums| &sums[first..first + weights.len()]);
         let (mut sum, mut covered, mut all) = ([0.0; 3], 0.0, 0.0);
-        for ((((part, red), green), blue), cover) in weights.iter().zip(red).zip(green).zip(blue).zip(cover) {
+        for ((((part, red), green), blue), coverage) in
+            weights.iter().zip(red).zip(green).zip(blue).zip(coverage)
+        {
             sum[0] += part * red;
             sum[1] += part * green;
             sum[2] += part * blue;
-            covered += part * cover;
+            covered += part * coverage;
             all += part * weight;
         }
-        // As if so many samples were added up. The quotient comes first: it is 1, to the bit, where all is covered.
-        let of_samples = |sum: f32| sum / all * n_samples;
-        Gathered { sum: sum.map(of_samples), covered: of_samples(covered), center: None, layers: &[] }
+        // Scaled to a sum of `n_samples` samples. The quotient comes first: it is exactly 1 for a
+        // fully covered pixel.
+        let scaled = |sum: f32| sum / all * n_samples;
+        PixelSamples { sum: sum.map(scaled), covered: scaled(covered), center: Center::default() }
     }
 }
 
 /// A part of the picture being drawn.
-struct Strip<'a, const N: usize, L: ?Sized> {
-    grid: &'a Grid,
-    layer: &'a L,
-    clear: Option<&'a dyn TransparentLayer>,
+struct Strip<'a, const N: usize> {
+    rasterizer: &'a Rasterizer<'a, N>,
+    /// Pixels on each side whose samples count.
     margin: u32,
-    /// Along a side of a pixel.
+    /// Weights along a side of a pixel.
     weights: &'a [f32],
-    own: &'a mut Own<N>,
+    buffers: &'a mut StripBuffers<N>,
 }
 
-impl<const N: usize, L: Layer<N> + ?Sized> Strip<'_, N, L> {
-    /// Gives `put` those pixels of these columns and rows that show something.
-    fn paint<P, S, F>(
+impl<const N: usize> Strip<'_, N> {
+    /// Calls `take` with the column and row of each pixel of some columns and rows that shows
+    /// something, and with its samples.
+    fn paint(
         &mut self,
-        resolver: &mut Resolver<'_, S, F>,
+        resolver: &mut Resolver<'_, N>,
         columns: [u32; 2],
         rows: [u32; 2],
-        mut put: impl FnMut([u32; 2], P),
-    ) where
-        S: Shading<N>,
-        F: Finish<(), P>,
-    {
-        let wide = self.around(columns, self.grid.width);
-        let tall = self.around(rows, self.grid.height);
-        // The first row of pixels that waits, and the first that has not been drawn.
-        let (mut waiting, mut row) = (rows[0], tall[0]);
+        mut take: impl FnMut([u32; 2], &PixelSamples<'_>),
+    ) {
+        let grid = self.rasterizer.grid;
+        let wide = self.around(columns, grid.width);
+        let tall = self.around(rows, grid.height);
+        // The first pending row of pixels, and the first that has not been drawn.
+        let (mut pending, mut row) = (rows[0], tall[0]);
         while row < tall[1] {
-            // Part by part: of a tile, and drawn for this strip or again for its neighbours.
-            let ends = [self.grid.tile_end(row), rows[0], rows[1], tall[1]];
+            // In parts that are within a tile, and within this strip or outside of it.
+            let ends = [grid.tile_end(row), rows[0], rows[1], tall[1]];
             let end = ends.into_iter().filter(|&end| end > row).min().unwrap_or(tall[1]);
-            self.wait((end + self.margin).min(rows[1]) - waiting, wide);
+            self.begin_rows((end + self.margin).min(rows[1]) - pending, wide);
             for part in [[wide[0], columns[0]], columns, [columns[1], wide[1]]] {
-                let before = resolver.tally;
-                self.add(resolver, part, [row, end], wide[0], waiting);
+                let before = resolver.stats;
+                self.add(resolver, part, [row, end], wide[0], pending);
                 if part != columns || row < rows[0] || row >= rows[1] {
-                    // Counted by whom it belongs to.
-                    resolver.tally = before;
+                    // The strip they belong to counts these samples.
+                    resolver.stats = before;
                 }
             }
             row = end;
             let is_last = row == tall[1];
             let done =
-                if is_last { rows[1] } else { row.saturating_sub(self.margin).clamp(waiting, rows[1]) };
-            for finished in waiting..done {
-                self.finish(resolver.finish, finished, columns, wide[0], &mut put);
+                if is_last { rows[1] } else { row.saturating_sub(self.margin).clamp(pending, rows[1]) };
+            for finished in pending..done {
+                self.finish(finished, columns, wide[0], &mut take);
             }
-            waiting = done;
+            pending = done;
         }
     }
 
-    /// These pixels, and those whose samples they weigh.
+    /// The range of pixels whose samples count for pixels of a range.
     fn around(&self, [first, end]: [u32; 2], last: u32) -> [u32; 2] {
         [first.saturating_sub(self.margin), (end + self.margin).min(last)]
     }
 
-    /// Lets so many rows wait.
-    fn wait(&mut self, n_rows: u32, [first, end]: [u32; 2]) {
-        while self.own.waiting.len() < n_rows as usize {
-            let mut sums = self.own.spare.pop().unwrap_or_default();
-            sums.clear(((end - first) * self.grid.samples) as usize);
-            self.own.waiting.push_back(sums);
+    /// Adds empty pending rows until there are `n_rows`.
+    fn begin_rows(&mut self, n_rows: u32, [first, end]: [u32; 2]) {
+        while self.buffers.pending.len() < n_rows as usize {
+            let mut sums = self.buffers.spare.pop().unwrap_or_default();
+            sums.clear(((end - first) * self.rasterizer.grid.samples) as usize);
+            self.buffers.pending.push_back(sums);
         }
     }
 
-    /// Draws these columns and rows of pixels, which lie in a tile, and adds their samples to the rows that wait. `left`: the
-    /// first column of the sums, `waiting`: the first row that waits.
-    fn add<S, F>(
+    /// Draws some columns and rows of pixels, which are within a tile, and adds their samples to
+    /// the pending rows. `left`: the first column of pixels in the sums. `pending`: the first
+    /// pending row.
+    fn add(
         &mut self,
-        resolver: &mut Resolver<'_, S, F>,
+        resolver: &mut Resolver<'_, N>,
         columns: [u32; 2],
         rows: [u32; 2],
         left: u32,
-        waiting: u32,
-    ) where
-        S: Shading<N>,
-    {
+        pending: u32,
+    ) {
         if columns[0] == columns[1] {
             return;
         }
-        let Self { grid, layer, clear, .. } = *self;
+        let grid = self.rasterizer.grid;
         let n = grid.samples;
         let samples = rows[0] * n..rows[1] * n;
         let band = grid.bands().of(&samples).start as usize;
-        let Own { scanner, tile, transparency, waiting: all_sums, .. } = &mut *self.own;
-        let mut one = Band { grid, layer, clear, band, scanner, tile, transparency };
-        one.draw(columns, rows);
-        let clear = one.draw_clear(KeepFragments::None);
-        resolver.tally = resolver.tally.merge(clear);
+        let StripBuffers { tile: buffers, pending: all_sums, .. } = &mut *self.buffers;
+        let stats = self.rasterizer.draw_tile(buffers, band, columns, rows, Keep::Light);
+        resolver.stats = resolver.stats.merge(stats);
+        let TileBuffers { tile, transparency, .. } = buffers;
         for sample in samples {
-            let Some(lit) = resolver.light(tile, transparency, sample, columns.map(|column| column * n))
-            else {
+            let columns_of_samples = columns.map(|column| column * n);
+            let Some(lit) = resolver.light(tile, transparency, sample, columns_of_samples) else {
                 continue;
             };
-            for (pixel, sums) in (waiting..).zip(&mut *all_sums) {
+            for (pixel, sums) in (pending..).zip(&mut *all_sums) {
                 let idx = (sample + self.margin * n).checked_sub(pixel * n);
                 if let Some(weight) = idx.and_then(|idx| self.weights.get(idx as usize))
                     && *weight != 0.0
@@ -313,32 +291,34 @@ impl<const N: usize, L: Layer<N> + ?Sized> Strip<'_, N, L> {
         }
     }
 
-    /// Makes pixels of the first row that waits, which is `row`.
-    fn finish<P>(
+    /// Finishes the first pending row of pixels, which is `row`.
+    fn finish(
         &mut self,
-        finish: &impl Finish<(), P>,
         row: u32,
         columns: [u32; 2],
         left: u32,
-        put: &mut impl FnMut([u32; 2], P),
+        take: &mut impl FnMut([u32; 2], &PixelSamples<'_>),
     ) {
-        let Some(sums) = self.own.waiting.pop_front() else { return };
-        let n = self.grid.samples;
-        // Added up from above, as they were with cover.
-        let weight = self.inside(row, self.grid.height).1.iter().fold(0.0, |sum, weight| sum + weight);
+        let Some(sums) = self.buffers.pending.pop_front() else { return };
+        let grid = self.rasterizer.grid;
+        let n = grid.samples;
+        // Added in the order in which coverage was, so that a fully covered pixel has the same
+        // bits.
+        let weight = self.inside(row, grid.height).1.iter().fold(0.0, |sum, weight| sum + weight);
         for column in columns[0]..columns[1] {
-            let (first, weights) = self.inside(column, self.grid.width);
-            let all = sums.pixel((first - left * n) as usize, weights, weight, (n * n) as f32);
-            if all.covered != 0.0 {
-                put([column, row], finish.pixel(&all));
+            let (first, weights) = self.inside(column, grid.width);
+            let samples = sums.pixel((first - left * n) as usize, weights, weight, (n * n) as f32);
+            if samples.covered != 0.0 {
+                take([column, row], &samples);
             }
         }
-        self.own.spare.push(sums);
+        self.buffers.spare.push(sums);
     }
 
-    /// Of the samples along a side that a pixel weighs, the first in the picture, and the weights of those in it.
+    /// The first sample along a side that counts for a pixel and is in the picture, and the weights
+    /// of all that do.
     fn inside(&self, pixel: u32, n_pixels: u32) -> (u32, &[f32]) {
-        let n = self.grid.samples;
+        let n = self.rasterizer.grid.samples;
         let [first, end] = self.around([pixel, pixel + 1], n_pixels).map(|pixel| pixel * n);
         let missing = self.margin.saturating_sub(pixel) * n;
         (first, &self.weights[missing as usize..(missing + end - first) as usize])

@@ -1,33 +1,34 @@
-//! A rasterizer: polygons in the picture plane in, pixels out.
+//! A rasterizer: polygons in the picture plane to pixels.
 //!
 //! It draws on a grid of samples, several to a pixel, with a depth test at each sample. It knows
-//! no scenes, cameras or colours: corners carry a depth key and N numbers ([`Corner`]), and a
-//! [`Shading`] turns the N interpolated numbers of a sample into linear light. [`Finish`] makes a
+//! no scenes, cameras or colours: corners carry a depth key and N values ([`Corner`]), and a
+//! [`Shading`] turns the N interpolated values of a sample into linear light. [`Resolve`] makes a
 //! pixel of the light of its samples, so the caller decides about backgrounds and pixel formats.
 //! Output is the same bits on any number of threads and on every processor.
 //!
 //! # Example
 //!
 //! Two triangles that intersect, one bright at the left and one dark at the right, with one sample
-//! to a pixel. The nearer one is seen at each pixel:
+//! to a pixel. The nearer one is visible at each pixel:
 //!
 //! ```
-//! use ugraster::{Corner, Gathered, Grid, NoTable, PolygonList, Scale, Shade, Shades, Shading};
-//! use ugraster::{Shapes, paint};
+//! use ugraster::{Corner, Encoding, NoTriangles, PixelSamples, PolygonLayer, PolygonList, Rasterizer};
+//! use ugraster::{SampleGrid, ShadedRun, ShadedSample, Shading};
 //!
-//! /// The only interpolated number is grey light.
+//! /// The only interpolated value is grey light.
 //! struct Grey;
 //!
 //! impl Shading<1> for Grey {
-//!     fn shade(&self, [greys]: [&[f32]; 1], _scale: Scale, shades: &mut Shades) {
+//!     fn shade(&self, [greys]: [&[f32]; 1], _: Encoding, run: &mut ShadedRun) {
 //!         for (sample, &grey) in greys.iter().enumerate() {
-//!             shades.set(sample, Shade { light: [grey; 3], intensity: grey, is_out_of_range: false });
+//!             let light = [grey; 3];
+//!             run.set(sample, ShadedSample { light, intensity: grey, is_out_of_range: false });
 //!         }
 //!     }
 //! }
 //!
 //! // Depth keys of an orthographic view: larger is nearer.
-//! let grid = Grid { width: 9, height: 5, samples: 1, is_perspective: false, cue: None };
+//! let grid = SampleGrid { width: 9, height: 5, samples: 1, is_perspective: false, fade: None };
 //! let mut polygons = PolygonList::default();
 //! for (item, grey, left_key, right_key) in [(0, 0.75, 2.0, 0.0), (1, 0.25, 0.0, 2.0)] {
 //!     for (x, y, key) in [(0.0, -9.0, left_key), (9.0, 2.5, right_key), (0.0, 14.0, left_key)] {
@@ -38,31 +39,39 @@
 //! }
 //! polygons.sort_into_bands(&grid);
 //!
-//! let layer = Shapes { lists: &[polygons], table: &NoTable };
-//! let finish = |all: &Gathered<'_, ()>| all.sum[0];
-//! let (pixels, tally) = paint(&grid, &layer, None, &Grey, &finish, &());
-//! let row = &pixels[2 * 9..3 * 9];
-//! assert_eq!(row[..4], [0.75; 4]);
-//! assert_eq!(row[5..], [0.25; 4]);
-//! assert_eq!(tally.visible, tally.covered);
+//! let opaque = &PolygonLayer { lists: &[polygons], corners: &NoTriangles };
+//! let rasterizer = Rasterizer { grid: &grid, opaque, transparent: None };
+//! let red = |samples: &PixelSamples<'_>| samples.sum[0];
+//! let (pixels, stats) = rasterizer.paint(&Grey, &red, &());
+//! let middle_row = &pixels[2 * 9..3 * 9];
+//! assert_eq!(middle_row[..4], [0.75; 4]);
+//! assert_eq!(middle_row[5..], [0.25; 4]);
+//! assert_eq!(stats.visible, stats.covered);
+//!
+//! let items = rasterizer.paint_centers(|center| center.opaque.map(|hit| hit.item), &());
+//! assert_eq!([items[2 * 9], items[3 * 9 - 1]], [Some(0), Some(1)]);
 //! ```
 //!
 //! # Steps
 //!
-//! 1. `polygons`: polygons in buffers, sorted into bands of pixel rows (`bins`);
+//! 1. `polygons`: polygons and triangles in buffers, sorted into bands of pixel rows (`bins`);
 //! 2. `edges`: crossings of a polygon's outline with a row of samples;
-//! 3. `spans`: the samples between two crossings, and the depth test;
-//! 4. `triangles`: a shorter way for triangles, the usual case, in blocks of eight: `block`
-//!    classifies them, `sides` intersects their outlines with rows, `slopes` finds how numbers
-//!    change over the picture, `rows` draws samples;
-//! 5. `transparency`: transparent faces and lines, kept per sample (an A-buffer);
+//! 3. `tile`: the samples between two crossings, and the depth test;
+//! 4. `triangles`: a faster way for triangles, the usual case, in blocks of eight: `block`
+//!    classifies them, `outlines` intersects them with rows, `gradients` finds how values change
+//!    over the picture, `rows` draws samples;
+//! 5. `transparency`: transparent faces and lines, stored per sample (an A-buffer);
 //! 6. `shading`: the light of samples, many at once;
-//! 7. `resolve`: the samples of a pixel averaged in linear light, with depth cueing (`cue`);
-//! 8. `band`: bands in parallel, each with a small sample buffer that stays in the cache;
+//! 7. `resolve`: the samples of a pixel added in linear light, with depth cueing (`depth_fade`);
+//! 8. `rasterizer`: bands in parallel, each with a small sample buffer that stays in the cache;
 //! 9. `filter`: reconstruction filters wider than a pixel;
 //! 10. `probe`: one pixel alone, with all its samples.
 //!
-//! A sample can also store which item it shows ([`Tag`]); unless it does, that costs nothing.
+//! # Number of values, and build time
+//!
+//! Lists, tables and shaders are generic over the number N of interpolated values, so layouts
+//! cannot be mixed up. The loops over triangles, rows and samples are not: they read slices, and
+//! are compiled once for each instruction set instead of once for each N, layer and pixel type.
 //!
 //! # Coverage
 //!
@@ -80,39 +89,44 @@
 //! perspective, −distance in orthographic projection. It is compared per sample, so
 //! intersecting faces come out right. Of equal keys the first drawn wins.
 
-mod band;
 mod bins;
 mod block;
-mod cue;
+mod depth_fade;
 mod edges;
 mod filter;
+mod gradients;
+mod grid;
+mod layer;
 #[cfg(test)]
 mod noise;
+mod outlines;
 mod polygons;
 mod probe;
 mod progress;
+mod rasterizer;
 mod resolve;
 mod rows;
 mod shading;
-mod sides;
-mod slopes;
-mod spans;
 #[cfg(test)]
 mod tests;
+mod tile;
 mod transparency;
 mod triangles;
 
-pub use band::{Grid, Layer, Shapes, paint};
 pub use bins::Bins;
-pub use block::{BLOCK, Block};
-pub use cue::Cue;
+pub use block::{BLOCK, BlockClasses, TriangleBlock};
+pub use depth_fade::DepthFade;
 pub use edges::Scanner;
-pub use filter::{Filter, paint_filtered, probe_filtered};
-pub use polygons::{Bounds, Corner, Drawn, PolygonList, greater, lesser};
-pub use probe::{Sample, probe};
+pub use filter::Filter;
+pub use grid::{Bands, SampleGrid};
+pub use layer::{CornerTable, NoTriangles, OpaqueLayer, PolygonLayer};
+pub use polygons::{Bounds, Corner, Point, PolygonList, ShapeRef, greater, lesser};
+pub use probe::{ProbedSample, ProbedSurface};
 pub use progress::Progress;
-pub use resolve::{Direct, Finish, Gathered};
-pub use shading::{RUN, Scale, Shade, Shades, Shading, Tally};
-pub use spans::{Seen, Sink, Tag};
-pub use transparency::{Fragment, FragmentTarget, TRANSPARENT_VALUES, TransparentLayer};
-pub use triangles::{NoTable, Point, Table};
+pub use rasterizer::Rasterizer;
+pub use resolve::{Center, PixelSamples, Resolve, ResolveSingle};
+pub use shading::{Encoding, RUN, SampleStats, ShadedRun, ShadedSample, Shading};
+pub use tile::{Area, Hit, Tile};
+pub use transparency::{
+    Fragment, FragmentShading, FragmentTarget, FragmentWriter, TRANSPARENT_VALUES, TransparentLayer,
+};

@@ -1,11 +1,30 @@
-//! Polygons in buffers, sorted into bands.
+//! Polygons and triangles in buffers, sorted into bands.
 
 use std::ops::Range;
 
-use crate::band::Grid;
 use crate::bins::Bins;
+use crate::grid::SampleGrid;
 
-/// A corner in the picture plane.
+/// A corner of a triangle in the picture plane, without interpolated values; see [`Corner`].
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Point {
+    /// Column, in samples from the left edge of the picture.
+    pub x: f64,
+    /// Row, in samples from the upper edge.
+    pub y: f64,
+    /// Depth key, larger is nearer. In perspective it is positive: 1/distance.
+    pub key: f64,
+}
+
+impl Point {
+    /// True if no number is NaN or infinite.
+    #[inline]
+    pub fn is_finite(&self) -> bool {
+        self.x.is_finite() && self.y.is_finite() && self.key.is_finite()
+    }
+}
+
+/// A corner of a polygon in the picture plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Corner<const N: usize> {
     /// Column, in samples from the left edge of the picture.
@@ -14,49 +33,50 @@ pub struct Corner<const N: usize> {
     pub y: f64,
     /// Depth key, larger is nearer. In perspective it is positive: 1/distance.
     pub key: f64,
-    /// The numbers to interpolate, multiplied by the key in perspective.
+    /// The values to interpolate, multiplied by the key in perspective.
     pub values: [f64; N],
 }
 
-/// Shapes in drawing order: polygons with all their corners in one buffer, and triangles whose corners are in a
-/// [`crate::Table`].
+/// Shapes in drawing order: polygons with all their corners in one buffer, and triangles whose
+/// corners are rows of a [`crate::CornerTable`].
 #[derive(Clone, Debug, Default)]
 pub struct PolygonList<const N: usize> {
     corners: Vec<Corner<N>>,
     contour_ends: Vec<u32>,
-    /// How many contours belong to polygons that have ended.
+    /// Contours of complete polygons.
     n_contours: u32,
     shapes: Vec<Shape>,
-    /// The bands that each shape may touch, until they are sorted.
+    /// The bands that each shape may touch; empty after sorting.
     bands: Vec<Range<u32>>,
     bins: Bins,
 }
 
-/// What of the scene a shape is, and its corners.
+/// A shape in the list.
 #[derive(Clone, Debug)]
 struct Shape {
+    /// The item it belongs to, given by the caller.
     item: u32,
     outline: Outline,
 }
 
 #[derive(Clone, Debug)]
 enum Outline {
-    /// Rows of the contours.
+    /// Its contours, by index.
     Contours(Range<u32>),
-    /// Rows of the table.
+    /// Its corners, as rows of the table.
     Triangle([u32; 3]),
 }
 
-/// A shape to be drawn.
-pub enum Drawn<C> {
+/// A shape of a [`PolygonList`].
+pub enum ShapeRef<C> {
     /// Its contours.
     Polygon(C),
-    /// The rows of its corners in the [`crate::Table`].
+    /// Its corners, as rows of the [`crate::CornerTable`].
     Triangle([u32; 3]),
 }
 
 impl<const N: usize> PolygonList<N> {
-    /// An empty list with room for some shapes.
+    /// An empty list with room for this many shapes.
     pub fn with_capacity(shapes: usize) -> Self {
         Self { shapes: Vec::with_capacity(shapes), bands: Vec::with_capacity(shapes), ..Self::default() }
     }
@@ -71,10 +91,10 @@ impl<const N: usize> PolygonList<N> {
         self.contour_ends.push(index(self.corners.len()));
     }
 
-    /// Ends the polygon: all contours since the last one. It is dropped if no sample can lie
-    /// in it. The answer says whether it is in the picture, if only between samples. `item`: any number, to
-    /// tell whose it is.
-    pub fn end_polygon(&mut self, grid: &Grid, item: u32) -> bool {
+    /// Makes a polygon of all contours since the last one. It is dropped if it is not finite or
+    /// cannot contain a sample. Returns true if it touches the picture, even if only between
+    /// samples. `item`: any number, by which the caller knows what the polygon belongs to.
+    pub fn end_polygon(&mut self, grid: &SampleGrid, item: u32) -> bool {
         let first_corner = self.contour_start(self.n_contours);
         let corners = &self.corners[first_corner..];
         let rows = if corners.iter().all(is_finite) {
@@ -98,7 +118,7 @@ impl<const N: usize> PolygonList<N> {
         self.contour_ends.truncate(self.n_contours as usize);
     }
 
-    /// Adds a triangle that may touch these bands; they are not none.
+    /// Adds a triangle that may touch these bands. `bands` is not empty.
     #[inline]
     pub fn push_triangle(&mut self, item: u32, corners: [u32; 3], bands: Range<u32>) {
         self.push(item, Outline::Triangle(corners), bands);
@@ -110,13 +130,13 @@ impl<const N: usize> PolygonList<N> {
         self.bands.push(bands);
     }
 
-    /// True if no shape stayed.
+    /// True if the list contains no shape.
     pub fn is_empty(&self) -> bool {
         self.shapes.is_empty()
     }
 
-    /// Sorts the shapes into the bands of the grid. To be called once, when all are in.
-    pub fn sort_into_bands(&mut self, grid: &Grid) {
+    /// Sorts the shapes into the bands of the grid. Call it once, after the last shape.
+    pub fn sort_into_bands(&mut self, grid: &SampleGrid) {
         self.bins = Bins::new(grid, std::mem::take(&mut self.bands).iter().cloned());
         self.shapes.shrink_to_fit();
     }
@@ -125,23 +145,23 @@ impl<const N: usize> PolygonList<N> {
     pub fn in_band(
         &self,
         band: usize,
-    ) -> impl Iterator<Item = (u32, Drawn<impl Iterator<Item = &[Corner<N>]>>)> {
-        self.bins.in_band(band).iter().map(|&shape| self.drawn(&self.shapes[shape as usize]))
+    ) -> impl Iterator<Item = (u32, ShapeRef<impl Iterator<Item = &[Corner<N>]>>)> {
+        self.bins.in_band(band).iter().map(|&shape| self.shape(&self.shapes[shape as usize]))
     }
 
     /// All shapes in drawing order, each with its item.
-    pub fn shapes(&self) -> impl Iterator<Item = (u32, Drawn<impl Iterator<Item = &[Corner<N>]>>)> {
-        self.shapes.iter().map(|shape| self.drawn(shape))
+    pub fn shapes(&self) -> impl Iterator<Item = (u32, ShapeRef<impl Iterator<Item = &[Corner<N>]>>)> {
+        self.shapes.iter().map(|shape| self.shape(shape))
     }
 
-    fn drawn(&self, shape: &Shape) -> (u32, Drawn<impl Iterator<Item = &[Corner<N>]> + use<'_, N>>) {
-        let drawn = match &shape.outline {
-            Outline::Triangle(corners) => Drawn::Triangle(*corners),
-            Outline::Contours(contours) => Drawn::Polygon(contours.clone().map(|contour| {
+    fn shape(&self, shape: &Shape) -> (u32, ShapeRef<impl Iterator<Item = &[Corner<N>]> + use<'_, N>>) {
+        let outline = match &shape.outline {
+            Outline::Triangle(corners) => ShapeRef::Triangle(*corners),
+            Outline::Contours(contours) => ShapeRef::Polygon(contours.clone().map(|contour| {
                 &self.corners[self.contour_start(contour)..self.contour_ends[contour as usize] as usize]
             })),
         };
-        (shape.item, drawn)
+        (shape.item, outline)
     }
 
     fn contour_start(&self, contour: u32) -> usize {
@@ -159,31 +179,32 @@ fn is_finite<const N: usize>(corner: &Corner<N>) -> bool {
     numbers.iter().chain(&corner.values).all(|number| number.is_finite())
 }
 
-/// The box round some corners, in samples.
+/// A bounding box, in samples.
 #[derive(Clone, Copy, Debug)]
 pub struct Bounds {
     columns: [f64; 2],
     rows: [f64; 2],
 }
 
-/// The lesser of two numbers, the second if one is none: one instruction, where `f64::min` is several.
-#[inline(always)] // Into loops that are compiled for several families of processors.
+/// The lesser of two numbers; returns `b` if either is NaN. One instruction, where `f64::min` takes
+/// several.
+#[inline(always)] // Into loops that are compiled for several instruction sets.
 pub fn lesser<T: PartialOrd>(a: T, b: T) -> T {
     if a < b { a } else { b }
 }
 
-/// The greater of two numbers, the second if one is none.
-#[inline(always)]
+/// The greater of two numbers; returns `b` if either is NaN.
+#[inline(always)] // As `lesser`.
 pub fn greater<T: PartialOrd>(a: T, b: T) -> T {
     if a > b { a } else { b }
 }
 
-/// How far a crossing of an edge may be computed beside the corners, in samples. Coordinates where it matters are
-/// below 2¹⁹, so it is no more than 2⁻³².
+/// How far rounding may move the crossing of an edge with a row beyond the ends of the edge, in
+/// samples. Where it matters coordinates are below 2¹⁹, so the error is below 2⁻³².
 pub const ROUNDING: f64 = 1e-6;
 
 impl Bounds {
-    /// The box round these places.
+    /// The bounding box of some places, each a column and a row.
     #[inline]
     pub fn new(places: impl Iterator<Item = [f64; 2]>) -> Self {
         let empty = [f64::INFINITY, f64::NEG_INFINITY];
@@ -196,15 +217,16 @@ impl Bounds {
 
     /// True if it touches the picture.
     #[inline]
-    pub fn is_in_picture(&self, grid: &Grid) -> bool {
+    pub fn is_in_picture(&self, grid: &SampleGrid) -> bool {
         let ([left, right], [top, bottom]) = (self.columns, self.rows);
         let (columns, rows) = (f64::from(grid.sample_columns()), f64::from(grid.sample_rows()));
         (right > 0.0) & (left < columns) & (bottom > 0.0) & (top < rows)
     }
 
-    /// The rows of samples in the box, none if there is no sample in it; `None` if it does not touch the picture.
+    /// The rows of samples in the box, an empty range if no sample is in it. `None` if it does not
+    /// touch the picture.
     #[inline]
-    pub fn rows(&self, grid: &Grid) -> Option<Range<u32>> {
+    pub fn rows(&self, grid: &SampleGrid) -> Option<Range<u32>> {
         let ([left, right], [top, bottom]) = (self.columns, self.rows);
         let (columns, rows) = (grid.sample_columns(), grid.sample_rows());
         let first = first_center(top, rows);
@@ -217,11 +239,11 @@ impl Bounds {
     }
 }
 
-/// The first of `count` sample centres, at ½, 1½ and so on, at or behind `place`.
+/// Index of the first of `count` sample centres (½, 1½, …) at or beyond `place`.
 #[inline]
 pub fn first_center(place: f64, count: u32) -> u32 {
-    // Rounds up by hand: on the oldest processors of the family `ceil` is a call. The cast
-    // saturates: what lies before the first sample, and NaN, becomes 0.
+    // Rounds up by hand, because `ceil` is a call on processors without SSE4.1. The cast
+    // saturates: places before the first sample, and NaN, become 0.
     let behind = place - 0.5;
     let below = behind as u32;
     below.saturating_add(u32::from(f64::from(below) < behind)).min(count)

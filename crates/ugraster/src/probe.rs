@@ -1,77 +1,78 @@
-//! One pixel alone, to be looked at closely.
+//! One pixel alone, with all its samples.
 
-use crate::band::{Band, Grid, Layer};
-use crate::edges::Scanner;
-use crate::resolve::{Finish, Gathered, Resolver};
-use crate::shading::{Scale, Shade, Shades, Shading};
-use crate::spans::{Seen, Tile};
-use crate::transparency::{Fragment, KeepFragments, TransparencyBuffer, TransparentLayer};
+use crate::rasterizer::{Keep, Rasterizer, TileBuffers};
+use crate::resolve::{Center, PixelSamples, Resolve, Resolver};
+use crate::shading::{Encoding, ShadedRun, ShadedSample, Shading};
+use crate::tile::Hit;
+use crate::transparency::Fragment;
 
 /// A sample of a pixel that shows something.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Sample {
+pub struct ProbedSample {
     /// Its column and row among the samples of the whole picture.
     pub place: [u32; 2],
-    /// The nearest that hides, if there is any.
-    pub surface: Option<Surface>,
-    /// What is clear in front of that, from behind.
-    pub layers: Vec<Fragment>,
+    /// The nearest opaque surface.
+    pub opaque: Option<ProbedSurface>,
+    /// Transparent fragments in front of it, from back to front.
+    pub fragments: Vec<Fragment>,
 }
 
-/// What a sample shows of what hides.
+/// An opaque surface at a sample.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Surface {
-    /// How near it is and whose.
-    pub seen: Seen<u32>,
-    /// The interpolated numbers.
+pub struct ProbedSurface {
+    /// Its depth key and item.
+    pub hit: Hit,
+    /// The interpolated values.
     pub values: Vec<f32>,
-    /// What the shader made of them.
-    pub shade: Shade,
+    /// Their light.
+    pub shaded: ShadedSample,
 }
 
-/// The samples of a pixel that show something, row after row, what they add up to, and the pixel: the very numbers that
-/// [`crate::paint`] computes, for no sample depends on where a tile begins.
-pub fn probe<const N: usize, L: Layer<N> + ?Sized, P: Copy>(
-    grid: &Grid,
-    layer: &L,
-    clear: Option<&dyn TransparentLayer>,
-    shader: &impl Shading<N>,
-    finish: &impl Finish<u32, P>,
-    [column, row]: [u32; 2],
-) -> (Vec<Sample>, Gathered<'static, u32>, P) {
-    let (mut scanner, mut tile, mut transparency) =
-        (Scanner::default(), Tile::default(), TransparencyBuffer::default());
-    let n = grid.samples;
-    let band = grid.bands().of(&(row * n..(row + 1) * n)).start as usize;
-    let mut one = Band {
-        grid,
-        layer,
-        clear,
-        band,
-        scanner: &mut scanner,
-        tile: &mut tile,
-        transparency: &mut transparency,
-    };
-    one.draw([column, column + 1], [row, row + 1]);
-    one.draw_clear(KeepFragments::All);
-    let mut shades = Shades::default();
-    let mut samples = Vec::new();
-    for sample_row in row * n..(row + 1) * n {
-        for sample_column in column * n..(column + 1) * n {
-            let (_, values) = tile.row_part(sample_row, sample_column, sample_column + 1);
-            let surface = tile.seen(sample_row, sample_column).map(|seen| {
-                shader.shade(values, Scale::Linear, &mut shades);
-                Surface { seen, values: values.concat(), shade: shades.get(0) }
-            });
-            let layers = transparency.fragments(sample_row, sample_column).to_vec();
-            if surface.is_some() || !layers.is_empty() {
-                samples.push(Sample { place: [sample_column, sample_row], surface, layers });
+impl<const N: usize> Rasterizer<'_, N> {
+    /// The samples of a pixel that show something, row after row; all of them together; and the
+    /// pixel. They are the same bits as in [`Rasterizer::paint`], because no sample depends on
+    /// where a tile starts.
+    pub fn probe<P: Copy>(
+        &self,
+        shading: &dyn Shading<N>,
+        resolve: &impl Resolve<P>,
+        pixel: [u32; 2],
+    ) -> (Vec<ProbedSample>, PixelSamples<'static>, P) {
+        let (samples, all, mut resolver, buffers) = self.probe_samples(shading, pixel);
+        let mut pixels = [resolve.pixel(&PixelSamples::EMPTY)];
+        resolver.paint(resolve, &buffers.tile, &buffers.transparency, pixel, &mut pixels);
+        (samples, all, pixels[0])
+    }
+
+    fn probe_samples<'s>(
+        &'s self,
+        shading: &'s dyn Shading<N>,
+        [column, row]: [u32; 2],
+    ) -> (Vec<ProbedSample>, PixelSamples<'static>, Resolver<'s, N>, TileBuffers<N>) {
+        let grid = self.grid;
+        let n = grid.samples;
+        let band = grid.bands().of(&(row * n..(row + 1) * n)).start as usize;
+        let mut buffers = TileBuffers::default();
+        self.draw_tile(&mut buffers, band, [column, column + 1], [row, row + 1], Keep::All);
+        let TileBuffers { tile, transparency, .. } = &buffers;
+        let mut run = ShadedRun::default();
+        let mut samples = Vec::new();
+        for sample_row in row * n..(row + 1) * n {
+            for sample_column in column * n..(column + 1) * n {
+                let (_, values) = tile.row_part(sample_row, sample_column, sample_column + 1);
+                let opaque = tile.hit(sample_row, sample_column).map(|hit| {
+                    shading.shade(values, Encoding::Linear, &mut run);
+                    ProbedSurface { hit, values: values.concat(), shaded: run.get(0) }
+                });
+                let fragments = transparency.fragments(sample_row, sample_column).to_vec();
+                if opaque.is_some() || !fragments.is_empty() {
+                    samples.push(ProbedSample { place: [sample_column, sample_row], opaque, fragments });
+                }
             }
         }
+        let mut resolver = Resolver::new(grid, shading);
+        let PixelSamples { sum, covered, center } = resolver.pixel_samples(tile, transparency, [column, row]);
+        let all = PixelSamples { sum, covered, center: Center { fragments: &[], ..center } };
+        (samples, all, resolver, buffers)
     }
-    let mut resolver = Resolver::new(shader, finish, grid);
-    let Gathered { sum, covered, center, .. } = resolver.gather(&tile, &transparency, [column, row]);
-    let mut pixel = [finish.pixel(&Gathered::EMPTY)];
-    resolver.paint(&tile, &transparency, column, row, &mut pixel);
-    (samples, Gathered { sum, covered, center, layers: &[] }, pixel[0])
 }

@@ -1,6 +1,7 @@
 //! Progress of a picture that is being painted.
 
-/// Receives how much of a picture is painted. It is called from any thread and has no influence on the result.
+/// Receives how much of a picture is painted. It is called from any thread and has no influence on
+/// the result.
 pub trait Progress: Sync {
     /// Painting begins; it has this many parts.
     fn begin(&self, parts: u64);

@@ -1,127 +1,141 @@
-//! Samples to pixels: shading, and adding up in linear light.
+//! Samples to pixels: shading, and sums in linear light.
 
-use crate::band::Grid;
-use crate::shading::{RUN, Scale, Shades, Shading, Tally};
-use crate::spans::{EMPTY, Seen, Tag, Tile};
+use fearless_simd::{Level, Simd, dispatch};
+
+use crate::grid::SampleGrid;
+use crate::shading::{Encoding, RUN, SampleStats, ShadedRun, Shading};
+use crate::tile::{EMPTY, Hit, Tile};
 use crate::transparency::{Fragment, TransparencyBuffer};
 
 /// The samples of a pixel together.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Gathered<'a, T> {
+pub struct PixelSamples<'a> {
     /// Sum of the linear light of the covered samples.
     pub sum: [f32; 3],
-    /// How many are covered; those that something clear covers count in part.
+    /// Number of covered samples; samples with only transparent fragments count in part.
     pub covered: f32,
-    /// The nearest that hides at the sample nearest to the middle, of equals the last; never anything if tags are not
-    /// kept.
-    pub center: Option<Seen<T>>,
-    /// What is clear in front of it, from behind.
-    pub layers: &'a [Fragment],
+    /// What is visible at the centre, if that is asked for.
+    pub center: Center<'a>,
 }
 
-impl<T: Copy> Gathered<'_, T> {
-    /// Of a pixel that shows nothing.
-    pub const EMPTY: Self = Self { sum: [0.0; 3], covered: 0.0, center: None, layers: &[] };
+/// What is visible at the sample nearest to the centre of a pixel; ties go to the lower-right
+/// sample.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Center<'a> {
+    /// The nearest opaque surface.
+    pub opaque: Option<Hit>,
+    /// Transparent fragments in front of it, from back to front.
+    pub fragments: &'a [Fragment],
+}
+
+impl Center<'_> {
+    /// True if nothing is visible.
+    pub fn is_empty(&self) -> bool {
+        self.opaque.is_none() && self.fragments.is_empty()
+    }
+}
+
+impl PixelSamples<'_> {
+    /// A pixel that shows nothing.
+    pub const EMPTY: Self =
+        Self { sum: [0.0; 3], covered: 0.0, center: Center { opaque: None, fragments: &[] } };
 
     /// True if the pixel shows nothing.
     fn is_empty(&self) -> bool {
-        self.covered == 0.0 && self.center.is_none() && self.layers.is_empty()
+        self.covered == 0.0 && self.center.is_empty()
     }
 }
 
 /// Makes pixels of samples.
-pub trait Finish<T, P>: Sync {
-    /// A pixel of its samples; also asked once what a pixel is that shows nothing.
-    fn pixel(&self, all: &Gathered<'_, T>) -> P;
+pub trait Resolve<P>: Sync {
+    /// A pixel of its samples. Called once with [`PixelSamples::EMPTY`] for all pixels that show
+    /// nothing.
+    fn pixel(&self, samples: &PixelSamples<'_>) -> P;
 
-    /// What makes pixels of single samples without asking for their linear light, if anything can.
-    fn direct(&self) -> Option<&dyn Direct<P>> {
+    /// A faster way for pixels of one sample, from display-encoded levels, if there is one.
+    fn single(&self) -> Option<&dyn ResolveSingle<P>> {
         None
     }
 }
 
-impl<T, P, F: Fn(&Gathered<'_, T>) -> P + Sync> Finish<T, P> for F {
-    fn pixel(&self, all: &Gathered<'_, T>) -> P {
-        self(all)
+impl<P, F: Fn(&PixelSamples<'_>) -> P + Sync> Resolve<P> for F {
+    fn pixel(&self, samples: &PixelSamples<'_>) -> P {
+        self(samples)
     }
 }
 
-/// Makes pixels of samples that are pixels by themselves.
-pub trait Direct<P> {
-    /// Pixels that show something. `keys`: depth keys, −∞ where nothing is shown, and pixels stay as they are. `levels`:
-    /// display-encoded red, green and blue.
+/// Makes pixels of one opaque sample each.
+pub trait ResolveSingle<P> {
+    /// Sets the pixels of a run. `keys`: depth keys, −∞ where nothing is visible; those pixels must
+    /// stay as they are. `levels`: display-encoded red, green and blue.
     fn pixels(&self, keys: &[f32], levels: &[[f32; RUN]; 3], pixels: &mut [P]);
 }
 
-/// Turns samples into pixels.
-pub struct Resolver<'a, S, F> {
-    shader: &'a S,
-    pub finish: &'a F,
-    grid: &'a Grid,
-    shades: Shades,
-    /// Linear light, and cover, of a row of samples.
-    lit: [Vec<f32>; 4],
-    /// Their sums over the rows of a pixel, for each column of samples.
-    columns: [Vec<f32>; 4],
+/// A row of samples or pixels as planes: red, green, blue, coverage.
+pub type Planes = [Vec<f32>; 4];
+
+/// Shades samples and adds them up, with buffers that are reused.
+pub struct Resolver<'a, const N: usize> {
+    grid: &'a SampleGrid,
+    shading: &'a dyn Shading<N>,
+    run: ShadedRun,
+    /// A row of samples.
+    lit: Planes,
+    /// Their sums over the rows of a pixel.
+    columns: Planes,
     /// Their sums for each pixel of a row.
     sums: Vec<[f32; 4]>,
-    pub tally: Tally,
+    pub stats: SampleStats,
 }
 
-impl<'a, S, F> Resolver<'a, S, F> {
-    /// `finish` makes a pixel of its samples.
-    pub fn new(shader: &'a S, finish: &'a F, grid: &'a Grid) -> Self {
+impl<'a, const N: usize> Resolver<'a, N> {
+    /// With empty buffers.
+    pub fn new(grid: &'a SampleGrid, shading: &'a dyn Shading<N>) -> Self {
         Self {
-            shader,
-            finish,
             grid,
-            shades: Shades::default(),
+            shading,
+            run: ShadedRun::default(),
             lit: Default::default(),
             columns: Default::default(),
             sums: Vec::new(),
-            tally: Tally::default(),
+            stats: SampleStats::default(),
         }
     }
 
-    /// Paints the pixels of a row from column `first` on that show something; the others stay as they are.
-    pub fn paint<const N: usize, T: Tag, P: Copy>(
+    /// Sets the pixels of a row from column `first` on that show something; others stay as they
+    /// are.
+    pub fn paint<P>(
         &mut self,
-        tile: &Tile<N, T>,
+        resolve: &impl Resolve<P>,
+        tile: &Tile<N>,
         transparency: &TransparencyBuffer,
-        first: u32,
-        row: u32,
+        [first, row]: [u32; 2],
         pixels: &mut [P],
-    ) where
-        S: Shading<N>,
-        F: Finish<T, P>,
-    {
-        if let Some(direct) = self.finish.direct().filter(|_| self.is_direct(transparency)) {
-            return self.paint_direct(tile, direct, first, row, pixels);
+    ) {
+        if let Some(single) = resolve.single().filter(|_| self.is_single(transparency)) {
+            return self.paint_single(tile, single, [first, row], pixels);
         }
-        self.add_up(tile, transparency, first, row, pixels.len() as u32);
+        self.add_up(tile, transparency, [first, row], pixels.len() as u32);
         for ((column, sums), pixel) in (first..).zip(&self.sums).zip(pixels) {
-            let all = gathered(self.grid, tile, transparency, [column, row], sums);
-            if !all.is_empty() {
-                *pixel = self.finish.pixel(&all);
+            let samples = pixel_samples(self.grid, tile, transparency, [column, row], sums);
+            if !samples.is_empty() {
+                *pixel = resolve.pixel(&samples);
             }
         }
     }
 
-    /// True if a pixel is what its only sample shows.
-    fn is_direct(&self, transparency: &TransparencyBuffer) -> bool {
-        self.grid.samples == 1 && self.grid.cue.is_none() && transparency.is_empty()
+    /// True if each pixel is one opaque sample, without depth cueing.
+    fn is_single(&self, transparency: &TransparencyBuffer) -> bool {
+        self.grid.samples == 1 && self.grid.fade.is_none() && transparency.is_empty()
     }
 
-    fn paint_direct<const N: usize, T: Tag, P>(
+    fn paint_single<P>(
         &mut self,
-        tile: &Tile<N, T>,
-        direct: &dyn Direct<P>,
-        first: u32,
-        row: u32,
+        tile: &Tile<N>,
+        single: &dyn ResolveSingle<P>,
+        [first, row]: [u32; 2],
         pixels: &mut [P],
-    ) where
-        S: Shading<N>,
-    {
+    ) {
         let (keys, values) = tile.row_part(row, first, first + pixels.len() as u32);
         for (run, pixels) in pixels.chunks_mut(RUN).enumerate() {
             let run = run * RUN..run * RUN + pixels.len();
@@ -129,37 +143,33 @@ impl<'a, S, F> Resolver<'a, S, F> {
             if is_empty(keys) {
                 continue;
             }
-            self.shader.shade(values.map(|all| &all[run.clone()]), Scale::Display, &mut self.shades);
-            self.tally.count_run(keys, &self.shades);
-            direct.pixels(keys, &self.shades.light, pixels);
+            let values = values.map(|all| &all[run.clone()]);
+            self.shading.shade(values, Encoding::Display, &mut self.run);
+            self.stats.count_run(keys, &self.run);
+            single.pixels(keys, &self.run.light, pixels);
         }
     }
 
-    /// The samples of one pixel, of which tags are kept.
-    pub fn gather<'g, const N: usize, T: Tag>(
+    /// The samples of one pixel.
+    pub fn pixel_samples<'t>(
         &mut self,
-        tile: &Tile<N, T>,
-        transparency: &'g TransparencyBuffer,
-        [column, row]: [u32; 2],
-    ) -> Gathered<'g, T>
-    where
-        S: Shading<N>,
-    {
-        self.add_up(tile, transparency, column, row, 1);
-        gathered(self.grid, tile, transparency, [column, row], &self.sums[0])
+        tile: &Tile<N>,
+        transparency: &'t TransparencyBuffer,
+        pixel: [u32; 2],
+    ) -> PixelSamples<'t> {
+        self.add_up(tile, transparency, pixel, 1);
+        pixel_samples(self.grid, tile, transparency, pixel, &self.sums[0])
     }
 
-    /// Adds up the samples of `n_pixels` pixels of a row: down each column of samples, then from the left.
-    fn add_up<const N: usize, T: Tag>(
+    /// Adds up the samples of `n_pixels` pixels of a row: down each column of samples, then from
+    /// the left.
+    fn add_up(
         &mut self,
-        tile: &Tile<N, T>,
+        tile: &Tile<N>,
         transparency: &TransparencyBuffer,
-        first: u32,
-        row: u32,
+        [first, row]: [u32; 2],
         n_pixels: u32,
-    ) where
-        S: Shading<N>,
-    {
+    ) {
         let n = self.grid.samples;
         for all in &mut self.columns {
             all.clear();
@@ -172,45 +182,36 @@ impl<'a, S, F> Resolver<'a, S, F> {
             }
         }
         self.sums.clear();
-        let [red, green, blue, cover] = self.columns.each_ref().map(|all| all.chunks_exact(n as usize));
+        let [red, green, blue, coverage] = self.columns.each_ref().map(|all| all.chunks_exact(n as usize));
         let sum = |parts: &[f32]| parts.iter().fold(0.0, |sum, part| sum + part);
         self.sums.extend(
             red.zip(green)
                 .zip(blue)
-                .zip(cover)
-                .map(|(((red, green), blue), cover)| [sum(red), sum(green), sum(blue), sum(cover)]),
+                .zip(coverage)
+                .map(|(((red, green), blue), coverage)| [sum(red), sum(green), sum(blue), sum(coverage)]),
         );
     }
 
-    /// The linear light, and cover, of the samples from column `first` to `end` of a row; `None` if they show nothing.
-    pub fn light<const N: usize, T: Tag>(
+    /// Linear light and coverage of the samples from column `first` to `end` of a row; `None` if
+    /// nothing is visible there.
+    pub fn light(
         &mut self,
-        tile: &Tile<N, T>,
+        tile: &Tile<N>,
         transparency: &TransparencyBuffer,
         row: u32,
         [first, end]: [u32; 2],
-    ) -> Option<&[Vec<f32>; 4]>
-    where
-        S: Shading<N>,
-    {
-        let mut is_lit = self.light_row(tile, row, [first, end]);
-        if !transparency.is_empty() || self.grid.cue.is_some() {
-            self.look_through(tile, transparency, row, first);
+    ) -> Option<&Planes> {
+        let mut is_lit = self.light_opaque(tile, row, [first, end]);
+        if !transparency.is_empty() || self.grid.fade.is_some() {
+            self.composite(tile, transparency, row, first);
             is_lit = true;
         }
         is_lit.then_some(&self.lit)
     }
 
-    /// Puts the light of a row of samples into `lit`: nothing where nothing is drawn. False if that is everywhere.
-    fn light_row<const N: usize, T: Tag>(
-        &mut self,
-        tile: &Tile<N, T>,
-        row: u32,
-        [first, end]: [u32; 2],
-    ) -> bool
-    where
-        S: Shading<N>,
-    {
+    /// Computes the light of the opaque surfaces on a row of samples; zero where there are none.
+    /// Returns false if there are none at all.
+    fn light_opaque(&mut self, tile: &Tile<N>, row: u32, [first, end]: [u32; 2]) -> bool {
         let (keys, values) = tile.row_part(row, first, end);
         let mut is_lit = false;
         self.lit.iter_mut().for_each(|all| all.resize(keys.len(), 0.0));
@@ -221,62 +222,74 @@ impl<'a, S, F> Resolver<'a, S, F> {
                 continue;
             }
             is_lit = true;
-            self.shader.shade(values.map(|all| &all[run.clone()]), Scale::Linear, &mut self.shades);
-            self.tally.count_run(keys, &self.shades);
-            let [lit @ .., covers] = self.lit.each_mut().map(|all| &mut all[run.clone()]);
-            for (lit, light) in lit.into_iter().zip(&self.shades.light) {
-                for ((lit, light), key) in lit.iter_mut().zip(light).zip(keys) {
-                    *lit = if *key > EMPTY { *light } else { 0.0 };
-                }
-            }
-            for (cover, key) in covers.iter_mut().zip(keys) {
-                *cover = f32::from(u8::from(*key > EMPTY));
-            }
+            let values = values.map(|all| &all[run.clone()]);
+            self.shading.shade(values, Encoding::Linear, &mut self.run);
+            self.stats.count_run(keys, &self.run);
+            let lit = self.lit.each_mut().map(|all| &mut all[run.clone()]);
+            dispatch!(Level::new(), simd => store_covered(simd, keys, &self.run, lit));
         }
         is_lit
     }
 
-    /// Puts the row of samples that is in `lit` behind what is clear, and fades what is far.
+    /// Blends fragments in front of the row of samples in `lit`, and applies depth cueing.
     #[inline(never)]
-    fn look_through<const N: usize, T: Tag>(
-        &mut self,
-        tile: &Tile<N, T>,
-        transparency: &TransparencyBuffer,
-        row: u32,
-        first: u32,
-    ) {
+    fn composite(&mut self, tile: &Tile<N>, transparency: &TransparencyBuffer, row: u32, first: u32) {
         let (keys, _) = tile.row_part(row, first, first + self.lit[0].len() as u32);
         for (idx, &key) in keys.iter().enumerate() {
             let composite = transparency.composite(row, first + idx as u32);
-            let part = if key > EMPTY { composite.pass * self.grid.cue_at(key) } else { 0.0 };
-            let [light @ .., cover] = &mut self.lit;
+            let part = if key > EMPTY { composite.transmittance * self.grid.light_left(key) } else { 0.0 };
+            let [light @ .., coverage] = &mut self.lit;
             for (light, composite) in light.iter_mut().zip(composite.light) {
                 light[idx] = composite + part * light[idx];
             }
-            cover[idx] = composite.cover + part;
+            coverage[idx] = composite.coverage + part;
         }
     }
 }
 
-/// True if nothing is drawn on samples. All are looked at, which is faster than to look for one.
+/// Stores linear light and coverage of a run of samples; zero where nothing is drawn.
+#[inline(always)] // Compiled for several instruction sets.
+fn store_covered<S: Simd>(_: S, keys: &[f32], run: &ShadedRun, lit: [&mut [f32]; 4]) {
+    let n = keys.len().min(RUN);
+    let keys = &keys[..n];
+    let [lit @ .., coverage] = lit;
+    for (lit, light) in lit.into_iter().zip(&run.light) {
+        let (lit, light) = (&mut lit[..n], &light[..n]);
+        for i in 0..n {
+            lit[i] = if keys[i] > EMPTY { light[i] } else { 0.0 };
+        }
+    }
+    let coverage = &mut coverage[..n];
+    for i in 0..n {
+        coverage[i] = if keys[i] > EMPTY { 1.0 } else { 0.0 };
+    }
+}
+
+/// True if nothing is drawn on samples. Without an early exit, which would prevent vectorization.
 fn is_empty(keys: &[f32]) -> bool {
     keys.iter().fold(true, |all, key| all & (*key == EMPTY))
 }
 
-/// What the samples of a pixel add up to, and what is in its middle.
+/// The sums of a pixel, and what is visible at its centre.
 #[inline]
-fn gathered<'g, const N: usize, T: Tag>(
-    grid: &Grid,
-    tile: &Tile<N, T>,
-    transparency: &'g TransparencyBuffer,
-    [column, row]: [u32; 2],
+fn pixel_samples<'t, const N: usize>(
+    grid: &SampleGrid,
+    tile: &Tile<N>,
+    transparency: &'t TransparencyBuffer,
+    pixel: [u32; 2],
     &[red, green, blue, covered]: &[f32; 4],
-) -> Gathered<'g, T> {
-    let [column, row] = [column, row].map(|pixel| pixel * grid.samples + grid.samples / 2);
-    Gathered {
-        sum: [red, green, blue],
-        covered,
-        center: if T::IS_KEPT { tile.seen(row, column) } else { None },
-        layers: if transparency.is_empty() { &[] } else { transparency.fragments(row, column) },
-    }
+) -> PixelSamples<'t> {
+    PixelSamples { sum: [red, green, blue], covered, center: center(grid, tile, transparency, pixel) }
+}
+
+/// What is visible at the centre of a pixel, if items are kept.
+#[inline]
+pub fn center<'t, const N: usize>(
+    grid: &SampleGrid,
+    tile: &Tile<N>,
+    transparency: &'t TransparencyBuffer,
+    pixel: [u32; 2],
+) -> Center<'t> {
+    let [column, row] = grid.center(pixel);
+    Center { opaque: tile.hit(row, column), fragments: transparency.fragments(row, column) }
 }

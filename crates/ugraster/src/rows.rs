@@ -1,95 +1,115 @@
-//! The samples of a row of a triangle.
+//! Rows of triangles drawn into a tile, eight samples at once.
 
 use fearless_simd::prelude::*;
-use fearless_simd::{Simd, f32x8, f64x8};
+use fearless_simd::{Level, Simd, dispatch, f32x8, f64x8, mask32x8};
 
-use crate::slopes::{FindPlanes, Planes};
-use crate::spans::{Tag, Tile, lanes};
+use crate::tile::{LANES, TileSamples};
+use crate::triangles::{BlockSetup, LazyPlanes, Plane, RowTarget, TriangleRef, TriangleRow};
 
-/// Samples of a row that are computed together.
-pub const LANES: usize = 8;
+/// Column offsets of the lanes.
+const STEPS: [f64; LANES] = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0];
 
-/// Places of lanes.
-pub const STEPS: [f64; LANES] = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0];
+/// Draws a block of triangles into a tile where the depth test passes.
+pub fn draw_block(level: Level, block: &BlockSetup<'_>, tile: TileSamples<'_>, planes: &mut LazyPlanes<'_>) {
+    dispatch!(level, simd => block.draw(&mut SimdTile { simd, tile }, planes));
+}
 
-impl<const N: usize, T: Tag> Tile<N, T> {
-    /// Draws a row of a triangle where the depth test lets it. `planes`: of the numbers to interpolate.
+/// A tile, drawn with one instruction set.
+struct SimdTile<'a, S> {
+    simd: S,
+    tile: TileSamples<'a>,
+}
+
+impl<S: Simd> RowTarget for SimdTile<'_, S> {
     #[inline(always)]
-    pub fn draw_line<S: Simd>(
-        &mut self,
-        simd: S,
-        line: &TriangleRow,
-        is_perspective: bool,
-        tag: T,
-        planes: &mut Planes<N, impl FindPlanes<N>>,
-    ) {
-        let [first, end] = line.columns;
+    fn draw_row(&mut self, row: &TriangleRow, triangle: &TriangleRef<'_>, planes: &mut LazyPlanes<'_>) {
+        let Self { simd, ref mut tile } = *self;
+        let [first, end] = row.columns;
         let steps: f64x8<S> = STEPS.simd_into(simd);
         let places = narrow(simd, steps);
         for column in (first..end).step_by(LANES) {
-            let first = self.samples(line.row, column, column).start;
-            let nearest_keys = lanes(&mut self.keys, first);
-            // Columns are whole numbers and exact, so the answer does not depend on where a tile starts.
-            let across = steps + (f64::from(column) + 0.5) - line.from;
-            let keys = across * line.key_a_column + line.key;
+            let first = tile.sample(row.row, column);
+            let nearest_keys = lanes(tile.keys, first);
+            // Columns are whole numbers, so this is exact and does not depend on where a tile
+            // starts.
+            let across = steps + (f64::from(column) + 0.5) - row.from;
+            let keys = across * row.key_per_column + row.key;
             let (key, nearest) = (narrow(simd, keys), f32x8::from_slice(simd, nearest_keys));
-            let is_seen = key.simd_gt(nearest) & places.simd_lt(f32x8::splat(simd, (end - column) as f32));
-            // Early depth: most of what is hidden ends here.
-            if !is_seen.any_true() {
+            let is_visible = key.simd_gt(nearest) & places.simd_lt(f32x8::splat(simd, (end - column) as f32));
+            // Early depth test: most hidden samples end here.
+            if !is_visible.any_true() {
                 continue;
             }
-            is_seen.select(key, nearest).store_slice(nearest_keys);
-            let scale = if is_perspective { reciprocals(simd, keys, key) } else { f64x8::splat(simd, 1.0) };
-            for (all, plane) in self.values.iter_mut().zip(planes.get()) {
-                let (all, start, slope) = (lanes(all, first), plane.start(line), plane.a_column);
-                // Double precision pays: where values do not change they stay the same bits.
-                let value = narrow(simd, (across * slope + start) * scale);
-                is_seen.select(value, f32x8::from_slice(simd, all)).store_slice(all);
+            is_visible.select(key, nearest).store_slice(nearest_keys);
+            let scale = if triangle.is_perspective() {
+                reciprocals(simd, keys, key)
+            } else {
+                f64x8::splat(simd, 1.0)
+            };
+            let visible = VisibleLanes { simd, first, across, scale, is_visible };
+            let (values, planes) = (&mut *tile.values, planes.get(triangle));
+            // Compiled twice: with a known number of values the loop over them is unrolled.
+            if values.len() == USUAL_VALUES && planes.len() == USUAL_VALUES {
+                visible.draw(row, &mut values[..USUAL_VALUES], &planes[..USUAL_VALUES]);
+            } else {
+                visible.draw(row, values, planes);
             }
-            if T::IS_KEPT {
-                for (lane, tag_here) in lanes(&mut self.tags, first).iter_mut().enumerate() {
-                    *tag_here = if is_seen.test(lane) { tag } else { *tag_here };
+            if !tile.items.is_empty() {
+                for (lane, item) in lanes(tile.items, first).iter_mut().enumerate() {
+                    *item = if is_visible.test(lane) { triangle.item() } else { *item };
                 }
             }
         }
     }
 }
 
-/// The same in single precision.
+/// The usual number of values: hue, saturation and value under white light, say.
+const USUAL_VALUES: usize = 3;
+
+/// Samples drawn together, where some pass the depth test.
+#[derive(Clone, Copy)]
+struct VisibleLanes<S: Simd> {
+    simd: S,
+    /// Index of the first sample in the tile.
+    first: usize,
+    /// Distances to the right from the highest corner.
+    across: f64x8<S>,
+    /// What undoes the multiplication of values by the key.
+    scale: f64x8<S>,
+    is_visible: mask32x8<S>,
+}
+
+impl<S: Simd> VisibleLanes<S> {
+    /// Draws the interpolated values.
+    #[inline(always)]
+    fn draw(&self, row: &TriangleRow, values: &mut [Vec<f32>], planes: &[Plane]) {
+        let Self { simd, first, across, scale, is_visible } = *self;
+        for (all, plane) in values.iter_mut().zip(planes) {
+            let (all, start, per_column) = (lanes(all, first), plane.start(row), plane.per_column);
+            // In double precision, so that a constant value keeps its bits.
+            let value = narrow(simd, (across * per_column + start) * scale);
+            is_visible.select(value, f32x8::from_slice(simd, all)).store_slice(all);
+        }
+    }
+}
+
+/// Eight elements from `start` on.
+#[inline(always)]
+fn lanes<T>(all: &mut [T], start: usize) -> &mut [T; LANES] {
+    all[start..].first_chunk_mut().expect("a tile has LANES elements more than samples")
+}
+
+/// The same numbers in single precision.
 #[inline(always)]
 fn narrow<S: Simd>(simd: S, numbers: f64x8<S>) -> f32x8<S> {
     simd.narrow_f64x8(numbers, numbers).split().0
 }
 
-/// One over numbers, to 2⁻⁴⁷ of it. `narrowed`: the same in single precision, in which division takes a third of the time;
-/// a step of Newton's brings the other half of the digits.
+/// Reciprocals with a relative error of 2⁻⁴⁷. `narrowed`: the same numbers in single precision, in
+/// which a division takes a third of the time. One Newton step doubles the number of digits.
 #[inline(always)]
 fn reciprocals<S: Simd>(simd: S, numbers: f64x8<S>, narrowed: f32x8<S>) -> f64x8<S> {
     let (low, high) = simd.widen_f32x8(f32x8::splat(simd, 1.0) / narrowed);
     let rough = simd.combine_f64x4(low, high);
     rough * (f64x8::splat(simd, 2.0) - numbers * rough)
-}
-
-/// A row of a triangle.
-#[derive(Clone, Copy, Debug)]
-pub struct TriangleRow {
-    /// Of samples.
-    pub row: u32,
-    /// The first, and one past the last, in the columns of the sink.
-    pub columns: [u32; 2],
-    /// The column that the key, and the numbers to interpolate, are measured from.
-    pub from: f64,
-    /// How far it is below the highest corner.
-    pub down: f64,
-    /// The depth key at that column, and its change a column.
-    pub key: f64,
-    pub key_a_column: f64,
-}
-
-impl TriangleRow {
-    /// The depth key at a column.
-    #[inline]
-    pub fn key_at(&self, column: f64) -> f64 {
-        self.key + (column - self.from) * self.key_a_column
-    }
 }

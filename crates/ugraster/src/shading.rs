@@ -1,91 +1,92 @@
-//! What gives samples their light, many at once.
+//! The light of samples, computed for many at once.
 
 use fearless_simd::{Level, Simd, dispatch};
 
-/// Samples that are shaded at once, at most: what is known of them stays in the nearest cache.
+/// Most samples that are shaded at once: few enough for all their values to stay in the level 1
+/// cache.
 pub const RUN: usize = 128;
 
-/// What light is told in.
+/// How light is encoded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Scale {
+pub enum Encoding {
     /// Linear light.
     Linear,
     /// Display-encoded levels, 0…1.
     Display,
 }
 
-/// Turns N interpolated numbers into light.
+/// Computes light from N interpolated values.
 pub trait Shading<const N: usize>: Sync {
-    /// The light of some samples, [`RUN`] at most, of which each number stands in a slice of its own. What a sample's
-    /// light is does not depend on what is shaded with it.
-    fn shade(&self, values: [&[f32]; N], scale: Scale, shades: &mut Shades);
+    /// The light of a run of samples, at most [`RUN`]. Each value has a slice of its own, with one
+    /// element per sample. The light of a sample must not depend on the others in the run.
+    fn shade(&self, values: [&[f32]; N], encoding: Encoding, run: &mut ShadedRun);
 }
 
-/// What a shader says of some samples. Where a slice ends, the rest has no meaning.
+/// The light of a run of samples. Elements past its end are meaningless.
 #[derive(Clone, Debug)]
-pub struct Shades {
+pub struct ShadedRun {
     /// Red, green, blue.
     pub light: [[f32; RUN]; 3],
     /// Brightness before it was clipped to 1.
     pub intensity: [f32; RUN],
-    /// True if it is black because its wavelength cannot be seen.
+    /// True for samples that are black because their wavelength is invisible.
     pub is_out_of_range: [bool; RUN],
 }
 
-impl Default for Shades {
+impl Default for ShadedRun {
     fn default() -> Self {
         Self { light: [[0.0; RUN]; 3], intensity: [0.0; RUN], is_out_of_range: [false; RUN] }
     }
 }
 
-impl Shades {
-    /// What is said of one sample.
+impl ShadedRun {
+    /// The light of one sample.
     #[inline]
-    pub fn get(&self, sample: usize) -> Shade {
-        Shade {
+    pub fn get(&self, sample: usize) -> ShadedSample {
+        ShadedSample {
             light: self.light.each_ref().map(|channel| channel[sample]),
             intensity: self.intensity[sample],
             is_out_of_range: self.is_out_of_range[sample],
         }
     }
 
-    /// Says something of one sample.
+    /// Sets the light of one sample.
     #[inline]
-    pub fn set(&mut self, sample: usize, shade: Shade) {
-        for (channel, light) in self.light.iter_mut().zip(shade.light) {
+    pub fn set(&mut self, sample: usize, shaded: ShadedSample) {
+        for (channel, light) in self.light.iter_mut().zip(shaded.light) {
             channel[sample] = light;
         }
-        self.intensity[sample] = shade.intensity;
-        self.is_out_of_range[sample] = shade.is_out_of_range;
+        self.intensity[sample] = shaded.intensity;
+        self.is_out_of_range[sample] = shaded.is_out_of_range;
     }
 }
 
-/// What a shader says of a sample.
+/// The light of a sample.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Shade {
+pub struct ShadedSample {
     /// Red, green, blue.
     pub light: [f32; 3],
     /// Brightness before it was clipped to 1.
     pub intensity: f32,
-    /// True if it is black because its wavelength cannot be seen.
+    /// True if it is black because its wavelength is invisible.
     pub is_out_of_range: bool,
 }
 
-/// What the samples of a picture were.
+/// Statistics of the samples of a picture.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Tally {
-    /// Samples with a face or wire.
+pub struct SampleStats {
+    /// Samples that show a surface or line.
     pub covered: u64,
-    /// Those that are not black.
+    /// Covered samples that are not black.
     pub visible: u64,
-    /// Those that are black because of their wavelength.
+    /// Covered samples that are black because their wavelength is invisible.
     pub out_of_range: u64,
     /// Greatest brightness before clipping.
     pub max_intensity: f32,
 }
 
-impl Tally {
-    /// That of two parts of a picture together.
+impl SampleStats {
+    /// The statistics of two parts of a picture together.
     pub fn merge(self, other: Self) -> Self {
         Self {
             covered: self.covered + other.covered,
@@ -96,24 +97,24 @@ impl Tally {
     }
 
     /// Counts a sample.
-    pub fn count(&mut self, shade: &Shade) {
+    pub fn count(&mut self, shaded: &ShadedSample) {
         self.covered += 1;
-        self.visible += u64::from(shade.light != [0.0; 3]);
-        self.out_of_range += u64::from(shade.is_out_of_range);
-        self.max_intensity = self.max_intensity.max(shade.intensity);
+        self.visible += u64::from(shaded.light != [0.0; 3]);
+        self.out_of_range += u64::from(shaded.is_out_of_range);
+        self.max_intensity = self.max_intensity.max(shaded.intensity);
     }
 
-    /// Counts those samples of a run that show something, which are those with a depth key.
-    pub fn count_run(&mut self, keys: &[f32], shades: &Shades) {
-        *self = self.merge(dispatch!(Level::new(), simd => Self::of_run(simd, keys, shades)));
+    /// Counts the covered samples of a run, which are those with a depth key above −∞.
+    pub fn count_run(&mut self, keys: &[f32], run: &ShadedRun) {
+        *self = self.merge(dispatch!(Level::new(), simd => Self::of_run(simd, keys, run)));
     }
 
-    #[inline(always)] // Compiled for what the processor can do to many numbers at once.
-    fn of_run<S: Simd>(_: S, keys: &[f32], shades: &Shades) -> Self {
+    #[inline(always)] // Compiled for several instruction sets.
+    fn of_run<S: Simd>(_: S, keys: &[f32], run: &ShadedRun) -> Self {
         let n = keys.len().min(RUN);
         let keys = &keys[..n];
-        let [red, green, blue] = shades.light.each_ref().map(|channel| &channel[..n]);
-        let (is_out, intensity) = (&shades.is_out_of_range[..n], &shades.intensity[..n]);
+        let [red, green, blue] = run.light.each_ref().map(|channel| &channel[..n]);
+        let (is_out, intensity) = (&run.is_out_of_range[..n], &run.intensity[..n]);
         let (mut covered, mut visible, mut out_of_range, mut most) = (0u32, 0u32, 0u32, 0i32);
         for i in 0..n {
             let is_on = keys[i] > f32::NEG_INFINITY;
@@ -121,8 +122,8 @@ impl Tally {
             covered += u32::from(is_on);
             visible += u32::from(is_on & is_lit);
             out_of_range += u32::from(is_on & is_out[i]);
-            // Numbers that are not negative are in the order of their bits, and the greatest of whole numbers
-            // is found many at once.
+            // Non-negative floats are ordered as their bits are, and a maximum of integers is
+            // vectorized.
             most = most.max(if is_on { intensity[i].to_bits() as i32 } else { 0 });
         }
         Self {

@@ -11,7 +11,7 @@ fn at(x: f64, y: f64) -> Corner<0> {
     Corner { x, y, key: 1.0, values: [] }
 }
 
-/// How often each sample of a w × h grid is drawn.
+/// How many times each sample of a w × h grid is drawn.
 fn count(polygons: &[Vec<Vec<Corner<0>>>], width: usize, height: usize) -> Vec<Vec<u32>> {
     let mut counts = vec![vec![0; width]; height];
     let mut scanner = Scanner::default();
@@ -136,29 +136,30 @@ fn is_inside(contours: &[Vec<Corner<0>>], x: f64, y: f64) -> bool {
 /// Triangles of three corners each in the order of the table.
 struct Triangles(Vec<Corner<1>>);
 
-impl Table<1> for Triangles {
+impl CornerTable<1> for Triangles {
     fn point(&self, corner: u32) -> Point {
         let Corner { x, y, key, .. } = self.0[corner as usize];
         Point { x, y, key }
     }
 
-    fn numbers(&self, _item: u32, corners: [u32; 3]) -> [[f64; 1]; 3] {
+    fn values(&self, _item: u32, corners: [u32; 3]) -> [[f64; 1]; 3] {
         corners.map(|corner| self.0[corner as usize].values.map(|value| value / self.0[corner as usize].key))
     }
 }
 
-/// Blocks of triangles of all sizes, in the picture and beside it, some of them with what is no number, slivers, or much
-/// nearer at one corner than at another; each looked at alone, in plain words.
+/// Blocks of triangles of all sizes, inside and outside the picture, some with NaN or infinity,
+/// some slivers, some much nearer at one corner than at another, against a plain classification of
+/// each.
 #[test]
-fn a_block_is_what_its_triangles_are() {
+fn a_block_is_classified_like_its_triangles() {
     const BAD: [f64; 6] = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 0.0, 1e9, 1e-40];
     let mut noise = Noise(13);
     let mut counts = [0; 4];
     for (round, size) in (0..400).zip([0.3, 3.0, 40.0, 3e3].into_iter().cycle()) {
         let is_perspective = round % 3 != 0;
-        let grid = Grid { width: 700, height: 300, samples: 1 + round % 3, is_perspective, cue: None };
+        let grid = SampleGrid { width: 700, height: 300, samples: 1 + round % 3, is_perspective, fade: None };
         let mut triangles = [[Point::default(); 3]; BLOCK];
-        let mut block = Block::default();
+        let mut block = TriangleBlock::default();
         for (place, points) in triangles.iter_mut().enumerate() {
             let middle = [900.0 * noise.next() - 100.0, 500.0 * noise.next() - 100.0];
             *points = [(); 3].map(|()| {
@@ -175,12 +176,12 @@ fn a_block_is_what_its_triangles_are() {
         }
         let is_culled = round % 2 == 0;
         for level in [Level::new(), Level::baseline()] {
-            let found = block.findings(level, &grid, is_culled);
+            let found = block.classify(level, &grid, is_culled);
             for (place, points) in triangles.iter().enumerate() {
                 let has = |all: u64| all >> place & 1 == 1;
-                let is_regular = is_plain(points, is_perspective);
-                assert_eq!(has(found.regular), is_regular, "{points:?}");
-                if !is_regular {
+                let is_plain = is_regular(points, is_perspective);
+                assert_eq!(has(found.regular), is_plain, "{points:?}");
+                if !is_plain {
                     assert!(!has(found.drawn));
                     continue;
                 }
@@ -200,12 +201,12 @@ fn a_block_is_what_its_triangles_are() {
     assert!(counts.iter().all(|count| *count > 300), "{counts:?}");
 }
 
-/// Positive if the corners run counterclockwise as the picture is looked at, where rows are counted downwards.
+/// Positive if the corners run counterclockwise on the screen, where rows go downwards.
 fn twice_area([a, b, c]: &[Point; 3]) -> f64 {
     (b.y - a.y) * (c.x - a.x) - (b.x - a.x) * (c.y - a.y)
 }
 
-fn is_plain(points: &[Point; 3], is_perspective: bool) -> bool {
+fn is_regular(points: &[Point; 3], is_perspective: bool) -> bool {
     let [xs, ys, keys] = [points.map(|p| p.x), points.map(|p| p.y), points.map(|p| p.key)];
     let ends =
         |all: [f64; 3]| [all.into_iter().fold(f64::NAN, f64::min), all.into_iter().fold(f64::NAN, f64::max)];
@@ -218,13 +219,14 @@ fn is_plain(points: &[Point; 3], is_perspective: bool) -> bool {
         && (!is_perspective || (least > 1e-30 && most < 1e30 && most <= 16.0 * least))
 }
 
-/// Random triangles, from specks to some far larger than the picture, drawn by planes and along their edges.
+/// Random triangles, from specks to some far larger than the picture: drawn with planes, and as
+/// polygons along edges.
 #[test]
 fn triangles_are_drawn_like_polygons() {
     let mut noise = Noise(11);
     let (mut n_drawn, mut n_seen) = (0, 0);
     for (samples, size) in [(1, 3.0), (1, 40.0), (2, 300.0), (1, 1e5)] {
-        let grid = Grid { width: 60, height: 50, samples, is_perspective: true, cue: None };
+        let grid = SampleGrid { width: 60, height: 50, samples, is_perspective: true, fade: None };
         let (mut triangles, mut polygons) = (PolygonList::default(), PolygonList::default());
         let mut table = Vec::new();
         for item in 0..300 {
@@ -237,15 +239,15 @@ fn triangles_are_drawn_like_polygons() {
                 Corner { x, y, key, values: [key * noise.next()] }
             });
             let points = corners.map(|Corner { x, y, key, .. }| Point { x, y, key });
-            let mut block = Block::default();
+            let mut block = TriangleBlock::default();
             block.set(3, points);
-            let findings = block.findings(Level::new(), &grid, false);
-            if findings.regular != 1 << 3 {
+            let classes = block.classify(Level::new(), &grid, false);
+            if classes.regular != 1 << 3 {
                 continue;
             }
-            if findings.drawn != 0 {
+            if classes.drawn != 0 {
                 let first = table.len() as u32;
-                let [start, end] = findings.bands.map(|bands| bands[3] as u32);
+                let [start, end] = classes.bands.map(|bands| bands[3] as u32);
                 triangles.push_triangle(item, [first, first + 1, first + 2], start..end);
                 n_drawn += 1;
             }
@@ -258,20 +260,14 @@ fn triangles_are_drawn_like_polygons() {
         polygons.sort_into_bands(&grid);
         let table = Triangles(table);
         let draw = |list: PolygonList<1>| {
-            let layer = Shapes { lists: &[list], table: &table };
-            let (pixels, _) = paint(
-                &grid,
-                &layer,
-                None,
-                &Grey,
-                &|all: &Gathered<'_, u32>| (all.sum[0], all.covered, all.center),
-                &(),
-            );
-            pixels
+            let layer = PolygonLayer { lists: &[list], corners: &table };
+            let pixel = |all: &PixelSamples<'_>| (all.sum[0], all.covered, all.center.opaque);
+            let rasterizer = Rasterizer { grid: &grid, opaque: &layer, transparent: None };
+            rasterizer.paint_with_centers(&Grey, &pixel, &()).0
         };
         for (ours, exact) in draw(triangles).into_iter().zip(draw(polygons)) {
             assert_eq!(ours.1, exact.1);
-            assert_eq!(ours.2.map(|seen| seen.tag), exact.2.map(|seen| seen.tag));
+            assert_eq!(ours.2.map(|hit| hit.item), exact.2.map(|hit| hit.item));
             assert!((ours.0 - exact.0).abs() < 4e-6, "{ours:?} {exact:?}");
             if let (Some(ours), Some(exact)) = (ours.2, exact.2) {
                 assert!((ours.key - exact.key).abs() < 1e-6, "{ours:?} {exact:?}");
@@ -282,20 +278,20 @@ fn triangles_are_drawn_like_polygons() {
     assert!(n_drawn > 800 && n_seen > 4000, "{n_drawn} {n_seen}");
 }
 
-/// Light is the number itself.
+/// The light is the interpolated value.
 struct Grey;
 
 impl Shading<1> for Grey {
-    fn shade(&self, [lights]: [&[f32]; 1], _: Scale, shades: &mut Shades) {
+    fn shade(&self, [lights]: [&[f32]; 1], _: Encoding, run: &mut ShadedRun) {
         for (sample, &light) in lights.iter().enumerate() {
-            shades.set(sample, Shade { light: [light; 3], intensity: light, is_out_of_range: false });
+            run.set(sample, ShadedSample { light: [light; 3], intensity: light, is_out_of_range: false });
         }
     }
 }
 
-/// Draws polygons of one value, its light, and gives each pixel's mean on black. Every pixel is looked at with a
-/// probe, too, where there are few.
-fn painted(polygons: &[Vec<Corner<1>>], grid: &Grid) -> Vec<f32> {
+/// The mean light of each pixel, on black, of polygons with one value. In small pictures every
+/// pixel is compared with a probe.
+fn painted(polygons: &[Vec<Corner<1>>], grid: &SampleGrid) -> Vec<f32> {
     let mut list = PolygonList::default();
     for (polygon, item) in polygons.iter().zip(0..) {
         polygon.iter().for_each(|corner| list.push_corner(*corner));
@@ -304,49 +300,39 @@ fn painted(polygons: &[Vec<Corner<1>>], grid: &Grid) -> Vec<f32> {
     }
     list.sort_into_bands(grid);
     let lists = [list];
-    let layer = Shapes { lists: &lists, table: &NoTable };
+    let layer = PolygonLayer { lists: &lists, corners: &NoTriangles };
+    let rasterizer = Rasterizer { grid, opaque: &layer, transparent: None };
     let mean = |sum: [f32; 3]| sum[0] / (grid.samples * grid.samples) as f32;
-    let (pixels, _) = paint(grid, &layer, None, &Grey, &|all: &Gathered<'_, ()>| mean(all.sum), &());
-    let (marked, _) =
-        paint(grid, &layer, None, &Grey, &|all: &Gathered<'_, u32>| (mean(all.sum), all.center), &());
-    for (idx, (&light, marked)) in pixels.iter().zip(&marked).enumerate() {
-        assert_eq!(light, marked.0);
+    let light = |all: &PixelSamples<'_>| mean(all.sum);
+    let (pixels, _) = rasterizer.paint(&Grey, &light, &());
+    let both = |all: &PixelSamples<'_>| (mean(all.sum), all.center.opaque);
+    let (marked, _) = rasterizer.paint_with_centers(&Grey, &both, &());
+    let centers = rasterizer.paint_centers(|center: &Center<'_>| center.opaque, &());
+    for (idx, ((&light, marked), center)) in pixels.iter().zip(&marked).zip(centers).enumerate() {
+        assert_eq!((light, center), *marked);
         if pixels.len() > 1000 {
             continue;
         }
         let place = [idx as u32 % grid.width, idx as u32 / grid.width];
-        let finish = |all: &Gathered<'_, u32>| mean(all.sum);
-        let (samples, all, pixel) = probe(grid, &layer, None, &Grey, &finish, place);
-        assert_eq!((mean(all.sum), all.center), *marked);
+        let (samples, all, pixel) = rasterizer.probe(&Grey, &|all: &PixelSamples<'_>| mean(all.sum), place);
+        assert_eq!((mean(all.sum), all.center.opaque), *marked);
         assert_eq!(pixel, light);
         assert_eq!(samples.len() as f32, all.covered);
-        let middle = place.map(|pixel| pixel * grid.samples + grid.samples / 2);
-        assert_eq!(
-            samples
-                .iter()
-                .find(|sample| sample.place == middle)
-                .and_then(|sample| sample.surface.as_ref())
-                .map(|surface| surface.seen),
-            all.center
-        );
-        assert_eq!(
-            samples
-                .iter()
-                .filter_map(|sample| sample.surface.as_ref())
-                .map(|surface| surface.shade.light[0])
-                .sum::<f32>(),
-            all.sum[0]
-        );
+        let middle = samples.iter().find(|sample| sample.place == grid.center(place));
+        let hit = middle.and_then(|sample| sample.opaque.as_ref()).map(|surface| surface.hit);
+        assert_eq!(hit, all.center.opaque);
+        let lights = samples.iter().filter_map(|sample| sample.opaque.as_ref());
+        assert_eq!(lights.map(|surface| surface.shaded.light[0]).sum::<f32>(), all.sum[0]);
     }
     pixels
 }
 
-/// Triangles that cut through each other, each of a light of its own.
+/// Intersecting triangles, each with a light of its own.
 #[test]
 fn a_probe_finds_what_was_painted() {
     let mut noise = Noise(5);
     for samples in [1, 2, 3] {
-        let grid = Grid { width: 25, height: 20, samples, is_perspective: false, cue: None };
+        let grid = SampleGrid { width: 25, height: 20, samples, is_perspective: false, fade: None };
         let polygons: Vec<Vec<Corner<1>>> = (1..=40)
             .map(|k| {
                 let mut corner = || Corner {
@@ -367,7 +353,7 @@ fn a_probe_finds_what_was_painted() {
 #[test]
 fn tiles_do_not_show() {
     for (width, height, samples) in [(100_000, 5, 3), (600_000, 2, 1), (50, 3000, 2)] {
-        let grid = Grid { width, height, samples, is_perspective: false, cue: None };
+        let grid = SampleGrid { width, height, samples, is_perspective: false, fade: None };
         let (right, bottom) = (f64::from(grid.sample_columns()), f64::from(grid.sample_rows()));
         let corner = |x: f64, y: f64, light: f64| Corner { x, y, key: 0.0, values: [light] };
         let pixels = painted(
@@ -388,13 +374,13 @@ fn tiles_do_not_show() {
 }
 
 #[test]
-fn of_equal_depths_the_first_stays() {
+fn of_equal_depth_keys_the_first_drawn_wins() {
     let square = |light: f64, key: f64| {
         [(0.0, 0.0), (4.0, 0.0), (4.0, 4.0), (0.0, 4.0)]
             .map(|(x, y)| Corner { x, y, key, values: [light] })
             .into()
     };
-    let grid = Grid { width: 4, height: 4, samples: 1, is_perspective: false, cue: None };
+    let grid = SampleGrid { width: 4, height: 4, samples: 1, is_perspective: false, fade: None };
     let rows = [
         ([(1.0, 5.0), (0.0, 5.0)], 1.0),
         ([(0.0, 5.0), (1.0, 5.0)], 0.0),
@@ -408,8 +394,8 @@ fn of_equal_depths_the_first_stays() {
 }
 
 #[test]
-fn what_is_not_finite_is_dropped() {
-    let grid = Grid { width: 4, height: 4, samples: 1, is_perspective: false, cue: None };
+fn polygons_with_nan_or_infinity_are_dropped() {
+    let grid = SampleGrid { width: 4, height: 4, samples: 1, is_perspective: false, fade: None };
     for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
         for place in 0..4 {
             let mut numbers = [1.0; 4];

@@ -6,7 +6,7 @@ use std::sync::{Mutex, PoisonError};
 use glam::DVec3;
 use rayon::prelude::*;
 use ugparse::Face;
-use ugraster::{Bins, Grid, Layer, Scanner, Sink};
+use ugraster::{Area, Bins, FragmentWriter, TRANSPARENT_VALUES, Tile};
 
 use super::film::{Film, Form, Lengths, center};
 use super::footprint::{Rect, footprint};
@@ -149,17 +149,16 @@ impl<'a, const N: usize> Faces<'a, N> {
         }
     }
 
-    /// Draws some faces. If only the nearest are kept in two steps, so that what is covered later is never shaded.
-    fn draw_part<S: Sink<N>>(
-        &self,
-        shapes: &[u32],
-        part: [Range<u32>; 2],
-        scratch: &mut Scratch,
-        sink: &mut S,
-    ) {
-        if S::KEEPS_ALL {
-            return self.draw_all(shapes, part, scratch, sink);
-        }
+    /// Draws the faces in a band into a tile of it.
+    pub fn draw(&self, band: usize, tile: &mut Tile<N>) {
+        let shapes = self.bins.in_band(band);
+        let part = self.bounds(shapes, tile.area());
+        self.with_scratch(|scratch| self.draw_nearest(shapes, part, scratch, tile));
+    }
+
+    /// Draws some faces into a tile: first it finds the nearest at each sample, then it computes their
+    /// values, so that no hidden sample is shaded.
+    fn draw_nearest(&self, shapes: &[u32], part: [Range<u32>; 2], scratch: &mut Scratch, tile: &mut Tile<N>) {
         self.find_nearest(shapes, part, scratch);
         let Scratch { lengths, nearest, .. } = scratch;
         for run in nearest.runs() {
@@ -168,40 +167,9 @@ impl<'a, const N: usize> Faces<'a, N> {
             let rays = frame.row(center(run.row));
             let (lengths, keys) = (lengths.row(run.row), nearest.keys(&run));
             let first = run.columns.start;
-            sink.draw_each(run.row, run.columns, shape.item, |column, _| {
+            tile.draw_each(run.row, run.columns, shape.item, |column, _| {
                 let ray = frame.ray_of_length(rays, column, lengths.at(column));
                 Some((keys[(column - first) as usize], self.values(shape, frame, &ray)))
-            });
-        }
-    }
-
-    /// Draws every face wherever it is nearer than what the sink says.
-    fn draw_all(
-        &self,
-        shapes: &[u32],
-        [columns, rows]: [Range<u32>; 2],
-        scratch: &mut Scratch,
-        sink: &mut impl Sink<N>,
-    ) {
-        let Scratch { lengths, cutter, .. } = scratch;
-        lengths.reset(&self.film, columns.clone(), rows.clone());
-        for &number in shapes {
-            let shape = &self.shapes[number as usize];
-            let frame = &self.frames[shape.frame];
-            let part = [common(&shape.columns, &columns), common(&shape.rows, &rows)];
-            self.cover(shape, part, lengths, cutter, |row, columns| {
-                let (lengths, rays) = (lengths.row(row), frame.row(center(row)));
-                let plane = PlaneRow { form: shape.depth.on_row(row), limits: self.limits };
-                sink.draw_each(row, columns, shape.item, |column, nearest| {
-                    let length = lengths.at(column);
-                    let ray = frame.ray_of_length(rays, column, length);
-                    let key = if frame.is_extreme() {
-                        limited(shape.outline.key(ray.rest), self.limits)
-                    } else {
-                        plane.key(column, length)
-                    };
-                    (key > nearest).then(|| (key, self.values(shape, frame, &ray)))
-                });
             });
         }
     }
@@ -223,26 +191,55 @@ impl<'a, const N: usize> Faces<'a, N> {
         pool().push(scratch);
     }
 
-    /// The part of a tile that shapes may be seen in.
-    fn bounds(&self, shapes: &[u32], sink: &impl Sink<N>) -> [Range<u32>; 2] {
+    /// The part of an area in which some shapes may be visible.
+    fn bounds(&self, shapes: &[u32], area: Area) -> [Range<u32>; 2] {
         let around = |sides: &dyn Fn(&Shape) -> Range<u32>, [start, end]: [u32; 2]| {
             let sides =
                 shapes.iter().map(|&number| common(&sides(&self.shapes[number as usize]), &(start..end)));
             let sides = sides.filter(|side| !side.is_empty());
             sides.reduce(|a, b| a.start.min(b.start)..a.end.max(b.end)).unwrap_or(start..start)
         };
-        [
-            around(&|shape| shape.columns.clone(), sink.columns()),
-            around(&|shape| shape.rows.clone(), sink.rows()),
-        ]
+        [around(&|shape| shape.columns.clone(), area.columns), around(&|shape| shape.rows.clone(), area.rows)]
     }
 }
 
-impl<const N: usize> Layer<N> for Faces<'_, N> {
-    fn draw(&self, _grid: &Grid, band: usize, _scanner: &mut Scanner<N>, sink: &mut impl Sink<N>) {
+impl Faces<'_, TRANSPARENT_VALUES> {
+    /// Draws the faces in a band as transparent fragments.
+    pub fn draw_transparent(&self, band: usize, writer: &mut FragmentWriter<'_, '_>) {
         let shapes = self.bins.in_band(band);
-        let part = self.bounds(shapes, sink);
-        self.with_scratch(|scratch| self.draw_part(shapes, part, scratch, sink));
+        let part = self.bounds(shapes, writer.area());
+        self.with_scratch(|scratch| self.draw_all(shapes, part, scratch, writer));
+    }
+
+    /// Draws every face wherever it is in front of the nearest occluder.
+    fn draw_all(
+        &self,
+        shapes: &[u32],
+        [columns, rows]: [Range<u32>; 2],
+        scratch: &mut Scratch,
+        writer: &mut FragmentWriter<'_, '_>,
+    ) {
+        let Scratch { lengths, cutter, .. } = scratch;
+        lengths.reset(&self.film, columns.clone(), rows.clone());
+        for &number in shapes {
+            let shape = &self.shapes[number as usize];
+            let frame = &self.frames[shape.frame];
+            let part = [common(&shape.columns, &columns), common(&shape.rows, &rows)];
+            self.cover(shape, part, lengths, cutter, |row, columns| {
+                let (lengths, rays) = (lengths.row(row), frame.row(center(row)));
+                let plane = PlaneRow { form: shape.depth.on_row(row), limits: self.limits };
+                writer.draw_each(row, columns, shape.item, |column, occluder_key| {
+                    let length = lengths.at(column);
+                    let ray = frame.ray_of_length(rays, column, length);
+                    let key = if frame.is_extreme() {
+                        limited(shape.outline.key(ray.rest), self.limits)
+                    } else {
+                        plane.key(column, length)
+                    };
+                    (key > occluder_key).then(|| (key, self.values(shape, frame, &ray)))
+                });
+            });
+        }
     }
 }
 

@@ -7,7 +7,7 @@ use glam::DVec3;
 use ugimage::{Development, Quantizer, Steps, display_pixel};
 use ugparse::{Diagnostic, Diagnostics, Parsed, Source, Stage, VertexId};
 use ugphysics::{attenuation, doppler_at, linear_srgb_to_xyz, wavelength_to_hue};
-use ugraster::{Filter, Finish, Fragment, Gathered, Sample, Seen};
+use ugraster::{Filter, Fragment, Hit, PixelSamples, ProbedSample, Resolve};
 use ugscene::Geometry;
 
 use crate::canvas;
@@ -184,7 +184,7 @@ pub fn explain(
     let (mean, bytes) = match config.filter {
         Filter::Box => (ground.pixel(&gathered), bytes),
         filter => {
-            let both = |all: &Gathered<'_, ()>| (ground.pixel(all), display.pixel(all));
+            let both = |all: &PixelSamples<'_>| (ground.pixel(all), display.pixel(all));
             layers.probe_filtered(&setup.grid, filter, &setup.shader, &both, pixel)
         }
     };
@@ -206,8 +206,8 @@ pub fn explain(
 }
 
 /// The sample nearest to the centre of the pixel; of equals the last, as for channels.
-fn nearest(samples: &[Sample], pixel: [u32; 2], n: u32) -> Option<&Sample> {
-    let away = |sample: &Sample| {
+fn nearest(samples: &[ProbedSample], pixel: [u32; 2], n: u32) -> Option<&ProbedSample> {
+    let away = |sample: &ProbedSample| {
         // Twice the distance, so that it is a whole number.
         let axis = |i: usize| i64::from(2 * (sample.place[i] - pixel[i] * n) + 1) - i64::from(n);
         axis(0) * axis(0) + axis(1) * axis(1)
@@ -242,14 +242,14 @@ struct Layer {
 }
 
 /// All that a sample shows, from the front.
-fn stack(sample: &Sample) -> Vec<Layer> {
-    let layers = sample.layers.iter().rev();
+fn stack(sample: &ProbedSample) -> Vec<Layer> {
+    let layers = sample.fragments.iter().rev();
     let mut stack: Vec<Layer> = layers
-        .map(|layer| Layer { tag: layer.item, pass: layer.pass, light: layer.light })
-        .chain(sample.surface.iter().map(|surface| Layer {
-            tag: surface.seen.tag,
+        .map(|layer| Layer { tag: layer.item, pass: layer.transmittance, light: layer.light })
+        .chain(sample.opaque.iter().map(|surface| Layer {
+            tag: surface.hit.item,
             pass: 0.0,
-            light: surface.shade.light,
+            light: surface.shaded.light,
         }))
         .collect();
     if let Some(last) = stack.iter().position(|layer| layer.pass == 0.0) {
@@ -259,7 +259,7 @@ fn stack(sample: &Sample) -> Vec<Layer> {
 }
 
 /// True if the background is seen at a sample.
-fn is_free(sample: &Sample) -> bool {
+fn is_free(sample: &ProbedSample) -> bool {
     stack(sample).iter().all(|layer| layer.pass > 0.0)
 }
 
@@ -272,7 +272,7 @@ struct Teller<'a> {
 }
 
 impl Teller<'_> {
-    fn covers(&self, samples: &[Sample]) -> Vec<(Item, usize)> {
+    fn covers(&self, samples: &[ProbedSample]) -> Vec<(Item, usize)> {
         let mut counts: Vec<(u32, usize)> = Vec::new();
         for sample in samples {
             // A face once, however often it is there: its edges are of it, too.
@@ -306,7 +306,7 @@ impl Teller<'_> {
         Item { kind: "face", id, name: name(face.name), place }
     }
 
-    fn shown(&self, sample: &Sample) -> Shown {
+    fn shown(&self, sample: &ProbedSample) -> Shown {
         let painter = self.setup.painter();
         let (seen, values, light) = self.subject(sample);
         let emission = Finder::new(&painter).emission(sample.place, seen);
@@ -319,7 +319,7 @@ impl Teller<'_> {
         let n = f64::from(self.config.samples);
         Shown {
             place: sample.place.map(|sample| (f64::from(sample) + 0.5) / n),
-            item: self.item(seen.tag),
+            item: self.item(seen.item),
             beta: velocity.beta(),
             gamma: velocity.gamma(),
             emission: (emission.time, place),
@@ -327,31 +327,31 @@ impl Teller<'_> {
             angles_deg: (!velocity.is_zero()).then(|| [angle(place), angle(rest)]),
             doppler,
             color: values.map(|values| self.color(values, doppler)),
-            corners: self.corners(seen.tag),
+            corners: self.corners(seen.item),
             light,
-            cue: self.setup.grid.cue.map(|_| self.setup.grid.cue_at(seen.key)),
+            cue: self.setup.grid.fade.map(|_| self.setup.grid.light_left(seen.key)),
             layers: self.layers(sample),
         }
     }
 
     /// What there is most to tell of: as in channels the nearest that lets through less than half, else the nearest. With
     /// its numbers, if they are known, and its light.
-    fn subject<'s>(&self, sample: &'s Sample) -> (Seen<u32>, Option<&'s [f32]>, [f32; 3]) {
+    fn subject<'s>(&self, sample: &'s ProbedSample) -> (Hit, Option<&'s [f32]>, [f32; 3]) {
         let layer = |layer: &Fragment| (planes::seen(&self.setup.view, layer), None, layer.light);
-        let mut layers = sample.layers.iter().rev();
+        let mut layers = sample.fragments.iter().rev();
         let surface = sample
-            .surface
+            .opaque
             .as_ref()
-            .map(|surface| (surface.seen, Some(&surface.values[..]), surface.shade.light));
+            .map(|surface| (surface.hit, Some(&surface.values[..]), surface.shaded.light));
         layers
             .clone()
-            .find(|layer| layer.pass < 0.5)
+            .find(|layer| layer.transmittance < 0.5)
             .map(layer)
             .or(surface)
             .unwrap_or_else(|| layers.next().map(layer).expect("a sample shows something"))
     }
 
-    fn layers(&self, sample: &Sample) -> Vec<LayerShown> {
+    fn layers(&self, sample: &ProbedSample) -> Vec<LayerShown> {
         let stack = stack(sample);
         if stack.len() < 2 && stack.iter().all(|layer| layer.pass == 0.0) {
             return Vec::new();

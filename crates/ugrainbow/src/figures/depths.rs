@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use uglabel::Point;
-use ugraster::{Gathered, Seen};
+use ugraster::{Center, Hit};
 use ugscene::View;
 
 use crate::config::{Config, DrawMode};
@@ -31,7 +31,7 @@ pub struct Depths {
     size: [u32; 2],
     is_perspective: bool,
     /// Row after row; of face or wire, see [`crate::painter::Painter`].
-    pub seen: Vec<Option<Seen<u32>>>,
+    pub seen: Vec<Option<Hit>>,
 }
 
 impl Depths {
@@ -39,7 +39,7 @@ impl Depths {
     pub fn new(setup: &Setup<'_>, mode: &DrawMode) -> Self {
         let grid = &setup.grid;
         let layers = RenderLayers::new(setup.painter(), mode);
-        let (seen, _) = layers.paint(grid, &setup.shader, &|all: &Gathered<'_, u32>| all.center);
+        let seen = layers.paint_centers(grid, &setup.shader, |center: &Center<'_>| center.opaque);
         Self { size: [grid.width, grid.height], is_perspective: grid.is_perspective, seen }
     }
 
@@ -110,7 +110,7 @@ impl Depths {
         let [width, height] = self.size.map(f64::from);
         let is_inside = (0.0..width).contains(&x) && (0.0..height).contains(&y);
         let idx = is_inside.then(|| y as usize * self.size[0] as usize + x as usize)?;
-        self.seen[idx].map(|seen| seen.tag as usize)
+        self.seen[idx].map(|seen| seen.item as usize)
     }
 
     /// True unless all nine pixels round the spot show something nearer.

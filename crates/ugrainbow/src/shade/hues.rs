@@ -1,7 +1,7 @@
 //! Hues to red, green and blue.
 
 use fearless_simd::{Level, Simd, dispatch};
-use ugraster::{RUN, Scale, Shades, greater, lesser};
+use ugraster::{Encoding, RUN, ShadedRun, greater, lesser};
 
 use super::linear;
 use super::transfer::decode;
@@ -59,15 +59,15 @@ pub fn encode_all(
     fades: Option<&[f32]>,
     lights: Lights<'_>,
     ceiling: f32,
-    scale: Scale,
-    shades: &mut Shades,
+    encoding: Encoding,
+    run: &mut ShadedRun,
 ) {
     let n = numbers[0].len();
-    dispatch!(level, simd => encode_run(simd, numbers, fades, lights, ceiling, shades));
-    if scale == Scale::Display {
+    dispatch!(level, simd => encode_run(simd, numbers, fades, lights, ceiling, run));
+    if encoding == Encoding::Display {
         return;
     }
-    for levels in &mut shades.light {
+    for levels in &mut run.light {
         let levels = &mut levels[..n];
         if ceiling > 1.0 && levels.iter().any(|level| *level > 1.0) {
             levels.iter_mut().for_each(|level| *level = linear(*level));
@@ -84,13 +84,13 @@ fn encode_run<S: Simd>(
     fades: Option<&[f32]>,
     lights: Lights<'_>,
     ceiling: f32,
-    shades: &mut Shades,
+    run: &mut ShadedRun,
 ) {
     let n = hues.len().min(RUN);
     let (hues, saturations, values) = (&hues[..n], &saturations[..n], &values[..n]);
-    let [red, green, blue] = &mut shades.light;
+    let [red, green, blue] = &mut run.light;
     let (red, green, blue) = (&mut red[..n], &mut green[..n], &mut blue[..n]);
-    let intensities = &mut shades.intensity[..n];
+    let intensities = &mut run.intensity[..n];
     // Of bright hues nothing is divided, if it is known here that they are.
     let bright = |i: usize| Pure { hue: hues[i], fade: 1.0, saturation: saturations[i] };
     let pure = |i: usize| fades.map_or(bright(i), |fades| Pure { fade: fades[i], ..bright(i) });

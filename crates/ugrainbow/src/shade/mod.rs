@@ -5,7 +5,7 @@ mod transfer;
 
 use fearless_simd::Level;
 use ugphysics::{attenuation, hue_to_wavelength, srgb_decode, srgb_encode, wavelength_to_hue};
-use ugraster::{RUN, Scale, Shade, Shades, Shading};
+use ugraster::{Encoding, RUN, ShadedRun, ShadedSample, Shading};
 
 use crate::config::Interpolation;
 use hues::{Lights, Pure, all_between, encode, encode_all};
@@ -44,30 +44,30 @@ impl Shader {
     }
 
     /// The light of tint, saturation and value.
-    pub fn plain(&self, &[tint, saturation, value]: &[f32; 3]) -> Shade {
+    pub fn plain(&self, &[tint, saturation, value]: &[f32; 3]) -> ShadedSample {
         self.lit([tint, saturation, value], [1.0; 3])
     }
 
     /// The light of tint, saturation and value times a coloured light.
-    pub fn colored(&self, &[tint, saturation, value, red, green, blue]: &[f32; 6]) -> Shade {
+    pub fn colored(&self, &[tint, saturation, value, red, green, blue]: &[f32; 6]) -> ShadedSample {
         self.lit([tint, saturation, value], [red, green, blue])
     }
 
     /// The light of a mixed scene: of three numbers as for [`Shader::plain`], or of linear red, green and blue if the
     /// fourth is 1 and not 0.
-    pub fn mixed(&self, &[a, b, c, is_light]: &[f32; 4]) -> Shade {
+    pub fn mixed(&self, &[a, b, c, is_light]: &[f32; 4]) -> ShadedSample {
         if is_light > 0.5 { given([a, b, c]) } else { self.lit([a, b, c], [1.0; 3]) }
     }
 
     /// The same under coloured lights, which are in light already.
-    pub fn mixed_colored(&self, &[a, b, c, red, green, blue, is_light]: &[f32; 7]) -> Shade {
+    pub fn mixed_colored(&self, &[a, b, c, red, green, blue, is_light]: &[f32; 7]) -> ShadedSample {
         if is_light > 0.5 { given([a, b, c]) } else { self.lit([a, b, c], [red, green, blue]) }
     }
 
-    fn lit(&self, [tint, saturation, value]: [f32; 3], lights: [f32; 3]) -> Shade {
+    fn lit(&self, [tint, saturation, value]: [f32; 3], lights: [f32; 3]) -> ShadedSample {
         let pure = Pure { hue: self.hue(tint), fade: self.fade(tint, saturation), saturation };
         let (levels, intensity) = encode(pure, lights.map(|light| value * light), self.ceiling);
-        Shade { light: levels.map(linear), intensity, is_out_of_range: pure.fade == 0.0 }
+        ShadedSample { light: levels.map(linear), intensity, is_out_of_range: pure.fade == 0.0 }
     }
 
     /// The same for many samples.
@@ -75,8 +75,8 @@ impl Shader {
         &self,
         [tints, saturations, values]: [&[f32]; 3],
         lights: Lights<'_>,
-        scale: Scale,
-        shades: &mut Shades,
+        encoding: Encoding,
+        run: &mut ShadedRun,
     ) {
         let n = tints.len();
         let (mut own_hues, mut own_fades) = ([0.0; RUN], [0.0; RUN]);
@@ -88,18 +88,18 @@ impl Shader {
             }
         };
         let fades = if all_between(self.level, tints, self.bright_tints()) {
-            shades.is_out_of_range = [false; RUN];
+            run.is_out_of_range = [false; RUN];
             None
         } else {
             for ((fade, &tint), &saturation) in own_fades.iter_mut().zip(tints).zip(saturations) {
                 *fade = self.fade(tint, saturation);
             }
-            for (is_out, fade) in shades.is_out_of_range.iter_mut().zip(&own_fades) {
+            for (is_out, fade) in run.is_out_of_range.iter_mut().zip(&own_fades) {
                 *is_out = *fade == 0.0;
             }
             Some(&own_fades[..n])
         };
-        encode_all(self.level, [hues, saturations, values], fades, lights, self.ceiling, scale, shades);
+        encode_all(self.level, [hues, saturations, values], fades, lights, self.ceiling, encoding, run);
     }
 
     #[inline]
@@ -133,8 +133,8 @@ impl Shader {
 }
 
 impl Shading<3> for Shader {
-    fn shade(&self, numbers: [&[f32]; 3], scale: Scale, shades: &mut Shades) {
-        self.lit_all(numbers, None, scale, shades);
+    fn shade(&self, numbers: [&[f32]; 3], encoding: Encoding, run: &mut ShadedRun) {
+        self.lit_all(numbers, None, encoding, run);
     }
 }
 
@@ -142,24 +142,29 @@ impl Shading<6> for Shader {
     fn shade(
         &self,
         [tint, saturation, value, red, green, blue]: [&[f32]; 6],
-        scale: Scale,
-        shades: &mut Shades,
+        encoding: Encoding,
+        run: &mut ShadedRun,
     ) {
-        self.lit_all([tint, saturation, value], Some([red, green, blue]), scale, shades);
+        self.lit_all([tint, saturation, value], Some([red, green, blue]), encoding, run);
     }
 }
 
 impl Shading<4> for Shader {
-    fn shade(&self, [a, b, c, is_light]: [&[f32]; 4], scale: Scale, shades: &mut Shades) {
-        self.lit_all([a, b, c], None, scale, shades);
-        set_given([a, b, c], is_light, scale, shades);
+    fn shade(&self, [a, b, c, is_light]: [&[f32]; 4], encoding: Encoding, run: &mut ShadedRun) {
+        self.lit_all([a, b, c], None, encoding, run);
+        set_given([a, b, c], is_light, encoding, run);
     }
 }
 
 impl Shading<7> for Shader {
-    fn shade(&self, [a, b, c, red, green, blue, is_light]: [&[f32]; 7], scale: Scale, shades: &mut Shades) {
-        self.lit_all([a, b, c], Some([red, green, blue]), scale, shades);
-        set_given([a, b, c], is_light, scale, shades);
+    fn shade(
+        &self,
+        [a, b, c, red, green, blue, is_light]: [&[f32]; 7],
+        encoding: Encoding,
+        run: &mut ShadedRun,
+    ) {
+        self.lit_all([a, b, c], Some([red, green, blue]), encoding, run);
+        set_given([a, b, c], is_light, encoding, run);
     }
 }
 
@@ -169,20 +174,20 @@ fn linear(level: f32) -> f32 {
 }
 
 /// Of samples with light that is given as such takes that.
-fn set_given([a, b, c]: [&[f32]; 3], is_light: &[f32], scale: Scale, shades: &mut Shades) {
+fn set_given([a, b, c]: [&[f32]; 3], is_light: &[f32], encoding: Encoding, run: &mut ShadedRun) {
     for (idx, _) in is_light.iter().enumerate().filter(|(_, is_light)| **is_light > 0.5) {
         let shade = given([a[idx], b[idx], c[idx]]);
-        let light = match scale {
-            Scale::Linear => shade.light,
-            Scale::Display => shade.light.map(|light| srgb_encode(f64::from(light)) as f32),
+        let light = match encoding {
+            Encoding::Linear => shade.light,
+            Encoding::Display => shade.light.map(|light| srgb_encode(f64::from(light)) as f32),
         };
-        shades.set(idx, Shade { light, ..shade });
+        run.set(idx, ShadedSample { light, ..shade });
     }
 }
 
 /// Light that is given as such.
-fn given(light: [f32; 3]) -> Shade {
-    Shade { light, intensity: light.into_iter().fold(0.0, f32::max), is_out_of_range: false }
+fn given(light: [f32; 3]) -> ShadedSample {
+    ShadedSample { light, intensity: light.into_iter().fold(0.0, f32::max), is_out_of_range: false }
 }
 
 /// A function on 0…1 as a table with straight lines between its points.
@@ -216,7 +221,7 @@ mod tests {
     }
 
     #[track_caller]
-    fn assert_light(shade: &Shade, light: [f64; 3]) {
+    fn assert_light(shade: &ShadedSample, light: [f64; 3]) {
         for (ours, exact) in shade.light.iter().zip(light) {
             // Two table look-ups and single precision: 1e-6 is a thousandth of a level.
             assert!((f64::from(*ours) - exact).abs() < 1e-6, "{shade:?} {light:?}");
@@ -296,23 +301,26 @@ mod tests {
 
     /// The light of samples of N numbers, a run at once and one by one.
     #[track_caller]
-    fn check_runs<const N: usize>(shader: &Shader, samples: &[[f32; N]], one: impl Fn(&[f32; N]) -> Shade)
-    where
+    fn check_runs<const N: usize>(
+        shader: &Shader,
+        samples: &[[f32; N]],
+        one: impl Fn(&[f32; N]) -> ShadedSample,
+    ) where
         Shader: Shading<N>,
     {
         for n in [1, 7, 64, RUN] {
-            for run in samples.chunks(n) {
+            for chunk in samples.chunks(n) {
                 let columns: [Vec<f32>; N] =
-                    std::array::from_fn(|i| run.iter().map(|numbers| numbers[i]).collect());
-                let mut shades = Shades::default();
-                shader.shade(columns.each_ref().map(|all| &all[..]), Scale::Linear, &mut shades);
-                for (idx, numbers) in run.iter().enumerate() {
-                    assert_eq!(shades.get(idx), one(numbers), "{numbers:?}, {n} at once");
+                    std::array::from_fn(|i| chunk.iter().map(|numbers| numbers[i]).collect());
+                let mut run = ShadedRun::default();
+                shader.shade(columns.each_ref().map(|all| &all[..]), Encoding::Linear, &mut run);
+                for (idx, numbers) in chunk.iter().enumerate() {
+                    assert_eq!(run.get(idx), one(numbers), "{numbers:?}, {n} at once");
                 }
-                shader.shade(columns.each_ref().map(|all| &all[..]), Scale::Display, &mut shades);
-                for (idx, numbers) in run.iter().enumerate() {
+                shader.shade(columns.each_ref().map(|all| &all[..]), Encoding::Display, &mut run);
+                for (idx, numbers) in chunk.iter().enumerate() {
                     let levels = one(numbers).light.map(|light| srgb_encode(f64::from(light)));
-                    for (ours, exact) in shades.get(idx).light.iter().zip(levels) {
+                    for (ours, exact) in run.get(idx).light.iter().zip(levels) {
                         // Where the curve is steepest an error of 3e-7 in light is 4e-6 of a level.
                         assert!(
                             (f64::from(*ours) - exact).abs() < 4e-6 * exact.abs().max(1.0),

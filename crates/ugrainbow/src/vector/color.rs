@@ -3,7 +3,7 @@
 use ugimage::Development;
 use ugimage::figure::Rgb;
 use ugphysics::srgb_encode;
-use ugraster::{Corner, Grid, Shade, TRANSPARENT_VALUES};
+use ugraster::{Corner, SampleGrid, ShadedSample, TRANSPARENT_VALUES};
 
 use super::patch::Patch;
 use crate::canvas::developed;
@@ -20,7 +20,7 @@ pub struct Palette<'a> {
     pub shader: &'a Shader,
     /// How light is developed; `None` if it fits a display as it is.
     pub development: Option<Development>,
-    pub grid: &'a Grid,
+    pub grid: &'a SampleGrid,
     /// Linear light of what stands behind everything; white if that is nothing.
     pub ground: [f32; 3],
 }
@@ -34,7 +34,7 @@ impl Palette<'_> {
     /// The same, if it is the same everywhere.
     pub fn everywhere<'p>(&self, layers: impl Iterator<Item = &'p Patch>) -> Option<Levels> {
         let film = |patch: &'p Patch| {
-            let values = patch.single_values().filter(|_| self.grid.cue.is_none())?;
+            let values = patch.single_values().filter(|_| self.grid.fade.is_none())?;
             Some(self.film(patch, &Numbers { values, key: 1.0 }))
         };
         Some(self.blended(layers.map(film).collect::<Option<Vec<_>>>()?.into_iter()))
@@ -78,8 +78,8 @@ impl Palette<'_> {
         self.levels(std::array::from_fn(|i| light[i] + pass * self.ground[i]))
     }
 
-    fn cued(&self, shade: Shade, key: f64) -> [f32; 3] {
-        let cue = self.grid.cue_at(key as f32);
+    fn cued(&self, shade: ShadedSample, key: f64) -> [f32; 3] {
+        let cue = self.grid.light_left(key as f32);
         std::array::from_fn(|i| cue * shade.light[i] + (1.0 - cue) * self.ground[i])
     }
 

@@ -1,7 +1,7 @@
 //! Which faces are seen.
 
 use std::sync::atomic::{AtomicBool, Ordering};
-use ugraster::Gathered;
+use ugraster::Center;
 
 use crate::render_layers::RenderLayers;
 use crate::setup::Setup;
@@ -20,9 +20,10 @@ pub fn faces(setup: &Setup<'_>, layers: &RenderLayers<'_>) -> Faces {
     let scene = setup.scene();
     let is_seen: Vec<AtomicBool> = scene.faces.iter().map(|_| AtomicBool::new(false)).collect();
     // Pixels of nothing take no memory. In which order faces are found makes no difference.
-    layers.paint(&setup.grid, &setup.shader, &|all: &Gathered<'_, u32>| {
-        let clear = all.layers.iter().filter(|layer| !layer.is_line).map(|layer| layer.item);
-        for item in all.center.iter().map(|seen| seen.tag).chain(clear) {
+    layers.paint_centers(&setup.grid, &setup.shader, |center: &Center<'_>| {
+        let transparent = center.fragments.iter().filter(|fragment| !fragment.is_line);
+        let transparent = transparent.map(|fragment| fragment.item);
+        for item in center.opaque.iter().map(|hit| hit.item).chain(transparent) {
             if let Some(face) = is_seen.get(item as usize) {
                 face.store(true, Ordering::Relaxed);
             }

@@ -1,0 +1,192 @@
+//! Layers of polygons and triangles, drawn into tiles or as transparent fragments.
+
+use fearless_simd::Level;
+
+use crate::edges::{Crossing, Scanner};
+use crate::grid::SampleGrid;
+use crate::polygons::{Point, PolygonList, ShapeRef};
+use crate::rows::draw_block;
+use crate::tile::{Area, Tile};
+use crate::transparency::{FragmentWriter, TRANSPARENT_VALUES};
+use crate::triangles::{BlockSetup, LazyPlanes, Plane, TriangleQueue, TriangleValues};
+
+/// Opaque surfaces that are drawn tile by tile. They carry N interpolated values.
+pub trait OpaqueLayer<const N: usize>: Sync {
+    /// Draws what the layer has in a band into a tile of that band.
+    fn draw(&self, grid: &SampleGrid, band: usize, scanner: &mut Scanner<N>, tile: &mut Tile<N>);
+}
+
+/// The corners that triangles share, by row.
+pub trait CornerTable<const N: usize>: Sync {
+    /// The position of a corner.
+    fn point(&self, corner: u32) -> Point;
+
+    /// The values to interpolate between three corners of an item, as they are on the surface (in
+    /// perspective they are not yet multiplied by the key).
+    fn values(&self, item: u32, corners: [u32; 3]) -> [[f64; N]; 3];
+}
+
+/// The table of lists that have no triangles: its corners are nowhere.
+#[derive(Clone, Copy, Debug)]
+pub struct NoTriangles;
+
+impl<const N: usize> CornerTable<N> for NoTriangles {
+    fn point(&self, _corner: u32) -> Point {
+        Point { x: f64::NAN, y: f64::NAN, key: f64::NAN }
+    }
+
+    fn values(&self, _item: u32, _corners: [u32; 3]) -> [[f64; N]; 3] {
+        [[0.0; N]; 3]
+    }
+}
+
+/// Lists of shapes, drawn in this order. Each list has been sorted into the bands of the grid.
+pub struct PolygonLayer<'a, const N: usize, C: ?Sized> {
+    /// Polygons and triangles.
+    pub lists: &'a [PolygonList<N>],
+    /// The corners of the triangles.
+    pub corners: &'a C,
+}
+
+impl<const N: usize, C: CornerTable<N> + ?Sized> OpaqueLayer<N> for PolygonLayer<'_, N, C> {
+    fn draw(&self, grid: &SampleGrid, band: usize, scanner: &mut Scanner<N>, tile: &mut Tile<N>) {
+        self.draw_shapes(grid, band, scanner, tile);
+    }
+}
+
+impl<C: CornerTable<TRANSPARENT_VALUES> + ?Sized> PolygonLayer<'_, TRANSPARENT_VALUES, C> {
+    /// Draws what the layer has in a band as transparent fragments.
+    pub fn draw_transparent(
+        &self,
+        grid: &SampleGrid,
+        band: usize,
+        scanner: &mut Scanner<TRANSPARENT_VALUES>,
+        writer: &mut FragmentWriter<'_, '_>,
+    ) {
+        self.draw_shapes(grid, band, scanner, writer);
+    }
+}
+
+impl<const N: usize, C: CornerTable<N> + ?Sized> PolygonLayer<'_, N, C> {
+    fn draw_shapes(
+        &self,
+        grid: &SampleGrid,
+        band: usize,
+        scanner: &mut Scanner<N>,
+        target: &mut impl ShapeTarget<N>,
+    ) {
+        let level = Level::new();
+        let Area { columns, rows } = target.area();
+        let is_perspective = grid.is_perspective;
+        let values = Values::<N, C>(self.corners);
+        let mut queue = TriangleQueue::default();
+        let flush = |queue: &mut TriangleQueue, target: &mut _| {
+            let draw = |block: &BlockSetup<'_>| draw_triangles(target, level, block, &values);
+            queue.flush(level, rows, columns, is_perspective, draw);
+        };
+        for (item, shape) in self.lists.iter().flat_map(|list| list.in_band(band)) {
+            match shape {
+                ShapeRef::Triangle(corners) => {
+                    let [a, b, c] = corners;
+                    let points = [self.corners.point(a), self.corners.point(b), self.corners.point(c)];
+                    if queue.push(item, corners, points) {
+                        flush(&mut queue, target);
+                    }
+                }
+                ShapeRef::Polygon(contours) => {
+                    // Of equal keys the first drawn wins, so the order must stay.
+                    flush(&mut queue, target);
+                    scanner.scan(contours, rows[0], rows[1], |row, left, right| {
+                        target.draw_span(row, left, right, is_perspective, item);
+                    });
+                }
+            }
+        }
+        flush(&mut queue, target);
+    }
+}
+
+/// Draws a block of triangles with N values.
+fn draw_triangles<const N: usize>(
+    target: &mut impl ShapeTarget<N>,
+    level: Level,
+    block: &BlockSetup<'_>,
+    values: &dyn TriangleValues,
+) {
+    let (mut at_corners, mut planes) = ([[0.0; 3]; N], [Plane::default(); N]);
+    target.draw_block(level, block, &mut LazyPlanes::new(values, &mut at_corners, &mut planes));
+}
+
+/// The values of a table, for the loops that are compiled once.
+struct Values<'a, const N: usize, C: ?Sized>(&'a C);
+
+impl<const N: usize, C: CornerTable<N> + ?Sized> TriangleValues for Values<'_, N, C> {
+    fn write(&self, item: u32, corners: [u32; 3], values: &mut [[f64; 3]]) {
+        let [a, b, c] = self.0.values(item, corners);
+        for (i, value) in values.iter_mut().enumerate().take(N) {
+            *value = [a[i], b[i], c[i]];
+        }
+    }
+}
+
+/// Receives the samples of shapes.
+trait ShapeTarget<const N: usize> {
+    /// The samples to be drawn.
+    fn area(&self) -> Area;
+
+    /// Draws a span of a polygon.
+    fn draw_span(
+        &mut self,
+        row: u32,
+        left: &Crossing<N>,
+        right: &Crossing<N>,
+        is_perspective: bool,
+        item: u32,
+    );
+
+    /// Draws a block of triangles.
+    fn draw_block(&mut self, level: Level, block: &BlockSetup<'_>, planes: &mut LazyPlanes<'_>);
+}
+
+impl<const N: usize> ShapeTarget<N> for Tile<N> {
+    fn area(&self) -> Area {
+        self.area()
+    }
+
+    #[inline]
+    fn draw_span(
+        &mut self,
+        row: u32,
+        left: &Crossing<N>,
+        right: &Crossing<N>,
+        is_perspective: bool,
+        item: u32,
+    ) {
+        self.draw_span(row, left, right, is_perspective, item);
+    }
+
+    fn draw_block(&mut self, level: Level, block: &BlockSetup<'_>, planes: &mut LazyPlanes<'_>) {
+        draw_block(level, block, self.samples(), planes);
+    }
+}
+
+impl ShapeTarget<TRANSPARENT_VALUES> for FragmentWriter<'_, '_> {
+    fn area(&self) -> Area {
+        self.area()
+    }
+
+    fn draw_span(
+        &mut self,
+        row: u32,
+        left: &Crossing<TRANSPARENT_VALUES>,
+        right: &Crossing<TRANSPARENT_VALUES>,
+        is_perspective: bool,
+        item: u32,
+    ) {
+        self.draw_span(row, left, right, is_perspective, item);
+    }
+
+    fn draw_block(&mut self, _level: Level, block: &BlockSetup<'_>, planes: &mut LazyPlanes<'_>) {
+        block.draw(self, planes);
+    }
+}

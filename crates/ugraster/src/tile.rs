@@ -1,0 +1,222 @@
+//! The samples of a tile, and the depth test.
+
+use std::ops::Range;
+
+use crate::edges::Crossing;
+use crate::polygons::first_center;
+
+/// Samples that are drawn together; a tile has as many elements more than samples.
+pub const LANES: usize = 8;
+
+/// The depth key of samples where nothing has been drawn: farther than everything.
+pub(crate) const EMPTY: f32 = f32::NEG_INFINITY;
+
+/// A rectangle of samples with the nearest opaque surface at each.
+#[derive(Debug)]
+pub struct Tile<const N: usize> {
+    area: Area,
+    /// Depth keys, row after row; [`EMPTY`] where nothing has been drawn.
+    keys: Vec<f32>,
+    /// For each value the numbers of all samples, so that many are shaded at once.
+    values: [Vec<f32>; N],
+    /// The item visible at each sample; no elements if items are not kept.
+    items: Vec<u32>,
+}
+
+/// A rectangle of samples of the picture.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Area {
+    /// First column, and one past the last.
+    pub columns: [u32; 2],
+    /// First row, and one past the last.
+    pub rows: [u32; 2],
+}
+
+impl Area {
+    /// Number of samples in a row.
+    pub fn width(&self) -> u32 {
+        self.columns[1] - self.columns[0]
+    }
+
+    /// Number of samples.
+    pub fn n_samples(&self) -> usize {
+        self.width() as usize * (self.rows[1] - self.rows[0]) as usize
+    }
+
+    /// Index of a sample, counted row after row.
+    #[inline(always)]
+    pub fn index(&self, row: u32, column: u32) -> usize {
+        (row - self.rows[0]) as usize * self.width() as usize + (column - self.columns[0]) as usize
+    }
+
+    /// Indices of samples of one row.
+    #[inline(always)]
+    pub fn indices(&self, row: u32, columns: &Range<u32>) -> Range<usize> {
+        let first = self.index(row, columns.start);
+        first..first + columns.len()
+    }
+}
+
+/// What is visible at a sample.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hit {
+    /// Its depth key.
+    pub key: f32,
+    /// The item it belongs to.
+    pub item: u32,
+}
+
+/// The samples of a tile with any number of values, for the loops that are compiled once.
+pub struct TileSamples<'a> {
+    area: Area,
+    pub keys: &'a mut [f32],
+    pub values: &'a mut [Vec<f32>],
+    /// No elements if items are not kept.
+    pub items: &'a mut [u32],
+}
+
+impl TileSamples<'_> {
+    /// Index of a sample.
+    #[inline(always)]
+    pub fn sample(&self, row: u32, column: u32) -> usize {
+        self.area.index(row, column)
+    }
+}
+
+impl<const N: usize> Default for Tile<N> {
+    fn default() -> Self {
+        let values = [const { Vec::new() }; N];
+        Self { area: Area::default(), keys: Vec::new(), values, items: Vec::new() }
+    }
+}
+
+impl<const N: usize> Tile<N> {
+    /// Makes it an empty tile, reusing its buffers.
+    pub(crate) fn reset(&mut self, area: Area, keeps_items: bool) {
+        self.area = area;
+        // With some elements behind the last row, because rows are drawn LANES samples at once.
+        let len = area.n_samples() + LANES;
+        self.keys.clear();
+        self.keys.resize(len, EMPTY);
+        // Values and items are read only where a key has been written, so old ones may stay.
+        self.values.iter_mut().for_each(|all| all.resize(len, 0.0));
+        self.items.resize(if keeps_items { len } else { 0 }, 0);
+    }
+
+    /// The samples it contains.
+    pub fn area(&self) -> Area {
+        self.area
+    }
+
+    /// Depth keys, row after row, and [`LANES`] more.
+    pub(crate) fn keys(&self) -> &[f32] {
+        &self.keys
+    }
+
+    pub(crate) fn samples(&mut self) -> TileSamples<'_> {
+        let Self { area, keys, values, items } = self;
+        TileSamples { area: *area, keys, values, items }
+    }
+
+    /// Draws samples of a row. `sample` receives the column of each and the key of the nearest
+    /// surface so far; it returns key and values of a nearer surface.
+    #[inline]
+    pub fn draw_each(
+        &mut self,
+        row: u32,
+        columns: Range<u32>,
+        item: u32,
+        mut sample: impl FnMut(u32, f32) -> Option<(f32, [f32; N])>,
+    ) {
+        let mut part = self.part(row, &columns);
+        for (idx, column) in columns.enumerate() {
+            if let Some((key, values)) = sample(column, part.keys[idx]) {
+                part.set(idx, key, values, item);
+            }
+        }
+    }
+
+    /// Draws the samples of a row with left ≤ x < right where the depth test passes.
+    ///
+    /// Keys and values are linear between the two ends. In perspective the values are multiplied
+    /// by the key, and are divided by it here.
+    #[inline]
+    pub(crate) fn draw_span(
+        &mut self,
+        row: u32,
+        left: &Crossing<N>,
+        right: &Crossing<N>,
+        is_perspective: bool,
+        item: u32,
+    ) {
+        let [start, end] = self.area.columns;
+        let columns = first_center(left.x, end).max(start)..first_center(right.x, end);
+        if columns.is_empty() {
+            return;
+        }
+        let per_column = 1.0 / (right.x - left.x);
+        let key_slope = (right.key - left.key) * per_column;
+        let slopes: [f64; N] = std::array::from_fn(|i| (right.values[i] - left.values[i]) * per_column);
+        let mut part = self.part(row, &columns);
+        for (idx, column) in columns.enumerate() {
+            // From the left end and never from the sample before: the result must not depend on
+            // where a tile starts.
+            let across = f64::from(column) + 0.5 - left.x;
+            let key = left.key + across * key_slope;
+            if key as f32 <= part.keys[idx] {
+                continue;
+            }
+            let scale = if is_perspective { 1.0 / key } else { 1.0 };
+            let value = |i: usize| ((left.values[i] + across * slopes[i]) * scale) as f32;
+            part.set(idx, key as f32, std::array::from_fn(value), item);
+        }
+    }
+
+    /// The samples of part of a row, to be drawn on.
+    #[inline]
+    fn part(&mut self, row: u32, columns: &Range<u32>) -> RowPart<'_, N> {
+        let samples = self.area.indices(row, columns);
+        let items = if self.items.is_empty() { &mut [] } else { &mut self.items[samples.clone()] };
+        RowPart {
+            keys: &mut self.keys[samples.clone()],
+            values: self.values.each_mut().map(|all| &mut all[samples.clone()]),
+            items,
+        }
+    }
+
+    /// Part of a row: depth keys, [`EMPTY`] where nothing was drawn, and values, meaningless there.
+    #[inline]
+    pub(crate) fn row_part(&self, row: u32, first: u32, end: u32) -> (&[f32], [&[f32]; N]) {
+        let samples = self.area.indices(row, &(first..end));
+        (&self.keys[samples.clone()], self.values.each_ref().map(|all| &all[samples.clone()]))
+    }
+
+    /// What is visible at a sample. Always `None` if items are not kept.
+    #[inline]
+    pub(crate) fn hit(&self, row: u32, column: u32) -> Option<Hit> {
+        let sample = self.area.index(row, column);
+        let (key, &item) = (self.keys[sample], self.items.get(sample)?);
+        (key != EMPTY).then_some(Hit { key, item })
+    }
+}
+
+/// Part of a row of a [`Tile`].
+struct RowPart<'a, const N: usize> {
+    keys: &'a mut [f32],
+    values: [&'a mut [f32]; N],
+    items: &'a mut [u32],
+}
+
+impl<const N: usize> RowPart<'_, N> {
+    /// Sets what is visible at a sample.
+    #[inline(always)]
+    fn set(&mut self, sample: usize, key: f32, values: [f32; N], item: u32) {
+        self.keys[sample] = key;
+        if let Some(kept) = self.items.get_mut(sample) {
+            *kept = item;
+        }
+        for (all, value) in self.values.iter_mut().zip(values) {
+            all[sample] = value;
+        }
+    }
+}
