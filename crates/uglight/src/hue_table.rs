@@ -1,4 +1,4 @@
-//! The map between hue and wavelength, fast enough for every sample.
+//! The map between hue and wavelength, fast enough for every sample of a picture.
 
 use std::sync::LazyLock;
 
@@ -38,14 +38,14 @@ impl HueTable {
         Self { cubics: std::array::from_fn(cubic), points: (0..=CELLS * INTERVALS).map(point).collect() }
     }
 
-    /// As [`wavelength_to_hue`] says, to rounding.
+    /// Like [`wavelength_to_hue`], up to rounding.
     #[inline]
     pub fn hue(&self, wavelength_nm: f64) -> f64 {
         let ([a, b, c, d], t) = self.cubic(wavelength_nm.clamp(VIOLET_END_NM, RED_END_NM));
         a + t * (b + t * (c + t * d))
     }
 
-    /// Coefficients at a wavelength, and what they are to be multiplied by.
+    /// The cubic's coefficients at a wavelength, and its argument.
     #[inline]
     fn cubic(&self, wavelength_nm: f64) -> ([f64; 4], f64) {
         let inner = CONTROL_POINTS[1..INTERVALS].iter();
@@ -54,10 +54,11 @@ impl HueTable {
         ([a, b, c, d], wavelength_nm - red)
     }
 
-    /// As [`hue_to_wavelength`] says, to 10⁻⁹ nm.
+    /// Like [`hue_to_wavelength`], within 10⁻⁹ nm.
     ///
-    /// The map is a cubic curve for each interval; its inverse is taken for a cubic, too, through value and slope at
-    /// both ends of each of many cells, of which none goes across the end of an interval, and a step of Newton's method.
+    /// The map is a cubic in each interval. Its inverse is approximated by a cubic Hermite curve in each of
+    /// many cells, none of which crosses the end of an interval, and refined by one step of Newton's
+    /// method.
     #[inline]
     pub fn wavelength_nm(&self, hue_deg: f64) -> f64 {
         let place = (hue_deg - FIRST) * (1.0 / STEP);

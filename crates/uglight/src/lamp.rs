@@ -1,4 +1,4 @@
-//! The lights of a scene, as all programs understand them.
+//! The lights of a scene, with their colours and places ready to compute with.
 
 use glam::DVec3;
 use ugparse::{Light, LightKind, LightMotion, Scene};
@@ -12,10 +12,10 @@ use crate::{HueScale, hsv, light};
 pub struct Lamp {
     /// What kind of light, and where.
     pub place: LampPlace,
-    /// Red, green and blue, display-encoded, times the intensity. Levels of several lights add up so, and
-    /// multiply the colour of a surface.
+    /// Display-encoded red, green and blue, times the intensity. In this form light of several lamps is
+    /// added, and multiplies the display-encoded colour of a surface, as in 1988.
     pub color: DVec3,
-    /// The same linear, which multiplies what is given as light, [`light`].
+    /// Linear red, green and blue, times the intensity: it multiplies colours given as [`light`].
     pub linear: DVec3,
     /// True if the light is neither white nor grey.
     pub is_colored: bool,
@@ -26,11 +26,12 @@ pub struct Lamp {
 /// Where a light is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LampPlace {
-    /// All round.
+    /// In all directions: ambient light.
     Everywhere,
-    /// Infinitely far along a unit vector, in the frame of the light.
+    /// At infinity along a unit vector, in the rest frame of the light.
     Afar(DVec3),
-    /// At a point, relative to the eye, in the frame of the light. Its light grows no weaker with distance.
+    /// At a point, relative to the eye, in the rest frame of the light. There is no fall-off with
+    /// distance.
     At(DVec3),
 }
 
@@ -71,7 +72,8 @@ impl Lamp {
         Lamp { place, color, linear: color, is_colored: false, motion: LightMotion::WithWhatItLights }
     }
 
-    /// What part of its intensity falls on a surface if both are at rest: max(0, n·l), 1 for ambient light.
+    /// The irradiance of a surface that rests with the lamp, as a part of the lamp's intensity:
+    /// max(0, n·l), or 1 for ambient light.
     ///
     /// `point`: of the surface, relative to the eye. `normal`: unit vector on the side that is seen, or zero
     /// for a surface without one.

@@ -38,8 +38,9 @@ mod irradiance;
 mod lamp;
 mod lighting;
 mod spectral;
+mod vertex_color;
 
-pub use color::{VertexColor, hsv, is_light, light, spectra_note, spectrum, vertex_colors};
+pub use color::{hsv, is_light, light, spectra_note, spectrum};
 pub use hue::{HueColor, HueShift};
 pub use hue_table::HueTable;
 pub use irradiance::{Irradiance, SurfaceElement};
@@ -47,3 +48,4 @@ pub use lamp::{Lamp, LampPlace, lamps};
 pub use lighting::Lighting;
 pub use spectral::{SpectralColor, SpectralLamp, SpectralShift, spectral_lamps};
 pub use ugparse::HueScale;
+pub use vertex_color::{VertexColor, vertex_colors};

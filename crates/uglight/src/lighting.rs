@@ -1,18 +1,18 @@
-//! How brightly corners are lit.
+//! Irradiance by lamps that rest with what they light.
 
 use glam::DVec3;
 use ugparse::Scene;
 
 use crate::{HueScale, Lamp, LampPlace, lamps};
 
-/// The lights of a scene, as they fall on a face at rest.
+/// The lights of a scene, each at rest with the face it lights: the rule of 1988.
 ///
-/// Every light rests in the frame of the face it lights, and light levels are computed in
-/// that frame, with rest positions (P4) and rest normals: a face is lit as it would be
-/// standing still. A local light does not grow weaker with distance and counts as a point.
+/// A light level is the irradiance relative to the one that shows white as white. It is computed in the
+/// rest frame of a face, with rest positions (P4) and rest normals, so a moving face is lit as if it
+/// stood still. Local lights are points, without a fall-off with distance.
 ///
-/// The level multiplies the value of a hue, which is display-encoded, as in 1988; and the light of a colour
-/// given as light, which is linear. So each light has its colour on both scales.
+/// The level multiplies the value of a hue, which is display-encoded, as in 1988; or a colour given as
+/// light, which is linear. So every light has its colour in both forms.
 #[derive(Clone, Debug)]
 pub struct Lighting {
     /// All ambient lights together.
@@ -23,7 +23,7 @@ pub struct Lighting {
 }
 
 impl Lighting {
-    /// The lights of the scene; if it has none, ambient 0.3 and 0.7 from the eye.
+    /// The lights of the scene; if it has none, an ambient light of 0.3 and one of 0.7 from the eye.
     ///
     /// `eye`: in scene coordinates. `forward`: unit vector along the view.
     pub fn new(scene: &Scene, scale: HueScale, eye: DVec3, forward: DVec3) -> Self {
@@ -44,19 +44,19 @@ impl Lighting {
         Self { ambient, lamps, is_colored }
     }
 
-    /// True if a light is not white or grey, so that levels differ between red, green and blue.
+    /// True if a light is neither white nor grey, so that levels differ between red, green and blue.
     #[inline]
     pub fn is_colored(&self) -> bool {
         self.is_colored
     }
 
-    /// True if the level depends on where a face is and how it lies.
+    /// True if the level depends on the position and normal of a face.
     #[inline]
     pub fn needs_geometry(&self) -> bool {
         !self.lamps.is_empty()
     }
 
-    /// True if the level depends on where a point of a face is.
+    /// True if the level depends on the position of a point of a face.
     #[inline]
     pub fn needs_places(&self) -> bool {
         self.lamps.iter().any(|lamp| matches!(lamp.place, LampPlace::At(_)))
@@ -66,11 +66,11 @@ impl Lighting {
     ///
     /// `point`: relative to the eye, in the rest frame of the surface. `normal`: unit vector
     /// on the side that is seen, or zero for a surface without one.
-    /// `is_linear`: of the lights' linear colours, else of the display-encoded ones.
+    /// `is_linear`: with the lights' linear colours, else with the display-encoded ones.
     /// Level = Σ ambient + Σ intensity · max(0, n·l).
     #[inline]
     pub fn level(&self, point: DVec3, normal: DVec3, is_linear: bool) -> DVec3 {
-        // Two loops, each with its colour inlined: this runs for every corner of the scene.
+        // Two loops, each with its colour inlined, because this runs for every corner of the scene.
         if is_linear {
             self.sum(point, normal, |lamp| lamp.linear)
         } else {
@@ -84,7 +84,7 @@ impl Lighting {
         self.lamps.iter().fold(scale(&self.ambient), lit)
     }
 
-    /// The same light by light: what each adds to the level, and what to call it.
+    /// The contribution of every light to the level, with a name for it.
     pub fn parts(&self, point: DVec3, normal: DVec3, is_linear: bool) -> Vec<(String, DVec3)> {
         let scale = |lamp: &Lamp| if is_linear { lamp.linear } else { lamp.color };
         let mut parts = vec![("ambient".to_owned(), scale(&self.ambient))];
