@@ -86,7 +86,7 @@ const MISTAKES: [Mistake; 17] = [
     },
     Mistake {
         name: "M8",
-        file: "crates/ugphysics/src/point_light.rs",
+        file: "crates/ugphysics/src/irradiance.rs",
         right: "power * (doppler * doppler)",
         wrong: "power * (doppler * doppler * doppler * doppler * doppler)",
         found_by: "T25",

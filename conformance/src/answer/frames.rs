@@ -1,7 +1,7 @@
 //! Questions about changes of frame: factors, directions, velocities, accelerated motion.
 
 use glam::{DMat3, DVec3, Vec4Swizzles};
-use ugphysics::{Event, Hyperbolic, Lorentz, Wave, aberrate, compose};
+use ugphysics::{Event, HyperbolicMotion, Lorentz, Wave, aberrate, compose};
 
 use super::numbers::{Answer, along_x, angle, at, exactly, list, vectors, velocity};
 use super::positions::retarded;
@@ -90,13 +90,13 @@ pub const KINDS: &[(&str, Answer)] = &[
     }),
     ("hyperbolic", |given| {
         let [a, proper_time] = exactly(given)?;
-        let ship = Hyperbolic { acceleration: a * DVec3::X };
+        let ship = HyperbolicMotion { acceleration: a * DVec3::X };
         let (event, v) = (ship.event(proper_time), ship.velocity(proper_time).ok()?);
         Some(vec![v.speed(), v.gamma(), event.t, event.x.x])
     }),
     ("flip_trip", |given| {
         let [a, distance] = exactly(given)?;
-        let ship = Hyperbolic { acceleration: a * DVec3::X };
+        let ship = HyperbolicMotion { acceleration: a * DVec3::X };
         let half = ship.proper_time_to(0.5 * distance);
         Some(vec![ship.velocity(half).ok()?.speed(), 2.0 * ship.event(half).t, 2.0 * half])
     }),

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use crate::Velocity;
-use crate::exact::power_of_two_below;
+use crate::error_free::power_of_two_below;
 
 /// The Doppler factor D = f_observed/f_emitted = λ_emitted/λ_observed = 1/(γ(1 − **v**·n)),
 /// dimensionless.  Eq. (P10)

@@ -1,4 +1,4 @@
-//! Hyperbolic motion: constant proper acceleration.
+//! HyperbolicMotion motion: constant proper acceleration.
 
 use glam::DVec3;
 
@@ -9,22 +9,22 @@ use crate::{Event, Velocity, VelocityError};
 ///
 /// ```
 /// use glam::DVec3;
-/// use ugphysics::Hyperbolic;
+/// use ugphysics::HyperbolicMotion;
 ///
-/// let ship = Hyperbolic { acceleration: DVec3::X };
+/// let ship = HyperbolicMotion { acceleration: DVec3::X };
 /// let later = ship.event(2.0);
 /// assert!((later.x.x - 2.762195691083631).abs() < 1e-14);
 /// assert!((ship.velocity(2.0)?.gamma() - 3.7621956910836314).abs() < 1e-14);
 /// # Ok::<(), ugphysics::VelocityError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Hyperbolic {
+pub struct HyperbolicMotion {
     /// Proper acceleration **a**, in units of c per unit of time: |**a**| times a proper time is a
     /// rapidity.
     pub acceleration: DVec3,
 }
 
-impl Hyperbolic {
+impl HyperbolicMotion {
     /// The body's event at proper time τ = `proper_time`: t = sinh(aτ)/a, x = (cosh(aτ) − 1)/a.
     /// Eq. (P32)
     #[must_use]

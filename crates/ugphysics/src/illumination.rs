@@ -5,15 +5,13 @@
 //! camera frame S; the light rests in S'', which moves with **v**_l in S. Rest coordinates are
 //! relative to the eye, as everywhere: the origins of all three frames coincide at t = 0.
 
-use core::f64::consts::PI;
-
 use glam::DVec3;
 
 use crate::{Brightness, Velocity, rest_position, seen_position};
 
 /// Light arriving at a point of a surface, described in the rest frame of the surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Illumination {
+pub struct IncidentLight {
     /// Unit vector from the surface towards the place of the light at emission, in S'.
     pub toward: DVec3,
     /// Doppler factor D_l = f_surface/f_light; above 1 the light arrives blueshifted.
@@ -25,7 +23,7 @@ pub struct Illumination {
     pub rest_distance: f64,
 }
 
-impl Illumination {
+impl IncidentLight {
     /// Irradiance (power per area) on a surface that faces a point source of power `power`,
     /// isotropic in its own frame: P D_l⁴/(4πr²) = P D_l²/(4πr''²).  Eq. (P14)
     ///
@@ -43,7 +41,7 @@ impl Illumination {
     /// ```
     #[must_use]
     pub fn irradiance(&self, power: f64) -> f64 {
-        power * self.doppler * self.doppler / (4.0 * PI * self.rest_distance * self.rest_distance)
+        crate::irradiance(power, self.distance, self.doppler)
     }
 
     /// Spectral irradiance at wavelength λ, from the spectral power `power` of the source (both per
@@ -70,12 +68,12 @@ impl Illumination {
 /// surface gives the same bits as a light and surface at rest. Otherwise the error is about
 /// γ²·10⁻¹⁶ of the distances.
 #[must_use]
-pub fn illumination(p_rest: DVec3, v: Velocity, light: DVec3, v_light: Velocity) -> Option<Illumination> {
+pub fn illumination(p_rest: DVec3, v: Velocity, light: DVec3, v_light: Velocity) -> Option<IncidentLight> {
     let at_light = if v == v_light { p_rest } else { rest_position(seen_position(p_rest, v), v_light) };
     let to_light = light - at_light;
     let at_surface = change_view(to_light, v_light, v);
     let [distance, rest_distance] = [at_surface, to_light].map(length);
-    let illumination = Illumination {
+    let illumination = IncidentLight {
         toward: at_surface / distance,
         doppler: distance / rest_distance,
         distance,
@@ -103,11 +101,11 @@ pub fn illumination(p_rest: DVec3, v: Velocity, light: DVec3, v_light: Velocity)
 /// # Ok::<(), ugphysics::VelocityError>(())
 /// ```
 #[must_use]
-pub fn illumination_from_afar(v: Velocity, toward_light: DVec3, v_light: Velocity) -> Option<Illumination> {
+pub fn illumination_from_afar(v: Velocity, toward_light: DVec3, v_light: Velocity) -> Option<IncidentLight> {
     let toward_light = toward_light / toward_light.abs().max_element();
     let at_surface = change_view(toward_light, v_light, v);
     let distance = length(at_surface);
-    let illumination = Illumination {
+    let illumination = IncidentLight {
         toward: at_surface / distance,
         doppler: distance / length(toward_light),
         distance: f64::INFINITY,

@@ -59,15 +59,15 @@ mod ambient;
 mod apparent;
 mod color;
 mod doppler;
-mod exact;
+mod error_free;
 mod hue;
 mod hyperbolic;
 mod illumination;
-mod light;
+mod irradiance;
 mod lorentz;
-mod point_light;
+mod optics;
+mod retarded_position;
 mod velocity;
-mod wave;
 mod xyz;
 
 pub use aberration::aberrate;
@@ -79,13 +79,13 @@ pub use hue::{
     CONTROL_POINTS, ControlPoint, RED_END_NM, VIOLET_END_NM, attenuation, hue_to_wavelength,
     wavelength_to_hue,
 };
-pub use hyperbolic::Hyperbolic;
-pub use illumination::{Illumination, illumination, illumination_from_afar};
-pub use light::{
+pub use hyperbolic::HyperbolicMotion;
+pub use illumination::{IncidentLight, illumination, illumination_from_afar};
+pub use irradiance::irradiance;
+pub use lorentz::{Lorentz, compose, wigner_rotation};
+pub use optics::{Slab, Wave, light_in_glass, reflect, refract};
+pub use retarded_position::{
     Event, contracted, elongated, flight_time, observer_shift, rest_position, seen_event, seen_position,
 };
-pub use lorentz::{Lorentz, compose, wigner_rotation};
-pub use point_light::irradiance;
 pub use velocity::{Velocity, VelocityError};
-pub use wave::{Slab, Wave, light_in_glass, reflect, refract};
 pub use xyz::{WHITE_XYZ, linear_srgb_to_xyz, xyz_to_linear_srgb};

@@ -5,7 +5,7 @@ use core::ops::Neg;
 
 use glam::DVec3;
 
-use crate::exact::{mul_add, one_minus_square, power_of_two_below};
+use crate::error_free::{mul_add, one_minus_square, power_of_two_below};
 
 /// A velocity in the camera frame S, as a fraction of the speed of light, below 1 by construction.
 ///

@@ -4,13 +4,13 @@ use std::f64::consts::PI;
 
 use glam::{DMat3, DVec3, Vec4Swizzles};
 use ugphysics::{
-    Brightness, Event, Illumination, Lorentz, Velocity, ambient_illumination, compose, doppler_factor,
+    Brightness, Event, IncidentLight, Lorentz, Velocity, ambient_illumination, compose, doppler_factor,
     illumination, illumination_from_afar, seen_event,
 };
 
 use crate::{along_x, beta, directions, near, near_vector};
 
-fn light_on(p: DVec3, v: Velocity, light: DVec3, v_light: Velocity) -> Illumination {
+fn light_on(p: DVec3, v: Velocity, light: DVec3, v_light: Velocity) -> IncidentLight {
     illumination(p, v, light, v_light).expect("the light is away from the surface")
 }
 
@@ -171,7 +171,7 @@ fn power_through_a_sphere() {
             let cos = -1.0 + (f64::from(step) + 0.5) * 2.0 / f64::from(steps);
             let n = DVec3::new(cos, (1.0 - cos * cos).sqrt(), 0.0);
             let doppler = doppler_factor(n, v_light);
-            let light = Illumination { toward: -n, doppler, distance: 1.0, rest_distance: 1.0 / doppler };
+            let light = IncidentLight { toward: -n, doppler, distance: 1.0, rest_distance: 1.0 / doppler };
             light.irradiance(1.0) * 2.0 * PI * 2.0 / f64::from(steps)
         })
         .sum();

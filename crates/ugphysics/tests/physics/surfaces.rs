@@ -4,7 +4,7 @@
 use glam::DVec3;
 use proptest::prelude::*;
 use ugphysics::{
-    Event, Hyperbolic, Lorentz, Slab, Velocity, Wave, apparent_velocity, contracted, contracted_normal,
+    Event, HyperbolicMotion, Lorentz, Slab, Velocity, Wave, apparent_velocity, contracted, contracted_normal,
     doppler_at, irradiance, light_in_glass, reflect, refract, seen_position,
 };
 
@@ -61,14 +61,14 @@ fn t28_moving_glass() {
 #[test]
 fn t30_a_year_at_one_g() {
     let year_g = 9.80665 * 31_557_600.0 / 299_792_458.0;
-    let ship = Hyperbolic { acceleration: year_g * DVec3::Z };
+    let ship = HyperbolicMotion { acceleration: year_g * DVec3::Z };
     let (event, v) = (ship.event(1.0), ship.velocity(1.0).unwrap());
     near("speed", v.speed(), 0.7748272626, TEN_DIGITS);
     near("γ", v.gamma(), 1.581845454, TEN_DIGITS);
     near("t", event.t, 1.187312402, TEN_DIGITS);
     near("x", event.x.z, 0.5636424651, TEN_DIGITS);
     near("back", ship.proper_time_to(event.x.z), 1.0, 1e-14);
-    let still = Hyperbolic { acceleration: DVec3::ZERO };
+    let still = HyperbolicMotion { acceleration: DVec3::ZERO };
     assert_eq!(still.event(3.0), Event { t: 3.0, x: DVec3::ZERO });
 }
 

@@ -8,7 +8,7 @@
 use glam::DVec3;
 
 use crate::Velocity;
-use crate::exact::{mul_add, power_of_two_below};
+use crate::error_free::{mul_add, power_of_two_below};
 
 /// An event: a point of spacetime. Time and lengths share one unit (c = 1).
 #[derive(Clone, Copy, Debug, PartialEq)]
