@@ -182,7 +182,7 @@ mod tests {
     }
 
     #[test]
-    fn curves_rise_from_black_to_white() {
+    fn tone_curves_increase_from_black_to_white() {
         for tone in Tone::ALL {
             assert!(tone.at(0.0).abs() < 1e-16);
             let steps = 100_000;
@@ -208,7 +208,7 @@ mod tests {
     /// Gamut mapping moves a colour on a line through the grey of its luminance, so the difference
     /// from that grey keeps its direction.
     #[test]
-    fn hue_and_luminance_stay() {
+    fn gamut_mapping_keeps_hue_and_luminance() {
         for scale in [1.0, 3.0, 40.0] {
             for light in noise(20_000, scale) {
                 for development in [
@@ -246,7 +246,7 @@ mod tests {
     }
 
     #[test]
-    fn what_a_display_shows_is_left_alone() {
+    fn displayable_light_is_unchanged() {
         for light in noise(10_000, 1.0) {
             let light = light.map(|channel| channel.clamp(0.0, 1.0));
             assert_eq!(Development::default().apply(light), light);
@@ -257,7 +257,7 @@ mod tests {
     }
 
     #[test]
-    fn no_number_makes_anything_but_a_colour() {
+    fn nan_and_infinities_give_valid_colours() {
         let odd = [0.0, -0.0, 1e-45, 1e38, -1e38, f32::INFINITY, f32::NEG_INFINITY, f32::NAN];
         for r in odd {
             for g in odd {

@@ -82,7 +82,7 @@ mod tests {
     }
 
     #[test]
-    fn numbers_come_back() {
+    fn values_round_trip() {
         let label = Label { software: "ug 1".into(), comment: "ug é\nug γ".into() };
         for mut frame in test_frames() {
             let n_pixels = frame.pixels().len() as u32;

@@ -72,7 +72,7 @@ mod tests {
     use crate::postscript::decode;
 
     #[test]
-    fn pixels_come_back() {
+    fn pixels_round_trip() {
         for frame in test_frames() {
             let file = grey_postscript(&frame, &Label::default());
             let levels = decode::hex(decode::between(&file, "image\n", "grestore"));

@@ -87,7 +87,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn another_reader_finds_the_light() {
+    fn another_reader_reads_the_same_light() {
         let label = Label { software: "ug 1".into(), comment: "ug -sz 3 2\n\nug\u{7}".into() };
         for frame in crate::linear::test_frames() {
             let file = encode(&frame, &label);
@@ -105,7 +105,7 @@ mod tests {
     }
 
     #[test]
-    fn odd_numbers_are_pixels() {
+    fn special_values_are_encoded() {
         for (light, expected) in [
             ([0.0; 3], [0; 4]),
             ([1.0; 3], [128, 128, 128, 129]),

@@ -162,7 +162,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_a_display_shows_is_light_and_back() {
+    fn display_levels_round_trip_through_light() {
         for frame in crate::frame::test_frames() {
             let back = LinearFrame::from(&frame).to_display();
             for (ours, &pixel) in back.pixels().iter().zip(frame.pixels()) {

@@ -21,7 +21,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn numbers_are_where_the_format_has_them() {
+    fn samples_have_the_position_and_byte_order_of_the_format() {
         for frame in crate::linear::test_frames() {
             let file = encode(&frame);
             let (width, height) = (frame.width() as usize, frame.height() as usize);

@@ -108,7 +108,7 @@ mod tests {
     }
 
     #[test]
-    fn pixels_come_back() {
+    fn pixels_round_trip() {
         for frame in test_frames() {
             let (output, pixels, info) = decode(&encode(&frame, &Label::default(), Packing::Fast));
             assert_eq!((output.width, output.height), (frame.width(), frame.height()));
@@ -167,7 +167,7 @@ mod tests {
     }
 
     #[test]
-    fn labels_come_back() {
+    fn labels_round_trip() {
         let frame = Frame::opaque(1, 1);
         let label = Label { software: "ug 1".into(), comment: "ug -vel .9 0 0\nug\u{e9}".into() };
         let (_, _, info) = decode(&encode(&frame, &label, Packing::Fast));

@@ -239,7 +239,7 @@ mod tests {
     use crate::frame::test_frames;
 
     #[test]
-    fn pixels_come_back() {
+    fn pixels_round_trip() {
         for frame in test_frames() {
             let image = color_image(&frame);
             let runs = decode::ascii85(decode::between(&image, "UgImage\n", "~>"));
@@ -292,7 +292,7 @@ mod tests {
     }
 
     #[test]
-    fn transparency_lies_on_white() {
+    fn transparency_is_composited_over_white() {
         let mut frame = Frame::clear(3, 1);
         frame.pixels_mut().copy_from_slice(&[[0, 0, 0, 0], [10, 20, 30, 255], [0, 0, 0, 128]]);
         // A share of 1 − 128/255 = 0.49804 of white light: encode(0.49804) · 255 = 187.2.

@@ -22,7 +22,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn another_reader_finds_the_pixels() {
+    fn another_reader_reads_the_same_pixels() {
         let label = Label { software: "ug 1".into(), comment: "ug -sz 3 2\nug γ".into() };
         for frame in crate::frame::test_frames() {
             let file = encode(&frame, &label);

@@ -94,7 +94,7 @@ mod tests {
     }
 
     #[test]
-    fn halfway_goes_up() {
+    fn halfway_rounds_up() {
         let quantizer = Quantizer::new();
         for level in 0..255u8 {
             let halfway = srgb_decode((f64::from(level) + 0.5) / 255.0) as f32;

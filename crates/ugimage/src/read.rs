@@ -83,7 +83,7 @@ mod tests {
     use crate::frame::test_frames;
 
     #[test]
-    fn what_was_written_is_read() {
+    fn png_round_trip() {
         for comment in ["uglorentz -vel .9 0 0\nugrainbow", "γ = 2", ""] {
             let label = Label { software: "ug 1".into(), comment: comment.into() };
             for frame in test_frames() {

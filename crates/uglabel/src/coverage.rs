@@ -6,14 +6,14 @@ use ugimage::figure::Point;
 use crate::drawing::Shape;
 
 /// Mask cells per pixel, along each axis; tiny-skia takes 4 × 4 samples per cell.
-const FINE: u32 = 4;
+const CELLS_PER_PIXEL: u32 = 4;
 
 /// Largest side of a tile, in pixels. Coverage is computed tile by tile.
 pub const TILE: u32 = 256;
 
 /// Coordinates are clamped to this distance from a tile, in pixels, because tiny-skia uses single
 /// precision.
-const FAR: f64 = 1e4;
+const MAX_DISTANCE: f64 = 1e4;
 
 /// A rectangle of pixels whose coverage is computed at once.
 #[derive(Clone, Copy, Debug)]
@@ -41,15 +41,15 @@ impl Tile {
         };
         let path = path?;
         let [width, height] = self.size;
-        let mut mask = Mask::new(width * FINE, height * FINE)?;
+        let mut mask = Mask::new(width * CELLS_PER_PIXEL, height * CELLS_PER_PIXEL)?;
         mask.fill_path(&path, rule, true, Transform::identity());
         Some(self.averaged(&mask))
     }
 
     fn averaged(self, mask: &Mask) -> Vec<f32> {
         let [width, height] = self.size.map(|side| side as usize);
-        let fine = FINE as usize;
-        let full = 255.0 * (FINE * FINE) as f32;
+        let fine = CELLS_PER_PIXEL as usize;
+        let full = 255.0 * (CELLS_PER_PIXEL * CELLS_PER_PIXEL) as f32;
         let mut parts = Vec::with_capacity(width * height);
         for row in 0..height {
             for column in 0..width {
@@ -79,7 +79,7 @@ impl Tile {
                 continue;
             }
             let cell = |coordinate: f64, start: f64| {
-                ((coordinate - start).clamp(-FAR, FAR) * f64::from(FINE)) as f32
+                ((coordinate - start).clamp(-MAX_DISTANCE, MAX_DISTANCE) * f64::from(CELLS_PER_PIXEL)) as f32
             };
             for (idx, &[x, y]) in contour.iter().enumerate() {
                 let (x, y) = (cell(x, left), cell(y, top));

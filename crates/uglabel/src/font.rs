@@ -31,7 +31,7 @@ impl fmt::Display for MissingCharacter {
 impl std::error::Error for MissingCharacter {}
 
 /// The font at a size.
-pub struct Sized {
+pub struct SizedFont {
     font: FontRef<'static>,
     /// Pixels per font unit.
     scale: f64,
@@ -41,7 +41,7 @@ pub struct Sized {
 #[derive(Clone, Copy, PartialEq)]
 pub struct Glyph(GlyphId);
 
-impl Sized {
+impl SizedFont {
     /// The font at em size `size`, in pixels.
     pub fn new(size: f64) -> Self {
         let font = FontRef::try_from_slice(FONT).expect("the embedded font is valid");
@@ -103,12 +103,12 @@ fn push_curve(controls: &[Point], contour: &mut Vec<Point>) {
     // needs fewer lines.
     let n_lines = libm::sqrt(0.75 * bend.fold(0.0, f64::max) / TOLERANCE).ceil().max(1.0);
     for step in 0..n_lines as u32 {
-        contour.push(at(controls.to_vec(), f64::from(step) / n_lines));
+        contour.push(bezier_point(controls.to_vec(), f64::from(step) / n_lines));
     }
 }
 
 /// The point of a Bézier curve at parameter `part`, by de Casteljau's algorithm.
-fn at(mut points: Vec<Point>, part: f64) -> Point {
+fn bezier_point(mut points: Vec<Point>, part: f64) -> Point {
     while points.len() > 1 {
         points = points
             .windows(2)
@@ -123,8 +123,8 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_authors_write_is_there() {
-        let font = Sized::new(10.0);
+    fn the_font_has_the_common_characters() {
+        let font = SizedFont::new(10.0);
         for character in (' '..='~')
             .chain('\u{a0}'..='ÿ')
             .chain('α'..='ω')
@@ -136,8 +136,8 @@ mod tests {
     }
 
     #[test]
-    fn a_missing_character_says_its_number() {
-        let missing = Sized::new(10.0).glyph('漢').err().unwrap();
+    fn errors_name_the_code_point_of_missing_characters() {
+        let missing = SizedFont::new(10.0).glyph('漢').err().unwrap();
         assert!(missing.to_string().starts_with("the font has no `漢` (U+6F22); it has"), "{missing}");
     }
 
@@ -145,7 +145,7 @@ mod tests {
     /// winding rule. Both agree if no outlines overlap.
     #[test]
     fn no_glyph_has_outlines_that_overlap() {
-        let font = Sized::new(200.0);
+        let font = SizedFont::new(200.0);
         for character in font.font.codepoint_ids().map(|(_, character)| character) {
             let contours = font.contours(font.glyph(character).unwrap(), [0.0, 200.0]);
             for row in (0..300).step_by(4) {

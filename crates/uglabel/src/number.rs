@@ -91,7 +91,7 @@ mod tests {
     }
 
     #[test]
-    fn speeds_are_told_from_that_of_light() {
+    fn speeds_are_distinguished_from_the_speed_of_light() {
         let rows = [
             (0.0, "0"),
             (0.3, "0.3"),

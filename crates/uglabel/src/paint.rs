@@ -80,7 +80,7 @@ mod tests {
     }
 
     #[test]
-    fn whole_pixels_are_exact_and_others_stay() {
+    fn covered_pixels_are_exact_and_others_unchanged() {
         let mut frame = Frame::opaque(600, 300);
         frame.pixels_mut().fill([9, 8, 7, 255]);
         rectangle(250.0, 200.0, 530.0, 280.0).paint(&mut frame);
@@ -94,7 +94,7 @@ mod tests {
     }
 
     #[test]
-    fn parts_of_pixels_are_mixed() {
+    fn partly_covered_pixels_are_blended() {
         let mut frame = Frame::opaque(3, 1);
         let mut drawing = Drawing::default();
         drawing.rectangle([0.5, 0.0], [1.25, 1.0], [255; 3]);
@@ -122,7 +122,7 @@ mod tests {
     }
 
     #[test]
-    fn on_a_clear_frame_ink_keeps_its_colour() {
+    fn ink_keeps_its_colour_on_a_transparent_frame() {
         let mut frame = Frame::clear(2, 1);
         rectangle(0.0, 0.0, 1.5, 1.0).paint(&mut frame);
         assert_eq!(frame.pixel(0, 0), [255, 128, 0, 255]);
@@ -133,7 +133,7 @@ mod tests {
 
     /// Overlapping lines of any direction are covered as their union.
     #[test]
-    fn lines_that_cross_are_one() {
+    fn crossing_lines_are_covered_as_a_union() {
         let mut frame = Frame::opaque(20, 20);
         let mut drawing = Drawing::default();
         let lines =
@@ -146,7 +146,7 @@ mod tests {
     }
 
     #[test]
-    fn light_is_mixed_as_levels() {
+    fn light_is_blended_in_display_encoding() {
         let mut drawing = rectangle(0.3, 0.2, 3.7, 2.6);
         drawing.text(&crate::Line::new("β", 4.0).unwrap(), [0.2, 3.1], [0, 40, 90]);
         for mut frame in [Frame::opaque(5, 4), Frame::clear(5, 4)] {
@@ -161,7 +161,7 @@ mod tests {
     }
 
     #[test]
-    fn far_and_mad_places_do_no_harm() {
+    fn huge_and_nan_coordinates_are_harmless() {
         let mut drawing = rectangle(-1e300, -1e300, 1e300, 1e300);
         drawing.rectangle([f64::NAN, 0.0], [3.0, 3.0], [1, 2, 3]);
         drawing.lines(vec![[[1.0, 1.0], [1.0, 1.0]], [[f64::INFINITY, 0.0], [0.0, 0.0]]], 2.0, [1, 2, 3]);

@@ -2,7 +2,7 @@
 
 use ugimage::figure::Point;
 
-use crate::font::{Glyph, MissingCharacter, Sized};
+use crate::font::{Glyph, MissingCharacter, SizedFont};
 
 /// Height of letters above the baseline, including accents on lower-case letters, in em.
 pub const ASCENT: f64 = 0.8;
@@ -15,7 +15,7 @@ pub const SPACING: f64 = 1.35;
 
 /// A line of text at a size.
 pub struct Line {
-    font: Sized,
+    font: SizedFont,
     /// Each glyph with the distance of its origin from the left end, in pixels.
     glyphs: Vec<(Glyph, f64)>,
     width: f64,
@@ -27,7 +27,7 @@ impl Line {
     /// # Errors
     /// The font lacks a character.
     pub fn new(text: &str, size: f64) -> Result<Self, MissingCharacter> {
-        let font = Sized::new(size);
+        let font = SizedFont::new(size);
         let glyphs = text.chars().map(|c| font.glyph(if matches!(c, '\t' | '\n' | '\r') { ' ' } else { c }));
         let glyphs = glyphs.collect::<Result<Vec<_>, _>>()?;
         let mut width = 0.0;
@@ -71,7 +71,7 @@ pub fn wrapped(text: &str, size: f64, width: f64) -> Result<Vec<Line>, MissingCh
             if !line.is_empty() {
                 lines.push(Line::new(&line, size)?);
             }
-            line = broken(word, size, width, &mut lines)?;
+            line = break_word(word, size, width, &mut lines)?;
         }
         lines.push(Line::new(&line, size)?);
     }
@@ -79,7 +79,7 @@ pub fn wrapped(text: &str, size: f64, width: f64) -> Result<Vec<Line>, MissingCh
 }
 
 /// Breaks a word that may be too wide: adds its full lines to `lines` and returns the rest.
-fn broken(word: &str, size: f64, width: f64, lines: &mut Vec<Line>) -> Result<String, MissingCharacter> {
+fn break_word(word: &str, size: f64, width: f64, lines: &mut Vec<Line>) -> Result<String, MissingCharacter> {
     let mut part = String::new();
     for character in word.chars() {
         let longer = format!("{part}{character}");
@@ -98,7 +98,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn lines_fit_and_lose_no_word() {
+    fn wrapped_lines_fit_and_keep_all_words() {
         let text = "A ship passes at 0.9c, seen where it was when its light was sent; \
                     unbreakableunbreakableunbreakableunbreakable ends.\n\nNew paragraph.\n";
         let whole: usize = text.chars().filter(|c| !c.is_whitespace()).count();
@@ -121,7 +121,7 @@ mod tests {
     }
 
     #[test]
-    fn ink_keeps_within_its_height() {
+    fn letters_stay_within_ascent_and_descent() {
         for text in ["Éßgjpqy|ﬁ", "(γ = 2,29)²", "ÀÂÅ Ωβ∫"] {
             let contours = Line::new(text, 100.0).unwrap().contours([0.0, 0.0]);
             let rows: Vec<f64> = contours.iter().flatten().map(|place| place[1]).collect();

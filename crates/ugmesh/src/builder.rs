@@ -75,7 +75,7 @@ impl Builder {
     }
 
     /// The vertex with the index `idx`, counted from 0, if there is one.
-    pub fn known(&self, idx: u64) -> Option<VertexId> {
+    pub fn vertex_at(&self, idx: u64) -> Option<VertexId> {
         (idx < self.n_vertices() as u64).then(|| VertexId::from_index(idx as usize))
     }
 
@@ -148,7 +148,7 @@ impl Builder {
     }
 
     /// Adds a warning with a count, `3 lines are left out`, unless the count is 0.
-    pub fn warn_of(&mut self, count: usize, one: &str, many: &str) {
+    pub fn warn_count(&mut self, count: usize, one: &str, many: &str) {
         match count {
             0 => {}
             1 => self.warn(format!("1 {one}")),
@@ -158,8 +158,12 @@ impl Builder {
 
     /// The scene, and the warnings.
     pub fn finish(mut self) -> (Scene, Vec<String>) {
-        self.warn_of(self.n_degenerate, "face without area is left out", "faces without area are left out");
-        self.warn_of(
+        self.warn_count(
+            self.n_degenerate,
+            "face without area is left out",
+            "faces without area are left out",
+        );
+        self.warn_count(
             self.n_clipped,
             "colour is outside 0…1 and clipped",
             "colours are outside 0…1 and clipped",

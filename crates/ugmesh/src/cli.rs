@@ -88,9 +88,9 @@ enum AxisName {
 
 /// Value parser for names that are valid in UniGrafix and in other programs.
 fn name(word: &str) -> Result<String, String> {
-    let is_fit = word.chars().all(|c| c.is_ascii_alphanumeric() || c == '_')
+    let is_valid = word.chars().all(|c| c.is_ascii_alphanumeric() || c == '_')
         && word.starts_with(|c: char| c.is_ascii_alphabetic());
-    if is_fit {
+    if is_valid {
         Ok(word.to_string())
     } else {
         Err("a name consists of letters, digits and _, and begins with a letter".to_string())
@@ -186,7 +186,7 @@ impl TargetName {
 }
 
 /// Reads files in the folder of the mesh. A mesh from a pipe has no folder.
-fn beside(mesh: Option<PathBuf>) -> impl Fn(&str) -> io::Result<Vec<u8>> {
+fn read_file_beside(mesh: Option<PathBuf>) -> impl Fn(&str) -> io::Result<Vec<u8>> {
     move |name| match mesh.as_deref().map(|mesh| mesh.parent().unwrap_or(Path::new(""))) {
         // The message without the system's error number.
         Some(folder) => fs::read(folder.join(name)).map_err(|error| io::Error::from(error.kind())),
@@ -204,9 +204,9 @@ pub fn main() -> ExitCode {
             ));
         }
         let read = stage.input()?;
-        let beside = beside(args.common.input().map(Path::to_path_buf));
-        let follow = |source| pipe::follow(source, &config.reading, stage);
-        let input = Input::new(read.name, read.text).with_files(&beside).with_includes(&follow);
+        let read_file = read_file_beside(args.common.input().map(Path::to_path_buf));
+        let resolve_includes = |source| pipe::follow(source, &config.reading, stage);
+        let input = Input::new(read.name, read.text).with_files(&read_file).with_includes(&resolve_includes);
         let converted = crate::run(&config, &input).map_err(|error| match error {
             Error::Scene(findings) => pipe::refused(findings),
             Error::NothingToConvert => Failure::usage(error),

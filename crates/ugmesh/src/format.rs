@@ -195,7 +195,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn formats_are_told_apart() {
+    fn formats_are_detected() {
         fn check(name: &str, bytes: &[u8], expected: Option<Format>) {
             assert_eq!(Format::detect(name, bytes), expected, "{name}: {}", String::from_utf8_lossy(bytes));
         }

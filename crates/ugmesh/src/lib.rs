@@ -8,7 +8,7 @@
 //! glTF. Every conversion goes through a [`ugparse::Scene`]:
 //!
 //! ```text
-//! bytes ─read→ Builder → Scene (z up) ─place→ Scene ─write→ Surface → bytes
+//! bytes ─read→ Builder → Scene (z up) ─place→ Scene ─write→ PolygonMesh → bytes
 //!       ugparse ──────────↗                     └──────ugparse──────→ bytes
 //! ```
 //!
@@ -30,9 +30,9 @@ mod builder;
 mod cli;
 mod error;
 mod format;
-mod place;
+mod placement;
+mod polygon_mesh;
 mod read;
-mod surface;
 mod write;
 
 use std::io;
@@ -43,7 +43,7 @@ use ugparse::{Diagnostics, Options, Scene, Source};
 pub use cli::{Args, main};
 pub use error::{Error, Problem};
 pub use format::{Axis, Format, Target};
-pub use place::Size;
+pub use placement::Size;
 
 use builder::Builder;
 
@@ -72,10 +72,10 @@ pub struct Config {
 }
 
 /// Reads a file that a mesh refers to, such as its materials.
-type Beside<'a> = &'a dyn Fn(&str) -> io::Result<Vec<u8>>;
+type ReadFile<'a> = &'a dyn Fn(&str) -> io::Result<Vec<u8>>;
 
 /// Replaces the `include` statements of a scene by the files that they name.
-type Follow<'a> = &'a dyn Fn(Source) -> Result<Source, Diagnostics>;
+type ResolveIncludes<'a> = &'a dyn Fn(Source) -> Result<Source, Diagnostics>;
 
 /// A mesh file.
 pub struct Input<'a> {
@@ -84,26 +84,26 @@ pub struct Input<'a> {
     /// The content of the file.
     pub bytes: Vec<u8>,
     /// Reads a file by the name that the mesh refers to.
-    pub beside: Beside<'a>,
+    pub read_file: ReadFile<'a>,
     /// Resolves the `include` statements of UniGrafix.
-    pub follow: Follow<'a>,
+    pub resolve_includes: ResolveIncludes<'a>,
 }
 
 impl<'a> Input<'a> {
     /// A mesh that refers to no other files.
     pub fn new(name: impl Into<String>, bytes: impl Into<Vec<u8>>) -> Self {
         let (name, bytes) = (name.into(), bytes.into());
-        Self { name, bytes, beside: &|_| Err(io::ErrorKind::NotFound.into()), follow: &Ok }
+        Self { name, bytes, read_file: &|_| Err(io::ErrorKind::NotFound.into()), resolve_includes: &Ok }
     }
 
-    /// The same mesh with other files that it refers to, which `beside` reads.
-    pub fn with_files(self, beside: Beside<'a>) -> Self {
-        Self { beside, ..self }
+    /// The same mesh with other files that it refers to, which `read_file` reads.
+    pub fn with_files(self, read_file: ReadFile<'a>) -> Self {
+        Self { read_file, ..self }
     }
 
-    /// The same mesh with `include` statements, which `follow` resolves.
-    pub fn with_includes(self, follow: Follow<'a>) -> Self {
-        Self { follow, ..self }
+    /// The same mesh with `include` statements, which `resolve_includes` resolves.
+    pub fn with_includes(self, resolve_includes: ResolveIncludes<'a>) -> Self {
+        Self { resolve_includes, ..self }
     }
 }
 
@@ -133,7 +133,7 @@ pub fn run(config: &Config, input: &Input) -> Result<Converted, Error> {
         return Err(Error::NothingToConvert);
     }
     let Loaded { mut scene, warnings, diagnostics } = load(config, format, input)?;
-    place(config, format, &mut scene)?;
+    place_mesh(config, format, &mut scene)?;
     ugscene::record(&mut scene, PROGRAM, env!("CARGO_PKG_VERSION"), &config.command_line);
     let (bytes, notes) = write::write(scene, config.target)?;
     Ok(Converted { bytes, notes, warnings, diagnostics })
@@ -158,19 +158,19 @@ fn load(config: &Config, format: Format, input: &Input) -> Result<Loaded, Error>
 }
 
 fn load_scene(config: &Config, input: &Input) -> Result<Loaded, Error> {
-    let source = (input.follow)(Source::new(input.name.clone(), input.bytes.clone()))?;
+    let source = (input.resolve_includes)(Source::new(input.name.clone(), input.bytes.clone()))?;
     let parsed = ugscene::read(&source, &config.reading, None)?;
     Ok(Loaded { scene: parsed.scene, warnings: Vec::new(), diagnostics: Some(parsed.warnings) })
 }
 
-fn place(config: &Config, format: Format, scene: &mut Scene) -> Result<(), Error> {
+fn place_mesh(config: &Config, format: Format, scene: &mut Scene) -> Result<(), Error> {
     let up = |is_mesh: bool, habit: Axis| config.up.filter(|_| is_mesh).unwrap_or(habit);
     let read_up = up(format != Format::Ug, format.up());
     let write_up = up(config.target != Target::Ug, config.target.up());
     if read_up != write_up || config.size != Size::Same || config.is_centered {
-        place::turn(scene, |p| place::to_z_up(read_up, p));
-        place::resize(scene, config.size, config.is_centered)?;
-        place::turn(scene, |p| place::from_z_up(write_up, p));
+        placement::rotate(scene, |p| placement::to_z_up(read_up, p));
+        placement::scale_and_center(scene, config.size, config.is_centered)?;
+        placement::rotate(scene, |p| placement::from_z_up(write_up, p));
     }
     Ok(())
 }

@@ -131,7 +131,7 @@ fn bad_meshes_are_status_1_and_write_nothing() {
 }
 
 #[test]
-fn a_reader_that_leaves_ends_it_in_silence() {
+fn a_closed_pipe_ends_the_program_by_sigpipe() {
     use std::os::unix::process::ExitStatusExt;
 
     let mut child = Command::new(env!("CARGO_BIN_EXE_ugmesh"))

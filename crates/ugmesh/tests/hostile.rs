@@ -54,7 +54,7 @@ fn samples_are_read() {
 }
 
 #[test]
-fn cut_files_do_no_harm() {
+fn truncated_files_are_harmless() {
     for (name, bytes) in samples() {
         for len in 0..bytes.len() {
             let _ = convert(&Config::default(), name, &bytes[..len]);
@@ -80,7 +80,7 @@ const NUMBERS: [&str; 12] = [
 
 /// Replaces every number of a text by each of these, one at a time.
 #[test]
-fn absurd_numbers_do_no_harm() {
+fn absurd_numbers_are_harmless() {
     for (name, bytes) in samples() {
         let is_digit = |at: usize| bytes.get(at).is_some_and(u8::is_ascii_digit);
         let starts = (0..bytes.len()).filter(|&at| is_digit(at) && (at == 0 || !is_digit(at - 1)));
@@ -107,7 +107,7 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: 3000, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
-    fn changed_bytes_do_no_harm(
+    fn changed_bytes_are_harmless(
         sample in 0..13usize,
         changes in proptest::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..8),
         target in 0..3usize,

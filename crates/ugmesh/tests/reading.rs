@@ -12,7 +12,7 @@ fn z_up() -> Config {
 }
 
 #[test]
-fn texts_become_scenes() {
+fn text_formats_become_scenes() {
     #[track_caller]
     fn check(name: &str, text: &str, expected: &str) {
         let lines: Vec<&str> = expected.lines().map(str::trim).collect();
@@ -95,7 +95,7 @@ fn texts_become_scenes() {
 }
 
 #[test]
-fn encodings_of_ply_are_one_scene() {
+fn encodings_of_ply_give_the_same_scene() {
     let [ascii, little, big] = [Encoding::Ascii, Encoding::Little, Encoding::Big].map(|encoding| {
         let scene = to_scene(&Config::default(), "<stdin>", ply(encoding));
         assert!(scene.head[0].contains("free for all"), "{:?}", scene.head);
@@ -119,7 +119,7 @@ fn encodings_of_ply_are_one_scene() {
 }
 
 #[test]
-fn both_kinds_of_stl_are_one_scene() {
+fn ascii_and_binary_stl_give_the_same_scene() {
     let [text, binary] =
         [stl_text(), stl_binary()].map(|bytes| to_scene(&Config::default(), "<stdin>", bytes));
     assert_eq!(statements(&text), statements(&binary));
@@ -134,7 +134,7 @@ fn both_kinds_of_stl_are_one_scene() {
 }
 
 #[test]
-fn nodes_of_gltf_land_where_it_says() {
+fn gltf_node_transforms_are_applied() {
     /// `expected` is the transformed point (1 1 1), and `normal` the transformed normal (1 1 0),
     /// with y up.
     #[track_caller]
@@ -179,7 +179,7 @@ fn nodes_of_gltf_land_where_it_says() {
 }
 
 #[test]
-fn mirrored_nodes_keep_their_outside() {
+fn reflected_nodes_keep_their_orientation() {
     let order = |nodes: &str| -> Vec<[f64; 3]> {
         let scene = to_scene(&z_up(), "<stdin>", glb_with_nodes(nodes));
         seen(&scene)[0].iter().map(|corner| corner.position).collect()
@@ -319,7 +319,7 @@ fn placing() {
 }
 
 #[test]
-fn sizes_that_no_number_can_say() {
+fn scaling_out_of_range_is_an_error() {
     #[track_caller]
     fn check(size: Size, x: &str) {
         let config = Config { size, ..Config::default() };
@@ -332,7 +332,7 @@ fn sizes_that_no_number_can_say() {
 }
 
 #[test]
-fn what_is_wrong_is_said_with_its_place() {
+fn errors_name_the_problem_and_line() {
     #[track_caller]
     fn check(name: &str, bytes: impl Into<Vec<u8>>, expected: &str) {
         assert_eq!(convert(&Config::default(), name, bytes).unwrap_err().to_string(), expected);
@@ -432,7 +432,7 @@ fn what_is_wrong_is_said_with_its_place() {
 }
 
 #[test]
-fn what_is_left_out_is_counted() {
+fn omitted_parts_are_counted() {
     #[track_caller]
     fn check(name: &str, text: &str, expected: &[&str]) {
         assert_eq!(convert(&Config::default(), name, text).unwrap().warnings, expected);

@@ -30,7 +30,7 @@ fn assert_near(found: &[Vec<Corner>], expected: &[Vec<Corner>], tolerance: f64) 
 }
 
 #[test]
-fn faces_places_and_colours_come_back() {
+fn faces_positions_and_colours_round_trip() {
     let expected = coloured(seen(&parse(SCENE.as_bytes())));
     for target in [Target::Obj, Target::Ply { is_ascii: true }, Target::Ply { is_ascii: false }] {
         let back = to_scene(&Config::default(), "<stdin>", to_mesh(target, SCENE.as_bytes()));
@@ -49,7 +49,7 @@ fn faces_places_and_colours_come_back() {
 }
 
 #[test]
-fn an_obj_comes_back_to_the_bit() {
+fn obj_round_trips_to_the_bit() {
     // 32-bit numbers, formatted as other programs do, and 64-bit ones.
     let numbers: Vec<f64> = (0..300u32)
         .map(|n| {
@@ -75,7 +75,7 @@ fn an_obj_comes_back_to_the_bit() {
 }
 
 #[test]
-fn normals_come_back() {
+fn normals_round_trip() {
     let text = "v a 0 0 0 0 0.6 0.8;\nv b 1 0 0 0 0.6 0.8;\nv c 0 1 0 1 0 0;\nf (a b c);\n";
     let expected = seen(&parse(text.as_bytes()));
     for target in [Target::Obj, Target::Ply { is_ascii: false }, Target::Gltf, Target::Glb] {
@@ -135,7 +135,7 @@ fn holes_are_cut() {
 }
 
 #[test]
-fn numbers_take_the_room_they_need() {
+fn ply_uses_float_where_it_is_exact() {
     #[track_caller]
     fn check(x: &str, expected: &str) {
         let text = format!("v a {x} 0 0; v b 1 0 0; v c 0 1 0; f (a b c);");
@@ -158,7 +158,7 @@ fn numbers_take_the_room_they_need() {
 }
 
 #[test]
-fn clear_colours_stay_clear_where_they_can() {
+fn transparency_round_trips_where_supported() {
     let text = "c glass 1 0 0 0.4; v a 0 0 0; v b 1 0 0; v c 0 1 0; f (a b c) glass;";
     for target in [Target::Ply { is_ascii: false }, Target::Glb] {
         let back = to_scene(&Config::default(), "<stdin>", to_mesh(target, text.as_bytes()));
@@ -169,7 +169,7 @@ fn clear_colours_stay_clear_where_they_can() {
 }
 
 #[test]
-fn what_a_mesh_cannot_hold_is_noted() {
+fn unsupported_parts_are_noted() {
     let text = "c bright 1.5 0 1; v a 0 0 0; v b 1 0 0; v c 0 1 0; f (a b c) bright; w (a b); l 0.5; l sun 1 0 0 1; cam;";
     let mesh = convert(&Config { target: Target::Glb, ..Config::default() }, "a.ug", text).unwrap();
     assert_eq!(
@@ -184,7 +184,7 @@ fn what_a_mesh_cannot_hold_is_noted() {
 }
 
 #[test]
-fn history_and_licence_go_along() {
+fn history_and_licence_are_kept() {
     let config = |target| Config { target, command_line: "ugmesh -dt x".to_string(), ..Config::default() };
     for target in [Target::Obj, Target::Ply { is_ascii: false }] {
         let mesh = convert(&config(target), "a.ug", SCENE).unwrap().bytes;
@@ -195,7 +195,7 @@ fn history_and_licence_go_along() {
 }
 
 #[test]
-fn meshes_become_meshes() {
+fn meshes_convert_to_meshes() {
     let obj = "v 1 2 3\nv 4 5 6\nv 7 8 10\nf 1 2 3\n";
     let ply = |up| {
         let config = Config { target: Target::Ply { is_ascii: true }, up, ..Config::default() };

@@ -48,10 +48,10 @@ fn load(request: &Request<'_>, stage: &Stage) -> Result<Vec<u8>, RequestError> {
         RequestKind::Execute => {
             let printed = ugpipe::run_program(request.path, request.room)?;
             if let Some(status) = printed.failure {
-                return Err(RequestError::Failed { status, complaint: printed.complaint });
+                return Err(RequestError::Failed { status, complaint: printed.error_line });
             }
-            if !printed.complaint.is_empty() {
-                stage.note(&format!("{} says: {}", request.path.display(), printed.complaint));
+            if !printed.error_line.is_empty() {
+                stage.note(&format!("{} says: {}", request.path.display(), printed.error_line));
             }
             Ok(printed.text)
         }

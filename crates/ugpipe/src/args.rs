@@ -238,7 +238,7 @@ mod tests {
     }
 
     #[test]
-    fn view_angles_fit_on_a_film() {
+    fn view_angles_have_bounds() {
         assert_eq!(view_angle("179.9"), Ok(179.9));
         assert!(
             [view_angle("0"), view_angle("180"), view_angle("-40"), view_angle("nan")]

@@ -45,27 +45,27 @@ pub(crate) fn rewrite(command: &Command, argv: impl IntoIterator<Item = OsString
             rewritten.extend(words);
             break;
         }
-        let Some(option) = Spelled::find(command, &word) else {
+        let Some(option) = LongOption::find(command, &word) else {
             rewritten.push(word);
             continue;
         };
         rewritten.push(option.with_two_dashes(word));
         if !option.has_value {
-            take_values(option.arg, &mut words, &mut rewritten);
+            copy_values(option.arg, &mut words, &mut rewritten);
         }
     }
     rewritten
 }
 
 /// An argument that names a long option.
-struct Spelled<'a> {
+struct LongOption<'a> {
     arg: &'a Arg,
     has_two_dashes: bool,
     /// The value is in the same argument: `-fi=ship.ug`.
     has_value: bool,
 }
 
-impl<'a> Spelled<'a> {
+impl<'a> LongOption<'a> {
     fn find(command: &'a Command, word: &OsStr) -> Option<Self> {
         let after_dash = word.as_encoded_bytes().strip_prefix(b"-")?;
         let after_dashes = after_dash.strip_prefix(b"-");
@@ -95,7 +95,7 @@ fn has_long_name(arg: &Arg, name: &str) -> bool {
 ///
 /// The required values come first. Optional values are numbers in all our programs, which
 /// distinguishes them from file names.
-fn take_values(arg: &Arg, words: &mut Peekable<impl Iterator<Item = OsString>>, out: &mut Vec<OsString>) {
+fn copy_values(arg: &Arg, words: &mut Peekable<impl Iterator<Item = OsString>>, out: &mut Vec<OsString>) {
     let Some(range) = arg.get_num_args().filter(|_| arg.get_action().takes_values()) else { return };
     let mut n_taken = 0;
     while n_taken < range.max_values() {
@@ -207,7 +207,7 @@ mod tests {
     }
 
     #[test]
-    fn values_in_varying_number_end_where_numbers_end() {
+    fn optional_values_end_at_the_first_word_that_is_not_a_number() {
         #[track_caller]
         fn check(line: &str, expected: &str, name: &str, values: &[&str], file: Option<&str>) {
             let (rewritten, read) = parse(line);
@@ -240,7 +240,7 @@ mod tests {
     }
 
     #[test]
-    fn mistakes_are_told_in_the_users_words() {
+    fn usage_errors_name_the_option_and_value() {
         #[track_caller]
         fn check(line: &str, expected: &str) {
             let error = parse(line).1.expect_err(line).to_string();
@@ -279,7 +279,7 @@ mod tests {
     }
 
     #[test]
-    fn words_need_not_be_text() {
+    fn arguments_need_not_be_utf_8() {
         #[track_caller]
         fn check(words: &[&[u8]], expected: &[&[u8]]) {
             let words = words.iter().map(|word| OsString::from_vec(word.to_vec()));

@@ -9,68 +9,68 @@ use std::thread;
 use crate::failure::reason;
 
 /// Largest number of bytes of standard error that are examined.
-const MAX_COMPLAINT: u64 = 1 << 16;
+const MAX_STDERR: u64 = 1 << 16;
 
 /// The output of a program that was run.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Printed {
+pub struct ProgramOutput {
     /// Its standard output.
     pub text: Vec<u8>,
     /// The first line of its standard error; empty if there is none.
-    pub complaint: String,
+    pub error_line: String,
     /// Its exit status (`exit status: 3`), unless it succeeded.
     pub failure: Option<String>,
 }
 
-/// Reads a file, up to `room` + 1 bytes. The caller recognizes a file that is too large by the
+/// Reads a file, up to `limit` + 1 bytes. The caller recognizes a file that is too large by the
 /// extra byte.
 ///
 /// # Errors
 /// The file cannot be read; the error is the system's message.
-pub fn read_file(path: &Path, room: u64) -> io::Result<Vec<u8>> {
-    File::open(path).and_then(|file| read_up_to(file, room)).map_err(in_words)
+pub fn read_file(path: &Path, limit: u64) -> io::Result<Vec<u8>> {
+    File::open(path).and_then(|file| read_up_to(file, limit)).map_err(without_number)
 }
 
-/// Runs a program, without a shell, arguments or input, and reads its standard output, up to `room`
-/// + 1 bytes. A program that prints more is killed.
+/// Runs a program, without a shell, arguments or input, and reads its standard output, up to
+/// `limit` + 1 bytes. A program that prints more is killed.
 ///
 /// `path` is the path of the program; `PATH` is not searched.
 ///
 /// # Errors
 /// The program cannot be run; the error is the system's message.
-pub fn run_program(path: &Path, room: u64) -> io::Result<Printed> {
-    let mut child = Command::new(not_searched(path))
+pub fn run_program(path: &Path, limit: u64) -> io::Result<ProgramOutput> {
+    let mut child = Command::new(without_search(path))
         .stdin(Stdio::null())
         .stdout(Stdio::piped())
         .stderr(Stdio::piped())
         .spawn()
-        .map_err(in_words)?;
+        .map_err(without_number)?;
     let stdout = child.stdout.take().expect("standard output is a pipe");
     let stderr = child.stderr.take().expect("standard error is a pipe");
     thread::scope(|scope| {
         // Both streams are read concurrently, so that the program never blocks on a full pipe.
-        let complaint = scope.spawn(|| first_line(stderr));
-        let text = read_up_to(stdout, room);
-        let is_whole = text.as_ref().is_ok_and(|text| text.len() as u64 <= room);
+        let error_line = scope.spawn(|| first_line(stderr));
+        let text = read_up_to(stdout, limit);
+        let is_whole = text.as_ref().is_ok_and(|text| text.len() as u64 <= limit);
         if !is_whole {
             // Fails if the program has already ended, which is fine.
             let _ = child.kill();
         }
-        let status = child.wait().map_err(in_words)?;
-        let complaint = complaint.join().unwrap_or_default();
+        let status = child.wait().map_err(without_number)?;
+        let error_line = error_line.join().unwrap_or_default();
         let failure = (is_whole && !status.success()).then(|| status.to_string());
-        Ok(Printed { text: text.map_err(in_words)?, complaint, failure })
+        Ok(ProgramOutput { text: text.map_err(without_number)?, error_line, failure })
     })
 }
 
 /// Prefixes a bare file name with `./`: otherwise it would be searched for in `PATH`.
-fn not_searched(path: &Path) -> PathBuf {
+fn without_search(path: &Path) -> PathBuf {
     if path.components().count() == 1 { Path::new(".").join(path) } else { path.to_owned() }
 }
 
-fn read_up_to(from: impl Read, room: u64) -> io::Result<Vec<u8>> {
+fn read_up_to(from: impl Read, limit: u64) -> io::Result<Vec<u8>> {
     let mut text = Vec::new();
-    from.take(room.saturating_add(1)).read_to_end(&mut text)?;
+    from.take(limit.saturating_add(1)).read_to_end(&mut text)?;
     Ok(text)
 }
 
@@ -78,7 +78,7 @@ fn read_up_to(from: impl Read, room: u64) -> io::Result<Vec<u8>> {
 fn first_line(from: impl Read) -> String {
     let mut from = BufReader::new(from);
     let mut line = Vec::new();
-    let read = from.by_ref().take(MAX_COMPLAINT).read_until(b'\n', &mut line);
+    let read = from.by_ref().take(MAX_STDERR).read_until(b'\n', &mut line);
     let drained = io::copy(&mut from, &mut io::sink());
     // If it cannot be read, the message is empty.
     let is_read = read.is_ok() && drained.is_ok();
@@ -86,7 +86,7 @@ fn first_line(from: impl Read) -> String {
 }
 
 /// The error with the system's message alone, without the error number that Rust appends.
-fn in_words(error: io::Error) -> io::Error {
+fn without_number(error: io::Error) -> io::Error {
     io::Error::new(error.kind(), reason(&error))
 }
 
@@ -102,34 +102,34 @@ mod tests {
     /// concurrent test would inherit the open file.
     static ALONE: Mutex<()> = Mutex::new(());
 
-    /// Runs a shell script with a limit of `room` bytes.
-    fn printed(script: &str, room: u64) -> io::Result<Printed> {
+    /// Runs a shell script with a limit of `limit` bytes.
+    fn run_script(script: &str, limit: u64) -> io::Result<ProgramOutput> {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("program");
         fs::write(&path, format!("#!/bin/sh\n{script}\n")).unwrap();
         fs::set_permissions(&path, fs::Permissions::from_mode(0o755)).unwrap();
-        run_program(&path, room)
+        run_program(&path, limit)
     }
 
     #[test]
-    fn programs_are_read_and_bounded() {
+    fn program_output_is_read_up_to_the_limit() {
         let _alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
-        let ran = printed("echo scene; echo why >&2", 100).unwrap();
-        assert_eq!(ran, Printed { text: b"scene\n".to_vec(), complaint: "why".into(), failure: None });
-        let ran = printed("echo no >&2; echo more >&2; exit 3", 100).unwrap();
-        assert_eq!((ran.failure.as_deref(), ran.complaint.as_str()), (Some("exit status: 3"), "no"));
-        let ran = printed("kill -9 $$", 100).unwrap();
+        let ran = run_script("echo scene; echo why >&2", 100).unwrap();
+        assert_eq!(ran, ProgramOutput { text: b"scene\n".to_vec(), error_line: "why".into(), failure: None });
+        let ran = run_script("echo no >&2; echo more >&2; exit 3", 100).unwrap();
+        assert_eq!((ran.failure.as_deref(), ran.error_line.as_str()), (Some("exit status: 3"), "no"));
+        let ran = run_script("kill -9 $$", 100).unwrap();
         assert!(ran.failure.unwrap().starts_with("signal: 9"));
         // Endless output on both streams.
-        let ran = printed("while :; do echo text; echo words >&2; done", 1000).unwrap();
-        assert_eq!((ran.text.len(), ran.failure, ran.complaint.as_str()), (1001, None, "words"));
+        let ran = run_script("while :; do echo text; echo words >&2; done", 1000).unwrap();
+        assert_eq!((ran.text.len(), ran.failure, ran.error_line.as_str()), (1001, None, "words"));
         // Standard input is empty.
-        assert_eq!(printed("cat", 100).unwrap().text, b"");
-        assert_eq!(printed("echo $#", 100).unwrap().text, b"0\n");
+        assert_eq!(run_script("cat", 100).unwrap().text, b"");
+        assert_eq!(run_script("echo $#", 100).unwrap().text, b"0\n");
     }
 
     #[test]
-    fn what_cannot_be_run_or_read_is_told_in_words() {
+    fn errors_have_no_system_number() {
         let _alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
         let words = |error: io::Error| error.to_string();
         assert_eq!(

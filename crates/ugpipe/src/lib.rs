@@ -115,7 +115,7 @@ pub use args::{CommonArgs, ONE_DASH, finite, vector, view_angle};
 #[cfg(feature = "cli")]
 pub use failure::Failure;
 #[cfg(feature = "cli")]
-pub use files::{Printed, read_file, run_program};
+pub use files::{ProgramOutput, read_file, run_program};
 #[cfg(feature = "cli")]
 pub use input::Input;
 pub use progress::Progress;

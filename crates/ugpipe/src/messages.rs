@@ -26,14 +26,14 @@ pub(crate) struct Messages {
 }
 
 impl Messages {
-    /// All messages go to standard error until [`Messages::follow`] applies the options.
+    /// All messages go to standard error until [`Messages::configure`] applies the options.
     pub(crate) fn new(program: &str) -> Self {
         let program = program.to_owned();
         Self { program, file: None, is_quiet: false, is_verbose: false, start: Instant::now() }
     }
 
     /// Applies the options `-qt`, `-vb` and `-fm`. The file of `-fm` is truncated immediately.
-    pub(crate) fn follow(&mut self, common: &CommonArgs) -> Result<(), Failure> {
+    pub(crate) fn configure(&mut self, common: &CommonArgs) -> Result<(), Failure> {
         self.is_quiet = common.quiet();
         self.is_verbose = common.verbose();
         if let Some(path) = common.messages() {

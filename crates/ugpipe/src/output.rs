@@ -23,7 +23,7 @@ enum Sink {
     /// A device or named pipe, which is written to directly.
     Device(File),
     /// A temporary file in the target's folder, to be renamed to the target.
-    Beside {
+    Temporary {
         temporary: NamedTempFile,
         target: PathBuf,
     },
@@ -57,7 +57,7 @@ impl Output {
     /// Renames the temporary file to its target.
     pub(crate) fn finish(&mut self) -> Result<(), Failure> {
         match self.sink.take() {
-            Some(Sink::Beside { temporary, target }) => {
+            Some(Sink::Temporary { temporary, target }) => {
                 temporary.persist(target).map(drop).map_err(|error| self.failure(error.error))
             }
             _ => Ok(()),
@@ -87,12 +87,12 @@ impl Sink {
             Ok(existing) => {
                 let metadata = existing.metadata()?;
                 if metadata.is_file() {
-                    Self::beside(path, Some(metadata.permissions()))
+                    Self::temporary(path, Some(metadata.permissions()))
                 } else {
                     Ok(Self::Device(existing))
                 }
             }
-            Err(error) if error.kind() == io::ErrorKind::NotFound => Self::beside(path, None),
+            Err(error) if error.kind() == io::ErrorKind::NotFound => Self::temporary(path, None),
             Err(error) => Err(error),
         }
     }
@@ -100,8 +100,8 @@ impl Sink {
     /// Creates the temporary file, in the target's folder because renaming is atomic only within a
     /// file system. It has the permissions of the file that it replaces, or for a new file those of
     /// the user's umask.
-    fn beside(path: &Path, permissions: Option<Permissions>) -> io::Result<Self> {
-        let target = without_links(path);
+    fn temporary(path: &Path, permissions: Option<Permissions>) -> io::Result<Self> {
+        let target = resolve_links(path);
         let folder = match target.parent() {
             Some(parent) if !parent.as_os_str().is_empty() => parent,
             _ => Path::new("."),
@@ -111,7 +111,7 @@ impl Sink {
         if let Some(permissions) = permissions {
             temporary.as_file().set_permissions(permissions)?;
         }
-        Ok(Self::Beside { temporary, target })
+        Ok(Self::Temporary { temporary, target })
     }
 
     fn write_with(&mut self, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
@@ -122,13 +122,13 @@ impl Sink {
                 stdout.flush()
             }
             Self::Device(file) => fill(file),
-            Self::Beside { temporary, .. } => fill(temporary.as_file_mut()),
+            Self::Temporary { temporary, .. } => fill(temporary.as_file_mut()),
         }
     }
 }
 
 /// Resolves a chain of symbolic links. The final target need not exist.
-fn without_links(path: &Path) -> PathBuf {
+fn resolve_links(path: &Path) -> PathBuf {
     /// The limit of Linux. Opening a longer chain has already failed.
     const MAX_LINKS: usize = 40;
     let mut place = path.to_owned();
@@ -147,7 +147,7 @@ mod tests {
     /// Never calls [`Output::finish`]: if this code had a bug, tests run as root would replace the
     /// device.
     #[test]
-    fn devices_are_written_to_and_stay() {
+    fn devices_are_written_to_and_not_replaced() {
         assert!(matches!(Sink::open(Some(Path::new("/dev/null"))), Ok(Sink::Device(_))));
         let failure =
             Output::new(Some(Path::new("/dev/full"))).write_with(|out| out.write_all(b"scene")).unwrap_err();

@@ -124,7 +124,7 @@ mod tests {
     }
 
     #[test]
-    fn every_common_option_is_known_to_change_the_content_or_not() {
+    fn every_common_option_is_recorded_or_listed_as_without_effect() {
         #[derive(Parser)]
         struct Bare {
             #[command(flatten)]

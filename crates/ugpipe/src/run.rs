@@ -36,10 +36,10 @@ pub fn main<A: ToolArgs>(run: impl FnOnce(&A, &mut Stage) -> Result<(), Failure>
     let mut command = argv::prepare(A::command());
     let (args, matches) = match parse::<A>(&mut command) {
         Ok(parsed) => parsed,
-        Err(error) => return answer(&error),
+        Err(error) => return print_clap_message(&error),
     };
     let mut messages = Messages::new(command.get_name());
-    let opened = messages.follow(args.common());
+    let opened = messages.configure(args.common());
     let mut stage = Stage::new(args.common(), messages, provenance::command_line(&command, &matches));
     let outcome =
         opened.and_then(|()| start_threads(args.common().threads())).and_then(|()| run(&args, &mut stage));
@@ -59,7 +59,7 @@ fn parse<A: ToolArgs>(command: &mut Command) -> Result<(A, ArgMatches), clap::Er
 }
 
 /// Prints help and version to standard output, errors to standard error.
-fn answer(error: &clap::Error) -> ExitCode {
+fn print_clap_message(error: &clap::Error) -> ExitCode {
     match error.print() {
         Err(error) if error.kind() == io::ErrorKind::BrokenPipe => die_of_sigpipe(),
         Err(_) => BAD_INPUT.into(),

@@ -10,26 +10,26 @@ use crate::messages::Messages;
 use crate::progress::Progress;
 
 /// The progress bar appears after this time.
-const PATIENCE: Duration = Duration::from_secs(1);
+const BAR_DELAY: Duration = Duration::from_secs(1);
 
 /// Shows progress to the user of a program, see [`crate::Stage::steps`].
 pub struct Steps<'m> {
     messages: &'m Messages,
-    is_bar_wanted: bool,
+    shows_bar: bool,
     current: Mutex<Option<Step>>,
 }
 
 struct Step {
     name: &'static str,
     begun: Instant,
-    /// Hidden until the program has run for [`PATIENCE`].
+    /// Hidden until the program has run for [`BAR_DELAY`].
     bar: Option<ProgressBar>,
 }
 
 impl<'m> Steps<'m> {
     pub(crate) fn new(messages: &'m Messages) -> Self {
-        let is_bar_wanted = !messages.is_quiet() && io::stderr().is_terminal();
-        Self { messages, is_bar_wanted, current: Mutex::new(None) }
+        let shows_bar = !messages.is_quiet() && io::stderr().is_terminal();
+        Self { messages, shows_bar, current: Mutex::new(None) }
     }
 
     fn bar(&self, name: &'static str, parts: u64) -> ProgressBar {
@@ -42,7 +42,7 @@ impl<'m> Steps<'m> {
     }
 
     /// Ends the current step and begins the next, if there is one.
-    fn turn(&self, next: Option<(&'static str, u64)>) {
+    fn switch_to(&self, next: Option<(&'static str, u64)>) {
         let mut current = self.lock();
         if let Some(Step { name, begun, bar }) = current.take() {
             bar.iter().for_each(ProgressBar::finish_and_clear);
@@ -50,7 +50,7 @@ impl<'m> Steps<'m> {
             self.messages.detail(&format!("{name} took {seconds:.3} s"));
         }
         *current = next.map(|(name, parts)| {
-            let bar = (self.is_bar_wanted && parts > 0).then(|| self.bar(name, parts));
+            let bar = (self.shows_bar && parts > 0).then(|| self.bar(name, parts));
             Step { name, begun: Instant::now(), bar }
         });
     }
@@ -63,12 +63,12 @@ impl<'m> Steps<'m> {
 
 impl Progress for Steps<'_> {
     fn step(&self, name: &'static str, parts: u64) {
-        self.turn(Some((name, parts)));
+        self.switch_to(Some((name, parts)));
     }
 
     fn done(&self, parts: u64) {
         if let Some(Step { bar: Some(bar), .. }) = &*self.lock() {
-            if bar.is_hidden() && self.messages.elapsed() >= PATIENCE {
+            if bar.is_hidden() && self.messages.elapsed() >= BAR_DELAY {
                 bar.set_draw_target(ProgressDrawTarget::stderr());
             }
             bar.inc(parts);
@@ -78,6 +78,6 @@ impl Progress for Steps<'_> {
 
 impl Drop for Steps<'_> {
     fn drop(&mut self) {
-        self.turn(None);
+        self.switch_to(None);
     }
 }

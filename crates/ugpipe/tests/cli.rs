@@ -89,7 +89,7 @@ fn input_is_a_file_or_standard_input() {
 }
 
 #[test]
-fn file_names_need_not_be_text() {
+fn file_names_need_not_be_utf_8() {
     let folder = folder();
     let name = OsStr::from_bytes(b"\xff.ug");
     fs::write(folder.path().join(name), SHIP).unwrap();
@@ -132,7 +132,7 @@ fn failures_have_a_status_and_a_message() {
 }
 
 #[test]
-fn mistakes_in_the_command_line() {
+fn errors_in_the_command_line() {
     #[track_caller]
     fn check(args: &[&str], first_line: &str) {
         let output = run(&folder(), args);
@@ -215,7 +215,7 @@ fn details_come_with_times() {
 }
 
 #[test]
-fn output_files_appear_whole() {
+fn output_files_are_replaced_atomically() {
     let folder = folder();
     assert_run(&run(&folder, &["ship.ug", "-fo", "out.ug"]), 0, "", "");
     assert_eq!(read(&folder, "out.ug"), SHIP);
@@ -238,7 +238,7 @@ fn output_files_of_failed_runs_do_not_appear() {
 }
 
 #[test]
-fn a_disk_that_fills_up_leaves_nothing() {
+fn a_full_disk_leaves_no_file() {
     let folder = folder();
     let stdout = shell(&folder, "\"$ugcat\" ship.ug > /dev/full");
     assert_run(&stdout, 1, "", "ugcat: error: cannot write `<stdout>`: No space left on device\n");
@@ -300,7 +300,7 @@ fn named_pipes_are_written_to() {
 }
 
 #[test]
-fn a_closed_pipe_kills_quietly() {
+fn a_closed_pipe_ends_the_program_by_sigpipe() {
     let folder = folder();
     for args in [&["ship.ug"][..], &["--help"], &["ship.ug", "-fo", "/dev/stdout"]] {
         let (reader, writer) = std::io::pipe().unwrap();
@@ -356,7 +356,7 @@ fn command_in_color(folder: &TempDir, args: &[&str]) -> Command {
 }
 
 #[test]
-fn a_terminal_is_told_that_we_wait() {
+fn waiting_for_terminal_input_is_announced() {
     const END: &[u8] = b"\x04";
     const WAITING: &str = "reading standard input; --help for help\n";
     let folder = folder();
@@ -374,7 +374,7 @@ fn a_terminal_is_told_that_we_wait() {
 }
 
 #[test]
-fn a_terminal_as_output_is_known() {
+fn terminal_output_is_detected() {
     let folder = folder();
     for (args, expected) in [
         (&["-say", "ship.ug"][..], "terminal true, name None"),
@@ -403,7 +403,7 @@ fn a_terminal_shows_colors_unless_unwanted() {
 }
 
 #[test]
-fn a_long_run_shows_a_bar_to_people_only() {
+fn a_long_run_shows_a_progress_bar_on_terminals_only() {
     let folder = folder();
     let screen = |args: &[&str]| {
         let (status, screen) = on_terminal(command_in_color(&folder, args), b"");
@@ -420,7 +420,7 @@ fn a_long_run_shows_a_bar_to_people_only() {
 }
 
 #[test]
-fn steps_tell_their_times_when_asked() {
+fn steps_print_their_times_when_verbose() {
     let folder = folder();
     let told = run(&folder, &["-work", "0", "-vb", "ship.ug"]);
     let lines = String::from_utf8(told.stderr).unwrap();

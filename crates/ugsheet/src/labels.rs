@@ -5,7 +5,7 @@ use uglabel::number::{significant, speed};
 use ugphysics::Velocity;
 
 use crate::error::Error;
-use crate::{Picture, words};
+use crate::{Picture, shell_words};
 
 /// How pictures are labelled.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -50,9 +50,10 @@ impl Labels {
 /// Labels from the options that `uglorentz` was called with. `None` if they do not distinguish the
 /// pictures.
 fn by_motion(pictures: &[Picture]) -> Option<Vec<String>> {
-    let told: Vec<Told> = pictures.iter().map(|picture| Told::of(&picture.history.comment)).collect();
-    let speeds: Vec<Option<String>> = told.iter().map(|told| told.speed.clone()).collect();
-    let times: Vec<Option<String>> = told.iter().map(|told| told.time.clone()).collect();
+    let options: Vec<MotionOptions> =
+        pictures.iter().map(|picture| MotionOptions::parse(&picture.history.comment)).collect();
+    let speeds: Vec<Option<String>> = options.iter().map(|motion| motion.speed.clone()).collect();
+    let times: Vec<Option<String>> = options.iter().map(|motion| motion.time.clone()).collect();
     let has_speeds = speeds.iter().any(Option::is_some) && differ(&speeds);
     let has_times = times.iter().any(Option::is_some) && differ(&times);
     let label = |(speed, time): (&Option<String>, &Option<String>)| {
@@ -66,8 +67,8 @@ fn by_motion(pictures: &[Picture]) -> Option<Vec<String>> {
     };
     let labels: Vec<String> = speeds.iter().zip(&times).map(label).collect();
     // If two pictures had the same label, the labels would not show how the pictures differ.
-    let is_telling = (1..labels.len()).all(|idx| !labels[..idx].contains(&labels[idx]));
-    ((has_speeds || has_times) && is_telling).then_some(labels)
+    let are_distinct = (1..labels.len()).all(|idx| !labels[..idx].contains(&labels[idx]));
+    ((has_speeds || has_times) && are_distinct).then_some(labels)
 }
 
 fn differ(texts: &[Option<String>]) -> bool {
@@ -76,18 +77,18 @@ fn differ(texts: &[Option<String>]) -> bool {
 
 /// The options of `uglorentz` that set speed and time.
 #[derive(Debug, PartialEq)]
-struct Told {
+struct MotionOptions {
     /// The speed, as `β = 0.9`; `None` at rest.
     speed: Option<String>,
     /// The time of the observer.
     time: Option<String>,
 }
 
-impl Told {
+impl MotionOptions {
     /// Parses the command lines in the history of a picture.
-    fn of(history: &str) -> Self {
+    fn parse(history: &str) -> Self {
         let line = history.lines().rfind(|line| line.split(' ').next() == Some("uglorentz"));
-        let words = words::of(line.unwrap_or_default());
+        let words = shell_words::split(line.unwrap_or_default());
         let numbers = |options: [&str; 2], n: usize| {
             let at = words.iter().position(|word| options.contains(&word.as_str()))?;
             let numbers: Option<Vec<f64>> =
@@ -119,7 +120,7 @@ mod tests {
     }
 
     #[test]
-    fn what_differs_is_the_label() {
+    fn labels_show_what_differs() {
         let rows: [(&[&str], &[&str]); 7] = [
             (&["uglorentz", "uglorentz -vel .9 0 0 -in"], &["at rest", "β = 0.9"]),
             (&["uglorentz -vel 0 -.3 .4", "uglorentz -cv .999 0 0\nugdoppler"], &["β = 0.5", "β = 0.999"]),
@@ -142,7 +143,7 @@ mod tests {
     }
 
     #[test]
-    fn broken_histories_are_no_labels() {
+    fn malformed_histories_give_no_labels() {
         for line in [
             "uglorentz -vel",
             "uglorentz -vel .9 0",
@@ -150,7 +151,7 @@ mod tests {
             "uglorentz -vel a b c",
             "uglorentz '",
         ] {
-            assert_eq!(Told::of(line), Told { speed: None, time: None }, "{line}");
+            assert_eq!(MotionOptions::parse(line), MotionOptions { speed: None, time: None }, "{line}");
         }
     }
 }

@@ -36,7 +36,7 @@ impl Layout {
     pub fn new(config: &Config, pictures: &[Picture], labels: &[String]) -> Result<Self, Error> {
         let text = config.text_size.unwrap_or_else(|| text_size(pictures));
         let gap = (0.9 * text).round() as u32;
-        let [gap, around] = config.gap.unwrap_or([gap; 2]);
+        let [gap, margin] = config.gap.unwrap_or([gap; 2]);
         let n = pictures.len();
         let n_columns = config
             .columns
@@ -48,31 +48,31 @@ impl Layout {
         let widths: Vec<u32> = (0..n_columns).map(|column| widest(column).unwrap_or(0)).collect();
         let inner: u64 = widths.iter().map(|&width| u64::from(width)).sum::<u64>()
             + (n_columns as u64 - 1) * u64::from(gap);
-        let width = u32::try_from(inner + 2 * u64::from(around)).map_err(|_| Error::Size)?;
-        let mut page = Page { width, around, row: around, lines: Vec::new() };
+        let width = u32::try_from(inner + 2 * u64::from(margin)).map_err(|_| Error::Size)?;
+        let mut page = Page { width, margin, row: margin, lines: Vec::new() };
         page.heading(&config.title, TITLE * text)?;
         let mut places = Vec::with_capacity(n);
         for (row, cells) in pictures.chunks(n_columns).enumerate() {
             if row > 0 {
-                page.down(gap)?;
+                page.advance(gap)?;
             }
             let height = cells.iter().map(|picture| picture.frame.height()).max().unwrap_or(0);
-            let mut column = around;
+            let mut column = margin;
             let mut label_rows = 0;
             for (idx, picture) in cells.iter().enumerate() {
                 let [free, above] = [widths[idx] - picture.frame.width(), height - picture.frame.height()];
                 places.push([column + free / 2, page.row + above / 2]);
                 let number = row * n_columns + idx;
-                let label = labelled(config.letters, number, &labels[number]);
+                let label = with_letter(config.letters, number, &labels[number]);
                 let top = page.row.checked_add(height).ok_or(Error::Size)?;
-                label_rows = label_rows.max(page.label(&label, text, [column, top], widths[idx])?);
+                label_rows = label_rows.max(page.centered(&label, text, [column, top], widths[idx])?);
                 column += widths[idx] + gap;
             }
-            page.down(height)?;
-            page.down(label_rows)?;
+            page.advance(height)?;
+            page.advance(label_rows)?;
         }
         page.caption(&config.caption, CAPTION * text)?;
-        page.down(around)?;
+        page.advance(margin)?;
         let size = [width, page.row];
         if u64::from(width) * u64::from(page.row) > MAX_PIXELS {
             return Err(Error::Size);
@@ -90,7 +90,7 @@ fn text_size(pictures: &[Picture]) -> f64 {
 }
 
 /// The label of a picture, with its letter if `letters` is set.
-fn labelled(letters: bool, number: usize, label: &str) -> String {
+fn with_letter(letters: bool, number: usize, label: &str) -> String {
     if !letters {
         return label.to_owned();
     }
@@ -109,21 +109,21 @@ fn letter(number: usize) -> String {
 /// A sheet that is filled from top to bottom.
 struct Page {
     width: u32,
-    around: u32,
+    margin: u32,
     /// The first free pixel row.
     row: u32,
     lines: Vec<(Line, Point)>,
 }
 
 impl Page {
-    fn down(&mut self, rows: u32) -> Result<(), Error> {
+    fn advance(&mut self, rows: u32) -> Result<(), Error> {
         self.row = self.row.checked_add(rows).ok_or(Error::Size)?;
         Ok(())
     }
 
     /// Adds a paragraph of centred lines within `width`, below `top`. Returns its height in pixel
     /// rows.
-    fn label(&mut self, text: &str, size: f64, [left, top]: [u32; 2], width: u32) -> Result<u32, Error> {
+    fn centered(&mut self, text: &str, size: f64, [left, top]: [u32; 2], width: u32) -> Result<u32, Error> {
         let lines = lines(text, size, f64::from(width))?;
         if lines.is_empty() {
             return Ok(0);
@@ -139,38 +139,38 @@ impl Page {
         Ok(rows.ceil() as u32)
     }
 
-    fn room(&self) -> u32 {
+    fn text_width(&self) -> u32 {
         // At least 4 pixels of margin, so that letters do not touch the edge.
-        self.width.saturating_sub(2 * self.around.max(4)).max(1)
+        self.width.saturating_sub(2 * self.margin.max(4)).max(1)
     }
 
     fn heading(&mut self, text: &str, size: f64) -> Result<(), Error> {
-        let (room, row) = (self.room(), self.row);
-        let left = (self.width - room) / 2;
-        let rows = self.label(text, size, [left, row], room)?;
-        self.down(if rows == 0 { 0 } else { rows + (0.4 * size) as u32 })
+        let (text_width, row) = (self.text_width(), self.row);
+        let left = (self.width - text_width) / 2;
+        let rows = self.centered(text, size, [left, row], text_width)?;
+        self.advance(if rows == 0 { 0 } else { rows + (0.4 * size) as u32 })
     }
 
     /// Adds the caption: a single line is centred, several lines are left-aligned.
     fn caption(&mut self, text: &str, size: f64) -> Result<(), Error> {
-        let room = self.room();
-        let left = (self.width - room) / 2;
-        let lines = lines(text, size, f64::from(room))?;
+        let text_width = self.text_width();
+        let left = (self.width - text_width) / 2;
+        let lines = lines(text, size, f64::from(text_width))?;
         if lines.is_empty() {
             return Ok(());
         }
-        self.down((0.6 * size).round() as u32)?;
+        self.advance((0.6 * size).round() as u32)?;
         let top = self.row;
         if lines.len() == 1 {
-            let rows = self.label(text, size, [left, top], room)?;
-            return self.down(rows);
+            let rows = self.centered(text, size, [left, top], text_width)?;
+            return self.advance(rows);
         }
         let rows = paragraph(lines.len(), size);
         for (idx, line) in lines.into_iter().enumerate() {
             let base = f64::from(top) + size * (ASCENT + SPACING * idx as f64);
             self.lines.push((line, [f64::from(left), base.round()]));
         }
-        self.down(rows.ceil() as u32)
+        self.advance(rows.ceil() as u32)
     }
 }
 
@@ -188,7 +188,7 @@ mod tests {
     use super::letter;
 
     #[test]
-    fn letters_go_on_after_z() {
+    fn letters_continue_after_z() {
         assert_eq!([0, 25, 26, 27, 701, 702].map(letter), ["a", "z", "aa", "ab", "zz", "aaa"]);
     }
 }

@@ -29,7 +29,7 @@ mod cli;
 mod error;
 mod labels;
 mod layout;
-mod words;
+mod shell_words;
 
 use ugimage::{Frame, Label};
 use uglabel::Drawing;
@@ -101,7 +101,7 @@ pub fn sheet(config: &Config, pictures: &[Picture]) -> Result<Frame, Error> {
     let [red, green, blue] = config.background;
     frame.pixels_mut().fill([red, green, blue, 255]);
     for (picture, &place) in pictures.iter().zip(&layout.pictures) {
-        put(&picture.frame, place, &mut frame);
+        copy(&picture.frame, place, &mut frame);
     }
     let mut drawing = Drawing::default();
     for (line, origin) in &layout.lines {
@@ -119,7 +119,7 @@ pub fn history(pictures: &[Picture], command_line: &str) -> Label {
 }
 
 /// Copies a picture to a frame, with its upper left corner at `[left, top]`.
-fn put(picture: &Frame, [left, top]: [u32; 2], frame: &mut Frame) {
+fn copy(picture: &Frame, [left, top]: [u32; 2], frame: &mut Frame) {
     let (width, columns) = (frame.width() as usize, picture.width() as usize);
     let rows = picture.pixels().chunks_exact(columns);
     let quantizer = ugimage::Quantizer::new();

@@ -73,7 +73,7 @@ fn without_text_and_margin_a_sheet_is_its_pictures() {
 
 /// Pictures of different sizes are centred in their cells, and labels are centred below them.
 #[test]
-fn labels_stand_in_the_middle_below() {
+fn pictures_and_labels_are_centred() {
     let pictures = [picture("a", 100, 50, 1), picture("b", 40, 80, 2), picture("c", 60, 30, 3)];
     for background in [[255; 3], [0; 3]] {
         let config = Config {
@@ -99,7 +99,7 @@ fn labels_stand_in_the_middle_below() {
 }
 
 #[test]
-fn what_is_clear_shows_the_ground() {
+fn transparent_pixels_show_the_background() {
     let mut clear = picture("a", 8, 8, 1);
     clear.frame = Frame::clear(8, 8);
     clear.frame.pixels_mut()[0] = [10, 20, 30, 255];
@@ -111,7 +111,7 @@ fn what_is_clear_shows_the_ground() {
 }
 
 #[test]
-fn what_cannot_be_is_refused() {
+fn invalid_requests_are_errors() {
     let pictures = [picture("a", 20, 20, 1), picture("漢", 20, 20, 2)];
     assert_eq!(sheet(&Config::default(), &[]), Err(Error::Empty));
     let one = Config { labels: Labels::Given(vec!["x".into()]), ..Config::default() };
@@ -169,7 +169,7 @@ fn the_program_reads_files_and_standard_input() {
 }
 
 #[test]
-fn the_program_says_what_is_wrong() {
+fn errors_have_messages_and_exit_status() {
     let folder = folder();
     fs::write(folder.path().join("text.png"), "no picture").unwrap();
     let check = |args: &[&str], status: i32, message: &str| {
@@ -198,7 +198,7 @@ fn the_program_writes_other_formats() {
 }
 
 #[test]
-fn a_reader_that_leaves_ends_the_program_in_silence() {
+fn a_closed_pipe_ends_the_program_by_sigpipe() {
     let folder = folder();
     let mut child = ugsheet(folder.path(), &["rest.png"]).spawn().unwrap();
     drop(child.stdout.take());

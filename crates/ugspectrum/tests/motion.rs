@@ -46,7 +46,7 @@ fn surfaces_have_their_colour_at_rest() {
 }
 
 #[test]
-fn white_is_white_and_grey_is_a_part_of_it() {
+fn greys_are_fractions_of_white() {
     let white = Reflectance::from_linear_srgb([1.0; 3]).unwrap();
     assert_eq!([100.0, 380.0, 555.5, 5000.0].map(|nm| white.at(nm)), [1.0; 4]);
     for doppler in [0.2, 0.9, 1.0, 3.0] {
@@ -59,7 +59,7 @@ fn white_is_white_and_grey_is_a_part_of_it() {
 }
 
 #[test]
-fn surfaces_in_motion_are_the_slow_sum() {
+fn surfaces_in_motion_agree_with_a_slow_sum() {
     for rgb in [[0.8, 0.05, 0.02], [0.1, 0.6, 0.2], [0.02, 0.1, 0.9], [3.0, 2.0, 0.5]] {
         let surface = Reflectance::from_linear_srgb(rgb).unwrap();
         for doppler in [0.3, 0.7, 1.0, 1.3, 2.5] {
@@ -70,7 +70,7 @@ fn surfaces_in_motion_are_the_slow_sum() {
 }
 
 #[test]
-fn colours_beyond_the_screen() {
+fn colours_outside_the_srgb_gamut() {
     // Between the sRGB gamut and the spectrum locus: dim smooth surfaces have these colours.
     for xyz in [[0.5, 0.4, 0.01], [0.1, 0.3, 0.05], [0.15, 0.05, 0.8]] {
         let (spectrum, is_exact) = Spectrum::from_xyz(xyz);
@@ -108,7 +108,7 @@ fn a_black_body_stays_a_black_body() {
 }
 
 #[test]
-fn a_narrow_line_is_the_observer() {
+fn a_narrow_line_gives_the_observers_response() {
     // Area 1 at 500 nm, a hundredth of a nanometre wide.
     let line = Spectrum::samples(&[[499.99, 0.0], [500.0, 100.0], [500.01, 0.0]]);
     for doppler in [0.7, 0.9, 1.0, 1.2] {
@@ -124,7 +124,7 @@ fn a_narrow_line_is_the_observer() {
 /// Interpolation errors of X, Y and Z: for surfaces a colour difference ΔE*ab of at most 0.1, and
 /// less for black bodies, which are smoother.
 #[test]
-fn tables_are_near_what_they_tabulate() {
+fn tables_approximate_the_spectra() {
     let surfaces = surfaces(5).into_iter().map(|rgb| (Spectrum::from_linear_srgb(rgb), 3e-4));
     let bodies =
         [1000.0, 6000.0, 40_000.0].into_iter().map(|kelvin| (Spectrum::blackbody(kelvin, 2.0), 3e-7));
@@ -142,7 +142,7 @@ fn tables_are_near_what_they_tabulate() {
 }
 
 #[test]
-fn extreme_factors_break_nothing() {
+fn extreme_factors_give_valid_colours() {
     let grid = DopplerGrid::new(-200.0..=7.0);
     let spectra = [
         Spectrum::from_linear_srgb([0.9, 0.1, 0.1]),
@@ -165,7 +165,7 @@ proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
-    fn every_colour_of_the_screen_comes_back(rgb in prop::array::uniform3(0.0..1.0_f64), power in -9..4_i32) {
+    fn srgb_colours_round_trip(rgb in prop::array::uniform3(0.0..1.0_f64), power in -9..4_i32) {
         let scale = libm::pow(10.0, f64::from(power));
         let rgb = rgb.map(|channel| channel * scale);
         let (spectrum, is_exact) = Spectrum::from_xyz(linear_srgb_to_xyz(rgb));
@@ -176,7 +176,7 @@ proptest! {
 
     /// X, Y, Z of a surface of constant reflectance increase with D.
     #[test]
-    fn what_comes_nearer_is_brighter(doppler in 0.1..9.0_f64) {
+    fn approaching_surfaces_are_brighter(doppler in 0.1..9.0_f64) {
         let white = Spectrum::from_linear_srgb([1.0; 3]);
         let (before, behind) = (white.seen(doppler), white.seen(doppler * 1.05));
         prop_assert!(before.iter().zip(behind).all(|(a, b)| *a < b));

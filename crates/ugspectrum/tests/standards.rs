@@ -41,7 +41,7 @@ fn the_observer_is_that_of_the_cie() {
 }
 
 #[test]
-fn daylight_is_the_white_of_the_screen() {
+fn daylight_is_the_srgb_white_point() {
     let white = integrate(daylight);
     check_xy(white, [0.31272, 0.32903], 1e-5);
     for (part, expected) in white.map(|part| part / white[1]).into_iter().zip(WHITE_XYZ) {

@@ -159,7 +159,7 @@ fn number(coordinate: f64) -> String {
 }
 
 /// A painting operation of PostScript and PDF.
-enum Painted<'a> {
+enum PaintOp<'a> {
     /// An area of one colour, and the edges along which it is extended.
     Area { contours: &'a [Vec<Point>], color: Rgb, seams: Vec<[Point; 2]> },
     /// A line.
@@ -171,7 +171,7 @@ enum Painted<'a> {
 }
 
 /// The painting operations of a figure.
-fn painted(figure: &Figure<Triangle>) -> impl Iterator<Item = Painted<'_>> {
+fn paint_ops(figure: &Figure<Triangle>) -> impl Iterator<Item = PaintOp<'_>> {
     let seams = seams(figure.elements.iter().map(|element| match element {
         Element::Area { contours, .. } => Some(&contours[..]),
         _ => None,
@@ -180,11 +180,11 @@ fn painted(figure: &Figure<Triangle>) -> impl Iterator<Item = Painted<'_>> {
     std::iter::from_fn(move || {
         let (element, seams) = elements.next()?;
         Some(match element {
-            Element::Area { contours, color, .. } => Painted::Area { contours, color: *color, seams },
+            Element::Area { contours, color, .. } => PaintOp::Area { contours, color: *color, seams },
             Element::Line { ends, width, color } => {
-                Painted::Line { ends: *ends, width: *width, color: *color }
+                PaintOp::Line { ends: *ends, width: *width, color: *color }
             }
-            Element::CutBelow(rows) => Painted::CutBelow(*rows),
+            Element::CutBelow(rows) => PaintOp::CutBelow(*rows),
             Element::Smooth(triangle) => {
                 let mut mesh = Mesh::new();
                 mesh.push(triangle);
@@ -192,7 +192,7 @@ fn painted(figure: &Figure<Triangle>) -> impl Iterator<Item = Painted<'_>> {
                     mesh.push(triangle);
                     elements.next();
                 }
-                Painted::Mesh(mesh)
+                PaintOp::Mesh(mesh)
             }
         })
     })
@@ -255,7 +255,7 @@ mod tests {
     }
 
     #[test]
-    fn the_area_painted_first_reaches_under_the_other() {
+    fn the_area_painted_first_is_extended_under_the_other() {
         let left = [vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]];
         let right = [vec![[1.0, 1.0], [1.0, 0.0], [2.0, 0.0], [2.0, 1.0]]];
         let seams = seams([Some(&left[..]), None, Some(&right[..])].into_iter());

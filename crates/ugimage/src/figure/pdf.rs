@@ -3,7 +3,7 @@
 use pdf_writer::writers::StreamShadingType;
 use pdf_writer::{Content, Filter, Name, Pdf, Ref};
 
-use super::{Figure, MESH_BITS, Mesh, Painted, Point, Rgb, SEAM_WIDTH, Triangle, painted};
+use super::{Figure, MESH_BITS, Mesh, PaintOp, Point, Rgb, SEAM_WIDTH, Triangle, paint_ops};
 use crate::Label;
 use crate::pdf::{FIRST, deflate, document};
 
@@ -52,23 +52,23 @@ struct Page {
 
 impl Page {
     fn draw(&mut self, figure: &Figure<Triangle>) {
-        for painted in painted(figure) {
-            match painted {
-                Painted::Area { contours, color, seams } => {
+        for op in paint_ops(figure) {
+            match op {
+                PaintOp::Area { contours, color, seams } => {
                     self.set_color(color);
                     contours.iter().for_each(|contour| self.add_contour(contour));
                     self.content.fill_even_odd();
                     self.stroke(&seams, SEAM_WIDTH);
                 }
-                Painted::Line { ends, width, color } => {
+                PaintOp::Line { ends, width, color } => {
                     self.set_color(color);
                     self.stroke(&[ends], width);
                 }
-                Painted::Mesh(mesh) => {
+                PaintOp::Mesh(mesh) => {
                     self.content.shading(Name(mesh_name(self.meshes.len()).as_bytes()));
                     self.meshes.push(mesh);
                 }
-                Painted::CutBelow(rows) => self.cut_below(figure.size[0], rows),
+                PaintOp::CutBelow(rows) => self.cut_below(figure.size[0], rows),
             }
         }
     }

@@ -1,6 +1,6 @@
 //! Figures as PostScript level 3.
 
-use super::{Figure, MESH_BITS, Mesh, Painted, Point, Rgb, SEAM_WIDTH, Triangle, number, painted};
+use super::{Figure, MESH_BITS, Mesh, PaintOp, Point, Rgb, SEAM_WIDTH, Triangle, number, paint_ops};
 use crate::pdf::deflate;
 use crate::postscript::Ascii85;
 use crate::{Label, eps as eps_file, ps as ps_file};
@@ -44,9 +44,9 @@ fn drawing(figure: &Figure<Triangle>) -> Vec<u8> {
         page.set_color(background);
         page.add(&format!("0 0 {width} {height} rectfill\n"));
     }
-    for painted in painted(figure) {
-        match painted {
-            Painted::Area { contours, color, seams } => {
+    for op in paint_ops(figure) {
+        match op {
+            PaintOp::Area { contours, color, seams } => {
                 page.set_color(color);
                 page.add(&path(contours));
                 page.add("f\n");
@@ -56,17 +56,17 @@ fn drawing(figure: &Figure<Triangle>) -> Vec<u8> {
                     page.add("s\n");
                 }
             }
-            Painted::Line { ends, width, color } => {
+            PaintOp::Line { ends, width, color } => {
                 page.set_color(color);
                 page.set_width(width);
                 page.add(&line(&ends));
                 page.add("s\n");
             }
-            Painted::Mesh(mesh) => {
+            PaintOp::Mesh(mesh) => {
                 page.add("UgMesh\n");
                 Ascii85::encode(&deflate(&mesh.0), &mut page.out);
             }
-            Painted::CutBelow(rows) => page.cut_below(figure.size[0], rows),
+            PaintOp::CutBelow(rows) => page.cut_below(figure.size[0], rows),
         }
     }
     page.add("grestore\n");

@@ -32,16 +32,20 @@ pub(super) fn read(input: &Input, builder: &mut Builder) -> Result<(), Problem> 
         builder.comment(copyright);
     }
     let mut reader =
-        Reader { builder, buffers, numbers: FxHashMap::default(), n_left_out: 0, has_textures: false };
+        Reader { builder, buffers, numbers: FxHashMap::default(), n_skipped: 0, has_textures: false };
     reader.scene(&document, &nodes)?;
-    let (n_left_out, has_textures) = (reader.n_left_out, reader.has_textures);
+    let (n_skipped, has_textures) = (reader.n_skipped, reader.has_textures);
     if document.nodes().any(|node| node.skin().is_some()) {
         builder.warn("skins are ignored: skinned meshes are read in their bind pose");
     }
     if has_textures {
         builder.warn("textures are not read");
     }
-    builder.warn_of(n_left_out, "set of lines or points is left out", "sets of lines or points are left out");
+    builder.warn_count(
+        n_skipped,
+        "set of lines or points is left out",
+        "sets of lines or points are left out",
+    );
     Ok(())
 }
 
@@ -153,7 +157,7 @@ fn load(uri: &str, input: &Input) -> Result<Vec<u8>, Problem> {
             "`{name}` is a network address; download it and refer to the file instead"
         )));
     }
-    (input.beside)(&name).map_err(|error| {
+    (input.read_file)(&name).map_err(|error| {
         Problem::new(format!("cannot read `{name}`: {error}; put it in the folder of the mesh"))
     })
 }
@@ -182,7 +186,7 @@ struct Reader<'a, 'b> {
     buffers: Vec<Cow<'b, [u8]>>,
     /// The numbers of accessors that were already read: primitives may share accessors.
     numbers: FxHashMap<usize, Rc<Vec<f64>>>,
-    n_left_out: usize,
+    n_skipped: usize,
     has_textures: bool,
 }
 
@@ -222,7 +226,7 @@ impl Reader<'_, '_> {
 
     fn primitive(&mut self, primitive: &Primitive, scene_from_node: DAffine3) -> Result<(), Problem> {
         if !matches!(primitive.mode(), Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan) {
-            self.n_left_out += 1;
+            self.n_skipped += 1;
             return Ok(());
         }
         let Some(accessor) = primitive.get(&Semantic::Positions) else { return Ok(()) };
@@ -290,7 +294,7 @@ impl Reader<'_, '_> {
         let numbers = self.numbers(&accessor)?;
         let colors = numbers.chunks_exact(n_components).map(|part| {
             let alpha = part.get(3).copied().unwrap_or(1.0);
-            material.tinted([part[0], part[1], part[2], alpha])
+            material.display_color([part[0], part[1], part[2], alpha])
         });
         Ok(Some(colors.collect()))
     }
@@ -352,7 +356,7 @@ struct Material {
     /// Linear red, green and blue, and alpha.
     factor: [f64; 4],
     is_given: bool,
-    is_clear: bool,
+    is_blended: bool,
     has_texture: bool,
 }
 
@@ -363,21 +367,21 @@ impl Material {
         Self {
             factor: surface.base_color_factor().map(f64::from),
             is_given: material.index().is_some(),
-            is_clear: material.alpha_mode() == AlphaMode::Blend,
+            is_blended: material.alpha_mode() == AlphaMode::Blend,
             has_texture: surface.base_color_texture().is_some(),
         }
     }
 
     /// The display-encoded product of the linear colour `part` and the colour of the material.
-    fn tinted(&self, part: [f64; 4]) -> Rgba {
+    fn display_color(&self, part: [f64; 4]) -> Rgba {
         let [red, green, blue, alpha] = [0, 1, 2, 3].map(|idx| part[idx] * self.factor[idx]);
         // Exactly 1 for white, where the transfer function has a rounding error.
         let encode = |linear: f64| if linear == 1.0 { 1.0 } else { srgb_encode(linear) };
-        let alpha = if self.is_clear { alpha } else { 1.0 };
+        let alpha = if self.is_blended { alpha } else { 1.0 };
         Rgba([encode(red), encode(green), encode(blue), alpha])
     }
 
     fn color(&self) -> Option<Rgba> {
-        self.is_given.then(|| self.tinted([1.0; 4]))
+        self.is_given.then(|| self.display_color([1.0; 4]))
     }
 }

@@ -7,7 +7,7 @@ mod obj;
 mod off;
 mod ply;
 mod stl;
-mod words;
+mod text;
 
 use crate::builder::Builder;
 use crate::error::Problem;

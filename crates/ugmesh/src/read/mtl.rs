@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::words;
+use super::text;
 use crate::builder::Rgba;
 
 /// Diffuse colours by name.
@@ -16,7 +16,7 @@ impl Materials {
     /// Adds the materials of a file. Only diffuse colours and opacity are read. Malformed
     /// statements are ignored, since a mesh is usable without its materials.
     pub fn add(&mut self, bytes: &[u8]) {
-        let text = words::text(bytes);
+        let text = text::decode(bytes);
         let mut current: Option<&mut Rgba> = None;
         for line in text.lines() {
             let (keyword, rest) = split(line);

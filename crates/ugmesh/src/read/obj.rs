@@ -11,13 +11,13 @@ use rustc_hash::FxHashMap;
 use ugparse::{ColorId, VertexId};
 
 use super::mtl::{self, Materials};
-use super::words::{self, numbers};
+use super::text::{self, numbers};
 use crate::Input;
 use crate::builder::{Builder, Rgba};
 use crate::error::Problem;
 
 pub(super) fn read(input: &Input, builder: &mut Builder) -> Result<(), Problem> {
-    let text = words::text(&input.bytes);
+    let text = text::decode(&input.bytes);
     let mut reader = Reader::new(input, builder);
     let mut in_head = true;
     for (line, statement) in statements(&text) {
@@ -60,7 +60,7 @@ struct Reader<'a> {
     materials: Materials,
     /// The colour of the following faces.
     color: Option<ColorId>,
-    n_left_out: usize,
+    n_skipped: usize,
     unknown_materials: BTreeSet<String>,
 }
 
@@ -74,7 +74,7 @@ impl<'a> Reader<'a> {
             faces: Vec::new(),
             materials: Materials::default(),
             color: None,
-            n_left_out: 0,
+            n_skipped: 0,
             unknown_materials: BTreeSet::new(),
         }
     }
@@ -85,7 +85,7 @@ impl<'a> Reader<'a> {
             "v" => self.vertex(line, rest)?,
             "vn" => self.normal(rest)?,
             "f" => self.face(rest)?,
-            "l" | "p" | "curv" | "curv2" | "surf" => self.n_left_out += 1,
+            "l" | "p" | "curv" | "curv2" | "surf" => self.n_skipped += 1,
             "mtllib" => self.load_materials(rest),
             "usemtl" => self.use_material(rest),
             _ => {}
@@ -129,11 +129,12 @@ impl<'a> Reader<'a> {
         let mut parts = word.split('/');
         let (position, normal) = (parts.next().unwrap_or_default(), parts.nth(1).unwrap_or_default());
         let n_vertices = self.builder.n_vertices();
-        let vertex = row(position, n_vertices).and_then(|row| self.builder.known(row)).ok_or_else(|| {
-            Problem::new(format!(
-                "a face refers to vertex `{position}`, but there are {n_vertices} before it"
-            ))
-        })?;
+        let vertex =
+            row(position, n_vertices).and_then(|row| self.builder.vertex_at(row)).ok_or_else(|| {
+                Problem::new(format!(
+                    "a face refers to vertex `{position}`, but there are {n_vertices} before it"
+                ))
+            })?;
         if normal.is_empty() {
             return Ok((vertex, None));
         }
@@ -148,11 +149,11 @@ impl<'a> Reader<'a> {
     /// tried first.
     fn load_materials(&mut self, rest: &str) {
         let names: Vec<&str> = rest.split_whitespace().collect();
-        if let Ok(bytes) = (self.input.beside)(rest) {
+        if let Ok(bytes) = (self.input.read_file)(rest) {
             return self.materials.add(&bytes);
         }
         for name in if names.is_empty() { vec![rest] } else { names } {
-            match (self.input.beside)(name) {
+            match (self.input.read_file)(name) {
                 Ok(bytes) => self.materials.add(&bytes),
                 Err(error) => {
                     self.builder.warn(format!("colours are missing: cannot read `{name}`: {error}"));
@@ -171,12 +172,12 @@ impl<'a> Reader<'a> {
 
     /// Builds the faces, after all vertices have been read.
     fn finish(mut self) -> Result<(), Problem> {
-        let mut seams = Seams::new(self.builder.n_vertices());
+        let mut splitter = NormalSplitter::new(self.builder.n_vertices());
         let mut start = 0;
         for &(end, color) in &self.faces {
             let corners = self.corners[start..end].iter().map(|&(vertex, normal)| {
                 let normal = normal.map(|row| self.normals[row as usize]).filter(|n| n.is_finite());
-                seams.vertex(self.builder, vertex, normal)
+                splitter.vertex(self.builder, vertex, normal)
             });
             let corners = corners.collect::<Result<Vec<_>, _>>()?;
             self.builder.face(&corners, color)?;
@@ -196,8 +197,8 @@ impl<'a> Reader<'a> {
         if self.materials.has_textures {
             self.builder.warn("textures are not read");
         }
-        self.builder.warn_of(
-            self.n_left_out,
+        self.builder.warn_count(
+            self.n_skipped,
             "line, point or curve is left out",
             "lines, points or curves are left out",
         );
@@ -209,12 +210,12 @@ type NormalBits = Option<[u64; 3]>;
 
 /// Splits a vertex with several normals into several vertices. The vertex of the file gets the
 /// first normal, so that vertices keep their order; the copies are appended at the end.
-struct Seams {
+struct NormalSplitter {
     first: Vec<Option<NormalBits>>,
     copies: FxHashMap<(VertexId, NormalBits), VertexId>,
 }
 
-impl Seams {
+impl NormalSplitter {
     fn new(n_vertices: usize) -> Self {
         Self { first: vec![None; n_vertices], copies: FxHashMap::default() }
     }

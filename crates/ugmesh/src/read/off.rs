@@ -2,13 +2,13 @@
 
 use glam::DVec3;
 
-use super::words::{self, number, numbers};
+use super::text::{self, number, numbers};
 use crate::builder::{Builder, Rgba};
 use crate::error::Problem;
 use crate::format::is_off_keyword;
 
 pub(super) fn read(bytes: &[u8], builder: &mut Builder) -> Result<(), Problem> {
-    let text = words::text(bytes);
+    let text = text::decode(bytes);
     let lines = text.lines().enumerate().map(|(idx, line)| {
         let without_comment = line.split('#').next().unwrap_or_default();
         (idx + 1, without_comment.trim())
@@ -90,7 +90,7 @@ fn read_face(face: &str, line: usize, builder: &mut Builder) -> Result<(), Probl
         let word = words
             .next()
             .ok_or_else(|| Problem::at(line, format!("a face of {n_corners} corners ends after {n_read}")))?;
-        let corner = word.parse().ok().and_then(|idx| builder.known(idx)).ok_or_else(|| {
+        let corner = word.parse().ok().and_then(|idx| builder.vertex_at(idx)).ok_or_else(|| {
             let last = builder.n_vertices() as i64 - 1;
             Problem::at(
                 line,

@@ -69,7 +69,7 @@ fn check(header: &Header, n_bytes: usize) -> Result<(), Problem> {
 }
 
 fn corner(builder: &Builder, idx: i64) -> Result<VertexId, Problem> {
-    u64::try_from(idx).ok().and_then(|idx| builder.known(idx)).ok_or_else(|| {
+    u64::try_from(idx).ok().and_then(|idx| builder.vertex_at(idx)).ok_or_else(|| {
         let last = builder.n_vertices() as i64 - 1;
         Problem::new(format!("a face refers to vertex {idx}, but vertices are numbered from 0 to {last}"))
     })
@@ -106,13 +106,13 @@ const ALIASES: [(&str, &str); 6] = [
 ];
 
 impl Row {
-    fn place(name: &str) -> Option<usize> {
+    fn index(name: &str) -> Option<usize> {
         let name = ALIASES.iter().find(|(alias, _)| *alias == name).map_or(name, |(_, name)| name);
         NUMBERS.iter().position(|known| *known == name)
     }
 
     fn get(&self, name: &str) -> f64 {
-        Self::place(name).map_or(f64::NAN, |place| self.numbers[place])
+        Self::index(name).map_or(f64::NAN, |idx| self.numbers[idx])
     }
 
     fn color(&self) -> Option<Rgba> {
@@ -122,10 +122,10 @@ impl Row {
     }
 
     fn set(&mut self, name: &str, number: f64, full: f64) -> PropertyAccessResult {
-        let Some(place) = Self::place(name) else { return PropertyAccessResult::Ignored };
+        let Some(idx) = Self::index(name) else { return PropertyAccessResult::Ignored };
         // Integer colours use the full range of their type.
-        let is_color = place >= 6;
-        self.numbers[place] = if is_color { number / full } else { number };
+        let is_color = idx >= 6;
+        self.numbers[idx] = if is_color { number / full } else { number };
         PropertyAccessResult::Set
     }
 

@@ -7,27 +7,27 @@ use glam::DVec3;
 use rustc_hash::FxHashMap;
 use ugparse::VertexId;
 
-use super::words::{self, numbers};
+use super::text::{self, numbers};
 use crate::builder::Builder;
 use crate::error::Problem;
 use crate::format::is_binary_stl;
 
 pub(super) fn read(bytes: &[u8], builder: &mut Builder) -> Result<(), Problem> {
-    let mut merged = Merged { builder, by_place: FxHashMap::default() };
+    let mut merged = MergedVertices { builder, by_place: FxHashMap::default() };
     let is_text = bytes.trim_ascii_start().get(..5).is_some_and(|word| word.eq_ignore_ascii_case(b"solid"));
     if is_text && !is_binary_stl(bytes) {
-        read_text(&words::text(bytes), &mut merged)
+        read_text(&text::decode(bytes), &mut merged)
     } else {
         read_binary(bytes, &mut merged)
     }
 }
 
-struct Merged<'a> {
+struct MergedVertices<'a> {
     builder: &'a mut Builder,
     by_place: FxHashMap<[u64; 3], VertexId>,
 }
 
-impl Merged<'_> {
+impl MergedVertices<'_> {
     fn triangle(&mut self, corners: [[f64; 3]; 3]) -> Result<(), Problem> {
         let mut ids = [VertexId(0); 3];
         for (id, corner) in ids.iter_mut().zip(corners) {
@@ -45,7 +45,7 @@ impl Merged<'_> {
 
 /// Binary STL: a header of 80 bytes, the count, and for each triangle a normal, three corners and
 /// two bytes without a standard meaning.
-fn read_binary(bytes: &[u8], merged: &mut Merged) -> Result<(), Problem> {
+fn read_binary(bytes: &[u8], merged: &mut MergedVertices) -> Result<(), Problem> {
     let Some((header, triangles)) = bytes.split_at_checked(84) else {
         return Err(Problem::new("the file is too short for STL"));
     };
@@ -71,7 +71,7 @@ fn u32_at(bytes: &[u8], offset: usize) -> u32 {
 
 /// ASCII STL: `vertex x y z` in groups of three; all other lines only delimit these. The numbers
 /// are rounded to 32 bits, as in binary STL.
-fn read_text(text: &str, merged: &mut Merged) -> Result<(), Problem> {
+fn read_text(text: &str, merged: &mut MergedVertices) -> Result<(), Problem> {
     let mut corners = Vec::with_capacity(3);
     for (idx, line) in text.lines().enumerate() {
         let mut words = line.split_whitespace();

@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 use ugphysics::srgb_decode;
 
 use crate::Error;
-use crate::surface::Surface;
+use crate::polygon_mesh::PolygonMesh;
 
 /// OpenGL constants for component types and buffer targets.
 const FLOAT: u32 = 5126;
@@ -17,9 +17,9 @@ const UNSIGNED_INT: u32 = 5125;
 const ARRAY_BUFFER: u32 = 34962;
 const ELEMENT_ARRAY_BUFFER: u32 = 34963;
 
-pub(super) fn write_glb(surface: &mut Surface) -> Result<Vec<u8>, Error> {
-    check_range(surface)?;
-    let (document, buffer) = document(surface, None);
+pub(super) fn write_glb(mesh: &mut PolygonMesh) -> Result<Vec<u8>, Error> {
+    check_range(mesh)?;
+    let (document, buffer) = document(mesh, None);
     let json = document.to_string().into_bytes();
     // The file header stores the length in 32 bits. 64 bytes are reserved for headers and padding.
     if u32::try_from(json.len() + buffer.len() + 64).is_err() {
@@ -30,38 +30,38 @@ pub(super) fn write_glb(surface: &mut Surface) -> Result<Vec<u8>, Error> {
     Glb { header, json: json.into(), bin }.to_vec().map_err(|_| Error::TooLarge)
 }
 
-pub(super) fn write_json(surface: &mut Surface) -> Result<Vec<u8>, Error> {
-    check_range(surface)?;
-    let (document, _) = document(surface, Some("data:application/octet-stream;base64,"));
+pub(super) fn write_json(mesh: &mut PolygonMesh) -> Result<Vec<u8>, Error> {
+    check_range(mesh)?;
+    let (document, _) = document(mesh, Some("data:application/octet-stream;base64,"));
     Ok(format!("{document:#}\n").into_bytes())
 }
 
-fn check_range(surface: &Surface) -> Result<(), Error> {
-    let is_narrow = surface.scene.vertices.iter().all(|vertex| vertex.position.as_vec3().is_finite());
+fn check_range(mesh: &PolygonMesh) -> Result<(), Error> {
+    let is_narrow = mesh.scene.vertices.iter().all(|vertex| vertex.position.as_vec3().is_finite());
     if is_narrow { Ok(()) } else { Err(Error::OutOfRange) }
 }
 
 /// The document and its buffer. If `uri` is given, the buffer is also embedded in the document, as
 /// a data URI with this prefix.
-fn document(surface: &mut Surface, uri: Option<&str>) -> (Value, Vec<u8>) {
+fn document(mesh: &mut PolygonMesh, uri: Option<&str>) -> (Value, Vec<u8>) {
     let mut document = json!({
         "asset": {
             "version": "2.0",
             "generator": concat!("ugmesh ", env!("CARGO_PKG_VERSION")),
-            "extras": { "history": super::head_lines(&surface.scene).collect::<Vec<_>>() },
+            "extras": { "history": super::head_lines(&mesh.scene).collect::<Vec<_>>() },
         },
     });
     let mut buffer = Buffer::default();
     // glTF does not allow empty lists and accessors.
-    if !surface.polygons.is_empty() {
+    if !mesh.polygons.is_empty() {
         document["scene"] = 0.into();
         document["scenes"] = json!([{ "nodes": [0] }]);
         document["nodes"] = json!([{ "mesh": 0 }]);
-        let attributes = attributes(surface, &mut buffer);
-        let indices = indices(surface, &mut buffer);
+        let attributes = attributes(mesh, &mut buffer);
+        let indices = indices(mesh, &mut buffer);
         let primitive = json!({ "attributes": attributes, "indices": indices, "material": 0, "mode": 4 });
         document["meshes"] = json!([{ "primitives": [primitive] }]);
-        document["materials"] = json!([material(surface.is_clear())]);
+        document["materials"] = json!([material(mesh.is_transparent())]);
         document["accessors"] = Value::Array(buffer.accessors);
         document["bufferViews"] = Value::Array(buffer.views);
         document["buffers"] = json!([{ "byteLength": buffer.bytes.len() }]);
@@ -73,36 +73,36 @@ fn document(surface: &mut Surface, uri: Option<&str>) -> (Value, Vec<u8>) {
 }
 
 /// A diffuse, two-sided material, as the faces of scenes are.
-fn material(is_clear: bool) -> Value {
+fn material(is_transparent: bool) -> Value {
     let mut material = json!({
         "pbrMetallicRoughness": { "metallicFactor": 0, "roughnessFactor": 1 },
         "doubleSided": true,
     });
-    if is_clear {
+    if is_transparent {
         material["alphaMode"] = "BLEND".into();
     }
     material
 }
 
-fn attributes(surface: &mut Surface, buffer: &mut Buffer) -> Value {
+fn attributes(mesh: &mut PolygonMesh, buffer: &mut Buffer) -> Value {
     let positions: Vec<[f32; 3]> =
-        surface.scene.vertices.iter().map(|vertex| vertex.position.as_vec3().to_array()).collect();
+        mesh.scene.vertices.iter().map(|vertex| vertex.position.as_vec3().to_array()).collect();
     let mut attributes = json!({ "POSITION": buffer.rows(&positions, "VEC3") });
     let (low, high) = bounds(&positions);
     let position = buffer.accessors.last_mut().expect("just added");
     (position["min"], position["max"]) = (json!(low), json!(high));
 
-    match surface.normals() {
+    match mesh.normals() {
         Some(normals) => {
             let normals: Vec<[f32; 3]> = normals.iter().map(|normal| normal.as_vec3().to_array()).collect();
             attributes["NORMAL"] = buffer.rows(&normals, "VEC3").into();
         }
-        None if surface.scene.vertices.iter().any(|vertex| vertex.normal.is_some()) => {
-            surface.notes.push("normals are left out: not every vertex has one".to_string());
+        None if mesh.scene.vertices.iter().any(|vertex| vertex.normal.is_some()) => {
+            mesh.notes.push("normals are left out: not every vertex has one".to_string());
         }
         None => {}
     }
-    if let Some(colors) = &surface.colors {
+    if let Some(colors) = &mesh.colors {
         let linear = |&[red, green, blue, alpha]: &[f64; 4]| {
             let [red, green, blue] = [red, green, blue].map(|part| srgb_decode(part) as f32);
             [red, green, blue, alpha as f32]
@@ -113,8 +113,8 @@ fn attributes(surface: &mut Surface, buffer: &mut Buffer) -> Value {
     attributes
 }
 
-fn indices(surface: &Surface, buffer: &mut Buffer) -> usize {
-    let corners = (0..surface.polygons.len() as u32).flat_map(|row| surface.polygons.get(row));
+fn indices(mesh: &PolygonMesh, buffer: &mut Buffer) -> usize {
+    let corners = (0..mesh.polygons.len() as u32).flat_map(|row| mesh.polygons.get(row));
     let bytes: Vec<u8> = corners.flat_map(|corner| corner.0.to_le_bytes()).collect();
     buffer.add(&bytes, bytes.len() / 4, UNSIGNED_INT, "SCALAR", ELEMENT_ARRAY_BUFFER)
 }

@@ -1,4 +1,4 @@
-//! Writers: one per format, all of which write a [`Surface`].
+//! Writers: one per format, all of which write a [`PolygonMesh`].
 
 mod gltf;
 mod obj;
@@ -6,25 +6,25 @@ mod ply;
 
 use ugparse::Scene;
 
-use crate::surface::{Polygons, Surface};
+use crate::polygon_mesh::{PolygonMesh, Polygons};
 use crate::{Error, Target};
 
 /// The file content for a scene in a format, and notes.
 pub(crate) fn write(scene: Scene, target: Target) -> Result<(Vec<u8>, Vec<String>), Error> {
     let (polygons, writer): (Polygons, Writer) = match target {
         Target::Ug => return Ok((ugparse::write(&scene), Vec::new())),
-        Target::Obj => (Polygons::Simple, |surface| Ok(obj::write(surface))),
-        Target::Ply { is_ascii: false } => (Polygons::Simple, |surface| Ok(ply::write(surface, false))),
-        Target::Ply { is_ascii: true } => (Polygons::Simple, |surface| Ok(ply::write(surface, true))),
+        Target::Obj => (Polygons::Simple, |mesh| Ok(obj::write(mesh))),
+        Target::Ply { is_ascii: false } => (Polygons::Simple, |mesh| Ok(ply::write(mesh, false))),
+        Target::Ply { is_ascii: true } => (Polygons::Simple, |mesh| Ok(ply::write(mesh, true))),
         Target::Gltf => (Polygons::Triangles, gltf::write_json),
         Target::Glb => (Polygons::Triangles, gltf::write_glb),
     };
-    let mut surface = Surface::new(scene, polygons);
-    let bytes = writer(&mut surface)?;
-    Ok((bytes, surface.notes))
+    let mut mesh = PolygonMesh::new(scene, polygons);
+    let bytes = writer(&mut mesh)?;
+    Ok((bytes, mesh.notes))
 }
 
-type Writer = fn(&mut Surface) -> Result<Vec<u8>, Error>;
+type Writer = fn(&mut PolygonMesh) -> Result<Vec<u8>, Error>;
 
 /// The lines of the scene's head comments (licence and history). Control characters are replaced,
 /// because some readers would take them for line ends.

@@ -3,32 +3,32 @@
 
 use std::fmt::Write;
 
-use crate::surface::Surface;
+use crate::polygon_mesh::PolygonMesh;
 
-pub(super) fn write(surface: &mut Surface) -> Vec<u8> {
-    if surface.is_clear() {
-        surface.notes.push("OBJ has no transparent vertices: all are written as opaque".to_string());
+pub(super) fn write(mesh: &mut PolygonMesh) -> Vec<u8> {
+    if mesh.is_transparent() {
+        mesh.notes.push("OBJ has no transparent vertices: all are written as opaque".to_string());
     }
-    let mut text = String::with_capacity(64 * surface.scene.vertices.len());
+    let mut text = String::with_capacity(64 * mesh.scene.vertices.len());
     // Writing to a string cannot fail.
-    let _ = write_all(surface, &mut text);
+    let _ = write_all(mesh, &mut text);
     text.into_bytes()
 }
 
-fn write_all(surface: &Surface, text: &mut String) -> std::fmt::Result {
-    for line in super::head_lines(&surface.scene) {
+fn write_all(mesh: &PolygonMesh, text: &mut String) -> std::fmt::Result {
+    for line in super::head_lines(&mesh.scene) {
         writeln!(text, "# {line}")?;
     }
-    for (row, vertex) in surface.scene.vertices.iter().enumerate() {
+    for (row, vertex) in mesh.scene.vertices.iter().enumerate() {
         let p = vertex.position;
         write!(text, "v {} {} {}", p.x, p.y, p.z)?;
-        if let Some([red, green, blue, _]) = surface.colors.as_ref().map(|colors| colors[row]) {
+        if let Some([red, green, blue, _]) = mesh.colors.as_ref().map(|colors| colors[row]) {
             write!(text, " {red} {green} {blue}")?;
         }
         text.push('\n');
     }
-    let mut normals = vec![None; surface.scene.vertices.len()];
-    let with_normal = surface
+    let mut normals = vec![None; mesh.scene.vertices.len()];
+    let with_normal = mesh
         .scene
         .vertices
         .iter()
@@ -38,8 +38,8 @@ fn write_all(surface: &Surface, text: &mut String) -> std::fmt::Result {
         *number = Some(idx + 1);
         writeln!(text, "vn {} {} {}", normal.x, normal.y, normal.z)?;
     }
-    for row in 0..surface.polygons.len() as u32 {
-        let corners = surface.polygons.get(row);
+    for row in 0..mesh.polygons.len() as u32 {
+        let corners = mesh.polygons.get(row);
         // A face has normals at all its corners or at none.
         let has_normals = corners.iter().all(|corner| normals[corner.index()].is_some());
         text.push('f');

@@ -64,7 +64,7 @@ fn t26_distances_differ_by_d() {
 
 /// A light that moves with the surface acts like a light at rest.
 #[test]
-fn light_in_the_same_frame_is_static() {
+fn light_in_the_same_frame_is_as_at_rest() {
     for (p, v, l, _) in settings() {
         let light = light_on(p, v, l, v);
         assert_eq!((light.doppler, light.distance), (1.0, light.rest_distance));
@@ -79,7 +79,7 @@ fn light_in_the_same_frame_is_static() {
 /// The emission event, found by bisection along the light's world line in the camera frame, and
 /// everything else from 4×4 matrices.
 #[test]
-fn a_slow_search_finds_the_same_event() {
+fn bisection_finds_the_same_emission_event() {
     for (p, v, l, v_light) in settings() {
         let scatter = seen_event(p, v);
         let worldline = |t: f64| Lorentz::boost(v_light).apply(Event { t, x: l });
@@ -144,7 +144,7 @@ fn a_distant_lamp_is_a_directional_light() {
 
 /// For directional light the surface acts like an eye: (P6) and (P10) with the relative velocity.
 #[test]
-fn a_surface_finds_what_an_eye_there_would() {
+fn directional_light_obeys_aberration_and_doppler_shift() {
     for direction in directions() {
         for v_light in [along_x(0.6), beta(0.3, -0.8, 0.2), beta(0.0, 0.0, 0.999)] {
             let light = illumination_from_afar(Velocity::ZERO, direction, v_light).expect("a direction");
@@ -212,7 +212,7 @@ fn a_sky_at_rest_is_ambient_light() {
 
 /// Levels and powers of a moving sky against a sum over its points, each a directional light.
 #[test]
-fn a_moving_sky_is_many_lights() {
+fn a_moving_sky_is_a_sum_of_directional_lights() {
     let (n_rings, n_points) = (500, 100);
     for v_sky in [along_x(0.3), beta(0.0, -0.9, 0.0), beta(0.5, 0.4, -0.5)] {
         let axis = v_sky.direction();

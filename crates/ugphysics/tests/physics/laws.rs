@@ -117,7 +117,7 @@ proptest! {
 
     /// Light out of a moving body and into another that moves with it is not shifted.
     #[test]
-    fn in_and_out_cancel(n in unit_vectors(), v in velocities()) {
+    fn doppler_shifts_in_and_out_cancel(n in unit_vectors(), v in velocities()) {
         let out = doppler_factor(n, v);
         let n_in_body = -aberrate(-n, v);
         let back_in = doppler_factor(n_in_body, -v);
@@ -442,7 +442,7 @@ fn wigner_rotation_of_perpendicular_boosts() {
 }
 
 #[test]
-fn motions_along_one_line_turn_nothing() {
+fn collinear_motions_give_no_rotation() {
     let v = along_x(0.9);
     for u in [Velocity::ZERO, v, -v, along_x(0.999_999), along_x(-1e-9)] {
         assert_eq!(wigner_rotation(u, v), DQuat::IDENTITY);
@@ -451,7 +451,7 @@ fn motions_along_one_line_turn_nothing() {
 }
 
 #[test]
-fn composition_saturates_and_matrices_refuse() {
+fn composition_saturates_and_matrices_return_errors() {
     let fast = Velocity::from_rapidity(DVec3::X, 90.0).unwrap();
     assert_eq!(compose(fast, fast).rapidity(), Velocity::MAX_RAPIDITY);
     assert!(Lorentz::boost(fast).then(Lorentz::boost(fast)).velocity_of_frame().is_err());

@@ -101,7 +101,7 @@ proptest! {
 
     /// Light sent back along its path is reflected to the original wave.
     #[test]
-    fn mirrors_undo_themselves(v in velocities(), n in directions(), normal in directions()) {
+    fn reflection_is_reversible(v in velocities(), n in directions(), normal in directions()) {
         let scale = v.gamma() * v.gamma();
         let once = reflect(wave(n), normal, v);
         let frequencies = once.frequency;
@@ -129,7 +129,7 @@ proptest! {
 
     /// Lines in a contracted plane are perpendicular to its contracted normal.
     #[test]
-    fn normals_stay_normal(v in velocities(), normal in directions()) {
+    fn contracted_normals_stay_perpendicular(v in velocities(), normal in directions()) {
         let line = normal.any_orthonormal_vector();
         let other = normal.cross(line);
         let seen = contracted_normal(normal, v);

@@ -45,7 +45,7 @@ fn gamma_is_right_to_a_few_ulp_in_every_direction() {
 }
 
 #[test]
-fn light_speed_is_decided_exactly() {
+fn the_bound_at_light_speed_is_exact() {
     // Directions normalised in doubles lie on both sides of length 1, all within rounding of it.
     let (mut n_above, mut n_below) = (0, 0);
     for direction in directions() {

@@ -15,7 +15,7 @@ pub(crate) enum Polygons {
 }
 
 /// The mesh that is written.
-pub(crate) struct Surface {
+pub(crate) struct PolygonMesh {
     /// The scene, of which the vertices and the head comments are written.
     pub scene: Scene,
     /// Red, green, blue (display-encoded) and alpha of every vertex; `None` if the scene has no
@@ -27,12 +27,12 @@ pub(crate) struct Surface {
     pub notes: Vec<String>,
 }
 
-impl Surface {
+impl PolygonMesh {
     pub fn new(mut scene: Scene, kind: Polygons) -> Self {
         let mut notes = Vec::new();
-        note_of(&mut notes, scene.wires.len(), "wire is left out", "wires are left out");
-        note_of(&mut notes, scene.lights.len(), "light is left out", "lights are left out");
-        note_of(&mut notes, scene.cameras.len(), "camera is left out", "cameras are left out");
+        note_count(&mut notes, scene.wires.len(), "wire is left out", "wires are left out");
+        note_count(&mut notes, scene.lights.len(), "light is left out", "lights are left out");
+        note_count(&mut notes, scene.cameras.len(), "camera is left out", "cameras are left out");
         if leave_out_rest_normals(&mut scene) {
             notes.push("normals of moving bodies are left out: they are those of the rest shapes".into());
         }
@@ -43,7 +43,7 @@ impl Surface {
     }
 
     /// True if any vertex is transparent.
-    pub fn is_clear(&self) -> bool {
+    pub fn is_transparent(&self) -> bool {
         self.colors.iter().flatten().any(|color| color[3] < 1.0)
     }
 
@@ -66,7 +66,7 @@ fn unit(v: DVec3) -> DVec3 {
     if (v.length_squared() - 1.0).abs() < 1e-6 { v } else { (v / v.abs().max_element()).normalize() }
 }
 
-fn note_of(notes: &mut Vec<String>, count: usize, one: &str, many: &str) {
+fn note_count(notes: &mut Vec<String>, count: usize, one: &str, many: &str) {
     match count {
         0 => {}
         1 => notes.push(format!("1 {one}")),
@@ -117,7 +117,7 @@ fn vertex_colors(scene: &Scene, notes: &mut Vec<String>) -> Option<Vec<[f64; 4]>
             [red, green, blue, 1.0 - color.translucency].map(|part| part.clamp(0.0, 1.0))
         })
         .collect();
-    note_of(notes, n_clipped, "colour brighter than 1 is clipped", "colours brighter than 1 are clipped");
+    note_count(notes, n_clipped, "colour brighter than 1 is clipped", "colours brighter than 1 are clipped");
     let color = |id: Option<ColorId>| id.map_or([1.0; 4], |id| palette[id.index()]);
     ids.iter().any(Option::is_some).then(|| ids.into_iter().map(color).collect())
 }
@@ -148,7 +148,7 @@ fn polygons(scene: &Scene, kind: Polygons, notes: &mut Vec<String>) -> Contours 
             polygons.push(triangle.map(|corner| corners[corner as usize]));
         }
     }
-    note_of(
+    note_count(
         notes,
         n_uncut,
         "face without area is written as a fan",

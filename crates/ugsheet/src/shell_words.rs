@@ -2,7 +2,7 @@
 
 /// The words of a command line as a POSIX shell splits them. Supports what recorded command lines
 /// contain: plain words, single quotes and backslashes.
-pub fn of(line: &str) -> Vec<String> {
+pub fn split(line: &str) -> Vec<String> {
     let (mut words, mut word) = (Vec::new(), None::<String>);
     let (mut is_quoted, mut is_escaped) = (false, false);
     for character in line.chars() {
@@ -27,8 +27,8 @@ pub fn of(line: &str) -> Vec<String> {
 #[cfg(test)]
 mod tests {
     #[test]
-    fn quotes_keep_words_together() {
-        assert_eq!(super::of("a -cap 'b  -vel' '' c"), ["a", "-cap", "b  -vel", "", "c"]);
-        assert_eq!(super::of(r"'it'\''s' x"), ["it's", "x"]);
+    fn quoted_words_are_not_split() {
+        assert_eq!(super::split("a -cap 'b  -vel' '' c"), ["a", "-cap", "b  -vel", "", "c"]);
+        assert_eq!(super::split(r"'it'\''s' x"), ["it's", "x"]);
     }
 }

@@ -38,16 +38,16 @@ pub(crate) fn from_z_up(up: Axis, p: DVec3) -> DVec3 {
 }
 
 /// Rotates all vertices and their normals.
-pub(crate) fn turn(scene: &mut Scene, turn: impl Fn(DVec3) -> DVec3) {
+pub(crate) fn rotate(scene: &mut Scene, rotation: impl Fn(DVec3) -> DVec3) {
     for vertex in &mut scene.vertices {
-        vertex.position = turn(vertex.position);
-        vertex.normal = vertex.normal.map(&turn);
+        vertex.position = rotation(vertex.position);
+        vertex.normal = vertex.normal.map(&rotation);
     }
 }
 
 /// Moves the centre of the mesh's bounding box to the origin if `is_centered`, then scales the mesh
 /// about the origin.
-pub(crate) fn resize(scene: &mut Scene, size: Size, is_centered: bool) -> Result<(), Error> {
+pub(crate) fn scale_and_center(scene: &mut Scene, size: Size, is_centered: bool) -> Result<(), Error> {
     let Some((low, high)) = scene.bounds() else { return Ok(()) };
     // Halved before adding, since the sum of two large numbers may overflow.
     let middle = if is_centered { 0.5 * low + 0.5 * high } else { DVec3::ZERO };

@@ -6,7 +6,7 @@ use crate::error::Problem;
 
 /// The text of a file. Bytes that are not UTF-8 are replaced; they should occur only in comments
 /// and names.
-pub(super) fn text(bytes: &[u8]) -> Cow<'_, str> {
+pub(super) fn decode(bytes: &[u8]) -> Cow<'_, str> {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     String::from_utf8_lossy(bytes)
 }
