@@ -74,7 +74,8 @@ fn note_count(notes: &mut Vec<String>, count: usize, one: &str, many: &str) {
     }
 }
 
-/// Leaves out normals of bodies whose positions are as seen: a scene has normals at rest. True if there were any.
+/// Drops the normals of moving bodies in scenes with geometry as seen, since scenes store normals
+/// of the shapes at rest. Returns true if there were any.
 fn leave_out_rest_normals(scene: &mut Scene) -> bool {
     if scene.stage.seen_geometry().is_none() || !ugscene::has_moving_bodies(scene) {
         return false;

@@ -40,8 +40,8 @@ pub fn contracted(p_rest: DVec3, v: Velocity) -> DVec3 {
     mul_add(part.along / v.gamma(), v.direction(), part.across) * scale
 }
 
-/// The inverse of [`contracted`]: the rest coordinates p' = p₀ + (γ − 1)(p₀·û)û of the point that is at
-/// p₀ = `p_now` in S at t = 0.  Eq. (P1)
+/// The inverse of [`contracted`]: the rest coordinates p' = p₀ + (γ − 1)(p₀·û)û of the point that
+/// is at p₀ = `p_now` in S at t = 0.  Eq. (P1)
 ///
 /// ```
 /// use glam::DVec3;
