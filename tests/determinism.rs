@@ -15,7 +15,7 @@ fn pipes() -> Vec<(&'static str, Pipe)> {
     let mut ship = Pipe::new(0.3 * DVec3::X, size).in_place();
     ship.lorentz.smooth = true;
     let mut soft = ship.clone();
-    soft.rainbow.filter = ugrainbow::Filter::Spline;
+    soft.rainbow.picture.filter = ugrainbow::Filter::Spline;
     let lattice = Pipe::new(-0.9 * DVec3::Y, size).view_angle(120.0);
     let mut teapot = Pipe::new(DVec3::new(0.5, 0.5, 0.5), size).in_place();
     teapot.doppler.iris = true;
@@ -24,18 +24,20 @@ fn pipes() -> Vec<(&'static str, Pipe)> {
     street.doppler.repeat = true;
     street.lorentz.pieces = uglorentz::Pieces::PerEdge(3);
     let mut dice = Pipe::default().in_place();
-    dice.rainbow.size = size;
+    dice.rainbow.picture.size = size;
     let mut tunnel = Pipe::new(-0.6 * DVec3::Y, size);
     tunnel.doppler.spectral = true;
     tunnel.doppler.iris = true;
     let mut figure = ship.clone();
-    figure.rainbow.output = ugrainbow::Output::Vector(ugimage::Format::Pdf);
+    figure.rainbow.picture.output = ugrainbow::Output::Vector(ugimage::Format::Pdf);
     let mut annotated = figure.clone();
-    annotated.rainbow.figures =
-        ugrainbow::Figures { caption: "λ → λ/D".into(), legend: true, outline: true, grid: true };
-    annotated.rainbow.size = [320, 240];
+    annotated.rainbow.picture.annotations =
+        ugrainbow::AnnotationOptions {
+            caption: "λ → λ/D".into(), legend: true, outline: true, grid: true
+        };
+    annotated.rainbow.picture.size = [320, 240];
     let mut glass = Pipe::new(0.9 * DVec3::X, size).in_place();
-    glass.rainbow.output = ugrainbow::Output::Vector(ugimage::Format::Svg);
+    glass.rainbow.picture.output = ugrainbow::Output::Vector(ugimage::Format::Svg);
     let mut globe = tunnel.clone();
     globe.doppler.tolerance = 0.0;
     vec![
@@ -104,7 +106,7 @@ fn a_shell_pipe_gives_the_same_bytes_in_both_profiles() {
     pipe.doppler.iris = true;
     pipe.lorentz_command = Some("uglorentz -vel .3 -.2 0 -in".to_string());
     pipe.doppler_command = Some("ugdoppler -ir".to_string());
-    pipe.rainbow.command_line = "ugrainbow -sz 160 120".to_string();
+    pipe.rainbow_command_line = "ugrainbow -sz 160 120".to_string();
     let here = pipe.run(&std::fs::read(&scene).unwrap());
     assert_eq!(String::from_utf8_lossy(&here.seen), String::from_utf8_lossy(&there.seen));
     assert!(here.colored == there.colored, "ugdoppler");

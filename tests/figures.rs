@@ -144,7 +144,15 @@ fn embedded_pictures_are_the_png() {
     }
     let pipe = ship();
     let colored = pipe.run(&scenes::text("ship")).colored;
-    let draw = |output| rainbow(&colored, &ugrainbow::Config { output, ..pipe.rainbow.clone() });
+    let draw = |output| {
+        rainbow(
+            &colored,
+            &ugrainbow::Config {
+                picture: ugrainbow::PictureOptions { output, ..pipe.rainbow.picture.clone() },
+                ..pipe.rainbow.clone()
+            },
+        )
+    };
     let png = decode(&draw(Output::Color(Format::Png)));
     for (format, tool) in [
         (Format::Pdf, Tool::Ghostscript),
@@ -163,11 +171,11 @@ fn vector_figures_show_the_same_as_the_png() {
         return;
     }
     let mut white = ship();
-    white.rainbow.background =
+    white.rainbow.picture.background =
         ugrainbow::Background::Color(ugphysics::Hsv { hue: 0.0, saturation: 0.0, value: 1.0 });
     // Text and lines have the same outlines as areas and as pixels.
     let mut annotated = white.clone();
-    annotated.rainbow.figures = ugrainbow::Figures {
+    annotated.rainbow.picture.annotations = ugrainbow::AnnotationOptions {
         caption: "A ship at β = 0.2, γ = 1.021: where it would be seen at rest, and the ground below it."
             .into(),
         legend: true,
@@ -193,7 +201,7 @@ fn vector_figures_show_the_same_as_the_png() {
     glass_at_rest.rainbow.wireframe = edges(true);
     // On a transparent background, which all viewers show as white paper.
     let mut clear = annotated.clone();
-    clear.rainbow.background = ugrainbow::Background::Transparent;
+    clear.rainbow.picture.background = ugrainbow::Background::Transparent;
     let figures = [
         ("ship", scenes::text("ship"), ship()),
         ("white", scenes::text("ship"), white),
@@ -212,10 +220,18 @@ fn vector_figures_show_the_same_as_the_png() {
     ];
     figures.par_iter().for_each(|(name, text, pipe)| {
         let colored = pipe.run(text).colored;
-        let draw = |output| rainbow(&colored, &ugrainbow::Config { output, ..pipe.rainbow.clone() });
+        let draw = |output| {
+            rainbow(
+                &colored,
+                &ugrainbow::Config {
+                    picture: ugrainbow::PictureOptions { output, ..pipe.rainbow.picture.clone() },
+                    ..pipe.rainbow.clone()
+                },
+            )
+        };
         let png = on_paper(decode(&draw(Output::Color(Format::Png))));
         assert!(png.pixels().any(|pixel| pixel != png.get_pixel(0, 0)), "{name} shows something");
-        let is_clear = pipe.rainbow.background == ugrainbow::Background::Transparent;
+        let is_clear = pipe.rainbow.picture.background == ugrainbow::Background::Transparent;
         for (format, tool) in DRAWN_BY.into_iter().filter(|(format, _)| !is_clear || format.has_alpha()) {
             let picture = on_paper(drawn(tool, format, &draw(Output::Vector(format))));
             let part = fraction_different(&png, &picture);
@@ -232,10 +248,19 @@ fn vector_figures_are_smaller_than_pictures_for_print() {
     let colored = pipe.run(&scenes::text("ship")).colored;
     let draw = |config| rainbow(&colored, &config).len();
     // 6 x 4.5 inches on paper: in points, and in pixels at 1200 dpi.
-    let print = ugrainbow::Config { size: [7200, 5400], samples: 1, ..pipe.rainbow.clone() };
+    let print = ugrainbow::Config {
+        picture: ugrainbow::PictureOptions { size: [7200, 5400], samples: 1, ..pipe.rainbow.picture.clone() },
+        ..pipe.rainbow.clone()
+    };
     let png = draw(print);
     for format in [Format::Eps, Format::Ps, Format::Pdf, Format::Svg] {
-        let figure = draw(ugrainbow::Config { output: Output::Vector(format), ..pipe.rainbow.clone() });
+        let figure = draw(ugrainbow::Config {
+            picture: ugrainbow::PictureOptions {
+                output: Output::Vector(format),
+                ..pipe.rainbow.picture.clone()
+            },
+            ..pipe.rainbow.clone()
+        });
         println!("{}: {figure} bytes, PNG {png}", format.name());
         assert!(figure < png, "{}: {figure} bytes, PNG {png}", format.name());
     }

@@ -40,7 +40,7 @@ fn without_flight_time_only_contraction_is_left() {
 #[test]
 fn a_wide_filter_smooths_edges() {
     let mut ship = pipe(0.5, 0.0, 0.0).in_place().shape();
-    ship.rainbow.filter = ugrainbow::Filter::Spline;
+    ship.rainbow.picture.filter = ugrainbow::Filter::Spline;
     check("spline-filter-ship-0.5c", "ship", &ship);
 }
 
@@ -108,7 +108,7 @@ fn the_iris_scales_what_is_too_bright() {
 #[test]
 fn every_body_has_its_own_velocity() {
     let mut dice = Pipe::default().in_place().shape();
-    dice.rainbow.size = SIZE;
+    dice.rainbow.picture.size = SIZE;
     check("five-velocities-dice", "dice", &dice);
 }
 
@@ -116,7 +116,7 @@ fn every_body_has_its_own_velocity() {
 fn the_camera_moves_among_cars() {
     let mut traffic = Pipe::default().shape();
     traffic.lorentz.anchor = Some(uglorentz::Anchor::Center);
-    traffic.rainbow.size = SIZE;
+    traffic.rainbow.picture.size = SIZE;
     check("moving-camera-traffic", "traffic", &traffic);
 }
 
@@ -125,7 +125,7 @@ fn the_camera_moves_among_cars() {
 fn a_tunnel_of_black_bodies_turns_blue_ahead() {
     let mut tunnel = Pipe::default();
     tunnel.lorentz.camera_velocity = Some(DVec3::new(0.0, 0.6, 0.0));
-    tunnel.rainbow.size = SIZE;
+    tunnel.rainbow.picture.size = SIZE;
     tunnel.doppler.spectral = true;
     tunnel.doppler.flux = false;
     check("doppler-alone-tunnel-0.6c", "tunnel", &tunnel);
@@ -139,17 +139,17 @@ fn black_bodies_change_their_temperature() {
         i (square -tx -2) <0 -.2 0>; i (square); i (square -tx 2) <0 .2 0>; l 1;
         cam -ep 0 0 0 -vc 0 9 0 -ud 0 0 1 -va 44 33;";
     let mut bodies = Pipe::default().in_place();
-    bodies.rainbow.size = SIZE;
+    bodies.rainbow.picture.size = SIZE;
     bodies.doppler.spectral = true;
-    bodies.rainbow.exposure = Some(Exposure::Auto);
-    bodies.rainbow.tone = Tone::Filmic;
+    bodies.rainbow.picture.exposure = Some(Exposure::Auto);
+    bodies.rainbow.picture.tone = Tone::Filmic;
     assert_golden("filmic-black-bodies-0.2c", &bodies.draw(BODIES));
 }
 
 #[test]
 fn a_lamp_that_moves_makes_a_rainbow() {
     let mut lamp = Pipe::default();
-    lamp.rainbow.size = SIZE;
+    lamp.rainbow.picture.size = SIZE;
     lamp.doppler.light = true;
     check("rainbow-under-a-lamp-0.4c", "lamp", &lamp);
 }
@@ -177,7 +177,11 @@ fn colours_meet_at_vertices() {
 
 #[test]
 fn the_rainbow_of_1988() {
-    let config = ugrainbow::Config { size: SIZE, hue_scale: HueScale::Wavelengths, ..Default::default() };
+    let config = ugrainbow::Config {
+        picture: ugrainbow::PictureOptions { size: SIZE, ..ugrainbow::PictureOptions::default() },
+        hue_scale: HueScale::Wavelengths,
+        ..Default::default()
+    };
     assert_golden("wavelengths-380-to-780-rainbow", &decode(&rainbow(&scenes::text("rainbow"), &config)));
 }
 
@@ -192,7 +196,11 @@ fn hue_and_wavelength() {
     for (name, interpolation) in
         [("interpolated-hue", Interpolation::Hue), ("interpolated-wavelength", Interpolation::Wavelength)]
     {
-        let config = ugrainbow::Config { size: SIZE, interpolation, ..Default::default() };
+        let config = ugrainbow::Config {
+            picture: ugrainbow::PictureOptions { size: SIZE, ..ugrainbow::PictureOptions::default() },
+            interpolation,
+            ..Default::default()
+        };
         assert_golden(name, &decode(&rainbow(STRIPES, &config)));
     }
 }
@@ -201,7 +209,7 @@ fn hue_and_wavelength() {
 #[test]
 fn transparent_background() {
     let mut cubes = pipe(0.6, 0.0, 0.0).in_place().shape();
-    cubes.rainbow.background = Background::Transparent;
+    cubes.rainbow.picture.background = Background::Transparent;
     check("transparent-background-cubes", "cubes", &cubes);
 }
 
@@ -222,16 +230,17 @@ fn wires_follow_edges() {
 #[test]
 fn captions_and_legends_stand_below() {
     let mut ship = Pipe::new(DVec3::new(0.3, 0.0, 0.0), [400, 300]).in_place();
-    ship.rainbow.figures.caption = "A ship at 0.3c (γ = 1.048)".into();
-    ship.rainbow.figures.legend = true;
+    ship.rainbow.picture.annotations.caption = "A ship at 0.3c (γ = 1.048)".into();
+    ship.rainbow.picture.annotations.legend = true;
     check("caption-and-legend-ship-0.3c", "ship", &ship);
 }
 
 #[test]
 fn outlines_show_what_is_not_distorted() {
     let mut teapot = Pipe::new(DVec3::new(0.95, 0.0, 0.0), [320, 240]).in_place().shape();
-    teapot.rainbow.figures.outline = true;
-    teapot.rainbow.figures.grid = true;
-    teapot.rainbow.background = Background::Color(ugphysics::Hsv { hue: 0.0, saturation: 0.0, value: 1.0 });
+    teapot.rainbow.picture.annotations.outline = true;
+    teapot.rainbow.picture.annotations.grid = true;
+    teapot.rainbow.picture.background =
+        Background::Color(ugphysics::Hsv { hue: 0.0, saturation: 0.0, value: 1.0 });
     check("undistorted-outline-and-grid-teapot-0.95c", "teapot", &teapot);
 }

@@ -59,12 +59,22 @@ fn another_program_reads_the_same_light() {
         return;
     }
     let folder = tempfile::tempdir().unwrap();
-    let config = ugrainbow::Config { size: SIZE, samples: 3, ..ugrainbow::Config::default() };
+    let config = ugrainbow::Config {
+        picture: ugrainbow::PictureOptions { size: SIZE, samples: 3, ..ugrainbow::PictureOptions::default() },
+        ..ugrainbow::Config::default()
+    };
     let draw = |format, background| {
-        let config = ugrainbow::Config { output: Output::Color(format), background, ..config.clone() };
+        let config = ugrainbow::Config {
+            picture: ugrainbow::PictureOptions {
+                output: Output::Color(format),
+                background,
+                ..config.picture.clone()
+            },
+            ..config.clone()
+        };
         rainbow(GLARE.as_bytes(), &config)
     };
-    let black = config.background;
+    let black = config.picture.background;
     // The numbers in the PFM file: three floats per pixel, rows from the bottom.
     let pfm = draw(Format::Pfm, black);
     let [width, height] = SIZE.map(|side| side as usize);
@@ -107,7 +117,15 @@ fn another_program_reads_the_same_levels() {
     let folder = tempfile::tempdir().unwrap();
     let draw = |format| {
         let output = Output::Color(format);
-        let config = ugrainbow::Config { output, size: SIZE, samples: 3, ..ugrainbow::Config::default() };
+        let config = ugrainbow::Config {
+            picture: ugrainbow::PictureOptions {
+                output,
+                size: SIZE,
+                samples: 3,
+                ..ugrainbow::PictureOptions::default()
+            },
+            ..ugrainbow::Config::default()
+        };
         rainbow(GLARE.as_bytes(), &config)
     };
     let png = read(&write(folder.path(), "a.png", &draw(Format::Png)));
@@ -132,9 +150,9 @@ fn channels_describe_the_emission_event() {
                 cam -ep 0 0 0 -vc 0 10 0 -va 60 50;";
     let beta = DVec3::new(0.6, 0.3, -0.1);
     let mut pipe = Pipe::new(beta, SIZE);
-    pipe.rainbow.samples = 3;
-    pipe.rainbow.output = Output::Color(Format::Exr);
-    pipe.rainbow.channels =
+    pipe.rainbow.picture.samples = 3;
+    pipe.rainbow.picture.output = Output::Color(Format::Exr);
+    pipe.rainbow.picture.channels =
         vec![Channel::Doppler, Channel::Time, Channel::Distance, Channel::Depth, Channel::Velocity];
     let folder = tempfile::tempdir().unwrap();
     let path = write(folder.path(), "plane.exr", &pipe.run(text.as_bytes()).file);
@@ -186,9 +204,12 @@ fn the_id_channel_numbers_faces() {
     }
     let folder = tempfile::tempdir().unwrap();
     let config = ugrainbow::Config {
-        size: SIZE,
-        output: Output::Color(Format::Exr),
-        channels: vec![Channel::Id],
+        picture: ugrainbow::PictureOptions {
+            size: SIZE,
+            output: Output::Color(Format::Exr),
+            channels: vec![Channel::Id],
+            ..ugrainbow::PictureOptions::default()
+        },
         ..ugrainbow::Config::default()
     };
     // Columns side by side; the third is missing.

@@ -48,8 +48,8 @@ fn check(case: Case) -> Result<(), String> {
     pipe.lorentz.in_place = case.in_place;
     pipe.lorentz.eye = case.eye;
     pipe.doppler.repeat = true;
-    pipe.rainbow.size = SIZE;
-    pipe.rainbow.samples = 1;
+    pipe.rainbow.picture.size = SIZE;
+    pipe.rainbow.picture.samples = 1;
     let actual = pipe.draw(&ugparse::write(&scene));
 
     let camera = scene.camera().unwrap();

@@ -12,7 +12,7 @@ use ugimage::Format;
 use ugphysics::{luminance, srgb_decode, srgb_encode};
 use ugrainbow::{Background, Output};
 use ugtests::picture::{Picture, assert_same, decode, read};
-use ugtests::pipe::{Pipe, rainbow};
+use ugtests::pipe::{Pipe, rainbow_as};
 use ugtests::scenes;
 use ugtests::tools::{self, GHOSTSCRIPT};
 
@@ -62,15 +62,19 @@ fn ghostscript_draws_the_pixels_of_the_png() {
     }
     let mut ship = Pipe::new(0.9 * DVec3::X, [160, 120]).in_place().shape();
     let mut lattice = Pipe::new(-0.9 * DVec3::Y, [97, 61]).view_angle(120.0);
-    lattice.rainbow.samples = 2;
+    lattice.rainbow.picture.samples = 2;
     let mut clear = ship.clone();
-    clear.rainbow.background = Background::Transparent;
-    ship.rainbow.command_line = "ugrainbow (with) \\ brackets".to_string();
+    clear.rainbow.picture.background = Background::Transparent;
+    ship.rainbow_command_line = "ugrainbow (with) \\ brackets".to_string();
     for (name, scene, pipe) in
         [("ship", "ship", ship), ("lattice", "lattice", lattice), ("clear", "ship", clear)]
     {
         let colored = pipe.run(&scenes::text(scene)).colored;
-        let draw = |output| rainbow(&colored, &ugrainbow::Config { output, ..pipe.rainbow.clone() });
+        let draw = |output| {
+            let picture = ugrainbow::PictureOptions { output, ..pipe.rainbow.picture.clone() };
+            let config = ugrainbow::Config { picture, ..pipe.rainbow.clone() };
+            rainbow_as(&colored, &config, &pipe.rainbow_command_line)
+        };
         let png = on_white(&decode(&draw(Output::Color(Format::Png))));
         assert!(png.pixels().any(|pixel| pixel != png.get_pixel(0, 0)), "{name} shows something");
         for format in [Format::Eps, Format::Ps] {

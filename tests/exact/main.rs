@@ -22,16 +22,16 @@ fn exact(beta: Option<DVec3>) -> Pipe {
     pipe.lorentz.velocity = beta;
     pipe.lorentz.pieces = uglorentz::Pieces::PerEdge(1);
     pipe.rainbow.exact = Some(Exact::default());
-    pipe.rainbow.size = SIZE;
-    pipe.rainbow.samples = 1;
+    pipe.rainbow.picture.size = SIZE;
+    pipe.rainbow.picture.samples = 1;
     pipe
 }
 
 /// The channels of the picture.
 fn channels(pipe: &Pipe, text: &[u8]) -> BTreeMap<String, Vec<f64>> {
     let mut pipe = pipe.clone();
-    pipe.rainbow.output = Output::Color(Format::Exr);
-    pipe.rainbow.channels = vec![Channel::Id, Channel::Distance, Channel::Doppler];
+    pipe.rainbow.picture.output = Output::Color(Format::Exr);
+    pipe.rainbow.picture.channels = vec![Channel::Id, Channel::Distance, Channel::Doppler];
     let file = rainbow(&lorentz(text, &pipe.lorentz), &pipe.rainbow);
     let image = exr::prelude::read()
         .no_deep_data()

@@ -71,13 +71,13 @@ fn both_modes_agree_to_the_bound() {
             channels(pipe, text.as_bytes())["id"].iter().map(|&id| id > 0.0).collect()
         };
         let mut pipe = exact(Some(beta)).in_place();
-        pipe.rainbow.size = SIZE.map(|side| side * FINE);
+        pipe.rainbow.picture.size = SIZE.map(|side| side * FINE);
         let exact = covered(&pipe);
         let fine = |x: u32, y: u32| exact[(y * SIZE[0] * FINE + x) as usize];
         pipe.lorentz.pieces = uglorentz::Pieces::UpTo(bound);
         pipe.lorentz.color_error = f64::INFINITY;
         pipe.rainbow.exact = None;
-        pipe.rainbow.size = SIZE;
+        pipe.rainbow.picture.size = SIZE;
         for (idx, is_covered) in covered(&pipe).into_iter().enumerate() {
             let [x, y] = [idx as u32 % SIZE[0], idx as u32 / SIZE[0]];
             if fine(x * FINE + FINE / 2, y * FINE + FINE / 2) == is_covered {

@@ -11,7 +11,7 @@ use crate::{SQUARE, exact};
 fn threads_do_not_change_the_picture() {
     let text = scenes::text("street");
     let mut pipe = exact(Some(0.9 * DVec3::NEG_Y));
-    pipe.rainbow.samples = 3;
+    pipe.rainbow.picture.samples = 3;
     let seen = lorentz(&text, &pipe.lorentz);
     let draw = |n_threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(n_threads).build().unwrap();
@@ -42,7 +42,7 @@ fn unsupported_scenes_are_refused() {
     pipe.lorentz.geometry.contraction = false;
     let bent = lorentz(SQUARE.as_bytes(), &pipe.lorentz);
     assert!(refusal(&pipe, &bent).unwrap().contains("leave out -xc"));
-    pipe.rainbow.camera.is_orthographic = true;
+    pipe.rainbow.picture.camera.is_orthographic = true;
     assert!(refusal(&pipe, &seen).unwrap().contains("orthographic"));
 }
 
@@ -51,8 +51,8 @@ fn unsupported_scenes_are_refused() {
 fn moving_lights_cause_a_note() {
     let notes = |text: &str| {
         let seen = format!("(ugstage 1 geometry as-seen eye 0 0 0) {text}");
-        let (_, notes) = ugrainbow::render(&scenes::parse(seen.as_bytes()), &exact(None).rainbow).unwrap();
-        notes.join("; ")
+        let scene = scenes::parse(seen.as_bytes());
+        ugrainbow::render(&scene, &exact(None).rainbow).unwrap().notes.join("; ")
     };
     assert_eq!(notes(SQUARE), "");
     let moving = notes(&SQUARE.replace("l .7 1 -2 .5;", "l .7 1 -2 .5 <0 .5 0>;"));

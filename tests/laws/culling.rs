@@ -23,8 +23,8 @@ fn culled(name: &str, scene: &str, pipe: &Pipe) -> usize {
 
 fn pipe(lorentz: uglorentz::Config) -> Pipe {
     let mut pipe = Pipe { lorentz, ..Pipe::default() };
-    pipe.rainbow.size = SIZE;
-    pipe.rainbow.samples = 1;
+    pipe.rainbow.picture.size = SIZE;
+    pipe.rainbow.picture.samples = 1;
     pipe
 }
 
@@ -59,7 +59,7 @@ fn pictures_stay_the_same_to_the_pixel() {
                     ..Default::default()
                 };
                 let mut pipe = pipe(lorentz);
-                pipe.rainbow.camera.view_angle = camera.view_angle;
+                pipe.rainbow.picture.camera.view_angle = camera.view_angle;
                 // Flat shading, too, and colours that do not mix.
                 pipe.lorentz.smooth = idx % 2 == 1;
                 pipe.doppler.repeat = idx == 2;

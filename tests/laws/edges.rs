@@ -48,9 +48,9 @@ fn compared(one: &Picture, other: &Picture) -> (usize, usize) {
 fn edges() -> Config {
     let white = Hsv { hue: 0.0, saturation: 0.0, value: 1.0 };
     Config {
+        picture: ugrainbow::PictureOptions { size: [240, 180], ..ugrainbow::PictureOptions::default() },
         wireframe: Some(Wireframe { has_faces: false, color: Some(white) }),
         line_width: 2.0,
-        size: [240, 180],
         ..Config::default()
     }
 }

@@ -41,7 +41,7 @@ fn with_velocity(velocity: &str) -> String {
 #[test]
 fn lighting_at_rest_equals_that_of_ugrainbow() {
     let mut pipe = Pipe::default();
-    pipe.rainbow.size = [160, 120];
+    pipe.rainbow.picture.size = [160, 120];
     let check = |name: &str, text: &[u8], levels: u8| {
         let expected = decode(&rainbow(text, &pipe.rainbow));
         let baked = doppler(text, &lit());
@@ -307,7 +307,7 @@ fn large_faces_get_the_vertices_that_their_light_needs() {
         f (a b e d) grey; f (b c f e) grey; f (d e h g) grey; f (e f i h) grey;
         cam -ep 0 -13 6.5 -vc 0 0 0.5 -ud 0 0 1 -va 62 48;";
     let mut pipe = Pipe::default();
-    pipe.rainbow.size = [160, 120];
+    pipe.rainbow.picture.size = [160, 120];
     for light in [
         "l lamp 0.6 5 0 2 0 <0.4 0 0>;",
         "l lamp 0.8 -2 1 1.5 0;",
@@ -339,7 +339,7 @@ fn the_camera_may_move_over_large_faces() {
     let floor = "c grey 0.9; v a -60 -8 0; v b 60 -8 0; v c 60 60 0; v d -60 60 0; f (a b c d) grey;
         cam -ep 0 -6 3 -vc 0 0 0 -ud 0 0 1 -va 30 20;";
     let mut pipe = Pipe::default();
-    pipe.rainbow.size = [80, 60];
+    pipe.rainbow.picture.size = [80, 60];
     for camera in [DVec3::new(0.3, 0.2, 0.0), DVec3::new(0.0, 0.2, 0.0), DVec3::new(-0.3, 0.1, 0.1)] {
         let text = format!("{floor} l 0.1; l 0.3 3 -1 2 0 <0 0.3 0>; l 0.2 -6 2 3 0;").into_bytes();
         // Coarse, so that subdivision for the shape is not fine enough for the light.

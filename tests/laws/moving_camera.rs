@@ -68,8 +68,8 @@ fn bodies_are_lit_in_the_axes_of_the_scene() {
         let middle = parse(&seen).vertices.iter().map(|vertex| vertex.position).sum::<DVec3>() / 3.0;
         let mut pipe = Pipe::default().shape().view_angle(1e-3);
         pipe.lorentz = lorentz;
-        pipe.rainbow.camera.center = Some(middle);
-        pipe.rainbow.size = [1, 1];
+        pipe.rainbow.picture.camera.center = Some(middle);
+        pipe.rainbow.picture.size = [1, 1];
         let pixel = pipe.draw(text.as_bytes()).get_pixel(0, 0).0;
         let expected = 255.0 * level.min(1.0);
         assert!((f64::from(pixel[0]) - expected).abs() <= 1.0, "case {case}: {pixel:?} for {expected}");

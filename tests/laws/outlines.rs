@@ -27,7 +27,7 @@ fn cube_abeam(speed: f64) -> (Picture, Vec<[u8; 4]>) {
     let view_angle_deg = 2.0 * half_angle.to_degrees();
     let mut pipe = Pipe::new(speed * DVec3::X, [WIDTH, WIDTH]).in_place().shape().view_angle(view_angle_deg);
     pipe.doppler.repeat = true;
-    pipe.rainbow.samples = 1;
+    pipe.rainbow.picture.samples = 1;
     let picture = pipe.draw(CUBE.as_bytes());
     let row = (0..WIDTH).map(|x| picture.get_pixel(x, WIDTH / 2).0).collect();
     (picture, row)
@@ -128,7 +128,7 @@ fn the_outline_of_a_sphere_is_a_circle() {
         let view_angle_deg = 2.6 * radius_deg;
         let camera = format!("cam -ep 0 0 0 -vc {cos:?} {sin:?} 0 -ud 0 0 1 -ps -va {view_angle_deg} 1;");
         let mut pipe = Pipe::new(speed * DVec3::X, [SIDE, SIDE]).shape();
-        pipe.rainbow.samples = 1;
+        pipe.rainbow.picture.samples = 1;
         let picture = pipe.draw(format!("{text}{camera}").as_bytes());
 
         let pinhole = Pinhole::new(parse(camera.as_bytes()).camera().unwrap(), DVec3::ZERO, [SIDE, SIDE]);

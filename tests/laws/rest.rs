@@ -23,7 +23,7 @@ fn a_pipe_at_rest_draws_what_ugrainbow_alone_draws() {
         let text = scenes::text(&name);
         let mut pipe = Pipe::new(DVec3::ZERO, [240, 180]);
         pipe.lorentz.camera_velocity = Some(DVec3::ZERO);
-        pipe.rainbow.samples = 2;
+        pipe.rainbow.picture.samples = 2;
         if name == "rainbow" {
             pipe.rainbow.hue_scale = HueScale::Wavelengths;
         }

@@ -19,6 +19,8 @@ pub struct Pipe {
     pub doppler_command: Option<String>,
     /// Options of `ugrainbow`.
     pub rainbow: ugrainbow::Config,
+    /// How `ugrainbow` was called, for the history in the file.
+    pub rainbow_command_line: String,
 }
 
 /// The output of every program.
@@ -37,7 +39,7 @@ impl Pipe {
     pub fn new(beta: DVec3, size: [u32; 2]) -> Self {
         let mut pipe = Self::default();
         pipe.lorentz.velocity = Some(beta);
-        pipe.rainbow.size = size;
+        pipe.rainbow.picture.size = size;
         pipe
     }
 
@@ -59,7 +61,7 @@ impl Pipe {
     /// The full horizontal view angle, degrees.
     #[must_use]
     pub fn view_angle(mut self, across_deg: f64) -> Self {
-        self.rainbow.camera.view_angle = Some((across_deg, None));
+        self.rainbow.picture.camera.view_angle = Some((across_deg, None));
         self
     }
 
@@ -70,7 +72,7 @@ impl Pipe {
         let seen = lorentz_as(text, &self.lorentz, command);
         let command = self.doppler_command.as_deref().unwrap_or("ugdoppler");
         let colored = doppler_as(&seen, &self.doppler, command);
-        let file = rainbow(&colored, &self.rainbow);
+        let file = rainbow_as(&colored, &self.rainbow, &self.rainbow_command_line);
         Stages { seen, colored, file }
     }
 
@@ -135,6 +137,12 @@ fn read(text: &[u8], camera: Option<&str>) -> Scene {
 /// `ugrainbow`
 #[track_caller]
 pub fn rainbow(text: &[u8], config: &ugrainbow::Config) -> Vec<u8> {
-    let picture = ugrainbow::run(config, &Source::new("<stdin>", text));
+    rainbow_as(text, config, "")
+}
+
+/// `ugrainbow`, with its command line in the history of the file.
+#[track_caller]
+pub fn rainbow_as(text: &[u8], config: &ugrainbow::Config, command_line: &str) -> Vec<u8> {
+    let picture = ugrainbow::run_with(config, &Source::new("<stdin>", text), command_line, &());
     picture.unwrap_or_else(|error| panic!("ugrainbow: {error}")).bytes
 }

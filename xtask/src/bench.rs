@@ -156,7 +156,14 @@ fn write_back(file: &str) -> Kernel {
 
 fn draw(file: &str) -> Kernel {
     let scene = scene(file).map_err(|error| error.to_string());
-    let config = ugrainbow::Config { size: [1280, 720], samples: 1, ..ugrainbow::Config::default() };
+    let config = ugrainbow::Config {
+        picture: ugrainbow::PictureOptions {
+            size: [1280, 720],
+            samples: 1,
+            ..ugrainbow::PictureOptions::default()
+        },
+        ..ugrainbow::Config::default()
+    };
     Box::new(move || {
         std::hint::black_box(ugrainbow::render(scene.as_ref().map_err(Clone::clone)?, &config)?);
         Ok(())

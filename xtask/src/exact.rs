@@ -84,7 +84,7 @@ impl View {
         let mut pipe = Pipe::default();
         pipe.lorentz.velocity = Some(self.beta);
         pipe.lorentz.in_place = self.in_place;
-        pipe.rainbow.samples = self.samples;
+        pipe.rainbow.picture.samples = self.samples;
         pipe
     }
 

@@ -215,7 +215,16 @@ fn compare(
     let pool = ThreadPoolBuilder::new().num_threads(tools.threads).build()?;
     // The scene's camera has two angles; a single one gives square pixels.
     let camera = ugrainbow::CameraOptions { view_angle: Some((VIEW_ANGLE, None)), ..Default::default() };
-    let config = Config { size, samples: 1, cull, camera, ..Config::default() };
+    let config = Config {
+        picture: ugrainbow::PictureOptions {
+            size,
+            samples: 1,
+            camera,
+            ..ugrainbow::PictureOptions::default()
+        },
+        cull,
+        ..Config::default()
+    };
     let prepared = Prepared::new(&mesh.scene, &config)?;
     check_same(&prepared, mesa, size, cull)?;
     let mut fastest = [f64::INFINITY; 3];

@@ -121,7 +121,10 @@ pub fn draw_once(
     let source = Source::new("mesh", std::fs::read(scene)?);
     // The vertical view angle of the scene's camera is for another aspect ratio.
     let camera = ugrainbow::CameraOptions { view_angle: Some((30.0, None)), ..Default::default() };
-    let config = Config { size, samples, camera, ..Config::default() };
+    let config = Config {
+        picture: ugrainbow::PictureOptions { size, samples, camera, ..ugrainbow::PictureOptions::default() },
+        ..Config::default()
+    };
     std::hint::black_box(ugrainbow::run(&config, &source)?);
     let seconds = start.elapsed().as_secs_f64();
     Ok(writeln!(out, "{seconds} {}", crate::reading::peak_memory()? as f64 / 1e6)?)

@@ -228,8 +228,14 @@ impl PictureCase {
             ..Default::default()
         };
         let (colored, _) = ugdoppler::apply(seen, &doppler).map_err(|error| error.to_string())?;
-        let rainbow =
-            ugrainbow::Config { size: self.size, samples: self.options.samples, ..Default::default() };
+        let rainbow = ugrainbow::Config {
+            picture: ugrainbow::PictureOptions {
+                size: self.size,
+                samples: self.options.samples,
+                ..ugrainbow::PictureOptions::default()
+            },
+            ..Default::default()
+        };
         let picture = ugrainbow::run(&rainbow, &Source::new(name("ugrainbow"), ugparse::write(&colored)))
             .map_err(|error| error.to_string())?;
         Ok(picture.bytes)

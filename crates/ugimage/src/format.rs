@@ -1,16 +1,7 @@
-//! The file formats, their names, and the text written beside the pixels.
+//! The file formats and their names.
 
 use crate::png::Packing;
-use crate::{Frame, LinearFrame, eps, exr, hdr, pdf, pfm, png, ppm, ps, svg};
-
-/// What a file records about its origin.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Label {
-    /// Name and version of the program.
-    pub software: String,
-    /// How the image was made: the command lines of the pipe, one per line.
-    pub comment: String,
-}
+use crate::{Frame, Label, LinearFrame, eps, exr, hdr, pdf, pfm, png, ppm, ps, svg};
 
 /// A file format for colour images.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

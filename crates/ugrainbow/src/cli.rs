@@ -3,24 +3,19 @@
 use std::path::Path;
 
 use clap::{ArgAction, Parser};
-use ugimage::{Format, Tone};
+use ugimage::Format;
 use uglight::HueScale;
 use ugparse::{Source, pipe};
 use ugphysics::{Brightness, Hsv};
+use ugpicture::Output;
+use ugpicture::cli::{AnnotationArgs, PICTURE, PictureArgs, color, format_named};
 use ugpipe::{CommonArgs, Failure, Stage, ToolArgs, finite};
-use ugraster::Filter;
-use ugscene::cli::CameraArgs;
 
-use crate::config::{
-    Background, Config, DepthCue, Exact, Exposure, Interpolation, LINE_WIDTH, Output, Wireframe,
-};
+use crate::config::{Config, DepthCue, Exact, Interpolation, LINE_WIDTH, Wireframe};
+use crate::error::Error;
 use crate::explain::{self, explain};
-use crate::figures::Figures;
-use crate::words::{
-    Channels, Kind, Pixel, Report, channels, color, exposure, filter, format_named, kind_named, law,
-    line_width, pixel, tone,
-};
-use crate::{Error, run_with};
+use crate::run_with;
+use crate::words::{Kind, Pixel, Report, kind_named, law, line_width, pixel};
 
 /// Where black-and-white PostScript goes if standard output is a terminal, as in 1988.
 const POSTSCRIPT_FILE: &str = "POSTSCRIPTFILE";
@@ -70,68 +65,13 @@ pub struct Args {
     vec: bool,
 
     #[command(flatten)]
-    camera: CameraArgs,
-
-    /// Size of the picture in pixels
-    #[arg(long, num_args = 2, value_names = ["W", "H"], action = ArgAction::Set,
-          default_values = ["1024", "768"], value_parser = clap::value_parser!(u32).range(1..),
-          visible_alias = "size", help_heading = PICTURE)]
-    sz: Vec<u32>,
-
-    /// N x N samples per pixel, 1 to 16
-    #[arg(long, value_name = "N", default_value = "4", value_parser = clap::value_parser!(u32).range(1..=16),
-          visible_alias = "samples", help_heading = PICTURE)]
-    aa: u32,
-
-    /// Filter, by which samples weigh in pixels: box, triangle, spline
-    ///
-    /// box: those of the pixel alike, as of a detector. triangle and spline (a quadratic B-spline) reach into the neighbours: edges and
-    /// thin lines are smoother, and softer.
-    #[arg(long, value_name = "FILTER", default_value = "box", value_parser = filter, visible_alias = "filter",
-          help_heading = PICTURE)]
-    fl: Filter,
-
-    /// Background colour: lightness, hue in degrees, saturation [default: black]
-    #[arg(long, num_args = 1..=3, value_names = ["L", "H", "S"], action = ArgAction::Set,
-          value_parser = finite, visible_alias = "background", help_heading = PICTURE)]
-    bg: Option<Vec<f64>>,
-
-    /// Transparent background
-    #[arg(long, visible_alias = "transparent", conflicts_with = "bg", help_heading = PICTURE)]
-    tb: bool,
-
-    /// Exposure in stops: light is multiplied by 2 to the power E, and clipped only then
-    ///
-    /// auto: by what shows 99 of 100 pixels that are not black at or below white.
-    #[arg(long, value_name = "E|auto", allow_hyphen_values = true, value_parser = exposure,
-          visible_alias = "exposure", help_heading = PICTURE)]
-    ex: Option<Exposure>,
-
-    /// Tone curve from light to display: clip, filmic
-    ///
-    /// filmic is Hable's of 2010, whose white is 5.6. Curves work on luminance and keep hue.
-    #[arg(long, value_name = "CURVE", default_value = "clip", value_parser = tone,
-          visible_alias = "tone-curve", help_heading = PICTURE)]
-    tc: Tone,
-
-    /// Small PNG files, which take longer to pack
-    ///
-    /// The pixels stay the same.
-    #[arg(long, visible_alias = "pack", help_heading = PICTURE)]
-    pz: bool,
+    picture: PictureArgs,
 
     /// Leave out faces that are seen from behind: those whose corners run clockwise
     ///
     /// Of closed opaque bodies the picture stays the same, and large scenes are drawn faster.
     #[arg(long, visible_alias = "cull-back-faces", conflicts_with = "xc", help_heading = PICTURE)]
     cb: bool,
-
-    /// More channels of an EXR picture, with commas between: D, time, distance, Z, id, velocity
-    ///
-    /// Doppler factor, emission time, distance of the emission, depth along the view, number of the
-    /// face, velocity of the body; all at the middle of the pixel.
-    #[arg(long, value_name = "LIST", value_parser = channels, visible_alias = "channels", help_heading = PICTURE)]
-    ch: Option<Channels>,
 
     /// Draw edges of faces as lines, and no faces; they only hide
     ///
@@ -190,33 +130,13 @@ pub struct Args {
     #[arg(long, value_name = "X,Y", value_parser = pixel, conflicts_with = "dp")]
     explain: Option<Pixel>,
 
-    /// Caption below the picture, in lines as they fit, or as they are
-    ///
-    /// The scene is drawn in what the strips below it leave of -sz.
-    #[arg(long, value_name = "TEXT", visible_alias = "caption", help_heading = FIGURES)]
-    cap: Option<String>,
-
-    /// Legend below the picture: the rainbow, velocities, and the Doppler factors that are seen
-    ///
-    /// Wavelengths in nm, where light of 550 nm is seen, the velocity as a unit arrow seen from the camera (a point at its
-    /// tail: it comes, a cross: it goes), and β, γ and D.
-    #[arg(long, visible_alias = "legend", help_heading = FIGURES)]
-    lg: bool,
-
-    /// Outline of moving bodies as they would look at rest, each with its centre where it is seen
-    #[arg(long, visible_alias = "undistorted", help_heading = FIGURES)]
-    dl: bool,
-
-    /// Grid of coordinates on the ground: in the plane z = 0, or under what reaches lower
-    #[arg(long, visible_alias = "grid", help_heading = FIGURES)]
-    gr: bool,
+    #[command(flatten)]
+    annotations: AnnotationArgs,
 
     #[command(flatten)]
     common: CommonArgs,
 }
 
-const FIGURES: &str = "Figures";
-const PICTURE: &str = "Picture";
 const LINES: &str = "Lines";
 const EXACT: &str = "Exact pictures";
 
@@ -227,56 +147,27 @@ impl ToolArgs for Args {
 }
 
 impl Args {
-    /// What is asked for. `output`: the file to be written, `command_line`: what the picture
-    /// says about how it was made.
+    /// The same as values. `output`: the file to be written.
     ///
     /// # Errors
-    /// The ending of the file is that of no format, or the background is no colour.
-    pub fn config(&self, output: Option<&Path>, command_line: &str) -> Result<Config, Failure> {
+    /// The ending of the file is that of no format, or a colour or range is invalid.
+    fn config(&self, output: Option<&Path>) -> Result<Config, Failure> {
         Ok(Config {
+            picture: self.picture.options(self.output(output)?, self.annotations.options())?,
             interpolation: if self.iw { Interpolation::Wavelength } else { Interpolation::Hue },
             hue_scale: if self.wi { HueScale::Wavelengths } else { HueScale::Degrees },
-            camera: self.camera.options(),
-            size: [self.sz[0], self.sz[1]],
-            samples: self.aa,
-            filter: self.fl,
-            background: self.background()?,
-            output: self.output(output)?,
             reading: pipe::options(&self.common)?,
-            exposure: self.ex,
-            tone: self.tc,
-            channels: self.ch.clone().unwrap_or_default().0,
             wireframe: self.wireframe()?,
             line_width: self.lw,
             depth_cue: self.depth_cue()?,
             exact: self.xc.then(|| self.exact()),
             cull: self.cb,
-            small: self.pz,
-            figures: self.figures(),
-            command_line: command_line.to_owned(),
         })
-    }
-
-    fn figures(&self) -> Figures {
-        Figures {
-            caption: self.cap.clone().unwrap_or_default(),
-            legend: self.lg,
-            outline: self.dl,
-            grid: self.gr,
-        }
     }
 
     fn exact(&self) -> Exact {
         let law = if self.no_flux { Brightness::None } else { self.br.unwrap_or_default() };
         Exact { law, doppler: !self.no_doppler }
-    }
-
-    fn background(&self) -> Result<Background, Failure> {
-        if self.tb {
-            return Ok(Background::Transparent);
-        }
-        let black = [0.0];
-        color("background -bg", self.bg.as_deref().unwrap_or(&black)).map(Background::Color)
     }
 
     fn wireframe(&self) -> Result<Option<Wireframe>, Failure> {
@@ -366,13 +257,13 @@ fn ending(file: Option<&Path>) -> Option<String> {
 /// # Errors
 /// Bad usage, a bad scene, or a stream that fails.
 pub fn draw(args: &Args, stage: &mut Stage) -> Result<(), Failure> {
-    let config = args.config(stage.output_name(), stage.command_line())?;
+    let config = args.config(stage.output_name())?;
     let report = match args.explain {
         Some(pixel) => Some((pixel, args.report(stage.output_name())?)),
         None => None,
     };
     if report.is_none() && stage.output_is_terminal() {
-        redirect(config.output, stage)?;
+        redirect(config.picture.output, stage)?;
     }
     let input = stage.input()?;
     stage.detail(&format!("read {} bytes of `{}`", input.text.len(), input.name));
@@ -381,12 +272,12 @@ pub fn draw(args: &Args, stage: &mut Stage) -> Result<(), Failure> {
     if let Some((pixel, report)) = report {
         return explain_pixel(&config, &source, pixel, report, stage);
     }
-    let picture = run_with(&config, &source, &stage.steps()).map_err(failure)?;
+    let picture = run_with(&config, &source, stage.command_line(), &stage.steps()).map_err(failure)?;
     if !picture.warnings.is_empty() {
         stage.report(&picture.warnings.render(true));
     }
     picture.notes.iter().for_each(|note| stage.note(note));
-    stage.detail(&format!("drew {} x {} pixels", config.size[0], config.size[1]));
+    stage.detail(&format!("drew {} x {} pixels", config.picture.size[0], config.picture.size[1]));
     stage.write(&picture.bytes)
 }
 

@@ -2,6 +2,8 @@
 
 use ugscene::{Place, Slab};
 
+use crate::planar::clip_edges;
+
 use ugraster::Corner;
 
 /// How many faces and lines are left after clipping.
@@ -53,11 +55,9 @@ impl<const N: usize> Vertex<N> {
     }
 }
 
-/// Cuts away the parts of a polygon outside the slab (Sutherland and Hodgman 1974).
+/// Clips a polygon to the slab.
 ///
-/// New corners are computed from the corner inside to the one outside, whichever way
-/// the polygon runs: faces that share an edge share its cut end too. Where a concave
-/// polygon falls apart, the parts stay joined along the plane, forth and back, and
+/// Where a concave polygon falls apart, the parts stay joined along the plane, forth and back, and
 /// the even-odd rule draws nothing there.
 pub fn clip_polygon<const N: usize>(slab: Slab, polygon: &mut Vec<Vertex<N>>, scratch: &mut Vec<Vertex<N>>) {
     if polygon.iter().all(|vertex| slab.near <= vertex.place.z && vertex.place.z <= slab.far) {
@@ -83,7 +83,7 @@ pub fn clip_segment<const N: usize>(slab: Slab, mut ends: [Vertex<N>; 2]) -> Opt
     Some(ends)
 }
 
-/// Cuts `polygon` by one plane into `kept`.
+/// Clips `polygon` by one plane into `kept`.
 fn clip<const N: usize>(
     polygon: &[Vertex<N>],
     kept: &mut Vec<Vertex<N>>,
@@ -91,16 +91,10 @@ fn clip<const N: usize>(
     is_inside: impl Fn(f64) -> bool,
 ) {
     kept.clear();
-    let Some(mut before) = polygon.last() else { return };
-    for vertex in polygon {
-        match (is_inside(before.place.z), is_inside(vertex.place.z)) {
-            (true, true) => kept.push(*vertex),
-            (true, false) => kept.push(Vertex::between(before, vertex, z)),
-            (false, true) => kept.extend([Vertex::between(vertex, before, z), *vertex]),
-            (false, false) => {}
-        }
-        before = vertex;
-    }
+    let before = polygon.last().into_iter().chain(polygon).copied();
+    let is_inside = |vertex: &Vertex<N>| is_inside(vertex.place.z);
+    let crossing = |inside: &Vertex<N>, outside: &Vertex<N>| Vertex::between(inside, outside, z);
+    clip_edges(before.zip(polygon.iter().copied()), is_inside, crossing, kept);
 }
 
 #[cfg(test)]

@@ -1,12 +1,12 @@
 //! Depth cueing whose range is found from what is seen.
 
 use ugparse::Scene;
+use ugraster::Center;
 
 use crate::config::Config;
 use crate::error::Error;
 use crate::render_layers::RenderLayers;
 use crate::setup::Setup;
-use ugraster::Center;
 
 /// Prepares a scene. Depth cueing without depths runs from the nearest to the farthest that is seen at the middle of
 /// a pixel; it is left out if nothing is seen.

@@ -2,18 +2,19 @@
 
 use ugimage::{Development, Tone};
 use ugparse::Scene;
+use ugpicture::Exposure;
 use ugraster::{DepthFade, SampleStats};
 
 use crate::clip::ClipCounts;
-use crate::config::{Config, DepthCue, Exposure};
+use crate::config::{Config, DepthCue};
 use crate::setup::Setup;
 
 /// Brightness that is worth the message that it was clipped; less does not show in 8 bits.
 const CLIPPED: f32 = 1.001;
 
-/// How drawing went.
+/// Statistics of a drawn picture.
 #[derive(Clone, Copy, Debug)]
-pub struct Outcome {
+pub struct DrawStatistics {
     /// How many faces and lines were clipped.
     pub clip_counts: ClipCounts,
     /// What the samples were.
@@ -23,15 +24,15 @@ pub struct Outcome {
 }
 
 /// One sentence for each thing worth knowing.
-pub fn notes(setup: &Setup<'_>, config: &Config, outcome: &Outcome) -> Vec<String> {
+pub fn notes(setup: &Setup<'_>, config: &Config, statistics: &DrawStatistics) -> Vec<String> {
     let mut notes = scene_notes(setup.scene(), config.exact.is_some());
     if setup.view.is_up_replaced {
         notes.push(
             "the up direction is parallel to the view, so another axis is up; choose one with -ud".into(),
         );
     }
-    notes.extend(why_nothing_is_seen(config, outcome).map(str::to_owned));
-    notes.extend(light_note(config, outcome));
+    notes.extend(why_nothing_is_seen(config, statistics).map(str::to_owned));
+    notes.extend(light_note(config, statistics));
     if let (Some(DepthCue { range: None, least }), Some(DepthFade { near, far, .. })) =
         (config.depth_cue, setup.grid.fade)
     {
@@ -43,19 +44,21 @@ pub fn notes(setup: &Setup<'_>, config: &Config, outcome: &Outcome) -> Vec<Strin
 }
 
 /// What was done with light that is too bright, if there was any.
-fn light_note(config: &Config, outcome: &Outcome) -> Option<String> {
-    if config.is_linear() {
+fn light_note(config: &Config, statistics: &DrawStatistics) -> Option<String> {
+    if config.picture.output.is_linear() {
         return None;
     }
-    if let (Some(Exposure::Auto), Some(Development { stops, .. })) = (config.exposure, outcome.development) {
+    if let (Some(Exposure::Auto), Some(Development { stops, .. })) =
+        (config.picture.exposure, statistics.development)
+    {
         return Some(format!("exposure is {stops} stops; -ex {stops} gives the same picture"));
     }
-    let is_chosen = config.exposure.is_some() || config.tone != Tone::Clip;
-    let brightest = outcome.stats.max_intensity;
+    let is_chosen = config.picture.exposure.is_some() || config.picture.tone != Tone::Clip;
+    let brightest = statistics.stats.max_intensity;
     if brightest <= CLIPPED || is_chosen {
         return None;
     }
-    let remedy = if outcome.development.is_some() { "; -ex auto brings it into range" } else { "" };
+    let remedy = if statistics.development.is_some() { "; -ex auto brings it into range" } else { "" };
     Some(format!("max intensity is {}, clip to 1.0{remedy}", decimal(brightest)))
 }
 
@@ -85,7 +88,7 @@ fn scene_notes(scene: &Scene, is_exact: bool) -> Vec<String> {
 
 fn why_nothing_is_seen(
     config: &Config,
-    Outcome { clip_counts, stats, .. }: &Outcome,
+    DrawStatistics { clip_counts, stats, .. }: &DrawStatistics,
 ) -> Option<&'static str> {
     if clip_counts.in_front == 0 {
         return Some(

@@ -112,7 +112,7 @@ impl Painter<'_> {
     /// True if light passes a face. Its own colour tells how much, and if it has none, those of its corners do: so a pane
     /// does not make clear what shares corners with it.
     #[inline]
-    pub fn is_clear(&self, face: &Face) -> bool {
+    pub fn is_transparent(&self, face: &Face) -> bool {
         if !self.palette.has_translucency() {
             return false;
         }

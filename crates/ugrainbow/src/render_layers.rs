@@ -1,18 +1,19 @@
 //! Everything to be drawn, packed as the scene needs it.
 
 use ugparse::Face;
+use ugpicture::Filter;
 use ugpipe::Progress;
 use ugraster::{
-    Center, Corner, Filter, FragmentTarget, FragmentWriter, NoTriangles, OpaqueLayer, PixelSamples,
-    PolygonLayer, PolygonList, ProbedSample, Rasterizer, Resolve, SampleGrid, SampleStats, Scanner,
-    ShadedSample, TRANSPARENT_VALUES, Tile, TransparentLayer,
+    Center, Corner, FragmentTarget, FragmentWriter, NoTriangles, OpaqueLayer, PixelSamples, PolygonLayer,
+    PolygonList, ProbedSample, Rasterizer, Resolve, SampleGrid, SampleStats, Scanner, ShadedSample,
+    TRANSPARENT_VALUES, Tile, TransparentLayer,
 };
 
 use crate::clip::ClipCounts;
 use crate::config::DrawMode;
 use crate::drawlist::DrawList;
 use crate::exact::{CurvedLines, Faces};
-use crate::lines::{Hiders, LineShape, Shown, StraightLines, Stroke, lines, pieces, strips, strokes};
+use crate::lines::{LineShape, Occluders, StraightLines, Stroke, Visibility, lines, pieces, strips, strokes};
 use crate::packing::{
     Pack, pack_colored, pack_mixed, pack_mixed_colored, pack_plain, pack_transparent, shade_transparent,
 };
@@ -80,8 +81,8 @@ enum Surfaces<'a, const N: usize> {
 }
 
 impl<'a, const N: usize> Layers<'a, N> {
-    fn new(painter: Painter<'a>, mode: &DrawMode, is_clear: bool, pack: Pack<N>) -> Self {
-        let is_one = |face: &Face| painter.is_clear(face) == is_clear;
+    fn new(painter: Painter<'a>, mode: &DrawMode, is_transparent: bool, pack: Pack<N>) -> Self {
+        let is_one = |face: &Face| painter.is_transparent(face) == is_transparent;
         let surfaces = match mode.exact {
             None => Surfaces::Polygons(DrawList::new(painter, is_one, pack)),
             Some(exact) => Surfaces::Rays(Faces::new(painter, exact, is_one, pack)),
@@ -104,12 +105,12 @@ impl<'a, const N: usize> Layers<'a, N> {
         match &self.surfaces {
             Surfaces::Rays(faces) => {
                 let is_hidden = |place, key| faces.hides(place, key);
-                strokes(all, &Shown::by_rays(&is_hidden, size, margin))
+                strokes(all, &Visibility::by_rays(&is_hidden, size, margin))
             }
             Surfaces::Polygons(list) => {
                 let boxes = all.iter().map(Stroke::bounds);
-                let hiders = Hiders::new(list.outlines(), boxes, size, margin);
-                strokes(all, &Shown::behind(hiders, size, margin))
+                let occluders = Occluders::new(list.outlines(), boxes, size, margin);
+                strokes(all, &Visibility::behind(occluders, size, margin))
             }
         }
     }
@@ -330,7 +331,7 @@ impl<'a> RenderLayers<'a> {
 /// For figures.
 impl RenderLayers<'_> {
     /// True if a face that is drawn is translucent.
-    pub fn has_clear_faces(&self) -> bool {
+    pub fn has_transparent_faces(&self) -> bool {
         self.has_faces && self.clear.faces.as_ref().is_some_and(|faces| faces.clip_counts().in_picture > 0)
     }
 

@@ -5,10 +5,11 @@ use std::ops::Range;
 
 use uglight::Lighting;
 use ugparse::{BodyId, ColorId, ColorValue, Scene, VertexId};
+use ugpicture::PictureOptions;
 use ugraster::SampleGrid;
 
 use crate::config::{Config, Exact};
-use crate::error::{self, Error};
+use crate::error::Error;
 use crate::painter::Painter;
 use crate::palette::Palette;
 use crate::shade::Shader;
@@ -31,13 +32,11 @@ pub struct Setup<'a> {
 }
 
 impl<'a> Setup<'a> {
-    /// Checks and prepares.
+    /// Prepares a scene. The options of the picture have been checked.
     ///
     /// # Errors
-    /// The picture is too large, there is nothing to draw, or the camera or the options make no sense.
+    /// There is nothing to draw, or the camera is invalid, or the scene cannot be drawn by rays.
     pub fn new(scene: &'a Scene, config: &Config) -> Result<Self, Error> {
-        error::check_size(config.size, config.samples)?;
-        error::check_output(config)?;
         if scene.faces.is_empty() && scene.wires.is_empty() {
             return Err(Error::Empty);
         }
@@ -45,17 +44,17 @@ impl<'a> Setup<'a> {
             ugscene::require_seen_geometry(scene)?;
         }
         let scene = drawable(scene);
-        let [width, height] = config.size;
-        let view = View::new(&scene, &config.camera, config.size.map(|pixels| pixels * config.samples))?;
+        let PictureOptions { size: [width, height], samples, camera, .. } = &config.picture;
+        let [width, height, samples] = [*width, *height, *samples];
+        let view = View::new(&scene, camera, [width * samples, height * samples])?;
         ugscene::require_eye(&scene, view.eye)?;
         let fade = config.depth_cue.and_then(|cue| Some(cue.between(cue.range?)));
-        let grid =
-            SampleGrid { width, height, samples: config.samples, is_perspective: view.is_perspective, fade };
+        let grid = SampleGrid { width, height, samples, is_perspective: view.is_perspective, fade };
         let hue_scale = ugscene::hue_scale(&scene, config.hue_scale)?;
         let palette = Palette::new(&scene, config.interpolated(hue_scale), hue_scale);
         let lighting = Lighting::new(&scene, hue_scale, view.eye, view.forward);
         let surface = Surface::new(&scene, view.eye, &palette, hue_scale);
-        let is_uncut = palette.has_light() || config.keeps_light();
+        let is_uncut = palette.has_light() || config.picture.keeps_light();
         if let Some(exact) = config.exact {
             check_exact(&scene, &view)?;
             check_spectra(&scene, &surface, exact)?;
@@ -68,11 +67,6 @@ impl<'a> Setup<'a> {
     /// The scene, with vertices of one velocity each. Faces and wires have the order of the scene given.
     pub fn scene(&self) -> &Scene {
         &self.scene
-    }
-
-    /// Columns and rows of the picture.
-    pub fn size(&self) -> [f64; 2] {
-        [self.grid.width, self.grid.height].map(f64::from)
     }
 
     /// What draws it.

@@ -45,6 +45,11 @@ impl Surface {
         self.rest[vertex.index()]
     }
 
+    /// The rest frames of the bodies.
+    pub fn frames(&self) -> &RestFrames {
+        &self.frames
+    }
+
     /// The velocity of a body in the frame of the camera.
     pub fn velocity(&self, body: BodyId) -> Velocity {
         self.frames.velocity(body)

@@ -7,7 +7,9 @@ mod common;
 use common::{draw, scene};
 use ugimage::Format;
 use ugphysics::Hsv;
-use ugrainbow::{Background, Config, Error, Exact, Figures, MAX_PIXELS, Output, render, run};
+use ugrainbow::{
+    AnnotationOptions, Background, Config, Error, Exact, MAX_PIXELS, Output, PictureOptions, render, run,
+};
 
 const SHIP: &str = "(ugstage 1 geometry as-seen eye 0 -9 3) c green 1 120 .8; l 1; cam -ep 0 -9 3 -vc 0 0 .5;
     v a -1 -1 0; v b 1 -1 0; v c 1 1 0; v d -1 1 0; v e -1 -1 1; v f 1 -1 1; v g 1 1 1; v h -1 1 1;
@@ -18,21 +20,28 @@ fn white() -> Background {
     Background::Color(Hsv { hue: 0.0, saturation: 0.0, value: 1.0 })
 }
 
-fn strips() -> Figures {
-    Figures {
+fn strips() -> AnnotationOptions {
+    AnnotationOptions {
         caption: "A box at half the speed of light: β = 0.5".into(),
         legend: true,
-        ..Figures::default()
+        ..AnnotationOptions::default()
     }
 }
 
 /// Rows of the scene in a figure: the greatest height at which the scene alone gives its upper rows, to the byte.
 fn scene_rows(config: &Config) -> u32 {
     let figure = draw(SHIP, config);
-    let [width, height] = config.size;
-    assert_eq!([figure.width(), figure.height()], config.size);
+    let [width, height] = config.picture.size;
+    assert_eq!([figure.width(), figure.height()], config.picture.size);
     let is_alike = |rows: &u32| {
-        let alone = Config { size: [width, *rows], figures: Figures::default(), ..config.clone() };
+        let alone = Config {
+            picture: PictureOptions {
+                size: [width, *rows],
+                annotations: AnnotationOptions::default(),
+                ..config.picture.clone()
+            },
+            ..config.clone()
+        };
         figure.pixels().starts_with(draw(SHIP, &alone).pixels())
     };
     (height / 3..height).rev().find(is_alike).unwrap_or(0)
@@ -40,16 +49,23 @@ fn scene_rows(config: &Config) -> u32 {
 
 #[test]
 fn the_scene_is_drawn_as_it_would_be_alone_in_less_room() {
-    let plain = Config { size: [320, 240], samples: 1, ..Config::default() };
-    let caption = Figures { legend: false, ..strips() };
-    let legend = Figures { caption: String::new(), ..strips() };
-    for background in [plain.background, white(), Background::Transparent] {
+    let plain = Config {
+        picture: PictureOptions { size: [320, 240], samples: 1, ..PictureOptions::default() },
+        ..Config::default()
+    };
+    let caption = AnnotationOptions { legend: false, ..strips() };
+    let legend = AnnotationOptions { caption: String::new(), ..strips() };
+    for background in [plain.picture.background, white(), Background::Transparent] {
         for (figures, output, exact) in [
             (strips(), Output::Color(Format::Png), None),
             (caption.clone(), Output::Color(Format::Png16), None),
             (legend.clone(), Output::Color(Format::Png), Some(Exact::default())),
         ] {
-            let rows = scene_rows(&Config { background, output, exact, figures, ..plain.clone() });
+            let rows = scene_rows(&Config {
+                picture: PictureOptions { background, output, annotations: figures, ..plain.picture.clone() },
+                exact,
+                ..plain.clone()
+            });
             assert!((120..235).contains(&rows), "{rows}");
         }
     }
@@ -61,8 +77,17 @@ fn the_caption_keeps_within_its_strip() {
         ["β = 0.5", "jpqgy ÂÉ|", &"A long caption that needs several lines, ".repeat(5), "two\nlines", "i"]
     {
         for background in [Background::Color(Hsv { hue: 0.0, saturation: 0.0, value: 0.0 }), white()] {
-            let figures = Figures { caption: text.into(), ..Figures::default() };
-            let config = Config { size: [300, 300], samples: 1, background, figures, ..Config::default() };
+            let figures = AnnotationOptions { caption: text.into(), ..AnnotationOptions::default() };
+            let config = Config {
+                picture: PictureOptions {
+                    size: [300, 300],
+                    samples: 1,
+                    background,
+                    annotations: figures,
+                    ..PictureOptions::default()
+                },
+                ..Config::default()
+            };
             let figure = draw(SHIP, &config);
             let ground = figure.pixel(0, 299);
             let rows = scene_rows(&config);
@@ -88,8 +113,16 @@ fn the_caption_keeps_within_its_strip() {
 /// Each number of the legend stands under the colour of its wavelength.
 #[test]
 fn the_legend_has_the_hues_of_the_map() {
-    let figures = Figures { caption: String::new(), ..strips() };
-    let config = Config { size: [1200, 900], background: white(), figures, ..Config::default() };
+    let figures = AnnotationOptions { caption: String::new(), ..strips() };
+    let config = Config {
+        picture: PictureOptions {
+            size: [1200, 900],
+            background: white(),
+            annotations: figures,
+            ..PictureOptions::default()
+        },
+        ..Config::default()
+    };
     let figure = draw(SHIP, &config);
     let hue = |x: u32, y: u32| {
         let [red, green, blue, _] = figure.pixel(x, y);
@@ -138,10 +171,16 @@ fn grid_lines_are_at_their_coordinates_and_hidden_by_what_is_nearer() {
          v a -.6 -.6 2; v b .6 -.6 2; v c .6 .6 2; v d -.6 .6 2; f (a b c d) grey;
          v e -3 -3 0; v f -2.9 -3 0; v g -2.9 -2.9 0; f (e f g) grey; v h 3 3 0; v i 2.9 3 0; v j 2.9 2.9 0; f (h i j) grey;"
     );
-    let config = Config { size: [400, 400], ..Config::default() };
+    let config = Config {
+        picture: PictureOptions { size: [400, 400], ..PictureOptions::default() },
+        ..Config::default()
+    };
     let plain = draw(&text, &config);
-    let figures = Figures { grid: true, ..Figures::default() };
-    let grid = draw(&text, &Config { figures, ..config });
+    let figures = AnnotationOptions { grid: true, ..AnnotationOptions::default() };
+    let grid = draw(
+        &text,
+        &Config { picture: PictureOptions { annotations: figures, ..config.picture.clone() }, ..config },
+    );
     let differs = |x: u32, y: u32| grid.pixel(x, y) != plain.pixel(x, y);
     // 50 pixels a unit; lines are 1 apart from -3 to 3.
     for x in -3..=3 {
@@ -185,12 +224,18 @@ fn the_undistorted_outline_is_that_of_the_body_at_rest() {
     let middle = ugphysics::rest_position(-eye, v);
     let seen: Vec<glam::DVec3> =
         corners.iter().map(|&corner| eye + ugphysics::seen_position(middle + corner, v)).collect();
-    let config = Config { size: [320, 240], ..Config::default() };
+    let config = Config {
+        picture: PictureOptions { size: [320, 240], ..PictureOptions::default() },
+        ..Config::default()
+    };
     let rest = draw(&text("", &corners), &config);
     let moving = text("<.9 .1 0>", &seen);
     let plain = draw(&moving, &config);
-    let figures = Figures { outline: true, ..Figures::default() };
-    let outlined = draw(&moving, &Config { figures, ..config });
+    let figures = AnnotationOptions { outline: true, ..AnnotationOptions::default() };
+    let outlined = draw(
+        &moving,
+        &Config { picture: PictureOptions { annotations: figures, ..config.picture.clone() }, ..config },
+    );
 
     let near = |x: u32, y: u32, reach: u32| {
         let span = move |at: u32, end: u32| at.saturating_sub(reach)..(at + reach + 1).min(end);
@@ -220,21 +265,59 @@ fn what_cannot_be_is_refused() {
         let error: Error = run(&config, &source).unwrap_err();
         assert!(error.is_usage() && error.to_string().contains(part), "{error}");
     };
-    let with = |figures: Figures| Config { size: [320, 240], figures, ..Config::default() };
-    check(with(Figures { caption: "光速".into(), ..Figures::default() }), "the font has no `光` (U+5149)");
-    check(Config { output: Output::Color(Format::Exr), ..with(strips()) }, "leave out -cap");
-    check(Config { size: [100, 30], ..with(strips()) }, "give a larger -sz");
+    let with = |figures: AnnotationOptions| Config {
+        picture: PictureOptions { size: [320, 240], annotations: figures, ..PictureOptions::default() },
+        ..Config::default()
+    };
+    check(
+        with(AnnotationOptions { caption: "光速".into(), ..AnnotationOptions::default() }),
+        "the font has no `光` (U+5149)",
+    );
+    check(
+        Config {
+            picture: PictureOptions { output: Output::Color(Format::Exr), ..with(strips()).picture },
+            ..with(strips())
+        },
+        "leave out -cap",
+    );
+    check(
+        Config { picture: PictureOptions { size: [100, 30], ..with(strips()).picture }, ..with(strips()) },
+        "give a larger -sz",
+    );
     let narrow = "too narrow for a caption or legend: give a wider -sz";
-    check(Config { size: [30, 30], ..with(strips()) }, narrow);
-    check(Config { size: [20, 400], ..with(Figures { caption: "M".into(), ..Figures::default() }) }, narrow);
-    check(Config { size: [0, 30], ..with(strips()) }, &MAX_PIXELS.to_string());
-    check(with(Figures { caption: "x\n".repeat(50) + "x", ..Figures::default() }), "a shorter -cap");
+    check(
+        Config { picture: PictureOptions { size: [30, 30], ..with(strips()).picture }, ..with(strips()) },
+        narrow,
+    );
+    check(
+        Config {
+            picture: PictureOptions { size: [20, 400], ..PictureOptions::default() },
+            ..with(AnnotationOptions { caption: "M".into(), ..AnnotationOptions::default() })
+        },
+        narrow,
+    );
+    check(
+        Config { picture: PictureOptions { size: [0, 30], ..with(strips()).picture }, ..with(strips()) },
+        &MAX_PIXELS.to_string(),
+    );
+    check(
+        with(AnnotationOptions { caption: "x\n".repeat(50) + "x", ..AnnotationOptions::default() }),
+        "a shorter -cap",
+    );
 }
 
 #[test]
 fn figures_of_any_width_are_drawn_or_refused() {
     let draws = |width: u32| {
-        let config = Config { size: [width, 400], samples: 1, figures: strips(), ..Config::default() };
+        let config = Config {
+            picture: PictureOptions {
+                size: [width, 400],
+                samples: 1,
+                annotations: strips(),
+                ..PictureOptions::default()
+            },
+            ..Config::default()
+        };
         let drawn = render(&scene(SHIP), &config);
         assert!(drawn.as_ref().err().is_none_or(Error::is_usage), "{width}");
         drawn.is_ok()
@@ -247,11 +330,14 @@ fn figures_of_any_width_are_drawn_or_refused() {
 #[test]
 fn at_rest_there_is_a_legend_but_no_outline() {
     let text = SHIP.replace("<.5 0 0>", "");
-    let figures = Figures { outline: true, ..strips() };
-    let config = Config { size: [320, 240], ..Config::default() };
-    let (frame, notes) = render(&scene(&text), &Config { figures, ..config.clone() }).unwrap();
+    let render = |annotations| {
+        let picture = PictureOptions { size: [320, 240], annotations, ..PictureOptions::default() };
+        render(&scene(&text), &Config { picture, ..Config::default() }).unwrap()
+    };
+    let rendering = render(AnnotationOptions { outline: true, ..strips() });
+    let notes = &rendering.notes;
     assert!(notes.iter().any(|note| note.starts_with("nothing moves")), "{notes:?}");
-    assert_eq!(frame.height(), 240);
-    let (_, notes) = render(&scene(&text), &Config { figures: strips(), ..config }).unwrap();
+    assert_eq!(rendering.into_frame().unwrap().height(), 240);
+    let notes = render(strips()).notes;
     assert!(notes.is_empty(), "{notes:?}");
 }

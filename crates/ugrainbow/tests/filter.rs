@@ -5,7 +5,7 @@
 mod common;
 
 use common::{config, draw, light};
-use ugrainbow::{Background, Config, Exposure, Filter};
+use ugrainbow::{Background, Config, Exposure, Filter, PictureOptions};
 
 /// Bodies of hues and light, one of them clear, some of which reach out of the picture.
 const SCENE: &str = "
@@ -41,9 +41,20 @@ fn order(filter: Filter) -> i32 {
 /// The samples are the pixels of a picture that has as many, with one sample each.
 #[track_caller]
 fn check(filter: Filter, size: [u32; 2], samples: u32) {
-    let config = Config { filter, size, samples, ..Config::default() };
+    let config = Config {
+        picture: PictureOptions { filter, size, samples, ..PictureOptions::default() },
+        ..Config::default()
+    };
     let ours = light(SCENE, &config);
-    let large = Config { filter: Filter::Box, size: size.map(|side| side * samples), samples: 1, ..config };
+    let large = Config {
+        picture: PictureOptions {
+            filter: Filter::Box,
+            size: size.map(|side| side * samples),
+            samples: 1,
+            ..config.picture.clone()
+        },
+        ..config
+    };
     let all = light(SCENE, &large);
     // By rows, then by columns.
     let weights = |n_pixels: u32| -> Vec<Vec<(usize, f64)>> {
@@ -108,7 +119,10 @@ fn small_bodies_keep_their_light_wherever_they_stand() {
                 "c_xyz sun .9505 1 1.089; l 16; v a {left} {low} 0; v b {right} {low} 0; v c {right} {high} 0;
                  v d {left} {high} 0; f (a b c d) sun; cam -ep 0 0 10 -vc 0 0 0 -ud 0 1 0 -og -va {angle} {angle};"
             );
-            let pixels = light(&text, &Config { filter, ..config(8, 4) });
+            let pixels = light(
+                &text,
+                &Config { picture: PictureOptions { filter, ..config(8, 4).picture }, ..config(8, 4) },
+            );
             let sum: f64 = pixels.iter().map(|pixel| f64::from(pixel[1])).sum();
             // Sixteen times white, on a sixteenth of a pixel; white is known to four digits.
             assert!((sum - 1.0).abs() < 1e-4, "{filter:?} {x} {y}: {sum}");
@@ -125,9 +139,19 @@ fn covered_is_covered() {
     for (filter, samples) in
         Filter::ALL.into_iter().flat_map(|filter| [(filter, 1), (filter, 3), (filter, 4)])
     {
-        let config = Config { filter, background: Background::Transparent, ..config(40, samples) };
+        let config = Config {
+            picture: PictureOptions {
+                filter,
+                background: Background::Transparent,
+                ..config(40, samples).picture
+            },
+            ..config(40, samples)
+        };
         assert!(draw(text, &config).pixels().iter().all(|pixel| *pixel == [64, 128, 191, 255]), "{filter:?}");
-        let exposed = Config { exposure: Some(Exposure::Stops(0.0)), ..config.clone() };
+        let exposed = Config {
+            picture: PictureOptions { exposure: Some(Exposure::Stops(0.0)), ..config.picture.clone() },
+            ..config.clone()
+        };
         assert!(draw(text, &exposed).pixels().iter().all(|pixel| pixel[3] == 255), "{filter:?}");
         let half = text.replace("v a -9 -9 0", "v a 0 -9 0").replace("v d -9 9 0", "v d 0 9 0");
         let frame = draw(&half, &config);

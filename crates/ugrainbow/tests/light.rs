@@ -8,14 +8,17 @@ use common::{file, light};
 use ugimage::{Development, Format, Quantizer};
 use ugparse::Source;
 use ugphysics::{Hsv, linear_srgb_to_xyz, luminance, srgb_decode, srgb_encode};
-use ugrainbow::{Background, Channel, Config, Error, Exposure, Output, Tone, render, run};
+use ugrainbow::{Background, Channel, Config, Exposure, Output, PictureOptions, Tone, render, run};
 
 const SQUARE: &str = "v a -4 -4 0; v b 4 -4 0; v c 4 4 0; v d -4 4 0;";
 
 /// Eight units of the plane z = 0 across the picture, seen from above.
 fn map(width: u32, height: u32, samples: u32) -> (String, Config) {
     let angle = 2.0 * libm::atan(4.0 / 10.0).to_degrees();
-    let config = Config { size: [width, height], samples, ..Config::default() };
+    let config = Config {
+        picture: PictureOptions { size: [width, height], samples, ..PictureOptions::default() },
+        ..Config::default()
+    };
     (format!("cam -ep 0 0 10 -vc 0 0 0 -ud 0 1 0 -og -va {angle} {angle};"), config)
 }
 
@@ -23,8 +26,9 @@ fn map(width: u32, height: u32, samples: u32) -> (String, Config) {
 fn display(text: &str, config: &Config) -> (Vec<[u8; 4]>, Vec<String>) {
     let source = Source::new("test.ug", text);
     let scene = ugparse::parse(&source, &ugparse::Options::default()).unwrap().scene;
-    let (frame, notes) = render(&scene, config).unwrap();
-    (frame.pixels().to_vec(), notes)
+    let rendering = render(&scene, config).unwrap();
+    let notes = rendering.notes.clone();
+    (rendering.into_frame().unwrap().pixels().to_vec(), notes)
 }
 
 #[track_caller]
@@ -123,7 +127,16 @@ fn pixels_are_means_of_light_and_developed_after() {
     for (idx, expected) in [(7, 8.0), (8, 4.0), (9, 0.0)] {
         assert!(pixels[idx].iter().all(|channel| (channel - expected).abs() < 1e-4), "{:?}", pixels[idx]);
     }
-    let at = |stops| display(&text, &Config { exposure: Some(Exposure::Stops(stops)), ..config.clone() }).0;
+    let at = |stops| {
+        display(
+            &text,
+            &Config {
+                picture: PictureOptions { exposure: Some(Exposure::Stops(stops)), ..config.picture.clone() },
+                ..config.clone()
+            },
+        )
+        .0
+    };
     assert_eq!([7, 8, 9].map(|idx| at(0.0)[idx]), [[255; 4], [255; 4], [0, 0, 0, 255]]);
     let half = (255.0 * srgb_encode(0.5)).round() as u8;
     assert_eq!([7, 8, 9].map(|idx| at(-3.0)[idx]), [[255; 4], [half, half, half, 255], [0, 0, 0, 255]]);
@@ -143,7 +156,7 @@ fn a_picture_is_its_light_developed() {
         assert!(light.iter().flatten().any(|channel| *channel > 2.0));
         for tone in Tone::ALL {
             for stops in [-4.0, -1.5, 0.0, 2.25] {
-                (config.exposure, config.tone) = (Some(Exposure::Stops(stops)), tone);
+                (config.picture.exposure, config.picture.tone) = (Some(Exposure::Stops(stops)), tone);
                 let quantizer = Quantizer::new();
                 let shown = |light: &[f32; 3]| {
                     let [r, g, b] =
@@ -154,7 +167,7 @@ fn a_picture_is_its_light_developed() {
                 assert_eq!(display(&text, &config).0, expected, "{stops} {tone:?}");
             }
         }
-        (config.exposure, config.tone) = (None, Tone::Clip);
+        (config.picture.exposure, config.picture.tone) = (None, Tone::Clip);
     }
 }
 
@@ -163,11 +176,23 @@ fn a_picture_is_its_light_developed() {
 fn automatic_exposure_can_be_repeated() {
     let (camera, config) = map(40, 30, 2);
     let text = format!("{GLARE} {camera}");
-    let (auto, notes) = display(&text, &Config { exposure: Some(Exposure::Auto), ..config.clone() });
+    let (auto, notes) = display(
+        &text,
+        &Config {
+            picture: PictureOptions { exposure: Some(Exposure::Auto), ..config.picture.clone() },
+            ..config.clone()
+        },
+    );
     let note = notes.iter().find(|note| note.starts_with("exposure is")).unwrap();
     let stops: f64 = note.split(' ').nth(2).unwrap().parse().unwrap();
     assert!(stops < -1.0, "{note}");
-    let again = display(&text, &Config { exposure: Some(Exposure::Stops(stops)), ..config.clone() });
+    let again = display(
+        &text,
+        &Config {
+            picture: PictureOptions { exposure: Some(Exposure::Stops(stops)), ..config.picture.clone() },
+            ..config.clone()
+        },
+    );
     assert_eq!(again.0, auto);
     let light = light(&text, &config);
     let covered: Vec<f64> =
@@ -186,8 +211,13 @@ fn bright_hues_are_clipped_unless_an_exposure_is_given() {
     assert_eq!(notes, ["max intensity is 2.0, clip to 1.0"]);
     // Twice the value is brighter than white by the transfer function: a little under five times.
     let stops = -libm::log2(srgb_decode(2.0));
-    let (pixels, notes) =
-        display(&text, &Config { exposure: Some(Exposure::Stops(stops)), ..config.clone() });
+    let (pixels, notes) = display(
+        &text,
+        &Config {
+            picture: PictureOptions { exposure: Some(Exposure::Stops(stops)), ..config.picture.clone() },
+            ..config.clone()
+        },
+    );
     let red = (255.0 * srgb_encode(srgb_decode(1.0) / srgb_decode(2.0))).round() as u8;
     assert_eq!(pixels, [[red, 255, red, 255]; 4]);
     assert!(notes.is_empty());
@@ -202,19 +232,43 @@ fn what_a_format_has_no_place_for_is_refused() {
     fn check(config: &Config, message: &str) {
         let (camera, _) = map(2, 2, 1);
         let error = run(config, &Source::new("t.ug", format!("{SQUARE} f (a b c d); {camera}"))).unwrap_err();
-        assert!(error.is_usage() && matches!(error, Error::Options(_)));
+        assert!(error.is_usage());
         assert!(error.to_string().contains(message), "{error}");
     }
-    let to = |format| Config { output: Output::Color(format), ..map(2, 2, 1).1 };
+    let to = |format| Config {
+        picture: PictureOptions { output: Output::Color(format), ..map(2, 2, 1).1.picture },
+        ..map(2, 2, 1).1
+    };
     for format in [Format::Exr, Format::Pfm, Format::Hdr] {
-        check(&Config { exposure: Some(Exposure::Auto), ..to(format) }, "leave out -ex and -tc");
-        check(&Config { tone: Tone::Filmic, ..to(format) }, "leave out -ex and -tc");
+        check(
+            &Config {
+                picture: PictureOptions { exposure: Some(Exposure::Auto), ..to(format).picture },
+                ..to(format)
+            },
+            "leave out -ex and -tc",
+        );
+        check(
+            &Config { picture: PictureOptions { tone: Tone::Filmic, ..to(format).picture }, ..to(format) },
+            "leave out -ex and -tc",
+        );
     }
     for format in [Format::Pfm, Format::Hdr] {
-        check(&Config { background: Background::Transparent, ..to(format) }, "write -dt exr");
+        check(
+            &Config {
+                picture: PictureOptions { background: Background::Transparent, ..to(format).picture },
+                ..to(format)
+            },
+            "write -dt exr",
+        );
     }
     for format in [Format::Png, Format::Pfm, Format::Png16] {
-        check(&Config { channels: vec![Channel::Time], ..to(format) }, "with -ch write -dt exr");
+        check(
+            &Config {
+                picture: PictureOptions { channels: vec![Channel::Time], ..to(format).picture },
+                ..to(format)
+            },
+            "with -ch write -dt exr",
+        );
     }
 }
 
@@ -222,9 +276,22 @@ fn what_a_format_has_no_place_for_is_refused() {
 fn threads_do_not_show() {
     let (camera, config) = map(200, 150, 3);
     let text = format!("{GLARE} {camera}");
-    let exr =
-        Config { output: Output::Color(Format::Exr), channels: Channel::ALL.to_vec(), ..config.clone() };
-    let auto = Config { exposure: Some(Exposure::Auto), tone: Tone::Filmic, ..config };
+    let exr = Config {
+        picture: PictureOptions {
+            output: Output::Color(Format::Exr),
+            channels: Channel::ALL.to_vec(),
+            ..config.picture.clone()
+        },
+        ..config.clone()
+    };
+    let auto = Config {
+        picture: PictureOptions {
+            exposure: Some(Exposure::Auto),
+            tone: Tone::Filmic,
+            ..config.picture.clone()
+        },
+        ..config
+    };
     for config in [exr, auto] {
         let on = |threads| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();

@@ -9,16 +9,19 @@ use glam::DVec3;
 use ugphysics::{
     Hsv, Velocity, attenuation, hue_to_wavelength, seen_position, srgb_decode, srgb_encode, wavelength_to_hue,
 };
-use ugrainbow::{Background, CameraOptions, Config, Error, HueScale, Interpolation, render};
+use ugrainbow::{Background, CameraOptions, Config, Error, HueScale, Interpolation, PictureOptions, render};
 
 /// One sample at the centre of each pixel.
 fn plain(width: u32, height: u32) -> Config {
-    Config { size: [width, height], samples: 1, ..Config::default() }
+    Config {
+        picture: PictureOptions { size: [width, height], samples: 1, ..PictureOptions::default() },
+        ..Config::default()
+    }
 }
 
 #[track_caller]
 fn notes(text: &str, config: &Config) -> Vec<String> {
-    render(&scene(text), config).unwrap().1
+    render(&scene(text), config).unwrap().notes
 }
 
 /// Eye ten units above the plane z = 0, +y up; orthographic, and 8 units of the plane across the
@@ -77,7 +80,10 @@ fn orthographic_squares_are_where_they_should() {
 fn film_angles_and_size_agree() {
     #[track_caller]
     fn check(camera: &str, options: CameraOptions, size: [u32; 2], expected: [std::ops::Range<u32>; 2]) {
-        let config = Config { camera: options, ..plain(size[0], size[1]) };
+        let config = Config {
+            picture: PictureOptions { camera: options, ..plain(size[0], size[1]).picture },
+            ..plain(size[0], size[1])
+        };
         // A square of side 2, four units ahead.
         let text = format!(
             "l 1; v a -1 4 -1; v b 1 4 -1; v c 1 4 1; v d -1 4 1; f (a b c d); cam -ep 0 0 0 -vc 0 4 0 {camera};"
@@ -254,19 +260,38 @@ fn pixels_are_averaged_in_linear_light() {
     let (camera, config) = map(8, 8);
     let text = format!("l 1; v a -4 -4 0; v b .5 -4 0; v c .5 4 0; v d -4 4 0; f (a b c d); {camera}");
     for (samples, expected) in [(2, 188), (4, 188), (16, 188)] {
-        let frame = draw(&text, &Config { samples, ..config.clone() });
+        let frame = draw(
+            &text,
+            &Config { picture: PictureOptions { samples, ..config.picture.clone() }, ..config.clone() },
+        );
         assert_eq!(frame.pixel(3, 3)[0], 255);
         assert_eq!(frame.pixel(4, 3)[0], expected);
         assert_eq!(frame.pixel(5, 3)[0], 0);
     }
     // Over a background that is not black: (1 + decode(0.5)) / 2.
     let background = Background::Color(Hsv { hue: 0.0, saturation: 0.0, value: 0.5 });
-    let frame = draw(&text, &Config { samples: 4, background, ..config.clone() });
+    let frame = draw(
+        &text,
+        &Config {
+            picture: PictureOptions { samples: 4, background, ..config.picture.clone() },
+            ..config.clone()
+        },
+    );
     let mean = srgb_encode(0.5 + 0.5 * srgb_decode(0.5));
     assert_eq!(frame.pixel(4, 3)[0], level(mean));
     assert_eq!(frame.pixel(7, 3)[0], 128);
     // Transparent: the colour of what is there, and how much of it.
-    let frame = draw(&text, &Config { samples: 4, background: Background::Transparent, ..config });
+    let frame = draw(
+        &text,
+        &Config {
+            picture: PictureOptions {
+                samples: 4,
+                background: Background::Transparent,
+                ..config.picture.clone()
+            },
+            ..config
+        },
+    );
     assert!(!frame.is_opaque());
     assert_eq!(frame.pixel(3, 3), [255; 4]);
     assert_eq!(frame.pixel(4, 3), [255, 255, 255, 128]);
@@ -394,14 +419,18 @@ fn every_number_of_threads_draws_the_same() {
     }
     text += "cam -ep 0 -12 1;";
     let scene = scene(&text);
-    let config = Config { size: [320, 240], samples: 3, ..Config::default() };
+    let config = Config {
+        picture: PictureOptions { size: [320, 240], samples: 3, ..PictureOptions::default() },
+        ..Config::default()
+    };
     let with_threads = |n_threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(n_threads).build().unwrap();
-        pool.install(|| render(&scene, &config).unwrap())
+        let rendering = pool.install(|| render(&scene, &config).unwrap());
+        (rendering.notes.clone(), rendering.into_frame().unwrap())
     };
-    let (frame, notes) = with_threads(1);
+    let (notes, frame) = with_threads(1);
     for n_threads in [2, 3, 7] {
-        assert!(with_threads(n_threads) == (frame.clone(), notes.clone()), "{n_threads} threads");
+        assert!(with_threads(n_threads) == (notes.clone(), frame.clone()), "{n_threads} threads");
     }
     assert!(frame.pixels().iter().filter(|pixel| pixel[0] > 0).count() > 10_000);
 }
@@ -410,7 +439,14 @@ fn every_number_of_threads_draws_the_same() {
 fn sizes_that_do_not_fit_are_refused() {
     #[track_caller]
     fn check(size: [u32; 2], samples: u32, message: &str) {
-        let error = render(&scene("l 1;"), &Config { size, samples, ..Config::default() }).unwrap_err();
+        let error = render(
+            &scene("l 1;"),
+            &Config {
+                picture: PictureOptions { size, samples, ..PictureOptions::default() },
+                ..Config::default()
+            },
+        )
+        .unwrap_err();
         assert!(error.is_usage());
         assert_eq!(error.to_string(), message);
     }
@@ -558,7 +594,8 @@ fn no_scene_makes_it_panic() {
             let Ok(parsed) = ugparse::parse(&source, &ugparse::Options::default()) else { continue };
             for is_orthographic in [false, true] {
                 let camera = CameraOptions { is_orthographic, ..CameraOptions::default() };
-                let config = Config { camera, ..plain(16, 16) };
+                let config =
+                    Config { picture: PictureOptions { camera, ..plain(16, 16).picture }, ..plain(16, 16) };
                 n_drawn += usize::from(render(&parsed.scene, &config).is_ok());
             }
         }

@@ -7,7 +7,7 @@ mod common;
 use common::config;
 use ugimage::Frame;
 use ugphysics::{Hsv, srgb_encode};
-use ugrainbow::{Background, Config, DepthCue, Exact, render};
+use ugrainbow::{Background, Config, DepthCue, Exact, PictureOptions, render};
 
 /// Eye ten units above the plane z = 0, +y up, orthographic; 8 units across the picture.
 fn camera() -> String {
@@ -64,10 +64,19 @@ fn layers_are_blended_from_behind_in_linear_light() {
 fn what_passes_shows_the_background() {
     let panes = format!("l 1; {}{}", pane("r", 2.0, 0.0, 0.5), pane("g", 1.0, 120.0, 0.4));
     let blue = Background::Color(Hsv { hue: 240.0, saturation: 1.0, value: 1.0 });
-    let frame = draw(&panes, &Config { background: blue, ..config(2, 1) });
+    let frame = draw(
+        &panes,
+        &Config { picture: PictureOptions { background: blue, ..config(2, 1).picture }, ..config(2, 1) },
+    );
     assert_pixel(&frame, [1, 1], [0.5, 0.5 * 0.6, 0.5 * 0.4]);
     // On nothing the covered part is what does not pass, and colour is that of this part.
-    let frame = draw(&panes, &Config { background: Background::Transparent, ..config(2, 1) });
+    let frame = draw(
+        &panes,
+        &Config {
+            picture: PictureOptions { background: Background::Transparent, ..config(2, 1).picture },
+            ..config(2, 1)
+        },
+    );
     assert_eq!(frame.pixel(0, 0)[3], (255.0f64 * 0.8).round() as u8);
     assert_pixel(&frame, [0, 0], [0.5 / 0.8, 0.3 / 0.8, 0.0]);
 }
@@ -202,13 +211,25 @@ fn a_face_of_its_own_colour_is_as_clear_everywhere() {
     let text = "l 1; c glass 1 0 1 .5; c post 1 120;
                 v a -4 -4 0; v b -2 -4 0; v c 2 -4 0; v d 4 -4 0; v e -4 4 0; v f -2 4 0; v g 2 4 0; v h 4 4 0;
                 f (a b f e) post; f (b c g f) glass; f (c d h g) post;";
-    let frame = draw(text, &Config { background: Background::Transparent, ..config(8, 1) });
+    let frame = draw(
+        text,
+        &Config {
+            picture: PictureOptions { background: Background::Transparent, ..config(8, 1).picture },
+            ..config(8, 1)
+        },
+    );
     let alpha = |x: u32| frame.pixel(x, 4)[3];
     assert_eq!([0, 1, 2, 3, 4, 5, 6, 7].map(alpha), [255, 255, 128, 128, 128, 128, 255, 255]);
     // Without a colour of its own it has that of its corners, here from clear at the left to opaque at the right.
     let text = "l 1; c clear 1 0 1 1; c red 1 0;
                 v a -4 -4 0 clear; v b 4 -4 0 red; v c 4 4 0 red; v d -4 4 0 clear; f (a b c d);";
-    let frame = draw(text, &Config { background: Background::Transparent, ..config(8, 1) });
+    let frame = draw(
+        text,
+        &Config {
+            picture: PictureOptions { background: Background::Transparent, ..config(8, 1).picture },
+            ..config(8, 1)
+        },
+    );
     for x in 0..8 {
         let expected = 255.0 * (f64::from(x) + 0.5) / 8.0;
         assert!((f64::from(frame.pixel(x, 3)[3]) - expected).abs() <= 1.0, "column {x}");
@@ -223,7 +244,7 @@ fn exact_pictures_blend_as_well() {
     let scene = common::scene(&text);
     let scanned = config(60, 2);
     let exact = Config { exact: Some(Exact::default()), ..scanned.clone() };
-    let [one, other] = [scanned, exact].map(|config| render(&scene, &config).unwrap().0);
+    let [one, other] = [scanned, exact].map(|config| render(&scene, &config).unwrap().into_frame().unwrap());
     let differs = |(a, b): (&[u8; 4], &[u8; 4])| (0..4).any(|i| a[i].abs_diff(b[i]) > 1);
     let pairs = one.pixels().iter().zip(other.pixels());
     let n_different = pairs.filter(|&pair| differs(pair)).count();
@@ -237,7 +258,7 @@ fn light_falls_with_depth_towards_the_background() {
     let text = "l 1; c red 1 0; v a -4 -4 -2; v b 4 -4 2; v c 4 4 2; v d -4 4 -2; f (a b c d) red;";
     let blue = Background::Color(Hsv { hue: 240.0, saturation: 1.0, value: 1.0 });
     let cued = |range, least| Config {
-        background: blue,
+        picture: PictureOptions { background: blue, ..config(8, 1).picture },
         depth_cue: Some(DepthCue { range, least }),
         ..config(8, 1)
     };

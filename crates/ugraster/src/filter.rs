@@ -8,6 +8,7 @@
 use std::collections::VecDeque;
 
 use fearless_simd::{Level, Simd, dispatch};
+use ugimage::Filter;
 
 use crate::progress::Progress;
 use crate::rasterizer::{Keep, Rasterizer, TileBuffers, paint_parts};
@@ -16,74 +17,6 @@ use crate::shading::{SampleStats, Shading};
 
 /// Rows of pixels of a strip: many, beside those that are drawn twice.
 const STRIP_ROWS: u32 = 32;
-
-/// How much samples weigh in a pixel, by their distances x and y from its middle in pixels: w(x)
-/// w(y).
-///
-/// These are B-splines: the weights of a sample in all pixels add up to 1, so wherever something
-/// small stands, the picture has the same light of it. None is negative, so no pixel is darker or
-/// brighter than all of its samples.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Filter {
-    /// The samples of the pixel itself, all alike, as of a detector: w = 1 for |x| < ½.
-    #[default]
-    Box,
-    /// w = 1 − |x|, up to 1.
-    Triangle,
-    /// The quadratic B-spline, nearly a Gaussian with σ = ½: w = ¾ − x² for |x| < ½, else ½ (3/2 −
-    /// |x|)², up to 3/2.
-    Spline,
-}
-
-impl Filter {
-    /// All of them.
-    pub const ALL: [Self; 3] = [Self::Box, Self::Triangle, Self::Spline];
-
-    /// What it is called.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Box => "box",
-            Self::Triangle => "triangle",
-            Self::Spline => "spline",
-        }
-    }
-
-    /// The filter called `name`.
-    pub fn from_name(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|filter| name == filter.name())
-    }
-
-    /// How many pixels beside its own have samples that count, on each side.
-    fn margin(self) -> u32 {
-        match self {
-            Self::Box => 0,
-            Self::Triangle | Self::Spline => 1,
-        }
-    }
-
-    /// How many samples along a side count for a pixel with `n` of its own along a side.
-    pub fn n_samples(self, n: u32) -> usize {
-        self.weights(n).iter().filter(|weight| **weight != 0.0).count()
-    }
-
-    /// The weight at a distance in pixels.
-    fn at(self, distance: f64) -> f64 {
-        let x = distance.abs();
-        match self {
-            Self::Box => f64::from(u8::from(x < 0.5)),
-            Self::Triangle => (1.0 - x).max(0.0),
-            Self::Spline if x < 0.5 => 0.75 - x * x,
-            Self::Spline => 0.5 * (1.5 - x).max(0.0) * (1.5 - x).max(0.0),
-        }
-    }
-
-    /// The weights along a side of a pixel with `n` samples along a side.
-    fn weights(self, n: u32) -> Vec<f32> {
-        let place = |sample: u32| (f64::from(sample) + 0.5) / f64::from(n) - 0.5;
-        let first = f64::from(self.margin());
-        (0..n * (1 + 2 * self.margin())).map(|sample| self.at(place(sample) - first) as f32).collect()
-    }
-}
 
 impl<const N: usize> Rasterizer<'_, N> {
     /// As [`Rasterizer::paint`], with a reconstruction filter. `resolve` receives light and

@@ -117,7 +117,6 @@ pub use bins::Bins;
 pub use block::{BLOCK, BlockClasses, TriangleBlock};
 pub use depth_fade::DepthFade;
 pub use edges::Scanner;
-pub use filter::Filter;
 pub use grid::{Bands, SampleGrid};
 pub use layer::{CornerTable, NoTriangles, OpaqueLayer, PolygonLayer};
 pub use polygons::{Bounds, Corner, Point, PolygonList, ShapeRef, greater, lesser};

@@ -25,6 +25,7 @@ mod camera;
 mod camera_motion;
 #[cfg(feature = "cli")]
 pub mod cli;
+mod edges;
 mod eye;
 mod geometry;
 mod normals;
@@ -37,6 +38,7 @@ mod stage;
 
 pub use camera::{CameraError, CameraOptions, HalfSpace, Place, Slab, View};
 pub use camera_motion::{axes_from_scene, camera_velocity};
+pub use edges::face_edges;
 pub use eye::{eye, vertex_at_eye};
 pub use geometry::{Geometry, rest_positions};
 pub use normals::{corner_angle, seen_normal, shading_normal, smooth_normals};

@@ -182,9 +182,9 @@ fn differences(
     let mut pipe = Pipe::default().shape();
     pipe.lorentz = view.config(beta, uglorentz::Pieces::UpTo(uglorentz::DEFAULT_ERROR));
     pipe.doppler.repeat = true;
-    pipe.rainbow.size = view.size;
-    pipe.rainbow.samples = 1;
-    pipe.rainbow.camera.view_angle = view.camera.view_angle.map(|[across, _]| (across, None));
+    pipe.rainbow.picture.size = view.size;
+    pipe.rainbow.picture.samples = 1;
+    pipe.rainbow.picture.camera.view_angle = view.camera.view_angle.map(|[across, _]| (across, None));
     let picture = pipe.draw(&ugparse::write(&scene));
     let camera = view.pinhole();
     let agreement = compare(&picture, oracle, &camera, MOST_PIXELS);

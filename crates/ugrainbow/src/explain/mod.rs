@@ -7,18 +7,18 @@ use glam::DVec3;
 use ugimage::{Development, Quantizer, Steps, display_pixel};
 use ugparse::{Diagnostic, Diagnostics, Parsed, Source, Stage, VertexId};
 use ugphysics::{attenuation, doppler_at, linear_srgb_to_xyz, wavelength_to_hue};
-use ugraster::{Filter, Fragment, Hit, PixelSamples, ProbedSample, Resolve};
+use ugpicture::{Emissions, Filter, Layout, SurfaceSample};
+use ugraster::{Fragment, PixelSamples, ProbedSample, Resolve};
 use ugscene::Geometry;
 
-use crate::canvas;
-use crate::canvas::{Display, Ground, development};
 use crate::config::{Config, Interpolation};
 use crate::depth_cue::prepare;
 use crate::error::Error;
-use crate::figures::Plan;
+use crate::front::{of_fragment, of_surface};
 use crate::packing::{Interpolated, unpack};
 use crate::palette::Swatch;
-use crate::planes::{self, Finder};
+use crate::pixels::{self, Display, backdrop, developed, development, mean};
+use crate::render::warnings;
 use crate::render_layers::RenderLayers;
 use crate::setup::Setup;
 
@@ -111,8 +111,11 @@ pub struct LayerShown {
 pub enum SampleColor {
     /// A hue, saturation and value; with coloured light beside it.
     Hue {
+        /// Hue in degrees, −60…300.
         hue: f64,
+        /// Saturation, 0…1.
         saturation: f64,
+        /// Value, 0 and more.
         value: f64,
         /// Level of red, green and blue light, if lights are coloured; else it is in the value.
         level: Option<[f64; 3]>,
@@ -120,15 +123,22 @@ pub enum SampleColor {
         wavelength: Option<Wavelength>,
     },
     /// CIE X, Y, Z, and chromaticity x, y.
-    Light { xyz: [f64; 3], chromaticity: Option<[f64; 2]> },
+    Light {
+        /// X, Y, Z.
+        xyz: [f64; 3],
+        /// x, y; none of black.
+        chromaticity: Option<[f64; 2]>,
+    },
 }
 
 /// The wavelength a hue stands for.
 #[derive(Clone, Copy, Debug)]
 pub struct Wavelength {
+    /// At rest.
     pub rest_nm: f64,
+    /// As seen.
     pub seen_nm: f64,
-    /// (P17)
+    /// By how much the hue is attenuated, (P17).
     pub attenuation: f64,
     /// A hue at the end of the range may stand for any wavelength beyond.
     pub is_at_end: bool,
@@ -137,9 +147,11 @@ pub struct Wavelength {
 /// A corner, between which colour and light are interpolated.
 #[derive(Clone, Debug)]
 pub struct Corner {
+    /// Name of the vertex.
     pub name: String,
     /// Hue in degrees, saturation, value; or linear red, green, blue if given as light.
     pub color: [f64; 3],
+    /// True if the colour is given as light.
     pub is_light: bool,
     /// Level of red, green and blue light.
     pub level: [f64; 3],
@@ -169,40 +181,43 @@ pub fn explain(
     source: &Source,
     pixel: [u32; 2],
 ) -> Result<(Explanation, Diagnostics), Error> {
-    let parsed = ugscene::read(source, &config.reading, config.camera.name.as_deref())?;
+    let parsed = ugscene::read(source, &config.reading, config.picture.camera.name.as_deref())?;
     if config.exact.is_some() {
         return Err(Error::Options("--explain tells of the scanline mode only: leave out -xc"));
     }
-    let config = &*Plan::new(config)?.of_scene(config);
+    let layout = Layout::new(&config.picture)?;
+    let config = &Config { picture: layout.of_scene(&config.picture).into_owned(), ..config.clone() };
+    config.picture.check()?;
+    let picture = &config.picture;
     let setup = prepare(&parsed.scene, config)?;
-    if pixel[0] >= config.size[0] || pixel[1] >= config.size[1] {
-        return Err(Error::Pixel { pixel, size: config.size });
+    if pixel[0] >= picture.size[0] || pixel[1] >= picture.size[1] {
+        return Err(Error::Pixel { pixel, size: picture.size });
     }
     let layers = RenderLayers::new(setup.painter(), &config.draw_mode());
-    let (display, ground) = (Display::new(config), Ground::new(config));
+    let (display, backdrop) = (Display::new(picture), backdrop(picture));
     let (samples, gathered, bytes) = layers.probe(&setup.grid, &setup.shader, &display, pixel);
-    let (mean, bytes) = match config.filter {
-        Filter::Box => (ground.pixel(&gathered), bytes),
+    let (mean, bytes) = match picture.filter {
+        Filter::Box => (mean(&backdrop, &gathered), bytes),
         filter => {
-            let both = |all: &PixelSamples<'_>| (ground.pixel(all), display.pixel(all));
+            let both = |all: &PixelSamples<'_>| (mean(&backdrop, all), display.pixel(all));
             layers.probe_filtered(&setup.grid, filter, &setup.shader, &both, pixel)
         }
     };
     let teller = Teller { setup: &setup, config, source, parsed: &parsed };
     let explanation = Explanation {
         pixel,
-        size: config.size,
-        samples: config.samples,
+        size: picture.size,
+        samples: picture.samples,
         covers: teller.covers(&samples),
-        n_free: (config.samples * config.samples) as usize
+        n_free: (picture.samples * picture.samples) as usize
             - samples.iter().filter(|sample| !is_free(sample)).count(),
         is_at_rest: !ugscene::has_moving_bodies(setup.scene()) && !ugscene::has_moving_lights(setup.scene()),
-        sample: nearest(&samples, pixel, config.samples).map(|sample| teller.shown(sample)),
+        sample: nearest(&samples, pixel, picture.samples).map(|sample| teller.shown(sample)),
         pixel_steps: pixel_steps(&setup, &layers, config, mean, bytes),
         history: ugscene::history(&parsed.scene).into_iter().map(str::to_owned).collect(),
         stage: parsed.scene.stage,
     };
-    Ok((explanation, crate::warnings(source, parsed)))
+    Ok((explanation, warnings(source, parsed)))
 }
 
 /// The sample nearest to the centre of the pixel; of equals the last, as for channels.
@@ -224,14 +239,14 @@ fn pixel_steps(
 ) -> PixelSteps {
     let [red, green, blue, _] = mean;
     let development = setup.is_uncut.then(|| {
-        let development = development(|| canvas::light(setup, layers, config).0, config);
+        let development = development(&config.picture, || pixels::light(setup, layers, config).0);
         (development, development.steps([red, green, blue]))
     });
     let bytes = development.map_or(bytes, |(development, _)| {
-        let shown = canvas::developed(&development, mean);
-        display_pixel(&Quantizer::new(), shown, Ground::new(config).is_opaque())
+        let shown = developed(&development, mean);
+        display_pixel(&Quantizer::new(), shown, backdrop(&config.picture).is_opaque())
     });
-    PixelSteps { filter: config.filter, mean, development, bytes }
+    PixelSteps { filter: config.picture.filter, mean, development, bytes }
 }
 
 /// One of the things a sample shows.
@@ -309,14 +324,15 @@ impl Teller<'_> {
     fn shown(&self, sample: &ProbedSample) -> Shown {
         let painter = self.setup.painter();
         let (seen, values, light) = self.subject(sample);
-        let emission = Finder::new(&painter).emission(sample.place, seen);
+        let emissions = Emissions::new(painter.scene, painter.view, painter.surface.frames());
+        let emission = emissions.at(sample.place, seen);
         let (place, velocity) = (emission.place, emission.velocity);
         let geometry = Geometry::of(self.setup.scene());
         let rest = geometry.rest(place, velocity);
         let rest_time = (geometry == Geometry::default()).then(|| -rest.length());
         let angle = |line: DVec3| line.angle_between(velocity.direction()).to_degrees();
         let doppler = doppler_at(place, velocity);
-        let n = f64::from(self.config.samples);
+        let n = f64::from(self.config.picture.samples);
         Shown {
             place: sample.place.map(|sample| (f64::from(sample) + 0.5) / n),
             item: self.item(seen.item),
@@ -336,13 +352,13 @@ impl Teller<'_> {
 
     /// What there is most to tell of: as in channels the nearest that lets through less than half, else the nearest. With
     /// its numbers, if they are known, and its light.
-    fn subject<'s>(&self, sample: &'s ProbedSample) -> (Hit, Option<&'s [f32]>, [f32; 3]) {
-        let layer = |layer: &Fragment| (planes::seen(&self.setup.view, layer), None, layer.light);
+    fn subject<'s>(&self, sample: &'s ProbedSample) -> (SurfaceSample, Option<&'s [f32]>, [f32; 3]) {
+        let layer = |layer: &Fragment| (of_fragment(&self.setup.view, layer), None, layer.light);
         let mut layers = sample.fragments.iter().rev();
         let surface = sample
             .opaque
             .as_ref()
-            .map(|surface| (surface.hit, Some(&surface.values[..]), surface.shaded.light));
+            .map(|surface| (of_surface(surface.hit), Some(&surface.values[..]), surface.shaded.light));
         layers
             .clone()
             .find(|layer| layer.transmittance < 0.5)

@@ -3,7 +3,7 @@
 use std::fmt::{self, Write};
 
 use ugparse::{ColorScale, SeenColors, Stage};
-use ugraster::Filter;
+use ugpicture::Filter;
 
 use super::{Corner, Explanation, Item, PixelSteps, SampleColor, Shown};
 

@@ -3,6 +3,7 @@
 use glam::DVec3;
 use rayon::prelude::*;
 use ugparse::{Face, VertexId, newell_normal};
+use ugscene::face_edges;
 
 use crate::painter::Painter;
 
@@ -24,11 +25,7 @@ pub struct Edge {
 pub fn edges(painter: &Painter<'_>) -> Vec<Edge> {
     let scene = painter.scene;
     let of_face = |(row, face): (usize, &Face)| {
-        let sides = |contour: &[VertexId]| {
-            let next = contour.iter().cycle().skip(1);
-            contour.iter().zip(next).map(|(&a, &b)| [a.min(b), a.max(b)]).collect::<Vec<_>>()
-        };
-        let sides = scene.face_contours(face).flat_map(sides).filter(|[a, b]| a != b);
+        let sides = face_edges(scene, face).filter(|[a, b]| a != b).map(|[a, b]| [a.min(b), a.max(b)]);
         // The text of a scene is below 4 GiB, and so are its rows.
         sides.map(|ends| Edge { ends, face: row as u32 }).collect::<Vec<_>>()
     };

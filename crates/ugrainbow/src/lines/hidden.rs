@@ -1,5 +1,7 @@
 //! The parts of lines that no face hides.
 
+use ugpicture::visible_runs;
+
 use crate::planar::{BoxIndex, Convex, DepthPoint, clipped_to_picture, convex_parts};
 
 /// Cells along a side of the grid by which faces are found that lie near no line.
@@ -12,21 +14,21 @@ const STEP: f64 = 0.5;
 const MOST_STEPS: f64 = 1e6;
 
 /// What decides which parts of a line are seen.
-pub struct Shown<'a> {
-    hiding: Hiding<'a>,
+pub struct Visibility<'a> {
+    occlusion: Occlusion<'a>,
     /// The picture with a margin, beyond which lines are not drawn.
     picture: Option<Convex>,
 }
 
-enum Hiding<'a> {
-    Polygons(Hiders),
+enum Occlusion<'a> {
+    Polygons(Occluders),
     Rays(&'a (dyn Fn([f64; 2], f64) -> bool + Sync)),
 }
 
-impl<'a> Shown<'a> {
+impl<'a> Visibility<'a> {
     /// Behind polygons. `size`: of the picture, in samples; `margin`: half the width of lines.
-    pub fn behind(hiders: Hiders, size: [u32; 2], margin: f64) -> Self {
-        Self { hiding: Hiding::Polygons(hiders), picture: picture(size, margin) }
+    pub fn behind(occluders: Occluders, size: [u32; 2], margin: f64) -> Self {
+        Self { occlusion: Occlusion::Polygons(occluders), picture: picture(size, margin) }
     }
 
     /// Behind what rays find: true if a place in the picture is hidden at a key.
@@ -35,7 +37,7 @@ impl<'a> Shown<'a> {
         size: [u32; 2],
         margin: f64,
     ) -> Self {
-        Self { hiding: Hiding::Rays(is_hidden), picture: picture(size, margin) }
+        Self { occlusion: Occlusion::Rays(is_hidden), picture: picture(size, margin) }
     }
 
     /// The parts of the way from `a` to `b` that are in the picture and not hidden.
@@ -43,9 +45,9 @@ impl<'a> Shown<'a> {
         let Some(within) = self.picture.as_ref().and_then(|picture| picture.over(a, b)) else {
             return Vec::new();
         };
-        match &self.hiding {
-            Hiding::Polygons(hiders) => hiders.visible(a, b, within),
-            Hiding::Rays(is_hidden) => by_rays(a, b, within, is_hidden),
+        match &self.occlusion {
+            Occlusion::Polygons(occluders) => occluders.visible(a, b, within),
+            Occlusion::Rays(is_hidden) => by_rays(a, b, within, is_hidden),
         }
     }
 }
@@ -72,28 +74,20 @@ fn by_rays(
     let at = |step: u32| {
         if step == n_steps { end } else { start + (end - start) * f64::from(step) / f64::from(n_steps) }
     };
-    let mut shown: Vec<[f64; 2]> = Vec::new();
-    let mut is_open = false;
-    for step in 0..n_steps {
+    let is_visible = |step: u32| {
         let [x, y, key] = along(a, b, 0.5 * (at(step) + at(step + 1)));
-        let is_seen = !is_hidden([x, y], key);
-        match shown.last_mut() {
-            Some(last) if is_seen && is_open => last[1] = at(step + 1),
-            _ if is_seen => shown.push([at(step), at(step + 1)]),
-            _ => {}
-        }
-        is_open = is_seen;
-    }
-    shown
+        !is_hidden([x, y], key)
+    };
+    visible_runs(n_steps, is_visible).into_iter().map(|run| [at(run.start), at(run.end)]).collect()
 }
 
 /// Faces that may hide lines, in convex flat parts.
-pub struct Hiders {
+pub struct Occluders {
     parts: Vec<Convex>,
     index: BoxIndex,
 }
 
-impl Hiders {
+impl Occluders {
     /// Those of some polygons, given as their contours, that lie near one of the lines whose boxes are given. `size`: of
     /// the picture, in samples.
     pub fn new(
@@ -122,7 +116,7 @@ impl Hiders {
         let low = [0, 1].map(|axis| from[axis].min(to[axis]));
         let high = [0, 1].map(|axis| from[axis].max(to[axis]));
         let parts = self.index.in_box([low, high]).into_iter().map(|idx| &self.parts[idx]);
-        let mut hidden: Vec<[f64; 2]> = parts.filter_map(|part| hidden_by(part, a, b)).collect();
+        let mut hidden: Vec<[f64; 2]> = parts.filter_map(|part| occluded_part(part, a, b)).collect();
         hidden.sort_by(|one, other| one[0].total_cmp(&other[0]));
         let (mut shown, mut reached) = (Vec::new(), start);
         for [first, last] in hidden {
@@ -139,7 +133,7 @@ impl Hiders {
 }
 
 /// The part of the way on which `part` is nearer.
-pub fn hidden_by(part: &Convex, a: DepthPoint, b: DepthPoint) -> Option<[f64; 2]> {
+pub fn occluded_part(part: &Convex, a: DepthPoint, b: DepthPoint) -> Option<[f64; 2]> {
     let [start, end] = part.over(a, b)?;
     let ahead = |at: f64| {
         let [x, y, key] = along(a, b, at);

@@ -24,7 +24,7 @@ use crate::packing::pack_transparent;
 use crate::painter::Painter;
 use crate::palette::Swatch;
 use edges::{Edge, edges};
-pub use hidden::{Hiders, Shown, hidden_by};
+pub use hidden::{Occluders, Visibility, occluded_part};
 
 /// How much nearer to the eye a line is taken to be than it is, relative to its distance: enough to
 /// win against the faces whose edge it follows.
@@ -194,7 +194,7 @@ impl Stroke {
     }
 
     /// The parts of it that are in the picture and not hidden.
-    fn visible(&self, shown: &Shown<'_>) -> Vec<Self> {
+    fn visible(&self, visibility: &Visibility<'_>) -> Vec<Self> {
         let [a, b] = self.ends.map(|end| [end.x, end.y, end.key]);
         let length = libm::hypot(b[0] - a[0], b[1] - a[1]);
         // A line seen end-on is a dot.
@@ -204,13 +204,13 @@ impl Stroke {
             ends: [start, end].map(|part| between(&self.ends[0], &self.ends[1], part)),
             is_end: [start == 0.0, end == 1.0],
         };
-        shown.parts(a, b).into_iter().filter(is_drawn).map(stroke).collect()
+        visibility.parts(a, b).into_iter().filter(is_drawn).map(stroke).collect()
     }
 }
 
 /// The visible parts of pieces.
-pub fn strokes(pieces: &[Stroke], shown: &Shown<'_>) -> Vec<Stroke> {
-    pieces.par_iter().flat_map_iter(|piece| piece.visible(shown)).collect()
+pub fn strokes(pieces: &[Stroke], visibility: &Visibility<'_>) -> Vec<Stroke> {
+    pieces.par_iter().flat_map_iter(|piece| piece.visible(visibility)).collect()
 }
 
 fn vertex(place: Place, color: &Swatch) -> Vertex<TRANSPARENT_VALUES> {

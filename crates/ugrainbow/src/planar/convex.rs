@@ -1,5 +1,9 @@
 //! Convex polygons in the picture plane that are planar in depth.
 
+use ugpicture::clip_line;
+
+use super::clip::clip_edges;
+
 /// Column, row and depth key; the key is larger for what is nearer.
 pub type DepthPoint = [f64; 3];
 
@@ -152,16 +156,8 @@ impl Convex {
 
     /// The part of the segment from `a` to `b` that lies over it, as parameters in 0…1.
     pub fn over(&self, a: DepthPoint, b: DepthPoint) -> Option<[f64; 2]> {
-        let (mut start, mut end) = (0.0f64, 1.0f64);
-        for side in sides(&self.corners) {
-            let (at_a, at_b) = (inside(side, a), inside(side, b));
-            match (at_a >= 0.0, at_b >= 0.0) {
-                (true, true) => {}
-                (false, false) => return None,
-                (true, false) => end = end.min(at_a / (at_a - at_b)),
-                (false, true) => start = start.max(at_a / (at_a - at_b)),
-            }
-        }
+        let sides = sides(&self.corners).map(|side| [inside(side, a), inside(side, b)]);
+        let [start, end] = clip_line(sides)?;
         (start < end).then_some([start, end])
     }
 
@@ -230,21 +226,13 @@ pub fn doubled_area(corners: &[DepthPoint]) -> f64 {
     sides(corners).map(|(a, b)| (a[0] - x0) * (b[1] - y0) - (a[1] - y0) * (b[0] - x0)).sum()
 }
 
-/// Clips a polygon to where the linear function `inside` is not negative. Crossings are computed from
-/// the inner corner, so two polygons that share an edge share the crossing exactly.
+/// Clips a polygon to where the linear function `inside` is not negative.
 pub fn clip(corners: &[DepthPoint], inside: impl Fn(DepthPoint) -> f64) -> Vec<DepthPoint> {
     let crossing = |a: DepthPoint, b: DepthPoint| {
         let part = inside(a) / (inside(a) - inside(b));
         [0, 1, 2].map(|i| a[i] + (b[i] - a[i]) * part)
     };
     let mut kept = Vec::with_capacity(corners.len() + 1);
-    for (a, b) in sides(corners) {
-        match (inside(a) >= 0.0, inside(b) >= 0.0) {
-            (true, true) => kept.push(b),
-            (true, false) => kept.push(crossing(a, b)),
-            (false, true) => kept.extend([crossing(b, a), b]),
-            (false, false) => {}
-        }
-    }
+    clip_edges(sides(corners), |place| inside(*place) >= 0.0, |a, b| crossing(*a, *b), &mut kept);
     kept
 }

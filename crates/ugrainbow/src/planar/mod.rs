@@ -2,9 +2,13 @@
 //! index of their bounding boxes.
 
 mod box_index;
+mod clip;
 mod convex;
+mod cover;
 mod decompose;
 
 pub use box_index::BoxIndex;
+pub use clip::clip_edges;
 pub use convex::{Convex, DepthOrder, DepthPoint, doubled_area, sides};
+pub use cover::is_covered;
 pub use decompose::{clipped_to_picture, convex_parts};

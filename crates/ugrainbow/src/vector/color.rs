@@ -6,8 +6,8 @@ use ugphysics::srgb_encode;
 use ugraster::{Corner, SampleGrid, ShadedSample, TRANSPARENT_VALUES};
 
 use super::patch::Patch;
-use crate::canvas::developed;
 use crate::packing::shade_transparent;
+use crate::pixels::developed;
 use crate::render_layers::RenderLayers;
 use crate::shade::Shader;
 
@@ -15,7 +15,7 @@ use crate::shade::Shader;
 pub type Levels = [f64; 3];
 
 /// Turns numbers of the draw list into colours on the display.
-pub struct Palette<'a> {
+pub struct FigureColors<'a> {
     pub layers: &'a RenderLayers<'a>,
     pub shader: &'a Shader,
     /// How light is developed; `None` if it fits a display as it is.
@@ -25,55 +25,56 @@ pub struct Palette<'a> {
     pub ground: [f32; 3],
 }
 
-impl Palette<'_> {
+impl FigureColors<'_> {
     /// The colour at a place of patches one behind the other, the first in front.
     pub fn at<'p>(&self, layers: impl Iterator<Item = &'p Patch>, place: [f64; 2]) -> Levels {
-        self.blended(layers.map(|patch| self.film(patch, &patch.numbers_at(place))))
+        self.blended(layers.map(|patch| self.layer(patch, &patch.interpolants_at(place))))
     }
 
     /// The same, if it is the same everywhere.
     pub fn everywhere<'p>(&self, layers: impl Iterator<Item = &'p Patch>) -> Option<Levels> {
-        let film = |patch: &'p Patch| {
+        let layer = |patch: &'p Patch| {
             let values = patch.single_values().filter(|_| self.grid.fade.is_none())?;
-            Some(self.film(patch, &Numbers { values, key: 1.0 }))
+            Some(self.layer(patch, &Interpolants { values, key: 1.0 }))
         };
-        Some(self.blended(layers.map(film).collect::<Option<Vec<_>>>()?.into_iter()))
+        Some(self.blended(layers.map(layer).collect::<Option<Vec<_>>>()?.into_iter()))
     }
 
     /// The colour of a point of a line behind translucent patches, in any order.
     pub fn on_line<'p>(
         &self,
         at: &Corner<TRANSPARENT_VALUES>,
-        panes: impl Iterator<Item = &'p Patch>,
+        in_front: impl Iterator<Item = &'p Patch>,
     ) -> Levels {
         let scale = if self.grid.is_perspective { 1.0 / at.key } else { 1.0 };
         let values = at.values.map(|value| (value * scale) as f32);
-        let line = Film { light: self.cued(shade_transparent(self.shader, &values).0, at.key), pass: 0.0 };
-        let film = |patch: &'p Patch| {
-            let numbers = patch.numbers_at([at.x, at.y]);
-            (numbers.key, self.film(patch, &numbers))
+        let line =
+            SeenLayer { light: self.cued(shade_transparent(self.shader, &values).0, at.key), pass: 0.0 };
+        let layer = |patch: &'p Patch| {
+            let numbers = patch.interpolants_at([at.x, at.y]);
+            (numbers.key, self.layer(patch, &numbers))
         };
-        let mut films: Vec<(f64, Film)> = panes.map(film).collect();
-        films.sort_by(|(a, _), (b, _)| b.total_cmp(a));
-        self.blended(films.into_iter().map(|(_, film)| film).chain([line]))
+        let mut layers: Vec<(f64, SeenLayer)> = in_front.map(layer).collect();
+        layers.sort_by(|(a, _), (b, _)| b.total_cmp(a));
+        self.blended(layers.into_iter().map(|(_, layer)| layer).chain([line]))
     }
 
-    fn film(&self, patch: &Patch, Numbers { values, key }: &Numbers) -> Film {
-        let (shade, pass) = if patch.is_clear {
+    fn layer(&self, patch: &Patch, Interpolants { values, key }: &Interpolants) -> SeenLayer {
+        let (shade, pass) = if patch.is_transparent {
             shade_transparent(self.shader, values)
         } else {
             (self.layers.shade(self.shader, values), 0.0)
         };
-        Film { light: self.cued(shade, *key), pass }
+        SeenLayer { light: self.cued(shade, *key), pass }
     }
 
     /// Films one behind the other, the first in front, before the ground.
-    fn blended(&self, films: impl Iterator<Item = Film>) -> Levels {
+    fn blended(&self, layers: impl Iterator<Item = SeenLayer>) -> Levels {
         let (mut light, mut pass) = ([0.0; 3], 1.0);
-        for film in films {
-            let own = pass * (1.0 - film.pass);
-            light = std::array::from_fn(|i| light[i] + own * film.light[i]);
-            pass *= film.pass;
+        for layer in layers {
+            let own = pass * (1.0 - layer.pass);
+            light = std::array::from_fn(|i| light[i] + own * layer.light[i]);
+            pass *= layer.pass;
         }
         self.levels(std::array::from_fn(|i| light[i] + pass * self.ground[i]))
     }
@@ -94,13 +95,13 @@ impl Palette<'_> {
 }
 
 /// What a patch or line shows of itself, and the part of the light from behind that it lets through.
-struct Film {
+struct SeenLayer {
     light: [f32; 3],
     pass: f32,
 }
 
 /// What is interpolated, at a place.
-pub struct Numbers {
+pub struct Interpolants {
     pub values: [f32; TRANSPARENT_VALUES],
     pub key: f64,
 }

@@ -1,13 +1,9 @@
-//! Which patches are wholly hidden.
+//! Culling of patches that are completely occluded.
 
 use super::patch::Patch;
-use crate::planar::BoxIndex;
-use crate::planar::Convex;
+use crate::planar::{BoxIndex, Convex, is_covered};
 
-/// Most parts a patch is cut into to find out; with more it counts as seen.
-const MOST_PARTS: usize = 64;
-
-/// The patches without those that others hide wholly. What `is_seen` says is kept without more ado.
+/// The patches without those that are completely occluded. Items that `is_seen` are known to be visible.
 pub fn without_hidden(patches: Vec<Patch>, index: &BoxIndex, is_seen: &[bool]) -> Vec<Patch> {
     let is_kept = |patch: &Patch| is_seen[patch.item as usize] || !is_hidden(patch, &patches, index);
     let is_kept: Vec<bool> = patches.iter().map(is_kept).collect();
@@ -15,26 +11,12 @@ pub fn without_hidden(patches: Vec<Patch>, index: &BoxIndex, is_seen: &[bool]) -
 }
 
 fn is_hidden(patch: &Patch, patches: &[Patch], index: &BoxIndex) -> bool {
-    let mut rest = patch.parts.clone();
-    for idx in index.in_box(patch.bounds()) {
-        let other = &patches[idx];
-        if other.item == patch.item || other.is_clear {
-            continue;
-        }
-        for part in &other.parts {
-            rest = rest.into_iter().flat_map(|own| shown(own, part)).collect();
-        }
-        if rest.is_empty() {
-            return true;
-        }
-        if rest.len() > MOST_PARTS {
-            return false;
-        }
-    }
-    false
+    let others = index.in_box(patch.bounds()).into_iter().map(|idx| &patches[idx]);
+    let opaque = others.filter(|other| other.item != patch.item && !other.is_transparent);
+    is_covered(patch.parts.clone(), opaque.map(|other| &other.parts[..]), shown)
 }
 
-/// What of a part another does not hide; all of it if that is not nearer everywhere.
+/// The part of `own` that is not occluded by `other`; all of it if that is not nearer everywhere.
 fn shown(own: Convex, other: &Convex) -> Vec<Convex> {
     let relation = other.relation(&own);
     if relation.is_before && !relation.is_behind { own.beside(other) } else { vec![own] }

@@ -2,9 +2,9 @@
 
 use ugimage::figure::Element;
 
-use super::color::{Levels, Palette, distance, mean, rounded};
+use super::color::{FigureColors, Levels, distance, mean, rounded};
 use super::patch::Patch;
-use crate::lines::{Stroke, between, hidden_by};
+use crate::lines::{Stroke, between, occluded_part};
 use crate::planar::BoxIndex;
 
 /// How much colour changes along a piece of a line, in levels of 255.
@@ -13,29 +13,30 @@ const STEP: f64 = 4.0;
 /// Shorter pieces of lines, in pixels, are not cut for their colour.
 const LEAST: f64 = 0.5;
 
-/// Shorter parts of lines before or behind panes, in pixels, are not drawn for themselves.
+/// Shorter parts of lines before or behind in_front, in pixels, are not drawn for themselves.
 const SHORTEST: f64 = 0.01;
 
 /// Translucent faces that may stand before lines.
-pub struct Panes<'a> {
+pub struct TransparentPatches<'a> {
     pub patches: &'a [Patch],
     pub index: &'a BoxIndex,
 }
 
-impl Panes<'_> {
-    /// Of a line, the parts of the way on which panes are nearer, and which.
+impl TransparentPatches<'_> {
+    /// Of a line, the parts of the way on which in_front are nearer, and which.
     fn before(&self, stroke: &Stroke) -> Vec<([f64; 2], usize)> {
         let [a, b] = stroke.ends.map(|end| [end.x, end.y, end.key]);
-        let near = self.index.in_box(stroke.bounds()).into_iter().filter(|&idx| self.patches[idx].is_clear);
+        let near =
+            self.index.in_box(stroke.bounds()).into_iter().filter(|&idx| self.patches[idx].is_transparent);
         let parts = near.flat_map(|idx| self.patches[idx].parts.iter().map(move |part| (idx, part)));
-        parts.filter_map(|(idx, part)| hidden_by(part, a, b).map(|way| (way, idx))).collect()
+        parts.filter_map(|(idx, part)| occluded_part(part, a, b).map(|way| (way, idx))).collect()
     }
 }
 
 /// Adds lines of this width, the farthest first, so that of two that cross the nearer is seen.
 pub fn push_lines<S>(
-    palette: &Palette<'_>,
-    panes: &Panes<'_>,
+    colors: &FigureColors<'_>,
+    in_front: &TransparentPatches<'_>,
     mut strokes: Vec<Stroke>,
     width: f64,
     elements: &mut Vec<Element<S>>,
@@ -46,18 +47,18 @@ pub fn push_lines<S>(
     strokes.reverse();
     strokes.sort_by(|one, other| key(one).total_cmp(&key(other)));
     for stroke in &strokes {
-        let before = panes.before(stroke);
+        let before = in_front.before(stroke);
         for way in cuts(stroke, &before).windows(2) {
             let middle = 0.5 * (way[0] + way[1]);
             let is_before = |([start, end], _): &&([f64; 2], usize)| (*start..=*end).contains(&middle);
-            let panes: Vec<&Patch> =
-                before.iter().filter(is_before).map(|(_, idx)| &panes.patches[*idx]).collect();
-            push_line(palette, stroke, [way[0], way[1]], &panes, width, elements);
+            let in_front: Vec<&Patch> =
+                before.iter().filter(is_before).map(|(_, idx)| &in_front.patches[*idx]).collect();
+            push_line(colors, stroke, [way[0], way[1]], &in_front, width, elements);
         }
     }
 }
 
-/// The ends of a line, and where panes begin or end to be before it.
+/// The ends of a line, and where in_front begin or end to be before it.
 fn cuts(stroke: &Stroke, before: &[([f64; 2], usize)]) -> Vec<f64> {
     let [a, b] = &stroke.ends;
     let length = libm::hypot(b.x - a.x, b.y - a.y);
@@ -71,10 +72,10 @@ fn cuts(stroke: &Stroke, before: &[([f64; 2], usize)]) -> Vec<f64> {
 
 /// Adds a part of a line in pieces of one colour.
 fn push_line<S>(
-    palette: &Palette<'_>,
+    colors: &FigureColors<'_>,
     stroke: &Stroke,
     way: [f64; 2],
-    panes: &[&Patch],
+    in_front: &[&Patch],
     width: f64,
     elements: &mut Vec<Element<S>>,
 ) {
@@ -90,7 +91,7 @@ fn push_line<S>(
         };
         [a.x + (b.x - a.x) * part, a.y + (b.y - a.y) * part]
     };
-    let color = |part: f64| -> Levels { palette.on_line(&between(a, b, part), panes.iter().copied()) };
+    let color = |part: f64| -> Levels { colors.on_line(&between(a, b, part), in_front.iter().copied()) };
     let mut stack = vec![way];
     while let Some([start, end]) = stack.pop() {
         let middle = 0.5 * (start + end);

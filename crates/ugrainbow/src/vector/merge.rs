@@ -7,7 +7,7 @@ use std::collections::{HashMap, HashSet};
 
 use ugimage::figure::{Point, Rgb, Written, edges, written};
 
-use super::transparency::Coat;
+use super::transparency::PaintedArea;
 use crate::planar::BoxIndex;
 use crate::planar::{Convex, doubled_area};
 
@@ -19,17 +19,17 @@ const LEAST_OVERLAP: f64 = 0.005;
 pub enum Paint {
     /// Outlines of an area of one colour; even-odd rule.
     Plain(Vec<Vec<Point>>, Rgb),
-    Smooth(Coat),
+    Smooth(PaintedArea),
 }
 
-/// Coats in the order of painting, each with its colour if that is the same everywhere. `size`: of the picture.
-pub fn merged(coats: Vec<(Coat, Option<Rgb>)>, size: [u32; 2]) -> Vec<Paint> {
-    let mut groups = Groups::new(&coats, size);
+/// PaintedAreas in the order of painting, each with its colour if that is the same everywhere. `size`: of the picture.
+pub fn merged(areas: Vec<(PaintedArea, Option<Rgb>)>, size: [u32; 2]) -> Vec<Paint> {
+    let mut groups = Groups::new(&areas, size);
     // Only looked up, so its order is never seen.
     let mut with_edge: HashMap<(Written, Rgb), Vec<usize>> = HashMap::new();
-    for (number, (coat, color)) in coats.iter().enumerate() {
+    for (number, (area, color)) in areas.iter().enumerate() {
         let Some(color) = *color else { continue };
-        for edge in edges(&coat.contours) {
+        for edge in edges(&area.contours) {
             let [a, b] = written(edge);
             let others = with_edge.get(&([b, a], color));
             others.into_iter().flatten().for_each(|&other| groups.join(other, number));
@@ -44,27 +44,27 @@ pub fn merged(coats: Vec<(Coat, Option<Rgb>)>, size: [u32; 2]) -> Vec<Paint> {
         .map(|(m, place)| (place, m))
         .collect();
     painted.sort_unstable_by_key(|(place, _)| *place);
-    painted.into_iter().map(|(_, members)| paint(&coats, members)).collect()
+    painted.into_iter().map(|(_, members)| paint(&areas, members)).collect()
 }
 
-fn paint(coats: &[(Coat, Option<Rgb>)], members: &[usize]) -> Paint {
-    match (&coats[members[0]], members) {
-        ((coat, None), _) => Paint::Smooth(coat.clone()),
-        ((coat, Some(color)), [_]) => Paint::Plain(coat.contours.clone(), *color),
+fn paint(areas: &[(PaintedArea, Option<Rgb>)], members: &[usize]) -> Paint {
+    match (&areas[members[0]], members) {
+        ((area, None), _) => Paint::Smooth(area.clone()),
+        ((area, Some(color)), [_]) => Paint::Plain(area.contours.clone(), *color),
         ((_, Some(color)), _) => {
-            let all = members.iter().flat_map(|&member| edges(&coats[member].0.contours));
+            let all = members.iter().flat_map(|&member| edges(&areas[member].0.contours));
             Paint::Plain(outlines(all.map(written).collect()), *color)
         }
     }
 }
 
-/// Coats that are painted at once.
+/// PaintedAreas that are painted at once.
 struct Groups<'a> {
-    coats: &'a [(Coat, Option<Rgb>)],
+    areas: &'a [(PaintedArea, Option<Rgb>)],
     index: BoxIndex,
-    /// Of each coat, its group.
+    /// Of each area, its group.
     group: Vec<usize>,
-    /// Of each group, its coats, none if it is part of another now.
+    /// Of each group, its areas, none if it is part of another now.
     members: Vec<Vec<usize>>,
     /// Of each group, where in the order it is painted.
     place: Vec<usize>,
@@ -73,11 +73,11 @@ struct Groups<'a> {
 }
 
 impl<'a> Groups<'a> {
-    fn new(coats: &'a [(Coat, Option<Rgb>)], size: [u32; 2]) -> Self {
-        let index = BoxIndex::new(coats.iter().map(|(coat, _)| Convex::bounds(&coat.parts)), size);
-        let numbers = 0..coats.len();
+    fn new(areas: &'a [(PaintedArea, Option<Rgb>)], size: [u32; 2]) -> Self {
+        let index = BoxIndex::new(areas.iter().map(|(area, _)| Convex::bounds(&area.parts)), size);
+        let numbers = 0..areas.len();
         Self {
-            coats,
+            areas,
             index,
             group: numbers.clone().collect(),
             members: numbers.clone().map(|number| vec![number]).collect(),
@@ -86,7 +86,7 @@ impl<'a> Groups<'a> {
         }
     }
 
-    /// Makes one group of those of two coats, if it can be.
+    /// Makes one group of those of two areas, if it can be.
     fn join(&mut self, a: usize, b: usize) {
         let (a, b) = (self.group[a], self.group[b]);
         if a == b || !self.apart.insert([a.min(b), a.max(b)]) {
@@ -112,10 +112,10 @@ impl<'a> Groups<'a> {
         let from = self.place[group];
         let way = from.min(to)..=from.max(to);
         self.members[group].iter().all(|&member| {
-            let parts = &self.coats[member].0.parts;
+            let parts = &self.areas[member].0.parts;
             self.index.in_box(Convex::bounds(parts)).into_iter().all(|other| {
                 let its = self.group[other];
-                its == group || !way.contains(&self.place[its]) || !overlap(parts, &self.coats[other].0.parts)
+                its == group || !way.contains(&self.place[its]) || !overlap(parts, &self.areas[other].0.parts)
             })
         })
     }
@@ -170,15 +170,15 @@ fn unused(edges: &mut Vec<usize>, is_used: &[bool]) -> Option<usize> {
 mod tests {
     use super::*;
 
-    fn square(left: f64, top: f64, color: u8) -> (Coat, Option<Rgb>) {
+    fn square(left: f64, top: f64, color: u8) -> (PaintedArea, Option<Rgb>) {
         let [right, bottom] = [left + 1.0, top + 1.0];
         let corners = vec![[left, top, 1.0], [right, top, 1.0], [right, bottom, 1.0], [left, bottom, 1.0]];
         let part = Convex::new(corners).unwrap();
-        (Coat { layers: vec![0], contours: vec![part.outline()], parts: vec![part] }, Some([color; 3]))
+        (PaintedArea { layers: vec![0], contours: vec![part.outline()], parts: vec![part] }, Some([color; 3]))
     }
 
     /// Number of outlines and doubled area of each paint.
-    fn shapes(coats: Vec<(Coat, Option<Rgb>)>) -> Vec<(usize, f64)> {
+    fn shapes(areas: Vec<(PaintedArea, Option<Rgb>)>) -> Vec<(usize, f64)> {
         let area = |contours: &[Vec<Point>]| {
             let of = |contour: &Vec<Point>| {
                 doubled_area(&contour.iter().map(|&[x, y]| [x, y, 0.0]).collect::<Vec<_>>())
@@ -189,7 +189,7 @@ mod tests {
             Paint::Plain(contours, _) => (contours.len(), area(&contours)),
             Paint::Smooth(_) => (0, 0.0),
         };
-        merged(coats, [10, 10]).into_iter().map(shape).collect()
+        merged(areas, [10, 10]).into_iter().map(shape).collect()
     }
 
     #[test]

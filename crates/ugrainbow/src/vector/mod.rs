@@ -20,24 +20,27 @@ mod seen;
 mod smooth;
 mod transparency;
 
-use ugimage::figure::{self, Element, Figure};
+use ugimage::figure::{self, Element, Figure, Gradient, Triangle};
 use ugimage::{Development, Format, Label};
+use ugparse::Scene;
+use ugpicture::{Annotations, Exposure, Layout, MAX_PIXELS};
+use ugpipe::Progress;
 
-use crate::canvas;
+use crate::annotate::annotate;
 use crate::config::Config;
 use crate::depth_cue::prepare;
-use crate::error::{Error, MAX_PIXELS};
-use crate::figures::Annotations;
+use crate::error::Error;
 use crate::lines::Stroke;
+use crate::notes::DrawStatistics;
+use crate::pixels::{self, backdrop};
 use crate::planar::BoxIndex;
 use crate::render_layers::RenderLayers;
 use crate::setup::Setup;
-use color::{Palette, rounded};
+use color::{FigureColors, rounded};
 use merge::Paint;
 use patch::Patch;
 use smooth::{Smooth, plain_color, push_smooth};
-use transparency::Coat;
-use ugparse::Scene;
+use transparency::PaintedArea;
 
 /// Rows of samples a pixel, if the picture is not too large.
 const FINEST: u32 = 8;
@@ -45,85 +48,146 @@ const FINEST: u32 = 8;
 /// Most samples by which it is found out what is seen.
 const MOST_SAMPLES: u64 = MAX_PIXELS / 4;
 
-/// The file of a figure. `development`: how the light of the picture is developed, if it is; `annotations`: what is
-/// drawn over the scene.
+/// A figure, with areas of smooth colour as its format has them.
+#[derive(Clone, Debug)]
+pub enum VectorFigure {
+    /// For SVG.
+    Gradients(Figure<Gradient>),
+    /// For PostScript and PDF.
+    Triangles(Figure<Triangle>, Format),
+}
+
+impl VectorFigure {
+    /// The bytes of its file.
+    pub fn file(&self, label: &Label) -> Vec<u8> {
+        match self {
+            Self::Gradients(figure) => figure::svg(figure, label),
+            Self::Triangles(figure, Format::Pdf) => figure::pdf(figure, label),
+            Self::Triangles(figure, Format::Ps) => figure::ps(figure, label),
+            Self::Triangles(figure, _) => figure::eps(figure, label),
+        }
+    }
+}
+
+/// A figure of a scene, and what there is to note about it.
+pub struct Drawn<'a> {
+    /// The scene in the resolution at which visibility was decided.
+    pub setup: Setup<'a>,
+    /// Statistics of that.
+    pub statistics: DrawStatistics,
+    /// The figure.
+    pub figure: VectorFigure,
+    /// Its annotations.
+    pub annotations: Annotations,
+}
+
+/// Draws a figure.
 ///
 /// # Errors
 /// As for pictures.
-pub fn file(
-    scene: &Scene,
+pub fn draw<'a>(
+    scene: &'a Scene,
     config: &Config,
     format: Format,
-    development: Option<Development>,
-    annotations: &Annotations,
-    label: &Label,
-) -> Result<Vec<u8>, Error> {
-    Ok(match format {
-        Format::Svg => figure::svg(&figure(scene, config, development, annotations)?, label),
-        Format::Pdf => figure::pdf(&figure(scene, config, development, annotations)?, label),
-        Format::Ps => figure::ps(&figure(scene, config, development, annotations)?, label),
-        _ => figure::eps(&figure(scene, config, development, annotations)?, label),
-    })
-}
-
-/// The figure of a scene.
-fn figure<S: Smooth>(
-    scene: &Scene,
-    config: &Config,
-    development: Option<Development>,
-    annotations: &Annotations,
-) -> Result<Figure<S>, Error> {
-    let scale = scale(config.size);
-    let fine = Config { size: config.size.map(|side| side * scale), samples: 1, ..config.clone() };
+    layout: &Layout,
+    progress: &dyn Progress,
+) -> Result<Drawn<'a>, Error> {
+    let size = config.picture.size;
+    let scale = scale(size);
+    let mut fine = config.clone();
+    (fine.picture.size, fine.picture.samples) = (size.map(|side| side * scale), 1);
     let setup = prepare(scene, &fine)?;
-    let layers = RenderLayers::new(setup.painter(), &fine.draw_mode());
-    let ground = canvas::ground(config, None);
-    if ground.is_none() && layers.has_clear_faces() {
+    let layers = RenderLayers::new(setup.painter(), &fine.draw_mode()).telling(progress);
+    if backdrop(&config.picture).light().is_none() && layers.has_transparent_faces() {
         return Err(Error::Figure(
             "what is seen through translucent faces of a figure of areas must be known: give a background (-bg 1 for paper) in place of -tb",
         ));
     }
     let seen = seen::faces(&setup, &layers);
-    let faces = patches(&layers, &setup, config.size, f64::from(scale), &seen.is_near);
-    let index = BoxIndex::new(faces.iter().map(Patch::bounds), config.size);
-    let faces = hidden::without_hidden(faces, &index, &seen.is_seen);
-    let palette = Palette {
-        layers: &layers,
-        shader: &setup.shader,
-        development,
-        grid: &setup.grid,
-        ground: ground.unwrap_or([1.0; 3]),
+    let development = if setup.is_uncut { Some(development(scene, config)?) } else { None };
+    let statistics = DrawStatistics { clip_counts: layers.clip_counts(), stats: seen.stats, development };
+    let annotations = annotate(layout, &setup, config, development)?;
+    let job =
+        FigureJob { layers: &layers, setup: &setup, config, scale, seen: &seen, annotations: &annotations };
+    let figure = match format {
+        Format::Svg => VectorFigure::Gradients(job.figure(development)?),
+        _ => VectorFigure::Triangles(job.figure(development)?, format),
     };
-    let index = BoxIndex::new(faces.iter().map(Patch::bounds), config.size);
-    let mut elements = painted(&palette, &faces, &index, config.size)?;
-    let strokes = layers.strokes().iter().map(|stroke| scaled(*stroke, scale)).collect();
-    let panes = lines::Panes { patches: &faces, index: &index };
-    lines::push_lines(&palette, &panes, strokes, config.line_width, &mut elements);
-    let background = ground.map(|light| rounded(palette.levels(light)));
-    let mut figure = Figure { size: config.size, background, elements };
-    annotations.complete(&mut figure);
-    Ok(figure)
+    drop(layers);
+    Ok(Drawn { setup, statistics, figure, annotations })
+}
+
+/// How light is developed. An automatic exposure is a quantile of the light of pixels, so it alone needs the whole
+/// picture.
+fn development(scene: &Scene, config: &Config) -> Result<Development, Error> {
+    let stops = match config.picture.exposure {
+        Some(Exposure::Auto) => {
+            let setup = prepare(scene, config)?;
+            let layers = RenderLayers::new(setup.painter(), &config.draw_mode());
+            return Ok(pixels::development(&config.picture, || pixels::light(&setup, &layers, config).0));
+        }
+        Some(Exposure::Stops(stops)) => stops,
+        None => 0.0,
+    };
+    Ok(Development { stops, tone: config.picture.tone })
+}
+
+/// A figure being made.
+struct FigureJob<'a> {
+    layers: &'a RenderLayers<'a>,
+    setup: &'a Setup<'a>,
+    config: &'a Config,
+    scale: u32,
+    seen: &'a seen::Faces,
+    annotations: &'a Annotations,
+}
+
+impl FigureJob<'_> {
+    fn figure<S: Smooth>(&self, development: Option<Development>) -> Result<Figure<S>, Error> {
+        let Self { layers, setup, config, scale, seen, annotations } = *self;
+        let size = config.picture.size;
+        let ground = backdrop(&config.picture).light();
+        let faces = patches(layers, setup, size, f64::from(scale), &seen.is_near);
+        let index = BoxIndex::new(faces.iter().map(Patch::bounds), size);
+        let faces = hidden::without_hidden(faces, &index, &seen.is_seen);
+        let colors = FigureColors {
+            layers,
+            shader: &setup.shader,
+            development,
+            grid: &setup.grid,
+            ground: ground.unwrap_or([1.0; 3]),
+        };
+        let index = BoxIndex::new(faces.iter().map(Patch::bounds), size);
+        let mut elements = painted(&colors, &faces, &index, size)?;
+        let strokes = layers.strokes().iter().map(|stroke| scaled(*stroke, scale)).collect();
+        let in_front = lines::TransparentPatches { patches: &faces, index: &index };
+        lines::push_lines(&colors, &in_front, strokes, config.line_width, &mut elements);
+        let background = ground.map(|light| rounded(colors.levels(light)));
+        let mut figure = Figure { size, background, elements };
+        annotations.complete(&mut figure);
+        Ok(figure)
+    }
 }
 
 /// Faces as elements, from behind.
 fn painted<S: Smooth>(
-    palette: &Palette<'_>,
+    colors: &FigureColors<'_>,
     faces: &[Patch],
     index: &BoxIndex,
     size: [u32; 2],
 ) -> Result<Vec<Element<S>>, Error> {
-    let coats = transparency::coats(faces, &order::painting_order(faces, index), size)?;
-    let with_color = |coat: Coat| {
-        let color = plain_color(palette, faces, &coat);
-        (coat, color)
+    let areas = transparency::areas(faces, &order::painting_order(faces, index), size)?;
+    let with_color = |area: PaintedArea| {
+        let color = plain_color(colors, faces, &area);
+        (area, color)
     };
     let mut elements = Vec::new();
-    for paint in merge::merged(coats.into_iter().map(with_color).collect(), size) {
+    for paint in merge::merged(areas.into_iter().map(with_color).collect(), size) {
         match paint {
             Paint::Plain(contours, color) => {
                 elements.push(Element::Area { contours, color, is_inside: false });
             }
-            Paint::Smooth(coat) => push_smooth(palette, faces, coat, &mut elements),
+            Paint::Smooth(area) => push_smooth(colors, faces, area, &mut elements),
         }
     }
     Ok(elements)
@@ -152,14 +216,14 @@ fn patches(
     is_shown: &[bool],
 ) -> Vec<Patch> {
     let mut faces = Vec::new();
-    layers.for_each_polygon(|item, is_clear, mut contours| {
+    layers.for_each_polygon(|item, is_transparent, mut contours| {
         if !is_shown[item as usize] {
             return;
         }
         for corner in contours.iter_mut().flatten() {
             (corner.x, corner.y) = (corner.x / scale, corner.y / scale);
         }
-        faces.extend(Patch::new(item, is_clear, contours, size, setup.view.is_perspective));
+        faces.extend(Patch::new(item, is_transparent, contours, size, setup.view.is_perspective));
     });
     faces
 }

@@ -121,7 +121,9 @@ fn partition(patches: &[Patch], group: &[usize], pieces: &mut Vec<Piece>) {
         match step {
             Step::Paint(mut parts) => {
                 // Of what is equally deep the first is to be seen, so it comes last, and what is opaque at the very end.
-                parts.sort_by_key(|(idx, _)| std::cmp::Reverse((patches[*idx].is_clear, patches[*idx].item)));
+                parts.sort_by_key(|(idx, _)| {
+                    std::cmp::Reverse((patches[*idx].is_transparent, patches[*idx].item))
+                });
                 pieces.extend(parts.into_iter().map(|(idx, part)| Piece::Part(idx, part)));
             }
             Step::Divide(parts) if parts.len() < 2 => steps.push(Step::Paint(parts)),

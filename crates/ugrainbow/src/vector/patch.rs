@@ -2,7 +2,7 @@
 
 use ugraster::{Corner, TRANSPARENT_VALUES};
 
-use super::color::Numbers;
+use super::color::Interpolants;
 use crate::planar::{Convex, DepthPoint, clipped_to_picture, convex_parts, doubled_area, sides};
 
 /// What is drawn so far outside the picture, in pixels; the rest is cut away.
@@ -14,7 +14,7 @@ pub struct Patch {
     /// Its face.
     pub item: u32,
     /// True if that is translucent.
-    pub is_clear: bool,
+    pub is_transparent: bool,
     /// As drawn by the raster; its colours come from here.
     contours: Vec<Vec<Corner<TRANSPARENT_VALUES>>>,
     /// What of it is in and near the picture; counterclockwise as [`Convex`], holes clockwise.
@@ -28,7 +28,7 @@ impl Patch {
     /// `corners` are in pixels. `None` if nothing of it is in the picture.
     pub fn new(
         item: u32,
-        is_clear: bool,
+        is_transparent: bool,
         contours: Vec<Vec<Corner<TRANSPARENT_VALUES>>>,
         size: [u32; 2],
         is_perspective: bool,
@@ -39,11 +39,11 @@ impl Patch {
             .map(|contour| clipped_to_picture(contour.iter().map(place).collect(), size, MARGIN));
         let outline = oriented(outline.filter(|contour| contour.len() > 2).collect());
         let parts = convex_parts(&outline);
-        (!parts.is_empty()).then_some(Self { item, is_clear, contours, outline, parts, is_perspective })
+        (!parts.is_empty()).then_some(Self { item, is_transparent, contours, outline, parts, is_perspective })
     }
 
     /// The numbers the raster interpolates at a place, which is moved to the nearest of its row if it is not inside.
-    pub fn numbers_at(&self, [x, y]: [f64; 2]) -> Numbers {
+    pub fn interpolants_at(&self, [x, y]: [f64; 2]) -> Interpolants {
         let corners = || self.contours.iter().flatten();
         let top = corners().map(|corner| corner.y).fold(f64::INFINITY, f64::min);
         let bottom = corners().map(|corner| corner.y).fold(f64::NEG_INFINITY, f64::max);
@@ -68,7 +68,7 @@ impl Patch {
             _ => self.contours[0][0],
         };
         let scale = if self.is_perspective { 1.0 / here.key } else { 1.0 };
-        Numbers { values: here.values.map(|value| (value * scale) as f32), key: here.key }
+        Interpolants { values: here.values.map(|value| (value * scale) as f32), key: here.key }
     }
 
     /// The least and greatest x and y.

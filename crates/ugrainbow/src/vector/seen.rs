@@ -1,7 +1,7 @@
 //! Which faces are seen.
 
 use std::sync::atomic::{AtomicBool, Ordering};
-use ugraster::Center;
+use ugraster::{PixelSamples, SampleStats};
 
 use crate::render_layers::RenderLayers;
 use crate::setup::Setup;
@@ -13,6 +13,8 @@ pub struct Faces {
     /// For each, whether it or a face beside it is seen at a sample. A face that is seen only between samples nearly
     /// always has a neighbour that is seen at one.
     pub is_near: Vec<bool>,
+    /// Statistics of the samples.
+    pub stats: SampleStats,
 }
 
 /// Finds out by the samples of a picture.
@@ -20,7 +22,8 @@ pub fn faces(setup: &Setup<'_>, layers: &RenderLayers<'_>) -> Faces {
     let scene = setup.scene();
     let is_seen: Vec<AtomicBool> = scene.faces.iter().map(|_| AtomicBool::new(false)).collect();
     // Pixels of nothing take no memory. In which order faces are found makes no difference.
-    layers.paint_centers(&setup.grid, &setup.shader, |center: &Center<'_>| {
+    let (_, stats) = layers.paint_with_centers(&setup.grid, &setup.shader, &|all: &PixelSamples<'_>| {
+        let center = &all.center;
         let transparent = center.fragments.iter().filter(|fragment| !fragment.is_line);
         let transparent = transparent.map(|fragment| fragment.item);
         for item in center.opaque.iter().map(|hit| hit.item).chain(transparent) {
@@ -41,5 +44,5 @@ pub fn faces(setup: &Setup<'_>, layers: &RenderLayers<'_>) -> Faces {
         scene.contours.corners(face.contours.clone()).iter().any(|vertex| is_corner[vertex.index()])
     };
     let is_near = scene.faces.iter().map(has_seen_corner).collect();
-    Faces { is_seen, is_near }
+    Faces { is_seen, is_near, stats }
 }

@@ -1,11 +1,11 @@
-//! Coats as elements of a figure: plain areas, triangles between whose corners colour is linear, and
+//! PaintedAreas as elements of a figure: plain areas, triangles between whose corners colour is linear, and
 //! areas whose colour is linear along a line.
 
 use ugimage::figure::{Element, Gradient, Point, Rgb, Triangle};
 
-use super::color::{Levels, Palette, distance, mean, rounded};
+use super::color::{FigureColors, Levels, distance, mean, rounded};
 use super::patch::Patch;
-use super::transparency::Coat;
+use super::transparency::PaintedArea;
 use crate::planar::{Convex, sides};
 
 /// How far, in levels of 255, the colours of a figure are from those of the scene where that is tried: at corners,
@@ -23,32 +23,32 @@ const MOST_CUTS: u32 = 14;
 
 /// How a format has smooth colour.
 pub trait Smooth: Sized {
-    /// Adds smooth elements for the parts of a coat whose outline is `contours`.
+    /// Adds smooth elements for the parts of a area whose outline is `contours`.
     fn push(job: &Job<'_>, contours: Vec<Vec<Point>>, parts: &[Convex], elements: &mut Vec<Element<Self>>);
 }
 
-/// A coat being painted.
+/// A area being painted.
 pub struct Job<'a> {
-    palette: &'a Palette<'a>,
+    colors: &'a FigureColors<'a>,
     patches: &'a [Patch],
-    /// As those of a [`Coat`].
+    /// As those of a [`PaintedArea`].
     layers: &'a [usize],
 }
 
-/// The colour of a coat, if it is nearly the same everywhere.
-pub fn plain_color(palette: &Palette<'_>, patches: &[Patch], coat: &Coat) -> Option<Rgb> {
-    let job = Job { palette, patches, layers: &coat.layers };
-    palette.everywhere(job.layers()).or_else(|| plain(&job.tried(&coat.parts))).map(rounded)
+/// The colour of a area, if it is nearly the same everywhere.
+pub fn plain_color(colors: &FigureColors<'_>, patches: &[Patch], area: &PaintedArea) -> Option<Rgb> {
+    let job = Job { colors, patches, layers: &area.layers };
+    colors.everywhere(job.layers()).or_else(|| plain(&job.tried(&area.parts))).map(rounded)
 }
 
-/// Adds a coat of smooth colour to the figure.
+/// Adds a area of smooth colour to the figure.
 pub fn push_smooth<S: Smooth>(
-    palette: &Palette<'_>,
+    colors: &FigureColors<'_>,
     patches: &[Patch],
-    Coat { layers, contours, parts }: Coat,
+    PaintedArea { layers, contours, parts }: PaintedArea,
     elements: &mut Vec<Element<S>>,
 ) {
-    S::push(&Job { palette, patches, layers: &layers }, contours, &parts, elements);
+    S::push(&Job { colors, patches, layers: &layers }, contours, &parts, elements);
 }
 
 /// The middle of the range of colours, if it is small.
@@ -63,7 +63,7 @@ fn plain(tried: &[(Point, Levels)]) -> Option<Levels> {
 
 impl Job<'_> {
     fn color(&self, place: Point) -> Levels {
-        self.palette.at(self.layers(), place)
+        self.colors.at(self.layers(), place)
     }
 
     fn layers(&self) -> impl Iterator<Item = &Patch> {

@@ -3,7 +3,7 @@
 
 use ugimage::{Format, Frame};
 use ugparse::Source;
-use ugrainbow::{Config, Output, render, run};
+use ugrainbow::{Config, Output, PictureOptions, render, run};
 
 /// The scene of a text.
 #[track_caller]
@@ -15,12 +15,15 @@ pub fn scene(text: &str) -> ugparse::Scene {
 /// The picture of a text.
 #[track_caller]
 pub fn draw(text: &str, config: &Config) -> Frame {
-    render(&scene(text), config).unwrap().0
+    render(&scene(text), config).unwrap().into_frame().unwrap()
 }
 
 /// Of a square picture.
 pub fn config(side: u32, samples: u32) -> Config {
-    Config { size: [side, side], samples, ..Config::default() }
+    Config {
+        picture: PictureOptions { size: [side, side], samples, ..PictureOptions::default() },
+        ..Config::default()
+    }
 }
 
 /// A file of the picture of a text.
@@ -32,8 +35,14 @@ pub fn file(text: &str, config: &Config) -> Vec<u8> {
 /// Linear red, green and blue of every pixel, out of a PFM file.
 #[track_caller]
 pub fn light(text: &str, config: &Config) -> Vec<[f32; 3]> {
-    let file = file(text, &Config { output: Output::Color(Format::Pfm), ..config.clone() });
-    let [width, height] = config.size.map(|side| side as usize);
+    let file = file(
+        text,
+        &Config {
+            picture: PictureOptions { output: Output::Color(Format::Pfm), ..config.picture.clone() },
+            ..config.clone()
+        },
+    );
+    let [width, height] = config.picture.size.map(|side| side as usize);
     let data = file[file.len() - 12 * width * height..].as_chunks::<4>().0;
     let numbers: Vec<f32> = data.iter().map(|bytes| f32::from_le_bytes(*bytes)).collect();
     numbers.chunks(3 * width).rev().flat_map(|row| row.as_chunks::<3>().0.to_vec()).collect()

@@ -4,7 +4,7 @@ use glam::DVec3;
 use uglabel::{Drawing, Line, MissingCharacter, Point, Rgb};
 use ugphysics::{Hsv, attenuation, wavelength_to_hue};
 
-use super::motion::Motion;
+use super::motion::MotionSummary;
 use super::style::Style;
 use uglabel::number::{few, range, significant, speed};
 
@@ -53,7 +53,7 @@ pub fn rows(style: &Style, width: u32) -> Option<u32> {
 /// # Errors
 /// None, for the font has all that is written.
 pub fn draw(
-    motion: &Motion,
+    motion: &MotionSummary,
     style: &Style,
     [width, top]: [f64; 2],
     drawing: &mut Drawing,
@@ -121,7 +121,7 @@ impl Layout {
 }
 
 struct Legend<'a> {
-    motion: &'a Motion,
+    motion: &'a MotionSummary,
     style: &'a Style,
     layout: Layout,
 }
@@ -206,7 +206,7 @@ impl Legend<'_> {
             let corners = [[inside[0] - wider, row - 0.5 * thick], [inside[1] + wider, row + 0.5 * thick]];
             drawing.rectangle(corners[0], corners[1], ink);
         }
-        drawing.area(circle([start, row], 0.42 * size), self.style.ground);
+        drawing.area(circle([start, row], 0.42 * size), self.style.background);
         drawing.area(circle([start, row], 0.28 * size), ink);
     }
 

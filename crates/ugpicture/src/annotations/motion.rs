@@ -1,37 +1,35 @@
-//! How the bodies that are seen move, and with what Doppler factors they are seen.
+//! Velocities and Doppler factors of the bodies in a picture.
 
 use glam::DVec3;
 use ugphysics::{Velocity, doppler_at};
 use ugscene::View;
 
-use super::depths::Depths;
-use crate::config::Config;
-use crate::planes::Finder;
-use crate::setup::Setup;
+use super::seen::SeenScene;
+use crate::depth_buffer::DepthBuffer;
+use crate::emission::Emissions;
 
-/// The motion in a picture.
-pub struct Motion {
-    /// Of the bodies that are seen, or if there are none of all; slow ones first. At rest, one of speed 0.
+/// Velocities and Doppler factors of the bodies in a picture.
+pub struct MotionSummary {
+    /// Velocities of the bodies that are seen, or of all if none is; slowest first.
     pub velocities: Vec<Velocity>,
-    /// Of each of them, the direction: to the right, up, and toward the viewer. Zero at rest.
+    /// Their directions: to the right, up, and toward the viewer. Zero at rest.
     pub directions: Vec<DVec3>,
-    /// The least and the greatest Doppler factor that is seen, in the middle of a pixel; none if nothing is.  Eq. (P10)
+    /// Least and greatest Doppler factor at the middles of pixels; `None` if nothing is seen.  Eq. (P10)
     pub doppler: Option<[f64; 2]>,
-    /// True if colours in the picture are shifted.
+    /// True if wavelengths in the picture are Doppler shifted.
     pub is_shifted: bool,
 }
 
-impl Motion {
-    /// `setup`, `depths`: with one sample for each pixel.
-    pub fn new(setup: &Setup<'_>, depths: &Depths, config: &Config) -> Self {
-        let painter = setup.painter();
-        let finder = Finder::new(&painter);
+impl MotionSummary {
+    /// Of the surfaces in `depths`. `is_shifted`: wavelengths have been Doppler shifted.
+    pub fn new(seen: &SeenScene<'_>, depths: &DepthBuffer, is_shifted: bool) -> Self {
+        let emissions = Emissions::new(seen.scene, &seen.view, &seen.frames);
         let mut velocities: Vec<Velocity> = Vec::new();
         let mut doppler: Option<[f64; 2]> = None;
-        for (idx, seen) in depths.seen.iter().enumerate() {
-            let Some(seen) = *seen else { continue };
-            let width = setup.grid.width as usize;
-            let emission = finder.emission([(idx % width) as u32, (idx / width) as u32], seen);
+        for (idx, surface) in depths.seen.iter().enumerate() {
+            let Some(surface) = *surface else { continue };
+            let width = depths.size[0] as usize;
+            let emission = emissions.at([(idx % width) as u32, (idx / width) as u32], surface);
             if !velocities.contains(&emission.velocity) {
                 velocities.push(emission.velocity);
             }
@@ -39,11 +37,11 @@ impl Motion {
             doppler = Some(doppler.map_or([factor; 2], |[low, high]| [low.min(factor), high.max(factor)]));
         }
         if velocities.is_empty() {
-            velocities = setup.scene().faces.iter().map(|face| setup.surface.velocity(face.body)).collect();
+            velocities = seen.scene.faces.iter().map(|face| seen.frames.velocity(face.body)).collect();
             velocities.dedup();
         }
         velocities.sort_by(|a, b| a.rapidity().total_cmp(&b.rapidity()));
-        let axes = axes(&setup.view);
+        let axes = axes(&seen.view);
         let direction = |v: &Velocity| {
             if v.is_zero() {
                 DVec3::ZERO
@@ -52,14 +50,10 @@ impl Motion {
             }
         };
         let directions = velocities.iter().map(direction).collect();
-        let is_shifted = match config.exact {
-            Some(exact) => exact.doppler,
-            None => setup.scene().stage.seen_colors().is_some_and(|seen| seen.doppler),
-        };
         Self { velocities, directions, doppler, is_shifted }
     }
 
-    /// True if nothing that is seen moves.
+    /// True if everything that is seen is at rest.
     pub fn is_rest(&self) -> bool {
         self.velocities.iter().all(|v| v.is_zero())
     }

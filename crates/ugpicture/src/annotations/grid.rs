@@ -7,9 +7,9 @@ use glam::DVec3;
 use uglabel::{DESCENT, Drawing, Line, MissingCharacter, Point};
 use ugscene::View;
 
-use super::depths::{Depths, in_picture};
+use super::seen::SeenScene;
 use super::style::Style;
-use crate::setup::Setup;
+use super::visible::{VisibleLines, in_picture};
 use uglabel::number::significant;
 
 /// Squares that should be beside each other in the picture, a quarter above its lower edge.
@@ -21,29 +21,29 @@ const MOST: f64 = 100.0;
 /// Size of numbers, in parts of that of a caption.
 const TEXT: f64 = 0.8;
 
-/// Draws the grid. `setup`: with one sample for each pixel, of which `depths` are.
+/// Draws the grid where `visible` says it is not hidden. Returns a note.
 ///
 /// # Errors
 /// None, for the font has all that is written.
 pub fn draw(
-    setup: &Setup<'_>,
-    depths: &Depths,
+    seen: &SeenScene<'_>,
+    visible: &VisibleLines<'_>,
     style: &Style,
     drawing: &mut Drawing,
 ) -> Result<Option<String>, MissingCharacter> {
-    let Some(grid) = Grid::of(setup) else { return Ok(None) };
-    let view = &setup.view;
+    let Some(grid) = GroundGrid::new(seen) else { return Ok(None) };
+    let view = &seen.view;
     let mut lines = Vec::new();
     for axis in 0..2 {
         for number in grid.numbers(axis) {
             let [low, high] = grid.ends[1 - axis];
             let ends = [low, high].map(|across| grid.point(axis, number, across) - view.eye);
-            lines.extend(depths.visible(view, ends));
+            lines.extend(visible.visible(ends));
         }
     }
     let is_empty = lines.is_empty();
     drawing.lines(lines, style.hairline, style.faint);
-    let mut labels = Labels { grid: &grid, view, depths, style, boxes: Vec::new(), size: setup.size() };
+    let mut labels = Labels { grid: &grid, view, visible, style, boxes: Vec::new(), size: seen.size() };
     for axis in 0..2 {
         labels.draw(axis, drawing)?;
     }
@@ -56,7 +56,7 @@ pub fn draw(
 }
 
 /// Lines at multiples of a step.
-struct Grid {
+struct GroundGrid {
     step: f64,
     /// z
     level: f64,
@@ -64,14 +64,14 @@ struct Grid {
     ends: [[i64; 2]; 2],
 }
 
-impl Grid {
+impl GroundGrid {
     /// None if the scene is too far away for numbers.
-    fn of(setup: &Setup<'_>) -> Option<Self> {
-        let (low, high) = setup.scene().bounds()?;
+    fn new(seen: &SeenScene<'_>) -> Option<Self> {
+        let (low, high) = seen.scene.bounds()?;
         let longest = (high.x - low.x).max(high.y - low.y);
         let level = if low.z < -1e-9 * longest { low.z } else { 0.0 };
-        let depth = depth(setup, level);
-        let [left, right] = [0.0, setup.size()[0]].map(|column| setup.view.point([column, 0.0], depth));
+        let depth = depth(seen, level);
+        let [left, right] = [0.0, seen.size()[0]].map(|column| seen.view.point([column, 0.0], depth));
         let step = round_step(((right - left).length() / SQUARES).max(longest / MOST));
         let ends = [[low.x, high.x], [low.y, high.y]]
             .map(|[low, high]| [(low / step).floor(), (high / step).ceil()]);
@@ -101,9 +101,9 @@ fn is_free([low, high]: [Point; 2], others: &[[Point; 2]]) -> bool {
 }
 
 /// The depth of the ground in the lower part of the picture; that of the view centre if it is nearer.
-fn depth(setup: &Setup<'_>, level: f64) -> f64 {
-    let view = &setup.view;
-    let [width, height] = setup.size();
+fn depth(seen: &SeenScene<'_>, level: f64) -> f64 {
+    let view = &seen.view;
+    let [width, height] = seen.size();
     let [near, far] = [1.0, 2.0].map(|depth| view.eye.z + view.point([0.5 * width, 0.75 * height], depth).z);
     let crossing = 1.0 + (level - near) / (far - near);
     if crossing > 0.0 && view.is_perspective { crossing.min(view.distance) } else { view.distance }
@@ -122,9 +122,9 @@ fn round_step(least: f64) -> f64 {
 
 /// Numbers at the ends of lines, on the side that is nearer to the eye.
 struct Labels<'a> {
-    grid: &'a Grid,
+    grid: &'a GroundGrid,
     view: &'a View,
-    depths: &'a Depths,
+    visible: &'a VisibleLines<'a>,
     style: &'a Style,
     /// Of those drawn: left upper and right lower corner.
     boxes: Vec<[Point; 2]>,
@@ -149,7 +149,7 @@ impl Labels<'_> {
         let name = ["x", "y"][axis];
         let mut is_named = false;
         for (number, end, other, is_whole) in lines {
-            let Some(spot) = self.depths.shows(self.view, end) else { continue };
+            let Some(spot) = self.visible.shows(end) else { continue };
             let text = significant(number as f64 * grid.step, 6);
             // At the rims of the picture numbers of both axes are mixed.
             let text = if is_named && is_whole { text } else { format!("{name} = {text}") };
@@ -210,7 +210,7 @@ impl Labels<'_> {
     fn push(&mut self, line: &Line, [low, high]: [Point; 2], has_ground: bool, drawing: &mut Drawing) {
         self.boxes.push([low, high]);
         if has_ground {
-            drawing.rectangle(low, high, self.style.ground);
+            drawing.rectangle(low, high, self.style.background);
         }
         let base = high[1] - DESCENT * TEXT * self.style.size;
         drawing.text(line, [0.5 * (low[0] + high[0] - line.width()), base.round()], self.style.ink);

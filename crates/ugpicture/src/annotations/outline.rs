@@ -11,13 +11,12 @@ use std::collections::HashMap;
 use glam::DVec3;
 use uglabel::{Drawing, Point};
 use ugparse::{BodyId, Scene, VertexId, newell_normal};
-use ugscene::{Geometry, View, vertex_bodies};
+use ugscene::{Geometry, View, face_edges, rest_positions, vertex_bodies};
 
-use super::depths::{Depths, Spot};
+use super::seen::SeenScene;
 use super::style::Style;
-use crate::config::Config;
-use crate::error::Error;
-use crate::setup::Setup;
+use super::visible::{DepthPoint, VisibleLines};
+use crate::depth_buffer::DepthBuffer;
 
 /// Faces that meet at less than this angle are one bent surface: its cosine, of 35 degrees.
 const CREASE: f64 = 0.819;
@@ -31,65 +30,73 @@ const ASIDE: f64 = 1.6;
 /// What is so far from the plane of a face, in parts of its distance from the eye, still lies in it.
 const FLAT: f64 = 3e-3;
 
-/// Draws the outlines. `setup`: with one sample for each pixel, and `config` of the same.
-///
-/// # Errors
-/// As for pictures.
+/// The scene that outlines are drawn of: moving bodies at rest, as they would look.
+pub struct IdealScene {
+    /// Nothing in it moves.
+    pub scene: Scene,
+    /// Places of its vertices relative to the eye.
+    places: Vec<DVec3>,
+}
+
+impl IdealScene {
+    /// `None` if nothing moves.
+    pub fn new(seen: &SeenScene<'_>) -> Option<Self> {
+        let is_moving = |body: BodyId| !seen.frames.velocity(body).is_zero();
+        if !seen.scene.faces.iter().any(|face| is_moving(face.body)) {
+            return None;
+        }
+        let places = ideal_places(seen);
+        Some(Self { scene: ideal_scene(seen.scene, seen.view.eye, &places), places })
+    }
+}
+
+/// Draws the outlines. `depths`: of the ideal scene.
 pub fn draw(
-    setup: &Setup<'_>,
-    config: &Config,
+    seen: &SeenScene<'_>,
+    ideal: &IdealScene,
+    depths: &DepthBuffer,
     style: &Style,
     drawing: &mut Drawing,
-) -> Result<Option<String>, Error> {
-    let scene = setup.scene();
-    let is_moving = |body: BodyId| !setup.surface.velocity(body).is_zero();
-    if !scene.faces.iter().any(|face| is_moving(face.body)) {
-        return Ok(Some("nothing moves, so there is no undistorted outline (-dl) beside the picture".into()));
-    }
-    let places = ideal_places(setup);
-    let ideal = ideal_scene(scene, setup.view.eye, &places);
-    // The camera looks where it looked, although the middle of the scene is elsewhere.
-    let mut still = Config { exact: None, ..config.clone() };
-    still.camera.eye = Some(setup.view.eye);
-    still.camera.center = Some(setup.view.eye + setup.view.distance * setup.view.forward);
-    let ideal = Setup::new(&ideal, &still)?;
-    let depths = Depths::new(&ideal, &still.draw_mode());
+) {
+    let IdealScene { places, .. } = ideal;
+    let is_moving = |body: BodyId| !seen.frames.velocity(body).is_zero();
+    let visible = VisibleLines { view: &seen.view, depths };
     let mut lines = Vec::new();
-    let faces = Faces { scene, places: &places, view: &setup.view };
-    for edge in edges(scene, &is_moving).iter().filter(|edge| edge.is_shown(&faces)) {
+    let faces = Faces { scene: seen.scene, places, view: &seen.view };
+    for edge in edges(seen.scene, &is_moving).iter().filter(|edge| edge.is_shown(&faces)) {
         let ends = edge.ends.map(|vertex| places[vertex.index()]);
-        lines.extend(depths.visible_where(&setup.view, ends, |spot, across| {
-            edge.faces.len() == 2 || !faces.go_on(&depths, spot, across)
+        lines.extend(visible.visible_where(ends, |place, across| {
+            edge.faces.len() == 2 || !faces.go_on(&visible, place, across)
         }));
     }
     let width = style.hairline;
-    drawing.lines(lines.clone(), 3.0 * width, style.ground);
+    drawing.lines(lines.clone(), 3.0 * width, style.background);
     drawing.lines(lines, width, style.ink);
-    Ok(None)
 }
 
 /// Where each vertex would be, relative to the eye.
-fn ideal_places(setup: &Setup<'_>) -> Vec<DVec3> {
-    let scene = setup.scene();
+fn ideal_places(seen: &SeenScene<'_>) -> Vec<DVec3> {
+    let scene = seen.scene;
+    let at_rest = rest_positions(scene, seen.view.eye, &seen.frames);
     let geometry = Geometry::of(scene);
     let bodies = vertex_bodies(scene);
     let shift = |body: BodyId| {
         let rest = (0..scene.vertices.len()).filter(|&vertex| bodies[vertex] == body);
-        let rest = rest.map(|vertex| setup.surface.rest(VertexId::from_index(vertex)));
+        let rest = rest.map(|vertex| at_rest[vertex]);
         let bounds = rest.fold(None, |bounds: Option<[DVec3; 2]>, place| {
             Some(bounds.map_or([place; 2], |[low, high]| [low.min(place), high.max(place)]))
         });
-        let velocity = setup.surface.velocity(body);
+        let velocity = seen.frames.velocity(body);
         bounds.filter(|_| !velocity.is_zero()).map(|[low, high]| {
             let center = 0.5 * low + 0.5 * high;
-            let of_body = setup.surface.scene_from_axes(body).inverse() * center;
+            let of_body = seen.frames.scene_from_axes(body).inverse() * center;
             geometry.seen(of_body, velocity) - center
         })
     };
     let shifts: Vec<Option<DVec3>> = scene.bodies.ids().map(shift).collect();
     let place = |(vertex, body): (usize, &BodyId)| match shifts[body.index()] {
-        Some(shift) => setup.surface.rest(VertexId::from_index(vertex)) + shift,
-        None => scene.vertices[vertex].position - setup.view.eye,
+        Some(shift) => at_rest[vertex] + shift,
+        None => scene.vertices[vertex].position - seen.view.eye,
     };
     bodies.iter().enumerate().map(place).collect()
 }
@@ -127,10 +134,10 @@ impl Faces<'_> {
 
     /// True if one surface goes on at both sides of a place on a line, though it may be made of faces that do not
     /// share this edge: cut another way, or let into each other.
-    fn go_on(&self, depths: &Depths, spot: Spot, across: Point) -> bool {
-        let point = depths.point(self.view, spot);
+    fn go_on(&self, visible: &VisibleLines<'_>, place: DepthPoint, across: Point) -> bool {
+        let point = visible.point(place);
         let side = |by: f64| {
-            let face = depths.face_at([spot[0] + by * across[0], spot[1] + by * across[1]])?;
+            let face = visible.face_at([place[0] + by * across[0], place[1] + by * across[1]])?;
             let corner = self.scene.face_contours(&self.scene.faces[face]).next()?.first()?;
             let (normal, is_front) = self.normal(face);
             let height = normal.dot(point - self.places[corner.index()]).abs();
@@ -155,17 +162,15 @@ fn edges(scene: &Scene, is_moving: &dyn Fn(BodyId) -> bool) -> Vec<Edge> {
     // Only looked up, so its order is never seen.
     let mut known = HashMap::new();
     for (idx, face) in scene.faces.iter().enumerate().filter(|(_, face)| is_moving(face.body)) {
-        for contour in scene.face_contours(face) {
-            for (&a, &b) in contour.iter().zip(contour.iter().cycle().skip(1)) {
-                let (from, to) = (spot(a), spot(b));
-                let key = (from.min(to), from.max(to), face.body);
-                let edge = *known.entry(key).or_insert_with(|| {
-                    edges.push(Edge { ends: [a, b], faces: Vec::new() });
-                    edges.len() - 1
-                });
-                let is_forth = spot(edges[edge].ends[0]) == from;
-                edges[edge].faces.push((idx, is_forth));
-            }
+        for [a, b] in face_edges(scene, face) {
+            let (from, to) = (spot(a), spot(b));
+            let key = (from.min(to), from.max(to), face.body);
+            let edge = *known.entry(key).or_insert_with(|| {
+                edges.push(Edge { ends: [a, b], faces: Vec::new() });
+                edges.len() - 1
+            });
+            let is_forth = spot(edges[edge].ends[0]) == from;
+            edges[edge].faces.push((idx, is_forth));
         }
     }
     edges

@@ -1,0 +1,200 @@
+//! Annotations of a picture: a caption, a legend, a coordinate grid, and the outlines of undistorted bodies.
+//!
+//! Caption and legend stand on strips below the picture of the scene. The file keeps the size that is asked for: the
+//! scene is drawn in the rows that the strips leave, exactly as it would be drawn alone in that size. Grid and outlines
+//! are drawn over it. All of them are text and lines ([`uglabel`]), drawn after the light of the scene has been developed.
+
+mod composite;
+mod grid;
+mod legend;
+mod motion;
+mod outline;
+mod seen;
+mod style;
+mod visible;
+
+use std::borrow::Cow;
+
+use ugimage::Development;
+use uglabel::{DESCENT, Drawing, Line, SPACING, wrapped};
+use ugparse::Scene;
+use ugscene::CameraOptions;
+
+use crate::background::Backdrop;
+use crate::depth_buffer::DepthBuffer;
+use crate::error::Error;
+use crate::options::{AnnotationOptions, PictureOptions};
+pub use composite::Annotations;
+use motion::MotionSummary;
+use outline::IdealScene;
+use seen::SeenScene;
+use style::Style;
+use visible::VisibleLines;
+
+/// The scene of a picture that is annotated.
+#[derive(Clone, Copy, Debug)]
+pub struct Annotated<'a> {
+    /// The scene, whose vertices are part of one body each.
+    pub scene: &'a Scene,
+    /// The camera of the picture.
+    pub camera: &'a CameraOptions,
+    /// True if wavelengths in the picture are Doppler shifted.
+    pub is_shifted: bool,
+}
+
+/// Which geometry a depth buffer is asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SceneState {
+    /// The scene of the picture.
+    AsSeen,
+    /// Another one, in which nothing moves.
+    AtRest,
+}
+
+/// Where the parts of an annotated picture are.
+pub struct Layout {
+    /// Pixels of the whole picture.
+    size: [u32; 2],
+    /// Rows of the scene at the top.
+    scene_rows: u32,
+    /// Rows of the legend below it.
+    legend_rows: u32,
+    caption: Vec<Line>,
+}
+
+impl Layout {
+    /// Lays out a picture.
+    ///
+    /// # Errors
+    /// The format has no place for annotations, the font lacks a character, or there is no room.
+    pub fn new(options: &PictureOptions) -> Result<Self, Error> {
+        options.check_size()?;
+        let annotations = &options.annotations;
+        if !annotations.is_empty() && options.output.is_linear() {
+            return Err(Error::Options(
+                "EXR, PFM and HDR pictures hold the light of the scene and nothing else: \
+                 leave out -cap, -lg, -dl and -gr, or write -dt png16",
+            ));
+        }
+        let style = Style::new(options.size, None, options.output);
+        let [width, height] = options.size;
+        let room = f64::from(width) - 2.0 * style.margin();
+        let caption = wrapped(&annotations.caption, style.size, room)?;
+        let legend_rows = if annotations.legend { legend::rows(&style, width) } else { Some(0) };
+        let Some(legend_rows) = legend_rows.filter(|_| caption.iter().all(|line| line.width() <= room))
+        else {
+            return Err(Error::Options(
+                "the picture is too narrow for a caption or legend: give a wider -sz, or leave out -cap and -lg",
+            ));
+        };
+        let strips = legend_rows.saturating_add(caption_rows(&style, caption.len()));
+        // With less than a third of its height it is no picture any more.
+        match height.checked_sub(strips) {
+            Some(scene_rows) if scene_rows > 0 && scene_rows >= height / 3 => {
+                Ok(Self { size: options.size, scene_rows, legend_rows, caption })
+            }
+            _ => Err(Error::Options(
+                "caption and legend leave no room for the picture: give a larger -sz, or a shorter -cap",
+            )),
+        }
+    }
+
+    /// The options of the picture of the scene alone. `options`: of the whole picture.
+    pub fn of_scene<'a>(&self, options: &'a PictureOptions) -> Cow<'a, PictureOptions> {
+        if self.scene_rows == self.size[1] {
+            return Cow::Borrowed(options);
+        }
+        Cow::Owned(PictureOptions { size: [self.size[0], self.scene_rows], ..options.clone() })
+    }
+
+    /// All annotations, and notes about them. `options`: of the picture of the scene; `development`: of its light.
+    /// `render_depths` renders what is seen at the middle of each pixel of a picture of that size.
+    ///
+    /// # Errors
+    /// Those of `render_depths`, and of the camera.
+    pub fn annotate<E: From<Error>>(
+        &self,
+        annotated: Annotated<'_>,
+        options: &PictureOptions,
+        development: Option<Development>,
+        render_depths: impl Fn(&Scene, &CameraOptions, SceneState) -> Result<DepthBuffer, E>,
+    ) -> Result<Annotations, E> {
+        let background = Backdrop::new(options.background, options.samples).developed(development);
+        let style = &Style::new(self.size, background, options.output);
+        let mut all = Annotations {
+            size: self.size,
+            scene_rows: self.scene_rows,
+            background,
+            over: Drawing::default(),
+            strips: Drawing::default(),
+            notes: Vec::new(),
+        };
+        let AnnotationOptions { legend, outline, grid, .. } = options.annotations;
+        if legend || outline || grid {
+            let Annotated { scene, camera, is_shifted } = annotated;
+            let seen = SeenScene::new(scene, camera, options.size)?;
+            if grid || legend {
+                let depths = render_depths(scene, camera, SceneState::AsSeen)?;
+                if grid {
+                    let visible = VisibleLines { view: &seen.view, depths: &depths };
+                    let note = grid::draw(&seen, &visible, style, &mut all.over).map_err(Error::from)?;
+                    all.notes.extend(note);
+                }
+                if legend {
+                    let motion = MotionSummary::new(&seen, &depths, is_shifted);
+                    let place = [f64::from(self.size[0]), f64::from(self.scene_rows)];
+                    legend::draw(&motion, style, place, &mut all.strips).map_err(Error::from)?;
+                }
+            }
+            if outline {
+                match IdealScene::new(&seen) {
+                    Some(ideal) => {
+                        // The camera keeps its view, although the middle of the ideal scene is elsewhere.
+                        let mut camera = camera.clone();
+                        camera.eye = Some(seen.view.eye);
+                        camera.center = Some(seen.view.eye + seen.view.distance * seen.view.forward);
+                        let depths = render_depths(&ideal.scene, &camera, SceneState::AtRest)?;
+                        outline::draw(&seen, &ideal, &depths, style, &mut all.over);
+                    }
+                    None => all.notes.push(
+                        "nothing moves, so there is no undistorted outline (-dl) beside the picture".into(),
+                    ),
+                }
+            }
+        }
+        self.push_caption(style, &mut all.strips);
+        Ok(all)
+    }
+
+    /// One line in the middle, several from the left.
+    fn push_caption(&self, style: &Style, drawing: &mut Drawing) {
+        let Style { size, ink, .. } = *style;
+        let margin = style.margin();
+        let top = f64::from(self.scene_rows + self.legend_rows) + padding(style);
+        for (idx, line) in self.caption.iter().enumerate() {
+            let left = match self.caption.len() {
+                1 => (0.5 * (f64::from(self.size[0]) - line.width())).max(margin),
+                _ => margin,
+            };
+            // Base lines on whole rows are sharp.
+            let base = (top + size * (CAPITAL + SPACING * idx as f64)).round();
+            drawing.text(line, [left, base], ink);
+        }
+    }
+}
+
+/// Height of capital letters with little above them, in parts of the size.
+const CAPITAL: f64 = 0.8;
+
+/// Above and below a caption.
+fn padding(style: &Style) -> f64 {
+    0.6 * style.size
+}
+
+fn caption_rows(style: &Style, n_lines: usize) -> u32 {
+    if n_lines == 0 {
+        return 0;
+    }
+    let text = style.size * (CAPITAL + DESCENT + SPACING * (n_lines - 1) as f64);
+    (text + 2.0 * padding(style)).ceil() as u32
+}

@@ -1,0 +1,30 @@
+//! What annotations need of a scene and its camera.
+
+use ugparse::Scene;
+use ugscene::{CameraOptions, RestFrames, View};
+
+use crate::error::Error;
+
+/// A scene and its camera at one sample a pixel.
+pub struct SeenScene<'a> {
+    /// The scene, whose vertices are part of one body each.
+    pub scene: &'a Scene,
+    /// The camera; its picture coordinates are pixels.
+    pub view: View,
+    /// The rest frames of its bodies.
+    pub frames: RestFrames,
+    size: [u32; 2],
+}
+
+impl<'a> SeenScene<'a> {
+    /// In a picture of `size` pixels.
+    pub fn new(scene: &'a Scene, camera: &CameraOptions, size: [u32; 2]) -> Result<Self, Error> {
+        let view = View::new(scene, camera, size)?;
+        Ok(Self { scene, view, frames: RestFrames::new(scene), size })
+    }
+
+    /// Columns and rows of the picture.
+    pub fn size(&self) -> [f64; 2] {
+        self.size.map(f64::from)
+    }
+}

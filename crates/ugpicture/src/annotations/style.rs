@@ -1,0 +1,48 @@
+//! Size and colours of text and lines.
+
+use uglabel::{Rgb, ink_on};
+use ugphysics::{srgb_decode, srgb_encode};
+
+use crate::output::Output;
+
+/// Least size of text in pixels; smaller letters cannot be read.
+const LEAST: f64 = 9.0;
+
+/// Geometric mean of the picture's sides over the size of text.
+const PER_SIZE: f64 = 40.0;
+
+/// Size and colours of text and lines.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Style {
+    /// Em size of text in pixels, a whole number.
+    pub size: f64,
+    /// Black or white, whichever contrasts more with the background.
+    pub ink: Rgb,
+    /// Colour of lines in the background, such as a grid.
+    pub faint: Rgb,
+    /// Colour of the margin around lines, so that they stand out from everything.
+    pub background: Rgb,
+    /// Width of a thin line.
+    pub hairline: f64,
+}
+
+impl Style {
+    /// The style of a picture. `background`: light as displayed; on a transparent background the ink suits white paper.
+    pub fn new(size: [u32; 2], background: Option<[f32; 3]>, output: Output) -> Self {
+        let [width, height] = size.map(f64::from);
+        let size = (libm::sqrt(width * height) / PER_SIZE).round().max(LEAST);
+        let byte = |part: f64| (255.0 * srgb_encode(part.clamp(0.0, 1.0))).round() as u8;
+        let background = background.map_or([255; 3], |light| light.map(|part| byte(f64::from(part))));
+        let ink = ink_on(background);
+        let light = |level: u8| srgb_decode(f64::from(level) / 255.0);
+        let faint = [0, 1, 2].map(|i| byte(0.65 * light(background[i]) + 0.35 * light(ink[i])));
+        // A line thinner than a pixel would only look faint.
+        let thinnest = if matches!(output, Output::Vector(_)) { 0.0 } else { 1.0 };
+        Self { size, ink, faint, background, hairline: (size / 16.0).max(thinnest) }
+    }
+
+    /// Margin left and right of text.
+    pub fn margin(&self) -> f64 {
+        0.8 * self.size
+    }
+}

@@ -1,0 +1,99 @@
+//! Channels of EXR pictures besides colour: the emission event, Doppler factor and body seen at each pixel.
+
+use rayon::prelude::*;
+use ugimage::{Plane, Samples};
+use ugphysics::doppler_at;
+
+use crate::depth_buffer::SurfaceSample;
+use crate::emission::{Emission, Emissions};
+
+/// A number for each pixel, or three. They are of what is seen at the sample nearest to its centre, never a mean.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Channel {
+    /// `D`: the Doppler factor (P10); 0 where nothing is seen.
+    Doppler,
+    /// `time`: when the light was emitted, before the picture is taken at 0; −∞ where nothing is seen.
+    Time,
+    /// `distance`: from the eye to where the light was emitted; ∞ where nothing is seen.
+    Distance,
+    /// `Z`: the same along the view; ∞ where nothing is seen.
+    Depth,
+    /// `id`: faces counted from 1 in the order of the scene, then wires; 0 where nothing is seen.
+    Id,
+    /// `velocity.X`, `velocity.Y`, `velocity.Z`: of the body; 0 where nothing is seen.
+    Velocity,
+}
+
+impl Channel {
+    /// All of them.
+    pub const ALL: [Self; 6] =
+        [Self::Doppler, Self::Time, Self::Distance, Self::Depth, Self::Id, Self::Velocity];
+
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Doppler => "D",
+            Self::Time => "time",
+            Self::Distance => "distance",
+            Self::Depth => "Z",
+            Self::Id => "id",
+            Self::Velocity => "velocity",
+        }
+    }
+
+    /// The channel called `name`.
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|channel| channel.name() == name)
+    }
+
+    /// All names with commas between, for messages.
+    pub fn list() -> String {
+        Self::ALL.map(Self::name).join(", ")
+    }
+}
+
+/// The planes of a channel. `seen`: at the middle of each pixel, row after row, in pictures of `width` pixels across with
+/// `samples` × `samples` samples each.
+pub fn channel_planes(
+    channel: Channel,
+    emissions: &Emissions<'_>,
+    [width, samples]: [u32; 2],
+    seen: &[Option<SurfaceSample>],
+) -> Vec<Plane> {
+    let of = |number: &(dyn Fn(&Emission) -> f64 + Sync), nothing: f32| {
+        let numbers = seen.par_iter().enumerate().map(|(idx, seen)| {
+            let Some(seen) = *seen else { return nothing };
+            number(&emissions.at(middle([width, samples], idx), seen)) as f32
+        });
+        Samples::Float(numbers.collect())
+    };
+    let plane = |name: &str, samples| Plane { name: name.to_owned(), samples };
+    let name = channel.name();
+    match channel {
+        Channel::Doppler => {
+            vec![plane(name, of(&|emission| doppler_at(emission.place, emission.velocity), 0.0))]
+        }
+        Channel::Time => vec![plane(name, of(&|emission| emission.time, f32::NEG_INFINITY))],
+        Channel::Distance => vec![plane(name, of(&|emission| emission.place.length(), f32::INFINITY))],
+        Channel::Depth => vec![plane(name, of(&|emission| emission.depth, f32::INFINITY))],
+        Channel::Id => {
+            let ids = seen.iter().map(|seen| seen.map_or(0, |seen| seen.item.saturating_add(1)));
+            vec![plane(name, Samples::Whole(ids.collect()))]
+        }
+        Channel::Velocity => ["X", "Y", "Z"]
+            .into_iter()
+            .enumerate()
+            .map(|(axis, letter)| {
+                let part = of(&move |emission| emission.velocity.beta()[axis], 0.0);
+                plane(&format!("{name}.{letter}"), part)
+            })
+            .collect(),
+    }
+}
+
+/// The sample nearest to the centre of a pixel; ties go to the lower-right one.
+fn middle([width, samples]: [u32; 2], idx: usize) -> [u32; 2] {
+    let width = width as usize;
+    // A picture has fewer than 2^32 pixels.
+    [idx % width, idx / width].map(|pixel| pixel as u32 * samples + samples / 2)
+}

@@ -1,0 +1,217 @@
+//! Options of a picture on the command line, the same in every renderer.
+
+use clap::{ArgAction, Args};
+use ugimage::{Filter, Format, Tone};
+use ugphysics::Hsv;
+use ugpipe::{Failure, finite};
+use ugscene::cli::CameraArgs;
+
+use crate::background::Background;
+use crate::channel::Channel;
+use crate::exposure::Exposure;
+use crate::options::{AnnotationOptions, PictureOptions};
+use crate::output::Output;
+
+/// Heading of the options of a picture in `--help`.
+pub const PICTURE: &str = "Picture";
+
+/// Heading of annotations in `--help`.
+const ANNOTATIONS: &str = "Annotations";
+
+/// Everything about a picture but its format: flatten it into the arguments of a renderer.
+#[derive(Args, Clone, Debug)]
+pub struct PictureArgs {
+    #[command(flatten)]
+    camera: CameraArgs,
+
+    /// Size of the picture in pixels
+    #[arg(long, num_args = 2, value_names = ["W", "H"], action = ArgAction::Set,
+          default_values = ["1024", "768"], value_parser = clap::value_parser!(u32).range(1..),
+          visible_alias = "size", help_heading = PICTURE)]
+    sz: Vec<u32>,
+
+    /// N x N samples per pixel, 1 to 16
+    #[arg(long, value_name = "N", default_value = "4", value_parser = clap::value_parser!(u32).range(1..=16),
+          visible_alias = "samples", help_heading = PICTURE)]
+    aa: u32,
+
+    /// Reconstruction filter from samples to pixels: box, triangle, spline
+    ///
+    /// box: the mean of the pixel's own samples, as a detector measures it. triangle and spline (a quadratic
+    /// B-spline) reach into the neighbouring pixels: edges and thin lines are smoother, and softer.
+    #[arg(long, value_name = "FILTER", default_value = "box", value_parser = filter, visible_alias = "filter",
+          help_heading = PICTURE)]
+    fl: Filter,
+
+    /// Background colour: lightness, hue in degrees, saturation [default: black]
+    #[arg(long, num_args = 1..=3, value_names = ["L", "H", "S"], action = ArgAction::Set,
+          value_parser = finite, visible_alias = "background", help_heading = PICTURE)]
+    bg: Option<Vec<f64>>,
+
+    /// Transparent background
+    #[arg(long, visible_alias = "transparent", conflicts_with = "bg", help_heading = PICTURE)]
+    tb: bool,
+
+    /// Exposure in stops: light is multiplied by 2 to the power E, and clipped only then
+    ///
+    /// auto: chosen so that 99 of 100 pixels that are not black are at or below white.
+    #[arg(long, value_name = "E|auto", allow_hyphen_values = true, value_parser = exposure,
+          visible_alias = "exposure", help_heading = PICTURE)]
+    ex: Option<Exposure>,
+
+    /// Tone curve from light to display: clip, filmic
+    ///
+    /// filmic is Hable's of 2010, whose white is 5.6. Curves work on luminance and keep hue.
+    #[arg(long, value_name = "CURVE", default_value = "clip", value_parser = tone,
+          visible_alias = "tone-curve", help_heading = PICTURE)]
+    tc: Tone,
+
+    /// Small PNG files, which take longer to pack
+    ///
+    /// The pixels stay the same.
+    #[arg(long, visible_alias = "pack", help_heading = PICTURE)]
+    pz: bool,
+
+    /// More channels of an EXR picture, separated by commas: D, time, distance, Z, id, velocity
+    ///
+    /// Doppler factor, emission time, distance of the emission event, depth along the view, number of the
+    /// face, velocity of the body; all at the middle of the pixel.
+    #[arg(long, value_name = "LIST", value_parser = channels, visible_alias = "channels", help_heading = PICTURE)]
+    ch: Option<Channels>,
+}
+
+impl PictureArgs {
+    /// The same as values.
+    ///
+    /// # Errors
+    /// The background is not a colour.
+    pub fn options(&self, output: Output, annotations: AnnotationOptions) -> Result<PictureOptions, Failure> {
+        Ok(PictureOptions {
+            camera: self.camera.options(),
+            size: [self.sz[0], self.sz[1]],
+            samples: self.aa,
+            filter: self.fl,
+            background: self.background()?,
+            output,
+            exposure: self.ex,
+            tone: self.tc,
+            channels: self.ch.clone().unwrap_or_default().0,
+            small: self.pz,
+            annotations,
+        })
+    }
+
+    fn background(&self) -> Result<Background, Failure> {
+        if self.tb {
+            return Ok(Background::Transparent);
+        }
+        color("background -bg", self.bg.as_deref().unwrap_or(&[0.0])).map(Background::Color)
+    }
+}
+
+/// Annotations: flatten it into the arguments of a renderer, last of its own.
+#[derive(Args, Clone, Debug)]
+pub struct AnnotationArgs {
+    /// Caption below the picture, wrapped as needed; line breaks are kept
+    ///
+    /// The scene is drawn in the rows that the strips below it leave of -sz.
+    #[arg(long, value_name = "TEXT", visible_alias = "caption", help_heading = ANNOTATIONS)]
+    cap: Option<String>,
+
+    /// Legend below the picture: visible spectrum, velocities, and the Doppler factors that are seen
+    ///
+    /// Wavelengths in nm, where light of 550 nm is seen, the velocity as a unit arrow seen from the camera (a dot at
+    /// its tail: approaching, a cross: receding), and β, γ and D.
+    #[arg(long, visible_alias = "legend", help_heading = ANNOTATIONS)]
+    lg: bool,
+
+    /// Outline of moving bodies as they would look at rest, each with its centre where it is seen
+    #[arg(long, visible_alias = "undistorted", help_heading = ANNOTATIONS)]
+    dl: bool,
+
+    /// Grid of coordinates on the ground: in the plane z = 0, or at the lowest point of the scene if that is lower
+    #[arg(long, visible_alias = "grid", help_heading = ANNOTATIONS)]
+    gr: bool,
+}
+
+impl AnnotationArgs {
+    /// The same as values.
+    pub fn options(&self) -> AnnotationOptions {
+        AnnotationOptions {
+            caption: self.cap.clone().unwrap_or_default(),
+            legend: self.lg,
+            outline: self.dl,
+            grid: self.gr,
+        }
+    }
+}
+
+/// Value of `-ch`.
+#[derive(Clone, Debug, Default)]
+struct Channels(Vec<Channel>);
+
+/// Value parser: a format of pictures.
+///
+/// # Errors
+/// There is no such format.
+pub fn format_named(name: &str) -> Result<Format, String> {
+    Format::from_name(name).ok_or_else(|| format!("none of the formats {}", Format::list()))
+}
+
+/// A colour as in a `c` statement: lightness alone is grey, with a hue it is pure.
+///
+/// # Errors
+/// Lightness or saturation is outside 0…1.
+pub fn color(name: &str, numbers: &[f64]) -> Result<Hsv, Failure> {
+    let (value, hue, saturation) = match numbers {
+        [value] => (*value, 0.0, 0.0),
+        [value, hue] => (*value, *hue, 1.0),
+        [value, hue, saturation, ..] => (*value, *hue, *saturation),
+        [] => (0.0, 0.0, 0.0),
+    };
+    let is_part = |number: f64| (0.0..=1.0).contains(&number);
+    if !is_part(value) || !is_part(saturation) {
+        return Err(Failure::Usage(format!("lightness and saturation of the {name} are from 0 to 1")));
+    }
+    Ok(Hsv { hue, saturation, value })
+}
+
+/// Stops, or `auto`.
+fn exposure(word: &str) -> Result<Exposure, String> {
+    /// Beyond the exponents of single precision, in which light is kept.
+    const MOST: f64 = 300.0;
+    if word == "auto" {
+        return Ok(Exposure::Auto);
+    }
+    let stops = finite(word).map_err(|error| format!("{error}, nor is it `auto`"))?;
+    if stops.abs() <= MOST {
+        Ok(Exposure::Stops(stops))
+    } else {
+        Err(format!("an exposure is between -{MOST} and {MOST} stops"))
+    }
+}
+
+/// The name of a tone curve.
+fn tone(word: &str) -> Result<Tone, String> {
+    Tone::from_name(word)
+        .ok_or_else(|| format!("none of the curves {}", Tone::ALL.map(Tone::name).join(", ")))
+}
+
+/// The name of a filter.
+fn filter(word: &str) -> Result<Filter, String> {
+    Filter::from_name(word)
+        .ok_or_else(|| format!("none of the filters {}", Filter::ALL.map(Filter::name).join(", ")))
+}
+
+/// Names of channels, each once, in the order given.
+fn channels(list: &str) -> Result<Channels, String> {
+    let mut channels = Vec::new();
+    for name in list.split(',') {
+        let channel = Channel::from_name(name)
+            .ok_or_else(|| format!("`{name}` is none of the channels {}", Channel::list()))?;
+        if !channels.contains(&channel) {
+            channels.push(channel);
+        }
+    }
+    Ok(Channels(channels))
+}

@@ -1,0 +1,51 @@
+//! Where and when light was emitted that is seen in the picture.
+
+use glam::DVec3;
+use ugparse::Scene;
+use ugphysics::Velocity;
+use ugscene::{Geometry, RestFrames, View};
+
+use crate::depth_buffer::SurfaceSample;
+
+/// The event at which light was emitted that is seen at a sample.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Emission {
+    /// Place relative to the eye, in the frame of the camera.
+    pub place: DVec3,
+    /// Depth along the view.
+    pub depth: f64,
+    /// Time in the frame of the camera; the picture is taken at 0.
+    pub time: f64,
+    /// Velocity of the body.
+    pub velocity: Velocity,
+}
+
+/// Finds emission events from samples.
+pub struct Emissions<'a> {
+    scene: &'a Scene,
+    view: &'a View,
+    frames: &'a RestFrames,
+    has_flight_time: bool,
+}
+
+impl<'a> Emissions<'a> {
+    /// `view`: sample coordinates are its picture coordinates.
+    pub fn new(scene: &'a Scene, view: &'a View, frames: &'a RestFrames) -> Self {
+        Self { scene, view, frames, has_flight_time: Geometry::of(scene).flight_time }
+    }
+
+    /// The emission event seen at the middle of a sample.
+    pub fn at(&self, [column, row]: [u32; 2], seen: SurfaceSample) -> Emission {
+        let key = f64::from(seen.key);
+        let depth = if self.view.is_perspective { 1.0 / key } else { -key };
+        let (item, n_faces) = (seen.item as usize, self.scene.faces.len());
+        let body = match self.scene.faces.get(item) {
+            Some(face) => Some(face.body),
+            None => self.scene.wires.get(item - n_faces).map(|wire| wire.body),
+        };
+        let velocity = body.map_or(Velocity::ZERO, |body| self.frames.velocity(body));
+        let place = self.view.point([f64::from(column) + 0.5, f64::from(row) + 0.5], depth);
+        let time = if self.has_flight_time { -place.length() } else { 0.0 };
+        Emission { place, depth, time, velocity }
+    }
+}

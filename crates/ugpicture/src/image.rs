@@ -1,0 +1,37 @@
+//! A rendered picture.
+
+use ugimage::{Frame, Label, LinearFrame, Packing, grey_postscript};
+
+use crate::output::Output;
+
+/// A rendered picture.
+#[derive(Clone, Debug)]
+pub enum Image {
+    /// 8-bit pixels for a display.
+    Display(Frame),
+    /// Light: developed for a display, or linear for a format that holds light.
+    Light(LinearFrame),
+}
+
+impl Image {
+    /// As 8-bit pixels.
+    pub fn into_frame(self) -> Frame {
+        match self {
+            Self::Display(frame) => frame,
+            Self::Light(frame) => frame.to_display(),
+        }
+    }
+
+    /// The bytes of a file. Formats that have areas and lines hold the pixels, too.
+    pub fn into_file(self, output: Output, label: &Label, packing: Packing) -> Vec<u8> {
+        match (output, self) {
+            (Output::Color(format) | Output::Vector(format), Self::Display(frame)) => {
+                format.pack(&frame, label, packing)
+            }
+            (Output::Color(format) | Output::Vector(format), Self::Light(frame)) => {
+                format.pack_linear(&frame, label, packing)
+            }
+            (Output::Grey, image) => grey_postscript(&image.into_frame(), label),
+        }
+    }
+}

@@ -1,0 +1,13 @@
+//! Limits of a picture.
+
+/// Most pixels of a picture; in memory they take a gibibyte, and four as light.
+pub const MAX_PIXELS: u64 = 1 << 28;
+
+/// Most pixels along a side.
+pub const MAX_SIDE: u32 = 1 << 24;
+
+/// Most samples along a side of a pixel.
+pub const MAX_SAMPLES: u32 = 16;
+
+/// Most pixels along a side of a figure of areas; its coordinates are counted in fine steps.
+pub(crate) const MAX_VECTOR_SIDE: u32 = 1 << 15;

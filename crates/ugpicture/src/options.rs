@@ -1,0 +1,155 @@
+//! What is asked of a picture, whatever renders it.
+
+use ugimage::{Filter, Format, Tone};
+use ugphysics::Hsv;
+use ugscene::CameraOptions;
+
+use crate::background::Background;
+use crate::channel::Channel;
+use crate::error::Error;
+use crate::exposure::Exposure;
+use crate::limits::{MAX_PIXELS, MAX_SAMPLES, MAX_SIDE, MAX_VECTOR_SIDE};
+use crate::output::Output;
+
+/// What is asked of a picture, whatever renders it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PictureOptions {
+    /// Camera options, which override the camera of the scene.
+    pub camera: CameraOptions,
+    /// Pixels across and down.
+    pub size: [u32; 2],
+    /// Samples along a side of a pixel, 1…[`MAX_SAMPLES`].
+    pub samples: u32,
+    /// How samples are weighted in pixels.
+    pub filter: Filter,
+    /// What is seen behind everything.
+    pub background: Background,
+    /// Kind of file.
+    pub output: Output,
+    /// If given, light brighter than white is kept until it is exposed.
+    pub exposure: Option<Exposure>,
+    /// How light is brought into the range of a display.
+    pub tone: Tone,
+    /// Channels of an EXR picture besides colour.
+    pub channels: Vec<Channel>,
+    /// PNG files are made as small as possible, which takes longer.
+    pub small: bool,
+    /// Caption, legend, grid, outlines.
+    pub annotations: AnnotationOptions,
+}
+
+impl Default for PictureOptions {
+    /// The defaults of the command line: 1024 × 768 pixels, 4 × 4 samples each, black
+    /// background, PNG.
+    fn default() -> Self {
+        Self {
+            camera: CameraOptions::default(),
+            size: [1024, 768],
+            samples: 4,
+            filter: Filter::Box,
+            background: Background::Color(Hsv { hue: 0.0, saturation: 0.0, value: 0.0 }),
+            output: Output::Color(Format::Png),
+            exposure: None,
+            tone: Tone::Clip,
+            channels: Vec::new(),
+            small: false,
+            annotations: AnnotationOptions::default(),
+        }
+    }
+}
+
+impl PictureOptions {
+    /// True if light brighter than white is to be kept: written to a file, or brought into range.
+    pub fn keeps_light(&self) -> bool {
+        self.output.is_linear() || self.exposure.is_some() || self.tone != Tone::Clip
+    }
+
+    /// Refuses a picture that does not fit in memory, before anything is allocated, and options that exclude each
+    /// other.
+    ///
+    /// # Errors
+    /// [`Error::Size`], [`Error::Samples`], [`Error::Options`].
+    pub fn check(&self) -> Result<(), Error> {
+        self.check_size()?;
+        self.check_output()
+    }
+
+    /// Refuses a picture that does not fit in memory.
+    pub(crate) fn check_size(&self) -> Result<(), Error> {
+        let [width, height] = self.size;
+        let fits = (1..=MAX_SIDE).contains(&width) && (1..=MAX_SIDE).contains(&height);
+        if !fits || u64::from(width) * u64::from(height) > MAX_PIXELS {
+            return Err(Error::Size(self.size));
+        }
+        if !(1..=MAX_SAMPLES).contains(&self.samples) {
+            return Err(Error::Samples(self.samples));
+        }
+        Ok(())
+    }
+
+    /// Refuses what the format has no place for.
+    fn check_output(&self) -> Result<(), Error> {
+        let format = self.output.format();
+        if let Output::Vector(format) = self.output {
+            self.check_vectors(format)?;
+        }
+        if self.small && !matches!(self.output, Output::Color(Format::Png | Format::Png16)) {
+            return Err(Error::Options(
+                "only PNG files are packed smaller: leave out -pz, or write -dt png or png16",
+            ));
+        }
+        if !self.channels.is_empty() && format != Some(Format::Exr) {
+            return Err(Error::Options(
+                "only EXR has a place for other channels than colour: with -ch write -dt exr",
+            ));
+        }
+        if self.output.is_linear() && (self.exposure.is_some() || self.tone != Tone::Clip) {
+            return Err(Error::Options(
+                "EXR, PFM and HDR pictures hold the light as it is: leave out -ex and -tc, or write -dt png16",
+            ));
+        }
+        if self.background == Background::Transparent && format.is_some_and(|format| !format.has_alpha()) {
+            return Err(Error::Options(
+                "PFM and HDR pictures have no transparency: leave out -tb, or write -dt exr",
+            ));
+        }
+        Ok(())
+    }
+
+    fn check_vectors(&self, format: Format) -> Result<(), Error> {
+        if !format.has_vectors() {
+            return Err(Error::Options(
+                "this format has only pixels: with -vec write -dt eps, ps, pdf or svg",
+            ));
+        }
+        if self.filter != Filter::Box {
+            return Err(Error::Options("areas have no samples to be weighed: leave out -fl, or -vec"));
+        }
+        if self.size.iter().any(|&side| side > MAX_VECTOR_SIDE) {
+            return Err(Error::Options(
+                "a figure of areas has at most 32768 pixels, which are points, along a side: give a smaller -sz",
+            ));
+        }
+        Ok(())
+    }
+}
+
+/// Which annotations a picture has.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct AnnotationOptions {
+    /// Text below the picture; none if it is blank.
+    pub caption: String,
+    /// Below the picture: the visible spectrum with its wavelengths, velocities, γ, and the Doppler factors that are seen.
+    pub legend: bool,
+    /// Over the picture: the edges of moving bodies as they would look at rest.
+    pub outline: bool,
+    /// Over the picture: a grid of coordinates on the ground.
+    pub grid: bool,
+}
+
+impl AnnotationOptions {
+    /// True if there are none.
+    pub(crate) fn is_empty(&self) -> bool {
+        *self == Self::default()
+    }
+}

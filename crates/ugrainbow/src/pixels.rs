@@ -1,0 +1,191 @@
+//! Pixels from samples: averaged in linear light, put on the background, and developed for a display if asked.
+
+use fearless_simd::prelude::*;
+use fearless_simd::{Level, Simd, dispatch, f32x16, i32x16};
+use rayon::prelude::*;
+use ugimage::{Development, Filter, Frame, HALF, LinearFrame, Quantizer, display_pixel};
+use ugpicture::{Backdrop, Emissions, Exposure, Image, PictureOptions, SurfaceSample, channel_planes};
+use ugraster::{Center, PixelSamples, RUN, Resolve, ResolveSingle, SampleStats};
+
+use crate::config::Config;
+use crate::front::front;
+use crate::render_layers::RenderLayers;
+use crate::setup::Setup;
+
+/// Pixels that one task develops.
+const CHUNK: usize = 1 << 14;
+
+/// The pixels of a picture.
+pub struct Pixels {
+    /// As light or for a display.
+    pub image: Image,
+    /// Statistics of the samples.
+    pub stats: SampleStats,
+    /// How light was developed; `None` for linear light, and for light that was clipped sample by sample.
+    pub development: Option<Development>,
+}
+
+impl Pixels {
+    /// Draws everything.
+    pub fn new(setup: &Setup<'_>, layers: &RenderLayers<'_>, config: &Config) -> Self {
+        let is_deep = config.picture.output.format().is_some_and(|format| format.is_deep());
+        if !is_deep && !setup.is_uncut {
+            return Self::display(setup, layers, config);
+        }
+        let (mut frame, stats) = light(setup, layers, config);
+        if config.picture.output.is_linear() {
+            return Self { image: Image::Light(frame), stats, development: None };
+        }
+        let development = development(&config.picture, || &frame);
+        frame.pixels_mut().par_chunks_mut(CHUNK).flatten().for_each(|pixel| {
+            *pixel = developed(&development, *pixel);
+        });
+        let image = if is_deep { Image::Light(frame) } else { Image::Display(frame.to_display()) };
+        Self { image, stats, development: setup.is_uncut.then_some(development) }
+    }
+
+    /// Straight to 8 bits, when nothing in between is asked for.
+    fn display(setup: &Setup<'_>, layers: &RenderLayers<'_>, config: &Config) -> Self {
+        let grid = &setup.grid;
+        let finish = Display::new(&config.picture);
+        let (pixels, stats) = layers.paint_filtered(grid, config.picture.filter, &setup.shader, &finish);
+        let frame = Frame::new([grid.width, grid.height], finish.backdrop.is_opaque(), pixels);
+        Self { image: Image::Display(frame), stats, development: None }
+    }
+}
+
+/// Samples to what a display shows of them.
+pub struct Display {
+    backdrop: Backdrop,
+    quantizer: Quantizer,
+}
+
+impl Display {
+    /// That of a picture.
+    pub fn new(picture: &PictureOptions) -> Self {
+        Self { backdrop: backdrop(picture), quantizer: Quantizer::new() }
+    }
+}
+
+impl Resolve<[u8; 4]> for Display {
+    fn pixel(&self, all: &PixelSamples<'_>) -> [u8; 4] {
+        display_pixel(&self.quantizer, mean(&self.backdrop, all), self.backdrop.is_opaque())
+    }
+
+    fn single(&self) -> Option<&dyn ResolveSingle<[u8; 4]>> {
+        Some(self)
+    }
+}
+
+impl ResolveSingle<[u8; 4]> for Display {
+    fn pixels(&self, keys: &[f32], levels: &[[f32; RUN]; 3], pixels: &mut [[u8; 4]]) {
+        dispatch!(Level::new(), simd => write_levels(simd, keys, levels, pixels));
+    }
+}
+
+/// Levels, 0…1, to the nearest of 256, where there are depth keys.
+#[inline(always)] // Compiled for what the processor can do to many numbers at once.
+fn write_levels<S: Simd>(simd: S, keys: &[f32], levels: &[[f32; RUN]; 3], pixels: &mut [[u8; 4]]) {
+    let [red, green, blue] = levels;
+    let all = red.as_chunks().0.iter().zip(green.as_chunks().0).zip(blue.as_chunks().0);
+    for ((keys, pixels), ((red, green), blue)) in keys.chunks(LANES).zip(pixels.chunks_mut(LANES)).zip(all) {
+        let (red, green, blue) = (bytes(simd, red), bytes(simd, green), bytes(simd, blue));
+        let shown = red | green << 8 | blue << 16 | i32x16::splat(simd, i32::from_le_bytes([0, 0, 0, 255]));
+        if let (Some(keys), Some(pixels)) = (keys.first_chunk(), pixels.first_chunk_mut()) {
+            show(simd, keys, shown, pixels);
+        } else {
+            let (mut all_keys, mut all_pixels) = ([f32::NEG_INFINITY; LANES], [[0; 4]; LANES]);
+            all_keys[..keys.len()].copy_from_slice(keys);
+            all_pixels[..pixels.len()].copy_from_slice(pixels);
+            show(simd, &all_keys, shown, &mut all_pixels);
+            pixels.copy_from_slice(&all_pixels[..pixels.len()]);
+        }
+    }
+}
+
+/// Sets pixels where there are depth keys.
+#[inline(always)]
+fn show<S: Simd>(simd: S, keys: &[f32; LANES], shown: i32x16<S>, pixels: &mut [[u8; 4]; LANES]) {
+    let is_shown = f32x16::from_slice(simd, keys).simd_gt(f32x16::splat(simd, f32::NEG_INFINITY));
+    let mut all = [0; LANES];
+    for (all, pixel) in all.iter_mut().zip(&*pixels) {
+        *all = i32::from_le_bytes(*pixel);
+    }
+    let all: [i32; LANES] = is_shown.select(shown, i32x16::from_slice(simd, &all)).into();
+    for (pixel, all) in pixels.iter_mut().zip(all) {
+        *pixel = all.to_le_bytes();
+    }
+}
+
+/// Levels that are rounded together.
+const LANES: usize = 16;
+
+/// The levels of 256 nearest to some of 0…1.
+#[inline(always)]
+fn bytes<S: Simd>(simd: S, levels: &[f32; LANES]) -> i32x16<S> {
+    // What stands behind the point is cut off.
+    simd.cvt_i32_f32x16(f32x16::from_slice(simd, levels) * 255.0 + HALF as f32)
+}
+
+/// The whole picture as light, with the channels that are asked for.
+pub fn light(setup: &Setup<'_>, layers: &RenderLayers<'_>, config: &Config) -> (LinearFrame, SampleStats) {
+    let grid = &setup.grid;
+    let PictureOptions { filter, channels, .. } = &config.picture;
+    let backdrop = backdrop(&config.picture);
+    let frame = |pixels| LinearFrame::new([grid.width, grid.height], backdrop.is_opaque(), pixels);
+    if channels.is_empty() || *filter != Filter::Box {
+        let light = |all: &PixelSamples<'_>| mean(&backdrop, all);
+        let (pixels, stats) = layers.paint_filtered(grid, *filter, &setup.shader, &light);
+        let mut frame = frame(pixels);
+        if !channels.is_empty() {
+            // Channels are of the middle of a pixel and not filtered.
+            let front = |center: &Center<'_>| front(&setup.view, center);
+            push_channels(&mut frame, setup, config, &layers.paint_centers(grid, &setup.shader, front));
+        }
+        return (frame, stats);
+    }
+    let both = |all: &PixelSamples<'_>| (mean(&backdrop, all), front(&setup.view, &all.center));
+    let (pixels, stats) = layers.paint_with_centers(grid, &setup.shader, &both);
+    let (pixels, seen): (Vec<[f32; 4]>, Vec<Option<SurfaceSample>>) = pixels.into_iter().unzip();
+    let mut frame = frame(pixels);
+    push_channels(&mut frame, setup, config, &seen);
+    (frame, stats)
+}
+
+/// Adds the channels that are asked for. `seen`: at the middle of each pixel.
+fn push_channels(
+    frame: &mut LinearFrame,
+    setup: &Setup<'_>,
+    config: &Config,
+    seen: &[Option<SurfaceSample>],
+) {
+    let emissions = Emissions::new(setup.scene(), &setup.view, setup.surface.frames());
+    let grid = [setup.grid.width, setup.grid.samples];
+    for &channel in &config.picture.channels {
+        channel_planes(channel, &emissions, grid, seen).into_iter().for_each(|plane| frame.push_plane(plane));
+    }
+}
+
+/// How the light of a picture is developed. `frame`: its light, for an automatic exposure alone.
+pub fn development<F: std::borrow::Borrow<LinearFrame>>(
+    picture: &PictureOptions,
+    frame: impl FnOnce() -> F,
+) -> Development {
+    Exposure::development(picture.exposure, picture.tone, frame)
+}
+
+/// A developed pixel; its covered part stays.
+pub fn developed(development: &Development, [red, green, blue, part]: [f32; 4]) -> [f32; 4] {
+    let [red, green, blue] = development.apply([red, green, blue]);
+    [red, green, blue, part]
+}
+
+/// The background of a picture.
+pub fn backdrop(picture: &PictureOptions) -> Backdrop {
+    Backdrop::new(picture.background, picture.samples)
+}
+
+/// The mean light of a pixel, and its covered part.
+pub fn mean(backdrop: &Backdrop, all: &PixelSamples<'_>) -> [f32; 4] {
+    backdrop.pixel(all.sum, all.covered)
+}

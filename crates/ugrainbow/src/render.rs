@@ -1,0 +1,189 @@
+//! From a scene to a picture.
+
+use ugimage::{Format, Frame, Label, LinearFrame, Packing, Tone};
+use ugparse::{Diagnostics, Parsed, Scene, Source};
+use ugpicture::{Image, Layout, Output};
+use ugpipe::Progress;
+
+use crate::annotate::annotate;
+use crate::config::Config;
+use crate::depth_cue::prepare;
+use crate::error::Error;
+use crate::notes::{DrawStatistics, notes};
+use crate::pixels::{self, Pixels};
+use crate::render_layers::RenderLayers;
+use crate::setup::Setup;
+use crate::vector::{self, VectorFigure};
+
+/// A rendered scene.
+#[derive(Clone, Debug)]
+pub struct Rendering {
+    content: Content,
+    output: Output,
+    packing: Packing,
+    /// What the user should know, one sentence each.
+    pub notes: Vec<String>,
+}
+
+#[derive(Clone, Debug)]
+enum Content {
+    Image(Image),
+    Figure(VectorFigure),
+}
+
+impl Rendering {
+    /// The bytes of a file of the kind that the options ask for. `label`: see [`label`].
+    pub fn into_file(self, label: &Label) -> Vec<u8> {
+        match self.content {
+            Content::Image(image) => image.into_file(self.output, label, self.packing),
+            Content::Figure(figure) => figure.file(label),
+        }
+    }
+
+    /// 8-bit pixels for a display; `None` for a figure of areas, which has no pixels.
+    pub fn into_frame(self) -> Option<Frame> {
+        match self.content {
+            Content::Image(image) => Some(image.into_frame()),
+            Content::Figure(_) => None,
+        }
+    }
+}
+
+/// Renders a scene as the options ask for: pixels for a display, light, or a figure of areas.
+///
+/// # Errors
+/// See [`Error`].
+pub fn render(scene: &Scene, config: &Config) -> Result<Rendering, Error> {
+    config.picture.check()?;
+    render_with(scene, config, &Layout::new(&config.picture)?, &())
+}
+
+/// The linear light of a scene, neither exposed nor brought into the gamut: white is 1. What the options say about
+/// the file, exposure, tone curve and annotations is ignored.
+///
+/// # Errors
+/// See [`Error`].
+pub fn light(scene: &Scene, config: &Config) -> Result<LinearFrame, Error> {
+    let mut config = config.clone();
+    let picture = &mut config.picture;
+    (picture.output, picture.exposure, picture.tone) = (Output::Color(Format::Exr), None, Tone::Clip);
+    picture.small = false;
+    picture.check()?;
+    let setup = prepare(scene, &config)?;
+    let layers = RenderLayers::new(setup.painter(), &config.draw_mode());
+    Ok(pixels::light(&setup, &layers, &config).0)
+}
+
+/// What a picture says about its making: our name and version, and the command lines of the whole pipe.
+/// `command_line`: our own, empty if there is none.
+pub fn label(scene: &Scene, command_line: &str) -> Label {
+    let mut lines = ugscene::history(scene);
+    if !command_line.is_empty() {
+        lines.push(command_line);
+    }
+    Label { software: concat!("ugrainbow ", env!("CARGO_PKG_VERSION")).to_owned(), comment: lines.join("\n") }
+}
+
+/// A picture as a file.
+#[derive(Clone, Debug)]
+pub struct Picture {
+    /// The whole file.
+    pub bytes: Vec<u8>,
+    /// What the user should know, one sentence each.
+    pub notes: Vec<String>,
+    /// Warnings about the text of the scene.
+    pub warnings: Diagnostics,
+}
+
+/// Reads a scene, renders it, and packs it into a file.
+///
+/// # Errors
+/// See [`Error`].
+pub fn run(config: &Config, source: &Source) -> Result<Picture, Error> {
+    run_with(config, source, "", &())
+}
+
+/// Like [`run`], and reports progress. `command_line`: as in [`label`].
+///
+/// # Errors
+/// See [`Error`].
+pub fn run_with(
+    config: &Config,
+    source: &Source,
+    command_line: &str,
+    progress: &dyn Progress,
+) -> Result<Picture, Error> {
+    let layout = Layout::new(&config.picture)?;
+    progress.step("reading", 0);
+    let parsed = ugscene::read(source, &config.reading, config.picture.camera.name.as_deref())?;
+    config.picture.check()?;
+    let rendering = render_with(&parsed.scene, config, &layout, progress)?;
+    progress.step("packing", 0);
+    let notes = rendering.notes.clone();
+    let bytes = rendering.into_file(&label(&parsed.scene, command_line));
+    Ok(Picture { bytes, notes, warnings: warnings(source, parsed) })
+}
+
+/// Warnings of the reader, and that moving bodies are drawn at rest.
+pub(crate) fn warnings(source: &Source, parsed: Parsed) -> Diagnostics {
+    match ugscene::rest_shapes_warning(&parsed) {
+        Some(warning) => parsed.warnings.with(source, warning),
+        None => parsed.warnings,
+    }
+}
+
+/// Renders a scene in a layout; `config`: of the whole picture, checked.
+fn render_with(
+    scene: &Scene,
+    config: &Config,
+    layout: &Layout,
+    progress: &dyn Progress,
+) -> Result<Rendering, Error> {
+    progress.step("preparing", 0);
+    let packing = if config.picture.small { Packing::Small } else { Packing::Fast };
+    let config = &Config { picture: layout.of_scene(&config.picture).into_owned(), ..config.clone() };
+    let output = config.picture.output;
+    let (setup, statistics, annotations, content) = match output {
+        Output::Vector(format) => {
+            let drawn = vector::draw(scene, config, format, layout, progress)?;
+            (drawn.setup, drawn.statistics, drawn.annotations, Content::Figure(drawn.figure))
+        }
+        Output::Color(_) | Output::Grey => {
+            let setup = prepare(scene, config)?;
+            let layers = RenderLayers::new(setup.painter(), &config.draw_mode()).telling(progress);
+            let Pixels { image, stats, development } = Pixels::new(&setup, &layers, config);
+            let statistics = DrawStatistics { clip_counts: layers.clip_counts(), stats, development };
+            drop(layers);
+            progress.step("annotating", 0);
+            let annotations = annotate(layout, &setup, config, development)?;
+            let content = Content::Image(annotations.composite(image));
+            (setup, statistics, annotations, content)
+        }
+    };
+    let mut notes = notes(&setup, config, &statistics);
+    notes.extend(annotations.notes);
+    Ok(Rendering { content, output, packing, notes })
+}
+
+/// A scene prepared for drawing: its colours and lights are known, and nothing has been projected yet.
+pub struct Prepared<'a> {
+    setup: Setup<'a>,
+    config: &'a Config,
+}
+
+impl<'a> Prepared<'a> {
+    /// Prepares a scene.
+    ///
+    /// # Errors
+    /// As [`render`].
+    pub fn new(scene: &'a Scene, config: &'a Config) -> Result<Self, Error> {
+        config.picture.check()?;
+        Ok(Self { setup: prepare(scene, config)?, config })
+    }
+
+    /// Draws it: from vertices in the scene to 8 bits a channel.
+    pub fn draw(&self) -> Frame {
+        let layers = RenderLayers::new(self.setup.painter(), &self.config.draw_mode());
+        Pixels::new(&self.setup, &layers, self.config).image.into_frame()
+    }
+}
