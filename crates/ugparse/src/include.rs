@@ -183,7 +183,7 @@ impl Inclusion<'_> {
         if self.open.iter().any(|(open, _)| *open == path) {
             return Err(refuse(
                 format!("file `{shown}` includes itself"),
-                "a file may not include itself, directly or through others".into(),
+                "a file must not include itself, directly or through others".into(),
             ));
         }
         self.n_files += 1;
@@ -242,7 +242,7 @@ fn remedy(kind: RequestKind, error: &RequestError) -> String {
         (RequestError::System(_), RequestKind::Execute) => {
             "names are relative to the file that has the statement; the file must be a program"
         }
-        (RequestError::Failed { .. }, _) => "run it by itself to see what it lacks",
+        (RequestError::Failed { .. }, _) => "run it separately to see the error",
     }
     .to_string()
 }

@@ -14,7 +14,7 @@ pub fn options(common: &CommonArgs) -> Result<Options, Failure> {
     for (name, value) in common.limits() {
         let Some(limit) = Limit::from_name(name) else {
             let names = Limit::ALL.map(Limit::name).join(", ");
-            return Err(Failure::Usage(format!("`{name}` is no limit; limits are {names}")));
+            return Err(Failure::Usage(format!("`{name}` is not a limit; limits are {names}")));
         };
         if *value > limit.most() {
             return Err(Failure::Usage(format!("the limit {name} is {} at most", limit.most())));

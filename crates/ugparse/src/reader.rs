@@ -263,7 +263,7 @@ impl<'t, 'f> Reader<'t, 'f> {
         self.findings.push(
             Diagnostic::warning(span, format!("statement `{name}` is passed on unread"))
                 .label("not known here")
-                .help("remove it if no later program reads it"),
+                .help("remove it if no program downstream reads it"),
         );
         let (text, span) = (self.grammar.text, self.span(input, rest));
         self.scope_for(span).add_unknown(text, span);

@@ -8,14 +8,14 @@ use crate::token::{Input, NAME_LETTERS, word};
 
 /// The error for an unknown keyword.
 pub(crate) fn no_statement(word: &[u8], span: Span) -> Diagnostic {
-    let finding = Diagnostic::error(span, format!("`{}` is no statement", shorten(word)));
+    let finding = Diagnostic::error(span, format!("`{}` is not a statement", shorten(word)));
     let lower = word.to_ascii_lowercase();
     let is_keyword = |word: &[u8]| KEYWORDS.split(' ').any(|keyword| keyword.as_bytes() == word);
     match word {
         b"}" => finding.label("closes nothing").help("remove it, or open its comment with `{`"),
         b"#" | b"#line" => finding
             .label("not a line mark of the C preprocessor")
-            .help("such a line is `# LINE \"FILE\"`; -lax passes others on"),
+            .help("such a line is `# LINE \"FILE\"`; with -lax others are passed on"),
         _ if is_keyword(&lower) => finding
             .label("unknown statement")
             .help(format!("keywords are lower case: `{}`", String::from_utf8_lossy(&lower))),
@@ -23,7 +23,7 @@ pub(crate) fn no_statement(word: &[u8], span: Span) -> Diagnostic {
             finding.label("unknown statement").help(format!("did you mean `{keyword}`?"))
         }
         _ => finding.label("unknown statement").help(format!(
-            "a statement begins with one of {KEYWORDS}, or `(` for an escape; -lax passes unknown ones on"
+            "a statement begins with one of {KEYWORDS}, or `(` for an escape; with -lax unknown ones are passed on"
         )),
     }
 }

@@ -64,7 +64,7 @@ pub(crate) fn expand(
     });
     outcome.unwrap_or_else(|| {
         let why = started.err().map_or(String::new(), |error| format!(": {error}"));
-        let message = format!("there is no memory for so long a chain of definitions{why}");
+        let message = format!("there is not enough memory for such a long chain of instances{why}");
         findings.push(Diagnostic::error(Span::default(), message));
         Default::default()
     })

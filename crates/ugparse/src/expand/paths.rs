@@ -47,7 +47,7 @@ impl Expander<'_, '_> {
         let flat: Vec<_> = faces.filter_map(|(row, face)| Some((row, problem(face)?))).collect();
         for &(row, problem) in &flat {
             let span = file.faces.spans[row];
-            let warning = omitted(self.text, span, "face", problem, "remove it, or mend its vertices");
+            let warning = omitted(self.text, span, "face", problem, "remove it, or correct its vertices");
             self.degenerate.insert(span.start, warning);
         }
         file.remove_faces(&flat.into_iter().map(|(row, _)| row).collect::<Vec<_>>());

@@ -111,8 +111,8 @@ impl Expander<'_, '_> {
         self.degenerate.entry(span.start).or_insert_with(|| {
             let shown = face_name(text, span).unwrap_or(Span { start: span.start, end: span.start + 1 });
             Diagnostic::warning(shown, "face has no area where it is placed")
-                .label("left out")
-                .help("mend the transformations that place it")
+                .label("omitted")
+                .help("correct the transformations of its instance")
         });
         false
     }
@@ -178,8 +178,8 @@ impl Expander<'_, '_> {
         self.check_finite(span, direction);
         if direction == DVec3::ZERO {
             self.error.get_or_insert_with(|| {
-                Diagnostic::error(span, "this direction is lost when it is placed")
-                    .label("has no length there")
+                Diagnostic::error(span, "this direction becomes zero when it is placed")
+                    .label("is zero there")
                     .help("place it without a scale of 0")
             });
         }

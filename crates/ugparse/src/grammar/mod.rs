@@ -301,7 +301,7 @@ const SHARE: &str = "use a number from 0 to 1";
 
 /// The vector in these words has no length.
 const fn zero_vector(words: usize) -> Reason {
-    Reason::Impossible(words, "the vector has no length", "give a vector with a direction, such as `0 0 1`")
+    Reason::Impossible(words, "the vector is zero", "give a vector with a direction, such as `0 0 1`")
 }
 
 /// A number in a closed range.

@@ -25,7 +25,7 @@ pub(super) fn remove_degenerate_faces(
     for &row in &degenerate {
         let problem = problem(&scope.faces.rows[row]).unwrap_or_default();
         let span = scope.faces.spans[row];
-        findings.push(omitted(text, span, "face", problem, "remove it, or mend its vertices"));
+        findings.push(omitted(text, span, "face", problem, "remove it, or correct its vertices"));
     }
     scope.remove_faces(&degenerate);
 }
@@ -79,7 +79,7 @@ pub(crate) fn omitted(text: &[u8], span: Span, kind: &str, problem: &str, remedy
     let name = face_name(text, span);
     let shown = name.map_or(String::new(), |name| format!(" `{}`", show(text, name)));
     let span = name.unwrap_or(Span { start: span.start, end: span.start + 1 });
-    Diagnostic::warning(span, format!("{kind}{shown} {problem}")).label("left out").help(remedy)
+    Diagnostic::warning(span, format!("{kind}{shown} {problem}")).label("omitted").help(remedy)
 }
 
 /// The span of the name of the face or wire at `span`.

@@ -74,7 +74,7 @@ fn long_names(span: Span, limits: &Limits) -> Diagnostic {
         span,
         "the names of colours and surfaces, with those of their definitions before them, are too long",
     )
-    .label("this one is too much")
+    .label("this one exceeds the limit")
     .help(limits.remedy(Limit::Names, else_do))
 }
 

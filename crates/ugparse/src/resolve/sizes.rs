@@ -89,7 +89,7 @@ impl Sizes<'_, '_> {
         let shown = show(self.text, call.definition);
         Diagnostic::error(call.definition, format!("definition `{shown}` contains itself"))
             .label("placed here, inside itself")
-            .help("a definition may not place itself, directly or through others")
+            .help("a definition must not place itself, directly or through others")
     }
 
     /// The error for a scene that exceeds a limit.
@@ -103,7 +103,7 @@ impl Sizes<'_, '_> {
         .find(|&(count, limit, _)| count > self.limits.get(limit))?;
         let count = if count == u64::MAX { "too many".to_string() } else { count.to_string() };
         let finding = |place, label, else_do| {
-            Diagnostic::error(place, format!("the placed scene would have {count} {what}"))
+            Diagnostic::error(place, format!("the expanded scene would have {count} {what}"))
                 .label(label)
                 .help(self.limits.remedy(limit, else_do))
         };
@@ -114,7 +114,7 @@ impl Sizes<'_, '_> {
     }
 
     fn too_long(&self, call: &CallStatement) -> Diagnostic {
-        Diagnostic::error(call.definition, "definitions place each other in too long a chain")
+        Diagnostic::error(call.definition, "the chain of nested instances is too long")
             .label("here")
             .help(self.limits.remedy(Limit::Chain, "use fewer"))
     }

@@ -44,7 +44,7 @@ impl UndefinedNames<'_, '_, '_> {
             return;
         }
         let remedy = if self.is_seen(name, |scope| &scope.surfaces) {
-            "there is a surface of that name; on a face it stands behind the colour, so give one"
+            "there is a surface of that name; on a face it follows the colour, so add one"
         } else {
             "define it with a `c` or `c_rgb` statement"
         };
@@ -56,7 +56,7 @@ impl UndefinedNames<'_, '_, '_> {
             return;
         }
         let remedy = if self.is_seen(name, |scope| &scope.colors) {
-            "there is a colour of that name; a face takes one colour, and a surface behind it"
+            "there is a colour of that name; a face has one colour, followed by a surface"
         } else {
             "define it with a `surf` statement"
         };
@@ -88,11 +88,11 @@ impl UndefinedNames<'_, '_, '_> {
             return;
         }
         let remedy = if own.contains(&b':') {
-            "define it with a `v` statement: nothing is placed in this scope whose vertex it could be"
+            "define it with a `v` statement: this scope has no instance or array with such a vertex"
         } else if self.row == 0 {
             "define it with a `v` statement"
         } else {
-            "define it with a `v` statement in the same `def`: vertices of the scope outside are not seen here"
+            "define it with a `v` statement in the same `def`: vertices of enclosing scopes are not visible here"
         };
         let names = self.scopes[self.row].vertices.spans.iter().map(|span| span.of(self.text));
         let found = undefined_like(self.text, "vertex", name, remedy, names, self.findings.len());

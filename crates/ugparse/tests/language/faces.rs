@@ -88,9 +88,9 @@ warning: face `roof` has a contour of fewer than 3 different vertices
  --> test.ug:2:3
   |
 2 | f roof (a b a);
-  |   ^^^^ left out
+  |   ^^^^ omitted
   |
-help: remove it, or mend its vertices"
+help: remove it, or correct its vertices"
     );
 }
 

@@ -214,6 +214,6 @@ fn line_marks_set_file_and_line() {
     // They are not statements, and are not written.
     check("# 1 \"s.ug\"\n{ head }\n# 2\nv a 0 0 0;\n# 3", &["{ head }", "v a 0 0 0;"]);
     assert_eq!(parse("def d; # 1 \"x\"\nv p 0 0 0; end; i (d);").vertices.len(), 1);
-    check_error("# pragma once\nv a 0 0 0;", "`#` is no statement");
-    check_error("# 1 file\nv a 0 0 0;", "`#` is no statement");
+    check_error("# pragma once\nv a 0 0 0;", "`#` is not a statement");
+    check_error("# 1 file\nv a 0 0 0;", "`#` is not a statement");
 }

@@ -21,29 +21,29 @@ fn refused(text: impl AsRef<[u8]>, expected: &str) {
 #[test]
 fn large_arrays_are_refused_before_expansion() {
     let def = "def d; v p 0 0 0; end; ";
-    refused(format!("{def} a (d) 1000000000;"), "the placed scene would have 2000000001 statements");
+    refused(format!("{def} a (d) 1000000000;"), "the expanded scene would have 2000000001 statements");
     refused(
         format!("{def} a (d) 99999999999999999999999999;"),
-        "the placed scene would have too many statements",
+        "the expanded scene would have too many statements",
     );
-    refused("def d; end; a (d) 1000000000;", "the placed scene would have 1000000001 statements");
+    refused("def d; end; a (d) 1000000000;", "the expanded scene would have 1000000001 statements");
     let nested = format!("{def} def e; a (d) 10000; end; a (e) 10000;");
-    refused(nested, "the placed scene would have");
+    refused(nested, "the expanded scene would have");
     // The limit of the chain allows no more than two to the sixtieth.
     let doubling: String = (1..60).fold(def.to_string(), |text, idx| {
         let inner = if idx == 1 { "d".to_string() } else { format!("d{}", idx - 1) };
         text + &format!("def d{idx}; i ({inner}); i ({inner}); end; ")
     });
-    refused(doubling + "i (d59);", "the placed scene would have");
+    refused(doubling + "i (d59);", "the expanded scene would have");
     let corners = "a b c ".repeat(100_000);
     refused(
         format!("def d; {TRIANGLE} f ({corners}); end; a (d) 10000;"),
-        "the placed scene would have 3000000000 corners",
+        "the expanded scene would have 3000000000 corners",
     );
     // Ten thousand million bytes of names.
     let name = "n".repeat(100_000);
-    refused(format!("{def} a {name} (d) 100000;"), "the placed scene would have 10001");
-    refused(format!("def d; v {name} 0 0 0; end; a (d) 100000;"), "the placed scene would have 10001");
+    refused(format!("{def} a {name} (d) 100000;"), "the expanded scene would have 10001");
+    refused(format!("def d; v {name} 0 0 0; end; a (d) 100000;"), "the expanded scene would have 10001");
 }
 
 #[test]
@@ -52,16 +52,16 @@ fn long_chains_are_refused() {
         let defs: String = (1..n).map(|idx| format!("def d{idx}; i (d{}); end;\n", idx - 1)).collect();
         format!("def d0; v p 0 0 0; end;\n{defs}")
     };
-    refused(chain(100_000) + "i (d99999);", "definitions place each other in too long a chain");
-    refused(chain(100_000), "definitions place each other in too long a chain");
+    refused(chain(100_000) + "i (d99999);", "the chain of nested instances is too long");
+    refused(chain(100_000), "the chain of nested instances is too long");
     // Every level is also placed by itself first, so that its size is already known.
     let calls: String = (0..3000).map(|idx| format!("i (d{idx});\n")).collect();
-    refused(chain(3000) + &calls, "definitions place each other in too long a chain");
+    refused(chain(3000) + &calls, "the chain of nested instances is too long");
     let deepest = chain(200) + "i (d199);";
     assert_eq!(parse(&deepest).vertices.len(), 1);
-    refused(chain(201) + "i (d200);", "definitions place each other in too long a chain");
+    refused(chain(201) + "i (d200);", "the chain of nested instances is too long");
     let circle = chain(100_000).replace("def d0; v p 0 0 0; end;", "def d0; i (d99999); end;");
-    refused(circle, "definition");
+    refused(circle, "the chain of nested instances is too long");
 }
 
 #[test]
@@ -104,7 +104,7 @@ fn long_words_are_read() {
         parse(format!("v a {zeros}7.5{zeros} 0.{zeros}1 1e-{digits};")).vertices[0].position.to_array(),
         [7.5, 0.0, 0.0]
     );
-    refused(format!("def d; end; a (d) {digits};"), "the placed scene would have");
+    refused(format!("def d; end; a (d) {digits};"), "the expanded scene would have");
     let name = "n".repeat(1_000_000);
     assert_eq!(flat(format!("v {name} 0 0 0;")).len(), 1_000_000 + 10);
     refused(format!("f ({name});"), "vertex `nnnnnnnnnn");
@@ -131,11 +131,11 @@ fn at_most_20_errors_are_listed() {
 
 #[test]
 fn odd_bytes_are_refused_outside_comments() {
-    refused(b"\0", "`?` is no statement");
-    refused(b"v a 0 0 0;\n\xff\xfe", "`\u{fffd}\u{fffd}` is no statement");
+    refused(b"\0", "`?` is not a statement");
+    refused(b"v a 0 0 0;\n\xff\xfe", "`\u{fffd}\u{fffd}` is not a statement");
     refused(b"v a\xff 0 0 0;", "expected a name of letters, digits, `:`, `_` and `#`, found `a\u{fffd}`");
     refused(b"v a \0 0 0;", "expected a number, found `?`");
-    refused("\u{feff}v a 0 0 0;", "`\u{feff}v` is no statement");
+    refused("\u{feff}v a 0 0 0;", "`\u{feff}v` is not a statement");
     assert_eq!(flat(b"{\0\xff}v a 0 0 0;"), "{\0\u{fffd}}\nv a 0 0 0;\n");
 }
 
@@ -175,7 +175,7 @@ fn every_limit_can_be_set_and_says_so() {
         chain,
         Limit::Chain,
         3,
-        "definitions place each other in too long a chain",
+        "the chain of nested instances is too long",
         "the limit is 2 levels; use fewer, or raise it with --limit chain=N",
     );
     let array = "def d; v pp 0 0 0; v qq 1 0 0; w (pp qq); end; a (d) 10;";
@@ -183,21 +183,21 @@ fn every_limit_can_be_set_and_says_so() {
         array,
         Limit::Statements,
         41,
-        "the placed scene would have 41 statements",
+        "the expanded scene would have 41 statements",
         "the limit is 40 statements; use smaller arrays, or raise it with --limit statements=N",
     );
     check(
         array,
         Limit::Corners,
         20,
-        "the placed scene would have 20 corners of faces",
+        "the expanded scene would have 20 corners of faces",
         "the limit is 19 corners; use smaller arrays, or raise it with --limit corners=N",
     );
     check(
         "v long 0 0 0; v longer 0 0 0;",
         Limit::Names,
         10,
-        "the placed scene would have 10 bytes of names",
+        "the expanded scene would have 10 bytes of names",
         "the limit is 9 bytes; split the scene, or raise it with --limit names=N",
     );
     let (found, _) = limited("def d; c long 1; end; surf long 1 0 0;", Limit::Names, 39).unwrap();

@@ -12,8 +12,8 @@ fn vertices() {
     check_error("v a 1 2;", "expected a number, found `;`");
     check_error("v a 1 2 3 4;", "expected a number, found `;`");
     check_error("v a 1 2 3 4 5 6 7;", "expected `;`, found `7`");
-    check_error("v a 1 2 3 0 0 0;", "the vector has no length");
-    check_error("v a 1 2 3 0 0 -0;", "the vector has no length");
+    check_error("v a 1 2 3 0 0 0;", "the vector is zero");
+    check_error("v a 1 2 3 0 0 -0;", "the vector is zero");
     check_error("v a 1 2 3 (b);", "expected `;`, found `(`");
 }
 
@@ -107,7 +107,7 @@ fn lights() {
     check_error("l sun;", "expected a number, found `;`");
     check_error("l -1;", "the number `-1` is out of range");
     check_error("l 1 0 0;", "expected a number, found `;`");
-    check_error("l 1 0 0 0;", "the vector has no length");
+    check_error("l 1 0 0 0;", "the vector is zero");
     check_error("l 1 0 0 0 -1;", "the number `-1` is out of range");
     check_error("l 1 red;", "colour `red` is not defined");
 }
@@ -139,7 +139,7 @@ fn cameras() {
     check("cam -ep 1 1 1 -ep 2 2 2;", &["cam -ep 2 2 2;"]);
     check_error("cam -ep 1 2;", "expected a number, found `;`");
     check_error("cam -va 40;", "expected a number, found `;`");
-    check_error("cam -ud 0 0 0;", "the vector has no length");
+    check_error("cam -ud 0 0 0;", "the vector is zero");
     check_error(
         "cam -zoom 2;",
         "expected a camera option (-vc -ep -ud -cl -ph -og -ps -va -fs -fl), found `-zoom`",
@@ -188,7 +188,7 @@ fn escapes_are_kept_as_they_are() {
     check("(two\nlines)", &["(two", "lines)"]);
     check("def d; (once) v a 0 0 0; end; i x (d); i y (d);", &["(once)", "v x:a 0 0 0;", "v y:a 0 0 0;"]);
     check_error("v a 0 0 0; (open (twice)", "this escape is not closed");
-    check_error(")", "`)` is no statement");
+    check_error(")", "`)` is not a statement");
 }
 
 #[test]

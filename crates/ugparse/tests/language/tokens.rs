@@ -217,7 +217,7 @@ fn invalid_names_are_refused() {
 #[test]
 fn only_the_first_word_is_a_keyword_and_in_lower_case() {
     for word in ["V", "F", "Cam", "DEF", "End", "vertex", "ff", "1", "Include", "c_lab", "Surf", "-v"] {
-        check_error(&format!("{word} a 0 0 0;"), &format!("`{word}` is no statement"));
+        check_error(&format!("{word} a 0 0 0;"), &format!("`{word}` is not a statement"));
     }
 }
 

@@ -152,7 +152,7 @@ fn invalid_transformations_are_refused() {
         check_error(&format!("def d; v p 1 2 3; end; i (d {tforms});"), expected)
     };
     for tforms in ["-sv 0 0 0 2", "-tv 0 0 0 2", "-rv 0 0 0 2", "-mv 0 0 0"] {
-        refused(tforms, "the vector has no length");
+        refused(tforms, "the vector is zero");
     }
     for tforms in [
         "-tx",
@@ -179,9 +179,9 @@ fn invalid_transformations_are_refused() {
     refused("-M4 1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 2", "this matrix is not affine");
     refused("-sa 1e200 -sa 1e200", "the transformation overflows");
     refused("-sa 1e308", "coordinates overflow when this is placed");
-    check_error("def d; l 1 0 0 1; end; i (d -sz 0);", "this direction is lost when it is placed");
+    check_error("def d; l 1 0 0 1; end; i (d -sz 0);", "this direction becomes zero when it is placed");
     check_error("def d; l 1 0 0 9 9; end; i (d -sz 1e308);", "coordinates overflow when this is placed");
     check_error("def d; cam -ep 0 0 9; end; i (d -sz 1e308);", "coordinates overflow when this is placed");
-    check_error("def d; cam -ud 0 0 9; end; i (d -sz 0);", "this direction is lost when it is placed");
+    check_error("def d; cam -ud 0 0 9; end; i (d -sz 0);", "this direction becomes zero when it is placed");
     check_error("def d; v p 1 0 0; end; a (d) 400 -sa 10;", "coordinates overflow when this is placed");
 }
