@@ -13,7 +13,7 @@ use crate::reader::Document;
 use crate::source::Span;
 use crate::stage::{ColorScale, ColorStage, GeometryStage, HueScale, SeenColors, SeenGeometry, Stage};
 use crate::suggest::nearest;
-use crate::token::{Input, is_blank, number, word};
+use crate::token::{Input, found, is_blank, number};
 use crate::wording::{shorten, word_help};
 use crate::writer::push_number;
 
@@ -244,8 +244,7 @@ impl<'t> Words<'t> {
     /// The next word, also if it is a punctuation mark; `None` at the end.
     fn next(&mut self) -> Option<Word<'t>> {
         self.skip_blanks();
-        let first = self.rest.len().min(1);
-        let text = word(self.rest).map_or(&self.rest[..first], |(_, word)| word);
+        let text = found(self.rest);
         let start = self.position();
         self.rest = &self.rest[text.len()..];
         let span = Span { start, end: start + text.len() as u32 };
