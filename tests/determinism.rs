@@ -1,4 +1,5 @@
-//! The same input gives the same bytes with any number of threads, on every run, and in every build profile.
+//! The same input gives the same bytes with any number of threads, on every run, and in every build
+//! profile.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
@@ -89,7 +90,8 @@ fn through_a_shell(programs: &Path, scene: &Path) -> Stages {
     Stages { seen: stage("seen"), colored: stage("colored"), file: stage("file") }
 }
 
-/// In `.ci/run` the programs of the shell pipe are of the other profile than the libraries in this process.
+/// In `.ci/run` the programs of the shell pipe are of the other profile than the libraries in this
+/// process.
 #[test]
 fn a_shell_pipe_gives_the_same_bytes_in_both_profiles() {
     let scene = scenes::root().join("scenes").join("cubes.ug");

@@ -1,20 +1,20 @@
-//! The commands in the documents do what they say: each is run, in a copy of `scenes/`.
+//! Runs every command in the documents, in a copy of `scenes/`.
 
 use std::process::Command;
 
 use ugtests::programs;
 use ugtests::scenes::root;
 
-/// Documents with commands to be typed in `scenes/`, the section they stand in (empty for all), and the least
-/// number of them.
+/// Documents with commands for the folder `scenes/`, the section that contains them (empty for the
+/// whole document), and the least number of commands.
 const DOCUMENTS: [(&str, &str, usize); 3] =
     [("README.md", "## First steps", 5), ("README.md", "## How do I", 13), ("docs/gallery.md", "", 20)];
 
-/// What a person would type from a section of a document.
+/// The commands in a section of a document.
 struct Typed {
-    /// Functions and variables of the shell, for all commands.
+    /// Definitions of shell functions and variables, for all commands.
     definitions: String,
-    /// Pipes of our programs, comments cut off.
+    /// Pipes of our programs, without comments.
     commands: Vec<String>,
 }
 
@@ -32,7 +32,7 @@ impl Typed {
                 typed.definitions.push('\n');
                 continue;
             }
-            // In a list, commands stand deeper.
+            // In lists, commands are indented further.
             let line = line.trim_start();
             let tools = ["uglorentz ", "ugdoppler ", "ugrainbow ", "ugsheet ", "ugmesh ", "sed ", "for "];
             if tools.iter().any(|tool| line.starts_with(tool)) {
@@ -60,7 +60,7 @@ fn commands_in_documents_work() {
         let Typed { definitions, commands } = Typed::read(document, section);
         assert!(commands.len() >= least, "{document}: {} commands", commands.len());
         for command in &commands {
-            // Smaller pictures say as much here, but they may lack the pixel that is asked about.
+            // Smaller pictures are sufficient, but they may not have the pixel of `--explain`.
             let has_size = command.contains("-sz ") || command.contains("--explain");
             let small =
                 if has_size { command } else { &command.replace("ugrainbow", "ugrainbow -sz 160 120 -aa 1") };
@@ -78,7 +78,7 @@ fn commands_in_documents_work() {
             );
             if let Some((_, file)) = command.split_once("> ").or_else(|| command.split_once("-fo ")) {
                 let name = file.split([' ', ';']).next().expect("a file name");
-                // Those of a loop are one for each of its values.
+                // A loop writes one file for each of its values.
                 let names: Vec<String> = match loop_values(command) {
                     None => vec![name.to_string()],
                     Some((variable, values)) => values.map(|value| name.replace(&variable, value)).collect(),

@@ -1,6 +1,7 @@
 //! PDF, SVG and vector figures rendered by other programs show the same picture as the PNG.
 //!
-//! Without `gs`, `pdftoppm`, `rsvg-convert` and `chromium` on the path the tests are skipped, unless `UG_CI=1`.
+//! Without `gs`, `pdftoppm`, `rsvg-convert` and `chromium` on the path the tests are skipped,
+//! unless `UG_CI=1`.
 
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test fails by panicking")]
 
@@ -22,7 +23,8 @@ const TOOLS: [tools::Tool; 4] = [tools::GHOSTSCRIPT, tools::POPPLER, tools::RSVG
 enum Tool {
     Ghostscript,
     Poppler,
-    /// Extracts the picture from the page, because pdftoppm resamples pictures even at one pixel per point.
+    /// Extracts the picture from the page, because pdftoppm resamples pictures even at one pixel
+    /// per point.
     PopplerImages,
     Rsvg,
     Chromium,
@@ -98,9 +100,9 @@ const DRAWN_BY: [(Format, Tool); 6] = [
     (Format::Svg, Tool::Chromium),
 ];
 
-/// The fraction of pixels with a channel more than `LEVELS` outside the range of the PNG's pixel and its eight
-/// neighbours. So an edge may be anti-aliased differently, but not displaced; and where the PNG changes little, as
-/// within faces, only its colour passes.
+/// The fraction of pixels with a channel more than `LEVELS` outside the range of the PNG's pixel
+/// and its eight neighbours. So an edge may be anti-aliased differently, but not displaced; and
+/// where the PNG changes little, as within faces, only its colour passes.
 fn fraction_different(png: &Picture, drawn: &Picture) -> f64 {
     const LEVELS: u8 = 8;
     assert_eq!(png.dimensions(), drawn.dimensions());

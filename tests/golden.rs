@@ -185,7 +185,8 @@ fn the_rainbow_of_1988() {
     assert_golden("wavelengths-380-to-780-rainbow", &decode(&rainbow(&scenes::text("rainbow"), &config)));
 }
 
-/// Interpolation from red to blue passes through the spectrum, at different places by hue and by wavelength.
+/// Interpolation from red to blue passes through the spectrum, at different places by hue and by
+/// wavelength.
 #[test]
 fn hue_and_wavelength() {
     const STRIPES: &[u8] = b"c red 1 0; c blue 1 240; c_rgb white 1 1 1; l 1;

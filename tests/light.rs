@@ -1,5 +1,5 @@
-//! Checks pictures in linear light with another program: OpenImageIO, which uses the reference implementation of
-//! OpenEXR.
+//! Checks pictures in linear light with another program: OpenImageIO, which uses the reference
+//! implementation of OpenEXR.
 //!
 //! Without `oiiotool` on the path the tests are skipped, unless `UG_CI=1`.
 
@@ -138,8 +138,8 @@ fn another_program_reads_the_same_levels() {
     assert!(deep.iter().flatten().any(|level| level % 257.0 != 0.0));
 }
 
-/// A moving plane y = 10: for each pixel's ray the emission event is known. With t = −r and x = r d, the rest
-/// coordinates are r (d + (γ−1)(d·û)û + γv), and their y is 10.
+/// A moving plane y = 10: for each pixel's ray the emission event is known. With t = −r and x = r
+/// d, the rest coordinates are r (d + (γ−1)(d·û)û + γv), and their y is 10.
 #[test]
 fn channels_describe_the_emission_event() {
     if !tools::has(&[OIIOTOOL]) {

@@ -1,5 +1,5 @@
-//! Compares the whole pipe with an independent renderer that intersects a ray from each pixel in the rest frames, see
-//! [`ugtests::oracle`] and [`ugtests::agreement`].
+//! Compares the whole pipe with an independent renderer that intersects a ray from each pixel in
+//! the rest frames, see [`ugtests::oracle`] and [`ugtests::agreement`].
 
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test fails by panicking")]
 
@@ -38,7 +38,8 @@ impl Case {
     }
 }
 
-/// Draws a case with the pipe and with the oracle. The error describes the difference and names the saved pictures.
+/// Draws a case with the pipe and with the oracle. The error describes the difference and names the
+/// saved pictures.
 fn check(case: Case) -> Result<(), String> {
     let text = case.text.map_or_else(|| scenes::text(case.scene), |text| text.as_bytes().to_vec());
     let scene = recolored(scenes::parse(&text));
@@ -178,8 +179,9 @@ fn outline_errors_are_within_the_bound() {
     }
 }
 
-/// A post in front of two walls that meet a tenth of a pixel from one of its edges. Edges displaced by half a pixel
-/// explain that either wall is visible there, but not further inside the post or through it.
+/// A post in front of two walls that meet a tenth of a pixel from one of its edges. Edges displaced
+/// by half a pixel explain that either wall is visible there, but not further inside the post or
+/// through it.
 #[test]
 fn edges_explain_what_they_can_and_no_more() {
     // 100 pixels across a film 2 wide: a pixel is a fiftieth of the distance.
@@ -195,7 +197,8 @@ fn edges_explain_what_they_can_and_no_more() {
         let wrong = Wrong { pixel: [x, 50], is_at_boundary: true, shown: Ok(shown), expected: Some(0) };
         are_edges_near(&oracle, &camera, &wrong, reach, 1e-4)
     };
-    // The post ends at 52.0 and the walls meet at 52.1; the centre of pixel 51 is half a pixel inside.
+    // The post ends at 52.0 and the walls meet at 52.1; the centre of pixel 51 is half a pixel
+    // inside.
     assert_eq!(oracle.faces(&[camera.direction(51.5, 50.5)]), [Some(0)]);
     assert!(is_explained(51, Some(1), 0.65) && is_explained(51, Some(2), 0.65));
     assert!(!is_explained(51, Some(2), 0.55), "the walls meet farther away");
@@ -203,8 +206,9 @@ fn edges_explain_what_they_can_and_no_more() {
     assert!(!is_explained(51, None, 0.65) && !is_explained(50, Some(2), 0.65));
 }
 
-/// A long edge of the upper face coincides with shorter edges of faces below it. Slits are possible there, but not next to
-/// the edge, nor where both sides have the same vertices, nor around a corner.
+/// A long edge of the upper face coincides with shorter edges of faces below it. Slits are possible
+/// there, but not next to the edge, nor where both sides have the same vertices, nor around a
+/// corner.
 #[test]
 fn slits_are_where_edges_have_different_vertices() {
     const SCENE: &str = "cam -ep 0 0 0 -vc 0 9 0 -ud 0 0 1 -va 90 90;

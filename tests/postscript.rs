@@ -16,7 +16,8 @@ use ugtests::pipe::{Pipe, rainbow_as};
 use ugtests::scenes;
 use ugtests::tools::{self, GHOSTSCRIPT};
 
-/// Renders PostScript at one pixel per point. EPS pages are cropped to their bounding box; others set their size.
+/// Renders PostScript at one pixel per point. EPS pages are cropped to their bounding box; others
+/// set their size.
 fn ghostscript(file: &[u8]) -> Picture {
     let folder = tempfile::tempdir().unwrap();
     let (input, output) = (folder.path().join("in.ps"), folder.path().join("out.png"));

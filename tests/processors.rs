@@ -1,7 +1,7 @@
 //! Processors with other instruction sets give the same bytes: runs the programs on emulated ones.
 //!
-//! Only `.ci/run` makes this check, since it needs the release build. It requires x86-64 and Linux, where
-//! the emulator can run single programs built for the host.
+//! Only `.ci/run` makes this check, since it needs the release build. It requires x86-64 and Linux,
+//! where the emulator can run single programs built for the host.
 
 #![cfg(all(target_arch = "x86_64", target_os = "linux"))]
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
@@ -12,7 +12,8 @@ use std::process::Command;
 use rayon::prelude::*;
 use ugtests::{programs, scenes, tools};
 
-/// The programs as shell functions of the same names. `$1` is their folder, `$2` the emulator command.
+/// The programs as shell functions of the same names. `$1` is their folder, `$2` the emulator
+/// command.
 const FUNCTIONS: &str = r#"
     programs=$1 processor=$2
     uglorentz() { $processor "$programs/uglorentz" -qt "$@"; }
@@ -50,7 +51,8 @@ fn written(scene: &str, pipe: &str, programs: &Path, processor: Option<&str>) ->
     output.stdout
 }
 
-/// Conroe has SSE up to SSSE3, Nehalem up to 4.2; `max` has everything that is emulated, including AVX2 and FMA.
+/// Conroe has SSE up to SSSE3, Nehalem up to 4.2; `max` has everything that is emulated, including
+/// AVX2 and FMA.
 #[test]
 fn bytes_do_not_depend_on_the_processor() {
     if !tools::is_ci_or_skipped(tools::PROCESSORS) || !tools::has(&[tools::QEMU]) {

@@ -1,5 +1,5 @@
-//! Compares the reader of scenes with a slow, independent one that was written from the language page (see
-//! [`ugtests::slow_reader`]), and its results on several threads with those on one.
+//! Compares the reader of scenes with a slow, independent one that was written from the language
+//! page (see [`ugtests::slow_reader`]), and its results on several threads with those on one.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
@@ -12,8 +12,8 @@ use ugphysics::Velocity;
 use ugtests::scenes;
 use ugtests::slow_reader::{self, Camera, Face, Flat, Light, Paint, Triple, Vertex, Wire};
 
-/// Relative to the largest coordinate: the two readers multiply matrices in different orders, which causes a few
-/// rounding errors per transformation.
+/// Relative to the largest coordinate: the two readers multiply matrices in different orders, which
+/// causes a few rounding errors per transformation.
 const TOLERANCE: f64 = 1e-12;
 
 /// Converts a scene to the types of the slow reader.
@@ -105,8 +105,8 @@ fn camera_options(camera: &ugparse::Camera) -> BTreeMap<String, Vec<f64>> {
     options.into_iter().filter_map(given).collect()
 }
 
-/// Compares lists row by row: `take` removes positions and directions, which are compared with a tolerance; the rest
-/// must be equal.
+/// Compares lists row by row: `take` removes positions and directions, which are compared with a
+/// tolerance; the rest must be equal.
 #[track_caller]
 fn assert_rows<T: Clone + Debug + PartialEq>(ours: &[T], slow: &[T], take: impl Fn(&mut T) -> Vec<f64>) {
     let size = slow.iter().flat_map(|row| take(&mut row.clone())).fold(0.0, |size: f64, x| size.max(x.abs()));
@@ -230,8 +230,8 @@ fn both_readers_agree_on_every_statement() {
     assert!(slow.faces.len() > 200 && slow.lights.len() > 15 && slow.cameras.len() > 10, "{slow:?}");
 }
 
-// Random scenes. A strategy generates a tree of statements whose names are numbers; `Writer` converts these to names
-// that are visible in their scope.
+// Random scenes. A strategy generates a tree of statements whose names are numbers; `Writer`
+// converts these to names that are visible in their scope.
 
 /// A statement of a random scene.
 #[derive(Clone, Debug)]

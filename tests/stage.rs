@@ -1,4 +1,5 @@
-//! The stage of a scene through real pipes: comments tell programs nothing, and wrong orders are refused.
+//! The stage of a scene in real pipes: comments have no effect on programs, and wrong orders are
+//! refused.
 
 use std::io::Write;
 use std::path::PathBuf;
@@ -6,8 +7,9 @@ use std::process::{Command, Output, Stdio};
 
 use ugtests::programs;
 
-/// Everything that a program might want to know of a scene: bodies at rest and in motion, a face that is far from
-/// flat, one with a hole, normals, spectra, coloured and moving lights, wires, and a comment at each of them.
+/// A scene with everything that programs use: bodies at rest and in motion, a face that is far from
+/// flat, one with a hole, normals, spectra, coloured and moving lights, wires, and a comment at
+/// each of them.
 const SCENE: &str = "{ A licence. }
 { ours: nothing } c red 1 20 .8; { a colour }
 c blue .8 230; c_rgb green .2 .8 .3; c_bb glow 4000 .5;
@@ -24,7 +26,7 @@ cam -ep 0 0 0 -vc 0 8 0 -va 70 50; { the eye }
 { the end }
 ";
 
-/// The programs, fed by hand so that a test can change what goes from one to the next.
+/// Runs the programs one by one, so that a test can change the text between them.
 struct Programs(PathBuf);
 
 impl Programs {
@@ -32,19 +34,19 @@ impl Programs {
         Programs(programs::released())
     }
 
-    /// Runs `uglorentz -in`, say, with `input` on its standard input.
+    /// Runs a command such as `uglorentz -in` with `input` on its standard input.
     fn feed(&self, command: &str, input: &[u8]) -> Output {
         let mut words = command.split_whitespace();
         let program = self.0.join(words.next().expect("a program"));
         let mut command = Command::new(program);
         command.args(words).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
         let mut child = command.spawn().expect("the program starts");
-        // A program that refuses its options does not read.
+        // A program that refuses its options does not read its input.
         let _ = child.stdin.take().expect("a pipe").write_all(input);
         child.wait_with_output().expect("the program ends")
     }
 
-    /// What comes out of a pipe, with `joint` applied to all that goes from one program to the next.
+    /// The output of a pipe, with `joint` applied to the text between programs.
     fn pipe(&self, commands: &[&str], input: &[u8], joint: fn(&[u8]) -> Vec<u8>) -> Vec<u8> {
         commands.iter().fold(input.to_vec(), |input, command| {
             let output = self.feed(command, &joint(&input));
@@ -89,7 +91,7 @@ fn comments_tell_programs_nothing() {
     let rainbow = options("ugrainbow -sz 40 30 -aa 1", &rainbow);
     for (row, first) in lorentz.iter().enumerate() {
         for (column, second) in doppler.iter().enumerate() {
-            // Not all with all, but each with each other kind.
+            // Not all combinations, but each kind with each other kind.
             check(&[first, second, &rainbow[(row + column) % rainbow.len()]]);
         }
         let drawn = &rainbow[row % rainbow.len()];
@@ -121,9 +123,9 @@ fn comments_tell_programs_nothing() {
 /// A pipe whose last program refuses its input.
 struct Refused {
     pipe: &'static [&'static str],
-    /// What is wrong.
+    /// The expected message.
     problem: &'static str,
-    /// What to do.
+    /// The expected remedy.
     remedy: &'static str,
 }
 
@@ -219,7 +221,7 @@ fn legitimate_pipes_pass() {
     let still = "c red 1 20; v a 0 5 0; v b 1 5 0; v c 0 5 1; f (a b c) red; l 1; cam -vc 0 5 0;";
     let programs = Programs::new();
     let check = |pipe: &[&str], scene: &str| drop(programs.pipe(pipe, scene.as_bytes(), <[u8]>::to_vec));
-    // Nothing moves, so nothing depends on the eye, and positions stay at rest.
+    // Nothing moves, so positions do not depend on the eye and stay at rest.
     check(
         &["uglorentz -ep 0 -1 0", "uglorentz", "ugdoppler -ep 0 0 1", "ugrainbow -ep 1 1 1 -sz 9 9"],
         still,

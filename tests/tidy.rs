@@ -1,4 +1,4 @@
-//! What holds of the repository as a whole: who depends on whom, citations, scenes, and clean text.
+//! Rules for the whole repository: dependencies, citations of equations, scenes, and clean text.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
@@ -12,13 +12,13 @@ use std::path::{Path, PathBuf};
 use ugparse::{Options, Source};
 use ugtests::scenes::{self, root};
 
-/// The text of a file; what is not UTF-8 is replaced.
+/// The text of a file; invalid UTF-8 is replaced.
 fn read(path: &Path) -> String {
     let bytes = fs::read(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
     String::from_utf8_lossy(&bytes).into_owned()
 }
 
-/// All files below a folder, in order, but for what tools keep there.
+/// All files below a folder, sorted, except those that tools create.
 fn files(folder: &Path) -> Vec<PathBuf> {
     let mut entries: Vec<PathBuf> =
         fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
@@ -77,7 +77,7 @@ fn allowed() -> BTreeMap<String, BTreeSet<String>> {
     rows.take_while(|line| line.starts_with('|')).map(row).collect()
 }
 
-/// Names under `[dependencies]`, which the program is made of.
+/// Names under `[dependencies]`, without those of tests.
 fn dependencies(manifest: &str) -> BTreeSet<String> {
     let lines = manifest.lines().skip_while(|line| *line != "[dependencies]").skip(1);
     let entries = lines.take_while(|line| !line.starts_with('['));
@@ -107,7 +107,7 @@ fn data_goes_one_way() {
             assert!(!table[*krate].contains(*later), "{krate} knows {later}");
         }
     }
-    // Programs talk in text.
+    // Programs exchange text and do not depend on each other.
     for pair in ORDER[1..].windows(2) {
         assert!(!table[pair[1]].contains(pair[0]), "{} knows {}", pair[1], pair[0]);
     }
@@ -183,9 +183,9 @@ fn every_scene_parses_and_writes_itself() {
 
 #[test]
 fn faces_of_scenes_are_flat() {
-    /// Coordinates are written to four decimals or so.
+    /// Coordinates have about four decimals.
     const ROUNDING: f64 = 1e-4;
-    /// Thickness over size: patches of round things are flat only nearly.
+    /// Thickness divided by size: patches of curved surfaces are only approximately flat.
     const SLACK: f64 = 0.02;
     let mut findings = Vec::new();
     for name in scenes::names() {
@@ -211,7 +211,7 @@ fn faces_of_scenes_are_flat() {
 
 #[test]
 fn nothing_names_a_place_on_somebodys_machine() {
-    // In pieces, so that this file does not name them.
+    // Split by `~`, so that this file does not contain them.
     let places =
         ["/ho~me/", "/ro~ot/", "/wo~rk/", "/Us~ers/", "..~/shared", "C:\\~Users"].map(|p| p.replace('~', ""));
     let mut findings = Vec::new();
@@ -246,7 +246,7 @@ fn every_source_file_says_what_it_is() {
 #[test]
 fn text_is_clean() {
     let mut findings = Vec::new();
-    // A scene that must fail may be as untidy as it likes.
+    // Scenes that must fail may have any layout.
     let is_clean = |path: &Path| !path.starts_with(root().join("scenes").join("bad"));
     for (path, text) in texts().into_iter().filter(|(path, _)| is_clean(path)) {
         let lines = text.lines().enumerate();
@@ -261,8 +261,8 @@ fn text_is_clean() {
 
 #[test]
 fn no_crate_has_a_circle_of_imports() {
-    /// Crates in which files of one folder, not folders, still use each other in a circle. A crate leaves this list
-    /// when its circle is cut; none may be added.
+    /// Crates in which files of one folder, not folders, still use each other in a circle. A crate
+    /// leaves this list when its circle is cut; none may be added.
     const WITH_CIRCLES: [&str; 5] = ["uglorentz", "ugparse", "ugraster", "ugscene", "ugspectrum"];
     let mut findings = Vec::new();
     for (krate, folder) in crates().into_iter().filter(|(krate, _)| krate != "ugconformance") {

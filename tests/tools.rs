@@ -1,4 +1,4 @@
-//! The last of these tests: repeats which checks were skipped for want of a tool.
+//! The last of these tests: lists the checks that were skipped because of missing tools.
 
 use ugtests::tools;
 

@@ -1,9 +1,9 @@
-//! The suite finds the mistakes it was made for. A copy of the crates has them built in, each behind a switch, and each
-//! of them must make at least one case fail.
+//! The suite detects known mistakes. They are introduced into a copy of the crates, each behind a
+//! switch, and each must make at least one case fail.
 //!
-//! The copy lies in the target folder and shares the dependencies of the workspace, but all our crates are built again.
-//! That takes minutes, so only `.ci/run` does it, by `UG_CI=1`. `cargo test` checks that every entry of the list still
-//! stands in the source.
+//! The copy is in the target folder and shares the dependencies of the workspace, but all our
+//! crates are built again. That takes minutes, so only `.ci/run` does it, with `UG_CI=1`.
+//! `cargo test` checks that the source still contains every expression in the list.
 
 use std::collections::BTreeMap;
 use std::env;
@@ -12,19 +12,19 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// A mistake, and what must fail with it.
+/// A mistake, and the case that must fail with it.
 struct Mistake {
     name: &'static str,
     file: &'static str,
-    /// An expression that stands in the file once.
+    /// An expression that occurs in the file once.
     right: &'static str,
     wrong: &'static str,
-    /// A case that finds it, or a topic.
+    /// A case, picture or topic that detects it.
     found_by: &'static str,
 }
 
-/// Where our programs have no such code, the nearest takes its place. No program draws panoramas, so M10 is put into the
-/// aberration itself.
+/// Some mistakes have no exact equivalent in our programs. No program draws panoramas, so M10 is
+/// introduced into the aberration itself.
 const MISTAKES: [Mistake; 17] = [
     Mistake {
         name: "M1",
@@ -140,7 +140,7 @@ const MISTAKES: [Mistake; 17] = [
         wrong: "((level as f64 + 0.5) / 255.0) as f32",
         found_by: "colours",
     },
-    // The other half of M14: a matrix for another white.
+    // The second part of M14: a colour matrix for another white point.
     Mistake {
         name: "M14white",
         file: "crates/ugphysics/src/xyz.rs",
@@ -202,14 +202,14 @@ fn mistaken_workspace() -> BTreeMap<PathBuf, Vec<u8>> {
              if *MISTAKE {{ {} }} else {{ {value} }} }}){end}",
             wrong.trim_end(),
         );
-        // What follows the value may have told it from others like it.
+        // `end` is text after the value that makes the expression unique.
         edit(&mut files, file, right, &switch);
     }
     edit(&mut files, "Cargo.toml", "\"features\", \"tests\", \"xtask\"]", "\"features\"]");
-    // A version of its own: cargo would take these crates for the right ones otherwise, and use what it built of them.
+    // A different version: otherwise cargo would use its builds of the original crates.
     let version = concat!("version = \"", env!("CARGO_PKG_VERSION"), "\"\nedition");
     edit(&mut files, "Cargo.toml", version, "version = \"0.0.0-mistaken\"\nedition");
-    // And a name of its own, so that it does not take the place of the right program in the target folder.
+    // And a different name, so that it does not replace the original program in the target folder.
     let program = "[dependencies]\n";
     let renamed = "[[bin]]\nname = \"ugmistakes\"\npath = \"src/main.rs\"\n\n[dependencies]\n";
     edit(&mut files, "conformance/Cargo.toml", program, renamed);
@@ -225,7 +225,8 @@ fn edit(files: &mut BTreeMap<PathBuf, Vec<u8>>, file: &str, right: &str, wrong: 
     *text = before.replace(right, wrong).into_bytes();
 }
 
-/// Makes `folder` hold these files and no others; one that is the same is left alone, so that it is not built again.
+/// Synchronises `folder` with these files; unchanged files are not written, so that they are not
+/// built again.
 fn put(folder: &Path, files: &BTreeMap<PathBuf, Vec<u8>>) {
     let mut old = BTreeMap::new();
     if folder.exists() {
@@ -241,7 +242,7 @@ fn put(folder: &Path, files: &BTreeMap<PathBuf, Vec<u8>>) {
     }
 }
 
-/// What `check` finds wrong.
+/// The failures that `check` reports.
 fn wrong(program: &Path, mistake: &str) -> Vec<String> {
     let output = Command::new(program).arg("check").env("UG_MISTAKE", mistake).output().expect("it runs");
     let text = String::from_utf8_lossy(&output.stdout);

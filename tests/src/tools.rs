@@ -1,4 +1,5 @@
-//! What some checks need and may be missing: programs of others, and builds that only `.ci/run` makes.
+//! Requirements of some checks that may be missing: external programs, and builds that only
+//! `.ci/run` makes.
 //!
 //! A check without its tool is skipped and says so on standard error, past the capture of
 //! output by the test harness. `tests/tools.rs`, the last of the cross-crate tests, repeats
@@ -8,16 +9,16 @@
 use std::io::{self, Write};
 use std::process::Command;
 
-/// A program of others.
+/// An external program.
 #[derive(Clone, Copy, Debug)]
 pub struct Tool {
     /// Its name on the path.
     pub program: &'static str,
     /// An option with which it exits at once with status 0.
     pub option: &'static str,
-    /// The Debian package that has it.
+    /// The Debian package that contains it.
     pub package: &'static str,
-    /// What is checked with it.
+    /// The checks that use it.
     pub checks: &'static str,
 }
 
@@ -82,12 +83,12 @@ pub const MISTAKES: &str = "the conformance suite finds every mistake that is bu
 /// Checks that need another build, and so minutes.
 pub const ONLY_IN_CI: [&str; 3] = [PROFILES, PROCESSORS, MISTAKES];
 
-/// True if nothing may be skipped.
+/// True if no check may be skipped.
 pub fn is_ci() -> bool {
     std::env::var_os("UG_CI").is_some_and(|value| value == "1")
 }
 
-/// Whether a check that is one of [`ONLY_IN_CI`] is to be made; says so if not.
+/// Should a check of [`ONLY_IN_CI`] run? Prints a message if not.
 pub fn is_ci_or_skipped(check: &str) -> bool {
     if !is_ci() {
         say(&only_in_ci(check));
@@ -101,19 +102,19 @@ pub fn only_in_ci(check: &str) -> String {
 }
 
 impl Tool {
-    /// True if the program is there.
+    /// True if the program is installed.
     pub fn is_there(self) -> bool {
         Command::new(self.program).arg(self.option).output().is_ok_and(|output| output.status.success())
     }
 
-    /// What is missing, and the remedy.
+    /// The message about a missing program, with the remedy.
     pub fn missing(self) -> String {
         let Tool { program, package, checks, .. } = self;
         format!("skipped: {checks}: there is no `{program}`; install {package}")
     }
 }
 
-/// False, with a message, if a program is missing and need not be there.
+/// Returns false and prints a message if a program is missing and not required.
 #[track_caller]
 pub fn has(tools: &[Tool]) -> bool {
     let missing: Vec<Tool> = tools.iter().copied().filter(|tool| !tool.is_there()).collect();
@@ -124,8 +125,9 @@ pub fn has(tools: &[Tool]) -> bool {
     missing.is_empty()
 }
 
-/// Writes a line to standard error itself: what `eprintln!` writes is hidden while a test passes.
+/// Writes a line directly to standard error, because the test harness hides the output of
+/// `eprintln!` for passing tests.
 pub fn say(line: &str) {
-    // A closed standard error is no failure of a test.
+    // A closed standard error must not make a test fail.
     let _ = writeln!(io::stderr(), "{line}");
 }
