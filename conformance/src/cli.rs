@@ -5,7 +5,7 @@ use std::fmt::Write;
 use std::process::ExitCode;
 
 use clap::{Arg, Parser, Subcommand};
-use ugpipe::{CommonArgs, Failure, Stage, ToolArgs};
+use ugpipe::{CommonArgs, Context, Failure, ToolArgs};
 
 use crate::answer::answer;
 use crate::picture::{self, PictureCase};
@@ -87,52 +87,52 @@ pub fn main() -> ExitCode {
     // Wrong answers are a result and not an error: the output is kept, and only the exit status
     // is 1.
     let is_right = Cell::new(true);
-    let status = ugpipe::main(|args: &Args, stage: &mut Stage| {
-        is_right.set(run(args, stage)?);
+    let status = ugpipe::main(|args: &Args, context: &mut Context| {
+        is_right.set(run(args, context)?);
         Ok(())
     });
     if is_right.get() { status } else { ExitCode::FAILURE }
 }
 
 /// Runs the command; returns false if something is wrong.
-fn run(args: &Args, stage: &mut Stage) -> Result<bool, Failure> {
+fn run(args: &Args, context: &mut Context) -> Result<bool, Failure> {
     if args.rest.input().is_some() {
         return Err(Failure::usage("the command must come before the file: `ugconformance score FILE`"));
     }
     let topics = topics().map_err(Failure::failed)?;
     match &args.command {
-        Command::Questions(_) => stage.write(questions(&topics).as_bytes())?,
+        Command::Questions(_) => context.write(questions(&topics).as_bytes())?,
         Command::Answer(_) => {
-            let input = stage.input()?;
-            stage.write(answers(&String::from_utf8_lossy(&input.text)).as_bytes())?;
+            let input = context.input()?;
+            context.write(answers(&String::from_utf8_lossy(&input.text)).as_bytes())?;
         }
         Command::Score(_) => {
-            let input = stage.input()?;
+            let input = context.input()?;
             let answers = read_answers(&String::from_utf8_lossy(&input.text), &topics)
                 .map_err(|error| Failure::failed(format!("{}:{error}", input.name)))?;
             let card = Scorecard::new(&topics, &answers);
-            stage.write(card.to_string().as_bytes())?;
+            context.write(card.to_string().as_bytes())?;
             return Ok(card.counts()[1] == 0);
         }
         Command::ScoreImage(image) => {
             let case = known(image.case)?;
-            let input = stage.input()?;
+            let input = context.input()?;
             let (text, is_right) = score_image(case, &input.text)
                 .map_err(|problem| Failure::failed(format!("{}: {problem}", input.name)))?;
-            stage.write(text.as_bytes())?;
+            context.write(text.as_bytes())?;
             return Ok(is_right);
         }
         Command::Draw(image) => {
-            if stage.output_is_terminal() {
+            if context.output_is_terminal() {
                 return Err(Failure::usage(
                     "a picture is not written to a terminal; add `> FILE` or -fo FILE",
                 ));
             }
-            stage.write(&known(image.case)?.draw().map_err(Failure::failed)?)?;
+            context.write(&known(image.case)?.draw().map_err(Failure::failed)?)?;
         }
         Command::Check(_) => {
             let (text, is_right) = check(&topics);
-            stage.write(text.as_bytes())?;
+            context.write(text.as_bytes())?;
             return Ok(is_right);
         }
     }

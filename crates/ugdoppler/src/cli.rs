@@ -6,7 +6,7 @@ use clap::{ArgAction, Parser, ValueEnum};
 use glam::DVec3;
 use ugparse::{Diagnostic, Diagnostics, Origins, Source, pipe};
 use ugphysics::{Brightness, Velocity};
-use ugpipe::{CommonArgs, Failure, Progress, Stage, ToolArgs};
+use ugpipe::{CommonArgs, Context, Failure, Progress, ToolArgs};
 use ugscene::cli::EyeArgs;
 
 use crate::{Config, DEFAULT_TOLERANCE, Error, apply_with};
@@ -157,23 +157,23 @@ pub fn main() -> ExitCode {
     ugpipe::main(run)
 }
 
-fn run(args: &Args, stage: &mut Stage) -> Result<(), Failure> {
+fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
     let config = args.config()?;
     let reading = pipe::options(&args.common)?;
-    let source = pipe::read(stage, &reading)?;
-    let steps = stage.steps();
+    let source = pipe::read(context, &reading)?;
+    let steps = context.steps();
     steps.step("reading", 0);
     let parsed = ugscene::read(&source, &reading, args.eye.name().as_deref()).map_err(pipe::refused)?;
     let applied = apply_with(parsed.scene, &config, &steps);
     let (mut scene, report) = applied.map_err(|error| failure(error, &source, &parsed.origins))?;
     drop(steps);
-    ugscene::record(&mut scene, PROGRAM, env!("CARGO_PKG_VERSION"), stage.command_line());
+    ugscene::record(&mut scene, PROGRAM, env!("CARGO_PKG_VERSION"), context.command_line());
     if !parsed.warnings.is_empty() {
-        stage.report(&parsed.warnings.render(true));
+        context.report(&parsed.warnings.render(true));
     }
-    report.notes.iter().for_each(|note| stage.note(note));
-    stage.detail(&format!("{} vertices, {} colours", scene.vertices.len(), scene.colors.len()));
-    stage.write_with(|out| ugparse::write_to(&scene, out))
+    report.notes.iter().for_each(|note| context.note(note));
+    context.detail(&format!("{} vertices, {} colours", scene.vertices.len(), scene.colors.len()));
+    context.write_with(|out| ugparse::write_to(&scene, out))
 }
 
 /// Errors at a vertex are shown at its statement.

@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use clap::{ArgAction, Parser};
 use glam::DVec3;
 use ugparse::{Origins, Source, pipe};
-use ugpipe::{CommonArgs, Failure, Progress, Stage, ToolArgs, finite, vector};
+use ugpipe::{CommonArgs, Context, Failure, Progress, ToolArgs, finite, vector};
 use ugscene::Geometry;
 use ugscene::cli::CameraArgs;
 
@@ -137,29 +137,29 @@ pub fn main() -> ExitCode {
     ugpipe::main(run)
 }
 
-fn run(args: &Args, stage: &mut Stage) -> Result<(), Failure> {
+fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
     let config = args.config()?;
     let table = args.attributes.as_deref().map(table).transpose()?;
     let reading = pipe::options(&args.common)?;
-    let source = pipe::read(stage, &reading)?;
-    let steps = stage.steps();
+    let source = pipe::read(context, &reading)?;
+    let steps = context.steps();
     steps.step("reading", 0);
     let parsed = ugscene::read(&source, &reading, config.camera.name.as_deref()).map_err(pipe::refused)?;
     let (mut scene, report) = crate::apply_with_progress(parsed.scene, &config, &steps)
         .map_err(|error| failure(error, &source, &parsed.origins))?;
     drop(steps);
-    ugscene::record(&mut scene, PROGRAM, env!("CARGO_PKG_VERSION"), stage.command_line());
+    ugscene::record(&mut scene, PROGRAM, env!("CARGO_PKG_VERSION"), context.command_line());
     if !parsed.warnings.is_empty() {
-        stage.report(&parsed.warnings.render(true));
+        context.report(&parsed.warnings.render(true));
     }
-    report.warnings().iter().for_each(|warning| stage.warn(warning));
-    report.details().iter().for_each(|detail| stage.detail(detail));
+    report.warnings().iter().for_each(|warning| context.warn(warning));
+    report.details().iter().for_each(|detail| context.detail(detail));
     if let (Some(path), Some(table)) = (&args.attributes, table) {
-        stage.steps().step("measuring", 0);
+        context.steps().step("measuring", 0);
         let rows = measure(&scene, ugscene::eye(&scene, None), config.time);
-        stage.write_file(path, &table.write(&scene, &rows))?;
+        context.write_file(path, &table.write(&scene, &rows))?;
     }
-    stage.write_with(|out| ugparse::write_to(&scene, out))
+    context.write_with(|out| ugparse::write_to(&scene, out))
 }
 
 fn failure(error: Error, source: &Source, origins: &Origins) -> Failure {

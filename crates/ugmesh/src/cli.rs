@@ -7,7 +7,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, ValueEnum};
 use ugparse::pipe;
-use ugpipe::{CommonArgs, Failure, Stage, ToolArgs};
+use ugpipe::{CommonArgs, Context, Failure, ToolArgs};
 
 use crate::{Axis, Config, Error, Format, Input, Size, Target};
 
@@ -196,16 +196,16 @@ fn read_file_beside(mesh: Option<PathBuf>) -> impl Fn(&str) -> io::Result<Vec<u8
 
 /// The program.
 pub fn main() -> ExitCode {
-    ugpipe::main(|args: &Args, stage: &mut Stage| {
-        let config = args.config(stage.command_line())?;
-        if stage.output_is_terminal() && config.target.is_binary() {
+    ugpipe::main(|args: &Args, context: &mut Context| {
+        let config = args.config(context.command_line())?;
+        if context.output_is_terminal() && config.target.is_binary() {
             return Err(Failure::usage(
                 "binary data is not written to a terminal; send it to a file with `> FILE` or -fo FILE",
             ));
         }
-        let read = stage.input()?;
+        let read = context.input()?;
         let read_file = read_file_beside(args.common.input().map(Path::to_path_buf));
-        let resolve_includes = |source| pipe::follow(source, &config.reading, stage);
+        let resolve_includes = |source| pipe::follow(source, &config.reading, context);
         let input = Input::new(read.name, read.text).with_files(&read_file).with_includes(&resolve_includes);
         let converted = crate::run(&config, &input).map_err(|error| match error {
             Error::Scene(findings) => pipe::refused(findings),
@@ -213,11 +213,11 @@ pub fn main() -> ExitCode {
             other => Failure::failed(other),
         })?;
         if let Some(findings) = converted.diagnostics.filter(|findings| !findings.is_empty()) {
-            stage.report(&findings.render(true));
+            context.report(&findings.render(true));
         }
-        converted.warnings.iter().for_each(|warning| stage.warn(warning));
-        converted.notes.iter().for_each(|note| stage.note(note));
-        stage.detail(&format!("{} bytes", converted.bytes.len()));
-        stage.write(&converted.bytes)
+        converted.warnings.iter().for_each(|warning| context.warn(warning));
+        converted.notes.iter().for_each(|note| context.note(note));
+        context.detail(&format!("{} bytes", converted.bytes.len()));
+        context.write(&converted.bytes)
     })
 }

@@ -1,7 +1,7 @@
 //! How the programs read scenes: with the options all of them have, and with the files
 //! and programs that a scene names.
 
-use ugpipe::{CommonArgs, Failure, Stage};
+use ugpipe::{CommonArgs, Context, Failure};
 
 use crate::{Diagnostics, Limit, Limits, Options, Request, RequestError, RequestKind, Source};
 
@@ -28,9 +28,9 @@ pub fn options(common: &CommonArgs) -> Result<Options, Failure> {
 ///
 /// # Errors
 /// [`Failure::Read`] for the input itself, [`Failure::Report`] for included files.
-pub fn read(stage: &mut Stage, options: &Options) -> Result<Source, Failure> {
-    let input = stage.input()?;
-    follow(Source::new(input.name, input.text), options, stage).map_err(refused)
+pub fn read(context: &mut Context, options: &Options) -> Result<Source, Failure> {
+    let input = context.input()?;
+    follow(Source::new(input.name, input.text), options, context).map_err(refused)
 }
 
 /// Replaces the `include` and `execute` statements of a scene, see [`crate::include`]. Error output
@@ -38,11 +38,11 @@ pub fn read(stage: &mut Stage, options: &Options) -> Result<Source, Failure> {
 ///
 /// # Errors
 /// See [`crate::include`].
-pub fn follow(source: Source, options: &Options, stage: &Stage) -> Result<Source, Diagnostics> {
-    crate::include(source, options, |request| load(request, stage))
+pub fn follow(source: Source, options: &Options, context: &Context) -> Result<Source, Diagnostics> {
+    crate::include(source, options, |request| load(request, context))
 }
 
-fn load(request: &Request<'_>, stage: &Stage) -> Result<Vec<u8>, RequestError> {
+fn load(request: &Request<'_>, context: &Context) -> Result<Vec<u8>, RequestError> {
     match request.kind {
         RequestKind::Include => Ok(ugpipe::read_file(request.path, request.room)?),
         RequestKind::Execute => {
@@ -51,7 +51,7 @@ fn load(request: &Request<'_>, stage: &Stage) -> Result<Vec<u8>, RequestError> {
                 return Err(RequestError::Failed { status, complaint: printed.error_line });
             }
             if !printed.error_line.is_empty() {
-                stage.note(&format!("{} says: {}", request.path.display(), printed.error_line));
+                context.note(&format!("{} says: {}", request.path.display(), printed.error_line));
             }
             Ok(printed.text)
         }

@@ -4,7 +4,7 @@
 use std::process::ExitCode;
 
 use clap::{ArgAction, Parser, ValueEnum};
-use ugpipe::{CommonArgs, Failure, Progress, Stage, ToolArgs};
+use ugpipe::{CommonArgs, Context, Failure, Progress, ToolArgs};
 
 /// Copies its input to its output
 #[derive(Parser)]
@@ -60,20 +60,20 @@ fn main() -> ExitCode {
     ugpipe::main(run)
 }
 
-fn run(args: &Args, stage: &mut Stage) -> Result<(), Failure> {
+fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
     if args.say {
-        say(stage);
+        say(context);
     }
     if let Some(seconds) = args.work {
-        work(&stage.steps(), seconds);
+        work(&context.steps(), seconds);
     }
-    let input = stage.input()?;
+    let input = context.input()?;
     let mut output = Vec::new();
     if args.head {
-        output.extend(format!("{{ {} }}\n", stage.command_line()).into_bytes());
+        output.extend(format!("{{ {} }}\n", context.command_line()).into_bytes());
     }
     output.extend(input.text);
-    stage.write(&output)?;
+    context.write(&output)?;
     match args.fail {
         None => Ok(()),
         Some(Way::Usage) => Err(Failure::usage("`-vel` is too fast; stay below 1")),
@@ -91,12 +91,12 @@ fn work(progress: &dyn Progress, seconds: f64) {
     }
 }
 
-fn say(stage: &Stage) {
-    stage.note("all is well");
-    stage.warn("nearly all");
-    stage.report("\x1b[1mwarning\x1b[0m: this face\n --> x.ug:1:2\n");
-    stage.detail("24 faces");
-    let (is_terminal, name) = (stage.output_is_terminal(), stage.output_name());
+fn say(context: &Context) {
+    context.note("all is well");
+    context.warn("nearly all");
+    context.report("\x1b[1mwarning\x1b[0m: this face\n --> x.ug:1:2\n");
+    context.detail("24 faces");
+    let (is_terminal, name) = (context.output_is_terminal(), context.output_name());
     let n_threads = rayon::current_num_threads();
-    stage.note(&format!("terminal {is_terminal}, name {name:?}, threads {n_threads}"));
+    context.note(&format!("terminal {is_terminal}, name {name:?}, threads {n_threads}"));
 }

@@ -7,8 +7,8 @@ pub const ONE_DASH: &str =
     "Every long option may be written with one dash, as in 1988: -fi FILE is --fi FILE.";
 
 /// Ids of the options for files, messages and threads: those below, `files` for additional input
-/// files ([`crate::Stage::input_file`]), and `at` for a second output file
-/// ([`crate::Stage::write_file`]). They do not affect the content of the output, so the recorded
+/// files ([`crate::Context::input_file`]), and `at` for a second output file
+/// ([`crate::Context::write_file`]). They do not affect the content of the output, so the recorded
 /// command line omits them.
 pub(crate) const WITHOUT_EFFECT: [&str; 9] = ["file", "files", "fi", "fo", "fm", "qt", "vb", "nt", "at"];
 

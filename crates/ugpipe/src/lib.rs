@@ -32,7 +32,7 @@
 //!   the reading end of the output pipe is closed early, the program dies of SIGPIPE without a
 //!   message, like filters written in C.
 //! - **Reproducible output.** The bytes do not depend on `-nt` or on file names:
-//!   [`Stage::command_line`], which is recorded in the output, contains only the options that
+//!   [`Context::command_line`], which is recorded in the output, contains only the options that
 //!   affect the content.
 //!
 //! Limitations: output is not flushed to disk (`fsync`), so a power failure may undo a finished
@@ -48,7 +48,7 @@
 //! use std::process::ExitCode;
 //!
 //! use clap::{ArgAction, Parser};
-//! use ugpipe::{CommonArgs, Failure, Stage, ToolArgs};
+//! use ugpipe::{CommonArgs, Context, Failure, ToolArgs};
 //!
 //! /// Copies a scene at rest
 //! #[derive(Parser)]
@@ -73,14 +73,14 @@
 //!     ugpipe::main(run)
 //! }
 //!
-//! fn run(args: &Args, stage: &mut Stage) -> Result<(), Failure> {
+//! fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
 //!     let velocity = ugpipe::vector(args.vel.as_deref()).unwrap_or_default();
 //!     if velocity != [0.0; 3] {
 //!         return Err(Failure::usage("cannot move; leave out `-vel`"));
 //!     }
-//!     let input = stage.input()?;
-//!     stage.note(&format!("{}: {} bytes at rest", input.name, input.text.len()));
-//!     stage.write(&input.text)
+//!     let input = context.input()?;
+//!     context.note(&format!("{}: {} bytes at rest", input.name, input.text.len()));
+//!     context.write(&input.text)
 //! }
 //! ```
 
@@ -88,6 +88,8 @@
 mod args;
 #[cfg(feature = "cli")]
 mod argv;
+#[cfg(feature = "cli")]
+mod context;
 #[cfg(feature = "cli")]
 mod failure;
 #[cfg(feature = "cli")]
@@ -104,14 +106,14 @@ mod provenance;
 #[cfg(feature = "cli")]
 mod run;
 #[cfg(feature = "cli")]
-mod stage;
-#[cfg(feature = "cli")]
 mod steps;
 #[cfg(feature = "cli")]
 mod text;
 
 #[cfg(feature = "cli")]
 pub use args::{CommonArgs, ONE_DASH, finite, vector, view_angle};
+#[cfg(feature = "cli")]
+pub use context::Context;
 #[cfg(feature = "cli")]
 pub use failure::Failure;
 #[cfg(feature = "cli")]
@@ -121,7 +123,5 @@ pub use input::Input;
 pub use progress::Progress;
 #[cfg(feature = "cli")]
 pub use run::{ToolArgs, main};
-#[cfg(feature = "cli")]
-pub use stage::Stage;
 #[cfg(feature = "cli")]
 pub use steps::Steps;

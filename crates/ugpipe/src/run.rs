@@ -9,9 +9,9 @@ use signal_hook::consts::SIGPIPE;
 use signal_hook::low_level::emulate_default_handler;
 
 use crate::args::CommonArgs;
+use crate::context::Context;
 use crate::failure::Failure;
 use crate::messages::Messages;
-use crate::stage::Stage;
 use crate::{argv, provenance};
 
 /// The arguments of a ug program.
@@ -32,7 +32,7 @@ const BAD_USAGE: u8 = 2;
 /// | 1 | invalid scene, or I/O error |
 /// | 2 | invalid usage |
 /// | killed by SIGPIPE (141 in a shell) | the reading end of the output pipe was closed |
-pub fn main<A: ToolArgs>(run: impl FnOnce(&A, &mut Stage) -> Result<(), Failure>) -> ExitCode {
+pub fn main<A: ToolArgs>(run: impl FnOnce(&A, &mut Context) -> Result<(), Failure>) -> ExitCode {
     let mut command = argv::prepare(A::command());
     let (args, matches) = match parse::<A>(&mut command) {
         Ok(parsed) => parsed,
@@ -40,10 +40,10 @@ pub fn main<A: ToolArgs>(run: impl FnOnce(&A, &mut Stage) -> Result<(), Failure>
     };
     let mut messages = Messages::new(command.get_name());
     let opened = messages.configure(args.common());
-    let mut stage = Stage::new(args.common(), messages, provenance::command_line(&command, &matches));
+    let mut context = Context::new(args.common(), messages, provenance::command_line(&command, &matches));
     let outcome =
-        opened.and_then(|()| start_threads(args.common().threads())).and_then(|()| run(&args, &mut stage));
-    match stage.end(outcome) {
+        opened.and_then(|()| start_threads(args.common().threads())).and_then(|()| run(&args, &mut context));
+    match context.end(outcome) {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) if failure.is_closed_pipe() => die_of_sigpipe(),
         Err(Failure::Usage(_)) => BAD_USAGE.into(),

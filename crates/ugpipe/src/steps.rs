@@ -12,7 +12,7 @@ use crate::progress::Progress;
 /// The progress bar appears after this time.
 const BAR_DELAY: Duration = Duration::from_secs(1);
 
-/// Shows progress to the user of a program, see [`crate::Stage::steps`].
+/// Shows progress to the user of a program, see [`crate::Context::steps`].
 pub struct Steps<'m> {
     messages: &'m Messages,
     shows_bar: bool,

@@ -9,7 +9,7 @@ use ugparse::{Source, pipe};
 use ugphysics::{Brightness, Hsv};
 use ugpicture::Output;
 use ugpicture::cli::{AnnotationArgs, PICTURE, PictureArgs, color, format_named};
-use ugpipe::{CommonArgs, Failure, Stage, ToolArgs, finite};
+use ugpipe::{CommonArgs, Context, Failure, ToolArgs, finite};
 
 use crate::config::{Config, DepthCue, Exact, Interpolation, LINE_WIDTH, Wireframe};
 use crate::error::Error;
@@ -256,29 +256,29 @@ fn ending(file: Option<&Path>) -> Option<String> {
 ///
 /// # Errors
 /// Bad usage, a bad scene, or a stream that fails.
-pub fn draw(args: &Args, stage: &mut Stage) -> Result<(), Failure> {
-    let config = args.config(stage.output_name())?;
+pub fn draw(args: &Args, context: &mut Context) -> Result<(), Failure> {
+    let config = args.config(context.output_name())?;
     let report = match args.explain {
-        Some(pixel) => Some((pixel, args.report(stage.output_name())?)),
+        Some(pixel) => Some((pixel, args.report(context.output_name())?)),
         None => None,
     };
-    if report.is_none() && stage.output_is_terminal() {
-        redirect(config.picture.output, stage)?;
+    if report.is_none() && context.output_is_terminal() {
+        redirect(config.picture.output, context)?;
     }
-    let input = stage.input()?;
-    stage.detail(&format!("read {} bytes of `{}`", input.text.len(), input.name));
+    let input = context.input()?;
+    context.detail(&format!("read {} bytes of `{}`", input.text.len(), input.name));
     let source =
-        pipe::follow(Source::new(input.name, input.text), &config.reading, stage).map_err(pipe::refused)?;
+        pipe::follow(Source::new(input.name, input.text), &config.reading, context).map_err(pipe::refused)?;
     if let Some((pixel, report)) = report {
-        return explain_pixel(&config, &source, pixel, report, stage);
+        return explain_pixel(&config, &source, pixel, report, context);
     }
-    let picture = run_with(&config, &source, stage.command_line(), &stage.steps()).map_err(failure)?;
+    let picture = run_with(&config, &source, context.command_line(), &context.steps()).map_err(failure)?;
     if !picture.warnings.is_empty() {
-        stage.report(&picture.warnings.render(true));
+        context.report(&picture.warnings.render(true));
     }
-    picture.notes.iter().for_each(|note| stage.note(note));
-    stage.detail(&format!("drew {} x {} pixels", config.picture.size[0], config.picture.size[1]));
-    stage.write(&picture.bytes)
+    picture.notes.iter().for_each(|note| context.note(note));
+    context.detail(&format!("drew {} x {} pixels", config.picture.size[0], config.picture.size[1]));
+    context.write(&picture.bytes)
 }
 
 fn explain_pixel(
@@ -286,17 +286,17 @@ fn explain_pixel(
     source: &Source,
     pixel: Pixel,
     report: Report,
-    stage: &mut Stage,
+    context: &mut Context,
 ) -> Result<(), Failure> {
     let (explanation, warnings) = explain(config, source, pixel).map_err(failure)?;
     if !warnings.is_empty() {
-        stage.report(&warnings.render(true));
+        context.report(&warnings.render(true));
     }
     let text = match report {
         Report::Text => explain::text(&explanation),
         Report::Json => explain::json(&explanation),
     };
-    stage.write(text.as_bytes())
+    context.write(text.as_bytes())
 }
 
 fn failure(error: Error) -> Failure {
@@ -308,15 +308,15 @@ fn failure(error: Error) -> Failure {
 }
 
 /// Keeps a terminal free of what it cannot show.
-fn redirect(output: Output, stage: &mut Stage) -> Result<(), Failure> {
+fn redirect(output: Output, context: &mut Context) -> Result<(), Failure> {
     match output {
         Output::Color(format) | Output::Vector(format) if format.is_binary() => Err(Failure::Usage(
             "a picture is not written to a terminal; send it to a file with `> FILE` or -fo FILE".into(),
         )),
         Output::Color(_) | Output::Vector(_) => Ok(()),
         Output::Grey => {
-            stage.set_output_name(POSTSCRIPT_FILE);
-            stage.note(&format!("the picture goes to the file {POSTSCRIPT_FILE}"));
+            context.set_output_name(POSTSCRIPT_FILE);
+            context.note(&format!("the picture goes to the file {POSTSCRIPT_FILE}"));
             Ok(())
         }
     }

@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use clap::{ArgAction, Parser, ValueEnum};
 use ugimage::{Format, read_png};
 use ugphysics::Hsv;
-use ugpipe::{CommonArgs, Failure, Stage, ToolArgs, finite};
+use ugpipe::{CommonArgs, Context, Failure, ToolArgs, finite};
 
 use crate::{Config, Error, Labels, Picture, history, sheet};
 
@@ -159,28 +159,28 @@ fn picture(path: Option<&Path>, input: &ugpipe::Input) -> Result<Picture, Failur
 
 /// The program.
 pub fn main() -> ExitCode {
-    ugpipe::main(|args: &Args, stage: &mut Stage| {
+    ugpipe::main(|args: &Args, context: &mut Context| {
         let config = args.config()?;
-        let format = args.format(stage.output_name())?;
-        if stage.output_is_terminal() && format.is_binary() {
+        let format = args.format(context.output_name())?;
+        if context.output_is_terminal() && format.is_binary() {
             return Err(Failure::usage(
                 "a picture is not written to a terminal; send it to a file with `> FILE` or -fo FILE",
             ));
         }
-        let mut pictures = vec![picture(args.common.input(), &stage.input()?)?];
+        let mut pictures = vec![picture(args.common.input(), &context.input()?)?];
         for path in &args.files {
-            pictures.push(picture(Some(path), &stage.input_file(path)?)?);
+            pictures.push(picture(Some(path), &context.input_file(path)?)?);
         }
         let frame = sheet(&config, &pictures).map_err(|error| match error {
             Error::Count { .. } | Error::Text { .. } => Failure::usage(error),
             error => Failure::failed(error),
         })?;
-        stage.detail(&format!(
+        context.detail(&format!(
             "{} pictures on {} x {} pixels",
             pictures.len(),
             frame.width(),
             frame.height()
         ));
-        stage.write(&format.encode(&frame, &history(&pictures, stage.command_line())))
+        context.write(&format.encode(&frame, &history(&pictures, context.command_line())))
     })
 }

@@ -8,7 +8,7 @@ use std::process::ExitCode;
 
 use clap::{Arg, Parser, Subcommand, ValueEnum};
 use serde_json::{Value, json};
-use ugpipe::{CommonArgs, Failure, Stage, ToolArgs};
+use ugpipe::{CommonArgs, Context, Failure, ToolArgs};
 
 use crate::pipe::{self, refused};
 use crate::{Diagnostics, Options, Parsed, Severity, Source};
@@ -91,15 +91,15 @@ pub fn main() -> ExitCode {
     // A report about an invalid scene is a result and not a failure: the output is kept, and only
     // the exit status is 1.
     let is_usable = Cell::new(true);
-    let status = ugpipe::main(|args: &Args, stage: &mut Stage| {
-        is_usable.set(run(args, stage)?);
+    let status = ugpipe::main(|args: &Args, context: &mut Context| {
+        is_usable.set(run(args, context)?);
         Ok(())
     });
     if is_usable.get() { status } else { ExitCode::FAILURE }
 }
 
 /// Runs the command; returns false if the scene is invalid.
-fn run(args: &Args, stage: &mut Stage) -> Result<bool, Failure> {
+fn run(args: &Args, context: &mut Context) -> Result<bool, Failure> {
     let CommandArgs { format, common } = args.command_args();
     let is_json = *format == Format::Json;
     if is_json && matches!(args.command, Some(Command::Tidy(_) | Command::Flatten(_))) {
@@ -109,43 +109,43 @@ fn run(args: &Args, stage: &mut Stage) -> Result<bool, Failure> {
         return Err(Failure::usage("the command must come before the file: `ugparse tidy FILE`"));
     }
     let options = pipe::options(common)?;
-    let input = stage.input()?;
+    let input = context.input()?;
     let source = Source::new(input.name, input.text);
     match args.command {
-        None | Some(Command::Check(_)) => return check(source, &options, is_json, stage),
-        Some(Command::Tidy(_)) => stage.write(&crate::tidy(&source, &options).map_err(refused)?)?,
+        None | Some(Command::Check(_)) => return check(source, &options, is_json, context),
+        Some(Command::Tidy(_)) => context.write(&crate::tidy(&source, &options).map_err(refused)?)?,
         Some(Command::Flatten(_)) => {
-            let (_, parsed) = read(source, &options, stage).map_err(refused)?;
-            warn(&parsed.warnings, stage);
-            stage.write_with(|out| crate::write_to(&parsed.scene, out))?;
+            let (_, parsed) = read(source, &options, context).map_err(refused)?;
+            warn(&parsed.warnings, context);
+            context.write_with(|out| crate::write_to(&parsed.scene, out))?;
         }
         Some(Command::Count(_)) => {
-            let (source, parsed) = read(source, &options, stage).map_err(refused)?;
-            warn(&parsed.warnings, stage);
+            let (source, parsed) = read(source, &options, context).map_err(refused)?;
+            warn(&parsed.warnings, context);
             let counts = count::Counts::new(&source, &parsed, &options);
             let text = if is_json { pretty(&counts.json()) } else { counts.text() };
-            stage.write(text.as_bytes())?;
+            context.write(text.as_bytes())?;
         }
     }
     Ok(true)
 }
 
-fn read(source: Source, options: &Options, stage: &Stage) -> Result<(Source, Parsed), Diagnostics> {
-    let source = pipe::follow(source, options, stage)?;
+fn read(source: Source, options: &Options, context: &Context) -> Result<(Source, Parsed), Diagnostics> {
+    let source = pipe::follow(source, options, context)?;
     let parsed = crate::parse(&source, options)?;
     Ok((source, parsed))
 }
 
-fn warn(warnings: &Diagnostics, stage: &Stage) {
+fn warn(warnings: &Diagnostics, context: &Context) {
     if !warnings.is_empty() {
-        stage.report(&warnings.render(true));
+        context.report(&warnings.render(true));
     }
 }
 
 /// Reports all findings; returns false if the scene is invalid.
-fn check(source: Source, options: &Options, is_json: bool, stage: &mut Stage) -> Result<bool, Failure> {
+fn check(source: Source, options: &Options, is_json: bool, context: &mut Context) -> Result<bool, Failure> {
     let name = source.name.clone();
-    let (is_usable, findings) = match read(source, options, stage) {
+    let (is_usable, findings) = match read(source, options, context) {
         Ok((_, parsed)) => (true, parsed.warnings),
         Err(findings) => (false, findings),
     };
@@ -155,15 +155,15 @@ fn check(source: Source, options: &Options, is_json: bool, stage: &mut Stage) ->
             "findings": findings_json(&findings),
             "omitted": findings.omitted,
         });
-        stage.write(pretty(&report).as_bytes())?;
+        context.write(pretty(&report).as_bytes())?;
         return Ok(is_usable);
     }
     let verdict = if is_usable { "can be used" } else { "cannot be used" };
-    stage.note(&format!("{name} {verdict}: {}", summary(&findings)));
+    context.note(&format!("{name} {verdict}: {}", summary(&findings)));
     if !is_usable {
         return Err(refused(findings));
     }
-    warn(&findings, stage);
+    warn(&findings, context);
     Ok(true)
 }
 

@@ -16,7 +16,7 @@ use crate::text;
 ///
 /// A filter reads the whole input, computes, and then writes the whole output. If it fails, it has
 /// written nothing, so half a scene never goes downstream.
-pub struct Stage {
+pub struct Context {
     input: Option<PathBuf>,
     is_input_named: bool,
     output: Output,
@@ -26,7 +26,7 @@ pub struct Stage {
     command_line: String,
 }
 
-impl Stage {
+impl Context {
     pub(crate) fn new(common: &CommonArgs, messages: Messages, command_line: String) -> Self {
         Self {
             input: common.input().map(Path::to_owned),
@@ -79,7 +79,7 @@ impl Stage {
         self.write_with(|out| out.write_all(data))
     }
 
-    /// Like [`Stage::write`], for an output that is written in chunks while it is computed, so that
+    /// Like [`Context::write`], for an output that is written in chunks while it is computed, so that
     /// it need not be in memory as a whole. `fill` writes it, in large chunks. Only writing may
     /// fail in it, since a chunk that has been written cannot be taken back.
     ///
@@ -97,7 +97,7 @@ impl Stage {
     ///
     /// # Errors
     /// [`Failure::Usage`] if the output goes to the same file; [`Failure::Write`] as in
-    /// [`Stage::write`].
+    /// [`Context::write`].
     pub fn write_file(&mut self, path: &Path, data: &[u8]) -> Result<(), Failure> {
         if self.output.path() == Some(path) {
             return Err(Failure::Usage(format!("two outputs cannot go to one file, `{}`", text::path(path))));
@@ -119,7 +119,7 @@ impl Stage {
     }
 
     /// Redirects the output to a file that the user did not name, as some programs did in 1988 when
-    /// their output was a terminal. Call it before [`Stage::write`].
+    /// their output was a terminal. Call it before [`Context::write`].
     pub fn set_output_name(&mut self, path: impl AsRef<Path>) {
         self.output.set_path(path.as_ref());
     }
