@@ -52,10 +52,10 @@ pub(crate) fn is_stage(escape: &[u8]) -> bool {
 pub(crate) fn take(text: &[u8], document: &mut Document<'_>, findings: &mut Vec<Diagnostic>) {
     for row in 0..document.scopes.len() {
         let scope = &mut document.scopes[row];
-        let spans = scope.escapes.spans.iter().copied().enumerate();
+        let spans = scope.escapes.spans.iter().copied();
         let is_stage = |(_, span): &(usize, Span)| first_word(text, *span) == KEYWORD.as_bytes();
-        let statements: Vec<(usize, Span)> = spans.clone().filter(is_stage).collect();
-        findings.extend(spans.filter_map(|(_, span)| earlier(text, span)));
+        let statements: Vec<(usize, Span)> = spans.clone().enumerate().filter(is_stage).collect();
+        findings.extend(spans.filter_map(|span| earlier(text, span)));
         scope.remove_escapes(&statements.iter().map(|(row, _)| *row).collect::<Vec<_>>());
         for (_, span) in statements {
             let keyword = keyword_span(text, span);
