@@ -48,7 +48,7 @@ fn a_wide_filter_smooths_edges() {
 fn rays_bend_edges_that_are_not_cut() {
     let mut cubes = pipe(0.95, 0.0, 0.0).in_place();
     cubes.lorentz.pieces = uglorentz::Pieces::PerEdge(1);
-    cubes.rainbow.exact = Some(ugrainbow::Exact::NONE);
+    cubes.rainbow.exact = Some(ugrainbow::ColorShift::NONE);
     let seen = ugtests::pipe::lorentz(&scenes::text("cubes"), &cubes.lorentz);
     assert_golden("exact-edges-cubes-0.95c", &decode(&rainbow(&seen, &cubes.rainbow)));
 }

@@ -12,7 +12,7 @@ use std::collections::BTreeMap;
 use exr::prelude::{ReadChannels, ReadLayers};
 use glam::DVec3;
 use ugimage::Format;
-use ugrainbow::{Channel, Exact, Output};
+use ugrainbow::{Channel, ColorShift, Output};
 use ugtests::pipe::{Pipe, lorentz, rainbow};
 
 const SIZE: [u32; 2] = [96, 72];
@@ -21,7 +21,7 @@ fn exact(beta: Option<DVec3>) -> Pipe {
     let mut pipe = Pipe::default();
     pipe.lorentz.velocity = beta;
     pipe.lorentz.pieces = uglorentz::Pieces::PerEdge(1);
-    pipe.rainbow.exact = Some(Exact::default());
+    pipe.rainbow.exact = Some(ColorShift::default());
     pipe.rainbow.picture.size = SIZE;
     pipe.rainbow.picture.samples = 1;
     pipe

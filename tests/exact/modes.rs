@@ -1,6 +1,7 @@
 //! Compares exact pictures with those of the default (scanline) mode.
 
 use glam::DVec3;
+use ugrainbow::{ColorShift, SpectralShift};
 use ugtests::picture::decode;
 use ugtests::pipe::{Pipe, lorentz, rainbow};
 use ugtests::random::Random;
@@ -41,6 +42,40 @@ fn both_modes_show_the_same_colours() {
         let n_far = drawn.pixels().zip(scanned.pixels()).filter(|&pair| far(pair)).count();
         let n_pixels = (SIZE[0] * SIZE[1]) as usize;
         assert!(n_far * 200 < n_pixels, "{name}: {n_far} of {n_pixels}");
+    }
+}
+
+/// With spectra, the scanline mode agrees on a finely subdivided scene.
+#[test]
+fn both_modes_show_the_same_spectra() {
+    let cases = [("tunnel", 0.6 * DVec3::NEG_Y), ("cubes", 0.5 * DVec3::X), ("box", 0.6 * DVec3::X)];
+    for (name, beta) in cases {
+        let text = if name == "box" {
+            BOX.replace("c green 1 120;", "c_bb green 4000 .3;").into_bytes()
+        } else {
+            scenes::text(name)
+        };
+        let mut pipe = exact(Some(beta));
+        pipe.lorentz.in_place = name != "tunnel";
+        pipe.rainbow.exact = Some(ColorShift::Spectra(SpectralShift { doppler: true, flux: true }));
+        let drawn = decode(&rainbow(&lorentz(&text, &pipe.lorentz), &pipe.rainbow));
+        pipe.lorentz.pieces = uglorentz::Config::default().pieces;
+        pipe.lorentz.color_error = 1e-3;
+        pipe.rainbow.exact = None;
+        pipe.doppler.spectral = true;
+        pipe.doppler.repeat = true;
+        pipe.doppler.tolerance = 0.01;
+        let scanned = pipe.draw(&text);
+        let far = |(a, b): (&image::Rgba<u8>, &image::Rgba<u8>)| {
+            a.0.iter().zip(b.0).any(|(&a, b)| a.abs_diff(b) > 3)
+        };
+        let n_far = drawn.pixels().zip(scanned.pixels()).filter(|&pair| far(pair)).count();
+        let n_pixels = (SIZE[0] * SIZE[1]) as usize;
+        println!("{name}: {n_far} of {n_pixels}");
+        assert!(n_far * 50 < n_pixels, "{name}: {n_far} of {n_pixels}");
+        // Else this would say nothing.
+        let n_drawn = drawn.pixels().filter(|pixel| pixel.0[..3].iter().any(|&level| level > 20)).count();
+        assert!(n_drawn * 20 > n_pixels, "{name}: {n_drawn}");
     }
 }
 

@@ -1,7 +1,7 @@
 //! Exact pictures: independence of threads, refused input, and notes.
 
 use glam::DVec3;
-use ugrainbow::Exact;
+use ugrainbow::{ColorShift, SpectralShift};
 use ugtests::pipe::{Pipe, lorentz, rainbow};
 use ugtests::scenes;
 
@@ -33,10 +33,12 @@ fn unsupported_scenes_are_refused() {
     assert!(refusal(&pipe, &colored).unwrap().contains("leave ugdoppler out"));
     let spectral = SQUARE.replace("c green .9 130 .8;", "c_bb green 5000;");
     let glowing = lorentz(spectral.as_bytes(), &pipe.lorentz);
-    assert!(refusal(&pipe, &glowing).unwrap().contains("ugdoppler -sp"));
-    let mut shape = pipe.clone();
-    shape.rainbow.exact = Some(Exact::NONE);
-    assert_eq!(refusal(&shape, &glowing), None);
+    assert!(refusal(&pipe, &glowing).unwrap().contains("give -sp"));
+    for shift in [ColorShift::NONE, ColorShift::Spectra(SpectralShift { doppler: true, flux: true })] {
+        let mut other = pipe.clone();
+        other.rainbow.exact = Some(shift);
+        assert_eq!(refusal(&other, &glowing), None);
+    }
     let at_rest = spectral.replace("<.2 -.1 0>", "");
     assert_eq!(refusal(&pipe, at_rest.as_bytes()), None);
     pipe.lorentz.geometry.contraction = false;

@@ -4,9 +4,10 @@ use glam::DVec3;
 use ugparse::{Face, Scene, VertexId};
 use ugphysics::{
     Brightness, Hsv, Velocity, attenuation, doppler_at, hue_to_wavelength, rest_position, srgb_decode,
-    wavelength_to_hue,
+    wavelength_to_hue, xyz_to_linear_srgb,
 };
-use ugrainbow::Exact;
+use ugrainbow::{ColorShift, HueShift, SpectralShift};
+use ugspectrum::{Spectrum, blackbody_luminance_ratio};
 use ugtests::oracle::{Oracle, Pinhole};
 use ugtests::scenes;
 use ugtests::shading::Shading;
@@ -20,6 +21,9 @@ const SINGLE: f64 = 2e-7;
 
 /// Hues are in single precision, and their attenuation comes from a table.
 const LIGHT: f64 = 1e-5;
+
+/// X, Y and Z of spectra come from tables over D; red, green and blue are differences of them.
+const SPECTRAL_LIGHT: f64 = 2e-3;
 
 /// A sample may show another face than the oracle's only if that face is equally near, or adjacent
 /// up to rounding.
@@ -70,7 +74,7 @@ struct Case {
     camera: Option<DVec3>,
     in_place: bool,
     eye: Option<DVec3>,
-    exact: Exact,
+    exact: ColorShift,
     /// `-sm`
     is_smooth: bool,
 }
@@ -83,7 +87,7 @@ impl Case {
             camera: None,
             in_place: false,
             eye: None,
-            exact: Exact::default(),
+            exact: ColorShift::default(),
             is_smooth: false,
         }
     }
@@ -148,7 +152,8 @@ fn check(case: Case) {
         for (channel, expected) in ["R", "G", "B"].into_iter().zip(light.iter().flatten()) {
             let ours = channels[channel][pixel];
             let off = (ours - expected).abs() / expected.max(1.0);
-            assert!(off < LIGHT, "{name} at {x}, {y}: {channel} {ours}, not {expected}");
+            let bound = if matches!(case.exact, ColorShift::Spectra(_)) { SPECTRAL_LIGHT } else { LIGHT };
+            assert!(off < bound, "{name} at {x}, {y}: {channel} {ours}, not {expected}");
         }
         n_lit += usize::from(light.is_some());
     }
@@ -197,10 +202,22 @@ fn grid_is_exact() {
     SPEEDS.into_iter().for_each(|speed| check(Case::in_place("grid", speed * DVec3::new(0.6, 0.0, 0.8))));
 }
 
+/// Colours are spectra: of surfaces, and in the tunnel of black bodies.
+#[test]
+fn spectra_are_exact() {
+    let exact = ColorShift::Spectra(SpectralShift { doppler: true, flux: true });
+    let eye = Some(DVec3::new(0.012, 0.0, 0.007));
+    for speed in [0.1, 0.3, 0.6] {
+        check(Case { eye, exact, ..Case::moving("tunnel", speed * DVec3::NEG_Y) });
+        check(Case { exact, ..Case::in_place("cubes", speed * DVec3::new(0.8, -0.6, 0.0)) });
+    }
+    check(Case { exact, camera: Some(0.3 * DVec3::Y), ..Case::new("traffic") });
+}
+
 /// The tunnel's black bodies have no hues, so only the shape is checked.
 #[test]
 fn tunnel_is_exact() {
-    let exact = Exact::NONE;
+    let exact = ColorShift::NONE;
     let eye = Some(DVec3::new(0.012, 0.0, 0.007));
     SPEEDS
         .into_iter()
@@ -243,6 +260,33 @@ fn scenes_are_exact_for_a_camera_that_moves() {
     check(Case { camera: Some(0.3 * DVec3::NEG_Y), ..Case::new("dice") });
 }
 
+/// A black body at T seen with D is one at D·T: its light at T, times the ratio of their Y.  Eq. (P13)
+#[test]
+fn a_black_body_is_seen_at_another_temperature() {
+    const KELVIN: f64 = 4000.0;
+    let text = SQUARE.replace("c green .9 130 .8; l .2; l .7 1 -2 .5;", "c_bb green 4000 .5; l 1;");
+    let velocity = DVec3::new(0.2, -0.1, 0.0);
+    let mut pipe = exact(None);
+    pipe.rainbow.exact = Some(ColorShift::Spectra(SpectralShift { doppler: true, flux: true }));
+    let channels = channels(&pipe, text.as_bytes());
+    let scene = scenes::parse(text.as_bytes());
+    let camera = Pinhole::new(scene.camera().unwrap(), DVec3::ZERO, SIZE);
+    let velocity = Velocity::from_beta(velocity).unwrap();
+    let mut factors = [f64::INFINITY, 0.0];
+    for pixel in (0..(SIZE[0] * SIZE[1]) as usize).step_by(37) {
+        let [x, y] = [pixel as u32 % SIZE[0], pixel as u32 / SIZE[0]].map(|i| f64::from(i) + 0.5);
+        let doppler = doppler_at(camera.direction(x, y), velocity);
+        factors = [factors[0].min(doppler), factors[1].max(doppler)];
+        let brighter = blackbody_luminance_ratio(doppler * KELVIN, KELVIN);
+        let xyz = Spectrum::blackbody(doppler * KELVIN, 0.5 * brighter).seen(1.0);
+        for (name, expected) in ["R", "G", "B"].iter().zip(xyz_to_linear_srgb(xyz)) {
+            let ours = channels[*name][pixel];
+            assert!((ours / expected - 1.0).abs() < 2e-3, "{x}, {y}: {name} {ours}, not {expected}");
+        }
+    }
+    assert!(factors[1] / factors[0] > 1.1, "{factors:?}");
+}
+
 #[test]
 fn colour_and_light_are_those_of_the_point() {
     let laws = [(Brightness::Report, true), (Brightness::Photon, true), (Brightness::None, false)];
@@ -254,7 +298,7 @@ fn colour_and_light_are_those_of_the_point() {
                 SQUARE.to_owned()
             };
             let mut pipe = exact(None);
-            pipe.rainbow.exact = Some(Exact { law, doppler });
+            pipe.rainbow.exact = Some(ColorShift::Hues(HueShift { doppler, law }));
             let channels = channels(&pipe, text.as_bytes());
             let scene = scenes::parse(text.as_bytes());
             let camera = Pinhole::new(scene.camera().unwrap(), DVec3::ZERO, SIZE);

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use ugphysics::Hsv;
-use ugrainbow::{Config, Exact, Wireframe};
+use ugrainbow::{ColorShift, Config, Wireframe};
 use ugtests::picture::{Picture, decode};
 use ugtests::pipe::{lorentz, rainbow};
 
@@ -65,7 +65,7 @@ fn the_edges_of_a_cut_face_are_those_it_had() {
 
 #[test]
 fn edges_found_by_rays_are_those_of_fine_pieces() {
-    let exact = Config { exact: Some(Exact::default()), ..edges() };
+    let exact = Config { exact: Some(ColorShift::default()), ..edges() };
     let (n_lit, n_different) = compared(&drawn(1, &exact), &drawn(32, &edges()));
     assert!(n_lit > 400 && n_different * 50 < n_lit, "{n_different} of {n_lit}");
 }

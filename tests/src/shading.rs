@@ -1,19 +1,19 @@
-//! The expected colour of a point on a face, directly from the formulas: hue, wavelength, and
-//! lighting at rest.
+//! The expected colour of a point on a face, directly from the formulas: hue and wavelength or
+//! spectrum, and lighting at rest.
 
 use glam::DVec3;
 use ugparse::{ColorId, ColorValue, Face, LightKind, Scene, VertexId};
-use ugphysics::{Hsv, attenuation, hue_to_wavelength, srgb_decode, wavelength_to_hue};
-use ugrainbow::Exact;
+use ugphysics::{Hsv, attenuation, hue_to_wavelength, srgb_decode, wavelength_to_hue, xyz_to_linear_srgb};
+use ugrainbow::{ColorShift, HueShift};
 
 use crate::oracle::Hit;
 
-/// Computes colours of a scene with hues and white lights.
+/// Computes colours of a scene with white lights.
 pub struct Shading<'a> {
     scene: &'a Scene,
     eye: DVec3,
     /// The colour of each vertex; `None` where several colours meet.
-    colors: Vec<Option<Hsv>>,
+    colors: Vec<Option<ColorId>>,
 }
 
 /// A point of a face, as barycentric weights of its corners.
@@ -29,19 +29,14 @@ impl<'a> Shading<'a> {
             }
         }
         let color = |(vertex, around): (&ugparse::Vertex, &Vec<ColorId>)| {
-            let color =
-                vertex.color.or_else(|| around.first().copied().filter(|a| around.iter().all(|b| a == b)))?;
-            match scene.colors[color.index()].value {
-                ColorValue::Hsv { value, hue, saturation } => Some(Hsv { hue, saturation, value }),
-                _ => None,
-            }
+            vertex.color.or_else(|| around.first().copied().filter(|a| around.iter().all(|b| a == b)))
         };
         Self { scene, eye, colors: scene.vertices.iter().zip(&around).map(color).collect() }
     }
 
     /// Observed linear red, green and blue of a point; `None` for cases that this module does not
     /// cover.
-    pub fn seen(&self, face: usize, hit: &Hit, doppler: f64, exact: Exact) -> Option<[f64; 3]> {
+    pub fn seen(&self, face: usize, hit: &Hit, doppler: f64, exact: ColorShift) -> Option<[f64; 3]> {
         let face = &self.scene.faces[face];
         let corners: Vec<VertexId> = self.scene.face_contours(face).flatten().copied().collect();
         let weights = match corners[..] {
@@ -53,8 +48,15 @@ impl<'a> Shading<'a> {
                 (is_even && !normals).then(|| vec![(corners[0], 1.0)])?
             }
         };
-        let Hsv { hue, saturation, value } = self.color(&weights)?;
         let level = self.level(face, &weights, hit)?;
+        match exact {
+            ColorShift::Hues(shift) => self.seen_hue(&weights, level, doppler, shift),
+            ColorShift::Spectra(_) => self.seen_spectrum(&weights, level, doppler),
+        }
+    }
+
+    fn seen_hue(&self, weights: Weights<'_>, level: f64, doppler: f64, exact: HueShift) -> Option<[f64; 3]> {
+        let Hsv { hue, saturation, value } = self.color(weights)?;
         let rest_nm = hue_to_wavelength(hue);
         let seen_nm = if exact.doppler { rest_nm / doppler } else { rest_nm };
         let value = value * level * exact.law.factor(doppler);
@@ -63,7 +65,25 @@ impl<'a> Shading<'a> {
         Some(seen.to_rgb().map(srgb_decode))
     }
 
-    /// Barycentric weights: areas of the triangles opposite to each corner.
+    /// L(λ) = D⁵ L'(λD), with the light in it.
+    fn seen_spectrum(&self, weights: Weights<'_>, level: f64, doppler: f64) -> Option<[f64; 3]> {
+        let mut light = DVec3::ZERO;
+        for &(vertex, weight) in weights {
+            let color = self.colors[vertex.index()]?;
+            let spectrum = uglight::spectrum(self.scene, &self.scene.colors[color.index()]).0;
+            light += weight * level * DVec3::from_array(xyz_to_linear_srgb(spectrum.seen(doppler)));
+        }
+        Some(light.to_array())
+    }
+
+    fn hsv(&self, vertex: VertexId) -> Option<Hsv> {
+        match self.scene.colors[self.colors[vertex.index()]?.index()].value {
+            ColorValue::Hsv { value, hue, saturation } => Some(Hsv { hue, saturation, value }),
+            _ => None,
+        }
+    }
+
+    /// Areas of the triangles opposite to each corner.
     fn weights(&self, corners: [VertexId; 3], point: DVec3) -> [(VertexId, f64); 3] {
         let [a, b, c] = corners.map(|id| self.scene.vertices[id.index()].position);
         let all = (b - a).cross(c - a);
@@ -74,7 +94,7 @@ impl<'a> Shading<'a> {
 
     fn color(&self, weights: Weights<'_>) -> Option<Hsv> {
         let colors: Option<Vec<(Hsv, f64)>> =
-            weights.iter().map(|&(id, weight)| Some((self.colors[id.index()]?, weight))).collect();
+            weights.iter().map(|&(id, weight)| Some((self.hsv(id)?, weight))).collect();
         let colors = colors?;
         let mean = |of: fn(&Hsv) -> f64| colors.iter().map(|(color, weight)| of(color) * weight).sum::<f64>();
         // A grey corner takes the hue of the others: not covered.

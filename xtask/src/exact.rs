@@ -91,7 +91,7 @@ impl View {
     fn exact(&self, text: &[u8]) -> Picture {
         let mut pipe = self.pipe();
         pipe.lorentz.pieces = uglorentz::Pieces::PerEdge(1);
-        pipe.rainbow.exact = Some(ugrainbow::Exact::default());
+        pipe.rainbow.exact = Some(ugrainbow::ColorShift::default());
         decode(&rainbow(&lorentz(text, &pipe.lorentz), &pipe.rainbow))
     }
 

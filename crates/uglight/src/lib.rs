@@ -8,7 +8,7 @@
 //!
 //! What motion makes of a colour depends on the model: a [`HueColor`] has one wavelength, which a
 //! [`HueShift`] divides by the Doppler factor D; a [`SpectralColor`] is shifted as a whole by a
-//! [`SpectralShift`]. Both hold for a vertex, a sample or a ray.
+//! [`SpectralShift`]; a [`ColorShift`] is either. All hold for a vertex, a sample or a ray.
 //!
 //! Physics without a scene is in `ugphysics` and `ugspectrum`; this crate applies it to the
 //! statements of a [`Scene`].
@@ -37,6 +37,7 @@ mod hue_table;
 mod irradiance;
 mod lamp;
 mod lighting;
+mod shift;
 mod spectral;
 mod vertex_color;
 
@@ -46,6 +47,7 @@ pub use hue_table::HueTable;
 pub use irradiance::{Irradiance, SurfaceElement};
 pub use lamp::{Lamp, LampPlace, lamps};
 pub use lighting::Lighting;
+pub use shift::ColorShift;
 pub use spectral::{SpectralColor, SpectralLamp, SpectralShift, spectral_lamps};
 pub use ugparse::HueScale;
 pub use vertex_color::{VertexColor, vertex_colors};

@@ -4,14 +4,14 @@ use std::path::Path;
 
 use clap::{ArgAction, Parser};
 use ugimage::Format;
-use uglight::HueScale;
+use uglight::{ColorShift, HueScale, HueShift, SpectralShift};
 use ugparse::{Source, pipe};
 use ugphysics::{Brightness, Hsv};
 use ugpicture::Output;
 use ugpicture::cli::{AnnotationArgs, PICTURE, PictureArgs, color, format_named};
 use ugpipe::{CommonArgs, Context, Failure, ToolArgs, finite};
 
-use crate::config::{Config, DepthCue, Exact, Interpolation, LINE_WIDTH, Wireframe};
+use crate::config::{Config, DepthCue, Interpolation, LINE_WIDTH, Wireframe};
 use crate::error::Error;
 use crate::explain::{self, explain};
 use crate::run_with;
@@ -115,6 +115,13 @@ pub struct Args {
           conflicts_with = "no_flux", help_heading = EXACT)]
     br: Option<Brightness>,
 
+    /// With -xc, shift spectra instead of hues
+    ///
+    /// As of ugdoppler: black bodies and sampled spectra as they are, other colours as surfaces in daylight. The
+    /// brightness law is D^5 per wavelength, and light brighter than white is kept to the last step.
+    #[arg(long, visible_alias = "spectral", requires = "xc", conflicts_with_all = ["br", "wi"], help_heading = EXACT)]
+    sp: bool,
+
     /// With -xc, leave wavelengths as they are
     #[arg(long, requires = "xc", help_heading = EXACT)]
     no_doppler: bool,
@@ -160,14 +167,18 @@ impl Args {
             wireframe: self.wireframe()?,
             line_width: self.lw,
             depth_cue: self.depth_cue()?,
-            exact: self.xc.then(|| self.exact()),
+            exact: self.xc.then(|| self.color_shift()),
             cull: self.cb,
         })
     }
 
-    fn exact(&self) -> Exact {
+    fn color_shift(&self) -> ColorShift {
+        let doppler = !self.no_doppler;
+        if self.sp {
+            return ColorShift::Spectra(SpectralShift { doppler, flux: !self.no_flux });
+        }
         let law = if self.no_flux { Brightness::None } else { self.br.unwrap_or_default() };
-        Exact { law, doppler: !self.no_doppler }
+        ColorShift::Hues(HueShift { doppler, law })
     }
 
     fn wireframe(&self) -> Result<Option<Wireframe>, Failure> {

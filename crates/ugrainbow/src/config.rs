@@ -1,7 +1,7 @@
 //! What is asked of the renderer, apart from the scene.
 
-use uglight::HueScale;
-use ugphysics::{Brightness, Hsv};
+use uglight::{ColorShift, HueScale};
+use ugphysics::Hsv;
 use ugpicture::PictureOptions;
 use ugraster::DepthFade;
 
@@ -24,7 +24,7 @@ pub struct Config {
     /// What is far fades towards the background.
     pub depth_cue: Option<DepthCue>,
     /// Faces are drawn by a ray for each sample (`-xc`), from a scene whose colours have not been shifted.
-    pub exact: Option<Exact>,
+    pub exact: Option<ColorShift>,
     /// Faces that are seen from behind, running clockwise, are left out.
     pub cull: bool,
 }
@@ -95,27 +95,6 @@ impl DepthCue {
     }
 }
 
-/// How motion changes the colours of a picture that is drawn by rays.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Exact {
-    /// How D changes brightness, (P12).
-    pub law: Brightness,
-    /// Wavelengths are divided by D, (P11).
-    pub doppler: bool,
-}
-
-impl Exact {
-    /// Colours of bodies that move stay as they are.
-    pub const NONE: Self = Self { law: Brightness::None, doppler: false };
-}
-
-impl Default for Exact {
-    /// As `ugdoppler` by default.
-    fn default() -> Self {
-        Self { law: Brightness::Report, doppler: true }
-    }
-}
-
 /// What is interpolated, besides saturation and value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Interpolation {
@@ -130,7 +109,7 @@ pub enum Interpolation {
 #[derive(Clone, Copy, Debug)]
 pub struct DrawMode {
     /// Faces are intersected by rays; else they are rasterized.
-    pub exact: Option<Exact>,
+    pub exact: Option<ColorShift>,
     /// Edges of faces are drawn.
     pub wireframe: Option<Wireframe>,
     /// Width of lines in pixels.

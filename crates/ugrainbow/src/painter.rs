@@ -6,6 +6,7 @@ use ugparse::{Face, Scene, VertexId, Wire, newell_normal};
 use ugraster::{Corner, Point, SampleGrid};
 
 use crate::clip::Vertex;
+use crate::exact::Spectra;
 use crate::palette::{Palette, Swatch};
 use crate::surface::Surface;
 use ugscene::{Place, Slab, View};
@@ -25,6 +26,8 @@ pub struct Painter<'a> {
     pub lighting: &'a Lighting,
     /// Its surfaces: colours and rest geometry of vertices.
     pub surface: &'a Surface,
+    /// Its spectra, if colours are spectra.
+    pub spectra: Option<&'a Spectra>,
     /// Faces seen from behind are left out.
     pub is_culled: bool,
 }
@@ -132,12 +135,17 @@ impl Painter<'_> {
 
     /// The colour of a wire where its ends have none of their own.
     pub fn wire_swatch(&self, wire: &Wire) -> Swatch {
-        wire.color.map_or(Swatch::WHITE, |color| self.palette.get(color))
+        wire.color.map_or(self.palette.white(), |color| self.palette.get(color))
     }
 
     /// The colour of an end of a wire of colour `color`.
     pub fn wire_end(&self, vertex: VertexId, color: &Swatch) -> Swatch {
         self.scene.vertices[vertex.index()].color.map_or(*color, |own| self.palette.get(own))
+    }
+
+    /// The row of the spectrum of an end of a wire.
+    pub fn wire_end_row(&self, vertex: VertexId, wire: &Wire) -> u32 {
+        self.surface.row_of(self.scene.vertices[vertex.index()].color.or(wire.color))
     }
 
     /// True if a colour of the wire is given as light.

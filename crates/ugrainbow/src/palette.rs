@@ -40,16 +40,21 @@ pub struct Palette {
     swatches: Vec<Swatch>,
     interpolation: Interpolation,
     scale: HueScale,
+    /// Colours are spectra.
+    is_spectral: bool,
     has_light: bool,
     has_translucency: bool,
 }
 
 impl Palette {
     /// Reads all colours of a scene.
-    pub fn new(scene: &Scene, interpolation: Interpolation, scale: HueScale) -> Self {
-        let has_light = scene.colors.iter().any(uglight::is_light);
+    ///
+    /// `is_spectral`: colours are spectra, so all of them are drawn as light.
+    pub fn new(scene: &Scene, interpolation: Interpolation, scale: HueScale, is_spectral: bool) -> Self {
+        let has_light = is_spectral || scene.colors.iter().any(uglight::is_light);
         let has_translucency = scene.colors.iter().any(|color| color.translucency > 0.0);
-        let mut palette = Self { swatches: Vec::new(), interpolation, scale, has_light, has_translucency };
+        let mut palette =
+            Self { swatches: Vec::new(), interpolation, scale, is_spectral, has_light, has_translucency };
         palette.swatches = scene.colors.iter().map(|color| palette.read(scene, color)).collect();
         palette
     }
@@ -69,7 +74,12 @@ impl Palette {
         self.interpolation
     }
 
-    /// True if the scene gives a colour as light.
+    /// The colour of what has none.
+    pub fn white(&self) -> Swatch {
+        Swatch { light: self.is_spectral.then_some(DVec3::ONE), ..Swatch::WHITE }
+    }
+
+    /// True if a colour of the scene is drawn as light.
     pub fn has_light(&self) -> bool {
         self.has_light
     }
@@ -116,7 +126,7 @@ impl Palette {
 
     fn read(&self, scene: &Scene, color: &Color) -> Swatch {
         let translucency = color.translucency;
-        match color.value {
+        let swatch = match color.value {
             // Taken as it is: a wavelength the eye cannot see has no hue.
             ColorValue::Hsv { value, hue: tint, saturation } if self.scale == HueScale::Wavelengths => {
                 Swatch { tint, saturation, value, light: None, translucency }
@@ -126,7 +136,9 @@ impl Palette {
                 translucency,
                 ..self.swatch(uglight::hsv(scene, color, self.scale))
             },
-        }
+        };
+        // Of spectra the light is computed at every sample; here it says that it is light.
+        Swatch { light: swatch.light.or(self.white().light), ..swatch }
     }
 }
 

@@ -85,7 +85,7 @@ impl<'a, const N: usize> Layers<'a, N> {
         let is_one = |face: &Face| painter.is_transparent(face) == is_transparent;
         let surfaces = match mode.exact {
             None => Surfaces::Polygons(DrawList::new(painter, is_one, pack)),
-            Some(exact) => Surfaces::Rays(Faces::new(painter, exact, is_one, pack)),
+            Some(shift) => Surfaces::Rays(Faces::new(painter, shift, is_one, pack)),
         };
         Self { surfaces, is_drawn: mode.has_faces() }
     }
@@ -192,7 +192,7 @@ impl<'a> RenderLayers<'a> {
         let faces =
             painter.palette.has_translucency().then(|| Layers::new(painter, mode, true, pack_transparent));
         let shape: Box<dyn LineShape> = match mode.exact {
-            Some(exact) => Box::new(CurvedLines::new(painter, exact)),
+            Some(shift) => Box::new(CurvedLines::new(painter, shift)),
             None => Box::new(StraightLines::new(painter)),
         };
         let lines = lines(&painter, mode.wireframe, &*shape);

@@ -3,13 +3,14 @@
 use std::borrow::Cow;
 use std::ops::Range;
 
-use uglight::Lighting;
+use uglight::{ColorShift, HueShift, Lighting};
 use ugparse::{BodyId, ColorId, ColorValue, Scene, VertexId};
 use ugpicture::PictureOptions;
 use ugraster::SampleGrid;
 
-use crate::config::{Config, Exact};
+use crate::config::Config;
 use crate::error::Error;
+use crate::exact::Spectra;
 use crate::painter::Painter;
 use crate::palette::Palette;
 use crate::shade::Shader;
@@ -24,6 +25,8 @@ pub struct Setup<'a> {
     pub palette: Palette,
     pub lighting: Lighting,
     pub surface: Surface,
+    /// If colours are spectra.
+    spectra: Option<Spectra>,
     pub shader: Shader,
     /// Faces seen from behind are left out.
     is_culled: bool,
@@ -50,8 +53,9 @@ impl<'a> Setup<'a> {
         ugscene::require_eye(&scene, view.eye)?;
         let fade = config.depth_cue.and_then(|cue| Some(cue.between(cue.range?)));
         let grid = SampleGrid { width, height, samples, is_perspective: view.is_perspective, fade };
+        let is_spectral = matches!(config.exact, Some(ColorShift::Spectra(_)));
         let hue_scale = ugscene::hue_scale(&scene, config.hue_scale)?;
-        let palette = Palette::new(&scene, config.interpolated(hue_scale), hue_scale);
+        let palette = Palette::new(&scene, config.interpolated(hue_scale), hue_scale, is_spectral);
         let lighting = Lighting::new(&scene, hue_scale, view.eye, view.forward);
         let surface = Surface::new(&scene, view.eye, &palette, hue_scale);
         let is_uncut = palette.has_light() || config.picture.keeps_light();
@@ -59,9 +63,16 @@ impl<'a> Setup<'a> {
             check_exact(&scene, &view)?;
             check_spectra(&scene, &surface, exact)?;
         }
+        let spectra = match config.exact {
+            Some(ColorShift::Spectra(shift)) => {
+                let rapidity = surface.greatest_rapidity(&scene);
+                Some(Spectra::new(&scene, shift, surface.mixtures(&scene), rapidity))
+            }
+            _ => None,
+        };
         let shader = Shader::new(palette.interpolation(), !is_uncut);
         let is_culled = config.cull;
-        Ok(Self { scene, view, grid, palette, lighting, surface, shader, is_culled, is_uncut })
+        Ok(Self { scene, view, grid, palette, lighting, surface, spectra, shader, is_culled, is_uncut })
     }
 
     /// The scene, with vertices of one velocity each. Faces and wires have the order of the scene given.
@@ -78,6 +89,7 @@ impl<'a> Setup<'a> {
             palette: &self.palette,
             lighting: &self.lighting,
             surface: &self.surface,
+            spectra: self.spectra.as_ref(),
             is_culled: self.is_culled,
         }
     }
@@ -88,7 +100,7 @@ fn check_exact(scene: &Scene, view: &View) -> Result<(), Error> {
     if scene.stage.seen_colors().is_some() {
         return Err(Error::Exact(
             "-xc shifts colours itself, at every sample, and those of this scene have been shifted by ugdoppler: \
-             leave ugdoppler out, and give -br, --no-doppler or --no-flux here; or, for ugdoppler -sp and -li, leave out -xc",
+             leave ugdoppler out, and give -sp, -br, --no-doppler or --no-flux here; or, for ugdoppler -li, leave out -xc",
         ));
     }
     if Geometry::of(scene) != Geometry::default() {
@@ -106,8 +118,8 @@ fn check_exact(scene: &Scene, view: &View) -> Result<(), Error> {
     Ok(())
 }
 
-/// Refuses spectra that would have to be shifted as a whole.
-fn check_spectra(scene: &Scene, surface: &Surface, exact: Exact) -> Result<(), Error> {
+/// Refuses spectra that move if hues are to be shifted.
+fn check_spectra(scene: &Scene, surface: &Surface, shift: ColorShift) -> Result<(), Error> {
     let is_spectrum = |color: ColorId| {
         let value = scene.colors[color.index()].value;
         matches!(value, ColorValue::Blackbody { .. } | ColorValue::Spectrum { .. })
@@ -120,10 +132,11 @@ fn check_spectra(scene: &Scene, surface: &Surface, exact: Exact) -> Result<(), E
     let mut faces = scene.faces.iter().map(|face| moves(face.body, &face.contours, face.color));
     let mut wires = scene.wires.iter().map(|wire| moves(wire.body, &wire.contours, wire.color));
     let has_spectra = scene.colors.iter().any(uglight::is_light);
-    if has_spectra && exact != Exact::NONE && (faces.any(|moves| moves) || wires.any(|moves| moves)) {
+    let is_hue = matches!(shift, ColorShift::Hues(shift) if shift != HueShift::NONE);
+    if has_spectra && is_hue && (faces.any(|moves| moves) || wires.any(|moves| moves)) {
         return Err(Error::Exact(
-            "-xc shifts hues, and a black body or spectrum of this scene moves: leave out -xc and draw it with \
-             `ugdoppler -sp`, or give --no-doppler --no-flux to see the shape",
+            "-xc shifts hues, and a black body or spectrum of this scene moves: give -sp to shift all colours as \
+             spectra, or --no-doppler --no-flux to see the shape",
         ));
     }
     Ok(())

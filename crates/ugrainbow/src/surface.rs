@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use uglight::{HueScale, VertexColor, vertex_colors};
 use ugparse::{BodyId, ColorId, Scene, VertexId};
 use ugphysics::{Velocity, aberrate};
-use ugscene::{RestFrames, rest_positions};
+use ugscene::{RestFrames, Shares, rest_positions, vertex_shares};
 
 use crate::palette::{Palette, Swatch};
 
@@ -16,6 +16,8 @@ pub struct Surface {
     swatches: Vec<Swatch>,
     /// For each vertex a row of the swatches; most vertices share theirs with others.
     rows: Vec<u32>,
+    /// Row of the colour of what has none; behind those of the scene.
+    white: u32,
     rest: Vec<DVec3>,
     frames: RestFrames,
 }
@@ -26,12 +28,44 @@ impl Surface {
         let frames = RestFrames::new(scene);
         let rest = rest_positions(scene, eye, &frames);
         let mut swatches = palette.all().to_vec();
+        // Scenes have fewer than 2^32 colours.
+        let white = swatches.len() as u32;
+        swatches.push(palette.white());
         let own = scene.vertices.par_iter().map(|vertex| vertex.color.map(row));
         let rows = match own.collect() {
             Some(rows) => rows,
             None => mixed_rows(scene, &rest, palette, scale, &mut swatches),
         };
-        Self { swatches, rows, rest, frames }
+        Self { swatches, rows, white, rest, frames }
+    }
+
+    /// The colours that meet in each row.
+    pub fn mixtures(&self, scene: &Scene) -> Vec<Shares> {
+        let mut mixtures = vec![Shares::One(None); self.swatches.len()];
+        for (row, shares) in mixtures[..scene.colors.len()].iter_mut().enumerate() {
+            *shares = Shares::One(Some(ColorId::from_index(row)));
+        }
+        for (&row, shares) in self.rows.iter().zip(vertex_shares(scene, &self.rest)) {
+            mixtures[row as usize] = shares;
+        }
+        mixtures
+    }
+
+    /// The greatest rapidity of a body.
+    pub fn greatest_rapidity(&self, scene: &Scene) -> f64 {
+        let bodies = (0..scene.bodies.len()).map(BodyId::from_index);
+        bodies.map(|body| self.frames.velocity(body).rapidity()).fold(0.0, f64::max)
+    }
+
+    /// The row of the colour of a vertex.
+    #[inline]
+    pub fn row(&self, vertex: VertexId) -> u32 {
+        self.rows[vertex.index()]
+    }
+
+    /// The row of a colour of the scene, or of white.
+    pub fn row_of(&self, color: Option<ColorId>) -> u32 {
+        color.map_or(self.white, row)
     }
 
     /// Its own colour, else the mix of its faces' colours, else white.
@@ -71,7 +105,7 @@ fn row(color: ColorId) -> u32 {
     color.index() as u32
 }
 
-/// The rows of vertices that have not all colours of their own; what is not in the scene is added.
+/// The rows of vertices that have not all colours of their own; mixed colours are added behind white.
 fn mixed_rows(
     scene: &Scene,
     rest: &[DVec3],
@@ -79,14 +113,13 @@ fn mixed_rows(
     scale: HueScale,
     swatches: &mut Vec<Swatch>,
 ) -> Vec<u32> {
-    let white = swatches.len() as u32;
-    swatches.push(Swatch::WHITE);
+    let white = swatches.len() as u32 - 1;
     let colors = vertex_colors(scene, rest, scale).into_iter();
     let rows = colors.map(|color| match color {
         VertexColor::Named(color) => row(color),
         VertexColor::White => white,
         VertexColor::Mixed { hsv, light, translucency } => {
-            let light = light.map(DVec3::from_array);
+            let light = light.map(DVec3::from_array).or(palette.white().light);
             swatches.push(Swatch { light, translucency, ..palette.swatch(hsv) });
             // There are no more mixed colours than vertices.
             swatches.len() as u32 - 1

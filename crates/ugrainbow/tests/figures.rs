@@ -8,7 +8,7 @@ use common::{draw, scene};
 use ugimage::Format;
 use ugphysics::Hsv;
 use ugrainbow::{
-    AnnotationOptions, Background, Config, Error, Exact, MAX_PIXELS, Output, PictureOptions, render, run,
+    AnnotationOptions, Background, ColorShift, Config, Error, MAX_PIXELS, Output, PictureOptions, render, run,
 };
 
 const SHIP: &str = "(ugstage 1 geometry as-seen eye 0 -9 3) c green 1 120 .8; l 1; cam -ep 0 -9 3 -vc 0 0 .5;
@@ -59,7 +59,7 @@ fn the_scene_is_drawn_as_it_would_be_alone_in_less_room() {
         for (figures, output, exact) in [
             (strips(), Output::Color(Format::Png), None),
             (caption.clone(), Output::Color(Format::Png16), None),
-            (legend.clone(), Output::Color(Format::Png), Some(Exact::default())),
+            (legend.clone(), Output::Color(Format::Png), Some(ColorShift::default())),
         ] {
             let rows = scene_rows(&Config {
                 picture: PictureOptions { background, output, annotations: figures, ..plain.picture.clone() },

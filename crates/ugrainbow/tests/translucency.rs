@@ -7,7 +7,7 @@ mod common;
 use common::config;
 use ugimage::Frame;
 use ugphysics::{Hsv, srgb_encode};
-use ugrainbow::{Background, Config, DepthCue, Exact, PictureOptions, render};
+use ugrainbow::{Background, ColorShift, Config, DepthCue, PictureOptions, render};
 
 /// Eye ten units above the plane z = 0, +y up, orthographic; 8 units across the picture.
 fn camera() -> String {
@@ -243,7 +243,7 @@ fn exact_pictures_blend_as_well() {
     let text = text(&all, 0..24).replace("cam ", "") + "cam -ep 0 0 14 -vc 0 0 0 -ud 0 1 0 -va 40 40;";
     let scene = common::scene(&text);
     let scanned = config(60, 2);
-    let exact = Config { exact: Some(Exact::default()), ..scanned.clone() };
+    let exact = Config { exact: Some(ColorShift::default()), ..scanned.clone() };
     let [one, other] = [scanned, exact].map(|config| render(&scene, &config).unwrap().into_frame().unwrap());
     let differs = |(a, b): (&[u8; 4], &[u8; 4])| (0..4).any(|i| a[i].abs_diff(b[i]) > 1);
     let pairs = one.pixels().iter().zip(other.pixels());

@@ -5,26 +5,26 @@ use std::sync::{Mutex, PoisonError};
 
 use glam::DVec3;
 use rayon::prelude::*;
+use uglight::ColorShift;
 use ugparse::Face;
 use ugraster::{Area, Bins, FragmentWriter, TRANSPARENT_VALUES, Tile};
 
+use super::appearance::Appearance;
 use super::film::{Film, Form, Lengths, center};
 use super::footprint::{Rect, footprint};
 use super::frame::{Frame, Ray, frames};
 use super::look::Look;
-use super::motion::Motion;
 use super::nearest::{Nearest, PlaneRow, limited};
 use super::outline::Outline;
 use super::sections::{Cutter, Side};
 use crate::clip::ClipCounts;
-use crate::config::Exact;
 use crate::packing::Pack;
 use crate::painter::Painter;
 
 /// Faces and the rays that meet them.
 pub struct Faces<'a, const N: usize> {
     painter: Painter<'a>,
-    motion: Motion<'a>,
+    appearance: Appearance<'a>,
     pack: Pack<N>,
     frames: Vec<Frame>,
     shapes: Vec<Shape>,
@@ -62,15 +62,15 @@ impl<'a, const N: usize> Faces<'a, N> {
     /// The faces of a scene that `is_drawn` says.
     pub fn new(
         painter: Painter<'a>,
-        exact: Exact,
+        shift: ColorShift,
         is_drawn: impl Fn(&Face) -> bool + Sync,
         pack: Pack<N>,
     ) -> Self {
-        let motion = Motion::new(exact, painter.palette);
+        let appearance = Appearance::new(shift, &painter);
         let frames = frames(&painter);
         let built: Vec<Built> = (painter.scene.faces.par_iter().enumerate())
             .filter(|(_, face)| is_drawn(face))
-            .map(|(row, face)| build(&painter, &motion, &frames, row, face))
+            .map(|(row, face)| build(&painter, &appearance, &frames, row, face))
             .collect();
         let in_front = built.iter().filter(|built| !matches!(built, Built::Behind)).count();
         let shapes: Vec<Shape> = built.into_iter().filter_map(Built::shape).collect();
@@ -80,7 +80,7 @@ impl<'a, const N: usize> Faces<'a, N> {
         let limits = [(1.0 / slab.far).max(f64::MIN_POSITIVE), 1.0 / slab.near];
         let film = Film::new(painter.view.rays());
         let pool = Mutex::default();
-        Self { painter, motion, pack, frames, shapes, bins, film, limits, pool, clip_counts }
+        Self { painter, appearance, pack, frames, shapes, bins, film, limits, pool, clip_counts }
     }
 
     /// True if a face is nearer than `key` on the ray through a place of the picture, in samples.
@@ -179,7 +179,7 @@ impl<'a, const N: usize> Faces<'a, N> {
     #[inline(always)]
     fn values(&self, shape: &Shape, frame: &Frame, ray: &Ray) -> [f32; N] {
         let key = shape.outline.key(ray.rest);
-        let (color, level) = shape.look.at(&self.painter, &self.motion, frame, ray, key);
+        let (color, level) = shape.look.at(&self.painter, &self.appearance, frame, ray, key);
         (self.pack)(&color, level).map(|number| number as f32)
     }
 
@@ -266,7 +266,13 @@ impl Built {
     }
 }
 
-fn build(painter: &Painter<'_>, motion: &Motion<'_>, frames: &[Frame], row: usize, face: &Face) -> Built {
+fn build(
+    painter: &Painter<'_>,
+    appearance: &Appearance<'_>,
+    frames: &[Frame],
+    row: usize,
+    face: &Face,
+) -> Built {
     let at = face.body.index();
     let frame = &frames[at];
     let contours: Vec<Vec<DVec3>> = painter
@@ -284,7 +290,7 @@ fn build(painter: &Painter<'_>, motion: &Motion<'_>, frames: &[Frame], row: usiz
     if columns.is_empty() || rows.is_empty() {
         return outside;
     }
-    let look = Look::new(painter, motion, frame, face, &contours);
+    let look = Look::new(painter, appearance, frame, face, &contours);
     // The text of a scene is below 4 GiB, and so are its rows.
     let item = row as u32;
     let (sides, depth) =

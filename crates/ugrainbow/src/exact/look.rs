@@ -3,8 +3,8 @@
 use glam::DVec3;
 use ugparse::{Face, VertexId};
 
+use super::appearance::Appearance;
 use super::frame::{Frame, Ray};
-use super::motion::Motion;
 use crate::painter::Painter;
 use crate::palette::Swatch;
 
@@ -21,6 +21,8 @@ pub struct Look {
     /// Its colour at rest, or that of its first corner, and the wavelength of that.
     color: Swatch,
     wavelength_nm: f64,
+    /// Row of its spectrum.
+    row: u32,
     /// If colour or normal differ between corners.
     mesh: Option<Box<Mesh>>,
 }
@@ -39,6 +41,8 @@ struct Mesh {
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Corner {
     color: Swatch,
+    /// Row of its spectrum.
+    row: u32,
     normal: DVec3,
 }
 
@@ -63,26 +67,28 @@ impl Look {
     /// That of a face. `contours`: its corners at rest, in the axes of `frame`.
     pub fn new(
         painter: &Painter<'_>,
-        motion: &Motion<'_>,
+        appearance: &Appearance<'_>,
         frame: &Frame,
         face: &Face,
         contours: &[Vec<DVec3>],
     ) -> Self {
         let common = painter.common(face);
-        // What is light has no hue to be shifted; as in `ugdoppler` the nearest hue stands for it.
-        let is_changed = !frame.velocity.is_zero() && !motion.keeps_colors();
+        // Colours given as light have no hue to shift; unless they are spectra, the nearest hue stands for them.
+        let is_changed = !frame.velocity.is_zero() && !appearance.keeps_light();
         let common = if is_changed { common.without_light() } else { common };
         let normal = painter.seen_normal(face);
         let corner = |&vertex: &VertexId| {
             let color = painter.swatch(vertex, &common);
             let light = color.light.filter(|_| common.is_light);
-            Corner { color: Swatch { light, ..color }, normal: painter.normal_at(vertex, normal) }
+            let normal = painter.normal_at(vertex, normal);
+            Corner { color: Swatch { light, ..color }, row: painter.surface.row(vertex), normal }
         };
         let vertices = painter.scene.contours.corners(face.contours.clone());
         let corners: Vec<Corner> = vertices.iter().map(corner).collect();
         let first = corners[0];
         let differ = |of: &dyn Fn(&Corner, &Corner) -> bool| corners.iter().any(|corner| of(corner, &first));
-        let has_colors = differ(&|a, b| a.color != b.color);
+        let is_spectral = appearance.spectra().is_some();
+        let has_colors = differ(&|a, b| a.color != b.color || (is_spectral && a.row != b.row));
         let has_tints = differ(&|a, b| a.color.tint != b.color.tint);
         let has_normals = differ(&|a, b| a.normal != b.normal);
         let is_even = painter.scene.light_level(face).is_some()
@@ -99,7 +105,8 @@ impl Look {
             needs_place: painter.lighting.needs_places(),
             is_light: common.is_light,
             color: first.color,
-            wavelength_nm: motion.wavelength_nm(first.color.tint),
+            wavelength_nm: appearance.wavelength_nm(first.color.tint),
+            row: first.row,
             mesh,
         }
     }
@@ -110,20 +117,21 @@ impl Look {
     pub fn at(
         &self,
         painter: &Painter<'_>,
-        motion: &Motion<'_>,
+        appearance: &Appearance<'_>,
         frame: &Frame,
         ray: &Ray,
         key: f64,
     ) -> (Swatch, DVec3) {
         let spot = self.mesh.as_ref().map(|mesh| mesh.spot(ray.rest));
         let color = match &spot {
+            _ if appearance.spectra().is_some() => self.seen_spectrum(appearance, spot.as_ref(), ray),
             Some(spot) if spot.mesh.has_colors => {
                 let color = spot.color();
                 let has_own = spot.mesh.has_tints && ray.stretch != 1.0;
-                let rest_nm = if has_own { motion.wavelength_nm(color.tint) } else { self.wavelength_nm };
-                motion.seen(&color, rest_nm, ray.stretch)
+                let rest_nm = if has_own { appearance.wavelength_nm(color.tint) } else { self.wavelength_nm };
+                appearance.seen(&color, rest_nm, ray.stretch)
             }
-            _ => motion.seen(&self.color, self.wavelength_nm, ray.stretch),
+            _ => appearance.seen(&self.color, self.wavelength_nm, ray.stretch),
         };
         let level = self.level.unwrap_or_else(|| {
             let normal = match &spot {
@@ -135,6 +143,18 @@ impl Look {
             painter.lighting.level(point, normal, self.is_light)
         });
         (color, level)
+    }
+
+    /// The same colour of a spectrum. Between corners, spectra are mixed as they are seen.
+    #[inline(never)] // Kept out of the loop over hues.
+    fn seen_spectrum(&self, appearance: &Appearance<'_>, spot: Option<&Spot<'_>>, ray: &Ray) -> Swatch {
+        let Some(spot) = spot.filter(|spot| spot.mesh.has_colors) else {
+            let light = Some(appearance.seen_light([(self.row, 1.0)], ray.stretch));
+            return Swatch { light, ..self.color };
+        };
+        let rows = spot.triangle.corners.map(|corner| spot.mesh.corners[corner as usize].row);
+        let light = Some(appearance.seen_light(rows.into_iter().zip(spot.weights), ray.stretch));
+        Swatch { light, ..spot.color() }
     }
 }
 

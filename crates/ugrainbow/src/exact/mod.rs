@@ -12,7 +12,7 @@
 //! 5. [`sections`]: where in a row rays begin and cease to do so;
 //! 6. [`nearest`]: which face is nearest, sample by sample;
 //! 7. [`look`]: colour and light at a point of a face at rest, for what is nearest alone;
-//! 8. [`motion`]: colour as seen;
+//! 8. [`appearance`], [`spectra`]: colour as seen, of a hue or a spectrum;
 //! 9. [`faces`]: all faces of a scene as a layer of the raster, the nearest alone or, if light passes them, all;
 //! 10. [`wires`]: lines as polylines fine enough for the picture.
 //!
@@ -30,16 +30,18 @@
 //! changes its sign twice at most. Between the columns where an edge changes it, all samples are in the face or none is, and one of
 //! them is asked. Samples where rounding might decide are asked one by one.
 
+mod appearance;
 mod faces;
 mod film;
 mod footprint;
 mod frame;
 mod look;
-mod motion;
 mod nearest;
 mod outline;
 mod sections;
+mod spectra;
 mod wires;
 
 pub use faces::Faces;
+pub use spectra::Spectra;
 pub use wires::CurvedLines;

@@ -1,12 +1,12 @@
 //! Lines as curves, as moving straight lines are seen.
 
 use glam::DVec3;
+use uglight::ColorShift;
 use ugparse::BodyId;
 use ugphysics::doppler_at;
 
+use super::appearance::Appearance;
 use super::frame::{Frame, frames};
-use super::motion::Motion;
-use crate::config::Exact;
 use crate::lines::{Joint, Line, LineShape};
 use crate::painter::Painter;
 use crate::palette::Swatch;
@@ -27,14 +27,14 @@ const MOST_HALVINGS: u32 = 12;
 /// as far as can be seen.
 pub struct CurvedLines<'a> {
     painter: Painter<'a>,
-    motion: Motion<'a>,
+    appearance: Appearance<'a>,
     frames: Vec<Frame>,
 }
 
 impl<'a> CurvedLines<'a> {
     /// The lines of a scene.
-    pub fn new(painter: Painter<'a>, exact: Exact) -> Self {
-        Self { painter, motion: Motion::new(exact, painter.palette), frames: frames(&painter) }
+    pub fn new(painter: Painter<'a>, shift: ColorShift) -> Self {
+        Self { painter, appearance: Appearance::new(shift, &painter), frames: frames(&painter) }
     }
 }
 
@@ -44,23 +44,25 @@ impl LineShape for CurvedLines<'_> {
         let frame = &self.frames[line.body.index()];
         let rest = line.ends.map(|end| frame.axes_from_scene(painter.surface.rest(end)));
         let near = painter.view.slab.near;
-        let curve = Curve { frame, motion: self.motion, rest, colors: line.colors, near };
+        let appearance = self.appearance;
+        let curve = Curve { frame, appearance, rest, colors: line.colors, rows: line.rows, near };
         let mut joints = vec![curve.joint(0.0)];
         curve.add([0.0, 1.0], MOST_HALVINGS, &mut joints);
         joints
     }
 
     fn keeps_light(&self, body: BodyId) -> bool {
-        self.motion.keeps_colors() || self.frames[body.index()].velocity.is_zero()
+        self.appearance.keeps_light() || self.frames[body.index()].velocity.is_zero()
     }
 }
 
 struct Curve<'a> {
     frame: &'a Frame,
-    motion: Motion<'a>,
+    appearance: Appearance<'a>,
     /// In the axes of the frame.
     rest: [DVec3; 2],
     colors: [Swatch; 2],
+    rows: Option<[u32; 2]>,
     near: f64,
 }
 
@@ -84,7 +86,14 @@ impl Curve<'_> {
             light: a.light.zip(b.light).map(|(a, b)| a + part * (b - a)),
         };
         let seen = self.point(part);
-        let color = self.motion.seen(&rest, self.motion.wavelength_nm(rest.tint), 1.0 / self.doppler(seen));
+        let stretch = 1.0 / self.doppler(seen);
+        let color = match self.rows.filter(|_| self.appearance.spectra().is_some()) {
+            Some([a, b]) => {
+                let light = self.appearance.seen_light([(a, 1.0 - part), (b, part)], stretch);
+                Swatch { light: Some(light), ..rest }
+            }
+            None => self.appearance.seen(&rest, self.appearance.wavelength_nm(rest.tint), stretch),
+        };
         Joint { seen: self.frame.to_camera(seen), color }
     }
 

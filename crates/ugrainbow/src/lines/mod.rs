@@ -44,6 +44,8 @@ pub struct Line {
     pub ends: [VertexId; 2],
     /// Colours of the ends.
     pub colors: [Swatch; 2],
+    /// Rows of the spectra of the ends, if they have some.
+    pub rows: Option<[u32; 2]>,
 }
 
 /// How lines at rest run as they are seen.
@@ -131,7 +133,8 @@ fn push_wire(painter: &Painter<'_>, item: u32, wire: &Wire, shape: &dyn LineShap
     for contour in painter.scene.wire_contours(wire) {
         for ends in contour.windows(2) {
             let ends = [ends[0], ends[1]];
-            lines.push(Line { item, body: wire.body, ends, colors: ends.map(end) });
+            let rows = Some(ends.map(|vertex| painter.wire_end_row(vertex, wire)));
+            lines.push(Line { item, body: wire.body, ends, colors: ends.map(end), rows });
         }
     }
 }
@@ -152,7 +155,8 @@ fn edge_line(painter: &Painter<'_>, edge: &Edge, wireframe: Wireframe, shape: &d
             })
         }
     };
-    Line { item: edge.face, body: face.body, ends: edge.ends, colors }
+    let rows = wireframe.color.is_none().then(|| edge.ends.map(|end| painter.surface.row(end)));
+    Line { item: edge.face, body: face.body, ends: edge.ends, colors, rows }
 }
 
 /// A colour that stays as it is: not shifted, and not attenuated.
