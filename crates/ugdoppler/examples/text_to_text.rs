@@ -5,7 +5,8 @@ use std::error::Error;
 use ugdoppler::{Config, apply};
 use ugparse::{Options, Source};
 
-const SHIP: &str = "c green 0.5 120; v a 9 0 0; v b 9 1 0; v c 9 0 1; f (a b c) green <-0.3 0 0>;";
+const SHIP: &str = "(ugstage 1 geometry as-seen eye 0 0 0) c green 0.5 120;
+    v a 9 0 0; v b 9 1 0; v c 9 0 1; f (a b c) green <-0.3 0 0>;";
 
 /// The program `ugdoppler -gw` as a function.
 fn colored(text: &str) -> Result<Vec<u8>, Box<dyn Error>> {
