@@ -22,7 +22,7 @@ pub fn annotate(
 ) -> Result<Annotations, Error> {
     let scene = setup.scene();
     let is_shifted = match config.exact {
-        Some(exact) => exact.doppler,
+        Some(shift) => shift.shifts_wavelengths(),
         None => scene.stage.seen_colors().is_some_and(|seen| seen.doppler),
     };
     let annotated = Annotated { scene, camera: &config.picture.camera, is_shifted };
