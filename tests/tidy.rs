@@ -11,6 +11,7 @@ use std::path::{Path, PathBuf};
 
 use ugparse::{Options, Source};
 use ugtests::scenes::{self, root};
+use ugtests::tracked;
 
 /// The text of a file; invalid UTF-8 is replaced.
 fn read(path: &Path) -> String {
@@ -18,18 +19,9 @@ fn read(path: &Path) -> String {
     String::from_utf8_lossy(&bytes).into_owned()
 }
 
-/// All files below a folder, sorted, except those that tools create.
+/// All files of the repository below a folder, in order.
 fn files(folder: &Path) -> Vec<PathBuf> {
-    let mut entries: Vec<PathBuf> =
-        fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
-    entries.sort();
-    let is_ours = |path: &PathBuf| !matches!(name(path).as_str(), ".git" | "target" | "figures");
-    let below = |path: PathBuf| if path.is_dir() { files(&path) } else { vec![path] };
-    entries.into_iter().filter(is_ours).flat_map(below).collect()
-}
-
-fn name(path: &Path) -> String {
-    path.file_name().unwrap().to_string_lossy().into_owned()
+    tracked::files().into_iter().filter(|path| path.starts_with(folder)).collect()
 }
 
 fn has_ending(path: &Path, endings: &[&str]) -> bool {
@@ -55,14 +47,17 @@ fn assert_none(findings: &[String]) {
 }
 
 fn place(path: &Path, line: usize) -> String {
-    format!("{}:{}", path.strip_prefix(root()).unwrap().display(), line + 1)
+    format!("{}:{}", path.strip_prefix(root()).unwrap_or(path).display(), line + 1)
 }
 
 /// Crates and their folders: those of `crates/`, and the conformance suite.
 fn crates() -> BTreeMap<String, PathBuf> {
-    let folders = fs::read_dir(root().join("crates")).unwrap().map(|entry| entry.unwrap().path());
+    let manifests = files(&root().join("crates")).into_iter().filter(|path| path.ends_with("Cargo.toml"));
+    let folders = manifests.filter_map(|path| path.parent().map(Path::to_path_buf));
+    let named =
+        folders.filter_map(|folder| Some((folder.file_name()?.to_string_lossy().into_owned(), folder)));
     let suite = ("ugconformance".to_string(), root().join("conformance"));
-    folders.map(|folder| (name(&folder), folder)).chain([suite]).collect()
+    named.chain([suite]).collect()
 }
 
 /// The table of ARCHITECTURE.md: crate → what it may depend on.
@@ -71,8 +66,11 @@ fn allowed() -> BTreeMap<String, BTreeSet<String>> {
     let rows = text.lines().skip_while(|line| *line != "| crate | may depend on | never sees |").skip(2);
     let row = |line: &str| {
         let cells: Vec<&str> = line.trim_matches('|').split('|').map(str::trim).collect();
-        let uses = cells[1].split(", ").filter(|word| !word.is_empty()).map(str::to_string);
-        (cells[0].to_string(), uses.collect())
+        let [krate, uses, _] = cells[..] else {
+            panic!("ARCHITECTURE.md, \"Who may use whom\": a row has three cells, not `{line}`");
+        };
+        let uses = uses.split(", ").filter(|word| !word.is_empty()).map(str::to_string);
+        (krate.to_string(), uses.collect())
     };
     rows.take_while(|line| line.starts_with('|')).map(row).collect()
 }
@@ -88,12 +86,25 @@ fn dependencies(manifest: &str) -> BTreeSet<String> {
 #[test]
 fn crates_depend_on_what_the_table_allows() {
     let (table, crates) = (allowed(), crates());
-    assert!(table.keys().eq(crates.keys()), "rows of the table are the crates");
     let mut findings = Vec::new();
-    for (krate, allowed) in &table {
-        let used = dependencies(&read(&crates[krate].join("Cargo.toml")));
-        assert!(!used.is_empty(), "{krate} depends on something");
-        findings.extend(used.difference(allowed).map(|other| format!("{krate} may not depend on {other}")));
+    let gone = table.keys().filter(|krate| !crates.contains_key(*krate));
+    findings.extend(gone.map(|krate| format!("ARCHITECTURE.md: there is no crate {krate}: remove its row")));
+    for (krate, folder) in &crates {
+        let Some(allowed) = table.get(krate) else {
+            findings.push(format!(
+                "ARCHITECTURE.md: {krate} has no row in the table \"Who may use whom\": add one"
+            ));
+            continue;
+        };
+        let manifest = folder.join("Cargo.toml");
+        let used = dependencies(&read(&manifest));
+        assert!(!used.is_empty(), "{}: `[dependencies]` can be read", manifest.display());
+        findings.extend(used.difference(allowed).map(|other| {
+            format!(
+                "{}: {krate} may not depend on {other}: do without, or add it to its row in ARCHITECTURE.md",
+                place(&manifest, 0)
+            )
+        }));
     }
     assert_none(&findings);
 }
@@ -102,15 +113,18 @@ fn crates_depend_on_what_the_table_allows() {
 fn data_goes_one_way() {
     const ORDER: [&str; 4] = ["ugparse", "uglorentz", "ugdoppler", "ugrainbow"];
     let table = allowed();
+    let may_use = |krate: &str, other: &str| table.get(krate).is_some_and(|allowed| allowed.contains(other));
+    let remedy = "move what both need to a crate below them";
+    let mut findings = Vec::new();
     for (step, krate) in ORDER.iter().enumerate() {
-        for later in &ORDER[step + 1..] {
-            assert!(!table[*krate].contains(*later), "{krate} knows {later}");
-        }
+        let later = ORDER[step + 1..].iter().filter(|later| may_use(krate, later));
+        findings.extend(later.map(|later| format!("ARCHITECTURE.md: {krate} may use {later}: {remedy}")));
     }
-    // Programs exchange text and do not depend on each other.
-    for pair in ORDER[1..].windows(2) {
-        assert!(!table[pair[1]].contains(pair[0]), "{} knows {}", pair[1], pair[0]);
+    // Programs exchange text.
+    for pair in ORDER[1..].windows(2).filter(|pair| may_use(pair[1], pair[0])) {
+        findings.push(format!("ARCHITECTURE.md: {} may use {}: {remedy}", pair[1], pair[0]));
     }
+    assert_none(&findings);
 }
 
 /// Numbers of equations in a line: (P3), and each of (P10, P12) or (P1)-(P3).
@@ -130,7 +144,10 @@ fn every_equation_that_is_cited_exists() {
             for number in citations(line) {
                 n_citations += 1;
                 if !is_known(number) {
-                    findings.push(format!("{}: (P{number}) is not in docs/physics.md", place(&path, row)));
+                    findings.push(format!(
+                        "{}: (P{number}) is not in docs/physics.md: add it there, or correct the number",
+                        place(&path, row)
+                    ));
                 }
             }
         }
@@ -139,28 +156,57 @@ fn every_equation_that_is_cited_exists() {
     assert!(n_citations > 100, "{n_citations} citations");
 }
 
+/// The number of faces that the row of a scene in `scenes/README.md` says, if it has one.
+fn listed_faces(list: &str, name: &str) -> Option<String> {
+    let row = list.lines().find(|line| line.starts_with(&format!("| `{name}.ug`")))?;
+    Some(row.trim_end_matches('|').rsplit('|').next()?.trim().to_string())
+}
+
 #[test]
 fn every_scene_is_in_the_list_of_scenes() {
     let list = read(&root().join("scenes").join("README.md"));
     let names = scenes::names();
     assert!(names.len() >= 9, "{names:?}");
-    let rows: BTreeSet<&str> = list
-        .lines()
-        .filter_map(|line| line.strip_prefix("| `")?.split_once(".ug`"))
-        .map(|(name, _)| name)
-        .collect();
-    assert_eq!(rows, names.iter().map(String::as_str).collect());
+    let mut findings = Vec::new();
+    let folder = root().join("scenes");
+    for path in
+        files(&folder).iter().filter(|path| has_ending(path, &["ug"]) && path.parent() == Some(&folder))
+    {
+        let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        if !names.contains(&name) {
+            findings.push(format!(
+                "{}: the table in scenes/README.md has no row for it: add one",
+                place(path, 0)
+            ));
+        }
+    }
+    for name in names {
+        let n_faces = scenes::parse(&scenes::text(&name)).faces.len().to_string();
+        let listed = listed_faces(&list, &name);
+        if listed.as_ref() != Some(&n_faces) {
+            let listed = listed.unwrap_or_default();
+            findings.push(format!(
+                "scenes/README.md: `{name}.ug` has {n_faces} faces, not {listed}: correct the last cell"
+            ));
+        }
+    }
+    assert_none(&findings);
 }
 
 #[test]
-fn every_scene_says_how_many_faces_it_has() {
-    let list = read(&root().join("scenes").join("README.md"));
-    for name in scenes::names() {
-        let row = list.lines().find(|line| line.starts_with(&format!("| `{name}.ug`"))).unwrap();
-        let count = row.trim_end_matches('|').rsplit('|').next().unwrap().trim();
-        let n_faces = scenes::parse(&scenes::text(&name)).faces.len();
-        assert_eq!(count, n_faces.to_string(), "{name}");
-    }
+fn every_bad_scene_has_its_message() {
+    let bad = files(&root().join("scenes").join("bad"));
+    let is_there = |path: &Path, ending: &str| bad.contains(&path.with_extension(ending));
+    let scenes = bad.iter().filter(|path| has_ending(path, &["ug"]) && !is_there(path, "expected"));
+    let messages = bad.iter().filter(|path| has_ending(path, &["expected"]) && !is_there(path, "ug"));
+    let mut findings: Vec<String> = scenes
+        .map(|path| {
+            format!("{}: no message: `UG_BLESS=1 cargo test -p ugparse --test bad_scenes`", place(path, 0))
+        })
+        .collect();
+    findings.extend(messages.map(|path| format!("{}: its scene is gone: delete it", place(path, 0))));
+    assert_none(&findings);
+    assert!(bad.len() > 80, "{} files", bad.len());
 }
 
 #[test]
@@ -196,13 +242,16 @@ fn faces_of_scenes_are_flat() {
                 .flatten()
                 .map(|vertex| scene.vertices[vertex.index()].position)
                 .collect();
-            let outline = scene.face_contours(face).next().unwrap().len();
+            let outline = scene.face_contours(face).next().map_or(0, <[_]>::len);
             let normal = ugparse::newell_normal(corners[..outline].iter().copied()).normalize_or_zero();
             let heights = corners.iter().map(|&corner| (corner - corners[0]).dot(normal));
             let (low, high) = heights.fold((0.0_f64, 0.0_f64), |(low, high), h| (low.min(h), high.max(h)));
             let size = corners.iter().map(|&corner| (corner - corners[0]).length()).fold(0.0, f64::max);
             if high - low > ROUNDING + SLACK * size {
-                findings.push(format!("{name}: face {row} of size {size:.3} is {:.4} thick", high - low));
+                findings.push(format!(
+                    "scenes/{name}.ug: face {row} of size {size:.3} is {:.4} thick: cut it into triangles",
+                    high - low
+                ));
             }
         }
     }
@@ -217,12 +266,9 @@ fn nothing_names_a_place_on_somebodys_machine() {
     let mut findings = Vec::new();
     for (path, text) in texts() {
         for (row, line) in text.lines().enumerate() {
-            findings.extend(
-                places
-                    .iter()
-                    .filter(|&name| line.contains(name.as_str()))
-                    .map(|name| format!("{} names {name}", place(&path, row))),
-            );
+            findings.extend(places.iter().filter(|&name| line.contains(name.as_str())).map(|name| {
+                format!("{} names {name}: say it without a path of one machine", place(&path, row))
+            }));
         }
     }
     assert_none(&findings);
@@ -239,7 +285,8 @@ fn every_source_file_says_what_it_is() {
         .collect();
     assert!(sources.len() > 50, "{} sources", sources.len());
     let silent = sources.iter().filter(|(_, text)| !text.starts_with("//! "));
-    let findings: Vec<String> = silent.map(|(path, _)| place(path, 0)).collect();
+    let findings: Vec<String> =
+        silent.map(|(path, _)| format!("{}: begin with `//!` and a sentence", place(path, 0))).collect();
     assert_none(&findings);
 }
 
@@ -251,9 +298,11 @@ fn text_is_clean() {
     for (path, text) in texts().into_iter().filter(|(path, _)| is_clean(path)) {
         let lines = text.lines().enumerate();
         let untidy = lines.filter(|(_, line)| line.ends_with([' ', '\t', '\r']));
-        findings.extend(untidy.map(|(row, _)| format!("{}: white space at the end", place(&path, row))));
+        findings.extend(
+            untidy.map(|(row, _)| format!("{}: white space at the end: remove it", place(&path, row))),
+        );
         if !text.is_empty() && (!text.ends_with('\n') || text.ends_with("\n\n")) {
-            findings.push(format!("{}: does not end with one line end", place(&path, 0)));
+            findings.push(format!("{}: the last line ends with exactly one line feed", place(&path, 0)));
         }
     }
     assert_none(&findings);

@@ -12,7 +12,8 @@
 //! - [`shading`]: the expected colour of a point, from the formulas;
 //! - [`random`]: reproducible random numbers;
 //! - [`slow_reader`]: a second, independent reader of the scene language;
-//! - [`tools`]: whether required external programs are installed.
+//! - [`tools`]: whether programs of others are there, and what is skipped without them;
+//! - [`tracked`]: the files of the repository.
 
 #![allow(clippy::missing_panics_doc, reason = "a test helper fails by panicking")]
 
@@ -28,3 +29,4 @@ pub mod scenes;
 pub mod shading;
 pub mod slow_reader;
 pub mod tools;
+pub mod tracked;

@@ -17,15 +17,13 @@ pub fn target_dir() -> PathBuf {
     program.ancestors().nth(3).expect("tests lie three folders deep").to_owned()
 }
 
-/// Names of all scenes, without `.ug`, sorted.
+/// Names of all scenes, without `.ug`, in order: those in the table of `scenes/README.md`.
+/// Files that a user puts beside them are none of ours.
 pub fn names() -> Vec<String> {
-    let folder = root().join("scenes");
-    let files = fs::read_dir(&folder).expect("the folder of scenes can be read");
-    let paths = files.map(|file| file.expect("a folder can be listed").path());
-    let scenes = paths.filter(|path| path.extension().is_some_and(|ending| ending == "ug"));
-    let mut names: Vec<String> = scenes
-        .map(|path| path.file_stem().expect("it has an ending").to_string_lossy().into_owned())
-        .collect();
+    let list = root().join("scenes").join("README.md");
+    let list = fs::read_to_string(&list).unwrap_or_else(|error| panic!("{}: {error}", list.display()));
+    let rows = list.lines().filter_map(|line| line.strip_prefix("| `")?.split_once(".ug`"));
+    let mut names: Vec<String> = rows.map(|(name, _)| name.to_string()).collect();
     names.sort();
     names
 }

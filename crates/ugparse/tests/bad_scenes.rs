@@ -12,7 +12,11 @@ const MIN_SCENES: usize = 40;
 #[test]
 fn bad_scenes_fail_with_their_recorded_message() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/bad");
-    let scenes = files(&folder, "ug");
+    let mut scenes = files(&folder, "ug");
+    if std::env::var_os("UG_BLESS").is_none() {
+        // Others are a user's own; `tests/tidy.rs` finds those of the repository without a message.
+        scenes.retain(|path| path.with_extension("expected").exists());
+    }
     assert!(scenes.len() >= MIN_SCENES, "only {} scenes in {}", scenes.len(), folder.display());
     let mut wrong = Vec::new();
     for path in &scenes {
@@ -32,8 +36,6 @@ fn bad_scenes_fail_with_their_recorded_message() {
         }
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
-    let messages = files(&folder, "expected");
-    assert_eq!(messages.len(), scenes.len(), "a message without its scene in {}", folder.display());
 }
 
 /// The files of a folder with an extension, sorted.

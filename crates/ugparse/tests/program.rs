@@ -41,12 +41,12 @@ fn json_of(args: &[&str], input: &[u8]) -> Value {
     serde_json::from_str(&printed(args, input)).unwrap()
 }
 
-/// The scenes of the repository.
+/// The scenes of the repository: those in the table of `scenes/README.md`.
 fn scenes() -> Vec<PathBuf> {
-    let entries = fs::read_dir(repository().join("scenes")).unwrap();
-    let mut scenes: Vec<PathBuf> = entries.map(|entry| entry.unwrap().path()).collect();
-    scenes.retain(|path| path.extension().is_some_and(|ending| ending == "ug"));
-    scenes.sort();
+    let folder = repository().join("scenes");
+    let list = fs::read_to_string(folder.join("README.md")).unwrap();
+    let rows = list.lines().filter_map(|line| line.strip_prefix("| `")?.split_once('`'));
+    let scenes: Vec<PathBuf> = rows.map(|(name, _)| folder.join(name)).collect();
     assert!(scenes.len() >= 9, "{scenes:?}");
     scenes
 }
