@@ -4,6 +4,8 @@
 
 #[path = "tidy/circles.rs"]
 mod circles;
+#[path = "tidy/literals.rs"]
+mod literals;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -125,6 +127,38 @@ fn data_goes_one_way() {
         findings.push(format!("ARCHITECTURE.md: {} may use {}: {remedy}", pair[1], pair[0]));
     }
     assert_none(&findings);
+}
+
+/// Programs know scenes, not each other: what was done to a scene is in its stage. Messages that send a person to
+/// another program are in `ugpipe::remedies`, and examples of `--help` show whole pipes.
+#[test]
+fn no_crate_spells_the_name_of_a_sibling_program() {
+    const PROGRAMS: [&str; 6] = ["uglorentz", "ugdoppler", "ugrainbow", "ugmesh", "ugsheet", "ugparse"];
+    /// The remedies, and the word that older scenes have in their escapes.
+    const EXEMPT: [&str; 2] = ["crates/ugpipe/src/remedies.rs", "crates/ugparse/src/stage_statement.rs"];
+    let mut findings = Vec::new();
+    let mut n_literals = 0;
+    for (krate, folder) in crates().into_iter().filter(|(krate, _)| krate != "ugconformance") {
+        for path in files(&folder.join("src")).into_iter().filter(|path| has_ending(path, &["rs"])) {
+            if EXEMPT.iter().any(|exempt| path.ends_with(exempt)) {
+                continue;
+            }
+            for (line, literal) in literals::of(&read(&path)) {
+                n_literals += 1;
+                let mut words = literal.split(|c: char| !c.is_ascii_alphanumeric() && c != '_');
+                let names_sibling = words.any(|word| PROGRAMS.contains(&word) && word != krate);
+                if names_sibling && !literal.starts_with("Examples:") {
+                    findings.push(format!(
+                        "{}: \"{literal}\" names a sibling program: put the message into ugpipe::remedies, \
+                         or ask the scene's stage",
+                        place(&path, line)
+                    ));
+                }
+            }
+        }
+    }
+    assert_none(&findings);
+    assert!(n_literals > 500, "{n_literals} literals");
 }
 
 /// Numbers of equations in a line: (P3), and each of (P10, P12) or (P1)-(P3).

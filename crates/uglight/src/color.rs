@@ -2,6 +2,7 @@
 
 use ugparse::{Color, ColorId, ColorValue, HueScale, Scene};
 use ugphysics::{Hsv, srgb_decode, srgb_encode, wavelength_to_hue, xyz_to_linear_srgb};
+use ugpipe::remedies::SHIFT_SPECTRA;
 use ugspectrum::Spectrum;
 
 /// A colour statement as hue in degrees, saturation and value.
@@ -87,7 +88,7 @@ pub fn spectra_note(scene: &Scene) -> Option<String> {
     let color = vertices.chain(faces).chain(wires).chain(lights).find(is_spectrum)?;
     let name = scene.names.get(scene.colors[color.index()].name);
     Some(format!(
-        "black bodies and spectra count with their colour at rest (colour `{name}`): `ugdoppler -sp` shifts them as spectra"
+        "black bodies and spectra count with their colour at rest (colour `{name}`): {SHIFT_SPECTRA}"
     ))
 }
 

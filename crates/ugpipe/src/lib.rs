@@ -103,6 +103,7 @@ mod output;
 mod progress;
 #[cfg(feature = "cli")]
 mod provenance;
+pub mod remedies;
 #[cfg(feature = "cli")]
 mod run;
 #[cfg(feature = "cli")]

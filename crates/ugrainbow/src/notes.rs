@@ -3,6 +3,7 @@
 use ugimage::{Development, Tone};
 use ugparse::Scene;
 use ugpicture::Exposure;
+use ugpipe::remedies;
 use ugraster::{DepthFade, SampleStats};
 
 use crate::clip::ClipCounts;
@@ -78,7 +79,8 @@ fn scene_notes(scene: &Scene, is_exact: bool) -> Vec<String> {
         let remedy = if is_exact { "leave out -xc: " } else { "" };
         notes.push(format!(
             "velocities of lights are left out: each light rests with the faces it lights; \
-             {remedy}`ugdoppler -li` draws with them"
+             {remedy}{}",
+            remedies::MOVING_LIGHTS
         ));
     }
     // Spectra at rest are as they are, and exact pictures have no others.
@@ -91,16 +93,10 @@ fn why_nothing_is_seen(
     DrawStatistics { clip_counts, stats, .. }: &DrawStatistics,
 ) -> Option<&'static str> {
     if clip_counts.in_front == 0 {
-        return Some(
-            "nothing is drawn: everything is behind the eye or outside the clipping distances; \
-             try `uglorentz -in`, another -ep or -vc",
-        );
+        return Some(remedies::NOTHING_IN_FRONT);
     }
     if clip_counts.in_picture == 0 {
-        return Some(
-            "nothing is drawn: everything is outside the picture, where fast bodies often are; \
-             try `uglorentz -in`, another -vc or a wider -va",
-        );
+        return Some(remedies::NOTHING_IN_PICTURE);
     }
     if stats.covered == 0 && config.cull {
         return Some(
@@ -117,10 +113,7 @@ fn why_nothing_is_seen(
         return None;
     }
     if stats.out_of_range > 0 {
-        return Some(
-            "all that is in the picture is black: its wavelengths are outside 380-780 nm; \
-             try a lower speed, or `ugdoppler --no-doppler --no-flux` to see the shape",
-        );
+        return Some(remedies::OUT_OF_RANGE);
     }
     Some(
         "all that is in the picture is black: its colours are, or no light falls on it; try `l 1;` in the scene",

@@ -6,6 +6,7 @@ use std::ops::Range;
 use uglight::{ColorShift, HueShift, Lighting};
 use ugparse::{BodyId, ColorId, ColorValue, Scene, VertexId};
 use ugpicture::PictureOptions;
+use ugpipe::remedies;
 use ugraster::SampleGrid;
 
 use crate::config::Config;
@@ -98,16 +99,10 @@ impl<'a> Setup<'a> {
 /// Refuses what rays do not find, or what would be shifted twice.
 fn check_exact(scene: &Scene, view: &View) -> Result<(), Error> {
     if scene.stage.seen_colors().is_some() {
-        return Err(Error::Exact(
-            "-xc shifts colours itself, at every sample, and those of this scene have been shifted by ugdoppler: \
-             leave ugdoppler out, and give -sp, -br, --no-doppler or --no-flux here; or, for ugdoppler -li, leave out -xc",
-        ));
+        return Err(Error::Exact(remedies::EXACT_SEEN_COLORS));
     }
     if Geometry::of(scene) != Geometry::default() {
-        return Err(Error::Exact(
-            "-xc follows rays through contraction and time of flight, and uglorentz left one of them out: \
-             leave out -xc, or -nc and --no-flight-time",
-        ));
+        return Err(Error::Exact(remedies::EXACT_PARTIAL_GEOMETRY));
     }
     if !view.is_perspective {
         return Err(Error::Exact(

@@ -4,6 +4,7 @@ use std::fmt;
 
 use glam::DVec3;
 use ugparse::{Body, BodyId, Diagnostic, Face, HueScale, Motion, Parsed, Scene};
+use ugpipe::remedies;
 
 /// Why a scene cannot go through a program: its stage is not the one the program needs.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,28 +30,21 @@ impl fmt::Display for StageError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let point = |p: &DVec3| format!("{} {} {}", p.x, p.y, p.z);
         match self {
-            Self::GeometryAsSeen => f.write_str(
-                "positions in this scene are as seen already, so its rest shapes are not known: \
-                 start again from the scene at rest, and go through uglorentz once",
-            ),
-            Self::ColorsAsSeen => f.write_str(
-                "colours in this scene are as seen already: start again from the scene before ugdoppler; \
-                 the order is uglorentz, ugdoppler, ugrainbow, each once",
-            ),
-            Self::GeometryAtRest => f.write_str(
-                "bodies in this scene move, and their positions are not as seen yet: \
-                 give the scene to uglorentz first (with -nc and --no-flight-time to keep rest shapes)",
-            ),
-            Self::NotWavelengths => f.write_str(
-                "colours in this scene are as seen, and are not written as wavelengths: leave out -wi, \
-                 or give -gw to ugdoppler",
+            Self::GeometryAsSeen => f.write_str(remedies::SEEN_GEOMETRY),
+            Self::ColorsAsSeen => f.write_str(remedies::SEEN_COLORS),
+            Self::GeometryAtRest => f.write_str(remedies::GEOMETRY_AT_REST),
+            Self::NotWavelengths => write!(
+                f,
+                "colours in this scene are as seen, and are not written as wavelengths: leave out -wi, or {}",
+                remedies::WRITE_WAVELENGTHS
             ),
             Self::OtherEye { made_for, asked } => write!(
                 f,
                 "positions in this scene are as seen from the eye point {}, and would be wrong from {}: \
-                 leave out -ep here, or give it to uglorentz (-ep {}) with the scene at rest",
+                 leave out -ep here, or {} (-ep {}) with the scene at rest",
                 point(made_for),
                 point(asked),
+                remedies::EYE_POINT,
                 point(asked),
             ),
         }
@@ -84,7 +78,7 @@ pub fn rest_shapes_warning(parsed: &Parsed) -> Option<Diagnostic> {
     let span = scene.faces.iter().position(moves).and_then(|row| origins.faces.get(row).copied());
     let message = "bodies in this scene move, and are drawn with their shapes at rest";
     let finding = Diagnostic::warning(span.unwrap_or_default(), message);
-    Some(finding.label("moves").help("send the scene through uglorentz to draw it as seen"))
+    Some(finding.label("moves").help(remedies::DRAW_AS_SEEN))
 }
 
 /// Refuses positions that are as seen already.

@@ -75,7 +75,7 @@ fn differ(texts: &[Option<String>]) -> bool {
     texts.windows(2).any(|pair| pair[0] != pair[1])
 }
 
-/// The options of `uglorentz` that set speed and time.
+/// Speed and time of a picture, by the options in its history that set them.
 #[derive(Debug, PartialEq)]
 struct MotionOptions {
     /// The speed, as `β = 0.9`; `None` at rest.
@@ -87,8 +87,11 @@ struct MotionOptions {
 impl MotionOptions {
     /// Parses the command lines in the history of a picture.
     fn parse(history: &str) -> Self {
-        let line = history.lines().rfind(|line| line.split(' ').next() == Some("uglorentz"));
-        let words = shell_words::split(line.unwrap_or_default());
+        const OPTIONS: [&str; 6] = ["-vel", "--velocity", "-cv", "--camera-velocity", "-ti", "--time"];
+        let lines = history.lines().rev().map(shell_words::split);
+        let mut with_options =
+            lines.filter(|words| words.iter().any(|word| OPTIONS.contains(&word.as_str())));
+        let words = with_options.next().unwrap_or_default();
         let numbers = |options: [&str; 2], n: usize| {
             let at = words.iter().position(|word| options.contains(&word.as_str()))?;
             let numbers: Option<Vec<f64>> =

@@ -1,0 +1,51 @@
+//! Messages that tell a person which program of the family to use.
+//!
+//! No other source spells the name of a sibling program (`tests/tidy.rs` checks it): a
+//! program learns what was done to a scene from its stage, never from a name.
+
+/// The scene was made as seen already, and its rest shapes are needed.
+pub const SEEN_GEOMETRY: &str = "positions in this scene are as seen already, so its rest shapes are not known: \
+     start again from the scene at rest, and go through uglorentz once";
+
+/// The colours were made as seen already.
+pub const SEEN_COLORS: &str = "colours in this scene are as seen already: start again from the scene before ugdoppler; \
+     the order is uglorentz, ugdoppler, ugrainbow, each once";
+
+/// Bodies with velocities whose positions are still at rest.
+pub const GEOMETRY_AT_REST: &str = "bodies in this scene move, and their positions are not as seen yet: \
+     give the scene to uglorentz first (with -nc and --no-flight-time to keep rest shapes)";
+
+/// Help to the warning that moving bodies are drawn with their rest shapes.
+pub const DRAW_AS_SEEN: &str = "send the scene through uglorentz to draw it as seen";
+
+/// Help to the note that spectra are taken as the colours they have at rest.
+pub const SHIFT_SPECTRA: &str = "`ugdoppler -sp` shifts them as spectra";
+
+/// Exact mode shifts colours itself.
+pub const EXACT_SEEN_COLORS: &str = "-xc shifts colours itself, at every sample, and those of this scene have been shifted by ugdoppler: \
+     leave ugdoppler out, and give -sp, -br, --no-doppler or --no-flux here; or, for ugdoppler -li, leave out -xc";
+
+/// Exact mode follows rays through both effects of motion on shape.
+pub const EXACT_PARTIAL_GEOMETRY: &str = "-xc follows rays through contraction and time of flight, and uglorentz left one of them out: \
+     leave out -xc, or -nc and --no-flight-time";
+
+/// Lights that move are drawn at rest.
+pub const MOVING_LIGHTS: &str = "`ugdoppler -li` draws with them";
+
+/// Nothing is in front of the eye.
+pub const NOTHING_IN_FRONT: &str = "nothing is drawn: everything is behind the eye or outside the clipping distances; \
+     try `uglorentz -in`, another -ep or -vc";
+
+/// Nothing is in the picture.
+pub const NOTHING_IN_PICTURE: &str = "nothing is drawn: everything is outside the picture, where fast bodies often are; \
+     try `uglorentz -in`, another -vc or a wider -va";
+
+/// Everything is shifted out of the visible range.
+pub const OUT_OF_RANGE: &str = "all that is in the picture is black: its wavelengths are outside 380-780 nm; \
+     try a lower speed, or `ugdoppler --no-doppler --no-flux` to see the shape";
+
+/// Colours of the scene are hues.
+pub const WRITE_WAVELENGTHS: &str = "give -gw to ugdoppler";
+
+/// Where another eye point has to be given instead.
+pub const EYE_POINT: &str = "give it to uglorentz";
