@@ -1,18 +1,20 @@
-//! Cutting where the picture needs it (`-se`).
+//! Adaptive subdivision (`-se`).
 //!
-//! Edges that bend ([`crate::edge::bends`]), where that shows in one of their pieces ([`crate::criterion`]), are halved, the longest
-//! first: a round takes those between one power of 2 and the next, in every piece they border, so that pieces stay in
-//! shape. So at the end of each round pieces still meet edge to edge, and it is safe to stop after any of them.
+//! An edge is halved if its error is above the bound ([`crate::edge::bends`]) and visible in one of
+//! its pieces ([`crate::criterion`]). The longest edges come first: a round halves those whose
+//! lengths are between one power of 2 and the next, in all pieces they border, so that pieces keep
+//! a good shape. At the end of each round the mesh is without T-junctions, so it is safe to stop
+//! after any round.
 //!
-//! | piece | edges halved | becomes |
+//! | piece | edges above the bound | becomes |
 //! | --- | --- | --- |
 //! | triangle | 1, 2, 3 | 2, 3, 4 triangles |
-//! | convex quadrilateral | all | 4 quadrilaterals round the mean of its corners, if both diagonals bend |
+//! | convex quadrilateral | all, and both diagonals | 4 quadrilaterals around the mean of its corners |
 //! | | two opposite ones | 2 quadrilaterals |
 //! | | others | 2 triangles, and those as above |
-//! | | none bends, but a diagonal does, or the inside | 2 triangles |
-//! | triangle | none bends, but the inside does | 3 triangles round the mean of its corners |
-//! | other polygon | any bends, or an inner edge of its triangles | triangles, and those as above |
+//! | | none, but a diagonal or the inside | 2 triangles |
+//! | triangle | none, but the inside | 3 triangles around the mean of its corners |
+//! | other polygon | any, or an inner edge of its triangles | triangles, and those as above |
 //! | other polygon that cannot be triangulated | any | itself with more corners |
 //! | any, seen edge-on | any | itself with more corners |
 //! | wire | any | itself with more corners |
@@ -26,10 +28,11 @@ use crate::pieces::{Cut, Outcome, Piece, Polyline};
 use crate::refined_mesh::RefinedMesh;
 use crate::split::split;
 
-/// Pieces a scene is cut into at most: about half a gigabyte of text.
+/// The limit of pieces of a scene: about half a gigabyte of text.
 pub(crate) const MAX_PIECES: usize = 4_000_000;
 
-/// Cuts faces and wires until every edge is right within `bounds`, or `max_pieces` would be passed.
+/// Subdivides faces and wires until every error is within `bounds`, or `max_pieces` would be
+/// exceeded.
 pub(crate) fn cut(scene: &Scene, mesh: &mut RefinedMesh, bounds: &Bounds, max_pieces: usize) -> Outcome {
     let mut outcome = Outcome::default();
     let mut fresh: Vec<Piece> = Vec::new();
@@ -80,35 +83,35 @@ pub(crate) fn cut(scene: &Scene, mesh: &mut RefinedMesh, bounds: &Bounds, max_pi
         }
     }
     outcome.pieces.extend(open.into_iter().map(|open| open.piece));
-    // A face of which nothing was cut stays as it is.
+    // Faces without halved edges stay as they are.
     outcome.pieces.retain(|piece| is_cut[piece.face as usize]);
     outcome.pieces.sort_by_key(|piece| piece.face);
     outcome.n_too_deep = n_too_deep(&Criterion { mesh, bounds }, &outcome);
     outcome
 }
 
-/// A piece with edges that bend.
+/// A piece with errors above the bound.
 struct Open {
     piece: Piece,
     verdict: Verdict,
 }
 
 impl Open {
-    /// The edges that are wanted and as long as `least`, the square of a length.
+    /// The edges that are in `wanted` and whose squared length is at least `least`.
     fn due(&self, mesh: &RefinedMesh, wanted: &Wanted, least: f64) -> Marks {
         let mut due = Marks { edges: self.verdict.bends, inside: false };
         for (mark, ends) in due.edges.iter_mut().zip(self.piece.shape.edges()) {
             *mark = *mark && wanted.has(ends) && length_squared(mesh, ends) >= least;
         }
-        // Neighbours come first: what is left inside is seen when their edges are halved.
+        // Edges first: halving them changes the error inside.
         due.inside = self.verdict.shows.inside && !due.any();
         due
     }
 }
 
-/// The edges that show in any of their pieces.
+/// The edges whose errors are visible in any of their pieces.
 struct Wanted {
-    /// `None` if all that bend do.
+    /// `None` if this holds for all edges above the bound.
     edges: Option<FxHashSet<(u32, u32)>>,
 }
 
@@ -133,12 +136,12 @@ fn in_order((a, b): (u32, u32)) -> (u32, u32) {
     (a.min(b), a.max(b))
 }
 
-/// Of an edge in rest coordinates. Lengths beyond the range of numbers count as its end.
+/// Of an edge in rest coordinates. Infinite values are replaced by the largest number.
 fn length_squared(mesh: &RefinedMesh, (a, b): (u32, u32)) -> f64 {
     (mesh.point(a).rest - mesh.point(b).rest).length_squared().min(f64::MAX)
 }
 
-/// Tells pieces that are done from those that are not.
+/// Appends each piece to `open` or `done`.
 fn sort(criterion: &Criterion, pieces: Vec<Piece>, open: &mut Vec<Open>, done: &mut Vec<Piece>) {
     let verdicts: Vec<Verdict> = pieces.par_iter().map(|piece| criterion.piece(&piece.shape)).collect();
     for (piece, verdict) in pieces.into_iter().zip(verdicts) {
@@ -150,14 +153,14 @@ fn sort(criterion: &Criterion, pieces: Vec<Piece>, open: &mut Vec<Open>, done: &
     }
 }
 
-/// Edges are halved now if the square of their length is as large as this: the largest of those that are wanted, rounded
-/// down to a power of 4. So what becomes of a piece does not depend on how long edges are elsewhere. `None` if nothing is
-/// to be halved any more.
+/// The smallest squared length of edges to halve in this round: the largest of the wanted ones,
+/// rounded down to a power of 4, so that the result for a piece does not depend on the lengths of
+/// edges elsewhere. `None` if no edges are left to halve.
 fn least_due(mesh: &RefinedMesh, open: &[Open], lines: &[Polyline], line_marks: &[Vec<bool>]) -> Option<f64> {
     let longest = |edges: &mut dyn Iterator<Item = ((u32, u32), bool)>| -> Option<f64> {
         edges.filter(|&(_, mark)| mark).map(|(ends, _)| length_squared(mesh, ends)).reduce(f64::max)
     };
-    // What is wrong inside has no length: its piece is cut at once.
+    // Pieces whose inside is above the bound are subdivided at once.
     let of_piece = |open: &Open| {
         if open.verdict.shows.inside {
             return Some(0.0);
@@ -171,7 +174,7 @@ fn least_due(mesh: &RefinedMesh, open: &[Open], lines: &[Polyline], line_marks: 
     of_pieces.into_iter().chain(of_lines).reduce(f64::max).map(octave)
 }
 
-/// The largest power of 4 that a number is as large as; 0 for numbers that have none.
+/// The largest power of 4 that is not above a number; 0 for 0 and subnormal numbers.
 fn octave(square: f64) -> f64 {
     if square < f64::MIN_POSITIVE {
         return 0.0;
@@ -180,7 +183,7 @@ fn octave(square: f64) -> f64 {
     libm::ldexp(1.0, power - power.rem_euclid(2))
 }
 
-/// Number of edges that bend although they were halved as often as can be.
+/// The number of edges above the bound at the limit of halvings.
 fn n_too_deep(criterion: &Criterion, outcome: &Outcome) -> usize {
     let of_pieces = outcome.pieces.iter().flat_map(|piece| piece.shape.edges());
     let edges = of_pieces.chain(outcome.lines.iter().flat_map(Polyline::edges));
@@ -190,7 +193,7 @@ fn n_too_deep(criterion: &Criterion, outcome: &Outcome) -> usize {
     edges.filter(is_deep).count()
 }
 
-/// Halves those of the marked edges that are as long as `least`, the square of a length.
+/// Halves the marked edges whose squared length is at least `least`.
 fn halve_marked(mesh: &mut RefinedMesh, line: &Polyline, marks: &[bool], least: f64) -> Polyline {
     let mut corners = Vec::with_capacity(2 * line.corners.len());
     for (idx, &corner) in line.corners.iter().enumerate() {
@@ -219,7 +222,7 @@ mod tests {
     use crate::relative_motion::RelativeMotion;
 
     #[test]
-    fn there_are_no_cracks_when_cutting_stops_early() {
+    fn there_are_no_cracks_when_subdivision_stops_early() {
         let text = "v a -9 -9 1; v b 9 -9 1; v c 9 9 1; v d -9 9 1; f (a b c d); w (a c);";
         let source = ugparse::Source::new("t.ug", text);
         let scene = ugparse::parse(&source, &ugparse::Options::default()).unwrap().scene;
@@ -242,7 +245,7 @@ mod tests {
             assert!(outcome.is_full);
             let n_pieces = outcome.pieces.len();
             assert!((max_pieces / 10..=max_pieces).contains(&n_pieces), "{n_pieces} of {max_pieces}");
-            // Euler's formula for a square: it holds only if pieces share their edges.
+            // Euler's formula for a square holds only if pieces share their edges.
             let edges = outcome.pieces.iter().flat_map(|piece| piece.shape.edges().collect::<Vec<_>>());
             let edges: FxHashSet<_> = edges.map(|(a, b)| (a.min(b), a.max(b))).collect();
             let vertices: FxHashSet<_> = edges.iter().flat_map(|&(a, b)| [a, b]).collect();

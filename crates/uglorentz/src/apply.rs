@@ -173,7 +173,8 @@ fn put_pieces(scene: &mut Scene, outcome: &Outcome) {
     }
 }
 
-/// Writes the seen positions. Those of a body at rest that was not shifted stay the same to the bit.
+/// Writes the seen positions. Those of a body at rest that was not shifted stay the same to the
+/// bit.
 fn set_positions(scene: &mut Scene, mesh: &RefinedMesh, shifts: &[DVec3], eye: DVec3) -> Result<(), Error> {
     let n_old = mesh.points.len() - mesh.recipes.len();
     let stays = |body: BodyId| mesh.motion_of(body).is_at_rest() && shifts[body.index()] == DVec3::ZERO;

@@ -54,7 +54,8 @@ fn parents<'a>(scene: &'a Scene, recipe: &Recipe) -> impl Iterator<Item = (&'a V
     pairs.map(|(row, weight)| (&scene.vertices[row as usize], weight))
 }
 
-/// The mean of the parents' unit normals, of unit length; `None` if a parent has none or they cancel.
+/// The mean of the parents' unit normals, of unit length; `None` if a parent has none or they
+/// cancel.
 fn mean_normal(scene: &Scene, recipe: &Recipe) -> Option<DVec3> {
     parents(scene, recipe)
         .map(|(vertex, weight)| Some(vertex.normal?.normalize_or_zero() * weight))
@@ -77,8 +78,8 @@ impl ColorMixer {
         ColorMixer { prefix, mixed: FxHashMap::default() }
     }
 
-    /// The colour of a new vertex: that of its parents if they agree, else a mixture; `None` if a parent
-    /// has none.
+    /// The colour of a new vertex: that of its parents if they agree, else a mixture; `None` if a
+    /// parent has none.
     fn mix(&mut self, scene: &mut Scene, recipe: &Recipe) -> Option<ColorId> {
         let part = |(vertex, weight): (&Vertex, f64)| Some((vertex.color?, weight));
         let mut parts: Vec<(ColorId, f64)> = parents(scene, recipe).map(part).collect::<Option<_>>()?;
@@ -98,9 +99,9 @@ impl ColorMixer {
     }
 }
 
-/// The weighted means of hue, saturation and value, as the renderer of 1988 interpolates them between
-/// the corners of a face. Wavelengths in place of hues are averaged alike. Greys do not contribute to
-/// the hue.
+/// The weighted means of hue, saturation and value, as the renderer of 1988 interpolates them
+/// between the corners of a face. Wavelengths in place of hues are averaged alike. Greys do not
+/// contribute to the hue.
 fn blend(scene: &Scene, parts: &[(ColorId, f64)]) -> (ColorValue, f64) {
     let (mut mean, mut hue_weight, mut translucency) =
         (Hsv { hue: 0.0, saturation: 0.0, value: 0.0 }, 0.0, 0.0);
@@ -121,7 +122,8 @@ fn blend(scene: &Scene, parts: &[(ColorId, f64)]) -> (ColorValue, f64) {
     (ColorValue::Hsv { value: mean.value, hue: mean.hue, saturation: mean.saturation }, translucency)
 }
 
-/// Maps hues between violet (300) and red (360) to negative ones, (P16). Larger numbers are wavelengths.
+/// Maps hues between violet (300) and red (360) to negative ones, (P16). Larger numbers are
+/// wavelengths.
 fn below_violet(hue: f64) -> f64 {
     if hue > 300.0 && hue < 360.0 { hue - 360.0 } else { hue }
 }

@@ -6,8 +6,8 @@ use ugphysics::{Velocity, compose};
 
 use crate::{Config, Error};
 
-/// The velocity of the camera in the frame of the scene: the option, else that of the scene's camera.
-/// It is removed from the scene, since the output is in the frame of the camera.
+/// The velocity of the camera in the frame of the scene: the option, else that of the scene's
+/// camera. It is removed from the scene, since the output is in the frame of the camera.
 pub(crate) fn take_camera_velocity(scene: &mut Scene, config: &Config) -> Result<Velocity, Error> {
     let own = scene.camera_row().and_then(|row| scene.cameras[row].velocity.take());
     match config.camera_velocity {
@@ -16,8 +16,8 @@ pub(crate) fn take_camera_velocity(scene: &mut Scene, config: &Config) -> Result
     }
 }
 
-/// Makes all faces and wires parts of one body. If that is at rest, those whose motion is not stated
-/// stay what they are.
+/// Makes all faces and wires parts of one body. If that is at rest, those whose motion is not
+/// stated stay what they are.
 pub(crate) fn set_velocity(scene: &mut Scene, velocity: Velocity) {
     let body = scene.bodies.moving_with(Motion::Inertial(velocity));
     let set = |slot: &mut BodyId| {
@@ -29,8 +29,8 @@ pub(crate) fn set_velocity(scene: &mut Scene, velocity: Velocity) {
     scene.wires.par_iter_mut().for_each(|wire| set(&mut wire.body));
 }
 
-/// States the motion of all faces and wires: what rests in the scene moves in the frame of the camera.
-/// `default`: the velocity of [`BodyId::UNSTATED`].
+/// States the motion of all faces and wires: what rests in the scene moves in the frame of the
+/// camera. `default`: the velocity of [`BodyId::UNSTATED`].
 pub(crate) fn state_motions(scene: &mut Scene, default: Velocity) {
     let body = scene.bodies.moving_with(Motion::Inertial(default));
     let faces = scene.faces.iter_mut().map(|face| &mut face.body);
@@ -41,8 +41,8 @@ pub(crate) fn state_motions(scene: &mut Scene, default: Velocity) {
     }
 }
 
-/// A body's velocity in the frame of the camera, rounded to what the text can express: (P15).  `body`,
-/// `camera`: in the frame of the scene.
+/// A body's velocity in the frame of the camera, rounded to what the text can express: (P15).
+/// `body`, `camera`: in the frame of the scene.
 ///
 /// It is rounded before use, so that seen positions here agree with rest positions and colours that
 /// programs downstream compute from the text.

@@ -35,8 +35,8 @@ pub struct Args {
 
     /// Time of the picture on the observer's clock
     ///
-    /// The coordinates of the scene are those at time 0. Light travels one unit of length in one unit
-    /// of time.
+    /// The coordinates of the scene are those at time 0. Light travels one unit of length in one
+    /// unit of time.
     #[arg(long = "ti", visible_alias = "time", value_name = "T", default_value = "0",
           allow_hyphen_values = true, value_parser = finite)]
     time: f64,
@@ -56,24 +56,26 @@ pub struct Args {
 
     /// Subdivide until the picture is right to ERR milliradians at the eye [default: 0.1]
     ///
-    /// Subdivision stops at 4000000 pieces, or after 32 halvings of an edge, with a warning that states
-    /// the errors left. -vb always states them, and the vertices where they occur.
+    /// Subdivision stops at 4000000 pieces, or after 32 halvings of an edge, with a warning that
+    /// states the errors left. -vb always states them, and the vertices where they occur.
     #[arg(long = "se", visible_alias = "error", value_name = "ERR", conflicts_with = "equal",
           allow_hyphen_values = true, value_parser = finite)]
     error: Option<f64>,
 
-    /// Subdivide until the Doppler factor is right to PERCENT between vertices, or off [default: 0.15]
+    /// Subdivide until the Doppler factor is right to PERCENT between vertices, or off [default:
+    /// 0.15]
     ///
-    /// The default is below what an eye can distinguish. off makes fewer faces, for pictures without
-    /// Doppler colours (ugdoppler --no-doppler --no-flux). Has no effect with -sd.
+    /// The default is below what an eye can distinguish. off makes fewer faces, for pictures
+    /// without Doppler colours (ugdoppler --no-doppler --no-flux). Has no effect with -sd.
     #[arg(long = "sc", visible_alias = "color-error", value_name = "PERCENT", allow_hyphen_values = true,
           value_parser = percent_or_off)]
     color_error: Option<f64>,
 
-    /// Subdivide also until the light of near lamps is right to PERCENT between vertices [default: off]
+    /// Subdivide also until the light of near lamps is right to PERCENT between vertices [default:
+    /// off]
     ///
-    /// For ugdoppler -li, which adds light to the colours of vertices: it adds vertices to large faces
-    /// near a lamp, also at rest. An error of 2 is hardly visible. Has no effect with -sd.
+    /// For ugdoppler -li, which adds light to the colours of vertices: it adds vertices to large
+    /// faces near a lamp, also at rest. An error of 2 is hardly visible. Has no effect with -sd.
     #[arg(long = "sl", visible_alias = "light-error", value_name = "PERCENT", allow_hyphen_values = true,
           value_parser = percent_or_off)]
     light_error: Option<f64>,
@@ -112,9 +114,9 @@ pub struct Args {
 
     /// Also write measurements at each vertex, to FILE.csv or FILE.ply
     ///
-    /// Name, position, emission time on the camera's clock, Doppler factor, apparent distance, and the
-    /// angle between the velocity and the direction of the light to the eye, in degrees: in the frame
-    /// of the camera and in that of the body.
+    /// Name, position, emission time on the camera's clock, Doppler factor, apparent distance, and
+    /// the angle between the velocity and the direction of the light to the eye, in degrees: in the
+    /// frame of the camera and in that of the body.
     #[arg(id = "at", long = "at", visible_alias = "attributes", value_name = "FILE")]
     attributes: Option<PathBuf>,
 

@@ -1,29 +1,32 @@
-//! How far the Doppler factor is from what a renderer interpolates along a chord.
+//! The error of the Doppler factor that a renderer interpolates along a chord.
 //!
-//! Programs downstream know D at the ends of an edge and go in straight lines between: in wavelength, which goes
-//! with f = 1/D, and in brightness, which goes with D. With f_lin and D_lin the straight lines,
+//! Programs downstream use D at the ends of an edge and interpolate linearly: wavelengths, which
+//! are proportional to f = 1/D, and brightness, which depends on D. With f_lin and D_lin the
+//! interpolants,
 //!
 //! ```text
 //! D_lin f_lin = 1 + 4s(1 − s) q,     q = (f_b − f_a)²/(4 f_a f_b),
 //! ```
 //!
-//! so with |f_lin − f| ≤ x f_lin both f_lin/f and D_lin/D are within q + (1 + q) x/(1 − x) of 1. (E4)
+//! so with |f_lin − f| ≤ x f_lin both f_lin/f and D_lin/D are within q + (1 + q) x/(1 − x) of 1.
+//! (E4)
 //!
-//! x is found at samples. Between two of them, Δ of the edge apart, f_lin − f is no further from a straight line
-//! than Δ²/8 times the largest f''. By (P10) f = γ(1 + v·d), d the direction, and along a chord of length L that
-//! passes the eye at h and comes no nearer than r, |d''| ≤ L² h/r³ √(4 − 3h²/r²). So the result is an upper
-//! bound, not an estimate.
+//! x is evaluated at samples. Between two of them, Δ of the edge apart, f_lin − f deviates from a
+//! straight line by at most Δ²/8 times the largest f''. By (P10) f = γ(1 + v·d) with the direction
+//! d, and along a chord of length L whose line passes the eye at h and whose points are at
+//! distances of at least r,
+//! |d''| ≤ L² h/r³ √(4 − 3h²/r²). So the result is an upper bound, not an estimate.
 
 use glam::DVec3;
 use ugphysics::doppler_at;
 
 use crate::relative_motion::{Point, RelativeMotion};
 
-/// Edges get this part of the bound. Inside a triangle a quadratic error is at most 4/3 of the largest on its
-/// edges, for an equilateral one.
+/// The fraction of the bound used for edges. Inside a triangle a quadratic error is at most 4/3 of
+/// the largest on its edges, for an equilateral one.
 pub(crate) const EDGE_SHARE: f64 = 0.75;
 
-/// Parts an edge is sampled in.
+/// The number of intervals between samples of an edge.
 const N_PARTS: u32 = 8;
 
 /// Is the relative error of D above `bound`?
@@ -32,12 +35,12 @@ pub(crate) fn is_off(a: &Point, b: &Point, motion: &RelativeMotion, bound: f64) 
         return false;
     }
     let chord = Chord::new(a, b, motion);
-    // A part as long as the edge: no samples.
-    let quick = chord.total(chord.between_samples(1.0));
-    quick > bound && chord.total(chord.sampled()) > bound
+    // A cheaper bound without samples.
+    let coarse = chord.total(chord.between_samples(1.0));
+    coarse > bound && chord.total(chord.sampled()) > bound
 }
 
-/// An upper bound of the relative errors of D and 1/D, taken linearly between the ends of the edge. (E4)
+/// An upper bound of the relative errors of D and 1/D, interpolated linearly along the edge. (E4)
 pub(crate) fn error(a: &Point, b: &Point, motion: &RelativeMotion) -> f64 {
     let chord = Chord::new(a, b, motion);
     chord.total(chord.between_samples(1.0)).min(chord.total(chord.sampled()))
@@ -63,20 +66,21 @@ impl<'a> Chord<'a> {
         if x >= 1.0 { f64::INFINITY } else { self.q + (1.0 + self.q) * x / (1.0 - x) }
     }
 
-    /// How far f_lin − f may be from a straight line between samples this part of the edge apart, over f_lin.
+    /// Upper bound of the deviation of f_lin − f from a straight line between samples this fraction
+    /// of the edge apart, over f_lin.
     fn between_samples(&self, part: f64) -> f64 {
         let length2 = self.along.length_squared();
         let normal = self.a.seen.cross(self.along);
         let normal2 = normal.length_squared();
         if length2 == 0.0 || normal2 == 0.0 {
-            // No length, or it points at the eye, or away from it.
+            // The edge has no length, or its line contains the eye.
             let is_through_eye = self.a.seen.dot(self.b.seen) < 0.0;
             return if is_through_eye { f64::INFINITY } else { 0.0 };
         }
         let h2 = normal2 / length2;
         let s = (-self.a.seen.dot(self.along) / length2).clamp(0.0, 1.0);
         let r2 = (self.a.seen + self.along * s).length_squared().max(h2);
-        // The part of the motion in the plane of the chord and the eye.
+        // The component of the velocity in the plane of the chord and the eye.
         let out = self.motion.direction().dot(normal);
         let in_plane = (1.0 - out * out / normal2).max(0.0);
         let bend2 = in_plane * h2 * (4.0 - 3.0 * h2 / r2) / r2;

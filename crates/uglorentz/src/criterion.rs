@@ -1,8 +1,9 @@
-//! Which edges bend, and where it shows.
+//! The refinement criterion: which edges have an error above the bound, and whether it is visible.
 //!
-//! Whether an edge bends is a function of the edge alone. Whether that shows depends on the piece it borders: on one out of
-//! sight nothing does; within a face depth shows only as far as it leaves the plane of the piece; and of a piece that is
-//! seen as a line only the outline is seen. An edge is halved if it bends and that shows in any of its pieces.
+//! The error of an edge is a function of the edge alone ("the edge bends"). Its visibility depends
+//! on the piece it borders: outside the view nothing is visible; inside a face only the component
+//! of the depth error normal to the piece is; of a piece that is seen as a line only the outline
+//! is. An edge is halved if it bends and this is visible in any of its pieces.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -16,11 +17,11 @@ use crate::refined_mesh::RefinedMesh;
 use crate::relative_motion::{Point, RelativeMotion};
 use crate::{early_accept, edge_on, interior};
 
-/// An edge is halved this often at most. Each halving divides the sagitta by 4, so 12 take the worst arc down
-/// to the default bound; the rest are for edges that pass the eye at a millionth of their length.
+/// The limit of halvings. Each divides the sagitta by 4, so 12 reduce the largest arc to the
+/// default bound; the others are for edges that pass the eye at a millionth of their length.
 pub(crate) const MAX_GENERATION: u32 = 32;
 
-/// How right the result has to be.
+/// Error bounds.
 #[derive(Clone, Debug)]
 pub(crate) struct Bounds {
     /// Of each body.
@@ -48,7 +49,7 @@ impl Bounds {
         &self.tolerances[point.body.index()]
     }
 
-    /// What is seen of a flat piece and its edges; `None` if it is out of sight.
+    /// What is visible of a flat piece and its edges; `None` if it is outside the view.
     pub(crate) fn shown(&self, motion: &RelativeMotion, corners: &[&Point]) -> Option<Shown> {
         if self.view_volume.is_outside(motion, corners) {
             return None;
@@ -59,12 +60,12 @@ impl Bounds {
     }
 }
 
-/// What of a piece is to be cut.
+/// Which parts of a piece to subdivide.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Marks {
     /// From each corner to the next.
     pub edges: [bool; 4],
-    /// No edge, but the inside, or a diagonal of the quadrilateral.
+    /// The inside, or a diagonal of the quadrilateral, but no edge.
     pub inside: bool,
 }
 
@@ -77,37 +78,38 @@ impl Marks {
         self.edges.contains(&true)
     }
 
-    /// At most how many pieces more there are when these edges are halved.
+    /// Upper bound of the number of pieces added by halving these edges.
     pub(crate) fn n_added(self) -> usize {
         let n_edges = self.edges.iter().filter(|&&mark| mark).count();
         if self.any() { n_edges + 1 } else { 0 }
     }
 }
 
-/// What is said of a piece.
+/// The result for a piece.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Verdict {
     /// The edges that bend.
     pub bends: [bool; 4],
-    /// What of that shows in this piece, and if no edge does, the inside.
+    /// Those whose errors are visible in this piece, and if there are none, the inside.
     pub shows: Marks,
 }
 
 impl Verdict {
-    /// Is there anything to cut, now or when another piece asks for it?
+    /// Is there anything to subdivide, now or when a neighbour requires it?
     pub(crate) fn is_open(&self) -> bool {
         self.bends.contains(&true) || self.shows.inside
     }
 }
 
-/// Says which edges bend.
+/// Evaluates the criterion.
 pub(crate) struct Criterion<'a, 'b> {
     pub mesh: &'a RefinedMesh<'b>,
     pub bounds: &'a Bounds,
 }
 
 impl Criterion<'_, '_> {
-    /// Does this edge bend? Asked in one order of its ends, so that all who share it hear the same.
+    /// Does this edge bend? The ends are ordered, so that all pieces that share it get the same
+    /// result.
     fn bends(&self, a: u32, b: u32) -> bool {
         self.generation(a, b) < MAX_GENERATION && self.bends_at_any_depth(a, b)
     }
@@ -124,14 +126,15 @@ impl Criterion<'_, '_> {
             || self.bounds.near_lamps.is_nonlinear(from, to, motion)
     }
 
-    /// The largest error of an edge in parts of its bound: what new edges inside a face are chosen by. Light is left out.
+    /// The largest error of an edge relative to its bound, without light. New edges inside a face
+    /// are chosen by it.
     pub(crate) fn excess(&self, a: u32, b: u32) -> f64 {
         let (low, high) = (a.min(b), a.max(b));
         let (from, to, motion) = (self.mesh.point(low), self.mesh.point(high), self.mesh.motion(low));
         edge::excess(from, to, motion, self.bounds.tolerance(from))
     }
 
-    /// The faces with edges that bend, in order, cut into triangles and convex quadrilaterals.
+    /// The faces with edges that bend, in order, as triangles and convex quadrilaterals.
     pub(crate) fn first_cuts(&self, scene: &Scene) -> Vec<(u32, Cut)> {
         let cut = |(idx, face): (usize, &Face)| Some((idx as u32, self.first_cut(scene, face)?));
         scene.faces.par_iter().enumerate().filter_map(cut).collect()
@@ -159,7 +162,7 @@ impl Criterion<'_, '_> {
         bends.then_some(cut)
     }
 
-    /// True only if no line between these corners of a body bends, and nothing inside.
+    /// True only if the errors on all lines between these corners, and inside, are below the bound.
     fn is_right_for_sure(&self, motion: &RelativeMotion, corners: impl Iterator<Item = u32> + Clone) -> bool {
         let Bounds { tolerances, near_lamps, spreads, .. } = self.bounds;
         let points = corners.map(|corner| self.mesh.point(corner));
@@ -185,7 +188,7 @@ impl Criterion<'_, '_> {
         line.edges().map(|(a, b)| self.bends(a, b)).collect()
     }
 
-    /// What bends in a piece, and shows.
+    /// What bends in a piece, and is visible.
     pub(crate) fn piece(&self, shape: &Shape) -> Verdict {
         let mut verdict = Verdict::default();
         let motion = self.mesh.motion(shape.corners()[0]);
@@ -206,8 +209,9 @@ impl Criterion<'_, '_> {
         verdict
     }
 
-    /// `shown`: of the piece, if the edge lies within a face. All of an edge of the scene is, for what is beside it may have been
-    /// modelled with other corners, and two lines that are drawn in different pieces leave a slit.
+    /// `shown`: of the piece, for edges inside a face. Errors of edges of the scene are always
+    /// visible: the neighbour may have been modelled with other corners, and two lines subdivided
+    /// differently would leave a slit.
     fn shows(&self, a: u32, b: u32, shown: Shown) -> bool {
         let shown = if self.mesh.is_rim(a, b) { Shown::All } else { shown };
         let (low, high) = (a.min(b), a.max(b));
@@ -216,7 +220,7 @@ impl Criterion<'_, '_> {
             || self.bounds.near_lamps.is_nonlinear(from, to, motion)
     }
 
-    /// Given that no edge bends so that it shows.
+    /// Assumes that no edge bends visibly.
     fn bends_inside(&self, shape: &Shape, shown: Shown) -> bool {
         match *shape {
             Shape::Triangle(corners) => self.bulges(corners),
@@ -228,7 +232,7 @@ impl Criterion<'_, '_> {
         }
     }
 
-    /// Is the true face too far from the inside of this triangle?
+    /// Is the error inside this triangle above the bound?
     fn bulges(&self, corners: [u32; 3]) -> bool {
         let motion = self.mesh.motion(corners[0]);
         let points: [&Point; 3] = corners.map(|corner| self.mesh.point(corner));

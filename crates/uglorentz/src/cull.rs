@@ -1,8 +1,9 @@
 //! Culling of faces outside the view, before subdivision.
 //!
-//! A face is removed if all of it is surely outside one of the half-spaces whose intersection is the view
-//! volume. Faces are seen curved, but seen positions are linear in the rest coordinates p' and their
-//! length |p'|, so the distance from a plane has a bound that is attained at a corner, (P27).
+//! A face is removed if all of it is surely outside one of the half-spaces whose intersection is
+//! the view volume. Faces are seen curved, but seen positions are linear in the rest coordinates p'
+//! and their length |p'|, so the distance from a plane has a bound that is attained at a corner,
+//! (P27).
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -26,8 +27,8 @@ impl ViewVolume {
         ViewVolume { spaces: view.half_spaces().into_iter().flatten().collect() }
     }
 
-    /// True only if no point between these corners of a body is in the picture, neither as seen nor as
-    /// drawn.
+    /// True only if no point between these corners of a body is in the picture, neither as seen nor
+    /// as drawn.
     pub(crate) fn is_outside(&self, motion: &RelativeMotion, corners: &[&Point]) -> bool {
         self.spaces.iter().any(|space| is_outside(space, motion, corners))
     }
@@ -35,8 +36,8 @@ impl ViewVolume {
 
 /// Removes faces outside the view, and vertices that only they use; returns the number of faces.
 ///
-/// Faces that share a vertex with a visible one are kept, since colours are mixed from all faces at a
-/// vertex. One face is always kept, since a scene without any is invalid.
+/// Faces that share a vertex with a visible one are kept, since colours are mixed from all faces at
+/// a vertex. One face is always kept, since a scene without any is invalid.
 pub(crate) fn cull(
     scene: &mut Scene,
     points: &mut Vec<Point>,

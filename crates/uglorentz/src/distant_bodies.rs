@@ -4,19 +4,20 @@ use glam::DVec3;
 
 use crate::relative_motion::{Point, RelativeMotion};
 
-/// Bodies further away than this many times their size get a tighter bound. Without a factor the bound
-/// of depth is a ten-thousandth of the distance, so at this distance it is a thousandth of the size.
+/// Bodies further away than this many times their size get a tighter bound. Without a factor the
+/// bound of depth is a ten-thousandth of the distance, so at this distance it is a thousandth of
+/// the size.
 const FAR: f64 = 10.0;
 
 /// The smallest factor: renderers compare depths in single precision.
 const MIN_FACTOR: f64 = 3e-3;
 
-/// The factor of the depth bound of each body: [`FAR`] times its size over the distance of its nearest
-/// vertex, both in its rest frame; at most 1, as for bodies around the eye.  (E3)
+/// The factor of the depth bound of each body: [`FAR`] times its size over the distance of its
+/// nearest vertex, both in its rest frame; at most 1, as for bodies around the eye.  (E3)
 ///
-/// Along a line of sight all distances scale by D. So the relative depth difference of two points of a
-/// body that are in line with the eye is the same as in the rest frame, where it is a fraction of the
-/// size of the body.
+/// Along a line of sight all distances scale by D. So the relative depth difference of two points
+/// of a body that are in line with the eye is the same as in the rest frame, where it is a fraction
+/// of the size of the body.
 pub(crate) fn depth_factors(points: &[Point], motions: &[RelativeMotion]) -> Vec<f64> {
     let mut extents = vec![Extent::EMPTY; motions.len()];
     for point in points {

@@ -6,11 +6,13 @@ use crate::relative_motion::{Point, RelativeMotion};
 /// √(4/3): the largest value of h √(4 − 3h²/r²)/r, see [`crate::color`].
 pub(crate) const MOST_BEND: f64 = 1.154_700_538_379_251_7;
 
-/// Corners no further from the first than the square root of this, in parts of the distance of the nearest, are
-/// right for sure by [`is_right`]. Computed once for a body, it spares most of a fine mesh the rest.
+/// Corners no further from the first than the square root of this, in parts of the distance of the
+/// nearest, are right for sure by [`is_right`]. Computed once for a body, it spares most of a fine
+/// mesh the rest.
 ///
-/// With R the reach and r the distance, as seen, rest coordinates change by e^η R at most, and are r e^−η long at
-/// least, since e^±η are the extremes of D; directions differ by 2R/r at most, and so 1/D by 2γβ R/r.
+/// With R the reach and r the distance, as seen, rest coordinates change by e^η R at most, and are
+/// r e^−η long at least, since e^±η are the extremes of D; directions differ by 2R/r at most, and
+/// so 1/D by 2γβ R/r.
 pub(crate) fn most_spread(motion: &RelativeMotion, tolerance: &Tolerance) -> f64 {
     let is_right = |spread: f64| {
         let (reach, least) = (spread.sqrt(), 1.0 / (motion.gamma() + motion.proper_speed()));
@@ -40,8 +42,9 @@ pub(crate) fn is_close<'a>(mut corners: impl Iterator<Item = &'a Point>, spread:
     reach2 <= spread * (nearest * nearest)
 }
 
-/// True only if everything between these corners is right for sure: every line from one to another, and the
-/// inside. All rules are upper bounds here, and looser than those for edges, which therefore never contradict.
+/// True only if everything between these corners is right for sure: every line from one to another,
+/// and the inside. All rules are upper bounds here, and looser than those for edges, which
+/// therefore never contradict.
 pub(crate) fn is_right<'a>(
     motion: &RelativeMotion,
     corners: impl Iterator<Item = &'a Point> + Clone,
@@ -81,7 +84,8 @@ fn color<'a>(motion: &RelativeMotion, mut corners: impl Iterator<Item = &'a Poin
         reach2 = f64::max(reach2, (corner.seen - first.seen).length_squared());
         nearest = f64::min(nearest, corner.seen_distance);
     }
-    // Chords are no longer than twice the reach, and no point of one is further than the reach from an end.
+    // Chords are no longer than twice the reach, and no point of one is further than the reach from
+    // an end.
     let r = nearest - reach2.sqrt();
     if r.is_nan() || r <= 0.0 {
         return f64::INFINITY;
@@ -89,7 +93,8 @@ fn color<'a>(motion: &RelativeMotion, mut corners: impl Iterator<Item = &'a Poin
     color_of(motion, most - least, least, reach2, r)
 }
 
-/// (E4) for 1/D that changes by `change` from `least` on, on chords of twice a reach, `nearest` or more from the eye.
+/// (E4) for 1/D that changes by `change` from `least` on, on chords of twice a reach, `nearest` or
+/// more from the eye.
 fn color_of(motion: &RelativeMotion, change: f64, least: f64, reach2: f64, nearest: f64) -> f64 {
     let q = change * change / (4.0 * least * least);
     let x = motion.proper_speed() * MOST_BEND * 4.0 * reach2 / (8.0 * nearest * nearest * least);

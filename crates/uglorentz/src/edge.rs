@@ -1,26 +1,28 @@
-//! When is a straight line between two seen points good enough for a moving edge?
+//! The error of a straight line between two seen points, for a moving edge.
 //!
-//! An edge at rest in S' runs from a' to b'. Its point at parameter s is seen at C(s), eq. (P3), and because
-//! (P3) is linear but for the length |p'|,
+//! An edge at rest in S' runs from a' to b'. Its point at parameter s is seen at C(s), eq. (P3).
+//! Since (P3) is linear except for the length |p'|,
 //!
 //! ```text
 //! C(s) − [(1 − s) C(0) + s C(1)] = γ v δ(s),      δ(s) = (1 − s)|a'| + s|b'| − |p'(s)| ≥ 0.      (E1)
 //! ```
 //!
-//! So the true curve leaves the chord that a renderer draws only against or along the motion, by a closed form.
-//! What the picture shows of it is tested by three rules:
+//! So the true curve deviates from the chord that a renderer draws only along the motion, by a
+//! closed form. Three rules test its visibility:
 //!
-//! 1. **outline**: the edge and the eye span a plane in S' with unit normal n'. By (P6) its directions d in S
-//!    satisfy m·d + k = 0 with m = n' + (γ − 1)(n'·û)û, k = γ n'·v and |m|² − k² = 1: a circle on the sphere
-//!    of directions, of geodesic curvature k. The chord is a great circle. The angle between the two is
-//!    largest in the middle (E2) and must not pass the bound;
-//! 2. **depth**: the distance from C(s) to the chord in space, over |C(s)|, must stay below the bound too, since
-//!    faces hide each other by depth, and a decal lies close in front of its wall. Its maximum is (E3);
-//! 3. **colour**: D and 1/D taken linearly along the chord must agree with D in that direction
+//! 1. **outline**: the edge and the eye span a plane in S' with unit normal n'. By (P6) its directions d
+//!    in S satisfy m·d + k = 0 with m = n' + (γ − 1)(n'·û)û, k = γ n'·v and |m|² − k² = 1: a circle on
+//!    the sphere of directions, of geodesic curvature k. The chord is a great circle. The angle between
+//!    the two is largest in the middle (E2) and must be within the bound;
+//! 2. **depth**: the distance from C(s) to the chord in space, over |C(s)|, must be within the bound,
+//!    since depth decides which face is occluded, and a decal is close in front of its wall. Its maximum
+//!    is (E3);
+//! 3. **colour**: D and 1/D interpolated linearly along the chord must agree with D in that direction
 //!    ([`crate::color`]).
 //!
-//! The answer depends on the two points, their body and the bound, not on the face, so two faces that share an
-//! edge always agree about it. [`shows`] then asks for one piece at a time. Derivations are in `docs/geometry.md`.
+//! The result depends on the two points, their body and the bound, not on the face, so faces that
+//! share an edge agree. [`shows`] then decides for one piece. Derivations are in
+//! `docs/geometry.md`.
 
 use glam::DVec3;
 use ugphysics::elongated;
@@ -28,28 +30,30 @@ use ugphysics::elongated;
 use crate::color;
 use crate::relative_motion::{Point, RelativeMotion};
 
-/// Rule 2 never asks for more than this, a ten-thousandth of the distance, but of bodies far away ([`crate::distant_bodies`]).
+/// The smallest bound of rule 2, a ten-thousandth of the distance; smaller for bodies far away
+/// ([`crate::distant_bodies`]).
 const LEAST_OFFSET: f64 = 1e-4;
 
-/// Two directions with |d_a + d_b|² below this are opposite: no great circle joins them in particular.
+/// Two directions with |d_a + d_b|² below this are opposite: the great circle through them is
+/// undefined.
 const OPPOSITE: f64 = 1e-12;
 
-/// How far a drawn edge may be from the true one.
+/// Bounds of the errors of a drawn edge.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Tolerance {
     /// Tangent of half the bound of rule 1.
     pub tan_half: f64,
     /// Bound of rule 2.
     pub offset: f64,
-    /// What |C − chord|/|C| may be for rules 1 and 2 to hold for sure.
+    /// Rules 1 and 2 hold surely if |C − chord|/|C| is below this.
     pub safe: f64,
-    /// Bound of rule 3; infinite if nobody asks.
+    /// Bound of rule 3; infinite for none.
     pub color: f64,
 }
 
 impl Tolerance {
-    /// `error`: the largest angle at the eye, radians; angles above a right one count as that.
-    /// `color`: the largest relative error of D, infinite for any.
+    /// `error`: the largest angle at the eye, radians, limited to a right angle. `color`: the
+    /// largest relative error of D, infinite for any.
     pub(crate) fn new(error: f64, color: f64) -> Tolerance {
         let error = error.min(std::f64::consts::FRAC_PI_2);
         let offset = error.max(LEAST_OFFSET);
@@ -57,14 +61,14 @@ impl Tolerance {
         Tolerance { tan_half: libm::tan(error / 2.0), offset, safe, color: color * color::EDGE_SHARE }
     }
 
-    /// With this part of the bound of rule 2, 1 at most.
-    pub(crate) fn with_depth(self, part: f64) -> Tolerance {
-        let offset = self.offset * part;
+    /// With the bound of rule 2 multiplied by `factor`, at most 1.
+    pub(crate) fn with_depth(self, factor: f64) -> Tolerance {
+        let offset = self.offset * factor;
         Tolerance { offset, safe: self.safe.min(offset), ..self }
     }
 }
 
-/// What is wrong with a drawn edge, at the place where it is worst.
+/// The largest errors of a drawn edge.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Errors {
     /// Rule 1, radians.
@@ -75,7 +79,7 @@ pub(crate) struct Errors {
     pub color: f64,
 }
 
-/// Must the edge be cut? Give the ends in the same order whenever you ask for the same edge.
+/// Is the error of an edge above the bound? Its ends must always be given in the same order.
 pub(crate) fn bends(a: &Point, b: &Point, motion: &RelativeMotion, tolerance: &Tolerance) -> bool {
     if motion.is_at_rest() {
         return false;
@@ -84,18 +88,18 @@ pub(crate) fn bends(a: &Point, b: &Point, motion: &RelativeMotion, tolerance: &T
         || color::is_off(a, b, motion, tolerance.color)
 }
 
-/// What of an edge that bends is seen.
+/// Which errors of an edge are visible.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Shown {
-    /// All of it.
+    /// All.
     All,
-    /// Of its depth, what leaves the plane of a piece: the number is [`slant`].
+    /// Of depth, the component normal to a piece: the number is [`slant`].
     OnPiece(f64),
-    /// The outline, for its piece is seen as a line.
+    /// The outline, since its piece is seen as a line.
     Outline,
 }
 
-/// Given that the edge bends: does it do so where it is seen?
+/// For an edge that bends: is this visible?
 pub(crate) fn shows(
     a: &Point,
     b: &Point,
@@ -115,8 +119,8 @@ pub(crate) fn shows(
         || (is_color_seen && color::is_off(a, b, motion, tolerance.color))
 }
 
-/// The part of the velocity at right angles to a drawn piece, where it is largest: by (E1) nothing on the piece leaves its plane
-/// faster.
+/// The largest component of the velocity normal to a drawn piece, at its corners: by (E1) an upper
+/// bound for all points of the piece.
 pub(crate) fn slant(corners: &[&Point], motion: &RelativeMotion) -> f64 {
     let n = corners.len();
     let at = |idx: usize| {
@@ -126,7 +130,7 @@ pub(crate) fn slant(corners: &[&Point], motion: &RelativeMotion) -> f64 {
     motion.velocity().speed() * (0..n).map(at).fold(0.0, f64::max)
 }
 
-/// All there is to say about an edge.
+/// All errors of an edge.
 pub(crate) fn errors(a: &Point, b: &Point, motion: &RelativeMotion, shown: Shown) -> Errors {
     if motion.is_at_rest() {
         return Errors::default();
@@ -139,7 +143,7 @@ pub(crate) fn errors(a: &Point, b: &Point, motion: &RelativeMotion, shown: Shown
     Errors { angle: 2.0 * libm::atan(edge.tan_half_sagitta()), offset: edge.offset(shown), color }
 }
 
-/// The largest of the errors of an edge, in parts of its bound; a number in any case.
+/// The largest error of an edge relative to its bound; always finite.
 pub(crate) fn excess(a: &Point, b: &Point, motion: &RelativeMotion, tolerance: &Tolerance) -> f64 {
     let Errors { angle, offset, color } = errors(a, b, motion, Shown::All);
     let color = if tolerance.color == f64::INFINITY { 0.0 } else { color / tolerance.color };
@@ -150,8 +154,8 @@ pub(crate) fn excess(a: &Point, b: &Point, motion: &RelativeMotion, tolerance: &
 /// Rules 1 and 2.
 fn leaves_chord(a: &Point, b: &Point, motion: &RelativeMotion, tolerance: &Tolerance) -> bool {
     let edge = Edge::new(a, b, motion);
-    // δ ≤ w/(2 min(|a'|, |b'|)), and |C| is at least the smaller end distance less γδ: by (E1) an edge that
-    // passes this is straight enough, and nearly all edges of a fine mesh do.
+    // δ ≤ w/(2 min(|a'|, |b'|)), and |C| is at least the smaller end distance minus γδ: by (E1) an
+    // edge that passes this test is straight enough. Almost all edges of a fine mesh do.
     let delta = edge.w / (2.0 * a.rest_distance.min(b.rest_distance));
     let floor = a.seen_distance.min(b.seen_distance) - motion.gamma() * delta;
     if motion.proper_speed() * delta <= tolerance.safe * floor {
@@ -163,7 +167,7 @@ fn leaves_chord(a: &Point, b: &Point, motion: &RelativeMotion, tolerance: &Toler
 /// |p||q| − p·q of two vectors, given the product of their lengths.
 pub(crate) fn lengths_less_dot(p: DVec3, q: DVec3, product: f64) -> f64 {
     let dot = p.dot(q);
-    // The first form does not cancel for vectors close to each other.
+    // The first form does not cancel for almost equal vectors.
     if dot > 0.0 { p.cross(q - p).length_squared() / (product + dot) } else { product - dot }
 }
 
@@ -190,15 +194,17 @@ impl<'a> Edge<'a> {
 
     /// tan(σ/2), where σ is the largest angle between the seen arc and the chord's great circle.
     ///
-    /// With 2η the angle between the ends and g the unit normal d_a × d_b of the great circle, the arc's middle
-    /// is cos σ h + sin σ g (h halves the angle). Put into m·d + k = 0, with m·h = −k/cos η and
-    /// |m|² = 1 + k², that is a quadratic in tan(σ/2) whose discriminant is 1, and
+    /// With 2η the angle between the ends and g the unit normal d_a × d_b of the great circle, the
+    /// midpoint of the arc is cos σ h + sin σ g (h bisects the angle). Inserted into m·d + k = 0,
+    /// with m·h = −k/cos η and |m|² = 1 + k², this is a quadratic in tan(σ/2) with discriminant 1,
+    /// and
     ///
     /// ```text
     /// tan(σ/2) = |k| (1/cos η − 1)/(1 + m·g) = (1 − m·g)/(|k| (1/cos η + 1)).      (E2)
     /// ```
     ///
-    /// m·g is negative when the arc is the longer part of its circle; the second form is for it.
+    /// m·g is negative if the arc is the longer part of its circle; the second form is for that
+    /// case.
     fn tan_half_sagitta(&self) -> f64 {
         let Some(rest_normal) = self.start.cross(self.along).try_normalize() else {
             return 0.0; // The edge points at the eye and is seen as a point.
@@ -227,21 +233,23 @@ impl<'a> Edge<'a> {
 
     /// Largest distance of the true curve from the chord over its distance from the eye.
     ///
-    /// With x the place on the edge's line, h the line's distance from the eye, r = √(h² + x²) = |p'|, and B = (|b'| − |a'|)/L,
-    /// Q = v·l, A and P the values at x = 0, it is γ|v × chord| times the largest
+    /// With x the position on the line of the edge, h the distance of the line from the eye,
+    /// r = √(h² + x²) = |p'|, B = (|b'| − |a'|)/L, Q = v·l, and A and P the values at x = 0, it is
+    /// γ|v × chord| times the largest
     ///
     /// ```text
     /// λ/γ = δ/|C| = (A + Bx − r)/γ(r − P − Qx).
     /// ```
     ///
-    /// In the plane (x, r) a value of λ is a straight line, and the largest is the one that touches the
-    /// hyperbola: a quadratic, whose last term is (w/L)² exactly, so it does not cancel for short edges:
+    /// In the plane (x, r) each value of λ is a straight line, and the largest is the tangent of
+    /// the hyperbola: a quadratic whose last term is exactly (w/L)², so that it does not cancel for
+    /// short edges:
     ///
     /// ```text
     /// λ = (w/L)²/(e + √(e² + (w/L)²(h²(1 − Q²) − P²))),      e = h²(1 − BQ) − AP.      (E3)
     /// ```
     ///
-    /// In a piece of a face only the part at right angles to that shows.
+    /// In a piece of a face only the component normal to it is visible.
     fn offset(&self, shown: Shown) -> f64 {
         let length = self.along.length();
         let chord = (self.b.seen - self.a.seen).normalize_or_zero();

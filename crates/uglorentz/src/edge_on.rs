@@ -1,8 +1,8 @@
-//! Faces whose plane goes through the eye have no area in the picture.
+//! Faces seen edge-on: their plane contains the eye, so they have no area in the picture.
 //!
-//! All their points are seen on one circle of directions (P8), so only the outline, and its depth, is ever
-//! seen. Such a face keeps its contours, with the corners that its edges get, and nothing inside is cut: close to
-//! the eye that would take pieces without end.
+//! All their points are seen on one circle of directions (P8), so only the outline and its depth
+//! are visible. Such a face keeps its contours, with the new corners of its edges, and is not
+//! subdivided inside, which would take unlimited pieces close to the eye.
 
 use glam::DVec3;
 use ugparse::{Face, Scene, VertexId};
@@ -10,16 +10,17 @@ use ugparse::{Face, Scene, VertexId};
 use crate::DEFAULT_ERROR;
 use crate::relative_motion::{Point, RelativeMotion};
 
-/// A plane through the eye up to rounding: the part of the largest distance of a corner.
+/// The distance of the eye from a plane that contains it, up to rounding, over the largest distance
+/// of a corner.
 const FLAT: f64 = 1e-12;
 
-/// Edges are clear of the eye by this part of it at least.
+/// The smallest distance of edges from the eye, over the largest distance of a corner.
 const CLEAR: f64 = 1e-9;
 
 /// Is the face seen edge-on, so that its outline alone draws it?
 ///
-/// If it moves out of its plane the circle is a small one, and an outline that goes round the eye would enclose
-/// what lies inside that circle; such a face does not count.
+/// If it moves out of its plane, the circle is a small circle, and an outline around the eye would
+/// enclose the inside of that circle. Such a face does not count.
 pub(crate) fn is_edge_on(
     scene: &Scene,
     face: &Face,
@@ -42,10 +43,11 @@ pub(crate) fn is_edge_on(
 
 /// Is a flat piece seen as a line, by `angle` at the eye?
 ///
-/// With n' and k as in (P8) and h' the distance of its plane from the eye, the piece is seen where m·d + k = h'/|p|, since (P3)
-/// is linear. That is a band along the circle m·d + k = 0, h'/|p| wide to first order where h'|m|/|p| is small, for
-/// the circle has a radius of 1/|m|. It counts as a line if it is narrower than a quarter of the angle, and of a
-/// tenth of a milliradian: colours are still seen in what is wider.
+/// With n' and k as in (P8) and h' the distance of its plane from the eye, the piece is seen where
+/// m·d + k = h'/|p|, since (P3) is linear. This is a band along the circle m·d + k = 0, whose width
+/// is h'/|p| to first order if h'|m|/|p| is small, since the radius of the circle is 1/|m|. It
+/// counts as a line if it is narrower than a quarter of the angle and of a tenth of a milliradian;
+/// in wider bands colours are visible.
 pub(crate) fn is_seen_as_line(motion: &RelativeMotion, corners: &[&Point], angle: f64) -> bool {
     if !motion.has_flight_time() {
         return false;
@@ -61,14 +63,14 @@ pub(crate) fn is_seen_as_line(motion: &RelativeMotion, corners: &[&Point], angle
     height <= nearest * (angle.min(DEFAULT_ERROR) / 4.0) && height * (1.0 + k * k).sqrt() <= nearest / 4.0
 }
 
-/// Is the eye, in the plane of an outline, outside it and clear of its edges?
+/// Is the eye, in the plane of an outline, outside it and away from its edges?
 fn is_beside_eye(outline: impl Iterator<Item = DVec3> + Clone, normal: DVec3, clear: f64) -> bool {
     let (across, up) = normal.any_orthonormal_pair();
     let next = outline.clone().skip(1).chain(outline.clone().take(1));
     let mut is_inside = false;
     for (a, b) in outline.zip(next) {
         let along = b - a;
-        // A corner that repeats the one before is no edge, and as far from the eye as any of its points.
+        // For a repeated corner the edge is a single point.
         let s = (-a.dot(along) / along.length_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
         if (a + along * s).length() <= clear {
             return false;

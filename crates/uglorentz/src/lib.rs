@@ -19,21 +19,22 @@
 //!
 //! # Why faces are subdivided
 //!
-//! Renderers draw straight edges between vertices, but a moving straight edge is seen as an arc of a
-//! hyperbola. Long edges are subdivided first. By default closed formulas for the angle between arc
-//! and chord, for depth and for colour decide for each edge whether the difference is visible
-//! ([`Pieces::UpTo`], derived in `docs/geometry.md`). The decision depends on the edge alone, so faces
-//! that share an edge subdivide it alike and the result has no cracks. Bodies at rest are not
+//! Renderers draw straight edges between vertices, but a moving straight edge is seen as an arc of
+//! a hyperbola. Long edges are subdivided first. By default closed formulas for the angle between
+//! arc and chord, for depth and for colour decide for each edge whether the difference is visible
+//! ([`Pieces::UpTo`], derived in `docs/geometry.md`). The decision depends on the edge alone, so
+//! faces that share an edge subdivide it alike and the result has no cracks. Bodies at rest are not
 //! subdivided, except for the light of near lamps if that is requested.
 //!
-//! Pieces keep orientation, colour, light level, body and name of their face, and replace it in place.
-//! Vertices of the scene keep their names and rows; new ones are named `s#1`, `s#2`, … and come last.
+//! Pieces keep orientation, colour, light level, body and name of their face, and replace it in
+//! place. Vertices of the scene keep their names and rows; new ones are named `s#1`, `s#2`, … and
+//! come last.
 //!
 //! # Steps
 //!
 //! ```text
-//! Scene ─separate bodies─ placement ─ smooth normals ─┬─ adaptive (criterion) ─┬─ positions ─ attributes → Scene
-//!                         (P5)                        └─ uniform ──────────────┘  (P3)
+//! Scene ─ bodies ─ placement ─ normals ─┬─ adaptive ─┬─ positions ─ attributes → Scene
+//!                    (P5)               └─ uniform ──┘     (P3)
 //! ```
 //!
 //! # Example

@@ -12,15 +12,15 @@ use ugscene::{Geometry, RestFrames};
 pub struct Measurement {
     /// Apparent distance |p| from the eye, in the frame of the camera.
     pub distance: f64,
-    /// Emission time on the clock of the camera: the time of the picture minus the distance. Without
-    /// time of flight, the time of the picture.
+    /// Emission time on the clock of the camera: the time of the picture minus the distance.
+    /// Without time of flight, the time of the picture.
     pub emission_time: f64,
     /// Doppler factor D = f_observed/f_emitted.  Eq. (P10)
     ///
     /// 1 at rest.
     pub doppler: f64,
-    /// Angle between the velocity and the direction of the light to the eye, in the frame of the camera,
-    /// degrees. NaN at rest and at the eye, where it is undefined.
+    /// Angle between the velocity and the direction of the light to the eye, in the frame of the
+    /// camera, degrees. NaN at rest and at the eye, where it is undefined.
     pub emission_angle_deg: f64,
     /// The same angle in the rest frame of the body, (P6).
     pub rest_emission_angle_deg: f64,

@@ -1,9 +1,9 @@
 //! Edges along which the light of near lamps is not linear (`-sl`).
 //!
-//! Programs downstream add light to the colours of vertices and interpolate it linearly. The light of a
-//! lamp on a face with normal n is n·l D_l, with l towards the lamp and D_l of (P14). Faces that share
-//! an edge have different normals, so the criterion tests the vector D_l l, which they share (E6).
-//! Directional and ambient light do not change along an edge.
+//! Programs downstream add light to the colours of vertices and interpolate it linearly. The light
+//! of a lamp on a face with normal n is n·l D_l, with l towards the lamp and D_l of (P14). Faces
+//! that share an edge have different normals, so the criterion tests the vector D_l l, which they
+//! share (E6). Directional and ambient light do not change along an edge.
 
 use glam::DVec3;
 use uglight::{HueScale, LampPlace, lamps};
@@ -30,16 +30,16 @@ pub(crate) struct NearLamps {
 struct NearLamp {
     /// The largest component of its colour times its intensity.
     intensity: f64,
-    /// Relative to the eye, in the rest frame of the lamp: in the axes of [`RelativeMotion::turned`], or
-    /// in those of the scene if its velocity is `None`.
+    /// Relative to the eye, in the rest frame of the lamp: in the axes of
+    /// [`RelativeMotion::turned`], or in those of the scene if its velocity is `None`.
     place: DVec3,
     /// `None` for a lamp that rests in the frame of whatever it lights.
     velocity: Option<Velocity>,
 }
 
 impl NearLamps {
-    /// `scene`: with its lights shifted. `bound`: relative to the light of a lamp at normal incidence;
-    /// infinite for none.
+    /// `scene`: with its lights shifted. `bound`: relative to the light of a lamp at normal
+    /// incidence; infinite for none.
     pub(crate) fn new(scene: &Scene, eye: DVec3, motions: &[RelativeMotion], bound: f64) -> Self {
         if bound == f64::INFINITY {
             return Self::default();
@@ -59,8 +59,8 @@ impl NearLamps {
         self.lamps.is_empty()
     }
 
-    /// Is the error of linear interpolation along this edge above the bound? The ends of an edge must
-    /// always be given in the same order.
+    /// Is the error of linear interpolation along this edge above the bound? The ends of an edge
+    /// must always be given in the same order.
     pub(crate) fn is_nonlinear(&self, a: &Point, b: &Point, motion: &RelativeMotion) -> bool {
         !self.is_empty()
             && a.generation.max(b.generation) < MAX_GENERATION
@@ -100,10 +100,11 @@ impl NearLamp {
         SAMPLES.into_iter().map(at).fold(0.0, f64::max)
     }
 
-    /// Upper bound of [`NearLamp::error`] between any of these corners; infinite for a lamp that moves
-    /// relative to them.
+    /// Upper bound of [`NearLamp::error`] between any of these corners; infinite for a lamp that
+    /// moves relative to them.
     ///
-    /// Along a line at a distance of at least r from the lamp, |d²l/dx²| ≤ 2/√3 / r², as for D in [`crate::color`].
+    /// Along a line at a distance of at least r from the lamp, |d²l/dx²| ≤ 2/√3 / r², as for D in
+    /// [`crate::color`].
     fn most_error<'a>(&self, motion: &RelativeMotion, mut corners: impl Iterator<Item = &'a Point>) -> f64 {
         let Some(first) = corners.next() else { return 0.0 };
         let Some(place) = self.position_at_rest_with(motion) else { return f64::INFINITY };
@@ -145,8 +146,8 @@ mod tests {
 
     use super::*;
 
-    /// Below a lamp at height 1, the light on a floor is 1/√(1 + x²). Halving a chord reduces its error
-    /// to about a quarter.
+    /// Below a lamp at height 1, the light on a floor is 1/√(1 + x²). Halving a chord reduces its
+    /// error to about a quarter.
     #[test]
     fn the_error_is_that_of_the_chord() {
         let motion = RelativeMotion::new(Velocity::ZERO, Geometry::default());

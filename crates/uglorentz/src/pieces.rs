@@ -1,9 +1,9 @@
-//! What faces and wires are cut into.
+//! The pieces of faces and wires.
 
 use glam::DVec3;
 use ugparse::{Face, Scene, VertexId};
 
-/// A piece of a face that can be cut further: corners by vertex row, in the direction of the face.
+/// A piece of a face that can be subdivided: corners by vertex row, in the orientation of the face.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Shape {
     /// A triangle.
@@ -26,7 +26,7 @@ impl Shape {
     }
 }
 
-/// A piece and the face it is of.
+/// A piece and its face.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Piece {
     /// Row of the face.
@@ -35,13 +35,12 @@ pub(crate) struct Piece {
     pub shape: Shape,
 }
 
-/// A contour that keeps its place and only gets more corners: of a wire, or of a face that cannot be cut into
-/// triangles.
+/// A contour that only gets more corners: of a wire, or of a face that cannot be triangulated.
 #[derive(Clone, Debug)]
 pub(crate) struct Polyline {
     /// Row of the contour.
     pub row: u32,
-    /// Does the last corner join the first?
+    /// Does an edge connect the last corner with the first?
     pub is_closed: bool,
     /// Vertex rows.
     pub corners: Vec<u32>,
@@ -75,14 +74,14 @@ fn closed_edges(corners: &[u32]) -> impl Iterator<Item = (u32, u32)> {
     corners.iter().copied().zip(corners.iter().copied().cycle().skip(1))
 }
 
-/// A face ready for cutting.
+/// A face prepared for subdivision.
 #[derive(Clone, Debug)]
 pub(crate) enum Cut {
     /// As triangles and convex quadrilaterals.
     Pieces(Vec<Shape>),
-    /// As it is, for it is seen edge-on.
+    /// Its contours, since it is seen edge-on.
     EdgeOn(Vec<Polyline>),
-    /// As it is, for its contours cross each other or enclose nothing.
+    /// Its contours, since they intersect or enclose no area.
     Contours(Vec<Polyline>),
 }
 
@@ -114,12 +113,12 @@ pub(crate) fn shape(scene: &Scene, face: &Face, rest: impl Fn(VertexId) -> DVec3
     })
 }
 
-/// The contours of a face, to be given more corners.
+/// The contours of a face, as polylines.
 pub(crate) fn as_contours(scene: &Scene, face: &Face) -> Vec<Polyline> {
     face.contours.clone().map(|row| Polyline::closed(row, scene.contours.get(row))).collect()
 }
 
-/// A contour without corners that repeat the one before.
+/// A contour without repeated corners.
 fn without_repeats(contour: &[VertexId]) -> Vec<VertexId> {
     let mut corners = contour.to_vec();
     corners.dedup();
@@ -129,29 +128,29 @@ fn without_repeats(contour: &[VertexId]) -> Vec<VertexId> {
     corners
 }
 
-/// What cutting gives.
+/// The result of subdivision.
 #[derive(Debug, Default)]
 pub(crate) struct Outcome {
     /// Pieces that replace faces, by face.
     pub pieces: Vec<Piece>,
     /// Contours with more corners.
     pub lines: Vec<Polyline>,
-    /// Faces whose inside is off, but which cannot be cut.
+    /// Faces with errors inside that cannot be triangulated.
     pub n_uncut: usize,
-    /// Edges left bent since they have been halved often enough.
+    /// Edges above the bound at the limit of halvings.
     pub n_too_deep: usize,
-    /// Was cutting stopped since there are too many pieces?
+    /// Did subdivision stop at the limit of pieces?
     pub is_full: bool,
 }
 
 impl Outcome {
-    /// Was nothing cut?
+    /// True if nothing was subdivided.
     pub(crate) fn is_empty(&self) -> bool {
         self.pieces.is_empty() && self.lines.is_empty()
     }
 
-    /// Puts the pieces in the place of their faces. The result says for each old face the row of its first
-    /// piece, and after the last the number of faces.
+    /// Replaces faces by their pieces. Returns for each old face the row of its first piece,
+    /// followed by the number of faces.
     pub(crate) fn put_into(&self, scene: &mut Scene) -> Vec<u32> {
         let mut lines: Vec<&Polyline> = self.lines.iter().collect();
         lines.sort_by_key(|line| line.row);

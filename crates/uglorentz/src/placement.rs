@@ -53,11 +53,12 @@ fn anchor_shift(motion: &RelativeMotion, anchor: DVec3, in_place: bool) -> DVec3
         if motion.is_at_rest() {
             return DVec3::ZERO;
         }
-        // The anchor in rest coordinates moves to the rest position that is seen at the anchor, (P4).
+        // The anchor in rest coordinates moves to the rest position that is seen at the anchor,
+        // (P4).
         motion.rest(anchor) - motion.turned(anchor)
     } else if motion.has_contraction() {
-        // The fixed point A instead of the eye adds (1 − 1/γ)(A·û)û to (P1), which is γ times as much
-        // in rest coordinates. The contraction is that in the frame of the scene.
+        // The fixed point A instead of the eye adds (1 − 1/γ)(A·û)û to (P1), which is γ times as
+        // much in rest coordinates. The contraction is that in the frame of the scene.
         let v = motion.in_scene();
         motion.turned(v.direction() * (v.gamma_minus_one() * anchor.dot(v.direction())))
     } else {
@@ -73,8 +74,8 @@ fn time_shift(motion: &RelativeMotion, time: f64) -> DVec3 {
     }
 }
 
-/// The centre of the bounding box of each body, in scene coordinates: of its vertices, or of its lamps
-/// if it has no vertices.
+/// The centre of the bounding box of each body, in scene coordinates: of its vertices, or of its
+/// lamps if it has no vertices.
 fn centers(scene: &Scene, bodies: &[BodyId]) -> Vec<DVec3> {
     const EMPTY: (DVec3, DVec3) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     let grow = |(low, high): &mut (DVec3, DVec3), position: DVec3| {
@@ -97,8 +98,8 @@ fn centers(scene: &Scene, bodies: &[BodyId]) -> Vec<DVec3> {
     boxes.into_iter().zip(lamp_boxes).map(center).collect()
 }
 
-/// Shifts local lights with their body. Lights whose motion is not stated are shifted only if all faces
-/// and wires are one body; with several bodies it is not known which one a light belongs to.
+/// Shifts local lights with their body. Lights whose motion is not stated are shifted only if all
+/// faces and wires are one body; with several bodies it is not known which one a light belongs to.
 pub(crate) fn shift_lights(scene: &mut Scene, motions: &[RelativeMotion], shifts: &[DVec3]) {
     if !scene.lights.iter().any(|light| matches!(light.kind, LightKind::Local { .. })) {
         return;

@@ -6,12 +6,12 @@ use ugparse::BodyId;
 
 use crate::relative_motion::{Point, RelativeMotion};
 
-/// New vertices are at least this fraction of the size of what is subdivided away from the eye, where
-/// their direction would be undefined.
+/// New vertices are at least this fraction of the size of what is subdivided away from the eye,
+/// where their direction would be undefined.
 const AT_EYE: f64 = 1e-12;
 
-/// Where an edge is divided that has the eye at its midpoint. The eye is then well off the midpoint of
-/// the longer part.
+/// Where an edge is divided that has the eye at its midpoint. The eye is then well off the midpoint
+/// of the longer part.
 const BESIDE_MIDDLE: f64 = 0.375;
 
 /// A quarter of the way from the mean to the midpoint of the first side.
@@ -90,9 +90,9 @@ impl<'a> RefinedMesh<'a> {
         row
     }
 
-    /// A vertex at the mean of the corners of a convex quadrilateral, not shared. If the eye is there, it
-    /// is beside the mean, still between the midpoints of the sides, so that the pieces around it are
-    /// convex.
+    /// A vertex at the mean of the corners of a convex quadrilateral, not shared. If the eye is
+    /// there, it is beside the mean, still between the midpoints of the sides, so that the pieces
+    /// around it are convex.
     pub(crate) fn mean(&mut self, parents: [u32; 4]) -> u32 {
         let [a, b, c, d] = parents.map(|row| self.point(row).rest);
         let is_at_eye = ((a + b + c + d) / 4.0).length() <= AT_EYE * (a - c).length();
@@ -100,7 +100,8 @@ impl<'a> RefinedMesh<'a> {
         self.add(Recipe { parents, weights })
     }
 
-    /// A vertex at the mean of the corners of a triangle, or beside it if the eye is there, not shared.
+    /// A vertex at the mean of the corners of a triangle, or beside it if the eye is there, not
+    /// shared.
     pub(crate) fn center(&mut self, [a, b, c]: [u32; 3]) -> u32 {
         let corners = [a, b, c].map(|row| self.point(row).rest);
         let mean = corners.iter().sum::<DVec3>() / 3.0;

@@ -62,7 +62,8 @@ impl RelativeMotion {
         self.velocity.is_zero()
     }
 
-    /// Is the time of flight of light taken into account, so that straight edges are seen as curves?
+    /// Is the time of flight of light taken into account, so that straight edges are seen as
+    /// curves?
     pub(crate) fn has_flight_time(&self) -> bool {
         self.geometry.flight_time
     }
@@ -92,8 +93,8 @@ impl RelativeMotion {
         self.velocity.proper_speed()
     }
 
-    /// The vector in rest coordinates that (P3) maps to where `rest` is seen. Without contraction it is
-    /// `rest` elongated along the motion by γ, which cancels the contraction in (P3).
+    /// The vector in rest coordinates that (P3) maps to where `rest` is seen. Without contraction
+    /// it is `rest` elongated along the motion by γ, which cancels the contraction in (P3).
     pub(crate) fn boosted_rest(&self, rest: DVec3) -> DVec3 {
         if self.geometry.contraction { rest } else { elongated(rest, self.velocity) }
     }

@@ -109,9 +109,9 @@ impl ErrorMeter<'_, '_> {
         }
     }
 
-    /// The error inside a face, and what is visible of its edges. Triangles are measured as they are
-    /// drawn, larger polygons as they would be triangulated, with an upper bound if that fails. If the
-    /// outline alone draws the face, all of its edges is visible.
+    /// The error inside a face, and what is visible of its edges. Triangles are measured as they
+    /// are drawn, larger polygons as they would be triangulated, with an upper bound if that fails.
+    /// If the outline alone draws the face, all of its edges is visible.
     fn inside(
         &self,
         face: &Face,

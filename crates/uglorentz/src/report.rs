@@ -14,8 +14,8 @@ pub struct Report {
     pub n_new_faces: usize,
     /// Faces removed because they are outside the camera's view.
     pub n_culled: usize,
-    /// Faces that are right at their edges only: their contours intersect or enclose no area, so the
-    /// faces cannot be triangulated.
+    /// Faces that are right at their edges only: their contours intersect or enclose no area, so
+    /// the faces cannot be triangulated.
     pub n_uncut: usize,
     /// Edges above the error bound that reached the limit of halvings.
     pub n_too_deep: usize,
@@ -35,8 +35,8 @@ pub struct RemainingErrors {
     pub depth: LargestError,
     /// Relative error of D, or 1/D, interpolated linearly along an edge; an upper bound.
     pub doppler: LargestError,
-    /// Error of the light of near lamps, interpolated linearly along an edge, relative to the light of
-    /// a lamp at normal incidence; `None` if not requested ([`crate::Config::light_error`]).
+    /// Error of the light of near lamps, interpolated linearly along an edge, relative to the light
+    /// of a lamp at normal incidence; `None` if not requested ([`crate::Config::light_error`]).
     pub light: Option<LargestError>,
 }
 

@@ -1,14 +1,14 @@
-//! What a piece becomes when some of its edges are halved.
+//! Subdivision of a piece with some of its edges halved.
 //!
-//! The edges to halve are given; the new ones inside are not. Of the two ways to join four points the one is taken whose edge
-//! is more right, and of two that are as right the shorter. So pieces of a floor near the eye become long where D hardly
-//! changes, towards the eye and away from it.
+//! New edges inside are chosen by their error: of the two diagonals of four points the one with the
+//! smaller error, or the shorter one if the errors are equal. So pieces of a floor near the eye
+//! become long in the direction to the eye, in which D hardly changes.
 
 use crate::criterion::{Bounds, Criterion, Marks};
 use crate::pieces::Shape;
 use crate::refined_mesh::RefinedMesh;
 
-/// Halves the marked edges of a piece, or cuts it inside if that is marked.
+/// Halves the marked edges of a piece, or subdivides its inside if that is marked.
 pub(crate) fn split(mesh: &mut RefinedMesh, bounds: &Bounds, shape: &Shape, marks: Marks) -> Vec<Shape> {
     match *shape {
         Shape::Triangle(corners) => {
@@ -19,8 +19,8 @@ pub(crate) fn split(mesh: &mut RefinedMesh, bounds: &Bounds, shape: &Shape, mark
     }
 }
 
-/// Three triangles round the mean. In the shape of an equilateral one they are obtuse, so that no inside is worse
-/// than its edges.
+/// Three triangles around the mean. For an equilateral triangle they are obtuse, so that their
+/// inside has smaller errors than their edges.
 fn fan(mesh: &mut RefinedMesh, [a, b, c]: [u32; 3]) -> Vec<Shape> {
     let center = mesh.center([a, b, c]);
     [[a, b, center], [b, c, center], [c, a, center]].map(Shape::Triangle).to_vec()
@@ -34,7 +34,7 @@ fn split_triangle(
     marks: [bool; 3],
 ) -> Vec<Shape> {
     let n_marks = marks.iter().filter(|&&mark| mark).count();
-    // Turn it so that the first edge is marked, and the last is not if one is not.
+    // Rotated so that the first edge is marked, and the last is not unless all are.
     let turn = (0..3).find(|&k| marks[k] && (n_marks == 3 || !marks[(k + 2) % 3])).unwrap_or(0);
     let [a, b, c] = [corners[turn], corners[(turn + 1) % 3], corners[(turn + 2) % 3]];
     match n_marks {
@@ -53,8 +53,8 @@ fn split_triangle(
     }
 }
 
-/// Four triangles between the corners and the middles of the sides: one at each corner and one in the middle, but two of them
-/// joined otherwise, across the middle, where that gains most.
+/// Four triangles between the corners and the midpoints of the sides: one at each corner and one in
+/// the middle. One inner edge is flipped where that reduces the error most.
 fn quarters(mesh: &mut RefinedMesh, bounds: &Bounds, [a, b, c]: [u32; 3]) -> [[u32; 3]; 4] {
     let (ab, bc, ca) = (mesh.middle(a, b), mesh.middle(b, c), mesh.middle(c, a));
     let criterion = Criterion { mesh, bounds };
@@ -91,7 +91,7 @@ fn split_quad(mesh: &mut RefinedMesh, bounds: &Bounds, corners: [u32; 4], marks:
             vec![Shape::Quad([a, b, bc, da]), Shape::Quad([da, bc, c, d])]
         }
         _ => {
-            // Turned so that the diagonal to cut along runs from the first corner.
+            // Rotated so that the chosen diagonal runs from the first corner.
             let turn = usize::from(is_second_diagonal_better(mesh, bounds, corners));
             let [a, b, c, d] = std::array::from_fn(|idx| corners[(idx + turn) % 4]);
             let [ab, bc, cd, da] = std::array::from_fn(|idx| marks[(idx + turn) % 4]);
@@ -116,7 +116,7 @@ fn has_right_diagonal(mesh: &RefinedMesh, bounds: &Bounds, [a, b, c, d]: [u32; 4
     !criterion.bends_at_any_depth(a, c) || !criterion.bends_at_any_depth(b, d)
 }
 
-/// More right, or as right and shorter.
+/// Smaller error, or equal error and shorter.
 fn is_second_diagonal_better(mesh: &RefinedMesh, bounds: &Bounds, [a, b, c, d]: [u32; 4]) -> bool {
     let criterion = Criterion { mesh, bounds };
     let (first, second) = (criterion.excess(a, c), criterion.excess(b, d));
@@ -137,10 +137,10 @@ mod tests {
     use crate::near_lamps::NearLamps;
     use crate::relative_motion::RelativeMotion;
 
-    /// Of the ways to join the corners and middles of a triangle, one into four, the one whose inner edges have the least
-    /// errors in all; and the pieces cover the triangle.
+    /// Of the ways to divide a triangle into four, the one whose inner edges have the smallest sum
+    /// of errors; and the pieces cover the triangle.
     #[test]
-    fn inner_edges_are_the_more_right_ones() {
+    fn inner_edges_have_the_smallest_errors() {
         let step = |k: u32, seed: f64| (f64::from(k) * seed).fract() * 2.0 - 1.0;
         let motions =
             [RelativeMotion::new(Velocity::from_beta(DVec3::X * 0.99).unwrap(), Geometry::default())];
@@ -175,7 +175,7 @@ mod tests {
             assert_eq!(shared.len(), 3);
             let total =
                 |edges: &[(u32, u32)]| edges.iter().map(|&(a, b)| criterion.excess(a, b)).sum::<f64>();
-            // Each middle is made of two corners, and lies across from the third.
+            // Each midpoint is between two corners, and opposite the third.
             let middles: Vec<u32> = (3..6).collect();
             let across = |middle: u32| 3 - mesh.recipes[middle as usize - 3].parents[..2].iter().sum::<u32>();
             let round = [(3, 4), (4, 5), (3, 5)];

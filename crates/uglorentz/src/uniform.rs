@@ -55,7 +55,8 @@ pub(crate) fn cut(scene: &Scene, mesh: &mut RefinedMesh, n: u32) -> Result<Outco
 struct UniformSubdivision<'a, 'b> {
     mesh: &'a mut RefinedMesh<'b>,
     n: usize,
-    /// The first of the N − 1 consecutive new vertices of an edge, from the lower to the higher end row.
+    /// The first of the N − 1 consecutive new vertices of an edge, from the lower to the higher end
+    /// row.
     edges: FxHashMap<(u32, u32), u32>,
 }
 

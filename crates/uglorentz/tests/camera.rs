@@ -82,9 +82,10 @@ fn boosted(t: f64, x: DVec3, beta: DVec3) -> (f64, DVec3) {
     (gamma * (t - speed * along), x + axis * (gamma * (along - speed * t) - along))
 }
 
-/// Where a point is seen by the camera, the slow way, all in the frame of the scene. At time 0 there the
-/// point is at `now`, contracted; it is followed back until its light just reaches the camera, at the event
-/// of which the camera's own clock shows `time`; and the event found is boosted to the camera.
+/// Where a point is seen by the camera, the slow way, all in the frame of the scene. At time 0
+/// there the point is at `now`, contracted; it is followed back until its light just reaches the
+/// camera, at the event of which the camera's own clock shows `time`; and the event found is
+/// boosted to the camera.
 fn slowly_seen(now: DVec3, beta: DVec3, camera: DVec3, time: f64) -> DVec3 {
     let gamma = 1.0 / (1.0 - camera.length_squared()).sqrt();
     let (t_camera, x_camera) = (gamma * time, camera * gamma * time);
@@ -131,7 +132,8 @@ fn light_seen_by_the_camera_left_the_world_lines_in_the_scene() {
                     let expected = slowly_seen(now, *beta, fleet.camera, time) + fleet.eye;
                     let found = place(&scene, find(&scene, &format!("b{idx}:{corner}")));
                     let off = (found - expected).length();
-                    // Bisection on times up to 10⁶ leaves 10⁻¹⁰, the boost magnifies it by γ² of up to 17.
+                    // Bisection on times up to 10⁶ leaves 10⁻¹⁰, the boost magnifies it by γ² of up
+                    // to 17.
                     assert!(
                         off < 1e-8 * (1.0 + expected.length()),
                         "{speed} {time} {anchor:?} {idx}: {off:e}"
@@ -142,8 +144,8 @@ fn light_seen_by_the_camera_left_the_world_lines_in_the_scene() {
     }
 }
 
-/// The other slow way: two events of the world line, one light signal between them and the eye by bisection, all
-/// of it in the frame of the camera, to which only events are carried.
+/// The other slow way: two events of the world line, one light signal between them and the eye by
+/// bisection, all of it in the frame of the camera, to which only events are carried.
 #[test]
 fn light_seen_by_the_camera_left_the_world_lines_in_its_own_frame() {
     let mut random = Random(72);
@@ -187,8 +189,8 @@ fn rest_positions_come_back_in_the_axes_of_the_scene() {
                 for (corner, &p) in body.corners.iter().enumerate() {
                     let row = find(&scene, &format!("b{idx}:{corner}"));
                     let (found, p) = (rest[row.index()], p - fleet.eye);
-                    // Seen places are written to the last digit relative to the origin, not the eye; undoing the
-                    // boost magnifies that by up to 2γ.
+                    // Seen places are written to the last digit relative to the origin, not the
+                    // eye; undoing the boost magnifies that by up to 2γ.
                     let gamma = frames.velocity(scene.faces[idx].body).gamma();
                     let tolerance = 1e-12 * p.length() + 1e-15 * gamma * place(&scene, row).length();
                     assert!((found - p).length() <= tolerance, "{speed} {idx}: {found} {p}");
@@ -215,8 +217,8 @@ fn a_moving_camera_is_a_scene_that_moves_the_other_way() {
     }
 }
 
-/// The same bodies and camera, described in another frame: rest axes and the camera's own are turned by Wigner
-/// rotations, what is seen is the same.
+/// The same bodies and camera, described in another frame: rest axes and the camera's own are
+/// turned by Wigner rotations, what is seen is the same.
 #[test]
 fn a_common_boost_of_scene_and_camera_changes_nothing() {
     let mut random = Random(75);

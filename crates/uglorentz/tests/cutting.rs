@@ -1,5 +1,5 @@
-//! Cutting: no cracks, right to the bound, nothing lost. What is measured is measured on the output alone, by
-//! sampling true curves.
+//! Cutting: no cracks, right to the bound, nothing lost. What is measured is measured on the output
+//! alone, by sampling true curves.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, its helpers too")]
 
 mod common;
@@ -101,12 +101,13 @@ fn names_are_unique() {
 struct Errors {
     /// Angle of the true curve from the chord, radians.
     angle: f64,
-    /// Distance in space from the chord over the distance from the eye; within a face from the planes of the pieces it
-    /// borders, if that is less.
+    /// Distance in space from the chord over the distance from the eye; within a face from the
+    /// planes of the pieces it borders, if that is less.
     offset: f64,
     /// Relative error of D along the chord, and of 1/D.
     doppler: f64,
-    /// Distance in space between the inside of a face and the true, curved face, over the distance from the eye.
+    /// Distance in space between the inside of a face and the true, curved face, over the distance
+    /// from the eye.
     inside: f64,
     /// Relative error of D taken linearly inside triangles, and of 1/D.
     inside_doppler: f64,
@@ -148,8 +149,8 @@ fn errors(scene: &Scene, v: Velocity) -> Errors {
     worst
 }
 
-/// Of each drawn edge within a face, the normals of the triangles it makes with other corners of its pieces; none of
-/// edges between faces.
+/// Of each drawn edge within a face, the normals of the triangles it makes with other corners of
+/// its pieces; none of edges between faces.
 fn normals(scene: &Scene) -> BTreeMap<(VertexId, VertexId), Vec<DVec3>> {
     let mut normals = BTreeMap::<_, Vec<DVec3>>::new();
     let mut names = BTreeMap::<_, BTreeSet<_>>::new();
@@ -195,7 +196,8 @@ fn off_chord(p: DVec3, from: DVec3, to: DVec3) -> (f64, f64) {
         let s = ((p - a).dot(b - a) / (b - a).length_squared()).clamp(0.0, 1.0);
         a.lerp(b, s)
     };
-    // Seen from the eye the chord is a great circle: with p scaled onto the plane p·d = |p|, it is a straight line.
+    // Seen from the eye the chord is a great circle: with p scaled onto the plane p·d = |p|, it is
+    // a straight line.
     let d = p.normalize();
     let (a, b) = (from / from.dot(d), to / to.dot(d));
     let q = nearest(d, a, b);
@@ -264,9 +266,9 @@ fn only_what_bends_is_cut() {
     check("one piece an edge", wide, &Config { pieces: Pieces::PerEdge(1), ..fast }, false);
 }
 
-/// Uniform pieces of the edge x = 0, y in −1…1 at distance z = 1, β = 0.9: largest distance of the hyperbola
-/// x = −βγ√(y² + z²) from its chords along x. The numbers are closed forms, taken where curve and chord are
-/// parallel.
+/// Uniform pieces of the edge x = 0, y in −1…1 at distance z = 1, β = 0.9: largest distance of the
+/// hyperbola x = −βγ√(y² + z²) from its chords along x. The numbers are closed forms, taken where
+/// curve and chord are parallel.
 #[test]
 fn chord_errors_of_equal_pieces() {
     let expected = [
@@ -446,7 +448,8 @@ fn edges_at_the_eye_end_in_bounded_work() {
         assert!((50..1000).contains(&outcome.report.n_new_vertices), "{}", outcome.report.n_new_vertices);
         assert!(achieved.angle.error <= 1e-4 && achieved.depth.error <= 1e-4, "{achieved:?}");
     }
-    // A floor close to the eye slides along in its plane and is seen flat; only colours ask for many pieces.
+    // A floor close to the eye slides along in its plane and is seen flat; only colours ask for
+    // many pieces.
     for (height, most) in [("1e-3", 100_000), ("1e-8", 1000), ("1e-12", 1000)] {
         let floor =
             "v a -10 -10 H; v b 10 -10 H; v c 10 10 H; v d -10 10 H; f (a b c d);".replace('H', height);
@@ -572,8 +575,9 @@ fn bad_numbers_are_refused_with_a_remedy() {
     );
 }
 
-/// In place and receding, a body is γ(1 + β) times as far away in its own frame. How far drawn faces are out, in parts of
-/// the distance, goes with the size of the body, so that faces one behind the other stay in order.
+/// In place and receding, a body is γ(1 + β) times as far away in its own frame. How far drawn
+/// faces are out, in parts of the distance, goes with the size of the body, so that faces one
+/// behind the other stay in order.
 #[test]
 fn depth_of_what_is_far_away_at_rest_goes_with_its_size() {
     let mut random = Random(17);

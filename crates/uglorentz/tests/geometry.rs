@@ -134,7 +134,8 @@ fn a_later_picture_is_that_of_a_scene_further_on() {
         for time in [-3.0, 0.0, 2.5] {
             let p = DVec3::new(1.0, 2.0, -3.0);
             let found = seen_at(p, &Config { time, geometry, ..moving(beta) });
-            // In S every point of the body has moved by v t; at time 0 it is contracted about the eye.
+            // In S every point of the body has moved by v t; at time 0 it is contracted about the
+            // eye.
             let now = if contraction { contracted(p, v) } else { p } + beta * time;
             let expected = if flight_time { now + ugphysics::flight_time(now, v) * beta } else { now };
             assert!((found - expected).length() < 1e-12, "{geometry:?} {time}");
@@ -181,7 +182,8 @@ fn bodies_in_place_are_seen_where_the_scene_has_them() {
             let config = |anchor| Config { anchor, in_place: true, geometry, eye: Some(eye), ..moving(beta) };
             let found = seen_at(p, &config(Some(Anchor::Point(p))));
             assert!((found - p).length() < 1e-11, "{geometry:?} {found}");
-            // Without an anchor it is the centre of the box: the vertex of a small box there hardly moves.
+            // Without an anchor it is the centre of the box: the vertex of a small box there hardly
+            // moves.
             let text = "v a 3 3 3; v b 3.000002 3 3; v c 3 3.000002 3.000002; f (a b c);";
             let scene = seen(text, &config(None));
             let off = scene.vertices.iter().map(|v| (v.position - DVec3::splat(3.000_001)).length());
@@ -197,7 +199,8 @@ fn time_runs_on_for_bodies_in_place() {
     let p = DVec3::new(5.0, 1.0, 0.0);
     let config = Config { anchor: Some(Anchor::Point(p)), in_place: true, time: 2.0, ..moving(beta) };
     let found = seen_at(p, &config);
-    // Its light left at −|p|, when it was at p; at 2 it is seen where v(t + |p|) from p is t + 2 light-seconds off.
+    // Its light left at −|p|, when it was at p; at 2 it is seen where v(t + |p|) from p is t + 2
+    // light-seconds off.
     let emitted = (-p.length(), found);
     let travelled = emitted.1.length();
     assert!(((found - p) - beta * (2.0 - travelled - emitted.0)).length() < 1e-12);

@@ -35,8 +35,8 @@ fn tube(random: &mut Random, n: usize) -> Solid {
     (corners, faces)
 }
 
-/// `n` corners below and `n` above, at two distances from the axis in turn, and the sides between them, seen from
-/// outside; numbers count from `first`.
+/// `n` corners below and `n` above, at two distances from the axis in turn, and the sides between
+/// them, seen from outside; numbers count from `first`.
 fn ring(random: &mut Random, n: usize, reach: [f64; 2], first: usize) -> (Vec<DVec3>, Vec<Vec<usize>>) {
     let turn = random.between(0.0, 1.0);
     let corner = |k: usize, height: f64| {

@@ -1,25 +1,25 @@
-//! The camera: what of a scene is in the picture, and where.
+//! The camera: the part of a scene that is in the picture, and projection.
 
 use std::fmt;
 
 use glam::DVec3;
 use ugparse::{Camera, Projection, Scene};
 
-/// View angle across the picture where nobody says one, degrees.
+/// Default view angle across the picture, degrees.
 const DEFAULT_VIEW_ANGLE: f64 = 40.0;
 
-/// Without a hither distance, nothing nearer to the eye than this part of the distance
-/// to the view centre is drawn: points at the eye have no place in a picture.
+/// The default hither distance, as a fraction of the distance to the view centre: points at the eye
+/// cannot be projected.
 const NEAREST: f64 = 1e-6;
 
-/// Camera options of a program: they beat the camera of the scene.
+/// Camera options of a program, which override the camera of the scene.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CameraOptions {
-    /// Name of the camera that counts, of several in the scene; chosen by [`crate::read`].
+    /// Name of the camera to use, if the scene has several; chosen by [`crate::read`].
     pub name: Option<String>,
     /// Eye point.
     pub eye: Option<DVec3>,
-    /// View centre: the point in the middle of the picture.
+    /// View centre: the point at the centre of the picture.
     pub center: Option<DVec3>,
     /// The direction that is up in the picture.
     pub up: Option<DVec3>,
@@ -43,19 +43,19 @@ pub struct Place {
     pub z: f64,
 }
 
-/// The depths that are drawn.
+/// The range of depths that is drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Slab {
-    /// Least distance, positive in perspective.
+    /// Smallest distance, positive in perspective.
     pub near: f64,
-    /// Greatest distance.
+    /// Largest distance.
     pub far: f64,
 }
 
-/// Why there is no picture from this camera.
+/// Why a camera is invalid.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum CameraError {
-    /// The eye point is the view centre, or too near to or far from it to have a direction.
+    /// The eye point is the view centre, or the direction between them underflows or overflows.
     NoDirection {
         /// The eye point.
         eye: DVec3,
@@ -112,17 +112,17 @@ pub struct View {
     pub forward: DVec3,
     /// True for perspective, false for orthographic projection.
     pub is_perspective: bool,
-    /// What of the depth is drawn.
+    /// The range of depths that is drawn.
     pub slab: Slab,
     /// Distance from the eye to the view centre.
     pub distance: f64,
-    /// True if the up direction was parallel to the view and another one was taken.
+    /// True if the up direction was parallel to the view and has been replaced.
     pub is_up_replaced: bool,
     right: DVec3,
     up: DVec3,
     /// Samples per unit of the film at distance 1, across and down.
     scale: [f64; 2],
-    /// The sample where the view axis goes through.
+    /// The sample at the view axis.
     axis: [f64; 2],
     /// Samples of the picture.
     size: [f64; 2],
@@ -138,11 +138,11 @@ pub struct HalfSpace {
 }
 
 impl View {
-    /// Puts together options, the scene's camera and defaults, in this order. `samples`: of
-    /// the picture, across and down.
+    /// Options, the scene's camera and defaults, in order of precedence. `samples`: of the picture,
+    /// across and down.
     ///
     /// # Errors
-    /// [`CameraError`] where they make no sense together.
+    /// [`CameraError`] if the combination is invalid.
     pub fn new(scene: &Scene, options: &CameraOptions, samples: [u32; 2]) -> Result<Self, CameraError> {
         let none = Camera::default();
         let camera = scene.camera().unwrap_or(&none);
@@ -156,7 +156,7 @@ impl View {
         let (right, is_up_replaced) = right_of(forward, options.up.or(camera.up).unwrap_or(DVec3::Z));
         let is_perspective = !options.is_orthographic && camera.projection != Some(Projection::Orthographic);
         let film = Film::new(camera, options, samples)?;
-        // What is at the distance of the view centre has one size in both projections.
+        // At the distance of the view centre both projections have the same scale.
         let half = film.half.map(|half| if is_perspective { half } else { half * distance });
         Ok(Self {
             eye,
@@ -173,10 +173,11 @@ impl View {
         })
     }
 
-    /// The half-spaces in which everything lies that can be in the picture: its four sides, and the
-    /// clipping planes. `None` where there is no such plane.
+    /// The half-spaces whose intersection is the view volume: the four sides of the picture, and
+    /// the clipping planes. `None` where there is no such plane.
     pub fn half_spaces(&self) -> [Option<HalfSpace>; 6] {
-        // A side is where a sample coordinate of `place`, a linear function over w, is 0 or the size.
+        // A side is where a sample coordinate of `place`, a linear function over w, is 0 or the
+        // size.
         let side = |scale: DVec3, axis: f64| {
             if self.is_perspective {
                 HalfSpace { normal: scale + axis * self.forward, offset: 0.0 }
@@ -196,7 +197,7 @@ impl View {
         ]
     }
 
-    /// Where a point, relative to the eye, is in the picture.
+    /// Transforms a point, relative to the eye, to the picture.
     pub fn place(&self, point: DVec3) -> Place {
         let z = point.dot(self.forward);
         let w = if self.is_perspective { z } else { 1.0 };
@@ -208,9 +209,10 @@ impl View {
     }
 }
 
-/// The way back, from the picture to points.
+/// The inverse: from the picture to points.
 impl View {
-    /// The point, relative to the eye, that is at a place in the picture, in samples, and at a depth along the view.
+    /// The point, relative to the eye, at a position in the picture, in samples, and a depth along
+    /// the view.
     pub fn point(&self, [x, y]: [f64; 2], z: f64) -> DVec3 {
         let w = if self.is_perspective { z } else { 1.0 };
         let across = (x - self.axis[0]) * w / self.scale[0];
@@ -218,29 +220,29 @@ impl View {
         across * self.right + above * self.up + z * self.forward
     }
 
-    /// The rays of a perspective picture: the one through sample coordinates x, y runs from the eye along the first
-    /// vector plus x times the second plus y times the third, with depth 1.
+    /// The rays of a perspective picture, at depth 1: the direction through sample coordinates x, y
+    /// is the first vector plus x times the second plus y times the third.
     pub fn rays(&self) -> [DVec3; 3] {
         [self.point([0.0, 0.0], 1.0), self.right / self.scale[0], -self.up / self.scale[1]]
     }
 }
 
-/// The middle of the box round all vertices.
+/// The centre of the bounding box of all vertices.
 fn middle(scene: &Scene) -> DVec3 {
-    // Halved first: the sum of two large coordinates may be too large.
+    // Halved first: the sum of two large coordinates may overflow.
     scene.bounds().map_or(DVec3::ZERO, |(low, high)| low * 0.5 + high * 0.5)
 }
 
 /// The unit vector to the right, and whether `up` had to be replaced because it is parallel
 /// to the view.
 fn right_of(forward: DVec3, up: DVec3) -> (DVec3, bool) {
-    /// Sine of the least angle between up and view that is not taken for rounding.
+    /// Sine of the angle between up and view below which they count as parallel.
     const LEAST: f64 = 1e-9;
     let across = forward.cross(up.normalize_or_zero());
     if across.length() > LEAST {
         return (across.normalize(), false);
     }
-    // +y is up for a view straight down or up, the usual layout of a map.
+    // +y is up for a vertical view, as on a map.
     let axis = if forward.y.abs() < 0.9 { DVec3::Y } else { DVec3::Z };
     (forward.cross(axis).normalize(), true)
 }
@@ -265,8 +267,8 @@ struct Film {
 }
 
 impl Film {
-    /// Pixels are square unless both angles stand on the command line: otherwise the angle
-    /// across counts, and the height follows from the shape of the picture.
+    /// Pixels are square unless both angles are given as options: otherwise the angle across is
+    /// used, and the height follows from the aspect ratio of the picture.
     fn new(camera: &Camera, options: &CameraOptions, samples: [u32; 2]) -> Result<Self, CameraError> {
         let [min_x, min_y, max_x, max_y] = camera.film.unwrap_or([0.0, 0.0, 1.0, 1.0]);
         if !(min_x < max_x && min_y < max_y) {

@@ -14,8 +14,9 @@ pub fn camera_velocity(scene: &Scene) -> Velocity {
     scene.stage.seen_geometry().map_or(Velocity::ZERO, |seen| seen.camera_velocity)
 }
 
-/// Turns the axes of the scene into those in which a body that moves with `seen` in the frame of the camera
-/// stands to it by a single boost, as (P3) and (P4) want it: W(w, v_c)⁻¹ = W(v_b, −v_c).  Eq. (P25)
+/// Turns the axes of the scene into those in which a body that moves with `seen` in the frame of
+/// the camera stands to it by a single boost, as (P3) and (P4) want it: W(w, v_c)⁻¹ = W(v_b, −v_c).
+/// Eq. (P25)
 pub fn axes_from_scene(seen: Velocity, camera: Velocity) -> DQuat {
     wigner_rotation(camera, seen)
 }

@@ -9,7 +9,8 @@ use crate::CameraOptions;
 /// Heading of these options in `--help`.
 const CAMERA: &str = "Camera";
 
-/// Which camera, and where its eye is: flatten it into the arguments of a program that asks no more.
+/// Which camera, and where its eye is: flatten it into the arguments of a program that asks no
+/// more.
 #[derive(Args, Clone, Debug, Default, PartialEq)]
 pub struct EyeArgs {
     /// The camera of this name [default: the first without a name, else the first]
@@ -42,7 +43,8 @@ pub struct CameraArgs {
     #[command(flatten)]
     eye: EyeArgs,
 
-    /// View centre, shown in the middle of the picture [default: that of the scene's camera, else the scene's middle]
+    /// View centre, shown in the middle of the picture [default: that of the scene's camera, else
+    /// the scene's middle]
     ///
     /// A scene that is written has this, and the options below, in its camera.
     #[arg(long, num_args = 3, value_names = ["X", "Y", "Z"], action = ArgAction::Set,
@@ -56,8 +58,9 @@ pub struct CameraArgs {
 
     /// Full view angle across the picture and, if given, down it, in degrees
     ///
-    /// Default: that of the scene's camera across, else 40. Pixels are square unless both are given. A scene that is
-    /// written keeps the angle across alone; give the angle down to the renderer as well.
+    /// Default: that of the scene's camera across, else 40. Pixels are square unless both are
+    /// given. A scene that is written keeps the angle across alone; give the angle down to the
+    /// renderer as well.
     #[arg(long, num_args = 1..=2, value_names = ["A", "B"], action = ArgAction::Set,
           value_parser = view_angle, visible_alias = "view-angle", help_heading = CAMERA)]
     va: Option<Vec<f64>>,

@@ -1,4 +1,4 @@
-//! Where the eye is, and that nothing sits in it.
+//! The eye point, and vertices that coincide with it.
 
 use glam::DVec3;
 use ugparse::{Scene, VertexId};
@@ -6,16 +6,16 @@ use ugparse::{Scene, VertexId};
 use crate::{RestFrames, vertex_bodies};
 
 /// The eye point in scene coordinates: the option if given, else the one of the scene's camera,
-/// else the one its positions were computed for, else the origin. All programs of a pipe choose it
-/// alike.
+/// else the one its positions were computed for, else the origin. All programs of a pipe agree
+/// on it.
 pub fn eye(scene: &Scene, option: Option<DVec3>) -> DVec3 {
     let of_camera = || scene.camera().and_then(|camera| camera.eye);
     let of_stage = || scene.stage.seen_geometry().map(|seen| seen.eye);
     option.or_else(of_camera).or_else(of_stage).unwrap_or(DVec3::ZERO)
 }
 
-/// The first vertex of a moving body that lies exactly at the eye, where no
-/// direction to it exists, and so neither a place nor a Doppler factor.
+/// The first vertex of a moving body that lies exactly at the eye, where its direction, and so its
+/// seen position and Doppler factor, are undefined.
 pub fn vertex_at_eye(scene: &Scene, eye: DVec3, frames: &RestFrames) -> Option<VertexId> {
     let row = scene.vertices.iter().position(|vertex| vertex.position == eye)?;
     let bodies = vertex_bodies(scene);

@@ -1,5 +1,4 @@
-//! Rest geometry ⇄ seen geometry, also where `uglorentz` was told to leave
-//! something out.
+//! Transformation between rest positions and seen positions, also with effects omitted.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -8,9 +7,8 @@ use ugphysics::{Velocity, contracted, elongated, flight_time, rest_position, see
 
 use crate::{RestFrames, vertex_bodies};
 
-/// Which of the two effects the seen positions of a scene have in them.
-///
-/// Both, unless the stage of the scene says otherwise.
+/// Which of the two effects are included in the seen positions of a scene: both, unless its stage
+/// says otherwise.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Geometry {
     /// Lorentz contraction, (P1).
@@ -34,9 +32,8 @@ impl Geometry {
         }
     }
 
-    /// Where a point of a body is seen. Both positions are relative to the eye:
-    /// `p_rest` in the body's frame, the result in the camera's. (P3), or (P1)
-    /// or (P2) alone.
+    /// The seen position of a point of a body. Both positions are relative to the eye: `p_rest` in
+    /// the frame of the body, the result in that of the camera. (P3), or (P1) or (P2) alone.
     pub fn seen(self, p_rest: DVec3, v: Velocity) -> DVec3 {
         match (self.contraction, self.flight_time) {
             (true, true) => seen_position(p_rest, v),
@@ -46,12 +43,12 @@ impl Geometry {
         }
     }
 
-    /// The inverse of [`Geometry::seen`]; (P4) if nothing was left out.
+    /// The inverse of [`Geometry::seen`]; (P4) with both effects.
     pub fn rest(self, p_seen: DVec3, v: Velocity) -> DVec3 {
         match (self.contraction, self.flight_time) {
             (true, true) => rest_position(p_seen, v),
             (true, false) => elongated(p_seen, v),
-            // Light left at −|p_seen|; the body moved on with v since.
+            // The light left at time −|p_seen|; since then the body has moved with v.
             (false, true) => p_seen + p_seen.length() * v.beta(),
             (false, false) => p_seen,
         }
@@ -101,8 +98,8 @@ mod tests {
         }
     }
 
-    /// A body at rest in the scene, one with a velocity of its own, and a camera that moves: the seen positions
-    /// come from 4×4 matrices.
+    /// A body at rest in the scene, a moving body and a moving camera. The seen positions are
+    /// computed with 4×4 matrices.
     #[test]
     fn rest_positions_are_in_the_axes_of_the_scene() {
         let text = "v a 1 2 3; v b -4 1 2; v c 2 2 -5; v d 1 9 2; v e -3 1 1; v f 0 2 7;

@@ -1,13 +1,15 @@
-//! What the ug programs ask of a flat [`ugparse::Scene`].
+//! Properties of a flat [`ugparse::Scene`] that several programs compute with.
 //!
-//! A scene is geometry and colour as text gives it; the filters need more:
-//! which body a vertex is part of and how that moves ([`RestFrames`],
-//! [`separate_bodies`]), where it rests when it is seen here ([`Geometry`],
-//! [`rest_positions`], equation (P4)), its normal ([`smooth_normals`], and [`shading_normal`]
-//! under a light), which colours meet at it ([`vertex_shares`]), what triangles
-//! make up a polygon ([`triangulate`]), or a face that is not flat ([`read`]), and what
-//! the camera sees ([`View`]). All programs
-//! must agree on these, so they are written once, here. Lamps and the appearance of colours are in `uglight`.
+//! - Bodies: which one a vertex is part of, and their rest frames ([`RestFrames`],
+//!   [`separate_bodies`]).
+//! - Positions: rest positions from seen ones ([`Geometry`], [`rest_positions`], equation (P4)).
+//! - Normals: [`smooth_normals`], and [`shading_normal`] for lighting.
+//! - The colours that meet at a vertex ([`vertex_shares`]).
+//! - Triangulation of polygons ([`triangulate`]), also of faces that are not flat ([`read`]).
+//! - The camera ([`View`]), its options, and the eye.
+//! - The stage that a program requires.
+//!
+//! All programs must agree on these. Lamps and the appearance of colours are in `uglight`.
 //!
 //! ```
 //! use glam::DVec3;

@@ -1,10 +1,10 @@
-//! Vertex normals from the faces round a vertex, weighted by angle (Nguyen 1988, 5.2.1).
+//! Vertex normals: means of face normals, weighted by angle (Nguyen 1988, 5.2.1).
 
 use glam::DVec3;
 use ugparse::{Face, Scene, VertexId, newell_normal};
 
-/// Angle at corner `idx` of a contour, radians in 0…π. For a reflex corner it
-/// is the outer angle: weights are never larger than π.
+/// Angle at corner `idx` of a contour, radians in 0…π. For a reflex corner it is the outer angle,
+/// so weights are at most π.
 pub fn corner_angle(contour: &[VertexId], idx: usize, positions: &[DVec3]) -> f64 {
     let len = contour.len();
     let at = |idx: usize| positions[contour[idx % len].index()];
@@ -18,15 +18,16 @@ pub(crate) fn face_normal(scene: &Scene, face: &Face, positions: &[DVec3]) -> DV
     newell_normal(outline.iter().map(|corner| positions[corner.index()])).normalize_or_zero()
 }
 
-/// Unit normal of an outline on the side that is seen; zero if it has no area.
+/// Unit normal of an outline on its visible side; zero if it has no area.
 ///
-/// `corners`: at rest. `toward_eye`: a vector to where the eye is, in the frame of `corners`.
+/// `corners`: rest positions. `toward_eye`: a vector to the eye, in the frame of `corners`.
 pub fn seen_normal(corners: impl Iterator<Item = DVec3> + Clone, toward_eye: DVec3) -> DVec3 {
     let normal = newell_normal(corners).normalize_or_zero();
     if normal.dot(toward_eye) < 0.0 { -normal } else { normal }
 }
 
-/// The unit normal a corner is lit with: its own, turned to the side its face is seen from, else that of the face.
+/// The unit normal for lighting a corner: that of its vertex, flipped to the visible side of the
+/// face, else that of the face.
 ///
 /// `own`: of the vertex, any length. `seen`: [`seen_normal`] of the face.
 pub fn shading_normal(own: Option<DVec3>, seen: DVec3) -> DVec3 {
@@ -37,11 +38,10 @@ pub fn shading_normal(own: Option<DVec3>, seen: DVec3) -> DVec3 {
     }
 }
 
-/// For every vertex the mean of the unit normals of its faces, weighted by the
-/// angle of the face's corner there, of unit length. Zero for a vertex without
-/// faces, or whose faces cancel out.
+/// For every vertex the mean of the unit normals of its faces, weighted by the angle of each face
+/// there, normalized. Zero for a vertex without faces, or whose normals cancel.
 ///
-/// `positions`: one for each vertex, in the frame the normals are wanted in.
+/// `positions`: one for each vertex; the result is in their frame.
 pub fn smooth_normals(scene: &Scene, positions: &[DVec3]) -> Vec<DVec3> {
     let mut normals = vec![DVec3::ZERO; scene.vertices.len()];
     for face in &scene.faces {
@@ -52,7 +52,7 @@ pub fn smooth_normals(scene: &Scene, positions: &[DVec3]) -> Vec<DVec3> {
             }
         }
     }
-    // Opposite faces leave rounding noise of some 1e-16 that has no direction.
+    // Opposite normals cancel up to rounding of about 1e-16, which has no meaningful direction.
     let unit = |sum: DVec3| if sum.length() > 1e-12 { sum.normalize() } else { DVec3::ZERO };
     normals.into_iter().map(unit).collect()
 }
@@ -63,8 +63,8 @@ mod tests {
 
     #[test]
     fn a_cube_corner_points_along_the_diagonal_however_its_faces_are_cut() {
-        // One side is cut into two triangles that meet in the corner: weighting
-        // by angle sees no difference, weighting by count would.
+        // One side is split into two triangles at the corner, which changes the mean if weighted by
+        // count, but not if weighted by angle.
         let text = "v o 0 0 0; v x 1 0 0; v y 0 1 0; v z 0 0 1; v xy 1 1 0; v yz 0 1 1; v zx 1 0 1;
             f (o y xy); f (o xy x); f (o z yz y); f (o x zx z);";
         let source = ugparse::Source::new("cube.ug", text);

@@ -1,4 +1,4 @@
-//! Polygons in their rest plane: convexity, and triangles by ear cutting.
+//! Polygons in their rest plane: convexity, and triangulation by ear clipping.
 
 mod delaunay;
 
@@ -7,13 +7,13 @@ use glam::{DVec2, DVec3};
 use rustc_hash::{FxHashMap, FxHashSet};
 use ugparse::newell_normal;
 
-/// Three corners, by place in the list of corners.
+/// Three corners, as indices of the list of corners.
 pub type Triangle = [u32; 3];
 
-/// Is this quadrilateral convex, with no corner straight or nearly so?
+/// Is this quadrilateral convex, and no corner almost straight?
 pub fn is_convex(corners: [DVec3; 4]) -> bool {
     let normal = newell_normal(corners.iter().copied());
-    // A corner with a sine below a millionth would make a needle of a triangle.
+    // A corner with a sine below a millionth would make a degenerate triangle.
     let least = 1e-6 * normal.length();
     (0..4).all(|idx| {
         let (back, here, ahead) = (corners[(idx + 3) % 4], corners[idx], corners[(idx + 1) % 4]);
@@ -22,19 +22,20 @@ pub fn is_convex(corners: [DVec3; 4]) -> bool {
     })
 }
 
-/// Ear cutting takes time quadratic in the number of corners, and more where corners coincide. Polygons with
-/// more corners than this go through a constrained Delaunay triangulation, which does not.
+/// Ear cutting takes time quadratic in the number of corners, and more where corners coincide.
+/// Polygons with more corners than this go through a constrained Delaunay triangulation, which does
+/// not.
 const MAX_EAR_CORNERS: usize = 256;
 
-/// Contours are tested against each other for nesting. A polygon that would need more tests than this is not
-/// triangulated. Contours whose bounding boxes are not nested need no test.
+/// Contours are tested against each other for nesting. A polygon that would need more tests than
+/// this is not triangulated. Contours whose bounding boxes are not nested need no test.
 const MAX_NESTING_TESTS: usize = 1 << 24;
 
-/// Cuts a polygon into triangles that keep its direction and use every corner and every side.
+/// Triangulates a polygon. The triangles have its orientation and use every corner and every side.
 ///
-/// `rings`: the corners of its contours; the first gives its direction, and inside is decided by the even-odd
-/// rule. Corners are numbered through all rings. `None` if that cannot be done: for polygons that cross
-/// themselves, that have no area, or whose contours are nested thousands deep.
+/// `rings`: the corners of its contours, numbered through all rings. The first gives the
+/// orientation; the even-odd rule decides what is inside. `None` for polygons that intersect
+/// themselves, have no area, or have contours nested thousands deep.
 pub fn triangulate(rings: &[Vec<DVec3>]) -> Option<Vec<Triangle>> {
     let rings = of_usual_size(rings)?;
     let normal = newell_normal(rings[0].iter().copied());
@@ -53,8 +54,8 @@ pub fn triangulate(rings: &[Vec<DVec3>]) -> Option<Vec<Triangle>> {
     (is_complete(&triangles, &sides) && flat.are_upright(&triangles)).then_some(triangles)
 }
 
-/// The polygon dropped onto a coordinate plane, its first contour counterclockwise. Dropping a coordinate does
-/// not round, so corners on one line stay on one line.
+/// The polygon projected to a coordinate plane, its first contour counterclockwise. Dropping a
+/// coordinate does not round, so collinear corners stay collinear.
 struct Flat {
     rings: Vec<Vec<DVec2>>,
     /// Number of each ring's first corner.
@@ -137,7 +138,8 @@ impl Flat {
         }));
     }
 
-    /// Do all triangles turn as the polygon does? Those of a polygon that crosses itself do not.
+    /// Do all triangles have the orientation of the polygon? False for polygons that intersect
+    /// themselves.
     fn are_upright(&self, triangles: &[Triangle]) -> bool {
         let corners = self.rings.concat();
         let at = |number: u32| corners[number as usize];
@@ -159,8 +161,8 @@ impl Flat {
     }
 }
 
-/// The corners relative to the first, multiplied by a power of two where their size would let areas overflow or
-/// vanish. `None` if a corner is infinite, or all of them coincide.
+/// The corners relative to the first, multiplied by a power of two where areas would overflow or
+/// underflow. `None` if a corner is infinite, or all of them coincide.
 fn of_usual_size(rings: &[Vec<DVec3>]) -> Option<Vec<Vec<DVec3>>> {
     let origin = *rings.first()?.first()?;
     let mut rings: Vec<Vec<DVec3>> =
@@ -177,12 +179,12 @@ fn of_usual_size(rings: &[Vec<DVec3>]) -> Option<Vec<Vec<DVec3>>> {
     Some(rings)
 }
 
-/// For each contour, those around it. `None` beyond [`MAX_NESTING_TESTS`].
+/// For each contour, those that contain it. `None` beyond [`MAX_NESTING_TESTS`].
 fn nesting(rings: &[Vec<DVec2>]) -> Option<Vec<Vec<usize>>> {
     let boxes: Vec<[DVec2; 2]> = rings.iter().map(|ring| bounds(ring)).collect();
     let mut around = vec![Vec::new(); rings.len()];
     let mut n_tests = 0;
-    // Swept from left to right, so that only contours that overlap across are paired.
+    // A sweep from left to right, which pairs only contours that overlap horizontally.
     let mut order: Vec<usize> = (0..rings.len()).collect();
     order.sort_by(|&a, &b| boxes[a][0].x.total_cmp(&boxes[b][0].x));
     let mut open: Vec<usize> = Vec::new();
@@ -216,14 +218,14 @@ fn bounds(ring: &[DVec2]) -> [DVec2; 2] {
     ring.iter().fold([DVec2::INFINITY, DVec2::NEG_INFINITY], grown)
 }
 
-/// Ear cutting drops corners on a straight side. Neighbours do use them, so the triangle at such a side is
-/// replaced by a fan that uses them too.
+/// Ear cutting drops corners on a straight side. Neighbours do use them, so the triangle at such a
+/// side is replaced by a fan that uses them too.
 fn take_up_dropped_corners(triangles: Vec<Triangle>, sides: &[u32]) -> Option<Vec<Triangle>> {
     let mut edges: FxHashSet<(u32, u32)> = triangles.iter().flat_map(|&t| edges_of(t)).collect();
     let mut todo = triangles;
     todo.reverse();
     let mut done = Vec::with_capacity(todo.len());
-    // Each step settles a triangle or takes up a corner.
+    // Each step finishes a triangle or adds a corner.
     let mut steps_left = todo.len() + 2 * sides.len();
     while let Some([a, b, c]) = todo.pop() {
         steps_left = steps_left.checked_sub(1)?;
@@ -244,7 +246,7 @@ fn take_up_dropped_corners(triangles: Vec<Triangle>, sides: &[u32]) -> Option<Ve
     Some(done)
 }
 
-/// Corners met walking along the sides from `from` to `to`.
+/// The corners along the sides from `from` to `to`.
 fn chain(sides: &[u32], from: u32, to: u32) -> Option<Vec<u32>> {
     let mut chain = vec![from];
     while *chain.last()? != to {
@@ -278,8 +280,8 @@ fn signed_area(ring: &[DVec2]) -> f64 {
     ring.windows(2).map(|pair| (pair[0] - origin).perp_dot(pair[1] - origin)).sum::<f64>() / 2.0
 }
 
-/// Does most of `ring` lie inside `other`? Rings do not cross; asking the middles of all sides settles rings
-/// that touch.
+/// Does most of `ring` lie inside `other`? Rings do not intersect; testing the midpoints of all
+/// sides decides for rings that touch.
 fn is_inside(ring: &[DVec2], other: &[DVec2]) -> bool {
     let middles = (0..ring.len()).map(|idx| ring[idx].midpoint(ring[(idx + 1) % ring.len()]));
     let n_inside = middles.filter(|&p| contains(other, p)).count();

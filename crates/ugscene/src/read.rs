@@ -1,4 +1,4 @@
-//! A scene as programs that move or draw its faces want it.
+//! Reading for programs that move or draw faces: faces that are not flat are triangulated.
 
 use std::ops::Range;
 
@@ -7,11 +7,11 @@ use ugparse::{Diagnostics, Face, Item, Options, Parsed, Scene, Source, TOO_BENT,
 
 use crate::polygon::triangulate;
 
-/// Reads a scene, and cuts faces that are far from flat ([`TOO_BENT`]) into triangles, if they
-/// have no holes: what such a face looks like would depend on the side it is seen from. The
-/// triangles keep all that the face has, its name too.
+/// Reads a scene and triangulates faces without holes that are far from flat ([`TOO_BENT`]), since
+/// their shape would depend on the side they are seen from. The triangles keep all properties of
+/// the face, including its name.
 ///
-/// `camera`: the name of the one that counts, if it is not said by the scene alone ([`Parsed::choose_camera`]).
+/// `camera`: the name of the camera to use, see [`Parsed::choose_camera`].
 ///
 /// # Errors
 /// See [`ugparse::parse`] and [`Parsed::choose_camera`].
@@ -28,7 +28,7 @@ pub fn read(source: &Source, options: &Options, camera: Option<&str>) -> Result<
     Ok(parsed)
 }
 
-/// Cuts the faces of these rows, in order, into triangles where that can be done.
+/// Triangulates the faces of these rows, which are in order, where possible.
 fn cut_faces(parsed: &mut Parsed, rows: &[usize]) {
     let Parsed { scene, origins, .. } = parsed;
     let faces = std::mem::take(&mut scene.faces);
@@ -47,7 +47,7 @@ fn cut_faces(parsed: &mut Parsed, rows: &[usize]) {
     }
     for comment in &mut scene.comments {
         if let Item::Face(row) = &mut comment.at {
-            // One behind the face comes behind its last piece.
+            // A trailing comment follows the last piece.
             let ahead = if comment.trailing { first_pieces.get(*row as usize + 1) } else { None };
             *row = match ahead {
                 Some(next) => next - 1,
@@ -58,7 +58,7 @@ fn cut_faces(parsed: &mut Parsed, rows: &[usize]) {
     }
 }
 
-/// Contours of the triangles that make up a face, one each; `None` if it has holes or crosses itself.
+/// The triangles of a face, as contours; `None` if it has holes or intersects itself.
 fn triangles(scene: &mut Scene, face: &Face) -> Option<impl Iterator<Item = Range<u32>> + use<>> {
     if face.contours.len() != 1 {
         return None;
@@ -79,7 +79,7 @@ mod tests {
         read(&Source::new("t.ug", text), &Options::default(), None).unwrap()
     }
 
-    /// A square of side 1 whose corners are off its plane by `d`, up and down in turn.
+    /// A square of side 1 whose corners are alternately above and below its plane by `d`.
     fn square(d: f64, rest: &str) -> String {
         format!("v a 0 0 {d}; v b 1 0 -{d}; v c 1 1 {d}; v e 0 1 -{d}; {rest}")
     }

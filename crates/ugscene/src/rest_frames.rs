@@ -6,7 +6,7 @@ use ugphysics::Velocity;
 
 use crate::{axes_from_scene, camera_velocity, split_vertices};
 
-/// How the rest frame of each body stands to that of the camera.
+/// The rest frame of each body relative to the frame of the camera.
 #[derive(Clone, Debug)]
 pub struct RestFrames {
     /// In the order of [`Scene::bodies`].
@@ -25,7 +25,7 @@ impl RestFrames {
         Self { velocities, camera: camera_velocity(scene) }
     }
 
-    /// The same, but what states no motion moves with `velocity`.
+    /// With `velocity` for bodies whose motion is not stated.
     #[must_use]
     pub fn with_unstated(mut self, velocity: Velocity) -> Self {
         self.velocities[BodyId::UNSTATED.index()] = velocity;
@@ -49,11 +49,11 @@ impl RestFrames {
     }
 }
 
-/// The body of each vertex, from the faces and wires that use it; [`BodyId::UNSTATED`] for vertices that
-/// nothing uses.
+/// The body of each vertex, from the faces and wires that use it; [`BodyId::UNSTATED`] for unused
+/// vertices.
 ///
-/// A vertex that several bodies share is part of the first of them: after [`separate_bodies`] there is no
-/// such vertex.
+/// A vertex shared by several bodies is part of the first of them. [`separate_bodies`] removes such
+/// sharing.
 pub fn vertex_bodies(scene: &Scene) -> Vec<BodyId> {
     let mut bodies = vec![BodyId::UNSTATED; scene.vertices.len()];
     // In reverse, so that the first user is written last.
@@ -72,14 +72,14 @@ fn users(scene: &Scene) -> impl DoubleEndedIterator<Item = (std::ops::Range<u32>
     faces.chain(wires)
 }
 
-/// True if all faces and wires are part of one body, so that [`separate_bodies`] would change nothing.
+/// True if all faces and wires are part of one body; [`separate_bodies`] then changes nothing.
 pub fn is_one_body(scene: &Scene) -> bool {
     let first = users(scene).next().map(|(_, body)| body);
     scene.bodies.len() == 1 || users(scene).all(|(_, body)| Some(body) == first)
 }
 
-/// Gives every body its own vertices: where faces or wires of different bodies share a vertex, the later
-/// ones get a copy, named after it.
+/// Gives every body its own vertices: where faces or wires of different bodies share a vertex, the
+/// later ones get a copy, named after it.
 pub fn separate_bodies(scene: &mut Scene) {
     if !is_one_body(scene) {
         let users: Vec<_> = users(scene).collect();

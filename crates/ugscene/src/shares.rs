@@ -1,17 +1,17 @@
-//! Which colours meet at a vertex, and how much of each (Nguyen 1988, 4.1).
+//! The colours that meet at a vertex, and their weights (Nguyen 1988, 4.1).
 
 use glam::DVec3;
 use ugparse::{ColorId, Scene, VertexId};
 
 use crate::corner_angle;
 
-/// The colours of a vertex; `None` is white, of what has no colour.
+/// The colours of a vertex. `None` is white, for faces without a colour.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Shares {
     /// Its own, or that of all its faces.
     One(Option<ColorId>),
-    /// Those of its faces, in the order they are met, each once and with its
-    /// share by the angles of the faces' corners. Shares add up to 1.
+    /// Those of its faces, in their order, each once and with its share by the angles of the faces.
+    /// Shares add up to 1.
     Mixed(Vec<(Option<ColorId>, f64)>),
 }
 
@@ -28,10 +28,10 @@ impl Shares {
 
 /// The colours of every vertex: its own, else those of its faces, else of its wires.
 ///
-/// `positions`: one for each vertex, in the rest frame of its body, where
-/// angles do not depend on the speed.
+/// `positions`: one for each vertex, in the rest frame of its body, where angles do not depend on
+/// the speed.
 pub fn vertex_shares(scene: &Scene, positions: &[DVec3]) -> Vec<Shares> {
-    // Own colours need no look at the faces.
+    // If all vertices have a colour, the faces do not matter.
     let own = scene.vertices.iter().map(|vertex| vertex.color.map(|color| Shares::One(Some(color))));
     if let Some(shares) = own.collect() {
         return shares;
@@ -46,7 +46,7 @@ pub fn vertex_shares(scene: &Scene, positions: &[DVec3]) -> Vec<Shares> {
     for face in &scene.faces {
         scene.face_contours(face).for_each(|contour| use_colour(contour, face.color, true));
     }
-    // Wires speak only for vertices that no face uses.
+    // Wires matter only for vertices that no face uses.
     let used_by_faces: Vec<bool> = if scene.wires.is_empty() { Vec::new() } else { face_vertices(scene) };
     for wire in &scene.wires {
         for corner in scene.wire_contours(wire).flatten() {
@@ -66,9 +66,9 @@ fn face_vertices(scene: &Scene) -> Vec<bool> {
     used
 }
 
-/// The colours met at a vertex so far, with the sums of their weights.
+/// The colours at a vertex so far, with the sums of their weights.
 enum Sum {
-    /// Given by the vertex itself; nothing changes it.
+    /// That of the vertex itself.
     Own(ColorId),
     Nothing,
     One {
@@ -105,7 +105,7 @@ impl Sum {
             Self::One { color, .. } => Shares::One(color),
             Self::Many(mut parts) => {
                 let whole: f64 = parts.iter().map(|part| part.1).sum();
-                // Corners without an angle, all of them: as good as no colour.
+                // All angles are 0.
                 if whole <= 0.0 {
                     return Shares::One(None);
                 }

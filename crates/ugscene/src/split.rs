@@ -1,4 +1,4 @@
-//! Vertices that users want to keep apart are repeated.
+//! Duplication of vertices that are shared by faces and wires of different kinds.
 
 use std::hash::Hash;
 use std::ops::Range;
@@ -6,12 +6,11 @@ use std::ops::Range;
 use rustc_hash::FxHashMap;
 use ugparse::{Scene, UniqueNames, Vertex, VertexId};
 
-/// Repeats vertices that users of different kinds share, so that afterwards
-/// each belongs to one kind. The first user keeps the vertex; the others get
-/// copies, one for each kind, named after it.
+/// Duplicates vertices that users of different kinds share, so that each vertex is used by one
+/// kind. The first user keeps the vertex; the others get copies, one for each kind, named after it.
 ///
 /// `users`: contours of faces and wires, each with its kind.
-/// `divide`: false for vertices that may be shared all the same.
+/// `divide`: false for vertices that may stay shared.
 pub fn split_vertices<K: Copy + Eq + Hash>(
     scene: &mut Scene,
     users: &[(Range<u32>, K)],
@@ -21,11 +20,11 @@ pub fn split_vertices<K: Copy + Eq + Hash>(
     split_corners(scene, rows, |user, _, vertex| divide(vertex).then_some(users[user].1));
 }
 
-/// The same where the kind depends on the corner: `kind` is asked for user, vertex and what is known of the
-/// vertex; `None` uses the vertex as it is, whatever its kind.
+/// Like [`split_vertices`], for kinds that depend on the corner: `kind` gets the user, the vertex
+/// and its row; `None` uses the vertex without a copy.
 ///
-/// Gives the originals of the copies, which are the last vertices of the scene, in order. No copy is the original
-/// of another.
+/// Returns the originals of the copies, which are the last vertices of the scene, in order. No copy
+/// is the original of another.
 pub fn split_corners<K: Copy + Eq + Hash>(
     scene: &mut Scene,
     users: impl Iterator<Item = Range<u32>>,

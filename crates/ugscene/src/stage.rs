@@ -70,7 +70,8 @@ fn any_moves(scene: &Scene, mut bodies: impl Iterator<Item = BodyId>) -> bool {
     scene.bodies.iter().any(moves) && bodies.any(|body| moves(&scene.bodies[body]))
 }
 
-/// The warning for bodies that move and are drawn with their shapes at rest; `None` if there are none.
+/// The warning for bodies that move and are drawn with their shapes at rest; `None` if there are
+/// none.
 pub fn rest_shapes_warning(parsed: &Parsed) -> Option<Diagnostic> {
     let Parsed { scene, origins, .. } = parsed;
     require_seen_geometry(scene).err()?;
