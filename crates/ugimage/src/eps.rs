@@ -1,15 +1,15 @@
 //! Encapsulated PostScript: a colour image to be placed in a document.
 
-use crate::postscript::{color_image, history_comments, label_comments};
-use crate::{Frame, Label};
+use crate::postscript::{color_image, creator_comment, history_comments};
+use crate::{Frame, Metadata};
 
 /// The frame as an EPS file, one pixel per point.
-pub fn encode(frame: &Frame, label: &Label) -> Vec<u8> {
-    wrap([frame.width(), frame.height()], 2, label, &color_image(frame))
+pub fn encode(frame: &Frame, metadata: &Metadata) -> Vec<u8> {
+    wrap([frame.width(), frame.height()], 2, metadata, &color_image(frame))
 }
 
 /// Makes an EPS file of the PostScript code `drawing`, which draws `width` × `height` points.
-pub fn wrap([width, height]: [u32; 2], level: u32, label: &Label, drawing: &[u8]) -> Vec<u8> {
+pub fn wrap([width, height]: [u32; 2], level: u32, metadata: &Metadata, drawing: &[u8]) -> Vec<u8> {
     let mut file = format!(
         "%!PS-Adobe-3.0 EPSF-3.0\n\
          %%BoundingBox: 0 0 {width} {height}\n\
@@ -18,8 +18,8 @@ pub fn wrap([width, height]: [u32; 2], level: u32, label: &Label, drawing: &[u8]
          %%DocumentData: Clean7Bit\n\
          %%EndComments\n\
          {}",
-        label_comments(label),
-        history_comments(label)
+        creator_comment(metadata),
+        history_comments(metadata)
     )
     .into_bytes();
     file.extend_from_slice(drawing);

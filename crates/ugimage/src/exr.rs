@@ -6,16 +6,16 @@ use exr::meta::attribute::{Chromaticities, Text};
 use exr::meta::header::LayerAttributes;
 
 use crate::linear::Samples;
-use crate::{Label, LinearFrame};
+use crate::{LinearFrame, Metadata};
 
 /// The light as an OpenEXR file: channels `R`, `G`, `B` and, unless the frame is opaque, `A`,
 /// 32-bit floating point, unclipped; then the frame's planes under their names. Colours are
-/// premultiplied by `A`, as OpenEXR requires. The chromaticities are those of sRGB; the label is in
-/// `software` and `comments`.
-pub fn encode(frame: &LinearFrame, label: &Label) -> Vec<u8> {
+/// premultiplied by `A`, as OpenEXR requires. The chromaticities are those of sRGB; the metadata is
+/// in `software` and `comments`.
+pub fn encode(frame: &LinearFrame, metadata: &Metadata) -> Vec<u8> {
     let attributes = LayerAttributes {
-        software_name: text(&label.software),
-        comments: text(&label.comment),
+        software_name: text(&metadata.software),
+        comments: text(&metadata.comment),
         ..LayerAttributes::default()
     };
     let size = (frame.width() as usize, frame.height() as usize);
@@ -83,7 +83,7 @@ mod tests {
 
     #[test]
     fn values_round_trip() {
-        let label = Label { software: "ug 1".into(), comment: "ug é\nug γ".into() };
+        let metadata = Metadata { software: "ug 1".into(), comment: "ug é\nug γ".into() };
         for mut frame in test_frames() {
             let n_pixels = frame.pixels().len() as u32;
             frame.push_plane(Plane {
@@ -92,8 +92,8 @@ mod tests {
             });
             let times: Vec<f32> = (0..n_pixels).map(|idx| -(idx as f32)).collect();
             frame.push_plane(Plane { name: "time".into(), samples: Samples::Float(times.clone()) });
-            let file = encode(&frame, &label);
-            assert_eq!(file, encode(&frame, &label));
+            let file = encode(&frame, &metadata);
+            assert_eq!(file, encode(&frame, &metadata));
             let read = decode(&file);
             let layer = &read.layer_data[0];
             assert_eq!(layer.attributes.comments.as_ref().unwrap().to_string(), "ug é\nug ?");

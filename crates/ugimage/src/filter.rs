@@ -1,11 +1,11 @@
 //! Reconstruction filters, from samples to pixels.
 
-/// A separable reconstruction filter: a sample at distances x and y, in pixels, from the middle of a
-/// pixel has the weight w(x) w(y).
+/// A separable reconstruction filter: a sample at distances x and y, in pixels, from the middle of
+/// a pixel has the weight w(x) w(y).
 ///
-/// These are B-splines. The weights of a sample in all pixels add up to 1, so a small object has the
-/// same light in the picture wherever it is. No weight is negative, so no pixel is darker or brighter
-/// than all of its samples.
+/// These are B-splines. The weights of a sample in all pixels add up to 1, so a small object has
+/// the same light in the picture wherever it is. No weight is negative, so no pixel is darker or
+/// brighter than all of its samples.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Filter {
     /// The mean of the pixel's own samples, as a detector measures it: w = 1 for |x| < ½.
@@ -13,7 +13,8 @@ pub enum Filter {
     Box,
     /// w = 1 − |x|, up to 1.
     Triangle,
-    /// The quadratic B-spline, nearly a Gaussian with σ = ½: w = ¾ − x² for |x| < ½, else ½ (3/2 − |x|)², up to 3/2.
+    /// The quadratic B-spline, nearly a Gaussian with σ = ½: w = ¾ − x² for |x| < ½, and ½ (3/2 −
+    /// |x|)² from there to |x| = 3/2.
     Spline,
 }
 
@@ -35,7 +36,7 @@ impl Filter {
         Self::ALL.into_iter().find(|filter| name == filter.name())
     }
 
-    /// How many neighbouring pixels on each side have samples with a weight.
+    /// The number of neighbouring pixels on each side whose samples have nonzero weight.
     pub fn margin(self) -> u32 {
         match self {
             Self::Box => 0,
@@ -43,7 +44,8 @@ impl Filter {
         }
     }
 
-    /// How many samples along a side have a weight in a pixel with `n` of its own along a side.
+    /// The number of samples with nonzero weight along each axis, for a pixel with `n` × `n`
+    /// samples.
     pub fn n_samples(self, n: u32) -> usize {
         self.weights(n).iter().filter(|weight| **weight != 0.0).count()
     }
@@ -59,8 +61,8 @@ impl Filter {
         }
     }
 
-    /// Weights along a side of a pixel with `n` samples along a side: of the samples of
-    /// [`Filter::margin`] pixels before it, of its own, and of as many after it.
+    /// The weights along one axis of a pixel with `n` × `n` samples: those of the samples of
+    /// [`Filter::margin`] pixels before it, of its own samples, and of as many pixels after it.
     pub fn weights(self, n: u32) -> Vec<f32> {
         let place = |sample: u32| (f64::from(sample) + 0.5) / f64::from(n) - 0.5;
         let first = f64::from(self.margin());

@@ -1,7 +1,7 @@
 //! The file formats and their names.
 
-use crate::png::Packing;
-use crate::{Frame, Label, LinearFrame, eps, exr, hdr, pdf, pfm, png, ppm, ps, svg};
+use crate::png::Compression;
+use crate::{Frame, LinearFrame, Metadata, eps, exr, hdr, pdf, pfm, png, ppm, ps, svg};
 
 /// A file format for colour images.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -97,40 +97,45 @@ impl Format {
     }
 
     /// The frame as a file of this format.
-    pub fn encode(self, frame: &Frame, label: &Label) -> Vec<u8> {
-        self.pack(frame, label, Packing::Fast)
+    pub fn encode(self, frame: &Frame, metadata: &Metadata) -> Vec<u8> {
+        self.encode_with(frame, metadata, Compression::Fast)
     }
 
     /// Like [`Format::encode`], with the given compression for PNG files.
-    pub fn pack(self, frame: &Frame, label: &Label, packing: Packing) -> Vec<u8> {
+    pub fn encode_with(self, frame: &Frame, metadata: &Metadata, compression: Compression) -> Vec<u8> {
         match self {
-            Self::Png => png::encode(frame, label, packing),
-            Self::Eps => eps::encode(frame, label),
-            Self::Ps => ps::encode(frame, label),
-            Self::Pdf => pdf::encode(frame, label),
-            Self::Svg => svg::encode(frame, label),
-            Self::Ppm => ppm::encode(frame, label),
+            Self::Png => png::encode(frame, metadata, compression),
+            Self::Eps => eps::encode(frame, metadata),
+            Self::Ps => ps::encode(frame, metadata),
+            Self::Pdf => pdf::encode(frame, metadata),
+            Self::Svg => svg::encode(frame, metadata),
+            Self::Ppm => ppm::encode(frame, metadata),
             Self::Png16 | Self::Exr | Self::Pfm | Self::Hdr => {
-                self.pack_linear(&frame.into(), label, packing)
+                self.encode_linear_with(&frame.into(), metadata, compression)
             }
         }
     }
 
     /// Linear light as a file of this format. Unless the format [is linear](Format::is_linear),
     /// light outside 0…1 is clipped: apply a [`Development`](crate::Development) first.
-    pub fn encode_linear(self, frame: &LinearFrame, label: &Label) -> Vec<u8> {
-        self.pack_linear(frame, label, Packing::Fast)
+    pub fn encode_linear(self, frame: &LinearFrame, metadata: &Metadata) -> Vec<u8> {
+        self.encode_linear_with(frame, metadata, Compression::Fast)
     }
 
     /// Like [`Format::encode_linear`], with the given compression for PNG files.
-    pub fn pack_linear(self, frame: &LinearFrame, label: &Label, packing: Packing) -> Vec<u8> {
+    pub fn encode_linear_with(
+        self,
+        frame: &LinearFrame,
+        metadata: &Metadata,
+        compression: Compression,
+    ) -> Vec<u8> {
         match self {
-            Self::Png16 => png::encode_16(frame, label, packing),
-            Self::Exr => exr::encode(frame, label),
+            Self::Png16 => png::encode_16(frame, metadata, compression),
+            Self::Exr => exr::encode(frame, metadata),
             Self::Pfm => pfm::encode(frame),
-            Self::Hdr => hdr::encode(frame, label),
+            Self::Hdr => hdr::encode(frame, metadata),
             Self::Png | Self::Eps | Self::Ps | Self::Pdf | Self::Svg | Self::Ppm => {
-                self.pack(&frame.to_display(), label, packing)
+                self.encode_with(&frame.to_display(), metadata, compression)
             }
         }
     }

@@ -3,8 +3,8 @@
 
 use ugphysics::{luminance, srgb_encode};
 
-use crate::postscript::{decode_table, history_comments, label_comments, over_white};
-use crate::{Frame, Label};
+use crate::postscript::{creator_comment, decode_table, history_comments, over_white};
+use crate::{Frame, Metadata};
 
 /// Longest string of a PostScript level 1 interpreter, in bytes.
 const MAX_STRING: u32 = 65_535;
@@ -13,7 +13,7 @@ const MAX_STRING: u32 = 65_535;
 ///
 /// The grey level is the display-encoded luminance, computed in linear light. Transparent pixels
 /// are composited over white.
-pub fn grey_postscript(frame: &Frame, label: &Label) -> Vec<u8> {
+pub fn grey_postscript(frame: &Frame, metadata: &Metadata) -> Vec<u8> {
     let (width, height) = (frame.width(), frame.height());
     let mut file = format!(
         "%!PS-Adobe-2.0 EPSF-2.0\n\
@@ -26,8 +26,8 @@ pub fn grey_postscript(frame: &Frame, label: &Label) -> Vec<u8> {
          {width} {height} scale\n\
          {width} {height} 8 [{width} 0 0 -{height} 0 {height}]\n\
          {{ currentfile line readhexstring pop }} image\n",
-        label_comments(label),
-        history_comments(label),
+        creator_comment(metadata),
+        history_comments(metadata),
         string_len(width)
     )
     .into_bytes();
@@ -74,7 +74,7 @@ mod tests {
     #[test]
     fn pixels_round_trip() {
         for frame in test_frames() {
-            let file = grey_postscript(&frame, &Label::default());
+            let file = grey_postscript(&frame, &Metadata::default());
             let levels = decode::hex(decode::between(&file, "image\n", "grestore"));
             assert_eq!(levels.len(), frame.pixels().len());
             for (level, [r, g, b]) in levels.into_iter().zip(over_white(&frame)) {

@@ -1,7 +1,7 @@
 //! Radiance HDR (RGBE): eight bits each for red, green, blue and a shared exponent (G. Ward, *Real
 //! Pixels*, 1991).
 
-use crate::{Label, LinearFrame};
+use crate::{LinearFrame, Metadata};
 
 /// Image widths for which the format allows run-length encoding.
 const CODED_WIDTHS: std::ops::Range<u32> = 8..0x8000;
@@ -10,13 +10,13 @@ const CODED_WIDTHS: std::ops::Range<u32> = 8..0x8000;
 const MAX_EXPONENT: i32 = 255;
 
 /// The light as a Radiance HDR file, with a precision of 1/256 of the brightest channel. Negative
-/// light is clipped to 0, and transparency is composited over black. The label is in the header.
-pub fn encode(frame: &LinearFrame, label: &Label) -> Vec<u8> {
+/// light is clipped to 0, and transparency is composited over black. The metadata is in the header.
+pub fn encode(frame: &LinearFrame, metadata: &Metadata) -> Vec<u8> {
     let mut file = b"#?RADIANCE\n".to_vec();
-    if !label.software.is_empty() {
-        push_line(&mut file, "SOFTWARE=", &label.software);
+    if !metadata.software.is_empty() {
+        push_line(&mut file, "SOFTWARE=", &metadata.software);
     }
-    label.comment.lines().for_each(|line| push_line(&mut file, "# ", line));
+    metadata.comment.lines().for_each(|line| push_line(&mut file, "# ", line));
     file.extend_from_slice(b"PRIMARIES=0.64 0.33 0.30 0.60 0.15 0.06 0.3127 0.3290\n");
     let (width, height) = (frame.width(), frame.height());
     file.extend_from_slice(format!("FORMAT=32-bit_rle_rgbe\n\n-Y {height} +X {width}\n").as_bytes());
@@ -88,9 +88,9 @@ mod tests {
 
     #[test]
     fn another_reader_reads_the_same_light() {
-        let label = Label { software: "ug 1".into(), comment: "ug -sz 3 2\n\nug\u{7}".into() };
+        let metadata = Metadata { software: "ug 1".into(), comment: "ug -sz 3 2\n\nug\u{7}".into() };
         for frame in crate::linear::test_frames() {
-            let file = encode(&frame, &label);
+            let file = encode(&frame, &metadata);
             let read =
                 image::load_from_memory_with_format(&file, image::ImageFormat::Hdr).unwrap().into_rgb32f();
             assert_eq!(read.dimensions(), (frame.width(), frame.height()));

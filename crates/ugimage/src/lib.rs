@@ -10,9 +10,9 @@
 //!
 //! The writers ([`Format::encode`], [`Format::encode_linear`], [`grey_postscript`]) return the
 //! whole file as a `Vec<u8>`. They do no I/O and read no clock. Everything in the file besides
-//! pixels is passed in a [`Label`], so the same frame and label give the same bytes.
+//! pixels is passed in a [`Metadata`], so the same frame and metadata give the same bytes.
 //!
-//! [`read_png`] reads PNG files with their label.
+//! [`read_png`] reads PNG files with their metadata.
 //!
 //! | format | pixels | transparency |
 //! | --- | --- | --- |
@@ -29,15 +29,15 @@
 //! formats one pixel is one point (1/72 inch).
 //!
 //! ```
-//! use ugimage::{Format, Frame, Label};
+//! use ugimage::{Format, Frame, Metadata};
 //!
 //! let mut frame = Frame::opaque(2, 1);
 //! frame.pixels_mut()[1] = [255, 128, 0, 255];
-//! let label = Label { software: "demo 1.0".into(), comment: "demo -sz 2 1".into() };
-//! let png = Format::Png.encode(&frame, &label);
+//! let metadata = Metadata { software: "demo 1.0".into(), comment: "demo -sz 2 1".into() };
+//! let png = Format::Png.encode(&frame, &metadata);
 //! assert!(png.starts_with(b"\x89PNG"));
 //!
-//! let eps = Format::Eps.encode(&frame, &label);
+//! let eps = Format::Eps.encode(&frame, &metadata);
 //! assert!(eps.starts_with(b"%!PS-Adobe-3.0 EPSF-3.0\n%%BoundingBox: 0 0 2 1\n"));
 //! ```
 
@@ -50,8 +50,8 @@ mod format;
 mod frame;
 mod grey;
 mod hdr;
-mod label;
 mod linear;
+mod metadata;
 mod pdf;
 mod pfm;
 mod png;
@@ -67,8 +67,8 @@ pub use filter::Filter;
 pub use format::Format;
 pub use frame::Frame;
 pub use grey::grey_postscript;
-pub use label::Label;
 pub use linear::{LinearFrame, Plane, Samples, display_pixel};
-pub use png::Packing;
-pub use quantizer::{HALF, Quantizer};
+pub use metadata::Metadata;
+pub use png::Compression;
+pub use quantizer::{Quantizer, ROUNDING_OFFSET};
 pub use read::{ReadError, read_png};

@@ -4,7 +4,7 @@ use miniz_oxide::deflate::compress_to_vec_zlib;
 use pdf_writer::writers::Resources;
 use pdf_writer::{Content, Filter, Finish, Name, Pdf, Rect, Ref, TextStr};
 
-use crate::{Frame, Label};
+use crate::{Frame, Metadata};
 
 /// DEFLATE compression level: the usual default, a compromise between time and size.
 const LEVEL: u8 = 6;
@@ -24,7 +24,7 @@ const IMAGE: Ref = Ref::new(FIRST);
 const MASK: Ref = Ref::new(FIRST + 1);
 
 /// The frame as a PDF file; transparency is kept as a soft mask.
-pub fn encode(frame: &Frame, label: &Label) -> Vec<u8> {
+pub fn encode(frame: &Frame, metadata: &Metadata) -> Vec<u8> {
     let size = [frame.width(), frame.height()];
     let mut pdf = Pdf::new();
     let colors: Vec<u8> = frame.pixels().iter().flat_map(|&[r, g, b, _]| [r, g, b]).collect();
@@ -37,7 +37,7 @@ pub fn encode(frame: &Frame, label: &Label) -> Vec<u8> {
     content.transform([size[0] as f32, 0.0, 0.0, size[1] as f32, 0.0, 0.0]);
     content.x_object(Name(b"I"));
     let content = content.finish();
-    document(pdf, size, label, content.as_slice(), |resources| {
+    document(pdf, size, metadata, content.as_slice(), |resources| {
         resources.x_objects().pair(Name(b"I"), IMAGE);
     })
 }
@@ -70,11 +70,11 @@ pub fn deflate(bytes: &[u8]) -> Vec<u8> {
 }
 
 /// Makes a file with one page of `size` points. `pdf` already contains the objects that `resources`
-/// refers to. The label becomes the document information; there is no date and no id.
+/// refers to. The metadata becomes the document information; there is no date and no id.
 pub fn document(
     mut pdf: Pdf,
     size: [u32; 2],
-    label: &Label,
+    metadata: &Metadata,
     content: &[u8],
     resources: impl FnOnce(&mut Resources<'_>),
 ) -> Vec<u8> {
@@ -98,11 +98,11 @@ pub fn document(
     let data = deflate(&drawing);
     pdf.stream(CONTENT, &data).filter(Filter::FlateDecode);
     let mut info = pdf.document_info(INFO);
-    if !label.software.is_empty() {
-        info.creator(TextStr(&label.software)).producer(TextStr(&label.software));
+    if !metadata.software.is_empty() {
+        info.creator(TextStr(&metadata.software)).producer(TextStr(&metadata.software));
     }
-    if !label.comment.is_empty() {
-        info.subject(TextStr(&label.comment));
+    if !metadata.comment.is_empty() {
+        info.subject(TextStr(&metadata.comment));
     }
     info.finish();
     pdf.finish()

@@ -2,15 +2,15 @@
 
 use std::borrow::Cow;
 
-use png::{BitDepth, ColorType, Compression, Encoder, EncodingError, SrgbRenderingIntent};
+use png::{BitDepth, ColorType, Encoder, EncodingError, SrgbRenderingIntent};
 
 use ugphysics::srgb_encode;
 
-use crate::{Frame, Label, LinearFrame};
+use crate::{Frame, LinearFrame, Metadata};
 
 /// How hard PNG files are compressed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Packing {
+pub enum Compression {
     /// Fast: compression takes less time than rendering.
     #[default]
     Fast,
@@ -18,9 +18,9 @@ pub enum Packing {
     Small,
 }
 
-/// The frame as a PNG file: RGB if it is opaque, otherwise RGBA; tagged as sRGB. The label is in
+/// The frame as a PNG file: RGB if it is opaque, otherwise RGBA; tagged as sRGB. The metadata is in
 /// the text chunks `Software` and `Comment`; there is no date.
-pub fn encode(frame: &Frame, label: &Label, packing: Packing) -> Vec<u8> {
+pub fn encode(frame: &Frame, metadata: &Metadata, compression: Compression) -> Vec<u8> {
     let data: Cow<'_, [u8]> = if frame.is_opaque() {
         let mut data = vec![0; 3 * frame.pixels().len()];
         for (bytes, &[r, g, b, _]) in data.chunks_exact_mut(3).zip(frame.pixels()) {
@@ -30,13 +30,13 @@ pub fn encode(frame: &Frame, label: &Label, packing: Packing) -> Vec<u8> {
     } else {
         frame.pixels().as_flattened().into()
     };
-    write([frame.width(), frame.height()], frame.is_opaque(), BitDepth::Eight, &data, label, packing)
+    write([frame.width(), frame.height()], frame.is_opaque(), BitDepth::Eight, &data, metadata, compression)
         .expect("a frame with pixels fits a PNG and a vector takes every write")
 }
 
 /// Linear light as a PNG file with 16 bits per channel, encoded as sRGB: RGB or RGBA. Light outside
 /// 0…1 is clipped.
-pub fn encode_16(frame: &LinearFrame, label: &Label, packing: Packing) -> Vec<u8> {
+pub fn encode_16(frame: &LinearFrame, metadata: &Metadata, compression: Compression) -> Vec<u8> {
     let whole = |part: f64| (65535.0 * part).round() as u16;
     let level = |light: f32| whole(srgb_encode(f64::from(light).clamp(0.0, 1.0))).to_be_bytes();
     let channels = if frame.is_opaque() { 3 } else { 4 };
@@ -49,7 +49,7 @@ pub fn encode_16(frame: &LinearFrame, label: &Label, packing: Packing) -> Vec<u8
         }
         data.extend_from_slice(last.1[..channels].as_flattened());
     }
-    write([frame.width(), frame.height()], frame.is_opaque(), BitDepth::Sixteen, &data, label, packing)
+    write([frame.width(), frame.height()], frame.is_opaque(), BitDepth::Sixteen, &data, metadata, compression)
         .expect("a frame with pixels fits a PNG and a vector takes every write")
 }
 
@@ -58,20 +58,20 @@ fn write(
     is_opaque: bool,
     depth: BitDepth,
     data: &[u8],
-    label: &Label,
-    packing: Packing,
+    metadata: &Metadata,
+    compression: Compression,
 ) -> Result<Vec<u8>, EncodingError> {
     let mut file = Vec::new();
     let mut encoder = Encoder::new(&mut file, width, height);
     encoder.set_color(if is_opaque { ColorType::Rgb } else { ColorType::Rgba });
     encoder.set_depth(depth);
     encoder.set_source_srgb(SrgbRenderingIntent::Perceptual);
-    encoder.set_compression(match packing {
-        Packing::Fast => Compression::Fast,
-        Packing::Small => Compression::High,
+    encoder.set_compression(match compression {
+        Compression::Fast => png::Compression::Fast,
+        Compression::Small => png::Compression::High,
     });
-    add_text(&mut encoder, "Software", &label.software)?;
-    add_text(&mut encoder, "Comment", &label.comment)?;
+    add_text(&mut encoder, "Software", &metadata.software)?;
+    add_text(&mut encoder, "Comment", &metadata.comment)?;
     let mut writer = encoder.write_header()?;
     writer.write_image_data(data)?;
     writer.finish()?;
@@ -110,7 +110,7 @@ mod tests {
     #[test]
     fn pixels_round_trip() {
         for frame in test_frames() {
-            let (output, pixels, info) = decode(&encode(&frame, &Label::default(), Packing::Fast));
+            let (output, pixels, info) = decode(&encode(&frame, &Metadata::default(), Compression::Fast));
             assert_eq!((output.width, output.height), (frame.width(), frame.height()));
             assert_eq!(info.srgb, Some(SrgbRenderingIntent::Perceptual));
             let expected: Vec<u8> = if frame.is_opaque() {
@@ -134,11 +134,12 @@ mod tests {
         });
         let frame = Frame::new([200, 100], true, pixels.collect());
         let light = LinearFrame::from(&frame);
-        let of_8 = |packing| encode(&frame, &Label::default(), packing);
-        let of_16 = |packing| encode_16(&light, &Label::default(), packing);
-        for [fast, small] in
-            [[Packing::Fast, Packing::Small].map(of_8), [Packing::Fast, Packing::Small].map(of_16)]
-        {
+        let of_8 = |compression| encode(&frame, &Metadata::default(), compression);
+        let of_16 = |compression| encode_16(&light, &Metadata::default(), compression);
+        for [fast, small] in [
+            [Compression::Fast, Compression::Small].map(of_8),
+            [Compression::Fast, Compression::Small].map(of_16),
+        ] {
             assert_eq!(decode(&fast).1, decode(&small).1);
             assert!(small.len() < fast.len(), "{} {}", small.len(), fast.len());
         }
@@ -147,7 +148,7 @@ mod tests {
     #[test]
     fn sixteen_bits_are_the_nearest_levels() {
         for frame in crate::linear::test_frames() {
-            let (output, bytes, _) = decode(&encode_16(&frame, &Label::default(), Packing::Fast));
+            let (output, bytes, _) = decode(&encode_16(&frame, &Metadata::default(), Compression::Fast));
             assert_eq!(output.bit_depth, BitDepth::Sixteen);
             let channels = if frame.is_opaque() { 3 } else { 4 };
             assert_eq!(bytes.len(), frame.pixels().len() * 2 * channels);
@@ -167,25 +168,25 @@ mod tests {
     }
 
     #[test]
-    fn labels_round_trip() {
+    fn metadata_round_trips() {
         let frame = Frame::opaque(1, 1);
-        let label = Label { software: "ug 1".into(), comment: "ug -vel .9 0 0\nug\u{e9}".into() };
-        let (_, _, info) = decode(&encode(&frame, &label, Packing::Fast));
+        let metadata = Metadata { software: "ug 1".into(), comment: "ug -vel .9 0 0\nug\u{e9}".into() };
+        let (_, _, info) = decode(&encode(&frame, &metadata, Compression::Fast));
         let texts: Vec<_> =
             info.uncompressed_latin1_text.iter().map(|chunk| (&*chunk.keyword, &*chunk.text)).collect();
         assert_eq!(texts, [("Software", "ug 1"), ("Comment", "ug -vel .9 0 0\nug\u{e9}")]);
 
-        let label = Label { software: String::new(), comment: "γ = 2\0".into() };
-        let (_, _, info) = decode(&encode(&frame, &label, Packing::Fast));
+        let metadata = Metadata { software: String::new(), comment: "γ = 2\0".into() };
+        let (_, _, info) = decode(&encode(&frame, &metadata, Compression::Fast));
         assert!(info.uncompressed_latin1_text.is_empty());
         assert_eq!(info.utf8_text[0].get_text().unwrap(), "γ = 2");
     }
 
     #[test]
     fn no_date_is_written() {
-        let label = Label { software: "a".into(), comment: "b".into() };
-        let file = encode(&Frame::opaque(3, 2), &label, Packing::Fast);
+        let metadata = Metadata { software: "a".into(), comment: "b".into() };
+        let file = encode(&Frame::opaque(3, 2), &metadata, Compression::Fast);
         assert!(!file.windows(4).any(|kind| kind == b"tIME"));
-        assert_eq!(file, encode(&Frame::opaque(3, 2), &label, Packing::Fast));
+        assert_eq!(file, encode(&Frame::opaque(3, 2), &metadata, Compression::Fast));
     }
 }

@@ -3,23 +3,23 @@
 
 use ugphysics::srgb_decode;
 
-use crate::{Frame, Label, Quantizer};
+use crate::{Frame, Metadata, Quantizer};
 
 /// Longest comment line written; the document structuring conventions allow 255 characters.
 const MAX_COMMENT: usize = 250;
 
-/// The `%%Creator` comment; empty if the label has no software.
-pub fn label_comments(label: &Label) -> String {
+/// The `%%Creator` comment; empty if the metadata has no software.
+pub fn creator_comment(metadata: &Metadata) -> String {
     let mut text = String::new();
-    if !label.software.is_empty() {
-        text += &format!("%%Creator: {}\n", comment_line(&label.software));
+    if !metadata.software.is_empty() {
+        text += &format!("%%Creator: {}\n", comment_line(&metadata.software));
     }
     text
 }
 
-/// The label's comment as plain `%` lines, to be placed after `%%EndComments`.
-pub fn history_comments(label: &Label) -> String {
-    label.comment.lines().map(|line| format!("% {}\n", comment_line(line))).collect()
+/// The metadata's comment as plain `%` lines, to be placed after `%%EndComments`.
+pub fn history_comments(metadata: &Metadata) -> String {
+    metadata.comment.lines().map(|line| format!("% {}\n", comment_line(line))).collect()
 }
 
 /// `text` as printable ASCII, truncated to the length of a comment line.
@@ -300,11 +300,11 @@ mod tests {
     }
 
     #[test]
-    fn labels_are_comments() {
-        let label = Label { software: "ug\n1".into(), comment: "a -vel .9\nγ".into() };
-        assert_eq!(label_comments(&label), "%%Creator: ug?1\n");
-        assert_eq!(history_comments(&label), "% a -vel .9\n% ?\n");
-        let long = Label { software: String::new(), comment: "x".repeat(1000) };
+    fn metadata_is_in_comments() {
+        let metadata = Metadata { software: "ug\n1".into(), comment: "a -vel .9\nγ".into() };
+        assert_eq!(creator_comment(&metadata), "%%Creator: ug?1\n");
+        assert_eq!(history_comments(&metadata), "% a -vel .9\n% ?\n");
+        let long = Metadata { software: String::new(), comment: "x".repeat(1000) };
         assert!(history_comments(&long).lines().all(|line| line.len() <= 255));
     }
 }

@@ -1,13 +1,14 @@
 //! PPM: the portable pixmap of the netpbm programs.
 
 use crate::postscript::over_white;
-use crate::{Frame, Label};
+use crate::{Frame, Metadata};
 
-/// The frame as a binary PPM file (P6, 8 bits), transparent pixels composited over white, the label
-/// in comments.
-pub fn encode(frame: &Frame, label: &Label) -> Vec<u8> {
+/// The frame as a binary PPM file (P6, 8 bits), transparent pixels composited over white, the
+/// metadata in comments.
+pub fn encode(frame: &Frame, metadata: &Metadata) -> Vec<u8> {
     let mut file = b"P6\n".to_vec();
-    for line in [&label.software[..]].into_iter().chain(label.comment.lines()).filter(|line| !line.is_empty())
+    for line in
+        [&metadata.software[..]].into_iter().chain(metadata.comment.lines()).filter(|line| !line.is_empty())
     {
         let line: String = line.chars().map(|c| if c.is_control() { '?' } else { c }).collect();
         file.extend_from_slice(format!("# {line}\n").as_bytes());
@@ -23,9 +24,9 @@ mod tests {
 
     #[test]
     fn another_reader_reads_the_same_pixels() {
-        let label = Label { software: "ug 1".into(), comment: "ug -sz 3 2\nug γ".into() };
+        let metadata = Metadata { software: "ug 1".into(), comment: "ug -sz 3 2\nug γ".into() };
         for frame in crate::frame::test_frames() {
-            let file = encode(&frame, &label);
+            let file = encode(&frame, &metadata);
             let read =
                 image::load_from_memory_with_format(&file, image::ImageFormat::Pnm).unwrap().into_rgb8();
             assert_eq!(read.dimensions(), (frame.width(), frame.height()));

@@ -1,16 +1,16 @@
 //! PostScript: one colour page of the size of the image.
 
-use crate::postscript::{color_image, history_comments, label_comments};
-use crate::{Frame, Label};
+use crate::postscript::{color_image, creator_comment, history_comments};
+use crate::{Frame, Metadata};
 
 /// The frame as a PostScript document of one page, one pixel per point.
-pub fn encode(frame: &Frame, label: &Label) -> Vec<u8> {
-    wrap([frame.width(), frame.height()], 2, label, &color_image(frame))
+pub fn encode(frame: &Frame, metadata: &Metadata) -> Vec<u8> {
+    wrap([frame.width(), frame.height()], 2, metadata, &color_image(frame))
 }
 
 /// Makes a one-page document of the PostScript code `drawing`, which draws `width` × `height`
 /// points.
-pub fn wrap([width, height]: [u32; 2], level: u32, label: &Label, drawing: &[u8]) -> Vec<u8> {
+pub fn wrap([width, height]: [u32; 2], level: u32, metadata: &Metadata, drawing: &[u8]) -> Vec<u8> {
     let mut file = format!(
         "%!PS-Adobe-3.0\n\
          %%BoundingBox: 0 0 {width} {height}\n\
@@ -24,8 +24,8 @@ pub fn wrap([width, height]: [u32; 2], level: u32, label: &Label, drawing: &[u8]
          << /PageSize [{width} {height}] >> setpagedevice\n\
          %%EndSetup\n\
          %%Page: 1 1\n",
-        label_comments(label),
-        history_comments(label)
+        creator_comment(metadata),
+        history_comments(metadata)
     )
     .into_bytes();
     file.extend_from_slice(drawing);

@@ -14,7 +14,7 @@ const ROUNDING: f32 = 1.0 / (1 << 24) as f32;
 /// Offset added to a level before truncation to an integer: slightly more than a half. Values
 /// halfway between two levels, such as grey 0.5, then round up even if rounding errors made their
 /// light a few 10⁻⁷ too small.
-pub const HALF: f64 = 0.500_25;
+pub const ROUNDING_OFFSET: f64 = 0.500_25;
 
 /// Rounds linear light to the nearest display level, round(255 · encode(x)), without evaluating the
 /// power function of the sRGB transfer function.
@@ -36,7 +36,7 @@ impl Quantizer {
     pub fn new() -> Self {
         let thresholds: [f32; 256] = std::array::from_fn(|level| match level {
             255 => f32::NAN,
-            level => srgb_decode((level as f64 + 1.0 - HALF) / 255.0) as f32,
+            level => srgb_decode((level as f64 + 1.0 - ROUNDING_OFFSET) / 255.0) as f32,
         });
         let (mut start, mut level) = ([0; CELLS], 0u8);
         for (cell, of_cell) in start.iter_mut().enumerate() {
@@ -89,7 +89,7 @@ mod tests {
             // Thresholds are rounded to f32, a relative error of 6e-8, which is at most 1e-4 of a
             // level.
             let error = (f64::from(quantizer.level(linear)) - exact).abs();
-            assert!(error <= HALF + 1e-4, "{linear}: {error}");
+            assert!(error <= ROUNDING_OFFSET + 1e-4, "{linear}: {error}");
         }
     }
 

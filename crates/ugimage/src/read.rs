@@ -5,7 +5,7 @@ use std::io::Cursor;
 
 use png::{ColorType, Decoder, Transformations};
 
-use crate::{Frame, Label};
+use crate::{Frame, Metadata};
 
 /// Largest number of pixels that is accepted.
 const MAX_PIXELS: u64 = 1 << 28;
@@ -22,12 +22,12 @@ impl fmt::Display for ReadError {
 
 impl std::error::Error for ReadError {}
 
-/// The image of a PNG file of any kind, converted to 8 bits per channel, and its label. Colours are
-/// assumed to be sRGB.
+/// The image of a PNG file of any kind, converted to 8 bits per channel, and its metadata. Colours
+/// are assumed to be sRGB.
 ///
 /// # Errors
 /// [`ReadError`] if the file is not a PNG, is truncated or corrupt, or has more than 2²⁸ pixels.
-pub fn read_png(file: &[u8]) -> Result<(Frame, Label), ReadError> {
+pub fn read_png(file: &[u8]) -> Result<(Frame, Metadata), ReadError> {
     let broken = |error: png::DecodingError| ReadError(format!("not a readable PNG file: {error}"));
     let mut decoder = Decoder::new(Cursor::new(file));
     decoder.set_transformations(Transformations::normalize_to_color8());
@@ -59,10 +59,10 @@ pub fn read_png(file: &[u8]) -> Result<(Frame, Label), ReadError> {
             [] => *pixel,
         };
     }
-    Ok((frame, label(reader.info())))
+    Ok((frame, metadata(reader.info())))
 }
 
-fn label(info: &png::Info<'_>) -> Label {
+fn metadata(info: &png::Info<'_>) -> Metadata {
     let latin = info.uncompressed_latin1_text.iter().map(|chunk| (chunk.keyword.clone(), chunk.text.clone()));
     let packed =
         info.compressed_latin1_text.iter().map(|chunk| (chunk.keyword.clone(), chunk.get_text().ok()));
@@ -73,7 +73,7 @@ fn label(info: &png::Info<'_>) -> Label {
         let at = texts.iter().position(|(other, _)| other == key);
         at.map(|at| texts.swap_remove(at).1).unwrap_or_default()
     };
-    Label { software: take("Software"), comment: take("Comment") }
+    Metadata { software: take("Software"), comment: take("Comment") }
 }
 
 #[cfg(test)]
@@ -85,9 +85,12 @@ mod tests {
     #[test]
     fn png_round_trip() {
         for comment in ["uglorentz -vel .9 0 0\nugrainbow", "γ = 2", ""] {
-            let label = Label { software: "ug 1".into(), comment: comment.into() };
+            let metadata = Metadata { software: "ug 1".into(), comment: comment.into() };
             for frame in test_frames() {
-                assert_eq!(read_png(&Format::Png.encode(&frame, &label)).unwrap(), (frame, label.clone()));
+                assert_eq!(
+                    read_png(&Format::Png.encode(&frame, &metadata)).unwrap(),
+                    (frame, metadata.clone())
+                );
             }
         }
     }
@@ -95,7 +98,7 @@ mod tests {
     #[test]
     fn sixteen_bits_and_greys_are_read() {
         for frame in test_frames() {
-            let (deep, _) = read_png(&Format::Png16.encode(&frame, &Label::default())).unwrap();
+            let (deep, _) = read_png(&Format::Png16.encode(&frame, &Metadata::default())).unwrap();
             let near = |(a, b): (&[u8; 4], &[u8; 4])| a.iter().zip(b).all(|(a, b)| a.abs_diff(*b) <= 1);
             assert!(deep.pixels().iter().zip(frame.pixels()).all(near));
         }
@@ -110,7 +113,7 @@ mod tests {
 
     #[test]
     fn broken_files_are_refused() {
-        let file = Format::Png.encode(&test_frames()[2], &Label::default());
+        let file = Format::Png.encode(&test_frames()[2], &Metadata::default());
         assert!(read_png(b"").is_err());
         assert!(read_png(b"GIF89a").unwrap_err().to_string().starts_with("not a readable PNG file"));
         for length in 0..file.len() - 30 {

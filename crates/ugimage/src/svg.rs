@@ -3,25 +3,25 @@
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 
-use crate::png::Packing;
-use crate::{Frame, Label, png};
+use crate::png::Compression;
+use crate::{Frame, Metadata, png};
 
 /// The frame as an SVG file; transparency is kept.
-pub fn encode(frame: &Frame, label: &Label) -> Vec<u8> {
+pub fn encode(frame: &Frame, metadata: &Metadata) -> Vec<u8> {
     let size @ [width, height] = [frame.width(), frame.height()];
-    // No label in the embedded PNG: the SVG file has it already.
-    let picture = STANDARD.encode(png::encode(frame, &Label::default(), Packing::Fast));
+    // No metadata in the embedded PNG: the SVG file has it already.
+    let picture = STANDARD.encode(png::encode(frame, &Metadata::default(), Compression::Fast));
     let image = format!(
         "<image width=\"{width}\" height=\"{height}\" image-rendering=\"pixelated\" \
          href=\"data:image/png;base64,{picture}\"/>\n"
     );
-    document(size, label, &image)
+    document(size, metadata, &image)
 }
 
-/// Makes a file of the SVG elements `drawing`, which draw `width` × `height` units. The label
+/// Makes a file of the SVG elements `drawing`, which draw `width` × `height` units. The metadata
 /// becomes its description.
-pub fn document([width, height]: [u32; 2], label: &Label, drawing: &str) -> Vec<u8> {
-    let words = [label.software.as_str(), label.comment.as_str()];
+pub fn document([width, height]: [u32; 2], metadata: &Metadata, drawing: &str) -> Vec<u8> {
+    let words = [metadata.software.as_str(), metadata.comment.as_str()];
     let words: Vec<String> = words.into_iter().filter(|text| !text.is_empty()).map(escaped).collect();
     let description =
         if words.is_empty() { String::new() } else { format!("<desc>{}</desc>\n", words.join("\n")) };
@@ -55,16 +55,19 @@ mod tests {
     #[test]
     fn the_embedded_picture_is_the_png() {
         for frame in crate::frame::test_frames() {
-            let text = String::from_utf8(encode(&frame, &Label::default())).unwrap();
+            let text = String::from_utf8(encode(&frame, &Metadata::default())).unwrap();
             let data = text.split("base64,").nth(1).unwrap().split('"').next().unwrap();
-            assert_eq!(STANDARD.decode(data).unwrap(), png::encode(&frame, &Label::default(), Packing::Fast));
+            assert_eq!(
+                STANDARD.decode(data).unwrap(),
+                png::encode(&frame, &Metadata::default(), Compression::Fast)
+            );
         }
     }
 
     #[test]
-    fn labels_are_text() {
-        let label = Label { software: "ug 1".into(), comment: "a < b > c & \"d\"\nγ\u{1}".into() };
-        let text = String::from_utf8(document([2, 1], &label, "")).unwrap();
+    fn metadata_is_text() {
+        let metadata = Metadata { software: "ug 1".into(), comment: "a < b > c & \"d\"\nγ\u{1}".into() };
+        let text = String::from_utf8(document([2, 1], &metadata, "")).unwrap();
         assert!(text.contains("<desc>ug 1\na &lt; b &gt; c &amp; \"d\"\nγ?</desc>"), "{text}");
     }
 }

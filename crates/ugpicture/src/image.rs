@@ -1,6 +1,6 @@
 //! A rendered picture.
 
-use ugimage::{Frame, Label, LinearFrame, Packing, grey_postscript};
+use ugimage::{Compression, Frame, LinearFrame, Metadata, grey_postscript};
 
 use crate::output::Output;
 
@@ -23,13 +23,13 @@ impl Image {
     }
 
     /// The bytes of a file. Formats that have areas and lines hold the pixels, too.
-    pub fn into_file(self, output: Output, label: &Label, packing: Packing) -> Vec<u8> {
+    pub fn into_file(self, output: Output, label: &Metadata, compression: Compression) -> Vec<u8> {
         match (output, self) {
             (Output::Color(format) | Output::Vector(format), Self::Display(frame)) => {
-                format.pack(&frame, label, packing)
+                format.encode_with(&frame, label, compression)
             }
             (Output::Color(format) | Output::Vector(format), Self::Light(frame)) => {
-                format.pack_linear(&frame, label, packing)
+                format.encode_linear_with(&frame, label, compression)
             }
             (Output::Grey, image) => grey_postscript(&image.into_frame(), label),
         }

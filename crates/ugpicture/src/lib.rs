@@ -12,14 +12,14 @@
 //! - [`Layout`]: caption, legend, coordinate grid and undistorted outlines.
 //!
 //! ```
-//! use ugimage::{Frame, Label, Packing};
+//! use ugimage::{Compression, Frame, Metadata};
 //! use ugpicture::{Image, PictureOptions};
 //!
 //! let options = PictureOptions { size: [4, 3], ..PictureOptions::default() };
 //! options.check()?;
 //! let image = Image::Display(Frame::opaque(4, 3));
-//! let label = Label { software: "demo 1.0".into(), comment: String::new() };
-//! let png = image.into_file(options.output, &label, Packing::Fast);
+//! let label = Metadata { software: "demo 1.0".into(), comment: String::new() };
+//! let png = image.into_file(options.output, &label, Compression::Fast);
 //! assert!(png.starts_with(b"\x89PNG"));
 //! # Ok::<(), ugpicture::Error>(())
 //! ```

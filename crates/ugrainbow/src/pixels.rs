@@ -3,7 +3,7 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{Level, Simd, dispatch, f32x16, i32x16};
 use rayon::prelude::*;
-use ugimage::{Development, Filter, Frame, HALF, LinearFrame, Quantizer, display_pixel};
+use ugimage::{Development, Filter, Frame, LinearFrame, Quantizer, ROUNDING_OFFSET, display_pixel};
 use ugpicture::{Backdrop, Emissions, Exposure, Image, PictureOptions, SurfaceSample, channel_planes};
 use ugraster::{Center, PixelSamples, RUN, Resolve, ResolveSingle, SampleStats};
 
@@ -124,7 +124,7 @@ const LANES: usize = 16;
 #[inline(always)]
 fn bytes<S: Simd>(simd: S, levels: &[f32; LANES]) -> i32x16<S> {
     // What stands behind the point is cut off.
-    simd.cvt_i32_f32x16(f32x16::from_slice(simd, levels) * 255.0 + HALF as f32)
+    simd.cvt_i32_f32x16(f32x16::from_slice(simd, levels) * 255.0 + ROUNDING_OFFSET as f32)
 }
 
 /// The whole picture as light, with the channels that are asked for.

@@ -1,6 +1,6 @@
 //! From a scene to a picture.
 
-use ugimage::{Format, Frame, Label, LinearFrame, Packing, Tone};
+use ugimage::{Compression, Format, Frame, LinearFrame, Metadata, Tone};
 use ugparse::{Diagnostics, Parsed, Scene, Source};
 use ugpicture::{Image, Layout, Output};
 use ugpipe::Progress;
@@ -20,7 +20,7 @@ use crate::vector::{self, VectorFigure};
 pub struct Rendering {
     content: Content,
     output: Output,
-    packing: Packing,
+    compression: Compression,
     /// What the user should know, one sentence each.
     pub notes: Vec<String>,
 }
@@ -33,9 +33,9 @@ enum Content {
 
 impl Rendering {
     /// The bytes of a file of the kind that the options ask for. `label`: see [`label`].
-    pub fn into_file(self, label: &Label) -> Vec<u8> {
+    pub fn into_file(self, label: &Metadata) -> Vec<u8> {
         match self.content {
-            Content::Image(image) => image.into_file(self.output, label, self.packing),
+            Content::Image(image) => image.into_file(self.output, label, self.compression),
             Content::Figure(figure) => figure.file(label),
         }
     }
@@ -76,12 +76,15 @@ pub fn light(scene: &Scene, config: &Config) -> Result<LinearFrame, Error> {
 
 /// What a picture says about its making: our name and version, and the command lines of the whole pipe.
 /// `command_line`: our own, empty if there is none.
-pub fn label(scene: &Scene, command_line: &str) -> Label {
+pub fn label(scene: &Scene, command_line: &str) -> Metadata {
     let mut lines = ugscene::history(scene);
     if !command_line.is_empty() {
         lines.push(command_line);
     }
-    Label { software: concat!("ugrainbow ", env!("CARGO_PKG_VERSION")).to_owned(), comment: lines.join("\n") }
+    Metadata {
+        software: concat!("ugrainbow ", env!("CARGO_PKG_VERSION")).to_owned(),
+        comment: lines.join("\n"),
+    }
 }
 
 /// A picture as a file.
@@ -118,7 +121,7 @@ pub fn run_with(
     let parsed = ugscene::read(source, &config.reading, config.picture.camera.name.as_deref())?;
     config.picture.check()?;
     let rendering = render_with(&parsed.scene, config, &layout, progress)?;
-    progress.step("packing", 0);
+    progress.step("compression", 0);
     let notes = rendering.notes.clone();
     let bytes = rendering.into_file(&label(&parsed.scene, command_line));
     Ok(Picture { bytes, notes, warnings: warnings(source, parsed) })
@@ -140,7 +143,7 @@ fn render_with(
     progress: &dyn Progress,
 ) -> Result<Rendering, Error> {
     progress.step("preparing", 0);
-    let packing = if config.picture.small { Packing::Small } else { Packing::Fast };
+    let compression = if config.picture.small { Compression::Small } else { Compression::Fast };
     let config = &Config { picture: layout.of_scene(&config.picture).into_owned(), ..config.clone() };
     let output = config.picture.output;
     let (setup, statistics, annotations, content) = match output {
@@ -162,7 +165,7 @@ fn render_with(
     };
     let mut notes = notes(&setup, config, &statistics);
     notes.extend(annotations.notes);
-    Ok(Rendering { content, output, packing, notes })
+    Ok(Rendering { content, output, compression, notes })
 }
 
 /// A scene prepared for drawing: its colours and lights are known, and nothing has been projected yet.

@@ -109,7 +109,7 @@ impl MotionOptions {
 
 #[cfg(test)]
 mod tests {
-    use ugimage::{Frame, Label};
+    use ugimage::{Frame, Metadata};
 
     use super::*;
 
@@ -117,7 +117,7 @@ mod tests {
         let picture = |(idx, comment): (usize, &&str)| Picture {
             name: format!("n{idx}"),
             frame: Frame::opaque(1, 1),
-            history: Label { software: String::new(), comment: (*comment).to_owned() },
+            history: Metadata { software: String::new(), comment: (*comment).to_owned() },
         };
         labels.texts(&comments.iter().enumerate().map(picture).collect::<Vec<_>>())
     }

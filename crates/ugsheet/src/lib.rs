@@ -9,13 +9,13 @@
 //! # Example
 //!
 //! ```
-//! use ugimage::{Frame, Label};
+//! use ugimage::{Frame, Metadata};
 //! use ugsheet::{Config, Labels, Picture};
 //!
 //! let picture = |line: &str| Picture {
 //!     name: "ship".into(),
 //!     frame: Frame::opaque(80, 60),
-//!     history: Label { software: "ugrainbow".into(), comment: line.into() },
+//!     history: Metadata { software: "ugrainbow".into(), comment: line.into() },
 //! };
 //! let pictures = [picture("uglorentz -vel 0 0 0"), picture("uglorentz -vel .9 0 0")];
 //! assert_eq!(Labels::Auto.texts(&pictures), ["at rest", "β = 0.9"]);
@@ -31,7 +31,7 @@ mod labels;
 mod layout;
 mod shell_words;
 
-use ugimage::{Frame, Label};
+use ugimage::{Frame, Metadata};
 use uglabel::Drawing;
 
 #[cfg(feature = "cli")]
@@ -49,7 +49,7 @@ pub struct Picture {
     /// Its pixels.
     pub frame: Frame,
     /// The history recorded in its file.
-    pub history: Label,
+    pub history: Metadata,
 }
 
 /// The options of a sheet.
@@ -112,10 +112,13 @@ pub fn sheet(config: &Config, pictures: &[Picture]) -> Result<Frame, Error> {
 }
 
 /// The history of a sheet: those of all its pictures, and the command line.
-pub fn history(pictures: &[Picture], command_line: &str) -> Label {
+pub fn history(pictures: &[Picture], command_line: &str) -> Metadata {
     let lines = pictures.iter().map(|picture| picture.history.comment.as_str());
     let lines: Vec<&str> = lines.chain([command_line]).filter(|line| !line.is_empty()).collect();
-    Label { software: concat!("ugsheet ", env!("CARGO_PKG_VERSION")).to_owned(), comment: lines.join("\n") }
+    Metadata {
+        software: concat!("ugsheet ", env!("CARGO_PKG_VERSION")).to_owned(),
+        comment: lines.join("\n"),
+    }
 }
 
 /// Copies a picture to a frame, with its upper left corner at `[left, top]`.

@@ -8,7 +8,7 @@ use std::os::unix::process::ExitStatusExt;
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
 
-use ugimage::{Format, Frame, Label, read_png};
+use ugimage::{Format, Frame, Metadata, read_png};
 use ugsheet::{Config, Error, Labels, Picture, sheet};
 
 /// A picture of noise, so that it occurs only once on a sheet.
@@ -20,7 +20,7 @@ fn picture(name: &str, width: u32, height: u32, seed: u32) -> Picture {
         let [r, g, b, _] = state.to_be_bytes();
         *pixel = [r, g, b | 1, 255];
     }
-    Picture { name: name.into(), frame, history: Label::default() }
+    Picture { name: name.into(), frame, history: Metadata::default() }
 }
 
 /// The positions at which a sheet contains exactly the pixels of a picture.
@@ -145,7 +145,7 @@ fn fed(command: &mut Command, input: &[u8]) -> Output {
 fn folder() -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     for (name, line) in [("rest", "uglorentz"), ("fast", "uglorentz -vel .9 0 0")] {
-        let label = Label { software: "ugrainbow".into(), comment: line.into() };
+        let label = Metadata { software: "ugrainbow".into(), comment: line.into() };
         let file = Format::Png.encode(&picture(name, 90, 70, 5).frame, &label);
         fs::write(folder.path().join(format!("{name}.png")), file).unwrap();
     }

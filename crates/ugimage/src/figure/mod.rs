@@ -72,7 +72,7 @@ pub enum Element<S> {
     },
     /// Clips the following elements to the given number of pixel rows from the top; `None` ends the
     /// clipping.
-    CutBelow(Option<u32>),
+    ClipRows(Option<u32>),
 }
 
 /// A triangle with a colour at each corner, interpolated linearly between them in display encoding.
@@ -110,13 +110,13 @@ fn seams<'a>(outlines: impl Iterator<Item = Option<&'a [Vec<Point>]>>) -> Vec<Ve
     let mut last = HashMap::new();
     for (element, contours) in outlines.iter().enumerate() {
         contours.iter().copied().flat_map(edges).for_each(|edge| {
-            last.insert(written(edge), element);
+            last.insert(snapped(edge), element);
         });
     }
     let covered = |(element, contours): (usize, &Option<&'a [Vec<Point>]>)| {
         let is_covered = |&[a, b]: &[Point; 2]| {
-            let is_last = last[&written([a, b])] == element;
-            is_last && last.get(&written([b, a])).is_some_and(|&cover| cover > element)
+            let is_last = last[&snapped([a, b])] == element;
+            is_last && last.get(&snapped([b, a])).is_some_and(|&cover| cover > element)
         };
         contours.iter().copied().flat_map(edges).filter(is_covered).collect()
     };
@@ -132,10 +132,10 @@ pub fn edges(contours: &[Vec<Point>]) -> impl Iterator<Item = [Point; 2]> {
 }
 
 /// The ends of an edge in hundredths of a pixel, the resolution of the files.
-pub type Written = [[i64; 2]; 2];
+pub type SnappedEdge = [[i64; 2]; 2];
 
 /// An edge rounded to the resolution of the files.
-pub fn written(edge: [Point; 2]) -> Written {
+pub fn snapped(edge: [Point; 2]) -> SnappedEdge {
     edge.map(|point| point.map(hundredths))
 }
 
@@ -166,8 +166,8 @@ enum PaintOp<'a> {
     Line { ends: [Point; 2], width: f64, color: Rgb },
     /// All consecutive triangles.
     Mesh(Mesh),
-    /// See [`Element::CutBelow`].
-    CutBelow(Option<u32>),
+    /// See [`Element::ClipRows`].
+    ClipRows(Option<u32>),
 }
 
 /// The painting operations of a figure.
@@ -184,7 +184,7 @@ fn paint_ops(figure: &Figure<Triangle>) -> impl Iterator<Item = PaintOp<'_>> {
             Element::Line { ends, width, color } => {
                 PaintOp::Line { ends: *ends, width: *width, color: *color }
             }
-            Element::CutBelow(rows) => PaintOp::CutBelow(*rows),
+            Element::ClipRows(rows) => PaintOp::ClipRows(*rows),
             Element::Smooth(triangle) => {
                 let mut mesh = Mesh::new();
                 mesh.push(triangle);

@@ -4,11 +4,11 @@ use pdf_writer::writers::StreamShadingType;
 use pdf_writer::{Content, Filter, Name, Pdf, Ref};
 
 use super::{Figure, MESH_BITS, Mesh, PaintOp, Point, Rgb, SEAM_WIDTH, Triangle, paint_ops};
-use crate::Label;
+use crate::Metadata;
 use crate::pdf::{FIRST, deflate, document};
 
 /// The figure as a PDF file, one pixel per point.
-pub fn pdf(figure: &Figure<Triangle>, label: &Label) -> Vec<u8> {
+pub fn pdf(figure: &Figure<Triangle>, metadata: &Metadata) -> Vec<u8> {
     let [width, height] = figure.size.map(|side| side as f32);
     let mut page = Page { content: Content::new(), meshes: Vec::new(), color: None, width: None };
     page.content.transform([1.0, 0.0, 0.0, -1.0, 0.0, height]);
@@ -28,7 +28,7 @@ pub fn pdf(figure: &Figure<Triangle>, label: &Label) -> Vec<u8> {
         shading.bits_per_coordinate(MESH_BITS as i32).bits_per_component(8).bits_per_flag(8);
         shading.decode(Mesh::decode().map(|number| number as f32));
     }
-    document(pdf, figure.size, label, content.finish().as_slice(), |resources| {
+    document(pdf, figure.size, metadata, content.finish().as_slice(), |resources| {
         if !meshes.is_empty() {
             let mut shadings = resources.shadings();
             for number in 0..meshes.len() {
@@ -68,14 +68,14 @@ impl Page {
                     self.content.shading(Name(mesh_name(self.meshes.len()).as_bytes()));
                     self.meshes.push(mesh);
                 }
-                PaintOp::CutBelow(rows) => self.cut_below(figure.size[0], rows),
+                PaintOp::ClipRows(rows) => self.clip_rows(figure.size[0], rows),
             }
         }
     }
 
     /// Begins or ends clipping. Saving and restoring the graphics state also affects colour and
     /// line width, so they are set again.
-    fn cut_below(&mut self, width: u32, rows: Option<u32>) {
+    fn clip_rows(&mut self, width: u32, rows: Option<u32>) {
         (self.color, self.width) = (None, None);
         match rows {
             Some(rows) => {

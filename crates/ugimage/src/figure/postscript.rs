@@ -3,16 +3,16 @@
 use super::{Figure, MESH_BITS, Mesh, PaintOp, Point, Rgb, SEAM_WIDTH, Triangle, number, paint_ops};
 use crate::pdf::deflate;
 use crate::postscript::Ascii85;
-use crate::{Label, eps as eps_file, ps as ps_file};
+use crate::{Metadata, eps as eps_file, ps as ps_file};
 
 /// The figure as an EPS file, one pixel per point.
-pub fn eps(figure: &Figure<Triangle>, label: &Label) -> Vec<u8> {
-    eps_file::wrap(figure.size, 3, label, &drawing(figure))
+pub fn eps(figure: &Figure<Triangle>, metadata: &Metadata) -> Vec<u8> {
+    eps_file::wrap(figure.size, 3, metadata, &drawing(figure))
 }
 
 /// The figure as a PostScript document of one page, one pixel per point.
-pub fn ps(figure: &Figure<Triangle>, label: &Label) -> Vec<u8> {
-    ps_file::wrap(figure.size, 3, label, &drawing(figure))
+pub fn ps(figure: &Figure<Triangle>, metadata: &Metadata) -> Vec<u8> {
+    ps_file::wrap(figure.size, 3, metadata, &drawing(figure))
 }
 
 /// Definitions at the start of the drawing. As for images, the filters are stored in variables so
@@ -66,7 +66,7 @@ fn drawing(figure: &Figure<Triangle>) -> Vec<u8> {
                 page.add("UgMesh\n");
                 Ascii85::encode(&deflate(&mesh.0), &mut page.out);
             }
-            PaintOp::CutBelow(rows) => page.cut_below(figure.size[0], rows),
+            PaintOp::ClipRows(rows) => page.clip_rows(figure.size[0], rows),
         }
     }
     page.add("grestore\n");
@@ -103,7 +103,7 @@ impl Page {
 
     /// Begins or ends clipping. Saving and restoring the graphics state also affects colour and
     /// line width, so they are set again.
-    fn cut_below(&mut self, width: u32, rows: Option<u32>) {
+    fn clip_rows(&mut self, width: u32, rows: Option<u32>) {
         (self.color, self.width) = (None, None);
         match rows {
             Some(rows) => self.add(&format!("gsave 0 0 {width} {rows} rectclip\n")),

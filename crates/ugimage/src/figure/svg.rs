@@ -1,11 +1,11 @@
 //! Figures as SVG.
 
 use super::{Element, Figure, Gradient, Point, Rgb, SEAM_WIDTH, number, seams};
-use crate::Label;
+use crate::Metadata;
 use crate::svg::document;
 
 /// The figure as an SVG file, one pixel per user unit.
-pub fn svg(figure: &Figure<Gradient>, label: &Label) -> Vec<u8> {
+pub fn svg(figure: &Figure<Gradient>, metadata: &Metadata) -> Vec<u8> {
     let mut out = String::new();
     if let Some(background) = figure.background {
         out += &format!("<rect width=\"100%\" height=\"100%\" fill=\"{}\"/>\n", hex(background));
@@ -35,16 +35,16 @@ pub fn svg(figure: &Figure<Gradient>, label: &Label) -> Vec<u8> {
                 let (path, width) = (lines(&[*ends]), number(*width));
                 out += &format!("<path stroke=\"{}\" stroke-width=\"{width}\" d=\"{path}\"/>\n", hex(*color));
             }
-            Element::CutBelow(Some(rows)) => {
+            Element::ClipRows(Some(rows)) => {
                 out +=
                     &format!("<clipPath id=\"c\"><path d=\"M0 0H{}V{rows}H0z\"/></clipPath>", figure.size[0]);
                 out += "<g clip-path=\"url(#c)\">\n";
             }
-            Element::CutBelow(None) => out += "</g>\n",
+            Element::ClipRows(None) => out += "</g>\n",
         }
     }
     out += "</g>\n";
-    document(figure.size, label, &out)
+    document(figure.size, metadata, &out)
 }
 
 /// An area, and the lines that extend it along shared edges.

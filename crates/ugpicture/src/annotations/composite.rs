@@ -75,8 +75,8 @@ impl Annotations {
         figure.elements.extend(self.over.elements());
         if self.has_strips() {
             // Faces and lines may extend beyond the picture of the scene.
-            figure.elements.insert(0, Element::CutBelow(Some(self.scene_rows)));
-            figure.elements.push(Element::CutBelow(None));
+            figure.elements.insert(0, Element::ClipRows(Some(self.scene_rows)));
+            figure.elements.push(Element::ClipRows(None));
         }
         figure.elements.extend(self.strips.elements());
     }

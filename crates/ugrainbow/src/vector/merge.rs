@@ -5,7 +5,7 @@
 
 use std::collections::{HashMap, HashSet};
 
-use ugimage::figure::{Point, Rgb, Written, edges, written};
+use ugimage::figure::{Point, Rgb, SnappedEdge, edges, snapped};
 
 use super::transparency::PaintedArea;
 use crate::planar::BoxIndex;
@@ -26,11 +26,11 @@ pub enum Paint {
 pub fn merged(areas: Vec<(PaintedArea, Option<Rgb>)>, size: [u32; 2]) -> Vec<Paint> {
     let mut groups = Groups::new(&areas, size);
     // Only looked up, so its order is never seen.
-    let mut with_edge: HashMap<(Written, Rgb), Vec<usize>> = HashMap::new();
+    let mut with_edge: HashMap<(SnappedEdge, Rgb), Vec<usize>> = HashMap::new();
     for (number, (area, color)) in areas.iter().enumerate() {
         let Some(color) = *color else { continue };
         for edge in edges(&area.contours) {
-            let [a, b] = written(edge);
+            let [a, b] = snapped(edge);
             let others = with_edge.get(&([b, a], color));
             others.into_iter().flatten().for_each(|&other| groups.join(other, number));
             with_edge.entry(([a, b], color)).or_default().push(number);
@@ -53,7 +53,7 @@ fn paint(areas: &[(PaintedArea, Option<Rgb>)], members: &[usize]) -> Paint {
         ((area, Some(color)), [_]) => Paint::Plain(area.contours.clone(), *color),
         ((_, Some(color)), _) => {
             let all = members.iter().flat_map(|&member| edges(&areas[member].0.contours));
-            Paint::Plain(outlines(all.map(written).collect()), *color)
+            Paint::Plain(outlines(all.map(snapped).collect()), *color)
         }
     }
 }
@@ -128,12 +128,12 @@ fn overlap(some: &[Convex], others: &[Convex]) -> bool {
 
 /// Outlines that consist of the edges that occur an odd number of times. By the even-odd rule it makes no difference how
 /// edges are joined where more than two meet.
-fn outlines(mut all: Vec<Written>) -> Vec<Vec<Point>> {
-    let ends = |[a, b]: &Written| [*a.min(b), *a.max(b)];
+fn outlines(mut all: Vec<SnappedEdge>) -> Vec<Vec<Point>> {
+    let ends = |[a, b]: &SnappedEdge| [*a.min(b), *a.max(b)];
     all.retain(|[a, b]| a != b);
     all.sort_unstable_by_key(ends);
     let of_one_place = all.chunk_by(|one, other| ends(one) == ends(other));
-    let odd: Vec<Written> = of_one_place.filter(|same| same.len() % 2 == 1).map(|same| same[0]).collect();
+    let odd: Vec<SnappedEdge> = of_one_place.filter(|same| same.len() % 2 == 1).map(|same| same[0]).collect();
     let mut at_place: HashMap<[i64; 2], [Vec<usize>; 2]> = HashMap::new();
     for (idx, edge) in odd.iter().enumerate() {
         for end in [0, 1] {

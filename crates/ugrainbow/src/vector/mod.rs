@@ -21,7 +21,7 @@ mod smooth;
 mod transparency;
 
 use ugimage::figure::{self, Element, Figure, Gradient, Triangle};
-use ugimage::{Development, Format, Label};
+use ugimage::{Development, Format, Metadata};
 use ugparse::Scene;
 use ugpicture::{Annotations, Exposure, Layout, MAX_PIXELS};
 use ugpipe::Progress;
@@ -59,7 +59,7 @@ pub enum VectorFigure {
 
 impl VectorFigure {
     /// The bytes of its file.
-    pub fn file(&self, label: &Label) -> Vec<u8> {
+    pub fn file(&self, label: &Metadata) -> Vec<u8> {
         match self {
             Self::Gradients(figure) => figure::svg(figure, label),
             Self::Triangles(figure, Format::Pdf) => figure::pdf(figure, label),
