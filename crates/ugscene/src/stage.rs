@@ -3,7 +3,7 @@
 use std::fmt;
 
 use glam::DVec3;
-use ugparse::{Body, BodyId, Diagnostic, Face, HueScale, Motion, Parsed, Scene};
+use ugparse::{Body, BodyId, ColorScale, Diagnostic, Face, HueScale, Motion, Parsed, Scene};
 use ugpipe::remedies;
 
 /// Why a scene cannot go through a program: its stage is not the one the program needs.
@@ -41,7 +41,7 @@ impl fmt::Display for StageError {
             Self::OtherEye { made_for, asked } => write!(
                 f,
                 "positions in this scene are as seen from the eye point {}, and would be wrong from {}: \
-                 leave out -ep here, or {} (-ep {}) with the scene at rest",
+                 leave out -ep or -cam here, or {} (-ep {}) with the scene at rest",
                 point(made_for),
                 point(asked),
                 remedies::EYE_POINT,
@@ -126,9 +126,13 @@ pub fn require_eye(scene: &Scene, eye: DVec3) -> Result<(), StageError> {
 /// # Errors
 /// [`StageError::NotWavelengths`].
 pub fn hue_scale(scene: &Scene, asked: HueScale) -> Result<HueScale, StageError> {
-    match (scene.stage.seen_colors(), scene.stage.hue_scale()) {
-        (None, _) => Ok(asked),
-        (Some(_), HueScale::Degrees) if asked == HueScale::Wavelengths => Err(StageError::NotWavelengths),
-        (Some(_), scale) => Ok(scale),
+    let Some(seen) = scene.stage.seen_colors() else { return Ok(asked) };
+    // Of bodies at rest, hues as seen are as they were written.
+    let are_as_written =
+        matches!(seen.scale, ColorScale::Hues { .. }) && scene.stage.seen_geometry().is_none();
+    match (scene.stage.hue_scale(), asked) {
+        (HueScale::Degrees, HueScale::Wavelengths) if are_as_written => Ok(asked),
+        (HueScale::Degrees, HueScale::Wavelengths) => Err(StageError::NotWavelengths),
+        (scale, _) => Ok(scale),
     }
 }
