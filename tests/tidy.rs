@@ -346,7 +346,7 @@ fn text_is_clean() {
 fn no_crate_has_a_circle_of_imports() {
     /// Crates in which files of one folder, not folders, still use each other in a circle. A crate
     /// leaves this list when its circle is cut; none may be added.
-    const WITH_CIRCLES: [&str; 5] = ["uglorentz", "ugparse", "ugraster", "ugscene", "ugspectrum"];
+    const WITH_CIRCLES: [&str; 3] = ["uglorentz", "ugparse", "ugspectrum"];
     let mut findings = Vec::new();
     for (krate, folder) in crates().into_iter().filter(|(krate, _)| krate != "ugconformance") {
         let src = folder.join("src");

@@ -70,8 +70,8 @@ pub const QEMU: Tool = Tool {
     checks: "the programs write the same bytes on processors with other instructions",
 };
 
-/// All of them.
-pub const TOOLS: [Tool; 6] = [GHOSTSCRIPT, POPPLER, RSVG, CHROMIUM, OIIOTOOL, QEMU];
+/// Those that are enough for a check in `cargo test`: all but [`QEMU`].
+pub const TOOLS: [Tool; 5] = [GHOSTSCRIPT, POPPLER, RSVG, CHROMIUM, OIIOTOOL];
 
 /// Needs a release build.
 pub const PROFILES: &str = "debug and release builds write the same bytes";
