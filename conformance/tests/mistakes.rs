@@ -136,7 +136,7 @@ const MISTAKES: [Mistake; 17] = [
     Mistake {
         name: "M14",
         file: "crates/ugimage/src/quantizer.rs",
-        right: "srgb_decode((level as f64 + 1.0 - HALF) / 255.0) as f32",
+        right: "srgb_decode((level as f64 + 1.0 - ROUNDING_OFFSET) / 255.0) as f32",
         wrong: "((level as f64 + 0.5) / 255.0) as f32",
         found_by: "colours",
     },
