@@ -174,7 +174,7 @@ fn check_positions(change: impl Fn(&mut uglorentz::Config), law: impl Fn(DVec3) 
     for (vertex, other) in changed.vertices.iter_mut().zip(&full.vertices) {
         vertex.position = other.position;
     }
-    changed.escapes.clear();
+    changed.stage = full.stage;
     changed.head.clone_from(&full.head);
     assert!(changed == full);
 }
