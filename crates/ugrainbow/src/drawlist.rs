@@ -82,22 +82,17 @@ impl<'a, const N: usize> DrawList<'a, N> {
     /// the level of red, green and blue light into the numbers to interpolate.
     pub fn new(painter: Painter<'a>, is_drawn: impl Fn(&Face) -> bool + Sync, pack: Pack<N>) -> Self {
         let scene = painter.scene;
-        let point = |vertex: &ugparse::Vertex| painter.point(painter.place(vertex.position));
         let even_level = painter.even_level();
-        let corners =
-            Corners { painter, pack, points: scene.vertices.par_iter().map(point).collect(), even_level };
+        let corners = Corners { painter, pack, points: points(&painter), even_level };
         let [least, most] = CHUNKS;
         let chunk = (scene.faces.len() / 64).clamp(least, most);
-        let faces = scene.faces.par_chunks(chunk).enumerate();
         let level = Level::new();
-        let parts = faces
-            .map(|(idx, faces)| Chunk::new(&corners, idx * chunk, faces.len(), level).all(faces, &is_drawn))
-            .collect();
-        Self::of(parts, corners)
-    }
-
-    fn of(parts: Vec<(PolygonList<N>, ClipCounts)>, corners: Corners<'a, N>) -> Self {
-        let (lists, counts): (Vec<PolygonList<N>>, Vec<_>) = parts.into_iter().unzip();
+        let mut parts: Vec<_> = scene.faces.chunks(chunk).map(|faces| (faces, None)).collect();
+        ugparallel::for_jobs(&mut parts, |idx, (faces, part)| {
+            *part = Some(Chunk::new(&corners, idx * chunk, faces.len(), level).all(faces, &is_drawn));
+        });
+        let parts = parts.into_iter().filter_map(|(_, part)| part);
+        let (lists, counts): (Vec<PolygonList<N>>, Vec<_>) = parts.unzip();
         let lists = lists.into_iter().filter(|list| !list.is_empty()).collect();
         Self {
             lists,
@@ -143,6 +138,13 @@ impl<'a, const N: usize> DrawList<'a, N> {
             }
         }
     }
+}
+
+/// The positions of all vertices in the picture, compiled once for all layouts.
+fn points(painter: &Painter<'_>) -> Vec<Point> {
+    let scene = painter.scene;
+    let point = |vertex: &ugparse::Vertex| painter.point(painter.place(vertex.position));
+    scene.vertices.par_iter().map(point).collect()
 }
 
 /// A run of faces becoming shapes.

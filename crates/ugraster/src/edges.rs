@@ -62,8 +62,12 @@ impl<const N: usize> Edge<N> {
 #[derive(Debug, Default)]
 pub struct Scanner<const N: usize> {
     edges: Vec<Edge<N>>,
+    /// First row and index of every edge, from above.
+    order: Vec<(u32, u32)>,
     active: Vec<u32>,
     crossings: Vec<Crossing<N>>,
+    /// Column and index of every crossing, from the left.
+    columns: Vec<(f64, u32)>,
 }
 
 impl<const N: usize> Scanner<N> {
@@ -77,17 +81,23 @@ impl<const N: usize> Scanner<N> {
         mut span: impl FnMut(u32, &Crossing<N>, &Crossing<N>),
     ) {
         self.collect_edges(contours, first_row, end_row);
-        let Some(top) = self.edges.first() else { return };
-        let (mut row, mut next) = (top.first_row, 0);
+        let Some(&(first_row, _)) = self.order.first() else { return };
+        let (mut row, mut next) = (first_row, 0);
         self.active.clear();
-        while next < self.edges.len() || !self.active.is_empty() {
-            while next < self.edges.len() && self.edges[next].first_row == row {
-                self.active.push(next as u32);
+        while next < self.order.len() || !self.active.is_empty() {
+            while next < self.order.len() && self.order[next].0 == row {
+                self.active.push(self.order[next].1);
                 next += 1;
             }
             self.find_crossings(row);
-            for pair in self.crossings.chunks_exact(2) {
-                span(row, &pair[0], &pair[1]);
+            if let [a, b] = &self.crossings[..] {
+                let (left, right) = if a.x > b.x { (b, a) } else { (a, b) };
+                span(row, left, right);
+            } else {
+                for pair in self.columns.chunks_exact(2) {
+                    let [left, right] = [pair[0].1, pair[1].1].map(|idx| &self.crossings[idx as usize]);
+                    span(row, left, right);
+                }
             }
             row += 1;
             self.active.retain(|&edge| self.edges[edge as usize].end_row > row);
@@ -108,18 +118,28 @@ impl<const N: usize> Scanner<N> {
                 before = corner;
             }
         }
-        self.edges.sort_by_key(|edge| edge.first_row);
+        self.order.clear();
+        self.order.extend((0..).zip(&self.edges).map(|(idx, edge)| (edge.first_row, idx)));
+        sort_rows(&mut self.order);
     }
 
     fn find_crossings(&mut self, row: u32) {
         self.crossings.clear();
         self.crossings.extend(self.active.iter().map(|&edge| self.edges[edge as usize].at_row(row)));
-        if let [a, b] = &mut self.crossings[..] {
-            if a.x > b.x {
-                std::mem::swap(a, b);
-            }
-        } else {
-            self.crossings.sort_by(|a, b| a.x.total_cmp(&b.x));
+        if self.crossings.len() != 2 {
+            self.columns.clear();
+            self.columns.extend((0..).zip(&self.crossings).map(|(idx, crossing)| (crossing.x, idx)));
+            sort_columns(&mut self.columns);
         }
     }
+}
+
+/// Sorts edges, compiled once for any number of values. The index decides between equal rows.
+fn sort_rows(order: &mut [(u32, u32)]) {
+    order.sort_unstable();
+}
+
+/// Sorts crossings, compiled once for any number of values. Equal columns stay in order.
+fn sort_columns(columns: &mut [(f64, u32)]) {
+    columns.sort_by(|a, b| a.0.total_cmp(&b.0));
 }

@@ -118,6 +118,7 @@ impl<const N: usize> Rasterizer<'_, N> {
 
     /// Draws the tile of some columns and rows of pixels, all in one band. Returns the statistics
     /// of transparent samples.
+    #[inline(never)] // One copy for all kinds of pixels.
     pub(crate) fn draw_tile(
         &self,
         buffers: &mut TileBuffers<N>,

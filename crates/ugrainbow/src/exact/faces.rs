@@ -68,10 +68,7 @@ impl<'a, const N: usize> Faces<'a, N> {
     ) -> Self {
         let appearance = Appearance::new(shift, &painter);
         let frames = frames(&painter);
-        let built: Vec<Built> = (painter.scene.faces.par_iter().enumerate())
-            .filter(|(_, face)| is_drawn(face))
-            .map(|(row, face)| build(&painter, &appearance, &frames, row, face))
-            .collect();
+        let built = build_all(&painter, &appearance, &frames, &is_drawn);
         let in_front = built.iter().filter(|built| !matches!(built, Built::Behind)).count();
         let shapes: Vec<Shape> = built.into_iter().filter_map(Built::shape).collect();
         let clip_counts = ClipCounts { in_front, in_picture: shapes.len() };
@@ -296,6 +293,17 @@ fn build(
     let (sides, depth) =
         (outline.edges().iter().map(|edge| frame.side(edge.normal)).collect(), frame.form(outline.plane()));
     Built::Shape(Box::new(Shape { item, frame: at, columns, rows, outline, sides, depth, look }))
+}
+
+/// The faces of a scene for which `is_drawn` returns true, compiled once for all layouts.
+fn build_all(
+    painter: &Painter<'_>,
+    appearance: &Appearance<'_>,
+    frames: &[Frame],
+    is_drawn: &(dyn Fn(&Face) -> bool + Sync),
+) -> Vec<Built> {
+    let faces = painter.scene.faces.par_iter().enumerate().filter(|(_, face)| is_drawn(face));
+    faces.map(|(row, face)| build(painter, appearance, frames, row, face)).collect()
 }
 
 /// The samples in a rectangle, which is within the picture.
