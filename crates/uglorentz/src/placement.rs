@@ -6,6 +6,7 @@
 use glam::DVec3;
 use ugparse::{BodyId, LightKind, Scene};
 use ugphysics::observer_shift;
+use ugscene::SeenPosition;
 
 use crate::relative_motion::RelativeMotion;
 use crate::{Anchor, Config};
@@ -55,7 +56,7 @@ fn anchor_shift(motion: &RelativeMotion, anchor: DVec3, in_place: bool) -> DVec3
         }
         // The anchor in rest coordinates moves to the rest position that is seen at the anchor,
         // (P4).
-        motion.rest(anchor) - motion.turned(anchor)
+        motion.rest(SeenPosition(anchor)).0 - motion.turned(anchor)
     } else if motion.has_contraction() {
         // The fixed point A instead of the eye adds (1 − 1/γ)(A·û)û to (P1), which is γ times as
         // much in rest coordinates. The contraction is that in the frame of the scene.

@@ -3,7 +3,7 @@
 use glam::{DQuat, DVec3};
 use ugparse::BodyId;
 use ugphysics::{Velocity, doppler_at, elongated};
-use ugscene::Geometry;
+use ugscene::{Geometry, RestPosition, SeenPosition};
 
 use crate::{Error, camera_frame};
 
@@ -73,8 +73,8 @@ impl RelativeMotion {
         self.geometry.contraction
     }
 
-    /// The rest coordinates of what is seen at `seen`, both relative to the eye.
-    pub(crate) fn rest(&self, seen: DVec3) -> DVec3 {
+    /// The rest position of what is seen at `seen`.
+    pub(crate) fn rest(&self, seen: SeenPosition) -> RestPosition {
         self.geometry.rest(seen, self.velocity)
     }
 
@@ -101,7 +101,10 @@ impl RelativeMotion {
 
     /// The point at `rest`, relative to the eye.
     pub(crate) fn point(&self, body: BodyId, rest: DVec3) -> Point {
-        let seen = if self.is_at_rest() { rest } else { self.geometry.seen(rest, self.velocity) };
+        let seen = match self.is_at_rest() {
+            true => rest,
+            false => self.geometry.seen(RestPosition(rest), self.velocity).0,
+        };
         let (rest_distance, seen_distance) = (self.boosted_rest(rest).length(), seen.length());
         let inverse_doppler = if self.is_at_rest() {
             1.0

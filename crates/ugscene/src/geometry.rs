@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use ugparse::Scene;
 use ugphysics::{Velocity, contracted, elongated, flight_time, rest_position, seen_position};
 
-use crate::{RestFrames, vertex_bodies};
+use crate::{RestFrames, RestPosition, SeenPosition, vertex_bodies};
 
 /// Which of the two effects are included in the seen positions of a scene: both, unless its stage
 /// says otherwise.
@@ -32,31 +32,30 @@ impl Geometry {
         }
     }
 
-    /// The seen position of a point of a body. Both positions are relative to the eye: `p_rest` in
-    /// the frame of the body, the result in that of the camera. (P3), or (P1) or (P2) alone.
-    pub fn seen(self, p_rest: DVec3, v: Velocity) -> DVec3 {
-        match (self.contraction, self.flight_time) {
-            (true, true) => seen_position(p_rest, v),
-            (true, false) => contracted(p_rest, v),
-            (false, true) => p_rest + flight_time(p_rest, v) * v.beta(),
-            (false, false) => p_rest,
-        }
+    /// The seen position of a point of a body: (P3), or (P1) or (P2) alone.
+    pub fn seen(self, RestPosition(rest): RestPosition, v: Velocity) -> SeenPosition {
+        SeenPosition(match (self.contraction, self.flight_time) {
+            (true, true) => seen_position(rest, v),
+            (true, false) => contracted(rest, v),
+            (false, true) => rest + flight_time(rest, v) * v.beta(),
+            (false, false) => rest,
+        })
     }
 
     /// The inverse of [`Geometry::seen`]; (P4) with both effects.
-    pub fn rest(self, p_seen: DVec3, v: Velocity) -> DVec3 {
-        match (self.contraction, self.flight_time) {
-            (true, true) => rest_position(p_seen, v),
-            (true, false) => elongated(p_seen, v),
-            // The light left at time −|p_seen|; since then the body has moved with v.
-            (false, true) => p_seen + p_seen.length() * v.beta(),
-            (false, false) => p_seen,
-        }
+    pub fn rest(self, SeenPosition(seen): SeenPosition, v: Velocity) -> RestPosition {
+        RestPosition(match (self.contraction, self.flight_time) {
+            (true, true) => rest_position(seen, v),
+            (true, false) => elongated(seen, v),
+            // The light left at time −|seen|; since then the body has moved with v.
+            (false, true) => seen + seen.length() * v.beta(),
+            (false, false) => seen,
+        })
     }
 }
 
-/// Rest position of every vertex of a seen scene, relative to the eye, each in
-/// the frame of its own body and in the axes of the scene. (P4), (P25)
+/// The rest position of every vertex of a scene as seen: relative to the eye, in the rest frame of its
+/// body, with the axes of the scene. (P4), (P25)
 pub fn rest_positions(scene: &Scene, eye: DVec3, frames: &RestFrames) -> Vec<DVec3> {
     if frames.are_at_rest() {
         return scene.vertices.par_iter().map(|vertex| vertex.position - eye).collect();
@@ -65,7 +64,8 @@ pub fn rest_positions(scene: &Scene, eye: DVec3, frames: &RestFrames) -> Vec<DVe
     let bodies = vertex_bodies(scene);
     (scene.vertices.par_iter().zip(bodies.par_iter()))
         .map(|(vertex, &body)| {
-            frames.scene_from_axes(body) * geometry.rest(vertex.position - eye, frames.velocity(body))
+            let seen = SeenPosition(vertex.position - eye);
+            frames.scene_from_axes(body) * geometry.rest(seen, frames.velocity(body)).0
         })
         .collect()
 }
@@ -90,7 +90,7 @@ mod tests {
             for beta in [DVec3::ZERO, DVec3::new(0.3, -0.4, 0.5), DVec3::new(0.0, 0.0, -0.99)] {
                 let v = Velocity::from_beta(beta).unwrap();
                 for p in [DVec3::new(3.0, 4.0, -1.0), DVec3::new(-2.0, 0.1, 7.0), DVec3::ZERO] {
-                    let back = geometry.rest(geometry.seen(p, v), v);
+                    let RestPosition(back) = geometry.rest(geometry.seen(RestPosition(p), v), v);
                     // γ² = 50 costs two digits of sixteen.
                     assert!((back - p).length() <= 1e-13 * p.length(), "{geometry:?} {beta} {p}: {back}");
                 }
@@ -136,8 +136,8 @@ mod tests {
     fn both_effects_are_p1_and_then_p2() {
         let v = Velocity::from_beta(DVec3::new(0.5, 0.0, 0.0)).unwrap();
         let p_rest = DVec3::new(3.0, 4.0, 0.0);
-        let p0 = ALL[1].seen(p_rest, v);
-        let both = ALL[2].seen(p0, v);
-        assert!((both - ALL[0].seen(p_rest, v)).length() < 1e-14);
+        let SeenPosition(p0) = ALL[1].seen(RestPosition(p_rest), v);
+        let SeenPosition(both) = ALL[2].seen(RestPosition(p0), v);
+        assert!((both - ALL[0].seen(RestPosition(p_rest), v).0).length() < 1e-14);
     }
 }

@@ -11,7 +11,7 @@ use std::collections::HashMap;
 use glam::DVec3;
 use uglabel::{Drawing, Point};
 use ugparse::{BodyId, Scene, VertexId, newell_normal};
-use ugscene::{Geometry, View, face_edges, rest_positions, vertex_bodies};
+use ugscene::{Geometry, RestPosition, View, face_edges, rest_positions, vertex_bodies};
 
 use super::seen::SeenScene;
 use super::style::Style;
@@ -89,8 +89,8 @@ fn ideal_places(seen: &SeenScene<'_>) -> Vec<DVec3> {
         let velocity = seen.frames.velocity(body);
         bounds.filter(|_| !velocity.is_zero()).map(|[low, high]| {
             let center = 0.5 * low + 0.5 * high;
-            let of_body = seen.frames.scene_from_axes(body).inverse() * center;
-            geometry.seen(of_body, velocity) - center
+            let rest = RestPosition(seen.frames.scene_from_axes(body).inverse() * center);
+            geometry.seen(rest, velocity).0 - center
         })
     };
     let shifts: Vec<Option<DVec3>> = scene.bodies.ids().map(shift).collect();

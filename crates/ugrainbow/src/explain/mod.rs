@@ -9,7 +9,7 @@ use ugparse::{Diagnostic, Diagnostics, Parsed, Source, Stage, VertexId};
 use ugphysics::{attenuation, doppler_at, linear_srgb_to_xyz, wavelength_to_hue};
 use ugpicture::{Emissions, Filter, Layout, SurfaceSample};
 use ugraster::{Fragment, PixelSamples, ProbedSample, Resolve};
-use ugscene::Geometry;
+use ugscene::{Geometry, RestPosition, SeenPosition};
 
 use crate::config::{Config, Interpolation};
 use crate::depth_cue::prepare;
@@ -328,7 +328,7 @@ impl Teller<'_> {
         let emission = emissions.at(sample.place, seen);
         let (place, velocity) = (emission.place, emission.velocity);
         let geometry = Geometry::of(self.setup.scene());
-        let rest = geometry.rest(place, velocity);
+        let RestPosition(rest) = geometry.rest(SeenPosition(place), velocity);
         let rest_time = (geometry == Geometry::default()).then(|| -rest.length());
         let angle = |line: DVec3| line.angle_between(velocity.direction()).to_degrees();
         let doppler = doppler_at(place, velocity);
