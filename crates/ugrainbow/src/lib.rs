@@ -85,6 +85,7 @@ mod render;
 mod render_layers;
 mod setup;
 mod shade;
+mod spectra;
 mod surface;
 mod vector;
 #[cfg(feature = "cli")]

@@ -6,8 +6,8 @@ use ugparse::{Face, Scene, VertexId, Wire, newell_normal};
 use ugraster::{Corner, Point, SampleGrid};
 
 use crate::clip::Vertex;
-use crate::exact::Spectra;
 use crate::palette::{Palette, Swatch};
+use crate::spectra::Spectra;
 use crate::surface::Surface;
 use ugscene::{Place, Slab, View};
 

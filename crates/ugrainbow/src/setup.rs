@@ -11,10 +11,10 @@ use ugraster::SampleGrid;
 
 use crate::config::Config;
 use crate::error::Error;
-use crate::exact::Spectra;
 use crate::painter::Painter;
 use crate::palette::Palette;
 use crate::shade::Shader;
+use crate::spectra::Spectra;
 use crate::surface::Surface;
 use ugscene::{Geometry, View};
 

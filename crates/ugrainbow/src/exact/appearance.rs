@@ -3,10 +3,10 @@
 use glam::DVec3;
 use uglight::{ColorShift, HueShift, HueTable};
 
-use super::spectra::Spectra;
 use crate::config::Interpolation;
 use crate::painter::Painter;
 use crate::palette::{Palette, Swatch};
+use crate::spectra::Spectra;
 
 /// How the colours of a scene are seen, sample by sample.
 #[derive(Clone, Copy)]

@@ -12,7 +12,7 @@
 //! 5. [`sections`]: where in a row rays begin and cease to do so;
 //! 6. [`nearest`]: which face is nearest, sample by sample;
 //! 7. [`look`]: colour and light at a point of a face at rest, for what is nearest alone;
-//! 8. [`appearance`], [`spectra`]: colour as seen, of a hue or a spectrum;
+//! 8. [`appearance`], [`crate::spectra`]: colour as seen, of a hue or a spectrum;
 //! 9. [`faces`]: all faces of a scene as a layer of the raster, the nearest alone or, if light passes them, all;
 //! 10. [`wires`]: lines as polylines fine enough for the picture.
 //!
@@ -39,9 +39,7 @@ mod look;
 mod nearest;
 mod outline;
 mod sections;
-mod spectra;
 mod wires;
 
 pub use faces::Faces;
-pub use spectra::Spectra;
 pub use wires::CurvedLines;
