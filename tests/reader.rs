@@ -25,7 +25,7 @@ fn flat(scene: &Scene) -> Flat {
     let color = |id: Option<ColorId>| {
         let color = &scene.colors[id?.index()];
         Some(match color.value {
-            ColorValue::Hsv { value, hue, saturation } => {
+            ColorValue::Hsv { value, tint: hue, saturation } => {
                 Paint::Hsv([value, hue, saturation, color.translucency])
             }
             ColorValue::Rgb([r, g, b]) => Paint::Rgb([r, g, b, color.translucency]),

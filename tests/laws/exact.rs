@@ -104,7 +104,7 @@ fn vertices_have_positions_by_p3_and_doppler_factors_by_p10() {
                 let off = error(&place, &motion.seen(&difference(points[&name], eye)));
                 assert!(off < TOLERANCE, "{name} at {:?}, {speed} c, is off by {off:e}", points[&name]);
 
-                let ColorValue::Hsv { hue: wavelength_nm, .. } = color_of(&scene, vertex).value else {
+                let ColorValue::Hsv { tint: wavelength_nm, .. } = color_of(&scene, vertex).value else {
                     panic!("ugdoppler writes colours with `c`")
                 };
                 let ratio = big(GREEN_NM) / big(wavelength_nm);

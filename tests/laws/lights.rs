@@ -124,7 +124,7 @@ fn both_factors_shift_and_dim() {
 fn wavelength_and_value(scene: &Scene) -> (f64, f64) {
     let color = scene.vertices[0].color.expect("a colour on every used vertex");
     match scene.colors[color.index()].value {
-        ColorValue::Hsv { hue, value, .. } => (hue, value),
+        ColorValue::Hsv { tint: hue, value, .. } => (hue, value),
         other => panic!("{other:?}"),
     }
 }

@@ -59,7 +59,7 @@ fn wavelength_seen(wavelength_nm: f64, doppler: f64) -> Option<f64> {
     let (scene, _) = ugdoppler::apply(scene, &config).ok()?;
     let color = scene.vertices.first()?.color?;
     match scene.colors[color.index()].value {
-        ColorValue::Hsv { hue, .. } => Some(hue),
+        ColorValue::Hsv { tint: hue, .. } => Some(hue),
         _ => None,
     }
 }

@@ -149,7 +149,7 @@ impl<'s> HueStatements<'s> {
             _ if self.config.wavelengths => color.wavelength_nm,
             _ => color.hue,
         };
-        let value = ColorValue::Hsv { value: color.value, hue, saturation: color.saturation };
+        let value = ColorValue::Hsv { value: color.value, tint: hue, saturation: color.saturation };
         self.scene.colors.push(Color { name, value, translucency });
         ColorId::from_index(self.scene.colors.len() - 1)
     }
@@ -197,7 +197,7 @@ impl<'s> HueStatements<'s> {
     pub fn finish(mut self) -> Vec<String> {
         if self.config.wavelengths {
             for color in &mut self.scene.colors[..self.n_given] {
-                if let ColorValue::Hsv { hue, saturation, .. } = &mut color.value
+                if let ColorValue::Hsv { tint: hue, saturation, .. } = &mut color.value
                     && *saturation > 0.0
                 {
                     *hue = hue_to_wavelength(*hue);
@@ -221,8 +221,8 @@ impl<'s> HueStatements<'s> {
         for (color, _) in self.scene.colors.iter_mut().zip(is_scaled).filter(|(_, is_scaled)| *is_scaled) {
             color.value = match color.value {
                 ColorValue::Rgb(rgb) => ColorValue::Rgb(rgb.map(|channel| channel / largest)),
-                ColorValue::Hsv { value, hue, saturation } => {
-                    ColorValue::Hsv { value: value / largest, hue, saturation }
+                ColorValue::Hsv { value, tint: hue, saturation } => {
+                    ColorValue::Hsv { value: value / largest, tint: hue, saturation }
                 }
                 ColorValue::Xyz(xyz) => ColorValue::Xyz(xyz.map(|part| part / largest)),
                 ColorValue::Blackbody { kelvin, scale } => {

@@ -226,7 +226,7 @@ fn without_spectra_black_bodies_have_their_hue_at_rest() {
     let (scene, _) = colour(&text, &Config { spectral: false, ..moving(-0.1, 0.0, 0.0) });
     let value = scene.colors[scene.vertices[0].color.unwrap().index()].value;
     // Orange turns yellow: its one wavelength is shifted, not its spectrum.
-    assert!(matches!(value, ColorValue::Hsv { hue, .. } if (40.0..100.0).contains(&hue)), "{value:?}");
+    assert!(matches!(value, ColorValue::Hsv { tint: hue, .. } if (40.0..100.0).contains(&hue)), "{value:?}");
 }
 
 #[test]

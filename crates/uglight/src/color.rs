@@ -17,7 +17,7 @@ pub fn hsv(scene: &Scene, color: &Color, scale: HueScale) -> Hsv {
         ColorValue::Blackbody { .. } | ColorValue::Spectrum { .. } => {
             shown(spectrum(scene, color).0.seen(1.0))
         }
-        ColorValue::Hsv { value, hue, saturation } => {
+        ColorValue::Hsv { value, tint: hue, saturation } => {
             let hue = match scale {
                 HueScale::Degrees => hue,
                 HueScale::Wavelengths => wavelength_to_hue(hue),
@@ -57,7 +57,9 @@ pub fn spectrum(scene: &Scene, color: &Color) -> (Spectrum, bool) {
     let of_screen = |rgb: [f64; 3]| (Spectrum::from_linear_srgb(rgb.map(srgb_decode)), true);
     match color.value {
         ColorValue::Rgb(rgb) => of_screen(rgb),
-        ColorValue::Hsv { value, hue, saturation } => of_screen(Hsv { hue, saturation, value }.to_rgb()),
+        ColorValue::Hsv { value, tint: hue, saturation } => {
+            of_screen(Hsv { hue, saturation, value }.to_rgb())
+        }
         ColorValue::Xyz(xyz) => Spectrum::from_xyz(xyz),
         ColorValue::Blackbody { kelvin, scale } => (Spectrum::blackbody(kelvin, scale), true),
         ColorValue::Spectrum { start, end } => {

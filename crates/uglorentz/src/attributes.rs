@@ -119,7 +119,7 @@ fn blend(scene: &Scene, parts: &[(ColorId, f64)]) -> (ColorValue, f64) {
     if hue_weight > 0.0 {
         mean.hue /= hue_weight;
     }
-    (ColorValue::Hsv { value: mean.value, hue: mean.hue, saturation: mean.saturation }, translucency)
+    (ColorValue::Hsv { value: mean.value, tint: mean.hue, saturation: mean.saturation }, translucency)
 }
 
 /// Maps hues between violet (300) and red (360) to negative ones, (P16). Larger numbers are

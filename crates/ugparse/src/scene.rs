@@ -151,12 +151,12 @@ pub struct Color {
 /// caller, determines whether the hue is an angle modulo 360 degrees or a wavelength.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ColorValue {
-    /// `c`: HSV. Saturation 0 is grey, whatever the hue.
+    /// `c`: HSV. Saturation 0 is grey, whatever the tint.
     Hsv {
         /// Lightness V ≥ 0; 1 is full, and larger values are kept.
         value: f64,
-        /// Hue in degrees, or wavelength in nm.
-        hue: f64,
+        /// Hue in degrees or wavelength in nm, which [`Stage::hue_scale`] of the scene decides.
+        tint: f64,
         /// Saturation 0…1.
         saturation: f64,
     },

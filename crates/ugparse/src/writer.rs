@@ -288,7 +288,7 @@ impl<'s> Writer<'s> {
     fn color(&mut self, color: &Color) {
         let clear = (color.translucency != 0.0).then_some(color.translucency);
         match color.value {
-            ColorValue::Hsv { value, hue, saturation } => {
+            ColorValue::Hsv { value, tint: hue, saturation } => {
                 self.text("c");
                 self.name(color.name);
                 self.number(value);

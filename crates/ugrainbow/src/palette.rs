@@ -128,7 +128,7 @@ impl Palette {
         let translucency = color.translucency;
         let swatch = match color.value {
             // Taken as it is: a wavelength the eye cannot see has no hue.
-            ColorValue::Hsv { value, hue: tint, saturation } if self.scale == HueScale::Wavelengths => {
+            ColorValue::Hsv { value, tint, saturation } if self.scale == HueScale::Wavelengths => {
                 Swatch { tint, saturation, value, light: None, translucency }
             }
             _ => Swatch {

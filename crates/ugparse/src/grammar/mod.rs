@@ -163,7 +163,7 @@ impl<'t> Grammar<'t> {
         let (input, translucency) = opt(number_from(0.0, 1.0, SHARE)).parse(input)?;
         // `c L` is grey, `c L H` is fully saturated.
         let saturation = saturation.unwrap_or(if hue.is_some() { 1.0 } else { 0.0 });
-        let value = ColorValue::Hsv { value, hue: hue.unwrap_or(0.0), saturation };
+        let value = ColorValue::Hsv { value, tint: hue.unwrap_or(0.0), saturation };
         let translucency = translucency.unwrap_or(0.0);
         Ok((input, Statement::Color(ColorStatement { name, value, samples: Vec::new(), translucency })))
     }
