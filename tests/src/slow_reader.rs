@@ -121,6 +121,7 @@ pub fn read(text: &str) -> Flat {
     let scene =
         Placement { path: String::new(), matrix: IDENTITY, is_mirrored: false, color: None, velocity: None };
     expansion.scope(&[&root], &scene);
+    expansion.prefer_outer_camera();
     expansion.flat
 }
 
@@ -659,9 +660,29 @@ struct Expansion {
     paths: BTreeSet<String>,
     /// Escapes already written, by their address in the scopes.
     escapes: BTreeSet<usize>,
+    /// For each camera, the path of its instance; empty outside definitions.
+    camera_paths: Vec<String>,
 }
 
 impl Expansion {
+    /// If a camera in a definition would be used although there are others, those others come first
+    /// and the ones in definitions have names.
+    fn prefer_outer_camera(&mut self) {
+        let cameras = std::mem::take(&mut self.flat.cameras);
+        let used = cameras.iter().position(|camera| camera.name.is_none()).unwrap_or(0);
+        let is_nested = |row: usize| !self.camera_paths[row].is_empty();
+        let is_changed = !cameras.is_empty() && is_nested(used) && !(0..cameras.len()).all(is_nested);
+        let mut rows: Vec<(usize, Camera)> = cameras.into_iter().enumerate().collect();
+        if is_changed {
+            // Stable: rows of each kind keep their order.
+            rows.sort_by_key(|(row, _)| is_nested(*row));
+            for (row, camera) in rows.iter_mut().filter(|(row, _)| is_nested(*row)) {
+                camera.name.get_or_insert_with(|| self.camera_paths[*row].clone());
+            }
+        }
+        self.flat.cameras = rows.into_iter().map(|(_, camera)| camera).collect();
+    }
+
     /// Expands the last of `scopes`; the others enclose it. Vertices of a scope come before those
     /// of its instances, because shapes may use later vertices; everything else keeps its order.
     fn scope(&mut self, scopes: &[&Scope], place: &Placement) {
@@ -680,7 +701,10 @@ impl Expansion {
                 Statement::Shape { .. } => self.shape(statement, scopes, place, &local),
                 Statement::Light { .. } => self.light(statement, scopes, place),
                 Statement::Placed { .. } => self.placed(statement, scopes, place),
-                Statement::Camera(camera) => self.flat.cameras.push(placed_camera(camera, place)),
+                Statement::Camera(camera) => {
+                    self.flat.cameras.push(placed_camera(camera, place));
+                    self.camera_paths.push(place.path.clone());
+                }
                 Statement::Escape(text) => {
                     if self.escapes.insert(std::ptr::from_ref(text).addr()) {
                         self.flat.escapes.push(text.clone());
