@@ -3,6 +3,10 @@
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
+#[allow(dead_code, reason = "its `main` is that of the example")]
+#[path = "../crates/ugrainbow/examples/in_memory.rs"]
+mod in_memory;
+
 use std::path::Path;
 use std::process::Command;
 
@@ -113,4 +117,7 @@ fn a_shell_pipe_gives_the_same_bytes_in_both_profiles() {
     assert_eq!(String::from_utf8_lossy(&here.seen), String::from_utf8_lossy(&there.seen));
     assert!(here.colored == there.colored, "ugdoppler");
     assert!(here.file == there.file, "ugrainbow");
+    // And without text between the programs.
+    let in_memory = in_memory::png(&std::fs::read(&scene).unwrap()).unwrap();
+    assert!(in_memory == there.file, "the example in_memory.rs");
 }

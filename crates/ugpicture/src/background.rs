@@ -45,8 +45,8 @@ impl Backdrop {
         self.light.is_some()
     }
 
-    /// The mean light of a pixel whose covered samples add up to `sum`, and the covered part of it. On a transparent
-    /// background it is the mean of the covered part alone.
+    /// The mean light of a pixel whose covered samples add up to `sum`, and the covered part of it.
+    /// On a transparent background it is the mean of the covered part alone.
     pub fn pixel(&self, sum: [f32; 3], n_covered: f32) -> [f32; 4] {
         let [red, green, blue] = match self.light {
             Some(behind) => {

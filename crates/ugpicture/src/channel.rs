@@ -1,4 +1,5 @@
-//! Channels of EXR pictures besides colour: the emission event, Doppler factor and body seen at each pixel.
+//! Channels of EXR pictures besides colour: the emission event, Doppler factor and body seen at
+//! each pixel.
 
 use rayon::prelude::*;
 use ugimage::{Plane, Samples};
@@ -7,12 +8,14 @@ use ugphysics::doppler_at;
 use crate::depth_buffer::SurfaceSample;
 use crate::emission::{Emission, Emissions};
 
-/// A number for each pixel, or three. They are of what is seen at the sample nearest to its centre, never a mean.
+/// A number for each pixel, or three. They are of what is seen at the sample nearest to its centre,
+/// never a mean.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Channel {
     /// `D`: the Doppler factor (P10); 0 where nothing is seen.
     Doppler,
-    /// `time`: when the light was emitted, before the picture is taken at 0; −∞ where nothing is seen.
+    /// `time`: when the light was emitted, before the picture is taken at 0; −∞ where nothing is
+    /// seen.
     Time,
     /// `distance`: from the eye to where the light was emitted; ∞ where nothing is seen.
     Distance,
@@ -52,8 +55,8 @@ impl Channel {
     }
 }
 
-/// The planes of a channel. `seen`: at the middle of each pixel, row after row, in pictures of `width` pixels across with
-/// `samples` × `samples` samples each.
+/// The planes of a channel. `seen`: at the middle of each pixel, row after row, in pictures of
+/// `width` pixels across with `samples` × `samples` samples each.
 pub fn channel_planes(
     channel: Channel,
     emissions: &Emissions<'_>,

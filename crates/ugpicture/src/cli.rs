@@ -37,8 +37,9 @@ pub struct PictureArgs {
 
     /// Reconstruction filter from samples to pixels: box, triangle, spline
     ///
-    /// box: the mean of the pixel's own samples, as a detector measures it. triangle and spline (a quadratic
-    /// B-spline) reach into the neighbouring pixels: edges and thin lines are smoother, and softer.
+    /// box: the mean of the pixel's own samples, as a detector measures it. triangle and spline (a
+    /// quadratic B-spline) reach into the neighbouring pixels: edges and thin lines are smoother,
+    /// and softer.
     #[arg(long, value_name = "FILTER", default_value = "box", value_parser = filter, visible_alias = "filter",
           help_heading = PICTURE)]
     fl: Filter,
@@ -74,8 +75,8 @@ pub struct PictureArgs {
 
     /// More channels of an EXR picture, separated by commas: D, time, distance, Z, id, velocity
     ///
-    /// Doppler factor, emission time, distance of the emission event, depth along the view, number of the
-    /// face, velocity of the body; all at the middle of the pixel.
+    /// Doppler factor, emission time, distance of the emission event, depth along the view, number
+    /// of the face, velocity of the body; all at the middle of the pixel.
     #[arg(long, value_name = "LIST", value_parser = channels, visible_alias = "channels", help_heading = PICTURE)]
     ch: Option<Channels>,
 }
@@ -118,10 +119,11 @@ pub struct AnnotationArgs {
     #[arg(long, value_name = "TEXT", visible_alias = "caption", help_heading = ANNOTATIONS)]
     cap: Option<String>,
 
-    /// Legend below the picture: visible spectrum, velocities, and the Doppler factors that are seen
+    /// Legend below the picture: visible spectrum, velocities, and the Doppler factors that are
+    /// seen
     ///
-    /// Wavelengths in nm, where light of 550 nm is seen, the velocity as a unit arrow seen from the camera (a dot at
-    /// its tail: approaching, a cross: receding), and β, γ and D.
+    /// Wavelengths in nm, where light of 550 nm is seen, the velocity as a unit arrow seen from the
+    /// camera (a dot at its tail: approaching, a cross: receding), and β, γ and D.
     #[arg(long, visible_alias = "legend", help_heading = ANNOTATIONS)]
     lg: bool,
 
@@ -129,7 +131,8 @@ pub struct AnnotationArgs {
     #[arg(long, visible_alias = "undistorted", help_heading = ANNOTATIONS)]
     dl: bool,
 
-    /// Grid of coordinates on the ground: in the plane z = 0, or at the lowest point of the scene if that is lower
+    /// Grid of coordinates on the ground: in the plane z = 0, or at the lowest point of the scene
+    /// if that is lower
     #[arg(long, visible_alias = "grid", help_heading = ANNOTATIONS)]
     gr: bool,
 }

@@ -1,14 +1,15 @@
 //! What every renderer of the ug programs shares, whatever it renders a scene with.
 //!
-//! A renderer turns a scene into linear light for each pixel. Everything before and after that is here:
+//! A renderer turns a scene into linear light for each pixel. Everything before and after that is
+//! here:
 //!
-//! - [`PictureOptions`]: camera, size, samples and filter, background, exposure, tone curve, format, and
-//!   annotations; [`cli`] has them as options of the command line;
+//! - [`PictureOptions`]: camera, size, samples and filter, background, exposure, tone curve,
+//!   format, and annotations; [`cli`] has them as options of the command line;
 //! - [`Backdrop`]: the mean of a pixel's samples on the background;
 //! - [`Exposure`]: how light is brought into the range of a display;
 //! - [`Image`]: the picture as light or as 8-bit pixels, and as the bytes of a file;
-//! - [`Emissions`] and [`Channel`]: when and where light was emitted that is seen at a sample, and the
-//!   channels of an EXR file made of that;
+//! - [`Emissions`] and [`Channel`]: when and where light was emitted that is seen at a sample, and
+//!   the channels of an EXR file made of that;
 //! - [`Layout`]: caption, legend, coordinate grid and undistorted outlines.
 //!
 //! ```

@@ -2,8 +2,8 @@
 
 use std::ops::Range;
 
-/// The part of a line, as parameters in 0…1, on which linear functions are not negative. `ends`: the values of each
-/// function at the two ends. The part may be a point.
+/// The part of a line, as parameters in 0…1, on which linear functions are not negative. `ends`:
+/// the values of each function at the two ends. The part may be a point.
 pub fn clip_line(ends: impl IntoIterator<Item = [f64; 2]>) -> Option<[f64; 2]> {
     let (mut start, mut end) = (0.0f64, 1.0f64);
     for [first, last] in ends {

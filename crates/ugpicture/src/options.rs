@@ -64,8 +64,8 @@ impl PictureOptions {
         self.output.is_linear() || self.exposure.is_some() || self.tone != Tone::Clip
     }
 
-    /// Refuses a picture that does not fit in memory, before anything is allocated, and options that exclude each
-    /// other.
+    /// Refuses a picture that does not fit in memory, before anything is allocated, and options
+    /// that exclude each other.
     ///
     /// # Errors
     /// [`Error::Size`], [`Error::Samples`], [`Error::Options`].
@@ -139,7 +139,8 @@ impl PictureOptions {
 pub struct AnnotationOptions {
     /// Text below the picture; none if it is blank.
     pub caption: String,
-    /// Below the picture: the visible spectrum with its wavelengths, velocities, γ, and the Doppler factors that are seen.
+    /// Below the picture: the visible spectrum with its wavelengths, velocities, γ, and the Doppler
+    /// factors that are seen.
     pub legend: bool,
     /// Over the picture: the edges of moving bodies as they would look at rest.
     pub outline: bool,

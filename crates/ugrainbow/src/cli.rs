@@ -52,15 +52,15 @@ pub struct Args {
 
     /// Format of the picture [default: by the ending of -fo, else png]
     ///
-    /// png, png16 (16 bits), ppm, eps, ps, pdf, svg; and exr, pfm, hdr, which hold linear light, neither clipped nor
-    /// brought into the gamut: white is 1, parts may be above it and below 0.
+    /// png, png16 (16 bits), ppm, eps, ps, pdf, svg; and exr, pfm, hdr, which hold linear light,
+    /// neither clipped nor brought into the gamut: white is 1, parts may be above it and below 0.
     #[arg(long, value_name = "FMT", visible_alias = "format", value_parser = kind_named)]
     dt: Option<Kind>,
 
     /// Areas and lines in place of pixels, sharp at any size: for eps, ps, pdf, svg
     ///
-    /// A pixel of -sz is a point. Faces are painted from behind, and hidden parts covered; of wires they are
-    /// left out. Colours are right to 2 levels of 255.
+    /// A pixel of -sz is a point. Faces are painted from behind, and hidden parts covered; of wires
+    /// they are left out. Colours are right to 2 levels of 255.
     #[arg(long, visible_alias = "vector", conflicts_with_all = ["dp", "explain", "xc"])]
     vec: bool,
 
@@ -75,7 +75,8 @@ pub struct Args {
 
     /// Draw edges of faces as lines, and no faces; they only hide
     ///
-    /// Not those where two faces of one colour and velocity meet in one plane: so cuts of uglorentz are not drawn.
+    /// Not those where two faces of one colour and velocity meet in one plane: so cuts of uglorentz
+    /// are not drawn.
     #[arg(long, visible_alias = "wireframe", conflicts_with = "ed", help_heading = LINES)]
     wf: bool,
 
@@ -83,7 +84,8 @@ pub struct Args {
     #[arg(long, visible_alias = "edges", help_heading = LINES)]
     ed: bool,
 
-    /// Colour of the edges: lightness, hue in degrees, saturation [default: with -wf of the faces, with -ed black]
+    /// Colour of the edges: lightness, hue in degrees, saturation [default: with -wf of the faces,
+    /// with -ed black]
     #[arg(long, num_args = 1..=3, value_names = ["L", "H", "S"], action = ArgAction::Set,
           value_parser = finite, visible_alias = "line-color", help_heading = LINES)]
     lc: Option<Vec<f64>>,
@@ -93,18 +95,21 @@ pub struct Args {
           visible_alias = "line-width", help_heading = LINES)]
     lw: f64,
 
-    /// Depth cueing: light falls linearly from depth NEAR to FAR, to the part LEAST, towards the background
+    /// Depth cueing: light falls linearly from depth NEAR to FAR, to the part LEAST, towards the
+    /// background
     ///
-    /// Depth is along the view. Without numbers it is from the nearest to the farthest that is seen; LEAST is 0.2
-    /// unless given, 0 to 1.
+    /// Depth is along the view. Without numbers it is from the nearest to the farthest that is
+    /// seen; LEAST is 0.2 unless given, 0 to 1.
     #[arg(long, num_args = 0..=3, value_names = ["NEAR", "FAR", "LEAST"], action = ArgAction::Set,
           value_parser = finite, visible_alias = "depth-cue", help_heading = PICTURE)]
     dc: Option<Vec<f64>>,
 
-    /// Exact: find every sample by a ray into the rest frame of each face, and shift its colour there
+    /// Exact: find every sample by a ray into the rest frame of each face, and shift its colour
+    /// there
     ///
-    /// Takes a scene as `uglorentz -sd 1` writes it, and does the work of ugdoppler itself: outline, depth, Doppler
-    /// factor, colour and light are exact at every sample, and nothing need be cut into pieces.
+    /// Takes a scene as `uglorentz -sd 1` writes it, and does the work of ugdoppler itself:
+    /// outline, depth, Doppler factor, colour and light are exact at every sample, and nothing need
+    /// be cut into pieces.
     #[arg(long, visible_alias = "exact", conflicts_with_all = ["og", "explain"], help_heading = EXACT)]
     xc: bool,
 
@@ -117,8 +122,9 @@ pub struct Args {
 
     /// With -xc, shift spectra instead of hues
     ///
-    /// As of ugdoppler: black bodies and sampled spectra as they are, other colours as surfaces in daylight. The
-    /// brightness law is D^5 per wavelength, and light brighter than white is kept to the last step.
+    /// As of ugdoppler: black bodies and sampled spectra as they are, other colours as surfaces in
+    /// daylight. The brightness law is D^5 per wavelength, and light brighter than white is kept to
+    /// the last step.
     #[arg(long, visible_alias = "spectral", requires = "xc", conflicts_with_all = ["br", "wi"], help_heading = EXACT)]
     sp: bool,
 
@@ -132,8 +138,8 @@ pub struct Args {
 
     /// Instead of the picture, explain the pixel in column X and row Y, from 0 at the upper left
     ///
-    /// As text, or with `--format json` as JSON: the face, its motion, when and where its light was sent,
-    /// colour and light, and every step to the bytes.
+    /// As text, or with `--format json` as JSON: the face, its motion, when and where its light was
+    /// sent, colour and light, and every step to the bytes.
     #[arg(long, value_name = "X,Y", value_parser = pixel, conflicts_with = "dp")]
     explain: Option<Pixel>,
 

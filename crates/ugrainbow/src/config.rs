@@ -23,7 +23,8 @@ pub struct Config {
     pub line_width: f64,
     /// What is far fades towards the background.
     pub depth_cue: Option<DepthCue>,
-    /// Faces are drawn by a ray for each sample (`-xc`), from a scene whose colours have not been shifted.
+    /// Faces are drawn by a ray for each sample (`-xc`), from a scene whose colours have not been
+    /// shifted.
     pub exact: Option<ColorShift>,
     /// Faces that are seen from behind, running clockwise, are left out.
     pub cull: bool,
@@ -72,11 +73,13 @@ pub const MAX_LINE_WIDTH: f64 = 100.0;
 pub struct Wireframe {
     /// The faces are drawn, too; else they only hide lines.
     pub has_faces: bool,
-    /// Of the edges, neither shifted nor attenuated; else they have the colours of the corners of their faces.
+    /// Of the edges, neither shifted nor attenuated; else they have the colours of the corners of
+    /// their faces.
     pub color: Option<Hsv>,
 }
 
-/// Depth cueing: linear in depth along the view, light of surfaces is replaced by that of the background.
+/// Depth cueing: linear in depth along the view, light of surfaces is replaced by that of the
+/// background.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DepthCue {
     /// Depths between which light falls; else those of the nearest and the farthest that is seen.

@@ -8,8 +8,8 @@ use crate::error::Error;
 use crate::render_layers::RenderLayers;
 use crate::setup::Setup;
 
-/// Prepares a scene. Depth cueing without depths runs from the nearest to the farthest that is seen at the middle of
-/// a pixel; it is left out if nothing is seen.
+/// Prepares a scene. Depth cueing without depths runs from the nearest to the farthest that is seen
+/// at the middle of a pixel; it is left out if nothing is seen.
 ///
 /// # Errors
 /// As [`Setup::new`].

@@ -12,14 +12,15 @@ use crate::clip::{ClipCounts, Vertex, clip_polygon};
 use crate::packing::Pack;
 use crate::painter::{Common, Painter};
 
-/// Faces that are looked at together: more than a block of triangles, so that while one is looked at the next is filled.
+/// Faces classified together: several blocks of triangles, so that one block is filled while
+/// another is classified.
 const TOGETHER: usize = 4 * BLOCK;
 
-/// Least and most faces that one task turns into a list: few enough that all threads have work, and as many as can be,
-/// for every band looks into every list.
+/// Least and greatest number of faces of a task. Small tasks balance the load of threads; large
+/// ones make fewer lists, and every band reads every list.
 const CHUNKS: [usize; 2] = [1 << 10, 1 << 13];
 
-/// PolygonLayer in drawing order, and how many faces were clipped.
+/// Polygons and triangles in drawing order, and how many faces were clipped.
 pub struct DrawList<'a, const N: usize> {
     /// Sorted into bands.
     lists: Vec<PolygonList<N>>,
@@ -28,14 +29,14 @@ pub struct DrawList<'a, const N: usize> {
     pub clip_counts: ClipCounts,
 }
 
-/// Where vertices are in the picture, and what faces look like at them.
+/// Projected vertices, and the values of faces at them.
 struct Corners<'a, const N: usize> {
     painter: Painter<'a>,
     pack: Pack<N>,
-    /// Of every vertex; not a number where it is outside the slab.
+    /// Of every vertex; NaN outside the clipping planes.
     points: Vec<Point>,
-    /// The light on every face that tells no level of its own, if that is the same everywhere and what a corner looks
-    /// like is told by its own colour.
+    /// The light level of all faces without one of their own, if it is the same for all; see
+    /// [`Painter::even_level`].
     even_level: Option<DVec3>,
 }
 
@@ -78,8 +79,8 @@ impl<'a> FaceLook<'a> {
 }
 
 impl<'a, const N: usize> DrawList<'a, N> {
-    /// The faces that `is_drawn` says, in the order of the scene; their items are their rows. `pack` turns a colour and
-    /// the level of red, green and blue light into the numbers to interpolate.
+    /// The faces for which `is_drawn` holds, in the order of the scene; their items are their rows.
+    /// `pack` makes the values to interpolate from a colour and a light level.
     pub fn new(painter: Painter<'a>, is_drawn: impl Fn(&Face) -> bool + Sync, pack: Pack<N>) -> Self {
         let scene = painter.scene;
         let even_level = painter.even_level();
@@ -101,12 +102,12 @@ impl<'a, const N: usize> DrawList<'a, N> {
         }
     }
 
-    /// What is drawn.
+    /// The layer for the rasterizer.
     pub fn shapes(&self) -> PolygonLayer<'_, N, impl CornerTable<N> + use<'a, N>> {
         PolygonLayer { lists: &self.lists, corners: &self.corners }
     }
 
-    /// Where the contours of every shape are: column, row and depth key.
+    /// The contours of every polygon and triangle: column, row and depth key.
     pub fn outlines(&self) -> impl Iterator<Item = Vec<Vec<[f64; 3]>>> {
         let place = |corner: &Corner<N>| [corner.x, corner.y, corner.key];
         let point = |corner: u32| {
@@ -121,7 +122,7 @@ impl<'a, const N: usize> DrawList<'a, N> {
         })
     }
 
-    /// Gives `take` every polygon, as its item and its contours.
+    /// Passes every polygon to `take`: its item and its contours.
     pub fn for_each_polygon(&self, mut take: impl FnMut(u32, Vec<Vec<Corner<N>>>)) {
         for (item, shape) in self.lists.iter().flat_map(|list| list.shapes()) {
             match shape {
@@ -140,6 +141,7 @@ impl<'a, const N: usize> DrawList<'a, N> {
     }
 }
 
+<<<<<<< HEAD
 /// The positions of all vertices in the picture, compiled once for all layouts.
 fn points(painter: &Painter<'_>) -> Vec<Point> {
     let scene = painter.scene;
@@ -148,31 +150,34 @@ fn points(painter: &Painter<'_>) -> Vec<Point> {
 }
 
 /// A run of faces becoming shapes.
+=======
+/// A run of faces being converted to polygons and triangles.
+>>>>>>> 91454f3 (ugrainbow, ugpicture: comments in the field's terms)
 struct Chunk<'a, const N: usize> {
     corners: &'a Corners<'a, N>,
     painter: &'a Painter<'a>,
-    /// Of the face in work.
+    /// Of the current face.
     item: u32,
     list: PolygonList<N>,
     clip_counts: ClipCounts,
-    /// Triangles that are looked at together.
+    /// Triangles classified together.
     blocks: [TriangleBlock; TOGETHER / BLOCK],
-    /// What the processor can do to many numbers at once. It changes no result.
+    /// SIMD instructions of the processor. The result does not depend on them.
     level: Level,
-    /// The contour in work, kept for its buffer.
+    /// The current contour; its buffer is reused.
     contour: Vec<Vertex<N>>,
     scratch: Vec<Vertex<N>>,
 }
 
 impl<'a, const N: usize> Chunk<'a, N> {
-    /// That of so many faces, with this one as the first.
+    /// A run of `n_faces` faces from row `first`.
     fn new(corners: &'a Corners<'a, N>, first: usize, n_faces: usize, level: Level) -> Self {
         Self {
             corners,
             painter: &corners.painter,
             // The text of a scene is below 4 GiB, and so are these numbers.
             item: first as u32,
-            // Asked for once, for threads that ask for memory wait for each other.
+            // Allocated once, because allocations of several threads wait for each other.
             list: PolygonList::with_capacity(n_faces),
             clip_counts: ClipCounts::default(),
             blocks: Default::default(),
@@ -192,7 +197,7 @@ impl<'a, const N: usize> Chunk<'a, N> {
         (self.list, self.clip_counts)
     }
 
-    /// Takes some faces, the first of which is item `first`.
+    /// Adds some faces, the first of which is item `first`.
     fn push_faces(&mut self, first: u32, faces: &[Face], is_drawn: &impl Fn(&Face) -> bool) {
         // Face i is bit i.
         let (mut triangles, mut others) = (0u64, 0u64);
@@ -222,7 +227,7 @@ impl<'a, const N: usize> Chunk<'a, N> {
             drawn |= found.drawn << first;
             *bands = found.bands;
         }
-        // What stands in other places of a block is left from before.
+        // The other entries of a block are stale.
         let regular = regular & triangles;
         self.clip_counts.in_front += regular.count_ones() as usize;
         self.clip_counts.in_picture += (regular & in_picture).count_ones() as usize;
@@ -241,12 +246,12 @@ impl<'a, const N: usize> Chunk<'a, N> {
         }
     }
 
-    /// Takes a face that is no regular triangle.
+    /// Adds a face that is not a regular triangle.
     fn push_face(&mut self, face: &Face) {
         let vertices = self.painter.scene.contours.corners(face.contours.clone());
         let points = vertices.iter().map(|vertex| self.corners.points[vertex.index()]);
-        // Of a face that is not clipped it is known early where it is: what is outside the picture or between
-        // samples costs no more.
+        // The rows of a face that is not clipped are known at once: outside the picture, or between
+        // samples, it needs no more work.
         if points.clone().all(|point| point.is_finite()) {
             let rows = Bounds::new(points.map(|point| [point.x, point.y])).rows(self.painter.grid);
             self.clip_counts.in_front += 1;
@@ -256,7 +261,7 @@ impl<'a, const N: usize> Chunk<'a, N> {
                 self.list.end_polygon(self.painter.grid, self.item);
             }
         } else if self.is_left_out(face) {
-            // What cannot be seen is not looked at more closely.
+            // Culled, so it is not clipped.
             self.clip_counts.in_front += 1;
             self.clip_counts.in_picture += 1;
         } else if self.push_contours(face) {
@@ -268,7 +273,7 @@ impl<'a, const N: usize> Chunk<'a, N> {
         self.painter.is_culled && self.painter.is_seen_from_behind(face)
     }
 
-    /// Clips and projects the contours; false if nothing is left of them.
+    /// Clips and projects the contours. Returns false if nothing is left.
     fn push_contours(&mut self, face: &Face) -> bool {
         let look = FaceLook::new(self.painter, face);
         let mut is_in_front = false;
@@ -283,7 +288,7 @@ impl<'a, const N: usize> Chunk<'a, N> {
         is_in_front
     }
 
-    /// Clips and projects the contour; false if nothing is left of it.
+    /// Clips and projects the contour. Returns false if nothing is left.
     fn push_contour(&mut self) -> bool {
         let view = self.painter.view;
         clip_polygon(view.slab, &mut self.contour, &mut self.scratch);

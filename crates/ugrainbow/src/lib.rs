@@ -1,46 +1,64 @@
 //! `ugrainbow` turns a UniGrafix scene into a picture: a scanline renderer
 //! that interpolates hues or wavelengths between the corners of faces.
 //!
-//! It is the last program of the pipe. What moves has been bent by `uglorentz` and
-//! coloured by `ugdoppler`; the picture of the result is an ordinary one, but for colour.
-//! After Nguyen (1988) a colour is a wavelength with a saturation and a value. Between a
-//! red corner (700 nm) and a blue one (435.8 nm) lies the rainbow, not purple; a pure colour
-//! shifted out of the visible range is black, and fades toward its ends; of a pale one the
-//! white in it stays (P17).
+//! It is the last program of the pipe. `uglorentz` has computed the apparent shape of what moves,
+//! and `ugdoppler` its observed colours; rendering the result is ordinary but for colour. After
+//! Nguyen (1988) a colour is a wavelength with a saturation and a value. Between a red corner (700
+//! nm) and a blue one (435.8 nm) lies the rainbow, not purple. A pure colour shifted out of the
+//! visible range is black, and fades towards its ends; the white part of a pale one stays (P17).
 //!
 //! # From scene to picture
 //!
 //! ```text
-//! Scene ─camera─→ places of vertices ┐
-//!       ─surface→ colours, rest frame ├─drawlist→ polygons ─raster→ samples ─shade→ light ─canvas→ pixels
-//!       ─light──→ light levels        ┘  (clip)                                            (develop)
+//! Scene ─camera─→ positions of vertices   ┐
+//!       ─surface→ colours, rest positions ├─drawlist→ polygons ─ugraster→ samples
+//!       ─light──→ light levels            ┘  (clip)
+//! samples ─shade→ light ─pixels→ Image
 //! ```
 //!
-//! - **Camera.** An option beats the scene's `cam`, which beats the default: the eye at the
-//!   origin looking at the middle of the scene, +z up, 40 degrees across. Pixels are square
-//!   unless both view angles are given as options.
-//! - **Colour.** Colours given as light (`c_xyz`) are interpolated as linear light, uncut. A vertex has its own colour, else the mix of its faces' colours, else
-//!   white. A saturation of 0 has no wavelength, and nothing to attenuate.
-//! - **Light.** As in 1988 lights rest in the frame of the face they light. Positions and
-//!   normals are brought back to that frame (P4), so a moving cube is lit like a cube.
-//!   Faces are lit on the side that is seen. The level multiplies the value.
-//! - **Hidden surfaces.** Depth is compared per sample, so faces may cut through each other. Colour and light of a
-//!   face are computed when the first of its samples is seen, and never if none is. [`Config::cull`] leaves out what is seen from behind.
-//!   Translucent faces are blended from behind, sample by sample, in linear light.
-//! - **Pixels.** Samples are averaged in linear light, those of the pixel alike or by a wider [`Filter`]. The mean is exposed, put through a tone curve, brought
-//!   into the gamut (P30), and encoded as sRGB; or written as it is to a format that holds light. Unless light
-//!   is given or asked for, values above 1 are clipped sample by sample, as in 1988.
+//! - **Camera.** An option overrides the scene's `cam`, which overrides the default: the eye at the
+//!   origin looking at the middle of the scene, +z up, 40 degrees across. Pixels are square unless
+//!   both view angles are given as options.
+//! - **Colour.** Colours given as light (`c_xyz`) are interpolated as linear light, without
+//!   clipping. A vertex has its own colour, else the mix of its faces' colours, else white. A
+//!   colour of saturation 0 has no wavelength, and is not attenuated.
+//! - **Light.** As in 1988 lights rest in the frame of the face they light. Positions and normals
+//!   are transformed to that frame (P4), so a moving cube is lit like a cube at rest. The visible
+//!   side of a face is lit. The level multiplies the value.
+//! - **Visibility.** The depth test is made per sample, so faces may intersect. Colour and light of
+//!   a face are computed when the first of its samples is visible. [`Config::cull`] leaves out
+//!   back-facing faces. Translucent faces are blended from back to front, per sample, in linear
+//!   light.
+//! - **Pixels.** Samples are averaged in linear light by a reconstruction [`Filter`]. The mean is
+//!   exposed, put through a tone curve, mapped to the gamut (P30) and encoded as sRGB, or written
+//!   unchanged to a format that holds light. Values above 1 are clipped per sample, as in 1988,
+//!   unless the scene has light or the options ask for it.
+//! - **Exact pictures** ([`Config::exact`]): each sample is a ray into the rest frame of a face
+//!   (P6), and its colour is shifted there. Faces need no subdivision, and the colours of the scene
+//!   must be those at rest.
+//! - **Lines**, wires and edges of faces ([`Wireframe`]), are not lit, and are drawn in front of
+//!   the faces they lie on. Their hidden parts are computed along their centre lines.
+//! - **Depth cueing** ([`DepthCue`]) fades distant surfaces into the background.
+//! - **Figures** of areas and lines are made of the same polygons ([`Output::Vector`]).
 //!
-//! - **Exact pictures** ([`Config::exact`]): each sample is found by a ray into the rest frame of a face (P6), and its colour
-//!   shifted there; faces need not be cut, and the scene must not have been coloured by `ugdoppler`.
-//! - **Lines**, wires and edges of faces ([`Wireframe`]), are not lit, and win against the faces they lie on. What of them is
-//!   hidden is computed along their middles.
-//! - **Depth cueing** ([`DepthCue`]) lets what is far fade into the background.
+//! Not supported: local lights that weaken with distance or have a radius, and lights that move
+//! relative to what they light; `ugdoppler -li` has both. The bytes do not depend on the number of
+//! threads.
 //!
-//! - **Figures** of areas and lines are made of the same polygons, with [`Output::Vector`].
+//! # Modules
 //!
-//! What is not done: a fall-off of local lights with distance, their radius, and lights that move against what they light: `ugdoppler -li`
-//! does that. Every thread count gives the same bytes.
+//! Each line imports only from the lines above it:
+//!
+//! ```text
+//! config  error                                       what is asked, and why there is no picture
+//! palette  surface  shade  packing                    colours, per vertex and per sample
+//! planar  clip  painter                               geometry in the picture plane
+//! drawlist  lines  exact                              faces as polygons, lines, faces by rays
+//! render_layers  setup  depth_cue  front              all of a scene for one camera
+//! pixels  annotate  notes                             from samples to an image
+//! vector  render  explain                             figures, pictures, one pixel
+//! words  cli                                          the command line
+//! ```
 //!
 //! # Example
 //!
@@ -57,7 +75,8 @@
 //! let picture = PictureOptions { size: [4, 4], ..PictureOptions::default() };
 //! let rendering = render(&scene, &Config { picture, ..Config::default() })?;
 //! assert!(rendering.notes.is_empty());
-//! assert!(rendering.into_frame().expect("PNG has pixels").pixels().iter().all(|&pixel| pixel == [0, 255, 0, 255]));
+//! let frame = rendering.into_frame().expect("PNG has pixels");
+//! assert!(frame.pixels().iter().all(|&pixel| pixel == [0, 255, 0, 255]));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 

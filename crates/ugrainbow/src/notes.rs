@@ -1,4 +1,4 @@
-//! What the user should know about a picture: above all why nothing is to be seen.
+//! Notes for the user about a picture, above all why it is empty.
 
 use ugimage::{Development, Tone};
 use ugparse::Scene;
@@ -10,7 +10,7 @@ use crate::clip::ClipCounts;
 use crate::config::{Config, DepthCue};
 use crate::setup::Setup;
 
-/// Brightness that is worth the message that it was clipped; less does not show in 8 bits.
+/// Least brightness at which clipping is reported; less is invisible in 8 bits.
 const CLIPPED: f32 = 1.001;
 
 /// Statistics of a drawn picture.
@@ -18,13 +18,13 @@ const CLIPPED: f32 = 1.001;
 pub struct DrawStatistics {
     /// How many faces and lines were clipped.
     pub clip_counts: ClipCounts,
-    /// What the samples were.
+    /// Statistics of its samples.
     pub stats: SampleStats,
-    /// How light was developed, if more than white was kept for it.
+    /// How light was developed, if light brighter than white was kept.
     pub development: Option<Development>,
 }
 
-/// One sentence for each thing worth knowing.
+/// The notes, one sentence each.
 pub fn notes(setup: &Setup<'_>, config: &Config, statistics: &DrawStatistics) -> Vec<String> {
     let mut notes = scene_notes(setup.scene(), config.exact.is_some());
     if setup.view.is_up_replaced {
@@ -44,7 +44,7 @@ pub fn notes(setup: &Setup<'_>, config: &Config, statistics: &DrawStatistics) ->
     notes
 }
 
-/// What was done with light that is too bright, if there was any.
+/// How light brighter than white was brought into range, if there was any.
 fn light_note(config: &Config, statistics: &DrawStatistics) -> Option<String> {
     if config.picture.output.is_linear() {
         return None;
@@ -63,7 +63,7 @@ fn light_note(config: &Config, statistics: &DrawStatistics) -> Option<String> {
     Some(format!("max intensity is {}, clip to 1.0{remedy}", decimal(brightest)))
 }
 
-/// A number with one to three decimals.
+/// A number with one to three decimals, as short as possible.
 fn decimal(number: f32) -> String {
     let text = format!("{number:.3}");
     let short = text.trim_end_matches('0');
@@ -83,7 +83,7 @@ fn scene_notes(scene: &Scene, is_exact: bool) -> Vec<String> {
             remedies::MOVING_LIGHTS
         ));
     }
-    // Spectra at rest are as they are, and exact pictures have no others.
+    // Exact pictures have spectra at rest only, which are not shifted.
     notes.extend(uglight::spectra_note(scene).filter(|_| !is_exact));
     notes
 }

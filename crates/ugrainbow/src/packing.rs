@@ -88,7 +88,8 @@ pub fn pack_transparent(swatch: &Swatch, level: DVec3) -> [f64; TRANSPARENT_VALU
     [a, b, c, d, e, f, g, swatch.translucency]
 }
 
-/// Light of the numbers of [`pack_transparent`], and the part of the light from behind that is transmitted.
+/// Light of the numbers of [`pack_transparent`], and the part of the light from behind that is
+/// transmitted.
 pub fn shade_transparent(
     shader: &Shader,
     &[a, b, c, d, e, f, g, transmitted]: &[f32; TRANSPARENT_VALUES],

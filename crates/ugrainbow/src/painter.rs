@@ -1,4 +1,4 @@
-//! What faces and wires are drawn from, and the colour and light of their corners.
+//! Colour and light of the corners of faces and wires.
 
 use glam::DVec3;
 use uglight::Lighting;
@@ -11,10 +11,10 @@ use crate::spectra::Spectra;
 use crate::surface::Surface;
 use ugscene::{Place, Slab, View};
 
-/// All that faces and wires are drawn from.
+/// Everything from which faces and wires are drawn.
 #[derive(Clone, Copy)]
 pub struct Painter<'a> {
-    /// The scene, with vertices of one velocity each.
+    /// The scene, whose vertices are part of one body each.
     pub scene: &'a Scene,
     /// The camera.
     pub view: &'a View,
@@ -24,7 +24,7 @@ pub struct Painter<'a> {
     pub palette: &'a Palette,
     /// Its lights.
     pub lighting: &'a Lighting,
-    /// Its surfaces: colours and rest geometry of vertices.
+    /// Colours and rest positions of its vertices.
     pub surface: &'a Surface,
     /// Its spectra, if colours are spectra.
     pub spectra: Option<&'a Spectra>,
@@ -35,12 +35,12 @@ pub struct Painter<'a> {
 /// What the corners of a face have in common.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Common {
-    /// The tint a grey corner takes for interpolation: the mean of the coloured corners, so that a face from
-    /// grey to blue does not run through the rainbow.
+    /// The tint of grey corners for interpolation: the mean of the coloured corners, so that the
+    /// colours between grey and blue do not pass through the rainbow.
     grey_tint: f64,
-    /// Its translucency, if its own colour tells it.
+    /// Translucency of the face's own colour, if it has one.
     translucency: Option<f64>,
-    /// A corner's colour is given as light, so light is interpolated and not hue.
+    /// A corner's colour is given as light, so light is interpolated instead of hue.
     pub is_light: bool,
 }
 
@@ -52,13 +52,13 @@ impl Common {
 }
 
 impl Painter<'_> {
-    /// Where a position of the scene is before projection.
+    /// A position of the scene in camera coordinates, before projection.
     #[inline]
     pub fn place(&self, position: DVec3) -> Place {
         self.view.place(position - self.view.eye)
     }
 
-    /// Where it is in the picture; not a number if it is outside the slab.
+    /// Its projection; NaN outside the clipping planes.
     #[inline]
     pub fn point(&self, place: Place) -> Point {
         let Slab { near, far } = self.view.slab;
@@ -70,7 +70,7 @@ impl Painter<'_> {
         }
     }
 
-    /// True if a face runs clockwise as it is seen, so that it is seen from behind.
+    /// True if a face is back-facing: its outline is seen clockwise.
     pub fn is_seen_from_behind(&self, face: &Face) -> bool {
         let Some(outline) = self.scene.face_contours(face).next() else { return false };
         let seen = outline.iter().map(|vertex| self.scene.vertices[vertex.index()].position - self.view.eye);
@@ -112,8 +112,8 @@ impl Painter<'_> {
         }
     }
 
-    /// True if light passes a face. Its own colour tells how much, and if it has none, those of its corners do: so a pane
-    /// does not make clear what shares corners with it.
+    /// True if a face is translucent. Its own colour takes precedence over the colours of its
+    /// corners, so a translucent face does not make neighbours translucent that share its corners.
     #[inline]
     pub fn is_transparent(&self, face: &Face) -> bool {
         if !self.palette.has_translucency() {
@@ -128,12 +128,12 @@ impl Painter<'_> {
         }
     }
 
-    /// The colour with its light, whether it was given so or not.
+    /// The colour converted to light, if it is not given as light.
     pub fn as_light(&self, swatch: Swatch) -> Swatch {
         Swatch { light: Some(self.palette.light(&swatch)), ..swatch }
     }
 
-    /// The colour of a wire where its ends have none of their own.
+    /// The colour of a wire at ends without a colour of their own.
     pub fn wire_swatch(&self, wire: &Wire) -> Swatch {
         wire.color.map_or(self.palette.white(), |color| self.palette.get(color))
     }
@@ -154,8 +154,8 @@ impl Painter<'_> {
         self.palette.has_light() && ends.any(|&vertex| self.wire_end(vertex, color).light.is_some())
     }
 
-    /// The rest normal of a face on the side that is seen; zero if lighting needs none or the
-    /// face has none.
+    /// The rest normal of a face on its visible side; zero if lighting needs none or the face is
+    /// degenerate.
     pub fn seen_normal(&self, face: &Face) -> DVec3 {
         if self.scene.light_level(face).is_some() || !self.lighting.needs_geometry() {
             return DVec3::ZERO;
@@ -165,7 +165,7 @@ impl Painter<'_> {
         ugscene::seen_normal(rest, self.toward_eye(face, outline[0]))
     }
 
-    /// Where the eye is, seen from a corner in the rest frame of the face.
+    /// The direction from a corner to the eye in the rest frame of the face.
     fn toward_eye(&self, face: &Face, corner: VertexId) -> DVec3 {
         if self.view.is_perspective {
             -self.surface.rest(corner)
@@ -174,8 +174,8 @@ impl Painter<'_> {
         }
     }
 
-    /// The light level at a corner, for red, green and blue: linear for a colour that is light, else on the scale
-    /// of display-encoded values.
+    /// The light level at a corner, for red, green and blue: linear for a colour given as light,
+    /// else for display-encoded values.
     #[inline]
     pub fn level(&self, face: &Face, vertex: VertexId, seen_normal: DVec3, is_light: bool) -> DVec3 {
         if let Some(level) = self.scene.light_level(face) {
@@ -188,14 +188,15 @@ impl Painter<'_> {
         self.lighting.level(self.surface.rest(vertex), normal, is_light)
     }
 
-    /// The light level of all faces that tell none, if it is the same on all, and colours are hues of vertices.
+    /// The light level of all faces without one of their own, if it is the same for all of them and
+    /// all colours are opaque hues.
     pub fn even_level(&self) -> Option<DVec3> {
         let is_even = !self.lighting.needs_geometry();
         let is_plain = !self.palette.has_light() && !self.palette.has_translucency();
         (is_even && is_plain).then(|| self.lighting.level(DVec3::ZERO, DVec3::ZERO, false))
     }
 
-    /// The normal at a corner of a face, on the side that is seen.
+    /// The normal at a corner of a face, on its visible side.
     pub fn normal_at(&self, vertex: VertexId, seen_normal: DVec3) -> DVec3 {
         ugscene::shading_normal(self.scene.vertices[vertex.index()].normal, seen_normal)
     }

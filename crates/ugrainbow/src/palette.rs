@@ -17,8 +17,8 @@ pub struct Swatch {
     pub saturation: f64,
     /// 0 and more.
     pub value: f64,
-    /// The light itself, uncut, if the colour is given as such (`c_xyz`): linear red, green and blue. The
-    /// numbers above are then the nearest that a display has.
+    /// The light itself, uncut, if the colour is given as such (`c_xyz`): linear red, green and
+    /// blue. The numbers above are then the nearest that a display has.
     pub light: Option<DVec3>,
     /// 0 opaque … 1 clear.
     pub translucency: f64,
@@ -89,8 +89,8 @@ impl Palette {
         self.has_translucency
     }
 
-    /// The light of a colour: linear red, green and blue. Its hue is attenuated where the eye sees little.
-    /// Eq. (P17)
+    /// The light of a colour: linear red, green and blue. Its hue is attenuated where the eye sees
+    /// little. Eq. (P17)
     pub fn light(&self, swatch: &Swatch) -> DVec3 {
         swatch.light.unwrap_or_else(|| {
             let seen = self.hsv(swatch).attenuated(attenuation(self.wavelength_nm(swatch)));

@@ -1,4 +1,5 @@
-//! Pixels from samples: averaged in linear light, put on the background, and developed for a display if asked.
+//! Pixels from samples: averaged in linear light, put on the background, and developed for a
+//! display if asked.
 
 use fearless_simd::prelude::*;
 use fearless_simd::{Level, Simd, dispatch, f32x16, i32x16};
@@ -21,7 +22,8 @@ pub struct Pixels {
     pub image: Image,
     /// Statistics of the samples.
     pub stats: SampleStats,
-    /// How light was developed; `None` for linear light, and for light that was clipped sample by sample.
+    /// How light was developed; `None` for linear light, and for light that was clipped sample by
+    /// sample.
     pub development: Option<Development>,
 }
 

@@ -58,8 +58,8 @@ pub fn render(scene: &Scene, config: &Config) -> Result<Rendering, Error> {
     render_with(scene, config, &Layout::new(&config.picture)?, &())
 }
 
-/// The linear light of a scene, neither exposed nor brought into the gamut: white is 1. What the options say about
-/// the file, exposure, tone curve and annotations is ignored.
+/// The linear light of a scene, neither exposed nor brought into the gamut: white is 1. What the
+/// options say about the file, exposure, tone curve and annotations is ignored.
 ///
 /// # Errors
 /// See [`Error`].
@@ -74,8 +74,8 @@ pub fn light(scene: &Scene, config: &Config) -> Result<LinearFrame, Error> {
     Ok(pixels::light(&setup, &layers, &config).0)
 }
 
-/// What a picture says about its making: our name and version, and the command lines of the whole pipe.
-/// `command_line`: our own, empty if there is none.
+/// What a picture says about its making: our name and version, and the command lines of the whole
+/// pipe. `command_line`: our own, empty if there is none.
 pub fn label(scene: &Scene, command_line: &str) -> Metadata {
     let mut lines = ugscene::history(scene);
     if !command_line.is_empty() {
@@ -168,7 +168,8 @@ fn render_with(
     Ok(Rendering { content, output, compression, notes })
 }
 
-/// A scene prepared for drawing: its colours and lights are known, and nothing has been projected yet.
+/// A scene prepared for drawing: its colours and lights are known, and nothing has been projected
+/// yet.
 pub struct Prepared<'a> {
     setup: Setup<'a>,
     config: &'a Config,

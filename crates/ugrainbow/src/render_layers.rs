@@ -1,4 +1,5 @@
-//! Everything to be drawn, packed as the scene needs it.
+//! All faces and lines of a scene as layers for the rasterizer, in the packed layout that the scene
+//! needs.
 
 use ugparse::Face;
 use ugpicture::Filter;
@@ -33,7 +34,7 @@ impl ugraster::Progress for Drawing<'_> {
     }
 }
 
-/// Everything to be drawn.
+/// All faces and lines of a scene.
 pub struct RenderLayers<'a> {
     solid: Solid<'a>,
     clear: ClearLayers<'a>,
@@ -42,20 +43,19 @@ pub struct RenderLayers<'a> {
     progress: &'a dyn Progress,
 }
 
-/// What hides, with the numbers to interpolate: hues alone or with colours given as light among them, under
-/// white or coloured lights.
+/// Opaque faces, in one of the layouts of [`crate::packing`].
 enum Solid<'a> {
-    /// Tint, saturation, value.
+    /// Hues under white light.
     Plain(Layers<'a, 3>),
-    /// The same, and the level of red, green and blue light.
+    /// Hues under coloured lights.
     Colored(Layers<'a, 6>),
-    /// As plain, or linear light; and which.
+    /// Hues, and colours given as light, under white light.
     Mixed(Layers<'a, 4>),
-    /// As coloured, or linear light; and which.
+    /// The same under coloured lights.
     MixedColored(Layers<'a, 7>),
 }
 
-/// Does the same with the layers of every kind, and the function that gives their light.
+/// The same expression for every layout.
 macro_rules! with_layers {
     ($solid:expr, |$layers:ident| $body:expr) => {
         match $solid {
@@ -70,11 +70,11 @@ macro_rules! with_layers {
 /// Faces.
 struct Layers<'a, const N: usize> {
     surfaces: Surfaces<'a, N>,
-    /// False if they only hide.
+    /// False if they only occlude.
     is_drawn: bool,
 }
 
-/// How faces are found.
+/// How faces are intersected with samples.
 enum Surfaces<'a, const N: usize> {
     Rays(Faces<'a, N>),
     Polygons(DrawList<'a, N>),
@@ -97,7 +97,7 @@ impl<'a, const N: usize> Layers<'a, N> {
         }
     }
 
-    /// What of some pieces of lines no face hides.
+    /// The visible parts of some pieces of lines.
     fn shown(&self, painter: &Painter<'_>, all: &[Stroke], width: f64) -> Vec<Stroke> {
         let size = [painter.grid.sample_columns(), painter.grid.sample_rows()];
         // A sample more than half the width.
@@ -147,17 +147,17 @@ impl Layers<'_, TRANSPARENT_VALUES> {
     }
 }
 
-/// What does not hide what is behind it: translucent faces, and lines, from which that has been taken away.
+/// Transparent layers: translucent faces, and the visible parts of lines.
 struct ClearLayers<'a> {
-    /// None if no face is translucent.
+    /// `None` if no face is translucent.
     faces: Option<Layers<'a, TRANSPARENT_VALUES>>,
-    /// Their visible parts.
+    /// Visible parts of lines.
     strokes: Vec<Stroke>,
-    /// The same as strips.
+    /// The same as strips of their width.
     lines: [PolygonList<TRANSPARENT_VALUES>; 1],
 }
 
-/// What is clear, with what gives it light.
+/// Transparent layers with their shader.
 struct Lit<'a, 's> {
     layers: &'s ClearLayers<'a>,
     shader: &'s Shader,
@@ -217,12 +217,12 @@ impl<'a> RenderLayers<'a> {
         }
     }
 
-    /// The same, which tells somebody how far drawing is.
+    /// The same, and drawing reports progress.
     pub fn telling(self, progress: &'a dyn Progress) -> Self {
         Self { progress, ..self }
     }
 
-    /// How many faces and lines came how far.
+    /// How many faces and lines were clipped.
     pub fn clip_counts(&self) -> ClipCounts {
         self.clip_counts
     }
@@ -328,15 +328,15 @@ impl<'a> RenderLayers<'a> {
     }
 }
 
-/// For figures.
+/// Access for vector figures.
 impl RenderLayers<'_> {
-    /// True if a face that is drawn is translucent.
+    /// True if a face in the picture is translucent.
     pub fn has_transparent_faces(&self) -> bool {
         self.has_faces && self.clear.faces.as_ref().is_some_and(|faces| faces.clip_counts().in_picture > 0)
     }
 
-    /// Gives `take` every polygon, as its item, whether it is translucent, and its contours: first those of what hides, whose
-    /// corners have zeros behind their numbers.
+    /// Passes every polygon to `take`: its item, whether it is translucent, and its contours.
+    /// Opaque ones come first; their values are padded with zeros.
     pub fn for_each_polygon(&self, mut take: impl FnMut(u32, bool, Vec<Vec<Corner<TRANSPARENT_VALUES>>>)) {
         fn all<const N: usize>(
             layers: &Layers<'_, N>,
@@ -369,7 +369,8 @@ impl RenderLayers<'_> {
         &self.clear.strokes
     }
 
-    /// The light of numbers interpolated between corners of what hides, by [`RenderLayers::for_each_polygon`].
+    /// The light of values interpolated between corners of an opaque polygon of
+    /// [`RenderLayers::for_each_polygon`].
     pub fn shade(
         &self,
         shader: &Shader,

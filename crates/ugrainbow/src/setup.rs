@@ -1,4 +1,4 @@
-//! A scene made ready to be drawn from one camera.
+//! A scene prepared for one camera.
 
 use std::borrow::Cow;
 use std::ops::Range;
@@ -18,7 +18,7 @@ use crate::spectra::Spectra;
 use crate::surface::Surface;
 use ugscene::{Geometry, View};
 
-/// Everything that is computed once for a picture.
+/// What is computed once for a picture.
 pub struct Setup<'a> {
     scene: Cow<'a, Scene>,
     pub view: View,
@@ -29,9 +29,10 @@ pub struct Setup<'a> {
     /// If colours are spectra.
     spectra: Option<Spectra>,
     pub shader: Shader,
-    /// Faces seen from behind are left out.
+    /// Back-facing faces are culled.
     is_culled: bool,
-    /// Light brighter than white is kept to the last step; else it is clipped sample by sample, as in 1988.
+    /// Light brighter than white is kept until it is developed; else it is clipped per sample, as
+    /// in 1988.
     pub is_uncut: bool,
 }
 
@@ -76,7 +77,7 @@ impl<'a> Setup<'a> {
         Ok(Self { scene, view, grid, palette, lighting, surface, spectra, shader, is_culled, is_uncut })
     }
 
-    /// The scene, with vertices of one velocity each. Faces and wires have the order of the scene given.
+    /// The scene, whose vertices are part of one body each. Faces and wires keep their order.
     pub fn scene(&self) -> &Scene {
         &self.scene
     }
@@ -96,7 +97,7 @@ impl<'a> Setup<'a> {
     }
 }
 
-/// Refuses what rays do not find, or what would be shifted twice.
+/// Refuses scenes that rays to the eye cannot show, or whose colours would be shifted twice.
 fn check_exact(scene: &Scene, view: &View) -> Result<(), Error> {
     if scene.stage.seen_colors().is_some() {
         return Err(Error::Exact(remedies::EXACT_SEEN_COLORS));
@@ -137,8 +138,8 @@ fn check_spectra(scene: &Scene, surface: &Surface, shift: ColorShift) -> Result<
     Ok(())
 }
 
-/// The scene with vertices of one body each, copied only if it has several. Bodies that move and have their rest
-/// shapes are drawn at rest.
+/// The scene with vertices of one body each, copied only if it has several. Bodies that move and
+/// have their rest shapes are drawn at rest.
 fn drawable(scene: &Scene) -> Cow<'_, Scene> {
     let is_drawn_at_rest = ugscene::require_seen_geometry(scene).is_err();
     if ugscene::is_one_body(scene) && !is_drawn_at_rest {

@@ -74,7 +74,8 @@ impl Surface {
         &self.swatches[self.rows[vertex.index()] as usize]
     }
 
-    /// Where the vertex is in the rest frame of its body, relative to the eye, in the axes of the scene.  Eq. (P4)
+    /// Where the vertex is in the rest frame of its body, relative to the eye, in the axes of the
+    /// scene.  Eq. (P4)
     pub fn rest(&self, vertex: VertexId) -> DVec3 {
         self.rest[vertex.index()]
     }
@@ -105,7 +106,8 @@ fn row(color: ColorId) -> u32 {
     color.index() as u32
 }
 
-/// The rows of vertices that have not all colours of their own; mixed colours are added behind white.
+/// The rows of vertices that have not all colours of their own; mixed colours are added behind
+/// white.
 fn mixed_rows(
     scene: &Scene,
     rest: &[DVec3],

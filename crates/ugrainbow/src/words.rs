@@ -1,4 +1,4 @@
-//! Words of the command line as values.
+//! Value parsers of the command line.
 
 use ugimage::Format;
 use ugphysics::Brightness;
@@ -10,14 +10,14 @@ use crate::config::MAX_LINE_WIDTH;
 /// A column and a row.
 pub type Pixel = [u32; 2];
 
-/// What is written.
+/// What is written: a picture or a report.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     Picture(Format),
     Report(Report),
 }
 
-/// How a pixel is explained.
+/// Format of the explanation of a pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Report {
     Text,

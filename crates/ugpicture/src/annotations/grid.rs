@@ -1,7 +1,7 @@
 //! A grid of coordinates on the ground: in the plane z = 0, or under what reaches lower.
 //!
-//! It is at rest where the picture is taken, in the coordinates of the scene, and spans the box round everything as it
-//! is seen. What is seen in front of it hides it.
+//! It is at rest where the picture is taken, in the coordinates of the scene, and spans the box
+//! round everything as it is seen. What is seen in front of it hides it.
 
 use glam::DVec3;
 use uglabel::{DESCENT, Drawing, Line, MissingCharacter, Point};
@@ -85,7 +85,8 @@ impl GroundGrid {
         low..=high
     }
 
-    /// Where the line of a number of an axis meets that of a number of the other, scene coordinates.
+    /// Where the line of a number of an axis meets that of a number of the other, scene
+    /// coordinates.
     fn point(&self, axis: usize, number: i64, across: i64) -> DVec3 {
         let (along, across) = (number as f64 * self.step, across as f64 * self.step);
         if axis == 0 { DVec3::new(along, across, self.level) } else { DVec3::new(across, along, self.level) }
@@ -100,7 +101,8 @@ fn is_free([low, high]: [Point; 2], others: &[[Point; 2]]) -> bool {
     others.iter().all(is_apart)
 }
 
-/// The depth of the ground in the lower part of the picture; that of the view centre if it is nearer.
+/// The depth of the ground in the lower part of the picture; that of the view centre if it is
+/// nearer.
 fn depth(seen: &SeenScene<'_>, level: f64) -> f64 {
     let view = &seen.view;
     let [width, height] = seen.size();
@@ -133,7 +135,8 @@ struct Labels<'a> {
 }
 
 impl Labels<'_> {
-    /// From the nearest on, until two would overlap. Those of the other axis, where they stand, are left out.
+    /// From the nearest on, until two would overlap. Those of the other axis, where they stand, are
+    /// left out.
     fn draw(&mut self, axis: usize, drawing: &mut Drawing) -> Result<(), MissingCharacter> {
         let grid = self.grid;
         let near = self.near_side(axis);

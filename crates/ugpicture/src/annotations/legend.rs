@@ -1,4 +1,5 @@
-//! The legend: the rainbow with its wavelengths, where light of one wavelength is seen, and how bodies move.
+//! The legend: the rainbow with its wavelengths, where light of one wavelength is seen, and how
+//! bodies move.
 
 use glam::DVec3;
 use uglabel::{Drawing, Line, MissingCharacter, Point, Rgb};
@@ -8,7 +9,8 @@ use super::motion::MotionSummary;
 use super::style::Style;
 use uglabel::number::{few, range, significant, speed};
 
-/// The wavelength, in nm, of which the legend says where it is seen: the middle of the visible range, green.
+/// The wavelength, in nm, of which the legend says where it is seen: the middle of the visible
+/// range, green.
 const SAMPLE_NM: f64 = 550.0;
 
 /// The rainbow.
@@ -35,7 +37,8 @@ const GAP: f64 = 1.5;
 /// Most and least width of the rainbow.
 const RAINBOW: [f64; 2] = [26.0, 20.0];
 
-/// Least width of all, in sizes of text: numbers below the rainbow stand apart, and words can be read.
+/// Least width of all, in sizes of text: numbers below the rainbow stand apart, and words can be
+/// read.
 const LEAST_WIDTH: f64 = 9.0;
 
 /// More bodies have no arrows.

@@ -1,8 +1,10 @@
-//! Annotations of a picture: a caption, a legend, a coordinate grid, and the outlines of undistorted bodies.
+//! Annotations of a picture: a caption, a legend, a coordinate grid, and the outlines of
+//! undistorted bodies.
 //!
-//! Caption and legend stand on strips below the picture of the scene. The file keeps the size that is asked for: the
-//! scene is drawn in the rows that the strips leave, exactly as it would be drawn alone in that size. Grid and outlines
-//! are drawn over it. All of them are text and lines ([`uglabel`]), drawn after the light of the scene has been developed.
+//! Caption and legend stand on strips below the picture of the scene. The file keeps the size that
+//! is asked for: the scene is drawn in the rows that the strips leave, exactly as it would be drawn
+//! alone in that size. Grid and outlines are drawn over it. All of them are text and lines
+//! ([`uglabel`]), drawn after the light of the scene has been developed.
 
 mod composite;
 mod grid;
@@ -107,8 +109,9 @@ impl Layout {
         Cow::Owned(PictureOptions { size: [self.size[0], self.scene_rows], ..options.clone() })
     }
 
-    /// All annotations, and notes about them. `options`: of the picture of the scene; `development`: of its light.
-    /// `render_depths` renders what is seen at the middle of each pixel of a picture of that size.
+    /// All annotations, and notes about them. `options`: of the picture of the scene;
+    /// `development`: of its light. `render_depths` renders what is seen at the middle of each
+    /// pixel of a picture of that size.
     ///
     /// # Errors
     /// Those of `render_depths`, and of the camera.
@@ -149,7 +152,8 @@ impl Layout {
             if outline {
                 match IdealScene::new(&seen) {
                     Some(ideal) => {
-                        // The camera keeps its view, although the middle of the ideal scene is elsewhere.
+                        // The camera keeps its view, although the middle of the ideal scene is
+                        // elsewhere.
                         let mut camera = camera.clone();
                         camera.eye = Some(seen.view.eye);
                         camera.center = Some(seen.view.eye + seen.view.distance * seen.view.forward);

@@ -14,7 +14,8 @@ pub struct MotionSummary {
     pub velocities: Vec<Velocity>,
     /// Their directions: to the right, up, and toward the viewer. Zero at rest.
     pub directions: Vec<DVec3>,
-    /// Least and greatest Doppler factor at the middles of pixels; `None` if nothing is seen.  Eq. (P10)
+    /// Least and greatest Doppler factor at the middles of pixels; `None` if nothing is seen.  Eq.
+    /// (P10)
     pub doppler: Option<[f64; 2]>,
     /// True if wavelengths in the picture are Doppler shifted.
     pub is_shifted: bool,

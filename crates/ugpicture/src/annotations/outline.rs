@@ -1,10 +1,11 @@
 //! The edges of moving bodies as they would look at rest.
 //!
-//! Each body is given back its rest shape (P4), and is placed so that its centre, that of its box in its rest frame,
-//! stands where it is seen (P3). So the outline is what the eye would see if the same body rested there, and of a
-//! body placed by `uglorentz -in` just what the scene shows at rest. Drawn are the edges that the eye sees: where a face
-//! that is turned to it meets one that is not, borders, and creases; other faces of the ideal scene hide them, those
-//! of the picture do not.
+//! Each body is given back its rest shape (P4), and is placed so that its centre, that of its box
+//! in its rest frame, stands where it is seen (P3). So the outline is what the eye would see if the
+//! same body rested there, and of a body placed by `uglorentz -in` just what the scene shows at
+//! rest. Drawn are the edges that the eye sees: where a face that is turned to it meets one that is
+//! not, borders, and creases; other faces of the ideal scene hide them, those of the picture do
+//! not.
 
 use std::collections::HashMap;
 
@@ -27,7 +28,8 @@ const COPLANAR: f64 = 0.9999;
 /// How far beside a line it is asked what goes on there, in pixels.
 const ASIDE: f64 = 1.6;
 
-/// What is so far from the plane of a face, in parts of its distance from the eye, still lies in it.
+/// What is so far from the plane of a face, in parts of its distance from the eye, still lies in
+/// it.
 const FLAT: f64 = 3e-3;
 
 /// The scene that outlines are drawn of: moving bodies at rest, as they would look.
@@ -132,8 +134,8 @@ impl Faces<'_> {
         (normal, normal.dot(toward) > 0.0)
     }
 
-    /// True if one surface goes on at both sides of a place on a line, though it may be made of faces that do not
-    /// share this edge: cut another way, or let into each other.
+    /// True if one surface goes on at both sides of a place on a line, though it may be made of
+    /// faces that do not share this edge: cut another way, or let into each other.
     fn go_on(&self, visible: &VisibleLines<'_>, place: DepthPoint, across: Point) -> bool {
         let point = visible.point(place);
         let side = |by: f64| {

@@ -27,7 +27,8 @@ pub struct Style {
 }
 
 impl Style {
-    /// The style of a picture. `background`: light as displayed; on a transparent background the ink suits white paper.
+    /// The style of a picture. `background`: light as displayed; on a transparent background the
+    /// ink suits white paper.
     pub fn new(size: [u32; 2], background: Option<[f32; 3]>, output: Output) -> Self {
         let [width, height] = size.map(f64::from);
         let size = (libm::sqrt(width * height) / PER_SIZE).round().max(LEAST);

@@ -7,7 +7,8 @@ use ugscene::View;
 use crate::depth_buffer::DepthBuffer;
 use crate::line::{clip_line, visible_runs};
 
-/// A line behind a face by less than this part of its distance counts as lying on it: lines follow edges and the ground.
+/// A line behind a face by less than this part of its distance counts as lying on it: lines follow
+/// edges and the ground.
 const SLACK: f64 = 2e-3;
 
 /// Length in pixels of the steps for which visibility is decided.
@@ -33,7 +34,8 @@ impl VisibleLines<'_> {
         self.visible_where(ends, |_, _| true)
     }
 
-    /// The same, restricted to where `is_asked` holds: of a point, and a unit vector across the line.
+    /// The same, restricted to where `is_asked` holds: of a point, and a unit vector across the
+    /// line.
     pub fn visible_where(
         &self,
         ends: [DVec3; 2],

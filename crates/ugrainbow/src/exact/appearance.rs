@@ -48,8 +48,8 @@ impl<'a> Appearance<'a> {
         }
     }
 
-    /// A hue at rest as seen where wavelengths are stretched by 1/D; `rest_nm` is the wavelength of its
-    /// tint.  Eq. (P11), (P12), (P18)
+    /// A hue at rest as seen where wavelengths are stretched by 1/D; `rest_nm` is the wavelength of
+    /// its tint.  Eq. (P11), (P12), (P18)
     ///
     /// A colour given as light stays; unless colours are spectra, no face that moves has one
     /// ([`super::look::Look`]).

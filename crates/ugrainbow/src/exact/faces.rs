@@ -104,7 +104,8 @@ impl<'a, const N: usize> Faces<'a, N> {
             .any(hides)
     }
 
-    /// Calls `take` with those samples of a part of the picture that show a face, were it alone, in runs.
+    /// Calls `take` with those samples of a part of the picture that show a face, were it alone, in
+    /// runs.
     fn cover(
         &self,
         shape: &Shape,
@@ -153,8 +154,8 @@ impl<'a, const N: usize> Faces<'a, N> {
         self.with_scratch(|scratch| self.draw_nearest(shapes, part, scratch, tile));
     }
 
-    /// Draws some faces into a tile: first it finds the nearest at each sample, then it computes their
-    /// values, so that no hidden sample is shaded.
+    /// Draws some faces into a tile: first it finds the nearest at each sample, then it computes
+    /// their values, so that no hidden sample is shaded.
     fn draw_nearest(&self, shapes: &[u32], part: [Range<u32>; 2], scratch: &mut Scratch, tile: &mut Tile<N>) {
         self.find_nearest(shapes, part, scratch);
         let Scratch { lengths, nearest, .. } = scratch;

@@ -1,7 +1,8 @@
 //! Numbers that are linear in rays, along the rows of the picture.
 //!
-//! A boost is linear in events (P7). So what is linear in a rest frame's ray p', such as p'·v, is linear in p and in |p|,
-//! which is the same for all rest frames: of all faces of a picture together one root a sample has to be taken.
+//! A boost is linear in events (P7). So what is linear in a rest frame's ray p', such as p'·v, is
+//! linear in p and in |p|, which is the same for all rest frames: of all faces of a picture
+//! together one root a sample has to be taken.
 
 use std::ops::Range;
 
@@ -122,7 +123,8 @@ impl<'a> LengthRow<'a> {
         &self.lengths[(columns.start - self.first) as usize..(columns.end - self.first) as usize]
     }
 
-    /// Where between two columns a form of this row does not grow nor fall, if anywhere: the nearest column to the left.
+    /// Where between two columns a form of this row does not grow nor fall, if anywhere: the
+    /// nearest column to the left.
     pub fn turn(&self, form: &RowForm, [first, last]: [u32; 2]) -> Option<u32> {
         let FilmRow { start, step, aside } = *self.film;
         // α t + c √(w² + t²) has the slope 0 at t/√(w² + t²) = −α/c.

@@ -66,8 +66,9 @@ impl Rect {
         (0..2).any(|i| self.low[i] < other.low[i] - SLACK || self.high[i] > other.high[i] + SLACK)
     }
 
-    /// True if a part of the picture that lies in the hull of these points, homogeneous as of [`Frame::place`], has
-    /// nothing to do with the rectangle: all are behind one of its sides, or behind the eye.
+    /// True if a part of the picture that lies in the hull of these points, homogeneous as of
+    /// [`Frame::place`], has nothing to do with the rectangle: all are behind one of its sides, or
+    /// behind the eye.
     fn misses(&self, hull: &[DVec3; 3]) -> bool {
         let behind = |side: &dyn Fn(&DVec3) -> f64| hull.iter().all(|point| side(point) < 0.0);
         behind(&|p| p.z)
@@ -78,10 +79,12 @@ impl Rect {
     }
 }
 
-/// The part of a rectangle, not smaller than needed, in which a face can be seen; `None` if it is not seen there.
+/// The part of a rectangle, not smaller than needed, in which a face can be seen; `None` if it is
+/// not seen there.
 ///
-/// What of the footprint is in the rectangle is bounded by arcs of its edges and by sides of the rectangle; so
-/// the box round those arcs, and round those corners of the rectangle that show the face, has it all in it.
+/// What of the footprint is in the rectangle is bounded by arcs of its edges and by sides of the
+/// rectangle; so the box round those arcs, and round those corners of the rectangle that show the
+/// face, has it all in it.
 pub fn footprint(frame: &Frame, outline: &Outline, rect: Rect) -> Option<Rect> {
     let mut search = Search { rect: rect.grown(), found: Rect::EMPTY };
     for edge in outline.edges() {

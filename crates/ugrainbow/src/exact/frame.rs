@@ -8,8 +8,8 @@ use super::film::{Form, center};
 use super::sections::Side;
 use crate::painter::Painter;
 
-/// A body's rest frame, in the axes (û, e₁, e₂) of which the first is along the motion, so that a boost changes one
-/// coordinate only. Everything is relative to the eye.
+/// A body's rest frame, in the axes (û, e₁, e₂) of which the first is along the motion, so that a
+/// boost changes one coordinate only. Everything is relative to the eye.
 #[derive(Clone, Debug)]
 pub struct Frame {
     /// The velocity of the body.
@@ -66,7 +66,8 @@ impl Frame {
         self.rays[0] + y * self.rays[2]
     }
 
-    /// The ray at `x` across the picture, in samples, on a row: where the light was sent at rest that is seen at depth 1.
+    /// The ray at `x` across the picture, in samples, on a row: where the light was sent at rest
+    /// that is seen at depth 1.
     #[inline]
     pub fn ray(&self, row: DVec3, x: f64) -> DVec3 {
         self.rest(row + x * self.rays[1])
@@ -147,12 +148,14 @@ impl Frame {
         self.samples_from_seen * seen
     }
 
-    /// What a straight line at rest between two unit vectors is seen as: the three control points of a rational
-    /// Bézier curve, in the coordinates of [`Frame::place`]. `None` if the line goes through the eye.
+    /// What a straight line at rest between two unit vectors is seen as: the three control points
+    /// of a rational Bézier curve, in the coordinates of [`Frame::place`]. `None` if the line goes
+    /// through the eye.
     ///
-    /// In directions the line is an arc of a great circle, with control points a, (a+b)/(1+a·b) of weight
-    /// κ = cos φ/2, and b. With the time −1 they are points of a plane in spacetime; the curve lies on the light cone.
-    /// A boost is linear, and so is the projection, so both act on the control points.  Eq. (P8)
+    /// In directions the line is an arc of a great circle, with control points a, (a+b)/(1+a·b) of
+    /// weight κ = cos φ/2, and b. With the time −1 they are points of a plane in spacetime; the
+    /// curve lies on the light cone. A boost is linear, and so is the projection, so both act on
+    /// the control points.  Eq. (P8)
     pub fn arc(&self, a: DVec3, b: DVec3) -> Option<[DVec3; 3]> {
         /// cos φ/2 of a line that passes through the eye, to rounding.
         const LEAST: f64 = 1e-9;

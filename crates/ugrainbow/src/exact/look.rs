@@ -27,7 +27,8 @@ pub struct Look {
     mesh: Option<Box<Mesh>>,
 }
 
-/// Triangles between corners. A point of one is that mean of its corners which is there in the rest frame.
+/// Triangles between corners. A point of one is that mean of its corners which is there in the rest
+/// frame.
 #[derive(Clone, Debug)]
 struct Mesh {
     corners: Vec<Corner>,
@@ -49,7 +50,8 @@ struct Corner {
 #[derive(Clone, Debug)]
 struct Triangle {
     corners: [u32; 3],
-    /// Across the planes of the eye and each side: products with a ray are as the weights of the opposite corners.
+    /// Across the planes of the eye and each side: products with a ray are as the weights of the
+    /// opposite corners.
     sides: [DVec3; 3],
     /// Tint, saturation and value, each of the first corner, and how much more the others have.
     numbers: [[f64; 3]; 3],
@@ -73,7 +75,8 @@ impl Look {
         contours: &[Vec<DVec3>],
     ) -> Self {
         let common = painter.common(face);
-        // Colours given as light have no hue to shift; unless they are spectra, the nearest hue stands for them.
+        // Colours given as light have no hue to shift; unless they are spectra, the nearest hue
+        // stands for them.
         let is_changed = !frame.velocity.is_zero() && !appearance.keeps_light();
         let common = if is_changed { common.without_light() } else { common };
         let normal = painter.seen_normal(face);
@@ -111,7 +114,8 @@ impl Look {
         }
     }
 
-    /// Colour as seen, and light level, where a ray meets the plane of the face: at a part of it, 1/`key`.
+    /// Colour as seen, and light level, where a ray meets the plane of the face: at a part of it,
+    /// 1/`key`.
     // This runs for every sample, and a ray that is handed over in memory has to be waited for.
     #[inline(always)]
     pub fn at(
@@ -184,7 +188,8 @@ impl Mesh {
         }
     }
 
-    /// At a ray through the face. At the rim, where by rounding the ray is in no triangle, the nearest counts.
+    /// At a ray through the face. At the rim, where by rounding the ray is in no triangle, the
+    /// nearest counts.
     #[inline]
     fn spot(&self, ray: DVec3) -> Spot<'_> {
         let mut best = Spot { mesh: self, triangle: &self.triangles[0], weights: [1.0, 0.0, 0.0] };

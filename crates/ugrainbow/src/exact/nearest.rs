@@ -36,7 +36,8 @@ impl Nearest {
         self.faces.resize(len, 0);
     }
 
-    /// Draws samples of a row where nothing nearer has been drawn. `key`: of the face at a column and length of its ray.
+    /// Draws samples of a row where nothing nearer has been drawn. `key`: of the face at a column
+    /// and length of its ray.
     #[inline]
     pub fn draw(
         &mut self,

@@ -3,11 +3,12 @@
 use glam::DVec3;
 use ugparse::newell_normal;
 
-/// From every sample's ray its half plane runs to this direction: any would do that no ray and no edge
-/// is likely to have.
+/// From every sample's ray its half plane runs to this direction: any would do that no ray and no
+/// edge is likely to have.
 const SIDEWAYS: DVec3 = DVec3::new(0.436_812_907_331, 0.617_203_411_907, 0.654_371_083_561);
 
-/// Distance of the eye from the plane of a face, relative to that of the face: with less it is seen edge-on.
+/// Distance of the eye from the plane of a face, relative to that of the face: with less it is seen
+/// edge-on.
 const EDGE_ON: f64 = 1e-12;
 
 /// The outline of a face at rest, holes included.
@@ -36,8 +37,8 @@ impl Edge {
 }
 
 impl Outline {
-    /// `contours`: corners at rest, relative to the eye; the plane is that of the first contour. `None` if no ray
-    /// meets the plane in one point: the face has no area or is seen edge-on.
+    /// `contours`: corners at rest, relative to the eye; the plane is that of the first contour.
+    /// `None` if no ray meets the plane in one point: the face has no area or is seen edge-on.
     pub fn new(contours: &[Vec<DVec3>]) -> Option<Self> {
         let first = contours.first()?;
         let normal = newell_normal(first.iter().copied()).try_normalize()?;
@@ -65,7 +66,8 @@ impl Outline {
         self.plane
     }
 
-    /// The part of a ray, as a vector at rest, that reaches the plane, inverted: 0 or less if the plane is not ahead.
+    /// The part of a ray, as a vector at rest, that reaches the plane, inverted: 0 or less if the
+    /// plane is not ahead.
     #[inline]
     pub fn key(&self, ray: DVec3) -> f64 {
         self.plane.dot(ray)
@@ -73,8 +75,9 @@ impl Outline {
 
     /// True if a ray for which the plane is ahead goes through the face.
     ///
-    /// A face is seen within less than half of all directions, and the direction opposite to the ray is not among
-    /// them. So the half plane from the ray sideways ends outside of the face, and the times it meets the outline decide.
+    /// A face is seen within less than half of all directions, and the direction opposite to the
+    /// ray is not among them. So the half plane from the ray sideways ends outside of the face, and
+    /// the times it meets the outline decide.
     #[inline]
     pub fn contains(&self, ray: DVec3) -> bool {
         let half_plane = ray.cross(SIDEWAYS);

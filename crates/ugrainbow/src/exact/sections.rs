@@ -1,4 +1,5 @@
-//! A row of samples cut where it crosses the edges of a face: between two cuts all samples are in the face, or none is.
+//! A row of samples cut where it crosses the edges of a face: between two cuts all samples are in
+//! the face, or none is.
 
 use std::ops::Range;
 
@@ -29,7 +30,8 @@ pub struct Cutter {
 }
 
 impl Cutter {
-    /// Calls `take` with those of the columns of a row, in runs, that are in the face. `contains` says so of one.
+    /// Calls `take` with those of the columns of a row, in runs, that are in the face. `contains`
+    /// says so of one.
     pub fn sections(
         &mut self,
         row: u32,
@@ -91,7 +93,8 @@ impl Line<'_> {
         number.is_nan() || number.abs() <= self.unsure
     }
 
-    /// Adds the cuts where the sign changes. False if it is not sure at an end, or where there may be two changes.
+    /// Adds the cuts where the sign changes. False if it is not sure at an end, or where there may
+    /// be two changes.
     fn cut(&self, [first, last]: [u32; 2], cuts: &mut Vec<Cut>) -> bool {
         let [start, end] = [self.at(first), self.at(last)];
         if self.is_unsure(start) || self.is_unsure(end) {
@@ -167,7 +170,8 @@ mod tests {
         })
     }
 
-    /// Three random sides, some of which run through a row twice: whichever samples are to be taken, taken are those.
+    /// Three random sides, some of which run through a row twice: whichever samples are to be
+    /// taken, taken are those.
     #[test]
     fn every_change_of_a_sign_is_found() {
         let mut numbers = numbers();

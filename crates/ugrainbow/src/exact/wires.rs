@@ -23,8 +23,8 @@ const MOST_CHANGE: f64 = 2e-3;
 /// How often a line is halved at most.
 const MOST_HALVINGS: u32 = 12;
 
-/// Approximates lines by polylines whose pieces are straight in the picture and of one Doppler factor,
-/// as far as can be seen.
+/// Approximates lines by polylines whose pieces are straight in the picture and of one Doppler
+/// factor, as far as can be seen.
 pub struct CurvedLines<'a> {
     painter: Painter<'a>,
     appearance: Appearance<'a>,

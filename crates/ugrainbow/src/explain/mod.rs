@@ -34,8 +34,8 @@ pub struct Explanation {
     pub size: [u32; 2],
     /// Samples along a side of a pixel.
     pub samples: u32,
-    /// What the pixel's samples show, and how many of them, in the order in which they come. A sample of something
-    /// translucent shows what is behind it, too.
+    /// What the pixel's samples show, and how many of them, in the order in which they come. A
+    /// sample of something translucent shows what is behind it, too.
     pub covers: Vec<(Item, usize)>,
     /// How many samples show the background, if only through something.
     pub n_free: usize,
@@ -77,9 +77,11 @@ pub struct Shown {
     pub gamma: f64,
     /// Time and place, from the eye, in the frame of the camera, at which the light was sent.
     pub emission: (f64, DVec3),
-    /// The same in the rest frame of the body; no time if contraction or time of flight was left out.
+    /// The same in the rest frame of the body; no time if contraction or time of flight was left
+    /// out.
     pub rest: (Option<f64>, DVec3),
-    /// Angle between the line of sight and the motion in degrees, in the camera's frame and the body's; none at rest.
+    /// Angle between the line of sight and the motion in degrees, in the camera's frame and the
+    /// body's; none at rest.
     pub angles_deg: Option<[f64; 2]>,
     /// Doppler factor.
     pub doppler: f64,
@@ -350,8 +352,8 @@ impl Teller<'_> {
         }
     }
 
-    /// What there is most to tell of: as in channels the nearest that lets through less than half, else the nearest. With
-    /// its numbers, if they are known, and its light.
+    /// What there is most to tell of: as in channels the nearest that lets through less than half,
+    /// else the nearest. With its numbers, if they are known, and its light.
     fn subject<'s>(&self, sample: &'s ProbedSample) -> (SurfaceSample, Option<&'s [f32]>, [f32; 3]) {
         let layer = |layer: &Fragment| (of_fragment(&self.setup.view, layer), None, layer.light);
         let mut layers = sample.fragments.iter().rev();

@@ -19,9 +19,9 @@ pub struct Edge {
     pub face: u32,
 }
 
-/// The edges of all faces, each once, without those inside of what is one face but for cuts: where two faces of one
-/// colour and velocity meet that lie in one plane at rest. So what `uglorentz` has cut into pieces has the edges it had
-/// before.
+/// The edges of all faces, each once, without those inside of what is one face but for cuts: where
+/// two faces of one colour and velocity meet that lie in one plane at rest. So what `uglorentz` has
+/// cut into pieces has the edges it had before.
 pub fn edges(painter: &Painter<'_>) -> Vec<Edge> {
     let scene = painter.scene;
     let of_face = |(row, face): (usize, &Face)| {

@@ -5,8 +5,8 @@
 //! 3. [`hidden`]: the parts of them that no face hides, computed and not sampled;
 //! 4. these parts as strips, for the raster, or as they are, for figures.
 //!
-//! What of a line is seen is decided in its middle alone. So a line has its full width everywhere: beside a face whose
-//! edge it is, however slanting this is seen, and on the rim of a body.
+//! What of a line is seen is decided in its middle alone. So a line has its full width everywhere:
+//! beside a face whose edge it is, however slanting this is seen, and on the rim of a body.
 
 mod edges;
 mod hidden;
@@ -101,8 +101,8 @@ pub struct Stroke {
     pub item: u32,
     /// The middles of its ends.
     pub ends: [Corner<TRANSPARENT_VALUES>; 2],
-    /// True where the line ends, false where it becomes hidden. There it stands out by half its width, so that the
-    /// pieces of a polyline join.
+    /// True where the line ends, false where it becomes hidden. There it stands out by half its
+    /// width, so that the pieces of a polyline join.
     pub is_end: [bool; 2],
 }
 

@@ -2,9 +2,9 @@
 
 use std::ops::RangeInclusive;
 
-/// A hierarchy of grids over the picture, each twice as coarse as the one before. A box is stored in the
-/// finest grid in which it touches at most two cells either way, so large boxes take no more memory
-/// than small ones.
+/// A hierarchy of grids over the picture, each twice as coarse as the one before. A box is stored
+/// in the finest grid in which it touches at most two cells either way, so large boxes take no more
+/// memory than small ones.
 pub struct BoxIndex {
     /// From the finest grid to that of one cell; the shapes of each cell.
     grids: Vec<Vec<Vec<usize>>>,

@@ -1,9 +1,11 @@
 //! Clipping of polygons.
 
-/// Clips a polygon by one boundary (Sutherland and Hodgman 1974): the corners that are left are added to `kept`.
+/// Clips a polygon by one boundary (Sutherland and Hodgman 1974): the corners that are left are
+/// added to `kept`.
 ///
-/// `edges`: from corner to corner, once around. `crossing` is passed the inner end of an edge first, whichever way the
-/// polygon winds, so two polygons that share an edge share its crossing exactly.
+/// `edges`: from corner to corner, once around. `crossing` is passed the inner end of an edge
+/// first, whichever way the polygon winds, so two polygons that share an edge share its crossing
+/// exactly.
 pub fn clip_edges<P>(
     edges: impl Iterator<Item = (P, P)>,
     is_inside: impl Fn(&P) -> bool,

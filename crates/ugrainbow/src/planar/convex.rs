@@ -7,10 +7,12 @@ use super::clip::clip_edges;
 /// Column, row and depth key; the key is larger for what is nearer.
 pub type DepthPoint = [f64; 3];
 
-/// Areas below this many square pixels count as empty: rounding makes such slivers along shared edges.
+/// Areas below this many square pixels count as empty: rounding makes such slivers along shared
+/// edges.
 const LEAST_AREA: f64 = 1e-6;
 
-/// Relative difference up to which two keys count as equal: the rasterizer compares them in single precision.
+/// Relative difference up to which two keys count as equal: the rasterizer compares them in single
+/// precision.
 const SAME_KEY: f64 = 1e-6;
 
 /// A convex polygon on one plane.
@@ -130,7 +132,8 @@ impl Convex {
         beside
     }
 
-    /// On which side of the plane of `self` another lies: 1 nearer, −1 farther, 0 in it; `None` on both.
+    /// On which side of the plane of `self` another lies: 1 nearer, −1 farther, 0 in it; `None` on
+    /// both.
     pub fn side_of(&self, other: &Self) -> Option<i8> {
         let mut sides = [false; 2];
         for &[x, y, key] in &other.corners {

@@ -5,8 +5,8 @@ use super::convex::Convex;
 /// Most parts that an area is cut into; with more it counts as not covered.
 const MOST_PARTS: usize = 64;
 
-/// True if nothing is left of an area, given in parts, when each of `covers` is taken away. `difference`: what is left of a
-/// part beside one of another area.
+/// True if nothing is left of an area, given in parts, when each of `covers` is taken away.
+/// `difference`: what is left of a part beside one of another area.
 pub fn is_covered<'a>(
     mut parts: Vec<Convex>,
     covers: impl Iterator<Item = &'a [Convex]>,

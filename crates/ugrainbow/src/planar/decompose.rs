@@ -62,7 +62,8 @@ fn trapezoids(outline: &[Vec<DepthPoint>]) -> Vec<Vec<DepthPoint>> {
     for pair in rows.windows(2) {
         let [top, bottom] = [pair[0], pair[1]];
         let at = |(a, b): (DepthPoint, DepthPoint), y: f64| {
-            // From the upper end, so that the trapezoids on both sides of an edge share the point exactly.
+            // From the upper end, so that the trapezoids on both sides of an edge share the point
+            // exactly.
             let (a, b) = if a[1] < b[1] { (a, b) } else { (b, a) };
             let part = (y - a[1]) / (b[1] - a[1]);
             [a[0] + (b[0] - a[0]) * part, y, a[2] + (b[2] - a[2]) * part]

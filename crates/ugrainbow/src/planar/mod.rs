@@ -1,5 +1,5 @@
-//! Geometry in the picture plane: convex polygons with depth, decomposition into them, and a spatial
-//! index of their bounding boxes.
+//! Geometry in the picture plane: convex polygons with depth, decomposition into them, and a
+//! spatial index of their bounding boxes.
 
 mod box_index;
 mod clip;

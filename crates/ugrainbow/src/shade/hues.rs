@@ -20,8 +20,8 @@ pub struct Pure {
     pub saturation: f32,
 }
 
-/// Display-encoded red, green and blue of a colour, and their greatest before they were clipped to the ceiling. `values`:
-/// its value under the light of each.  Eq. (P17)
+/// Display-encoded red, green and blue of a colour, and their greatest before they were clipped to
+/// the ceiling. `values`: its value under the light of each.  Eq. (P17)
 #[inline(always)] // Into loops over many samples.
 pub fn encode(Pure { hue, fade, saturation }: Pure, values: [f32; 3], ceiling: f32) -> ([f32; 3], f32) {
     let pure = saturation * fade;
@@ -52,7 +52,8 @@ fn are_between<S: Simd>(_: S, numbers: &[f32], [least, most]: [f32; 2]) -> bool 
     numbers.iter().fold(true, |all, &number| all & (least <= number) & (number <= most))
 }
 
-/// The light of many samples: hue, saturation and value of each, and what is left of the hue, which is all if not given.
+/// The light of many samples: hue, saturation and value of each, and what is left of the hue, which
+/// is all if not given.
 pub fn encode_all(
     level: Level,
     numbers: [&[f32]; 3],

@@ -30,8 +30,8 @@ pub struct Shader {
 }
 
 impl Shader {
-    /// Computes the tables. `is_clipped`: values of hues are clipped to 1, sample by sample, as in 1988;
-    /// otherwise what is brighter follows the transfer function on.
+    /// Computes the tables. `is_clipped`: values of hues are clipped to 1, sample by sample, as in
+    /// 1988; otherwise what is brighter follows the transfer function on.
     pub fn new(interpolation: Interpolation, is_clipped: bool) -> Self {
         let fade = |hue: f64| attenuation(hue_to_wavelength(hue));
         Self {
@@ -53,8 +53,8 @@ impl Shader {
         self.lit([tint, saturation, value], [red, green, blue])
     }
 
-    /// The light of a mixed scene: of three numbers as for [`Shader::plain`], or of linear red, green and blue if the
-    /// fourth is 1 and not 0.
+    /// The light of a mixed scene: of three numbers as for [`Shader::plain`], or of linear red,
+    /// green and blue if the fourth is 1 and not 0.
     pub fn mixed(&self, &[a, b, c, is_light]: &[f32; 4]) -> ShadedSample {
         if is_light > 0.5 { given([a, b, c]) } else { self.lit([a, b, c], [1.0; 3]) }
     }
@@ -256,7 +256,8 @@ mod tests {
                 let saturation = f64::from(step) / 1000.0;
                 let shade = shader.plain(&[hue as f32, saturation as f32, 0.8]);
                 assert_light(&shade, parts(hue, saturation, 0.8, fade));
-                // A thousandth of saturation is 0.0008 of display-encoded value, and the slope of decoding at most 2.3.
+                // A thousandth of saturation is 0.0008 of display-encoded value, and the slope of
+                // decoding at most 2.3.
                 for (now, before) in shade.light.iter().zip(before) {
                     assert!((now - before).abs() < 0.002, "hue {hue}, saturation {saturation}: {shade:?}");
                 }

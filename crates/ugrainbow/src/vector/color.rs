@@ -94,7 +94,8 @@ impl FigureColors<'_> {
     }
 }
 
-/// What a patch or line shows of itself, and the part of the light from behind that it lets through.
+/// What a patch or line shows of itself, and the part of the light from behind that it lets
+/// through.
 struct SeenLayer {
     light: [f32; 3],
     pass: f32,

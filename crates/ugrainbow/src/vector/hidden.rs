@@ -3,7 +3,8 @@
 use super::patch::Patch;
 use crate::planar::{BoxIndex, Convex, is_covered};
 
-/// The patches without those that are completely occluded. Items that `is_seen` are known to be visible.
+/// The patches without those that are completely occluded. Items that `is_seen` are known to be
+/// visible.
 pub fn without_hidden(patches: Vec<Patch>, index: &BoxIndex, is_seen: &[bool]) -> Vec<Patch> {
     let is_kept = |patch: &Patch| is_seen[patch.item as usize] || !is_hidden(patch, &patches, index);
     let is_kept: Vec<bool> = patches.iter().map(is_kept).collect();

@@ -1,7 +1,8 @@
 //! Neighbouring areas of one colour as one area.
 //!
-//! Bodies come in many faces, and most of a flat side has one colour. Two areas that share an edge become one if they can be
-//! painted at once: if nothing of what is painted between them lies over or under the one that is moved.
+//! Bodies come in many faces, and most of a flat side has one colour. Two areas that share an edge
+//! become one if they can be painted at once: if nothing of what is painted between them lies over
+//! or under the one that is moved.
 
 use std::collections::{HashMap, HashSet};
 
@@ -22,7 +23,8 @@ pub enum Paint {
     Smooth(PaintedArea),
 }
 
-/// PaintedAreas in the order of painting, each with its colour if that is the same everywhere. `size`: of the picture.
+/// PaintedAreas in the order of painting, each with its colour if that is the same everywhere.
+/// `size`: of the picture.
 pub fn merged(areas: Vec<(PaintedArea, Option<Rgb>)>, size: [u32; 2]) -> Vec<Paint> {
     let mut groups = Groups::new(&areas, size);
     // Only looked up, so its order is never seen.
@@ -126,8 +128,8 @@ fn overlap(some: &[Convex], others: &[Convex]) -> bool {
     common.map(|part| 0.5 * doubled_area(&part.corners)).sum::<f64>() > LEAST_OVERLAP
 }
 
-/// Outlines that consist of the edges that occur an odd number of times. By the even-odd rule it makes no difference how
-/// edges are joined where more than two meet.
+/// Outlines that consist of the edges that occur an odd number of times. By the even-odd rule it
+/// makes no difference how edges are joined where more than two meet.
 fn outlines(mut all: Vec<SnappedEdge>) -> Vec<Vec<Point>> {
     let ends = |[a, b]: &SnappedEdge| [*a.min(b), *a.max(b)];
     all.retain(|[a, b]| a != b);

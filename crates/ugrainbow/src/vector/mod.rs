@@ -1,14 +1,17 @@
 //! Vector figures: the faces of the picture as areas in paint order, and wires as lines.
 //!
 //! 1. The polygons of the draw list, at a scale at which hardly any is too thin for it ([`patch`]).
-//! 2. Faces of which no sample is seen, nor of any neighbour, are left out ([`seen`]), and of the others without a
-//!    sample those that are wholly hidden ([`hidden`]).
-//! 3. The rest is put in order, from behind ([`order`]), and cut only where faces cut each other or hide each
-//!    other in a ring. Parts that are hidden are painted over, not cut out.
-//! 4. Where a translucent face comes, what is seen through it is painted once more ([`transparency`]).
+//! 2. Faces of which no sample is seen, nor of any neighbour, are left out ([`seen`]), and of the
+//!    others without a sample those that are wholly hidden ([`hidden`]).
+//! 3. The rest is put in order, from behind ([`order`]), and cut only where faces cut each other or
+//!    hide each other in a ring. Parts that are hidden are painted over, not cut out.
+//! 4. Where a translucent face comes, what is seen through it is painted once more
+//!    ([`transparency`]).
 //! 5. Neighbours of one colour become one area ([`merge`]).
-//! 6. What has several colours becomes smooth areas, cut until their colours are right ([`smooth`]).
-//! 7. Lines come last, without their hidden parts, and in other colours behind translucent faces ([`lines`]).
+//! 6. What has several colours becomes smooth areas, cut until their colours are right
+//!    ([`smooth`]).
+//! 7. Lines come last, without their hidden parts, and in other colours behind translucent faces
+//!    ([`lines`]).
 
 mod color;
 mod hidden;
@@ -117,8 +120,8 @@ pub fn draw<'a>(
     Ok(Drawn { setup, statistics, figure, annotations })
 }
 
-/// How light is developed. An automatic exposure is a quantile of the light of pixels, so it alone needs the whole
-/// picture.
+/// How light is developed. An automatic exposure is a quantile of the light of pixels, so it alone
+/// needs the whole picture.
 fn development(scene: &Scene, config: &Config) -> Result<Development, Error> {
     let stops = match config.picture.exposure {
         Some(Exposure::Auto) => {

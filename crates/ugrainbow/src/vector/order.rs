@@ -1,9 +1,10 @@
 //! The order of painting: what is behind comes first.
 //!
-//! For each two polygons that overlap in the picture it is found out which is in front. Where these relations have no
-//! cycle they give an order. Polygons in a cycle, such as two that cut through each other, are
-//! cut along each other's planes until they have one (binary space partition, Fuchs, Kedem and Naylor 1980). In a
-//! picture with its depth key everything flat is a plane, and the eye is above all of them: below it is painted first.
+//! For each two polygons that overlap in the picture it is found out which is in front. Where these
+//! relations have no cycle they give an order. Polygons in a cycle, such as two that cut through
+//! each other, are cut along each other's planes until they have one (binary space partition,
+//! Fuchs, Kedem and Naylor 1980). In a picture with its depth key everything flat is a plane, and
+//! the eye is above all of them: below it is painted first.
 
 use super::patch::Patch;
 use crate::planar::BoxIndex;
@@ -40,7 +41,8 @@ fn relations(patches: &[Patch], index: &BoxIndex) -> Vec<Vec<usize>> {
     for (first, patch) in patches.iter().enumerate() {
         for second in index.in_box(patch.bounds()).into_iter().filter(|&second| second > first) {
             let relation = relation(patch, &patches[second]);
-            // Of what is equally deep the first is seen, as in the raster; what is opaque comes first.
+            // Of what is equally deep the first is seen, as in the raster; what is opaque comes
+            // first.
             let is_tie = relation.is_level && !relation.is_behind;
             if relation.is_before || is_tie {
                 behind[first].push(second);
@@ -120,7 +122,8 @@ fn partition(patches: &[Patch], group: &[usize], pieces: &mut Vec<Piece>) {
     while let Some(step) = steps.pop() {
         match step {
             Step::Paint(mut parts) => {
-                // Of what is equally deep the first is to be seen, so it comes last, and what is opaque at the very end.
+                // Of what is equally deep the first is to be seen, so it comes last, and what is
+                // opaque at the very end.
                 parts.sort_by_key(|(idx, _)| {
                     std::cmp::Reverse((patches[*idx].is_transparent, patches[*idx].item))
                 });

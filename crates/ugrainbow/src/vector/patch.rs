@@ -42,7 +42,8 @@ impl Patch {
         (!parts.is_empty()).then_some(Self { item, is_transparent, contours, outline, parts, is_perspective })
     }
 
-    /// The numbers the raster interpolates at a place, which is moved to the nearest of its row if it is not inside.
+    /// The numbers the raster interpolates at a place, which is moved to the nearest of its row if
+    /// it is not inside.
     pub fn interpolants_at(&self, [x, y]: [f64; 2]) -> Interpolants {
         let corners = || self.contours.iter().flatten();
         let top = corners().map(|corner| corner.y).fold(f64::INFINITY, f64::min);

@@ -10,8 +10,8 @@ use crate::setup::Setup;
 pub struct Faces {
     /// For each, whether it is seen at a sample.
     pub is_seen: Vec<bool>,
-    /// For each, whether it or a face beside it is seen at a sample. A face that is seen only between samples nearly
-    /// always has a neighbour that is seen at one.
+    /// For each, whether it or a face beside it is seen at a sample. A face that is seen only
+    /// between samples nearly always has a neighbour that is seen at one.
     pub is_near: Vec<bool>,
     /// Statistics of the samples.
     pub stats: SampleStats,

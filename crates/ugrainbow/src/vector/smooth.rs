@@ -1,5 +1,5 @@
-//! PaintedAreas as elements of a figure: plain areas, triangles between whose corners colour is linear, and
-//! areas whose colour is linear along a line.
+//! PaintedAreas as elements of a figure: plain areas, triangles between whose corners colour is
+//! linear, and areas whose colour is linear along a line.
 
 use ugimage::figure::{Element, Gradient, Point, Rgb, Triangle};
 
@@ -8,8 +8,8 @@ use super::patch::Patch;
 use super::transparency::PaintedArea;
 use crate::planar::{Convex, sides};
 
-/// How far, in levels of 255, the colours of a figure are from those of the scene where that is tried: at corners,
-/// middles of edges and middles of pieces.
+/// How far, in levels of 255, the colours of a figure are from those of the scene where that is
+/// tried: at corners, middles of edges and middles of pieces.
 const BOUND: f64 = 2.0;
 
 /// An area whose colours differ by less is plain.
@@ -138,8 +138,8 @@ impl Smooth for Gradient {
         let tried = job.tried(parts);
         let nearest = fitted(&tried, f64::INFINITY);
         if let Some((ends, colors)) = nearest {
-            // Also where the piece has to be cut, as the ground of its parts: what shines through between them has
-            // nearly their colours.
+            // Also where the piece has to be cut, as the ground of its parts: what shines through
+            // between them has nearly their colours.
             elements.push(Element::Smooth(Self {
                 contours,
                 ends,
@@ -171,11 +171,11 @@ impl Smooth for Gradient {
     }
 }
 
-/// The linear change of colour along a line that is nearest to these colours, if it is nowhere farther from them than
-/// `bound`.
+/// The linear change of colour along a line that is nearest to these colours, if it is nowhere
+/// farther from them than `bound`.
 ///
-/// Least squares give the linear function of the place for each channel; the line goes where all channels together
-/// change most, which is the greater principal axis of their slopes.
+/// Least squares give the linear function of the place for each channel; the line goes where all
+/// channels together change most, which is the greater principal axis of their slopes.
 fn fitted(tried: &[(Point, Levels)], bound: f64) -> Option<([Point; 2], [Levels; 2])> {
     let n = tried.len() as f64;
     let [x0, y0] = [0, 1].map(|axis| tried.iter().map(|(place, _)| place[axis]).sum::<f64>() / n);

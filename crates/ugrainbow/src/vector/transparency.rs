@@ -1,8 +1,9 @@
 //! What is seen through translucent faces.
 //!
-//! Formats that have opacity blend encoded colours, and PostScript has none. So nothing is blended by who shows a figure:
-//! where a translucent face comes, all that was painted there before is painted once more, cut to the face, and in the
-//! colours it has behind it. Only what is still seen there is.
+//! Formats that have opacity blend encoded colours, and PostScript has none. So nothing is blended
+//! by who shows a figure: where a translucent face comes, all that was painted there before is
+//! painted once more, cut to the face, and in the colours it has behind it. Only what is still seen
+//! there is.
 
 use ugimage::figure::Point;
 
@@ -17,8 +18,8 @@ const MOST_AREAS: usize = 1 << 16;
 /// What is painted at once: an area, and what is seen there.
 #[derive(Clone, Debug)]
 pub struct PaintedArea {
-    /// The patches that are seen, from the front. All but the last are translucent; if that is, too, the ground is
-    /// behind it.
+    /// The patches that are seen, from the front. All but the last are translucent; if that is,
+    /// too, the ground is behind it.
     pub layers: Vec<usize>,
     /// Its outlines; even-odd rule.
     pub contours: Vec<Vec<Point>>,
