@@ -141,7 +141,6 @@ impl<'a, const N: usize> DrawList<'a, N> {
     }
 }
 
-<<<<<<< HEAD
 /// The positions of all vertices in the picture, compiled once for all layouts.
 fn points(painter: &Painter<'_>) -> Vec<Point> {
     let scene = painter.scene;
@@ -149,10 +148,7 @@ fn points(painter: &Painter<'_>) -> Vec<Point> {
     scene.vertices.par_iter().map(point).collect()
 }
 
-/// A run of faces becoming shapes.
-=======
 /// A run of faces being converted to polygons and triangles.
->>>>>>> 91454f3 (ugrainbow, ugpicture: comments in the field's terms)
 struct Chunk<'a, const N: usize> {
     corners: &'a Corners<'a, N>,
     painter: &'a Painter<'a>,

@@ -14,14 +14,8 @@
 //! 5. [`sections`]: where in a row rays begin and cease to do so;
 //! 6. [`nearest`]: which face is nearest, sample by sample;
 //! 7. [`look`]: colour and light at a point of a face at rest, for what is nearest alone;
-<<<<<<< HEAD
 //! 8. [`appearance`], [`crate::spectra`]: colour as seen, of a hue or a spectrum;
 //! 9. [`faces`]: all faces of a scene as a layer of the raster, the nearest alone or, if light passes them, all;
-=======
-//! 8. [`appearance`], [`spectra`]: colour as seen, of a hue or a spectrum;
-//! 9. [`faces`]: all faces of a scene as a layer of the raster, the nearest alone or, if light
-//!    passes them, all;
->>>>>>> 91454f3 (ugrainbow, ugpicture: comments in the field's terms)
 //! 10. [`wires`]: lines as polylines fine enough for the picture.
 //!
 //! # Which sample belongs to whom
