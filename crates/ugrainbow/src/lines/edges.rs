@@ -7,7 +7,7 @@ use ugscene::face_edges;
 
 use crate::painter::Painter;
 
-/// Sine of the angle between the planes of two faces that count as one.
+/// Sine of the greatest angle between the planes of faces that count as coplanar.
 const FLAT: f64 = 0.01;
 
 /// An edge of a face.
@@ -19,9 +19,8 @@ pub struct Edge {
     pub face: u32,
 }
 
-/// The edges of all faces, each once, without those inside of what is one face but for cuts: where
-/// two faces of one colour and velocity meet that lie in one plane at rest. So what `uglorentz` has
-/// cut into pieces has the edges it had before.
+/// The edges of all faces, each once, except between two coplanar faces of one colour and body at
+/// rest. So a face that `uglorentz` has subdivided has the edges it had before.
 pub fn edges(painter: &Painter<'_>) -> Vec<Edge> {
     let scene = painter.scene;
     let of_face = |(row, face): (usize, &Face)| {
@@ -50,6 +49,6 @@ fn is_inside(painter: &Painter<'_>, faces: [u32; 2]) -> bool {
         newell_normal(outline.iter().map(|&vertex| painter.surface.rest(vertex))).try_normalize()
     };
     let is_one_plane = |a: DVec3, b: DVec3| a.dot(b) > 0.0 && a.cross(b).length() < FLAT;
-    // A piece without area lies in every plane.
+    // A degenerate piece is coplanar with every face.
     normal(one).zip(normal(other)).is_none_or(|(a, b)| is_one_plane(a, b))
 }

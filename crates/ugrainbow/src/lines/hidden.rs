@@ -1,19 +1,19 @@
-//! The parts of lines that no face hides.
+//! The visible parts of lines.
 
 use ugpicture::visible_runs;
 
 use crate::planar::{BoxIndex, Convex, DepthPoint, clipped_to_picture, convex_parts};
 
-/// Cells along a side of the grid by which faces are found that lie near no line.
+/// Cells along a side of the grid by which faces far from all lines are skipped.
 const CELLS: usize = 256;
 
-/// How far apart, in samples, rays are that look for what hides a line.
+/// Distance in samples between the rays that decide which parts of a line are occluded.
 const STEP: f64 = 0.5;
 
-/// Most rays along a straight piece; more do not fit a picture.
+/// Most rays along a straight piece; a picture has no room for more.
 const MOST_STEPS: f64 = 1e6;
 
-/// What decides which parts of a line are seen.
+/// Decides which parts of a line are visible.
 pub struct Visibility<'a> {
     occlusion: Occlusion<'a>,
     /// The picture with a margin, beyond which lines are not drawn.
@@ -26,12 +26,13 @@ enum Occlusion<'a> {
 }
 
 impl<'a> Visibility<'a> {
-    /// Behind polygons. `size`: of the picture, in samples; `margin`: half the width of lines.
+    /// Occlusion by polygons. `size`: of the picture, in samples; `margin`: half the width of
+    /// lines.
     pub fn behind(occluders: Occluders, size: [u32; 2], margin: f64) -> Self {
         Self { occlusion: Occlusion::Polygons(occluders), picture: picture(size, margin) }
     }
 
-    /// Behind what rays find: true if a place in the picture is hidden at a key.
+    /// Occlusion by rays. `is_hidden`: true if a point of the picture is occluded at a depth key.
     pub fn by_rays(
         is_hidden: &'a (dyn Fn([f64; 2], f64) -> bool + Sync),
         size: [u32; 2],
@@ -61,7 +62,7 @@ fn along(a: DepthPoint, b: DepthPoint, part: f64) -> DepthPoint {
     [0, 1, 2].map(|i| a[i] + (b[i] - a[i]) * part)
 }
 
-/// Looks in the middles of short steps.
+/// Tests the middles of short steps.
 fn by_rays(
     a: DepthPoint,
     b: DepthPoint,
@@ -81,7 +82,7 @@ fn by_rays(
     visible_runs(n_steps, is_visible).into_iter().map(|run| [at(run.start), at(run.end)]).collect()
 }
 
-/// Faces that may hide lines, in convex flat parts.
+/// Faces that may occlude lines, in convex parts.
 pub struct Occluders {
     parts: Vec<Convex>,
     index: BoxIndex,
@@ -132,7 +133,7 @@ impl Occluders {
     }
 }
 
-/// The part of the way on which `part` is nearer.
+/// The part of a line, as parameters in 0…1, that a polygon occludes.
 pub fn occluded_part(part: &Convex, a: DepthPoint, b: DepthPoint) -> Option<[f64; 2]> {
     let [start, end] = part.over(a, b)?;
     let ahead = |at: f64| {
@@ -149,7 +150,7 @@ pub fn occluded_part(part: &Convex, a: DepthPoint, b: DepthPoint) -> Option<[f64
     }
 }
 
-/// Which cells of the picture the boxes of lines touch.
+/// The cells of the picture that the bounding boxes of lines touch.
 struct Near {
     cells: Vec<bool>,
     size: [f64; 2],

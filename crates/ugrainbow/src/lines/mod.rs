@@ -2,11 +2,11 @@
 //!
 //! 1. [`edges`]: which edges of faces are drawn;
 //! 2. here: lines with their colours, projected; curved under `-xc` ([`LineShape`]);
-//! 3. [`hidden`]: the parts of them that no face hides, computed and not sampled;
-//! 4. these parts as strips, for the raster, or as they are, for figures.
+//! 3. [`hidden`]: their visible parts, computed and not sampled;
+//! 4. these parts as strips for the rasterizer, or unchanged for figures.
 //!
-//! What of a line is seen is decided in its middle alone. So a line has its full width everywhere:
-//! beside a face whose edge it is, however slanting this is seen, and on the rim of a body.
+//! Visibility is decided along the centre line alone. So a line has its full width everywhere, also
+//! along the edge of a face at a grazing angle, and on a silhouette.
 
 mod edges;
 mod hidden;
@@ -26,11 +26,11 @@ use crate::palette::Swatch;
 use edges::{Edge, edges};
 pub use hidden::{Occluders, Visibility, occluded_part};
 
-/// How much nearer to the eye a line is taken to be than it is, relative to its distance: enough to
-/// win against the faces whose edge it follows.
+/// Lines are moved towards the eye by this part of their distance, so that they pass the depth test
+/// against the faces whose edges they are.
 pub const LIFT: f64 = 5e-4;
 
-/// Shorter visible parts, in samples, are left out: they come from rounding.
+/// Visible parts shorter than this, in samples, are due to rounding and left out.
 const LEAST: f64 = 1e-3;
 
 /// A straight line at rest.
@@ -48,7 +48,7 @@ pub struct Line {
     pub rows: Option<[u32; 2]>,
 }
 
-/// How lines at rest run as they are seen.
+/// The apparent shape of lines that are straight at rest.
 pub trait LineShape: Sync {
     /// A polyline that is straight in the picture between its joints.
     fn joints(&self, line: &Line) -> Vec<Joint>;
@@ -99,10 +99,10 @@ impl LineShape for StraightLines<'_> {
 pub struct Stroke {
     /// See [`Line`].
     pub item: u32,
-    /// The middles of its ends.
+    /// Ends of its centre line.
     pub ends: [Corner<TRANSPARENT_VALUES>; 2],
-    /// True where the line ends, false where it becomes hidden. There it stands out by half its
-    /// width, so that the pieces of a polyline join.
+    /// True where the line itself ends, false where it becomes hidden. At its own ends it is
+    /// extended by half its width, so that the pieces of a polyline join.
     pub is_end: [bool; 2],
 }
 
@@ -124,7 +124,7 @@ pub fn lines(painter: &Painter<'_>, wireframe: Option<Wireframe>, shape: &dyn Li
 fn push_wire(painter: &Painter<'_>, item: u32, wire: &Wire, shape: &dyn LineShape, lines: &mut Vec<Line>) {
     let color = painter.wire_swatch(wire);
     let keeps_light = shape.keeps_light(wire.body);
-    // One end given as light makes all of the wire light, as with faces.
+    // One end given as light makes the whole wire light, as with faces.
     let is_light = keeps_light && painter.is_light_wire(wire, &color);
     let end = |vertex| {
         let swatch = Swatch { translucency: 0.0, ..painter.wire_end(vertex, &color) };
@@ -159,7 +159,7 @@ fn edge_line(painter: &Painter<'_>, edge: &Edge, wireframe: Wireframe, shape: &d
     Line { item: edge.face, body: face.body, ends: edge.ends, colors, rows }
 }
 
-/// A colour that stays as it is: not shifted, and not attenuated.
+/// A colour that is neither shifted nor attenuated.
 fn plain(color: Hsv) -> Swatch {
     Swatch { light: Some(DVec3::from_array(color.to_rgb().map(srgb_decode))), ..Swatch::WHITE }
 }
@@ -182,7 +182,7 @@ pub fn pieces(painter: &Painter<'_>, lines: &[Line], shape: &dyn LineShape) -> (
     (pieces, clip_counts)
 }
 
-/// The piece between two joints, if it is before the eye.
+/// The piece between two joints, clipped to the slab.
 fn piece(painter: &Painter<'_>, item: u32, ends: [Vertex<TRANSPARENT_VALUES>; 2]) -> Option<Stroke> {
     let view = painter.view;
     let ends = clip_segment(view.slab, ends)?.map(|end| lifted(painter, end).project(view.is_perspective));
@@ -233,7 +233,7 @@ fn lifted(painter: &Painter<'_>, end: Vertex<TRANSPARENT_VALUES>) -> Vertex<TRAN
     Vertex { place, ..end }
 }
 
-/// The point at a part of the way in the picture.
+/// Linear interpolation in the picture.
 pub fn between(
     a: &Corner<TRANSPARENT_VALUES>,
     b: &Corner<TRANSPARENT_VALUES>,

@@ -1,4 +1,4 @@
-//! Colours of patches, as figures interpolate them.
+//! Display colours of patches, which figures interpolate.
 
 use ugimage::Development;
 use ugimage::figure::Rgb;
@@ -14,24 +14,24 @@ use crate::shade::Shader;
 /// Display-encoded red, green and blue, from 0 to 255, not rounded.
 pub type Levels = [f64; 3];
 
-/// Turns numbers of the draw list into colours on the display.
+/// Shades patches with the colours of the display.
 pub struct FigureColors<'a> {
     pub layers: &'a RenderLayers<'a>,
     pub shader: &'a Shader,
     /// How light is developed; `None` if it fits a display as it is.
     pub development: Option<Development>,
     pub grid: &'a SampleGrid,
-    /// Linear light of what stands behind everything; white if that is nothing.
+    /// Linear light of the background; white if it is transparent.
     pub ground: [f32; 3],
 }
 
 impl FigureColors<'_> {
-    /// The colour at a place of patches one behind the other, the first in front.
+    /// The colour of stacked patches at a point; the first is in front.
     pub fn at<'p>(&self, layers: impl Iterator<Item = &'p Patch>, place: [f64; 2]) -> Levels {
         self.blended(layers.map(|patch| self.layer(patch, &patch.interpolants_at(place))))
     }
 
-    /// The same, if it is the same everywhere.
+    /// The colour of stacked patches if it is the same everywhere.
     pub fn everywhere<'p>(&self, layers: impl Iterator<Item = &'p Patch>) -> Option<Levels> {
         let layer = |patch: &'p Patch| {
             let values = patch.single_values().filter(|_| self.grid.fade.is_none())?;
@@ -68,7 +68,7 @@ impl FigureColors<'_> {
         SeenLayer { light: self.cued(shade, *key), pass }
     }
 
-    /// Films one behind the other, the first in front, before the ground.
+    /// Blends layers with the background; the first is in front.
     fn blended(&self, layers: impl Iterator<Item = SeenLayer>) -> Levels {
         let (mut light, mut pass) = ([0.0; 3], 1.0);
         for layer in layers {
@@ -94,20 +94,19 @@ impl FigureColors<'_> {
     }
 }
 
-/// What a patch or line shows of itself, and the part of the light from behind that it lets
-/// through.
+/// The light of a patch or line, and the part of the light from behind that it transmits.
 struct SeenLayer {
     light: [f32; 3],
     pass: f32,
 }
 
-/// What is interpolated, at a place.
+/// Interpolated values at a point.
 pub struct Interpolants {
     pub values: [f32; TRANSPARENT_VALUES],
     pub key: f64,
 }
 
-/// The nearest levels.
+/// Rounded to the nearest levels.
 pub fn rounded(levels: Levels) -> Rgb {
     levels.map(|level| level.round() as u8)
 }
@@ -117,7 +116,7 @@ pub fn mean(a: Levels, b: Levels) -> Levels {
     [0, 1, 2].map(|i| 0.5 * (a[i] + b[i]))
 }
 
-/// The greatest difference in a channel.
+/// The greatest difference of a channel.
 pub fn distance(a: Levels, b: Levels) -> f64 {
     (0..3).map(|i| (a[i] - b[i]).abs()).fold(0.0, f64::max)
 }

@@ -7,23 +7,24 @@ use super::patch::Patch;
 use crate::lines::{Stroke, between, occluded_part};
 use crate::planar::BoxIndex;
 
-/// How much colour changes along a piece of a line, in levels of 255.
+/// Greatest change of colour along a piece of a line, in levels of 255.
 const STEP: f64 = 4.0;
 
-/// Shorter pieces of lines, in pixels, are not cut for their colour.
+/// Length in pixels of pieces that are not subdivided for their colour.
 const LEAST: f64 = 0.5;
 
-/// Shorter parts of lines before or behind in_front, in pixels, are not drawn for themselves.
+/// Least length in pixels of the parts that translucent faces divide a line into.
 const SHORTEST: f64 = 0.01;
 
-/// Translucent faces that may stand before lines.
+/// Translucent faces that may cover lines.
 pub struct TransparentPatches<'a> {
     pub patches: &'a [Patch],
     pub index: &'a BoxIndex,
 }
 
 impl TransparentPatches<'_> {
-    /// Of a line, the parts of the way on which in_front are nearer, and which.
+    /// The parts of a line, as parameters in 0…1, in front of which there are translucent patches,
+    /// and their numbers.
     fn before(&self, stroke: &Stroke) -> Vec<([f64; 2], usize)> {
         let [a, b] = stroke.ends.map(|end| [end.x, end.y, end.key]);
         let near =
@@ -33,7 +34,7 @@ impl TransparentPatches<'_> {
     }
 }
 
-/// Adds lines of this width, the farthest first, so that of two that cross the nearer is seen.
+/// Adds lines of this width from back to front, so that the nearer of two that cross is visible.
 pub fn push_lines<S>(
     colors: &FigureColors<'_>,
     in_front: &TransparentPatches<'_>,
@@ -41,9 +42,9 @@ pub fn push_lines<S>(
     width: f64,
     elements: &mut Vec<Element<S>>,
 ) {
-    // Single precision, as in the raster: what differs by rounding is equally near.
+    // Single precision, as in the rasterizer, so that differences by rounding are ties.
     let key = |Stroke { ends: [a, b], .. }: &Stroke| (a.key + b.key) as f32;
-    // Of what is equally near the first is seen, as in the raster.
+    // The first of equally near lines wins, as in the rasterizer.
     strokes.reverse();
     strokes.sort_by(|one, other| key(one).total_cmp(&key(other)));
     for stroke in &strokes {
@@ -58,12 +59,12 @@ pub fn push_lines<S>(
     }
 }
 
-/// The ends of a line, and where in_front begin or end to be before it.
+/// The ends of a line, and where translucent patches begin or end to cover it.
 fn cuts(stroke: &Stroke, before: &[([f64; 2], usize)]) -> Vec<f64> {
     let [a, b] = &stroke.ends;
     let length = libm::hypot(b.x - a.x, b.y - a.y);
     let mut cuts: Vec<f64> = before.iter().flat_map(|(way, _)| *way).collect();
-    // What is shorter comes from rounding.
+    // Shorter parts are due to rounding.
     cuts.retain(|cut| cut.min(1.0 - cut) * length > SHORTEST);
     cuts.sort_by(f64::total_cmp);
     cuts.dedup_by(|next, last| (*next - *last) * length < SHORTEST);
@@ -81,7 +82,7 @@ fn push_line<S>(
 ) {
     let Stroke { ends: [a, b], is_end, .. } = stroke;
     let length = libm::hypot(b.x - a.x, b.y - a.y);
-    // An end stands out by half the width.
+    // A line extends beyond its end by half its width.
     let out = if length > 0.0 { 0.5 * width / length } else { 0.0 };
     let place = |part: f64| {
         let part = match part {

@@ -1,4 +1,4 @@
-//! Neighbouring areas of one colour as one area.
+//! Merging of neighbouring areas of one colour.
 //!
 //! Bodies come in many faces, and most of a flat side has one colour. Two areas that share an edge
 //! become one if they can be painted at once: if nothing of what is painted between them lies over
@@ -12,10 +12,10 @@ use super::transparency::PaintedArea;
 use crate::planar::BoxIndex;
 use crate::planar::{Convex, doubled_area};
 
-/// Areas that overlap by less, in square pixels, lie beside each other.
+/// Overlap in square pixels up to which areas count as disjoint.
 const LEAST_OVERLAP: f64 = 0.005;
 
-/// What is painted at once.
+/// An area to paint.
 #[derive(Clone, Debug)]
 pub enum Paint {
     /// Outlines of an area of one colour; even-odd rule.
@@ -23,11 +23,11 @@ pub enum Paint {
     Smooth(PaintedArea),
 }
 
-/// PaintedAreas in the order of painting, each with its colour if that is the same everywhere.
+/// Areas in the order of painting, each with its colour if that is the same everywhere.
 /// `size`: of the picture.
 pub fn merged(areas: Vec<(PaintedArea, Option<Rgb>)>, size: [u32; 2]) -> Vec<Paint> {
     let mut groups = Groups::new(&areas, size);
-    // Only looked up, so its order is never seen.
+    // For look-up only: its order has no influence.
     let mut with_edge: HashMap<(SnappedEdge, Rgb), Vec<usize>> = HashMap::new();
     for (number, (area, color)) in areas.iter().enumerate() {
         let Some(color) = *color else { continue };
@@ -60,7 +60,7 @@ fn paint(areas: &[(PaintedArea, Option<Rgb>)], members: &[usize]) -> Paint {
     }
 }
 
-/// PaintedAreas that are painted at once.
+/// Areas that are merged.
 struct Groups<'a> {
     areas: &'a [(PaintedArea, Option<Rgb>)],
     index: BoxIndex,

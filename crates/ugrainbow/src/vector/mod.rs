@@ -1,17 +1,16 @@
 //! Vector figures: the faces of the picture as areas in paint order, and wires as lines.
 //!
-//! 1. The polygons of the draw list, at a scale at which hardly any is too thin for it ([`patch`]).
-//! 2. Faces of which no sample is seen, nor of any neighbour, are left out ([`seen`]), and of the
-//!    others without a sample those that are wholly hidden ([`hidden`]).
-//! 3. The rest is put in order, from behind ([`order`]), and cut only where faces cut each other or
-//!    hide each other in a ring. Parts that are hidden are painted over, not cut out.
-//! 4. Where a translucent face comes, what is seen through it is painted once more
-//!    ([`transparency`]).
-//! 5. Neighbours of one colour become one area ([`merge`]).
-//! 6. What has several colours becomes smooth areas, cut until their colours are right
-//!    ([`smooth`]).
-//! 7. Lines come last, without their hidden parts, and in other colours behind translucent faces
-//!    ([`lines`]).
+//! 1. [`patch`]: the polygons of the draw list, at a scale at which hardly any falls between
+//!    samples.
+//! 2. [`seen`]: faces are left out if neither they nor a neighbour is visible at a sample;
+//!    [`hidden`]: of the others without a visible sample those that are completely occluded.
+//! 3. [`order`]: the rest is sorted from back to front, and cut only where faces intersect or
+//!    occlude each other cyclically. Hidden parts are painted over, not cut out.
+//! 4. [`transparency`]: what is seen through a translucent face is painted again over it.
+//! 5. [`merge`]: neighbours of one colour become one area.
+//! 6. [`smooth`]: areas of several colours become smooth areas, subdivided until their colours are
+//!    within the bound.
+//! 7. [`lines`]: visible parts of lines come last, in other colours behind translucent faces.
 
 mod color;
 mod hidden;
@@ -48,7 +47,7 @@ use transparency::PaintedArea;
 /// Rows of samples a pixel, if the picture is not too large.
 const FINEST: u32 = 8;
 
-/// Most samples by which it is found out what is seen.
+/// Most samples by which visibility is decided.
 const MOST_SAMPLES: u64 = MAX_PIXELS / 4;
 
 /// A figure, with areas of smooth colour as its format has them.
@@ -72,7 +71,7 @@ impl VectorFigure {
     }
 }
 
-/// A figure of a scene, and what there is to note about it.
+/// A figure of a scene, and what notes are made from.
 pub struct Drawn<'a> {
     /// The scene in the resolution at which visibility was decided.
     pub setup: Setup<'a>,
@@ -172,7 +171,7 @@ impl FigureJob<'_> {
     }
 }
 
-/// Faces as elements, from behind.
+/// Faces as elements, from back to front.
 fn painted<S: Smooth>(
     colors: &FigureColors<'_>,
     faces: &[Patch],
@@ -196,7 +195,7 @@ fn painted<S: Smooth>(
     Ok(elements)
 }
 
-/// A stroke in pixels, from one in rows of the draw list.
+/// Converts a stroke from samples to pixels.
 fn scaled(mut stroke: Stroke, scale: u32) -> Stroke {
     for end in &mut stroke.ends {
         (end.x, end.y) = (end.x / f64::from(scale), end.y / f64::from(scale));
@@ -210,7 +209,7 @@ fn scale([width, height]: [u32; 2]) -> u32 {
     (1..=FINEST).rev().find(fits).unwrap_or(1)
 }
 
-/// Faces that are shown.
+/// The patches of visible faces.
 fn patches(
     layers: &RenderLayers<'_>,
     setup: &Setup<'_>,

@@ -1,4 +1,4 @@
-//! The order of painting: what is behind comes first.
+//! The order of painting, from back to front.
 //!
 //! For each two polygons that overlap in the picture it is found out which is in front. Where these
 //! relations have no cycle they give an order. Polygons in a cycle, such as two that cut through
@@ -10,7 +10,7 @@ use super::patch::Patch;
 use crate::planar::BoxIndex;
 use crate::planar::{Convex, DepthOrder};
 
-/// What is painted at once.
+/// A patch or a part of one.
 #[derive(Clone, Debug)]
 pub enum Piece {
     /// A whole patch.
@@ -35,7 +35,7 @@ pub fn painting_order(patches: &[Patch], index: &BoxIndex) -> Vec<Piece> {
     pieces
 }
 
-/// For each patch, what it hides in part.
+/// For each patch, those that it occludes in part.
 fn relations(patches: &[Patch], index: &BoxIndex) -> Vec<Vec<usize>> {
     let mut behind = vec![Vec::new(); patches.len()];
     for (first, patch) in patches.iter().enumerate() {
@@ -138,7 +138,7 @@ fn partition(patches: &[Patch], group: &[usize], pieces: &mut Vec<Piece>) {
     }
 }
 
-/// What is behind, on and before the plane of one of them, which itself is on it.
+/// The parts behind, in and in front of the plane of one of them, which itself is in it.
 fn divide(parts: Vec<(usize, Convex)>) -> [Vec<(usize, Convex)>; 3] {
     let stride = parts.len().div_ceil(CANDIDATES);
     let cuts = |plane: &Convex| parts.iter().filter(|(_, part)| plane.side_of(part).is_none()).count();

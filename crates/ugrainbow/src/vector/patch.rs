@@ -1,11 +1,11 @@
-//! Faces as polygons to be painted.
+//! Faces as polygons in the picture plane.
 
 use ugraster::{Corner, TRANSPARENT_VALUES};
 
 use super::color::Interpolants;
 use crate::planar::{Convex, DepthPoint, clipped_to_picture, convex_parts, doubled_area, sides};
 
-/// What is drawn so far outside the picture, in pixels; the rest is cut away.
+/// Margin around the picture, in pixels, to which polygons are clipped.
 const MARGIN: f64 = 4.0;
 
 /// A polygon of the draw list, in pixels.
@@ -15,11 +15,11 @@ pub struct Patch {
     pub item: u32,
     /// True if that is translucent.
     pub is_transparent: bool,
-    /// As drawn by the raster; its colours come from here.
+    /// As in the rasterizer; colours are interpolated from these corners.
     contours: Vec<Vec<Corner<TRANSPARENT_VALUES>>>,
-    /// What of it is in and near the picture; counterclockwise as [`Convex`], holes clockwise.
+    /// Clipped to the picture and its margin; counterclockwise as [`Convex`], holes clockwise.
     pub outline: Vec<Vec<DepthPoint>>,
-    /// The same in convex flat parts.
+    /// The same, decomposed into convex parts.
     pub parts: Vec<Convex>,
     is_perspective: bool,
 }
@@ -102,7 +102,7 @@ fn mixed(
     }
 }
 
-/// Contours that run all the same way round what they enclose.
+/// Orients contours: outlines counterclockwise, holes clockwise.
 fn oriented(mut outline: Vec<Vec<DepthPoint>>) -> Vec<Vec<DepthPoint>> {
     let is_hole = |idx: usize| {
         let within = |other: &Vec<DepthPoint>| is_inside(other, outline[idx][0]);
@@ -115,7 +115,7 @@ fn oriented(mut outline: Vec<Vec<DepthPoint>>) -> Vec<Vec<DepthPoint>> {
     outline
 }
 
-/// True if a place is inside of a contour, by the even-odd rule.
+/// True if a point is inside a contour, by the even-odd rule.
 fn is_inside(contour: &[DepthPoint], [x, y, _]: DepthPoint) -> bool {
     let crosses = |(a, b): &(DepthPoint, DepthPoint)| {
         (a[1] <= y) != (b[1] <= y) && a[0] + (b[0] - a[0]) * (y - a[1]) / (b[1] - a[1]) > x

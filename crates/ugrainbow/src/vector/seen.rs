@@ -1,4 +1,4 @@
-//! Which faces are seen.
+//! Visibility of faces at samples.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use ugraster::{PixelSamples, SampleStats};
@@ -6,9 +6,9 @@ use ugraster::{PixelSamples, SampleStats};
 use crate::render_layers::RenderLayers;
 use crate::setup::Setup;
 
-/// Which faces are seen.
+/// Visibility of faces at samples.
 pub struct Faces {
-    /// For each, whether it is seen at a sample.
+    /// For each face, whether it is visible at a sample.
     pub is_seen: Vec<bool>,
     /// For each, whether it or a face beside it is seen at a sample. A face that is seen only
     /// between samples nearly always has a neighbour that is seen at one.
@@ -17,11 +17,12 @@ pub struct Faces {
     pub stats: SampleStats,
 }
 
-/// Finds out by the samples of a picture.
+/// Decides visibility by the samples of a picture.
 pub fn faces(setup: &Setup<'_>, layers: &RenderLayers<'_>) -> Faces {
     let scene = setup.scene();
     let is_seen: Vec<AtomicBool> = scene.faces.iter().map(|_| AtomicBool::new(false)).collect();
-    // Pixels of nothing take no memory. In which order faces are found makes no difference.
+    // The pixels are `()`, which take no memory. The order in which faces are found has no
+    // influence.
     let (_, stats) = layers.paint_with_centers(&setup.grid, &setup.shader, &|all: &PixelSamples<'_>| {
         let center = &all.center;
         let transparent = center.fragments.iter().filter(|fragment| !fragment.is_line);

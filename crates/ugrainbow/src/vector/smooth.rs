@@ -1,4 +1,4 @@
-//! PaintedAreas as elements of a figure: plain areas, triangles between whose corners colour is
+//! Areas as elements of a figure: plain areas, triangles between whose corners colour is
 //! linear, and areas whose colour is linear along a line.
 
 use ugimage::figure::{Element, Gradient, Point, Rgb, Triangle};
@@ -12,22 +12,22 @@ use crate::planar::{Convex, sides};
 /// tried: at corners, middles of edges and middles of pieces.
 const BOUND: f64 = 2.0;
 
-/// An area whose colours differ by less is plain.
+/// Greatest difference of colours, in levels of 255, of an area of one colour.
 const PLAIN: f64 = 2.0;
 
-/// What is smaller, in pixels, is not cut for its colour.
+/// Size in pixels of parts that are not subdivided for their colour.
 const LEAST: f64 = 0.25;
 
-/// How often a piece is halved at most.
+/// Most subdivisions of a piece.
 const MOST_CUTS: u32 = 14;
 
-/// How a format has smooth colour.
+/// Smooth colour as a format supports it.
 pub trait Smooth: Sized {
-    /// Adds smooth elements for the parts of a area whose outline is `contours`.
+    /// Adds smooth elements for the parts of an area whose outline is `contours`.
     fn push(job: &Job<'_>, contours: Vec<Vec<Point>>, parts: &[Convex], elements: &mut Vec<Element<Self>>);
 }
 
-/// A area being painted.
+/// An area being painted.
 pub struct Job<'a> {
     colors: &'a FigureColors<'a>,
     patches: &'a [Patch],
@@ -35,13 +35,13 @@ pub struct Job<'a> {
     layers: &'a [usize],
 }
 
-/// The colour of a area, if it is nearly the same everywhere.
+/// The colour of an area, if it is nearly the same everywhere.
 pub fn plain_color(colors: &FigureColors<'_>, patches: &[Patch], area: &PaintedArea) -> Option<Rgb> {
     let job = Job { colors, patches, layers: &area.layers };
     colors.everywhere(job.layers()).or_else(|| plain(&job.tried(&area.parts))).map(rounded)
 }
 
-/// Adds a area of smooth colour to the figure.
+/// Adds an area of smooth colour to the figure.
 pub fn push_smooth<S: Smooth>(
     colors: &FigureColors<'_>,
     patches: &[Patch],

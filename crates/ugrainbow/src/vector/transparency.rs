@@ -1,9 +1,9 @@
 //! What is seen through translucent faces.
 //!
-//! Formats that have opacity blend encoded colours, and PostScript has none. So nothing is blended
-//! by who shows a figure: where a translucent face comes, all that was painted there before is
-//! painted once more, cut to the face, and in the colours it has behind it. Only what is still seen
-//! there is.
+//! Formats with opacity blend encoded colours instead of light, and PostScript has no opacity. So
+//! viewers are never asked to blend: where a translucent face is painted, everything painted there
+//! before is painted again, clipped to the face and in the colours seen through it, unless it is
+//! hidden by then.
 
 use ugimage::figure::Point;
 
@@ -12,14 +12,14 @@ use super::patch::Patch;
 use crate::error::Error;
 use crate::planar::{BoxIndex, Convex, is_covered};
 
-/// Most areas of a figure. Each front before others adds what is seen through it.
+/// Most areas of a figure. Each translucent face adds what is seen through it.
 const MOST_AREAS: usize = 1 << 16;
 
-/// What is painted at once: an area, and what is seen there.
+/// An area to paint, and the patches that are seen there.
 #[derive(Clone, Debug)]
 pub struct PaintedArea {
-    /// The patches that are seen, from the front. All but the last are translucent; if that is,
-    /// too, the ground is behind it.
+    /// The patches that are seen, from front to back. All but the last are translucent; if that is
+    /// as well, the background is behind it.
     pub layers: Vec<usize>,
     /// Its outlines; even-odd rule.
     pub contours: Vec<Vec<Point>>,
@@ -51,7 +51,7 @@ pub fn areas(patches: &[Patch], pieces: &[Piece], size: [u32; 2]) -> Result<Vec<
     Ok(areas.all)
 }
 
-/// A piece before the ground.
+/// A piece with nothing but the background behind it.
 fn whole(patches: &[Patch], piece: &Piece) -> PaintedArea {
     match piece {
         Piece::Whole(idx) => {
@@ -68,7 +68,7 @@ fn of_parts(layers: Vec<usize>, parts: Vec<Convex>) -> PaintedArea {
     PaintedArea { layers, contours: parts.iter().map(Convex::outline).collect(), parts }
 }
 
-/// What has been painted so far.
+/// The areas painted so far.
 struct PaintedAreas {
     all: Vec<PaintedArea>,
     index: BoxIndex,
@@ -80,7 +80,7 @@ impl PaintedAreas {
         self.all.push(area);
     }
 
-    /// Paints what is behind a translucent piece once more.
+    /// Adds a translucent piece, and again what is seen through it.
     fn push_transparent(&mut self, front: PaintedArea) {
         let mut behind = Vec::new();
         for number in self.near(&front.parts) {
@@ -101,7 +101,7 @@ impl PaintedAreas {
         behind.into_iter().for_each(|area| self.push(area));
     }
 
-    /// PaintedAreas whose boxes overlap that of some parts, in the order of painting.
+    /// Areas whose bounding boxes overlap that of some parts, in the order of painting.
     fn near(&self, parts: &[Convex]) -> Vec<usize> {
         self.index.in_box(Convex::bounds(parts))
     }
