@@ -51,7 +51,7 @@
 //!
 //! ```text
 //! config  error                                       what is asked, and why there is no picture
-//! palette  surface  shade  packing                    colours, per vertex and per sample
+//! palette  surface  spectra  shade  packing           colours, per vertex and per sample
 //! planar  clip  painter                               geometry in the picture plane
 //! drawlist  lines  exact                              faces as polygons, lines, faces by rays
 //! render_layers  setup  depth_cue  front              all of a scene for one camera

@@ -15,7 +15,8 @@
 //! 6. [`nearest`]: which face is nearest, sample by sample;
 //! 7. [`look`]: colour and light at a point of a face at rest, for what is nearest alone;
 //! 8. [`appearance`], [`crate::spectra`]: colour as seen, of a hue or a spectrum;
-//! 9. [`faces`]: all faces of a scene as a layer of the raster, the nearest alone or, if light passes them, all;
+//! 9. [`faces`]: all faces of a scene as a layer of the raster, the nearest alone or, if light
+//!    passes them, all;
 //! 10. [`wires`]: lines as polylines fine enough for the picture.
 //!
 //! # Which sample belongs to whom
