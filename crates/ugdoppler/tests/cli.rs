@@ -31,7 +31,8 @@ fn a_scene_goes_through() {
 
 #[test]
 fn a_vertex_at_the_eye_is_shown_in_the_text() {
-    let text = "v a 0 0 0; v b 1 0 0;\nv c 0 1 0; f (a b c) <0.5 0 0>;";
+    let text =
+        "v a 0 0 0; v b 1 0 0;\nv c 0 1 0; f (a b c) <0.5 0 0>; (ugstage 1 geometry as-seen eye 0 0 0)";
     let out = ugdoppler(&[], text);
     assert_eq!(out.status.code(), Some(1));
     assert_eq!(

@@ -88,7 +88,7 @@ fn complaints() {
     check("-vel .5 0", TILE, 2, "3 values required");
     check("-se 0", TILE, 2, "the bound of -se is 0 milliradians: give a number above 0");
     check("-se -1", TILE, 2, "the bound of -se is -1 milliradians: give a number above 0");
-    check("-sd 0", TILE, 2, "-sd 0 leaves no pieces: give 1 or more");
+    check("-sd 0", TILE, 2, "-sd 0 would make no pieces: give 1 or more");
     check("-sd 2 -se 1", TILE, 2, "cannot be used with");
     check("-an nose", TILE, 2, "`nose` is not an anchor: -an takes eye, origin, center or three numbers");
     check("-an 1 2", TILE, 2, "`1 2` is not an anchor");
@@ -152,7 +152,7 @@ fn measurements_go_to_a_file_that_does_not_change_the_scene() {
         assert!(stderr.contains(expected), "{stderr}");
         assert!(output.stdout.is_empty());
     };
-    fails("-at t.txt", TILE, 2, "its name ends with .csv or .ply");
+    fails("-at t.txt", TILE, 2, "the name of its file must end with .csv or .ply");
     fails(&format!("-at {0} -fo {0}", file("both.ply")), TILE, 2, "two outputs cannot go to one file");
     fails(&format!("-at {}", file("none.csv")), "f (a b c);", 1, "`a` is not defined");
     fails(&format!("-at {}", file("no/folder.csv")), TILE, 1, "cannot write");
