@@ -29,7 +29,8 @@ pub fn options(common: &CommonArgs) -> Result<Options, Failure> {
 /// # Errors
 /// [`Failure::Read`] for the input itself, [`Failure::Report`] for included files.
 pub fn read(context: &mut Context, options: &Options) -> Result<Source, Failure> {
-    let input = context.input()?;
+    // The byte beyond the limit makes the parser refuse the text, with a remedy.
+    let input = context.input_up_to(options.limits.get(Limit::Text))?;
     follow(Source::new(input.name, input.text), options, context).map_err(refused)
 }
 

@@ -1,6 +1,7 @@
 //! A small program that uses `ugpipe`: copies its input to its output, and prints messages or fails
 //! on request.
 
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{ArgAction, Parser, ValueEnum};
@@ -34,6 +35,18 @@ struct Args {
     /// Work in two steps, the second of which takes WORK seconds
     #[arg(long, value_parser = ugpipe::finite)]
     work: Option<f64>,
+
+    /// Write a second file
+    #[arg(long)]
+    at: Option<PathBuf>,
+
+    /// Run a program and print its first line of error output as a note
+    #[arg(long)]
+    execute: Option<PathBuf>,
+
+    /// Wait after writing the output, in seconds
+    #[arg(long, value_parser = ugpipe::finite)]
+    linger: Option<f64>,
 
     /// Fail in this way after writing the output
     #[arg(long)]
@@ -73,7 +86,17 @@ fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
         output.extend(format!("{{ {} }}\n", context.command_line()).into_bytes());
     }
     output.extend(input.text);
+    if let Some(path) = &args.at {
+        context.write_file(path, b"a table\n")?;
+    }
     context.write(&output)?;
+    if let Some(program) = &args.execute {
+        let printed = ugpipe::run_program(program, 1000).map_err(Failure::failed)?;
+        context.note(&printed.error_line);
+    }
+    if let Some(seconds) = args.linger {
+        std::thread::sleep(std::time::Duration::from_secs_f64(seconds));
+    }
     match args.fail {
         None => Ok(()),
         Some(Way::Usage) => Err(Failure::usage("`-vel` is too fast; stay below 1")),

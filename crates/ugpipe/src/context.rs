@@ -10,7 +10,17 @@ use crate::input::{self, Input};
 use crate::messages::Messages;
 use crate::output::Output;
 use crate::steps::Steps;
-use crate::text;
+
+/// Largest input in bytes: 4 GiB. Inputs are read into memory whole.
+pub const MAX_INPUT: u64 = u32::MAX as u64;
+
+fn within(limit: u64, input: Input) -> Result<Input, Failure> {
+    if input.text.len() as u64 <= limit {
+        return Ok(input);
+    }
+    let name = &input.name;
+    Err(Failure::Failed(format!("`{name}` has more than {limit} bytes, the limit for inputs")))
+}
 
 /// The interface of a program to the system: its input, its output and its messages.
 ///
@@ -42,20 +52,30 @@ impl Context {
     /// second call would find standard input empty.
     ///
     /// # Errors
-    /// [`Failure::Read`] if there is no such file or it cannot be read.
+    /// [`Failure::Read`] if there is no such file or it cannot be read; [`Failure::Failed`] if it
+    /// has more than [`MAX_INPUT`] bytes.
     pub fn input(&mut self) -> Result<Input, Failure> {
+        within(MAX_INPUT, self.input_up_to(MAX_INPUT)?)
+    }
+
+    /// Like [`Context::input`], and reads up to `limit` + 1 bytes. The caller recognizes an input
+    /// that is too large by the extra byte.
+    ///
+    /// # Errors
+    /// [`Failure::Read`] if there is no such file or it cannot be read.
+    pub fn input_up_to(&mut self, limit: u64) -> Result<Input, Failure> {
         if !self.is_input_named && input::stdin_is_terminal() {
             self.note("reading standard input; --help for help");
         }
-        input::read(self.input.as_deref())
+        input::read(self.input.as_deref(), limit)
     }
 
     /// Reads an additional input file.
     ///
     /// # Errors
-    /// [`Failure::Read`] if there is no such file or it cannot be read.
+    /// As of [`Context::input`].
     pub fn input_file(&self, path: &Path) -> Result<Input, Failure> {
-        input::read(Some(path))
+        within(MAX_INPUT, input::read(Some(path), MAX_INPUT)?)
     }
 
     /// The program and those of its options that affect the content, for the history comment at the
@@ -96,12 +116,8 @@ impl Context {
     /// succeeds, just before the output.
     ///
     /// # Errors
-    /// [`Failure::Usage`] if the output goes to the same file; [`Failure::Write`] as in
-    /// [`Context::write`].
+    /// [`Failure::Write`] as in [`Context::write`].
     pub fn write_file(&mut self, path: &Path, data: &[u8]) -> Result<(), Failure> {
-        if self.output.path() == Some(path) {
-            return Err(Failure::Usage(format!("two outputs cannot go to one file, `{}`", text::path(path))));
-        }
         let mut file = Output::new(Some(path));
         file.write_with(|out| out.write_all(data))?;
         self.others.push(file);

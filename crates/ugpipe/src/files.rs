@@ -1,11 +1,12 @@
 //! Reading files and running programs that an input names, with limits on their size.
 
-use std::fs::File;
+use std::fs::{self, File};
 use std::io::{self, BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::thread;
 
+use crate::cleanup::Running;
 use crate::failure::reason;
 
 /// Largest number of bytes of standard error that are examined.
@@ -22,12 +23,20 @@ pub struct ProgramOutput {
     pub failure: Option<String>,
 }
 
-/// Reads a file, up to `limit` + 1 bytes. The caller recognizes a file that is too large by the
-/// extra byte.
+/// Reads a regular file, up to `limit` + 1 bytes. The caller recognizes a file that is too large by
+/// the extra byte.
+///
+/// Devices, pipes and sockets are refused: reading one may never end, and may take data away from
+/// another program.
 ///
 /// # Errors
-/// The file cannot be read; the error is the system's message.
+/// The file is not a regular file, or cannot be read; the error is the system's message.
 pub fn read_file(path: &Path, limit: u64) -> io::Result<Vec<u8>> {
+    // Checked before it is opened: opening a named pipe waits for a writer.
+    let kind = fs::metadata(path).map_err(without_number)?.file_type();
+    if !kind.is_file() && !kind.is_dir() {
+        return Err(io::Error::new(io::ErrorKind::InvalidInput, "It is not a regular file"));
+    }
     File::open(path).and_then(|file| read_up_to(file, limit)).map_err(without_number)
 }
 
@@ -39,12 +48,10 @@ pub fn read_file(path: &Path, limit: u64) -> io::Result<Vec<u8>> {
 /// # Errors
 /// The program cannot be run; the error is the system's message.
 pub fn run_program(path: &Path, limit: u64) -> io::Result<ProgramOutput> {
-    let mut child = Command::new(without_search(path))
-        .stdin(Stdio::null())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .map_err(without_number)?;
+    let mut command = Command::new(without_search(path));
+    command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    let mut running = Running::spawn(&mut command).map_err(without_number)?;
+    let child = running.child_mut();
     let stdout = child.stdout.take().expect("standard output is a pipe");
     let stderr = child.stderr.take().expect("standard error is a pipe");
     thread::scope(|scope| {
@@ -53,10 +60,9 @@ pub fn run_program(path: &Path, limit: u64) -> io::Result<ProgramOutput> {
         let text = read_up_to(stdout, limit);
         let is_whole = text.as_ref().is_ok_and(|text| text.len() as u64 <= limit);
         if !is_whole {
-            // Fails if the program has already ended, which is fine.
-            let _ = child.kill();
+            running.stop();
         }
-        let status = child.wait().map_err(without_number)?;
+        let status = running.child_mut().wait().map_err(without_number)?;
         let error_line = error_line.join().unwrap_or_default();
         let failure = (is_whole && !status.success()).then(|| status.to_string());
         Ok(ProgramOutput { text: text.map_err(without_number)?, error_line, failure })
@@ -68,7 +74,8 @@ fn without_search(path: &Path) -> PathBuf {
     if path.components().count() == 1 { Path::new(".").join(path) } else { path.to_owned() }
 }
 
-fn read_up_to(from: impl Read, limit: u64) -> io::Result<Vec<u8>> {
+/// Reads up to `limit` + 1 bytes.
+pub(crate) fn read_up_to(from: impl Read, limit: u64) -> io::Result<Vec<u8>> {
     let mut text = Vec::new();
     from.take(limit.saturating_add(1)).read_to_end(&mut text)?;
     Ok(text)
@@ -149,6 +156,9 @@ mod tests {
             read_file(&folder.path().join("no"), 9).map_err(words),
             Err("No such file or directory".into())
         );
-        assert_eq!(read_file(Path::new("/dev/zero"), 1000).unwrap().len(), 1001);
+        let refused = read_file(Path::new("/dev/zero"), 9).map_err(|error| error.to_string());
+        assert_eq!(refused, Err("It is not a regular file".to_owned()));
+        let refused = read_file(folder.path(), 9).map_err(|error| error.to_string());
+        assert_eq!(refused, Err("Is a directory".to_owned()));
     }
 }

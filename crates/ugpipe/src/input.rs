@@ -1,10 +1,11 @@
 //! Reading the whole input into memory.
 
-use std::fs;
-use std::io::{self, IsTerminal, Read};
+use std::fs::File;
+use std::io::{self, IsTerminal};
 use std::path::Path;
 
 use crate::failure::Failure;
+use crate::files::read_up_to;
 use crate::text;
 
 /// An input, read completely.
@@ -18,22 +19,16 @@ pub struct Input {
 
 const STDIN: &str = "<stdin>";
 
-/// Reads a file, or standard input if `path` is `None`.
-pub(crate) fn read(path: Option<&Path>) -> Result<Input, Failure> {
+/// Reads a file, or standard input if `path` is `None`: up to `limit` + 1 bytes.
+pub(crate) fn read(path: Option<&Path>, limit: u64) -> Result<Input, Failure> {
     let (name, text) = match path {
-        Some(path) => (text::path(path), fs::read(path)),
-        None => (STDIN.to_owned(), read_stdin()),
+        Some(path) => (text::path(path), File::open(path).and_then(|file| read_up_to(file, limit))),
+        None => (STDIN.to_owned(), read_up_to(io::stdin().lock(), limit)),
     };
     match text {
         Ok(text) => Ok(Input { name, text }),
         Err(error) => Err(Failure::Read { name, error }),
     }
-}
-
-fn read_stdin() -> io::Result<Vec<u8>> {
-    let mut text = Vec::new();
-    io::stdin().lock().read_to_end(&mut text)?;
-    Ok(text)
 }
 
 /// True if standard input is a terminal, so that the user may not know that the program waits for

@@ -36,8 +36,9 @@
 //!   affect the content.
 //!
 //! Limitations: output is not flushed to disk (`fsync`), so a power failure may undo a finished
-//! run. A program that is killed while it writes a file leaves the temporary file, `.ug-` and six
-//! letters, in the same folder.
+//! run. A program that SIGKILL ends while it writes a file leaves the temporary file, `.ug-` and six
+//! letters, in the same folder; other signals do not. A program that is started with standard
+//! output closed (`>&-`) cannot tell that from `/dev/null`, which Rust opens in its place.
 //!
 //! A library that only reports progress disables the feature `cli`. Only [`Progress`] is then left,
 //! and clap is not built.
@@ -89,11 +90,15 @@ mod args;
 #[cfg(feature = "cli")]
 mod argv;
 #[cfg(feature = "cli")]
+mod cleanup;
+#[cfg(feature = "cli")]
 mod context;
 #[cfg(feature = "cli")]
 mod failure;
 #[cfg(feature = "cli")]
 mod files;
+#[cfg(feature = "cli")]
+mod identity;
 #[cfg(feature = "cli")]
 mod input;
 #[cfg(feature = "cli")]
@@ -109,12 +114,14 @@ mod run;
 #[cfg(feature = "cli")]
 mod steps;
 #[cfg(feature = "cli")]
+mod streams;
+#[cfg(feature = "cli")]
 mod text;
 
 #[cfg(feature = "cli")]
 pub use args::{CommonArgs, ONE_DASH, finite, vector, view_angle};
 #[cfg(feature = "cli")]
-pub use context::Context;
+pub use context::{Context, MAX_INPUT};
 #[cfg(feature = "cli")]
 pub use failure::Failure;
 #[cfg(feature = "cli")]

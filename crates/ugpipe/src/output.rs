@@ -1,13 +1,13 @@
 //! The output: standard output, or a file that is replaced atomically.
 
-use std::fs::{self, File, OpenOptions, Permissions};
+use std::fs::{File, OpenOptions, Permissions};
 use std::io::{self, IsTerminal, Write};
 use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
 
-use tempfile::NamedTempFile;
-
+use crate::cleanup::Temporary;
 use crate::failure::Failure;
+use crate::identity::{folder_of, resolve_links};
 use crate::text;
 
 /// An output. If it is dropped without [`Output::finish`], no file is left behind.
@@ -24,7 +24,7 @@ enum Sink {
     Device(File),
     /// A temporary file in the target's folder, to be renamed to the target.
     Temporary {
-        temporary: NamedTempFile,
+        temporary: Temporary,
         target: PathBuf,
     },
 }
@@ -58,7 +58,7 @@ impl Output {
     pub(crate) fn finish(&mut self) -> Result<(), Failure> {
         match self.sink.take() {
             Some(Sink::Temporary { temporary, target }) => {
-                temporary.persist(target).map(drop).map_err(|error| self.failure(error.error))
+                temporary.persist(&target).map_err(|error| self.failure(error))
             }
             _ => Ok(()),
         }
@@ -102,15 +102,15 @@ impl Sink {
     /// the user's umask.
     fn temporary(path: &Path, permissions: Option<Permissions>) -> io::Result<Self> {
         let target = resolve_links(path);
-        let folder = match target.parent() {
-            Some(parent) if !parent.as_os_str().is_empty() => parent,
-            _ => Path::new("."),
-        };
         let all_may = Permissions::from_mode(0o666);
-        let temporary = tempfile::Builder::new().prefix(".ug-").permissions(all_may).tempfile_in(folder)?;
-        if let Some(permissions) = permissions {
-            temporary.as_file().set_permissions(permissions)?;
-        }
+        let temporary = Temporary::new(|| {
+            let mut builder = tempfile::Builder::new();
+            let file = builder.prefix(".ug-").permissions(all_may).tempfile_in(folder_of(&target))?;
+            if let Some(permissions) = permissions {
+                file.as_file().set_permissions(permissions)?;
+            }
+            Ok(file)
+        })?;
         Ok(Self::Temporary { temporary, target })
     }
 
@@ -122,22 +122,9 @@ impl Sink {
                 stdout.flush()
             }
             Self::Device(file) => fill(file),
-            Self::Temporary { temporary, .. } => fill(temporary.as_file_mut()),
+            Self::Temporary { temporary, .. } => fill(temporary.file_mut()),
         }
     }
-}
-
-/// Resolves a chain of symbolic links. The final target need not exist.
-fn resolve_links(path: &Path) -> PathBuf {
-    /// The limit of Linux. Opening a longer chain has already failed.
-    const MAX_LINKS: usize = 40;
-    let mut place = path.to_owned();
-    for _ in 0..MAX_LINKS {
-        let Ok(next) = fs::read_link(&place) else { break };
-        // `join` with an absolute path gives that path.
-        place = place.parent().unwrap_or(Path::new("")).join(next);
-    }
-    place
 }
 
 #[cfg(test)]

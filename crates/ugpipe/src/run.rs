@@ -3,6 +3,7 @@
 use std::env;
 use std::io;
 use std::process::ExitCode;
+use std::thread;
 
 use clap::{ArgMatches, Command};
 use signal_hook::consts::SIGPIPE;
@@ -12,7 +13,7 @@ use crate::args::CommonArgs;
 use crate::context::Context;
 use crate::failure::Failure;
 use crate::messages::Messages;
-use crate::{argv, provenance};
+use crate::{argv, provenance, streams};
 
 /// The arguments of a ug program.
 pub trait ToolArgs: clap::Parser {
@@ -39,7 +40,7 @@ pub fn main<A: ToolArgs>(run: impl FnOnce(&A, &mut Context) -> Result<(), Failur
         Err(error) => return print_clap_message(&error),
     };
     let mut messages = Messages::new(command.get_name());
-    let opened = messages.configure(args.common());
+    let opened = streams::check(args.common(), &matches).and_then(|()| messages.configure(args.common()));
     let mut context = Context::new(args.common(), messages, provenance::command_line(&command, &matches));
     let outcome =
         opened.and_then(|()| start_threads(args.common().threads())).and_then(|()| run(&args, &mut context));
@@ -72,7 +73,10 @@ fn print_clap_message(error: &clap::Error) -> ExitCode {
 ///
 /// The run itself stays on the main thread with its larger stack, for any value of `-nt`.
 fn start_threads(n_threads: Option<usize>) -> Result<(), Failure> {
-    let Some(n_threads) = n_threads else { return Ok(()) };
+    // Without `-nt`, rayon would start as many as its variable says, which may be millions.
+    let is_set = env::var_os("RAYON_NUM_THREADS").is_some();
+    let of_system = || is_set.then(|| thread::available_parallelism().map_or(1, usize::from));
+    let Some(n_threads) = n_threads.or_else(of_system) else { return Ok(()) };
     rayon::ThreadPoolBuilder::new()
         .num_threads(n_threads)
         .build_global()

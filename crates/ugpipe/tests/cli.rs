@@ -10,6 +10,8 @@ use std::os::unix::fs::{MetadataExt, PermissionsExt, symlink};
 use std::os::unix::process::ExitStatusExt;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
+use std::thread;
+use std::time::Duration;
 
 use tempfile::TempDir;
 
@@ -75,6 +77,19 @@ fn files(folder: &TempDir) -> Vec<String> {
 
 fn read(folder: &TempDir, name: &str) -> String {
     fs::read_to_string(folder.path().join(name)).unwrap()
+}
+
+/// The text of a file that another program is about to write.
+#[track_caller]
+fn await_text(folder: &TempDir, name: &str) -> String {
+    let path = folder.path().join(name);
+    for _ in 0..2000 {
+        match fs::read_to_string(&path) {
+            Ok(text) if text.ends_with('\n') => return text,
+            _ => thread::sleep(Duration::from_millis(10)),
+        }
+    }
+    panic!("{name} does not appear");
 }
 
 #[test]
@@ -254,6 +269,82 @@ fn a_full_disk_leaves_no_file() {
     }
     assert_eq!(read(&folder, "old.ug"), "old");
     assert_eq!(files(&folder), ["old.ug", "ship.ug"]);
+}
+
+#[test]
+fn no_output_destroys_an_input_or_another_output() {
+    #[track_caller]
+    fn check(line: &str, message: &str) {
+        let folder = folder();
+        symlink("ship.ug", folder.path().join("link.ug")).unwrap();
+        let output = shell(&folder, line);
+        assert_run(&output, 2, "", &format!("ugcat: error: {message}\ntry `ugcat --help`\n"));
+        assert_eq!(read(&folder, "ship.ug"), SHIP);
+        assert_eq!(files(&folder), ["link.ug", "ship.ug"]);
+    }
+    check("$ugcat ship.ug -fm ship.ug", "-fm `ship.ug` would overwrite the input, file `ship.ug`");
+    check("$ugcat ship.ug -fm ./link.ug", "-fm `./link.ug` would overwrite the input, file `ship.ug`");
+    check("$ugcat < ship.ug -fm ship.ug", "-fm `ship.ug` would overwrite the input, standard input");
+    check("$ugcat -fi link.ug -at ship.ug", "-at `ship.ug` would overwrite the input, file `link.ug`");
+    check("$ugcat ship.ug -fm f -fo ./f", "two outputs cannot go to one file: -fo `./f` and -fm `f`");
+    check("$ugcat ship.ug -at f -fm ./f", "two outputs cannot go to one file: -fm `./f` and -at `f`");
+    check(
+        "$ugcat ship.ug -at ship.ug -fo link.ug",
+        "two outputs cannot go to one file: -fo `link.ug` and -at `ship.ug`",
+    );
+}
+
+#[test]
+fn the_output_may_replace_its_input_and_devices_are_shared() {
+    let folder = folder();
+    assert_run(&run(&folder, &["ship.ug", "-head", "-fo", "./ship.ug"]), 0, "", "");
+    assert_eq!(read(&folder, "ship.ug"), format!("{{ ugcat --head }}\n{SHIP}"));
+    let line = "$ugcat ship.ug -fm /dev/null -at /dev/null -fo /dev/null";
+    assert_run(&shell(&folder, line), 0, "", "");
+    assert_run(&shell(&folder, "$ugcat ship.ug > f && cat f"), 0, &read(&folder, "ship.ug"), "");
+}
+
+#[test]
+fn signals_leave_no_files_and_no_programs() {
+    for signal in ["INT", "TERM", "HUP"] {
+        let folder = folder();
+        let program = folder.path().join("program");
+        fs::write(&program, "#!/bin/sh\necho $$ > pid; sleep 100\n").unwrap();
+        fs::set_permissions(&program, PermissionsExt::from_mode(0o755)).unwrap();
+        let args = ["ship.ug", "-fo", "out.ug", "-execute", "./program"];
+        let mut child = command(&folder, &args).spawn().unwrap();
+        let pid = await_text(&folder, "pid");
+        assert!(files(&folder).iter().any(|name| name.starts_with(".ug-")), "{signal}");
+        shell(&folder, &format!("kill -{signal} {}", child.id()));
+        assert!(child.wait().unwrap().signal().is_some(), "{signal}");
+        assert_eq!(files(&folder), ["pid", "program", "ship.ug"], "{signal}");
+        // Killed, it may wait to be collected, but it runs no longer.
+        let state = shell(&folder, &format!("ps -o stat= -p {}", pid.trim()));
+        assert!(!String::from_utf8_lossy(&state.stdout).starts_with(['R', 'S']), "{signal}");
+    }
+}
+
+#[test]
+fn an_ignored_signal_stays_ignored() {
+    let folder = folder();
+    let line = "trap '' HUP; $ugcat ship.ug -fo out.ug -linger 1 & \
+                while ! ls .ug-* >/dev/null 2>&1; do sleep .01; done; kill -HUP $!; wait $!";
+    assert_run(&shell(&folder, line), 0, "", "");
+    assert_eq!(files(&folder), ["out.ug", "ship.ug"]);
+}
+
+#[test]
+fn an_endless_input_ends() {
+    let folder = folder();
+    let line = "ulimit -v 1000000; $ugcat /dev/zero";
+    assert_run(&shell(&folder, line), 1, "", "ugcat: error: cannot read `/dev/zero`: out of memory\n");
+}
+
+#[test]
+fn a_variable_does_not_choose_the_number_of_threads() {
+    let folder = folder();
+    let output = shell(&folder, "RAYON_NUM_THREADS=99999999 $ugcat ship.ug");
+    assert_run(&output, 0, SHIP, "");
 }
 
 #[test]
