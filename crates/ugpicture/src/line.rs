@@ -35,17 +35,16 @@ mod tests {
 
     #[test]
     fn lines_are_clipped() {
-        let rows: [(&[[f64; 2]], Option<[f64; 2]>); 6] = [
-            (&[], Some([0.0, 1.0])),
-            (&[[1.0, 3.0]], Some([0.0, 1.0])),
-            (&[[-1.0, 3.0]], Some([0.25, 1.0])),
-            (&[[-1.0, 3.0], [1.0, -1.0]], Some([0.25, 0.5])),
-            (&[[-3.0, 1.0], [1.0, -3.0]], None),
-            (&[[-1.0, -2.0]], None),
-        ];
-        for (ends, expected) in rows {
-            assert_eq!(clip_line(ends.iter().copied()), expected, "{ends:?}");
+        #[track_caller]
+        fn check(ends: &[[f64; 2]], expected: Option<[f64; 2]>) {
+            assert_eq!(clip_line(ends.iter().copied()), expected);
         }
+        check(&[], Some([0.0, 1.0]));
+        check(&[[1.0, 3.0]], Some([0.0, 1.0]));
+        check(&[[-1.0, 3.0]], Some([0.25, 1.0]));
+        check(&[[-1.0, 3.0], [1.0, -1.0]], Some([0.25, 0.5]));
+        check(&[[-3.0, 1.0], [1.0, -3.0]], None);
+        check(&[[-1.0, -2.0]], None);
     }
 
     #[test]

@@ -290,9 +290,9 @@ fn what_cannot_be_is_refused() {
         narrow,
     );
     check(
-        Config {
-            picture: PictureOptions { size: [20, 400], ..PictureOptions::default() },
-            ..with(AnnotationOptions { caption: "M".into(), ..AnnotationOptions::default() })
+        {
+            let letter = with(AnnotationOptions { caption: "M".into(), ..AnnotationOptions::default() });
+            Config { picture: PictureOptions { size: [20, 400], ..letter.picture }, ..letter }
         },
         narrow,
     );
