@@ -15,8 +15,9 @@ const PROGRAM: &str = env!("CARGO_PKG_NAME");
 
 /// Colours of a UniGrafix scene as seen in relativistic motion: Doppler shift and photon flux
 ///
-/// Reads the scene that uglorentz writes and gives every vertex its colour as seen: hue to wavelength, divided by
-/// the Doppler factor D, back to hue; brightness times D. Faces carry their velocity, the camera the eye, so the
+/// Reads the scene that uglorentz writes and gives every vertex its colour as seen. The hue is
+/// converted to a wavelength, which is divided by the Doppler factor D and converted back to a hue;
+/// brightness is multiplied by D. Faces carry their velocity, and the camera the eye, so the
 /// options -vel and -ep of uglorentz need not be repeated.
 #[derive(Parser, Debug)]
 #[command(name = "ugdoppler", version, before_help = ugpipe::ONE_DASH, after_help = EXAMPLES)]
@@ -39,8 +40,8 @@ pub struct Args {
 
     /// Shift spectra instead of hues, and write X, Y, Z
     ///
-    /// Black bodies and sampled spectra are shifted as they are, other colours as surfaces in daylight. The brightness
-    /// law is D^5 per wavelength, and nothing is clipped.
+    /// Black bodies and sampled spectra are shifted as they are, other colours as surfaces in
+    /// daylight. The brightness law is D^5 per wavelength, and nothing is clipped.
     #[arg(long, visible_alias = "spectral")]
     sp: bool,
 
@@ -48,7 +49,8 @@ pub struct Args {
     #[arg(long, visible_alias = "repeat-vertices")]
     vr: bool,
 
-    /// Reuse colours within T nm and T percent of value, or of X, Y and Z; with 0 every vertex has its own
+    /// Reuse a colour that differs by at most T nm and T percent of value, or with -sp by T percent
+    /// of X, Y and Z; 0: a colour for each vertex
     #[arg(long, visible_alias = "color-tolerance", value_name = "T", allow_hyphen_values = true,
           value_parser = ugpipe::finite, default_value_t = DEFAULT_TOLERANCE)]
     ct: f64,
@@ -57,9 +59,9 @@ pub struct Args {
     #[arg(long, visible_alias = "iris")]
     ir: bool,
 
-    /// Light: put the light of the scene's lights, moving ones included, into the colours
+    /// Light: compute the lighting by the scene's lights, moving ones included, into the colours
     ///
-    /// One ambient light takes the place of all, under which a renderer draws the colours as they are.
+    /// One ambient light replaces the lights, so that a renderer does not light the scene again.
     #[arg(long, visible_alias = "light")]
     li: bool,
 
@@ -71,7 +73,7 @@ pub struct Args {
     #[arg(long)]
     no_doppler: bool,
 
-    /// Leave brightness as it is; under -sp leave out D^5
+    /// Leave brightness as it is; with -sp omit the factor D^5
     #[arg(long)]
     no_flux: bool,
 

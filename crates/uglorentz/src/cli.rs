@@ -15,8 +15,8 @@ use crate::{Anchor, Config, DEFAULT_COLOR_ERROR, DEFAULT_ERROR, Error, Pieces, T
 /// Geometry of a UniGrafix scene as seen in relativistic motion
 ///
 /// Moves every vertex to where it was when its light left it, subdivides edges that are seen as
-/// curves, and writes a flat scene for ugdoppler, with the velocity of each face and the eye of the
-/// camera.
+/// curves, and writes a flat scene (instances expanded) for ugdoppler, with the velocity of each
+/// face and the eye of the camera.
 #[derive(Debug, Parser)]
 #[command(name = "uglorentz", version, before_help = ugpipe::ONE_DASH, after_help = EXAMPLES)]
 pub struct Args {
@@ -48,39 +48,39 @@ pub struct Args {
           action = ArgAction::Set, allow_hyphen_values = true)]
     anchor: Option<Vec<String>>,
 
-    /// Place each body so that its anchor is seen where the scene has it
+    /// Move each body so that its fixed point (-an) is seen at its coordinates in the scene
     ///
-    /// This holds at time 0. The default of -an is then center.
+    /// This holds at time 0. With -in, the default of -an is center.
     #[arg(long = "in", visible_alias = "in-place")]
     in_place: bool,
 
-    /// Subdivide until the picture is right to ERR milliradians at the eye [default: 0.1]
+    /// Subdivide until edges deviate by at most ERR milliradians, seen from the eye [default: 0.1]
     ///
     /// Subdivision stops at 4000000 pieces, or after 32 halvings of an edge, with a warning that
-    /// states the errors left. -vb always states them, and the vertices where they occur.
+    /// states the remaining errors. -vb always states them, and the vertices where they occur.
     #[arg(long = "se", visible_alias = "error", value_name = "ERR", conflicts_with = "equal",
           allow_hyphen_values = true, value_parser = finite)]
     error: Option<f64>,
 
-    /// Subdivide until the Doppler factor is right to PERCENT between vertices, or off [default:
-    /// 0.15]
+    /// Subdivide also until the interpolated Doppler factor deviates by at most PERCENT, or off
+    /// [default: 0.15]
     ///
-    /// The default is below what an eye can distinguish. off makes fewer faces, for pictures
+    /// The default is below the threshold of human vision. off makes fewer faces, for pictures
     /// without Doppler colours (ugdoppler --no-doppler --no-flux). Has no effect with -sd.
     #[arg(long = "sc", visible_alias = "color-error", value_name = "PERCENT", allow_hyphen_values = true,
           value_parser = percent_or_off)]
     color_error: Option<f64>,
 
-    /// Subdivide also until the light of near lamps is right to PERCENT between vertices [default:
-    /// off]
+    /// Subdivide also until the interpolated light of near lamps deviates by at most PERCENT
+    /// [default: off]
     ///
-    /// For ugdoppler -li, which adds light to the colours of vertices: it adds vertices to large
-    /// faces near a lamp, also at rest. An error of 2 is hardly visible. Has no effect with -sd.
+    /// For ugdoppler -li, which computes light at vertices: large faces near a lamp are cut, also
+    /// those at rest. An error of 2 percent is hardly visible. Has no effect with -sd.
     #[arg(long = "sl", visible_alias = "light-error", value_name = "PERCENT", allow_hyphen_values = true,
           value_parser = percent_or_off)]
     light_error: Option<f64>,
 
-    /// Subdivide every edge into N equal pieces instead
+    /// Cut every edge into N equal pieces, instead of -se, -sc and -sl
     #[arg(id = "equal", long = "sd", visible_alias = "pieces", value_name = "N")]
     equal: Option<u32>,
 
@@ -88,18 +88,19 @@ pub struct Args {
     #[arg(long = "sm", visible_alias = "smooth")]
     smooth: bool,
 
-    /// For teaching: without Lorentz contraction
+    /// For teaching: omit Lorentz contraction
     #[arg(long = "nc", visible_alias = "no-contraction")]
     no_contraction: bool,
 
-    /// For teaching: without the time of flight of light
+    /// For teaching: omit the light travel time
     #[arg(long = "no-flight-time")]
     no_flight_time: bool,
 
     /// Remove faces that are outside the view of the camera
     ///
     /// Parts of other faces outside the view are not subdivided. The picture stays the same if
-    /// ugrainbow gets the same -va and -sz. The scene's camera or -vc must give the view centre.
+    /// ugrainbow is given the same -va and -sz. The scene's camera or -vc must give the view
+    /// centre.
     #[arg(long = "cull", help_heading = CAMERA)]
     cull: bool,
 

@@ -62,18 +62,19 @@ pub struct PictureArgs {
 
     /// Tone curve from light to display: clip, filmic
     ///
-    /// filmic is Hable's of 2010, whose white is 5.6. Curves work on luminance and keep hue.
+    /// filmic is Hable's curve of 2010, with white at 5.6. Curves are applied to luminance and keep
+    /// the hue.
     #[arg(long, value_name = "CURVE", default_value = "clip", value_parser = tone,
           visible_alias = "tone-curve", help_heading = PICTURE)]
     tc: Tone,
 
-    /// Small PNG files, which take longer to pack
+    /// Smaller PNG files, which take longer to compress
     ///
     /// The pixels stay the same.
     #[arg(long, visible_alias = "pack", help_heading = PICTURE)]
     pz: bool,
 
-    /// More channels of an EXR picture, separated by commas: D, time, distance, Z, id, velocity
+    /// Channels to add to an EXR picture, separated by commas: D, time, distance, Z, id, velocity
     ///
     /// Doppler factor, emission time, distance of the emission event, depth along the view, number
     /// of the face, velocity of the body; all at the middle of the pixel.
@@ -115,19 +116,20 @@ impl PictureArgs {
 pub struct AnnotationArgs {
     /// Caption below the picture, wrapped as needed; line breaks are kept
     ///
-    /// The scene is drawn in the rows that the strips below it leave of -sz.
+    /// -sz is the size of the whole picture, so caption and legend leave fewer rows for the scene.
     #[arg(long, value_name = "TEXT", visible_alias = "caption", help_heading = ANNOTATIONS)]
     cap: Option<String>,
 
     /// Legend below the picture: visible spectrum, velocities, and the Doppler factors that are
     /// seen
     ///
-    /// Wavelengths in nm, where light of 550 nm is seen, the velocity as a unit arrow seen from the
-    /// camera (a dot at its tail: approaching, a cross: receding), and β, γ and D.
+    /// The spectrum has a scale in nm, and a bar where light of 550 nm is seen. A velocity is an
+    /// arrow of unit length seen from the camera (a dot at its tail: approaching, a cross:
+    /// receding), with β, γ and D.
     #[arg(long, visible_alias = "legend", help_heading = ANNOTATIONS)]
     lg: bool,
 
-    /// Outline of moving bodies as they would look at rest, each with its centre where it is seen
+    /// Outline of moving bodies as they would look at rest, centred where each body is seen
     #[arg(long, visible_alias = "undistorted", help_heading = ANNOTATIONS)]
     dl: bool,
 

@@ -22,58 +22,52 @@ pub struct CommonArgs {
 
     /// Read FILE; `-` is standard input
     ///
-    /// The same as a bare FILE. May be written with one dash: -fi FILE.
+    /// The same as a bare FILE.
     #[arg(long, value_name = "FILE", visible_alias = "input", help_heading = COMMON)]
     fi: Option<PathBuf>,
 
     /// Write FILE; `-` is standard output
     ///
     /// A regular FILE is written atomically: to a temporary file in the same folder, which is
-    /// renamed when the program succeeds. May be written with one dash: -fo FILE.
+    /// renamed when the program succeeds.
     #[arg(long, value_name = "FILE", visible_alias = "output", help_heading = COMMON)]
     fo: Option<PathBuf>,
 
     /// Write messages to FILE; `-` is standard error
-    ///
-    /// May be written with one dash: -fm FILE.
     #[arg(long, value_name = "FILE", visible_alias = "messages", help_heading = COMMON)]
     fm: Option<PathBuf>,
 
     /// Warn about unknown statements and pass them on
     ///
-    /// Without this option they are errors. May be written with one dash: -lax.
+    /// Without this option they are errors.
     #[arg(long, help_heading = COMMON)]
     lax: bool,
 
     /// Run the programs that `execute` statements name
     ///
     /// These programs run with your permissions, so use this only for scenes you trust. Without
-    /// this option such statements are errors. May be written with one dash: -allow-execute.
+    /// this option such statements are errors.
     #[arg(long, help_heading = COMMON)]
     allow_execute: bool,
 
     /// Change a limit on the size of scenes, as in statements=100000000
     ///
     /// Names of limits: text, includes, files, nesting, chain, statements, corners, names; see
-    /// docs/unigrafix.md. May be written with one dash, and more than once: -limit NAME=N.
+    /// docs/unigrafix.md. May be given more than once.
     #[arg(long, value_name = "NAME=N", value_parser = limit, help_heading = COMMON)]
     limit: Vec<(String, u64)>,
 
     /// Print only errors, no notes or warnings
-    ///
-    /// May be written with one dash: -qt.
     #[arg(long, visible_alias = "quiet", conflicts_with = "vb", help_heading = COMMON)]
     qt: bool,
 
     /// Print what was done, with timings
-    ///
-    /// May be written with one dash: -vb.
     #[arg(long, visible_alias = "verbose", help_heading = COMMON)]
     vb: bool,
 
     /// Use N threads [default: all]
     ///
-    /// The output does not depend on N. May be written with one dash: -nt N.
+    /// The output does not depend on N.
     #[arg(long, value_name = "N", visible_alias = "threads", help_heading = COMMON,
           value_parser = clap::value_parser!(u16).range(1..=1024))]
     nt: Option<u16>,

@@ -26,6 +26,7 @@ const POSTSCRIPT_FILE: &str = "POSTSCRIPTFILE";
 /// fast as light:
 ///
 ///   uglorentz -vel .9 0 0 < ship.ug | ugdoppler | ugrainbow > ship.png
+///
 ///   uglorentz -vel 0 -.2 0 -in -sd 1 < ship.ug | ugrainbow -xc > exact.png
 #[derive(Clone, Debug, Parser)]
 #[command(name = "ugrainbow", version, before_help = ugpipe::ONE_DASH)]
@@ -40,7 +41,7 @@ pub struct Args {
 
     /// Hues in colour statements are wavelengths in nm; implies -iw
     ///
-    /// For scenes written by hand: of what `ugdoppler -gw` writes it is known.
+    /// Only scenes written by hand need it: the output of `ugdoppler -gw` is recognized.
     #[arg(long, visible_alias = "wavelengths")]
     wi: bool,
 
@@ -53,14 +54,15 @@ pub struct Args {
     /// Format of the picture [default: by the ending of -fo, else png]
     ///
     /// png, png16 (16 bits), ppm, eps, ps, pdf, svg; and exr, pfm, hdr, which hold linear light,
-    /// neither clipped nor brought into the gamut: white is 1, parts may be above it and below 0.
+    /// neither clipped nor gamut-mapped: white is 1, and components may exceed 1 or be negative.
     #[arg(long, value_name = "FMT", visible_alias = "format", value_parser = kind_named)]
     dt: Option<Kind>,
 
-    /// Areas and lines in place of pixels, sharp at any size: for eps, ps, pdf, svg
+    /// Vector graphics instead of pixels, sharp at any size: for eps, ps, pdf, svg
     ///
-    /// A pixel of -sz is a point. Faces are painted from behind, and hidden parts covered; of wires
-    /// they are left out. Colours are right to 2 levels of 255.
+    /// -sz is then the size in points. Faces are painted back to front, so nearer ones cover those
+    /// behind; lines are drawn without their hidden parts. Colours deviate by at most 2 levels of
+    /// 255.
     #[arg(long, visible_alias = "vector", conflicts_with_all = ["dp", "explain", "xc"])]
     vec: bool,
 
@@ -69,14 +71,14 @@ pub struct Args {
 
     /// Leave out faces that are seen from behind: those whose corners run clockwise
     ///
-    /// Of closed opaque bodies the picture stays the same, and large scenes are drawn faster.
+    /// Closed opaque bodies look the same without them, and large scenes are drawn faster.
     #[arg(long, visible_alias = "cull-back-faces", conflicts_with = "xc", help_heading = PICTURE)]
     cb: bool,
 
-    /// Draw edges of faces as lines, and no faces; they only hide
+    /// Wireframe: draw edges of faces as lines, instead of faces; faces still occlude them
     ///
-    /// Not those where two faces of one colour and velocity meet in one plane: so cuts of uglorentz
-    /// are not drawn.
+    /// An edge between two coplanar faces of the same colour and velocity is not drawn. So the cuts
+    /// made by uglorentz are invisible.
     #[arg(long, visible_alias = "wireframe", conflicts_with = "ed", help_heading = LINES)]
     wf: bool,
 
@@ -95,11 +97,11 @@ pub struct Args {
           visible_alias = "line-width", help_heading = LINES)]
     lw: f64,
 
-    /// Depth cueing: light falls linearly from depth NEAR to FAR, to the part LEAST, towards the
-    /// background
+    /// Depth cueing: between the depths NEAR and FAR, light fades linearly into the background, to
+    /// the fraction LEAST
     ///
-    /// Depth is along the view. Without numbers it is from the nearest to the farthest that is
-    /// seen; LEAST is 0.2 unless given, 0 to 1.
+    /// Depth is measured along the view direction. NEAR and FAR are by default the least and the
+    /// greatest depth that is seen. LEAST is from 0 to 1, by default 0.2.
     #[arg(long, num_args = 0..=3, value_names = ["NEAR", "FAR", "LEAST"], action = ArgAction::Set,
           value_parser = finite, visible_alias = "depth-cue", help_heading = PICTURE)]
     dc: Option<Vec<f64>>,
@@ -107,24 +109,24 @@ pub struct Args {
     /// Exact: find every sample by a ray into the rest frame of each face, and shift its colour
     /// there
     ///
-    /// Takes a scene as `uglorentz -sd 1` writes it, and does the work of ugdoppler itself:
-    /// outline, depth, Doppler factor, colour and light are exact at every sample, and nothing need
-    /// be cut into pieces.
+    /// Reads what `uglorentz -sd 1` writes, and does the work of ugdoppler itself. Outline, depth,
+    /// Doppler factor, colour and light are exact at every sample, so faces need no subdivision.
     #[arg(long, visible_alias = "exact", conflicts_with_all = ["og", "explain"], help_heading = EXACT)]
     xc: bool,
 
     /// With -xc, brightness law: report (D), photon (D^3), bolometric (D^4), none [default: report]
     ///
-    /// As of ugdoppler. Values above 1 are clipped at the sample, unless -ex or -tc keeps them.
+    /// The laws are those of ugdoppler. Values above 1 are clipped per sample, unless -ex or -tc is
+    /// given.
     #[arg(long, visible_alias = "brightness", value_name = "LAW", value_parser = law, requires = "xc",
           conflicts_with = "no_flux", help_heading = EXACT)]
     br: Option<Brightness>,
 
     /// With -xc, shift spectra instead of hues
     ///
-    /// As of ugdoppler: black bodies and sampled spectra as they are, other colours as surfaces in
-    /// daylight. The brightness law is D^5 per wavelength, and light brighter than white is kept to
-    /// the last step.
+    /// As in ugdoppler: black bodies and sampled spectra as they are, other colours as surfaces in
+    /// daylight. The brightness law is D^5 per wavelength, and light brighter than white is clipped
+    /// only in the last step.
     #[arg(long, visible_alias = "spectral", requires = "xc", conflicts_with_all = ["br", "wi"], help_heading = EXACT)]
     sp: bool,
 
@@ -136,10 +138,11 @@ pub struct Args {
     #[arg(long, requires = "xc", help_heading = EXACT)]
     no_flux: bool,
 
-    /// Instead of the picture, explain the pixel in column X and row Y, from 0 at the upper left
+    /// Instead of a picture, print how the colour of the pixel in column X and row Y (from 0 at the
+    /// upper left) comes about
     ///
     /// As text, or with `--format json` as JSON: the face, its motion, when and where its light was
-    /// sent, colour and light, and every step to the bytes.
+    /// emitted, colour and light, and every step to the bytes of the pixel.
     #[arg(long, value_name = "X,Y", value_parser = pixel, conflicts_with = "dp")]
     explain: Option<Pixel>,
 

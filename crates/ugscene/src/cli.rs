@@ -9,13 +9,13 @@ use crate::CameraOptions;
 /// Heading of these options in `--help`.
 const CAMERA: &str = "Camera";
 
-/// Which camera, and where its eye is: flatten it into the arguments of a program that asks no
-/// more.
+/// Which camera, and where its eye is: flatten it into the arguments of a program that needs
+/// no more.
 #[derive(Args, Clone, Debug, Default, PartialEq)]
 pub struct EyeArgs {
     /// The camera of this name [default: the first without a name, else the first]
     ///
-    /// A scene that is written has it without its name, so that programs downstream use it as well.
+    /// A scene that is written contains it without its name, so programs downstream use it as well.
     #[arg(long, value_name = "NAME", visible_alias = "camera", help_heading = CAMERA)]
     cam: Option<String>,
 
@@ -46,7 +46,7 @@ pub struct CameraArgs {
     /// View centre, shown in the middle of the picture [default: that of the scene's camera, else
     /// the scene's middle]
     ///
-    /// A scene that is written has this, and the options below, in its camera.
+    /// A scene that is written contains this, and the options below, in its camera.
     #[arg(long, num_args = 3, value_names = ["X", "Y", "Z"], action = ArgAction::Set,
           allow_hyphen_values = true, value_parser = finite, visible_alias = "center", help_heading = CAMERA)]
     vc: Option<Vec<f64>>,
@@ -56,19 +56,19 @@ pub struct CameraArgs {
           allow_hyphen_values = true, value_parser = finite, visible_alias = "up", help_heading = CAMERA)]
     ud: Option<Vec<f64>>,
 
-    /// Full view angle across the picture and, if given, down it, in degrees
+    /// Full horizontal and, if given, vertical view angle, in degrees
     ///
-    /// Default: that of the scene's camera across, else 40. Pixels are square unless both are
-    /// given. A scene that is written keeps the angle across alone; give the angle down to the
-    /// renderer as well.
+    /// Default: the horizontal one of the scene's camera, else 40. Pixels are square unless both
+    /// are given. A scene that is written contains the horizontal one only; give the vertical one
+    /// to the renderer as well.
     #[arg(long, num_args = 1..=2, value_names = ["A", "B"], action = ArgAction::Set,
           value_parser = view_angle, visible_alias = "view-angle", help_heading = CAMERA)]
     va: Option<Vec<f64>>,
 
     /// Orthographic projection
     ///
-    /// What is at the distance of the view centre is as large as in perspective.
-    /// Without clipping distances in the scene, what is behind the eye is drawn too.
+    /// Objects at the distance of the view centre are drawn as large as in perspective. Objects
+    /// behind the eye are drawn, too, unless the scene has clipping distances.
     #[arg(long, visible_alias = "orthographic", help_heading = CAMERA)]
     og: bool,
 }
