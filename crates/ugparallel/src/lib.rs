@@ -1,18 +1,18 @@
-//! Loops over tables on all threads, compiled once.
+//! Parallel loops over the rows of a table (a slice, or row numbers), with short compile times.
 //!
-//! A chain of rayon's iterators is compiled anew for every closure and every element type,
-//! about 0.2 s each. Here rayon sees one closure type only: a function that is passed a
-//! range of rows. Everything generic is a plain loop inside that function, so nothing is lost
-//! where it matters: the call through a pointer happens once per range, not once per row.
+//! A chain of rayon's iterators is compiled anew for every closure and every element type, about
+//! 0.2 s each. Here rayon is instantiated for one closure type only: a function of a range of rows.
+//! Everything generic is a plain loop inside that function. It is called through a pointer once per
+//! range, not once per row, so run time does not suffer.
 //!
 //! ```
 //! let squares = ugparallel::map(1_000_000, 1 << 14, |row| row * row);
 //! assert_eq!(squares[1000], 1_000_000);
 //! ```
 //!
-//! Results come in the order of the rows, whatever the number of threads. `least` is how many
-//! rows one thread should have at least; tables with fewer than two such ranges are worked
-//! on by the calling thread alone, since waking another one would take longer.
+//! Results are in the order of the rows, for any number of threads. `least` is the least number of
+//! rows in a range. A table of fewer than two such ranges is processed by the calling thread alone,
+//! because waking another one would take longer.
 
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -20,10 +20,10 @@ use std::sync::{Mutex, PoisonError};
 
 use rayon::prelude::*;
 
-/// Ranges per thread: enough for threads that are done early to take over work of others.
+/// Ranges per thread: several, so that idle threads take over ranges of busy ones.
 const RANGES_PER_THREAD: usize = 8;
 
-/// How many threads there are.
+/// Number of threads.
 pub fn n_threads() -> usize {
     rayon::current_num_threads()
 }
@@ -64,8 +64,8 @@ pub fn for_jobs<T: Send>(jobs: &mut [T], work: impl Fn(usize, &mut T) + Sync) {
     run_all(jobs.len(), &|idx| work(idx, &mut lock(&jobs[idx])));
 }
 
-/// Calls `work` for each element of `jobs`, one at a time, and returns what `meanwhile` returns,
-/// which runs on the calling thread at the same time.
+/// Like `for_jobs`; meanwhile, the calling thread runs `meanwhile`. Returns the value of
+/// `meanwhile`.
 pub fn for_jobs_while<T: Send, R>(
     jobs: &mut [T],
     work: impl Fn(usize, &mut T) + Sync,
@@ -84,8 +84,8 @@ pub fn map<R: Send>(n_rows: usize, least: usize, row: impl Fn(usize) -> R + Sync
     collect(n_rows, least, |range, table| table.extend(range.map(&row)))
 }
 
-/// The table to which `append` appends what belongs to a range of rows: none, one or several
-/// rows for each.
+/// A table that `append` fills: it is passed a range of rows, and appends any number of results for
+/// each row. The results of all ranges are concatenated in order.
 pub fn collect<R: Send>(
     n_rows: usize,
     least: usize,
@@ -151,7 +151,7 @@ fn run_all(n_jobs: usize, job: &(dyn Fn(usize) + Sync)) {
     (0..n_jobs).into_par_iter().with_max_len(1).for_each(job);
 }
 
-/// Each part is locked by the one thread that works on it, so nobody ever waits.
+/// Each part is locked only by the thread that works on it, so locking never blocks.
 fn lock<T: ?Sized>(part: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
     part.lock().unwrap_or_else(PoisonError::into_inner)
 }

@@ -6,8 +6,8 @@
 //! uglorentz -vel .9 0 0 < ship.ug | ugdoppler | ugrainbow > ship.png
 //! ```
 //!
-//! What a well-behaved filter has to do is the same for all of them. It is implemented here once,
-//! and the programs themselves do not access the process.
+//! What a well-behaved filter has to do is the same for all of them. It is implemented here once.
+//! The programs use a [`Context`], and never arguments, streams or the exit status directly.
 //!
 //! - **Options.** The options of 1988 keep their syntax, with one dash and separate values,
 //!   including negative numbers: `-vel -.9 0 0`. For clap they are ordinary long options
@@ -40,8 +40,8 @@
 //! letters, in the same folder; other signals do not. A program that is started with standard
 //! output closed (`>&-`) cannot tell that from `/dev/null`, which Rust opens in its place.
 //!
-//! A library that only reports progress disables the feature `cli`. Only [`Progress`] is then left,
-//! and clap is not built.
+//! A library that only reports progress disables the feature `cli`. Then only [`Progress`] and the
+//! messages of [`remedies`] are compiled, and clap is not built.
 //!
 //! # A whole program
 //!

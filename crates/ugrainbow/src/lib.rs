@@ -4,8 +4,8 @@
 //! It is the last program of the pipe. `uglorentz` has computed the apparent shape of what moves,
 //! and `ugdoppler` its observed colours; rendering the result is ordinary but for colour. After
 //! Nguyen (1988) a colour is a wavelength with a saturation and a value. Between a red corner (700
-//! nm) and a blue one (435.8 nm) lies the rainbow, not purple. A pure colour shifted out of the
-//! visible range is black, and fades towards its ends; the white part of a pale one stays (P17).
+//! nm) and a blue one (435.8 nm) lies the rainbow, not purple. Towards the ends of the visible
+//! range a pure colour fades to black; the white part of a pale one stays (P17).
 //!
 //! # From scene to picture
 //!
@@ -39,7 +39,7 @@
 //! - **Lines**, wires and edges of faces ([`Wireframe`]), are not lit, and are drawn in front of
 //!   the faces they lie on. Their hidden parts are computed along their centre lines.
 //! - **Depth cueing** ([`DepthCue`]) fades distant surfaces into the background.
-//! - **Figures** of areas and lines are made of the same polygons ([`Output::Vector`]).
+//! - **Vector graphics** are made of the same polygons ([`Output::Vector`]).
 //!
 //! Not supported: local lights that weaken with distance or have a radius, and lights that move
 //! relative to what they light; `ugdoppler -li` has both. The bytes do not depend on the number of
@@ -50,13 +50,13 @@
 //! Each line imports only from the lines above it:
 //!
 //! ```text
-//! config  error                                       what is asked, and why there is no picture
+//! config  error                                       options, and errors
 //! palette  surface  spectra  shade  packing           colours, per vertex and per sample
 //! planar  clip  painter                               geometry in the picture plane
-//! drawlist  lines  exact                              faces as polygons, lines, faces by rays
-//! render_layers  setup  depth_cue  front              all of a scene for one camera
-//! pixels  annotate  notes                             from samples to an image
-//! vector  render  explain                             figures, pictures, one pixel
+//! drawlist  lines  exact                              polygons, lines, faces hit by rays
+//! render_layers  setup  depth_cue  front              the whole scene for one camera
+//! pixels  annotate  notes                             from samples to an image, with messages
+//! vector  render  explain                             vector graphics, pictures, one pixel
 //! words  cli                                          the command line
 //! ```
 //!
