@@ -569,7 +569,7 @@ fn pictures_in_which_nothing_is_seen_say_why() {
     check(
         &format!("c clear 1 0 1 .5; {SQUARE} f (a b c d) clear; cam -ep 1 0 20;"),
         &config,
-        &["no lights in the scene: drawn with ambient light 0.3 and 0.7 from the eye"],
+        &["no lights in the scene: drawn with ambient light 0.3 and a light of 0.7 from the eye"],
     );
 }
 

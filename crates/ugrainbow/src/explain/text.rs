@@ -104,7 +104,7 @@ fn write_colors(out: &mut String, stage: &Stage, doppler: f64) -> fmt::Result {
     };
     let shift = match (seen.doppler, seen.scale) {
         (false, _) => "wavelengths not shifted",
-        (true, ColorScale::Hues { .. }) => "wavelengths over D (P11)",
+        (true, ColorScale::Hues { .. }) => "wavelengths divided by D (P11)",
         (true, ColorScale::Spectra { .. }) => "spectra shifted by D (P11)",
     };
     let (law, power) = match seen.scale {
