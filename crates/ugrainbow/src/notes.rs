@@ -73,7 +73,9 @@ fn decimal(number: f32) -> String {
 fn scene_notes(scene: &Scene, is_exact: bool) -> Vec<String> {
     let mut notes = Vec::new();
     if scene.lights.is_empty() && scene.faces.iter().any(|face| scene.light_level(face).is_none()) {
-        notes.push("no lights in the scene: drawn with ambient light 0.3 and a light of 0.7 from the eye".into());
+        notes.push(
+            "no lights in the scene: drawn with ambient light 0.3 and a light of 0.7 from the eye".into(),
+        );
     }
     if scene.lights.iter().any(|light| light.motion.body().is_some()) {
         let remedy = if is_exact { "leave out -xc: " } else { "" };
