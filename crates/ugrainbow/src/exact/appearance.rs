@@ -1,4 +1,4 @@
-//! Colours as seen.
+//! Colours as they appear in the frame of the camera.
 
 use glam::DVec3;
 use uglight::{ColorShift, HueShift, HueTable};
@@ -8,18 +8,18 @@ use crate::painter::Painter;
 use crate::palette::{Palette, Swatch};
 use crate::spectra::Spectra;
 
-/// How the colours of a scene are seen, sample by sample.
+/// Computes the apparent colour of each sample from its colour at rest.
 #[derive(Clone, Copy)]
 pub struct Appearance<'a> {
     shift: HueShift,
     palette: &'a Palette,
     hues: &'static HueTable,
-    /// If colours are spectra.
+    /// `None` if colours are hues or wavelengths.
     spectra: Option<&'a Spectra>,
 }
 
 impl<'a> Appearance<'a> {
-    /// That of the colours of a painter.
+    /// The colour shift `shift` with the colours of `painter`.
     pub fn new(shift: ColorShift, painter: &Painter<'a>) -> Self {
         let shift = match shift {
             ColorShift::Hues(shift) => shift,
@@ -28,18 +28,19 @@ impl<'a> Appearance<'a> {
         Self { shift, palette: painter.palette, hues: HueTable::get(), spectra: painter.spectra }
     }
 
-    /// True if colours given as light can be drawn of bodies that move: as spectra, or unchanged.
+    /// True if colours given as light can be drawn on moving bodies: they are spectra, or nothing
+    /// is shifted.
     pub fn keeps_light(&self) -> bool {
         self.spectra.is_some() || self.shift == HueShift::NONE
     }
 
-    /// The spectra, if colours are spectra.
+    /// The spectra; `None` if colours are hues or wavelengths.
     #[inline]
     pub fn spectra(&self) -> Option<&'a Spectra> {
         self.spectra
     }
 
-    /// The wavelength of a tint, for [`Appearance::seen`].
+    /// The wavelength that a tint stands for, as [`Appearance::seen`] requires it.
     #[inline]
     pub fn wavelength_nm(&self, tint: f64) -> f64 {
         match self.palette.interpolation() {
@@ -48,11 +49,11 @@ impl<'a> Appearance<'a> {
         }
     }
 
-    /// A hue at rest as seen where wavelengths are stretched by 1/D; `rest_nm` is the wavelength of
-    /// its tint.  Eq. (P11), (P12), (P18)
+    /// The apparent colour of `rest` where wavelengths are stretched by `stretch` = 1/D. `rest_nm`:
+    /// the wavelength of its tint.  Eq. (P11), (P12), (P18)
     ///
-    /// A colour given as light stays; unless colours are spectra, no face that moves has one
-    /// ([`super::look::Look`]).
+    /// A colour given as light is returned unchanged. On moving bodies such colours occur only in
+    /// spectral mode; otherwise [`super::look::Look`] has replaced them by hues.
     #[inline]
     pub fn seen(&self, rest: &Swatch, rest_nm: f64, stretch: f64) -> Swatch {
         if rest.light.is_some() || stretch == 1.0 {
@@ -64,7 +65,7 @@ impl<'a> Appearance<'a> {
             return seen;
         }
         let seen_nm = self.shift.wavelength_nm(rest_nm, doppler);
-        // The wavelength may be invisible; a hue stops at the end of its range.
+        // The wavelength may be invisible; a hue is clamped to the end of its range.
         let tint = match self.palette.interpolation() {
             Interpolation::Hue => self.hues.hue(seen_nm),
             Interpolation::Wavelength => seen_nm,
@@ -72,8 +73,9 @@ impl<'a> Appearance<'a> {
         Swatch { tint, ..seen }
     }
 
-    /// The spectra of some rows as seen where wavelengths are stretched by 1/D, with their weights:
-    /// linear red, green and blue. White if colours are no spectra.
+    /// Linear red, green and blue of a weighted mean of spectra, where wavelengths are stretched by
+    /// `stretch` = 1/D. `parts`: rows of spectra with their weights. White unless colours are
+    /// spectra.
     pub fn seen_light(&self, parts: impl IntoIterator<Item = (u32, f64)>, stretch: f64) -> DVec3 {
         let Some(spectra) = self.spectra else { return DVec3::ONE };
         let ln_doppler = -libm::log(stretch);

@@ -1,4 +1,4 @@
-//! The faces of a scene, drawn ray by ray.
+//! The faces of a scene, intersected with one ray per sample.
 
 use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
@@ -21,7 +21,7 @@ use crate::clip::ClipCounts;
 use crate::packing::Pack;
 use crate::painter::Painter;
 
-/// Faces and the rays that meet them.
+/// All faces that are in the picture, with the rays that intersect them.
 pub struct Faces<'a, const N: usize> {
     painter: Painter<'a>,
     appearance: Appearance<'a>,
@@ -30,14 +30,14 @@ pub struct Faces<'a, const N: usize> {
     shapes: Vec<Shape>,
     bins: Bins,
     film: Film,
-    /// Least and greatest key of what is neither clipped nor behind the eye.
+    /// Least and greatest depth key between the clipping planes.
     limits: [f64; 2],
     pool: Mutex<Vec<Scratch>>,
-    /// How many faces were clipped.
+    /// How many faces are left after clipping.
     pub clip_counts: ClipCounts,
 }
 
-/// What is needed for a tile.
+/// Buffers for drawing one tile.
 #[derive(Default)]
 struct Scratch {
     lengths: Lengths,
@@ -45,10 +45,10 @@ struct Scratch {
     cutter: Cutter,
 }
 
-/// A face that can be seen in the picture.
+/// A face that may be visible in the picture.
 struct Shape {
     item: u32,
-    /// Row in the frames.
+    /// Index into the rest frames.
     frame: usize,
     columns: Range<u32>,
     rows: Range<u32>,
@@ -59,7 +59,7 @@ struct Shape {
 }
 
 impl<'a, const N: usize> Faces<'a, N> {
-    /// The faces of a scene that `is_drawn` says.
+    /// The faces of a scene for which `is_drawn` returns true.
     pub fn new(
         painter: Painter<'a>,
         shift: ColorShift,
@@ -80,7 +80,7 @@ impl<'a, const N: usize> Faces<'a, N> {
         Self { painter, appearance, pack, frames, shapes, bins, film, limits, pool, clip_counts }
     }
 
-    /// True if a face is nearer than `key` on the ray through a place of the picture, in samples.
+    /// True if a face is nearer than `key` on the ray through a point of the picture, in samples.
     pub fn hides(&self, [x, y]: [f64; 2], key: f64) -> bool {
         let grid = self.painter.grid;
         let is_inside = (0.0..f64::from(grid.sample_columns())).contains(&x)
@@ -88,7 +88,7 @@ impl<'a, const N: usize> Faces<'a, N> {
         if !is_inside {
             return false;
         }
-        // Inside, so the casts keep the whole part.
+        // In the picture coordinates are not negative, so the casts round down.
         let (column, row) = (x as u32, y as u32);
         let [least, most] = self.limits;
         let hides = |shape: &Shape| {
@@ -104,8 +104,8 @@ impl<'a, const N: usize> Faces<'a, N> {
             .any(hides)
     }
 
-    /// Calls `take` with those samples of a part of the picture that show a face, were it alone, in
-    /// runs.
+    /// Calls `take` with each run of samples that a face covers, occluded or not. Runs are limited
+    /// to the given columns and rows.
     fn cover(
         &self,
         shape: &Shape,
@@ -123,7 +123,7 @@ impl<'a, const N: usize> Faces<'a, N> {
         }
     }
 
-    /// Finds the nearest of some faces in a part of the picture.
+    /// Finds the nearest of the given faces at each sample of a part of the picture.
     fn find_nearest(&self, shapes: &[u32], [columns, rows]: [Range<u32>; 2], scratch: &mut Scratch) {
         let Scratch { lengths, nearest, cutter } = scratch;
         lengths.reset(&self.film, columns.clone(), rows.clone());
@@ -147,15 +147,15 @@ impl<'a, const N: usize> Faces<'a, N> {
         }
     }
 
-    /// Draws the faces in a band into a tile of it.
+    /// Draws the opaque faces of a band into one of its tiles.
     pub fn draw(&self, band: usize, tile: &mut Tile<N>) {
         let shapes = self.bins.in_band(band);
         let part = self.bounds(shapes, tile.area());
         self.with_scratch(|scratch| self.draw_nearest(shapes, part, scratch, tile));
     }
 
-    /// Draws some faces into a tile: first it finds the nearest at each sample, then it computes
-    /// their values, so that no hidden sample is shaded.
+    /// Draws faces into a tile. The nearest face at each sample is found first, so that no hidden
+    /// sample is shaded.
     fn draw_nearest(&self, shapes: &[u32], part: [Range<u32>; 2], scratch: &mut Scratch, tile: &mut Tile<N>) {
         self.find_nearest(shapes, part, scratch);
         let Scratch { lengths, nearest, .. } = scratch;
@@ -172,16 +172,15 @@ impl<'a, const N: usize> Faces<'a, N> {
         }
     }
 
-    /// The numbers of a face to interpolate, at a ray through it.
-    // As of `Look::at`.
-    #[inline(always)]
+    /// The values of a face where a ray meets it, in the packed layout.
+    #[inline(always)] // As `Look::at`.
     fn values(&self, shape: &Shape, frame: &Frame, ray: &Ray) -> [f32; N] {
         let key = shape.outline.key(ray.rest);
         let (color, level) = shape.look.at(&self.painter, &self.appearance, frame, ray, key);
         (self.pack)(&color, level).map(|number| number as f32)
     }
 
-    /// Buffers that nobody else uses; they are given back to be used again.
+    /// Runs `work` with buffers from the pool, and returns them to the pool.
     fn with_scratch(&self, work: impl FnOnce(&mut Scratch)) {
         let pool = || self.pool.lock().unwrap_or_else(PoisonError::into_inner);
         let mut scratch = pool().pop().unwrap_or_default();
@@ -189,7 +188,7 @@ impl<'a, const N: usize> Faces<'a, N> {
         pool().push(scratch);
     }
 
-    /// The part of an area in which some shapes may be visible.
+    /// The part of an area in which the given faces may be visible.
     fn bounds(&self, shapes: &[u32], area: Area) -> [Range<u32>; 2] {
         let around = |sides: &dyn Fn(&Shape) -> Range<u32>, [start, end]: [u32; 2]| {
             let sides =
@@ -202,14 +201,14 @@ impl<'a, const N: usize> Faces<'a, N> {
 }
 
 impl Faces<'_, TRANSPARENT_VALUES> {
-    /// Draws the faces in a band as transparent fragments.
+    /// Draws the faces of a band as transparent fragments.
     pub fn draw_transparent(&self, band: usize, writer: &mut FragmentWriter<'_, '_>) {
         let shapes = self.bins.in_band(band);
         let part = self.bounds(shapes, writer.area());
         self.with_scratch(|scratch| self.draw_all(shapes, part, scratch, writer));
     }
 
-    /// Draws every face wherever it is in front of the nearest occluder.
+    /// Writes a fragment of every face wherever it is in front of the nearest occluder.
     fn draw_all(
         &self,
         shapes: &[u32],
@@ -241,16 +240,16 @@ impl Faces<'_, TRANSPARENT_VALUES> {
     }
 }
 
-/// What two ranges have in common.
+/// The intersection of two ranges.
 fn common(a: &Range<u32>, b: &Range<u32>) -> Range<u32> {
     a.start.max(b.start)..a.end.min(b.end)
 }
 
-/// How far a face came.
+/// Result of preparing a face.
 enum Built {
-    /// Behind the eye.
+    /// Not in front of the near clipping plane.
     Behind,
-    /// Not in the picture.
+    /// Outside the picture, edge-on, or without area.
     Outside,
     Shape(Box<Shape>),
 }
@@ -289,7 +288,7 @@ fn build(
         return outside;
     }
     let look = Look::new(painter, appearance, frame, face, &contours);
-    // The text of a scene is below 4 GiB, and so are its rows.
+    // The text of a scene is below 4 GiB, so row numbers fit.
     let item = row as u32;
     let (sides, depth) =
         (outline.edges().iter().map(|edge| frame.side(edge.normal)).collect(), frame.form(outline.plane()));
@@ -307,7 +306,7 @@ fn build_all(
     faces.map(|(row, face)| build(painter, appearance, frames, row, face)).collect()
 }
 
-/// The samples in a rectangle, which is within the picture.
+/// The samples in a rectangle that lies within the picture.
 fn samples(rect: Rect) -> [Range<u32>; 2] {
     [0, 1].map(|i| rect.low[i].floor() as u32..rect.high[i].ceil() as u32)
 }

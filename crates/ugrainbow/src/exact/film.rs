@@ -1,31 +1,32 @@
-//! Numbers that are linear in rays, along the rows of the picture.
+//! Linear functions of rays, evaluated along the rows of the picture.
 //!
-//! A boost is linear in events (P7). So what is linear in a rest frame's ray p', such as p'·v, is
-//! linear in p and in |p|, which is the same for all rest frames: of all faces of a picture
-//! together one root a sample has to be taken.
+//! A boost is linear in events (P7). A linear function of the ray p' in a rest frame, such as p'·v,
+//! is therefore linear in p and |p|. The length |p| is the same for all rest frames, so one square
+//! root per sample serves all faces of a picture.
 
 use std::ops::Range;
 
 use glam::DVec3;
 
-/// The rays of the picture, through samples; depth 1.
+/// The rays through the samples of the picture, at depth 1.
 #[derive(Clone, Copy, Debug)]
 pub struct Film {
     rays: [DVec3; 3],
 }
 
-/// A row of it. The samples lie on a straight line, and the eye beside it.
+/// A row of the film. Its samples lie on a straight line; the foot of the eye is the point of that
+/// line nearest to the eye.
 #[derive(Clone, Copy, Debug)]
 pub struct FilmRow {
-    /// From the foot of the eye on the line to column 0.
+    /// From the foot of the eye to column 0, along the row.
     start: f64,
-    /// From column to column.
+    /// Distance between columns.
     step: f64,
     /// From the eye to its foot.
     aside: f64,
 }
 
-/// For every sample of a part of the picture the length of its ray.
+/// The length of the ray through each sample of a part of the picture.
 #[derive(Default)]
 pub struct Lengths {
     columns: Range<u32>,
@@ -34,7 +35,7 @@ pub struct Lengths {
     lengths: Vec<f64>,
 }
 
-/// What is linear in rays at rest.
+/// A linear function of rays in a rest frame.
 #[derive(Clone, Copy, Debug)]
 pub struct Form {
     pub origin: f64,
@@ -43,7 +44,7 @@ pub struct Form {
     pub per_length: f64,
 }
 
-/// The same on a row.
+/// A [`Form`] restricted to a row.
 #[derive(Clone, Copy, Debug)]
 pub struct RowForm {
     pub start: f64,
@@ -51,20 +52,20 @@ pub struct RowForm {
     pub per_length: f64,
 }
 
-/// Where the middle of a column's samples is.
+/// Coordinate of the middle of a column or row of samples.
 #[inline]
 pub fn center(column: u32) -> f64 {
-    // Columns are below 2^28, and these numbers are faster to convert.
+    // Columns are below 2^28, and signed integers convert faster.
     f64::from(column as i32) + 0.5
 }
 
 impl Film {
-    /// `rays`: as of [`ugscene::View::rays`].
+    /// `rays`: as [`ugscene::View::rays`] returns them.
     pub fn new(rays: [DVec3; 3]) -> Self {
         Self { rays }
     }
 
-    /// The row through the middle of these samples.
+    /// The row through the middles of the samples of `row`.
     pub fn row(&self, row: u32) -> FilmRow {
         let [corner, across, down] = self.rays;
         let origin = corner + center(row) * down;
@@ -83,7 +84,7 @@ impl FilmRow {
 }
 
 impl Lengths {
-    /// Makes it those of these samples, reusing its buffers.
+    /// Recomputes the lengths for these columns and rows, reusing the buffers.
     pub fn reset(&mut self, film: &Film, columns: Range<u32>, rows: Range<u32>) {
         (self.columns, self.rows) = (columns, rows);
         self.films.clear();
@@ -94,7 +95,7 @@ impl Lengths {
         }
     }
 
-    /// A row of them.
+    /// The lengths along a row.
     pub fn row(&self, row: u32) -> LengthRow<'_> {
         let (at, width) = ((row - self.rows.start) as usize, self.columns.len());
         let lengths = &self.lengths[at * width..(at + 1) * width];
@@ -111,20 +112,20 @@ pub struct LengthRow<'a> {
 }
 
 impl<'a> LengthRow<'a> {
-    /// At a column.
+    /// The length at a column.
     #[inline]
     pub fn at(&self, column: u32) -> f64 {
         self.lengths[(column - self.first) as usize]
     }
 
-    /// At some columns.
+    /// The lengths at a range of columns.
     #[inline]
     pub fn part(&self, columns: &Range<u32>) -> &'a [f64] {
         &self.lengths[(columns.start - self.first) as usize..(columns.end - self.first) as usize]
     }
 
-    /// Where between two columns a form of this row does not grow nor fall, if anywhere: the
-    /// nearest column to the left.
+    /// The column left of the extremum of a form between two columns; `None` if it is monotonic
+    /// there.
     pub fn turn(&self, form: &RowForm, [first, last]: [u32; 2]) -> Option<u32> {
         let FilmRow { start, step, aside } = *self.film;
         // α t + c √(w² + t²) has the slope 0 at t/√(w² + t²) = −α/c.
@@ -139,7 +140,7 @@ impl<'a> LengthRow<'a> {
 }
 
 impl Form {
-    /// On a row.
+    /// The form restricted to a row.
     #[inline]
     pub fn on_row(&self, row: u32) -> RowForm {
         RowForm {
@@ -151,7 +152,7 @@ impl Form {
 }
 
 impl RowForm {
-    /// At a column whose ray has a length.
+    /// The value at a column whose ray has length `length`.
     #[inline]
     pub fn at(&self, column: u32, length: f64) -> f64 {
         self.start + center(column) * self.per_column + self.per_length * length

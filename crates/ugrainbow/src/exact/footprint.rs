@@ -1,4 +1,4 @@
-//! Where in the picture a face can be seen.
+//! The bounding rectangle of a face in the picture.
 
 use glam::DVec3;
 
@@ -10,18 +10,19 @@ use super::outline::Outline;
 pub struct Rect {
     /// Least column and row.
     pub low: [f64; 2],
-    /// Greatest.
+    /// Greatest column and row.
     pub high: [f64; 2],
 }
 
-/// How often an arc is halved. What is still not clear then counts with all it may be.
+/// How often an arc is halved at most. Pieces that are still undecided count with the box of their
+/// control points.
 const MOST_HALVINGS: u32 = 24;
 
-/// Samples by which a footprint may be too large.
+/// By how many samples a footprint may exceed the exact box.
 const SLACK: f64 = 1.0;
 
 impl Rect {
-    /// Of columns and rows.
+    /// The rectangle of these columns and rows.
     pub fn new(columns: [u32; 2], rows: [u32; 2]) -> Self {
         let [low, high] = [0, 1].map(|end| [f64::from(columns[end]), f64::from(rows[end])]);
         Self { low, high }
@@ -66,9 +67,8 @@ impl Rect {
         (0..2).any(|i| self.low[i] < other.low[i] - SLACK || self.high[i] > other.high[i] + SLACK)
     }
 
-    /// True if a part of the picture that lies in the hull of these points, homogeneous as of
-    /// [`Frame::place`], has nothing to do with the rectangle: all are behind one of its sides, or
-    /// behind the eye.
+    /// True if the convex hull of these points lies beyond one side of the rectangle, or behind the
+    /// eye. The points are homogeneous, as [`Frame::place`] returns them.
     fn misses(&self, hull: &[DVec3; 3]) -> bool {
         let behind = |side: &dyn Fn(&DVec3) -> f64| hull.iter().all(|point| side(point) < 0.0);
         behind(&|p| p.z)
@@ -79,12 +79,11 @@ impl Rect {
     }
 }
 
-/// The part of a rectangle, not smaller than needed, in which a face can be seen; `None` if it is
-/// not seen there.
+/// A box, nearly as small as possible, around the part of `rect` in which a face can be seen;
+/// `None` if it cannot be seen there.
 ///
-/// What of the footprint is in the rectangle is bounded by arcs of its edges and by sides of the
-/// rectangle; so the box round those arcs, and round those corners of the rectangle that show the
-/// face, has it all in it.
+/// The visible part is bounded by arcs of the edges of the face and by sides of `rect`. The box
+/// therefore encloses the arcs within `rect` and those corners of `rect` at which the face is seen.
 pub fn footprint(frame: &Frame, outline: &Outline, rect: Rect) -> Option<Rect> {
     let mut search = Search { rect: rect.grown(), found: Rect::EMPTY };
     for edge in outline.edges() {
@@ -112,7 +111,8 @@ struct Search {
 }
 
 impl Search {
-    /// Takes in what of an arc is in the rectangle. The arc lies in the hull of its control points.
+    /// Extends the box by the part of an arc in the rectangle. An arc lies in the hull of its
+    /// control points.
     fn add(&mut self, [a, control, b]: [DVec3; 3], n_halvings: u32) {
         if self.rect.misses(&[a, control, b]) || self.found.contains(&self.rect) {
             return;

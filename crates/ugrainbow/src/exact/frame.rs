@@ -8,33 +8,35 @@ use super::film::{Form, center};
 use super::sections::Side;
 use crate::painter::Painter;
 
-/// A body's rest frame, in the axes (û, e₁, e₂) of which the first is along the motion, so that a
-/// boost changes one coordinate only. Everything is relative to the eye.
+/// The rest frame of a body. Its axes (û, e₁, e₂) begin with the direction of motion, so that a
+/// boost changes one coordinate only. All coordinates are relative to the eye.
 #[derive(Clone, Debug)]
 pub struct Frame {
     /// The velocity of the body.
     pub velocity: Velocity,
-    /// Turns rest coordinates into the axes of the scene, where lights and normals are.  Eq. (P25)
+    /// Rotates rest coordinates to the axes of the scene, in which lights and normals are given.
+    /// Eq. (P25)
     pub scene_from_axes: DMat3,
-    /// Turns seen coordinates into the axes of the camera's frame.
+    /// Rotates apparent coordinates to the axes of the camera's frame.
     camera_from_axes: DMat3,
-    /// From seen coordinates to samples: x and y times the depth, and the depth.
+    /// From apparent coordinates to samples: x and y times the depth, and the depth.
     samples_from_seen: DMat3,
-    /// The ray through the corner of the picture, and its change a sample across and down; depth 1.
+    /// The ray through the corner of the picture, and its change per sample across and down; depth
+    /// 1.
     rays: [DVec3; 3],
     exp_minus_rapidity: f64,
 }
 
-/// Where a ray runs.
+/// A ray in the rest frame.
 #[derive(Clone, Copy, Debug)]
 pub struct Ray {
-    /// In the rest frame: where on it light was sent that is seen at depth 1.  Eq. (P4), (P6)
+    /// The emission event of light seen at depth 1, as a position at rest.  Eq. (P4), (P6)
     pub rest: DVec3,
-    /// 1/D, by which wavelengths grow: |p'|/|p|.  Eq. (P10)
+    /// 1/D, the factor by which wavelengths are stretched: |p'|/|p|.  Eq. (P10)
     pub stretch: f64,
 }
 
-/// The rest frames of a scene's bodies, in their order.
+/// The rest frames of the bodies of a scene, in the order of the bodies.
 pub fn frames(painter: &Painter<'_>) -> Vec<Frame> {
     painter.scene.bodies.ids().map(|body| Frame::new(painter, body)).collect()
 }
@@ -61,19 +63,19 @@ impl Frame {
         }
     }
 
-    /// The rays of a row of samples, `y` down the picture; see [`Frame::ray`].
+    /// The rays of a row of samples, `y` down the picture; argument of [`Frame::ray`].
     pub fn row(&self, y: f64) -> DVec3 {
         self.rays[0] + y * self.rays[2]
     }
 
-    /// The ray at `x` across the picture, in samples, on a row: where the light was sent at rest
-    /// that is seen at depth 1.
+    /// The ray at `x` across the picture, in samples: the emission position at rest of light seen
+    /// at depth 1.
     #[inline]
     pub fn ray(&self, row: DVec3, x: f64) -> DVec3 {
         self.rest(row + x * self.rays[1])
     }
 
-    /// The same at the middle of a column, where the ray that is seen has a known length.
+    /// The ray at the middle of a column. `length`: of the apparent ray.
     #[inline]
     pub fn ray_of_length(&self, row: DVec3, column: u32, length: f64) -> Ray {
         let seen = row + center(column) * self.rays[1];
@@ -81,49 +83,50 @@ impl Frame {
             let rest = self.rest(seen);
             return Ray { rest, stretch: rest.length() / length };
         }
-        // With the time −|p| of the event its boost is linear.
+        // The boost is linear in the event at time −|p|.
         let (gamma, speed) = (self.velocity.gamma(), self.velocity.proper_speed());
         let rest = DVec3 { x: gamma * seen.x + speed * length, ..seen };
         Ray { rest, stretch: (gamma * length + speed * seen.x) / length }
     }
 
-    /// True where the terms of a boost cancel by more than single precision allows for.
+    /// True if a boost cancels more digits than single precision allows.
     pub fn is_extreme(&self) -> bool {
-        /// Cancelling loses 2γ² of rounding, here less than 10⁻⁹.
+        /// Cancellation amplifies rounding errors by 2γ²; here the error stays below 10⁻⁹.
         const MOST_GAMMA: f64 = 1000.0;
         self.velocity.gamma() > MOST_GAMMA
     }
 
-    /// The product of rays at rest with a vector.
+    /// The dot product of rays at rest with `vector`.
     pub fn form(&self, vector: DVec3) -> Form {
         let of_seen = DVec3 { x: self.velocity.gamma() * vector.x, ..vector };
         let [origin, per_column, per_row] = self.rays.map(|ray| of_seen.dot(ray));
         Form { origin, per_column, per_row, per_length: self.velocity.proper_speed() * vector.x }
     }
 
-    /// The plane of the eye and an edge, with its normal.
+    /// The plane through the eye and an edge. `normal`: of the plane.
     pub fn side(&self, normal: DVec3) -> Side {
         let size = (self.velocity.gamma() + self.velocity.proper_speed()) * normal.length();
         Side { form: self.form(normal), size }
     }
 
-    /// Where the point rests that is seen here.  Eq. (P4)
+    /// The rest position of a point seen at `seen`.  Eq. (P4)
     #[inline]
     pub fn rest(&self, seen: DVec3) -> DVec3 {
         DVec3 { x: self.boosted(seen, self.velocity.proper_speed()), ..seen }
     }
 
-    /// Where a point at rest is seen.  Eq. (P3)
+    /// The apparent position of a point at rest.  Eq. (P3)
     #[inline]
     pub fn seen(&self, rest: DVec3) -> DVec3 {
         DVec3 { x: self.boosted(rest, -self.velocity.proper_speed()), ..rest }
     }
 
-    /// γ a + u r of the part a along and the length r, in the form of (P3) that does not cancel.
+    /// γ a + u r, in the form of (P3) that does not cancel. `a`: component along the motion; `r`:
+    /// distance.
     #[inline]
     fn boosted(&self, p: DVec3, proper_speed: f64) -> f64 {
         let (a, r) = (p.x, p.length());
-        // What is turned round, (a, u) to (−a, −u), has the opposite answer.
+        // Reversing the sign of both a and u reverses the sign of the result.
         let (b, speed) = if proper_speed < 0.0 { (-a, -proper_speed) } else { (a, proper_speed) };
         let sum = if b < 0.0 {
             b * self.exp_minus_rapidity + speed * (p.y * p.y + p.z * p.z) / (r - b)
@@ -133,31 +136,31 @@ impl Frame {
         if proper_speed < 0.0 { -sum } else { sum }
     }
 
-    /// Corner coordinates of a face at rest, from those in the axes of the scene.
+    /// Rotates rest coordinates from the axes of the scene to those of this frame.
     pub fn axes_from_scene(&self, rest: DVec3) -> DVec3 {
         self.scene_from_axes.transpose() * rest
     }
 
-    /// Seen coordinates in the axes of the camera's frame.
+    /// Rotates apparent coordinates to the axes of the camera's frame.
     pub fn to_camera(&self, seen: DVec3) -> DVec3 {
         self.camera_from_axes * seen
     }
 
-    /// Where a seen point is in the picture: its sample coordinates times the depth, and the depth.
+    /// Projects an apparent position: its sample coordinates times the depth, and the depth.
     pub fn place(&self, seen: DVec3) -> DVec3 {
         self.samples_from_seen * seen
     }
 
-    /// What a straight line at rest between two unit vectors is seen as: the three control points
-    /// of a rational Bézier curve, in the coordinates of [`Frame::place`]. `None` if the line goes
-    /// through the eye.
+    /// The apparent shape of a straight line at rest between two unit vectors: the three control
+    /// points of a rational Bézier curve, in the coordinates of [`Frame::place`]. `None` if the
+    /// line goes through the eye.
     ///
-    /// In directions the line is an arc of a great circle, with control points a, (a+b)/(1+a·b) of
-    /// weight κ = cos φ/2, and b. With the time −1 they are points of a plane in spacetime; the
-    /// curve lies on the light cone. A boost is linear, and so is the projection, so both act on
-    /// the control points.  Eq. (P8)
+    /// The directions of the line form an arc of a great circle, with control points a,
+    /// (a+b)/(1+a·b) of weight κ = cos φ/2, and b. With the time −1 they are points of a plane in
+    /// spacetime, and the curve lies on the light cone. Boost and projection are linear, so they
+    /// act on the control points.  Eq. (P8)
     pub fn arc(&self, a: DVec3, b: DVec3) -> Option<[DVec3; 3]> {
-        /// cos φ/2 of a line that passes through the eye, to rounding.
+        /// cos φ/2 of a line that passes through the eye, within rounding.
         const LEAST: f64 = 1e-9;
         let sum = a + b;
         let kappa = 0.5 * sum.length();

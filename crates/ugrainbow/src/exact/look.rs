@@ -1,4 +1,4 @@
-//! Colour and light at the points of a face at rest.
+//! Colour and light of a face at its points at rest.
 
 use glam::DVec3;
 use ugparse::{Face, VertexId};
@@ -8,26 +8,26 @@ use super::frame::{Frame, Ray};
 use crate::painter::Painter;
 use crate::palette::Swatch;
 
-/// What a face looks like, point by point.
+/// The appearance of a face, point by point.
 #[derive(Clone, Debug)]
 pub struct Look {
-    /// Of the face, on the side that is seen, in the axes of the scene.
+    /// Normal of the face on its visible side, in the axes of the scene.
     normal: DVec3,
-    /// The light on it, if it is the same everywhere.
+    /// The light level, if it is the same everywhere.
     level: Option<DVec3>,
-    /// Light on it depends on the place.
+    /// The light level depends on the position.
     needs_place: bool,
     is_light: bool,
-    /// Its colour at rest, or that of its first corner, and the wavelength of that.
+    /// Its colour at rest, or that of its first corner, with the wavelength of the colour.
     color: Swatch,
     wavelength_nm: f64,
-    /// Row of its spectrum.
+    /// Index of its spectrum.
     row: u32,
-    /// If colour or normal differ between corners.
+    /// If colours or normals differ between corners.
     mesh: Option<Box<Mesh>>,
 }
 
-/// Triangles between corners. A point of one is that mean of its corners which is there in the rest
+/// Triangles between the corners of a face. Values at a point are interpolated linearly in the rest
 /// frame.
 #[derive(Clone, Debug)]
 struct Mesh {
@@ -42,7 +42,7 @@ struct Mesh {
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Corner {
     color: Swatch,
-    /// Row of its spectrum.
+    /// Index of its spectrum.
     row: u32,
     normal: DVec3,
 }
@@ -50,14 +50,14 @@ struct Corner {
 #[derive(Clone, Debug)]
 struct Triangle {
     corners: [u32; 3],
-    /// Across the planes of the eye and each side: products with a ray are as the weights of the
-    /// opposite corners.
+    /// Normals of the planes through the eye and each side. Dot products with a ray are
+    /// proportional to the weights of the opposite corners.
     sides: [DVec3; 3],
-    /// Tint, saturation and value, each of the first corner, and how much more the others have.
+    /// Tint, saturation and value: each at the first corner, and the differences to the other two.
     numbers: [[f64; 3]; 3],
 }
 
-/// A point of a triangle: the weights of its corners are not negative, and together 1.
+/// A point of a triangle in barycentric coordinates: the weights are not negative and add up to 1.
 #[derive(Clone, Copy)]
 struct Spot<'a> {
     mesh: &'a Mesh,
@@ -66,7 +66,7 @@ struct Spot<'a> {
 }
 
 impl Look {
-    /// That of a face. `contours`: its corners at rest, in the axes of `frame`.
+    /// The appearance of `face`. `contours`: its corners at rest, in the axes of `frame`.
     pub fn new(
         painter: &Painter<'_>,
         appearance: &Appearance<'_>,
@@ -75,8 +75,8 @@ impl Look {
         contours: &[Vec<DVec3>],
     ) -> Self {
         let common = painter.common(face);
-        // Colours given as light have no hue to shift; unless they are spectra, the nearest hue
-        // stands for them.
+        // Colours given as light have no hue to shift. Except in spectral mode they are replaced by
+        // the nearest hue.
         let is_changed = !frame.velocity.is_zero() && !appearance.keeps_light();
         let common = if is_changed { common.without_light() } else { common };
         let normal = painter.seen_normal(face);
@@ -114,10 +114,9 @@ impl Look {
         }
     }
 
-    /// Colour as seen, and light level, where a ray meets the plane of the face: at a part of it,
-    /// 1/`key`.
-    // This runs for every sample, and a ray that is handed over in memory has to be waited for.
-    #[inline(always)]
+    /// Apparent colour and light level where a ray meets the plane of the face. `key`: the inverse
+    /// of the ray parameter there.
+    #[inline(always)] // Called for every sample: otherwise the ray is passed in memory.
     pub fn at(
         &self,
         painter: &Painter<'_>,
@@ -149,7 +148,8 @@ impl Look {
         (color, level)
     }
 
-    /// The same colour of a spectrum. Between corners, spectra are mixed as they are seen.
+    /// The apparent colour in spectral mode. Between corners, the apparent colours of spectra are
+    /// mixed.
     #[inline(never)] // Kept out of the loop over hues.
     fn seen_spectrum(&self, appearance: &Appearance<'_>, spot: Option<&Spot<'_>>, ray: &Ray) -> Swatch {
         let Some(spot) = spot.filter(|spot| spot.mesh.has_colors) else {
@@ -165,7 +165,7 @@ impl Look {
 impl Mesh {
     fn new(corners: &[Corner], contours: &[Vec<DVec3>]) -> Self {
         let places = contours.concat();
-        // A face that crosses itself has no triangles of its own.
+        // A self-intersecting face has no triangulation, so it gets a fan.
         let fan = || (2..places.len() as u32).map(|corner| [0, corner - 1, corner]).collect();
         let triangles = ugscene::triangulate(contours).filter(|triangles| !triangles.is_empty());
         let triangle = |at: [u32; 3]| {
@@ -188,8 +188,8 @@ impl Mesh {
         }
     }
 
-    /// At a ray through the face. At the rim, where by rounding the ray is in no triangle, the
-    /// nearest counts.
+    /// The point of the mesh on a ray. Where rounding places the ray outside all triangles, the
+    /// nearest triangle is used.
     #[inline]
     fn spot(&self, ray: DVec3) -> Spot<'_> {
         let mut best = Spot { mesh: self, triangle: &self.triangles[0], weights: [1.0, 0.0, 0.0] };
@@ -214,11 +214,11 @@ impl Mesh {
 }
 
 impl Spot<'_> {
-    /// The weighted mean; the numbers of a colour are interpolated as in the scanline mode.
+    /// The weighted mean. Colours are interpolated as in scanline mode.
     #[inline]
     fn color(&self) -> Swatch {
         let [_, second, third] = self.weights;
-        // Where a number does not change it stays the same bits.
+        // A number that is the same at all corners keeps its bits.
         let [tint, saturation, value] = self.triangle.numbers.map(|[a, b, c]| a + second * b + third * c);
         let first = &self.mesh.corners[self.triangle.corners[0] as usize];
         let light = first.color.light.and_then(|_| self.light());

@@ -1,39 +1,38 @@
-//! Faces drawn by a ray for each sample, exact everywhere (`-xc`).
+//! Faces drawn with one ray per sample, exact at every sample (`-xc`).
 //!
 //! After T. Müller, S. Grottel and D. Weiskopf, *Special relativistic visualization by local ray
-//! tracing* (2010): the viewing direction of a sample is carried into the rest frame of a face (P6)
-//! and meets the face's plane there. Outline, depth, Doppler factor, colour and light are those of
-//! that point; nothing is cut into pieces, and nothing is interpolated in the picture. Its steps,
-//! one file each:
+//! tracing* (2010): the viewing direction of a sample is transformed to the rest frame of a face
+//! (P6) and intersected with the plane of the face there. Outline, depth, Doppler factor, colour and
+//! light are those of the intersection; faces need no subdivision, and nothing is interpolated in
+//! the picture. The steps, one file each:
 //!
 //! 1. [`frame`]: rays of a row of samples in the rest frame of a body;
-//! 2. [`film`]: what is linear in them: on which side of an edge they run, depth, and D;
-//! 3. [`outline`]: whether a ray goes through a face;
-//! 4. [`footprint`]: the part of the picture outside of which no ray does, from arcs of conics
-//!    (P8);
-//! 5. [`sections`]: where in a row rays begin and cease to do so;
-//! 6. [`nearest`]: which face is nearest, sample by sample;
-//! 7. [`look`]: colour and light at a point of a face at rest, for what is nearest alone;
-//! 8. [`appearance`], [`crate::spectra`]: colour as seen, of a hue or a spectrum;
-//! 9. [`faces`]: all faces of a scene as a layer of the raster, the nearest alone or, if light
-//!    passes them, all;
+//! 2. [`film`]: linear functions of these rays: side of an edge, depth, and D;
+//! 3. [`outline`]: whether a ray passes through a face;
+//! 4. [`footprint`]: the part of the picture that a face can cover, bounded by arcs of conics (P8);
+//! 5. [`sections`]: where a row of samples enters and leaves a face;
+//! 6. [`nearest`]: the nearest face at each sample;
+//! 7. [`look`]: colour and light at a point of a face at rest, for visible points alone;
+//! 8. [`appearance`], [`crate::spectra`]: the apparent colour, of a hue or a spectrum;
+//! 9. [`faces`]: all faces of a scene as a layer for the rasterizer: the nearest alone, or all as
+//!    transparent fragments;
 //! 10. [`wires`]: lines as polylines fine enough for the picture.
 //!
-//! # Which sample belongs to whom
+//! # Watertight edges
 //!
-//! A ray is in a face if a half plane that begins at the ray meets its outline an odd number of
-//! times. On which side of an edge the ray runs is computed from the ends in one order, so that
-//! faces that share an edge find the same bits. Summed over faces that share their edges all that
-//! is left is the outline of them together: a sample inside it belongs to an odd number of faces,
-//! and so to one at least.
+//! A ray is in a face if a half plane that begins at the ray crosses the outline of the face an odd
+//! number of times. The side of an edge on which the ray runs is computed from the ends in a fixed
+//! order, so faces that share an edge obtain the same bits. Summed over faces that share edges, the
+//! crossings of shared edges cancel, and those of the common outline remain: a sample inside the
+//! outline is in an odd number of faces, and so in at least one.
 //!
 //! # Row by row
 //!
-//! To ask that of every sample would be slow. On which side of an edge a ray runs, and how near it
-//! meets a plane, are linear in p' and so in p and |p| ([`film`]); along a row of samples that is a
-//! straight line plus a multiple of |p|, which is convex and changes its sign twice at most.
-//! Between the columns where an edge changes it, all samples are in the face or none is, and one of
-//! them is asked. Samples where rounding might decide are asked one by one.
+//! Testing each sample separately would be slow. The side of an edge and the depth of a plane are
+//! linear in p', and so in p and |p| ([`film`]). Along a row of samples they are a straight line
+//! plus a multiple of |p|; such a function is convex or concave and changes sign at most twice.
+//! Between the columns of these changes all samples are in the face or all are outside, so one of
+//! them is tested. Samples where rounding could decide are tested one by one.
 
 mod appearance;
 mod faces;

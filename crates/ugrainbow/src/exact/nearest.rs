@@ -1,23 +1,23 @@
-//! Which face is nearest at every sample of a part of the picture.
+//! The nearest face at each sample of a part of the picture.
 
 use std::ops::Range;
 
 use super::film::{LengthRow, RowForm};
 
-/// Depth keys, and the faces they are of.
+/// Depth keys, and the faces they belong to.
 #[derive(Default)]
 pub struct Nearest {
     columns: Range<u32>,
     rows: Range<u32>,
     keys: Vec<f32>,
-    /// By number; without meaning where nothing has been drawn.
+    /// Index of the face; undefined where nothing has been drawn.
     faces: Vec<u32>,
 }
 
 /// Farther than everything.
 const EMPTY: f32 = f32::NEG_INFINITY;
 
-/// Samples side by side that show one face.
+/// A run of samples in a row that show the same face.
 #[derive(Clone, Debug)]
 pub struct Run {
     pub row: u32,
@@ -26,7 +26,7 @@ pub struct Run {
 }
 
 impl Nearest {
-    /// Makes it nothing at these samples, reusing its buffers.
+    /// Clears these samples, reusing the buffers.
     pub fn reset(&mut self, columns: Range<u32>, rows: Range<u32>) {
         let len = columns.len() * rows.len();
         (self.columns, self.rows) = (columns, rows);
@@ -36,8 +36,8 @@ impl Nearest {
         self.faces.resize(len, 0);
     }
 
-    /// Draws samples of a row where nothing nearer has been drawn. `key`: of the face at a column
-    /// and length of its ray.
+    /// Draws a face on samples of a row where it is nearer than before. `key`: depth key of the
+    /// face, from a column and the length of its ray.
     #[inline]
     pub fn draw(
         &mut self,
@@ -51,14 +51,14 @@ impl Nearest {
         let stored = self.keys[samples.clone()].iter_mut().zip(&mut self.faces[samples]);
         for ((column, length), (nearest, owner)) in columns.clone().zip(lengths.part(&columns)).zip(stored) {
             let key = key(column, *length);
-            // Without branches, so that some samples are done at once.
+            // Without branches, so that several samples are processed at once.
             let is_nearer = key > *nearest;
             *nearest = if is_nearer { key } else { *nearest };
             *owner = if is_nearer { face } else { *owner };
         }
     }
 
-    /// What has been drawn, row after row.
+    /// The runs that have been drawn, row after row.
     pub fn runs(&self) -> impl Iterator<Item = Run> {
         self.rows.clone().flat_map(move |row| {
             let samples = self.samples(row, &self.columns);
@@ -75,7 +75,7 @@ impl Nearest {
         })
     }
 
-    /// The keys of a run.
+    /// The depth keys of a run.
     pub fn keys(&self, run: &Run) -> &[f32] {
         &self.keys[self.samples(run.row, &run.columns)]
     }
@@ -88,24 +88,24 @@ impl Nearest {
     }
 }
 
-/// The depth keys of a plane along a row; what is behind the eye or clipped has [`EMPTY`].
+/// The depth keys of a plane along a row; [`EMPTY`] behind the eye and where clipped.
 #[derive(Clone, Copy, Debug)]
 pub struct PlaneRow {
-    /// The key.
+    /// The key as a function of the column.
     pub form: RowForm,
-    /// Least and greatest that is not clipped.
+    /// Least and greatest key between the clipping planes.
     pub limits: [f64; 2],
 }
 
 impl PlaneRow {
-    /// At a column whose ray has a length.
+    /// The key at a column whose ray has length `length`.
     #[inline]
     pub fn key(&self, column: u32, length: f64) -> f32 {
         limited(self.form.at(column, length), self.limits)
     }
 }
 
-/// A key as single precision number, [`EMPTY`] if it is outside of the limits.
+/// A key in single precision; [`EMPTY`] outside the limits.
 #[inline]
 pub fn limited(key: f64, [least, most]: [f64; 2]) -> f32 {
     let is_within = key >= least && key <= most;

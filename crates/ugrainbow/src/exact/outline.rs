@@ -1,49 +1,49 @@
-//! Whether a ray goes through a face.
+//! Whether a ray passes through a face.
 
 use glam::DVec3;
 use ugparse::newell_normal;
 
-/// From every sample's ray its half plane runs to this direction: any would do that no ray and no
-/// edge is likely to have.
+/// Direction of the half plane that begins at a ray. Arbitrary, but unlikely to be parallel to a
+/// ray or an edge.
 const SIDEWAYS: DVec3 = DVec3::new(0.436_812_907_331, 0.617_203_411_907, 0.654_371_083_561);
 
-/// Distance of the eye from the plane of a face, relative to that of the face: with less it is seen
-/// edge-on.
+/// A face counts as edge-on if the eye is closer to its plane than this part of the size of the
+/// face.
 const EDGE_ON: f64 = 1e-12;
 
 /// The outline of a face at rest, holes included.
 #[derive(Clone, Debug)]
 pub struct Outline {
     edges: Box<[Edge]>,
-    /// The plane of the face: a point p of it has p·plane = 1.
+    /// The plane of the face: its points p fulfil p·plane = 1.
     plane: DVec3,
 }
 
-/// An edge. Its ends stand in an order that depends on nothing but where they are.
+/// An edge. The order of its ends depends only on their positions.
 #[derive(Clone, Copy, Debug)]
 pub struct Edge {
-    /// Its ends, relative to the eye.
+    /// The ends, relative to the eye.
     pub ends: [DVec3; 2],
-    /// Across the plane of eye and edge.
+    /// Normal of the plane through the eye and the edge.
     pub normal: DVec3,
 }
 
 impl Edge {
     fn new(a: DVec3, b: DVec3) -> Self {
         let [a, b] = if a.to_array() <= b.to_array() { [a, b] } else { [b, a] };
-        // Of two long vectors that are nearly parallel the product would lose digits.
+        // Not a × b: that loses digits if both are long and nearly parallel.
         Self { ends: [a, b], normal: a.cross(b - a) }
     }
 }
 
 impl Outline {
-    /// `contours`: corners at rest, relative to the eye; the plane is that of the first contour.
-    /// `None` if no ray meets the plane in one point: the face has no area or is seen edge-on.
+    /// `contours`: corners at rest, relative to the eye; the first contour defines the plane.
+    /// `None` if the face has no area or is seen edge-on.
     pub fn new(contours: &[Vec<DVec3>]) -> Option<Self> {
         let first = contours.first()?;
         let normal = newell_normal(first.iter().copied()).try_normalize()?;
         let middle = first.iter().sum::<DVec3>() / first.len() as f64;
-        // Nearer to edge-on the distance of the plane would be made of rounding.
+        // Closer to edge-on, the distance of the plane would be rounding noise.
         let farthest = first.iter().map(|corner| corner.length()).fold(0.0, f64::max);
         if normal.dot(middle).abs() <= EDGE_ON * farthest {
             return None;
@@ -56,28 +56,28 @@ impl Outline {
         plane.is_finite().then(|| Self { edges: edges.collect(), plane })
     }
 
-    /// Its edges.
+    /// The edges of all contours.
     pub fn edges(&self) -> &[Edge] {
         &self.edges
     }
 
-    /// The vector whose product with a ray is the key.
+    /// The vector whose dot product with a ray is the depth key.
     pub fn plane(&self) -> DVec3 {
         self.plane
     }
 
-    /// The part of a ray, as a vector at rest, that reaches the plane, inverted: 0 or less if the
-    /// plane is not ahead.
+    /// The inverse of the ray parameter at the plane; 0 or less if the plane is not ahead. `ray`: a
+    /// vector at rest.
     #[inline]
     pub fn key(&self, ray: DVec3) -> f64 {
         self.plane.dot(ray)
     }
 
-    /// True if a ray for which the plane is ahead goes through the face.
+    /// True if a ray passes through the face; the plane must be ahead of it.
     ///
     /// A face is seen within less than half of all directions, and the direction opposite to the
-    /// ray is not among them. So the half plane from the ray sideways ends outside of the face, and
-    /// the times it meets the outline decide.
+    /// ray is not among them. So the half plane from the ray sideways ends outside the face, and
+    /// the parity of its crossings with the outline decides.
     #[inline]
     pub fn contains(&self, ray: DVec3) -> bool {
         let half_plane = ray.cross(SIDEWAYS);
@@ -118,7 +118,8 @@ mod tests {
         assert!(Outline::new(&[line.to_vec()]).is_none());
     }
 
-    /// A fan round a point has no gap, however near to its edges and its middle a ray goes.
+    /// A fan of triangles around a point has no gap, however close a ray is to its edges and its
+    /// centre.
     #[test]
     fn faces_that_share_edges_leave_no_gap() {
         let middle = DVec3::new(0.1, -0.2, 3.0);

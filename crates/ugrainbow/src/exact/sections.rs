@@ -1,37 +1,38 @@
-//! A row of samples cut where it crosses the edges of a face: between two cuts all samples are in
-//! the face, or none is.
+//! The runs of samples of a row that are in a face, from the crossings of the row with its edges:
+//! between two crossings all samples are inside or all are outside.
 
 use std::ops::Range;
 
 use super::film::{Form, LengthRow, RowForm};
 
-/// The plane of the eye and an edge.
+/// The plane through the eye and an edge.
 #[derive(Clone, Copy, Debug)]
 pub struct Side {
-    /// On which side of it a ray runs: product of its normal and the ray at rest.
+    /// Signed distance of a ray from it: dot product of its normal and the ray at rest.
     pub form: Form,
-    /// Bound of the terms of that product for a ray of length 1.
+    /// Bound on the terms of that product for a ray of length 1.
     pub size: f64,
 }
 
-/// Columns between two sections of a row, which are to be looked at one by one; mostly none.
+/// Columns around a crossing that are tested one by one; usually empty.
 type Cut = Range<u32>;
 
-/// Part of the terms below which the sign of their sum is not trusted: rounding is some 10⁻¹⁵.
+/// The sign of a sum is trusted if it exceeds this part of the bound on its terms. Rounding errors
+/// are about 10⁻¹⁵.
 const UNSURE: f64 = 1e-13;
 
-/// In a row of so few columns it does not pay to look for cuts.
+/// Rows of at most so many columns are tested column by column.
 const FEW: usize = 4;
 
-/// Cuts rows; keeps its buffer.
+/// Computes sections of rows; keeps its buffer.
 #[derive(Default)]
 pub struct Cutter {
     cuts: Vec<Cut>,
 }
 
 impl Cutter {
-    /// Calls `take` with those of the columns of a row, in runs, that are in the face. `contains`
-    /// says so of one.
+    /// Calls `take` with each run of `columns` that is in the face. `contains`: whether a single
+    /// column is.
     pub fn sections(
         &mut self,
         row: u32,
@@ -58,7 +59,7 @@ impl Cutter {
         }
     }
 
-    /// False if every column has to be looked at.
+    /// Finds the crossings of the row. Returns false if every column has to be tested.
     fn cut(&mut self, row: u32, columns: &Range<u32>, lengths: LengthRow<'_>, sides: &[Side]) -> bool {
         self.cuts.clear();
         let ends = [columns.start, columns.end - 1];
@@ -73,11 +74,12 @@ impl Cutter {
     }
 }
 
-/// A number along a row: a straight line plus a multiple of the ray's length, which is convex.
+/// A function along a row: linear in the column plus a multiple of the ray's length, so convex or
+/// concave.
 struct Line<'a> {
     form: RowForm,
     lengths: LengthRow<'a>,
-    /// With less than this the sign is not sure.
+    /// Up to this absolute value the sign is uncertain.
     unsure: f64,
 }
 
@@ -87,21 +89,21 @@ impl Line<'_> {
         self.form.at(column, self.lengths.at(column))
     }
 
-    /// True for NaN, too.
+    /// True if the sign is uncertain, and for NaN.
     #[inline]
     fn is_unsure(&self, number: f64) -> bool {
         number.is_nan() || number.abs() <= self.unsure
     }
 
-    /// Adds the cuts where the sign changes. False if it is not sure at an end, or where there may
-    /// be two changes.
+    /// Adds the cuts at sign changes. Returns false if the sign is uncertain at an end, or near a
+    /// possible double change.
     fn cut(&self, [first, last]: [u32; 2], cuts: &mut Vec<Cut>) -> bool {
         let [start, end] = [self.at(first), self.at(last)];
         if self.is_unsure(start) || self.is_unsure(end) {
             return false;
         }
         if (start < 0.0) != (end < 0.0) {
-            // What is convex changes its sign once.
+            // A convex or concave function with different signs at its ends changes sign once.
             cuts.push(self.change([first, last], [start, end]));
             return true;
         }
@@ -123,14 +125,14 @@ impl Line<'_> {
         true
     }
 
-    /// Where the sign changes, which differs between two columns.
+    /// The columns around the sign change. The signs at the two given columns differ.
     fn change(&self, [mut low, mut high]: [u32; 2], [mut below, mut above]: [f64; 2]) -> Cut {
         let is_negative = below < 0.0;
         let is_low = |number: f64| (number < 0.0) == is_negative;
         let (from, to) = (low, high);
         let mut n_rounds = 0;
         while high - low > 1 {
-            // Along the chord, and every third time by halves.
+            // Secant steps, with bisection every third time.
             let part = if n_rounds % 3 == 2 { 0.5 } else { below / (below - above) };
             let guess = (low + (f64::from(high - low) * part) as u32).min(high - 1);
             let [left, right] = [guess, guess + 1].map(|column| self.at(column));
@@ -170,8 +172,8 @@ mod tests {
         })
     }
 
-    /// Three random sides, some of which run through a row twice: whichever samples are to be
-    /// taken, taken are those.
+    /// Three random sides, some of which cross a row twice: `sections` takes exactly the samples
+    /// that a test of each sample takes.
     #[test]
     fn every_change_of_a_sign_is_found() {
         let mut numbers = numbers();
@@ -196,7 +198,7 @@ mod tests {
                     let ray = rays[0] + center(column) * rays[1] + center(row) * rays[2];
                     side.form.on_row(row).at(column, ray.length())
                 };
-                // This changes with the sign of any of them.
+                // Changes with the sign of each side.
                 let contains =
                     |column: u32| sides.iter().filter(|side| at(side, column) < 0.0).count() % 2 == 1;
                 let mut taken = vec![false; COLUMNS.len()];

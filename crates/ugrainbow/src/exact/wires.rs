@@ -1,4 +1,4 @@
-//! Lines as curves, as moving straight lines are seen.
+//! Lines of moving bodies, which are seen as curves.
 
 use glam::DVec3;
 use uglight::ColorShift;
@@ -11,20 +11,20 @@ use crate::lines::{Joint, Line, LineShape};
 use crate::painter::Painter;
 use crate::palette::Swatch;
 
-/// Samples by which a piece may be off the line.
+/// Greatest distance of a piece from the curve, in samples.
 const TOLERANCE: f64 = 0.125;
 
-/// Part of its depth by which a piece may be off the line in depth.
+/// Greatest relative error of a piece in depth.
 const MOST_OFF_IN_DEPTH: f64 = 1e-4;
 
-/// Change of ln D along a piece.
+/// Greatest change of ln D along a piece.
 const MOST_CHANGE: f64 = 2e-3;
 
 /// How often a line is halved at most.
 const MOST_HALVINGS: u32 = 12;
 
-/// Approximates lines by polylines whose pieces are straight in the picture and of one Doppler
-/// factor, as far as can be seen.
+/// Approximates lines by polylines. Their pieces are nearly straight in the picture and have nearly
+/// one Doppler factor.
 pub struct CurvedLines<'a> {
     painter: Painter<'a>,
     appearance: Appearance<'a>,
@@ -32,7 +32,7 @@ pub struct CurvedLines<'a> {
 }
 
 impl<'a> CurvedLines<'a> {
-    /// The lines of a scene.
+    /// The lines of a scene with the colour shift `shift`.
     pub fn new(painter: Painter<'a>, shift: ColorShift) -> Self {
         Self { painter, appearance: Appearance::new(shift, &painter), frames: frames(&painter) }
     }
@@ -59,7 +59,7 @@ impl LineShape for CurvedLines<'_> {
 struct Curve<'a> {
     frame: &'a Frame,
     appearance: Appearance<'a>,
-    /// In the axes of the frame.
+    /// The ends at rest, in the axes of the frame.
     rest: [DVec3; 2],
     colors: [Swatch; 2],
     rows: Option<[u32; 2]>,
@@ -97,7 +97,7 @@ impl Curve<'_> {
         Joint { seen: self.frame.to_camera(seen), color }
     }
 
-    /// Adds the joints behind the first of two parts of the line, up to the second.
+    /// Adds the joints after `from` up to `to`, which are parameters of the line.
     fn add(&self, [from, to]: [f64; 2], n_halvings: u32, joints: &mut Vec<Joint>) {
         let middle = 0.5 * (from + to);
         if n_halvings > 0 && self.is_bent([from, middle, to].map(|part| self.point(part))) {
@@ -112,7 +112,8 @@ impl Curve<'_> {
         let [a, middle, b] = seen.map(|point| self.frame.place(point));
         let n_behind = [a, middle, b].into_iter().filter(|place| place.z <= self.near).count();
         if n_behind > 0 {
-            // What is behind the eye is not drawn; what comes from there is.
+            // A piece wholly behind the eye is not drawn; one that reaches in front is halved
+            // further.
             return n_behind < 3;
         }
         let keys = [a, middle, b].map(|place| 1.0 / place.z);
@@ -120,7 +121,7 @@ impl Curve<'_> {
         let along = b - a;
         let off = along.perp_dot(middle - a).abs();
         let [first, .., last] = seen.map(|point| self.doppler(point));
-        // A piece is straight in depth, too, for what hides it is found by that.
+        // A piece must also be straight in depth, because occlusion is decided by its depth.
         let part = along.dot(middle - a) / along.length_squared();
         let key = keys[0] + part.clamp(0.0, 1.0) * (keys[2] - keys[0]);
         off > TOLERANCE * along.length()

@@ -1,4 +1,4 @@
-//! Hues to red, green and blue.
+//! Conversion of hues to red, green and blue.
 
 use fearless_simd::{Level, Simd, dispatch};
 use ugraster::{Encoding, RUN, ShadedRun, greater, lesser};
@@ -6,33 +6,35 @@ use ugraster::{Encoding, RUN, ShadedRun, greater, lesser};
 use super::linear;
 use super::transfer::decode;
 
-/// Levels of red, green and blue light on every sample; none if it is white and in the value.
+/// Light levels for red, green and blue at every sample; `None` if the light is white and its level
+/// is already in the value.
 pub type Lights<'a> = Option<[&'a [f32]; 3]>;
 
 /// A colour without its value.
 #[derive(Clone, Copy, Debug)]
 pub struct Pure {
-    /// In −60…300 degrees.
+    /// In degrees, −60…300.
     pub hue: f32,
-    /// What is left of the hue, 0…1.
+    /// Attenuation of the hue, 0…1; 1 is none.
     pub fade: f32,
     /// 0 grey … 1 pure.
     pub saturation: f32,
 }
 
-/// Display-encoded red, green and blue of a colour, and their greatest before they were clipped to
-/// the ceiling. `values`: its value under the light of each.  Eq. (P17)
+/// Display-encoded red, green and blue of a colour, clipped to `ceiling`, and the greatest of them
+/// before clipping. `values`: the value under red, green and blue light.  Eq. (P17)
 #[inline(always)] // Into loops over many samples.
 pub fn encode(Pure { hue, fade, saturation }: Pure, values: [f32; 3], ceiling: f32) -> ([f32; 3], f32) {
     let pure = saturation * fade;
     let faded = (1.0 - saturation) + pure;
     let per_kept = if faded > 0.0 { 1.0 / faded } else { 0.0 };
-    // Most hues do not fade, and of those nothing is to be rounded.
+    // Most hues are not attenuated; skipping the division avoids its rounding.
     let (kept, saturation) = if fade < 1.0 { (faded, pure * per_kept) } else { (1.0, saturation) };
     let sixth = hue * (1.0 / 60.0);
     let [red, green, blue] = values.map(|value| value * kept);
     let level = |primary: f32, bright: f32| {
-        // How far the primary is from its own sixths of the circle, 0 inside to 1 two sixths away.
+        // Distance of the hue from the sixths in which the primary is full: 0 inside, 1 two sixths
+        // away.
         let apart = (sixth - primary).abs();
         let away = (lesser(apart, 6.0 - apart) - 1.0).clamp(0.0, 1.0);
         (1.0 - saturation * away) * lesser(bright, ceiling)
@@ -41,19 +43,19 @@ pub fn encode(Pure { hue, fade, saturation }: Pure, values: [f32; 3], ceiling: f
     (levels, greater(greater(greater(0.0, red), green), blue))
 }
 
-/// True if all numbers are between two, or these.
+/// True if all numbers lie between the two `ends`, inclusive.
 pub fn all_between(level: Level, numbers: &[f32], ends: [f32; 2]) -> bool {
     dispatch!(level, simd => are_between(simd, numbers, ends))
 }
 
-#[inline(always)] // Compiled for what the processor can do to many numbers at once.
+#[inline(always)] // Compiled for the SIMD instructions of the processor.
 fn are_between<S: Simd>(_: S, numbers: &[f32], [least, most]: [f32; 2]) -> bool {
-    // All are looked at, which is faster than to look for one.
+    // Testing all of them is faster than stopping early.
     numbers.iter().fold(true, |all, &number| all & (least <= number) & (number <= most))
 }
 
-/// The light of many samples: hue, saturation and value of each, and what is left of the hue, which
-/// is all if not given.
+/// Light of many samples from their hues, saturations, values and attenuations of the hue. Without
+/// `fades` no hue is attenuated.
 pub fn encode_all(
     level: Level,
     numbers: [&[f32]; 3],
@@ -92,7 +94,7 @@ fn encode_run<S: Simd>(
     let [red, green, blue] = &mut run.light;
     let (red, green, blue) = (&mut red[..n], &mut green[..n], &mut blue[..n]);
     let intensities = &mut run.intensity[..n];
-    // Of bright hues nothing is divided, if it is known here that they are.
+    // A constant attenuation of 1 lets the compiler drop the division.
     let bright = |i: usize| Pure { hue: hues[i], fade: 1.0, saturation: saturations[i] };
     let pure = |i: usize| fades.map_or(bright(i), |fades| Pure { fade: fades[i], ..bright(i) });
     match (fades, lights) {

@@ -1,4 +1,4 @@
-//! From interpolated numbers to light.
+//! Conversion of interpolated numbers to light.
 
 mod hues;
 mod transfer;
@@ -11,27 +11,27 @@ use crate::config::Interpolation;
 use hues::{Lights, Pure, all_between, encode, encode_all};
 use transfer::decode;
 
-/// Cells of each table of the attenuation over the hue.
+/// Cells of each attenuation table.
 const FADE_CELLS: usize = 1024;
 
-/// Turns tint, saturation and value into linear light, the hue in it attenuated where the eye sees
-/// little.  Eq. (P17)
+/// Converts tint, saturation and value to linear light. Hues near the ends of the visible range are
+/// attenuated.  Eq. (P17)
 #[derive(Clone, Debug)]
 pub struct Shader {
     interpolation: Interpolation,
     /// Values are clipped to this.
     ceiling: f32,
-    /// What the processor can do to many numbers at once. It changes no result.
+    /// SIMD instructions of the processor. The result does not depend on them.
     level: Level,
-    /// Attenuation over hue −60…0, and over 240…300: finding the wavelength of a hue takes
-    /// iterations, too slow for each sample. Between, attenuation is 1.
+    /// Attenuation for hues −60…0 and 240…300; in between it is 1. Tables, because the wavelength
+    /// of a hue needs an iteration, too slow for each sample.
     red_fade: Table,
     violet_fade: Table,
 }
 
 impl Shader {
     /// Computes the tables. `is_clipped`: values of hues are clipped to 1, sample by sample, as in
-    /// 1988; otherwise what is brighter follows the transfer function on.
+    /// 1988; otherwise the transfer function is continued above 1.
     pub fn new(interpolation: Interpolation, is_clipped: bool) -> Self {
         let fade = |hue: f64| attenuation(hue_to_wavelength(hue));
         Self {
@@ -43,23 +43,23 @@ impl Shader {
         }
     }
 
-    /// The light of tint, saturation and value.
+    /// The light of a colour under white light, which is in the value.
     pub fn plain(&self, &[tint, saturation, value]: &[f32; 3]) -> ShadedSample {
         self.lit([tint, saturation, value], [1.0; 3])
     }
 
-    /// The light of tint, saturation and value times a coloured light.
+    /// The light of a colour times the level of coloured light.
     pub fn colored(&self, &[tint, saturation, value, red, green, blue]: &[f32; 6]) -> ShadedSample {
         self.lit([tint, saturation, value], [red, green, blue])
     }
 
-    /// The light of a mixed scene: of three numbers as for [`Shader::plain`], or of linear red,
-    /// green and blue if the fourth is 1 and not 0.
+    /// A sample of a mixed scene under white light: if the fourth number is 1, linear red, green
+    /// and blue; if it is 0, as in [`Shader::plain`].
     pub fn mixed(&self, &[a, b, c, is_light]: &[f32; 4]) -> ShadedSample {
         if is_light > 0.5 { given([a, b, c]) } else { self.lit([a, b, c], [1.0; 3]) }
     }
 
-    /// The same under coloured lights, which are in light already.
+    /// The same under coloured light, which is already contained in linear red, green and blue.
     pub fn mixed_colored(&self, &[a, b, c, red, green, blue, is_light]: &[f32; 7]) -> ShadedSample {
         if is_light > 0.5 { given([a, b, c]) } else { self.lit([a, b, c], [red, green, blue]) }
     }
@@ -70,7 +70,7 @@ impl Shader {
         ShadedSample { light: levels.map(linear), intensity, is_out_of_range: pure.fade == 0.0 }
     }
 
-    /// The same for many samples.
+    /// Shades a run of samples.
     fn lit_all(
         &self,
         [tints, saturations, values]: [&[f32]; 3],
@@ -110,7 +110,7 @@ impl Shader {
         }
     }
 
-    /// The ends of the tints that are certainly not attenuated.
+    /// A range of tints that are not attenuated.
     fn bright_tints(&self) -> [f32; 2] {
         match self.interpolation {
             Interpolation::Hue => [0.0, 240.0],
@@ -118,7 +118,7 @@ impl Shader {
         }
     }
 
-    /// What is left of a tint; of grey all.
+    /// Attenuation of a tint; 1 for grey.
     fn fade(&self, tint: f32, saturation: f32) -> f32 {
         if saturation <= 0.0 {
             return 1.0;
@@ -168,12 +168,12 @@ impl Shading<7> for Shader {
     }
 }
 
-/// Linear light of a level, beyond 1 too.
+/// Linear light of a display-encoded level, which may be above 1.
 fn linear(level: f32) -> f32 {
     if level <= 1.0 { decode(level) } else { srgb_decode(f64::from(level)) as f32 }
 }
 
-/// Of samples with light that is given as such takes that.
+/// Replaces the samples whose colours are given as light.
 fn set_given([a, b, c]: [&[f32]; 3], is_light: &[f32], encoding: Encoding, run: &mut ShadedRun) {
     for (idx, _) in is_light.iter().enumerate().filter(|(_, is_light)| **is_light > 0.5) {
         let shade = given([a[idx], b[idx], c[idx]]);
@@ -185,12 +185,12 @@ fn set_given([a, b, c]: [&[f32]; 3], is_light: &[f32], encoding: Encoding, run: 
     }
 }
 
-/// Light that is given as such.
+/// A sample whose colour is given as light.
 fn given(light: [f32; 3]) -> ShadedSample {
     ShadedSample { light, intensity: light.into_iter().fold(0.0, f32::max), is_out_of_range: false }
 }
 
-/// A function on 0…1 as a table with straight lines between its points.
+/// A function on 0…1, interpolated linearly between tabulated points.
 #[derive(Clone, Debug)]
 struct Table(Vec<f32>);
 
@@ -199,7 +199,7 @@ impl Table {
         Self((0..=n_cells).map(|point| function(point as f64 / n_cells as f64) as f32).collect())
     }
 
-    /// The value at `x`, which is clipped to 0…1.
+    /// The value at `x`, which is clamped to 0…1.
     #[inline]
     fn at(&self, x: f32) -> f32 {
         let n_cells = self.0.len() - 1;
@@ -223,7 +223,7 @@ mod tests {
     #[track_caller]
     fn assert_light(shade: &ShadedSample, light: [f64; 3]) {
         for (ours, exact) in shade.light.iter().zip(light) {
-            // Two table look-ups and single precision: 1e-6 is a thousandth of a level.
+            // Two table look-ups in single precision: 1e-6 is a thousandth of a level.
             assert!((f64::from(*ours) - exact).abs() < 1e-6, "{shade:?} {light:?}");
         }
     }
@@ -240,7 +240,7 @@ mod tests {
         }
     }
 
-    /// White and pure hue in display-encoded red, green and blue.
+    /// Expected light: the white part stays, the pure hue is attenuated.
     fn parts(hue: f64, saturation: f64, value: f64, fade: f64) -> [f64; 3] {
         let pure = Hsv { hue, saturation: 1.0, value: 1.0 }.to_rgb();
         pure.map(|pure| srgb_decode(value * ((1.0 - saturation) + saturation * fade * pure)))
@@ -257,7 +257,7 @@ mod tests {
                 let shade = shader.plain(&[hue as f32, saturation as f32, 0.8]);
                 assert_light(&shade, parts(hue, saturation, 0.8, fade));
                 // A thousandth of saturation is 0.0008 of display-encoded value, and the slope of
-                // decoding at most 2.3.
+                // decoding is at most 2.3.
                 for (now, before) in shade.light.iter().zip(before) {
                     assert!((now - before).abs() < 0.002, "hue {hue}, saturation {saturation}: {shade:?}");
                 }
@@ -280,7 +280,7 @@ mod tests {
                         shader.plain(&[tint, saturation, 1.0]),
                         shader.colored(&[tint, saturation, 1.0, 1.0, 1.0, 1.0]),
                     ] {
-                        // Of display-encoded white nine tenths are left.
+                        // Nine tenths of display-encoded white are left.
                         let least = color.light.into_iter().fold(1.0, f32::min);
                         assert!(least > 0.78, "tint {tint}, saturation {saturation}: {color:?}");
                     }
@@ -300,7 +300,7 @@ mod tests {
         }
     }
 
-    /// The light of samples of N numbers, a run at once and one by one.
+    /// Shades samples of N numbers as runs of various lengths and one by one, and compares.
     #[track_caller]
     fn check_runs<const N: usize>(
         shader: &Shader,
@@ -322,7 +322,8 @@ mod tests {
                 for (idx, numbers) in chunk.iter().enumerate() {
                     let levels = one(numbers).light.map(|light| srgb_encode(f64::from(light)));
                     for (ours, exact) in run.get(idx).light.iter().zip(levels) {
-                        // Where the curve is steepest an error of 3e-7 in light is 4e-6 of a level.
+                        // Where the curve is steepest, an error of 3e-7 in light is 4e-6 of a
+                        // level.
                         assert!(
                             (f64::from(*ours) - exact).abs() < 4e-6 * exact.abs().max(1.0),
                             "{numbers:?}"
@@ -355,7 +356,7 @@ mod tests {
                 ([low + (high - low) * tint, saturation, value], lights, f32::from(noise() > 0.5))
             };
             let samples: Vec<_> = (0..1000).map(|_| sample()).collect();
-            // Whatever the processor can do, the bits are the same.
+            // The bits are the same with all SIMD instructions.
             let levels = [Level::new(), Level::baseline()];
             for (is_clipped, level) in
                 [true, false].into_iter().flat_map(|is| levels.map(|level| (is, level)))

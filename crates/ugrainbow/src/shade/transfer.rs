@@ -1,11 +1,11 @@
-//! From display-encoded levels to linear light, many at once.
+//! Conversion of display-encoded levels to linear light, many at once.
 
-/// Up to here the curve is a straight line.
+/// Up to here the transfer function is linear.
 const KNEE: f32 = 0.040_45;
 
-/// What (s^4.8 − 1)/(s − 1) is for 0.3 ≤ s ≤ 1, as a polynomial of (s − 0.65)/0.35, lowest power
-/// first: Chebyshev's, so that the curve below is off by 3·10⁻⁹ at most, before rounding.
-#[allow(clippy::excessive_precision)] // The digits of the numbers nearest to them.
+/// (s^4.8 − 1)/(s − 1) for 0.3 ≤ s ≤ 1 as a Chebyshev approximation in powers of (s − 0.65)/0.35,
+/// lowest first. The error of [`decode`] is then at most 3·10⁻⁹ before rounding.
+#[allow(clippy::excessive_precision)] // All digits of the nearest single-precision numbers.
 const CURVE: [f32; 8] = [
     2.495_802_9,
     1.561_877_8,
@@ -17,11 +17,11 @@ const CURVE: [f32; 8] = [
     -0.000_003_156_663_3,
 ];
 
-/// Linear light of a level, 0…1, to 3·10⁻⁷; 0 and 1 exactly. IEC 61966-2-1, as
+/// Linear light of a level in 0…1, to 3·10⁻⁷; exact at 0 and 1. IEC 61966-2-1, as
 /// `ugphysics::srgb_decode`.
 ///
-/// ((c + 0.055)/1.055)^2.4 is s^4.8 of a square root s. All of it is sums, products and a root,
-/// which give the same bits on every machine, one at a time or many.
+/// ((c + 0.055)/1.055)^2.4 = s^4.8 with a square root s. Only sums, products and a square root are
+/// used, so the bits are the same on every machine, with and without SIMD.
 #[inline(always)]
 pub fn decode(level: f32) -> f32 {
     let root = (1.0 + (level - 1.0) * (1.0 / 1.055)).max(0.0).sqrt();
