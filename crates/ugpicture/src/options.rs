@@ -1,4 +1,4 @@
-//! What is asked of a picture, whatever renders it.
+//! The options of a picture, the same for every renderer.
 
 use ugimage::{Filter, Format, Tone};
 use ugphysics::Hsv;
@@ -11,7 +11,7 @@ use crate::exposure::Exposure;
 use crate::limits::{MAX_PIXELS, MAX_SAMPLES, MAX_SIDE, MAX_VECTOR_SIDE};
 use crate::output::Output;
 
-/// What is asked of a picture, whatever renders it.
+/// The options of a picture, the same for every renderer.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PictureOptions {
     /// Camera options, which override the camera of the scene.
@@ -123,11 +123,13 @@ impl PictureOptions {
             ));
         }
         if self.filter != Filter::Box {
-            return Err(Error::Options("areas have no samples to be weighed: leave out -fl, or -vec"));
+            return Err(Error::Options(
+                "vector graphics (-vec) have no samples to filter: leave out -fl or -vec",
+            ));
         }
         if self.size.iter().any(|&side| side > MAX_VECTOR_SIDE) {
             return Err(Error::Options(
-                "a figure of areas has at most 32768 pixels, which are points, along a side: give a smaller -sz",
+                "vector graphics (-vec) are at most 32768 points along a side: give a smaller -sz",
             ));
         }
         Ok(())

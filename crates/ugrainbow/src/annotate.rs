@@ -10,10 +10,10 @@ use crate::front::of_surface;
 use crate::render_layers::RenderLayers;
 use crate::setup::Setup;
 
-/// Annotates the picture of a scene. `development`: of its light.
+/// Annotates the picture of a scene. `development`: how the light of the picture was developed.
 ///
 /// # Errors
-/// Those of the scene that shows moving bodies at rest.
+/// Errors of rendering the scene with its moving bodies at rest.
 pub fn annotate(
     layout: &Layout,
     setup: &Setup<'_>,

@@ -69,7 +69,7 @@ pub struct Args {
     #[command(flatten)]
     picture: PictureArgs,
 
-    /// Leave out faces that are seen from behind: those whose corners run clockwise
+    /// Cull back faces, whose corners run clockwise in the picture
     ///
     /// Closed opaque bodies look the same without them, and large scenes are drawn faster.
     #[arg(long, visible_alias = "cull-back-faces", conflicts_with = "xc", help_heading = PICTURE)]
@@ -86,13 +86,13 @@ pub struct Args {
     #[arg(long, visible_alias = "edges", help_heading = LINES)]
     ed: bool,
 
-    /// Colour of the edges: lightness, hue in degrees, saturation [default: with -wf of the faces,
-    /// with -ed black]
+    /// Colour of the edges: lightness, hue in degrees, saturation [default: colours of the faces
+    /// with -wf, black with -ed]
     #[arg(long, num_args = 1..=3, value_names = ["L", "H", "S"], action = ArgAction::Set,
           value_parser = finite, visible_alias = "line-color", help_heading = LINES)]
     lc: Option<Vec<f64>>,
 
-    /// Width of lines, wires too, in pixels
+    /// Width of edges and wires in pixels
     #[arg(long, value_name = "W", default_value_t = LINE_WIDTH, value_parser = line_width,
           visible_alias = "line-width", help_heading = LINES)]
     lw: f64,
@@ -106,8 +106,8 @@ pub struct Args {
           value_parser = finite, visible_alias = "depth-cue", help_heading = PICTURE)]
     dc: Option<Vec<f64>>,
 
-    /// Exact: find every sample by a ray into the rest frame of each face, and shift its colour
-    /// there
+    /// Exact: intersect a ray for every sample with the faces in their rest frames, and shift the
+    /// colour there
     ///
     /// Reads what `uglorentz -sd 1` writes, and does the work of ugdoppler itself. Outline, depth,
     /// Doppler factor, colour and light are exact at every sample, so faces need no subdivision.
@@ -130,11 +130,11 @@ pub struct Args {
     #[arg(long, visible_alias = "spectral", requires = "xc", conflicts_with_all = ["br", "wi"], help_heading = EXACT)]
     sp: bool,
 
-    /// With -xc, leave wavelengths as they are
+    /// With -xc, do not shift wavelengths
     #[arg(long, requires = "xc", help_heading = EXACT)]
     no_doppler: bool,
 
-    /// With -xc, leave brightness as it is
+    /// With -xc, do not change brightness
     #[arg(long, requires = "xc", help_heading = EXACT)]
     no_flux: bool,
 
@@ -163,10 +163,10 @@ impl ToolArgs for Args {
 }
 
 impl Args {
-    /// The same as values. `output`: the file to be written.
+    /// The configuration that these arguments define. `output`: the file to be written.
     ///
     /// # Errors
-    /// The ending of the file is that of no format, or a colour or range is invalid.
+    /// The file name ends in an unknown format, or a colour or range is invalid.
     fn config(&self, output: Option<&Path>) -> Result<Config, Failure> {
         Ok(Config {
             picture: self.picture.options(self.output(output)?, self.annotations.options())?,
@@ -213,14 +213,13 @@ impl Args {
             [near, far, least] => (Some([near, far]), least),
             _ => {
                 return Err(Failure::Usage(
-                    "depth cueing -dc takes no numbers, two depths, or two depths and a part".into(),
+                    "depth cueing -dc is followed by nothing, by NEAR FAR, or by NEAR FAR LEAST".into(),
                 ));
             }
         };
         if range.is_some_and(|[near, far]| near >= far) || !(0.0..=1.0).contains(&least) {
             return Err(Failure::Usage(
-                "depth cueing -dc is from a depth to a greater one, and what is left there is from 0 to 1"
-                    .into(),
+                "in -dc NEAR FAR LEAST, FAR must be greater than NEAR, and LEAST must be from 0 to 1".into(),
             ));
         }
         Ok(Some(DepthCue { range, least }))
@@ -233,7 +232,7 @@ impl Args {
         }
     }
 
-    /// The output if it has pixels.
+    /// The output without -vec.
     fn pixels(&self, file: Option<&Path>) -> Result<Output, Failure> {
         if self.dp {
             return Ok(Output::Grey);
@@ -253,12 +252,12 @@ impl Args {
         }
     }
 
-    /// How a pixel is to be explained.
+    /// The format of the explanation.
     fn report(&self, file: Option<&Path>) -> Result<Report, Failure> {
         match self.dt {
             Some(Kind::Report(report)) => Ok(report),
             Some(Kind::Picture(_)) => Err(Failure::Usage(
-                "a pixel is explained as text or json: give --format json, or none".into(),
+                "a pixel is explained as text or JSON: give --format json, or leave --format out".into(),
             )),
             None if ending(file).is_some_and(|ending| ending.eq_ignore_ascii_case("json")) => {
                 Ok(Report::Json)
@@ -327,7 +326,7 @@ fn failure(error: Error) -> Failure {
     }
 }
 
-/// Keeps a terminal free of what it cannot show.
+/// Refuses binary output to a terminal; black-and-white PostScript goes to a file instead.
 fn redirect(output: Output, context: &mut Context) -> Result<(), Failure> {
     match output {
         Output::Color(format) | Output::Vector(format) if format.is_binary() => Err(Failure::Usage(

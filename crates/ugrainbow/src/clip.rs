@@ -9,14 +9,14 @@ use ugraster::Corner;
 /// How many faces and lines are left after clipping.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct ClipCounts {
-    /// Those between the clipping planes, at least in part.
+    /// Faces and lines at least partly between the clipping planes.
     pub in_front: usize,
-    /// Those of them in the picture.
+    /// Those of them that are in the picture.
     pub in_picture: usize,
 }
 
 impl ClipCounts {
-    /// Those of two parts of a scene together.
+    /// The counts of two parts of a scene together.
     pub fn merge(self, other: Self) -> Self {
         Self { in_front: self.in_front + other.in_front, in_picture: self.in_picture + other.in_picture }
     }

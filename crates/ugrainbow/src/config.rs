@@ -1,32 +1,32 @@
-//! What is asked of the renderer, apart from the scene.
+//! The options of the renderer.
 
 use uglight::{ColorShift, HueScale};
 use ugphysics::Hsv;
 use ugpicture::PictureOptions;
 use ugraster::DepthFade;
 
-/// Everything that decides the bytes of a picture besides the scene.
+/// Everything besides the scene that affects the bytes of a picture.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Config {
     /// What is interpolated between the corners of a face.
     pub interpolation: Interpolation,
-    /// What hue fields of `c` statements are. If wavelengths, these are interpolated
-    /// whatever [`Config::interpolation`] says.
+    /// Meaning of the hue fields of `c` statements. If they are wavelengths, wavelengths are
+    /// interpolated whatever [`Config::interpolation`] says.
     pub hue_scale: HueScale,
-    /// Camera, size, samples, format, and all else that renderers share.
+    /// Camera, size, samples, format, and other options that renderers share.
     pub picture: PictureOptions,
     /// How the scene is read.
     pub reading: ugparse::Options,
-    /// Edges of faces are drawn as lines.
+    /// Draw edges of faces as lines.
     pub wireframe: Option<Wireframe>,
     /// Width of lines in pixels, above 0.
     pub line_width: f64,
-    /// What is far fades towards the background.
+    /// Fade distant surfaces into the background.
     pub depth_cue: Option<DepthCue>,
-    /// Faces are drawn by a ray for each sample (`-xc`), from a scene whose colours have not been
-    /// shifted.
+    /// Draw faces by a ray for each sample (`-xc`) with this colour shift. The colours of the scene
+    /// must be those at rest.
     pub exact: Option<ColorShift>,
-    /// Faces that are seen from behind, running clockwise, are left out.
+    /// Cull back-facing faces, which run clockwise in the picture.
     pub cull: bool,
 }
 
@@ -48,7 +48,7 @@ impl Default for Config {
 }
 
 impl Config {
-    /// What is interpolated between hues of this scale.
+    /// The interpolation that hues of this scale require.
     pub(crate) fn interpolated(&self, scale: HueScale) -> Interpolation {
         match scale {
             HueScale::Degrees => self.interpolation,
@@ -56,7 +56,7 @@ impl Config {
         }
     }
 
-    /// How the scene is drawn.
+    /// The options that decide how faces and lines are drawn.
     pub(crate) fn draw_mode(&self) -> DrawMode {
         DrawMode { exact: self.exact, wireframe: self.wireframe, line_width: self.line_width }
     }
@@ -71,49 +71,49 @@ pub const MAX_LINE_WIDTH: f64 = 100.0;
 /// Edges of faces as lines. They are not lit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Wireframe {
-    /// The faces are drawn, too; else they only hide lines.
+    /// Draw the faces as well; otherwise they only occlude lines.
     pub has_faces: bool,
-    /// Of the edges, neither shifted nor attenuated; else they have the colours of the corners of
+    /// Colour of the edges, neither shifted nor attenuated; `None`: the colours of the corners of
     /// their faces.
     pub color: Option<Hsv>,
 }
 
-/// Depth cueing: linear in depth along the view, light of surfaces is replaced by that of the
+/// Depth cueing: linearly in depth along the view, the light of surfaces is replaced by that of the
 /// background.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DepthCue {
-    /// Depths between which light falls; else those of the nearest and the farthest that is seen.
+    /// Depths between which surfaces fade; `None`: from the nearest to the farthest visible depth.
     pub range: Option<[f64; 2]>,
-    /// The part that is left at the far end, 0…1.
+    /// The part of the light that remains at the far end, 0…1.
     pub least: f64,
 }
 
 impl DepthCue {
-    /// What is left at the far end unless given.
+    /// Default of [`DepthCue::least`].
     pub const LEAST: f64 = 0.2;
 
-    /// The same between two depths.
+    /// Depth cueing between two depths.
     pub(crate) fn between(self, [near, far]: [f64; 2]) -> DepthFade {
         DepthFade { near, far, least: self.least }
     }
 }
 
-/// What is interpolated, besides saturation and value.
+/// The interpolated quantity, besides saturation and value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Interpolation {
-    /// The hue, along the straight line from −60° to 300° and never round the circle: a hue
-    /// stands for a wavelength.
+    /// The hue, linearly from −60° to 300° and never across that boundary, because a hue stands for
+    /// a wavelength.
     Hue,
     /// The wavelength.
     Wavelength,
 }
 
-/// What of a scene is drawn, and how; apart from its camera and colours.
+/// The options that decide how faces and lines are drawn, besides camera and colours.
 #[derive(Clone, Copy, Debug)]
 pub struct DrawMode {
-    /// Faces are intersected by rays; else they are rasterized.
+    /// Intersect faces with rays; otherwise rasterize them.
     pub exact: Option<ColorShift>,
-    /// Edges of faces are drawn.
+    /// Draw edges of faces.
     pub wireframe: Option<Wireframe>,
     /// Width of lines in pixels.
     pub line_width: f64,

@@ -1,4 +1,4 @@
-//! Depth cueing whose range is found from what is seen.
+//! Depth cueing with a range found from the visible depths.
 
 use ugparse::Scene;
 use ugraster::Center;
@@ -8,8 +8,8 @@ use crate::error::Error;
 use crate::render_layers::RenderLayers;
 use crate::setup::Setup;
 
-/// Prepares a scene. Depth cueing without depths runs from the nearest to the farthest that is seen
-/// at the middle of a pixel; it is left out if nothing is seen.
+/// Prepares a scene. Without a range, depth cueing runs from the nearest to the farthest depth
+/// visible at the middle of a pixel; it is left out if nothing is visible.
 ///
 /// # Errors
 /// As [`Setup::new`].
@@ -21,7 +21,8 @@ pub fn prepare<'a>(scene: &'a Scene, config: &Config) -> Result<Setup<'a>, Error
     Ok(setup)
 }
 
-/// The least and greatest depth seen, rounded to four digits so that a note can tell them exactly.
+/// The least and greatest visible depth, rounded to four digits so that a note can state them
+/// exactly.
 fn visible_depths(setup: &Setup<'_>, config: &Config) -> Option<[f64; 2]> {
     let layers = RenderLayers::new(setup.painter(), &config.draw_mode());
     let keys = layers.paint_centers(&setup.grid, &setup.shader, |center: &Center<'_>| {

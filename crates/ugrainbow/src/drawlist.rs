@@ -16,8 +16,8 @@ use crate::painter::{Common, Painter};
 /// another is classified.
 const TOGETHER: usize = 4 * BLOCK;
 
-/// Least and greatest number of faces of a task. Small tasks balance the load of threads; large
-/// ones make fewer lists, and every band reads every list.
+/// Least and greatest number of faces per task. Small tasks balance the load of threads; large ones
+/// make fewer lists, and every band reads every list.
 const CHUNKS: [usize; 2] = [1 << 10, 1 << 13];
 
 /// Polygons and triangles in drawing order, and how many faces were clipped.
@@ -171,7 +171,7 @@ impl<'a, const N: usize> Chunk<'a, N> {
         Self {
             corners,
             painter: &corners.painter,
-            // The text of a scene is below 4 GiB, and so are these numbers.
+            // The text of a scene is below 4 GiB, so row numbers fit.
             item: first as u32,
             // Allocated once, because allocations of several threads wait for each other.
             list: PolygonList::with_capacity(n_faces),

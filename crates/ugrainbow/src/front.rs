@@ -1,4 +1,4 @@
-//! Which surface a pixel is taken to show where there are transparent ones.
+//! The surface that stands for a pixel where there are transparent ones.
 
 use ugpicture::SurfaceSample;
 use ugraster::{Center, Fragment, Hit};
@@ -17,7 +17,7 @@ pub fn of_surface(Hit { key, item }: Hit) -> SurfaceSample {
     SurfaceSample { key, item }
 }
 
-/// A transparent fragment; a line is drawn nearer to the eye than it is.
+/// A transparent fragment. Lines are drawn nearer to the eye than they are; this is corrected.
 pub fn of_fragment(view: &View, layer: &Fragment) -> SurfaceSample {
     let key = match (layer.is_line, view.is_perspective) {
         (false, _) => layer.key,

@@ -1,4 +1,4 @@
-//! Numbers for tests that are the same on every run.
+//! Pseudo-random numbers for tests, the same on every run.
 
 /// A small generator; its field is the seed.
 pub struct Noise(pub u64);

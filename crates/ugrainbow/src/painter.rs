@@ -28,7 +28,7 @@ pub struct Painter<'a> {
     pub surface: &'a Surface,
     /// Its spectra, if colours are spectra.
     pub spectra: Option<&'a Spectra>,
-    /// Faces seen from behind are left out.
+    /// Cull back-facing faces.
     pub is_culled: bool,
 }
 
@@ -45,7 +45,7 @@ pub struct Common {
 }
 
 impl Common {
-    /// The same, with hues in place of light.
+    /// The same face with hues in place of light.
     pub fn without_light(self) -> Self {
         Self { is_light: false, ..self }
     }

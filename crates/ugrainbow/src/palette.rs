@@ -1,4 +1,4 @@
-//! Colours of the scene as what is interpolated.
+//! The colours of a scene, converted for interpolation.
 
 use glam::DVec3;
 use uglight::HueScale;
@@ -10,22 +10,23 @@ use crate::config::Interpolation;
 /// A colour ready for interpolation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Swatch {
-    /// Hue in −60…300 degrees, or wavelength in nanometres, as the [`Interpolation`] says.
-    /// Without meaning if the saturation is 0.
+    /// Hue in −60…300 degrees, or wavelength in nanometres, depending on the [`Interpolation`].
+    /// Undefined if the saturation is 0.
     pub tint: f64,
     /// 0 grey … 1 pure.
     pub saturation: f64,
-    /// 0 and more.
+    /// Not negative.
     pub value: f64,
-    /// The light itself, uncut, if the colour is given as such (`c_xyz`): linear red, green and
-    /// blue. The numbers above are then the nearest that a display has.
+    /// The light itself, if the colour is given as such (`c_xyz`): linear red, green and blue,
+    /// neither clipped nor gamut-mapped. Tint, saturation and value are then the nearest colour
+    /// that a display has.
     pub light: Option<DVec3>,
-    /// 0 opaque … 1 clear.
+    /// 0 opaque … 1 fully transparent.
     pub translucency: f64,
 }
 
 impl Swatch {
-    /// The colour of what has none.
+    /// The colour of objects without a colour.
     pub const WHITE: Self = Self { tint: 0.0, saturation: 0.0, value: 1.0, light: None, translucency: 0.0 };
 
     /// True if it has no tint.
@@ -34,7 +35,7 @@ impl Swatch {
     }
 }
 
-/// How colours of this scene are to be read.
+/// The colours of a scene, and how they are interpolated.
 #[derive(Clone, Debug)]
 pub struct Palette {
     swatches: Vec<Swatch>,
@@ -47,7 +48,7 @@ pub struct Palette {
 }
 
 impl Palette {
-    /// Reads all colours of a scene.
+    /// Converts all colours of a scene.
     ///
     /// `is_spectral`: colours are spectra, so all of them are drawn as light.
     pub fn new(scene: &Scene, interpolation: Interpolation, scale: HueScale, is_spectral: bool) -> Self {
@@ -59,7 +60,7 @@ impl Palette {
         palette
     }
 
-    /// The colour in a row of the scene's table.
+    /// The colour `color` of the scene.
     pub fn get(&self, color: ugparse::ColorId) -> Swatch {
         self.swatches[color.index()]
     }
@@ -69,12 +70,12 @@ impl Palette {
         &self.swatches
     }
 
-    /// What is interpolated.
+    /// The interpolated quantity.
     pub fn interpolation(&self) -> Interpolation {
         self.interpolation
     }
 
-    /// The colour of what has none.
+    /// The colour of objects without a colour; given as light if colours are spectra.
     pub fn white(&self) -> Swatch {
         Swatch { light: self.is_spectral.then_some(DVec3::ONE), ..Swatch::WHITE }
     }
@@ -89,8 +90,8 @@ impl Palette {
         self.has_translucency
     }
 
-    /// The light of a colour: linear red, green and blue. Its hue is attenuated where the eye sees
-    /// little. Eq. (P17)
+    /// The light of a colour: linear red, green and blue. Its hue is attenuated near the ends of
+    /// the visible range.  Eq. (P17)
     pub fn light(&self, swatch: &Swatch) -> DVec3 {
         swatch.light.unwrap_or_else(|| {
             let seen = self.hsv(swatch).attenuated(attenuation(self.wavelength_nm(swatch)));
@@ -106,7 +107,7 @@ impl Palette {
         }
     }
 
-    /// The same as a colour with a hue.
+    /// The colour converted to a hue.
     pub fn hsv(&self, swatch: &Swatch) -> Hsv {
         let hue = match self.interpolation {
             Interpolation::Hue => swatch.tint,
@@ -115,7 +116,7 @@ impl Palette {
         Hsv { hue, saturation: swatch.saturation, value: swatch.value }
     }
 
-    /// A colour with a hue as a swatch.
+    /// A colour with a hue, converted for interpolation.
     pub fn swatch(&self, color: Hsv) -> Swatch {
         let tint = match self.interpolation {
             Interpolation::Hue => spectral(color.hue),
@@ -127,7 +128,7 @@ impl Palette {
     fn read(&self, scene: &Scene, color: &Color) -> Swatch {
         let translucency = color.translucency;
         let swatch = match color.value {
-            // Taken as it is: a wavelength the eye cannot see has no hue.
+            // Used unchanged, because an invisible wavelength has no hue.
             ColorValue::Hsv { value, tint, saturation } if self.scale == HueScale::Wavelengths => {
                 Swatch { tint, saturation, value, light: None, translucency }
             }
@@ -137,12 +138,12 @@ impl Palette {
                 ..self.swatch(uglight::hsv(scene, color, self.scale))
             },
         };
-        // Of spectra the light is computed at every sample; here it says that it is light.
+        // The light of a spectrum is computed per sample; here it only marks the colour as light.
         Swatch { light: swatch.light.or(self.white().light), ..swatch }
     }
 }
 
-/// The same hue in −60…300 degrees.
+/// A hue converted to −60…300 degrees.
 fn spectral(hue: f64) -> f64 {
     if (-60.0..=300.0).contains(&hue) { hue } else { wavelength_to_hue(hue_to_wavelength(hue)) }
 }

@@ -1,5 +1,5 @@
 //! Pixels from samples: averaged in linear light, put on the background, and developed for a
-//! display if asked.
+//! display if the format requires it.
 
 use fearless_simd::prelude::*;
 use fearless_simd::{Level, Simd, dispatch, f32x16, i32x16};
@@ -18,7 +18,7 @@ const CHUNK: usize = 1 << 14;
 
 /// The pixels of a picture.
 pub struct Pixels {
-    /// As light or for a display.
+    /// Light, or levels for a display.
     pub image: Image,
     /// Statistics of the samples.
     pub stats: SampleStats,
@@ -28,7 +28,7 @@ pub struct Pixels {
 }
 
 impl Pixels {
-    /// Draws everything.
+    /// Draws the scene.
     pub fn new(setup: &Setup<'_>, layers: &RenderLayers<'_>, config: &Config) -> Self {
         let is_deep = config.picture.output.format().is_some_and(|format| format.is_deep());
         if !is_deep && !setup.is_uncut {
@@ -46,7 +46,7 @@ impl Pixels {
         Self { image, stats, development: setup.is_uncut.then_some(development) }
     }
 
-    /// Straight to 8 bits, when nothing in between is asked for.
+    /// Draws 8-bit levels directly, when no exposure, tone curve or channel is requested.
     fn display(setup: &Setup<'_>, layers: &RenderLayers<'_>, config: &Config) -> Self {
         let grid = &setup.grid;
         let finish = Display::new(&config.picture);
@@ -56,14 +56,14 @@ impl Pixels {
     }
 }
 
-/// Samples to what a display shows of them.
+/// Converts samples to display levels.
 pub struct Display {
     backdrop: Backdrop,
     quantizer: Quantizer,
 }
 
 impl Display {
-    /// That of a picture.
+    /// The conversion for a picture.
     pub fn new(picture: &PictureOptions) -> Self {
         Self { backdrop: backdrop(picture), quantizer: Quantizer::new() }
     }
@@ -85,8 +85,8 @@ impl ResolveSingle<[u8; 4]> for Display {
     }
 }
 
-/// Levels, 0…1, to the nearest of 256, where there are depth keys.
-#[inline(always)] // Compiled for what the processor can do to many numbers at once.
+/// Rounds levels in 0…1 to the nearest of 256, where there are depth keys.
+#[inline(always)] // Compiled for the SIMD instructions of the processor.
 fn write_levels<S: Simd>(simd: S, keys: &[f32], levels: &[[f32; RUN]; 3], pixels: &mut [[u8; 4]]) {
     let [red, green, blue] = levels;
     let all = red.as_chunks().0.iter().zip(green.as_chunks().0).zip(blue.as_chunks().0);
@@ -122,14 +122,14 @@ fn show<S: Simd>(simd: S, keys: &[f32; LANES], shown: i32x16<S>, pixels: &mut [[
 /// Levels that are rounded together.
 const LANES: usize = 16;
 
-/// The levels of 256 nearest to some of 0…1.
+/// The nearest of 256 levels for numbers in 0…1.
 #[inline(always)]
 fn bytes<S: Simd>(simd: S, levels: &[f32; LANES]) -> i32x16<S> {
-    // What stands behind the point is cut off.
+    // The conversion truncates.
     simd.cvt_i32_f32x16(f32x16::from_slice(simd, levels) * 255.0 + ROUNDING_OFFSET as f32)
 }
 
-/// The whole picture as light, with the channels that are asked for.
+/// The whole picture as light, with the requested channels.
 pub fn light(setup: &Setup<'_>, layers: &RenderLayers<'_>, config: &Config) -> (LinearFrame, SampleStats) {
     let grid = &setup.grid;
     let PictureOptions { filter, channels, .. } = &config.picture;
@@ -140,7 +140,7 @@ pub fn light(setup: &Setup<'_>, layers: &RenderLayers<'_>, config: &Config) -> (
         let (pixels, stats) = layers.paint_filtered(grid, *filter, &setup.shader, &light);
         let mut frame = frame(pixels);
         if !channels.is_empty() {
-            // Channels are of the middle of a pixel and not filtered.
+            // Channels show the middle of a pixel and are not filtered.
             let front = |center: &Center<'_>| front(&setup.view, center);
             push_channels(&mut frame, setup, config, &layers.paint_centers(grid, &setup.shader, front));
         }
@@ -154,7 +154,7 @@ pub fn light(setup: &Setup<'_>, layers: &RenderLayers<'_>, config: &Config) -> (
     (frame, stats)
 }
 
-/// Adds the channels that are asked for. `seen`: at the middle of each pixel.
+/// Adds the requested channels. `seen`: the surfaces at the middles of the pixels.
 fn push_channels(
     frame: &mut LinearFrame,
     setup: &Setup<'_>,
@@ -168,7 +168,8 @@ fn push_channels(
     }
 }
 
-/// How the light of a picture is developed. `frame`: its light, for an automatic exposure alone.
+/// How the light of a picture is developed. `frame` computes the light; it is called for an
+/// automatic exposure alone.
 pub fn development<F: std::borrow::Borrow<LinearFrame>>(
     picture: &PictureOptions,
     frame: impl FnOnce() -> F,
@@ -176,7 +177,7 @@ pub fn development<F: std::borrow::Borrow<LinearFrame>>(
     Exposure::development(picture.exposure, picture.tone, frame)
 }
 
-/// A developed pixel; its covered part stays.
+/// Develops a pixel; its covered part is unchanged.
 pub fn developed(development: &Development, [red, green, blue, part]: [f32; 4]) -> [f32; 4] {
     let [red, green, blue] = development.apply([red, green, blue]);
     [red, green, blue, part]

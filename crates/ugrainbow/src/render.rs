@@ -21,7 +21,7 @@ pub struct Rendering {
     content: Content,
     output: Output,
     compression: Compression,
-    /// What the user should know, one sentence each.
+    /// Notes for the user, one sentence each.
     pub notes: Vec<String>,
 }
 
@@ -40,7 +40,7 @@ impl Rendering {
         }
     }
 
-    /// 8-bit pixels for a display; `None` for a figure of areas, which has no pixels.
+    /// 8-bit pixels for a display; `None` for a vector figure, which has no pixels.
     pub fn into_frame(self) -> Option<Frame> {
         match self.content {
             Content::Image(image) => Some(image.into_frame()),
@@ -49,7 +49,7 @@ impl Rendering {
     }
 }
 
-/// Renders a scene as the options ask for: pixels for a display, light, or a figure of areas.
+/// Renders a scene: to pixels for a display, light, or a vector figure.
 ///
 /// # Errors
 /// See [`Error`].
@@ -58,8 +58,8 @@ pub fn render(scene: &Scene, config: &Config) -> Result<Rendering, Error> {
     render_with(scene, config, &Layout::new(&config.picture)?, &())
 }
 
-/// The linear light of a scene, neither exposed nor brought into the gamut: white is 1. What the
-/// options say about the file, exposure, tone curve and annotations is ignored.
+/// The linear light of a scene, without exposure and gamut mapping: white is 1. Options for the
+/// file, exposure, tone curve and annotations are ignored.
 ///
 /// # Errors
 /// See [`Error`].
@@ -92,7 +92,7 @@ pub fn label(scene: &Scene, command_line: &str) -> Metadata {
 pub struct Picture {
     /// The whole file.
     pub bytes: Vec<u8>,
-    /// What the user should know, one sentence each.
+    /// Notes for the user, one sentence each.
     pub notes: Vec<String>,
     /// Warnings about the text of the scene.
     pub warnings: Diagnostics,
@@ -127,7 +127,7 @@ pub fn run_with(
     Ok(Picture { bytes, notes, warnings: warnings(source, parsed) })
 }
 
-/// Warnings of the reader, and that moving bodies are drawn at rest.
+/// Warnings of the parser, and one if moving bodies are drawn at rest.
 pub(crate) fn warnings(source: &Source, parsed: Parsed) -> Diagnostics {
     match ugscene::rest_shapes_warning(&parsed) {
         Some(warning) => parsed.warnings.with(source, warning),
@@ -135,7 +135,7 @@ pub(crate) fn warnings(source: &Source, parsed: Parsed) -> Diagnostics {
     }
 }
 
-/// Renders a scene in a layout; `config`: of the whole picture, checked.
+/// Renders a scene in a layout. `config`: of the whole picture, already checked.
 fn render_with(
     scene: &Scene,
     config: &Config,
@@ -168,8 +168,7 @@ fn render_with(
     Ok(Rendering { content, output, compression, notes })
 }
 
-/// A scene prepared for drawing: its colours and lights are known, and nothing has been projected
-/// yet.
+/// A scene prepared for drawing: its colours and lights are computed, but nothing is projected yet.
 pub struct Prepared<'a> {
     setup: Setup<'a>,
     config: &'a Config,
@@ -185,7 +184,7 @@ impl<'a> Prepared<'a> {
         Ok(Self { setup: prepare(scene, config)?, config })
     }
 
-    /// Draws it: from vertices in the scene to 8 bits a channel.
+    /// Draws the scene: from vertices to 8 bits per channel.
     pub fn draw(&self) -> Frame {
         let layers = RenderLayers::new(self.setup.painter(), &self.config.draw_mode());
         Pixels::new(&self.setup, &layers, self.config).image.into_frame()

@@ -21,7 +21,7 @@ use crate::packing::{
 use crate::painter::Painter;
 use crate::shade::Shader;
 
-/// Reports painted parts of a picture as parts of a step of the program.
+/// Reports the painted fraction of a picture as progress of a step.
 struct Drawing<'a>(&'a dyn Progress);
 
 impl ugraster::Progress for Drawing<'_> {
@@ -51,11 +51,11 @@ enum Solid<'a> {
     Colored(Layers<'a, 6>),
     /// Hues, and colours given as light, under white light.
     Mixed(Layers<'a, 4>),
-    /// The same under coloured lights.
+    /// As [`Solid::Mixed`], under coloured lights.
     MixedColored(Layers<'a, 7>),
 }
 
-/// The same expression for every layout.
+/// Expands to the same expression for every layout.
 macro_rules! with_layers {
     ($solid:expr, |$layers:ident| $body:expr) => {
         match $solid {
@@ -97,10 +97,10 @@ impl<'a, const N: usize> Layers<'a, N> {
         }
     }
 
-    /// The visible parts of some pieces of lines.
+    /// The visible parts of pieces of lines.
     fn shown(&self, painter: &Painter<'_>, all: &[Stroke], width: f64) -> Vec<Stroke> {
         let size = [painter.grid.sample_columns(), painter.grid.sample_rows()];
-        // A sample more than half the width.
+        // One sample more than half the width.
         let margin = 0.5 * width + 1.0;
         match &self.surfaces {
             Surfaces::Rays(faces) => {
@@ -129,7 +129,7 @@ impl<const N: usize> OpaqueLayer<N> for Layers<'_, N> {
 }
 
 impl Layers<'_, TRANSPARENT_VALUES> {
-    /// Draws what the layers have in a band as transparent fragments.
+    /// Draws the layers of a band as transparent fragments.
     fn draw_transparent(
         &self,
         grid: &SampleGrid,
@@ -153,7 +153,7 @@ struct ClearLayers<'a> {
     faces: Option<Layers<'a, TRANSPARENT_VALUES>>,
     /// Visible parts of lines.
     strokes: Vec<Stroke>,
-    /// The same as strips of their width.
+    /// The strokes as strips of their width.
     lines: [PolygonList<TRANSPARENT_VALUES>; 1],
 }
 
@@ -217,7 +217,7 @@ impl<'a> RenderLayers<'a> {
         }
     }
 
-    /// The same, and drawing reports progress.
+    /// With progress reports while drawing.
     pub fn telling(self, progress: &'a dyn Progress) -> Self {
         Self { progress, ..self }
     }
@@ -232,7 +232,7 @@ impl<'a> RenderLayers<'a> {
         (has_faces || !self.clear.strokes.is_empty()).then_some(Lit { layers: &self.clear, shader })
     }
 
-    /// Draws all pixels of the grid, row after row. `resolve` makes a pixel of its samples.
+    /// Draws all pixels of the grid, row after row. `resolve` combines the samples of a pixel.
     pub fn paint<P: Copy + Send + Sync>(
         &self,
         grid: &SampleGrid,
@@ -247,7 +247,7 @@ impl<'a> RenderLayers<'a> {
         })
     }
 
-    /// As [`RenderLayers::paint`], and `resolve` receives what is visible at the centres of pixels.
+    /// Like [`RenderLayers::paint`]; `resolve` also receives the surfaces at the centres of pixels.
     pub fn paint_with_centers<P: Copy + Send + Sync>(
         &self,
         grid: &SampleGrid,
@@ -262,7 +262,7 @@ impl<'a> RenderLayers<'a> {
         })
     }
 
-    /// The pixels of the grid, row after row, each made of what is visible at its centre.
+    /// The pixels of the grid, row after row, each from the surfaces at its centre.
     pub fn paint_centers<P: Copy + Send + Sync>(
         &self,
         grid: &SampleGrid,
@@ -277,7 +277,7 @@ impl<'a> RenderLayers<'a> {
         })
     }
 
-    /// As [`RenderLayers::paint`], with a reconstruction filter.
+    /// Like [`RenderLayers::paint`], with a reconstruction filter.
     pub fn paint_filtered<P: Copy + Send + Sync>(
         &self,
         grid: &SampleGrid,
@@ -296,7 +296,7 @@ impl<'a> RenderLayers<'a> {
         })
     }
 
-    /// A pixel of [`RenderLayers::paint_filtered`].
+    /// One pixel as [`RenderLayers::paint_filtered`] draws it.
     pub fn probe_filtered<P: Copy>(
         &self,
         grid: &SampleGrid,
@@ -312,7 +312,7 @@ impl<'a> RenderLayers<'a> {
         })
     }
 
-    /// The samples of one pixel, all of them together, and the pixel.
+    /// All samples of one pixel, and the pixel.
     pub fn probe<P: Copy>(
         &self,
         grid: &SampleGrid,

@@ -31,16 +31,16 @@ pub struct Setup<'a> {
     pub shader: Shader,
     /// Back-facing faces are culled.
     is_culled: bool,
-    /// Light brighter than white is kept until it is developed; else it is clipped per sample, as
-    /// in 1988.
+    /// Light brighter than white is kept until it is developed; otherwise it is clipped per sample,
+    /// as in 1988.
     pub is_uncut: bool,
 }
 
 impl<'a> Setup<'a> {
-    /// Prepares a scene. The options of the picture have been checked.
+    /// Prepares a scene. The options of the picture must have been checked.
     ///
     /// # Errors
-    /// There is nothing to draw, or the camera is invalid, or the scene cannot be drawn by rays.
+    /// There is nothing to draw, the camera is invalid, or the scene cannot be drawn by rays.
     pub fn new(scene: &'a Scene, config: &Config) -> Result<Self, Error> {
         if scene.faces.is_empty() && scene.wires.is_empty() {
             return Err(Error::Empty);
@@ -82,7 +82,7 @@ impl<'a> Setup<'a> {
         &self.scene
     }
 
-    /// What draws it.
+    /// The view of the scene from which faces and lines are drawn.
     pub fn painter(&self) -> Painter<'_> {
         Painter {
             scene: &self.scene,
@@ -97,7 +97,7 @@ impl<'a> Setup<'a> {
     }
 }
 
-/// Refuses scenes that rays to the eye cannot show, or whose colours would be shifted twice.
+/// Refuses orthographic projection and scenes whose colours would be shifted twice.
 fn check_exact(scene: &Scene, view: &View) -> Result<(), Error> {
     if scene.stage.seen_colors().is_some() {
         return Err(Error::Exact(remedies::EXACT_SEEN_COLORS));
@@ -114,7 +114,7 @@ fn check_exact(scene: &Scene, view: &View) -> Result<(), Error> {
     Ok(())
 }
 
-/// Refuses spectra that move if hues are to be shifted.
+/// Refuses moving bodies with spectra when hues are shifted.
 fn check_spectra(scene: &Scene, surface: &Surface, shift: ColorShift) -> Result<(), Error> {
     let is_spectrum = |color: ColorId| {
         let value = scene.colors[color.index()].value;
@@ -138,8 +138,8 @@ fn check_spectra(scene: &Scene, surface: &Surface, shift: ColorShift) -> Result<
     Ok(())
 }
 
-/// The scene with vertices of one body each, copied only if it has several. Bodies that move and
-/// have their rest shapes are drawn at rest.
+/// The scene with vertices of one body each; copied only if a vertex belongs to several bodies.
+/// Moving bodies with rest shapes are drawn at rest.
 fn drawable(scene: &Scene) -> Cow<'_, Scene> {
     let is_drawn_at_rest = ugscene::require_seen_geometry(scene).is_err();
     if ugscene::is_one_body(scene) && !is_drawn_at_rest {

@@ -8,18 +8,18 @@ use ugphysics::xyz_to_linear_srgb;
 use ugscene::Shares;
 use ugspectrum::DopplerGrid;
 
-/// What spectra look like from the eye.
+/// The apparent light of mixtures of spectra as a function of the Doppler factor.
 pub struct Spectra {
     shift: SpectralShift,
     grid: DopplerGrid,
-    /// Of each row the colours that meet, with their shares.
+    /// For each row, the colours that are mixed, with their shares.
     rows: Vec<Shares>,
-    /// White, and then the colours of the scene.
+    /// White, followed by the colours of the scene.
     colors: Vec<SpectralColor>,
 }
 
 impl Spectra {
-    /// `rows`: mixtures of colours. `rapidity`: the greatest of a body.
+    /// `rows`: mixtures of colours. `rapidity`: the greatest rapidity of a body.
     pub fn new(scene: &Scene, shift: SpectralShift, rows: Vec<Shares>, rapidity: f64) -> Self {
         // D is between e^−η and e^η.
         let ln_doppler = shift.ln_shift(rapidity);
@@ -32,7 +32,7 @@ impl Spectra {
         Self { shift, grid, rows, colors }
     }
 
-    /// A row as seen at a ln D: linear red, green and blue.  Eq. (P12), (P19)
+    /// Linear red, green and blue of a row at a given ln D.  Eq. (P12), (P19)
     pub fn light(&self, row: u32, ln_doppler: f64) -> DVec3 {
         let seen = |(color, share): (Option<ColorId>, f64)| {
             let row = color.map_or(0, |color| color.index() + 1);

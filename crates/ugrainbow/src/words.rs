@@ -10,7 +10,7 @@ use crate::config::MAX_LINE_WIDTH;
 /// A column and a row.
 pub type Pixel = [u32; 2];
 
-/// What is written: a picture or a report.
+/// The kind of output: a picture or a report.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     Picture(Format),

@@ -114,7 +114,10 @@ fn bad_usage_ends_with_2() {
     check("-sz 0 8", "0 is not in 1..");
     check("-sz 8", "2 values required");
     check("-fl gauss", "none of the filters box, triangle, spline");
-    check("-vec -dt pdf -fl spline", "areas have no samples to be weighed: leave out -fl, or -vec");
+    check(
+        "-vec -dt pdf -fl spline",
+        "vector graphics (-vec) have no samples to filter: leave out -fl or -vec",
+    );
     check("-aa 17", "17 is not in 1..=16");
     check("-aa 0", "0 is not in 1..=16");
     check("-va 180", "the view angle must be above 0 and below 180 degrees");

@@ -186,7 +186,7 @@ fn bad_usage_is_told() {
     };
     check("-sz 20 10 --explain 20,3", "pixel 20,3 is not in the picture of 20 x 10 pixels");
     check("--explain 20", "a pixel is its column and row, such as 320,240");
-    check("--explain 2,3 -dt exr", "give --format json, or none");
+    check("--explain 2,3 -dt exr", "give --format json, or leave --format out");
     check("--format json", "add --explain X,Y");
 }
 

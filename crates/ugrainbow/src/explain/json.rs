@@ -1,4 +1,4 @@
-//! An explanation for scripts.
+//! An explanation as JSON, for scripts.
 
 use glam::DVec3;
 use serde_json::{Value, json};
@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 use super::text::law_name;
 use super::{Corner, Explanation, Item, LayerShown, SampleColor, Shown};
 
-/// The explanation as JSON, with a line break at its end.
+/// The explanation as JSON, ending with a line break.
 pub fn json(explanation: &Explanation) -> String {
     let Explanation { pixel, size, samples, covers, n_free, history, stage, is_at_rest, sample, pixel_steps } =
         explanation;

@@ -1,4 +1,4 @@
-//! Why a pixel has its colour: from the face and its motion to the bytes.
+//! Explains the colour of a pixel: from the face and its motion to the bytes.
 
 mod json;
 mod text;
@@ -25,23 +25,23 @@ use crate::setup::Setup;
 pub use json::json;
 pub use text::text;
 
-/// What there is to say about a pixel.
+/// The explanation of a pixel.
 #[derive(Clone, Debug)]
 pub struct Explanation {
     /// Column and row from the upper left.
     pub pixel: [u32; 2],
-    /// Of the picture.
+    /// Size of the picture.
     pub size: [u32; 2],
     /// Samples along a side of a pixel.
     pub samples: u32,
-    /// What the pixel's samples show, and how many of them, in the order in which they come. A
-    /// sample of something translucent shows what is behind it, too.
+    /// The surfaces that the pixel's samples show, each with its number of samples, in order of
+    /// first occurrence. A sample of a translucent surface also counts for the surfaces behind it.
     pub covers: Vec<(Item, usize)>,
-    /// How many samples show the background, if only through something.
+    /// Number of samples in which the background is visible, also through translucent surfaces.
     pub n_free: usize,
-    /// The command lines that the scene was made with, oldest first.
+    /// The command lines that produced the scene, oldest first.
     pub history: Vec<String>,
-    /// What was done to its positions and colours.
+    /// The stage of its positions and colours.
     pub stage: Stage,
     /// True if nothing in the scene moves.
     pub is_at_rest: bool,
@@ -64,54 +64,54 @@ pub struct Item {
     pub place: Option<(String, usize)>,
 }
 
-/// One sample.
+/// The explanation of a sample.
 #[derive(Clone, Debug)]
 pub struct Shown {
-    /// Column and row in pixels.
+    /// Column and row of the sample in pixels.
     pub place: [f64; 2],
-    /// What it shows.
+    /// The surface it shows.
     pub item: Item,
-    /// Velocity of the body.
+    /// Velocity of its body.
     pub beta: DVec3,
-    /// Its γ.
+    /// Lorentz factor γ of the body.
     pub gamma: f64,
-    /// Time and place, from the eye, in the frame of the camera, at which the light was sent.
+    /// Time and position of emission, relative to the eye, in the frame of the camera.
     pub emission: (f64, DVec3),
-    /// The same in the rest frame of the body; no time if contraction or time of flight was left
-    /// out.
+    /// The emission event in the rest frame of the body; without a time if contraction or time of
+    /// flight was left out.
     pub rest: (Option<f64>, DVec3),
-    /// Angle between the line of sight and the motion in degrees, in the camera's frame and the
-    /// body's; none at rest.
+    /// Angle in degrees between the line of sight and the motion, in the frames of the camera and
+    /// of the body; `None` at rest.
     pub angles_deg: Option<[f64; 2]>,
     /// Doppler factor.
     pub doppler: f64,
-    /// Its colour; none of what is translucent, whose light is known alone.
+    /// Its colour; `None` for a translucent surface, of which only the light is known.
     pub color: Option<SampleColor>,
     /// Corners of the face, or ends of the wire.
     pub corners: Vec<Corner>,
     /// Its linear red, green and blue.
     pub light: [f32; 3],
-    /// The part that depth cueing leaves of it.
+    /// The part of its light that depth cueing leaves.
     pub cue: Option<f32>,
-    /// All that the sample shows, from the front, unless it is one thing that hides.
+    /// All surfaces that the sample shows, from front to back; empty if it is a single opaque one.
     pub layers: Vec<LayerShown>,
 }
 
-/// One of the things a sample shows.
+/// One of the surfaces that a sample shows.
 #[derive(Clone, Debug)]
 pub struct LayerShown {
-    /// What it is.
+    /// The face or wire.
     pub item: Item,
-    /// The part of the light from behind that passes.
+    /// The part of the light from behind that is transmitted.
     pub translucency: f32,
-    /// Its own light, of which the other part is seen.
+    /// Its own light, before weighting by 1 − translucency.
     pub light: [f32; 3],
 }
 
 /// The colour of a sample, interpolated and lit.
 #[derive(Clone, Debug)]
 pub enum SampleColor {
-    /// A hue, saturation and value; with coloured light beside it.
+    /// A hue, saturation and value; coloured light is separate.
     Hue {
         /// Hue in degrees, −60…300.
         hue: f64,
@@ -119,16 +119,17 @@ pub enum SampleColor {
         saturation: f64,
         /// Value, 0 and more.
         value: f64,
-        /// Level of red, green and blue light, if lights are coloured; else it is in the value.
+        /// Level of red, green and blue light, if lights are coloured; otherwise it is in the
+        /// value.
         level: Option<[f64; 3]>,
-        /// None for greys.
+        /// `None` for greys.
         wavelength: Option<Wavelength>,
     },
     /// CIE X, Y, Z, and chromaticity x, y.
     Light {
         /// X, Y, Z.
         xyz: [f64; 3],
-        /// x, y; none of black.
+        /// x, y; `None` for black.
         chromaticity: Option<[f64; 2]>,
     },
 }
@@ -136,13 +137,13 @@ pub enum SampleColor {
 /// The wavelength a hue stands for.
 #[derive(Clone, Copy, Debug)]
 pub struct Wavelength {
-    /// At rest.
+    /// Wavelength at rest.
     pub rest_nm: f64,
-    /// As seen.
+    /// Wavelength as seen.
     pub seen_nm: f64,
-    /// By how much the hue is attenuated, (P17).
+    /// Attenuation of the hue, (P17).
     pub attenuation: f64,
-    /// A hue at the end of the range may stand for any wavelength beyond.
+    /// True at the end of the range of hues, which stands for all wavelengths beyond.
     pub is_at_end: bool,
 }
 
@@ -157,27 +158,28 @@ pub struct Corner {
     pub is_light: bool,
     /// Level of red, green and blue light.
     pub level: [f64; 3],
-    /// What of it comes from which light; none if the face says its level, or is a wire.
+    /// The contribution of each light; empty for wires and for faces with a light level of their
+    /// own.
     pub lights: Vec<(String, [f64; 3])>,
 }
 
 /// From the samples of the pixel to its bytes.
 #[derive(Clone, Debug)]
 pub struct PixelSteps {
-    /// How samples weigh, those of neighbours among them.
+    /// The filter that weights samples, including those of neighbouring pixels.
     pub filter: Filter,
-    /// Linear red, green, blue, averaged; and the covered part.
+    /// Mean linear red, green and blue, and the covered part.
     pub mean: [f32; 4],
-    /// If light was kept uncut: how it was developed.
+    /// How light was developed, if it was not clipped per sample.
     pub development: Option<(Development, Steps)>,
     /// Red, green, blue, alpha.
     pub bytes: [u8; 4],
 }
 
-/// Explains a pixel of the picture that `config` asks for.
+/// Explains a pixel of the picture that `config` describes.
 ///
 /// # Errors
-/// As for drawing; the pixel is not in the picture.
+/// As for drawing, and if the pixel is not in the picture.
 pub fn explain(
     config: &Config,
     source: &Source,
@@ -185,7 +187,7 @@ pub fn explain(
 ) -> Result<(Explanation, Diagnostics), Error> {
     let parsed = ugscene::read(source, &config.reading, config.picture.camera.name.as_deref())?;
     if config.exact.is_some() {
-        return Err(Error::Options("--explain tells of the scanline mode only: leave out -xc"));
+        return Err(Error::Options("--explain works in scanline mode only: leave out -xc"));
     }
     let layout = Layout::new(&config.picture)?;
     let config = &Config { picture: layout.of_scene(&config.picture).into_owned(), ..config.clone() };
@@ -222,10 +224,10 @@ pub fn explain(
     Ok((explanation, warnings(source, parsed)))
 }
 
-/// The sample nearest to the centre of the pixel; of equals the last, as for channels.
+/// The sample nearest to the centre of the pixel; ties go to the last, as for channels.
 fn nearest(samples: &[ProbedSample], pixel: [u32; 2], n: u32) -> Option<&ProbedSample> {
     let away = |sample: &ProbedSample| {
-        // Twice the distance, so that it is a whole number.
+        // Twice the distance, which is an integer.
         let axis = |i: usize| i64::from(2 * (sample.place[i] - pixel[i] * n) + 1) - i64::from(n);
         axis(0) * axis(0) + axis(1) * axis(1)
     };
@@ -251,14 +253,14 @@ fn pixel_steps(
     PixelSteps { filter: config.picture.filter, mean, development, bytes }
 }
 
-/// One of the things a sample shows.
+/// One of the surfaces that a sample shows.
 struct Layer {
     tag: u32,
     pass: f32,
     light: [f32; 3],
 }
 
-/// All that a sample shows, from the front.
+/// All surfaces that a sample shows, from front to back.
 fn stack(sample: &ProbedSample) -> Vec<Layer> {
     let layers = sample.fragments.iter().rev();
     let mut stack: Vec<Layer> = layers
@@ -275,12 +277,12 @@ fn stack(sample: &ProbedSample) -> Vec<Layer> {
     stack
 }
 
-/// True if the background is seen at a sample.
+/// True if the background is visible at a sample.
 fn is_free(sample: &ProbedSample) -> bool {
     stack(sample).iter().all(|layer| layer.pass > 0.0)
 }
 
-/// Finds out what there is to tell.
+/// Computes the explanations of samples.
 struct Teller<'a> {
     setup: &'a Setup<'a>,
     config: &'a Config,
@@ -292,7 +294,7 @@ impl Teller<'_> {
     fn covers(&self, samples: &[ProbedSample]) -> Vec<(Item, usize)> {
         let mut counts: Vec<(u32, usize)> = Vec::new();
         for sample in samples {
-            // A face once, however often it is there: its edges are of it, too.
+            // Each face is counted once, even if its edges are in the sample as well.
             let mut tags: Vec<u32> = stack(sample).iter().map(|layer| layer.tag).collect();
             tags.sort_unstable();
             tags.dedup();
@@ -352,8 +354,8 @@ impl Teller<'_> {
         }
     }
 
-    /// What there is most to tell of: as in channels the nearest that lets through less than half,
-    /// else the nearest. With its numbers, if they are known, and its light.
+    /// The surface to explain: the nearest that transmits less than half of the light, as for
+    /// channels, else the nearest. With its interpolated values, if they are known, and its light.
     fn subject<'s>(&self, sample: &'s ProbedSample) -> (SurfaceSample, Option<&'s [f32]>, [f32; 3]) {
         let layer = |layer: &Fragment| (of_fragment(&self.setup.view, layer), None, layer.light);
         let mut layers = sample.fragments.iter().rev();
@@ -382,7 +384,7 @@ impl Teller<'_> {
         stack.into_iter().map(shown).collect()
     }
 
-    /// The colour of interpolated numbers.
+    /// The colour that interpolated values stand for.
     fn color(&self, values: &[f32], doppler: f64) -> SampleColor {
         let ([tint, saturation, value], level) = match unpack(values) {
             Interpolated::Light(light) => {

@@ -1,4 +1,4 @@
-//! An explanation for people.
+//! An explanation as text.
 
 use std::fmt::{self, Write};
 
@@ -7,7 +7,7 @@ use ugpicture::Filter;
 
 use super::{Corner, Explanation, Item, PixelSteps, SampleColor, Shown};
 
-/// Corners shown; a face may have thousands.
+/// Corners listed; a face may have thousands.
 const MAX_CORNERS: usize = 8;
 
 /// The explanation as text.
@@ -97,7 +97,7 @@ fn event(time: Option<f64>, place: [f64; 3], frame: &str) -> String {
     format!("t {time}, x {} ({frame})", numbers(&place))
 }
 
-/// What was done to colours.
+/// The line about the colours.
 fn write_colors(out: &mut String, stage: &Stage, doppler: f64) -> fmt::Result {
     let Some(seen) = stage.seen_colors() else {
         return row(out, "colours", "at rest: neither shifted nor changed in brightness");
@@ -116,7 +116,7 @@ fn write_colors(out: &mut String, stage: &Stage, doppler: f64) -> fmt::Result {
     row(out, "colours", format!("as seen: {shift}, brightness {law}: times {} (P12){lights}", number(power)))
 }
 
-/// The law by which the brightness of colours as seen was changed, for scripts.
+/// Name of the brightness law of colours as seen, for scripts.
 pub(super) fn law_name(seen: &SeenColors) -> &'static str {
     match seen.scale {
         ColorScale::Hues { law, .. } => law.name(),
@@ -141,7 +141,7 @@ fn corner_text(corner: &Corner) -> String {
     text
 }
 
-/// One number for white light.
+/// A light level: one number if the light is white.
 fn level(level: &[f64; 3]) -> String {
     if level[0] == level[1] && level[1] == level[2] {
         number(level[0])

@@ -25,7 +25,7 @@ pub fn edges(painter: &Painter<'_>) -> Vec<Edge> {
     let scene = painter.scene;
     let of_face = |(row, face): (usize, &Face)| {
         let sides = face_edges(scene, face).filter(|[a, b]| a != b).map(|[a, b]| [a.min(b), a.max(b)]);
-        // The text of a scene is below 4 GiB, and so are its rows.
+        // The text of a scene is below 4 GiB, so row numbers fit.
         sides.map(|ends| Edge { ends, face: row as u32 }).collect::<Vec<_>>()
     };
     let mut edges: Vec<Edge> = scene.faces.par_iter().enumerate().flat_map_iter(of_face).collect();
@@ -38,7 +38,7 @@ pub fn edges(painter: &Painter<'_>) -> Vec<Edge> {
     shared.into_par_iter().filter(is_drawn).map(|shared| shared[0]).collect()
 }
 
-/// True if two faces are parts of one.
+/// True if the edge between two faces lies inside one surface, so that it is not drawn.
 fn is_inside(painter: &Painter<'_>, faces: [u32; 2]) -> bool {
     let [one, other] = faces.map(|row| &painter.scene.faces[row as usize]);
     if one.color != other.color || one.body != other.body {

@@ -10,7 +10,7 @@ const CELLS: usize = 256;
 /// Distance in samples between the rays that decide which parts of a line are occluded.
 const STEP: f64 = 0.5;
 
-/// Most rays along a straight piece; a picture has no room for more.
+/// Most rays along a straight piece; no picture is longer.
 const MOST_STEPS: f64 = 1e6;
 
 /// Decides which parts of a line are visible.
@@ -41,7 +41,7 @@ impl<'a> Visibility<'a> {
         Self { occlusion: Occlusion::Rays(is_hidden), picture: picture(size, margin) }
     }
 
-    /// The parts of the way from `a` to `b` that are in the picture and not hidden.
+    /// The parts of the segment from `a` to `b` that are in the picture and not hidden.
     pub fn parts(&self, a: DepthPoint, b: DepthPoint) -> Vec<[f64; 2]> {
         let Some(within) = self.picture.as_ref().and_then(|picture| picture.over(a, b)) else {
             return Vec::new();
@@ -111,7 +111,7 @@ impl Occluders {
         Self { parts: all, index }
     }
 
-    /// The parts of the way from `a` to `b`, within one part, that no face hides.
+    /// The parts of the segment from `a` to `b`, within `[start, end]`, that no face hides.
     fn visible(&self, a: DepthPoint, b: DepthPoint, [start, end]: [f64; 2]) -> Vec<[f64; 2]> {
         let (from, to) = (along(a, b, start), along(a, b, end));
         let low = [0, 1].map(|axis| from[axis].min(to[axis]));

@@ -36,15 +36,15 @@ const LEAST: f64 = 1e-3;
 /// A straight line at rest.
 #[derive(Clone, Copy, Debug)]
 pub struct Line {
-    /// Of its wire, or of the face whose edge it is.
+    /// Row of its wire, or of the face whose edge it is.
     pub item: u32,
     /// The body it is part of.
     pub body: BodyId,
-    /// From where to where.
+    /// The vertices at its ends.
     pub ends: [VertexId; 2],
     /// Colours of the ends.
     pub colors: [Swatch; 2],
-    /// Rows of the spectra of the ends, if they have some.
+    /// Indices of the spectra of the ends, if colours are spectra.
     pub rows: Option<[u32; 2]>,
 }
 
@@ -61,13 +61,13 @@ pub trait LineShape: Sync {
 /// A corner of a polyline.
 #[derive(Clone, Copy, Debug)]
 pub struct Joint {
-    /// Where it is seen, relative to the eye.
+    /// Its apparent position, relative to the eye.
     pub seen: DVec3,
-    /// Its colour as seen.
+    /// Its apparent colour.
     pub color: Swatch,
 }
 
-/// Lines that are straight between vertices as they are seen.
+/// Lines that are drawn straight between the apparent positions of their vertices.
 pub struct StraightLines<'a> {
     painter: Painter<'a>,
 }
@@ -106,12 +106,12 @@ pub struct Stroke {
     pub is_end: [bool; 2],
 }
 
-/// Wires, and the edges that are asked for.
+/// Wires, and the edges that `wireframe` requests.
 pub fn lines(painter: &Painter<'_>, wireframe: Option<Wireframe>, shape: &dyn LineShape) -> Vec<Line> {
     let n_faces = painter.scene.faces.len();
     let mut lines = Vec::new();
     for (row, wire) in painter.scene.wires.iter().enumerate() {
-        // The text of a scene is below 4 GiB, and so are its rows.
+        // The text of a scene is below 4 GiB, so row numbers fit.
         push_wire(painter, (n_faces + row) as u32, wire, shape, &mut lines);
     }
     if let Some(wireframe) = wireframe {
@@ -139,7 +139,7 @@ fn push_wire(painter: &Painter<'_>, item: u32, wire: &Wire, shape: &dyn LineShap
     }
 }
 
-/// An edge has the colour of its face, unlit, or the one that is asked for.
+/// An edge as a line: unlit, in the colour of its face or of `wireframe`.
 fn edge_line(painter: &Painter<'_>, edge: &Edge, wireframe: Wireframe, shape: &dyn LineShape) -> Line {
     let face = &painter.scene.faces[edge.face as usize];
     let colors = match wireframe.color {
@@ -221,7 +221,7 @@ fn vertex(place: Place, color: &Swatch) -> Vertex<TRANSPARENT_VALUES> {
     Vertex { place, values: pack_transparent(color, DVec3::ONE) }
 }
 
-/// Moved toward the eye along its own ray.
+/// Moves an end of a line towards the eye along its own ray.
 fn lifted(painter: &Painter<'_>, end: Vertex<TRANSPARENT_VALUES>) -> Vertex<TRANSPARENT_VALUES> {
     let Place { x, y, z } = end.place;
     let place = if painter.view.is_perspective {

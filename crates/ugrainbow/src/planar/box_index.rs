@@ -6,12 +6,12 @@ use std::ops::RangeInclusive;
 /// in the finest grid in which it touches at most two cells either way, so large boxes take no more
 /// memory than small ones.
 pub struct BoxIndex {
-    /// From the finest grid to that of one cell; the shapes of each cell.
+    /// The grids from the finest to the one with a single cell; for each cell, its boxes.
     grids: Vec<Vec<Vec<usize>>>,
-    /// Cells along a side of the finest.
+    /// Cells along a side of the finest grid.
     n: usize,
     size: [f64; 2],
-    /// Of each shape, the least and greatest x and y.
+    /// Least and greatest x and y of each box.
     boxes: Vec<[[f64; 2]; 2]>,
 }
 
@@ -19,7 +19,7 @@ pub struct BoxIndex {
 const MAX_CELLS: usize = 256;
 
 impl BoxIndex {
-    /// Of these boxes, in a picture of this size.
+    /// An index of these boxes in a picture of this size.
     pub fn new(boxes: impl Iterator<Item = [[f64; 2]; 2]>, size: [u32; 2]) -> Self {
         let boxes: Vec<_> = boxes.collect();
         let mut index = Self::empty(boxes.len(), size);
@@ -76,7 +76,7 @@ impl BoxIndex {
         })
     }
 
-    /// The same cells in the grid that is 2^`coarser` times coarser.
+    /// The range of cells in the grid that is 2^`coarser` times coarser.
     fn cells(&self, ends: [[usize; 2]; 2], coarser: usize) -> impl Iterator<Item = usize> + use<> {
         let width = self.n >> coarser;
         let [columns, rows] =
@@ -90,7 +90,8 @@ mod tests {
     use super::*;
     use crate::noise::Noise;
 
-    /// Boxes of all sizes, some of them beside the picture, against looking at each.
+    /// Boxes of all sizes, some outside the picture: the index finds those that a linear search
+    /// finds.
     #[test]
     fn all_that_overlap_are_found() {
         let mut noise = Noise(3);

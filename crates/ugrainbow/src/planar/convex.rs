@@ -18,7 +18,7 @@ const SAME_KEY: f64 = 1e-6;
 /// A convex polygon on one plane.
 #[derive(Clone, Debug)]
 pub struct Convex {
-    /// Counterclockwise in coordinates with y up; so the signed area is positive.
+    /// Counterclockwise with y up, so the signed area is positive.
     pub corners: Vec<DepthPoint>,
     /// Least and greatest x and y.
     pub low: [f64; 2],
@@ -36,7 +36,7 @@ pub struct DepthOrder {
     pub is_before: bool,
     /// The first is farther somewhere.
     pub is_behind: bool,
-    /// They overlap, and somewhere at the same depth.
+    /// They overlap, with equal depth somewhere.
     pub is_level: bool,
 }
 
@@ -81,7 +81,7 @@ impl Convex {
         (0..2).any(|axis| self.high[axis] <= other.low[axis] || other.high[axis] <= self.low[axis])
     }
 
-    /// Whether it is nearer than another somewhere, and farther somewhere.
+    /// The depth order of two polygons where they overlap.
     pub fn relation(&self, other: &Self) -> DepthOrder {
         let mut relation = DepthOrder::default();
         if self.is_apart(other) {
@@ -132,8 +132,8 @@ impl Convex {
         beside
     }
 
-    /// On which side of the plane of `self` another lies: 1 nearer, −1 farther, 0 in it; `None` on
-    /// both.
+    /// On which side of the plane of `self` another polygon lies: 1 nearer, −1 farther, 0 in it;
+    /// `None` if it crosses the plane.
     pub fn side_of(&self, other: &Self) -> Option<i8> {
         let mut sides = [false; 2];
         for &[x, y, key] in &other.corners {
@@ -157,14 +157,14 @@ impl Convex {
         [Self::new(clip(&other.corners, |place| -ahead(place))), Self::new(clip(&other.corners, ahead))]
     }
 
-    /// The part of the segment from `a` to `b` that lies over it, as parameters in 0…1.
+    /// The part of the segment from `a` to `b` that lies over this polygon, as parameters in 0…1.
     pub fn over(&self, a: DepthPoint, b: DepthPoint) -> Option<[f64; 2]> {
         let sides = sides(&self.corners).map(|side| [inside(side, a), inside(side, b)]);
         let [start, end] = clip_line(sides)?;
         (start < end).then_some([start, end])
     }
 
-    /// Its two halves, cut across the middle of its greater extent.
+    /// Its two halves, cut perpendicular to the longer side of its bounding box.
     pub fn halves(&self) -> [Option<Self>; 2] {
         let extent = [0, 1].map(|axis| self.high[axis] - self.low[axis]);
         let axis = usize::from(extent[1] > extent[0]);
@@ -175,7 +175,7 @@ impl Convex {
         ]
     }
 
-    /// Mean of its corners.
+    /// The mean of its corners.
     pub fn middle(&self) -> [f64; 2] {
         let n_corners = self.corners.len() as f64;
         [0, 1].map(|axis| self.corners.iter().map(|corner| corner[axis]).sum::<f64>() / n_corners)
@@ -186,7 +186,7 @@ impl Convex {
         self.corners.iter().map(|&[x, y, _]| [x, y]).collect()
     }
 
-    /// Bounding box of several: least and greatest x and y.
+    /// The bounding box of several polygons: least and greatest x and y.
     pub fn bounds(parts: &[Self]) -> [[f64; 2]; 2] {
         let fold = |start: f64, pick: fn(f64, f64) -> f64, corner: fn(&Self) -> [f64; 2]| {
             [0, 1].map(|axis| parts.iter().map(|part| corner(part)[axis]).fold(start, pick))
@@ -194,7 +194,7 @@ impl Convex {
         [fold(f64::INFINITY, f64::min, |part| part.low), fold(f64::NEG_INFINITY, f64::max, |part| part.high)]
     }
 
-    /// Greater side of its bounding box.
+    /// The longer side of its bounding box.
     pub fn extent(&self) -> f64 {
         (self.high[0] - self.low[0]).max(self.high[1] - self.low[1])
     }

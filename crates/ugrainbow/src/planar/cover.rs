@@ -2,11 +2,11 @@
 
 use super::convex::Convex;
 
-/// Most parts that an area is cut into; with more it counts as not covered.
+/// An area that is cut into more parts than this counts as not covered.
 const MOST_PARTS: usize = 64;
 
-/// True if nothing is left of an area, given in parts, when each of `covers` is taken away.
-/// `difference`: what is left of a part beside one of another area.
+/// True if an area, given in parts, is covered completely by `covers`. `difference`: the part of
+/// one area outside another.
 pub fn is_covered<'a>(
     mut parts: Vec<Convex>,
     covers: impl Iterator<Item = &'a [Convex]>,

@@ -18,7 +18,7 @@ pub type Levels = [f64; 3];
 pub struct FigureColors<'a> {
     pub layers: &'a RenderLayers<'a>,
     pub shader: &'a Shader,
-    /// How light is developed; `None` if it fits a display as it is.
+    /// How light is developed; `None` if it needs no development.
     pub development: Option<Development>,
     pub grid: &'a SampleGrid,
     /// Linear light of the background; white if it is transparent.
@@ -68,7 +68,7 @@ impl FigureColors<'_> {
         SeenLayer { light: self.cued(shade, *key), pass }
     }
 
-    /// Blends layers with the background; the first is in front.
+    /// Composites layers over the background; the first is in front.
     fn blended(&self, layers: impl Iterator<Item = SeenLayer>) -> Levels {
         let (mut light, mut pass) = ([0.0; 3], 1.0);
         for layer in layers {

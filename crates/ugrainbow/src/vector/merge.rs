@@ -64,13 +64,13 @@ fn paint(areas: &[(PaintedArea, Option<Rgb>)], members: &[usize]) -> Paint {
 struct Groups<'a> {
     areas: &'a [(PaintedArea, Option<Rgb>)],
     index: BoxIndex,
-    /// Of each area, its group.
+    /// For each area, its group.
     group: Vec<usize>,
-    /// Of each group, its areas, none if it is part of another now.
+    /// For each group, its areas; empty after it was merged into another.
     members: Vec<Vec<usize>>,
-    /// Of each group, where in the order it is painted.
+    /// For each group, its position in the paint order.
     place: Vec<usize>,
-    /// Pairs that cannot be joined; only looked up.
+    /// Pairs of groups that cannot be merged; only looked up.
     apart: HashSet<[usize; 2]>,
 }
 
@@ -88,13 +88,13 @@ impl<'a> Groups<'a> {
         }
     }
 
-    /// Makes one group of those of two areas, if it can be.
+    /// Merges the groups of two areas, if possible.
     fn join(&mut self, a: usize, b: usize) {
         let (a, b) = (self.group[a], self.group[b]);
         if a == b || !self.apart.insert([a.min(b), a.max(b)]) {
             return;
         }
-        // The smaller moves, if it can.
+        // The smaller group moves, if it can.
         let (small, large) = if self.members[a].len() < self.members[b].len() { (a, b) } else { (b, a) };
         let place = if self.can_move(small, self.place[large]) {
             self.place[large]
@@ -109,7 +109,7 @@ impl<'a> Groups<'a> {
         self.place[large] = place;
     }
 
-    /// True if nothing that is painted from where a group is to another place overlaps it.
+    /// True if nothing painted between the place of a group and place `to` overlaps the group.
     fn can_move(&self, group: usize, to: usize) -> bool {
         let from = self.place[group];
         let way = from.min(to)..=from.max(to);
@@ -147,7 +147,7 @@ fn outlines(mut all: Vec<SnappedEdge>) -> Vec<Vec<Point>> {
     for first in 0..odd.len() {
         let mut outline = Vec::new();
         let mut place = odd[first][0];
-        // Along edges, and against them only where outlines overlap.
+        // Edges are followed forwards, and backwards only where outlines overlap.
         while !is_used[first] || place != odd[first][0] {
             let Some(edges) = at_place.get_mut(&place) else { break };
             let Some(next) = edges.iter_mut().find_map(|edges| unused(edges, &is_used)) else { break };
@@ -198,7 +198,7 @@ mod tests {
     fn neighbours_of_one_colour_become_one() {
         let row = || vec![square(0.0, 0.0, 1), square(1.0, 0.0, 1), square(3.0, 0.0, 1), square(2.0, 0.0, 1)];
         assert_eq!(shapes(row()), [(1, 8.0)]);
-        // Others of another colour, and some that only touch at a corner.
+        // Neighbours of another colour, and some that touch only at a corner.
         let mut more = row();
         more.extend([square(0.0, 1.0, 2), square(4.0, 1.0, 1)]);
         assert_eq!(shapes(more), [(1, 8.0), (1, 2.0), (1, 2.0)]);
@@ -211,13 +211,13 @@ mod tests {
 
     #[test]
     fn what_lies_between_keeps_areas_apart() {
-        // The third square covers parts of both others; nothing can move past it.
+        // The third square covers parts of both others, so nothing can move past it.
         let cover = || square(0.5, 0.0, 2);
         assert_eq!(shapes(vec![square(0.0, 0.0, 1), cover(), square(1.0, 0.0, 1)]).len(), 3);
-        // Over the first alone: the last is painted early, or the first stays below.
+        // Covers the first alone: the last is painted early, or the first stays below.
         let beside = square(0.0, 0.5, 2);
         assert_eq!(shapes(vec![square(0.0, 0.0, 1), beside, square(1.0, 0.0, 1)]), [(1, 4.0), (1, 2.0)]);
-        // Areas that overlap each other are not one by the even-odd rule.
+        // Overlapping areas cannot be merged under the even-odd rule.
         let over = square(0.0, 0.5, 1);
         assert_eq!(shapes(vec![square(0.0, 0.0, 1), over]).len(), 2);
     }

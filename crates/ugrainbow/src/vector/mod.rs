@@ -50,7 +50,7 @@ const FINEST: u32 = 8;
 /// Most samples by which visibility is decided.
 const MOST_SAMPLES: u64 = MAX_PIXELS / 4;
 
-/// A figure, with areas of smooth colour as its format has them.
+/// A figure with smooth colours in the form that its format supports.
 #[derive(Clone, Debug)]
 pub enum VectorFigure {
     /// For SVG.
@@ -71,11 +71,11 @@ impl VectorFigure {
     }
 }
 
-/// A figure of a scene, and what notes are made from.
+/// A figure of a scene, and the data for its notes.
 pub struct Drawn<'a> {
-    /// The scene in the resolution at which visibility was decided.
+    /// The scene at the resolution at which visibility was decided.
     pub setup: Setup<'a>,
-    /// Statistics of that.
+    /// Statistics of the samples that decided visibility.
     pub statistics: DrawStatistics,
     /// The figure.
     pub figure: VectorFigure,
@@ -102,7 +102,7 @@ pub fn draw<'a>(
     let layers = RenderLayers::new(setup.painter(), &fine.draw_mode()).telling(progress);
     if backdrop(&config.picture).light().is_none() && layers.has_transparent_faces() {
         return Err(Error::Figure(
-            "what is seen through translucent faces of a figure of areas must be known: give a background (-bg 1 for paper) in place of -tb",
+            "vector graphics (-vec) with translucent faces need a background: give -bg (1 for paper) in place of -tb",
         ));
     }
     let seen = seen::faces(&setup, &layers);

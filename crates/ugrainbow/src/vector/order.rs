@@ -1,10 +1,10 @@
 //! The order of painting, from back to front.
 //!
-//! For each two polygons that overlap in the picture it is found out which is in front. Where these
-//! relations have no cycle they give an order. Polygons in a cycle, such as two that cut through
-//! each other, are cut along each other's planes until they have one (binary space partition,
-//! Fuchs, Kedem and Naylor 1980). In a picture with its depth key everything flat is a plane, and
-//! the eye is above all of them: below it is painted first.
+//! For each two polygons that overlap in the picture, it is decided which is in front. If these
+//! relations have no cycle they define an order. Polygons in a cycle, such as two that intersect,
+//! are cut along each other's planes until there is none (binary space partition, Fuchs, Kedem and
+//! Naylor 1980). In picture coordinates with the depth key everything flat is a plane, and the eye
+//! is above all of them, so what lies below is painted first.
 
 use super::patch::Patch;
 use crate::planar::BoxIndex;
@@ -41,8 +41,8 @@ fn relations(patches: &[Patch], index: &BoxIndex) -> Vec<Vec<usize>> {
     for (first, patch) in patches.iter().enumerate() {
         for second in index.in_box(patch.bounds()).into_iter().filter(|&second| second > first) {
             let relation = relation(patch, &patches[second]);
-            // Of what is equally deep the first is seen, as in the raster; what is opaque comes
-            // first.
+            // At equal depth the first is visible, as in the rasterizer; opaque patches precede
+            // transparent ones.
             let is_tie = relation.is_level && !relation.is_behind;
             if relation.is_before || is_tie {
                 behind[first].push(second);
@@ -64,7 +64,8 @@ fn relation(first: &Patch, second: &Patch) -> DepthOrder {
     })
 }
 
-/// Tarjan's strongly connected components (1972); a component comes after all that it leads to.
+/// Tarjan's strongly connected components (1972); a component follows all components that its edges
+/// lead to.
 fn strong_components(leads_to: &[Vec<usize>]) -> Vec<Vec<usize>> {
     const NEW: usize = usize::MAX;
     let n = leads_to.len();
@@ -74,7 +75,7 @@ fn strong_components(leads_to: &[Vec<usize>]) -> Vec<Vec<usize>> {
         if number[root] != NEW {
             continue;
         }
-        // Nodes on the way here, each with how many of its edges have been followed.
+        // The path from the root, each node with the number of edges already followed.
         let mut way = vec![(root, 0)];
         while let Some((node, edge)) = way.last_mut() {
             let node = *node;
@@ -113,7 +114,7 @@ enum Step {
     Paint(Vec<(usize, Convex)>),
 }
 
-/// Paints the parts of these patches from behind, cut where needed.
+/// Paints the parts of these patches from back to front, cut where needed.
 fn partition(patches: &[Patch], group: &[usize], pieces: &mut Vec<Piece>) {
     let mut group = group.to_vec();
     group.sort_unstable();
@@ -122,8 +123,8 @@ fn partition(patches: &[Patch], group: &[usize], pieces: &mut Vec<Piece>) {
     while let Some(step) = steps.pop() {
         match step {
             Step::Paint(mut parts) => {
-                // Of what is equally deep the first is to be seen, so it comes last, and what is
-                // opaque at the very end.
+                // At equal depth the first is to be visible, so it is painted last; opaque patches
+                // at the very end.
                 parts.sort_by_key(|(idx, _)| {
                     std::cmp::Reverse((patches[*idx].is_transparent, patches[*idx].item))
                 });
@@ -138,7 +139,8 @@ fn partition(patches: &[Patch], group: &[usize], pieces: &mut Vec<Piece>) {
     }
 }
 
-/// The parts behind, in and in front of the plane of one of them, which itself is in it.
+/// The parts behind, in and in front of the plane of one of them, the splitter, which is in its own
+/// plane.
 fn divide(parts: Vec<(usize, Convex)>) -> [Vec<(usize, Convex)>; 3] {
     let stride = parts.len().div_ceil(CANDIDATES);
     let cuts = |plane: &Convex| parts.iter().filter(|(_, part)| plane.side_of(part).is_none()).count();
@@ -146,7 +148,7 @@ fn divide(parts: Vec<(usize, Convex)>) -> [Vec<(usize, Convex)>; 3] {
     let plane = parts[splitter].1.clone();
     let [mut behind, mut on, mut before] = [const { Vec::new() }; 3];
     for (number, (idx, part)) in parts.into_iter().enumerate() {
-        // The splitter itself is on its plane, whatever rounding says, so the rest gets fewer.
+        // The splitter is in its own plane, whatever rounding says, so the recursion ends.
         let side = if number == splitter { Some(0) } else { plane.side_of(&part) };
         match side {
             Some(0) => on.push((idx, part)),

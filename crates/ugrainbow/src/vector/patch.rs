@@ -11,13 +11,14 @@ const MARGIN: f64 = 4.0;
 /// A polygon of the draw list, in pixels.
 #[derive(Clone, Debug)]
 pub struct Patch {
-    /// Its face.
+    /// The face.
     pub item: u32,
-    /// True if that is translucent.
+    /// True if the face is translucent.
     pub is_transparent: bool,
-    /// As in the rasterizer; colours are interpolated from these corners.
+    /// The corners as in the rasterizer, between which colours are interpolated.
     contours: Vec<Vec<Corner<TRANSPARENT_VALUES>>>,
-    /// Clipped to the picture and its margin; counterclockwise as [`Convex`], holes clockwise.
+    /// Clipped to the picture and its margin; outlines counterclockwise as in [`Convex`], holes
+    /// clockwise.
     pub outline: Vec<Vec<DepthPoint>>,
     /// The same, decomposed into convex parts.
     pub parts: Vec<Convex>,
@@ -25,7 +26,7 @@ pub struct Patch {
 }
 
 impl Patch {
-    /// `corners` are in pixels. `None` if nothing of it is in the picture.
+    /// `corners` are in pixels. `None` if no part of the polygon is in the picture.
     pub fn new(
         item: u32,
         is_transparent: bool,
@@ -42,13 +43,13 @@ impl Patch {
         (!parts.is_empty()).then_some(Self { item, is_transparent, contours, outline, parts, is_perspective })
     }
 
-    /// The numbers the raster interpolates at a place, which is moved to the nearest of its row if
-    /// it is not inside.
+    /// The interpolated values at a point; outside the polygon, those of the nearest point in the
+    /// same row.
     pub fn interpolants_at(&self, [x, y]: [f64; 2]) -> Interpolants {
         let corners = || self.contours.iter().flatten();
         let top = corners().map(|corner| corner.y).fold(f64::INFINITY, f64::min);
         let bottom = corners().map(|corner| corner.y).fold(f64::NEG_INFINITY, f64::max);
-        // On the lowest row an outline ends, so the row just above it is asked.
+        // The outline ends on its lowest row, so the row just above is used.
         let inset = 1e-9 * (bottom - top);
         let y = y.max(top + inset).min(bottom - inset);
         let mut crossings: Vec<Corner<TRANSPARENT_VALUES>> = self
@@ -77,7 +78,7 @@ impl Patch {
         Convex::bounds(&self.parts)
     }
 
-    /// The numbers at all corners if they are the same.
+    /// The values if they are the same at all corners.
     pub fn single_values(&self) -> Option<[f32; TRANSPARENT_VALUES]> {
         let values = |corner: &Corner<TRANSPARENT_VALUES>| {
             let scale = if self.is_perspective { 1.0 / corner.key } else { 1.0 };

@@ -10,19 +10,19 @@ use crate::setup::Setup;
 pub struct Faces {
     /// For each face, whether it is visible at a sample.
     pub is_seen: Vec<bool>,
-    /// For each, whether it or a face beside it is seen at a sample. A face that is seen only
-    /// between samples nearly always has a neighbour that is seen at one.
+    /// For each face, whether it or a neighbour is visible at a sample. A face that is visible only
+    /// between samples nearly always has a neighbour that is visible at one.
     pub is_near: Vec<bool>,
     /// Statistics of the samples.
     pub stats: SampleStats,
 }
 
-/// Decides visibility by the samples of a picture.
+/// Decides visibility from the samples of a picture.
 pub fn faces(setup: &Setup<'_>, layers: &RenderLayers<'_>) -> Faces {
     let scene = setup.scene();
     let is_seen: Vec<AtomicBool> = scene.faces.iter().map(|_| AtomicBool::new(false)).collect();
-    // The pixels are `()`, which take no memory. The order in which faces are found has no
-    // influence.
+    // The pixels are `()`, which take no memory. The order in which tasks visit faces does not
+    // matter.
     let (_, stats) = layers.paint_with_centers(&setup.grid, &setup.shader, &|all: &PixelSamples<'_>| {
         let center = &all.center;
         let transparent = center.fragments.iter().filter(|fragment| !fragment.is_line);

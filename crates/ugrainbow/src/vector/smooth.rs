@@ -8,8 +8,8 @@ use super::patch::Patch;
 use super::transparency::PaintedArea;
 use crate::planar::{Convex, sides};
 
-/// How far, in levels of 255, the colours of a figure are from those of the scene where that is
-/// tried: at corners, middles of edges and middles of pieces.
+/// Bound on the colour error of a figure, in levels of 255, at the points tested: corners, middles
+/// of edges and middles of pieces.
 const BOUND: f64 = 2.0;
 
 /// Greatest difference of colours, in levels of 255, of an area of one colour.
@@ -31,7 +31,7 @@ pub trait Smooth: Sized {
 pub struct Job<'a> {
     colors: &'a FigureColors<'a>,
     patches: &'a [Patch],
-    /// As those of a [`PaintedArea`].
+    /// As [`PaintedArea::layers`].
     layers: &'a [usize],
 }
 
@@ -70,7 +70,7 @@ impl Job<'_> {
         self.layers.iter().map(|&idx| &self.patches[idx])
     }
 
-    /// Colours at corners, middles of edges and middles of parts.
+    /// The colours at the test points: corners, middles of edges and middles of parts.
     fn tried(&self, parts: &[Convex]) -> Vec<(Point, Levels)> {
         let mut places = Vec::new();
         for part in parts {
@@ -95,7 +95,7 @@ impl Smooth for Triangle {
     }
 }
 
-/// Adds a triangle, halved until colour is linear in the parts.
+/// Adds a triangle, halved until colour is linear in its parts.
 fn push_triangles(job: &Job<'_>, corners: [Point; 3], elements: &mut Vec<Element<Triangle>>) {
     let mut stack = vec![(corners, corners.map(|corner| job.color(corner)), 0)];
     while let Some((corners, colors, cuts)) = stack.pop() {
@@ -114,7 +114,7 @@ fn push_triangles(job: &Job<'_>, corners: [Point; 3], elements: &mut Vec<Element
             elements.push(Element::Smooth(Triangle { corners, colors: colors.map(rounded) }));
             continue;
         }
-        // The edge where colour is least linear; if that is the inside, the longest.
+        // The edge along which colour is least linear; the longest if only the centre is off.
         let worst = greatest(errors);
         let i = if errors[worst] > BOUND { worst } else { longest };
         let (j, k) = ((i + 1) % 3, (i + 2) % 3);
@@ -128,7 +128,7 @@ fn middle(a: Point, b: Point) -> Point {
     [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])]
 }
 
-/// The place of the greatest; of equals the first.
+/// The index of the greatest number; ties go to the first.
 fn greatest(numbers: [f64; 3]) -> usize {
     (1..3).fold(0, |best, i| if numbers[i] > numbers[best] { i } else { best })
 }
@@ -138,8 +138,8 @@ impl Smooth for Gradient {
         let tried = job.tried(parts);
         let nearest = fitted(&tried, f64::INFINITY);
         if let Some((ends, colors)) = nearest {
-            // Also where the piece has to be cut, as the ground of its parts: what shines through
-            // between them has nearly their colours.
+            // Also where the piece is subdivided: it fills the gaps that anti-aliasing leaves
+            // between the parts.
             elements.push(Element::Smooth(Self {
                 contours,
                 ends,
@@ -171,11 +171,12 @@ impl Smooth for Gradient {
     }
 }
 
-/// The linear change of colour along a line that is nearest to these colours, if it is nowhere
-/// farther from them than `bound`.
+/// The linear gradient along a line that fits these colours best; `None` if it differs from one by
+/// more than `bound`.
 ///
-/// Least squares give the linear function of the place for each channel; the line goes where all
-/// channels together change most, which is the greater principal axis of their slopes.
+/// Least squares give a linear function of position for each channel. The gradient follows the
+/// direction in which all channels together change most: the greater principal axis of their
+/// slopes.
 fn fitted(tried: &[(Point, Levels)], bound: f64) -> Option<([Point; 2], [Levels; 2])> {
     let n = tried.len() as f64;
     let [x0, y0] = [0, 1].map(|axis| tried.iter().map(|(place, _)| place[axis]).sum::<f64>() / n);
@@ -192,7 +193,7 @@ fn fitted(tried: &[(Point, Levels)], bound: f64) -> Option<([Point; 2], [Levels;
     }
     let [xx, xy, yy] = moments;
     let determinant = xx * yy - xy * xy;
-    // Of places along one line the slope across it is nothing.
+    // For points on one line the slope across it is set to zero.
     let ridge = 1e-9 * (xx + yy) * (xx + yy);
     let determinant = determinant.max(ridge);
     let slopes =
@@ -228,7 +229,7 @@ mod tests {
         for (end, shown) in ends.into_iter().zip(colors) {
             assert!(distance(shown, color(end)) < 1e-9, "{end:?} {shown:?}");
         }
-        // Red goes one way and green the other: no line does for both.
+        // Red and green change in perpendicular directions, so no single gradient fits.
         let crossed = places.map(|[x, y]| ([x, y], [50.0 * x, 50.0 * y, 0.0]));
         assert!(fitted(&crossed, 2.0).is_none());
     }

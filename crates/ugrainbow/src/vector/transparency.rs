@@ -1,9 +1,9 @@
-//! What is seen through translucent faces.
+//! Areas seen through translucent faces.
 //!
 //! Formats with opacity blend encoded colours instead of light, and PostScript has no opacity. So
-//! viewers are never asked to blend: where a translucent face is painted, everything painted there
-//! before is painted again, clipped to the face and in the colours seen through it, unless it is
-//! hidden by then.
+//! figures contain no blending: where a translucent face is painted, everything painted there
+//! before is painted again, clipped to the face and in the colour seen through it, unless it is
+//! hidden there.
 
 use ugimage::figure::Point;
 
@@ -12,14 +12,14 @@ use super::patch::Patch;
 use crate::error::Error;
 use crate::planar::{BoxIndex, Convex, is_covered};
 
-/// Most areas of a figure. Each translucent face adds what is seen through it.
+/// Most areas of a figure. Each translucent face adds the areas seen through it.
 const MOST_AREAS: usize = 1 << 16;
 
 /// An area to paint, and the patches that are seen there.
 #[derive(Clone, Debug)]
 pub struct PaintedArea {
-    /// The patches that are seen, from front to back. All but the last are translucent; if that is
-    /// as well, the background is behind it.
+    /// The visible patches from front to back. All but the last are translucent; if the last is
+    /// too, the background is behind it.
     pub layers: Vec<usize>,
     /// Its outlines; even-odd rule.
     pub contours: Vec<Vec<Point>>,
@@ -44,14 +44,14 @@ pub fn areas(patches: &[Patch], pieces: &[Piece], size: [u32; 2]) -> Result<Vec<
         }
         if areas.all.len() > MOST_AREAS {
             return Err(Error::Figure(
-                "too many translucent faces stand before each other for a figure of areas: leave out -vec, and give a larger -sz for print",
+                "too many translucent faces overlap for vector graphics: leave out -vec, and give a larger -sz for print",
             ));
         }
     }
     Ok(areas.all)
 }
 
-/// A piece with nothing but the background behind it.
+/// A piece with the background directly behind it.
 fn whole(patches: &[Patch], piece: &Piece) -> PaintedArea {
     match piece {
         Piece::Whole(idx) => {
@@ -80,7 +80,7 @@ impl PaintedAreas {
         self.all.push(area);
     }
 
-    /// Adds a translucent piece, and again what is seen through it.
+    /// Adds a translucent piece, and the areas seen through it again.
     fn push_transparent(&mut self, front: PaintedArea) {
         let mut behind = Vec::new();
         for number in self.near(&front.parts) {
