@@ -1,6 +1,6 @@
 //! Clipping in depth, before the division by it.
 
-use ugscene::{Place, Slab};
+use ugscene::{CameraPoint, Slab};
 
 use crate::planar::clip_edges;
 
@@ -25,7 +25,7 @@ impl ClipCounts {
 /// A corner before projection, with the numbers to interpolate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Vertex<const N: usize> {
-    pub place: Place,
+    pub place: CameraPoint,
     pub values: [f64; N],
 }
 
@@ -38,14 +38,14 @@ impl<const N: usize> Vertex<N> {
         Self {
             // The depth itself is set, not computed: next to a far point
             // rounding could put it behind the eye.
-            place: Place { x: mix(a.x, b.x), y: mix(a.y, b.y), z },
+            place: CameraPoint { x: mix(a.x, b.x), y: mix(a.y, b.y), z },
             values: std::array::from_fn(|i| mix(inside.values[i], outside.values[i])),
         }
     }
 
     /// The corner in the picture.
     pub fn project(&self, is_perspective: bool) -> Corner<N> {
-        let Place { x, y, z } = self.place;
+        let CameraPoint { x, y, z } = self.place;
         if is_perspective {
             let key = 1.0 / z;
             Corner { x: x * key, y: y * key, key, values: self.values.map(|value| value * key) }
@@ -104,7 +104,7 @@ mod tests {
     const SLAB: Slab = Slab { near: 1.0, far: 5.0 };
 
     fn at(x: f64, z: f64) -> Vertex<1> {
-        Vertex { place: Place { x, y: 0.0, z }, values: [10.0 * x] }
+        Vertex { place: CameraPoint { x, y: 0.0, z }, values: [10.0 * x] }
     }
 
     #[test]

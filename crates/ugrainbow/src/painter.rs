@@ -8,8 +8,8 @@ use ugraster::{Corner, Point, SampleGrid};
 use crate::clip::Vertex;
 use crate::palette::{Palette, Swatch};
 use crate::spectra::Spectra;
-use crate::surface::Surface;
-use ugscene::{Place, Slab, View};
+use crate::surface::SurfaceAttributes;
+use ugscene::{CameraPoint, Slab, View};
 
 /// Everything from which faces and wires are drawn.
 #[derive(Clone, Copy)]
@@ -25,7 +25,7 @@ pub struct Painter<'a> {
     /// Its lights.
     pub lighting: &'a Lighting,
     /// Colours and rest positions of its vertices.
-    pub surface: &'a Surface,
+    pub surface: &'a SurfaceAttributes,
     /// Its spectra, if colours are spectra.
     pub spectra: Option<&'a Spectra>,
     /// Cull back-facing faces.
@@ -54,13 +54,13 @@ impl Common {
 impl Painter<'_> {
     /// A position of the scene in camera coordinates, before projection.
     #[inline]
-    pub fn place(&self, position: DVec3) -> Place {
+    pub fn place(&self, position: DVec3) -> CameraPoint {
         self.view.place(position - self.view.eye)
     }
 
     /// Its projection; NaN outside the clipping planes.
     #[inline]
-    pub fn point(&self, place: Place) -> Point {
+    pub fn point(&self, place: CameraPoint) -> Point {
         let Slab { near, far } = self.view.slab;
         if near <= place.z && place.z <= far {
             let Corner { x, y, key, .. } = Vertex { place, values: [] }.project(self.view.is_perspective);

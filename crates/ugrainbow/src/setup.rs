@@ -15,7 +15,7 @@ use crate::painter::Painter;
 use crate::palette::Palette;
 use crate::shade::Shader;
 use crate::spectra::Spectra;
-use crate::surface::Surface;
+use crate::surface::SurfaceAttributes;
 use ugscene::{Geometry, View};
 
 /// What is computed once for a picture.
@@ -25,7 +25,7 @@ pub struct Setup<'a> {
     pub grid: SampleGrid,
     pub palette: Palette,
     pub lighting: Lighting,
-    pub surface: Surface,
+    pub surface: SurfaceAttributes,
     /// If colours are spectra.
     spectra: Option<Spectra>,
     pub shader: Shader,
@@ -59,7 +59,7 @@ impl<'a> Setup<'a> {
         let hue_scale = ugscene::hue_scale(&scene, config.hue_scale)?;
         let palette = Palette::new(&scene, config.interpolated(hue_scale), hue_scale, is_spectral);
         let lighting = Lighting::new(&scene, hue_scale, view.eye, view.forward);
-        let surface = Surface::new(&scene, view.eye, &palette, hue_scale);
+        let surface = SurfaceAttributes::new(&scene, view.eye, &palette, hue_scale);
         let is_uncut = palette.has_light() || config.picture.keeps_light();
         if let Some(exact) = config.exact {
             check_exact(&scene, &view)?;
@@ -115,7 +115,7 @@ fn check_exact(scene: &Scene, view: &View) -> Result<(), Error> {
 }
 
 /// Refuses moving bodies with spectra when hues are shifted.
-fn check_spectra(scene: &Scene, surface: &Surface, shift: ColorShift) -> Result<(), Error> {
+fn check_spectra(scene: &Scene, surface: &SurfaceAttributes, shift: ColorShift) -> Result<(), Error> {
     let is_spectrum = |color: ColorId| {
         let value = scene.colors[color.index()].value;
         matches!(value, ColorValue::Blackbody { .. } | ColorValue::Spectrum { .. })

@@ -11,7 +11,7 @@ use crate::palette::{Palette, Swatch};
 
 /// Colours and rest positions of the vertices of a scene.
 #[derive(Clone, Debug)]
-pub struct Surface {
+pub struct SurfaceAttributes {
     /// Different colours: those of the scene, white, and mixed ones.
     swatches: Vec<Swatch>,
     /// For each vertex a row of the swatches; most vertices share theirs with others.
@@ -22,7 +22,7 @@ pub struct Surface {
     frames: RestFrames,
 }
 
-impl Surface {
+impl SurfaceAttributes {
     /// `scene`: its vertices are part of one body each.
     pub fn new(scene: &Scene, eye: DVec3, palette: &Palette, scale: HueScale) -> Self {
         let frames = RestFrames::new(scene);

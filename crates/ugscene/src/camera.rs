@@ -34,7 +34,7 @@ pub struct CameraOptions {
 /// In perspective `x` and `y` are sample coordinates times `z`, so that they are linear in
 /// the point wherever it is; in orthographic projection they are sample coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Place {
+pub struct CameraPoint {
     /// Across, to the right.
     pub x: f64,
     /// Down.
@@ -198,10 +198,10 @@ impl View {
     }
 
     /// Transforms a point, relative to the eye, to the picture.
-    pub fn place(&self, point: DVec3) -> Place {
+    pub fn place(&self, point: DVec3) -> CameraPoint {
         let z = point.dot(self.forward);
         let w = if self.is_perspective { z } else { 1.0 };
-        Place {
+        CameraPoint {
             x: self.scale[0] * point.dot(self.right) + self.axis[0] * w,
             y: self.axis[1] * w - self.scale[1] * point.dot(self.up),
             z,
@@ -333,7 +333,7 @@ mod tests {
                 // Irrational steps fill a cube evenly.
                 let part = |by: f64| (f64::from(step) * by).fract() * 24.0 - 12.0;
                 let p = DVec3::new(part(0.618_033_988_7), part(0.754_877_666_2), part(0.569_840_291));
-                let Place { x, y, z } = view.place(p);
+                let CameraPoint { x, y, z } = view.place(p);
                 let w = if view.is_perspective { z } else { 1.0 };
                 let is_in_picture = (0.0..=40.0).contains(&(x / w)) && (0.0..=30.0).contains(&(y / w));
                 let is_drawn = is_in_picture && view.slab.near <= z && z <= view.slab.far;

@@ -39,7 +39,7 @@ mod shares;
 mod split;
 mod stage;
 
-pub use camera::{CameraError, CameraOptions, HalfSpace, Place, Slab, View};
+pub use camera::{CameraError, CameraOptions, CameraPoint, HalfSpace, Slab, View};
 pub use camera_motion::{axes_from_scene, camera_velocity};
 pub use edges::face_edges;
 pub use eye::{eye, vertex_at_eye};

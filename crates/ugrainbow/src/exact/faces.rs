@@ -12,7 +12,7 @@ use ugraster::{Area, Bins, FragmentWriter, TRANSPARENT_VALUES, Tile};
 use super::appearance::Appearance;
 use super::film::{Film, Form, Lengths, center};
 use super::footprint::{Rect, footprint};
-use super::frame::{Frame, Ray, frames};
+use super::frame::{Ray, RestFrameRays, frames};
 use super::look::Look;
 use super::nearest::{Nearest, PlaneRow, limited};
 use super::outline::Outline;
@@ -26,7 +26,7 @@ pub struct Faces<'a, const N: usize> {
     painter: Painter<'a>,
     appearance: Appearance<'a>,
     pack: Pack<N>,
-    frames: Vec<Frame>,
+    frames: Vec<RestFrameRays>,
     shapes: Vec<Shape>,
     bins: Bins,
     film: Film,
@@ -174,7 +174,7 @@ impl<'a, const N: usize> Faces<'a, N> {
 
     /// The values of a face where a ray meets it, in the packed layout.
     #[inline(always)] // As `Look::at`.
-    fn values(&self, shape: &Shape, frame: &Frame, ray: &Ray) -> [f32; N] {
+    fn values(&self, shape: &Shape, frame: &RestFrameRays, ray: &Ray) -> [f32; N] {
         let key = shape.outline.key(ray.rest);
         let (color, level) = shape.look.at(&self.painter, &self.appearance, frame, ray, key);
         (self.pack)(&color, level).map(|number| number as f32)
@@ -266,7 +266,7 @@ impl Built {
 fn build(
     painter: &Painter<'_>,
     appearance: &Appearance<'_>,
-    frames: &[Frame],
+    frames: &[RestFrameRays],
     row: usize,
     face: &Face,
 ) -> Built {
@@ -299,7 +299,7 @@ fn build(
 fn build_all(
     painter: &Painter<'_>,
     appearance: &Appearance<'_>,
-    frames: &[Frame],
+    frames: &[RestFrameRays],
     is_drawn: &(dyn Fn(&Face) -> bool + Sync),
 ) -> Vec<Built> {
     let faces = painter.scene.faces.par_iter().enumerate().filter(|(_, face)| is_drawn(face));

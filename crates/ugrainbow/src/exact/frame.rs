@@ -11,7 +11,7 @@ use crate::painter::Painter;
 /// The rest frame of a body. Its axes (û, e₁, e₂) begin with the direction of motion, so that a
 /// boost changes one coordinate only. All coordinates are relative to the eye.
 #[derive(Clone, Debug)]
-pub struct Frame {
+pub struct RestFrameRays {
     /// The velocity of the body.
     pub velocity: Velocity,
     /// Rotates rest coordinates to the axes of the scene, in which lights and normals are given.
@@ -37,11 +37,11 @@ pub struct Ray {
 }
 
 /// The rest frames of the bodies of a scene, in the order of the bodies.
-pub fn frames(painter: &Painter<'_>) -> Vec<Frame> {
-    painter.scene.bodies.ids().map(|body| Frame::new(painter, body)).collect()
+pub fn frames(painter: &Painter<'_>) -> Vec<RestFrameRays> {
+    painter.scene.bodies.ids().map(|body| RestFrameRays::new(painter, body)).collect()
 }
 
-impl Frame {
+impl RestFrameRays {
     fn new(painter: &Painter<'_>, body: BodyId) -> Self {
         let velocity = painter.surface.velocity(body);
         let along = velocity.direction();
@@ -63,7 +63,7 @@ impl Frame {
         }
     }
 
-    /// The rays of a row of samples, `y` down the picture; argument of [`Frame::ray`].
+    /// The rays of a row of samples, `y` down the picture; argument of [`RestFrameRays::ray`].
     pub fn row(&self, y: f64) -> DVec3 {
         self.rays[0] + y * self.rays[2]
     }
@@ -152,7 +152,7 @@ impl Frame {
     }
 
     /// The apparent shape of a straight line at rest between two unit vectors: the three control
-    /// points of a rational Bézier curve, in the coordinates of [`Frame::place`]. `None` if the
+    /// points of a rational Bézier curve, in the coordinates of [`RestFrameRays::place`]. `None` if the
     /// line goes through the eye.
     ///
     /// The directions of the line form an arc of a great circle, with control points a,

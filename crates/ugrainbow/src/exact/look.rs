@@ -4,7 +4,7 @@ use glam::DVec3;
 use ugparse::{Face, VertexId};
 
 use super::appearance::Appearance;
-use super::frame::{Frame, Ray};
+use super::frame::{Ray, RestFrameRays};
 use crate::painter::Painter;
 use crate::palette::Swatch;
 
@@ -70,7 +70,7 @@ impl Look {
     pub fn new(
         painter: &Painter<'_>,
         appearance: &Appearance<'_>,
-        frame: &Frame,
+        frame: &RestFrameRays,
         face: &Face,
         contours: &[Vec<DVec3>],
     ) -> Self {
@@ -121,7 +121,7 @@ impl Look {
         &self,
         painter: &Painter<'_>,
         appearance: &Appearance<'_>,
-        frame: &Frame,
+        frame: &RestFrameRays,
         ray: &Ray,
         key: f64,
     ) -> (Swatch, DVec3) {

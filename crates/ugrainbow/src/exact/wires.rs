@@ -6,7 +6,7 @@ use ugparse::BodyId;
 use ugphysics::doppler_at;
 
 use super::appearance::Appearance;
-use super::frame::{Frame, frames};
+use super::frame::{RestFrameRays, frames};
 use crate::lines::{Joint, Line, LineShape};
 use crate::painter::Painter;
 use crate::palette::Swatch;
@@ -28,7 +28,7 @@ const MOST_HALVINGS: u32 = 12;
 pub struct CurvedLines<'a> {
     painter: Painter<'a>,
     appearance: Appearance<'a>,
-    frames: Vec<Frame>,
+    frames: Vec<RestFrameRays>,
 }
 
 impl<'a> CurvedLines<'a> {
@@ -57,7 +57,7 @@ impl LineShape for CurvedLines<'_> {
 }
 
 struct Curve<'a> {
-    frame: &'a Frame,
+    frame: &'a RestFrameRays,
     appearance: Appearance<'a>,
     /// The ends at rest, in the axes of the frame.
     rest: [DVec3; 2],

@@ -4,7 +4,7 @@ use glam::DVec3;
 use serde_json::{Value, json};
 
 use super::text::law_name;
-use super::{Corner, Explanation, Item, LayerShown, SampleColor, Shown};
+use super::{Corner, ExplainedSample, Explanation, Item, LayerShown, SampleColor};
 
 /// The explanation as JSON, ending with a line break.
 pub fn json(explanation: &Explanation) -> String {
@@ -50,7 +50,7 @@ fn point(point: DVec3) -> Value {
     json!(point.to_array())
 }
 
-fn shown(shown: &Shown) -> Value {
+fn shown(shown: &ExplainedSample) -> Value {
     json!({
         "place": shown.place,
         "item": item(&shown.item),

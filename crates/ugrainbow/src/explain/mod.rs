@@ -46,7 +46,7 @@ pub struct Explanation {
     /// True if nothing in the scene moves.
     pub is_at_rest: bool,
     /// The covered sample nearest to the centre of the pixel.
-    pub sample: Option<Shown>,
+    pub sample: Option<ExplainedSample>,
     /// From the samples to the bytes.
     pub pixel_steps: PixelSteps,
 }
@@ -66,7 +66,7 @@ pub struct Item {
 
 /// The explanation of a sample.
 #[derive(Clone, Debug)]
-pub struct Shown {
+pub struct ExplainedSample {
     /// Column and row of the sample in pixels.
     pub place: [f64; 2],
     /// The surface it shows.
@@ -325,7 +325,7 @@ impl Teller<'_> {
         Item { kind: "face", id, name: name(face.name), place }
     }
 
-    fn shown(&self, sample: &ProbedSample) -> Shown {
+    fn shown(&self, sample: &ProbedSample) -> ExplainedSample {
         let painter = self.setup.painter();
         let (seen, values, light) = self.subject(sample);
         let emissions = Emissions::new(painter.scene, painter.view, painter.surface.frames());
@@ -337,7 +337,7 @@ impl Teller<'_> {
         let angle = |line: DVec3| line.angle_between(velocity.direction()).to_degrees();
         let doppler = doppler_at(place, velocity);
         let n = f64::from(self.config.picture.samples);
-        Shown {
+        ExplainedSample {
             place: sample.place.map(|sample| (f64::from(sample) + 0.5) / n),
             item: self.item(seen.item),
             beta: velocity.beta(),

@@ -5,7 +5,7 @@ use std::fmt::{self, Write};
 use ugparse::{ColorScale, SeenColors, Stage};
 use ugpicture::Filter;
 
-use super::{Corner, Explanation, Item, PixelSteps, SampleColor, Shown};
+use super::{Corner, ExplainedSample, Explanation, Item, PixelSteps, SampleColor};
 
 /// Corners listed; a face may have thousands.
 const MAX_CORNERS: usize = 8;
@@ -39,7 +39,7 @@ fn row(out: &mut String, title: &str, text: impl fmt::Display) -> fmt::Result {
     writeln!(out, "{title:<14}{text}")
 }
 
-fn write_sample(out: &mut String, shown: &Shown, explanation: &Explanation) -> fmt::Result {
+fn write_sample(out: &mut String, shown: &ExplainedSample, explanation: &Explanation) -> fmt::Result {
     let [x, y] = shown.place;
     writeln!(out, "\nthe covered sample nearest to the centre, at {} {}", number(x), number(y))?;
     row(out, shown.item.kind, described(&shown.item))?;
@@ -81,7 +81,7 @@ fn write_sample(out: &mut String, shown: &Shown, explanation: &Explanation) -> f
     Ok(())
 }
 
-fn body(shown: &Shown, explanation: &Explanation) -> String {
+fn body(shown: &ExplainedSample, explanation: &Explanation) -> String {
     if explanation.is_at_rest {
         return "everything is at rest".to_owned();
     }

@@ -16,7 +16,7 @@ use rayon::prelude::*;
 use ugparse::{BodyId, VertexId, Wire};
 use ugphysics::{Hsv, srgb_decode};
 use ugraster::{Corner, PolygonList, TRANSPARENT_VALUES};
-use ugscene::Place;
+use ugscene::CameraPoint;
 
 use crate::clip::{ClipCounts, Vertex, clip_segment};
 use crate::config::Wireframe;
@@ -217,18 +217,18 @@ pub fn strokes(pieces: &[Stroke], visibility: &Visibility<'_>) -> Vec<Stroke> {
     pieces.par_iter().flat_map_iter(|piece| piece.visible(visibility)).collect()
 }
 
-fn vertex(place: Place, color: &Swatch) -> Vertex<TRANSPARENT_VALUES> {
+fn vertex(place: CameraPoint, color: &Swatch) -> Vertex<TRANSPARENT_VALUES> {
     Vertex { place, values: pack_transparent(color, DVec3::ONE) }
 }
 
 /// Moves an end of a line towards the eye along its own ray.
 fn lifted(painter: &Painter<'_>, end: Vertex<TRANSPARENT_VALUES>) -> Vertex<TRANSPARENT_VALUES> {
-    let Place { x, y, z } = end.place;
+    let CameraPoint { x, y, z } = end.place;
     let place = if painter.view.is_perspective {
         let ratio = 1.0 - LIFT;
-        Place { x: x * ratio, y: y * ratio, z: z * ratio }
+        CameraPoint { x: x * ratio, y: y * ratio, z: z * ratio }
     } else {
-        Place { x, y, z: z - LIFT * painter.view.distance }
+        CameraPoint { x, y, z: z - LIFT * painter.view.distance }
     };
     Vertex { place, ..end }
 }
