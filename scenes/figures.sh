@@ -29,7 +29,7 @@ announce() {
     printf '%3d of %d  %s.png\n' "$(wc -l < "$out/rows/drawn")" "$n_figures" "$1"
 }
 
-# The colours of things at rest, so that only the shape is changed.
+# Colours at rest, so that only shapes change.
 shape() { ugdoppler -qt --no-doppler --no-flux; }
 
 # pot [VELOCITY]: the teapot under the three lights of Chang, Lai and Chen 1996.
@@ -100,15 +100,15 @@ for speed in .95 .999; do
     announce "chang-10-0${speed}c"
 done
 
-# Figures 11 and 12: the street at rest, rushing in, rushing out; and in colour. Wavelengths (-gw,
-# -wi) go on where hues end, and so fade evenly at the rim of the visible.
+# Figures 11 and 12: the street at rest, approaching, receding; and in colour. Wavelengths (-gw)
+# continue beyond the range of hues, so colours fade evenly at the ends of the visible spectrum.
 uglorentz street.ug | shape | draw chang-11-rest
 uglorentz -vel 0 -.99 0 -ep 0 40 3 street.ug | shape | draw chang-12a-in-0.99c
 uglorentz -vel 0 .99 0 -ep 0 -250 3 street.ug | shape | draw chang-12b-out-0.99c
 uglorentz -vel 0 -.9 0 -ep 0 20 3 street.ug | ugdoppler -qt -gw | draw chang-12c-in-0.9c-colours -wi -va 110
 
-# Figures 13 and 15: the teapot's brightness under three distant lights that move along, that rest with the viewer,
-# and, seen by somebody who flies with the pot, that come at it.
+# Figures 13 and 15: the teapot's brightness under three distant lights: moving with the teapot, at
+# rest with the viewer, and, in the teapot's rest frame, moving towards it.
 pot > "$out/rows/pot.ug"
 pot '<0 0 0>' > "$out/rows/pot-lights-at-rest.ug"
 flyby chang-13-lights-along "$out/rows/pot.ug" -li --no-doppler
@@ -116,16 +116,18 @@ flyby chang-15a-lights-at-rest "$out/rows/pot-lights-at-rest.ug" -li --no-dopple
 ugdoppler -qt -li -ir --no-doppler < "$out/rows/pot.ug" | draw chang-13-rest
 pot '<-0.95 0 0>' | ugdoppler -qt -li -ir --no-doppler | draw chang-15b-lights-coming
 
-# Figures 14 and 16: the brightness of the street under lights that rest with it, rushing in and out, and under the same
-# lights at rest with the viewer. Rushing in, the exposure is one for so much light.
+# Figures 14 and 16: the brightness of the street, approaching and receding, under lights at rest
+# with the street and with the viewer. The approaching street is much brighter, so it is exposed
+# less.
 street_under() { sed "s/^\\(l .*\\);/\\1 $1 ;/" street.ug; }
 uglorentz -vel 0 -.99 0 -ep 0 40 3 street.ug | ugdoppler -qt -hd --no-doppler | draw chang-14a-in-0.99c -ex auto -tc filmic
 uglorentz -vel 0 .99 0 -ep 0 -250 3 street.ug | ugdoppler -qt --no-doppler | draw chang-14b-out-0.99c
 street_under '<0 0 0>' | uglorentz -vel 0 -.99 0 -ep 0 40 3 | ugdoppler -qt -li -hd --no-doppler |
     draw chang-16-lights-at-rest -ex auto -tc filmic
 
-# Figure 17: three narrow bands about 460, 540 and 600 nm, at 0.5c from left to right, later ones below. Bluer than at rest
-# while it comes nearer, redder when it leaves; each row is as bright as it can be.
+# Figure 17: three narrow bands around 460, 540 and 600 nm, at 0.5c from left to right, later
+# pictures below: blueshifted when approaching, redshifted when receding. Each row has its own
+# exposure.
 bands='c_spd 455 0 460 2 465 0 535 0 540 4.5 545 0 595 0 600 6.5 605 0 ;'
 rows=()
 for time in 00 09 17 28; do
@@ -137,20 +139,21 @@ done
 tile "$out/chang-17-bands-0.5c.png" 1 "${rows[@]}"
 announce chang-17-bands-0.5c
 
-# Howard, Dance and Kitchen 1995, figures 4 and 5: flying at a grid, and just through it.
+# Howard, Dance and Kitchen 1995, figures 4 and 5: flying towards a grid, and just behind it.
 uglorentz grid.ug | shape | draw howard-04a-rest
 uglorentz -vel 0 -.5 0 grid.ug | shape | draw howard-04b-0.5c
 uglorentz -vel 0 -.9 0 grid.ug | shape | draw howard-04c-0.9c
 uglorentz -vel 0 -.9 0 -ep 0 .5 0 grid.ug | shape | draw howard-05-through-0.9c
 
-# Weiskopf 2000, figure 3: a tunnel of black bodies at 3500, 5900 and 10000 K, at rest; flying through it at 0.6c, shape alone,
-# with the Doppler effect, and with the searchlight as well, at a tenth of the light (-3.32 stops).
+# Weiskopf 2000, figure 3: a tunnel of black bodies at 3500, 5900 and 10000 K: at rest; flying
+# through it at 0.6c with the shape alone, with the Doppler effect, and with the searchlight effect
+# as well, at a tenth of the exposure (-3.32 stops).
 uglorentz tunnel.ug | ugdoppler -qt -sp | draw weiskopf-03a-rest
 uglorentz -cv 0 .6 0 tunnel.ug | ugdoppler -qt -sp --no-doppler --no-flux | draw weiskopf-03b-0.6c-shape
 uglorentz -cv 0 .6 0 tunnel.ug | ugdoppler -qt -sp --no-flux | draw weiskopf-03c-0.6c-doppler
 uglorentz -cv 0 .6 0 tunnel.ug | ugdoppler -qt -sp | draw weiskopf-03d-0.6c-searchlight -ex -3.32
 
-# Our own: the lattice in shape and colour, colours that meet at a vertex, five speeds at once.
+# Our own: the lattice in shape and colour, mixed colours at a vertex, five speeds in one picture.
 uglorentz -vel 0 -.9 0 lattice.ug | shape | draw lattice-0.9c-shape -va 120
 uglorentz -vel 0 -.9 0 lattice.ug | ugdoppler -qt -gw | draw lattice-0.9c-colours -wi -va 120
 ugdoppler -qt halves.ug | draw halves-mixed
@@ -159,11 +162,11 @@ uglorentz -in dice.ug | shape | draw dice
 uglorentz lamp.ug | ugdoppler -qt | draw lamp-at-rest
 uglorentz lamp.ug | ugdoppler -qt -li | draw lamp-moving
 
-# Cars at 0.6c, from a camera that stands still and from one that drives at 0.5c.
+# Cars at 0.6c, from a camera at rest and from one that moves at 0.5c.
 uglorentz -an center -cv 0 0 0 traffic.ug | shape | draw traffic-a-standing
 uglorentz -an center traffic.ug | shape | draw traffic-b-driving
 
-# Glass at rest and at 0.9c, its edges alone, and both.
+# Glass at rest and at 0.9c; edges alone, and both.
 draw glass-a-rest glass.ug
 uglorentz -in -vel .9 0 0 glass.ug | shape | draw glass-b-0.9c
 uglorentz -in -vel .9 0 0 glass.ug | shape | draw glass-c-0.9c-edges -wf -lc 1 -dc 7 12

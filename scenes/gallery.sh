@@ -13,7 +13,7 @@ export PATH="${CARGO_TARGET_DIR:-$PWD/target}/release:$PATH"
 
 # tile NAME COLUMNS PATTERN: docs/gallery/NAME.png from the figures whose names match
 tile() {
-    # The pattern is to be expanded.
+    # Unquoted, so that the shell expands the pattern.
     # shellcheck disable=SC2086
     ugsheet -qt -lb none -gap 4 0 -bg .25 -cols "$2" -fo "docs/gallery/$1.png" "$figures"/$3
 }

@@ -4,10 +4,12 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Imports between the top-level modules of a crate: from each to those it uses, with the first file that does.
+/// Imports between the top-level modules of a crate: from each module to those it uses, each with
+/// the first file that imports it.
 type Imports = BTreeMap<String, BTreeMap<String, String>>;
 
-/// Circles that stand in a crate, one message each. `files`: paths below its `src`, and their texts.
+/// The circles of imports in a crate, one message each. `files`: paths below its `src`, and their
+/// texts.
 pub fn circles(krate: &str, files: &BTreeMap<String, String>) -> Vec<String> {
     let imports = imports(files);
     let mut found = BTreeSet::new();
@@ -30,7 +32,7 @@ pub fn circles(krate: &str, files: &BTreeMap<String, String>) -> Vec<String> {
     found.iter().map(message).collect()
 }
 
-/// A shortest circle through a module, beginning at its first name.
+/// A shortest circle through a module, beginning with the module that sorts first.
 fn shortest_circle(imports: &Imports, start: &str) -> Option<Vec<String>> {
     // Breadth first; each module with the one it was reached from.
     let mut before: BTreeMap<&str, &str> = BTreeMap::new();
@@ -100,7 +102,7 @@ fn code(text: &str) -> String {
     code
 }
 
-/// What `lib.rs` takes from its modules: name → module. `pub use shape::{Circle, area as size};`
+/// The names that `lib.rs` re-exports, with their modules. `pub use shape::{Circle, area as size};`
 fn exports(code: &str) -> BTreeMap<String, String> {
     let mut exports = BTreeMap::new();
     for statement in code.split(';').filter_map(|statement| statement.split("use ").nth(1)) {
@@ -113,7 +115,7 @@ fn exports(code: &str) -> BTreeMap<String, String> {
     exports
 }
 
-/// First names behind `crate::`, or behind as many `super::` as lead to the root.
+/// First names after `crate::`, or after as many `super::` as lead to the root.
 fn names_at_root(path: &str, code: &str) -> Vec<String> {
     let depth = path.matches('/').count() + usize::from(!path.ends_with("/mod.rs"));
     let roots = ["crate::".to_string(), "super::".repeat(depth)];
@@ -129,7 +131,8 @@ fn names_at_root(path: &str, code: &str) -> Vec<String> {
     names
 }
 
-/// Of `shape::Circle` the first name, of `{shape::Circle, area}` both.
+/// The first names of a path: `shape` of `shape::Circle`; `shape` and `area` of
+/// `{shape::Circle, area}`.
 fn first_names(rest: &str) -> Vec<String> {
     let word = |text: &str| -> String {
         text.trim_start().chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect()

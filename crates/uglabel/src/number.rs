@@ -33,7 +33,7 @@ pub fn speed(v: Velocity) -> String {
 
 /// A list of formatted numbers in order: up to three are listed, more become a range from the first
 /// to the last. Repeated neighbours count once.
-pub fn few(mut texts: Vec<String>) -> String {
+pub fn list_or_range(mut texts: Vec<String>) -> String {
     texts.dedup();
     match texts.as_slice() {
         [first, .., last] if texts.len() > 3 => range(first, last),
@@ -109,7 +109,7 @@ mod tests {
 
     #[test]
     fn more_than_three_are_a_range() {
-        let of = |texts: &[&str]| few(texts.iter().map(|&text| text.to_owned()).collect());
+        let of = |texts: &[&str]| list_or_range(texts.iter().map(|&text| text.to_owned()).collect());
         assert_eq!(of(&["0.5"]), "0.5");
         assert_eq!(of(&["0.5", "0.5", "0.9"]), "0.5, 0.9");
         assert_eq!(of(&["0", "0.3", "0.5", "0.9"]), "0 – 0.9");

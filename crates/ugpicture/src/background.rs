@@ -1,18 +1,18 @@
-//! What is seen where the scene is not.
+//! The background of a picture.
 
 use ugimage::Development;
 use ugphysics::{Hsv, srgb_decode};
 
-/// What is seen behind everything.
+/// The background of a picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Background {
     /// A colour. It is never attenuated as a wavelength.
     Color(Hsv),
-    /// Nothing: the picture is transparent there.
+    /// The picture is transparent where the scene is not.
     Transparent,
 }
 
-/// Puts the samples of pixels on the background.
+/// Composites the samples of pixels over the background.
 pub struct Backdrop {
     /// Linear light; `None` if the background is transparent.
     light: Option<[f32; 3]>,
@@ -20,7 +20,7 @@ pub struct Backdrop {
 }
 
 impl Backdrop {
-    /// For pixels of `samples` × `samples`.
+    /// The backdrop for pixels of `samples` × `samples` samples.
     pub fn new(background: Background, samples: u32) -> Self {
         let light = match background {
             Background::Transparent => None,
@@ -34,7 +34,7 @@ impl Backdrop {
         self.light
     }
 
-    /// The same as developed in a picture.
+    /// The background as developed in a picture.
     pub fn developed(&self, development: Option<Development>) -> Option<[f32; 3]> {
         let light = self.light?;
         Some(development.map_or(light, |development| development.apply(light)))

@@ -8,27 +8,28 @@ use ugphysics::doppler_at;
 use crate::depth_buffer::SurfaceSample;
 use crate::emission::{Emission, Emissions};
 
-/// A number for each pixel, or three. They are of what is seen at the sample nearest to its centre,
-/// never a mean.
+/// A channel of one number per pixel, or three. Its values are those of the surface at the sample
+/// nearest to the pixel's centre, never a mean.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Channel {
-    /// `D`: the Doppler factor (P10); 0 where nothing is seen.
+    /// `D`: the Doppler factor (P10); 0 where nothing is visible.
     Doppler,
-    /// `time`: when the light was emitted, before the picture is taken at 0; −∞ where nothing is
-    /// seen.
+    /// `time`: when the light was emitted, relative to the picture at time 0; −∞ where nothing is
+    /// visible.
     Time,
-    /// `distance`: from the eye to where the light was emitted; ∞ where nothing is seen.
+    /// `distance`: from the eye to the emission event; ∞ where nothing is visible.
     Distance,
-    /// `Z`: the same along the view; ∞ where nothing is seen.
+    /// `Z`: depth of the emission event along the view; ∞ where nothing is visible.
     Depth,
-    /// `id`: faces counted from 1 in the order of the scene, then wires; 0 where nothing is seen.
+    /// `id`: faces counted from 1 in the order of the scene, then wires; 0 where nothing is
+    /// visible.
     Id,
-    /// `velocity.X`, `velocity.Y`, `velocity.Z`: of the body; 0 where nothing is seen.
+    /// `velocity.X`, `velocity.Y`, `velocity.Z`: of the body; 0 where nothing is visible.
     Velocity,
 }
 
 impl Channel {
-    /// All of them.
+    /// All channels.
     pub const ALL: [Self; 6] =
         [Self::Doppler, Self::Time, Self::Distance, Self::Depth, Self::Id, Self::Velocity];
 
@@ -49,14 +50,14 @@ impl Channel {
         Self::ALL.into_iter().find(|channel| channel.name() == name)
     }
 
-    /// All names with commas between, for messages.
+    /// All names, separated by commas, for messages.
     pub fn list() -> String {
         Self::ALL.map(Self::name).join(", ")
     }
 }
 
-/// The planes of a channel. `seen`: at the middle of each pixel, row after row, in pictures of
-/// `width` pixels across with `samples` × `samples` samples each.
+/// The planes of a channel. `seen`: emission events at the middles of pixels, row after row, in
+/// pictures of `width` pixels across with `samples` × `samples` samples each.
 pub fn channel_planes(
     channel: Channel,
     emissions: &Emissions<'_>,

@@ -1,4 +1,4 @@
-//! What is seen at the middle of each pixel.
+//! A depth buffer of the surfaces visible at the middle of each pixel.
 
 /// A surface at a sample.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -14,12 +14,12 @@ pub struct SurfaceSample {
 pub struct DepthBuffer {
     /// Pixels across and down.
     pub size: [u32; 2],
-    /// Row after row; `None` where nothing is seen.
+    /// Row after row; `None` where nothing is visible.
     pub seen: Vec<Option<SurfaceSample>>,
 }
 
 impl DepthBuffer {
-    /// The surface at a pixel; `None` outside the picture, too.
+    /// The surface at a pixel; `None` outside the picture as well.
     pub fn get(&self, column: i64, row: i64) -> Option<SurfaceSample> {
         let [width, height] = self.size.map(i64::from);
         let is_inside = (0..width).contains(&column) && (0..height).contains(&row);

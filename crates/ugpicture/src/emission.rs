@@ -1,4 +1,4 @@
-//! Where and when light was emitted that is seen in the picture.
+//! Emission events of the light seen in the picture.
 
 use glam::DVec3;
 use ugparse::Scene;
@@ -7,10 +7,10 @@ use ugscene::{Geometry, RestFrames, View};
 
 use crate::depth_buffer::SurfaceSample;
 
-/// The event at which light was emitted that is seen at a sample.
+/// The event at which the light seen at a sample was emitted.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Emission {
-    /// Place relative to the eye, in the frame of the camera.
+    /// Position relative to the eye, in the frame of the camera.
     pub place: DVec3,
     /// Depth along the view.
     pub depth: f64,
@@ -29,7 +29,7 @@ pub struct Emissions<'a> {
 }
 
 impl<'a> Emissions<'a> {
-    /// `view`: sample coordinates are its picture coordinates.
+    /// `view`: must have samples as its picture coordinates.
     pub fn new(scene: &'a Scene, view: &'a View, frames: &'a RestFrames) -> Self {
         Self { scene, view, frames, has_flight_time: Geometry::of(scene).flight_time }
     }

@@ -22,16 +22,16 @@ impl Image {
         }
     }
 
-    /// The bytes of a file. Formats that have areas and lines hold the pixels, too.
-    pub fn into_file(self, output: Output, label: &Metadata, compression: Compression) -> Vec<u8> {
+    /// The bytes of a file. Vector formats contain the pixels as an image.
+    pub fn into_file(self, output: Output, metadata: &Metadata, compression: Compression) -> Vec<u8> {
         match (output, self) {
             (Output::Color(format) | Output::Vector(format), Self::Display(frame)) => {
-                format.encode_with(&frame, label, compression)
+                format.encode_with(&frame, metadata, compression)
             }
             (Output::Color(format) | Output::Vector(format), Self::Light(frame)) => {
-                format.encode_linear_with(&frame, label, compression)
+                format.encode_linear_with(&frame, metadata, compression)
             }
-            (Output::Grey, image) => grey_postscript(&image.into_frame(), label),
+            (Output::Grey, image) => grey_postscript(&image.into_frame(), metadata),
         }
     }
 }

@@ -19,8 +19,8 @@
 //! let options = PictureOptions { size: [4, 3], ..PictureOptions::default() };
 //! options.check()?;
 //! let image = Image::Display(Frame::opaque(4, 3));
-//! let label = Metadata { software: "demo 1.0".into(), comment: String::new() };
-//! let png = image.into_file(options.output, &label, Compression::Fast);
+//! let metadata = Metadata { software: "demo 1.0".into(), comment: String::new() };
+//! let png = image.into_file(options.output, &metadata, Compression::Fast);
 //! assert!(png.starts_with(b"\x89PNG"));
 //! # Ok::<(), ugpicture::Error>(())
 //! ```

@@ -2,8 +2,8 @@
 
 use std::ops::Range;
 
-/// The part of a line, as parameters in 0…1, on which linear functions are not negative. `ends`:
-/// the values of each function at the two ends. The part may be a point.
+/// The part of a line, as parameters in 0…1, on which all of several linear functions are not
+/// negative. `ends`: the values of each function at the two ends. The part may be a point.
 pub fn clip_line(ends: impl IntoIterator<Item = [f64; 2]>) -> Option<[f64; 2]> {
     let (mut start, mut end) = (0.0f64, 1.0f64);
     for [first, last] in ends {
@@ -17,7 +17,7 @@ pub fn clip_line(ends: impl IntoIterator<Item = [f64; 2]>) -> Option<[f64; 2]> {
     (start <= end).then_some([start, end])
 }
 
-/// The longest runs of steps, out of `n_steps` along a line, that are all visible.
+/// The longest runs of visible steps, out of `n_steps` along a line.
 pub fn visible_runs(n_steps: u32, is_visible: impl Fn(u32) -> bool) -> Vec<Range<u32>> {
     let mut runs: Vec<Range<u32>> = Vec::new();
     for step in (0..n_steps).filter(|&step| is_visible(step)) {

@@ -20,19 +20,19 @@ pub struct PictureOptions {
     pub size: [u32; 2],
     /// Samples along a side of a pixel, 1…[`MAX_SAMPLES`].
     pub samples: u32,
-    /// How samples are weighted in pixels.
+    /// The reconstruction filter.
     pub filter: Filter,
-    /// What is seen behind everything.
+    /// The background.
     pub background: Background,
     /// Kind of file.
     pub output: Output,
     /// If given, light brighter than white is kept until it is exposed.
     pub exposure: Option<Exposure>,
-    /// How light is brought into the range of a display.
+    /// The tone curve.
     pub tone: Tone,
     /// Channels of an EXR picture besides colour.
     pub channels: Vec<Channel>,
-    /// PNG files are made as small as possible, which takes longer.
+    /// Write PNG files as small as possible, which takes longer.
     pub small: bool,
     /// Caption, legend, grid, outlines.
     pub annotations: AnnotationOptions,
@@ -59,7 +59,7 @@ impl Default for PictureOptions {
 }
 
 impl PictureOptions {
-    /// True if light brighter than white is to be kept: written to a file, or brought into range.
+    /// True if light brighter than white is kept: for a file, an exposure, or a tone curve.
     pub fn keeps_light(&self) -> bool {
         self.output.is_linear() || self.exposure.is_some() || self.tone != Tone::Clip
     }
@@ -87,7 +87,7 @@ impl PictureOptions {
         Ok(())
     }
 
-    /// Refuses what the format has no place for.
+    /// Refuses options that the format does not support.
     fn check_output(&self) -> Result<(), Error> {
         let format = self.output.format();
         if let Output::Vector(format) = self.output {
@@ -146,7 +146,7 @@ pub struct AnnotationOptions {
     pub legend: bool,
     /// Over the picture: the edges of moving bodies as they would look at rest.
     pub outline: bool,
-    /// Over the picture: a grid of coordinates on the ground.
+    /// Over the picture: a coordinate grid on the ground.
     pub grid: bool,
 }
 

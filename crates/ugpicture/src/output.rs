@@ -7,14 +7,14 @@ use ugimage::Format;
 pub enum Output {
     /// Pixels in a colour format.
     Color(Format),
-    /// Areas and lines in place of pixels: a format that [has them](Format::has_vectors).
+    /// Vector graphics: a format that [supports them](Format::has_vectors).
     Vector(Format),
     /// Black-and-white PostScript, as in 1988.
     Grey,
 }
 
 impl Output {
-    /// The colour format, if it is one.
+    /// The colour format; `None` for black-and-white PostScript.
     pub fn format(self) -> Option<Format> {
         match self {
             Self::Color(format) | Self::Vector(format) => Some(format),

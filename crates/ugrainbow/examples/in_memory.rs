@@ -18,7 +18,7 @@ pub fn png(text: &[u8]) -> Result<Vec<u8>, Box<dyn Error>> {
     ugscene::record(&mut scene, "ugdoppler", VERSION, "ugdoppler -ir");
     let picture = ugrainbow::PictureOptions { size: [160, 120], ..Default::default() };
     let rendering = ugrainbow::render(&scene, &ugrainbow::Config { picture, ..Default::default() })?;
-    Ok(rendering.into_file(&ugrainbow::label(&scene, "ugrainbow -sz 160 120")))
+    Ok(rendering.into_file(&ugrainbow::metadata(&scene, "ugrainbow -sz 160 120")))
 }
 
 fn main() -> Result<(), Box<dyn Error>> {

@@ -32,11 +32,11 @@ enum Content {
 }
 
 impl Rendering {
-    /// The bytes of a file of the kind that the options ask for. `label`: see [`label`].
-    pub fn into_file(self, label: &Metadata) -> Vec<u8> {
+    /// The bytes of a file of the kind that the options ask for. `metadata`: see [`metadata`].
+    pub fn into_file(self, metadata: &Metadata) -> Vec<u8> {
         match self.content {
-            Content::Image(image) => image.into_file(self.output, label, self.compression),
-            Content::Figure(figure) => figure.file(label),
+            Content::Image(image) => image.into_file(self.output, metadata, self.compression),
+            Content::Figure(figure) => figure.file(metadata),
         }
     }
 
@@ -76,7 +76,7 @@ pub fn light(scene: &Scene, config: &Config) -> Result<LinearFrame, Error> {
 
 /// What a picture says about its making: our name and version, and the command lines of the whole
 /// pipe. `command_line`: our own, empty if there is none.
-pub fn label(scene: &Scene, command_line: &str) -> Metadata {
+pub fn metadata(scene: &Scene, command_line: &str) -> Metadata {
     let mut lines = ugscene::history(scene);
     if !command_line.is_empty() {
         lines.push(command_line);
@@ -106,7 +106,7 @@ pub fn run(config: &Config, source: &Source) -> Result<Picture, Error> {
     run_with(config, source, "", &())
 }
 
-/// Like [`run`], and reports progress. `command_line`: as in [`label`].
+/// Like [`run`], and reports progress. `command_line`: as in [`metadata`].
 ///
 /// # Errors
 /// See [`Error`].
@@ -123,7 +123,7 @@ pub fn run_with(
     let rendering = render_with(&parsed.scene, config, &layout, progress)?;
     progress.step("compression", 0);
     let notes = rendering.notes.clone();
-    let bytes = rendering.into_file(&label(&parsed.scene, command_line));
+    let bytes = rendering.into_file(&metadata(&parsed.scene, command_line));
     Ok(Picture { bytes, notes, warnings: warnings(source, parsed) })
 }
 

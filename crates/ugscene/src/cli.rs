@@ -9,8 +9,8 @@ use crate::CameraOptions;
 /// Heading of these options in `--help`.
 const CAMERA: &str = "Camera";
 
-/// Which camera, and where its eye is: flatten it into the arguments of a program that needs
-/// no more.
+/// Camera name and eye point: flatten it into the arguments of a program that needs no more of the
+/// camera.
 #[derive(Args, Clone, Debug, Default, PartialEq)]
 pub struct EyeArgs {
     /// The camera of this name [default: the first without a name, else the first]
@@ -74,7 +74,7 @@ pub struct CameraArgs {
 }
 
 impl CameraArgs {
-    /// The same as values.
+    /// The camera options that these arguments define.
     pub fn options(&self) -> CameraOptions {
         CameraOptions {
             name: self.eye.name(),

@@ -1,4 +1,5 @@
-//! Which steps of the pipe a scene may go through: wrong orders are refused, not drawn.
+//! Checks that a scene is at the stage that a program requires: wrong orders of programs are
+//! refused.
 
 use std::fmt;
 
@@ -9,19 +10,19 @@ use ugpipe::remedies;
 /// Why a scene cannot go through a program: its stage is not the one the program needs.
 #[derive(Clone, Debug, PartialEq)]
 pub enum StageError {
-    /// Rest shapes are needed, and positions are as seen.
+    /// Rest shapes are required, but positions are as seen.
     GeometryAsSeen,
-    /// Colours at rest are needed, and colours are as seen.
+    /// Colours at rest are required, but colours are as seen.
     ColorsAsSeen,
-    /// Positions as seen are needed. Bodies move, and have their rest shapes.
+    /// Positions as seen are required, but bodies move and have their rest shapes.
     GeometryAtRest,
-    /// Hues were to be taken for wavelengths, and colours as seen are not wavelengths.
+    /// Wavelengths are required, but colours as seen are hues.
     NotWavelengths,
     /// Positions are as seen from another eye point.
     OtherEye {
         /// The eye point that positions were computed for.
         made_for: DVec3,
-        /// The one asked for.
+        /// The requested eye point.
         asked: DVec3,
     },
 }
@@ -66,7 +67,7 @@ pub fn has_moving_lights(scene: &Scene) -> bool {
 
 fn any_moves(scene: &Scene, mut bodies: impl Iterator<Item = BodyId>) -> bool {
     let moves = |body: &Body| body.motion != Motion::default();
-    // In most scenes nothing moves, and their faces need not be looked at.
+    // In most scenes nothing moves, so their faces need not be visited.
     scene.bodies.iter().any(moves) && bodies.any(|body| moves(&scene.bodies[body]))
 }
 
@@ -82,7 +83,7 @@ pub fn rest_shapes_warning(parsed: &Parsed) -> Option<Diagnostic> {
     Some(finding.label("moves").help(remedies::DRAW_AS_SEEN))
 }
 
-/// Refuses positions that are as seen already.
+/// Refuses apparent positions.
 ///
 /// # Errors
 /// [`StageError::GeometryAsSeen`].
@@ -90,7 +91,7 @@ pub fn require_geometry_at_rest(scene: &Scene) -> Result<(), StageError> {
     scene.stage.seen_geometry().map_or(Ok(()), |_| Err(StageError::GeometryAsSeen))
 }
 
-/// Refuses colours that are as seen already.
+/// Refuses apparent colours.
 ///
 /// # Errors
 /// [`StageError::ColorsAsSeen`].
@@ -98,7 +99,7 @@ pub fn require_colors_at_rest(scene: &Scene) -> Result<(), StageError> {
     scene.stage.seen_colors().map_or(Ok(()), |_| Err(StageError::ColorsAsSeen))
 }
 
-/// Refuses bodies that move and have their rest shapes.
+/// Refuses moving bodies with rest shapes.
 ///
 /// # Errors
 /// [`StageError::GeometryAtRest`].
@@ -109,7 +110,7 @@ pub fn require_seen_geometry(scene: &Scene) -> Result<(), StageError> {
     Ok(())
 }
 
-/// Refuses another eye point than the one that positions were computed for.
+/// Refuses an eye point other than the one that positions were computed for.
 ///
 /// # Errors
 /// [`StageError::OtherEye`].
@@ -120,14 +121,14 @@ pub fn require_eye(scene: &Scene, eye: DVec3) -> Result<(), StageError> {
     }
 }
 
-/// What the hue field of `c` statements holds: what the stage says of colours as seen, else what is
-/// asked for.
+/// The meaning of the hue field of `c` statements: for colours as seen, that of the stage;
+/// otherwise `asked`.
 ///
 /// # Errors
 /// [`StageError::NotWavelengths`].
 pub fn hue_scale(scene: &Scene, asked: HueScale) -> Result<HueScale, StageError> {
     let Some(seen) = scene.stage.seen_colors() else { return Ok(asked) };
-    // Of bodies at rest, hues as seen are as they were written.
+    // Hues of bodies at rest are as written.
     let are_as_written =
         matches!(seen.scale, ColorScale::Hues { .. }) && scene.stage.seen_geometry().is_none();
     match (scene.stage.hue_scale(), asked) {

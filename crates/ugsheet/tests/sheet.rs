@@ -145,8 +145,8 @@ fn fed(command: &mut Command, input: &[u8]) -> Output {
 fn folder() -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     for (name, line) in [("rest", "uglorentz"), ("fast", "uglorentz -vel .9 0 0")] {
-        let label = Metadata { software: "ugrainbow".into(), comment: line.into() };
-        let file = Format::Png.encode(&picture(name, 90, 70, 5).frame, &label);
+        let metadata = Metadata { software: "ugrainbow".into(), comment: line.into() };
+        let file = Format::Png.encode(&picture(name, 90, 70, 5).frame, &metadata);
         fs::write(folder.path().join(format!("{name}.png")), file).unwrap();
     }
     folder

@@ -1,4 +1,4 @@
-//! Annotations drawn over pixels, or added to a figure of areas.
+//! Annotations drawn over pixels, or added to a vector figure.
 
 use ugimage::figure::{Element, Figure, Rgb};
 use ugimage::{Frame, LinearFrame, Quantizer};
@@ -6,24 +6,24 @@ use uglabel::Drawing;
 
 use crate::image::Image;
 
-/// What is drawn over the picture of a scene and below it, ready to be composited.
+/// Annotations over and below the picture of a scene, ready to be composited.
 pub struct Annotations {
     /// Pixels of the whole picture.
     pub size: [u32; 2],
-    /// Rows of the scene at the top.
+    /// Rows of the scene, which is at the top.
     pub scene_rows: u32,
     /// Background of the strips below, as light developed for a display; `None` if transparent.
     pub background: Option<[f32; 3]>,
-    /// Over the picture.
+    /// Drawn over the scene.
     pub over: Drawing,
-    /// On the strips.
+    /// Drawn on the strips.
     pub strips: Drawing,
-    /// What the user should know.
+    /// Notes for the user.
     pub notes: Vec<String>,
 }
 
 impl Annotations {
-    /// Composites them with the picture of the scene, whose other pixels stay the same bits.
+    /// Composites the annotations with the picture of the scene. All other pixels keep their bits.
     pub fn composite(&self, image: Image) -> Image {
         match image {
             Image::Display(mut frame) => {
@@ -69,7 +69,7 @@ impl Annotations {
         LinearFrame::new(self.size, scene.is_opaque(), pixels)
     }
 
-    /// Adds them to the figure of a scene.
+    /// Adds the annotations to the vector figure of a scene.
     pub fn complete<S>(&self, figure: &mut Figure<S>) {
         figure.size = self.size;
         figure.elements.extend(self.over.elements());

@@ -1,7 +1,8 @@
-//! A grid of coordinates on the ground: in the plane z = 0, or under what reaches lower.
+//! A coordinate grid on the ground: in the plane z = 0, or at the lowest point of the scene if that
+//! is lower.
 //!
-//! It is at rest where the picture is taken, in the coordinates of the scene, and spans the box
-//! round everything as it is seen. What is seen in front of it hides it.
+//! It is at rest in the frame of the camera, in the coordinates of the scene, and spans the
+//! bounding box of all apparent positions. Surfaces in front occlude it.
 
 use glam::DVec3;
 use uglabel::{DESCENT, Drawing, Line, MissingCharacter, Point};
@@ -12,19 +13,19 @@ use super::style::Style;
 use super::visible::{VisibleLines, in_picture};
 use uglabel::number::significant;
 
-/// Squares that should be beside each other in the picture, a quarter above its lower edge.
+/// Squares side by side in the picture, counted a quarter above its lower edge; decides their size.
 const SQUARES: f64 = 8.0;
 
 /// Most squares along a side.
 const MOST: f64 = 100.0;
 
-/// Size of numbers, in parts of that of a caption.
+/// Size of the numbers relative to that of a caption.
 const TEXT: f64 = 0.8;
 
-/// Draws the grid where `visible` says it is not hidden. Returns a note.
+/// Draws the visible parts of the grid. Returns a note.
 ///
 /// # Errors
-/// None, for the font has all that is written.
+/// Never, because the font has all characters of the numbers.
 pub fn draw(
     seen: &SeenScene<'_>,
     visible: &VisibleLines<'_>,
@@ -58,14 +59,14 @@ pub fn draw(
 /// Lines at multiples of a step.
 struct GroundGrid {
     step: f64,
-    /// z
+    /// Height of the ground, z.
     level: f64,
-    /// Numbers of the first and the last line, of x and of y.
+    /// Numbers of the first and the last line, along x and along y.
     ends: [[i64; 2]; 2],
 }
 
 impl GroundGrid {
-    /// None if the scene is too far away for numbers.
+    /// `None` if the scene is too far away for numbers.
     fn new(seen: &SeenScene<'_>) -> Option<Self> {
         let (low, high) = seen.scene.bounds()?;
         let longest = (high.x - low.x).max(high.y - low.y);
@@ -75,7 +76,7 @@ impl GroundGrid {
         let step = round_step(((right - left).length() / SQUARES).max(longest / MOST));
         let ends = [[low.x, high.x], [low.y, high.y]]
             .map(|[low, high]| [(low / step).floor(), (high / step).ceil()]);
-        // Beyond, a line is not told from the next.
+        // Farther away, neighbouring lines cannot be distinguished.
         let is_near = ends.iter().flatten().all(|end| end.abs() < 1e9);
         is_near.then(|| Self { step, level, ends: ends.map(|ends| ends.map(|end| end as i64)) })
     }
@@ -85,7 +86,7 @@ impl GroundGrid {
         low..=high
     }
 
-    /// Where the line of a number of an axis meets that of a number of the other, scene
+    /// The intersection of line `number` of an axis with line `across` of the other, in scene
     /// coordinates.
     fn point(&self, axis: usize, number: i64, across: i64) -> DVec3 {
         let (along, across) = (number as f64 * self.step, across as f64 * self.step);
@@ -101,7 +102,7 @@ fn is_free([low, high]: [Point; 2], others: &[[Point; 2]]) -> bool {
     others.iter().all(is_apart)
 }
 
-/// The depth of the ground in the lower part of the picture; that of the view centre if it is
+/// The depth of the ground in the lower part of the picture, or that of the view centre if it is
 /// nearer.
 fn depth(seen: &SeenScene<'_>, level: f64) -> f64 {
     let view = &seen.view;
@@ -111,10 +112,10 @@ fn depth(seen: &SeenScene<'_>, level: f64) -> f64 {
     if crossing > 0.0 && view.is_perspective { crossing.min(view.distance) } else { view.distance }
 }
 
-/// The least of 1, 2, 5, 10, 20, … and .5, .2, … that is not less.
+/// The least of …, 0.5, 1, 2, 5, 10, … that is not less than `least`.
 fn round_step(least: f64) -> f64 {
     let power = libm::exp10(libm::log10(least).floor());
-    // Rounding may put a power of ten on either side of itself.
+    // Rounding may put a power of ten slightly above or below itself.
     [1.0, 2.0, 5.0, 10.0]
         .map(|factor| factor * power)
         .into_iter()
@@ -122,21 +123,21 @@ fn round_step(least: f64) -> f64 {
         .unwrap_or(10.0 * power)
 }
 
-/// Numbers at the ends of lines, on the side that is nearer to the eye.
+/// Numbers at the ends of lines nearer to the eye.
 struct Labels<'a> {
     grid: &'a GroundGrid,
     view: &'a View,
     visible: &'a VisibleLines<'a>,
     style: &'a Style,
-    /// Of those drawn: left upper and right lower corner.
+    /// Upper-left and lower-right corners of the numbers already drawn.
     boxes: Vec<[Point; 2]>,
-    /// Of the picture.
+    /// Size of the picture.
     size: [f64; 2],
 }
 
 impl Labels<'_> {
-    /// From the nearest on, until two would overlap. Those of the other axis, where they stand, are
-    /// left out.
+    /// Draws the numbers of an axis from the nearest on, until two would overlap. Those that would
+    /// overlap numbers of the other axis are left out.
     fn draw(&mut self, axis: usize, drawing: &mut Drawing) -> Result<(), MissingCharacter> {
         let grid = self.grid;
         let near = self.near_side(axis);
@@ -154,11 +155,12 @@ impl Labels<'_> {
         for (number, end, other, is_whole) in lines {
             let Some(spot) = self.visible.shows(end) else { continue };
             let text = significant(number as f64 * grid.step, 6);
-            // At the rims of the picture numbers of both axes are mixed.
+            // At the edges of the picture numbers of both axes are mixed, so they get the name of
+            // the axis.
             let text = if is_named && is_whole { text } else { format!("{name} = {text}") };
             let line = Line::new(&text, TEXT * self.style.size)?;
             let outward = self.direction(end, end + (end - other) * 1e-3);
-            // Where a line leaves the picture, its number stands on it.
+            // Where a line leaves the picture, its number is placed on the line.
             let direction = if is_whole { outward } else { outward.map(|part| -part) };
             let place = self.place(&line, spot, direction);
             if !is_free(place, &self.boxes[first..]) {
@@ -173,13 +175,13 @@ impl Labels<'_> {
         Ok(())
     }
 
-    /// The side of the ground at which lines of an axis have their numbers.
+    /// The edge of the ground at which the lines of an axis have their numbers.
     fn near_side(&self, axis: usize) -> i64 {
         let ends = self.grid.ends;
         let middle = (ends[axis][0] + ends[axis][1]) / 2;
         let [low, high] = ends[1 - axis];
         let distance = |across: i64| (self.grid.point(axis, middle, across) - self.view.eye).length();
-        // Of equals the one whose coordinate is greater.
+        // Ties go to the edge with the greater coordinate.
         if distance(low) < distance(high) * (1.0 - 1e-9) { low } else { high }
     }
 
@@ -195,7 +197,7 @@ impl Labels<'_> {
         if length > 0.0 && length.is_finite() { [x / length, y / length] } else { [0.0, 1.0] }
     }
 
-    /// The box of a number: from a place in a direction.
+    /// The box of a number, offset from a point in a direction.
     fn place(&self, line: &Line, [x, y]: Point, [right, down]: [f64; 2]) -> [Point; 2] {
         let size = TEXT * self.style.size;
         let half = [0.5 * line.width(), 0.4 * size];

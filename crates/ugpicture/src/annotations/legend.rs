@@ -1,5 +1,5 @@
-//! The legend: the rainbow with its wavelengths, where light of one wavelength is seen, and how
-//! bodies move.
+//! The legend: the visible spectrum with its wavelengths, the wavelengths at which green light is
+//! seen, and the velocities of the bodies.
 
 use glam::DVec3;
 use uglabel::{Drawing, Line, MissingCharacter, Point, Rgb};
@@ -7,54 +7,53 @@ use ugphysics::{Hsv, attenuation, wavelength_to_hue};
 
 use super::motion::MotionSummary;
 use super::style::Style;
-use uglabel::number::{few, range, significant, speed};
+use uglabel::number::{list_or_range, range, significant, speed};
 
-/// The wavelength, in nm, of which the legend says where it is seen: the middle of the visible
-/// range, green.
+/// Wavelength in nm whose shifted range the legend shows: green, the middle of the visible
+/// spectrum.
 const SAMPLE_NM: f64 = 550.0;
 
-/// The rainbow.
+/// Wavelengths of the spectrum.
 const VISIBLE_NM: [f64; 2] = [380.0, 780.0];
 
-/// What is left and right of it, for arrows that leave it.
+/// Extent of the axis beyond the spectrum on either side, for arrows that leave it.
 const BEYOND_NM: f64 = 40.0;
 
-/// How much of the rainbow is of one colour.
+/// Width of a piece of uniform colour.
 const STEP_NM: f64 = 2.0;
 
-/// Size of text in a legend, in parts of that of a caption.
+/// Size of text in a legend relative to that of a caption.
 const TEXT: f64 = 0.85;
 
-/// Height of either part, in sizes of text.
+/// Height of each part, in text sizes.
 const HEIGHT: f64 = 4.2;
 
-/// Width of the part about motion: arrows and text.
+/// Width of the velocities, arrows and text, in text sizes.
 const MOTION: f64 = 18.5;
 
-/// Between the parts.
+/// Gap between the parts, in text sizes.
 const GAP: f64 = 1.5;
 
-/// Most and least width of the rainbow.
+/// Greatest and least width of the spectrum, in text sizes.
 const RAINBOW: [f64; 2] = [26.0, 20.0];
 
-/// Least width of all, in sizes of text: numbers below the rainbow stand apart, and words can be
-/// read.
+/// Least width of the legend, in text sizes: below that the numbers under the spectrum overlap.
 const LEAST_WIDTH: f64 = 9.0;
 
-/// More bodies have no arrows.
+/// With more bodies, no arrows are drawn.
 const MOST_ARROWS: usize = 8;
 
-/// Rows of a legend in a picture of so many columns; `None` if that is too narrow for one.
+/// Rows of a legend in a picture `width` columns wide; `None` if that is too narrow.
 pub fn rows(style: &Style, width: u32) -> Option<u32> {
     let layout = Layout::new(style, f64::from(width), 0.0);
     let rows = (layout.end + layout.padding).ceil() as u32;
     (layout.rainbow.1 >= LEAST_WIDTH * layout.size).then_some(rows)
 }
 
-/// Draws it on a strip of a width, that begins at a row.
+/// Draws the legend on a strip of a given width that begins at a given row.
 ///
 /// # Errors
-/// None, for the font has all that is written.
+/// Never, because the font has all its characters.
 pub fn draw(
     motion: &MotionSummary,
     style: &Style,
@@ -69,16 +68,16 @@ pub fn draw(
     legend.words(drawing)
 }
 
-/// Where things are.
+/// The layout of a legend.
 struct Layout {
-    /// Of text.
+    /// Size of text.
     size: f64,
     padding: f64,
-    /// The left upper corner of the part of the rainbow, and its width.
+    /// Upper-left corner of the spectrum, and its width.
     rainbow: (Point, f64),
-    /// That of the part about motion.
+    /// Upper-left corner of the velocities, and their width.
     motion: (Point, f64),
-    /// Where both end.
+    /// Lower end of both parts.
     end: f64,
 }
 
@@ -116,7 +115,7 @@ impl Layout {
         left + width * (wavelength_nm - low) / (VISIBLE_NM[1] + BEYOND_NM - low)
     }
 
-    /// The upper and lower edge of the rainbow.
+    /// The upper and lower edge of the spectrum.
     fn bar(&self) -> [f64; 2] {
         let top = self.rainbow.0[1];
         [2.05, 3.0].map(|row| (top + row * self.size).round())
@@ -130,14 +129,14 @@ struct Legend<'a> {
 }
 
 impl Legend<'_> {
-    /// The colours of the visible range, and wavelengths below them.
+    /// Draws the colours of the visible range, with wavelengths below them.
     fn rainbow(&self, drawing: &mut Drawing) -> Result<(), MissingCharacter> {
         let Layout { size, .. } = self.layout;
         let [top, bottom] = self.layout.bar();
         let n_cells = ((VISIBLE_NM[1] - VISIBLE_NM[0]) / STEP_NM) as u32;
         for cell in 0..n_cells {
             let from = VISIBLE_NM[0] + STEP_NM * f64::from(cell);
-            // Each reaches under the next, so that no ground shows between them.
+            // Each piece extends under the next, so that no background shows between them.
             let to = (from + 1.7 * STEP_NM).min(VISIBLE_NM[1]);
             let columns = [from, to].map(|wavelength_nm| self.layout.column(wavelength_nm));
             drawing.rectangle([columns[0], top], [columns[1], bottom], spectral(from + 0.5 * STEP_NM));
@@ -162,7 +161,7 @@ impl Legend<'_> {
         Ok(())
     }
 
-    /// Where light of one wavelength is seen: an arrow from it to a bar.
+    /// Draws an arrow from a wavelength to the bar of wavelengths at which its light is seen.
     fn shift(&self, drawing: &mut Drawing) -> Result<(), MissingCharacter> {
         let Some([low, high]) = self.motion.doppler.filter(|_| !self.motion.is_rest()) else { return Ok(()) };
         let Layout { size, rainbow: ([_, top], width), .. } = self.layout;
@@ -202,7 +201,7 @@ impl Legend<'_> {
         if ends[1] > right && near < right {
             arrow(right, drawing);
         }
-        // Short ones are still seen.
+        // A short bar is widened to stay visible.
         let wider = (0.5 * (0.3 * size - (inside[1] - inside[0]))).max(0.0);
         if inside[1] > inside[0] || (left..=right).contains(&near) {
             let thick = 0.24 * size;
@@ -213,7 +212,7 @@ impl Legend<'_> {
         drawing.area(circle([start, row], 0.28 * size), ink);
     }
 
-    /// Velocities as arrows of unit length, seen from the camera's direction.
+    /// Draws velocities as arrows of unit length, in the view of the camera.
     fn arrows(&self, drawing: &mut Drawing) {
         let Layout { size, motion: ([left, top], _), .. } = self.layout;
         let radius = 1.7 * size;
@@ -232,11 +231,12 @@ impl Legend<'_> {
         }
     }
 
-    /// An arrow, and at its tail a point if it comes toward the viewer, a cross if it goes away.
+    /// Draws an arrow. At its tail is a dot if it points towards the viewer, and a cross if it
+    /// points away.
     fn arrow(&self, [x, y]: Point, radius: f64, direction: DVec3, drawing: &mut Drawing) {
-        /// Shorter arrows would be hidden by the sign at their tail.
+        /// Shorter arrows would be hidden by the symbol at their tail.
         const ARROW: f64 = 0.3;
-        /// What is less has no sign.
+        /// Smaller components along the view get no symbol.
         const SIGN: f64 = 0.1;
         let (ink, width) = (self.style.ink, 1.5 * self.style.hairline);
         if libm::hypot(direction.x, direction.y) > ARROW {
@@ -267,8 +267,9 @@ impl Legend<'_> {
             }
             None => "nothing is seen".to_owned(),
         };
-        let beta = format!("β = {}", few(velocities.iter().map(|&v| speed(v)).collect()));
-        let gamma = format!("γ = {}", few(velocities.iter().map(|v| significant(v.gamma(), 4)).collect()));
+        let beta = format!("β = {}", list_or_range(velocities.iter().map(|&v| speed(v)).collect()));
+        let gamma =
+            format!("γ = {}", list_or_range(velocities.iter().map(|v| significant(v.gamma(), 4)).collect()));
         let words = if self.motion.is_rest() {
             ["at rest".to_owned(), "β = 0,  γ = 1".to_owned(), doppler]
         } else {
@@ -283,20 +284,20 @@ impl Legend<'_> {
     }
 }
 
-/// A line of text that is not wider than there is room.
+/// A line of text, reduced in size to fit `room`.
 fn fitting(text: &str, size: f64, room: f64) -> Result<Line, MissingCharacter> {
     let line = Line::new(text, size)?;
     if line.width() <= room { Ok(line) } else { Line::new(text, size * room / line.width()) }
 }
 
-/// A line that is longer at both ends.
+/// A line extended by `by` at both ends.
 fn stretched(a: Point, b: Point, by: f64) -> [Point; 2] {
     let [x, y] = [b[0] - a[0], b[1] - a[1]];
     let part = by / libm::hypot(x, y);
     [[a[0] - part * x, a[1] - part * y], [b[0] + part * x, b[1] + part * y]]
 }
 
-/// The colour of light of one wavelength, as the picture has it.  Eq. (P16), (P17)
+/// The colour of light of one wavelength, as in the picture.  Eq. (P16), (P17)
 fn spectral(wavelength_nm: f64) -> Rgb {
     let color = Hsv { hue: wavelength_to_hue(wavelength_nm), saturation: 1.0, value: 1.0 };
     color.attenuated(attenuation(wavelength_nm)).to_rgb().map(|part| (255.0 * part).round() as u8)

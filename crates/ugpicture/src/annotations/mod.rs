@@ -1,10 +1,10 @@
 //! Annotations of a picture: a caption, a legend, a coordinate grid, and the outlines of
 //! undistorted bodies.
 //!
-//! Caption and legend stand on strips below the picture of the scene. The file keeps the size that
-//! is asked for: the scene is drawn in the rows that the strips leave, exactly as it would be drawn
-//! alone in that size. Grid and outlines are drawn over it. All of them are text and lines
-//! ([`uglabel`]), drawn after the light of the scene has been developed.
+//! Caption and legend are on strips below the picture of the scene. The file keeps the requested
+//! size: the scene is drawn in the remaining rows, exactly as a picture of that size. Grid and
+//! outlines are drawn over it. All annotations consist of text and lines ([`uglabel`]), drawn after
+//! the light of the scene has been developed.
 
 mod composite;
 mod grid;
@@ -33,7 +33,7 @@ use seen::SeenScene;
 use style::Style;
 use visible::VisibleLines;
 
-/// The scene of a picture that is annotated.
+/// The scene of an annotated picture.
 #[derive(Clone, Copy, Debug)]
 pub struct Annotated<'a> {
     /// The scene, whose vertices are part of one body each.
@@ -44,20 +44,20 @@ pub struct Annotated<'a> {
     pub is_shifted: bool,
 }
 
-/// Which geometry a depth buffer is asked for.
+/// The geometry of a depth buffer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SceneState {
     /// The scene of the picture.
     AsSeen,
-    /// Another one, in which nothing moves.
+    /// The same scene with all bodies at rest.
     AtRest,
 }
 
-/// Where the parts of an annotated picture are.
+/// The areas of an annotated picture.
 pub struct Layout {
     /// Pixels of the whole picture.
     size: [u32; 2],
-    /// Rows of the scene at the top.
+    /// Rows of the scene, which is at the top.
     scene_rows: u32,
     /// Rows of the legend below it.
     legend_rows: u32,
@@ -65,10 +65,10 @@ pub struct Layout {
 }
 
 impl Layout {
-    /// Lays out a picture.
+    /// Divides the picture into its areas.
     ///
     /// # Errors
-    /// The format has no place for annotations, the font lacks a character, or there is no room.
+    /// The format does not support annotations, the font lacks a character, or there is no room.
     pub fn new(options: &PictureOptions) -> Result<Self, Error> {
         options.check_size()?;
         let annotations = &options.annotations;
@@ -90,7 +90,7 @@ impl Layout {
             ));
         };
         let strips = legend_rows.saturating_add(caption_rows(&style, caption.len()));
-        // With less than a third of its height it is no picture any more.
+        // Less than a third of the height is not enough for the scene.
         match height.checked_sub(strips) {
             Some(scene_rows) if scene_rows > 0 && scene_rows >= height / 3 => {
                 Ok(Self { size: options.size, scene_rows, legend_rows, caption })
@@ -101,7 +101,7 @@ impl Layout {
         }
     }
 
-    /// The options of the picture of the scene alone. `options`: of the whole picture.
+    /// The options for the picture of the scene alone. `options`: of the whole picture.
     pub fn of_scene<'a>(&self, options: &'a PictureOptions) -> Cow<'a, PictureOptions> {
         if self.scene_rows == self.size[1] {
             return Cow::Borrowed(options);
@@ -110,11 +110,11 @@ impl Layout {
     }
 
     /// All annotations, and notes about them. `options`: of the picture of the scene;
-    /// `development`: of its light. `render_depths` renders what is seen at the middle of each
-    /// pixel of a picture of that size.
+    /// `development`: of its light. `render_depths` renders the depth buffer of a picture of that
+    /// size.
     ///
     /// # Errors
-    /// Those of `render_depths`, and of the camera.
+    /// Errors of `render_depths` and of the camera.
     pub fn annotate<E: From<Error>>(
         &self,
         annotated: Annotated<'_>,
@@ -152,8 +152,7 @@ impl Layout {
             if outline {
                 match IdealScene::new(&seen) {
                     Some(ideal) => {
-                        // The camera keeps its view, although the middle of the ideal scene is
-                        // elsewhere.
+                        // The camera must stay, although the scene at rest has another middle.
                         let mut camera = camera.clone();
                         camera.eye = Some(seen.view.eye);
                         camera.center = Some(seen.view.eye + seen.view.distance * seen.view.forward);
@@ -170,7 +169,7 @@ impl Layout {
         Ok(all)
     }
 
-    /// One line in the middle, several from the left.
+    /// A single line is centred, several are left-aligned.
     fn push_caption(&self, style: &Style, drawing: &mut Drawing) {
         let Style { size, ink, .. } = *style;
         let margin = style.margin();
@@ -180,17 +179,17 @@ impl Layout {
                 1 => (0.5 * (f64::from(self.size[0]) - line.width())).max(margin),
                 _ => margin,
             };
-            // Base lines on whole rows are sharp.
+            // Base lines on whole rows look sharp.
             let base = (top + size * (CAPITAL + SPACING * idx as f64)).round();
             drawing.text(line, [left, base], ink);
         }
     }
 }
 
-/// Height of capital letters with little above them, in parts of the size.
+/// Height of capital letters with some space above, relative to the text size.
 const CAPITAL: f64 = 0.8;
 
-/// Above and below a caption.
+/// Space above and below a caption.
 fn padding(style: &Style) -> f64 {
     0.6 * style.size
 }

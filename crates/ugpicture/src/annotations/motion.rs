@@ -10,19 +10,19 @@ use crate::emission::Emissions;
 
 /// Velocities and Doppler factors of the bodies in a picture.
 pub struct MotionSummary {
-    /// Velocities of the bodies that are seen, or of all if none is; slowest first.
+    /// Velocities of the visible bodies, or of all if none is visible; slowest first.
     pub velocities: Vec<Velocity>,
-    /// Their directions: to the right, up, and toward the viewer. Zero at rest.
+    /// Their directions in the camera's axes: right, up, and towards the viewer. Zero at rest.
     pub directions: Vec<DVec3>,
-    /// Least and greatest Doppler factor at the middles of pixels; `None` if nothing is seen.  Eq.
-    /// (P10)
+    /// Least and greatest Doppler factor at the middles of pixels; `None` if nothing is visible.
+    /// Eq. (P10)
     pub doppler: Option<[f64; 2]>,
     /// True if wavelengths in the picture are Doppler shifted.
     pub is_shifted: bool,
 }
 
 impl MotionSummary {
-    /// Of the surfaces in `depths`. `is_shifted`: wavelengths have been Doppler shifted.
+    /// Summarizes the surfaces in `depths`. `is_shifted`: wavelengths have been Doppler shifted.
     pub fn new(seen: &SeenScene<'_>, depths: &DepthBuffer, is_shifted: bool) -> Self {
         let emissions = Emissions::new(seen.scene, &seen.view, &seen.frames);
         let mut velocities: Vec<Velocity> = Vec::new();
@@ -54,13 +54,13 @@ impl MotionSummary {
         Self { velocities, directions, doppler, is_shifted }
     }
 
-    /// True if everything that is seen is at rest.
+    /// True if everything visible is at rest.
     pub fn is_rest(&self) -> bool {
         self.velocities.iter().all(|v| v.is_zero())
     }
 }
 
-/// Unit vectors to the right, up, and toward the viewer.
+/// Unit vectors to the right, up, and towards the viewer.
 fn axes(view: &View) -> [DVec3; 3] {
     let [middle, right, below] =
         [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]].map(|place| view.point(place, view.distance));

@@ -1,11 +1,10 @@
 //! The edges of moving bodies as they would look at rest.
 //!
-//! Each body is given back its rest shape (P4), and is placed so that its centre, that of its box
-//! in its rest frame, stands where it is seen (P3). So the outline is what the eye would see if the
-//! same body rested there, and of a body placed by `uglorentz -in` just what the scene shows at
-//! rest. Drawn are the edges that the eye sees: where a face that is turned to it meets one that is
-//! not, borders, and creases; other faces of the ideal scene hide them, those of the picture do
-//! not.
+//! Each body gets its rest shape (P4), placed so that its centre (of its bounding box in its rest
+//! frame) is at the apparent position of that centre (P3). The outline is thus what the eye would
+//! see if the body rested there; for a body placed by `uglorentz -in` it is the body in the scene
+//! at rest. Only edges that the eye sees are drawn: edges between front and back faces, borders,
+//! and creases. Other faces of the scene at rest occlude them, those of the picture do not.
 
 use std::collections::HashMap;
 
@@ -19,24 +18,24 @@ use super::style::Style;
 use super::visible::{DepthPoint, VisibleLines};
 use crate::depth_buffer::DepthBuffer;
 
-/// Faces that meet at less than this angle are one bent surface: its cosine, of 35 degrees.
+/// Cosine of the angle, 35 degrees, below which adjacent faces count as one curved surface.
 const CREASE: f64 = 0.819;
 
-/// The same of faces in one plane.
+/// Cosine of the angle below which faces count as coplanar.
 const COPLANAR: f64 = 0.9999;
 
-/// How far beside a line it is asked what goes on there, in pixels.
+/// Distance from a line, in pixels, at which the surfaces beside it are tested.
 const ASIDE: f64 = 1.6;
 
-/// What is so far from the plane of a face, in parts of its distance from the eye, still lies in
-/// it.
+/// Points closer than this to the plane of a face, relative to their distance from the eye, count
+/// as in the plane.
 const FLAT: f64 = 3e-3;
 
-/// The scene that outlines are drawn of: moving bodies at rest, as they would look.
+/// The scene for the outlines: moving bodies as they would look at rest.
 pub struct IdealScene {
-    /// Nothing in it moves.
+    /// The scene, in which nothing moves.
     pub scene: Scene,
-    /// Places of its vertices relative to the eye.
+    /// Positions of its vertices relative to the eye.
     places: Vec<DVec3>,
 }
 
@@ -76,7 +75,7 @@ pub fn draw(
     drawing.lines(lines, width, style.ink);
 }
 
-/// Where each vertex would be, relative to the eye.
+/// The position of each vertex at rest, relative to the eye.
 fn ideal_places(seen: &SeenScene<'_>) -> Vec<DVec3> {
     let scene = seen.scene;
     let at_rest = rest_positions(scene, seen.view.eye, &seen.frames);
@@ -103,7 +102,7 @@ fn ideal_places(seen: &SeenScene<'_>) -> Vec<DVec3> {
     bodies.iter().enumerate().map(place).collect()
 }
 
-/// The scene with its vertices there, and nothing in motion.
+/// The scene with its vertices at `places`, and nothing in motion.
 fn ideal_scene(scene: &Scene, eye: DVec3, places: &[DVec3]) -> Scene {
     let mut ideal = scene.clone();
     for (vertex, place) in ideal.vertices.iter_mut().zip(places) {
@@ -134,8 +133,8 @@ impl Faces<'_> {
         (normal, normal.dot(toward) > 0.0)
     }
 
-    /// True if one surface goes on at both sides of a place on a line, though it may be made of
-    /// faces that do not share this edge: cut another way, or let into each other.
+    /// True if one surface continues on both sides of a point on a line, though possibly made of
+    /// faces that do not share this edge: differently subdivided, or inserted into each other.
     fn go_on(&self, visible: &VisibleLines<'_>, place: DepthPoint, across: Point) -> bool {
         let point = visible.point(place);
         let side = |by: f64| {
@@ -149,19 +148,19 @@ impl Faces<'_> {
     }
 }
 
-/// An edge of faces, from its first use.
+/// An edge of faces, stored once.
 struct Edge {
     ends: [VertexId; 2],
-    /// Faces that have it, and whether they run from the first end to the second.
+    /// The faces that share it, and whether they run from the first end to the second.
     faces: Vec<(usize, bool)>,
 }
 
 /// Edges of moving bodies, in the order of the scene.
 fn edges(scene: &Scene, is_moving: &dyn Fn(BodyId) -> bool) -> Vec<Edge> {
-    // A vertex that was repeated, for another colour, is in the same place.
+    // A vertex repeated for another colour is at the same position.
     let spot = |vertex: VertexId| scene.vertices[vertex.index()].position.to_array().map(f64::to_bits);
     let mut edges: Vec<Edge> = Vec::new();
-    // Only looked up, so its order is never seen.
+    // Only looked up, so its order does not matter.
     let mut known = HashMap::new();
     for (idx, face) in scene.faces.iter().enumerate().filter(|(_, face)| is_moving(face.body)) {
         for [a, b] in face_edges(scene, face) {
@@ -179,7 +178,7 @@ fn edges(scene: &Scene, is_moving: &dyn Fn(BodyId) -> bool) -> Vec<Edge> {
 }
 
 impl Edge {
-    /// True if it is drawn where nothing hides it.
+    /// True if the edge is drawn where it is not occluded.
     fn is_shown(&self, faces: &Faces<'_>) -> bool {
         let &[(one, one_forth), (other, other_forth)] = self.faces.as_slice() else { return true };
         let ((normal, is_front), (other_normal, other_is_front)) = (faces.normal(one), faces.normal(other));

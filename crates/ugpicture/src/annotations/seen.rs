@@ -1,4 +1,4 @@
-//! What annotations need of a scene and its camera.
+//! The scene and camera of annotations.
 
 use ugparse::Scene;
 use ugscene::{CameraOptions, RestFrames, View};
@@ -17,7 +17,7 @@ pub struct SeenScene<'a> {
 }
 
 impl<'a> SeenScene<'a> {
-    /// In a picture of `size` pixels.
+    /// The scene in a picture of `size` pixels.
     pub fn new(scene: &'a Scene, camera: &CameraOptions, size: [u32; 2]) -> Result<Self, Error> {
         let view = View::new(scene, camera, size)?;
         Ok(Self { scene, view, frames: RestFrames::new(scene), size })

@@ -8,7 +8,7 @@ use crate::output::Output;
 /// Least size of text in pixels; smaller letters cannot be read.
 const LEAST: f64 = 9.0;
 
-/// Geometric mean of the picture's sides over the size of text.
+/// Ratio of the geometric mean of the picture's sides to the text size.
 const PER_SIZE: f64 = 40.0;
 
 /// Size and colours of text and lines.

@@ -1,4 +1,4 @@
-//! The parts of lines that the surfaces of the picture do not hide.
+//! The parts of lines that are not occluded by the surfaces of the picture.
 
 use glam::DVec3;
 use uglabel::Point;
@@ -24,7 +24,7 @@ pub type DepthPoint = [f64; 3];
 pub struct VisibleLines<'a> {
     /// Camera of the depth buffer, at one sample a pixel.
     pub view: &'a View,
-    /// What hides.
+    /// The occluders.
     pub depths: &'a DepthBuffer,
 }
 
@@ -34,8 +34,8 @@ impl VisibleLines<'_> {
         self.visible_where(ends, |_, _| true)
     }
 
-    /// The same, restricted to where `is_asked` holds: of a point, and a unit vector across the
-    /// line.
+    /// As [`VisibleLines::visible`], restricted to where `is_asked` holds for the point and the
+    /// unit vector across the line.
     pub fn visible_where(
         &self,
         ends: [DVec3; 2],
@@ -45,7 +45,7 @@ impl VisibleLines<'_> {
         let [a, b] = ends.map(|end| self.depth_point(end));
         let at = |part: f64| [0, 1, 2].map(|i| a[i] + (b[i] - a[i]) * part);
         let length = libm::hypot(b[0] - a[0], b[1] - a[1]);
-        // A line in the picture is not longer than its diagonal.
+        // A line in the picture is at most as long as its diagonal.
         let across = if length > 0.0 { [(a[1] - b[1]) / length, (b[0] - a[0]) / length] } else { [0.0; 2] };
         let n_steps = (length / STEP).ceil().clamp(1.0, 1e6) as u32;
         let part = |step: u32| f64::from(step) / f64::from(n_steps);
@@ -56,7 +56,7 @@ impl VisibleLines<'_> {
         let mut lines = Vec::new();
         for run in visible_runs(n_steps, is_visible) {
             let [from, to] = [run.start, run.end].map(|step| at(part(step)));
-            // Shorter runs on a longer line are where the depth test is decided by rounding.
+            // Shorter runs on a longer line are rounding noise of the depth test.
             let n_run = run.end - run.start;
             if 2 * n_run >= n_steps || f64::from(n_run) * STEP > SPECK {
                 lines.push([[from[0], from[1]], [to[0], to[1]]]);
@@ -65,7 +65,7 @@ impl VisibleLines<'_> {
         lines
     }
 
-    /// The place of a point, relative to the eye and in the picture, if it is visible.
+    /// The position in the picture of a point, relative to the eye, if it is visible.
     pub fn shows(&self, point: DVec3) -> Option<Point> {
         let place = self.depth_point(point);
         self.is_seen(place).then_some([place[0], place[1]])
@@ -86,7 +86,7 @@ impl VisibleLines<'_> {
         self.view.point([x, y], if self.view.is_perspective { 1.0 / key } else { -key })
     }
 
-    /// The face seen at a place of the picture.
+    /// The face visible at a point of the picture.
     pub fn face_at(&self, [x, y]: Point) -> Option<usize> {
         self.depths.get(x.floor() as i64, y.floor() as i64).map(|seen| seen.item as usize)
     }

@@ -61,12 +61,12 @@ pub enum VectorFigure {
 
 impl VectorFigure {
     /// The bytes of its file.
-    pub fn file(&self, label: &Metadata) -> Vec<u8> {
+    pub fn file(&self, metadata: &Metadata) -> Vec<u8> {
         match self {
-            Self::Gradients(figure) => figure::svg(figure, label),
-            Self::Triangles(figure, Format::Pdf) => figure::pdf(figure, label),
-            Self::Triangles(figure, Format::Ps) => figure::ps(figure, label),
-            Self::Triangles(figure, _) => figure::eps(figure, label),
+            Self::Gradients(figure) => figure::svg(figure, metadata),
+            Self::Triangles(figure, Format::Pdf) => figure::pdf(figure, metadata),
+            Self::Triangles(figure, Format::Ps) => figure::ps(figure, metadata),
+            Self::Triangles(figure, _) => figure::eps(figure, metadata),
         }
     }
 }
