@@ -63,7 +63,7 @@ def at(theta_deg):
 
 
 def boost(v):
-    """From the frame that moves with v to the frame in which v is measured, on columns (t, x, y, z)."""
+    """Boost from the frame moving with v to the one in which v is measured, on (t, x, y, z)."""
     g, square = gamma(v), dot(v, v)
     m = mp.eye(4)
     m[0, 0] = g
@@ -85,7 +85,7 @@ def from_frame(v, four):
 
 
 def retarded(p_now, v):
-    """The time w < 0 when light left the point that is now at p_now, and where it was: by bracketing."""
+    """Emission time w < 0, and the position then, of the point that is now at p_now: by bracketing."""
     f = lambda w: norm(plus(p_now, w, v)) + w
     low = -mpf(1)
     while f(low) > 0:
@@ -146,7 +146,7 @@ def topic(name, title):
 
 
 def word(x):
-    """An input as it stands in the question."""
+    """An input as written in the table."""
     return x if isinstance(x, str) else repr(x)
 
 
@@ -220,7 +220,7 @@ def t03():
 
 
 def seen_speed(b, theta):
-    """Of a far body: how fast the place it is seen at moves, along and across the line of sight."""
+    """Apparent speed of a distant body, along and across the line of sight."""
     n, v = at(theta), along(b)
     pause = 1 - dot(n, v)  # between two flashes that left 1 apart, as they arrive
     across = norm(plus(v, -dot(n, v), n))
@@ -262,7 +262,7 @@ def t07():
     for b in ["0.9", "0.5"]:
         for theta, printed in digits.items():
             n, v = at(theta), along(b)
-            # Both ends send the light that arrives together: the front end's leaves later by n.x, and has moved on.
+            # Light that arrives together leaves the front end later by n.x, when it has moved on.
             extent = (1 / gamma(v)) / (1 - dot(n, v))
             ask(f"rod_extent {b} {theta}", extent, "Terrell 1959", printed=printed if b == "0.9" else None)
 
@@ -273,7 +273,7 @@ def t08():
             ("0.99", "90", "81.89038554"), ("0.9", "30", "68.86030714"), ("0.9", "60", "76.65824177"), ("0.9", "120", "44.90981482"),
             ("0.5", "30", "19.79218128"), ("0.5", "60", "30"), ("0.5", "120", "23.13010235")]
     for b, theta, printed in rows:
-        # The direction of the same light in the body's frame; light goes against the viewing direction.
+        # Direction of the same light in the body's frame, opposite to the viewing direction.
         d = [-x for x in at(mpf(theta))]
         in_body = angle([-x for x in direction_in_frame(d, along(b))], vec(1, 0, 0))
         ask(f"terrell {b} {theta}", in_body - mpf(theta), "Terrell 1959; Weisskopf 1960", printed=printed)
@@ -283,7 +283,8 @@ def t09():
     topic("T09", "Far cube abeam")
     for b in ["0.3", "0.6", "0.8", "0.9", "0.99"]:
         v = along(b)
-        # Front: its ends are at one distance, so their light leaves together. Side: the far end's leaves 1 earlier.
+        # The ends of the front are equally far, so their light leaves together. On the side, light
+        # from the far end leaves 1 earlier.
         front, side = 1 / gamma(v), mpf(b) * 1
         ask(f"cube_abeam {b}", [front, side], "Terrell 1959; Weisskopf 1960", M1=[front, mpf(0)])
 
@@ -617,7 +618,7 @@ def t25():
                                         ("3", "1.5", "0.8", "70", None)]:
         D, sphere = doppler(at(mpf(theta)), along(b)), 4 * mp.pi * mpf(r) ** 2
         P = mpf(power)
-        # In the light's frame the same area element gets P/(4 pi r'^2) of photons; r' by two frames.
+        # In the light's frame the area element receives P/(4 pi r'^2) photons; r' by two frames.
         event = [-mpf(r)] + [-mpf(r) * x for x in at(mpf(theta))]
         r_light = norm(to_frame(along(b), event)[1:])
         energy = P / (4 * mp.pi * r_light ** 2) * D ** 2
@@ -661,7 +662,7 @@ def t27():
         if in_deg == "60" and b == "-0.3":
             assert abs(mp.cos(mp.radians(out_deg)) + mpf("0.06962025316")) < mpf("1e-11")
             printed = None
-        # An arc cosine knows an angle of 0 to half the digits.
+        # The arc cosine of nearly 1 has half the digits.
         ask(f"mirror_angle {in_deg} {b}", [out_deg, ratio], source, "1e-7" if in_deg == "0" else "1e-11", printed=printed)
     for k, v, n in [("-1 0 0", "0.9 0 0", "1 0 0"), ("-0.6 0.8 0", "0 0.9 0", "1 0 0"), ("-0.6 0 0.8", "0 0.5 0.7", "1 0 0"),
                     ("0.36 0.48 0.8", "0.3 -0.4 0.5", "-1 0 0"), ("-0.6 -0.64 -0.48", "0.2 0.3 0.1", "0.6 0.8 0")]:
@@ -670,7 +671,7 @@ def t27():
 
 
 def snell(d, n, ratio):
-    """The direction behind a surface with unit normal n; ratio is index before over index behind."""
+    """The refracted direction at a surface with unit normal n; ratio: index before over behind."""
     if dot(d, n) > 0:
         n = [-x for x in n]
     cos_in = -dot(d, n)
@@ -738,7 +739,7 @@ def t30():
         tau = mp.findroot(lambda s: mp.quad(lambda r: mp.sinh(A * r), [0, s]) - half, (mpf("0.01"), mpf(10) / A), solver="anderson", tol=mpf(10) ** -60)
         home, ship = 2 * mp.quad(lambda s: mp.cosh(A * s), [0, tau]), 2 * tau
         if printed:
-            # Another author's program, which rounds g and the year in its own way.
+            # A program of another author, with other roundings of g and the year.
             for ours, theirs in zip([mp.tanh(A * tau), home, ship], printed.split()):
                 assert abs(ours / mpf(theirs) - 1) < mpf("1e-5"), (ours, theirs)
         ask(f"flip_trip {a} {distance}", [mp.tanh(A * tau), home, ship], "Misner, Thorne & Wheeler 1973, sec. 6.2", M11=[mp.tanh(A * tau), ship, home])
@@ -750,7 +751,7 @@ def rotation_angle(m):
 
 
 def wigner(u, v):
-    """The turn that is left when the boost of the resulting velocity is taken off the two boosts."""
+    """Rotation that remains when the boost of the combined velocity is removed from two boosts."""
     m = boost(u) * boost(v)
     w = [m[i, 0] / m[0, 0] for i in (1, 2, 3)]
     return rotation_angle(boost([-x for x in w]) * m)
@@ -830,7 +831,7 @@ def t36():
         there = [mpf(number(x)) for x in from_frame(v, event)]
         ask(f"boost {text(there)} {text([-x for x in v])}", from_frame([-x for x in v], there), "Lorentz 1904; Poincare 1906", M3=from_frame(v, there))
     for _ in range(8):
-        # A point with a velocity, seen by a camera with another; then both looked at from a third frame.
+        # A moving point seen by a moving camera; then both described in a third frame.
         event, u, w = [mpf(0)] + point(), speed(0.9), speed(0.9)
         r, d = camera(event, u, w)
         ask(f"camera_sees {text(event)} {text(u)} {text(w)}", [r, d], OURS, "1e-10")
@@ -861,7 +862,7 @@ def random_in_ball(rng, top):
 
 
 def camera(event, u, w):
-    """Distance and D, in the camera's frame, of a point through `event` with velocity u, seen from the origin's event."""
+    """Distance and D, in the camera's frame, of a point through `event` with velocity u, seen at 0."""
     start = plus(event[1:], -event[0], u)
     t, where = retarded(start, u)
     source = [t] + where

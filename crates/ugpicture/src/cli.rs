@@ -83,10 +83,10 @@ pub struct PictureArgs {
 }
 
 impl PictureArgs {
-    /// The same as values.
+    /// The picture options that these arguments define.
     ///
     /// # Errors
-    /// The background is not a colour.
+    /// The background is not a valid colour.
     pub fn options(&self, output: Output, annotations: AnnotationOptions) -> Result<PictureOptions, Failure> {
         Ok(PictureOptions {
             camera: self.camera.options(),
@@ -140,7 +140,7 @@ pub struct AnnotationArgs {
 }
 
 impl AnnotationArgs {
-    /// The same as values.
+    /// The annotation options that these arguments define.
     pub fn options(&self) -> AnnotationOptions {
         AnnotationOptions {
             caption: self.cap.clone().unwrap_or_default(),

@@ -28,7 +28,7 @@ fn ugrainbow(args: &[&str]) -> Command {
 /// Runs the program with `scene` on its standard input.
 fn fed(command: &mut Command, scene: &str) -> Output {
     let mut child = command.spawn().unwrap();
-    // A program that ends without reading closes the pipe: not this test's business.
+    // Fails if the program ends without reading its input, which is irrelevant here.
     let _ = child.stdin.take().unwrap().write_all(scene.as_bytes());
     child.wait_with_output().unwrap()
 }
@@ -143,7 +143,7 @@ fn bad_scenes_end_with_1() {
     }
     check("", "the scene has no faces and no wires");
     check("l 1; v a 0 0 0;", "the scene has no faces and no wires");
-    // Cut off in the middle, as by a program that died.
+    // Truncated, as by an upstream program that crashed.
     check(&SCENE[..SCENE.len() - 10], "<stdin>:");
     check(&SCENE[..SCENE.find("-ep").unwrap()], "<stdin>:");
     check(&SCENE.replace("b c d)", "b c x)"), "`x`");
@@ -165,12 +165,13 @@ fn a_reader_that_leaves_kills_quietly() {
     stdout.read_exact(&mut [0; 4]).unwrap();
     drop(stdout);
     let output = child.wait_with_output().unwrap();
-    // SIGPIPE is 13 on every system we know.
+    // SIGPIPE is 13 on all supported systems.
     assert_eq!(output.status.signal(), Some(13), "{:?}", output.status);
     assert_eq!(stderr(&output), "");
 }
 
-/// Runs the program in `folder` with its standard output on a terminal; gives what it showed there too.
+/// Runs the program in `folder` with its standard output on a terminal. Also returns what the
+/// terminal received.
 fn on_terminal(args: &[&str], folder: &Path) -> (Output, Vec<u8>) {
     let master = openpt(OpenptFlags::RDWR | OpenptFlags::NOCTTY).unwrap();
     grantpt(&master).unwrap();
@@ -212,7 +213,7 @@ fn grey_postscript_goes_to_its_file_of_1988() {
     assert_eq!(stderr(&output), "ugrainbow: note: the picture goes to the file POSTSCRIPTFILE\n");
     let file = fs::read(folder.path().join("POSTSCRIPTFILE")).unwrap();
     assert!(file.starts_with(b"%!PS-Adobe-2.0 EPSF-2.0\n%%BoundingBox: 0 0 8 8\n"));
-    // Into a pipe it goes as everything else.
+    // Into a pipe it is written like every other format.
     let output = fed(&mut ugrainbow(&["-sz", "8", "8", "-dp"]), SCENE);
     assert!(output.stdout == file);
 }

@@ -1,4 +1,4 @@
-//! `--explain`: its bytes are the picture's, and its numbers obey the equations.
+//! `--explain`: its bytes are those of the picture, and its numbers satisfy the equations.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, its helpers too")]
 
@@ -102,8 +102,8 @@ fn check_parts(told: &Value) {
     assert_eq!(covers.is_empty(), told["sample"].is_null());
 }
 
-/// The event is on the light cone in both frames, D is the ratio of the distances (P10), and the angles those
-/// of (P6).
+/// The event is on the light cone in both frames, D is the ratio of the distances (P10), and the
+/// angles are those of (P6).
 fn check_sample(told: &Value) {
     let sample = &told["sample"];
     let (event, rest) = (&sample["emission"], &sample["emission_at_rest"]);
@@ -112,7 +112,7 @@ fn check_sample(told: &Value) {
     assert!((number(&rest["t"]) + x_rest.length()).abs() < 1e-12 * x_rest.length());
     let doppler = number(&sample["D"]);
     assert!((doppler - x.length() / x_rest.length()).abs() < 1e-12 * doppler);
-    // The invariant interval to the eye's own event is null; the phase of the light is the Doppler factor.
+    // The interval to the observation event is null; the ratio of the phases is the Doppler factor.
     let gamma = 1.0 / (1.0 - beta.length_squared()).sqrt();
     assert!((number(&sample["gamma"]) - gamma).abs() < 1e-12 * gamma);
     assert!((doppler * gamma * (1.0 + beta.dot(x) / x.length()) - 1.0).abs() < 1e-12);
@@ -224,7 +224,7 @@ fn layers_blend_to_the_pixel() {
         }
         let names = layers.iter().map(|layer| layer["item"]["name"].as_str().unwrap_or_default());
         let names: Vec<&str> = names.collect();
-        // What is told of is the first that lets less than half through.
+        // The explained surface is the first that transmits less than half of the light.
         let subject = told["sample"]["item"]["name"].as_str();
         let first = layers.iter().position(|layer| number(&layer["translucency"]) < 0.5);
         assert!(first.is_none_or(|first| subject == Some(names[first])), "{told}");

@@ -1,4 +1,5 @@
-//! Captions, legends, grids and outlines: where they are, and that the picture of the scene stays as it is.
+//! Captions, legends, grids and outlines: their positions, and that they do not change the picture
+//! of the scene.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, its helpers too")]
 
@@ -28,7 +29,8 @@ fn strips() -> AnnotationOptions {
     }
 }
 
-/// Rows of the scene in a figure: the greatest height at which the scene alone gives its upper rows, to the byte.
+/// Rows of the scene in an annotated picture: the greatest height at which the scene alone has the
+/// same upper rows, to the byte.
 fn scene_rows(config: &Config) -> u32 {
     let figure = draw(SHIP, config);
     let [width, height] = config.picture.size;
@@ -92,7 +94,7 @@ fn the_caption_keeps_within_its_strip() {
             let ground = figure.pixel(0, 299);
             let rows = scene_rows(&config);
             let inks = |x: u32, y: u32| figure.pixel(x, y) != ground;
-            // The strip begins with at least half a line of ground, and ends with one.
+            // The strip begins and ends with at least half a line of background.
             let ink: Vec<[u32; 2]> = (rows..300)
                 .flat_map(|y| (0..300).map(move |x| [x, y]))
                 .filter(|&[x, y]| inks(x, y))
@@ -110,7 +112,7 @@ fn the_caption_keeps_within_its_strip() {
     }
 }
 
-/// Each number of the legend stands under the colour of its wavelength.
+/// Each number of the legend is under the colour of its wavelength.
 #[test]
 fn the_legend_has_the_hues_of_the_map() {
     let figures = AnnotationOptions { caption: String::new(), ..strips() };
@@ -133,7 +135,7 @@ fn the_legend_has_the_hues_of_the_map() {
     let pure = |y: u32| (0..1200).filter(|&x| hue(x, y).is_some()).count();
     let rainbow: Vec<u32> = (600..900).filter(|&y| pure(y) > 100).collect();
     let (row, end) = (rainbow[rainbow.len() / 2], *rainbow.last().unwrap());
-    // Below it, behind its frame, there are the ticks.
+    // The ticks are below its frame.
     let is_tick = |x: u32| figure.pixel(x, end + 4)[0] < 128;
     // The rainbow is in the left half.
     let starts: Vec<u32> = (1..600).filter(|&x| is_tick(x) && !is_tick(x - 1)).collect();
@@ -162,7 +164,8 @@ fn the_legend_has_the_hues_of_the_map() {
     }
 }
 
-/// Seen from above, without perspective: lines are where their coordinates are, but not where a box stands on them.
+/// Seen from above in orthographic projection: lines are at their coordinates, except where a box
+/// occludes them.
 #[test]
 fn grid_lines_are_at_their_coordinates_and_hidden_by_what_is_nearer() {
     let angle = 2.0 * libm::atan(4.0 / 10.0).to_degrees();

@@ -16,7 +16,7 @@ v m 1 3 -2; v n 3 3 -2.3; v o 2 3 1; f (m n o) pane;
 v p -.9 2 -1; v q .9 2 -1.05; v r .9 2 -1.09; v s -.9 2 -1.02; f (p q r s) grey;
 cam -ep 0 0 0 -vc 0 5 0 -va 70 55;";
 
-/// Differences of cut-off powers: Schoenberg's formula for the spline of an order on whole and half numbers.
+/// Schoenberg's formula for B-splines: differences of truncated powers.
 fn spline(order: i32, x: f64) -> f64 {
     let knots = 0..=order + 1;
     let sum: f64 = knots
@@ -38,7 +38,7 @@ fn order(filter: Filter) -> i32 {
     }
 }
 
-/// The samples are the pixels of a picture that has as many, with one sample each.
+/// The samples are the pixels of a picture of that resolution with one sample per pixel.
 #[track_caller]
 fn check(filter: Filter, size: [u32; 2], samples: u32) {
     let config = Config {
@@ -83,7 +83,8 @@ fn check(filter: Filter, size: [u32; 2], samples: u32) {
         }
         n_mixed += usize::from(sum.iter().any(|sum| *sum > 0.0));
         for (ours, sum) in ours.iter().zip(sum) {
-            // Sums of single precision; and once in a while a sample on an edge falls to the other side.
+            // Sums in single precision; and occasionally a sample on an edge is assigned to the
+            // other side.
             let off = (f64::from(*ours) - sum / total).abs();
             assert!(off < 5e-6 * (1.0 + sum / total), "{filter:?} {size:?} {samples}: {idx}: {ours} {off}");
         }
@@ -106,7 +107,7 @@ fn samples_weigh_by_their_distance() {
     }
 }
 
-/// A body of one sample, in all places of a pixel: the picture has the same light of it.
+/// A body of one sample, at each position in a pixel: its total light in the picture is the same.
 #[test]
 fn small_bodies_keep_their_light_wherever_they_stand() {
     // Eight pixels across of four samples, a unit each.
@@ -130,7 +131,8 @@ fn small_bodies_keep_their_light_wherever_they_stand() {
     }
 }
 
-/// What covers the picture covers it to the edge, to the bit; and what is not covered shows nothing.
+/// A face that covers the picture covers it up to the edges, bit for bit; elsewhere only the
+/// background is visible.
 #[test]
 fn covered_is_covered() {
     let text = "c_rgb all .25 .5 .75; l 1; v a -9 -9 0; v b 9 -9 0; v c 9 9 0; v d -9 9 0; f (a b c d) all;
@@ -161,7 +163,7 @@ fn covered_is_covered() {
             "{row:?}"
         );
         assert_eq!(u16::from(row[19]) + u16::from(row[20]), 255, "{filter:?}");
-        // Of what covers a part only, the colour is still its own.
+        // The colour of a partly covered pixel is still that of the face.
         assert!(
             (19..40)
                 .all(|column| row[column as usize] == 0 || frame.pixel(column, 20)[..3] == [64, 128, 191])

@@ -1,4 +1,4 @@
-//! Colours given as light, brighter than white, and what a display makes of them.
+//! Colours given as light, brighter than white, and their development for a display.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, its helpers too")]
 
@@ -53,7 +53,7 @@ fn white_is_one() {
 #[test]
 fn light_is_interpolated_in_xyz_and_lit() {
     let (camera, config) = map(16, 1, 1);
-    // From a bright colour to one that no primaries mix.
+    // From a bright colour to one outside the gamut.
     let (from, to) = ([9.0, 5.0, 0.5], [0.1, 0.9, 0.1]);
     let colors = "c_xyz p 9 5 .5; c_xyz q .1 .9 .1;";
     let corners = "v a -4 -4 0 p; v b 4 -4 0 q; v c 4 4 0 q; v d -4 4 0 p; f (a b c d);";
@@ -67,7 +67,7 @@ fn light_is_interpolated_in_xyz_and_lit() {
                 assert!((xyz[i] - expected).abs() < 1e-5, "{idx}: {xyz:?}");
             }
         }
-        assert!(pixels[15][0] < 0.0, "what no primaries mix has negative parts: {:?}", pixels[15]);
+        assert!(pixels[15][0] < 0.0, "a colour outside the gamut has negative parts: {:?}", pixels[15]);
     }
     // A coloured light, itself of the scale of displays: half red is srgb_decode(0.5) of it.
     let text = format!("c_xyz w .950469 1 1.088822; c_rgb r 1 .5 0; l 2 r; {SQUARE} f (a b c d) w; {camera}");
@@ -79,7 +79,7 @@ fn light_is_interpolated_in_xyz_and_lit() {
     }
 }
 
-/// In one scene, and in one face: there hues become light at their corners.
+/// In one scene, and in one face, where hues are converted to light at their corners.
 #[test]
 fn hues_and_light_stand_side_by_side() {
     let (camera, config) = map(16, 1, 1);
@@ -115,7 +115,7 @@ fn hues_and_light_stand_side_by_side() {
     assert_eq!(wire.len(), 16);
 }
 
-/// Half a pixel of light 8 is light 4, not the mean of what a display shows of it.
+/// Half a pixel of light 8 is light 4, not the mean of display levels.
 #[test]
 fn pixels_are_means_of_light_and_developed_after() {
     let (camera, config) = map(16, 1, 8);
@@ -146,7 +146,8 @@ const GLARE: &str = "c_xyz hot 9 4 1; c_xyz green .2 3 .1; c blue 1.7 220 .8; c 
     v a -4 -4 0 hot; v b 1 -4 0 green; v c 1 4 0 dim; v d -4 4 0 blue; f (a b c d);
     v e 0.3 -3 1; v g 3.7 -2 1; v h 2 3.1 1; f (e g h) blue; w (a h g) hot;";
 
-/// What a display is given is the light of the PFM file, developed, to the byte; with and without bright hues.
+/// The 8-bit picture is the light of the PFM file after development, to the byte; with and without
+/// bright hues.
 #[test]
 fn a_picture_is_its_light_developed() {
     let (camera, mut config) = map(40, 30, 3);

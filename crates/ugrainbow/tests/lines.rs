@@ -1,4 +1,4 @@
-//! Wires and edges of faces against where they are.
+//! Wires and edges of faces: their width, visibility and position.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, its helpers too")]
 
@@ -18,7 +18,8 @@ fn down(frame: &Frame, x: u32) -> f64 {
     (0..frame.height()).map(|y| srgb_decode(f64::from(frame.pixel(x, y)[0]) / 255.0)).sum()
 }
 
-/// A wire along the far edge of a table that is seen from just above it is as wide as one in the air.
+/// A wire along the far edge of a table seen at a grazing angle has the same width as one in the
+/// air.
 #[test]
 fn a_wire_on_a_slanting_edge_has_its_full_width() {
     let table = "v a -9 8 0; v b 9 8 0; v c 9 12 0; v d -9 12 0; f (a b c d) blue;";
@@ -55,7 +56,7 @@ fn cube() -> String {
     text
 }
 
-/// Of a convex body those edges are seen that a face turned to the eye has.
+/// The visible edges of a convex body are those of its front faces.
 #[test]
 fn of_a_cube_the_edges_of_faces_turned_to_the_eye_are_seen() {
     let side = 200;
@@ -82,7 +83,7 @@ fn of_a_cube_the_edges_of_faces_turned_to_the_eye_are_seen() {
                 if at == 0.0 { eye[face] < 0.0 } else { eye[face] > 1.0 }
             };
             let is_seen = (0..3).filter(|&face| face != axis).any(is_turned);
-            // Not in the middle, where edges may cross.
+            // Not at the middle, where edges may cross in the picture.
             let point = corner(k).lerp(corner(other), 0.37) - eye;
             let depth = point.dot(forward);
             let at = |along: f64| 0.5 * f64::from(side) + scale * along / depth;
@@ -94,7 +95,8 @@ fn of_a_cube_the_edges_of_faces_turned_to_the_eye_are_seen() {
     }
 }
 
-/// Cuts inside of a face are not drawn, neither in one plane nor in pieces of pieces; where colours meet they are.
+/// Cuts inside a face are not drawn, also after repeated subdivision; boundaries between colours
+/// are.
 #[test]
 fn cuts_of_a_face_are_not_drawn() {
     let camera = "cam -ep 0 -3 6 -vc 0 0 0 -va 50 50;";
@@ -110,7 +112,7 @@ fn cuts_of_a_face_are_not_drawn() {
         let [whole, parts] = [&whole, &pieces].map(|text| draw(text, &config));
         let change = |(a, b): (&[u8; 4], &[u8; 4])| (0..3).map(|i| a[i].abs_diff(b[i])).max();
         let greatest = whole.pixels().iter().zip(parts.pixels()).filter_map(change).max();
-        // At most a sample at a joint falls on the other side.
+        // At most one sample at a joint differs.
         assert!(greatest <= Some(40), "{greatest:?}");
         let two = draw(&pieces.replace("f (a ab m) red", "f (a ab m) green"), &config);
         let change = whole.pixels().iter().zip(two.pixels()).filter_map(change).max();

@@ -64,7 +64,7 @@ fn a_fully_lit_colour_is_its_8_bit_self() {
 
 #[test]
 fn orthographic_squares_are_where_they_should() {
-    // 8 units over 16 pixels: x in −1…2 is columns 6…12, y in 0…3 is rows 2…8 from the top.
+    // 8 units over 16 pixels: x in −1…2 is columns 6…12, y in 0…3 is rows 2…8.
     let (camera, config) = map(16, 16);
     let frame =
         draw(&format!("l 1; v a -1 0 3; v b 2 0 3; v c 2 3 3; v d -1 3 3; f (a b c d); {camera}"), &config);
@@ -107,10 +107,10 @@ fn film_angles_and_size_agree() {
     check("-va 1 1", CameraOptions { view_angle: Some((90.0, None)), ..none() }, [32, 16], [12..20, 4..12]);
     // Both angles: pixels need not be square.
     check("", CameraOptions { view_angle: Some((90.0, Some(90.0))), ..none() }, [32, 16], [12..20, 6..10]);
-    // The right upper quarter of the film.
+    // The upper-right quarter of the film.
     check("-va 90 90 -ph .5 .5 1 1", none(), [32, 32], [0..8, 24..32]);
     check("-va 90 90 -ph 0 .5 1 1", none(), [32, 16], [12..20, 12..16]);
-    // Options beat the scene.
+    // Options override the scene.
     check(
         "",
         CameraOptions { eye: Some(DVec3::ZERO), view_angle: Some((90.0, None)), ..none() },
@@ -220,13 +220,13 @@ fn hues_and_wavelengths_are_interpolated_along_straight_lines() {
     assert_near(band("c r 1 0; c b 1 240;", "r", "b", &wavelengths, 0.5), pure(mid));
     let mid = wavelength_to_hue((hue_to_wavelength(30.0) + hue_to_wavelength(200.0)) / 2.0);
     assert_near(band("c r 1 30; c b 1 200;", "r", "b", &wavelengths, 0.5), pure(mid));
-    // 340 is −20: through red to 60, never round by 300. At a part of the band's first column.
+    // 340 is −20: through red to 60, never across 300. At the centre of the band's first column.
     let hue = -20.0 + 80.0 * 0.5 / 101.0;
     let fade = attenuation(hue_to_wavelength(hue));
     let dark = Hsv { hue, saturation: 1.0, value: fade }.to_rgb();
     assert_near(band("c p 1 340; c y 1 60;", "p", "y", &config, 0.0), dark);
     assert_near(band("c p 1 340; c y 1 60;", "p", "y", &config, 0.5), pure(20.0));
-    // Wavelengths in the file, also such as no hue has: 300 and 900 nm meet at 600.
+    // Wavelengths in the file, also invisible ones: 300 and 900 nm have the mean 600.
     let files = Config { hue_scale: HueScale::Wavelengths, ..config };
     assert_near(band("c u 1 300; c i 1 900;", "u", "i", &files, 0.5), pure(wavelength_to_hue(600.0)));
     assert_near(band("c u 1 300; c i 1 900;", "u", "i", &files, 0.0), [0.0; 3]);
@@ -314,7 +314,7 @@ fn lights_follow_the_cosine_law() {
     check("l 1 0 3 4;", grey(0.8));
     check("l .3; l .5 0 3 4;", grey(0.7));
     check("l .3; l .5 0 3 -4;", grey(0.3));
-    // Two-sided: from below the face is seen, it is lit from above only.
+    // The light comes from below, and only the visible side, above, is lit.
     check("l 1 0 0 -1; l .1;", grey(0.1));
     check("l 1 0 0 -1 0;", grey(0.0));
     // A coloured light multiplies red, green and blue.
@@ -322,10 +322,10 @@ fn lights_follow_the_cosine_law() {
     check("l 1 half;", grey(0.5));
     // No light at all: 0.3 and 0.7 from the eye.
     check("", grey(1.0));
-    // Below the square, which is turned with its back to the eye.
+    // The square is seen from behind and lit from that side.
     let back = format!("l .8 0 0 1; {SQUARE} f (d c b a); {camera}");
     assert_near(draw(&back, &config).pixel(2, 2), grey(0.8));
-    // A stored level beats the lights.
+    // A level stored in the face overrides the lights.
     let stored = format!("l .8 0 0 1; {SQUARE} f (a b c d) .4; {camera}");
     assert_near(draw(&stored, &config).pixel(2, 2), grey(0.4));
 }

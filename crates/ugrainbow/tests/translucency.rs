@@ -153,7 +153,8 @@ fn triangles_that_cut_each_other_are_what_rays_meet() {
     }
 }
 
-/// The light on the way down at a place; `None` near an edge or where two triangles are nearly level.
+/// The light along the view at a point; `None` near an edge, or where two triangles have nearly the
+/// same depth.
 fn ray(triangles: &[Triangle], [x, y]: [f64; 2]) -> Option<[f64; 3]> {
     const CLOSE: f64 = 1e-4;
     let mut met = Vec::new();
@@ -220,7 +221,8 @@ fn a_face_of_its_own_colour_is_as_clear_everywhere() {
     );
     let alpha = |x: u32| frame.pixel(x, 4)[3];
     assert_eq!([0, 1, 2, 3, 4, 5, 6, 7].map(alpha), [255, 255, 128, 128, 128, 128, 255, 255]);
-    // Without a colour of its own it has that of its corners, here from clear at the left to opaque at the right.
+    // Without a colour of its own the face has those of its corners, here transparent at the left
+    // and opaque at the right.
     let text = "l 1; c clear 1 0 1 1; c red 1 0;
                 v a -4 -4 0 clear; v b 4 -4 0 red; v c 4 4 0 red; v d -4 4 0 clear; f (a b c d);";
     let frame = draw(
@@ -236,7 +238,8 @@ fn a_face_of_its_own_colour_is_as_clear_everywhere() {
     }
 }
 
-/// At rest both modes see the same planes; they differ only in how samples on outlines are given to faces.
+/// At rest both modes see the same planes; they differ only in which face a sample on an outline
+/// belongs to.
 #[test]
 fn exact_pictures_blend_as_well() {
     let all = triangles(24, 9);

@@ -5,7 +5,7 @@
 use ugimage::Format;
 use ugrainbow::{Background, Config, Error, Output, PictureOptions, run};
 
-/// Eye ten units above the plane z = 0, +y up, orthographic: ten pixels a unit, the origin at 40, 40.
+/// Eye ten units above the plane z = 0, +y up, orthographic: ten pixels per unit, origin at 40, 40.
 fn svg(scene: &str) -> String {
     let angle = 2.0 * libm::atan(4.0 / 10.0).to_degrees();
     let text = format!("{scene} cam -ep 0 0 10 -vc 0 0 0 -ud 0 1 0 -og -va {angle} {angle};");
@@ -106,7 +106,8 @@ fn what_cannot_be_a_figure_is_refused() {
 
 #[test]
 fn what_lies_between_seen_faces_and_is_hidden_is_left_out() {
-    // It shares two corners with the near face, of which samples are seen, and lies wholly behind that.
+    // It shares two corners with the near face, which is visible at samples, and lies completely
+    // behind it.
     let hidden = "v i 0 0 0.5; f hidden (e i h) red;";
     for scene in [[NEAR, FAR, hidden], [hidden, FAR, NEAR]] {
         let found = areas(&svg(&format!("{COLORS}{}", scene.concat())));
