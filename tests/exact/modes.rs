@@ -2,9 +2,9 @@
 
 use glam::DVec3;
 use ugrainbow::{ColorShift, SpectralShift};
+use ugrandom::Random;
 use ugtests::picture::decode;
 use ugtests::pipe::{Pipe, lorentz, rainbow};
-use ugtests::random::Random;
 use ugtests::scenes;
 
 use crate::{SIZE, channels, exact};

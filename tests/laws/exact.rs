@@ -4,8 +4,8 @@ use dashu_float::FBig;
 use dashu_float::round::mode::HalfEven;
 use glam::DVec3;
 use ugparse::ColorValue;
+use ugrandom::Random;
 use ugtests::pipe;
-use ugtests::random::Random;
 use ugtests::scenes::parse;
 
 use crate::{color_of, named, triangles};

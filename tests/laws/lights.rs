@@ -4,9 +4,9 @@ use glam::DVec3;
 use ugdoppler::Config;
 use ugparse::{ColorValue, Scene};
 use ugphysics::{Brightness, Velocity};
+use ugrandom::Random;
 use ugtests::picture::{assert_same, decode};
 use ugtests::pipe::{Pipe, doppler, lorentz, rainbow};
-use ugtests::random::Random;
 use ugtests::scenes;
 
 fn lit() -> Config {

@@ -2,9 +2,9 @@
 
 use glam::DVec3;
 use ugphysics::Velocity;
+use ugrandom::Random;
 use ugtests::picture::assert_same;
 use ugtests::pipe::{self, Pipe};
-use ugtests::random::Random;
 use ugtests::scenes::{self, parse};
 
 /// A moving camera in a scene at rest gives the same picture as the scene moving the opposite way,

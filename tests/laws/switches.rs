@@ -5,8 +5,8 @@ use std::collections::HashMap;
 use glam::DVec3;
 use ugparse::{ColorValue, Scene};
 use ugphysics::Brightness;
+use ugrandom::Random;
 use ugtests::pipe;
-use ugtests::random::Random;
 use ugtests::scenes::parse;
 
 use crate::{color_of, named, triangles};

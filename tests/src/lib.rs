@@ -10,7 +10,6 @@
 //! - [`explanation`]: known causes of differences between them;
 //! - [`outline`]: errors of drawn edges;
 //! - [`shading`]: the expected colour of a point, from the formulas;
-//! - [`random`]: reproducible random numbers;
 //! - [`slow_reader`]: a second, independent reader of the scene language;
 //! - [`tools`]: whether programs of others are there, and what is skipped without them;
 //! - [`tracked`]: the files of the repository.
@@ -24,7 +23,6 @@ pub mod outline;
 pub mod picture;
 pub mod pipe;
 pub mod programs;
-pub mod random;
 pub mod scenes;
 pub mod shading;
 pub mod slow_reader;

@@ -169,6 +169,8 @@ pub fn auto_exposure(frame: &LinearFrame, tone: Tone) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use ugrandom::Random;
+
     use super::*;
 
     /// The published code, for a scalar.
@@ -197,12 +199,8 @@ mod tests {
     }
 
     fn noise(count: usize, scale: f32) -> Vec<[f32; 3]> {
-        let mut state = 7u32;
-        let mut next = || {
-            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-            (state >> 8) as f32 / (1 << 24) as f32
-        };
-        (0..count).map(|_| [next(), next(), next()].map(|x| scale * (x - 0.25))).collect()
+        let mut random = Random(7);
+        (0..count).map(|_| [(); 3].map(|()| scale * random.between(-0.25, 0.75) as f32)).collect()
     }
 
     /// Gamut mapping moves a colour on a line through the grey of its luminance, so the difference

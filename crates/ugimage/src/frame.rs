@@ -85,10 +85,9 @@ impl Frame {
 #[cfg(test)]
 pub(crate) fn test_frames() -> Vec<Frame> {
     let mut noise = Frame::opaque(37, 19);
-    let mut state = 1u32;
+    let mut random = ugrandom::Random(1);
     for pixel in noise.pixels_mut() {
-        state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-        let [r, g, b, _] = state.to_be_bytes();
+        let [r, g, b, ..] = random.bits().to_be_bytes();
         *pixel = [r, g, b, 255];
     }
     let mut runs = Frame::opaque(300, 5);

@@ -5,11 +5,12 @@ mod common;
 
 use std::fmt::Write;
 
-use common::{Random, find, parse, place, seen};
+use common::{find, parse, place, seen};
 use glam::DVec3;
 use uglorentz::{Anchor, Config, Pieces};
 use ugparse::{BodyId, LightKind, LightMotion, Scene};
 use ugphysics::{Velocity, compose, doppler_at, rest_position, wigner_rotation};
+use ugrandom::Random;
 use ugscene::{Geometry, RestFrames, rest_positions};
 
 /// Bodies of one triangle each.
@@ -28,7 +29,7 @@ impl Fleet {
     /// The first body rests in the scene, the second moves with the camera.
     fn new(random: &mut Random, n_bodies: usize, speed: f64) -> Fleet {
         let camera = random.direction() * speed;
-        let eye = random.point(20.0);
+        let eye = random.in_ball(20.0);
         let mut beta = |idx: usize| match idx {
             0 => DVec3::ZERO,
             1 => camera,
@@ -36,7 +37,7 @@ impl Fleet {
         };
         let betas: Vec<DVec3> = (0..n_bodies).map(&mut beta).collect();
         let bodies =
-            betas.into_iter().map(|beta| Body { beta, corners: [(); 3].map(|()| random.point(10.0)) });
+            betas.into_iter().map(|beta| Body { beta, corners: [(); 3].map(|()| random.in_ball(10.0)) });
         Fleet { bodies: bodies.collect(), camera, eye }
     }
 

@@ -6,11 +6,12 @@ mod common;
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use common::{Random, edges, find, moving, normal, parse, place, prism, rock, run, seen, tetrahedron, text};
+use common::{edges, find, moving, normal, parse, place, prism, rock, run, seen, tetrahedron, text};
 use glam::DVec3;
 use uglorentz::{Config, DEFAULT_COLOR_ERROR, Pieces};
 use ugparse::{Item, Scene, VertexId};
 use ugphysics::{Velocity, doppler_at, seen_position};
+use ugrandom::Random;
 use ugscene::{Geometry, RestFrames};
 
 type Mesh = (Vec<DVec3>, Vec<Vec<usize>>);

@@ -3,18 +3,19 @@
 
 mod common;
 
-use common::{Random, edges, find, moving, parse, place, run, seen, text, try_run};
+use common::{edges, find, moving, parse, place, run, seen, text, try_run};
 use glam::DVec3;
 use uglorentz::{Anchor, Config, Pieces};
 use ugparse::{LightKind, Scene};
 use ugphysics::{Velocity, contracted, flight_time, seen_position};
+use ugrandom::Random;
 use ugscene::Geometry;
 
 const SPEEDS: [f64; 8] = [1e-9, 0.1, 0.5, 0.9, 0.99, 0.999, 0.9999, 0.999_999];
 
 /// A cloud of triangles.
 fn cloud(random: &mut Random, n: usize) -> (String, Vec<DVec3>) {
-    let vertices: Vec<DVec3> = (0..3 * n).map(|_| random.point(10.0)).collect();
+    let vertices: Vec<DVec3> = (0..3 * n).map(|_| random.in_ball(10.0)).collect();
     let faces: Vec<Vec<usize>> = (0..n).map(|k| vec![3 * k, 3 * k + 1, 3 * k + 2]).collect();
     (text(&vertices, &faces), vertices)
 }
@@ -25,7 +26,7 @@ fn vertices_are_where_their_light_left_them() {
     for speed in SPEEDS {
         for _ in 0..5 {
             let (text, vertices) = cloud(&mut random, 4);
-            let eye = random.point(20.0);
+            let eye = random.in_ball(20.0);
             let beta = random.direction() * speed;
             let v = Velocity::from_beta(beta).unwrap();
             let config = Config { eye: Some(eye), pieces: Pieces::UpTo(0.02), ..moving(beta) };

@@ -3,10 +3,11 @@
 
 mod common;
 
-use common::{Random, parse, run, table};
+use common::{parse, run, table};
 use glam::DVec3;
 use uglorentz::{Config, Pieces, Table};
 use ugphysics::{Velocity, doppler_at, rest_position, seen_event};
+use ugrandom::Random;
 
 /// The numbers of vertex `a` of a triangle that moves with `beta`, by heading.
 fn measured(a: DVec3, beta: DVec3, config: Config) -> impl Fn(&str) -> f64 {
@@ -111,7 +112,7 @@ fn t33_apparent_clock_rates() {
 #[test]
 fn rows_are_those_of_the_scene_and_of_the_equations() {
     let mut random = Random(91);
-    let points = [(); 9].map(|()| random.point(10.0));
+    let points = [(); 9].map(|()| random.in_ball(10.0));
     let mut text = String::new();
     for (idx, p) in points.iter().enumerate() {
         text += &format!("v p{idx} {:?} {:?} {:?}; ", p.x, p.y, p.z);

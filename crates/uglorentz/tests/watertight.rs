@@ -5,10 +5,11 @@ mod common;
 
 use std::fmt::Write;
 
-use common::{Random, edges, rock, run};
+use common::{edges, rock, run};
 use glam::DVec3;
 use proptest::prelude::*;
 use uglorentz::{Config, Pieces};
+use ugrandom::Random;
 
 /// Corners, and faces by their contours.
 type Solid = (Vec<DVec3>, Vec<Vec<Vec<usize>>>);
@@ -63,7 +64,7 @@ fn solid(random: &mut Random, kind: usize) -> Solid {
     };
     let turn = glam::DQuat::from_axis_angle(random.direction(), random.between(0.0, 6.0));
     // Some are round the eye.
-    let center = random.point(4.0);
+    let center = random.in_ball(4.0);
     (corners.into_iter().map(|corner| turn * corner + center).collect(), faces)
 }
 

@@ -92,8 +92,6 @@ mod exact;
 pub mod explain;
 mod front;
 mod lines;
-#[cfg(test)]
-mod noise;
 mod notes;
 mod packing;
 mod painter;

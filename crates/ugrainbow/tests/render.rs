@@ -10,6 +10,7 @@ use ugphysics::{
     Hsv, Velocity, attenuation, hue_to_wavelength, seen_position, srgb_decode, srgb_encode, wavelength_to_hue,
 };
 use ugrainbow::{Background, CameraOptions, Config, Error, HueScale, Interpolation, PictureOptions, render};
+use ugrandom::Random;
 
 /// One sample at the centre of each pixel.
 fn plain(width: u32, height: u32) -> Config {
@@ -606,16 +607,12 @@ fn no_scene_makes_it_panic() {
 /// Triangles through each other, round the eye and behind it, against a ray through every pixel.
 #[test]
 fn triangles_are_where_rays_meet_them() {
-    let mut state = 7u64;
-    let mut random = move || {
-        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (state >> 11) as f64 / (1u64 << 52) as f64 - 1.0
-    };
+    let mut random = Random(7);
     // Colours 0…119 as levels of red and green, so that a pixel names its triangle.
     let triangles: Vec<[DVec3; 3]> = (0..120)
         .map(|_| {
-            let center = DVec3::new(random(), random(), random()) * 6.0;
-            [(); 3].map(|()| center + DVec3::new(random(), random(), random()) * 4.0)
+            let center = random.in_cube(6.0);
+            [(); 3].map(|()| center + random.in_cube(4.0))
         })
         .collect();
     let mut text = String::from("l 1; cam -ep 0 0 0 -vc 1 2 .5 -va 80 80;");

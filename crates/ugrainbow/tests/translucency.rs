@@ -8,6 +8,7 @@ use common::config;
 use ugimage::Frame;
 use ugphysics::{Hsv, srgb_encode};
 use ugrainbow::{Background, ColorShift, Config, DepthCue, PictureOptions, render};
+use ugrandom::Random;
 
 /// Eye ten units above the plane z = 0, +y up, orthographic; 8 units across the picture.
 fn camera() -> String {
@@ -81,16 +82,6 @@ fn what_passes_shows_the_background() {
     assert_pixel(&frame, [0, 0], [0.5 / 0.8, 0.3 / 0.8, 0.0]);
 }
 
-/// A small generator of numbers in 0…1.
-struct Noise(u64);
-
-impl Noise {
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 11) as f64 / (1u64 << 53) as f64
-    }
-}
-
 /// A triangle of one colour.
 struct Triangle {
     corners: [[f64; 3]; 3],
@@ -99,10 +90,10 @@ struct Triangle {
 }
 
 fn triangles(n: usize, seed: u64) -> Vec<Triangle> {
-    let mut noise = Noise(seed);
+    let mut random = Random(seed);
     (0..n)
         .map(|k| Triangle {
-            corners: std::array::from_fn(|_| std::array::from_fn(|_| 8.0 * noise.next() - 4.0)),
+            corners: [(); 3].map(|()| random.in_cube(4.0).to_array()),
             hue: (k % 3) as f64 * 120.0,
             translucency: [0.0, 0.3, 0.6, 0.9][k % 4],
         })

@@ -97,8 +97,6 @@ mod filter;
 mod gradients;
 mod grid;
 mod layer;
-#[cfg(test)]
-mod noise;
 mod outlines;
 mod polygons;
 mod probe;

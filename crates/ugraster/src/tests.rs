@@ -1,9 +1,9 @@
 //! Coverage against counting and geometry; the pixels of scenes are in `tests/`.
 
 use fearless_simd::Level;
+use ugrandom::Random;
 
 use crate::edges::Scanner;
-use crate::noise::Noise;
 use crate::*;
 
 /// A corner at a place, at depth key 1, without values.
@@ -57,11 +57,11 @@ fn a_square_covers_its_samples() {
 fn faces_of_a_mesh_share_no_sample_and_leave_none_out() {
     const CELLS: usize = 12;
     const CELL: f64 = 3.7;
-    let mut noise = Noise(1);
+    let mut random = Random(1);
     let mut points = [[(0.0, 0.0); CELLS + 1]; CELLS + 1];
     for (j, row) in points.iter_mut().enumerate() {
         for (i, point) in row.iter_mut().enumerate() {
-            let mut jitter = |idx: usize| if idx == 0 || idx == CELLS { 0.0 } else { noise.next() - 0.5 };
+            let mut jitter = |idx: usize| if idx == 0 || idx == CELLS { 0.0 } else { random.unit() - 0.5 };
             // Some points on sample centres, where ties are.
             let snap = |x: f64| if (i + j) % 3 == 0 { x.round() + 0.5 } else { x };
             let inside = |idx: usize, x: f64| if idx == 0 || idx == CELLS { x } else { snap(x) };
@@ -153,7 +153,7 @@ impl CornerTable<1> for Triangles {
 #[test]
 fn a_block_is_classified_like_its_triangles() {
     const BAD: [f64; 6] = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 0.0, 1e9, 1e-40];
-    let mut noise = Noise(13);
+    let mut random = Random(13);
     let mut counts = [0; 4];
     for (round, size) in (0..400).zip([0.3, 3.0, 40.0, 3e3].into_iter().cycle()) {
         let is_perspective = round % 3 != 0;
@@ -161,10 +161,10 @@ fn a_block_is_classified_like_its_triangles() {
         let mut triangles = [[Point::default(); 3]; BLOCK];
         let mut block = TriangleBlock::default();
         for (place, points) in triangles.iter_mut().enumerate() {
-            let middle = [900.0 * noise.next() - 100.0, 500.0 * noise.next() - 100.0];
+            let middle = [900.0 * random.unit() - 100.0, 500.0 * random.unit() - 100.0];
             *points = [(); 3].map(|()| {
-                let [x, y] = middle.map(|place| place + size * (noise.next() - 0.5));
-                Point { x, y, key: 0.1 + 1.2 * noise.next() }
+                let [x, y] = middle.map(|place| place + size * (random.unit() - 0.5));
+                Point { x, y, key: 0.1 + 1.2 * random.unit() }
             });
             match place {
                 5 => points[round as usize % 3].x = BAD[round as usize / 3 % 6],
@@ -223,20 +223,20 @@ fn is_regular(points: &[Point; 3], is_perspective: bool) -> bool {
 /// polygons along edges.
 #[test]
 fn triangles_are_drawn_like_polygons() {
-    let mut noise = Noise(11);
+    let mut random = Random(11);
     let (mut n_drawn, mut n_seen) = (0, 0);
     for (samples, size) in [(1, 3.0), (1, 40.0), (2, 300.0), (1, 1e5)] {
         let grid = SampleGrid { width: 60, height: 50, samples, is_perspective: true, fade: None };
         let (mut triangles, mut polygons) = (PolygonList::default(), PolygonList::default());
         let mut table = Vec::new();
         for item in 0..300 {
-            let middle = [60.0 * noise.next(), 50.0 * noise.next()].map(|place| place * f64::from(samples));
+            let middle = [60.0 * random.unit(), 50.0 * random.unit()].map(|place| place * f64::from(samples));
             let corners = [(); 3].map(|()| {
-                let [x, y] = middle.map(|place| place + size * (noise.next() - 0.5));
+                let [x, y] = middle.map(|place| place + size * (random.unit() - 0.5));
                 // Some on sample centres, where ties are.
                 let [x, y] = if item % 3 == 0 { [x.round() + 0.5, y.round() + 0.5] } else { [x, y] };
-                let key = 0.1 + noise.next();
-                Corner { x, y, key, values: [key * noise.next()] }
+                let key = 0.1 + random.unit();
+                Corner { x, y, key, values: [key * random.unit()] }
             });
             let points = corners.map(|Corner { x, y, key, .. }| Point { x, y, key });
             let mut block = TriangleBlock::default();
@@ -330,15 +330,15 @@ fn painted(polygons: &[Vec<Corner<1>>], grid: &SampleGrid) -> Vec<f32> {
 /// Intersecting triangles, each with a light of its own.
 #[test]
 fn a_probe_finds_what_was_painted() {
-    let mut noise = Noise(5);
+    let mut random = Random(5);
     for samples in [1, 2, 3] {
         let grid = SampleGrid { width: 25, height: 20, samples, is_perspective: false, fade: None };
         let polygons: Vec<Vec<Corner<1>>> = (1..=40)
             .map(|k| {
                 let mut corner = || Corner {
-                    x: 30.0 * f64::from(samples) * noise.next(),
-                    y: 25.0 * f64::from(samples) * noise.next(),
-                    key: noise.next(),
+                    x: 30.0 * f64::from(samples) * random.unit(),
+                    y: 25.0 * f64::from(samples) * random.unit(),
+                    key: random.unit(),
                     values: [f64::from(k) / 64.0],
                 };
                 vec![corner(), corner(), corner()]

@@ -9,15 +9,15 @@ use std::path::Path;
 use std::process::{Command, Output, Stdio};
 
 use ugimage::{Format, Frame, Metadata, read_png};
+use ugrandom::Random;
 use ugsheet::{Config, Error, Labels, Picture, sheet};
 
 /// A picture of noise, so that it occurs only once on a sheet.
-fn picture(name: &str, width: u32, height: u32, seed: u32) -> Picture {
+fn picture(name: &str, width: u32, height: u32, seed: u64) -> Picture {
     let mut frame = Frame::opaque(width, height);
-    let mut state = seed;
+    let mut random = Random(seed);
     for pixel in frame.pixels_mut() {
-        state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-        let [r, g, b, _] = state.to_be_bytes();
+        let [r, g, b, ..] = random.bits().to_be_bytes();
         *pixel = [r, g, b | 1, 255];
     }
     Picture { name: name.into(), frame, history: Metadata::default() }

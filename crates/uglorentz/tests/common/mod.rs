@@ -7,39 +7,7 @@ use std::fmt::Write;
 use glam::DVec3;
 use uglorentz::{Config, Report, Table};
 use ugparse::{Face, Options, Scene, Source, VertexId};
-
-/// A small generator (SplitMix64), so that every run sees the same scenes.
-pub struct Random(pub u64);
-
-impl Random {
-    /// In 0…1.
-    pub fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    pub fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.unit()
-    }
-
-    pub fn direction(&mut self) -> DVec3 {
-        loop {
-            let p = DVec3::new(self.between(-1.0, 1.0), self.between(-1.0, 1.0), self.between(-1.0, 1.0));
-            if p.length_squared() < 1.0
-                && let Some(direction) = p.try_normalize()
-            {
-                return direction;
-            }
-        }
-    }
-
-    pub fn point(&mut self, size: f64) -> DVec3 {
-        self.direction() * size * self.unit()
-    }
-}
+use ugrandom::Random;
 
 /// A mesh as text: vertices `v0`, `v1`, … and faces by vertex row.
 pub fn text(vertices: &[DVec3], faces: &[Vec<usize>]) -> String {

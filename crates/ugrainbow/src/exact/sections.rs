@@ -156,6 +156,7 @@ impl Line<'_> {
 #[cfg(test)]
 mod tests {
     use glam::DVec3;
+    use ugrandom::Random;
 
     use super::super::film::{Film, Lengths, center};
     use super::*;
@@ -163,21 +164,11 @@ mod tests {
     const COLUMNS: Range<u32> = 0..200;
     const ROWS: Range<u32> = 0..60;
 
-    /// Numbers from −1 to 1 that are the same on every run.
-    fn numbers() -> impl Iterator<Item = f64> {
-        let mut state = 1u32;
-        std::iter::from_fn(move || {
-            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-            Some(f64::from(state >> 8) / f64::from(1u32 << 23) - 1.0)
-        })
-    }
-
     /// Three random sides, some of which cross a row twice: `sections` takes exactly the samples
     /// that a test of each sample takes.
     #[test]
     fn every_change_of_a_sign_is_found() {
-        let mut numbers = numbers();
-        let mut vector = || DVec3::from_array([(); 3].map(|()| numbers.next().unwrap()));
+        let mut random = Random(1);
         let rays = [DVec3::new(-1.0, -0.3, 1.0), DVec3::X / 100.0, DVec3::Y / 100.0];
         let mut lengths = Lengths::default();
         lengths.reset(&Film::new(rays), COLUMNS, ROWS);
@@ -187,7 +178,7 @@ mod tests {
             let bend = [0.0, 1e-9, 0.1, 1.0][case % 4];
             let sides: Vec<Side> = (0..3)
                 .map(|_| {
-                    let (across, per_length) = (vector(), bend * vector().x);
+                    let (across, per_length) = (random.in_cube(1.0), bend * random.between(-1.0, 1.0));
                     let [origin, per_column, per_row] = rays.map(|ray| across.dot(ray));
                     let form = Form { origin, per_column, per_row, per_length };
                     Side { form, size: across.length() + per_length.abs() }

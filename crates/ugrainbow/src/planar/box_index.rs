@@ -87,18 +87,18 @@ impl BoxIndex {
 
 #[cfg(test)]
 mod tests {
+    use ugrandom::Random;
+
     use super::*;
-    use crate::noise::Noise;
 
     /// Boxes of all sizes, some outside the picture: the index finds those that a linear search
     /// finds.
     #[test]
     fn all_that_overlap_are_found() {
-        let mut noise = Noise(3);
-        let mut noise = || noise.next();
+        let mut random = Random(3);
         let mut random_box = |scale: f64| {
-            let low = [500.0 * noise() - 100.0, 300.0 * noise() - 100.0];
-            [low, low.map(|low| low + scale * noise() * noise() * noise())]
+            let low = [500.0 * random.unit() - 100.0, 300.0 * random.unit() - 100.0];
+            [low, low.map(|low| low + scale * random.unit() * random.unit() * random.unit())]
         };
         let boxes: Vec<_> =
             (0..2000).map(|idx| random_box(if idx % 100 == 0 { 1e12 } else { 300.0 })).collect();

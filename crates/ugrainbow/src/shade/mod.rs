@@ -212,9 +212,10 @@ impl Table {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
-    use crate::noise::Noise;
     use ugphysics::Hsv;
+    use ugrandom::Random;
+
+    use super::*;
 
     fn exact(hue: f64, saturation: f64, value: f64) -> [f64; 3] {
         Hsv { hue, saturation, value: value.min(1.0) }.to_rgb().map(srgb_decode)
@@ -336,15 +337,15 @@ mod tests {
 
     #[test]
     fn many_at_once_are_shaded_like_one() {
-        let mut noise = Noise(7);
-        let mut noise = || noise.next() as f32;
+        let mut random = Random(7);
+        let mut unit = || random.unit() as f32;
         for (interpolation, low, high) in [
             (Interpolation::Hue, -60.0, 300.0),
             (Interpolation::Hue, 10.0, 230.0),
             (Interpolation::Wavelength, 300.0, 900.0),
         ] {
             let mut sample = || {
-                let [tint, pure, saturation, value] = [noise(), noise(), noise(), 1.6 * noise()];
+                let [tint, pure, saturation, value] = [unit(), unit(), unit(), 1.6 * unit()];
                 let saturation = if pure < 0.2 {
                     0.0
                 } else if pure > 0.8 {
@@ -352,8 +353,8 @@ mod tests {
                 } else {
                     saturation
                 };
-                let lights = [1.5 * noise(), noise(), noise()];
-                ([low + (high - low) * tint, saturation, value], lights, f32::from(noise() > 0.5))
+                let lights = [1.5 * unit(), unit(), unit()];
+                ([low + (high - low) * tint, saturation, value], lights, f32::from(unit() > 0.5))
             };
             let samples: Vec<_> = (0..1000).map(|_| sample()).collect();
             // The bits are the same with all SIMD instructions.

@@ -1,4 +1,4 @@
-//! Reproducible random numbers (SplitMix64).
+//! Reproducible random numbers for tests (SplitMix64): the same on every run and machine.
 
 use glam::DVec3;
 
@@ -7,13 +7,18 @@ use glam::DVec3;
 pub struct Random(pub u64);
 
 impl Random {
-    /// A number in 0…1.
-    pub fn unit(&mut self) -> f64 {
+    /// 64 random bits.
+    pub fn bits(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.0;
         z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
         z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
+        z ^ (z >> 31)
+    }
+
+    /// A number in 0…1.
+    pub fn unit(&mut self) -> f64 {
+        (self.bits() >> 11) as f64 / (1u64 << 53) as f64
     }
 
     /// A number in `low`…`high`.
@@ -24,6 +29,11 @@ impl Random {
     /// A point of the cube |x|, |y|, |z| ≤ `half`.
     pub fn in_cube(&mut self, half: f64) -> DVec3 {
         DVec3::from_array([(); 3].map(|()| self.between(-half, half)))
+    }
+
+    /// A point of the ball |p| ≤ `radius`; its distance from the center is uniformly distributed.
+    pub fn in_ball(&mut self, radius: f64) -> DVec3 {
+        self.direction() * radius * self.unit()
     }
 
     /// A unit vector, uniformly distributed over the sphere.
