@@ -123,6 +123,9 @@ impl RestFrameRays {
 
     /// γ a + u r, in the form of (P3) that does not cancel. `a`: component along the motion; `r`:
     /// distance.
+    ///
+    /// `ugphysics::seen_event` computes the same, along any direction: it scales the point and
+    /// projects it twice. This runs for every sample, in axes that need neither.
     #[inline]
     fn boosted(&self, p: DVec3, proper_speed: f64) -> f64 {
         let (a, r) = (p.x, p.length());
