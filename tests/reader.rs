@@ -25,8 +25,8 @@ fn flat(scene: &Scene) -> Flat {
     let color = |id: Option<ColorId>| {
         let color = &scene.colors[id?.index()];
         Some(match color.value {
-            ColorValue::Hsv { value, tint: hue, saturation } => {
-                Paint::Hsv([value, hue, saturation, color.translucency])
+            ColorValue::Hsv { value, tint, saturation } => {
+                Paint::Hsv([value, tint.number(), saturation, color.translucency])
             }
             ColorValue::Rgb([r, g, b]) => Paint::Rgb([r, g, b, color.translucency]),
             ColorValue::Xyz([x, y, z]) => Paint::Xyz([x, y, z, color.translucency]),

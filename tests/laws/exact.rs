@@ -3,7 +3,7 @@
 use dashu_float::FBig;
 use dashu_float::round::mode::HalfEven;
 use glam::DVec3;
-use ugparse::ColorValue;
+use ugparse::{ColorValue, Tint};
 use ugrandom::Random;
 use ugtests::pipe;
 use ugtests::scenes::parse;
@@ -104,7 +104,9 @@ fn vertices_have_positions_by_p3_and_doppler_factors_by_p10() {
                 let off = error(&place, &motion.seen(&difference(points[&name], eye)));
                 assert!(off < TOLERANCE, "{name} at {:?}, {speed} c, is off by {off:e}", points[&name]);
 
-                let ColorValue::Hsv { tint: wavelength_nm, .. } = color_of(&scene, vertex).value else {
+                let ColorValue::Hsv { tint: Tint::Wavelength(wavelength_nm), .. } =
+                    color_of(&scene, vertex).value
+                else {
                     panic!("ugdoppler writes colours with `c`")
                 };
                 let ratio = big(GREEN_NM) / big(wavelength_nm);

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use ugdoppler::Config;
-use ugparse::{ColorValue, Scene};
+use ugparse::{ColorValue, Scene, Tint};
 use ugphysics::{Brightness, Velocity};
 use ugrandom::Random;
 use ugtests::picture::{assert_same, decode};
@@ -124,7 +124,7 @@ fn both_factors_shift_and_dim() {
 fn wavelength_and_value(scene: &Scene) -> (f64, f64) {
     let color = scene.vertices[0].color.expect("a colour on every used vertex");
     match scene.colors[color.index()].value {
-        ColorValue::Hsv { tint: hue, value, .. } => (hue, value),
+        ColorValue::Hsv { tint: Tint::Wavelength(wavelength_nm), value, .. } => (wavelength_nm, value),
         other => panic!("{other:?}"),
     }
 }
@@ -229,8 +229,7 @@ fn numbers(text: &[u8]) -> Vec<(String, [f64; 3])> {
     let scene = scenes::parse(text);
     let of = |vertex: &ugparse::Vertex| {
         let color = vertex.color.map(|color| &scene.colors[color.index()]);
-        let rgb =
-            color.map_or([1.0; 3], |color| uglight::hsv(&scene, color, uglight::HueScale::Degrees).to_rgb());
+        let rgb = color.map_or([1.0; 3], |color| uglight::hsv(&scene, color).to_rgb());
         (scene.names.get(vertex.name).to_string(), rgb)
     };
     scene.vertices.iter().map(of).collect()

@@ -38,7 +38,7 @@ fn colored(seen: &[u8], change: impl FnOnce(&mut ugdoppler::Config)) -> Scene {
 
 fn hsv(scene: &Scene, vertex: &ugparse::Vertex) -> [f64; 3] {
     match color_of(scene, vertex).value {
-        ColorValue::Hsv { value, tint: hue, saturation } => [hue, saturation, value],
+        ColorValue::Hsv { value, tint, saturation } => [tint.number(), saturation, value],
         other => panic!("ugdoppler writes `c` only: {other:?}"),
     }
 }

@@ -2,7 +2,7 @@
 //! spectrum, and lighting at rest.
 
 use glam::DVec3;
-use ugparse::{ColorId, ColorValue, Face, LightKind, Scene, VertexId};
+use ugparse::{ColorId, ColorValue, Face, LightKind, Scene, Tint, VertexId};
 use ugphysics::{Hsv, attenuation, hue_to_wavelength, srgb_decode, wavelength_to_hue, xyz_to_linear_srgb};
 use ugrainbow::{ColorShift, HueShift};
 
@@ -78,7 +78,9 @@ impl<'a> Shading<'a> {
 
     fn hsv(&self, vertex: VertexId) -> Option<Hsv> {
         match self.scene.colors[self.colors[vertex.index()]?.index()].value {
-            ColorValue::Hsv { value, tint: hue, saturation } => Some(Hsv { hue, saturation, value }),
+            ColorValue::Hsv { value, tint: Tint::Hue(hue), saturation } => {
+                Some(Hsv { hue, saturation, value })
+            }
             _ => None,
         }
     }

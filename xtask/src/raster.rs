@@ -15,7 +15,7 @@ use std::time::Instant;
 
 use glam::DVec3;
 use rayon::ThreadPoolBuilder;
-use ugparse::{ColorValue, Options, Scene, Source};
+use ugparse::{ColorValue, Options, Scene, Source, Tint};
 use ugphysics::Hsv;
 use ugrainbow::{Config, Prepared};
 
@@ -123,7 +123,8 @@ fn to_binary(scene: &Scene) -> Result<Vec<u8>, Box<dyn Error>> {
     }
     for vertex in &scene.vertices {
         let color = vertex.color.ok_or("a vertex has no colour")?;
-        let ColorValue::Hsv { value, tint: hue, saturation } = scene.colors[color.index()].value else {
+        let ColorValue::Hsv { value, tint: Tint::Hue(hue), saturation } = scene.colors[color.index()].value
+        else {
             return Err("a colour has no hue".into());
         };
         let [red, green, blue] = Hsv { hue, saturation, value }.to_rgb();

@@ -1,6 +1,6 @@
 //! Questions about wavelengths and displayed colours.
 
-use ugparse::{ColorValue, Options, Source};
+use ugparse::{ColorValue, Options, Source, Tint};
 use ugphysics::{RED_END_NM, VIOLET_END_NM, srgb_encode, wavelength_to_hue};
 use ugspectrum::{Spectrum, blackbody_luminance_ratio, planck};
 
@@ -59,7 +59,7 @@ fn wavelength_seen(wavelength_nm: f64, doppler: f64) -> Option<f64> {
     let (scene, _) = ugdoppler::apply(scene, &config).ok()?;
     let color = scene.vertices.first()?.color?;
     match scene.colors[color.index()].value {
-        ColorValue::Hsv { tint: hue, .. } => Some(hue),
+        ColorValue::Hsv { tint: Tint::Wavelength(seen_nm), .. } => Some(seen_nm),
         _ => None,
     }
 }

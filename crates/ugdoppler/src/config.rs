@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 use uglight::{HueShift, SpectralShift};
+use ugparse::HueScale;
 use ugphysics::{Brightness, Velocity};
 
 /// What to compute. [`Config::default`] is what the program does without options.
@@ -60,6 +61,11 @@ impl Default for Config {
 }
 
 impl Config {
+    /// The unit of hues in the output.
+    pub(crate) fn hue_scale(&self) -> HueScale {
+        if self.wavelengths { HueScale::Wavelengths } else { HueScale::Degrees }
+    }
+
     /// What motion changes in hues.
     pub(crate) fn hue_shift(&self) -> HueShift {
         HueShift { doppler: self.doppler, law: if self.flux { self.law } else { Brightness::None } }

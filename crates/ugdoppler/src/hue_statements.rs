@@ -1,8 +1,8 @@
 //! Colour statements with hues as seen: one for each colour at rest and quantized Doppler factor.
 
 use rustc_hash::FxHashMap;
-use uglight::{HueColor, HueScale, HueShift, VertexColor, hsv};
-use ugparse::{Color, ColorId, ColorValue, NameId, Scene, UniqueNames};
+use uglight::{HueColor, HueShift, VertexColor, hsv};
+use ugparse::{Color, ColorId, ColorValue, HueScale, NameId, Scene, Tint, UniqueNames};
 use ugphysics::{Hsv, hue_to_wavelength};
 
 use crate::Config;
@@ -144,12 +144,12 @@ impl<'s> HueStatements<'s> {
 
     /// Adds a colour statement. Greys have no hue, and are written with 0.
     fn push(&mut self, name: NameId, color: HueColor, translucency: f64) -> ColorId {
-        let hue = match color.saturation {
-            0.0 => 0.0,
-            _ if self.config.wavelengths => color.wavelength_nm,
-            _ => color.hue,
+        let tint = match color.saturation {
+            0.0 => Tint::new(0.0, self.config.hue_scale()),
+            _ if self.config.wavelengths => Tint::Wavelength(color.wavelength_nm),
+            _ => Tint::Hue(color.hue),
         };
-        let value = ColorValue::Hsv { value: color.value, tint: hue, saturation: color.saturation };
+        let value = ColorValue::Hsv { value: color.value, tint, saturation: color.saturation };
         self.scene.colors.push(Color { name, value, translucency });
         ColorId::from_index(self.scene.colors.len() - 1)
     }
@@ -162,7 +162,7 @@ impl<'s> HueStatements<'s> {
             VertexColor::Named(id) => {
                 let color = &self.scene.colors[id.index()];
                 Base {
-                    color: hsv(self.scene, color, HueScale::Degrees).into(),
+                    color: hsv(self.scene, color).into(),
                     translucency: color.translucency,
                     name: self.scene.names.get(color.name).to_string(),
                 }
@@ -197,11 +197,13 @@ impl<'s> HueStatements<'s> {
     pub fn finish(mut self) -> Vec<String> {
         if self.config.wavelengths {
             for color in &mut self.scene.colors[..self.n_given] {
-                if let ColorValue::Hsv { tint: hue, saturation, .. } = &mut color.value
-                    && *saturation > 0.0
-                {
-                    *hue = hue_to_wavelength(*hue);
-                }
+                color.value = match color.value {
+                    ColorValue::Hsv { value, tint: Tint::Hue(hue), saturation } if saturation > 0.0 => {
+                        ColorValue::Hsv { value, tint: Tint::Wavelength(hue_to_wavelength(hue)), saturation }
+                    }
+                    // Of a grey any number will do.
+                    other => other.with_tint_in(HueScale::Wavelengths),
+                };
             }
         }
         if self.config.iris { self.scale_values() } else { self.clip_values() }
@@ -221,8 +223,8 @@ impl<'s> HueStatements<'s> {
         for (color, _) in self.scene.colors.iter_mut().zip(is_scaled).filter(|(_, is_scaled)| *is_scaled) {
             color.value = match color.value {
                 ColorValue::Rgb(rgb) => ColorValue::Rgb(rgb.map(|channel| channel / largest)),
-                ColorValue::Hsv { value, tint: hue, saturation } => {
-                    ColorValue::Hsv { value: value / largest, tint: hue, saturation }
+                ColorValue::Hsv { value, tint, saturation } => {
+                    ColorValue::Hsv { value: value / largest, tint, saturation }
                 }
                 ColorValue::Xyz(xyz) => ColorValue::Xyz(xyz.map(|part| part / largest)),
                 ColorValue::Blackbody { kelvin, scale } => {

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use rayon::prelude::*;
-use uglight::{HueScale, Irradiance, Lamp, SurfaceElement, lamps};
+use uglight::{Irradiance, Lamp, SurfaceElement, lamps};
 use ugparse::{Face, Light, LightKind, LightMotion, Scene, VertexId};
 use ugscene::{RestFrames, seen_normal, shading_normal};
 
@@ -75,7 +75,7 @@ impl VertexIrradiance {
         rest: &[DVec3],
         normals: &[Option<DVec3>],
     ) -> Self {
-        let lamps = lamps(scene, eye, HueScale::Degrees);
+        let lamps = lamps(scene, eye);
         let bodies = ugscene::vertex_bodies(scene);
         let of_vertex = (rest.par_iter().zip(normals).zip(&bodies))
             .map(|((&point, normal), &body)| {

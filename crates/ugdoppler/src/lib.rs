@@ -44,7 +44,7 @@ mod xyz_statements;
 
 use glam::DVec3;
 use rayon::prelude::*;
-use uglight::{HueColor, HueScale, SpectralColor, VertexColor, hsv, spectral_lamps};
+use uglight::{HueColor, SpectralColor, VertexColor, hsv, spectral_lamps};
 use ugparse::{ColorId, Scene};
 use ugphysics::Hsv;
 use ugpipe::Progress;
@@ -105,7 +105,7 @@ fn color(mut scene: Scene, config: &Config, eye: DVec3, frames: &RestFrames) -> 
         let lit = light.map(|light| lit_spectra(&scene, config, &shares, &factors, &light));
         xyz_statements::write(&mut scene, config, &shares, &factors, &used, lit.as_deref())
     } else {
-        let mut colors = uglight::vertex_colors(&scene, &rest, HueScale::Degrees);
+        let mut colors = uglight::vertex_colors(&scene, &rest);
         let light = light_vertices(&mut scene, config, eye, frames, rest, &mut colors);
         let (factors, used) = (doppler_factors(&scene, eye, frames), vertices::used(&scene));
         let lit = light.map(|light| lit_hues(&scene, config, &colors, &factors, &light));
@@ -169,7 +169,7 @@ fn lit_hues(
 
 fn surface_hsv(scene: &Scene, color: VertexColor) -> Hsv {
     match color {
-        VertexColor::Named(id) => hsv(scene, &scene.colors[id.index()], HueScale::Degrees),
+        VertexColor::Named(id) => hsv(scene, &scene.colors[id.index()]),
         VertexColor::White => Hsv { hue: 0.0, saturation: 0.0, value: 1.0 },
         VertexColor::Mixed { hsv, .. } => hsv,
     }

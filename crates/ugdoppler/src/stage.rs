@@ -1,7 +1,7 @@
 //! What the output says was done to it.
 
 use glam::DVec3;
-use ugparse::{ColorScale, ColorStage, GeometryStage, HueScale, Scene, SeenColors, SeenGeometry, Stage};
+use ugparse::{ColorScale, ColorStage, GeometryStage, Scene, SeenColors, SeenGeometry, Stage};
 use ugphysics::Velocity;
 
 use crate::Config;
@@ -23,8 +23,7 @@ pub(crate) fn with_seen_colors(scene: &Scene, config: &Config, eye: DVec3) -> St
     let scale = if config.spectral {
         ColorScale::Spectra { flux: config.flux }
     } else {
-        let unit = if config.wavelengths { HueScale::Wavelengths } else { HueScale::Degrees };
-        ColorScale::Hues { unit, law: config.hue_shift().law }
+        ColorScale::Hues { unit: config.hue_scale(), law: config.hue_shift().law }
     };
     stage.colors = ColorStage::AsSeen(SeenColors { scale, doppler: config.doppler, lights: config.light });
     stage

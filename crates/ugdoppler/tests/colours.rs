@@ -33,7 +33,7 @@ fn of(scene: &Scene, vertex: &str) -> (String, f64, f64, f64) {
     let color = &scene.colors[vertex.color.expect("a colour on every used vertex").index()];
     let name = scene.names.get(color.name).to_string();
     match color.value {
-        ColorValue::Hsv { value, tint: hue, saturation } => (name, value, hue, saturation),
+        ColorValue::Hsv { value, tint, saturation } => (name, value, tint.number(), saturation),
         ColorValue::Rgb(rgb) => (name, rgb[0], rgb[1], rgb[2]),
         other => panic!("no colour of these scenes: {other:?}"),
     }

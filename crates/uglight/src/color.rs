@@ -1,6 +1,6 @@
 //! What a colour statement stands for: a hue, light, or a spectrum.
 
-use ugparse::{Color, ColorId, ColorValue, HueScale, Scene};
+use ugparse::{Color, ColorId, ColorValue, Scene, Tint};
 use ugphysics::{Hsv, srgb_decode, srgb_encode, wavelength_to_hue, xyz_to_linear_srgb};
 use ugpipe::remedies::SHIFT_SPECTRA;
 use ugspectrum::Spectrum;
@@ -10,20 +10,21 @@ use ugspectrum::Spectrum;
 /// Wavelengths outside 380…780 nm become the hue at that end of the range, (P16). Black bodies and
 /// spectra get their colour at rest, see [`spectra_note`]. Colours outside the gamut of a screen are
 /// clipped to it.
-pub fn hsv(scene: &Scene, color: &Color, scale: HueScale) -> Hsv {
+pub fn hsv(scene: &Scene, color: &Color) -> Hsv {
     match color.value {
         ColorValue::Rgb(rgb) => Hsv::from_rgb(rgb),
         ColorValue::Xyz(xyz) => shown(xyz),
         ColorValue::Blackbody { .. } | ColorValue::Spectrum { .. } => {
             shown(spectrum(scene, color).0.seen(1.0))
         }
-        ColorValue::Hsv { value, tint: hue, saturation } => {
-            let hue = match scale {
-                HueScale::Degrees => hue,
-                HueScale::Wavelengths => wavelength_to_hue(hue),
-            };
-            Hsv { hue, saturation, value }
-        }
+        ColorValue::Hsv { value, tint, saturation } => Hsv { hue: hue(tint), saturation, value },
+    }
+}
+
+fn hue(tint: Tint) -> f64 {
+    match tint {
+        Tint::Hue(hue) => hue,
+        Tint::Wavelength(wavelength_nm) => wavelength_to_hue(wavelength_nm),
     }
 }
 
@@ -50,15 +51,15 @@ fn shown(xyz: [f64; 3]) -> Hsv {
     Hsv::from_rgb(xyz_to_linear_srgb(xyz).map(|channel| srgb_encode(channel.max(0.0))))
 }
 
-/// The spectrum of a colour statement, hues in degrees: for `c`, `c_rgb` and `c_xyz` that of a surface of
+/// The spectrum of a colour statement: for `c`, `c_rgb` and `c_xyz` that of a surface of
 /// this colour (P20). False if its colour at rest differs from the one stated, which happens to a
 /// `c_xyz` that is more saturated than a smooth reflectance allows.
 pub fn spectrum(scene: &Scene, color: &Color) -> (Spectrum, bool) {
     let of_screen = |rgb: [f64; 3]| (Spectrum::from_linear_srgb(rgb.map(srgb_decode)), true);
     match color.value {
         ColorValue::Rgb(rgb) => of_screen(rgb),
-        ColorValue::Hsv { value, tint: hue, saturation } => {
-            of_screen(Hsv { hue, saturation, value }.to_rgb())
+        ColorValue::Hsv { value, tint, saturation } => {
+            of_screen(Hsv { hue: hue(tint), saturation, value }.to_rgb())
         }
         ColorValue::Xyz(xyz) => Spectrum::from_xyz(xyz),
         ColorValue::Blackbody { kelvin, scale } => (Spectrum::blackbody(kelvin, scale), true),
@@ -103,7 +104,7 @@ mod tests {
         let shown = |statement: &str| {
             let source = ugparse::Source::new("t.ug", statement);
             let scene = ugparse::parse(&source, &ugparse::Options::default()).unwrap().scene;
-            hsv(&scene, &scene.colors[0], HueScale::Degrees)
+            hsv(&scene, &scene.colors[0])
         };
         // Reddish below the temperature of daylight, bluish above, and as bright as the scale says.
         assert!((15.0..45.0).contains(&shown("c_bb glow 3000 0.2;").hue));

@@ -5,7 +5,7 @@ use ugparse::{Light, LightKind, LightMotion, Scene};
 
 use ugphysics::srgb_decode;
 
-use crate::{HueScale, hsv, light};
+use crate::{hsv, light};
 
 /// A light of a scene, ready to compute with.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,12 +37,12 @@ pub enum LampPlace {
 
 /// The lights of a scene, in its order.
 ///
-/// `eye`: in scene coordinates. `scale`: of the hues of their colours.
-pub fn lamps(scene: &Scene, eye: DVec3, scale: HueScale) -> Vec<Lamp> {
-    scene.lights.iter().map(|light| lamp(scene, light, eye, scale)).collect()
+/// `eye`: in scene coordinates.
+pub fn lamps(scene: &Scene, eye: DVec3) -> Vec<Lamp> {
+    scene.lights.iter().map(|light| lamp(scene, light, eye)).collect()
 }
 
-fn lamp(scene: &Scene, statement: &Light, eye: DVec3, scale: HueScale) -> Lamp {
+fn lamp(scene: &Scene, statement: &Light, eye: DVec3) -> Lamp {
     let place = match statement.kind {
         LightKind::Ambient => LampPlace::Everywhere,
         // Divided first: the square of a large component may be too large.
@@ -54,7 +54,7 @@ fn lamp(scene: &Scene, statement: &Light, eye: DVec3, scale: HueScale) -> Lamp {
     let white = Lamp { motion: statement.motion, ..Lamp::white(place, statement.intensity) };
     let Some(id) = statement.color else { return white };
     let color = &scene.colors[id.index()];
-    let shown = hsv(scene, color, scale);
+    let shown = hsv(scene, color);
     let encoded = shown.to_rgb();
     let linear = light(scene, color).unwrap_or_else(|| encoded.map(srgb_decode));
     Lamp {

@@ -15,11 +15,11 @@
 //!
 //! ```
 //! use glam::DVec3;
-//! use uglight::{HueScale, lamps};
+//! use uglight::lamps;
 //!
 //! let source = ugparse::Source::new("lamp.ug", "c blue 1 240; l 0.5 0 0 1 blue;");
 //! let scene = ugparse::parse(&source, &ugparse::Options::default())?.scene;
-//! let lamp = lamps(&scene, DVec3::ZERO, HueScale::Degrees)[0];
+//! let lamp = lamps(&scene, DVec3::ZERO)[0];
 //! // Light that comes in at 60 degrees to the normal.
 //! let normal = DVec3::new(0.75f64.sqrt(), 0.0, 0.5);
 //! assert_eq!(lamp.color, DVec3::new(0.0, 0.0, 0.5));
@@ -49,5 +49,4 @@ pub use lamp::{Lamp, LampPlace, lamps};
 pub use lighting::Lighting;
 pub use shift::ColorShift;
 pub use spectral::{SpectralColor, SpectralLamp, SpectralShift, spectral_lamps};
-pub use ugparse::HueScale;
 pub use vertex_color::{VertexColor, vertex_colors};

@@ -3,7 +3,7 @@
 use glam::DVec3;
 use ugparse::Scene;
 
-use crate::{HueScale, Lamp, LampPlace, lamps};
+use crate::{Lamp, LampPlace, lamps};
 
 /// The lights of a scene, each at rest with the face it lights: the rule of 1988.
 ///
@@ -26,13 +26,13 @@ impl Lighting {
     /// The lights of the scene; if it has none, an ambient light of 0.3 and one of 0.7 from the eye.
     ///
     /// `eye`: in scene coordinates. `forward`: unit vector along the view.
-    pub fn new(scene: &Scene, scale: HueScale, eye: DVec3, forward: DVec3) -> Self {
+    pub fn new(scene: &Scene, eye: DVec3, forward: DVec3) -> Self {
         if scene.lights.is_empty() {
             let from_eye = Lamp::white(LampPlace::Afar(-forward), 0.7);
             let ambient = Lamp::white(LampPlace::Everywhere, 0.3);
             return Self { ambient, lamps: vec![from_eye], is_colored: false };
         }
-        let all = lamps(scene, eye, scale);
+        let all = lamps(scene, eye);
         let is_colored = all.iter().any(|lamp| lamp.is_colored);
         let (ambient, lamps): (Vec<Lamp>, Vec<Lamp>) =
             all.into_iter().partition(|lamp| lamp.place == LampPlace::Everywhere);

@@ -5,7 +5,7 @@ use ugparse::{ColorId, Scene};
 use ugphysics::{Hsv, srgb_decode, srgb_encode};
 use ugscene::{Shares, vertex_shares};
 
-use crate::{HueScale, hsv, is_light, light};
+use crate::{hsv, is_light, light};
 
 /// The colour of a vertex.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,11 +30,11 @@ pub enum VertexColor {
 ///
 /// `positions`: one for each vertex, in the rest frame of its body, where
 /// angles do not depend on the speed.
-pub fn vertex_colors(scene: &Scene, positions: &[DVec3], scale: HueScale) -> Vec<VertexColor> {
+pub fn vertex_colors(scene: &Scene, positions: &[DVec3]) -> Vec<VertexColor> {
     let shares = vertex_shares(scene, positions);
     // Decoding is slow, and in most scenes no vertex has several colours.
     let linear: Vec<DVec3> = if shares.iter().any(|share| matches!(share, Shares::Mixed(_))) {
-        let shown = |color| hsv(scene, color, scale).to_rgb().map(srgb_decode);
+        let shown = |color| hsv(scene, color).to_rgb().map(srgb_decode);
         let linear = |color| light(scene, color).unwrap_or_else(|| shown(color));
         scene.colors.iter().map(|color| DVec3::from_array(linear(color))).collect()
     } else {
@@ -75,7 +75,7 @@ mod tests {
         let source = ugparse::Source::new("t.ug", text);
         let scene = ugparse::parse(&source, &ugparse::Options::default()).unwrap().scene;
         let positions: Vec<DVec3> = scene.vertices.iter().map(|v| v.position).collect();
-        let shown: Vec<String> = vertex_colors(&scene, &positions, HueScale::Degrees)
+        let shown: Vec<String> = vertex_colors(&scene, &positions)
             .into_iter()
             .map(|color| match color {
                 VertexColor::Named(id) => scene.names.get(scene.colors[id.index()].name).to_string(),
@@ -121,9 +121,7 @@ mod tests {
         let source = ugparse::Source::new("t.ug", text);
         let scene = ugparse::parse(&source, &ugparse::Options::default()).unwrap().scene;
         let positions: Vec<DVec3> = scene.vertices.iter().map(|v| v.position).collect();
-        let VertexColor::Mixed { light: Some(light), .. } =
-            vertex_colors(&scene, &positions, HueScale::Degrees)[0]
-        else {
+        let VertexColor::Mixed { light: Some(light), .. } = vertex_colors(&scene, &positions)[0] else {
             panic!("two faces with two colours meet there")
         };
         let xyz = ugphysics::linear_srgb_to_xyz(light);

@@ -2,8 +2,7 @@
 
 use glam::DVec3;
 use rustc_hash::FxHashMap;
-use uglight::HueScale;
-use ugparse::{Color, ColorId, ColorValue, Scene, Vertex};
+use ugparse::{Color, ColorId, ColorValue, Scene, Tint, Vertex};
 use ugphysics::Hsv;
 
 use crate::refined_mesh::Recipe;
@@ -107,7 +106,7 @@ fn blend(scene: &Scene, parts: &[(ColorId, f64)]) -> (ColorValue, f64) {
         (Hsv { hue: 0.0, saturation: 0.0, value: 0.0 }, 0.0, 0.0);
     for &(id, weight) in parts {
         let color = &scene.colors[id.index()];
-        let hsv = uglight::hsv(scene, color, HueScale::Degrees);
+        let hsv = uglight::hsv(scene, color);
         mean.value += weight * hsv.value;
         mean.saturation += weight * hsv.saturation;
         translucency += weight * color.translucency;
@@ -119,7 +118,8 @@ fn blend(scene: &Scene, parts: &[(ColorId, f64)]) -> (ColorValue, f64) {
     if hue_weight > 0.0 {
         mean.hue /= hue_weight;
     }
-    (ColorValue::Hsv { value: mean.value, tint: mean.hue, saturation: mean.saturation }, translucency)
+    let Hsv { hue, saturation, value } = mean;
+    (ColorValue::Hsv { value, tint: Tint::Hue(hue), saturation }, translucency)
 }
 
 /// Maps hues between violet (300) and red (360) to negative ones, (P16). Larger numbers are

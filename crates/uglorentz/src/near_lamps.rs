@@ -6,7 +6,7 @@
 //! share (E6). Directional and ambient light do not change along an edge.
 
 use glam::DVec3;
-use uglight::{HueScale, LampPlace, lamps};
+use uglight::{LampPlace, lamps};
 use ugparse::Scene;
 use ugphysics::{Velocity, illumination};
 
@@ -44,7 +44,7 @@ impl NearLamps {
         if bound == f64::INFINITY {
             return Self::default();
         }
-        let near = lamps(scene, eye, HueScale::Degrees).into_iter().filter_map(|lamp| {
+        let near = lamps(scene, eye).into_iter().filter_map(|lamp| {
             let LampPlace::At(place) = lamp.place else { return None };
             let motion = lamp.motion.body().map(|body| &motions[body.index()]);
             let place = motion.map_or(place, |motion| motion.turned(place));

@@ -112,7 +112,7 @@ fn vertex_colors(scene: &Scene, notes: &mut Vec<String>) -> Option<Vec<[f64; 4]>
         .map(|color| {
             let [red, green, blue] = match color.value {
                 ColorValue::Rgb(rgb) => rgb,
-                _ => hsv(scene, color, scene.stage.hue_scale()).to_rgb(),
+                _ => hsv(scene, color).to_rgb(),
             };
             n_clipped += usize::from(red.max(green).max(blue) > 1.0);
             [red, green, blue, 1.0 - color.translucency].map(|part| part.clamp(0.0, 1.0))

@@ -19,7 +19,7 @@ use ugphysics::Velocity;
 use crate::body::{Bodies, BodyId};
 use crate::contours::Contours;
 use crate::names::{NameId, Names};
-use crate::stage::Stage;
+use crate::stage::{HueScale, Stage};
 
 macro_rules! index {
     ($($(#[$doc:meta])* $name:ident)*) => {$(
@@ -147,16 +147,15 @@ pub struct Color {
     pub translucency: f64,
 }
 
-/// The ways to specify a colour. Numbers are stored as written. [`Stage::hue_scale`], or the
-/// caller, determines whether the hue is an angle modulo 360 degrees or a wavelength.
+/// The ways to specify a colour. Numbers are stored as written.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ColorValue {
     /// `c`: HSV. Saturation 0 is grey, whatever the tint.
     Hsv {
         /// Lightness V ≥ 0; 1 is full, and larger values are kept.
         value: f64,
-        /// Hue in degrees or wavelength in nm, which [`Stage::hue_scale`] of the scene decides.
-        tint: f64,
+        /// Hue or wavelength.
+        tint: Tint,
         /// Saturation 0…1.
         saturation: f64,
     },
@@ -178,6 +177,45 @@ pub enum ColorValue {
         /// Row after the last sample.
         end: u32,
     },
+}
+
+impl ColorValue {
+    /// The same numbers, with that of the tint in another unit.
+    #[must_use]
+    pub fn with_tint_in(self, unit: HueScale) -> Self {
+        match self {
+            Self::Hsv { value, tint, saturation } => {
+                Self::Hsv { value, tint: Tint::new(tint.number(), unit), saturation }
+            }
+            other => other,
+        }
+    }
+}
+
+/// The second number of a `c` statement. The text has one unit for all: [`Stage::hue_scale`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Tint {
+    /// Hue in degrees, modulo 360.
+    Hue(f64),
+    /// Wavelength in nm.
+    Wavelength(f64),
+}
+
+impl Tint {
+    /// The tint that a number in this unit stands for.
+    pub fn new(number: f64, unit: HueScale) -> Self {
+        match unit {
+            HueScale::Degrees => Self::Hue(number),
+            HueScale::Wavelengths => Self::Wavelength(number),
+        }
+    }
+
+    /// The number in the text, without its unit.
+    pub fn number(self) -> f64 {
+        match self {
+            Self::Hue(number) | Self::Wavelength(number) => number,
+        }
+    }
 }
 
 /// Reflection properties of a surface, for ray tracers.

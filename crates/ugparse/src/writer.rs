@@ -288,12 +288,12 @@ impl<'s> Writer<'s> {
     fn color(&mut self, color: &Color) {
         let clear = (color.translucency != 0.0).then_some(color.translucency);
         match color.value {
-            ColorValue::Hsv { value, tint: hue, saturation } => {
+            ColorValue::Hsv { value, tint, saturation } => {
                 self.text("c");
                 self.name(color.name);
                 self.number(value);
-                if (hue, saturation) != (0.0, 0.0) || clear.is_some() {
-                    self.numbers(&[hue, saturation]);
+                if (tint.number(), saturation) != (0.0, 0.0) || clear.is_some() {
+                    self.numbers(&[tint.number(), saturation]);
                 }
             }
             ColorValue::Rgb(rgb) => {

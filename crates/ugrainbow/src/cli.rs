@@ -4,7 +4,8 @@ use std::path::Path;
 
 use clap::{ArgAction, Parser};
 use ugimage::Format;
-use uglight::{ColorShift, HueScale, HueShift, SpectralShift};
+use uglight::{ColorShift, HueShift, SpectralShift};
+use ugparse::HueScale;
 use ugparse::{Source, pipe};
 use ugphysics::{Brightness, Hsv};
 use ugpicture::Output;

@@ -1,6 +1,7 @@
 //! The options of the renderer.
 
-use uglight::{ColorShift, HueScale};
+use uglight::ColorShift;
+use ugparse::HueScale;
 use ugphysics::Hsv;
 use ugpicture::PictureOptions;
 use ugraster::DepthFade;

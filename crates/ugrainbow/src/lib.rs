@@ -113,7 +113,8 @@ pub use cli::{Args, draw};
 pub use config::{Config, DepthCue, Interpolation, Wireframe};
 pub use error::Error;
 pub use render::{Picture, Prepared, Rendering, light, metadata, render, run, run_with};
-pub use uglight::{ColorShift, HueScale, HueShift, SpectralShift};
+pub use uglight::{ColorShift, HueShift, SpectralShift};
+pub use ugparse::HueScale;
 pub use ugpicture::{
     AnnotationOptions, Background, Channel, Exposure, Filter, MAX_PIXELS, MAX_SIDE, Output, PictureOptions,
     Tone,

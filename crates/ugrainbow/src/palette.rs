@@ -1,8 +1,7 @@
 //! The colours of a scene, converted for interpolation.
 
 use glam::DVec3;
-use uglight::HueScale;
-use ugparse::{Color, ColorValue, Scene};
+use ugparse::{Color, ColorValue, Scene, Tint};
 use ugphysics::{Hsv, attenuation, hue_to_wavelength, srgb_decode, wavelength_to_hue};
 
 use crate::config::Interpolation;
@@ -40,7 +39,6 @@ impl Swatch {
 pub struct Palette {
     swatches: Vec<Swatch>,
     interpolation: Interpolation,
-    scale: HueScale,
     /// Colours are spectra.
     is_spectral: bool,
     has_light: bool,
@@ -51,11 +49,11 @@ impl Palette {
     /// Converts all colours of a scene.
     ///
     /// `is_spectral`: colours are spectra, so all of them are drawn as light.
-    pub fn new(scene: &Scene, interpolation: Interpolation, scale: HueScale, is_spectral: bool) -> Self {
+    pub fn new(scene: &Scene, interpolation: Interpolation, is_spectral: bool) -> Self {
         let has_light = is_spectral || scene.colors.iter().any(uglight::is_light);
         let has_translucency = scene.colors.iter().any(|color| color.translucency > 0.0);
         let mut palette =
-            Self { swatches: Vec::new(), interpolation, scale, is_spectral, has_light, has_translucency };
+            Self { swatches: Vec::new(), interpolation, is_spectral, has_light, has_translucency };
         palette.swatches = scene.colors.iter().map(|color| palette.read(scene, color)).collect();
         palette
     }
@@ -129,13 +127,15 @@ impl Palette {
         let translucency = color.translucency;
         let swatch = match color.value {
             // Used unchanged, because an invisible wavelength has no hue.
-            ColorValue::Hsv { value, tint, saturation } if self.scale == HueScale::Wavelengths => {
+            ColorValue::Hsv { value, tint: Tint::Wavelength(tint), saturation }
+                if self.interpolation == Interpolation::Wavelength =>
+            {
                 Swatch { tint, saturation, value, light: None, translucency }
             }
             _ => Swatch {
                 light: uglight::light(scene, color).map(DVec3::from_array),
                 translucency,
-                ..self.swatch(uglight::hsv(scene, color, self.scale))
+                ..self.swatch(uglight::hsv(scene, color))
             },
         };
         // The light of a spectrum is computed per sample; here it only marks the colour as light.

@@ -48,7 +48,7 @@ impl<'a> Setup<'a> {
         if config.exact.is_some() {
             ugscene::require_seen_geometry(scene)?;
         }
-        let scene = drawable(scene);
+        let mut scene = drawable(scene);
         let PictureOptions { size: [width, height], samples, camera, .. } = &config.picture;
         let [width, height, samples] = [*width, *height, *samples];
         let view = View::new(&scene, camera, [width * samples, height * samples])?;
@@ -57,9 +57,13 @@ impl<'a> Setup<'a> {
         let grid = SampleGrid { width, height, samples, is_perspective: view.is_perspective, fade };
         let is_spectral = matches!(config.exact, Some(ColorShift::Spectra(_)));
         let hue_scale = ugscene::hue_scale(&scene, config.hue_scale)?;
-        let palette = Palette::new(&scene, config.interpolated(hue_scale), hue_scale, is_spectral);
-        let lighting = Lighting::new(&scene, hue_scale, view.eye, view.forward);
-        let surface = SurfaceAttributes::new(&scene, view.eye, &palette, hue_scale);
+        if hue_scale != scene.stage.hue_scale() {
+            // With -wi, numbers in the text of a scene at rest are wavelengths.
+            ugscene::read_tints_in(scene.to_mut(), hue_scale);
+        }
+        let palette = Palette::new(&scene, config.interpolated(hue_scale), is_spectral);
+        let lighting = Lighting::new(&scene, view.eye, view.forward);
+        let surface = SurfaceAttributes::new(&scene, view.eye, &palette);
         let is_uncut = palette.has_light() || config.picture.keeps_light();
         if let Some(exact) = config.exact {
             check_exact(&scene, &view)?;

@@ -2,7 +2,7 @@
 
 use glam::{DQuat, DVec3};
 use rayon::prelude::*;
-use uglight::{HueScale, VertexColor, vertex_colors};
+use uglight::{VertexColor, vertex_colors};
 use ugparse::{BodyId, ColorId, Scene, VertexId};
 use ugphysics::{Velocity, aberrate};
 use ugscene::{RestFrames, Shares, rest_positions, vertex_shares};
@@ -24,7 +24,7 @@ pub struct SurfaceAttributes {
 
 impl SurfaceAttributes {
     /// `scene`: its vertices are part of one body each.
-    pub fn new(scene: &Scene, eye: DVec3, palette: &Palette, scale: HueScale) -> Self {
+    pub fn new(scene: &Scene, eye: DVec3, palette: &Palette) -> Self {
         let frames = RestFrames::new(scene);
         let rest = rest_positions(scene, eye, &frames);
         let mut swatches = palette.all().to_vec();
@@ -34,7 +34,7 @@ impl SurfaceAttributes {
         let own = scene.vertices.par_iter().map(|vertex| vertex.color.map(row));
         let rows = match own.collect() {
             Some(rows) => rows,
-            None => mixed_rows(scene, &rest, palette, scale, &mut swatches),
+            None => mixed_rows(scene, &rest, palette, &mut swatches),
         };
         Self { swatches, rows, white, rest, frames }
     }
@@ -108,15 +108,9 @@ fn row(color: ColorId) -> u32 {
 
 /// The rows of vertices that have not all colours of their own; mixed colours are added behind
 /// white.
-fn mixed_rows(
-    scene: &Scene,
-    rest: &[DVec3],
-    palette: &Palette,
-    scale: HueScale,
-    swatches: &mut Vec<Swatch>,
-) -> Vec<u32> {
+fn mixed_rows(scene: &Scene, rest: &[DVec3], palette: &Palette, swatches: &mut Vec<Swatch>) -> Vec<u32> {
     let white = swatches.len() as u32 - 1;
-    let colors = vertex_colors(scene, rest, scale).into_iter();
+    let colors = vertex_colors(scene, rest).into_iter();
     let rows = colors.map(|color| match color {
         VertexColor::Named(color) => row(color),
         VertexColor::White => white,

@@ -52,7 +52,7 @@ pub use rest_frames::{RestFrames, is_one_body, separate_bodies, vertex_bodies};
 pub use shares::{Shares, vertex_shares};
 pub use split::{split_corners, split_vertices};
 pub use stage::{
-    StageError, has_moving_bodies, has_moving_lights, hue_scale, require_colors_at_rest, require_eye,
-    require_geometry_at_rest, require_seen_geometry, rest_shapes_warning,
+    StageError, has_moving_bodies, has_moving_lights, hue_scale, read_tints_in, require_colors_at_rest,
+    require_eye, require_geometry_at_rest, require_seen_geometry, rest_shapes_warning,
 };
 pub use ugparse::{history, record};

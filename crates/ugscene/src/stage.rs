@@ -137,3 +137,10 @@ pub fn hue_scale(scene: &Scene, asked: HueScale) -> Result<HueScale, StageError>
         (scale, _) => Ok(scale),
     }
 }
+
+/// Reads the numbers of all tints in this unit, whatever they were read in.
+pub fn read_tints_in(scene: &mut Scene, unit: HueScale) {
+    for color in &mut scene.colors {
+        color.value = color.value.with_tint_in(unit);
+    }
+}

@@ -12,7 +12,7 @@ use nom::combinator::opt;
 use ugphysics::Velocity;
 
 use crate::names::NameId;
-use crate::scene::{Camera, ColorValue, SurfaceProperties};
+use crate::scene::{Camera, ColorValue, SurfaceProperties, Tint};
 use crate::source::Span;
 use crate::statement::{
     CallStatement, CameraStatement, ColorStatement, FaceStatement, IllumStatement, LightStatement,
@@ -163,7 +163,8 @@ impl<'t> Grammar<'t> {
         let (input, translucency) = opt(number_from(0.0, 1.0, SHARE)).parse(input)?;
         // `c L` is grey, `c L H` is fully saturated.
         let saturation = saturation.unwrap_or(if hue.is_some() { 1.0 } else { 0.0 });
-        let value = ColorValue::Hsv { value, tint: hue.unwrap_or(0.0), saturation };
+        // A hue until the stage is known, which may be stated further down.
+        let value = ColorValue::Hsv { value, tint: Tint::Hue(hue.unwrap_or(0.0)), saturation };
         let translucency = translucency.unwrap_or(0.0);
         Ok((input, Statement::Color(ColorStatement { name, value, samples: Vec::new(), translucency })))
     }

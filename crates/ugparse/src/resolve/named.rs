@@ -54,7 +54,8 @@ pub(super) fn gather_named(
                 None => format!("unnamed#{}", scene.colors.len()),
             };
             let name = name(&mut scene.names, &own, span)?;
-            scene.colors.push(Color { name, value: shifted(color.value, first_sample), ..color });
+            let value = shifted(color.value, first_sample).with_tint_in(scene.stage.hue_scale());
+            scene.colors.push(Color { name, value, ..color });
         }
         let surfaces = std::mem::take(&mut scope.surfaces.table.rows).into_iter();
         for ((surface, &span), own) in

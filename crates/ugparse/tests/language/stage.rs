@@ -1,7 +1,9 @@
 //! The stage of a scene, which records changes of positions and colours.
 
 use glam::DVec3;
-use ugparse::{ColorScale, ColorStage, GeometryStage, HueScale, SeenColors, SeenGeometry, Stage};
+use ugparse::{
+    ColorScale, ColorStage, ColorValue, GeometryStage, HueScale, SeenColors, SeenGeometry, Stage, Tint,
+};
 use ugphysics::{Brightness, Velocity};
 
 use super::*;
@@ -44,6 +46,28 @@ fn every_stage_reads_back() {
             assert_eq!(parse(&text).stage, stage, "{text}");
             assert_eq!(text.lines().count(), usize::from(!text.is_empty()));
         }
+    }
+}
+
+#[test]
+fn it_is_the_unit_of_tints_wherever_it_stands() {
+    let colors = "c green 1 546.1;\ndef d;\nc red 1 700;\nend;\n";
+    let tints = |text: &str| -> Vec<Tint> {
+        let scene = parse(text);
+        assert_eq!(parse(write(&scene)).colors, scene.colors);
+        let tint = |value| match value {
+            ColorValue::Hsv { tint, .. } => tint,
+            other => panic!("{other:?}"),
+        };
+        scene.colors.iter().map(|color| tint(color.value)).collect()
+    };
+    let hues = "(ugstage 1 colors as-seen hues law report)";
+    for text in [colors.to_string(), format!("{hues} {colors}"), format!("{colors} {hues}")] {
+        assert_eq!(tints(&text), [Tint::Hue(546.1), Tint::Hue(700.0)]);
+    }
+    let wavelengths = "(ugstage 1 colors as-seen wavelengths law report)";
+    for text in [format!("{wavelengths} {colors}"), format!("{colors} {wavelengths}")] {
+        assert_eq!(tints(&text), [Tint::Wavelength(546.1), Tint::Wavelength(700.0)]);
     }
 }
 
