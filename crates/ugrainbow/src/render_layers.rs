@@ -16,7 +16,7 @@ use crate::drawlist::DrawList;
 use crate::exact::{CurvedLines, Faces};
 use crate::lines::{LineShape, Occluders, StraightLines, Stroke, Visibility, lines, pieces, strips, strokes};
 use crate::packing::{
-    Pack, pack_colored, pack_mixed, pack_mixed_colored, pack_plain, pack_transparent, shade_transparent,
+    Pack, PackedLayout, first, pack_colored, pack_mixed, pack_mixed_colored, pack_plain, pack_transparent,
 };
 use crate::painter::Painter;
 use crate::shade::Shader;
@@ -171,7 +171,7 @@ impl TransparentLayer for Lit<'_, '_> {
         scanner: &mut Scanner<TRANSPARENT_VALUES>,
         target: &mut FragmentTarget<'_>,
     ) {
-        let shade = |values: &[f32; TRANSPARENT_VALUES]| shade_transparent(self.shader, values);
+        let shade = |values: &[f32; TRANSPARENT_VALUES]| self.shader.transparent(values);
         if let Some(faces) = &self.layers.faces {
             faces.draw_transparent(grid, band, scanner, &mut target.writer(&shade, false));
         }
@@ -183,11 +183,13 @@ impl TransparentLayer for Lit<'_, '_> {
 impl<'a> RenderLayers<'a> {
     /// All faces and wires.
     pub fn new(painter: Painter<'a>, mode: &DrawMode) -> Self {
-        let solid = match (painter.palette.has_light(), painter.lighting.is_colored()) {
-            (false, false) => Solid::Plain(Layers::new(painter, mode, false, pack_plain)),
-            (false, true) => Solid::Colored(Layers::new(painter, mode, false, pack_colored)),
-            (true, false) => Solid::Mixed(Layers::new(painter, mode, false, pack_mixed)),
-            (true, true) => Solid::MixedColored(Layers::new(painter, mode, false, pack_mixed_colored)),
+        let solid = match PackedLayout::new(painter.palette, painter.lighting) {
+            PackedLayout::Plain => Solid::Plain(Layers::new(painter, mode, false, pack_plain)),
+            PackedLayout::Colored => Solid::Colored(Layers::new(painter, mode, false, pack_colored)),
+            PackedLayout::Mixed => Solid::Mixed(Layers::new(painter, mode, false, pack_mixed)),
+            PackedLayout::MixedColored => {
+                Solid::MixedColored(Layers::new(painter, mode, false, pack_mixed_colored))
+            }
         };
         let faces =
             painter.palette.has_translucency().then(|| Layers::new(painter, mode, true, pack_transparent));
@@ -371,16 +373,12 @@ impl RenderLayers<'_> {
 
     /// The light of values interpolated between corners of an opaque polygon of
     /// [`RenderLayers::for_each_polygon`].
-    pub fn shade(
-        &self,
-        shader: &Shader,
-        &[a, b, c, d, e, f, g, _]: &[f32; TRANSPARENT_VALUES],
-    ) -> ShadedSample {
+    pub fn shade(&self, shader: &Shader, values: &[f32; TRANSPARENT_VALUES]) -> ShadedSample {
         match &self.solid {
-            Solid::Plain(_) => shader.plain(&[a, b, c]),
-            Solid::Colored(_) => shader.colored(&[a, b, c, d, e, f]),
-            Solid::Mixed(_) => shader.mixed(&[a, b, c, d]),
-            Solid::MixedColored(_) => shader.mixed_colored(&[a, b, c, d, e, f, g]),
+            Solid::Plain(_) => shader.plain(&first(values)),
+            Solid::Colored(_) => shader.colored(&first(values)),
+            Solid::Mixed(_) => shader.mixed(&first(values)),
+            Solid::MixedColored(_) => shader.mixed_colored(&first(values)),
         }
     }
 }

@@ -15,7 +15,7 @@ use crate::config::{Config, Interpolation};
 use crate::depth_cue::prepare;
 use crate::error::Error;
 use crate::front::{of_fragment, of_surface};
-use crate::packing::{Interpolated, unpack};
+use crate::packing::{Interpolated, PackedLayout, Plain};
 use crate::palette::Swatch;
 use crate::pixels::{self, Display, backdrop, developed, development, mean};
 use crate::render::warnings;
@@ -386,7 +386,8 @@ impl Teller<'_> {
 
     /// The colour that interpolated values stand for.
     fn color(&self, values: &[f32], doppler: f64) -> SampleColor {
-        let ([tint, saturation, value], level) = match unpack(values) {
+        let layout = PackedLayout::new(&self.setup.palette, &self.setup.lighting);
+        let (Plain { tint, saturation, value }, level) = match layout.color(values) {
             Interpolated::Light(light) => {
                 let xyz = linear_srgb_to_xyz(light);
                 let sum: f64 = xyz.iter().sum();

@@ -5,9 +5,10 @@ mod transfer;
 
 use fearless_simd::Level;
 use ugphysics::{attenuation, hue_to_wavelength, srgb_decode, srgb_encode, wavelength_to_hue};
-use ugraster::{Encoding, RUN, ShadedRun, ShadedSample, Shading};
+use ugraster::{Encoding, RUN, ShadedRun, ShadedSample, Shading, TRANSPARENT_VALUES};
 
 use crate::config::Interpolation;
+use crate::packing::{Colored, Mixed, MixedColored, Plain, Transparent};
 use hues::{Lights, Pure, all_between, encode, encode_all};
 use transfer::decode;
 
@@ -43,28 +44,42 @@ impl Shader {
         }
     }
 
-    /// The light of a colour under white light, which is in the value.
-    pub fn plain(&self, &[tint, saturation, value]: &[f32; 3]) -> ShadedSample {
-        self.lit([tint, saturation, value], [1.0; 3])
+    /// The light of a sample in the layout [`Plain`].
+    pub fn plain(&self, &sample: &[f32; 3]) -> ShadedSample {
+        self.lit(Plain::unpack(sample), [1.0; 3])
     }
 
-    /// The light of a colour times the level of coloured light.
-    pub fn colored(&self, &[tint, saturation, value, red, green, blue]: &[f32; 6]) -> ShadedSample {
-        self.lit([tint, saturation, value], [red, green, blue])
+    /// The light of a sample in the layout [`Colored`].
+    pub fn colored(&self, &sample: &[f32; 6]) -> ShadedSample {
+        let sample = Colored::unpack(sample);
+        self.lit(sample.color(), sample.level())
     }
 
-    /// A sample of a mixed scene under white light: if the fourth number is 1, linear red, green
-    /// and blue; if it is 0, as in [`Shader::plain`].
-    pub fn mixed(&self, &[a, b, c, is_light]: &[f32; 4]) -> ShadedSample {
-        if is_light > 0.5 { given([a, b, c]) } else { self.lit([a, b, c], [1.0; 3]) }
+    /// The light of a sample in the layout [`Mixed`].
+    pub fn mixed(&self, &sample: &[f32; 4]) -> ShadedSample {
+        self.mixed_lit(&Mixed::unpack(sample), [1.0; 3])
     }
 
-    /// The same under coloured light, which is already contained in linear red, green and blue.
-    pub fn mixed_colored(&self, &[a, b, c, red, green, blue, is_light]: &[f32; 7]) -> ShadedSample {
-        if is_light > 0.5 { given([a, b, c]) } else { self.lit([a, b, c], [red, green, blue]) }
+    /// The light of a sample in the layout [`MixedColored`].
+    pub fn mixed_colored(&self, &sample: &[f32; 7]) -> ShadedSample {
+        let sample = MixedColored::unpack(sample);
+        self.mixed_lit(&sample.mixed(), sample.level())
     }
 
-    fn lit(&self, [tint, saturation, value]: [f32; 3], lights: [f32; 3]) -> ShadedSample {
+    /// The light of a sample in the layout [`Transparent`], and the part of the light from behind
+    /// that it transmits.
+    pub fn transparent(&self, &sample: &[f32; TRANSPARENT_VALUES]) -> (ShadedSample, f32) {
+        let sample = Transparent::unpack(sample);
+        let opaque = sample.opaque();
+        (self.mixed_lit(&opaque.mixed(), opaque.level()), sample.translucency.clamp(0.0, 1.0))
+    }
+
+    /// A colour given as light already contains that of the lights.
+    fn mixed_lit(&self, sample: &Mixed<f32>, lights: [f32; 3]) -> ShadedSample {
+        if sample.is_light > 0.5 { given(sample.light()) } else { self.lit(sample.color(), lights) }
+    }
+
+    fn lit(&self, Plain { tint, saturation, value }: Plain<f32>, lights: [f32; 3]) -> ShadedSample {
         let pure = Pure { hue: self.hue(tint), fade: self.fade(tint, saturation), saturation };
         let (levels, intensity) = encode(pure, lights.map(|light| value * light), self.ceiling);
         ShadedSample { light: levels.map(linear), intensity, is_out_of_range: pure.fade == 0.0 }
@@ -73,7 +88,7 @@ impl Shader {
     /// Shades a run of samples.
     fn lit_all(
         &self,
-        [tints, saturations, values]: [&[f32]; 3],
+        Plain { tint: tints, saturation: saturations, value: values }: Plain<&[f32]>,
         lights: Lights<'_>,
         encoding: Encoding,
         run: &mut ShadedRun,
@@ -133,38 +148,31 @@ impl Shader {
 }
 
 impl Shading<3> for Shader {
-    fn shade(&self, numbers: [&[f32]; 3], encoding: Encoding, run: &mut ShadedRun) {
-        self.lit_all(numbers, None, encoding, run);
+    fn shade(&self, samples: [&[f32]; 3], encoding: Encoding, run: &mut ShadedRun) {
+        self.lit_all(Plain::unpack(samples), None, encoding, run);
     }
 }
 
 impl Shading<6> for Shader {
-    fn shade(
-        &self,
-        [tint, saturation, value, red, green, blue]: [&[f32]; 6],
-        encoding: Encoding,
-        run: &mut ShadedRun,
-    ) {
-        self.lit_all([tint, saturation, value], Some([red, green, blue]), encoding, run);
+    fn shade(&self, samples: [&[f32]; 6], encoding: Encoding, run: &mut ShadedRun) {
+        let samples = Colored::unpack(samples);
+        self.lit_all(samples.color(), Some(samples.level()), encoding, run);
     }
 }
 
 impl Shading<4> for Shader {
-    fn shade(&self, [a, b, c, is_light]: [&[f32]; 4], encoding: Encoding, run: &mut ShadedRun) {
-        self.lit_all([a, b, c], None, encoding, run);
-        set_given([a, b, c], is_light, encoding, run);
+    fn shade(&self, samples: [&[f32]; 4], encoding: Encoding, run: &mut ShadedRun) {
+        let samples = Mixed::unpack(samples);
+        self.lit_all(samples.color(), None, encoding, run);
+        set_given(&samples, encoding, run);
     }
 }
 
 impl Shading<7> for Shader {
-    fn shade(
-        &self,
-        [a, b, c, red, green, blue, is_light]: [&[f32]; 7],
-        encoding: Encoding,
-        run: &mut ShadedRun,
-    ) {
-        self.lit_all([a, b, c], Some([red, green, blue]), encoding, run);
-        set_given([a, b, c], is_light, encoding, run);
+    fn shade(&self, samples: [&[f32]; 7], encoding: Encoding, run: &mut ShadedRun) {
+        let samples = MixedColored::unpack(samples);
+        self.lit_all(samples.mixed().color(), Some(samples.level()), encoding, run);
+        set_given(&samples.mixed(), encoding, run);
     }
 }
 
@@ -174,9 +182,10 @@ fn linear(level: f32) -> f32 {
 }
 
 /// Replaces the samples whose colours are given as light.
-fn set_given([a, b, c]: [&[f32]; 3], is_light: &[f32], encoding: Encoding, run: &mut ShadedRun) {
-    for (idx, _) in is_light.iter().enumerate().filter(|(_, is_light)| **is_light > 0.5) {
-        let shade = given([a[idx], b[idx], c[idx]]);
+fn set_given(samples: &Mixed<&[f32]>, encoding: Encoding, run: &mut ShadedRun) {
+    let light = samples.light();
+    for (idx, _) in samples.is_light.iter().enumerate().filter(|(_, is_light)| **is_light > 0.5) {
+        let shade = given(light.map(|channel| channel[idx]));
         let light = match encoding {
             Encoding::Linear => shade.light,
             Encoding::Display => shade.light.map(|light| srgb_encode(f64::from(light)) as f32),

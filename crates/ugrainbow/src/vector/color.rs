@@ -6,7 +6,6 @@ use ugphysics::srgb_encode;
 use ugraster::{Corner, SampleGrid, ShadedSample, TRANSPARENT_VALUES};
 
 use super::patch::Patch;
-use crate::packing::shade_transparent;
 use crate::pixels::developed;
 use crate::render_layers::RenderLayers;
 use crate::shade::Shader;
@@ -48,8 +47,7 @@ impl FigureColors<'_> {
     ) -> Levels {
         let scale = if self.grid.is_perspective { 1.0 / at.key } else { 1.0 };
         let values = at.values.map(|value| (value * scale) as f32);
-        let line =
-            SeenLayer { light: self.cued(shade_transparent(self.shader, &values).0, at.key), pass: 0.0 };
+        let line = SeenLayer { light: self.cued(self.shader.transparent(&values).0, at.key), pass: 0.0 };
         let layer = |patch: &'p Patch| {
             let numbers = patch.interpolants_at([at.x, at.y]);
             (numbers.key, self.layer(patch, &numbers))
@@ -61,7 +59,7 @@ impl FigureColors<'_> {
 
     fn layer(&self, patch: &Patch, Interpolants { values, key }: &Interpolants) -> SeenLayer {
         let (shade, pass) = if patch.is_transparent {
-            shade_transparent(self.shader, values)
+            self.shader.transparent(values)
         } else {
             (self.layers.shade(self.shader, values), 0.0)
         };
