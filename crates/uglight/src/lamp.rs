@@ -77,6 +77,7 @@ impl Lamp {
     ///
     /// `point`: of the surface, relative to the eye. `normal`: unit vector on the side that is seen, or zero
     /// for a surface without one.
+    #[inline]
     pub fn level_at_rest(&self, point: DVec3, normal: DVec3) -> f64 {
         let toward = match self.place {
             LampPlace::Everywhere => return 1.0,

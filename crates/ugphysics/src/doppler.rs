@@ -112,6 +112,7 @@ impl Brightness {
     /// assert_eq!(Brightness::Photon.factor(2.0), 8.0);
     /// ```
     #[must_use]
+    #[inline]
     pub fn factor(self, doppler: f64) -> f64 {
         let square = doppler * doppler;
         match self {

@@ -171,7 +171,11 @@ impl TransparentLayer for Lit<'_, '_> {
         scanner: &mut Scanner<TRANSPARENT_VALUES>,
         target: &mut FragmentTarget<'_>,
     ) {
-        let shade = |values: &[f32; TRANSPARENT_VALUES]| self.shader.transparent(values);
+        let shade = |values: &[[f32; TRANSPARENT_VALUES]], shaded: &mut [(ShadedSample, f32)]| {
+            for (shaded, values) in shaded.iter_mut().zip(values) {
+                *shaded = self.shader.transparent(values);
+            }
+        };
         if let Some(faces) = &self.layers.faces {
             faces.draw_transparent(grid, band, scanner, &mut target.writer(&shade, false));
         }

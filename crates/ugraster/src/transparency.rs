@@ -16,7 +16,7 @@ use crate::grid::SampleGrid;
 use crate::polygons::{first_center, greater};
 use crate::shading::{SampleStats, ShadedSample};
 use crate::tile::{Area, EMPTY, Tile};
-use crate::triangles::{LazyPlanes, RowTarget, TriangleRef, TriangleRow};
+use crate::triangles::{LazyPlanes, Plane, RowTarget, TriangleRef, TriangleRow};
 
 /// Number of interpolated values of transparent shapes.
 pub const TRANSPARENT_VALUES: usize = 8;
@@ -215,8 +215,12 @@ pub struct FragmentTarget<'a> {
     stats: SampleStats,
 }
 
-/// The light of interpolated values, and their transmittance, 0…1.
-pub type FragmentShading<'s> = dyn Fn(&[f32; TRANSPARENT_VALUES]) -> (ShadedSample, f32) + 's;
+/// Computes the light of each sample of a run from its interpolated values, and its transmittance,
+/// 0…1. Both slices have the same length.
+pub type FragmentShading<'s> = dyn Fn(&[[f32; TRANSPARENT_VALUES]], &mut [(ShadedSample, f32)]) + 's;
+
+/// Samples that are shaded in one call.
+const RUN: usize = 32;
 
 impl<'a> FragmentTarget<'a> {
     /// Receives samples of faces, or of lines.
@@ -251,11 +255,20 @@ impl FragmentWriter<'_, '_> {
         item: u32,
         mut sample: impl FnMut(u32, f32) -> Option<(f32, [f32; TRANSPARENT_VALUES])>,
     ) {
+        let (mut places, mut values) = ([(0, 0.0); RUN], [[0.0; TRANSPARENT_VALUES]; RUN]);
+        let mut n = 0;
         for (column, index) in columns.clone().zip(self.target.tile.indices(row, &columns)) {
-            if let Some((key, values)) = sample(column, self.occluder_key(index)) {
-                self.push(index, item, key, &values);
+            // No fragment of a row occludes another one, so their order does not matter.
+            if let Some((key, of_sample)) = sample(column, self.occluder_key(index)) {
+                (places[n], values[n]) = ((index, key), of_sample);
+                n += 1;
+                if n == RUN {
+                    self.push(&places, &values, item);
+                    n = 0;
+                }
             }
         }
+        self.push(&places[..n], &values[..n], item);
     }
 
     /// Draws the samples of a row with left ≤ x < right, as in [`Tile`].
@@ -286,24 +299,28 @@ impl FragmentWriter<'_, '_> {
         });
     }
 
-    fn push(&mut self, sample: usize, item: u32, key: f32, values: &[f32; TRANSPARENT_VALUES]) {
-        let (shaded, transmittance) = (self.shading)(values);
+    /// Shades samples, given by index and key, and stores them.
+    fn push(&mut self, places: &[(usize, f32)], values: &[[f32; TRANSPARENT_VALUES]], item: u32) {
+        let mut shaded = [(ShadedSample::default(), 0.0); RUN];
+        let shaded = &mut shaded[..places.len()];
+        (self.shading)(values, shaded);
         let target = &mut *self.target;
-        // A fragment that transmits everything is invisible.
-        if transmittance < 1.0 && target.fragments.len() < target.max_fragments {
-            target.stats.count(&shaded);
-            if transmittance == 0.0 {
-                target.front[sample] = greater(target.front[sample], key);
+        for (&(sample, key), (shaded, transmittance)) in places.iter().zip(shaded) {
+            // A fragment that transmits everything is invisible.
+            if *transmittance < 1.0 && target.fragments.len() < target.max_fragments {
+                target.stats.count(shaded);
+                if *transmittance == 0.0 {
+                    target.front[sample] = greater(target.front[sample], key);
+                }
+                target.fragments.push(Fragment {
+                    sample: sample as u32,
+                    key,
+                    item,
+                    is_line: self.is_line,
+                    light: shaded.light,
+                    transmittance: *transmittance,
+                });
             }
-            let (sample, light) = (sample as u32, shaded.light);
-            target.fragments.push(Fragment {
-                sample,
-                key,
-                item,
-                is_line: self.is_line,
-                light,
-                transmittance,
-            });
         }
     }
 
@@ -318,7 +335,9 @@ impl FragmentWriter<'_, '_> {
 
 impl RowTarget for FragmentWriter<'_, '_> {
     fn draw_row(&mut self, row: &TriangleRow, triangle: &TriangleRef<'_>, planes: &mut LazyPlanes<'_>) {
-        let planes = planes.get(triangle);
+        let planes: &[Plane; TRANSPARENT_VALUES] =
+            planes.get(triangle).try_into().expect("transparent shapes have a plane for each value");
+        let starts = planes.each_ref().map(|plane| plane.start(row));
         let is_perspective = triangle.is_perspective();
         self.draw_each(row.row, row.columns[0]..row.columns[1], triangle.item(), |column, occluder_key| {
             let place = f64::from(column) + 0.5;
@@ -328,11 +347,8 @@ impl RowTarget for FragmentWriter<'_, '_> {
             }
             let scale = if is_perspective { 1.0 / key } else { 1.0 };
             let across = place - row.from;
-            let mut values = [0.0; TRANSPARENT_VALUES];
-            for (value, plane) in values.iter_mut().zip(planes) {
-                *value = ((plane.start(row) + across * plane.per_column) * scale) as f32;
-            }
-            Some((key as f32, values))
+            let value = |i: usize| ((starts[i] + across * planes[i].per_column) * scale) as f32;
+            Some((key as f32, std::array::from_fn(value)))
         });
     }
 }

@@ -59,12 +59,12 @@ impl<'a> Appearance<'a> {
         if rest.light.is_some() || stretch == 1.0 {
             return *rest;
         }
-        let doppler = 1.0 / stretch;
-        let seen = Swatch { value: self.shift.value(rest.value, doppler), ..*rest };
+        let seen = Swatch { value: self.shift.value(rest.value, 1.0 / stretch), ..*rest };
         if !self.shift.doppler || rest.is_grey() {
             return seen;
         }
-        let seen_nm = self.shift.wavelength_nm(rest_nm, doppler);
+        // λ/D, as a product, since this runs for every sample.
+        let seen_nm = rest_nm * stretch;
         // The wavelength may be invisible; a hue is clamped to the end of its range.
         let tint = match self.palette.interpolation() {
             Interpolation::Hue => self.hues.hue(seen_nm),

@@ -127,7 +127,8 @@ impl Look {
     ) -> (Swatch, DVec3) {
         let spot = self.mesh.as_ref().map(|mesh| mesh.spot(ray.rest));
         let color = match &spot {
-            _ if appearance.spectra().is_some() => self.seen_spectrum(appearance, spot.as_ref(), ray),
+            // Passed by value, so that neither has to be in memory for hues.
+            &spot if appearance.spectra().is_some() => self.seen_spectrum(appearance, spot, ray.stretch),
             Some(spot) if spot.mesh.has_colors => {
                 let color = spot.color();
                 let has_own = spot.mesh.has_tints && ray.stretch != 1.0;
@@ -151,13 +152,13 @@ impl Look {
     /// The apparent colour in spectral mode. Between corners, the apparent colours of spectra are
     /// mixed.
     #[inline(never)] // Kept out of the loop over hues.
-    fn seen_spectrum(&self, appearance: &Appearance<'_>, spot: Option<&Spot<'_>>, ray: &Ray) -> Swatch {
+    fn seen_spectrum(&self, appearance: &Appearance<'_>, spot: Option<Spot<'_>>, stretch: f64) -> Swatch {
         let Some(spot) = spot.filter(|spot| spot.mesh.has_colors) else {
-            let light = Some(appearance.seen_light([(self.row, 1.0)], ray.stretch));
+            let light = Some(appearance.seen_light([(self.row, 1.0)], stretch));
             return Swatch { light, ..self.color };
         };
         let rows = spot.triangle.corners.map(|corner| spot.mesh.corners[corner as usize].row);
-        let light = Some(appearance.seen_light(rows.into_iter().zip(spot.weights), ray.stretch));
+        let light = Some(appearance.seen_light(rows.into_iter().zip(spot.weights), stretch));
         Swatch { light, ..spot.color() }
     }
 }
