@@ -130,7 +130,7 @@ const PROGRAM: &str = env!("CARGO_PKG_NAME");
 const CAMERA: &str = "Camera";
 
 const EXAMPLES: &str = "Examples:
-  uglorentz -vel .9 0 0 ship.ug | ugdoppler | ugrainbow > ship.png
+  uglorentz -vel .6 0 0 -in ship.ug | ugdoppler | ugrainbow > ship.png
   uglorentz -vel .9 0 0 -in ship.ug        the ship stays in view at any speed
   uglorentz -vel 0 .9 0 -ti -2 street.ug   two units of time earlier
   uglorentz -cv 0 .9 0 street.ug           the camera drives; cars keep their velocities in the street";

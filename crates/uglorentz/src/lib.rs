@@ -1,7 +1,7 @@
 //! Geometry of a UniGrafix scene as seen in relativistic motion: the first program of
 //!
 //! ```text
-//! uglorentz -vel .9 0 0 < ship.ug | ugdoppler | ugrainbow > ship.png
+//! uglorentz -vel .6 0 0 -in < ship.ug | ugdoppler | ugrainbow > ship.png
 //! ```
 //!
 //! # What a moving body looks like

@@ -3,7 +3,7 @@
 //! Every ug program is a filter: it reads a scene, computes, and writes a scene or a picture.
 //!
 //! ```text
-//! uglorentz -vel .9 0 0 < ship.ug | ugdoppler | ugrainbow > ship.png
+//! uglorentz -vel .6 0 0 -in < ship.ug | ugdoppler | ugrainbow > ship.png
 //! ```
 //!
 //! What a well-behaved filter has to do is the same for all of them. It is implemented here once.

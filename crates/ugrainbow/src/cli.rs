@@ -26,7 +26,7 @@ const POSTSCRIPT_FILE: &str = "POSTSCRIPTFILE";
 /// Reads a scene and writes a picture. At the end of a pipe it shows what moves nearly as
 /// fast as light:
 ///
-///   uglorentz -vel .9 0 0 < ship.ug | ugdoppler | ugrainbow > ship.png
+///   uglorentz -vel .6 0 0 -in < ship.ug | ugdoppler | ugrainbow > ship.png
 ///
 ///   uglorentz -vel 0 -.2 0 -in -sd 1 < ship.ug | ugrainbow -xc > exact.png
 #[derive(Clone, Debug, Parser)]
