@@ -4,6 +4,7 @@
 //! - [`programs`]: the built programs;
 //! - [`scenes`]: the scenes of the repository;
 //! - [`picture`]: comparison of pictures, golden ones included;
+//! - [`hostile`]: malformed and extreme inputs for the programs, and what must hold of them;
 //! - [`oracle`]: a slow, independent reference renderer that determines which face each pixel must
 //!   show;
 //! - [`agreement`]: comparison of a picture with the oracle;
@@ -18,6 +19,7 @@
 
 pub mod agreement;
 pub mod explanation;
+pub mod hostile;
 pub mod oracle;
 pub mod outline;
 pub mod picture;

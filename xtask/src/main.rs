@@ -9,6 +9,7 @@
 //! cargo xtask bench-scale plot.svg
 //! cargo xtask bench-exact
 //! cargo xtask geometry > tables.md
+//! cargo xtask hostile 50000
 //! ```
 //!
 //! Scenes go to standard output and are the same bytes on every run and platform.
@@ -17,6 +18,7 @@ mod bench;
 mod exact;
 mod geometry;
 mod globe;
+mod hostile;
 mod mesh;
 mod plot;
 mod raster;
@@ -113,6 +115,8 @@ enum Task {
     /// Measure errors of outlines in pictures against the oracle, and the number of faces, as
     /// Markdown
     Geometry(geometry::Args),
+    /// Run the programs on malformed and extreme inputs, and check what must hold of any
+    Hostile(hostile::Args),
     /// Draw a scene and print the time in seconds and the peak memory in megabytes
     #[command(hide = true)]
     DrawOnce {
@@ -179,6 +183,7 @@ fn run(task: &Task) -> io::Result<()> {
         Task::Geometry(args) => {
             geometry::write(&mut out, args).map_err(|error| io::Error::other(error.to_string()))?;
         }
+        Task::Hostile(args) => hostile::write(&mut out, args)?,
         Task::ReadOnce { scene, threads } => {
             reading::read_once(&mut out, scene, *threads)
                 .map_err(|error| io::Error::other(error.to_string()))?;

@@ -22,7 +22,7 @@ pub fn write(out: &mut impl Write, triangles: u32, each: bool) -> io::Result<()>
     write_with(out, triangles, each, TAIL)
 }
 
-/// Like [`write`], with other lights and another camera.
+/// Like [`write()`], with other lights and another camera.
 pub fn write_with(out: &mut impl Write, triangles: u32, each: bool, tail: &str) -> io::Result<()> {
     // A globe of n bands and 2 n sectors has 4 n (n - 1) triangles.
     let bands = (f64::from(triangles) / 4.0).sqrt().round() as u32;

@@ -26,6 +26,21 @@ impl Random {
         low + (high - low) * self.unit()
     }
 
+    /// A whole number below `n`, which is 1 or more.
+    pub fn below(&mut self, n: usize) -> usize {
+        ((self.unit() * n as f64) as usize).min(n - 1)
+    }
+
+    /// True once in `n` times.
+    pub fn one_in(&mut self, n: usize) -> bool {
+        self.below(n) == 0
+    }
+
+    /// One of `some`, which is not empty.
+    pub fn pick<'a, T>(&mut self, some: &'a [T]) -> &'a T {
+        &some[self.below(some.len())]
+    }
+
     /// A point of the cube |x|, |y|, |z| ≤ `half`.
     pub fn in_cube(&mut self, half: f64) -> DVec3 {
         DVec3::from_array([(); 3].map(|()| self.between(-half, half)))

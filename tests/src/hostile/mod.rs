@@ -1,0 +1,76 @@
+//! Hostile inputs for the programs, and what must hold whatever they are given.
+//!
+//! A [`Case`] follows from its number alone: an input (a scene, a mesh or pictures) that is malformed,
+//! extreme or both, and the command lines of a pipe. [`Case::run`] runs it with the built programs and
+//! checks what no input may break:
+//!
+//! - a program ends by itself, with status 0, 1 or 2, within [`TIME_LIMIT`] and [`MEMORY_LIMIT`];
+//! - with status 0 it has written something, and `ugparse` accepts a scene that it has written;
+//! - with another status it has written nothing to standard output, and says why;
+//! - nothing that it prints moves the cursor or reverses the text;
+//! - the number of threads changes no byte;
+//! - no temporary file is left.
+
+mod bytes;
+mod mesh;
+mod options;
+mod picture;
+mod run;
+mod scene;
+mod words;
+
+use std::path::Path;
+
+use ugrandom::Random;
+
+pub use run::{MEMORY_LIMIT, TIME_LIMIT};
+
+/// A pipe with a hostile input.
+#[derive(Clone, Debug)]
+pub struct Case {
+    /// Its number.
+    pub seed: u64,
+    /// Name and content of the files in its folder; the first is the input.
+    pub files: Vec<(String, Vec<u8>)>,
+    /// Program and arguments of each stage.
+    pub stages: Vec<Vec<String>>,
+    /// Whether the pipe is run again on one thread, and compared.
+    pub is_repeated: bool,
+}
+
+impl Case {
+    /// The case of this number.
+    pub fn new(seed: u64) -> Self {
+        let mut random = Random(seed.wrapping_mul(0x2545_f491_4f6c_dd1d));
+        let (files, first) = match random.below(10) {
+            0 | 1 => mesh::files(&mut random),
+            2 => picture::files(&mut random),
+            _ => scene::files(&mut random),
+        };
+        let stages = options::stages(&mut random, first, &files);
+        let is_repeated = random.one_in(4);
+        Self { seed, files, stages, is_repeated }
+    }
+
+    /// Runs the pipe with the programs in `programs`.
+    ///
+    /// # Errors
+    /// The first thing that does not hold, in words.
+    pub fn run(&self, programs: &Path) -> Result<(), String> {
+        run::run(self, programs).map_err(|finding| format!("case {}: {finding}\n{}", self.seed, self.shell()))
+    }
+
+    /// The pipe as a shell would take it.
+    fn shell(&self) -> String {
+        let stages: Vec<String> = self.stages.iter().map(|words| words.join(" ")).collect();
+        format!("  {} < {}", stages.join(" | "), self.files[0].0)
+    }
+
+    /// Writes the files of the case into a folder, to look into it by hand.
+    ///
+    /// # Errors
+    /// A file cannot be written.
+    pub fn write_to(&self, folder: &Path) -> std::io::Result<()> {
+        self.files.iter().try_for_each(|(name, bytes)| std::fs::write(folder.join(name), bytes))
+    }
+}

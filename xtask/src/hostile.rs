@@ -1,0 +1,51 @@
+//! Hostile inputs, many more than the tests run.
+
+use std::io::{self, Write};
+use std::path::PathBuf;
+use std::time::Instant;
+
+use rayon::prelude::*;
+use ugtests::hostile::Case;
+use ugtests::programs;
+
+/// What to run.
+#[derive(clap::Args)]
+pub struct Args {
+    /// Cases to run
+    #[arg(value_name = "N", default_value_t = 50_000)]
+    cases: u64,
+    /// Number of the first case; those of the tests begin at 0
+    #[arg(long, value_name = "SEED", default_value_t = 1_000_000)]
+    first: u64,
+    /// Write the files of the first case into this folder, and run nothing
+    #[arg(long, value_name = "FOLDER")]
+    extract: Option<PathBuf>,
+    /// Folder of the programs [default: those of the release profile, built if need be]
+    #[arg(long, value_name = "FOLDER")]
+    programs: Option<PathBuf>,
+}
+
+/// Runs the cases and writes what was found. Fails if anything was.
+pub fn write(out: &mut impl Write, args: &Args) -> io::Result<()> {
+    if let Some(folder) = &args.extract {
+        let case = Case::new(args.first);
+        case.write_to(folder)?;
+        return writeln!(out, "{case:#?}");
+    }
+    let programs = args.programs.clone().unwrap_or_else(programs::released);
+    let begun = Instant::now();
+    let mut n_findings = 0;
+    // In blocks, so that findings appear while the rest runs.
+    for start in (0..args.cases).step_by(1000) {
+        let seeds = args.first + start..args.first + (start + 1000).min(args.cases);
+        let findings: Vec<String> =
+            seeds.into_par_iter().filter_map(|seed| Case::new(seed).run(&programs).err()).collect();
+        n_findings += findings.len();
+        for finding in findings {
+            writeln!(out, "{finding}\n")?;
+        }
+        out.flush()?;
+    }
+    writeln!(out, "{} cases, {n_findings} findings, {:.0} s", args.cases, begun.elapsed().as_secs_f64())?;
+    if n_findings > 0 { Err(io::Error::other("something does not hold")) } else { Ok(()) }
+}
