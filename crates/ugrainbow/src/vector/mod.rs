@@ -102,7 +102,7 @@ pub fn draw<'a>(
     let layers = RenderLayers::new(setup.painter(), &fine.draw_mode()).telling(progress);
     if backdrop(&config.picture).light().is_none() && layers.has_transparent_faces() {
         return Err(Error::Figure(
-            "vector graphics (-vec) with translucent faces need a background: give -bg (1 for paper) in place of -tb",
+            "vector graphics (-vec) with translucent faces need a background: give -bg 1, for paper, in place of -tb",
         ));
     }
     let seen = seen::faces(&setup, &layers);
