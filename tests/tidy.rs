@@ -129,8 +129,9 @@ fn data_goes_one_way() {
     assert_none(&findings);
 }
 
-/// Programs know scenes, not each other: what was done to a scene is in its stage. Messages that send a person to
-/// another program are in `ugpipe::remedies`, and examples of `--help` show whole pipes.
+/// Programs know scenes, not each other: what was done to a scene is in its stage. Messages that
+/// send a person to another program are in `ugpipe::remedies`, and examples of `--help` show whole
+/// pipes.
 #[test]
 fn no_crate_spells_the_name_of_a_sibling_program() {
     const PROGRAMS: [&str; 6] = ["uglorentz", "ugdoppler", "ugrainbow", "ugmesh", "ugsheet", "ugparse"];

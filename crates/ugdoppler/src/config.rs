@@ -19,8 +19,8 @@ pub struct Config {
     /// Give each vertex a copy per colour of its faces, instead of mixing them (`-vr`).
     pub repeat: bool,
     /// Vertices share a colour statement if their wavelengths differ by at most this many nm and
-    /// their values by as many percent; with spectra, if their X, Y and Z do. With 0 every vertex has
-    /// its own (`-ct`).
+    /// their values by as many percent; with spectra, if their X, Y and Z do. With 0 every vertex
+    /// has its own (`-ct`).
     pub tolerance: f64,
     /// Scale all values so that the largest is 1, instead of clipping those above (`-ir`).
     pub iris: bool,
@@ -28,8 +28,8 @@ pub struct Config {
     pub light: bool,
     /// Keep values above 1, instead of clipping them (`-hd`).
     pub keep: bool,
-    /// Shift spectra instead of hues, and write X, Y, Z (`-sp`). The brightness law is that of spectral
-    /// radiance, D⁵, and nothing is clipped.
+    /// Shift spectra instead of hues, and write X, Y, Z (`-sp`). The brightness law is that of
+    /// spectral radiance, D⁵, and nothing is clipped.
     pub spectral: bool,
     /// Shift wavelengths; `--no-doppler` does not.
     pub doppler: bool,
@@ -37,8 +37,8 @@ pub struct Config {
     pub flux: bool,
 }
 
-/// The default of [`Config::tolerance`]. A tenth of a nanometre moves the hue by less than one 8-bit
-/// step, a tenth of a percent the value by a quarter of one.
+/// The default of [`Config::tolerance`]. A tenth of a nanometre moves the hue by less than one
+/// 8-bit step, a tenth of a percent the value by a quarter of one.
 pub const DEFAULT_TOLERANCE: f64 = 0.1;
 
 impl Default for Config {

@@ -10,8 +10,8 @@ use ugscene::StageError;
 pub enum Error {
     /// The scene is not at the stage at which it can be coloured.
     Stage(StageError),
-    /// A vertex of a moving body lies exactly at the eye, where it has no direction and so no Doppler
-    /// factor.
+    /// A vertex of a moving body lies exactly at the eye, where it has no direction and so no
+    /// Doppler factor.
     VertexAtEye {
         /// The vertex.
         vertex: VertexId,

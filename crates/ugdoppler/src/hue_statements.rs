@@ -99,8 +99,8 @@ impl<'s> HueStatements<'s> {
         self.scene.vertices[row].color = Some(id);
     }
 
-    /// The key under which lit colours that differ by less than the tolerance are found: the first of
-    /// them stands for all.
+    /// The key under which lit colours that differ by less than the tolerance are found: the first
+    /// of them stands for all.
     fn lit_key(&self, translucency: f64, seen: HueColor) -> [u64; 4] {
         let tolerance = self.config.tolerance;
         let step = |number: f64, width: f64| {
@@ -192,8 +192,8 @@ impl<'s> HueStatements<'s> {
         text.replace('.', "_")
     }
 
-    /// Clips or scales values above 1, unless they are kept, and converts the colours that the scene had
-    /// at first to the scale of the output. Returns what to tell the user.
+    /// Clips or scales values above 1, unless they are kept, and converts the colours that the
+    /// scene had at first to the scale of the output. Returns what to tell the user.
     pub fn finish(mut self) -> Vec<String> {
         if self.config.wavelengths {
             for color in &mut self.scene.colors[..self.n_given] {
@@ -209,8 +209,8 @@ impl<'s> HueStatements<'s> {
         if self.config.iris { self.scale_values() } else { self.clip_values() }
     }
 
-    /// Divides the values of vertices by the largest. Those of lights stay, for they multiply what is
-    /// scaled here.
+    /// Divides the values of vertices by the largest. Those of lights stay, for they multiply what
+    /// is scaled here.
     fn scale_values(&mut self) -> Vec<String> {
         let largest = self.largest_value;
         if largest == 0.0 || largest == 1.0 {

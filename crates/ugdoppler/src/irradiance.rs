@@ -13,17 +13,17 @@ const NORMAL_STEP: f64 = 1e-5;
 /// The irradiance of every vertex of a scene, lamp by lamp.
 pub(crate) struct VertexIrradiance {
     pub lamps: Vec<Lamp>,
-    /// `None` for vertices that are not lit: those of wires, and of faces with a light level of their
-    /// own.
+    /// `None` for vertices that are not lit: those of wires, and of faces with a light level of
+    /// their own.
     pub of_vertex: Vec<Option<Vec<Irradiance>>>,
 }
 
 /// Repeats vertices where the irradiance differs between faces: faces that meet at an edge get
-/// vertices of their own there, unless the vertex carries a normal, and so do faces with a light level
-/// of their own.
+/// vertices of their own there, unless the vertex carries a normal, and so do faces with a light
+/// level of their own.
 ///
-/// `rest`: position of each vertex, (P4). Returns the originals of the new vertices, and the normal to
-/// light each vertex with; `None` where it is not lit.
+/// `rest`: position of each vertex, (P4). Returns the originals of the new vertices, and the normal
+/// to light each vertex with; `None` where it is not lit.
 pub(crate) fn split(scene: &mut Scene, rest: &[DVec3]) -> (Vec<VertexId>, Vec<Option<DVec3>>) {
     /// How a vertex is lit.
     #[derive(Clone, Copy, PartialEq, Eq, Hash)]
@@ -87,8 +87,8 @@ impl VertexIrradiance {
     }
 }
 
-/// Replaces all lights by one ambient light of intensity 1, under which a renderer draws colours that
-/// include light as they are. Comments at the lights stay.
+/// Replaces all lights by one ambient light of intensity 1, under which a renderer draws colours
+/// that include light as they are. Comments at the lights stay.
 pub(crate) fn replace_lights(scene: &mut Scene) {
     scene.lights = vec![Light {
         name: None,

@@ -1,21 +1,21 @@
 //! Colours of a UniGrafix scene as seen in relativistic motion.
 //!
-//! [`apply`] gives every vertex the colour with which its body is seen from the eye. The hue becomes a
-//! wavelength (P16), which is divided by the Doppler factor D (P10), (P11), and becomes a hue again.
-//! The value is multiplied by D (P12). The saturation stays; a grey has no wavelength to shift. The
-//! fading of hues towards infrared and ultraviolet (P17) is left to the renderer, which applies it at
-//! every pixel.
+//! [`apply`] gives every vertex the colour with which its body is seen from the eye. The hue
+//! becomes a wavelength (P16), which is divided by the Doppler factor D (P10), (P11), and becomes a
+//! hue again. The value is multiplied by D (P12). The saturation stays; a grey has no wavelength to
+//! shift. The fading of hues towards infrared and ultraviolet (P17) is left to the renderer, which
+//! applies it at every pixel.
 //!
 //! With [`Config::light`] the colours include the light of the scene's lamps. A lamp that moves
 //! against a surface has a Doppler factor D_l of its own there, and shines from where it was at
 //! emission (P14); D_l shifts and dims the colour as D does.
 //!
-//! With [`Config::spectral`] colours are spectra: of surfaces (P20), of black bodies (P13), or given
-//! by samples. Each is shifted as a whole and multiplied by D⁵ (P12), and written as the X, Y, Z that
-//! the eye makes of it (P19).
+//! With [`Config::spectral`] colours are spectra: of surfaces (P20), of black bodies (P13), or
+//! given by samples. Each is shifted as a whole and multiplied by D⁵ (P12), and written as the X,
+//! Y, Z that the eye makes of it (P19).
 //!
-//! The input is what `uglorentz` writes: vertices where they are seen, faces with their velocity, the
-//! eye in the camera.
+//! The input is what `uglorentz` writes: vertices where they are seen, faces with their velocity,
+//! the eye in the camera.
 //!
 //! ```
 //! let text = "(ugstage 1 geometry as-seen eye 0 0 0) c green 1 120;

@@ -13,9 +13,9 @@ use crate::spectral::parts;
 
 /// X, Y, Z of every vertex with the light on it; `None` where it is not lit.
 ///
-/// L(λ) = D⁵ Σ D_l³ · level · intensity · R(λD) S(λ D D_l), over the lights, R the reflectance and S the light's
-/// spectrum: daylight through its colour, or the black body or samples that its colour is. What is no surface shines
-/// as it does without lights.
+/// L(λ) = D⁵ Σ D_l³ · level · intensity · R(λD) S(λ D D_l), over the lights, R the reflectance and
+/// S the light's spectrum: daylight through its colour, or the black body or samples that its
+/// colour is. What is no surface shines as it does without lights.
 pub(crate) fn seen(
     scene: &Scene,
     config: &Config,

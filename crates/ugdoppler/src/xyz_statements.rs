@@ -13,8 +13,8 @@ use crate::notes::{kept, scaled};
 use crate::quantization::DopplerQuantizer;
 
 /// Gives every used vertex the X, Y, Z with which the spectra of its colours are seen, or those of
-/// `lit`. The colours of the scene stay, for lights and for vertices that nothing uses. Returns what to
-/// tell the user.
+/// `lit`. The colours of the scene stay, for lights and for vertices that nothing uses. Returns
+/// what to tell the user.
 pub(crate) fn write(
     scene: &mut Scene,
     config: &Config,
@@ -154,8 +154,8 @@ pub(crate) fn finite(xyz: [f64; 3]) -> [f64; 3] {
     xyz.map(|part| if part.is_nan() { 0.0 } else { part.clamp(0.0, f64::MAX) })
 }
 
-/// With `iris` scales the largest channel of linear sRGB to 1. Returns what to tell the user of values
-/// above 1.
+/// With `iris` scales the largest channel of linear sRGB to 1. Returns what to tell the user of
+/// values above 1.
 fn expose(seen: &mut [[f64; 3]], iris: bool) -> Option<String> {
     let brightest = |&xyz: &[f64; 3]| xyz_to_linear_srgb(xyz).into_iter().fold(0.0, f64::max);
     let largest = seen.iter().map(brightest).fold(0.0, f64::max);
@@ -248,7 +248,8 @@ impl Lit {
         Self { vertices, others }
     }
 
-    /// `seen`: X, Y, Z to be written. Those that differ by less than the tolerance share a statement.
+    /// `seen`: X, Y, Z to be written. Those that differ by less than the tolerance share a
+    /// statement.
     fn push_colors(&self, scene: &mut Scene, config: &Config, shares: &[Shares], seen: &[[f64; 3]]) {
         let mut names: UniqueNames = scene.colors.iter().map(|color| scene.names.get(color.name)).collect();
         let mut made: FxHashMap<[u64; 4], ColorId> = FxHashMap::default();

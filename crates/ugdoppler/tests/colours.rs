@@ -58,7 +58,8 @@ fn on_the_line_of_motion_d_is_known() {
     assert_eq!(unused.color, None);
 }
 
-/// Lights multiply what the iris scales, so their colours stay: else the picture would be darkened twice.
+/// Lights multiply what the iris scales, so their colours stay: else the picture would be darkened
+/// twice.
 #[test]
 fn the_iris_leaves_lights_alone() {
     let text = format!(

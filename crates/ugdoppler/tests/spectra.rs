@@ -172,7 +172,8 @@ fn colours_that_meet_are_added_by_angle() {
     let doppler = doppler_at(DVec3::new(9.0, 0.0, 0.0), moving(-0.3, 0.0, 0.0).velocity);
     let red = Spectrum::from_linear_srgb([0.8, 0.1, 0.1].map(srgb_decode)).seen(doppler);
     let lamp = Spectrum::blackbody(3000.0, 2.0).seen(doppler);
-    // Angles are those at rest, where the triangles stand askew by less than their size over the distance.
+    // Angles are those at rest, where the triangles stand askew by less than their size over the
+    // distance.
     let rest = ugscene::RestFrames::new(&scene).with_unstated(moving(-0.3, 0.0, 0.0).velocity);
     let rest = ugscene::rest_positions(&scene, DVec3::ZERO, &rest);
     let angle = |from: usize, to: usize| (rest[from] - rest[0]).angle_between(rest[to] - rest[0]);

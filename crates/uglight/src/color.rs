@@ -8,8 +8,8 @@ use ugspectrum::Spectrum;
 /// A colour statement as hue in degrees, saturation and value.
 ///
 /// Wavelengths outside 380…780 nm become the hue at that end of the range, (P16). Black bodies and
-/// spectra get their colour at rest, see [`spectra_note`]. Colours outside the gamut of a screen are
-/// clipped to it.
+/// spectra get their colour at rest, see [`spectra_note`]. Colours outside the gamut of a screen
+/// are clipped to it.
 pub fn hsv(scene: &Scene, color: &Color) -> Hsv {
     match color.value {
         ColorValue::Rgb(rgb) => Hsv::from_rgb(rgb),
@@ -28,14 +28,14 @@ fn hue(tint: Tint) -> f64 {
     }
 }
 
-/// True for a colour that is given as light: X, Y, Z, a black body or a spectrum; false for hues and for
-/// red, green and blue of a screen.
+/// True for a colour that is given as light: X, Y, Z, a black body or a spectrum; false for hues
+/// and for red, green and blue of a screen.
 pub fn is_light(color: &Color) -> bool {
     !matches!(color.value, ColorValue::Hsv { .. } | ColorValue::Rgb(_))
 }
 
-/// A colour statement at rest as linear red, green and blue with the sRGB primaries, without clipping:
-/// channels may be above 1 and below 0.  Eq. (P19)
+/// A colour statement at rest as linear red, green and blue with the sRGB primaries, without
+/// clipping: channels may be above 1 and below 0.  Eq. (P19)
 ///
 /// `None` for colours that are not given as light, see [`is_light`].
 pub fn light(scene: &Scene, color: &Color) -> Option<[f64; 3]> {
@@ -69,8 +69,8 @@ pub fn spectrum(scene: &Scene, color: &Color) -> (Spectrum, bool) {
     }
 }
 
-/// The note for the user of a scene where something is drawn or lit with a black body or spectrum, of
-/// which [`hsv`] uses the colour at rest only.
+/// The note for the user of a scene where something is drawn or lit with a black body or spectrum,
+/// of which [`hsv`] uses the colour at rest only.
 pub fn spectra_note(scene: &Scene) -> Option<String> {
     let has_spectrum =
         |color: &Color| matches!(color.value, ColorValue::Blackbody { .. } | ColorValue::Spectrum { .. });

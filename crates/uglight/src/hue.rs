@@ -9,7 +9,8 @@ use crate::{Irradiance, Lamp};
 pub struct HueColor {
     /// In degrees, −60 to 300; exactly as it was written if nothing shifts it.
     pub hue: f64,
-    /// Wavelength in nm, which may be outside of the visible range. Meaningless if the saturation is 0.
+    /// Wavelength in nm, which may be outside of the visible range. Meaningless if the saturation
+    /// is 0.
     pub wavelength_nm: f64,
     /// 0 white … 1 light of one wavelength.
     pub saturation: f64,
@@ -72,9 +73,9 @@ impl HueShift {
 
     /// A surface of colour `base` under several lamps, seen with the Doppler factor `doppler`.
     ///
-    /// The light of each lamp is reflected and seen by itself: the colour of the surface times that of
-    /// the lamp, its wavelength divided by D_l D, its value changed by the brightness law for both
-    /// factors, (P14). Then the colours are added, [`HueColor::sum`].
+    /// The light of each lamp is reflected and seen by itself: the colour of the surface times that
+    /// of the lamp, its wavelength divided by D_l D, its value changed by the brightness law for
+    /// both factors, (P14). Then the colours are added, [`HueColor::sum`].
     #[must_use]
     pub fn seen_lit(self, base: Hsv, doppler: f64, light: &[Irradiance], lamps: &[Lamp]) -> HueColor {
         let base = HueColor::from(base);

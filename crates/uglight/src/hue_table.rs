@@ -56,9 +56,9 @@ impl HueTable {
 
     /// Like [`hue_to_wavelength`], within 10⁻⁹ nm.
     ///
-    /// The map is a cubic in each interval. Its inverse is approximated by a cubic Hermite curve in each of
-    /// many cells, none of which crosses the end of an interval, and refined by one step of Newton's
-    /// method.
+    /// The map is a cubic in each interval. Its inverse is approximated by a cubic Hermite curve in
+    /// each of many cells, none of which crosses the end of an interval, and refined by one step of
+    /// Newton's method.
     #[inline]
     pub fn wavelength_nm(&self, hue_deg: f64) -> f64 {
         let place = (hue_deg - FIRST) * (1.0 / STEP);

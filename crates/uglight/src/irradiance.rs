@@ -24,10 +24,11 @@ pub struct SurfaceElement {
 pub struct Irradiance {
     /// Row of the lamps, which have intensity and colour.
     pub lamp: u32,
-    /// The part of the lamp's intensity that falls on the surface, without powers of D_l: max(0, n·l).
+    /// The part of the lamp's intensity that falls on the surface, without powers of D_l: max(0,
+    /// n·l).
     pub level: f64,
-    /// D_l, from the lamp to the surface. The irradiance has a factor of a power of it that depends on
-    /// what is counted: [`ugphysics::Brightness::irradiance_factor`]; per wavelength it is D_l³.
+    /// D_l, from the lamp to the surface. The irradiance has a factor of a power of it that depends
+    /// on what is counted: [`ugphysics::Brightness::irradiance_factor`]; per wavelength it is D_l³.
     pub doppler: f64,
 }
 
@@ -57,7 +58,8 @@ impl SurfaceElement {
     }
 
     fn of_moving(&self, lamp: &Lamp, body: BodyId, frames: &RestFrames, add: &mut impl FnMut(f64, f64)) {
-        // Between two frames their axes have to be those of the camera, which boosts keep.  Eq. (P25)
+        // Between two frames their axes have to be those of the camera, which boosts keep.  Eq.
+        // (P25)
         let axes_of = |body: BodyId| frames.scene_from_axes(body).inverse();
         let (of_surface, of_lamp) = (axes_of(self.body), axes_of(body));
         let (point, normal) = (of_surface * self.point, of_surface * self.normal);

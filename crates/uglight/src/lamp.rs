@@ -12,8 +12,8 @@ use crate::{hsv, light};
 pub struct Lamp {
     /// What kind of light, and where.
     pub place: LampPlace,
-    /// Display-encoded red, green and blue, times the intensity. In this form light of several lamps is
-    /// added, and multiplies the display-encoded colour of a surface, as in 1988.
+    /// Display-encoded red, green and blue, times the intensity. In this form light of several
+    /// lamps is added, and multiplies the display-encoded colour of a surface, as in 1988.
     pub color: DVec3,
     /// Linear red, green and blue, times the intensity: it multiplies colours given as [`light`].
     pub linear: DVec3,
@@ -75,8 +75,8 @@ impl Lamp {
     /// The irradiance of a surface that rests with the lamp, as a part of the lamp's intensity:
     /// max(0, n·l), or 1 for ambient light.
     ///
-    /// `point`: of the surface, relative to the eye. `normal`: unit vector on the side that is seen, or zero
-    /// for a surface without one.
+    /// `point`: of the surface, relative to the eye. `normal`: unit vector on the side that is
+    /// seen, or zero for a surface without one.
     #[inline]
     pub fn level_at_rest(&self, point: DVec3, normal: DVec3) -> f64 {
         let toward = match self.place {

@@ -1,10 +1,11 @@
 //! Light of a scene: its lamps, the irradiance they cause, and what colours look like in motion.
 //!
 //! Several programs need the same answers. A filter that puts light into vertex colours, a renderer
-//! that shades corners or samples, a program that refines edges where light changes: each asks which
-//! [`lamps`] a scene has, how much of their light falls on a surface ([`Lighting`] for lamps at rest
-//! with what they light, [`SurfaceElement`] for lamps that move against it), and which [`Hsv`],
-//! linear light or [`Spectrum`] a colour statement stands for ([`hsv`], [`light`], [`spectrum`]).
+//! that shades corners or samples, a program that refines edges where light changes: each asks
+//! which [`lamps`] a scene has, how much of their light falls on a surface ([`Lighting`] for lamps
+//! at rest with what they light, [`SurfaceElement`] for lamps that move against it), and which
+//! [`Hsv`], linear light or [`Spectrum`] a colour statement stands for ([`hsv`], [`light`],
+//! [`spectrum`]).
 //!
 //! What motion makes of a colour depends on the model: a [`HueColor`] has one wavelength, which a
 //! [`HueShift`] divides by the Doppler factor D; a [`SpectralColor`] is shifted as a whole by a

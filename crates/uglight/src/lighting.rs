@@ -7,12 +7,12 @@ use crate::{Lamp, LampPlace, lamps};
 
 /// The lights of a scene, each at rest with the face it lights: the rule of 1988.
 ///
-/// A light level is the irradiance relative to the one that shows white as white. It is computed in the
-/// rest frame of a face, with rest positions (P4) and rest normals, so a moving face is lit as if it
-/// stood still. Local lights are points, without a fall-off with distance.
+/// A light level is the irradiance relative to the one that shows white as white. It is computed in
+/// the rest frame of a face, with rest positions (P4) and rest normals, so a moving face is lit as
+/// if it stood still. Local lights are points, without a fall-off with distance.
 ///
-/// The level multiplies the value of a hue, which is display-encoded, as in 1988; or a colour given as
-/// light, which is linear. So every light has its colour in both forms.
+/// The level multiplies the value of a hue, which is display-encoded, as in 1988; or a colour given
+/// as light, which is linear. So every light has its colour in both forms.
 #[derive(Clone, Debug)]
 pub struct Lighting {
     /// All ambient lights together.
@@ -23,7 +23,8 @@ pub struct Lighting {
 }
 
 impl Lighting {
-    /// The lights of the scene; if it has none, an ambient light of 0.3 and one of 0.7 from the eye.
+    /// The lights of the scene; if it has none, an ambient light of 0.3 and one of 0.7 from the
+    /// eye.
     ///
     /// `eye`: in scene coordinates. `forward`: unit vector along the view.
     pub fn new(scene: &Scene, eye: DVec3, forward: DVec3) -> Self {
@@ -44,7 +45,8 @@ impl Lighting {
         Self { ambient, lamps, is_colored }
     }
 
-    /// True if a light is neither white nor grey, so that levels differ between red, green and blue.
+    /// True if a light is neither white nor grey, so that levels differ between red, green and
+    /// blue.
     #[inline]
     pub fn is_colored(&self) -> bool {
         self.is_colored

@@ -6,7 +6,8 @@ use ugspectrum::{DopplerGrid, DopplerTable, LightSpectrum, Spectrum};
 
 use crate::{Irradiance, spectrum};
 
-/// What motion changes in a spectrum, L(λ) = D⁵ L'(λD): wavelengths, and the radiance at each.  Eq. (P12)
+/// What motion changes in a spectrum, L(λ) = D⁵ L'(λD): wavelengths, and the radiance at each.  Eq.
+/// (P12)
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SpectralShift {
     /// L'(λD) instead of L'(λ).
@@ -32,8 +33,9 @@ impl SpectralShift {
     }
 
     /// X, Y, Z of a surface under several lamps, seen with the Doppler factor `doppler`: those of
-    /// L(λ) = D⁵ Σ D_l³ · level · intensity · R(λD) S(λ D D_l), over the lamps. R is the reflectance,
-    /// S the lamp's spectrum. What is no surface emits what it emits without lamps.  Eq. (P14)
+    /// L(λ) = D⁵ Σ D_l³ · level · intensity · R(λD) S(λ D D_l), over the lamps. R is the
+    /// reflectance, S the lamp's spectrum. What is no surface emits what it emits without lamps.
+    /// Eq. (P14)
     #[must_use]
     pub fn seen_lit(
         self,

@@ -99,9 +99,9 @@ impl Context {
         self.write_with(|out| out.write_all(data))
     }
 
-    /// Like [`Context::write`], for an output that is written in chunks while it is computed, so that
-    /// it need not be in memory as a whole. `fill` writes it, in large chunks. Only writing may
-    /// fail in it, since a chunk that has been written cannot be taken back.
+    /// Like [`Context::write`], for an output that is written in chunks while it is computed, so
+    /// that it need not be in memory as a whole. `fill` writes it, in large chunks. Only writing
+    /// may fail in it, since a chunk that has been written cannot be taken back.
     ///
     /// # Errors
     /// [`Failure::Write`] with the error of `fill`.

@@ -1,5 +1,5 @@
-//! Positions of a moving body, by frame. A seen position and a rest position are the same numbers for
-//! a body at rest, and easily confused for a moving one.
+//! Positions of a moving body, by frame. A seen position and a rest position are the same numbers
+//! for a body at rest, and easily confused for a moving one.
 
 use glam::DVec3;
 

@@ -1,8 +1,8 @@
 //! Hostile inputs for the programs, and what must hold whatever they are given.
 //!
-//! A [`Case`] follows from its number alone: an input (a scene, a mesh or pictures) that is malformed,
-//! extreme or both, and the command lines of a pipe. [`Case::run`] runs it with the built programs and
-//! checks what no input may break:
+//! A [`Case`] follows from its number alone: an input (a scene, a mesh or pictures) that is
+//! malformed, extreme or both, and the command lines of a pipe. [`Case::run`] runs it with the
+//! built programs and checks what no input may break:
 //!
 //! - a program ends by itself, with status 0, 1 or 2, within [`TIME_LIMIT`] and [`MEMORY_LIMIT`];
 //! - with status 0 it has written something, and `ugparse` accepts a scene that it has written;

@@ -1,5 +1,5 @@
-//! Triangles of polygons with many corners, by a constrained Delaunay triangulation: its time is near linear in
-//! the number of corners, where that of ear cutting is not.
+//! Triangles of polygons with many corners, by a constrained Delaunay triangulation: its time is
+//! near linear in the number of corners, where that of ear cutting is not.
 
 use glam::DVec2;
 use spade::{ConstrainedDelaunayTriangulation, HasPosition, Point2, Triangulation};
@@ -22,8 +22,8 @@ impl HasPosition for Corner {
 
 /// Appends the triangles inside an outline and outside its holes, counterclockwise.
 ///
-/// Each contour is a list of corner numbers with positions. `None` where corners coincide or sides cross: then
-/// the polygon is not simple.
+/// Each contour is a list of corner numbers with positions. `None` where corners coincide or sides
+/// cross: then the polygon is not simple.
 pub(super) fn triangulate(contours: &[Vec<(u32, DVec2)>], triangles: &mut Vec<Triangle>) -> Option<()> {
     let mut corners = Vec::new();
     let mut sides: Vec<[usize; 2]> = Vec::new();
@@ -51,8 +51,8 @@ pub(super) fn triangulate(contours: &[Vec<(u32, DVec2)>], triangles: &mut Vec<Tr
     Some(())
 }
 
-/// For each triangle of the mesh, whether it is inside: whether a path to it from outside crosses an odd number
-/// of sides.
+/// For each triangle of the mesh, whether it is inside: whether a path to it from outside crosses
+/// an odd number of sides.
 fn inside(mesh: &ConstrainedDelaunayTriangulation<Corner>) -> Vec<bool> {
     let mut is_inside = vec![false; mesh.num_all_faces()];
     let mut is_seen = vec![false; mesh.num_all_faces()];
