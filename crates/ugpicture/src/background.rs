@@ -41,12 +41,14 @@ impl Backdrop {
     }
 
     /// True if the background is a colour.
+    #[inline]
     pub fn is_opaque(&self) -> bool {
         self.light.is_some()
     }
 
     /// The mean light of a pixel whose covered samples add up to `sum`, and the covered part of it.
     /// On a transparent background it is the mean of the covered part alone.
+    #[inline]
     pub fn pixel(&self, sum: [f32; 3], n_covered: f32) -> [f32; 4] {
         let [red, green, blue] = match self.light {
             Some(behind) => {

@@ -70,6 +70,7 @@ impl Display {
 }
 
 impl Resolve<[u8; 4]> for Display {
+    #[inline]
     fn pixel(&self, all: &PixelSamples<'_>) -> [u8; 4] {
         display_pixel(&self.quantizer, mean(&self.backdrop, all), self.backdrop.is_opaque())
     }

@@ -30,6 +30,7 @@ pub struct Center<'a> {
 
 impl Center<'_> {
     /// True if nothing is visible.
+    #[inline]
     pub fn is_empty(&self) -> bool {
         self.opaque.is_none() && self.fragments.is_empty()
     }
@@ -266,6 +267,7 @@ fn store_covered<S: Simd>(_: S, keys: &[f32], run: &ShadedRun, lit: [&mut [f32];
 }
 
 /// True if nothing is drawn on samples. Without an early exit, which would prevent vectorization.
+#[inline]
 fn is_empty(keys: &[f32]) -> bool {
     keys.iter().fold(true, |all, key| all & (*key == EMPTY))
 }

@@ -195,7 +195,8 @@ impl<const N: usize> Tile<N> {
     #[inline]
     pub(crate) fn hit(&self, row: u32, column: u32) -> Option<Hit> {
         let sample = self.area.index(row, column);
-        let (key, &item) = (self.keys[sample], self.items.get(sample)?);
+        let &item = self.items.get(sample)?;
+        let key = self.keys[sample];
         (key != EMPTY).then_some(Hit { key, item })
     }
 }

@@ -155,6 +155,7 @@ impl TransparencyBuffer {
     }
 
     /// True if the tile has no fragments.
+    #[inline]
     pub fn is_empty(&self) -> bool {
         self.composites.is_empty()
     }
@@ -190,10 +191,12 @@ impl TransparencyBuffer {
     }
 
     /// The fragments of a sample from back to front, if they are kept.
+    #[inline]
     pub fn fragments(&self, row: u32, column: u32) -> &[Fragment] {
-        if self.is_empty() {
-            return &[];
-        }
+        if self.kept.is_empty() { &[] } else { self.kept_at(row, column) }
+    }
+
+    fn kept_at(&self, row: u32, column: u32) -> &[Fragment] {
         let sample = self.area.index(row, column) as u32;
         // Parts of a tile are drawn from above, so the kept fragments are sorted by sample.
         let start = self.kept.partition_point(|fragment| fragment.sample < sample);

@@ -151,13 +151,19 @@ impl<'a, const N: usize> Faces<'a, N> {
     pub fn draw(&self, band: usize, tile: &mut Tile<N>) {
         let shapes = self.bins.in_band(band);
         let part = self.bounds(shapes, tile.area());
-        self.with_scratch(|scratch| self.draw_nearest(shapes, part, scratch, tile));
+        self.with_scratch(|scratch| {
+            self.find_nearest(shapes, part, scratch);
+            if self.appearance.spectra().is_some() {
+                self.draw_nearest::<true>(scratch, tile);
+            } else {
+                self.draw_nearest::<false>(scratch, tile);
+            }
+        });
     }
 
-    /// Draws faces into a tile. The nearest face at each sample is found first, so that no hidden
-    /// sample is shaded.
-    fn draw_nearest(&self, shapes: &[u32], part: [Range<u32>; 2], scratch: &mut Scratch, tile: &mut Tile<N>) {
-        self.find_nearest(shapes, part, scratch);
+    /// Draws the nearest face at each sample, as `scratch` has it, into a tile: no hidden sample is
+    /// shaded.
+    fn draw_nearest<const SPECTRAL: bool>(&self, scratch: &Scratch, tile: &mut Tile<N>) {
         let Scratch { lengths, nearest, .. } = scratch;
         for run in nearest.runs() {
             let shape = &self.shapes[run.face as usize];
@@ -167,16 +173,16 @@ impl<'a, const N: usize> Faces<'a, N> {
             let first = run.columns.start;
             tile.draw_each(run.row, run.columns, shape.item, |column, _| {
                 let ray = frame.ray_of_length(rays, column, lengths.at(column));
-                Some((keys[(column - first) as usize], self.values(shape, frame, &ray)))
+                Some((keys[(column - first) as usize], self.values::<SPECTRAL>(shape, frame, &ray)))
             });
         }
     }
 
     /// The values of a face where a ray meets it, in the packed layout.
     #[inline(always)] // As `Look::at`.
-    fn values(&self, shape: &Shape, frame: &RestFrameRays, ray: &Ray) -> [f32; N] {
+    fn values<const SPECTRAL: bool>(&self, shape: &Shape, frame: &RestFrameRays, ray: &Ray) -> [f32; N] {
         let key = shape.outline.key(ray.rest);
-        let (color, level) = shape.look.at(&self.painter, &self.appearance, frame, ray, key);
+        let (color, level) = shape.look.at::<SPECTRAL>(&self.painter, &self.appearance, frame, ray, key);
         (self.pack)(&color, level).map(|number| number as f32)
     }
 
@@ -205,11 +211,17 @@ impl Faces<'_, TRANSPARENT_VALUES> {
     pub fn draw_transparent(&self, band: usize, writer: &mut FragmentWriter<'_, '_>) {
         let shapes = self.bins.in_band(band);
         let part = self.bounds(shapes, writer.area());
-        self.with_scratch(|scratch| self.draw_all(shapes, part, scratch, writer));
+        self.with_scratch(|scratch| {
+            if self.appearance.spectra().is_some() {
+                self.draw_all::<true>(shapes, part, scratch, writer);
+            } else {
+                self.draw_all::<false>(shapes, part, scratch, writer);
+            }
+        });
     }
 
     /// Writes a fragment of every face wherever it is in front of the nearest occluder.
-    fn draw_all(
+    fn draw_all<const SPECTRAL: bool>(
         &self,
         shapes: &[u32],
         [columns, rows]: [Range<u32>; 2],
@@ -233,7 +245,7 @@ impl Faces<'_, TRANSPARENT_VALUES> {
                     } else {
                         plane.key(column, length)
                     };
-                    (key > occluder_key).then(|| (key, self.values(shape, frame, &ray)))
+                    (key > occluder_key).then(|| (key, self.values::<SPECTRAL>(shape, frame, &ray)))
                 });
             });
         }

@@ -115,9 +115,10 @@ impl Look {
     }
 
     /// Apparent colour and light level where a ray meets the plane of the face. `key`: the inverse
-    /// of the ray parameter there.
+    /// of the ray parameter there. `SPECTRAL`: colours are spectra; a constant, so that the loop over
+    /// hues has no call in it.
     #[inline(always)] // Called for every sample: otherwise the ray is passed in memory.
-    pub fn at(
+    pub fn at<const SPECTRAL: bool>(
         &self,
         painter: &Painter<'_>,
         appearance: &Appearance<'_>,
@@ -127,8 +128,7 @@ impl Look {
     ) -> (Swatch, DVec3) {
         let spot = self.mesh.as_ref().map(|mesh| mesh.spot(ray.rest));
         let color = match &spot {
-            // Passed by value, so that neither has to be in memory for hues.
-            &spot if appearance.spectra().is_some() => self.seen_spectrum(appearance, spot, ray.stretch),
+            &spot if SPECTRAL => self.seen_spectrum(appearance, spot, ray.stretch),
             Some(spot) if spot.mesh.has_colors => {
                 let color = spot.color();
                 let has_own = spot.mesh.has_tints && ray.stretch != 1.0;
@@ -137,21 +137,21 @@ impl Look {
             }
             _ => appearance.seen(&self.color, self.wavelength_nm, ray.stretch),
         };
-        let level = self.level.unwrap_or_else(|| {
-            let normal = match &spot {
-                Some(spot) if spot.mesh.has_normals => spot.normal(),
-                _ => self.normal,
-            };
-            let place = || frame.scene_from_axes * (ray.rest * (1.0 / key));
-            let point = if self.needs_place { place() } else { DVec3::ZERO };
-            painter.lighting.level(point, normal, self.is_light)
-        });
-        (color, level)
+        if let Some(level) = self.level {
+            return (color, level);
+        }
+        // Here rather than in a closure, so that the weights stay in registers.
+        let normal = match &spot {
+            Some(spot) if spot.mesh.has_normals => spot.normal(),
+            _ => self.normal,
+        };
+        let place = || frame.scene_from_axes * (ray.rest * (1.0 / key));
+        let point = if self.needs_place { place() } else { DVec3::ZERO };
+        (color, painter.lighting.level(point, normal, self.is_light))
     }
 
     /// The apparent colour in spectral mode. Between corners, the apparent colours of spectra are
     /// mixed.
-    #[inline(never)] // Kept out of the loop over hues.
     fn seen_spectrum(&self, appearance: &Appearance<'_>, spot: Option<Spot<'_>>, stretch: f64) -> Swatch {
         let Some(spot) = spot.filter(|spot| spot.mesh.has_colors) else {
             let light = Some(appearance.seen_light([(self.row, 1.0)], stretch));
