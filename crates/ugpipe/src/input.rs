@@ -2,6 +2,7 @@
 
 use std::fs::File;
 use std::io::{self, IsTerminal};
+use std::os::fd::AsFd;
 use std::path::Path;
 
 use crate::failure::Failure;
@@ -23,12 +24,18 @@ const STDIN: &str = "<stdin>";
 pub(crate) fn read(path: Option<&Path>, limit: u64) -> Result<Input, Failure> {
     let (name, text) = match path {
         Some(path) => (text::path(path), File::open(path).and_then(|file| read_up_to(file, limit))),
-        None => (STDIN.to_owned(), read_up_to(io::stdin().lock(), limit)),
+        None => (STDIN.to_owned(), stdin().and_then(|file| read_up_to(file, limit))),
     };
     match text {
         Ok(text) => Ok(Input { name, text }),
         Err(error) => Err(Failure::Read { name, error }),
     }
+}
+
+/// Standard input as a file. `io::Stdin` reads nothing, without an error, if its descriptor is not
+/// open for reading.
+fn stdin() -> io::Result<File> {
+    Ok(io::stdin().as_fd().try_clone_to_owned()?.into())
 }
 
 /// True if standard input is a terminal, so that the user may not know that the program waits for

@@ -1,7 +1,8 @@
 //! The output: standard output, or a file that is replaced atomically.
 
 use std::fs::{File, OpenOptions, Permissions};
-use std::io::{self, IsTerminal, Write};
+use std::io::{self, BufWriter, IsTerminal, Write};
+use std::os::fd::AsFd;
 use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
 
@@ -117,7 +118,9 @@ impl Sink {
     fn write_with(&mut self, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
         match self {
             Self::Stdout => {
-                let mut stdout = io::stdout().lock();
+                // `io::Stdout` ignores that its descriptor is not open for writing; a file does not.
+                let stdout = File::from(io::stdout().as_fd().try_clone_to_owned()?);
+                let mut stdout = BufWriter::new(stdout);
                 fill(&mut stdout)?;
                 stdout.flush()
             }

@@ -253,10 +253,19 @@ fn output_files_of_failed_runs_do_not_appear() {
 }
 
 #[test]
+fn an_input_that_cannot_be_read_is_an_error() {
+    let folder = folder();
+    let unreadable = shell(&folder, "\"$ugcat\" 0> /dev/null");
+    assert_run(&unreadable, 1, "", "ugcat: error: cannot read `<stdin>`: Bad file descriptor\n");
+}
+
+#[test]
 fn a_full_disk_leaves_no_file() {
     let folder = folder();
     let stdout = shell(&folder, "\"$ugcat\" ship.ug > /dev/full");
     assert_run(&stdout, 1, "", "ugcat: error: cannot write `<stdout>`: No space left on device\n");
+    let unwritable = shell(&folder, "\"$ugcat\" ship.ug 1< /dev/null");
+    assert_run(&unwritable, 1, "", "ugcat: error: cannot write `<stdout>`: Bad file descriptor\n");
     let help = shell(&folder, "\"$ugcat\" --help > /dev/full");
     assert_run(&help, 1, "", "");
 
