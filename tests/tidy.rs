@@ -1,9 +1,11 @@
-//! Rules for the whole repository: dependencies, citations of equations, scenes, and clean text.
+//! Rules for the whole repository: dependencies, their licences, citations of equations, scenes, and clean text.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 #[path = "tidy/circles.rs"]
 mod circles;
+#[path = "tidy/dependencies.rs"]
+mod dependencies;
 #[path = "tidy/literals.rs"]
 mod literals;
 
@@ -109,6 +111,63 @@ fn crates_depend_on_what_the_table_allows() {
         }));
     }
     assert_none(&findings);
+}
+
+#[test]
+fn third_party_crates_have_a_licence_a_checksum_and_one_version() {
+    let lock = |folder: &Path| dependencies::locked(&read(&folder.join("Cargo.lock")));
+    let fuzz = root().join("fuzz");
+    let (ours, fuzzed) = (lock(root()), lock(&fuzz));
+    assert!(ours.len() > 100 && fuzzed.len() > 100, "{} and {} crates", ours.len(), fuzzed.len());
+    let mut findings = dependencies::of_lock_file("Cargo.lock", &ours);
+    findings.extend(dependencies::of_lock_file("fuzz/Cargo.lock", &fuzzed));
+    findings.extend(dependencies::differences(&ours, &fuzzed));
+    let (licenses, n_crates) = dependencies::of_licenses(root());
+    assert!(n_crates > 100, "{n_crates} crates");
+    findings.extend(licenses);
+    assert_none(&findings);
+}
+
+#[test]
+fn licences_that_are_not_allowed_are_found() {
+    for allowed in [
+        "MIT",
+        "MIT/Apache-2.0",
+        "GPL-3.0-only OR MIT",
+        "(MIT OR Apache-2.0) AND Unicode-3.0",
+        "Apache-2.0 WITH LLVM-exception OR GPL-2.0-only",
+    ] {
+        assert!(dependencies::is_allowed(allowed), "{allowed}");
+    }
+    for refused in [
+        "",
+        "GPL-3.0-only",
+        "MIT AND GPL-3.0-only",
+        "(MIT",
+        "MIT MIT",
+        "no licence",
+        "(GPL-2.0-only OR LGPL-3.0-only) AND MIT",
+    ] {
+        assert!(!dependencies::is_allowed(refused), "{refused}");
+    }
+    let lock = r#"
+[[package]]
+name = "far"
+version = "1.0.0"
+source = "git+https://example.com/far"
+
+[[package]]
+name = "near"
+version = "1.0.0"
+source = "registry+https://github.com/rust-lang/crates.io-index"
+
+[[package]]
+name = "near"
+version = "2.0.0"
+"#;
+    let findings = dependencies::of_lock_file("Cargo.lock", &dependencies::locked(lock));
+    let about = ["far is from git", "near has no checksum", "near is there 2 times"];
+    assert!(findings.len() == 3 && findings.iter().zip(about).all(|(finding, part)| finding.contains(part)));
 }
 
 #[test]

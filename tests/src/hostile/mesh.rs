@@ -2,25 +2,41 @@
 
 use std::fmt::Write;
 
-use super::bytes;
+use ugmesh::Format;
 use ugrandom::Random;
 
-use super::words;
+use super::{bytes, words};
 
 /// A mesh and the files it names.
 pub fn files(random: &mut Random) -> (Vec<(String, Vec<u8>)>, &'static str) {
-    let (name, mut mesh) = match random.below(5) {
-        0 => ("mesh.obj", obj(random).into_bytes()),
-        1 => ("mesh.off", off(random).into_bytes()),
-        2 => ("mesh.ply", ply(random)),
-        3 => ("mesh.stl", stl(random)),
-        _ => ("mesh.gltf", gltf(random).into_bytes()),
-    };
+    let (name, format) = *random.pick(&[
+        ("mesh.obj", Format::Obj),
+        ("mesh.off", Format::Off),
+        ("mesh.ply", Format::Ply),
+        ("mesh.stl", Format::Stl),
+        ("mesh.gltf", Format::Gltf),
+    ]);
+    let mut mesh = of(format, random);
     if random.one_in(2) {
         bytes::damage(random, &mut mesh);
     }
     let material = format!("newmtl {}\nKd {} 0 0\n", words::name(random), words::number(random)).into_bytes();
     (vec![(name.to_owned(), mesh), ("material.mtl".to_owned(), material)], "mesh")
+}
+
+/// A mesh file of a format.
+pub fn of(format: Format, random: &mut Random) -> Vec<u8> {
+    match format {
+        Format::Ug => super::scene::text(random),
+        Format::Obj => obj(random).into_bytes(),
+        Format::Off => off(random).into_bytes(),
+        Format::Ply => ply(random),
+        Format::Stl => stl(random),
+        Format::Gltf => {
+            let json = gltf(random).into_bytes();
+            if random.one_in(3) { glb(random, json) } else { json }
+        }
+    }
 }
 
 fn rows(random: &mut Random, n: usize, line: impl Fn(&mut Random) -> String) -> String {
@@ -116,4 +132,20 @@ fn gltf(random: &mut Random) -> String {
         "nodes":[{{"mesh":0}}],"scenes":[{{"nodes":[0]}}],"scene":0}}"#,
         random.pick(&[3, 3, 4_000_000])
     )
+}
+
+/// The binary form of glTF, with a buffer of a triangle.
+fn glb(random: &mut Random, mut json: Vec<u8>) -> Vec<u8> {
+    json.resize(json.len().next_multiple_of(4), b' ');
+    let buffer: Vec<u8> = (0..9).flat_map(|_| f32::to_le_bytes(random.between(-2.0, 2.0) as f32)).collect();
+    let told = |random: &mut Random, n: usize| if random.one_in(8) { u32::MAX } else { n as u32 };
+    let mut bytes = b"glTF".to_vec();
+    bytes.extend(2_u32.to_le_bytes());
+    bytes.extend(told(random, 28 + json.len() + buffer.len()).to_le_bytes());
+    for (kind, content) in [(*b"JSON", json), (*b"BIN\0", buffer)] {
+        bytes.extend(told(random, content.len()).to_le_bytes());
+        bytes.extend(kind);
+        bytes.extend(content);
+    }
+    bytes
 }

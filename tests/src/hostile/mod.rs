@@ -7,11 +7,18 @@
 //! - a program ends by itself, with status 0, 1 or 2, within [`TIME_LIMIT`] and [`MEMORY_LIMIT`];
 //! - with status 0 it has written something, and `ugparse` accepts a scene that it has written;
 //! - with another status it has written nothing to standard output, and says why;
+//! - if its output is lost (a full disk, a closed pipe), the status is not 0;
+//! - after a signal its output file is whole or absent;
 //! - nothing that it prints moves the cursor or reverses the text;
 //! - the number of threads changes no byte;
 //! - no temporary file is left.
+//!
+//! [`memory`] has what must hold in memory, for fuzz targets, whose inputs are [`File`]s.
 
 mod bytes;
+pub mod config;
+mod edge;
+pub mod memory;
 mod mesh;
 mod options;
 mod picture;
@@ -23,6 +30,8 @@ use std::path::Path;
 
 use ugrandom::Random;
 
+pub use bytes::damage;
+pub use edge::Edge;
 pub use run::{MEMORY_LIMIT, TIME_LIMIT};
 
 /// A pipe with a hostile input.
@@ -34,6 +43,8 @@ pub struct Case {
     pub files: Vec<(String, Vec<u8>)>,
     /// Program and arguments of each stage.
     pub stages: Vec<Vec<String>>,
+    /// Streams and signals of the last stage.
+    pub edge: Edge,
     /// Whether the pipe is run again on one thread, and compared.
     pub is_repeated: bool,
 }
@@ -49,14 +60,15 @@ impl Case {
         };
         let stages = options::stages(&mut random, first, &files);
         let is_repeated = random.one_in(4);
-        Self { seed, files, stages, is_repeated }
+        let edge = Edge::new(&mut random);
+        Self { seed, files, stages, edge, is_repeated }
     }
 
-    /// Runs the pipe with the programs in `programs`.
+    /// Runs the pipe with the programs in `programs`. True if every stage succeeds.
     ///
     /// # Errors
     /// The first thing that does not hold, in words.
-    pub fn run(&self, programs: &Path) -> Result<(), String> {
+    pub fn run(&self, programs: &Path) -> Result<bool, String> {
         run::run(self, programs).map_err(|finding| format!("case {}: {finding}\n{}", self.seed, self.shell()))
     }
 
@@ -72,5 +84,49 @@ impl Case {
     /// A file cannot be written.
     pub fn write_to(&self, folder: &Path) -> std::io::Result<()> {
         self.files.iter().try_for_each(|(name, bytes)| std::fs::write(folder.join(name), bytes))
+    }
+}
+
+/// A kind of file that the programs read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum File {
+    /// A scene.
+    Scene,
+    /// A mesh of a format other than that of scenes.
+    Mesh(ugmesh::Format),
+    /// A PNG file.
+    Picture,
+}
+
+impl File {
+    /// A file of this kind, often malformed.
+    pub fn generate(self, random: &mut Random) -> Vec<u8> {
+        let mut bytes = match self {
+            Self::Scene => return scene::text(random),
+            Self::Mesh(format) => mesh::of(format, random),
+            Self::Picture => picture::png(random),
+        };
+        if random.one_in(2) {
+            damage(random, &mut bytes);
+        }
+        bytes
+    }
+
+    /// What must hold of such a file in memory: the function of [`memory`] for it.
+    ///
+    /// # Errors
+    /// What does not hold.
+    pub fn check(self, bytes: &[u8]) -> Result<(), String> {
+        match self {
+            Self::Scene => {
+                // The options follow from the content, so that a corpus is a folder of scenes.
+                let seed = bytes
+                    .iter()
+                    .fold(0, |seed: u64, &byte| (seed ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3));
+                memory::pipe(seed, bytes)
+            }
+            Self::Mesh(format) => memory::mesh(format, bytes),
+            Self::Picture => memory::picture(bytes),
+        }
     }
 }

@@ -4,8 +4,20 @@ use ugrandom::Random;
 
 use super::words;
 
+/// A second output file.
+pub const MEASURED: &str = "measured.csv";
+
 /// The stages for an input of a kind.
 pub fn stages(random: &mut Random, kind: &str, files: &[(String, Vec<u8>)]) -> Vec<Vec<String>> {
+    let mut stages = programs(random, kind, files);
+    stages.iter_mut().for_each(|line| common(random, line));
+    // What a program writes may exceed the limits of the next, so only the first has some.
+    let limit = word(random, &LIMITS);
+    maybe(random, 20, &mut stages[0], "--limit", limit);
+    stages
+}
+
+fn programs(random: &mut Random, kind: &str, files: &[(String, Vec<u8>)]) -> Vec<Vec<String>> {
     let mut stages = match kind {
         "pictures" => return vec![sheet(random, files)],
         "mesh" => vec![mesh(random, files)],
@@ -50,13 +62,55 @@ fn numbers<const N: usize>(random: &mut Random) -> Vec<String> {
 }
 
 fn betas(random: &mut Random) -> Vec<String> {
-    [(); 3].map(|()| words::beta(random)).to_vec()
+    words::velocity(random).to_vec()
 }
 
 fn flags(random: &mut Random, one_in: usize, line: &mut Vec<String>, options: &[&str]) {
     for option in options {
         maybe(random, one_in, line, option, Vec::new());
     }
+}
+
+/// Limits on the size of scenes, possible and not.
+const LIMITS: [&str; 10] = [
+    "text=100",
+    "includes=0",
+    "files=1",
+    "nesting=1",
+    "chain=0",
+    "statements=5",
+    "corners=3",
+    "names=10",
+    "statements=99999999999999999999",
+    "\u{1b}[2J=1",
+];
+
+/// One of some words.
+fn word(random: &mut Random, some: &[&str]) -> Vec<String> {
+    vec![(*random.pick(some)).to_owned()]
+}
+
+/// Options of every program.
+fn common(random: &mut Random, line: &mut Vec<String>) {
+    flags(random, 20, line, &["-lax"]);
+    flags(random, 40, line, &["--allow-execute", "-qt"]);
+    let threads = word(random, &["2", "7", "1024", "0"]);
+    maybe(random, 60, line, "-nt", threads);
+}
+
+/// Options of the camera.
+fn camera(random: &mut Random, line: &mut Vec<String>) {
+    let center = numbers::<3>(random);
+    maybe(random, 6, line, "-vc", center);
+    let eye = numbers::<3>(random);
+    maybe(random, 8, line, "-ep", eye);
+    let up = numbers::<3>(random);
+    maybe(random, 10, line, "-ud", up);
+    let angle = if random.one_in(3) { numbers::<2>(random) } else { numbers::<1>(random) };
+    maybe(random, 8, line, "-va", angle);
+    let name = vec![words::name(random)];
+    maybe(random, 30, line, "-cam", name);
+    flags(random, 8, line, &["-og"]);
 }
 
 fn sheet(random: &mut Random, files: &[(String, Vec<u8>)]) -> Vec<String> {
@@ -66,8 +120,24 @@ fn sheet(random: &mut Random, files: &[(String, Vec<u8>)]) -> Vec<String> {
     maybe(random, 3, &mut line, "-cols", cols);
     let title = vec![words::name(random)];
     maybe(random, 3, &mut line, "-title", title);
-    let gap = numbers::<1>(random);
+    let gap = if random.one_in(2) { numbers::<1>(random) } else { word(random, &["0", "3", "10000"]) };
     maybe(random, 5, &mut line, "-gap", gap);
+    if random.one_in(4) {
+        // Sometimes fewer than there are pictures.
+        for _ in 0..files.len() - random.below(2) {
+            line.extend(["-label".to_owned(), words::name(random)]);
+        }
+    }
+    let kind = word(random, &["auto", "names", "none"]);
+    maybe(random, 6, &mut line, "-lb", kind);
+    let caption = vec![words::name(random)];
+    maybe(random, 5, &mut line, "-cap", caption);
+    let size = word(random, &["4", "11.5", "1000", "1e300"]);
+    maybe(random, 6, &mut line, "-ts", size);
+    let background = numbers::<3>(random);
+    maybe(random, 8, &mut line, "-bg", background);
+    let format = word(random, &["ppm", "eps", "ps", "pdf", "svg"]);
+    maybe(random, 4, &mut line, "-dt", format);
     flags(random, 4, &mut line, &["-lt"]);
     line
 }
@@ -79,6 +149,12 @@ fn mesh(random: &mut Random, files: &[(String, Vec<u8>)]) -> Vec<String> {
     maybe(random, 4, &mut line, "-fit", fit);
     let scale = numbers::<1>(random);
     maybe(random, 6, &mut line, "-scale", scale);
+    let name = vec![words::name(random)];
+    maybe(random, 6, &mut line, "-name", name);
+    let up = word(random, &["x", "y", "z"]);
+    maybe(random, 6, &mut line, "-up", up);
+    let format = word(random, &["ug", "obj", "ply", "stl", "off", "gltf", "glb"]);
+    maybe(random, 15, &mut line, "-if", format);
     line
 }
 
@@ -93,12 +169,24 @@ fn lorentz(random: &mut Random) -> Vec<String> {
     maybe(random, 2, &mut line, "-vel", velocity);
     let camera = betas(random);
     maybe(random, 5, &mut line, "-cv", camera);
-    let eye = numbers::<3>(random);
-    maybe(random, 8, &mut line, "-ep", eye);
+    self::camera(random, &mut line);
     let time = numbers::<1>(random);
     maybe(random, 6, &mut line, "-ti", time);
     let pieces = vec![(1 + random.below(100)).to_string()];
     maybe(random, 6, &mut line, "-se", pieces);
+    let pieces = word(random, &["1", "2", "5", "0", "4294967295"]);
+    maybe(random, 12, &mut line, "-sd", pieces);
+    for option in ["-sc", "-sl"] {
+        let percent = word(random, &["off", "0.5", "5", "100", "1e300", "0"]);
+        maybe(random, 8, &mut line, option, percent);
+    }
+    let anchor = match random.below(3) {
+        0 => numbers::<3>(random),
+        _ => word(random, &["eye", "origin", "center", "middle"]),
+    };
+    maybe(random, 8, &mut line, "-an", anchor);
+    let table = vec![MEASURED.to_owned()];
+    maybe(random, 15, &mut line, "-at", table);
     flags(random, 5, &mut line, &["-in", "-sm", "-cull", "-nc", "--no-flight-time", "-vb"]);
     line
 }
@@ -111,7 +199,11 @@ fn doppler(random: &mut Random) -> Vec<String> {
         1 => flags(random, 1, &mut line, &["-gw"]),
         _ => maybe(random, 2, &mut line, "-br", law),
     }
-    flags(random, 5, &mut line, &["-li", "-ir", "-vr", "--no-doppler", "--no-flux"]);
+    flags(random, 5, &mut line, &["-li", "-ir", "-vr", "-hd", "--no-doppler", "--no-flux"]);
+    let tolerance = numbers::<1>(random);
+    maybe(random, 8, &mut line, "-ct", tolerance);
+    let eye = numbers::<3>(random);
+    maybe(random, 12, &mut line, "-ep", eye);
     let velocity = betas(random);
     maybe(random, 8, &mut line, "-vel", velocity);
     line
@@ -121,14 +213,32 @@ fn rainbow(random: &mut Random) -> Vec<String> {
     let side = |random: &mut Random| random.pick(&["1", "7", "40", "64"]).to_string();
     let size = [side(random), side(random)];
     let mut line = words("ugrainbow", &["-sz", &size[0], &size[1]]);
-    let center = numbers::<3>(random);
-    maybe(random, 6, &mut line, "-vc", center);
-    let eye = numbers::<3>(random);
-    maybe(random, 8, &mut line, "-ep", eye);
-    let angle = numbers::<1>(random);
-    maybe(random, 8, &mut line, "-va", angle);
-    let format = vec![(*random.pick(&["ppm", "exr", "pfm", "hdr", "eps", "pdf", "svg"])).to_owned()];
-    maybe(random, 4, &mut line, "-dt", format);
+    camera(random, &mut line);
+    let format = word(random, &["ppm", "exr", "pfm", "hdr", "png16", "eps", "ps", "pdf", "svg"]);
+    if random.one_in(12) {
+        line.extend(["-dt", "exr", "-ch", "D,time,distance,Z,id,velocity"].map(str::to_owned));
+    } else {
+        maybe(random, 4, &mut line, "-dt", format);
+    }
+    let filter = word(random, &["box", "triangle", "spline"]);
+    maybe(random, 4, &mut line, "-fl", filter);
+    let background = if random.one_in(3) { numbers::<3>(random) } else { word(random, &["0", "1", "0.5"]) };
+    maybe(random, 8, &mut line, "-bg", background);
+    let curve = word(random, &["clip", "filmic"]);
+    maybe(random, 8, &mut line, "-tc", curve);
+    let caption = vec![words::name(random)];
+    maybe(random, 10, &mut line, "-cap", caption);
+    let width = numbers::<1>(random);
+    maybe(random, 12, &mut line, "-lw", width);
+    let color = numbers::<3>(random);
+    maybe(random, 20, &mut line, "-lc", color);
+    let fade = numbers::<2>(random);
+    maybe(random, 15, &mut line, "-dc", fade);
+    let pixel = word(random, &["0,0", "3,3", "63,63", "-1,0", "4294967296,0"]);
+    maybe(random, 15, &mut line, "--explain", pixel);
+    let law = word(random, &["report", "photon", "bolometric", "none"]);
+    maybe(random, 15, &mut line, "-br", law);
+    flags(random, 20, &mut line, &["-pz", "-dp", "-sp", "--no-doppler", "--no-flux"]);
     let exposure = vec![if random.one_in(2) { "auto".to_owned() } else { words::number(random) }];
     maybe(random, 4, &mut line, "-ex", exposure);
     let samples = vec![(1 + random.below(3)).to_string()];

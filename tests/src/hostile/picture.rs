@@ -1,9 +1,8 @@
 //! PNG files with text, for `ugsheet`.
 
-use super::bytes;
 use ugrandom::Random;
 
-use super::words;
+use super::{bytes, words};
 
 /// One to three pictures.
 pub fn files(random: &mut Random) -> (Vec<(String, Vec<u8>)>, &'static str) {
@@ -18,7 +17,8 @@ pub fn files(random: &mut Random) -> (Vec<(String, Vec<u8>)>, &'static str) {
     ((0..n).map(|idx| picture(idx, random)).collect(), "pictures")
 }
 
-fn png(random: &mut Random) -> Vec<u8> {
+/// A picture with its history.
+pub fn png(random: &mut Random) -> Vec<u8> {
     let side = *random.pick(&[1, 2, 7, 40]);
     let mut pixels = image::RgbImage::new(side, side);
     pixels.pixels_mut().for_each(|pixel| *pixel = image::Rgb([random.below(256) as u8, 0, 99]));

@@ -1,20 +1,26 @@
 //! Running a case and checking what must hold.
 
+use std::ffi::OsString;
 use std::fs::{self, File};
 use std::io::{Read, Write};
 use std::os::unix::process::ExitStatusExt;
 use std::path::Path;
-use std::process::{Command, ExitStatus, Stdio};
+use std::process::{Child, Command, ExitStatus, Stdio};
 use std::thread;
 use std::time::{Duration, Instant};
 
 use super::Case;
+use super::edge::{CLOSED, Edge, INTERRUPTED};
+use super::options::MEASURED;
 
 /// A program that runs longer than this hangs. Usual cases take milliseconds.
 pub const TIME_LIMIT: Duration = Duration::from_secs(60);
 
 /// Address space of each program, in KiB: 8 GB.
 pub const MEMORY_LIMIT: u64 = 8 << 20;
+
+/// SIGPIPE.
+const PIPE: i32 = 13;
 
 /// How a stage ended.
 struct Ended {
@@ -23,56 +29,68 @@ struct Ended {
     messages: Vec<u8>,
 }
 
-pub fn run(case: &Case, programs: &Path) -> Result<(), String> {
-    let folder = tempfile::tempdir().map_err(|error| error.to_string())?;
-    case.write_to(folder.path()).map_err(|error| error.to_string())?;
+pub fn run(case: &Case, programs: &Path) -> Result<bool, String> {
+    let folder = tempfile::tempdir().map_err(words)?;
+    case.write_to(folder.path()).map_err(words)?;
     let output = pipe(case, programs, folder.path(), None)?;
-    if case.is_repeated && pipe(case, programs, folder.path(), Some("1"))? != output {
+    if case.is_repeated
+        && case.edge == Edge::Plain
+        && pipe(case, programs, folder.path(), Some("1"))? != output
+    {
         return Err("one thread writes other bytes".to_owned());
     }
-    let left = fs::read_dir(folder.path()).map_err(|error| error.to_string())?;
-    let left: Vec<_> = left.flatten().map(|entry| entry.file_name()).collect();
-    if left.len() > case.files.len() {
-        return Err(format!("files are left: {left:?}"));
-    }
-    Ok(())
+    let left = fs::read_dir(folder.path()).map_err(words)?;
+    let left = left.flatten().map(|entry| entry.file_name());
+    let is_known =
+        |name: &OsString| name == MEASURED || case.files.iter().any(|(given, _)| name == given.as_str());
+    let others: Vec<_> = left.filter(|name| !is_known(name)).collect();
+    if others.is_empty() { Ok(output.is_some()) } else { Err(format!("files are left: {others:?}")) }
 }
 
-/// Runs the stages one after the other. Returns the output of the last that ended with status 0.
-fn pipe(case: &Case, programs: &Path, folder: &Path, threads: Option<&str>) -> Result<Vec<u8>, String> {
+fn words(error: std::io::Error) -> String {
+    error.to_string()
+}
+
+/// Runs the stages one after the other. Returns the output of the last, `None` if one refuses its
+/// input or is interrupted.
+fn pipe(
+    case: &Case,
+    programs: &Path,
+    folder: &Path,
+    threads: Option<&str>,
+) -> Result<Option<Vec<u8>>, String> {
     let mut input = case.files[0].1.clone();
     for (idx, words) in case.stages.iter().enumerate() {
+        let is_last = idx + 1 == case.stages.len();
+        let edge = if is_last { case.edge } else { Edge::Plain };
         let mut words = words.clone();
+        words.extend(edge.arguments());
         if let Some(threads) = threads {
             words.extend(["-nt".to_owned(), threads.to_owned()]);
         }
-        let ended = stage(programs, &words, &input, folder)?;
-        let about = |finding: String| format!("{}: {finding}", words.join(" "));
-        // Nothing is to be said of a scene that is right.
-        let is_silent = words.iter().any(|word| word == "check");
-        check(&ended, is_silent).map_err(about)?;
+        let ended = stage(programs, &words, &input, folder, edge)?;
+        let about = |finding: String| format!("{} ({edge:?}): {finding}", words.join(" "));
+        // Nothing is to be said of a scene that is right, and an empty one stays empty.
+        let is_silent = words.iter().any(|word| word == "check") || edge == Edge::Input(CLOSED);
+        check(&ended, is_silent, edge, folder).map_err(about)?;
         if ended.status.code() != Some(0) {
             if idx > 0 && is_diagnostic(&ended.messages) {
                 let messages = String::from_utf8_lossy(&ended.messages).into_owned();
                 return Err(about(format!("refuses the scene that a program has written:\n{messages}")));
             }
-            return Ok(Vec::new());
+            return Ok(None);
         }
         input = ended.output;
-        if idx + 1 < case.stages.len() {
-            let checked = stage(
-                programs,
-                &["ugparse".to_owned(), "check".to_owned(), "-lax".to_owned()],
-                &input,
-                folder,
-            )?;
+        if !is_last {
+            let checked = ["ugparse", "check", "-lax"].map(str::to_owned);
+            let checked = stage(programs, &checked, &input, folder, Edge::Plain)?;
             if checked.status.code() != Some(0) {
                 let messages = String::from_utf8_lossy(&checked.messages).into_owned();
                 return Err(about(format!("wrote an invalid scene with status 0:\n{messages}")));
             }
         }
     }
-    Ok(input)
+    Ok(Some(input))
 }
 
 /// An error with a place in the scene.
@@ -82,20 +100,32 @@ fn is_diagnostic(messages: &[u8]) -> bool {
 }
 
 /// `is_silent`: success may come without output.
-fn check(ended: &Ended, is_silent: bool) -> Result<(), String> {
+fn check(ended: &Ended, is_silent: bool, edge: Edge, folder: &Path) -> Result<(), String> {
     let messages = String::from_utf8_lossy(&ended.messages);
-    let Some(status) = ended.status.code() else {
-        return Err(format!("died of signal {:?}\n{messages}", ended.status.signal()));
+    if let Edge::Signal { .. } = edge {
+        check_file(ended, folder)?;
+    }
+    let status = match (ended.status.code(), ended.status.signal(), edge) {
+        (Some(status), ..) => status,
+        (None, Some(PIPE), Edge::Unread) => return Ok(()),
+        (None, Some(died_of), Edge::Signal { number, .. }) if died_of == number => return Ok(()),
+        (None, signal, _) => return Err(format!("died of signal {signal:?}\n{messages}")),
     };
-    if !(0..=2).contains(&status) {
-        return Err(format!("status {status}\n{messages}"));
+    match (status, ended.output.is_empty(), edge) {
+        (0, _, Edge::Output(_) | Edge::Unread | Edge::File(_)) if !is_silent => {
+            return Err("status 0, though its output is lost".to_owned());
+        }
+        (0, true, _) if !is_silent && edge.keeps_output() => {
+            return Err("status 0 and no output".to_owned());
+        }
+        (0, ..) => {}
+        (1 | 2, true, _) => {}
+        (1 | 2, false, _) => {
+            return Err(format!("status {status} and {} bytes of output", ended.output.len()));
+        }
+        _ => return Err(format!("status {status}\n{messages}")),
     }
-    match (status, ended.output.is_empty()) {
-        (0, true) if !is_silent => return Err("status 0 and no output".to_owned()),
-        (1 | 2, false) => return Err(format!("status {status} and {} bytes of output", ended.output.len())),
-        _ => {}
-    }
-    if status > 0 && messages.trim().is_empty() {
+    if status > 0 && messages.trim().is_empty() && edge.keeps_messages() {
         return Err(format!("status {status} without a message"));
     }
     match messages.chars().find(|&c| is_dangerous(c)) {
@@ -104,48 +134,94 @@ fn check(ended: &Ended, is_silent: bool) -> Result<(), String> {
     }
 }
 
+/// An interrupted program leaves its output file whole, or none.
+fn check_file(ended: &Ended, folder: &Path) -> Result<(), String> {
+    let path = folder.join(INTERRUPTED);
+    let is_there = path.exists();
+    if is_there {
+        fs::remove_file(path).map_err(words)?;
+    }
+    // A signal may come after the file is complete.
+    match ended.status.code() {
+        Some(0) | None => Ok(()),
+        Some(_) if !is_there => Ok(()),
+        Some(status) => Err(format!("status {status} and an output file")),
+    }
+}
+
 /// Control characters, and those that change the direction of text.
 fn is_dangerous(c: char) -> bool {
     c.is_control() && c != '\n' || matches!(c, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
 }
 
-fn stage(programs: &Path, words: &[String], input: &[u8], folder: &Path) -> Result<Ended, String> {
-    let program = programs.join(&words[0]);
-    let messages = tempfile::tempfile().map_err(|error| error.to_string())?;
-    let output = tempfile::tempfile().map_err(|error| error.to_string())?;
-    let clone = |file: &File| file.try_clone().map_err(|error| error.to_string());
+fn stage(
+    programs: &Path,
+    words: &[String],
+    input: &[u8],
+    folder: &Path,
+    edge: Edge,
+) -> Result<Ended, String> {
+    let messages = tempfile::tempfile().map_err(self::words)?;
+    let output = tempfile::tempfile().map_err(self::words)?;
+    let script = format!("ulimit -v {MEMORY_LIMIT}; exec \"$@\" {}", edge.redirection());
     let mut child = Command::new("sh")
-        .args(["-c", &format!("ulimit -v {MEMORY_LIMIT}; exec \"$@\""), "sh"])
-        .arg(program)
+        .args(["-c", &script, "sh"])
+        .arg(programs.join(&words[0]))
         .args(&words[1..])
         .current_dir(folder)
         .stdin(Stdio::piped())
-        .stdout(clone(&output)?)
+        .stdout(if edge == Edge::Unread { unread()? } else { clone(&output)? })
         .stderr(clone(&messages)?)
         .spawn()
-        .map_err(|error| error.to_string())?;
+        .map_err(self::words)?;
     let mut stdin = child.stdin.take().ok_or("no pipe")?;
-    let begun = Instant::now();
     let status = thread::scope(|scope| {
         // A program that refuses its command line does not read its input.
         scope.spawn(move || drop(stdin.write_all(input)));
-        loop {
-            if let Some(status) = child.try_wait().map_err(|error| error.to_string())? {
-                return Ok(status);
-            }
-            if begun.elapsed() > TIME_LIMIT {
-                child.kill().and_then(|()| child.wait()).map_err(|error| error.to_string())?;
-                return Err(format!("{}: runs for more than {TIME_LIMIT:?}", words.join(" ")));
-            }
-            thread::sleep(Duration::from_millis(if begun.elapsed().as_millis() < 100 { 1 } else { 20 }));
-        }
+        wait(&mut child, edge).map_err(|finding| format!("{}: {finding}", words.join(" ")))
     })?;
     Ok(Ended { status, output: content(output)?, messages: content(messages)? })
+}
+
+/// Waits for the end of the program, and interrupts it when the edge says so.
+fn wait(child: &mut Child, edge: Edge) -> Result<ExitStatus, String> {
+    let begun = Instant::now();
+    let mut signal = match edge {
+        Edge::Signal { name, after_ms, .. } => Some((name, after_ms)),
+        _ => None,
+    };
+    loop {
+        if let Some(status) = child.try_wait().map_err(words)? {
+            return Ok(status);
+        }
+        if let Some((name, _)) =
+            signal.take_if(|(_, after)| begun.elapsed().as_millis() >= u128::from(*after))
+        {
+            let kill = format!("kill -s {name} {}", child.id());
+            let status = Command::new("sh").args(["-c", &kill]).stderr(Stdio::null()).status();
+            status.map_err(words)?;
+        }
+        if begun.elapsed() > TIME_LIMIT {
+            child.kill().and_then(|()| child.wait()).map_err(words)?;
+            return Err(format!("runs for more than {TIME_LIMIT:?}"));
+        }
+        thread::sleep(Duration::from_millis(if begun.elapsed().as_millis() < 100 { 1 } else { 20 }));
+    }
+}
+
+/// A pipe whose reading end is closed.
+fn unread() -> Result<Stdio, String> {
+    let (_, writer) = std::io::pipe().map_err(words)?;
+    Ok(writer.into())
+}
+
+fn clone(file: &File) -> Result<Stdio, String> {
+    file.try_clone().map(Stdio::from).map_err(words)
 }
 
 fn content(mut file: File) -> Result<Vec<u8>, String> {
     use std::io::Seek;
     let mut bytes = Vec::new();
-    file.rewind().and_then(|()| file.read_to_end(&mut bytes)).map_err(|error| error.to_string())?;
+    file.rewind().and_then(|()| file.read_to_end(&mut bytes)).map_err(words)?;
     Ok(bytes)
 }

@@ -2,20 +2,24 @@
 
 use std::fmt::Write;
 
-use super::bytes;
 use ugrandom::Random;
 
-use super::words;
+use super::{bytes, words};
 use crate::scenes;
 
 /// A scene and files it names.
 pub fn files(random: &mut Random) -> (Vec<(String, Vec<u8>)>, &'static str) {
+    let part = b"v part 0 0 1 ;\n".to_vec();
+    (vec![("scene.ug".to_owned(), text(random)), ("part.ug".to_owned(), part)], "scene")
+}
+
+/// A scene.
+pub fn text(random: &mut Random) -> Vec<u8> {
     let mut text = if random.one_in(3) { known(random) } else { statements(random).into_bytes() };
     if random.one_in(3) {
         bytes::damage(random, &mut text);
     }
-    let part = b"v part 0 0 1 ;\n".to_vec();
-    (vec![("scene.ug".to_owned(), text), ("part.ug".to_owned(), part)], "scene")
+    text
 }
 
 /// A scene of the repository that is not large.
@@ -46,7 +50,7 @@ fn statements(random: &mut Random) -> String {
 fn statement(random: &mut Random, n_vertices: usize, text: &mut String) {
     let color = if random.one_in(2) { format!(" red{}", random.below(3)) } else { String::new() };
     let velocity = if random.one_in(3) { format!(" <{}>", velocity(random)) } else { String::new() };
-    let _ = match random.below(20) {
+    let _ = match random.below(24) {
         0..=8 => {
             writeln!(text, "f{} {}{color}{velocity} ;", optional_name(random), contours(random, n_vertices))
         }
@@ -76,6 +80,11 @@ fn statement(random: &mut Random, n_vertices: usize, text: &mut String) {
         15 => {
             let path = *random.pick(&["part.ug", "scene.ug", ".", "/dev/zero", "/dev/stdin", "missing", ""]);
             writeln!(text, "include {path} ;")
+        }
+        19 => {
+            // None of them is a program.
+            let path = *random.pick(&["part.ug", ".", "missing", "/dev/null"]);
+            writeln!(text, "execute {path} ;")
         }
         16 => writeln!(text, "{{{}}}", " \n".repeat(random.below(3000))),
         17 => writeln!(text, "( ug {} )", words::name(random)),
@@ -125,5 +134,5 @@ fn point(random: &mut Random) -> String {
 }
 
 fn velocity(random: &mut Random) -> String {
-    [(); 3].map(|()| words::beta(random)).join(" ")
+    words::velocity(random).join(" ")
 }

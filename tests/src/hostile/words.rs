@@ -45,6 +45,20 @@ pub fn beta(random: &mut Random) -> String {
     }
 }
 
+/// A velocity as text: mostly possible, sometimes within rounding of the speed of light, in a
+/// direction of three components.
+pub fn velocity(random: &mut Random) -> [String; 3] {
+    const FAST: [[&str; 3]; 6] = [
+        ["0.6", "0.8", "0"],
+        ["0.6", "0.7999999999999999", "0"],
+        ["-0.28", "0", "0.96"],
+        ["0.5773502691896257", "0.5773502691896257", "0.5773502691896257"],
+        ["0.5773502691896258", "-0.5773502691896258", "0.5773502691896258"],
+        ["0", "1e-200", "-0.9999999999999999"],
+    ];
+    if random.one_in(12) { random.pick(&FAST).map(str::to_owned) } else { [(); 3].map(|()| beta(random)) }
+}
+
 /// A name: mostly plain, sometimes with what a terminal would obey.
 pub fn name(random: &mut Random) -> String {
     match random.below(60) {

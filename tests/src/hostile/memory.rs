@@ -1,0 +1,163 @@
+//! What must hold of hostile inputs in memory, without programs and files: thousands a second.
+//!
+//! Fuzz targets and the tests share these functions. Each returns the first finding in words; a
+//! panic is left to the caller.
+
+use std::io;
+use std::sync::LazyLock;
+
+use rayon::{ThreadPool, ThreadPoolBuilder};
+use ugimage::{Format, Metadata};
+use ugmesh::Target;
+use ugparse::{Limit, Limits, Options, Scene, Source};
+use ugrandom::Random;
+
+use super::config;
+
+/// Small limits, because large scenes take long and reach no further code.
+pub fn limits() -> Limits {
+    let small =
+        [(Limit::Statements, 1000), (Limit::Corners, 4000), (Limit::Names, 1 << 16), (Limit::Files, 20)];
+    small.into_iter().fold(Limits::default(), |limits, (limit, value)| limits.with(limit, value))
+}
+
+/// The scene through the whole pipe, with options that follow from `seed`:
+///
+/// - what a stage has written with success is read by the next;
+/// - every number of a picture of light is finite;
+/// - another number of threads gives the same bytes.
+///
+/// # Errors
+/// The first of these that does not hold.
+pub fn pipe(seed: u64, text: &[u8]) -> Result<(), String> {
+    let options = Options { lax: seed.is_multiple_of(2), limits: limits(), ..Options::default() };
+    let output = stages(seed, text, &options)?;
+    if seed.is_multiple_of(4) {
+        let other = if rayon::current_num_threads() > 1 { &ONE } else { &TWO };
+        if other.install(|| stages(seed, text, &options))? != output {
+            return Err("another number of threads gives other bytes".to_owned());
+        }
+    }
+    Ok(())
+}
+
+static ONE: LazyLock<ThreadPool> = LazyLock::new(|| pool(1));
+static TWO: LazyLock<ThreadPool> = LazyLock::new(|| pool(2));
+
+fn pool(n_threads: usize) -> ThreadPool {
+    let pool = ThreadPoolBuilder::new().num_threads(n_threads).build();
+    pool.unwrap_or_else(|error| panic!("{n_threads} threads: {error}"))
+}
+
+/// The bytes of the last stage that succeeds; empty if the scene is invalid.
+fn stages(seed: u64, text: &[u8], options: &Options) -> Result<Vec<u8>, String> {
+    let mut random = Random(seed);
+    let lorentz = config::lorentz(&mut random);
+    let doppler = config::doppler(&mut random);
+    let rainbow = config::rainbow(&mut random);
+    let [has_lorentz, has_doppler] = [!random.one_in(5), !random.one_in(3)];
+    let Ok(parsed) = ugscene::read(&Source::new("first.ug", text), options, None) else {
+        return Ok(Vec::new());
+    };
+    let mut scene = parsed.scene;
+    if has_lorentz {
+        match uglorentz::apply(scene, &lorentz) {
+            Ok((seen, _)) => scene = again("uglorentz", &seen)?,
+            Err(error) => return Ok(error.to_string().into_bytes()),
+        }
+    }
+    if has_doppler {
+        match ugdoppler::apply(scene, &doppler) {
+            Ok((colored, _)) => scene = again("ugdoppler", &colored)?,
+            Err(error) => return Ok(error.to_string().into_bytes()),
+        }
+    }
+    let written = ugparse::write(&scene);
+    let light = match ugrainbow::light(&scene, &rainbow) {
+        Ok(light) => light,
+        Err(error) => return Ok(error.to_string().into_bytes()),
+    };
+    if let Some(pixel) = light.pixels().iter().find(|pixel| pixel.iter().any(|part| !part.is_finite())) {
+        return Err(format!("ugrainbow: the light of a pixel is {pixel:?}"));
+    }
+    match ugrainbow::render(&scene, &rainbow) {
+        Ok(rendering) => Ok([written, rendering.into_file(&ugrainbow::metadata(&scene, ""))].concat()),
+        Err(error) => Ok(error.to_string().into_bytes()),
+    }
+}
+
+/// The scene as the next program reads it.
+fn again(program: &str, scene: &Scene) -> Result<Scene, String> {
+    let options = Options { lax: true, ..Options::default() };
+    match ugscene::read(&Source::new("written.ug", ugparse::write(scene)), &options, None) {
+        Ok(parsed) => Ok(parsed.scene),
+        Err(findings) => Err(format!("{program} has written a scene that is refused:\n{findings}")),
+    }
+}
+
+/// A mesh file of a format: the scene and the meshes made of it are read again. Every file that the
+/// mesh refers to has the same content, so that an OBJ file can hold its materials.
+///
+/// # Errors
+/// What is refused.
+pub fn mesh(format: ugmesh::Format, bytes: &[u8]) -> Result<(), String> {
+    let convert = |format, target, bytes: &[u8]| {
+        let config = ugmesh::Config {
+            format: Some(format),
+            target,
+            reading: Options { limits: Limits::default(), ..Options::default() },
+            command_line: "ugmesh".to_owned(),
+            ..ugmesh::Config::default()
+        };
+        let read_file = |_: &str| -> io::Result<Vec<u8>> { Ok(bytes.to_vec()) };
+        let input = ugmesh::Input::new("mesh", bytes).with_files(&read_file);
+        ugmesh::run(&config, &input)
+    };
+    let Ok(scene) = convert(format, Target::Ug, bytes) else { return Ok(()) };
+    if let Err(findings) = ugparse::parse(&Source::new("mesh.ug", scene.bytes.clone()), &Options::default()) {
+        return Err(format!("ugmesh has written a scene that is refused:\n{findings}"));
+    }
+    let targets = [
+        (Target::Obj, ugmesh::Format::Obj),
+        (Target::Ply { is_ascii: bytes.len().is_multiple_of(2) }, ugmesh::Format::Ply),
+        (Target::Gltf, ugmesh::Format::Gltf),
+        (Target::Glb, ugmesh::Format::Gltf),
+    ];
+    // The length selects the target: all of them take four times as long.
+    let (target, format) = targets[bytes.len() / 2 % targets.len()];
+    // A format that cannot represent the scene says so.
+    let Ok(mesh) = convert(ugmesh::Format::Ug, target, &scene.bytes) else { return Ok(()) };
+    match convert(format, Target::Ug, &mesh.bytes) {
+        Ok(_) => Ok(()),
+        Err(error) => Err(format!("ugmesh has written {target:?} that it refuses: {error}")),
+    }
+}
+
+/// Pixels of a picture above which [`picture`] does not read it.
+const MAX_PIXELS: u64 = 1 << 14;
+
+/// A PNG file: what is read is put on a sheet, and the sheet is read again as it was written.
+///
+/// # Errors
+/// What is refused or differs.
+pub fn picture(bytes: &[u8]) -> Result<(), String> {
+    // Width and height follow the signature and the head of the first chunk.
+    let side =
+        |at: usize| bytes.get(at..at + 4).and_then(|side| side.try_into().ok()).map(u32::from_be_bytes);
+    if let (Some(width), Some(height)) = (side(16), side(20))
+        && u64::from(width) * u64::from(height) > MAX_PIXELS
+    {
+        return Ok(());
+    }
+    let Ok((frame, history)) = ugimage::read_png(bytes) else { return Ok(()) };
+    let picture = ugsheet::Picture { name: "a".to_owned(), frame, history };
+    let other = ugsheet::Picture { history: Metadata::default(), ..picture.clone() };
+    let pictures = [picture, other];
+    let Ok(sheet) = ugsheet::sheet(&ugsheet::Config::default(), &pictures) else { return Ok(()) };
+    let metadata = ugsheet::history(&pictures, "ugsheet");
+    match ugimage::read_png(&Format::Png.encode(&sheet, &metadata)) {
+        Ok((frame, _)) if frame == sheet => Ok(()),
+        Ok(_) => Err("a sheet is read with other pixels than were written".to_owned()),
+        Err(error) => Err(format!("a sheet is refused: {error}")),
+    }
+}
