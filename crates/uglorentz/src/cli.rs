@@ -51,7 +51,7 @@ pub struct Args {
     /// Move each body so that its fixed point (-an) is seen at its coordinates in the scene
     ///
     /// This holds at time 0. With -in, the default of -an is center.
-    #[arg(long = "in", visible_alias = "in-place")]
+    #[arg(long = "in", visible_aliases = ["keep-in-view", "in-place"])]
     in_place: bool,
 
     /// Subdivide until edges deviate by at most ERR milliradians, seen from the eye [default: 0.1]

@@ -49,6 +49,7 @@ fn options_have_two_spellings() {
     };
     check("-vel .5 0 0", "--velocity .5 0 0");
     check("-vel .5 0 0 -ti -2.5 -ep 0 0 -1", "--velocity .5 0 0 --time -2.5 --eye 0 0 -1");
+    check("-vel .5 0 0 -in", "--velocity .5 0 0 --keep-in-view");
     check("-vel .5 0 0 -in -an 3 0 1 -se 1", "--vel .5 0 0 --in-place --anchor 3 0 1 --error 1");
     check("-vel .5 0 0 -an center -sd 2 -sm", "--vel .5 0 0 --anchor center --pieces 2 --smooth");
     check("-cv .5 0 0", "--camera-velocity .5 0 0");
