@@ -222,6 +222,37 @@ fn no_crate_spells_the_name_of_a_sibling_program() {
 }
 
 /// Numbers of equations in a line: (P3), and each of (P10, P12) or (P1)-(P3).
+/// Messages leave through `messages` of ugpipe, where text from outside is made printable, and
+/// through the progress bar; reports through `write_text` and `write_json`. What is printed as it
+/// was rendered are diagnostics, whose renderer makes their parts printable.
+#[test]
+fn text_leaves_where_it_is_made_printable() {
+    const EDGE: [&str; 2] = ["crates/ugpipe/src/messages.rs", "crates/ugpipe/src/steps.rs"];
+    let is_outside = |name: &str, line: &str| {
+        let is_rendered = ["Failure::Report(", "context.report("].iter().any(|call| line.contains(call));
+        (line.contains("io::stderr") && !EDGE.contains(&name))
+            || (line.contains("Renderer::") && name != "crates/ugparse/src/diagnostic.rs")
+            || (is_rendered && !name.starts_with("crates/ugpipe/") && !line.contains(".render(true)"))
+            || (line.contains("context.write(") && line.contains(".as_bytes()"))
+    };
+    let mut findings = Vec::new();
+    let mut n_files = 0;
+    for (path, text) in texts() {
+        let name = path.strip_prefix(root()).unwrap().display().to_string();
+        let is_source =
+            (name.starts_with("crates/") || name.starts_with("conformance/")) && name.contains("/src/");
+        if !is_source || !has_ending(&path, &["rs"]) {
+            continue;
+        }
+        n_files += 1;
+        let code = text.lines().enumerate().filter(|(_, line)| !line.trim_start().starts_with("//"));
+        let outside = code.filter(|(_, line)| is_outside(&name, line));
+        findings.extend(outside.map(|(idx, line)| format!("{}: {}", place(&path, idx), line.trim())));
+    }
+    assert!(n_files > 100, "{n_files}");
+    assert_none(&findings);
+}
+
 fn citations(line: &str) -> impl Iterator<Item = u32> {
     let pieces = line.split(|c: char| !c.is_ascii_alphanumeric());
     pieces.filter_map(|word| word.strip_prefix('P')).filter_map(|digits| digits.parse().ok())

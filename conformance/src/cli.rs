@@ -2,6 +2,7 @@
 
 use std::cell::Cell;
 use std::fmt::Write;
+use std::path::Path;
 use std::process::ExitCode;
 
 use clap::{Arg, Parser, Subcommand};
@@ -17,10 +18,10 @@ use crate::suite::{Topic, topics};
 /// Any program can answer the questions or draw the pictures; conformance/README.md defines them.
 #[derive(Parser, Debug)]
 #[command(name = "ugconformance", version, before_help = ugpipe::ONE_DASH, after_help = EXAMPLES,
-          disable_help_subcommand = true, subcommand_required = true, mut_args(globally))]
+          disable_help_subcommand = true, mut_args(globally))]
 struct Args {
     #[command(subcommand)]
-    command: Command,
+    command: Option<Command>,
 
     #[command(flatten)]
     rest: CommonArgs,
@@ -73,11 +74,14 @@ fn picture_case(name: &str) -> Result<&'static str, String> {
 impl ToolArgs for Args {
     fn common(&self) -> &CommonArgs {
         match &self.command {
-            Command::Questions(common)
-            | Command::Answer(common)
-            | Command::Score(common)
-            | Command::Check(common) => common,
-            Command::ScoreImage(image) | Command::Draw(image) => &image.common,
+            None => &self.rest,
+            Some(
+                Command::Questions(common)
+                | Command::Answer(common)
+                | Command::Score(common)
+                | Command::Check(common),
+            ) => common,
+            Some(Command::ScoreImage(image) | Command::Draw(image)) => &image.common,
         }
     }
 }
@@ -96,22 +100,23 @@ pub fn main() -> ExitCode {
 
 /// Runs the command; returns false if something is wrong.
 fn run(args: &Args, context: &mut Context) -> Result<bool, Failure> {
+    let Some(command) = &args.command else { return Err(no_command(args.rest.input())) };
     if args.rest.input().is_some() {
         return Err(Failure::usage("the command must come before the file: `ugconformance score FILE`"));
     }
     let topics = topics().map_err(Failure::failed)?;
-    match &args.command {
-        Command::Questions(_) => context.write(questions(&topics).as_bytes())?,
+    match command {
+        Command::Questions(_) => context.write_text(&questions(&topics))?,
         Command::Answer(_) => {
             let input = context.input()?;
-            context.write(answers(&String::from_utf8_lossy(&input.text)).as_bytes())?;
+            context.write_text(&answers(&String::from_utf8_lossy(&input.text)))?;
         }
         Command::Score(_) => {
             let input = context.input()?;
             let answers = read_answers(&String::from_utf8_lossy(&input.text), &topics)
                 .map_err(|error| Failure::failed(format!("{}:{error}", input.name)))?;
             let card = Scorecard::new(&topics, &answers);
-            context.write(card.to_string().as_bytes())?;
+            context.write_text(&card.to_string())?;
             return Ok(card.counts()[1] == 0);
         }
         Command::ScoreImage(image) => {
@@ -119,7 +124,7 @@ fn run(args: &Args, context: &mut Context) -> Result<bool, Failure> {
             let input = context.input()?;
             let (text, is_right) = score_image(case, &input.text)
                 .map_err(|problem| Failure::failed(format!("{}: {problem}", input.name)))?;
-            context.write(text.as_bytes())?;
+            context.write_text(&text)?;
             return Ok(is_right);
         }
         Command::Draw(image) => {
@@ -132,11 +137,20 @@ fn run(args: &Args, context: &mut Context) -> Result<bool, Failure> {
         }
         Command::Check(_) => {
             let (text, is_right) = check(&topics);
-            context.write(text.as_bytes())?;
+            context.write_text(&text)?;
             return Ok(is_right);
         }
     }
     Ok(true)
+}
+
+/// The error for a command line without a command. A word before it is the name of a file.
+fn no_command(word: Option<&Path>) -> Failure {
+    let commands = "commands are questions, answer, score, score-image, draw and check";
+    Failure::Usage(match word {
+        Some(word) => format!("`{}` is not a command; {commands}", word.display()),
+        None => format!("a command is missing; {commands}"),
+    })
 }
 
 fn known(name: &str) -> Result<&'static PictureCase, Failure> {

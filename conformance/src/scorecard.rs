@@ -43,7 +43,7 @@ pub fn read_answers(text: &str, topics: &[Topic]) -> Result<Answers, AnswerError
         let bad = |word: &str, what| AnswerError {
             line: row + 1,
             column: word.as_ptr() as usize - line.as_ptr() as usize + 1,
-            word: word.chars().filter(|c| !c.is_control()).take(40).collect(),
+            word: word.chars().take(40).collect(),
             what,
         };
         let mut words = line.split_ascii_whitespace();

@@ -91,11 +91,31 @@ fn pictures_are_drawn_and_measured() {
 }
 
 #[test]
+fn text_from_outside_cannot_command_the_terminal() {
+    let bad = "a\u{1b}[2J\u{7}\u{9b}31m\u{202e}\u{200b}b";
+    let shown = "a\u{fffd}[2J\u{fffd}\u{fffd}31m\u{fffd}\u{fffd}b";
+    for (args, input) in [
+        (&["score"][..], format!("{bad} 1\n")),
+        (&["score"], format!("T01.01 {bad}\n")),
+        (&["score", bad], String::new()),
+        (&["score-image", bad], String::new()),
+        (&["score-image", "sphere", bad], String::new()),
+        (&[bad], String::new()),
+        (&["score", "-limit", bad], String::new()),
+    ] {
+        let output = run(args, input.as_bytes());
+        let talk = String::from_utf8(output.stderr).expect("UTF-8");
+        assert!(talk.contains(shown) && !talk.contains(['\u{1b}', '\u{9b}', '\u{202e}']), "{talk:?}");
+    }
+    assert_eq!(text(&run(&["answer"], format!("{bad} gamma 0\n").as_bytes())), format!("{shown} 1.0\n"));
+}
+
+#[test]
 fn wrong_usage_is_reported() {
     for (args, message) in [
         (&["score-image", "moon"][..], "unknown picture; choose one of sphere, cube, "),
-        (&["sphere.png"], "requires a subcommand"),
-        (&[], "ugconformance"),
+        (&["sphere.png"], "`sphere.png` is not a command; commands are questions, answer"),
+        (&[], "a command is missing; commands are questions, answer"),
     ] {
         let output = run(args, b"");
         assert_eq!(output.status.code(), Some(2), "{args:?}");

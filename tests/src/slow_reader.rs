@@ -138,7 +138,7 @@ fn words(text: &str) -> Vec<String> {
         if !ends_word {
             if starts_statement && word.is_empty() && c == '#' {
                 // A line mark.
-                rest.by_ref().find(|&c| c == '\n');
+                rest.by_ref().find(|&c| c == '\n' || c == '\r');
             } else {
                 word.push(c);
             }

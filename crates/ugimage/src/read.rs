@@ -28,7 +28,13 @@ impl std::error::Error for ReadError {}
 /// # Errors
 /// [`ReadError`] if the file is not a PNG, is truncated or corrupt, or has more than 2²⁸ pixels.
 pub fn read_png(file: &[u8]) -> Result<(Frame, Metadata), ReadError> {
-    let broken = |error: png::DecodingError| ReadError(format!("not a readable PNG file: {error}"));
+    if !file.starts_with(b"\x89PNG") {
+        return Err(ReadError("not a PNG file".to_owned()));
+    }
+    let broken = |error: png::DecodingError| {
+        let problem = error.to_string();
+        ReadError(format!("not a readable PNG file: {}", problem.trim_end_matches('.')))
+    };
     let mut decoder = Decoder::new(Cursor::new(file));
     decoder.set_transformations(Transformations::normalize_to_color8());
     let info = decoder.read_header_info().map_err(broken)?;
@@ -115,7 +121,10 @@ mod tests {
     fn broken_files_are_refused() {
         let file = Format::Png.encode(&test_frames()[2], &Metadata::default());
         assert!(read_png(b"").is_err());
-        assert!(read_png(b"GIF89a").unwrap_err().to_string().starts_with("not a readable PNG file"));
+        assert_eq!(read_png(b"GIF89a").unwrap_err().to_string(), "not a PNG file");
+        assert!(
+            read_png(b"\x89PNG\r\n\x1a\n").unwrap_err().to_string().starts_with("not a readable PNG file: ")
+        );
         for length in 0..file.len() - 30 {
             assert!(read_png(&file[..length]).is_err(), "{length}");
         }

@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use clap::{ArgAction, Parser};
 use glam::DVec3;
 use ugparse::{Origins, Source, pipe};
-use ugpipe::{CommonArgs, Context, Failure, Progress, ToolArgs, finite, vector};
+use ugpipe::{CommonArgs, Context, Failure, Progress, ToolArgs, finite, vector, whole};
 use ugscene::Geometry;
 use ugscene::cli::CameraArgs;
 
@@ -109,7 +109,7 @@ pub struct Args {
 
     /// Size of the picture in pixels, for -cull, which uses its aspect ratio
     #[arg(long = "sz", visible_alias = "size", num_args = 2, value_names = ["W", "H"], action = ArgAction::Set,
-          default_values = ["1024", "768"], value_parser = clap::value_parser!(u32).range(1..),
+          default_values = ["1024", "768"], value_parser = whole(1..=u32::MAX),
           help_heading = CAMERA)]
     size: Vec<u32>,
 

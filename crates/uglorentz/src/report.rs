@@ -96,12 +96,43 @@ impl Display for RemainingErrors {
             [] => String::new(),
             names => format!(" ({})", names.join(" ")),
         };
-        write!(f, "outline {:.3} mrad{}, ", self.angle.error * 1e3, place(&self.angle))?;
-        write!(f, "depth {:.3} permille{}, ", self.depth.error * 1e3, place(&self.depth))?;
-        write!(f, "Doppler factor {:.3} percent{}", self.doppler.error * 1e2, place(&self.doppler))?;
+        write!(f, "outline {}{}, ", amount(self.angle.error * 1e3, "mrad"), place(&self.angle))?;
+        write!(f, "depth {}{}, ", amount(self.depth.error * 1e3, "permille"), place(&self.depth))?;
+        let percent = |largest: &LargestError| amount(largest.error * 1e2, "percent") + &place(largest);
+        write!(f, "Doppler factor {}", percent(&self.doppler))?;
         match &self.light {
-            Some(light) => write!(f, ", light {:.3} percent{}", light.error * 1e2, place(light)),
+            Some(light) => write!(f, ", light {}", percent(light)),
             None => Ok(()),
         }
+    }
+}
+
+/// A number with its unit; `unbounded` if the bound of an error is infinite or NaN.
+fn amount(value: f64, unit: &str) -> String {
+    match value {
+        _ if !value.is_finite() => "unbounded".to_owned(),
+        1e6.. => format!("{value:.3e} {unit}"),
+        _ => format!("{value:.3} {unit}"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn errors_without_a_bound_are_called_so() {
+        let of = |error: f64| LargestError { error, at: vec!["a".to_owned(), "b".to_owned()] };
+        let errors = RemainingErrors {
+            angle: of(0.0015),
+            depth: of(f64::INFINITY),
+            doppler: of(1e300),
+            light: Some(of(f64::NAN)),
+        };
+        assert_eq!(
+            errors.to_string(),
+            "outline 1.500 mrad (a b), depth unbounded (a b), Doppler factor 1.000e302 percent (a b), \
+             light unbounded (a b)"
+        );
     }
 }

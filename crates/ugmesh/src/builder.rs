@@ -3,6 +3,7 @@
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 use ugparse::{BodyId, Color, ColorId, ColorValue, Face, NameId, Scene, Vertex, VertexId, newell_normal};
+use ugpipe::printable;
 
 use crate::error::Problem;
 
@@ -137,7 +138,8 @@ impl Builder {
     /// Adds a comment of the source to the head of the scene, such as its licence.
     pub fn comment(&mut self, text: &str) {
         // Braces would end the UniGrafix comment.
-        let text = text.trim().replace('{', "(").replace('}', ")");
+        let text = text.trim().replace('{', "(").replace('}', ")").replace('\t', " ");
+        let text = text.lines().map(printable).collect::<Vec<_>>().join("\n");
         if !text.is_empty() {
             self.scene.head.push(format!(" {text} "));
         }

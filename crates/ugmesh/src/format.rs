@@ -3,6 +3,8 @@
 use std::fmt;
 use std::path::Path;
 
+use crate::decode::decode;
+
 /// An input format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
@@ -90,8 +92,8 @@ impl Format {
         if is_binary_stl(bytes) {
             return Some(Self::Stl);
         }
-        let text = String::from_utf8_lossy(&bytes[..bytes.len().min(PEEK)]);
-        let text = text.trim_start_matches('\u{feff}').trim_start();
+        let text = decode(&bytes[..bytes.len().min(PEEK)]);
+        let text = text.trim_start();
         if let Some(inside) = text.strip_prefix('{') {
             // A JSON object begins with a quoted key, a UniGrafix comment with any text.
             let is_json = inside.trim_start().starts_with('"') && text.contains("\"asset\"");

@@ -28,6 +28,7 @@
 mod builder;
 #[cfg(feature = "cli")]
 mod cli;
+mod decode;
 mod error;
 mod format;
 mod placement;

@@ -245,6 +245,39 @@ fn strips_fans_and_colours_of_gltf() {
 }
 
 #[test]
+fn lines_end_with_line_feeds_or_carriage_returns() {
+    let materials = "# by hand\nnewmtl red\nKd 1 0 0\n";
+    let scene = |name: &str, text: &[u8], ends: &str| {
+        let beside = |_: &str| Ok(materials.replace('\n', ends).into_bytes());
+        let converted = ugmesh::run(&z_up(), &Input::new(name, text).with_files(&beside));
+        String::from_utf8(converted.unwrap_or_else(|error| panic!("{name}: {error}")).bytes).unwrap()
+    };
+    let triangle = "0 0 0\n1 0 0\n0 1 0\n";
+    let facet =
+        triangle.replace("0 0 0", "vertex 0 0 0").replace("\n1", "\nvertex 1").replace("\n0", "\nvertex 0");
+    for (name, text) in [
+        ("a.obj", "# a tile\nmtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red\nf 1 2 \\\n3\n".to_owned()),
+        ("content", "# a tile\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n".to_owned()),
+        ("a.off", format!("OFF # a tile\n3 1 0\n{triangle}3 0 1 2\n")),
+        ("a.stl", format!("solid\nfacet\nouter loop\n{facet}endloop\nendfacet\nendsolid\n")),
+    ] {
+        let expected = scene(name, text.as_bytes(), "\n");
+        assert!(expected.contains("f (v1 v2 v3)"), "{expected}");
+        for ends in ["\r\n", "\r"] {
+            assert_eq!(scene(name, text.replace('\n', ends).as_bytes(), ends), expected, "{ends:?}");
+        }
+    }
+    for encoding in [Encoding::Ascii, Encoding::Little, Encoding::Big] {
+        let file = ply(encoding);
+        let head = file.windows(11).position(|word| word == b"end_header\n").unwrap() + 11;
+        let n_text = if encoding == Encoding::Ascii { file.len() } else { head };
+        let mut returns = file.clone();
+        returns[..n_text].iter_mut().filter(|byte| **byte == b'\n').for_each(|byte| *byte = b'\r');
+        assert_eq!(scene("a.ply", &returns, "\r"), scene("a.ply", &file, "\n"), "{encoding:?}");
+    }
+}
+
+#[test]
 fn files_beside_the_mesh() {
     let beside = |name: &str| -> std::io::Result<Vec<u8>> {
         match name {
@@ -360,6 +393,11 @@ fn errors_name_the_problem_and_line() {
         "a.obj",
         "v 0 0 0\nf 1//1",
         &format!("{obj}line 2: a face refers to normal `1`, but there are 0 before it"),
+    );
+    check(
+        "a.obj",
+        format!("v 1 2 {}", "x".repeat(1000)),
+        &format!("{obj}line 1: `{}…` in a vertex is not a finite number", "x".repeat(40)),
     );
     check("a.obj", "vn 1", &format!("{obj}line 1: a normal needs 3 numbers"));
     let stl = "cannot read `a.stl` as STL: ";

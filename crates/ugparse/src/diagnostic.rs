@@ -3,6 +3,7 @@
 use std::fmt;
 
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
+use ugpipe::{is_printable, printable};
 
 use crate::reader::line_marks;
 use crate::source::{LineMark, Source, Span};
@@ -75,7 +76,8 @@ impl Diagnostic {
         self
     }
 
-    /// Renders the message as text, with the line and a caret.
+    /// Renders the message as text, with the line and a caret. What a terminal would obey in names
+    /// and words of the scene is replaced.
     pub fn render(&self, source: &Source, styled: bool) -> String {
         self.render_with(source, &line_marks(&source.text), styled)
     }
@@ -85,10 +87,10 @@ impl Diagnostic {
             Severity::Error => Level::ERROR,
             Severity::Warning => Level::WARNING,
         };
-        let mut report =
-            vec![level.primary_title(self.message.as_str()).elements(self.snippets(source, marks))];
+        let title = level.primary_title(printable(&self.message));
+        let mut report = vec![title.elements(self.snippets(source, marks))];
         if let Some(help) = &self.help {
-            report.push(Group::with_title(Level::HELP.secondary_title(help.as_str())));
+            report.push(Group::with_title(Level::HELP.secondary_title(printable(help))));
         }
         let renderer = if styled { Renderer::styled() } else { Renderer::plain() };
         let drawn = renderer.render(&report);
@@ -97,11 +99,11 @@ impl Diagnostic {
     }
 
     /// The lines to show: one snippet for each location.
-    fn snippets<'a>(
-        &'a self,
-        source: &'a Source,
-        marks: &'a [LineMark],
-    ) -> Vec<Snippet<'a, annotate_snippets::Annotation<'a>>> {
+    fn snippets(
+        &self,
+        source: &Source,
+        marks: &[LineMark],
+    ) -> Vec<Snippet<'_, annotate_snippets::Annotation<'_>>> {
         let mut places = vec![(self.span, self.label.as_str(), AnnotationKind::Primary)];
         if let Some((span, label)) = &self.other {
             places.push((*span, label.as_str(), AnnotationKind::Context));
@@ -111,8 +113,9 @@ impl Diagnostic {
             .map(|(span, label, kind)| {
                 let excerpt = Excerpt::new(source, span);
                 let (name, line) = source.reported(marks, span.start);
-                let annotation = kind.span(excerpt.mark).label((!label.is_empty()).then_some(label));
-                Snippet::source(excerpt.text).path(name).line_start(line).annotation(annotation)
+                let label = (!label.is_empty()).then(|| printable(label));
+                let annotation = kind.span(excerpt.mark).label(label);
+                Snippet::source(excerpt.text).path(printable(name)).line_start(line).annotation(annotation)
             })
             .collect()
     }
@@ -126,7 +129,7 @@ fn with_whole_column(drawn: String, source: &Source, marks: &[LineMark], span: S
     }
     let (name, line) = source.reported(marks, span.start);
     let column = excerpt.text[..excerpt.mark.start].chars().count() + 1;
-    let place = |column: usize| format!("{name}:{line}:{column}");
+    let place = |column: usize| format!("{}:{line}:{column}", printable(name));
     drawn.replacen(&place(column), &place(column + excerpt.n_cut), 1)
 }
 
@@ -139,8 +142,8 @@ struct Excerpt {
 }
 
 impl Excerpt {
-    /// Extracts the line around `span`: control characters become blanks, invalid UTF-8 is
-    /// replaced, long lines are truncated.
+    /// Extracts the line around `span`: control characters become blanks, invalid UTF-8 and other
+    /// characters that are not printable are replaced, long lines are truncated.
     fn new(source: &Source, span: Span) -> Self {
         let text = &source.text;
         let start = (span.start as usize).min(text.len());
@@ -153,6 +156,7 @@ impl Excerpt {
         let shown = |from: usize, to: usize| {
             String::from_utf8_lossy(&text[from..to.max(from)])
                 .replace(|c: char| c.is_control() && c != '\t', " ")
+                .replace(|c: char| !is_printable(c) && c != '\t', "\u{fffd}")
         };
         let before = shown(cut_start, start);
         let marked = shown(start, end.min(cut_end));

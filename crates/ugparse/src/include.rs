@@ -212,7 +212,7 @@ impl Inclusion<'_> {
         let Some((_, Text { source, marks, n_done, .. })) = self.open.last() else { return };
         let (name, line) = source.reported(marks, *n_done as u32);
         // A quote or line end would terminate the name.
-        let name = name.replace(['"', '\n'], "?");
+        let name = name.replace(['"', '\n', '\r'], "?");
         self.out.extend_from_slice(format!("\n# {line} \"{name}\"\n").as_bytes());
     }
 }
@@ -226,14 +226,14 @@ fn complaint(kind: RequestKind, path: &Path, error: &RequestError) -> String {
             format!("program `{path}` failed with {status}")
         }
         (RequestError::Failed { status, complaint }, _) => {
-            format!("program `{path}` failed with {status}: {}", printable(complaint))
+            format!("program `{path}` failed with {status}: {}", beginning(complaint))
         }
     }
 }
 
-/// At most 200 characters, with control characters replaced by blanks.
-fn printable(text: &str) -> String {
-    text.chars().take(200).map(|c| if c.is_control() { ' ' } else { c }).collect()
+/// At most 200 characters.
+fn beginning(text: &str) -> String {
+    text.chars().take(200).collect()
 }
 
 fn remedy(kind: RequestKind, error: &RequestError) -> String {
@@ -252,7 +252,7 @@ fn relative_to(file: &str, name: &str) -> PathBuf {
     normalized(&Path::new(file).parent().unwrap_or(Path::new("")).join(name))
 }
 
-/// The path without `.`, and without `..` after a folder.
+/// The path without `.`, and without `..` after a folder; a path of nothing else is `.`.
 fn normalized(path: &Path) -> PathBuf {
     let mut normalized = PathBuf::new();
     for component in path.components() {
@@ -265,6 +265,9 @@ fn normalized(path: &Path) -> PathBuf {
             }
             other => normalized.push(other),
         }
+    }
+    if normalized.as_os_str().is_empty() {
+        normalized.push(".");
     }
     normalized
 }

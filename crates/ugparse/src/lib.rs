@@ -44,6 +44,7 @@ mod diagnostic;
 mod expand;
 mod fast_path;
 mod flatness;
+mod foreign;
 mod grammar;
 mod history;
 mod include;
@@ -137,7 +138,11 @@ fn check_length(source: &Source, options: &Options) -> Result<(), Diagnostics> {
 /// Returns the findings as errors if there is an error among them.
 fn refuse_errors(source: &Source, findings: &mut Vec<Diagnostic>) -> Result<(), Diagnostics> {
     if findings.iter().any(|finding| finding.severity == Severity::Error) {
-        return Err(Diagnostics::new(source, std::mem::take(findings)));
+        let findings = match foreign::error(source) {
+            Some(finding) => vec![finding],
+            None => std::mem::take(findings),
+        };
+        return Err(Diagnostics::new(source, findings));
     }
     Ok(())
 }

@@ -11,8 +11,8 @@ use crate::source::{LineMark, Span};
 use crate::stage::Stage;
 use crate::statement::References;
 use crate::token::{
-    Input, Reason, SyntaxError, blank, comment, escape, file_name, found, identifier, integer, mark,
-    skip_statement, syntax_error, wanted, word,
+    Input, Reason, SyntaxError, blank, comment, escape, file_name, found, identifier, integer, line_end,
+    mark, skip_statement, syntax_error, wanted, word,
 };
 use crate::wording::{no_statement, shorten, with_usage, word_help};
 
@@ -254,7 +254,7 @@ impl<'t, 'f> Reader<'t, 'f> {
         }
         let rest = match keyword {
             // A preprocessor directive ends with its line.
-            b"#" | b"#line" => &body[memchr::memchr(b'\n', body).unwrap_or(body.len())..],
+            b"#" | b"#line" => &body[line_end(body)..],
             _ => skip_statement(body)?,
         };
         let start = self.grammar.position(input);
@@ -289,12 +289,12 @@ impl<'t, 'f> Reader<'t, 'f> {
     /// Parses the rest of `# LINE "FILE" …`, which ends with its line. Flags after the file name
     /// are ignored.
     fn line_mark(&self, body: Input<'t>) -> Option<(Input<'t>, LineMark)> {
-        let end = memchr::memchr(b'\n', body).unwrap_or(body.len());
-        let (rest, line) = integer(&body[..end]).ok()?;
+        let (body, behind) = body.split_at(line_end(body));
+        let (rest, line) = integer(body).ok()?;
         let rest = rest.trim_ascii();
         let name =
             if rest.is_empty() { None } else { Some(file_name(rest).ok().filter(|_| rest[0] == b'"')?.1) };
-        let behind = &body[(end + 1).min(body.len())..];
+        let behind = behind.strip_prefix(b"\r\n").unwrap_or(behind.get(1..).unwrap_or_default());
         let name = name.map(|name| String::from_utf8_lossy(name).into_owned());
         Some((behind, LineMark { start: self.grammar.position(behind), line: line as usize, name }))
     }

@@ -8,7 +8,9 @@ use crate::grammar::KEYWORDS;
 use crate::parallel_reader::read_document;
 use crate::source::Source;
 use crate::stage_statement;
-use crate::token::{Input, comment, escape, found, integer, is_blank, number, skip_statement, word};
+use crate::token::{
+    Input, comment, escape, found, integer, is_blank, line_end, number, skip_statement, word,
+};
 use crate::writer::push_number;
 use crate::{Options, check_length, refuse_errors};
 
@@ -118,7 +120,7 @@ impl Layout {
         }
         let rest = match keyword {
             // A preprocessor directive ends with its line.
-            b"#" | b"#line" => &body[memchr::memchr(b'\n', body).unwrap_or(body.len())..],
+            b"#" | b"#line" => &body[line_end(body)..],
             _ => skip_statement(body).unwrap_or_default(),
         };
         self.verbatim(taken(input, rest));

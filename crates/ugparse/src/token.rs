@@ -135,6 +135,11 @@ pub(crate) fn blank(mut input: Input<'_>) -> Parsed<'_, ()> {
     }
 }
 
+/// The length of a line that LF, CRLF or CR ends, without these.
+pub(crate) fn line_end(input: Input<'_>) -> usize {
+    memchr2(b'\n', b'\r', input).unwrap_or(input.len())
+}
+
 /// A comment, possibly nested; returns the text between its outer braces.
 pub(crate) fn comment(input: Input<'_>) -> Parsed<'_, Input<'_>> {
     nested(input, b'{', b'}', "comment")

@@ -57,15 +57,9 @@ pub(crate) fn with_usage(finding: Diagnostic, input: Input<'_>) -> Diagnostic {
     }
 }
 
-/// A word for a message: at most 40 characters, control characters replaced.
+/// A word for a message, without its end if it is long.
 pub(crate) fn shorten(word: &[u8]) -> String {
-    let text = String::from_utf8_lossy(word);
-    let clean = |c: char| if c.is_control() { '?' } else { c };
-    let mut short: String = text.chars().take(40).map(clean).collect();
-    if short.len() < text.len() {
-        short.push('…');
-    }
-    short
+    ugpipe::shorten(&String::from_utf8_lossy(word))
 }
 
 /// The syntax of a statement, for messages.

@@ -200,6 +200,69 @@ fn limits_are_set_on_the_command_line() {
 }
 
 #[test]
+fn inputs_that_are_not_scenes_have_one_error() {
+    #[track_caller]
+    fn check(name: &str, bytes: &[u8], what: &str, help: &str) {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join(name);
+        fs::write(&path, bytes).unwrap();
+        let out = ugparse(&["-qt", path.to_str().unwrap()], b"");
+        let shown = String::from_utf8(out.stderr).unwrap();
+        assert!(shown.starts_with(&format!("error: this is not a UniGrafix scene but {what}\n")), "{shown}");
+        assert!(shown.ends_with(&format!("help: {help}\n")), "{shown}");
+        assert_eq!((shown.matches("error").count(), out.status.code()), (1, Some(1)), "{shown}");
+    }
+    let wide: Vec<u8> = format!("\u{feff}{BAD}").encode_utf16().flat_map(u16::to_le_bytes).collect();
+    check("scene.ug", &wide, "UTF-16 text", "save it as UTF-8 or ASCII");
+    check("scene.ug.gz", b"\x1f\x8b\x08\0\0\0\0\0", "compressed data", "decompress it first");
+    check("ship.png", b"\x89PNG\r\n\x1a\n", "a picture", "give the scene that it was drawn from");
+    let convert = "`ugmesh` converts meshes to scenes";
+    check("ship.obj", b"v 0 0 0\nv 1 0 0\n", "a mesh", convert);
+    check("ship", b"ply\nformat ascii 1.0\n", "a mesh", convert);
+    check("ship", b"OFF\n3 1 0\n", "a mesh", convert);
+    // A scene may have any name, and its errors are then those of a scene.
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("scene.obj");
+    fs::write(&path, BAD).unwrap();
+    let out = ugparse(&["-qt", path.to_str().unwrap()], b"");
+    assert!(String::from_utf8(out.stderr).unwrap().starts_with("error: colour `red` is not defined"));
+}
+
+#[test]
+fn a_folder_is_not_included() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("scene.ug"), "include . ;\n").unwrap();
+    let program = Command::new(env!("CARGO_BIN_EXE_ugparse")).arg("scene.ug").current_dir(&folder).output();
+    let shown = String::from_utf8(program.unwrap().stderr).unwrap();
+    assert!(shown.contains("error: cannot read `.`: "), "{shown}");
+}
+
+#[test]
+fn carriage_returns_end_line_marks() {
+    let (first, rest) = ("v a 0 0 0;", "v b 1 0 0;v c 0 1 0;f (a b c);f (a b d);");
+    for ends in ["\n", "\r\n", "\r"] {
+        let scene = format!("{first}{ends}# 7 \"house.ug\"{ends}{rest}{ends}");
+        let out = ugparse(&["-qt"], scene.as_bytes());
+        let shown = String::from_utf8(out.stderr).unwrap();
+        assert!(shown.starts_with("error: vertex `d` is not defined\n --> house.ug:7:"), "{shown}");
+    }
+}
+
+#[test]
+fn normals_may_be_too_long() {
+    let scene = "def d; v a 0 0 0 1e300 0 0; end; i (d -sy 1e-10 -sz 1e-10);";
+    let out = ugparse(&["-qt"], scene.as_bytes());
+    let shown = String::from_utf8(out.stderr).unwrap();
+    assert!(out.status.success() || shown.contains("this normal or direction becomes too long"), "{shown}");
+    let lamp = "def d; l 1 1e300 0 0; end; i (d -sa 1e10);";
+    let shown = String::from_utf8(ugparse(&["-qt"], lamp.as_bytes()).stderr).unwrap();
+    assert!(
+        shown.starts_with("error: this normal or direction becomes too long when it is placed"),
+        "{shown}"
+    );
+}
+
+#[test]
 fn wrong_usage_has_status_2() {
     for args in [
         &["tidy", "-format", "json"][..],

@@ -3,7 +3,7 @@
 use clap::{ArgAction, Args};
 use ugimage::{Filter, Format, Tone};
 use ugphysics::Hsv;
-use ugpipe::{Failure, finite};
+use ugpipe::{Failure, finite, whole};
 use ugscene::cli::CameraArgs;
 
 use crate::background::Background;
@@ -26,12 +26,12 @@ pub struct PictureArgs {
 
     /// Size of the picture in pixels
     #[arg(long, num_args = 2, value_names = ["W", "H"], action = ArgAction::Set,
-          default_values = ["1024", "768"], value_parser = clap::value_parser!(u32).range(1..),
+          default_values = ["1024", "768"], value_parser = whole(1..=u32::MAX),
           visible_alias = "size", help_heading = PICTURE)]
     sz: Vec<u32>,
 
     /// N x N samples per pixel, 1 to 16
-    #[arg(long, value_name = "N", default_value = "4", value_parser = clap::value_parser!(u32).range(1..=16),
+    #[arg(long, value_name = "N", default_value = "4", value_parser = whole(1..=16),
           visible_alias = "samples", help_heading = PICTURE)]
     aa: u32,
 

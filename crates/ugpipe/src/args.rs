@@ -1,5 +1,6 @@
 //! Options that are the same in every program, and value parsers for numbers.
 
+use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 
 /// A sentence for the help of every program: `#[command(before_help = ugpipe::ONE_DASH)]`.
@@ -69,8 +70,8 @@ pub struct CommonArgs {
     ///
     /// The output does not depend on N.
     #[arg(long, value_name = "N", visible_alias = "threads", help_heading = COMMON,
-          value_parser = clap::value_parser!(u16).range(1..=1024))]
-    nt: Option<u16>,
+          value_parser = whole(1..=1024))]
+    nt: Option<u32>,
 }
 
 const COMMON: &str = "Common options";
@@ -118,7 +119,7 @@ impl CommonArgs {
 
     /// The requested number of threads; `None` means one per core.
     pub fn threads(&self) -> Option<usize> {
-        self.nt.map(usize::from)
+        self.nt.map(|n_threads| n_threads as usize)
     }
 
     /// The input file as given by the user, including `-`.
@@ -151,6 +152,20 @@ pub fn finite(word: &str) -> Result<f64, String> {
         .ok()
         .filter(|number: &f64| number.is_finite())
         .ok_or_else(|| "not a finite number".to_owned())
+}
+
+/// Value parser of options that take a whole number: `value_parser = ugpipe::whole(1..=16)`.
+///
+/// Its message states the range, or only its lower end if the upper one is `u32::MAX`.
+pub fn whole(range: RangeInclusive<u32>) -> impl Fn(&str) -> Result<u32, String> + Clone + Send + Sync {
+    move |word| {
+        word.parse().ok().filter(|number| range.contains(number)).ok_or_else(|| {
+            match range.clone().into_inner() {
+                (least, u32::MAX) => format!("must be a whole number, {least} or more"),
+                (least, most) => format!("must be a whole number from {least} to {most}"),
+            }
+        })
+    }
 }
 
 /// Value parser of options that take a view angle, in degrees, above 0 and below 180.
@@ -229,6 +244,19 @@ mod tests {
         check("files=-3", None);
         check("files=1e3", None);
         check("files=99999999999999999999", None);
+    }
+
+    #[test]
+    fn whole_numbers_have_bounds() {
+        fn check(range: RangeInclusive<u32>, word: &str, expected: Result<u32, &str>) {
+            assert_eq!(whole(range)(word), expected.map_err(str::to_owned), "{word}");
+        }
+        check(1..=16, "16", Ok(16));
+        for word in ["0", "17", "-1", "1.5", "1e1", "", "99999999999"] {
+            check(1..=16, word, Err("must be a whole number from 1 to 16"));
+        }
+        check(1..=u32::MAX, "4294967295", Ok(u32::MAX));
+        check(1..=u32::MAX, "0", Err("must be a whole number, 1 or more"));
     }
 
     #[test]

@@ -3,7 +3,8 @@
 //! clap accepts long options only with two dashes and parses `-vel` as the cluster `-v -e -l`. So
 //! the arguments are rewritten before clap parses them, for exactly the long names that the
 //! [`Command`] declares. Values of options are skipped, as is everything after `--`. A long name
-//! takes precedence over a cluster of short ones.
+//! takes precedence over a cluster of short ones. Words with one dash that are neither get a second
+//! dash as well, so that clap reports the whole word and suggests a similar option.
 //!
 //! Known limitation: a value in the argument after a *short* option is not skipped. The only short
 //! options of our programs are `-h` and `-V`, which take no values.
@@ -25,7 +26,9 @@ const END_OF_VALUES: &str = ";";
 /// An option with a variable number of values (`-va A [B]`) gets a value terminator, so that the
 /// file in `-va 40 ship.ug` is not parsed as its second value.
 pub(crate) fn prepare(command: Command) -> Command {
-    let mut command = command.mut_args(|arg| match arg.get_num_args() {
+    // Messages have the name of the program, whatever name it was called by.
+    let name = command.get_name().to_owned();
+    let mut command = command.bin_name(name).mut_args(|arg| match arg.get_num_args() {
         Some(range) if is_variable(range) && arg.get_long().is_some() => {
             arg.value_terminator(END_OF_VALUES).allow_hyphen_values(true).action(ArgAction::Set)
         }
@@ -46,7 +49,7 @@ pub(crate) fn rewrite(command: &Command, argv: impl IntoIterator<Item = OsString
             break;
         }
         let Some(option) = LongOption::find(command, &word) else {
-            rewritten.push(word);
+            rewritten.push(if is_unknown(command, &word) { with_dash(&word) } else { word });
             continue;
         };
         rewritten.push(option.with_two_dashes(word));
@@ -81,10 +84,25 @@ impl<'a> LongOption<'a> {
         if self.has_two_dashes {
             return word;
         }
-        let mut longer = OsString::from("-");
-        longer.push(word);
-        longer
+        with_dash(&word)
     }
+}
+
+/// `word` with another dash before it.
+fn with_dash(word: &OsStr) -> OsString {
+    let mut longer = OsString::from("-");
+    longer.push(word);
+    longer
+}
+
+/// True for a word with one dash that is no cluster of short options: a misspelt long option.
+fn is_unknown(command: &Command, word: &OsStr) -> bool {
+    let Some(letters) = word.to_str().and_then(|word| word.strip_prefix('-')) else { return false };
+    let short = |letter: char| command.get_arguments().find(|arg| arg.get_short() == Some(letter));
+    let takes_value = |letter: char| short(letter).is_some_and(|arg| arg.get_action().takes_values());
+    letters.len() > 1
+        && letters.starts_with(|first: char| first.is_ascii_alphabetic() && !takes_value(first))
+        && !letters.chars().all(|letter| short(letter).is_some())
 }
 
 fn has_long_name(arg: &Arg, name: &str) -> bool {
@@ -94,9 +112,19 @@ fn has_long_name(arg: &Arg, name: &str) -> bool {
 /// Copies the values of `arg` unchanged.
 ///
 /// The required values come first. Optional values are numbers in all our programs, which
-/// distinguishes them from file names.
+/// distinguishes them from file names. A negative number is the value of an option with one value
+/// even if the option takes only positive ones, and is attached to it by `=`: clap would take it for
+/// an option.
 fn copy_values(arg: &Arg, words: &mut Peekable<impl Iterator<Item = OsString>>, out: &mut Vec<OsString>) {
     let Some(range) = arg.get_num_args().filter(|_| arg.get_action().takes_values()) else { return };
+    if range == ValueRange::SINGLE
+        && let Some(value) = words.next_if(|word| !may_be_value(arg, word) && is_number(word))
+        && let Some(option) = out.last_mut()
+    {
+        option.push("=");
+        option.push(value);
+        return;
+    }
     let mut n_taken = 0;
     while n_taken < range.max_values() {
         let is_needed = n_taken < range.min_values();
@@ -204,6 +232,9 @@ mod tests {
         check("-gw", "--gw");
         check("-t-3", "-t-3");
         check("-t -3", "-t -3");
+        // A number is a value even where only positive ones are valid.
+        check("-fi -3 -gw", "--fi=-3 --gw");
+        check("-fi -.5e1 -gw", "--fi=-.5e1 --gw");
     }
 
     #[test]
@@ -266,6 +297,8 @@ mod tests {
         check("-va 1 2 3 4", "error: unexpected argument '4' found");
         check("---gw", "error: unexpected argument '---gw' found");
         check("-q", "error: unexpected argument '-q' found");
+        check("-velo .9 0 0", "error: unexpected argument '--velo' found");
+        check("-gx", "error: unexpected argument '--gx' found");
     }
 
     #[test]

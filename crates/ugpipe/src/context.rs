@@ -10,6 +10,7 @@ use crate::input::{self, Input};
 use crate::messages::Messages;
 use crate::output::Output;
 use crate::steps::Steps;
+use crate::text::{printable_json, printable_lines};
 
 /// Largest input in bytes: 4 GiB. Inputs are read into memory whole.
 pub const MAX_INPUT: u64 = u32::MAX as u64;
@@ -97,6 +98,23 @@ impl Context {
     /// has no permission to write.
     pub fn write(&mut self, data: &[u8]) -> Result<(), Failure> {
         self.write_with(|out| out.write_all(data))
+    }
+
+    /// Writes a report for people, of several lines. What a terminal would obey in names from outside
+    /// is replaced by U+FFFD.
+    ///
+    /// # Errors
+    /// As of [`Context::write`].
+    pub fn write_text(&mut self, text: &str) -> Result<(), Failure> {
+        self.write(printable_lines(text).as_bytes())
+    }
+
+    /// Writes a report as JSON. What a terminal would obey in names from outside is escaped.
+    ///
+    /// # Errors
+    /// As of [`Context::write`].
+    pub fn write_json(&mut self, json: &str) -> Result<(), Failure> {
+        self.write(printable_json(json).as_bytes())
     }
 
     /// Like [`Context::write`], for an output that is written in chunks while it is computed, so

@@ -7,12 +7,11 @@ use std::path::Path;
 
 use crate::failure::Failure;
 use crate::files::read_up_to;
-use crate::text;
 
 /// An input, read completely.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Input {
-    /// Name for messages: the file as the user named it, or `<stdin>`.
+    /// The file as the user named it, or `<stdin>`. Bytes that are not UTF-8 are replaced.
     pub name: String,
     /// Its bytes.
     pub text: Vec<u8>,
@@ -23,7 +22,7 @@ const STDIN: &str = "<stdin>";
 /// Reads a file, or standard input if `path` is `None`: up to `limit` + 1 bytes.
 pub(crate) fn read(path: Option<&Path>, limit: u64) -> Result<Input, Failure> {
     let (name, text) = match path {
-        Some(path) => (text::path(path), File::open(path).and_then(|file| read_up_to(file, limit))),
+        Some(path) => (path.display().to_string(), File::open(path).and_then(|file| read_up_to(file, limit))),
         None => (STDIN.to_owned(), stdin().and_then(|file| read_up_to(file, limit))),
     };
     match text {

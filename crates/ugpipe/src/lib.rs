@@ -11,7 +11,7 @@
 //!
 //! - **Options.** The options of 1988 keep their syntax, with one dash and separate values,
 //!   including negative numbers: `-vel -.9 0 0`. For clap they are ordinary long options
-//!   ([`finite`] and [`vector`] parse their numbers); the second dash is added before clap parses
+//!   ([`finite`], [`whole`] and [`vector`] parse their numbers); the second dash is added before clap parses
 //!   them. An option with a variable number of values (`num_args = 1..=2`) takes the required
 //!   values and then only numbers, so a file name may follow it; only `num_args` has to be declared
 //!   for that.
@@ -25,7 +25,9 @@
 //!   to directly.
 //! - **Messages** are lines such as `uglorentz: warning: …`, each written with one system call
 //!   because the programs of a pipe share the terminal. They are coloured only on a terminal, and
-//!   not if `NO_COLOR` is set.
+//!   not if `NO_COLOR` is set. They may contain names and words from outside as they are: whatever
+//!   a terminal would obey in them is replaced when they are printed, and in reports, too
+//!   ([`Context::write_text`]).
 //! - **Progress.** On a terminal, runs longer than a second show a progress bar; `-vb` prints the
 //!   time of each step. Computations report to a [`Progress`] and do not depend on how it is shown.
 //! - **Exit status** 0 for success, 1 for an invalid scene or an I/O error, 2 for invalid usage. If
@@ -40,8 +42,8 @@
 //! letters, in the same folder; other signals do not. A program that is started with standard
 //! output closed (`>&-`) cannot tell that from `/dev/null`, which Rust opens in its place.
 //!
-//! A library that only reports progress disables the feature `cli`. Then only [`Progress`] and the
-//! messages of [`remedies`] are compiled, and clap is not built.
+//! A library that only reports progress disables the feature `cli`. Then only [`Progress`],
+//! [`printable`] and the messages of [`remedies`] are compiled, and clap is not built.
 //!
 //! # A whole program
 //!
@@ -115,11 +117,10 @@ mod run;
 mod steps;
 #[cfg(feature = "cli")]
 mod streams;
-#[cfg(feature = "cli")]
 mod text;
 
 #[cfg(feature = "cli")]
-pub use args::{CommonArgs, ONE_DASH, finite, vector, view_angle};
+pub use args::{CommonArgs, ONE_DASH, finite, vector, view_angle, whole};
 #[cfg(feature = "cli")]
 pub use context::{Context, MAX_INPUT};
 #[cfg(feature = "cli")]
@@ -133,3 +134,4 @@ pub use progress::Progress;
 pub use run::{ToolArgs, main};
 #[cfg(feature = "cli")]
 pub use steps::Steps;
+pub use text::{is_printable, printable, shorten};

@@ -1,4 +1,8 @@
 //! Notes, warnings and errors: to standard error or the file of `-fm`.
+//!
+//! All messages of a program leave through this module, those of clap as well. Text from outside is
+//! made [printable] here: a message with a heading is one line, so it cannot contain a line that
+//! looks like another message.
 
 use std::fs::File;
 use std::io::{self, Write};
@@ -10,7 +14,7 @@ use clap::builder::styling::{AnsiColor, Style};
 
 use crate::args::CommonArgs;
 use crate::failure::Failure;
-use crate::text;
+use crate::text::{printable, printable_styled};
 
 const ERROR: Style = AnsiColor::Red.on_default().bold();
 const WARNING: Style = AnsiColor::Yellow.on_default().bold();
@@ -38,7 +42,8 @@ impl Messages {
         self.is_verbose = common.verbose();
         if let Some(path) = common.messages() {
             let created = File::create(path);
-            self.file = Some(created.map_err(|error| Failure::Write { name: text::path(path), error })?);
+            self.file =
+                Some(created.map_err(|error| Failure::Write { name: path.display().to_string(), error })?);
         }
         Ok(())
     }
@@ -70,29 +75,39 @@ impl Messages {
 
     pub(crate) fn warn_report(&self, text: &str) {
         if !self.is_quiet {
-            self.print(text);
+            self.print(&printable_styled(text));
         }
     }
 
     pub(crate) fn detail(&self, text: &str) {
         if self.is_verbose {
             let seconds = self.elapsed().as_secs_f64();
-            self.print(&format!("{}: {seconds:.3} s: {text}", self.program));
+            self.print(&format!("{}: {seconds:.3} s: {}", self.program, printable(text)));
         }
     }
 
     pub(crate) fn failure(&self, failure: &Failure) {
         match failure {
-            Failure::Report(text) => self.print(text),
+            Failure::Report(text) => self.print(&printable_styled(text)),
             Failure::Usage(text) => {
-                self.headed("error", ERROR, &format!("{text}\ntry `{} --help`", self.program));
+                let line = self.line("error", ERROR, text);
+                self.print(&format!("{line}\ntry `{} --help`", self.program));
             }
             _ => self.headed("error", ERROR, &failure.to_string()),
         }
     }
 
+    /// The errors of clap about the command line.
+    pub(crate) fn clap_error(&self, error: &clap::Error) {
+        self.print(&printable_styled(&error.render().ansi().to_string()));
+    }
+
     fn headed(&self, heading: &str, style: Style, text: &str) {
-        self.print(&format!("{}: {style}{heading}:{style:#} {text}", self.program));
+        self.print(&self.line(heading, style, text));
+    }
+
+    fn line(&self, heading: &str, style: Style, text: &str) -> String {
+        format!("{}: {style}{heading}:{style:#} {}", self.program, printable(text.trim_end_matches('\n')))
     }
 
     /// Prints a message with a single write, because the programs of a pipe share the terminal.

@@ -9,7 +9,6 @@ use std::path::{Path, PathBuf};
 use crate::cleanup::Temporary;
 use crate::failure::Failure;
 use crate::identity::{folder_of, resolve_links};
-use crate::text;
 
 /// An output. If it is dropped without [`Output::finish`], no file is left behind.
 pub(crate) struct Output {
@@ -74,7 +73,8 @@ impl Output {
     }
 
     fn failure(&self, error: io::Error) -> Failure {
-        let name = self.path.as_deref().map_or_else(|| "<stdout>".to_owned(), text::path);
+        let name =
+            self.path.as_ref().map_or_else(|| "<stdout>".to_owned(), |path| path.display().to_string());
         Failure::Write { name, error }
     }
 }

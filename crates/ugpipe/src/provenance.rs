@@ -6,7 +6,7 @@ use clap::parser::ValueSource;
 use clap::{Arg, ArgMatches, Command};
 
 use crate::args::WITHOUT_EFFECT;
-use crate::text;
+use crate::text::printable;
 
 /// The program and the options that affect the content, in the historical spelling and in the
 /// user's order: `uglorentz -vel .9 0 0 -sm`.
@@ -21,7 +21,7 @@ pub(crate) fn command_line(command: &Command, matches: &ArgMatches) -> String {
         .collect();
     options.sort_by_key(|arg| matches.index_of(arg.get_id().as_str()));
 
-    let mut line = text::printable(command.get_name());
+    let mut line = printable(command.get_name());
     for arg in options {
         for occurrence in matches.get_raw_occurrences(arg.get_id().as_str()).into_iter().flatten() {
             append(&mut line, &spelling(arg));
@@ -52,7 +52,7 @@ fn spelling(arg: &Arg) -> String {
 
 /// `word` quoted for a POSIX shell and safe inside a comment.
 fn quoted(word: &OsStr) -> String {
-    let safe = text::printable(&word.to_string_lossy()).replace(['{', '}', char::REPLACEMENT_CHARACTER], "?");
+    let safe = printable(&word.to_string_lossy()).replace(['{', '}', char::REPLACEMENT_CHARACTER], "?");
     let is_plain = |c: char| c.is_alphanumeric() || "-_+.,:/@%=".contains(c);
     if !safe.is_empty() && safe.chars().all(is_plain) {
         safe

@@ -47,5 +47,8 @@ pub const OUT_OF_RANGE: &str = "all that is in the picture is black: its wavelen
 /// Colours of the scene are hues.
 pub const WRITE_WAVELENGTHS: &str = "give -gw to ugdoppler";
 
+/// The input is a mesh in a format of its own.
+pub const CONVERT_MESH: &str = "`ugmesh` converts meshes to scenes";
+
 /// Where another eye point has to be given instead.
 pub const EYE_POINT: &str = "give it to uglorentz";

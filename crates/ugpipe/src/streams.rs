@@ -8,7 +8,6 @@ use clap::ArgMatches;
 use crate::args::CommonArgs;
 use crate::failure::Failure;
 use crate::identity::Identity;
-use crate::text;
 
 /// A file that the command line names or the shell has opened.
 struct Stream {
@@ -19,7 +18,7 @@ struct Stream {
 
 impl Stream {
     fn file(option: &str, path: &Path) -> Self {
-        Self { name: format!("{option} `{}`", text::path(path)), identity: Identity::of_path(path) }
+        Self { name: format!("{option} `{}`", path.display()), identity: Identity::of_path(path) }
     }
 }
 

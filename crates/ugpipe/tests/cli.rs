@@ -163,9 +163,49 @@ fn errors_in_the_command_line() {
         &["-vel", ".9", "0", "-lax"],
         "error: invalid value '-lax' for '--vel <X> <Y> <Z>': not a finite number",
     );
-    check(&["-nt", "0"], "error: invalid value '0' for '--nt <N>': 0 is not in 1..=1024");
+    for number in ["0", "-1", "1025", "1.5", "x"] {
+        let range = "must be a whole number from 1 to 1024";
+        check(&["-nt", number], &format!("error: invalid value '{number}' for '--nt <N>': {range}"));
+    }
     check(&["-qt", "-vb"], "error: the argument '--qt' cannot be used with '--vb'");
-    check(&["-zz"], "error: unexpected argument '-z' found");
+    check(&["-zz"], "error: unexpected argument '--zz' found");
+}
+
+#[test]
+fn a_misspelt_option_is_not_taken_for_a_file() {
+    let output = run(&folder(), &["-velo", ".9", "0", "0"]);
+    let shown = String::from_utf8(output.stderr).unwrap();
+    assert!(
+        shown.starts_with(
+            "error: unexpected argument '--velo' found\n\n  tip: a similar argument exists: '--vel'\n"
+        ),
+        "{shown}"
+    );
+    let output = run(&folder(), &["-7", "ship.ug"]);
+    let shown = String::from_utf8(output.stderr).unwrap();
+    assert!(shown.starts_with("error: unexpected argument '-7' found\n\nUsage: "), "{shown}");
+}
+
+#[test]
+fn messages_are_those_of_the_program_alone() {
+    #[track_caller]
+    fn check(name: &str, status: i32, expected: &str) {
+        let output = run(&folder(), &[name]);
+        let shown = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(shown.lines().next(), Some(expected));
+        assert!(!shown.contains("\nugcat"), "{shown}");
+        assert_eq!(output.status.code(), Some(status));
+    }
+    check(
+        "no\nugcat: error: \u{1b}[2J\u{202e}",
+        1,
+        "ugcat: error: cannot read `no\u{fffd}ugcat: error: \u{fffd}[2J\u{fffd}`: No such file or directory",
+    );
+    check(
+        "--\nugcat: error: \u{9b}2J",
+        2,
+        "error: unexpected argument '--\u{fffd}ugcat: error: \u{fffd}2J' found",
+    );
 }
 
 #[test]

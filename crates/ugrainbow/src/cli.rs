@@ -312,11 +312,10 @@ fn explain_pixel(
     if !warnings.is_empty() {
         context.report(&warnings.render(true));
     }
-    let text = match report {
-        Report::Text => explain::text(&explanation),
-        Report::Json => explain::json(&explanation),
-    };
-    context.write(text.as_bytes())
+    match report {
+        Report::Text => context.write_text(&explain::text(&explanation)),
+        Report::Json => context.write_json(&explain::json(&explanation)),
+    }
 }
 
 fn failure(error: Error) -> Failure {

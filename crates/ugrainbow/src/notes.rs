@@ -29,7 +29,8 @@ pub fn notes(setup: &Setup<'_>, config: &Config, statistics: &DrawStatistics) ->
     let mut notes = scene_notes(setup.scene(), config.exact.is_some());
     if setup.view.is_up_replaced {
         notes.push(
-            "the up direction is parallel to the view, so another axis is up; choose one with -ud".into(),
+            "the up direction is zero or parallel to the view, so another axis is up; choose one with -ud"
+                .into(),
         );
     }
     notes.extend(why_nothing_is_seen(config, statistics).map(str::to_owned));

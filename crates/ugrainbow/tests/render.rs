@@ -562,7 +562,7 @@ fn pictures_in_which_nothing_is_seen_say_why() {
         &format!("{square}; l .25; cam -ep 0 0 20;"),
         &config,
         &[
-            "the up direction is parallel to the view, so another axis is up; choose one with -ud",
+            "the up direction is zero or parallel to the view, so another axis is up; choose one with -ud",
             "max intensity is 1.25, clip to 1.0",
         ],
     );

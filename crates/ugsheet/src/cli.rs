@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use clap::{ArgAction, Parser, ValueEnum};
 use ugimage::{Format, read_png};
 use ugphysics::Hsv;
-use ugpipe::{CommonArgs, Context, Failure, ToolArgs, finite};
+use ugpipe::{CommonArgs, Context, Failure, ToolArgs, finite, whole};
 
 use crate::{Config, Error, Labels, Picture, history, sheet};
 
@@ -19,7 +19,7 @@ use crate::{Config, Error, Labels, Picture, history, sheet};
 #[command(name = "ugsheet", version, before_help = ugpipe::ONE_DASH, after_help = EXAMPLES)]
 pub struct Args {
     /// Pictures per row [default: about as many as rows]
-    #[arg(long, value_name = "N", visible_alias = "columns", value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "N", visible_alias = "columns", value_parser = whole(1..=u32::MAX))]
     cols: Option<u32>,
 
     /// Label of a picture; give it once for each picture, in order
@@ -48,7 +48,7 @@ pub struct Args {
 
     /// Pixels between pictures, and margin M around all [default: 0.9 of the text size]
     #[arg(long, num_args = 1..=2, value_names = ["N", "M"], action = ArgAction::Set,
-          value_parser = clap::value_parser!(u32).range(..=10_000))]
+          value_parser = whole(0..=10_000))]
     gap: Option<Vec<u32>>,
 
     /// Background colour: lightness, hue in degrees, saturation [default: white]

@@ -34,11 +34,15 @@ impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Empty => f.write_str("there are no pictures; name PNG files"),
-            Self::Count { labels, pictures } => write!(
-                f,
-                "there are {labels} labels for {pictures} pictures; give -label once for each picture, in \
-                 order, or not at all"
-            ),
+            Self::Count { labels, pictures } => {
+                let several = |count: usize| if count == 1 { "" } else { "s" };
+                let (of_labels, of_pictures) = (several(*labels), several(*pictures));
+                write!(
+                    f,
+                    "{labels} label{of_labels} for {pictures} picture{of_pictures}: give -label once for each \
+                     picture, in order, or not at all"
+                )
+            }
             Self::Text { text, missing } => {
                 write!(f, "in `{text}`: {missing}; change the text, or use -label or -lb none")
             }

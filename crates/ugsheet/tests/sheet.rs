@@ -178,9 +178,9 @@ fn errors_have_messages_and_exit_status() {
         assert_eq!(output.status.code(), Some(status), "{talk}");
         assert!(output.stdout.is_empty() && talk.contains(message), "{talk}");
     };
-    check(&["text.png"], 1, "`text.png`: not a readable PNG file");
+    check(&["text.png"], 1, "`text.png`: not a PNG file");
     check(&["rest.png", "none.png"], 1, "none.png");
-    check(&["-label", "x", "rest.png", "fast.png"], 2, "give -label once for each picture");
+    check(&["-label", "x", "rest.png", "fast.png"], 2, "1 label for 2 pictures: give -label once");
     check(&["-cap", "漢", "rest.png"], 2, "the font has no `漢`");
     check(&["-fo", "sheet.exr", "rest.png"], 2, "name one with -dt");
     check(&["-bg", "2", "rest.png"], 2, "from 0 to 1");

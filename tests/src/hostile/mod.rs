@@ -9,7 +9,8 @@
 //! - with another status it has written nothing to standard output, and says why;
 //! - if its output is lost (a full disk, a closed pipe), the status is not 0;
 //! - after a signal its output file is whole or absent;
-//! - nothing that it prints moves the cursor or reverses the text;
+//! - nothing that it prints moves the cursor or reverses the text, and no number in a message is
+//!   infinite or NaN;
 //! - the number of threads changes no byte;
 //! - no temporary file is left.
 //!

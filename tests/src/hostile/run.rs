@@ -128,6 +128,9 @@ fn check(ended: &Ended, is_silent: bool, edge: Edge, folder: &Path) -> Result<()
     if status > 0 && messages.trim().is_empty() && edge.keeps_messages() {
         return Err(format!("status {status} without a message"));
     }
+    if has_invalid_number(&messages) {
+        return Err(format!("prints an invalid number\n{messages}"));
+    }
     match messages.chars().find(|&c| is_dangerous(c)) {
         Some(c) => Err(format!("prints {c:?}\n{}", messages.escape_debug())),
         None => Ok(()),
@@ -149,9 +152,20 @@ fn check_file(ended: &Ended, folder: &Path) -> Result<(), String> {
     }
 }
 
-/// Control characters, and those that change the direction of text.
+/// Control characters, those that change the direction of text, and those of no width.
 fn is_dangerous(c: char) -> bool {
-    c.is_control() && c != '\n' || matches!(c, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
+    c.is_control() && c != '\n'
+        || matches!(c, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}' | '\u{61c}' | '\u{feff}')
+        || matches!(c, '\u{200b}'..='\u{200f}' | '\u{2028}' | '\u{2029}')
+}
+
+/// True if a message has an infinity or NaN as a number. Words of the input are in quotes, or in
+/// lines of the input, behind `|`.
+fn has_invalid_number(messages: &str) -> bool {
+    let words = messages.lines().filter(|line| !line.contains(" | ")).flat_map(str::split_whitespace);
+    words
+        .map(|word| word.trim_matches(|c: char| "(),;:%".contains(c)))
+        .any(|word| ["inf", "-inf", "NaN"].contains(&word))
 }
 
 fn stage(

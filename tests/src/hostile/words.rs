@@ -68,6 +68,7 @@ pub fn name(random: &mut Random) -> String {
         3 => "a\u{9b}31m".to_owned(),
         4 => "ship:wing#2".to_owned(),
         5 => "\u{3b3}\u{2067}".to_owned(),
+        6 => "\u{200f}a\u{200b}\u{2028}\u{61c}".to_owned(),
         _ => format!("{}{}", random.pick(&["a", "b", "v", "red"]), random.below(12)),
     }
 }

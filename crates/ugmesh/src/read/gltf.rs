@@ -18,6 +18,7 @@ use rustc_hash::FxHashMap;
 use serde_json::Value;
 use ugparse::VertexId;
 use ugphysics::srgb_encode;
+use ugpipe::shorten;
 
 use super::{accessor, strip};
 use crate::Input;
@@ -154,11 +155,12 @@ fn load(uri: &str, input: &Input) -> Result<Vec<u8>, Problem> {
     let name = percent_decoded(uri);
     if name.contains("://") {
         return Err(Problem::new(format!(
-            "`{name}` is a network address; download it and refer to the file instead"
+            "`{}` is a network address; download it and refer to the file instead",
+            shorten(&name)
         )));
     }
     (input.read_file)(&name).map_err(|error| {
-        Problem::new(format!("cannot read `{name}`: {error}; put it in the folder of the mesh"))
+        Problem::new(format!("cannot read `{}`: {error}; put it in the folder of the mesh", shorten(&name)))
     })
 }
 

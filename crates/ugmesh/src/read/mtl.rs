@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use super::text;
 use crate::builder::Rgba;
+use crate::decode::decode;
 
 /// Diffuse colours by name.
 #[derive(Debug, Default)]
@@ -16,7 +16,7 @@ impl Materials {
     /// Adds the materials of a file. Only diffuse colours and opacity are read. Malformed
     /// statements are ignored, since a mesh is usable without its materials.
     pub fn add(&mut self, bytes: &[u8]) {
-        let text = text::decode(bytes);
+        let text = decode(bytes);
         let mut current: Option<&mut Rgba> = None;
         for line in text.lines() {
             let (keyword, rest) = split(line);

@@ -9,15 +9,17 @@ use std::collections::BTreeSet;
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 use ugparse::{ColorId, VertexId};
+use ugpipe::shorten;
 
 use super::mtl::{self, Materials};
-use super::text::{self, numbers};
+use super::text::numbers;
 use crate::Input;
 use crate::builder::{Builder, Rgba};
+use crate::decode::decode;
 use crate::error::Problem;
 
 pub(super) fn read(input: &Input, builder: &mut Builder) -> Result<(), Problem> {
-    let text = text::decode(&input.bytes);
+    let text = decode(&input.bytes);
     let mut reader = Reader::new(input, builder);
     let mut in_head = true;
     for (line, statement) in statements(&text) {
@@ -132,7 +134,8 @@ impl<'a> Reader<'a> {
         let vertex =
             row(position, n_vertices).and_then(|row| self.builder.vertex_at(row)).ok_or_else(|| {
                 Problem::new(format!(
-                    "a face refers to vertex `{position}`, but there are {n_vertices} before it"
+                    "a face refers to vertex `{}`, but there are {n_vertices} before it",
+                    shorten(position)
                 ))
             })?;
         if normal.is_empty() {
@@ -140,7 +143,10 @@ impl<'a> Reader<'a> {
         }
         let n_normals = self.normals.len();
         let row = row(normal, n_normals).filter(|&row| row < n_normals as u64).ok_or_else(|| {
-            Problem::new(format!("a face refers to normal `{normal}`, but there are {n_normals} before it"))
+            Problem::new(format!(
+                "a face refers to normal `{}`, but there are {n_normals} before it",
+                shorten(normal)
+            ))
         })?;
         Ok((vertex, Some(row as u32)))
     }
@@ -156,7 +162,8 @@ impl<'a> Reader<'a> {
             match (self.input.read_file)(name) {
                 Ok(bytes) => self.materials.add(&bytes),
                 Err(error) => {
-                    self.builder.warn(format!("colours are missing: cannot read `{name}`: {error}"));
+                    self.builder
+                        .warn(format!("colours are missing: cannot read `{}`: {error}", shorten(name)));
                 }
             }
         }
@@ -189,7 +196,7 @@ impl<'a> Reader<'a> {
 
     fn warn(&mut self) {
         let names: Vec<String> =
-            self.unknown_materials.iter().take(5).map(|name| format!("`{name}`")).collect();
+            self.unknown_materials.iter().take(5).map(|name| format!("`{}`", shorten(name))).collect();
         if !names.is_empty() {
             let more = if self.unknown_materials.len() > names.len() { ", …" } else { "" };
             self.builder.warn(format!("materials without colour: {}{more}", names.join(", ")));

@@ -1,14 +1,16 @@
 //! Reads Geomview OFF: the keyword `[ST][C][N]OFF`, counts, vertices and faces, one per line.
 
 use glam::DVec3;
+use ugpipe::shorten;
 
-use super::text::{self, number, numbers};
+use super::text::{number, numbers};
 use crate::builder::{Builder, Rgba};
+use crate::decode::decode;
 use crate::error::Problem;
 use crate::format::is_off_keyword;
 
 pub(super) fn read(bytes: &[u8], builder: &mut Builder) -> Result<(), Problem> {
-    let text = text::decode(bytes);
+    let text = decode(bytes);
     let lines = text.lines().enumerate().map(|(idx, line)| {
         let without_comment = line.split('#').next().unwrap_or_default();
         (idx + 1, without_comment.trim())
@@ -49,7 +51,8 @@ fn read_head<'t>(lines: &mut impl Iterator<Item = (usize, &'t str)>) -> Result<(
         && is_off_keyword(keyword)
     {
         if keyword.contains(['4', 'n']) || words.contains(&"BINARY") {
-            let what = format!("`{head}` is not supported; export three-dimensional ASCII OFF, or PLY");
+            let what =
+                format!("`{}` is not supported; export three-dimensional ASCII OFF, or PLY", shorten(head));
             return Err(Problem::at(line, what));
         }
         // `STOFF` has no normals, `ST` is for texture.
@@ -94,7 +97,10 @@ fn read_face(face: &str, line: usize, builder: &mut Builder) -> Result<(), Probl
             let last = builder.n_vertices() as i64 - 1;
             Problem::at(
                 line,
-                format!("a face refers to vertex `{word}`, but vertices are numbered from 0 to {last}"),
+                format!(
+                    "a face refers to vertex `{}`, but vertices are numbered from 0 to {last}",
+                    shorten(word)
+                ),
             )
         })?;
         corners.push(corner);

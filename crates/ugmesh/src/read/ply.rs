@@ -1,17 +1,20 @@
 //! Reads Stanford PLY: vertices, faces and triangle strips, in all three encodings.
 
+use std::borrow::Cow;
 use std::io::Cursor;
 
 use glam::DVec3;
 use ply_rs_bw::parser::{Parser, Reader};
 use ply_rs_bw::ply::{Header, Property, PropertyAccess, PropertyAccessResult, PropertyType};
 use ugparse::VertexId;
+use ugpipe::shorten;
 
 use super::strip;
 use crate::builder::{Builder, Rgba};
 use crate::error::Problem;
 
 pub(super) fn read(bytes: &[u8], builder: &mut Builder) -> Result<(), Problem> {
+    let bytes = &*with_line_feeds(bytes);
     let parser = Parser::<Row>::new();
     let mut reader = Reader::new(Cursor::new(bytes));
     let header = parser.read_header(&mut reader).map_err(problem)?;
@@ -41,13 +44,30 @@ pub(super) fn read(bytes: &[u8], builder: &mut Builder) -> Result<(), Problem> {
     Ok(())
 }
 
+/// The file with line feeds where it has carriage returns alone, which the parser does not accept:
+/// in the header, and in rows of text.
+fn with_line_feeds(bytes: &[u8]) -> Cow<'_, [u8]> {
+    const LAST: &[u8] = b"\rend_header\r";
+    if !bytes.starts_with(b"ply\r") || bytes.starts_with(b"ply\r\n") {
+        return bytes.into();
+    }
+    let Some(at) = bytes.windows(LAST.len()).position(|word| word == LAST) else { return bytes.into() };
+    let is_text = bytes[..at].windows(6).any(|word| word == b" ascii");
+    let n_converted = if is_text { bytes.len() } else { at + LAST.len() };
+    let mut converted = bytes.to_vec();
+    for byte in &mut converted[..n_converted] {
+        *byte = if *byte == b'\r' { b'\n' } else { *byte };
+    }
+    converted.into()
+}
+
 /// Rejects what the parser would accept: more rows than the file can contain, and vertices without
 /// coordinates.
 fn check(header: &Header, n_bytes: usize) -> Result<(), Problem> {
     for element in header.elements.values() {
         // Every row takes at least one byte, unless it has no properties, which is useless.
         if element.count > n_bytes || (element.properties.is_empty() && element.count > 0) {
-            let (count, name) = (element.count, &element.name);
+            let (count, name) = (element.count, shorten(&element.name));
             return Err(Problem::new(format!(
                 "{count} rows of `{name}` are declared, but the file has fewer; copy it again"
             )));
@@ -80,7 +100,7 @@ fn problem(error: ply_rs_bw::parser::ParseError) -> Problem {
     let text = error.to_string();
     let first = text.lines().next().unwrap_or_default();
     let what = first.split_once(": ").filter(|_| error.line().is_some()).map_or(first, |(_, what)| what);
-    let what: String = what.trim_end_matches('.').chars().filter(|c| !c.is_control()).take(200).collect();
+    let what: String = what.trim_end_matches('.').chars().take(200).collect();
     let mut letters = what.chars();
     let what = letters.next().map(|c| c.to_ascii_lowercase()).into_iter().chain(letters).collect::<String>();
     Problem { line: error.line(), what }

@@ -6,9 +6,11 @@
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 use ugparse::VertexId;
+use ugpipe::shorten;
 
-use super::text::{self, numbers};
+use super::text::numbers;
 use crate::builder::Builder;
+use crate::decode::decode;
 use crate::error::Problem;
 use crate::format::is_binary_stl;
 
@@ -16,7 +18,7 @@ pub(super) fn read(bytes: &[u8], builder: &mut Builder) -> Result<(), Problem> {
     let mut merged = MergedVertices { builder, by_place: FxHashMap::default() };
     let is_text = bytes.trim_ascii_start().get(..5).is_some_and(|word| word.eq_ignore_ascii_case(b"solid"));
     if is_text && !is_binary_stl(bytes) {
-        read_text(&text::decode(bytes), &mut merged)
+        read_text(&decode(bytes), &mut merged)
     } else {
         read_binary(bytes, &mut merged)
     }
@@ -91,7 +93,9 @@ fn read_text(text: &str, merged: &mut MergedVertices) -> Result<(), Problem> {
                 corners.clear();
             }
             "solid" | "endsolid" | "facet" | "endfacet" | "outer" | "color" | "" => {}
-            _ => return Err(Problem::at(idx + 1, format!("`{keyword}` is not a keyword of STL"))),
+            _ => {
+                return Err(Problem::at(idx + 1, format!("`{}` is not a keyword of STL", shorten(&keyword))));
+            }
         }
     }
     if corners.is_empty() { Ok(()) } else { Err(Problem::new("the file ends inside a facet; copy it again")) }

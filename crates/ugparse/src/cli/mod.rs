@@ -123,8 +123,11 @@ fn run(args: &Args, context: &mut Context) -> Result<bool, Failure> {
             let (source, parsed) = read(source, &options, context).map_err(refused)?;
             warn(&parsed.warnings, context);
             let counts = count::Counts::new(&source, &parsed, &options);
-            let text = if is_json { pretty(&counts.json()) } else { counts.text() };
-            context.write(text.as_bytes())?;
+            if is_json {
+                context.write_json(&pretty(&counts.json()))?;
+            } else {
+                context.write_text(&counts.text())?;
+            }
         }
     }
     Ok(true)
@@ -155,7 +158,7 @@ fn check(source: Source, options: &Options, is_json: bool, context: &mut Context
             "findings": findings_json(&findings),
             "omitted": findings.omitted,
         });
-        context.write(pretty(&report).as_bytes())?;
+        context.write_json(&pretty(&report))?;
         return Ok(is_usable);
     }
     let verdict = if is_usable { "can be used" } else { "cannot be used" };

@@ -189,7 +189,7 @@ impl Expander<'_, '_> {
             let position = inherited.transform.point(vertex.position);
             let normal = vertex.normal.map(|normal| inherited.transform.normal(normal));
             self.check_finite(span, position);
-            self.check_finite(span, normal.unwrap_or_default());
+            normal.into_iter().for_each(|normal| self.check_length(span, normal));
             let name = self.name(scope, vertex.name, inherited);
             if first_time && self.emitted.is_some() {
                 let row = self.scene.vertices.len();

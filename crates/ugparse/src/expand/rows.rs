@@ -174,8 +174,19 @@ impl Expander<'_, '_> {
         }
     }
 
+    /// Checks a normal or another direction.
+    pub(super) fn check_length(&mut self, span: Span, direction: DVec3) {
+        if !direction.is_finite() {
+            self.error.get_or_insert_with(|| {
+                Diagnostic::error(span, "this normal or direction becomes too long when it is placed")
+                    .label("here")
+                    .help("make it shorter; its length has no meaning")
+            });
+        }
+    }
+
     fn check_direction(&mut self, span: Span, direction: DVec3) {
-        self.check_finite(span, direction);
+        self.check_length(span, direction);
         if direction == DVec3::ZERO {
             self.error.get_or_insert_with(|| {
                 Diagnostic::error(span, "this direction becomes zero when it is placed")

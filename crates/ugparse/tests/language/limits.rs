@@ -131,11 +131,11 @@ fn at_most_20_errors_are_listed() {
 
 #[test]
 fn odd_bytes_are_refused_outside_comments() {
-    refused(b"\0", "`?` is not a statement");
+    refused(b"\0", "`\0` is not a statement");
     refused(b"v a 0 0 0;\n\xff\xfe", "`\u{fffd}\u{fffd}` is not a statement");
     refused(b"v a\xff 0 0 0;", "expected a name of letters, digits, `:`, `_` and `#`, found `a\u{fffd}`");
-    refused(b"v a \0 0 0;", "expected a number, found `?`");
-    refused("\u{feff}v a 0 0 0;", "`\u{feff}v` is not a statement");
+    refused(b"v a \0 0 0;", "expected a number, found `\0`");
+    refused("\u{feff}v a 0 0 0;", "this is not a UniGrafix scene but text with a byte order mark");
     assert_eq!(flat(b"{\0\xff}v a 0 0 0;"), "{\0\u{fffd}}\nv a 0 0 0;\n");
 }
 

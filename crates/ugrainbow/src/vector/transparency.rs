@@ -43,12 +43,20 @@ pub fn areas(patches: &[Patch], pieces: &[Piece], size: [u32; 2]) -> Result<Vec<
             areas.push(area);
         }
         if areas.all.len() > MOST_AREAS {
-            return Err(Error::Figure(
-                "too many translucent faces overlap for vector graphics: leave out -vec, and give a larger -sz for print",
-            ));
+            return Err(Error::Figure(too_many(has_clear, pieces.len())));
         }
     }
     Ok(areas.all)
+}
+
+/// Why there are too many areas of so many pieces.
+fn too_many(has_clear: bool, n_pieces: usize) -> &'static str {
+    if has_clear && n_pieces <= MOST_AREAS {
+        "too many translucent faces overlap for vector graphics: leave out -vec, and give a larger -sz for print"
+    } else {
+        "faces, and the parts into which they cut each other, are too many for vector graphics: leave out -vec, \
+         and give a larger -sz for print"
+    }
 }
 
 /// A piece with the background directly behind it.
@@ -113,5 +121,17 @@ impl PaintedAreas {
         is_covered(parts, later.iter().map(|&number| &self.all[number].parts[..]), |own, part| {
             own.beside(part)
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn translucent_faces_are_blamed_only_if_they_add_the_areas() {
+        assert!(too_many(true, 1000).contains("translucent"));
+        assert!(!too_many(true, MOST_AREAS + 1).contains("translucent"));
+        assert!(!too_many(false, MOST_AREAS + 1).contains("translucent"));
     }
 }
