@@ -71,4 +71,4 @@ pub use linear::{LinearFrame, Plane, Samples, display_pixel};
 pub use metadata::Metadata;
 pub use png::Compression;
 pub use quantizer::{Quantizer, ROUNDING_OFFSET};
-pub use read::{ReadError, read_png};
+pub use read::{ReadError, read_png, read_png_header};

@@ -3,12 +3,16 @@
 use std::fmt;
 use std::io::Cursor;
 
+use miniz_oxide::inflate::decompress_to_vec_zlib_with_limit;
 use png::{ColorType, Decoder, Transformations};
 
 use crate::{Frame, Metadata};
 
 /// Largest number of pixels that is accepted.
 const MAX_PIXELS: u64 = 1 << 28;
+
+/// Largest number of bytes of a text that is read, unpacked.
+const MAX_TEXT: usize = 1 << 20;
 
 /// Why a file cannot be read as an image.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -22,32 +26,30 @@ impl fmt::Display for ReadError {
 
 impl std::error::Error for ReadError {}
 
-/// The image of a PNG file of any kind, converted to 8 bits per channel, and its metadata. Colours
-/// are assumed to be sRGB.
+/// The size of the image of a PNG file, and the metadata of the file. The pixels are not decoded.
 ///
 /// # Errors
-/// [`ReadError`] if the file is not a PNG, is truncated or corrupt, or has more than 2²⁸ pixels.
+/// [`ReadError`] if the file is not a PNG, or has more than 2²⁸ pixels.
+pub fn read_png_header(file: &[u8]) -> Result<([u32; 2], Metadata), ReadError> {
+    let mut decoder = decoder(file)?;
+    let size = size(&mut decoder)?;
+    Ok((size, metadata(file)))
+}
+
+/// The image of a PNG file of any kind, converted to 8 bits per channel, and its metadata. Colours
+/// are assumed to be sRGB. The metadata are the texts `Software` and `Comment`, up to 1 MiB each;
+/// longer ones are omitted.
+///
+/// # Errors
+/// [`ReadError`] if the file is not a PNG, is truncated or corrupt, has more than 2²⁸ pixels, or
+/// does not fit in memory.
 pub fn read_png(file: &[u8]) -> Result<(Frame, Metadata), ReadError> {
-    if !file.starts_with(b"\x89PNG") {
-        return Err(ReadError("not a PNG file".to_owned()));
-    }
-    let broken = |error: png::DecodingError| {
-        let problem = error.to_string();
-        ReadError(format!("not a readable PNG file: {}", problem.trim_end_matches('.')))
-    };
-    let mut decoder = Decoder::new(Cursor::new(file));
-    decoder.set_transformations(Transformations::normalize_to_color8());
-    let info = decoder.read_header_info().map_err(broken)?;
-    let (width, height) = (info.width, info.height);
-    if u64::from(width) * u64::from(height) > MAX_PIXELS {
-        return Err(ReadError(format!("{width} x {height} pixels exceed the limit of {MAX_PIXELS}")));
-    }
+    let mut decoder = decoder(file)?;
+    let [width, height] = size(&mut decoder)?;
     let mut reader = decoder.read_info().map_err(broken)?;
     let size = reader.output_buffer_size().ok_or_else(|| ReadError("too large".to_owned()))?;
-    let mut data = vec![0; size];
+    let mut data = zeros(size)?;
     let output = reader.next_frame(&mut data).map_err(broken)?;
-    // Reads the chunks after the pixels. A file truncated there still has its whole image.
-    let _ = reader.finish();
     let data = &data[..output.buffer_size()];
     let (n_channels, is_opaque) = match output.color_type {
         ColorType::Grayscale => (1, true),
@@ -55,8 +57,8 @@ pub fn read_png(file: &[u8]) -> Result<(Frame, Metadata), ReadError> {
         ColorType::Rgb | ColorType::Indexed => (3, true),
         ColorType::Rgba => (4, false),
     };
-    let mut frame = if is_opaque { Frame::opaque(width, height) } else { Frame::clear(width, height) };
-    for (pixel, channels) in frame.pixels_mut().iter_mut().zip(data.chunks_exact(n_channels)) {
+    let mut pixels: Vec<[u8; 4]> = zeros(width as usize * height as usize)?;
+    for (pixel, channels) in pixels.iter_mut().zip(data.chunks_exact(n_channels)) {
         *pixel = match *channels {
             [grey] => [grey, grey, grey, 255],
             [grey, alpha] => [grey, grey, grey, alpha],
@@ -65,21 +67,106 @@ pub fn read_png(file: &[u8]) -> Result<(Frame, Metadata), ReadError> {
             [] => *pixel,
         };
     }
-    Ok((frame, metadata(reader.info())))
+    Ok((Frame::new([width, height], is_opaque, pixels), metadata(file)))
 }
 
-fn metadata(info: &png::Info<'_>) -> Metadata {
-    let latin = info.uncompressed_latin1_text.iter().map(|chunk| (chunk.keyword.clone(), chunk.text.clone()));
-    let packed =
-        info.compressed_latin1_text.iter().map(|chunk| (chunk.keyword.clone(), chunk.get_text().ok()));
-    let wide = info.utf8_text.iter().map(|chunk| (chunk.keyword.clone(), chunk.get_text().ok()));
-    let others = packed.chain(wide).filter_map(|(key, text)| Some((key, text?)));
-    let mut texts: Vec<(String, String)> = latin.chain(others).collect();
-    let mut take = |key: &str| {
-        let at = texts.iter().position(|(other, _)| other == key);
-        at.map(|at| texts.swap_remove(at).1).unwrap_or_default()
-    };
-    Metadata { software: take("Software"), comment: take("Comment") }
+fn broken(error: png::DecodingError) -> ReadError {
+    let problem = error.to_string();
+    ReadError(format!("not a readable PNG file: {}", problem.trim_end_matches('.')))
+}
+
+fn decoder(file: &[u8]) -> Result<Decoder<Cursor<&[u8]>>, ReadError> {
+    if !file.starts_with(b"\x89PNG") {
+        return Err(ReadError("not a PNG file".to_owned()));
+    }
+    let mut decoder = Decoder::new(Cursor::new(file));
+    decoder.set_transformations(Transformations::normalize_to_color8());
+    // A few kilobytes of compressed text or colour profile may unpack to gigabytes. Texts are read
+    // by `metadata`; profiles are not used.
+    decoder.set_ignore_text_chunk(true);
+    decoder.set_ignore_iccp_chunk(true);
+    Ok(decoder)
+}
+
+fn size(decoder: &mut Decoder<Cursor<&[u8]>>) -> Result<[u32; 2], ReadError> {
+    let info = decoder.read_header_info().map_err(broken)?;
+    let (width, height) = (info.width, info.height);
+    if u64::from(width) * u64::from(height) > MAX_PIXELS {
+        return Err(ReadError(format!("{width} x {height} pixels exceed the limit of {MAX_PIXELS}")));
+    }
+    Ok([width, height])
+}
+
+/// `len` zeros, or an error if there is not enough memory.
+fn zeros<T: Clone + Default>(len: usize) -> Result<Vec<T>, ReadError> {
+    let mut zeros = Vec::new();
+    let reserved = zeros.try_reserve_exact(len);
+    reserved.map_err(|_| {
+        ReadError(format!("there is not enough memory for its pixels, {} bytes", len * size_of::<T>()))
+    })?;
+    zeros.resize(len, T::default());
+    Ok(zeros)
+}
+
+/// The first texts with the keywords `Software` and `Comment`. Invalid chunks are omitted.
+fn metadata(file: &[u8]) -> Metadata {
+    let mut metadata = Metadata::default();
+    let mut rest = file.get(8..).unwrap_or_default();
+    while let Some((kind, data, after)) = chunk(rest) {
+        rest = after;
+        if !matches!(kind, b"tEXt" | b"zTXt" | b"iTXt") {
+            continue;
+        }
+        let Some((keyword, text)) = until_zero(data) else { continue };
+        let target = match keyword {
+            b"Software" => &mut metadata.software,
+            b"Comment" => &mut metadata.comment,
+            _ => continue,
+        };
+        if target.is_empty() {
+            *target = text_of(kind, text).unwrap_or_default();
+        }
+    }
+    metadata
+}
+
+/// The first chunk: its type, its data and what follows.
+fn chunk(file: &[u8]) -> Option<(&[u8; 4], &[u8], &[u8])> {
+    let (length, rest) = file.split_first_chunk()?;
+    let (kind, rest) = rest.split_first_chunk()?;
+    let (data, rest) = rest.split_at_checked(u32::from_be_bytes(*length) as usize)?;
+    // The checksum is not read: it cannot prove that a text is what its program wrote.
+    Some((kind, data, rest.get(4..)?))
+}
+
+/// The text of a chunk, after its keyword.
+fn text_of(kind: &[u8; 4], data: &[u8]) -> Option<String> {
+    match kind {
+        b"tEXt" => latin(data),
+        // The first byte is the compression method, which is always zlib.
+        b"zTXt" => latin(&unpacked(data.get(1..)?)?),
+        _ => {
+            let (&[is_packed, _method], data) = data.split_first_chunk()?;
+            let (_language, data) = until_zero(data)?;
+            let (_translated_keyword, data) = until_zero(data)?;
+            let text = if is_packed == 0 { data.to_vec() } else { unpacked(data)? };
+            String::from_utf8(text).ok().filter(|text| text.len() <= MAX_TEXT)
+        }
+    }
+}
+
+fn until_zero(data: &[u8]) -> Option<(&[u8], &[u8])> {
+    let end = data.iter().position(|&byte| byte == 0)?;
+    Some((&data[..end], &data[end + 1..]))
+}
+
+/// Latin-1 as text.
+fn latin(bytes: &[u8]) -> Option<String> {
+    (bytes.len() <= MAX_TEXT).then(|| bytes.iter().copied().map(char::from).collect())
+}
+
+fn unpacked(data: &[u8]) -> Option<Vec<u8>> {
+    decompress_to_vec_zlib_with_limit(data, MAX_TEXT).ok()
 }
 
 #[cfg(test)]
@@ -131,5 +218,76 @@ mod tests {
         let mut huge = file;
         huge[16..20].copy_from_slice(&0x7fff_ffff_u32.to_be_bytes());
         assert!(read_png(&huge).is_err());
+    }
+
+    /// A PNG of one pixel with these chunks after its header.
+    fn with_chunks(chunks: &[(&[u8; 4], Vec<u8>)]) -> Vec<u8> {
+        let file = Format::Png.encode(&Frame::opaque(1, 1), &Metadata::default());
+        let (header, rest) = file.split_at(33);
+        let mut whole = header.to_vec();
+        for (kind, data) in chunks {
+            whole.extend_from_slice(&(data.len() as u32).to_be_bytes());
+            whole.extend_from_slice(*kind);
+            whole.extend_from_slice(data);
+            whole.extend_from_slice(&crc32(&[&kind[..], data].concat()).to_be_bytes());
+        }
+        whole.extend_from_slice(rest);
+        whole
+    }
+
+    /// The checksum of PNG, bit by bit.
+    fn crc32(bytes: &[u8]) -> u32 {
+        let step = |crc: u32, _| if crc & 1 == 0 { crc >> 1 } else { crc >> 1 ^ 0xedb8_8320 };
+        !bytes.iter().fold(u32::MAX, |crc, &byte| (0..8).fold(crc ^ u32::from(byte), step))
+    }
+
+    fn packed(text: &[u8]) -> Vec<u8> {
+        miniz_oxide::deflate::compress_to_vec_zlib(text, 6)
+    }
+
+    #[test]
+    fn texts_of_every_kind_are_read() {
+        let ztxt = |keyword: &str, text: &[u8]| [keyword.as_bytes(), b"\0\0", &packed(text)].concat();
+        let itxt =
+            |flag: u8, text: Vec<u8>| [&b"Comment\0"[..], &[flag, 0], b"el\0\xce\xb3\0", &text].concat();
+        let comment = |chunks: &[(&[u8; 4], Vec<u8>)]| {
+            let file = with_chunks(chunks);
+            let (size, metadata) = read_png_header(&file).unwrap();
+            assert_eq!((size, read_png(&file).unwrap().1), ([1, 1], metadata.clone()));
+            metadata.comment
+        };
+        assert_eq!(comment(&[(b"tEXt", b"Comment\0caf\xe9".to_vec())]), "café");
+        assert_eq!(comment(&[(b"zTXt", ztxt("Comment", b"caf\xe9"))]), "café");
+        assert_eq!(comment(&[(b"iTXt", itxt(0, "γ = 2".into()))]), "γ = 2");
+        assert_eq!(comment(&[(b"iTXt", itxt(1, packed("γ = 2".as_bytes())))]), "γ = 2");
+        assert_eq!(comment(&[(b"tEXt", b"Author\0me".to_vec()), (b"tEXt", b"Comment\0x".to_vec())]), "x");
+        // Invalid ones are omitted, and those after them read.
+        let valid = (b"tEXt", b"Comment\0valid".to_vec());
+        for invalid in
+            [b"".to_vec(), b"Comment".to_vec(), b"Comment\0".to_vec(), b"Comment\0\0broken".to_vec()]
+        {
+            assert_eq!(comment(&[(b"zTXt", invalid.clone()), valid.clone()]), "valid");
+            assert_eq!(comment(&[(b"iTXt", invalid), valid.clone()]), "valid");
+        }
+        assert_eq!(comment(&[(b"iTXt", itxt(0, b"\xff".to_vec())), valid]), "valid");
+    }
+
+    /// Each chunk is small and unpacks to more than is read.
+    #[test]
+    fn packed_texts_and_profiles_are_unpacked_up_to_a_limit() {
+        let bomb = packed(&vec![b'a'; MAX_TEXT + 1]);
+        assert!(bomb.len() < 10_000);
+        let file = |length: usize| {
+            let text = packed(&vec![b'a'; length]);
+            with_chunks(&[(b"zTXt", [b"Comment\0\0", &text[..]].concat())])
+        };
+        assert_eq!(read_png_header(&file(MAX_TEXT)).unwrap().1.comment.len(), MAX_TEXT);
+        assert_eq!(read_png_header(&file(MAX_TEXT + 1)).unwrap().1.comment, "");
+        let profile = with_chunks(&[
+            (b"iCCP", [b"name\0\0", &bomb[..]].concat()),
+            (b"iTXt", [b"Comment\0\x01\0\0\0", &bomb[..]].concat()),
+            (b"zTXt", [b"Other\0\0", &bomb[..]].concat()),
+        ]);
+        assert_eq!(read_png(&profile).unwrap(), (Frame::opaque(1, 1), Metadata::default()));
     }
 }

@@ -2,7 +2,7 @@
 
 use std::fs;
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::ExitCode;
 
 use clap::{Parser, ValueEnum};
@@ -185,11 +185,10 @@ impl TargetName {
     }
 }
 
-/// Reads files in the folder of the mesh. A mesh from a pipe has no folder.
-fn read_file_beside(mesh: Option<PathBuf>) -> impl Fn(&str) -> io::Result<Vec<u8>> {
-    move |name| match mesh.as_deref().map(|mesh| mesh.parent().unwrap_or(Path::new(""))) {
-        // The message without the system's error number.
-        Some(folder) => fs::read(folder.join(name)).map_err(|error| io::Error::from(error.kind())),
+/// Reads a file in the folder of the mesh. A mesh from a pipe has no folder.
+fn read_beside(context: &Context, mesh: Option<&Path>, name: &str, limit: u64) -> io::Result<Vec<u8>> {
+    match mesh.map(|mesh| mesh.parent().unwrap_or(Path::new(""))) {
+        Some(folder) => context.read_named(&folder.join(name), limit),
         None => Err(io::Error::other("standard input has no folder; name the mesh on the command line")),
     }
 }
@@ -204,7 +203,7 @@ pub fn main() -> ExitCode {
             ));
         }
         let read = context.input()?;
-        let read_file = read_file_beside(args.common.input().map(Path::to_path_buf));
+        let read_file = |name: &str, limit| read_beside(context, args.common.input(), name, limit);
         let resolve_includes = |source| pipe::follow(source, &config.reading, context);
         let input = Input::new(read.name, read.text).with_files(&read_file).with_includes(&resolve_includes);
         let converted = crate::run(&config, &input).map_err(|error| match error {

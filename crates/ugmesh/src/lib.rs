@@ -72,8 +72,9 @@ pub struct Config {
     pub command_line: String,
 }
 
-/// Reads a file that a mesh refers to, such as its materials.
-type ReadFile<'a> = &'a dyn Fn(&str) -> io::Result<Vec<u8>>;
+/// Reads a file that a mesh refers to, such as its materials: at most as many bytes as the second
+/// argument says.
+type ReadFile<'a> = &'a dyn Fn(&str, u64) -> io::Result<Vec<u8>>;
 
 /// Replaces the `include` statements of a scene by the files that they name.
 type ResolveIncludes<'a> = &'a dyn Fn(Source) -> Result<Source, Diagnostics>;
@@ -84,7 +85,7 @@ pub struct Input<'a> {
     pub name: String,
     /// The content of the file.
     pub bytes: Vec<u8>,
-    /// Reads a file by the name that the mesh refers to.
+    /// Reads a file by the name that the mesh refers to, up to a number of bytes.
     pub read_file: ReadFile<'a>,
     /// Resolves the `include` statements of UniGrafix.
     pub resolve_includes: ResolveIncludes<'a>,
@@ -94,7 +95,7 @@ impl<'a> Input<'a> {
     /// A mesh that refers to no other files.
     pub fn new(name: impl Into<String>, bytes: impl Into<Vec<u8>>) -> Self {
         let (name, bytes) = (name.into(), bytes.into());
-        Self { name, bytes, read_file: &|_| Err(io::ErrorKind::NotFound.into()), resolve_includes: &Ok }
+        Self { name, bytes, read_file: &|_, _| Err(io::ErrorKind::NotFound.into()), resolve_includes: &Ok }
     }
 
     /// The same mesh with other files that it refers to, which `read_file` reads.

@@ -279,7 +279,7 @@ fn lines_end_with_line_feeds_or_carriage_returns() {
 
 #[test]
 fn files_beside_the_mesh() {
-    let beside = |name: &str| -> std::io::Result<Vec<u8>> {
+    let beside = |name: &str, _limit: u64| -> std::io::Result<Vec<u8>> {
         match name {
             "my colours.mtl" => {
                 Ok(b"# made by hand\nnewmtl deep red\n Kd 0.5 0 0\nd 0.75\nnewmtl bare\nnewmtl white\nKd 1\n"

@@ -9,11 +9,13 @@ use std::io;
 use std::path::{Component, Path, PathBuf};
 
 use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::grammar::KEYWORDS;
 use crate::options::{Limit, Options};
 use crate::parallel_reader::read_document;
 use crate::reader::RequestStatement;
 use crate::refuse_errors;
 use crate::source::{LineMark, Source};
+use crate::token::{comment, escape, word};
 
 /// The kind of a requested text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -76,7 +78,8 @@ impl From<io::Error> for RequestError {
 ///
 /// # Errors
 /// A file that cannot be loaded, or includes itself; a program that fails, or is not allowed to
-/// run; syntax errors in a text with such statements.
+/// run; syntax errors in a text with such statements. Messages quote a requested text only if it
+/// begins like a scene.
 pub fn include(
     source: Source,
     options: &Options,
@@ -87,9 +90,15 @@ pub fn include(
     }
     let name = source.name.clone();
     let first = Text::new(source, options)?;
-    let path = normalized(Path::new(&name));
-    let mut inclusion =
-        Inclusion { options, loader: &mut load, open: vec![(path, first)], n_files: 0, out: Vec::new() };
+    let path = without_dots(Path::new(&name));
+    let mut inclusion = Inclusion {
+        options,
+        loader: &mut load,
+        n_bytes: first.source.text.len() as u64,
+        open: vec![(path, first)],
+        n_files: 0,
+        out: Vec::new(),
+    };
     inclusion.run()?;
     Ok(Source { name, text: inclusion.out })
 }
@@ -137,6 +146,8 @@ struct Inclusion<'i> {
     /// The open texts and their files, from the scene itself inwards.
     open: Vec<(PathBuf, Text)>,
     n_files: u64,
+    /// Bytes of all texts so far, open ones included.
+    n_bytes: u64,
     out: Vec<u8>,
 }
 
@@ -179,6 +190,17 @@ impl Inclusion<'_> {
                 "a scene can run any program; if you trust this one, allow it with --allow-execute".into(),
             ));
         }
+        let refuse_text = || {
+            let text = match statement.kind {
+                RequestKind::Include => format!("file `{shown}`"),
+                RequestKind::Execute => format!("the output of `{shown}`"),
+            };
+            refuse(
+                format!("{text} is not UniGrafix"),
+                "it must begin with a statement or a comment; errors in it are shown if it is read by itself"
+                    .into(),
+            )
+        };
         let path = relative_to(&source.name, &shown);
         if self.open.iter().any(|(open, _)| *open == path) {
             return Err(refuse(
@@ -195,7 +217,7 @@ impl Inclusion<'_> {
             let message = "too many files are included".into();
             return Err(refuse(message, limits.remedy(Limit::Files, "include fewer")));
         }
-        let room = limits.get(Limit::Text).saturating_sub(self.out.len() as u64);
+        let room = limits.get(Limit::Text).saturating_sub(self.n_bytes);
         let text = (self.loader)(&Request { kind: statement.kind, path: &path, room }).map_err(|error| {
             refuse(complaint(statement.kind, &path, &error), remedy(statement.kind, &error))
         })?;
@@ -203,8 +225,14 @@ impl Inclusion<'_> {
             let message = format!("with the text of `{shown}` the scene is too large");
             return Err(refuse(message, limits.remedy(Limit::Text, "split it")));
         }
+        self.n_bytes += text.len() as u64;
         let file = Source { name: path.display().to_string(), text };
-        Ok((path, Text::new(file, self.options)?))
+        // Messages quote lines. Those of a file that is no scene, such as a list of passwords, must
+        // not become visible.
+        let is_scene = begins_like_a_scene(&file.text);
+        let text =
+            Text::new(file, self.options).map_err(|found| if is_scene { found } else { refuse_text() })?;
+        Ok((path, text))
     }
 
     /// Writes a line mark for the text that follows, if any.
@@ -249,25 +277,38 @@ fn remedy(kind: RequestKind, error: &RequestError) -> String {
 
 /// The path of `name`, relative to the folder of `file`.
 fn relative_to(file: &str, name: &str) -> PathBuf {
-    normalized(&Path::new(file).parent().unwrap_or(Path::new("")).join(name))
+    without_dots(&Path::new(file).parent().unwrap_or(Path::new("")).join(name))
 }
 
-/// The path without `.`, and without `..` after a folder; a path of nothing else is `.`.
-fn normalized(path: &Path) -> PathBuf {
-    let mut normalized = PathBuf::new();
-    for component in path.components() {
-        match component {
-            Component::CurDir => {}
-            Component::ParentDir
-                if matches!(normalized.components().next_back(), Some(Component::Normal(_))) =>
-            {
-                normalized.pop();
+/// The path without `.`; a path of nothing else is `.`. A `..` stays: after a link, it is not the
+/// folder of the link.
+fn without_dots(path: &Path) -> PathBuf {
+    let path: PathBuf = path.components().filter(|component| *component != Component::CurDir).collect();
+    if path.as_os_str().is_empty() { ".".into() } else { path }
+}
+
+/// Is the first word after comments, escapes and line marks a keyword?
+fn begins_like_a_scene(mut text: &[u8]) -> bool {
+    loop {
+        text = text.trim_ascii_start();
+        let skipped = match text.first() {
+            Some(b'{') => comment(text).map(|(rest, _)| rest),
+            Some(b'(') => escape(text).map(|(rest, _)| rest),
+            Some(b';') => Ok(&text[1..]),
+            Some(b'#') if is_line_mark(text) => {
+                Ok(&text[memchr::memchr(b'\n', text).unwrap_or(text.len())..])
             }
-            other => normalized.push(other),
+            _ => break,
+        };
+        match skipped {
+            Ok(rest) => text = rest,
+            Err(_) => return false,
         }
     }
-    if normalized.as_os_str().is_empty() {
-        normalized.push(".");
-    }
-    normalized
+    word(text).is_ok_and(|(_, word)| KEYWORDS.split(' ').any(|keyword| keyword.as_bytes() == word))
+}
+
+fn is_line_mark(text: &[u8]) -> bool {
+    let number = text.strip_prefix(b"#line").unwrap_or(&text[1..]).trim_ascii_start();
+    number.first().is_some_and(u8::is_ascii_digit)
 }

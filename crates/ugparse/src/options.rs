@@ -26,17 +26,19 @@ pub enum Limit {
     Nesting,
     /// Depth of instances within instances.
     Chain,
-    /// Statements of the expanded scene; each needs about 200 bytes of memory.
+    /// Statements of the expanded scene.
     Statements,
     /// Corners of its faces and wires; each needs 4 bytes.
     Corners,
     /// Bytes of its names.
     Names,
+    /// Bytes of its tables: vertices, faces, contours, corners, names and all others.
+    Memory,
 }
 
 impl Limit {
     /// All limits.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 9] = [
         Self::Text,
         Self::Includes,
         Self::Files,
@@ -45,6 +47,7 @@ impl Limit {
         Self::Statements,
         Self::Corners,
         Self::Names,
+        Self::Memory,
     ];
 
     /// Finds a limit by its name.
@@ -63,6 +66,7 @@ impl Limit {
             Self::Statements => "statements",
             Self::Corners => "corners",
             Self::Names => "names",
+            Self::Memory => "memory",
         }
     }
 
@@ -73,10 +77,11 @@ impl Limit {
             Self::Includes | Self::Nesting => 64,
             Self::Files => 10_000,
             Self::Chain => 200,
-            // About the memory of common machines.
             Self::Statements => 50_000_000,
             Self::Corners => 500_000_000,
             Self::Names => self.most(),
+            // Growing tables and the output may need as much again.
+            Self::Memory => 2 << 30,
         }
     }
 
@@ -92,12 +97,13 @@ impl Limit {
             Self::Corners => 4_000_000_000,
             // Positions of names are 32-bit, and every name may have to be made unique.
             Self::Names => 2 << 30,
+            Self::Memory => 1 << 40,
         }
     }
 
     fn unit(self) -> &'static str {
         match self {
-            Self::Text | Self::Names => "bytes",
+            Self::Text | Self::Names | Self::Memory => "bytes",
             Self::Includes | Self::Nesting | Self::Chain => "levels",
             Self::Files => "files",
             Self::Statements => "statements",

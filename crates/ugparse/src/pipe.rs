@@ -29,9 +29,17 @@ pub fn options(common: &CommonArgs) -> Result<Options, Failure> {
 /// # Errors
 /// [`Failure::Read`] for the input itself, [`Failure::Report`] for included files.
 pub fn read(context: &mut Context, options: &Options) -> Result<Source, Failure> {
+    follow(input(context, options)?, options, context).map_err(refused)
+}
+
+/// Reads the input scene of a program, without included files.
+///
+/// # Errors
+/// [`Failure::Read`].
+pub fn input(context: &mut Context, options: &Options) -> Result<Source, Failure> {
     // The byte beyond the limit makes the parser refuse the text, with a remedy.
-    let input = context.input_up_to(options.limits.get(Limit::Text))?;
-    follow(Source::new(input.name, input.text), options, context).map_err(refused)
+    let input = context.input_up_to(options.limits.get(Limit::Text) + 1)?;
+    Ok(Source::new(input.name, input.text))
 }
 
 /// Replaces the `include` and `execute` statements of a scene, see [`crate::include`]. Error output
@@ -45,9 +53,9 @@ pub fn follow(source: Source, options: &Options, context: &Context) -> Result<So
 
 fn load(request: &Request<'_>, context: &Context) -> Result<Vec<u8>, RequestError> {
     match request.kind {
-        RequestKind::Include => Ok(ugpipe::read_file(request.path, request.room)?),
+        RequestKind::Include => Ok(context.read_named(request.path, request.room + 1)?),
         RequestKind::Execute => {
-            let printed = ugpipe::run_program(request.path, request.room)?;
+            let printed = context.run_named(request.path, request.room + 1)?;
             if let Some(status) = printed.failure {
                 return Err(RequestError::Failed { status, complaint: printed.error_line });
             }

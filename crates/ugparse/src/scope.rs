@@ -371,6 +371,18 @@ impl<'t> Scope<'t> {
         }
     }
 
+    /// Bytes of the rows that every copy of this scope adds to a scene, with the spans that are
+    /// kept, and without the text of names.
+    pub fn table_bytes(&self) -> usize {
+        self.vertices.len() * (size_of::<Vertex>() + size_of::<Span>())
+            + self.faces.len() * (size_of::<Face>() + size_of::<Span>())
+            + self.wires.len() * size_of::<Wire>()
+            + self.lights.len() * size_of::<Light>()
+            + self.cameras.len() * (size_of::<Camera>() + size_of::<Span>())
+            + self.contours.corner_count() * size_of::<VertexId>()
+            + (self.contours.len() + self.names.len()) * size_of::<u32>()
+    }
+
     /// Adds a name to this scope's table.
     pub fn add_name(&mut self, name: &[u8]) -> NameId {
         self.names.add(as_str(name))

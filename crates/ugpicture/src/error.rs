@@ -14,6 +14,8 @@ pub enum Error {
     Size([u32; 2]),
     /// The samples along a side of a pixel are not 1…[`MAX_SAMPLES`].
     Samples(u32),
+    /// The system has less memory than the picture needs: its size, and bytes.
+    Memory([u32; 2], u64),
     /// Options that exclude each other; the text says which, and what to do.
     Options(&'static str),
     /// Text with a character that the font lacks.
@@ -43,6 +45,11 @@ impl fmt::Display for Error {
                     "{samples} x {samples} samples a pixel cannot be taken; give -aa 1 to {MAX_SAMPLES}"
                 )
             }
+            Self::Memory([width, height], bytes) => write!(
+                f,
+                "there is not enough memory for a picture of {width} x {height} pixels, {bytes} bytes; give a \
+                 smaller -sz"
+            ),
             Self::Options(text) => f.write_str(text),
             Self::Text(missing) => missing.fmt(f),
             Self::Camera(error) => error.fmt(f),

@@ -6,6 +6,7 @@ use ugscene::CameraOptions;
 
 use crate::background::Background;
 use crate::channel::Channel;
+use crate::depth_buffer::SurfaceSample;
 use crate::error::Error;
 use crate::exposure::Exposure;
 use crate::limits::{MAX_PIXELS, MAX_SAMPLES, MAX_SIDE, MAX_VECTOR_SIDE};
@@ -68,10 +69,42 @@ impl PictureOptions {
     /// that exclude each other.
     ///
     /// # Errors
-    /// [`Error::Size`], [`Error::Samples`], [`Error::Options`].
+    /// [`Error::Size`], [`Error::Samples`], [`Error::Options`], [`Error::Memory`].
     pub fn check(&self) -> Result<(), Error> {
         self.check_size()?;
-        self.check_output()
+        self.check_output()?;
+        self.check_memory()
+    }
+
+    /// Refuses a picture for which the system has not enough memory: reserves what pixels and file
+    /// need at the same time, and releases it.
+    fn check_memory(&self) -> Result<(), Error> {
+        let bytes = self.bytes_per_pixel() * u64::from(self.size[0]) * u64::from(self.size[1]);
+        // Small ones fit anywhere.
+        if bytes < 1 << 24 {
+            return Ok(());
+        }
+        let refused = |_| Error::Memory(self.size, bytes);
+        Vec::<u8>::new().try_reserve_exact(usize::try_from(bytes).unwrap_or(usize::MAX)).map_err(refused)
+    }
+
+    /// Memory for a pixel while the file is written: as light, and in the file before packing.
+    fn bytes_per_pixel(&self) -> u64 {
+        const LIGHT: u64 = 16;
+        const COLOR: u64 = 4;
+        let channels = if self.background == Background::Transparent { 4 } else { 3 };
+        match self.output {
+            Output::Vector(_) => 0,
+            _ if self.output.is_linear() => {
+                // Channels are made of the surface at each pixel.
+                let surface =
+                    if self.channels.is_empty() { 0 } else { size_of::<Option<SurfaceSample>>() as u64 };
+                LIGHT + surface + 4 * (channels + self.channels.len() as u64)
+            }
+            Output::Color(Format::Png16) => LIGHT + 2 * channels,
+            _ if self.keeps_light() => LIGHT + COLOR,
+            _ => COLOR,
+        }
     }
 
     /// Refuses a picture that does not fit in memory.

@@ -91,7 +91,7 @@ fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
     }
     context.write(&output)?;
     if let Some(program) = &args.execute {
-        let printed = ugpipe::run_program(program, 1000).map_err(Failure::failed)?;
+        let printed = context.run_named(program, 1000).map_err(Failure::failed)?;
         context.note(&printed.error_line);
     }
     if let Some(seconds) = args.linger {

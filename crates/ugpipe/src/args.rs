@@ -51,9 +51,17 @@ pub struct CommonArgs {
     #[arg(long, help_heading = COMMON)]
     allow_execute: bool,
 
+    /// Read files that the input names outside its folder
+    ///
+    /// Files and programs that the input names (include, execute, mtllib, buffers of glTF) must be
+    /// in the folder of the input or below it; for standard input, in the current folder. Links are
+    /// followed first. Use this option only for inputs you trust.
+    #[arg(long, help_heading = COMMON)]
+    allow_outside: bool,
+
     /// Change a limit on the size of scenes, as in statements=100000000
     ///
-    /// Names of limits: text, includes, files, nesting, chain, statements, corners, names; see
+    /// Names of limits: text, includes, files, nesting, chain, statements, corners, names, memory; see
     /// docs/unigrafix.md. May be given more than once.
     #[arg(long, value_name = "NAME=N", value_parser = limit, help_heading = COMMON)]
     limit: Vec<(String, u64)>,
@@ -100,6 +108,11 @@ impl CommonArgs {
     /// True if programs that the input names may be run.
     pub fn allow_execute(&self) -> bool {
         self.allow_execute
+    }
+
+    /// True if files that the input names may be outside its folder.
+    pub fn allow_outside(&self) -> bool {
+        self.allow_outside
     }
 
     /// The limits that were set, in order. Their names are not checked here.

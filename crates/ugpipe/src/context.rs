@@ -6,6 +6,8 @@ use std::time::Instant;
 
 use crate::args::CommonArgs;
 use crate::failure::Failure;
+use crate::files::{self, Place, ProgramOutput};
+use crate::identity::folder_of;
 use crate::input::{self, Input};
 use crate::messages::Messages;
 use crate::output::Output;
@@ -14,6 +16,14 @@ use crate::text::{printable_json, printable_lines};
 
 /// Largest input in bytes: 4 GiB. Inputs are read into memory whole.
 pub const MAX_INPUT: u64 = u32::MAX as u64;
+
+/// The folder of the input, or for standard input the current folder.
+fn place(common: &CommonArgs) -> Place {
+    if common.allow_outside() {
+        return Place::Anywhere;
+    }
+    Place::Below(common.input().map_or(Path::new("."), folder_of).to_owned())
+}
 
 fn within(limit: u64, input: Input) -> Result<Input, Failure> {
     if input.text.len() as u64 <= limit {
@@ -30,6 +40,8 @@ fn within(limit: u64, input: Input) -> Result<Input, Failure> {
 pub struct Context {
     input: Option<PathBuf>,
     is_input_named: bool,
+    /// Where files and programs that the input names must be.
+    place: Place,
     output: Output,
     /// Additional output files.
     others: Vec<Output>,
@@ -42,6 +54,7 @@ impl Context {
         Self {
             input: common.input().map(Path::to_owned),
             is_input_named: common.input_named().is_some(),
+            place: place(common),
             output: Output::new(common.output()),
             others: Vec::new(),
             messages,
@@ -56,11 +69,10 @@ impl Context {
     /// [`Failure::Read`] if there is no such file or it cannot be read; [`Failure::Failed`] if it
     /// has more than [`MAX_INPUT`] bytes.
     pub fn input(&mut self) -> Result<Input, Failure> {
-        within(MAX_INPUT, self.input_up_to(MAX_INPUT)?)
+        within(MAX_INPUT, self.input_up_to(MAX_INPUT + 1)?)
     }
 
-    /// Like [`Context::input`], and reads up to `limit` + 1 bytes. The caller recognizes an input
-    /// that is too large by the extra byte.
+    /// Like [`Context::input`], and reads at most `limit` bytes.
     ///
     /// # Errors
     /// [`Failure::Read`] if there is no such file or it cannot be read.
@@ -76,7 +88,28 @@ impl Context {
     /// # Errors
     /// As of [`Context::input`].
     pub fn input_file(&self, path: &Path) -> Result<Input, Failure> {
-        within(MAX_INPUT, input::read(Some(path), MAX_INPUT)?)
+        within(MAX_INPUT, input::read(Some(path), MAX_INPUT + 1)?)
+    }
+
+    /// Reads at most `limit` bytes of a file that the input names. It has to be a regular file, in
+    /// the folder of the input or below (for standard input, in the current folder), links
+    /// followed, unless the user allows others (`--allow-outside`).
+    ///
+    /// # Errors
+    /// The file is elsewhere or of another kind, or cannot be read; the error has the system's
+    /// message.
+    pub fn read_named(&self, path: &Path, limit: u64) -> io::Result<Vec<u8>> {
+        files::read_file(path, &self.place, limit)
+    }
+
+    /// Runs a program that the input names, at the places of [`Context::read_named`], without a
+    /// shell, arguments or input, and reads at most `limit` bytes of its standard output. A program
+    /// that prints as much is killed. `PATH` is not searched.
+    ///
+    /// # Errors
+    /// The program is elsewhere, or cannot be run; the error has the system's message.
+    pub fn run_named(&self, path: &Path, limit: u64) -> io::Result<ProgramOutput> {
+        files::run_program(path, &self.place, limit)
     }
 
     /// The program and those of its options that affect the content, for the history comment at the

@@ -1,4 +1,4 @@
-//! Reading files and running programs that an input names, with limits on their size.
+//! Reading files and running programs that an input names, with limits on their size and place.
 
 use std::fs::{self, File};
 use std::io::{self, BufRead, BufReader, Read};
@@ -23,31 +23,59 @@ pub struct ProgramOutput {
     pub failure: Option<String>,
 }
 
-/// Reads a regular file, up to `limit` + 1 bytes. The caller recognizes a file that is too large by
-/// the extra byte.
+/// Why a file that exists is not read.
+const OUTSIDE: &str =
+    "It is outside the folder of the input; if you trust the input, allow it with --allow-outside";
+
+/// The place where files and programs that an input names must be.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum Place {
+    /// Anywhere.
+    Anywhere,
+    /// In this folder or below, links followed.
+    Below(PathBuf),
+}
+
+impl Place {
+    /// The path without links, if it is at this place.
+    fn admit(&self, path: &Path) -> io::Result<PathBuf> {
+        let real = fs::canonicalize(path).map_err(without_number)?;
+        match self {
+            Self::Below(folder) if !real.starts_with(fs::canonicalize(folder).map_err(without_number)?) => {
+                Err(io::Error::new(io::ErrorKind::PermissionDenied, OUTSIDE))
+            }
+            _ => Ok(real),
+        }
+    }
+}
+
+/// Reads at most `limit` bytes of a regular file.
 ///
 /// Devices, pipes and sockets are refused: reading one may never end, and may take data away from
 /// another program.
 ///
 /// # Errors
-/// The file is not a regular file, or cannot be read; the error is the system's message.
-pub fn read_file(path: &Path, limit: u64) -> io::Result<Vec<u8>> {
+/// The file is not at this place, not a regular file, or cannot be read; the error has the system's
+/// message.
+pub(crate) fn read_file(path: &Path, place: &Place, limit: u64) -> io::Result<Vec<u8>> {
+    let path = place.admit(path)?;
     // Checked before it is opened: opening a named pipe waits for a writer.
-    let kind = fs::metadata(path).map_err(without_number)?.file_type();
+    let kind = fs::metadata(&path).map_err(without_number)?.file_type();
     if !kind.is_file() && !kind.is_dir() {
         return Err(io::Error::new(io::ErrorKind::InvalidInput, "It is not a regular file"));
     }
     File::open(path).and_then(|file| read_up_to(file, limit)).map_err(without_number)
 }
 
-/// Runs a program, without a shell, arguments or input, and reads its standard output, up to
-/// `limit` + 1 bytes. A program that prints more is killed.
+/// Runs a program, without a shell, arguments or input, and reads at most `limit` bytes of its
+/// standard output. A program that prints as much is killed.
 ///
 /// `path` is the path of the program; `PATH` is not searched.
 ///
 /// # Errors
-/// The program cannot be run; the error is the system's message.
-pub fn run_program(path: &Path, limit: u64) -> io::Result<ProgramOutput> {
+/// The program is not at this place, or cannot be run; the error has the system's message.
+pub(crate) fn run_program(path: &Path, place: &Place, limit: u64) -> io::Result<ProgramOutput> {
+    place.admit(path)?;
     let mut command = Command::new(without_search(path));
     command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
     let mut running = Running::spawn(&mut command).map_err(without_number)?;
@@ -56,9 +84,14 @@ pub fn run_program(path: &Path, limit: u64) -> io::Result<ProgramOutput> {
     let stderr = child.stderr.take().expect("standard error is a pipe");
     thread::scope(|scope| {
         // Both streams are read concurrently, so that the program never blocks on a full pipe.
-        let error_line = scope.spawn(|| first_line(stderr));
+        let thread = thread::Builder::new().spawn_scoped(scope, || first_line(stderr));
+        let Ok(error_line) = thread else {
+            running.stop();
+            running.child_mut().wait().map_err(without_number)?;
+            return Err(io::Error::new(io::ErrorKind::OutOfMemory, "No thread can be started"));
+        };
         let text = read_up_to(stdout, limit);
-        let is_whole = text.as_ref().is_ok_and(|text| text.len() as u64 <= limit);
+        let is_whole = text.as_ref().is_ok_and(|text| (text.len() as u64) < limit);
         if !is_whole {
             running.stop();
         }
@@ -74,10 +107,10 @@ fn without_search(path: &Path) -> PathBuf {
     if path.components().count() == 1 { Path::new(".").join(path) } else { path.to_owned() }
 }
 
-/// Reads up to `limit` + 1 bytes.
+/// Reads at most `limit` bytes.
 pub(crate) fn read_up_to(from: impl Read, limit: u64) -> io::Result<Vec<u8>> {
     let mut text = Vec::new();
-    from.take(limit.saturating_add(1)).read_to_end(&mut text)?;
+    from.take(limit).read_to_end(&mut text)?;
     Ok(text)
 }
 
@@ -100,7 +133,7 @@ fn without_number(error: io::Error) -> io::Error {
 #[cfg(test)]
 mod tests {
     use std::fs;
-    use std::os::unix::fs::PermissionsExt;
+    use std::os::unix::fs::{PermissionsExt, symlink};
     use std::sync::{Mutex, PoisonError};
 
     use super::*;
@@ -115,7 +148,7 @@ mod tests {
         let path = folder.path().join("program");
         fs::write(&path, format!("#!/bin/sh\n{script}\n")).unwrap();
         fs::set_permissions(&path, fs::Permissions::from_mode(0o755)).unwrap();
-        run_program(&path, limit)
+        run_program(&path, &Place::Anywhere, limit)
     }
 
     #[test]
@@ -129,7 +162,7 @@ mod tests {
         assert!(ran.failure.unwrap().starts_with("signal: 9"));
         // Endless output on both streams.
         let ran = run_script("while :; do echo text; echo words >&2; done", 1000).unwrap();
-        assert_eq!((ran.text.len(), ran.failure, ran.error_line.as_str()), (1001, None, "words"));
+        assert_eq!((ran.text.len(), ran.failure, ran.error_line.as_str()), (1000, None, "words"));
         // Standard input is empty.
         assert_eq!(run_script("cat", 100).unwrap().text, b"");
         assert_eq!(run_script("echo $#", 100).unwrap().text, b"0\n");
@@ -140,25 +173,64 @@ mod tests {
         let _alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
         let words = |error: io::Error| error.to_string();
         assert_eq!(
-            run_program(Path::new("no-such"), 9).map_err(words),
+            run_program(Path::new("no-such"), &Place::Anywhere, 9).map_err(words),
             Err("No such file or directory".into())
         );
         // Programs in `PATH` are not found either.
-        assert_eq!(run_program(Path::new("sh"), 9).map_err(words), Err("No such file or directory".into()));
+        assert_eq!(
+            run_program(Path::new("sh"), &Place::Anywhere, 9).map_err(words),
+            Err("No such file or directory".into())
+        );
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("text");
         fs::write(&path, "0123456789").unwrap();
-        assert_eq!(run_program(&path, 9).map_err(words), Err("Permission denied".into()));
-        assert_eq!(read_file(&path, 4).unwrap(), b"01234");
-        assert_eq!(read_file(&path, 10).unwrap(), b"0123456789");
-        assert_eq!(read_file(&path, u64::MAX).unwrap(), b"0123456789");
+        assert_eq!(run_program(&path, &Place::Anywhere, 9).map_err(words), Err("Permission denied".into()));
+        let read = |path: &Path, limit| read_file(path, &Place::Anywhere, limit);
+        assert_eq!(read(&path, 4).unwrap(), b"0123");
+        assert_eq!(read(&path, 10).unwrap(), b"0123456789");
+        assert_eq!(read(&path, u64::MAX).unwrap(), b"0123456789");
         assert_eq!(
-            read_file(&folder.path().join("no"), 9).map_err(words),
+            read(&folder.path().join("no"), 9).map_err(words),
             Err("No such file or directory".into())
         );
-        let refused = read_file(Path::new("/dev/zero"), 9).map_err(|error| error.to_string());
+        let refused = read(Path::new("/dev/zero"), 9).map_err(|error| error.to_string());
         assert_eq!(refused, Err("It is not a regular file".to_owned()));
-        let refused = read_file(folder.path(), 9).map_err(|error| error.to_string());
+        let refused = read(folder.path(), 9).map_err(|error| error.to_string());
         assert_eq!(refused, Err("Is a directory".to_owned()));
+    }
+
+    #[test]
+    fn files_outside_the_folder_are_refused() {
+        let _alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
+        let folder = tempfile::tempdir().unwrap();
+        let path = |name: &str| folder.path().join(name);
+        fs::create_dir_all(path("in/deep")).unwrap();
+        fs::create_dir(path("inner")).unwrap();
+        fs::write(path("out"), "secret").unwrap();
+        fs::write(path("inner/out"), "secret").unwrap();
+        fs::write(path("in/file"), "public").unwrap();
+        symlink("../out", path("in/link")).unwrap();
+        symlink("file", path("in/alias")).unwrap();
+        symlink("../inner", path("in/folder")).unwrap();
+        symlink("in", path("entry")).unwrap();
+        let place = Place::Below(path("entry"));
+        let read = |name: &str| {
+            let text = read_file(&path(name), &place, 100).map_err(|error| error.to_string())?;
+            Ok(String::from_utf8(text).unwrap())
+        };
+        for name in ["in/file", "entry/file", "in/alias", "in/deep/../file", "in/folder/../in/file"] {
+            assert_eq!(read(name), Ok("public".to_owned()), "{name}");
+        }
+        let outside = ["out", "in/../out", "in/link", "in/folder/out", "inner/out", "in/folder/../out"];
+        for name in outside.into_iter().chain(["/etc/passwd", "/dev/zero", "/proc/self/environ"]) {
+            assert_eq!(read(name), Err(OUTSIDE.to_owned()), "{name}");
+        }
+        assert_eq!(read_file(&path("in/link"), &Place::Anywhere, 3).unwrap(), b"sec");
+        fs::write(path("program"), "#!/bin/sh\necho ran\n").unwrap();
+        fs::set_permissions(path("program"), fs::Permissions::from_mode(0o755)).unwrap();
+        symlink("../program", path("in/program")).unwrap();
+        let refused = run_program(&path("in/program"), &place, 9).map_err(|error| error.to_string());
+        assert_eq!(refused, Err(OUTSIDE.to_owned()));
+        assert_eq!(run_program(&path("in/program"), &Place::Anywhere, 9).unwrap().text, b"ran\n");
     }
 }

@@ -19,7 +19,7 @@ pub struct Input {
 
 const STDIN: &str = "<stdin>";
 
-/// Reads a file, or standard input if `path` is `None`: up to `limit` + 1 bytes.
+/// Reads a file, or standard input if `path` is `None`: at most `limit` bytes.
 pub(crate) fn read(path: Option<&Path>, limit: u64) -> Result<Input, Failure> {
     let (name, text) = match path {
         Some(path) => (path.display().to_string(), File::open(path).and_then(|file| read_up_to(file, limit))),

@@ -18,8 +18,9 @@
 //! - **Streams.** Data goes to standard output, messages to standard error; [`CommonArgs`]
 //!   redirects both to files. A program reads the whole input, computes, and then writes the whole
 //!   output, so an error on the last line of a scene cannot pass half a scene downstream.
-//! - **Files and programs** that an input names are read and run with size limits and without
-//!   searching any path ([`read_file`], [`run_program`]).
+//! - **Files and programs** that an input names are read and run with size limits, without
+//!   searching any path, and only in the folder of the input or below it
+//!   ([`Context::read_named`], [`Context::run_named`]).
 //! - **Output files** are replaced atomically: written to a temporary file in the same folder,
 //!   which is renamed when the run succeeds. Links are followed, permissions kept, devices written
 //!   to directly.
@@ -30,7 +31,8 @@
 //!   ([`Context::write_text`]).
 //! - **Progress.** On a terminal, runs longer than a second show a progress bar; `-vb` prints the
 //!   time of each step. Computations report to a [`Progress`] and do not depend on how it is shown.
-//! - **Exit status** 0 for success, 1 for an invalid scene or an I/O error, 2 for invalid usage. If
+//! - **Exit status** 0 for success, 1 for an invalid scene, an I/O error or lack of memory, 2 for
+//!   invalid usage. If
 //!   the reading end of the output pipe is closed early, the program dies of SIGPIPE without a
 //!   message, like filters written in C.
 //! - **Reproducible output.** The bytes do not depend on `-nt` or on file names:
@@ -38,8 +40,8 @@
 //!   affect the content.
 //!
 //! Limitations: output is not flushed to disk (`fsync`), so a power failure may undo a finished
-//! run. A program that SIGKILL ends while it writes a file leaves the temporary file, `.ug-` and six
-//! letters, in the same folder; other signals do not. A program that is started with standard
+//! run. A program that SIGKILL or lack of memory ends while it writes a file leaves the temporary
+//! file, `.ug-` and six letters, in the same folder; other signals do not. A program that is started with standard
 //! output closed (`>&-`) cannot tell that from `/dev/null`, which Rust opens in its place.
 //!
 //! A library that only reports progress disables the feature `cli`. Then only [`Progress`],
@@ -126,7 +128,7 @@ pub use context::{Context, MAX_INPUT};
 #[cfg(feature = "cli")]
 pub use failure::Failure;
 #[cfg(feature = "cli")]
-pub use files::{ProgramOutput, read_file, run_program};
+pub use files::ProgramOutput;
 #[cfg(feature = "cli")]
 pub use input::Input;
 pub use progress::Progress;

@@ -133,6 +133,6 @@ mod tests {
         let command = <Bare as clap::CommandFactory>::command();
         let ids = command.get_arguments().map(|arg| arg.get_id().as_str());
         let with_effect = Vec::from_iter(ids.filter(|id| !WITHOUT_EFFECT.contains(id)));
-        assert_eq!(with_effect, ["lax", "allow_execute", "limit"]);
+        assert_eq!(with_effect, ["lax", "allow_execute", "allow_outside", "limit"]);
     }
 }

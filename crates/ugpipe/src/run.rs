@@ -4,16 +4,20 @@ use std::env;
 use std::ffi::{OsStr, OsString};
 use std::io;
 use std::process::ExitCode;
+use std::sync::atomic::AtomicBool;
+use std::sync::mpsc::{self, Sender};
 use std::thread;
 
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{ArgMatches, Command};
-use signal_hook::consts::SIGPIPE;
+use rayon::{ThreadBuilder, ThreadPoolBuilder};
+use signal_hook::consts::{SIGABRT, SIGPIPE};
+use signal_hook::flag::register_conditional_shutdown;
 use signal_hook::low_level::emulate_default_handler;
 
 use crate::args::CommonArgs;
 use crate::context::Context;
-use crate::failure::Failure;
+use crate::failure::{Failure, reason};
 use crate::messages::Messages;
 use crate::text::printable;
 use crate::{argv, provenance, streams};
@@ -33,10 +37,11 @@ const BAD_USAGE: u8 = 2;
 /// | status | meaning |
 /// | --- | --- |
 /// | 0 | success |
-/// | 1 | invalid scene, or I/O error |
+/// | 1 | invalid scene, I/O error, or lack of memory |
 /// | 2 | invalid usage |
 /// | killed by SIGPIPE (141 in a shell) | the reading end of the output pipe was closed |
 pub fn main<A: ToolArgs>(run: impl FnOnce(&A, &mut Context) -> Result<(), Failure>) -> ExitCode {
+    exit_on_abort();
     let mut command = argv::prepare(A::command());
     let (args, matches) = match parse::<A>(&mut command) {
         Ok(parsed) => parsed,
@@ -107,18 +112,51 @@ fn print_clap_message(error: &clap::Error, messages: &Messages) -> ExitCode {
     }
 }
 
-/// Sets the number of worker threads of the process.
+/// Starts the worker threads of the process: `n_threads`, or as many as the system allows, up to
+/// one per core. The variable of rayon has no effect.
 ///
 /// The run itself stays on the main thread with its larger stack, for any value of `-nt`.
 fn start_threads(n_threads: Option<usize>) -> Result<(), Failure> {
-    // Without `-nt`, rayon would start as many as its variable says, which may be millions.
-    let is_set = env::var_os("RAYON_NUM_THREADS").is_some();
-    let of_system = || is_set.then(|| thread::available_parallelism().map_or(1, usize::from));
-    let Some(n_threads) = n_threads.or_else(of_system) else { return Ok(()) };
-    rayon::ThreadPoolBuilder::new()
-        .num_threads(n_threads)
-        .build_global()
-        .map_err(|error| Failure::Failed(format!("cannot start {n_threads} threads: {error}")))
+    let wanted = n_threads.unwrap_or_else(|| thread::available_parallelism().map_or(1, usize::from));
+    // rayon panics if a thread cannot be started, so the threads are started first.
+    let mut waiting = Vec::new();
+    for _ in 0..wanted {
+        match waiting_thread() {
+            Ok(thread) => waiting.push(thread),
+            Err(error) if n_threads.is_some() => {
+                let why = reason(&error);
+                let message = format!("cannot start {wanted} threads: {why}; give a smaller number to -nt");
+                return Err(Failure::Failed(message));
+            }
+            Err(_) => break,
+        }
+    }
+    let pool = ThreadPoolBuilder::new();
+    if waiting.is_empty() {
+        return Ok(pool.num_threads(1).use_current_thread().build_global()?);
+    }
+    let pool = pool.num_threads(waiting.len());
+    Ok(pool
+        .spawn_handler(|thread| {
+            waiting[thread.index()].send(thread).map_err(|_| io::ErrorKind::BrokenPipe.into())
+        })
+        .build_global()?)
+}
+
+/// Starts a thread that waits for its work.
+fn waiting_thread() -> io::Result<Sender<ThreadBuilder>> {
+    let (sender, receiver) = mpsc::channel();
+    let work = move || receiver.recv().map_or((), ThreadBuilder::run);
+    thread::Builder::new().spawn(work)?;
+    Ok(sender)
+}
+
+/// Makes lack of memory end the program with status 1: the standard library prints how many bytes
+/// could not be allocated, and aborts.
+fn exit_on_abort() {
+    static ALWAYS: AtomicBool = AtomicBool::new(true);
+    // Without the handler the program is killed by SIGABRT, as any other.
+    let _ = register_conditional_shutdown(SIGABRT, BAD_INPUT.into(), &ALWAYS);
 }
 
 /// Ends like filters written in C when the reading end of their pipe is closed. Rust programs

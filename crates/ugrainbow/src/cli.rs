@@ -285,10 +285,9 @@ pub fn draw(args: &Args, context: &mut Context) -> Result<(), Failure> {
     if report.is_none() && context.output_is_terminal() {
         redirect(config.picture.output, context)?;
     }
-    let input = context.input()?;
+    let input = pipe::input(context, &config.reading)?;
     context.detail(&format!("read {} bytes of `{}`", input.text.len(), input.name));
-    let source =
-        pipe::follow(Source::new(input.name, input.text), &config.reading, context).map_err(pipe::refused)?;
+    let source = pipe::follow(input, &config.reading, context).map_err(pipe::refused)?;
     if let Some((pixel, report)) = report {
         return explain_pixel(&config, &source, pixel, report, context);
     }

@@ -4,9 +4,9 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::{ArgAction, Parser, ValueEnum};
-use ugimage::{Format, read_png};
+use ugimage::{Format, ReadError, read_png, read_png_header};
 use ugphysics::Hsv;
-use ugpipe::{CommonArgs, Context, Failure, ToolArgs, finite, whole};
+use ugpipe::{CommonArgs, Context, Failure, Input, ToolArgs, finite, whole};
 
 use crate::{Config, Error, Labels, Picture, history, sheet};
 
@@ -149,12 +149,15 @@ impl Args {
     }
 }
 
-/// Reads the picture of an input. `path` is its file, `None` for standard input.
-fn picture(path: Option<&Path>, input: &ugpipe::Input) -> Result<Picture, Failure> {
-    let (frame, history) =
-        read_png(&input.text).map_err(|error| Failure::Failed(format!("`{}`: {error}", input.name)))?;
+/// The picture of an input, without its pixels. `path` is its file, `None` for standard input.
+fn picture(path: Option<&Path>, input: &Input) -> Result<Picture, Failure> {
+    let (size, history) = read_png_header(&input.text).map_err(|error| unreadable(input, &error))?;
     let name = path.and_then(Path::file_stem).map(|stem| stem.to_string_lossy().into_owned());
-    Ok(Picture { name: name.unwrap_or_default(), frame, history })
+    Ok(Picture { name: name.unwrap_or_default(), size, history })
+}
+
+fn unreadable(input: &Input, error: &ReadError) -> Error {
+    Error::Picture(format!("`{}`: {error}", input.name))
 }
 
 /// The program.
@@ -167,11 +170,19 @@ pub fn main() -> ExitCode {
                 "a picture is not written to a terminal; send it to a file with `> FILE` or -fo FILE",
             ));
         }
-        let mut pictures = vec![picture(args.common.input(), &context.input()?)?];
+        let mut inputs = vec![context.input()?];
+        let mut pictures = vec![picture(args.common.input(), &inputs[0])?];
         for path in &args.files {
-            pictures.push(picture(Some(path), &context.input_file(path)?)?);
+            let input = context.input_file(path)?;
+            pictures.push(picture(Some(path), &input)?);
+            inputs.push(input);
         }
-        let frame = sheet(&config, &pictures).map_err(|error| match error {
+        // The pixels of a picture need much more memory than its file.
+        let frame_of = |idx: usize| {
+            let input: &Input = &inputs[idx];
+            read_png(&input.text).map(|(frame, _)| frame).map_err(|error| unreadable(input, &error))
+        };
+        let frame = sheet(&config, &pictures, frame_of).map_err(|error| match error {
             Error::Count { .. } | Error::Text { .. } => Failure::usage(error),
             error => Failure::failed(error),
         })?;

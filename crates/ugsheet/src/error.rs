@@ -28,6 +28,8 @@ pub enum Error {
     },
     /// The sheet has more than 2²⁸ pixels, or the pictures are too narrow for text.
     Size,
+    /// A picture cannot be read; the message names it.
+    Picture(String),
 }
 
 impl fmt::Display for Error {
@@ -46,6 +48,7 @@ impl fmt::Display for Error {
             Self::Text { text, missing } => {
                 write!(f, "in `{text}`: {missing}; change the text, or use -label or -lb none")
             }
+            Self::Picture(message) => f.write_str(message),
             Self::Size => write!(f, "the sheet has more than {MAX_PIXELS} pixels; draw smaller pictures"),
         }
     }

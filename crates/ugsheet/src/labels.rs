@@ -109,14 +109,14 @@ impl MotionOptions {
 
 #[cfg(test)]
 mod tests {
-    use ugimage::{Frame, Metadata};
+    use ugimage::Metadata;
 
     use super::*;
 
     fn texts(labels: &Labels, comments: &[&str]) -> Vec<String> {
         let picture = |(idx, comment): (usize, &&str)| Picture {
             name: format!("n{idx}"),
-            frame: Frame::opaque(1, 1),
+            size: [1; 2],
             history: Metadata { software: String::new(), comment: (*comment).to_owned() },
         };
         labels.texts(&comments.iter().enumerate().map(picture).collect::<Vec<_>>())

@@ -43,12 +43,16 @@ impl Layout {
             .map_or_else(|| n.isqrt() + usize::from(n.isqrt().pow(2) < n), |columns| columns as usize);
         let n_columns = n_columns.clamp(1, n);
         let widest = |column: usize| {
-            pictures.iter().skip(column).step_by(n_columns).map(|picture| picture.frame.width()).max()
+            pictures.iter().skip(column).step_by(n_columns).map(|picture| picture.size[0]).max()
         };
         let widths: Vec<u32> = (0..n_columns).map(|column| widest(column).unwrap_or(0)).collect();
         let inner: u64 = widths.iter().map(|&width| u64::from(width)).sum::<u64>()
             + (n_columns as u64 - 1) * u64::from(gap);
-        let width = u32::try_from(inner + 2 * u64::from(margin)).map_err(|_| Error::Size)?;
+        let width = inner + 2 * u64::from(margin);
+        if width > MAX_PIXELS {
+            return Err(Error::Size);
+        }
+        let width = width as u32;
         let mut page = Page { width, margin, row: margin, lines: Vec::new() };
         page.heading(&config.title, TITLE * text)?;
         let mut places = Vec::with_capacity(n);
@@ -56,11 +60,11 @@ impl Layout {
             if row > 0 {
                 page.advance(gap)?;
             }
-            let height = cells.iter().map(|picture| picture.frame.height()).max().unwrap_or(0);
+            let height = cells.iter().map(|picture| picture.size[1]).max().unwrap_or(0);
             let mut column = margin;
             let mut label_rows = 0;
             for (idx, picture) in cells.iter().enumerate() {
-                let [free, above] = [widths[idx] - picture.frame.width(), height - picture.frame.height()];
+                let [free, above] = [widths[idx] - picture.size[0], height - picture.size[1]];
                 places.push([column + free / 2, page.row + above / 2]);
                 let number = row * n_columns + idx;
                 let label = with_letter(config.letters, number, &labels[number]);
@@ -84,7 +88,10 @@ impl Layout {
 /// The default text size. It depends on the mean area of the pictures only, so that sheets of
 /// similar pictures have the same text size.
 fn text_size(pictures: &[Picture]) -> f64 {
-    let sum: f64 = pictures.iter().map(|picture| picture.frame.pixels().len() as f64).sum();
+    let sum: f64 = pictures
+        .iter()
+        .map(|Picture { size: [width, height], .. }| f64::from(*width) * f64::from(*height))
+        .sum();
     let mean = (sum / pictures.len() as f64).sqrt();
     (mean / PER_TEXT).round().clamp(SIZES[0], SIZES[1])
 }

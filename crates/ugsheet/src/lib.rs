@@ -14,12 +14,12 @@
 //!
 //! let picture = |line: &str| Picture {
 //!     name: "ship".into(),
-//!     frame: Frame::opaque(80, 60),
+//!     size: [80, 60],
 //!     history: Metadata { software: "ugrainbow".into(), comment: line.into() },
 //! };
 //! let pictures = [picture("uglorentz -vel 0 0 0"), picture("uglorentz -vel .9 0 0")];
 //! assert_eq!(Labels::Auto.texts(&pictures), ["at rest", "β = 0.9"]);
-//! let sheet = ugsheet::sheet(&Config::default(), &pictures)?;
+//! let sheet = ugsheet::sheet(&Config::default(), &pictures, |_| Ok(Frame::opaque(80, 60)))?;
 //! assert!(sheet.width() > 160 && sheet.height() > 60);
 //! # Ok::<(), ugsheet::Error>(())
 //! ```
@@ -46,8 +46,8 @@ pub use uglabel::Rgb;
 pub struct Picture {
     /// Its file name, without folder and extension.
     pub name: String,
-    /// Its pixels.
-    pub frame: Frame,
+    /// Its width and height in pixels.
+    pub size: [u32; 2],
     /// The history recorded in its file.
     pub history: Metadata,
 }
@@ -89,19 +89,28 @@ impl Default for Config {
     }
 }
 
-/// Makes a sheet.
+/// Makes a sheet. `frame_of` returns the pixels of a picture by its index; it is called once for
+/// each picture, in order, so that only one has to be in memory.
 ///
 /// # Errors
-/// There are no pictures, the number of labels is wrong, the font lacks a character, or the sheet
-/// is too large.
-pub fn sheet(config: &Config, pictures: &[Picture]) -> Result<Frame, Error> {
+/// There are no pictures, the number of labels is wrong, the font lacks a character, the sheet is
+/// too large, or a picture cannot be read or has another size.
+pub fn sheet(
+    config: &Config,
+    pictures: &[Picture],
+    mut frame_of: impl FnMut(usize) -> Result<Frame, Error>,
+) -> Result<Frame, Error> {
     let labels = config.labels.checked(pictures)?;
     let layout = Layout::new(config, pictures, &labels)?;
     let mut frame = Frame::opaque(layout.size[0], layout.size[1]);
     let [red, green, blue] = config.background;
     frame.pixels_mut().fill([red, green, blue, 255]);
-    for (picture, &place) in pictures.iter().zip(&layout.pictures) {
-        copy(&picture.frame, place, &mut frame);
+    for (idx, (picture, &place)) in pictures.iter().zip(&layout.pictures).enumerate() {
+        let pixels = frame_of(idx)?;
+        if [pixels.width(), pixels.height()] != picture.size {
+            return Err(Error::Picture(format!("`{}` has changed while it was read", picture.name)));
+        }
+        copy(&pixels, place, &mut frame);
     }
     let mut drawing = Drawing::default();
     for (line, origin) in &layout.lines {

@@ -10,7 +10,23 @@ use std::process::{Command, Output, Stdio};
 
 use ugimage::{Format, Frame, Metadata, read_png};
 use ugrandom::Random;
-use ugsheet::{Config, Error, Labels, Picture, sheet};
+use ugsheet::{Config, Error, Labels};
+
+/// A picture with its pixels.
+#[derive(Clone)]
+struct Picture {
+    name: String,
+    frame: Frame,
+}
+
+fn sheet(config: &Config, pictures: &[Picture]) -> Result<Frame, Error> {
+    let headers = pictures.iter().map(|Picture { name, frame }| ugsheet::Picture {
+        name: name.clone(),
+        size: [frame.width(), frame.height()],
+        history: Metadata::default(),
+    });
+    ugsheet::sheet(config, &headers.collect::<Vec<_>>(), |idx| Ok(pictures[idx].frame.clone()))
+}
 
 /// A picture of noise, so that it occurs only once on a sheet.
 fn picture(name: &str, width: u32, height: u32, seed: u64) -> Picture {
@@ -20,7 +36,7 @@ fn picture(name: &str, width: u32, height: u32, seed: u64) -> Picture {
         let [r, g, b, ..] = random.bits().to_be_bytes();
         *pixel = [r, g, b | 1, 255];
     }
-    Picture { name: name.into(), frame, history: Metadata::default() }
+    Picture { name: name.into(), frame }
 }
 
 /// The positions at which a sheet contains exactly the pixels of a picture.
@@ -121,6 +137,11 @@ fn invalid_requests_are_errors() {
     assert!(sheet(&Config { labels: Labels::None, ..Config::default() }, &pictures).is_ok());
     let wide = Config { labels: Labels::None, gap: Some([10_000; 2]), columns: Some(1), ..Config::default() };
     assert_eq!(sheet(&wide, &[&pictures[..]; 10].concat()), Err(Error::Size));
+    // No pixels are read for a sheet that is too large.
+    let huge =
+        ugsheet::Picture { name: String::new(), size: [1 << 14, 1 << 14], history: Metadata::default() };
+    let read = |_| unreachable!("no pixels are read");
+    assert_eq!(ugsheet::sheet(&Config::default(), &[huge.clone(), huge], read), Err(Error::Size));
 }
 
 fn ugsheet(folder: &Path, args: &[&str]) -> Command {
@@ -200,8 +221,11 @@ fn the_program_writes_other_formats() {
 #[test]
 fn a_closed_pipe_ends_the_program_by_sigpipe() {
     let folder = folder();
-    let mut child = ugsheet(folder.path(), &["rest.png"]).spawn().unwrap();
+    let mut child = ugsheet(folder.path(), &["-"]).spawn().unwrap();
+    // Closed before there is anything to write.
     drop(child.stdout.take());
+    let picture = fs::read(folder.path().join("rest.png")).unwrap();
+    child.stdin.take().unwrap().write_all(&picture).unwrap();
     let output = child.wait_with_output().unwrap();
     assert_eq!(output.status.signal(), Some(13));
     assert!(output.stderr.is_empty());

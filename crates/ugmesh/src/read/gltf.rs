@@ -32,8 +32,14 @@ pub(super) fn read(input: &Input, builder: &mut Builder) -> Result<(), Problem> 
     if let Some(copyright) = &document.as_json().asset.copyright {
         builder.comment(copyright);
     }
-    let mut reader =
-        Reader { builder, buffers, numbers: FxHashMap::default(), n_skipped: 0, has_textures: false };
+    let mut reader = Reader {
+        builder,
+        buffers,
+        numbers: FxHashMap::default(),
+        room: MAX_NUMBERS,
+        n_skipped: 0,
+        has_textures: false,
+    };
     reader.scene(&document, &nodes)?;
     let (n_skipped, has_textures) = (reader.n_skipped, reader.has_textures);
     if document.nodes().any(|node| node.skin().is_some()) {
@@ -115,6 +121,9 @@ fn check(root: &Root) -> Result<(), Problem> {
     found.map_or(Ok(()), Err)
 }
 
+/// Largest number of bytes of all buffers, as the mesh states them.
+const MAX_BUFFER_BYTES: u64 = u32::MAX as u64;
+
 /// All buffers: of the file itself, from data URIs and from separate files.
 fn buffers<'a>(
     document: &Document,
@@ -122,12 +131,17 @@ fn buffers<'a>(
     input: &Input,
 ) -> Result<Vec<Cow<'a, [u8]>>, Problem> {
     let mut buffers = Vec::new();
+    let mut room = MAX_BUFFER_BYTES;
     for buffer in document.buffers() {
+        room = room.checked_sub(buffer.length() as u64).ok_or_else(|| {
+            let what = "the buffers have more than";
+            Problem::new(format!("{what} {MAX_BUFFER_BYTES} bytes together, the limit; split the mesh"))
+        })?;
         let bytes: Cow<[u8]> = match buffer.source() {
             gltf::buffer::Source::Bin => {
                 blob.take().ok_or_else(|| Problem::new("the binary chunk is missing; copy the file again"))?
             }
-            gltf::buffer::Source::Uri(uri) => load(uri, input)?.into(),
+            gltf::buffer::Source::Uri(uri) => load(uri, buffer.length() as u64, input)?.into(),
         };
         if bytes.len() < buffer.length() {
             let (index, length) = (buffer.index(), buffer.length());
@@ -145,7 +159,8 @@ const BASE64: GeneralPurpose = GeneralPurpose::new(
     GeneralPurposeConfig::new().with_decode_padding_mode(DecodePaddingMode::Indifferent),
 );
 
-fn load(uri: &str, input: &Input) -> Result<Vec<u8>, Problem> {
+/// The content of a buffer. Of a file, the first `length` bytes are read.
+fn load(uri: &str, length: u64, input: &Input) -> Result<Vec<u8>, Problem> {
     if let Some(data) = uri.strip_prefix("data:") {
         let (_, code) = data
             .split_once(";base64,")
@@ -159,7 +174,7 @@ fn load(uri: &str, input: &Input) -> Result<Vec<u8>, Problem> {
             shorten(&name)
         )));
     }
-    (input.read_file)(&name).map_err(|error| {
+    (input.read_file)(&name, length).map_err(|error| {
         Problem::new(format!("cannot read `{}`: {error}; put it in the folder of the mesh", shorten(&name)))
     })
 }
@@ -183,11 +198,16 @@ fn percent_decoded(uri: &str) -> String {
     String::from_utf8_lossy(&bytes).into_owned()
 }
 
+/// Largest number of numbers in all accessors: 2 GiB as `f64`.
+const MAX_NUMBERS: usize = 1 << 28;
+
 struct Reader<'a, 'b> {
     builder: &'a mut Builder,
     buffers: Vec<Cow<'b, [u8]>>,
     /// The numbers of accessors that were already read: primitives may share accessors.
     numbers: FxHashMap<usize, Rc<Vec<f64>>>,
+    /// How many more numbers accessors may have.
+    room: usize,
     n_skipped: usize,
     has_textures: bool,
 }
@@ -312,6 +332,12 @@ impl Reader<'_, '_> {
         if let Some(known) = self.numbers.get(&accessor.index()) {
             return Ok(Rc::clone(known));
         }
+        let n_numbers = accessor.count().saturating_mul(accessor.dimensions().multiplicity());
+        self.room = self.room.checked_sub(n_numbers).ok_or_else(|| {
+            Problem::new(format!(
+                "the accessors have more than {MAX_NUMBERS} numbers together; split the mesh"
+            ))
+        })?;
         let numbers = Rc::new(accessor::read(accessor, &self.buffers)?);
         self.numbers.insert(accessor.index(), Rc::clone(&numbers));
         Ok(numbers)

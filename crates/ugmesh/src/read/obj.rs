@@ -51,6 +51,9 @@ fn statements(text: &str) -> impl Iterator<Item = (usize, Cow<'_, str>)> {
     })
 }
 
+/// Largest number of bytes of all material files of a mesh.
+const MAX_MATERIAL_BYTES: u64 = 1 << 28;
+
 struct Reader<'a> {
     input: &'a Input<'a>,
     builder: &'a mut Builder,
@@ -60,6 +63,10 @@ struct Reader<'a> {
     /// For each face, its end in `corners` and its colour.
     faces: Vec<(usize, Option<ColorId>)>,
     materials: Materials,
+    /// The arguments of `mtllib` so far.
+    libraries: BTreeSet<String>,
+    /// How many more bytes files of materials may have.
+    material_room: u64,
     /// The colour of the following faces.
     color: Option<ColorId>,
     n_skipped: usize,
@@ -75,6 +82,8 @@ impl<'a> Reader<'a> {
             corners: Vec::new(),
             faces: Vec::new(),
             materials: Materials::default(),
+            libraries: BTreeSet::new(),
+            material_room: MAX_MATERIAL_BYTES,
             color: None,
             n_skipped: 0,
             unknown_materials: BTreeSet::new(),
@@ -88,7 +97,7 @@ impl<'a> Reader<'a> {
             "vn" => self.normal(rest)?,
             "f" => self.face(rest)?,
             "l" | "p" | "curv" | "curv2" | "surf" => self.n_skipped += 1,
-            "mtllib" => self.load_materials(rest),
+            "mtllib" => self.load_materials(rest)?,
             "usemtl" => self.use_material(rest),
             _ => {}
         }
@@ -153,20 +162,34 @@ impl<'a> Reader<'a> {
 
     /// `mtllib` allows several names, but a single name with spaces is more common, so that is
     /// tried first.
-    fn load_materials(&mut self, rest: &str) {
-        let names: Vec<&str> = rest.split_whitespace().collect();
-        if let Ok(bytes) = (self.input.read_file)(rest) {
-            return self.materials.add(&bytes);
+    fn load_materials(&mut self, rest: &str) -> Result<(), Problem> {
+        if !self.libraries.insert(rest.to_owned()) {
+            return Ok(());
         }
+        if let Ok(bytes) = (self.input.read_file)(rest, self.material_room + 1) {
+            return self.add_materials(&bytes);
+        }
+        let names: Vec<&str> = rest.split_whitespace().collect();
         for name in if names.is_empty() { vec![rest] } else { names } {
-            match (self.input.read_file)(name) {
-                Ok(bytes) => self.materials.add(&bytes),
+            match (self.input.read_file)(name, self.material_room + 1) {
+                Ok(bytes) => self.add_materials(&bytes)?,
                 Err(error) => {
                     self.builder
                         .warn(format!("colours are missing: cannot read `{}`: {error}", shorten(name)));
                 }
             }
         }
+        Ok(())
+    }
+
+    fn add_materials(&mut self, bytes: &[u8]) -> Result<(), Problem> {
+        self.material_room = self.material_room.checked_sub(bytes.len() as u64).ok_or_else(|| {
+            Problem::new(format!(
+                "the files of materials have more than {MAX_MATERIAL_BYTES} bytes together, the limit"
+            ))
+        })?;
+        self.materials.add(bytes);
+        Ok(())
     }
 
     fn use_material(&mut self, name: &str) {

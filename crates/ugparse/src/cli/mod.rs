@@ -109,8 +109,7 @@ fn run(args: &Args, context: &mut Context) -> Result<bool, Failure> {
         return Err(Failure::usage("the command must come before the file: `ugparse tidy FILE`"));
     }
     let options = pipe::options(common)?;
-    let input = context.input()?;
-    let source = Source::new(input.name, input.text);
+    let source = pipe::input(context, &options)?;
     match args.command {
         None | Some(Command::Check(_)) => return check(source, &options, is_json, context),
         Some(Command::Tidy(_)) => context.write(&crate::tidy(&source, &options).map_err(refused)?)?,

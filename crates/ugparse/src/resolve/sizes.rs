@@ -4,11 +4,16 @@ use rustc_hash::FxHashSet;
 
 use super::Links;
 use super::undefined::show;
+use crate::body::Body;
 use crate::diagnostic::Diagnostic;
 use crate::options::{Limit, Limits};
 use crate::scope::Scope;
 use crate::source::Span;
 use crate::statement::{CallStatement, Repeat};
+
+/// Memory for an entry of a hash table of names, without their text: the string with the overhead
+/// of its allocation, and the free places of the table.
+const BYTES_PER_UNIQUE_NAME: u64 = 64;
 
 /// Computes the sizes of scopes with their calls.
 pub(super) struct Sizes<'g, 't> {
@@ -30,6 +35,17 @@ impl Sizes<'_, '_> {
         }
         let size = sizes[0].unwrap_or_default();
         self.too_large(size).map_or(Ok(size.levels), Err)
+    }
+
+    /// Bytes of all tables of the expanded scene.
+    fn memory(&self, size: &Size) -> u64 {
+        let own = self.own_sizes[0];
+        // The names of copies are also in a set, to be made unique, and for paths in an index.
+        let has_paths = self.scopes.iter().any(|scope| !scope.paths.is_empty());
+        let n_sets = if has_paths { 2 } else { 1 };
+        let names = (size.names - own.names).saturating_mul(BYTES_PER_UNIQUE_NAME);
+        let sets = names.saturating_add(size.name_bytes - own.name_bytes).saturating_mul(n_sets);
+        size.bytes.saturating_add(size.name_bytes).saturating_add(sets)
     }
 
     /// Computes the sizes of `root` and of all scopes it places, without recursion.
@@ -98,6 +114,7 @@ impl Sizes<'_, '_> {
             (size.statements, Limit::Statements, "statements"),
             (size.corners, Limit::Corners, "corners of faces"),
             (size.name_bytes, Limit::Names, "bytes of names"),
+            (self.memory(&size), Limit::Memory, "bytes in its tables"),
         ]
         .into_iter()
         .find(|&(count, limit, _)| count > self.limits.get(limit))?;
@@ -127,6 +144,8 @@ pub(super) struct Size {
     corners: u64,
     names: u64,
     name_bytes: u64,
+    /// Bytes of the tables, without those of names.
+    bytes: u64,
     /// Length of the longest chain of nested instances.
     levels: usize,
     /// The call with the most statements.
@@ -144,6 +163,8 @@ impl Size {
             corners: copies.saturating_mul(self.corners),
             names: copies.saturating_mul(self.names),
             name_bytes: copies.saturating_mul(name_bytes),
+            // A call with a velocity makes a body.
+            bytes: copies.saturating_mul(self.bytes).saturating_add(size_of::<Body>() as u64),
             ..*self
         }
     }
@@ -153,6 +174,7 @@ impl Size {
         self.corners = self.corners.saturating_add(other.corners);
         self.names = self.names.saturating_add(other.names);
         self.name_bytes = self.name_bytes.saturating_add(other.name_bytes);
+        self.bytes = self.bytes.saturating_add(other.bytes);
         self.levels = self.levels.max(other.levels);
     }
 }
@@ -162,7 +184,8 @@ impl Scope<'_> {
     pub(super) fn own_size(&self) -> Size {
         let (corners, names) = (self.contours.corner_count() as u64, self.names.len() as u64);
         let name_bytes = self.names.len_bytes() as u64;
-        Size { statements: self.n_statements, corners, names, name_bytes, ..Size::default() }
+        let bytes = self.table_bytes() as u64;
+        Size { statements: self.n_statements, corners, names, name_bytes, bytes, ..Size::default() }
     }
 }
 

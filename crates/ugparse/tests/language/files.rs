@@ -56,13 +56,14 @@ fn files_are_included() {
     let expected = "{ head }\nc red 1 0 1;\nv t:a 0 0 0;\nv t:b 1 0 0;\nv t:c 0 1 0;\nf (t:a t:b t:c) red;\n";
     let scene = "{ head }\ndef t; include sub/triangle.ug; end; i (t);\ninclude \"sub/../colors.ug\" ;";
     let whole = format!("{};", triangle.1);
-    let written = read(&[("scene.ug", scene), (triangle.0, &whole), ("colors.ug", "c red 1 0;")]);
+    let written = read(&[("scene.ug", scene), (triangle.0, &whole), ("sub/../colors.ug", "c red 1 0;")]);
     assert_eq!(written, expected);
     // Names are relative to the file that contains them.
     let inner = [
         ("a/scene.ug", "include b/one.ug;"),
         ("a/b/one.ug", "include ../two.ug;"),
-        ("a/two.ug", "v p 1 2 3;"),
+        // `b` may be a link: only the system knows where `b/..` is.
+        ("a/b/../two.ug", "v p 1 2 3;"),
     ];
     assert_eq!(read(&inner), "v p 1 2 3;\n");
     // Including the same file twice is not recursive.
@@ -121,6 +122,40 @@ fn messages_name_the_file_that_is_wrong() {
 }
 
 #[test]
+fn files_that_are_no_scenes_are_not_quoted() {
+    let secrets = [
+        "root:x:0:0:secret",
+        "secret = v;",
+        "{ a comment }\nsecret;",
+        "(an escape)\n\nsecret",
+        "# secret\nv 1",
+        "#secret",
+        "# 3 \"a\"\nsecret",
+        "{ secret",
+        "( secret",
+        "\"secret\"",
+        "vsecret 1 2 3;",
+        "\0secret",
+        "secret",
+    ];
+    for secret in secrets {
+        let found = read(&[("s.ug", "{}\n include \"a file\";"), ("a file", secret)]);
+        let expected =
+            "error: file `a file` is not UniGrafix\n --> s.ug:2:11\n  |\n2 |  include \"a file\";\n";
+        assert!(found.starts_with(expected) && !found.contains("secret"), "{secret}: {found}");
+        let allowed = Options { execute: true, ..Options::default() };
+        let found = read_with(&[("s.ug", "execute p;"), ("p", &format!("#!{secret}"))], &allowed);
+        assert!(found.starts_with("error: the output of `p` is not UniGrafix\n --> s.ug:1:9\n"), "{found}");
+        assert!(!found.contains("secret"), "{secret}: {found}");
+    }
+    // Errors of scenes are shown.
+    for scene in ["{ head }\n# 1 \"t\"\n(escape) ; v red;", "#line 9\nf red;", "include;"] {
+        let found = read(&[("s.ug", "include t;"), ("t", scene)]);
+        assert!(found.starts_with("error: expected") && found.contains(" --> t:"), "{found}");
+    }
+}
+
+#[test]
 fn texts_in_memory_include_nothing() {
     check_error("include a.ug;", "files are not included here");
     check_error("execute a;", "programs are not run here");
@@ -132,7 +167,7 @@ fn programs_are_run_if_allowed() {
     let files = [
         ("a/scene.ug", "{ head }\ndef d; execute \"bin/one\"; end; i (d);"),
         ("a/bin/one", "#!v p 1 2 3;\ninclude ../two.ug; execute three;"),
-        ("a/two.ug", "v q 1 2 3;"),
+        ("a/bin/../two.ug", "v q 1 2 3;"),
         ("a/bin/three", "#!"),
     ];
     assert_eq!(read_with(&files, &allowed), "{ head }\nv d:p 1 2 3;\nv d:q 1 2 3;\n");
@@ -198,8 +233,13 @@ fn limits_of_files_can_be_set() {
 
     assert_eq!(read_with(&chain, &with(Limit::Text, 100)), scene);
     let found = read_with(&chain, &with(Limit::Text, 20));
-    assert!(found.starts_with("error: with the text of `3` the scene is too large"), "{found}");
+    assert!(found.starts_with("error: with the text of `2` the scene is too large"), "{found}");
     assert!(found.ends_with("the limit is 20 bytes; split it, or raise it with --limit text=N"), "{found}");
+    // What is read counts, even while nothing of it is copied yet.
+    let rest = "{ }".repeat(100);
+    let around = [("0", "include 1;"), ("1", &format!("include x/../1;{rest}")), ("x/../1", &rest)];
+    let found = read_with(&around, &with(Limit::Text, 500));
+    assert!(found.starts_with("error: with the text of `x/../1` the scene is too large"), "{found}");
 }
 
 #[test]

@@ -3,7 +3,7 @@
 
 use std::time::{Duration, Instant};
 
-use ugparse::{Limit, Limits, Options, Source};
+use ugparse::{Limit, Limits, Options, Source, Vertex, VertexId};
 
 use crate::{TRIANGLE, errors, flat, parse, write};
 
@@ -200,6 +200,25 @@ fn every_limit_can_be_set_and_says_so() {
         "the expanded scene would have 10 bytes of names",
         "the limit is 9 bytes; split the scene, or raise it with --limit names=N",
     );
+    // Statements with many contours are counted by their contours, and copies by their rows.
+    let star = format!("v a 0 0 0; v b 1 0 0; v c 0 1 0; f {};", "(a b c)".repeat(100));
+    let stars = |n: u32| format!("def d; {star} end; def e; a (d) {n}; end; a (e) {n};");
+    let tables = |text: &str| {
+        let (found, _) = limited(text, Limit::Memory, 1).unwrap();
+        let count = found.strip_prefix("the expanded scene would have ").unwrap();
+        count.strip_suffix(" bytes in its tables").unwrap().parse::<u64>().unwrap()
+    };
+    let one = tables(&stars(1));
+    let least = 100 * (3 * size_of::<VertexId>() + size_of::<u32>()) + 3 * size_of::<Vertex>();
+    assert!((least as u64..2 * least as u64).contains(&one), "{one}");
+    assert!((95 * one..130 * one).contains(&tables(&stars(10))), "{one} {}", tables(&stars(10)));
+    let points: String = (0..100).map(|idx| format!("v p{idx} 0 0 0;")).collect();
+    let clouds = format!("def d; {points} end; def e; a (d) 490; end; a (e) 490;");
+    let (found, help) = limited(&clouds, Limit::Memory, Limit::Memory.default_value()).unwrap();
+    assert!(found.ends_with(" bytes in its tables"), "{found}");
+    assert_eq!(help, "the limit is 2147483648 bytes; use smaller arrays, or raise it with --limit memory=N");
+    let (_, help) = limited("v a 0 0 0;", Limit::Memory, 20).unwrap();
+    assert_eq!(help, "the limit is 20 bytes; split the scene, or raise it with --limit memory=N");
     let (found, _) = limited("def d; c long 1; end; surf long 1 0 0;", Limit::Names, 39).unwrap();
     assert!(found.starts_with("the names of colours and surfaces"), "{found}");
     assert_eq!(limited("def d; c long 1; end; surf long 1 0 0;", Limit::Names, 40), None);

@@ -1,0 +1,192 @@
+//! The programs with little memory, endless and huge files, and files outside the folder of the
+//! input.
+//!
+//! Every program runs with a limit on its address space, which is the measure of these tests. Huge
+//! files are sparse.
+
+use std::fs::{self, File};
+use std::os::unix::fs::symlink;
+use std::path::Path;
+use std::process::{Command, Output, Stdio};
+
+use tempfile::TempDir;
+use ugtests::{programs, scenes};
+
+/// Address space for rows whose need is small, in KiB.
+const LITTLE: u64 = 400_000;
+
+/// Runs a shell line in the folder, with the programs in the path.
+fn run(folder: &Path, limit_kib: u64, line: &str) -> Output {
+    let path = std::env::var("PATH").unwrap_or_default();
+    Command::new("sh")
+        .args(["-c", &format!("ulimit -v {limit_kib}; {line}")])
+        .env("PATH", format!("{}:{path}", programs::of_this_profile().display()))
+        .env_remove("RUST_BACKTRACE")
+        .current_dir(folder)
+        .stdin(Stdio::null())
+        .output()
+        .expect("a shell runs")
+}
+
+/// Checks status, emptiness of the output unless the status is 0, and a part of the messages.
+#[track_caller]
+fn check(folder: &Path, limit_kib: u64, line: &str, status: i32, message: &str) -> String {
+    let out = run(folder, limit_kib, line);
+    let messages = String::from_utf8_lossy(&out.stderr);
+    assert_eq!(out.status.code(), Some(status), "{line}: {messages}");
+    assert_eq!(out.stdout.is_empty(), status != 0, "{line}");
+    assert!(messages.contains(message), "{line}: {messages}");
+    String::from_utf8_lossy(&out.stdout).into_owned()
+}
+
+const TRIANGLE: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+
+/// `in/` is the folder of the inputs, `out/` a folder beside it.
+fn folder() -> TempDir {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = |name: &str| folder.path().join(name);
+    let write = |name: &str, text: &str| fs::write(path(name), text).expect("a file is written");
+    fs::create_dir(path("in")).expect("a folder");
+    fs::create_dir(path("out")).expect("a folder");
+    for name in ["in/huge", "out/huge"] {
+        File::create(path(name)).and_then(|file| file.set_len(5 << 30)).expect("a sparse file");
+    }
+    symlink("/dev/zero", path("in/endless")).expect("a link");
+    symlink("../out", path("in/link")).expect("a link");
+    let made = Command::new("mkfifo").arg(path("in/pipe")).status().expect("mkfifo runs");
+    assert!(made.success());
+    write("out/secret", "root:x:0:0:secret\n");
+    write("out/part.ug", "v outside 1 2 3;");
+    write("part.ug", "v beside 1 2 3;");
+    write("in/part.ug", "v inside 1 2 3;");
+    folder
+}
+
+/// A triangle whose buffer of 36 bytes is in a file.
+fn gltf(uri: &str) -> String {
+    format!(
+        r#"{{"asset":{{"version":"2.0"}},"nodes":[{{"mesh":0}}],
+        "meshes":[{{"primitives":[{{"attributes":{{"POSITION":0}}}}]}}],
+        "accessors":[{{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]}}],
+        "bufferViews":[{{"buffer":0,"byteLength":36}}],"buffers":[{{"byteLength":36,"uri":"{uri}"}}]}}"#
+    )
+}
+
+#[test]
+fn files_that_a_mesh_names_are_limited() {
+    let folder = folder();
+    let at = folder.path();
+    let mesh = |name: &str, text: &str| fs::write(at.join(name), text).expect("a file is written");
+    for (library, options, status, message) in [
+        ("endless", "", 0, "colours are missing: cannot read `endless`: It is outside the folder"),
+        ("endless", "--allow-outside", 0, "cannot read `endless`: It is not a regular file"),
+        ("pipe", "", 0, "cannot read `pipe`: It is not a regular file"),
+        ("huge", "", 1, "the files of materials have more than 268435456 bytes together"),
+        ("link/secret", "", 0, "cannot read `link/secret`: It is outside the folder"),
+        ("link/secret", "--allow-outside", 0, ""),
+    ] {
+        mesh("in/a.obj", &format!("mtllib {library}\n{TRIANGLE}"));
+        check(at, LITTLE, &format!("ugmesh in/a.obj {options}"), status, message);
+    }
+    let absolute = at.join("out/huge").display().to_string();
+    for (uri, options, status, message) in [
+        // Only 36 bytes are read.
+        ("huge", "", 0, ""),
+        ("link/huge", "--allow-outside", 0, ""),
+        ("endless", "--allow-outside", 1, "cannot read `endless`: It is not a regular file"),
+        ("pipe", "", 1, "cannot read `pipe`: It is not a regular file"),
+        ("../out/huge", "", 1, "cannot read `../out/huge`: It is outside the folder of the input"),
+        ("%2e%2e/out/huge", "", 1, "cannot read `../out/huge`: It is outside the folder of the input"),
+        (&absolute, "", 1, "It is outside the folder of the input"),
+        (&absolute, "--allow-outside", 0, ""),
+    ] {
+        mesh("in/a.gltf", &gltf(uri));
+        check(at, LITTLE, &format!("ugmesh in/a.gltf {options}"), status, message);
+    }
+}
+
+#[test]
+fn files_that_a_scene_names_are_in_its_folder() {
+    let folder = folder();
+    let at = folder.path();
+    for (file, options, status, expected) in [
+        ("part.ug", "", 0, "v inside 1 2 3;\n"),
+        ("link/../in/part.ug", "", 0, "v inside 1 2 3;\n"),
+        // The system follows the link first.
+        ("link/../part.ug", "--allow-outside", 0, "v beside 1 2 3;\n"),
+        ("link/../part.ug", "", 1, "It is outside the folder of the input"),
+        ("../part.ug", "", 1, "It is outside the folder of the input"),
+        ("link/part.ug", "", 1, "It is outside the folder of the input"),
+        ("link/part.ug", "--allow-outside", 0, "v outside 1 2 3;\n"),
+        ("endless", "--allow-outside", 1, "It is not a regular file"),
+        ("pipe", "", 1, "It is not a regular file"),
+        ("huge", "--limit text=1000", 1, "with the text of `huge` the scene is too large"),
+        ("link/secret", "--allow-outside", 1, "file `link/secret` is not UniGrafix"),
+        ("link/secret", "--allow-outside -lax", 1, "file `link/secret` is not UniGrafix"),
+    ] {
+        fs::write(at.join("in/scene.ug"), format!("include {file} ;")).expect("a file is written");
+        let named = format!("ugparse flatten in/scene.ug {options}");
+        // On standard input, the current folder is that of the input.
+        for line in [named, format!("cd in; ugparse flatten {options} < scene.ug")] {
+            let output = check(at, LITTLE, &line, status, if status == 0 { "" } else { expected });
+            assert!(status != 0 || output == expected, "{file}: {output}");
+            let messages = String::from_utf8_lossy(&run(at, LITTLE, &line).stderr).into_owned();
+            assert!(!messages.contains("root:"), "{messages}");
+        }
+    }
+    // What the user names may be anything.
+    let piped = check(at, LITTLE, "cat in/part.ug | ugparse flatten /dev/stdin", 0, "");
+    assert_eq!(piped, "v inside 1 2 3;\n");
+}
+
+#[test]
+fn endless_inputs_end() {
+    let folder = folder();
+    for line in [
+        "ugparse --limit text=1000000",
+        "uglorentz --limit text=1000000",
+        "ugdoppler --limit text=1000000",
+        "ugrainbow --limit text=1000000",
+    ] {
+        check(folder.path(), LITTLE, &format!("{line} /dev/zero"), 1, "the scene is too large");
+    }
+    for program in ["ugparse", "uglorentz", "ugdoppler", "ugrainbow", "ugmesh -if ply", "ugsheet"] {
+        let line = format!("{program} /dev/zero");
+        check(folder.path(), LITTLE, &line, 1, "cannot read `/dev/zero`: out of memory");
+    }
+}
+
+/// Arrays of arrays: none needs more than the limits allow, and all are refused before expansion.
+#[test]
+fn arrays_are_limited_by_what_they_write() {
+    let folder = folder();
+    let points: String = (0..100).map(|idx| format!("v p{idx} 0 {idx} {};", idx * idx)).collect();
+    let faces = "f (p0 p1 p2) (p3 p4 p5);".repeat(100);
+    let wires = format!("w {};", "(p0 p1)".repeat(500));
+    let cameras = "cam -ep 1 2 3;".repeat(100);
+    for content in [points.clone(), format!("{points}{faces}"), format!("{points}{wires}"), cameras] {
+        let text = format!("def d; {content} end; def e; a (d) 490; end; a (e) 490;");
+        fs::write(folder.path().join("in/array.ug"), text).expect("a file is written");
+        check(folder.path(), LITTLE, "ugparse count in/array.ug", 1, "the expanded scene would have ");
+    }
+}
+
+#[test]
+fn lack_of_memory_is_an_error() {
+    let folder = folder();
+    let at = folder.path();
+    let ship = scenes::root().join("scenes").join("ship.ug");
+    fs::copy(ship, at.join("ship.ug")).expect("a scene is copied");
+    for options in ["", "-dt png16", "-dt exr -ch D", "-dt hdr", "-ex 1", "-tb", "-xc"] {
+        let line = format!("ugrainbow ship.ug -sz 16000 16000 {options}");
+        check(at, LITTLE, &line, 2, "there is not enough memory for a picture of 16000 x 16000 pixels");
+    }
+    // Whatever cannot be allocated.
+    fs::write(at.join("in/array.ug"), "def d; v a 0 0 0; end; a (d) 9000000;").expect("a file is written");
+    let line = "ugparse flatten in/array.ug";
+    check(at, LITTLE, line, 1, "memory allocation of ");
+    assert!(fs::read_dir(at).expect("a folder").count() < 6);
+    // Threads that the system cannot start.
+    check(at, LITTLE, "ugparse flatten ship.ug -nt 1024", 1, "cannot start 1024 threads: ");
+    check(at, LITTLE, "ulimit -s 200000; ugparse flatten ship.ug", 0, "");
+}
