@@ -64,7 +64,7 @@ pub(crate) fn read_file(path: &Path, place: &Place, limit: u64) -> io::Result<Ve
     if !kind.is_file() && !kind.is_dir() {
         return Err(io::Error::new(io::ErrorKind::InvalidInput, "It is not a regular file"));
     }
-    File::open(path).and_then(|file| read_up_to(file, limit)).map_err(without_number)
+    File::open(path).and_then(|file| read_file_up_to(file, limit)).map_err(without_number)
 }
 
 /// Runs a program, without a shell, arguments or input, and reads at most `limit` bytes of its
@@ -105,6 +105,15 @@ pub(crate) fn run_program(path: &Path, place: &Place, limit: u64) -> io::Result<
 /// Prefixes a bare file name with `./`: otherwise it would be searched for in `PATH`.
 fn without_search(path: &Path) -> PathBuf {
     if path.components().count() == 1 { Path::new(".").join(path) } else { path.to_owned() }
+}
+
+/// Like [`read_up_to`], with no more memory than the size of the file, where the system states it.
+pub(crate) fn read_file_up_to(file: File, limit: u64) -> io::Result<Vec<u8>> {
+    let mut text = Vec::new();
+    let len = file.metadata()?.len().min(limit);
+    text.try_reserve_exact(usize::try_from(len).unwrap_or(usize::MAX))?;
+    file.take(limit).read_to_end(&mut text)?;
+    Ok(text)
 }
 
 /// Reads at most `limit` bytes.

@@ -6,7 +6,7 @@ use std::os::fd::AsFd;
 use std::path::Path;
 
 use crate::failure::Failure;
-use crate::files::read_up_to;
+use crate::files::read_file_up_to;
 
 /// An input, read completely.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -22,8 +22,10 @@ const STDIN: &str = "<stdin>";
 /// Reads a file, or standard input if `path` is `None`: at most `limit` bytes.
 pub(crate) fn read(path: Option<&Path>, limit: u64) -> Result<Input, Failure> {
     let (name, text) = match path {
-        Some(path) => (path.display().to_string(), File::open(path).and_then(|file| read_up_to(file, limit))),
-        None => (STDIN.to_owned(), stdin().and_then(|file| read_up_to(file, limit))),
+        Some(path) => {
+            (path.display().to_string(), File::open(path).and_then(|file| read_file_up_to(file, limit)))
+        }
+        None => (STDIN.to_owned(), stdin().and_then(|file| read_file_up_to(file, limit))),
     };
     match text {
         Ok(text) => Ok(Input { name, text }),
