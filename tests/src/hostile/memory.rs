@@ -109,7 +109,9 @@ pub fn mesh(format: ugmesh::Format, bytes: &[u8]) -> Result<(), String> {
             command_line: "ugmesh".to_owned(),
             ..ugmesh::Config::default()
         };
-        let read_file = |_: &str| -> io::Result<Vec<u8>> { Ok(bytes.to_vec()) };
+        let read_file = |_: &str, limit: u64| -> io::Result<Vec<u8>> {
+            Ok(bytes[..bytes.len().min(usize::try_from(limit).unwrap_or(usize::MAX))].to_vec())
+        };
         let input = ugmesh::Input::new("mesh", bytes).with_files(&read_file);
         ugmesh::run(&config, &input)
     };
@@ -150,10 +152,13 @@ pub fn picture(bytes: &[u8]) -> Result<(), String> {
         return Ok(());
     }
     let Ok((frame, history)) = ugimage::read_png(bytes) else { return Ok(()) };
-    let picture = ugsheet::Picture { name: "a".to_owned(), frame, history };
+    let size = [frame.width(), frame.height()];
+    let picture = ugsheet::Picture { name: "a".to_owned(), size, history };
     let other = ugsheet::Picture { history: Metadata::default(), ..picture.clone() };
     let pictures = [picture, other];
-    let Ok(sheet) = ugsheet::sheet(&ugsheet::Config::default(), &pictures) else { return Ok(()) };
+    let Ok(sheet) = ugsheet::sheet(&ugsheet::Config::default(), &pictures, |_| Ok(frame.clone())) else {
+        return Ok(());
+    };
     let metadata = ugsheet::history(&pictures, "ugsheet");
     match ugimage::read_png(&Format::Png.encode(&sheet, &metadata)) {
         Ok((frame, _)) if frame == sheet => Ok(()),

@@ -111,6 +111,10 @@ fn check(ended: &Ended, is_silent: bool, edge: Edge, folder: &Path) -> Result<()
         (None, Some(died_of), Edge::Signal { number, .. }) if died_of == number => return Ok(()),
         (None, signal, _) => return Err(format!("died of signal {signal:?}\n{messages}")),
     };
+    // A program that aborts ends with status 1. With this much memory, no case may.
+    if ["memory allocation of ", "overflowed its stack"].iter().any(|abort| messages.contains(abort)) {
+        return Err(format!("aborted\n{messages}"));
+    }
     match (status, ended.output.is_empty(), edge) {
         (0, _, Edge::Output(_) | Edge::Unread | Edge::File(_)) if !is_silent => {
             return Err("status 0, though its output is lost".to_owned());
