@@ -248,7 +248,7 @@ fn strips_fans_and_colours_of_gltf() {
 fn lines_end_with_line_feeds_or_carriage_returns() {
     let materials = "# by hand\nnewmtl red\nKd 1 0 0\n";
     let scene = |name: &str, text: &[u8], ends: &str| {
-        let beside = |_: &str| Ok(materials.replace('\n', ends).into_bytes());
+        let beside = |_: &str, _: u64| Ok(materials.replace('\n', ends).into_bytes());
         let converted = ugmesh::run(&z_up(), &Input::new(name, text).with_files(&beside));
         String::from_utf8(converted.unwrap_or_else(|error| panic!("{name}: {error}")).bytes).unwrap()
     };
