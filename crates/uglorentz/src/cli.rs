@@ -66,7 +66,8 @@ pub struct Args {
     /// [default: 0.15]
     ///
     /// The default is below the threshold of human vision. off makes fewer faces, for pictures
-    /// without Doppler colours (ugdoppler --no-doppler --no-flux). Has no effect with -sd.
+    /// without Doppler colours (ugdoppler --no-doppler --no-flux). D above 10000, or below 0.0001,
+    /// is not resolved. Has no effect with -sd.
     #[arg(long = "sc", visible_alias = "color-error", value_name = "PERCENT", allow_hyphen_values = true,
           value_parser = percent_or_off)]
     color_error: Option<f64>,

@@ -600,3 +600,21 @@ fn depth_of_what_is_far_away_at_rest_goes_with_its_size() {
         assert!(nearest / size > 10.0 || speed < 0.99, "{speed}: {nearest} {size}");
     }
 }
+
+/// A triangle that is seen from straight ahead to straight behind needs few pieces up to the fastest
+/// velocity that can be written.
+#[test]
+fn pieces_are_bounded_at_every_speed() {
+    let text = "v a -1 1 0; v b 1 1 0; v c 0 1 1; f (a b c);";
+    for nines in [8, 12, 16] {
+        let speed = 1.0 - libm::pow(10.0, -f64::from(nines)).max(f64::EPSILON / 2.0);
+        for direction in [DVec3::X, DVec3::Y, DVec3::NEG_Y, DVec3::Z] {
+            let config = Config { measure: true, ..moving(direction * speed) };
+            let report = run(text, &config).report;
+            let n_faces = report.n_new_faces;
+            assert!(!report.is_full && n_faces < 250_000, "{nines} {direction}: {n_faces}");
+            let left = report.remaining_errors.unwrap().to_string();
+            assert!(!left.contains("inf"), "{left}");
+        }
+    }
+}
