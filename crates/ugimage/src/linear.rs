@@ -13,6 +13,7 @@ use crate::{Frame, Quantizer};
 ///
 /// # Guarantees
 /// There are exactly width × height pixels, and as many samples in every plane. Neither side is 0.
+/// All numbers of a new frame are finite.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LinearFrame {
     width: u32,
@@ -50,14 +51,18 @@ impl Samples {
 }
 
 impl LinearFrame {
-    /// A frame of the given pixels, without extra planes.
+    /// A frame of the given pixels, without extra planes. Infinite numbers become the largest finite
+    /// ones of their sign, and NaN 0.
     ///
     /// # Panics
     /// If a side is 0, or the number of pixels is not width × height.
-    pub fn new(size: [u32; 2], is_opaque: bool, pixels: Vec<[f32; 4]>) -> Self {
+    pub fn new(size: [u32; 2], is_opaque: bool, mut pixels: Vec<[f32; 4]>) -> Self {
         let [width, height] = size;
         assert!(width > 0 && height > 0, "a frame has at least one pixel");
         assert_eq!(pixels.len(), width as usize * height as usize, "a frame has all its pixels");
+        for number in pixels.iter_mut().flatten().filter(|number| !number.is_finite()) {
+            *number = if number.is_nan() { 0.0 } else { number.clamp(-f32::MAX, f32::MAX) };
+        }
         Self { width, height, is_opaque, pixels, planes: Vec::new() }
     }
 

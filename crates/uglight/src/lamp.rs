@@ -3,7 +3,7 @@
 use glam::DVec3;
 use ugparse::{Light, LightKind, LightMotion, Scene};
 
-use ugphysics::srgb_decode;
+use ugphysics::{srgb_decode, unit_or_zero};
 
 use crate::{hsv, light};
 
@@ -82,7 +82,7 @@ impl Lamp {
         let toward = match self.place {
             LampPlace::Everywhere => return 1.0,
             LampPlace::Afar(toward) => toward,
-            LampPlace::At(place) => (place - point).normalize_or_zero(),
+            LampPlace::At(place) => unit_or_zero(place - point),
         };
         normal.dot(toward).max(0.0)
     }

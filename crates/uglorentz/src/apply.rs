@@ -66,6 +66,7 @@ pub fn apply_with_progress(
         attributes::smooth(&mut scene, &points, &motions);
     }
 
+    config.camera.check_up().map_err(Error::Camera)?;
     viewpoint::set_camera(&mut scene, eye, &config.camera);
     let view_volume = match config.cull {
         Some(size) => ViewVolume::new(&viewpoint::view(&scene, &config.camera, size)?),

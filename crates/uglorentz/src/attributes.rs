@@ -3,7 +3,7 @@
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 use ugparse::{Color, ColorId, ColorValue, Scene, Tint, Vertex};
-use ugphysics::Hsv;
+use ugphysics::{Hsv, unit_or_zero};
 
 use crate::refined_mesh::Recipe;
 use crate::relative_motion::{Point, RelativeMotion};
@@ -57,7 +57,7 @@ fn parents<'a>(scene: &'a Scene, recipe: &Recipe) -> impl Iterator<Item = (&'a V
 /// cancel.
 fn mean_normal(scene: &Scene, recipe: &Recipe) -> Option<DVec3> {
     parents(scene, recipe)
-        .map(|(vertex, weight)| Some(vertex.normal?.normalize_or_zero() * weight))
+        .map(|(vertex, weight)| Some(unit_or_zero(vertex.normal?) * weight))
         .sum::<Option<DVec3>>()?
         .try_normalize()
 }

@@ -115,7 +115,9 @@ impl Transform {
         // The cofactor matrix is the determinant times the inverse transpose, and always exists.
         let image = DMat3::from_cols(b.cross(c), c.cross(a), a.cross(b)) * n;
         let sign = if a.dot(b.cross(c)) < 0.0 { -1.0 } else { 1.0 };
-        unit(image).map_or(n, |image| image * (sign * n.length()))
+        // A normal whose length overflows, or nearly underflows, gets unit length.
+        let length = Some(n.length()).filter(|length| NORMAL_LENGTHS.contains(length)).unwrap_or(1.0);
+        unit(image).map_or(n, |image| image * (sign * length))
     }
 
     /// True if every entry is finite.
@@ -123,6 +125,9 @@ impl Transform {
         self.map.is_finite()
     }
 }
+
+/// Lengths of normals whose components, after a turn, are certainly numbers other than 0.
+const NORMAL_LENGTHS: std::ops::Range<f64> = 1e-150..1e150;
 
 /// The unit vector, also if the squared length would overflow or underflow. `None` for the zero
 /// vector.

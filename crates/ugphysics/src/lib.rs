@@ -67,6 +67,7 @@ mod irradiance;
 mod lorentz;
 mod optics;
 mod retarded_position;
+mod vector;
 mod velocity;
 mod xyz;
 
@@ -87,5 +88,6 @@ pub use optics::{Slab, Wave, light_in_glass, reflect, refract};
 pub use retarded_position::{
     Event, contracted, elongated, flight_time, observer_shift, rest_position, seen_event, seen_position,
 };
+pub use vector::{angle, length, unit_or_zero};
 pub use velocity::{Velocity, VelocityError};
 pub use xyz::{WHITE_XYZ, linear_srgb_to_xyz, xyz_to_linear_srgb};

@@ -258,6 +258,10 @@ impl FragmentWriter<'_, '_> {
         item: u32,
         mut sample: impl FnMut(u32, f32) -> Option<(f32, [f32; TRANSPARENT_VALUES])>,
     ) {
+        // With too many fragments this area is drawn again in parts.
+        if self.target.fragments.len() >= self.target.max_fragments {
+            return;
+        }
         let (mut places, mut values) = ([(0, 0.0); RUN], [[0.0; TRANSPARENT_VALUES]; RUN]);
         let mut n = 0;
         for (column, index) in columns.clone().zip(self.target.tile.indices(row, &columns)) {

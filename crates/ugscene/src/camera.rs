@@ -60,6 +60,8 @@ pub enum CameraError {
         /// The eye point.
         eye: DVec3,
     },
+    /// The up direction of the options is the zero vector.
+    NoUp,
     /// A view angle, in degrees, that is not between 0 and 180.
     ViewAngle(f64),
     /// A film size or focal length that is not positive.
@@ -79,6 +81,7 @@ impl fmt::Display for CameraError {
                  move the eye with -ep or the centre with -vc",
                 eye.x, eye.y, eye.z
             ),
+            Self::NoUp => f.write_str("-ud 0 0 0 has no direction; give one, such as -ud 0 0 1"),
             Self::ViewAngle(degrees) => write!(
                 f,
                 "a view angle of {degrees} degrees cannot be projected on a flat picture; \
@@ -128,6 +131,14 @@ pub struct View {
     size: [f64; 2],
 }
 
+impl CameraOptions {
+    /// # Errors
+    /// [`CameraError::NoUp`].
+    pub fn check_up(&self) -> Result<(), CameraError> {
+        if self.up == Some(DVec3::ZERO) { Err(CameraError::NoUp) } else { Ok(()) }
+    }
+}
+
 /// A half-space, relative to the eye: points p with p·normal + offset ≥ 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HalfSpace {
@@ -148,10 +159,11 @@ impl View {
         let camera = scene.camera().unwrap_or(&none);
         let eye = crate::eye(scene, options.eye);
         let center = options.center.or(camera.center).unwrap_or_else(|| middle(scene));
-        let distance = (center - eye).length();
+        let distance = ugphysics::length(center - eye);
         if !(distance > 0.0 && distance.is_finite()) {
             return Err(CameraError::NoDirection { eye });
         }
+        options.check_up()?;
         let forward = (center - eye) / distance;
         let (right, is_up_replaced) = right_of(forward, options.up.or(camera.up).unwrap_or(DVec3::Z));
         let is_perspective = !options.is_orthographic && camera.projection != Some(Projection::Orthographic);
@@ -238,7 +250,7 @@ fn middle(scene: &Scene) -> DVec3 {
 fn right_of(forward: DVec3, up: DVec3) -> (DVec3, bool) {
     /// Sine of the angle between up and view below which they count as parallel.
     const LEAST: f64 = 1e-9;
-    let across = forward.cross(up.normalize_or_zero());
+    let across = forward.cross(ugphysics::unit_or_zero(up));
     if across.length() > LEAST {
         return (across.normalize(), false);
     }

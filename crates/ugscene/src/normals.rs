@@ -2,27 +2,29 @@
 
 use glam::DVec3;
 use ugparse::{Face, Scene, VertexId, newell_normal};
+use ugphysics::unit_or_zero;
 
 /// Angle at corner `idx` of a contour, radians in 0…π. For a reflex corner it is the outer angle,
 /// so weights are at most π.
 pub fn corner_angle(contour: &[VertexId], idx: usize, positions: &[DVec3]) -> f64 {
     let len = contour.len();
     let at = |idx: usize| positions[contour[idx % len].index()];
-    let (a, b) = (at(idx + len - 1) - at(idx), at(idx + 1) - at(idx));
-    libm::atan2(a.cross(b).length(), a.dot(b))
+    // Halved first: the difference of large coordinates may overflow.
+    let [a, b] = [idx + len - 1, idx + 1].map(|end| at(end) * 0.5 - at(idx) * 0.5);
+    ugphysics::angle(a, b)
 }
 
 /// Unit normal of a face; zero if it has no area.
 pub(crate) fn face_normal(scene: &Scene, face: &Face, positions: &[DVec3]) -> DVec3 {
     let outline = scene.contours.get(face.contours.start);
-    newell_normal(outline.iter().map(|corner| positions[corner.index()])).normalize_or_zero()
+    unit_or_zero(newell_normal(outline.iter().map(|corner| positions[corner.index()])))
 }
 
 /// Unit normal of an outline on its visible side; zero if it has no area.
 ///
 /// `corners`: rest positions. `toward_eye`: a vector to the eye, in the frame of `corners`.
 pub fn seen_normal(corners: impl Iterator<Item = DVec3> + Clone, toward_eye: DVec3) -> DVec3 {
-    let normal = newell_normal(corners).normalize_or_zero();
+    let normal = unit_or_zero(newell_normal(corners));
     if normal.dot(toward_eye) < 0.0 { -normal } else { normal }
 }
 
@@ -32,8 +34,8 @@ pub fn seen_normal(corners: impl Iterator<Item = DVec3> + Clone, toward_eye: DVe
 /// `own`: of the vertex, any length. `seen`: [`seen_normal`] of the face.
 pub fn shading_normal(own: Option<DVec3>, seen: DVec3) -> DVec3 {
     match own {
-        Some(own) if own.dot(seen) < 0.0 => -own.normalize_or_zero(),
-        Some(own) => own.normalize_or_zero(),
+        Some(own) if own.dot(seen) < 0.0 => -unit_or_zero(own),
+        Some(own) => unit_or_zero(own),
         None => seen,
     }
 }
