@@ -51,8 +51,8 @@ impl Samples {
 }
 
 impl LinearFrame {
-    /// A frame of the given pixels, without extra planes. Infinite numbers become the largest finite
-    /// ones of their sign, and NaN 0.
+    /// A frame of the given pixels, without extra planes. Infinite numbers become the largest
+    /// finite ones of their sign, and NaN 0.
     ///
     /// # Panics
     /// If a side is 0, or the number of pixels is not width × height.
@@ -165,6 +165,12 @@ pub(crate) fn test_frames() -> Vec<LinearFrame> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_new_frame_is_finite() {
+        let frame = LinearFrame::new([1, 1], true, vec![[f32::NAN, f32::INFINITY, f32::NEG_INFINITY, 1.0]]);
+        assert_eq!(frame.pixels(), [[0.0, f32::MAX, -f32::MAX, 1.0]]);
+    }
 
     #[test]
     fn display_levels_round_trip_through_light() {

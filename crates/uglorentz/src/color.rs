@@ -29,11 +29,12 @@ pub(crate) const EDGE_SHARE: f64 = 0.75;
 /// The number of intervals between samples of an edge.
 const N_PARTS: u32 = 8;
 
-/// The largest D and 1/D that is resolved: visible light is shifted to 4 mm, or 0.04 nm, and a black
-/// body between 0.3 K and 10⁷ K is at its visible temperatures in between.
+/// The largest D and 1/D that is resolved: visible light is then shifted from 4 mm, or from
+/// 0.08 nm, and bodies of 0.3 K or 10⁷ K look like one of some 1000 K.
 const MOST_SHIFT: f64 = 1e4;
 
-/// The Lorentz factor above which the bound of û·d'' is used: 0.99995 c. Below, it saves few pieces.
+/// The Lorentz factor, at 0.99995 c, above which the bound of û·d'' is used. Below, it saves few
+/// pieces.
 const FAST: f64 = 100.0;
 
 /// Is the relative error of D above `bound`?

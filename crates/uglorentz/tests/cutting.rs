@@ -601,8 +601,8 @@ fn depth_of_what_is_far_away_at_rest_goes_with_its_size() {
     }
 }
 
-/// A triangle that is seen from straight ahead to straight behind needs few pieces up to the fastest
-/// velocity that can be written.
+/// A triangle that is seen from straight ahead to straight behind needs few pieces up to the
+/// fastest velocity that can be written.
 #[test]
 fn pieces_are_bounded_at_every_speed() {
     let text = "v a -1 1 0; v b 1 1 0; v c 0 1 1; f (a b c);";

@@ -32,7 +32,8 @@ pub fn unit_or_zero(v: DVec3) -> DVec3 {
     (v / power_of_two_below(v)).normalize_or_zero()
 }
 
-/// The angle between two vectors of any magnitude, radians in 0…π; 0 if one is zero or not finite.
+/// The angle between two vectors of any magnitude, radians in 0…π; 0 if one is zero or not
+/// finite.
 #[must_use]
 pub fn angle(a: DVec3, b: DVec3) -> f64 {
     let (a, b) = (a / power_of_two_below(a), b / power_of_two_below(b));

@@ -63,6 +63,23 @@ pub fn smooth_normals(scene: &Scene, positions: &[DVec3]) -> Vec<DVec3> {
 mod tests {
     use super::*;
 
+    /// Angles and unit normals do not depend on the size of a triangle.
+    #[test]
+    fn triangles_of_any_size_have_angles_and_normals() {
+        for size in [1e-150, 1.0, 1e150] {
+            let positions = [DVec3::ZERO, DVec3::X * size, DVec3::Y * size];
+            let contour = [0, 1, 2].map(VertexId);
+            let angle = corner_angle(&contour, 0, &positions);
+            assert!((angle - std::f64::consts::FRAC_PI_2).abs() < 1e-15, "{size}: {angle}");
+            assert_eq!(seen_normal(positions.into_iter(), DVec3::Z), DVec3::Z, "{size}");
+            assert_eq!(shading_normal(Some(DVec3::Z * size * size), DVec3::Z), DVec3::Z, "{size}");
+        }
+        for size in [5e-324, 1e200, f64::MAX] {
+            let positions = [DVec3::ZERO, DVec3::X * size, DVec3::Y * -size];
+            assert!(corner_angle(&[0, 1, 2].map(VertexId), 1, &positions).is_finite(), "{size}");
+        }
+    }
+
     #[test]
     fn a_cube_corner_points_along_the_diagonal_however_its_faces_are_cut() {
         // One side is split into two triangles at the corner, which changes the mean if weighted by
