@@ -13,7 +13,7 @@ use crate::{Frame, Quantizer};
 ///
 /// # Guarantees
 /// There are exactly width × height pixels, and as many samples in every plane. Neither side is 0.
-/// All numbers of a new frame are finite.
+/// All numbers of new pixels are finite.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LinearFrame {
     width: u32,

@@ -73,6 +73,7 @@ impl Error {
             self,
             Error::Velocity(_)
                 | Error::CameraVelocity(_)
+                | Error::Camera(CameraError::NoUp)
                 | Error::NoViewCenter
                 | Error::NoBound { .. }
                 | Error::NoColorBound { .. }

@@ -3,7 +3,7 @@
 
 use rayon::prelude::*;
 use ugimage::{Plane, Samples};
-use ugphysics::doppler_at;
+use ugphysics::{doppler_at, length};
 
 use crate::depth_buffer::SurfaceSample;
 use crate::emission::{Emission, Emissions};
@@ -67,7 +67,7 @@ pub fn channel_planes(
     let of = |number: &(dyn Fn(&Emission) -> f64 + Sync), nothing: f32| {
         let numbers = seen.par_iter().enumerate().map(|(idx, seen)| {
             let Some(seen) = *seen else { return nothing };
-            number(&emissions.at(middle([width, samples], idx), seen)) as f32
+            finite(number(&emissions.at(middle([width, samples], idx), seen)))
         });
         Samples::Float(numbers.collect())
     };
@@ -78,7 +78,7 @@ pub fn channel_planes(
             vec![plane(name, of(&|emission| doppler_at(emission.place, emission.velocity), 0.0))]
         }
         Channel::Time => vec![plane(name, of(&|emission| emission.time, f32::NEG_INFINITY))],
-        Channel::Distance => vec![plane(name, of(&|emission| emission.place.length(), f32::INFINITY))],
+        Channel::Distance => vec![plane(name, of(&|emission| length(emission.place), f32::INFINITY))],
         Channel::Depth => vec![plane(name, of(&|emission| emission.depth, f32::INFINITY))],
         Channel::Id => {
             let ids = seen.iter().map(|seen| seen.map_or(0, |seen| seen.item.saturating_add(1)));
@@ -93,6 +93,12 @@ pub fn channel_planes(
             })
             .collect(),
     }
+}
+
+/// Rounded to single precision. Numbers beyond its range become the largest, since an infinite
+/// number stands for nothing visible; NaN becomes 0.
+fn finite(number: f64) -> f32 {
+    if number.is_nan() { 0.0 } else { (number as f32).clamp(-f32::MAX, f32::MAX) }
 }
 
 /// The sample nearest to the centre of a pixel; ties go to the lower-right one.

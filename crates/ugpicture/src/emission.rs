@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use ugparse::Scene;
-use ugphysics::Velocity;
+use ugphysics::{Velocity, length};
 use ugscene::{Geometry, RestFrames, View};
 
 use crate::depth_buffer::SurfaceSample;
@@ -45,7 +45,7 @@ impl<'a> Emissions<'a> {
         };
         let velocity = body.map_or(Velocity::ZERO, |body| self.frames.velocity(body));
         let place = self.view.point([f64::from(column) + 0.5, f64::from(row) + 0.5], depth);
-        let time = if self.has_flight_time { -place.length() } else { 0.0 };
+        let time = if self.has_flight_time { -length(place) } else { 0.0 };
         Emission { place, depth, time, velocity }
     }
 }

@@ -27,7 +27,14 @@ pub enum Error {
 impl Error {
     /// True if the command line is wrong, whatever the scene.
     pub fn is_usage(&self) -> bool {
-        matches!(self, Self::Size(_) | Self::Samples(_) | Self::Options(_) | Self::Text(_))
+        matches!(
+            self,
+            Self::Size(_)
+                | Self::Samples(_)
+                | Self::Options(_)
+                | Self::Text(_)
+                | Self::Camera(CameraError::NoUp)
+        )
     }
 }
 

@@ -123,6 +123,7 @@ fn bad_usage_ends_with_2() {
     check("-va 180", "the view angle must be above 0 and below 180 degrees");
     check("-va nan", "not a finite number");
     check("-ep 1 2", "3 values required");
+    check("-ud 0 0 0", "-ud 0 0 0 has no direction; give one, such as -ud 0 0 1");
     check("-bg 1.5", "lightness and saturation of the background -bg are from 0 to 1");
     check("-bg .5 -tb", "cannot be used with");
     check("-ih -wi", "cannot be used with");

@@ -6,10 +6,13 @@ mod common;
 
 use common::{draw, scene};
 use glam::DVec3;
+use ugimage::{LinearFrame, Samples};
 use ugphysics::{
     Hsv, Velocity, attenuation, hue_to_wavelength, seen_position, srgb_decode, srgb_encode, wavelength_to_hue,
 };
-use ugrainbow::{Background, CameraOptions, Config, Error, HueScale, Interpolation, PictureOptions, render};
+use ugrainbow::{
+    Background, CameraOptions, Channel, Config, Error, HueScale, Interpolation, PictureOptions, light, render,
+};
 use ugrandom::Random;
 
 /// One sample at the centre of each pixel.
@@ -598,10 +601,32 @@ fn no_scene_makes_it_panic() {
                 let config =
                     Config { picture: PictureOptions { camera, ..plain(16, 16).picture }, ..plain(16, 16) };
                 n_drawn += usize::from(render(&parsed.scene, &config).is_ok());
+                let picture = PictureOptions { channels: Channel::ALL.to_vec(), ..config.picture.clone() };
+                let Ok(frame) = light(&parsed.scene, &Config { picture, ..config }) else { continue };
+                assert_finite(&frame);
             }
         }
     }
     assert!(n_drawn > 10, "{n_drawn}");
+}
+
+/// Every number is finite where something is drawn.
+#[track_caller]
+fn assert_finite(frame: &LinearFrame) {
+    let drawn: Vec<bool> = frame
+        .planes()
+        .iter()
+        .find_map(|plane| match &plane.samples {
+            Samples::Whole(ids) => Some(ids.iter().map(|&id| id > 0).collect()),
+            Samples::Float(_) => None,
+        })
+        .unwrap();
+    assert!(frame.pixels().iter().flatten().all(|number| number.is_finite()));
+    for plane in frame.planes() {
+        let Samples::Float(numbers) = &plane.samples else { continue };
+        let is_finite = numbers.iter().zip(&drawn).all(|(number, drawn)| !drawn || number.is_finite());
+        assert!(is_finite, "{}: {numbers:?}", plane.name);
+    }
 }
 
 /// Triangles through each other, round the eye and behind it, against a ray through every pixel.

@@ -146,6 +146,21 @@ fn normals_follow_their_surface() {
     }
 }
 
+/// A normal so long or so short that its square overflows or underflows keeps its direction.
+#[test]
+fn normals_of_any_length_are_turned() {
+    for (length, tforms) in [1e300, 1e160, 1e-160, 1e-300]
+        .into_iter()
+        .flat_map(|length| ["-rx 90", "-rx 90 -sa 1e200"].map(|t| (length, t)))
+    {
+        let normal = format!("0 {} {}", 3.0 * length, 4.0 * length);
+        let scene = parse(format!("def d; v p 0 0 0 {normal}; end; i (d {tforms});"));
+        let found = scene.vertices[0].normal.unwrap();
+        let unit = found / found.abs().max_element();
+        assert!((unit - DVec3::new(0.0, -1.0, 0.75)).length() < 1e-14, "{length} {tforms}: {found}");
+    }
+}
+
 #[test]
 fn invalid_transformations_are_refused() {
     let refused = |tforms: &str, expected: &str| {
