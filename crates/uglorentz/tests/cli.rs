@@ -89,6 +89,7 @@ fn complaints() {
     check("-vel .5 0", TILE, 2, "3 values required");
     check("-se 0", TILE, 2, "the bound of -se is 0 milliradians: give a number above 0");
     check("-se -1", TILE, 2, "the bound of -se is -1 milliradians: give a number above 0");
+    check("-ud 0 0 0", TILE, 2, "-ud 0 0 0 has no direction; give one, such as -ud 0 0 1");
     check("-sd 0", TILE, 2, "-sd 0 would make no pieces: give 1 or more");
     check("-sd 2 -se 1", TILE, 2, "cannot be used with");
     check("-an nose", TILE, 2, "`nose` is not an anchor: -an takes eye, origin, center or three numbers");
