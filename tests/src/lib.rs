@@ -3,6 +3,7 @@
 //! - [`pipe`]: the three programs in one process, from text to a decoded picture;
 //! - [`programs`]: the built programs;
 //! - [`scenes`]: the scenes of the repository;
+//! - [`documents`]: the commands in the pages of the documentation;
 //! - [`picture`]: comparison of pictures, golden ones included;
 //! - [`hostile`]: malformed and extreme inputs for the programs, and what must hold of them;
 //! - [`oracle`]: a slow, independent reference renderer that determines which face each pixel must
@@ -18,6 +19,7 @@
 #![allow(clippy::missing_panics_doc, reason = "a test helper fails by panicking")]
 
 pub mod agreement;
+pub mod documents;
 pub mod explanation;
 pub mod hostile;
 pub mod oracle;

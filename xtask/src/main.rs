@@ -9,6 +9,7 @@
 //! cargo xtask bench-scale plot.svg
 //! cargo xtask bench-exact
 //! cargo xtask geometry > tables.md
+//! cargo xtask gallery
 //! cargo xtask hostile 50000
 //! ```
 //!
@@ -16,6 +17,7 @@
 
 mod bench;
 mod exact;
+mod gallery;
 mod geometry;
 mod globe;
 mod hostile;
@@ -115,6 +117,12 @@ enum Task {
     /// Measure errors of outlines in pictures against the oracle, and the number of faces, as
     /// Markdown
     Geometry(geometry::Args),
+    /// Draw the pictures of the documentation with the commands in its pages
+    Gallery {
+        /// Only pages whose path contains TEXT
+        #[arg(long, value_name = "TEXT")]
+        only: Option<String>,
+    },
     /// Run the programs on malformed and extreme inputs, and check what must hold of any
     Hostile(hostile::Args),
     /// Draw a scene and print the time in seconds and the peak memory in megabytes
@@ -183,6 +191,7 @@ fn run(task: &Task) -> io::Result<()> {
         Task::Geometry(args) => {
             geometry::write(&mut out, args).map_err(|error| io::Error::other(error.to_string()))?;
         }
+        Task::Gallery { only } => gallery::write(&mut out, only.as_deref())?,
         Task::Hostile(args) => hostile::write(&mut out, args)?,
         Task::ReadOnce { scene, threads } => {
             reading::read_once(&mut out, scene, *threads)

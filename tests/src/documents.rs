@@ -1,0 +1,173 @@
+//! Commands in the pages of the documentation, as a reader would type them.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use crate::scenes;
+
+/// First words of the commands that a reader types in a folder with scenes.
+const PROGRAMS: [&str; 8] =
+    ["uglorentz ", "ugdoppler ", "ugrainbow ", "ugsheet ", "ugmesh ", "ugparse ", "sed ", "for "];
+
+/// The commands of a page.
+pub struct Page {
+    /// Path in the repository.
+    pub path: &'static str,
+    /// Its text.
+    pub text: String,
+    /// Definitions of shell functions and variables, for all commands.
+    definitions: String,
+    /// One command per line, without comments.
+    pub commands: Vec<String>,
+}
+
+impl Page {
+    /// Reads a page of the repository.
+    #[must_use]
+    pub fn read(path: &'static str) -> Self {
+        let text =
+            fs::read_to_string(scenes::root().join(path)).unwrap_or_else(|error| panic!("{path}: {error}"));
+        let (mut definitions, mut commands) = (String::new(), Vec::<String>::new());
+        let mut is_open = false;
+        // Code is indented by four columns, in lists by more.
+        for line in text.lines().filter_map(|line| line.strip_prefix("    ")) {
+            let name = line.trim_start_matches(|c: char| c.is_ascii_lowercase() || c == '_');
+            if name.len() < line.len() && (name.starts_with("() {") || name.starts_with("='")) {
+                definitions.push_str(line);
+                definitions.push('\n');
+                continue;
+            }
+            let line = line.trim_start();
+            let code = line.split(" #").next().unwrap_or(line).trim_end();
+            if let Some(command) = commands.last_mut().filter(|_| is_open) {
+                command.push('\n');
+                command.push_str(code);
+                is_open = code != "done";
+            } else if PROGRAMS.iter().any(|program| line.starts_with(program)) {
+                commands.push(code.to_owned());
+                is_open = code.starts_with("for ") && !code.ends_with("done");
+            }
+        }
+        Self { path, text, definitions, commands }
+    }
+
+    /// Runs a command in a folder, with the programs in another folder. Returns what the command
+    /// wrote to standard error.
+    ///
+    /// # Errors
+    /// The command with its messages, if its status is not 0.
+    pub fn run(&self, command: &str, folder: &Path, programs: &Path) -> Result<String, String> {
+        let path = std::env::var_os("PATH").unwrap_or_default();
+        let path =
+            std::env::join_paths(std::iter::once(programs.to_owned()).chain(std::env::split_paths(&path)));
+        let output = Command::new("bash")
+            .args(["-c", &format!("set -euo pipefail\n{}{command}", self.definitions)])
+            .current_dir(folder)
+            .env("PATH", path.expect("a path without colons"))
+            .output()
+            .expect("bash runs");
+        let messages = String::from_utf8_lossy(&output.stderr).into_owned();
+        if output.status.success() {
+            Ok(messages)
+        } else {
+            Err(format!("{}: {command}: {messages}", self.path))
+        }
+    }
+}
+
+/// Copies the scenes of the repository into a folder, and into a folder `scenes` in it.
+pub fn copy_scenes(folder: &Path) {
+    for folder in [folder.to_owned(), folder.join("scenes")] {
+        fs::create_dir_all(&folder).expect("a folder");
+        for name in scenes::names() {
+            fs::write(folder.join(format!("{name}.ug")), scenes::text(&name)).expect("a copy");
+        }
+    }
+}
+
+/// The command with pictures of other sizes: sizes in it are multiplied by `scale`, and `default`
+/// (width and height in pixels) is added to every `ugrainbow` without a size, times `scale`.
+///
+/// A command with `--explain` is not changed, because its pixel may not be in a smaller picture.
+#[must_use]
+pub fn resized(command: &str, default: [u32; 2], scale: f64) -> String {
+    if command.contains("--explain") {
+        return command.to_owned();
+    }
+    let scaled = |length: u32| (f64::from(length) * scale).round().max(1.0) as u32;
+    let stage = |stage: &str| {
+        let Some((before, after)) = stage.split_once("ugrainbow ") else { return stage.to_owned() };
+        if let Some((options, rest)) = after.split_once("-sz ") {
+            let mut words = rest.splitn(3, ' ');
+            let lengths = [words.next(), words.next()].map(|word| word.and_then(|word| word.parse().ok()));
+            if let [Some(width), Some(height)] = lengths {
+                let rest = words.next().map(|rest| format!(" {rest}")).unwrap_or_default();
+                return format!("{before}ugrainbow {options}-sz {} {}{rest}", scaled(width), scaled(height));
+            }
+        }
+        let [width, height] = default.map(scaled);
+        format!("{before}ugrainbow -sz {width} {height} {after}")
+    };
+    command.split('|').map(stage).collect::<Vec<_>>().join("|")
+}
+
+/// The files that a command writes, by its redirections and `-fo`; those of a loop for each of its
+/// values.
+#[must_use]
+pub fn written_files(command: &str) -> Vec<PathBuf> {
+    let marks = command.match_indices("> ").chain(command.match_indices("-fo "));
+    let names = marks.filter_map(|(at, mark)| command[at + mark.len()..].split([' ', ';', '\n']).next());
+    names.flat_map(|name| loop_values(command, name.trim_matches('"'))).map(PathBuf::from).collect()
+}
+
+/// `name` with the variables of the `for` loops of a command replaced by each of their values.
+fn loop_values(command: &str, name: &str) -> Vec<String> {
+    let mut names = vec![name.to_owned()];
+    for rest in command.split("for ").skip(1) {
+        let Some((variable, values)) = rest.split_once(" in ") else { continue };
+        let Some((values, _)) = values.split_once(';').filter(|(values, _)| !values.contains('$')) else {
+            continue;
+        };
+        let variable = format!("${variable}");
+        if name.contains(&variable) {
+            let with = |name: &String| {
+                values.split_whitespace().map(|value| name.replace(&variable, value)).collect()
+            };
+            names = names.iter().flat_map::<Vec<String>, _>(with).collect();
+        }
+    }
+    names.retain(|name| !name.contains('$'));
+    names
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sizes_are_scaled() {
+        let check = |command: &str, expected: &str| assert_eq!(resized(command, [640, 480], 0.5), expected);
+        check("ugrainbow a.ug > a.png", "ugrainbow -sz 320 240 a.ug > a.png");
+        check("uglorentz a.ug | ugrainbow -sz 400 300 -va 9", "uglorentz a.ug | ugrainbow -sz 200 150 -va 9");
+        check("uglorentz a.ug | ugrainbow -va 9 -sz 5 3", "uglorentz a.ug | ugrainbow -va 9 -sz 3 2");
+        check("ugsheet a.png > b.png", "ugsheet a.png > b.png");
+        check("ugrainbow --explain 1,2 a.ug", "ugrainbow --explain 1,2 a.ug");
+    }
+
+    #[test]
+    fn files_of_loops() {
+        let check = |command: &str, expected: &[&str]| {
+            let expected: Vec<PathBuf> = expected.iter().map(PathBuf::from).collect();
+            assert_eq!(written_files(command), expected, "{command}");
+        };
+        check("ugrainbow a.ug > a.png", &["a.png"]);
+        check("ugrainbow a.ug -fo a.png", &["a.png"]);
+        check("for v in 1 2; do ugrainbow -fo a$v.png; done", &["a1.png", "a2.png"]);
+        check(
+            "for v in 1 2; do for t in 3 4; do x > $v-$t.png; done; done",
+            &["1-3.png", "1-4.png", "2-3.png", "2-4.png"],
+        );
+        check("ugparse check a.ug", &[]);
+    }
+}
