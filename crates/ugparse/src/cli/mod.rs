@@ -1,6 +1,7 @@
 //! The command line of `ugparse`.
 
 mod count;
+mod examples;
 mod measure;
 
 use std::cell::Cell;
@@ -32,7 +33,8 @@ const EXAMPLES: &str = "Examples:
   ugparse check -format json ship.ug | jq '.findings[].message'
   ugparse tidy ship.ug > tidy.ug
   ugparse flatten ship.ug | head
-  ugparse count ship.ug";
+  ugparse count ship.ug
+  ugparse example ship > ship.ug";
 
 /// Allows options before the command as well as after it, except the one that names the file.
 fn globally(arg: Arg) -> Arg {
@@ -49,6 +51,8 @@ enum Command {
     Flatten(CommandArgs),
     /// Count statements, and measure faces
     Count(CommandArgs),
+    /// Write an example scene, or list them
+    Example(examples::ExampleArgs),
 }
 
 #[derive(clap::Args, Debug)]
@@ -81,7 +85,7 @@ impl Args {
             Some(
                 Command::Check(args) | Command::Tidy(args) | Command::Flatten(args) | Command::Count(args),
             ) => args,
-            None => &self.rest,
+            Some(Command::Example(_)) | None => &self.rest,
         }
     }
 }
@@ -108,10 +112,16 @@ fn run(args: &Args, context: &mut Context) -> Result<bool, Failure> {
     if args.command.is_some() && args.rest.common.input().is_some() {
         return Err(Failure::usage("the command must come before the file: `ugparse tidy FILE`"));
     }
+    if let Some(Command::Example(args)) = &args.command {
+        examples::write(args, context)?;
+        return Ok(true);
+    }
     let options = pipe::options(common)?;
     let source = pipe::input(context, &options)?;
     match args.command {
-        None | Some(Command::Check(_)) => return check(source, &options, is_json, context),
+        None | Some(Command::Check(_) | Command::Example(_)) => {
+            return check(source, &options, is_json, context);
+        }
         Some(Command::Tidy(_)) => context.write(&crate::tidy(&source, &options).map_err(refused)?)?,
         Some(Command::Flatten(_)) => {
             let (_, parsed) = read(source, &options, context).map_err(refused)?;
