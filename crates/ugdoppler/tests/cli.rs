@@ -52,14 +52,14 @@ help: move the eye (-ep) or the vertex
 fn bad_usage_is_status_2() {
     for (args, message) in [
         (&["-vel", "1.2", "0", "0"][..], "speed is 1.2 c"),
-        (&["-vel", ".5", "0"][..], "3 values required"),
+        (&["-vel", ".5", "0"][..], "takes three values, not two"),
         (&["-vel", "nan", "0", "0"][..], "not a finite number"),
-        (&["-br", "bright"][..], "invalid value 'bright'"),
+        (&["-br", "bright"][..], "`-br` takes "),
         (&["-ct", "-1"][..], "a colour tolerance (-ct) is 0 or more"),
         (&["-sp", "-gw"][..], "-sp writes X, Y, Z and -gw writes wavelengths of hues"),
         (&["-sp", "-br", "report"][..], "leave out -br, or the D^5 by --no-flux"),
         (&["-ir", "-hd"][..], "-ir scales intensities to 1 and -hd keeps them"),
-        (&["-nonsense"][..], "unexpected argument"),
+        (&["-nonsense"][..], "there is no option"),
     ] {
         let out = ugdoppler(args, SCENE);
         let error = String::from_utf8_lossy(&out.stderr).into_owned();

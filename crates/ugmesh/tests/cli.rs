@@ -93,13 +93,13 @@ fn bad_usage_is_status_2() {
     for (args, message) in [
         (&["-scale", "0"][..], "sizes (-scale, -fit) must be above 0"),
         (&["-fit", "-1"][..], "sizes (-scale, -fit) must be above 0"),
-        (&["-scale", "2", "-fit", "1"][..], "cannot be used with"),
+        (&["-scale", "2", "-fit", "1"][..], "cannot be given together"),
         (&["-scale", "nan"][..], "not a finite number"),
-        (&["-dt", "stl"][..], "invalid value 'stl'"),
+        (&["-dt", "stl"][..], "`-dt` takes "),
         (&["-ascii"][..], "-ascii applies only to PLY; add -dt ply"),
         (&["-fo", "x.stl"][..], "`x.stl` has an unknown extension; choose a format with -dt"),
         (&["-name", "a b"][..], "a name consists of letters, digits and _, and begins with a letter"),
-        (&["-up", "w"][..], "invalid value 'w'"),
+        (&["-up", "w"][..], "`-up` takes "),
         (&["-if", "ug"][..], "the input is already a UniGrafix scene; choose an output format with -dt"),
     ] {
         let out = ugmesh(folder.path(), args, b"v a 0 0 0;");

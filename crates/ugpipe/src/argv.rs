@@ -6,6 +6,8 @@
 //! takes precedence over a cluster of short ones. Words with one dash that are neither get a second
 //! dash as well, so that clap reports the whole word and suggests a similar option.
 //!
+//! A few single letters that other programs use are accepted as well ([`abbreviated`]).
+//!
 //! Known limitation: a value in the argument after a *short* option is not skipped. The only short
 //! options of our programs are `-h` and `-V`, which take no values.
 
@@ -48,10 +50,16 @@ pub(crate) fn rewrite(command: &Command, argv: impl IntoIterator<Item = OsString
             rewritten.extend(words);
             break;
         }
+        let word = abbreviated(command, word);
         let Some(option) = LongOption::find(command, &word) else {
             rewritten.push(if is_unknown(command, &word) { with_dash(&word) } else { word });
             continue;
         };
+        if let Some((name, numbers)) = option.attached_numbers(&word) {
+            rewritten.push(name);
+            copy_values(option.arg, &mut numbers.into_iter().peekable(), &mut rewritten);
+            continue;
+        }
         rewritten.push(option.with_two_dashes(word));
         if !option.has_value {
             copy_values(option.arg, &mut words, &mut rewritten);
@@ -78,6 +86,12 @@ impl<'a> LongOption<'a> {
         // One letter after one dash is a short option, which clap parses itself.
         let arg = command.get_arguments().find(|arg| name.len() > 1 && has_long_name(arg, name))?;
         Some(Self { arg, has_two_dashes: after_dashes.is_some(), has_value: equals.is_some() })
+    }
+
+    /// The option and its numbers, if `word` has several: `-sz=80x60`.
+    fn attached_numbers(&self, word: &OsStr) -> Option<(OsString, Vec<OsString>)> {
+        let (name, value) = word.to_str()?.split_once('=')?;
+        Some((self.with_two_dashes(name.into()), joined_numbers(self.arg, value.as_ref())?))
     }
 
     fn with_two_dashes(&self, word: OsString) -> OsString {
@@ -109,7 +123,29 @@ fn has_long_name(arg: &Arg, name: &str) -> bool {
     arg.get_long() == Some(name) || arg.get_all_aliases().is_some_and(|aliases| aliases.contains(&name))
 }
 
-/// Copies the values of `arg` unchanged.
+/// The long name of the option that other programs call by one letter, if `command` has it and not
+/// that letter; else `word`.
+fn abbreviated(command: &Command, word: OsString) -> OsString {
+    const LETTERS: [(&str, char, &str); 5] =
+        [("-o", 'o', "fo"), ("-i", 'i', "fi"), ("-q", 'q', "qt"), ("-v", 'v', "vb"), ("-j", 'j', "nt")];
+    let Some((_, letter, name)) = LETTERS.into_iter().find(|(dashed, ..)| word == *dashed) else {
+        return word;
+    };
+    let is_free = command.get_arguments().all(|arg| arg.get_short() != Some(letter));
+    let is_known = command.get_arguments().any(|arg| has_long_name(arg, name));
+    if is_free && is_known { format!("--{name}").into() } else { word }
+}
+
+/// The numbers of `80x60` or `.9,0,0`, if `arg` takes as many.
+fn joined_numbers(arg: &Arg, word: &OsStr) -> Option<Vec<OsString>> {
+    let range = arg.get_num_args().filter(|range| range.max_values() > 1)?;
+    let numbers: Vec<OsString> = word.to_str()?.split([',', 'x', '×']).map(OsString::from).collect();
+    let is_whole = numbers.len() > 1 && (range.min_values()..=range.max_values()).contains(&numbers.len());
+    (is_whole && numbers.iter().all(|number| is_number(number))).then_some(numbers)
+}
+
+/// Copies the values of `arg` unchanged, except that numbers joined by commas or, as in `80x60`, by
+/// `x` are separated.
 ///
 /// The required values come first. Optional values are numbers in all our programs, which
 /// distinguishes them from file names. A negative number is the value of an option with one value
@@ -126,6 +162,11 @@ fn copy_values(arg: &Arg, words: &mut Peekable<impl Iterator<Item = OsString>>, 
         return;
     }
     let mut n_taken = 0;
+    if let Some(numbers) = words.peek().and_then(|word| joined_numbers(arg, word)) {
+        words.next();
+        n_taken = numbers.len();
+        out.extend(numbers);
+    }
     while n_taken < range.max_values() {
         let is_needed = n_taken < range.min_values();
         let belongs = |word: &OsString| if is_needed { may_be_value(arg, word) } else { is_number(word) };
@@ -204,6 +245,12 @@ mod tests {
         }
         check("", "");
         check("-vel .9 0 0", "--vel .9 0 0");
+        // Numbers may be joined.
+        check("-vel .9,0,-1e-3 -gw", "--vel .9 0 -1e-3 --gw");
+        check("-vel -.9,0,0", "--vel -.9 0 0");
+        check("-velocity=.9,0,0 -gw", "--velocity .9 0 0 --gw");
+        check("-va 40x30 ship.ug", "--va 40 30 ship.ug");
+        check("-title a,b", "--title a,b");
         check("-vel -.9 0 -1e-3", "--vel -.9 0 -1e-3");
         check("-vel -.9 0 -1e-3 -gw", "--vel -.9 0 -1e-3 --gw");
         check("--vel -5.e-1 0 0 -gw", "--vel -5.e-1 0 0 --gw");
@@ -297,6 +344,7 @@ mod tests {
         check("-va 1 2 3 4", "error: unexpected argument '4' found");
         check("---gw", "error: unexpected argument '---gw' found");
         check("-q", "error: unexpected argument '-q' found");
+        check("-vel .9,0", "error: 3 values required for '--vel <vel> <vel> <vel>' but 1 was provided");
         check("-velo .9 0 0", "error: unexpected argument '--velo' found");
         check("-gx", "error: unexpected argument '--gx' found");
     }

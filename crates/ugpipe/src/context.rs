@@ -25,6 +25,8 @@ fn place(common: &CommonArgs) -> Place {
     Place::Below(common.input().map_or(Path::new("."), folder_of).to_owned())
 }
 
+const EMPTY_INPUT: &str = "nothing came through the pipe: the program upstream failed, or wrote nothing";
+
 fn within(limit: u64, input: Input) -> Result<Input, Failure> {
     if input.text.len() as u64 <= limit {
         return Ok(input);
@@ -75,12 +77,17 @@ impl Context {
     /// Like [`Context::input`], and reads at most `limit` bytes.
     ///
     /// # Errors
-    /// [`Failure::Read`] if there is no such file or it cannot be read.
+    /// [`Failure::Read`] if there is no such file or it cannot be read; [`Failure::Failed`] if
+    /// a pipe is empty, so that a failure upstream is a failure of the whole pipe.
     pub fn input_up_to(&mut self, limit: u64) -> Result<Input, Failure> {
         if !self.is_input_named && input::stdin_is_terminal() {
-            self.note("reading standard input; --help for help");
+            self.note("reading standard input; -h for help");
         }
-        input::read(self.input.as_deref(), limit)
+        let input = input::read(self.input.as_deref(), limit)?;
+        if self.input.is_none() && input.text.is_empty() && input::stdin_is_pipe() {
+            return Err(Failure::Failed(EMPTY_INPUT.to_owned()));
+        }
+        Ok(input)
     }
 
     /// Reads an additional input file.

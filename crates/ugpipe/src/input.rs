@@ -3,6 +3,7 @@
 use std::fs::File;
 use std::io::{self, IsTerminal};
 use std::os::fd::AsFd;
+use std::os::unix::fs::FileTypeExt;
 use std::path::Path;
 
 use crate::failure::Failure;
@@ -37,6 +38,11 @@ pub(crate) fn read(path: Option<&Path>, limit: u64) -> Result<Input, Failure> {
 /// open for reading.
 fn stdin() -> io::Result<File> {
     Ok(io::stdin().as_fd().try_clone_to_owned()?.into())
+}
+
+/// True if standard input is a pipe, so that a program upstream writes it.
+pub(crate) fn stdin_is_pipe() -> bool {
+    stdin().and_then(|file| file.metadata()).is_ok_and(|data| data.file_type().is_fifo())
 }
 
 /// True if standard input is a terminal, so that the user may not know that the program waits for

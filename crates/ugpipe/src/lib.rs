@@ -120,6 +120,8 @@ mod steps;
 #[cfg(feature = "cli")]
 mod streams;
 mod text;
+#[cfg(feature = "cli")]
+mod usage;
 
 #[cfg(feature = "cli")]
 pub use args::{CommonArgs, ONE_DASH, finite, vector, view_angle, whole};

@@ -1,6 +1,6 @@
 //! Notes, warnings and errors: to standard error or the file of `-fm`.
 //!
-//! All messages of a program leave through this module, those of clap as well. Text from outside is
+//! All messages of a program leave through this module. Text from outside is
 //! made [printable] here: a message with a heading is one line, so it cannot contain a line that
 //! looks like another message.
 
@@ -91,15 +91,10 @@ impl Messages {
             Failure::Report(text) => self.print(&printable_styled(text)),
             Failure::Usage(text) => {
                 let line = self.line("error", ERROR, text);
-                self.print(&format!("{line}\ntry `{} --help`", self.program));
+                self.print(&format!("{line}\ntry `{} -h`", self.program));
             }
             _ => self.headed("error", ERROR, &failure.to_string()),
         }
-    }
-
-    /// The errors of clap about the command line.
-    pub(crate) fn clap_error(&self, error: &clap::Error) {
-        self.print(&printable_styled(&error.render().ansi().to_string()));
     }
 
     fn headed(&self, heading: &str, style: Style, text: &str) {

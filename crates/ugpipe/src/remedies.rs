@@ -52,3 +52,21 @@ pub const CONVERT_MESH: &str = "`ugmesh` converts meshes to scenes";
 
 /// Where another eye point has to be given instead.
 pub const EYE_POINT: &str = "give it to uglorentz";
+
+/// The program that has an option, by one of its short names; `None` if several have it, or none.
+pub fn program_with_option(name: &str) -> Option<&'static str> {
+    const OPTIONS: [(&str, &[&str]); 5] = [
+        (
+            "uglorentz",
+            &["vel", "velocity", "cv", "ti", "time", "an", "anchor", "in", "se", "sc", "sl", "sd", "nc"],
+        ),
+        ("ugdoppler", &["gw", "li", "ir", "hd"]),
+        (
+            "ugrainbow",
+            &["sz", "size", "aa", "ex", "exposure", "tc", "fl", "ch", "vec", "wi", "dl", "gr", "lg", "bg"],
+        ),
+        ("ugsheet", &["cols", "columns", "label", "title"]),
+        ("ugmesh", &["fit"]),
+    ];
+    OPTIONS.iter().find(|(_, names)| names.contains(&name)).map(|(program, _)| *program)
+}

@@ -1,14 +1,12 @@
 //! The `main` of every program: from the command line to the exit status.
 
 use std::env;
-use std::ffi::{OsStr, OsString};
 use std::io;
 use std::process::ExitCode;
 use std::sync::atomic::AtomicBool;
 use std::sync::mpsc::{self, Sender};
 use std::thread;
 
-use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{ArgMatches, Command};
 use rayon::{ThreadBuilder, ThreadPoolBuilder};
 use signal_hook::consts::{SIGABRT, SIGPIPE};
@@ -19,8 +17,7 @@ use crate::args::CommonArgs;
 use crate::context::Context;
 use crate::failure::{Failure, reason};
 use crate::messages::Messages;
-use crate::text::printable;
-use crate::{argv, provenance, streams};
+use crate::{argv, provenance, streams, usage};
 
 /// The arguments of a ug program.
 pub trait ToolArgs: clap::Parser {
@@ -45,7 +42,7 @@ pub fn main<A: ToolArgs>(run: impl FnOnce(&A, &mut Context) -> Result<(), Failur
     let mut command = argv::prepare(A::command());
     let (args, matches) = match parse::<A>(&mut command) {
         Ok(parsed) => parsed,
-        Err(error) => return print_clap_message(&error, &Messages::new(command.get_name())),
+        Err(error) => return print_clap_message(&command, &error),
     };
     let mut messages = Messages::new(command.get_name());
     let opened = streams::check(args.common(), &matches).and_then(|()| messages.configure(args.common()));
@@ -61,48 +58,17 @@ pub fn main<A: ToolArgs>(run: impl FnOnce(&A, &mut Context) -> Result<(), Failur
 }
 
 fn parse<A: ToolArgs>(command: &mut Command) -> Result<(A, ArgMatches), clap::Error> {
-    let words: Vec<OsString> = env::args_os().collect();
-    let parsed = parse_words(command, words.clone()).map_err(without_tip);
-    if parsed.is_err() && words.iter().any(|word| printable_word(word) != *word) {
-        // clap quotes the words in its message of several lines, where line ends of a word could
-        // not be told from its own. So the message is made again, from words without them.
-        let again = parse_words::<A>(command, words.iter().map(|word| printable_word(word)).collect());
-        return if again.is_err() { again.map_err(without_tip) } else { parsed };
-    }
-    parsed
-}
-
-/// The error without the tip to write an unknown option as `-- -option`, which would make it a file.
-fn without_tip(mut error: clap::Error) -> clap::Error {
-    if error.kind() == ErrorKind::UnknownArgument
-        && let Some(ContextValue::StyledStrs(mut tips)) = error.remove(ContextKind::Suggested)
-    {
-        tips.retain(|tip| !tip.to_string().contains("as a value"));
-        if !tips.is_empty() {
-            error.insert(ContextKind::Suggested, ContextValue::StyledStrs(tips));
-        }
-    }
-    error
-}
-
-fn printable_word(word: &OsStr) -> OsString {
-    printable(&word.to_string_lossy()).into()
-}
-
-fn parse_words<A: ToolArgs>(
-    command: &mut Command,
-    words: Vec<OsString>,
-) -> Result<(A, ArgMatches), clap::Error> {
-    let words = argv::rewrite(command, words);
+    let words = argv::rewrite(command, env::args_os());
     let matches = command.try_get_matches_from_mut(words)?;
     let args = A::from_arg_matches(&matches).map_err(|error| error.format(command))?;
     Ok((args, matches))
 }
 
 /// Prints help and version to standard output, errors to standard error.
-fn print_clap_message(error: &clap::Error, messages: &Messages) -> ExitCode {
+fn print_clap_message(command: &Command, error: &clap::Error) -> ExitCode {
     if error.use_stderr() {
-        messages.clap_error(error);
+        let message = usage::message(command, error);
+        Messages::new(command.get_name()).failure(&Failure::Usage(message));
         return BAD_USAGE.into();
     }
     match error.print() {

@@ -125,12 +125,12 @@ fn bad_usage_ends_with_2() {
     check("-ep 1 2", "3 values required");
     check("-ud 0 0 0", "-ud 0 0 0 has no direction; give one, such as -ud 0 0 1");
     check("-bg 1.5", "lightness and saturation of the background -bg are from 0 to 1");
-    check("-bg .5 -tb", "cannot be used with");
-    check("-ih -wi", "cannot be used with");
-    check("-dp -tb", "cannot be used with");
+    check("-bg .5 -tb", "cannot be given together");
+    check("-ih -wi", "cannot be given together");
+    check("-dp -tb", "cannot be given together");
     check("-vec", "this format has only pixels: with -vec write -dt eps, ps, pdf or svg");
-    check("-vec -dp", "cannot be used with");
-    check("-zz", "unexpected argument");
+    check("-vec -dp", "cannot be given together");
+    check("-zz", "there is no option");
 }
 
 #[test]
@@ -198,7 +198,7 @@ fn a_png_is_not_written_to_a_terminal() {
     assert_eq!(
         stderr(&output),
         "ugrainbow: error: a picture is not written to a terminal; send it to a file with `> FILE` or -fo FILE\n\
-         try `ugrainbow --help`\n"
+         try `ugrainbow -h`\n"
     );
     let (output, _) = on_terminal(&["-sz", "8", "8", "-fo", "a.png"], folder.path());
     assert!(output.status.success(), "{}", stderr(&output));

@@ -42,14 +42,14 @@ pub fn write(args: &ExampleArgs, context: &mut Context) -> Result<(), Failure> {
     }
     let Some(name) = &args.name else {
         let lines = SCENES.map(|(name, text)| format!("{name:8} {}\n", subject(text)));
-        return context.write(lines.concat().as_bytes());
+        return context.write_text(&lines.concat());
     };
     let name = name.strip_suffix(".ug").unwrap_or(name);
     let Some((_, text)) = SCENES.iter().find(|(scene, _)| *scene == name) else {
         let names = SCENES.map(|(name, _)| name).join(", ");
         return Err(Failure::usage(format!("there is no example `{name}`; there are {names}")));
     };
-    context.write(text.as_bytes())
+    context.write_text(text)
 }
 
 /// Writes all scenes to files. A file that is there with another content is kept, and then nothing

@@ -1,0 +1,200 @@
+//! Errors of the command line in the words of the programs.
+//!
+//! clap finds the errors. Its messages have other names for options than our documentation, no name
+//! of a program, and no answer for options of other programs; so they are made anew here.
+
+use std::error::Error;
+
+use clap::error::{ContextKind, ContextValue, ErrorKind};
+use clap::{Arg, Command};
+
+use crate::remedies;
+
+/// What to say about an error of clap: one line, without the name of the program.
+pub(crate) fn message(command: &Command, error: &clap::Error) -> String {
+    let argument = context(error, ContextKind::InvalidArg).unwrap_or_default();
+    let value = context(error, ContextKind::InvalidValue).unwrap_or_default();
+    let number = |kind| match error.get(kind) {
+        Some(ContextValue::Number(number)) => *number,
+        _ => 0,
+    };
+    match error.kind() {
+        ErrorKind::UnknownArgument if argument.starts_with('-') => unknown_option(command, &argument),
+        ErrorKind::UnknownArgument => {
+            format!("`{argument}` is one argument too many: options come with a dash, and there is one file")
+        }
+        ErrorKind::InvalidValue if value.is_empty() => {
+            let (option, values) = option_and_values(&argument);
+            format!("`{option}` needs a value: `{option} {values}`")
+        }
+        ErrorKind::InvalidValue => {
+            let (option, _) = option_and_values(&argument);
+            let valid = context(error, ContextKind::ValidValue).unwrap_or_default();
+            let similar = context(error, ContextKind::SuggestedValue);
+            let similar = similar.map(|word| format!("; did you mean `{word}`?")).unwrap_or_default();
+            format!("`{option}` takes {valid}, not `{value}`{similar}")
+        }
+        ErrorKind::ValueValidation => {
+            let (option, _) = option_and_values(&argument);
+            let reason = error.source().map(ToString::to_string).unwrap_or_default();
+            format!("`{value}` is not valid for `{option}`: {reason}")
+        }
+        ErrorKind::WrongNumberOfValues | ErrorKind::TooFewValues | ErrorKind::TooManyValues => {
+            let (option, values) = option_and_values(&argument);
+            let n_given = number(ContextKind::ActualNumValues);
+            let n_expected = number(ContextKind::ExpectedNumValues);
+            format!(
+                "`{option}` takes {} values, not {}: write `{option} {values}`",
+                spelled(n_expected),
+                spelled(n_given)
+            )
+        }
+        ErrorKind::ArgumentConflict => {
+            let (option, _) = option_and_values(&argument);
+            match context(error, ContextKind::PriorArg).map(|prior| option_and_values(&prior).0) {
+                Some(prior) if prior == option => format!("`{option}` is given twice"),
+                Some(prior) => format!("`{option}` and `{prior}` cannot be given together"),
+                None => format!("`{option}` cannot be given with the other options"),
+            }
+        }
+        ErrorKind::MissingRequiredArgument => {
+            let (option, values) = option_and_values(&argument);
+            format!("`{}` is missing", format!("{option} {values}").trim_end())
+        }
+        _ => {
+            let text = error.to_string();
+            let first = text.lines().next().unwrap_or_default();
+            first.strip_prefix("error: ").unwrap_or(first).to_owned()
+        }
+    }
+}
+
+/// A small number in letters.
+fn spelled(number: isize) -> String {
+    let words = ["no", "one", "two", "three", "four", "five"];
+    let word = usize::try_from(number).ok().and_then(|number| words.get(number));
+    word.map_or_else(|| number.to_string(), |word| (*word).to_owned())
+}
+
+/// The first text of a kind in the context of an error; several are joined with commas.
+fn context(error: &clap::Error, kind: ContextKind) -> Option<String> {
+    match error.get(kind)? {
+        ContextValue::String(text) => Some(text.clone()),
+        ContextValue::Strings(texts) => Some(texts.join(", ")),
+        _ => None,
+    }
+}
+
+/// The name of an option as our documentation writes it, and the names of its values: `-vel` and
+/// `X Y Z` of `--vel <X> <Y> <Z>`.
+fn option_and_values(argument: &str) -> (String, String) {
+    let (option, values) = argument.split_once([' ', '=']).unwrap_or((argument, ""));
+    (in_documented_form(option), values.replace(['<', '>'], ""))
+}
+
+/// An option with one dash if its name is one of the short names of 1988, else with two.
+pub(crate) fn in_documented_form(option: &str) -> String {
+    match option.strip_prefix("--") {
+        Some(name) if is_short_name(name) => format!("-{name}"),
+        _ => option.to_owned(),
+    }
+}
+
+/// True for the names that are documented with one dash: `vel`, `fo`; not `no-flux`.
+pub(crate) fn is_short_name(name: &str) -> bool {
+    const LONGEST: usize = 4;
+    (2..=LONGEST).contains(&name.len()) && name.bytes().all(|byte| byte.is_ascii_lowercase())
+}
+
+fn unknown_option(command: &Command, argument: &str) -> String {
+    let name = argument.trim_start_matches('-');
+    let name = name.split('=').next().unwrap_or(name);
+    let shown = in_documented_form(argument.split('=').next().unwrap_or(argument));
+    let names = || command.get_arguments().filter(|arg| !arg.is_hide_set()).flat_map(long_names);
+    let has = |name: &str| names().any(|other| other == name);
+    if let Some((_, ours, why)) = ANSWERS.iter().find(|(foreign, ours, _)| *foreign == name && has(ours)) {
+        return format!("there is no option `{shown}`; {why} `-{ours}`");
+    }
+    if let Some(program) = remedies::program_with_option(name) {
+        return format!("`{shown}` is an option of {program}, not of {}", command.get_name());
+    }
+    match nearest(name, names()) {
+        Some(near) => format!(
+            "there is no option `{shown}`; did you mean `{}`?",
+            in_documented_form(&format!("--{near}"))
+        ),
+        None => format!("there is no option `{shown}`"),
+    }
+}
+
+/// All long names of an option.
+fn long_names(arg: &Arg) -> impl Iterator<Item = &str> {
+    arg.get_long().into_iter().chain(arg.get_all_aliases().unwrap_or_default())
+}
+
+/// Options of other programs, the one of ours that does the same, and what it is.
+const ANSWERS: [(&str, &str, &str); 20] = [
+    ("width", "sz", "the size of the picture is"),
+    ("height", "sz", "the size of the picture is"),
+    ("w", "sz", "the size of the picture is"),
+    ("resolution", "sz", "the size of the picture is"),
+    ("geometry", "sz", "the size of the picture is"),
+    ("fov", "va", "the view angle is"),
+    ("angle", "va", "the view angle is"),
+    ("look-at", "vc", "the point in the middle of the picture is"),
+    ("lookat", "vc", "the point in the middle of the picture is"),
+    ("target", "vc", "the point in the middle of the picture is"),
+    ("antialias", "aa", "the samples per pixel are"),
+    ("spp", "aa", "the samples per pixel are"),
+    ("speed", "vel", "the velocity along x, y and z is"),
+    ("beta", "vel", "the velocity along x, y and z is"),
+    ("t", "ti", "the time of the picture is"),
+    ("f", "fi", "the file to read is"),
+    ("silent", "qt", "to print only errors, use"),
+    ("debug", "vb", "to print what is done, use"),
+    ("gamma", "ex", "brightness is set by"),
+    ("bgcolor", "bg", "the background is"),
+];
+
+/// The name with the fewest typing errors, at most one in short names and two in longer ones.
+fn nearest<'n>(word: &str, names: impl Iterator<Item = &'n str>) -> Option<&'n str> {
+    const MAX_LENGTH: usize = 64;
+    let word = word.to_ascii_lowercase();
+    let most = if word.len() < 6 { 1 } else { 2 };
+    let near = names.filter(|name| name.len() <= MAX_LENGTH && name.len().abs_diff(word.len()) <= most);
+    let near = near.map(|name| (strsim::osa_distance(&word, name), name));
+    near.filter(|&(distance, name)| distance <= most && distance < name.len()).min().map(|(_, name)| name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_of_1988_have_one_dash() {
+        for (option, expected) in [
+            ("--vel", "-vel"),
+            ("--fo", "-fo"),
+            ("--no-flux", "--no-flux"),
+            ("--keep-in-view", "--keep-in-view"),
+            ("-q", "-q"),
+        ] {
+            assert_eq!(in_documented_form(option), expected);
+        }
+    }
+
+    #[test]
+    fn nearest_names() {
+        let names = ["vel", "vec", "velocity", "sz", "no-flux"];
+        for (word, expected) in [
+            ("vell", Some("vel")),
+            ("Vel", Some("vel")),
+            ("velocty", Some("velocity")),
+            ("noflux", Some("no-flux")),
+            ("zz", Some("sz")),
+            ("banana", None),
+        ] {
+            assert_eq!(nearest(word, names.into_iter()), expected, "{word}");
+        }
+    }
+}
