@@ -74,7 +74,9 @@ fn pipe(
         let is_silent = words.iter().any(|word| word == "check") || edge == Edge::Input(CLOSED);
         check(&ended, is_silent, edge, folder).map_err(about)?;
         if ended.status.code() != Some(0) {
-            if idx > 0 && is_diagnostic(&ended.messages) {
+            // Another camera may be asked for than there is.
+            let is_refused = is_diagnostic(&ended.messages) && !words.iter().any(|word| word == "-cam");
+            if idx > 0 && is_refused {
                 let messages = String::from_utf8_lossy(&ended.messages).into_owned();
                 return Err(about(format!("refuses the scene that a program has written:\n{messages}")));
             }

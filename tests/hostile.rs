@@ -1,0 +1,38 @@
+//! Malformed and extreme inputs break nothing: see [`ugtests::hostile`]. Cases follow from their
+//! numbers; `cargo xtask hostile` runs others, for as long as it is left to.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+use rayon::prelude::*;
+use ugmesh::Format;
+use ugrandom::Random;
+use ugtests::hostile::File;
+
+/// Fails with all findings at once.
+#[track_caller]
+fn assert_none(findings: &[String]) {
+    assert!(findings.is_empty(), "{} findings\n\n{}", findings.len(), findings.join("\n\n"));
+}
+
+#[test]
+fn libraries_hold() {
+    let kinds = [
+        (File::Scene, 2000),
+        (File::Mesh(Format::Obj), 500),
+        (File::Mesh(Format::Off), 500),
+        (File::Mesh(Format::Ply), 500),
+        (File::Mesh(Format::Stl), 500),
+        (File::Mesh(Format::Gltf), 500),
+        (File::Picture, 300),
+    ];
+    for (file, n_cases) in kinds {
+        let finding = |seed: u64| {
+            let bytes = file.generate(&mut Random(seed));
+            // Names the case of a panic, too.
+            let held = catch_unwind(AssertUnwindSafe(|| file.check(&bytes)));
+            let held = held.unwrap_or_else(|_| Err("panics".to_owned()));
+            held.err().map(|finding| format!("{file:?} {seed}: {finding}"))
+        };
+        assert_none(&(0..n_cases).into_par_iter().filter_map(finding).collect::<Vec<_>>());
+    }
+}
