@@ -1,17 +1,31 @@
 //! Malformed and extreme inputs break nothing: see [`ugtests::hostile`]. Cases follow from their
 //! numbers; `cargo xtask hostile` runs others, for as long as it is left to.
 
+use std::ops::Range;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use rayon::prelude::*;
 use ugmesh::Format;
 use ugrandom::Random;
-use ugtests::hostile::File;
+use ugtests::hostile::{Case, File};
+use ugtests::programs;
 
 /// Fails with all findings at once.
 #[track_caller]
 fn assert_none(findings: &[String]) {
     assert!(findings.is_empty(), "{} findings\n\n{}", findings.len(), findings.join("\n\n"));
+}
+
+#[test]
+fn programs_hold() {
+    const CASES: Range<u64> = 0..600;
+    let programs = programs::of_this_profile();
+    let results: Vec<_> = CASES.into_par_iter().map(|seed| Case::new(seed).run(&programs)).collect();
+    let findings: Vec<String> = results.iter().filter_map(|result| result.clone().err()).collect();
+    assert_none(&findings);
+    // Cases that are all refused would test the messages alone.
+    let n_drawn = results.iter().filter(|result| **result == Ok(true)).count();
+    assert!((30..500).contains(&n_drawn), "{n_drawn} pipes succeed");
 }
 
 #[test]
