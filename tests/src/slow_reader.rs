@@ -427,7 +427,11 @@ fn camera_options(words: &mut Words) -> BTreeMap<String, Vec<f64>> {
             options.remove("-og");
             options.remove("-ps");
         }
-        options.insert(option, words.all_numbers());
+        let mut numbers = words.all_numbers();
+        if option == "-va" && numbers.len() == 1 {
+            numbers.push(numbers[0]);
+        }
+        options.insert(option, numbers);
     }
     options
 }

@@ -7,7 +7,7 @@ use glam::DVec3;
 use ugparse::{Diagnostic, Diagnostics, Origins, Source, pipe};
 use ugphysics::{Brightness, Velocity};
 use ugpipe::{CommonArgs, Context, Failure, Progress, ToolArgs};
-use ugscene::cli::EyeArgs;
+use ugscene::cli::{EyeArgs, RepeatArgs};
 
 use crate::{Config, DEFAULT_TOLERANCE, Error, apply_with};
 
@@ -45,9 +45,8 @@ pub struct Args {
     #[arg(long, visible_alias = "spectral")]
     sp: bool,
 
-    /// Repeat a vertex for every face colour that meets there, instead of mixing them
-    #[arg(long, visible_alias = "repeat-vertices")]
-    vr: bool,
+    #[command(flatten)]
+    repeat: RepeatArgs,
 
     /// Reuse a colour that differs by at most T nm and T percent of value, or with -sp by T percent
     /// of X, Y and Z; 0: a colour for each vertex
@@ -125,7 +124,7 @@ impl Args {
                 Law::Bolometric => Brightness::Bolometric,
                 Law::None => Brightness::None,
             },
-            repeat: self.vr,
+            repeat: self.repeat.repeats(),
             tolerance: self.ct,
             iris: self.ir,
             light: self.li,

@@ -96,7 +96,8 @@ pub fn apply_with(scene: Scene, config: &Config, progress: &dyn Progress) -> Res
 fn color(mut scene: Scene, config: &Config, eye: DVec3, frames: &RestFrames) -> (Scene, Vec<String>) {
     let stage = stage::with_seen_colors(&scene, config, eye);
     ugscene::separate_bodies(&mut scene);
-    vertices::repeat(&mut scene, config.repeat);
+    ugscene::repeat_vertices(&mut scene, config.repeat);
+    let mixing_note = ugscene::mixing_note(&scene);
     let rest = ugscene::rest_positions(&scene, eye, frames);
     let mut notes = if config.spectral {
         let mut shares = ugscene::vertex_shares(&scene, &rest);
@@ -120,6 +121,7 @@ fn color(mut scene: Scene, config: &Config, eye: DVec3, frames: &RestFrames) -> 
         }
         statements.finish().into_iter().chain(spectra_note).collect()
     };
+    notes.extend(mixing_note);
     if config.light && scene.lights.is_empty() {
         notes.push("no lights in the scene, so -li puts none into its colours".to_string());
     } else if config.light {

@@ -25,6 +25,8 @@ pub(crate) fn with_seen_colors(scene: &Scene, config: &Config, eye: DVec3) -> St
     } else {
         ColorScale::Hues { unit: config.hue_scale(), law: config.hue_shift().law }
     };
+    // Every vertex gets a new colour.
+    stage.mixtures = None;
     stage.colors = ColorStage::AsSeen(SeenColors { scale, doppler: config.doppler, lights: config.light });
     stage
 }

@@ -87,8 +87,10 @@ pub fn apply_with_progress(
             uniform::cut(&scene, &mut mesh, n).map_err(|n_pieces| Error::TooManyPieces { n_pieces })?
         }
     };
+    let has_new = !mesh.recipes.is_empty();
+    let shades = if has_new { attributes::shades(&scene, &mesh.points) } else { None };
     put_pieces(&mut scene, &outcome);
-    attributes::add_vertices(&mut scene, &mesh.recipes);
+    let inherits = attributes::add_vertices(&mut scene, &mesh.recipes, shades, config.repeat);
     set_positions(&mut scene, &mesh, &shifts, eye)?;
     if moves || config.geometry != Geometry::default() {
         scene.stage.geometry = GeometryStage::AsSeen(SeenGeometry {
@@ -103,6 +105,12 @@ pub fn apply_with_progress(
     let is_short = outcome.is_full || outcome.n_too_deep + outcome.n_uncut > 0;
     let remaining_errors =
         (config.measure || is_short).then(|| remaining_errors::measure(&scene, &mesh, &bounds));
+    // After cutting, so that neighbours are cut alike.
+    if config.repeat {
+        ugscene::repeat_vertices(&mut scene, true);
+    } else {
+        ugscene::separate_wires(&mut scene, &inherits);
+    }
     let report = Report {
         n_new_vertices: mesh.recipes.len(),
         n_new_faces: scene.faces.len() + n_culled - n_faces,

@@ -2,8 +2,9 @@
 
 use glam::DVec3;
 use rustc_hash::FxHashMap;
-use ugparse::{Color, ColorId, ColorValue, Scene, Tint, Vertex};
-use ugphysics::{Hsv, unit_or_zero};
+use uglight::VertexColor;
+use ugparse::{Color, ColorId, ColorValue, Mixtures, Scene, Tint, Vertex};
+use ugphysics::{Hsv, linear_srgb_to_xyz, srgb_decode, unit_or_zero};
 
 use crate::refined_mesh::Recipe;
 use crate::relative_motion::{Point, RelativeMotion};
@@ -12,17 +13,112 @@ use crate::relative_motion::{Point, RelativeMotion};
 const PREFIX: &str = "s#";
 
 /// Adds the vertices of `recipes`, in order, without their positions.
-pub(crate) fn add_vertices(scene: &mut Scene, recipes: &[Recipe]) {
+///
+/// `shades`: of the vertices of the scene, see [`shades`]. With `is_apart`, new vertices have no
+/// mixtures of the colours of several faces.
+///
+/// Returns which vertices have a colour that depends on those of faces, by row.
+pub(crate) fn add_vertices(
+    scene: &mut Scene,
+    recipes: &[Recipe],
+    mut shades: Option<Vec<Shade>>,
+    is_apart: bool,
+) -> Vec<bool> {
     if recipes.is_empty() {
-        return;
+        return Vec::new();
     }
     let prefix = free_prefix(scene.vertices.iter().map(|vertex| scene.names.get(vertex.name)));
+    let n_vertices = scene.vertices.len() + recipes.len();
+    let is_used = shades.is_some().then(|| face_vertices(scene, n_vertices));
+    let mut inherits = vec![false; if shades.is_some() { n_vertices } else { 0 }];
     let mut mixer = ColorMixer::new(scene);
     for (idx, recipe) in recipes.iter().enumerate() {
-        let color = mixer.mix(scene, recipe);
+        let row = scene.vertices.len();
+        let mut color = mixer.mix(scene, recipe);
+        if let (Some(shades), Some(is_used)) = (&mut shades, &is_used) {
+            let shade = mixer.shade(scene, recipe, shades, color);
+            if color.is_none() && is_used[row] && !(is_apart && shade.is_mixture) {
+                color = mixer.statement(scene, &shade);
+                inherits[row] = color.is_some();
+            }
+            shades.push(shade);
+        }
         let normal = mean_normal(scene, recipe);
         let name = scene.names.add_parts(&[&prefix, &(idx + 1).to_string()]);
         scene.vertices.push(Vertex { name, position: DVec3::ZERO, color, normal });
+    }
+    inherits
+}
+
+/// The shades of the vertices of a scene, from which those of new vertices are interpolated; `None`
+/// if no new vertex needs that, because vertices and faces have their colours and meet no others.
+pub(crate) fn shades(scene: &Scene, points: &[Point]) -> Option<Vec<Shade>> {
+    let mut has_color = scene.vertices.iter().map(|vertex| vertex.color.is_some());
+    let first = has_color.next()?;
+    let is_partial = has_color.any(|has_color| has_color != first);
+    if !is_partial && ugscene::n_mixing_vertices(scene) == 0 {
+        return None;
+    }
+    let rest: Vec<DVec3> = points[..scene.vertices.len()].iter().map(|point| point.rest).collect();
+    let shade = |color: VertexColor| match color {
+        VertexColor::Named(id) => Shade::of(scene, Some(id)),
+        VertexColor::White => Shade::of(scene, None),
+        VertexColor::Mixed { hsv, light, translucency } => {
+            Shade { color: None, is_mixture: true, hsv, light, translucency }
+        }
+    };
+    Some(uglight::vertex_colors(scene, &rest).into_iter().map(shade).collect())
+}
+
+/// Which of `n_vertices` vertices faces use.
+fn face_vertices(scene: &Scene, n_vertices: usize) -> Vec<bool> {
+    let mut used = vec![false; n_vertices];
+    for face in &scene.faces {
+        scene.contours.corners(face.contours.clone()).iter().for_each(|corner| used[corner.index()] = true);
+    }
+    used
+}
+
+/// What a vertex looks like at rest.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Shade {
+    /// The statement it is given by, or `Some(None)` for white; `None` if there is no statement.
+    color: Option<Option<ColorId>>,
+    /// Colours of several faces are mixed in it.
+    is_mixture: bool,
+    hsv: Hsv,
+    /// Linear light, if it is given as light.
+    light: Option<[f64; 3]>,
+    translucency: f64,
+}
+
+impl Shade {
+    fn of(scene: &Scene, id: Option<ColorId>) -> Shade {
+        let Some(color) = id.map(|id| &scene.colors[id.index()]) else {
+            let hsv = Hsv { hue: 0.0, saturation: 0.0, value: 1.0 };
+            return Shade { color: Some(id), is_mixture: false, hsv, light: None, translucency: 0.0 };
+        };
+        let mixtures = scene.stage.mixtures;
+        Shade {
+            color: Some(id),
+            is_mixture: mixtures.is_some_and(|mixtures| mixtures.contains(scene.names.get(color.name))),
+            hsv: uglight::hsv(scene, color),
+            light: uglight::light(scene, color),
+            translucency: color.translucency,
+        }
+    }
+
+    fn linear(&self) -> DVec3 {
+        DVec3::from_array(self.light.unwrap_or_else(|| self.hsv.to_rgb().map(srgb_decode)))
+    }
+
+    /// A statement of this colour.
+    fn value(&self) -> ColorValue {
+        let Hsv { hue, saturation, value } = self.hsv;
+        match self.light {
+            Some(light) => ColorValue::Xyz(linear_srgb_to_xyz(light)),
+            None => ColorValue::Hsv { value, tint: Tint::Hue(hue), saturation },
+        }
     }
 }
 
@@ -66,6 +162,8 @@ fn mean_normal(scene: &Scene, recipe: &Recipe) -> Option<DVec3> {
 struct ColorMixer {
     prefix: String,
     mixed: FxHashMap<Mixture, ColorId>,
+    mixtures: Mixtures,
+    stated: FxHashMap<[u64; 5], ColorId>,
 }
 
 /// Rows of the parents' colours and the bits of their weights.
@@ -73,8 +171,13 @@ type Mixture = Vec<(ColorId, u64)>;
 
 impl ColorMixer {
     fn new(scene: &Scene) -> ColorMixer {
-        let prefix = free_prefix(scene.colors.iter().map(|color| scene.names.get(color.name)));
-        ColorMixer { prefix, mixed: FxHashMap::default() }
+        let names = scene.colors.iter().map(|color| scene.names.get(color.name));
+        let prefix = free_prefix(names.clone());
+        // Then the names of a scene that has mixtures already are continued.
+        let earlier = scene.stage.mixtures.map(Mixtures::prefix);
+        let mixtures = Mixtures::unused(names.chain(earlier.as_deref()));
+        let (mixed, stated) = (FxHashMap::default(), FxHashMap::default());
+        ColorMixer { prefix, mixed, mixtures, stated }
     }
 
     /// The colour of a new vertex: that of its parents if they agree, else a mixture; `None` if a
@@ -88,38 +191,89 @@ impl ColorMixer {
             return Some(first);
         }
         let key = parts.iter().map(|&(color, weight)| (color, weight.to_bits())).collect();
-        let (prefix, n_mixed) = (&self.prefix, self.mixed.len());
-        Some(*self.mixed.entry(key).or_insert_with(|| {
-            let (value, translucency) = blend(scene, &parts);
-            let name = scene.names.add_parts(&[prefix, &(n_mixed + 1).to_string()]);
-            scene.colors.push(Color { name, value, translucency });
-            ColorId::from_index(scene.colors.len() - 1)
-        }))
+        if let Some(&known) = self.mixed.get(&key) {
+            return Some(known);
+        }
+        let shade = blend(parts.iter().map(|&(color, weight)| (Shade::of(scene, Some(color)), weight)));
+        let color = self.add(scene, &shade);
+        self.mixed.insert(key, color);
+        Some(color)
+    }
+
+    /// The shade of a new vertex, whose own colour is `color`.
+    fn shade(&self, scene: &Scene, recipe: &Recipe, shades: &[Shade], color: Option<ColorId>) -> Shade {
+        if color.is_some() {
+            return Shade::of(scene, color);
+        }
+        let parts = recipe.parents.into_iter().zip(recipe.weights).filter(|&(_, weight)| weight > 0.0);
+        let parts = parts.map(|(row, weight)| (shades[row as usize], weight));
+        match parts.clone().next() {
+            Some((first, _))
+                if first.color.is_some() && parts.clone().all(|part| part.0.color == first.color) =>
+            {
+                first
+            }
+            _ => blend(parts),
+        }
+    }
+
+    /// The statement for a shade; `None` if it is that of a face.
+    fn statement(&mut self, scene: &mut Scene, shade: &Shade) -> Option<ColorId> {
+        if shade.color.is_some() {
+            return None;
+        }
+        let Hsv { hue, saturation, value } = shade.hsv;
+        let numbers = shade.light.unwrap_or([hue, saturation, value]);
+        let kind = u64::from(shade.light.is_some()) + 2 * u64::from(shade.is_mixture);
+        let [a, b, c] = numbers.map(f64::to_bits);
+        let key = [a, b, c, shade.translucency.to_bits(), kind];
+        if let Some(&known) = self.stated.get(&key) {
+            return Some(known);
+        }
+        let color = self.add(scene, shade);
+        self.stated.insert(key, color);
+        Some(color)
+    }
+
+    /// Adds a statement.
+    fn add(&mut self, scene: &mut Scene, shade: &Shade) -> ColorId {
+        let prefix = if shade.is_mixture {
+            scene.stage.mixtures.get_or_insert(self.mixtures);
+            self.mixtures.prefix()
+        } else {
+            self.prefix.clone()
+        };
+        let number = self.mixed.len() + self.stated.len() + 1;
+        let name = scene.names.add_parts(&[&prefix, &number.to_string()]);
+        scene.colors.push(Color { name, value: shade.value(), translucency: shade.translucency });
+        ColorId::from_index(scene.colors.len() - 1)
     }
 }
 
 /// The weighted means of hue, saturation and value, as the renderer of 1988 interpolates them
 /// between the corners of a face. Wavelengths in place of hues are averaged alike. Greys do not
-/// contribute to the hue.
-fn blend(scene: &Scene, parts: &[(ColorId, f64)]) -> (ColorValue, f64) {
-    let (mut mean, mut hue_weight, mut translucency) =
-        (Hsv { hue: 0.0, saturation: 0.0, value: 0.0 }, 0.0, 0.0);
-    for &(id, weight) in parts {
-        let color = &scene.colors[id.index()];
-        let hsv = uglight::hsv(scene, color);
-        mean.value += weight * hsv.value;
-        mean.saturation += weight * hsv.saturation;
-        translucency += weight * color.translucency;
-        if hsv.saturation > 0.0 {
-            mean.hue += weight * below_violet(hsv.hue);
+/// contribute to the hue. If a part is given as light, light is averaged instead.
+fn blend(parts: impl Iterator<Item = (Shade, f64)>) -> Shade {
+    let (mut hsv, mut hue_weight) = (Hsv { hue: 0.0, saturation: 0.0, value: 0.0 }, 0.0);
+    let (mut linear, mut translucency) = (DVec3::ZERO, 0.0);
+    let (mut has_light, mut is_mixture) = (false, false);
+    for (shade, weight) in parts {
+        hsv.value += weight * shade.hsv.value;
+        hsv.saturation += weight * shade.hsv.saturation;
+        translucency += weight * shade.translucency;
+        if shade.hsv.saturation > 0.0 {
+            hsv.hue += weight * below_violet(shade.hsv.hue);
             hue_weight += weight;
         }
+        linear += weight * shade.linear();
+        has_light |= shade.light.is_some();
+        is_mixture |= shade.is_mixture;
     }
     if hue_weight > 0.0 {
-        mean.hue /= hue_weight;
+        hsv.hue /= hue_weight;
     }
-    let Hsv { hue, saturation, value } = mean;
-    (ColorValue::Hsv { value, tint: Tint::Hue(hue), saturation }, translucency)
+    let light = has_light.then(|| linear.to_array());
+    Shade { color: None, is_mixture, hsv, light, translucency }
 }
 
 /// Maps hues between violet (300) and red (360) to negative ones, (P16). Larger numbers are

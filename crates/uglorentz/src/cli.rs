@@ -8,7 +8,7 @@ use glam::DVec3;
 use ugparse::{Origins, Source, pipe};
 use ugpipe::{CommonArgs, Context, Failure, Progress, ToolArgs, finite, vector, whole};
 use ugscene::Geometry;
-use ugscene::cli::CameraArgs;
+use ugscene::cli::{CameraArgs, RepeatArgs};
 
 use crate::{Anchor, Config, DEFAULT_COLOR_ERROR, DEFAULT_ERROR, Error, Pieces, Table, measure};
 
@@ -88,6 +88,9 @@ pub struct Args {
     /// Write vertex normals for smooth shading, where the scene has none
     #[arg(long = "sm", visible_alias = "smooth")]
     smooth: bool,
+
+    #[command(flatten)]
+    repeat: RepeatArgs,
 
     /// For teaching: omit Lorentz contraction
     #[arg(long = "nc", visible_alias = "no-contraction")]
@@ -202,6 +205,7 @@ impl Args {
             light_error: self.light_error.unwrap_or(f64::INFINITY),
             measure: self.common.verbose(),
             smooth: self.smooth,
+            repeat: self.repeat.repeats(),
             geometry: Geometry { contraction: !self.no_contraction, flight_time: !self.no_flight_time },
         })
     }

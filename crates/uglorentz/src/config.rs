@@ -47,6 +47,9 @@ pub struct Config {
     pub measure: bool,
     /// Give vertices without a normal the mean normal of their faces (`-sm`).
     pub smooth: bool,
+    /// Give each vertex a copy per colour of its faces, so that their colours are not mixed
+    /// (`-vr`).
+    pub repeat: bool,
     /// Which effects to show (`-nc`, `--no-flight-time`).
     pub geometry: Geometry,
 }
@@ -67,6 +70,7 @@ impl Default for Config {
             light_error: f64::INFINITY,
             measure: false,
             smooth: false,
+            repeat: false,
             geometry: Geometry::default(),
         }
     }

@@ -57,6 +57,7 @@ mod parallel_reader;
 pub mod pipe;
 mod reader;
 mod resolve;
+mod rgb_as_hsv;
 mod scene;
 mod scope;
 mod source;
@@ -83,7 +84,7 @@ pub use names::{NameId, Names, UniqueNames};
 pub use options::{Limit, Limits, Options};
 pub use scene::*;
 pub use source::{Source, Span};
-pub use stage::{ColorScale, ColorStage, GeometryStage, HueScale, SeenColors, SeenGeometry, Stage};
+pub use stage::{ColorScale, ColorStage, GeometryStage, HueScale, Mixtures, SeenColors, SeenGeometry, Stage};
 pub use tidy::tidy;
 pub use writer::{write, write_to};
 
@@ -114,6 +115,10 @@ pub fn parse(source: &Source, options: &Options) -> Result<Parsed, Diagnostics> 
     refuse_errors(source, &mut findings)?;
 
     let stage = document.stage.map_or_else(Stage::default, |(stage, _)| stage);
+    // Colours that programs wrote were read with this warning before.
+    if stage.is_at_rest() {
+        findings.extend(rgb_as_hsv::warning(text, &document.scopes));
+    }
     let mut scene = Scene { stage, ..Scene::default() };
     let links = resolve::resolve(text, &mut document.scopes, &mut scene, &options.limits, &mut findings);
     refuse_errors(source, &mut findings)?;

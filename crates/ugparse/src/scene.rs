@@ -361,7 +361,7 @@ pub struct Camera {
     pub film: Option<[f64; 4]>,
     /// `-og` or `-ps`.
     pub projection: Option<Projection>,
-    /// `-va`: full horizontal and vertical view angles, degrees.
+    /// `-va`: full horizontal and vertical view angles, degrees; equal if one is given.
     pub view_angle: Option<[f64; 2]>,
     /// `-fs`: film size.
     pub film_size: Option<[f64; 2]>,

@@ -13,6 +13,52 @@ pub struct Stage {
     pub geometry: GeometryStage,
     /// The stage of colours.
     pub colors: ColorStage,
+    /// The colours that were given to vertices between corners with mixed colours; `None` if there
+    /// are none.
+    pub mixtures: Option<Mixtures>,
+}
+
+/// The names of mixed colours: the prefix `mix` with this many `#`, and a number.
+///
+/// Vertices with such a colour are those that subdivision added between corners where faces of
+/// different colours meet. Programs that keep colours apart remove it from them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Mixtures {
+    n_marks: u32,
+}
+
+impl Mixtures {
+    const WORD: &str = "mix";
+
+    /// The shortest prefix that none of `names` begins with.
+    pub fn unused<'a>(names: impl Iterator<Item = &'a str>) -> Self {
+        let marks = |name: &str| {
+            let rest = name.strip_prefix(Self::WORD)?;
+            Some(rest.bytes().take_while(|&byte| byte == b'#').count() as u32)
+        };
+        Self { n_marks: names.filter_map(marks).max().unwrap_or_default() + 1 }
+    }
+
+    /// Reads a prefix.
+    pub fn from_prefix(prefix: &str) -> Option<Self> {
+        let marks = prefix.strip_prefix(Self::WORD)?;
+        let are_marks = !marks.is_empty() && marks.bytes().all(|byte| byte == b'#');
+        Some(Self { n_marks: u32::try_from(marks.len()).ok().filter(|_| are_marks)? })
+    }
+
+    /// The prefix.
+    pub fn prefix(self) -> String {
+        Self::WORD.to_string() + &"#".repeat(self.n_marks as usize)
+    }
+
+    /// Is this the name of a mixture?
+    pub fn contains(self, name: &str) -> bool {
+        let rest = name.strip_prefix(Self::WORD).map(str::as_bytes);
+        rest.is_some_and(|rest| {
+            let marks = rest.get(..self.n_marks as usize);
+            marks.is_some_and(|marks| marks.iter().all(|&byte| byte == b'#'))
+        })
+    }
 }
 
 /// The stage of the positions in a scene.

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! (ugstage 1 geometry as-seen eye 0 -12 3 time -5 camera-velocity 0.6 0 0 no-contraction
-//!  colors as-seen hues law report no-doppler lights)
+//!  colors as-seen hues law report no-doppler lights mixtures mix#)
 //! ```
 
 use glam::DVec3;
@@ -11,7 +11,9 @@ use ugphysics::{Brightness, Velocity};
 use crate::diagnostic::Diagnostic;
 use crate::reader::Document;
 use crate::source::Span;
-use crate::stage::{ColorScale, ColorStage, GeometryStage, HueScale, SeenColors, SeenGeometry, Stage};
+use crate::stage::{
+    ColorScale, ColorStage, GeometryStage, HueScale, Mixtures, SeenColors, SeenGeometry, Stage,
+};
 use crate::suggest::nearest;
 use crate::token::{Input, found, is_blank, number};
 use crate::wording::{shorten, word_help};
@@ -27,6 +29,7 @@ const AT_REST: &str = "at-rest";
 const AS_SEEN: &str = "as-seen";
 const GEOMETRY: &str = "geometry";
 const COLORS: &str = "colors";
+const MIXTURES: &str = "mixtures";
 const EYE: &str = "eye";
 const TIME: &str = "time";
 const CAMERA_VELOCITY: &str = "camera-velocity";
@@ -119,7 +122,8 @@ fn read(text: &[u8], span: Span) -> Result<Stage, Diagnostic> {
         match word.as_str() {
             GEOMETRY => stage.geometry = geometry(&mut words)?,
             COLORS => stage.colors = colors(&mut words)?,
-            _ => return Err(unknown(word, &[GEOMETRY, COLORS])),
+            MIXTURES => stage.mixtures = Some(words.mixtures()?),
+            _ => return Err(unknown(word, &[GEOMETRY, COLORS, MIXTURES])),
         }
     }
     Ok(stage)
@@ -155,7 +159,7 @@ fn geometry(words: &mut Words<'_>) -> Result<GeometryStage, Diagnostic> {
             _ => {
                 return Err(unknown(
                     word,
-                    &[EYE, TIME, CAMERA_VELOCITY, NO_CONTRACTION, NO_FLIGHT_TIME, COLORS],
+                    &[EYE, TIME, CAMERA_VELOCITY, NO_CONTRACTION, NO_FLIGHT_TIME, COLORS, MIXTURES],
                 ));
             }
         }
@@ -265,7 +269,7 @@ impl<'t> Words<'t> {
     fn next_of_part(&mut self) -> Option<Word<'t>> {
         let before = self.rest;
         let word = self.next();
-        if word.is_some_and(|word| [GEOMETRY, COLORS].contains(&word.as_str())) {
+        if word.is_some_and(|word| [GEOMETRY, COLORS, MIXTURES].contains(&word.as_str())) {
             self.rest = before;
             return None;
         }
@@ -328,6 +332,12 @@ impl<'t> Words<'t> {
         Ok(DVec3::new(self.number()?, self.number()?, self.number()?))
     }
 
+    fn mixtures(&mut self) -> Result<Mixtures, Diagnostic> {
+        let example = "mix#";
+        let Some(word) = self.next() else { return Err(self.missing("the prefix of mixtures", example)) };
+        Mixtures::from_prefix(word.as_str()).ok_or_else(|| unknown(word, &[example]))
+    }
+
     /// The error for a missing word at the current position.
     fn missing(&mut self, what: &str, example: &str) -> Diagnostic {
         self.skip_blanks();
@@ -388,6 +398,10 @@ pub(crate) fn write(stage: &Stage, out: &mut Vec<u8>, numbers: &mut zmij::Buffer
         if seen.lights {
             add(LIGHTS, &[]);
         }
+    }
+    if let Some(mixtures) = stage.mixtures {
+        add(MIXTURES, &[]);
+        add(&mixtures.prefix(), &[]);
     }
     out.push(b')');
 }

@@ -75,7 +75,7 @@ fn usage(keyword: &[u8]) -> Option<&'static str> {
         b"c_spd" => "c_spd [ID] nm value [nm value] … ;",
         b"surf" => "surf ID kd ks kt [n [exponent]] ;",
         b"l" => "l [ID] intensity [x y z [radius]] [color] [< vx vy vz >] ;",
-        b"cam" => "cam [ID] [-ep x y z] [-vc x y z] [-ud x y z] [-va a b] … ;",
+        b"cam" => "cam [ID] [-ep x y z] [-vc x y z] [-ud x y z] [-va a [b]] … ;",
         b"def" => "def ID ; … end ;",
         b"end" => "end ;",
         b"include" => "include FILE ;",

@@ -40,9 +40,13 @@ pub const NOTHING_IN_FRONT: &str = "nothing is drawn: everything is behind the e
 pub const NOTHING_IN_PICTURE: &str = "nothing is drawn: everything is outside the picture, where fast bodies often are; \
      try `uglorentz -in`, another -vc or a wider -va";
 
-/// Everything is shifted out of the visible range.
-pub const OUT_OF_RANGE: &str = "all that is in the picture is black: its wavelengths are outside 380-780 nm; \
+/// Most or everything is shifted out of the visible range.
+pub const OUT_OF_RANGE: &str = "its wavelengths are outside 380-780 nm; \
      try a lower speed, or `ugdoppler --no-doppler --no-flux` to see the shape";
+
+/// Vertices have colours as seen, so they cannot be repeated for the colours of faces.
+pub const REPEAT_EARLIER: &str =
+    "-vr has no effect on colours as seen, which every vertex has: give it to ugdoppler";
 
 /// Colours of the scene are hues.
 pub const WRITE_WAVELENGTHS: &str = "give -gw to ugdoppler";

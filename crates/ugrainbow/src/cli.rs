@@ -11,6 +11,7 @@ use ugphysics::{Brightness, Hsv};
 use ugpicture::Output;
 use ugpicture::cli::{AnnotationArgs, PICTURE, PictureArgs, color, format_named};
 use ugpipe::{CommonArgs, Context, Failure, ToolArgs, finite};
+use ugscene::cli::RepeatArgs;
 
 use crate::config::{Config, DepthCue, Interpolation, LINE_WIDTH, Wireframe};
 use crate::error::Error;
@@ -75,6 +76,9 @@ pub struct Args {
     /// Closed opaque bodies look the same without them, and large scenes are drawn faster.
     #[arg(long, visible_alias = "cull-back-faces", conflicts_with = "xc", help_heading = PICTURE)]
     cb: bool,
+
+    #[command(flatten)]
+    repeat: RepeatArgs,
 
     /// Wireframe: draw edges of faces as lines, instead of faces; faces still occlude them
     ///
@@ -179,6 +183,7 @@ impl Args {
             depth_cue: self.depth_cue()?,
             exact: self.xc.then(|| self.color_shift()),
             cull: self.cb,
+            repeat: self.repeat.repeats(),
         })
     }
 

@@ -29,6 +29,8 @@ pub struct Config {
     pub exact: Option<ColorShift>,
     /// Cull back-facing faces, which run clockwise in the picture.
     pub cull: bool,
+    /// Give each vertex a copy per colour of its faces, instead of mixing them (`-vr`).
+    pub repeat: bool,
 }
 
 impl Default for Config {
@@ -44,6 +46,7 @@ impl Default for Config {
             depth_cue: None,
             exact: None,
             cull: false,
+            repeat: false,
         }
     }
 }

@@ -27,13 +27,17 @@ pub struct DrawStatistics {
 /// The notes, one sentence each.
 pub fn notes(setup: &Setup<'_>, config: &Config, statistics: &DrawStatistics) -> Vec<String> {
     let mut notes = scene_notes(setup.scene(), config.exact.is_some());
+    if config.repeat && setup.scene().stage.seen_colors().is_some() {
+        notes.push(remedies::REPEAT_EARLIER.into());
+    }
     if setup.view.is_up_replaced {
         notes.push(
             "the up direction is zero or parallel to the view, so another axis is up; choose one with -ud"
                 .into(),
         );
     }
-    notes.extend(why_nothing_is_seen(config, statistics).map(str::to_owned));
+    let why = why_nothing_is_seen(config, statistics).map(str::to_owned);
+    notes.extend(why.or_else(|| why_it_is_dark(&statistics.stats)));
     notes.extend(light_note(config, statistics));
     if let (Some(DepthCue { range: None, least }), Some(DepthFade { near, far, .. })) =
         (config.depth_cue, setup.grid.fade)
@@ -86,6 +90,7 @@ fn scene_notes(scene: &Scene, is_exact: bool) -> Vec<String> {
             remedies::MOVING_LIGHTS
         ));
     }
+    notes.extend(ugscene::mixing_note(scene));
     // Exact pictures have spectra at rest only, which are not shifted.
     notes.extend(uglight::spectra_note(scene).filter(|_| !is_exact));
     notes
@@ -112,13 +117,27 @@ fn why_nothing_is_seen(
             "nothing is drawn: everything is seen edge-on or smaller than a sample; try another -ep or a narrower -va",
         );
     }
-    if stats.visible > 0 {
+    if stats.visible > 0 || stats.out_of_range > 0 {
         return None;
-    }
-    if stats.out_of_range > 0 {
-        return Some(remedies::OUT_OF_RANGE);
     }
     Some(
         "all that is in the picture is black: its colours are, or no light falls on it; try `l 1;` in the scene",
     )
+}
+
+/// The note on a picture that is black or grey, or most of it, because its wavelengths are
+/// invisible.
+fn why_it_is_dark(stats: &SampleStats) -> Option<String> {
+    let &SampleStats { covered, visible, out_of_range, .. } = stats;
+    let share = match visible {
+        0 if out_of_range > 0 => "all that is in the picture is black".to_owned(),
+        _ if out_of_range <= covered / 2 => return None,
+        _ if out_of_range == covered => "all that is in the picture is black or grey".to_owned(),
+        // Rounded down: 100 percent would be all.
+        _ => {
+            let percent = out_of_range.saturating_mul(100) / covered;
+            format!("{percent} percent of what is in the picture is black or grey")
+        }
+    };
+    Some(format!("{share}: {}", remedies::OUT_OF_RANGE))
 }

@@ -49,6 +49,9 @@ impl<'a> Setup<'a> {
             ugscene::require_seen_geometry(scene)?;
         }
         let mut scene = drawable(scene);
+        if config.repeat {
+            ugscene::repeat_vertices(scene.to_mut(), true);
+        }
         let PictureOptions { size: [width, height], samples, camera, .. } = &config.picture;
         let [width, height, samples] = [*width, *height, *samples];
         let view = View::new(&scene, camera, [width * samples, height * samples])?;

@@ -553,6 +553,32 @@ fn pictures_in_which_nothing_is_seen_say_why() {
            `ugdoppler --no-doppler --no-flux` to see the shape",
         ],
     );
+    // The white part of a pale colour stays visible.
+    let moved = "c far .5 900 .8; v e 30 0 0; v f 31 0 0; v g 30 1 0; f (e f g) far";
+    check(
+        &format!("{moved}; l 1; cam -ep 30.2 .2 20 -vc 30.2 .2 0 -ud 0 1 0;"),
+        &Config { hue_scale: HueScale::Wavelengths, ..config.clone() },
+        &[
+            "all that is in the picture is black or grey: its wavelengths are outside 380-780 nm; try a lower \
+           speed, or `ugdoppler --no-doppler --no-flux` to see the shape",
+        ],
+    );
+    // Three quarters of the square, then one quarter of it.
+    let parts = |near: f64| {
+        format!(
+            "c far 1 900; c green 1 546; l 1; v a -1 -1 0; v b 1 -1 0; v c 1 1 0; v d -1 1 0; v e {near} -1 0; \
+             v f {near} 1 0; v g {near} -1 0; v h {near} 1 0; f (a e f d) far; f (g b c h) green; \
+             cam -ep 0 0 20 -vc 0 0 0 -ud 0 1 0 -va 5;"
+        )
+    };
+    let wavelengths = Config { hue_scale: HueScale::Wavelengths, ..config.clone() };
+    check(
+        &parts(0.5),
+        &wavelengths,
+        &["75 percent of what is in the picture is black or grey: its wavelengths are outside 380-780 nm; \
+           try a lower speed, or `ugdoppler --no-doppler --no-flux` to see the shape"],
+    );
+    check(&parts(-0.5), &wavelengths, &[]);
     check(
         &format!("{square} black; cam -ep 1 0 20;"),
         &config,

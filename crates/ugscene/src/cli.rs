@@ -87,6 +87,23 @@ impl CameraArgs {
     }
 }
 
+/// What happens where faces of different colours meet: flatten it into the arguments of a program.
+#[derive(Args, Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct RepeatArgs {
+    /// Repeat a vertex for every face colour that meets there, instead of mixing them
+    ///
+    /// Faces then keep their own colours up to their edges.
+    #[arg(long, visible_alias = "repeat-vertices")]
+    vr: bool,
+}
+
+impl RepeatArgs {
+    /// True if vertices are to be repeated.
+    pub fn repeats(self) -> bool {
+        self.vr
+    }
+}
+
 fn point(numbers: &Option<Vec<f64>>) -> Option<DVec3> {
     vector(numbers.as_deref()).map(DVec3::from_array)
 }

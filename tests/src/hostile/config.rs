@@ -31,6 +31,7 @@ pub fn lorentz(random: &mut Random) -> uglorentz::Config {
         light_error: if random.one_in(4) { 0.5 } else { f64::INFINITY },
         measure: random.one_in(4),
         smooth: random.one_in(4),
+        repeat: random.one_in(4),
         geometry: ugscene::Geometry { contraction: !random.one_in(8), flight_time: !random.one_in(8) },
     }
 }
@@ -79,6 +80,7 @@ pub fn rainbow(random: &mut Random) -> ugrainbow::Config {
         }),
         exact: maybe(random, 4, shift),
         cull: random.one_in(6),
+        repeat: random.one_in(6),
     }
 }
 

@@ -187,7 +187,7 @@ fn lorentz(random: &mut Random) -> Vec<String> {
     maybe(random, 8, &mut line, "-an", anchor);
     let table = vec![MEASURED.to_owned()];
     maybe(random, 15, &mut line, "-at", table);
-    flags(random, 5, &mut line, &["-in", "-sm", "-cull", "-nc", "--no-flight-time", "-vb"]);
+    flags(random, 5, &mut line, &["-in", "-sm", "-vr", "-cull", "-nc", "--no-flight-time", "-vb"]);
     line
 }
 
@@ -238,7 +238,7 @@ fn rainbow(random: &mut Random) -> Vec<String> {
     maybe(random, 15, &mut line, "--explain", pixel);
     let law = word(random, &["report", "photon", "bolometric", "none"]);
     maybe(random, 15, &mut line, "-br", law);
-    flags(random, 20, &mut line, &["-pz", "-dp", "-sp", "--no-doppler", "--no-flux"]);
+    flags(random, 20, &mut line, &["-pz", "-dp", "-vr", "-sp", "--no-doppler", "--no-flux"]);
     let exposure = vec![if random.one_in(2) { "auto".to_owned() } else { words::number(random) }];
     maybe(random, 4, &mut line, "-ex", exposure);
     let samples = vec![(1 + random.below(3)).to_string()];

@@ -1,6 +1,8 @@
 //! Options of cameras.
 
 use glam::DVec3;
+use nom::Parser;
+use nom::combinator::opt;
 
 use super::{numbers, zero_vector};
 use crate::scene::{Camera, Projection};
@@ -34,7 +36,12 @@ pub(super) fn camera_option<'a>(
         }
         b"cl" => store(&mut camera.clip, numbers(input), pair),
         b"ph" => store(&mut camera.film, numbers(input), |x: [f64; 4]| x),
-        b"va" => store(&mut camera.view_angle, numbers(input), pair),
+        b"va" => {
+            let (rest, across) = require(number(input))?;
+            let (rest, down) = opt(number).parse(rest)?;
+            camera.view_angle = Some([across, down.unwrap_or(across)]);
+            Ok((rest, ()))
+        }
         b"fs" => store(&mut camera.film_size, numbers(input), pair),
         b"fl" => store(&mut camera.focal_length, number(input), |x| x),
         b"og" => {

@@ -117,3 +117,72 @@ fn colours_may_be_physical() {
         check_error(text, message);
     }
 }
+
+/// The warnings of a scene, as a person sees them.
+fn warnings(text: &str) -> String {
+    crate::parse_with(text, false).warnings.render(false)
+}
+
+#[test]
+fn red_green_and_blue_in_a_statement_of_lightness_and_hue_are_noticed() {
+    assert_eq!(
+        warnings("c red 1 0 0;"),
+        "warning: colour `red` is white, not red, green and blue
+ --> test.ug:1:3
+  |
+1 | c red 1 0 0;
+  |   ^^^ lightness 1, hue 0, saturation 0
+  |
+help: for red 1, green 0, blue 0 write `c_rgb red 1 0 0`"
+    );
+    assert_eq!(
+        warnings("c wood .6 30 .5;\nc yellow 255 128 0 ;\nc green 0 1 0; c Blue2 0 0 1;"),
+        "warning: colour `yellow` is white, not red, green and blue; 2 other colours look the same
+ --> test.ug:2:3
+  |
+2 | c yellow 255 128 0 ;
+  |   ^^^^^^ lightness 255, hue 128, saturation 0
+  |
+help: for red 1, green 0.502, blue 0 write `c_rgb yellow 1 0.502 0`"
+    );
+    let is_noticed = |text: &str, expected: bool| assert_eq!(!warnings(text).is_empty(), expected, "{text}");
+    for text in [
+        "c red 255 0 0;",
+        "c green 0 1 0;",
+        "c green 0 255 0;",
+        "c blue 0 0 1;",
+        "c yellow 1 1 0;",
+        "c orange 1 .5 0;",
+        "c cyan 0 1 1;",
+        "c magenta 1 0 1;",
+        "c white 1 1 1;",
+        "c grey .5 .5 .5;",
+        "c wall 200 180 0;",
+        "def d; c red 1 0 0; end;",
+    ] {
+        is_noticed(text, true);
+    }
+    for text in [
+        "c red 1 0 1;",
+        "c red .9 0 .8;",
+        "c red .9 5 .75;",
+        "c red 1;",
+        "c red 1 0;",
+        "c blue 1 240 1;",
+        "c white .95 45 .12;",
+        "c white 1 0 0;",
+        "c black 0 0 0;",
+        "c grey .6;",
+        "c sun 20 0 0;",
+        "c sun 20;",
+        "c lamp 3 60 .5;",
+        "c wall 1 0 0;",
+        "c 1 0 0;",
+        "c red 1 780 1;",
+        "c_rgb red 0 1 0;",
+        // Written by a program, which read it with the warning.
+        "(ugstage 1 colors as-seen hues law report) c red 1 0 0;",
+    ] {
+        is_noticed(text, false);
+    }
+}

@@ -2,7 +2,8 @@
 
 use glam::DVec3;
 use ugparse::{
-    ColorScale, ColorStage, ColorValue, GeometryStage, HueScale, SeenColors, SeenGeometry, Stage, Tint,
+    ColorScale, ColorStage, ColorValue, GeometryStage, HueScale, Mixtures, SeenColors, SeenGeometry, Stage,
+    Tint,
 };
 use ugphysics::{Brightness, Velocity};
 
@@ -40,11 +41,13 @@ fn every_stage_reads_back() {
     }
     for &geometry in &geometries {
         for &colors in &colors {
-            let stage = Stage { geometry, colors };
-            let text = written(stage);
-            assert_eq!(text.is_empty(), stage.is_at_rest());
-            assert_eq!(parse(&text).stage, stage, "{text}");
-            assert_eq!(text.lines().count(), usize::from(!text.is_empty()));
+            for mixtures in [None, Some(Mixtures::unused(["mix", "mix##1"].into_iter()))] {
+                let stage = Stage { geometry, colors, mixtures };
+                let text = written(stage);
+                assert_eq!(text.is_empty(), stage.is_at_rest());
+                assert_eq!(parse(&text).stage, stage, "{text}");
+                assert_eq!(text.lines().count(), usize::from(!text.is_empty()));
+            }
         }
     }
 }
@@ -134,7 +137,7 @@ fn errors_have_locations_and_remedies() {
     );
     check("(ugstage)", "1:9", "the version of the stage statement is missing", "add `1`");
     check("(ugstage 1 geometri at-rest)", "1:12", &unexpected("geometri"), "did you mean `geometry`?");
-    check("(ugstage 1 shape)", "1:12", &unexpected("shape"), "expected `geometry`, `colors`");
+    check("(ugstage 1 shape)", "1:12", &unexpected("shape"), "expected `geometry`, `colors`, `mixtures`");
     check("(ugstage 1 geometry)", "1:20", "a word is missing", "add `at-rest` or `as-seen`");
     check("(ugstage 1 geometry at_rest)", "1:21", &unexpected("at_rest"), "did you mean `at-rest`?");
     check(
@@ -166,7 +169,7 @@ fn errors_have_locations_and_remedies() {
         "(ugstage 1 geometry as-seen eye 0 0 0 law report)",
         "1:39",
         &unexpected("law"),
-        "expected `eye`, `time`, `camera-velocity`, `no-contraction`, `no-flight-time`, `colors`",
+        "expected `eye`, `time`, `camera-velocity`, `no-contraction`, `no-flight-time`, `colors`, `mixtures`",
     );
     check(
         "(ugstage 1 colors as-seen)",
@@ -174,6 +177,9 @@ fn errors_have_locations_and_remedies() {
         "a word is missing",
         "add `hues` or `wavelengths` or `spectra`",
     );
+    check("(ugstage 1 mixtures)", "1:20", "the prefix of mixtures is missing", "add `mix#`");
+    check("(ugstage 1 mixtures mix)", "1:21", &unexpected("mix"), "did you mean `mix#`?");
+    check("(ugstage 1 mixtures mix#1)", "1:21", &unexpected("mix#1"), "expected `mix#`");
     check(
         "(ugstage 1 colors as-seen hues lights)",
         "1:38",

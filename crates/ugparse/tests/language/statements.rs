@@ -122,6 +122,10 @@ fn cameras() {
             "cam side -ep 4 5 6 -vc 1 2 3 -ud 0 0 1 -cl 1 100 -ph 0 0 1 0.5 -va 40 30 -fs 3 4 -fl 2 -ps <0 0 0.5>;",
         ],
     );
+    // One angle stands for both, wherever it is.
+    check("cam -va 40;", &["cam -va 40 40;"]);
+    check("cam -va 40 -ps <0 0 .5>;", &["cam -va 40 40 -ps <0 0 0.5>;"]);
+    check("cam -va 40 { one } -fl 2;", &["{ one }", "cam -va 40 40 -fl 2;"]);
     for option in [
         "-ep 0 0 0",
         "-vc 1 2 3",
@@ -138,7 +142,7 @@ fn cameras() {
     check("cam -og -ps;", &["cam -ps;"]);
     check("cam -ep 1 1 1 -ep 2 2 2;", &["cam -ep 2 2 2;"]);
     check_error("cam -ep 1 2;", "expected a number, found `;`");
-    check_error("cam -va 40;", "expected a number, found `;`");
+    check_error("cam -va;", "expected a number, found `;`");
     check_error("cam -ud 0 0 0;", "the vector is zero");
     check_error(
         "cam -zoom 2;",

@@ -1,0 +1,108 @@
+//! Notes on colours in real pipes: each is printed once, by the program where it happens.
+
+use std::io::Write;
+use std::path::PathBuf;
+use std::process::{Command, Stdio};
+
+use ugtests::programs;
+
+/// Yellow walls and a red roof that share vertices.
+const HOUSE: &str = "c yellow 1 50 .6; c red .9 0 .8;
+v a 0 0 0; v b 3 0 0; v c 3 2 0; v d 0 2 0; v e 0 0 2; v f 3 0 2; v g 3 2 2; v h 0 2 2;
+v i 0 1 3; v j 3 1 3;
+f (a b f e) yellow; f (b c g j f) yellow; f (c d h g) yellow; f (d a e i h) yellow;
+f (e f j i) red; f (g h i j) red;
+l .35; l .65 -.4 -1 .6; cam -ep 1.5 -12 4 -vc 1.5 1 1.3 -va 32;
+";
+
+const MIXED: &str =
+    "note: colours are mixed at 6 vertices where faces of different colours meet; -vr keeps them apart\n";
+
+/// The error output of a pipe of these commands, which succeeds and writes a picture.
+fn messages(folder: &PathBuf, pipe: &str, scene: &str) -> String {
+    let mut text = scene.as_bytes().to_vec();
+    let mut messages = String::new();
+    for command in pipe.split('|') {
+        let mut words = command.split_whitespace();
+        let mut command = Command::new(folder.join(words.next().expect("a program")));
+        command.args(words).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+        let mut child = command.spawn().expect("the program starts");
+        let mut input = child.stdin.take().expect("a pipe");
+        let writer = std::thread::spawn(move || input.write_all(&text));
+        let output = child.wait_with_output().expect("the program ends");
+        writer.join().expect("the writer ends").expect("the program reads its input");
+        messages += &String::from_utf8(output.stderr).expect("messages are UTF-8");
+        assert!(output.status.success(), "{pipe}: {messages}");
+        text = output.stdout;
+    }
+    assert!(text.starts_with(b"\x89PNG"), "{pipe}");
+    messages
+}
+
+#[test]
+fn mixed_colours_are_noted_once() {
+    let folder = programs::of_this_profile();
+    let check = |pipe: &str, expected: &str| {
+        let pipe = pipe.replace("ugrainbow", "ugrainbow -sz 64 48 -aa 2");
+        assert_eq!(messages(&folder, &pipe, HOUSE), expected, "{pipe}");
+    };
+    check("ugrainbow", &format!("ugrainbow: {MIXED}"));
+    check("ugrainbow -vr", "");
+    check("ugrainbow --repeat-vertices", "");
+    check("ugrainbow -qt", "");
+    check("uglorentz -vel .9 0 0 -in | ugrainbow", &format!("ugrainbow: {MIXED}"));
+    check("uglorentz -vel .9 0 0 -in | ugrainbow -vr", "");
+    check("uglorentz -vel .9 0 0 -in -vr | ugrainbow", "");
+    check("uglorentz -sd 3 | ugrainbow -vr", "");
+    check("uglorentz -sd 1 -vel .01 0 0 -in | ugrainbow -xc", &format!("ugrainbow: {MIXED}"));
+    check("uglorentz -sd 1 -vel .01 0 0 -in | ugrainbow -xc -vr", "");
+    check("uglorentz | ugdoppler | ugrainbow", &format!("ugdoppler: {MIXED}"));
+    check("uglorentz | ugdoppler -sp | ugrainbow", &format!("ugdoppler: {MIXED}"));
+    check("uglorentz | ugdoppler -vr | ugrainbow", "");
+    check("uglorentz -vr | ugdoppler | ugrainbow", "");
+    check(
+        "ugdoppler | ugrainbow -vr",
+        &format!(
+            "ugdoppler: {MIXED}ugrainbow: note: -vr has no effect on colours as seen, which every vertex has: \
+             give it to ugdoppler\n"
+        ),
+    );
+}
+
+/// A pure green square that moves across: D = 1 / γ where it is seen at right angles to the motion.
+#[test]
+fn a_picture_without_visible_wavelengths_says_so() {
+    let folder = programs::of_this_profile();
+    let scene = |saturation: f64| {
+        format!(
+            "c green 1 120 {saturation}; v a -1 9 -1; v b 1 9 -1; v c 1 9 1; v d -1 9 1; f (a b c d) green;
+             l 1; cam -ep 0 0 0 -vc 0 9 0 -va 20;"
+        )
+    };
+    let check = |saturation: f64, speed: &str, expected: &str| {
+        let pipe = format!("uglorentz -in -vel {speed} 0 0 | ugdoppler | ugrainbow -sz 64 48 -aa 2");
+        let found = messages(&folder, &pipe, &scene(saturation));
+        let remedy = "its wavelengths are outside 380-780 nm; try a lower speed, or \
+                      `ugdoppler --no-doppler --no-flux` to see the shape";
+        let expected = match expected {
+            "" => String::new(),
+            share => format!("ugrainbow: note: {share}: {remedy}\n"),
+        };
+        assert_eq!(found, expected, "{saturation} {speed}");
+    };
+    // γ = 2.29: 546.1 nm is seen at 1253 nm.
+    check(1.0, ".9", "all that is in the picture is black");
+    check(0.5, ".9", "all that is in the picture is black or grey");
+    // γ = 1.005.
+    check(1.0, ".1", "");
+}
+
+#[test]
+fn red_green_and_blue_that_are_read_as_lightness_and_hue_are_noted_once() {
+    let folder = programs::of_this_profile();
+    let scene = HOUSE.replace("c red .9 0 .8", "c red 1 0 0");
+    let pipe = "uglorentz -vel .1 0 0 -in -vr | ugdoppler -hd | ugrainbow -sz 64 48";
+    let found = messages(&folder, pipe, &scene);
+    assert_eq!(found.matches("colour `red` is white, not red, green and blue").count(), 1, "{found}");
+    assert!(found.contains("for red 1, green 0, blue 0 write `c_rgb red 1 0 0`"), "{found}");
+}
