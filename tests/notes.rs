@@ -75,7 +75,7 @@ fn a_picture_without_visible_wavelengths_says_so() {
     let folder = programs::of_this_profile();
     let scene = |saturation: f64| {
         format!(
-            "c green 1 120 {saturation}; v a -1 9 -1; v b 1 9 -1; v c 1 9 1; v d -1 9 1; f (a b c d) green;
+            "c green .9 120 {saturation}; v a -1 9 -1; v b 1 9 -1; v c 1 9 1; v d -1 9 1; f (a b c d) green;
              l 1; cam -ep 0 0 0 -vc 0 9 0 -va 20;"
         )
     };

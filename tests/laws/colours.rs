@@ -90,7 +90,7 @@ fn mixtures_do_not_depend_on_how_faces_are_cut() {
     check("translucent", &house("c wall 1 50 .6 .5; c roof .9 0 .8;", None, false), 2);
     check("screen", &house("c_rgb wall .2 .8 .3; c_rgb roof .9 .2 .2;", None, false), 2);
     check("light", &house("c_xyz wall .3 .6 .2; c_xyz roof .5 .3 .9;", None, false), 2);
-    check("spectra", &house("c_bb wall 3000 .8; c_bb roof 9000 .4;", None, false), 2);
+    check("spectra", &house("c_bb wall 3000 .5; c_bb roof 9000 .4;", None, false), 2);
     let own = "c own .9 200 .7;";
     check("own", &house(&format!("{YELLOW_AND_RED} {own}"), Some(("b", "own")), false), 2);
     check("own-mixed", &house(&format!("{YELLOW_AND_RED} {own}"), Some(("f", "own")), false), 2);

@@ -3,7 +3,7 @@
 use rustc_hash::FxHashMap;
 use uglight::{HueColor, HueShift, VertexColor, hsv};
 use ugparse::{Color, ColorId, ColorValue, HueScale, NameId, Scene, Tint, UniqueNames};
-use ugphysics::{Hsv, hue_to_wavelength};
+use ugphysics::{Hsv, hue_to_wavelength, linear_srgb_to_xyz};
 
 use crate::Config;
 use crate::notes::{clipped, kept, scaled};
@@ -36,8 +36,8 @@ type Key = (BaseKey, u64);
 enum BaseKey {
     Named(ColorId),
     White,
-    /// Bits of hue, saturation, value and translucency.
-    Mixed([u64; 4]),
+    /// Is it given as light? And bits of light, or of hue, saturation and value; and of translucency.
+    Mixed(bool, [u64; 4]),
 }
 
 /// A colour at rest.
@@ -139,6 +139,11 @@ impl<'s> HueStatements<'s> {
         let name = if is_changed { format!("{}#{}", base.name, self.digits(doppler)) } else { base.name };
         let name = self.names.fresh(&name);
         let name = self.scene.names.add(&name);
+        if let (false, VertexColor::Mixed { light: Some(light), translucency, .. }) = (is_changed, color) {
+            let value = ColorValue::Xyz(linear_srgb_to_xyz(light));
+            self.scene.colors.push(Color { name, value, translucency });
+            return ColorId::from_index(self.scene.colors.len() - 1);
+        }
         self.push(name, seen, base.translucency)
     }
 
@@ -272,8 +277,10 @@ fn key(color: VertexColor) -> BaseKey {
     match color {
         VertexColor::Named(id) => BaseKey::Named(id),
         VertexColor::White => BaseKey::White,
-        VertexColor::Mixed { hsv, translucency, .. } => {
-            BaseKey::Mixed([hsv.hue, hsv.saturation, hsv.value, translucency].map(f64::to_bits))
+        VertexColor::Mixed { hsv, light, translucency } => {
+            // Of light, the hue is clipped.
+            let [a, b, c] = light.unwrap_or([hsv.hue, hsv.saturation, hsv.value]);
+            BaseKey::Mixed(light.is_some(), [a, b, c, translucency].map(f64::to_bits))
         }
     }
 }
