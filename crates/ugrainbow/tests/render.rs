@@ -563,7 +563,7 @@ fn pictures_in_which_nothing_is_seen_say_why() {
            speed, or `ugdoppler --no-doppler --no-flux` to see the shape",
         ],
     );
-    // Three quarters of the square, then one quarter of it.
+    // The picture is 40 tan 2.5° = 1.746 wide, so 1.373 / 1.746 of it is out of range, then 0.373.
     let parts = |near: f64| {
         format!(
             "c far 1 900; c green 1 546; l 1; v a -1 -1 0; v b 1 -1 0; v c 1 1 0; v d -1 1 0; v e {near} -1 0; \
@@ -575,7 +575,7 @@ fn pictures_in_which_nothing_is_seen_say_why() {
     check(
         &parts(0.5),
         &wavelengths,
-        &["75 percent of what is in the picture is black or grey: its wavelengths are outside 380-780 nm; \
+        &["78 percent of what is in the picture is black or grey: its wavelengths are outside 380-780 nm; \
            try a lower speed, or `ugdoppler --no-doppler --no-flux` to see the shape"],
     );
     check(&parts(-0.5), &wavelengths, &[]);

@@ -204,7 +204,12 @@ fn errors_have_locations_and_remedies() {
         &unexpected("no-flux"),
         "expected `law`, `no-doppler`, `lights`, `geometry`",
     );
-    check("(ugstage 1 { why } colors at-rest)", "1:12", &unexpected("{"), "expected `geometry`, `colors`");
+    check(
+        "(ugstage 1 { why } colors at-rest)",
+        "1:12",
+        &unexpected("{"),
+        "expected `geometry`, `colors`, `mixtures`",
+    );
     check(
         "(ugstage 1 colors at-rest colors at-rest)",
         "1:27",
