@@ -51,11 +51,7 @@ impl BoxIndex {
 
     /// Numbers of the boxes that overlap a box, each once, in order.
     pub fn in_box(&self, asked: [[f64; 2]; 2]) -> Vec<usize> {
-        let [low, high] = asked;
-        let overlaps = |shape: &usize| {
-            let [its_low, its_high] = self.boxes[*shape];
-            (0..2).all(|axis| its_low[axis] <= high[axis] && low[axis] <= its_high[axis])
-        };
+        let overlaps = |shape: &usize| self.overlaps(*shape, asked);
         let ends = self.ends(asked);
         let mut found = Vec::new();
         for (coarser, grid) in self.grids.iter().enumerate() {
@@ -65,6 +61,12 @@ impl BoxIndex {
         found.sort_unstable();
         found.dedup();
         found
+    }
+
+    /// True if the box of this number overlaps another.
+    pub fn overlaps(&self, shape: usize, [low, high]: [[f64; 2]; 2]) -> bool {
+        let [its_low, its_high] = self.boxes[shape];
+        (0..2).all(|axis| its_low[axis] <= high[axis] && low[axis] <= its_high[axis])
     }
 
     /// First and last column, and row, of the cells of the finest grid that a box touches.

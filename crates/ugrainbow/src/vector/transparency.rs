@@ -15,6 +15,9 @@ use crate::planar::{BoxIndex, Convex, is_covered};
 /// Most areas of a figure. Each translucent face adds the areas seen through it.
 const MOST_AREAS: usize = 1 << 16;
 
+/// Most comparisons of an area with another: some seconds of work.
+const MOST_VISITS: usize = 1 << 28;
+
 /// An area to paint, and the patches that are seen there.
 #[derive(Clone, Debug)]
 pub struct PaintedArea {
@@ -34,7 +37,7 @@ pub struct PaintedArea {
 pub fn areas(patches: &[Patch], pieces: &[Piece], size: [u32; 2]) -> Result<Vec<PaintedArea>, Error> {
     let has_clear = patches.iter().any(|patch| patch.is_transparent);
     let n_shapes = if has_clear { MOST_AREAS } else { 1 };
-    let mut areas = PaintedAreas { index: BoxIndex::empty(n_shapes, size), all: Vec::new() };
+    let mut areas = PaintedAreas { index: BoxIndex::empty(n_shapes, size), all: Vec::new(), n_visits: 0 };
     for piece in pieces {
         let area = whole(patches, piece);
         if patches[area.layers[0]].is_transparent {
@@ -42,7 +45,7 @@ pub fn areas(patches: &[Patch], pieces: &[Piece], size: [u32; 2]) -> Result<Vec<
         } else {
             areas.push(area);
         }
-        if areas.all.len() > MOST_AREAS {
+        if areas.all.len() > MOST_AREAS || areas.n_visits > MOST_VISITS {
             return Err(Error::Figure(too_many(has_clear, pieces.len())));
         }
     }
@@ -80,6 +83,8 @@ fn of_parts(layers: Vec<usize>, parts: Vec<Convex>) -> PaintedArea {
 struct PaintedAreas {
     all: Vec<PaintedArea>,
     index: BoxIndex,
+    /// How many times an area was compared with another.
+    n_visits: usize,
 }
 
 impl PaintedAreas {
@@ -91,36 +96,37 @@ impl PaintedAreas {
     /// Adds a translucent piece, and the areas seen through it again.
     fn push_transparent(&mut self, front: PaintedArea) {
         let mut behind = Vec::new();
-        for number in self.near(&front.parts) {
+        // Everything that hides a part of the piece is among its neighbours.
+        let near = self.index.in_box(Convex::bounds(&front.parts));
+        self.n_visits += near.len();
+        for (at, &number) in near.iter().enumerate() {
             let area = &self.all[number];
             let common: Vec<Convex> = front
                 .parts
                 .iter()
                 .flat_map(|own| area.parts.iter().filter_map(|part| own.common(part)))
                 .collect();
-            if !common.is_empty() && !self.is_hidden(common.clone(), number + 1) {
+            if !common.is_empty() && !self.is_hidden(common.clone(), &near[at + 1..]) {
                 let layers = front.layers.iter().chain(&area.layers).copied().collect();
                 behind.push(of_parts(layers, common));
             }
         }
-        if !self.is_hidden(front.parts.clone(), 0) {
+        if !self.is_hidden(front.parts.clone(), &near) {
             self.push(front);
         }
         behind.into_iter().for_each(|area| self.push(area));
     }
 
-    /// Areas whose bounding boxes overlap that of some parts, in the order of painting.
-    fn near(&self, parts: &[Convex]) -> Vec<usize> {
-        self.index.in_box(Convex::bounds(parts))
-    }
-
-    /// True if areas from number `first` on cover these parts completely.
-    fn is_hidden(&self, parts: Vec<Convex>, first: usize) -> bool {
-        let near = self.near(&parts);
-        let later = &near[near.partition_point(|&number| number < first)..];
-        is_covered(parts, later.iter().map(|&number| &self.all[number].parts[..]), |own, part| {
-            own.beside(part)
-        })
+    /// True if the areas of these numbers cover these parts completely.
+    fn is_hidden(&mut self, parts: Vec<Convex>, later: &[usize]) -> bool {
+        let bounds = Convex::bounds(&parts);
+        let mut n_visits = 0;
+        let covers = later.iter().inspect(|_| n_visits += 1);
+        let covers = covers.filter(|&&number| self.index.overlaps(number, bounds));
+        let covers = covers.map(|&number| &self.all[number].parts[..]);
+        let is_hidden = is_covered(parts, covers, |own, part| own.beside(part));
+        self.n_visits += n_visits;
+        is_hidden
     }
 }
 
