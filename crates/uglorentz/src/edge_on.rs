@@ -29,10 +29,10 @@ pub(crate) fn is_edge_on(
 ) -> bool {
     let corners = || scene.contours.corners(face.contours.clone()).iter().map(|&corner| rest(corner));
     let Some(outline) = scene.face_contours(face).next() else { return false };
-    let Some(normal) = ugparse::newell_normal(outline.iter().map(|&corner| rest(corner))).try_normalize()
-    else {
+    let normal = ugparse::unit_normal(outline.iter().map(|&corner| rest(corner)));
+    if normal == DVec3::ZERO {
         return false;
-    };
+    }
     let reach = corners().map(|corner| corner.length()).fold(0.0, f64::max);
     if !corners().all(|corner| normal.dot(corner).abs() <= FLAT * reach) {
         return false;
@@ -53,7 +53,10 @@ pub(crate) fn is_seen_as_line(motion: &RelativeMotion, corners: &[&Point], angle
         return false;
     }
     let rest = || corners.iter().map(|corner| motion.boosted_rest(corner.rest));
-    let Some(normal) = ugparse::newell_normal(rest()).try_normalize() else { return false };
+    let normal = ugparse::unit_normal(rest());
+    if normal == DVec3::ZERO {
+        return false;
+    }
     let height = rest().map(|corner| normal.dot(corner).abs()).fold(0.0, f64::max);
     // |p| = γ(|p'| − v·p') is at least γ(u − v)·p' for any unit u, and that is least in a corner.
     let toward = rest().map(|corner| corner.normalize_or_zero()).sum::<DVec3>().normalize_or_zero();

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use rustc_hash::FxHashMap;
-use ugparse::{BodyId, Color, ColorId, ColorValue, Face, NameId, Scene, Vertex, VertexId, newell_normal};
+use ugparse::{BodyId, Color, ColorId, ColorValue, Face, NameId, Scene, Vertex, VertexId, unit_normal};
 use ugpipe::printable;
 
 use crate::error::Problem;
@@ -122,7 +122,7 @@ impl Builder {
             corners.pop();
         }
         let places = corners.iter().map(|corner| self.scene.vertices[corner.index()].position);
-        if corners.len() < 3 || newell_normal(places) == DVec3::ZERO {
+        if corners.len() < 3 || unit_normal(places) == DVec3::ZERO {
             self.n_degenerate += 1;
             return Ok(());
         }

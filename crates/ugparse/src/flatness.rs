@@ -6,7 +6,7 @@ use crate::Source;
 use crate::diagnostic::Diagnostic;
 use crate::expand::Origins;
 use crate::resolve::face_name;
-use crate::scene::{Face, Scene, newell_normal};
+use crate::scene::{Face, Scene, unit_normal};
 use crate::source::Span;
 
 /// A face is flat if no corner is farther from its plane than this fraction of its size, since
@@ -39,12 +39,11 @@ pub fn thickness(scene: &Scene, face: &Face) -> f64 {
     let Some(first) = positions().next() else { return 0.0 };
     let mean = positions().map(|corner| corner - first).sum::<DVec3>() / corners.len() as f64 + first;
     let outline = scene.contours.get(face.contours.start).iter();
-    let normal = newell_normal(outline.map(|&corner| scene.vertices[corner.index()].position));
-    let normal = normal.normalize_or_zero();
+    let normal = unit_normal(outline.map(|&corner| scene.vertices[corner.index()].position));
     let distance = positions().map(|corner| (corner - mean).dot(normal).abs()).fold(0.0, f64::max);
     let (low, high) =
         positions().fold((first, first), |(low, high), corner| (low.min(corner), high.max(corner)));
-    let size = (high - low).length();
+    let size = ugphysics::length(high - low);
     if size > 0.0 { distance / size } else { 0.0 }
 }
 

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use uglight::Lighting;
-use ugparse::{Face, Scene, VertexId, Wire, newell_normal};
+use ugparse::{Face, Scene, VertexId, Wire, unit_normal};
 use ugraster::{Corner, Point, SampleGrid};
 
 use crate::clip::Vertex;
@@ -75,7 +75,7 @@ impl Painter<'_> {
         let Some(outline) = self.scene.face_contours(face).next() else { return false };
         let seen = outline.iter().map(|vertex| self.scene.vertices[vertex.index()].position - self.view.eye);
         let forward = if self.view.is_perspective { seen.clone().next() } else { Some(self.view.forward) };
-        newell_normal(seen).dot(forward.unwrap_or_default()) > 0.0
+        unit_normal(seen).dot(forward.unwrap_or_default()) > 0.0
     }
 
     /// What the corners of a face have in common.

@@ -7,7 +7,8 @@
 //!
 //! Fragments with a transmittance of 0 (lines, and opaque parts of faces) occlude transparent ones
 //! behind them, which are not stored if they are drawn later. Fragments take memory: a tile with
-//! too many is drawn in parts, down to single rows of samples.
+//! too many is drawn in parts, down to single rows of samples. The time is proportional to the
+//! number of fragments, times the logarithm of those of a sample.
 
 use std::ops::Range;
 
@@ -95,6 +96,10 @@ pub enum KeepFragments {
 pub struct TransparencyBuffer {
     scanner: Scanner<TRANSPARENT_VALUES>,
     fragments: Vec<Fragment>,
+    /// Indices of the fragments, by sample and from back to front.
+    order: Vec<u32>,
+    /// For each sample of the tile, where its fragments end in `order`.
+    ends: Vec<u32>,
     /// For each sample of the tile the depth key of the nearest fragment with a transmittance of 0.
     front: Vec<f32>,
     /// One for each sample of the tile; no elements if the tile has no fragments.
@@ -139,6 +144,7 @@ impl TransparencyBuffer {
                 keys,
                 fragments: &mut self.fragments,
                 front: &mut self.front,
+                n_offered: 0,
                 max_fragments: if rows[1] - rows[0] > 1 { MAX_FRAGMENTS } else { usize::MAX },
                 stats: SampleStats::default(),
             };
@@ -147,8 +153,7 @@ impl TransparencyBuffer {
                 stats = stats.merge(target.stats);
                 self.blend(grid, keep);
             } else {
-                let middle = rows[0] + (rows[1] - rows[0]) / 2;
-                parts.extend([[middle, rows[1]], [rows[0], middle]]);
+                parts.extend(split(rows, target.n_offered.div_ceil(MAX_FRAGMENTS as u64)));
             }
         }
         stats
@@ -167,11 +172,10 @@ impl TransparencyBuffer {
         let Area { columns, rows } = self.area;
         let width = self.area.width();
         self.composites.resize(self.area.n_samples(), Composite::NONE);
-        // From back to front. The sort is stable, so of equal keys the first drawn ends in front.
-        self.fragments.reverse();
-        self.fragments.sort_by(|a, b| a.sample.cmp(&b.sample).then(a.key.total_cmp(&b.key)));
+        self.sort();
         let is_middle = |place: u32| place % grid.samples == grid.samples / 2;
-        for fragment in &self.fragments {
+        for &index in &self.order {
+            let fragment = &self.fragments[index as usize];
             let composite = &mut self.composites[fragment.sample as usize];
             *composite = composite.behind(fragment, grid.light_left(fragment.key));
             let is_center = || {
@@ -181,6 +185,36 @@ impl TransparencyBuffer {
             if keep == KeepFragments::All || keep == KeepFragments::Centers && is_center() {
                 self.kept.push(*fragment);
             }
+        }
+    }
+
+    /// Fills `order`: by sample in linear time, and then the fragments of each sample.
+    fn sort(&mut self) {
+        let Self { fragments, order, ends, area, .. } = self;
+        ends.clear();
+        ends.resize(area.n_samples(), 0);
+        fragments.iter().for_each(|fragment| ends[fragment.sample as usize] += 1);
+        let mut start = 0;
+        for end in ends.iter_mut() {
+            start += std::mem::replace(end, start);
+        }
+        order.clear();
+        order.resize(fragments.len(), 0);
+        // A row of a tile has fewer than 2^32 fragments: each takes 36 bytes.
+        for (index, fragment) in fragments.iter().enumerate().rev() {
+            let end = &mut ends[fragment.sample as usize];
+            order[*end as usize] = index as u32;
+            *end += 1;
+        }
+        // The last drawn comes first, and the sort is stable, so of equal keys the first drawn ends
+        // in front.
+        let mut start = 0;
+        for &end in ends.iter() {
+            let of_sample = &mut order[start as usize..end as usize];
+            if of_sample.len() > 1 {
+                of_sample.sort_by(|&a, &b| fragments[a as usize].key.total_cmp(&fragments[b as usize].key));
+            }
+            start = end;
         }
     }
 
@@ -205,6 +239,18 @@ impl TransparencyBuffer {
     }
 }
 
+/// Rows in about `n` parts of the same height, at least two; the uppermost is the last.
+fn split([first, end]: [u32; 2], n: u64) -> impl Iterator<Item = [u32; 2]> {
+    let n_rows = end - first;
+    // Not above the number of rows, which fits.
+    let n = n.clamp(2, u64::from(n_rows)) as u32;
+    let height = n_rows.div_ceil(n);
+    (0..n_rows.div_ceil(height)).rev().map(move |part| {
+        let start = first + part * height;
+        [start, end.min(start + height)]
+    })
+}
+
 /// Rows of a tile on which transparent layers are drawn.
 pub struct FragmentTarget<'a> {
     rows: [u32; 2],
@@ -215,6 +261,8 @@ pub struct FragmentTarget<'a> {
     /// Depth keys of the nearest fragments with a transmittance of 0, of the whole tile.
     front: &'a mut [f32],
     max_fragments: usize,
+    /// Samples of shapes, whether they become fragments or not.
+    n_offered: u64,
     stats: SampleStats,
 }
 
@@ -258,6 +306,7 @@ impl FragmentWriter<'_, '_> {
         item: u32,
         mut sample: impl FnMut(u32, f32) -> Option<(f32, [f32; TRANSPARENT_VALUES])>,
     ) {
+        self.target.n_offered += columns.len() as u64;
         // With too many fragments this area is drawn again in parts.
         if self.target.fragments.len() >= self.target.max_fragments {
             return;
@@ -357,5 +406,78 @@ impl RowTarget for FragmentWriter<'_, '_> {
             let value = |i: usize| ((starts[i] + across * planes[i].per_column) * scale) as f32;
             Some((key as f32, std::array::from_fn(value)))
         });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::atomic::{AtomicU64, Ordering};
+
+    use super::*;
+
+    /// Panes in front of the whole tile, at depths in a mixed order.
+    struct Panes {
+        n: u32,
+        n_shaded: AtomicU64,
+    }
+
+    impl TransparentLayer for Panes {
+        fn draw(
+            &self,
+            _: &SampleGrid,
+            _: usize,
+            _: &mut Scanner<TRANSPARENT_VALUES>,
+            target: &mut FragmentTarget<'_>,
+        ) {
+            let shading = |values: &[[f32; TRANSPARENT_VALUES]], shaded: &mut [(ShadedSample, f32)]| {
+                self.n_shaded.fetch_add(values.len() as u64, Ordering::Relaxed);
+                for (value, shaded) in values.iter().zip(shaded) {
+                    *shaded = (ShadedSample { light: [value[0]; 3], ..ShadedSample::default() }, 0.5);
+                }
+            };
+            let mut writer = target.writer(&shading, false);
+            let Area { columns, rows } = writer.area();
+            for item in 0..self.n {
+                // A permutation, since the factor is prime.
+                let key = (u64::from(item) * 7919 % u64::from(self.n)) as f32;
+                for row in rows[0]..rows[1] {
+                    writer.draw_each(row, columns[0]..columns[1], item, |_, _| Some((key, [key; _])));
+                }
+            }
+        }
+    }
+
+    /// However many panes there are, few of their samples are shaded twice, and all are blended by
+    /// depth.
+    #[test]
+    fn panes_are_drawn_about_once() {
+        let area = Area { columns: [0, 64], rows: [16, 48] };
+        let keys = vec![EMPTY; area.n_samples()];
+        let grid = SampleGrid { width: 64, height: 64, samples: 1, is_perspective: false, fade: None };
+        for n in [1, 100, 2000, 4001] {
+            let panes = Panes { n, n_shaded: AtomicU64::new(0) };
+            let mut buffer = TransparencyBuffer::default();
+            buffer.draw_before(&panes, &grid, 0, (area, &keys), KeepFragments::None);
+            let n_fragments = area.n_samples() as u64 * u64::from(n);
+            let n_shaded = panes.n_shaded.into_inner();
+            assert!(n_shaded <= n_fragments + MAX_FRAGMENTS as u64 + 64, "{n}: {n_shaded} of {n_fragments}");
+            // From back to front.
+            let light = (0..n).fold(0.0, |behind, key| 0.5 * key as f32 + 0.5 * behind);
+            for (row, column) in [(16, 0), (31, 63), (47, 7)] {
+                let found = buffer.composite(row, column).light[0];
+                assert!((found - light).abs() <= 1e-5 * light, "{n}: {found} {light}");
+            }
+        }
+    }
+
+    #[test]
+    fn parts_are_all_rows_once() {
+        for (rows, n) in [([3, 5], 0), ([0, 64], 2), ([7, 71], 5), ([0, 64], u64::MAX), ([1, 64], 40)] {
+            let mut parts: Vec<_> = split(rows, n).collect();
+            parts.reverse();
+            assert!(parts.len() > 1 && parts.iter().all(|part| part[0] < part[1]), "{parts:?}");
+            assert!(parts.windows(2).all(|pair| pair[0][1] == pair[1][0]), "{parts:?}");
+            assert_eq!([parts[0][0], parts[parts.len() - 1][1]], rows);
+        }
     }
 }

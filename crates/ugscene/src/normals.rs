@@ -1,7 +1,7 @@
 //! Vertex normals: means of face normals, weighted by angle (Nguyen 1988, 5.2.1).
 
 use glam::DVec3;
-use ugparse::{Face, Scene, VertexId, newell_normal};
+use ugparse::{Face, Scene, VertexId, unit_normal};
 use ugphysics::unit_or_zero;
 
 /// Angle at corner `idx` of a contour, radians in 0…π. For a reflex corner it is the outer angle,
@@ -17,14 +17,14 @@ pub fn corner_angle(contour: &[VertexId], idx: usize, positions: &[DVec3]) -> f6
 /// Unit normal of a face; zero if it has no area.
 pub(crate) fn face_normal(scene: &Scene, face: &Face, positions: &[DVec3]) -> DVec3 {
     let outline = scene.contours.get(face.contours.start);
-    unit_or_zero(newell_normal(outline.iter().map(|corner| positions[corner.index()])))
+    unit_normal(outline.iter().map(|corner| positions[corner.index()]))
 }
 
 /// Unit normal of an outline on its visible side; zero if it has no area.
 ///
 /// `corners`: rest positions. `toward_eye`: a vector to the eye, in the frame of `corners`.
 pub fn seen_normal(corners: impl Iterator<Item = DVec3> + Clone, toward_eye: DVec3) -> DVec3 {
-    let normal = unit_or_zero(newell_normal(corners));
+    let normal = unit_normal(corners);
     if normal.dot(toward_eye) < 0.0 { -normal } else { normal }
 }
 
@@ -66,14 +66,14 @@ mod tests {
     /// Angles and unit normals do not depend on the size of a triangle.
     #[test]
     fn triangles_of_any_size_have_angles_and_normals() {
-        for size in [1e-150, 1.0, 1e150] {
+        for size in [1e-300, 1e-150, 1.0, 1e150, 1e300] {
             let positions = [DVec3::ZERO, DVec3::X * size, DVec3::Y * size];
             let contour = [0, 1, 2].map(VertexId);
             let angle = corner_angle(&contour, 0, &positions);
             assert!((angle - std::f64::consts::FRAC_PI_2).abs() < 1e-15, "{size}: {angle}");
             let normal = seen_normal(positions.into_iter(), DVec3::Z);
             assert!(normal.distance(DVec3::Z) < 1e-15, "{size}: {normal}");
-            let normal = shading_normal(Some(DVec3::Z * size * size), DVec3::Z);
+            let normal = shading_normal(Some(DVec3::Z * size), DVec3::Z);
             assert!(normal.distance(DVec3::Z) < 1e-15, "{size}: {normal}");
         }
         for size in [5e-324, 1e200, f64::MAX] {

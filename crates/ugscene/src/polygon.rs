@@ -12,6 +12,9 @@ pub type Triangle = [u32; 3];
 
 /// Is this quadrilateral convex, and no corner almost straight?
 pub fn is_convex(corners: [DVec3; 4]) -> bool {
+    let reach = corners.iter().map(|corner| corner.abs().max_element()).fold(0.0, f64::max);
+    // Products of three vectors would overflow or underflow.
+    let corners = if (1e-60..1e60).contains(&reach) { corners } else { corners.map(|corner| corner / reach) };
     let normal = newell_normal(corners.iter().copied());
     // A corner with a sine below a millionth would make a degenerate triangle.
     let least = 1e-6 * normal.length();

@@ -1,6 +1,7 @@
 //! The colours that meet at a vertex, and their weights (Nguyen 1988, 4.1).
 
 use glam::DVec3;
+use rustc_hash::FxHashMap;
 use ugparse::{ColorId, Scene, VertexId};
 
 use crate::corner_angle;
@@ -75,7 +76,40 @@ enum Sum {
         color: Option<ColorId>,
         weight: f64,
     },
-    Many(Vec<(Option<ColorId>, f64)>),
+    Many(Parts),
+}
+
+/// Colours in the order of their first face, with the sums of their weights.
+struct Parts {
+    all: Vec<(Option<ColorId>, f64)>,
+    /// The index of each colour; no elements while there are few.
+    index: FxHashMap<Option<ColorId>, usize>,
+}
+
+impl Parts {
+    /// More colours are found through the index.
+    const FEW: usize = 16;
+
+    fn new(parts: [(Option<ColorId>, f64); 2]) -> Self {
+        Self { all: parts.to_vec(), index: FxHashMap::default() }
+    }
+
+    fn add(&mut self, color: Option<ColorId>, weight: f64) {
+        let found = match self.all.len() {
+            ..=Self::FEW => self.all.iter().position(|part| part.0 == color),
+            _ => self.index.get(&color).copied(),
+        };
+        if let Some(row) = found {
+            self.all[row].1 += weight;
+            return;
+        }
+        self.all.push((color, weight));
+        match self.all.len() - 1 {
+            ..Self::FEW => {}
+            Self::FEW => self.index.extend(self.all.iter().enumerate().map(|(row, part)| (part.0, row))),
+            last => drop(self.index.insert(color, last)),
+        }
+    }
 }
 
 impl Sum {
@@ -89,12 +123,9 @@ impl Sum {
             Self::Nothing => *self = Self::One { color, weight: weight() },
             Self::One { color: first, weight: sum } if *first == color => *sum += weight(),
             Self::One { color: first, weight: sum } => {
-                *self = Self::Many(vec![(*first, *sum), (color, weight())]);
+                *self = Self::Many(Parts::new([(*first, *sum), (color, weight())]));
             }
-            Self::Many(parts) => match parts.iter_mut().find(|part| part.0 == color) {
-                Some((_, sum)) => *sum += weight(),
-                None => parts.push((color, weight())),
-            },
+            Self::Many(parts) => parts.add(color, weight()),
         }
     }
 
@@ -103,7 +134,7 @@ impl Sum {
             Self::Own(color) => Shares::One(Some(color)),
             Self::Nothing => Shares::One(None),
             Self::One { color, .. } => Shares::One(color),
-            Self::Many(mut parts) => {
+            Self::Many(Parts { all: mut parts, .. }) => {
                 let whole: f64 = parts.iter().map(|part| part.1).sum();
                 // All angles are 0.
                 if whole <= 0.0 {
@@ -112,6 +143,24 @@ impl Sum {
                 parts.iter_mut().for_each(|part| part.1 /= whole);
                 Shares::Mixed(parts)
             }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Shares of any number of colours, each of two of the faces.
+    #[test]
+    fn colours_are_counted_once_in_their_order() {
+        for n_colors in [2, 3, 15, 16, 17, 18, 100_000] {
+            let color = |row: usize| (row > 0).then(|| ColorId::from_index(row));
+            let mut sum = Sum::new(None);
+            (0..2 * n_colors).for_each(|face| sum.add(color(face % n_colors), || 0.5));
+            let Shares::Mixed(parts) = sum.finish() else { panic!("several colours are mixed") };
+            let share = 1.0 / n_colors as f64;
+            assert!(parts.into_iter().eq((0..n_colors).map(|row| (color(row), share))), "{n_colors}");
         }
     }
 }

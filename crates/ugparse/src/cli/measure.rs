@@ -5,7 +5,7 @@ use rustc_hash::FxHashMap;
 
 use crate::body::BodyId;
 use crate::flatness::thickness;
-use crate::scene::{Face, Scene, VertexId, newell_normal};
+use crate::scene::{Face, Scene, VertexId, unit_normal};
 
 /// Number of corners of all faces.
 pub(crate) fn corner_count(scene: &Scene) -> usize {
@@ -28,7 +28,7 @@ fn outline_normal(scene: &Scene, face: &Face) -> DVec3 {
 }
 
 fn normal(scene: &Scene, contour: &[VertexId]) -> DVec3 {
-    newell_normal(contour.iter().map(|&vertex| position(scene, vertex)))
+    unit_normal(contour.iter().map(|&vertex| position(scene, vertex)))
 }
 
 /// Numbers of edges by the faces they border.

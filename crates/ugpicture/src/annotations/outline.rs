@@ -10,7 +10,7 @@ use std::collections::HashMap;
 
 use glam::DVec3;
 use uglabel::{Drawing, Point};
-use ugparse::{BodyId, Scene, VertexId, newell_normal};
+use ugparse::{BodyId, Scene, VertexId, unit_normal};
 use ugscene::{Geometry, RestPosition, View, face_edges, rest_positions, vertex_bodies};
 
 use super::seen::SeenScene;
@@ -127,7 +127,7 @@ impl Faces<'_> {
             return (DVec3::ZERO, false);
         };
         let corners = outline.iter().map(|vertex| self.places[vertex.index()]);
-        let normal = newell_normal(corners).normalize_or_zero();
+        let normal = unit_normal(corners);
         let toward =
             if self.view.is_perspective { -self.places[outline[0].index()] } else { -self.view.forward };
         (normal, normal.dot(toward) > 0.0)

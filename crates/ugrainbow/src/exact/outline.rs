@@ -1,7 +1,7 @@
 //! Whether a ray passes through a face.
 
 use glam::DVec3;
-use ugparse::newell_normal;
+use ugparse::unit_normal;
 
 /// Direction of the half plane that begins at a ray. Arbitrary, but unlikely to be parallel to a
 /// ray or an edge.
@@ -41,7 +41,10 @@ impl Outline {
     /// `None` if the face has no area or is seen edge-on.
     pub fn new(contours: &[Vec<DVec3>]) -> Option<Self> {
         let first = contours.first()?;
-        let normal = newell_normal(first.iter().copied()).try_normalize()?;
+        let normal = unit_normal(first.iter().copied());
+        if normal == DVec3::ZERO {
+            return None;
+        }
         let middle = first.iter().sum::<DVec3>() / first.len() as f64;
         // Closer to edge-on, the distance of the plane would be rounding noise.
         let farthest = first.iter().map(|corner| corner.length()).fold(0.0, f64::max);

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use rayon::prelude::*;
-use ugparse::{Face, VertexId, newell_normal};
+use ugparse::{Face, VertexId, unit_normal};
 use ugscene::face_edges;
 
 use crate::painter::Painter;
@@ -46,7 +46,8 @@ fn is_inside(painter: &Painter<'_>, faces: [u32; 2]) -> bool {
     }
     let normal = |face: &Face| {
         let outline = painter.scene.face_contours(face).next()?;
-        newell_normal(outline.iter().map(|&vertex| painter.surface.rest(vertex))).try_normalize()
+        Some(unit_normal(outline.iter().map(|&vertex| painter.surface.rest(vertex))))
+            .filter(|&normal| normal != DVec3::ZERO)
     };
     let is_one_plane = |a: DVec3, b: DVec3| a.dot(b) > 0.0 && a.cross(b).length() < FLAT;
     // A degenerate piece is coplanar with every face.

@@ -5,6 +5,8 @@
 //! before is painted again, clipped to the face and in the colour seen through it, unless it is
 //! hidden there.
 
+use std::cell::Cell;
+
 use ugimage::figure::Point;
 
 use super::order::Piece;
@@ -15,8 +17,9 @@ use crate::planar::{BoxIndex, Convex, is_covered};
 /// Most areas of a figure. Each translucent face adds the areas seen through it.
 const MOST_AREAS: usize = 1 << 16;
 
-/// Most comparisons of an area with another: some seconds of work.
-const MOST_VISITS: usize = 1 << 28;
+/// Most work for the areas of a figure, which took about two seconds. The unit is a comparison of
+/// two bounding boxes, or of a corner of a polygon with a side of another.
+const MOST_WORK: u64 = 1 << 26;
 
 /// An area to paint, and the patches that are seen there.
 #[derive(Clone, Debug)]
@@ -37,7 +40,7 @@ pub struct PaintedArea {
 pub fn areas(patches: &[Patch], pieces: &[Piece], size: [u32; 2]) -> Result<Vec<PaintedArea>, Error> {
     let has_clear = patches.iter().any(|patch| patch.is_transparent);
     let n_shapes = if has_clear { MOST_AREAS } else { 1 };
-    let mut areas = PaintedAreas { index: BoxIndex::empty(n_shapes, size), all: Vec::new(), n_visits: 0 };
+    let mut areas = PaintedAreas { index: BoxIndex::empty(n_shapes, size), all: Vec::new(), work: 0 };
     for piece in pieces {
         let area = whole(patches, piece);
         if patches[area.layers[0]].is_transparent {
@@ -45,7 +48,7 @@ pub fn areas(patches: &[Patch], pieces: &[Piece], size: [u32; 2]) -> Result<Vec<
         } else {
             areas.push(area);
         }
-        if areas.all.len() > MOST_AREAS || areas.n_visits > MOST_VISITS {
+        if areas.all.len() > MOST_AREAS || areas.work > MOST_WORK {
             return Err(Error::Figure(too_many(has_clear, pieces.len())));
         }
     }
@@ -83,8 +86,8 @@ fn of_parts(layers: Vec<usize>, parts: Vec<Convex>) -> PaintedArea {
 struct PaintedAreas {
     all: Vec<PaintedArea>,
     index: BoxIndex,
-    /// How many times an area was compared with another.
-    n_visits: usize,
+    /// See [`MOST_WORK`].
+    work: u64,
 }
 
 impl PaintedAreas {
@@ -93,45 +96,67 @@ impl PaintedAreas {
         self.all.push(area);
     }
 
-    /// Adds a translucent piece, and the areas seen through it again.
+    /// Adds a translucent piece, and the areas seen through it again. Beyond [`MOST_WORK`] it stops.
     fn push_transparent(&mut self, front: PaintedArea) {
         let mut behind = Vec::new();
+        let work = Cell::new(self.work);
         // Everything that hides a part of the piece is among its neighbours.
         let near = self.index.in_box(Convex::bounds(&front.parts));
-        self.n_visits += near.len();
+        count(&work, near.len());
         for (at, &number) in near.iter().enumerate() {
+            if work.get() > MOST_WORK {
+                break;
+            }
             let area = &self.all[number];
             let common: Vec<Convex> = front
                 .parts
                 .iter()
-                .flat_map(|own| area.parts.iter().filter_map(|part| own.common(part)))
+                .flat_map(|own| area.parts.iter().map(move |part| (own, part)))
+                .inspect(|(own, part)| count(&work, n_steps(own, part)))
+                .filter_map(|(own, part)| own.common(part))
                 .collect();
-            if !common.is_empty() && !self.is_hidden(common.clone(), &near[at + 1..]) {
+            if !common.is_empty() && !self.is_hidden(common.clone(), &near[at + 1..], &work) {
                 let layers = front.layers.iter().chain(&area.layers).copied().collect();
                 behind.push(of_parts(layers, common));
             }
         }
-        if !self.is_hidden(front.parts.clone(), &near) {
+        let is_hidden = self.is_hidden(front.parts.clone(), &near, &work);
+        self.work = work.get();
+        if !is_hidden {
             self.push(front);
         }
         behind.into_iter().for_each(|area| self.push(area));
     }
 
     /// True if the areas of these numbers cover these parts completely.
-    fn is_hidden(&mut self, parts: Vec<Convex>, later: &[usize]) -> bool {
+    fn is_hidden(&self, parts: Vec<Convex>, later: &[usize], work: &Cell<u64>) -> bool {
         let bounds = Convex::bounds(&parts);
-        let mut n_visits = 0;
-        let covers = later.iter().inspect(|_| n_visits += 1);
-        let covers = covers.filter(|&&number| self.index.overlaps(number, bounds));
-        let covers = covers.map(|&number| &self.all[number].parts[..]);
-        let is_hidden = is_covered(parts, covers, |own, part| own.beside(part));
-        self.n_visits += n_visits;
-        is_hidden
+        let covers = later
+            .iter()
+            .inspect(|_| count(work, 1))
+            .filter(|&&number| self.index.overlaps(number, bounds))
+            .map(|&number| &self.all[number].parts[..]);
+        is_covered(parts, covers, |own, part| {
+            count(work, n_steps(&own, part));
+            own.beside(part)
+        })
     }
 }
 
+fn count(work: &Cell<u64>, steps: usize) {
+    work.set(work.get().saturating_add(steps as u64));
+}
+
+/// The work of an intersection or difference.
+fn n_steps(one: &Convex, other: &Convex) -> usize {
+    if one.is_apart(other) { 1 } else { one.corners.len() * other.corners.len() }
+}
+
 #[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 mod tests {
+    use ugrandom::Random;
+
     use super::*;
 
     #[test]
@@ -139,5 +164,26 @@ mod tests {
         assert!(too_many(true, 1000).contains("translucent"));
         assert!(!too_many(true, MOST_AREAS + 1).contains("translucent"));
         assert!(!too_many(false, MOST_AREAS + 1).contains("translucent"));
+    }
+
+    /// Panes in front of each other at random places: the work of the last piece is bounded, too.
+    #[test]
+    fn work_stops_at_its_limit() {
+        let mut random = Random(5);
+        let mut areas =
+            PaintedAreas { index: BoxIndex::empty(MOST_AREAS, [100; 2]), all: Vec::new(), work: 0 };
+        let mut pane = || {
+            let [x, y] = [30.0 * random.unit(), 30.0 * random.unit()];
+            let corners = [[x, y, 1.0], [x + 60.0, y, 1.0], [x + 60.0, y + 60.0, 1.0], [x, y + 60.0, 1.0]];
+            of_parts(vec![0], vec![Convex::new(corners.to_vec()).unwrap()])
+        };
+        (0..20).for_each(|_| areas.push_transparent(pane()));
+        assert!(areas.work < MOST_WORK && areas.all.len() > 200, "{} {}", areas.work, areas.all.len());
+        let n_areas = areas.all.len();
+        areas.work = MOST_WORK + 1;
+        areas.push_transparent(pane());
+        // The pane itself is compared with each area, cut into 64 parts at most.
+        let most = (n_areas * 64 * 64) as u64;
+        assert!(areas.work - MOST_WORK < most && areas.all.len() <= n_areas + 1, "{}", areas.work);
     }
 }
