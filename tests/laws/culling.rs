@@ -13,7 +13,7 @@ fn culled(name: &str, scene: &str, pipe: &Pipe) -> usize {
     let text = scenes::text(scene);
     let whole = pipe.draw(&text);
     let mut culling = pipe.clone();
-    culling.lorentz.cull = Some(SIZE);
+    (culling.lorentz.size, culling.lorentz.cull) = (SIZE, true);
     assert_same(&format!("cull-{name}"), &whole, &culling.draw(&text), 0);
     let (_, report) = lorentz_scene(&text, &culling.lorentz).unwrap();
     let detail = format!("removed {} faces outside the view", report.n_culled);
@@ -103,7 +103,7 @@ fn large_faces_are_not_lost() {
     let tile = b"v a -9 2 -9; v b 9 2 -9; v c 9 2 9; v d -9 2 9; f (a b c d); l 1; cam -vc 0 1 0 -va 2 2;";
     for speed in [-0.9, 0.0, 0.9] {
         let mut pipe = pipe(uglorentz::Config { velocity: Some(DVec3::Y * speed), ..Default::default() });
-        pipe.lorentz.cull = Some(SIZE);
+        (pipe.lorentz.size, pipe.lorentz.cull) = (SIZE, true);
         let picture = pipe.shape().draw(tile);
         assert!(picture.pixels().all(|pixel| pixel.0[0] > 0), "{speed}");
     }
@@ -112,7 +112,7 @@ fn large_faces_are_not_lost() {
 #[test]
 fn where_the_camera_looks_must_be_known() {
     let text = b"v a 1 2 3; v b 2 0 3; v c 1 1 1; f (a b c);";
-    let config = uglorentz::Config { cull: Some(SIZE), ..Default::default() };
+    let config = uglorentz::Config { size: SIZE, cull: true, ..Default::default() };
     let error = lorentz_scene(text, &config).unwrap_err();
     assert!(error.is_usage());
     assert_eq!(

@@ -97,7 +97,8 @@ fn lorentz_as(text: &[u8], config: &uglorentz::Config, command_line: &str) -> Ve
     ugparse::write(&scene)
 }
 
-/// The scene that `uglorentz` writes, and its report.
+/// The scene that `uglorentz` writes, and its report. In a scene without a camera the eye is at the
+/// origin, unless the options say otherwise.
 ///
 /// # Errors
 /// See [`uglorentz::Error`].
@@ -109,7 +110,9 @@ pub fn lorentz_scene(
     text: &[u8],
     config: &uglorentz::Config,
 ) -> Result<(Scene, uglorentz::Report), uglorentz::Error> {
-    uglorentz::apply(read(text, config.camera.name.as_deref()), config)
+    let scene = read(text, config.camera.name.as_deref());
+    let origin = scene.cameras.is_empty().then_some(DVec3::ZERO);
+    uglorentz::apply(scene, &uglorentz::Config { eye: config.eye.or(origin), ..config.clone() })
 }
 
 /// `ugdoppler`

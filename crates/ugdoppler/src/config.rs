@@ -10,7 +10,7 @@ use ugphysics::{Brightness, Velocity};
 pub struct Config {
     /// Velocity of faces and wires that carry none (`-vel`).
     pub velocity: Velocity,
-    /// The eye; if `None`, that of the scene's camera, else the origin (`-ep`).
+    /// The eye; if `None`, that of the scene's camera, else of the default camera (`-ep`).
     pub eye: Option<DVec3>,
     /// Write wavelengths in nm instead of hues (`-gw`).
     pub wavelengths: bool,

@@ -45,10 +45,10 @@ mod xyz_statements;
 use glam::DVec3;
 use rayon::prelude::*;
 use uglight::{HueColor, SpectralColor, VertexColor, hsv, spectral_lamps};
-use ugparse::{ColorId, Scene};
+use ugparse::{Camera, ColorId, Scene};
 use ugphysics::Hsv;
 use ugpipe::Progress;
-use ugscene::{RestFrames, Shares};
+use ugscene::{CameraOptions, DefaultCamera, RestFrames, Shares};
 
 #[cfg(feature = "cli")]
 pub use cli::{Args, main};
@@ -81,7 +81,8 @@ pub fn apply(scene: Scene, config: &Config) -> Result<(Scene, Report), Error> {
 pub fn apply_with(scene: Scene, config: &Config, progress: &dyn Progress) -> Result<(Scene, Report), Error> {
     progress.step("colouring", 0);
     let frames = RestFrames::new(&scene).with_unstated(config.velocity);
-    let eye = ugscene::eye(&scene, config.eye);
+    let default_camera = default_camera(&scene, config);
+    let eye = default_camera.map_or_else(|| ugscene::eye(&scene, config.eye), |camera| camera.eye);
     ugscene::require_colors_at_rest(&scene)?;
     ugscene::require_seen_geometry(&scene)?;
     ugscene::require_eye(&scene, eye)?;
@@ -89,8 +90,22 @@ pub fn apply_with(scene: Scene, config: &Config, progress: &dyn Progress) -> Res
         let name = scene.names.get(scene.vertices[vertex.index()].name).to_string();
         return Err(Error::VertexAtEye { vertex, name });
     }
-    let (scene, notes) = color(scene, config, eye, &frames);
+    let (mut scene, mut notes) = color(scene, config, eye, &frames);
+    if let Some(camera) = default_camera {
+        let (eye, center) = (Some(camera.eye), Some(camera.center));
+        scene.cameras.push(Camera { eye, center, ..Camera::default() });
+        notes.insert(0, camera.to_string());
+    }
     Ok((scene, Report { notes }))
+}
+
+/// The camera of a scene without one, if colours depend on the eye.
+fn default_camera(scene: &Scene, config: &Config) -> Option<DefaultCamera> {
+    if config.velocity.is_zero() && !config.light {
+        return None;
+    }
+    let options = CameraOptions { eye: config.eye, ..CameraOptions::default() };
+    DefaultCamera::new(scene, &options, [4, 3], [config.velocity.beta()]).ok().flatten()
 }
 
 fn color(mut scene: Scene, config: &Config, eye: DVec3, frames: &RestFrames) -> (Scene, Vec<String>) {

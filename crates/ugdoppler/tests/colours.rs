@@ -1,6 +1,7 @@
 //! Colours as seen, against the laws they follow.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, its helpers too")]
 
+use glam::DVec3;
 use ugdoppler::{Config, apply};
 use ugparse::{ColorValue, Options, Scene, Source};
 use ugphysics::{Brightness, Velocity, hue_to_wavelength};
@@ -22,8 +23,13 @@ fn parsed(name: &str, text: impl Into<Vec<u8>>) -> Scene {
 }
 
 fn moving(x: f64, y: f64, z: f64) -> Config {
-    let velocity = Velocity::from_beta(glam::DVec3::new(x, y, z));
-    Config { velocity: velocity.expect("a speed below 1"), tolerance: 0.0, ..Config::default() }
+    let velocity = Velocity::from_beta(DVec3::new(x, y, z));
+    Config {
+        velocity: velocity.expect("a speed below 1"),
+        eye: Some(DVec3::ZERO),
+        tolerance: 0.0,
+        ..Config::default()
+    }
 }
 
 /// Name, value, hue and saturation of a vertex's colour.

@@ -19,7 +19,7 @@ fn parsed(name: &str, text: impl Into<Vec<u8>>) -> Scene {
 
 fn moving(x: f64, y: f64, z: f64) -> Config {
     let velocity = Velocity::from_beta(DVec3::new(x, y, z)).expect("a speed below 1");
-    Config { velocity, spectral: true, ..Config::default() }
+    Config { velocity, eye: Some(DVec3::ZERO), spectral: true, ..Config::default() }
 }
 
 fn xyz(scene: &Scene, vertex: usize) -> [f64; 3] {

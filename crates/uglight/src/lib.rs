@@ -47,7 +47,7 @@ pub use hue::{HueColor, HueShift};
 pub use hue_table::HueTable;
 pub use irradiance::{Irradiance, SurfaceElement};
 pub use lamp::{Lamp, LampPlace, lamps};
-pub use lighting::Lighting;
+pub use lighting::{DEFAULT_AMBIENT, DEFAULT_FROM_EYE, Lighting};
 pub use shift::ColorShift;
 pub use spectral::{SpectralColor, SpectralLamp, SpectralShift, spectral_lamps};
 pub use vertex_color::{VertexColor, vertex_colors};

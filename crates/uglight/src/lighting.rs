@@ -5,6 +5,12 @@ use ugparse::Scene;
 
 use crate::{Lamp, LampPlace, lamps};
 
+/// The intensity of the ambient light in a scene without lights.
+pub const DEFAULT_AMBIENT: f64 = 0.3;
+
+/// The intensity of the directional light from the eye in a scene without lights.
+pub const DEFAULT_FROM_EYE: f64 = 0.7;
+
 /// The lights of a scene, each at rest with the face it lights: the rule of 1988.
 ///
 /// A light level is the irradiance relative to the one that shows white as white. It is computed in
@@ -23,14 +29,14 @@ pub struct Lighting {
 }
 
 impl Lighting {
-    /// The lights of the scene; if it has none, an ambient light of 0.3 and one of 0.7 from the
-    /// eye.
+    /// The lights of the scene; if it has none, an ambient light ([`DEFAULT_AMBIENT`]) and one
+    /// from the eye ([`DEFAULT_FROM_EYE`]).
     ///
     /// `eye`: in scene coordinates. `forward`: unit vector along the view.
     pub fn new(scene: &Scene, eye: DVec3, forward: DVec3) -> Self {
         if scene.lights.is_empty() {
-            let from_eye = Lamp::white(LampPlace::Afar(-forward), 0.7);
-            let ambient = Lamp::white(LampPlace::Everywhere, 0.3);
+            let from_eye = Lamp::white(LampPlace::Afar(-forward), DEFAULT_FROM_EYE);
+            let ambient = Lamp::white(LampPlace::Everywhere, DEFAULT_AMBIENT);
             return Self { ambient, lamps: vec![from_eye], is_colored: false };
         }
         let all = lamps(scene, eye);

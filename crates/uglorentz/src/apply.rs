@@ -50,9 +50,10 @@ pub fn apply_with_progress(
         camera_frame::state_motions(&mut scene, velocity);
     }
     ugscene::separate_bodies(&mut scene);
-    let eye = ugscene::eye(&scene, config.eye);
     let bodies = ugscene::vertex_bodies(&scene);
     let motions = motions(&scene, velocity, camera, config.geometry)?;
+    let default_camera = viewpoint::default_camera(&scene, config, &motions)?;
+    let eye = default_camera.map_or_else(|| ugscene::eye(&scene, config.eye), |camera| camera.eye);
     camera_frame::transform_velocities(&mut scene, camera)?;
     let moves = !velocity.is_zero()
         || !camera.is_zero()
@@ -67,10 +68,12 @@ pub fn apply_with_progress(
     }
 
     config.camera.check_up().map_err(Error::Camera)?;
-    viewpoint::set_camera(&mut scene, eye, &config.camera);
-    let view_volume = match config.cull {
-        Some(size) => ViewVolume::new(&viewpoint::view(&scene, &config.camera, size)?),
-        None => ViewVolume::default(),
+    let center = default_camera.map(|camera| camera.center);
+    viewpoint::set_camera(&mut scene, eye, center, &config.camera);
+    let view_volume = if config.cull {
+        ViewVolume::new(&viewpoint::view(&scene, &config.camera, config.size)?)
+    } else {
+        ViewVolume::default()
     };
     let depth_factors = distant_bodies::depth_factors(&points, &motions);
     let n_culled = cull::cull(&mut scene, &mut points, &motions, &view_volume);
@@ -119,6 +122,7 @@ pub fn apply_with_progress(
         n_too_deep: outcome.n_too_deep,
         is_full: outcome.is_full,
         remaining_errors,
+        default_camera,
     };
     Ok((scene, report))
 }

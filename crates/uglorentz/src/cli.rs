@@ -103,15 +103,17 @@ pub struct Args {
     /// Remove faces that are outside the view of the camera
     ///
     /// Parts of other faces outside the view are not subdivided. The picture stays the same if
-    /// ugrainbow is given the same -va and -sz. The scene's camera or -vc must give the view
-    /// centre.
+    /// ugrainbow is given the same -va and -sz. If the scene has a camera, it or -vc must give the
+    /// view centre.
     #[arg(long = "cull", help_heading = CAMERA)]
     cull: bool,
 
     #[command(flatten)]
     camera: CameraArgs,
 
-    /// Size of the picture in pixels, for -cull, which uses its aspect ratio
+    /// Size of the picture in pixels, of which the aspect ratio is used
+    ///
+    /// For -cull, and for the camera of a scene without one.
     #[arg(long = "sz", visible_alias = "size", num_args = 2, value_names = ["W", "H"], action = ArgAction::Set,
           default_values = ["1024", "768"], value_parser = whole(1..=u32::MAX),
           help_heading = CAMERA)]
@@ -160,6 +162,7 @@ fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
         context.report(&parsed.warnings.render(true));
     }
     report.warnings().iter().for_each(|warning| context.warn(warning));
+    report.notes().iter().for_each(|note| context.note(note));
     report.details().iter().for_each(|detail| context.detail(detail));
     if let (Some(path), Some(table)) = (&args.attributes, table) {
         context.steps().step("measuring", 0);
@@ -196,7 +199,8 @@ impl Args {
             camera_velocity: vector(self.camera_velocity.as_deref()).map(DVec3::from_array),
             eye: camera.eye,
             camera,
-            cull: self.cull.then(|| [self.size[0], self.size[1]]),
+            size: [self.size[0], self.size[1]],
+            cull: self.cull,
             time: self.time,
             anchor: self.anchor.as_deref().map(anchor).transpose()?,
             in_place: self.in_place,

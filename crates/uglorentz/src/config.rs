@@ -25,9 +25,11 @@ pub struct Config {
     /// Other properties of the camera to write into the scene (`-vc`, `-ud`, `-va`, `-og`). Its eye
     /// is ignored, see [`Config::eye`].
     pub camera: CameraOptions,
-    /// Remove faces that are outside the view of a picture of this many pixels across and down
-    /// (`-cull`, `-sz`).
-    pub cull: Option<[u32; 2]>,
+    /// Pixels of the picture across and down, of which only the aspect ratio matters: for `cull`,
+    /// and for the camera of a scene without one (`-sz`).
+    pub size: [u32; 2],
+    /// Remove faces that are outside the view of the picture (`-cull`).
+    pub cull: bool,
     /// Time of the picture on the observer's clock, (P5) (`-ti`).
     pub time: f64,
     /// The fixed point of the contraction (`-an`). Default: the eye, but the centre of each body if
@@ -61,7 +63,8 @@ impl Default for Config {
             camera_velocity: None,
             eye: None,
             camera: CameraOptions::default(),
-            cull: None,
+            size: [1024, 768],
+            cull: false,
             time: 0.0,
             anchor: None,
             in_place: false,

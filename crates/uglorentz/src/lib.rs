@@ -46,6 +46,7 @@
 //! let scene = ugparse::parse(&source, &ugparse::Options::default())?.scene;
 //! let config = uglorentz::Config {
 //!     velocity: Some(DVec3::new(0.9, 0.0, 0.0)),
+//!     eye: Some(DVec3::ZERO),
 //!     pieces: uglorentz::Pieces::PerEdge(2),
 //!     ..uglorentz::Config::default()
 //! };

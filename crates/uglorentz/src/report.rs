@@ -2,6 +2,8 @@
 
 use std::fmt::{self, Display, Formatter};
 
+use ugscene::DefaultCamera;
+
 use crate::adaptive::MAX_PIECES;
 use crate::criterion::MAX_GENERATION;
 
@@ -23,6 +25,8 @@ pub struct Report {
     pub is_full: bool,
     /// The errors left, if they were requested ([`crate::Config::measure`]) or exceed a bound.
     pub remaining_errors: Option<RemainingErrors>,
+    /// The camera that was chosen because the scene has none.
+    pub default_camera: Option<DefaultCamera>,
 }
 
 /// The largest errors left, each with the names of the vertices it is between.
@@ -78,6 +82,11 @@ impl Report {
             ));
         }
         warnings
+    }
+
+    /// What was chosen for the user.
+    pub fn notes(&self) -> Vec<String> {
+        self.default_camera.iter().map(DefaultCamera::to_string).collect()
     }
 
     /// Statistics, for `-vb`.

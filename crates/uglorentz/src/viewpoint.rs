@@ -3,21 +3,34 @@
 use glam::DVec3;
 use rayon::prelude::*;
 use ugparse::{Camera, Projection, Scene};
-use ugscene::{CameraOptions, View};
+use ugscene::{CameraOptions, DefaultCamera, View};
 
-use crate::Error;
 use crate::apply::vertex_name;
 use crate::relative_motion::{Point, RelativeMotion};
+use crate::{Config, Error};
+
+/// The camera, if the scene has none. The scene is at rest; bodies that are kept in view (`-in`) are
+/// seen about where they are then.
+pub(crate) fn default_camera(
+    scene: &Scene,
+    config: &Config,
+    motions: &[RelativeMotion],
+) -> Result<Option<DefaultCamera>, Error> {
+    let options = CameraOptions { eye: config.eye, ..config.camera.clone() };
+    let velocities = motions.iter().map(|motion| motion.velocity().beta());
+    DefaultCamera::new(scene, &options, config.size, velocities).map_err(Error::Camera)
+}
 
 /// Writes the eye and the options into the scene's camera, so that programs downstream use them.
-pub(crate) fn set_camera(scene: &mut Scene, eye: DVec3, options: &CameraOptions) {
+/// `center`: the view centre of the default camera.
+pub(crate) fn set_camera(scene: &mut Scene, eye: DVec3, center: Option<DVec3>, options: &CameraOptions) {
     if scene.cameras.is_empty() {
         scene.cameras.push(Camera::default());
     }
     let row = scene.camera_row().unwrap_or(0);
     let camera = &mut scene.cameras[row];
     camera.eye = Some(eye);
-    camera.center = options.center.or(camera.center);
+    camera.center = options.center.or(camera.center).or(center);
     camera.up = options.up.or(camera.up);
     if options.is_orthographic {
         camera.projection = Some(Projection::Orthographic);

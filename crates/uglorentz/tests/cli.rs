@@ -119,7 +119,7 @@ fn warnings_do_not_stop_it() {
 fn a_closed_pipe_ends_it_quietly() {
     // More than a pipe holds, so that writing meets the closed end.
     let many: String = (0..20_000).map(|idx| format!("v v{idx} {idx} 1 2;\n")).collect();
-    let mut child = program("-vel .5 0 0").spawn().unwrap();
+    let mut child = program("-vel .5 0 0 -ep 0 0 0").spawn().unwrap();
     drop(child.stdout.take());
     child.stdin.take().unwrap().write_all(many.as_bytes()).unwrap();
     let mut stderr = String::new();
@@ -141,8 +141,8 @@ fn help_names_every_option() {
 fn measurements_go_to_a_file_that_does_not_change_the_scene() {
     let folder = tempfile::tempdir().unwrap();
     let file = |name: &str| folder.path().join(name).display().to_string();
-    let plain = run("-vel .6 0 0", TILE);
-    let output = run(&format!("-vel .6 0 0 -at {}", file("t.csv")), TILE);
+    let plain = run("-vel .6 0 0 -ep 0 0 0", TILE);
+    let output = run(&format!("-vel .6 0 0 -ep 0 0 0 -at {}", file("t.csv")), TILE);
     assert_eq!(String::from_utf8(output.stderr).unwrap(), "");
     assert_eq!(output.stdout, plain.stdout);
     assert!(std::fs::read_to_string(file("t.csv")).unwrap().starts_with("name,x,y,z,"));

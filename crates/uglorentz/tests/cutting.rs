@@ -494,7 +494,7 @@ fn what_is_out_of_sight_is_not_cut_further() {
     let text = "v a -50 -50 -1; v b 50 -50 -1; v c 50 50 -1; v d -50 50 -1; f (a b c d); cam -ep 0 0 0 -vc -1 0 -.2;";
     for direction in [DVec3::X, DVec3::Z, DVec3::new(0.6, 0.0, 0.8)] {
         let whole = Config { measure: true, ..moving(direction * 0.9) };
-        let seen = Config { cull: Some([80, 60]), ..whole.clone() };
+        let seen = Config { size: [80, 60], cull: true, ..whole.clone() };
         let n_faces = |config: &Config| {
             let outcome = run(text, config);
             let achieved = outcome.report.remaining_errors.unwrap();

@@ -263,7 +263,7 @@ fn the_camera_that_counts_gets_the_eye() {
         assert_eq!(eyes, expected, "{cameras}");
     };
     let (one, two) = (Some(DVec3::ONE), Some(DVec3::splat(2.0)));
-    check("", None, &[Some(DVec3::ZERO)]);
+    check("cam -vc 0 0 1;", None, &[Some(DVec3::ZERO)]);
     check("cam -ep 1 1 1;", None, &[one]);
     check("cam -ep 1 1 1 -va 30 30;", two, &[two]);
     check("cam side -ep 1 1 1; cam -vc 0 0 1;", two, &[one, two]);

@@ -46,6 +46,12 @@ pub struct Args {
     #[arg(long)]
     center: bool,
 
+    /// Also write a camera and lights into the scene, to be edited
+    ///
+    /// They are those with which a scene without them is drawn.
+    #[arg(long)]
+    stage: bool,
+
     /// Prefix names of vertices and colours with NAME_, to combine several meshes in one scene
     #[arg(long, value_name = "NAME", value_parser = name)]
     name: Option<String>,
@@ -55,6 +61,7 @@ pub struct Args {
 }
 
 const EXAMPLES: &str = "Examples:
+  ugmesh teapot.obj | uglorentz -vel .9 0 0 --keep-in-view | ugrainbow > fast.png
   ugmesh teapot.obj | uglorentz -vel .9 0 0 | ugmesh -dt ply > distorted.ply
   ugmesh -center -fit 2 bunny.ply > bunny.ug
   uglorentz -vel 0 .8 0 ship.ug | ugdoppler | ugmesh -fo ship.glb";
@@ -117,6 +124,11 @@ impl Args {
         if self.ascii && !matches!(target, Target::Ply { .. }) {
             return Err(Failure::usage("-ascii applies only to PLY; add -dt ply"));
         }
+        if self.stage && target != Target::Ug {
+            return Err(Failure::usage(
+                "-stage writes statements of UniGrafix; leave out -dt and the ending of -fo",
+            ));
+        }
         Ok(Config {
             format: self.format.map(FormatName::format),
             target,
@@ -127,6 +139,7 @@ impl Args {
             }),
             size,
             is_centered: self.center,
+            stage: self.stage,
             name: self.name.clone().unwrap_or_default(),
             reading: pipe::options(&self.common)?,
             command_line: command_line.to_string(),

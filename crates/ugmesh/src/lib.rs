@@ -34,6 +34,7 @@ mod format;
 mod placement;
 mod polygon_mesh;
 mod read;
+mod staging;
 mod write;
 
 use std::io;
@@ -64,6 +65,8 @@ pub struct Config {
     pub size: Size,
     /// Whether the centre of the mesh's bounding box is moved to the origin.
     pub is_centered: bool,
+    /// Whether a camera and lights are added to a scene that is written without them.
+    pub stage: bool,
     /// Prefix of the names of vertices and colours that are generated.
     pub name: String,
     /// The options for reading UniGrafix.
@@ -136,6 +139,9 @@ pub fn run(config: &Config, input: &Input) -> Result<Converted, Error> {
     }
     let Loaded { mut scene, warnings, diagnostics } = load(config, format, input)?;
     place_mesh(config, format, &mut scene)?;
+    if config.stage && config.target == Target::Ug {
+        staging::add(&mut scene);
+    }
     ugscene::record(&mut scene, PROGRAM, env!("CARGO_PKG_VERSION"), &config.command_line);
     let (bytes, notes) = write::write(scene, config.target)?;
     Ok(Converted { bytes, notes, warnings, diagnostics })

@@ -1,6 +1,7 @@
 //! Notes for the user about a picture, above all why it is empty.
 
 use ugimage::{Development, Tone};
+use uglight::{DEFAULT_AMBIENT, DEFAULT_FROM_EYE};
 use ugparse::Scene;
 use ugpicture::Exposure;
 use ugpipe::remedies;
@@ -26,7 +27,8 @@ pub struct DrawStatistics {
 
 /// The notes, one sentence each.
 pub fn notes(setup: &Setup<'_>, config: &Config, statistics: &DrawStatistics) -> Vec<String> {
-    let mut notes = scene_notes(setup.scene(), config.exact.is_some());
+    let mut notes: Vec<String> = setup.view.default_camera.iter().map(ToString::to_string).collect();
+    notes.extend(scene_notes(setup.scene(), config.exact.is_some()));
     if config.repeat && setup.scene().stage.seen_colors().is_some() {
         notes.push(remedies::REPEAT_EARLIER.into());
     }
@@ -78,9 +80,10 @@ fn decimal(number: f32) -> String {
 fn scene_notes(scene: &Scene, is_exact: bool) -> Vec<String> {
     let mut notes = Vec::new();
     if scene.lights.is_empty() && scene.faces.iter().any(|face| scene.light_level(face).is_none()) {
-        notes.push(
-            "no lights in the scene: drawn with ambient light 0.3 and a light of 0.7 from the eye".into(),
-        );
+        notes.push(format!(
+            "no lights in the scene: drawn with ambient light {DEFAULT_AMBIENT} and a light of \
+             {DEFAULT_FROM_EYE} from the eye"
+        ));
     }
     if scene.lights.iter().any(|light| light.motion.body().is_some()) {
         let remedy = if is_exact { "leave out -xc: " } else { "" };

@@ -5,8 +5,10 @@ use std::fmt;
 use glam::DVec3;
 use ugparse::{Camera, Projection, Scene};
 
+use crate::DefaultCamera;
+
 /// Default view angle across the picture, degrees.
-const DEFAULT_VIEW_ANGLE: f64 = 40.0;
+pub(crate) const DEFAULT_VIEW_ANGLE: f64 = 40.0;
 
 /// The default hither distance, as a fraction of the distance to the view centre: points at the eye
 /// cannot be projected.
@@ -121,6 +123,8 @@ pub struct View {
     pub distance: f64,
     /// True if the up direction was parallel to the view and has been replaced.
     pub is_up_replaced: bool,
+    /// The eye and the view centre, if they were chosen because the scene has no camera.
+    pub default_camera: Option<DefaultCamera>,
     right: DVec3,
     up: DVec3,
     /// Samples per unit of the film at distance 1, across and down.
@@ -157,8 +161,14 @@ impl View {
     pub fn new(scene: &Scene, options: &CameraOptions, samples: [u32; 2]) -> Result<Self, CameraError> {
         let none = Camera::default();
         let camera = scene.camera().unwrap_or(&none);
-        let eye = crate::eye(scene, options.eye);
-        let center = options.center.or(camera.center).unwrap_or_else(|| middle(scene));
+        let default_camera = DefaultCamera::new(scene, options, samples, [])?;
+        let (eye, center) = match default_camera {
+            Some(DefaultCamera { eye, center, .. }) => (eye, center),
+            None => {
+                let center = options.center.or(camera.center).unwrap_or_else(|| middle(scene));
+                (crate::eye(scene, options.eye), center)
+            }
+        };
         let distance = ugphysics::length(center - eye);
         if !(distance > 0.0 && distance.is_finite()) {
             return Err(CameraError::NoDirection { eye });
@@ -177,6 +187,7 @@ impl View {
             slab: slab(camera, is_perspective, distance)?,
             distance,
             is_up_replaced,
+            default_camera,
             right,
             up: right.cross(forward),
             scale: [film.samples[0] / (2.0 * half[0]), film.samples[1] / (2.0 * half[1])],
@@ -300,6 +311,11 @@ impl Film {
         };
         Ok(Self { half: [half_width, half_height], samples, axis })
     }
+}
+
+/// Half the sides of the film at distance 1, of a camera that only has options.
+pub(crate) fn half_film(options: &CameraOptions, size: [u32; 2]) -> Result<[f64; 2], CameraError> {
+    Ok(Film::new(&Camera::default(), options, size)?.half)
 }
 
 /// Half the width of the film at distance 1, from any two of view angle, film size and focal

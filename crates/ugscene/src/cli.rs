@@ -19,7 +19,10 @@ pub struct EyeArgs {
     #[arg(long, value_name = "NAME", visible_alias = "camera", help_heading = CAMERA)]
     cam: Option<String>,
 
-    /// Eye point [default: that of the scene's camera, else the origin]
+    /// Eye point [default: that of the scene's camera]
+    ///
+    /// A scene without a camera is seen from the front, the right and above, far enough away that
+    /// all of it is in the picture. A camera without an eye point has it at the origin.
     #[arg(long, num_args = 3, value_names = ["X", "Y", "Z"], action = ArgAction::Set,
           allow_hyphen_values = true, value_parser = finite, visible_alias = "eye", help_heading = CAMERA)]
     ep: Option<Vec<f64>>,

@@ -7,7 +7,7 @@ use crate::{RestFrames, vertex_bodies};
 
 /// The eye point in scene coordinates: the option if given, else the one of the scene's camera,
 /// else the one its positions were computed for, else the origin. All programs of a pipe agree
-/// on it.
+/// on it. Where the eye matters, [`crate::DefaultCamera`] comes first in a scene without a camera.
 pub fn eye(scene: &Scene, option: Option<DVec3>) -> DVec3 {
     let of_camera = || scene.camera().and_then(|camera| camera.eye);
     let of_stage = || scene.stage.seen_geometry().map(|seen| seen.eye);

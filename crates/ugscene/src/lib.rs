@@ -6,7 +6,8 @@
 //! - Normals: [`smooth_normals`], and [`shading_normal`] for lighting.
 //! - The colours that meet at a vertex ([`vertex_shares`]).
 //! - Triangulation of polygons ([`triangulate`]), also of faces that are not flat ([`read`]).
-//! - The camera ([`View`]), its options, and the eye.
+//! - The camera ([`View`]), its options, the eye, and the camera of a scene without one
+//!   ([`DefaultCamera`]).
 //! - The stage that a program requires.
 //!
 //! All programs must agree on these. Lamps and the appearance of colours are in `uglight`.
@@ -27,6 +28,7 @@ mod camera;
 mod camera_motion;
 #[cfg(feature = "cli")]
 pub mod cli;
+mod default_camera;
 mod edges;
 mod eye;
 mod geometry;
@@ -42,6 +44,7 @@ mod stage;
 
 pub use camera::{CameraError, CameraOptions, CameraPoint, HalfSpace, Slab, View};
 pub use camera_motion::{axes_from_scene, camera_velocity};
+pub use default_camera::DefaultCamera;
 pub use edges::face_edges;
 pub use eye::{eye, vertex_at_eye};
 pub use geometry::{Geometry, rest_positions};

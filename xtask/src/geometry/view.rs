@@ -154,7 +154,7 @@ impl View {
     pub fn config_of_shape(&self, beta: DVec3) -> uglorentz::Config {
         let mut config = self.config(beta, uglorentz::Pieces::UpTo(uglorentz::DEFAULT_ERROR));
         config.color_error = f64::INFINITY;
-        config.cull = Some(self.size);
+        (config.size, config.cull) = (self.size, true);
         config.camera.view_angle = self.camera.view_angle.map(|[across, _]| (across, None));
         config
     }

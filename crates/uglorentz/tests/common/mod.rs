@@ -50,11 +50,14 @@ pub fn run(text: &str, config: &Config) -> Outcome {
     try_run(text, config).unwrap_or_else(|message| panic!("{message}"))
 }
 
-/// Errors have their place in the text if they have one.
+/// Errors have their place in the text if they have one. In a scene without a camera the eye is at
+/// the origin, unless the options say otherwise.
 pub fn try_run(text: &str, config: &Config) -> Result<Outcome, String> {
     let source = Source::new("t.ug", text);
     let parsed = ugscene::read(&source, &Options::default(), config.camera.name.as_deref());
     let parsed = parsed.map_err(|error| error.to_string())?;
+    let origin = parsed.scene.cameras.is_empty().then_some(DVec3::ZERO);
+    let config = &Config { eye: config.eye.or(origin), ..config.clone() };
     let (mut scene, report) = uglorentz::apply(parsed.scene, config).map_err(|error| {
         let diagnostics = error.diagnostics(&source, &parsed.origins);
         diagnostics.map_or_else(|| error.to_string(), |diagnostics| diagnostics.to_string())

@@ -1,0 +1,202 @@
+//! Meshes are drawn without any option for the camera: in every format, of any size, at any place
+//! and any speed they fill between a tenth and nine tenths of the picture and touch no edge.
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking, its helpers too")]
+
+use std::fmt::Write;
+
+use glam::DVec3;
+use ugmesh::{Format, Input, Target};
+use ugparse::{Options, Scene, Source};
+use ugtests::picture::{Picture, decode};
+
+/// A body with a knob, so that no side looks like another: vertices on rings around y, which is up
+/// in OBJ and glTF, and triangles.
+fn blob(size: f64, place: DVec3) -> (Vec<DVec3>, Vec<[usize; 3]>) {
+    const RINGS: usize = 8;
+    const SECTORS: usize = 12;
+    let mut vertices = Vec::new();
+    for ring in 0..=RINGS {
+        for sector in 0..SECTORS {
+            let (polar, azimuth) =
+                (180.0 * ring as f64 / RINGS as f64, 360.0 * sector as f64 / SECTORS as f64);
+            let (sin, cos) = (libm::sin(polar.to_radians()), libm::cos(polar.to_radians()));
+            let x = sin * libm::cos(azimuth.to_radians());
+            let z = sin * libm::sin(azimuth.to_radians());
+            let knob = if ring == 2 && sector == 1 { 1.6 } else { 1.0 };
+            vertices.push(place + size * knob * DVec3::new(x, 0.8 * cos, 1.2 * z));
+        }
+    }
+    let mut triangles = Vec::new();
+    for ring in 0..RINGS {
+        for sector in 0..SECTORS {
+            let at = |ring: usize, sector: usize| ring * SECTORS + sector % SECTORS;
+            let (a, b) = (at(ring, sector), at(ring, sector + 1));
+            let (c, d) = (at(ring + 1, sector + 1), at(ring + 1, sector));
+            triangles.extend([[a, b, c], [a, c, d]]);
+        }
+    }
+    (vertices, triangles)
+}
+
+fn obj(size: f64, place: DVec3) -> Vec<u8> {
+    let (vertices, triangles) = blob(size, place);
+    let mut text = String::new();
+    vertices.iter().for_each(|p| writeln!(text, "v {} {} {}", p.x, p.y, p.z).unwrap());
+    triangles.iter().for_each(|[a, b, c]| writeln!(text, "f {} {} {}", a + 1, b + 1, c + 1).unwrap());
+    text.into_bytes()
+}
+
+fn off(size: f64, place: DVec3) -> Vec<u8> {
+    let (vertices, triangles) = blob(size, place);
+    let mut text = format!("OFF\n{} {} 0\n", vertices.len(), triangles.len());
+    vertices.iter().for_each(|p| writeln!(text, "{} {} {}", p.x, p.y, p.z).unwrap());
+    triangles.iter().for_each(|[a, b, c]| writeln!(text, "3 {a} {b} {c}").unwrap());
+    text.into_bytes()
+}
+
+fn stl(size: f64, place: DVec3) -> Vec<u8> {
+    let (vertices, triangles) = blob(size, place);
+    let mut text = "solid blob\n".to_owned();
+    for corners in triangles {
+        text.push_str("facet normal 0 0 0\nouter loop\n");
+        corners.map(|row| vertices[row]).iter().for_each(|p| {
+            writeln!(text, "vertex {} {} {}", p.x, p.y, p.z).unwrap();
+        });
+        text.push_str("endloop\nendfacet\n");
+    }
+    text += "endsolid blob\n";
+    text.into_bytes()
+}
+
+/// What `ugmesh` makes of a mesh.
+fn converted(mesh: &[u8], format: Format, target: Target, stage: bool) -> Vec<u8> {
+    let config = ugmesh::Config { format: Some(format), target, stage, ..ugmesh::Config::default() };
+    ugmesh::run(&config, &Input::new("blob", mesh)).unwrap().bytes
+}
+
+fn scene(text: &[u8]) -> Scene {
+    let parsed = ugscene::read(&Source::new("blob.ug", text), &Options::default(), None);
+    parsed.unwrap_or_else(|findings| panic!("{findings}")).scene
+}
+
+/// `uglorentz -vel … --keep-in-view`, without the camera of a test.
+fn as_seen(text: &[u8], velocity: DVec3) -> Vec<u8> {
+    let config =
+        uglorentz::Config { velocity: Some(velocity), in_place: true, ..uglorentz::Config::default() };
+    let (seen, report) = uglorentz::apply(scene(text), &config).unwrap();
+    assert_eq!(report.notes().len(), 1, "{:?}", report.notes());
+    ugparse::write(&seen)
+}
+
+/// The picture, and notes about a camera.
+fn drawn(text: &[u8], size: [u32; 2]) -> (Picture, Vec<String>) {
+    let mut config = ugrainbow::Config::default();
+    (config.picture.size, config.picture.samples) = (size, 1);
+    let picture = ugrainbow::run(&config, &Source::new("blob.ug", text)).unwrap();
+    (decode(&picture.bytes), picture.notes.into_iter().filter(|note| note.contains("camera")).collect())
+}
+
+/// Checks the part of the picture's sides between the outermost pixels that are not background.
+#[track_caller]
+fn check_fill(name: &str, picture: &Picture) {
+    let (width, height) = picture.dimensions();
+    let lit = picture.enumerate_pixels().filter(|(_, _, pixel)| pixel.0[..3] != [0; 3]);
+    let (mut low, mut high) = ([width, height], [0, 0]);
+    for (x, y, _) in lit {
+        (low, high) = ([low[0].min(x), low[1].min(y)], [high[0].max(x), high[1].max(y)]);
+    }
+    let is_inside = low[0] > 0 && low[1] > 0 && high[0] + 1 < width && high[1] + 1 < height;
+    assert!(is_inside && low[0] <= high[0], "{name}: from {low:?} to {high:?} touches an edge");
+    let part = |axis: usize, side: u32| f64::from(high[axis] + 1 - low[axis]) / f64::from(side);
+    let filled = part(0, width).max(part(1, height));
+    assert!((0.1..=0.9).contains(&filled), "{name}: fills {filled:.3}");
+}
+
+const SIZE: [u32; 2] = [160, 120];
+
+#[test]
+fn every_format_is_drawn_at_once() {
+    let place = DVec3::new(3.0, -7.0, 40.0);
+    let original = obj(0.1, place);
+    let meshes = [
+        ("OBJ", Format::Obj, original.clone()),
+        ("PLY", Format::Ply, converted(&original, Format::Obj, Target::Ply { is_ascii: false }, false)),
+        ("STL", Format::Stl, stl(0.1, place)),
+        ("OFF", Format::Off, off(0.1, place)),
+        ("glTF", Format::Gltf, converted(&original, Format::Obj, Target::Gltf, false)),
+    ];
+    for (name, format, mesh) in meshes {
+        let text = converted(&mesh, format, Target::Ug, false);
+        let (at_rest, notes) = drawn(&text, SIZE);
+        assert!(
+            notes.len() == 1 && notes[0].starts_with("no camera in the scene: seen as with -ep "),
+            "{notes:?}"
+        );
+        check_fill(&format!("{name} at rest"), &at_rest);
+        for velocity in [DVec3::X, DVec3::NEG_Y, DVec3::Z].map(|axis| 0.9 * axis) {
+            // The camera is in the scene now, so the note comes once in a pipe.
+            let (moving, notes) = drawn(&as_seen(&text, velocity), SIZE);
+            assert_eq!(notes, [""; 0]);
+            check_fill(&format!("{name} at {velocity}"), &moving);
+        }
+    }
+}
+
+#[test]
+fn any_size_at_any_place() {
+    for size in [1e-3, 1.0, 1e6] {
+        for place in [DVec3::ZERO, DVec3::new(-500.0, 20.0, 3000.0), DVec3::new(0.0, 0.0, -2e6)] {
+            let text = converted(&obj(size, place), Format::Obj, Target::Ug, false);
+            check_fill(&format!("size {size} at {place}"), &drawn(&text, SIZE).0);
+            let seen = as_seen(&text, DVec3::new(0.9, 0.0, 0.0));
+            check_fill(&format!("size {size} at {place}, moving"), &drawn(&seen, SIZE).0);
+        }
+    }
+}
+
+#[test]
+fn any_velocity_with_keep_in_view() {
+    let text = converted(&obj(1.0, DVec3::splat(5.0)), Format::Obj, Target::Ug, false);
+    let directions = [
+        DVec3::NEG_X,
+        DVec3::Y,
+        DVec3::NEG_Z,
+        // Toward the eye at rest, and away from it.
+        DVec3::new(3.0, -4.0, 2.0),
+        DVec3::new(-3.0, 4.0, -2.0),
+        // About 41° from the direction to the eye.
+        DVec3::new(-0.1, -1.0, 0.3),
+        DVec3::new(1.0, -0.2, 0.5),
+    ];
+    for direction in directions {
+        for speed in [0.5, 0.9, 0.999] {
+            let seen = as_seen(&text, speed * direction.normalize());
+            check_fill(&format!("{speed} along {direction}"), &drawn(&seen, SIZE).0);
+        }
+    }
+}
+
+#[test]
+fn wide_and_tall_pictures() {
+    let text = converted(&obj(1.0, DVec3::ZERO), Format::Obj, Target::Ug, false);
+    for size in [[320, 60], [60, 320], [100, 100], [192, 108]] {
+        check_fill(&format!("{size:?}"), &drawn(&text, size).0);
+    }
+    // The camera for 1024 × 768 suits other pictures, too.
+    let seen = as_seen(&text, DVec3::new(0.9, 0.0, 0.0));
+    for size in [[100, 160], [100, 100], [192, 108]] {
+        check_fill(&format!("{size:?}, moving"), &drawn(&seen, size).0);
+    }
+}
+
+#[test]
+fn a_stage_in_the_scene_is_the_one_of_a_scene_without() {
+    let mesh = obj(0.2, DVec3::ONE);
+    let [bare, staged] = [false, true].map(|stage| converted(&mesh, Format::Obj, Target::Ug, stage));
+    let lines = String::from_utf8(staged.clone()).unwrap();
+    let count = |word: &str| lines.lines().filter(|line| line.starts_with(word)).count();
+    assert_eq!((count("l "), count("cam ")), (2, 1), "{lines}");
+    let ((expected, _), (actual, notes)) = (drawn(&bare, SIZE), drawn(&staged, SIZE));
+    assert_eq!(notes, [""; 0]);
+    ugtests::picture::assert_same("mesh-with-a-stage", &expected, &actual, 1);
+}
