@@ -119,11 +119,11 @@ pub struct Args {
           help_heading = CAMERA)]
     size: Vec<u32>,
 
-    /// Also write measurements at each vertex, to FILE.csv or FILE.ply
+    /// Also write measurements at each vertex, to FILE.csv, FILE.ply or FILE.vtp (ParaView)
     ///
     /// Name, position, emission time on the camera's clock, Doppler factor, apparent distance, and
     /// the angle between the velocity and the direction of the light to the eye, in degrees: in the
-    /// frame of the camera and in that of the body.
+    /// frame of the camera and in that of the body. FILE.vtp has the velocity instead of the name.
     #[arg(id = "at", long = "at", visible_alias = "attributes", value_name = "FILE")]
     attributes: Option<PathBuf>,
 
@@ -219,7 +219,9 @@ impl Args {
 fn table(path: &Path) -> Result<Table, Failure> {
     let extension = path.extension().map(|extension| extension.to_string_lossy()).unwrap_or_default();
     Table::by_extension(&extension).ok_or_else(|| {
-        Failure::Usage("-at writes a table: the name of its file must end with .csv or .ply".to_string())
+        Failure::Usage(
+            "-at writes a table: the name of its file must end with .csv, .ply or .vtp".to_string(),
+        )
     })
 }
 

@@ -88,6 +88,7 @@ mod report;
 mod split;
 mod uniform;
 mod viewpoint;
+mod vtk_polygons;
 
 pub use apply::{apply, apply_with_progress};
 #[cfg(feature = "cli")]

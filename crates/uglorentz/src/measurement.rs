@@ -7,6 +7,8 @@ use ugparse::{Face, Scene, VertexId};
 use ugphysics::{Velocity, aberrate, doppler_at};
 use ugscene::{Geometry, RestFrames};
 
+use crate::vtk_polygons;
+
 /// Measurements at one vertex.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Measurement {
@@ -24,6 +26,8 @@ pub struct Measurement {
     pub emission_angle_deg: f64,
     /// The same angle in the rest frame of the body, (P6).
     pub rest_emission_angle_deg: f64,
+    /// Velocity of the body in the frame of the camera, fraction of c.
+    pub velocity: DVec3,
 }
 
 /// Measures the result of [`crate::apply`], one row for each vertex.
@@ -41,6 +45,7 @@ pub fn measure(scene: &Scene, eye: DVec3, time: f64) -> Vec<Measurement> {
             doppler: if v.is_zero() { 1.0 } else { doppler_at(seen, v) },
             emission_angle_deg: angle_to_motion_deg(-seen, v),
             rest_emission_angle_deg: angle_to_motion_deg(-aberrate(seen, v), v),
+            velocity: v.beta(),
         }
     };
     let vertices = scene.vertices.iter().zip(bodies);
@@ -64,11 +69,17 @@ pub enum Table {
     Csv,
     /// ASCII PLY: vertices with properties, faces, and the names of the vertices as lists of bytes.
     Ply,
+    /// VTK XML polygon data, for ParaView: vertices with arrays, the velocity among them, and faces.
+    Vtp,
 }
 
 /// Columns of [`Table::Csv`] after the name, and vertex properties of [`Table::Ply`].
 const COLUMNS: [&str; 8] =
     ["x", "y", "z", "emission_time", "doppler", "distance", "emission_angle_deg", "rest_emission_angle_deg"];
+
+/// Those of [`COLUMNS`] that are not coordinates.
+const SCALARS: [&str; 5] =
+    ["emission_time", "doppler", "distance", "emission_angle_deg", "rest_emission_angle_deg"];
 
 impl Table {
     /// The format of files with this extension.
@@ -76,6 +87,7 @@ impl Table {
         match extension.to_ascii_lowercase().as_str() {
             "csv" => Some(Table::Csv),
             "ply" => Some(Table::Ply),
+            "vtp" => Some(Table::Vtp),
             _ => None,
         }
     }
@@ -86,6 +98,7 @@ impl Table {
         let written = match self {
             Table::Csv => write_csv(&mut text, scene, rows),
             Table::Ply => write_ply(&mut text, scene, rows),
+            Table::Vtp => vtk_polygons::write(&mut text, scene, rows, &all_polygons(scene), SCALARS, scalars),
         };
         written.expect("writing to memory does not fail");
         text.into_bytes()
@@ -106,7 +119,7 @@ fn write_csv(text: &mut String, scene: &Scene, rows: &[Measurement]) -> std::fmt
 }
 
 fn write_ply(text: &mut String, scene: &Scene, rows: &[Measurement]) -> std::fmt::Result {
-    let faces: Vec<Vec<VertexId>> = scene.faces.iter().flat_map(|face| polygons(scene, face)).collect();
+    let faces = all_polygons(scene);
     text.push_str("ply\nformat ascii 1.0\n");
     for line in ugscene::history(scene) {
         writeln!(text, "comment {line}")?;
@@ -138,16 +151,18 @@ fn write_ply(text: &mut String, scene: &Scene, rows: &[Measurement]) -> std::fmt
 /// In the order of [`COLUMNS`].
 fn numbers(position: DVec3, row: &Measurement) -> [f64; 8] {
     let [x, y, z] = position.to_array();
-    [
-        x,
-        y,
-        z,
-        row.emission_time,
-        row.doppler,
-        row.distance,
-        row.emission_angle_deg,
-        row.rest_emission_angle_deg,
-    ]
+    let [emission_time, doppler, distance, angle, rest_angle] = scalars(row);
+    [x, y, z, emission_time, doppler, distance, angle, rest_angle]
+}
+
+/// In the order of [`SCALARS`].
+fn scalars(row: &Measurement) -> [f64; 5] {
+    [row.emission_time, row.doppler, row.distance, row.emission_angle_deg, row.rest_emission_angle_deg]
+}
+
+/// All faces, without holes.
+fn all_polygons(scene: &Scene) -> Vec<Vec<VertexId>> {
+    scene.faces.iter().flat_map(|face| polygons(scene, face)).collect()
 }
 
 /// A face without holes, or its triangles. If triangulation fails, the holes are lost.

@@ -154,7 +154,7 @@ fn measurements_go_to_a_file_that_does_not_change_the_scene() {
         assert!(stderr.contains(expected), "{stderr}");
         assert!(output.stdout.is_empty());
     };
-    fails("-at t.txt", TILE, 2, "the name of its file must end with .csv or .ply");
+    fails("-at t.txt", TILE, 2, "the name of its file must end with .csv, .ply or .vtp");
     fails(&format!("-at {0} -fo {0}", file("both.ply")), TILE, 2, "two outputs cannot go to one file");
     fails(&format!("-at {}", file("none.csv")), "f (a b c);", 1, "`a` is not defined");
     fails(&format!("-at {}", file("no/folder.csv")), TILE, 1, "cannot write");

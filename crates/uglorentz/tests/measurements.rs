@@ -3,7 +3,7 @@
 
 mod common;
 
-use common::{parse, run, table};
+use common::{moving, parse, run, table};
 use glam::DVec3;
 use uglorentz::{Config, Pieces, Table};
 use ugphysics::{Velocity, doppler_at, rest_position, seen_event};
@@ -188,10 +188,62 @@ fn ply_has_faces_without_holes_and_names() {
     assert_eq!(lines[16], "3 97 58 49");
 }
 
+/// The numbers of an array of a VTK file: 8 bytes each, behind their length in bytes.
+fn vtk_array(text: &str, name: &str) -> Vec<[u8; 8]> {
+    const DIGITS: &str = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    let start = text.find(&format!("Name=\"{name}\"")).unwrap();
+    let content = text[start..].split_once('>').unwrap().1.split_once('<').unwrap().0;
+    let (mut bits, mut bytes) = (0_u64, Vec::new());
+    for (count, digit) in content.trim_end_matches('=').chars().enumerate() {
+        bits = bits << 6 | DIGITS.find(digit).unwrap() as u64;
+        // Four digits are three bytes.
+        if count % 4 > 0 {
+            bytes.push((bits >> (6 - 2 * (count % 4))) as u8);
+        }
+    }
+    let rows: Vec<[u8; 8]> = bytes.as_chunks().0.to_vec();
+    assert_eq!((rows.len() - 1) * 8, u64::from_le_bytes(rows[0]) as usize, "{name}");
+    rows[1..].to_vec()
+}
+
+#[test]
+fn vtk_has_the_numbers_of_the_table() {
+    let config = moving(DVec3::new(0.6, -0.2, 0.1));
+    let (vtk, csv) = (table(HOUSE, &config, Table::Vtp), table(HOUSE, &config, Table::Csv));
+    let numbers =
+        |name: &str| -> Vec<f64> { vtk_array(&vtk, name).into_iter().map(f64::from_le_bytes).collect() };
+    let columns: Vec<&str> = csv.lines().next().unwrap().split(',').collect();
+    let rows: Vec<Vec<&str>> = csv.lines().skip(1).map(|line| line.split(',').collect()).collect();
+    let column = |name: &str| -> Vec<f64> {
+        let idx = columns.iter().position(|column| *column == name).unwrap();
+        rows.iter().map(|row| row[idx].parse().unwrap()).collect()
+    };
+    for name in &columns[4..] {
+        // As text, so that NaN, of the vertex at the eye, equals itself.
+        let text = |numbers: Vec<f64>| numbers.iter().map(f64::to_string).collect::<Vec<_>>();
+        assert_eq!(text(numbers(name)), text(column(name)), "{name}");
+    }
+    let points: Vec<f64> = ["x", "y", "z"].map(column).concat();
+    let n = rows.len();
+    let expected: Vec<f64> = (0..3 * n).map(|idx| points[idx % 3 * n + idx / 3]).collect();
+    assert_eq!(numbers("Points"), expected);
+    assert!(numbers("velocity").chunks(3).all(|v| (v[0] - 0.6).abs() < 1e-15 && (v[1] + 0.2).abs() < 1e-15));
+    // The corners of polygons, each up to its offset, which is where the next begins.
+    let ints =
+        |name: &str| -> Vec<i64> { vtk_array(&vtk, name).into_iter().map(i64::from_le_bytes).collect() };
+    let (corners, ends) = (ints("connectivity"), ints("offsets"));
+    assert_eq!(ends.last(), Some(&(corners.len() as i64)));
+    assert!(ends.is_sorted() && corners.iter().all(|&corner| (0..n as i64).contains(&corner)));
+    assert!(
+        vtk.contains(&format!("NumberOfPoints=\"{n}\""))
+            && vtk.contains(&format!("NumberOfPolys=\"{}\"", ends.len()))
+    );
+}
+
 #[test]
 fn endings_choose_the_format() {
     assert_eq!(
-        ["csv", "PLY", "txt", ""].map(Table::by_extension),
-        [Some(Table::Csv), Some(Table::Ply), None, None]
+        ["csv", "PLY", "vtp", "txt", ""].map(Table::by_extension),
+        [Some(Table::Csv), Some(Table::Ply), Some(Table::Vtp), None, None]
     );
 }
