@@ -7,7 +7,7 @@ use ugparse::{Face, Scene, VertexId};
 use ugphysics::{Velocity, aberrate, doppler_at};
 use ugscene::{Geometry, RestFrames};
 
-use crate::vtk_polygons;
+use crate::vtk_polygons::{self, VtkPolygons};
 
 /// Measurements at one vertex.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -98,7 +98,7 @@ impl Table {
         let written = match self {
             Table::Csv => write_csv(&mut text, scene, rows),
             Table::Ply => write_ply(&mut text, scene, rows),
-            Table::Vtp => vtk_polygons::write(&mut text, scene, rows, &all_polygons(scene), SCALARS, scalars),
+            Table::Vtp => write_vtp(&mut text, scene, rows),
         };
         written.expect("writing to memory does not fail");
         text.into_bytes()
@@ -146,6 +146,19 @@ fn write_ply(text: &mut String, scene: &Scene, rows: &[Measurement]) -> std::fmt
         text.push('\n');
     }
     Ok(())
+}
+
+fn write_vtp(text: &mut String, scene: &Scene, rows: &[Measurement]) -> std::fmt::Result {
+    let numbers: Vec<[f64; 5]> = rows.iter().map(scalars).collect();
+    let column = |(idx, name)| (name, numbers.iter().map(|row| row[idx]).collect());
+    let mesh = VtkPolygons {
+        history: ugscene::history(scene),
+        points: scene.vertices.iter().map(|vertex| vertex.position).collect(),
+        scalars: SCALARS.into_iter().enumerate().map(column).collect(),
+        velocities: rows.iter().map(|row| row.velocity).collect(),
+        polygons: all_polygons(scene),
+    };
+    vtk_polygons::write(text, &mesh)
 }
 
 /// In the order of [`COLUMNS`].

@@ -7,43 +7,43 @@ use std::fmt::Write;
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
 use glam::DVec3;
-use ugparse::{Scene, VertexId};
+use ugparse::VertexId;
 
-use crate::measurement::Measurement;
+/// A mesh with numbers at its points.
+pub(crate) struct VtkPolygons<'a> {
+    /// Command lines, for people.
+    pub history: Vec<&'a str>,
+    pub points: Vec<DVec3>,
+    /// Name and numbers of each array of scalars.
+    pub scalars: Vec<(&'a str, Vec<f64>)>,
+    pub velocities: Vec<DVec3>,
+    /// Corners of each polygon.
+    pub polygons: Vec<Vec<VertexId>>,
+}
 
-/// The whole file. `polygons`: corners of each polygon. `columns`: names of the scalars of
-/// `scalars`, which returns those of a vertex.
-pub(crate) fn write<const N: usize>(
-    text: &mut String,
-    scene: &Scene,
-    rows: &[Measurement],
-    polygons: &[Vec<VertexId>],
-    columns: [&str; N],
-    scalars: impl Fn(&Measurement) -> [f64; N],
-) -> std::fmt::Result {
+/// Appends the whole file.
+pub(crate) fn write(text: &mut String, mesh: &VtkPolygons) -> std::fmt::Result {
+    let VtkPolygons { history, points, scalars, velocities, polygons } = mesh;
     let n_polygons = polygons.len();
     writeln!(text, "<?xml version=\"1.0\"?>")?;
     writeln!(
         text,
         "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<PolyData>"
     )?;
-    write_history(text, scene)?;
+    write_history(text, history)?;
     writeln!(
         text,
         "<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" \
          NumberOfPolys=\"{n_polygons}\">",
-        rows.len()
+        points.len()
     )?;
     text.push_str("<Points>\n");
-    let positions = scene.vertices.iter().map(|vertex| vertex.position);
-    vectors(text, "Points", positions)?;
+    vectors(text, "Points", points)?;
     text.push_str("</Points>\n<PointData Scalars=\"doppler\" Vectors=\"velocity\">\n");
-    let numbers: Vec<[f64; N]> = rows.iter().map(scalars).collect();
-    for (column, name) in columns.iter().enumerate() {
-        let bytes = numbers.iter().flat_map(|row| row[column].to_le_bytes()).collect();
-        array(text, "Float64", name, 1, bytes)?;
+    for (name, numbers) in scalars {
+        array(text, "Float64", name, 1, numbers.iter().flat_map(|x| x.to_le_bytes()).collect())?;
     }
-    vectors(text, "velocity", rows.iter().map(|row| row.velocity))?;
+    vectors(text, "velocity", velocities)?;
     text.push_str("</PointData>\n<Polys>\n");
     let corners = polygons.iter().flatten().flat_map(|corner| i64::from(corner.0).to_le_bytes()).collect();
     array(text, "Int64", "connectivity", 1, corners)?;
@@ -58,8 +58,7 @@ pub(crate) fn write<const N: usize>(
 }
 
 /// The command lines, as an array of strings: codes of their bytes, each string with a 0 at its end.
-fn write_history(text: &mut String, scene: &Scene) -> std::fmt::Result {
-    let lines = ugscene::history(scene);
+fn write_history(text: &mut String, lines: &[&str]) -> std::fmt::Result {
     write!(
         text,
         "<FieldData>\n<Array type=\"String\" Name=\"history\" NumberOfTuples=\"{}\" format=\"ascii\">",
@@ -72,8 +71,14 @@ fn write_history(text: &mut String, scene: &Scene) -> std::fmt::Result {
     Ok(())
 }
 
-fn vectors(text: &mut String, name: &str, rows: impl Iterator<Item = DVec3>) -> std::fmt::Result {
-    array(text, "Float64", name, 3, rows.flat_map(|v| v.to_array()).flat_map(f64::to_le_bytes).collect())
+fn vectors(text: &mut String, name: &str, rows: &[DVec3]) -> std::fmt::Result {
+    array(
+        text,
+        "Float64",
+        name,
+        3,
+        rows.iter().flat_map(|v| v.to_array()).flat_map(f64::to_le_bytes).collect(),
+    )
 }
 
 fn array(text: &mut String, kind: &str, name: &str, n_components: usize, bytes: Vec<u8>) -> std::fmt::Result {

@@ -5,8 +5,7 @@ use std::fmt;
 use glam::{DQuat, DVec3};
 use ugparse::Scene;
 
-use crate::CameraOptions;
-use crate::camera::{CameraError, DEFAULT_VIEW_ANGLE, half_film};
+use crate::camera_options::{CameraError, CameraOptions, DEFAULT_VIEW_ANGLE, half_film};
 
 /// From the view centre to the eye, where z is up: from the front (−y), the right and above. No
 /// axis is within [`CLEAR`] of it.

@@ -26,6 +26,7 @@
 
 mod camera;
 mod camera_motion;
+mod camera_options;
 #[cfg(feature = "cli")]
 pub mod cli;
 mod default_camera;
@@ -42,8 +43,9 @@ mod shares;
 mod split;
 mod stage;
 
-pub use camera::{CameraError, CameraOptions, CameraPoint, HalfSpace, Slab, View};
+pub use camera::{CameraPoint, HalfSpace, Slab, View};
 pub use camera_motion::{axes_from_scene, camera_velocity};
+pub use camera_options::{CameraError, CameraOptions};
 pub use default_camera::DefaultCamera;
 pub use edges::face_edges;
 pub use eye::{eye, vertex_at_eye};

@@ -1,0 +1,145 @@
+//! Options of the camera, their errors, and the film.
+
+use std::fmt;
+
+use glam::DVec3;
+use ugparse::Camera;
+
+/// Default view angle across the picture, degrees.
+pub(crate) const DEFAULT_VIEW_ANGLE: f64 = 40.0;
+
+/// Camera options of a program, which override the camera of the scene.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct CameraOptions {
+    /// Name of the camera to use, if the scene has several; chosen by [`crate::read`].
+    pub name: Option<String>,
+    /// Eye point.
+    pub eye: Option<DVec3>,
+    /// View centre: the point at the centre of the picture.
+    pub center: Option<DVec3>,
+    /// The direction that is up in the picture.
+    pub up: Option<DVec3>,
+    /// Full view angle across the picture, and if given also down it, in degrees.
+    pub view_angle: Option<(f64, Option<f64>)>,
+    /// Parallel projection.
+    pub is_orthographic: bool,
+}
+
+/// Why a camera is invalid.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum CameraError {
+    /// The eye point is the view centre, or the direction between them underflows or overflows.
+    NoDirection {
+        /// The eye point.
+        eye: DVec3,
+    },
+    /// The up direction of the options is the zero vector.
+    NoUp,
+    /// A view angle, in degrees, that is not between 0 and 180.
+    ViewAngle(f64),
+    /// A film size or focal length that is not positive.
+    Film,
+    /// A film rectangle (`-ph`) without area.
+    FilmRectangle,
+    /// The yon distance is not behind the hither distance, or not in front of the eye.
+    Clip([f64; 2]),
+}
+
+impl fmt::Display for CameraError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NoDirection { eye } => write!(
+                f,
+                "the eye point {} {} {} is also the view centre, so there is no direction to look in; \
+                 move the eye with -ep or the centre with -vc",
+                eye.x, eye.y, eye.z
+            ),
+            Self::NoUp => f.write_str("-ud 0 0 0 has no direction; give one, such as -ud 0 0 1"),
+            Self::ViewAngle(degrees) => write!(
+                f,
+                "a view angle of {degrees} degrees cannot be projected on a flat picture; \
+                 give -va more than 0 and less than 180"
+            ),
+            Self::Film => f.write_str(
+                "the film size and the focal length of the camera must be positive; \
+                 correct -fs and -fl of the `cam` statement, or give -va",
+            ),
+            Self::FilmRectangle => f.write_str(
+                "the film rectangle of the camera has no area; \
+                 give -ph of the `cam` statement as min x, min y, max x, max y",
+            ),
+            Self::Clip([hither, yon]) => write!(
+                f,
+                "nothing lies between the clipping distances {hither} and {yon}; \
+                 give -cl of the `cam` statement as hither and a greater yon"
+            ),
+        }
+    }
+}
+
+impl std::error::Error for CameraError {}
+
+impl CameraOptions {
+    /// # Errors
+    /// [`CameraError::NoUp`].
+    pub fn check_up(&self) -> Result<(), CameraError> {
+        if self.up == Some(DVec3::ZERO) { Err(CameraError::NoUp) } else { Ok(()) }
+    }
+}
+
+/// The film: which part of the view the picture shows.
+pub(crate) struct Film {
+    /// Half its sides at distance 1 from the eye.
+    pub half: [f64; 2],
+    /// Samples that would cover the whole film.
+    pub samples: [f64; 2],
+    /// The sample at its middle.
+    pub axis: [f64; 2],
+}
+
+impl Film {
+    /// Pixels are square unless both angles are given as options: otherwise the angle across is
+    /// used, and the height follows from the aspect ratio of the picture.
+    pub fn new(camera: &Camera, options: &CameraOptions, samples: [u32; 2]) -> Result<Self, CameraError> {
+        let [min_x, min_y, max_x, max_y] = camera.film.unwrap_or([0.0, 0.0, 1.0, 1.0]);
+        if !(min_x < max_x && min_y < max_y) {
+            return Err(CameraError::FilmRectangle);
+        }
+        let [width, height] = samples.map(f64::from);
+        let samples = [width / (max_x - min_x), height / (max_y - min_y)];
+        // Film coordinates run up, rows run down.
+        let axis = [(0.5 - min_x) * samples[0], (max_y - 0.5) * samples[1]];
+        let half_width = match options.view_angle {
+            Some((across, _)) => half_side(across)?,
+            None => half_width_of(camera)?,
+        };
+        let half_height = match options.view_angle {
+            Some((_, Some(down))) => half_side(down)?,
+            _ => half_width * samples[1] / samples[0],
+        };
+        Ok(Self { half: [half_width, half_height], samples, axis })
+    }
+}
+
+/// Half the sides of the film at distance 1, of a camera that only has options.
+pub(crate) fn half_film(options: &CameraOptions, size: [u32; 2]) -> Result<[f64; 2], CameraError> {
+    Ok(Film::new(&Camera::default(), options, size)?.half)
+}
+
+/// Half the width of the film at distance 1, from any two of view angle, film size and focal
+/// length: fs = 2 fl tan(va/2).
+fn half_width_of(camera: &Camera) -> Result<f64, CameraError> {
+    match (camera.view_angle, camera.film_size, camera.focal_length) {
+        (Some([across, _]), _, _) => half_side(across),
+        (None, Some([width, _]), Some(length)) if width > 0.0 && length > 0.0 => Ok(0.5 * width / length),
+        (None, Some(_), Some(_)) => Err(CameraError::Film),
+        _ => half_side(DEFAULT_VIEW_ANGLE),
+    }
+}
+
+/// Half the side of the film at distance 1 that fills a view angle in degrees.
+fn half_side(degrees: f64) -> Result<f64, CameraError> {
+    let is_flat = 0.0 < degrees && degrees < 180.0;
+    let half = libm::tan(0.5 * degrees.to_radians());
+    if is_flat && half > 0.0 { Ok(half) } else { Err(CameraError::ViewAngle(degrees)) }
+}
