@@ -1,7 +1,7 @@
 //! Notes on colours in real pipes: each is printed once, by the program where it happens.
 
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::Path;
 use std::process::{Command, Stdio};
 
 use ugtests::programs;
@@ -19,7 +19,7 @@ const MIXED: &str =
     "note: colours are mixed at 6 vertices where faces of different colours meet; -vr keeps them apart\n";
 
 /// The error output of a pipe of these commands, which succeeds and writes a picture.
-fn messages(folder: &PathBuf, pipe: &str, scene: &str) -> String {
+fn messages(folder: &Path, pipe: &str, scene: &str) -> String {
     let mut text = scene.as_bytes().to_vec();
     let mut messages = String::new();
     for command in pipe.split('|') {

@@ -49,7 +49,7 @@ const MISTAKES: [Mistake; 17] = [
     },
     Mistake {
         name: "M4",
-        file: "crates/ugscene/src/camera.rs",
+        file: "crates/ugscene/src/camera_options.rs",
         right: "half_width * samples[1] / samples[0]",
         wrong: "half_width",
         found_by: "wide",
@@ -188,7 +188,9 @@ fn collect(top: &Path, folder: &Path, files: &mut BTreeMap<PathBuf, Vec<u8>>) {
 fn mistaken_workspace() -> BTreeMap<PathBuf, Vec<u8>> {
     let root = root();
     let mut files = BTreeMap::new();
-    for folder in ["crates", "features", "conformance/src", "conformance/cases", "conformance/scenes"] {
+    for folder in
+        ["crates", "features", "conformance/src", "conformance/cases", "conformance/scenes", "scenes"]
+    {
         collect(&root, &root.join(folder), &mut files);
     }
     for name in ["Cargo.toml", "Cargo.lock", "conformance/Cargo.toml"] {

@@ -76,14 +76,27 @@ impl Page {
     }
 }
 
-/// Copies the scenes of the repository into a folder, and into a folder `scenes` in it.
-pub fn copy_scenes(folder: &Path) {
+/// Makes the files that the pages take for granted: a mesh of the reader's own, in several formats,
+/// its lights and camera, and a scene that has been through `uglorentz`.
+const PREPARATION: &str = "\
+    ugmesh -dt obj scenes/teapot.ug -fo teapot.obj; \
+    ugmesh -dt obj scenes/sphere.ug -fo bunny.obj; \
+    ugmesh -dt ply scenes/sphere.ug -fo bunny.ply; \
+    printf 'cam -ep 0 -6 1 -vc 0 0 0 -ud 0 0 1 -va 40 30 ; l .3 ; l .7 0 -1 1 ;' > stage.ug; \
+    uglorentz -vel .3 0 0 -in scenes/ship.ug | ugdoppler > seen.ug";
+
+/// Fills a folder with what a reader has when typing commands: the scenes of the repository, also
+/// in a folder `scenes` in it, and the files that pages take for granted.
+pub fn prepare(folder: &Path, programs: &Path) {
     for folder in [folder.to_owned(), folder.join("scenes")] {
         fs::create_dir_all(&folder).expect("a folder");
         for name in scenes::names() {
             fs::write(folder.join(format!("{name}.ug")), scenes::text(&name)).expect("a copy");
         }
     }
+    let page =
+        Page { path: "preparation", text: String::new(), definitions: String::new(), commands: Vec::new() };
+    page.run(PREPARATION, folder, programs).unwrap_or_else(|message| panic!("{message}"));
 }
 
 /// The command with pictures of other sizes: sizes in it are multiplied by `scale`, and `default`

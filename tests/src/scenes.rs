@@ -10,11 +10,13 @@ pub fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("the package is a folder of the repository")
 }
 
-/// The target folder in which this test was built.
+/// The target folder in which this program was built.
 pub fn target_dir() -> PathBuf {
     let program = std::env::current_exe().expect("a running program has a path");
-    // target/PROFILE/deps/PROGRAM
-    program.ancestors().nth(3).expect("tests lie three folders deep").to_owned()
+    let folder = program.parent().expect("a program is in a folder");
+    // A test is target/PROFILE/deps/NAME, a program target/PROFILE/NAME.
+    let profile = if folder.ends_with("deps") { folder.parent() } else { Some(folder) };
+    profile.and_then(Path::parent).expect("the profile is a folder of the target folder").to_owned()
 }
 
 /// Names of all scenes, without `.ug`, in order: those in the table of `scenes/README.md`.

@@ -2,9 +2,9 @@
 
 use std::fs;
 use std::io::{self, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use ugtests::documents::{Page, copy_scenes, resized};
+use ugtests::documents::{Page, prepare, resized};
 use ugtests::{programs, scenes};
 
 /// The pages, each with the default size of its pictures in pixels.
@@ -13,15 +13,27 @@ const PAGES: [(&str, [u32; 2]); 2] = [("docs/gallery.md", [640, 480]), ("docs/st
 /// Folder of the small pictures, beside the large ones.
 const SMALL: &str = "small";
 
-/// Runs the commands of all pages twice, for large and small pictures, and stores the pictures that
-/// the pages show. Only pages whose path contains `only`.
-pub fn write(out: &mut impl Write, only: Option<&str>) -> io::Result<()> {
-    let programs = programs::released();
-    for (path, size) in PAGES.into_iter().filter(|(path, _)| only.is_none_or(|only| path.contains(only))) {
+/// What to draw.
+#[derive(clap::Args)]
+pub struct Args {
+    /// Only pages whose path contains TEXT
+    #[arg(long, value_name = "TEXT")]
+    only: Option<String>,
+    /// Folder of the programs [default: those of the release profile, built if need be]
+    #[arg(long, value_name = "FOLDER")]
+    programs: Option<PathBuf>,
+}
+
+/// Runs the commands of the pages twice, for large and small pictures, and stores the pictures that
+/// the pages show.
+pub fn write(out: &mut impl Write, args: &Args) -> io::Result<()> {
+    let programs = args.programs.clone().unwrap_or_else(programs::released);
+    let is_wanted = |path: &str| args.only.as_ref().is_none_or(|only| path.contains(only));
+    for (path, size) in PAGES.into_iter().filter(|(path, _)| is_wanted(path)) {
         let page = Page::read(path);
         for (scale, part) in [(1.0, ""), (0.5, SMALL)] {
             let folder = tempfile::tempdir()?;
-            copy_scenes(folder.path());
+            prepare(folder.path(), &programs);
             for command in &page.commands {
                 writeln!(out, "{path}: {}", command.lines().next().unwrap_or_default())?;
                 out.flush()?;

@@ -118,11 +118,7 @@ enum Task {
     /// Markdown
     Geometry(geometry::Args),
     /// Draw the pictures of the documentation with the commands in its pages
-    Gallery {
-        /// Only pages whose path contains TEXT
-        #[arg(long, value_name = "TEXT")]
-        only: Option<String>,
-    },
+    Gallery(gallery::Args),
     /// Run the programs on malformed and extreme inputs, and check what must hold of any
     Hostile(hostile::Args),
     /// Draw a scene and print the time in seconds and the peak memory in megabytes
@@ -191,7 +187,7 @@ fn run(task: &Task) -> io::Result<()> {
         Task::Geometry(args) => {
             geometry::write(&mut out, args).map_err(|error| io::Error::other(error.to_string()))?;
         }
-        Task::Gallery { only } => gallery::write(&mut out, only.as_deref())?,
+        Task::Gallery(args) => gallery::write(&mut out, args)?,
         Task::Hostile(args) => hostile::write(&mut out, args)?,
         Task::ReadOnce { scene, threads } => {
             reading::read_once(&mut out, scene, *threads)

@@ -272,6 +272,9 @@ fn blend(parts: impl Iterator<Item = (Shade, f64)>) -> Shade {
     if hue_weight > 0.0 {
         hsv.hue /= hue_weight;
     }
+    // Weights may add up to more than 1 by rounding.
+    hsv.saturation = hsv.saturation.min(1.0);
+    let translucency = translucency.min(1.0);
     let light = has_light.then(|| linear.to_array());
     Shade { color: None, is_mixture, hsv, light, translucency }
 }

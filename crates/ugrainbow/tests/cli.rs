@@ -112,7 +112,7 @@ fn bad_usage_ends_with_2() {
         "a picture of 32768 x 16384 pixels cannot be made: the limit is 268435456 pixels",
     );
     check("-sz 0 8", "must be a whole number, 1 or more");
-    check("-sz 8", "2 values required");
+    check("-sz 8", "takes two values, not one");
     check("-fl gauss", "none of the filters box, triangle, spline");
     check(
         "-vec -dt pdf -fl spline",
@@ -122,7 +122,7 @@ fn bad_usage_ends_with_2() {
     check("-aa 0", "must be a whole number from 1 to 16");
     check("-va 180", "the view angle must be above 0 and below 180 degrees");
     check("-va nan", "not a finite number");
-    check("-ep 1 2", "3 values required");
+    check("-ep 1 2", "takes three values, not two");
     check("-ud 0 0 0", "-ud 0 0 0 has no direction; give one, such as -ud 0 0 1");
     check("-bg 1.5", "lightness and saturation of the background -bg are from 0 to 1");
     check("-bg .5 -tb", "cannot be given together");
@@ -142,7 +142,7 @@ fn bad_scenes_end_with_1() {
         assert_eq!(output.stdout, b"");
         assert!(stderr(&output).contains(message), "{}", stderr(&output));
     }
-    check("", "the scene has no faces and no wires");
+    check("", "nothing came through the pipe");
     check("l 1; v a 0 0 0;", "the scene has no faces and no wires");
     // Truncated, as by an upstream program that crashed.
     check(&SCENE[..SCENE.len() - 10], "<stdin>:");

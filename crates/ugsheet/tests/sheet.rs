@@ -205,7 +205,7 @@ fn errors_have_messages_and_exit_status() {
     check(&["-cap", "漢", "rest.png"], 2, "the font has no `漢`");
     check(&["-fo", "sheet.exr", "rest.png"], 2, "name one with -dt");
     check(&["-bg", "2", "rest.png"], 2, "from 0 to 1");
-    check(&["-cols", "0", "rest.png"], 2, "--cols");
+    check(&["-cols", "0", "rest.png"], 2, "`0` is not valid for `-cols`: must be a whole number, 1 or more");
 }
 
 #[test]

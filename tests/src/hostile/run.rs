@@ -66,6 +66,10 @@ fn pipe(
         let mut words = words.clone();
         words.extend(edge.arguments());
         if let Some(threads) = threads {
+            // In place of a number that the case gives.
+            if let Some(at) = words.iter().position(|word| word == "-nt") {
+                words.drain(at..(at + 2).min(words.len()));
+            }
             words.extend(["-nt".to_owned(), threads.to_owned()]);
         }
         let ended = stage(programs, &words, &input, folder, edge)?;
