@@ -1,4 +1,5 @@
-//! Rules for the whole repository: dependencies, their licences, citations of equations, scenes, and clean text.
+//! Rules for the whole repository: dependencies, their licences, citations of equations, scenes,
+//! and clean text.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 

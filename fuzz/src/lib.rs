@@ -20,8 +20,9 @@ pub fn check(file: File, bytes: &[u8]) {
     }
 }
 
-/// The next input: mostly a mutation of libFuzzer, sometimes damage of the kinds that files get, and
-/// rarely a new file. Returns its size; `bytes` has the largest size, and the input is its head.
+/// The next input: mostly a mutation of libFuzzer, sometimes damage of the kinds that files get,
+/// and rarely a new file. Returns its size; `bytes` has the largest size, and the input is its
+/// head.
 pub fn mutate(file: File, bytes: &mut [u8], size: usize, seed: u32) -> usize {
     let mut random = Random(seed.into());
     let mut input = match random.below(40) {

@@ -36,7 +36,8 @@ type Key = (BaseKey, u64);
 enum BaseKey {
     Named(ColorId),
     White,
-    /// Is it given as light? And bits of light, or of hue, saturation and value; and of translucency.
+    /// True if the colour is given as light; the bits of light, or of hue, saturation and value, and
+    /// of the translucency.
     Mixed(bool, [u64; 4]),
 }
 

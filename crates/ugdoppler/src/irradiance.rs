@@ -87,8 +87,8 @@ impl VertexIrradiance {
     }
 }
 
-/// Replaces all lights by one ambient light of intensity 1, under which a renderer draws colours
-/// that include light as they are. Comments at the lights stay.
+/// Replaces all lights by one ambient light of intensity 1, because the colours include the light
+/// already: a renderer then draws them unchanged. Comments beside the lights are kept.
 pub(crate) fn replace_lights(scene: &mut Scene) {
     scene.lights = vec![Light {
         name: None,

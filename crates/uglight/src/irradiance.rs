@@ -58,8 +58,8 @@ impl SurfaceElement {
     }
 
     fn of_moving(&self, lamp: &Lamp, body: BodyId, frames: &RestFrames, add: &mut impl FnMut(f64, f64)) {
-        // Between two frames their axes have to be those of the camera, which boosts keep.  Eq.
-        // (P25)
+        // Velocities of two frames can be composed only in common axes: those of the camera, which
+        // boosts do not turn.  Eq. (P25)
         let axes_of = |body: BodyId| frames.scene_from_axes(body).inverse();
         let (of_surface, of_lamp) = (axes_of(self.body), axes_of(body));
         let (point, normal) = (of_surface * self.point, of_surface * self.normal);

@@ -5,6 +5,7 @@ use rustc_hash::FxHashMap;
 use uglight::VertexColor;
 use ugparse::{Color, ColorId, ColorValue, Mixtures, Scene, Tint, Vertex};
 use ugphysics::{Hsv, linear_srgb_to_xyz, srgb_decode, unit_or_zero};
+use ugscene::face_vertices;
 
 use crate::refined_mesh::Recipe;
 use crate::relative_motion::{Point, RelativeMotion};
@@ -68,15 +69,6 @@ pub(crate) fn shades(scene: &Scene, points: &[Point]) -> Option<Vec<Shade>> {
         }
     };
     Some(uglight::vertex_colors(scene, &rest).into_iter().map(shade).collect())
-}
-
-/// Which of `n_vertices` vertices faces use.
-fn face_vertices(scene: &Scene, n_vertices: usize) -> Vec<bool> {
-    let mut used = vec![false; n_vertices];
-    for face in &scene.faces {
-        scene.contours.corners(face.contours.clone()).iter().for_each(|corner| used[corner.index()] = true);
-    }
-    used
 }
 
 /// What a vertex looks like at rest.

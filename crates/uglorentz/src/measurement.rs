@@ -69,7 +69,8 @@ pub enum Table {
     Csv,
     /// ASCII PLY: vertices with properties, faces, and the names of the vertices as lists of bytes.
     Ply,
-    /// VTK XML polygon data, for ParaView: vertices with arrays, the velocity among them, and faces.
+    /// VTK XML polygon data, for ParaView: vertices with arrays, the velocity among them, and
+    /// faces.
     Vtp,
 }
 

@@ -9,8 +9,8 @@ use crate::apply::vertex_name;
 use crate::relative_motion::{Point, RelativeMotion};
 use crate::{Config, Error};
 
-/// The camera, if the scene has none. The scene is at rest; bodies that are kept in view (`-in`) are
-/// seen about where they are then.
+/// The camera, if the scene has none. The scene is at rest; bodies that are kept in view (`-in`)
+/// are seen about where they are then.
 pub(crate) fn default_camera(
     scene: &Scene,
     config: &Config,

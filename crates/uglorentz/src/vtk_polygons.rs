@@ -1,6 +1,7 @@
 //! Measurements as VTK XML polygon data (`.vtp`), for ParaView.
 //!
-//! Arrays are base64 of a length in bytes and little-endian numbers. As text, VTK does not read NaN.
+//! Arrays are base64 of a length in bytes and little-endian numbers. As text, VTK does not read
+//! NaN.
 
 use std::fmt::Write;
 
@@ -57,7 +58,8 @@ pub(crate) fn write(text: &mut String, mesh: &VtkPolygons) -> std::fmt::Result {
     Ok(())
 }
 
-/// The command lines, as an array of strings: codes of their bytes, each string with a 0 at its end.
+/// The command lines, as an array of strings: codes of their bytes, each string with a 0 at its
+/// end.
 fn write_history(text: &mut String, lines: &[&str]) -> std::fmt::Result {
     write!(
         text,

@@ -3,6 +3,7 @@
 
 mod common;
 
+use base64::prelude::{BASE64_STANDARD, Engine as _};
 use common::{moving, parse, run, table};
 use glam::DVec3;
 use uglorentz::{Config, Pieces, Table};
@@ -188,19 +189,12 @@ fn ply_has_faces_without_holes_and_names() {
     assert_eq!(lines[16], "3 97 58 49");
 }
 
-/// The numbers of an array of a VTK file: 8 bytes each, behind their length in bytes.
+/// The bytes of the numbers in an array of a VTK file, 8 per number. The file stores their length
+/// before them.
 fn vtk_array(text: &str, name: &str) -> Vec<[u8; 8]> {
-    const DIGITS: &str = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     let start = text.find(&format!("Name=\"{name}\"")).unwrap();
     let content = text[start..].split_once('>').unwrap().1.split_once('<').unwrap().0;
-    let (mut bits, mut bytes) = (0_u64, Vec::new());
-    for (count, digit) in content.trim_end_matches('=').chars().enumerate() {
-        bits = bits << 6 | DIGITS.find(digit).unwrap() as u64;
-        // Four digits are three bytes.
-        if count % 4 > 0 {
-            bytes.push((bits >> (6 - 2 * (count % 4))) as u8);
-        }
-    }
+    let bytes = BASE64_STANDARD.decode(content).unwrap();
     let rows: Vec<[u8; 8]> = bytes.as_chunks().0.to_vec();
     assert_eq!((rows.len() - 1) * 8, u64::from_le_bytes(rows[0]) as usize, "{name}");
     rows[1..].to_vec()

@@ -149,8 +149,8 @@ fn joined_numbers(arg: &Arg, word: &OsStr) -> Option<Vec<OsString>> {
 ///
 /// The required values come first. Optional values are numbers in all our programs, which
 /// distinguishes them from file names. A negative number is the value of an option with one value
-/// even if the option takes only positive ones, and is attached to it by `=`: clap would take it for
-/// an option.
+/// even if the option takes only positive ones, and is attached to it by `=`: clap would take it
+/// for an option.
 fn copy_values(arg: &Arg, words: &mut Peekable<impl Iterator<Item = OsString>>, out: &mut Vec<OsString>) {
     let Some(range) = arg.get_num_args().filter(|_| arg.get_action().takes_values()) else { return };
     if range == ValueRange::SINGLE

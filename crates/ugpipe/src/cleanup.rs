@@ -117,7 +117,7 @@ fn end(signal: i32) {
     let _ = emulate_default_handler(signal);
 }
 
-/// Bit n − 1 is set if signal n is ignored. Linux tells it; elsewhere none counts as ignored.
+/// Bit n − 1 is set if signal n is ignored; zero on systems other than Linux, which do not say.
 fn ignored_signals() -> u64 {
     let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
     let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));

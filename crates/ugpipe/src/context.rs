@@ -140,8 +140,8 @@ impl Context {
         self.write_with(|out| out.write_all(data))
     }
 
-    /// Writes a report for people, of several lines. What a terminal would obey in names from outside
-    /// is replaced by U+FFFD.
+    /// Writes a report for people, of several lines. What a terminal would obey in names from
+    /// outside is replaced by U+FFFD.
     ///
     /// # Errors
     /// As of [`Context::write`].

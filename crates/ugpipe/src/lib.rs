@@ -11,10 +11,10 @@
 //!
 //! - **Options.** The options of 1988 keep their syntax, with one dash and separate values,
 //!   including negative numbers: `-vel -.9 0 0`. For clap they are ordinary long options
-//!   ([`finite`], [`whole`] and [`vector`] parse their numbers); the second dash is added before clap parses
-//!   them. An option with a variable number of values (`num_args = 1..=2`) takes the required
-//!   values and then only numbers, so a file name may follow it; only `num_args` has to be declared
-//!   for that.
+//!   ([`finite`], [`whole`] and [`vector`] parse their numbers); the second dash is added before
+//!   clap parses them. An option with a variable number of values (`num_args = 1..=2`) takes the
+//!   required values and then only numbers, so a file name may follow it; only `num_args` has to be
+//!   declared for that.
 //! - **Streams.** Data goes to standard output, messages to standard error; [`CommonArgs`]
 //!   redirects both to files. A program reads the whole input, computes, and then writes the whole
 //!   output, so an error on the last line of a scene cannot pass half a scene downstream.
@@ -41,8 +41,9 @@
 //!
 //! Limitations: output is not flushed to disk (`fsync`), so a power failure may undo a finished
 //! run. A program that SIGKILL or lack of memory ends while it writes a file leaves the temporary
-//! file, `.ug-` and six letters, in the same folder; other signals do not. A program that is started with standard
-//! output closed (`>&-`) cannot tell that from `/dev/null`, which Rust opens in its place.
+//! file, `.ug-` and six letters, in the same folder; other signals do not. A program that is
+//! started with standard output closed (`>&-`) cannot tell that from `/dev/null`, which Rust opens
+//! in its place.
 //!
 //! A library that only reports progress disables the feature `cli`. Then only [`Progress`],
 //! [`printable`] and the messages of [`remedies`] are compiled, and clap is not built.

@@ -118,7 +118,8 @@ impl Sink {
     fn write_with(&mut self, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
         match self {
             Self::Stdout => {
-                // `io::Stdout` ignores that its descriptor is not open for writing; a file does not.
+                // `io::Stdout` hides the error of a descriptor that is not open for writing; a
+                // file returns it.
                 let stdout = File::from(io::stdout().as_fd().try_clone_to_owned()?);
                 let mut stdout = BufWriter::new(stdout);
                 fill(&mut stdout)?;

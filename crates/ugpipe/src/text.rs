@@ -15,7 +15,8 @@ pub fn is_printable(c: char) -> bool {
         && !matches!(c, '\u{1d173}'..='\u{1d17a}' | '\u{e0000}'..='\u{e007f}')
 }
 
-/// `text` on one line, with U+FFFD in place of every character that is not [printable](is_printable).
+/// `text` on one line, with U+FFFD in place of every character that is not
+/// [printable](is_printable).
 pub fn printable(text: &str) -> String {
     text.chars().map(|c| if is_printable(c) { c } else { char::REPLACEMENT_CHARACTER }).collect()
 }
@@ -54,8 +55,8 @@ pub(crate) fn printable_styled(text: &str) -> String {
     shown
 }
 
-/// JSON with escapes in place of the characters that are not [printable](is_printable). Its value is
-/// the same: apart from line ends between tokens, they occur only in strings.
+/// JSON with escapes in place of the characters that are not [printable](is_printable). Its value
+/// is the same: apart from line ends between tokens, they occur only in strings.
 #[cfg(feature = "cli")]
 pub(crate) fn printable_json(json: &str) -> String {
     let mut shown = String::with_capacity(json.len());

@@ -362,7 +362,7 @@ fn the_output_may_replace_its_input_and_devices_are_shared() {
     assert_run(&shell(&folder, "$ugcat ship.ug > f && cat f"), 0, &read(&folder, "ship.ug"), "");
 }
 
-/// Waits until a program has ended. Known on Linux only; killed, it may remain as a zombie.
+/// Waits until a program has ended, on Linux; a killed program may remain as a zombie.
 #[track_caller]
 fn await_end(pid: &str, signal: &str) {
     let is_running = || {
@@ -378,7 +378,7 @@ fn await_end(pid: &str, signal: &str) {
     panic!("the program still runs after {signal}");
 }
 
-/// True if this process ignores a signal. Known on Linux only; elsewhere none counts as ignored.
+/// True if this process ignores a signal. Always false on systems other than Linux.
 fn is_ignored(signal: i32) -> bool {
     let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
     let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:")).unwrap_or("0");

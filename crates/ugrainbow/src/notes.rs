@@ -128,7 +128,7 @@ fn why_nothing_is_seen(
     )
 }
 
-/// The note on a picture that is black or grey, or most of it, because its wavelengths are
+/// The note on a picture of which more than half is black or grey because its wavelengths are
 /// invisible.
 fn why_it_is_dark(stats: &SampleStats) -> Option<String> {
     let &SampleStats { covered, visible, out_of_range, .. } = stats;

@@ -56,7 +56,7 @@ pub use polygon::{Triangle, is_convex, triangulate};
 pub use position::{RestPosition, SeenPosition};
 pub use read::read;
 pub use rest_frames::{RestFrames, is_one_body, separate_bodies, vertex_bodies};
-pub use shares::{Shares, vertex_shares};
+pub use shares::{Shares, face_vertices, vertex_shares};
 pub use split::{split_corners, split_vertices};
 pub use stage::{
     StageError, has_moving_bodies, has_moving_lights, hue_scale, read_tints_in, require_colors_at_rest,

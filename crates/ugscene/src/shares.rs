@@ -48,7 +48,8 @@ pub fn vertex_shares(scene: &Scene, positions: &[DVec3]) -> Vec<Shares> {
         scene.face_contours(face).for_each(|contour| use_colour(contour, face.color, true));
     }
     // Wires matter only for vertices that no face uses.
-    let used_by_faces: Vec<bool> = if scene.wires.is_empty() { Vec::new() } else { face_vertices(scene) };
+    let used_by_faces: Vec<bool> =
+        if scene.wires.is_empty() { Vec::new() } else { face_vertices(scene, scene.vertices.len()) };
     for wire in &scene.wires {
         for corner in scene.wire_contours(wire).flatten() {
             if !used_by_faces[corner.index()] {
@@ -59,8 +60,10 @@ pub fn vertex_shares(scene: &Scene, positions: &[DVec3]) -> Vec<Shares> {
     sums.into_iter().map(Sum::finish).collect()
 }
 
-fn face_vertices(scene: &Scene) -> Vec<bool> {
-    let mut used = vec![false; scene.vertices.len()];
+/// For each of the first `n_vertices` vertices, true if it is a corner of a face. All corners are
+/// below `n_vertices`; the vertices themselves need not be in the scene yet.
+pub fn face_vertices(scene: &Scene, n_vertices: usize) -> Vec<bool> {
+    let mut used = vec![false; n_vertices];
     for face in &scene.faces {
         scene.contours.corners(face.contours.clone()).iter().for_each(|corner| used[corner.index()] = true);
     }
@@ -151,7 +154,7 @@ impl Sum {
 mod tests {
     use super::*;
 
-    /// Shares of any number of colours, each of two of the faces.
+    /// Every colour is on two faces, so its share is twice that of a face.
     #[test]
     fn colours_are_counted_once_in_their_order() {
         for n_colors in [2, 3, 15, 16, 17, 18, 100_000] {

@@ -96,7 +96,8 @@ impl PaintedAreas {
         self.all.push(area);
     }
 
-    /// Adds a translucent piece, and the areas seen through it again. Beyond [`MOST_WORK`] it stops.
+    /// Adds a translucent piece, and the areas seen through it again. Beyond [`MOST_WORK`] it
+    /// stops.
     fn push_transparent(&mut self, front: PaintedArea) {
         let mut behind = Vec::new();
         let work = Cell::new(self.work);
