@@ -219,7 +219,7 @@ mod tests {
     use crate::cull::ViewVolume;
     use crate::edge::Tolerance;
     use crate::near_lamps::NearLamps;
-    use crate::relative_motion::RelativeMotion;
+    use crate::relative_motion::{Point, RelativeMotion};
 
     #[test]
     fn there_are_no_cracks_when_subdivision_stops_early() {
@@ -232,7 +232,7 @@ mod tests {
             let points = scene
                 .vertices
                 .iter()
-                .map(|vertex| motions[0].point(BodyId::UNSTATED, vertex.position))
+                .map(|vertex| Point::new(&motions[0], BodyId::UNSTATED, vertex.position))
                 .collect();
             let mut mesh = RefinedMesh::new(&motions, points);
             let bounds = Bounds::new(

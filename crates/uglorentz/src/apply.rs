@@ -2,10 +2,9 @@
 
 use glam::DVec3;
 use rayon::prelude::*;
-use ugparse::{BodyId, GeometryStage, Item, Motion, Scene, SeenGeometry, Vertex};
-use ugphysics::Velocity;
+use ugparse::{BodyId, Item, Scene, Vertex};
 use ugpipe::Progress;
-use ugscene::Geometry;
+use ugscene::{CameraOptions, Geometry, PlacedBodies};
 
 use crate::criterion::Bounds;
 use crate::cull::ViewVolume;
@@ -13,10 +12,10 @@ use crate::edge::Tolerance;
 use crate::near_lamps::NearLamps;
 use crate::pieces::Outcome;
 use crate::refined_mesh::RefinedMesh;
-use crate::relative_motion::{Point, RelativeMotion};
+use crate::relative_motion::Point;
 use crate::{
-    Config, DEFAULT_ERROR, Error, Pieces, Report, adaptive, attributes, camera_frame, cull, distant_bodies,
-    placement, remaining_errors, uniform, viewpoint,
+    Config, DEFAULT_ERROR, Error, Pieces, Report, adaptive, attributes, cull, distant_bodies,
+    remaining_errors, uniform, viewpoint,
 };
 
 /// The scene as seen, and statistics.
@@ -37,53 +36,32 @@ pub fn apply_with_progress(
     progress: &dyn Progress,
 ) -> Result<(Scene, Report), Error> {
     progress.step("moving and cutting", 0);
-    let velocity = check(config)?;
-    ugscene::require_geometry_at_rest(&scene).map_err(Error::Stage)?;
-    ugscene::require_colors_at_rest(&scene).map_err(Error::Stage)?;
+    check(config)?;
     let n_faces = scene.faces.len();
-
-    if config.velocity.is_some() {
-        camera_frame::set_velocity(&mut scene, velocity);
-    }
-    let camera = camera_frame::take_camera_velocity(&mut scene, config)?;
-    if !camera.is_zero() {
-        camera_frame::state_motions(&mut scene, velocity);
-    }
-    ugscene::separate_bodies(&mut scene);
-    let bodies = ugscene::vertex_bodies(&scene);
-    let motions = motions(&scene, velocity, camera, config.geometry)?;
-    let default_camera = viewpoint::default_camera(&scene, config, &motions)?;
-    let eye = default_camera.map_or_else(|| ugscene::eye(&scene, config.eye), |camera| camera.eye);
-    camera_frame::transform_velocities(&mut scene, camera)?;
-    let moves = !velocity.is_zero()
-        || !camera.is_zero()
-        || ugscene::has_moving_bodies(&scene)
-        || ugscene::has_moving_lights(&scene);
-    let shifts = placement::shifts(&scene, &bodies, &motions, eye, config);
-    let mut points = points(&scene, &bodies, &motions, &shifts, eye);
-    viewpoint::refuse_vertices_at_eye(&scene, &points, &motions)?;
-    placement::shift_lights(&mut scene, &motions, &shifts);
+    let motion_options = config.motion();
+    let camera = CameraOptions { eye: config.eye, ..config.camera.clone() };
+    let placed = PlacedBodies::new(&mut scene, &motion_options, &camera, config.size)?;
+    let PlacedBodies { eye, default_camera, motions, shifts, .. } = &placed;
+    let mut points = points(&scene, &placed);
+    viewpoint::refuse_vertices_at_eye(&scene, &points, motions)?;
     if config.smooth {
-        attributes::smooth(&mut scene, &points, &motions);
+        attributes::smooth(&mut scene, &points, motions);
     }
 
-    config.camera.check_up().map_err(Error::Camera)?;
-    let center = default_camera.map(|camera| camera.center);
-    viewpoint::set_camera(&mut scene, eye, center, &config.camera);
     let view_volume = if config.cull {
         ViewVolume::new(&viewpoint::view(&scene, &config.camera, config.size)?)
     } else {
         ViewVolume::default()
     };
-    let depth_factors = distant_bodies::depth_factors(&points, &motions);
-    let n_culled = cull::cull(&mut scene, &mut points, &motions, &view_volume);
+    let depth_factors = distant_bodies::depth_factors(&points, motions);
+    let n_culled = cull::cull(&mut scene, &mut points, motions, &view_volume);
 
     let error = if let Pieces::UpTo(error) = config.pieces { error } else { DEFAULT_ERROR };
-    let near_lamps = NearLamps::new(&scene, eye, &motions, config.light_error);
+    let near_lamps = NearLamps::new(&scene, *eye, motions, config.light_error);
     let tolerance = Tolerance::new(error, config.color_error);
     let tolerances = depth_factors.iter().map(|&factor| tolerance.with_depth(factor)).collect();
-    let bounds = Bounds::new(tolerances, near_lamps, view_volume, &motions);
-    let mut mesh = RefinedMesh::new(&motions, points);
+    let bounds = Bounds::new(tolerances, near_lamps, view_volume, motions);
+    let mut mesh = RefinedMesh::new(motions, points);
     let outcome = match config.pieces {
         Pieces::UpTo(_) => adaptive::cut(&scene, &mut mesh, &bounds, adaptive::MAX_PIECES),
         Pieces::PerEdge(n) => {
@@ -94,15 +72,9 @@ pub fn apply_with_progress(
     let shades = if has_new { attributes::shades(&scene, &mesh.points) } else { None };
     put_pieces(&mut scene, &outcome);
     let inherits = attributes::add_vertices(&mut scene, &mesh.recipes, shades, config.repeat);
-    set_positions(&mut scene, &mesh, &shifts, eye)?;
-    if moves || config.geometry != Geometry::default() {
-        scene.stage.geometry = GeometryStage::AsSeen(SeenGeometry {
-            eye,
-            time: config.time,
-            camera_velocity: camera,
-            contraction: config.geometry.contraction,
-            flight_time: config.geometry.flight_time,
-        });
+    set_positions(&mut scene, &mesh, shifts, *eye)?;
+    if placed.has_motion || config.geometry != Geometry::default() {
+        scene.stage.geometry = placed.seen_stage(&motion_options);
     }
 
     let is_short = outcome.is_full || outcome.n_too_deep + outcome.n_uncut > 0;
@@ -122,55 +94,29 @@ pub fn apply_with_progress(
         n_too_deep: outcome.n_too_deep,
         is_full: outcome.is_full,
         remaining_errors,
-        default_camera,
+        default_camera: *default_camera,
     };
     Ok((scene, report))
 }
 
-/// The velocity of bodies whose motion is not stated.
-fn check(config: &Config) -> Result<Velocity, Error> {
+/// Refuses bounds that no subdivision can meet.
+fn check(config: &Config) -> Result<(), Error> {
     match config.pieces {
-        Pieces::UpTo(error) if !(error > 0.0 && error.is_finite()) => return Err(Error::NoBound { error }),
+        Pieces::UpTo(error) if !(error > 0.0 && error.is_finite()) => Err(Error::NoBound { error }),
         Pieces::UpTo(_) if config.color_error.is_nan() || config.color_error <= 0.0 => {
-            return Err(Error::NoColorBound { error: config.color_error });
+            Err(Error::NoColorBound { error: config.color_error })
         }
         Pieces::UpTo(_) if config.light_error.is_nan() || config.light_error <= 0.0 => {
-            return Err(Error::NoLightBound { error: config.light_error });
+            Err(Error::NoLightBound { error: config.light_error })
         }
-        Pieces::PerEdge(0) => return Err(Error::NoPieces),
-        _ => {}
+        Pieces::PerEdge(0) => Err(Error::NoPieces),
+        _ => Ok(()),
     }
-    Velocity::from_beta(config.velocity.unwrap_or(DVec3::ZERO)).map_err(Error::Velocity)
 }
 
-/// One for each body, in their order. `default`: the velocity of [`BodyId::UNSTATED`].
-fn motions(
-    scene: &Scene,
-    default: Velocity,
-    camera: Velocity,
-    geometry: Geometry,
-) -> Result<Vec<RelativeMotion>, Error> {
-    let velocity = |body: BodyId| match scene.bodies[body].motion {
-        _ if body == BodyId::UNSTATED => default,
-        Motion::Inertial(velocity) => velocity,
-    };
-    scene.bodies.ids().map(|body| RelativeMotion::seen_by(camera, velocity(body), geometry)).collect()
-}
-
-fn points(
-    scene: &Scene,
-    bodies: &[BodyId],
-    motions: &[RelativeMotion],
-    shifts: &[DVec3],
-    eye: DVec3,
-) -> Vec<Point> {
-    let vertices = scene.vertices.par_iter().zip(bodies.par_iter());
-    vertices
-        .map(|(vertex, &body)| {
-            let motion = &motions[body.index()];
-            motion.point(body, motion.turned(vertex.position - eye) + shifts[body.index()])
-        })
-        .collect()
+fn points(scene: &Scene, placed: &PlacedBodies) -> Vec<Point> {
+    let rest = placed.rest_positions(scene).into_par_iter().zip(&placed.bodies);
+    rest.map(|(rest, &body)| Point::new(&placed.motions[body.index()], body, rest)).collect()
 }
 
 /// Comments move to the first piece of their face.

@@ -4,13 +4,11 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::{ArgAction, Parser};
-use glam::DVec3;
 use ugparse::{Origins, Source, pipe};
-use ugpipe::{CommonArgs, Context, Failure, Progress, ToolArgs, finite, vector, whole};
-use ugscene::Geometry;
-use ugscene::cli::{CameraArgs, RepeatArgs};
+use ugpipe::{CommonArgs, Context, Failure, Progress, ToolArgs, finite, whole};
+use ugscene::cli::{CameraArgs, EffectArgs, MotionArgs, RepeatArgs};
 
-use crate::{Anchor, Config, DEFAULT_COLOR_ERROR, DEFAULT_ERROR, Error, Pieces, Table, measure};
+use crate::{Config, DEFAULT_COLOR_ERROR, DEFAULT_ERROR, Error, Pieces, Table, measure};
 
 /// Geometry of a UniGrafix scene as seen in relativistic motion
 ///
@@ -20,39 +18,8 @@ use crate::{Anchor, Config, DEFAULT_COLOR_ERROR, DEFAULT_ERROR, Error, Pieces, T
 #[derive(Debug, Parser)]
 #[command(name = "uglorentz", version, before_help = ugpipe::ONE_DASH, after_help = EXAMPLES)]
 pub struct Args {
-    /// Velocity of all objects, fraction of c [default: the scene's, else 0]
-    #[arg(long = "vel", visible_alias = "velocity", value_names = ["X", "Y", "Z"], num_args = 3,
-          action = ArgAction::Set, allow_hyphen_values = true, value_parser = finite)]
-    velocity: Option<Vec<f64>>,
-
-    /// Velocity of the camera in the scene, fraction of c [default: the scene's, else 0]
-    ///
-    /// Velocities of objects are in the frame of the scene as well. -vc and -ud are in the frame of
-    /// the camera.
-    #[arg(long = "cv", visible_alias = "camera-velocity", value_names = ["X", "Y", "Z"], num_args = 3,
-          action = ArgAction::Set, allow_hyphen_values = true, value_parser = finite)]
-    camera_velocity: Option<Vec<f64>>,
-
-    /// Time of the picture on the observer's clock
-    ///
-    /// The coordinates of the scene are those at time 0. Light travels one unit of length in one
-    /// unit of time.
-    #[arg(long = "ti", visible_alias = "time", value_name = "T", default_value = "0",
-          allow_hyphen_values = true, value_parser = finite)]
-    time: f64,
-
-    /// Fixed point of the contraction: eye, origin, center or X Y Z [default: eye]
-    ///
-    /// center is the centre of the bounding box of each body.
-    #[arg(long = "an", visible_alias = "anchor", value_name = "POINT", num_args = 1..=3,
-          action = ArgAction::Set, allow_hyphen_values = true)]
-    anchor: Option<Vec<String>>,
-
-    /// Move each body so that its fixed point (-an) is seen at its coordinates in the scene
-    ///
-    /// This holds at time 0. With -in, the default of -an is center.
-    #[arg(long = "in", visible_aliases = ["keep-in-view", "in-place"])]
-    in_place: bool,
+    #[command(flatten)]
+    motion: MotionArgs,
 
     /// Subdivide until edges deviate by at most ERR milliradians, seen from the eye [default: 0.1]
     ///
@@ -92,13 +59,8 @@ pub struct Args {
     #[command(flatten)]
     repeat: RepeatArgs,
 
-    /// For teaching: omit Lorentz contraction
-    #[arg(long = "nc", visible_alias = "no-contraction")]
-    no_contraction: bool,
-
-    /// For teaching: omit the light travel time
-    #[arg(long = "no-flight-time")]
-    no_flight_time: bool,
+    #[command(flatten)]
+    effects: EffectArgs,
 
     /// Remove faces that are outside the view of the camera
     ///
@@ -194,23 +156,24 @@ impl Args {
             (None, None) => Pieces::UpTo(DEFAULT_ERROR),
         };
         let camera = self.camera.options();
+        let motion = self.motion.options()?;
         Ok(Config {
-            velocity: vector(self.velocity.as_deref()).map(DVec3::from_array),
-            camera_velocity: vector(self.camera_velocity.as_deref()).map(DVec3::from_array),
+            velocity: motion.velocity,
+            camera_velocity: motion.camera_velocity,
             eye: camera.eye,
             camera,
             size: [self.size[0], self.size[1]],
             cull: self.cull,
-            time: self.time,
-            anchor: self.anchor.as_deref().map(anchor).transpose()?,
-            in_place: self.in_place,
+            time: motion.time,
+            anchor: motion.anchor,
+            in_place: motion.in_place,
             pieces,
             color_error: self.color_error.unwrap_or(DEFAULT_COLOR_ERROR),
             light_error: self.light_error.unwrap_or(f64::INFINITY),
             measure: self.common.verbose(),
             smooth: self.smooth,
             repeat: self.repeat.repeats(),
-            geometry: Geometry { contraction: !self.no_contraction, flight_time: !self.no_flight_time },
+            geometry: self.effects.geometry(),
         })
     }
 }
@@ -234,26 +197,4 @@ fn percent_or_off(word: &str) -> Result<f64, String> {
         percent if percent > 0.0 => Ok(percent / 100.0),
         _ => Err("must be a percentage above 0, or off".to_string()),
     }
-}
-
-fn anchor(words: &[String]) -> Result<Anchor, Failure> {
-    let words: Vec<&str> = words.iter().map(String::as_str).collect();
-    match words[..] {
-        ["eye"] => Ok(Anchor::Eye),
-        ["origin"] => Ok(Anchor::Origin),
-        ["center"] => Ok(Anchor::Center),
-        [x, y, z] => {
-            let numbers = [x, y, z].map(finite);
-            let [Ok(x), Ok(y), Ok(z)] = numbers else { return Err(bad_anchor(&words)) };
-            Ok(Anchor::Point(DVec3::new(x, y, z)))
-        }
-        _ => Err(bad_anchor(&words)),
-    }
-}
-
-fn bad_anchor(words: &[&str]) -> Failure {
-    Failure::Usage(format!(
-        "`{}` is not an anchor: -an takes eye, origin, center or three numbers",
-        words.join(" ")
-    ))
 }

@@ -1,7 +1,7 @@
 //! What `apply` does: velocities, eye, time, subdivision.
 
 use glam::DVec3;
-use ugscene::{CameraOptions, Geometry};
+use ugscene::{Anchor, CameraOptions, Geometry, MotionOptions};
 
 /// Default of [`Pieces::UpTo`]: 0.1 milliradians, in radians. A pixel of a picture 40° wide and
 /// 1920 pixels across is 0.36, so every edge is right to a third of a pixel.
@@ -79,17 +79,18 @@ impl Default for Config {
     }
 }
 
-/// The fixed point of the contraction of a body.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Anchor {
-    /// The eye, as in the report of 1988.
-    Eye,
-    /// The origin of scene coordinates.
-    Origin,
-    /// The centre of the bounding box of each body.
-    Center,
-    /// A point in scene coordinates.
-    Point(DVec3),
+impl Config {
+    /// The part of it that other renderers share.
+    pub(crate) fn motion(&self) -> MotionOptions {
+        MotionOptions {
+            velocity: self.velocity,
+            camera_velocity: self.camera_velocity,
+            time: self.time,
+            anchor: self.anchor,
+            in_place: self.in_place,
+            geometry: self.geometry,
+        }
+    }
 }
 
 /// How edges are subdivided.

@@ -2,31 +2,20 @@
 
 use std::fmt;
 
-use glam::DVec3;
 use ugparse::{Diagnostic, Diagnostics, Origins, Source};
-use ugphysics::VelocityError;
-use ugscene::{CameraError, StageError};
+use ugscene::{CameraError, MotionError};
 
 use crate::adaptive::MAX_PIECES;
 
 /// Why a scene cannot be mapped to the scene as seen.
 #[derive(Clone, Debug)]
 pub enum Error {
-    /// Positions or colours of the scene are as seen already.
-    Stage(StageError),
-    /// [`crate::Config::velocity`] is invalid.
-    Velocity(VelocityError),
-    /// [`crate::Config::camera_velocity`] is invalid.
-    CameraVelocity(VelocityError),
-    /// The velocity of a body relative to the camera rounds to the speed of light.
-    TooFast {
-        /// The body's velocity in the frame of the scene.
-        beta: DVec3,
-    },
+    /// The stage of the scene, a motion or the camera is invalid.
+    Motion(MotionError),
     /// [`crate::Config::cull`] needs the view centre, and neither the configuration nor the scene
     /// has one.
     NoViewCenter,
-    /// The camera is invalid.
+    /// The view of the camera is invalid.
     Camera(CameraError),
     /// The bound of [`crate::Pieces::UpTo`] is not above 0, or not finite.
     NoBound {
@@ -69,18 +58,19 @@ pub enum Error {
 impl Error {
     /// True if the configuration is invalid, false if the scene is.
     pub fn is_usage(&self) -> bool {
-        matches!(
-            self,
-            Error::Velocity(_)
-                | Error::CameraVelocity(_)
-                | Error::Camera(CameraError::NoUp)
-                | Error::NoViewCenter
-                | Error::NoBound { .. }
-                | Error::NoColorBound { .. }
-                | Error::NoLightBound { .. }
-                | Error::NoPieces
-                | Error::TooManyPieces { .. }
-        )
+        let Error::Motion(error) = self else {
+            return matches!(
+                self,
+                Error::Camera(CameraError::NoUp)
+                    | Error::NoViewCenter
+                    | Error::NoBound { .. }
+                    | Error::NoColorBound { .. }
+                    | Error::NoLightBound { .. }
+                    | Error::NoPieces
+                    | Error::TooManyPieces { .. }
+            );
+        };
+        error.is_usage()
     }
 
     /// The error with its place in the text of the scene; `None` if it is not about a vertex.
@@ -92,14 +82,7 @@ impl Error {
 
     fn problem(&self) -> String {
         match self {
-            Error::Stage(error) => error.to_string(),
-            Error::Velocity(error) => format!("-vel: {error}"),
-            Error::CameraVelocity(error) => format!("-cv: {error}"),
-            Error::TooFast { beta } => format!(
-                "the body with velocity {} {} {} in the scene moves too close to the speed of light relative to \
-                 the camera (-cv)",
-                beta.x, beta.y, beta.z
-            ),
+            Error::Motion(error) => error.to_string(),
             Error::NoViewCenter => "-cull needs the view centre of the camera".to_string(),
             Error::Camera(error) => error.to_string(),
             Error::NoBound { error } => format!("the bound of -se is {} milliradians", error * 1e3),
@@ -120,9 +103,8 @@ impl Error {
 
     fn remedy(&self) -> &'static str {
         match self {
-            Error::Stage(_) | Error::Velocity(_) | Error::CameraVelocity(_) | Error::Camera(_) => "",
+            Error::Motion(_) | Error::Camera(_) => "",
             Error::NoViewCenter => "give it with -vc, or in the `cam` statement of the scene",
-            Error::TooFast { .. } => "make one of them slower",
             Error::NoBound { .. } => "give a number above 0",
             Error::NoColorBound { .. } | Error::NoLightBound { .. } => "give a number above 0, or off",
             Error::NoPieces => "give 1 or more",
@@ -146,3 +128,9 @@ impl fmt::Display for Error {
 }
 
 impl std::error::Error for Error {}
+
+impl From<MotionError> for Error {
+    fn from(error: MotionError) -> Self {
+        Self::Motion(error)
+    }
+}

@@ -64,7 +64,6 @@
 mod adaptive;
 mod apply;
 mod attributes;
-mod camera_frame;
 #[cfg(feature = "cli")]
 mod cli;
 mod color;
@@ -80,7 +79,6 @@ mod interior;
 mod measurement;
 mod near_lamps;
 mod pieces;
-mod placement;
 mod refined_mesh;
 mod relative_motion;
 mod remaining_errors;
@@ -93,7 +91,8 @@ mod vtk_polygons;
 pub use apply::{apply, apply_with_progress};
 #[cfg(feature = "cli")]
 pub use cli::{Args, main};
-pub use config::{Anchor, Config, DEFAULT_COLOR_ERROR, DEFAULT_ERROR, Pieces};
+pub use config::{Config, DEFAULT_COLOR_ERROR, DEFAULT_ERROR, Pieces};
 pub use error::Error;
 pub use measurement::{Measurement, Table, measure};
 pub use report::{LargestError, RemainingErrors, Report};
+pub use ugscene::Anchor;

@@ -117,7 +117,7 @@ impl<'a> RefinedMesh<'a> {
         let generation = used().map(|(parent, _)| self.point(parent).generation).max().unwrap_or(0) + 1;
         let body = self.point(recipe.parents[0]).body;
         let row = u32::try_from(self.points.len()).expect("subdivision stops long before 2^32 vertices");
-        let point = self.motion_of(body).point(body, rest);
+        let point = Point::new(self.motion_of(body), body, rest);
         self.points.push(Point { generation, ..point });
         self.recipes.push(recipe);
         row

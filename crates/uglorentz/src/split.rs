@@ -135,7 +135,7 @@ mod tests {
     use crate::cull::ViewVolume;
     use crate::edge::Tolerance;
     use crate::near_lamps::NearLamps;
-    use crate::relative_motion::RelativeMotion;
+    use crate::relative_motion::{Point, RelativeMotion};
 
     /// Of the ways to divide a triangle into four, the one whose inner edges have the smallest sum
     /// of errors; and the pieces cover the triangle.
@@ -155,7 +155,7 @@ mod tests {
             let corner = |p, q| DVec3::new(3.0 + step(k, p), step(k, q), 0.01);
             let corners =
                 [corner(0.618_034, 0.414_214), corner(0.236_068, 0.645_751), corner(0.872_983, 0.123_106)];
-            let points = corners.map(|corner| motions[0].point(BodyId::UNSTATED, corner)).to_vec();
+            let points = corners.map(|corner| Point::new(&motions[0], BodyId::UNSTATED, corner)).to_vec();
             let mut mesh = RefinedMesh::new(&motions, points);
             let marks = Marks { edges: [true, true, true, false], inside: false };
             let pieces = split(&mut mesh, &bounds, &Shape::Triangle([0, 1, 2]), marks);

@@ -1,46 +1,13 @@
-//! The camera of the output, and its view.
+//! The view of the camera, and what it cannot see.
 
 use glam::DVec3;
 use rayon::prelude::*;
-use ugparse::{Camera, Projection, Scene};
-use ugscene::{CameraOptions, DefaultCamera, View};
+use ugparse::Scene;
+use ugscene::{CameraOptions, View};
 
+use crate::Error;
 use crate::apply::vertex_name;
 use crate::relative_motion::{Point, RelativeMotion};
-use crate::{Config, Error};
-
-/// The camera, if the scene has none. The scene is at rest; bodies that are kept in view (`-in`)
-/// are seen about where they are then.
-pub(crate) fn default_camera(
-    scene: &Scene,
-    config: &Config,
-    motions: &[RelativeMotion],
-) -> Result<Option<DefaultCamera>, Error> {
-    let options = CameraOptions { eye: config.eye, ..config.camera.clone() };
-    let velocities = motions.iter().map(|motion| motion.velocity().beta());
-    DefaultCamera::new(scene, &options, config.size, velocities).map_err(Error::Camera)
-}
-
-/// Writes the eye and the options into the scene's camera, so that programs downstream use them.
-/// `center`: the view centre of the default camera.
-pub(crate) fn set_camera(scene: &mut Scene, eye: DVec3, center: Option<DVec3>, options: &CameraOptions) {
-    if scene.cameras.is_empty() {
-        scene.cameras.push(Camera::default());
-    }
-    let row = scene.camera_row().unwrap_or(0);
-    let camera = &mut scene.cameras[row];
-    camera.eye = Some(eye);
-    camera.center = options.center.or(camera.center).or(center);
-    camera.up = options.up.or(camera.up);
-    if options.is_orthographic {
-        camera.projection = Some(Projection::Orthographic);
-    }
-    if let Some((across, down)) = options.view_angle {
-        camera.view_angle = Some([across, down.unwrap_or(across)]);
-        // They would contradict the view angle.
-        (camera.film_size, camera.focal_length) = (None, None);
-    }
-}
 
 /// The view of the scene's camera, for a picture of `size` pixels.
 pub(crate) fn view(scene: &Scene, options: &CameraOptions, size: [u32; 2]) -> Result<View, Error> {

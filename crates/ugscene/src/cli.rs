@@ -1,10 +1,10 @@
-//! The camera's options on the command line, the same in every program.
+//! Options of camera and motion on the command line, the same in every program.
 
 use clap::{ArgAction, Args};
 use glam::DVec3;
-use ugpipe::{finite, vector, view_angle};
+use ugpipe::{Failure, finite, vector, view_angle};
 
-use crate::CameraOptions;
+use crate::{Anchor, CameraOptions, Geometry, MotionOptions};
 
 /// Heading of these options in `--help`.
 const CAMERA: &str = "Camera";
@@ -90,6 +90,81 @@ impl CameraArgs {
     }
 }
 
+/// How bodies and camera move, and when the picture is taken: flatten it into the arguments of a
+/// program that reads a scene at rest.
+#[derive(Args, Clone, Debug, Default, PartialEq)]
+pub struct MotionArgs {
+    /// Velocity of all objects, fraction of c [default: the scene's, else 0]
+    #[arg(long = "vel", visible_alias = "velocity", value_names = ["X", "Y", "Z"], num_args = 3,
+          action = ArgAction::Set, allow_hyphen_values = true, value_parser = finite)]
+    velocity: Option<Vec<f64>>,
+
+    /// Velocity of the camera in the scene, fraction of c [default: the scene's, else 0]
+    ///
+    /// Velocities of objects are in the frame of the scene as well. -vc and -ud are in the frame of
+    /// the camera.
+    #[arg(long = "cv", visible_alias = "camera-velocity", value_names = ["X", "Y", "Z"], num_args = 3,
+          action = ArgAction::Set, allow_hyphen_values = true, value_parser = finite)]
+    camera_velocity: Option<Vec<f64>>,
+
+    /// Time of the picture on the observer's clock
+    ///
+    /// The coordinates of the scene are those at time 0. Light travels one unit of length in one
+    /// unit of time.
+    #[arg(long = "ti", visible_alias = "time", value_name = "T", default_value = "0",
+          allow_hyphen_values = true, value_parser = finite)]
+    time: f64,
+
+    /// Fixed point of the contraction: eye, origin, center or X Y Z [default: eye]
+    ///
+    /// center is the centre of the bounding box of each body.
+    #[arg(long = "an", visible_alias = "anchor", value_name = "POINT", num_args = 1..=3,
+          action = ArgAction::Set, allow_hyphen_values = true)]
+    anchor: Option<Vec<String>>,
+
+    /// Move each body so that its fixed point (-an) is seen at its coordinates in the scene
+    ///
+    /// This holds at time 0. With -in, the default of -an is center.
+    #[arg(long = "in", visible_aliases = ["keep-in-view", "in-place"])]
+    in_place: bool,
+}
+
+impl MotionArgs {
+    /// The options that these arguments define, with all effects.
+    ///
+    /// # Errors
+    /// The anchor is none.
+    pub fn options(&self) -> Result<MotionOptions, Failure> {
+        Ok(MotionOptions {
+            velocity: point(&self.velocity),
+            camera_velocity: point(&self.camera_velocity),
+            time: self.time,
+            anchor: self.anchor.as_deref().map(anchor).transpose()?,
+            in_place: self.in_place,
+            geometry: Geometry::default(),
+        })
+    }
+}
+
+/// Effects that may be omitted: flatten it into the arguments of a program.
+#[derive(Args, Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct EffectArgs {
+    /// For teaching: omit Lorentz contraction
+    #[arg(long = "nc", visible_alias = "no-contraction")]
+    no_contraction: bool,
+
+    /// For teaching: omit the light travel time
+    #[arg(long = "no-flight-time")]
+    no_flight_time: bool,
+}
+
+impl EffectArgs {
+    /// The effects that are shown.
+    pub fn geometry(self) -> Geometry {
+        Geometry { contraction: !self.no_contraction, flight_time: !self.no_flight_time }
+    }
+}
+
 /// What happens where faces of different colours meet: flatten it into the arguments of a program.
 #[derive(Args, Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct RepeatArgs {
@@ -109,4 +184,26 @@ impl RepeatArgs {
 
 fn point(numbers: &Option<Vec<f64>>) -> Option<DVec3> {
     vector(numbers.as_deref()).map(DVec3::from_array)
+}
+
+fn anchor(words: &[String]) -> Result<Anchor, Failure> {
+    let words: Vec<&str> = words.iter().map(String::as_str).collect();
+    match words[..] {
+        ["eye"] => Ok(Anchor::Eye),
+        ["origin"] => Ok(Anchor::Origin),
+        ["center"] => Ok(Anchor::Center),
+        [x, y, z] => {
+            let numbers = [x, y, z].map(finite);
+            let [Ok(x), Ok(y), Ok(z)] = numbers else { return Err(bad_anchor(&words)) };
+            Ok(Anchor::Point(DVec3::new(x, y, z)))
+        }
+        _ => Err(bad_anchor(&words)),
+    }
+}
+
+fn bad_anchor(words: &[&str]) -> Failure {
+    Failure::Usage(format!(
+        "`{}` is not an anchor: -an takes eye, origin, center or three numbers",
+        words.join(" ")
+    ))
 }

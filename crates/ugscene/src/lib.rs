@@ -6,6 +6,7 @@
 //! - Normals: [`smooth_normals`], and [`shading_normal`] for lighting.
 //! - The colours that meet at a vertex ([`vertex_shares`]).
 //! - Triangulation of polygons ([`triangulate`]), also of faces that are not flat ([`read`]).
+//! - Motions: where bodies and lights are relative to the camera ([`PlacedBodies`]).
 //! - The camera ([`View`]), its options, the eye, and the camera of a scene without one
 //!   ([`DefaultCamera`]).
 //! - The stage that a program requires.
@@ -34,6 +35,7 @@ mod edges;
 mod eye;
 mod geometry;
 mod mixing;
+mod motion;
 mod normals;
 mod polygon;
 mod position;
@@ -51,6 +53,7 @@ pub use edges::face_edges;
 pub use eye::{eye, vertex_at_eye};
 pub use geometry::{Geometry, rest_positions};
 pub use mixing::{mixing_note, n_mixing_vertices, repeat_vertices, separate_wires};
+pub use motion::{Anchor, MotionError, MotionOptions, PlacedBodies, RelativeMotion};
 pub use normals::{corner_angle, seen_normal, shading_normal, smooth_normals};
 pub use polygon::{Triangle, is_convex, triangulate};
 pub use position::{RestPosition, SeenPosition};

@@ -6,37 +6,36 @@
 use glam::DVec3;
 use ugparse::{BodyId, LightKind, Scene};
 use ugphysics::observer_shift;
-use ugscene::SeenPosition;
 
-use crate::relative_motion::RelativeMotion;
-use crate::{Anchor, Config};
+use super::{Anchor, MotionOptions, RelativeMotion};
+use crate::SeenPosition;
 
 /// The offset of the rest coordinates of each body, in the axes of [`RelativeMotion::turned`].
 ///
 /// `bodies`: of each vertex. `motions`: of each body.
-pub(crate) fn shifts(
+pub(super) fn shifts(
     scene: &Scene,
     bodies: &[BodyId],
     motions: &[RelativeMotion],
     eye: DVec3,
-    config: &Config,
+    options: &MotionOptions,
 ) -> Vec<DVec3> {
-    let is_center_asked = match config.anchor {
+    let is_center_asked = match options.anchor {
         Some(anchor) => anchor == Anchor::Center,
-        None => config.in_place,
+        None => options.in_place,
     };
     // This reads every vertex.
     let centers = if is_center_asked { centers(scene, bodies) } else { vec![DVec3::ZERO; motions.len()] };
     let shift = |(motion, &center): (&RelativeMotion, &DVec3)| {
-        let point = match config.anchor {
+        let point = match options.anchor {
             Some(Anchor::Eye) => DVec3::ZERO,
             Some(Anchor::Origin) => -eye,
             Some(Anchor::Center) => center - eye,
             Some(Anchor::Point(point)) => point - eye,
-            None if config.in_place => center - eye,
+            None if options.in_place => center - eye,
             None => DVec3::ZERO,
         };
-        anchor_shift(motion, point, config.in_place) + time_shift(motion, config.time)
+        anchor_shift(motion, point, options.in_place) + time_shift(motion, options.time)
     };
     let mut shifts: Vec<DVec3> = motions.iter().zip(&centers).map(shift).collect();
     // Unused vertices are part of the first body. They get the offset of a body of the same motion.
@@ -101,7 +100,7 @@ fn centers(scene: &Scene, bodies: &[BodyId]) -> Vec<DVec3> {
 
 /// Shifts local lights with their body. Lights whose motion is not stated are shifted only if all
 /// faces and wires are one body; with several bodies it is not known which one a light belongs to.
-pub(crate) fn shift_lights(scene: &mut Scene, motions: &[RelativeMotion], shifts: &[DVec3]) {
+pub(super) fn shift_lights(scene: &mut Scene, motions: &[RelativeMotion], shifts: &[DVec3]) {
     if !scene.lights.iter().any(|light| matches!(light.kind, LightKind::Local { .. })) {
         return;
     }

@@ -1,24 +1,28 @@
 //! Velocities: from the frame of the scene to that of a camera that moves in it.
 
+use glam::DVec3;
 use rayon::prelude::*;
 use ugparse::{BodyId, Motion, Scene};
 use ugphysics::{Velocity, compose};
 
-use crate::{Config, Error};
+use super::MotionError;
 
 /// The velocity of the camera in the frame of the scene: the option, else that of the scene's
 /// camera. It is removed from the scene, since the output is in the frame of the camera.
-pub(crate) fn take_camera_velocity(scene: &mut Scene, config: &Config) -> Result<Velocity, Error> {
+pub(super) fn take_camera_velocity(
+    scene: &mut Scene,
+    option: Option<DVec3>,
+) -> Result<Velocity, MotionError> {
     let own = scene.camera_row().and_then(|row| scene.cameras[row].velocity.take());
-    match config.camera_velocity {
-        Some(beta) => Velocity::from_beta(beta).map_err(Error::CameraVelocity),
+    match option {
+        Some(beta) => Velocity::from_beta(beta).map_err(MotionError::CameraVelocity),
         None => Ok(own.unwrap_or_default()),
     }
 }
 
 /// Makes all faces and wires parts of one body. If that is at rest, those whose motion is not
 /// stated stay what they are.
-pub(crate) fn set_velocity(scene: &mut Scene, velocity: Velocity) {
+pub(super) fn set_velocity(scene: &mut Scene, velocity: Velocity) {
     let body = scene.bodies.moving_with(Motion::Inertial(velocity));
     let set = |slot: &mut BodyId| {
         if !velocity.is_zero() || *slot != BodyId::UNSTATED {
@@ -31,7 +35,7 @@ pub(crate) fn set_velocity(scene: &mut Scene, velocity: Velocity) {
 
 /// States the motion of all faces and wires: what rests in the scene moves in the frame of the
 /// camera. `default`: the velocity of [`BodyId::UNSTATED`].
-pub(crate) fn state_motions(scene: &mut Scene, default: Velocity) {
+pub(super) fn state_motions(scene: &mut Scene, default: Velocity) {
     let body = scene.bodies.moving_with(Motion::Inertial(default));
     let faces = scene.faces.iter_mut().map(|face| &mut face.body);
     for slot in faces.chain(scene.wires.iter_mut().map(|wire| &mut wire.body)) {
@@ -46,7 +50,7 @@ pub(crate) fn state_motions(scene: &mut Scene, default: Velocity) {
 ///
 /// It is rounded before use, so that seen positions here agree with rest positions and colours that
 /// programs downstream compute from the text.
-pub(crate) fn in_camera_frame(body: Velocity, camera: Velocity) -> Result<Velocity, Error> {
+pub(super) fn in_camera_frame(body: Velocity, camera: Velocity) -> Result<Velocity, MotionError> {
     // At rest in one of the frames the result is exact.
     if camera.is_zero() || body.is_zero() {
         return Ok(if camera.is_zero() { body } else { -camera });
@@ -54,11 +58,11 @@ pub(crate) fn in_camera_frame(body: Velocity, camera: Velocity) -> Result<Veloci
     if body == camera {
         return Ok(Velocity::ZERO);
     }
-    Velocity::from_beta(compose(body, -camera).beta()).map_err(|_| Error::TooFast { beta: body.beta() })
+    Velocity::from_beta(compose(body, -camera).beta()).map_err(|_| MotionError::TooFast { beta: body.beta() })
 }
 
 /// Transforms all velocities of a scene to the frame of the camera.
-pub(crate) fn transform_velocities(scene: &mut Scene, camera: Velocity) -> Result<(), Error> {
+pub(super) fn transform_velocities(scene: &mut Scene, camera: Velocity) -> Result<(), MotionError> {
     if !camera.is_zero() {
         // The first body has no faces and wires any more.
         for body in scene.bodies.iter_mut().skip(1) {

@@ -1,0 +1,217 @@
+//! Motions of bodies, camera and lights relative to each other, and where the bodies are in their
+//! rest frames: what a filter for seen positions and a ray tracer have in common.
+
+mod camera_frame;
+mod placement;
+mod relative_motion;
+
+use std::fmt;
+
+use glam::DVec3;
+use rayon::prelude::*;
+use ugparse::{BodyId, Camera, GeometryStage, Motion, Projection, Scene, SeenGeometry};
+use ugphysics::{Velocity, VelocityError};
+
+pub use relative_motion::RelativeMotion;
+
+use crate::{CameraError, CameraOptions, DefaultCamera, Geometry, StageError};
+
+/// How bodies, camera and lights move, and when the picture is taken.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct MotionOptions {
+    /// Velocity of everything, fraction of c; overrides velocities in the scene (`-vel`).
+    pub velocity: Option<DVec3>,
+    /// Velocity of the camera in the frame of the scene, fraction of c; overrides that of the
+    /// scene's camera (`-cv`).
+    pub camera_velocity: Option<DVec3>,
+    /// Time of the picture on the observer's clock, (P5) (`-ti`).
+    pub time: f64,
+    /// The fixed point of the contraction (`-an`). Default: the eye, but the centre of each body if
+    /// `in_place` is set.
+    pub anchor: Option<Anchor>,
+    /// Place each body so that its anchor is seen, at time 0, where the scene has it (`-in`).
+    pub in_place: bool,
+    /// Which effects to show (`-nc`, `--no-flight-time`).
+    pub geometry: Geometry,
+}
+
+/// The fixed point of the contraction of a body.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Anchor {
+    /// The eye, as in the report of 1988.
+    Eye,
+    /// The origin of scene coordinates.
+    Origin,
+    /// The centre of the bounding box of each body.
+    Center,
+    /// A point in scene coordinates.
+    Point(DVec3),
+}
+
+/// Why the motions of a scene are invalid.
+#[derive(Clone, Debug)]
+pub enum MotionError {
+    /// Positions or colours of the scene are as seen already.
+    Stage(StageError),
+    /// [`MotionOptions::velocity`] is invalid.
+    Velocity(VelocityError),
+    /// [`MotionOptions::camera_velocity`] is invalid.
+    CameraVelocity(VelocityError),
+    /// The velocity of a body relative to the camera rounds to the speed of light.
+    TooFast {
+        /// The body's velocity in the frame of the scene.
+        beta: DVec3,
+    },
+    /// The camera is invalid.
+    Camera(CameraError),
+}
+
+impl MotionError {
+    /// True if the options are invalid, false if the scene is.
+    pub fn is_usage(&self) -> bool {
+        matches!(self, Self::Velocity(_) | Self::CameraVelocity(_) | Self::Camera(CameraError::NoUp))
+    }
+}
+
+impl fmt::Display for MotionError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Stage(error) => error.fmt(f),
+            Self::Velocity(error) => write!(f, "-vel: {error}"),
+            Self::CameraVelocity(error) => write!(f, "-cv: {error}"),
+            Self::TooFast { beta } => write!(
+                f,
+                "the body with velocity {} {} {} in the scene moves too close to the speed of light relative to \
+                 the camera (-cv): make one of them slower",
+                beta.x, beta.y, beta.z
+            ),
+            Self::Camera(error) => error.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for MotionError {}
+
+/// Where the bodies of a scene are relative to the camera.
+#[derive(Clone, Debug)]
+pub struct PlacedBodies {
+    /// The eye, in scene coordinates.
+    pub eye: DVec3,
+    /// The camera, if the scene has none.
+    pub default_camera: Option<DefaultCamera>,
+    /// One for each body, in their order.
+    pub motions: Vec<RelativeMotion>,
+    /// The body of each vertex.
+    pub bodies: Vec<BodyId>,
+    /// For each body, what has to be added to its rest coordinates, in the axes of
+    /// [`RelativeMotion::turned`].
+    pub shifts: Vec<DVec3>,
+    /// True if a body, a light or the camera moves.
+    pub has_motion: bool,
+    /// The velocity of the camera in the frame of the scene.
+    camera: Velocity,
+}
+
+impl PlacedBodies {
+    /// Places the bodies of a scene at rest. In the scene, velocities become those in the frame of
+    /// the camera, each body gets its own vertices, lights that move with a body are shifted with
+    /// it, and the camera receives the eye and `camera`; vertices keep their positions.
+    ///
+    /// `camera`: options of the camera. `size`: pixels of the picture across and down, of which the
+    /// aspect ratio decides how far a camera must stand back.
+    ///
+    /// # Errors
+    /// See [`MotionError`].
+    pub fn new(
+        scene: &mut Scene,
+        options: &MotionOptions,
+        camera: &CameraOptions,
+        size: [u32; 2],
+    ) -> Result<Self, MotionError> {
+        let velocity = Velocity::from_beta(options.velocity.unwrap_or(DVec3::ZERO));
+        let velocity = velocity.map_err(MotionError::Velocity)?;
+        crate::require_geometry_at_rest(scene).map_err(MotionError::Stage)?;
+        crate::require_colors_at_rest(scene).map_err(MotionError::Stage)?;
+        if options.velocity.is_some() {
+            camera_frame::set_velocity(scene, velocity);
+        }
+        let of_camera = camera_frame::take_camera_velocity(scene, options.camera_velocity)?;
+        if !of_camera.is_zero() {
+            camera_frame::state_motions(scene, velocity);
+        }
+        crate::separate_bodies(scene);
+        let bodies = crate::vertex_bodies(scene);
+        let motions = motions(scene, velocity, of_camera, options.geometry)?;
+        let velocities = motions.iter().map(|motion| motion.velocity().beta());
+        let default_camera =
+            DefaultCamera::new(scene, camera, size, velocities).map_err(MotionError::Camera)?;
+        let eye = default_camera.map_or_else(|| crate::eye(scene, camera.eye), |camera| camera.eye);
+        camera_frame::transform_velocities(scene, of_camera)?;
+        let has_motion = !velocity.is_zero()
+            || !of_camera.is_zero()
+            || crate::has_moving_bodies(scene)
+            || crate::has_moving_lights(scene);
+        let shifts = placement::shifts(scene, &bodies, &motions, eye, options);
+        placement::shift_lights(scene, &motions, &shifts);
+        camera.check_up().map_err(MotionError::Camera)?;
+        set_camera(scene, eye, default_camera.map(|camera| camera.center), camera);
+        Ok(Self { eye, default_camera, motions, bodies, shifts, has_motion, camera: of_camera })
+    }
+
+    /// The rest position p' of each vertex, relative to the eye, in the axes of
+    /// [`RelativeMotion::turned`].
+    pub fn rest_positions(&self, scene: &Scene) -> Vec<DVec3> {
+        let vertices = scene.vertices.par_iter().zip(&self.bodies);
+        vertices
+            .map(|(vertex, &body)| {
+                self.motions[body.index()].turned(vertex.position - self.eye) + self.shifts[body.index()]
+            })
+            .collect()
+    }
+
+    /// The stage of the scene when its vertices are where they are seen.
+    pub fn seen_stage(&self, options: &MotionOptions) -> GeometryStage {
+        GeometryStage::AsSeen(SeenGeometry {
+            eye: self.eye,
+            time: options.time,
+            camera_velocity: self.camera,
+            contraction: options.geometry.contraction,
+            flight_time: options.geometry.flight_time,
+        })
+    }
+}
+
+/// One for each body, in their order. `default`: the velocity of [`BodyId::UNSTATED`].
+fn motions(
+    scene: &Scene,
+    default: Velocity,
+    camera: Velocity,
+    geometry: Geometry,
+) -> Result<Vec<RelativeMotion>, MotionError> {
+    let velocity = |body: BodyId| match scene.bodies[body].motion {
+        _ if body == BodyId::UNSTATED => default,
+        Motion::Inertial(velocity) => velocity,
+    };
+    scene.bodies.ids().map(|body| RelativeMotion::seen_by(camera, velocity(body), geometry)).collect()
+}
+
+/// Writes the eye and the options into the scene's camera, so that programs downstream use them.
+/// `center`: the view centre of the default camera.
+fn set_camera(scene: &mut Scene, eye: DVec3, center: Option<DVec3>, options: &CameraOptions) {
+    if scene.cameras.is_empty() {
+        scene.cameras.push(Camera::default());
+    }
+    let row = scene.camera_row().unwrap_or(0);
+    let camera = &mut scene.cameras[row];
+    camera.eye = Some(eye);
+    camera.center = options.center.or(camera.center).or(center);
+    camera.up = options.up.or(camera.up);
+    if options.is_orthographic {
+        camera.projection = Some(Projection::Orthographic);
+    }
+    if let Some((across, down)) = options.view_angle {
+        camera.view_angle = Some([across, down.unwrap_or(across)]);
+        // They would contradict the view angle.
+        (camera.film_size, camera.focal_length) = (None, None);
+    }
+}

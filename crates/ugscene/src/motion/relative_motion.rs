@@ -1,0 +1,105 @@
+//! The motion of a body relative to the camera.
+
+use glam::{DQuat, DVec3};
+use ugphysics::{Velocity, elongated};
+
+use super::{MotionError, camera_frame};
+use crate::{Geometry, RestPosition, SeenPosition};
+
+/// How one body moves relative to the camera, and which effects are shown.
+#[derive(Clone, Copy, Debug)]
+pub struct RelativeMotion {
+    /// In the frame of the camera.
+    velocity: Velocity,
+    in_scene: Velocity,
+    axes_from_scene: DQuat,
+    geometry: Geometry,
+}
+
+impl RelativeMotion {
+    /// Of a body with `velocity` in the frame of the camera, which is the frame of the scene.
+    pub fn new(velocity: Velocity, geometry: Geometry) -> RelativeMotion {
+        RelativeMotion { velocity, in_scene: velocity, axes_from_scene: DQuat::IDENTITY, geometry }
+    }
+
+    /// Of a body and a camera with velocities `in_scene` and `camera` in the frame of the scene.
+    ///
+    /// # Errors
+    /// Their relative velocity rounds to that of light.
+    pub fn seen_by(
+        camera: Velocity,
+        in_scene: Velocity,
+        geometry: Geometry,
+    ) -> Result<RelativeMotion, MotionError> {
+        let velocity = camera_frame::in_camera_frame(in_scene, camera)?;
+        let axes_from_scene = crate::axes_from_scene(velocity, camera);
+        Ok(RelativeMotion { in_scene, axes_from_scene, ..RelativeMotion::new(velocity, geometry) })
+    }
+
+    /// In the frame of the camera.
+    pub fn velocity(&self) -> Velocity {
+        self.velocity
+    }
+
+    /// In the frame of the scene.
+    pub fn in_scene(&self) -> Velocity {
+        self.in_scene
+    }
+
+    /// Rest coordinates, or a direction, in the axes of the rest positions of (P3); `p` is in the axes of the
+    /// scene.  Eq. (P25)
+    pub fn turned(&self, p: DVec3) -> DVec3 {
+        self.axes_from_scene * p
+    }
+
+    /// The inverse of [`RelativeMotion::turned`].
+    pub fn turned_back(&self, p: DVec3) -> DVec3 {
+        self.axes_from_scene.inverse() * p
+    }
+
+    /// True if the body rests in the frame of the camera.
+    pub fn is_at_rest(&self) -> bool {
+        self.velocity.is_zero()
+    }
+
+    /// True if the time of flight of light is included, so that straight edges are seen as curves.
+    pub fn has_flight_time(&self) -> bool {
+        self.geometry.flight_time
+    }
+
+    /// True if contraction is included.
+    pub fn has_contraction(&self) -> bool {
+        self.geometry.contraction
+    }
+
+    /// Where a point of the body is seen.
+    pub fn seen(&self, rest: RestPosition) -> SeenPosition {
+        self.geometry.seen(rest, self.velocity)
+    }
+
+    /// The rest position of what is seen at `seen`.
+    pub fn rest(&self, seen: SeenPosition) -> RestPosition {
+        self.geometry.rest(seen, self.velocity)
+    }
+
+    /// û.
+    pub fn direction(&self) -> DVec3 {
+        self.velocity.direction()
+    }
+
+    /// γ.
+    pub fn gamma(&self) -> f64 {
+        self.velocity.gamma()
+    }
+
+    /// γβ.
+    pub fn proper_speed(&self) -> f64 {
+        self.velocity.proper_speed()
+    }
+
+    /// The vector in rest coordinates that (P3) maps to where `rest` is seen. Without contraction
+    /// it is `rest` elongated along the motion by γ, which cancels the contraction in (P3).
+    pub fn boosted_rest(&self, rest: DVec3) -> DVec3 {
+        if self.geometry.contraction { rest } else { elongated(rest, self.velocity) }
+    }
+}
