@@ -11,6 +11,9 @@
 //! [`HueShift`] divides by the Doppler factor D; a [`SpectralColor`] is shifted as a whole by a
 //! [`SpectralShift`]; a [`ColorShift`] is either. All hold for a vertex, a sample or a ray.
 //!
+//! A renderer reads the colours of a scene as a [`Palette`] and [`SurfaceAttributes`], interpolates
+//! between corners, and has the apparent colour of each sample computed by an [`Appearance`].
+//!
 //! Physics without a scene is in `ugphysics` and `ugspectrum`; this crate applies it to the
 //! statements of a [`Scene`].
 //!
@@ -32,22 +35,30 @@
 //! [`Spectrum`]: ugspectrum::Spectrum
 //! [`Scene`]: ugparse::Scene
 
+mod appearance;
 mod color;
 mod hue;
 mod hue_table;
 mod irradiance;
 mod lamp;
 mod lighting;
+mod palette;
 mod shift;
+mod spectra;
 mod spectral;
+mod surface_attributes;
 mod vertex_color;
 
+pub use appearance::Appearance;
 pub use color::{hsv, is_light, light, spectra_note, spectrum};
 pub use hue::{HueColor, HueShift};
 pub use hue_table::HueTable;
 pub use irradiance::{Irradiance, SurfaceElement};
 pub use lamp::{Lamp, LampPlace, lamps};
 pub use lighting::{DEFAULT_AMBIENT, DEFAULT_FROM_EYE, Lighting};
+pub use palette::{Interpolation, Palette, Swatch};
 pub use shift::ColorShift;
+pub use spectra::Spectra;
 pub use spectral::{SpectralColor, SpectralLamp, SpectralShift, spectral_lamps};
+pub use surface_attributes::SurfaceAttributes;
 pub use vertex_color::{VertexColor, vertex_colors};

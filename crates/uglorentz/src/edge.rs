@@ -292,7 +292,7 @@ mod tests {
 
     /// The sagitta by bisection: the point of the true curve seen at equal angles from both ends.
     fn sagitta(a: DVec3, b: DVec3, motion: &RelativeMotion) -> f64 {
-        let seen = |s: f64| Point::new(&motion, BodyId::UNSTATED, a.lerp(b, s)).seen.normalize();
+        let seen = |s: f64| Point::new(motion, BodyId::UNSTATED, a.lerp(b, s)).seen.normalize();
         let (d_a, d_b) = (seen(0.0), seen(1.0));
         let (mut low, mut high) = (0.0, 1.0);
         for _ in 0..100 {

@@ -13,11 +13,12 @@ use ugpicture::cli::{AnnotationArgs, PICTURE, PictureArgs, color, format_named};
 use ugpipe::{CommonArgs, Context, Failure, ToolArgs, finite};
 use ugscene::cli::RepeatArgs;
 
-use crate::config::{Config, DepthCue, Interpolation, LINE_WIDTH, Wireframe};
+use crate::config::{Config, DepthCue, LINE_WIDTH, Wireframe};
 use crate::error::Error;
 use crate::explain::{self, explain};
 use crate::run_with;
 use crate::words::{Kind, Pixel, Report, kind_named, law, line_width, pixel};
+use uglight::Interpolation;
 
 /// Where black-and-white PostScript goes if standard output is a terminal, as in 1988.
 const POSTSCRIPT_FILE: &str = "POSTSCRIPTFILE";

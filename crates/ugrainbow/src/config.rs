@@ -1,6 +1,6 @@
 //! The options of the renderer.
 
-use uglight::ColorShift;
+use uglight::{ColorShift, Interpolation};
 use ugparse::HueScale;
 use ugphysics::Hsv;
 use ugpicture::PictureOptions;
@@ -100,16 +100,6 @@ impl DepthCue {
     pub(crate) fn between(self, [near, far]: [f64; 2]) -> DepthFade {
         DepthFade { near, far, least: self.least }
     }
-}
-
-/// The interpolated quantity, besides saturation and value.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Interpolation {
-    /// The hue, linearly from −60° to 300° and never across that boundary, because a hue stands for
-    /// a wavelength.
-    Hue,
-    /// The wavelength.
-    Wavelength,
 }
 
 /// The options that decide how faces and lines are drawn, besides camera and colours.

@@ -51,7 +51,7 @@
 //!
 //! ```text
 //! config  error                                       options, and errors
-//! palette  surface  spectra  shade  packing           colours, per vertex and per sample
+//! shade  packing                                      colours of samples
 //! planar  clip  painter                               geometry in the picture plane
 //! drawlist  lines  exact                              polygons, lines, faces hit by rays
 //! render_layers  setup  depth_cue  front              the whole scene for one camera
@@ -95,25 +95,22 @@ mod lines;
 mod notes;
 mod packing;
 mod painter;
-mod palette;
 mod pixels;
 mod planar;
 mod render;
 mod render_layers;
 mod setup;
 mod shade;
-mod spectra;
-mod surface;
 mod vector;
 #[cfg(feature = "cli")]
 mod words;
 
 #[cfg(feature = "cli")]
 pub use cli::{Args, draw};
-pub use config::{Config, DepthCue, Interpolation, Wireframe};
+pub use config::{Config, DepthCue, Wireframe};
 pub use error::Error;
 pub use render::{Picture, Prepared, Rendering, light, metadata, render, run, run_with};
-pub use uglight::{ColorShift, HueShift, SpectralShift};
+pub use uglight::{ColorShift, HueShift, Interpolation, SpectralShift};
 pub use ugparse::HueScale;
 pub use ugpicture::{
     AnnotationOptions, Background, Channel, Exposure, Filter, MAX_PIXELS, MAX_SIDE, Output, PictureOptions,

@@ -14,7 +14,7 @@ use glam::DVec3;
 use uglight::Lighting;
 use ugraster::TRANSPARENT_VALUES;
 
-use crate::palette::{Palette, Swatch};
+use uglight::{Palette, Swatch};
 
 /// Packs a colour and the level of red, green and blue light on it.
 pub type Pack<const N: usize> = fn(&Swatch, DVec3) -> [f64; N];

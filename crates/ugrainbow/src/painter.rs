@@ -6,9 +6,9 @@ use ugparse::{Face, Scene, VertexId, Wire, unit_normal};
 use ugraster::{Corner, Point, SampleGrid};
 
 use crate::clip::Vertex;
-use crate::palette::{Palette, Swatch};
-use crate::spectra::Spectra;
-use crate::surface::SurfaceAttributes;
+use uglight::Spectra;
+use uglight::SurfaceAttributes;
+use uglight::{Palette, Swatch};
 use ugscene::{CameraPoint, Slab, View};
 
 /// Everything from which faces and wires are drawn.

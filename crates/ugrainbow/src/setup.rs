@@ -12,10 +12,10 @@ use ugraster::SampleGrid;
 use crate::config::Config;
 use crate::error::Error;
 use crate::painter::Painter;
-use crate::palette::Palette;
 use crate::shade::Shader;
-use crate::spectra::Spectra;
-use crate::surface::SurfaceAttributes;
+use uglight::Palette;
+use uglight::Spectra;
+use uglight::SurfaceAttributes;
 use ugscene::{Geometry, View};
 
 /// What is computed once for a picture.

@@ -9,7 +9,6 @@ use uglight::ColorShift;
 use ugparse::Face;
 use ugraster::{Area, Bins, FragmentWriter, TRANSPARENT_VALUES, Tile};
 
-use super::appearance::Appearance;
 use super::film::{Film, Form, Lengths, center};
 use super::footprint::{Rect, footprint};
 use super::frame::{Ray, RestFrameRays, frames};
@@ -20,6 +19,7 @@ use super::sections::{Cutter, Side};
 use crate::clip::ClipCounts;
 use crate::packing::Pack;
 use crate::painter::Painter;
+use uglight::Appearance;
 
 /// All faces that are in the picture, with the rays that intersect them.
 pub struct Faces<'a, const N: usize> {
@@ -66,7 +66,7 @@ impl<'a, const N: usize> Faces<'a, N> {
         is_drawn: impl Fn(&Face) -> bool + Sync,
         pack: Pack<N>,
     ) -> Self {
-        let appearance = Appearance::new(shift, &painter);
+        let appearance = Appearance::new(shift, painter.palette, painter.spectra);
         let frames = frames(&painter);
         let built = build_all(&painter, &appearance, &frames, &is_drawn);
         let in_front = built.iter().filter(|built| !matches!(built, Built::Behind)).count();

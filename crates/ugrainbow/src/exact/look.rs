@@ -3,10 +3,10 @@
 use glam::DVec3;
 use ugparse::{Face, VertexId};
 
-use super::appearance::Appearance;
 use super::frame::{Ray, RestFrameRays};
 use crate::painter::Painter;
-use crate::palette::Swatch;
+use uglight::Appearance;
+use uglight::Swatch;
 
 /// The appearance of a face, point by point.
 #[derive(Clone, Debug)]

@@ -13,10 +13,9 @@
 //! 5. [`sections`]: where a row of samples enters and leaves a face;
 //! 6. [`nearest`]: the nearest face at each sample;
 //! 7. [`look`]: colour and light at a point of a face at rest, for visible points alone;
-//! 8. [`appearance`], [`crate::spectra`]: the apparent colour, of a hue or a spectrum;
-//! 9. [`faces`]: all faces of a scene as a layer for the rasterizer: the nearest alone, or all as
+//! 8. [`faces`]: all faces of a scene as a layer for the rasterizer: the nearest alone, or all as
 //!    transparent fragments;
-//! 10. [`wires`]: lines as polylines fine enough for the picture.
+//! 9. [`wires`]: lines as polylines fine enough for the picture.
 //!
 //! # Watertight edges
 //!
@@ -34,7 +33,6 @@
 //! Between the columns of these changes all samples are in the face or all are outside, so one of
 //! them is tested. Samples where rounding could decide are tested one by one.
 
-mod appearance;
 mod faces;
 mod film;
 mod footprint;

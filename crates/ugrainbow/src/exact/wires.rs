@@ -5,11 +5,11 @@ use uglight::ColorShift;
 use ugparse::BodyId;
 use ugphysics::doppler_at;
 
-use super::appearance::Appearance;
 use super::frame::{RestFrameRays, frames};
 use crate::lines::{Joint, Line, LineShape};
 use crate::painter::Painter;
-use crate::palette::Swatch;
+use uglight::Appearance;
+use uglight::Swatch;
 
 /// Greatest distance of a piece from the curve, in samples.
 const TOLERANCE: f64 = 0.125;
@@ -34,7 +34,11 @@ pub struct CurvedLines<'a> {
 impl<'a> CurvedLines<'a> {
     /// The lines of a scene with the colour shift `shift`.
     pub fn new(painter: Painter<'a>, shift: ColorShift) -> Self {
-        Self { painter, appearance: Appearance::new(shift, &painter), frames: frames(&painter) }
+        Self {
+            painter,
+            appearance: Appearance::new(shift, painter.palette, painter.spectra),
+            frames: frames(&painter),
+        }
     }
 }
 

@@ -11,16 +11,17 @@ use ugpicture::{Emissions, Filter, Layout, SurfaceSample};
 use ugraster::{Fragment, PixelSamples, ProbedSample, Resolve};
 use ugscene::{Geometry, RestPosition, SeenPosition};
 
-use crate::config::{Config, Interpolation};
+use crate::config::Config;
 use crate::depth_cue::prepare;
 use crate::error::Error;
 use crate::front::{of_fragment, of_surface};
 use crate::packing::{Interpolated, PackedLayout, Plain};
-use crate::palette::Swatch;
 use crate::pixels::{self, Display, backdrop, developed, development, mean};
 use crate::render::warnings;
 use crate::render_layers::RenderLayers;
 use crate::setup::Setup;
+use uglight::Interpolation;
+use uglight::Swatch;
 
 pub use json::json;
 pub use text::text;

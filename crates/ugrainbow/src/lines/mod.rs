@@ -22,9 +22,9 @@ use crate::clip::{ClipCounts, Vertex, clip_segment};
 use crate::config::Wireframe;
 use crate::packing::pack_transparent;
 use crate::painter::Painter;
-use crate::palette::Swatch;
 use edges::{Edge, edges};
 pub use hidden::{Occluders, Visibility, occluded_part};
+use uglight::Swatch;
 
 /// Lines are moved towards the eye by this part of their distance, so that they pass the depth test
 /// against the faces whose edges they are.

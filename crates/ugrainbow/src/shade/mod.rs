@@ -7,10 +7,10 @@ use fearless_simd::Level;
 use ugphysics::{attenuation, hue_to_wavelength, srgb_decode, srgb_encode, wavelength_to_hue};
 use ugraster::{Encoding, RUN, ShadedRun, ShadedSample, Shading, TRANSPARENT_VALUES};
 
-use crate::config::Interpolation;
 use crate::packing::{Colored, Mixed, MixedColored, Plain, Transparent};
 use hues::{Lights, Pure, all_between, encode, encode_all};
 use transfer::decode;
+use uglight::Interpolation;
 
 /// Cells of each attenuation table.
 const FADE_CELLS: usize = 1024;

@@ -2,11 +2,12 @@
 
 use glam::DVec3;
 use rayon::prelude::*;
-use uglight::{SpectralColor, SpectralShift};
 use ugparse::{ColorId, Scene};
 use ugphysics::xyz_to_linear_srgb;
 use ugscene::Shares;
 use ugspectrum::DopplerGrid;
+
+use crate::{SpectralColor, SpectralShift};
 
 /// The apparent light of mixtures of spectra as a function of the Doppler factor.
 pub struct Spectra {

@@ -2,12 +2,11 @@
 
 use glam::{DQuat, DVec3};
 use rayon::prelude::*;
-use uglight::{VertexColor, vertex_colors};
 use ugparse::{BodyId, ColorId, Scene, VertexId};
 use ugphysics::{Velocity, aberrate};
 use ugscene::{RestFrames, Shares, rest_positions, vertex_shares};
 
-use crate::palette::{Palette, Swatch};
+use crate::{Palette, Swatch, VertexColor, vertex_colors};
 
 /// Colours and rest positions of the vertices of a scene.
 #[derive(Clone, Debug)]

@@ -1,10 +1,18 @@
 //! The colours of a scene, converted for interpolation.
 
 use glam::DVec3;
-use ugparse::{Color, ColorValue, Scene, Tint};
+use ugparse::{Color, ColorId, ColorValue, Scene, Tint};
 use ugphysics::{Hsv, attenuation, hue_to_wavelength, srgb_decode, wavelength_to_hue};
 
-use crate::config::Interpolation;
+/// The interpolated quantity, besides saturation and value.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Interpolation {
+    /// The hue, linearly from −60° to 300° and never across that boundary, because a hue stands for
+    /// a wavelength.
+    Hue,
+    /// The wavelength.
+    Wavelength,
+}
 
 /// A colour ready for interpolation.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,7 +58,7 @@ impl Palette {
     ///
     /// `is_spectral`: colours are spectra, so all of them are drawn as light.
     pub fn new(scene: &Scene, interpolation: Interpolation, is_spectral: bool) -> Self {
-        let has_light = is_spectral || scene.colors.iter().any(uglight::is_light);
+        let has_light = is_spectral || scene.colors.iter().any(crate::is_light);
         let has_translucency = scene.colors.iter().any(|color| color.translucency > 0.0);
         let mut palette =
             Self { swatches: Vec::new(), interpolation, is_spectral, has_light, has_translucency };
@@ -59,7 +67,7 @@ impl Palette {
     }
 
     /// The colour `color` of the scene.
-    pub fn get(&self, color: ugparse::ColorId) -> Swatch {
+    pub fn get(&self, color: ColorId) -> Swatch {
         self.swatches[color.index()]
     }
 
@@ -133,9 +141,9 @@ impl Palette {
                 Swatch { tint, saturation, value, light: None, translucency }
             }
             _ => Swatch {
-                light: uglight::light(scene, color).map(DVec3::from_array),
+                light: crate::light(scene, color).map(DVec3::from_array),
                 translucency,
-                ..self.swatch(uglight::hsv(scene, color))
+                ..self.swatch(crate::hsv(scene, color))
             },
         };
         // The light of a spectrum is computed per sample; here it only marks the colour as light.

@@ -1,12 +1,8 @@
 //! Colours as they appear in the frame of the camera.
 
 use glam::DVec3;
-use uglight::{ColorShift, HueShift, HueTable};
 
-use crate::config::Interpolation;
-use crate::painter::Painter;
-use crate::palette::{Palette, Swatch};
-use crate::spectra::Spectra;
+use crate::{ColorShift, HueShift, HueTable, Interpolation, Palette, Spectra, Swatch};
 
 /// Computes the apparent colour of each sample from its colour at rest.
 #[derive(Clone, Copy)]
@@ -19,13 +15,13 @@ pub struct Appearance<'a> {
 }
 
 impl<'a> Appearance<'a> {
-    /// The colour shift `shift` with the colours of `painter`.
-    pub fn new(shift: ColorShift, painter: &Painter<'a>) -> Self {
+    /// The colour shift `shift` of the colours of a scene. `spectra`: given if it shifts spectra.
+    pub fn new(shift: ColorShift, palette: &'a Palette, spectra: Option<&'a Spectra>) -> Self {
         let shift = match shift {
             ColorShift::Hues(shift) => shift,
             ColorShift::Spectra(_) => HueShift::NONE,
         };
-        Self { shift, palette: painter.palette, hues: HueTable::get(), spectra: painter.spectra }
+        Self { shift, palette, hues: HueTable::get(), spectra }
     }
 
     /// True if colours given as light can be drawn on moving bodies: they are spectra, or nothing
@@ -53,7 +49,7 @@ impl<'a> Appearance<'a> {
     /// the wavelength of its tint.  Eq. (P11), (P12), (P18)
     ///
     /// A colour given as light is returned unchanged. On moving bodies such colours occur only in
-    /// spectral mode; otherwise [`super::look::Look`] has replaced them by hues.
+    /// spectral mode; otherwise the renderer replaces them by hues.
     #[inline]
     pub fn seen(&self, rest: &Swatch, rest_nm: f64, stretch: f64) -> Swatch {
         if rest.light.is_some() || stretch == 1.0 {
