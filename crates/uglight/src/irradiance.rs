@@ -32,23 +32,62 @@ pub struct Irradiance {
     pub doppler: f64,
 }
 
+/// Light of a lamp on a surface, and where it comes from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct IncidentLamp {
+    /// The irradiance. The level is above 0.
+    pub irradiance: Irradiance,
+    /// The place of the lamp at emission: a unit vector towards it, in the rest frame of the
+    /// surface and the axes of the scene, and the distance, infinite for a directional light.
+    /// `None` for ambient light, which comes from everywhere.
+    pub toward: Option<(DVec3, f64)>,
+}
+
 impl SurfaceElement {
     /// What each lamp contributes, in their order; nothing from those behind the surface.
     #[must_use]
     pub fn irradiances(&self, lamps: &[Lamp], frames: &RestFrames) -> Vec<Irradiance> {
         let mut all = Vec::with_capacity(lamps.len());
+        self.for_each_incident(lamps, frames, |incident| all.push(incident.irradiance));
+        all
+    }
+
+    /// Calls `visit` with the light of each lamp, in their order; not with those behind the
+    /// surface. Moving ambient light is visited several times, once for each ring of the sky.
+    pub fn for_each_incident(
+        &self,
+        lamps: &[Lamp],
+        frames: &RestFrames,
+        mut visit: impl FnMut(IncidentLamp),
+    ) {
         for (row, lamp) in lamps.iter().enumerate() {
-            let mut add = |level: f64, doppler: f64| {
+            let mut add = |level: f64, doppler: f64, toward: Option<(DVec3, f64)>| {
                 if level > 0.0 {
-                    all.push(Irradiance { lamp: row as u32, level, doppler });
+                    visit(IncidentLamp {
+                        irradiance: Irradiance { lamp: row as u32, level, doppler },
+                        toward,
+                    });
                 }
             };
             match self.moving_body(lamp, frames) {
-                None => add(lamp.level_at_rest(self.point, self.normal), 1.0),
+                None => {
+                    let level = lamp.level_at_rest(self.point, self.normal);
+                    add(level, 1.0, self.direction_at_rest(lamp));
+                }
                 Some(body) => self.of_moving(lamp, body, frames, &mut add),
             }
         }
-        all
+    }
+
+    /// Direction and distance of a lamp that rests with the surface.
+    fn direction_at_rest(&self, lamp: &Lamp) -> Option<(DVec3, f64)> {
+        match lamp.place {
+            LampPlace::Everywhere => None,
+            LampPlace::Afar(toward) => Some((toward, f64::INFINITY)),
+            LampPlace::At(place) => {
+                Some((ugphysics::unit_or_zero(place - self.point), ugphysics::length(place - self.point)))
+            }
+        }
     }
 
     /// The body of a lamp that moves relative to the surface.
@@ -57,7 +96,13 @@ impl SurfaceElement {
         (frames.velocity(body) != frames.velocity(self.body)).then_some(body)
     }
 
-    fn of_moving(&self, lamp: &Lamp, body: BodyId, frames: &RestFrames, add: &mut impl FnMut(f64, f64)) {
+    fn of_moving(
+        &self,
+        lamp: &Lamp,
+        body: BodyId,
+        frames: &RestFrames,
+        add: &mut impl FnMut(f64, f64, Option<(DVec3, f64)>),
+    ) {
         // Velocities of two frames can be composed only in common axes: those of the camera, which
         // boosts do not turn.  Eq. (P25)
         let axes_of = |body: BodyId| frames.scene_from_axes(body).inverse();
@@ -67,7 +112,7 @@ impl SurfaceElement {
         let light = match lamp.place {
             LampPlace::Everywhere => {
                 for SkyRing { level, doppler } in ambient_illumination(normal, compose(motion, -velocity)) {
-                    add(level, doppler);
+                    add(level, doppler, None);
                 }
                 return;
             }
@@ -75,7 +120,8 @@ impl SurfaceElement {
             LampPlace::At(place) => illumination(point, velocity, of_lamp * place, motion),
         };
         if let Some(light) = light {
-            add(normal.dot(light.toward), light.doppler);
+            let toward = of_surface.inverse() * light.toward;
+            add(normal.dot(light.toward), light.doppler, Some((toward, light.distance)));
         }
     }
 }

@@ -53,7 +53,7 @@ pub use appearance::Appearance;
 pub use color::{hsv, is_light, light, spectra_note, spectrum};
 pub use hue::{HueColor, HueShift};
 pub use hue_table::HueTable;
-pub use irradiance::{Irradiance, SurfaceElement};
+pub use irradiance::{IncidentLamp, Irradiance, SurfaceElement};
 pub use lamp::{Lamp, LampPlace, lamps};
 pub use lighting::{DEFAULT_AMBIENT, DEFAULT_FROM_EYE, Lighting};
 pub use palette::{Interpolation, Palette, Swatch};

@@ -65,6 +65,7 @@ mod hyperbolic;
 mod illumination;
 mod irradiance;
 mod lorentz;
+mod medium;
 mod optics;
 mod retarded_position;
 mod vector;
@@ -84,6 +85,7 @@ pub use hyperbolic::HyperbolicMotion;
 pub use illumination::{IncidentLight, illumination, illumination_from_afar};
 pub use irradiance::irradiance;
 pub use lorentz::{Lorentz, compose, wigner_rotation};
+pub use medium::{Medium, WaveVector};
 pub use optics::{Slab, Wave, light_in_glass, reflect, refract};
 pub use retarded_position::{
     Event, contracted, elongated, flight_time, observer_shift, rest_position, seen_event, seen_position,

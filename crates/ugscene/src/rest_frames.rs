@@ -11,6 +11,8 @@ use crate::{axes_from_scene, camera_velocity, split_vertices};
 pub struct RestFrames {
     /// In the order of [`Scene::bodies`].
     velocities: Vec<Velocity>,
+    /// For each body, see [`RestFrames::scene_from_axes`].
+    scene_from_axes: Vec<DQuat>,
     /// Of the camera, in the frame the scene was written in.
     camera: Velocity,
 }
@@ -21,14 +23,18 @@ impl RestFrames {
         let velocity = |motion: Motion| match motion {
             Motion::Inertial(velocity) => velocity,
         };
-        let velocities = scene.bodies.iter().map(|body| velocity(body.motion)).collect();
-        Self { velocities, camera: camera_velocity(scene) }
+        let velocities: Vec<Velocity> = scene.bodies.iter().map(|body| velocity(body.motion)).collect();
+        let camera = camera_velocity(scene);
+        let turned = |&velocity: &Velocity| axes_from_scene(velocity, camera).inverse();
+        let scene_from_axes = velocities.iter().map(turned).collect();
+        Self { velocities, scene_from_axes, camera }
     }
 
     /// With `velocity` for bodies whose motion is not stated.
     #[must_use]
     pub fn with_unstated(mut self, velocity: Velocity) -> Self {
         self.velocities[BodyId::UNSTATED.index()] = velocity;
+        self.scene_from_axes[BodyId::UNSTATED.index()] = axes_from_scene(velocity, self.camera).inverse();
         self
     }
 
@@ -40,7 +46,7 @@ impl RestFrames {
     /// Turns rest coordinates of a body, as (P4) gives them, into the axes of the scene, where
     /// lights and normals are. The identity unless the camera moves in the scene.  Eq. (P25)
     pub fn scene_from_axes(&self, body: BodyId) -> DQuat {
-        axes_from_scene(self.velocity(body), self.camera).inverse()
+        self.scene_from_axes[body.index()]
     }
 
     /// True if nothing moves.

@@ -1,0 +1,203 @@
+//! Light in transparent media that move, and its passage from one into another.
+
+use glam::DVec3;
+
+use crate::{Event, Velocity};
+
+/// The wave 4-vector (f, **k**) of light: its frequency, and the wave vector over 2π, along which
+/// the phase moves.
+///
+/// In vacuum |k| = f, in a medium at rest |k| = N f, with N its refractive index.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WaveVector {
+    /// Frequency f.
+    pub frequency: f64,
+    /// **k**; inverse of the wavelength.
+    pub k: DVec3,
+}
+
+/// A transparent medium, in the frame in which its velocity is measured.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Medium {
+    /// Refractive index N, above 0; 1 is vacuum.
+    pub index: f64,
+    /// Its velocity.
+    pub velocity: Velocity,
+}
+
+impl Medium {
+    /// Vacuum, which has no velocity.
+    pub const VACUUM: Medium = Medium { index: 1.0, velocity: Velocity::ZERO };
+
+    /// N² − 1, in a form that does not cancel.
+    fn contrast(&self) -> f64 {
+        (self.index - 1.0) * (self.index + 1.0)
+    }
+
+    /// The frequency of light in the frame of the medium: −K·U, with U its 4-velocity.
+    fn own_frequency(&self, wave: WaveVector) -> f64 {
+        self.velocity.gamma() * wave.frequency - self.velocity.proper().dot(wave.k)
+    }
+
+    /// A step of the light along its path: K + (N² − 1)(−K·U) U, of a length that depends on the
+    /// frequency. In vacuum it is K.  Eq. (P37)
+    ///
+    /// Energy moves along it: in the frame of the medium along **k**, with speed 1/N.
+    ///
+    /// ```
+    /// use glam::DVec3;
+    /// use ugphysics::{Medium, Velocity, WaveVector};
+    ///
+    /// // Fizeau's experiment: glass that moves with 0.1 c drags light along.
+    /// let glass = Medium { index: 1.5, velocity: Velocity::from_beta(DVec3::X * 0.1)? };
+    /// let wave = WaveVector { frequency: 1.0, k: DVec3::X * 1.5 }.out_of_frame(glass.velocity);
+    /// let step = glass.step(wave);
+    /// assert!((step.x.x / step.t - 0.71875).abs() < 1e-15);
+    /// # Ok::<(), ugphysics::VelocityError>(())
+    /// ```
+    #[must_use]
+    pub fn step(&self, wave: WaveVector) -> Event {
+        let drag = self.contrast() * self.own_frequency(wave);
+        if drag == 0.0 {
+            return Event { t: wave.frequency, x: wave.k };
+        }
+        Event { t: wave.frequency + drag * self.velocity.gamma(), x: wave.k + drag * self.velocity.proper() }
+    }
+
+    /// The light of a given frequency and tangential wave vector that moves in the medium beside a
+    /// surface at rest: refracted light in the medium behind it, or reflected light in the medium
+    /// before it. `None` if there is none, as at total reflection.  Eq. (P37)
+    ///
+    /// `wave`: the light before the surface. `normal`: unit vector, on the side to which the
+    /// resulting light moves. The medium may move relative to the surface.
+    ///
+    /// ```
+    /// use glam::DVec3;
+    /// use ugphysics::{Medium, Velocity, WaveVector};
+    ///
+    /// // Snell's law: light enters glass of index 1.6.
+    /// let glass = Medium { index: 1.6, velocity: Velocity::ZERO };
+    /// let wave = WaveVector { frequency: 1.0, k: DVec3::new(0.6, 0.8, 0.0) };
+    /// let inside = glass.wave_beside(wave, DVec3::X).ok_or("no light")?;
+    /// assert!((inside.k.normalize().y - 0.5).abs() < 1e-15);
+    /// # Ok::<(), &str>(())
+    /// ```
+    #[must_use]
+    pub fn wave_beside(&self, wave: WaveVector, normal: DVec3) -> Option<WaveVector> {
+        let tangential = wave.k - wave.k.dot(normal) * normal;
+        let (contrast, u) = (self.contrast(), self.velocity.proper());
+        let u_n = u.dot(normal);
+        // With q the normal component of k, −K·U = a − u_n q, and K·K = (N² − 1)(K·U)² is a
+        // quadratic equation for q. The normal component of the step is ± the root of its
+        // discriminant.
+        let a = self.velocity.gamma() * wave.frequency - u.dot(tangential);
+        let (b, c) = (contrast * a * u_n, 1.0 - contrast * u_n * u_n);
+        let rest = wave.frequency * wave.frequency + contrast * a * a - tangential.length_squared();
+        let discriminant = b * b + c * rest;
+        if discriminant.is_nan() || discriminant < 0.0 {
+            return None;
+        }
+        let q = (discriminant.sqrt() - b) / c;
+        let out = WaveVector { frequency: wave.frequency, k: tangential + q * normal };
+        // In a medium that passes the surface faster than light in it, light of this frequency may
+        // move the other way.
+        let is_possible = q.is_finite() && self.own_frequency(out) > 0.0;
+        is_possible.then_some(out)
+    }
+}
+
+impl WaveVector {
+    /// Light in vacuum that moves along `direction`, a unit vector.
+    #[must_use]
+    pub fn in_vacuum(frequency: f64, direction: DVec3) -> WaveVector {
+        WaveVector { frequency, k: frequency * direction }
+    }
+
+    /// The same light in the frame that moves with `v`, axes parallel.  Eq. (P7)
+    #[must_use]
+    pub fn in_frame(self, v: Velocity) -> WaveVector {
+        let (axis, along) = (v.direction(), self.k.dot(v.direction()));
+        let k = self.k + (v.gamma_minus_one() * along - v.proper_speed() * self.frequency) * axis;
+        WaveVector { frequency: v.gamma() * self.frequency - v.proper_speed() * along, k }
+    }
+
+    /// The inverse of [`WaveVector::in_frame`].
+    #[must_use]
+    pub fn out_of_frame(self, v: Velocity) -> WaveVector {
+        self.in_frame(-v)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{compose, light_in_glass, refract};
+
+    fn velocity(x: f64, y: f64, z: f64) -> Velocity {
+        Velocity::from_beta(DVec3::new(x, y, z)).unwrap()
+    }
+
+    #[test]
+    fn steps_have_the_velocity_of_light_in_moving_glass() {
+        for v in [velocity(0.0, 0.0, 0.0), velocity(0.9, 0.0, 0.0), velocity(-0.5, 0.3, 0.6)] {
+            for direction in [DVec3::X, DVec3::NEG_X, DVec3::new(0.6, 0.0, -0.8)] {
+                let wave = WaveVector { frequency: 2.0, k: 3.0 * direction }.out_of_frame(v);
+                let step = Medium { index: 1.5, velocity: v }.step(wave);
+                let expected = light_in_glass(direction, 1.5, v).unwrap().beta();
+                assert!((step.x / step.t - expected).length() < 1e-14, "{v:?} {direction}");
+            }
+        }
+    }
+
+    #[test]
+    fn media_at_rest_refract_and_reflect_by_snells_law() {
+        for (before, behind) in [(1.0, 1.5), (1.5, 1.0), (1.33, 1.5), (1.0, 1.0)] {
+            for degrees in [0.0_f64, 20.0, 41.0, 42.0, 70.0, 89.0] {
+                let (sin, cos) = degrees.to_radians().sin_cos();
+                let direction = DVec3::new(cos, sin, 0.0);
+                let wave = WaveVector { frequency: 1.0, k: before * direction };
+                let medium = |index| Medium { index, velocity: Velocity::ZERO };
+                let found = medium(behind).wave_beside(wave, DVec3::X).map(|wave| wave.k.normalize());
+                let expected = refract(direction, DVec3::X, before / behind);
+                assert_eq!(found.is_some(), expected.is_some(), "{before} {behind} {degrees}");
+                if let (Some(found), Some(expected)) = (found, expected) {
+                    assert!((found - expected).length() < 1e-14);
+                }
+                let back = medium(before).wave_beside(wave, DVec3::NEG_X).unwrap();
+                assert!((back.k - before * DVec3::new(-cos, sin, 0.0)).length() < 1e-14);
+            }
+        }
+    }
+
+    /// Light that enters water which flows along the surface of the glass around it. The answer is
+    /// computed in the frame of the water, in which the surface moves: the frequency in the frame
+    /// of the surface and the wave vector along it are the same on both sides.
+    #[test]
+    fn moving_media_keep_frequency_and_tangential_wave_vector() {
+        for v in [velocity(0.0, 0.4, 0.0), velocity(0.2, -0.3, 0.1), velocity(-0.6, 0.0, 0.5)] {
+            let water = Medium { index: 1.33, velocity: v };
+            let glass = WaveVector { frequency: 1.0, k: 1.5 * DVec3::new(0.8, 0.36, 0.48) };
+            let inside = water.wave_beside(glass, DVec3::X).unwrap();
+            assert_eq!(inside.frequency, 1.0);
+            assert!((inside.k - glass.k).reject_from(DVec3::X).length() < 1e-15);
+            let own = inside.in_frame(v);
+            assert!((own.k.length() - 1.33 * own.frequency).abs() < 1e-13, "{v:?} {own:?}");
+            let step = water.step(inside);
+            assert!(step.x.x / step.t > 0.0);
+            // Its velocity is that of light in the water, composed with the water's.
+            let light = Velocity::from_beta(own.k.normalize() / 1.33).unwrap();
+            assert!((compose(light, v).beta() - step.x / step.t).length() < 1e-13);
+        }
+    }
+
+    #[test]
+    fn vacuum_has_no_velocity() {
+        let wave = WaveVector { frequency: 1.0, k: DVec3::new(0.6, 0.8, 0.0) };
+        let moving = Medium { index: 1.0, velocity: velocity(0.9, 0.1, 0.0) };
+        for vacuum in [Medium::VACUUM, moving] {
+            assert_eq!(vacuum.step(wave), Event { t: 1.0, x: wave.k });
+            let beside = vacuum.wave_beside(wave, DVec3::X).unwrap();
+            assert!(beside.frequency == 1.0 && (beside.k - wave.k).length() < 1e-15);
+        }
+    }
+}
