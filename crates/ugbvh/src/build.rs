@@ -1,0 +1,373 @@
+//! Builds the hierarchy from the top: binned surface-area heuristic, eight parts at a time.
+//!
+//! I. Wald, *On fast construction of SAH-based bounding volume hierarchies*, 2007. A node begins as
+//! one part; the part of the greatest area is split in two until there are eight. Below
+//! [`MAX_SAH_DEPTH`] parts are halved by number, so a hierarchy of n triangles has no more than
+//! [`MAX_SAH_DEPTH`] + log₈ n + 2 levels whatever they are, and building takes time proportional to
+//! n log n.
+
+use fearless_simd::Level;
+use glam::DVec3;
+
+use crate::frame::{Frame, MAX_COORDINATE, exponent, power_of_two};
+use crate::nodes::{Block, IS_BLOCK, Node, WIDTH};
+use crate::{Bvh, Triangle};
+
+/// Levels of nodes split by the surface-area heuristic.
+const MAX_SAH_DEPTH: u32 = 24;
+
+/// Most bins along an axis.
+const MAX_BINS: usize = 16;
+
+/// Parts with more triangles are split while a node has room.
+const GOOD_LEAF: usize = 4;
+
+/// Subtrees of fewer triangles are built by one thread.
+const TASK: usize = 1 << 13;
+
+/// Triangles, or corners, that a thread prepares at once.
+const RANGE: usize = 1 << 14;
+
+/// Most triangles used: the number of blocks stays below [`IS_BLOCK`].
+const MAX_TRIANGLES: usize = 1 << 31;
+
+/// A box as least x, y, z and −(greatest x, y, z), so that the union is eight minima. Lanes 3 and 7
+/// are not used.
+#[derive(Clone, Copy, Debug)]
+struct Bounds([f32; 8]);
+
+impl Bounds {
+    const EMPTY: Self = Self([f32::INFINITY; 8]);
+
+    #[inline(always)]
+    fn union(self, other: &Self) -> Self {
+        Self(std::array::from_fn(
+            |lane| if self.0[lane] < other.0[lane] { self.0[lane] } else { other.0[lane] },
+        ))
+    }
+
+    #[inline(always)]
+    fn size(&self, axis: usize) -> f32 {
+        -self.0[axis + 4] - self.0[axis]
+    }
+
+    /// Half the surface; 0 for an empty box.
+    #[inline(always)]
+    fn area(&self) -> f32 {
+        let [x, y, z] = [0, 1, 2].map(|axis| self.size(axis).max(0.0));
+        x * y + y * z + z * x
+    }
+
+    /// Twice the centre.
+    #[inline(always)]
+    fn center(&self, axis: usize) -> f32 {
+        self.0[axis] - self.0[axis + 4]
+    }
+}
+
+/// A triangle to be sorted into the hierarchy.
+#[derive(Clone, Copy, Debug)]
+struct Item {
+    bounds: Bounds,
+    triangle: u32,
+}
+
+/// What is shared by all parts.
+struct Mesh<'a> {
+    triangles: &'a [[u32; 3]],
+    /// Positions in box coordinates.
+    corners: Vec<[f32; 3]>,
+}
+
+/// A subtree: its root comes first.
+#[derive(Default)]
+struct Subtree {
+    nodes: Vec<Node>,
+    blocks: Vec<Block>,
+    triangles: Vec<Triangle>,
+}
+
+pub fn build(positions: &[DVec3], triangles: &[[u32; 3]]) -> Bvh {
+    let triangles = &triangles[..triangles.len().min(MAX_TRIANGLES)];
+    let positions: Vec<[f64; 3]> = positions.iter().map(|position| position.to_array()).collect();
+    let Some((low, high)) = bounds(&positions, triangles) else {
+        return Bvh {
+            level: Level::new(),
+            frame: Frame { center: [0.0; 3], scale: 1.0, unit: 1.0 },
+            bounds: None,
+            positions: Vec::new(),
+            triangles: Vec::new(),
+            nodes: Vec::new(),
+            blocks: Vec::new(),
+        };
+    };
+    let frame = Frame::new(low, high);
+    let corners =
+        ugparallel::map(positions.len(), RANGE, |row| frame.to_box(positions[row]).map(|x| x as f32));
+    let mesh = Mesh { triangles, corners };
+    let mut items = mesh.items(|triangle| is_regular(&positions, triangles[triangle]));
+    let mut tree = Subtree::default();
+    mesh.build_node(&mut items, 0, &mut tree);
+    let Subtree { nodes, blocks, triangles } = tree;
+    Bvh {
+        level: Level::new(),
+        frame,
+        bounds: Some((DVec3::from_array(low), DVec3::from_array(high))),
+        positions,
+        triangles,
+        nodes,
+        blocks,
+    }
+}
+
+/// The bounds of all regular triangles.
+fn bounds(positions: &[[f64; 3]], triangles: &[[u32; 3]]) -> Option<([f64; 3], [f64; 3])> {
+    let union = |[low, high]: [[f64; 3]; 2], [other_low, other_high]: [[f64; 3]; 2]| {
+        [
+            std::array::from_fn(|axis| f64::min(low[axis], other_low[axis])),
+            std::array::from_fn(|axis| f64::max(high[axis], other_high[axis])),
+        ]
+    };
+    let empty = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
+    let ranges = triangles.len().div_ceil(RANGE);
+    let parts = ugparallel::map(ranges, 1, |range| {
+        let first = range * RANGE;
+        let mut bounds = empty;
+        for &triangle in &triangles[first..triangles.len().min(first + RANGE)] {
+            if is_regular(positions, triangle) {
+                for row in triangle {
+                    let position = positions[row as usize];
+                    bounds = union(bounds, [position, position]);
+                }
+            }
+        }
+        bounds
+    });
+    let [low, high] = parts.into_iter().fold(empty, union);
+    (low[0] <= high[0]).then_some((low, high))
+}
+
+/// Whether rays can hit a triangle: see [`Bvh::new`].
+pub fn is_regular(positions: &[[f64; 3]], triangle: [u32; 3]) -> bool {
+    let [Some(a), Some(b), Some(c)] = triangle.map(|row| positions.get(row as usize)) else { return false };
+    // NaN fails the comparison.
+    if ![a, b, c].iter().all(|corner| corner.iter().all(|x| x.abs() <= MAX_COORDINATE)) {
+        return false;
+    }
+    let edge = |to: &[f64; 3]| -> [f64; 3] { std::array::from_fn(|axis| to[axis] - a[axis]) };
+    let (b, c) = (edge(b), edge(c));
+    let is_regular = |b: [f64; 3], c: [f64; 3]| {
+        let normal = [b[1] * c[2] - b[2] * c[1], b[2] * c[0] - b[0] * c[2], b[0] * c[1] - b[1] * c[0]];
+        (normal[0].abs() + normal[1].abs() + normal[2].abs(), normal != [0.0; 3])
+    };
+    let (size, is) = is_regular(b, c);
+    if (1e-200..1e200).contains(&size) {
+        return is;
+    }
+    // Products may have overflowed or underflowed.
+    let scaled = |edge: [f64; 3]| {
+        let size = edge.iter().fold(0.0_f64, |size, x| size.max(x.abs()));
+        edge.map(|x| x * power_of_two(-exponent(size).clamp(-1000, 1000)))
+    };
+    is_regular(scaled(b), scaled(c)).1
+}
+
+impl Mesh<'_> {
+    /// All triangles that `is_regular`, with their bounds.
+    fn items(&self, is_regular: impl Fn(usize) -> bool + Sync) -> Vec<Item> {
+        let mut items = ugparallel::map(self.triangles.len(), RANGE, |triangle| {
+            let bounds = if is_regular(triangle) { self.bounds(triangle) } else { Bounds::EMPTY };
+            Item { bounds, triangle: triangle as u32 }
+        });
+        items.retain(|item| item.bounds.0[0] < f32::INFINITY);
+        items
+    }
+
+    fn bounds(&self, triangle: usize) -> Bounds {
+        self.triangles[triangle]
+            .map(|row| self.corners[row as usize])
+            .into_iter()
+            .fold(Bounds::EMPTY, |bounds, [x, y, z]| bounds.union(&Bounds([x, y, z, 0.0, -x, -y, -z, 0.0])))
+    }
+
+    /// Appends a node for these triangles and all below it. Returns its index.
+    fn build_node(&self, items: &mut [Item], depth: u32, tree: &mut Subtree) -> u32 {
+        let parts = split(items, depth);
+        let idx = tree.nodes.len();
+        let mut node = Node::EMPTY;
+        for (child, part) in parts.iter().enumerate() {
+            for axis in 0..3 {
+                node.planes[axis][child] = part.bounds.0[axis];
+                node.planes[axis + 3][child] = -part.bounds.0[axis + 4];
+            }
+        }
+        tree.nodes.push(node);
+        let is_task = items.len() >= TASK;
+        let mut rest = items;
+        let mut tasks = Vec::new();
+        for (child, part) in parts.iter().enumerate() {
+            let (items, behind) = rest.split_at_mut(part.n);
+            rest = behind;
+            if items.len() <= WIDTH {
+                tree.nodes[idx].children[child] = self.build_block(items, &part.bounds, tree);
+            } else if is_task {
+                tasks.push((child, items, Subtree::default()));
+            } else {
+                tree.nodes[idx].children[child] = self.build_node(items, depth + 1, tree);
+            }
+        }
+        ugparallel::for_jobs(&mut tasks, |_, (_, items, subtree)| {
+            self.build_node(items, depth + 1, subtree);
+        });
+        for (child, _, subtree) in tasks {
+            tree.nodes[idx].children[child] = tree.append(subtree);
+        }
+        idx as u32
+    }
+
+    /// Appends a block with these triangles. Returns its index as a child.
+    fn build_block(&self, items: &[Item], bounds: &Bounds, tree: &mut Subtree) -> u32 {
+        let idx = tree.blocks.len();
+        let mut block = Block {
+            corners: [[[0.0; WIDTH]; 3]; 3],
+            first: tree.triangles.len() as u32,
+            n: items.len() as u32,
+            extent: bounds.size(0).max(bounds.size(1)).max(bounds.size(2)),
+        };
+        for (lane, item) in items.iter().enumerate() {
+            let corners = self.triangles[item.triangle as usize];
+            for (corner, row) in corners.into_iter().enumerate() {
+                for axis in 0..3 {
+                    block.corners[corner][axis][lane] = self.corners[row as usize][axis];
+                }
+            }
+            tree.triangles.push(Triangle { corners, index: item.triangle });
+        }
+        tree.blocks.push(block);
+        idx as u32 | IS_BLOCK
+    }
+}
+
+impl Subtree {
+    /// Appends another subtree. Returns the index of its root.
+    fn append(&mut self, mut other: Self) -> u32 {
+        let [nodes, blocks, triangles] =
+            [self.nodes.len(), self.blocks.len(), self.triangles.len()].map(|n| n as u32);
+        for node in &mut other.nodes {
+            for child in &mut node.children {
+                *child += if *child & IS_BLOCK == 0 { nodes } else { blocks };
+            }
+        }
+        for block in &mut other.blocks {
+            block.first += triangles;
+        }
+        self.nodes.append(&mut other.nodes);
+        self.blocks.append(&mut other.blocks);
+        self.triangles.append(&mut other.triangles);
+        nodes
+    }
+}
+
+/// Consecutive triangles that become a child of a node.
+#[derive(Clone, Copy, Debug)]
+struct Part {
+    first: usize,
+    n: usize,
+    bounds: Bounds,
+}
+
+impl Part {
+    fn new(first: usize, items: &[Item]) -> Self {
+        let bounds = items.iter().fold(Bounds::EMPTY, |bounds, item| bounds.union(&item.bounds));
+        Self { first, n: items.len(), bounds }
+    }
+}
+
+/// Sorts triangles into the parts of a node. Returns the parts in the order of the triangles.
+fn split(items: &mut [Item], depth: u32) -> Vec<Part> {
+    let mut parts = Vec::with_capacity(WIDTH);
+    parts.push(Part::new(0, items));
+    while parts.len() < WIDTH {
+        // The greatest part first; large ones before those that fit into a block.
+        let key = |part: &Part| {
+            let is_large = part.n > WIDTH;
+            if depth < MAX_SAH_DEPTH { (is_large, part.bounds.area()) } else { (is_large, part.n as f32) }
+        };
+        let greatest = (0..parts.len())
+            .filter(|&idx| parts[idx].n > GOOD_LEAF)
+            .reduce(|best, idx| if key(&parts[idx]) > key(&parts[best]) { idx } else { best });
+        let Some(greatest) = greatest else { break };
+        let Part { first, n, .. } = parts[greatest];
+        let items = &mut items[first..first + n];
+        let middle = if depth < MAX_SAH_DEPTH { split_by_area(items) } else { None }.unwrap_or(n / 2);
+        parts[greatest] = Part::new(first, &items[..middle]);
+        parts.insert(greatest + 1, Part::new(first + middle, &items[middle..]));
+    }
+    parts
+}
+
+/// Sorts triangles into two parts by the surface-area heuristic. Returns the number in the first,
+/// or `None` if all have one centre.
+fn split_by_area(items: &mut [Item]) -> Option<usize> {
+    let mut low = [f32::INFINITY; 3];
+    let mut high = [f32::NEG_INFINITY; 3];
+    for item in items.iter() {
+        for axis in 0..3 {
+            let center = item.bounds.center(axis);
+            low[axis] = low[axis].min(center);
+            high[axis] = high[axis].max(center);
+        }
+    }
+    let n_bins = (4 + items.len() / 16).min(MAX_BINS);
+    // Just below the number of bins, so that the greatest centre falls into the last.
+    let scale: [f32; 3] = std::array::from_fn(|axis| n_bins as f32 * 0.999_999 / (high[axis] - low[axis]));
+    let bin_of = |item: &Item, axis: usize| {
+        (((item.bounds.center(axis) - low[axis]) * scale[axis]) as usize).min(n_bins - 1)
+    };
+    let mut bins = [[(Bounds::EMPTY, 0_u32); MAX_BINS]; 3];
+    for item in items.iter() {
+        for (axis, bins) in bins.iter_mut().enumerate() {
+            let (bounds, n) = &mut bins[bin_of(item, axis)];
+            *bounds = bounds.union(&item.bounds);
+            *n += 1;
+        }
+    }
+    let mut best = (f32::INFINITY, 0, 0);
+    for (axis, bins) in bins.iter().enumerate().filter(|(axis, _)| high[*axis] > low[*axis]) {
+        let mut costs_behind = [0.0; MAX_BINS];
+        let (mut bounds, mut n) = (Bounds::EMPTY, 0);
+        for bin in (1..n_bins).rev() {
+            bounds = bounds.union(&bins[bin].0);
+            n += bins[bin].1;
+            costs_behind[bin] = bounds.area() * n as f32;
+        }
+        let (mut bounds, mut n) = (Bounds::EMPTY, 0);
+        for bin in 1..n_bins {
+            bounds = bounds.union(&bins[bin - 1].0);
+            n += bins[bin - 1].1;
+            let cost = bounds.area() * n as f32 + costs_behind[bin];
+            if n > 0 && (n as usize) < items.len() && cost < best.0 {
+                best = (cost, axis, bin);
+            }
+        }
+    }
+    let (cost, axis, bin) = best;
+    (cost < f32::INFINITY).then(|| partition(items, |item| bin_of(item, axis) < bin))
+}
+
+/// Moves the items for which `is_first` holds before the others. Returns their number.
+fn partition(items: &mut [Item], is_first: impl Fn(&Item) -> bool) -> usize {
+    let (mut first, mut end) = (0, items.len());
+    loop {
+        while first < end && is_first(&items[first]) {
+            first += 1;
+        }
+        while first < end && !is_first(&items[end - 1]) {
+            end -= 1;
+        }
+        if first == end {
+            return first;
+        }
+        items.swap(first, end - 1);
+    }
+}

@@ -1,0 +1,160 @@
+//! Searches along a single ray, nearest boxes first.
+
+use std::ops::{ControlFlow, Range};
+
+use fearless_simd::{Simd, dispatch};
+
+use crate::box_ray::BoxRay;
+use crate::nodes::{IS_BLOCK, SimdRay};
+use crate::shear::{Crossing, Shear};
+use crate::stack::{Entry, Stack};
+use crate::{Bvh, Hit, Ray, Work};
+
+/// Counts work, or does not.
+pub trait Count {
+    fn node(&mut self) {}
+    fn block(&mut self) {}
+    fn triangle(&mut self) {}
+}
+
+impl Count for () {}
+
+impl Count for Work {
+    fn node(&mut self) {
+        self.nodes += 1;
+    }
+
+    fn block(&mut self) {
+        self.blocks += 1;
+    }
+
+    fn triangle(&mut self) {
+        self.triangles += 1;
+    }
+}
+
+/// What a search does with hits.
+trait Search {
+    /// Receives a hit in the range of the search. Returns the new greatest τ of hits that are still
+    /// of interest, or `None` for the old one.
+    fn hit(&mut self, crossing: &Crossing, triangle: u32) -> ControlFlow<(), bool>;
+}
+
+/// Keeps the nearest hit.
+struct Nearest {
+    hit: Option<Hit>,
+}
+
+impl Search for Nearest {
+    #[inline(always)]
+    fn hit(&mut self, crossing: &Crossing, triangle: u32) -> ControlFlow<(), bool> {
+        let is_nearer =
+            self.hit.is_none_or(|hit| crossing.t < hit.t || (crossing.t == hit.t && triangle < hit.triangle));
+        if is_nearer {
+            self.hit = Some(Hit { t: crossing.t, triangle, u: crossing.u, v: crossing.v });
+        }
+        ControlFlow::Continue(is_nearer)
+    }
+}
+
+/// Passes all hits on.
+struct All<'a, F>(&'a mut F);
+
+impl<F: FnMut(Hit) -> ControlFlow<()>> Search for All<'_, F> {
+    #[inline(always)]
+    fn hit(&mut self, crossing: &Crossing, triangle: u32) -> ControlFlow<(), bool> {
+        self.0(Hit { t: crossing.t, triangle, u: crossing.u, v: crossing.v })?;
+        ControlFlow::Continue(false)
+    }
+}
+
+pub fn closest(bvh: &Bvh, ray: &Ray, range: Range<f64>, count: &mut impl Count) -> Option<Hit> {
+    let mut nearest = Nearest { hit: None };
+    // A search for the nearest hit never breaks.
+    let _ = dispatch!(bvh.level, simd => search(simd, bvh, ray, range, &mut nearest, count));
+    nearest.hit
+}
+
+pub fn visit(
+    bvh: &Bvh,
+    ray: &Ray,
+    range: Range<f64>,
+    visit: &mut impl FnMut(Hit) -> ControlFlow<()>,
+) -> ControlFlow<()> {
+    dispatch!(bvh.level, simd => search(simd, bvh, ray, range, &mut All(visit), &mut ()))
+}
+
+#[inline(always)]
+fn search<S: Simd>(
+    simd: S,
+    bvh: &Bvh,
+    ray: &Ray,
+    range: Range<f64>,
+    search: &mut impl Search,
+    count: &mut impl Count,
+) -> ControlFlow<()> {
+    // NaN fails the comparison.
+    let has_length = range.start < range.end;
+    if bvh.nodes.is_empty() || !has_length {
+        return ControlFlow::Continue(());
+    }
+    let origin = ray.origin.to_array();
+    let Some(shear) = Shear::new(&bvh.frame, origin, ray.direction.to_array()) else {
+        return ControlFlow::Continue(());
+    };
+    let Some(box_ray) = BoxRay::new(&bvh.frame, &shear, origin) else { return ControlFlow::Continue(()) };
+    let Range { start, mut end } = box_ray.limits(&shear, &range);
+    let simd_ray = SimdRay::new(simd, &box_ray);
+    let mut stack = Stack::new();
+    let mut entry = Entry::new(start, 0);
+    loop {
+        let child = entry.child();
+        if child & IS_BLOCK == 0 {
+            let node = &bvh.nodes[child as usize];
+            count.node();
+            let (near, mut mask) = node.intersect(simd, &simd_ray, start, end);
+            if mask != 0 {
+                let mut nearest = Entry::new(near[lowest(mask)], node.children[lowest(mask)]);
+                mask &= mask - 1;
+                while mask != 0 {
+                    let other = Entry::new(near[lowest(mask)], node.children[lowest(mask)]);
+                    mask &= mask - 1;
+                    stack.push(nearest.max(other));
+                    nearest = nearest.min(other);
+                }
+                entry = nearest;
+                continue;
+            }
+        } else {
+            let block = &bvh.blocks[(child & !IS_BLOCK) as usize];
+            count.block();
+            let mut mask = block.candidates(simd, &box_ray);
+            while mask != 0 {
+                let triangle = bvh.triangles[block.first as usize + lowest(mask)];
+                mask &= mask - 1;
+                count.triangle();
+                let corners = triangle.corners.map(|row| &bvh.positions[row as usize]);
+                if let Some(crossing) = shear.intersect(corners)
+                    && range.start < crossing.t
+                    && crossing.t < range.end
+                    && search.hit(&crossing, triangle.index)?
+                {
+                    end = end.min(box_ray.limit(crossing.z));
+                }
+            }
+        }
+        loop {
+            let Some(next) = stack.pop() else { return ControlFlow::Continue(()) };
+            if next.near() <= end {
+                entry = next;
+                break;
+            }
+        }
+    }
+}
+
+/// Index of the lowest bit of a mask of up to eight.
+#[inline(always)]
+fn lowest(mask: u32) -> usize {
+    mask.trailing_zeros() as usize & 7
+}

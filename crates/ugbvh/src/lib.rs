@@ -1,0 +1,172 @@
+//! Rays against the triangles of a body, in its rest frame, by a bounding-volume hierarchy.
+//!
+//! ```
+//! use glam::dvec3;
+//! use ugbvh::{Bvh, Ray};
+//!
+//! let corners = [dvec3(0., 0., 0.), dvec3(4., 0., 0.), dvec3(0., 4., 0.)];
+//! let bvh = Bvh::new(&corners, &[[0, 1, 2]]);
+//! let ray = Ray { origin: dvec3(1., 2., 5.), direction: dvec3(0., 0., -2.) };
+//! let hit = bvh.closest(&ray, 0.0..f64::INFINITY).ok_or("no hit")?;
+//! assert_eq!((hit.t, hit.triangle, hit.u, hit.v), (2.5, 0, 0.25, 0.5));
+//! # Ok::<(), &str>(())
+//! ```
+//!
+//! # What a hit is
+//!
+//! One function defines it ([`shear::Shear::intersect`]), and every search returns what testing all
+//! triangles with it would return, bit for bit. Boxes ([`box_ray`]) and single-precision tests of
+//! eight triangles at once ([`nodes`]) only skip triangles of which it is proved that the function
+//! misses them. So hits do not depend on the hierarchy, on the number of threads or on the
+//! instruction set: only sums, differences, products, quotients and comparisons are used, never
+//! fused multiply-add.
+//!
+//! # Watertight edges
+//!
+//! A triangle is tested in a projection along the ray (S. Woop, C. Benthin and I. Wald, *Watertight
+//! ray/triangle intersection*, Journal of Computer Graphics Techniques 2, 2013). The projection of a
+//! corner does not depend on the triangle. In the projection, the side of an edge on which the ray
+//! runs is exact: where rounding could decide, products are computed without error. A ray through
+//! an edge or a corner is treated as if it were moved by an infinitesimal amount, the same for all
+//! triangles (H. Edelsbrunner and E. P. Mücke, *Simulation of simplicity*, 1990). So a ray crosses
+//! exactly one of two triangles on both sides of a common edge, exactly one of a fan around a
+//! corner, and a closed mesh an even number of times.
+//!
+//! # Range of numbers
+//!
+//! Corners and origins up to 2¹⁰⁰⁰ (10³⁰¹) are valid; a triangle with a corner beyond, or with a
+//! NaN coordinate, is never hit. Directions may have any length but zero and infinity. A ray whose
+//! origin is farther than 2³⁰⁰ sizes of the mesh away hits nothing.
+
+mod box_ray;
+mod build;
+mod closest;
+mod frame;
+mod nodes;
+mod shear;
+mod stack;
+#[cfg(test)]
+mod tests;
+
+use std::ops::{ControlFlow, Range};
+
+use fearless_simd::Level;
+use glam::DVec3;
+
+use frame::Frame;
+use nodes::{Block, Node};
+
+/// Triangles of a body at rest, for rays.
+#[derive(Debug)]
+pub struct Bvh {
+    level: Level,
+    frame: Frame,
+    bounds: Option<(DVec3, DVec3)>,
+    positions: Vec<[f64; 3]>,
+    /// Triangles in the order of blocks: rows of `positions`, and the caller's index.
+    triangles: Vec<Triangle>,
+    /// The root comes first. Empty if there are no triangles.
+    nodes: Vec<Node>,
+    blocks: Vec<Block>,
+}
+
+/// A triangle: rows of the table of positions, and its index.
+#[derive(Clone, Copy, Debug)]
+struct Triangle {
+    corners: [u32; 3],
+    index: u32,
+}
+
+/// A straight line with a parameter: origin + t direction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ray {
+    /// The point of parameter 0.
+    pub origin: DVec3,
+    /// Of any length but zero and infinity.
+    pub direction: DVec3,
+}
+
+/// An intersection of a ray with a triangle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hit {
+    /// Parameter of the ray.
+    pub t: f64,
+    /// Index of the triangle.
+    pub triangle: u32,
+    /// Barycentric weight of the second corner, 0…1.
+    pub u: f64,
+    /// Barycentric weight of the third corner, 0…1.
+    pub v: f64,
+}
+
+/// Numbers of tests that a search made, for measuring how cost grows with the number of triangles.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Work {
+    /// Nodes visited, of up to eight boxes each.
+    pub nodes: u64,
+    /// Blocks tested in single precision, of up to eight triangles each.
+    pub blocks: u64,
+    /// Triangles tested in double precision.
+    pub triangles: u64,
+}
+
+impl Bvh {
+    /// Builds the hierarchy, on all threads of the current rayon pool.
+    ///
+    /// `triangles`: rows of `positions`. A degenerate triangle is never hit: one with an index
+    /// beyond the table, with a corner that is not valid, or whose edges have the cross product 0.
+    /// At most the first 2³¹ triangles are used.
+    pub fn new(positions: &[DVec3], triangles: &[[u32; 3]]) -> Self {
+        build::build(positions, triangles)
+    }
+
+    /// The least and the greatest coordinates of the triangles that can be hit.
+    pub fn bounds(&self) -> Option<(DVec3, DVec3)> {
+        self.bounds
+    }
+
+    /// Memory of the hierarchy in bytes.
+    pub fn n_bytes(&self) -> usize {
+        size_of_val(&*self.positions)
+            + size_of_val(&*self.triangles)
+            + size_of_val(&*self.nodes)
+            + size_of_val(&*self.blocks)
+    }
+
+    /// The nearest hit with `range.start` < t < `range.end`. Ties go to the lowest triangle index.
+    pub fn closest(&self, ray: &Ray, range: Range<f64>) -> Option<Hit> {
+        closest::closest(self, ray, range, &mut ())
+    }
+
+    /// Like [`Bvh::closest`], and counts what is done.
+    pub fn closest_counted(&self, ray: &Ray, range: Range<f64>, work: &mut Work) -> Option<Hit> {
+        closest::closest(self, ray, range, work)
+    }
+
+    /// Calls `visit` for hits with `range.start` < t < `range.end`, in any order, until it returns
+    /// `ControlFlow::Break`; for shadow rays through transparent faces.
+    pub fn visit(
+        &self,
+        ray: &Ray,
+        range: Range<f64>,
+        mut visit: impl FnMut(Hit) -> ControlFlow<()>,
+    ) -> ControlFlow<()> {
+        closest::visit(self, ray, range, &mut visit)
+    }
+
+    /// The nearest hit of each of several rays from one origin, as [`Bvh::closest`] returns it.
+    /// It is fastest for rays close to each other, as those of 8×8 neighbouring pixels.
+    ///
+    /// `hits[i]` becomes that of `directions[i]`; the shorter slice counts.
+    pub fn closest_packet(
+        &self,
+        origin: DVec3,
+        directions: &[DVec3],
+        range: Range<f64>,
+        hits: &mut [Option<Hit>],
+    ) {
+        for (direction, hit) in directions.iter().zip(hits) {
+            *hit = self.closest(&Ray { origin, direction: *direction }, range.clone());
+        }
+    }
+}

@@ -1,0 +1,122 @@
+//! Nodes of eight boxes and blocks of eight triangles, each tested at once in single precision.
+
+use fearless_simd::prelude::*;
+use fearless_simd::{Simd, f32x8};
+
+use crate::box_ray::BoxRay;
+
+/// Children of a node, and triangles of a block.
+pub const WIDTH: usize = 8;
+
+/// The boxes of up to eight children.
+#[derive(Clone, Debug)]
+#[repr(align(32))]
+pub struct Node {
+    /// Least x, y, z of each child, then the greatest. Where there is no child they are +∞ and −∞,
+    /// which no ray hits.
+    pub planes: [[f32; WIDTH]; 6],
+    /// Rows of the table of nodes, or of blocks if [`IS_BLOCK`] is set.
+    pub children: [u32; WIDTH],
+}
+
+/// Marks a child that is a block.
+pub const IS_BLOCK: u32 = 1 << 31;
+
+impl Node {
+    pub const EMPTY: Self = Self {
+        planes: [
+            [f32::INFINITY; WIDTH],
+            [f32::INFINITY; WIDTH],
+            [f32::INFINITY; WIDTH],
+            [f32::NEG_INFINITY; WIDTH],
+            [f32::NEG_INFINITY; WIDTH],
+            [f32::NEG_INFINITY; WIDTH],
+        ],
+        children: [0; WIDTH],
+    };
+
+    /// Where the ray enters each box, and a mask of those it hits within `limits` of τ.
+    #[inline(always)]
+    pub fn intersect<S: Simd>(&self, simd: S, ray: &SimdRay<S>, start: f32, end: f32) -> ([f32; WIDTH], u32) {
+        let plane = |idx: usize| f32x8::from_slice(simd, &self.planes[idx]);
+        let entry =
+            |axis: usize| (plane(ray.entries[axis]) - ray.entry_origins[axis]) * ray.reciprocals[axis];
+        let exit = |axis: usize| (plane(ray.exits[axis]) - ray.exit_origins[axis]) * ray.reciprocals[axis];
+        // No operand is NaN: origins and reciprocals are finite, and reciprocals are not 0.
+        let near = entry(0).max(entry(1)).max(entry(2)).max(f32x8::splat(simd, start));
+        let far = exit(0).min(exit(1)).min(exit(2)).min(f32x8::splat(simd, end));
+        (near.into(), near.simd_le(far).to_bitmask() as u32)
+    }
+}
+
+/// A ray in vector registers.
+pub struct SimdRay<S: Simd> {
+    entry_origins: [f32x8<S>; 3],
+    exit_origins: [f32x8<S>; 3],
+    reciprocals: [f32x8<S>; 3],
+    entries: [usize; 3],
+    exits: [usize; 3],
+}
+
+impl<S: Simd> SimdRay<S> {
+    #[inline(always)]
+    pub fn new(simd: S, ray: &BoxRay) -> Self {
+        Self {
+            entry_origins: ray.entry_origins.map(|number| f32x8::splat(simd, number)),
+            exit_origins: ray.exit_origins.map(|number| f32x8::splat(simd, number)),
+            reciprocals: ray.reciprocals.map(|number| f32x8::splat(simd, number)),
+            entries: std::array::from_fn(|axis| axis + 3 * ray.is_backward[axis]),
+            exits: std::array::from_fn(|axis| axis + 3 - 3 * ray.is_backward[axis]),
+        }
+    }
+}
+
+/// Up to eight triangles.
+#[derive(Clone, Debug)]
+#[repr(align(32))]
+pub struct Block {
+    /// x, y and z of each first corner, of each second, of each third, in box coordinates.
+    pub corners: [[[f32; WIDTH]; 3]; 3],
+    /// The first triangle, as a row of the table of triangles.
+    pub first: u32,
+    /// Number of triangles.
+    pub n: u32,
+    /// Greatest extent of the box of all triangles in any axis.
+    pub extent: f32,
+}
+
+impl Block {
+    /// A mask of triangles that the ray may hit; it misses the others, or the box of all.
+    ///
+    /// A projected corner has an error δ that is less than the padding of the ray: 2 u / 2 from
+    /// rounding of the corner, 2 u + u / 2 from that of q, and 5 u from the operations and the
+    /// slopes, with the u of [`crate::box_ray`]. A projected coordinate is less than 8, and, if the
+    /// ray hits the box of the block, less than 2 extents + 3 δ. So a weight, a difference of two
+    /// products of coordinates, has an error of less than 4 δ (2 extents + 3 δ) + 2 δ² from that of
+    /// the coordinates, and one of 2 u × 8 (2 extents + 3 δ) from rounding. The sum is less than
+    /// [`Block::tolerance`].
+    #[inline(always)]
+    pub fn candidates<S: Simd>(&self, simd: S, ray: &BoxRay) -> u32 {
+        let number = |number: f32| f32x8::splat(simd, number);
+        let [x, y, z] = ray.axes;
+        let [qx, qy, qz] = ray.position.map(number);
+        let [slope_x, slope_y] = ray.slopes.map(number);
+        let [a, b, c] = [0, 1, 2].map(|corner: usize| {
+            let at = |axis: usize| f32x8::from_slice(simd, &self.corners[corner][axis]);
+            let z = at(z) - qz;
+            [(at(x) - qx) - slope_x * z, (at(y) - qy) - slope_y * z]
+        });
+        let cross = |a: [f32x8<S>; 2], b: [f32x8<S>; 2]| a[0] * b[1] - a[1] * b[0];
+        let weights = [cross(b, c), cross(c, a), cross(a, b)];
+        let tolerance = self.tolerance(ray.padding);
+        let low = weights[0].min(weights[1]).min(weights[2]);
+        let high = weights[0].max(weights[1]).max(weights[2]);
+        let is_hit = low.simd_ge(number(-tolerance)) | high.simd_le(number(tolerance));
+        is_hit.to_bitmask() as u32 & ((1 << self.n) - 1)
+    }
+
+    #[inline(always)]
+    fn tolerance(&self, padding: f32) -> f32 {
+        padding * (16.0 * self.extent + 32.0 * padding)
+    }
+}
