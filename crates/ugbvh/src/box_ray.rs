@@ -27,32 +27,47 @@
 
 use std::ops::Range;
 
-use crate::frame::{Frame, power_of_two};
+use crate::frame::power_of_two;
 use crate::shear::Shear;
 
-/// A ray for tests of boxes and blocks.
+/// A ray for tests of boxes and blocks. Coordinates are in the order of the projection.
 #[derive(Clone, Copy, Debug)]
 pub struct BoxRay {
-    /// Origins for the planes where the ray enters boxes, in the order x, y, z.
+    pub line: Line,
+    /// Planes of a node where the ray enters boxes, and where it leaves them.
+    pub entries: [usize; 3],
+    pub exits: [usize; 3],
+    /// Origins for the planes where the ray enters boxes.
     pub entry_origins: [f32; 3],
     /// Origins for the planes where the ray leaves boxes.
     pub exit_origins: [f32; 3],
     /// Reciprocals of the direction.
     pub reciprocals: [f32; 3],
-    /// 1 in a coordinate that decreases along the ray.
-    pub is_backward: [usize; 3],
+    depths: Depths,
+}
+
+/// A ray for tests of blocks.
+#[derive(Clone, Copy, Debug)]
+pub struct Line {
     /// Axes of the mesh that are x, y and z of the projection.
     pub axes: [usize; 3],
-    /// q in the projection's axes.
+    /// q
     pub position: [f32; 3],
-    /// Slopes of the ray in the projection.
+    /// The ray's direction in x and y for each unit of z.
     pub slopes: [f32; 2],
     /// p
     pub padding: f32,
+}
+
+/// τ of rays with the same origin and main axis.
+#[derive(Clone, Copy, Debug)]
+pub struct Depths {
     /// z of the projection where τ is 0.
-    z: f64,
-    sign: f64,
-    exact_padding: f64,
+    pub z: f64,
+    /// 1 if rays run towards greater z, or else −1.
+    pub sign: f64,
+    /// p, however great it is.
+    pub padding: f64,
 }
 
 /// Padding beyond which all boxes are hit.
@@ -64,64 +79,76 @@ const MIN_SLOPE: f64 = power_of_two(-40);
 impl BoxRay {
     /// Returns `None` if the ray misses the cube.
     #[inline(always)]
-    pub fn new(frame: &Frame, shear: &Shear, origin: [f64; 3]) -> Option<Self> {
-        let origin = frame.to_box(origin);
-        let distance = origin[0].abs().max(origin[1].abs()).max(origin[2].abs());
-        let exact_padding = power_of_two(-20) + power_of_two(-48) * (distance + 2.0);
-        let sign = if shear.speed > 0.0 { 1.0 } else { -1.0 };
-        let z = -sign - origin[shear.axes[2]];
+    pub fn new(shear: &Shear) -> Option<Self> {
+        let depths = Depths::new(shear);
+        let Depths { z, sign, .. } = depths;
         let [slope_x, slope_y] = shear.slopes;
-        let mut position = [origin[shear.axes[0]] + z * slope_x, origin[shear.axes[1]] + z * slope_y, -sign];
-        // With such an origin, q may be wrong by more than the cube: all boxes are hit.
-        let padding = if exact_padding <= MAX_PADDING {
-            if position[0].abs().max(position[1].abs()) > 3.0 + 2.0 * exact_padding {
-                return None;
-            }
-            exact_padding
-        } else {
-            position = [0.0; 3];
-            MAX_PADDING
-        };
-        let direction = [slope_x * sign, slope_y * sign, sign];
-        let mut ray = Self {
-            entry_origins: [0.0; 3],
-            exit_origins: [0.0; 3],
-            reciprocals: [0.0; 3],
-            is_backward: [0; 3],
-            axes: shear.axes,
-            position: position.map(|number| number as f32),
-            slopes: shear.slopes.map(|slope| slope as f32),
-            padding: padding as f32,
-            z,
-            sign,
-            exact_padding,
-        };
-        for (idx, axis) in shear.axes.into_iter().enumerate() {
-            let slope = direction[idx];
-            let ahead = padding.copysign(slope);
-            ray.entry_origins[axis] = (position[idx] + ahead) as f32;
-            ray.exit_origins[axis] = (position[idx] - ahead) as f32;
-            ray.reciprocals[axis] = 1.0 / (slope.abs().max(MIN_SLOPE).copysign(slope) as f32);
-            ray.is_backward[axis] = usize::from(slope.is_sign_negative());
+        let [mut x, mut y] = [shear.start[0] + z * slope_x, shear.start[1] + z * slope_y];
+        let mut padding = depths.padding;
+        if padding > MAX_PADDING {
+            // From so far away, q may be wrong by more than the cube: all boxes are hit.
+            [x, y, padding] = [0.0, 0.0, MAX_PADDING];
+        } else if !(x.abs() <= 3.0 + 2.0 * padding && y.abs() <= 3.0 + 2.0 * padding) {
+            return None;
         }
-        Some(ray)
+        let [ahead_x, ahead_y, ahead_z] =
+            [padding.copysign(slope_x * sign), padding.copysign(slope_y * sign), padding.copysign(sign)];
+        let reciprocal = |slope: f64| 1.0 / (slope.abs().max(MIN_SLOPE).copysign(slope * sign) as f32);
+        let is_backward = |ahead: f64| usize::from(ahead < 0.0);
+        let backward = [is_backward(ahead_x), is_backward(ahead_y), is_backward(ahead_z)];
+        let [axis_x, axis_y, axis_z] = shear.axes;
+        Some(Self {
+            line: Line {
+                axes: shear.axes,
+                position: [x as f32, y as f32, -sign as f32],
+                slopes: [slope_x as f32, slope_y as f32],
+                padding: padding as f32,
+            },
+            entries: [axis_x + 3 * backward[0], axis_y + 3 * backward[1], axis_z + 3 * backward[2]],
+            exits: [axis_x + 3 - 3 * backward[0], axis_y + 3 - 3 * backward[1], axis_z + 3 - 3 * backward[2]],
+            entry_origins: [(x + ahead_x) as f32, (y + ahead_y) as f32, (-sign + ahead_z) as f32],
+            exit_origins: [(x - ahead_x) as f32, (y - ahead_y) as f32, (-sign - ahead_z) as f32],
+            reciprocals: [reciprocal(slope_x), reciprocal(slope_y), sign as f32],
+            depths,
+        })
     }
 
     /// Least and greatest τ of hits in a range of t, or more. The least is 0 or greater, as entries
     /// are then clamped to it.
     #[inline(always)]
     pub fn limits(&self, shear: &Shear, range: &Range<f64>) -> Range<f32> {
+        let Depths { z, sign, padding } = self.depths;
         let start = shear.z(range.start);
-        let end = shear.z(range.end);
         // NaN and infinities, which can be due to overflow, do not limit.
-        let start = if start.is_finite() { (start - self.z) * self.sign - self.exact_padding } else { 0.0 };
-        let end = if end.is_finite() { self.limit(end) } else { f32::INFINITY };
-        (start.max(0.0) as f32)..end
+        let start = if start.is_finite() { ((start - z) * sign - padding).max(0.0) as f32 } else { 0.0 };
+        start..self.depths.end(shear, range.end)
     }
 
     /// Greatest τ of hits up to z.
     #[inline(always)]
     pub fn limit(&self, z: f64) -> f32 {
-        ((z - self.z) * self.sign + self.exact_padding).max(0.0) as f32
+        self.depths.limit(z)
+    }
+}
+
+impl Depths {
+    #[inline(always)]
+    pub fn new(shear: &Shear) -> Self {
+        let padding = power_of_two(-20) + power_of_two(-48) * (shear.distance + 2.0);
+        let sign = 1.0_f64.copysign(shear.speed);
+        Self { z: -sign - shear.start[2], sign, padding }
+    }
+
+    /// Greatest τ of hits up to z, or 0.
+    #[inline(always)]
+    pub fn limit(&self, z: f64) -> f32 {
+        ((z - self.z) * self.sign + self.padding).max(0.0) as f32
+    }
+
+    /// Greatest τ of hits up to t, or 0.
+    #[inline(always)]
+    pub fn end(&self, shear: &Shear, t: f64) -> f32 {
+        let z = shear.z(t);
+        if z.is_finite() { self.limit(z) } else { f32::INFINITY }
     }
 }

@@ -20,7 +20,7 @@ const MAX_SAH_DEPTH: u32 = 24;
 const MAX_BINS: usize = 16;
 
 /// Parts with more triangles are split while a node has room.
-const GOOD_LEAF: usize = 4;
+const GOOD_LEAF: usize = 8;
 
 /// Subtrees of fewer triangles are built by one thread.
 const TASK: usize = 1 << 13;

@@ -48,13 +48,19 @@ struct Nearest {
 impl Search for Nearest {
     #[inline(always)]
     fn hit(&mut self, crossing: &Crossing, triangle: u32) -> ControlFlow<(), bool> {
-        let is_nearer =
-            self.hit.is_none_or(|hit| crossing.t < hit.t || (crossing.t == hit.t && triangle < hit.triangle));
-        if is_nearer {
-            self.hit = Some(Hit { t: crossing.t, triangle, u: crossing.u, v: crossing.v });
-        }
-        ControlFlow::Continue(is_nearer)
+        ControlFlow::Continue(keep_nearest(&mut self.hit, crossing, triangle))
     }
+}
+
+/// Replaces a hit by a nearer one. Returns true if it did.
+#[inline(always)]
+pub fn keep_nearest(hit: &mut Option<Hit>, crossing: &Crossing, triangle: u32) -> bool {
+    let is_nearer =
+        hit.is_none_or(|hit| crossing.t < hit.t || (crossing.t == hit.t && triangle < hit.triangle));
+    if is_nearer {
+        *hit = Some(Hit { t: crossing.t, triangle, u: crossing.u, v: crossing.v });
+    }
+    is_nearer
 }
 
 /// Passes all hits on.
@@ -98,11 +104,9 @@ fn search<S: Simd>(
     if bvh.nodes.is_empty() || !has_length {
         return ControlFlow::Continue(());
     }
-    let origin = ray.origin.to_array();
-    let Some(shear) = Shear::new(&bvh.frame, origin, ray.direction.to_array()) else {
-        return ControlFlow::Continue(());
-    };
-    let Some(box_ray) = BoxRay::new(&bvh.frame, &shear, origin) else { return ControlFlow::Continue(()) };
+    let shear = Shear::new(&bvh.frame, ray.origin.to_array(), ray.direction.to_array());
+    let Some(shear) = shear else { return ControlFlow::Continue(()) };
+    let Some(box_ray) = BoxRay::new(&shear) else { return ControlFlow::Continue(()) };
     let Range { start, mut end } = box_ray.limits(&shear, &range);
     let simd_ray = SimdRay::new(simd, &box_ray);
     let mut stack = Stack::new();
@@ -128,13 +132,12 @@ fn search<S: Simd>(
         } else {
             let block = &bvh.blocks[(child & !IS_BLOCK) as usize];
             count.block();
-            let mut mask = block.candidates(simd, &box_ray);
+            let mut mask = block.candidates(simd, &box_ray.line);
             while mask != 0 {
                 let triangle = bvh.triangles[block.first as usize + lowest(mask)];
                 mask &= mask - 1;
                 count.triangle();
-                let corners = triangle.corners.map(|row| &bvh.positions[row as usize]);
-                if let Some(crossing) = shear.intersect(corners)
+                if let Some(crossing) = shear.intersect(bvh.corners(&triangle))
                     && range.start < crossing.t
                     && crossing.t < range.end
                     && search.hit(&crossing, triangle.index)?
@@ -155,6 +158,6 @@ fn search<S: Simd>(
 
 /// Index of the lowest bit of a mask of up to eight.
 #[inline(always)]
-fn lowest(mask: u32) -> usize {
+pub fn lowest(mask: u32) -> usize {
     mask.trailing_zeros() as usize & 7
 }

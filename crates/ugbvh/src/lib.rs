@@ -43,6 +43,7 @@ mod build;
 mod closest;
 mod frame;
 mod nodes;
+mod packet;
 mod shear;
 mod stack;
 #[cfg(test)]
@@ -165,8 +166,12 @@ impl Bvh {
         range: Range<f64>,
         hits: &mut [Option<Hit>],
     ) {
-        for (direction, hit) in directions.iter().zip(hits) {
-            *hit = self.closest(&Ray { origin, direction: *direction }, range.clone());
-        }
+        packet::closest(self, origin, directions, &range, hits);
+    }
+
+    #[inline(always)]
+    fn corners(&self, triangle: &Triangle) -> [&[f64; 3]; 3] {
+        let [a, b, c] = triangle.corners;
+        [&self.positions[a as usize], &self.positions[b as usize], &self.positions[c as usize]]
     }
 }

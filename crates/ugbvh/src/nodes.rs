@@ -3,7 +3,7 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x8};
 
-use crate::box_ray::BoxRay;
+use crate::box_ray::{BoxRay, Line};
 
 /// Children of a node, and triangles of a block.
 pub const WIDTH: usize = 8;
@@ -38,13 +38,15 @@ impl Node {
     /// Where the ray enters each box, and a mask of those it hits within `limits` of τ.
     #[inline(always)]
     pub fn intersect<S: Simd>(&self, simd: S, ray: &SimdRay<S>, start: f32, end: f32) -> ([f32; WIDTH], u32) {
-        let plane = |idx: usize| f32x8::from_slice(simd, &self.planes[idx]);
-        let entry =
-            |axis: usize| (plane(ray.entries[axis]) - ray.entry_origins[axis]) * ray.reciprocals[axis];
-        let exit = |axis: usize| (plane(ray.exits[axis]) - ray.exit_origins[axis]) * ray.reciprocals[axis];
         // No operand is NaN: origins and reciprocals are finite, and reciprocals are not 0.
-        let near = entry(0).max(entry(1)).max(entry(2)).max(f32x8::splat(simd, start));
-        let far = exit(0).min(exit(1)).min(exit(2)).min(f32x8::splat(simd, end));
+        let mut near = f32x8::splat(simd, start);
+        let mut far = f32x8::splat(simd, end);
+        for axis in 0..3 {
+            let entry = f32x8::from_slice(simd, &self.planes[ray.entries[axis]]);
+            let exit = f32x8::from_slice(simd, &self.planes[ray.exits[axis]]);
+            near = near.max((entry - ray.entry_origins[axis]) * ray.reciprocals[axis]);
+            far = far.min((exit - ray.exit_origins[axis]) * ray.reciprocals[axis]);
+        }
         (near.into(), near.simd_le(far).to_bitmask() as u32)
     }
 }
@@ -62,13 +64,18 @@ impl<S: Simd> SimdRay<S> {
     #[inline(always)]
     pub fn new(simd: S, ray: &BoxRay) -> Self {
         Self {
-            entry_origins: ray.entry_origins.map(|number| f32x8::splat(simd, number)),
-            exit_origins: ray.exit_origins.map(|number| f32x8::splat(simd, number)),
-            reciprocals: ray.reciprocals.map(|number| f32x8::splat(simd, number)),
-            entries: std::array::from_fn(|axis| axis + 3 * ray.is_backward[axis]),
-            exits: std::array::from_fn(|axis| axis + 3 - 3 * ray.is_backward[axis]),
+            entry_origins: splats(simd, ray.entry_origins),
+            exit_origins: splats(simd, ray.exit_origins),
+            reciprocals: splats(simd, ray.reciprocals),
+            entries: ray.entries,
+            exits: ray.exits,
         }
     }
+}
+
+#[inline(always)]
+fn splats<S: Simd>(simd: S, [x, y, z]: [f32; 3]) -> [f32x8<S>; 3] {
+    [f32x8::splat(simd, x), f32x8::splat(simd, y), f32x8::splat(simd, z)]
 }
 
 /// Up to eight triangles.
@@ -96,27 +103,36 @@ impl Block {
     /// the coordinates, and one of 2 u × 8 (2 extents + 3 δ) from rounding. The sum is less than
     /// [`Block::tolerance`].
     #[inline(always)]
-    pub fn candidates<S: Simd>(&self, simd: S, ray: &BoxRay) -> u32 {
-        let number = |number: f32| f32x8::splat(simd, number);
-        let [x, y, z] = ray.axes;
-        let [qx, qy, qz] = ray.position.map(number);
-        let [slope_x, slope_y] = ray.slopes.map(number);
-        let [a, b, c] = [0, 1, 2].map(|corner: usize| {
-            let at = |axis: usize| f32x8::from_slice(simd, &self.corners[corner][axis]);
-            let z = at(z) - qz;
-            [(at(x) - qx) - slope_x * z, (at(y) - qy) - slope_y * z]
-        });
-        let cross = |a: [f32x8<S>; 2], b: [f32x8<S>; 2]| a[0] * b[1] - a[1] * b[0];
+    pub fn candidates<S: Simd>(&self, simd: S, ray: &Line) -> u32 {
+        let a = self.project(simd, 0, ray);
+        let b = self.project(simd, 1, ray);
+        let c = self.project(simd, 2, ray);
         let weights = [cross(b, c), cross(c, a), cross(a, b)];
         let tolerance = self.tolerance(ray.padding);
         let low = weights[0].min(weights[1]).min(weights[2]);
         let high = weights[0].max(weights[1]).max(weights[2]);
-        let is_hit = low.simd_ge(number(-tolerance)) | high.simd_le(number(tolerance));
+        let is_hit =
+            low.simd_ge(f32x8::splat(simd, -tolerance)) | high.simd_le(f32x8::splat(simd, tolerance));
         is_hit.to_bitmask() as u32 & ((1 << self.n) - 1)
+    }
+
+    /// Projects a corner of each triangle.
+    #[inline(always)]
+    fn project<S: Simd>(&self, simd: S, corner: usize, ray: &Line) -> [f32x8<S>; 2] {
+        let corner = &self.corners[corner];
+        let x = f32x8::from_slice(simd, &corner[ray.axes[0]]) - ray.position[0];
+        let y = f32x8::from_slice(simd, &corner[ray.axes[1]]) - ray.position[1];
+        let z = f32x8::from_slice(simd, &corner[ray.axes[2]]) - ray.position[2];
+        [x - z * ray.slopes[0], y - z * ray.slopes[1]]
     }
 
     #[inline(always)]
     fn tolerance(&self, padding: f32) -> f32 {
         padding * (16.0 * self.extent + 32.0 * padding)
     }
+}
+
+#[inline(always)]
+fn cross<S: Simd>(a: [f32x8<S>; 2], b: [f32x8<S>; 2]) -> f32x8<S> {
+    a[0] * b[1] - a[1] * b[0]
 }

@@ -13,9 +13,14 @@ const MAX_DISTANCE: f64 = power_of_two(300);
 pub struct Shear {
     /// The axes of the mesh that become x, y and z.
     pub axes: [usize; 3],
-    origin: [f64; 3],
-    scale: f64,
-    unit: f64,
+    /// The origin as a position of the mesh.
+    pub origin: [f64; 3],
+    /// The origin in box coordinates, but in the order of `axes`.
+    pub start: [f64; 3],
+    /// The greatest |coordinate| of `start`.
+    pub distance: f64,
+    pub scale: f64,
+    pub unit: f64,
     /// The direction is (slopes, 1) × `speed`; both slopes are in −1…1.
     pub slopes: [f64; 2],
     /// z component of the direction.
@@ -37,27 +42,38 @@ type Corner = [f64; 3];
 
 impl Shear {
     /// Returns `None` for rays that hit nothing: see the range of numbers of this crate.
-    #[inline]
+    #[inline(always)]
     pub fn new(frame: &Frame, origin: [f64; 3], direction: [f64; 3]) -> Option<Self> {
         let [x, y, z] = direction.map(f64::abs);
-        let axis = if x > y {
-            if x > z { 0 } else { 2 }
-        } else if y > z {
-            1
-        } else {
-            2
+        let axes = match (x > y, x > z, y > z) {
+            (true, true, _) => [1, 2, 0],
+            (false, _, true) => [2, 0, 1],
+            _ => [0, 1, 2],
         };
-        let axes = [[1, 2, 0], [2, 0, 1], [0, 1, 2]][axis];
-        let [x, y, z] = axes.map(|axis| direction[axis]);
-        let away = origin.iter().zip(frame.center).map(|(o, c)| (o - c).abs() * frame.scale);
+        let [x, y, z] = permuted(direction, axes);
+        let start = permuted(frame.to_box(origin), axes);
+        let distance = greater(greater(start[0].abs(), start[1].abs()), start[2].abs());
         // NaN fails every comparison.
-        let is_valid = away.fold(true, |is_valid, away| is_valid & (away <= MAX_DISTANCE))
-            & (z != 0.0)
+        let is_valid = (distance <= MAX_DISTANCE)
             & (x.abs() <= z.abs())
             & (y.abs() <= z.abs())
+            & (z.abs() > 0.0)
             & (z.abs() < f64::INFINITY);
         let Frame { scale, unit, .. } = *frame;
-        is_valid.then(|| Self { axes, origin, scale, unit, slopes: [x / z, y / z], speed: z })
+        let slopes = [x / z, y / z];
+        is_valid.then_some(Self { axes, origin, start, distance, scale, unit, slopes, speed: z })
+    }
+
+    /// A ray in another direction with the same origin, main axis and sign along it.
+    #[inline(always)]
+    pub fn with_direction(&self, direction: [f64; 3]) -> Option<Self> {
+        let [x, y, z] = permuted(direction, self.axes);
+        // Strictly less in x and y, as the choice among equal axes depends on their order.
+        let is_same = (x.abs() < z.abs())
+            & (y.abs() < z.abs())
+            & (z.abs() < f64::INFINITY)
+            & ((z > 0.0) == (self.speed > 0.0));
+        is_same.then_some(Self { slopes: [x / z, y / z], speed: z, ..*self })
     }
 
     /// z at a parameter of the ray. It overflows to an infinity or NaN before numbers of any mesh do.
@@ -69,7 +85,11 @@ impl Shear {
     /// Projects a corner. The result does not depend on the triangle.
     #[inline(always)]
     fn project(&self, corner: &[f64; 3]) -> Corner {
-        let [x, y, z] = self.axes.map(|axis| (corner[axis] - self.origin[axis]) * self.scale);
+        let corner = permuted(*corner, self.axes);
+        let origin = permuted(self.origin, self.axes);
+        let x = (corner[0] - origin[0]) * self.scale;
+        let y = (corner[1] - origin[1]) * self.scale;
+        let z = (corner[2] - origin[2]) * self.scale;
         [x - self.slopes[0] * z, y - self.slopes[1] * z, z]
     }
 
@@ -81,19 +101,20 @@ impl Shear {
     /// those of the projected corners with an error of less than 2⁻³⁴.
     #[inline(always)]
     pub fn intersect(&self, corners: [&[f64; 3]; 3]) -> Option<Crossing> {
-        let [a, b, c] = corners.map(|corner| self.project(corner));
+        let [a, b, c] = [self.project(corners[0]), self.project(corners[1]), self.project(corners[2])];
         let weights = [cross(b, c), cross(c, a), cross(a, b)];
-        let low = weights[0].min(weights[1]).min(weights[2]);
-        let high = weights[0].max(weights[1]).max(weights[2]);
+        let [p, q, r] = weights;
+        let [is_low, is_high] = [(p < 0.0) | (q < 0.0) | (r < 0.0), (p > 0.0) | (q > 0.0) | (r > 0.0)];
         // Rounding is monotonic: a computed product is less than another only if it is in truth.
         // So a sign is right unless it is 0.
-        if low < 0.0 && high > 0.0 {
+        if is_low & is_high {
             return None;
         }
         let sum = weights[0] + weights[1] + weights[2];
         let size = extent([a, b, c]);
         // A product has an error of 2⁻⁵³ size² or less, so a weight one of 2⁻⁵¹ size².
-        let is_safe = (low > 0.0 || high < 0.0) && sum.abs() >= MIN_AREA * (size * size);
+        let has_zero = (p == 0.0) | (q == 0.0) | (r == 0.0);
+        let is_safe = !has_zero && sum.abs() >= MIN_AREA * (size * size);
         if is_safe { Some(self.crossing(weights, [a, b, c])) } else { self.intersect_exactly([a, b, c]) }
     }
 
@@ -136,11 +157,23 @@ impl Shear {
 /// Least |sum of weights| / size² for which their rounding errors are small enough.
 const MIN_AREA: f64 = power_of_two(-16);
 
+/// Coordinates in the order of the projection, which is an even permutation.
+#[inline(always)]
+fn permuted([x, y, z]: [f64; 3], axes: [usize; 3]) -> [f64; 3] {
+    match axes[2] {
+        0 => [y, z, x],
+        1 => [z, x, y],
+        _ => [x, y, z],
+    }
+}
+
 /// The greatest |x| or |y| of projected corners; NaN if one is NaN.
 #[inline(always)]
 fn extent(corners: [Corner; 3]) -> f64 {
-    let [a, b, c] = corners.map(|[x, y, _]| greater(x.abs(), y.abs()));
-    greater(greater(a, b), c)
+    let [a, b, c] = corners;
+    let x = greater(greater(a[0].abs(), b[0].abs()), c[0].abs());
+    let y = greater(greater(a[1].abs(), b[1].abs()), c[1].abs());
+    greater(x, y)
 }
 
 /// The greater of two numbers that are not negative, or NaN if one is NaN.
