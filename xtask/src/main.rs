@@ -6,6 +6,7 @@
 //! cargo xtask bench
 //! cargo xtask bench-reading
 //! cargo xtask bench-raster
+//! cargo xtask bench-rays
 //! cargo xtask bench-scale plot.svg
 //! cargo xtask bench-exact
 //! cargo xtask geometry > tables.md
@@ -24,6 +25,7 @@ mod hostile;
 mod mesh;
 mod plot;
 mod raster;
+mod rays;
 mod reading;
 mod scale;
 mod short;
@@ -101,6 +103,21 @@ enum Task {
         #[arg(long, default_value_t = 2)]
         threads: usize,
     },
+    /// Measure the time of rays against triangles and of building their hierarchy, relative to
+    /// Embree 3, as Markdown
+    ///
+    /// The head of xtask/embree.cpp lists what must be installed.
+    BenchRays {
+        /// Triangles, roughly
+        #[arg(default_values_t = [100_000, 1_000_000], value_parser = clap::value_parser!(u32).range(36..=10_000_000))]
+        triangles: Vec<u32>,
+        /// C++ compiler
+        #[arg(long, default_value = "g++")]
+        compiler: String,
+        /// Threads for each program
+        #[arg(long, default_value_t = 2)]
+        threads: usize,
+    },
     /// Measure time and memory of drawing as functions of faces, pixels and samples, as Markdown
     /// and as a plot
     BenchScale {
@@ -172,6 +189,10 @@ fn run(task: &Task) -> io::Result<()> {
         Task::BenchRaster { triangles, python, povray, threads } => {
             let tools = raster::Tools { python, povray, threads: *threads };
             raster::write(&mut out, triangles, &tools)
+                .map_err(|error| io::Error::other(error.to_string()))?;
+        }
+        Task::BenchRays { triangles, compiler, threads } => {
+            rays::write(&mut out, triangles, compiler, *threads)
                 .map_err(|error| io::Error::other(error.to_string()))?;
         }
         Task::BenchScale { plot } => {

@@ -3,6 +3,7 @@
 use crate::globe::{Direction, Globe};
 use crate::short::{Short, ShortPoint};
 use crate::sphere;
+use glam::DVec3;
 use std::f64::consts::{PI, TAU};
 use std::io::{self, Write};
 
@@ -24,9 +25,8 @@ pub fn write(out: &mut impl Write, triangles: u32, each: bool) -> io::Result<()>
 
 /// Like [`write()`], with other lights and another camera.
 pub fn write_with(out: &mut impl Write, triangles: u32, each: bool, tail: &str) -> io::Result<()> {
-    // A globe of n bands and 2 n sectors has 4 n (n - 1) triangles.
-    let bands = (f64::from(triangles) / 4.0).sqrt().round() as u32;
-    let globe = Globe::with_bands(bands);
+    let globe = globe(triangles);
+    let bands = globe.bands;
     writeln!(
         out,
         "{{ A bumpy sphere, r = 1 + 0.05 sin 12 theta cos 9 phi, with {} triangles and {}
@@ -46,16 +46,35 @@ pub fn write_with(out: &mut impl Write, triangles: u32, each: bool, tail: &str) 
         write_palette(out)?;
     }
     for (i, direction) in globe.directions().enumerate() {
-        let p = radius(direction) * sphere::unit_vector(direction);
+        let p = position(direction);
         let color = if each { format!("c{i}") } else { color_name(direction) };
         writeln!(out, "v v{i} {} {color} ;", ShortPoint(p))?;
     }
-    for cell in (0..bands).flat_map(|band| globe.cells(band)) {
-        for pair in cell[1..].windows(2) {
-            writeln!(out, "f (v{} v{} v{}) ;", cell[0], pair[0], pair[1])?;
-        }
+    for [a, b, c] in corners(&globe) {
+        writeln!(out, "f (v{a} v{b} v{c}) ;")?;
     }
     out.write_all(tail.as_bytes())
+}
+
+/// The positions and triangles of the same mesh.
+pub fn triangles(triangles: u32) -> (Vec<DVec3>, Vec<[u32; 3]>) {
+    let globe = globe(triangles);
+    (globe.directions().map(position).collect(), corners(&globe).collect())
+}
+
+fn globe(triangles: u32) -> Globe {
+    // A globe of n bands and 2 n sectors has 4 n (n - 1) triangles.
+    Globe::with_bands((f64::from(triangles) / 4.0).sqrt().round() as u32)
+}
+
+fn corners(globe: &Globe) -> impl Iterator<Item = [u32; 3]> {
+    (0..globe.bands).flat_map(|band| globe.cells(band)).flat_map(|cell| {
+        (2..cell.len()).map(|last| [cell[0], cell[last - 1], cell[last]]).collect::<Vec<_>>()
+    })
+}
+
+fn position(direction: Direction) -> DVec3 {
+    radius(direction) * sphere::unit_vector(direction)
 }
 
 fn write_palette(out: &mut impl Write) -> io::Result<()> {
