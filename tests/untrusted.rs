@@ -317,11 +317,14 @@ fn assert_well_formed(xml: &str) {
 fn options(program: &[&str]) -> Vec<(String, usize)> {
     let help = Command::new(PROGRAMS.join(program[0])).args(&program[1..]).arg("--help").output().unwrap();
     let help = String::from_utf8(help.stdout).unwrap();
+    // `  -vel, --velocity X Y Z`
     let option = |line: &str| {
-        let (short, option) = line.trim_start().split_once("--")?;
-        let name = option.split(' ').next()?;
-        let is_option = short.len() <= 4 && !name.is_empty() && !name.contains(['[', '`']);
-        is_option.then(|| (format!("--{name}"), option.matches(" <").count()))
+        let option = line.strip_prefix("  ").filter(|option| option.starts_with('-'))?;
+        let words: Vec<&str> = option.split(' ').collect();
+        let (names, values): (Vec<&str>, Vec<&str>) = words.iter().partition(|word| word.starts_with('-'));
+        let long = names.iter().map(|name| name.trim_end_matches(',')).find(|name| name.len() > 2)?;
+        let n_needed = values.iter().filter(|value| !value.starts_with('[')).count();
+        Some((format!("--{}", long.trim_start_matches('-')), n_needed))
     };
     let options: Vec<_> = help.lines().filter_map(option).collect();
     assert!(options.len() > 8, "{help}");

@@ -6,7 +6,7 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use clap::{Arg, Parser, Subcommand};
-use ugpipe::{CommonArgs, Context, Failure, ToolArgs};
+use ugpipe::{CommonArgs, Context, Failure, Manual, ToolArgs, one_of};
 
 use crate::answer::answer;
 use crate::picture::{self, PictureCase};
@@ -17,7 +17,7 @@ use crate::suite::{Topic, topics};
 ///
 /// Any program can answer the questions or draw the pictures; conformance/README.md defines them.
 #[derive(Parser, Debug)]
-#[command(name = "ugconformance", version, before_help = ugpipe::ONE_DASH, after_help = EXAMPLES,
+#[command(name = "ugconformance", version, after_help = EXAMPLES,
           disable_help_subcommand = true, mut_args(globally))]
 struct Args {
     #[command(subcommand)]
@@ -57,7 +57,7 @@ enum Command {
 #[derive(clap::Args, Debug)]
 struct ImageArgs {
     /// Name of the picture
-    #[arg(value_parser = picture_case)]
+    #[arg(value_parser = one_of(picture::CASES.iter().map(|case| case.name), picture_case))]
     case: &'static str,
 
     #[command(flatten)]
@@ -72,6 +72,8 @@ fn picture_case(name: &str) -> Result<&'static str, String> {
 }
 
 impl ToolArgs for Args {
+    const ESSENTIAL: &'static [&'static str] = &["-fi", "-fo", "-qt", "-vb", "-nt"];
+
     fn common(&self) -> &CommonArgs {
         match &self.command {
             None => &self.rest,
@@ -84,6 +86,11 @@ impl ToolArgs for Args {
             Some(Command::ScoreImage(image) | Command::Draw(image)) => &image.common,
         }
     }
+}
+
+/// What the help, the man page and the completions of the program say.
+pub fn manual() -> Manual {
+    ugpipe::manual::<Args>()
 }
 
 /// Runs the program.

@@ -28,4 +28,4 @@ pub mod picture;
 pub mod scorecard;
 pub mod suite;
 
-pub use cli::{answers, main, questions, score_image};
+pub use cli::{answers, main, manual, questions, score_image};

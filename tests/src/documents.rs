@@ -52,6 +52,14 @@ impl Page {
         Self { path, text, definitions, commands }
     }
 
+    /// Commands of another text, one per line, with comments after ` #`.
+    #[must_use]
+    pub fn of_commands(path: &'static str, commands: &[String]) -> Self {
+        let code = |command: &String| command.split(" #").next().unwrap_or(command).trim_end().to_owned();
+        let commands = commands.iter().map(code).collect();
+        Self { path, text: String::new(), definitions: String::new(), commands }
+    }
+
     /// Runs a command in a folder, with the programs in another folder. Returns what the command
     /// wrote to standard error.
     ///
@@ -94,9 +102,9 @@ pub fn prepare(folder: &Path, programs: &Path) {
             fs::write(folder.join(format!("{name}.ug")), scenes::text(&name)).expect("a copy");
         }
     }
-    let page =
-        Page { path: "preparation", text: String::new(), definitions: String::new(), commands: Vec::new() };
-    page.run(PREPARATION, folder, programs).unwrap_or_else(|message| panic!("{message}"));
+    Page::of_commands("preparation", &[])
+        .run(PREPARATION, folder, programs)
+        .unwrap_or_else(|message| panic!("{message}"));
 }
 
 /// The command with pictures of other sizes: sizes in it are multiplied by `scale`, and `default`

@@ -6,21 +6,21 @@ use clap::{ArgAction, Parser, ValueEnum};
 use glam::DVec3;
 use ugparse::{Diagnostic, Diagnostics, Origins, Source, pipe};
 use ugphysics::{Brightness, Velocity};
-use ugpipe::{CommonArgs, Context, Failure, Progress, ToolArgs};
+use ugpipe::{CommonArgs, Context, Failure, Manual, Progress, ToolArgs};
 use ugscene::cli::{EyeArgs, RepeatArgs};
 
 use crate::{Config, DEFAULT_TOLERANCE, Error, apply_with};
 
 const PROGRAM: &str = env!("CARGO_PKG_NAME");
 
-/// Colours of a UniGrafix scene as seen in relativistic motion: Doppler shift and photon flux
+/// Colours of a UniGrafix scene as seen in relativistic motion
 ///
 /// Reads the scene that uglorentz writes and gives every vertex its colour as seen. The hue is
 /// converted to a wavelength, which is divided by the Doppler factor D and converted back to a hue;
 /// brightness is multiplied by D. Faces carry their velocity, and the camera the eye, so the
 /// options -vel and -ep of uglorentz need not be repeated.
 #[derive(Parser, Debug)]
-#[command(name = "ugdoppler", version, before_help = ugpipe::ONE_DASH, after_help = EXAMPLES)]
+#[command(name = "ugdoppler", version, after_help = EXAMPLES)]
 pub struct Args {
     /// Velocity of faces that carry none, fractions of c
     #[arg(long, visible_alias = "velocity", num_args = 3, value_names = ["X", "Y", "Z"],
@@ -30,7 +30,9 @@ pub struct Args {
     #[command(flatten)]
     eye: EyeArgs,
 
-    /// Write wavelengths (nm) instead of hues; ugrainbow reads and interpolates them as such
+    /// Write wavelengths (nm) instead of hues
+    ///
+    /// Renderers read and interpolate them as such.
     #[arg(long, visible_alias = "wavelengths")]
     gw: bool,
 
@@ -54,17 +56,21 @@ pub struct Args {
           value_parser = ugpipe::finite, default_value_t = DEFAULT_TOLERANCE)]
     ct: f64,
 
-    /// Iris: scale all values so that the brightest is 1, instead of clipping those above
+    /// Iris: scale all values so that the brightest is 1
+    ///
+    /// Without it, values above 1 are clipped.
     #[arg(long, visible_alias = "iris")]
     ir: bool,
 
-    /// Light: compute the lighting by the scene's lights, moving ones included, into the colours
+    /// Light the scene by its lights, moving ones included
     ///
-    /// One ambient light replaces the lights, so that a renderer does not light the scene again.
+    /// The light is computed into the colours. One ambient light replaces the lights, so that a renderer does not light the scene again.
     #[arg(long, visible_alias = "light")]
     li: bool,
 
-    /// Keep values above 1 for the exposure of the renderer, instead of clipping them
+    /// Keep values above 1 for the exposure of the renderer
+    ///
+    /// Without it, they are clipped.
     #[arg(long, visible_alias = "keep-intensities")]
     hd: bool,
 
@@ -101,6 +107,9 @@ enum Law {
 }
 
 impl ToolArgs for Args {
+    const ESSENTIAL: &'static [&'static str] =
+        &["-sp", "-br", "-gw", "-ir", "-hd", "-li", "-vr", "--no-doppler", "--no-flux", "-fo"];
+
     fn common(&self) -> &CommonArgs {
         &self.common
     }
@@ -151,6 +160,11 @@ impl Args {
         }
         Ok(())
     }
+}
+
+/// What the help, the man page and the completions of the program say.
+pub fn manual() -> Manual {
+    ugpipe::manual::<Args>()
 }
 
 /// The whole program.

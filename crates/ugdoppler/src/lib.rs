@@ -51,7 +51,7 @@ use ugpipe::Progress;
 use ugscene::{CameraOptions, DefaultCamera, RestFrames, Shares};
 
 #[cfg(feature = "cli")]
-pub use cli::{Args, main};
+pub use cli::{Args, main, manual};
 pub use config::{Config, DEFAULT_TOLERANCE};
 pub use error::Error;
 

@@ -5,7 +5,7 @@ use std::process::ExitCode;
 
 use clap::{ArgAction, Parser};
 use ugparse::{Origins, Source, pipe};
-use ugpipe::{CommonArgs, Context, Failure, Progress, ToolArgs, finite, whole};
+use ugpipe::{CommonArgs, Context, Failure, Manual, Progress, ToolArgs, finite, whole};
 use ugscene::cli::{CameraArgs, EffectArgs, MotionArgs, RepeatArgs};
 
 use crate::{Config, DEFAULT_COLOR_ERROR, DEFAULT_ERROR, Error, Pieces, Table, measure};
@@ -16,15 +16,16 @@ use crate::{Config, DEFAULT_COLOR_ERROR, DEFAULT_ERROR, Error, Pieces, Table, me
 /// curves, and writes a flat scene (instances expanded) for ugdoppler, with the velocity of each
 /// face and the eye of the camera.
 #[derive(Debug, Parser)]
-#[command(name = "uglorentz", version, before_help = ugpipe::ONE_DASH, after_help = EXAMPLES)]
+#[command(name = "uglorentz", version, after_help = EXAMPLES)]
 pub struct Args {
     #[command(flatten)]
     motion: MotionArgs,
 
-    /// Subdivide until edges deviate by at most ERR milliradians, seen from the eye [default: 0.1]
+    /// Largest error of edges, in milliradians seen from the eye [default: 0.1]
     ///
-    /// Subdivision stops at 4000000 pieces, or after 32 halvings of an edge, with a warning that
-    /// states the remaining errors. -vb always states them, and the vertices where they occur.
+    /// Edges are subdivided until they deviate by at most ERR. Subdivision stops at 4000000 pieces,
+    /// or after 32 halvings of an edge, with a warning that states the remaining errors. -vb always
+    /// states them, and the vertices where they occur.
     #[arg(long = "se", visible_alias = "error", value_name = "ERR", conflicts_with = "equal",
           allow_hyphen_values = true, value_parser = finite)]
     error: Option<f64>,
@@ -52,7 +53,9 @@ pub struct Args {
     #[arg(id = "equal", long = "sd", visible_alias = "pieces", value_name = "N")]
     equal: Option<u32>,
 
-    /// Write vertex normals for smooth shading, where the scene has none
+    /// Write vertex normals for smooth shading
+    ///
+    /// Normals that the scene has are kept.
     #[arg(long = "sm", visible_alias = "smooth")]
     smooth: bool,
 
@@ -81,9 +84,9 @@ pub struct Args {
           help_heading = CAMERA)]
     size: Vec<u32>,
 
-    /// Also write measurements at each vertex, to FILE.csv, FILE.ply or FILE.vtp (ParaView)
+    /// Also write measurements at each vertex to FILE
     ///
-    /// Name, position, emission time on the camera's clock, Doppler factor, apparent distance, and
+    /// FILE.csv, FILE.ply, or FILE.vtp for ParaView. Name, position, emission time on the camera's clock, Doppler factor, apparent distance, and
     /// the angle between the velocity and the direction of the light to the eye, in degrees: in the
     /// frame of the camera and in that of the body. FILE.vtp has the velocity instead of the name.
     #[arg(id = "at", long = "at", visible_alias = "attributes", value_name = "FILE")]
@@ -99,9 +102,14 @@ const CAMERA: &str = "Camera";
 
 const EXAMPLES: &str = "Examples:
   uglorentz -vel .6 0 0 -in ship.ug | ugdoppler | ugrainbow > ship.png
-  uglorentz -vel .9 0 0 -in ship.ug        the ship stays in view at any speed
-  uglorentz -vel 0 .9 0 -ti -2 street.ug   two units of time earlier
-  uglorentz -cv 0 .9 0 street.ug           the camera drives; cars keep their velocities in the street";
+  uglorentz -vel .9 0 0 -in ship.ug | ugrainbow > shape.png   # shape only
+  uglorentz -vel 0 .9 0 -ti -2 street.ug | ugrainbow > earlier.png   # two units of time earlier
+  uglorentz -cv 0 .7 0 -an center traffic.ug | ugrainbow > drive.png   # the camera moves";
+
+/// What the help, the man page and the completions of the program say.
+pub fn manual() -> Manual {
+    ugpipe::manual::<Args>()
+}
 
 /// The whole program.
 pub fn main() -> ExitCode {
@@ -143,6 +151,20 @@ fn failure(error: Error, source: &Source, origins: &Origins) -> Failure {
 }
 
 impl ToolArgs for Args {
+    const ESSENTIAL: &'static [&'static str] = &[
+        "-vel",
+        "--keep-in-view",
+        "-cv",
+        "-ti",
+        "-ep",
+        "-se",
+        "-sm",
+        "-nc",
+        "--no-flight-time",
+        "-at",
+        "-fo",
+    ];
+
     fn common(&self) -> &CommonArgs {
         &self.common
     }

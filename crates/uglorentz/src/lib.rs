@@ -90,7 +90,7 @@ mod vtk_polygons;
 
 pub use apply::{apply, apply_with_progress};
 #[cfg(feature = "cli")]
-pub use cli::{Args, main};
+pub use cli::{Args, main, manual};
 pub use config::{Config, DEFAULT_COLOR_ERROR, DEFAULT_ERROR, Pieces};
 pub use error::Error;
 pub use measurement::{Measurement, Table, measure};

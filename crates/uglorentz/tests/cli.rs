@@ -130,10 +130,11 @@ fn a_closed_pipe_ends_it_quietly() {
 #[test]
 fn help_names_every_option() {
     let help = String::from_utf8(run("--help", "").stdout).unwrap();
-    for option in
-        ["--vel", "--ep", "--ti", "--an", "--in", "--se", "--sd", "--sm", "--nc", "--no-flight-time"]
-    {
-        assert!(help.contains(&format!("{option} ")) || help.contains(&format!("{option}\n")), "{option}");
+    for option in ["-vel", "-ep", "-ti", "-an", "-in", "-se", "-sd", "-sm", "-nc", "--no-flight-time"] {
+        assert!(
+            help.contains(&format!("\n  {option}, ")) || help.contains(&format!("\n  {option}\n")),
+            "{option}"
+        );
     }
 }
 

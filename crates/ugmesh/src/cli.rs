@@ -7,7 +7,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, ValueEnum};
 use ugparse::pipe;
-use ugpipe::{CommonArgs, Context, Failure, ToolArgs};
+use ugpipe::{CommonArgs, Context, Failure, Manual, ToolArgs};
 
 use crate::{Axis, Config, Error, Format, Input, Size, Target};
 
@@ -16,7 +16,7 @@ use crate::{Axis, Config, Error, Format, Input, Size, Target};
 /// Reads OBJ, PLY, STL, OFF, glTF and UniGrafix. Writes UniGrafix, OBJ, PLY or glTF, according to
 /// -dt or the extension of -fo. Keeps polygons, normals and the colours of faces and vertices.
 #[derive(Parser, Debug)]
-#[command(name = "ugmesh", version, before_help = ugpipe::ONE_DASH, after_help = EXAMPLES)]
+#[command(name = "ugmesh", version, after_help = EXAMPLES)]
 pub struct Args {
     /// Input format [default: by content and file extension]
     #[arg(id = "if", long = "if", visible_alias = "input-format", value_name = "FMT", value_enum)]
@@ -63,7 +63,7 @@ pub struct Args {
 const EXAMPLES: &str = "Examples:
   ugmesh teapot.obj | uglorentz -vel .9 0 0 --keep-in-view | ugrainbow > fast.png
   ugmesh teapot.obj | uglorentz -vel .9 0 0 | ugmesh -dt ply > distorted.ply
-  ugmesh -center -fit 2 bunny.ply > bunny.ug
+  ugmesh --center -fit 2 bunny.ply > bunny.ug
   uglorentz -vel 0 .8 0 ship.ug | ugdoppler | ugmesh -fo ship.glb";
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -105,6 +105,9 @@ fn name(word: &str) -> Result<String, String> {
 }
 
 impl ToolArgs for Args {
+    const ESSENTIAL: &'static [&'static str] =
+        &["-dt", "-if", "-up", "-fit", "--center", "--scale", "--stage", "-name", "-fo"];
+
     fn common(&self) -> &CommonArgs {
         &self.common
     }
@@ -204,6 +207,11 @@ fn read_beside(context: &Context, mesh: Option<&Path>, name: &str, limit: u64) -
         Some(folder) => context.read_named(&folder.join(name), limit),
         None => Err(io::Error::other("standard input has no folder; name the mesh on the command line")),
     }
+}
+
+/// What the help, the man page and the completions of the program say.
+pub fn manual() -> Manual {
+    ugpipe::manual::<Args>()
 }
 
 /// The program.

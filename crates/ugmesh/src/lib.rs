@@ -42,7 +42,7 @@ use std::io;
 use ugparse::{Diagnostics, Options, Scene, Source};
 
 #[cfg(feature = "cli")]
-pub use cli::{Args, main};
+pub use cli::{Args, main, manual};
 pub use error::{Error, Problem};
 pub use format::{Axis, Format, Target};
 pub use placement::Size;

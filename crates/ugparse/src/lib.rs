@@ -73,7 +73,7 @@ mod writer;
 
 pub use body::{Bodies, Body, BodyId, Motion};
 #[cfg(feature = "cli")]
-pub use cli::main;
+pub use cli::{main, manual};
 pub use contours::Contours;
 pub use diagnostic::{Diagnostic, Diagnostics, Location, MAX_ERRORS, Severity};
 pub use expand::Origins;

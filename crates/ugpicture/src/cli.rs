@@ -3,7 +3,7 @@
 use clap::{ArgAction, Args};
 use ugimage::{Filter, Format, Tone};
 use ugphysics::Hsv;
-use ugpipe::{Failure, finite, whole};
+use ugpipe::{Failure, finite, one_of, whole};
 use ugscene::cli::CameraArgs;
 
 use crate::background::Background;
@@ -40,7 +40,7 @@ pub struct PictureArgs {
     /// box: the mean of the pixel's own samples, as a detector measures it. triangle and spline (a
     /// quadratic B-spline) reach into the neighbouring pixels: edges and thin lines are smoother,
     /// and softer.
-    #[arg(long, value_name = "FILTER", default_value = "box", value_parser = filter, visible_alias = "filter",
+    #[arg(long, value_name = "FILTER", default_value = "box", value_parser = one_of(Filter::ALL.map(Filter::name), filter), visible_alias = "filter",
           help_heading = PICTURE)]
     fl: Filter,
 
@@ -53,9 +53,9 @@ pub struct PictureArgs {
     #[arg(long, visible_alias = "transparent", conflicts_with = "bg", help_heading = PICTURE)]
     tb: bool,
 
-    /// Exposure in stops: light is multiplied by 2 to the power E, and clipped only then
+    /// Exposure in stops, or auto
     ///
-    /// auto: chosen so that 99 of 100 pixels that are not black are at or below white.
+    /// Light is multiplied by 2 to the power E, and clipped only then. auto: chosen so that 99 of 100 pixels that are not black are at or below white.
     #[arg(long, value_name = "E|auto", allow_hyphen_values = true, value_parser = exposure,
           visible_alias = "exposure", help_heading = PICTURE)]
     ex: Option<Exposure>,
@@ -64,7 +64,7 @@ pub struct PictureArgs {
     ///
     /// filmic is Hable's curve of 2010, with white at 5.6. Curves are applied to luminance and keep
     /// the hue.
-    #[arg(long, value_name = "CURVE", default_value = "clip", value_parser = tone,
+    #[arg(long, value_name = "CURVE", default_value = "clip", value_parser = one_of(Tone::ALL.map(Tone::name), tone),
           visible_alias = "tone-curve", help_heading = PICTURE)]
     tc: Tone,
 
@@ -120,10 +120,9 @@ pub struct AnnotationArgs {
     #[arg(long, value_name = "TEXT", visible_alias = "caption", help_heading = ANNOTATIONS)]
     cap: Option<String>,
 
-    /// Legend below the picture: visible spectrum, velocities, and the Doppler factors that are
-    /// seen
+    /// Legend below the picture: spectrum, velocities, Doppler factors
     ///
-    /// The spectrum has a scale in nm, and a bar where light of 550 nm is seen. A velocity is an
+    /// The visible spectrum has a scale in nm, and a bar where light of 550 nm is seen. A velocity is an
     /// arrow of unit length seen from the camera (a dot at its tail: approaching, a cross:
     /// receding), with β, γ and D.
     #[arg(long, visible_alias = "legend", help_heading = ANNOTATIONS)]

@@ -9,7 +9,7 @@ use ugpipe::{CommonArgs, Context, Failure, Progress, ToolArgs};
 
 /// Copies its input to its output
 #[derive(Parser)]
-#[command(name = "ugcat", version, before_help = ugpipe::ONE_DASH)]
+#[command(name = "ugcat", version, after_help = "Examples:\n  ugcat -head ship.ug > copy.ug")]
 struct Args {
     /// Velocity, recorded in the head comment only
     #[arg(long, visible_alias = "velocity", value_names = ["X", "Y", "Z"], num_args = 3,
@@ -64,6 +64,8 @@ enum Way {
 }
 
 impl ToolArgs for Args {
+    const ESSENTIAL: &'static [&'static str] = &["-vel", "-va", "--title", "-head", "-fo"];
+
     fn common(&self) -> &CommonArgs {
         &self.common
     }

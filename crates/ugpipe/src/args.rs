@@ -1,11 +1,11 @@
 //! Options that are the same in every program, and value parsers for numbers.
 
+use std::ffi::OsStr;
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 
-/// A sentence for the help of every program: `#[command(before_help = ugpipe::ONE_DASH)]`.
-pub const ONE_DASH: &str =
-    "Every long option may be written with one dash, as in 1988: -fi FILE is --fi FILE.";
+use clap::builder::{PossibleValue, TypedValueParser};
+use clap::{Arg, Command};
 
 /// Ids of the options for files, messages and threads: those below, `files` for additional input
 /// files ([`crate::Context::input_file`]), and `at` for a second output file
@@ -59,9 +59,9 @@ pub struct CommonArgs {
     #[arg(long, help_heading = COMMON)]
     allow_outside: bool,
 
-    /// Change a limit on the size of scenes, as in statements=100000000
+    /// Change a limit on the size of scenes
     ///
-    /// Names of limits: text, includes, files, nesting, chain, statements, corners, names, memory;
+    /// As in statements=100000000. Names of limits: text, includes, files, nesting, chain, statements, corners, names, memory;
     /// see docs/unigrafix.md. May be given more than once.
     #[arg(long, value_name = "NAME=N", value_parser = limit, help_heading = COMMON)]
     limit: Vec<(String, u64)>,
@@ -82,7 +82,8 @@ pub struct CommonArgs {
     nt: Option<u32>,
 }
 
-const COMMON: &str = "Common options";
+/// Heading of these options in `--help`.
+pub(crate) const COMMON: &str = "Common options";
 
 impl CommonArgs {
     /// The input file; `None` is standard input.
@@ -178,6 +179,35 @@ pub fn whole(range: RangeInclusive<u32>) -> impl Fn(&str) -> Result<u32, String>
                 (least, most) => format!("must be a whole number from {least} to {most}"),
             }
         })
+    }
+}
+
+/// Value parser of options that take one of several words, which help and completions list:
+/// `value_parser = ugpipe::one_of(Tone::ALL.map(Tone::name), tone)`.
+///
+/// `parse` decides what is valid, and its error is the message.
+pub fn one_of<T: Clone + Send + Sync + 'static>(
+    words: impl IntoIterator<Item = &'static str>,
+    parse: fn(&str) -> Result<T, String>,
+) -> impl TypedValueParser<Value = T> {
+    OneOf { words: words.into_iter().collect(), parse }
+}
+
+#[derive(Clone)]
+struct OneOf<T> {
+    words: Vec<&'static str>,
+    parse: fn(&str) -> Result<T, String>,
+}
+
+impl<T: Clone + Send + Sync + 'static> TypedValueParser for OneOf<T> {
+    type Value = T;
+
+    fn parse_ref(&self, command: &Command, arg: Option<&Arg>, value: &OsStr) -> Result<T, clap::Error> {
+        self.parse.parse_ref(command, arg, value)
+    }
+
+    fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
+        Some(Box::new(self.words.iter().map(PossibleValue::new)))
     }
 }
 

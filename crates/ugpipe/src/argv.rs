@@ -13,6 +13,7 @@
 
 use std::ffi::{OsStr, OsString};
 use std::iter::Peekable;
+use std::path::Path;
 
 use clap::builder::ValueRange;
 use clap::{Arg, ArgAction, Command};
@@ -40,8 +41,23 @@ pub(crate) fn prepare(command: Command) -> Command {
     command
 }
 
+/// A number after an option without values: `-lg 0`. It would be read as the name of the input.
+#[derive(Debug, PartialEq, Eq)]
+pub(crate) struct StrayNumber {
+    /// The option, with the dashes that it was given with.
+    pub option: String,
+    /// The number.
+    pub number: OsString,
+}
+
 /// Rewrites the arguments for clap. The first is the program name and is not changed.
-pub(crate) fn rewrite(command: &Command, argv: impl IntoIterator<Item = OsString>) -> Vec<OsString> {
+///
+/// # Errors
+/// A number follows an option without values, and there is no file of that name.
+pub(crate) fn rewrite(
+    command: &Command,
+    argv: impl IntoIterator<Item = OsString>,
+) -> Result<Vec<OsString>, StrayNumber> {
     let mut words = argv.into_iter().peekable();
     let mut rewritten = Vec::from_iter(words.next());
     while let Some(word) = words.next() {
@@ -60,12 +76,18 @@ pub(crate) fn rewrite(command: &Command, argv: impl IntoIterator<Item = OsString
             copy_values(option.arg, &mut numbers.into_iter().peekable(), &mut rewritten);
             continue;
         }
+        let is_flag = !option.arg.get_action().takes_values();
+        if is_flag
+            && let Some(number) = words.peek().filter(|word| is_number(word) && !Path::new(word).exists())
+        {
+            return Err(StrayNumber { option: word.to_string_lossy().into_owned(), number: number.clone() });
+        }
         rewritten.push(option.with_two_dashes(word));
         if !option.has_value {
             copy_values(option.arg, &mut words, &mut rewritten);
         }
     }
-    rewritten
+    Ok(rewritten)
 }
 
 /// An argument that names a long option.
@@ -230,7 +252,7 @@ mod tests {
     /// Rewrites a line of words without blanks, and lets clap read it.
     fn parse(line: &str) -> (String, Result<clap::ArgMatches, clap::Error>) {
         let command = tool();
-        let words = rewrite(&command, format!("tool {line}").split_whitespace().map(OsString::from));
+        let words = rewrite(&command, format!("tool {line}").split_whitespace().map(OsString::from)).unwrap();
         let rewritten = Vec::from_iter(words[1..].iter().map(|word| word.to_str().unwrap())).join(" ");
         (rewritten, command.try_get_matches_from(words))
     }
@@ -350,6 +372,22 @@ mod tests {
     }
 
     #[test]
+    fn numbers_after_options_without_values() {
+        let check = |line: &str, expected: Option<(&str, &str)>| {
+            let words = format!("tool {line}");
+            let rewritten = rewrite(&tool(), words.split_whitespace().map(OsString::from));
+            let stray = rewritten.err().map(|stray| (stray.option, stray.number));
+            assert_eq!(stray, expected.map(|(option, number)| (option.into(), number.into())), "{line}");
+        };
+        check("-gw 0 ship.ug", Some(("-gw", "0")));
+        check("--no-flux -.5", Some(("--no-flux", "-.5")));
+        check("-gw ship.ug", None);
+        check("-gw -- 0", None);
+        check("-lg 0", None);
+        check("-title -gw 0", None);
+    }
+
+    #[test]
     fn help_and_version_come_with_one_dash() {
         for (line, kind) in [
             ("-help", clap::error::ErrorKind::DisplayHelp),
@@ -364,7 +402,7 @@ mod tests {
         #[track_caller]
         fn check(words: &[&[u8]], expected: &[&[u8]]) {
             let words = words.iter().map(|word| OsString::from_vec(word.to_vec()));
-            let rewritten = rewrite(&tool(), words).into_iter().map(OsString::into_vec);
+            let rewritten = rewrite(&tool(), words).unwrap().into_iter().map(OsString::into_vec);
             assert_eq!(Vec::from_iter(rewritten), expected);
         }
         check(&[], &[]);

@@ -15,6 +15,9 @@
 //!   clap parses them. An option with a variable number of values (`num_args = 1..=2`) takes the
 //!   required values and then only numbers, so a file name may follow it; only `num_args` has to be
 //!   declared for that.
+//! - **Help.** `-h` is one screenful with the options that [`ToolArgs::ESSENTIAL`] names and two
+//!   examples; `--help` has everything. Both are made of the clap definitions, and so is the
+//!   [`Manual`] for man pages and completions. The examples are the `after_help` of the program.
 //! - **Streams.** Data goes to standard output, messages to standard error; [`CommonArgs`]
 //!   redirects both to files. A program reads the whole input, computes, and then writes the whole
 //!   output, so an error on the last line of a scene cannot pass half a scene downstream.
@@ -58,7 +61,7 @@
 //!
 //! /// Copies a scene at rest
 //! #[derive(Parser)]
-//! #[command(name = "ugstill", version, before_help = ugpipe::ONE_DASH)]
+//! #[command(name = "ugstill", version, after_help = "Examples:\n  ugstill ship.ug > copy.ug")]
 //! struct Args {
 //!     /// Velocity of all objects, fraction of c
 //!     #[arg(long, visible_alias = "velocity", num_args = 3, value_names = ["X", "Y", "Z"],
@@ -70,6 +73,8 @@
 //! }
 //!
 //! impl ToolArgs for Args {
+//!     const ESSENTIAL: &'static [&'static str] = &["-vel", "-fo"];
+//!
 //!     fn common(&self) -> &CommonArgs {
 //!         &self.common
 //!     }
@@ -103,9 +108,13 @@ mod failure;
 #[cfg(feature = "cli")]
 mod files;
 #[cfg(feature = "cli")]
+mod help;
+#[cfg(feature = "cli")]
 mod identity;
 #[cfg(feature = "cli")]
 mod input;
+#[cfg(feature = "cli")]
+mod manual;
 #[cfg(feature = "cli")]
 mod messages;
 #[cfg(feature = "cli")]
@@ -125,7 +134,7 @@ mod text;
 mod usage;
 
 #[cfg(feature = "cli")]
-pub use args::{CommonArgs, ONE_DASH, finite, vector, view_angle, whole};
+pub use args::{CommonArgs, finite, one_of, vector, view_angle, whole};
 #[cfg(feature = "cli")]
 pub use context::{Context, MAX_INPUT};
 #[cfg(feature = "cli")]
@@ -133,7 +142,11 @@ pub use failure::Failure;
 #[cfg(feature = "cli")]
 pub use files::ProgramOutput;
 #[cfg(feature = "cli")]
+pub use help::{DASHES, DOCUMENTATION, EXIT_STATUS};
+#[cfg(feature = "cli")]
 pub use input::Input;
+#[cfg(feature = "cli")]
+pub use manual::{Entry, Group, Manual, Value, manual};
 pub use progress::Progress;
 #[cfg(feature = "cli")]
 pub use run::{ToolArgs, main};

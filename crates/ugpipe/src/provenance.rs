@@ -83,7 +83,7 @@ mod tests {
             .arg(Arg::new("gw").long("gw").action(clap::ArgAction::SetTrue))
             .arg(Arg::new("no-flux").long("no-flux").action(clap::ArgAction::SetTrue));
         let mut command = argv::prepare(CommonArgs::augment_args(command));
-        let words = argv::rewrite(&command, std::iter::once("tool".into()).chain(words));
+        let words = argv::rewrite(&command, std::iter::once("tool".into()).chain(words)).unwrap();
         let matches = command.try_get_matches_from_mut(words).unwrap();
         command_line(&command, &matches)
     }

@@ -14,13 +14,18 @@ use signal_hook::flag::register_conditional_shutdown;
 use signal_hook::low_level::emulate_default_handler;
 
 use crate::args::CommonArgs;
+use crate::argv::StrayNumber;
 use crate::context::Context;
 use crate::failure::{Failure, reason};
 use crate::messages::Messages;
-use crate::{argv, provenance, streams, usage};
+use crate::{argv, help, provenance, streams, usage};
 
 /// The arguments of a ug program.
 pub trait ToolArgs: clap::Parser {
+    /// The options that most people need, about ten, as documented (`-vel`, `--keep-in-view`): `-h`
+    /// lists them, by these names and in this order.
+    const ESSENTIAL: &'static [&'static str];
+
     /// The options that every program has.
     fn common(&self) -> &CommonArgs;
 }
@@ -39,10 +44,11 @@ const BAD_USAGE: u8 = 2;
 /// | killed by SIGPIPE (141 in a shell) | the reading end of the output pipe was closed |
 pub fn main<A: ToolArgs>(run: impl FnOnce(&A, &mut Context) -> Result<(), Failure>) -> ExitCode {
     exit_on_abort();
-    let mut command = argv::prepare(A::command());
+    let mut command = help::install(argv::prepare(A::command()), A::ESSENTIAL);
     let (args, matches) = match parse::<A>(&mut command) {
         Ok(parsed) => parsed,
-        Err(error) => return print_clap_message(&command, &error),
+        Err(Unparsed::StrayNumber(stray)) => return refuse(&command, usage::stray_number(&stray)),
+        Err(Unparsed::Clap(error)) => return print_clap_message(&command, &error),
     };
     let mut messages = Messages::new(command.get_name());
     let opened = streams::check(args.common(), &matches).and_then(|()| messages.configure(args.common()));
@@ -57,8 +63,21 @@ pub fn main<A: ToolArgs>(run: impl FnOnce(&A, &mut Context) -> Result<(), Failur
     }
 }
 
-fn parse<A: ToolArgs>(command: &mut Command) -> Result<(A, ArgMatches), clap::Error> {
-    let words = argv::rewrite(command, env::args_os());
+/// Why arguments were not parsed.
+enum Unparsed {
+    StrayNumber(StrayNumber),
+    /// An error, or a request for help or the version.
+    Clap(clap::Error),
+}
+
+impl From<clap::Error> for Unparsed {
+    fn from(error: clap::Error) -> Self {
+        Self::Clap(error)
+    }
+}
+
+fn parse<A: ToolArgs>(command: &mut Command) -> Result<(A, ArgMatches), Unparsed> {
+    let words = argv::rewrite(command, env::args_os()).map_err(Unparsed::StrayNumber)?;
     let matches = command.try_get_matches_from_mut(words)?;
     let args = A::from_arg_matches(&matches).map_err(|error| error.format(command))?;
     Ok((args, matches))
@@ -67,15 +86,19 @@ fn parse<A: ToolArgs>(command: &mut Command) -> Result<(A, ArgMatches), clap::Er
 /// Prints help and version to standard output, errors to standard error.
 fn print_clap_message(command: &Command, error: &clap::Error) -> ExitCode {
     if error.use_stderr() {
-        let message = usage::message(command, error);
-        Messages::new(command.get_name()).failure(&Failure::Usage(message));
-        return BAD_USAGE.into();
+        return refuse(command, usage::message(command, error));
     }
     match error.print() {
         Err(error) if error.kind() == io::ErrorKind::BrokenPipe => die_of_sigpipe(),
         Err(_) => BAD_INPUT.into(),
         Ok(()) => ExitCode::SUCCESS,
     }
+}
+
+/// Prints an error of usage.
+fn refuse(command: &Command, message: String) -> ExitCode {
+    Messages::new(command.get_name()).failure(&Failure::Usage(message));
+    BAD_USAGE.into()
 }
 
 /// Starts the worker threads of the process: `n_threads`, or as many as the system allows, up to

@@ -8,6 +8,7 @@ use std::error::Error;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Arg, Command};
 
+use crate::argv::StrayNumber;
 use crate::remedies;
 
 /// What to say about an error of clap: one line, without the name of the program.
@@ -69,6 +70,12 @@ pub(crate) fn message(command: &Command, error: &clap::Error) -> String {
     }
 }
 
+/// What to say about a number after an option without values.
+pub(crate) fn stray_number(stray: &StrayNumber) -> String {
+    let (option, number) = (in_documented_form(&stray.option), stray.number.to_string_lossy());
+    format!("`{option}` takes no value: leave out `{number}`")
+}
+
 /// A small number in letters.
 fn spelled(number: isize) -> String {
     let words = ["no", "one", "two", "three", "four", "five"];
@@ -103,7 +110,11 @@ pub(crate) fn in_documented_form(option: &str) -> String {
 /// True for the names that are documented with one dash: `vel`, `fo`; not `no-flux`.
 pub(crate) fn is_short_name(name: &str) -> bool {
     const LONGEST: usize = 4;
-    (2..=LONGEST).contains(&name.len()) && name.bytes().all(|byte| byte.is_ascii_lowercase())
+    /// Options that have two dashes in most programs of other families.
+    const WORDS: [&str; 2] = ["all", "help"];
+    !WORDS.contains(&name)
+        && (2..=LONGEST).contains(&name.len())
+        && name.bytes().all(|byte| byte.is_ascii_lowercase())
 }
 
 fn unknown_option(command: &Command, argument: &str) -> String {
@@ -176,6 +187,7 @@ mod tests {
             ("--vel", "-vel"),
             ("--fo", "-fo"),
             ("--no-flux", "--no-flux"),
+            ("--help", "--help"),
             ("--keep-in-view", "--keep-in-view"),
             ("-q", "-q"),
         ] {

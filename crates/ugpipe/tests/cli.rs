@@ -228,11 +228,40 @@ fn help_and_version() {
         assert_eq!(String::from_utf8_lossy(&output.stderr), "");
         assert_eq!(output.status.code(), Some(0));
         let help = String::from_utf8_lossy(&output.stdout);
-        assert!(help.starts_with(ugpipe::ONE_DASH), "{help}");
-        for name in ["--fi <FILE>", "--fo <FILE>", "--fm <FILE>", "--lax", "--qt", "--vb", "--nt <N>"] {
-            assert!(help.contains(name), "{name} is not in {help}");
+        assert!(
+            help.starts_with("Copies its input to its output\n\nUsage: ugcat [OPTIONS] [FILE]\n"),
+            "{help}"
+        );
+        assert!(help.contains("\nExamples:\n  ugcat -head ship.ug > copy.ug\n"), "{help}");
+        let names: &[&str] = if option == "-h" {
+            &["-vel X Y Z", "-va A [B]", "--title TITLE", "-head ", "-fo FILE"]
+        } else {
+            &[
+                "-fi, --input FILE",
+                "-fo, --output FILE",
+                "-fm, --messages FILE",
+                "-lax",
+                "-qt, --quiet",
+                "-vb, --verbose",
+                "-nt, --threads N",
+                "-h, --help",
+                "-va A [B]",
+            ]
+        };
+        for name in names {
+            assert!(help.contains(&format!("\n  {name}")), "{name} is not in {help}");
         }
     }
+}
+
+#[test]
+fn a_number_after_an_option_without_values() {
+    let folder = folder();
+    let message = "ugcat: error: `-head` takes no value: leave out `0`\ntry `ugcat -h`\n";
+    assert_run(&run(&folder, &["-head", "0", "ship.ug"]), 2, "", message);
+    fs::write(folder.path().join("0"), SHIP).unwrap();
+    let output = run(&folder, &["-say", "-qt", "0"]);
+    assert_eq!((output.status.code(), String::from_utf8_lossy(&output.stdout).as_ref()), (Some(0), SHIP));
 }
 
 #[test]

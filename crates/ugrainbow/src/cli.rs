@@ -10,29 +10,26 @@ use ugparse::{Source, pipe};
 use ugphysics::{Brightness, Hsv};
 use ugpicture::Output;
 use ugpicture::cli::{AnnotationArgs, PICTURE, PictureArgs, color, format_named};
-use ugpipe::{CommonArgs, Context, Failure, ToolArgs, finite};
+use ugpipe::{CommonArgs, Context, Failure, Manual, ToolArgs, finite, one_of};
 use ugscene::cli::RepeatArgs;
 
 use crate::config::{Config, DepthCue, LINE_WIDTH, Wireframe};
 use crate::error::Error;
 use crate::explain::{self, explain};
 use crate::run_with;
-use crate::words::{Kind, Pixel, Report, kind_named, law, line_width, pixel};
+use crate::words::{self, Kind, Pixel, Report, kind_named, law, line_width, pixel};
 use uglight::Interpolation;
 
 /// Where black-and-white PostScript goes if standard output is a terminal, as in 1988.
 const POSTSCRIPT_FILE: &str = "POSTSCRIPTFILE";
 
-/// Draw a UniGrafix scene, interpolating hues or wavelengths between corners.
+/// Draws a UniGrafix scene
 ///
-/// Reads a scene and writes a picture. At the end of a pipe it shows what moves nearly as
-/// fast as light:
-///
-///   uglorentz -vel .6 0 0 -in < ship.ug | ugdoppler | ugrainbow > ship.png
-///
-///   uglorentz -vel 0 -.2 0 -in -sd 1 < ship.ug | ugrainbow -xc > exact.png
+/// Reads a scene and writes a picture. At the end of a pipe it shows what moves nearly as fast as
+/// light. Between the corners of faces it interpolates hues or wavelengths. A scene without a camera
+/// is seen from far enough away that all of it is in the picture.
 #[derive(Clone, Debug, Parser)]
-#[command(name = "ugrainbow", version, before_help = ugpipe::ONE_DASH)]
+#[command(name = "ugrainbow", version, after_help = EXAMPLES)]
 pub struct Args {
     /// Interpolate hue between corners (default)
     #[arg(long, visible_alias = "interpolate-hue", conflicts_with_all = ["iw", "wi"])]
@@ -56,14 +53,15 @@ pub struct Args {
 
     /// Format of the picture [default: by the ending of -fo, else png]
     ///
-    /// png, png16 (16 bits), ppm, eps, ps, pdf, svg; and exr, pfm, hdr, which hold linear light,
-    /// neither clipped nor gamut-mapped: white is 1, and components may exceed 1 or be negative.
-    #[arg(long, value_name = "FMT", visible_alias = "format", value_parser = kind_named)]
+    /// png16 has 16 bits per component. exr, pfm and hdr hold linear light, neither clipped nor
+    /// gamut-mapped: white is 1, and components may exceed 1 or be negative. text and json are for
+    /// --explain.
+    #[arg(long, value_name = "FMT", visible_alias = "format", value_parser = one_of(words::kinds(), kind_named))]
     dt: Option<Kind>,
 
-    /// Vector graphics instead of pixels, sharp at any size: for eps, ps, pdf, svg
+    /// Vector graphics instead of pixels, for eps, ps, pdf, svg
     ///
-    /// -sz is then the size in points. Faces are painted back to front, so nearer ones cover those
+    /// They are sharp at any size. -sz is then the size in points. Faces are painted back to front, so nearer ones cover those
     /// behind; lines are drawn without their hidden parts. Colours deviate by at most 2 levels of
     /// 255.
     #[arg(long, visible_alias = "vector", conflicts_with_all = ["dp", "explain", "xc"])]
@@ -112,9 +110,9 @@ pub struct Args {
           value_parser = finite, visible_alias = "depth-cue", help_heading = PICTURE)]
     dc: Option<Vec<f64>>,
 
-    /// Exact: intersect a ray for every sample with the faces in their rest frames, and shift the
-    /// colour there
+    /// Exact: a ray for every sample, instead of subdivision
     ///
+    /// Each ray is intersected with the faces in their rest frames, and the colour is shifted there.
     /// Reads what `uglorentz -sd 1` writes, and does the work of ugdoppler itself. Outline, depth,
     /// Doppler factor, colour and light are exact at every sample, so faces need no subdivision.
     #[arg(long, visible_alias = "exact", conflicts_with_all = ["og", "explain"], help_heading = EXACT)]
@@ -124,7 +122,8 @@ pub struct Args {
     ///
     /// The laws are those of ugdoppler. Values above 1 are clipped per sample, unless -ex or -tc is
     /// given.
-    #[arg(long, visible_alias = "brightness", value_name = "LAW", value_parser = law, requires = "xc",
+    #[arg(long, visible_alias = "brightness", value_name = "LAW",
+          value_parser = one_of(Brightness::ALL.map(Brightness::name), law), requires = "xc",
           conflicts_with = "no_flux", help_heading = EXACT)]
     br: Option<Brightness>,
 
@@ -159,10 +158,20 @@ pub struct Args {
     common: CommonArgs,
 }
 
+const EXAMPLES: &str = "Examples:
+  ugrainbow ship.ug > rest.png
+  uglorentz -vel .3 0 0 -in ship.ug | ugdoppler | ugrainbow -sz 800 600 > ship.png
+  uglorentz -vel 0 -.5 0 -in ship.ug | ugdoppler -sp | ugrainbow -ex auto -lg > blue.png
+  uglorentz -vel .9 0 0 -in ship.ug | ugrainbow -vec -cap 'A ship at 0.9c' -fo figure.pdf
+  uglorentz -vel 0 -.2 0 -in -sd 1 ship.ug | ugrainbow -xc > exact.png";
+
 const LINES: &str = "Lines";
 const EXACT: &str = "Exact pictures";
 
 impl ToolArgs for Args {
+    const ESSENTIAL: &'static [&'static str] =
+        &["-sz", "-ep", "-vc", "-va", "-ex", "-tc", "-bg", "-aa", "-lg", "-vec", "-xc", "-fo"];
+
     fn common(&self) -> &CommonArgs {
         &self.common
     }
@@ -276,6 +285,11 @@ impl Args {
 
 fn ending(file: Option<&Path>) -> Option<String> {
     file.and_then(Path::extension).map(|ending| ending.to_string_lossy().into_owned())
+}
+
+/// What the help, the man page and the completions of the program say.
+pub fn manual() -> Manual {
+    ugpipe::manual::<Args>()
 }
 
 /// The whole program between its streams: reads the scene, draws it, writes the picture.

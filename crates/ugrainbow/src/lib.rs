@@ -106,7 +106,7 @@ mod vector;
 mod words;
 
 #[cfg(feature = "cli")]
-pub use cli::{Args, draw};
+pub use cli::{Args, draw, manual};
 pub use config::{Config, DepthCue, Wireframe};
 pub use error::Error;
 pub use render::{Picture, Prepared, Rendering, light, metadata, render, run, run_with};

@@ -24,6 +24,11 @@ pub enum Report {
     Json,
 }
 
+/// The names of [`Kind`]: formats of pictures, and those of explanations.
+pub fn kinds() -> impl Iterator<Item = &'static str> {
+    Format::ALL.map(Format::name).into_iter().chain(["text", "json"])
+}
+
 /// A format of pictures or of explanations.
 pub fn kind_named(name: &str) -> Result<Kind, String> {
     match name {

@@ -59,9 +59,10 @@ pub struct CameraArgs {
           allow_hyphen_values = true, value_parser = finite, visible_alias = "up", help_heading = CAMERA)]
     ud: Option<Vec<f64>>,
 
-    /// Full horizontal and, if given, vertical view angle, in degrees
+    /// Full horizontal and, if given, vertical view angle, in degrees [default: that of the scene's
+    /// camera, else 40]
     ///
-    /// Default: the horizontal one of the scene's camera, else 40. Pixels are square unless both
+    /// Pixels are square unless both
     /// are given. A scene that is written contains the horizontal one only; give the vertical one
     /// to the renderer as well.
     #[arg(long, num_args = 1..=2, value_names = ["A", "B"], action = ArgAction::Set,
@@ -122,9 +123,10 @@ pub struct MotionArgs {
           action = ArgAction::Set, allow_hyphen_values = true)]
     anchor: Option<Vec<String>>,
 
-    /// Move each body so that its fixed point (-an) is seen at its coordinates in the scene
+    /// Keep bodies in view: they appear where the scene has them
     ///
-    /// This holds at time 0. With -in, the default of -an is center.
+    /// Each body is moved so that its fixed point (-an) is seen at its coordinates in the scene, at
+    /// time 0. The default of -an is then center.
     #[arg(long = "in", visible_aliases = ["keep-in-view", "in-place"])]
     in_place: bool,
 }
@@ -168,9 +170,10 @@ impl EffectArgs {
 /// What happens where faces of different colours meet: flatten it into the arguments of a program.
 #[derive(Args, Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct RepeatArgs {
-    /// Repeat a vertex for every face colour that meets there, instead of mixing them
+    /// Keep colours of faces apart where they share vertices
     ///
-    /// Faces then keep their own colours up to their edges.
+    /// A vertex is repeated for every face colour that meets there, instead of mixing them. Faces
+    /// then keep their own colours up to their edges.
     #[arg(long, visible_alias = "repeat-vertices")]
     vr: bool,
 }

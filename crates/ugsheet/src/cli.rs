@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use clap::{ArgAction, Parser, ValueEnum};
 use ugimage::{Format, ReadError, read_png, read_png_header};
 use ugphysics::Hsv;
-use ugpipe::{CommonArgs, Context, Failure, Input, ToolArgs, finite, whole};
+use ugpipe::{CommonArgs, Context, Failure, Input, Manual, ToolArgs, finite, one_of, whole};
 
 use crate::{Config, Error, Labels, Picture, history, sheet};
 
@@ -16,7 +16,7 @@ use crate::{Config, Error, Labels, Picture, history, sheet};
 /// the speeds and times recorded in the history of the pictures, if these differ; otherwise the
 /// file names.
 #[derive(Parser, Debug)]
-#[command(name = "ugsheet", version, before_help = ugpipe::ONE_DASH, after_help = EXAMPLES)]
+#[command(name = "ugsheet", version, after_help = EXAMPLES)]
 pub struct Args {
     /// Pictures per row [default: about as many as rows]
     #[arg(long, value_name = "N", visible_alias = "columns", value_parser = whole(1..=u32::MAX))]
@@ -26,7 +26,7 @@ pub struct Args {
     #[arg(long, value_name = "TEXT", action = ArgAction::Append, conflicts_with = "lb")]
     label: Vec<String>,
 
-    /// Kind of labels if -label is not given
+    /// Kind of labels if --label is not given
     #[arg(long, value_name = "KIND", default_value = "auto", visible_alias = "labels", value_enum)]
     lb: Kind,
 
@@ -57,7 +57,7 @@ pub struct Args {
     bg: Option<Vec<f64>>,
 
     /// Output format: png, ppm, eps, ps, pdf, svg [default: by the extension of -fo, else png]
-    #[arg(long, value_name = "FMT", visible_alias = "format", value_parser = format_named)]
+    #[arg(long, value_name = "FMT", visible_alias = "format", value_parser = one_of(FORMATS, format_named))]
     dt: Option<Format>,
 
     #[command(flatten)]
@@ -70,7 +70,7 @@ pub struct Args {
 
 const EXAMPLES: &str = "Examples:
   ugsheet -cols 2 rest.png 0.5c.png 0.9c.png 0.99c.png > sheet.png
-  ugsheet -lt -label 'at rest' -label 'β = 0.9' -cap 'A ship passes.' rest.png fast.png -fo figure.pdf";
+  ugsheet -lt --label 'at rest' --label 'β = 0.9' -cap 'A ship passes' rest.png fast.png > ship.png";
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
 enum Kind {
@@ -94,12 +94,18 @@ fn text_size(word: &str) -> Result<f64, String> {
     }
 }
 
+/// Names of formats.
+const FORMATS: [&str; 6] = ["png", "ppm", "eps", "ps", "pdf", "svg"];
+
 fn format_named(name: &str) -> Result<Format, String> {
     let format = Format::from_name(name).filter(|format| !format.is_deep());
-    format.ok_or_else(|| "not one of the formats png, ppm, eps, ps, pdf, svg".to_owned())
+    format.ok_or_else(|| format!("not one of the formats {}", FORMATS.join(", ")))
 }
 
 impl ToolArgs for Args {
+    const ESSENTIAL: &'static [&'static str] =
+        &["-cols", "--label", "-lb", "-lt", "--title", "-cap", "-ts", "-gap", "-bg", "-dt", "-fo"];
+
     fn common(&self) -> &CommonArgs {
         &self.common
     }
@@ -158,6 +164,11 @@ fn picture(path: Option<&Path>, input: &Input) -> Result<Picture, Failure> {
 
 fn unreadable(input: &Input, error: &ReadError) -> Error {
     Error::Picture(format!("`{}`: {error}", input.name))
+}
+
+/// What the help, the man page and the completions of the program say.
+pub fn manual() -> Manual {
+    ugpipe::manual::<Args>()
 }
 
 /// The program.

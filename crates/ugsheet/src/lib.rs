@@ -35,7 +35,7 @@ use ugimage::{Frame, Metadata};
 use uglabel::Drawing;
 
 #[cfg(feature = "cli")]
-pub use cli::main;
+pub use cli::{main, manual};
 pub use error::Error;
 pub use labels::Labels;
 use layout::Layout;

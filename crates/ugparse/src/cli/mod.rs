@@ -9,7 +9,7 @@ use std::process::ExitCode;
 
 use clap::{Arg, Parser, Subcommand, ValueEnum};
 use serde_json::{Value, json};
-use ugpipe::{CommonArgs, Context, Failure, ToolArgs};
+use ugpipe::{CommonArgs, Context, Failure, Manual, ToolArgs};
 
 use crate::pipe::{self, refused};
 use crate::{Diagnostics, Options, Parsed, Severity, Source};
@@ -18,7 +18,7 @@ use crate::{Diagnostics, Options, Parsed, Severity, Source};
 ///
 /// The default command is check: ugparse FILE is ugparse check FILE.
 #[derive(Parser, Debug)]
-#[command(name = "ugparse", version, before_help = ugpipe::ONE_DASH, after_help = EXAMPLES,
+#[command(name = "ugparse", version, after_help = EXAMPLES,
           disable_help_subcommand = true, mut_args(globally))]
 struct Args {
     #[command(subcommand)]
@@ -30,9 +30,9 @@ struct Args {
 
 const EXAMPLES: &str = "Examples:
   ugparse ship.ug
-  ugparse check -format json ship.ug | jq '.findings[].message'
+  ugparse check --format json ship.ug
   ugparse tidy ship.ug > tidy.ug
-  ugparse flatten ship.ug | head
+  ugparse flatten ship.ug > flat.ug
   ugparse count ship.ug
   ugparse example ship > ship.ug";
 
@@ -74,6 +74,8 @@ enum Format {
 }
 
 impl ToolArgs for Args {
+    const ESSENTIAL: &'static [&'static str] = &["--format", "-lax", "--limit", "-qt", "-vb", "-fo"];
+
     fn common(&self) -> &CommonArgs {
         &self.command_args().common
     }
@@ -88,6 +90,11 @@ impl Args {
             Some(Command::Example(_)) | None => &self.rest,
         }
     }
+}
+
+/// What the help, the man page and the completions of the program say.
+pub fn manual() -> Manual {
+    ugpipe::manual::<Args>()
 }
 
 /// Runs the program.
