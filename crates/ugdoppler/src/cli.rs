@@ -64,7 +64,8 @@ pub struct Args {
 
     /// Light the scene by its lights, moving ones included
     ///
-    /// The light is computed into the colours. One ambient light replaces the lights, so that a renderer does not light the scene again.
+    /// The light is computed into the colours. One ambient light replaces the lights, so that a
+    /// renderer does not light the scene again.
     #[arg(long, visible_alias = "light")]
     li: bool,
 

@@ -86,9 +86,10 @@ pub struct Args {
 
     /// Also write measurements at each vertex to FILE
     ///
-    /// FILE.csv, FILE.ply, or FILE.vtp for ParaView. Name, position, emission time on the camera's clock, Doppler factor, apparent distance, and
-    /// the angle between the velocity and the direction of the light to the eye, in degrees: in the
-    /// frame of the camera and in that of the body. FILE.vtp has the velocity instead of the name.
+    /// FILE.csv, FILE.ply, or FILE.vtp for ParaView. Name, position, emission time on the camera's
+    /// clock, Doppler factor, apparent distance, and the angle between the velocity and the
+    /// direction of the light to the eye, in degrees: in the frame of the camera and in that of the
+    /// body. FILE.vtp has the velocity instead of the name.
     #[arg(id = "at", long = "at", visible_alias = "attributes", value_name = "FILE")]
     attributes: Option<PathBuf>,
 

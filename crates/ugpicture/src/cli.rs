@@ -55,7 +55,8 @@ pub struct PictureArgs {
 
     /// Exposure in stops, or auto
     ///
-    /// Light is multiplied by 2 to the power E, and clipped only then. auto: chosen so that 99 of 100 pixels that are not black are at or below white.
+    /// Light is multiplied by 2 to the power E, and clipped only then. auto: chosen so that 99 of
+    /// 100 pixels that are not black are at or below white.
     #[arg(long, value_name = "E|auto", allow_hyphen_values = true, value_parser = exposure,
           visible_alias = "exposure", help_heading = PICTURE)]
     ex: Option<Exposure>,
@@ -122,8 +123,8 @@ pub struct AnnotationArgs {
 
     /// Legend below the picture: spectrum, velocities, Doppler factors
     ///
-    /// The visible spectrum has a scale in nm, and a bar where light of 550 nm is seen. A velocity is an
-    /// arrow of unit length seen from the camera (a dot at its tail: approaching, a cross:
+    /// The visible spectrum has a scale in nm, and a bar where light of 550 nm is seen. A velocity
+    /// is an arrow of unit length seen from the camera (a dot at its tail: approaching, a cross:
     /// receding), with β, γ and D.
     #[arg(long, visible_alias = "legend", help_heading = ANNOTATIONS)]
     lg: bool,

@@ -7,6 +7,16 @@ use std::path::{Path, PathBuf};
 use clap::builder::{PossibleValue, TypedValueParser};
 use clap::{Arg, Command};
 
+/// The arguments of a ug program.
+pub trait ToolArgs: clap::Parser {
+    /// The options that most people need, about ten, as documented (`-vel`, `--keep-in-view`): `-h`
+    /// lists them, by these names and in this order.
+    const ESSENTIAL: &'static [&'static str];
+
+    /// The options that every program has.
+    fn common(&self) -> &CommonArgs;
+}
+
 /// Ids of the options for files, messages and threads: those below, `files` for additional input
 /// files ([`crate::Context::input_file`]), and `at` for a second output file
 /// ([`crate::Context::write_file`]). They do not affect the content of the output, so the recorded

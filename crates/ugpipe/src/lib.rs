@@ -134,7 +134,7 @@ mod text;
 mod usage;
 
 #[cfg(feature = "cli")]
-pub use args::{CommonArgs, finite, one_of, vector, view_angle, whole};
+pub use args::{CommonArgs, ToolArgs, finite, one_of, vector, view_angle, whole};
 #[cfg(feature = "cli")]
 pub use context::{Context, MAX_INPUT};
 #[cfg(feature = "cli")]
@@ -149,7 +149,7 @@ pub use input::Input;
 pub use manual::{Entry, Group, Manual, Value, manual};
 pub use progress::Progress;
 #[cfg(feature = "cli")]
-pub use run::{ToolArgs, main};
+pub use run::main;
 #[cfg(feature = "cli")]
 pub use steps::Steps;
 pub use text::{is_printable, printable, shorten};

@@ -2,8 +2,7 @@
 
 use clap::{Arg, Command, CommandFactory};
 
-use crate::args::COMMON;
-use crate::run::ToolArgs;
+use crate::args::{COMMON, ToolArgs};
 use crate::{argv, usage};
 
 /// A program, or a command of a program such as `ugparse tidy`.

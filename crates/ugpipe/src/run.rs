@@ -13,22 +13,12 @@ use signal_hook::consts::{SIGABRT, SIGPIPE};
 use signal_hook::flag::register_conditional_shutdown;
 use signal_hook::low_level::emulate_default_handler;
 
-use crate::args::CommonArgs;
+use crate::args::ToolArgs;
 use crate::argv::StrayNumber;
 use crate::context::Context;
 use crate::failure::{Failure, reason};
 use crate::messages::Messages;
 use crate::{argv, help, provenance, streams, usage};
-
-/// The arguments of a ug program.
-pub trait ToolArgs: clap::Parser {
-    /// The options that most people need, about ten, as documented (`-vel`, `--keep-in-view`): `-h`
-    /// lists them, by these names and in this order.
-    const ESSENTIAL: &'static [&'static str];
-
-    /// The options that every program has.
-    fn common(&self) -> &CommonArgs;
-}
 
 const BAD_INPUT: u8 = 1;
 const BAD_USAGE: u8 = 2;

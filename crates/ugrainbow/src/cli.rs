@@ -26,8 +26,8 @@ const POSTSCRIPT_FILE: &str = "POSTSCRIPTFILE";
 /// Draws a UniGrafix scene
 ///
 /// Reads a scene and writes a picture. At the end of a pipe it shows what moves nearly as fast as
-/// light. Between the corners of faces it interpolates hues or wavelengths. A scene without a camera
-/// is seen from far enough away that all of it is in the picture.
+/// light. Between the corners of faces it interpolates hues or wavelengths. A scene without a
+/// camera is seen from far enough away that all of it is in the picture.
 #[derive(Clone, Debug, Parser)]
 #[command(name = "ugrainbow", version, after_help = EXAMPLES)]
 pub struct Args {
@@ -61,9 +61,9 @@ pub struct Args {
 
     /// Vector graphics instead of pixels, for eps, ps, pdf, svg
     ///
-    /// They are sharp at any size. -sz is then the size in points. Faces are painted back to front, so nearer ones cover those
-    /// behind; lines are drawn without their hidden parts. Colours deviate by at most 2 levels of
-    /// 255.
+    /// They are sharp at any size. -sz is then the size in points. Faces are painted back to front,
+    /// so nearer ones cover those behind; lines are drawn without their hidden parts. Colours
+    /// deviate by at most 2 levels of 255.
     #[arg(long, visible_alias = "vector", conflicts_with_all = ["dp", "explain", "xc"])]
     vec: bool,
 
@@ -112,9 +112,10 @@ pub struct Args {
 
     /// Exact: a ray for every sample, instead of subdivision
     ///
-    /// Each ray is intersected with the faces in their rest frames, and the colour is shifted there.
-    /// Reads what `uglorentz -sd 1` writes, and does the work of ugdoppler itself. Outline, depth,
-    /// Doppler factor, colour and light are exact at every sample, so faces need no subdivision.
+    /// Each ray is intersected with the faces in their rest frames, and the colour is shifted
+    /// there. Reads what `uglorentz -sd 1` writes, and does the work of ugdoppler itself. Outline,
+    /// depth, Doppler factor, colour and light are exact at every sample, so faces need no
+    /// subdivision.
     #[arg(long, visible_alias = "exact", conflicts_with_all = ["og", "explain"], help_heading = EXACT)]
     xc: bool,
 
