@@ -70,8 +70,24 @@ pub const QEMU: Tool = Tool {
     checks: "the programs write the same bytes on processors with other instructions",
 };
 
+/// Checks man pages.
+pub const MANDOC: Tool =
+    Tool { program: "mandoc", option: "/dev/null", package: "mandoc", checks: "man pages are valid" };
+
+/// A shell.
+pub const BASH: Tool =
+    Tool { program: "bash", option: "--version", package: "bash", checks: "bash completes options" };
+
+/// A shell.
+pub const ZSH: Tool =
+    Tool { program: "zsh", option: "--version", package: "zsh", checks: "zsh completes options" };
+
+/// A shell.
+pub const FISH: Tool =
+    Tool { program: "fish", option: "--version", package: "fish", checks: "fish completes options" };
+
 /// Those that are enough for a check in `cargo test`: all but [`QEMU`].
-pub const TOOLS: [Tool; 5] = [GHOSTSCRIPT, POPPLER, RSVG, CHROMIUM, OIIOTOOL];
+pub const TOOLS: [Tool; 9] = [GHOSTSCRIPT, POPPLER, RSVG, CHROMIUM, OIIOTOOL, MANDOC, BASH, ZSH, FISH];
 
 /// Needs a release build.
 pub const PROFILES: &str = "debug and release builds write the same bytes";

@@ -12,6 +12,7 @@
 //! cargo xtask geometry > tables.md
 //! cargo xtask gallery
 //! cargo xtask hostile 50000
+//! cargo xtask install --prefix ~/.local
 //! ```
 //!
 //! Scenes go to standard output and are the same bytes on every run and platform.
@@ -22,6 +23,7 @@ mod gallery;
 mod geometry;
 mod globe;
 mod hostile;
+mod install;
 mod mesh;
 mod plot;
 mod raster;
@@ -138,6 +140,8 @@ enum Task {
     Gallery(gallery::Args),
     /// Run the programs on malformed and extreme inputs, and check what must hold of any
     Hostile(hostile::Args),
+    /// Install the programs, their man pages, and completions for bash, zsh and fish
+    Install(install::Args),
     /// Draw a scene and print the time in seconds and the peak memory in megabytes
     #[command(hide = true)]
     DrawOnce {
@@ -210,6 +214,7 @@ fn run(task: &Task) -> io::Result<()> {
         }
         Task::Gallery(args) => gallery::write(&mut out, args)?,
         Task::Hostile(args) => hostile::write(&mut out, args)?,
+        Task::Install(args) => install::write(&mut out, args)?,
         Task::ReadOnce { scene, threads } => {
             reading::read_once(&mut out, scene, *threads)
                 .map_err(|error| io::Error::other(error.to_string()))?;
