@@ -72,7 +72,7 @@ fn picture_case(name: &str) -> Result<&'static str, String> {
 }
 
 impl ToolArgs for Args {
-    const ESSENTIAL: &'static [&'static str] = &["-fi", "-fo", "-qt", "-vb", "-nt"];
+    const ESSENTIAL: &'static [&'static str] = &["-fi", "-fo", "-qt"];
 
     fn common(&self) -> &CommonArgs {
         match &self.command {

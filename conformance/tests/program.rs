@@ -122,3 +122,18 @@ fn wrong_usage_is_reported() {
         assert!(String::from_utf8_lossy(&output.stderr).contains(message), "{args:?}");
     }
 }
+
+#[test]
+fn short_help_is_one_screenful() {
+    let help = run(&["-h"], b"");
+    assert!(help.status.success());
+    let help = text(&help);
+    assert!(help.lines().count() <= 24, "{help}");
+    assert!(help.lines().all(|line| line.chars().count() <= 100), "{help}");
+    let manual = ugconformance::manual();
+    assert_eq!(manual.essential_options().len(), manual.essential.len());
+    for command in &manual.commands {
+        let (_, name) = command.name.split_once(' ').expect("the program and its command");
+        assert!(help.contains(&format!("\n  {name} ")), "{help}");
+    }
+}
