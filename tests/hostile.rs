@@ -25,7 +25,7 @@ fn programs_hold() {
     assert_none(&findings);
     // Cases that are all refused would test the messages alone.
     let n_drawn = results.iter().filter(|result| **result == Ok(true)).count();
-    assert!((30..500).contains(&n_drawn), "{n_drawn} pipes succeed");
+    assert!((250..400).contains(&n_drawn), "{n_drawn} pipes succeed");
 }
 
 #[test]

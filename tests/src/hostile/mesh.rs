@@ -79,11 +79,7 @@ fn ply(random: &mut Random) -> Vec<u8> {
     let is_text = random.one_in(2);
     let format = if is_text { "ascii" } else { "binary_little_endian" };
     let told = if random.one_in(6) { "4000000000".to_owned() } else { n.to_string() };
-    let header = format!(
-        "ply\nformat {format} 1.0\nelement vertex {told}\nproperty float x\nproperty float y\nproperty float z\n\
-         element face 1\nproperty list uchar int vertex_indices\nend_header\n"
-    );
-    let mut bytes = header.into_bytes();
+    let mut bytes = ply_header(format, &told, 1).into_bytes();
     if is_text {
         bytes.extend(rows(random, n, point).into_bytes());
         bytes.extend(b"3 0 1 2\n");
@@ -93,6 +89,14 @@ fn ply(random: &mut Random) -> Vec<u8> {
         (0..3u32).for_each(|corner| bytes.extend(corner.to_le_bytes()));
     }
     bytes
+}
+
+/// The header of a PLY file with so many vertices, as text, and faces.
+pub fn ply_header(format: &str, n_vertices: &str, n_faces: usize) -> String {
+    format!(
+        "ply\nformat {format} 1.0\nelement vertex {n_vertices}\nproperty float x\nproperty float y\nproperty float z\n\
+         element face {n_faces}\nproperty list uchar int vertex_indices\nend_header\n"
+    )
 }
 
 fn stl(random: &mut Random) -> Vec<u8> {

@@ -1,11 +1,12 @@
 //! Hostile inputs for the programs, and what must hold whatever they are given.
 //!
 //! A [`Case`] follows from its number alone: an input (a scene, a mesh or pictures) that is
-//! malformed, extreme or both, and the command lines of a pipe. [`Case::run`] runs it with the
-//! built programs and checks what no input may break:
+//! malformed, extreme or both, and the command lines of a pipe. Half of the cases are valid, so that
+//! their pipes run to the end. [`Case::run`] runs it with the built programs and checks what no
+//! input may break:
 //!
 //! - a program ends by itself, with status 0, 1 or 2, within [`TIME_LIMIT`] and [`MEMORY_LIMIT`];
-//! - with status 0 it has written something, and `ugparse` accepts a scene that it has written;
+//! - with status 0 it has written something, and every program downstream reads it;
 //! - with another status it has written nothing to standard output, and says why;
 //! - if its output is lost (a full disk, a closed pipe), the status is not 0;
 //! - after a signal its output file is whole or absent;
@@ -21,6 +22,7 @@ pub mod config;
 mod edge;
 pub mod memory;
 mod mesh;
+mod mild;
 mod options;
 mod picture;
 mod run;
@@ -54,12 +56,7 @@ impl Case {
     /// The case of this number.
     pub fn new(seed: u64) -> Self {
         let mut random = Random(seed.wrapping_mul(0x2545_f491_4f6c_dd1d));
-        let (files, first) = match random.below(10) {
-            0 | 1 => mesh::files(&mut random),
-            2 => picture::files(&mut random),
-            _ => scene::files(&mut random),
-        };
-        let stages = options::stages(&mut random, first, &files);
+        let (files, stages) = if random.one_in(3) { wild(&mut random) } else { mild::pipe(&mut random) };
         let is_repeated = random.one_in(4);
         let edge = Edge::new(&mut random);
         Self { seed, files, stages, edge, is_repeated }
@@ -86,6 +83,17 @@ impl Case {
     pub fn write_to(&self, folder: &Path) -> std::io::Result<()> {
         self.files.iter().try_for_each(|(name, bytes)| std::fs::write(folder.join(name), bytes))
     }
+}
+
+/// Malformed and extreme files and options.
+fn wild(random: &mut Random) -> (Vec<(String, Vec<u8>)>, Vec<Vec<String>>) {
+    let (files, first) = match random.below(10) {
+        0 | 1 => mesh::files(random),
+        2 => picture::files(random),
+        _ => scene::files(random),
+    };
+    let stages = options::stages(random, first, &files);
+    (files, stages)
 }
 
 /// A kind of file that the programs read.

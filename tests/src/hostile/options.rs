@@ -45,12 +45,13 @@ fn programs(random: &mut Random, kind: &str, files: &[(String, Vec<u8>)]) -> Vec
     stages
 }
 
-fn words(program: &str, options: &[&str]) -> Vec<String> {
+/// A program and its options.
+pub fn words(program: &str, options: &[&str]) -> Vec<String> {
     std::iter::once(program).chain(options.iter().copied()).map(str::to_owned).collect()
 }
 
 /// An option with some values, now and then.
-fn maybe(random: &mut Random, one_in: usize, line: &mut Vec<String>, option: &str, values: Vec<String>) {
+pub fn maybe(random: &mut Random, one_in: usize, line: &mut Vec<String>, option: &str, values: Vec<String>) {
     if random.one_in(one_in) {
         line.push(option.to_owned());
         line.extend(values);
@@ -65,7 +66,8 @@ fn betas(random: &mut Random) -> Vec<String> {
     words::velocity(random).to_vec()
 }
 
-fn flags(random: &mut Random, one_in: usize, line: &mut Vec<String>, options: &[&str]) {
+/// Some of these options without values, each now and then.
+pub fn flags(random: &mut Random, one_in: usize, line: &mut Vec<String>, options: &[&str]) {
     for option in options {
         maybe(random, one_in, line, option, Vec::new());
     }
@@ -86,7 +88,7 @@ const LIMITS: [&str; 10] = [
 ];
 
 /// One of some words.
-fn word(random: &mut Random, some: &[&str]) -> Vec<String> {
+pub fn word(random: &mut Random, some: &[&str]) -> Vec<String> {
     vec![(*random.pick(some)).to_owned()]
 }
 

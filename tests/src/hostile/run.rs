@@ -87,16 +87,42 @@ fn pipe(
             return Ok(None);
         }
         input = ended.output;
-        if !is_last {
-            let checked = ["ugparse", "check", "-lax"].map(str::to_owned);
-            let checked = stage(programs, &checked, &input, folder, Edge::Plain)?;
-            if checked.status.code() != Some(0) {
-                let messages = String::from_utf8_lossy(&checked.messages).into_owned();
-                return Err(about(format!("wrote an invalid scene with status 0:\n{messages}")));
+        if edge == Edge::Plain {
+            for reader in readers(&words) {
+                let read = stage(programs, &reader, &input, folder, Edge::Plain)?;
+                let messages = String::from_utf8_lossy(&read.messages).into_owned();
+                // A valid scene may be empty.
+                if read.status.code() != Some(0) && !messages.contains("there is nothing to draw") {
+                    let reader = reader.join(" ");
+                    return Err(about(format!("status 0, and `{reader}` refuses its output:\n{messages}")));
+                }
             }
         }
     }
     Ok(Some(input))
+}
+
+/// The command lines that must accept what this one has written with status 0.
+fn readers(words: &[String]) -> Vec<Vec<String>> {
+    let format = words.iter().position(|word| word == "-dt").map(|at| words[at + 1].as_str());
+    let has = |word: &str| words.iter().any(|other| other == word);
+    const CHECK: &[&str] = &["ugparse", "check", "-lax"];
+    const LORENTZ: &[&str] = &["uglorentz", "-lax", "-se", "100", "-sc", "off"];
+    const DOPPLER: &[&str] = &["ugdoppler", "-lax"];
+    const RAINBOW: &[&str] = &["ugrainbow", "-lax", "-sz", "9", "9"];
+    const MESH: &[&str] = &["ugmesh", "-lax", "-dt", "ply"];
+    let lines: &[&[&str]] = match (words[0].as_str(), format) {
+        ("ugparse", _) if has("flatten") => &[CHECK, LORENTZ, RAINBOW],
+        ("uglorentz", _) => &[CHECK, DOPPLER, RAINBOW, MESH],
+        ("ugdoppler", _) => &[CHECK, RAINBOW, MESH],
+        ("ugmesh", None) => &[CHECK, LORENTZ, DOPPLER, RAINBOW, MESH],
+        ("ugmesh", Some("obj")) => &[&["ugmesh", "-if", "obj"]],
+        ("ugmesh", Some("ply")) => &[&["ugmesh", "-if", "ply"]],
+        ("ugmesh", Some("gltf" | "glb")) => &[&["ugmesh", "-if", "gltf"]],
+        ("ugrainbow", None) if !has("--explain") => &[&["ugsheet", "/dev/stdin"]],
+        _ => &[],
+    };
+    lines.iter().map(|line| line.iter().copied().map(str::to_owned).collect()).collect()
 }
 
 /// An error with a place in the scene.

@@ -23,7 +23,7 @@ pub fn text(random: &mut Random) -> Vec<u8> {
 }
 
 /// A scene of the repository that is not large.
-fn known(random: &mut Random) -> Vec<u8> {
+pub fn known(random: &mut Random) -> Vec<u8> {
     const NAMES: [&str; 8] = ["ship", "cubes", "dice", "glass", "halves", "traffic", "lamp", "rainbow"];
     let path = scenes::root().join("scenes").join(random.pick(&NAMES)).with_extension("ug");
     std::fs::read(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
