@@ -48,7 +48,7 @@ use uglight::{HueColor, SpectralColor, VertexColor, hsv, spectral_lamps};
 use ugparse::{Camera, ColorId, Scene};
 use ugphysics::Hsv;
 use ugpipe::Progress;
-use ugscene::{CameraOptions, DefaultCamera, RestFrames, Shares};
+use ugscene::{CameraError, CameraOptions, DefaultCamera, RestFrames, Shares};
 
 #[cfg(feature = "cli")]
 pub use cli::{Args, main, manual};
@@ -96,7 +96,24 @@ pub fn apply_with(scene: Scene, config: &Config, progress: &dyn Progress) -> Res
         scene.cameras.push(Camera { eye, center, ..Camera::default() });
         notes.insert(0, camera.to_string());
     }
+    if let Some(eye) = config.eye {
+        set_eye(&mut scene, eye)?;
+    }
     Ok((scene, Report { notes }))
+}
+
+/// Writes the eye into the scene's camera if positions are as seen from it, so that programs
+/// downstream use it.
+fn set_eye(scene: &mut Scene, eye: DVec3) -> Result<(), CameraError> {
+    if scene.stage.seen_geometry().is_none() {
+        return Ok(());
+    }
+    if scene.cameras.is_empty() {
+        scene.cameras.push(Camera::default());
+    }
+    let row = scene.camera_row().unwrap_or(0);
+    scene.cameras[row].eye = Some(eye);
+    scene.cameras[row].center.map_or(Ok(()), |center| ugscene::view_distance(eye, center).map(drop))
 }
 
 /// The camera of a scene without one, if colours depend on the eye.

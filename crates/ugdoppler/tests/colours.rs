@@ -45,6 +45,21 @@ fn of(scene: &Scene, vertex: &str) -> (String, f64, f64, f64) {
     }
 }
 
+/// Renderers refuse colours that depend on an eye other than that of the camera.
+#[test]
+fn the_eye_of_the_colours_is_that_of_the_camera() {
+    for (camera, velocity, expected) in [
+        ("", -0.6, Some(DVec3::ZERO)),
+        ("cam -ep 0 0 1;", -0.6, Some(DVec3::ZERO)),
+        ("cam -ep 0 0 1;", 0.0, Some(DVec3::Z)),
+        ("", 0.0, None),
+    ] {
+        let (scene, _) = colour(&format!("{SCENE} {camera}"), &moving(velocity, 0.0, 0.0));
+        assert_eq!(scene.camera().and_then(|camera| camera.eye), expected, "{camera} {velocity}");
+        assert_eq!(scene.stage.seen_geometry().map(|seen| seen.eye), expected.filter(|_| velocity != 0.0));
+    }
+}
+
 #[test]
 fn on_the_line_of_motion_d_is_known() {
     // β = 0.6: D = 2 ahead (the triangle comes at us), 0.5 behind, 0.8 abeam; conformance T19.

@@ -76,8 +76,9 @@ impl Report {
         }
         if self.n_too_deep > 0 {
             warnings.push(format!(
-                "the error of {} edges is above the bound after {MAX_GENERATION} halvings, probably very close \
-                 to the eye; if it is visible, move the eye (-ep){left}",
+                "the error of {} edges is above the bound after {MAX_GENERATION} halvings: they pass close to \
+                 the eye, or colours change by orders of magnitude along them; if it is visible, move the eye \
+                 (-ep), reduce the speed, or bound only shapes (-sc off){left}",
                 self.n_too_deep
             ));
         }

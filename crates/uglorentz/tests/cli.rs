@@ -90,6 +90,10 @@ fn complaints() {
     check("-se 0", TILE, 2, "the bound of -se is 0 milliradians: give a number above 0");
     check("-se -1", TILE, 2, "the bound of -se is -1 milliradians: give a number above 0");
     check("-ud 0 0 0", TILE, 2, "-ud 0 0 0 has no direction; give one, such as -ud 0 0 1");
+    let no_direction = "the eye point 1 1e-300 1 is also the view centre, so there is no direction to look in; \
+                        move the eye with -ep or the centre with -vc";
+    check("-ep 1 1e-300 1 -vc 1 1e-300 1", TILE, 1, no_direction);
+    check("-ep 1 1e-300 1", &format!("{TILE} cam -vc 1 1e-300 1;"), 1, no_direction);
     check("-sd 0", TILE, 2, "-sd 0 would make no pieces: give 1 or more");
     check("-sd 2 -se 1", TILE, 2, "cannot be given together");
     check("-an nose", TILE, 2, "`nose` is not an anchor: -an takes eye, origin, center or three numbers");

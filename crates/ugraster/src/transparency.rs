@@ -7,7 +7,7 @@
 //!
 //! Fragments with a transmittance of 0 (lines, and opaque parts of faces) occlude transparent ones
 //! behind them, which are not stored if they are drawn later. Fragments take memory: a tile with
-//! too many is drawn in parts, down to single rows of samples. The time is proportional to the
+//! too many is drawn in parts: fewer rows of samples, then fewer columns. The time is proportional to the
 //! number of fragments, times the logarithm of those of a sample.
 
 use std::ops::Range;
@@ -22,7 +22,7 @@ use crate::triangles::{LazyPlanes, Plane, RowTarget, TriangleRef, TriangleRow};
 /// Number of interpolated values of transparent shapes.
 pub const TRANSPARENT_VALUES: usize = 8;
 
-/// Fragments stored at once, if more than a row of samples is drawn: 64 MiB.
+/// Fragments stored at once, if more than one sample is drawn: 64 MiB.
 const MAX_FRAGMENTS: usize = 1 << 21;
 
 /// Transparent surfaces and lines, and their light.
@@ -133,19 +133,19 @@ impl TransparencyBuffer {
         self.composites.clear();
         self.kept.clear();
         let mut stats = SampleStats::default();
-        let mut parts = vec![area.rows];
-        while let Some(rows) = parts.pop() {
+        let mut parts = vec![area];
+        while let Some(part) = parts.pop() {
             self.fragments.clear();
             self.front.clear();
             self.front.resize(keys.len(), EMPTY);
             let mut target = FragmentTarget {
-                rows,
+                part,
                 tile: area,
                 keys,
                 fragments: &mut self.fragments,
                 front: &mut self.front,
                 n_offered: 0,
-                max_fragments: if rows[1] - rows[0] > 1 { MAX_FRAGMENTS } else { usize::MAX },
+                max_fragments: if part.n_samples() > 1 { MAX_FRAGMENTS } else { usize::MAX },
                 stats: SampleStats::default(),
             };
             layer.draw(grid, band, &mut self.scanner, &mut target);
@@ -153,7 +153,7 @@ impl TransparencyBuffer {
                 stats = stats.merge(target.stats);
                 self.blend(grid, keep);
             } else {
-                parts.extend(split(rows, target.n_offered.div_ceil(MAX_FRAGMENTS as u64)));
+                parts.extend(split(part, target.n_offered.div_ceil(MAX_FRAGMENTS as u64)));
             }
         }
         stats
@@ -200,7 +200,7 @@ impl TransparencyBuffer {
         }
         order.clear();
         order.resize(fragments.len(), 0);
-        // A row of a tile has fewer than 2^32 fragments: each takes 36 bytes.
+        // A sample has fewer than 2^32 fragments: each takes 36 bytes.
         for (index, fragment) in fragments.iter().enumerate().rev() {
             let end = &mut ends[fragment.sample as usize];
             order[*end as usize] = index as u32;
@@ -232,28 +232,33 @@ impl TransparencyBuffer {
 
     fn kept_at(&self, row: u32, column: u32) -> &[Fragment] {
         let sample = self.area.index(row, column) as u32;
-        // Parts of a tile are drawn from above, so the kept fragments are sorted by sample.
+        // Parts of a tile are drawn from above, and those of a row from the left, so the kept
+        // fragments are sorted by sample.
         let start = self.kept.partition_point(|fragment| fragment.sample < sample);
         let end = self.kept.partition_point(|fragment| fragment.sample <= sample);
         &self.kept[start..end]
     }
 }
 
-/// Rows in about `n` parts of the same height, at least two; the uppermost is the last.
-fn split([first, end]: [u32; 2], n: u64) -> impl Iterator<Item = [u32; 2]> {
-    let n_rows = end - first;
-    // Not above the number of rows, which fits.
-    let n = n.clamp(2, u64::from(n_rows)) as u32;
-    let height = n_rows.div_ceil(n);
-    (0..n_rows.div_ceil(height)).rev().map(move |part| {
-        let start = first + part * height;
-        [start, end.min(start + height)]
+/// The rows of an area in about `n` parts of the same size, at least two, or the columns of a
+/// single row; the uppermost or leftmost part is the last.
+fn split(area: Area, n: u64) -> impl Iterator<Item = Area> {
+    let is_row = area.rows[1] - area.rows[0] == 1;
+    let [first, end] = if is_row { area.columns } else { area.rows };
+    let n_lines = end - first;
+    // Not above the number of rows or columns, which fits.
+    let n = n.clamp(2, u64::from(n_lines)) as u32;
+    let size = n_lines.div_ceil(n);
+    (0..n_lines.div_ceil(size)).rev().map(move |part| {
+        let start = first + part * size;
+        let lines = [start, end.min(start + size)];
+        if is_row { Area { columns: lines, ..area } } else { Area { rows: lines, ..area } }
     })
 }
 
-/// Rows of a tile on which transparent layers are drawn.
+/// A part of a tile on which transparent layers are drawn.
 pub struct FragmentTarget<'a> {
-    rows: [u32; 2],
+    part: Area,
     tile: Area,
     /// Depth keys of the opaque surfaces, of the whole tile.
     keys: &'a [f32],
@@ -294,7 +299,7 @@ pub struct FragmentWriter<'t, 'a> {
 impl FragmentWriter<'_, '_> {
     /// The samples to be drawn.
     pub fn area(&self) -> Area {
-        Area { columns: self.target.tile.columns, rows: self.target.rows }
+        self.target.part
     }
 
     /// Draws samples of a row. `sample` receives the column of each and the key of the nearest
@@ -336,7 +341,7 @@ impl FragmentWriter<'_, '_> {
         is_perspective: bool,
         item: u32,
     ) {
-        let [start, end] = self.target.tile.columns;
+        let [start, end] = self.target.part.columns;
         let columns = first_center(left.x, end).max(start)..first_center(right.x, end);
         if columns.is_empty() {
             return;
@@ -470,14 +475,42 @@ mod tests {
         }
     }
 
+    /// A picture of one row is drawn in parts, too: no more fragments are stored than that of one
+    /// sample and the limit.
     #[test]
-    fn parts_are_all_rows_once() {
-        for (rows, n) in [([3, 5], 0), ([0, 64], 2), ([7, 71], 5), ([0, 64], u64::MAX), ([1, 64], 40)] {
-            let mut parts: Vec<_> = split(rows, n).collect();
-            parts.reverse();
-            assert!(parts.len() > 1 && parts.iter().all(|part| part[0] < part[1]), "{parts:?}");
-            assert!(parts.windows(2).all(|pair| pair[0][1] == pair[1][0]), "{parts:?}");
-            assert_eq!([parts[0][0], parts[parts.len() - 1][1]], rows);
+    fn a_row_is_drawn_in_parts() {
+        let area = Area { columns: [0, 3000], rows: [0, 1] };
+        let keys = vec![EMPTY; area.n_samples()];
+        let grid = SampleGrid { width: 3000, height: 1, samples: 1, is_perspective: false, fade: None };
+        let panes = Panes { n: 1100, n_shaded: AtomicU64::new(0) };
+        let mut buffer = TransparencyBuffer::default();
+        buffer.draw_before(&panes, &grid, 0, (area, &keys), KeepFragments::Centers);
+        let n_fragments = area.n_samples() as u64 * u64::from(panes.n);
+        assert!(panes.n_shaded.into_inner() <= n_fragments + MAX_FRAGMENTS as u64 + 3000);
+        assert!(buffer.fragments.capacity() <= 2 * MAX_FRAGMENTS, "{}", buffer.fragments.capacity());
+        for column in [0, 1, 1499, 2999] {
+            let keys: Vec<f32> = buffer.fragments(0, column).iter().map(|fragment| fragment.key).collect();
+            assert_eq!(keys, (0..panes.n).map(|key| key as f32).collect::<Vec<_>>());
+        }
+    }
+
+    #[test]
+    fn parts_are_all_rows_or_columns_once() {
+        for (lines, n) in [([3, 5], 0), ([0, 64], 2), ([7, 71], 5), ([0, 64], u64::MAX), ([1, 64], 40)] {
+            for (area, is_row) in [
+                (Area { columns: [2, 9], rows: lines }, false),
+                (Area { columns: lines, rows: [4, 5] }, true),
+            ] {
+                let lines_of = |part: &Area| if is_row { part.columns } else { part.rows };
+                let other_of = |part: &Area| if is_row { part.rows } else { part.columns };
+                let mut parts: Vec<_> = split(area, n).collect();
+                parts.reverse();
+                assert!(parts.iter().all(|part| other_of(part) == other_of(&area)), "{parts:?}");
+                let parts: Vec<_> = parts.iter().map(lines_of).collect();
+                assert!(parts.len() > 1 && parts.iter().all(|part| part[0] < part[1]), "{parts:?}");
+                assert!(parts.windows(2).all(|pair| pair[0][1] == pair[1][0]), "{parts:?}");
+                assert_eq!([parts[0][0], parts[parts.len() - 1][1]], lines);
+            }
         }
     }
 }

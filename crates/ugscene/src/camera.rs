@@ -10,6 +10,15 @@ use crate::camera_options::{CameraError, CameraOptions, Film};
 /// cannot be projected.
 const NEAREST: f64 = 1e-6;
 
+/// The distance from the eye to the view centre.
+///
+/// # Errors
+/// [`CameraError::NoDirection`].
+pub fn view_distance(eye: DVec3, center: DVec3) -> Result<f64, CameraError> {
+    let distance = ugphysics::length(center - eye);
+    if distance > 0.0 && distance.is_finite() { Ok(distance) } else { Err(CameraError::NoDirection { eye }) }
+}
+
 /// A point in front of the camera, before projection.
 ///
 /// In perspective `x` and `y` are sample coordinates times `z`, so that they are linear in
@@ -86,10 +95,7 @@ impl View {
                 (crate::eye(scene, options.eye), center)
             }
         };
-        let distance = ugphysics::length(center - eye);
-        if !(distance > 0.0 && distance.is_finite()) {
-            return Err(CameraError::NoDirection { eye });
-        }
+        let distance = view_distance(eye, center)?;
         options.check_up()?;
         let forward = (center - eye) / distance;
         let (right, is_up_replaced) = right_of(forward, options.up.or(camera.up).unwrap_or(DVec3::Z));

@@ -5,6 +5,8 @@ use std::fmt;
 use glam::DVec3;
 use ugparse::Camera;
 
+use crate::words;
+
 /// Default view angle across the picture, degrees.
 pub(crate) const DEFAULT_VIEW_ANGLE: f64 = 40.0;
 
@@ -50,9 +52,9 @@ impl fmt::Display for CameraError {
         match self {
             Self::NoDirection { eye } => write!(
                 f,
-                "the eye point {} {} {} is also the view centre, so there is no direction to look in; \
+                "the eye point {} is also the view centre, so there is no direction to look in; \
                  move the eye with -ep or the centre with -vc",
-                eye.x, eye.y, eye.z
+                words::point(*eye)
             ),
             Self::NoUp => f.write_str("-ud 0 0 0 has no direction; give one, such as -ud 0 0 1"),
             Self::ViewAngle(degrees) => write!(

@@ -6,6 +6,7 @@ use glam::{DQuat, DVec3};
 use ugparse::Scene;
 
 use crate::camera_options::{CameraError, CameraOptions, DEFAULT_VIEW_ANGLE, half_film};
+use crate::words;
 
 /// From the view centre to the eye, where z is up: from the front (−y), the right and above. No
 /// axis is within [`CLEAR`] of it.
@@ -35,11 +36,8 @@ pub struct DefaultCamera {
 impl fmt::Display for DefaultCamera {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { eye, center, view_angle_deg } = self;
-        write!(
-            f,
-            "no camera in the scene: seen as with -ep {} {} {} -vc {} {} {} -va {view_angle_deg}",
-            eye.x, eye.y, eye.z, center.x, center.y, center.z
-        )
+        let [eye, center] = [*eye, *center].map(words::point);
+        write!(f, "no camera in the scene: seen as with -ep {eye} -vc {center} -va {view_angle_deg}")
     }
 }
 
@@ -70,11 +68,13 @@ impl DefaultCamera {
         let radius = radius(scene, middle);
         // The sphere is seen with the radius `tangent` at distance 1.
         let tangent = FILLED * half[0].min(half[1]);
-        let distance = radius * libm::hypot(1.0, tangent) / tangent;
+        // Coordinates near the largest number would put the eye at infinity.
+        let distance = (radius * libm::hypot(1.0, tangent) / tangent).min(0.5 * f64::MAX);
         let toward_eye = toward_eye(options.up, velocities);
         let unit = unit_of_rounding(distance);
         let center = options.center.unwrap_or_else(|| rounded(middle, unit));
-        let eye = rounded(middle + distance * toward_eye, unit);
+        let eye = (middle + distance * toward_eye).clamp(DVec3::MIN, DVec3::MAX);
+        let eye = rounded(eye, unit);
         let view_angle_deg = options.view_angle.map_or(DEFAULT_VIEW_ANGLE, |(across, _)| across);
         let is_valid = eye.is_finite() && center.is_finite() && eye != center;
         Ok(is_valid.then_some(Self { eye, center, view_angle_deg }))
@@ -162,6 +162,17 @@ mod tests {
         statements.collect::<String>() + "f (v0 v1 v2 v3);"
     }
 
+    /// However large the coordinates are, the eye is not the view centre, and no distance overflows.
+    #[test]
+    fn the_largest_scenes_have_a_camera() {
+        let scene = "v a 0 -1.7e308 1.7e308; v b -1.7e308 1e308 0; v c 1.7e308 1.7e308 1.7e308; f (a b c);";
+        for velocities in [&[][..], &[DVec3::Y]] {
+            let DefaultCamera { eye, center, .. } =
+                camera(scene, &CameraOptions::default(), velocities).unwrap();
+            assert!(crate::view_distance(eye, center).is_ok(), "{eye} {center}");
+        }
+    }
+
     #[test]
     fn the_sphere_around_everything_fills_two_thirds_of_the_height() {
         for (half, center) in [
@@ -169,6 +180,7 @@ mod tests {
             (1e-3, DVec3::new(7.0, -8.0, 9.0)),
             (1e6, DVec3::splat(3e7)),
             (1e-200, DVec3::ZERO),
+            (1e307, DVec3::ZERO),
         ] {
             let options = CameraOptions { view_angle: Some((60.0, None)), ..CameraOptions::default() };
             let found = camera(&square(center, half), &options, &[]).unwrap();

@@ -44,8 +44,9 @@ mod rest_frames;
 mod shares;
 mod split;
 mod stage;
+mod words;
 
-pub use camera::{CameraPoint, HalfSpace, Slab, View};
+pub use camera::{CameraPoint, HalfSpace, Slab, View, view_distance};
 pub use camera_motion::{axes_from_scene, camera_velocity};
 pub use camera_options::{CameraError, CameraOptions};
 pub use default_camera::DefaultCamera;

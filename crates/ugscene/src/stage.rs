@@ -7,6 +7,8 @@ use glam::DVec3;
 use ugparse::{Body, BodyId, ColorScale, Diagnostic, Face, HueScale, Motion, Parsed, Scene};
 use ugpipe::remedies;
 
+use crate::words::point;
+
 /// Why a scene cannot go through a program: its stage is not the one the program needs.
 #[derive(Clone, Debug, PartialEq)]
 pub enum StageError {
@@ -29,7 +31,6 @@ pub enum StageError {
 
 impl fmt::Display for StageError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let point = |p: &DVec3| format!("{} {} {}", p.x, p.y, p.z);
         match self {
             Self::GeometryAsSeen => f.write_str(remedies::SEEN_GEOMETRY),
             Self::ColorsAsSeen => f.write_str(remedies::SEEN_COLORS),
@@ -43,10 +44,10 @@ impl fmt::Display for StageError {
                 f,
                 "positions in this scene are as seen from the eye point {}, and would be wrong from {}: \
                  leave out -ep or -cam here, or {} (-ep {}) with the scene at rest",
-                point(made_for),
-                point(asked),
+                point(*made_for),
+                point(*asked),
                 remedies::EYE_POINT,
-                point(asked),
+                point(*asked),
             ),
         }
     }

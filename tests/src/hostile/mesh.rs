@@ -5,10 +5,10 @@ use std::fmt::Write;
 use ugmesh::Format;
 use ugrandom::Random;
 
-use super::{bytes, words};
+use super::{Files, bytes, words};
 
 /// A mesh and the files it names.
-pub fn files(random: &mut Random) -> (Vec<(String, Vec<u8>)>, &'static str) {
+pub fn files(random: &mut Random) -> (Files, &'static str) {
     let (name, format) = *random.pick(&[
         ("mesh.obj", Format::Obj),
         ("mesh.off", Format::Off),

@@ -6,10 +6,10 @@ use std::fmt::Write;
 use ugrandom::Random;
 
 use super::options::{MEASURED, flags, maybe, word, words};
-use super::{mesh, picture, scene};
+use super::{Files, mesh, picture, scene};
 
 /// Files, the first of which is the input, and the stages of a pipe.
-pub fn pipe(random: &mut Random) -> (Vec<(String, Vec<u8>)>, Vec<Vec<String>>) {
+pub fn pipe(random: &mut Random) -> (Files, Vec<Vec<String>>) {
     match random.below(12) {
         0 => {
             let files: Vec<_> =
@@ -41,12 +41,12 @@ pub fn pipe(random: &mut Random) -> (Vec<(String, Vec<u8>)>, Vec<Vec<String>>) {
 
 /// A length from tiny to huge, mostly about 1.
 fn size(random: &mut Random) -> f64 {
-    if random.one_in(3) { 10_f64.powf(random.between(-9.0, 9.0)) } else { 1.0 }
+    if random.one_in(3) { libm::exp10(random.between(-9.0, 9.0)) } else { 1.0 }
 }
 
 /// A velocity below that of light: its direction is random, and 1 − β may be as small as 1e-9.
 fn velocity(random: &mut Random) -> [String; 3] {
-    let speed = if random.one_in(5) { 1.0 - 10_f64.powf(random.between(-9.0, -1.0)) } else { random.unit() };
+    let speed = if random.one_in(5) { 1.0 - libm::exp10(random.between(-9.0, -1.0)) } else { random.unit() };
     (random.direction() * speed * 0.999_999_999_9).to_array().map(|part| part.to_string())
 }
 
@@ -115,7 +115,7 @@ fn color(random: &mut Random, idx: usize) -> String {
     match random.below(6) {
         0 => format!("c_rgb red{idx} {numbers} ;"),
         1 => format!("c_xyz red{idx} {numbers} ;"),
-        2 => format!("c_bb red{idx} {} ;", 10_f64.powf(random.between(1.0, 6.0))),
+        2 => format!("c_bb red{idx} {} ;", libm::exp10(random.between(1.0, 6.0))),
         3 => format!("c_spd red{idx} 400 {} 500 1 600 0.5 ;", random.unit()),
         4 => format!("c red{idx} {} {} 1 {} ;", random.unit(), random.below(360), random.unit()),
         _ => format!("c red{idx} 1 {} 1 ;", random.below(360)),

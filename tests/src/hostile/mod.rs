@@ -37,13 +37,16 @@ pub use bytes::damage;
 pub use edge::Edge;
 pub use run::{MEMORY_LIMIT, TIME_LIMIT};
 
+/// Names and contents.
+type Files = Vec<(String, Vec<u8>)>;
+
 /// A pipe with a hostile input.
 #[derive(Clone, Debug)]
 pub struct Case {
     /// Its number.
     pub seed: u64,
     /// Name and content of the files in its folder; the first is the input.
-    pub files: Vec<(String, Vec<u8>)>,
+    pub files: Files,
     /// Program and arguments of each stage.
     pub stages: Vec<Vec<String>>,
     /// Streams and signals of the last stage.
@@ -86,7 +89,7 @@ impl Case {
 }
 
 /// Malformed and extreme files and options.
-fn wild(random: &mut Random) -> (Vec<(String, Vec<u8>)>, Vec<Vec<String>>) {
+fn wild(random: &mut Random) -> (Files, Vec<Vec<String>>) {
     let (files, first) = match random.below(10) {
         0 | 1 => mesh::files(random),
         2 => picture::files(random),

@@ -2,10 +2,10 @@
 
 use ugrandom::Random;
 
-use super::{bytes, words};
+use super::{Files, bytes, words};
 
 /// One to three pictures.
-pub fn files(random: &mut Random) -> (Vec<(String, Vec<u8>)>, &'static str) {
+pub fn files(random: &mut Random) -> (Files, &'static str) {
     let n = 1 + random.below(3);
     let picture = |idx: usize, random: &mut Random| {
         let mut bytes = png(random);

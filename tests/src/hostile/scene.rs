@@ -4,11 +4,11 @@ use std::fmt::Write;
 
 use ugrandom::Random;
 
-use super::{bytes, words};
+use super::{Files, bytes, words};
 use crate::scenes;
 
 /// A scene and files it names.
-pub fn files(random: &mut Random) -> (Vec<(String, Vec<u8>)>, &'static str) {
+pub fn files(random: &mut Random) -> (Files, &'static str) {
     let part = b"v part 0 0 1 ;\n".to_vec();
     (vec![("scene.ug".to_owned(), text(random)), ("part.ug".to_owned(), part)], "scene")
 }

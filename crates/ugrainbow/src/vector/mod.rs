@@ -21,6 +21,7 @@ mod patch;
 mod seen;
 mod smooth;
 mod transparency;
+mod work;
 
 use ugimage::figure::{self, Element, Figure, Gradient, Triangle};
 use ugimage::{Development, Format, Metadata};
@@ -43,12 +44,16 @@ use merge::Paint;
 use patch::Patch;
 use smooth::{Smooth, plain_color, push_smooth};
 use transparency::PaintedArea;
+use work::Work;
 
 /// Rows of samples a pixel, if the picture is not too large.
 const FINEST: u32 = 8;
 
 /// Most samples by which visibility is decided.
 const MOST_SAMPLES: u64 = MAX_PIXELS / 4;
+
+/// Most samples of translucent faces by which visibility is decided, which took about two seconds.
+const MOST_FRAGMENTS: f64 = (1 << 25) as f64;
 
 /// A figure with smooth colours in the form that its format supports.
 #[derive(Clone, Debug)]
@@ -95,11 +100,17 @@ pub fn draw<'a>(
     progress: &dyn Progress,
 ) -> Result<Drawn<'a>, Error> {
     let size = config.picture.size;
-    let scale = scale(size);
-    let mut fine = config.clone();
-    (fine.picture.size, fine.picture.samples) = (size.map(|side| side * scale), 1);
-    let setup = prepare(scene, &fine)?;
-    let layers = RenderLayers::new(setup.painter(), &fine.draw_mode()).telling(progress);
+    let mut scale = scale(size);
+    let mut setup = prepare(scene, &at_scale(config, scale))?;
+    let mut layers = RenderLayers::new(setup.painter(), &config.draw_mode());
+    let coarser = coarser(scale, seen::n_fragments(&layers, size.map(|side| side * scale)));
+    if coarser < scale {
+        scale = coarser;
+        drop(layers);
+        setup = prepare(scene, &at_scale(config, scale))?;
+        layers = RenderLayers::new(setup.painter(), &config.draw_mode());
+    }
+    let layers = layers.telling(progress);
     if backdrop(&config.picture).light().is_none() && layers.has_transparent_faces() {
         return Err(Error::Figure(
             "vector graphics (-vec) with translucent faces need a background: give -bg 1, for paper, in place of -tb",
@@ -117,6 +128,23 @@ pub fn draw<'a>(
     };
     drop(layers);
     Ok(Drawn { setup, statistics, figure, annotations })
+}
+
+/// The options for one sample a pixel, in a picture that is so many times larger.
+fn at_scale(config: &Config, scale: u32) -> Config {
+    let mut fine = config.clone();
+    (fine.picture.size, fine.picture.samples) = (config.picture.size.map(|side| side * scale), 1);
+    fine
+}
+
+/// The largest scale up to `scale` with at most [`MOST_FRAGMENTS`]; at `scale` there are
+/// `n_fragments`.
+fn coarser(scale: u32, n_fragments: f64) -> u32 {
+    let n_at = |smaller: u32| {
+        let part = f64::from(smaller) / f64::from(scale);
+        n_fragments * part * part
+    };
+    (1..=scale).rev().find(|&smaller| n_at(smaller) <= MOST_FRAGMENTS).unwrap_or(1)
 }
 
 /// How light is developed. An automatic exposure is a quantile of the light of pixels, so it alone
@@ -178,7 +206,8 @@ fn painted<S: Smooth>(
     index: &BoxIndex,
     size: [u32; 2],
 ) -> Result<Vec<Element<S>>, Error> {
-    let areas = transparency::areas(faces, &order::painting_order(faces, index), size)?;
+    let pieces = order::painting_order(faces, index, &Work::new(order::MOST_WORK))?;
+    let areas = transparency::areas(faces, &pieces, size)?;
     let with_color = |area: PaintedArea| {
         let color = plain_color(colors, faces, &area);
         (area, color)
@@ -228,4 +257,73 @@ fn patches(
         faces.extend(Patch::new(item, is_transparent, contours, size, setup.view.is_perspective));
     });
     faces
+}
+
+#[cfg(test)]
+mod tests {
+    use ugparse::{Options, Source};
+    use ugpicture::{Output, PictureOptions};
+    use ugrandom::Random;
+
+    use super::*;
+
+    fn scene(text: &str) -> Scene {
+        ugparse::parse(&Source::new("t.ug", text), &Options::default()).unwrap().scene
+    }
+
+    /// Panes in front of each other take a coarser grid, so that there are few fragments.
+    #[test]
+    fn visibility_of_translucent_faces_has_a_limit_of_fragments() {
+        let size = [64, 64];
+        let picture =
+            PictureOptions { size, output: Output::Vector(Format::Svg), ..Config::default().picture };
+        let config = Config { picture, ..Config::default() };
+        for (n_panes, expected) in [(2, FINEST), (300, 5), (3000, 1)] {
+            // Much larger than the picture.
+            let pane = "v a 0 -9 -9; v b 0 9 -9; v c 0 9 9; v d 0 -9 9; f (a b c d);";
+            let text = format!(
+                "c 1 120 1 0.5; cam -ep 5 0 0 -vc 0 0 0; def p; {pane} end; a (p) {n_panes} -tx -.001;"
+            );
+            let scene = scene(&text);
+            let scale = scale(size);
+            let fine = at_scale(&config, scale);
+            let setup = prepare(&scene, &fine).unwrap();
+            let layers = RenderLayers::new(setup.painter(), &fine.draw_mode());
+            let n_fragments = seen::n_fragments(&layers, fine.picture.size);
+            assert_eq!(n_fragments, f64::from(n_panes * 64 * 64 * scale * scale));
+            assert_eq!(coarser(scale, n_fragments), expected);
+            if n_panes < 3000 {
+                let layout = Layout::new(&config.picture).unwrap();
+                let drawn = draw(&scene, &config, Format::Svg, &layout, &()).unwrap();
+                assert!(drawn.statistics.stats.covered as f64 <= MOST_FRAGMENTS);
+            }
+        }
+    }
+
+    /// Thin faces in all directions, of which each overlaps most others: the order ends at its limit.
+    #[test]
+    fn order_has_a_limit_of_work() {
+        let mut random = Random(1);
+        let mut patches = Vec::new();
+        for item in 0..3000 {
+            let along = random.direction() * 40.0;
+            let [x, y] = [50.0 + 10.0 * random.unit(), 50.0 + 10.0 * random.unit()];
+            let corner = |side: f64, z: f64| ugraster::Corner {
+                x: x + side * along.x,
+                y: y + side * along.y + z,
+                key: along.z,
+                values: [0.0; 8],
+            };
+            let contour = vec![corner(-1.0, 0.0), corner(1.0, 0.0), corner(1.0, 0.1), corner(-1.0, 0.1)];
+            patches.extend(Patch::new(item, false, vec![contour], [100, 100], false));
+        }
+        let index = BoxIndex::new(patches.iter().map(Patch::bounds), [100, 100]);
+        let work = Work::new(1 << 20);
+        assert!(matches!(order::painting_order(&patches, &index, &work), Err(Error::Figure(_))));
+        // A face is compared with the others before the limit is seen.
+        assert!(work.done() < (1 << 20) + 16 * 3000, "{work:?}");
+        let work = Work::new(order::MOST_WORK);
+        assert!(order::painting_order(&patches, &index, &work).is_ok_and(|pieces| pieces.len() >= 3000));
+        assert!(work.done() > 1 << 21);
+    }
 }

@@ -7,8 +7,14 @@
 //! is above all of them, so what lies below is painted first.
 
 use super::patch::Patch;
+use super::transparency::TOO_MANY_FACES;
+use super::work::Work;
+use crate::error::Error;
 use crate::planar::BoxIndex;
 use crate::planar::{Convex, DepthOrder};
+
+/// Most work for the order, which took about five seconds.
+pub const MOST_WORK: u64 = 1 << 27;
 
 /// A patch or a part of one.
 #[derive(Clone, Debug)]
@@ -23,24 +29,35 @@ pub enum Piece {
 const CANDIDATES: usize = 8;
 
 /// All patches, or their parts, from the farthest to the nearest.
-pub fn painting_order(patches: &[Patch], index: &BoxIndex) -> Vec<Piece> {
-    let behind = relations(patches, index);
+///
+/// # Errors
+/// They overlap so often that the work exceeds its limit.
+pub fn painting_order(patches: &[Patch], index: &BoxIndex, work: &Work) -> Result<Vec<Piece>, Error> {
+    let behind = relations(patches, index, work);
     let mut pieces = Vec::new();
     for group in strong_components(&behind) {
         match group[..] {
             [patch] => pieces.push(Piece::Whole(patch)),
-            _ => partition(patches, &group, &mut pieces),
+            _ => partition(patches, &group, &mut pieces, work),
+        }
+        if work.is_exceeded() {
+            return Err(Error::Figure(TOO_MANY_FACES));
         }
     }
-    pieces
+    Ok(pieces)
 }
 
-/// For each patch, those that it occludes in part.
-fn relations(patches: &[Patch], index: &BoxIndex) -> Vec<Vec<usize>> {
+/// For each patch, those that it occludes in part. Incomplete if the work exceeds its limit.
+fn relations(patches: &[Patch], index: &BoxIndex, work: &Work) -> Vec<Vec<usize>> {
     let mut behind = vec![Vec::new(); patches.len()];
     for (first, patch) in patches.iter().enumerate() {
-        for second in index.in_box(patch.bounds()).into_iter().filter(|&second| second > first) {
-            let relation = relation(patch, &patches[second]);
+        let near = index.in_box(patch.bounds());
+        work.count(near.len());
+        for second in near.into_iter().filter(|&second| second > first) {
+            if work.is_exceeded() {
+                return behind;
+            }
+            let relation = relation(patch, &patches[second], work);
             // At equal depth the first is visible, as in the rasterizer; opaque patches precede
             // transparent ones.
             let is_tie = relation.is_level && !relation.is_behind;
@@ -55,9 +72,13 @@ fn relations(patches: &[Patch], index: &BoxIndex) -> Vec<Vec<usize>> {
     behind
 }
 
-fn relation(first: &Patch, second: &Patch) -> DepthOrder {
-    let pairs = first.parts.iter().flat_map(|a| second.parts.iter().map(move |b| a.relation(b)));
-    pairs.fold(DepthOrder::default(), |all, one| DepthOrder {
+fn relation(first: &Patch, second: &Patch, work: &Work) -> DepthOrder {
+    let pairs = first.parts.iter().flat_map(|a| second.parts.iter().map(move |b| (a, b)));
+    let relations = pairs.map(|(a, b)| {
+        work.count_pair(a, b);
+        a.relation(b)
+    });
+    relations.fold(DepthOrder::default(), |all, one| DepthOrder {
         is_before: all.is_before || one.is_before,
         is_behind: all.is_behind || one.is_behind,
         is_level: all.is_level || one.is_level,
@@ -114,13 +135,17 @@ enum Step {
     Paint(Vec<(usize, Convex)>),
 }
 
-/// Paints the parts of these patches from back to front, cut where needed.
-fn partition(patches: &[Patch], group: &[usize], pieces: &mut Vec<Piece>) {
+/// Paints the parts of these patches from back to front, cut where needed. Incomplete if the work
+/// exceeds its limit.
+fn partition(patches: &[Patch], group: &[usize], pieces: &mut Vec<Piece>, work: &Work) {
     let mut group = group.to_vec();
     group.sort_unstable();
     let parts = group.iter().flat_map(|&idx| patches[idx].parts.iter().map(move |part| (idx, part.clone())));
     let mut steps = vec![Step::Divide(parts.collect())];
     while let Some(step) = steps.pop() {
+        if work.is_exceeded() {
+            return;
+        }
         match step {
             Step::Paint(mut parts) => {
                 // At equal depth the first is to be visible, so it is painted last; opaque patches
@@ -132,6 +157,8 @@ fn partition(patches: &[Patch], group: &[usize], pieces: &mut Vec<Piece>) {
             }
             Step::Divide(parts) if parts.len() < 2 => steps.push(Step::Paint(parts)),
             Step::Divide(parts) => {
+                let n_corners: usize = parts.iter().map(|(_, part)| part.corners.len()).sum();
+                work.count((CANDIDATES + 1) * n_corners);
                 let [behind, on, before] = divide(parts);
                 steps.extend([Step::Divide(before), Step::Paint(on), Step::Divide(behind)]);
             }

@@ -1,8 +1,9 @@
 //! Visibility of faces at samples.
 
 use std::sync::atomic::{AtomicBool, Ordering};
-use ugraster::{PixelSamples, SampleStats};
+use ugraster::{Corner, PixelSamples, SampleStats, TRANSPARENT_VALUES};
 
+use crate::planar::doubled_area;
 use crate::render_layers::RenderLayers;
 use crate::setup::Setup;
 
@@ -15,6 +16,32 @@ pub struct Faces {
     pub is_near: Vec<bool>,
     /// Statistics of the samples.
     pub stats: SampleStats,
+}
+
+/// About the number of samples of translucent faces in a picture of this size, hidden ones
+/// included.
+pub fn n_fragments(layers: &RenderLayers<'_>, size: [u32; 2]) -> f64 {
+    let mut sum = 0.0;
+    if !layers.has_transparent_faces() {
+        return sum;
+    }
+    layers.for_each_polygon(|_, is_transparent, contours| {
+        if is_transparent {
+            let place = |corner: &Corner<TRANSPARENT_VALUES>| [corner.x, corner.y, corner.key];
+            let area =
+                |contour: &Vec<_>| 0.5 * doubled_area(&contour.iter().map(place).collect::<Vec<_>>()).abs();
+            let extent = |axis: usize| {
+                let places = || contours.iter().flatten().map(|corner| place(corner)[axis]);
+                let end = f64::from(size[axis]);
+                let low = places().fold(f64::INFINITY, f64::min).clamp(0.0, end);
+                places().fold(f64::NEG_INFINITY, f64::max).clamp(0.0, end) - low
+            };
+            // Parts outside the picture are in the area of the polygon, but not in that of its box.
+            let of_box = extent(0) * extent(1);
+            sum += contours.first().map_or(0.0, area).min(of_box);
+        }
+    });
+    sum
 }
 
 /// Decides visibility from the samples of a picture.

@@ -5,21 +5,23 @@
 //! before is painted again, clipped to the face and in the colour seen through it, unless it is
 //! hidden there.
 
-use std::cell::Cell;
-
 use ugimage::figure::Point;
 
 use super::order::Piece;
 use super::patch::Patch;
+use super::work::Work;
 use crate::error::Error;
 use crate::planar::{BoxIndex, Convex, is_covered};
 
 /// Most areas of a figure. Each translucent face adds the areas seen through it.
 const MOST_AREAS: usize = 1 << 16;
 
-/// Most work for the areas of a figure, which took about two seconds. The unit is a comparison of
-/// two bounding boxes, or of a corner of a polygon with a side of another.
+/// Most work for the areas of a figure, which took about two seconds.
 const MOST_WORK: u64 = 1 << 26;
+
+/// Too many faces overlap.
+pub const TOO_MANY_FACES: &str = "faces, and the parts into which they cut each other, are too many for vector graphics: leave out -vec, \
+     and give a larger -sz for print";
 
 /// An area to paint, and the patches that are seen there.
 #[derive(Clone, Debug)]
@@ -40,7 +42,8 @@ pub struct PaintedArea {
 pub fn areas(patches: &[Patch], pieces: &[Piece], size: [u32; 2]) -> Result<Vec<PaintedArea>, Error> {
     let has_clear = patches.iter().any(|patch| patch.is_transparent);
     let n_shapes = if has_clear { MOST_AREAS } else { 1 };
-    let mut areas = PaintedAreas { index: BoxIndex::empty(n_shapes, size), all: Vec::new(), work: 0 };
+    let mut areas =
+        PaintedAreas { index: BoxIndex::empty(n_shapes, size), all: Vec::new(), work: Work::new(MOST_WORK) };
     for piece in pieces {
         let area = whole(patches, piece);
         if patches[area.layers[0]].is_transparent {
@@ -48,7 +51,7 @@ pub fn areas(patches: &[Patch], pieces: &[Piece], size: [u32; 2]) -> Result<Vec<
         } else {
             areas.push(area);
         }
-        if areas.all.len() > MOST_AREAS || areas.work > MOST_WORK {
+        if areas.all.len() > MOST_AREAS || areas.work.is_exceeded() {
             return Err(Error::Figure(too_many(has_clear, pieces.len())));
         }
     }
@@ -60,8 +63,7 @@ fn too_many(has_clear: bool, n_pieces: usize) -> &'static str {
     if has_clear && n_pieces <= MOST_AREAS {
         "too many translucent faces overlap for vector graphics: leave out -vec, and give a larger -sz for print"
     } else {
-        "faces, and the parts into which they cut each other, are too many for vector graphics: leave out -vec, \
-         and give a larger -sz for print"
+        TOO_MANY_FACES
     }
 }
 
@@ -86,8 +88,7 @@ fn of_parts(layers: Vec<usize>, parts: Vec<Convex>) -> PaintedArea {
 struct PaintedAreas {
     all: Vec<PaintedArea>,
     index: BoxIndex,
-    /// See [`MOST_WORK`].
-    work: u64,
+    work: Work,
 }
 
 impl PaintedAreas {
@@ -100,12 +101,12 @@ impl PaintedAreas {
     /// stops.
     fn push_transparent(&mut self, front: PaintedArea) {
         let mut behind = Vec::new();
-        let work = Cell::new(self.work);
+        let work = &self.work;
         // Everything that hides a part of the piece is among its neighbours.
         let near = self.index.in_box(Convex::bounds(&front.parts));
-        count(&work, near.len());
+        work.count(near.len());
         for (at, &number) in near.iter().enumerate() {
-            if work.get() > MOST_WORK {
+            if work.is_exceeded() {
                 break;
             }
             let area = &self.all[number];
@@ -113,16 +114,15 @@ impl PaintedAreas {
                 .parts
                 .iter()
                 .flat_map(|own| area.parts.iter().map(move |part| (own, part)))
-                .inspect(|(own, part)| count(&work, n_steps(own, part)))
+                .inspect(|(own, part)| work.count_pair(own, part))
                 .filter_map(|(own, part)| own.common(part))
                 .collect();
-            if !common.is_empty() && !self.is_hidden(common.clone(), &near[at + 1..], &work) {
+            if !common.is_empty() && !self.is_hidden(common.clone(), &near[at + 1..]) {
                 let layers = front.layers.iter().chain(&area.layers).copied().collect();
                 behind.push(of_parts(layers, common));
             }
         }
-        let is_hidden = self.is_hidden(front.parts.clone(), &near, &work);
-        self.work = work.get();
+        let is_hidden = self.is_hidden(front.parts.clone(), &near);
         if !is_hidden {
             self.push(front);
         }
@@ -130,27 +130,18 @@ impl PaintedAreas {
     }
 
     /// True if the areas of these numbers cover these parts completely.
-    fn is_hidden(&self, parts: Vec<Convex>, later: &[usize], work: &Cell<u64>) -> bool {
+    fn is_hidden(&self, parts: Vec<Convex>, later: &[usize]) -> bool {
         let bounds = Convex::bounds(&parts);
         let covers = later
             .iter()
-            .inspect(|_| count(work, 1))
+            .inspect(|_| self.work.count(1))
             .filter(|&&number| self.index.overlaps(number, bounds))
             .map(|&number| &self.all[number].parts[..]);
         is_covered(parts, covers, |own, part| {
-            count(work, n_steps(&own, part));
+            self.work.count_pair(&own, part);
             own.beside(part)
         })
     }
-}
-
-fn count(work: &Cell<u64>, steps: usize) {
-    work.set(work.get().saturating_add(steps as u64));
-}
-
-/// The work of an intersection or difference.
-fn n_steps(one: &Convex, other: &Convex) -> usize {
-    if one.is_apart(other) { 1 } else { one.corners.len() * other.corners.len() }
 }
 
 #[cfg(test)]
@@ -171,20 +162,21 @@ mod tests {
     #[test]
     fn work_stops_at_its_limit() {
         let mut random = Random(5);
-        let mut areas =
-            PaintedAreas { index: BoxIndex::empty(MOST_AREAS, [100; 2]), all: Vec::new(), work: 0 };
+        let index = BoxIndex::empty(MOST_AREAS, [100; 2]);
+        let mut areas = PaintedAreas { index, all: Vec::new(), work: Work::new(MOST_WORK) };
         let mut pane = || {
             let [x, y] = [30.0 * random.unit(), 30.0 * random.unit()];
             let corners = [[x, y, 1.0], [x + 60.0, y, 1.0], [x + 60.0, y + 60.0, 1.0], [x, y + 60.0, 1.0]];
             of_parts(vec![0], vec![Convex::new(corners.to_vec()).unwrap()])
         };
         (0..20).for_each(|_| areas.push_transparent(pane()));
-        assert!(areas.work < MOST_WORK && areas.all.len() > 200, "{} {}", areas.work, areas.all.len());
+        assert!(!areas.work.is_exceeded() && areas.all.len() > 200, "{:?} {}", areas.work, areas.all.len());
         let n_areas = areas.all.len();
-        areas.work = MOST_WORK + 1;
+        areas.work = Work::new(0);
+        areas.work.count(1);
         areas.push_transparent(pane());
         // The pane itself is compared with each area, cut into 64 parts at most.
         let most = (n_areas * 64 * 64) as u64;
-        assert!(areas.work - MOST_WORK < most && areas.all.len() <= n_areas + 1, "{}", areas.work);
+        assert!(areas.work.done() < most && areas.all.len() <= n_areas + 1, "{:?}", areas.work);
     }
 }

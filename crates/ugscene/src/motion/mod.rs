@@ -154,7 +154,8 @@ impl PlacedBodies {
         let shifts = placement::shifts(scene, &bodies, &motions, eye, options);
         placement::shift_lights(scene, &motions, &shifts);
         camera.check_up().map_err(MotionError::Camera)?;
-        set_camera(scene, eye, default_camera.map(|camera| camera.center), camera);
+        let center = default_camera.map(|camera| camera.center);
+        set_camera(scene, eye, center, camera).map_err(MotionError::Camera)?;
         Ok(Self { eye, default_camera, motions, bodies, shifts, has_motion, camera: of_camera })
     }
 
@@ -197,7 +198,15 @@ fn motions(
 
 /// Writes the eye and the options into the scene's camera, so that programs downstream use them.
 /// `center`: the view centre of the default camera.
-fn set_camera(scene: &mut Scene, eye: DVec3, center: Option<DVec3>, options: &CameraOptions) {
+///
+/// # Errors
+/// [`CameraError::NoDirection`], which programs downstream would report otherwise.
+fn set_camera(
+    scene: &mut Scene,
+    eye: DVec3,
+    center: Option<DVec3>,
+    options: &CameraOptions,
+) -> Result<(), CameraError> {
     if scene.cameras.is_empty() {
         scene.cameras.push(Camera::default());
     }
@@ -214,4 +223,5 @@ fn set_camera(scene: &mut Scene, eye: DVec3, center: Option<DVec3>, options: &Ca
         // They would contradict the view angle.
         (camera.film_size, camera.focal_length) = (None, None);
     }
+    camera.center.map_or(Ok(()), |center| crate::view_distance(eye, center).map(drop))
 }
