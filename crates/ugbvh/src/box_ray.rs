@@ -12,14 +12,15 @@
 //! ray ([`crate::shear::Shear::intersect`]). q has, before it is rounded to single precision, an
 //! error of less than 2⁻⁵⁰ (d + 2), and corners have one of u / 2 in single precision. Let x be the
 //! plane where the ray enters a box that contains the triangle, and let the ray run towards +x.
-//! [`BoxRay`] has the origin q + p and not q, where p is the padding, with an error of 2 u. So
+//! [`BoxRay`] has the origin q + p and not q, where p is the padding, with errors of 2 u from q and 2 u
+//! from the sum. So
 //!
 //! ```text
-//! x − origin ≤ τ s + ε + 2⁻⁵⁰ (d + 2) + u / 2 − p + 2 u.
+//! x − origin ≤ τ s + ε + 2⁻⁵⁰ (d + 2) + u / 2 − p + 4 u.
 //! ```
 //!
 //! It is 2 or less, or else the box is behind the hit. Rounding adds 2 u or less to the difference,
-//! and a part of 2.1 u to the product with the rounded 1 / s, which is 4.2 u of the product with s.
+//! and a part of 3.1 u to the product with 1 / s, both rounded, which is 6.2 u of the product with s.
 //! Slopes less than 2⁻⁴⁰ are replaced by 2⁻⁴⁰, which moves the ray by 2⁻³⁸ or less. With
 //! p = 16 u + 2⁻⁴⁸ (d + 2), which is greater than the sum of all errors, the computed entry is not
 //! behind the hit. In the same way the computed exit is not before it. Limits of τ are moved by p,
@@ -34,9 +35,8 @@ use crate::shear::Shear;
 #[derive(Clone, Copy, Debug)]
 pub struct BoxRay {
     pub line: Line,
-    /// Planes of a node where the ray enters boxes, and where it leaves them.
+    /// Planes of a node where the ray enters boxes ([`crate::nodes::Node::planes`]).
     pub entries: [usize; 3],
-    pub exits: [usize; 3],
     /// Origins for the planes where the ray enters boxes.
     pub entry_origins: [f32; 3],
     /// Origins for the planes where the ray leaves boxes.
@@ -74,7 +74,7 @@ pub struct Depths {
 const MAX_PADDING: f64 = 1024.0;
 
 /// Least |slope| for tests of boxes, 2⁻⁴⁰.
-const MIN_SLOPE: f64 = power_of_two(-40);
+const MIN_SLOPE: f32 = power_of_two(-40) as f32;
 
 impl BoxRay {
     /// Returns `None` if the ray misses the cube.
@@ -91,24 +91,19 @@ impl BoxRay {
         } else if !(x.abs() <= 3.0 + 2.0 * padding && y.abs() <= 3.0 + 2.0 * padding) {
             return None;
         }
-        let [ahead_x, ahead_y, ahead_z] =
-            [padding.copysign(slope_x * sign), padding.copysign(slope_y * sign), padding.copysign(sign)];
-        let reciprocal = |slope: f64| 1.0 / (slope.abs().max(MIN_SLOPE).copysign(slope * sign) as f32);
-        let is_backward = |ahead: f64| usize::from(ahead < 0.0);
-        let backward = [is_backward(ahead_x), is_backward(ahead_y), is_backward(ahead_z)];
+        // In single precision from here on.
+        let [x, y, sign, padding] = [x as f32, y as f32, sign as f32, padding as f32];
+        let slopes = [slope_x as f32, slope_y as f32];
+        let directions = [slopes[0] * sign, slopes[1] * sign];
+        let backward = [is_backward(directions[0]), is_backward(directions[1]), is_backward(sign)];
+        let ahead = [padding.copysign(directions[0]), padding.copysign(directions[1]), padding * sign];
         let [axis_x, axis_y, axis_z] = shear.axes;
         Some(Self {
-            line: Line {
-                axes: shear.axes,
-                position: [x as f32, y as f32, -sign as f32],
-                slopes: [slope_x as f32, slope_y as f32],
-                padding: padding as f32,
-            },
-            entries: [axis_x + 3 * backward[0], axis_y + 3 * backward[1], axis_z + 3 * backward[2]],
-            exits: [axis_x + 3 - 3 * backward[0], axis_y + 3 - 3 * backward[1], axis_z + 3 - 3 * backward[2]],
-            entry_origins: [(x + ahead_x) as f32, (y + ahead_y) as f32, (-sign + ahead_z) as f32],
-            exit_origins: [(x - ahead_x) as f32, (y - ahead_y) as f32, (-sign - ahead_z) as f32],
-            reciprocals: [reciprocal(slope_x), reciprocal(slope_y), sign as f32],
+            line: Line { axes: shear.axes, position: [x, y, -sign], slopes, padding },
+            entries: [2 * axis_x + backward[0], 2 * axis_y + backward[1], 2 * axis_z + backward[2]],
+            entry_origins: [x + ahead[0], y + ahead[1], ahead[2] - sign],
+            exit_origins: [x - ahead[0], y - ahead[1], -sign - ahead[2]],
+            reciprocals: [reciprocal(directions[0]), reciprocal(directions[1]), sign],
             depths,
         })
     }
@@ -120,7 +115,8 @@ impl BoxRay {
         let Depths { z, sign, padding } = self.depths;
         let start = shear.z(range.start);
         // NaN and infinities, which can be due to overflow, do not limit.
-        let start = if start.is_finite() { ((start - z) * sign - padding).max(0.0) as f32 } else { 0.0 };
+        let start = (start - z) * sign - padding;
+        let start = if start > 0.0 && start < f64::INFINITY { start as f32 } else { 0.0 };
         start..self.depths.end(shear, range.end)
     }
 
@@ -129,6 +125,19 @@ impl BoxRay {
     pub fn limit(&self, z: f64) -> f32 {
         self.depths.limit(z)
     }
+}
+
+/// 1 / slope, or ±2⁴⁰ for slopes near 0.
+#[inline(always)]
+fn reciprocal(slope: f32) -> f32 {
+    let size = slope.abs();
+    1.0 / (if size > MIN_SLOPE { size } else { MIN_SLOPE }).copysign(slope)
+}
+
+/// 1 for negative numbers and −0.
+#[inline(always)]
+fn is_backward(slope: f32) -> usize {
+    (slope.to_bits() >> 31) as usize
 }
 
 impl Depths {
@@ -142,13 +151,14 @@ impl Depths {
     /// Greatest τ of hits up to z, or 0.
     #[inline(always)]
     pub fn limit(&self, z: f64) -> f32 {
-        ((z - self.z) * self.sign + self.padding).max(0.0) as f32
+        let end = (z - self.z) * self.sign + self.padding;
+        if end > 0.0 { end as f32 } else { 0.0 }
     }
 
     /// Greatest τ of hits up to t, or 0.
     #[inline(always)]
     pub fn end(&self, shear: &Shear, t: f64) -> f32 {
         let z = shear.z(t);
-        if z.is_finite() { self.limit(z) } else { f32::INFINITY }
+        if z.abs() < f64::INFINITY { self.limit(z) } else { f32::INFINITY }
     }
 }

@@ -196,10 +196,8 @@ impl Mesh<'_> {
         let idx = tree.nodes.len();
         let mut node = Node::EMPTY;
         for (child, part) in parts.iter().enumerate() {
-            for axis in 0..3 {
-                node.planes[axis][child] = part.bounds.0[axis];
-                node.planes[axis + 3][child] = -part.bounds.0[axis + 4];
-            }
+            let [x, y, z, _, minus_x, minus_y, minus_z, _] = part.bounds.0;
+            node.set_box(child, [x, y, z], [-minus_x, -minus_y, -minus_z]);
         }
         tree.nodes.push(node);
         let is_task = items.len() >= TASK;

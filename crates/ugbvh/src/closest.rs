@@ -110,23 +110,26 @@ fn search<S: Simd>(
     let Range { start, mut end } = box_ray.limits(&shear, &range);
     let simd_ray = SimdRay::new(simd, &box_ray);
     let mut stack = Stack::new();
-    let mut entry = Entry::new(start, 0);
+    let mut child = 0;
     loop {
-        let child = entry.child();
         if child & IS_BLOCK == 0 {
             let node = &bvh.nodes[child as usize];
             count.node();
             let (near, mut mask) = node.intersect(simd, &simd_ray, start, end);
             if mask != 0 {
-                let mut nearest = Entry::new(near[lowest(mask)], node.children[lowest(mask)]);
+                let first = lowest(mask);
                 mask &= mask - 1;
-                while mask != 0 {
-                    let other = Entry::new(near[lowest(mask)], node.children[lowest(mask)]);
-                    mask &= mask - 1;
-                    stack.push(nearest.max(other));
-                    nearest = nearest.min(other);
+                child = node.children[first];
+                if mask != 0 {
+                    let mut nearest = Entry::new(near[first], child);
+                    while mask != 0 {
+                        let other = Entry::new(near[lowest(mask)], node.children[lowest(mask)]);
+                        mask &= mask - 1;
+                        stack.push(nearest.max(other));
+                        nearest = nearest.min(other);
+                    }
+                    child = nearest.child();
                 }
-                entry = nearest;
                 continue;
             }
         } else {
@@ -148,8 +151,8 @@ fn search<S: Simd>(
         }
         loop {
             let Some(next) = stack.pop() else { return ControlFlow::Continue(()) };
-            if next.near() <= end {
-                entry = next;
+            if next <= Entry::limit(end) {
+                child = next.child();
                 break;
             }
         }

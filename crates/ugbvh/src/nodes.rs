@@ -12,11 +12,12 @@ pub const WIDTH: usize = 8;
 #[derive(Clone, Debug)]
 #[repr(align(32))]
 pub struct Node {
-    /// Least x, y, z of each child, then the greatest. Where there is no child they are +∞ and −∞,
-    /// which no ray hits.
-    pub planes: [[f32; WIDTH]; 6],
     /// Rows of the table of nodes, or of blocks if [`IS_BLOCK`] is set.
     pub children: [u32; WIDTH],
+    /// Least x of each child, greatest x, least y, and so on. Where there is no child they are +∞ and
+    /// −∞, which no ray hits. The last two are not used; eight need no check of an index of three
+    /// bits.
+    planes: [[f32; WIDTH]; 8],
 }
 
 /// Marks a child that is a block.
@@ -24,30 +25,62 @@ pub const IS_BLOCK: u32 = 1 << 31;
 
 impl Node {
     pub const EMPTY: Self = Self {
+        children: [0; WIDTH],
         planes: [
             [f32::INFINITY; WIDTH],
+            [f32::NEG_INFINITY; WIDTH],
             [f32::INFINITY; WIDTH],
+            [f32::NEG_INFINITY; WIDTH],
             [f32::INFINITY; WIDTH],
             [f32::NEG_INFINITY; WIDTH],
-            [f32::NEG_INFINITY; WIDTH],
-            [f32::NEG_INFINITY; WIDTH],
+            [0.0; WIDTH],
+            [0.0; WIDTH],
         ],
-        children: [0; WIDTH],
     };
+
+    pub fn set_box(&mut self, child: usize, low: [f32; 3], high: [f32; 3]) {
+        for axis in 0..3 {
+            self.planes[2 * axis][child] = low[axis];
+            self.planes[2 * axis + 1][child] = high[axis];
+        }
+    }
+
+    /// Planes of all children: the least coordinates in an axis at twice the axis, the greatest
+    /// behind them.
+    #[inline(always)]
+    pub fn planes(&self, idx: usize) -> &[f32; WIDTH] {
+        &self.planes[idx & 7]
+    }
+
+    /// The planes on the other side of boxes.
+    #[inline(always)]
+    pub fn opposite(&self, idx: usize) -> &[f32; WIDTH] {
+        &self.planes[(idx ^ 1) & 7]
+    }
 
     /// Where the ray enters each box, and a mask of those it hits within `limits` of τ.
     #[inline(always)]
     pub fn intersect<S: Simd>(&self, simd: S, ray: &SimdRay<S>, start: f32, end: f32) -> ([f32; WIDTH], u32) {
         // No operand is NaN: origins and reciprocals are finite, and reciprocals are not 0.
-        let mut near = f32x8::splat(simd, start);
-        let mut far = f32x8::splat(simd, end);
-        for axis in 0..3 {
-            let entry = f32x8::from_slice(simd, &self.planes[ray.entries[axis]]);
-            let exit = f32x8::from_slice(simd, &self.planes[ray.exits[axis]]);
-            near = near.max((entry - ray.entry_origins[axis]) * ray.reciprocals[axis]);
-            far = far.min((exit - ray.exit_origins[axis]) * ray.reciprocals[axis]);
-        }
+        let [near_x, far_x] = self.crossings(simd, ray, 0);
+        let [near_y, far_y] = self.crossings(simd, ray, 1);
+        let [near_z, far_z] = self.crossings(simd, ray, 2);
+        let near = near_x.max(near_y).max(near_z.max(f32x8::splat(simd, start)));
+        let far = far_x.min(far_y).min(far_z.min(f32x8::splat(simd, end)));
         (near.into(), near.simd_le(far).to_bitmask() as u32)
+    }
+}
+
+impl Node {
+    /// Where the ray crosses the planes of boxes in an axis.
+    #[inline(always)]
+    fn crossings<S: Simd>(&self, simd: S, ray: &SimdRay<S>, axis: usize) -> [f32x8<S>; 2] {
+        let entry = f32x8::from_slice(simd, self.planes(ray.entries[axis]));
+        let exit = f32x8::from_slice(simd, self.opposite(ray.entries[axis]));
+        [
+            (entry - ray.entry_origins[axis]) * ray.reciprocals[axis],
+            (exit - ray.exit_origins[axis]) * ray.reciprocals[axis],
+        ]
     }
 }
 
@@ -57,7 +90,6 @@ pub struct SimdRay<S: Simd> {
     exit_origins: [f32x8<S>; 3],
     reciprocals: [f32x8<S>; 3],
     entries: [usize; 3],
-    exits: [usize; 3],
 }
 
 impl<S: Simd> SimdRay<S> {
@@ -68,7 +100,6 @@ impl<S: Simd> SimdRay<S> {
             exit_origins: splats(simd, ray.exit_origins),
             reciprocals: splats(simd, ray.reciprocals),
             entries: ray.entries,
-            exits: ray.exits,
         }
     }
 }

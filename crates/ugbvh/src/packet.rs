@@ -110,7 +110,7 @@ fn closest_on<S: Simd>(
         }
         loop {
             let Some(entry) = stack.pop() else { return true };
-            if entry.near() > end {
+            if entry > Entry::limit(end) {
                 continue;
             }
             let (parent, child) = (entry.child() as usize / WIDTH, entry.child() as usize % WIDTH);
@@ -176,8 +176,7 @@ impl Packet {
         let [high_x, high_y] = [bound(high[0], 0), bound(high[1], 1)];
         let [axis_x, axis_y, axis_z] = first.axes;
         let frustum = Frustum {
-            planes: [axis_x, axis_y, if sign > 0.0 { axis_z } else { axis_z + 3 }],
-            opposite: [axis_x + 3, axis_y + 3, if sign > 0.0 { axis_z + 3 } else { axis_z }],
+            planes: [2 * axis_x, 2 * axis_y, 2 * axis_z + usize::from(sign < 0.0)],
             lows: [Bound::new(simd, low_x), Bound::new(simd, low_y)],
             highs: [Bound::new(simd, high_x), Bound::new(simd, high_y)],
             sign: sign as f32,
@@ -225,10 +224,8 @@ impl<S: Simd> Bound<S> {
 
 /// All rays of a packet, from the origin on.
 struct Frustum<S: Simd> {
-    /// Planes of a node: least x and y, and where the rays enter.
+    /// Planes of a node: least x and y, and where the rays enter. See [`Node::opposite`].
     planes: [usize; 3],
-    /// Greatest x and y, and where the rays leave.
-    opposite: [usize; 3],
     lows: [Bound<S>; 2],
     highs: [Bound<S>; 2],
     sign: f32,
@@ -244,8 +241,8 @@ impl<S: Simd> Frustum<S> {
     fn intersect(&self, simd: S, node: &Node, end: f32) -> ([f32; WIDTH], u32) {
         let padding = f32x8::splat(simd, self.padding);
         let start = f32x8::splat(simd, self.start);
-        let near = f32x8::from_slice(simd, &node.planes[self.planes[2]]) * self.sign + 1.0;
-        let far = f32x8::from_slice(simd, &node.planes[self.opposite[2]]) * self.sign + 1.0;
+        let near = f32x8::from_slice(simd, node.planes(self.planes[2])) * self.sign + 1.0;
+        let far = f32x8::from_slice(simd, node.opposite(self.planes[2])) * self.sign + 1.0;
         let entry = (near - padding).max(start);
         let near = near.max(start);
         let mut is_hit = entry.simd_le(f32x8::splat(simd, end)) & start.simd_le(far + padding);
@@ -253,8 +250,8 @@ impl<S: Simd> Frustum<S> {
             let (low, high) = (&self.lows[axis], &self.highs[axis]);
             let least = low.at(if low.is_rising { near } else { far });
             let greatest = high.at(if high.is_rising { far } else { near });
-            let from = f32x8::from_slice(simd, &node.planes[self.planes[axis]]) - padding;
-            let to = f32x8::from_slice(simd, &node.planes[self.opposite[axis]]) + padding;
+            let from = f32x8::from_slice(simd, node.planes(self.planes[axis])) - padding;
+            let to = f32x8::from_slice(simd, node.opposite(self.planes[axis])) + padding;
             is_hit = is_hit & least.simd_le(to) & greatest.simd_ge(from);
         }
         (entry.into(), is_hit.to_bitmask() as u32)
@@ -263,16 +260,16 @@ impl<S: Simd> Frustum<S> {
     /// A mask of rays of a group that may hit the box of a child.
     #[inline(always)]
     fn rays_at(&self, simd: S, packet: &Packet, group: usize, node: &Node, child: usize) -> u32 {
-        let near = node.planes[self.planes[2]][child] * self.sign + 1.0;
-        let far = node.planes[self.opposite[2]][child] * self.sign + 1.0;
+        let near = node.planes(self.planes[2])[child] * self.sign + 1.0;
+        let far = node.opposite(self.planes[2])[child] * self.sign + 1.0;
         let end = f32x8::from_slice(simd, &packet.ends[group]);
         let mut is_hit = end.simd_ge(f32x8::splat(simd, near - self.padding));
         for axis in 0..2 {
             let position = f32x8::from_slice(simd, &packet.positions[axis][group]);
             let slope = f32x8::from_slice(simd, &packet.slopes[axis][group]);
             let (a, b) = (position + slope * near, position + slope * far);
-            let from = node.planes[self.planes[axis]][child] - self.padding;
-            let to = node.planes[self.opposite[axis]][child] + self.padding;
+            let from = node.planes(self.planes[axis])[child] - self.padding;
+            let to = node.opposite(self.planes[axis])[child] + self.padding;
             is_hit = is_hit
                 & a.min(b).simd_le(f32x8::splat(simd, to))
                 & a.max(b).simd_ge(f32x8::splat(simd, from));

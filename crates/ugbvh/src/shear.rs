@@ -54,7 +54,9 @@ impl Shear {
         let start = permuted(frame.to_box(origin), axes);
         let distance = greater(greater(start[0].abs(), start[1].abs()), start[2].abs());
         // NaN fails every comparison.
-        let is_valid = (distance <= MAX_DISTANCE)
+        let is_valid = (start[0].abs() <= MAX_DISTANCE)
+            & (start[1].abs() <= MAX_DISTANCE)
+            & (start[2].abs() <= MAX_DISTANCE)
             & (x.abs() <= z.abs())
             & (y.abs() <= z.abs())
             & (z.abs() > 0.0)
@@ -112,7 +114,7 @@ impl Shear {
         }
         let sum = weights[0] + weights[1] + weights[2];
         let size = extent([a, b, c]);
-        // A product has an error of 2⁻⁵³ size² or less, so a weight one of 2⁻⁵¹ size².
+        // With a NaN coordinate the sum is NaN and the comparison false. A product has an error of 2⁻⁵³ size² or less, so a weight one of 2⁻⁵¹ size².
         let has_zero = (p == 0.0) | (q == 0.0) | (r == 0.0);
         let is_safe = !has_zero && sum.abs() >= MIN_AREA * (size * size);
         if is_safe { Some(self.crossing(weights, [a, b, c])) } else { self.intersect_exactly([a, b, c]) }
@@ -133,8 +135,8 @@ impl Shear {
     #[inline(never)]
     fn intersect_exactly(&self, mut corners: [Corner; 3]) -> Option<Crossing> {
         let size = extent(corners);
-        // Also false for NaN.
-        if !(size > 0.0 && size < f64::INFINITY) {
+        let is_finite = corners.iter().all(|[x, y, _]| x.is_finite() && y.is_finite());
+        if !is_finite || size == 0.0 {
             return None;
         }
         if !(1e-60..1e60).contains(&size) {
@@ -167,7 +169,7 @@ fn permuted([x, y, z]: [f64; 3], axes: [usize; 3]) -> [f64; 3] {
     }
 }
 
-/// The greatest |x| or |y| of projected corners; NaN if one is NaN.
+/// The greatest |x| or |y| of projected corners, unless one is NaN.
 #[inline(always)]
 fn extent(corners: [Corner; 3]) -> f64 {
     let [a, b, c] = corners;
@@ -176,10 +178,10 @@ fn extent(corners: [Corner; 3]) -> f64 {
     greater(x, y)
 }
 
-/// The greater of two numbers that are not negative, or NaN if one is NaN.
+/// The greater of two numbers, unless one is NaN.
 #[inline(always)]
 fn greater(a: f64, b: f64) -> f64 {
-    if a > b || a.is_nan() { a } else { b }
+    if a > b { a } else { b }
 }
 
 /// Twice the area of the triangle between the ray and an edge. The opposite edge has exactly the

@@ -12,55 +12,53 @@ impl Entry {
     }
 
     #[inline(always)]
-    pub fn near(self) -> f32 {
-        f32::from_bits((self.0 >> 32) as u32)
-    }
-
-    #[inline(always)]
     pub fn child(self) -> u32 {
         self.0 as u32
+    }
+
+    /// The greatest entry with a distance of `end` or less; `end` is 0 or greater.
+    #[inline(always)]
+    pub fn limit(end: f32) -> Self {
+        Self::new(end, u32::MAX)
     }
 }
 
 /// Entries in an array that needs no allocation. Further ones, in deep hierarchies, go to a vector;
 /// the depth is bounded ([`crate::build`]), so their number is, too.
 pub struct Stack {
-    near: [Entry; N_NEAR],
+    first: [Entry; N_FIRST],
     n: usize,
-    spilt: Vec<Entry>,
+    others: Vec<Entry>,
 }
 
-const N_NEAR: usize = 64;
+/// A power of two.
+const N_FIRST: usize = 32;
 
 impl Stack {
     #[inline(always)]
     pub fn new() -> Self {
-        Self { near: [Entry(0); N_NEAR], n: 0, spilt: Vec::new() }
+        Self { first: [Entry(0); N_FIRST], n: 0, others: Vec::new() }
     }
 
     #[inline(always)]
     pub fn push(&mut self, entry: Entry) {
-        if let Some(place) = self.near.get_mut(self.n) {
-            *place = entry;
-            self.n += 1;
+        if self.n < N_FIRST {
+            self.first[self.n] = entry;
         } else {
-            self.spill(entry);
+            self.push_other(entry);
         }
+        self.n += 1;
     }
 
     #[cold]
-    fn spill(&mut self, entry: Entry) {
-        self.spilt.push(entry);
+    #[inline(never)]
+    fn push_other(&mut self, entry: Entry) {
+        self.others.push(entry);
     }
 
     #[inline(always)]
     pub fn pop(&mut self) -> Option<Entry> {
-        if self.n == N_NEAR
-            && let Some(entry) = self.spilt.pop()
-        {
-            return Some(entry);
-        }
         self.n = self.n.checked_sub(1)?;
-        Some(self.near[self.n])
+        if self.n < N_FIRST { Some(self.first[self.n]) } else { self.others.pop() }
     }
 }
