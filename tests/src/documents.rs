@@ -7,8 +7,17 @@ use std::process::Command;
 use crate::scenes;
 
 /// First words of the commands that a reader types in a folder with scenes.
-const PROGRAMS: [&str; 8] =
-    ["uglorentz ", "ugdoppler ", "ugrainbow ", "ugsheet ", "ugmesh ", "ugparse ", "sed ", "for "];
+const PROGRAMS: [&str; 9] = [
+    "uglorentz ",
+    "ugdoppler ",
+    "ugrainbow ",
+    "ugphoton ",
+    "ugsheet ",
+    "ugmesh ",
+    "ugparse ",
+    "sed ",
+    "for ",
+];
 
 /// The commands of a page.
 pub struct Page {

@@ -120,7 +120,8 @@ impl HueColor {
     }
 
     /// The colour as a renderer draws it: faded where the eye sees little.  Eq. (P17)
-    fn attenuated(&self) -> Hsv {
+    #[must_use]
+    pub fn attenuated(&self) -> Hsv {
         self.hsv().attenuated(attenuation(self.wavelength_nm))
     }
 

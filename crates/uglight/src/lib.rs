@@ -37,6 +37,7 @@
 
 mod appearance;
 mod color;
+mod face_colors;
 mod hue;
 mod hue_table;
 mod irradiance;
@@ -51,6 +52,7 @@ mod vertex_color;
 
 pub use appearance::Appearance;
 pub use color::{hsv, is_light, light, spectra_note, spectrum};
+pub use face_colors::Common;
 pub use hue::{HueColor, HueShift};
 pub use hue_table::HueTable;
 pub use irradiance::{IncidentLamp, Irradiance, SurfaceElement};
@@ -59,6 +61,6 @@ pub use lighting::{DEFAULT_AMBIENT, DEFAULT_FROM_EYE, Lighting};
 pub use palette::{Interpolation, Palette, Swatch};
 pub use shift::ColorShift;
 pub use spectra::Spectra;
-pub use spectral::{SpectralColor, SpectralLamp, SpectralShift, spectral_lamps};
+pub use spectral::{SpectralColor, SpectralFilter, SpectralLamp, SpectralShift, spectral_lamps};
 pub use surface_attributes::SurfaceAttributes;
 pub use vertex_color::{VertexColor, vertex_colors};

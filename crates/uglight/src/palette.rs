@@ -131,6 +131,11 @@ impl Palette {
         Swatch { tint, saturation: color.saturation, value: color.value, light: None, translucency: 0.0 }
     }
 
+    /// The colour converted to light, if it is not given as light.
+    pub fn as_light(&self, swatch: Swatch) -> Swatch {
+        Swatch { light: Some(self.light(&swatch)), ..swatch }
+    }
+
     fn read(&self, scene: &Scene, color: &Color) -> Swatch {
         let translucency = color.translucency;
         let swatch = match color.value {

@@ -5,9 +5,9 @@ use rayon::prelude::*;
 use ugparse::{ColorId, Scene};
 use ugphysics::xyz_to_linear_srgb;
 use ugscene::Shares;
-use ugspectrum::DopplerGrid;
+use ugspectrum::{DopplerGrid, Spectrum};
 
-use crate::{SpectralColor, SpectralShift};
+use crate::{Irradiance, SpectralColor, SpectralFilter, SpectralLamp, SpectralShift};
 
 /// The apparent light of mixtures of spectra as a function of the Doppler factor.
 pub struct Spectra {
@@ -17,29 +17,68 @@ pub struct Spectra {
     rows: Vec<Shares>,
     /// White, followed by the colours of the scene.
     colors: Vec<SpectralColor>,
+    /// |ln D| up to which the spectra are tabulated.
+    reach: f64,
 }
 
 impl Spectra {
-    /// `rows`: mixtures of colours. `rapidity`: the greatest rapidity of a body.
-    pub fn new(scene: &Scene, shift: SpectralShift, rows: Vec<Shares>, rapidity: f64) -> Self {
-        // D is between e^−η and e^η.
-        let ln_doppler = shift.ln_shift(rapidity);
+    /// `rows`: mixtures of colours. `reach`: the |ln D| that are fast to compute; for light straight
+    /// from a body, its rapidity.
+    pub fn new(scene: &Scene, shift: SpectralShift, rows: Vec<Shares>, reach: f64) -> Self {
+        let ln_doppler = shift.ln_shift(reach);
         let grid = DopplerGrid::new(-ln_doppler..=ln_doppler);
         let colors = (0..=scene.colors.len())
             .into_par_iter()
             .map(|row: usize| row.checked_sub(1).map(ColorId::from_index))
             .map(|color| SpectralColor::new(scene, color).tabulated(&grid))
             .collect();
-        Self { shift, grid, rows, colors }
+        Self { shift, grid, rows, colors, reach }
     }
 
     /// Linear red, green and blue of a row at a given ln D.  Eq. (P12), (P19)
     pub fn light(&self, row: u32, ln_doppler: f64) -> DVec3 {
-        let seen = |(color, share): (Option<ColorId>, f64)| {
-            let row = color.map_or(0, |color| color.index() + 1);
-            share * DVec3::from_array(self.colors[row].seen(&self.grid, ln_doppler, self.shift))
-        };
-        let xyz: DVec3 = self.rows[row as usize].parts().map(seen).sum();
+        // Rounding may exceed the rapidity slightly.
+        let is_near = ln_doppler.abs() <= self.reach + 1e-9;
+        self.mean(row, |color| {
+            if is_near {
+                return DVec3::from_array(color.seen(&self.grid, ln_doppler, self.shift));
+            }
+            let gain = libm::exp(self.shift.ln_gain(ln_doppler));
+            let shifted = color.spectrum().shifted(libm::exp(self.shift.ln_shift(ln_doppler)));
+            gain * DVec3::from_array(shifted)
+        })
+    }
+
+    /// Linear red, green and blue of a row under several lamps, behind filters.  Eq. (P14), (P19)
+    pub fn lit(
+        &self,
+        row: u32,
+        doppler: f64,
+        light: &[Irradiance],
+        lamps: &[SpectralLamp],
+        filters: &[SpectralFilter<'_>],
+    ) -> DVec3 {
+        self.mean(row, |color| match filters {
+            [] => self.shift.seen_lit(color.spectrum(), doppler, light, lamps),
+            _ => self.shift.seen_filtered(color.spectrum(), doppler, light, lamps, filters),
+        })
+    }
+
+    /// The strongest colour of a row.
+    pub fn spectrum(&self, row: u32) -> &Spectrum {
+        let parts = self.rows[row as usize].parts();
+        let strongest = parts.reduce(|best, part| if part.1 > best.1 { part } else { best });
+        self.color(strongest.and_then(|(color, _)| color)).spectrum()
+    }
+
+    /// The mean of X, Y, Z of the colours of a row, as linear red, green and blue.
+    fn mean(&self, row: u32, seen: impl Fn(&SpectralColor) -> DVec3) -> DVec3 {
+        let parts = self.rows[row as usize].parts();
+        let xyz: DVec3 = parts.map(|(color, share)| share * seen(self.color(color))).sum();
         DVec3::from_array(xyz_to_linear_srgb(xyz.to_array()))
+    }
+
+    fn color(&self, color: Option<ColorId>) -> &SpectralColor {
+        &self.colors[color.map_or(0, |color| color.index() + 1)]
     }
 }

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use ugparse::{ColorId, Scene};
-use ugspectrum::{DopplerGrid, DopplerTable, LightSpectrum, Spectrum};
+use ugspectrum::{DopplerGrid, DopplerTable, LightSpectrum, Spectrum, integrate};
 
 use crate::{Irradiance, spectrum};
 
@@ -61,6 +61,52 @@ impl SpectralShift {
     }
 }
 
+/// A filter between a surface and the eye.
+#[derive(Clone, Copy, Debug)]
+pub struct SpectralFilter<'a> {
+    /// The colour of the light that it transmits of white light.
+    pub color: &'a Spectrum,
+    /// The Doppler factor with which it is seen.
+    pub doppler: f64,
+}
+
+impl SpectralShift {
+    /// Like [`SpectralShift::seen_lit`], behind filters: L(λ) is multiplied by the transmittance
+    /// T(λ D_f) of each.
+    #[must_use]
+    pub fn seen_filtered(
+        self,
+        surface: &Spectrum,
+        doppler: f64,
+        light: &[Irradiance],
+        lamps: &[SpectralLamp],
+        filters: &[SpectralFilter<'_>],
+    ) -> DVec3 {
+        let shift = |doppler: f64| if self.doppler { doppler } else { 1.0 };
+        let flux = |factor: f64| if self.flux { factor } else { 1.0 };
+        let own = shift(doppler);
+        let through = |nm: f64| {
+            let part = |filter: &SpectralFilter<'_>| filter.color.transmittance(nm * shift(filter.doppler));
+            filters.iter().map(part).product::<f64>()
+        };
+        let square = doppler * doppler;
+        let gain = flux(square * square * doppler);
+        if !surface.is_surface() {
+            let emitted = LightSpectrum::new(surface);
+            return gain * DVec3::from(integrate(|nm| emitted.at(nm * own) * through(nm)));
+        }
+        let mut sum = DVec3::ZERO;
+        for part in light {
+            let lamp = &lamps[part.lamp as usize];
+            let of_lamp = own * shift(part.doppler);
+            let seen = |nm: f64| surface.transmittance(nm * own) * lamp.light.at(nm * of_lamp) * through(nm);
+            let received = part.level * lamp.intensity * flux(part.doppler * part.doppler * part.doppler);
+            sum += received * gain * DVec3::from(integrate(seen));
+        }
+        sum
+    }
+}
+
 /// The spectrum of a lamp, and its intensity.
 #[derive(Clone, Debug)]
 pub struct SpectralLamp {
@@ -86,6 +132,14 @@ pub struct SpectralColor {
     spectrum: Spectrum,
     is_exact: bool,
     table: Option<DopplerTable>,
+}
+
+impl SpectralLamp {
+    /// White light of an intensity.
+    #[must_use]
+    pub fn white(intensity: f64) -> Self {
+        Self { light: LightSpectrum::new(&Spectrum::from_linear_srgb([1.0; 3])), intensity }
+    }
 }
 
 impl SpectralColor {

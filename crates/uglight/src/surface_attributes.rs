@@ -79,6 +79,11 @@ impl SurfaceAttributes {
         self.rest[vertex.index()]
     }
 
+    /// The rest positions of all vertices, see [`SurfaceAttributes::rest`].
+    pub fn all_rest(&self) -> &[DVec3] {
+        &self.rest
+    }
+
     /// The rest frames of the bodies.
     pub fn frames(&self) -> &RestFrames {
         &self.frames

@@ -153,7 +153,7 @@ mod tests {
     fn media_at_rest_refract_and_reflect_by_snells_law() {
         for (before, behind) in [(1.0, 1.5), (1.5, 1.0), (1.33, 1.5), (1.0, 1.0)] {
             for degrees in [0.0_f64, 20.0, 41.0, 42.0, 70.0, 89.0] {
-                let (sin, cos) = degrees.to_radians().sin_cos();
+                let (sin, cos) = libm::sincos(degrees.to_radians());
                 let direction = DVec3::new(cos, sin, 0.0);
                 let wave = WaveVector { frequency: 1.0, k: before * direction };
                 let medium = |index| Medium { index, velocity: Velocity::ZERO };

@@ -10,7 +10,8 @@ use ugraster::{
 
 use crate::clip::{ClipCounts, Vertex, clip_polygon};
 use crate::packing::Pack;
-use crate::painter::{Common, Painter};
+use crate::painter::Painter;
+use uglight::Common;
 
 /// Faces classified together: several blocks of triangles, so that one block is filled while
 /// another is classified.

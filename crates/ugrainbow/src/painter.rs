@@ -1,14 +1,13 @@
 //! Colour and light of the corners of faces and wires.
 
 use glam::DVec3;
-use uglight::Lighting;
 use ugparse::{Face, Scene, VertexId, Wire, unit_normal};
 use ugraster::{Corner, Point, SampleGrid};
 
 use crate::clip::Vertex;
 use uglight::Spectra;
 use uglight::SurfaceAttributes;
-use uglight::{Palette, Swatch};
+use uglight::{Common, Lighting, Palette, Swatch};
 use ugscene::{CameraPoint, Slab, View};
 
 /// Everything from which faces and wires are drawn.
@@ -30,25 +29,6 @@ pub struct Painter<'a> {
     pub spectra: Option<&'a Spectra>,
     /// Cull back-facing faces.
     pub is_culled: bool,
-}
-
-/// What the corners of a face have in common.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Common {
-    /// The tint of grey corners for interpolation: the mean of the coloured corners, so that the
-    /// colours between grey and blue do not pass through the rainbow.
-    grey_tint: f64,
-    /// Translucency of the face's own colour, if it has one.
-    translucency: Option<f64>,
-    /// A corner's colour is given as light, so light is interpolated instead of hue.
-    pub is_light: bool,
-}
-
-impl Common {
-    /// The same face with hues in place of light.
-    pub fn without_light(self) -> Self {
-        Self { is_light: false, ..self }
-    }
 }
 
 impl Painter<'_> {
@@ -81,56 +61,20 @@ impl Painter<'_> {
     /// What the corners of a face have in common.
     #[inline]
     pub fn common(&self, face: &Face) -> Common {
-        let corners = self.scene.contours.corners(face.contours.clone());
-        let swatches = || corners.iter().map(|&vertex| self.surface.swatch(vertex));
-        let mean_tint = || {
-            let (sum, count) = swatches()
-                .filter(|swatch| !swatch.is_grey())
-                .fold((0.0, 0), |(sum, count), swatch| (sum + swatch.tint, count + 1));
-            if count == 0 { 0.0 } else { sum / f64::from(count) }
-        };
-        let grey_tint = if swatches().any(Swatch::is_grey) { mean_tint() } else { 0.0 };
-        let translucency = face.color.map(|color| self.palette.get(color).translucency);
-        Common {
-            grey_tint,
-            translucency,
-            is_light: self.palette.has_light() && swatches().any(|swatch| swatch.light.is_some()),
-        }
+        self.palette.common(self.scene, self.surface, face)
     }
 
     /// The colour of a corner of a face.
     #[inline]
     pub fn swatch(&self, vertex: VertexId, common: &Common) -> Swatch {
-        let own = self.surface.swatch(vertex);
-        let swatch = Swatch { translucency: common.translucency.unwrap_or(own.translucency), ..*own };
-        if common.is_light {
-            self.as_light(swatch)
-        } else if swatch.is_grey() {
-            Swatch { tint: common.grey_tint, ..swatch }
-        } else {
-            swatch
-        }
+        self.palette.swatch_of(*self.surface.swatch(vertex), common)
     }
 
     /// True if a face is translucent. Its own colour takes precedence over the colours of its
     /// corners, so a translucent face does not make neighbours translucent that share its corners.
     #[inline]
     pub fn is_transparent(&self, face: &Face) -> bool {
-        if !self.palette.has_translucency() {
-            return false;
-        }
-        match face.color {
-            Some(color) => self.palette.get(color).translucency > 0.0,
-            None => {
-                let corners = self.scene.contours.corners(face.contours.clone());
-                corners.iter().any(|&vertex| self.surface.swatch(vertex).translucency > 0.0)
-            }
-        }
-    }
-
-    /// The colour converted to light, if it is not given as light.
-    pub fn as_light(&self, swatch: Swatch) -> Swatch {
-        Swatch { light: Some(self.palette.light(&swatch)), ..swatch }
+        self.palette.is_translucent(self.scene, self.surface, face)
     }
 
     /// The colour of a wire at ends without a colour of their own.

@@ -85,4 +85,20 @@ impl Spectrum {
         let Kind::Reflected(surface) = &self.0 else { return None };
         Some(integrate(|nm| surface.at(nm * doppler) * light.at(nm * doppler * light_doppler)))
     }
+
+    /// The part of light that a filter of this colour transmits at a wavelength in nm; all of it
+    /// if this spectrum is not that of a surface.
+    #[must_use]
+    pub fn transmittance(&self, wavelength_nm: f64) -> f64 {
+        match &self.0 {
+            Kind::Reflected(surface) => surface.at(wavelength_nm),
+            _ => 1.0,
+        }
+    }
+
+    /// True if this is the spectrum of a surface, which reflects light; false for what emits it.
+    #[must_use]
+    pub fn is_surface(&self) -> bool {
+        matches!(self.0, Kind::Reflected(_))
+    }
 }

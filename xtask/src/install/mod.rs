@@ -35,11 +35,12 @@ pub struct Args {
 }
 
 /// The manuals of all programs.
-fn manuals() -> [Manual; 6] {
+fn manuals() -> [Manual; 7] {
     [
         uglorentz::manual(),
         ugdoppler::manual(),
         ugrainbow::manual(),
+        ugphoton::manual(),
         ugmesh::manual(),
         ugparse::manual(),
         ugsheet::manual(),
@@ -149,12 +150,12 @@ mod tests {
             let mut listed = Vec::new();
             write(&mut listed, &args).expect("everything is installed");
             let listed = String::from_utf8(listed).expect("text");
-            assert_eq!(listed.lines().count(), 6 + 1 + 6 * 4, "{listed}");
+            assert_eq!(listed.lines().count(), 7 + 1 + 7 * 4, "{listed}");
             assert!(listed.lines().all(|file| Path::new(file).is_file()), "{listed}");
         }
         assert_eq!(fs::read_to_string(to.path().join("bin/ugrainbow")).expect("a file"), "ugrainbow");
         let left = fs::read_dir(to.path().join("bin")).expect("a folder").count();
-        assert_eq!(left, 6);
+        assert_eq!(left, 7);
     }
 
     #[test]
@@ -175,7 +176,7 @@ mod tests {
             assert!(text.contains("EXIT_STATUS") && text.contains("SEE_ALSO"), "{text}");
             n_pages += 1;
         }
-        assert_eq!(n_pages, 7);
+        assert_eq!(n_pages, 8);
     }
 
     #[test]

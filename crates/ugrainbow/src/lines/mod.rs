@@ -128,7 +128,7 @@ fn push_wire(painter: &Painter<'_>, item: u32, wire: &Wire, shape: &dyn LineShap
     let is_light = keeps_light && painter.is_light_wire(wire, &color);
     let end = |vertex| {
         let swatch = Swatch { translucency: 0.0, ..painter.wire_end(vertex, &color) };
-        if is_light { painter.as_light(swatch) } else { Swatch { light: None, ..swatch } }
+        if is_light { painter.palette.as_light(swatch) } else { Swatch { light: None, ..swatch } }
     };
     for contour in painter.scene.wire_contours(wire) {
         for ends in contour.windows(2) {

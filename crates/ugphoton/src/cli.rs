@@ -1,0 +1,239 @@
+//! The command line.
+
+use std::path::Path;
+
+use clap::Parser;
+use ugimage::Format;
+use uglight::{ColorShift, HueShift, Interpolation, SpectralShift};
+use ugparse::{HueScale, pipe};
+use ugphysics::Brightness;
+use ugpicture::Output;
+use ugpicture::cli::{AnnotationArgs, PICTURE, PictureArgs, format_named};
+use ugpipe::{CommonArgs, Context, Failure, Manual, ToolArgs, finite, one_of, whole};
+use ugscene::cli::{MotionArgs, RepeatArgs};
+
+use crate::config::{Config, RayOptions, Shutter};
+use crate::error::Error;
+use crate::run;
+
+/// Draws a UniGrafix scene in motion by tracing rays: mirrors, glass, shadows
+///
+/// Reads a scene at rest and writes a picture. A ray for each sample is followed from the eye into
+/// the past, through mirrors and glass, each with its own motion; shadows lag behind moving bodies.
+/// It does the work of the whole pipe by itself, exact at every sample.
+#[derive(Clone, Debug, Parser)]
+#[command(name = "ugphoton", version, after_help = EXAMPLES)]
+pub struct Args {
+    #[command(flatten)]
+    motion: MotionArgs,
+
+    /// Brightness law: report (D), photon (D^3), bolometric (D^4), none [default: report]
+    ///
+    /// Values above 1 are clipped per sample, unless -ex or -tc is given.
+    #[arg(long, visible_alias = "brightness", value_name = "LAW",
+          value_parser = one_of(Brightness::ALL.map(Brightness::name), law), conflicts_with = "no_flux", help_heading = COLOR)]
+    br: Option<Brightness>,
+
+    /// Shift spectra instead of hues
+    ///
+    /// Black bodies and sampled spectra as they are, other colours as surfaces in daylight. The
+    /// brightness law is D^5 per wavelength, and light brighter than white is clipped only in the
+    /// last step.
+    #[arg(long, visible_alias = "spectral", conflicts_with_all = ["br", "wi"], help_heading = COLOR)]
+    sp: bool,
+
+    /// Interpolate wavelengths between corners, instead of hues
+    #[arg(long, visible_alias = "interpolate-wavelength", help_heading = COLOR)]
+    iw: bool,
+
+    /// Hues in colour statements are wavelengths in nm; implies -iw
+    #[arg(long, visible_alias = "wavelengths", help_heading = COLOR)]
+    wi: bool,
+
+    /// Leave wavelengths as they are
+    #[arg(long, help_heading = COLOR)]
+    no_doppler: bool,
+
+    /// Leave brightness as it is
+    #[arg(long, help_heading = COLOR)]
+    no_flux: bool,
+
+    #[command(flatten)]
+    repeat: RepeatArgs,
+
+    /// Most reflections and refractions along a path
+    #[arg(long, visible_alias = "depth", value_name = "N", default_value = "8", value_parser = whole(0..=64),
+          help_heading = RAYS)]
+    rd: u32,
+
+    /// Least part of a pixel's light that is followed
+    #[arg(long, visible_alias = "cut-off", value_name = "PART", default_value = "0.001",
+          value_parser = part, help_heading = RAYS)]
+    rc: f64,
+
+    /// Without shadows: light reaches surfaces through all others
+    #[arg(long, help_heading = RAYS)]
+    no_shadows: bool,
+
+    /// Fresnel's equations for mirrors and glass
+    ///
+    /// They divide light on transparent surfaces into reflected and transmitted light by its angle.
+    /// Otherwise the parts are those of the surf statement.
+    #[arg(long, help_heading = RAYS)]
+    fresnel: bool,
+
+    /// Shutter at the film, at this distance behind the pinhole
+    ///
+    /// Otherwise the shutter is at the pinhole. All light of the picture arrives at the film at one moment, so it passed the pinhole the
+    /// earlier the nearer it is to the edge of the film.
+    #[arg(long, value_name = "DISTANCE", value_parser = distance, help_heading = RAYS)]
+    film_shutter: Option<f64>,
+
+    /// Smooth shading
+    ///
+    /// Vertices without a normal get the mean normal of their faces.
+    #[arg(long, visible_alias = "smooth", help_heading = RAYS)]
+    sm: bool,
+
+    /// Format of the picture [default: by the ending of -fo, else png]
+    ///
+    /// png16 has 16 bits per component. exr, pfm and hdr hold linear light, neither clipped nor
+    /// gamut-mapped: white is 1, and components may exceed 1 or be negative.
+    #[arg(long, value_name = "FMT", visible_alias = "format",
+          value_parser = one_of(Format::ALL.map(Format::name), format_named), help_heading = PICTURE)]
+    dt: Option<Format>,
+
+    #[command(flatten)]
+    picture: PictureArgs,
+
+    #[command(flatten)]
+    annotations: AnnotationArgs,
+
+    #[command(flatten)]
+    common: CommonArgs,
+}
+
+const COLOR: &str = "Colour";
+const RAYS: &str = "Rays";
+
+const EXAMPLES: &str = "Examples:
+  ugphoton -vel .9 0 0 -in ship.ug > ship.png
+  ugphoton -cv 0 .5 0 -sp -ex auto street.ug > drive.png
+  ugphoton -vel .6 0 0 -in --no-shadows -lg ship.ug > legend.png
+  ugphoton -vel 0 -.2 0 -in -dt exr -ch D,time ship.ug > light.exr";
+
+/// What the help, the man page and the completions of the program say.
+pub fn manual() -> Manual {
+    ugpipe::manual::<Args>()
+}
+
+impl ToolArgs for Args {
+    const ESSENTIAL: &'static [&'static str] = &[
+        "-vel",
+        "--keep-in-view",
+        "-cv",
+        "-ti",
+        "-sp",
+        "-ep",
+        "-va",
+        "-sz",
+        "-ex",
+        "-lg",
+        "--no-shadows",
+        "-fo",
+    ];
+
+    fn common(&self) -> &CommonArgs {
+        &self.common
+    }
+}
+
+impl Args {
+    fn config(&self, output: Option<&Path>) -> Result<Config, Failure> {
+        Ok(Config {
+            motion: self.motion.options()?,
+            shift: self.color_shift(),
+            picture: self.picture.options(self.output(output)?, self.annotations.options())?,
+            rays: RayOptions {
+                depth: self.rd,
+                cutoff: self.rc,
+                shadows: !self.no_shadows,
+                fresnel: self.fresnel,
+                shutter: self.film_shutter.map_or(Shutter::Pinhole, |distance| Shutter::Film { distance }),
+            },
+            interpolation: if self.iw { Interpolation::Wavelength } else { Interpolation::Hue },
+            hue_scale: if self.wi { HueScale::Wavelengths } else { HueScale::Degrees },
+            smooth: self.sm,
+            repeat: self.repeat.repeats(),
+            reading: pipe::options(&self.common)?,
+        })
+    }
+
+    fn color_shift(&self) -> ColorShift {
+        let doppler = !self.no_doppler;
+        if self.sp {
+            return ColorShift::Spectra(SpectralShift { doppler, flux: !self.no_flux });
+        }
+        let law = if self.no_flux { Brightness::None } else { self.br.unwrap_or_default() };
+        ColorShift::Hues(HueShift { doppler, law })
+    }
+
+    fn output(&self, file: Option<&Path>) -> Result<Output, Failure> {
+        let ending = file.and_then(Path::extension).map(|ending| ending.to_string_lossy().into_owned());
+        match (self.dt, ending) {
+            (Some(format), _) => Ok(Output::Color(format)),
+            (None, None) => Ok(Output::Color(Format::Png)),
+            (None, Some(ending)) => format_named(&ending)
+                .map(Output::Color)
+                .map_err(|error| Failure::Usage(format!("`.{ending}` is {error}; name one with -dt"))),
+        }
+    }
+}
+
+/// The whole program between its streams: reads the scene, draws it, writes the picture.
+///
+/// # Errors
+/// Bad usage, a bad scene, or a stream that fails.
+pub fn draw(args: &Args, context: &mut Context) -> Result<(), Failure> {
+    let config = args.config(context.output_name())?;
+    let is_binary = config.picture.output.format().is_some_and(Format::is_binary);
+    if context.output_is_terminal() && is_binary {
+        return Err(Failure::Usage(
+            "a picture is not written to a terminal; send it to a file with `> FILE` or -fo FILE".into(),
+        ));
+    }
+    let source = pipe::read(context, &config.reading)?;
+    let picture = run(&config, &source, context.command_line(), &context.steps()).map_err(failure)?;
+    if !picture.warnings.is_empty() {
+        context.report(&picture.warnings.render(true));
+    }
+    picture.notes.iter().for_each(|note| context.note(note));
+    context.detail(&format!("drew {} x {} pixels", config.picture.size[0], config.picture.size[1]));
+    context.write(&picture.bytes)
+}
+
+fn failure(error: Error) -> Failure {
+    match error {
+        Error::Text(diagnostics) => Failure::Report(diagnostics.render(true)),
+        error if error.is_usage() => Failure::usage(error),
+        error => Failure::failed(error),
+    }
+}
+
+/// The name of a brightness law.
+fn law(word: &str) -> Result<Brightness, String> {
+    Brightness::from_name(word)
+        .ok_or_else(|| format!("none of the laws {}", Brightness::ALL.map(Brightness::name).join(", ")))
+}
+
+/// A distance.
+fn distance(word: &str) -> Result<f64, String> {
+    let distance = finite(word)?;
+    if distance >= 0.0 { Ok(distance) } else { Err("a distance is 0 or more".to_owned()) }
+}
+
+/// A part of a whole.
+fn part(word: &str) -> Result<f64, String> {
+    let part = finite(word)?;
+    if (0.0..=1.0).contains(&part) { Ok(part) } else { Err("a part is from 0 to 1".to_owned()) }
+}

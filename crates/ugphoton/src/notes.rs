@@ -1,0 +1,71 @@
+//! Notes for the user about a picture, above all why it is empty.
+
+use ugimage::{Development, Tone};
+use uglight::{DEFAULT_AMBIENT, DEFAULT_FROM_EYE};
+use ugpicture::Exposure;
+
+use crate::config::Config;
+use crate::pixels::Statistics;
+use crate::scenery::Scenery;
+
+/// Least brightness at which clipping is reported; less is invisible in 8 bits.
+const CLIPPED: f64 = 1.001;
+
+/// The notes, one sentence each.
+pub fn notes(
+    scenery: &Scenery<'_>,
+    config: &Config,
+    statistics: &Statistics,
+    development: Option<Development>,
+) -> Vec<String> {
+    let (scene, view) = (&scenery.scene, &scenery.view);
+    let mut notes: Vec<String> = view.default_camera.iter().map(ToString::to_string).collect();
+    if !scenery.lights.are_of_scene && scene.faces.iter().any(|face| scene.light_level(face).is_none()) {
+        notes.push(format!(
+            "no lights in the scene: drawn with ambient light {DEFAULT_AMBIENT} and a light of \
+             {DEFAULT_FROM_EYE} from the eye, without shadows"
+        ));
+    }
+    if !scene.wires.is_empty() {
+        notes.push("wires are left out: rays do not meet lines".to_owned());
+    }
+    if view.is_up_replaced {
+        notes.push(
+            "the up direction is zero or parallel to the view, so another axis is up; choose one with -ud"
+                .into(),
+        );
+    }
+    notes.extend(why_nothing_is_seen(statistics).map(str::to_owned));
+    notes.extend(light_note(config, statistics, development));
+    notes
+}
+
+fn why_nothing_is_seen(statistics: &Statistics) -> Option<&'static str> {
+    match statistics {
+        Statistics { n_covered: 0, .. } => Some(
+            "nothing is drawn: everything is outside the picture, where fast bodies often are; \
+             try -in, another -vc or a wider -va",
+        ),
+        Statistics { n_visible: 0, .. } => Some(
+            "all that is in the picture is black: no light falls on it, or its wavelengths are outside 380-780 \
+             nm; try a lower speed, or --no-doppler --no-flux to see the shape",
+        ),
+        _ => None,
+    }
+}
+
+/// How light brighter than white was brought into range, if there was any.
+fn light_note(config: &Config, statistics: &Statistics, development: Option<Development>) -> Option<String> {
+    let picture = &config.picture;
+    if picture.output.is_linear() {
+        return None;
+    }
+    if let (Some(Exposure::Auto), Some(Development { stops, .. })) = (picture.exposure, development) {
+        return Some(format!("exposure is {stops} stops; -ex {stops} gives the same picture"));
+    }
+    let is_chosen = picture.exposure.is_some() || picture.tone != Tone::Clip;
+    if statistics.max_light <= CLIPPED || is_chosen {
+        return None;
+    }
+    Some(format!("max light is {:.3}, clip to 1.0; -ex auto brings it into range", statistics.max_light))
+}

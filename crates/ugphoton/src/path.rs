@@ -1,0 +1,106 @@
+//! Rays into the past, and the media they are in.
+
+use glam::DVec3;
+use ugparse::SurfaceId;
+use ugphysics::{Event, WaveVector};
+
+use crate::frame::RestFrame;
+
+/// Transparent solids within each other that a ray keeps track of; those inside more are ignored.
+const MOST_MEDIA: usize = 8;
+
+/// A ray, followed from the eye into the past.
+#[derive(Clone, Copy, Debug)]
+pub struct Ray {
+    /// Where it starts, in the frame of the camera relative to the eye.
+    pub origin: Event,
+    /// A step of it into the past, in the frame of the camera.
+    pub step: Event,
+    /// The light that follows it towards the eye, in the frame of the camera. Its frequency at the
+    /// eye is 1.
+    pub wave: WaveVector,
+    /// The surface it starts at: row of the part, and place in its rest frame, which has fewer
+    /// rounding errors than the event.
+    pub start: Start,
+}
+
+/// Where a ray starts.
+#[derive(Clone, Copy, Debug)]
+pub enum Start {
+    /// At the eye, at the moment of the picture: the origin of every frame.
+    Eye,
+    /// At another event.
+    Event,
+    /// At a surface.
+    Surface {
+        /// Row of the part.
+        part: usize,
+        /// The place in its rest frame.
+        place: DVec3,
+    },
+}
+
+impl Ray {
+    /// Light seen in a direction, of any length but 0, at the moment of the picture.
+    pub fn from_eye(direction: DVec3) -> Self {
+        let length = direction.length();
+        Self {
+            origin: Event { t: 0.0, x: DVec3::ZERO },
+            step: Event { t: -length, x: direction },
+            wave: WaveVector::in_vacuum(1.0, direction / -length),
+            start: Start::Eye,
+        }
+    }
+
+    /// Origin and step in the rest frame of a part.
+    #[inline]
+    pub fn in_part(&self, row: usize, frame: &RestFrame) -> (DVec3, DVec3) {
+        match self.start {
+            Start::Eye => (DVec3::ZERO, frame.light_to_rest(self.step.x)),
+            Start::Surface { part, place } if part == row => (place, frame.to_rest(self.step).x),
+            _ => (frame.to_rest(self.origin).x, frame.to_rest(self.step).x),
+        }
+    }
+}
+
+/// The transparent solids that a ray is in, the innermost last.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Media {
+    entries: [Option<Solid>; MOST_MEDIA],
+    len: usize,
+}
+
+/// A transparent solid: the faces of one part with one surface.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Solid {
+    /// Row of the part.
+    pub part: usize,
+    /// Its surface.
+    pub surface: SurfaceId,
+}
+
+impl Media {
+    /// The medium that the ray is in; `None` for vacuum.
+    pub fn innermost(&self) -> Option<Solid> {
+        self.entries[..self.len].last().copied().flatten()
+    }
+
+    /// After the ray entered a solid.
+    #[must_use]
+    pub fn with(mut self, solid: Solid) -> Self {
+        if self.len < MOST_MEDIA {
+            self.entries[self.len] = Some(solid);
+            self.len += 1;
+        }
+        self
+    }
+
+    /// After the ray left a solid; `None` if it was not in it.
+    #[must_use]
+    pub fn without(mut self, solid: Solid) -> Option<Self> {
+        let at = self.entries[..self.len].iter().rposition(|&entry| entry == Some(solid))?;
+        self.entries[at..self.len].rotate_left(1);
+        self.len -= 1;
+        Some(self)
+    }
+}

@@ -1,0 +1,256 @@
+//! Pixels from samples: a ray for each, the mean by a reconstruction filter, on the background.
+
+use std::ops::Range;
+
+use glam::DVec3;
+use rayon::prelude::*;
+use ugimage::{Filter, LinearFrame};
+use ugpicture::{Backdrop, DepthBuffer, Emissions, PictureOptions, SurfaceSample, channel_planes};
+use ugpipe::Progress;
+
+use crate::path::Ray;
+use crate::scenery::Scenery;
+use crate::tracer::Tracer;
+use crate::world::{Intersection, PacketMemory};
+
+/// Pixels along a side of a tile, which one task computes.
+const TILE: u32 = 16;
+
+/// Samples along a side of a packet of rays that are traced together.
+const PACKET: u32 = 8;
+
+/// Statistics of the samples of a picture.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Statistics {
+    /// Samples that show a surface.
+    pub n_covered: u64,
+    /// Samples that are not black.
+    pub n_visible: u64,
+    /// The brightest channel of a sample.
+    pub max_light: f64,
+}
+
+impl Statistics {
+    fn with(self, other: Self) -> Self {
+        Self {
+            n_covered: self.n_covered + other.n_covered,
+            n_visible: self.n_visible + other.n_visible,
+            max_light: self.max_light.max(other.max_light),
+        }
+    }
+}
+
+/// The light of a picture, with the requested channels.
+pub fn light(
+    scenery: &Scenery<'_>,
+    options: &PictureOptions,
+    progress: &dyn Progress,
+) -> (LinearFrame, Statistics) {
+    let PictureOptions { size: [width, height], samples, filter, .. } = *options;
+    let backdrop = Backdrop::new(options.background, samples);
+    let painting = Painting { scenery, size: [width, height], samples, filter, backdrop };
+    let [columns, rows] = [width, height].map(|side| side.div_ceil(TILE));
+    progress.step("tracing rays", u64::from(columns) * u64::from(rows));
+    let tiles: Vec<Tile> = (0..columns * rows)
+        .into_par_iter()
+        .map_init(
+            || Tracer::new(scenery),
+            |tracer, idx| {
+                let tile = painting.tile([idx % columns, idx / columns], tracer);
+                progress.done(1);
+                tile
+            },
+        )
+        .collect();
+    let statistics = tiles.iter().fold(Statistics::default(), |sum, tile| sum.with(tile.statistics));
+    let mut pixels = vec![[0.0; 4]; width as usize * height as usize];
+    for tile in tiles {
+        let n = tile.columns.len();
+        for (line, row) in tile.rows.clone().enumerate() {
+            let start = row as usize * width as usize + tile.columns.start as usize;
+            pixels[start..start + n].copy_from_slice(&tile.pixels[line * n..(line + 1) * n]);
+        }
+    }
+    let mut frame = LinearFrame::new([width, height], painting.backdrop.is_opaque(), pixels);
+    if !options.channels.is_empty() {
+        let seen = surfaces(scenery, [width, height], samples);
+        let emissions = Emissions::new(&scenery.scene, &scenery.view, scenery.surface.frames());
+        for &channel in &options.channels {
+            let planes = channel_planes(channel, &emissions, [width, samples], &seen);
+            planes.into_iter().for_each(|plane| frame.push_plane(plane));
+        }
+    }
+    (frame, statistics)
+}
+
+/// The nearest surface at the middle of each pixel.
+pub fn depths(scenery: &Scenery<'_>, size: [u32; 2], samples: u32) -> DepthBuffer {
+    DepthBuffer { size, seen: surfaces(scenery, size, samples) }
+}
+
+/// For each pixel the surface at its middle that transmits less than half of the light behind it.
+fn surfaces(scenery: &Scenery<'_>, [width, height]: [u32; 2], samples: u32) -> Vec<Option<SurfaceSample>> {
+    let seen = |idx: usize| {
+        let middle = |pixel: usize| pixel as u32 * samples + samples / 2;
+        let ray = scenery.primary_ray([middle(idx % width as usize), middle(idx / width as usize)]);
+        let slab = scenery.view.slab;
+        let mut range = slab.near..slab.far;
+        loop {
+            let found = scenery.closest(&ray, range.clone())?;
+            let face = &scenery.scene.faces[found.triangle.face as usize];
+            let translucency =
+                face.color.map_or(0.0, |color| scenery.scene.colors[color.index()].translucency);
+            if translucency < 0.5 {
+                return Some(SurfaceSample { key: (1.0 / found.s) as f32, item: found.triangle.face });
+            }
+            range.start = found.s;
+        }
+    };
+    (0..width as usize * height as usize).into_par_iter().map(seen).collect()
+}
+
+/// What is the same for all tiles of a picture.
+struct Painting<'a> {
+    scenery: &'a Scenery<'a>,
+    size: [u32; 2],
+    samples: u32,
+    filter: Filter,
+    backdrop: Backdrop,
+}
+
+/// Pixels of a part of the picture.
+struct Tile {
+    columns: Range<u32>,
+    rows: Range<u32>,
+    pixels: Vec<[f32; 4]>,
+    statistics: Statistics,
+}
+
+/// Samples of a tile with its margin: red, green, blue, and the covered part.
+struct Samples {
+    columns: Range<u32>,
+    rows: Range<u32>,
+    light: Vec<[f32; 4]>,
+}
+
+impl Painting<'_> {
+    fn tile(&self, at: [u32; 2], tracer: &mut Tracer<'_>) -> Tile {
+        let range = |axis: usize| at[axis] * TILE..((at[axis] + 1) * TILE).min(self.size[axis]);
+        let (columns, rows) = (range(0), range(1));
+        let mut statistics = Statistics::default();
+        let samples = self.samples(&columns, &rows, tracer, &mut statistics);
+        let weights = self.filter.weights(self.samples);
+        let mut pixels = Vec::with_capacity(columns.len() * rows.len());
+        for row in rows.clone() {
+            for column in columns.clone() {
+                pixels.push(self.pixel(&samples, &weights, [column, row]));
+            }
+        }
+        Tile { columns, rows, pixels, statistics }
+    }
+
+    /// The samples that the pixels of a tile need.
+    fn samples(
+        &self,
+        columns: &Range<u32>,
+        rows: &Range<u32>,
+        tracer: &mut Tracer<'_>,
+        statistics: &mut Statistics,
+    ) -> Samples {
+        let (n, margin) = (self.samples, self.filter.margin());
+        let around = |range: &Range<u32>, side: u32| {
+            range.start.saturating_sub(margin) * n..(range.end + margin).min(side) * n
+        };
+        let (across, down) = (around(columns, self.size[0]), around(rows, self.size[1]));
+        let width = across.len();
+        let mut light = vec![[0.0_f32; 4]; width * down.len()];
+        let mut packet = Packet::default();
+        for top in down.clone().step_by(PACKET as usize) {
+            for left in across.clone().step_by(PACKET as usize) {
+                let (right, bottom) = ((left + PACKET).min(across.end), (top + PACKET).min(down.end));
+                packet.trace(self.scenery, left..right, top..bottom);
+                for (&[column, row], (ray, first)) in
+                    packet.places.iter().zip(packet.rays.iter().zip(&packet.first))
+                {
+                    let sample = u64::from(row) * u64::from(self.size[0] * n) + u64::from(column);
+                    let arriving = tracer.arriving(*ray, *first, self.scenery.view.slab.far, sample);
+                    let is_own = columns.contains(&(column / n)) && rows.contains(&(row / n));
+                    let brightest = arriving.light.max_element();
+                    if is_own && first.is_some() {
+                        statistics.n_covered += 1;
+                        statistics.n_visible += u64::from(brightest > 0.0);
+                        statistics.max_light = statistics.max_light.max(brightest);
+                    }
+                    let at = (row - down.start) as usize * width + (column - across.start) as usize;
+                    light[at] = self.on_background(arriving.light, arriving.background);
+                }
+            }
+        }
+        Samples { columns: across, rows: down, light }
+    }
+
+    /// A sample: its light, and the covered part. Behind coloured glass an opaque background has
+    /// another colour, so its light is added here; of a transparent one the mean of the channels is
+    /// covered.
+    fn on_background(&self, light: DVec3, background: DVec3) -> [f32; 4] {
+        /// Rounding errors of products of transmittances.
+        const ROUNDING: f64 = 1e-9;
+        let is_colored = background.max_element() - background.min_element() > ROUNDING;
+        let (light, covered) = match self.backdrop.light() {
+            Some(behind) if is_colored => (light + background * DVec3::from(behind.map(f64::from)), 1.0),
+            _ if is_colored => (light, 1.0 - background.element_sum() / 3.0),
+            _ => (light, 1.0 - background.x),
+        };
+        [light.x as f32, light.y as f32, light.z as f32, covered as f32]
+    }
+
+    fn pixel(&self, samples: &Samples, weights: &[f32], [column, row]: [u32; 2]) -> [f32; 4] {
+        let (n, margin) = (self.samples, self.filter.margin());
+        let width = samples.columns.len();
+        let first = |pixel: u32| i64::from(pixel * n) - i64::from(margin * n);
+        let (left, top) = (first(column), first(row));
+        let (mut sum, mut total) = ([0.0_f32; 4], 0.0_f32);
+        let inside = |range: &Range<u32>, at: i64| u32::try_from(at).ok().filter(|at| range.contains(at));
+        for (at, &down) in weights.iter().enumerate() {
+            let Some(y) = inside(&samples.rows, top + at as i64) else { continue };
+            let line = &samples.light[(y - samples.rows.start) as usize * width..][..width];
+            for (at, &across) in weights.iter().enumerate() {
+                let Some(x) = inside(&samples.columns, left + at as i64) else { continue };
+                let weight = down * across;
+                if weight != 0.0 {
+                    let sample = line[(x - samples.columns.start) as usize];
+                    (0..4).for_each(|channel| sum[channel] += weight * sample[channel]);
+                    total += weight;
+                }
+            }
+        }
+        let scale = (n * n) as f32 / total;
+        let [red, green, blue, covered] = sum.map(|channel| channel * scale);
+        self.backdrop.pixel([red, green, blue], covered)
+    }
+}
+
+/// Neighbouring samples, whose rays are traced together.
+#[derive(Default)]
+struct Packet {
+    places: Vec<[u32; 2]>,
+    rays: Vec<Ray>,
+    first: Vec<Option<Intersection>>,
+    memory: PacketMemory,
+}
+
+impl Packet {
+    /// Finds the nearest face at each sample.
+    fn trace(&mut self, scenery: &Scenery<'_>, columns: Range<u32>, rows: Range<u32>) {
+        self.places.clear();
+        self.rays.clear();
+        for row in rows {
+            for column in columns.clone() {
+                self.places.push([column, row]);
+                self.rays.push(scenery.primary_ray([column, row]));
+            }
+        }
+        let slab = scenery.view.slab;
+        scenery.first(&self.rays, slab.near..slab.far, &mut self.memory, &mut self.first);
+    }
+}

@@ -1,0 +1,190 @@
+//! From a scene to a picture.
+
+use std::borrow::Cow;
+
+use ugimage::{Compression, Development, Frame, LinearFrame, Metadata};
+use ugparse::{Diagnostics, Scene, Source};
+use ugpicture::{Annotated, Annotations, DepthBuffer, Exposure, Image, Layout, Output, SceneState};
+use ugpipe::Progress;
+use ugscene::{CameraOptions, PlacedBodies, RestPosition};
+
+use crate::config::Config;
+use crate::error::Error;
+use crate::notes::notes;
+use crate::pixels;
+use crate::scenery::Scenery;
+
+/// A rendered scene.
+#[derive(Clone, Debug)]
+pub struct Rendering {
+    image: Image,
+    output: Output,
+    compression: Compression,
+    /// Notes for the user, one sentence each.
+    pub notes: Vec<String>,
+}
+
+impl Rendering {
+    /// The bytes of a file of the kind that the options ask for.
+    pub fn into_file(self, metadata: &Metadata) -> Vec<u8> {
+        self.image.into_file(self.output, metadata, self.compression)
+    }
+
+    /// 8-bit pixels for a display.
+    pub fn into_frame(self) -> Frame {
+        self.image.into_frame()
+    }
+}
+
+/// Renders a scene at rest.
+///
+/// # Errors
+/// See [`Error`].
+pub fn render(scene: Scene, config: &Config) -> Result<Rendering, Error> {
+    config.picture.check()?;
+    render_with(scene, config, &Layout::new(&config.picture)?, &())
+}
+
+/// The linear light of a scene, without exposure and gamut mapping: white is 1. Options for the
+/// file, exposure, tone curve and annotations are ignored.
+///
+/// # Errors
+/// See [`Error`].
+pub fn light(scene: Scene, config: &Config) -> Result<LinearFrame, Error> {
+    let mut config = config.clone();
+    let picture = &mut config.picture;
+    (picture.output, picture.exposure, picture.tone) =
+        (Output::Color(ugimage::Format::Exr), None, ugimage::Tone::Clip);
+    picture.small = false;
+    picture.check()?;
+    let scene = as_seen(scene, &config)?;
+    let scenery = Scenery::new(Cow::Owned(scene), &config)?;
+    Ok(pixels::light(&scenery, &config.picture, &()).0)
+}
+
+/// What a picture says about its making: our name and version, and the command lines that led to
+/// it. `command_line`: our own, empty if there is none.
+pub fn metadata(scene: &Scene, command_line: &str) -> Metadata {
+    let mut lines = ugscene::history(scene);
+    if !command_line.is_empty() {
+        lines.push(command_line);
+    }
+    Metadata {
+        software: concat!("ugphoton ", env!("CARGO_PKG_VERSION")).to_owned(),
+        comment: lines.join("\n"),
+    }
+}
+
+/// A picture as a file.
+#[derive(Clone, Debug)]
+pub struct Picture {
+    /// The whole file.
+    pub bytes: Vec<u8>,
+    /// Notes for the user, one sentence each.
+    pub notes: Vec<String>,
+    /// Warnings about the text of the scene.
+    pub warnings: Diagnostics,
+}
+
+/// Reads a scene, renders it, and packs it into a file. `command_line`: as in [`metadata`].
+///
+/// # Errors
+/// See [`Error`].
+pub fn run(
+    config: &Config,
+    source: &Source,
+    command_line: &str,
+    progress: &dyn Progress,
+) -> Result<Picture, Error> {
+    let layout = Layout::new(&config.picture)?;
+    progress.step("reading", 0);
+    let parsed = ugscene::read(source, &config.reading, config.picture.camera.name.as_deref())?;
+    config.picture.check()?;
+    let metadata = metadata(&parsed.scene, command_line);
+    let rendering = render_with(parsed.scene, config, &layout, progress)?;
+    progress.step("compression", 0);
+    let notes = rendering.notes.clone();
+    Ok(Picture { bytes: rendering.into_file(&metadata), notes, warnings: parsed.warnings })
+}
+
+/// Renders a scene in a layout. `config`: of the whole picture, already checked.
+fn render_with(
+    scene: Scene,
+    config: &Config,
+    layout: &Layout,
+    progress: &dyn Progress,
+) -> Result<Rendering, Error> {
+    progress.step("preparing", 0);
+    let config = &Config { picture: layout.of_scene(&config.picture).into_owned(), ..config.clone() };
+    let compression = if config.picture.small { Compression::Small } else { Compression::Fast };
+    let scenery = Scenery::new(Cow::Owned(as_seen(scene, config)?), config)?;
+    let (frame, statistics) = pixels::light(&scenery, &config.picture, progress);
+    let (image, development) = developed(frame, &scenery, config);
+    progress.step("annotating", 0);
+    let annotations = annotate(layout, &scenery, config, development)?;
+    let mut notes = notes(&scenery, config, &statistics, development);
+    notes.extend(annotations.notes.iter().cloned());
+    Ok(Rendering { image: annotations.composite(image), output: config.picture.output, compression, notes })
+}
+
+/// The scene with its vertices where they are seen, and the stage that says so.
+fn as_seen(mut scene: Scene, config: &Config) -> Result<Scene, Error> {
+    ugscene::repeat_vertices(&mut scene, config.repeat);
+    let picture = &config.picture;
+    let placed = PlacedBodies::new(&mut scene, &config.motion, &picture.camera, picture.size)?;
+    let rest = placed.rest_positions(&scene);
+    if config.smooth {
+        let normals = ugscene::smooth_normals(&scene, &rest);
+        for ((vertex, normal), body) in scene.vertices.iter_mut().zip(normals).zip(&placed.bodies) {
+            let normal = placed.motions[body.index()].turned_back(normal);
+            vertex.normal = vertex.normal.or((normal != glam::DVec3::ZERO).then_some(normal));
+        }
+    }
+    for ((vertex, rest), body) in scene.vertices.iter_mut().zip(rest).zip(&placed.bodies) {
+        let motion = &placed.motions[body.index()];
+        let is_unmoved = motion.is_at_rest() && placed.shifts[body.index()] == glam::DVec3::ZERO;
+        if !is_unmoved {
+            vertex.position = motion.seen(RestPosition(rest)).0 + placed.eye;
+        }
+    }
+    if let Some(vertex) = scene.vertices.iter().find(|vertex| !vertex.position.is_finite()) {
+        return Err(Error::OutOfRange { name: scene.names.get(vertex.name).to_string() });
+    }
+    scene.stage.geometry = placed.seen_stage(&config.motion);
+    Ok(scene)
+}
+
+/// The picture for its format, and how its light was developed; `None` if it was not.
+fn developed(mut frame: LinearFrame, scenery: &Scenery<'_>, config: &Config) -> (Image, Option<Development>) {
+    let picture = &config.picture;
+    if picture.output.is_linear() {
+        return (Image::Light(frame), None);
+    }
+    let development =
+        scenery.is_uncut.then(|| Exposure::development(picture.exposure, picture.tone, || &frame));
+    if let Some(development) = development {
+        for [red, green, blue, _] in frame.pixels_mut() {
+            [*red, *green, *blue] = development.apply([*red, *green, *blue]);
+        }
+    }
+    let is_deep = picture.output.format().is_some_and(|format| format.is_deep());
+    (if is_deep { Image::Light(frame) } else { Image::Display(frame.to_display()) }, development)
+}
+
+fn annotate(
+    layout: &Layout,
+    scenery: &Scenery<'_>,
+    config: &Config,
+    development: Option<Development>,
+) -> Result<Annotations, Error> {
+    let is_shifted = config.shift.shifts_wavelengths();
+    let annotated = Annotated { scene: &scenery.scene, camera: &config.picture.camera, is_shifted };
+    let depths = |scene: &Scene, camera: &CameraOptions, _: SceneState| -> Result<DepthBuffer, Error> {
+        let mut coarse = config.clone();
+        coarse.picture.samples = 1;
+        coarse.picture.camera = camera.clone();
+        let scenery = Scenery::new(Cow::Borrowed(scene), &coarse)?;
+        Ok(pixels::depths(&scenery, coarse.picture.size, 1))
+    };
+    layout.annotate(annotated, &config.picture, development, depths)
+}

@@ -1,0 +1,245 @@
+//! A scene prepared for rays.
+
+use std::borrow::Cow;
+use std::ops::Range;
+
+use glam::DVec3;
+use uglight::{
+    Appearance, ColorShift, DEFAULT_AMBIENT, DEFAULT_FROM_EYE, HueShift, Interpolation, Lamp, LampPlace,
+    Palette, Spectra, SpectralLamp, SurfaceAttributes, lamps, spectral_lamps,
+};
+use ugparse::{ColorId, ColorValue, Face, HueScale, LightKind, Scene, SurfaceProperties, VertexId};
+use ugphysics::Event;
+use ugpicture::PictureOptions;
+use ugpipe::remedies;
+use ugscene::{Geometry, View};
+
+use crate::config::{Config, RayOptions, Shutter};
+use crate::error::Error;
+use crate::frame::RestFrame;
+use crate::path::{Ray, Start};
+use crate::world::{Faces, Intersection, PacketMemory, World};
+
+/// Changes of D by mirrors that are fast to compute, as a multiple of the greatest rapidity: two
+/// reflections by mirrors that approach each other.
+const REACH: f64 = 5.0;
+
+/// A scene prepared for rays, for one camera.
+pub struct Scenery<'a> {
+    /// The scene as seen, whose vertices are part of one body each.
+    pub scene: Cow<'a, Scene>,
+    /// The camera; its picture coordinates are samples.
+    pub view: View,
+    /// The faces, by rest frame.
+    pub world: World,
+    /// The colours of the scene.
+    pub palette: Palette,
+    /// Colours and rest positions of the vertices.
+    pub surface: SurfaceAttributes,
+    /// Which secondary rays are traced.
+    pub rays: RayOptions,
+    /// The lights.
+    pub lights: Lights,
+    /// How motion changes colours.
+    pub shift: ColorShift,
+    /// If colours are spectra.
+    pub spectra: Option<Spectra>,
+    /// Light brighter than white is kept until it is developed; otherwise it is clipped per sample,
+    /// as in 1988.
+    pub is_uncut: bool,
+}
+
+/// The lights of a scene.
+pub struct Lights {
+    /// In the order of the scene, or the default lights.
+    pub lamps: Vec<Lamp>,
+    /// Their spectra, if colours are spectra.
+    pub spectral: Vec<SpectralLamp>,
+    /// Radii; 0 for points and for lights without a place.
+    pub radii: Vec<f64>,
+    /// The rest frame of each, if its motion is stated.
+    pub frames: Vec<Option<RestFrame>>,
+    /// True if a light is neither white nor grey.
+    pub is_colored: bool,
+    /// True if the light of white surfaces under them is daylight.
+    pub is_daylight: bool,
+    /// True for lights of the scene. Default lights cast no shadows.
+    pub are_of_scene: bool,
+}
+
+impl<'a> Scenery<'a> {
+    /// `scene`: as seen, with the stage that says so; its vertices are part of one body each.
+    ///
+    /// # Errors
+    /// There are no faces, or the camera is invalid.
+    pub fn new(scene: Cow<'a, Scene>, config: &Config) -> Result<Self, Error> {
+        if scene.faces.is_empty() {
+            return Err(Error::Empty);
+        }
+        if Geometry::of(&scene) != Geometry::default() {
+            return Err(Error::Scene(remedies::EXACT_PARTIAL_GEOMETRY));
+        }
+        let PictureOptions { size: [width, height], samples, camera, .. } = &config.picture;
+        let view = View::new(&scene, camera, [width * samples, height * samples])?;
+        if !view.is_perspective {
+            return Err(Error::Orthographic);
+        }
+        let hue_scale = ugscene::hue_scale(&scene, config.hue_scale)?;
+        let mut scene = scene;
+        if hue_scale != scene.stage.hue_scale() {
+            ugscene::read_tints_in(scene.to_mut(), hue_scale);
+        }
+        let interpolation = match hue_scale {
+            HueScale::Degrees => config.interpolation,
+            HueScale::Wavelengths => Interpolation::Wavelength,
+        };
+        let is_spectral = matches!(config.shift, ColorShift::Spectra(_));
+        let palette = Palette::new(&scene, interpolation, is_spectral);
+        let surface = SurfaceAttributes::new(&scene, view.eye, &palette);
+        let spectra = match config.shift {
+            ColorShift::Spectra(shift) => {
+                let reach = REACH * surface.greatest_rapidity(&scene);
+                Some(Spectra::new(&scene, shift, surface.mixtures(&scene), reach))
+            }
+            ColorShift::Hues(_) => None,
+        };
+        check_spectra(&scene, &surface, config.shift)?;
+        let world = World::new(Faces { scene: &scene, rest: surface.all_rest() }, surface.frames());
+        let lights = Lights::new(&scene, &view, &surface, is_spectral);
+        let is_uncut = palette.has_light() || config.picture.keeps_light();
+        let (rays, shift) = (config.rays, config.shift);
+        Ok(Self { scene, view, world, palette, surface, rays, lights, shift, spectra, is_uncut })
+    }
+
+    /// True if a face transmits light straight on.
+    pub fn is_translucent(&self, face: u32) -> bool {
+        self.palette.is_translucent(&self.scene, &self.surface, &self.scene.faces[face as usize])
+    }
+
+    /// True if colours given as light can be drawn on moving bodies: they are spectra, or nothing
+    /// is shifted.
+    pub fn keeps_light(&self) -> bool {
+        self.spectra.is_some() || self.hue_shift() == HueShift::NONE
+    }
+
+    /// The shift of hues; none if colours are spectra.
+    pub fn hue_shift(&self) -> HueShift {
+        match self.shift {
+            ColorShift::Hues(shift) => shift,
+            ColorShift::Spectra(_) => HueShift::NONE,
+        }
+    }
+
+    /// How colours appear.
+    pub fn appearance(&self) -> Appearance<'_> {
+        Appearance::new(self.shift, &self.palette, self.spectra.as_ref())
+    }
+
+    /// The faces.
+    pub fn faces(&self) -> Faces<'_> {
+        Faces { scene: &self.scene, rest: self.surface.all_rest() }
+    }
+
+    /// The ray through the middle of a sample. Its parameter is the depth along the view.
+    pub fn primary_ray(&self, [column, row]: [u32; 2]) -> Ray {
+        let [corner, across, down] = self.view.rays();
+        let (x, y) = (f64::from(column) + 0.5, f64::from(row) + 0.5);
+        let direction = corner + y * down + x * across;
+        match self.rays.shutter {
+            Shutter::Pinhole => Ray::from_eye(direction),
+            Shutter::Film { distance } => {
+                let ahead = distance * (direction.length() - 1.0);
+                Ray {
+                    start: Start::Event,
+                    origin: Event { t: -ahead, x: DVec3::ZERO },
+                    ..Ray::from_eye(direction)
+                }
+            }
+        }
+    }
+
+    /// The face that each of neighbouring rays from the eye meets first, for parameters in a range.
+    pub fn first(
+        &self,
+        rays: &[Ray],
+        range: Range<f64>,
+        memory: &mut PacketMemory,
+        first: &mut Vec<Option<Intersection>>,
+    ) {
+        first.clear();
+        if self.rays.shutter != Shutter::Pinhole {
+            first.extend(rays.iter().map(|ray| self.closest(ray, range.clone())));
+            return;
+        }
+        first.resize(rays.len(), None);
+        self.world.first(self.faces(), rays, range, memory, first);
+    }
+
+    /// The face that a ray meets first, for parameters in a range.
+    #[inline]
+    pub fn closest(&self, ray: &Ray, range: Range<f64>) -> Option<Intersection> {
+        self.world.closest(self.faces(), ray, range)
+    }
+
+    /// Reflection properties.
+    pub fn properties(&self, surface: ugparse::SurfaceId) -> &SurfaceProperties {
+        &self.scene.surfaces[surface.index()]
+    }
+}
+
+/// Refuses moving bodies with spectra when hues are shifted.
+fn check_spectra(scene: &Scene, surface: &SurfaceAttributes, shift: ColorShift) -> Result<(), Error> {
+    let is_hue = matches!(shift, ColorShift::Hues(shift) if shift != HueShift::NONE);
+    let is_spectrum = |color: ColorId| {
+        let value = scene.colors[color.index()].value;
+        matches!(value, ColorValue::Blackbody { .. } | ColorValue::Spectrum { .. })
+    };
+    let moves = |face: &Face| {
+        let corners = scene.contours.corners(face.contours.clone());
+        let color_of = |corner: &VertexId| scene.vertices[corner.index()].color.or(face.color);
+        !surface.velocity(face.body).is_zero() && corners.iter().filter_map(color_of).any(is_spectrum)
+    };
+    if is_hue && scene.colors.iter().any(uglight::is_light) && scene.faces.iter().any(moves) {
+        return Err(Error::Scene(
+            "hues are shifted, and a black body or spectrum of this scene moves: give -sp to shift all colours \
+             as spectra, or --no-doppler --no-flux to see the shape",
+        ));
+    }
+    Ok(())
+}
+
+impl Lights {
+    fn new(scene: &Scene, view: &View, surface: &SurfaceAttributes, is_spectral: bool) -> Self {
+        if scene.lights.is_empty() {
+            let lamps = vec![
+                Lamp::white(LampPlace::Everywhere, DEFAULT_AMBIENT),
+                Lamp::white(LampPlace::Afar(-view.forward), DEFAULT_FROM_EYE),
+            ];
+            let spectral = [DEFAULT_AMBIENT, DEFAULT_FROM_EYE].map(SpectralLamp::white).to_vec();
+            return Self {
+                radii: vec![0.0; lamps.len()],
+                frames: vec![None; lamps.len()],
+                lamps,
+                spectral,
+                is_colored: false,
+                is_daylight: true,
+                are_of_scene: false,
+            };
+        }
+        let lamps = lamps(scene, view.eye);
+        let radius = |light: &ugparse::Light| match light.kind {
+            LightKind::Local { radius, .. } => radius,
+            _ => 0.0,
+        };
+        let frame = |lamp: &Lamp| Some(RestFrame::new(surface.frames(), lamp.motion.body()?));
+        Self {
+            spectral: if is_spectral { spectral_lamps(scene) } else { Vec::new() },
+            radii: scene.lights.iter().map(radius).collect(),
+            frames: lamps.iter().map(frame).collect(),
+            is_colored: lamps.iter().any(|lamp| lamp.is_colored),
+            is_daylight: scene.lights.iter().all(|light| light.color.is_none()),
+            are_of_scene: true,
+            lamps,
+        }
+    }
+}

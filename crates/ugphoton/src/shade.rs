@@ -1,0 +1,258 @@
+//! The light of lamps on a surface, as seen along a ray.
+
+use std::ops::ControlFlow;
+
+use glam::DVec3;
+use uglight::{HueColor, IncidentLamp, Irradiance, LampPlace, SpectralFilter, SurfaceElement, Swatch};
+use ugphysics::{Event, Hsv, WaveVector, srgb_decode, srgb_encode, wavelength_to_hue};
+
+use crate::path::{Ray, Start};
+use crate::sampling::disk_point;
+use crate::scenery::Scenery;
+use crate::surface_point::SurfacePoint;
+
+/// A coloured transparent surface that light crossed on its way from a surface to the eye.
+#[derive(Clone, Copy, Debug)]
+pub struct Filter {
+    /// Its colour at rest.
+    pub color: Swatch,
+    /// The row of its spectrum.
+    pub row: u32,
+    /// The Doppler factor with which it is seen.
+    pub doppler: f64,
+}
+
+/// Shades points of surfaces; it owns the memory it needs for that.
+pub struct Shader<'a> {
+    scenery: &'a Scenery<'a>,
+    diffuse: Vec<Irradiance>,
+    highlights: Vec<Irradiance>,
+}
+
+impl<'a> Shader<'a> {
+    /// For the points of a scene.
+    pub fn new(scenery: &'a Scenery<'a>) -> Self {
+        Self { scenery, diffuse: Vec::new(), highlights: Vec::new() }
+    }
+
+    /// Linear red, green and blue of the light of lamps that a point scatters and mirrors towards
+    /// the eye. `sample`: a number for each sample of the picture.
+    pub fn light(&mut self, point: &SurfacePoint, filters: &[Filter], sample: u64) -> DVec3 {
+        let scenery = self.scenery;
+        let face = &scenery.scene.faces[point.face as usize];
+        if let Some(level) = scenery.scene.light_level(face) {
+            return self.at_level(point, level, filters);
+        }
+        let surface = point.surface(scenery).map(|surface| scenery.properties(surface));
+        let (diffuse, specular) = surface.map_or((1.0, 0.0), |surface| (surface.diffuse, surface.specular));
+        let exponent = (specular > 0.0).then(|| surface.map_or(0.0, |surface| surface.exponent));
+        self.receive(point, exponent, sample);
+        let mut sum = DVec3::ZERO;
+        if diffuse > 0.0 {
+            sum += diffuse * lit(scenery, &point.color, point.rows, point.doppler(), &self.diffuse, filters);
+        }
+        if !self.highlights.is_empty() {
+            sum += specular * lit_white(scenery, point.doppler(), &self.highlights, filters);
+        }
+        sum
+    }
+
+    /// The light of a face with a light level of its own.
+    fn at_level(&mut self, point: &SurfacePoint, level: f64, filters: &[Filter]) -> DVec3 {
+        let (scenery, doppler) = (self.scenery, point.doppler());
+        if let Some(spectra) = &scenery.spectra {
+            if filters.is_empty() {
+                let ln_doppler = libm::log(doppler);
+                return level * weighted(point.rows, |row| spectra.light(row, ln_doppler));
+            }
+            let (lamp, white) =
+                ([uglight::SpectralLamp::white(level)], [Irradiance { lamp: 0, level: 1.0, doppler: 1.0 }]);
+            let filters = spectral_filters(scenery, filters);
+            return weighted(point.rows, |row| spectra.lit(row, doppler, &white, &lamp, &filters));
+        }
+        let light = match point.color.light {
+            Some(light) => level * light,
+            None => {
+                let base = hue_color(scenery, &point.color);
+                shown(
+                    scenery,
+                    scenery.hue_shift().seen(HueColor { value: level * base.value, ..base }, doppler),
+                )
+            }
+        };
+        light * transmitted(scenery, filters)
+    }
+
+    /// Finds the light of each lamp that arrives: for diffuse reflection, and if there is an
+    /// exponent, for highlights.
+    fn receive(&mut self, point: &SurfacePoint, exponent: Option<f64>, sample: u64) {
+        self.diffuse.clear();
+        self.highlights.clear();
+        let scenery = self.scenery;
+        let lights = &scenery.lights;
+        let frame = &scenery.world.parts[point.part].frame;
+        let element = SurfaceElement { point: point.place, normal: point.normal, body: frame.body };
+        let (diffuse, highlights) = (&mut self.diffuse, &mut self.highlights);
+        let toward_eye = point.toward_eye();
+        let mut add = |incident: IncidentLamp| {
+            let Irradiance { level, .. } = incident.irradiance;
+            let part = if lights.are_of_scene && scenery.rays.shadows {
+                unshadowed(scenery, point, &incident)
+            } else {
+                1.0
+            };
+            if part <= 0.0 {
+                return;
+            }
+            diffuse.push(Irradiance { level: level * part, ..incident.irradiance });
+            if let (Some(exponent), Some((toward, _))) = (exponent, incident.toward) {
+                let mirrored = 2.0 * point.normal.dot(toward) * point.normal - toward;
+                let cos = mirrored.dot(toward_eye).max(0.0);
+                let shine = part * libm::pow(cos, exponent);
+                if shine > 0.0 {
+                    highlights.push(Irradiance { level: shine, ..incident.irradiance });
+                }
+            }
+        };
+        if lights.radii.iter().all(|&radius| radius == 0.0) {
+            element.for_each_incident(&lights.lamps, scenery.surface.frames(), add);
+            return;
+        }
+        for (row, (lamp, &radius)) in lights.lamps.iter().zip(&lights.radii).enumerate() {
+            let mut lamp = *lamp;
+            if let (LampPlace::At(place), true) = (&mut lamp.place, radius > 0.0) {
+                let from = match &lights.frames[row] {
+                    Some(frame) => frame.to_rest(point.event).x,
+                    None => point.place,
+                };
+                *place += radius * disk_point(ugphysics::unit_or_zero(*place - from), sample, row as u64);
+            }
+            element.for_each_incident(&[lamp], scenery.surface.frames(), |incident| {
+                let irradiance = Irradiance { lamp: row as u32, ..incident.irradiance };
+                add(IncidentLamp { irradiance, ..incident });
+            });
+        }
+    }
+}
+
+/// The part of a lamp's light that arrives at a point, in the unit in which levels add up: linear
+/// for spectra, display-encoded for hues. The shadow ray runs back in time to the lamp.  Eq. (P24)
+fn unshadowed(scenery: &Scenery<'_>, point: &SurfacePoint, incident: &IncidentLamp) -> f64 {
+    let Some((toward, distance)) = incident.toward else { return 1.0 };
+    let frame = &scenery.world.parts[point.part].frame;
+    let ray = Ray {
+        origin: point.event,
+        step: frame.to_camera(Event { t: -1.0, x: toward }),
+        // Nothing depends on the frequency of a shadow ray.
+        wave: WaveVector { frequency: 1.0, k: DVec3::ZERO },
+        start: Start::Surface { part: point.part, place: point.place },
+    };
+    let mut part = 1.0;
+    let _ = scenery.world.visit(scenery.faces(), &ray, 0.0..distance, |found| {
+        part *= transmittance(scenery, found.triangle.face);
+        if part > 0.0 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+    });
+    if scenery.spectra.is_some() { part } else { srgb_encode(part) }
+}
+
+/// The part of the light that passes a face straight on.
+fn transmittance(scenery: &Scenery<'_>, face: u32) -> f64 {
+    let face = &scenery.scene.faces[face as usize];
+    if let Some(surface) = scenery.scene.surface(face) {
+        return surface.transmitted;
+    }
+    match face.color {
+        Some(color) => scenery.scene.colors[color.index()].translucency,
+        None => 0.0,
+    }
+}
+
+/// Light reflected diffusely by a colour, as seen.
+fn lit(
+    scenery: &Scenery<'_>,
+    color: &Swatch,
+    rows: [(u32, f64); 3],
+    doppler: f64,
+    light: &[Irradiance],
+    filters: &[Filter],
+) -> DVec3 {
+    let lights = &scenery.lights;
+    let is_plain = light.iter().all(|part| part.doppler == 1.0);
+    if let Some(spectra) = &scenery.spectra {
+        if lights.is_daylight && is_plain && filters.is_empty() {
+            let level: f64 =
+                light.iter().map(|part| part.level * lights.lamps[part.lamp as usize].color.x).sum();
+            let ln_doppler = libm::log(doppler);
+            return level * weighted(rows, |row| spectra.light(row, ln_doppler));
+        }
+        let filters = spectral_filters(scenery, filters);
+        return weighted(rows, |row| spectra.lit(row, doppler, light, &lights.spectral, &filters));
+    }
+    let seen = if let Some(own) = color.light {
+        let received = |part: &Irradiance| part.level * lights.lamps[part.lamp as usize].linear;
+        own * light.iter().map(received).sum::<DVec3>()
+    } else {
+        let base = hue_color(scenery, color);
+        let shift = scenery.hue_shift();
+        let seen = if is_plain && !lights.is_colored {
+            let level: f64 =
+                light.iter().map(|part| part.level * lights.lamps[part.lamp as usize].color.x).sum();
+            shift.seen(HueColor { value: base.value * level, ..base }, doppler)
+        } else {
+            let base = Hsv { hue: base.hue, saturation: base.saturation, value: base.value };
+            shift.seen_lit(base, doppler, light, &lights.lamps)
+        };
+        shown(scenery, seen)
+    };
+    seen * transmitted(scenery, filters)
+}
+
+/// Light mirrored without a change of colour, as seen.
+fn lit_white(scenery: &Scenery<'_>, doppler: f64, light: &[Irradiance], filters: &[Filter]) -> DVec3 {
+    let white = scenery.surface.row_of(None);
+    lit(
+        scenery,
+        &scenery.palette.white(),
+        [(white, 1.0), (white, 0.0), (white, 0.0)],
+        doppler,
+        light,
+        filters,
+    )
+}
+
+fn weighted(rows: [(u32, f64); 3], light: impl Fn(u32) -> DVec3) -> DVec3 {
+    rows.into_iter().filter(|&(_, weight)| weight != 0.0).map(|(row, weight)| weight * light(row)).sum()
+}
+
+/// A colour as hue and wavelength.
+fn hue_color(scenery: &Scenery<'_>, color: &Swatch) -> HueColor {
+    let hue = scenery.palette.hsv(color).hue;
+    let wavelength_nm = if color.is_grey() { 0.0 } else { scenery.appearance().wavelength_nm(color.tint) };
+    HueColor { hue, wavelength_nm, saturation: color.saturation, value: color.value }
+}
+
+/// A colour as the display shows it, as linear light. Hues near the ends of the visible range fade.
+fn shown(scenery: &Scenery<'_>, color: HueColor) -> DVec3 {
+    let most = if scenery.is_uncut { f64::INFINITY } else { 1.0 };
+    DVec3::from(color.attenuated().to_rgb().map(|channel| srgb_decode(channel.min(most))))
+}
+
+/// The part of linear red, green and blue that filters transmit, whose hues are shifted.
+pub fn transmitted(scenery: &Scenery<'_>, filters: &[Filter]) -> DVec3 {
+    let shift = scenery.hue_shift();
+    let part = |filter: &Filter| {
+        let base = hue_color(scenery, &filter.color);
+        let wavelength_nm = shift.wavelength_nm(base.wavelength_nm, filter.doppler);
+        let hue = if base.saturation > 0.0 { wavelength_to_hue(wavelength_nm) } else { base.hue };
+        let hsv = Hsv { hue, saturation: base.saturation, value: base.value };
+        DVec3::from(hsv.to_rgb().map(srgb_decode))
+    };
+    filters.iter().map(part).product()
+}
+
+fn spectral_filters<'a>(scenery: &'a Scenery<'_>, filters: &[Filter]) -> Vec<SpectralFilter<'a>> {
+    let Some(spectra) = &scenery.spectra else { return Vec::new() };
+    let filter =
+        |filter: &Filter| SpectralFilter { color: spectra.spectrum(filter.row), doppler: filter.doppler };
+    filters.iter().map(filter).collect()
+}

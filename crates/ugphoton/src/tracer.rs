@@ -1,0 +1,242 @@
+//! Rays from the eye into the past: surfaces, mirrors and glass along them.
+
+use glam::DVec3;
+use ugphysics::{Event, Medium, WaveVector, compose};
+
+use crate::path::{Media, Ray, Solid, Start};
+use crate::scenery::Scenery;
+use crate::shade::{Filter, Shader, transmitted};
+use crate::surface_point::SurfacePoint;
+use crate::world::Intersection;
+
+/// Light that arrives along a ray.
+#[derive(Clone, Copy, Debug)]
+pub struct Arriving {
+    /// Linear red, green and blue.
+    pub light: DVec3,
+    /// The part of the background that is seen, in red, green and blue.
+    pub background: DVec3,
+}
+
+impl Arriving {
+    const NOTHING: Self = Self { light: DVec3::ZERO, background: DVec3::ZERO };
+
+    fn add(&mut self, weight: f64, other: Self) {
+        self.light += weight * other.light;
+        self.background += weight * other.background;
+    }
+}
+
+/// Follows rays through a scene.
+pub struct Tracer<'a> {
+    scenery: &'a Scenery<'a>,
+    shader: Shader<'a>,
+    /// Of the path so far.
+    filters: Vec<Filter>,
+    /// Memory for faces at the same place.
+    layers: Vec<Intersection>,
+}
+
+/// Light behind translucent faces that transmit less than this is not looked for: a thousandth of
+/// the least step of a display.
+const FAINT: f64 = 4e-6;
+
+/// A ray and the state of its path.
+#[derive(Clone, Copy)]
+struct Path {
+    ray: Ray,
+    media: Media,
+    /// Reflections and refractions so far.
+    depth: u32,
+    /// The part of its light that reaches the eye.
+    weight: f64,
+    /// A number for each sample of the picture.
+    sample: u64,
+}
+
+impl<'a> Tracer<'a> {
+    /// In a scene.
+    pub fn new(scenery: &'a Scenery<'a>) -> Self {
+        Self { scenery, shader: Shader::new(scenery), filters: Vec::new(), layers: Vec::new() }
+    }
+
+    /// The light that arrives along a ray, and how much of the background is seen. `first`: the
+    /// nearest face on the ray within the clipping distances. `far`: the end of the range of
+    /// parameters.
+    pub fn arriving(&mut self, ray: Ray, first: Option<Intersection>, far: f64, sample: u64) -> Arriving {
+        let path = Path { ray, media: Media::default(), depth: 0, weight: 1.0, sample };
+        self.seen(&path, first, far)
+    }
+
+    /// Adds up what is seen along a path: translucent faces, up to the first opaque one.
+    fn seen(&mut self, path: &Path, first: Option<Intersection>, far: f64) -> Arriving {
+        let mut sum = Arriving::NOTHING;
+        let mut passing = 1.0;
+        let mut next = first;
+        while let Some(found) = next {
+            if !self.scenery.is_translucent(found.triangle.face) {
+                let point = SurfacePoint::new(self.scenery, &path.ray, &found);
+                let own = self.light_of(&Path { weight: path.weight * passing, ..*path }, &point);
+                sum.add(passing, own);
+                return sum;
+            }
+            // Faces at the same place are blended in the order of the scene.
+            let mut layers = std::mem::take(&mut self.layers);
+            self.scenery.world.beside(self.scenery.faces(), &path.ray, &found, &mut layers);
+            let mut end = found.s;
+            for layer in &layers {
+                let point = SurfacePoint::new(self.scenery, &path.ray, layer);
+                let weight = passing * (1.0 - point.translucency);
+                if weight > 0.0 {
+                    let own = self.light_of(&Path { weight: path.weight * weight, ..*path }, &point);
+                    sum.add(weight, own);
+                }
+                passing *= point.translucency;
+                end = end.max(layer.s);
+            }
+            self.layers = layers;
+            if path.weight * passing < FAINT {
+                return sum;
+            }
+            next = self.scenery.closest(&path.ray, end..far);
+        }
+        sum.background += passing * transmitted(self.scenery, &self.filters);
+        sum
+    }
+
+    /// The light from a surface: of lamps, mirrored, and transmitted.
+    fn light_of(&mut self, path: &Path, point: &SurfacePoint) -> Arriving {
+        let light = self.shader.light(point, &self.filters, path.sample);
+        let mut sum = Arriving { light, background: DVec3::ZERO };
+        let Some(id) = point.surface(self.scenery) else { return sum };
+        if path.depth >= self.scenery.rays.depth {
+            return sum;
+        }
+        let surface = self.scenery.properties(id);
+        let (mut mirrored, mut transmitted) = (surface.specular, surface.transmitted);
+        let refracted = (transmitted > 0.0).then(|| self.refracted(path, point, id)).flatten();
+        match &refracted {
+            // Total reflection.
+            None => mirrored += std::mem::take(&mut transmitted),
+            Some(refracted) if self.scenery.rays.fresnel => {
+                let both = mirrored + transmitted;
+                mirrored = both * refracted.reflectance;
+                transmitted = both - mirrored;
+            }
+            Some(_) => {}
+        }
+        if mirrored * path.weight >= self.scenery.rays.cutoff
+            && let Some(wave) = self.reflected(path, point)
+        {
+            let media = path.media;
+            sum.add(mirrored, self.follow(path, point, wave, media, mirrored));
+        }
+        if let Some(Refracted { wave, media, .. }) = refracted
+            && transmitted * path.weight >= self.scenery.rays.cutoff
+        {
+            let is_white = point.color.is_grey() && point.color.value == 1.0 && point.color.light.is_none();
+            if !is_white {
+                let row = point
+                    .rows
+                    .iter()
+                    .fold(point.rows[0], |best, row| if row.1 > best.1 { *row } else { best })
+                    .0;
+                self.filters.push(Filter { color: point.color, row, doppler: point.doppler() });
+            }
+            sum.add(transmitted, self.follow(path, point, wave, media, transmitted));
+            if !is_white {
+                self.filters.pop();
+            }
+        }
+        sum
+    }
+
+    /// Follows light that left a surface with the wave vector `wave` in its rest frame.
+    fn follow(
+        &mut self,
+        path: &Path,
+        point: &SurfacePoint,
+        wave: WaveVector,
+        media: Media,
+        part: f64,
+    ) -> Arriving {
+        let frame = &self.scenery.world.parts[point.part].frame;
+        let forward = medium(self.scenery, media.innermost(), point.part).step(wave);
+        let step = frame.to_camera(Event { t: -forward.t, x: -forward.x });
+        let ray = Ray {
+            origin: point.event,
+            step,
+            wave: frame.wave_to_camera(wave),
+            start: Start::Surface { part: point.part, place: point.place },
+        };
+        let next =
+            Path { ray, media, depth: path.depth + 1, weight: path.weight * part, sample: path.sample };
+        let first = self.scenery.closest(&ray, 0.0..f64::INFINITY);
+        self.seen(&next, first, f64::INFINITY)
+    }
+
+    /// The light that a mirror reflects along the path, before reflection.  Eq. (P23), (P37)
+    fn reflected(&self, path: &Path, point: &SurfacePoint) -> Option<WaveVector> {
+        let before = medium(self.scenery, path.media.innermost(), point.part);
+        let of = |normal: DVec3| before.wave_beside(point.wave, -normal);
+        // With an interpolated normal the light may come from behind the face.
+        let is_before = |wave: &WaveVector| wave.k.dot(point.plane_normal) < 0.0;
+        of(point.normal).filter(is_before).or_else(|| of(point.plane_normal))
+    }
+
+    /// The light that a surface transmits along the path, before it; `None` at total reflection.
+    /// Eq. (P23), (P37)
+    fn refracted(&self, path: &Path, point: &SurfacePoint, surface: ugparse::SurfaceId) -> Option<Refracted> {
+        let solid = Solid { part: point.part, surface };
+        let (media, is_inside_unknown) = if point.is_outside {
+            (path.media.with(solid), false)
+        } else {
+            path.media.without(solid).map_or((path.media, true), |media| (media, false))
+        };
+        if is_inside_unknown {
+            // The path began inside the solid, where it counts as vacuum.
+            return Some(Refracted { wave: point.wave, media, reflectance: 0.0 });
+        }
+        let behind = medium(self.scenery, media.innermost(), point.part);
+        let before = medium(self.scenery, path.media.innermost(), point.part);
+        let of = |normal: DVec3| behind.wave_beside(point.wave, normal);
+        let is_behind = |wave: &WaveVector| wave.k.dot(point.plane_normal) > 0.0;
+        let wave = of(point.normal).filter(is_behind).or_else(|| of(point.plane_normal))?;
+        let reflectance = fresnel(point.wave, wave, point.normal, before.index, behind.index);
+        Some(Refracted { wave, media, reflectance })
+    }
+}
+
+/// Light behind a surface.
+#[derive(Clone, Copy)]
+struct Refracted {
+    /// In the rest frame of the surface.
+    wave: WaveVector,
+    /// The media of the path there.
+    media: Media,
+    /// The reflected part, by Fresnel's equations.
+    reflectance: f64,
+}
+
+/// A medium in the rest frame of a part, in the axes of the scene.
+fn medium(scenery: &Scenery<'_>, solid: Option<Solid>, part: usize) -> Medium {
+    let Some(solid) = solid else { return Medium::VACUUM };
+    let index = scenery.properties(solid.surface).refraction;
+    if solid.part == part {
+        return Medium { index, velocity: ugphysics::Velocity::ZERO };
+    }
+    let [of_solid, here] = [solid.part, part].map(|part| &scenery.world.parts[part].frame);
+    let velocity = here.turned_velocity(compose(of_solid.velocity, -here.velocity));
+    Medium { index, velocity }
+}
+
+/// The reflected part of unpolarised light at the boundary of two media.
+fn fresnel(before: WaveVector, behind: WaveVector, normal: DVec3, n_before: f64, n_behind: f64) -> f64 {
+    let (a, b) = (before.k.dot(normal).abs(), behind.k.dot(normal).abs());
+    // Normal components of the wave vectors: across the plane of incidence, and in it.
+    let across = (a - b) / (a + b);
+    let (p, q) = (n_behind * n_behind * a, n_before * n_before * b);
+    let within = (p - q) / (p + q);
+    let part = 0.5 * (across * across + within * within);
+    if part.is_finite() { part.clamp(0.0, 1.0) } else { 1.0 }
+}

@@ -1,0 +1,315 @@
+//! The bodies of a scene, ready for rays: a hierarchy of triangles in each rest frame.
+
+use std::ops::{ControlFlow, Range};
+
+use glam::DVec3;
+use rayon::prelude::*;
+use ugbvh::Bvh;
+use ugparse::{BodyId, Face, Scene, VertexId};
+use ugphysics::Event;
+use ugscene::{RestFrames, triangulate};
+
+use crate::frame::RestFrame;
+use crate::path::Ray;
+
+/// How far a ray leaves a surface before it can meet another one, relative to the largest
+/// coordinate. Rounding errors are below a hundredth of it.
+const CLEARANCE: f64 = 1e-10;
+
+/// Faces whose distances differ by no more than this part are at the same place: rounding decides
+/// which of coplanar faces is nearer.
+pub const SAME_PLACE: f64 = 1e-9;
+
+/// The faces of a scene, by rest frame.
+pub struct World {
+    /// Bodies of the same velocity share a frame.
+    pub parts: Vec<Part>,
+}
+
+/// The faces of all bodies with one velocity.
+pub struct Part {
+    /// Their rest frame.
+    pub frame: RestFrame,
+    bvh: Bvh,
+    triangles: Vec<FaceTriangle>,
+    clearance: f64,
+}
+
+/// A triangle of a face.
+#[derive(Clone, Copy, Debug)]
+pub struct FaceTriangle {
+    /// Row of the face.
+    pub face: u32,
+    /// Its corners are corners of the face.
+    pub corners: [VertexId; 3],
+    /// The face intersects itself, so a triangle may extend beyond it.
+    is_loose: bool,
+}
+
+/// The faces of a scene at rest.
+#[derive(Clone, Copy)]
+pub struct Faces<'a> {
+    /// The scene, each of whose vertices is part of one body.
+    pub scene: &'a Scene,
+    /// The rest position of each vertex relative to the eye, in the axes of the scene.
+    pub rest: &'a [DVec3],
+}
+
+/// Memory of [`World::first`].
+#[derive(Default)]
+pub struct PacketMemory {
+    directions: Vec<DVec3>,
+    hits: Vec<Option<ugbvh::Hit>>,
+}
+
+/// Where a ray meets a face.
+#[derive(Clone, Copy, Debug)]
+pub struct Intersection {
+    /// Row of the part.
+    pub part: usize,
+    /// The parameter of the ray: the hit is at its origin plus this times its step, in every frame.
+    pub s: f64,
+    /// The triangle of the face.
+    pub triangle: FaceTriangle,
+    /// Its row in the part.
+    row: u32,
+    /// Barycentric weights of its corners.
+    pub weights: [f64; 3],
+}
+
+impl World {
+    /// Builds the hierarchies.
+    pub fn new(faces: Faces<'_>, frames: &RestFrames) -> Self {
+        let scene = faces.scene;
+        // Many scenes have thousands of bodies, few have that many velocities.
+        let mut first_bodies: Vec<BodyId> = Vec::new();
+        let part_of_body: Vec<usize> = scene
+            .bodies
+            .ids()
+            .map(|body| {
+                let same = |&first: &BodyId| frames.velocity(first) == frames.velocity(body);
+                first_bodies.iter().position(same).unwrap_or_else(|| {
+                    first_bodies.push(body);
+                    first_bodies.len() - 1
+                })
+            })
+            .collect();
+        let mut rows: Vec<Vec<u32>> = vec![Vec::new(); first_bodies.len()];
+        for (row, face) in scene.faces.iter().enumerate() {
+            // Scenes have fewer than 2^32 faces.
+            rows[part_of_body[face.body.index()]].push(row as u32);
+        }
+        let parts = first_bodies.into_iter().zip(rows).filter(|(_, rows)| !rows.is_empty());
+        let parts = parts.map(|(body, rows)| Part::new(faces, RestFrame::new(frames, body), &rows));
+        Self { parts: parts.collect() }
+    }
+
+    /// The latest event of the past at which light that follows the ray left a face, (P22), for
+    /// parameters in a range.
+    #[inline]
+    pub fn closest(&self, faces: Faces<'_>, ray: &Ray, range: Range<f64>) -> Option<Intersection> {
+        let mut best: Option<Intersection> = None;
+        let mut end = range.end;
+        for (row, part) in self.parts.iter().enumerate() {
+            let (origin, step) = ray.in_part(row, &part.frame);
+            if let Some(found) = part.closest(faces, row, origin, step, range.start..end) {
+                end = found.s;
+                best = Some(found);
+            }
+        }
+        best
+    }
+
+    /// The faces at the place of `first`, such as coplanar ones, in the order of the scene.
+    pub fn beside(&self, faces: Faces<'_>, ray: &Ray, first: &Intersection, found: &mut Vec<Intersection>) {
+        found.clear();
+        let range = first.s.next_down()..first.s * (1.0 + SAME_PLACE);
+        let _ = self.visit(faces, ray, range, |other| {
+            found.push(other);
+            ControlFlow::Continue(())
+        });
+        found.sort_unstable_by_key(|other| (other.triangle.face, other.row));
+        // Two triangles of a face meet at a diagonal.
+        found.dedup_by_key(|other| other.triangle.face);
+        if found.is_empty() {
+            found.push(*first);
+        }
+    }
+
+    /// [`World::closest`] for neighbouring rays from the eye, all at once. `first`: nothing at the
+    /// beginning.
+    pub fn first(
+        &self,
+        faces: Faces<'_>,
+        rays: &[Ray],
+        range: Range<f64>,
+        memory: &mut PacketMemory,
+        first: &mut [Option<Intersection>],
+    ) {
+        let PacketMemory { directions, hits } = memory;
+        for (row, part) in self.parts.iter().enumerate() {
+            directions.clear();
+            directions.extend(rays.iter().map(|ray| part.frame.light_to_rest(ray.step.x)));
+            hits.clear();
+            hits.resize(rays.len(), None);
+            part.bvh.closest_packet(DVec3::ZERO, directions, range.clone(), hits);
+            for ((best, hit), &step) in first.iter_mut().zip(&*hits).zip(&*directions) {
+                let Some(hit) = *hit else { continue };
+                if best.is_some_and(|best| best.s <= hit.t) {
+                    continue;
+                }
+                let found = part.intersection(row, hit);
+                *best = if !found.triangle.is_loose || part.is_inside(faces, &found) {
+                    Some(found)
+                } else {
+                    let end = best.map_or(range.end, |best| best.s);
+                    part.closest(faces, row, DVec3::ZERO, step, found.s..end).or(*best)
+                };
+            }
+        }
+    }
+
+    /// Visits the faces that a ray crosses within a range, in any order, until `visit` breaks.
+    pub fn visit(
+        &self,
+        faces: Faces<'_>,
+        ray: &Ray,
+        range: Range<f64>,
+        mut visit: impl FnMut(Intersection) -> ControlFlow<()>,
+    ) -> ControlFlow<()> {
+        for (row, part) in self.parts.iter().enumerate() {
+            let (origin, step) = ray.in_part(row, &part.frame);
+            let ray = ugbvh::Ray { origin, direction: step };
+            part.bvh.visit(&ray, part.range(step, range.clone()), |hit| {
+                let found = part.intersection(row, hit);
+                if found.triangle.is_loose && !part.is_inside(faces, &found) {
+                    return ControlFlow::Continue(());
+                }
+                visit(found)
+            })?;
+        }
+        ControlFlow::Continue(())
+    }
+}
+
+impl Part {
+    fn new(Faces { scene, rest }: Faces<'_>, frame: RestFrame, rows: &[u32]) -> Self {
+        let cut = |&row: &u32| face_triangles(scene, rest, row);
+        let triangles: Vec<FaceTriangle> = rows.par_iter().flat_map_iter(cut).collect();
+        // The vertices of these faces alone.
+        let mut used: Vec<u32> =
+            triangles.iter().flat_map(|triangle| triangle.corners.map(|corner| corner.0)).collect();
+        used.par_sort_unstable();
+        used.dedup();
+        let places: Vec<DVec3> = used.par_iter().map(|&vertex| rest[vertex as usize]).collect();
+        // Every corner is among them.
+        let place = |corner: VertexId| used.binary_search(&corner.0).unwrap_or_default() as u32;
+        let corners: Vec<[u32; 3]> =
+            triangles.par_iter().map(|triangle| triangle.corners.map(place)).collect();
+        let bvh = Bvh::new(&places, &corners);
+        let reach = bvh.bounds().map_or(0.0, |(low, high)| low.abs().max(high.abs()).max_element());
+        Self { frame, bvh, triangles, clearance: CLEARANCE * reach }
+    }
+
+    /// The range of parameters that begins outside the surface at the ray's origin.
+    fn range(&self, step: DVec3, range: Range<f64>) -> Range<f64> {
+        range.start.max(self.clearance / ugphysics::length(step))..range.end
+    }
+
+    fn closest(
+        &self,
+        faces: Faces<'_>,
+        row: usize,
+        origin: DVec3,
+        step: DVec3,
+        range: Range<f64>,
+    ) -> Option<Intersection> {
+        let ray = ugbvh::Ray { origin, direction: step };
+        let mut range = self.range(step, range);
+        loop {
+            let found = self.intersection(row, self.bvh.closest(&ray, range.clone())?);
+            if !found.triangle.is_loose || self.is_inside(faces, &found) {
+                return Some(found);
+            }
+            range.start = found.s;
+        }
+    }
+
+    fn intersection(&self, part: usize, hit: ugbvh::Hit) -> Intersection {
+        let triangle = self.triangles[hit.triangle as usize];
+        Intersection {
+            part,
+            s: hit.t,
+            triangle,
+            row: hit.triangle,
+            weights: [1.0 - hit.u - hit.v, hit.u, hit.v],
+        }
+    }
+
+    /// The even-odd rule at a point of a face.
+    fn is_inside(&self, Faces { scene, rest }: Faces<'_>, found: &Intersection) -> bool {
+        let face = &scene.faces[found.triangle.face as usize];
+        let [a, b, c] = found.triangle.corners.map(|corner| rest[corner.index()]);
+        let [wa, wb, wc] = found.weights;
+        let point = wa * a + wb * b + wc * c;
+        // The coordinates that are kept are those of the plane of projection with the largest area.
+        let normal = (b - a).cross(c - a).abs();
+        let flat = |p: DVec3| match normal {
+            n if n.x >= n.y && n.x >= n.z => [p.y, p.z],
+            n if n.y >= n.z => [p.z, p.x],
+            _ => [p.x, p.y],
+        };
+        let [x, y] = flat(point);
+        let mut is_inside = false;
+        for contour in scene.face_contours(face) {
+            let ends = contour.iter().zip(contour.iter().cycle().skip(1));
+            for (from, to) in ends.map(|(from, to)| (flat(rest[from.index()]), flat(rest[to.index()]))) {
+                if (from[1] > y) != (to[1] > y)
+                    && x < from[0] + (y - from[1]) / (to[1] - from[1]) * (to[0] - from[0])
+                {
+                    is_inside = !is_inside;
+                }
+            }
+        }
+        is_inside
+    }
+}
+
+/// The triangles of a face. One that intersects itself gets a fan from its first corner: it covers
+/// each point of the face an odd number of times.
+fn face_triangles(scene: &Scene, rest: &[DVec3], row: u32) -> Vec<FaceTriangle> {
+    let face: &Face = &scene.faces[row as usize];
+    let corners = scene.contours.corners(face.contours.clone());
+    if let &[a, b, c] = corners {
+        return vec![FaceTriangle { face: row, corners: [a, b, c], is_loose: false }];
+    }
+    let rings: Vec<Vec<DVec3>> = scene
+        .face_contours(face)
+        .map(|contour| contour.iter().map(|corner| rest[corner.index()]).collect())
+        .collect();
+    let triangle = |at: [u32; 3], is_loose| FaceTriangle {
+        face: row,
+        corners: at.map(|at| corners[at as usize]),
+        is_loose,
+    };
+    match triangulate(&rings).filter(|triangles| !triangles.is_empty()) {
+        Some(triangles) => triangles.into_iter().map(|at| triangle(at, false)).collect(),
+        // The sides of every contour, each with the first corner.
+        None => {
+            let mut first = 0;
+            let mut all = Vec::with_capacity(corners.len());
+            for contour in scene.face_contours(face) {
+                let n = contour.len() as u32;
+                all.extend((0..n).map(|side| triangle([0, first + side, first + (side + 1) % n], true)));
+                first += n;
+            }
+            all
+        }
+    }
+}
+
+/// The event at parameter `s` of a ray.
+#[inline]
+pub fn along(origin: Event, step: Event, s: f64) -> Event {
+    Event { t: origin.t + s * step.t, x: origin.x + s * step.x }
+}

@@ -1,0 +1,253 @@
+//! Laws and published numbers, measured in rendered light.
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+use glam::DVec3;
+use ugimage::LinearFrame;
+use ugphoton::{
+    Background, CameraOptions, ColorShift, Config, MotionOptions, PictureOptions, RayOptions, SpectralShift,
+    light,
+};
+use ugphysics::{Velocity, Wave, reflect, srgb_decode, xyz_to_linear_srgb};
+use ugspectrum::Spectrum;
+
+/// The light of a scene with the eye at the origin, by default seen along −z in one sample.
+fn drawn(text: &str, config: &Config) -> LinearFrame {
+    let source = ugparse::Source::new("test.ug", text);
+    let mut scene = ugparse::parse(&source, &ugparse::Options::default()).unwrap().scene;
+    if scene.cameras.is_empty() {
+        scene.cameras.push(ugparse::Camera { eye: Some(DVec3::ZERO), ..ugparse::Camera::default() });
+    }
+    light(scene, config).unwrap()
+}
+
+fn config(size: [u32; 2], toward: DVec3, view_angle: f64) -> Config {
+    let camera = CameraOptions {
+        center: Some(toward),
+        up: Some(DVec3::Y),
+        view_angle: Some((view_angle, None)),
+        ..CameraOptions::default()
+    };
+    let picture =
+        PictureOptions { size, samples: 1, camera, background: black(), ..PictureOptions::default() };
+    Config { picture, ..Config::default() }
+}
+
+fn black() -> Background {
+    PictureOptions::default().background
+}
+
+/// The light in the middle of a narrow view.
+fn seen(text: &str, toward: DVec3) -> DVec3 {
+    seen_with(text, toward, Config::default())
+}
+
+fn seen_with(text: &str, toward: DVec3, base: Config) -> DVec3 {
+    let config = Config { picture: config([1, 1], toward, 1e-3).picture, ..base };
+    let [red, green, blue, _] = drawn(text, &config).pixels()[0];
+    DVec3::new(red.into(), green.into(), blue.into())
+}
+
+/// A white square of half side `half` around `center`, perpendicular to `normal`; `rest` follows
+/// the corners in its statement.
+fn square(name: &str, center: DVec3, normal: DVec3, half: f64, rest: &str) -> String {
+    let (e1, e2) = normal.normalize().any_orthonormal_pair();
+    let corners = [e1 + e2, e2 - e1, -e1 - e2, e1 - e2].map(|corner| center + half * corner);
+    let statement =
+        |(at, corner): (usize, &DVec3)| format!("v {name}{at} {} {} {};\n", corner.x, corner.y, corner.z);
+    let vertices: String = corners.iter().enumerate().map(statement).collect();
+    format!("{vertices} f ({name}0 {name}1 {name}2 {name}3) {rest};\n")
+}
+
+/// Colours, surfaces, and no light but that of faces with a level.
+const HEAD: &str = "c white 1; l 0; surf mirror 0 1 0; surf glass 0 0 1 1.5;\n";
+
+/// Frequencies change by (1 + β)/(1 − β) at a mirror that approaches, T27.
+#[test]
+fn mirrors_shift_frequencies() {
+    for (beta, factor) in [(0.5, 3.0), (0.9, 19.0), (-0.5, 1.0 / 3.0), (-0.9, 1.0 / 19.0)] {
+        let mirror = square("m", DVec3::NEG_Z * 2.0, DVec3::Z, 50.0, &format!("white mirror <0 0 {beta}>"));
+        let wall = square("w", DVec3::Z, DVec3::Z, 500.0, "white 1");
+        let found = seen(&format!("{HEAD}{mirror}{wall}"), DVec3::NEG_Z).x;
+        let expected = srgb_decode(factor);
+        assert!((found / expected - 1.0).abs() < 1e-6, "{beta}: {found} {expected}");
+    }
+}
+
+/// Light that comes in at 60° to the normal of a mirror which approaches with 0.3 c leaves at
+/// 34.54°, with 1.527 times the frequency (Einstein 1905, section 8; T27): a small lamp is seen
+/// there, and nowhere near. The formulas of the report, {5.2.4.1}-{5.2.4.11}, give the same.
+#[test]
+fn moving_mirrors_turn_rays() {
+    for (beta, degrees_in, degrees_out, factor) in
+        [(0.3, 60.0_f64, 34.538_944_42_f64, 1.527_472_527), (0.5, 30.0, 10.207_818_72, 2.821_367_205)]
+    {
+        let (sin_out, cos_out) = libm::sincos(degrees_out.to_radians());
+        let (sin_in, cos_in) = libm::sincos(degrees_in.to_radians());
+        // The eye looks at the origin of the mirror, along the outgoing ray.
+        let toward = DVec3::new(-sin_out, 0.0, -cos_out);
+        let hit = 3.0 * toward;
+        // Where the mirror is when the light leaves it, the plane through the hit; at time 0 it is
+        // nearer by β times the flight time. Coordinates contract by 1/γ.
+        let gamma = 1.0 / (1.0_f64 - beta * beta).sqrt();
+        let height = (hit.z + beta * 3.0) * gamma;
+        let mirror = square("m", DVec3::Z * height, DVec3::Z, 50.0, &format!("white mirror <0 0 {beta}>"));
+        let back = DVec3::new(-sin_in, 0.0, cos_in);
+        let lamp = |offset: f64| square("l", hit + 4.0 * back + DVec3::Y * offset, back, 1e-3, "white 1");
+        let found = seen(&format!("{HEAD}{mirror}{}", lamp(0.0)), toward).x;
+        assert!((found / srgb_decode(factor) - 1.0).abs() < 1e-6, "{beta}: {found}");
+        assert_eq!(seen(&format!("{HEAD}{mirror}{}", lamp(3e-3)), toward).x, 0.0);
+        let light = Wave { frequency: 1.0, direction: -back };
+        let out = reflect(light, DVec3::Z, Velocity::from_beta(DVec3::Z * beta).unwrap());
+        assert!((out.direction + toward).length() < 1e-9 && (out.frequency - factor).abs() < 1e-8);
+    }
+}
+
+/// A mirror that moves along itself reflects as one at rest.
+#[test]
+fn sliding_mirrors_look_at_rest() {
+    let wall = square("w", DVec3::Z, DVec3::Z, 50.0, "white 1");
+    for velocity in ["<0 0 0>", "<0.9 0 0>", "<0.5 -0.8 0>"] {
+        let mirror = square("m", DVec3::NEG_Z * 2.0, DVec3::Z, 500.0, &format!("white mirror {velocity}"));
+        let found = seen(&format!("{HEAD}{mirror}{wall}"), DVec3::new(0.2, 0.1, -1.0)).x;
+        assert!((found - 1.0).abs() < 1e-6, "{velocity}: {found}");
+    }
+}
+
+/// A slab of glass, `half` wide and 1 thick, from z = `top` − 1 to `top`.
+fn slab(top: f64, half: f64, velocity: &str) -> String {
+    let rest = format!("white glass {velocity}");
+    let near = square("n", DVec3::Z * top, DVec3::Z, half, &rest);
+    // Seen from outside the corners of the far side run counterclockwise, too.
+    let far = square("f", DVec3::Z * (top - 1.0), DVec3::NEG_Z, half, &rest);
+    format!("{near}{far}")
+}
+
+/// A plane-parallel slab of any velocity leaves direction and frequency as they are, and delays the
+/// light: by 0.2887 where it moves with the light at 0.5 c, by 0.8660 against it, by 0.5 at rest
+/// (T28). The delay is seen in the place of a bar that moves behind it.
+#[test]
+fn moving_glass_delays_light() {
+    for (beta, delay) in [(0.0, 0.5), (0.5, 0.288_675_134_6), (-0.5, 0.866_025_403_8)] {
+        let glass = slab(-2.0, 300.0, &format!("<0 0 {beta}>"));
+        // The edge of a wall at z = −20 that moves along x with 0.8 c: at time t it is at 0.8 t.
+        let edge = |x: f64| {
+            let x = x / 0.6;
+            format!(
+                "v a {x} -9 -20; v b {x} 9 -20; v c {} 9 -20; v d {} -9 -20; f (a b c d) white 1 <0.8 0 0>;",
+                x - 500.0,
+                x - 500.0
+            )
+        };
+        // Light from z = −20 that arrives at time 0 left at −20 − delay, when the edge was at
+        // 0.8 times that plus its place at time 0.
+        let at = 0.8 * (20.0 + delay);
+        for (offset, is_lit) in [(1e-6, true), (-1e-6, false)] {
+            let text = format!("{HEAD}{glass}{}", edge(at + offset));
+            let found = seen(&text, DVec3::NEG_Z).x;
+            assert_eq!(found > 0.0, is_lit, "{beta} {offset}: {found}");
+        }
+    }
+    // Obliquely: the frequency stays. The wall is at rest, so D = 1.
+    for velocity in ["<0 0 0>", "<0.3 0.2 -0.4>", "<0 0.9 0>", "<0 0 0.7>"] {
+        let wall = square("w", DVec3::NEG_Z * 60.0, DVec3::Z, 900.0, "white 1");
+        let text = format!("{HEAD}{}{wall}", slab(-2.0, 900.0, velocity));
+        let found = seen(&text, DVec3::new(0.3, 0.1, -1.0)).x;
+        assert!((found - 1.0).abs() < 1e-6, "{velocity}: {found}");
+    }
+}
+
+/// A square under parallel light from above, seen from above: its shadow lags behind it (T29).
+#[test]
+fn shadows_of_moving_bodies_lag() {
+    let plate = square("p", DVec3::new(0.0, 0.0, -8.0), DVec3::Z, 0.1, "black <0.9 0 0>");
+    let ground = square("g", DVec3::new(-25.0, 0.0, -10.0), DVec3::Z, 60.0, "white");
+    let text = format!("c white 1; c black 0; l 1 0 0 1 <0 0 0>;\n{plate}{ground}");
+    for (x, z, is_dark) in [
+        (-16.517_932_84, -8.0, true),
+        (-31.812_302_13, -10.0, true),
+        (-32.1, -10.0, false),
+        (-31.5, -10.0, false),
+    ] {
+        let found = seen(&text, DVec3::new(x, 0.0, z)).x;
+        assert_eq!(found == 0.0, is_dark, "{x}: {found}");
+    }
+    let without =
+        Config { rays: RayOptions { shadows: false, ..RayOptions::default() }, ..Config::default() };
+    assert_eq!(seen_with(&text, DVec3::new(-31.812_302_13, 0.0, -10.0), without).x, 1.0);
+}
+
+/// In spectra, a black body of temperature T in a mirror is one of D T (P13).
+#[test]
+fn black_bodies_in_moving_mirrors_stay_black_bodies() {
+    for (beta, factor) in [(0.2, 1.5), (-0.2, 1.0 / 1.5)] {
+        let mirror = square("m", DVec3::NEG_Z * 2.0, DVec3::Z, 50.0, &format!("white mirror <0 0 {beta}>"));
+        let wall = square("w", DVec3::Z, DVec3::Z, 500.0, "hot 1");
+        let shift = ColorShift::Spectra(SpectralShift { doppler: true, flux: true });
+        let text = format!("{HEAD} c_bb hot 5800 0.1;{mirror}{wall}");
+        let found = seen_with(&text, DVec3::NEG_Z, Config { shift, ..Config::default() });
+        let expected = DVec3::from(xyz_to_linear_srgb(Spectrum::blackbody(5800.0, 0.1).seen(factor)));
+        assert!((found - expected).length() < 2e-3 * expected.length(), "{beta}: {found} {expected}");
+        let other = Spectrum::blackbody(5800.0 * factor, 1.0).seen(1.0);
+        let ratio = |xyz: [f64; 3]| xyz[0] / xyz[1];
+        let found = ugphysics::linear_srgb_to_xyz(found.to_array());
+        assert!((ratio(found) / ratio(other) - 1.0).abs() < 1e-3);
+    }
+}
+
+/// A body, a mirror and a camera with velocities in a common frame, and the same in another frame.
+#[test]
+fn a_common_boost_changes_nothing() {
+    let picture = |frame: f64| {
+        let frame = Velocity::from_beta(DVec3::Z * frame).unwrap();
+        let velocity = |beta: f64| {
+            let own = Velocity::from_beta(DVec3::Z * beta).unwrap();
+            ugphysics::compose(own, frame).beta()
+        };
+        let of = |beta: f64| format!("<0 0 {}>", velocity(beta).z);
+        let mirror = square("m", DVec3::NEG_Z * 6.0, DVec3::Z, 50.0, &format!("white mirror {}", of(0.4)));
+        let red = format!("red 1 {}", of(-0.3));
+        let cube = square("c", DVec3::new(0.3, 0.2, -4.0), DVec3::new(0.5, 0.2, 1.0), 0.4, &red);
+        let glass = slab(-1.0, 0.5, &of(0.6)).replace("v n", "v gn").replace("v f", "v gf");
+        let glass =
+            glass.replace("(n0 n1 n2 n3)", "(gn0 gn1 gn2 gn3)").replace("(f0 f1 f2 f3)", "(gf0 gf1 gf2 gf3)");
+        let text = format!("{HEAD} c red 0.8 20 0.7;{mirror}{cube}{glass}");
+        let config = Config {
+            motion: MotionOptions { camera_velocity: Some(frame.beta()), ..MotionOptions::default() },
+            ..config([24, 18], DVec3::NEG_Z, 60.0)
+        };
+        drawn(&text, &config).pixels().to_vec()
+    };
+    let at_rest = picture(0.0);
+    assert!(at_rest.iter().filter(|pixel| pixel[0] > 0.0).count() > 20);
+    for frame in [0.5, -0.8] {
+        let moved = picture(frame);
+        let differ = at_rest.iter().zip(&moved).filter(|(a, b)| (a[0] - b[0]).abs() > 1e-5 * a[0].max(1.0));
+        assert_eq!(differ.count(), 0, "{frame}");
+    }
+}
+
+/// D in both mirrors of a corridor multiplies: two reflections, each with the factor of its mirror.
+#[test]
+fn doppler_factors_multiply_along_a_path() {
+    // Light from a wall at rest goes to a mirror on the right, to one on the left, and to the eye.
+    let right = square("r", DVec3::X * 2.0, DVec3::NEG_X, 100.0, "white mirror <-0.2 0 0>");
+    let left = square("l", DVec3::NEG_X * 2.0, DVec3::X, 100.0, "white mirror <0.1 0 0>");
+    let wall = square("w", DVec3::NEG_Z * 40.0, DVec3::Z, 900.0, "white 1");
+    let toward = DVec3::new(-0.6, 0.0, -0.8);
+    let rays = RayOptions { depth: 2, ..RayOptions::default() };
+    // The eye looks at the left mirror. Back in time: out of it, at the right mirror, to the wall.
+    let velocity = |beta: f64| Velocity::from_beta(DVec3::X * beta).unwrap();
+    let backwards = |wave: Wave, normal: DVec3, beta: f64| {
+        // Reflection is its own reverse: the light before it, from the light after it.
+        let there = wave.in_frame(velocity(beta));
+        let before = there.direction - 2.0 * there.direction.dot(normal) * normal;
+        Wave { direction: before, ..there }.out_of_frame(velocity(beta))
+    };
+    let at_eye = Wave { frequency: 1.0, direction: -toward };
+    let between = backwards(at_eye, DVec3::X, 0.1);
+    let at_wall = backwards(between, DVec3::X, -0.2);
+    let found =
+        seen_with(&format!("{HEAD}{right}{left}{wall}"), toward, Config { rays, ..Config::default() }).x;
+    // The second mirror is met before the wall, the first again only after more reflections.
+    assert!((found / srgb_decode(1.0 / at_wall.frequency) - 1.0).abs() < 1e-6, "{found} {at_wall:?}");
+}
