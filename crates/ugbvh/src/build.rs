@@ -274,17 +274,14 @@ struct Part {
     bounds: Bounds,
 }
 
-impl Part {
-    fn new(first: usize, items: &[Item]) -> Self {
-        let bounds = items.iter().fold(Bounds::EMPTY, |bounds, item| bounds.union(&item.bounds));
-        Self { first, n: items.len(), bounds }
-    }
+fn bounds_of(items: &[Item]) -> Bounds {
+    items.iter().fold(Bounds::EMPTY, |bounds, item| bounds.union(&item.bounds))
 }
 
 /// Sorts triangles into the parts of a node. Returns the parts in the order of the triangles.
 fn split(items: &mut [Item], depth: u32) -> Vec<Part> {
     let mut parts = Vec::with_capacity(WIDTH);
-    parts.push(Part::new(0, items));
+    parts.push(Part { first: 0, n: items.len(), bounds: bounds_of(items) });
     while parts.len() < WIDTH {
         // The greatest part first; large ones before those that fit into a block.
         let key = |part: &Part| {
@@ -297,60 +294,112 @@ fn split(items: &mut [Item], depth: u32) -> Vec<Part> {
         let Some(greatest) = greatest else { break };
         let Part { first, n, .. } = parts[greatest];
         let items = &mut items[first..first + n];
-        let middle = if depth < MAX_SAH_DEPTH { split_by_area(items) } else { None }.unwrap_or(n / 2);
-        parts[greatest] = Part::new(first, &items[..middle]);
-        parts.insert(greatest + 1, Part::new(first + middle, &items[middle..]));
+        let by_area = if depth < MAX_SAH_DEPTH { split_by_area(items) } else { None };
+        let (n_first, [bounds, other_bounds]) = by_area.unwrap_or_else(|| {
+            let (first, others) = items.split_at(n / 2);
+            (n / 2, [first, others].map(bounds_of))
+        });
+        parts[greatest] = Part { first, n: n_first, bounds };
+        parts.insert(greatest + 1, Part { first: first + n_first, n: n - n_first, bounds: other_bounds });
     }
     parts
 }
 
-/// Sorts triangles into two parts by the surface-area heuristic. Returns the number in the first,
-/// or `None` if all have one centre.
-fn split_by_area(items: &mut [Item]) -> Option<usize> {
-    let mut low = [f32::INFINITY; 3];
-    let mut high = [f32::NEG_INFINITY; 3];
-    for item in items.iter() {
-        for axis in 0..3 {
-            let center = item.bounds.center(axis);
-            low[axis] = low[axis].min(center);
-            high[axis] = high[axis].max(center);
-        }
-    }
-    let n_bins = (4 + items.len() / 16).min(MAX_BINS);
-    // Just below the number of bins, so that the greatest centre falls into the last.
-    let scale: [f32; 3] = std::array::from_fn(|axis| n_bins as f32 * 0.999_999 / (high[axis] - low[axis]));
-    let bin_of = |item: &Item, axis: usize| {
-        (((item.bounds.center(axis) - low[axis]) * scale[axis]) as usize).min(n_bins - 1)
-    };
-    let mut bins = [[(Bounds::EMPTY, 0_u32); MAX_BINS]; 3];
-    for item in items.iter() {
-        for (axis, bins) in bins.iter_mut().enumerate() {
-            let (bounds, n) = &mut bins[bin_of(item, axis)];
-            *bounds = bounds.union(&item.bounds);
-            *n += 1;
-        }
-    }
+/// Sorts triangles into two parts by the surface-area heuristic. Returns the number in the first and
+/// both bounds, or `None` if all have one centre.
+fn split_by_area(items: &mut [Item]) -> Option<(usize, [Bounds; 2])> {
+    let bins = Bins::new(items);
     let mut best = (f32::INFINITY, 0, 0);
-    for (axis, bins) in bins.iter().enumerate().filter(|(axis, _)| high[*axis] > low[*axis]) {
-        let mut costs_behind = [0.0; MAX_BINS];
-        let (mut bounds, mut n) = (Bounds::EMPTY, 0);
-        for bin in (1..n_bins).rev() {
-            bounds = bounds.union(&bins[bin].0);
-            n += bins[bin].1;
-            costs_behind[bin] = bounds.area() * n as f32;
-        }
-        let (mut bounds, mut n) = (Bounds::EMPTY, 0);
-        for bin in 1..n_bins {
-            bounds = bounds.union(&bins[bin - 1].0);
-            n += bins[bin - 1].1;
-            let cost = bounds.area() * n as f32 + costs_behind[bin];
-            if n > 0 && (n as usize) < items.len() && cost < best.0 {
-                best = (cost, axis, bin);
-            }
+    for axis in 0..3 {
+        let (cost, bin) = bins.best_split(axis, items.len());
+        if cost < best.0 {
+            best = (cost, axis, bin);
         }
     }
     let (cost, axis, bin) = best;
-    (cost < f32::INFINITY).then(|| partition(items, |item| bin_of(item, axis) < bin))
+    if cost == f32::INFINITY {
+        return None;
+    }
+    let union = |bins: &[Bin]| bins.iter().fold(Bounds::EMPTY, |bounds, bin| bounds.union(&bin.bounds));
+    let (first, others) = bins.bins[axis].split_at(bin);
+    Some((partition(items, |item| bins.find(item, axis) < bin), [union(first), union(others)]))
+}
+
+/// The triangles whose centres are in an interval.
+#[derive(Clone, Copy)]
+struct Bin {
+    bounds: Bounds,
+    n: u32,
+}
+
+/// Triangles by their centres.
+struct Bins {
+    low: [f32; 3],
+    /// Bins for each unit; infinite along an axis in which all centres are equal.
+    scale: [f32; 3],
+    n: usize,
+    bins: [[Bin; MAX_BINS]; 3],
+}
+
+impl Bins {
+    fn new(items: &[Item]) -> Self {
+        let mut low = [f32::INFINITY; 3];
+        let mut high = [f32::NEG_INFINITY; 3];
+        for item in items {
+            for axis in 0..3 {
+                let center = item.bounds.center(axis);
+                low[axis] = if center < low[axis] { center } else { low[axis] };
+                high[axis] = if center > high[axis] { center } else { high[axis] };
+            }
+        }
+        let n = (4 + items.len() / 16).min(MAX_BINS);
+        let scale = std::array::from_fn(|axis| (n - 1) as f32 / (high[axis] - low[axis]));
+        let empty = Bin { bounds: Bounds::EMPTY, n: 0 };
+        let mut bins = Self { low, scale, n, bins: [[empty; MAX_BINS]; 3] };
+        for item in items {
+            for axis in 0..3 {
+                let bin = bins.find(item, axis);
+                let bin = &mut bins.bins[axis][bin];
+                bin.bounds = bin.bounds.union(&item.bounds);
+                bin.n += 1;
+            }
+        }
+        bins
+    }
+
+    /// The bin of a triangle, by rounding to a whole number: in 2²³…2²⁴, numbers have no fraction,
+    /// and the last bits are those of the whole number.
+    #[inline(always)]
+    fn find(&self, item: &Item, axis: usize) -> usize {
+        let at = (item.bounds.center(axis) - self.low[axis]) * self.scale[axis];
+        (at + 8_388_608.0).to_bits() as usize % MAX_BINS
+    }
+
+    /// The least cost of a split along an axis, and the first bin of the second part.
+    fn best_split(&self, axis: usize, n_items: usize) -> (f32, usize) {
+        let mut best = (f32::INFINITY, 0);
+        if self.scale[axis] == f32::INFINITY {
+            return best;
+        }
+        let bins = &self.bins[axis][..self.n];
+        let mut costs_behind = [0.0; MAX_BINS];
+        let (mut bounds, mut n) = (Bounds::EMPTY, 0);
+        for (idx, bin) in bins.iter().enumerate().skip(1).rev() {
+            bounds = bounds.union(&bin.bounds);
+            n += bin.n;
+            costs_behind[idx] = bounds.area() * n as f32;
+        }
+        let (mut bounds, mut n) = (Bounds::EMPTY, 0);
+        for idx in 1..self.n {
+            bounds = bounds.union(&bins[idx - 1].bounds);
+            n += bins[idx - 1].n;
+            let cost = bounds.area() * n as f32 + costs_behind[idx];
+            if n > 0 && (n as usize) < n_items && cost < best.0 {
+                best = (cost, idx);
+            }
+        }
+        best
+    }
 }
 
 /// Moves the items for which `is_first` holds before the others. Returns their number.
