@@ -201,6 +201,6 @@ fn failure(error: Error, source: &Source, origins: &Origins) -> Failure {
             let finding = finding.label("here").help("move the eye (-ep) or the vertex");
             pipe::refused(Diagnostics::one(source, finding))
         }
-        Error::Stage(_) | Error::Camera(_) => Failure::failed(error),
+        Error::Stage(_) | Error::Camera(_) | Error::TooManyLights { .. } => Failure::failed(error),
     }
 }

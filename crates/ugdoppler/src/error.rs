@@ -10,6 +10,13 @@ use ugscene::{CameraError, StageError};
 pub enum Error {
     /// The scene is not at the stage at which it can be coloured.
     Stage(StageError),
+    /// More than 2^27 lights times lit vertices.
+    TooManyLights {
+        /// Lights of the scene.
+        n_lights: usize,
+        /// Vertices that they light.
+        n_vertices: usize,
+    },
     /// The eye is the view centre of the scene's camera.
     Camera(CameraError),
     /// A vertex of a moving body lies exactly at the eye, where it has no direction and so no
@@ -27,6 +34,12 @@ impl fmt::Display for Error {
         match self {
             Self::Stage(error) => error.fmt(f),
             Self::Camera(error) => error.fmt(f),
+            Self::TooManyLights { n_lights, n_vertices } => write!(
+                f,
+                "-li computes {n_lights} lights at {n_vertices} vertices, more than {} together: use fewer \
+                 lights, or faces with fewer vertices",
+                crate::MAX_LIT
+            ),
             Self::VertexAtEye { name, .. } => {
                 write!(f, "vertex `{name}` lies at the eye, where no direction to it exists")
             }

@@ -90,7 +90,7 @@ pub fn apply_with(scene: Scene, config: &Config, progress: &dyn Progress) -> Res
         let name = scene.names.get(scene.vertices[vertex.index()].name).to_string();
         return Err(Error::VertexAtEye { vertex, name });
     }
-    let (mut scene, mut notes) = color(scene, config, eye, &frames);
+    let (mut scene, mut notes) = color(scene, config, eye, &frames)?;
     if let Some(camera) = default_camera {
         let (eye, center) = (Some(camera.eye), Some(camera.center));
         scene.cameras.push(Camera { eye, center, ..Camera::default() });
@@ -116,6 +116,9 @@ fn set_eye(scene: &mut Scene, eye: DVec3) -> Result<(), CameraError> {
     scene.cameras[row].center.map_or(Ok(()), |center| ugscene::view_distance(eye, center).map(drop))
 }
 
+/// Most lights times lit vertices: about 3 GB.
+const MAX_LIT: usize = 1 << 27;
+
 /// The camera of a scene without one, if colours depend on the eye.
 fn default_camera(scene: &Scene, config: &Config) -> Option<DefaultCamera> {
     if config.velocity.is_zero() && !config.light {
@@ -125,7 +128,12 @@ fn default_camera(scene: &Scene, config: &Config) -> Option<DefaultCamera> {
     DefaultCamera::new(scene, &options, [4, 3], [config.velocity.beta()]).ok().flatten()
 }
 
-fn color(mut scene: Scene, config: &Config, eye: DVec3, frames: &RestFrames) -> (Scene, Vec<String>) {
+fn color(
+    mut scene: Scene,
+    config: &Config,
+    eye: DVec3,
+    frames: &RestFrames,
+) -> Result<(Scene, Vec<String>), Error> {
     let stage = stage::with_seen_colors(&scene, config, eye);
     ugscene::separate_bodies(&mut scene);
     ugscene::repeat_vertices(&mut scene, config.repeat);
@@ -133,13 +141,13 @@ fn color(mut scene: Scene, config: &Config, eye: DVec3, frames: &RestFrames) -> 
     let rest = ugscene::rest_positions(&scene, eye, frames);
     let mut notes = if config.spectral {
         let mut shares = ugscene::vertex_shares(&scene, &rest);
-        let light = light_vertices(&mut scene, config, eye, frames, rest, &mut shares);
+        let light = light_vertices(&mut scene, config, eye, frames, rest, &mut shares)?;
         let (factors, used) = (doppler_factors(&scene, eye, frames), vertices::used(&scene));
         let lit = light.map(|light| lit_spectra(&scene, config, &shares, &factors, &light));
         xyz_statements::write(&mut scene, config, &shares, &factors, &used, lit.as_deref())
     } else {
         let mut colors = uglight::vertex_colors(&scene, &rest);
-        let light = light_vertices(&mut scene, config, eye, frames, rest, &mut colors);
+        let light = light_vertices(&mut scene, config, eye, frames, rest, &mut colors)?;
         let (factors, used) = (doppler_factors(&scene, eye, frames), vertices::used(&scene));
         let lit = light.map(|light| lit_hues(&scene, config, &colors, &factors, &light));
         let spectra_note = uglight::spectra_note(&scene);
@@ -160,7 +168,7 @@ fn color(mut scene: Scene, config: &Config, eye: DVec3, frames: &RestFrames) -> 
         irradiance::replace_lights(&mut scene);
     }
     scene.stage = stage;
-    (scene, notes)
+    Ok((scene, notes))
 }
 
 /// The irradiance of every vertex, if it is asked for and the scene has lamps. Vertices where it
@@ -172,16 +180,20 @@ fn light_vertices<T: Clone>(
     frames: &RestFrames,
     mut rest: Vec<DVec3>,
     of_vertex: &mut Vec<T>,
-) -> Option<VertexIrradiance> {
+) -> Result<Option<VertexIrradiance>, Error> {
     if !config.light || scene.lights.is_empty() {
-        return None;
+        return Ok(None);
     }
     let (originals, normals) = irradiance::split(scene, &rest);
     for original in originals {
         rest.push(rest[original.index()]);
         of_vertex.push(of_vertex[original.index()].clone());
     }
-    Some(VertexIrradiance::new(scene, eye, frames, &rest, &normals))
+    let (n_lights, n_vertices) = (scene.lights.len(), normals.iter().flatten().count());
+    if n_lights.saturating_mul(n_vertices) > MAX_LIT {
+        return Err(Error::TooManyLights { n_lights, n_vertices });
+    }
+    Ok(Some(VertexIrradiance::new(scene, eye, frames, &rest, &normals)))
 }
 
 /// The colour as seen of every vertex with light on it; `None` where it is not lit.

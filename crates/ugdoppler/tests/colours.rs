@@ -45,6 +45,19 @@ fn of(scene: &Scene, vertex: &str) -> (String, f64, f64, f64) {
     }
 }
 
+/// Time and memory of the light are lights times vertices, which has a limit.
+#[test]
+fn lights_times_vertices_are_limited() {
+    let tiles = "def t; v a 0 0 0; v b 1 0 0; v c 1 1 0; v d 0 1 0; f (a b c d); end; a (t) 2000 -tx 1;";
+    let text = |n_lights| format!("{tiles} {}", "l 0.1 0 0 1;".repeat(n_lights));
+    let lit = |n_lights| {
+        apply(parsed("t.ug", text(n_lights)), &Config { light: true, ..Config::default() }).map(drop)
+    };
+    assert!(lit(1).is_ok());
+    let error = lit(20_000).unwrap_err().to_string();
+    assert!(error.starts_with("-li computes 20000 lights at 8000 vertices, more than 134217728"), "{error}");
+}
+
 /// Renderers refuse colours that depend on an eye other than that of the camera.
 #[test]
 fn the_eye_of_the_colours_is_that_of_the_camera() {
