@@ -158,8 +158,9 @@ pub(crate) fn finite(xyz: [f64; 3]) -> [f64; 3] {
 /// values above 1.
 fn expose(seen: &mut [[f64; 3]], iris: bool) -> Option<String> {
     let brightest = |&xyz: &[f64; 3]| xyz_to_linear_srgb(xyz).into_iter().fold(0.0, f64::max);
-    let largest = seen.iter().map(brightest).fold(0.0, f64::max);
-    if iris && largest > 0.0 && largest.is_finite() {
+    // The largest X, Y, Z overflow in linear sRGB.
+    let largest = seen.iter().map(brightest).fold(0.0, f64::max).min(f64::MAX);
+    if iris && largest > 0.0 {
         seen.iter_mut().flatten().for_each(|part| *part /= largest);
         return (largest != 1.0).then(|| scaled(largest));
     }
@@ -269,5 +270,19 @@ impl Lit {
             });
             scene.vertices[row].color = Some(id);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The brightness of the largest colours is a number.
+    #[test]
+    fn the_largest_light_is_exposed() {
+        let mut seen = [[f64::MAX, 0.0, 0.0], [1.0; 3]];
+        assert_eq!(expose(&mut seen, false), Some(kept(f64::MAX)));
+        assert_eq!(expose(&mut seen, true), Some(scaled(f64::MAX)));
+        assert_eq!(seen[0], [1.0, 0.0, 0.0]);
     }
 }
