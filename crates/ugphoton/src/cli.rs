@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use clap::Parser;
+use clap::{ArgAction, Parser};
 use ugimage::Format;
 use uglight::{ColorShift, HueShift, Interpolation, SpectralShift};
 use ugparse::{HueScale, pipe};
@@ -14,6 +14,7 @@ use ugscene::cli::{MotionArgs, RepeatArgs};
 
 use crate::config::{Config, RayOptions, Shutter};
 use crate::error::Error;
+use crate::lens::Lens;
 use crate::run;
 
 /// Draws a UniGrafix scene in motion by tracing rays: mirrors, glass, shadows
@@ -88,6 +89,28 @@ pub struct Args {
     /// earlier the nearer it is to the edge of the film.
     #[arg(long, value_name = "DISTANCE", value_parser = distance, help_heading = RAYS)]
     film_shutter: Option<f64>,
+
+    /// Panorama of all directions
+    ///
+    /// Longitude across the picture, latitude down, the view direction in the middle
+    /// (equirectangular). -sz W H with W = 2 H has square degrees.
+    #[arg(long, visible_alias = "panorama", conflicts_with = "fish", help_heading = RAYS)]
+    pan: bool,
+
+    /// Fisheye that shows ANGLE degrees in a circle, as for domes
+    ///
+    /// The distance to the middle of the picture is the angle to the view direction (equidistant).
+    /// A dome needs 180.
+    #[arg(long, value_name = "ANGLE", visible_alias = "fisheye", value_parser = fisheye, help_heading = RAYS)]
+    fish: Option<f64>,
+
+    /// Draw only a part of the picture: column, row, width, height
+    ///
+    /// The pixels are those of the whole picture of size -sz, so parts drawn on several machines can
+    /// be joined.
+    #[arg(long, num_args = 4, value_names = ["X", "Y", "W", "H"], action = ArgAction::Set,
+          value_parser = whole(0..=u32::MAX), help_heading = PICTURE)]
+    crop: Option<Vec<u32>>,
 
     /// Smooth shading
     ///
@@ -165,6 +188,12 @@ impl Args {
             hue_scale: if self.wi { HueScale::Wavelengths } else { HueScale::Degrees },
             smooth: self.sm,
             repeat: self.repeat.repeats(),
+            lens: match self.fish {
+                Some(degrees) => Lens::Fisheye { angle: degrees.to_radians() },
+                None if self.pan => Lens::Panorama,
+                None => Lens::Pinhole,
+            },
+            crop: self.crop.as_deref().and_then(|crop| crop.try_into().ok()),
             reading: pipe::options(&self.common)?,
         })
     }
@@ -224,6 +253,16 @@ fn failure(error: Error) -> Failure {
 fn law(word: &str) -> Result<Brightness, String> {
     Brightness::from_name(word)
         .ok_or_else(|| format!("none of the laws {}", Brightness::ALL.map(Brightness::name).join(", ")))
+}
+
+/// An angle of view, in degrees.
+fn fisheye(word: &str) -> Result<f64, String> {
+    let angle = finite(word)?;
+    if 0.0 < angle && angle <= 360.0 {
+        Ok(angle)
+    } else {
+        Err("a fisheye shows more than 0 and at most 360 degrees".to_owned())
+    }
 }
 
 /// A distance.

@@ -2,8 +2,11 @@
 
 use uglight::{ColorShift, Interpolation};
 use ugparse::HueScale;
-use ugpicture::PictureOptions;
+use ugpicture::{Exposure, PictureOptions};
 use ugscene::MotionOptions;
+
+use crate::error::Error;
+use crate::lens::Lens;
 
 /// Everything besides the scene that affects the bytes of a picture.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,8 +27,56 @@ pub struct Config {
     pub smooth: bool,
     /// Give each vertex a copy per colour of its faces, instead of mixing them (`-vr`).
     pub repeat: bool,
+    /// Which direction is seen where.
+    pub lens: Lens,
+    /// Draw only a part of the picture (`-crop`): its left column, upper row, width and height. The
+    /// pixels are those of the whole picture.
+    pub crop: Option<[u32; 4]>,
     /// How the scene is read.
     pub reading: ugparse::Options,
+}
+
+impl Config {
+    /// Refuses options that exclude each other, and pictures that do not fit in memory.
+    ///
+    /// # Errors
+    /// [`Error::Options`], [`Error::Crop`], [`Error::Picture`].
+    pub(crate) fn check(&self) -> Result<(), Error> {
+        let annotations = &self.picture.annotations;
+        let needs_film = annotations.legend || annotations.outline || annotations.grid;
+        if self.lens != Lens::Pinhole {
+            if needs_film || !self.picture.channels.is_empty() {
+                return Err(Error::Options(
+                    "legend, outline, grid and channels (-lg, -dl, -gr, -ch) are for pinhole cameras: leave them \
+                     out, or -pan and -fish",
+                ));
+            }
+            if self.rays.shutter != Shutter::Pinhole {
+                return Err(Error::Options(
+                    "--film-shutter is for pinhole cameras: leave out -pan and -fish",
+                ));
+            }
+        }
+        let Some([left, top, width, height]) = self.crop else { return Ok(self.picture.check()?) };
+        let fits = |start: u32, length: u32, side: u32| {
+            length > 0 && start.checked_add(length).is_some_and(|end| end <= side)
+        };
+        if !(fits(left, width, self.picture.size[0]) && fits(top, height, self.picture.size[1])) {
+            return Err(Error::Crop { crop: [left, top, width, height], size: self.picture.size });
+        }
+        if needs_film || !annotations.caption.is_empty() || !self.picture.channels.is_empty() {
+            return Err(Error::Options(
+                "annotations and channels (-cap, -lg, -dl, -gr, -ch) are for whole pictures: leave them out, or -crop",
+            ));
+        }
+        if self.picture.exposure == Some(Exposure::Auto) {
+            return Err(Error::Options(
+                "-ex auto would differ between the parts of a picture: with -crop give the exposure of the whole one",
+            ));
+        }
+        let part = PictureOptions { size: [width, height], ..self.picture.clone() };
+        Ok(part.check()?)
+    }
 }
 
 /// Which secondary rays are traced.
@@ -77,6 +128,8 @@ impl Default for Config {
             hue_scale: HueScale::Degrees,
             smooth: false,
             repeat: false,
+            lens: Lens::Pinhole,
+            crop: None,
             reading: ugparse::Options::default(),
         }
     }

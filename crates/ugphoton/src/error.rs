@@ -5,6 +5,10 @@ use std::fmt;
 use ugparse::Diagnostics;
 use ugscene::{CameraError, MotionError, StageError};
 
+/// The most lights times samples of a picture. A shadow ray takes about a microsecond, so this many
+/// take some hours.
+pub(crate) const MOST_LIGHTINGS: u64 = 1 << 34;
+
 /// Why there is no picture.
 #[derive(Debug)]
 pub enum Error {
@@ -21,6 +25,22 @@ pub enum Error {
         /// Its name.
         name: String,
     },
+    /// Options that exclude each other; the text says which, and what to do.
+    Options(&'static str),
+    /// A part of a picture that is not in it.
+    Crop {
+        /// Its left column, upper row, width and height.
+        crop: [u32; 4],
+        /// Of the picture.
+        size: [u32; 2],
+    },
+    /// More lights than can be computed at so many samples.
+    TooManyLights {
+        /// Of the scene.
+        n_lights: usize,
+        /// Of the picture.
+        n_samples: u64,
+    },
     /// Rays through the eye need perspective.
     Orthographic,
     /// The scene cannot be drawn by rays; the text says why, and what to do.
@@ -35,6 +55,8 @@ impl Error {
         match self {
             Self::Picture(error) => error.is_usage(),
             Self::Motion(error) => error.is_usage(),
+            Self::Options(_) | Self::Crop { .. } => true,
+            Self::TooManyLights { .. } => false,
             Self::Text(_)
             | Self::Empty
             | Self::OutOfRange { .. }
@@ -61,7 +83,19 @@ impl fmt::Display for Error {
                 "the seen position of vertex `{name}` is too far away for a number: \
                  use smaller coordinates, a smaller time (-ti) or a lower speed"
             ),
-            Self::Scene(text) => f.write_str(text),
+            Self::Crop { crop: [left, top, width, height], size } => write!(
+                f,
+                "-crop {left} {top} {width} {height} is not in the picture of {} x {} pixels: \
+                 columns and rows count from 0 at the upper left",
+                size[0], size[1]
+            ),
+            Self::TooManyLights { n_lights, n_samples } => write!(
+                f,
+                "{n_lights} lights at each of {n_samples} samples are more than 2^{}: \
+                 give fewer lights, a smaller -sz, or a smaller -aa",
+                MOST_LIGHTINGS.ilog2()
+            ),
+            Self::Options(text) | Self::Scene(text) => f.write_str(text),
             Self::Stage(error) => error.fmt(f),
         }
     }

@@ -18,7 +18,8 @@
 //! Each line imports only from the lines above it:
 //!
 //! ```text
-//! config  error  sampling  frame  path      options; rest frames; rays and the media they are in
+//! lens  error  config                       which direction is seen where; errors; options
+//! sampling  frame  path                     rest frames; rays and the media they are in
 //! world                                     the faces, by rest frame
 //! scenery                                   a scene prepared for rays
 //! surface_point  shade  tracer              what a ray sees of a face; lamps; mirrors and glass
@@ -52,6 +53,7 @@ mod cli;
 mod config;
 mod error;
 mod frame;
+mod lens;
 mod notes;
 mod path;
 mod pixels;
@@ -67,6 +69,7 @@ mod world;
 pub use cli::{Args, draw, manual};
 pub use config::{Config, RayOptions, Shutter};
 pub use error::Error;
+pub use lens::Lens;
 pub use render::{Picture, Rendering, light, metadata, render, run};
 pub use uglight::{ColorShift, HueShift, Interpolation, SpectralShift};
 pub use ugparse::HueScale;

@@ -35,6 +35,20 @@ pub fn notes(
                 .into(),
         );
     }
+    if statistics.begins_inside {
+        notes.push(
+            "the eye is inside a transparent solid, which counts as vacuum up to its surface; or a solid is \
+             open, or its outlines run clockwise seen from outside"
+                .to_owned(),
+        );
+    }
+    if statistics.is_cut_short {
+        notes.push(
+            "some paths branch at too many mirrors and solids, and are cut short: give a smaller -rd or a \
+             larger -rc"
+                .to_owned(),
+        );
+    }
     notes.extend(why_nothing_is_seen(statistics).map(str::to_owned));
     notes.extend(light_note(config, statistics, development));
     notes

@@ -28,6 +28,10 @@ pub struct Statistics {
     pub n_visible: u64,
     /// The brightest channel of a sample.
     pub max_light: f64,
+    /// A path had more branches than are followed.
+    pub is_cut_short: bool,
+    /// A path left a transparent solid that it had not entered.
+    pub begins_inside: bool,
 }
 
 impl Statistics {
@@ -36,19 +40,25 @@ impl Statistics {
             n_covered: self.n_covered + other.n_covered,
             n_visible: self.n_visible + other.n_visible,
             max_light: self.max_light.max(other.max_light),
+            is_cut_short: self.is_cut_short || other.is_cut_short,
+            begins_inside: self.begins_inside || other.begins_inside,
         }
     }
 }
 
-/// The light of a picture, with the requested channels.
+/// The light of a picture, or of a part of it, with the requested channels. `crop`: see
+/// [`crate::Config::crop`].
 pub fn light(
     scenery: &Scenery<'_>,
     options: &PictureOptions,
+    crop: Option<[u32; 4]>,
     progress: &dyn Progress,
 ) -> (LinearFrame, Statistics) {
-    let PictureOptions { size: [width, height], samples, filter, .. } = *options;
+    let PictureOptions { size, samples, filter, .. } = *options;
     let backdrop = Backdrop::new(options.background, samples);
-    let painting = Painting { scenery, size: [width, height], samples, filter, backdrop };
+    let [left, top, width, height] = crop.unwrap_or([0, 0, size[0], size[1]]);
+    let area = [left..left + width, top..top + height];
+    let painting = Painting { scenery, size, area, samples, filter, backdrop };
     let [columns, rows] = [width, height].map(|side| side.div_ceil(TILE));
     progress.step("tracing rays", u64::from(columns) * u64::from(rows));
     let tiles: Vec<Tile> = (0..columns * rows)
@@ -67,7 +77,7 @@ pub fn light(
     for tile in tiles {
         let n = tile.columns.len();
         for (line, row) in tile.rows.clone().enumerate() {
-            let start = row as usize * width as usize + tile.columns.start as usize;
+            let start = (row - top) as usize * width as usize + (tile.columns.start - left) as usize;
             pixels[start..start + n].copy_from_slice(&tile.pixels[line * n..(line + 1) * n]);
         }
     }
@@ -92,7 +102,7 @@ pub fn depths(scenery: &Scenery<'_>, size: [u32; 2], samples: u32) -> DepthBuffe
 fn surfaces(scenery: &Scenery<'_>, [width, height]: [u32; 2], samples: u32) -> Vec<Option<SurfaceSample>> {
     let seen = |idx: usize| {
         let middle = |pixel: usize| pixel as u32 * samples + samples / 2;
-        let ray = scenery.primary_ray([middle(idx % width as usize), middle(idx / width as usize)]);
+        let ray = scenery.primary_ray([middle(idx % width as usize), middle(idx / width as usize)])?;
         let slab = scenery.view.slab;
         let mut range = slab.near..slab.far;
         loop {
@@ -112,7 +122,10 @@ fn surfaces(scenery: &Scenery<'_>, [width, height]: [u32; 2], samples: u32) -> V
 /// What is the same for all tiles of a picture.
 struct Painting<'a> {
     scenery: &'a Scenery<'a>,
+    /// Pixels of the whole picture.
     size: [u32; 2],
+    /// The columns and rows to be drawn.
+    area: [Range<u32>; 2],
     samples: u32,
     filter: Filter,
     backdrop: Backdrop,
@@ -135,7 +148,10 @@ struct Samples {
 
 impl Painting<'_> {
     fn tile(&self, at: [u32; 2], tracer: &mut Tracer<'_>) -> Tile {
-        let range = |axis: usize| at[axis] * TILE..((at[axis] + 1) * TILE).min(self.size[axis]);
+        let range = |axis: usize| {
+            let start = self.area[axis].start + at[axis] * TILE;
+            start..(start + TILE).min(self.area[axis].end)
+        };
         let (columns, rows) = (range(0), range(1));
         let mut statistics = Statistics::default();
         let samples = self.samples(&columns, &rows, tracer, &mut statistics);
@@ -146,6 +162,7 @@ impl Painting<'_> {
                 pixels.push(self.pixel(&samples, &weights, [column, row]));
             }
         }
+        (statistics.is_cut_short, statistics.begins_inside) = (tracer.is_cut_short, tracer.begins_inside);
         Tile { columns, rows, pixels, statistics }
     }
 
@@ -163,7 +180,9 @@ impl Painting<'_> {
         };
         let (across, down) = (around(columns, self.size[0]), around(rows, self.size[1]));
         let width = across.len();
-        let mut light = vec![[0.0_f32; 4]; width * down.len()];
+        // Where the lens shows nothing there is background.
+        let nothing = self.on_background(DVec3::ZERO, DVec3::ONE);
+        let mut light = vec![nothing; width * down.len()];
         let mut packet = Packet::default();
         for top in down.clone().step_by(PACKET as usize) {
             for left in across.clone().step_by(PACKET as usize) {
@@ -246,8 +265,10 @@ impl Packet {
         self.rays.clear();
         for row in rows {
             for column in columns.clone() {
-                self.places.push([column, row]);
-                self.rays.push(scenery.primary_ray([column, row]));
+                if let Some(ray) = scenery.primary_ray([column, row]) {
+                    self.places.push([column, row]);
+                    self.rays.push(ray);
+                }
             }
         }
         let slab = scenery.view.slab;

@@ -41,7 +41,7 @@ impl Rendering {
 /// # Errors
 /// See [`Error`].
 pub fn render(scene: Scene, config: &Config) -> Result<Rendering, Error> {
-    config.picture.check()?;
+    config.check()?;
     render_with(scene, config, &Layout::new(&config.picture)?, &())
 }
 
@@ -56,10 +56,10 @@ pub fn light(scene: Scene, config: &Config) -> Result<LinearFrame, Error> {
     (picture.output, picture.exposure, picture.tone) =
         (Output::Color(ugimage::Format::Exr), None, ugimage::Tone::Clip);
     picture.small = false;
-    picture.check()?;
+    config.check()?;
     let scene = as_seen(scene, &config)?;
     let scenery = Scenery::new(Cow::Owned(scene), &config)?;
-    Ok(pixels::light(&scenery, &config.picture, &()).0)
+    Ok(pixels::light(&scenery, &config.picture, config.crop, &()).0)
 }
 
 /// What a picture says about its making: our name and version, and the command lines that led to
@@ -99,7 +99,7 @@ pub fn run(
     let layout = Layout::new(&config.picture)?;
     progress.step("reading", 0);
     let parsed = ugscene::read(source, &config.reading, config.picture.camera.name.as_deref())?;
-    config.picture.check()?;
+    config.check()?;
     let metadata = metadata(&parsed.scene, command_line);
     let rendering = render_with(parsed.scene, config, &layout, progress)?;
     progress.step("compression", 0);
@@ -118,7 +118,7 @@ fn render_with(
     let config = &Config { picture: layout.of_scene(&config.picture).into_owned(), ..config.clone() };
     let compression = if config.picture.small { Compression::Small } else { Compression::Fast };
     let scenery = Scenery::new(Cow::Owned(as_seen(scene, config)?), config)?;
-    let (frame, statistics) = pixels::light(&scenery, &config.picture, progress);
+    let (frame, statistics) = pixels::light(&scenery, &config.picture, config.crop, progress);
     let (image, development) = developed(frame, &scenery, config);
     progress.step("annotating", 0);
     let annotations = annotate(layout, &scenery, config, development)?;

@@ -15,8 +15,9 @@ use ugpipe::remedies;
 use ugscene::{Geometry, View};
 
 use crate::config::{Config, RayOptions, Shutter};
-use crate::error::Error;
+use crate::error::{Error, MOST_LIGHTINGS};
 use crate::frame::RestFrame;
+use crate::lens::Film;
 use crate::path::{Ray, Start};
 use crate::world::{Faces, Intersection, PacketMemory, World};
 
@@ -30,6 +31,8 @@ pub struct Scenery<'a> {
     pub scene: Cow<'a, Scene>,
     /// The camera; its picture coordinates are samples.
     pub view: View,
+    /// Its lens and film.
+    film: Film,
     /// The faces, by rest frame.
     pub world: World,
     /// The colours of the scene.
@@ -84,6 +87,15 @@ impl<'a> Scenery<'a> {
         if !view.is_perspective {
             return Err(Error::Orthographic);
         }
+        let film = Film::new(config.lens, &view, [width * samples, height * samples]);
+        let n_samples =
+            config.crop.map_or(u64::from(*width) * u64::from(*height), |[_, _, width, height]| {
+                u64::from(width) * u64::from(height)
+            }) * u64::from(samples * samples);
+        let n_lights = scene.lights.len();
+        if (n_lights as u64).saturating_mul(n_samples) > MOST_LIGHTINGS {
+            return Err(Error::TooManyLights { n_lights, n_samples });
+        }
         let hue_scale = ugscene::hue_scale(&scene, config.hue_scale)?;
         let mut scene = scene;
         if hue_scale != scene.stage.hue_scale() {
@@ -108,7 +120,7 @@ impl<'a> Scenery<'a> {
         let lights = Lights::new(&scene, &view, &surface, is_spectral);
         let is_uncut = palette.has_light() || config.picture.keeps_light();
         let (rays, shift) = (config.rays, config.shift);
-        Ok(Self { scene, view, world, palette, surface, rays, lights, shift, spectra, is_uncut })
+        Ok(Self { scene, view, film, world, palette, surface, rays, lights, shift, spectra, is_uncut })
     }
 
     /// True if a face transmits light straight on.
@@ -140,22 +152,18 @@ impl<'a> Scenery<'a> {
         Faces { scene: &self.scene, rest: self.surface.all_rest() }
     }
 
-    /// The ray through the middle of a sample. Its parameter is the depth along the view.
-    pub fn primary_ray(&self, [column, row]: [u32; 2]) -> Ray {
-        let [corner, across, down] = self.view.rays();
-        let (x, y) = (f64::from(column) + 0.5, f64::from(row) + 0.5);
-        let direction = corner + y * down + x * across;
-        match self.rays.shutter {
+    /// The ray through the middle of a sample; `None` where the lens shows nothing. Its parameter is
+    /// the depth along the view, or the distance with another lens than a pinhole.
+    pub fn primary_ray(&self, [column, row]: [u32; 2]) -> Option<Ray> {
+        let direction = self.film.direction([f64::from(column) + 0.5, f64::from(row) + 0.5])?;
+        Some(match self.rays.shutter {
             Shutter::Pinhole => Ray::from_eye(direction),
             Shutter::Film { distance } => {
                 let ahead = distance * (direction.length() - 1.0);
-                Ray {
-                    start: Start::Event,
-                    origin: Event { t: -ahead, x: DVec3::ZERO },
-                    ..Ray::from_eye(direction)
-                }
+                let origin = Event { t: -ahead, x: DVec3::ZERO };
+                Ray { start: Start::Event, origin, ..Ray::from_eye(direction) }
             }
-        }
+        })
     }
 
     /// The face that each of neighbouring rays from the eye meets first, for parameters in a range.

@@ -35,7 +35,17 @@ pub struct Tracer<'a> {
     filters: Vec<Filter>,
     /// Memory for faces at the same place.
     layers: Vec<Intersection>,
+    /// Reflections and refractions of the current sample.
+    n_branches: u32,
+    /// A sample had more than [`MOST_BRANCHES`] of them.
+    pub is_cut_short: bool,
+    /// A path left a transparent solid that it had not entered: it began inside.
+    pub begins_inside: bool,
 }
+
+/// The most reflections and refractions of a sample. Between mirrors that are transparent, too,
+/// each path divides into two at every surface.
+const MOST_BRANCHES: u32 = 4096;
 
 /// Light behind translucent faces that transmit less than this is not looked for: a thousandth of
 /// the least step of a display.
@@ -57,7 +67,15 @@ struct Path {
 impl<'a> Tracer<'a> {
     /// In a scene.
     pub fn new(scenery: &'a Scenery<'a>) -> Self {
-        Self { scenery, shader: Shader::new(scenery), filters: Vec::new(), layers: Vec::new() }
+        Self {
+            scenery,
+            shader: Shader::new(scenery),
+            filters: Vec::new(),
+            layers: Vec::new(),
+            n_branches: 0,
+            is_cut_short: false,
+            begins_inside: false,
+        }
     }
 
     /// The light that arrives along a ray, and how much of the background is seen. `first`: the
@@ -65,6 +83,7 @@ impl<'a> Tracer<'a> {
     /// parameters.
     pub fn arriving(&mut self, ray: Ray, first: Option<Intersection>, far: f64, sample: u64) -> Arriving {
         let path = Path { ray, media: Media::default(), depth: 0, weight: 1.0, sample };
+        self.n_branches = 0;
         self.seen(&path, first, far)
     }
 
@@ -160,6 +179,11 @@ impl<'a> Tracer<'a> {
         media: Media,
         part: f64,
     ) -> Arriving {
+        self.n_branches += 1;
+        if self.n_branches > MOST_BRANCHES {
+            self.is_cut_short = true;
+            return Arriving::NOTHING;
+        }
         let frame = &self.scenery.world.parts[point.part].frame;
         let forward = medium(self.scenery, media.innermost(), point.part).step(wave);
         let step = frame.to_camera(Event { t: -forward.t, x: -forward.x });
@@ -186,7 +210,12 @@ impl<'a> Tracer<'a> {
 
     /// The light that a surface transmits along the path, before it; `None` at total reflection.
     /// Eq. (P23), (P37)
-    fn refracted(&self, path: &Path, point: &SurfacePoint, surface: ugparse::SurfaceId) -> Option<Refracted> {
+    fn refracted(
+        &mut self,
+        path: &Path,
+        point: &SurfacePoint,
+        surface: ugparse::SurfaceId,
+    ) -> Option<Refracted> {
         let solid = Solid { part: point.part, surface };
         let (media, is_inside_unknown) = if point.is_outside {
             (path.media.with(solid), false)
@@ -195,6 +224,7 @@ impl<'a> Tracer<'a> {
         };
         if is_inside_unknown {
             // The path began inside the solid, where it counts as vacuum.
+            self.begins_inside = true;
             return Some(Refracted { wave: point.wave, media, reflectance: 0.0 });
         }
         let behind = medium(self.scenery, media.innermost(), point.part);

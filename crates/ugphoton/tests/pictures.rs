@@ -1,0 +1,235 @@
+//! Pictures as a whole: parts, lenses, shutters, soft shadows, and scenes without an end.
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+use glam::DVec3;
+use rayon::ThreadPoolBuilder;
+use ugphoton::{
+    CameraOptions, Config, Exposure, Filter, Lens, PictureOptions, RayOptions, Shutter, light, render,
+};
+
+fn scene(text: &str) -> ugparse::Scene {
+    let source = ugparse::Source::new("test.ug", text);
+    ugparse::parse(&source, &ugparse::Options::default()).unwrap().scene
+}
+
+/// A mirror, a pane of glass, a coloured box and its ground, under two lamps, one with a radius.
+const ROOM: &str = "
+    c red 0.9 10 0.8; c green 0.8 120 0.7; c white 1; c pane 0.9 200 0.3 0.5;
+    surf mirror 0.2 0.7 0; surf glass 0 0.1 0.8 1.5;
+    v a -4 4 -1; v b 4 4 -1; v c 4 9 -1; v d -4 9 -1; v e -4 9 3; v f 4 9 3;
+    f (a b c d) green; f (d c f e) white mirror <0 0.3 0>;
+    v g -1 6 -0.5; v h 0 6 -0.5; v i 0 6 1; v j -1 6 1; f (g h i j) red <0.5 0 0>;
+    v k 0.5 5 -0.6; v l 1.5 5 -0.6; v m 1.5 5 0.8; v n 0.5 5 0.8; f (k l m n) pane <0 0 0.4>;
+    l 0.3; l 0.7 0.5 -1 2; l 0.5 -2 3 4 1.5;
+    cam -ep 0 0 0.5 -vc 0 6 0.3 -va 60;";
+
+fn picture(size: [u32; 2]) -> Config {
+    Config { picture: PictureOptions { size, samples: 2, ..PictureOptions::default() }, ..Config::default() }
+}
+
+#[test]
+fn parts_are_those_of_the_whole_picture() {
+    for filter in [Filter::Box, Filter::Spline] {
+        let mut config = picture([50, 37]);
+        config.picture.filter = filter;
+        let whole = light(scene(ROOM), &config).unwrap();
+        let mut joined = vec![None; 50 * 37];
+        for [left, top, width, height] in [[0, 0, 23, 19], [23, 0, 27, 19], [0, 19, 50, 1], [0, 20, 50, 17]] {
+            let config = Config { crop: Some([left, top, width, height]), ..config.clone() };
+            let part = light(scene(ROOM), &config).unwrap();
+            assert_eq!([part.width(), part.height()], [width, height]);
+            for (at, pixel) in part.pixels().iter().enumerate() {
+                let (column, row) = (left as usize + at % width as usize, top as usize + at / width as usize);
+                joined[row * 50 + column] = Some(*pixel);
+            }
+        }
+        let joined: Option<Vec<_>> = joined.into_iter().collect();
+        assert!(joined.unwrap() == whole.pixels(), "{filter:?}");
+    }
+}
+
+#[test]
+fn threads_do_not_matter() {
+    let config = picture([40, 30]);
+    let on = |n_threads| {
+        let pool = ThreadPoolBuilder::new().num_threads(n_threads).build().unwrap();
+        pool.install(|| light(scene(ROOM), &config).unwrap().pixels().to_vec())
+    };
+    let one = on(1);
+    assert!(one == on(2) && one == on(5));
+    let lit = one.iter().filter(|pixel| pixel[..3].iter().any(|&channel| channel > 0.0)).count();
+    assert!(lit > 300, "{lit}");
+}
+
+/// What is seen in a direction does not depend on the lens.
+#[test]
+fn lenses_show_the_same_light() {
+    let pinhole = |toward: DVec3| {
+        let camera = CameraOptions {
+            center: Some(DVec3::new(0.0, 0.0, 0.5) + toward),
+            view_angle: Some((1e-4, None)),
+            ..CameraOptions::default()
+        };
+        let picture = PictureOptions { size: [1, 1], samples: 1, camera, ..PictureOptions::default() };
+        light(scene(ROOM), &Config { picture, ..Config::default() }).unwrap().pixels()[0]
+    };
+    let mut n_lit = 0;
+    for lens in [Lens::Panorama, Lens::Fisheye { angle: 4.0 }] {
+        let mut config = picture([36, 18]);
+        (config.lens, config.picture.samples) = (lens, 1);
+        let frame = light(scene(ROOM), &config).unwrap();
+        let forward = DVec3::new(0.0, 6.0, -0.2).normalize();
+        let right = DVec3::X;
+        let up = right.cross(forward);
+        for (at, pixel) in frame.pixels().iter().enumerate() {
+            let (x, y) = ((at % 36) as f64 + 0.5, (at / 36) as f64 + 0.5);
+            let direction = match lens {
+                Lens::Fisheye { angle } => {
+                    let (across, above) = (x - 18.0, 9.0 - y);
+                    let radius = libm::hypot(across, above);
+                    if radius > 9.0 {
+                        assert_eq!(pixel[..3], [0.0; 3]);
+                        continue;
+                    }
+                    let (sin, cos) = libm::sincos(0.5 * angle * radius / 9.0);
+                    cos * forward + sin / radius * (across * right + above * up)
+                }
+                _ => {
+                    let (sin, cos) = libm::sincos(std::f64::consts::TAU * (x / 36.0 - 0.5));
+                    let (rise, run) = libm::sincos(std::f64::consts::PI * (0.5 - y / 18.0));
+                    run * (cos * forward + sin * right) + rise * up
+                }
+            };
+            let expected = pinhole(direction);
+            // Lamps with a radius are seen at another of their points.
+            let is_near = (0..3).all(|channel| (pixel[channel] - expected[channel]).abs() < 0.3);
+            assert!(is_near, "{lens:?} {x} {y}: {pixel:?} {expected:?}");
+            assert_eq!(pixel[..3] == [0.0; 3], expected[..3] == [0.0; 3], "{lens:?} {x} {y}");
+            n_lit += usize::from(pixel[0] > 0.0);
+        }
+    }
+    assert!(n_lit > 40, "{n_lit}");
+}
+
+/// With the shutter at the film, light for its edge passed the pinhole earlier: what moves is seen
+/// where it was then (Howard, Dance and Kitchen 1995).
+#[test]
+fn a_shutter_at_the_film_shows_its_edge_earlier() {
+    // The edge of a wall at y = 10 moves along x with 0.5 c, and is seen 45° to the right.
+    let slant = 2.0_f64.sqrt();
+    let seen = |shutter, offset: f64| {
+        // Flight time, and at the film √2 − 1 times the focal length of 3 before.
+        let earlier = match shutter {
+            Shutter::Pinhole => 0.0,
+            Shutter::Film { distance } => distance * (slant - 1.0),
+        };
+        let now = 10.0 + 0.5 * (10.0 * slant + earlier) + offset;
+        let x = now / 0.75_f64.sqrt();
+        let text = format!(
+            "c white 1; v a {x} 10 -9; v b {x} 10 9; v c {0} 10 9; v d {0} 10 -9; f (a b c d) white 1 <0.5 0 0>;
+             cam -ep 0 0 0 -vc 0 1 0 -va 90.000001 90.000001;",
+            x - 900.0
+        );
+        let picture = PictureOptions { size: [20001, 1], samples: 1, ..PictureOptions::default() };
+        let rays = RayOptions { shutter, ..RayOptions::default() };
+        let config = Config { picture, rays, crop: Some([20000, 0, 1, 1]), ..Config::default() };
+        light(scene(&text), &config).unwrap().pixels()[0][0] > 0.0
+    };
+    for shutter in [Shutter::Pinhole, Shutter::Film { distance: 3.0 }] {
+        // A pixel is 0.001 wide there.
+        assert!(seen(shutter, 0.01) && !seen(shutter, -0.01), "{shutter:?}");
+    }
+}
+
+#[test]
+fn lamps_with_a_radius_make_soft_shadows() {
+    // A lamp 4 above the ground, a plate 2 above it that hides the lamp from x < 0 in part.
+    let text = |radius: f64| {
+        format!(
+            "c white 1; v a -9 -9 0; v b 9 -9 0; v c 9 9 0; v d -9 9 0; f (a b c d) white;
+             v e -9 -9 2; v f 0 -9 2; v g 0 9 2; v h -9 9 2; f (e f g h) white;
+             l 1 0 0 4 {radius}; cam -ep 5 0 1 -vc 0 0 0 -va 60;"
+        )
+    };
+    let lit = |radius: f64, x: f64| {
+        let camera = CameraOptions {
+            center: Some(DVec3::new(x, 0.0, 0.0)),
+            view_angle: Some((0.01, None)),
+            ..CameraOptions::default()
+        };
+        let picture = PictureOptions { size: [8, 8], samples: 4, camera, ..PictureOptions::default() };
+        let frame = light(scene(&text(radius)), &Config { picture, ..Config::default() }).unwrap();
+        frame.pixels().iter().map(|pixel| f64::from(pixel[0])).sum::<f64>() / 64.0
+    };
+    assert!(lit(0.0, 0.05) > 0.9 && lit(0.0, -0.05) == 0.0);
+    // Under the edge half of the disk is seen; beyond x = ±1 all of it and nothing.
+    assert!((lit(1.0, 1.3) - lit(0.0, 1.3)).abs() < 0.05 && lit(1.0, -1.3) == 0.0);
+    let half = lit(1.0, 0.0);
+    assert!((half - 0.5 * lit(0.0, 0.05)).abs() < 0.05, "{half}");
+}
+
+/// Two boxes, one in the other, whose walls mirror and transmit: a path has two branches at every
+/// wall between them.
+#[test]
+fn endless_mirrors_end() {
+    let mut text = String::from("c white 1; surf both 0.1 0.9 0.9 1.5; l 1;");
+    for (name, (normal, other)) in
+        ["p", "q", "r"].into_iter().zip([(DVec3::X, DVec3::Y), (DVec3::Y, DVec3::Z), (DVec3::Z, DVec3::X)])
+    {
+        for side in [-2.0_f64, -1.0, 1.0, 2.0] {
+            let third = normal.cross(other);
+            let label = format!("{}{}", if side < 0.0 { "low" } else { "high" }, side.abs());
+            for (at, [u, v]) in [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]].into_iter().enumerate() {
+                let corner = side * normal + side.abs() * (u * other + v * third);
+                text += &format!("v {name}{label}{at} {} {} {};", corner.x, corner.y, corner.z);
+            }
+            text += &format!("f ({0}0 {0}1 {0}2 {0}3) white both;", format!("{name}{label}"));
+        }
+    }
+    text += "cam -ep 0 0 0 -vc 0.3 1 0.2 -va 60;";
+    let mut config = picture([8, 6]);
+    config.picture.samples = 1;
+    config.rays = RayOptions { depth: 64, cutoff: 0.0, ..RayOptions::default() };
+    let notes = render(scene(&text), &config).unwrap().notes;
+    assert!(notes.iter().any(|note| note.contains("cut short")), "{notes:?}");
+    assert!(notes.iter().any(|note| note.contains("eye is inside")), "{notes:?}");
+    config.rays = RayOptions { depth: 3, ..RayOptions::default() };
+    let notes = render(scene(&text), &config).unwrap().notes;
+    assert!(!notes.iter().any(|note| note.contains("cut short")), "{notes:?}");
+}
+
+#[test]
+fn messages() {
+    let check = |config: Config, expected: &str| {
+        let found = light(scene(ROOM), &config).unwrap_err().to_string();
+        assert!(found.contains(expected), "{found}");
+    };
+    let config = picture([40, 30]);
+    check(
+        Config { crop: Some([30, 0, 11, 30]), ..config.clone() },
+        "-crop 30 0 11 30 is not in the picture of 40 x 30",
+    );
+    check(Config { crop: Some([0, 0, 0, 30]), ..config.clone() }, "is not in the picture");
+    check(Config { crop: Some([u32::MAX, 0, 2, 30]), ..config.clone() }, "is not in the picture");
+    let mut auto = Config { crop: Some([0, 0, 4, 3]), ..config.clone() };
+    auto.picture.exposure = Some(Exposure::Auto);
+    // Light is not exposed; the picture is.
+    assert!(light(scene(ROOM), &auto).is_ok());
+    let found = render(scene(ROOM), &auto).unwrap_err().to_string();
+    assert!(found.contains("-ex auto would differ"), "{found}");
+    let shutter = Shutter::Film { distance: 1.0 };
+    let rays = RayOptions { shutter, ..RayOptions::default() };
+    check(Config { lens: Lens::Panorama, rays, ..config.clone() }, "--film-shutter is for pinhole cameras");
+    let mut orthographic = config.clone();
+    orthographic.picture.camera.is_orthographic = true;
+    check(orthographic, "leave out -og");
+    let empty = light(scene("v a 0 0 0; cam -ep 0 -5 0;"), &config).unwrap_err().to_string();
+    assert!(empty.contains("no faces"), "{empty}");
+    let seen = "(ugstage 1 geometry as-seen eye 0 0 0) v a 0 1 0; v b 1 1 0; v c 0 1 1; f (a b c);";
+    let seen = light(scene(seen), &config).unwrap_err().to_string();
+    assert!(seen.contains("start again from the scene at rest"), "{seen}");
+    let mut large = picture([16384, 16384]);
+    large.picture.samples = 16;
+    large.crop = Some([0, 0, 16384, 4096]);
+    check(large, "lights at each of");
+}
