@@ -5,7 +5,7 @@ use std::ops::{ControlFlow, Range};
 use fearless_simd::{Simd, dispatch};
 
 use crate::box_ray::BoxRay;
-use crate::nodes::{IS_BLOCK, SimdRay};
+use crate::nodes::{IS_BLOCK, Node, SimdRay, WIDTH};
 use crate::shear::{Crossing, Shear};
 use crate::stack::{Entry, Stack};
 use crate::{Bvh, Hit, Ray, Work};
@@ -35,8 +35,8 @@ impl Count for Work {
 
 /// What a search does with hits.
 trait Search {
-    /// Receives a hit in the range of the search. Returns the new greatest τ of hits that are still
-    /// of interest, or `None` for the old one.
+    /// Receives a hit in the range of the search. Returns true if farther hits are no longer of
+    /// interest.
     fn hit(&mut self, crossing: &Crossing, triangle: u32) -> ControlFlow<(), bool>;
 }
 
@@ -121,14 +121,7 @@ fn search<S: Simd>(
                 mask &= mask - 1;
                 child = node.children[first];
                 if mask != 0 {
-                    let mut nearest = Entry::new(near[first], child);
-                    while mask != 0 {
-                        let other = Entry::new(near[lowest(mask)], node.children[lowest(mask)]);
-                        mask &= mask - 1;
-                        stack.push(nearest.max(other));
-                        nearest = nearest.min(other);
-                    }
-                    child = nearest.child();
+                    child = push_others(&mut stack, node, &near, Entry::new(near[first], child), mask);
                 }
                 continue;
             }
@@ -140,11 +133,9 @@ fn search<S: Simd>(
                 let triangle = bvh.triangles[block.first as usize + lowest(mask)];
                 mask &= mask - 1;
                 count.triangle();
-                if let Some(crossing) = shear.intersect(bvh.corners(&triangle))
-                    && range.start < crossing.t
-                    && crossing.t < range.end
-                    && search.hit(&crossing, triangle.index)?
-                {
+                let Some(crossing) = shear.intersect(bvh.corners(&triangle)) else { continue };
+                let is_in_range = range.start < crossing.t && crossing.t < range.end;
+                if is_in_range && search.hit(&crossing, triangle.index)? {
                     end = end.min(box_ray.limit(crossing.z));
                 }
             }
@@ -157,6 +148,25 @@ fn search<S: Simd>(
             }
         }
     }
+}
+
+/// Pushes the children in a mask and `nearest`, except the nearest of all, which is returned.
+#[inline(always)]
+fn push_others(
+    stack: &mut Stack,
+    node: &Node,
+    near: &[f32; WIDTH],
+    mut nearest: Entry,
+    mut mask: u32,
+) -> u32 {
+    while mask != 0 {
+        let idx = lowest(mask);
+        mask &= mask - 1;
+        let other = Entry::new(near[idx], node.children[idx]);
+        stack.push(nearest.max(other));
+        nearest = nearest.min(other);
+    }
+    nearest.child()
 }
 
 /// Index of the lowest bit of a mask of up to eight.

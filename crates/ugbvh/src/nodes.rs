@@ -58,7 +58,7 @@ impl Node {
         &self.planes[(idx ^ 1) & 7]
     }
 
-    /// Where the ray enters each box, and a mask of those it hits within `limits` of τ.
+    /// Where the ray enters each box, and a mask of those it hits at τ in `start`…`end`.
     #[inline(always)]
     pub fn intersect<S: Simd>(&self, simd: S, ray: &SimdRay<S>, start: f32, end: f32) -> ([f32; WIDTH], u32) {
         // No operand is NaN: origins and reciprocals are finite, and reciprocals are not 0.
@@ -69,9 +69,7 @@ impl Node {
         let far = far_x.min(far_y).min(far_z.min(f32x8::splat(simd, end)));
         (near.into(), near.simd_le(far).to_bitmask() as u32)
     }
-}
 
-impl Node {
     /// Where the ray crosses the planes of boxes in an axis.
     #[inline(always)]
     fn crossings<S: Simd>(&self, simd: S, ray: &SimdRay<S>, axis: usize) -> [f32x8<S>; 2] {

@@ -89,25 +89,8 @@ fn closest_on<S: Simd>(
     let mut node = &bvh.nodes[0];
     let mut idx = 0;
     loop {
-        let (near, mut mask) = search.frustum.intersect(simd, node, end);
-        // Farthest first, so that the nearest is popped first.
-        let mut entries = [Entry::new(0.0, 0); WIDTH];
-        let mut n = 0;
-        while mask != 0 {
-            let child = lowest(mask);
-            mask &= mask - 1;
-            let entry = Entry::new(near[child], (idx * WIDTH + child) as u32);
-            let mut at = n;
-            while at > 0 && entries[at - 1] < entry {
-                entries[at] = entries[at - 1];
-                at -= 1;
-            }
-            entries[at] = entry;
-            n += 1;
-        }
-        for entry in &entries[..n] {
-            stack.push(*entry);
-        }
+        let (near, mask) = search.frustum.intersect(simd, node, end);
+        push_sorted(&mut stack, idx, &near, mask);
         loop {
             let Some(entry) = stack.pop() else { return true };
             if entry > Entry::limit(end) {
@@ -126,6 +109,28 @@ fn closest_on<S: Simd>(
                 end = packet.end();
             }
         }
+    }
+}
+
+/// Pushes the children of a node that are in a mask, the nearest last, so that it is popped first.
+#[inline(always)]
+fn push_sorted(stack: &mut Stack, node: usize, near: &[f32; WIDTH], mut mask: u32) {
+    let mut entries = [Entry::new(0.0, 0); WIDTH];
+    let mut n = 0;
+    while mask != 0 {
+        let child = lowest(mask);
+        mask &= mask - 1;
+        let entry = Entry::new(near[child], (node * WIDTH + child) as u32);
+        let mut at = n;
+        while at > 0 && entries[at - 1] < entry {
+            entries[at] = entries[at - 1];
+            at -= 1;
+        }
+        entries[at] = entry;
+        n += 1;
+    }
+    for entry in &entries[..n] {
+        stack.push(*entry);
     }
 }
 

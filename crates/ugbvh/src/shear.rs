@@ -112,9 +112,10 @@ impl Shear {
         if is_low & is_high {
             return None;
         }
-        let sum = weights[0] + weights[1] + weights[2];
+        let sum = p + q + r;
         let size = extent([a, b, c]);
-        // With a NaN coordinate the sum is NaN and the comparison false. A product has an error of 2⁻⁵³ size² or less, so a weight one of 2⁻⁵¹ size².
+        // A product has an error of 2⁻⁵³ size² or less, so a weight one of 2⁻⁵¹ size². With a NaN
+        // coordinate the sum is NaN and the comparison false.
         let has_zero = (p == 0.0) | (q == 0.0) | (r == 0.0);
         let is_safe = !has_zero && sum.abs() >= MIN_AREA * (size * size);
         if is_safe { Some(self.crossing(weights, [a, b, c])) } else { self.intersect_exactly([a, b, c]) }
