@@ -3,8 +3,8 @@
 #
 #   scenes/figures.sh [OUTDIR [WIDTH HEIGHT]]        default: figures 640 480
 #
-# Every picture is one pipe. Our scenes have z up: motion is along +x, and the camera looks
-# along +y, where the papers have y up and look along the z axis.
+# Every picture is one pipe. Without ugdoppler, only shapes change. Our scenes have z up: motion is
+# along +x, and the camera looks along +y, where the papers have y up and look along the z axis.
 set -euo pipefail
 export LC_ALL=C
 
@@ -29,9 +29,6 @@ announce() {
     printf '%3d of %d  %s.png\n' "$(wc -l < "$out/rows/drawn")" "$n_figures" "$1"
 }
 
-# Colours at rest, so that only shapes change.
-shape() { ugdoppler -qt --no-doppler --no-flux; }
-
 # pot [VELOCITY]: the teapot under the three lights of Chang, Lai and Chen 1996.
 pot() {
     sed '/^l /d' teapot.ug
@@ -51,7 +48,7 @@ flyby() {
     announce "$name"
 }
 
-# tile SHEET COLUMNS PICTURE...: a contact sheet without labels
+# tile SHEET COLUMNS PICTURE...: pictures close together, without labels
 tile() {
     ugsheet -qt -lb none -gap 4 0 -bg .25 -cols "$2" -fo "$1" "${@:3}"
 }
@@ -70,30 +67,30 @@ draw nguyen-01 -wi rainbow.ug
 # Nguyen 1988, figure 2: the ship at rest and at 0.3, 0.6 and 0.9c. Then in colour: at 0.6c the
 # stern still comes nearer while the bow goes away; head-on, much above 0.2c much of the ship
 # would shine where no eye sees.
-uglorentz ship.ug | shape | draw nguyen-02a-rest
-uglorentz -in -vel .3 0 0 ship.ug | shape | draw nguyen-02b-0.3c
-uglorentz -in -vel .6 0 0 ship.ug | shape | draw nguyen-02c-0.6c
-uglorentz -in -vel .9 0 0 ship.ug | shape | draw nguyen-02d-0.9c
+uglorentz ship.ug | draw nguyen-02a-rest
+uglorentz -in -vel .3 0 0 ship.ug | draw nguyen-02b-0.3c
+uglorentz -in -vel .6 0 0 ship.ug | draw nguyen-02c-0.6c
+uglorentz -in -vel .9 0 0 ship.ug | draw nguyen-02d-0.9c
 uglorentz -in -vel .6 0 0 ship.ug | ugdoppler -qt | draw nguyen-02e-0.6c-colours
 uglorentz -in -vel 0 -.2 0 ship.ug | ugdoppler -qt | draw nguyen-02f-approaching-0.2c-colours
 uglorentz -in -vel 0 .2 0 ship.ug | ugdoppler -qt | draw nguyen-02g-receding-0.2c-colours
 
 # Chang, Lai and Chen 1996, figure 9: at rest, and at 0.95c when seen at right angles.
-uglorentz teapot.ug | shape | draw chang-09a-teapot-rest
-uglorentz -in -vel .95 0 0 teapot.ug | shape | draw chang-09b-teapot-0.95c
-uglorentz cubes.ug | shape | draw chang-09c-cubes-rest
-uglorentz -in -vel .95 0 0 cubes.ug | shape | draw chang-09d-cubes-0.95c
-uglorentz sphere.ug | shape | draw chang-09e-sphere-rest
-uglorentz -in -vel .95 0 0 sphere.ug | shape | draw chang-09f-sphere-0.95c
+uglorentz teapot.ug | draw chang-09a-teapot-rest
+uglorentz -in -vel .95 0 0 teapot.ug | draw chang-09b-teapot-0.95c
+uglorentz cubes.ug | draw chang-09c-cubes-rest
+uglorentz -in -vel .95 0 0 cubes.ug | draw chang-09d-cubes-0.95c
+uglorentz sphere.ug | draw chang-09e-sphere-rest
+uglorentz -in -vel .95 0 0 sphere.ug | draw chang-09f-sphere-0.95c
 
 # Figure 10: the teapot flies by, seen at equal intervals of time, later ones below. It seems
 # to slow down: its approach is seen sped up, its retreat drawn out.
-uglorentz teapot.ug | shape | draw chang-10a-rest -va 90
+uglorentz teapot.ug | draw chang-10a-rest -va 90
 for speed in .95 .999; do
     rows=()
     for time in 07 12 17 22; do
         row=$out/rows/teapot-$speed-$time.png
-        uglorentz -vel $speed 0 0 -ti $time teapot.ug | shape | ugrainbow -qt -va 90 -sz "$width" $((height / 4 - 3)) -fo "$row"
+        uglorentz -vel $speed 0 0 -ti $time teapot.ug | ugrainbow -qt -va 90 -sz "$width" $((height / 4 - 3)) -fo "$row"
         rows+=("$row")
     done
     tile "$out/chang-10-0${speed}c.png" 1 "${rows[@]}"
@@ -102,9 +99,9 @@ done
 
 # Figures 11 and 12: the street at rest, approaching, receding; and in colour. Wavelengths (-gw)
 # continue beyond the range of hues, so colours fade evenly at the ends of the visible spectrum.
-uglorentz street.ug | shape | draw chang-11-rest
-uglorentz -vel 0 -.99 0 -ep 0 40 3 street.ug | shape | draw chang-12a-in-0.99c
-uglorentz -vel 0 .99 0 -ep 0 -250 3 street.ug | shape | draw chang-12b-out-0.99c
+uglorentz street.ug | draw chang-11-rest
+uglorentz -vel 0 -.99 0 -ep 0 40 3 street.ug | draw chang-12a-in-0.99c
+uglorentz -vel 0 .99 0 -ep 0 -250 3 street.ug | draw chang-12b-out-0.99c
 uglorentz -vel 0 -.9 0 -ep 0 20 3 street.ug | ugdoppler -qt -gw | draw chang-12c-in-0.9c-colours -wi -va 110
 
 # Figures 13 and 15: the teapot's brightness under three distant lights: moving with the teapot, at
@@ -140,10 +137,10 @@ tile "$out/chang-17-bands-0.5c.png" 1 "${rows[@]}"
 announce chang-17-bands-0.5c
 
 # Howard, Dance and Kitchen 1995, figures 4 and 5: flying towards a grid, and just behind it.
-uglorentz grid.ug | shape | draw howard-04a-rest
-uglorentz -vel 0 -.5 0 grid.ug | shape | draw howard-04b-0.5c
-uglorentz -vel 0 -.9 0 grid.ug | shape | draw howard-04c-0.9c
-uglorentz -vel 0 -.9 0 -ep 0 .5 0 grid.ug | shape | draw howard-05-through-0.9c
+uglorentz grid.ug | draw howard-04a-rest
+uglorentz -vel 0 -.5 0 grid.ug | draw howard-04b-0.5c
+uglorentz -vel 0 -.9 0 grid.ug | draw howard-04c-0.9c
+uglorentz -vel 0 -.9 0 -ep 0 .5 0 grid.ug | draw howard-05-through-0.9c
 
 # Weiskopf 2000, figure 3: a tunnel of black bodies at 3500, 5900 and 10000 K: at rest; flying
 # through it at 0.6c with the shape alone, with the Doppler effect, and with the searchlight effect
@@ -154,23 +151,23 @@ uglorentz -cv 0 .6 0 tunnel.ug | ugdoppler -qt -sp --no-flux | draw weiskopf-03c
 uglorentz -cv 0 .6 0 tunnel.ug | ugdoppler -qt -sp | draw weiskopf-03d-0.6c-searchlight -ex -3.32
 
 # Our own: the lattice in shape and colour, mixed colours at a vertex, five speeds in one picture.
-uglorentz -vel 0 -.9 0 lattice.ug | shape | draw lattice-0.9c-shape -va 120
+uglorentz -vel 0 -.9 0 lattice.ug | draw lattice-0.9c-shape -va 120
 uglorentz -vel 0 -.9 0 lattice.ug | ugdoppler -qt -gw | draw lattice-0.9c-colours -wi -va 120
 ugdoppler -qt halves.ug | draw halves-mixed
 ugdoppler -qt -vr halves.ug | draw halves-repeated
-uglorentz -in dice.ug | shape | draw dice
+uglorentz -in dice.ug | draw dice
 uglorentz lamp.ug | ugdoppler -qt | draw lamp-at-rest
 uglorentz lamp.ug | ugdoppler -qt -li | draw lamp-moving
 
 # Cars at 0.6c, from a camera at rest and from one that moves at 0.5c.
-uglorentz -an center -cv 0 0 0 traffic.ug | shape | draw traffic-a-standing
-uglorentz -an center traffic.ug | shape | draw traffic-b-driving
+uglorentz -an center -cv 0 0 0 traffic.ug | draw traffic-a-standing
+uglorentz -an center traffic.ug | draw traffic-b-driving
 
 # Glass at rest and at 0.9c; edges alone, and both.
 draw glass-a-rest glass.ug
-uglorentz -in -vel .9 0 0 glass.ug | shape | draw glass-b-0.9c
-uglorentz -in -vel .9 0 0 glass.ug | shape | draw glass-c-0.9c-edges -wf -lc 1 -dc 7 12
-uglorentz -in -vel .9 0 0 glass.ug | shape | draw glass-d-0.9c-both -ed
+uglorentz -in -vel .9 0 0 glass.ug | draw glass-b-0.9c
+uglorentz -in -vel .9 0 0 glass.ug | draw glass-c-0.9c-edges -wf -lc 1 -dc 7 12
+uglorentz -in -vel .9 0 0 glass.ug | draw glass-d-0.9c-both -ed
 
-tile "$out/sheet.png" 6 "$out"/{nguyen,chang,howard,weiskopf,lattice,halves,dice,traffic,lamp,glass}*.png
+ugsheet -qt -lb names -bg .25 -cols 6 -fo "$out/sheet.png" "$out"/{nguyen,chang,howard,weiskopf,lattice,halves,dice,traffic,lamp,glass}*.png
 printf 'The pictures are in %s, all of them on %s/sheet.png\n' "$out" "$out"

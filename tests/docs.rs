@@ -1,7 +1,10 @@
 //! Runs every command in the pages of the documentation, in a copy of `scenes/`.
 
-use ugtests::documents::{Page, prepare, resized, written_files};
-use ugtests::programs;
+use std::path::Path;
+use std::process::{Command, Stdio};
+
+use ugtests::documents::{Page, prepare, resized, transcripts, written_files};
+use ugtests::{programs, tools};
 
 /// Pages with commands for a folder with scenes, and the least number of commands.
 const PAGES: [(&str, usize); 6] = [
@@ -39,4 +42,38 @@ fn commands_in_documents_work() {
             }
         }
     }
+}
+
+#[test]
+fn programs_answer_mistakes_as_the_page_says() {
+    if !tools::has(&[tools::SCRIPT]) {
+        return;
+    }
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let programs = programs::of_this_profile();
+    prepare(folder.path(), &programs);
+    let transcripts = transcripts("docs/mistakes.md");
+    assert!(transcripts.len() >= 17, "{}", transcripts.len());
+    for (command, answer) in transcripts {
+        // Drawing may take more than a second, and then shows its progress on a terminal.
+        let is_drawn = command.contains("-sz ");
+        assert_eq!(typed(&command, folder.path(), &programs, !is_drawn), answer, "$ {command}");
+    }
+}
+
+/// The output of a command, on a terminal or not, without white space at the ends of lines.
+fn typed(command: &str, folder: &Path, programs: &Path, has_terminal: bool) -> String {
+    let path = std::env::var_os("PATH").unwrap_or_default();
+    let path = std::env::join_paths(std::iter::once(programs.to_owned()).chain(std::env::split_paths(&path)));
+    let mut shell = if has_terminal { Command::new("script") } else { Command::new("bash") };
+    if has_terminal {
+        shell.args(["-qec", command, "/dev/null"]);
+    } else {
+        shell.args(["-c", &format!("{{ {command}; }} 2>&1")]);
+    }
+    shell.current_dir(folder).env("PATH", path.expect("a path without colons")).env("NO_COLOR", "1");
+    let output = shell.stdin(Stdio::null()).output().expect("the shell runs");
+    // `script` types the end of its empty input, which the terminal echoes.
+    let text = String::from_utf8_lossy(&output.stdout).replace('\r', "").replace("^D\u{8}\u{8}", "");
+    text.lines().map(|line| format!("{}\n", line.trim_end())).collect()
 }

@@ -189,6 +189,78 @@ fn wide_and_tall_pictures() {
     }
 }
 
+/// A small triangle of a body at 0.8c and 0.9c, with the normal of its plane at the corners.
+#[test]
+fn exported_normals_are_those_of_the_seen_shape() {
+    let text = "v a 3 5 1 .6 -.64 .48; v b 3.00064 5.0006 1 .6 -.64 .48; v c 3 5.00048 1.00064 .6 -.64 .48; f (a b c);
+                cam -ep 0 0 0 -vc 0 9 0;";
+    for velocity in [DVec3::new(0.8, 0.0, 0.0), DVec3::new(-0.3, 0.6, 0.6)] {
+        let config = uglorentz::Config {
+            velocity: Some(velocity),
+            in_place: true,
+            pieces: uglorentz::Pieces::PerEdge(1),
+            ..uglorentz::Config::default()
+        };
+        let (seen, _) = uglorentz::apply(scene(text.as_bytes()), &config).unwrap();
+        let seen = ugparse::write(&seen);
+        let obj = String::from_utf8(converted(&seen, Format::Ug, Target::Obj, false)).unwrap();
+        let rows = |word: &str| -> Vec<DVec3> {
+            let numbers = |line: &str| line.split(' ').map(|x| x.parse().unwrap()).collect::<Vec<f64>>();
+            obj.lines()
+                .filter_map(|line| line.strip_prefix(word))
+                .map(|line| DVec3::from_slice(&numbers(line)))
+                .collect()
+        };
+        let (corners, normals) = (rows("v "), rows("vn "));
+        let plane = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalize();
+        assert_eq!((corners.len(), normals.len()), (3, 3));
+        for normal in normals {
+            // The triangle is 1e-4 of its distance, so that is how far it is bent.
+            assert!(normal.normalize().dot(plane) > 1.0 - 1e-6, "{velocity}: {normal} {plane}");
+        }
+    }
+}
+
+#[test]
+fn gltf_has_the_camera_of_the_scene() {
+    let scene = "v a 0 9 0; v b 1 9 0; v c 0 9 1; f (a b c); cam -ep 1 2 3 -vc 1 7 3 -va 60 40;";
+    let file: serde_json::Value =
+        serde_json::from_slice(&converted(scene.as_bytes(), Format::Ug, Target::Gltf, false)).unwrap();
+    let lens = &file["cameras"][0]["perspective"];
+    let near = |value: &serde_json::Value, expected: f64| (value.as_f64().unwrap() - expected).abs() < 1e-6;
+    // A picture of 4 to 3 that shows at least the angles of the scene.
+    let down = 2.0 * libm::atan(libm::tan(30f64.to_radians()) * 3.0 / 4.0);
+    assert!(near(&lens["yfov"], down) && near(&lens["aspectRatio"], 4.0 / 3.0), "{lens}");
+    assert_eq!(file["scenes"][0]["nodes"], serde_json::json!([0, 1]));
+    // y of the scene is -z: the camera looks along it, as cameras of glTF do, from 1 3 -2.
+    let matrix = file["nodes"][1]["matrix"].as_array().unwrap();
+    let expected = [1., 0., 0., 0., 0., 1., 0., 0., 0., 0., 1., 0., 1., 3., -2., 1.];
+    assert!(matrix.iter().zip(expected).all(|(value, expected)| near(value, expected)), "{matrix:?}");
+    assert_eq!(file["nodes"][1]["camera"], 0);
+}
+
+#[test]
+fn vtk_files_have_what_is_known_of_the_light() {
+    let text = converted(&obj(1.0, DVec3::new(1.0, 5.0, 2.0)), Format::Obj, Target::Ug, false);
+    let seen = as_seen(&text, DVec3::new(0.6, 0.2, 0.0));
+    let file = |scene: &[u8]| String::from_utf8(converted(scene, Format::Ug, Target::Vtp, false)).unwrap();
+    let arrays = |file: &str| -> Vec<String> {
+        file.lines()
+            .filter(|line| line.starts_with("<DataArray") && !line.contains("normals"))
+            .map(str::to_owned)
+            .collect()
+    };
+    // The numbers of `uglorentz -at`, of the same vertices and faces.
+    let parsed = scene(&seen);
+    let rows = uglorentz::measure(&parsed, ugscene::eye(&parsed, None), 0.0);
+    let expected = String::from_utf8(uglorentz::Table::Vtp.write(&parsed, &rows)).unwrap();
+    let (found, expected) = (arrays(&file(&seen)), arrays(&expected));
+    assert!(found == expected && found.len() >= 9, "{} {}", found.len(), expected.len());
+    // A scene at rest has velocities only.
+    let at_rest = file(&text);
+    assert!(at_rest.contains("\"velocity\"") && !at_rest.contains("doppler"));
+}
+
 #[test]
 fn a_stage_in_the_scene_is_the_one_of_a_scene_without() {
     let mesh = obj(0.2, DVec3::ONE);

@@ -93,6 +93,23 @@ impl Page {
     }
 }
 
+/// The commands of a page after the prompt `$ `, each with the lines that follow it.
+#[must_use]
+pub fn transcripts(path: &str) -> Vec<(String, String)> {
+    let text =
+        fs::read_to_string(scenes::root().join(path)).unwrap_or_else(|error| panic!("{path}: {error}"));
+    let mut transcripts: Vec<(String, String)> = Vec::new();
+    for line in text.lines().filter_map(|line| line.strip_prefix("    ")) {
+        if let Some(command) = line.strip_prefix("$ ") {
+            transcripts.push((command.to_owned(), String::new()));
+        } else if let Some((_, answer)) = transcripts.last_mut() {
+            answer.push_str(line);
+            answer.push('\n');
+        }
+    }
+    transcripts
+}
+
 /// Makes the files that the pages take for granted: a mesh of the reader's own, in several formats,
 /// its lights and camera, and a scene that has been through `uglorentz`.
 const PREPARATION: &str = "\

@@ -62,6 +62,14 @@ pub const OIIOTOOL: Tool = Tool {
     checks: "files of linear light are read by others as they were written",
 };
 
+/// Runs commands on a terminal.
+pub const SCRIPT: Tool = Tool {
+    program: "script",
+    option: "--version",
+    package: "bsdutils",
+    checks: "programs answer mistakes at a terminal as the documentation says",
+};
+
 /// Emulates other processors.
 pub const QEMU: Tool = Tool {
     program: "qemu-x86_64",
@@ -87,7 +95,8 @@ pub const FISH: Tool =
     Tool { program: "fish", option: "--version", package: "fish", checks: "fish completes options" };
 
 /// Those that are enough for a check in `cargo test`: all but [`QEMU`].
-pub const TOOLS: [Tool; 9] = [GHOSTSCRIPT, POPPLER, RSVG, CHROMIUM, OIIOTOOL, MANDOC, BASH, ZSH, FISH];
+pub const TOOLS: [Tool; 10] =
+    [GHOSTSCRIPT, POPPLER, RSVG, CHROMIUM, OIIOTOOL, SCRIPT, MANDOC, BASH, ZSH, FISH];
 
 /// Needs a release build.
 pub const PROFILES: &str = "debug and release builds write the same bytes";

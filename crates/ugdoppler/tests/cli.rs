@@ -24,10 +24,11 @@ fn a_scene_goes_through() {
     assert_eq!(String::from_utf8_lossy(&out.stderr), "ugdoppler: note: max intensity is 1.73, clip to 1.0\n");
     assert!(out.status.success());
     let text = String::from_utf8(out.stdout).unwrap();
-    let head: Vec<&str> = text.lines().take(2).collect();
+    let head: Vec<&str> = text.lines().take(3).collect();
     let version = env!("CARGO_PKG_VERSION");
+    assert!(head[1].starts_with("{ SHA-256 ") && head[1].ends_with(" - }"), "{}", head[1]);
     assert_eq!(
-        head,
+        [head[0], head[2]],
         ["{ a licence }", &format!("{{ ugdoppler {version}: ugdoppler -vel -.5 0 0 -ep 0 0 0 -gw }}")]
     );
 }

@@ -19,12 +19,23 @@ pub fn creator_comment(metadata: &Metadata) -> String {
 
 /// The metadata's comment as plain `%` lines, to be placed after `%%EndComments`.
 pub fn history_comments(metadata: &Metadata) -> String {
-    metadata.comment.lines().map(|line| format!("% {}\n", comment_line(line))).collect()
+    metadata.comment.lines().map(history_comment).collect()
+}
+
+/// A comment of one line, and of further lines with `%+` if it is long.
+fn history_comment(line: &str) -> String {
+    let characters: Vec<char> = line.chars().map(printed).collect();
+    let lines = characters.chunks(MAX_COMMENT).enumerate();
+    lines.map(|(idx, part)| format!("%{}{}\n", [' ', '+'][idx.min(1)], String::from_iter(part))).collect()
+}
+
+fn printed(c: char) -> char {
+    if c == ' ' || c.is_ascii_graphic() { c } else { '?' }
 }
 
 /// `text` as printable ASCII, truncated to the length of a comment line.
 fn comment_line(text: &str) -> String {
-    text.chars().map(|c| if c == ' ' || c.is_ascii_graphic() { c } else { '?' }).take(MAX_COMMENT).collect()
+    text.chars().map(printed).take(MAX_COMMENT).collect()
 }
 
 /// PostScript level 2 code that draws the frame with its lower left corner at the origin, one pixel
@@ -305,6 +316,8 @@ mod tests {
         assert_eq!(creator_comment(&metadata), "%%Creator: ug?1\n");
         assert_eq!(history_comments(&metadata), "% a -vel .9\n% ?\n");
         let long = Metadata { software: String::new(), comment: "x".repeat(1000) };
-        assert!(history_comments(&long).lines().all(|line| line.len() <= 255));
+        let lines = history_comments(&long);
+        assert!(lines.lines().all(|line| line.len() <= 255 && line.starts_with("%")));
+        assert_eq!(lines.matches('x').count(), 1000);
     }
 }

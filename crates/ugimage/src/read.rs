@@ -12,7 +12,7 @@ use crate::{Frame, Metadata};
 const MAX_PIXELS: u64 = 1 << 28;
 
 /// Largest number of bytes of a text that is read, unpacked.
-const MAX_TEXT: usize = 1 << 20;
+pub(crate) const MAX_TEXT: usize = 1 << 20;
 
 /// Why a file cannot be read as an image.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -77,7 +77,7 @@ fn broken(error: png::DecodingError) -> ReadError {
 
 fn decoder(file: &[u8]) -> Result<Decoder<Cursor<&[u8]>>, ReadError> {
     if !file.starts_with(b"\x89PNG") {
-        return Err(ReadError("not a PNG file".to_owned()));
+        return Err(ReadError("not a PNG file, the only kind that is read".to_owned()));
     }
     let mut decoder = Decoder::new(Cursor::new(file));
     decoder.set_transformations(Transformations::normalize_to_color8());
@@ -109,7 +109,7 @@ fn zeros<T: Clone + Default>(len: usize) -> Result<Vec<T>, ReadError> {
 }
 
 /// The first texts with the keywords `Software` and `Comment`. Invalid chunks are omitted.
-fn metadata(file: &[u8]) -> Metadata {
+pub(crate) fn metadata(file: &[u8]) -> Metadata {
     let mut metadata = Metadata::default();
     let mut rest = file.get(8..).unwrap_or_default();
     while let Some((kind, data, after)) = chunk(rest) {
@@ -155,13 +155,13 @@ fn text_of(kind: &[u8; 4], data: &[u8]) -> Option<String> {
     }
 }
 
-fn until_zero(data: &[u8]) -> Option<(&[u8], &[u8])> {
+pub(crate) fn until_zero(data: &[u8]) -> Option<(&[u8], &[u8])> {
     let end = data.iter().position(|&byte| byte == 0)?;
     Some((&data[..end], &data[end + 1..]))
 }
 
 /// Latin-1 as text.
-fn latin(bytes: &[u8]) -> Option<String> {
+pub(crate) fn latin(bytes: &[u8]) -> Option<String> {
     (bytes.len() <= MAX_TEXT).then(|| bytes.iter().copied().map(char::from).collect())
 }
 
@@ -208,7 +208,10 @@ mod tests {
     fn broken_files_are_refused() {
         let file = Format::Png.encode(&test_frames()[2], &Metadata::default());
         assert!(read_png(b"").is_err());
-        assert_eq!(read_png(b"GIF89a").unwrap_err().to_string(), "not a PNG file");
+        assert_eq!(
+            read_png(b"GIF89a").unwrap_err().to_string(),
+            "not a PNG file, the only kind that is read"
+        );
         assert!(
             read_png(b"\x89PNG\r\n\x1a\n").unwrap_err().to_string().starts_with("not a readable PNG file: ")
         );

@@ -86,13 +86,13 @@ mod report;
 mod split;
 mod uniform;
 mod viewpoint;
-mod vtk_polygons;
 
 pub use apply::{apply, apply_with_progress};
 #[cfg(feature = "cli")]
 pub use cli::{Args, main, manual};
 pub use config::{Config, DEFAULT_COLOR_ERROR, DEFAULT_ERROR, Pieces};
 pub use error::Error;
-pub use measurement::{Measurement, Table, measure};
+pub use measurement::Table;
 pub use report::{LargestError, RemainingErrors, Report};
 pub use ugscene::Anchor;
+pub use ugscene::{Measurement, measure};

@@ -27,8 +27,11 @@ fn scenes_come_out_as_seen() {
     let output = run("-vel -0.6 0 0 -ep 0 0 1 -sd 1", TILE);
     assert_eq!(String::from_utf8(output.stderr).unwrap(), "");
     assert_eq!(output.status.code(), Some(0));
+    let text = String::from_utf8(output.stdout).unwrap();
+    let (origin, text) = text.split_once('\n').unwrap();
+    assert!(origin.starts_with("{ SHA-256 ") && origin.ends_with(" - }"), "{origin}");
     assert_eq!(
-        String::from_utf8(output.stdout).unwrap(),
+        text,
         "{ uglorentz 0.1.0: uglorentz -vel -0.6 0 0 -ep 0 0 1 -sd 1 }
 (ugstage 1 geometry as-seen eye 0 0 1)
 v a 6 0 1;
@@ -38,6 +41,18 @@ f (a b c) <-0.6 0 0>;
 cam -ep 0 0 1;
 "
     );
+}
+
+#[test]
+fn a_scene_without_a_camera_is_seen_by_the_default_one() {
+    let output = run("-vel .5 0 0 -in", TILE);
+    let note = String::from_utf8(output.stderr).unwrap();
+    let camera = note.strip_prefix("uglorentz: note: no camera in the scene: seen as with ").unwrap();
+    let text = String::from_utf8(output.stdout).unwrap();
+    let statement = text.lines().find(|line| line.starts_with("cam ")).unwrap();
+    let eye =
+        |options: &str| options.split_whitespace().skip(1).take(3).map(str::to_owned).collect::<Vec<_>>();
+    assert_eq!(eye(camera), eye(&statement[4..]), "{note} {text}");
 }
 
 #[test]

@@ -13,7 +13,7 @@ use crate::{Axis, Config, Error, Format, Input, Size, Target};
 
 /// Converts meshes of other programs to UniGrafix and back
 ///
-/// Reads OBJ, PLY, STL, OFF, glTF and UniGrafix. Writes UniGrafix, OBJ, PLY or glTF, according to
+/// Reads OBJ, PLY, STL, OFF, glTF and UniGrafix. Writes UniGrafix, OBJ, PLY, glTF or VTK, according to
 /// -dt or the extension of -fo. Keeps polygons, normals and the colours of faces and vertices.
 #[derive(Parser, Debug)]
 #[command(name = "ugmesh", version, after_help = EXAMPLES)]
@@ -52,6 +52,12 @@ pub struct Args {
     #[arg(long)]
     stage: bool,
 
+    /// Write normals of moving bodies as in the scene, which are those of the shapes at rest
+    ///
+    /// By default they are those of the shapes as seen.
+    #[arg(long)]
+    rest_normals: bool,
+
     /// Prefix names of vertices and colours with NAME_, to combine several meshes in one scene
     #[arg(long, value_name = "NAME", value_parser = name)]
     name: Option<String>,
@@ -84,6 +90,7 @@ enum TargetName {
     Ply,
     Gltf,
     Glb,
+    Vtp,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -143,9 +150,14 @@ impl Args {
             size,
             is_centered: self.center,
             stage: self.stage,
+            rest_normals: self.rest_normals,
             name: self.name.clone().unwrap_or_default(),
             reading: pipe::options(&self.common)?,
-            command_line: command_line.to_string(),
+            command_line: match (self.dt, target) {
+                // A format that follows from the ending of -fo, so that the pipe can be run again.
+                (None, target) if target != Target::Ug => format!("{command_line} -dt {}", target.name()),
+                _ => command_line.to_string(),
+            },
         })
     }
 
@@ -197,6 +209,7 @@ impl TargetName {
             Self::Ply => Target::Ply { is_ascii: false },
             Self::Gltf => Target::Gltf,
             Self::Glb => Target::Glb,
+            Self::Vtp => Target::Vtp,
         }
     }
 }
@@ -226,7 +239,8 @@ pub fn main() -> ExitCode {
         let read = context.input()?;
         let read_file = |name: &str, limit| read_beside(context, args.common.input(), name, limit);
         let resolve_includes = |source| pipe::follow(source, &config.reading, context);
-        let input = Input::new(read.name, read.text).with_files(&read_file).with_includes(&resolve_includes);
+        let input = Input::new(read.name, read.text).with_origin(pipe::origin(context));
+        let input = input.with_files(&read_file).with_includes(&resolve_includes);
         let converted = crate::run(&config, &input).map_err(|error| match error {
             Error::Scene(findings) => pipe::refused(findings),
             Error::NothingToConvert => Failure::usage(error),

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use ugparse::Diagnostics;
+use ugparse::{Diagnostics, Foreign};
 
 use crate::Format;
 
@@ -13,6 +13,8 @@ pub enum Error {
     UnknownFormat {
         /// The name of the input for messages.
         name: String,
+        /// What it is instead of a mesh, if that is known.
+        foreign: Option<Foreign>,
     },
     /// Input and output are both UniGrafix.
     NothingToConvert,
@@ -57,14 +59,25 @@ impl Problem {
 impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::UnknownFormat { name } => {
+            Self::UnknownFormat { name, foreign: Some(foreign) } => {
+                let (what, remedy) = match foreign {
+                    Foreign::Picture => ("a picture", "name a mesh"),
+                    Foreign::Compressed => ("compressed data", "decompress it first"),
+                    Foreign::Utf16 => ("UTF-16 text", "save it as UTF-8 or ASCII"),
+                    Foreign::ByteOrderMark => {
+                        ("text with a byte order mark", "save it as UTF-8 without the mark")
+                    }
+                };
+                write!(f, "`{name}` is not a mesh but {what}; {remedy}")
+            }
+            Self::UnknownFormat { name, foreign: None } => {
                 write!(
                     f,
                     "cannot detect the format of `{name}`; give it with -if ug, obj, ply, stl, off or gltf"
                 )
             }
             Self::NothingToConvert => f.write_str(
-                "the input is already a UniGrafix scene; choose an output format with -dt obj, ply, gltf or glb",
+                "the input is already a UniGrafix scene; choose an output format with -dt obj, ply, gltf, glb or vtp",
             ),
             Self::Malformed { name, format, problem: Problem { line, what } } => {
                 write!(f, "cannot read `{name}` as {format}: ")?;

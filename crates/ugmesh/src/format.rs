@@ -39,6 +39,8 @@ pub enum Target {
     Gltf,
     /// glTF 2.0 as binary GLB.
     Glb,
+    /// VTK XML polygon data.
+    Vtp,
 }
 
 /// A coordinate axis.
@@ -174,7 +176,20 @@ impl Target {
             "ply" => Some(Self::Ply { is_ascii: false }),
             "gltf" => Some(Self::Gltf),
             "glb" => Some(Self::Glb),
+            "vtp" => Some(Self::Vtp),
             _ => None,
+        }
+    }
+
+    /// The name of the format in arguments.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Ug => "ug",
+            Self::Obj => "obj",
+            Self::Ply { .. } => "ply",
+            Self::Gltf => "gltf",
+            Self::Glb => "glb",
+            Self::Vtp => "vtp",
         }
     }
 
@@ -187,8 +202,13 @@ impl Target {
     pub fn up(self) -> Axis {
         match self {
             Self::Obj | Self::Gltf | Self::Glb => Axis::Y,
-            Self::Ug | Self::Ply { .. } => Axis::Z,
+            Self::Ug | Self::Ply { .. } | Self::Vtp => Axis::Z,
         }
+    }
+
+    /// True if the format has cameras.
+    pub(crate) fn has_camera(self) -> bool {
+        matches!(self, Self::Gltf | Self::Glb)
     }
 }
 

@@ -25,6 +25,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod as_seen;
 mod builder;
 #[cfg(feature = "cli")]
 mod cli;
@@ -39,7 +40,7 @@ mod write;
 
 use std::io;
 
-use ugparse::{Diagnostics, Options, Scene, Source};
+use ugparse::{Diagnostics, Options, Origin, Scene, Source};
 
 #[cfg(feature = "cli")]
 pub use cli::{Args, main, manual};
@@ -67,6 +68,8 @@ pub struct Config {
     pub is_centered: bool,
     /// Whether a camera and lights are added to a scene that is written without them.
     pub stage: bool,
+    /// Whether normals of moving bodies are written as in the scene: those of the shapes at rest.
+    pub rest_normals: bool,
     /// Prefix of the names of vertices and colours that are generated.
     pub name: String,
     /// The options for reading UniGrafix.
@@ -92,13 +95,26 @@ pub struct Input<'a> {
     pub read_file: ReadFile<'a>,
     /// Resolves the `include` statements of UniGrafix.
     pub resolve_includes: ResolveIncludes<'a>,
+    /// What the history begins with, unless a scene has one.
+    pub origin: Option<Origin>,
 }
 
 impl<'a> Input<'a> {
     /// A mesh that refers to no other files.
     pub fn new(name: impl Into<String>, bytes: impl Into<Vec<u8>>) -> Self {
         let (name, bytes) = (name.into(), bytes.into());
-        Self { name, bytes, read_file: &|_, _| Err(io::ErrorKind::NotFound.into()), resolve_includes: &Ok }
+        Self {
+            name,
+            bytes,
+            read_file: &|_, _| Err(io::ErrorKind::NotFound.into()),
+            resolve_includes: &Ok,
+            origin: None,
+        }
+    }
+
+    /// The same mesh with an origin, which the history will begin with.
+    pub fn with_origin(self, origin: Origin) -> Self {
+        Self { origin: Some(origin), ..self }
     }
 
     /// The same mesh with other files that it refers to, which `read_file` reads.
@@ -130,20 +146,25 @@ pub struct Converted {
 /// # Errors
 /// [`Error`] if the input is invalid, or if it cannot be converted with these options.
 pub fn run(config: &Config, input: &Input) -> Result<Converted, Error> {
-    let format = config
-        .format
-        .or_else(|| Format::detect(&input.name, &input.bytes))
-        .ok_or_else(|| Error::UnknownFormat { name: input.name.clone() })?;
+    let format = config.format.or_else(|| Format::detect(&input.name, &input.bytes)).ok_or_else(|| {
+        Error::UnknownFormat { name: input.name.clone(), foreign: ugparse::foreign_data(&input.bytes) }
+    })?;
     if format == Format::Ug && config.target == Target::Ug {
         return Err(Error::NothingToConvert);
     }
     let Loaded { mut scene, warnings, diagnostics } = load(config, format, input)?;
-    place_mesh(config, format, &mut scene)?;
+    if config.target != Target::Ug && !config.rest_normals {
+        as_seen::see_normals(&mut scene);
+    }
+    if config.target.has_camera() {
+        as_seen::complete_camera(&mut scene);
+    }
+    let is_placed = place_mesh(config, format, &mut scene)?;
     if config.stage && config.target == Target::Ug {
         staging::add(&mut scene);
     }
     ugscene::record(&mut scene, PROGRAM, env!("CARGO_PKG_VERSION"), &config.command_line);
-    let (bytes, notes) = write::write(scene, config.target)?;
+    let (bytes, notes) = write::write(scene, config.target, is_placed)?;
     Ok(Converted { bytes, notes, warnings, diagnostics })
 }
 
@@ -156,29 +177,32 @@ struct Loaded {
 fn load(config: &Config, format: Format, input: &Input) -> Result<Loaded, Error> {
     let Some(reader) = read::reader(format) else { return load_scene(config, input) };
     let mut builder = Builder::new(&config.name);
-    reader(input, &mut builder).map_err(|problem| Error::Malformed {
-        name: input.name.clone(),
-        format,
-        problem,
-    })?;
+    let (read, origin) =
+        ugparse::with_origin(input.origin.as_ref(), &input.bytes, || reader(input, &mut builder));
+    read.map_err(|problem| Error::Malformed { name: input.name.clone(), format, problem })?;
     let (scene, warnings) = builder.finish();
+    let scene = Scene { origin, ..scene };
     Ok(Loaded { scene, warnings, diagnostics: None })
 }
 
 fn load_scene(config: &Config, input: &Input) -> Result<Loaded, Error> {
-    let source = (input.resolve_includes)(Source::new(input.name.clone(), input.bytes.clone()))?;
+    let origin = input.origin.clone().filter(|_| !ugparse::has_history(&input.bytes));
+    let source = Source { origin, ..Source::new(input.name.clone(), input.bytes.clone()) };
+    let source = (input.resolve_includes)(source)?;
     let parsed = ugscene::read(&source, &config.reading, None)?;
     Ok(Loaded { scene: parsed.scene, warnings: Vec::new(), diagnostics: Some(parsed.warnings) })
 }
 
-fn place_mesh(config: &Config, format: Format, scene: &mut Scene) -> Result<(), Error> {
+/// Turns, scales and moves the mesh. Returns false if it did nothing.
+fn place_mesh(config: &Config, format: Format, scene: &mut Scene) -> Result<bool, Error> {
     let up = |is_mesh: bool, habit: Axis| config.up.filter(|_| is_mesh).unwrap_or(habit);
     let read_up = up(format != Format::Ug, format.up());
     let write_up = up(config.target != Target::Ug, config.target.up());
-    if read_up != write_up || config.size != Size::Same || config.is_centered {
+    let is_placed = read_up != write_up || config.size != Size::Same || config.is_centered;
+    if is_placed {
         placement::rotate(scene, |p| placement::to_z_up(read_up, p));
         placement::scale_and_center(scene, config.size, config.is_centered)?;
         placement::rotate(scene, |p| placement::from_z_up(write_up, p));
     }
-    Ok(())
+    Ok(is_placed)
 }

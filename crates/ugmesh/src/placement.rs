@@ -37,11 +37,16 @@ pub(crate) fn from_z_up(up: Axis, p: DVec3) -> DVec3 {
     }
 }
 
-/// Rotates all vertices and their normals.
+/// Rotates all vertices, their normals, and cameras.
 pub(crate) fn rotate(scene: &mut Scene, rotation: impl Fn(DVec3) -> DVec3) {
     for vertex in &mut scene.vertices {
         vertex.position = rotation(vertex.position);
         vertex.normal = vertex.normal.map(&rotation);
+    }
+    for camera in &mut scene.cameras {
+        for vector in [&mut camera.eye, &mut camera.center, &mut camera.up].into_iter().flatten() {
+            *vector = rotation(*vector);
+        }
     }
 }
 
@@ -67,6 +72,12 @@ pub(crate) fn scale_and_center(scene: &mut Scene, size: Size, is_centered: bool)
     }
     for vertex in &mut scene.vertices {
         vertex.position = (vertex.position - middle) * scale + DVec3::ZERO;
+    }
+    for camera in &mut scene.cameras {
+        for point in [&mut camera.eye, &mut camera.center].into_iter().flatten() {
+            *point = (*point - middle) * scale + DVec3::ZERO;
+        }
+        camera.film_size = camera.film_size.map(|sides| sides.map(|side| side * scale));
     }
     if scene.vertices.iter().all(|vertex| vertex.position.is_finite()) {
         Ok(())

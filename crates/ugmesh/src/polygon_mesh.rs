@@ -3,7 +3,7 @@
 
 use glam::DVec3;
 use uglight::hsv;
-use ugparse::{ColorId, ColorValue, Contours, Motion, Scene, VertexId};
+use ugparse::{ColorId, ColorValue, Contours, Scene, VertexId};
 
 /// The polygons that a format supports.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -28,13 +28,13 @@ pub(crate) struct PolygonMesh {
 }
 
 impl PolygonMesh {
-    pub fn new(mut scene: Scene, kind: Polygons) -> Self {
+    /// `has_camera`: whether the format has cameras.
+    pub fn new(mut scene: Scene, kind: Polygons, has_camera: bool) -> Self {
         let mut notes = Vec::new();
         note_count(&mut notes, scene.wires.len(), "wire is left out", "wires are left out");
         note_count(&mut notes, scene.lights.len(), "light is left out", "lights are left out");
-        note_count(&mut notes, scene.cameras.len(), "camera is left out", "cameras are left out");
-        if leave_out_rest_normals(&mut scene) {
-            notes.push("normals of moving bodies are left out: they are those of the rest shapes".into());
+        if !has_camera {
+            note_count(&mut notes, scene.cameras.len(), "camera is left out", "cameras are left out");
         }
         separate_colors(&mut scene);
         let colors = vertex_colors(&scene, &mut notes);
@@ -72,22 +72,6 @@ fn note_count(notes: &mut Vec<String>, count: usize, one: &str, many: &str) {
         1 => notes.push(format!("1 {one}")),
         _ => notes.push(format!("{count} {many}")),
     }
-}
-
-/// Drops the normals of moving bodies in scenes with geometry as seen, since scenes store normals
-/// of the shapes at rest. Returns true if there were any.
-fn leave_out_rest_normals(scene: &mut Scene) -> bool {
-    if scene.stage.seen_geometry().is_none() || !ugscene::has_moving_bodies(scene) {
-        return false;
-    }
-    ugscene::separate_bodies(scene);
-    let bodies = ugscene::vertex_bodies(scene);
-    let mut n_left_out = 0;
-    for (vertex, body) in scene.vertices.iter_mut().zip(bodies) {
-        let moves = scene.bodies[body].motion != Motion::default();
-        n_left_out += usize::from(moves && vertex.normal.take().is_some());
-    }
-    n_left_out > 0
 }
 
 /// Duplicates vertices where faces of different colours meet, so that each vertex has one colour.

@@ -35,7 +35,9 @@ fn a_mesh_goes_through_a_pipe_and_back() {
     let text = String::from_utf8(scene.stdout).unwrap();
     let version = env!("CARGO_PKG_VERSION");
     let head = format!("{{ ugmesh {version}: ugmesh --center -fit 1 --name cube }}\n");
-    assert!(text.starts_with(&head), "{text}");
+    let (origin, rest) = text.split_once('\n').unwrap();
+    assert!(origin.starts_with("{ SHA-256 ") && origin.ends_with(" cube.obj }"), "{origin}");
+    assert!(rest.starts_with(&head), "{text}");
     assert!(
         text.contains("c_rgb cube_c1 1 0 0;\n") && text.contains("f (cube_v1 cube_v2 cube_v5) cube_c1;\n"),
         "{text}"
@@ -60,6 +62,21 @@ fn a_mesh_goes_through_a_pipe_and_back() {
         let expected = if name.ends_with("obj") || name.ends_with("ply") { 5 } else { 6 };
         assert_eq!(n_faces, expected, "{name}");
     }
+}
+
+#[test]
+fn a_stage_is_written_to_scenes_only() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = ugmesh(folder.path(), &["-if", "obj", "--stage"], &OBJ.as_bytes()[16..]);
+    let text = String::from_utf8(out.stdout).unwrap();
+    let count = |word: &str| text.lines().filter(|line| line.starts_with(word)).count();
+    assert_eq!((count("cam -ep "), count("l "), out.status.code()), (1, 2, Some(0)), "{text}");
+    // Other formats have no such statements.
+    let again = ugmesh(folder.path(), &["-dt", "obj", "--stage"], text.as_bytes());
+    assert_eq!(again.status.code(), Some(2));
+    let message =
+        "ugmesh: error: -stage writes statements of UniGrafix; leave out -dt and the ending of -fo\n";
+    assert!(String::from_utf8(again.stderr).unwrap().starts_with(message));
 }
 
 #[test]

@@ -171,7 +171,7 @@ fn transparency_round_trips_where_supported() {
 #[test]
 fn unsupported_parts_are_noted() {
     let text = "c bright 1.5 0 1; v a 0 0 0; v b 1 0 0; v c 0 1 0; f (a b c) bright; w (a b); l 0.5; l sun 1 0 0 1; cam;";
-    let mesh = convert(&Config { target: Target::Glb, ..Config::default() }, "a.ug", text).unwrap();
+    let mesh = convert(&Config { target: Target::Obj, ..Config::default() }, "a.ug", text).unwrap();
     assert_eq!(
         mesh.notes,
         [
@@ -226,16 +226,17 @@ fn a_scene_as_seen_is_exported_as_seen() {
     let text = String::from_utf8(ply.bytes).unwrap();
     // Hue 120, not 546.1 degrees.
     assert!(text.contains(" 0 255 0"), "{text}");
-    assert!(!text.contains("nx"), "{text}");
-    let normals = "normals of moving bodies are left out: they are those of the rest shapes";
-    assert!(ply.notes.iter().any(|note| note == normals), "{:?}", ply.notes);
-    // OBJ keeps those of bodies at rest.
-    let obj =
-        convert(&Config { target: Target::Obj, ..config.clone() }, "scene.ug", format!("{seen} {SCENE}"));
-    let text = String::from_utf8(obj.unwrap().bytes).unwrap();
-    assert_eq!(text.matches("vn ").count(), 3, "{text}");
-    // At rest, all normals are right.
-    let rest = convert(&config, "scene.ug", SCENE).unwrap();
-    assert!(!rest.notes.iter().any(|note| note == normals), "{:?}", rest.notes);
-    assert!(String::from_utf8(rest.bytes).unwrap().contains("nx"));
+    assert!(text.contains("nx"), "{text}");
+    // Normals of moving bodies are those of the seen shape, unless those of the shape at rest are wanted.
+    let tilted = format!("{seen} {}", SCENE.replace("green 0 0 1", "green 1 0 1"));
+    let normals = |rest_normals| {
+        let config = Config { target: Target::Obj, rest_normals, ..config.clone() };
+        let text = String::from_utf8(convert(&config, "scene.ug", tilted.as_str()).unwrap().bytes).unwrap();
+        text.lines().filter(|line| line.starts_with("vn ")).map(str::to_owned).collect::<Vec<_>>()
+    };
+    // z of the scene is y of OBJ.
+    assert_eq!(normals(true), [["vn 1 1 0"; 3], ["vn 0 1 0"; 3]].concat());
+    let seen = normals(false);
+    assert_eq!(seen[3..], ["vn 0 1 0"; 3]);
+    assert!(seen[..3].iter().all(|line| line != "vn 1 1 0"), "{seen:?}");
 }

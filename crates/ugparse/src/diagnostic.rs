@@ -204,7 +204,7 @@ impl Diagnostics {
         list.truncate(MAX_ERRORS);
         // The text is necessary only to render messages.
         let text = if list.is_empty() { Vec::new() } else { source.text.clone() };
-        Self { list, omitted, source: Source { name: source.name.clone(), text } }
+        Self { list, omitted, source: Source::new(source.name.clone(), text) }
     }
 
     /// With another finding.

@@ -10,40 +10,79 @@ use crate::source::{Source, Span};
 /// The error for a text that is not UniGrafix, by its first bytes or the extension of its name.
 /// Call it only for texts with errors: a scene may have any name.
 pub(crate) fn error(source: &Source) -> Option<Diagnostic> {
-    let text = source.text.as_slice();
-    let begins = |words: &[&[u8]]| words.iter().any(|word| text.starts_with(word));
-    let (what, help) = if begins(&[b"\xff\xfe", b"\xfe\xff"]) {
-        ("UTF-16 text", "save it as UTF-8 or ASCII")
-    } else if begins(&[b"\xef\xbb\xbf"]) {
-        ("text with a byte order mark", "save it as UTF-8 without the mark")
-    } else if begins(&[b"\x1f\x8b", b"PK\x03\x04", b"\xfd7zXZ", b"\x28\xb5\x2f\xfd", b"BZh"]) {
-        ("compressed data", "decompress it first")
-    } else if begins(&[
-        b"\x89PNG",
-        b"P6",
-        b"PF",
-        b"%PDF",
-        b"%!PS",
-        b"<svg",
-        b"\x76\x2f\x31\x01",
-        b"#?RADIANCE",
-    ]) {
-        ("a picture", "give the scene that it was drawn from")
-    } else if begins(&[b"ply\n", b"ply\r", b"glTF", b"OFF", b"solid "]) || has_mesh_extension(source) {
-        ("a mesh", remedies::CONVERT_MESH)
-    } else {
-        return None;
+    let file = Some(&*source.name).filter(|name| !name.starts_with('<'));
+    let (what, help) = match foreign_data(&source.text) {
+        Some(Foreign::Utf16) => ("UTF-16 text", "save it as UTF-8 or ASCII".to_owned()),
+        Some(Foreign::ByteOrderMark) => {
+            ("text with a byte order mark", "save it as UTF-8 without the mark".to_owned())
+        }
+        Some(Foreign::Compressed) => ("compressed data", "decompress it first".to_owned()),
+        Some(Foreign::Picture) => ("a picture", remedies::read_history(file)),
+        None if is_mesh(source) => ("a mesh", remedies::convert_mesh(file)),
+        None => return None,
     };
     Some(Diagnostic::error(Span::default(), format!("this is not a UniGrafix scene but {what}")).help(help))
 }
 
-fn has_mesh_extension(source: &Source) -> bool {
+/// Data that are neither a scene nor a mesh.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Foreign {
+    /// Text of two bytes per character.
+    Utf16,
+    /// Text that begins with the byte order mark of UTF-8.
+    ByteOrderMark,
+    /// An archive or a compressed file.
+    Compressed,
+    /// A picture.
+    Picture,
+}
+
+/// The kind of data that are neither a scene nor a mesh, by their first bytes.
+pub fn foreign_data(bytes: &[u8]) -> Option<Foreign> {
+    let begins = |words: &[&[u8]]| words.iter().any(|word| bytes.starts_with(word));
+    if begins(&[b"\xff\xfe", b"\xfe\xff"]) {
+        Some(Foreign::Utf16)
+    } else if begins(&[b"\xef\xbb\xbf"]) {
+        Some(Foreign::ByteOrderMark)
+    } else if begins(&[b"\x1f\x8b", b"PK\x03\x04", b"\xfd7zXZ", b"\x28\xb5\x2f\xfd", b"BZh"]) {
+        Some(Foreign::Compressed)
+    } else if begins(&[b"\x89PNG", b"\xff\xd8\xff", b"GIF8", b"P6", b"PF", b"%PDF", b"%!PS", b"<svg"])
+        || begins(&[b"\x76\x2f\x31\x01", b"#?RADIANCE"])
+    {
+        Some(Foreign::Picture)
+    } else {
+        None
+    }
+}
+
+fn is_mesh(source: &Source) -> bool {
+    const MAGIC: [&[u8]; 5] = [b"ply\n", b"ply\r", b"glTF", b"OFF", b"solid "];
+    MAGIC.iter().any(|magic| source.text.starts_with(magic)) || has_lines_of_a_mesh(source)
+}
+
+/// True for a text without statements of UniGrafix, with the name of a mesh or a line of OBJ.
+fn has_lines_of_a_mesh(source: &Source) -> bool {
     const EXTENSIONS: [&str; 6] = ["obj", "ply", "stl", "off", "gltf", "glb"];
-    /// Number of bytes in which a scene has the end of a statement, and a mesh has none.
+    /// Number of bytes in which a scene has the end of a statement, and a mesh has none but in
+    /// comments.
     const PEEK: usize = 4096;
-    if source.text[..source.text.len().min(PEEK)].contains(&b';') {
+    let start = &source.text[..source.text.len().min(PEEK)];
+    let mut lines = start.split(|&byte| byte == b'\n').filter(|line| !line.starts_with(b"#"));
+    if lines.clone().any(|line| line.contains(&b';')) {
         return false;
     }
     let extension = Path::new(&source.name).extension().map(|extension| extension.to_ascii_lowercase());
-    extension.is_some_and(|extension| EXTENSIONS.iter().any(|&known| extension == known))
+    let has_extension = extension.is_some_and(|extension| EXTENSIONS.iter().any(|&known| extension == known));
+    has_extension || lines.any(is_line_of_obj)
+}
+
+/// True for a vertex without a name, and for a file with materials.
+fn is_line_of_obj(line: &[u8]) -> bool {
+    let line = String::from_utf8_lossy(line);
+    let mut words = line.split_whitespace();
+    match words.next() {
+        Some("mtllib") => true,
+        Some("v") => words.clone().count() >= 3 && words.all(|word| word.parse::<f64>().is_ok()),
+        _ => false,
+    }
 }

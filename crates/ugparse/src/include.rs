@@ -11,6 +11,7 @@ use std::path::{Component, Path, PathBuf};
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::grammar::KEYWORDS;
 use crate::options::{Limit, Options};
+use crate::origin::Origin;
 use crate::parallel_reader::read_document;
 use crate::reader::RequestStatement;
 use crate::refuse_errors;
@@ -89,6 +90,7 @@ pub fn include(
         return Ok(source);
     }
     let name = source.name.clone();
+    let origin = source.origin.as_ref().map(|origin| Origin::Recorded(origin.words(&source.text)));
     let first = Text::new(source, options)?;
     let path = without_dots(Path::new(&name));
     let mut inclusion = Inclusion {
@@ -100,7 +102,7 @@ pub fn include(
         out: Vec::new(),
     };
     inclusion.run()?;
-    Ok(Source { name, text: inclusion.out })
+    Ok(Source { name, text: inclusion.out, origin })
 }
 
 /// Does one of the keywords occur anywhere in the text?
@@ -226,7 +228,7 @@ impl Inclusion<'_> {
             return Err(refuse(message, limits.remedy(Limit::Text, "split it")));
         }
         self.n_bytes += text.len() as u64;
-        let file = Source { name: path.display().to_string(), text };
+        let file = Source::new(path.display().to_string(), text);
         // Messages quote lines. Those of a file that is no scene, such as a list of passwords, must
         // not become visible.
         let is_scene = begins_like_a_scene(&file.text);

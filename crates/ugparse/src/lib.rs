@@ -52,6 +52,7 @@ mod named;
 mod names;
 mod numbered;
 mod options;
+mod origin;
 mod parallel_reader;
 #[cfg(feature = "cli")]
 pub mod pipe;
@@ -78,10 +79,12 @@ pub use contours::Contours;
 pub use diagnostic::{Diagnostic, Diagnostics, Location, MAX_ERRORS, Severity};
 pub use expand::Origins;
 pub use flatness::{BentFace, FLAT, TOO_BENT, thickness};
-pub use history::{history, record};
+pub use foreign::{Foreign, foreign_data};
+pub use history::{has_history, history, recipe, record};
 pub use include::{Request, RequestError, RequestKind, include};
 pub use names::{NameId, Names, UniqueNames};
 pub use options::{Limit, Limits, Options};
+pub use origin::{Origin, with_origin};
 pub use scene::*;
 pub use source::{Source, Span};
 pub use stage::{ColorScale, ColorStage, GeometryStage, HueScale, Mixtures, SeenColors, SeenGeometry, Stage};
@@ -106,6 +109,13 @@ pub struct Parsed {
 /// # Errors
 /// All errors in the text, up to [`MAX_ERRORS`].
 pub fn parse(source: &Source, options: &Options) -> Result<Parsed, Diagnostics> {
+    let (parsed, origin) = with_origin(source.origin.as_ref(), &source.text, || parse_text(source, options));
+    let mut parsed = parsed?;
+    parsed.scene.origin = origin;
+    Ok(parsed)
+}
+
+fn parse_text(source: &Source, options: &Options) -> Result<Parsed, Diagnostics> {
     let text = &source.text[..];
     check_length(source, options)?;
     let mut findings = Vec::new();

@@ -3,7 +3,8 @@
 
 use ugpipe::{CommonArgs, Context, Failure};
 
-use crate::{Diagnostics, Limit, Limits, Options, Request, RequestError, RequestKind, Source};
+use crate::history::has_history;
+use crate::{Diagnostics, Limit, Limits, Options, Origin, Request, RequestError, RequestKind, Source};
 
 /// The parsing options among the common options of a program.
 ///
@@ -39,7 +40,13 @@ pub fn read(context: &mut Context, options: &Options) -> Result<Source, Failure>
 pub fn input(context: &mut Context, options: &Options) -> Result<Source, Failure> {
     // The byte beyond the limit makes the parser refuse the text, with a remedy.
     let input = context.input_up_to(options.limits.get(Limit::Text) + 1)?;
-    Ok(Source::new(input.name, input.text))
+    let origin = (!has_history(&input.text)).then(|| origin(context));
+    Ok(Source { name: input.name, text: input.text, origin })
+}
+
+/// The origin of a scene that this program reads first.
+pub fn origin(context: &Context) -> Origin {
+    Origin::Pending { name: context.recorded_name(), sha256: ugpipe::sha256 }
 }
 
 /// Replaces the `include` and `execute` statements of a scene, see [`crate::include`]. Error output

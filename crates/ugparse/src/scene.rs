@@ -100,6 +100,9 @@ pub struct Scene {
     /// Comments before the first statement (licence, history), without their outer braces. They
     /// come first in the output.
     pub head: Vec<String>,
+    /// The words for the [`Origin`](crate::Origin) of a scene without a history.
+    /// [`record`](crate::record) writes them.
+    pub origin: Option<String>,
     /// What filters have done to positions and colours: `(ugstage … )`.
     pub stage: Stage,
     /// All other comments.

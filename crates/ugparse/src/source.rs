@@ -2,6 +2,8 @@
 
 use memchr::memchr_iter;
 
+use crate::origin::Origin;
+
 /// The text of a scene, and its name in messages.
 #[derive(Clone, Debug)]
 pub struct Source {
@@ -9,12 +11,14 @@ pub struct Source {
     pub name: String,
     /// The bytes of the file. Comments and escapes may contain any bytes.
     pub text: Vec<u8>,
+    /// What the history of the scene will begin with, unless it has one.
+    pub origin: Option<Origin>,
 }
 
 impl Source {
     /// A source from a name and text.
     pub fn new(name: impl Into<String>, text: impl Into<Vec<u8>>) -> Self {
-        Self { name: name.into(), text: text.into() }
+        Self { name: name.into(), text: text.into(), origin: None }
     }
 
     /// Line and column (both from 1, the column in bytes) of a byte position.

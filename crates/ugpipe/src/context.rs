@@ -11,6 +11,7 @@ use crate::identity::folder_of;
 use crate::input::{self, Input};
 use crate::messages::Messages;
 use crate::output::Output;
+use crate::provenance;
 use crate::steps::Steps;
 use crate::text::{printable_json, printable_lines};
 
@@ -127,6 +128,20 @@ impl Context {
     /// Braces and control characters are replaced by `?`.
     pub fn command_line(&self) -> &str {
         &self.command_line
+    }
+
+    /// The name of the input for the history, quoted as in [`Context::command_line`]; `-` for
+    /// standard input. Of a path that leads out of the current folder it is the file name alone.
+    pub fn recorded_name(&self) -> String {
+        provenance::recorded_name(self.input.as_deref())
+    }
+
+    /// Reads at most `limit` bytes of a regular file in the current folder or below.
+    ///
+    /// # Errors
+    /// As of [`Context::read_named`].
+    pub fn read_here(&self, path: &Path, limit: u64) -> io::Result<Vec<u8>> {
+        files::read_file(path, &Place::Below(PathBuf::from(".")), limit)
     }
 
     /// Writes the whole output. Call it once, after everything else has succeeded.

@@ -62,6 +62,9 @@ impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Usage(text) | Self::Failed(text) | Self::Report(text) => f.write_str(text),
+            Self::Read { name, error } if error.kind() == io::ErrorKind::IsADirectory => {
+                write!(f, "`{name}` is a directory; name a file in it")
+            }
             Self::Read { name, error } => write!(f, "cannot read `{name}`: {}", reason(error)),
             Self::Write { name, error } => write!(f, "cannot write `{name}`: {}", reason(error)),
         }

@@ -38,9 +38,9 @@
 //!   invalid usage. If
 //!   the reading end of the output pipe is closed early, the program dies of SIGPIPE without a
 //!   message, like filters written in C.
-//! - **Reproducible output.** The bytes do not depend on `-nt` or on file names:
+//! - **Reproducible output.** The bytes do not depend on `-nt` or on the names of output files:
 //!   [`Context::command_line`], which is recorded in the output, contains only the options that
-//!   affect the content.
+//!   affect the content, and [`Context::recorded_name`] the name of the input.
 //!
 //! Limitations: output is not flushed to disk (`fsync`), so a power failure may undo a finished
 //! run. A program that SIGKILL or lack of memory ends while it writes a file leaves the temporary
@@ -148,6 +148,8 @@ pub use input::Input;
 #[cfg(feature = "cli")]
 pub use manual::{Entry, Group, Manual, Value, manual};
 pub use progress::Progress;
+#[cfg(feature = "cli")]
+pub use provenance::{sha256, shell_word};
 #[cfg(feature = "cli")]
 pub use run::main;
 #[cfg(feature = "cli")]

@@ -1,9 +1,12 @@
-//! The command line that is recorded in the output.
+//! What is recorded in the output about its making: the command line, and what the first program
+//! read.
 
 use std::ffi::OsStr;
+use std::path::{Component, Path};
 
 use clap::parser::ValueSource;
 use clap::{Arg, ArgMatches, Command};
+use sha2::{Digest, Sha256};
 
 use crate::args::WITHOUT_EFFECT;
 use crate::text::printable;
@@ -26,7 +29,7 @@ pub(crate) fn command_line(command: &Command, matches: &ArgMatches) -> String {
         for occurrence in matches.get_raw_occurrences(arg.get_id().as_str()).into_iter().flatten() {
             append(&mut line, &spelling(arg));
             if arg.get_action().takes_values() {
-                occurrence.for_each(|value| append(&mut line, &quoted(value)));
+                occurrence.for_each(|value| append(&mut line, &shell_word(&value.to_string_lossy())));
             }
         }
     }
@@ -50,9 +53,30 @@ fn spelling(arg: &Arg) -> String {
     }
 }
 
-/// `word` quoted for a POSIX shell and safe inside a comment.
-fn quoted(word: &OsStr) -> String {
-    let safe = printable(&word.to_string_lossy()).replace(['{', '}', char::REPLACEMENT_CHARACTER], "?");
+/// The name of an input, quoted for a shell; `-` for standard input.
+///
+/// It is a path only if that leads from the current folder downwards; otherwise it is the file name
+/// alone, so that outputs do not tell how folders are named.
+pub(crate) fn recorded_name(path: Option<&Path>) -> String {
+    let is_below =
+        |path: &Path| path.components().all(|part| matches!(part, Component::Normal(_) | Component::CurDir));
+    let name = match path {
+        None => OsStr::new("-"),
+        Some(path) if is_below(path) => path.as_os_str(),
+        Some(path) => path.file_name().unwrap_or_default(),
+    };
+    shell_word(&name.to_string_lossy())
+}
+
+/// SHA-256 of some bytes in hexadecimal digits, as `sha256sum` prints it.
+pub fn sha256(bytes: &[u8]) -> String {
+    Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+/// `word` quoted for a POSIX shell, and safe inside a `{ … }` comment: braces and control characters
+/// are replaced by `?`.
+pub fn shell_word(word: &str) -> String {
+    let safe = printable(word).replace(['{', '}', char::REPLACEMENT_CHARACTER], "?");
     let is_plain = |c: char| c.is_alphanumeric() || "-_+.,:/@%=".contains(c);
     if !safe.is_empty() && safe.chars().all(is_plain) {
         safe
@@ -121,6 +145,27 @@ mod tests {
         check(b"a\nb\x1b[1m\x7f", "'a?b?[1m?'");
         check(b"\xff", "'?'");
         check("γ".as_bytes(), "γ");
+    }
+
+    #[test]
+    fn hashes_are_those_of_the_standard() {
+        // FIPS 180-4, example of one block.
+        let hash = "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad";
+        assert_eq!(sha256(b"abc"), hash);
+    }
+
+    #[test]
+    fn names_of_inputs_do_not_lead_upwards() {
+        let check = |path: Option<&str>, name: &str| {
+            assert_eq!(recorded_name(path.map(Path::new)), name);
+        };
+        check(None, "-");
+        check(Some("ship.ug"), "ship.ug");
+        check(Some("./scenes/my ship.ug"), "'./scenes/my ship.ug'");
+        check(Some("/scenes/ship.ug"), "ship.ug");
+        check(Some("../ship.ug"), "ship.ug");
+        check(Some("a/../../ship.ug"), "ship.ug");
+        check(Some("}.ug"), "'?.ug'");
     }
 
     #[test]

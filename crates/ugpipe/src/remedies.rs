@@ -34,11 +34,11 @@ pub const MOVING_LIGHTS: &str = "`ugdoppler -li` draws with them";
 
 /// Nothing is in front of the eye.
 pub const NOTHING_IN_FRONT: &str = "nothing is drawn: everything is behind the eye or outside the clipping distances; \
-     try `uglorentz -in`, another -ep or -vc";
+     try `uglorentz --keep-in-view`, another -ep or -vc";
 
 /// Nothing is in the picture.
 pub const NOTHING_IN_PICTURE: &str = "nothing is drawn: everything is outside the picture, where fast bodies often are; \
-     try `uglorentz -in`, another -vc or a wider -va";
+     try `uglorentz --keep-in-view`, another -vc or a wider -va";
 
 /// Most or everything is shifted out of the visible range.
 pub const OUT_OF_RANGE: &str = "its wavelengths are outside 380-780 nm; \
@@ -51,8 +51,19 @@ pub const REPEAT_EARLIER: &str =
 /// Colours of the scene are hues.
 pub const WRITE_WAVELENGTHS: &str = "give -gw to ugdoppler";
 
-/// The input is a mesh in a format of its own.
-pub const CONVERT_MESH: &str = "`ugmesh` converts meshes to scenes";
+/// The input is a mesh in a format of its own. `file`: its name, if it is not standard input.
+#[must_use]
+pub fn convert_mesh(file: Option<&str>) -> String {
+    let file = file.map(|file| format!(" {file}")).unwrap_or_default();
+    format!("`ugmesh{file}` writes it as a scene, for the rest of the pipe")
+}
+
+/// The input is a picture. `file`: its name, if it is not standard input.
+#[must_use]
+pub fn read_history(file: Option<&str>) -> String {
+    let file = file.map(|file| format!(" {file}")).unwrap_or_default();
+    format!("give the scene that it was drawn from; `ugsheet --history{file}` prints its name")
+}
 
 /// Where another eye point has to be given instead.
 pub const EYE_POINT: &str = "give it to uglorentz";

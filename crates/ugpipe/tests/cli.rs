@@ -137,7 +137,7 @@ fn failures_have_a_status_and_a_message() {
         assert_eq!(output.status.code(), Some(status));
     }
     check(&folder, &["x.ug"], 1, "ugcat: error: cannot read `x.ug`: No such file or directory\n");
-    check(&folder, &["."], 1, "ugcat: error: cannot read `.`: Is a directory\n");
+    check(&folder, &["."], 1, "ugcat: error: `.` is a directory; name a file in it\n");
     check(&folder, &["-fo", "."], 1, "ugcat: error: cannot write `.`: Is a directory\n");
     check(
         &folder,

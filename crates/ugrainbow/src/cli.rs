@@ -269,6 +269,18 @@ impl Args {
         }
     }
 
+    /// The recorded command line. A format that follows from the ending of -fo is part of it, so
+    /// that the pipe can be run again with another output.
+    fn command_line(&self, config: &Config, context: &Context) -> String {
+        let line = context.command_line().to_owned();
+        match config.picture.output {
+            Output::Color(format) | Output::Vector(format) if self.dt.is_none() && format != Format::Png => {
+                format!("{line} -dt {}", format.name())
+            }
+            _ => line,
+        }
+    }
+
     /// The format of the explanation.
     fn report(&self, file: Option<&Path>) -> Result<Report, Failure> {
         match self.dt {
@@ -312,7 +324,8 @@ pub fn draw(args: &Args, context: &mut Context) -> Result<(), Failure> {
     if let Some((pixel, report)) = report {
         return explain_pixel(&config, &source, pixel, report, context);
     }
-    let picture = run_with(&config, &source, context.command_line(), &context.steps()).map_err(failure)?;
+    let command_line = args.command_line(&config, context);
+    let picture = run_with(&config, &source, &command_line, &context.steps()).map_err(failure)?;
     if !picture.warnings.is_empty() {
         context.report(&picture.warnings.render(true));
     }

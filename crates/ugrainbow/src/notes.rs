@@ -3,7 +3,7 @@
 use ugimage::{Development, Tone};
 use uglight::{DEFAULT_AMBIENT, DEFAULT_FROM_EYE};
 use ugparse::Scene;
-use ugpicture::Exposure;
+use ugpicture::{Background, Exposure};
 use ugpipe::remedies;
 use ugraster::{DepthFade, SampleStats};
 
@@ -123,9 +123,24 @@ fn why_nothing_is_seen(
     if stats.visible > 0 || stats.out_of_range > 0 {
         return None;
     }
+    if has_black_lines(config) {
+        return is_black(config.picture.background)
+            .then_some("the lines are black on black: choose another colour with -lc or -bg");
+    }
     Some(
         "all that is in the picture is black: its colours are, or no light falls on it; try `l 1;` in the scene",
     )
+}
+
+/// True if there are only lines, and they are black.
+fn has_black_lines(config: &Config) -> bool {
+    let color =
+        config.wireframe.filter(|wireframe| !wireframe.has_faces).and_then(|wireframe| wireframe.color);
+    color.is_some_and(|color| color.value == 0.0)
+}
+
+fn is_black(background: Background) -> bool {
+    matches!(background, Background::Color(color) if color.value == 0.0)
 }
 
 /// The note on a picture of which more than half is black or grey because its wavelengths are

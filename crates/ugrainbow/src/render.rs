@@ -58,6 +58,8 @@ pub fn render(scene: &Scene, config: &Config) -> Result<Rendering, Error> {
     render_with(scene, config, &Layout::new(&config.picture)?, &())
 }
 
+const PROGRAM: &str = env!("CARGO_PKG_NAME");
+
 /// The linear light of a scene, without exposure and gamut mapping: white is 1. Options for the
 /// file, exposure, tone curve and annotations are ignored.
 ///
@@ -74,17 +76,19 @@ pub fn light(scene: &Scene, config: &Config) -> Result<LinearFrame, Error> {
     Ok(pixels::light(&setup, &layers, &config).0)
 }
 
-/// What a picture says about its making: our name and version, and the command lines of the whole
-/// pipe. `command_line`: our own, empty if there is none.
+/// What a picture says about its making: our name and version, the command lines of the whole pipe,
+/// and the pipe in one line (see [`ugscene::recipe`]). `command_line`: our own, empty if there is
+/// none.
 pub fn metadata(scene: &Scene, command_line: &str) -> Metadata {
+    const VERSION: &str = env!("CARGO_PKG_VERSION");
     let mut lines = ugscene::history(scene);
+    let mut recipe = None;
     if !command_line.is_empty() {
         lines.push(command_line);
+        recipe = ugscene::recipe(scene, PROGRAM, VERSION, command_line);
     }
-    Metadata {
-        software: concat!("ugrainbow ", env!("CARGO_PKG_VERSION")).to_owned(),
-        comment: lines.join("\n"),
-    }
+    lines.extend(recipe.as_deref());
+    Metadata { software: format!("{PROGRAM} {VERSION}"), comment: lines.join("\n") }
 }
 
 /// A picture as a file.

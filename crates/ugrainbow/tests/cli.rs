@@ -55,6 +55,29 @@ fn a_picture_says_how_the_whole_pipe_was_called() {
 }
 
 #[test]
+fn a_scene_without_a_camera_is_drawn_with_a_note() {
+    let scene = SCENE.replace("cam -ep 0 -1 4 -vc 0 0 0;", "");
+    let output = fed(&mut ugrainbow(&["-sz", "20", "10"]), &scene);
+    let note = stderr(&output);
+    let options = note.strip_prefix("ugrainbow: note: no camera in the scene: seen as with ").unwrap();
+    let drawn =
+        |args: &[&str]| fed(&mut ugrainbow(&[&["-sz", "20", "10", "-dt", "pfm"], args].concat()), &scene);
+    let options: Vec<&str> = options.split_whitespace().collect();
+    let (by_default, as_noted) = (drawn(&[]), drawn(&[&options[..], &["-ud", "0", "0", "1"]].concat()));
+    assert!(as_noted.status.success(), "{}", stderr(&as_noted));
+    assert_eq!(by_default.stdout.len(), as_noted.stdout.len());
+    let is_same = |(a, b): (&[u8], &[u8])| {
+        let [a, b] = [a, b].map(|bytes| f32::from_le_bytes(bytes.try_into().unwrap()));
+        (a - b).abs() < 0.1
+    };
+    // The numbers of the note are rounded, which may move the outline by a part of a pixel.
+    let [one, other] =
+        [&by_default.stdout, &as_noted.stdout].map(|file| file[file.len() - 2400..].chunks_exact(4));
+    let n_same = one.zip(other).filter(|&pair| is_same(pair)).count();
+    assert!(n_same > 570, "{n_same} of 600");
+}
+
+#[test]
 fn options_have_two_spellings() {
     let short = "-sz 20 10 -aa 2 -ep 1 -2 5 -vc 0 0 .1 -ud 0 1 0 -va 30 -bg .2 200 .5 -iw -dt eps";
     let long = "--size 20 10 --samples 2 --eye 1 -2 5 --center 0 0 .1 --up 0 1 0 --view-angle 30 \

@@ -11,9 +11,12 @@ use ugphysics::{
     Hsv, Velocity, attenuation, hue_to_wavelength, seen_position, srgb_decode, srgb_encode, wavelength_to_hue,
 };
 use ugrainbow::{
-    Background, CameraOptions, Channel, Config, Error, HueScale, Interpolation, PictureOptions, light, render,
+    Background, CameraOptions, Channel, Config, Error, HueScale, Interpolation, PictureOptions, Wireframe,
+    light, render,
 };
 use ugrandom::Random;
+
+const BLACK: Hsv = Hsv { hue: 0.0, saturation: 0.0, value: 0.0 };
 
 /// One sample at the centre of each pixel.
 fn plain(width: u32, height: u32) -> Config {
@@ -529,13 +532,13 @@ fn pictures_in_which_nothing_is_seen_say_why() {
         &format!("{square}; cam -ep 0 0 20 -vc 0 0 30 -ud 0 1 0;"),
         &config,
         &["nothing is drawn: everything is behind the eye or outside the clipping distances; try \
-             `uglorentz -in`, another -ep or -vc"],
+             `uglorentz --keep-in-view`, another -ep or -vc"],
     );
     check(
         &format!("{square}; cam -ep 0 0 20 -vc 90 0 0;"),
         &config,
         &["nothing is drawn: everything is outside the picture, where fast bodies often are; \
-             try `uglorentz -in`, another -vc or a wider -va"],
+             try `uglorentz --keep-in-view`, another -vc or a wider -va"],
     );
     check(
         &format!("{square}; cam -ep 30 0 0 -vc 0 0 0;"),
@@ -587,6 +590,14 @@ fn pictures_in_which_nothing_is_seen_say_why() {
            scene",
         ],
     );
+    // Black lines, on black and on white.
+    let lines =
+        Config { wireframe: Some(Wireframe { has_faces: false, color: Some(BLACK) }), ..config.clone() };
+    let text = format!("{square}; cam -ep 1 0 20;");
+    check(&text, &lines, &["the lines are black on black: choose another colour with -lc or -bg"]);
+    let mut on_white = lines;
+    on_white.picture.background = Background::Color(Hsv { value: 1.0, ..BLACK });
+    check(&text, &on_white, &[]);
     check(
         &format!("{square}; l .25; cam -ep 0 0 20;"),
         &config,

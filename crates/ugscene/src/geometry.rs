@@ -54,6 +54,35 @@ impl Geometry {
     }
 }
 
+impl Geometry {
+    /// A normal of the seen surface from that of the surface at rest, with the same axes. Any length;
+    /// it stays on the same side.
+    ///
+    /// Planes through a point transform by the gradient of the rest position with respect to the seen
+    /// one, the transpose of the Jacobian of (P4): with p' = p + (γ − 1)(p·b) b + γ |p| β and b along β,
+    /// n = n' + (γ − 1)(n'·b) b + γ (n'·β) p/|p|. At the eye, where it does not exist, without the last
+    /// term.
+    pub fn seen_normal(
+        self,
+        RestPosition(rest): RestPosition,
+        SeenPosition(seen): SeenPosition,
+        v: Velocity,
+    ) -> DVec3 {
+        if v.is_zero() {
+            return rest;
+        }
+        let mut normal = rest;
+        if self.contraction {
+            normal += v.gamma_minus_one() * rest.dot(v.direction()) * v.direction();
+        }
+        if self.flight_time {
+            let gamma = if self.contraction { v.gamma() } else { 1.0 };
+            normal += gamma * rest.dot(v.beta()) * seen.normalize_or_zero();
+        }
+        normal
+    }
+}
+
 /// The rest position of every vertex of a scene as seen: relative to the eye, in the rest frame of its
 /// body, with the axes of the scene. (P4), (P25)
 pub fn rest_positions(scene: &Scene, eye: DVec3, frames: &RestFrames) -> Vec<DVec3> {
@@ -76,6 +105,27 @@ mod tests {
     use ugphysics::{Event, Lorentz};
 
     use super::*;
+
+    /// Against the plane through two tangents, found by moving the rest position.
+    #[test]
+    fn seen_normals_are_at_right_angles_to_seen_tangents() {
+        let v = Velocity::from_beta(DVec3::new(0.6, -0.5, 0.2)).unwrap();
+        let rest = DVec3::new(-0.7, 2.0, 0.4);
+        let normal = DVec3::new(0.3, -0.8, 0.5).normalize();
+        let [one, other] = normal.any_orthonormal_pair().into();
+        for geometry in ALL {
+            let seen = |p: DVec3| geometry.seen(RestPosition(p), v).0;
+            let h = 1e-5;
+            let along = |d: DVec3| (seen(rest + h * d) - seen(rest - h * d)) / (2.0 * h);
+            let found = geometry.seen_normal(RestPosition(normal), SeenPosition(seen(rest)), v).normalize();
+            // The errors of central differences are about h² = 1e-10.
+            assert!(
+                found.dot(along(one)).abs() < 1e-8 && found.dot(along(other)).abs() < 1e-8,
+                "{geometry:?}"
+            );
+            assert!(found.dot(along(normal)) > 0.0, "{geometry:?}: on the other side");
+        }
+    }
 
     const ALL: [Geometry; 4] = [
         Geometry { contraction: true, flight_time: true },

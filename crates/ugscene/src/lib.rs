@@ -34,6 +34,7 @@ mod default_camera;
 mod edges;
 mod eye;
 mod geometry;
+mod measurement;
 mod mixing;
 mod motion;
 mod normals;
@@ -44,6 +45,7 @@ mod rest_frames;
 mod shares;
 mod split;
 mod stage;
+mod vtk_polygons;
 mod words;
 
 pub use camera::{CameraPoint, HalfSpace, Slab, View, view_distance};
@@ -53,6 +55,7 @@ pub use default_camera::DefaultCamera;
 pub use edges::face_edges;
 pub use eye::{eye, vertex_at_eye};
 pub use geometry::{Geometry, rest_positions};
+pub use measurement::{Measurement, measure};
 pub use mixing::{mixing_note, n_mixing_vertices, repeat_vertices, separate_wires};
 pub use motion::{Anchor, MotionError, MotionOptions, PlacedBodies, RelativeMotion};
 pub use normals::{corner_angle, seen_normal, shading_normal, smooth_normals};
@@ -66,4 +69,6 @@ pub use stage::{
     StageError, has_moving_bodies, has_moving_lights, hue_scale, read_tints_in, require_colors_at_rest,
     require_eye, require_geometry_at_rest, require_seen_geometry, rest_shapes_warning,
 };
-pub use ugparse::{history, record};
+pub use vtk_polygons::VtkPolygons;
+
+pub use ugparse::{history, recipe, record};

@@ -4,10 +4,13 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::{ArgAction, Parser, ValueEnum};
-use ugimage::{Format, ReadError, read_png, read_png_header};
+use ugimage::{Format, ReadError, read_history, read_png, read_png_header};
 use ugphysics::Hsv;
-use ugpipe::{CommonArgs, Context, Failure, Input, Manual, ToolArgs, finite, one_of, whole};
+use ugpipe::{
+    CommonArgs, Context, Failure, Input, MAX_INPUT, Manual, ToolArgs, finite, one_of, sha256, whole,
+};
 
+use crate::recipe::{Recipe, recipes};
 use crate::{Config, Error, Labels, Picture, history, sheet};
 
 /// Arranges several pictures on one sheet, with labels
@@ -60,6 +63,13 @@ pub struct Args {
     #[arg(long, value_name = "FMT", visible_alias = "format", value_parser = one_of(FORMATS, format_named))]
     dt: Option<Format>,
 
+    /// Instead of a sheet, print the pipe that drew a picture, for a shell
+    ///
+    /// For files in png, exr, hdr, ppm, pdf, svg, eps and ps, in the folder where the pipe was run.
+    /// A comment has the SHA-256 of the scene, and a warning says whether the scene has changed.
+    #[arg(long, conflicts_with_all = ["cols", "label", "lb", "lt", "title", "cap", "ts", "gap", "bg", "dt"])]
+    history: bool,
+
     #[command(flatten)]
     common: CommonArgs,
 
@@ -70,7 +80,8 @@ pub struct Args {
 
 const EXAMPLES: &str = "Examples:
   ugsheet -cols 2 rest.png 0.5c.png 0.9c.png 0.99c.png > sheet.png
-  ugsheet -lt --label 'at rest' --label 'β = 0.9' -cap 'A ship passes' rest.png fast.png > ship.png";
+  ugsheet -lt --label 'at rest' --label 'β = 0.9' -cap 'A ship passes' rest.png fast.png > ship.png
+  ugsheet --history rest.png";
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
 enum Kind {
@@ -171,9 +182,60 @@ pub fn manual() -> Manual {
     ugpipe::manual::<Args>()
 }
 
+/// Prints the pipes that drew the pictures.
+fn print_history(args: &Args, context: &mut Context) -> Result<(), Failure> {
+    let mut inputs = vec![context.input()?];
+    for path in &args.files {
+        inputs.push(context.input_file(path)?);
+    }
+    let mut script = String::new();
+    for Input { name, text } in &inputs {
+        let recipes = recipes(&read_history(text).unwrap_or_default());
+        let recipes = recipes
+            .map_err(|why| Failure::failed(format!("the history of `{name}` must not be run: {why}")))?;
+        if recipes.is_empty() {
+            return Err(Failure::failed(format!(
+                "`{name}` has no history that can be run: another program drew it, or its texts were removed"
+            )));
+        }
+        for recipe in &recipes {
+            inspect(recipe, context);
+            script += &recipe.script();
+        }
+        if recipes.len() > 1 {
+            let n = recipes.len();
+            context.note(&format!("`{name}` has {n} pipes: send the output of each to a file of its own"));
+        }
+    }
+    context.write_text(&script)
+}
+
+/// Says what a pipe needs to give the same picture.
+fn inspect(recipe: &Recipe, context: &Context) {
+    match &recipe.scene {
+        None => context.note("the scene was read from standard input: run the pipe with the same input"),
+        Some(scene) => match context.read_here(Path::new(scene), MAX_INPUT) {
+            Ok(text) if sha256(&text) == recipe.sha256 => {}
+            Ok(_) => context.warn(&format!("`{scene}` has changed since the picture was drawn")),
+            Err(_) => context.note(&format!("`{scene}` is not in this folder: run the pipe in its folder")),
+        },
+    }
+    let version = env!("CARGO_PKG_VERSION");
+    if recipe.versions.split(", ").any(|program| program.split(' ').next_back() != Some(version)) {
+        let versions = &recipe.versions;
+        context.note(&format!("drawn by {versions}; other versions may draw another picture"));
+    }
+    if let Some(option) = recipe.permission() {
+        context.warn(&format!("the pipe has the option {option}: run it only if you trust the scene"));
+    }
+}
+
 /// The program.
 pub fn main() -> ExitCode {
     ugpipe::main(|args: &Args, context: &mut Context| {
+        if args.history {
+            return print_history(args, context);
+        }
         let config = args.config()?;
         let format = args.format(context.output_name())?;
         if context.output_is_terminal() && format.is_binary() {

@@ -88,7 +88,8 @@ impl MotionOptions {
     /// Parses the command lines in the history of a picture.
     fn parse(history: &str) -> Self {
         const OPTIONS: [&str; 6] = ["-vel", "--velocity", "-cv", "--camera-velocity", "-ti", "--time"];
-        let lines = history.lines().rev().map(shell_words::split);
+        let lines = history.lines().filter(|line| !shell_words::is_recipe(line));
+        let lines = lines.rev().map(shell_words::split);
         let mut with_options =
             lines.filter(|words| words.iter().any(|word| OPTIONS.contains(&word.as_str())));
         let words = with_options.next().unwrap_or_default();

@@ -29,6 +29,8 @@ mod cli;
 mod error;
 mod labels;
 mod layout;
+#[cfg(feature = "cli")]
+mod recipe;
 mod shell_words;
 
 use ugimage::{Frame, Metadata};

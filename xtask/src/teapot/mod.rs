@@ -14,7 +14,7 @@ pub fn write(out: &mut impl Write, squares: u32) -> io::Result<()> {
         out,
         "{{ The Utah teapot: Martin Newell's 32 Bezier patches (1975, public data), {squares} x {squares} squares each.
 
-    uglorentz -in -vel .95 0 0 < teapot.ug | ugdoppler --no-doppler --no-flux | ugrainbow > teapot.png
+    uglorentz -in -vel .95 0 0 < teapot.ug | ugrainbow > teapot.png
 
   turns the spout away and the handle toward you, though the pot flies spout first.
   z is up, the spout points along +x; faces run counterclockwise seen from outside; vertices

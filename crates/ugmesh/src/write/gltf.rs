@@ -6,6 +6,7 @@ use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
 use gltf::binary::{Glb, Header};
 use serde_json::{Value, json};
+use ugparse::Camera;
 use ugphysics::srgb_decode;
 
 use crate::Error;
@@ -52,11 +53,19 @@ fn document(mesh: &mut PolygonMesh, uri: Option<&str>) -> (Value, Vec<u8>) {
         },
     });
     let mut buffer = Buffer::default();
-    // glTF does not allow empty lists and accessors.
-    if !mesh.polygons.is_empty() {
+    if let Some((camera, matrix)) = mesh.scene.camera().and_then(camera) {
+        document["cameras"] = json!([camera]);
         document["scene"] = 0.into();
         document["scenes"] = json!([{ "nodes": [0] }]);
-        document["nodes"] = json!([{ "mesh": 0 }]);
+        document["nodes"] = json!([{ "camera": 0, "matrix": matrix }]);
+    }
+    // glTF does not allow empty lists and accessors.
+    if !mesh.polygons.is_empty() {
+        let mut nodes = vec![json!({ "mesh": 0 })];
+        nodes.extend(document["nodes"].as_array().cloned().unwrap_or_default());
+        document["scene"] = 0.into();
+        document["scenes"] = json!([{ "nodes": Vec::from_iter(0..nodes.len()) }]);
+        document["nodes"] = nodes.into();
         let attributes = attributes(mesh, &mut buffer);
         let indices = indices(mesh, &mut buffer);
         let primitive = json!({ "attributes": attributes, "indices": indices, "material": 0, "mode": 4 });
@@ -70,6 +79,36 @@ fn document(mesh: &mut PolygonMesh, uri: Option<&str>) -> (Value, Vec<u8>) {
         }
     }
     (document, buffer.bytes)
+}
+
+/// A camera of a scene with all its values, and the matrix of its node by columns. It looks along its
+/// −z axis, with y up.
+fn camera(camera: &Camera) -> Option<(Value, [f32; 16])> {
+    /// Clipping distances, as parts of the distance to the view centre.
+    const CLIP: [f64; 2] = [1e-3, 1e3];
+    let (eye, center, up) = (camera.eye?, camera.center?, camera.up?);
+    let backward = (eye - center).normalize();
+    let right = up.cross(backward).normalize();
+    let axes = [right, backward.cross(right), backward];
+    let mut matrix = [0.0; 16];
+    for (column, (axis, w)) in axes.into_iter().map(|axis| (axis, 0.0)).chain([(eye, 1.0)]).enumerate() {
+        let row = axis.extend(w).as_vec4().to_array();
+        matrix[4 * column..][..4].copy_from_slice(&row);
+    }
+    let [near, far] = CLIP.map(|part| (part * eye.distance(center)) as f32);
+    let lens = match (camera.view_angle, camera.film_size) {
+        (Some([across, down]), _) => {
+            let [across, down] = [across, down].map(|degrees| libm::tan(degrees.to_radians() / 2.0));
+            json!({ "type": "perspective", "perspective": {
+                "aspectRatio": (across / down) as f32, "yfov": 2.0 * libm::atan(down), "znear": near, "zfar": far,
+            } })
+        }
+        (None, Some([across, down])) => json!({ "type": "orthographic", "orthographic": {
+            "xmag": (across / 2.0) as f32, "ymag": (down / 2.0) as f32, "znear": near, "zfar": far,
+        } }),
+        (None, None) => return None,
+    };
+    matrix.iter().all(|number| number.is_finite()).then_some((lens, matrix))
 }
 
 /// A diffuse, two-sided material, as the faces of scenes are.

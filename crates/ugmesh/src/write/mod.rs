@@ -3,23 +3,27 @@
 mod gltf;
 mod obj;
 mod ply;
+mod vtp;
 
 use ugparse::Scene;
 
 use crate::polygon_mesh::{PolygonMesh, Polygons};
 use crate::{Error, Target};
 
-/// The file content for a scene in a format, and notes.
-pub(crate) fn write(scene: Scene, target: Target) -> Result<(Vec<u8>, Vec<String>), Error> {
+/// The file content for a scene in a format, and notes. `is_placed`: positions were scaled, moved or
+/// turned, so that they are not those seen from the eye of the scene any more.
+pub(crate) fn write(scene: Scene, target: Target, is_placed: bool) -> Result<(Vec<u8>, Vec<String>), Error> {
     let (polygons, writer): (Polygons, Writer) = match target {
         Target::Ug => return Ok((ugparse::write(&scene), Vec::new())),
         Target::Obj => (Polygons::Simple, |mesh| Ok(obj::write(mesh))),
         Target::Ply { is_ascii: false } => (Polygons::Simple, |mesh| Ok(ply::write(mesh, false))),
         Target::Ply { is_ascii: true } => (Polygons::Simple, |mesh| Ok(ply::write(mesh, true))),
+        Target::Vtp if is_placed => (Polygons::Simple, |mesh| Ok(vtp::write(mesh, false))),
+        Target::Vtp => (Polygons::Simple, |mesh| Ok(vtp::write(mesh, true))),
         Target::Gltf => (Polygons::Triangles, gltf::write_json),
         Target::Glb => (Polygons::Triangles, gltf::write_glb),
     };
-    let mut mesh = PolygonMesh::new(scene, polygons);
+    let mut mesh = PolygonMesh::new(scene, polygons, target.has_camera());
     let bytes = writer(&mut mesh)?;
     Ok((bytes, mesh.notes))
 }

@@ -1,0 +1,55 @@
+//! What the history of a scene begins with: the hash and the name of the first input of a pipe.
+
+use std::thread;
+
+/// The input of the first program of a pipe.
+#[derive(Clone, Debug)]
+pub enum Origin {
+    /// The recorded words: `SHA-256 3b1c… ship.ug`.
+    Recorded(String),
+    /// An input whose hash has not been computed yet.
+    Pending {
+        /// Its name, quoted for a shell; `-` for standard input.
+        name: String,
+        /// Computes the SHA-256 of the input, in hexadecimal digits.
+        sha256: fn(&[u8]) -> String,
+    },
+}
+
+impl Origin {
+    /// The recorded words for an input of these bytes.
+    #[must_use]
+    pub fn words(&self, bytes: &[u8]) -> String {
+        match self {
+            Self::Recorded(words) => words.clone(),
+            Self::Pending { name, sha256 } => format!("SHA-256 {} {name}", sha256(bytes)),
+        }
+    }
+
+    /// Hash and name of recorded words.
+    pub(crate) fn parts(words: &str) -> Option<(&str, &str)> {
+        let (hash, name) = words.strip_prefix("SHA-256 ")?.split_once(' ')?;
+        let is_hash = hash.len() == 64 && hash.bytes().all(|byte| byte.is_ascii_hexdigit());
+        (is_hash && !name.contains('\n')).then_some((hash, name))
+    }
+}
+
+/// Does some work with an input, on this thread, and computes the words for its origin meanwhile.
+pub fn with_origin<T>(
+    origin: Option<&Origin>,
+    bytes: &[u8],
+    work: impl FnOnce() -> T,
+) -> (T, Option<String>) {
+    /// Below this number of bytes, starting a thread takes as long as computing the hash.
+    const FEW: usize = 1 << 16;
+    let Some(origin) = origin else { return (work(), None) };
+    if bytes.len() < FEW {
+        return (work(), Some(origin.words(bytes)));
+    }
+    thread::scope(|scope| {
+        let hashing = thread::Builder::new().spawn_scoped(scope, || origin.words(bytes));
+        let done = work();
+        let words = hashing.ok().and_then(|thread| thread.join().ok());
+        (done, Some(words.unwrap_or_else(|| origin.words(bytes))))
+    })
+}

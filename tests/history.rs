@@ -1,0 +1,155 @@
+//! The pipe that a picture records, run again by a shell in a clean folder.
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking, its helpers too")]
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use ugtests::{programs, scenes};
+
+/// A folder with one scene and nothing else, and the programs on the path.
+struct Shell {
+    folder: tempfile::TempDir,
+    programs: PathBuf,
+}
+
+impl Shell {
+    fn new(scene: &str) -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        fs::write(folder.path().join(scene), scenes::text("dice")).unwrap();
+        Self { folder, programs: programs::of_this_profile() }
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.folder.path().join(name)
+    }
+
+    fn output(&self, folder: &Path, script: &str) -> Output {
+        let system = std::env::var_os("PATH").unwrap();
+        let path = std::iter::once(self.programs.clone()).chain(std::env::split_paths(&system));
+        let mut shell = Command::new("sh");
+        shell.args(["-c", script]).current_dir(folder).env("PATH", std::env::join_paths(path).unwrap());
+        shell.output().unwrap()
+    }
+
+    /// Runs a script; returns what it wrote to standard output and to standard error.
+    #[track_caller]
+    fn run(&self, script: &str) -> [String; 2] {
+        let output = self.output(self.folder.path(), script);
+        let [out, messages] = [output.stdout, output.stderr].map(|text| String::from_utf8(text).unwrap());
+        assert!(output.status.success(), "{script}: {messages}");
+        [out, messages]
+    }
+
+    #[track_caller]
+    fn check_same(&self, first: &str, second: &str) {
+        let [first, second] = [first, second].map(|name| fs::read(self.path(name)).unwrap());
+        assert!(first.len() > 300 && first == second, "the second picture has other bytes");
+    }
+}
+
+#[test]
+fn a_picture_is_drawn_again_by_its_history() {
+    let check = |scene: &str, pipe: &str| {
+        let shell = Shell::new(scene);
+        shell.run(&format!("{pipe} > first.png"));
+        let [script, messages] = shell.run("ugsheet --history first.png | tee again.sh");
+        assert_eq!(messages, "", "{script}");
+        let lines: Vec<&str> = script.lines().collect();
+        let [comment, _pipe] = lines[..] else { panic!("{script}") };
+        // The hash is the one of another program.
+        let [sum, _] = shell.run(&format!("sha256sum '{scene}'"));
+        assert!(comment.contains(&format!("SHA-256 {}; ug", &sum[..64])), "{comment} {sum}");
+        shell.run("sh again.sh > second.png");
+        shell.check_same("first.png", "second.png");
+    };
+    check("dice.ug", "ugrainbow -sz 60 40 dice.ug");
+    check(
+        "dice.ug",
+        "uglorentz -vel .9 0 0 --keep-in-view dice.ug | ugdoppler -sp | ugrainbow -sz 60 40 -aa 1",
+    );
+    check(
+        "my dice.ug",
+        "uglorentz 'my dice.ug' -sd 1 | ugrainbow -xc -sz 320 200 -aa 1 -cap \"it's \\$HOME; γ | 'x'\"",
+    );
+    // Through a mesh and back.
+    check("dice.ug", "uglorentz dice.ug -vel 0 .5 0 | ugmesh -dt ply | ugmesh | ugrainbow -sz 60 40");
+}
+
+#[test]
+fn every_format_with_text_is_drawn_again() {
+    let shell = Shell::new("dice.ug");
+    for format in ["png", "exr", "hdr", "ppm", "pdf", "svg", "eps", "ps"] {
+        let vector = if format == "svg" { "-vec" } else { "" };
+        shell.run(&format!(
+            "uglorentz -vel .5 0 0 dice.ug > seen.ug; ugrainbow -sz 60 40 {vector} seen.ug -fo first.{format}
+             ugsheet --history first.{format} > again.sh; sh again.sh > second.{format}"
+        ));
+        shell.check_same(&format!("first.{format}"), &format!("second.{format}"));
+    }
+}
+
+#[test]
+fn scenes_from_pipes_are_given_to_the_script() {
+    let shell = Shell::new("dice.ug");
+    shell.run("uglorentz -vel .5 0 0 < dice.ug | ugrainbow -sz 60 40 > first.png");
+    let [_, messages] = shell.run("ugsheet --history < first.png > again.sh");
+    let note = "the scene was read from standard input: run the pipe with the same input";
+    assert_eq!(messages, format!("ugsheet: note: {note}\n"));
+    shell.run("sh again.sh < dice.ug > second.png");
+    shell.check_same("first.png", "second.png");
+}
+
+#[test]
+fn changed_and_missing_scenes_are_noted() {
+    let shell = Shell::new("dice.ug");
+    shell.run("mkdir sub; ugrainbow -sz 60 40 dice.ug > a.png; ugrainbow -sz 60 40 sub/../dice.ug > b.png");
+    let messages = |script: &str| shell.run(script)[1].clone();
+    assert_eq!(messages("ugsheet --history a.png"), "");
+    // Of a path with `..` only the file name is recorded.
+    assert_eq!(messages("ugsheet --history b.png"), "");
+    let elsewhere = "ugsheet: note: `dice.ug` is not in this folder: run the pipe in its folder\n";
+    assert_eq!(messages("cd sub; ugsheet --history ../a.png"), elsewhere);
+    let changed = "ugsheet: warning: `dice.ug` has changed since the picture was drawn\n";
+    assert_eq!(messages("echo >> dice.ug; ugsheet --history a.png"), changed);
+    let sheet = "ugsheet: note: `s.png` has 2 pipes: send the output of each to a file of its own\n";
+    assert_eq!(
+        messages("ugsheet -lb none a.png b.png > s.png; ugsheet --history s.png"),
+        changed.repeat(2) + sheet
+    );
+}
+
+/// Whoever writes a scene chooses its comments, and so what a picture records.
+#[test]
+fn forged_histories_do_not_run() {
+    let shell = Shell::new("dice.ug");
+    let hash = "0".repeat(64);
+    let forged = |command: &str| {
+        let scene = format!("{{ SHA-256 {hash} dice.ug }}\n{{ ugmesh 1: ugmesh {command} }}\n");
+        fs::write(shell.path("forged.ug"), [scene.as_bytes(), &scenes::text("dice")].concat()).unwrap();
+        shell.run("ugrainbow -sz 60 40 forged.ug > forged.png");
+        shell.output(shell.folder.path(), "ugsheet -qt --history forged.png > again.sh")
+    };
+    for command in ["| touch gone", "-fo gone", "--output=gone", "; touch gone | ug"] {
+        let output = forged(command);
+        let messages = String::from_utf8(output.stderr).unwrap();
+        let is_refused = messages.contains("must not be run") && output.status.code() == Some(1);
+        assert!(is_refused || command.starts_with(';'), "{command}: {messages}");
+        assert!(is_refused == fs::read(shell.path("again.sh")).unwrap().is_empty(), "{command}");
+    }
+    for command in ["`touch gone`", "$(touch gone)", "& touch gone", "> gone", "; touch gone"] {
+        assert!(forged(command).status.success(), "{command}");
+        shell.output(shell.folder.path(), "sh again.sh");
+        assert!(!shell.path("gone").exists(), "{command}");
+    }
+}
+
+#[test]
+fn files_without_a_history_are_an_error() {
+    let shell = Shell::new("dice.ug");
+    let output = shell.output(shell.folder.path(), "ugsheet --history dice.ug");
+    let expected = "ugsheet: error: `dice.ug` has no history that can be run: another program drew it, or its \
+                    texts were removed\n";
+    assert_eq!(String::from_utf8(output.stderr).unwrap(), expected);
+    assert_eq!((output.status.code(), output.stdout.len()), (Some(1), 0));
+}
