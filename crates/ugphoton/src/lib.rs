@@ -35,7 +35,7 @@
 //! ```
 //! use ugphoton::{Config, PictureOptions, light};
 //!
-//! let text = "surf mirror 0 1 0; v a -9 -9 -2; v b 9 -9 -2; v c 9 9 -2; v d -9 9 -2;
+//! let text = "surf mirror 0 1 0; l 0; v a -9 -9 -2; v b 9 -9 -2; v c 9 9 -2; v d -9 9 -2;
 //!             v e -99 -99 1; v f -99 99 1; v g 99 99 1; v h 99 -99 1;
 //!             c white 1; f (a b c d) white mirror <0 0 -0.6>; f (e f g h) white 1;
 //!             cam -ep 0 0 0 -vc 0 0 -1 -ud 0 1 0;";

@@ -87,20 +87,22 @@ impl Media {
 
     /// After the ray entered a solid.
     #[must_use]
-    pub fn with(mut self, solid: Solid) -> Self {
-        if self.len < MOST_MEDIA {
-            self.entries[self.len] = Some(solid);
-            self.len += 1;
+    pub fn with(&self, solid: Solid) -> Self {
+        let mut media = *self;
+        if media.len < MOST_MEDIA {
+            media.entries[media.len] = Some(solid);
+            media.len += 1;
         }
-        self
+        media
     }
 
     /// After the ray left a solid; `None` if it was not in it.
     #[must_use]
-    pub fn without(mut self, solid: Solid) -> Option<Self> {
-        let at = self.entries[..self.len].iter().rposition(|&entry| entry == Some(solid))?;
-        self.entries[at..self.len].rotate_left(1);
-        self.len -= 1;
-        Some(self)
+    pub fn without(&self, solid: Solid) -> Option<Self> {
+        let mut media = *self;
+        let at = media.entries[..media.len].iter().rposition(|&entry| entry == Some(solid))?;
+        media.entries[at..media.len].rotate_left(1);
+        media.len -= 1;
+        Some(media)
     }
 }

@@ -192,7 +192,7 @@ impl Painting<'_> {
                     packet.places.iter().zip(packet.rays.iter().zip(&packet.first))
                 {
                     let sample = u64::from(row) * u64::from(self.size[0] * n) + u64::from(column);
-                    let arriving = tracer.arriving(*ray, *first, self.scenery.view.slab.far, sample);
+                    let arriving = tracer.arriving(ray, *first, self.scenery.view.slab.far, sample);
                     let is_own = columns.contains(&(column / n)) && rows.contains(&(row / n));
                     let brightest = arriving.light.max_element();
                     if is_own && first.is_some() {

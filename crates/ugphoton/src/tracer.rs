@@ -53,9 +53,9 @@ const FAINT: f64 = 4e-6;
 
 /// A ray and the state of its path.
 #[derive(Clone, Copy)]
-struct Path {
-    ray: Ray,
-    media: Media,
+struct Path<'p> {
+    ray: &'p Ray,
+    media: &'p Media,
     /// Reflections and refractions so far.
     depth: u32,
     /// The part of its light that reaches the eye.
@@ -81,30 +81,30 @@ impl<'a> Tracer<'a> {
     /// The light that arrives along a ray, and how much of the background is seen. `first`: the
     /// nearest face on the ray within the clipping distances. `far`: the end of the range of
     /// parameters.
-    pub fn arriving(&mut self, ray: Ray, first: Option<Intersection>, far: f64, sample: u64) -> Arriving {
-        let path = Path { ray, media: Media::default(), depth: 0, weight: 1.0, sample };
+    pub fn arriving(&mut self, ray: &Ray, first: Option<Intersection>, far: f64, sample: u64) -> Arriving {
+        let path = Path { ray, media: &Media::default(), depth: 0, weight: 1.0, sample };
         self.n_branches = 0;
         self.seen(&path, first, far)
     }
 
     /// Adds up what is seen along a path: translucent faces, up to the first opaque one.
-    fn seen(&mut self, path: &Path, first: Option<Intersection>, far: f64) -> Arriving {
+    fn seen(&mut self, path: &Path<'_>, first: Option<Intersection>, far: f64) -> Arriving {
         let mut sum = Arriving::NOTHING;
         let mut passing = 1.0;
         let mut next = first;
         while let Some(found) = next {
             if !self.scenery.is_translucent(found.triangle.face) {
-                let point = SurfacePoint::new(self.scenery, &path.ray, &found);
+                let point = SurfacePoint::new(self.scenery, path.ray, &found);
                 let own = self.light_of(&Path { weight: path.weight * passing, ..*path }, &point);
                 sum.add(passing, own);
                 return sum;
             }
             // Faces at the same place are blended in the order of the scene.
             let mut layers = std::mem::take(&mut self.layers);
-            self.scenery.world.beside(self.scenery.faces(), &path.ray, &found, &mut layers);
+            self.scenery.world.beside(self.scenery.faces(), path.ray, &found, &mut layers);
             let mut end = found.s;
             for layer in &layers {
-                let point = SurfacePoint::new(self.scenery, &path.ray, layer);
+                let point = SurfacePoint::new(self.scenery, path.ray, layer);
                 let weight = passing * (1.0 - point.translucency);
                 if weight > 0.0 {
                     let own = self.light_of(&Path { weight: path.weight * weight, ..*path }, &point);
@@ -117,14 +117,14 @@ impl<'a> Tracer<'a> {
             if path.weight * passing < FAINT {
                 return sum;
             }
-            next = self.scenery.closest(&path.ray, end..far);
+            next = self.scenery.closest(path.ray, end..far);
         }
         sum.background += passing * transmitted(self.scenery, &self.filters);
         sum
     }
 
     /// The light from a surface: of lamps, mirrored, and transmitted.
-    fn light_of(&mut self, path: &Path, point: &SurfacePoint) -> Arriving {
+    fn light_of(&mut self, path: &Path<'_>, point: &SurfacePoint) -> Arriving {
         let light = self.shader.light(point, &self.filters, path.sample);
         let mut sum = Arriving { light, background: DVec3::ZERO };
         let Some(id) = point.surface(self.scenery) else { return sum };
@@ -147,8 +147,7 @@ impl<'a> Tracer<'a> {
         if mirrored * path.weight >= self.scenery.rays.cutoff
             && let Some(wave) = self.reflected(path, point)
         {
-            let media = path.media;
-            sum.add(mirrored, self.follow(path, point, wave, media, mirrored));
+            sum.add(mirrored, self.follow(path, point, wave, path.media, mirrored));
         }
         if let Some(Refracted { wave, media, .. }) = refracted
             && transmitted * path.weight >= self.scenery.rays.cutoff
@@ -162,7 +161,7 @@ impl<'a> Tracer<'a> {
                     .0;
                 self.filters.push(Filter { color: point.color, row, doppler: point.doppler() });
             }
-            sum.add(transmitted, self.follow(path, point, wave, media, transmitted));
+            sum.add(transmitted, self.follow(path, point, wave, &media, transmitted));
             if !is_white {
                 self.filters.pop();
             }
@@ -173,10 +172,10 @@ impl<'a> Tracer<'a> {
     /// Follows light that left a surface with the wave vector `wave` in its rest frame.
     fn follow(
         &mut self,
-        path: &Path,
+        path: &Path<'_>,
         point: &SurfacePoint,
         wave: WaveVector,
-        media: Media,
+        media: &Media,
         part: f64,
     ) -> Arriving {
         self.n_branches += 1;
@@ -194,13 +193,13 @@ impl<'a> Tracer<'a> {
             start: Start::Surface { part: point.part, place: point.place },
         };
         let next =
-            Path { ray, media, depth: path.depth + 1, weight: path.weight * part, sample: path.sample };
+            Path { ray: &ray, media, depth: path.depth + 1, weight: path.weight * part, sample: path.sample };
         let first = self.scenery.closest(&ray, 0.0..f64::INFINITY);
         self.seen(&next, first, f64::INFINITY)
     }
 
     /// The light that a mirror reflects along the path, before reflection.  Eq. (P23), (P37)
-    fn reflected(&self, path: &Path, point: &SurfacePoint) -> Option<WaveVector> {
+    fn reflected(&self, path: &Path<'_>, point: &SurfacePoint) -> Option<WaveVector> {
         let before = medium(self.scenery, path.media.innermost(), point.part);
         let of = |normal: DVec3| before.wave_beside(point.wave, -normal);
         // With an interpolated normal the light may come from behind the face.
@@ -212,7 +211,7 @@ impl<'a> Tracer<'a> {
     /// Eq. (P23), (P37)
     fn refracted(
         &mut self,
-        path: &Path,
+        path: &Path<'_>,
         point: &SurfacePoint,
         surface: ugparse::SurfaceId,
     ) -> Option<Refracted> {
@@ -220,7 +219,7 @@ impl<'a> Tracer<'a> {
         let (media, is_inside_unknown) = if point.is_outside {
             (path.media.with(solid), false)
         } else {
-            path.media.without(solid).map_or((path.media, true), |media| (media, false))
+            path.media.without(solid).map_or((*path.media, true), |media| (media, false))
         };
         if is_inside_unknown {
             // The path began inside the solid, where it counts as vacuum.

@@ -1,0 +1,108 @@
+//! The program itself: streams, exit codes, messages, metadata.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking, its helpers too")]
+
+use std::io::{Cursor, Read, Write};
+use std::os::unix::process::ExitStatusExt;
+use std::process::{Command, Output, Stdio};
+
+const SCENE: &str = "\
+{ A square. }
+c green 1 120; l 1;
+v a -1 -1 0; v b 1 -1 0; v c 1 1 0; v d -1 1 0; f (a b c d) green;
+cam -ep 0 -1 4 -vc 0 0 0;
+";
+
+fn ugphoton(args: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_ugphoton"));
+    command.args(args).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    command
+}
+
+/// Runs the program with `scene` on its standard input.
+fn fed(args: &[&str], scene: &str) -> Output {
+    let mut child = ugphoton(args).spawn().unwrap();
+    // Fails if the program ends without reading its input, which is irrelevant here.
+    let _ = child.stdin.take().unwrap().write_all(scene.as_bytes());
+    child.wait_with_output().unwrap()
+}
+
+fn stderr(output: &Output) -> String {
+    String::from_utf8(output.stderr.clone()).unwrap()
+}
+
+/// Runs the program, which has to fail with nothing on standard output.
+#[track_caller]
+fn refused(args: &[&str], scene: &str, status: i32, expected: &str) {
+    let output = fed(args, scene);
+    assert_eq!(output.status.code(), Some(status), "{}", stderr(&output));
+    assert!(output.stdout.is_empty());
+    assert!(stderr(&output).contains(expected), "{}", stderr(&output));
+}
+
+#[test]
+fn a_picture_says_how_it_was_made() {
+    let output = fed(&["-sz", "20", "10", "-nt", "2", "-qt", "-vel", ".1", "0", "0"], SCENE);
+    assert_eq!((output.status.code(), stderr(&output)), (Some(0), String::new()));
+    let reader = png::Decoder::new(Cursor::new(output.stdout)).read_info().unwrap();
+    let info = reader.info();
+    let texts = &info.uncompressed_latin1_text;
+    let text = |keyword: &str| texts.iter().find(|text| text.keyword == keyword).unwrap().text.clone();
+    assert_eq!((info.width, info.height), (20, 10));
+    assert!(text("Software").starts_with("ugphoton "));
+    assert_eq!(text("Comment"), "ugphoton -sz 20 10 -vel .1 0 0");
+}
+
+#[test]
+fn options_have_two_spellings() {
+    let short = "-sz 20 10 -vel .1 0 0 -cv 0 .1 0 -ti 1 -an center -in -rd 3 -rc .01 -sm -dt pfm -sp";
+    let long = "--size 20 10 --velocity .1 0 0 --camera-velocity 0 .1 0 --time 1 --anchor center --keep-in-view \
+                --depth 3 --cut-off .01 --smooth --format pfm --spectral";
+    let run = |options: &str| fed(&options.split(' ').collect::<Vec<_>>(), SCENE);
+    let (short, long) = (run(short), run(long));
+    assert_eq!(short.status.code(), Some(0), "{}", stderr(&short));
+    assert!(short.stdout.starts_with(b"PF") && short.stdout == long.stdout);
+}
+
+#[test]
+fn mistakes_have_answers() {
+    refused(&["-vel", "1", "0", "0"], SCENE, 2, "-vel");
+    refused(&["-vell", ".1", "0", "0"], SCENE, 2, "-vel");
+    refused(&["-pan", "-lg"], SCENE, 2, "are for pinhole cameras");
+    refused(&["-pan", "-fish", "180"], SCENE, 2, "-fish");
+    refused(&["-fish", "400"], SCENE, 2, "at most 360 degrees");
+    refused(&["-crop", "0", "0", "9999", "1"], SCENE, 2, "is not in the picture of 1024 x 768 pixels");
+    refused(&["-og"], SCENE, 1, "leave out -og");
+    refused(&[], "v a 0 0 0;", 1, "no faces");
+    refused(&[], "", 1, "ugphoton: error: ");
+    refused(&[], "f (a b c);", 1, "vertex `a` is not defined");
+    let seen = "(ugstage 1 geometry as-seen eye 0 0 0) v a 0 1 0; v b 1 1 0; v c 0 1 1; f (a b c);";
+    refused(&[], seen, 1, "start again from the scene at rest");
+    let glowing = "c_bb hot 3000 1; v a 0 9 0; v b 1 9 0; v c 0 9 1; f (a b c) hot <.5 0 0>; cam -ep 0 0 0;";
+    refused(&[], glowing, 1, "give -sp");
+}
+
+#[test]
+fn notes_say_what_is_missing() {
+    let check = |scene: &str, expected: &str| {
+        let output = fed(&["-sz", "20", "10"], scene);
+        assert_eq!(output.status.code(), Some(0));
+        assert!(stderr(&output).contains(expected), "{}", stderr(&output));
+    };
+    check(&SCENE.replace("l 1;", ""), "no lights in the scene");
+    check(&SCENE.replace("l 1;", "l 0;"), "all that is in the picture is black");
+    check(&format!("{SCENE} w (a c);"), "wires are left out");
+    check(&SCENE.replace("-vc 0 0 0", "-vc 0 -1 9"), "nothing is drawn");
+}
+
+#[test]
+fn a_closed_pipe_ends_it_silently() {
+    let mut child = ugphoton(&["-sz", "600", "600", "-aa", "1", "-dt", "ppm"]).spawn().unwrap();
+    let _ = child.stdin.take().unwrap().write_all(SCENE.as_bytes());
+    let mut pipe = child.stdout.take().unwrap();
+    pipe.read_exact(&mut [0; 2]).unwrap();
+    drop(pipe);
+    let output = child.wait_with_output().unwrap();
+    const SIGPIPE: i32 = 13;
+    assert_eq!((output.status.signal(), stderr(&output)), (Some(SIGPIPE), String::new()));
+}
