@@ -41,7 +41,7 @@
 //!             cam -ep 0 0 0 -vc 0 0 -1 -ud 0 1 0;";
 //! let source = ugparse::Source::new("mirror.ug", text);
 //! let scene = ugparse::parse(&source, &ugparse::Options::default())?.scene;
-//! let picture = PictureOptions { size: [2, 2], samples: 1, ..PictureOptions::default() };
+//! let picture = PictureOptions { size: [1, 1], samples: 1, ..PictureOptions::default() };
 //! let frame = light(scene, &Config { picture, ..Config::default() })?;
 //! let expected = ugphysics::srgb_decode(0.25) as f32;
 //! assert!((frame.pixels()[0][0] - expected).abs() < 1e-4, "{:?}", frame.pixels()[0]);
