@@ -8,7 +8,7 @@ use uglight::{ColorShift, HueShift, Interpolation, SpectralShift};
 use ugparse::{HueScale, pipe};
 use ugphysics::Brightness;
 use ugpicture::Output;
-use ugpicture::cli::{AnnotationArgs, PICTURE, PictureArgs, format_named};
+use ugpicture::cli::{AnnotationArgs, PICTURE, PictureArgs, format_named, with_format};
 use ugpipe::{CommonArgs, Context, Failure, Manual, ToolArgs, finite, one_of, whole};
 use ugscene::cli::{MotionArgs, RepeatArgs};
 
@@ -232,7 +232,8 @@ pub fn draw(args: &Args, context: &mut Context) -> Result<(), Failure> {
         ));
     }
     let source = pipe::read(context, &config.reading)?;
-    let picture = run(&config, &source, context.command_line(), &context.steps()).map_err(failure)?;
+    let command_line = with_format(context.command_line(), config.picture.output, args.dt.is_some());
+    let picture = run(&config, &source, &command_line, &context.steps()).map_err(failure)?;
     if !picture.warnings.is_empty() {
         context.report(&picture.warnings.render(true));
     }

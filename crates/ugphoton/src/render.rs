@@ -62,17 +62,12 @@ pub fn light(scene: Scene, config: &Config) -> Result<LinearFrame, Error> {
     Ok(pixels::light(&scenery, &config.picture, config.crop, &()).0)
 }
 
+const PROGRAM: &str = env!("CARGO_PKG_NAME");
+
 /// What a picture says about its making: our name and version, and the command lines that led to
 /// it. `command_line`: our own, empty if there is none.
 pub fn metadata(scene: &Scene, command_line: &str) -> Metadata {
-    let mut lines = ugscene::history(scene);
-    if !command_line.is_empty() {
-        lines.push(command_line);
-    }
-    Metadata {
-        software: concat!("ugphoton ", env!("CARGO_PKG_VERSION")).to_owned(),
-        comment: lines.join("\n"),
-    }
+    ugpicture::metadata(scene, PROGRAM, env!("CARGO_PKG_VERSION"), command_line)
 }
 
 /// A picture as a file.

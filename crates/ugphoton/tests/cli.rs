@@ -50,7 +50,11 @@ fn a_picture_says_how_it_was_made() {
     let text = |keyword: &str| texts.iter().find(|text| text.keyword == keyword).unwrap().text.clone();
     assert_eq!((info.width, info.height), (20, 10));
     assert!(text("Software").starts_with("ugphoton "));
-    assert_eq!(text("Comment"), "ugphoton -sz 20 10 -vel .1 0 0");
+    let comment = text("Comment");
+    let (command, recipe) = comment.split_once('\n').unwrap();
+    assert_eq!(command, "ugphoton -sz 20 10 -vel .1 0 0");
+    // The pipe in one line, with the hash of the scene.
+    assert!(recipe.starts_with(&format!("{command} # SHA-256 ")), "{recipe}");
 }
 
 #[test]

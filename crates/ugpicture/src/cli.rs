@@ -151,6 +151,17 @@ impl AnnotationArgs {
     }
 }
 
+/// The command line to be recorded. A format that follows from the ending of -fo is part of it, so
+/// that the pipe can be run again with another output. `is_stated`: it is there already.
+pub fn with_format(command_line: &str, output: Output, is_stated: bool) -> String {
+    match output {
+        Output::Color(format) | Output::Vector(format) if !is_stated && format != Format::Png => {
+            format!("{command_line} -dt {}", format.name())
+        }
+        _ => command_line.to_owned(),
+    }
+}
+
 /// Value of `-ch`.
 #[derive(Clone, Debug, Default)]
 struct Channels(Vec<Channel>);

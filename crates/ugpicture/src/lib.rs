@@ -37,6 +37,7 @@ mod exposure;
 mod image;
 mod limits;
 mod line;
+mod metadata;
 mod options;
 mod output;
 
@@ -50,6 +51,7 @@ pub use exposure::Exposure;
 pub use image::Image;
 pub use limits::{MAX_PIXELS, MAX_SAMPLES, MAX_SIDE};
 pub use line::{clip_line, visible_runs};
+pub use metadata::metadata;
 pub use options::{AnnotationOptions, PictureOptions};
 pub use output::Output;
 pub use ugimage::{Filter, Tone};

@@ -9,7 +9,7 @@ use ugparse::HueScale;
 use ugparse::{Source, pipe};
 use ugphysics::{Brightness, Hsv};
 use ugpicture::Output;
-use ugpicture::cli::{AnnotationArgs, PICTURE, PictureArgs, color, format_named};
+use ugpicture::cli::{AnnotationArgs, PICTURE, PictureArgs, color, format_named, with_format};
 use ugpipe::{CommonArgs, Context, Failure, Manual, ToolArgs, finite, one_of};
 use ugscene::cli::RepeatArgs;
 
@@ -269,18 +269,6 @@ impl Args {
         }
     }
 
-    /// The recorded command line. A format that follows from the ending of -fo is part of it, so
-    /// that the pipe can be run again with another output.
-    fn command_line(&self, config: &Config, context: &Context) -> String {
-        let line = context.command_line().to_owned();
-        match config.picture.output {
-            Output::Color(format) | Output::Vector(format) if self.dt.is_none() && format != Format::Png => {
-                format!("{line} -dt {}", format.name())
-            }
-            _ => line,
-        }
-    }
-
     /// The format of the explanation.
     fn report(&self, file: Option<&Path>) -> Result<Report, Failure> {
         match self.dt {
@@ -324,7 +312,7 @@ pub fn draw(args: &Args, context: &mut Context) -> Result<(), Failure> {
     if let Some((pixel, report)) = report {
         return explain_pixel(&config, &source, pixel, report, context);
     }
-    let command_line = args.command_line(&config, context);
+    let command_line = with_format(context.command_line(), config.picture.output, args.dt.is_some());
     let picture = run_with(&config, &source, &command_line, &context.steps()).map_err(failure)?;
     if !picture.warnings.is_empty() {
         context.report(&picture.warnings.render(true));

@@ -80,15 +80,7 @@ pub fn light(scene: &Scene, config: &Config) -> Result<LinearFrame, Error> {
 /// and the pipe in one line (see [`ugscene::recipe`]). `command_line`: our own, empty if there is
 /// none.
 pub fn metadata(scene: &Scene, command_line: &str) -> Metadata {
-    const VERSION: &str = env!("CARGO_PKG_VERSION");
-    let mut lines = ugscene::history(scene);
-    let mut recipe = None;
-    if !command_line.is_empty() {
-        lines.push(command_line);
-        recipe = ugscene::recipe(scene, PROGRAM, VERSION, command_line);
-    }
-    lines.extend(recipe.as_deref());
-    Metadata { software: format!("{PROGRAM} {VERSION}"), comment: lines.join("\n") }
+    ugpicture::metadata(scene, PROGRAM, env!("CARGO_PKG_VERSION"), command_line)
 }
 
 /// A picture as a file.
