@@ -19,9 +19,6 @@ const MAX_SAH_DEPTH: u32 = 24;
 /// Most bins along an axis.
 const MAX_BINS: usize = 16;
 
-/// Parts with more triangles are split while a node has room.
-const GOOD_LEAF: usize = 8;
-
 /// Subtrees of fewer triangles are built by one thread.
 const TASK: usize = 1 << 13;
 
@@ -175,9 +172,10 @@ pub fn is_regular(positions: &[[f64; 3]], triangle: [u32; 3]) -> bool {
 impl Mesh<'_> {
     /// All triangles that `is_regular`, with their bounds.
     fn items(&self, is_regular: impl Fn(usize) -> bool + Sync) -> Vec<Item> {
-        let mut items = ugparallel::map(self.triangles.len(), RANGE, |triangle| {
+        let mut items = vec![Item { bounds: Bounds::EMPTY, triangle: 0 }; self.triangles.len()];
+        ugparallel::for_each_mut(&mut items, RANGE, |triangle, item| {
             let bounds = if is_regular(triangle) { self.bounds(triangle) } else { Bounds::EMPTY };
-            Item { bounds, triangle: triangle as u32 }
+            *item = Item { bounds, triangle: triangle as u32 };
         });
         items.retain(|item| item.bounds.0[0] < f32::INFINITY);
         items
@@ -192,6 +190,7 @@ impl Mesh<'_> {
 
     /// Appends a node for these triangles and all below it. Returns its index.
     fn build_node(&self, items: &mut [Item], depth: u32, tree: &mut Subtree) -> u32 {
+        let is_task = items.len() >= TASK;
         let parts = split(items, depth);
         let idx = tree.nodes.len();
         let mut node = Node::EMPTY;
@@ -200,7 +199,6 @@ impl Mesh<'_> {
             node.set_box(child, [x, y, z], [-minus_x, -minus_y, -minus_z]);
         }
         tree.nodes.push(node);
-        let is_task = items.len() >= TASK;
         let mut rest = items;
         let mut tasks = Vec::new();
         for (child, part) in parts.iter().enumerate() {
@@ -280,29 +278,30 @@ fn bounds_of(items: &[Item]) -> Bounds {
 
 /// Sorts triangles into the parts of a node. Returns the parts in the order of the triangles.
 fn split(items: &mut [Item], depth: u32) -> Vec<Part> {
-    let mut parts = Vec::with_capacity(WIDTH);
-    parts.push(Part { first: 0, n: items.len(), bounds: bounds_of(items) });
+    let mut parts = vec![Part { first: 0, n: items.len(), bounds: bounds_of(items) }];
     while parts.len() < WIDTH {
-        // The greatest part first; large ones before those that fit into a block.
-        let key = |part: &Part| {
-            let is_large = part.n > WIDTH;
-            if depth < MAX_SAH_DEPTH { (is_large, part.bounds.area()) } else { (is_large, part.n as f32) }
-        };
+        let key = |part: &Part| if depth < MAX_SAH_DEPTH { part.bounds.area() } else { part.n as f32 };
         let greatest = (0..parts.len())
-            .filter(|&idx| parts[idx].n > GOOD_LEAF)
+            .filter(|&idx| parts[idx].n > WIDTH)
             .reduce(|best, idx| if key(&parts[idx]) > key(&parts[best]) { idx } else { best });
         let Some(greatest) = greatest else { break };
         let Part { first, n, .. } = parts[greatest];
-        let items = &mut items[first..first + n];
-        let by_area = if depth < MAX_SAH_DEPTH { split_by_area(items) } else { None };
-        let (n_first, [bounds, other_bounds]) = by_area.unwrap_or_else(|| {
-            let (first, others) = items.split_at(n / 2);
-            (n / 2, [first, others].map(bounds_of))
-        });
-        parts[greatest] = Part { first, n: n_first, bounds };
-        parts.insert(greatest + 1, Part { first: first + n_first, n: n - n_first, bounds: other_bounds });
+        let [half, other] = halve(&parts[greatest], &mut items[first..first + n], depth);
+        parts[greatest] = half;
+        parts.insert(greatest + 1, other);
     }
     parts
+}
+
+/// Sorts the triangles of a part, two or more, into two parts.
+fn halve(part: &Part, items: &mut [Item], depth: u32) -> [Part; 2] {
+    let by_area = if depth < MAX_SAH_DEPTH { split_by_area(items) } else { None };
+    let (n, [bounds, other_bounds]) = by_area.unwrap_or_else(|| {
+        let (half, other) = items.split_at(items.len() / 2);
+        (half.len(), [half, other].map(bounds_of))
+    });
+    let other = Part { first: part.first + n, n: part.n - n, bounds: other_bounds };
+    [Part { first: part.first, n, bounds }, other]
 }
 
 /// Sorts triangles into two parts by the surface-area heuristic. Returns the number in the first and
