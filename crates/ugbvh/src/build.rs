@@ -80,8 +80,14 @@ struct Mesh<'a> {
 #[derive(Default)]
 struct Subtree {
     nodes: Vec<Node>,
-    blocks: Vec<Block>,
-    triangles: Vec<Triangle>,
+    leaves: Vec<Leaf>,
+}
+
+/// Triangles of a block: consecutive rows of the sorted items.
+#[derive(Clone, Copy)]
+struct Leaf {
+    first: u32,
+    n: u32,
 }
 
 pub fn build(positions: &[DVec3], triangles: &[[u32; 3]]) -> Bvh {
@@ -104,14 +110,23 @@ pub fn build(positions: &[DVec3], triangles: &[[u32; 3]]) -> Bvh {
     let mesh = Mesh { triangles, corners };
     let mut items = mesh.items(|triangle| is_regular(&positions, triangles[triangle]));
     let mut tree = Subtree::default();
-    mesh.build_node(&mut items, 0, &mut tree);
-    let Subtree { nodes, blocks, triangles } = tree;
+    build_node(&mut items, 0, 0, &mut tree);
+    let Subtree { nodes, leaves } = tree;
+    let mut blocks = vec![Block::EMPTY; leaves.len()];
+    ugparallel::for_each_mut(&mut blocks, RANGE / WIDTH, |idx, block| {
+        *block = mesh.block(leaves[idx], &items)
+    });
+    let mut sorted = vec![Triangle { corners: [0; 3], index: 0 }; items.len()];
+    ugparallel::for_each_mut(&mut sorted, RANGE, |row, triangle| {
+        let index = items[row].triangle;
+        *triangle = Triangle { corners: triangles[index as usize], index };
+    });
     Bvh {
         level: Level::new(),
         frame,
         bounds: Some((DVec3::from_array(low), DVec3::from_array(high))),
         positions,
-        triangles,
+        triangles: sorted,
         nodes,
         blocks,
     }
@@ -188,78 +203,67 @@ impl Mesh<'_> {
             .fold(Bounds::EMPTY, |bounds, [x, y, z]| bounds.union(&Bounds([x, y, z, 0.0, -x, -y, -z, 0.0])))
     }
 
-    /// Appends a node for these triangles and all below it. Returns its index.
-    fn build_node(&self, items: &mut [Item], depth: u32, tree: &mut Subtree) -> u32 {
-        let is_task = items.len() >= TASK;
-        let parts = split(items, depth);
-        let idx = tree.nodes.len();
-        let mut node = Node::EMPTY;
-        for (child, part) in parts.iter().enumerate() {
-            let [x, y, z, _, minus_x, minus_y, minus_z, _] = part.bounds.0;
-            node.set_box(child, [x, y, z], [-minus_x, -minus_y, -minus_z]);
-        }
-        tree.nodes.push(node);
-        let mut rest = items;
-        let mut tasks = Vec::new();
-        for (child, part) in parts.iter().enumerate() {
-            let (items, behind) = rest.split_at_mut(part.n);
-            rest = behind;
-            if items.len() <= WIDTH {
-                tree.nodes[idx].children[child] = self.build_block(items, &part.bounds, tree);
-            } else if is_task {
-                tasks.push((child, items, Subtree::default()));
-            } else {
-                tree.nodes[idx].children[child] = self.build_node(items, depth + 1, tree);
-            }
-        }
-        ugparallel::for_jobs(&mut tasks, |_, (_, items, subtree)| {
-            self.build_node(items, depth + 1, subtree);
-        });
-        for (child, _, subtree) in tasks {
-            tree.nodes[idx].children[child] = tree.append(subtree);
-        }
-        idx as u32
-    }
-
-    /// Appends a block with these triangles. Returns its index as a child.
-    fn build_block(&self, items: &[Item], bounds: &Bounds, tree: &mut Subtree) -> u32 {
-        let idx = tree.blocks.len();
-        let mut block = Block {
-            corners: [[[0.0; WIDTH]; 3]; 3],
-            first: tree.triangles.len() as u32,
-            n: items.len() as u32,
-            extent: bounds.size(0).max(bounds.size(1)).max(bounds.size(2)),
-        };
+    fn block(&self, leaf: Leaf, items: &[Item]) -> Block {
+        let items = &items[leaf.first as usize..][..leaf.n as usize];
+        let bounds = bounds_of(items);
+        let extent = bounds.size(0).max(bounds.size(1)).max(bounds.size(2));
+        let mut block = Block { first: leaf.first, n: leaf.n, extent, ..Block::EMPTY };
         for (lane, item) in items.iter().enumerate() {
-            let corners = self.triangles[item.triangle as usize];
-            for (corner, row) in corners.into_iter().enumerate() {
+            for (corner, row) in self.triangles[item.triangle as usize].into_iter().enumerate() {
                 for axis in 0..3 {
                     block.corners[corner][axis][lane] = self.corners[row as usize][axis];
                 }
             }
-            tree.triangles.push(Triangle { corners, index: item.triangle });
         }
-        tree.blocks.push(block);
-        idx as u32 | IS_BLOCK
+        block
     }
+}
+
+/// Appends a node for these triangles and all below it. Returns its index. `first`: index of the
+/// first triangle among all.
+fn build_node(items: &mut [Item], first: usize, depth: u32, tree: &mut Subtree) -> u32 {
+    let is_task = items.len() >= TASK;
+    let parts = split(items, depth);
+    let idx = tree.nodes.len();
+    let mut node = Node::EMPTY;
+    for (child, part) in parts.iter().enumerate() {
+        let [x, y, z, _, minus_x, minus_y, minus_z, _] = part.bounds.0;
+        node.set_box(child, [x, y, z], [-minus_x, -minus_y, -minus_z]);
+    }
+    tree.nodes.push(node);
+    let mut rest = items;
+    let mut tasks = Vec::new();
+    for (child, part) in parts.iter().enumerate() {
+        let (items, behind) = rest.split_at_mut(part.n);
+        rest = behind;
+        let first = first + part.first;
+        if items.len() <= WIDTH {
+            tree.nodes[idx].children[child] = tree.leaves.len() as u32 | IS_BLOCK;
+            tree.leaves.push(Leaf { first: first as u32, n: part.n as u32 });
+        } else if is_task {
+            tasks.push((child, first, items, Subtree::default()));
+        } else {
+            tree.nodes[idx].children[child] = build_node(items, first, depth + 1, tree);
+        }
+    }
+    ugparallel::for_jobs(&mut tasks, |_, (_, first, items, subtree)| {
+        build_node(items, *first, depth + 1, subtree);
+    });
+    for (child, _, _, subtree) in tasks {
+        tree.nodes[idx].children[child] = tree.append(subtree);
+    }
+    idx as u32
 }
 
 impl Subtree {
     /// Appends another subtree. Returns the index of its root.
     fn append(&mut self, mut other: Self) -> u32 {
-        let [nodes, blocks, triangles] =
-            [self.nodes.len(), self.blocks.len(), self.triangles.len()].map(|n| n as u32);
-        for node in &mut other.nodes {
-            for child in &mut node.children {
-                *child += if *child & IS_BLOCK == 0 { nodes } else { blocks };
-            }
-        }
-        for block in &mut other.blocks {
-            block.first += triangles;
+        let [nodes, leaves] = [self.nodes.len(), self.leaves.len()].map(|n| n as u32);
+        for child in other.nodes.iter_mut().flat_map(|node| &mut node.children) {
+            *child += if *child & IS_BLOCK == 0 { nodes } else { leaves };
         }
         self.nodes.append(&mut other.nodes);
-        self.blocks.append(&mut other.blocks);
-        self.triangles.append(&mut other.triangles);
+        self.leaves.append(&mut other.leaves);
         nodes
     }
 }

@@ -122,6 +122,8 @@ pub struct Block {
 }
 
 impl Block {
+    pub const EMPTY: Self = Self { corners: [[[0.0; WIDTH]; 3]; 3], first: 0, n: 0, extent: 0.0 };
+
     /// A mask of triangles that the ray may hit; it misses the others, or the box of all.
     ///
     /// A projected corner has an error δ that is less than the padding of the ray: 2 u / 2 from
