@@ -152,6 +152,9 @@ fn solid(random: &mut Random) -> (&'static str, Vec<u8>) {
 /// Stages that draw a scene, or make a mesh of it.
 fn drawing(random: &mut Random) -> Vec<Vec<String>> {
     let mut stages = Vec::new();
+    if random.one_in(5) {
+        return vec![photon(random)];
+    }
     if !random.one_in(9) {
         stages.push(lorentz(random));
         if !random.one_in(3) {
@@ -166,17 +169,36 @@ fn drawing(random: &mut Random) -> Vec<Vec<String>> {
     stages
 }
 
+/// Options of motion.
+fn motion(random: &mut Random, line: &mut Vec<String>) {
+    let beta = velocity(random).to_vec();
+    maybe(random, 2, line, "-vel", beta);
+    let beta = velocity(random).to_vec();
+    maybe(random, 6, line, "-cv", beta);
+    let time = vec![random.between(-9.0, 9.0).to_string()];
+    maybe(random, 5, line, "-ti", time);
+    let anchor = word(random, &["eye", "origin", "center"]);
+    maybe(random, 5, line, "-an", anchor);
+}
+
+/// Options of `ugphoton`.
+fn photon(random: &mut Random) -> Vec<String> {
+    let [width, height] = [(); 2].map(|()| random.pick(&["1", "9", "16"]).to_string());
+    let mut line = words("ugphoton", &["-sz", &width, &height, "-aa", "2"]);
+    motion(random, &mut line);
+    let format = word(random, &["ppm", "exr", "png16", "svg"]);
+    maybe(random, 4, &mut line, "-dt", format);
+    let depth = vec![random.below(12).to_string()];
+    maybe(random, 4, &mut line, "-rd", depth);
+    let lens = *random.pick(&["-pan", "--no-doppler"]);
+    flags(random, 6, &mut line, &["-in", "-sp", "-sm", "-vr", "--fresnel", "--no-shadows", lens]);
+    line
+}
+
 /// Options of `uglorentz`. Subdivision is coarse, since many pieces take long.
 fn lorentz(random: &mut Random) -> Vec<String> {
     let mut line = words("uglorentz", &["-se", *random.pick(&["1", "10", "100"])]);
-    let beta = velocity(random).to_vec();
-    maybe(random, 2, &mut line, "-vel", beta);
-    let beta = velocity(random).to_vec();
-    maybe(random, 6, &mut line, "-cv", beta);
-    let time = vec![random.between(-9.0, 9.0).to_string()];
-    maybe(random, 5, &mut line, "-ti", time);
-    let anchor = word(random, &["eye", "origin", "center"]);
-    maybe(random, 5, &mut line, "-an", anchor);
+    motion(random, &mut line);
     let angle = vec![random.between(1.0, 120.0).to_string()];
     maybe(random, 5, &mut line, "-va", angle);
     let percent = word(random, &["off", "1", "20"]);

@@ -29,6 +29,10 @@ fn programs(random: &mut Random, kind: &str, files: &[(String, Vec<u8>)]) -> Vec
     if random.one_in(6) && kind == "mesh" {
         return stages;
     }
+    if random.one_in(6) {
+        stages.push(photon(random));
+        return stages;
+    }
     if !random.one_in(4) {
         stages.push(lorentz(random));
     }
@@ -165,15 +169,57 @@ fn parse(random: &mut Random) -> Vec<String> {
     words("ugparse", &[command])
 }
 
+/// Options of motion.
+fn motion(random: &mut Random, line: &mut Vec<String>) {
+    let velocity = betas(random);
+    maybe(random, 2, line, "-vel", velocity);
+    let camera = betas(random);
+    maybe(random, 5, line, "-cv", camera);
+    let time = numbers::<1>(random);
+    maybe(random, 6, line, "-ti", time);
+    let anchor = match random.below(3) {
+        0 => numbers::<3>(random),
+        _ => word(random, &["eye", "origin", "center", "middle"]),
+    };
+    maybe(random, 8, line, "-an", anchor);
+}
+
+/// Options of `ugphoton`.
+fn photon(random: &mut Random) -> Vec<String> {
+    let side = |random: &mut Random| random.pick(&["1", "7", "16"]).to_string();
+    let size = [side(random), side(random)];
+    let mut line = words("ugphoton", &["-sz", &size[0], &size[1], "-aa", "2"]);
+    motion(random, &mut line);
+    camera(random, &mut line);
+    let format = word(random, &["ppm", "exr", "pfm", "hdr", "png16", "svg"]);
+    maybe(random, 4, &mut line, "-dt", format);
+    let law = word(random, &["report", "photon", "bolometric", "none"]);
+    maybe(random, 8, &mut line, "-br", law);
+    let depth = word(random, &["0", "1", "64", "65"]);
+    maybe(random, 6, &mut line, "-rd", depth);
+    let part = word(random, &["0", "0.5", "1", "1e-300", "nan"]);
+    maybe(random, 8, &mut line, "-rc", part);
+    let distance = numbers::<1>(random);
+    maybe(random, 10, &mut line, "--film-shutter", distance);
+    let angle = numbers::<1>(random);
+    maybe(random, 10, &mut line, "-fish", angle);
+    let part = word(random, &["0", "1", "7", "4294967295"]);
+    maybe(random, 10, &mut line, "-crop", [part.clone(), part.clone(), part.clone(), part].concat());
+    let exposure = vec![if random.one_in(2) { "auto".to_owned() } else { words::number(random) }];
+    maybe(random, 4, &mut line, "-ex", exposure);
+    flags(
+        random,
+        8,
+        &mut line,
+        &["-in", "-sp", "-sm", "-vr", "-pan", "--fresnel", "--no-shadows", "-lg", "-tb"],
+    );
+    line
+}
+
 fn lorentz(random: &mut Random) -> Vec<String> {
     let mut line = words("uglorentz", &[]);
-    let velocity = betas(random);
-    maybe(random, 2, &mut line, "-vel", velocity);
-    let camera = betas(random);
-    maybe(random, 5, &mut line, "-cv", camera);
-    self::camera(random, &mut line);
-    let time = numbers::<1>(random);
-    maybe(random, 6, &mut line, "-ti", time);
+    motion(random, &mut line);
+    camera(random, &mut line);
     let pieces = vec![(1 + random.below(100)).to_string()];
     maybe(random, 6, &mut line, "-se", pieces);
     let pieces = word(random, &["1", "2", "5", "0", "4294967295"]);
@@ -182,11 +228,6 @@ fn lorentz(random: &mut Random) -> Vec<String> {
         let percent = word(random, &["off", "0.5", "5", "100", "1e300", "0"]);
         maybe(random, 8, &mut line, option, percent);
     }
-    let anchor = match random.below(3) {
-        0 => numbers::<3>(random),
-        _ => word(random, &["eye", "origin", "center", "middle"]),
-    };
-    maybe(random, 8, &mut line, "-an", anchor);
     let table = vec![MEASURED.to_owned()];
     maybe(random, 15, &mut line, "-at", table);
     flags(random, 5, &mut line, &["-in", "-sm", "-vr", "-cull", "-nc", "--no-flight-time", "-vb"]);
