@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-use ugtests::documents::{Page, prepare, resized, transcripts, written_files};
+use ugtests::documents::{Page, prepare, resized, transcripts, with_options, written_files};
 use ugtests::{programs, tools};
 
 /// Pages with commands for a folder with scenes, and the least number of commands.
@@ -28,7 +28,7 @@ fn commands_in_documents_work() {
             // Smaller pictures are sufficient, unless they need room for text.
             let has_text = command.contains("-lg") || command.contains("-cap");
             let small = if has_text { command.clone() } else { resized(command, [640, 480], 0.25) };
-            let small = small.replace("ugrainbow ", "ugrainbow -aa 1 ");
+            let small = with_options(&small, "-aa 1");
             let messages =
                 page.run(&small, folder.path(), &programs).unwrap_or_else(|message| panic!("{message}"));
             // Frames of a film may be empty, before a body comes; lines may be black.

@@ -133,8 +133,12 @@ pub fn prepare(folder: &Path, programs: &Path) {
         .unwrap_or_else(|message| panic!("{message}"));
 }
 
+/// Programs that draw pictures.
+const RENDERERS: [&str; 2] = ["ugrainbow ", "ugphoton "];
+
 /// The command with pictures of other sizes: sizes in it are multiplied by `scale`, and `default`
-/// (width and height in pixels) is added to every `ugrainbow` without a size, times `scale`.
+/// (width and height in pixels) is added to every `ugrainbow` and `ugphoton` without a size, times
+/// `scale`.
 ///
 /// A command with `--explain` is not changed, because its pixel may not be in a smaller picture.
 #[must_use]
@@ -144,19 +148,30 @@ pub fn resized(command: &str, default: [u32; 2], scale: f64) -> String {
     }
     let scaled = |length: u32| (f64::from(length) * scale).round().max(1.0) as u32;
     let stage = |stage: &str| {
-        let Some((before, after)) = stage.split_once("ugrainbow ") else { return stage.to_owned() };
+        let split = |name: &'static str| stage.split_once(name).map(|(before, after)| (before, name, after));
+        let Some((before, name, after)) = RENDERERS.into_iter().find_map(split) else {
+            return stage.to_owned();
+        };
         if let Some((options, rest)) = after.split_once("-sz ") {
             let mut words = rest.splitn(3, ' ');
             let lengths = [words.next(), words.next()].map(|word| word.and_then(|word| word.parse().ok()));
             if let [Some(width), Some(height)] = lengths {
                 let rest = words.next().map(|rest| format!(" {rest}")).unwrap_or_default();
-                return format!("{before}ugrainbow {options}-sz {} {}{rest}", scaled(width), scaled(height));
+                return format!("{before}{name}{options}-sz {} {}{rest}", scaled(width), scaled(height));
             }
         }
         let [width, height] = default.map(scaled);
-        format!("{before}ugrainbow -sz {width} {height} {after}")
+        format!("{before}{name}-sz {width} {height} {after}")
     };
     command.split('|').map(stage).collect::<Vec<_>>().join("|")
+}
+
+/// The command with further options for every `ugrainbow` and `ugphoton`.
+#[must_use]
+pub fn with_options(command: &str, options: &str) -> String {
+    RENDERERS
+        .iter()
+        .fold(command.to_owned(), |command, name| command.replace(name, &format!("{name}{options} ")))
 }
 
 /// The files that a command writes, by its redirections and `-fo`; those of a loop for each of its
@@ -198,8 +213,18 @@ mod tests {
         check("ugrainbow a.ug > a.png", "ugrainbow -sz 320 240 a.ug > a.png");
         check("uglorentz a.ug | ugrainbow -sz 400 300 -va 9", "uglorentz a.ug | ugrainbow -sz 200 150 -va 9");
         check("uglorentz a.ug | ugrainbow -va 9 -sz 5 3", "uglorentz a.ug | ugrainbow -va 9 -sz 3 2");
+        check("ugphoton a.ug > a.png", "ugphoton -sz 320 240 a.ug > a.png");
+        check("ugphoton -in -sz 400 300 -va 9 <(b)", "ugphoton -in -sz 200 150 -va 9 <(b)");
         check("ugsheet a.png > b.png", "ugsheet a.png > b.png");
         check("ugrainbow --explain 1,2 a.ug", "ugrainbow --explain 1,2 a.ug");
+    }
+
+    #[test]
+    fn options_are_added() {
+        let check = |command: &str, expected: &str| assert_eq!(with_options(command, "-aa 1"), expected);
+        check("uglorentz a.ug | ugrainbow > a.png", "uglorentz a.ug | ugrainbow -aa 1 > a.png");
+        check("ugphoton a.ug; ugphoton b.ug", "ugphoton -aa 1 a.ug; ugphoton -aa 1 b.ug");
+        check("ugsheet a.png > b.png", "ugsheet a.png > b.png");
     }
 
     #[test]

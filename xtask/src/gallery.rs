@@ -4,7 +4,7 @@ use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use ugtests::documents::{Page, prepare, resized};
+use ugtests::documents::{Page, prepare, resized, with_options};
 use ugtests::{programs, scenes};
 
 /// The pages, each with the default size of its pictures in pixels.
@@ -37,7 +37,7 @@ pub fn write(out: &mut impl Write, args: &Args) -> io::Result<()> {
             for command in &page.commands {
                 writeln!(out, "{path}: {}", command.lines().next().unwrap_or_default())?;
                 out.flush()?;
-                let command = resized(command, size, scale).replace("ugrainbow ", "ugrainbow -pz ");
+                let command = with_options(&resized(command, size, scale), "-pz");
                 page.run(&command, folder.path(), &programs).map_err(io::Error::other)?;
             }
             store(&page, folder.path(), part)?;

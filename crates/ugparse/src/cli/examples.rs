@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use ugpipe::{Context, Failure};
 
 /// Names and texts.
-const SCENES: [(&str, &str); 15] = [
+const SCENES: [(&str, &str); 19] = [
     ("house", include_str!("../../../../scenes/house.ug")),
     ("ship", include_str!("../../../../scenes/ship.ug")),
     ("street", include_str!("../../../../scenes/street.ug")),
@@ -19,6 +19,10 @@ const SCENES: [(&str, &str); 15] = [
     ("traffic", include_str!("../../../../scenes/traffic.ug")),
     ("lamp", include_str!("../../../../scenes/lamp.ug")),
     ("glass", include_str!("../../../../scenes/glass.ug")),
+    ("mirrors", include_str!("../../../../scenes/mirrors.ug")),
+    ("shadow", include_str!("../../../../scenes/shadow.ug")),
+    ("room", include_str!("../../../../scenes/room.ug")),
+    ("water", include_str!("../../../../scenes/water.ug")),
     ("rainbow", include_str!("../../../../scenes/rainbow.ug")),
     ("halves", include_str!("../../../../scenes/halves.ug")),
 ];
