@@ -126,10 +126,10 @@ const MISTAKES: [Mistake; 17] = [
     Mistake {
         name: "M13",
         file: "crates/uglorentz/src/refined_mesh.rs",
-        right: "self.motion_of(body).point(body, rest)",
+        right: "Point::new(self.motion_of(body), body, rest)",
         wrong: "Point {
             seen: used().map(|(parent, weight)| self.point(parent).seen * weight).sum(),
-            ..self.motion_of(body).point(body, rest)
+            ..Point::new(self.motion_of(body), body, rest)
         }",
         found_by: "edge",
     },
