@@ -374,7 +374,7 @@ fn errors_name_the_problem_and_line() {
     check(
         "a.ug",
         "",
-        "the input is already a UniGrafix scene; choose an output format with -dt obj, ply, gltf or glb",
+        "the input is already a UniGrafix scene; choose an output format with -dt obj, ply, gltf, glb or vtp",
     );
     let obj = "cannot read `a.obj` as OBJ: ";
     check("a.obj", "v 1 2", &format!("{obj}line 1: a vertex needs 3 numbers or more"));
