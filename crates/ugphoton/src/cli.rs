@@ -63,12 +63,12 @@ pub struct Args {
     repeat: RepeatArgs,
 
     /// Most reflections and refractions along a path
-    #[arg(long, visible_alias = "depth", value_name = "N", default_value = "8", value_parser = whole(0..=64),
+    #[arg(long, visible_alias = "depth", value_name = "N", default_value = "16", value_parser = whole(0..=64),
           help_heading = RAYS)]
     rd: u32,
 
     /// Least part of a pixel's light that is followed
-    #[arg(long, visible_alias = "cut-off", value_name = "PART", default_value = "0.001",
+    #[arg(long, visible_alias = "cut-off", value_name = "PART", default_value = "0.01",
           value_parser = part, help_heading = RAYS)]
     rc: f64,
 

@@ -112,7 +112,7 @@ pub enum Shutter {
 
 impl Default for RayOptions {
     fn default() -> Self {
-        Self { depth: 8, cutoff: 1e-3, shadows: true, fresnel: false, shutter: Shutter::Pinhole }
+        Self { depth: 16, cutoff: 1e-2, shadows: true, fresnel: false, shutter: Shutter::Pinhole }
     }
 }
 

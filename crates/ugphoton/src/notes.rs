@@ -42,6 +42,15 @@ pub fn notes(
                 .to_owned(),
         );
     }
+    // Few of them are not visible.
+    if config.rays.depth > 0 && statistics.n_too_deep > statistics.n_covered / 1000 {
+        notes.push(format!(
+            "{:.1} percent of the samples end after {depth} reflections and refractions, and what is behind is \
+             black: a larger -rd shows it",
+            100.0 * statistics.n_too_deep as f64 / statistics.n_covered as f64,
+            depth = config.rays.depth
+        ));
+    }
     if statistics.is_cut_short {
         notes.push(
             "some paths branch at too many mirrors and solids, and are cut short: give a smaller -rd or a \

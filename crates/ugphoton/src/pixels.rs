@@ -28,6 +28,8 @@ pub struct Statistics {
     pub n_visible: u64,
     /// The brightest channel of a sample.
     pub max_light: f64,
+    /// Samples of which a path ended at the most reflections and refractions.
+    pub n_too_deep: u64,
     /// A path had more branches than are followed.
     pub is_cut_short: bool,
     /// A path left a transparent solid that it had not entered.
@@ -40,6 +42,7 @@ impl Statistics {
             n_covered: self.n_covered + other.n_covered,
             n_visible: self.n_visible + other.n_visible,
             max_light: self.max_light.max(other.max_light),
+            n_too_deep: self.n_too_deep + other.n_too_deep,
             is_cut_short: self.is_cut_short || other.is_cut_short,
             begins_inside: self.begins_inside || other.begins_inside,
         }
@@ -198,6 +201,7 @@ impl Painting<'_> {
                     if is_own && first.is_some() {
                         statistics.n_covered += 1;
                         statistics.n_visible += u64::from(brightest > 0.0);
+                        statistics.n_too_deep += u64::from(tracer.is_too_deep);
                         statistics.max_light = statistics.max_light.max(brightest);
                     }
                     let at = (row - down.start) as usize * width + (column - across.start) as usize;

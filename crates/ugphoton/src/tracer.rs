@@ -41,6 +41,10 @@ pub struct Tracer<'a> {
     pub is_cut_short: bool,
     /// A path left a transparent solid that it had not entered: it began inside.
     pub begins_inside: bool,
+    /// A path of the current sample ended after [`RayOptions::depth`] reflections and refractions.
+    ///
+    /// [`RayOptions::depth`]: crate::RayOptions::depth
+    pub is_too_deep: bool,
 }
 
 /// The most reflections and refractions of a sample. Between mirrors that are transparent, too,
@@ -75,6 +79,7 @@ impl<'a> Tracer<'a> {
             n_branches: 0,
             is_cut_short: false,
             begins_inside: false,
+            is_too_deep: false,
         }
     }
 
@@ -83,7 +88,7 @@ impl<'a> Tracer<'a> {
     /// parameters.
     pub fn arriving(&mut self, ray: &Ray, first: Option<Intersection>, far: f64, sample: u64) -> Arriving {
         let path = Path { ray, media: &Media::default(), depth: 0, weight: 1.0, sample };
-        self.n_branches = 0;
+        (self.n_branches, self.is_too_deep) = (0, false);
         self.seen(&path, first, far)
     }
 
@@ -128,10 +133,12 @@ impl<'a> Tracer<'a> {
         let light = self.shader.light(point, &self.filters, path.sample);
         let mut sum = Arriving { light, background: DVec3::ZERO };
         let Some(id) = point.surface(self.scenery) else { return sum };
+        let surface = self.scenery.properties(id);
         if path.depth >= self.scenery.rays.depth {
+            let followed = path.weight * (surface.specular + surface.transmitted);
+            self.is_too_deep |= followed > 0.0 && followed >= self.scenery.rays.cutoff;
             return sum;
         }
-        let surface = self.scenery.properties(id);
         let (mut mirrored, mut transmitted) = (surface.specular, surface.transmitted);
         let refracted = (transmitted > 0.0).then(|| self.refracted(path, point, id)).flatten();
         match &refracted {

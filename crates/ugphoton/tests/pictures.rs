@@ -196,6 +196,7 @@ fn endless_mirrors_end() {
     config.rays = RayOptions { depth: 3, ..RayOptions::default() };
     let notes = render(scene(&text), &config).unwrap().notes;
     assert!(!notes.iter().any(|note| note.contains("cut short")), "{notes:?}");
+    assert!(notes.iter().any(|note| note.contains("end after 3 reflections")), "{notes:?}");
 }
 
 #[test]
