@@ -11,6 +11,9 @@ use crate::scenery::Scenery;
 /// Least brightness at which clipping is reported; less is invisible in 8 bits.
 const CLIPPED: f64 = 1.001;
 
+/// One in so many samples is not visible.
+const FEW: u64 = 1000;
+
 /// The notes, one sentence each.
 pub fn notes(
     scenery: &Scenery<'_>,
@@ -35,15 +38,15 @@ pub fn notes(
                 .into(),
         );
     }
-    if statistics.begins_inside {
+    // Between the parts of a solid that share no vertices rounding leaves gaps, which are not seen.
+    if statistics.n_inside > statistics.n_covered / FEW {
         notes.push(
             "the eye is inside a transparent solid, which counts as vacuum up to its surface; or a solid is \
              open, or its outlines run clockwise seen from outside"
                 .to_owned(),
         );
     }
-    // Few of them are not visible.
-    if config.rays.depth > 0 && statistics.n_too_deep > statistics.n_covered / 1000 {
+    if config.rays.depth > 0 && statistics.n_too_deep > statistics.n_covered / FEW {
         notes.push(format!(
             "{:.1} percent of the samples end after {depth} reflections and refractions, and what is behind is \
              black: a larger -rd shows it",

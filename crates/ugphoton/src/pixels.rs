@@ -32,8 +32,8 @@ pub struct Statistics {
     pub n_too_deep: u64,
     /// A path had more branches than are followed.
     pub is_cut_short: bool,
-    /// A path left a transparent solid that it had not entered.
-    pub begins_inside: bool,
+    /// Samples of which a path left a transparent solid that it had not entered.
+    pub n_inside: u64,
 }
 
 impl Statistics {
@@ -44,7 +44,7 @@ impl Statistics {
             max_light: self.max_light.max(other.max_light),
             n_too_deep: self.n_too_deep + other.n_too_deep,
             is_cut_short: self.is_cut_short || other.is_cut_short,
-            begins_inside: self.begins_inside || other.begins_inside,
+            n_inside: self.n_inside + other.n_inside,
         }
     }
 }
@@ -165,7 +165,7 @@ impl Painting<'_> {
                 pixels.push(self.pixel(&samples, &weights, [column, row]));
             }
         }
-        (statistics.is_cut_short, statistics.begins_inside) = (tracer.is_cut_short, tracer.begins_inside);
+        statistics.is_cut_short = tracer.is_cut_short;
         Tile { columns, rows, pixels, statistics }
     }
 
@@ -202,6 +202,7 @@ impl Painting<'_> {
                         statistics.n_covered += 1;
                         statistics.n_visible += u64::from(brightest > 0.0);
                         statistics.n_too_deep += u64::from(tracer.is_too_deep);
+                        statistics.n_inside += u64::from(tracer.begins_inside);
                         statistics.max_light = statistics.max_light.max(brightest);
                     }
                     let at = (row - down.start) as usize * width + (column - across.start) as usize;

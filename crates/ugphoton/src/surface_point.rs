@@ -46,7 +46,8 @@ impl SurfacePoint {
         let wave = part.frame.wave_to_rest(ray.wave);
         let outline = scenery.scene.face_contours(face).next().unwrap_or_default();
         let outside = unit_normal(outline.iter().map(|corner| scenery.surface.rest(*corner)));
-        let is_outside = outside.dot(wave.k) >= 0.0;
+        let step = ray.in_part(found.part, &part.frame).1;
+        let is_outside = outside.dot(step) <= 0.0;
         let plane_normal = if is_outside { outside } else { -outside };
         let normal = shading_normal(scenery, found, plane_normal);
         let (color, rows) = color(scenery, face, found, !part.frame.velocity.is_zero());

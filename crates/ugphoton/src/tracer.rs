@@ -39,7 +39,7 @@ pub struct Tracer<'a> {
     n_branches: u32,
     /// A sample had more than [`MOST_BRANCHES`] of them.
     pub is_cut_short: bool,
-    /// A path left a transparent solid that it had not entered: it began inside.
+    /// A path of the current sample left a transparent solid that it had not entered.
     pub begins_inside: bool,
     /// A path of the current sample ended after [`RayOptions::depth`] reflections and refractions.
     ///
@@ -88,7 +88,7 @@ impl<'a> Tracer<'a> {
     /// parameters.
     pub fn arriving(&mut self, ray: &Ray, first: Option<Intersection>, far: f64, sample: u64) -> Arriving {
         let path = Path { ray, media: &Media::default(), depth: 0, weight: 1.0, sample };
-        (self.n_branches, self.is_too_deep) = (0, false);
+        (self.n_branches, self.is_too_deep, self.begins_inside) = (0, false, false);
         self.seen(&path, first, far)
     }
 
