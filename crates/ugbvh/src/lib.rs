@@ -14,9 +14,9 @@
 //!
 //! # What a hit is
 //!
-//! One function defines it ([`shear::Shear::intersect`]), and every search returns what testing all
-//! triangles with it would return, bit for bit. Boxes ([`box_ray`]) and single-precision tests of
-//! eight triangles at once ([`nodes`]) only skip triangles of which it is proved that the function
+//! One function defines it (`shear::Shear::intersect`), and every search returns what testing all
+//! triangles with it would return, bit for bit. Boxes (`box_ray`) and single-precision tests of
+//! eight triangles at once (`nodes`) only skip triangles of which it is proved that the function
 //! misses them. So hits do not depend on the hierarchy, on the number of threads or on the
 //! instruction set: only sums, differences, products, quotients and comparisons are used, never
 //! fused multiply-add.
