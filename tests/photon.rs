@@ -1,5 +1,5 @@
-//! Compares the ray tracer with the pipe in exact mode: two renderers that share scenes and colours,
-//! and neither geometry nor samples.
+//! Compares the ray tracer with the pipe in exact mode: two renderers that share scenes and
+//! colours, and neither geometry nor samples.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 

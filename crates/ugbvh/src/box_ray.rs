@@ -2,29 +2,29 @@
 //!
 //! # Why no hit is lost
 //!
-//! The parameter τ of a ray is its distance from the plane where it enters the cube |x|, |y|, |z| ≤ 1
-//! ([`crate::frame`]), along its main axis, the one in which its direction is greatest. There its
+//! The parameter τ of a ray is its distance from the plane where it enters the cube |x|, |y|, |z| ≤
+//! 1 ([`crate::frame`]), along its main axis, the one in which its direction is greatest. There its
 //! position is q, and its direction has the components ±1 along the main axis and s, |s| ≤ 1, along
 //! each of the others. Let u = 2⁻²⁴, half a unit in the last place of 1. A hit's τ is in 0…2 and
 //! |q| ≤ 3, up to the errors below, for else the ray misses the cube.
 //!
-//! A hit at τ is computed from a point of the triangle that is within ε = 2⁻³⁰ + 2⁻⁵⁰ (d + 2) of the
-//! ray ([`crate::shear::Shear::intersect`]). q has, before it is rounded to single precision, an
-//! error of less than 2⁻⁵⁰ (d + 2), and corners have one of u / 2 in single precision. Let x be the
-//! plane where the ray enters a box that contains the triangle, and let the ray run towards +x.
-//! [`BoxRay`] has the origin q + p and not q, where p is the padding, with errors of 2 u from q and 2 u
-//! from the sum. So
+//! A hit at τ is computed from a point of the triangle that is within ε = 2⁻³⁰ + 2⁻⁵⁰ (d + 2) of
+//! the ray ([`crate::shear::Shear::intersect`]). q has, before it is rounded to single precision,
+//! an error of less than 2⁻⁵⁰ (d + 2), and corners have one of u / 2 in single precision. Let x be
+//! the plane where the ray enters a box that contains the triangle, and let the ray run towards +x.
+//! [`BoxRay`] has the origin q + p and not q, where p is the padding, with errors of 2 u from q and
+//! 2 u from the sum. So
 //!
 //! ```text
 //! x − origin ≤ τ s + ε + 2⁻⁵⁰ (d + 2) + u / 2 − p + 4 u.
 //! ```
 //!
 //! It is 2 or less, or else the box is behind the hit. Rounding adds 2 u or less to the difference,
-//! and a part of 3.1 u to the product with 1 / s, both rounded, which is 6.2 u of the product with s.
-//! Slopes less than 2⁻⁴⁰ are replaced by 2⁻⁴⁰, which moves the ray by 2⁻³⁸ or less. With
-//! p = 16 u + 2⁻⁴⁸ (d + 2), which is greater than the sum of all errors, the computed entry is not
-//! behind the hit. In the same way the computed exit is not before it. Limits of τ are moved by p,
-//! too, for their rounding.
+//! and a part of 3.1 u to the product with 1 / s, both rounded, which is 6.2 u of the product with
+//! s. Slopes less than 2⁻⁴⁰ are replaced by 2⁻⁴⁰, which moves the ray by 2⁻³⁸ or less. With p = 16
+//! u + 2⁻⁴⁸ (d + 2), which is greater than the sum of all errors, the computed entry is not behind
+//! the hit. In the same way the computed exit is not before it. Limits of τ are moved by p, too,
+//! for their rounding.
 
 use std::ops::Range;
 

@@ -308,8 +308,8 @@ fn halve(part: &Part, items: &mut [Item], depth: u32) -> [Part; 2] {
     [Part { first: part.first, n, bounds }, other]
 }
 
-/// Sorts triangles into two parts by the surface-area heuristic. Returns the number in the first and
-/// both bounds, or `None` if all have one centre.
+/// Sorts triangles into two parts by the surface-area heuristic. Returns the number in the first
+/// and both bounds, or `None` if all have one centre.
 fn split_by_area(items: &mut [Item]) -> Option<(usize, [Bounds; 2])> {
     let bins = Bins::new(items);
     let mut best = (f32::INFINITY, 0, 0);

@@ -24,13 +24,13 @@
 //! # Watertight edges
 //!
 //! A triangle is tested in a projection along the ray (S. Woop, C. Benthin and I. Wald, *Watertight
-//! ray/triangle intersection*, Journal of Computer Graphics Techniques 2, 2013). The projection of a
-//! corner does not depend on the triangle. In the projection, the side of an edge on which the ray
-//! runs is exact: where rounding could decide, products are computed without error. A ray through
-//! an edge or a corner is treated as if it were moved by an infinitesimal amount, the same for all
-//! triangles (H. Edelsbrunner and E. P. Mücke, *Simulation of simplicity*, 1990). So a ray crosses
-//! exactly one of two triangles on both sides of a common edge, exactly one of a fan around a
-//! corner, and a closed mesh an even number of times.
+//! ray/triangle intersection*, Journal of Computer Graphics Techniques 2, 2013). The projection of
+//! a corner does not depend on the triangle. In the projection, the side of an edge on which the
+//! ray runs is exact: where rounding could decide, products are computed without error. A ray
+//! through an edge or a corner is treated as if it were moved by an infinitesimal amount, the same
+//! for all triangles (H. Edelsbrunner and E. P. Mücke, *Simulation of simplicity*, 1990). So a ray
+//! crosses exactly one of two triangles on both sides of a common edge, exactly one of a fan around
+//! a corner, and a closed mesh an even number of times.
 //!
 //! # Range of numbers
 //!

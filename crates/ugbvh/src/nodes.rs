@@ -14,9 +14,9 @@ pub const WIDTH: usize = 8;
 pub struct Node {
     /// Rows of the table of nodes, or of blocks if [`IS_BLOCK`] is set.
     pub children: [u32; WIDTH],
-    /// Least x of each child, greatest x, least y, and so on. Where there is no child they are +∞ and
-    /// −∞, which no ray hits. The last two are not used; eight need no check of an index of three
-    /// bits.
+    /// Least x of each child, greatest x, least y, and so on. Where there is no child they are +∞
+    /// and −∞, which no ray hits. The last two are not used; eight need no check of an index of
+    /// three bits.
     planes: [[f32; WIDTH]; 8],
 }
 

@@ -1,12 +1,12 @@
 //! The nearest hits of rays from one origin, with one traversal of the hierarchy for up to 64 rays.
 //!
-//! Boxes are tested against the frustum of all rays. τ, x and y are those of [`crate::box_ray`]: at τ
-//! a ray is at x = q + τ s, with the same τ in a plane for all rays. As they have one origin, the
-//! rays of least and of greatest s bound the others, from the origin on. Where a block is met, its box
-//! is tested against each ray, eight at once, and its triangles against the rays that pass.
+//! Boxes are tested against the frustum of all rays. τ, x and y are those of [`crate::box_ray`]: at
+//! τ a ray is at x = q + τ s, with the same τ in a plane for all rays. As they have one origin, the
+//! rays of least and of greatest s bound the others, from the origin on. Where a block is met, its
+//! box is tested against each ray, eight at once, and its triangles against the rays that pass.
 //!
-//! Bounds are moved by twice the padding p = 16 u + 2⁻⁴⁸ (d + 2) of a single ray. A bound q + τ s has
-//! errors of 2 u from q, u from s, 2 u from τ, 2 u from the product and 4 u from the sum, as no
+//! Bounds are moved by twice the padding p = 16 u + 2⁻⁴⁸ (d + 2) of a single ray. A bound q + τ s
+//! has errors of 2 u from q, u from s, 2 u from τ, 2 u from the product and 4 u from the sum, as no
 //! operand is greater than 5; planes have errors of u / 2 and their sums with 2 p of 2 u; and a hit
 //! is within ε = 2⁻³⁰ + 2⁻⁵⁰ (d + 2) of the box. Together that is less than 2 p.
 

@@ -78,7 +78,8 @@ impl Shear {
         is_same.then_some(Self { slopes: [x / z, y / z], speed: z, ..*self })
     }
 
-    /// z at a parameter of the ray. It overflows to an infinity or NaN before numbers of any mesh do.
+    /// z at a parameter of the ray. It overflows to an infinity or NaN before numbers of any mesh
+    /// do.
     #[inline(always)]
     pub fn z(&self, t: f64) -> f64 {
         t * self.speed * self.scale

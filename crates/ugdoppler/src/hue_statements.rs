@@ -36,8 +36,8 @@ type Key = (BaseKey, u64);
 enum BaseKey {
     Named(ColorId),
     White,
-    /// True if the colour is given as light; the bits of light, or of hue, saturation and value, and
-    /// of the translucency.
+    /// True if the colour is given as light; the bits of light, or of hue, saturation and value,
+    /// and of the translucency.
     Mixed(bool, [u64; 4]),
 }
 

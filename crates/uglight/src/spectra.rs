@@ -22,8 +22,8 @@ pub struct Spectra {
 }
 
 impl Spectra {
-    /// `rows`: mixtures of colours. `reach`: the |ln D| that are fast to compute; for light straight
-    /// from a body, its rapidity.
+    /// `rows`: mixtures of colours. `reach`: the |ln D| that are fast to compute; for light
+    /// straight from a body, its rapidity.
     pub fn new(scene: &Scene, shift: SpectralShift, rows: Vec<Shares>, reach: f64) -> Self {
         let ln_doppler = shift.ln_shift(reach);
         let grid = DopplerGrid::new(-ln_doppler..=ln_doppler);

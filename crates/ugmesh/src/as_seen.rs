@@ -4,8 +4,8 @@ use glam::DVec3;
 use ugparse::{Camera, Projection, Scene};
 use ugscene::{CameraOptions, Geometry, RestFrames, RestPosition, SeenPosition, View};
 
-/// Replaces the normals of moving bodies, which scenes store for the shapes at rest, by those of the
-/// shapes as seen.
+/// Replaces the normals of moving bodies, which scenes store for the shapes at rest, by those of
+/// the shapes as seen.
 pub(crate) fn see_normals(scene: &mut Scene) {
     let Some(eye) = scene.stage.seen_geometry().map(|seen| seen.eye) else { return };
     if !ugscene::has_moving_bodies(scene) {

@@ -13,8 +13,8 @@ use crate::{Axis, Config, Error, Format, Input, Size, Target};
 
 /// Converts meshes of other programs to UniGrafix and back
 ///
-/// Reads OBJ, PLY, STL, OFF, glTF and UniGrafix. Writes UniGrafix, OBJ, PLY, glTF or VTK, according to
-/// -dt or the extension of -fo. Keeps polygons, normals and the colours of faces and vertices.
+/// Reads OBJ, PLY, STL, OFF, glTF and UniGrafix. Writes UniGrafix, OBJ, PLY, glTF or VTK, according
+/// to -dt or the extension of -fo. Keeps polygons, normals and the colours of faces and vertices.
 #[derive(Parser, Debug)]
 #[command(name = "ugmesh", version, after_help = EXAMPLES)]
 pub struct Args {

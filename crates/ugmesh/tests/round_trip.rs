@@ -227,7 +227,8 @@ fn a_scene_as_seen_is_exported_as_seen() {
     // Hue 120, not 546.1 degrees.
     assert!(text.contains(" 0 255 0"), "{text}");
     assert!(text.contains("nx"), "{text}");
-    // Normals of moving bodies are those of the seen shape, unless those of the shape at rest are wanted.
+    // Normals of moving bodies are those of the seen shape, unless those of the shape at rest are
+    // wanted.
     let tilted = format!("{seen} {}", SCENE.replace("green 0 0 1", "green 1 0 1"));
     let normals = |rest_normals| {
         let config = Config { target: Target::Obj, rest_normals, ..config.clone() };

@@ -25,7 +25,8 @@ pub fn history(scene: &Scene) -> Vec<&str> {
 /// that input and the versions of all programs behind it:
 ///
 /// ```text
-/// uglorentz ship.ug -vel .9 0 0 | ugrainbow # SHA-256 3b1c… ship.ug; uglorentz 0.1.0, ugrainbow 0.1.0
+/// uglorentz ship.ug -vel .9 0 0 | ugrainbow # SHA-256 3b1c… ship.ug; uglorentz 0.1.0, ugrainbow
+/// 0.1.0
 /// ```
 ///
 /// `program`, `version` and `command_line`: the last program of the pipe. `None` if the origin of

@@ -85,8 +85,8 @@ pub struct Args {
 
     /// Shutter at the film, at this distance behind the pinhole
     ///
-    /// Otherwise the shutter is at the pinhole. All light of the picture arrives at the film at one moment, so it passed the pinhole the
-    /// earlier the nearer it is to the edge of the film.
+    /// Otherwise the shutter is at the pinhole. All light of the picture arrives at the film at one
+    /// moment, so it passed the pinhole the earlier the nearer it is to the edge of the film.
     #[arg(long, value_name = "DISTANCE", value_parser = distance, help_heading = RAYS)]
     film_shutter: Option<f64>,
 
@@ -106,8 +106,8 @@ pub struct Args {
 
     /// Draw only a part of the picture: column, row, width, height
     ///
-    /// The pixels are those of the whole picture of size -sz, so parts drawn on several machines can
-    /// be joined.
+    /// The pixels are those of the whole picture of size -sz, so parts drawn on several machines
+    /// can be joined.
     #[arg(long, num_args = 4, value_names = ["X", "Y", "W", "H"], action = ArgAction::Set,
           value_parser = whole(0..=u32::MAX), help_heading = PICTURE)]
     crop: Option<Vec<u32>>,

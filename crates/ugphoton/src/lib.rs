@@ -8,9 +8,9 @@
 //! - **Bodies** rest in frames of their own. A ray is an event and a step, carried to each frame,
 //!   where a static hierarchy of triangles answers (P21). Its parameter is the same in all frames,
 //!   so the nearest hit is the one with the latest emission (P22).
-//! - **Light** is a wave 4-vector. Mirrors reflect it and glass refracts it in the rest frame of the
-//!   surface (P23), (P37); its frequency there is 1/D, the product of all Doppler factors along the
-//!   path. In a medium light is slower, and is dragged along where the medium moves.
+//! - **Light** is a wave 4-vector. Mirrors reflect it and glass refracts it in the rest frame of
+//!   the surface (P23), (P37); its frequency there is 1/D, the product of all Doppler factors along
+//!   the path. In a medium light is slower, and is dragged along where the medium moves.
 //! - **Shadow rays** run backwards in time, so the shadows of moving bodies lag (P24).
 //!
 //! # Modules
@@ -29,8 +29,8 @@
 //!
 //! # Example
 //!
-//! A mirror that recedes with 0.6 c divides frequencies by four, and by the law of 1988 the value of
-//! the white wall behind the eye:
+//! A mirror that recedes with 0.6 c divides frequencies by four, and by the law of 1988 the value
+//! of the white wall behind the eye:
 //!
 //! ```
 //! use ugphoton::{Config, PictureOptions, light};

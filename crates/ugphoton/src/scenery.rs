@@ -152,8 +152,8 @@ impl<'a> Scenery<'a> {
         Faces { scene: &self.scene, rest: self.surface.all_rest() }
     }
 
-    /// The ray through the middle of a sample; `None` where the lens shows nothing. Its parameter is
-    /// the depth along the view, or the distance with another lens than a pinhole.
+    /// The ray through the middle of a sample; `None` where the lens shows nothing. Its parameter
+    /// is the depth along the view, or the distance with another lens than a pinhole.
     pub fn primary_ray(&self, [column, row]: [u32; 2]) -> Option<Ray> {
         let direction = self.film.direction([f64::from(column) + 0.5, f64::from(row) + 0.5])?;
         Some(match self.rays.shutter {

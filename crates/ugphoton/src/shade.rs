@@ -155,7 +155,7 @@ fn unshadowed(scenery: &Scenery<'_>, point: &SurfacePoint, incident: &IncidentLa
     if scenery.spectra.is_some() { part } else { srgb_encode(part) }
 }
 
-/// The part of the light that passes a face straight on.
+/// Transmittance of a face for a ray that is not bent, 0…1.
 fn transmittance(scenery: &Scenery<'_>, face: u32) -> f64 {
     let face = &scenery.scene.faces[face as usize];
     if let Some(surface) = scenery.scene.surface(face) {

@@ -39,7 +39,7 @@ pub struct Tracer<'a> {
     n_branches: u32,
     /// A sample had more than [`MOST_BRANCHES`] of them.
     pub is_cut_short: bool,
-    /// A path of the current sample left a transparent solid that it had not entered.
+    /// A path of the current sample exited a transparent solid without having entered it.
     pub begins_inside: bool,
     /// A path of the current sample ended after [`RayOptions::depth`] reflections and refractions.
     ///

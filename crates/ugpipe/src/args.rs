@@ -71,8 +71,8 @@ pub struct CommonArgs {
 
     /// Change a limit on the size of scenes
     ///
-    /// As in statements=100000000. Names of limits: text, includes, files, nesting, chain, statements, corners, names, memory;
-    /// see docs/unigrafix.md. May be given more than once.
+    /// As in statements=100000000. Names of limits: text, includes, files, nesting, chain,
+    /// statements, corners, names, memory; see docs/unigrafix.md. May be given more than once.
     #[arg(long, value_name = "NAME=N", value_parser = limit, help_heading = COMMON)]
     limit: Vec<(String, u64)>,
 

@@ -73,8 +73,8 @@ pub fn sha256(bytes: &[u8]) -> String {
     Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
-/// `word` quoted for a POSIX shell, and safe inside a `{ … }` comment: braces and control characters
-/// are replaced by `?`.
+/// `word` quoted for a POSIX shell, and safe inside a `{ … }` comment: braces and control
+/// characters are replaced by `?`.
 pub fn shell_word(word: &str) -> String {
     let safe = printable(word).replace(['{', '}', char::REPLACEMENT_CHARACTER], "?");
     let is_plain = |c: char| c.is_alphanumeric() || "-_+.,:/@%=".contains(c);

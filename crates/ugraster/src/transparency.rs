@@ -7,8 +7,8 @@
 //!
 //! Fragments with a transmittance of 0 (lines, and opaque parts of faces) occlude transparent ones
 //! behind them, which are not stored if they are drawn later. Fragments take memory: a tile with
-//! too many is drawn in parts: fewer rows of samples, then fewer columns. The time is proportional to the
-//! number of fragments, times the logarithm of those of a sample.
+//! too many is drawn in parts: fewer rows of samples, then fewer columns. The time is proportional
+//! to the number of fragments, times the logarithm of those of a sample.
 
 use std::ops::Range;
 

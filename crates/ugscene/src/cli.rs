@@ -148,7 +148,7 @@ impl MotionArgs {
     }
 }
 
-/// Effects that may be omitted: flatten it into the arguments of a program.
+/// Options that omit contraction or light travel time: flatten it into the arguments of a program.
 #[derive(Args, Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct EffectArgs {
     /// For teaching: omit Lorentz contraction

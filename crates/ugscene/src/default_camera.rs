@@ -162,7 +162,8 @@ mod tests {
         statements.collect::<String>() + "f (v0 v1 v2 v3);"
     }
 
-    /// However large the coordinates are, the eye is not the view centre, and no distance overflows.
+    /// However large the coordinates are, the eye is not the view centre, and no distance
+    /// overflows.
     #[test]
     fn the_largest_scenes_have_a_camera() {
         let scene = "v a 0 -1.7e308 1.7e308; v b -1.7e308 1e308 0; v c 1.7e308 1.7e308 1.7e308; f (a b c);";

@@ -55,13 +55,13 @@ impl Geometry {
 }
 
 impl Geometry {
-    /// A normal of the seen surface from that of the surface at rest, with the same axes. Any length;
-    /// it stays on the same side.
+    /// A normal of the seen surface from that of the surface at rest, with the same axes. Any
+    /// length; it stays on the same side.
     ///
-    /// Planes through a point transform by the gradient of the rest position with respect to the seen
-    /// one, the transpose of the Jacobian of (P4): with p' = p + (γ − 1)(p·b) b + γ |p| β and b along β,
-    /// n = n' + (γ − 1)(n'·b) b + γ (n'·β) p/|p|. At the eye, where it does not exist, without the last
-    /// term.
+    /// Planes through a point transform by the gradient of the rest position with respect to the
+    /// seen one, the transpose of the Jacobian of (P4): with p' = p + (γ − 1)(p·b) b + γ |p| β and
+    /// b along β, n = n' + (γ − 1)(n'·b) b + γ (n'·β) p/|p|. At the eye, where it does not exist,
+    /// without the last term.
     pub fn seen_normal(
         self,
         RestPosition(rest): RestPosition,

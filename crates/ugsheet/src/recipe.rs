@@ -10,8 +10,8 @@ const WRITES: [&str; 7] = ["fo", "output", "o", "fm", "messages", "at", "attribu
 /// Options with which a scene may run programs or read files elsewhere.
 const PERMISSIONS: [&str; 2] = ["allow-execute", "allow-outside"];
 
-/// A recorded pipe, checked: it runs programs of this family only, and none of them is told to write
-/// a file.
+/// A recorded pipe, checked: it runs programs of this family only, and none of them is told to
+/// write a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Recipe {
     /// The words of every command.

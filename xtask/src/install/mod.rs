@@ -79,7 +79,8 @@ fn documents() -> Vec<(String, String)> {
     files
 }
 
-/// Writes a file beside its place and renames it, so that a program that is running can be replaced.
+/// Writes a file beside its place and renames it, so that a program that is running can be
+/// replaced.
 fn replace(file: &Path, write: impl FnOnce(&Path) -> io::Result<()>) -> io::Result<()> {
     let folder = file.parent().unwrap_or(Path::new("."));
     fs::create_dir_all(folder)?;

@@ -81,8 +81,8 @@ fn document(mesh: &mut PolygonMesh, uri: Option<&str>) -> (Value, Vec<u8>) {
     (document, buffer.bytes)
 }
 
-/// A camera of a scene with all its values, and the matrix of its node by columns. It looks along its
-/// −z axis, with y up.
+/// A camera of a scene with all its values, and the matrix of its node by columns. It looks along
+/// its −z axis, with y up.
 fn camera(camera: &Camera) -> Option<(Value, [f32; 16])> {
     /// Clipping distances, as parts of the distance to the view centre.
     const CLIP: [f64; 2] = [1e-3, 1e3];

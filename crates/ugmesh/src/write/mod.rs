@@ -10,8 +10,8 @@ use ugparse::Scene;
 use crate::polygon_mesh::{PolygonMesh, Polygons};
 use crate::{Error, Target};
 
-/// The file content for a scene in a format, and notes. `is_placed`: positions were scaled, moved or
-/// turned, so that they are not those seen from the eye of the scene any more.
+/// The file content for a scene in a format, and notes. `is_placed`: positions were scaled, moved
+/// or turned, so that they are not those seen from the eye of the scene any more.
 pub(crate) fn write(scene: Scene, target: Target, is_placed: bool) -> Result<(Vec<u8>, Vec<String>), Error> {
     let (polygons, writer): (Polygons, Writer) = match target {
         Target::Ug => return Ok((ugparse::write(&scene), Vec::new())),

@@ -1,5 +1,5 @@
-//! Writes VTK XML polygon data, for ParaView: colours, normals, and for a scene as seen what is known
-//! of the light from every vertex.
+//! Writes VTK XML polygon data, for ParaView: colours, normals, and for a scene as seen what is
+//! known of the light from every vertex.
 
 use glam::DVec3;
 use ugscene::{Measurement, RestFrames, VtkPolygons};

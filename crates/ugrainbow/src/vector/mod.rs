@@ -300,7 +300,8 @@ mod tests {
         }
     }
 
-    /// Thin faces in all directions, of which each overlaps most others: the order ends at its limit.
+    /// Thin faces in all directions, of which each overlaps most others: the order ends at its
+    /// limit.
     #[test]
     fn order_has_a_limit_of_work() {
         let mut random = Random(1);

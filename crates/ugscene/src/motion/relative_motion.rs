@@ -46,8 +46,8 @@ impl RelativeMotion {
         self.in_scene
     }
 
-    /// Rest coordinates, or a direction, in the axes of the rest positions of (P3); `p` is in the axes of the
-    /// scene.  Eq. (P25)
+    /// Rest coordinates, or a direction, in the axes of the rest positions of (P3); `p` is in the
+    /// axes of the scene.  Eq. (P25)
     pub fn turned(&self, p: DVec3) -> DVec3 {
         self.axes_from_scene * p
     }
