@@ -2,7 +2,9 @@
 
 use glam::DVec3;
 use rustc_hash::FxHashMap;
-use ugparse::{BodyId, Color, ColorId, ColorValue, Face, NameId, Scene, Vertex, VertexId, unit_normal};
+use ugparse::{
+    BodyId, Color, ColorId, ColorValue, Face, NameId, Scene, UniqueNames, Vertex, VertexId, unit_normal,
+};
 use ugpipe::printable;
 
 use crate::error::Problem;
@@ -29,8 +31,11 @@ pub(crate) struct Builder {
     scene: Scene,
     /// Prefix of names, including its `_`.
     prefix: String,
-    /// The colours so far, by the bits of their clipped components.
-    colors: FxHashMap<[u64; 4], ColorId>,
+    /// The colours so far, by their material and the bits of their clipped components.
+    colors: FxHashMap<(String, [u64; 4]), ColorId>,
+    color_names: UniqueNames,
+    /// The name of the following faces.
+    face_name: Option<NameId>,
     n_corners: usize,
     n_degenerate: usize,
     n_clipped: usize,
@@ -44,6 +49,8 @@ impl Builder {
             scene: Scene::default(),
             prefix,
             colors: FxHashMap::default(),
+            color_names: UniqueNames::default(),
+            face_name: None,
             n_corners: 0,
             n_degenerate: 0,
             n_clipped: 0,
@@ -68,7 +75,7 @@ impl Builder {
         if row == MAX_VERTICES {
             return Err(Problem::new(format!("more than {MAX_VERTICES} vertices; split the mesh")));
         }
-        let name = self.name('v', row);
+        let name = self.scene.names.add(&format!("{}v{}", self.prefix, row + 1));
         let color = color.map(|color| self.color(color));
         let normal = normal.and_then(usable_normal);
         self.scene.vertices.push(Vertex { name, position: without_sign_of_zero(position), color, normal });
@@ -96,22 +103,38 @@ impl Builder {
         Ok(copy)
     }
 
-    /// The id of a colour; equal colours share one.
-    pub fn color(&mut self, Rgba(rgba): Rgba) -> ColorId {
+    /// The id of a colour without a name; equal colours share one.
+    pub fn color(&mut self, rgba: Rgba) -> ColorId {
+        self.material(rgba, "")
+    }
+
+    /// The id of the colour of a material, which gets its name; materials of the same name share
+    /// one if their colours are equal.
+    pub fn material(&mut self, Rgba(rgba): Rgba, name: &str) -> ColorId {
         let clipped = rgba.map(|part| if part.is_nan() { 0.0 } else { part.clamp(0.0, 1.0) + 0.0 });
-        let key = clipped.map(f64::to_bits);
+        let name = scene_name(name);
+        let key = (name, clipped.map(f64::to_bits));
         if let Some(&known) = self.colors.get(&key) {
             return known;
         }
         self.n_clipped += usize::from(clipped != rgba);
         let [red, green, blue, alpha] = clipped;
         let row = self.scene.colors.len();
-        let name = self.name('c', row);
+        let wanted = if key.0.is_empty() { format!("c{}", row + 1) } else { key.0.clone() };
+        let unique = self.color_names.fresh(&format!("{}{wanted}", self.prefix));
+        let name = self.scene.names.add(&unique);
         let value = ColorValue::Rgb([red, green, blue]);
         self.scene.colors.push(Color { name, value, translucency: 1.0 - alpha });
         let id = ColorId::from_index(row);
         self.colors.insert(key, id);
         id
+    }
+
+    /// The name of the following faces: that of their object or group. Nothing remains of a name
+    /// without letters and digits.
+    pub fn name_faces(&mut self, name: &str) {
+        let name = scene_name(name);
+        self.face_name = (!name.is_empty()).then(|| self.scene.names.add_parts(&[&self.prefix, &name]));
     }
 
     /// Adds a face, unless it has no area. Consecutive repeated corners count once.
@@ -131,7 +154,13 @@ impl Builder {
             return Err(Problem::new(format!("more than {MAX_CORNERS} corners of faces; split the mesh")));
         }
         let contours = self.scene.contours.push_all([corners]);
-        self.scene.faces.push(Face { name: None, contours, color, illum: None, body: BodyId::UNSTATED });
+        self.scene.faces.push(Face {
+            name: self.face_name,
+            contours,
+            color,
+            illum: None,
+            body: BodyId::UNSTATED,
+        });
         Ok(())
     }
 
@@ -175,11 +204,21 @@ impl Builder {
         }
         (self.scene, self.warnings)
     }
+}
 
-    /// The name of a row, counted from 1: `v1`, `v2`, …
-    fn name(&mut self, kind: char, row: usize) -> NameId {
-        self.scene.names.add(&format!("{}{kind}{}", self.prefix, row + 1))
+/// Longest name in bytes that a name of a mesh becomes: every face repeats it.
+const MAX_NAME: usize = 64;
+
+/// The name that a scene can have for a name in a mesh: other characters than letters and digits
+/// become `_`, and so does a digit's place at the beginning. Empty if there are only such
+/// characters.
+fn scene_name(name: &str) -> String {
+    if !name.contains(|c: char| c.is_ascii_alphanumeric()) {
+        return String::new();
     }
+    let lead = if name.starts_with(|c: char| c.is_ascii_digit()) { "_" } else { "" };
+    let allowed = |c: char| if c.is_ascii_alphanumeric() { c } else { '_' };
+    lead.chars().chain(name.chars().map(allowed)).take(MAX_NAME).collect()
 }
 
 /// The normal, if it is finite and not zero.

@@ -2,8 +2,9 @@
 //! without holes.
 
 use glam::DVec3;
+use rustc_hash::FxHashMap;
 use uglight::hsv;
-use ugparse::{ColorId, ColorValue, Contours, Scene, VertexId};
+use ugparse::{ColorId, ColorValue, Contours, NameId, Scene, VertexId};
 
 /// The polygons that a format supports.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -23,6 +24,8 @@ pub(crate) struct PolygonMesh {
     pub colors: Option<Vec<[f64; 4]>>,
     /// One polygon per row, counterclockwise as seen from outside.
     pub polygons: Contours,
+    /// The face of each polygon.
+    faces: Vec<u32>,
     /// Notes for the user about parts that are left out.
     pub notes: Vec<String>,
 }
@@ -38,13 +41,47 @@ impl PolygonMesh {
         }
         separate_colors(&mut scene);
         let colors = vertex_colors(&scene, &mut notes);
-        let polygons = polygons(&scene, kind, &mut notes);
-        Self { scene, colors, polygons, notes }
+        let (polygons, faces) = polygons(&scene, kind, &mut notes);
+        Self { scene, colors, polygons, faces, notes }
+    }
+
+    /// The polygons by the name and the colour of their faces, in order of first appearance. A
+    /// single group, with a note, if there are more than a person has named: a name for every
+    /// colour of a scan helps nobody.
+    pub fn groups(&mut self) -> Vec<Group> {
+        const MAX: usize = 256;
+        let all = 0..self.faces.len() as u32;
+        let text = |name: NameId| self.scene.names.get(name);
+        let mut groups: Vec<Group> = Vec::new();
+        let mut rows: FxHashMap<(Option<&str>, Option<ColorId>), usize> = FxHashMap::default();
+        for polygon in all.clone() {
+            let face = &self.scene.faces[self.faces[polygon as usize] as usize];
+            let row = *rows.entry((face.name.map(text), face.color)).or_insert_with_key(|&(name, color)| {
+                let color = color.map(|color| text(self.scene.colors[color.index()].name));
+                let [name, color] = [name, color].map(|name| name.map(str::to_string));
+                groups.push(Group { name, color, polygons: Vec::new() });
+                groups.len() - 1
+            });
+            groups[row].polygons.push(polygon);
+        }
+        if groups.len() <= MAX {
+            return groups;
+        }
+        let count = groups.len();
+        self.notes.push(format!("names of faces and colours are left out: {count} are more than {MAX}"));
+        vec![Group { name: None, color: None, polygons: all.collect() }]
     }
 
     /// True if any vertex is transparent.
     pub fn is_transparent(&self) -> bool {
         self.colors.iter().flatten().any(|color| color[3] < 1.0)
+    }
+
+    /// True if any corner of this polygon is transparent.
+    pub fn is_transparent_at(&self, polygon: u32) -> bool {
+        let colors = self.colors.as_deref();
+        let alpha = |corner: &VertexId| colors.map_or(1.0, |colors| colors[corner.index()][3]);
+        self.polygons.get(polygon).iter().any(|corner| alpha(corner) < 1.0)
     }
 
     /// The unit normals, if every vertex that a face uses has one: formats with one normal per
@@ -58,6 +95,16 @@ impl PolygonMesh {
             self.scene.vertices.iter().map(|vertex| unit(vertex.normal)).collect()
         })
     }
+}
+
+/// Polygons of faces with the same name and colour.
+pub(crate) struct Group {
+    /// The name of the faces.
+    pub name: Option<String>,
+    /// The name of their colour.
+    pub color: Option<String>,
+    /// Rows in the polygons of the mesh.
+    pub polygons: Vec<u32>,
 }
 
 /// The unit vector along `v`, which must not be 0. A vector that is already of unit length keeps
@@ -107,12 +154,13 @@ fn vertex_colors(scene: &Scene, notes: &mut Vec<String>) -> Option<Vec<[f64; 4]>
     ids.iter().any(Option::is_some).then(|| ids.into_iter().map(color).collect())
 }
 
-/// Faces as polygons without holes. A face that cannot be triangulated becomes a triangle fan of
-/// its outline.
-fn polygons(scene: &Scene, kind: Polygons, notes: &mut Vec<String>) -> Contours {
+/// Faces as polygons without holes, and the face of each polygon. A face that cannot be
+/// triangulated becomes a triangle fan of its outline.
+fn polygons(scene: &Scene, kind: Polygons, notes: &mut Vec<String>) -> (Contours, Vec<u32>) {
     let mut polygons = Contours::default();
+    let mut faces = Vec::with_capacity(scene.faces.len());
     let mut n_uncut = 0;
-    for face in &scene.faces {
+    for (row, face) in scene.faces.iter().enumerate() {
         let contours: Vec<&[VertexId]> = scene.face_contours(face).collect();
         let is_fit = match kind {
             Polygons::Simple => contours.len() == 1,
@@ -120,6 +168,7 @@ fn polygons(scene: &Scene, kind: Polygons, notes: &mut Vec<String>) -> Contours 
         };
         if is_fit {
             polygons.push(contours[0].iter().copied());
+            faces.push(row as u32);
             continue;
         }
         let place = |corner: &VertexId| scene.vertices[corner.index()].position;
@@ -131,6 +180,7 @@ fn polygons(scene: &Scene, kind: Polygons, notes: &mut Vec<String>) -> Contours 
         });
         for triangle in triangles {
             polygons.push(triangle.map(|corner| corners[corner as usize]));
+            faces.push(row as u32);
         }
     }
     note_count(
@@ -139,5 +189,5 @@ fn polygons(scene: &Scene, kind: Polygons, notes: &mut Vec<String>) -> Contours 
         "face without area is written as a fan",
         "faces without area are written as fans",
     );
-    polygons
+    (polygons, faces)
 }

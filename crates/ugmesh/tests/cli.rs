@@ -39,7 +39,7 @@ fn a_mesh_goes_through_a_pipe_and_back() {
     assert!(origin.starts_with("{ SHA-256 ") && origin.ends_with(" cube.obj }"), "{origin}");
     assert!(rest.starts_with(&head), "{text}");
     assert!(
-        text.contains("c_rgb cube_c1 1 0 0;\n") && text.contains("f (cube_v1 cube_v2 cube_v5) cube_c1;\n"),
+        text.contains("c_rgb cube_red 1 0 0;\n") && text.contains("f (cube_v1 cube_v2 cube_v5) cube_red;\n"),
         "{text}"
     );
 

@@ -26,7 +26,7 @@ fn text_formats_become_scenes() {
     check(
         "texture seams and groups part nothing.obj",
         &format!("{square}vt 0 0\nvt 1 1\ng a\nf 1/1 2/1 3/1\ng b\nf 1/2 3/2 4/2"),
-        &format!("{points}f (v1 v2 v3);\nf (v1 v3 v4);"),
+        &format!("{points}f a (v1 v2 v3);\nf b (v1 v3 v4);"),
     );
     check(
         "a second normal makes a second vertex, behind all others.obj",
@@ -301,8 +301,11 @@ fn files_beside_the_mesh() {
         ),
     );
     let text = String::from_utf8(obj.bytes).unwrap();
-    assert!(text.contains("c_rgb c1 0.5 0 0 0.25;\nc_rgb c2 0.8 0.8 0.8;\nc_rgb c3 1 1 1;\n"), "{text}");
-    assert!(text.ends_with("f (v1 v2 v3) c1;\nf (v1 v3 v2) c2;\nf (v1 v3 v2) c3;\n"), "{text}");
+    assert!(
+        text.contains("c_rgb deep_red 0.5 0 0 0.25;\nc_rgb bare 0.8 0.8 0.8;\nc_rgb white 1 1 1;\n"),
+        "{text}"
+    );
+    assert!(text.ends_with("f (v1 v2 v3) deep_red;\nf (v1 v3 v2) bare;\nf (v1 v3 v2) white;\n"), "{text}");
     assert!(obj.warnings.is_empty(), "{:?}", obj.warnings);
 
     let missing = run("a.obj", &format!("mtllib none.mtl\n{points}usemtl red\nf 1 2 3"));
@@ -331,6 +334,36 @@ fn files_beside_the_mesh() {
     assert_eq!(
         error.to_string(),
         "cannot read `a.gltf` as glTF: cannot read `none.bin`: entity not found; put it in the folder of the mesh"
+    );
+}
+
+#[test]
+fn objects_groups_and_materials_keep_their_names() {
+    fn check(obj: &str, expected: &str) {
+        let beside = |_: &str, _: u64| -> std::io::Result<Vec<u8>> {
+            Ok(b"newmtl 1 red\nKd 1 0 0\nnewmtl 1-red\nKd 1 0 0\nnewmtl c1\nKd 0 1 0\nnewmtl \xc3\xa9\nKd 0 0 1\n".to_vec())
+        };
+        let text = format!("mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\n{obj}");
+        let converted = ugmesh::run(&z_up(), &Input::new("a.obj", text).with_files(&beside)).unwrap();
+        assert_eq!(converted.warnings, [""; 0]);
+        let text = String::from_utf8(converted.bytes).unwrap();
+        let found: Vec<&str> = text.lines().filter(|line| line.starts_with(['c', 'f'])).collect();
+        assert_eq!(found.join("\n"), expected, "{obj}");
+    }
+    let face = "f 1 2 3";
+    check(&format!("{face}\no hull\n{face}"), "f (v1 v2 v3);\nf hull (v1 v2 v3);");
+    // A group belongs to its object; the standard calls faces outside of groups `default`.
+    check(
+        &format!("o hull\ng left wing\n{face}\ng\n{face}\no fin\n{face}\ng x\ng default\n{face}"),
+        "f left_wing (v1 v2 v3);\nf hull (v1 v2 v3);\nf fin (v1 v2 v3);\nf fin (v1 v2 v3);",
+    );
+    check(&format!("g \u{e9}\u{e9}\n{face}\ng 2:a#\n{face}"), "f (v1 v2 v3);\nf _2_a_ (v1 v2 v3);");
+    check(&format!("g {}\n{face}", "x".repeat(1000)), &format!("f {} (v1 v2 v3);", "x".repeat(64)));
+    // Names are unique, and materials of one colour are two colours.
+    check(
+        &format!("usemtl 1 red\n{face}\nusemtl 1-red\n{face}\nusemtl \u{e9}\n{face}\nusemtl c1\n{face}"),
+        "c_rgb _1_red 1 0 0;\nc_rgb c2 0 0 1;\nc_rgb c1 0 1 0;\n\
+         f (v1 v2 v3) _1_red;\nf (v1 v2 v3) _1_red;\nf (v1 v2 v3) c2;\nf (v1 v2 v3) c1;",
     );
 }
 

@@ -37,9 +37,13 @@ fn faces_positions_and_colours_round_trip() {
         assert_eq!(coloured(seen(&back)), expected, "{target:?}");
     }
     // glTF has only triangles, and linear colours in 32 bits: the square is triangulated, and
-    // colours have an error of about 2^-24.
+    // colours have an error of about 2^-24. Faces of one colour stand together.
     let triangles = SCENE.replace("f (d c b a) green", "f (d c b) green; f (b a d) green");
-    let expected = coloured(seen(&parse(triangles.as_bytes())));
+    let by_color = |faces: &[usize]| -> Vec<Vec<Corner>> {
+        let all = coloured(seen(&parse(triangles.as_bytes())));
+        faces.iter().map(|&row| all[row].clone()).collect()
+    };
+    let expected = by_color(&[0, 2, 6, 1, 4, 5, 3]);
     for target in [Target::Gltf, Target::Glb] {
         let back = to_scene(&Config::default(), "<stdin>", to_mesh(target, triangles.as_bytes()));
         assert_near(&coloured(seen(&back)), &expected, 1e-6);
@@ -111,7 +115,9 @@ fn colours_of_faces_move_to_vertices() {
             "v 0 1 0 0.5 0.25 0.25",
             "v 1 0 0 0.5 0.25 0.25",
             "v 0 0 0 0.5 0.25 0.25",
+            "usemtl red",
             "f 1 2 3",
+            "usemtl pale",
             "f 5 6 4"
         ]
     );
@@ -240,4 +246,42 @@ fn a_scene_as_seen_is_exported_as_seen() {
     let seen = normals(false);
     assert_eq!(seen[3..], ["vn 0 1 0"; 3]);
     assert!(seen[..3].iter().all(|line| line != "vn 1 1 0"), "{seen:?}");
+}
+
+#[test]
+fn names_of_faces_and_colours_are_kept() {
+    let text = "c_rgb red 1 0 0; c_rgb blue 0 0 1 0.5; v a 0 0 0; v b 1 0 0; v c 0 1 0; v d 1 1 0; v e 2 0 0;
+        f hull (a b c) red; f (a c d) red; f hull (a d e) blue; f hull (c d e) red;";
+    let obj = String::from_utf8(to_mesh(Target::Obj, text.as_bytes())).unwrap();
+    let lines: Vec<&str> = obj.lines().filter(|line| line.starts_with(['g', 'u'])).collect();
+    assert_eq!(lines, ["g hull", "usemtl red", "g default", "g hull", "usemtl blue", "usemtl red"]);
+    let back = convert(&Config::default(), "a.obj", obj).unwrap();
+    assert_eq!(back.warnings, [""; 0], "colours are those of the vertices");
+    let faces = |bytes: &[u8]| -> Vec<String> {
+        let scene = parse(bytes);
+        let name = |face: &ugparse::Face| face.name.map_or("", |name| scene.names.get(name)).to_string();
+        scene.faces.iter().map(name).collect()
+    };
+    assert_eq!(faces(&back.bytes), ["hull", "", "hull", "hull"]);
+
+    let gltf = to_mesh(Target::Gltf, text.as_bytes());
+    let document: serde_json::Value = serde_json::from_slice(&gltf).unwrap();
+    assert_eq!([0, 1].map(|row| document["nodes"][row]["name"].as_str()), [Some("hull"), None]);
+    let materials = document["materials"].as_array().unwrap();
+    let named: Vec<_> =
+        materials.iter().map(|one| (one["name"].as_str(), one["alphaMode"].as_str())).collect();
+    assert_eq!(named, [(Some("red"), None), (Some("blue"), Some("BLEND"))]);
+    let back = convert(&Config::default(), "a.gltf", gltf).unwrap();
+    assert_eq!(faces(&back.bytes), ["hull", "hull", "hull", ""]);
+}
+
+#[test]
+fn a_name_for_every_face_is_left_out() {
+    let names = |count: usize| -> Vec<String> {
+        let faces: String = (0..count).map(|row| format!("f n{row} (a b c);")).collect();
+        let text = format!("v a 0 0 0; v b 1 0 0; v c 0 1 0; {faces}");
+        convert(&Config { target: Target::Obj, ..Config::default() }, "a.ug", text).unwrap().notes
+    };
+    assert_eq!(names(256), [""; 0]);
+    assert_eq!(names(257), ["names of faces and colours are left out: 257 are more than 256"]);
 }

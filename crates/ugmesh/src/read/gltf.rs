@@ -237,7 +237,10 @@ impl Reader<'_, '_> {
                 return Err(Problem::new(what));
             }
             let scene_from_node = scene_from_parent * local_transform(nodes.get(node.index()));
-            for primitive in node.mesh().iter().flat_map(|mesh| mesh.primitives()) {
+            let mesh = node.mesh();
+            let name = node.name().or(mesh.as_ref().and_then(gltf::Mesh::name));
+            self.builder.name_faces(name.unwrap_or_default());
+            for primitive in mesh.iter().flat_map(|mesh| mesh.primitives()) {
                 self.primitive(&primitive, scene_from_node)?;
             }
             let children: Vec<_> = node.children().map(|child| (child, scene_from_node)).collect();
@@ -278,7 +281,8 @@ impl Reader<'_, '_> {
             vertices[row] = self.builder.vertex(position, normal, color)?;
         }
         let color = if colors.is_some() { None } else { material.color() };
-        let color = color.map(|color| self.builder.color(color));
+        let name = primitive.material().name().unwrap_or_default().to_string();
+        let color = color.map(|color| self.builder.material(color, &name));
         // A reflection reverses the orientation of triangles.
         let is_mirrored = scene_from_node.matrix3.determinant() < 0.0;
         for [a, b, c] in triangles(primitive.mode(), corners.len()) {

@@ -62,6 +62,10 @@ struct Reader<'a> {
     corners: Vec<(VertexId, Option<u32>)>,
     /// For each face, its end in `corners` and its colour.
     faces: Vec<(usize, Option<ColorId>)>,
+    /// The names of groups and objects, each with the first face that has it.
+    groups: Vec<(usize, String)>,
+    /// The name of the object, for faces without a group.
+    object: String,
     materials: Materials,
     /// The arguments of `mtllib` so far.
     libraries: BTreeSet<String>,
@@ -69,6 +73,7 @@ struct Reader<'a> {
     material_room: u64,
     /// The colour of the following faces.
     color: Option<ColorId>,
+    has_vertex_colors: bool,
     n_skipped: usize,
     unknown_materials: BTreeSet<String>,
 }
@@ -81,10 +86,13 @@ impl<'a> Reader<'a> {
             normals: Vec::new(),
             corners: Vec::new(),
             faces: Vec::new(),
+            groups: Vec::new(),
+            object: String::new(),
             materials: Materials::default(),
             libraries: BTreeSet::new(),
             material_room: MAX_MATERIAL_BYTES,
             color: None,
+            has_vertex_colors: false,
             n_skipped: 0,
             unknown_materials: BTreeSet::new(),
         }
@@ -99,6 +107,15 @@ impl<'a> Reader<'a> {
             "l" | "p" | "curv" | "curv2" | "surf" => self.n_skipped += 1,
             "mtllib" => self.load_materials(rest)?,
             "usemtl" => self.use_material(rest),
+            "o" => {
+                self.object = rest.to_string();
+                self.groups.push((self.faces.len(), self.object.clone()));
+            }
+            "g" => {
+                // The standard calls faces without a group so.
+                let name = if matches!(rest, "" | "default") { &self.object } else { rest };
+                self.groups.push((self.faces.len(), name.to_string()));
+            }
             _ => {}
         }
         Ok(())
@@ -109,6 +126,7 @@ impl<'a> Reader<'a> {
         let mut words = rest.split_whitespace();
         let position = numbers::<3>(&mut words, line, "vertex")?;
         let has_color = words.clone().count() >= 3;
+        self.has_vertex_colors |= has_color;
         let color =
             if has_color { Some(Rgba::opaque(numbers(&mut words, line, "vertex colour")?)) } else { None };
         self.builder.vertex(DVec3::from_array(position), None, color)?;
@@ -197,14 +215,19 @@ impl<'a> Reader<'a> {
         if known.is_none() {
             self.unknown_materials.insert(name.to_string());
         }
-        self.color = known.map(|color| self.builder.color(color));
+        self.color = known.map(|color| self.builder.material(color, name));
     }
 
     /// Builds the faces, after all vertices have been read.
     fn finish(mut self) -> Result<(), Problem> {
         let mut splitter = NormalSplitter::new(self.builder.n_vertices());
         let mut start = 0;
-        for &(end, color) in &self.faces {
+        let mut groups = self.groups.iter().peekable();
+        for (row, &(end, color)) in self.faces.iter().enumerate() {
+            let begun = std::iter::from_fn(|| groups.next_if(|(first, _)| *first <= row));
+            if let Some((_, name)) = begun.last() {
+                self.builder.name_faces(name);
+            }
             let corners = self.corners[start..end].iter().map(|&(vertex, normal)| {
                 let normal = normal.map(|row| self.normals[row as usize]).filter(|n| n.is_finite());
                 splitter.vertex(self.builder, vertex, normal)
@@ -218,6 +241,10 @@ impl<'a> Reader<'a> {
     }
 
     fn warn(&mut self) {
+        // Colours at the vertices need no materials.
+        if self.libraries.is_empty() && self.has_vertex_colors {
+            self.unknown_materials.clear();
+        }
         let names: Vec<String> =
             self.unknown_materials.iter().take(5).map(|name| format!("`{}`", shorten(name))).collect();
         if !names.is_empty() {

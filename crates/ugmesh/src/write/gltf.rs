@@ -1,4 +1,5 @@
-//! Writes glTF 2.0: one node, one mesh, one primitive, 32-bit floats, linear colours.
+//! Writes glTF 2.0: a node and a mesh for each name of faces, a primitive for each of its colours,
+//! 32-bit floats, linear colours.
 
 use std::borrow::Cow;
 
@@ -61,16 +62,33 @@ fn document(mesh: &mut PolygonMesh, uri: Option<&str>) -> (Value, Vec<u8>) {
     }
     // glTF does not allow empty lists and accessors.
     if !mesh.polygons.is_empty() {
-        let mut nodes = vec![json!({ "mesh": 0 })];
+        let attributes = attributes(mesh, &mut buffer);
+        let groups = mesh.groups();
+        let names = distinct(groups.iter().map(|group| &group.name));
+        let colors = distinct(groups.iter().map(|group| &group.color));
+        let mut meshes = vec![Vec::new(); names.len()];
+        let mut is_transparent = vec![false; colors.len()];
+        for group in &groups {
+            let row = |list: &[&Option<String>], name| list.iter().position(|&other| other == name);
+            let (Some(at), Some(material)) = (row(&names, &group.name), row(&colors, &group.color)) else {
+                continue;
+            };
+            is_transparent[material] |= group.polygons.iter().any(|&polygon| mesh.is_transparent_at(polygon));
+            let indices = indices(mesh, &group.polygons, &mut buffer);
+            meshes[at].push(
+                json!({ "attributes": attributes, "indices": indices, "material": material, "mode": 4 }),
+            );
+        }
+        let mut nodes: Vec<Value> =
+            names.iter().enumerate().map(|(row, name)| named(json!({ "mesh": row }), name)).collect();
         nodes.extend(document["nodes"].as_array().cloned().unwrap_or_default());
         document["scene"] = 0.into();
         document["scenes"] = json!([{ "nodes": Vec::from_iter(0..nodes.len()) }]);
         document["nodes"] = nodes.into();
-        let attributes = attributes(mesh, &mut buffer);
-        let indices = indices(mesh, &mut buffer);
-        let primitive = json!({ "attributes": attributes, "indices": indices, "material": 0, "mode": 4 });
-        document["meshes"] = json!([{ "primitives": [primitive] }]);
-        document["materials"] = json!([material(mesh.is_transparent())]);
+        let meshes = meshes.into_iter().zip(&names);
+        document["meshes"] = meshes.map(|(list, name)| named(json!({ "primitives": list }), name)).collect();
+        let materials = is_transparent.into_iter().zip(&colors);
+        document["materials"] = materials.map(|(is_clear, name)| named(material(is_clear), name)).collect();
         document["accessors"] = Value::Array(buffer.accessors);
         document["bufferViews"] = Value::Array(buffer.views);
         document["buffers"] = json!([{ "byteLength": buffer.bytes.len() }]);
@@ -109,6 +127,25 @@ fn camera(camera: &Camera) -> Option<(Value, [f32; 16])> {
         (None, None) => return None,
     };
     matrix.iter().all(|number| number.is_finite()).then_some((lens, matrix))
+}
+
+/// The names in order of first appearance, each once.
+fn distinct<'a>(names: impl Iterator<Item = &'a Option<String>>) -> Vec<&'a Option<String>> {
+    let mut list = Vec::new();
+    names.for_each(|name| {
+        if !list.contains(&name) {
+            list.push(name);
+        }
+    });
+    list
+}
+
+/// The object with its name, if it has one.
+fn named(mut object: Value, name: &Option<String>) -> Value {
+    if let Some(name) = name {
+        object["name"] = name.as_str().into();
+    }
+    object
 }
 
 /// A diffuse, two-sided material, as the faces of scenes are.
@@ -152,8 +189,8 @@ fn attributes(mesh: &mut PolygonMesh, buffer: &mut Buffer) -> Value {
     attributes
 }
 
-fn indices(mesh: &PolygonMesh, buffer: &mut Buffer) -> usize {
-    let corners = (0..mesh.polygons.len() as u32).flat_map(|row| mesh.polygons.get(row));
+fn indices(mesh: &PolygonMesh, polygons: &[u32], buffer: &mut Buffer) -> usize {
+    let corners = polygons.iter().flat_map(|&row| mesh.polygons.get(row));
     let bytes: Vec<u8> = corners.flat_map(|corner| corner.0.to_le_bytes()).collect();
     buffer.add(&bytes, bytes.len() / 4, UNSIGNED_INT, "SCALAR", ELEMENT_ARRAY_BUFFER)
 }
