@@ -9,7 +9,7 @@ use clap::{Arg, Parser, Subcommand};
 use ugpipe::{CommonArgs, Context, Failure, Manual, ToolArgs, one_of};
 
 use crate::answer::answer;
-use crate::picture::{self, PictureCase};
+use crate::picture::{self, DrawnBy, PictureCase};
 use crate::scorecard::{Answers, Scorecard, read_answers};
 use crate::suite::{Topic, topics};
 
@@ -31,6 +31,7 @@ const EXAMPLES: &str = "Examples:
   ugconformance questions | my-program | ugconformance score
   ugconformance questions | ugconformance answer | ugconformance score
   ugconformance draw sphere > sphere.png
+  ugconformance draw --rays sphere > sphere.png
   ugconformance score-image sphere sphere.png";
 
 /// Allows options before the command as well as after it, except the one that names the file.
@@ -49,8 +50,8 @@ enum Command {
     /// Measure a PNG of a scene; status 1 if a number is wrong
     ScoreImage(ImageArgs),
     /// Draw a scene with the programs of this project
-    Draw(ImageArgs),
-    /// Answer, draw and compare everything; status 1 if something is wrong
+    Draw(DrawArgs),
+    /// Answer, draw (also by rays) and compare everything; status 1 if something is wrong
     Check(CommonArgs),
 }
 
@@ -62,6 +63,16 @@ struct ImageArgs {
 
     #[command(flatten)]
     common: CommonArgs,
+}
+
+#[derive(clap::Args, Debug)]
+struct DrawArgs {
+    /// Trace rays with ugphoton, instead of the pipe of three programs
+    #[arg(long)]
+    rays: bool,
+
+    #[command(flatten)]
+    image: ImageArgs,
 }
 
 fn picture_case(name: &str) -> Result<&'static str, String> {
@@ -83,7 +94,7 @@ impl ToolArgs for Args {
                 | Command::Score(common)
                 | Command::Check(common),
             ) => common,
-            Some(Command::ScoreImage(image) | Command::Draw(image)) => &image.common,
+            Some(Command::ScoreImage(image) | Command::Draw(DrawArgs { image, .. })) => &image.common,
         }
     }
 }
@@ -134,13 +145,14 @@ fn run(args: &Args, context: &mut Context) -> Result<bool, Failure> {
             context.write_text(&text)?;
             return Ok(is_right);
         }
-        Command::Draw(image) => {
+        Command::Draw(DrawArgs { rays, image }) => {
             if context.output_is_terminal() {
                 return Err(Failure::usage(
                     "a picture is not written to a terminal; add `> FILE` or -fo FILE",
                 ));
             }
-            context.write(&known(image.case)?.draw().map_err(Failure::failed)?)?;
+            let drawn_by = if *rays { DrawnBy::Rays } else { DrawnBy::Pipe };
+            context.write(&known(image.case)?.draw(drawn_by).map_err(Failure::failed)?)?;
         }
         Command::Check(_) => {
             let (text, is_right) = check(&topics);
@@ -202,6 +214,8 @@ pub fn score_image(case: &PictureCase, png: &[u8]) -> Result<(String, bool), Str
     Ok((text, measured.iter().all(picture::Measurement::passes)))
 }
 
+const BOTH_WAYS: [DrawnBy; 2] = [DrawnBy::Pipe, DrawnBy::Rays];
+
 /// Returns the scorecard and the measurements of this project's programs, with a last line that
 /// lists everything wrong.
 fn check(topics: &[Topic]) -> (String, bool) {
@@ -210,14 +224,19 @@ fn check(topics: &[Topic]) -> (String, bool) {
     let card = Scorecard::new(topics, &answers);
     let mut text = card.to_string();
     let mut wrong: Vec<String> = card.failed().map(str::to_string).collect();
-    for case in &picture::CASES {
+    for (case, drawn_by) in picture::CASES.iter().flat_map(|case| BOTH_WAYS.map(|drawn_by| (case, drawn_by)))
+    {
+        let (title, name) = match drawn_by {
+            DrawnBy::Pipe => ("", case.name.to_string()),
+            DrawnBy::Rays => ("By rays: ", format!("{}-by-rays", case.name)),
+        };
         let (scored, is_right) = case
-            .draw()
+            .draw(drawn_by)
             .and_then(|png| score_image(case, &png))
             .unwrap_or_else(|problem| (format!("{}: {problem}\n", case.name), false));
-        text += &format!("\n{scored}");
+        text += &format!("\n{title}{scored}");
         if !is_right {
-            wrong.push(case.name.to_string());
+            wrong.push(name);
         }
     }
     if card.counts()[0] == 0 {

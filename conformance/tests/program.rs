@@ -74,9 +74,16 @@ fn invalid_answers_are_refused() {
 fn pictures_are_drawn_and_measured() {
     let folder = tempfile::tempdir().expect("a folder");
     let file = folder.path().join("cube.png").to_string_lossy().into_owned();
-    assert!(run(&["draw", "cube", "-fo", &file], b"").status.success());
+    let mut drawn = Vec::new();
+    for draw in [&["draw", "--rays", "cube", "-fo", &file][..], &["draw", "cube", "-fo", &file]] {
+        assert!(run(draw, b"").status.success());
+        let score = run(&["score-image", "cube", &file], b"");
+        assert!(score.status.success(), "{}", text(&score));
+        drawn.push(fs::read(&file).expect("a picture"));
+    }
+    // The history in the pictures names the scene as each program read it.
+    assert_ne!(drawn[0], drawn[1], "two renderers");
     let score = run(&["score-image", "cube", &file], b"");
-    assert!(score.status.success(), "{}", text(&score));
     assert!(text(&score).starts_with("cube: T08, T09: "));
     // Mirrored, the trailing side is on the wrong side.
     let picture = image::open(&file).expect("a picture").fliph();

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
-use ugconformance::picture::CASES;
+use ugconformance::picture::{CASES, DrawnBy};
 use ugconformance::scorecard::{Answers, Scorecard, read_answers};
 use ugconformance::suite::{Case, topics};
 use ugconformance::{answers, questions};
@@ -81,10 +81,10 @@ fn our_crates_answer_correctly() {
 
 #[test]
 fn our_programs_draw_correctly() {
-    for case in &CASES {
-        let png = case.draw().unwrap();
+    for (case, drawn_by) in CASES.iter().flat_map(|case| [(case, DrawnBy::Pipe), (case, DrawnBy::Rays)]) {
+        let png = case.draw(drawn_by).unwrap();
         let (text, is_right) = ugconformance::score_image(case, &png).unwrap();
-        assert!(is_right, "{text}");
+        assert!(is_right, "{drawn_by:?} {text}");
     }
 }
 
@@ -144,7 +144,7 @@ fn a_picture_of_something_else_is_refused() {
     let sphere = &CASES[0];
     let refused = |png: &[u8]| sphere.measure(png).unwrap_err();
     assert!(refused(b"not a picture").starts_with("the picture cannot be read: "));
-    let other = CASES[1].draw().unwrap();
+    let other = CASES[1].draw(DrawnBy::Pipe).unwrap();
     assert_eq!(refused(&other), "the picture is 800 x 800 pixels; `sphere` is 600 x 600");
     let black = image::RgbImage::new(600, 600);
     let mut png = std::io::Cursor::new(Vec::new());

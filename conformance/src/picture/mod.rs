@@ -15,6 +15,9 @@ use std::fmt;
 
 use image::{ImageFormat, RgbImage};
 use ugparse::{Options, Source};
+use ugphoton::{ColorShift, HueShift, MotionOptions, SpectralShift};
+use ugphysics::Brightness;
+use ugrainbow::PictureOptions;
 
 use camera::Pinhole;
 
@@ -31,6 +34,15 @@ pub struct PictureCase {
     /// Options with which this project's programs draw it.
     options: DrawOptions,
     measure: fn(&Picture) -> Result<Vec<Measurement>, String>,
+}
+
+/// Which of this project's programs draw a scene.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DrawnBy {
+    /// `uglorentz`, `ugdoppler` and `ugrainbow`, by the light of vertices.
+    Pipe,
+    /// `ugphoton`, by a ray for each sample.
+    Rays,
 }
 
 /// Options of this project's programs.
@@ -213,10 +225,16 @@ impl PictureCase {
     ///
     /// # Errors
     /// The message of a program. There is none for the scenes of the suite.
-    pub fn draw(&self) -> Result<Vec<u8>, String> {
-        let name = |what: &str| format!("{}.ug as input of {what}", self.name);
+    pub fn draw(&self, drawn_by: DrawnBy) -> Result<Vec<u8>, String> {
+        match drawn_by {
+            DrawnBy::Pipe => self.draw_by_pipe(),
+            DrawnBy::Rays => self.draw_by_rays(),
+        }
+    }
+
+    fn draw_by_pipe(&self) -> Result<Vec<u8>, String> {
         let lorentz = uglorentz::Config { in_place: self.options.in_place, ..Default::default() };
-        let parsed = ugparse::parse(&Source::new(name("uglorentz"), self.scene), &Options::default())
+        let parsed = ugparse::parse(&self.source("uglorentz"), &Options::default())
             .map_err(|error| error.to_string())?;
         let (seen, _) = uglorentz::apply(parsed.scene, &lorentz).map_err(|error| error.to_string())?;
         // `-vr`: faces of one body keep their own colours.
@@ -228,16 +246,39 @@ impl PictureCase {
             ..Default::default()
         };
         let (colored, _) = ugdoppler::apply(seen, &doppler).map_err(|error| error.to_string())?;
-        let rainbow = ugrainbow::Config {
-            picture: ugrainbow::PictureOptions {
-                size: self.size,
-                samples: self.options.samples,
-                ..ugrainbow::PictureOptions::default()
+        let rainbow = ugrainbow::Config { picture: self.picture_options(), ..Default::default() };
+        let source = Source::new(self.input_of("ugrainbow"), ugparse::write(&colored));
+        let picture = ugrainbow::run(&rainbow, &source).map_err(|error| error.to_string())?;
+        Ok(picture.bytes)
+    }
+
+    fn draw_by_rays(&self) -> Result<Vec<u8>, String> {
+        let doppler = self.options.shift;
+        let config = ugphoton::Config {
+            motion: MotionOptions { in_place: self.options.in_place, ..Default::default() },
+            shift: if self.options.spectral {
+                ColorShift::Spectra(SpectralShift { doppler, flux: false })
+            } else {
+                ColorShift::Hues(HueShift { doppler, law: Brightness::None })
             },
+            picture: self.picture_options(),
+            repeat: true,
             ..Default::default()
         };
-        let picture = ugrainbow::run(&rainbow, &Source::new(name("ugrainbow"), ugparse::write(&colored)))
-            .map_err(|error| error.to_string())?;
+        let picture =
+            ugphoton::run(&config, &self.source("ugphoton"), "", &()).map_err(|error| error.to_string())?;
         Ok(picture.bytes)
+    }
+
+    fn picture_options(&self) -> PictureOptions {
+        PictureOptions { size: self.size, samples: self.options.samples, ..PictureOptions::default() }
+    }
+
+    fn source(&self, program: &str) -> Source {
+        Source::new(self.input_of(program), self.scene)
+    }
+
+    fn input_of(&self, program: &str) -> String {
+        format!("{}.ug as input of {program}", self.name)
     }
 }
