@@ -118,8 +118,8 @@ impl ToolArgs for Args {
 
 impl Args {
     fn config(&self) -> Result<Config, Failure> {
-        if self.ct < 0.0 {
-            return Err(Failure::usage("a colour tolerance (-ct) is 0 or more"));
+        if !(0.0..=100.0).contains(&self.ct) {
+            return Err(Failure::usage("a colour tolerance (-ct) is between 0 and 100"));
         }
         self.refuse_contradictions()?;
         let vector = |numbers: &Option<Vec<f64>>| ugpipe::vector(numbers.as_deref()).map(DVec3::from_array);

@@ -20,7 +20,7 @@ pub struct Config {
     pub repeat: bool,
     /// Vertices share a colour statement if their wavelengths differ by at most this many nm and
     /// their values by as many percent; with spectra, if their X, Y and Z do. With 0 every vertex
-    /// has its own (`-ct`).
+    /// has its own (`-ct`). From 0 to 100; numbers outside count as the nearest in this range.
     pub tolerance: f64,
     /// Scale all values so that the largest is 1, instead of clipping those above (`-ir`).
     pub iris: bool,
@@ -40,6 +40,14 @@ pub struct Config {
 /// The default of [`Config::tolerance`]. A tenth of a nanometre moves the hue by less than one
 /// 8-bit step, a tenth of a percent the value by a quarter of one.
 pub const DEFAULT_TOLERANCE: f64 = 0.1;
+
+impl Config {
+    /// The tolerance within its range.
+    pub(crate) fn bounded_tolerance(&self) -> f64 {
+        // NaN counts as 0.
+        self.tolerance.max(0.0).min(100.0)
+    }
+}
 
 impl Default for Config {
     fn default() -> Self {

@@ -55,7 +55,7 @@ impl<'s> HueStatements<'s> {
         Self {
             n_given: scene.colors.len(),
             // Rounded to the nearest step, ln D is off by half a step at most.
-            step: 2.0 * config.tolerance / LONGEST_NM,
+            step: 2.0 * config.bounded_tolerance() / LONGEST_NM,
             made: FxHashMap::default(),
             lit: FxHashMap::default(),
             bases: FxHashMap::default(),
@@ -103,7 +103,7 @@ impl<'s> HueStatements<'s> {
     /// The key under which lit colours that differ by less than the tolerance are found: the first
     /// of them stands for all.
     fn lit_key(&self, translucency: f64, seen: HueColor) -> [u64; 4] {
-        let tolerance = self.config.tolerance;
+        let tolerance = self.config.bounded_tolerance();
         let step = |number: f64, width: f64| {
             let number = if tolerance > 0.0 { (number / width).round() } else { number };
             number.to_bits()

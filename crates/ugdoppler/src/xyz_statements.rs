@@ -29,7 +29,7 @@ pub(crate) fn write(
     let ln_factors: Vec<f64> = factors.par_iter().map(|&doppler| libm::log(doppler)).collect();
     let grid = DopplerGrid::new(range(&ln_factors, used));
     let colors = spectral_colors(scene, shares, used, &grid);
-    let tolerance = config.tolerance / 100.0;
+    let tolerance = config.bounded_tolerance() / 100.0;
     let tables = colors.iter().flatten().filter_map(SpectralColor::table);
     let quantizer = DopplerQuantizer::new(&grid, tables, shift, tolerance);
 
@@ -254,7 +254,7 @@ impl Lit {
     fn push_colors(&self, scene: &mut Scene, config: &Config, shares: &[Shares], seen: &[[f64; 3]]) {
         let mut names: UniqueNames = scene.colors.iter().map(|color| scene.names.get(color.name)).collect();
         let mut made: FxHashMap<[u64; 4], ColorId> = FxHashMap::default();
-        let width = config.tolerance / 100.0;
+        let width = config.bounded_tolerance() / 100.0;
         let step = |part: f64| {
             let part = if width > 0.0 { (libm::log(part) / width).round() } else { part };
             part.to_bits()

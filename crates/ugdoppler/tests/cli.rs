@@ -41,7 +41,7 @@ fn a_vertex_at_the_eye_is_shown_in_the_text() {
     assert_eq!(out.status.code(), Some(1));
     assert_eq!(
         String::from_utf8_lossy(&out.stderr),
-        "error: vertex `a` lies at the eye, where no direction to it exists
+        "ugdoppler: error: vertex `a` lies at the eye, where no direction to it exists
  --> <stdin>:1:3
   |
 1 | v a 0 0 0; v b 1 0 0;
@@ -59,7 +59,8 @@ fn bad_usage_is_status_2() {
         (&["-vel", ".5", "0"][..], "takes three values, not two"),
         (&["-vel", "nan", "0", "0"][..], "not a finite number"),
         (&["-br", "bright"][..], "`-br` takes "),
-        (&["-ct", "-1"][..], "a colour tolerance (-ct) is 0 or more"),
+        (&["-ct", "-1"][..], "a colour tolerance (-ct) is between 0 and 100"),
+        (&["-ct", "1e300"], "a colour tolerance (-ct) is between 0 and 100"),
         (&["-sp", "-gw"][..], "-sp writes X, Y, Z and -gw writes wavelengths of hues"),
         (&["-sp", "-br", "report"][..], "leave out -br, or the D^5 by --no-flux"),
         (&["-ir", "-hd"][..], "-ir scales intensities to 1 and -hd keeps them"),

@@ -76,7 +76,8 @@ fn a_check_prints_findings_as_other_programs_do() {
     let out = ugparse(&["-qt"], BAD.as_bytes());
     assert_eq!((out.status.code(), out.stdout.len()), (Some(1), 0));
     let findings = ugparse::parse(&Source::new("<stdin>", BAD), &Options::default()).unwrap_err();
-    assert_eq!(String::from_utf8_lossy(&out.stderr), format!("{findings}\n"));
+    let expected = format!("{findings}\n").replace("error: ", "ugparse: error: ");
+    assert_eq!(String::from_utf8_lossy(&out.stderr), expected);
 
     let out = ugparse(&[], POOR.as_bytes());
     assert_eq!((out.status.code(), out.stdout.len()), (Some(0), 0));
@@ -167,18 +168,23 @@ fn programs_of_a_scene_are_run_only_if_allowed() {
         String::from_utf8_lossy(&out.stderr).into_owned()
     };
     check("echo 'v a 1 2 3;'", &["-allow-execute"], 0, "{ sky }\nv a 1 2 3;\n");
-    check("echo 'v a 1 2 3;'", &[], 1, "error: program `stars` is not run\n --> /sky.ug:2:9");
+    check("echo 'v a 1 2 3;'", &[], 1, "ugparse: error: program `stars` is not run\n --> /sky.ug:2:9");
     // It gets no arguments and no input, and runs in the current folder.
     check("echo \"{ $# $(cat) }\"; test -d crates || exit 1", &["-allow-execute"], 0, "{ sky }\n{ 0  }\n");
     check(
         "echo no fuel >&2; exit 3",
         &["-allow-execute"],
         1,
-        "error: program `/stars` failed with exit status: 3: no fuel\n --> /sky.ug:2:9",
+        "ugparse: error: program `/stars` failed with exit status: 3: no fuel\n --> /sky.ug:2:9",
     );
-    check("echo 'v a 0;'", &["-allow-execute"], 1, "error: expected a number, found `;`\n --> /stars:1:6");
+    check(
+        "echo 'v a 0;'",
+        &["-allow-execute"],
+        1,
+        "ugparse: error: expected a number, found `;`\n --> /stars:1:6",
+    );
     let endless = "while :; do echo '{}'; done";
-    check(endless, &["-allow-execute", "-limit", "text=1000"], 1, "error: with the text of `stars`");
+    check(endless, &["-allow-execute", "-limit", "text=1000"], 1, "ugparse: error: with the text of `stars`");
     let said = check("echo 'some are faint' >&2", &["-allow-execute"], 0, "{ sky }\n");
     assert!(said.starts_with("ugparse: note: ") && said.ends_with("stars says: some are faint\n"), "{said}");
 }
@@ -208,7 +214,10 @@ fn inputs_that_are_not_scenes_have_one_error() {
         fs::write(&path, bytes).unwrap();
         let out = ugparse(&["-qt", path.to_str().unwrap()], b"");
         let shown = String::from_utf8(out.stderr).unwrap();
-        assert!(shown.starts_with(&format!("error: this is not a UniGrafix scene but {what}\n")), "{shown}");
+        assert!(
+            shown.starts_with(&format!("ugparse: error: this is not a UniGrafix scene but {what}\n")),
+            "{shown}"
+        );
         assert!(
             shown.replace(path.to_str().unwrap(), "FILE").ends_with(&format!("help: {help}\n")),
             "{shown}"
@@ -234,7 +243,9 @@ fn inputs_that_are_not_scenes_have_one_error() {
     let path = folder.path().join("scene.obj");
     fs::write(&path, BAD).unwrap();
     let out = ugparse(&["-qt", path.to_str().unwrap()], b"");
-    assert!(String::from_utf8(out.stderr).unwrap().starts_with("error: colour `red` is not defined"));
+    assert!(
+        String::from_utf8(out.stderr).unwrap().starts_with("ugparse: error: colour `red` is not defined")
+    );
 }
 
 #[test]
@@ -253,7 +264,7 @@ fn carriage_returns_end_line_marks() {
         let scene = format!("{first}{ends}# 7 \"house.ug\"{ends}{rest}{ends}");
         let out = ugparse(&["-qt"], scene.as_bytes());
         let shown = String::from_utf8(out.stderr).unwrap();
-        assert!(shown.starts_with("error: vertex `d` is not defined\n --> house.ug:7:"), "{shown}");
+        assert!(shown.starts_with("ugparse: error: vertex `d` is not defined\n --> house.ug:7:"), "{shown}");
     }
 }
 
@@ -266,7 +277,7 @@ fn normals_may_be_too_long() {
     let lamp = "def d; l 1 1e300 0 0; end; i (d -sa 1e10);";
     let shown = String::from_utf8(ugparse(&["-qt"], lamp.as_bytes()).stderr).unwrap();
     assert!(
-        shown.starts_with("error: this normal or direction becomes too long when it is placed"),
+        shown.starts_with("ugparse: error: this normal or direction becomes too long when it is placed"),
         "{shown}"
     );
 }

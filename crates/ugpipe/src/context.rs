@@ -223,8 +223,9 @@ impl Context {
         self.messages.warn(text);
     }
 
-    /// Prints rendered diagnostics as they are: warnings with their own locations and headings.
-    /// Always render them with terminal styles, which are removed if the output is not a terminal.
+    /// Prints rendered diagnostics: warnings with their own locations and headings, each after the
+    /// name of the program. Always render them with terminal styles, which are removed if the output
+    /// is not a terminal.
     /// Prints nothing if `-qt` is given.
     ///
     /// For errors, end the run with [`Failure::Report`] instead.

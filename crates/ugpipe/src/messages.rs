@@ -75,7 +75,7 @@ impl Messages {
 
     pub(crate) fn warn_report(&self, text: &str) {
         if !self.is_quiet {
-            self.print(&printable_styled(text));
+            self.report(text);
         }
     }
 
@@ -88,13 +88,20 @@ impl Messages {
 
     pub(crate) fn failure(&self, failure: &Failure) {
         match failure {
-            Failure::Report(text) => self.print(&printable_styled(text)),
+            Failure::Report(text) => self.report(text),
             Failure::Usage(text) => {
                 let line = self.line("error", ERROR, text);
                 self.print(&format!("{line}\ntry `{} -h`", self.program));
             }
             _ => self.headed("error", ERROR, &failure.to_string()),
         }
+    }
+
+    /// Prints a report, whose messages have an empty line between them.
+    fn report(&self, text: &str) {
+        let text = printable_styled(text.trim_end_matches('\n'));
+        let messages = text.split("\n\n").map(|message| format!("{}: {message}", self.program));
+        self.print(&messages.collect::<Vec<_>>().join("\n\n"));
     }
 
     fn headed(&self, heading: &str, style: Style, text: &str) {

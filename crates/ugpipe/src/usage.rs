@@ -129,7 +129,7 @@ fn unknown_option(command: &Command, argument: &str) -> String {
     if let Some(program) = remedies::program_with_option(name) {
         return format!("`{shown}` is an option of {program}, not of {}", command.get_name());
     }
-    match nearest(name, names()) {
+    match nearest(name, names()).or_else(|| containing(name, names())) {
         Some(near) => format!(
             "there is no option `{shown}`; did you mean `{}`?",
             in_documented_form(&format!("--{near}"))
@@ -177,6 +177,12 @@ fn nearest<'n>(word: &str, names: impl Iterator<Item = &'n str>) -> Option<&'n s
     near.filter(|&(distance, name)| distance <= most && distance < name.len()).min().map(|(_, name)| name)
 }
 
+/// The only name that has `word` between its hyphens: `keep-in-view` for `keep`.
+fn containing<'n>(word: &str, names: impl Iterator<Item = &'n str>) -> Option<&'n str> {
+    let mut found = names.filter(|name| name.split('-').any(|part| part == word));
+    found.next().filter(|_| found.next().is_none())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -207,6 +213,16 @@ mod tests {
             ("banana", None),
         ] {
             assert_eq!(nearest(word, names.into_iter()), expected, "{word}");
+        }
+    }
+
+    #[test]
+    fn names_with_a_word() {
+        let names = ["keep-in-view", "no-flux", "no-shadows"];
+        for (word, expected) in
+            [("keep", Some("keep-in-view")), ("shadows", Some("no-shadows")), ("no", None), ("x", None)]
+        {
+            assert_eq!(containing(word, names.into_iter()), expected, "{word}");
         }
     }
 }

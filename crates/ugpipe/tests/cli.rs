@@ -147,7 +147,7 @@ fn failures_have_a_status_and_a_message() {
     );
     check(&folder, &["-fm", "no/x"], 1, "ugcat: error: cannot write `no/x`: No such file or directory\n");
     check(&folder, &["-fail", "work"], 1, "ugcat: error: invalid digit found in string\n");
-    check(&folder, &["-fail", "report"], 1, "error: no face\n --> x.ug:1:2\n");
+    check(&folder, &["-fail", "report"], 1, "ugcat: error: no face\n --> x.ug:1:2\n");
     let usage = "ugcat: error: `-vel` is too fast; stay below 1\ntry `ugcat -h`\n";
     check(&folder, &["-fail", "usage"], 2, usage);
     check(&folder, &["-qt", "-fail", "usage"], 2, usage);
@@ -277,7 +277,7 @@ fn the_command_line_is_recorded_without_streams_and_threads() {
 
 #[test]
 fn messages_go_to_standard_error_or_a_file() {
-    const WARNINGS: &str = "ugcat: warning: nearly all\nwarning: this face\n --> x.ug:1:2\n";
+    const WARNINGS: &str = "ugcat: warning: nearly all\nugcat: warning: this face\n --> x.ug:1:2\n";
     let folder = folder();
     let notes = |n_threads: &str, name: &str| {
         let rest = format!("ugcat: note: terminal false, name {name}, threads {n_threads}\n");
@@ -292,7 +292,7 @@ fn messages_go_to_standard_error_or_a_file() {
     assert_run(&run(&folder, &["-say", "-nt", "1", "-fm", "log"]), 0, "", "");
     assert_eq!(read(&folder, "log"), notes("1", "None"));
     assert_run(&run(&folder, &["-fm", "log", "-fail", "report"]), 1, "", "");
-    assert_eq!(read(&folder, "log"), "error: no face\n --> x.ug:1:2\n");
+    assert_eq!(read(&folder, "log"), "ugcat: error: no face\n --> x.ug:1:2\n");
     // If the message file is full, the error goes to standard error.
     let full = run(&folder, &["-fm", "/dev/full", "-fail", "work"]);
     assert_run(&full, 1, "", "ugcat: error: invalid digit found in string\n");
@@ -602,7 +602,7 @@ fn a_terminal_shows_colors_unless_unwanted() {
     let mut without = command_in_color(&folder, &args);
     without.env("NO_COLOR", "1");
     let (_, screen) = on_terminal(without, b"");
-    assert!(screen.contains("ugcat: warning: nearly all\nwarning: this face\n"), "{screen:?}");
+    assert!(screen.contains("ugcat: warning: nearly all\nugcat: warning: this face\n"), "{screen:?}");
     assert!(!screen.contains('\x1b'), "{screen:?}");
 }
 
