@@ -45,7 +45,7 @@ impl Config {
     /// The tolerance within its range.
     pub(crate) fn bounded_tolerance(&self) -> f64 {
         // NaN counts as 0.
-        self.tolerance.max(0.0).min(100.0)
+        if self.tolerance > 0.0 { self.tolerance.min(100.0) } else { 0.0 }
     }
 }
 
