@@ -104,6 +104,21 @@ pub struct Args {
     #[arg(long, value_name = "ANGLE", visible_alias = "fisheye", value_parser = fisheye, help_heading = RAYS)]
     fish: Option<f64>,
 
+    /// Cube map: six square views from left to right
+    ///
+    /// Right, left, up, down, front, back of the view direction: +X, -X, +Y, -Y, +Z, -Z of cube
+    /// maps, each as seen from inside. -sz W H needs W = 6 H.
+    #[arg(long, visible_alias = "cube-map", conflicts_with_all = ["pan", "fish"], help_heading = RAYS)]
+    cube: bool,
+
+    /// A picture for each of two eyes at this distance
+    ///
+    /// Side by side, the left eye's on the left; panoramas one above the other, the left eye's
+    /// above. Each eye has half of -sz. Both rest in the frame of the camera and see at the same
+    /// moment of it. In a panorama each column has eyes across its own direction (ODS).
+    #[arg(long, value_name = "DISTANCE", value_parser = distance, conflicts_with = "cube", help_heading = RAYS)]
+    stereo: Option<f64>,
+
     /// Draw only a part of the picture: column, row, width, height
     ///
     /// The pixels are those of the whole picture of size -sz, so parts drawn on several machines
@@ -191,8 +206,10 @@ impl Args {
             lens: match self.fish {
                 Some(degrees) => Lens::Fisheye { angle: degrees.to_radians() },
                 None if self.pan => Lens::Panorama,
+                None if self.cube => Lens::Cube,
                 None => Lens::Pinhole,
             },
+            stereo: self.stereo,
             crop: self.crop.as_deref().and_then(|crop| crop.try_into().ok()),
             reading: pipe::options(&self.common)?,
         })

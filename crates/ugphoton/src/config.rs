@@ -29,6 +29,10 @@ pub struct Config {
     pub repeat: bool,
     /// Which direction is seen where.
     pub lens: Lens,
+    /// The distance between two eyes, each with a picture of its own (`-stereo`): side by side, the
+    /// left eye's on the left; panoramas one above the other, the left eye's above. Both eyes are
+    /// at rest in the frame of the camera, and see at the same moment of it.
+    pub stereo: Option<f64>,
     /// Draw only a part of the picture (`-crop`): its left column, upper row, width and height. The
     /// pixels are those of the whole picture.
     pub crop: Option<[u32; 4]>,
@@ -42,21 +46,7 @@ impl Config {
     /// # Errors
     /// [`Error::Options`], [`Error::Crop`], [`Error::Picture`].
     pub(crate) fn check(&self) -> Result<(), Error> {
-        let annotations = &self.picture.annotations;
-        let needs_film = annotations.legend || annotations.outline || annotations.grid;
-        if self.lens != Lens::Pinhole {
-            if needs_film || !self.picture.channels.is_empty() {
-                return Err(Error::Options(
-                    "legend, outline, grid and channels (-lg, -dl, -gr, -ch) are for pinhole cameras: leave them \
-                     out, or -pan and -fish",
-                ));
-            }
-            if self.rays.shutter != Shutter::Pinhole {
-                return Err(Error::Options(
-                    "--film-shutter is for pinhole cameras: leave out -pan and -fish",
-                ));
-            }
-        }
+        self.check_lens()?;
         let Some([left, top, width, height]) = self.crop else { return Ok(self.picture.check()?) };
         let fits = |start: u32, length: u32, side: u32| {
             length > 0 && start.checked_add(length).is_some_and(|end| end <= side)
@@ -64,7 +54,7 @@ impl Config {
         if !(fits(left, width, self.picture.size[0]) && fits(top, height, self.picture.size[1])) {
             return Err(Error::Crop { crop: [left, top, width, height], size: self.picture.size });
         }
-        if needs_film || !annotations.caption.is_empty() || !self.picture.channels.is_empty() {
+        if self.picture.annotations.is_any() || !self.picture.channels.is_empty() {
             return Err(Error::Options(
                 "annotations and channels (-cap, -lg, -dl, -gr, -ch) are for whole pictures: leave them out, or -crop",
             ));
@@ -76,6 +66,62 @@ impl Config {
         }
         let part = PictureOptions { size: [width, height], ..self.picture.clone() };
         Ok(part.check()?)
+    }
+
+    fn check_lens(&self) -> Result<(), Error> {
+        let annotations = &self.picture.annotations;
+        let refused = |text| Err(Error::Options(text));
+        if self.lens == Lens::Cube && self.stereo.is_some() {
+            return refused(
+                "a cube map is seen from one place: leave out -stereo, or give -pan instead of -cube",
+            );
+        }
+        let [width, height] = self.picture.size;
+        if self.lens == Lens::Cube && u64::from(width) != 6 * u64::from(height) {
+            return refused(
+                "a cube map (-cube) is six squares side by side: give -sz W H with W = 6 H, such as -sz 3072 512",
+            );
+        }
+        let [across, down] = self.frames();
+        if width % across != 0 || height % down != 0 {
+            return refused(
+                "the pictures of both eyes (-stereo) are side by side, with -pan one above the other: give an \
+                 even width in -sz, with -pan an even height",
+            );
+        }
+        if [across, down] != [1, 1] && annotations.is_any() {
+            return refused(
+                "annotations (-cap, -lg, -dl, -gr) are for pictures of a single view: leave them out, or -cube \
+                 and -stereo",
+            );
+        }
+        if self.lens == Lens::Pinhole {
+            return Ok(());
+        }
+        if annotations.legend || annotations.outline || annotations.grid || !self.picture.channels.is_empty()
+        {
+            return refused(
+                "legend, outline, grid and channels (-lg, -dl, -gr, -ch) are for pinhole cameras: leave them \
+                 out, or -pan, -fish and -cube",
+            );
+        }
+        if self.rays.shutter != Shutter::Pinhole {
+            return refused(
+                "--film-shutter is for pinhole cameras, whose film is flat: leave it out, or -pan, -fish and -cube",
+            );
+        }
+        Ok(())
+    }
+
+    /// The frames of which the picture consists, across and down.
+    pub(crate) fn frames(&self) -> [u32; 2] {
+        self.lens.frames(self.stereo.is_some())
+    }
+
+    /// The size of a frame, in pixels.
+    pub(crate) fn frame_size(&self) -> [u32; 2] {
+        let ([width, height], [across, down]) = (self.picture.size, self.frames());
+        [width / across, height / down]
     }
 }
 
@@ -129,6 +175,7 @@ impl Default for Config {
             smooth: false,
             repeat: false,
             lens: Lens::Pinhole,
+            stereo: None,
             crop: None,
             reading: ugparse::Options::default(),
         }

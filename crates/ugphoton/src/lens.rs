@@ -1,5 +1,7 @@
 //! Which direction is seen at a place of the picture.
 
+use std::ops::Range;
+
 use glam::DVec3;
 use ugscene::View;
 
@@ -18,13 +20,42 @@ pub enum Lens {
         /// The angle across the circle, radians, above 0 and at most 2π.
         angle: f64,
     },
+    /// All directions on the sides of a cube, six squares from left to right: right, left, up,
+    /// down, front, back (+X, −X, +Y, −Y, +Z, −Z of cube maps).
+    Cube,
+}
+
+impl Lens {
+    /// The frames of which a picture consists, across and down: the sides of a cube, or the
+    /// pictures of two eyes.
+    pub(crate) fn frames(self, is_stereo: bool) -> [u32; 2] {
+        match (self, is_stereo) {
+            (Self::Cube, _) => [6, 1],
+            (_, false) => [1, 1],
+            (Self::Panorama, true) => [1, 2],
+            (Self::Pinhole | Self::Fisheye { .. }, true) => [2, 1],
+        }
+    }
+}
+
+/// A line of sight, in the frame of the camera and the axes of the scene.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sight {
+    /// The place of the eye relative to the middle between both eyes.
+    pub eye: DVec3,
+    /// The direction seen: of depth 1 for a pinhole, else a unit vector.
+    pub direction: DVec3,
 }
 
 /// A lens before the film of a picture.
 #[derive(Clone, Copy, Debug)]
 pub struct Film {
     lens: Lens,
-    /// Samples across and down.
+    /// Half the distance of the eyes, if there are two.
+    half_stereo: Option<f64>,
+    /// Frames across and down.
+    frames: [u32; 2],
+    /// Samples of a frame across and down.
     size: [f64; 2],
     /// Direction of the upper left corner and its change per sample, at depth 1.
     pinhole: [DVec3; 3],
@@ -34,17 +65,63 @@ pub struct Film {
 }
 
 impl Film {
-    /// `samples`: of the picture, across and down.
-    pub fn new(lens: Lens, view: &View, samples: [u32; 2]) -> Self {
+    /// `view`: of a frame, of `samples` across and down. `stereo`: distance of the eyes.
+    pub fn new(lens: Lens, stereo: Option<f64>, view: &View, samples: [u32; 2]) -> Self {
         let pinhole @ [_, across, down] = view.rays();
         let (right, up) = (across.normalize_or_zero(), -down.normalize_or_zero());
-        Self { lens, size: samples.map(f64::from), pinhole, right, up, forward: view.forward }
+        Self {
+            lens,
+            half_stereo: stereo.map(|distance| 0.5 * distance),
+            frames: lens.frames(stereo.is_some()),
+            size: samples.map(f64::from),
+            pinhole,
+            right,
+            up,
+            forward: view.forward,
+        }
     }
 
-    /// The direction seen at a place, in samples from the upper left corner: of depth 1 for a
-    /// pinhole, else a unit vector. `None` outside the circle of a fisheye.
+    /// True if all light of the picture arrives at one place.
+    pub fn has_one_eye(&self) -> bool {
+        self.half_stereo.is_none()
+    }
+
+    /// The line of sight at a place, in samples from the upper left corner. `None` outside the
+    /// circle of a fisheye.
     #[inline]
-    pub fn direction(&self, [x, y]: [f64; 2]) -> Option<DVec3> {
+    pub fn sight(&self, [x, y]: [f64; 2]) -> Option<Sight> {
+        if self.frames == [1, 1] {
+            return Some(Sight { eye: DVec3::ZERO, direction: self.direction([x, y], 0)? });
+        }
+        let [column, row] = [(x / self.size[0]).floor(), (y / self.size[1]).floor()];
+        let place = [x - column * self.size[0], y - row * self.size[1]];
+        let frame = column as usize + row as usize;
+        let direction = self.direction(place, frame)?;
+        let eye = self.half_stereo.map_or(DVec3::ZERO, |half| {
+            let side = if frame == 0 { -half } else { half };
+            side * self.across(place[0])
+        });
+        Some(Sight { eye, direction })
+    }
+
+    /// The direction from the left to the right eye: perpendicular to the view; in a panorama, to
+    /// the horizontal direction seen in a column.
+    fn across(&self, x: f64) -> DVec3 {
+        if self.lens != Lens::Panorama {
+            return self.right;
+        }
+        let (sin, cos) = self.longitude(x);
+        cos * self.right - sin * self.forward
+    }
+
+    /// Sine and cosine of the longitude of a column of a panorama.
+    fn longitude(&self, x: f64) -> (f64, f64) {
+        libm::sincos(core::f64::consts::TAU * (x / self.size[0] - 0.5))
+    }
+
+    /// The direction seen at a place of a frame.
+    #[inline]
+    fn direction(&self, [x, y]: [f64; 2], frame: usize) -> Option<DVec3> {
         let [width, height] = self.size;
         match self.lens {
             Lens::Pinhole => {
@@ -52,7 +129,7 @@ impl Film {
                 Some(corner + y * down + x * across)
             }
             Lens::Panorama => {
-                let (sin_long, cos_long) = libm::sincos(core::f64::consts::TAU * (x / width - 0.5));
+                let (sin_long, cos_long) = self.longitude(x);
                 let (sin_lat, cos_lat) = libm::sincos(core::f64::consts::PI * (0.5 - y / height));
                 Some(
                     self.forward * (cos_lat * cos_long)
@@ -73,8 +150,30 @@ impl Film {
                 let aside = (across / radius) * self.right + (above / radius) * self.up;
                 Some(cos * self.forward + sin * aside)
             }
+            Lens::Cube => {
+                let (right, up, forward) = (self.right, self.up, self.forward);
+                // The middle of the side, and what is to the right and below in its square.
+                let [middle, across, down] = match frame {
+                    0 => [right, -forward, -up],
+                    1 => [-right, forward, -up],
+                    2 => [up, right, forward],
+                    3 => [-up, right, -forward],
+                    4 => [forward, right, -up],
+                    _ => [-forward, -right, -up],
+                };
+                let [u, v] = [2.0 * x / width - 1.0, 2.0 * y / height - 1.0];
+                Some((middle + u * across + v * down).normalize())
+            }
         }
     }
+}
+
+/// The rows or columns, in pixels, of the frame that contains one of them. `side`: of the picture,
+/// which has `n_frames` frames in this direction.
+pub fn frame_around(pixel: u32, side: u32, n_frames: u32) -> Range<u32> {
+    let length = (side / n_frames).max(1);
+    let start = pixel / length * length;
+    start..(start + length).min(side)
 }
 
 #[cfg(test)]
@@ -82,20 +181,22 @@ mod tests {
     use super::*;
     use ugscene::CameraOptions;
 
-    fn film(lens: Lens, samples: [u32; 2]) -> Film {
+    fn film(lens: Lens, stereo: Option<f64>, samples: [u32; 2]) -> Film {
         let text = "v a 0 1 0; cam -ep 0 0 0 -vc 0 1 0 -ud 0 0 1;";
         let source = ugparse::Source::new("t.ug", text);
         let scene = ugparse::parse(&source, &ugparse::Options::default());
         let view =
             scene.ok().and_then(|parsed| View::new(&parsed.scene, &CameraOptions::default(), samples).ok());
         let Some(view) = view else { panic!("a camera") };
-        Film::new(lens, &view, samples)
+        Film::new(lens, stereo, &view, samples)
     }
 
     #[track_caller]
     fn check(lens: Lens, place: [f64; 2], expected: DVec3) {
-        let found = film(lens, [40, 20]).direction(place);
-        assert!(found.is_some_and(|found| (found - expected).length() < 1e-15), "{found:?}");
+        let found = film(lens, None, [40, 20]).sight(place);
+        let is_there =
+            |found: Sight| found.eye == DVec3::ZERO && (found.direction - expected).length() < 1e-15;
+        assert!(found.is_some_and(is_there), "{found:?}");
     }
 
     #[test]
@@ -119,6 +220,82 @@ mod tests {
         check(dome, [30.0, 10.0], DVec3::X);
         check(dome, [20.0, 0.0], DVec3::Z);
         check(dome, [25.0, 10.0], DVec3::new(0.5_f64.sqrt(), 0.5_f64.sqrt(), 0.0));
-        assert_eq!(film(dome, [40, 20]).direction([31.0, 10.0]), None);
+        assert_eq!(film(dome, None, [40, 20]).sight([31.0, 10.0]), None);
+    }
+
+    /// The middles of the sides, and the directions to the right and below them.
+    #[test]
+    fn cubes_have_the_order_of_cube_maps() {
+        let film = film(Lens::Cube, None, [20, 20]);
+        let (right, front, up) = (DVec3::X, DVec3::Y, DVec3::Z);
+        for (side, [middle, across, down]) in [
+            [right, -front, -up],
+            [-right, front, -up],
+            [up, right, front],
+            [-up, right, -front],
+            [front, right, -up],
+            [-front, -right, -up],
+        ]
+        .into_iter()
+        .enumerate()
+        {
+            let left = 20.0 * side as f64;
+            for (place, expected) in [
+                ([10.0, 10.0], middle),
+                ([15.0, 10.0], middle + 0.5 * across),
+                ([10.0, 15.0], middle + 0.5 * down),
+            ] {
+                let found = film.sight([left + place[0], place[1]]).map(|sight| sight.direction);
+                let is_there = |found: DVec3| (found - expected.normalize()).length() < 1e-15;
+                assert!(found.is_some_and(is_there), "{side} {found:?}");
+            }
+        }
+    }
+
+    /// The twelve edges of the cube: a place on each is seen in the same direction from both sides.
+    #[test]
+    fn cubes_continue_at_their_edges() {
+        let film = film(Lens::Cube, None, [20, 20]);
+        let edges = |side: usize| {
+            let at = |[x, y]: [f64; 2]| {
+                // Just inside, so that the place belongs to this side.
+                let inside = |part: f64| 10.0 + (1.0 - 1e-12) * (part - 10.0);
+                let place = [20.0 * side as f64 + inside(x), inside(y)];
+                film.sight(place).map_or(DVec3::ZERO, |sight| sight.direction)
+            };
+            let places = |along: f64| [[along, 0.0], [along, 20.0], [0.0, along], [20.0, along]];
+            [0, 1, 2, 3].map(|edge| [3.0, 17.0].map(|along| at(places(along)[edge])))
+        };
+        let mut n_pairs = 0;
+        for (side, other) in (0..6).flat_map(|side| (0..side).map(move |other| (side, other))) {
+            for (one, two) in edges(side).iter().flat_map(|a| edges(other).map(|b| (*a, b))) {
+                let is_same = |a: DVec3, b: DVec3| (a - b).length() < 1e-9;
+                let joins = is_same(one[0], two[0]) && is_same(one[1], two[1]);
+                let joins_turned = is_same(one[0], two[1]) && is_same(one[1], two[0]);
+                n_pairs += usize::from(joins || joins_turned);
+            }
+        }
+        assert_eq!(n_pairs, 12);
+    }
+
+    /// Each eye is at half the distance to its side of the view; in a panorama, of the direction
+    /// seen.
+    #[test]
+    fn eyes_are_apart_across_the_view() {
+        let check = |lens: Lens, place: [f64; 2], eye: DVec3, direction: DVec3| {
+            let found = film(lens, Some(0.5), [40, 20]).sight(place);
+            let is_there =
+                |found: Sight| (found.eye - eye).length() + (found.direction - direction).length() < 1e-15;
+            assert!(found.is_some_and(is_there), "{found:?}");
+        };
+        let half = 0.25;
+        for lens in [Lens::Pinhole, Lens::Fisheye { angle: 3.0 }] {
+            check(lens, [20.0, 10.0], -half * DVec3::X, DVec3::Y);
+            check(lens, [60.0, 10.0], half * DVec3::X, DVec3::Y);
+        }
+        check(Lens::Panorama, [20.0, 10.0], -half * DVec3::X, DVec3::Y);
+        check(Lens::Panorama, [20.0, 30.0], half * DVec3::X, DVec3::Y);
+        check(Lens::Panorama, [30.0, 10.0], half * DVec3::Y, DVec3::X);
+        check(Lens::Panorama, [30.0, 30.0], -half * DVec3::Y, DVec3::X);
     }
 }

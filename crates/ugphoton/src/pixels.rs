@@ -8,6 +8,8 @@ use ugimage::{Filter, LinearFrame};
 use ugpicture::{Backdrop, DepthBuffer, Emissions, PictureOptions, SurfaceSample, channel_planes};
 use ugpipe::Progress;
 
+use crate::config::Config;
+use crate::lens::frame_around;
 use crate::path::Ray;
 use crate::scenery::Scenery;
 use crate::tracer::Tracer;
@@ -49,19 +51,14 @@ impl Statistics {
     }
 }
 
-/// The light of a picture, or of a part of it, with the requested channels. `crop`: see
-/// [`crate::Config::crop`].
-pub fn light(
-    scenery: &Scenery<'_>,
-    options: &PictureOptions,
-    crop: Option<[u32; 4]>,
-    progress: &dyn Progress,
-) -> (LinearFrame, Statistics) {
+/// The light of a picture, or of a part of it, with the requested channels.
+pub fn light(scenery: &Scenery<'_>, config: &Config, progress: &dyn Progress) -> (LinearFrame, Statistics) {
+    let options = &config.picture;
     let PictureOptions { size, samples, filter, .. } = *options;
     let backdrop = Backdrop::new(options.background, samples);
-    let [left, top, width, height] = crop.unwrap_or([0, 0, size[0], size[1]]);
+    let [left, top, width, height] = config.crop.unwrap_or([0, 0, size[0], size[1]]);
     let area = [left..left + width, top..top + height];
-    let painting = Painting { scenery, size, area, samples, filter, backdrop };
+    let painting = Painting { scenery, size, frames: config.frames(), area, samples, filter, backdrop };
     let [columns, rows] = [width, height].map(|side| side.div_ceil(TILE));
     progress.step("tracing rays", u64::from(columns) * u64::from(rows));
     let tiles: Vec<Tile> = (0..columns * rows)
@@ -127,6 +124,8 @@ struct Painting<'a> {
     scenery: &'a Scenery<'a>,
     /// Pixels of the whole picture.
     size: [u32; 2],
+    /// Frames of it, across and down.
+    frames: [u32; 2],
     /// The columns and rows to be drawn.
     area: [Range<u32>; 2],
     samples: u32,
@@ -234,12 +233,19 @@ impl Painting<'_> {
         let first = |pixel: u32| i64::from(pixel * n) - i64::from(margin * n);
         let (left, top) = (first(column), first(row));
         let (mut sum, mut total) = ([0.0_f32; 4], 0.0_f32);
-        let inside = |range: &Range<u32>, at: i64| u32::try_from(at).ok().filter(|at| range.contains(at));
+        // A filter does not reach into the frame beside.
+        let [columns, rows] = [(0, column), (1, row)].map(|(axis, pixel)| {
+            let frame = frame_around(pixel, self.size[axis], self.frames[axis]);
+            frame.start * n..frame.end * n
+        });
+        let inside = |range: &Range<u32>, frame: &Range<u32>, at: i64| {
+            u32::try_from(at).ok().filter(|at| range.contains(at) && frame.contains(at))
+        };
         for (at, &down) in weights.iter().enumerate() {
-            let Some(y) = inside(&samples.rows, top + at as i64) else { continue };
+            let Some(y) = inside(&samples.rows, &rows, top + at as i64) else { continue };
             let line = &samples.light[(y - samples.rows.start) as usize * width..][..width];
             for (at, &across) in weights.iter().enumerate() {
-                let Some(x) = inside(&samples.columns, left + at as i64) else { continue };
+                let Some(x) = inside(&samples.columns, &columns, left + at as i64) else { continue };
                 let weight = down * across;
                 if weight != 0.0 {
                     let sample = line[(x - samples.columns.start) as usize];

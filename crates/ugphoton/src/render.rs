@@ -59,7 +59,7 @@ pub fn light(scene: Scene, config: &Config) -> Result<LinearFrame, Error> {
     config.check()?;
     let scene = as_seen(scene, &config)?;
     let scenery = Scenery::new(Cow::Owned(scene), &config)?;
-    Ok(pixels::light(&scenery, &config.picture, config.crop, &()).0)
+    Ok(pixels::light(&scenery, &config, &()).0)
 }
 
 const PROGRAM: &str = env!("CARGO_PKG_NAME");
@@ -113,7 +113,7 @@ fn render_with(
     let config = &Config { picture: layout.of_scene(&config.picture).into_owned(), ..config.clone() };
     let compression = if config.picture.small { Compression::Small } else { Compression::Fast };
     let scenery = Scenery::new(Cow::Owned(as_seen(scene, config)?), config)?;
-    let (frame, statistics) = pixels::light(&scenery, &config.picture, config.crop, progress);
+    let (frame, statistics) = pixels::light(&scenery, config, progress);
     let (image, development) = developed(frame, &scenery, config);
     progress.step("annotating", 0);
     let annotations = annotate(layout, &scenery, config, development)?;
@@ -126,7 +126,7 @@ fn render_with(
 fn as_seen(mut scene: Scene, config: &Config) -> Result<Scene, Error> {
     ugscene::repeat_vertices(&mut scene, config.repeat);
     let picture = &config.picture;
-    let placed = PlacedBodies::new(&mut scene, &config.motion, &picture.camera, picture.size)?;
+    let placed = PlacedBodies::new(&mut scene, &config.motion, &picture.camera, config.frame_size())?;
     let rest = placed.rest_positions(&scene);
     if config.smooth {
         let normals = ugscene::smooth_normals(&scene, &rest);

@@ -17,7 +17,7 @@ use ugscene::{Geometry, View};
 use crate::config::{Config, RayOptions, Shutter};
 use crate::error::{Error, MOST_LIGHTINGS};
 use crate::frame::RestFrame;
-use crate::lens::Film;
+use crate::lens::{Film, Sight};
 use crate::path::{Ray, Start};
 use crate::world::{Faces, Intersection, PacketMemory, World};
 
@@ -29,7 +29,7 @@ const REACH: f64 = 5.0;
 pub struct Scenery<'a> {
     /// The scene as seen, whose vertices are part of one body each.
     pub scene: Cow<'a, Scene>,
-    /// The camera; its picture coordinates are samples.
+    /// The camera of a frame; its picture coordinates are samples.
     pub view: View,
     /// Its lens and film.
     film: Film,
@@ -83,11 +83,12 @@ impl<'a> Scenery<'a> {
             return Err(Error::Scene(remedies::EXACT_PARTIAL_GEOMETRY));
         }
         let PictureOptions { size: [width, height], samples, camera, .. } = &config.picture;
-        let view = View::new(&scene, camera, [width * samples, height * samples])?;
+        let [frame_width, frame_height] = config.frame_size().map(|side| side * samples);
+        let view = View::new(&scene, camera, [frame_width, frame_height])?;
         if !view.is_perspective {
             return Err(Error::Orthographic);
         }
-        let film = Film::new(config.lens, &view, [width * samples, height * samples]);
+        let film = Film::new(config.lens, config.stereo, &view, [frame_width, frame_height]);
         let n_samples =
             config.crop.map_or(u64::from(*width) * u64::from(*height), |[_, _, width, height]| {
                 u64::from(width) * u64::from(height)
@@ -155,15 +156,14 @@ impl<'a> Scenery<'a> {
     /// The ray through the middle of a sample; `None` where the lens shows nothing. Its parameter
     /// is the depth along the view, or the distance with another lens than a pinhole.
     pub fn primary_ray(&self, [column, row]: [u32; 2]) -> Option<Ray> {
-        let direction = self.film.direction([f64::from(column) + 0.5, f64::from(row) + 0.5])?;
-        Some(match self.rays.shutter {
-            Shutter::Pinhole => Ray::from_eye(direction),
-            Shutter::Film { distance } => {
-                let ahead = distance * (direction.length() - 1.0);
-                let origin = Event { t: -ahead, x: DVec3::ZERO };
-                Ray { start: Start::Event, origin, ..Ray::from_eye(direction) }
-            }
-        })
+        let Sight { eye, direction } = self.film.sight([f64::from(column) + 0.5, f64::from(row) + 0.5])?;
+        let ray = Ray::from_eye(direction);
+        let ahead = match self.rays.shutter {
+            Shutter::Pinhole if eye == DVec3::ZERO => return Some(ray),
+            Shutter::Pinhole => 0.0,
+            Shutter::Film { distance } => distance * (direction.length() - 1.0),
+        };
+        Some(Ray { start: Start::Event, origin: Event { t: -ahead, x: eye }, ..ray })
     }
 
     /// The face that each of neighbouring rays from the eye meets first, for parameters in a range.
@@ -175,7 +175,7 @@ impl<'a> Scenery<'a> {
         first: &mut Vec<Option<Intersection>>,
     ) {
         first.clear();
-        if self.rays.shutter != Shutter::Pinhole {
+        if self.rays.shutter != Shutter::Pinhole || !self.film.has_one_eye() {
             first.extend(rays.iter().map(|ray| self.closest(ray, range.clone())));
             return;
         }

@@ -74,6 +74,11 @@ fn mistakes_have_answers() {
     refused(&["-vell", ".1", "0", "0"], SCENE, 2, "-vel");
     refused(&["-pan", "-lg"], SCENE, 2, "are for pinhole cameras");
     refused(&["-pan", "-fish", "180"], SCENE, 2, "-fish");
+    refused(&["-cube"], SCENE, 2, "give -sz W H with W = 6 H, such as -sz 3072 512");
+    refused(&["-cube", "-pan"], SCENE, 2, "-pan");
+    refused(&["-cube", "-stereo", "1"], SCENE, 2, "-stereo");
+    refused(&["-stereo", "-1"], SCENE, 2, "a distance is 0 or more");
+    refused(&["-stereo", ".1", "-lg"], SCENE, 2, "leave them out, or -cube and -stereo");
     refused(&["-fish", "400"], SCENE, 2, "at most 360 degrees");
     refused(&["-crop", "0", "0", "9999", "1"], SCENE, 2, "is not in the picture of 1024 x 768 pixels");
     refused(&["-og"], SCENE, 1, "leave out -og");

@@ -3,8 +3,10 @@
 
 use glam::DVec3;
 use rayon::ThreadPoolBuilder;
+use ugimage::LinearFrame;
 use ugphoton::{
-    CameraOptions, Config, Exposure, Filter, Lens, PictureOptions, RayOptions, Shutter, light, render,
+    Anchor, CameraOptions, Config, Exposure, Filter, Lens, MotionOptions, PictureOptions, RayOptions,
+    Shutter, light, render,
 };
 
 fn scene(text: &str) -> ugparse::Scene {
@@ -29,9 +31,15 @@ fn picture(size: [u32; 2]) -> Config {
 
 #[test]
 fn parts_are_those_of_the_whole_picture() {
-    for filter in [Filter::Box, Filter::Spline] {
+    for (filter, lens, stereo) in [
+        (Filter::Box, Lens::Pinhole, None),
+        (Filter::Spline, Lens::Pinhole, None),
+        (Filter::Spline, Lens::Pinhole, Some(0.5)),
+        (Filter::Triangle, Lens::Panorama, None),
+    ] {
         let mut config = picture([50, 37]);
         config.picture.filter = filter;
+        (config.lens, config.stereo) = (lens, stereo);
         let whole = light(scene(ROOM), &config).unwrap();
         let mut joined = vec![None; 50 * 37];
         for [left, top, width, height] in [[0, 0, 23, 19], [23, 0, 27, 19], [0, 19, 50, 1], [0, 20, 50, 17]] {
@@ -44,7 +52,7 @@ fn parts_are_those_of_the_whole_picture() {
             }
         }
         let joined: Option<Vec<_>> = joined.into_iter().collect();
-        assert!(joined.unwrap() == whole.pixels(), "{filter:?}");
+        assert!(joined.unwrap() == whole.pixels(), "{filter:?} {lens:?} {stereo:?}");
     }
 }
 
@@ -109,6 +117,103 @@ fn lenses_show_the_same_light() {
         }
     }
     assert!(n_lit > 40, "{n_lit}");
+}
+
+/// The same without soft shadows, whose lamps are seen at another point at every sample.
+fn hard_room() -> String {
+    ROOM.replace("3 4 1.5", "3 4")
+}
+
+/// The part of a picture from column `left` and row `top` on.
+fn part(frame: &LinearFrame, [left, top]: [u32; 2], [width, height]: [u32; 2]) -> Vec<[f32; 4]> {
+    let row = |row: u32| &frame.pixels()[((top + row) * frame.width() + left) as usize..][..width as usize];
+    (0..height).flat_map(|at| row(at).to_vec()).collect()
+}
+
+/// The pixels that differ by more than rounding.
+fn n_different(found: &[[f32; 4]], expected: &[[f32; 4]]) -> usize {
+    assert_eq!(found.len(), expected.len());
+    let differs = |(a, b): &(&[f32; 4], &[f32; 4])| (0..4).any(|at| (a[at] - b[at]).abs() > 1e-5);
+    found.iter().zip(expected).filter(differs).count()
+}
+
+/// Each side of a cube map is the picture of a pinhole camera with an angle of view of 90 degrees,
+/// also where a filter reaches across its edges.
+#[test]
+fn sides_of_a_cube_are_square_views() {
+    const SIDE: u32 = 30;
+    // Around the eye, something on every side that differs.
+    let around = "
+        v p -7 -5 -4; v q 6 -6 -5; v r 0 -2 6; f (p q r) red 0.8; f (p q g) green 0.6; f (q r f) green 0.9;
+        f (r p a) red 0.5; f (r f e) green 0.3;
+        v s 5 0 5; v t -5 1 5; f (r s t) red 0.7;";
+    let text = hard_room().replace("-vc 0 6 0.3", "-vc 0 6 0.5").replace("cam ", &format!("{around} cam "));
+    let mut config = picture([6 * SIDE, SIDE]);
+    (config.lens, config.picture.filter) = (Lens::Cube, Filter::Spline);
+    let cube = light(scene(&text), &config).unwrap();
+    let (x, y, z) = (DVec3::X, DVec3::Y, DVec3::Z);
+    for (side, (toward, up)) in [(x, z), (-x, z), (z, -y), (-z, y), (y, z), (-y, z)].into_iter().enumerate() {
+        let mut config = picture([SIDE, SIDE]);
+        config.picture.filter = Filter::Spline;
+        config.picture.camera = CameraOptions {
+            center: Some(DVec3::new(0.0, 0.0, 0.5) + 6.0 * toward),
+            up: Some(up),
+            view_angle: Some((90.0, Some(90.0))),
+            ..CameraOptions::default()
+        };
+        let expected = light(scene(&text), &config).unwrap();
+        let found = part(&cube, [side as u32 * SIDE, 0], [SIDE, SIDE]);
+        // A sample exactly on an edge of a face: the filter spreads it over nine pixels.
+        let n_different = n_different(&found, expected.pixels());
+        assert!(n_different <= 9, "{side}: {n_different}");
+        let n_lit = found.iter().filter(|pixel| pixel[..3] != [0.0; 3]).count();
+        assert!(n_lit > 100, "{side}: {n_lit}");
+    }
+}
+
+/// Each eye sees the picture of a camera in its place at the same moment. The camera moves ahead, so
+/// its frame has the same distances across.
+#[test]
+fn eyes_see_what_cameras_in_their_places_see() {
+    let motion = MotionOptions {
+        camera_velocity: Some(DVec3::new(0.0, 0.4, 0.0)),
+        anchor: Some(Anchor::Origin),
+        ..MotionOptions::default()
+    };
+    let drawn = |lens: Lens, stereo: Option<f64>, size: [u32; 2], eye: f64| {
+        let camera = CameraOptions {
+            eye: Some(DVec3::new(eye, 0.0, 0.5)),
+            center: Some(DVec3::new(eye, 6.0, 0.5)),
+            ..CameraOptions::default()
+        };
+        let picture = PictureOptions { size, samples: 2, camera, ..PictureOptions::default() };
+        let shutter = if lens == Lens::Pinhole { Shutter::Film { distance: 0.2 } } else { Shutter::Pinhole };
+        let rays = RayOptions { shutter, ..RayOptions::default() };
+        let config = Config { picture, rays, lens, stereo, motion: motion.clone(), ..Config::default() };
+        light(scene(&hard_room()), &config).unwrap()
+    };
+    for lens in [Lens::Pinhole, Lens::Fisheye { angle: 1.5 }] {
+        let both = drawn(lens, Some(0.6), [80, 30], 0.0);
+        let eyes = [(0, -0.3), (40, 0.3)].map(|(left, eye)| {
+            let found = part(&both, [left, 0], [40, 30]);
+            let n_different = n_different(&found, drawn(lens, None, [40, 30], eye).pixels());
+            assert!(n_different <= 2, "{lens:?} {eye}: {n_different}");
+            found
+        });
+        assert!(n_different(&eyes[0], &eyes[1]) > 30, "{lens:?}");
+    }
+    // In a panorama the eyes are across each direction: straight ahead and behind they are at
+    // those places, on the other side behind.
+    let size = [36, 18];
+    let both = drawn(Lens::Panorama, Some(0.6), [36, 36], 0.0);
+    for (top, left, eye) in [(0, 17, -0.3), (18, 17, 0.3), (0, 0, 0.3), (18, 0, -0.3)] {
+        let whole = drawn(Lens::Panorama, None, size, eye);
+        let [found, expected] = [part(&both, [left, top], [1, 18]), part(&whole, [left, 0], [1, 18])];
+        // Half a column from the exact direction.
+        let is_near = |(a, b): (&[f32; 4], &[f32; 4])| (0..3).all(|at| (a[at] - b[at]).abs() < 0.1);
+        let n_near = found.iter().zip(&expected).filter(|pair| is_near(*pair)).count();
+        assert!(n_near >= 16, "{top} {left}: {n_near}");
+    }
 }
 
 /// With the shutter at the film, light for its edge passed the pinhole earlier: what moves is seen
@@ -221,6 +326,19 @@ fn messages() {
     let shutter = Shutter::Film { distance: 1.0 };
     let rays = RayOptions { shutter, ..RayOptions::default() };
     check(Config { lens: Lens::Panorama, rays, ..config.clone() }, "--film-shutter is for pinhole cameras");
+    check(Config { lens: Lens::Cube, ..config.clone() }, "such as -sz 3072 512");
+    let both = Config { lens: Lens::Cube, stereo: Some(0.1), ..picture([60, 10]) };
+    check(both, "leave out -stereo, or give -pan instead of -cube");
+    check(Config { stereo: Some(0.1), ..picture([41, 30]) }, "give an even width");
+    let annotated = |config: Config| {
+        let mut config = config;
+        config.picture.annotations.caption = "Caption".to_owned();
+        config
+    };
+    let single = "annotations (-cap, -lg, -dl, -gr) are for pictures of a single view";
+    check(annotated(Config { stereo: Some(0.1), ..config.clone() }), single);
+    check(annotated(Config { lens: Lens::Cube, ..picture([60, 10]) }), single);
+    assert!(render(scene(ROOM), &annotated(Config { lens: Lens::Panorama, ..picture([400, 300]) })).is_ok());
     let mut orthographic = config.clone();
     orthographic.picture.camera.is_orthographic = true;
     check(orthographic, "leave out -og");

@@ -184,8 +184,8 @@ pub struct AnnotationOptions {
 }
 
 impl AnnotationOptions {
-    /// True if there are none.
-    pub(crate) fn is_empty(&self) -> bool {
-        *self == Self::default()
+    /// True if there are some.
+    pub fn is_any(&self) -> bool {
+        *self != Self::default()
     }
 }

@@ -183,7 +183,7 @@ fn motion(random: &mut Random, line: &mut Vec<String>) {
 
 /// Options of `ugphoton`.
 fn photon(random: &mut Random) -> Vec<String> {
-    let [width, height] = [(); 2].map(|()| random.pick(&["1", "9", "16"]).to_string());
+    let [width, height] = [(); 2].map(|()| random.pick(&["2", "10", "16"]).to_string());
     let mut line = words("ugphoton", &["-sz", &width, &height, "-aa", "2"]);
     motion(random, &mut line);
     let format = word(random, &["ppm", "exr", "png16", "svg"]);
@@ -191,6 +191,8 @@ fn photon(random: &mut Random) -> Vec<String> {
     let depth = vec![random.below(12).to_string()];
     maybe(random, 4, &mut line, "-rd", depth);
     let lens = *random.pick(&["-pan", "--no-doppler"]);
+    let distance = vec![random.between(0.0, 2.0).to_string()];
+    maybe(random, 6, &mut line, "-stereo", distance);
     flags(random, 6, &mut line, &["-in", "-sp", "-sm", "-vr", "--fresnel", "--no-shadows", lens]);
     line
 }

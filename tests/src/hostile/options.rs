@@ -186,7 +186,7 @@ fn motion(random: &mut Random, line: &mut Vec<String>) {
 
 /// Options of `ugphoton`.
 fn photon(random: &mut Random) -> Vec<String> {
-    let side = |random: &mut Random| random.pick(&["1", "7", "16"]).to_string();
+    let side = |random: &mut Random| random.pick(&["1", "6", "7", "16"]).to_string();
     let size = [side(random), side(random)];
     let mut line = words("ugphoton", &["-sz", &size[0], &size[1], "-aa", "2"]);
     motion(random, &mut line);
@@ -203,6 +203,8 @@ fn photon(random: &mut Random) -> Vec<String> {
     maybe(random, 10, &mut line, "--film-shutter", distance);
     let angle = numbers::<1>(random);
     maybe(random, 10, &mut line, "-fish", angle);
+    let distance = numbers::<1>(random);
+    maybe(random, 6, &mut line, "-stereo", distance);
     let part = word(random, &["0", "1", "7", "4294967295"]);
     maybe(random, 10, &mut line, "-crop", [part.clone(), part.clone(), part.clone(), part].concat());
     let exposure = vec![if random.one_in(2) { "auto".to_owned() } else { words::number(random) }];
@@ -211,7 +213,7 @@ fn photon(random: &mut Random) -> Vec<String> {
         random,
         8,
         &mut line,
-        &["-in", "-sp", "-sm", "-vr", "-pan", "--fresnel", "--no-shadows", "-lg", "-tb"],
+        &["-in", "-sp", "-sm", "-vr", "-pan", "-cube", "--fresnel", "--no-shadows", "-lg", "-tb"],
     );
     line
 }

@@ -72,7 +72,7 @@ impl Layout {
     pub fn new(options: &PictureOptions) -> Result<Self, Error> {
         options.check_size()?;
         let annotations = &options.annotations;
-        if !annotations.is_empty() && options.output.is_linear() {
+        if annotations.is_any() && options.output.is_linear() {
             return Err(Error::Options(
                 "EXR, PFM and HDR pictures hold the light of the scene and nothing else: \
                  leave out -cap, -lg, -dl and -gr, or write -dt png16",
