@@ -8,7 +8,10 @@ use uglight::{ColorShift, HueShift, Interpolation, SpectralShift};
 use ugparse::{HueScale, pipe};
 use ugphysics::Brightness;
 use ugpicture::Output;
-use ugpicture::cli::{AnnotationArgs, PICTURE, PictureArgs, format_named, with_format};
+use ugpicture::cli::{
+    AnnotationArgs, PICTURE, PictureArgs, format_for, format_named, refuse_terminal, with_format,
+    write_picture,
+};
 use ugpipe::{CommonArgs, Context, Failure, Manual, ToolArgs, finite, one_of, whole};
 use ugscene::cli::{MotionArgs, RepeatArgs};
 
@@ -191,7 +194,9 @@ impl Args {
         Ok(Config {
             motion: self.motion.options()?,
             shift: self.color_shift(),
-            picture: self.picture.options(self.output(output)?, self.annotations.options())?,
+            picture: self
+                .picture
+                .options(Output::Color(format_for(self.dt, output)?), self.annotations.options())?,
             rays: RayOptions {
                 depth: self.rd,
                 cutoff: self.rc,
@@ -223,17 +228,6 @@ impl Args {
         let law = if self.no_flux { Brightness::None } else { self.br.unwrap_or_default() };
         ColorShift::Hues(HueShift { doppler, law })
     }
-
-    fn output(&self, file: Option<&Path>) -> Result<Output, Failure> {
-        let ending = file.and_then(Path::extension).map(|ending| ending.to_string_lossy().into_owned());
-        match (self.dt, ending) {
-            (Some(format), _) => Ok(Output::Color(format)),
-            (None, None) => Ok(Output::Color(Format::Png)),
-            (None, Some(ending)) => format_named(&ending)
-                .map(Output::Color)
-                .map_err(|error| Failure::Usage(format!("`.{ending}` is {error}; name one with -dt"))),
-        }
-    }
 }
 
 /// The whole program between its streams: reads the scene, draws it, writes the picture.
@@ -242,21 +236,13 @@ impl Args {
 /// Bad usage, a bad scene, or a stream that fails.
 pub fn draw(args: &Args, context: &mut Context) -> Result<(), Failure> {
     let config = args.config(context.output_name())?;
-    let is_binary = config.picture.output.format().is_some_and(Format::is_binary);
-    if context.output_is_terminal() && is_binary {
-        return Err(Failure::Usage(
-            "a picture is not written to a terminal; send it to a file with `> FILE` or -fo FILE".into(),
-        ));
+    if let Some(format) = config.picture.output.format() {
+        refuse_terminal(format, context)?;
     }
     let source = pipe::read(context, &config.reading)?;
     let command_line = with_format(context.command_line(), config.picture.output, args.dt.is_some());
     let picture = run(&config, &source, &command_line, &context.steps()).map_err(failure)?;
-    if !picture.warnings.is_empty() {
-        context.report(&picture.warnings.render(true));
-    }
-    picture.notes.iter().for_each(|note| context.note(note));
-    context.detail(&format!("drew {} x {} pixels", config.picture.size[0], config.picture.size[1]));
-    context.write(&picture.bytes)
+    write_picture(&picture, config.picture.size, context)
 }
 
 fn failure(error: Error) -> Failure {

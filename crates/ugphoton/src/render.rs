@@ -3,8 +3,10 @@
 use std::borrow::Cow;
 
 use ugimage::{Compression, Development, Frame, LinearFrame, Metadata};
-use ugparse::{Diagnostics, Scene, Source};
-use ugpicture::{Annotated, Annotations, DepthBuffer, Exposure, Image, Layout, Output, SceneState};
+use ugparse::{Scene, Source};
+use ugpicture::{
+    Annotated, Annotations, DepthBuffer, Exposure, Image, Layout, Output, PictureFile, SceneState,
+};
 use ugpipe::Progress;
 use ugscene::{CameraOptions, PlacedBodies, RestPosition};
 
@@ -70,17 +72,6 @@ pub fn metadata(scene: &Scene, command_line: &str) -> Metadata {
     ugpicture::metadata(scene, PROGRAM, env!("CARGO_PKG_VERSION"), command_line)
 }
 
-/// A picture as a file.
-#[derive(Clone, Debug)]
-pub struct Picture {
-    /// The whole file.
-    pub bytes: Vec<u8>,
-    /// Notes for the user, one sentence each.
-    pub notes: Vec<String>,
-    /// Warnings about the text of the scene.
-    pub warnings: Diagnostics,
-}
-
 /// Reads a scene, renders it, and packs it into a file. `command_line`: as in [`metadata`].
 ///
 /// # Errors
@@ -90,7 +81,7 @@ pub fn run(
     source: &Source,
     command_line: &str,
     progress: &dyn Progress,
-) -> Result<Picture, Error> {
+) -> Result<PictureFile, Error> {
     let layout = Layout::new(&config.picture)?;
     progress.step("reading", 0);
     let parsed = ugscene::read(source, &config.reading, config.picture.camera.name.as_deref())?;
@@ -99,7 +90,7 @@ pub fn run(
     let rendering = render_with(parsed.scene, config, &layout, progress)?;
     progress.step("compression", 0);
     let notes = rendering.notes.clone();
-    Ok(Picture { bytes: rendering.into_file(&metadata), notes, warnings: parsed.warnings })
+    Ok(PictureFile { bytes: rendering.into_file(&metadata), notes, warnings: parsed.warnings })
 }
 
 /// Renders a scene in a layout. `config`: of the whole picture, already checked.

@@ -1,9 +1,12 @@
-//! Options of a picture on the command line, the same in every renderer.
+//! Options of a picture on the command line, the same in every renderer, and the way of a picture
+//! out of the program.
+
+use std::path::Path;
 
 use clap::{ArgAction, Args};
 use ugimage::{Filter, Format, Tone};
 use ugphysics::Hsv;
-use ugpipe::{Failure, finite, one_of, whole};
+use ugpipe::{Context, Failure, finite, one_of, whole};
 use ugscene::cli::CameraArgs;
 
 use crate::background::Background;
@@ -11,6 +14,7 @@ use crate::channel::Channel;
 use crate::exposure::Exposure;
 use crate::options::{AnnotationOptions, PictureOptions};
 use crate::output::Output;
+use crate::picture_file::PictureFile;
 
 /// Heading of the options of a picture in `--help`.
 pub const PICTURE: &str = "Picture";
@@ -160,6 +164,46 @@ pub fn with_format(command_line: &str, output: Output, is_stated: bool) -> Strin
         }
         _ => command_line.to_owned(),
     }
+}
+
+/// The format given, otherwise that of the ending of the output file, otherwise PNG.
+///
+/// # Errors
+/// The ending is that of no format.
+pub fn format_for(given: Option<Format>, file: Option<&Path>) -> Result<Format, Failure> {
+    let ending = file.and_then(Path::extension).map(|ending| ending.to_string_lossy());
+    match (given, ending) {
+        (Some(format), _) => Ok(format),
+        (None, None) => Ok(Format::Png),
+        (None, Some(ending)) => format_named(&ending)
+            .map_err(|error| Failure::Usage(format!("`.{ending}` is {error}; name one with -dt"))),
+    }
+}
+
+/// Refuses a picture that a terminal cannot show.
+///
+/// # Errors
+/// The output is a terminal, and the format is binary.
+pub fn refuse_terminal(format: Format, context: &Context) -> Result<(), Failure> {
+    if context.output_is_terminal() && format.is_binary() {
+        return Err(Failure::Usage(
+            "a picture is not written to a terminal; send it to a file with `> FILE` or -fo FILE".into(),
+        ));
+    }
+    Ok(())
+}
+
+/// Prints the warnings and notes of a picture, and writes it. `size`: in pixels.
+///
+/// # Errors
+/// The output cannot be written.
+pub fn write_picture(picture: &PictureFile, size: [u32; 2], context: &mut Context) -> Result<(), Failure> {
+    if !picture.warnings.is_empty() {
+        context.report(&picture.warnings.render(true));
+    }
+    picture.notes.iter().for_each(|note| context.note(note));
+    context.detail(&format!("drew {} x {} pixels", size[0], size[1]));
+    context.write(&picture.bytes)
 }
 
 /// Value of `-ch`.

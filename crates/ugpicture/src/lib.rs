@@ -7,7 +7,8 @@
 //!   format, and annotations; [`cli`] has them as options of the command line;
 //! - [`Backdrop`]: the mean of a pixel's samples on the background;
 //! - [`Exposure`]: how light is brought into the range of a display;
-//! - [`Image`]: the picture as light or as 8-bit pixels, and as the bytes of a file;
+//! - [`Image`]: the picture as light or as 8-bit pixels, and as the bytes of a file
+//!   ([`PictureFile`]);
 //! - [`Emissions`] and [`Channel`]: when and where light was emitted that is seen at a sample, and
 //!   the channels of an EXR file made of that;
 //! - [`Layout`]: caption, legend, coordinate grid and undistorted outlines.
@@ -40,6 +41,7 @@ mod line;
 mod metadata;
 mod options;
 mod output;
+mod picture_file;
 
 pub use annotations::{Annotated, Annotations, Layout, SceneState};
 pub use background::{Backdrop, Background};
@@ -54,4 +56,5 @@ pub use line::{clip_line, visible_runs};
 pub use metadata::metadata;
 pub use options::{AnnotationOptions, PictureOptions};
 pub use output::Output;
+pub use picture_file::PictureFile;
 pub use ugimage::{Filter, Tone};

@@ -9,7 +9,9 @@ use ugparse::HueScale;
 use ugparse::{Source, pipe};
 use ugphysics::{Brightness, Hsv};
 use ugpicture::Output;
-use ugpicture::cli::{AnnotationArgs, PICTURE, PictureArgs, color, format_named, with_format};
+use ugpicture::cli::{
+    AnnotationArgs, PICTURE, PictureArgs, color, format_for, refuse_terminal, with_format, write_picture,
+};
 use ugpipe::{CommonArgs, Context, Failure, Manual, ToolArgs, finite, one_of};
 use ugscene::cli::RepeatArgs;
 
@@ -257,15 +259,12 @@ impl Args {
         if self.explain.is_some() {
             return Ok(Output::Color(Format::Png));
         }
-        match (self.dt, ending(file)) {
-            (Some(Kind::Picture(format)), _) => Ok(Output::Color(format)),
-            (Some(Kind::Report(_)), _) => Err(Failure::Usage(
+        match self.dt {
+            Some(Kind::Picture(format)) => Ok(Output::Color(format)),
+            None => format_for(None, file).map(Output::Color),
+            Some(Kind::Report(_)) => Err(Failure::Usage(
                 "`text` and `json` explain a pixel: add --explain X,Y, or name a format of pictures".into(),
             )),
-            (None, None) => Ok(Output::Color(Format::Png)),
-            (None, Some(ending)) => format_named(&ending)
-                .map(Output::Color)
-                .map_err(|error| Failure::Usage(format!("`.{ending}` is {error}; name one with -dt"))),
         }
     }
 
@@ -276,16 +275,14 @@ impl Args {
             Some(Kind::Picture(_)) => Err(Failure::Usage(
                 "a pixel is explained as text or JSON: give --format json, or leave --format out".into(),
             )),
-            None if ending(file).is_some_and(|ending| ending.eq_ignore_ascii_case("json")) => {
-                Ok(Report::Json)
-            }
+            None if is_json(file) => Ok(Report::Json),
             None => Ok(Report::Text),
         }
     }
 }
 
-fn ending(file: Option<&Path>) -> Option<String> {
-    file.and_then(Path::extension).map(|ending| ending.to_string_lossy().into_owned())
+fn is_json(file: Option<&Path>) -> bool {
+    file.and_then(Path::extension).is_some_and(|ending| ending.eq_ignore_ascii_case("json"))
 }
 
 /// What the help, the man page and the completions of the program say.
@@ -314,12 +311,7 @@ pub fn draw(args: &Args, context: &mut Context) -> Result<(), Failure> {
     }
     let command_line = with_format(context.command_line(), config.picture.output, args.dt.is_some());
     let picture = run_with(&config, &source, &command_line, &context.steps()).map_err(failure)?;
-    if !picture.warnings.is_empty() {
-        context.report(&picture.warnings.render(true));
-    }
-    picture.notes.iter().for_each(|note| context.note(note));
-    context.detail(&format!("drew {} x {} pixels", config.picture.size[0], config.picture.size[1]));
-    context.write(&picture.bytes)
+    write_picture(&picture, config.picture.size, context)
 }
 
 fn explain_pixel(
@@ -350,10 +342,7 @@ fn failure(error: Error) -> Failure {
 /// Refuses binary output to a terminal; black-and-white PostScript goes to a file instead.
 fn redirect(output: Output, context: &mut Context) -> Result<(), Failure> {
     match output {
-        Output::Color(format) | Output::Vector(format) if format.is_binary() => Err(Failure::Usage(
-            "a picture is not written to a terminal; send it to a file with `> FILE` or -fo FILE".into(),
-        )),
-        Output::Color(_) | Output::Vector(_) => Ok(()),
+        Output::Color(format) | Output::Vector(format) => refuse_terminal(format, context),
         Output::Grey => {
             context.set_output_name(POSTSCRIPT_FILE);
             context.note(&format!("the picture goes to the file {POSTSCRIPT_FILE}"));

@@ -109,12 +109,12 @@ mod words;
 pub use cli::{Args, draw, manual};
 pub use config::{Config, DepthCue, Wireframe};
 pub use error::Error;
-pub use render::{Picture, Prepared, Rendering, light, metadata, render, run, run_with};
+pub use render::{Prepared, Rendering, light, metadata, render, run, run_with};
 pub use uglight::{ColorShift, HueShift, Interpolation, SpectralShift};
 pub use ugparse::HueScale;
 pub use ugpicture::{
-    AnnotationOptions, Background, Channel, Exposure, Filter, MAX_PIXELS, MAX_SIDE, Output, PictureOptions,
-    Tone,
+    AnnotationOptions, Background, Channel, Exposure, Filter, MAX_PIXELS, MAX_SIDE, Output, PictureFile,
+    PictureOptions, Tone,
 };
 pub use ugscene::{CameraError, CameraOptions};
 pub use vector::VectorFigure;

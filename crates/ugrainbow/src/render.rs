@@ -2,7 +2,7 @@
 
 use ugimage::{Compression, Format, Frame, LinearFrame, Metadata, Tone};
 use ugparse::{Diagnostics, Parsed, Scene, Source};
-use ugpicture::{Image, Layout, Output};
+use ugpicture::{Image, Layout, Output, PictureFile};
 use ugpipe::Progress;
 
 use crate::annotate::annotate;
@@ -83,22 +83,11 @@ pub fn metadata(scene: &Scene, command_line: &str) -> Metadata {
     ugpicture::metadata(scene, PROGRAM, env!("CARGO_PKG_VERSION"), command_line)
 }
 
-/// A picture as a file.
-#[derive(Clone, Debug)]
-pub struct Picture {
-    /// The whole file.
-    pub bytes: Vec<u8>,
-    /// Notes for the user, one sentence each.
-    pub notes: Vec<String>,
-    /// Warnings about the text of the scene.
-    pub warnings: Diagnostics,
-}
-
 /// Reads a scene, renders it, and packs it into a file.
 ///
 /// # Errors
 /// See [`Error`].
-pub fn run(config: &Config, source: &Source) -> Result<Picture, Error> {
+pub fn run(config: &Config, source: &Source) -> Result<PictureFile, Error> {
     run_with(config, source, "", &())
 }
 
@@ -111,7 +100,7 @@ pub fn run_with(
     source: &Source,
     command_line: &str,
     progress: &dyn Progress,
-) -> Result<Picture, Error> {
+) -> Result<PictureFile, Error> {
     let layout = Layout::new(&config.picture)?;
     progress.step("reading", 0);
     let parsed = ugscene::read(source, &config.reading, config.picture.camera.name.as_deref())?;
@@ -120,7 +109,7 @@ pub fn run_with(
     progress.step("compression", 0);
     let notes = rendering.notes.clone();
     let bytes = rendering.into_file(&metadata(&parsed.scene, command_line));
-    Ok(Picture { bytes, notes, warnings: warnings(source, parsed) })
+    Ok(PictureFile { bytes, notes, warnings: warnings(source, parsed) })
 }
 
 /// Warnings of the parser, and one if moving bodies are drawn at rest.
