@@ -1,0 +1,160 @@
+//! The weights of an elliptical footprint on the sphere.
+
+use glam::DVec3;
+
+use crate::observer::SkyRay;
+
+/// Footprints with a larger semi-axis, in radians, are divided: beyond it the map from the picture
+/// to the sky is not linear enough.
+pub(crate) const LARGEST: f64 = 0.1;
+
+/// Longest ellipse, as ratio of its axes; longer ones are widened.
+const MOST_ECCENTRIC: f64 = 16.0;
+
+/// Radius of the kernel on a texel grid without footprint, in texels.
+const RADIUS: f64 = 2.0;
+
+/// An elliptical kernel w(q) = (1 − q)² (1 − c q) for q < 1, q = (a·d)² + (b·d)², over directions d
+/// near a centre.
+///
+/// Its second moments are those of the pixel on the sphere. For a pixel much smaller than a texel,
+/// c = 5/2 and the second moments vanish, so that it interpolates; for large ones it is positive
+/// nearly everywhere.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Kernel {
+    pub a: DVec3,
+    pub b: DVec3,
+    pub c: f32,
+    /// Entries of the matrix whose inverse is q: east, mixed, north.
+    pub matrix: [f64; 3],
+    /// The larger semi-axis, radians.
+    pub radius: f64,
+}
+
+/// The ellipse of a pixel on the sphere.
+pub(crate) struct Ellipse {
+    /// Unit vectors to the east and to the north.
+    axes: [DVec3; 2],
+    /// Its matrix: sums of squares and products of the slopes.
+    matrix: [f64; 3],
+    /// Squares of its semi-axes, the smaller first.
+    squares: [f64; 2],
+}
+
+impl Ellipse {
+    /// `spread`: variance of the pixel filter along each axis, relative to that of a box.
+    #[inline]
+    pub fn new(ray: &SkyRay, spread: f64) -> Self {
+        let DVec3 { x, y, z } = ray.direction;
+        let level = (x * x + y * y).sqrt();
+        let [sin, cos] = if level > 0.0 { [x / level, y / level] } else { [0.0, 1.0] };
+        let axes = [DVec3::new(cos, -sin, 0.0), DVec3::new(-z * sin, -z * cos, level)];
+        let [east, north] = axes.map(|axis| ray.slopes.map(|slope| slope.dot(axis)));
+        let mut matrix = [
+            spread * (east[0] * east[0] + east[1] * east[1]),
+            spread * (east[0] * north[0] + east[1] * north[1]),
+            spread * (north[0] * north[0] + north[1] * north[1]),
+        ];
+        let middle = 0.5 * (matrix[0] + matrix[2]);
+        let half = 0.5 * (matrix[0] - matrix[2]);
+        let apart = (half * half + matrix[1] * matrix[1]).sqrt();
+        let large = middle + apart;
+        let mut small = (middle - apart).max(0.0);
+        let least = large / (MOST_ECCENTRIC * MOST_ECCENTRIC);
+        if small < least {
+            // Widened alike in all directions.
+            matrix[0] += least - small;
+            matrix[2] += least - small;
+            small = least;
+        }
+        Self { axes, matrix, squares: [small, large] }
+    }
+
+    /// True if it is small enough to be sampled at once.
+    #[inline]
+    pub fn is_small(&self) -> bool {
+        self.squares[1] <= LARGEST * LARGEST
+    }
+
+    /// The square of its smaller semi-axis.
+    #[inline]
+    pub fn small_square(&self) -> f64 {
+        self.squares[0]
+    }
+
+    /// The kernel on a level with texels of this size; `finest`: of level 0.
+    #[inline]
+    pub fn kernel(&self, texel: f64, finest: f64) -> Kernel {
+        let margin = RADIUS * RADIUS * texel * texel;
+        let [see, sen, snn] = [self.matrix[0] + margin, self.matrix[1], self.matrix[2] + margin];
+        let variance = (self.matrix[0] + self.matrix[2]) / 12.0;
+        // Texels of a level are means already.
+        let averaged = (texel * texel - finest * finest) / 6.0;
+        let moment = (variance - averaged).max(0.0) / (see + snn);
+        let c = (2.5 - 20.0 * moment) / (1.0 - 5.0 * moment);
+        let [east, north] = self.axes;
+        let ratio = sen / snn;
+        let a = (east - ratio * north) / (see - sen * ratio).sqrt();
+        let b = north / snn.sqrt();
+        let radius = (self.squares[1] + margin).sqrt();
+        Kernel { a, b, c: c as f32, matrix: [see, sen, snn], radius }
+    }
+}
+
+/// atan2 within 2·10⁻⁶, which is enough to find the texels around a direction.
+#[inline]
+pub(crate) fn near_atan2(y: f64, x: f64) -> f64 {
+    use core::f64::consts::{FRAC_PI_2, PI};
+    let (above, across) = (y.abs(), x.abs());
+    let (small, large) = if above < across { (above, across) } else { (across, above) };
+    let t = if large > 0.0 { small / large } else { 0.0 };
+    let s = t * t;
+    let angle = t
+        * (0.999_977_26
+            + s * (-0.332_623_47
+                + s * (0.193_543_46 + s * (-0.116_432_87 + s * (0.052_653_32 - s * 0.011_721_2)))));
+    let angle = if above < across { angle } else { FRAC_PI_2 - angle };
+    let angle = if x < 0.0 { PI - angle } else { angle };
+    if y < 0.0 { -angle } else { angle }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn angles_are_near() {
+        for step in 0..10_000 {
+            let angle = f64::from(step - 5000) * 6.28e-4;
+            let (sin, cos) = libm::sincos(angle);
+            assert!((near_atan2(0.3 * sin, 0.3 * cos) - angle).abs() < 3e-6, "{angle}");
+        }
+        assert_eq!(near_atan2(0.0, 0.0), core::f64::consts::FRAC_PI_2);
+    }
+
+    /// Second moments of the kernel on a fine grid are those of the pixel: a twelfth of its squares.
+    #[test]
+    fn moments_are_those_of_the_pixel() {
+        let ray = |size: f64| SkyRay {
+            direction: DVec3::Y,
+            slopes: [DVec3::new(size, 0.0, 0.0), DVec3::new(0.0, 0.0, size)],
+            doppler: 1.0,
+        };
+        for (size, texel) in [(1e-3, 1e-3), (4e-3, 1e-3), (1e-4, 1e-3)] {
+            let kernel = Ellipse::new(&ray(size), 1.0).kernel(texel, texel);
+            let (mut sum, mut second) = (0.0, 0.0);
+            for row in -200..=200 {
+                for column in -200..=200 {
+                    let d = DVec3::new(f64::from(column), 0.0, f64::from(row)) * (kernel.radius / 200.0);
+                    let (s, t) = (kernel.a.dot(d), kernel.b.dot(d));
+                    let q = (s * s + t * t).min(1.0);
+                    let weight = (1.0 - q) * (1.0 - q) * (1.0 - f64::from(kernel.c) * q);
+                    sum += weight;
+                    second += weight * d.x * d.x;
+                }
+            }
+            let variance = second / sum;
+            assert!((variance - size * size / 12.0).abs() < 1e-3 * texel * texel, "{variance:e}");
+        }
+    }
+}

@@ -1,0 +1,38 @@
+//! Skies: light from afar by direction, as an observer in motion sees it.
+//!
+//! All light that arrives at one event is a panorama. Aberration, the Doppler effect and the
+//! searchlight effect turn it into what any observer at that event sees, exactly, at a cost that
+//! does not depend on the scene (Weiskopf 2000).
+//!
+//! - A [`Panorama`] is light on an equirectangular grid, for the whole sphere or a part of it.
+//! - An [`Observer`] carries directions of a picture, and how they change from pixel to pixel, to the
+//!   frame of the sky: a [`SkyRay`].
+//! - [`Sampler::light`] is the mean light of the pixel: an elliptical footprint on the sphere, with
+//!   weights by true directions and solid angles. There is no aliasing where the sky is seen smaller,
+//!   by (1 − β)/(1 + β) straight ahead, and no blocks where it is seen larger.
+//!
+//! ```
+//! use glam::DVec3;
+//! use ugphysics::Velocity;
+//! use ugsky::{Extent, Observer, Panorama, Texels};
+//!
+//! // A grey sky, and a pixel of 1/100 radian.
+//! let sky = Panorama::new([64, 32], Texels::Srgb(vec![[128, 128, 128, 255]; 64 * 32]), Extent::FULL)?;
+//! let observer = Observer::new(Velocity::from_beta(DVec3::new(0.0, 0.6, 0.0))?);
+//! let ray = observer.ray(DVec3::Y, [0.01 * DVec3::X, 0.01 * DVec3::Z]);
+//! assert!((ray.doppler - 2.0).abs() < 1e-15 && (ray.slopes[0].length() - 0.02).abs() < 1e-15);
+//! let [red, _, _, alpha] = sky.sampler().light(&ray, 1.0).unwrap_or_default();
+//! assert!((f64::from(red) - ugphysics::srgb_decode(128.0 / 255.0)).abs() < 1e-6 && alpha == 1.0);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod footprint;
+mod grid;
+mod observer;
+mod panorama;
+mod sample;
+
+pub use grid::Extent;
+pub use observer::{Observer, SkyRay};
+pub use panorama::{Panorama, PanoramaError, Texels};
+pub use sample::Sampler;

@@ -1,0 +1,147 @@
+//! The light of footprints against integrals over the sphere.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+use core::f64::consts::{FRAC_PI_2, PI, TAU};
+
+use glam::DVec3;
+use ugsky::{Extent, Panorama, SkyRay, Texels};
+
+fn panorama(size: [u32; 2], extent: Extent, light: impl Fn(DVec3) -> f64) -> Panorama {
+    let [west, _] = extent.longitudes;
+    let [_, north] = extent.latitudes;
+    let texel = |idx: u32| {
+        let [column, row] = [idx % size[0], idx / size[0]].map(|at| f64::from(at) + 0.5);
+        let (sin_long, cos_long) = libm::sincos(west + extent.width() * column / f64::from(size[0]));
+        let (sin_lat, cos_lat) = libm::sincos(north - extent.height() * row / f64::from(size[1]));
+        let light = light(DVec3::new(cos_lat * sin_long, cos_lat * cos_long, sin_lat)) as f32;
+        [light, 0.5, 1.0 - light, 1.0]
+    };
+    Panorama::new(size, Texels::Light((0..size[0] * size[1]).map(texel).collect()), extent).unwrap()
+}
+
+/// Directions everywhere, the poles and the date line among them.
+fn directions() -> Vec<DVec3> {
+    let mut all = vec![DVec3::Z, DVec3::NEG_Z, DVec3::NEG_Y, DVec3::Y, DVec3::X];
+    for tilt in [1e-9, 1e-4, 3e-3, 0.02] {
+        for turn in [0.1, 2.0, PI, -2.3] {
+            let (sin, cos) = libm::sincos(turn);
+            all.push(DVec3::new(tilt * sin, tilt * cos, 1.0).normalize());
+            all.push(DVec3::new(tilt * sin, tilt * cos, -1.0).normalize());
+            all.push(DVec3::new(tilt * sin, -1.0, tilt * cos).normalize());
+        }
+    }
+    for step in 0..2000 {
+        let part = |by: f64| (f64::from(step) * by).fract();
+        let (z, turn) = (2.0 * part(0.618_034) - 1.0, TAU * part(0.754_878));
+        let (sin, cos) = libm::sincos(turn);
+        let level = (1.0 - z * z).sqrt();
+        all.push(DVec3::new(level * sin, level * cos, z));
+    }
+    all
+}
+
+fn ray(direction: DVec3, [long, short]: [f64; 2], turn: f64) -> SkyRay {
+    let one = direction.any_orthonormal_vector();
+    let other = direction.cross(one);
+    let (sin, cos) = libm::sincos(turn);
+    let slopes = [long * (cos * one + sin * other), short * (cos * other - sin * one)];
+    SkyRay { direction, slopes, doppler: 1.0 }
+}
+
+/// The mean of `light` over a pixel on the sphere.
+fn mean(light: impl Fn(DVec3) -> f64, ray: &SkyRay) -> f64 {
+    const N: i32 = 24;
+    let mut sum = 0.0;
+    for i in 0..N * N {
+        let part = |at: i32| (f64::from(at) + 0.5) / f64::from(N) - 0.5;
+        let place = ray.direction + part(i % N) * ray.slopes[0] + part(i / N) * ray.slopes[1];
+        sum += light(place.normalize());
+    }
+    sum / f64::from(N * N)
+}
+
+/// Waves of 6 periods around the sphere, in all directions.
+fn waves(d: DVec3) -> f64 {
+    0.5 + 0.15 * (libm::sin(6.0 * d.x) + libm::cos(6.0 * d.y + 1.0) + libm::sin(6.0 * d.z + 2.0))
+}
+
+#[test]
+fn footprints_are_means_at_every_size_and_place() {
+    for size in [[512, 256], [360, 181], [300, 301]] {
+        let sky = panorama(size, Extent::FULL, waves);
+        for axes in [[1e-4, 1e-4], [0.012, 0.012], [0.03, 0.01], [0.05, 0.04], [0.09, 0.09], [0.09, 0.002]] {
+            let mut worst: (f64, DVec3) = (0.0, DVec3::ZERO);
+            for (idx, direction) in directions().into_iter().enumerate() {
+                let ray = ray(direction, axes, idx as f64);
+                let [light, half, rest, alpha] = sky.sampler().light(&ray, 1.0).unwrap();
+                assert!((half - 0.5).abs() < 1e-5 && (alpha - 1.0).abs() < 1e-5, "{direction}");
+                assert!((light + rest - 1.0).abs() < 1e-5);
+                let error = (f64::from(light) - mean(waves, &ray)).abs();
+                worst = if error > worst.0 { (error, direction) } else { worst };
+            }
+            // A thin ellipse is at most 16 times as long as wide.
+            let limit = if axes[0] > 16.0 * axes[1] { 2e-3 } else { 1e-3 };
+            assert!(worst.0 < limit, "{size:?} {axes:?}: {worst:?}");
+        }
+    }
+}
+
+#[test]
+fn a_uniform_sky_is_uniform_at_every_level() {
+    let sky = panorama([256, 128], Extent::FULL, |_| 0.3);
+    for axes in [[1e-6, 1e-6], [0.02, 0.02], [0.09, 0.04]] {
+        for direction in directions() {
+            let [light, ..] = sky.sampler().light(&ray(direction, axes, 0.4), 1.0).unwrap();
+            assert!((light - 0.3).abs() < 1e-6, "{light} {direction}");
+        }
+    }
+    // Larger ones have to be divided.
+    assert_eq!(sky.sampler().light(&ray(DVec3::Z, [0.11, 0.01], 0.0), 1.0), None);
+}
+
+/// A part of the sphere shows the same as the whole, and nothing outside of it.
+#[test]
+fn a_part_ends_at_its_angles() {
+    let extent = Extent { longitudes: [-1.0, 2.4], latitudes: [-0.5, 0.7] };
+    let part = panorama([340, 120], extent, waves);
+    let west_of_date_line = Extent { longitudes: [2.0, 5.0], latitudes: [-FRAC_PI_2, 0.0] };
+    let other = panorama([300, 157], west_of_date_line, waves);
+    for (sky, extent) in [(&part, extent), (&other, west_of_date_line)] {
+        let (mut n_inside, mut n_outside) = (0, 0);
+        for direction in directions() {
+            let ray = ray(direction, [0.01, 0.01], 1.0);
+            let [light, _, _, alpha] = sky.sampler().light(&ray, 1.0).unwrap();
+            let latitude = libm::asin(direction.z.clamp(-1.0, 1.0));
+            let [west, east] = extent.longitudes;
+            let longitude = west + (libm::atan2(direction.x, direction.y) - west).rem_euclid(TAU);
+            let margin = |angle: f64, [low, high]: [f64; 2]| {
+                if low <= -FRAC_PI_2 { high - angle } else { (angle - low).min(high - angle) }
+            };
+            let level = direction.truncate().length();
+            let aside = level * (longitude - west).min(east - longitude);
+            let inside = margin(latitude, extent.latitudes).min(aside);
+            let turn = level * (west + TAU - longitude).min(longitude - east);
+            if inside > 0.05 {
+                n_inside += 1;
+                assert!((alpha - 1.0).abs() < 1e-5, "{alpha} {direction}");
+                assert!((f64::from(light) - mean(waves, &ray)).abs() < 2e-3, "{light} {direction}");
+            } else if margin(latitude, extent.latitudes) < -0.05 || (turn > 0.05 && longitude > east) {
+                n_outside += 1;
+                assert!(alpha.abs() < 1e-5 && light.abs() < 1e-5, "{alpha} {direction}");
+            }
+        }
+        assert!(n_inside > 200 && n_outside > 200, "{n_inside} {n_outside}");
+    }
+}
+
+/// Prepared levels and those computed when needed have the same bits.
+#[test]
+fn preparing_changes_nothing() {
+    let [plain, prepared] = [(); 2].map(|()| panorama([400, 200], Extent::FULL, waves));
+    prepared.prepare(0.1);
+    for direction in directions() {
+        let ray = ray(direction, [0.09, 0.05], 0.3);
+        assert_eq!(plain.sampler().light(&ray, 1.0), prepared.sampler().light(&ray, 1.0));
+    }
+}
