@@ -18,7 +18,7 @@
 //! Each line imports only from the lines above it:
 //!
 //! ```text
-//! lens  error  config                       which direction is seen where; errors; options
+//! error  config                             errors; options
 //! sampling  frame  path                     rest frames; rays and the media they are in
 //! world                                     the faces, by rest frame
 //! scenery                                   a scene prepared for rays
@@ -53,7 +53,6 @@ mod cli;
 mod config;
 mod error;
 mod frame;
-mod lens;
 mod notes;
 mod path;
 mod pixels;
@@ -69,9 +68,10 @@ mod world;
 pub use cli::{Args, draw, manual};
 pub use config::{Config, RayOptions, Shutter};
 pub use error::Error;
-pub use lens::Lens;
 pub use render::{Rendering, light, metadata, render, run};
 pub use uglight::{ColorShift, HueShift, Interpolation, SpectralShift};
 pub use ugparse::HueScale;
+use ugpicture::lens;
+pub use ugpicture::lens::Lens;
 pub use ugpicture::{Background, Channel, Exposure, Filter, Output, PictureFile, PictureOptions, Tone};
 pub use ugscene::{Anchor, CameraOptions, MotionOptions};

@@ -5,6 +5,7 @@
 //!
 //! - [`PictureOptions`]: camera, size, samples and filter, background, exposure, tone curve,
 //!   format, and annotations; [`cli`] has them as options of the command line;
+//! - [`lens`]: which direction is seen at a place of the picture;
 //! - [`Backdrop`]: the mean of a pixel's samples on the background;
 //! - [`Exposure`]: how light is brought into the range of a display;
 //! - [`Image`]: the picture as light or as 8-bit pixels, and as the bytes of a file
@@ -36,6 +37,7 @@ mod emission;
 mod error;
 mod exposure;
 mod image;
+pub mod lens;
 mod limits;
 mod line;
 mod metadata;

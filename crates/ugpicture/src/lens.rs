@@ -28,7 +28,8 @@ pub enum Lens {
 impl Lens {
     /// The frames of which a picture consists, across and down: the sides of a cube, or the
     /// pictures of two eyes.
-    pub(crate) fn frames(self, is_stereo: bool) -> [u32; 2] {
+    #[must_use]
+    pub fn frames(self, is_stereo: bool) -> [u32; 2] {
         match (self, is_stereo) {
             (Self::Cube, _) => [6, 1],
             (_, false) => [1, 1],
