@@ -142,14 +142,10 @@ fn grid(level: usize, n_rows: usize, extent: &Extent, ladder: &[Columns]) -> Gri
     let equator = 1.0 / ladder[level].per_radian;
     let mut n_texels = 0;
     let rows = (0..n_rows).map(|idx| {
-        let edges = [idx as f64, (idx + 1) as f64].map(|edge| {
-            (extent.latitudes[1] - step * edge).clamp(-FRAC_PI_2, FRAC_PI_2)
-        });
-        let widest = if edges[0] * edges[1] <= 0.0 {
-            1.0
-        } else {
-            libm::cos(edges[0].abs().min(edges[1].abs()))
-        };
+        let edges = [idx as f64, (idx + 1) as f64]
+            .map(|edge| (extent.latitudes[1] - step * edge).clamp(-FRAC_PI_2, FRAC_PI_2));
+        let widest =
+            if edges[0] * edges[1] <= 0.0 { 1.0 } else { libm::cos(edges[0].abs().min(edges[1].abs())) };
         let fits = |columns: &Columns| widest / columns.per_radian <= equator * (1.0 + 1e-12);
         let reduced = ladder[level..].iter().take_while(|columns| fits(columns)).count();
         let row_ladder = level + reduced.max(1) - 1;

@@ -66,7 +66,7 @@ impl Observer {
     #[must_use]
     #[inline]
     pub fn direction_in_sky(&self, seen: DVec3) -> (DVec3, f64) {
-        let (direction, doppler, _) = self.to_sky(seen);
+        let (direction, doppler, _) = self.carried(seen);
         (direction, doppler)
     }
 
@@ -86,7 +86,7 @@ impl Observer {
     #[must_use]
     #[inline]
     pub fn ray(&self, seen: DVec3, slopes: [DVec3; 2]) -> SkyRay {
-        let (direction, doppler, across) = self.to_sky(seen);
+        let (direction, doppler, across) = self.carried(seen);
         let turned = doppler * doppler * (self.ahead + self.proper_speed * across);
         let slopes = slopes.map(|slope| {
             let part = slope.dot(self.ahead);
@@ -101,7 +101,7 @@ impl Observer {
     /// e^{−η} + (1 − c) e^{η}): sums of positive numbers, so nothing cancels near the speed of
     /// light.
     #[inline]
-    fn to_sky(&self, seen: DVec3) -> (DVec3, f64, DVec3) {
+    fn carried(&self, seen: DVec3) -> (DVec3, f64, DVec3) {
         let along = seen.dot(self.ahead);
         let across = seen - along * self.ahead;
         let square = across.length_squared();

@@ -108,7 +108,8 @@ impl Sampler<'_> {
                 }
             };
             let range = if is_curved {
-                curved_range(kernel.radius, center.z, cos, row).map(|half| [longitude - half, longitude + half])
+                curved_range(kernel.radius, center.z, cos, row)
+                    .map(|half| [longitude - half, longitude + half])
             } else {
                 Some(flat_range(kernel, latitude, longitude, row))
             };
@@ -129,7 +130,13 @@ impl Sampler<'_> {
 
     /// Adds the columns of a range of longitudes, `None` for all, of a row around the whole sphere.
     #[inline]
-    fn add_closed(&mut self, columns: &Columns, range: Option<[f64; 2]>, row: Option<usize>, weights: &RowWeights) {
+    fn add_closed(
+        &mut self,
+        columns: &Columns,
+        range: Option<[f64; 2]>,
+        row: Option<usize>,
+        weights: &RowWeights,
+    ) {
         let n = columns.n as i64;
         let west = self.panorama.extent().longitudes[0];
         let place = |longitude: f64| (longitude - west) * columns.per_radian - 0.5;
@@ -152,7 +159,13 @@ impl Sampler<'_> {
     }
 
     /// The same in a panorama that does not go around.
-    fn add_open(&mut self, columns: &Columns, range: Option<[f64; 2]>, row: Option<usize>, weights: &RowWeights) {
+    fn add_open(
+        &mut self,
+        columns: &Columns,
+        range: Option<[f64; 2]>,
+        row: Option<usize>,
+        weights: &RowWeights,
+    ) {
         let [west, east] = self.panorama.extent().longitudes;
         let middle = 0.5 * (west + east);
         let pad = PAD as i64;
@@ -169,7 +182,15 @@ impl Sampler<'_> {
 
     /// Adds a run of columns. `pad`: entries of the tables before the first column.
     #[inline]
-    fn add(&mut self, columns: &Columns, column: i64, n: usize, pad: i64, row: Option<usize>, weights: &RowWeights) {
+    fn add(
+        &mut self,
+        columns: &Columns,
+        column: i64,
+        n: usize,
+        pad: i64,
+        row: Option<usize>,
+        weights: &RowWeights,
+    ) {
         let first = (column + pad) as usize;
         let mut done = 0;
         while done < n {
