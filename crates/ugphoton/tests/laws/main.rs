@@ -1,65 +1,17 @@
 //! Laws and published numbers, measured in rendered light.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
+mod beaming;
+mod drawing;
+mod frames;
+mod report;
+
 use glam::DVec3;
-use ugimage::LinearFrame;
-use ugphoton::{
-    Background, CameraOptions, ColorShift, Config, MotionOptions, PictureOptions, RayOptions, SpectralShift,
-    light,
-};
+use ugphoton::{ColorShift, Config, MotionOptions, RayOptions, SpectralShift};
 use ugphysics::{Velocity, Wave, reflect, srgb_decode, xyz_to_linear_srgb};
 use ugspectrum::Spectrum;
 
-/// The light of a scene with the eye at the origin, by default seen along −z in one sample.
-fn drawn(text: &str, config: &Config) -> LinearFrame {
-    let source = ugparse::Source::new("test.ug", text);
-    let mut scene = ugparse::parse(&source, &ugparse::Options::default()).unwrap().scene;
-    if scene.cameras.is_empty() {
-        scene.cameras.push(ugparse::Camera { eye: Some(DVec3::ZERO), ..ugparse::Camera::default() });
-    }
-    light(scene, config).unwrap()
-}
-
-fn config(size: [u32; 2], toward: DVec3, view_angle: f64) -> Config {
-    let camera = CameraOptions {
-        center: Some(toward),
-        up: Some(DVec3::Y),
-        view_angle: Some((view_angle, None)),
-        ..CameraOptions::default()
-    };
-    let picture =
-        PictureOptions { size, samples: 1, camera, background: black(), ..PictureOptions::default() };
-    Config { picture, ..Config::default() }
-}
-
-fn black() -> Background {
-    PictureOptions::default().background
-}
-
-/// The light in the middle of a narrow view.
-fn seen(text: &str, toward: DVec3) -> DVec3 {
-    seen_with(text, toward, Config::default())
-}
-
-fn seen_with(text: &str, toward: DVec3, base: Config) -> DVec3 {
-    let config = Config { picture: config([1, 1], toward, 1e-3).picture, ..base };
-    let [red, green, blue, _] = drawn(text, &config).pixels()[0];
-    DVec3::new(red.into(), green.into(), blue.into())
-}
-
-/// A white square of half side `half` around `center`, perpendicular to `normal`; `rest` follows
-/// the corners in its statement.
-fn square(name: &str, center: DVec3, normal: DVec3, half: f64, rest: &str) -> String {
-    let (e1, e2) = normal.normalize().any_orthonormal_pair();
-    let corners = [e1 + e2, e2 - e1, -e1 - e2, e1 - e2].map(|corner| center + half * corner);
-    let statement =
-        |(at, corner): (usize, &DVec3)| format!("v {name}{at} {} {} {};\n", corner.x, corner.y, corner.z);
-    let vertices: String = corners.iter().enumerate().map(statement).collect();
-    format!("{vertices} f ({name}0 {name}1 {name}2 {name}3) {rest};\n")
-}
-
-/// Colours, surfaces, and no light but that of faces with a level.
-const HEAD: &str = "c white 1; l 0; surf mirror 0 1 0; surf glass 0 0 1 1.5;\n";
+use drawing::{HEAD, config, drawn, seen, seen_with, square};
 
 /// Frequencies change by (1 + β)/(1 − β) at a mirror that approaches, T27.
 #[test]

@@ -1,0 +1,154 @@
+//! Scenes for measurements, and their light.
+
+use glam::{DMat3, DMat4, DVec3, DVec4};
+use ugimage::{LinearFrame, Samples};
+use ugphoton::{
+    CameraOptions, Channel, ColorShift, Config, HueShift, Output, PictureOptions, SpectralShift, light,
+};
+use ugphysics::{Brightness, srgb_encode};
+
+/// Colours, surfaces, and no light but that of faces with a level.
+pub const HEAD: &str = "c white 1; l 0; surf mirror 0 1 0; surf glass 0 0 1 1.5;\n";
+
+/// The light of a scene with the eye at the origin.
+pub fn drawn(text: &str, config: &Config) -> LinearFrame {
+    let source = ugparse::Source::new("test.ug", text);
+    let mut scene = ugparse::parse(&source, &ugparse::Options::default()).unwrap().scene;
+    if scene.cameras.is_empty() {
+        scene.cameras.push(ugparse::Camera { eye: Some(DVec3::ZERO), ..ugparse::Camera::default() });
+    }
+    light(scene, config).unwrap()
+}
+
+/// A view of one sample per pixel.
+pub fn config(size: [u32; 2], toward: DVec3, view_angle: f64) -> Config {
+    let camera = CameraOptions {
+        center: Some(toward),
+        up: Some(if toward.y.abs() < 0.9 * toward.length() { DVec3::Y } else { DVec3::X }),
+        view_angle: Some((view_angle, None)),
+        ..CameraOptions::default()
+    };
+    let picture = PictureOptions { size, samples: 1, camera, ..PictureOptions::default() };
+    Config { picture, ..Config::default() }
+}
+
+/// The light in the middle of a narrow view.
+pub fn seen(text: &str, toward: DVec3) -> DVec3 {
+    seen_with(text, toward, Config::default())
+}
+
+/// The same with other options, except for the picture.
+pub fn seen_with(text: &str, toward: DVec3, base: Config) -> DVec3 {
+    let config = Config { picture: config([1, 1], toward, 1e-3).picture, ..base };
+    let [red, green, blue, _] = drawn(text, &config).pixels()[0];
+    DVec3::new(red.into(), green.into(), blue.into())
+}
+
+/// The distance of the emission event in a direction.
+pub fn distance(text: &str, toward: DVec3) -> f64 {
+    let mut config = config([1, 1], toward, 1e-3);
+    config.picture.output = Output::Color(ugimage::Format::Exr);
+    config.picture.channels = vec![Channel::Distance];
+    let frame = drawn(text, &config);
+    match &frame.planes()[0].samples {
+        Samples::Float(distances) => distances[0].into(),
+        Samples::Whole(_) => panic!("distances are not whole numbers"),
+    }
+}
+
+/// Options with a brightness law, and wavelengths as they are.
+pub fn by_law(law: Brightness) -> Config {
+    Config { shift: ColorShift::Hues(HueShift { doppler: false, law }), ..Config::default() }
+}
+
+/// Options for spectra.
+pub fn by_spectra() -> Config {
+    Config { shift: ColorShift::Spectra(SpectralShift { doppler: true, flux: true }), ..Config::default() }
+}
+
+/// The value of a grey seen in a direction: a number, of which a picture shows the light.
+pub fn value(text: &str, toward: DVec3, base: Config) -> f64 {
+    srgb_encode(seen_with(text, toward, base).y)
+}
+
+/// Vertices and a face. `rest` follows the corners in its statement.
+pub fn polygon(name: &str, corners: &[DVec3], rest: &str) -> String {
+    let vertex =
+        |(at, corner): (usize, &DVec3)| format!("v {name}{at} {} {} {};\n", corner.x, corner.y, corner.z);
+    let vertices: String = corners.iter().enumerate().map(vertex).collect();
+    let names: Vec<String> = (0..corners.len()).map(|at| format!("{name}{at}")).collect();
+    format!("{vertices}f ({}) {rest};\n", names.join(" "))
+}
+
+/// A square of half side `half` around `center`, perpendicular to `normal`, seen from there.
+pub fn square(name: &str, center: DVec3, normal: DVec3, half: f64, rest: &str) -> String {
+    let (e1, e2) = normal.normalize().any_orthonormal_pair();
+    polygon(name, &[e1 + e2, e2 - e1, -e1 - e2, e1 - e2].map(|corner| center + half * corner), rest)
+}
+
+/// A cube of half side `half` around the origin.
+pub fn surroundings(name: &str, half: f64, rest: &str) -> String {
+    let sides = [DVec3::X, DVec3::Y, DVec3::Z, DVec3::NEG_X, DVec3::NEG_Y, DVec3::NEG_Z];
+    let side =
+        |(at, side): (usize, &DVec3)| square(&format!("{name}{at}s"), half * *side, -*side, half, rest);
+    sides.iter().enumerate().map(side).collect()
+}
+
+/// A velocity as a scene states it.
+pub fn velocity(v: DVec3) -> String {
+    format!("<{} {} {}>", v.x, v.y, v.z)
+}
+
+/// A square that shows the place of a point on it, in its rest frame.
+#[derive(Clone, Copy, Debug)]
+pub struct Chart {
+    /// Its middle.
+    pub center: DVec3,
+    /// From there to the middles of two of its sides.
+    pub axes: [DVec3; 2],
+    /// Its velocity.
+    pub velocity: DVec3,
+}
+
+impl Chart {
+    /// Its statements. Along one of its axes the value of its grey increases from 0.2 to 0.8.
+    fn text(&self, axis: usize) -> String {
+        let [u, v] = self.axes;
+        let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
+        let mut text = String::from("c low 0.2; c high 0.8;\n");
+        for (at, (a, b)) in corners.into_iter().enumerate() {
+            let place = self.center + a * u + b * v;
+            let color = if [a, b][axis] > 0.0 { "high" } else { "low" };
+            text += &format!("v chart{at} {} {} {} {color};\n", place.x, place.y, place.z);
+        }
+        text + &format!("f (chart0 chart1 chart2 chart3) white 1 {};\n", velocity(self.velocity))
+    }
+
+    /// The place in its rest frame that is seen in a direction; `None` if something else is seen.
+    pub fn place(&self, others: &str, toward: DVec3) -> Option<DVec3> {
+        let along = |axis: usize| {
+            let text = format!("{HEAD}{others}{}", self.text(axis));
+            let value = value(&text, toward, by_law(Brightness::None));
+            (value > 0.19).then_some((value - 0.5) / 0.3)
+        };
+        let [u, v] = self.axes;
+        Some(self.center + along(0)? * u + along(1)? * v)
+    }
+}
+
+/// The boost from the rest frame of a body with velocity `v`; events are (x, y, z, t).
+pub fn boost(v: DVec3) -> DMat4 {
+    let speed = v.length();
+    if speed == 0.0 {
+        return DMat4::IDENTITY;
+    }
+    let (gamma, axis) = (1.0 / (1.0 - speed * speed).sqrt(), v / speed);
+    let column = |unit: DVec3| (unit + (gamma - 1.0) * unit.dot(axis) * axis).extend(gamma * unit.dot(v));
+    DMat4::from_cols(column(DVec3::X), column(DVec3::Y), column(DVec3::Z), DVec4::from((gamma * v, gamma)))
+}
+
+/// Velocity and rotation of a boost times a rotation.
+pub fn factors(matrix: DMat4) -> (DVec3, DMat3) {
+    let v = matrix.w_axis.truncate() / matrix.w_axis.w;
+    (v, DMat3::from_mat4(boost(-v) * matrix))
+}
