@@ -54,9 +54,9 @@ impl Config {
         if !(fits(left, width, self.picture.size[0]) && fits(top, height, self.picture.size[1])) {
             return Err(Error::Crop { crop: [left, top, width, height], size: self.picture.size });
         }
-        if self.picture.annotations.is_any() || !self.picture.channels.is_empty() {
+        if self.picture.annotations.is_any() {
             return Err(Error::Options(
-                "annotations and channels (-cap, -lg, -dl, -gr, -ch) are for whole pictures: leave them out, or -crop",
+                "annotations (-cap, -lg, -dl, -gr) are for whole pictures: leave them out, or -crop",
             ));
         }
         if self.picture.exposure == Some(Exposure::Auto) {
@@ -98,11 +98,10 @@ impl Config {
         if self.lens == Lens::Pinhole {
             return Ok(());
         }
-        if annotations.legend || annotations.outline || annotations.grid || !self.picture.channels.is_empty()
-        {
+        if annotations.outline || annotations.grid {
             return refused(
-                "legend, outline, grid and channels (-lg, -dl, -gr, -ch) are for pinhole cameras: leave them \
-                 out, or -pan, -fish and -cube",
+                "outline and grid (-dl, -gr) are straight lines of pinhole cameras: leave them out, or -pan and \
+                 -fish",
             );
         }
         if self.rays.shutter != Shutter::Pinhole {

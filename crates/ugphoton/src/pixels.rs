@@ -5,7 +5,7 @@ use std::ops::Range;
 use glam::DVec3;
 use rayon::prelude::*;
 use ugimage::{Filter, LinearFrame};
-use ugpicture::{Backdrop, DepthBuffer, Emissions, PictureOptions, SurfaceSample, channel_planes};
+use ugpicture::{Backdrop, DepthBuffer, Emission, PictureOptions, SeenItem, SurfaceSample, channel_planes};
 use ugpipe::Progress;
 
 use crate::config::Config;
@@ -83,26 +83,59 @@ pub fn light(scenery: &Scenery<'_>, config: &Config, progress: &dyn Progress) ->
     }
     let mut frame = LinearFrame::new([width, height], painting.backdrop.is_opaque(), pixels);
     if !options.channels.is_empty() {
-        let seen = surfaces(scenery, [width, height], samples);
-        let emissions = Emissions::new(&scenery.scene, &scenery.view, scenery.surface.frames());
+        let seen = Middles::new(scenery, [left, top, width, height], samples);
         for &channel in &options.channels {
-            let planes = channel_planes(channel, &emissions, [width, samples], &seen);
+            let planes = channel_planes(channel, seen.surfaces.len(), &|idx| seen.item(idx));
             planes.into_iter().for_each(|plane| frame.push_plane(plane));
         }
     }
     (frame, statistics)
 }
 
-/// The nearest surface at the middle of each pixel.
-pub fn depths(scenery: &Scenery<'_>, size: [u32; 2], samples: u32) -> DepthBuffer {
-    DepthBuffer { size, seen: surfaces(scenery, size, samples) }
+/// What is seen at the middle of each pixel.
+pub fn seen_items(scenery: &Scenery<'_>, size: [u32; 2], samples: u32) -> Vec<Option<SeenItem>> {
+    let middles = Middles::new(scenery, [0, 0, size[0], size[1]], samples);
+    (0..middles.surfaces.len()).into_par_iter().map(|idx| middles.item(idx)).collect()
 }
 
-/// For each pixel the surface at its middle that transmits less than half of the light behind it.
-fn surfaces(scenery: &Scenery<'_>, [width, height]: [u32; 2], samples: u32) -> Vec<Option<SurfaceSample>> {
-    let seen = |idx: usize| {
-        let middle = |pixel: usize| pixel as u32 * samples + samples / 2;
-        let ray = scenery.primary_ray([middle(idx % width as usize), middle(idx / width as usize)])?;
+/// The nearest surface at the middle of each pixel of a pinhole camera.
+pub fn depths(scenery: &Scenery<'_>, size: [u32; 2], samples: u32) -> DepthBuffer {
+    let sample = |(s, item): (f64, u32)| SurfaceSample { key: (1.0 / s) as f32, item };
+    let middles = Middles::new(scenery, [0, 0, size[0], size[1]], samples);
+    DepthBuffer { size, seen: middles.surfaces.into_iter().map(|seen| seen.map(sample)).collect() }
+}
+
+/// The surfaces at the middles of the pixels of a part of a picture.
+struct Middles<'a> {
+    scenery: &'a Scenery<'a>,
+    /// Left column, upper row, and columns.
+    area: [u32; 3],
+    samples: u32,
+    /// For each pixel the surface at its middle that transmits less than half of the light behind
+    /// it: the parameter of its ray, and the row of the face.
+    surfaces: Vec<Option<(f64, u32)>>,
+}
+
+impl<'a> Middles<'a> {
+    /// `area`: left column, upper row, width and height.
+    fn new(scenery: &'a Scenery<'a>, [left, top, width, height]: [u32; 4], samples: u32) -> Self {
+        let n_pixels = width as usize * height as usize;
+        let mut middles = Self { scenery, area: [left, top, width], samples, surfaces: Vec::new() };
+        middles.surfaces = (0..n_pixels).into_par_iter().map(|idx| middles.surface(idx)).collect();
+        middles
+    }
+
+    /// The ray through the sample nearest to the centre of a pixel; ties go to the lower-right one.
+    fn ray(&self, idx: usize) -> Option<Ray> {
+        let [left, top, width] = self.area;
+        // A picture has fewer than 2^32 pixels.
+        let (column, row) = ((idx % width as usize) as u32, (idx / width as usize) as u32);
+        self.scenery.primary_ray([left + column, top + row].map(|at| at * self.samples + self.samples / 2))
+    }
+
+    fn surface(&self, idx: usize) -> Option<(f64, u32)> {
+        let scenery = self.scenery;
+        let ray = self.ray(idx)?;
         let slab = scenery.view.slab;
         let mut range = slab.near..slab.far;
         loop {
@@ -111,12 +144,25 @@ fn surfaces(scenery: &Scenery<'_>, [width, height]: [u32; 2], samples: u32) -> V
             let translucency =
                 face.color.map_or(0.0, |color| scenery.scene.colors[color.index()].translucency);
             if translucency < 0.5 {
-                return Some(SurfaceSample { key: (1.0 / found.s) as f32, item: found.triangle.face });
+                return Some((found.s, found.triangle.face));
             }
             range.start = found.s;
         }
-    };
-    (0..width as usize * height as usize).into_par_iter().map(seen).collect()
+    }
+
+    /// The surface at a pixel, and the emission event of its light, relative to the eye that sees
+    /// it.
+    fn item(&self, idx: usize) -> Option<SeenItem> {
+        let ((s, item), ray) = (self.surfaces[idx]?, self.ray(idx)?);
+        let frames = self.scenery.surface.frames();
+        let emission = Emission {
+            place: s * ray.step.x,
+            depth: s,
+            time: ray.origin.t + s * ray.step.t,
+            velocity: frames.velocity(self.scenery.scene.faces[item as usize].body),
+        };
+        Some((item, emission))
+    }
 }
 
 /// What is the same for all tiles of a picture.

@@ -12,6 +12,7 @@ use ugscene::{CameraOptions, PlacedBodies, RestPosition};
 
 use crate::config::Config;
 use crate::error::Error;
+use crate::lens::Lens;
 use crate::notes::notes;
 use crate::pixels;
 use crate::scenery::Scenery;
@@ -164,7 +165,11 @@ fn annotate(
     development: Option<Development>,
 ) -> Result<Annotations, Error> {
     let is_shifted = config.shift.shifts_wavelengths();
-    let annotated = Annotated { scene: &scenery.scene, camera: &config.picture.camera, is_shifted };
+    let picture = &config.picture;
+    let seen = (config.lens != Lens::Pinhole && picture.annotations.legend)
+        .then(|| pixels::seen_items(scenery, picture.size, picture.samples));
+    let annotated =
+        Annotated { scene: &scenery.scene, camera: &picture.camera, is_shifted, seen: seen.as_deref() };
     let depths = |scene: &Scene, camera: &CameraOptions, _: SceneState| -> Result<DepthBuffer, Error> {
         let mut coarse = config.clone();
         coarse.picture.samples = 1;

@@ -72,7 +72,7 @@ fn options_have_two_spellings() {
 fn mistakes_have_answers() {
     refused(&["-vel", "1", "0", "0"], SCENE, 2, "-vel");
     refused(&["-vell", ".1", "0", "0"], SCENE, 2, "-vel");
-    refused(&["-pan", "-lg"], SCENE, 2, "are for pinhole cameras");
+    refused(&["-pan", "-gr"], SCENE, 2, "are straight lines of pinhole cameras");
     refused(&["-pan", "-fish", "180"], SCENE, 2, "-fish");
     refused(&["-cube"], SCENE, 2, "give -sz W H with W = 6 H, such as -sz 3072 512");
     refused(&["-cube", "-pan"], SCENE, 2, "-pan");

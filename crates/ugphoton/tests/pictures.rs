@@ -3,10 +3,10 @@
 
 use glam::DVec3;
 use rayon::ThreadPoolBuilder;
-use ugimage::LinearFrame;
+use ugimage::{Format, LinearFrame, Samples};
 use ugphoton::{
-    Anchor, CameraOptions, Config, Exposure, Filter, Lens, MotionOptions, PictureOptions, RayOptions,
-    Shutter, light, render,
+    Anchor, CameraOptions, Channel, Config, Exposure, Filter, Lens, MotionOptions, Output, PictureOptions,
+    RayOptions, Shutter, light, render,
 };
 
 fn scene(text: &str) -> ugparse::Scene {
@@ -40,15 +40,23 @@ fn parts_are_those_of_the_whole_picture() {
         let mut config = picture([50, 37]);
         config.picture.filter = filter;
         (config.lens, config.stereo) = (lens, stereo);
+        (config.picture.output, config.picture.channels) =
+            (Output::Color(Format::Exr), Channel::ALL.to_vec());
+        let planes =
+            |frame: &LinearFrame| ["D", "time", "Z", "id", "velocity.X"].map(|name| channel(frame, name));
         let whole = light(scene(ROOM), &config).unwrap();
-        let mut joined = vec![None; 50 * 37];
+        let (mut joined, whole_planes) = (vec![None; 50 * 37], planes(&whole));
         for [left, top, width, height] in [[0, 0, 23, 19], [23, 0, 27, 19], [0, 19, 50, 1], [0, 20, 50, 17]] {
             let config = Config { crop: Some([left, top, width, height]), ..config.clone() };
             let part = light(scene(ROOM), &config).unwrap();
             assert_eq!([part.width(), part.height()], [width, height]);
+            let part_planes = planes(&part);
             for (at, pixel) in part.pixels().iter().enumerate() {
                 let (column, row) = (left as usize + at % width as usize, top as usize + at / width as usize);
                 joined[row * 50 + column] = Some(*pixel);
+                for (plane, whole) in part_planes.iter().zip(&whole_planes) {
+                    assert!(plane[at].to_bits() == whole[row * 50 + column].to_bits(), "{lens:?} {stereo:?}");
+                }
             }
         }
         let joined: Option<Vec<_>> = joined.into_iter().collect();
@@ -216,6 +224,84 @@ fn eyes_see_what_cameras_in_their_places_see() {
     }
 }
 
+/// The numbers of a channel.
+fn channel(frame: &LinearFrame, name: &str) -> Vec<f64> {
+    let plane = frame.planes().iter().find(|plane| plane.name == name).unwrap();
+    match &plane.samples {
+        Samples::Float(numbers) => numbers.iter().map(|&number| f64::from(number)).collect(),
+        Samples::Whole(numbers) => numbers.iter().map(|&number| f64::from(number)).collect(),
+    }
+}
+
+/// Channels of a wall that recedes, with every lens, against closed forms. Seen in a direction d at
+/// time 0, the light of a wall at y = 5 + β t left at the distance r with r d_y = 5 − β r.
+#[test]
+fn channels_hold_with_every_lens() {
+    let (beta, slant): (f64, f64) = (0.4, 90.0);
+    // Coordinates of the wall are those at rest.
+    let y = 5.0 / (1.0 - beta * beta).sqrt();
+    let text = format!(
+        "c white 1; v a -900 {y} -900; v b 900 {y} -900; v c 900 {y} 900; v d -900 {y} 900;
+         f (a b c d) white 1 <0 {beta} 0>; cam -ep 0 0 0 -vc 0 1 0 -va {slant} {slant};"
+    );
+    let mut n_seen = 0;
+    for (lens, stereo, size, film) in [
+        (Lens::Pinhole, None, [20, 20], None),
+        (Lens::Pinhole, None, [20, 20], Some(3.0)),
+        (Lens::Pinhole, Some(0.5), [40, 20], Some(3.0)),
+        (Lens::Panorama, None, [40, 20], None),
+        (Lens::Fisheye { angle: 2.0 }, Some(0.5), [40, 20], None),
+        (Lens::Cube, None, [120, 20], None),
+    ] {
+        let mut config = picture(size);
+        (config.lens, config.stereo, config.picture.samples) = (lens, stereo, 1);
+        (config.picture.output, config.picture.channels) =
+            (Output::Color(Format::Exr), Channel::ALL.to_vec());
+        config.rays.shutter = film.map_or(Shutter::Pinhole, |distance| Shutter::Film { distance });
+        let frame = light(scene(&text), &config).unwrap();
+        let [d, time, distance, depth, id, velocity] =
+            ["D", "time", "distance", "Z", "id", "velocity.Y"].map(|name| channel(&frame, name));
+        for at in 0..distance.len() {
+            let (column, row) = (at % size[0] as usize, at / size[0] as usize);
+            let place = [column % 20, row].map(|pixel| (pixel as f64 + 0.5) / 10.0 - 1.0);
+            let radius = libm::hypot(place[0], place[1]);
+            // The part of a unit vector in the direction of the motion, and depth by distance.
+            let (ahead, flat) = match lens {
+                Lens::Pinhole => (1.0 / (1.0 + radius * radius).sqrt(), true),
+                Lens::Cube if (80..100).contains(&column) => (1.0 / (1.0 + radius * radius).sqrt(), false),
+                Lens::Panorama => {
+                    let longitude = std::f64::consts::TAU * ((column as f64 + 0.5) / 40.0 - 0.5);
+                    (libm::cos(longitude) * libm::cos(std::f64::consts::FRAC_PI_2 * place[1]), false)
+                }
+                Lens::Fisheye { angle } if radius < 1.0 => (libm::cos(0.5 * angle * radius), false),
+                _ => continue,
+            };
+            let earlier = film.map_or(0.0, |distance| distance * (1.0 / ahead - 1.0));
+            let far = (5.0 - beta * earlier) / (ahead + beta);
+            if far < 0.0 || ahead < 0.1 - beta {
+                continue;
+            }
+            if id[at] == 0.0 {
+                // Beyond the end of the wall.
+                assert!(far * (1.0 - ahead * ahead).sqrt() > 800.0 || ahead < 0.0, "{lens:?} {at}");
+                continue;
+            }
+            n_seen += 1;
+            let doppler = (1.0 - beta * beta).sqrt() / (1.0 + beta * ahead);
+            for (found, expected) in [
+                (distance[at], far),
+                (time[at], -far - earlier),
+                (d[at], doppler),
+                (depth[at], if flat { far * ahead } else { far }),
+                (velocity[at], beta),
+            ] {
+                assert!((found - expected).abs() < 1e-5 * far, "{lens:?} {at}: {found} {expected}");
+            }
+        }
+    }
+    assert!(n_seen > 2000, "{n_seen}");
+}
+
 /// With the shutter at the film, light for its edge passed the pinhole earlier: what moves is seen
 /// where it was then (Howard, Dance and Kitchen 1995).
 #[test]
@@ -338,7 +424,12 @@ fn messages() {
     let single = "annotations (-cap, -lg, -dl, -gr) are for pictures of a single view";
     check(annotated(Config { stereo: Some(0.1), ..config.clone() }), single);
     check(annotated(Config { lens: Lens::Cube, ..picture([60, 10]) }), single);
-    assert!(render(scene(ROOM), &annotated(Config { lens: Lens::Panorama, ..picture([400, 300]) })).is_ok());
+    // Captions and legends are below a picture of any lens; lines over it are straight.
+    let mut legend = annotated(Config { lens: Lens::Panorama, ..picture([400, 300]) });
+    legend.picture.annotations.legend = true;
+    assert!(render(scene(ROOM), &legend).is_ok());
+    legend.picture.annotations.grid = true;
+    check(legend, "outline and grid (-dl, -gr) are straight lines of pinhole cameras");
     let mut orthographic = config.clone();
     orthographic.picture.camera.is_orthographic = true;
     check(orthographic, "leave out -og");

@@ -5,8 +5,7 @@ use rayon::prelude::*;
 use ugimage::{Plane, Samples};
 use ugphysics::{doppler_at, length};
 
-use crate::depth_buffer::SurfaceSample;
-use crate::emission::{Emission, Emissions};
+use crate::emission::Emission;
 
 /// A channel of one number per pixel, or three. Its values are those of the surface at the sample
 /// nearest to the pixel's centre, never a mean.
@@ -19,7 +18,8 @@ pub enum Channel {
     Time,
     /// `distance`: from the eye to the emission event; ∞ where nothing is visible.
     Distance,
-    /// `Z`: depth of the emission event along the view; ∞ where nothing is visible.
+    /// `Z`: depth of the emission event along the view, or its distance if the camera is no pinhole;
+    /// ∞ where nothing is visible.
     Depth,
     /// `id`: faces counted from 1 in the order of the scene, then wires; 0 where nothing is
     /// visible.
@@ -56,20 +56,20 @@ impl Channel {
     }
 }
 
-/// The planes of a channel. `seen`: emission events at the middles of pixels, row after row, in
-/// pictures of `width` pixels across with `samples` × `samples` samples each.
+/// What is seen at the middle of a pixel: the row of the face in the scene (wires are counted after
+/// the faces), and the emission event.
+pub type SeenItem = (u32, Emission);
+
+/// The planes of a channel in a picture of `n_pixels`. `seen`: what is seen at a pixel, counted row
+/// after row.
 pub fn channel_planes(
     channel: Channel,
-    emissions: &Emissions<'_>,
-    [width, samples]: [u32; 2],
-    seen: &[Option<SurfaceSample>],
+    n_pixels: usize,
+    seen: &(impl Fn(usize) -> Option<SeenItem> + Sync),
 ) -> Vec<Plane> {
     let of = |number: &(dyn Fn(&Emission) -> f64 + Sync), nothing: f32| {
-        let numbers = seen.par_iter().enumerate().map(|(idx, seen)| {
-            let Some(seen) = *seen else { return nothing };
-            finite(number(&emissions.at(middle([width, samples], idx), seen)))
-        });
-        Samples::Float(numbers.collect())
+        let number = |idx: usize| seen(idx).map_or(nothing, |(_, emission)| finite(number(&emission)));
+        Samples::Float((0..n_pixels).into_par_iter().map(number).collect())
     };
     let plane = |name: &str, samples| Plane { name: name.to_owned(), samples };
     let name = channel.name();
@@ -81,8 +81,8 @@ pub fn channel_planes(
         Channel::Distance => vec![plane(name, of(&|emission| length(emission.place), f32::INFINITY))],
         Channel::Depth => vec![plane(name, of(&|emission| emission.depth, f32::INFINITY))],
         Channel::Id => {
-            let ids = seen.iter().map(|seen| seen.map_or(0, |seen| seen.item.saturating_add(1)));
-            vec![plane(name, Samples::Whole(ids.collect()))]
+            let id = |idx: usize| seen(idx).map_or(0, |(item, _)| item.saturating_add(1));
+            vec![plane(name, Samples::Whole((0..n_pixels).into_par_iter().map(id).collect()))]
         }
         Channel::Velocity => ["X", "Y", "Z"]
             .into_iter()
@@ -99,11 +99,4 @@ pub fn channel_planes(
 /// number stands for nothing visible; NaN becomes 0.
 fn finite(number: f64) -> f32 {
     if number.is_nan() { 0.0 } else { (number as f32).clamp(-f32::MAX, f32::MAX) }
-}
-
-/// The sample nearest to the centre of a pixel; ties go to the lower-right one.
-fn middle([width, samples]: [u32; 2], idx: usize) -> [u32; 2] {
-    let width = width as usize;
-    // A picture has fewer than 2^32 pixels.
-    [idx % width, idx / width].map(|pixel| pixel as u32 * samples + samples / 2)
 }

@@ -5,6 +5,7 @@ use ugparse::Scene;
 use ugphysics::{Velocity, length};
 use ugscene::{Geometry, RestFrames, View};
 
+use crate::channel::SeenItem;
 use crate::depth_buffer::SurfaceSample;
 
 /// The event at which the light seen at a sample was emitted.
@@ -12,7 +13,7 @@ use crate::depth_buffer::SurfaceSample;
 pub struct Emission {
     /// Position relative to the eye, in the frame of the camera.
     pub place: DVec3,
-    /// Depth along the view.
+    /// Depth along the view; the distance if the camera is no pinhole.
     pub depth: f64,
     /// Time in the frame of the camera; the picture is taken at 0.
     pub time: f64,
@@ -47,5 +48,22 @@ impl<'a> Emissions<'a> {
         let place = self.view.point([f64::from(column) + 0.5, f64::from(row) + 0.5], depth);
         let time = if self.has_flight_time { -length(place) } else { 0.0 };
         Emission { place, depth, time, velocity }
+    }
+
+    /// What is seen at the middle of a pixel, as channels need it. `seen`: the surfaces at the
+    /// middles of pixels, row after row, in pictures of `width` pixels across with `samples` ×
+    /// `samples` samples each.
+    pub fn at_pixel(
+        &self,
+        [width, samples]: [u32; 2],
+        seen: &[Option<SurfaceSample>],
+        idx: usize,
+    ) -> Option<SeenItem> {
+        let surface = seen[idx]?;
+        // The sample nearest to the centre; ties go to the lower-right one. A picture has fewer
+        // than 2^32 pixels.
+        let middle =
+            [idx % width as usize, idx / width as usize].map(|pixel| pixel as u32 * samples + samples / 2);
+        Some((surface.item, self.at(middle, surface)))
     }
 }

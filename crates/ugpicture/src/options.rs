@@ -6,7 +6,6 @@ use ugscene::CameraOptions;
 
 use crate::background::Background;
 use crate::channel::Channel;
-use crate::depth_buffer::SurfaceSample;
 use crate::error::Error;
 use crate::exposure::Exposure;
 use crate::limits::{MAX_PIXELS, MAX_SAMPLES, MAX_SIDE, MAX_VECTOR_SIDE};
@@ -91,14 +90,15 @@ impl PictureOptions {
     /// Memory for a pixel while the file is written: as light, and in the file before packing.
     fn bytes_per_pixel(&self) -> u64 {
         const LIGHT: u64 = 16;
+        // A face and a distance, at most.
+        const SURFACE: u64 = size_of::<Option<(f64, u32)>>() as u64;
         const COLOR: u64 = 4;
         let channels = if self.background == Background::Transparent { 4 } else { 3 };
         match self.output {
             Output::Vector(_) => 0,
             _ if self.output.is_linear() => {
                 // Channels are made of the surface at each pixel.
-                let surface =
-                    if self.channels.is_empty() { 0 } else { size_of::<Option<SurfaceSample>>() as u64 };
+                let surface = if self.channels.is_empty() { 0 } else { SURFACE };
                 LIGHT + surface + 4 * (channels + self.channels.len() as u64)
             }
             Output::Color(Format::Png16) => LIGHT + 2 * channels,

@@ -25,7 +25,7 @@ pub fn annotate(
         Some(shift) => shift.shifts_wavelengths(),
         None => scene.stage.seen_colors().is_some_and(|seen| seen.doppler),
     };
-    let annotated = Annotated { scene, camera: &config.picture.camera, is_shifted };
+    let annotated = Annotated { scene, camera: &config.picture.camera, is_shifted, seen: None };
     layout.annotate(annotated, &config.picture, development, |scene, camera, state| {
         let mut coarse = Config { wireframe: None, depth_cue: None, ..config.clone() };
         coarse.picture.samples = 1;

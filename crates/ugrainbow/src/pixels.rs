@@ -164,8 +164,9 @@ fn push_channels(
 ) {
     let emissions = Emissions::new(setup.scene(), &setup.view, setup.surface.frames());
     let grid = [setup.grid.width, setup.grid.samples];
+    let at = |idx| emissions.at_pixel(grid, seen, idx);
     for &channel in &config.picture.channels {
-        channel_planes(channel, &emissions, grid, seen).into_iter().for_each(|plane| frame.push_plane(plane));
+        channel_planes(channel, seen.len(), &at).into_iter().for_each(|plane| frame.push_plane(plane));
     }
 }
 

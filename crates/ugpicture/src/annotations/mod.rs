@@ -23,7 +23,9 @@ use ugparse::Scene;
 use ugscene::CameraOptions;
 
 use crate::background::Backdrop;
+use crate::channel::SeenItem;
 use crate::depth_buffer::DepthBuffer;
+use crate::emission::Emissions;
 use crate::error::Error;
 use crate::options::{AnnotationOptions, PictureOptions};
 pub use composite::Annotations;
@@ -42,6 +44,9 @@ pub struct Annotated<'a> {
     pub camera: &'a CameraOptions,
     /// True if wavelengths in the picture are Doppler shifted.
     pub is_shifted: bool,
+    /// What is seen at the middle of each pixel, if the camera is no pinhole. Then only captions and
+    /// legends can be drawn.
+    pub seen: Option<&'a [Option<SeenItem>]>,
 }
 
 /// The geometry of a depth buffer.
@@ -134,9 +139,13 @@ impl Layout {
         };
         let AnnotationOptions { legend, outline, grid, .. } = options.annotations;
         if legend || outline || grid {
-            let Annotated { scene, camera, is_shifted } = annotated;
+            let Annotated { scene, camera, is_shifted, .. } = annotated;
             let seen = SeenScene::new(scene, camera, options.size)?;
-            if grid || legend {
+            if let (true, Some(items)) = (legend, annotated.seen) {
+                let motion = MotionSummary::new(&seen, items.iter().copied(), is_shifted);
+                let place = [f64::from(self.size[0]), f64::from(self.scene_rows)];
+                legend::draw(&motion, style, place, &mut all.strips).map_err(Error::from)?;
+            } else if grid || legend {
                 let depths = render_depths(scene, camera, SceneState::AsSeen)?;
                 if grid {
                     let visible = VisibleLines { view: &seen.view, depths: &depths };
@@ -144,7 +153,9 @@ impl Layout {
                     all.notes.extend(note);
                 }
                 if legend {
-                    let motion = MotionSummary::new(&seen, &depths, is_shifted);
+                    let emissions = Emissions::new(scene, &seen.view, &seen.frames);
+                    let at = |idx| emissions.at_pixel([depths.size[0], 1], &depths.seen, idx);
+                    let motion = MotionSummary::new(&seen, (0..depths.seen.len()).map(at), is_shifted);
                     let place = [f64::from(self.size[0]), f64::from(self.scene_rows)];
                     legend::draw(&motion, style, place, &mut all.strips).map_err(Error::from)?;
                 }

@@ -5,8 +5,7 @@ use ugphysics::{Velocity, doppler_at};
 use ugscene::View;
 
 use super::seen::SeenScene;
-use crate::depth_buffer::DepthBuffer;
-use crate::emission::Emissions;
+use crate::channel::SeenItem;
 
 /// Velocities and Doppler factors of the bodies in a picture.
 pub struct MotionSummary {
@@ -22,15 +21,16 @@ pub struct MotionSummary {
 }
 
 impl MotionSummary {
-    /// Summarizes the surfaces in `depths`. `is_shifted`: wavelengths have been Doppler shifted.
-    pub fn new(seen: &SeenScene<'_>, depths: &DepthBuffer, is_shifted: bool) -> Self {
-        let emissions = Emissions::new(seen.scene, &seen.view, &seen.frames);
+    /// Summarizes what is seen at the middles of pixels. `is_shifted`: wavelengths have been Doppler
+    /// shifted.
+    pub fn new(
+        seen: &SeenScene<'_>,
+        items: impl Iterator<Item = Option<SeenItem>>,
+        is_shifted: bool,
+    ) -> Self {
         let mut velocities: Vec<Velocity> = Vec::new();
         let mut doppler: Option<[f64; 2]> = None;
-        for (idx, surface) in depths.seen.iter().enumerate() {
-            let Some(surface) = *surface else { continue };
-            let width = depths.size[0] as usize;
-            let emission = emissions.at([(idx % width) as u32, (idx / width) as u32], surface);
+        for (_, emission) in items.flatten() {
             if !velocities.contains(&emission.velocity) {
                 velocities.push(emission.velocity);
             }
