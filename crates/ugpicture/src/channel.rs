@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use ugimage::{Plane, Samples};
 use ugphysics::{doppler_at, length};
 
-use crate::emission::Emission;
+use crate::emission::{Emission, SeenItem};
 
 /// A channel of one number per pixel, or three. Its values are those of the surface at the sample
 /// nearest to the pixel's centre, never a mean.
@@ -55,10 +55,6 @@ impl Channel {
         Self::ALL.map(Self::name).join(", ")
     }
 }
-
-/// What is seen at the middle of a pixel: the row of the face in the scene (wires are counted after
-/// the faces), and the emission event.
-pub type SeenItem = (u32, Emission);
 
 /// The planes of a channel in a picture of `n_pixels`. `seen`: what is seen at a pixel, counted row
 /// after row.

@@ -5,7 +5,6 @@ use ugparse::Scene;
 use ugphysics::{Velocity, length};
 use ugscene::{Geometry, RestFrames, View};
 
-use crate::channel::SeenItem;
 use crate::depth_buffer::SurfaceSample;
 
 /// The event at which the light seen at a sample was emitted.
@@ -20,6 +19,10 @@ pub struct Emission {
     /// Velocity of the body.
     pub velocity: Velocity,
 }
+
+/// What is seen at the middle of a pixel: the row of the face in the scene (wires are counted after
+/// the faces), and the emission event.
+pub type SeenItem = (u32, Emission);
 
 /// Finds emission events from samples.
 pub struct Emissions<'a> {

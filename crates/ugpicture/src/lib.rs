@@ -47,9 +47,9 @@ mod picture_file;
 
 pub use annotations::{Annotated, Annotations, Layout, SceneState};
 pub use background::{Backdrop, Background};
-pub use channel::{Channel, SeenItem, channel_planes};
+pub use channel::{Channel, channel_planes};
 pub use depth_buffer::{DepthBuffer, SurfaceSample};
-pub use emission::{Emission, Emissions};
+pub use emission::{Emission, Emissions, SeenItem};
 pub use error::Error;
 pub use exposure::Exposure;
 pub use image::Image;

@@ -23,9 +23,8 @@ use ugparse::Scene;
 use ugscene::CameraOptions;
 
 use crate::background::Backdrop;
-use crate::channel::SeenItem;
 use crate::depth_buffer::DepthBuffer;
-use crate::emission::Emissions;
+use crate::emission::{Emissions, SeenItem};
 use crate::error::Error;
 use crate::options::{AnnotationOptions, PictureOptions};
 pub use composite::Annotations;

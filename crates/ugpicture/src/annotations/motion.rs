@@ -5,7 +5,7 @@ use ugphysics::{Velocity, doppler_at};
 use ugscene::View;
 
 use super::seen::SeenScene;
-use crate::channel::SeenItem;
+use crate::emission::SeenItem;
 
 /// Velocities and Doppler factors of the bodies in a picture.
 pub struct MotionSummary {
