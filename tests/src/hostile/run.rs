@@ -129,11 +129,17 @@ fn readers(words: &[String]) -> Vec<Vec<String>> {
     lines.iter().map(|line| line.iter().copied().map(str::to_owned).collect()).collect()
 }
 
-/// An error with a place in the scene.
+/// An error with a place in the text of the scene. Where an eye or a motion meets a vertex, the
+/// options of the program are to blame.
 fn is_diagnostic(messages: &[u8]) -> bool {
+    const OF_OPTIONS: [&str; 2] = ["is too far away for a number", "lies at the eye"];
     let text = String::from_utf8_lossy(messages);
     let lines: Vec<&str> = text.lines().collect();
-    let is_one = |pair: &[&str]| pair[0].starts_with("error") && pair[1].trim_start().starts_with("--> ");
+    let is_one = |pair: &[&str]| {
+        pair[0].contains(": error: ")
+            && pair[1].trim_start().starts_with("--> ")
+            && !OF_OPTIONS.iter().any(|words| pair[0].contains(words))
+    };
     lines.windows(2).any(is_one)
 }
 
