@@ -122,6 +122,14 @@ pub struct Args {
     #[arg(long, value_name = "DISTANCE", value_parser = distance, conflicts_with = "cube", help_heading = RAYS)]
     stereo: Option<f64>,
 
+    /// Adaptive samples: fewer in pixels of less contrast than this
+    ///
+    /// About a quarter of the N x N samples (-aa) of a pixel are traced first, and the rest only if
+    /// they and their neighbours differ by more than this contrast, from 0 to 1. .05 suits most
+    /// pictures. Details smaller than the distance of the first samples can be missed.
+    #[arg(long, value_name = "CONTRAST", visible_alias = "adaptive", value_parser = part, help_heading = PICTURE)]
+    ad: Option<f64>,
+
     /// Draw only a part of the picture: column, row, width, height
     ///
     /// The pixels are those of the whole picture of size -sz, so parts drawn on several machines
@@ -215,6 +223,7 @@ impl Args {
                 None => Lens::Pinhole,
             },
             stereo: self.stereo,
+            adaptive: self.ad,
             crop: self.crop.as_deref().and_then(|crop| crop.try_into().ok()),
             reading: pipe::options(&self.common)?,
         })

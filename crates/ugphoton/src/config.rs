@@ -33,6 +33,11 @@ pub struct Config {
     /// left eye's on the left; panoramas one above the other, the left eye's above. Both eyes are
     /// at rest in the frame of the camera, and see at the same moment of it.
     pub stereo: Option<f64>,
+    /// Adaptive samples (`-ad`): the contrast, 0…1, above which a pixel gets all its samples. About
+    /// a quarter of them are traced first. If these and the nearest samples around the pixel differ
+    /// by no more, their mean stands for the others. The contrast of light is the greatest
+    /// difference of a channel divided by the greatest sum of the least and the most of one.
+    pub adaptive: Option<f64>,
     /// Draw only a part of the picture (`-crop`): its left column, upper row, width and height. The
     /// pixels are those of the whole picture.
     pub crop: Option<[u32; 4]>,
@@ -175,6 +180,7 @@ impl Default for Config {
             repeat: false,
             lens: Lens::Pinhole,
             stereo: None,
+            adaptive: None,
             crop: None,
             reading: ugparse::Options::default(),
         }

@@ -61,6 +61,13 @@ pub fn notes(
                 .to_owned(),
         );
     }
+    if config.adaptive.is_some() {
+        let [width, height] =
+            config.crop.map_or(config.picture.size, |[_, _, width, height]| [width, height]);
+        let n_all = u64::from(width) * u64::from(height) * u64::from(config.picture.samples.pow(2));
+        let percent = 100.0 * statistics.n_samples as f64 / n_all as f64;
+        notes.push(format!("traced {percent:.0} percent of the samples (-ad)"));
+    }
     notes.extend(why_nothing_is_seen(statistics).map(str::to_owned));
     notes.extend(light_note(config, statistics, development));
     notes

@@ -36,6 +36,8 @@ pub struct Statistics {
     pub is_cut_short: bool,
     /// Samples of which a path left a transparent solid that it had not entered.
     pub n_inside: u64,
+    /// Samples traced. Those that two tiles need are counted twice.
+    pub n_samples: u64,
 }
 
 impl Statistics {
@@ -47,6 +49,7 @@ impl Statistics {
             n_too_deep: self.n_too_deep + other.n_too_deep,
             is_cut_short: self.is_cut_short || other.is_cut_short,
             n_inside: self.n_inside + other.n_inside,
+            n_samples: self.n_samples + other.n_samples,
         }
     }
 }
@@ -58,7 +61,8 @@ pub fn light(scenery: &Scenery<'_>, config: &Config, progress: &dyn Progress) ->
     let backdrop = Backdrop::new(options.background, samples);
     let [left, top, width, height] = config.crop.unwrap_or([0, 0, size[0], size[1]]);
     let area = [left..left + width, top..top + height];
-    let painting = Painting { scenery, size, frames: config.frames(), area, samples, filter, backdrop };
+    let (frames, contrast) = (config.frames(), config.adaptive);
+    let painting = Painting { scenery, size, frames, area, samples, filter, contrast, backdrop };
     let [columns, rows] = [width, height].map(|side| side.div_ceil(TILE));
     progress.step("tracing rays", u64::from(columns) * u64::from(rows));
     let tiles: Vec<Tile> = (0..columns * rows)
@@ -176,6 +180,8 @@ struct Painting<'a> {
     area: [Range<u32>; 2],
     samples: u32,
     filter: Filter,
+    /// See [`Config::adaptive`].
+    contrast: Option<f64>,
     backdrop: Backdrop,
 }
 
@@ -226,16 +232,69 @@ impl Painting<'_> {
         let around = |range: &Range<u32>, side: u32| {
             range.start.saturating_sub(margin) * n..(range.end + margin).min(side) * n
         };
-        let (across, down) = (around(columns, self.size[0]), around(rows, self.size[1]));
-        let width = across.len();
+        // For differences the nearest samples of the pixels around are needed.
+        let beside = u32::from(self.contrast.is_some());
+        let with_beside = |range: Range<u32>, side: u32| {
+            range.start.saturating_sub(beside)..(range.end + beside).min(side * n)
+        };
+        let across = with_beside(around(columns, self.size[0]), self.size[0]);
+        let down = with_beside(around(rows, self.size[1]), self.size[1]);
         // Where the lens shows nothing there is background.
         let nothing = self.on_background(DVec3::ZERO, DVec3::ONE);
-        let mut light = vec![nothing; width * down.len()];
+        let light = vec![nothing; across.len() * down.len()];
+        let mut samples = Samples { columns: across, rows: down, light };
+        let own = [columns, rows];
+        let Some(contrast) = self.contrast else {
+            self.trace(&mut samples, own, tracer, statistics, |_| true);
+            return samples;
+        };
+        let first = first_samples(n);
+        let is_first = |[column, row]: [u32; 2]| first.contains(&(column % n)) && first.contains(&(row % n));
+        self.trace(&mut samples, own, tracer, statistics, is_first);
+        // Without the samples beside the outermost pixels.
+        let pixels = [(columns, 0), (rows, 1)].map(|(range, axis): (&Range<u32>, usize)| {
+            range.start.saturating_sub(margin)..(range.end + margin).min(self.size[axis])
+        });
+        let width = pixels[0].len();
+        let mut is_refined = Vec::with_capacity(width * pixels[1].len());
+        for row in pixels[1].clone() {
+            for column in pixels[0].clone() {
+                is_refined.push(self.differ(&samples, &first, [column, row], contrast));
+            }
+        }
+        let is_pixel_refined = |[column, row]: [u32; 2]| {
+            let is_inside = pixels[0].contains(&column) && pixels[1].contains(&row);
+            let at = || (row - pixels[1].start) as usize * width + (column - pixels[0].start) as usize;
+            is_inside && is_refined[at()]
+        };
+        self.trace(&mut samples, own, tracer, statistics, |sample| {
+            !is_first(sample) && is_pixel_refined(sample.map(|at| at / n))
+        });
+        for row in pixels[1].clone() {
+            for column in pixels[0].clone().filter(|&column| !is_pixel_refined([column, row])) {
+                samples.fill([column, row], n, &first);
+            }
+        }
+        samples
+    }
+
+    /// Traces those samples that are wanted. `own`: the pixels of the tile.
+    fn trace(
+        &self,
+        samples: &mut Samples,
+        [columns, rows]: [&Range<u32>; 2],
+        tracer: &mut Tracer<'_>,
+        statistics: &mut Statistics,
+        is_wanted: impl Fn([u32; 2]) -> bool,
+    ) {
+        let n = self.samples;
         let mut packet = Packet::default();
-        for top in down.clone().step_by(PACKET as usize) {
-            for left in across.clone().step_by(PACKET as usize) {
-                let (right, bottom) = ((left + PACKET).min(across.end), (top + PACKET).min(down.end));
-                packet.trace(self.scenery, left..right, top..bottom);
+        for top in samples.rows.clone().step_by(PACKET as usize) {
+            for left in samples.columns.clone().step_by(PACKET as usize) {
+                let (right, bottom) =
+                    ((left + PACKET).min(samples.columns.end), (top + PACKET).min(samples.rows.end));
+                packet.trace(self.scenery, left..right, top..bottom, &is_wanted);
+                statistics.n_samples += packet.places.len() as u64;
                 for (&[column, row], (ray, first)) in
                     packet.places.iter().zip(packet.rays.iter().zip(&packet.first))
                 {
@@ -250,12 +309,37 @@ impl Painting<'_> {
                         statistics.n_inside += u64::from(tracer.begins_inside);
                         statistics.max_light = statistics.max_light.max(brightest);
                     }
-                    let at = (row - down.start) as usize * width + (column - across.start) as usize;
-                    light[at] = self.on_background(arriving.light, arriving.background);
+                    *samples.at([column, row]) = self.on_background(arriving.light, arriving.background);
                 }
             }
         }
-        Samples { columns: across, rows: down, light }
+    }
+
+    /// True if the first samples of a pixel and those next to it differ by more than a contrast:
+    /// of the brightest channel, or of the covered part.
+    fn differ(&self, samples: &Samples, first: &[u32], pixel: [u32; 2], contrast: f64) -> bool {
+        /// Differences of light that no exposure makes visible.
+        const ROUNDING: f32 = 1e-6;
+        let n = self.samples;
+        let [across, down] = [0, 1].map(|axis| {
+            let frame = frame_around(pixel[axis], self.size[axis], self.frames[axis]);
+            let start = pixel[axis] * n;
+            let before = (pixel[axis] > frame.start).then(|| start - 1);
+            let behind = (pixel[axis] + 1 < frame.end).then_some(start + n);
+            before.into_iter().chain(first.iter().map(move |at| start + at)).chain(behind)
+        });
+        let (mut low, mut high) = ([f32::INFINITY; 4], [f32::NEG_INFINITY; 4]);
+        for row in down {
+            for column in across.clone() {
+                let sample = samples.light[samples.index([column, row])];
+                (0..4).for_each(|at| low[at] = low[at].min(sample[at]));
+                (0..4).for_each(|at| high[at] = high[at].max(sample[at]));
+            }
+        }
+        let most = |of: fn(f32, f32) -> f32| (0..3).map(|at| of(high[at], low[at])).fold(0.0, f32::max);
+        let (spread, level) = (most(|high, low| high - low), most(|high, low| high + low));
+        let contrast = contrast as f32;
+        spread > contrast * level + ROUNDING || high[3] - low[3] > contrast
     }
 
     /// A sample: its light, and the covered part. Behind coloured glass an opaque background has
@@ -306,6 +390,41 @@ impl Painting<'_> {
     }
 }
 
+impl Samples {
+    fn index(&self, [column, row]: [u32; 2]) -> usize {
+        (row - self.rows.start) as usize * self.columns.len() + (column - self.columns.start) as usize
+    }
+
+    fn at(&mut self, place: [u32; 2]) -> &mut [f32; 4] {
+        let index = self.index(place);
+        &mut self.light[index]
+    }
+
+    /// Gives the samples of a pixel that have not been traced the mean of the first ones.
+    fn fill(&mut self, pixel: [u32; 2], n: u32, first: &[u32]) {
+        let [left, top] = pixel.map(|at| at * n);
+        let mut mean = [0.0_f32; 4];
+        for (down, across) in first.iter().flat_map(|down| first.iter().map(move |across| (down, across))) {
+            let sample = *self.at([left + across, top + down]);
+            (0..4).for_each(|at| mean[at] += sample[at]);
+        }
+        let mean = mean.map(|sum| sum / (first.len() * first.len()) as f32);
+        for (down, across) in (0..n).flat_map(|down| (0..n).map(move |across| (down, across))) {
+            if !(first.contains(&across) && first.contains(&down)) {
+                *self.at([left + across, top + down]) = mean;
+            }
+        }
+    }
+}
+
+/// The columns and rows of a pixel's samples that are traced first, a half of them, from the first
+/// to the last.
+fn first_samples(n: u32) -> Vec<u32> {
+    let count = n.div_ceil(2).max(2).min(n);
+    let last = (count - 1).max(1);
+    (0..count).map(|at| (2 * at * (n - 1) + last) / (2 * last)).collect()
+}
+
 /// Neighbouring samples, whose rays are traced together.
 #[derive(Default)]
 struct Packet {
@@ -316,12 +435,18 @@ struct Packet {
 }
 
 impl Packet {
-    /// Finds the nearest face at each sample.
-    fn trace(&mut self, scenery: &Scenery<'_>, columns: Range<u32>, rows: Range<u32>) {
+    /// Finds the nearest face at each sample that is wanted.
+    fn trace(
+        &mut self,
+        scenery: &Scenery<'_>,
+        columns: Range<u32>,
+        rows: Range<u32>,
+        is_wanted: impl Fn([u32; 2]) -> bool,
+    ) {
         self.places.clear();
         self.rays.clear();
         for row in rows {
-            for column in columns.clone() {
+            for column in columns.clone().filter(|&column| is_wanted([column, row])) {
                 if let Some(ray) = scenery.primary_ray([column, row]) {
                     self.places.push([column, row]);
                     self.rays.push(ray);
@@ -330,5 +455,19 @@ impl Packet {
         }
         let slab = scenery.view.slab;
         scenery.first(&self.rays, slab.near..slab.far, &mut self.memory, &mut self.first);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_first_samples_reach_from_side_to_side() {
+        let rows: [(u32, &[u32]); 6] =
+            [(1, &[0]), (2, &[0, 1]), (3, &[0, 2]), (4, &[0, 3]), (5, &[0, 2, 4]), (8, &[0, 2, 5, 7])];
+        for (n, expected) in rows {
+            assert_eq!(first_samples(n), expected, "{n}");
+        }
     }
 }

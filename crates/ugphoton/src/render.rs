@@ -23,6 +23,8 @@ pub struct Rendering {
     image: Image,
     output: Output,
     compression: Compression,
+    /// Samples that were traced. Those that two tiles need are counted twice.
+    pub n_samples: u64,
     /// Notes for the user, one sentence each.
     pub notes: Vec<String>,
 }
@@ -111,7 +113,8 @@ fn render_with(
     let annotations = annotate(layout, &scenery, config, development)?;
     let mut notes = notes(&scenery, config, &statistics, development);
     notes.extend(annotations.notes.iter().cloned());
-    Ok(Rendering { image: annotations.composite(image), output: config.picture.output, compression, notes })
+    let (image, output) = (annotations.composite(image), config.picture.output);
+    Ok(Rendering { image, output, compression, n_samples: statistics.n_samples, notes })
 }
 
 /// The scene with its vertices where they are seen, and the stage that says so.

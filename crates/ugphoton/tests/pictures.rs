@@ -31,15 +31,18 @@ fn picture(size: [u32; 2]) -> Config {
 
 #[test]
 fn parts_are_those_of_the_whole_picture() {
-    for (filter, lens, stereo) in [
-        (Filter::Box, Lens::Pinhole, None),
-        (Filter::Spline, Lens::Pinhole, None),
-        (Filter::Spline, Lens::Pinhole, Some(0.5)),
-        (Filter::Triangle, Lens::Panorama, None),
+    for (filter, lens, stereo, adaptive) in [
+        (Filter::Box, Lens::Pinhole, None, None),
+        (Filter::Spline, Lens::Pinhole, None, None),
+        (Filter::Spline, Lens::Pinhole, Some(0.5), None),
+        (Filter::Triangle, Lens::Panorama, None, None),
+        (Filter::Box, Lens::Pinhole, None, Some(0.05)),
+        (Filter::Spline, Lens::Pinhole, Some(0.5), Some(0.05)),
     ] {
         let mut config = picture([50, 37]);
         config.picture.filter = filter;
-        (config.lens, config.stereo) = (lens, stereo);
+        (config.lens, config.stereo, config.adaptive) = (lens, stereo, adaptive);
+        config.picture.samples = if adaptive.is_some() { 4 } else { 2 };
         (config.picture.output, config.picture.channels) =
             (Output::Color(Format::Exr), Channel::ALL.to_vec());
         let planes =
@@ -66,7 +69,8 @@ fn parts_are_those_of_the_whole_picture() {
 
 #[test]
 fn threads_do_not_matter() {
-    let config = picture([40, 30]);
+    let mut config = picture([40, 30]);
+    (config.picture.samples, config.adaptive) = (3, Some(0.02));
     let on = |n_threads| {
         let pool = ThreadPoolBuilder::new().num_threads(n_threads).build().unwrap();
         pool.install(|| light(scene(ROOM), &config).unwrap().pixels().to_vec())
@@ -222,6 +226,41 @@ fn eyes_see_what_cameras_in_their_places_see() {
         let n_near = found.iter().zip(&expected).filter(|pair| is_near(*pair)).count();
         assert!(n_near >= 16, "{top} {left}: {n_near}");
     }
+}
+
+/// Adaptive samples trace fewer rays, and draw nearly the same: boundaries as with all samples, and
+/// what is smooth within the contrast.
+#[test]
+fn adaptive_samples_draw_boundaries() {
+    let drawn = |adaptive: Option<f64>, samples: u32| {
+        let mut config = picture([120, 90]);
+        (config.picture.samples, config.adaptive) = (samples, adaptive);
+        let n_samples = render(scene(&hard_room()), &config).unwrap().n_samples;
+        (light(scene(&hard_room()), &config).unwrap(), n_samples)
+    };
+    for samples in [4, 8] {
+        let (full, n_full) = drawn(None, samples);
+        assert_eq!(n_full, 120 * 90 * u64::from(samples * samples));
+        for (contrast, most_samples, most_error) in
+            [(0.0, 0.9, 1e-6), (0.05, 0.35, 0.1 / 255.0), (0.5, 0.35, 0.01)]
+        {
+            let (adaptive, n_samples) = drawn(Some(contrast), samples);
+            let part = n_samples as f64 / n_full as f64;
+            assert!(0.25 <= part && part < most_samples, "{samples} {contrast}: {part}");
+            let error = greatest_difference(&full, &adaptive);
+            assert!(error <= most_error, "{samples} {contrast}: {error}");
+        }
+        // The first samples alone do not draw boundaries.
+        let (first, n_samples) = drawn(Some(1.0), samples);
+        assert!((n_samples as f64) < 0.3 * n_full as f64);
+        assert!(greatest_difference(&full, &first) > 0.05);
+    }
+}
+
+/// The greatest difference of a pixel's light.
+fn greatest_difference(one: &LinearFrame, other: &LinearFrame) -> f32 {
+    let away = |(a, b): (&[f32; 4], &[f32; 4])| (0..3).map(|at| (a[at] - b[at]).abs()).fold(0.0, f32::max);
+    one.pixels().iter().zip(other.pixels()).map(away).fold(0.0, f32::max)
 }
 
 /// The numbers of a channel.

@@ -188,7 +188,7 @@ fn motion(random: &mut Random, line: &mut Vec<String>) {
 fn photon(random: &mut Random) -> Vec<String> {
     let side = |random: &mut Random| random.pick(&["1", "6", "7", "16"]).to_string();
     let size = [side(random), side(random)];
-    let mut line = words("ugphoton", &["-sz", &size[0], &size[1], "-aa", "2"]);
+    let mut line = words("ugphoton", &["-sz", &size[0], &size[1], "-aa", *random.pick(&["2", "3"])]);
     motion(random, &mut line);
     camera(random, &mut line);
     let format = word(random, &["ppm", "exr", "pfm", "hdr", "png16", "svg"]);
@@ -205,6 +205,8 @@ fn photon(random: &mut Random) -> Vec<String> {
     maybe(random, 10, &mut line, "-fish", angle);
     let distance = numbers::<1>(random);
     maybe(random, 6, &mut line, "-stereo", distance);
+    let contrast = word(random, &["0", "0.1", "1", "2", "nan"]);
+    maybe(random, 6, &mut line, "-ad", contrast);
     let part = word(random, &["0", "1", "7", "4294967295"]);
     maybe(random, 10, &mut line, "-crop", [part.clone(), part.clone(), part.clone(), part].concat());
     let exposure = vec![if random.one_in(2) { "auto".to_owned() } else { words::number(random) }];
