@@ -19,7 +19,7 @@ struct Mistake {
     /// An expression that occurs in the file once.
     right: &'static str,
     wrong: &'static str,
-    /// A case, picture or topic that detects it.
+    /// A case, picture or topic that detects it; for a mistake in the ray tracer, a test of `ugphoton`.
     found_by: &'static str,
 }
 
@@ -167,6 +167,59 @@ const MISTAKES: [Mistake; 17] = [
     },
 ];
 
+/// Mistakes in the code of the ray tracer. Its own tests detect them.
+const RAY_MISTAKES: [Mistake; 5] = [
+    Mistake {
+        name: "M1rays",
+        file: "crates/ugphoton/src/frame.rs",
+        right: "self.to_rest(Event { t: wave.frequency, x: wave.k })",
+        // The direction in the rest frame, in the formula for that in the frame of the camera.
+        wrong: "{
+            let seen = self.to_rest(Event { t: wave.frequency, x: wave.k });
+            let along = wave.frequency * seen.x.normalize().dot(self.axis);
+            Event { t: self.gamma * wave.frequency - self.proper_speed * along, ..seen }
+        }",
+        found_by: "beaming::frequencies_are_those_of_the_doppler_effect",
+    },
+    Mistake {
+        name: "M6rays",
+        file: "crates/ugphoton/src/world.rs",
+        right: "best.is_some_and(|best| best.s <= hit.t)",
+        // Distances in the rest frames of both bodies.
+        wrong: "best.is_some_and(|best| {
+            let weighted = best.triangle.corners.iter().zip(best.weights);
+            let place: DVec3 = weighted.map(|(corner, weight)| weight * faces.rest[corner.index()]).sum();
+            place.length() <= hit.t * step.length()
+        })",
+        found_by: "frames::what_emitted_last_is_in_front",
+    },
+    Mistake {
+        name: "M7rays",
+        file: "crates/ugphoton/src/surface_point.rs",
+        right: "1.0 / self.wave.frequency",
+        wrong: "1.0 / (self.wave.frequency * self.wave.frequency)",
+        found_by: "beaming::frequencies_are_those_of_the_doppler_effect",
+    },
+    Mistake {
+        name: "M8rays",
+        file: "crates/uglight/src/hue.rs",
+        right: "self.law.irradiance_factor(part.doppler)",
+        wrong: "(self.law.factor(part.doppler) * part.doppler)",
+        found_by: "beaming::moving_lamps_light_by_powers_of_their_doppler_factor",
+    },
+    Mistake {
+        name: "M12rays",
+        file: "crates/ugphoton/src/surface_point.rs",
+        right: "unit_normal(outline.iter().map(|corner| scenery.surface.rest(*corner)))",
+        wrong: "{
+            let normal = unit_normal(outline.iter().map(|corner| scenery.surface.rest(*corner)));
+            let v = part.frame.velocity;
+            (normal - (1.0 - 1.0 / v.gamma()) * normal.dot(v.direction()) * v.direction()).normalize()
+        }",
+        found_by: "report::moving_mirrors_reflect_as_the_report_says",
+    },
+];
+
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
 }
@@ -196,7 +249,7 @@ fn mistaken_workspace() -> BTreeMap<PathBuf, Vec<u8>> {
     for name in ["Cargo.toml", "Cargo.lock", "conformance/Cargo.toml"] {
         files.insert(name.into(), fs::read(root.join(name)).expect("a file of the workspace"));
     }
-    for Mistake { name, file, right, wrong, .. } in &MISTAKES {
+    for Mistake { name, file, right, wrong, .. } in MISTAKES.iter().chain(&RAY_MISTAKES) {
         let (value, end) = (right.trim_end(), &right[right.trim_end().len()..]);
         let switch = format!(
             "({{ static MISTAKE: std::sync::LazyLock<bool> = std::sync::LazyLock::new(|| \
@@ -256,6 +309,27 @@ fn wrong(program: &Path, mistake: &str) -> Vec<String> {
     found
 }
 
+/// The tests of the ray tracer that fail.
+fn failed_laws(folder: &Path, target: &Path, mistake: &str) -> Vec<String> {
+    let mut tests = Command::new(env!("CARGO"));
+    tests.args(["test", "--quiet", "--offline", "--package", "ugphoton", "--test", "laws"]);
+    tests.arg("--target-dir").arg(target).current_dir(folder).env("UG_MISTAKE", mistake);
+    if !cfg!(debug_assertions) {
+        tests.arg("--release");
+    }
+    tests.args(["--", "--format", "pretty"]);
+    let output = tests.output().expect("cargo runs");
+    let text = String::from_utf8_lossy(&output.stdout);
+    let talk = String::from_utf8_lossy(&output.stderr);
+    let results: Vec<(&str, &str)> =
+        text.lines().filter_map(|line| line.strip_prefix("test ")?.split_once(" ... ")).collect();
+    assert!(results.len() > 20, "{mistake}: no tests: {text}{talk}");
+    let failed = results.into_iter().filter(|(_, result)| *result == "FAILED");
+    let failed: Vec<String> = failed.map(|(name, _)| name.to_string()).collect();
+    assert_eq!(output.status.success(), failed.is_empty(), "{mistake}: status and results agree");
+    failed
+}
+
 #[test]
 fn every_mistake_has_its_place_in_the_source() {
     mistaken_workspace();
@@ -293,5 +367,12 @@ fn every_mistake_is_found() {
         println!("{name}: {} cases, among them {}", found.len(), some.join(" "));
         let is_it = |case: &String| case == found_by || case.split('.').next() == Some(found_by);
         assert!(found.iter().any(is_it), "{name} is not found by {found_by}: {found:?}");
+    }
+
+    assert_eq!(failed_laws(&folder, target, ""), [""; 0], "without a mistake nothing fails");
+    for Mistake { name, found_by, .. } in &RAY_MISTAKES {
+        let failed = failed_laws(&folder, target, name);
+        println!("{name}: {} tests of the ray tracer", failed.len());
+        assert!(failed.iter().any(|test| test == found_by), "{name} is not found by {found_by}: {failed:?}");
     }
 }

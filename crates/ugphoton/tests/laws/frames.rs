@@ -213,6 +213,30 @@ fn emission_events_are_on_the_light_cone() {
     assert_eq!(n_seen, 40);
 }
 
+/// In front is what emitted its light last in the frame of the eye, whatever the distances in the
+/// frames of the bodies (P22): a receding body from 24 is seen at 8, an approaching one from 5 at 15.
+#[test]
+fn what_emitted_last_is_in_front() {
+    let wall = |name: &str, rest: f64, level: f64, beta: f64| {
+        square(name, rest * DVec3::NEG_Z, DVec3::Z, 100.0, &format!("white {level} <0 0 {beta}>"))
+    };
+    let (still, receding) = (wall("s", 10.0, 0.3, 0.0), wall("r", 24.0, 0.6, -0.8));
+    let approaching = wall("a", 5.0, 0.9, 0.8);
+    let mirror = square("m", DVec3::Z, DVec3::NEG_Z, 100.0, "white mirror");
+    for (walls, expected) in [
+        (format!("{still}{receding}"), 0.6),
+        (format!("{receding}{still}"), 0.6),
+        (format!("{still}{approaching}"), 0.3),
+        (format!("{approaching}{still}"), 0.3),
+        (format!("{approaching}{receding}"), 0.6),
+    ] {
+        for (others, toward) in [("", DVec3::NEG_Z), (mirror.as_str(), DVec3::Z)] {
+            let found = value(&format!("{HEAD}{others}{walls}"), toward, by_law(Brightness::None));
+            assert!((found - expected).abs() < 1e-6, "{found} {expected}");
+        }
+    }
+}
+
 /// A sphere of any size, speed and direction has a circular outline (Penrose 1959): the image of its
 /// outline at rest by the Möbius map of directions.
 #[test]
