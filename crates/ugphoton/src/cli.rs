@@ -3,20 +3,20 @@
 use std::path::Path;
 
 use clap::{ArgAction, Parser};
-use ugimage::Format;
 use uglight::{ColorShift, HueShift, Interpolation, SpectralShift};
 use ugparse::{HueScale, pipe};
 use ugphysics::Brightness;
 use ugpicture::Output;
 use ugpicture::cli::{
-    AnnotationArgs, PICTURE, PictureArgs, format_for, format_named, refuse_terminal, with_format,
-    write_picture,
+    AnnotationArgs, Kind, PICTURE, PictureArgs, Pixel, Report, kind_named, kinds, picture_format, pixel,
+    refuse_terminal, report_format, with_format, write_picture,
 };
 use ugpipe::{CommonArgs, Context, Failure, Manual, ToolArgs, finite, one_of, whole};
 use ugscene::cli::{MotionArgs, RepeatArgs};
 
 use crate::config::{Config, RayOptions, Shutter};
 use crate::error::Error;
+use crate::explain::{self, explain};
 use crate::lens::Lens;
 use crate::run;
 
@@ -147,10 +147,20 @@ pub struct Args {
     /// Format of the picture [default: by the ending of -fo, else png]
     ///
     /// png16 has 16 bits per component. exr, pfm and hdr hold linear light, neither clipped nor
-    /// gamut-mapped: white is 1, and components may exceed 1 or be negative.
-    #[arg(long, value_name = "FMT", visible_alias = "format",
-          value_parser = one_of(Format::ALL.map(Format::name), format_named), help_heading = PICTURE)]
-    dt: Option<Format>,
+    /// gamut-mapped: white is 1, and components may exceed 1 or be negative. text and json are for
+    /// --explain.
+    #[arg(long, value_name = "FMT", visible_alias = "format", value_parser = one_of(kinds(), kind_named),
+          help_heading = PICTURE)]
+    dt: Option<Kind>,
+
+    /// Instead of a picture, print how the colour of the pixel in column X and row Y (from 0 at the
+    /// upper left) comes about
+    ///
+    /// As text, or with `--format json` as JSON: every surface on the way of its light, its motion,
+    /// when and where the light left it, Doppler factors, media, lamps and shadows, and every step
+    /// to the bytes of the pixel.
+    #[arg(long, value_name = "X,Y", value_parser = pixel, conflicts_with = "crop")]
+    explain: Option<Pixel>,
 
     #[command(flatten)]
     picture: PictureArgs,
@@ -202,9 +212,10 @@ impl Args {
         Ok(Config {
             motion: self.motion.options()?,
             shift: self.color_shift(),
-            picture: self
-                .picture
-                .options(Output::Color(format_for(self.dt, output)?), self.annotations.options())?,
+            picture: self.picture.options(
+                Output::Color(picture_format(self.dt, output, self.explain.is_some())?),
+                self.annotations.options(),
+            )?,
             rays: RayOptions {
                 depth: self.rd,
                 cutoff: self.rc,
@@ -245,6 +256,18 @@ impl Args {
 /// Bad usage, a bad scene, or a stream that fails.
 pub fn draw(args: &Args, context: &mut Context) -> Result<(), Failure> {
     let config = args.config(context.output_name())?;
+    if let Some(pixel) = args.explain {
+        let report = report_format(args.dt, context.output_name())?;
+        let source = pipe::read(context, &config.reading)?;
+        let (explanation, warnings) = explain(&config, &source, pixel).map_err(failure)?;
+        if !warnings.is_empty() {
+            context.report(&warnings.render(true));
+        }
+        return match report {
+            Report::Text => context.write_text(&explain::text(&explanation)),
+            Report::Json => context.write_json(&explain::json(&explanation)),
+        };
+    }
     if let Some(format) = config.picture.output.format() {
         refuse_terminal(format, context)?;
     }

@@ -23,7 +23,7 @@
 //! world                                     the faces, by rest frame
 //! scenery                                   a scene prepared for rays
 //! surface_point  shade  tracer              what a ray sees of a face; lamps; mirrors and glass
-//! pixels  notes  render                     from samples to a picture, with messages
+//! pixels  notes  render  explain            from samples to a picture, with messages; one pixel
 //! cli                                       the command line
 //! ```
 //!
@@ -52,6 +52,7 @@
 mod cli;
 mod config;
 mod error;
+pub mod explain;
 mod frame;
 mod notes;
 mod path;
@@ -68,7 +69,9 @@ mod world;
 pub use cli::{Args, draw, manual};
 pub use config::{Config, RayOptions, Shutter};
 pub use error::Error;
+pub use explain::explain;
 pub use render::{Rendering, light, metadata, render, run};
+pub use tracer::Way;
 pub use uglight::{ColorShift, HueShift, Interpolation, SpectralShift};
 pub use ugparse::HueScale;
 use ugpicture::lens;

@@ -12,7 +12,7 @@ use crate::config::Config;
 use crate::lens::frame_around;
 use crate::path::Ray;
 use crate::scenery::Scenery;
-use crate::tracer::Tracer;
+use crate::tracer::{Arriving, Tracer, Visit};
 use crate::world::{Intersection, PacketMemory};
 
 /// Pixels along a side of a tile, which one task computes.
@@ -94,6 +94,34 @@ pub fn light(scenery: &Scenery<'_>, config: &Config, progress: &dyn Progress) ->
         }
     }
     (frame, statistics)
+}
+
+/// A sample of a pixel with the surfaces that contribute to it.
+pub struct ExplainedRay {
+    /// Its column and row in the picture.
+    pub place: [u32; 2],
+    /// Its ray.
+    pub ray: Ray,
+    /// Its light, and the part of the background that is seen.
+    pub arriving: Arriving,
+    /// From the eye on.
+    pub visits: Vec<Visit>,
+}
+
+/// All samples of a pixel; those where the lens shows nothing are left out.
+pub fn explained(scenery: &Scenery<'_>, config: &Config, pixel: [u32; 2]) -> Vec<ExplainedRay> {
+    let n = config.picture.samples;
+    let mut tracer = Tracer::new(scenery);
+    let slab = scenery.view.slab;
+    let ray = |place: [u32; 2]| {
+        let ray = scenery.primary_ray(place)?;
+        let first = scenery.closest(&ray, slab.near..slab.far);
+        let sample = u64::from(place[1]) * u64::from(config.picture.size[0] * n) + u64::from(place[0]);
+        let (arriving, visits) = tracer.explained(&ray, first, slab.far, sample);
+        Some(ExplainedRay { place, ray, arriving, visits })
+    };
+    let places = (0..n).flat_map(|row| (0..n).map(move |column| [column, row]));
+    places.map(|[column, row]| [pixel[0] * n + column, pixel[1] * n + row]).filter_map(ray).collect()
 }
 
 /// What is seen at the middle of each pixel.

@@ -118,7 +118,7 @@ fn render_with(
 }
 
 /// The scene with its vertices where they are seen, and the stage that says so.
-fn as_seen(mut scene: Scene, config: &Config) -> Result<Scene, Error> {
+pub fn as_seen(mut scene: Scene, config: &Config) -> Result<Scene, Error> {
     ugscene::repeat_vertices(&mut scene, config.repeat);
     let picture = &config.picture;
     let placed = PlacedBodies::new(&mut scene, &config.motion, &picture.camera, config.frame_size())?;

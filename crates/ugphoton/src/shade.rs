@@ -27,18 +27,34 @@ pub struct Shader<'a> {
     scenery: &'a Scenery<'a>,
     diffuse: Vec<Irradiance>,
     highlights: Vec<Irradiance>,
+    /// The light of lamps at the last point, for explanations; `None` if it is not wanted.
+    pub received: Option<Vec<LampLight>>,
+}
+
+/// The light of a lamp at a point of a surface.
+#[derive(Clone, Copy, Debug)]
+pub struct LampLight {
+    /// Without shadow, in the rest frame of the surface.
+    pub irradiance: Irradiance,
+    /// Its distance at emission, infinite for a directional light; `None` for ambient light.
+    pub distance: Option<f64>,
+    /// The part of it that is not in shadow.
+    pub part: f64,
 }
 
 impl<'a> Shader<'a> {
     /// For the points of a scene.
     pub fn new(scenery: &'a Scenery<'a>) -> Self {
-        Self { scenery, diffuse: Vec::new(), highlights: Vec::new() }
+        Self { scenery, diffuse: Vec::new(), highlights: Vec::new(), received: None }
     }
 
     /// Linear red, green and blue of the light of lamps that a point scatters and mirrors towards
     /// the eye. `sample`: a number for each sample of the picture.
     pub fn light(&mut self, point: &SurfacePoint, filters: &[Filter], sample: u64) -> DVec3 {
         let scenery = self.scenery;
+        if let Some(received) = &mut self.received {
+            received.clear();
+        }
         let face = &scenery.scene.faces[point.face as usize];
         if let Some(level) = scenery.scene.light_level(face) {
             return self.at_level(point, level, filters);
@@ -92,7 +108,7 @@ impl<'a> Shader<'a> {
         let lights = &scenery.lights;
         let frame = &scenery.world.parts[point.part].frame;
         let element = SurfaceElement { point: point.place, normal: point.normal, body: frame.body };
-        let (diffuse, highlights) = (&mut self.diffuse, &mut self.highlights);
+        let (diffuse, highlights, received) = (&mut self.diffuse, &mut self.highlights, &mut self.received);
         let toward_eye = point.toward_eye();
         let mut add = |incident: IncidentLamp| {
             let Irradiance { level, .. } = incident.irradiance;
@@ -101,6 +117,10 @@ impl<'a> Shader<'a> {
             } else {
                 1.0
             };
+            if let Some(received) = received {
+                let distance = incident.toward.map(|(_, distance)| distance);
+                received.push(LampLight { irradiance: incident.irradiance, distance, part });
+            }
             if part <= 0.0 {
                 return;
             }
@@ -225,7 +245,7 @@ fn weighted(rows: [(u32, f64); 3], light: impl Fn(u32) -> DVec3) -> DVec3 {
 }
 
 /// A colour as hue and wavelength.
-fn hue_color(scenery: &Scenery<'_>, color: &Swatch) -> HueColor {
+pub fn hue_color(scenery: &Scenery<'_>, color: &Swatch) -> HueColor {
     let hue = scenery.palette.hsv(color).hue;
     let wavelength_nm = if color.is_grey() { 0.0 } else { scenery.appearance().wavelength_nm(color.tint) };
     HueColor { hue, wavelength_nm, saturation: color.saturation, value: color.value }

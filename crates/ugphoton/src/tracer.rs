@@ -5,7 +5,7 @@ use ugphysics::{Event, Medium, WaveVector, compose};
 
 use crate::path::{Media, Ray, Solid, Start};
 use crate::scenery::Scenery;
-use crate::shade::{Filter, Shader, transmitted};
+use crate::shade::{Filter, LampLight, Shader, transmitted};
 use crate::surface_point::SurfacePoint;
 use crate::world::Intersection;
 
@@ -45,6 +45,42 @@ pub struct Tracer<'a> {
     ///
     /// [`RayOptions::depth`]: crate::RayOptions::depth
     pub is_too_deep: bool,
+    /// The surfaces that contribute to a sample, for explanations; `None` if they are not wanted.
+    visits: Option<Vec<Visit>>,
+}
+
+/// A surface that contributes to a sample.
+#[derive(Clone, Debug)]
+pub struct Visit {
+    /// Where the light left it.
+    pub point: SurfacePoint,
+    /// How the light went on.
+    pub way: Way,
+    /// Reflections and refractions from there to the eye.
+    pub depth: u32,
+    /// The part of its light that reaches the eye.
+    pub weight: f64,
+    /// The transparent solid that the light went through to the next surface or the eye.
+    pub medium: Option<Solid>,
+    /// Linear red, green and blue of its own light, of which `weight` is seen.
+    pub light: DVec3,
+    /// The light of lamps on it.
+    pub lamps: Vec<LampLight>,
+    /// The parts of its light that it mirrors and transmits, if they are followed.
+    pub followed: [Option<f64>; 2],
+    /// True if light that would be transmitted is reflected totally.
+    pub is_total: bool,
+}
+
+/// How light of a surface goes on towards the eye.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Way {
+    /// Straight to the eye.
+    Straight,
+    /// Mirrored by the visit of this row, and on as from there.
+    Mirrored(usize),
+    /// Refracted by the visit of this row, and on as from there.
+    Refracted(usize),
 }
 
 /// The most reflections and refractions of a sample. Between mirrors that are transparent, too,
@@ -66,6 +102,8 @@ struct Path<'p> {
     weight: f64,
     /// A number for each sample of the picture.
     sample: u64,
+    /// Where it comes from.
+    way: Way,
 }
 
 impl<'a> Tracer<'a> {
@@ -80,14 +118,29 @@ impl<'a> Tracer<'a> {
             is_cut_short: false,
             begins_inside: false,
             is_too_deep: false,
+            visits: None,
         }
+    }
+
+    /// As [`Tracer::arriving`], with the surfaces that contribute.
+    pub fn explained(
+        &mut self,
+        ray: &Ray,
+        first: Option<Intersection>,
+        far: f64,
+        sample: u64,
+    ) -> (Arriving, Vec<Visit>) {
+        (self.visits, self.shader.received) = (Some(Vec::new()), Some(Vec::new()));
+        let arriving = self.arriving(ray, first, far, sample);
+        self.shader.received = None;
+        (arriving, self.visits.take().unwrap_or_default())
     }
 
     /// The light that arrives along a ray, and how much of the background is seen. `first`: the
     /// nearest face on the ray within the clipping distances. `far`: the end of the range of
     /// parameters.
     pub fn arriving(&mut self, ray: &Ray, first: Option<Intersection>, far: f64, sample: u64) -> Arriving {
-        let path = Path { ray, media: &Media::default(), depth: 0, weight: 1.0, sample };
+        let path = Path { ray, media: &Media::default(), depth: 0, weight: 1.0, sample, way: Way::Straight };
         (self.n_branches, self.is_too_deep, self.begins_inside) = (0, false, false);
         self.seen(&path, first, far)
     }
@@ -131,6 +184,7 @@ impl<'a> Tracer<'a> {
     /// The light from a surface: of lamps, mirrored, and transmitted.
     fn light_of(&mut self, path: &Path<'_>, point: &SurfacePoint) -> Arriving {
         let light = self.shader.light(point, &self.filters, path.sample);
+        let visit = self.visit(path, point, light);
         let mut sum = Arriving { light, background: DVec3::ZERO };
         let Some(id) = point.surface(self.scenery) else { return sum };
         let surface = self.scenery.properties(id);
@@ -154,7 +208,12 @@ impl<'a> Tracer<'a> {
         if mirrored * path.weight >= self.scenery.rays.cutoff
             && let Some(wave) = self.reflected(path, point)
         {
-            sum.add(mirrored, self.follow(path, point, wave, path.media, mirrored));
+            if let Some(visit) = self.visited(visit) {
+                visit.followed[0] = Some(mirrored);
+                visit.is_total = surface.transmitted > 0.0 && refracted.is_none();
+            }
+            let on = Path { way: Way::Mirrored(visit), ..*path };
+            sum.add(mirrored, self.follow(&on, point, wave, path.media, mirrored));
         }
         if let Some(Refracted { wave, media, .. }) = refracted
             && transmitted * path.weight >= self.scenery.rays.cutoff
@@ -168,12 +227,37 @@ impl<'a> Tracer<'a> {
                     .0;
                 self.filters.push(Filter { color: point.color, row, doppler: point.doppler() });
             }
-            sum.add(transmitted, self.follow(path, point, wave, &media, transmitted));
+            if let Some(visit) = self.visited(visit) {
+                visit.followed[1] = Some(transmitted);
+            }
+            let on = Path { way: Way::Refracted(visit), ..*path };
+            sum.add(transmitted, self.follow(&on, point, wave, &media, transmitted));
             if !is_white {
                 self.filters.pop();
             }
         }
         sum
+    }
+
+    /// Notes a surface, if surfaces are wanted, and returns its row.
+    fn visit(&mut self, path: &Path<'_>, point: &SurfacePoint, light: DVec3) -> usize {
+        let Some(visits) = &mut self.visits else { return 0 };
+        visits.push(Visit {
+            point: *point,
+            way: path.way,
+            depth: path.depth,
+            weight: path.weight,
+            medium: path.media.innermost(),
+            light,
+            lamps: self.shader.received.clone().unwrap_or_default(),
+            followed: [None; 2],
+            is_total: false,
+        });
+        visits.len() - 1
+    }
+
+    fn visited(&mut self, row: usize) -> Option<&mut Visit> {
+        self.visits.as_mut()?.get_mut(row)
     }
 
     /// Follows light that left a surface with the wave vector `wave` in its rest frame.
@@ -199,8 +283,7 @@ impl<'a> Tracer<'a> {
             wave: frame.wave_to_camera(wave),
             start: Start::Surface { part: point.part, place: point.place },
         };
-        let next =
-            Path { ray: &ray, media, depth: path.depth + 1, weight: path.weight * part, sample: path.sample };
+        let next = Path { ray: &ray, media, depth: path.depth + 1, weight: path.weight * part, ..*path };
         let first = self.scenery.closest(&ray, 0.0..f64::INFINITY);
         self.seen(&next, first, f64::INFINITY)
     }

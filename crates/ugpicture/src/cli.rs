@@ -166,6 +166,90 @@ pub fn with_format(command_line: &str, output: Output, is_stated: bool) -> Strin
     }
 }
 
+/// A column and a row.
+pub type Pixel = [u32; 2];
+
+/// The kind of output: a picture or a report.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// A picture.
+    Picture(Format),
+    /// An explanation.
+    Report(Report),
+}
+
+/// Format of the explanation of a pixel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Report {
+    /// For people.
+    Text,
+    /// For scripts.
+    Json,
+}
+
+/// The names of [`Kind`]: formats of pictures, and those of explanations.
+pub fn kinds() -> impl Iterator<Item = &'static str> {
+    Format::ALL.map(Format::name).into_iter().chain(["text", "json"])
+}
+
+/// Value parser: a format of pictures or of explanations.
+///
+/// # Errors
+/// There is no such format.
+pub fn kind_named(name: &str) -> Result<Kind, String> {
+    match name {
+        "text" => Ok(Kind::Report(Report::Text)),
+        "json" => Ok(Kind::Report(Report::Json)),
+        name => format_named(name).map(Kind::Picture),
+    }
+}
+
+/// Value parser: a pixel, `320,240`.
+///
+/// # Errors
+/// These are not two numbers.
+pub fn pixel(word: &str) -> Result<Pixel, String> {
+    let numbers =
+        word.split_once(',').and_then(|(x, y)| Some([x.trim().parse().ok()?, y.trim().parse().ok()?]));
+    numbers.ok_or_else(|| "a pixel is its column and row, such as 320,240".to_owned())
+}
+
+/// The format of the picture. `given`: with -dt. `file`: the output. While a pixel is explained, it
+/// is the default.
+///
+/// # Errors
+/// The format is one of explanations, or the ending of the file is that of no format.
+pub fn picture_format(
+    given: Option<Kind>,
+    file: Option<&Path>,
+    is_explained: bool,
+) -> Result<Format, Failure> {
+    match given {
+        _ if is_explained => Ok(Format::Png),
+        Some(Kind::Picture(format)) => Ok(format),
+        None => format_for(None, file),
+        Some(Kind::Report(_)) => Err(Failure::Usage(
+            "`text` and `json` explain a pixel: add --explain X,Y, or name a format of pictures".into(),
+        )),
+    }
+}
+
+/// The format of the explanation. `given`: with -dt. `file`: the output.
+///
+/// # Errors
+/// The format is one of pictures.
+pub fn report_format(given: Option<Kind>, file: Option<&Path>) -> Result<Report, Failure> {
+    let is_json = |file: &Path| file.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("json"));
+    match given {
+        Some(Kind::Report(report)) => Ok(report),
+        Some(Kind::Picture(_)) => Err(Failure::Usage(
+            "a pixel is explained as text or JSON: give --format json, or leave --format out".into(),
+        )),
+        None if file.is_some_and(is_json) => Ok(Report::Json),
+        None => Ok(Report::Text),
+    }
+}
+
 /// The format given, otherwise that of the ending of the output file, otherwise PNG.
 ///
 /// # Errors

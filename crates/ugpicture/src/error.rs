@@ -18,6 +18,13 @@ pub enum Error {
     Memory([u32; 2], u64),
     /// Options that exclude each other; the text says which, and what to do.
     Options(&'static str),
+    /// A pixel to be explained that is not in the picture.
+    Pixel {
+        /// Its column and row.
+        pixel: [u32; 2],
+        /// Of the picture.
+        size: [u32; 2],
+    },
     /// Text with a character that the font lacks.
     Text(MissingCharacter),
     /// The options of the camera do not define a picture.
@@ -32,6 +39,7 @@ impl Error {
             Self::Size(_)
                 | Self::Samples(_)
                 | Self::Options(_)
+                | Self::Pixel { .. }
                 | Self::Text(_)
                 | Self::Camera(CameraError::NoUp)
         )
@@ -58,6 +66,11 @@ impl fmt::Display for Error {
                  smaller -sz"
             ),
             Self::Options(text) => f.write_str(text),
+            Self::Pixel { pixel: [x, y], size: [width, height] } => write!(
+                f,
+                "pixel {x},{y} is not in the picture of {width} x {height} pixels; \
+                 count columns and rows from 0 at the upper left, or give -sz"
+            ),
             Self::Text(missing) => missing.fmt(f),
             Self::Camera(error) => error.fmt(f),
         }

@@ -12,6 +12,7 @@
 //!   ([`PictureFile`]);
 //! - [`Emissions`] and [`Channel`]: when and where light was emitted that is seen at a sample, and
 //!   the channels of an EXR file made of that;
+//! - [`explain`]: why a pixel is as it is, as text and as JSON;
 //! - [`Layout`]: caption, legend, coordinate grid and undistorted outlines.
 //!
 //! ```
@@ -35,6 +36,7 @@ pub mod cli;
 mod depth_buffer;
 mod emission;
 mod error;
+pub mod explain;
 mod exposure;
 mod image;
 pub mod lens;

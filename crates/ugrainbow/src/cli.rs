@@ -3,14 +3,14 @@
 use std::path::Path;
 
 use clap::{ArgAction, Parser};
-use ugimage::Format;
 use uglight::{ColorShift, HueShift, SpectralShift};
 use ugparse::HueScale;
 use ugparse::{Source, pipe};
 use ugphysics::{Brightness, Hsv};
 use ugpicture::Output;
 use ugpicture::cli::{
-    AnnotationArgs, PICTURE, PictureArgs, color, format_for, refuse_terminal, with_format, write_picture,
+    AnnotationArgs, Kind, PICTURE, PictureArgs, Pixel, Report, color, kind_named, kinds, picture_format,
+    pixel, refuse_terminal, report_format, with_format, write_picture,
 };
 use ugpipe::{CommonArgs, Context, Failure, Manual, ToolArgs, finite, one_of};
 use ugscene::cli::RepeatArgs;
@@ -19,7 +19,7 @@ use crate::config::{Config, DepthCue, LINE_WIDTH, Wireframe};
 use crate::error::Error;
 use crate::explain::{self, explain};
 use crate::run_with;
-use crate::words::{self, Kind, Pixel, Report, kind_named, law, line_width, pixel};
+use crate::words::{law, line_width};
 use uglight::Interpolation;
 
 /// Where black-and-white PostScript goes if standard output is a terminal, as in 1988.
@@ -58,7 +58,7 @@ pub struct Args {
     /// png16 has 16 bits per component. exr, pfm and hdr hold linear light, neither clipped nor
     /// gamut-mapped: white is 1, and components may exceed 1 or be negative. text and json are for
     /// --explain.
-    #[arg(long, value_name = "FMT", visible_alias = "format", value_parser = one_of(words::kinds(), kind_named))]
+    #[arg(long, value_name = "FMT", visible_alias = "format", value_parser = one_of(kinds(), kind_named))]
     dt: Option<Kind>,
 
     /// Vector graphics instead of pixels, for eps, ps, pdf, svg
@@ -256,33 +256,8 @@ impl Args {
         if self.dp {
             return Ok(Output::Grey);
         }
-        if self.explain.is_some() {
-            return Ok(Output::Color(Format::Png));
-        }
-        match self.dt {
-            Some(Kind::Picture(format)) => Ok(Output::Color(format)),
-            None => format_for(None, file).map(Output::Color),
-            Some(Kind::Report(_)) => Err(Failure::Usage(
-                "`text` and `json` explain a pixel: add --explain X,Y, or name a format of pictures".into(),
-            )),
-        }
+        picture_format(self.dt, file, self.explain.is_some()).map(Output::Color)
     }
-
-    /// The format of the explanation.
-    fn report(&self, file: Option<&Path>) -> Result<Report, Failure> {
-        match self.dt {
-            Some(Kind::Report(report)) => Ok(report),
-            Some(Kind::Picture(_)) => Err(Failure::Usage(
-                "a pixel is explained as text or JSON: give --format json, or leave --format out".into(),
-            )),
-            None if is_json(file) => Ok(Report::Json),
-            None => Ok(Report::Text),
-        }
-    }
-}
-
-fn is_json(file: Option<&Path>) -> bool {
-    file.and_then(Path::extension).is_some_and(|ending| ending.eq_ignore_ascii_case("json"))
 }
 
 /// What the help, the man page and the completions of the program say.
@@ -297,7 +272,7 @@ pub fn manual() -> Manual {
 pub fn draw(args: &Args, context: &mut Context) -> Result<(), Failure> {
     let config = args.config(context.output_name())?;
     let report = match args.explain {
-        Some(pixel) => Some((pixel, args.report(context.output_name())?)),
+        Some(pixel) => Some((pixel, report_format(args.dt, context.output_name())?)),
         None => None,
     };
     if report.is_none() && context.output_is_terminal() {

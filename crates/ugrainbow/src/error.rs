@@ -20,13 +20,6 @@ pub enum Error {
     Exact(&'static str),
     /// A scene that cannot be drawn as areas; the text says why, and what to do.
     Figure(&'static str),
-    /// A pixel to be explained that is not in the picture.
-    Pixel {
-        /// Its column and row.
-        pixel: [u32; 2],
-        /// Of the picture.
-        size: [u32; 2],
-    },
     /// The scene is not at the stage at which it can be drawn so.
     Stage(StageError),
 }
@@ -36,7 +29,7 @@ impl Error {
     pub fn is_usage(&self) -> bool {
         match self {
             Self::Picture(error) => error.is_usage(),
-            Self::Options(_) | Self::Pixel { .. } => true,
+            Self::Options(_) => true,
             Self::Scene(_) | Self::Empty | Self::Stage(_) | Self::Exact(_) | Self::Figure(_) => false,
         }
     }
@@ -52,11 +45,6 @@ impl fmt::Display for Error {
             ),
             Self::Picture(error) => error.fmt(f),
             Self::Options(text) | Self::Exact(text) | Self::Figure(text) => f.write_str(text),
-            Self::Pixel { pixel: [x, y], size: [width, height] } => write!(
-                f,
-                "pixel {x},{y} is not in the picture of {width} x {height} pixels; \
-                 count columns and rows from 0 at the upper left, or give -sz"
-            ),
             Self::Stage(error) => error.fmt(f),
         }
     }

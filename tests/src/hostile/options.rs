@@ -205,6 +205,8 @@ fn photon(random: &mut Random) -> Vec<String> {
     maybe(random, 10, &mut line, "-fish", angle);
     let distance = numbers::<1>(random);
     maybe(random, 6, &mut line, "-stereo", distance);
+    let pixel = word(random, &["0,0", "3,3", "-1,0", "4294967296,0"]);
+    maybe(random, 12, &mut line, "--explain", pixel);
     let contrast = word(random, &["0", "0.1", "1", "2", "nan"]);
     maybe(random, 6, &mut line, "-ad", contrast);
     let part = word(random, &["0", "1", "7", "4294967295"]);

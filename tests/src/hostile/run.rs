@@ -123,7 +123,7 @@ fn readers(words: &[String]) -> Vec<Vec<String>> {
         ("ugmesh", Some("obj")) => &[&["ugmesh", "-if", "obj"]],
         ("ugmesh", Some("ply")) => &[&["ugmesh", "-if", "ply"]],
         ("ugmesh", Some("gltf" | "glb")) => &[&["ugmesh", "-if", "gltf"]],
-        ("ugphoton", None) => &[&["ugsheet", "/dev/stdin"]],
+        ("ugphoton", None) if !has("--explain") => &[&["ugsheet", "/dev/stdin"]],
         ("ugrainbow", None) if !["--explain", "-dp", "-vec"].iter().any(|option| has(option)) => {
             &[&["ugsheet", "/dev/stdin"]]
         }

@@ -1,10 +1,10 @@
 //! An explanation as JSON, for scripts.
 
-use glam::DVec3;
 use serde_json::{Value, json};
+use ugpicture::explain::json::{color, development, item, point};
+use ugpicture::explain::text::law_name;
 
-use super::text::law_name;
-use super::{Corner, ExplainedSample, Explanation, Item, LayerShown, SampleColor};
+use super::{Corner, ExplainedSample, Explanation, LayerShown};
 
 /// The explanation as JSON, ending with a line break.
 pub fn json(explanation: &Explanation) -> String {
@@ -14,15 +14,6 @@ pub fn json(explanation: &Explanation) -> String {
     let part = |count: usize| count as f64 / n_samples as f64;
     let covers: Vec<Value> =
         covers.iter().map(|(shown, count)| json!({ "item": item(shown), "part": part(*count) })).collect();
-    let development = pixel_steps.development.map(|(development, steps)| {
-        json!({
-            "stops": development.stops,
-            "tone_curve": development.tone.name(),
-            "exposed": steps.exposed,
-            "toned": steps.toned,
-            "in_gamut": steps.shown,
-        })
-    });
     let value = json!({
         "pixel": pixel,
         "size": size,
@@ -35,19 +26,10 @@ pub fn json(explanation: &Explanation) -> String {
         "sample": sample.as_ref().map(shown),
         "filter": pixel_steps.filter.name(),
         "mean_linear": pixel_steps.mean[..3],
-        "development": development,
+        "development": development(pixel_steps),
         "bytes": pixel_steps.bytes,
     });
     format!("{value:#}\n")
-}
-
-fn item(item: &Item) -> Value {
-    let (file, line) = item.place.clone().unzip();
-    json!({ "kind": item.kind, "id": item.id, "name": item.name, "file": file, "line": line })
-}
-
-fn point(point: DVec3) -> Value {
-    json!(point.to_array())
 }
 
 fn shown(shown: &ExplainedSample) -> Value {
@@ -72,22 +54,6 @@ fn shown(shown: &ExplainedSample) -> Value {
 
 fn layer(layer: &LayerShown) -> Value {
     json!({ "item": item(&layer.item), "translucency": layer.translucency, "linear": layer.light })
-}
-
-fn color(color: &SampleColor) -> Value {
-    match color {
-        SampleColor::Hue { hue, saturation, value, level, wavelength } => json!({
-            "hue": hue,
-            "saturation": saturation,
-            "value": value,
-            "light_level": level,
-            "rest_wavelength_nm": wavelength.map(|wavelength| wavelength.rest_nm),
-            "seen_wavelength_nm": wavelength.map(|wavelength| wavelength.seen_nm),
-            "is_at_end_of_range": wavelength.map(|wavelength| wavelength.is_at_end),
-            "attenuation": wavelength.map(|wavelength| wavelength.attenuation),
-        }),
-        SampleColor::Light { xyz, chromaticity } => json!({ "xyz": xyz, "chromaticity": chromaticity }),
-    }
 }
 
 fn corner(corner: &Corner) -> Value {

@@ -4,8 +4,8 @@ mod json;
 mod text;
 
 use glam::DVec3;
-use ugimage::{Development, Quantizer, Steps, display_pixel};
-use ugparse::{Diagnostic, Diagnostics, Parsed, Source, Stage, VertexId};
+use ugimage::{Quantizer, display_pixel};
+use ugparse::{Diagnostics, Parsed, Source, Stage, VertexId};
 use ugphysics::{attenuation, doppler_at, linear_srgb_to_xyz, wavelength_to_hue};
 use ugpicture::{Emissions, Filter, Layout, SurfaceSample};
 use ugraster::{Fragment, PixelSamples, ProbedSample, Resolve};
@@ -25,6 +25,7 @@ use uglight::Swatch;
 
 pub use json::json;
 pub use text::text;
+pub use ugpicture::explain::{Item, PixelSteps, SampleColor, Wavelength};
 
 /// The explanation of a pixel.
 #[derive(Clone, Debug)]
@@ -50,19 +51,6 @@ pub struct Explanation {
     pub sample: Option<ExplainedSample>,
     /// From the samples to the bytes.
     pub pixel_steps: PixelSteps,
-}
-
-/// A face or wire.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Item {
-    /// `face` or `wire`.
-    pub kind: &'static str,
-    /// As in the channel `id`: faces from 1, then wires.
-    pub id: u32,
-    /// Its name, if it has one.
-    pub name: Option<String>,
-    /// File and line of its statement, where known.
-    pub place: Option<(String, usize)>,
 }
 
 /// The explanation of a sample.
@@ -109,45 +97,6 @@ pub struct LayerShown {
     pub light: [f32; 3],
 }
 
-/// The colour of a sample, interpolated and lit.
-#[derive(Clone, Debug)]
-pub enum SampleColor {
-    /// A hue, saturation and value; coloured light is separate.
-    Hue {
-        /// Hue in degrees, −60…300.
-        hue: f64,
-        /// Saturation, 0…1.
-        saturation: f64,
-        /// Value, 0 and more.
-        value: f64,
-        /// Level of red, green and blue light, if lights are coloured; otherwise it is in the
-        /// value.
-        level: Option<[f64; 3]>,
-        /// `None` for greys.
-        wavelength: Option<Wavelength>,
-    },
-    /// CIE X, Y, Z, and chromaticity x, y.
-    Light {
-        /// X, Y, Z.
-        xyz: [f64; 3],
-        /// x, y; `None` for black.
-        chromaticity: Option<[f64; 2]>,
-    },
-}
-
-/// The wavelength a hue stands for.
-#[derive(Clone, Copy, Debug)]
-pub struct Wavelength {
-    /// Wavelength at rest.
-    pub rest_nm: f64,
-    /// Wavelength as seen.
-    pub seen_nm: f64,
-    /// Attenuation of the hue, (P17).
-    pub attenuation: f64,
-    /// True at the end of the range of hues, which stands for all wavelengths beyond.
-    pub is_at_end: bool,
-}
-
 /// A corner, between which colour and light are interpolated.
 #[derive(Clone, Debug)]
 pub struct Corner {
@@ -162,19 +111,6 @@ pub struct Corner {
     /// The contribution of each light; empty for wires and for faces with a light level of their
     /// own.
     pub lights: Vec<(String, [f64; 3])>,
-}
-
-/// From the samples of the pixel to its bytes.
-#[derive(Clone, Debug)]
-pub struct PixelSteps {
-    /// The filter that weights samples, including those of neighbouring pixels.
-    pub filter: Filter,
-    /// Mean linear red, green and blue, and the covered part.
-    pub mean: [f32; 4],
-    /// How light was developed, if it was not clipped per sample.
-    pub development: Option<(Development, Steps)>,
-    /// Red, green, blue, alpha.
-    pub bytes: [u8; 4],
 }
 
 /// Explains a pixel of the picture that `config` describes.
@@ -196,7 +132,7 @@ pub fn explain(
     let picture = &config.picture;
     let setup = prepare(&parsed.scene, config)?;
     if pixel[0] >= picture.size[0] || pixel[1] >= picture.size[1] {
-        return Err(Error::Pixel { pixel, size: picture.size });
+        return Err(ugpicture::Error::Pixel { pixel, size: picture.size }.into());
     }
     let layers = RenderLayers::new(setup.painter(), &config.draw_mode());
     let (display, backdrop) = (Display::new(picture), backdrop(picture));
@@ -310,20 +246,7 @@ impl Teller<'_> {
     }
 
     fn item(&self, item: u32) -> Item {
-        let scene = self.setup.scene();
-        let row = item as usize;
-        let id = item.saturating_add(1);
-        let name = |name: Option<ugparse::NameId>| name.map(|name| scene.names.get(name).to_owned());
-        let Some(face) = scene.faces.get(row) else {
-            let wire = scene.wires.get(row - scene.faces.len());
-            return Item { kind: "wire", id, name: name(wire.and_then(|wire| wire.name)), place: None };
-        };
-        let place = self.parsed.origins.faces.get(row).and_then(|span| {
-            let place =
-                Diagnostics::one(self.source, Diagnostic::error(*span, "")).locations().into_iter().next()?;
-            Some((place.file, place.line))
-        });
-        Item { kind: "face", id, name: name(face.name), place }
+        Item::new(item, self.setup.scene(), self.parsed, self.source)
     }
 
     fn shown(&self, sample: &ProbedSample) -> ExplainedSample {

@@ -1,0 +1,352 @@
+//! Explains the colour of a pixel: the surfaces on the way of its light, and every step to the
+//! bytes.
+
+mod json;
+mod text;
+
+use std::borrow::Cow;
+
+use glam::DVec3;
+use ugimage::{Quantizer, display_pixel};
+use uglight::{ColorShift, HueShift, Interpolation, LampPlace};
+use ugparse::{ColorScale, Diagnostics, HueScale, Parsed, SeenColors, Source};
+use ugphysics::{Velocity, attenuation, linear_srgb_to_xyz};
+use ugpicture::explain::{Item, PixelSteps, SampleColor, Wavelength};
+use ugpicture::{Backdrop, Exposure, Layout};
+
+use crate::config::Config;
+use crate::error::Error;
+use crate::path::Solid;
+use crate::pixels::{self, ExplainedRay};
+use crate::render::as_seen;
+use crate::scenery::Scenery;
+use crate::shade::{LampLight, hue_color};
+use crate::tracer::{Visit, Way};
+
+pub use json::json;
+pub use text::text;
+
+/// The explanation of a pixel.
+#[derive(Clone, Debug)]
+pub struct Explanation {
+    /// Column and row from the upper left.
+    pub pixel: [u32; 2],
+    /// Size of the picture.
+    pub size: [u32; 2],
+    /// Samples along a side of a pixel.
+    pub samples: u32,
+    /// The surfaces that the pixel's samples show without mirrors and refraction, each with its
+    /// number of samples, in order of first occurrence. A sample of a translucent surface also
+    /// counts for the surfaces behind it.
+    pub covers: Vec<(Item, usize)>,
+    /// Number of samples in which the background is visible, also in mirrors and through
+    /// transparent surfaces.
+    pub n_free: usize,
+    /// True if nothing in the scene moves.
+    pub is_at_rest: bool,
+    /// How motion changes colours; `None` if it does not.
+    pub colors: Option<SeenColors>,
+    /// The covered sample nearest to the centre of the pixel.
+    pub sample: Option<ExplainedSample>,
+    /// From the samples to the bytes.
+    pub pixel_steps: PixelSteps,
+}
+
+/// The explanation of a sample.
+#[derive(Clone, Debug)]
+pub struct ExplainedSample {
+    /// Column and row of the sample in pixels.
+    pub place: [f64; 2],
+    /// The surfaces that contribute to it, from the eye on. Its light is the sum of theirs.
+    pub surfaces: Vec<ExplainedSurface>,
+    /// Linear red, green and blue.
+    pub light: [f64; 3],
+    /// The part of the background that is seen, in red, green and blue.
+    pub background: [f64; 3],
+}
+
+/// A surface on the way of the light.
+#[derive(Clone, Debug)]
+pub struct ExplainedSurface {
+    /// Its face.
+    pub item: Item,
+    /// How its light goes on; rows of [`ExplainedSample::surfaces`].
+    pub way: Way,
+    /// Reflections and refractions from there to the eye.
+    pub depth: u32,
+    /// The part of its light that reaches the eye.
+    pub weight: f64,
+    /// The transparent solid its light goes through at first.
+    pub medium: Option<ExplainedMedium>,
+    /// Velocity of its body.
+    pub beta: DVec3,
+    /// Lorentz factor γ of the body.
+    pub gamma: f64,
+    /// Time and position of emission, relative to the eye, in the frame of the camera.
+    pub emission: (f64, DVec3),
+    /// The emission event in the rest frame of the body.
+    pub rest: (f64, DVec3),
+    /// Angle in degrees between the line of sight and the motion, in the frames of the camera and
+    /// of the body; `None` at rest and for light that is mirrored or refracted.
+    pub angles_deg: Option<[f64; 2]>,
+    /// Doppler factor, from the surface to the eye.
+    pub doppler: f64,
+    /// Translucency of the face there.
+    pub translucency: f64,
+    /// Colour at rest, lit, and the wavelength it is seen with.
+    pub color: SampleColor,
+    /// The lights that shine on it. Empty for faces with a light level of their own.
+    pub lamps: Vec<ExplainedLamp>,
+    /// Linear red, green and blue of its own light, of which `weight` is seen.
+    pub light: [f64; 3],
+    /// The parts of the light it mirrors and transmits; `None` if that is not followed.
+    pub followed: [Option<f64>; 2],
+    /// True at total reflection.
+    pub is_total: bool,
+}
+
+/// A transparent solid.
+#[derive(Clone, Debug)]
+pub struct ExplainedMedium {
+    /// Name of its surface.
+    pub name: String,
+    /// Index of refraction, at rest.
+    pub index: f64,
+    /// Velocity.
+    pub beta: DVec3,
+}
+
+/// A light that shines on a surface.
+#[derive(Clone, Debug)]
+pub struct ExplainedLamp {
+    /// Its kind, counted in the order of the scene.
+    pub name: String,
+    /// The level of its red, green and blue light without shadow, in the rest frame of the surface.
+    pub level: [f64; 3],
+    /// The Doppler factor from the light to the surface.
+    pub doppler: f64,
+    /// Its distance at emission in that frame, infinite for directional lights; `None` for ambient
+    /// light.
+    pub distance: Option<f64>,
+    /// The part of it that is not in shadow.
+    pub part: f64,
+}
+
+/// Explains a pixel of the picture that `config` describes.
+///
+/// # Errors
+/// As for drawing, and if the pixel is not in the picture.
+pub fn explain(
+    config: &Config,
+    source: &Source,
+    pixel: [u32; 2],
+) -> Result<(Explanation, Diagnostics), Error> {
+    let parsed = ugscene::read(source, &config.reading, config.picture.camera.name.as_deref())?;
+    let layout = Layout::new(&config.picture)?;
+    config.check()?;
+    let config = &Config { picture: layout.of_scene(&config.picture).into_owned(), ..config.clone() };
+    let size = config.picture.size;
+    if pixel[0] >= size[0] || pixel[1] >= size[1] {
+        return Err(ugpicture::Error::Pixel { pixel, size }.into());
+    }
+    let scenery = Scenery::new(Cow::Owned(as_seen(parsed.scene.clone(), config)?), config)?;
+    let teller = Teller { scenery: &scenery, config, source, parsed: &parsed };
+    let samples = pixels::explained(&scenery, config, pixel);
+    let n = config.picture.samples;
+    let n_missing = (n * n) as usize - samples.len();
+    let is_free = |sample: &&ExplainedRay| sample.arriving.background.max_element() > 0.0;
+    let explanation = Explanation {
+        pixel,
+        size,
+        samples: n,
+        covers: teller.covers(&samples),
+        n_free: n_missing + samples.iter().filter(is_free).count(),
+        is_at_rest: !ugscene::has_moving_bodies(&scenery.scene)
+            && !ugscene::has_moving_lights(&scenery.scene),
+        colors: seen_colors(&scenery),
+        sample: nearest(&samples, pixel, n).map(|sample| teller.shown(sample)),
+        pixel_steps: pixel_steps(&scenery, config, pixel),
+    };
+    Ok((explanation, parsed.warnings))
+}
+
+/// The law by which colours change; `None` if nothing is changed.
+fn seen_colors(scenery: &Scenery<'_>) -> Option<SeenColors> {
+    let (doppler, scale) = match scenery.shift {
+        ColorShift::Hues(shift) if shift == HueShift::NONE => return None,
+        ColorShift::Hues(shift) => {
+            (shift.doppler, ColorScale::Hues { unit: HueScale::Degrees, law: shift.law })
+        }
+        ColorShift::Spectra(shift) => (shift.doppler, ColorScale::Spectra { flux: shift.flux }),
+    };
+    Some(SeenColors { scale, doppler, lights: scenery.lights.are_of_scene })
+}
+
+/// The covered sample nearest to the centre of the pixel; ties go to the last, as for channels.
+fn nearest(samples: &[ExplainedRay], pixel: [u32; 2], n: u32) -> Option<&ExplainedRay> {
+    let away = |sample: &&ExplainedRay| {
+        // Twice the distance, which is an integer.
+        let axis = |i: usize| i64::from(2 * (sample.place[i] - pixel[i] * n) + 1) - i64::from(n);
+        axis(0) * axis(0) + axis(1) * axis(1)
+    };
+    samples.iter().rev().filter(|sample| !sample.visits.is_empty()).min_by_key(away)
+}
+
+fn pixel_steps(scenery: &Scenery<'_>, config: &Config, [column, row]: [u32; 2]) -> PixelSteps {
+    let picture = &config.picture;
+    let one = Config { crop: Some([column, row, 1, 1]), ..config.clone() };
+    let light = pixels::light(scenery, &one, &()).0;
+    let mean = light.pixels().first().copied().unwrap_or_default();
+    let [red, green, blue, part] = mean;
+    let development = scenery.is_uncut.then(|| {
+        let whole = || pixels::light(scenery, config, &()).0;
+        let development = Exposure::development(picture.exposure, picture.tone, whole);
+        (development, development.steps([red, green, blue]))
+    });
+    let [red, green, blue] = match &development {
+        Some((development, _)) => development.apply([red, green, blue]),
+        None => [red, green, blue],
+    };
+    let is_opaque = Backdrop::new(picture.background, picture.samples).is_opaque();
+    let bytes = display_pixel(&Quantizer::new(), [red, green, blue, part], is_opaque);
+    PixelSteps { filter: picture.filter, mean, development, bytes }
+}
+
+/// Computes the explanations of samples.
+struct Teller<'a> {
+    scenery: &'a Scenery<'a>,
+    config: &'a Config,
+    source: &'a Source,
+    parsed: &'a Parsed,
+}
+
+impl Teller<'_> {
+    fn item(&self, face: u32) -> Item {
+        Item::new(face, &self.scenery.scene, self.parsed, self.source)
+    }
+
+    fn covers(&self, samples: &[ExplainedRay]) -> Vec<(Item, usize)> {
+        let mut counts: Vec<(u32, usize)> = Vec::new();
+        for sample in samples {
+            for visit in sample.visits.iter().filter(|visit| visit.depth == 0) {
+                match counts.iter_mut().find(|(face, _)| *face == visit.point.face) {
+                    Some((_, count)) => *count += 1,
+                    None => counts.push((visit.point.face, 1)),
+                }
+            }
+        }
+        counts.into_iter().map(|(face, count)| (self.item(face), count)).collect()
+    }
+
+    fn shown(&self, sample: &ExplainedRay) -> ExplainedSample {
+        let n = f64::from(self.config.picture.samples);
+        ExplainedSample {
+            place: sample.place.map(|at| (f64::from(at) + 0.5) / n),
+            surfaces: sample.visits.iter().map(|visit| self.surface(sample, visit)).collect(),
+            light: sample.arriving.light.to_array(),
+            background: sample.arriving.background.to_array(),
+        }
+    }
+
+    fn surface(&self, sample: &ExplainedRay, visit: &Visit) -> ExplainedSurface {
+        let point = &visit.point;
+        let frame = &self.scenery.world.parts[point.part].frame;
+        let velocity: Velocity = frame.velocity;
+        let rest_time = frame.to_rest(point.event).t;
+        let is_direct = visit.depth == 0 && !velocity.is_zero();
+        let angles_deg = is_direct.then(|| {
+            let moving = frame.turned_velocity(velocity).direction();
+            let camera = sample.ray.step.x.angle_between(velocity.direction());
+            [camera, (-point.wave.k).angle_between(moving)].map(f64::to_degrees)
+        });
+        ExplainedSurface {
+            item: self.item(point.face),
+            way: visit.way,
+            depth: visit.depth,
+            weight: visit.weight,
+            medium: visit.medium.map(|solid| self.medium(solid)),
+            beta: velocity.beta(),
+            gamma: velocity.gamma(),
+            emission: (point.event.t, point.event.x - sample.ray.origin.x),
+            rest: (rest_time, point.place),
+            angles_deg,
+            doppler: point.doppler(),
+            translucency: point.translucency,
+            color: self.color(visit),
+            lamps: visit.lamps.iter().map(|lamp| self.lamp(lamp)).collect(),
+            light: visit.light.to_array(),
+            followed: visit.followed,
+            is_total: visit.is_total,
+        }
+    }
+
+    fn medium(&self, solid: Solid) -> ExplainedMedium {
+        let surface = self.scenery.properties(solid.surface);
+        ExplainedMedium {
+            name: self.scenery.scene.names.get(surface.name).to_owned(),
+            index: surface.refraction,
+            beta: self.scenery.world.parts[solid.part].frame.velocity.beta(),
+        }
+    }
+
+    fn lamp(&self, light: &LampLight) -> ExplainedLamp {
+        let lamps = &self.scenery.lights.lamps;
+        let row = light.irradiance.lamp as usize;
+        let kind = |place: &LampPlace| match place {
+            LampPlace::Everywhere => "ambient",
+            LampPlace::Afar(_) => "directional",
+            LampPlace::At(_) => "local",
+        };
+        let own = kind(&lamps[row].place);
+        let count = lamps[..=row].iter().filter(|lamp| kind(&lamp.place) == own).count();
+        ExplainedLamp {
+            name: format!("{own} {count}"),
+            level: (light.irradiance.level * lamps[row].color).to_array(),
+            doppler: light.irradiance.doppler,
+            distance: light.distance,
+            part: light.part,
+        }
+    }
+
+    fn color(&self, visit: &Visit) -> SampleColor {
+        let (scenery, point) = (self.scenery, &visit.point);
+        if scenery.spectra.is_some() || point.color.light.is_some() {
+            let xyz = linear_srgb_to_xyz(visit.light.to_array());
+            let sum: f64 = xyz.iter().sum();
+            let chromaticity = (sum > 0.0).then(|| [xyz[0] / sum, xyz[1] / sum]);
+            return SampleColor::Light { xyz, chromaticity };
+        }
+        let base = hue_color(scenery, &point.color);
+        let is_end =
+            scenery.palette.interpolation() == Interpolation::Hue && !(-60.0 < base.hue && base.hue < 300.0);
+        let wavelength = (!point.color.is_grey()).then(|| {
+            let seen_nm = scenery.hue_shift().wavelength_nm(base.wavelength_nm, point.doppler());
+            Wavelength {
+                rest_nm: base.wavelength_nm,
+                seen_nm,
+                attenuation: attenuation(seen_nm),
+                is_at_end: is_end,
+            }
+        });
+        SampleColor::Hue {
+            hue: base.hue,
+            saturation: base.saturation,
+            value: base.value,
+            level: Some(self.level(visit)),
+            wavelength,
+        }
+    }
+
+    /// The level of light on a surface, red, green and blue.
+    fn level(&self, visit: &Visit) -> [f64; 3] {
+        let scene = &self.scenery.scene;
+        if let Some(level) = scene.light_level(&scene.faces[visit.point.face as usize]) {
+            return [level; 3];
+        }
+        let lamps = &self.scenery.lights.lamps;
+        let level = |light: &LampLight| {
+            light.irradiance.level * light.part * lamps[light.irradiance.lamp as usize].color
+        };
+        visit.lamps.iter().map(level).sum::<DVec3>().to_array()
+    }
+}

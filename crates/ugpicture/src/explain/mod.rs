@@ -1,0 +1,94 @@
+//! Explanations of pixels: what they have in common in every renderer.
+//!
+//! The types hold what is explained; [`text`] and [`json`] write it, for people and for scripts.
+
+pub mod json;
+pub mod text;
+
+use ugimage::{Development, Filter, Steps};
+use ugparse::{Diagnostic, Diagnostics, Parsed, Scene, Source};
+
+/// A face or wire.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Item {
+    /// `face` or `wire`.
+    pub kind: &'static str,
+    /// As in the channel `id`: faces from 1, then wires.
+    pub id: u32,
+    /// Its name, if it has one.
+    pub name: Option<String>,
+    /// File and line of its statement, where known.
+    pub place: Option<(String, usize)>,
+}
+
+/// The colour of a sample, interpolated and lit.
+#[derive(Clone, Debug)]
+pub enum SampleColor {
+    /// A hue, saturation and value; coloured light is separate.
+    Hue {
+        /// Hue in degrees, −60…300.
+        hue: f64,
+        /// Saturation, 0…1.
+        saturation: f64,
+        /// Value, 0 and more.
+        value: f64,
+        /// Level of red, green and blue light, if lights are coloured; otherwise it is in the
+        /// value.
+        level: Option<[f64; 3]>,
+        /// `None` for greys.
+        wavelength: Option<Wavelength>,
+    },
+    /// CIE X, Y, Z, and chromaticity x, y.
+    Light {
+        /// X, Y, Z.
+        xyz: [f64; 3],
+        /// x, y; `None` for black.
+        chromaticity: Option<[f64; 2]>,
+    },
+}
+
+/// The wavelength a hue stands for.
+#[derive(Clone, Copy, Debug)]
+pub struct Wavelength {
+    /// Wavelength at rest.
+    pub rest_nm: f64,
+    /// Wavelength as seen.
+    pub seen_nm: f64,
+    /// Attenuation of the hue, (P17).
+    pub attenuation: f64,
+    /// True at the end of the range of hues, which stands for all wavelengths beyond.
+    pub is_at_end: bool,
+}
+
+/// From the samples of the pixel to its bytes.
+#[derive(Clone, Debug)]
+pub struct PixelSteps {
+    /// The filter that weights samples, including those of neighbouring pixels.
+    pub filter: Filter,
+    /// Mean linear red, green and blue, and the covered part.
+    pub mean: [f32; 4],
+    /// How light was developed, if it was not clipped per sample.
+    pub development: Option<(Development, Steps)>,
+    /// Red, green, blue, alpha.
+    pub bytes: [u8; 4],
+}
+
+impl Item {
+    /// A face, or a wire counted after the faces. `scene`: with the faces and wires that were
+    /// parsed from `source`.
+    pub fn new(row: u32, scene: &Scene, parsed: &Parsed, source: &Source) -> Self {
+        let id = row.saturating_add(1);
+        let row = row as usize;
+        let name = |name: Option<ugparse::NameId>| name.map(|name| scene.names.get(name).to_owned());
+        let Some(face) = scene.faces.get(row) else {
+            let wire = scene.wires.get(row - scene.faces.len());
+            return Self { kind: "wire", id, name: name(wire.and_then(|wire| wire.name)), place: None };
+        };
+        let place = parsed.origins.faces.get(row).and_then(|span| {
+            let place =
+                Diagnostics::one(source, Diagnostic::error(*span, "")).locations().into_iter().next()?;
+            Some((place.file, place.line))
+        });
+        Self { kind: "face", id, name: name(face.name), place }
+    }
+}
