@@ -46,6 +46,11 @@ impl Frame {
         Self { width, height, is_opaque, pixels }
     }
 
+    /// The pixels alone.
+    pub fn into_pixels(self) -> Vec<[u8; 4]> {
+        self.pixels
+    }
+
     /// Number of pixels per row.
     pub fn width(&self) -> u32 {
         self.width

@@ -12,7 +12,7 @@
 //! whole file as a `Vec<u8>`. They do no I/O and read no clock. Everything in the file besides
 //! pixels is passed in a [`Metadata`], so the same frame and metadata give the same bytes.
 //!
-//! [`read_png`] reads PNG files with their metadata.
+//! [`read_png`] reads PNG files with their metadata, [`read_picture`] pictures of several formats.
 //!
 //! | format | pixels | transparency |
 //! | --- | --- | --- |
@@ -61,6 +61,7 @@ mod ppm;
 mod ps;
 mod quantizer;
 mod read;
+mod read_light;
 mod svg;
 
 pub use develop::{Development, Steps, Tone, auto_exposure};
@@ -74,3 +75,4 @@ pub use metadata::Metadata;
 pub use png::Compression;
 pub use quantizer::{Quantizer, ROUNDING_OFFSET};
 pub use read::{ReadError, read_png, read_png_header};
+pub use read_light::{Pixels, read_picture};

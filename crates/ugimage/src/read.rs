@@ -9,7 +9,7 @@ use png::{ColorType, Decoder, Transformations};
 use crate::{Frame, Metadata};
 
 /// Largest number of pixels that is accepted.
-const MAX_PIXELS: u64 = 1 << 28;
+pub(crate) const MAX_PIXELS: u64 = 1 << 28;
 
 /// Largest number of bytes of a text that is read, unpacked.
 pub(crate) const MAX_TEXT: usize = 1 << 20;
@@ -17,6 +17,12 @@ pub(crate) const MAX_TEXT: usize = 1 << 20;
 /// Why a file cannot be read as an image.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ReadError(String);
+
+impl ReadError {
+    pub(crate) fn new(text: &str) -> Self {
+        Self(text.to_owned())
+    }
+}
 
 impl fmt::Display for ReadError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -98,7 +104,7 @@ fn size(decoder: &mut Decoder<Cursor<&[u8]>>) -> Result<[u32; 2], ReadError> {
 }
 
 /// `len` zeros, or an error if there is not enough memory.
-fn zeros<T: Clone + Default>(len: usize) -> Result<Vec<T>, ReadError> {
+pub(crate) fn zeros<T: Clone + Default>(len: usize) -> Result<Vec<T>, ReadError> {
     let mut zeros = Vec::new();
     let reserved = zeros.try_reserve_exact(len);
     reserved.map_err(|_| {

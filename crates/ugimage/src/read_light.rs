@@ -1,0 +1,178 @@
+//! Reads pictures of several formats: PNG, JPEG, Radiance HDR and OpenEXR.
+
+use std::io::Cursor;
+
+use exr::prelude::{
+    ReadChannels, ReadLayers, ReadSpecificChannel, pixel_vec::PixelVec, read as exr_reader,
+};
+use image::ImageDecoder;
+use image::codecs::hdr::HdrDecoder;
+use zune_jpeg::JpegDecoder;
+use zune_jpeg::zune_core::bytestream::ZCursor;
+use zune_jpeg::zune_core::colorspace::ColorSpace;
+use zune_jpeg::zune_core::options::DecoderOptions;
+
+use crate::read::{MAX_PIXELS, ReadError, read_png, zeros};
+
+/// The pixels of a picture, row after row from the top.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Pixels {
+    /// Display-encoded sRGB, and alpha.
+    Srgb(Vec<[u8; 4]>),
+    /// Linear light with the sRGB primaries, not multiplied by alpha; white is 1. Numbers that are
+    /// not finite occur as they are in the file.
+    Light(Vec<[f32; 4]>),
+}
+
+/// Reads a picture, by the first bytes of its file: PNG, JPEG, Radiance HDR or OpenEXR. Returns its
+/// size and its pixels.
+///
+/// Colours of PNG and JPEG are assumed to be sRGB, and 16 bits are rounded to 8; those of HDR and
+/// OpenEXR to be linear light with the primaries of sRGB. Colour profiles and the orientation that
+/// cameras note are not used.
+///
+/// # Errors
+/// [`ReadError`] if the file is of another kind, is truncated or corrupt, has more than 2²⁸ pixels,
+/// or does not fit in memory.
+pub fn read_picture(file: &[u8]) -> Result<([u32; 2], Pixels), ReadError> {
+    match file {
+        [0x89, b'P', b'N', b'G', ..] => {
+            let (frame, _) = read_png(file)?;
+            let size = [frame.width(), frame.height()];
+            Ok((size, Pixels::Srgb(frame.into_pixels())))
+        }
+        [0xff, 0xd8, 0xff, ..] => jpeg(file),
+        [b'#', b'?', ..] => hdr(file),
+        [0x76, 0x2f, 0x31, 0x01, ..] => exr(file),
+        _ => Err(ReadError::new("not a picture of a kind that is read: PNG, JPEG, HDR or EXR")),
+    }
+}
+
+/// Refuses pictures with too many pixels.
+fn checked([width, height]: [usize; 2]) -> Result<[u32; 2], ReadError> {
+    let n_pixels = (width as u64).saturating_mul(height as u64);
+    match (u32::try_from(width), u32::try_from(height)) {
+        (Ok(width), Ok(height)) if n_pixels <= MAX_PIXELS => Ok([width, height]),
+        _ => Err(ReadError::new(&format!("{width} x {height} pixels exceed the limit of {MAX_PIXELS}"))),
+    }
+}
+
+fn broken(kind: &str, error: &dyn std::fmt::Display) -> ReadError {
+    let problem = error.to_string();
+    ReadError::new(&format!("not a readable {kind} file: {}", problem.trim_end_matches('.')))
+}
+
+fn jpeg(file: &[u8]) -> Result<([u32; 2], Pixels), ReadError> {
+    let broken = |error: &dyn std::fmt::Display| broken("JPEG", error);
+    // The decoder fills what is missing of a truncated file with grey.
+    if !has_end_of_image(file) {
+        return Err(broken(&"the file is truncated"));
+    }
+    let options = DecoderOptions::default()
+        .jpeg_set_out_colorspace(ColorSpace::RGB)
+        .set_max_width(usize::from(u16::MAX))
+        .set_max_height(usize::from(u16::MAX));
+    let mut decoder = JpegDecoder::new_with_options(ZCursor::new(file), options);
+    decoder.decode_headers().map_err(|error| broken(&error))?;
+    let (width, height) = decoder.dimensions().ok_or_else(|| broken(&"it has no size"))?;
+    let size = checked([width, height])?;
+    let n_pixels = width * height;
+    // Reserved before the decoder allocates as much.
+    let mut pixels: Vec<[u8; 4]> = zeros(n_pixels)?;
+    let data = decoder.decode().map_err(|error| broken(&error))?;
+    if data.len() != 3 * n_pixels {
+        return Err(broken(&"its colours are not red, green and blue"));
+    }
+    for (pixel, channels) in pixels.iter_mut().zip(data.chunks_exact(3)) {
+        *pixel = [channels[0], channels[1], channels[2], 255];
+    }
+    Ok((size, Pixels::Srgb(pixels)))
+}
+
+/// True if the segments of a JPEG file end with an end-of-image marker. What follows it, such as a
+/// film that telephones append, is not looked at.
+fn has_end_of_image(file: &[u8]) -> bool {
+    let mut at = 2;
+    loop {
+        // The next marker: in compressed data FF is followed by 0 or by a restart marker.
+        let Some(skip) = file.get(at..).and_then(|rest| {
+            rest.windows(2).position(|pair| pair[0] == 0xff && !matches!(pair[1], 0 | 0xd0..=0xd7 | 0xff))
+        }) else {
+            return false;
+        };
+        at += skip + 2;
+        match file[at - 1] {
+            0xd9 => return true,
+            // Markers without a length.
+            0x01 | 0xd8 => {}
+            _ => {
+                let Some(&[high, low]) = file.get(at..at + 2) else { return false };
+                at += usize::from(u16::from_be_bytes([high, low])).max(2);
+            }
+        }
+    }
+}
+
+fn hdr(file: &[u8]) -> Result<([u32; 2], Pixels), ReadError> {
+    let broken = |error: &dyn std::fmt::Display| broken("HDR", error);
+    let decoder = HdrDecoder::new(Cursor::new(file)).map_err(|error| broken(&error))?;
+    let (width, height) = decoder.dimensions();
+    let size = checked([width as usize, height as usize])?;
+    let n_pixels = width as usize * height as usize;
+    // Each row has a header of four bytes and more, so a short file cannot ask for much memory.
+    if (file.len() as u64) < 4 * u64::from(height) {
+        return Err(broken(&"the file is truncated"));
+    }
+    let mut data: Vec<u8> = zeros(12 * n_pixels)?;
+    decoder.read_image(&mut data).map_err(|error| broken(&error))?;
+    let mut pixels: Vec<[f32; 4]> = zeros(n_pixels)?;
+    for (pixel, channels) in pixels.iter_mut().zip(data.chunks_exact(12)) {
+        let part = |idx: usize| {
+            let bytes = &channels[4 * idx..4 * idx + 4];
+            f32::from_ne_bytes([bytes[0], bytes[1], bytes[2], bytes[3]])
+        };
+        *pixel = [part(0), part(1), part(2), 1.0];
+    }
+    Ok((size, Pixels::Light(pixels)))
+}
+
+fn exr(file: &[u8]) -> Result<([u32; 2], Pixels), ReadError> {
+    let broken = |error: &dyn std::fmt::Display| broken("EXR", error);
+    let headers = exr::meta::MetaData::read_from_buffered(Cursor::new(file), false);
+    let headers = headers.map_err(|error| broken(&error))?;
+    // The first layer with these channels is read, so none may be too large.
+    for header in headers.headers.iter().filter(|header| !header.deep) {
+        let size = checked([header.layer_size.width(), header.layer_size.height()])?;
+        zeros::<[f32; 4]>(size[0] as usize * size[1] as usize)?;
+    }
+    let image = exr_reader()
+        .no_deep_data()
+        .largest_resolution_level()
+        .specific_channels()
+        .required("R")
+        .required("G")
+        .required("B")
+        .optional("A", 1.0_f32)
+        .collect_pixels(
+            |resolution, _| PixelVec { resolution, pixels: vec![[0.0_f32; 4]; resolution.area()] },
+            |image, position, (red, green, blue, alpha): (f32, f32, f32, f32)| {
+                let idx = position.flat_index_for_size(image.resolution);
+                image.pixels[idx] = [red, green, blue, alpha];
+            },
+        )
+        .first_valid_layer()
+        .all_attributes()
+        .non_parallel()
+        .from_buffered(Cursor::new(file));
+    let image = image.map_err(|error| broken(&error))?;
+    let data = image.layer_data.channel_data.pixels;
+    let size = checked([data.resolution.width(), data.resolution.height()])?;
+    let mut pixels = data.pixels;
+    // Colours of EXR files are multiplied by alpha.
+    for [red, green, blue, alpha] in &mut pixels {
+        if *alpha > 0.0 && *alpha < 1.0 {
+            [*red, *green, *blue] = [*red / *alpha, *green / *alpha, *blue / *alpha];
+        }
+    }
+    Ok((size, Pixels::Light(pixels)))
+}
