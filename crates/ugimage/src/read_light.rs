@@ -2,9 +2,7 @@
 
 use std::io::Cursor;
 
-use exr::prelude::{
-    ReadChannels, ReadLayers, ReadSpecificChannel, pixel_vec::PixelVec, read as exr_reader,
-};
+use exr::prelude::{ReadChannels, ReadLayers, ReadSpecificChannel, pixel_vec::PixelVec, read as exr_reader};
 use image::ImageDecoder;
 use image::codecs::hdr::HdrDecoder;
 use zune_jpeg::JpegDecoder;

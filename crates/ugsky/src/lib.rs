@@ -10,6 +10,7 @@
 //! - [`Sampler::light`] is the mean light of the pixel: an elliptical footprint on the sphere, with
 //!   weights by true directions and solid angles. There is no aliasing where the sky is seen smaller,
 //!   by (1 − β)/(1 + β) straight ahead, and no blocks where it is seen larger.
+//! - A [`SpectralTable`] is light as seen, on an assumption about its spectrum: a [`Basis`].
 //!
 //! ```
 //! use glam::DVec3;
@@ -31,8 +32,10 @@ mod grid;
 mod observer;
 mod panorama;
 mod sample;
+mod spectral;
 
 pub use grid::Extent;
 pub use observer::{Observer, SkyRay};
 pub use panorama::{Panorama, PanoramaError, Texels};
 pub use sample::Sampler;
+pub use spectral::{Basis, BasisError, SpectralTable};

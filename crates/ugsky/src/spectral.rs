@@ -1,0 +1,334 @@
+//! Spectra for light of which only red, green and blue are known, and how it is seen in motion.
+
+use std::fmt;
+
+use rayon::prelude::*;
+use ugphysics::{linear_srgb_to_xyz, luminance, xyz_to_linear_srgb};
+use ugspectrum::{DopplerGrid, Spectrum};
+
+/// The spectra that red, green and blue stand for. A picture determines three numbers of a
+/// spectrum, and nothing of its infrared and ultraviolet parts, which motion brings into view; each
+/// basis is an assumption about both.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Basis {
+    /// Daylight on a surface with a smooth reflectance (P20): few features, daylight outside the
+    /// visible range.
+    Smooth,
+    /// Sums of black bodies at three temperatures, in kelvins (Weiskopf 2000). Saturated colours
+    /// need negative amounts of some.
+    Planck([f64; 3]),
+    /// Each colour is the black body with the same ratio of X to Z, and the same luminance. Other
+    /// colours than those of black bodies change, at rest as well.
+    BlackBody,
+}
+
+/// Why three temperatures are no basis.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BasisError(pub [f64; 3]);
+
+impl fmt::Display for BasisError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [first, second, third] = self.0;
+        write!(
+            f,
+            "black bodies at {first}, {second} and {third} K are no basis of colours: give three different \
+             temperatures from 500 to 100000 K, such as 3500 5900 10000"
+        )
+    }
+}
+
+impl std::error::Error for BasisError {}
+
+/// Step of tables of linear maps and of black bodies in ln D or ln T.
+const STEP: f64 = 0.0025;
+
+/// Step of tables of smooth spectra in ln D.
+const SMOOTH_STEP: f64 = 0.02;
+
+/// |ln D| up to which light is tabulated: beyond it nothing visible is left.
+const MOST_LN_DOPPLER: f64 = 12.0;
+
+/// Ratios of channels at which smooth spectra are tabulated.
+const N_RATIOS: usize = 17;
+
+/// The brightest channel of the surfaces of smooth spectra.
+const REFLECTANCE: f64 = 0.5;
+
+/// Temperatures that colours may have, kelvins.
+const KELVIN: [f64; 2] = [500.0, 100_000.0];
+
+/// Light as seen by an observer: a table for each basis over the Doppler factor.  Eq. (P12), (P19)
+pub struct SpectralTable {
+    doppler: bool,
+    flux: bool,
+    kind: Kind,
+}
+
+enum Kind {
+    /// Matrices from linear red, green and blue at rest to those seen, by ln D.
+    Linear { first: f64, maps: Vec<[[f32; 3]; 3]> },
+    /// ln X, ln Y, ln Z of a black body by ln T, and ln T by ln (Z/X).
+    BlackBody { first: f64, points: Vec<[f32; 3]>, ratio: Vec<f64> },
+    /// Light of surfaces whose brightest channel is 1, relative to that of white, by brightest
+    /// channel, ratios of the two others to it, and ln D; and the light of white.
+    Smooth { first: f64, n: usize, relative: Vec<[f32; 3]>, white: Vec<f32> },
+}
+
+impl SpectralTable {
+    /// A table for Doppler factors up to e^±`reach`. `doppler`: wavelengths are shifted; `flux`:
+    /// the radiance at each wavelength is multiplied by D⁵.
+    ///
+    /// # Errors
+    /// [`BasisError`].
+    pub fn new(basis: Basis, doppler: bool, flux: bool, reach: f64) -> Result<Self, BasisError> {
+        let reach = if doppler { reach.abs().min(MOST_LN_DOPPLER) } else { 0.0 };
+        let kind = match basis {
+            Basis::Planck(kelvin) => planck(kelvin, reach)?,
+            Basis::BlackBody => black_bodies(reach),
+            Basis::Smooth => smooth(reach),
+        };
+        Ok(Self { doppler, flux, kind })
+    }
+
+    /// Linear red, green and blue as seen with a Doppler factor. Neither is clipped.
+    #[must_use]
+    #[inline]
+    pub fn seen(&self, rgb: [f32; 3], ln_doppler: f64) -> [f32; 3] {
+        let shift = if self.doppler { ln_doppler } else { 0.0 };
+        let seen = match &self.kind {
+            Kind::Linear { first, maps } => {
+                let (idx, part) = place(shift, *first, STEP, maps.len());
+                let [low, high] = [&maps[idx], &maps[idx + 1]];
+                std::array::from_fn(|i| {
+                    let row: [f32; 3] = std::array::from_fn(|j| low[i][j] + part * (high[i][j] - low[i][j]));
+                    row[0] * rgb[0] + row[1] * rgb[1] + row[2] * rgb[2]
+                })
+            }
+            Kind::BlackBody { first, points, ratio } => black_body_seen(rgb, shift, *first, points, ratio),
+            Kind::Smooth { first, n, relative, white } => {
+                smooth_seen(rgb, shift, *first, *n, relative, white)
+            }
+        };
+        if !self.flux {
+            return seen;
+        }
+        let gain = libm::exp(5.0 * ln_doppler) as f32;
+        seen.map(|part| part * gain)
+    }
+}
+
+/// The cell of a table, and the place in it from 0 to 1; the nearer end outside of the table.
+#[inline]
+fn place(at: f64, first: f64, step: f64, n: usize) -> (usize, f32) {
+    let at = ((at - first) / step).clamp(0.0, (n - 1) as f64);
+    let idx = (at as usize).min(n - 2);
+    (idx, (at - idx as f64) as f32)
+}
+
+/// ln D of the first entry of a table with 0 among its entries, and the number of its entries.
+fn range(reach: f64, step: f64) -> (f64, usize) {
+    let half = (reach / step).ceil().max(1.0);
+    (-half * step, 2 * half as usize + 1)
+}
+
+fn planck(kelvin: [f64; 3], reach: f64) -> Result<Kind, BasisError> {
+    let error = BasisError(kelvin);
+    if kelvin.iter().any(|kelvin| !(KELVIN[0]..=KELVIN[1]).contains(kelvin)) {
+        return Err(error);
+    }
+    let spectra = kelvin.map(|kelvin| Spectrum::blackbody(kelvin, 1.0));
+    let colors = |ln_doppler: f64| {
+        spectra.each_ref().map(|spectrum| xyz_to_linear_srgb(spectrum.shifted(libm::exp(ln_doppler))))
+    };
+    let inverse = inverse(colors(0.0)).ok_or(error)?;
+    let (first, n) = range(reach, STEP);
+    let map = |idx: usize| {
+        let seen = colors(first + STEP * idx as f64);
+        std::array::from_fn(|i| {
+            std::array::from_fn(|j| (0..3).map(|k| seen[k][i] * inverse[k][j]).sum::<f64>() as f32)
+        })
+    };
+    Ok(Kind::Linear { first, maps: (0..n).into_par_iter().map(map).collect() })
+}
+
+/// The matrix that gives the amounts of three colours in a colour; `None` if they are not
+/// independent.
+fn inverse(colors: [[f64; 3]; 3]) -> Option<[[f64; 3]; 3]> {
+    let cross = |a: [f64; 3], b: [f64; 3]| {
+        [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+    };
+    let rows = [cross(colors[1], colors[2]), cross(colors[2], colors[0]), cross(colors[0], colors[1])];
+    let determinant: f64 = (0..3).map(|i| colors[0][i] * rows[0][i]).sum();
+    (determinant.abs() > 1e-6).then(|| rows.map(|row| row.map(|part| part / determinant)))
+}
+
+fn black_bodies(reach: f64) -> Kind {
+    let [low, high] = KELVIN.map(libm::log);
+    let reference = Spectrum::blackbody(KELVIN[0], 1.0);
+    let ln_xyz = |ln_kelvin: f64| reference.seen(libm::exp(ln_kelvin - low)).map(libm::log);
+    let first = low - reach - STEP;
+    let n = ((high + reach + STEP - first) / STEP).ceil() as usize + 1;
+    // Coldest bodies have no visible light: a number that becomes 0.
+    let point = |idx: usize| {
+        let dark = |ln: f64| if ln.is_finite() { ln as f32 } else { -1e3 };
+        ln_xyz(first + STEP * idx as f64).map(dark)
+    };
+    let points = (0..n).into_par_iter().map(point).collect();
+    // ln (Z/X) increases with T.
+    let n_ratios = ((high - low) / STEP).ceil() as usize + 1;
+    let ratio = |idx: usize| {
+        let [x, _, z] = ln_xyz((low + STEP * idx as f64).min(high));
+        z - x
+    };
+    Kind::BlackBody { first, points, ratio: (0..n_ratios).into_par_iter().map(ratio).collect() }
+}
+
+fn black_body_seen(rgb: [f32; 3], shift: f64, first: f64, points: &[[f32; 3]], ratio: &[f64]) -> [f32; 3] {
+    let [x, y, z] = linear_srgb_to_xyz(rgb.map(|part| f64::from(part.max(0.0))));
+    if y <= 0.0 {
+        return [0.0; 3];
+    }
+    let wanted = libm::log(z / x);
+    let above = ratio.partition_point(|ratio| *ratio < wanted).clamp(1, ratio.len() - 1);
+    let [from, to] = [ratio[above - 1], ratio[above]];
+    let part = ((wanted - from) / (to - from)).clamp(0.0, 1.0);
+    let ln_kelvin = libm::log(KELVIN[0]) + STEP * (above as f64 - 1.0 + part);
+    let at = |ln_kelvin: f64| -> [f64; 3] {
+        let (idx, part) = place(ln_kelvin, first, STEP, points.len());
+        let [low, high] = [points[idx], points[idx + 1]];
+        std::array::from_fn(|i| f64::from(low[i]) + f64::from(part) * f64::from(high[i] - low[i]))
+    };
+    // The table is that of the light seen, with D⁵.
+    let offset = libm::log(y) - at(ln_kelvin)[1] - 5.0 * shift;
+    xyz_to_linear_srgb(at(ln_kelvin + shift).map(|ln| libm::exp(ln + offset))).map(|part| part as f32)
+}
+
+fn smooth(reach: f64) -> Kind {
+    let (first, n) = range(reach, SMOOTH_STEP);
+    let grid = DopplerGrid::new(first..=-first);
+    let at = |idx: usize| first + SMOOTH_STEP * idx as f64;
+    let white = Spectrum::from_linear_srgb([REFLECTANCE; 3]);
+    let white: Vec<f64> =
+        (0..n).map(|idx| luminance(xyz_to_linear_srgb(grid.xyz(&white, at(idx)))) / REFLECTANCE).collect();
+    let node = |idx: usize| {
+        let (brightest, ratios) = (idx / (N_RATIOS * N_RATIOS), idx % (N_RATIOS * N_RATIOS));
+        let ratio = |idx: usize| idx as f64 / (N_RATIOS - 1) as f64;
+        let mut rgb = [REFLECTANCE; 3];
+        rgb[(brightest + 1) % 3] *= ratio(ratios / N_RATIOS);
+        rgb[(brightest + 2) % 3] *= ratio(ratios % N_RATIOS);
+        let spectrum = Spectrum::from_linear_srgb(rgb);
+        let seen = |idx: usize| {
+            let seen = xyz_to_linear_srgb(grid.xyz(&spectrum, at(idx)));
+            seen.map(|part| (part / (REFLECTANCE * white[idx]).max(f64::MIN_POSITIVE)) as f32)
+        };
+        (0..n).map(seen).collect::<Vec<_>>()
+    };
+    let nodes: Vec<Vec<[f32; 3]>> = (0..3 * N_RATIOS * N_RATIOS).into_par_iter().map(node).collect();
+    let white = white.into_iter().map(|part| libm::log(part.max(1e-300)) as f32).collect();
+    Kind::Smooth { first, n, relative: nodes.concat(), white }
+}
+
+fn smooth_seen(
+    rgb: [f32; 3],
+    shift: f64,
+    first: f64,
+    n: usize,
+    relative: &[[f32; 3]],
+    white: &[f32],
+) -> [f32; 3] {
+    let rgb = rgb.map(|part| part.max(0.0));
+    let brightest = (1..3).fold(0, |best, idx| if rgb[idx] > rgb[best] { idx } else { best });
+    let most = rgb[brightest];
+    if most <= 0.0 {
+        return [0.0; 3];
+    }
+    let (at, part) = place(shift, first, SMOOTH_STEP, n);
+    let ratio = |idx: usize| {
+        let at = rgb[(brightest + idx) % 3] / most * (N_RATIOS - 1) as f32;
+        let cell = (at as usize).min(N_RATIOS - 2);
+        (cell, at - cell as f32)
+    };
+    let ((i, u), (j, v)) = (ratio(1), ratio(2));
+    let corner = |i: usize, j: usize| {
+        let start = ((brightest * N_RATIOS + i) * N_RATIOS + j) * n + at;
+        let [low, high] = [relative[start], relative[start + 1]];
+        let mixed: [f32; 3] = std::array::from_fn(|c| low[c] + part * (high[c] - low[c]));
+        mixed
+    };
+    let corners = [corner(i, j), corner(i, j + 1), corner(i + 1, j), corner(i + 1, j + 1)];
+    let weights = [(1.0 - u) * (1.0 - v), (1.0 - u) * v, u * (1.0 - v), u * v];
+    let light = libm::expf(white[at] + part * (white[at + 1] - white[at])) * most;
+    std::array::from_fn(|c| light * (0..4).map(|k| weights[k] * corners[k][c]).sum::<f32>())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const COLORS: [[f32; 3]; 5] =
+        [[0.5, 0.5, 0.5], [0.5, 0.2, 0.1], [0.1, 0.5, 0.3], [0.2, 0.3, 0.5], [0.5, 0.45, 0.05]];
+
+    fn bases() -> [Basis; 3] {
+        [Basis::Smooth, Basis::Planck([3500.0, 5900.0, 10_000.0]), Basis::BlackBody]
+    }
+
+    #[test]
+    fn colours_at_rest_are_kept() {
+        for basis in &bases()[..2] {
+            let table = SpectralTable::new(*basis, true, true, 1.0).unwrap();
+            for rgb in COLORS {
+                let seen = table.seen(rgb, 0.0);
+                let error = (0..3).map(|i| (seen[i] - rgb[i]).abs()).fold(0.0, f32::max);
+                assert!(error < 2e-5, "{basis:?} {rgb:?} {seen:?}");
+            }
+        }
+    }
+
+    /// A black body of temperature T is seen as one of D T, in every basis that has it.
+    #[test]
+    fn black_bodies_stay_black_bodies() {
+        for kelvin in [2500.0, 5900.0, 9000.0] {
+            let body = Spectrum::blackbody(kelvin, 0.3);
+            let rgb = xyz_to_linear_srgb(body.seen(1.0)).map(|part| part as f32);
+            for basis in [Basis::BlackBody, Basis::Planck([kelvin, 4500.0, 20_000.0])] {
+                let table = SpectralTable::new(basis, true, true, 1.2).unwrap();
+                // Rounding of the colour counts as light of the other temperatures.
+                let step = if basis == Basis::BlackBody { 0.0987 } else { 0.0387 };
+                for at in -12..=12 {
+                    let ln_doppler = step * f64::from(at);
+                    let seen = table.seen(rgb, ln_doppler).map(f64::from);
+                    let [x, y, z] = linear_srgb_to_xyz(seen);
+                    let [x0, y0, z0] = body.seen(libm::exp(ln_doppler));
+                    let (sum, sum0) = (x + y + z, x0 + y0 + z0);
+                    let apart = (x / sum - x0 / sum0).abs().max((y / sum - y0 / sum0).abs());
+                    assert!(apart < 1e-4, "{basis:?} {kelvin} {ln_doppler}: {apart:e}");
+                    assert!((y / y0 - 1.0).abs() < 1e-3, "{basis:?} {kelvin} {ln_doppler}: {y} {y0}");
+                }
+            }
+        }
+    }
+
+    /// Smooth spectra are those of surfaces whose brightest channel is one half.
+    #[test]
+    fn smooth_spectra_are_those_of_surfaces() {
+        let table = SpectralTable::new(Basis::Smooth, true, true, 1.0).unwrap();
+        for rgb in COLORS {
+            let spectrum = Spectrum::from_linear_srgb(rgb.map(f64::from));
+            for step in -9..=9 {
+                let ln_doppler = 0.1037 * f64::from(step);
+                let seen = table.seen(rgb, ln_doppler).map(f64::from);
+                let exact = xyz_to_linear_srgb(spectrum.seen(libm::exp(ln_doppler)));
+                let size = exact.iter().fold(1e-6, |most: f64, part| most.max(part.abs()));
+                let error = (0..3).map(|i| (seen[i] - exact[i]).abs() / size).fold(0.0, f64::max);
+                assert!(error < 0.06, "{rgb:?} {ln_doppler}: {seen:?} {exact:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn dependent_temperatures_are_refused() {
+        for kelvin in [[3500.0, 3500.0, 9000.0], [3500.0, 5900.0, f64::NAN], [1.0, 5900.0, 9000.0]] {
+            assert!(SpectralTable::new(Basis::Planck(kelvin), true, true, 1.0).is_err());
+        }
+    }
+}
