@@ -7,11 +7,12 @@ use std::process::Command;
 use crate::scenes;
 
 /// First words of the commands that a reader types in a folder with scenes.
-const PROGRAMS: [&str; 9] = [
+const PROGRAMS: [&str; 10] = [
     "uglorentz ",
     "ugdoppler ",
     "ugrainbow ",
     "ugphoton ",
+    "ugwarp ",
     "ugsheet ",
     "ugmesh ",
     "ugparse ",
@@ -111,13 +112,14 @@ pub fn transcripts(path: &str) -> Vec<(String, String)> {
 }
 
 /// Makes the files that the pages take for granted: a mesh of the reader's own, in several formats,
-/// its lights and camera, and a scene that has been through `uglorentz`.
+/// its lights and camera, a scene that has been through `uglorentz`, and a panorama.
 const PREPARATION: &str = "\
     ugmesh -dt obj scenes/teapot.ug -fo teapot.obj; \
     ugmesh -dt obj scenes/sphere.ug -fo bunny.obj; \
     ugmesh -dt ply scenes/sphere.ug -fo bunny.ply; \
     printf 'cam -ep 0 -6 1 -vc 0 0 0 -ud 0 0 1 -va 40 30 ; l .3 ; l .7 0 -1 1 ;' > stage.ug; \
-    uglorentz -vel .3 0 0 -in scenes/ship.ug | ugdoppler > seen.ug";
+    uglorentz -vel .3 0 0 -in scenes/ship.ug | ugdoppler > seen.ug; \
+    ugphoton -qt -pan -aa 1 -sz 256 128 scenes/tunnel.ug -fo sky.png";
 
 /// Fills a folder with what a reader has when typing commands: the scenes of the repository, also
 /// in a folder `scenes` in it, and the files that pages take for granted.
@@ -134,11 +136,10 @@ pub fn prepare(folder: &Path, programs: &Path) {
 }
 
 /// Programs that draw pictures.
-const RENDERERS: [&str; 2] = ["ugrainbow ", "ugphoton "];
+const RENDERERS: [&str; 3] = ["ugrainbow ", "ugphoton ", "ugwarp "];
 
 /// The command with pictures of other sizes: sizes in it are multiplied by `scale`, and `default`
-/// (width and height in pixels) is added to every `ugrainbow` and `ugphoton` without a size, times
-/// `scale`.
+/// (width and height in pixels) is added to every renderer without a size, times `scale`.
 ///
 /// A command with `--explain` is not changed, because its pixel may not be in a smaller picture.
 #[must_use]
@@ -166,7 +167,7 @@ pub fn resized(command: &str, default: [u32; 2], scale: f64) -> String {
     command.split('|').map(stage).collect::<Vec<_>>().join("|")
 }
 
-/// The command with further options for every `ugrainbow` and `ugphoton`.
+/// The command with further options for every renderer.
 #[must_use]
 pub fn with_options(command: &str, options: &str) -> String {
     RENDERERS

@@ -1,9 +1,10 @@
 //! Channels of EXR pictures besides colour: the emission event, Doppler factor and body seen at
 //! each pixel.
 
+use glam::DVec3;
 use rayon::prelude::*;
 use ugimage::{Plane, Samples};
-use ugphysics::{doppler_at, length};
+use ugphysics::{aberrate, doppler_at, length};
 
 use crate::emission::{Emission, SeenItem};
 
@@ -26,12 +27,15 @@ pub enum Channel {
     Id,
     /// `velocity.X`, `velocity.Y`, `velocity.Z`: of the body; 0 where nothing is visible.
     Velocity,
+    /// `direction.X`, `direction.Y`, `direction.Z`: unit vector to what is seen, in the frame of the
+    /// body (P6); 0 where nothing is visible.
+    Direction,
 }
 
 impl Channel {
     /// All channels.
-    pub const ALL: [Self; 6] =
-        [Self::Doppler, Self::Time, Self::Distance, Self::Depth, Self::Id, Self::Velocity];
+    pub const ALL: [Self; 7] =
+        [Self::Doppler, Self::Time, Self::Distance, Self::Depth, Self::Id, Self::Velocity, Self::Direction];
 
     /// Its name.
     pub fn name(self) -> &'static str {
@@ -42,6 +46,7 @@ impl Channel {
             Self::Depth => "Z",
             Self::Id => "id",
             Self::Velocity => "velocity",
+            Self::Direction => "direction",
         }
     }
 
@@ -69,6 +74,10 @@ pub fn channel_planes(
     };
     let plane = |name: &str, samples| Plane { name: name.to_owned(), samples };
     let name = channel.name();
+    let axes = |vector: &(dyn Fn(&Emission) -> DVec3 + Sync)| {
+        let axis = |(axis, letter)| plane(&format!("{name}.{letter}"), of(&move |e| vector(e)[axis], 0.0));
+        ["X", "Y", "Z"].into_iter().enumerate().map(axis).collect()
+    };
     match channel {
         Channel::Doppler => {
             vec![plane(name, of(&|emission| doppler_at(emission.place, emission.velocity), 0.0))]
@@ -80,14 +89,8 @@ pub fn channel_planes(
             let id = |idx: usize| seen(idx).map_or(0, |(item, _)| item.saturating_add(1));
             vec![plane(name, Samples::Whole((0..n_pixels).into_par_iter().map(id).collect()))]
         }
-        Channel::Velocity => ["X", "Y", "Z"]
-            .into_iter()
-            .enumerate()
-            .map(|(axis, letter)| {
-                let part = of(&move |emission| emission.velocity.beta()[axis], 0.0);
-                plane(&format!("{name}.{letter}"), part)
-            })
-            .collect(),
+        Channel::Velocity => axes(&|emission| emission.velocity.beta()),
+        Channel::Direction => axes(&|emission| aberrate(emission.place, emission.velocity)),
     }
 }
 

@@ -79,10 +79,12 @@ pub struct PictureArgs {
     #[arg(long, visible_alias = "pack", help_heading = PICTURE)]
     pz: bool,
 
-    /// Channels to add to an EXR picture, separated by commas: D, time, distance, Z, id, velocity
+    /// Channels to add to an EXR picture, separated by commas: D, time, distance, Z, id,
+    /// velocity, direction
     ///
     /// Doppler factor, emission time, distance of the emission event, depth along the view, number
-    /// of the face, velocity of the body; all at the middle of the pixel.
+    /// of the face, velocity of the body, direction of the emission event in the frame of the body;
+    /// all at the middle of the pixel.
     #[arg(long, value_name = "LIST", value_parser = channels, visible_alias = "channels", help_heading = PICTURE)]
     ch: Option<Channels>,
 }

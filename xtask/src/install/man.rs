@@ -46,7 +46,8 @@ pub fn overview(manuals: &[Manual]) -> String {
         "These programs are filters that pass scenes on as text, in the UniGrafix language. uglorentz \
          computes shapes as seen in relativistic motion, ugdoppler colours and brightness, and ugrainbow draws \
          the picture. So a velocity is given once, to the first program. ugphoton traces rays: it reads a scene \
-         at rest and draws it with mirrors, glass and shadows, without the others.",
+         at rest and draws it with mirrors, glass and shadows, without the others. ugwarp shows a 360-degree panorama \
+         as a fast traveller sees it.",
     );
     page.paragraph(
         "Without ugdoppler bodies keep the colours that they have at rest. ugdoppler -sp shifts whole spectra, \

@@ -1,0 +1,245 @@
+//! The command line.
+
+use std::path::Path;
+
+use clap::{ArgAction, Parser};
+use glam::DVec3;
+use ugimage::Format;
+use uglight::{ColorShift, HueShift, SpectralShift};
+use ugphysics::{Brightness, Velocity};
+use ugpicture::Output;
+use ugpicture::cli::{
+    AnnotationArgs, PICTURE, PictureArgs, format_for, format_named, refuse_terminal, with_format,
+    write_picture,
+};
+use ugpicture::lens::Lens;
+use ugpipe::{CommonArgs, Context, Failure, Manual, ToolArgs, finite, one_of, sha256, vector};
+use ugsky::{Basis, Extent};
+
+use crate::config::Config;
+use crate::error::Error;
+use crate::open::open;
+use crate::render::{metadata, run};
+
+/// Shows a 360-degree panorama as a fast traveller sees it
+///
+/// Reads an equirectangular panorama (PNG, JPEG, HDR or EXR) and writes a picture: a perspective
+/// view, a panorama, a fisheye or a cube map. In the panorama y is ahead, in its middle, x is to the
+/// right and z up.
+#[derive(Clone, Debug, Parser)]
+#[command(name = "ugwarp", version, after_help = EXAMPLES)]
+#[command(mut_arg("aa", |arg| arg.default_value("1")))]
+pub struct Args {
+    /// Velocity of the surroundings, fraction of c
+    ///
+    /// As in the other programs the velocity of what is seen, in the frame of the camera.
+    #[arg(long = "vel", visible_alias = "velocity", value_names = ["X", "Y", "Z"], num_args = 3,
+          action = ArgAction::Set, allow_hyphen_values = true, value_parser = finite, conflicts_with = "cv")]
+    velocity: Option<Vec<f64>>,
+
+    /// Velocity of the camera in the panorama, fraction of c
+    #[arg(long, visible_alias = "camera-velocity", value_names = ["X", "Y", "Z"], num_args = 3,
+          action = ArgAction::Set, allow_hyphen_values = true, value_parser = finite)]
+    cv: Option<Vec<f64>>,
+
+    /// Angles that the panorama shows, in degrees [default: -180 180 -90 90]
+    ///
+    /// Longitudes of its left and right edge, 0 ahead and 90 to the right, and latitudes of its
+    /// lower and upper edge. Where it shows nothing there is background.
+    #[arg(long, num_args = 4, value_names = ["WEST", "EAST", "SOUTH", "NORTH"], action = ArgAction::Set,
+          allow_hyphen_values = true, value_parser = finite)]
+    part: Option<Vec<f64>>,
+
+    /// Brightness law: report (D), photon (D^3), bolometric (D^4), none [default: report]
+    ///
+    /// Values above 1 are clipped, unless -ex or -tc is given.
+    #[arg(long, visible_alias = "brightness", value_name = "LAW",
+          value_parser = one_of(Brightness::ALL.map(Brightness::name), law), conflicts_with = "no_flux", help_heading = COLOR)]
+    br: Option<Brightness>,
+
+    /// Shift spectra instead of hues
+    ///
+    /// The brightness law is D^5 per wavelength, and light brighter than white is clipped only in
+    /// the last step. A picture has three numbers per colour and no infrared or ultraviolet light:
+    /// --basis says which spectra they stand for.
+    #[arg(long, visible_alias = "spectral", conflicts_with = "br", help_heading = COLOR)]
+    sp: bool,
+
+    /// Spectra of colours: smooth, blackbody, or three temperatures [default: smooth]
+    ///
+    /// smooth: daylight on surfaces with smooth reflectances. blackbody: each colour is a black
+    /// body. Three temperatures in kelvins, such as 3500 5900 10000: sums of black bodies. Implies -sp.
+    #[arg(long, num_args = 1..=3, value_names = ["BASIS", "T2", "T3"], action = ArgAction::Set,
+          conflicts_with = "br", help_heading = COLOR)]
+    basis: Option<Vec<String>>,
+
+    /// Leave wavelengths as they are
+    #[arg(long, help_heading = COLOR)]
+    no_doppler: bool,
+
+    /// Leave brightness as it is
+    #[arg(long, help_heading = COLOR)]
+    no_flux: bool,
+
+    /// Panorama of all directions
+    ///
+    /// Longitude across the picture, latitude down, the view direction in the middle
+    /// (equirectangular). -sz W H with W = 2 H has square degrees.
+    #[arg(long, visible_alias = "panorama", conflicts_with = "fish", help_heading = PICTURE)]
+    pan: bool,
+
+    /// Fisheye that shows ANGLE degrees in a circle, as for domes
+    ///
+    /// The distance to the middle of the picture is the angle to the view direction (equidistant).
+    /// A dome needs 180.
+    #[arg(long, value_name = "ANGLE", visible_alias = "fisheye", value_parser = fisheye, help_heading = PICTURE)]
+    fish: Option<f64>,
+
+    /// Cube map: six square views from left to right
+    ///
+    /// Right, left, up, down, front, back of the view direction: +X, -X, +Y, -Y, +Z, -Z of cube
+    /// maps, each as seen from inside. -sz W H needs W = 6 H.
+    #[arg(long, visible_alias = "cube-map", conflicts_with_all = ["pan", "fish"], help_heading = PICTURE)]
+    cube: bool,
+
+    /// Format of the picture [default: by the ending of -fo, else png]
+    ///
+    /// png16 has 16 bits per component. exr, pfm and hdr hold linear light, neither clipped nor
+    /// gamut-mapped: white is 1, and components may exceed 1 or be negative.
+    #[arg(long, value_name = "FMT", visible_alias = "format",
+          value_parser = one_of(Format::ALL.map(Format::name), format_named), help_heading = PICTURE)]
+    dt: Option<Format>,
+
+    #[command(flatten)]
+    picture: PictureArgs,
+
+    #[command(flatten)]
+    annotations: AnnotationArgs,
+
+    #[command(flatten)]
+    common: CommonArgs,
+}
+
+const COLOR: &str = "Colour";
+
+const EXAMPLES: &str = "Examples:
+  ugwarp -cv 0 .9 0 -va 90 sky.png > view.png
+  ugwarp -cv 0 .5 0 -sp -ex auto -pan -sz 2048 1024 sky.png > moving.png
+  ugwarp -vel 0 -.9 0 --basis 3500 5900 10000 -fish 180 -sz 900 900 sky.png > dome.png
+  ugwarp -cv 0 .5 0 -dt exr -ch D,direction sky.png > light.exr";
+
+/// What the help, the man page and the completions of the program say.
+pub fn manual() -> Manual {
+    ugpipe::manual::<Args>()
+}
+
+impl ToolArgs for Args {
+    const ESSENTIAL: &'static [&'static str] =
+        &["-vel", "-cv", "--part", "-sp", "--basis", "-vc", "-va", "-pan", "-fish", "-sz", "-ex", "-fo"];
+
+    fn common(&self) -> &CommonArgs {
+        &self.common
+    }
+}
+
+impl Args {
+    fn config(&self, output: Option<&Path>) -> Result<Config, Failure> {
+        let output = Output::Color(format_for(self.dt, output)?);
+        Ok(Config {
+            velocity: self.velocity()?,
+            shift: self.color_shift(),
+            basis: self.basis.as_deref().map_or(Ok(Basis::Smooth), basis)?,
+            picture: self.picture.options(output, self.annotations.options())?,
+            lens: match self.fish {
+                Some(degrees) => Lens::Fisheye { angle: degrees.to_radians() },
+                None if self.pan => Lens::Panorama,
+                None if self.cube => Lens::Cube,
+                None => Lens::Pinhole,
+            },
+        })
+    }
+
+    /// The velocity of the camera.
+    fn velocity(&self) -> Result<Velocity, Failure> {
+        let beta = |numbers: &Option<Vec<f64>>| {
+            let beta = vector(numbers.as_deref()).map(DVec3::from_array).unwrap_or_default();
+            Velocity::from_beta(beta).map_err(|error| Failure::Usage(error.to_string()))
+        };
+        if self.cv.is_some() { beta(&self.cv) } else { Ok(-beta(&self.velocity)?) }
+    }
+
+    fn color_shift(&self) -> ColorShift {
+        let doppler = !self.no_doppler;
+        if self.sp || self.basis.is_some() {
+            return ColorShift::Spectra(SpectralShift { doppler, flux: !self.no_flux });
+        }
+        let law = if self.no_flux { Brightness::None } else { self.br.unwrap_or_default() };
+        ColorShift::Hues(HueShift { doppler, law })
+    }
+
+    fn extent(&self) -> Option<Extent> {
+        let [west, east, south, north]: [f64; 4] = self.part.as_deref()?.try_into().ok()?;
+        let radians = |edges: [f64; 2]| edges.map(f64::to_radians);
+        Some(Extent { longitudes: radians([west, east]), latitudes: radians([south, north]) })
+    }
+}
+
+/// The whole program between its streams: reads the panorama, makes a picture, writes it.
+///
+/// # Errors
+/// Bad usage, a bad panorama, or a stream that fails.
+pub fn draw(args: &Args, context: &mut Context) -> Result<(), Failure> {
+    let config = args.config(context.output_name())?;
+    config.check().map_err(failure)?;
+    if let Some(format) = config.picture.output.format() {
+        refuse_terminal(format, context)?;
+    }
+    let input = context.input()?;
+    context.detail(&format!("read {} bytes", input.text.len()));
+    let opened = open(&input.text, args.extent()).map_err(|error| match error {
+        Error::Read(_) | Error::Shape { .. } => Failure::Failed(format!("`{}`: {error}", input.name)),
+        error => failure(error),
+    })?;
+    context.detail("decoded the panorama");
+    let command_line = with_format(context.command_line(), config.picture.output, args.dt.is_some());
+    let origin = format!("SHA-256 {} {}", sha256(&input.text), context.recorded_name());
+    let metadata = metadata(Some(&origin), &command_line);
+    let picture = run(&config, &opened, &metadata, &context.steps()).map_err(failure)?;
+    write_picture(&picture, config.picture.size, context)
+}
+
+fn failure(error: Error) -> Failure {
+    if error.is_usage() { Failure::usage(error) } else { Failure::failed(error) }
+}
+
+/// The name of a brightness law.
+fn law(word: &str) -> Result<Brightness, String> {
+    Brightness::from_name(word)
+        .ok_or_else(|| format!("none of the laws {}", Brightness::ALL.map(Brightness::name).join(", ")))
+}
+
+/// The name of a basis, or three temperatures.
+fn basis(words: &[String]) -> Result<Basis, Failure> {
+    match words {
+        [word] if word == "smooth" => Ok(Basis::Smooth),
+        [word] if word == "blackbody" => Ok(Basis::BlackBody),
+        [first, second, third] => {
+            let kelvin = |word: &String| finite(word).map_err(Failure::Usage);
+            Ok(Basis::Planck([kelvin(first)?, kelvin(second)?, kelvin(third)?]))
+        }
+        _ => Err(Failure::Usage(format!(
+            "`{}` is no basis: --basis takes smooth, blackbody or three temperatures",
+            words.join(" ")
+        ))),
+    }
+}
+
+/// An angle of view, in degrees.
+fn fisheye(word: &str) -> Result<f64, String> {
+    let angle = finite(word)?;
+    if 0.0 < angle && angle <= 360.0 {
+        Ok(angle)
+    } else {
+        Err("a fisheye shows more than 0 and at most 360 degrees".to_owned())
+    }
+}

@@ -1,0 +1,77 @@
+//! The options of a picture of a panorama.
+
+use uglight::ColorShift;
+use ugphysics::Velocity;
+use ugpicture::lens::Lens;
+use ugpicture::{Channel, PictureOptions};
+use ugsky::Basis;
+
+use crate::error::Error;
+
+/// Everything besides the panorama that affects the bytes of a picture.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Config {
+    /// Velocity of the camera in the frame of the panorama.
+    pub velocity: Velocity,
+    /// How motion changes colours.
+    pub shift: ColorShift,
+    /// The spectra of colours, if spectra are shifted.
+    pub basis: Basis,
+    /// Camera, size, samples, format, and other options that renderers share. The camera looks in
+    /// the direction from its eye point to its view centre, by default along +y.
+    pub picture: PictureOptions,
+    /// Which direction is seen where.
+    pub lens: Lens,
+}
+
+impl Default for Config {
+    /// At rest, with the defaults of the command line.
+    fn default() -> Self {
+        Self {
+            velocity: Velocity::ZERO,
+            shift: ColorShift::default(),
+            basis: Basis::Smooth,
+            picture: PictureOptions { samples: 1, ..PictureOptions::default() },
+            lens: Lens::Pinhole,
+        }
+    }
+}
+
+impl Config {
+    /// Refuses options that exclude each other, and pictures that do not fit in memory.
+    ///
+    /// # Errors
+    /// [`Error::Options`], [`Error::Picture`].
+    pub(crate) fn check(&self) -> Result<(), Error> {
+        let picture = &self.picture;
+        let refused = |text| Err(Error::Options(text));
+        if picture.camera.is_orthographic {
+            return refused("light from all directions meets at one point, so there is no -og: leave it out");
+        }
+        if picture.camera.name.is_some() {
+            return refused("a panorama has no cameras with names: leave out -cam, and give -vc and -va");
+        }
+        if picture.annotations.outline || picture.annotations.grid {
+            return refused("outline and grid (-dl, -gr) are for scenes: leave them out");
+        }
+        let is_of_sky =
+            |channel: &Channel| matches!(channel, Channel::Doppler | Channel::Direction | Channel::Velocity);
+        if !picture.channels.iter().all(is_of_sky) {
+            return refused(
+                "a sky has no time, distance, Z or id (-ch): the channels of a panorama are D, direction and velocity",
+            );
+        }
+        let [width, height] = picture.size;
+        if self.lens == Lens::Cube {
+            if u64::from(width) != 6 * u64::from(height) {
+                return refused(
+                    "a cube map (-cube) is six squares side by side: give -sz W H with W = 6 H, such as -sz 3072 512",
+                );
+            }
+            if picture.annotations.is_any() {
+                return refused("annotations (-cap, -lg) are for pictures of a single view: leave out -cube");
+            }
+        }
+        Ok(picture.check()?)
+    }
+}

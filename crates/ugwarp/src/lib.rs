@@ -1,0 +1,66 @@
+//! Panoramas as a fast traveller sees them.
+//!
+//! A 360° photograph holds all light that arrives at one event. Aberration, the Doppler effect and
+//! the searchlight effect turn it into what any other observer sees who is there at the same
+//! moment, exactly and whatever the scene was (Weiskopf 2000). What the picture does not hold is the
+//! spectrum of its colours, infrared and ultraviolet light above all: [`Basis`] and [`ColorShift`]
+//! are assumptions about it.
+//!
+//! - [`open`] makes a panorama of the bytes of a PNG, JPEG, HDR or EXR file.
+//! - [`render`] makes a picture of a panorama, [`light`] linear light.
+//! - [`Warp`] is a picture's map to the sky, and the light of its velocity, ready to use with any
+//!   number of panoramas.
+//!
+//! # Modules
+//!
+//! Each line imports only from the lines above it:
+//!
+//! ```text
+//! error  config                             errors; options
+//! open                                      from files to panoramas
+//! shade                                     colours as seen
+//! warp                                      from pixels to the sky, and their light
+//! render                                    from a panorama to a picture, with messages
+//! cli                                       the command line
+//! ```
+//!
+//! # Example
+//!
+//! The law of 1988 at D = 2, straight ahead of a traveller at 0.6 c: the value of a grey sky doubles.
+//!
+//! ```
+//! use ugphysics::Velocity;
+//! use ugsky::{Extent, Panorama, Texels};
+//! use ugwarp::{Config, PictureOptions, light};
+//!
+//! let sky = Panorama::new([64, 32], Texels::Srgb(vec![[64, 64, 64, 255]; 64 * 32]), Extent::FULL)?;
+//! let velocity = Velocity::from_beta(glam::DVec3::new(0.0, 0.6, 0.0))?;
+//! let picture = PictureOptions { size: [3, 3], samples: 1, ..PictureOptions::default() };
+//! let frame = light(&sky, &Config { velocity, picture, ..Config::default() })?;
+//! let expected = ugphysics::srgb_decode(2.0 * 64.0 / 255.0) as f32;
+//! // The mean over a large pixel, in which D falls from 2 to 1.9.
+//! assert!((frame.pixels()[4][0] - expected).abs() < 5e-3, "{:?}", frame.pixels()[4]);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+#[cfg(feature = "cli")]
+mod cli;
+mod config;
+mod error;
+mod open;
+mod render;
+mod shade;
+mod warp;
+
+#[cfg(feature = "cli")]
+pub use cli::{Args, draw, manual};
+pub use config::Config;
+pub use error::Error;
+pub use open::{Opened, open};
+pub use render::{Rendering, light, metadata, render, run};
+pub use uglight::{ColorShift, HueShift, SpectralShift};
+pub use ugpicture::lens::Lens;
+pub use ugpicture::{Background, Channel, Exposure, Filter, Output, PictureFile, PictureOptions, Tone};
+pub use ugscene::CameraOptions;
+pub use ugsky::{Basis, Extent, Observer, Panorama, Texels};
+pub use warp::Warp;

@@ -1,0 +1,205 @@
+//! From a panorama to a picture.
+
+use rayon::prelude::*;
+use ugimage::{Compression, Development, Frame, LinearFrame, Metadata};
+use ugparse::{Diagnostics, Scene, Source};
+use ugpicture::{
+    Annotated, Annotations, DepthBuffer, Error as PictureError, Exposure, Image, Layout, Output, PictureFile,
+    SceneState, channel_planes,
+};
+use ugpipe::Progress;
+use ugscene::CameraOptions;
+use ugsky::Panorama;
+
+use crate::config::Config;
+use crate::error::Error;
+use crate::open::Opened;
+use crate::warp::{Statistics, Warp, camera};
+
+/// Least brightness at which clipping is reported; less is invisible in 8 bits.
+const CLIPPED: f32 = 1.001;
+
+/// A picture of a panorama.
+#[derive(Clone, Debug)]
+pub struct Rendering {
+    image: Image,
+    output: Output,
+    compression: Compression,
+    /// Notes for the user, one sentence each.
+    pub notes: Vec<String>,
+}
+
+impl Rendering {
+    /// The bytes of a file of the kind that the options ask for.
+    pub fn into_file(self, metadata: &Metadata) -> Vec<u8> {
+        self.image.into_file(self.output, metadata, self.compression)
+    }
+
+    /// 8-bit pixels for a display.
+    pub fn into_frame(self) -> Frame {
+        self.image.into_frame()
+    }
+}
+
+/// Makes a picture of a panorama.
+///
+/// # Errors
+/// See [`Error`].
+pub fn render(panorama: &Panorama, config: &Config) -> Result<Rendering, Error> {
+    render_with(panorama, config, &())
+}
+
+/// The linear light of a picture with its channels, without exposure and gamut mapping: white is 1.
+/// Options for the
+/// file, exposure, tone curve and annotations are ignored.
+///
+/// # Errors
+/// See [`Error`].
+pub fn light(panorama: &Panorama, config: &Config) -> Result<LinearFrame, Error> {
+    let mut config = config.clone();
+    let picture = &mut config.picture;
+    (picture.output, picture.exposure, picture.tone) =
+        (Output::Color(ugimage::Format::Exr), None, ugimage::Tone::Clip);
+    picture.annotations = ugpicture::AnnotationOptions::default();
+    let warp = Warp::new(&config)?;
+    let (mut frame, _) = warp.light(panorama, &());
+    push_channels(&mut frame, &warp, &config);
+    Ok(frame)
+}
+
+/// Adds the channels that the options ask for.
+fn push_channels(frame: &mut LinearFrame, warp: &Warp, config: &Config) {
+    for &channel in &config.picture.channels {
+        let n_pixels = frame.pixels().len();
+        let planes = channel_planes(channel, n_pixels, &|idx| warp.seen_item(idx));
+        planes.into_iter().for_each(|plane| frame.push_plane(plane));
+    }
+}
+
+/// What a picture says about its making: our name and version, the command line, and the hash and
+/// name of the panorama. `command_line`: our own, empty if there is none.
+pub fn metadata(origin: Option<&str>, command_line: &str) -> Metadata {
+    let scene = Scene { origin: origin.map(str::to_owned), ..Scene::default() };
+    ugpicture::metadata(&scene, env!("CARGO_PKG_NAME"), env!("CARGO_PKG_VERSION"), command_line)
+}
+
+/// Makes a picture of a panorama and packs it into a file.
+///
+/// # Errors
+/// See [`Error`].
+pub fn run(
+    config: &Config,
+    opened: &Opened,
+    metadata: &Metadata,
+    progress: &dyn Progress,
+) -> Result<PictureFile, Error> {
+    let rendering = render_with(&opened.panorama, config, progress)?;
+    progress.step("compression", 0);
+    let notes = opened.notes.iter().chain(&rendering.notes).cloned().collect();
+    Ok(PictureFile {
+        bytes: rendering.into_file(metadata),
+        notes,
+        warnings: Diagnostics::new(&Source::new("", ""), Vec::new()),
+    })
+}
+
+fn render_with(panorama: &Panorama, config: &Config, progress: &dyn Progress) -> Result<Rendering, Error> {
+    config.check()?;
+    let layout = Layout::new(&config.picture)?;
+    let config = &Config { picture: layout.of_scene(&config.picture).into_owned(), ..config.clone() };
+    let picture = &config.picture;
+    progress.step("preparing", 0);
+    let warp = Warp::new(config)?;
+    let (mut frame, statistics) = warp.light(panorama, progress);
+    push_channels(&mut frame, &warp, config);
+    let (image, development) = developed(frame, &warp, config);
+    progress.step("annotating", 0);
+    let annotations = annotate(&layout, &warp, config, development)?;
+    let mut notes = notes(&warp, config, &statistics, development);
+    notes.extend(annotations.notes.iter().cloned());
+    let compression = if picture.small { Compression::Small } else { Compression::Fast };
+    Ok(Rendering { image: annotations.composite(image), output: picture.output, compression, notes })
+}
+
+/// The picture for its format, and how its light was developed; `None` if it was not.
+fn developed(mut frame: LinearFrame, warp: &Warp, config: &Config) -> (Image, Option<Development>) {
+    let picture = &config.picture;
+    if picture.output.is_linear() {
+        return (Image::Light(frame), None);
+    }
+    let development =
+        warp.is_uncut().then(|| Exposure::development(picture.exposure, picture.tone, || &frame));
+    if let Some(development) = development {
+        frame.pixels_mut().par_iter_mut().for_each(|[red, green, blue, _]| {
+            [*red, *green, *blue] = development.apply([*red, *green, *blue]);
+        });
+    }
+    let is_deep = picture.output.format().is_some_and(|format| format.is_deep());
+    (if is_deep { Image::Light(frame) } else { Image::Display(frame.to_display()) }, development)
+}
+
+fn annotate(
+    layout: &Layout,
+    warp: &Warp,
+    config: &Config,
+    development: Option<Development>,
+) -> Result<Annotations, Error> {
+    let picture = &config.picture;
+    let n_pixels = picture.size[0] as usize * picture.size[1] as usize;
+    let seen: Option<Vec<_>> = picture
+        .annotations
+        .legend
+        .then(|| (0..n_pixels).into_par_iter().map(|idx| warp.seen_item(idx)).collect());
+    let annotated = Annotated {
+        scene: &Scene::default(),
+        camera: &camera(&picture.camera),
+        is_shifted: config.shift.shifts_wavelengths(),
+        seen: seen.as_deref(),
+    };
+    // Only grids and outlines need depths, and a sky has neither.
+    let depths = |_: &Scene, _: &CameraOptions, _: SceneState| -> Result<DepthBuffer, PictureError> {
+        Ok(DepthBuffer { size: picture.size, seen: vec![None; n_pixels] })
+    };
+    Ok(layout.annotate(annotated, picture, development, depths)?)
+}
+
+/// Notes for the user about a picture.
+fn notes(
+    warp: &Warp,
+    config: &Config,
+    statistics: &Statistics,
+    development: Option<Development>,
+) -> Vec<String> {
+    let picture = &config.picture;
+    let mut notes = Vec::new();
+    if warp.is_up_replaced {
+        notes.push(
+            "the up direction is zero or parallel to the view, so another axis is up; choose one with -ud"
+                .into(),
+        );
+    }
+    if statistics.n_covered == 0 {
+        notes.push("the picture shows no part of the panorama: try another -vc, or a wider -va".to_owned());
+    } else if statistics.max_light == 0.0 {
+        notes.push(
+            "all that is in the picture is black: its wavelengths are outside 380-780 nm; try a lower speed, or \
+             --no-doppler --no-flux to see the shape"
+                .to_owned(),
+        );
+    }
+    if picture.output.is_linear() {
+        return notes;
+    }
+    if let (Some(Exposure::Auto), Some(Development { stops, .. })) = (picture.exposure, development) {
+        notes.push(format!("exposure is {stops} stops; -ex {stops} gives the same picture"));
+    } else if picture.exposure.is_none()
+        && picture.tone == ugimage::Tone::Clip
+        && statistics.max_light > CLIPPED
+    {
+        notes.push(format!(
+            "max light is {:.3}, clip to 1.0; -ex auto brings it into range",
+            statistics.max_light
+        ));
+    }
+    notes
+}

@@ -1,0 +1,160 @@
+//! The program itself: streams, exit codes, messages, metadata, hostile files.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking, its helpers too")]
+
+use std::io::{Cursor, Read, Write};
+use std::os::unix::process::ExitStatusExt;
+use std::process::{Command, Output, Stdio};
+
+use ugimage::{Format, Frame, LinearFrame, Metadata};
+
+/// A small panorama as PNG.
+fn sky() -> Vec<u8> {
+    let pixel = |idx: u32| [(idx % 64 * 4) as u8, (idx / 64 * 8) as u8, 90, 255];
+    let frame = Frame::new([64, 32], true, (0..64 * 32).map(pixel).collect());
+    Format::Png.encode(&frame, &Metadata::default())
+}
+
+fn ugwarp(args: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_ugwarp"));
+    command.args(args).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    command
+}
+
+/// Runs the program with a file on its standard input.
+fn fed(args: &[&str], file: &[u8]) -> Output {
+    let mut child = ugwarp(args).spawn().unwrap();
+    // Fails if the program ends without reading its input, which is irrelevant here.
+    let _ = child.stdin.take().unwrap().write_all(file);
+    child.wait_with_output().unwrap()
+}
+
+fn stderr(output: &Output) -> String {
+    String::from_utf8(output.stderr.clone()).unwrap()
+}
+
+/// Runs the program, which has to fail with nothing on standard output.
+#[track_caller]
+fn refused(args: &[&str], file: &[u8], status: i32, expected: &str) {
+    let output = fed(args, file);
+    assert_eq!(output.status.code(), Some(status), "{}", stderr(&output));
+    assert!(output.stdout.is_empty());
+    assert!(stderr(&output).contains(expected), "{}", stderr(&output));
+}
+
+#[test]
+fn a_picture_says_how_it_was_made() {
+    let output = fed(&["-sz", "20", "10", "-nt", "2", "-qt", "-cv", "0", ".1", "0"], &sky());
+    assert_eq!((output.status.code(), stderr(&output)), (Some(0), String::new()));
+    let reader = png::Decoder::new(Cursor::new(output.stdout)).read_info().unwrap();
+    let info = reader.info();
+    let texts = &info.uncompressed_latin1_text;
+    let text = |keyword: &str| texts.iter().find(|text| text.keyword == keyword).unwrap().text.clone();
+    assert_eq!((info.width, info.height), (20, 10));
+    assert!(text("Software").starts_with("ugwarp "));
+    let comment = text("Comment");
+    let (command, recipe) = comment.split_once('\n').unwrap();
+    assert_eq!(command, "ugwarp -sz 20 10 -cv 0 .1 0");
+    assert!(recipe.starts_with(&format!("{command} # SHA-256 ")), "{recipe}");
+}
+
+#[test]
+fn options_have_two_spellings() {
+    let short = "-sz 20 10 -vel .1 0 0 -dt pfm -sp -pan -aa 2";
+    let long = "--size 20 10 --velocity .1 0 0 --format pfm --spectral --panorama --samples 2";
+    let run = |options: &str| fed(&options.split(' ').collect::<Vec<_>>(), &sky());
+    let (short, long) = (run(short), run(long));
+    assert_eq!(short.status.code(), Some(0), "{}", stderr(&short));
+    assert!(short.stdout.starts_with(b"PF") && short.stdout == long.stdout);
+    // The surroundings that move by are those that a camera with the opposite velocity passes.
+    let camera = run("-sz 20 10 -cv -.1 0 0 -dt pfm -sp -pan -aa 2");
+    assert_eq!(short.stdout, camera.stdout);
+}
+
+#[test]
+fn the_same_bytes_on_any_number_of_threads() {
+    let run = |threads: &str| {
+        let options = ["-sz", "80", "60", "-cv", "0", ".8", "0", "-va", "120", "--basis", "smooth", "-qt"];
+        fed(&[&options[..], &["-nt", threads]].concat(), &sky()).stdout
+    };
+    let one = run("1");
+    assert!(one.starts_with(b"\x89PNG") && one == run("2") && one == run("7"));
+}
+
+#[test]
+fn mistakes_have_answers() {
+    let sky = sky();
+    refused(&["-vel", "1", "0", "0"], &sky, 2, "it must be below 1");
+    refused(&["-vel", ".1", "0", "0", "-cv", ".1", "0", "0"], &sky, 2, "-cv");
+    refused(&["-og"], &sky, 2, "there is no -og");
+    refused(&["-gr"], &sky, 2, "are for scenes");
+    refused(&["-cube"], &sky, 2, "give -sz W H with W = 6 H");
+    refused(&["-dt", "exr", "-ch", "time"], &sky, 2, "the channels of a panorama are D, direction");
+    refused(&["--basis", "green"], &sky, 2, "--basis takes smooth, blackbody or three temperatures");
+    refused(&["--basis", "5000", "5000", "9000"], &sky, 2, "are no basis of colours");
+    refused(&["--part", "10", "-10", "0", "20"], &sky, 2, "must increase from west to east");
+    refused(&["-vc", "0", "0", "0"], &sky, 1, "no direction to look in");
+    refused(&["no-such-file.png"], &sky, 1, "No such file");
+}
+
+#[test]
+fn what_is_no_panorama_is_refused() {
+    refused(&[], b"GIF89a", 1, "not a picture of a kind that is read: PNG, JPEG, HDR or EXR");
+    refused(&[], b"\xff\xd8\xff\xe0", 1, "not a readable JPEG file: the file is truncated");
+    refused(&[], b"#?RADIANCE\n", 1, "not a readable HDR file");
+    refused(&[], b"\x76\x2f\x31\x01", 1, "not a readable EXR file");
+    let shaped = |size: [u32; 2]| {
+        let pixels = vec![[9, 9, 9, 255]; (size[0] * size[1]) as usize];
+        Format::Png.encode(&Frame::new(size, true, pixels), &Metadata::default())
+    };
+    refused(&[], &shaped([60, 40]), 1, "60 x 40 pixels are not the shape of a panorama");
+    refused(&[], &shaped([8, 4]), 1, "has too few pixels");
+    let strip = fed(&["-sz", "20", "10", "--part", "-60", "60", "-40", "40"], &shaped([60, 40]));
+    assert_eq!(strip.status.code(), Some(0), "{}", stderr(&strip));
+    let file = sky();
+    for length in (0..file.len() - 30).step_by(37) {
+        assert_eq!(fed(&["-sz", "8", "8"], &file[..length]).status.code(), Some(1), "{length}");
+    }
+}
+
+/// Light that is not finite is counted, and drawn as a finite number.
+#[test]
+fn light_that_is_not_finite_is_bounded() {
+    let mut pixels = vec![[0.5, 0.5, 0.5, 1.0]; 64 * 32];
+    let file = |pixels: &[[f32; 4]]| {
+        Format::Exr.encode_linear_with(
+            &LinearFrame::new([64, 32], true, pixels.to_vec()),
+            &Metadata::default(),
+            ugimage::Compression::Fast,
+        )
+    };
+    let plain = fed(&["-sz", "8", "8", "-dt", "pfm", "--no-doppler", "--no-flux"], &file(&pixels));
+    assert_eq!((plain.status.code(), stderr(&plain)), (Some(0), String::new()));
+    pixels[16 * 64 + 32] = [1.25, -7.5, 2.0, 1.0];
+    let mut broken = file(&pixels);
+    // The writer has only finite numbers, so they are replaced in the file if it is not packed.
+    let mut replace = |from: f32, to: f32| {
+        let (from, to) = (from.to_le_bytes(), to.to_le_bytes());
+        let at = broken.windows(4).position(|bytes| bytes == from);
+        at.inspect(|&at| broken[at..at + 4].copy_from_slice(&to)).is_some()
+    };
+    let is_replaced = replace(-7.5, f32::NAN);
+    let output = fed(&["-sz", "8", "8", "-dt", "pfm", "--no-doppler", "--no-flux"], &broken);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert_eq!(is_replaced, stderr(&output).contains("1 pixels of the panorama are not finite"));
+    let numbers = output.stdout[output.stdout.len() - 4 * 3 * 64..].chunks_exact(4);
+    for number in numbers {
+        assert!(f32::from_le_bytes(number.try_into().unwrap()).is_finite());
+    }
+}
+
+#[test]
+fn a_closed_pipe_ends_the_program() {
+    let mut child = ugwarp(&["-sz", "2000", "2000", "-dt", "ppm"]).spawn().unwrap();
+    child.stdin.take().unwrap().write_all(&sky()).unwrap();
+    let mut stdout = child.stdout.take().unwrap();
+    stdout.read_exact(&mut [0; 9]).unwrap();
+    drop(stdout);
+    let output = child.wait_with_output().unwrap();
+    assert_eq!((output.status.signal(), stderr(&output)), (Some(13), String::new()));
+}

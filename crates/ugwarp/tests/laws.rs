@@ -1,0 +1,263 @@
+//! Pictures of panoramas against laws and published numbers.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+use core::f64::consts::{PI, TAU};
+
+use glam::DVec3;
+use ugimage::{LinearFrame, Samples};
+use ugphysics::{Brightness, Velocity, linear_srgb_to_xyz, srgb_encode, xyz_to_linear_srgb};
+use ugspectrum::Spectrum;
+use ugwarp::{
+    Basis, CameraOptions, Channel, ColorShift, Config, Extent, Filter, HueShift, Lens, Panorama,
+    PictureOptions, SpectralShift, Texels, light,
+};
+
+fn panorama(width: u32, color: impl Fn(DVec3) -> [f64; 3]) -> Panorama {
+    let size = [width, width / 2];
+    let texel = |idx: u32| {
+        let [column, row] = [idx % size[0], idx / size[0]].map(|at| f64::from(at) + 0.5);
+        let (sin_long, cos_long) = libm::sincos(TAU * (column / f64::from(size[0]) - 0.5));
+        let (sin_lat, cos_lat) = libm::sincos(PI * (0.5 - row / f64::from(size[1])));
+        let [red, green, blue] = color(DVec3::new(cos_lat * sin_long, cos_lat * cos_long, sin_lat));
+        [red as f32, green as f32, blue as f32, 1.0]
+    };
+    Panorama::new(size, Texels::Light((0..size[0] * size[1]).map(texel).collect()), Extent::FULL).unwrap()
+}
+
+fn ahead(beta: f64) -> Velocity {
+    Velocity::from_beta(DVec3::new(0.0, beta, 0.0)).unwrap()
+}
+
+fn geometry(velocity: Velocity, size: [u32; 2], lens: Lens) -> Config {
+    let picture = PictureOptions { size, samples: 1, ..PictureOptions::default() };
+    Config { velocity, shift: ColorShift::NONE, picture, lens, ..Config::default() }
+}
+
+/// The mean of a function over the sphere, by the pixels of a panorama.
+fn mean(frame: &LinearFrame, value: impl Fn([f32; 4]) -> f64) -> f64 {
+    let (mut sum, mut total) = (0.0, 0.0);
+    let height = frame.height();
+    for (idx, &pixel) in frame.pixels().iter().enumerate() {
+        let row = idx as u32 / frame.width();
+        let weight = libm::sin(PI * (f64::from(row) + 0.5) / f64::from(height));
+        sum += weight * value(pixel);
+        total += weight;
+    }
+    sum / total
+}
+
+/// Everything ahead in the frame of the sky is within f/(βγ) of the middle (Howard 1995, eq. 16).
+#[test]
+fn the_forward_hemisphere_is_a_disc() {
+    let sky = panorama(1024, |d| [if d.y > 0.0 { 1.0 } else { 0.0 }; 3]);
+    for (beta, angle) in [(0.5, 140.0), (0.9, 90.0), (0.99, 40.0)] {
+        let mut config = geometry(ahead(beta), [401, 401], Lens::Pinhole);
+        config.picture.camera = CameraOptions { view_angle: Some((angle, None)), ..CameraOptions::default() };
+        let frame = light(&sky, &config).unwrap();
+        let area: f64 = frame.pixels().iter().map(|pixel| f64::from(pixel[0])).sum();
+        let focal = 200.5 / libm::tan(0.5 * angle.to_radians());
+        let expected = focal / (beta * ahead(beta).gamma());
+        let found = (area / PI).sqrt();
+        assert!((found - expected).abs() < 0.2, "{beta}: {found}, not {expected} pixels");
+        // In each direction, too.
+        let row = &frame.pixels()[200 * 401..201 * 401];
+        let width: f64 = row.iter().map(|pixel| f64::from(pixel[0])).sum();
+        assert!((0.5 * width - expected).abs() < 0.5, "{beta}: {width}, not {}", 2.0 * expected);
+    }
+}
+
+/// A uniform sky has the means of D², D³ and D⁴ over the sphere of the observer.
+#[test]
+fn energies_of_a_uniform_sky() {
+    const VALUE: f64 = 0.05;
+    let grey = ugphysics::srgb_decode(VALUE);
+    let sky = panorama(256, |_| [grey; 3]);
+    for beta in [0.5, 0.9] {
+        let gamma = ahead(beta).gamma();
+        let seen = |law: Brightness| {
+            let mut config = geometry(ahead(beta), [512, 256], Lens::Panorama);
+            config.shift = ColorShift::Hues(HueShift { doppler: true, law });
+            light(&sky, &config).unwrap()
+        };
+        let value = |pixel: [f32; 4]| srgb_encode(f64::from(pixel[1])) / VALUE;
+        let square = mean(&seen(Brightness::Report), |pixel| value(pixel) * value(pixel));
+        let cube = mean(&seen(Brightness::Photon), value);
+        let fourth = mean(&seen(Brightness::Bolometric), value);
+        let expected = [1.0, gamma, gamma * gamma * (1.0 + beta * beta / 3.0)];
+        for (found, expected) in [square, cube, fourth].into_iter().zip(expected) {
+            assert!((found / expected - 1.0).abs() < 1e-3, "{beta}: {found}, not {expected}");
+        }
+    }
+}
+
+/// Resampling neither adds nor loses light: the mean over D² dΩ of the observer is that over the
+/// sky.
+#[test]
+fn light_is_kept_by_resampling() {
+    let color = |d: DVec3| [0.5 + 0.5 * d.x, 0.5 + 0.5 * libm::sin(9.0 * d.z + d.x), d.y * d.y];
+    let sky = panorama(512, color);
+    let rest = light(&sky, &geometry(Velocity::ZERO, [512, 256], Lens::Panorama)).unwrap();
+    for beta in [0.5, 0.9] {
+        let mut config = geometry(ahead(beta), [1024, 512], Lens::Panorama);
+        config.picture.channels = vec![Channel::Doppler];
+        let seen = light(&sky, &config).unwrap();
+        let Samples::Float(factors) = &seen.planes()[0].samples else { panic!("numbers") };
+        let pixels = seen.pixels().iter().zip(factors).map(|(pixel, factor)| {
+            let square = factor * factor;
+            [square * pixel[0], square * pixel[1], square * pixel[2], 1.0]
+        });
+        let weighted = LinearFrame::new([1024, 512], true, pixels.collect());
+        for channel in 0..3 {
+            let [found, expected] =
+                [&weighted, &rest].map(|frame| mean(frame, |pixel| f64::from(pixel[channel])));
+            assert!((found / expected - 1.0).abs() < 1e-3, "{beta} {channel}: {found}, not {expected}");
+        }
+    }
+}
+
+/// A uniform sky of a black body at T is one at D T in every direction.
+#[test]
+fn a_black_body_sky_stays_one() {
+    let spectrum = Spectrum::blackbody(5800.0, 0.4);
+    let rgb = xyz_to_linear_srgb(spectrum.seen(1.0));
+    let sky = panorama(64, |_| rgb);
+    for (beta, basis) in
+        [(0.5, Basis::BlackBody), (0.9, Basis::BlackBody), (0.3, Basis::Planck([3500.0, 5800.0, 10_000.0]))]
+    {
+        let mut config = geometry(ahead(beta), [512, 256], Lens::Panorama);
+        config.shift = ColorShift::Spectra(SpectralShift { doppler: true, flux: true });
+        config.basis = basis;
+        config.picture.channels = vec![Channel::Doppler];
+        let frame = light(&sky, &config).unwrap();
+        let Samples::Float(factors) = &frame.planes()[0].samples else { panic!("numbers") };
+        for (pixel, &factor) in frame.pixels().iter().zip(factors) {
+            let xyz = linear_srgb_to_xyz([pixel[0], pixel[1], pixel[2]].map(f64::from));
+            let exact = spectrum.seen(f64::from(factor));
+            for axis in 0..2 {
+                let [found, expected] = [xyz, exact].map(|xyz| xyz[axis] / (xyz[0] + xyz[1] + xyz[2]));
+                assert!((found - expected).abs() < 1e-4, "{beta} {factor}: {found}, not {expected}");
+            }
+            assert!((xyz[1] / exact[1] - 1.0).abs() < 2e-3, "{beta} {factor}: {xyz:?} {exact:?}");
+        }
+    }
+}
+
+/// The dipole of the microwave background: half the difference of the temperatures D T₀ ahead and
+/// behind, 3362.12 µK at 369.82 km/s (Planck 2018).
+#[test]
+fn the_dipole_of_the_microwave_background() {
+    const KELVIN: f64 = 2.725_48;
+    let sky = panorama(64, |_| [0.1; 3]);
+    let temperature = |center: DVec3| {
+        let mut config = geometry(ahead(369.82 / 299_792.458), [1, 1], Lens::Pinhole);
+        config.picture.camera = CameraOptions { center: Some(center), ..CameraOptions::default() };
+        config.picture.channels = vec![Channel::Doppler];
+        let frame = light(&sky, &config).unwrap();
+        let Samples::Float(factors) = &frame.planes()[0].samples else { panic!("numbers") };
+        KELVIN * f64::from(factors[0])
+    };
+    let dipole = 0.5e6 * (temperature(DVec3::Y) - temperature(DVec3::NEG_Y));
+    assert!((dipole - 3_362.118_538).abs() < 0.3, "{dipole} µK");
+}
+
+/// Peak signal-to-noise ratio of two frames, in dB; white is the peak.
+fn psnr(one: &LinearFrame, other: &LinearFrame) -> f64 {
+    let (mut sum, mut n) = (0.0, 0.0);
+    for (one, other) in one.pixels().iter().zip(other.pixels()) {
+        for channel in 0..3 {
+            let [one, other] =
+                [one, other].map(|pixel| srgb_encode(f64::from(pixel[channel].clamp(0.0, 1.0))));
+            sum += (one - other) * (one - other);
+            n += 1.0;
+        }
+    }
+    -10.0 * libm::log10(sum / n)
+}
+
+/// Hills of all sizes down to a few texels, and a soft edge.
+fn landscape(d: DVec3) -> [f64; 3] {
+    let wave =
+        |k: f64, shift: f64| libm::sin(k * d.x + shift) * libm::cos(k * d.z - shift) * libm::sin(k * d.y);
+    let sum: f64 = [(3.0, 0.2), (9.0, 1.0), (27.0, 2.0), (60.0, 0.5)]
+        .iter()
+        .map(|&(k, s)| wave(k, s) / libm::sqrt(k))
+        .sum();
+    let edge = 1.0 / (1.0 + libm::exp(-40.0 * (d.z + 0.2 * d.x)));
+    [0.4 + 0.3 * sum, 0.15 + 0.5 * edge + 0.2 * sum, 0.5 - 0.3 * edge]
+}
+
+fn as_panorama(frame: &LinearFrame) -> Panorama {
+    Panorama::new([frame.width(), frame.height()], Texels::Light(frame.pixels().to_vec()), Extent::FULL)
+        .unwrap()
+}
+
+/// A panorama warped by v and then by −v is the same again, light included.
+#[test]
+fn warping_back_is_the_inverse() {
+    let sky = panorama(1024, landscape);
+    let size = [1024, 512];
+    let rest = light(&sky, &geometry(Velocity::ZERO, size, Lens::Panorama)).unwrap();
+    assert!(
+        psnr(
+            &rest,
+            &LinearFrame::new(size, true, {
+                let exact = |idx: u32| {
+                    let [column, row] = [idx % 1024, idx / 1024].map(|at| f64::from(at) + 0.5);
+                    let (sin_long, cos_long) = libm::sincos(TAU * (column / 1024.0 - 0.5));
+                    let (sin_lat, cos_lat) = libm::sincos(PI * (0.5 - row / 512.0));
+                    let [red, green, blue] =
+                        landscape(DVec3::new(cos_lat * sin_long, cos_lat * cos_long, sin_lat));
+                    [red as f32, green as f32, blue as f32, 1.0]
+                };
+                (0..1024 * 512).map(exact).collect()
+            })
+        ) > 50.0
+    );
+    let velocity = Velocity::from_beta(DVec3::new(0.3, 0.35, 0.2)).unwrap();
+    assert!((velocity.speed() - 0.5).abs() < 0.01);
+    for shift in
+        [ColorShift::NONE, ColorShift::Hues(HueShift { doppler: false, law: Brightness::Bolometric })]
+    {
+        let warped = |sky: &Panorama, velocity: Velocity| {
+            let config = Config { shift, ..geometry(velocity, size, Lens::Panorama) };
+            light(sky, &config).unwrap()
+        };
+        let back = warped(&as_panorama(&warped(&sky, velocity)), -velocity);
+        let found = psnr(&rest, &back);
+        assert!(found > 40.0, "{shift:?}: {found} dB");
+    }
+}
+
+/// Filters widen the pixel as they are documented, and more samples change little.
+#[test]
+fn samples_and_filters_agree() {
+    let sky = panorama(1024, landscape);
+    let picture = |samples: u32, filter: Filter| {
+        let mut config = geometry(ahead(0.7), [160, 120], Lens::Pinhole);
+        config.picture.camera.view_angle = Some((100.0, None));
+        (config.picture.samples, config.picture.filter) = (samples, filter);
+        light(&sky, &config).unwrap()
+    };
+    for filter in Filter::ALL {
+        let found = psnr(&picture(1, filter), &picture(4, filter));
+        assert!(found > 45.0, "{filter:?}: {found} dB");
+    }
+}
+
+/// Near the speed of light a pixel shows most of the sky, and the picture is still a mean of it.
+#[test]
+fn pixels_that_show_half_the_sky() {
+    let sky = panorama(256, |d| [0.5 + 0.5 * d.x, 0.25, if d.y > 0.0 { 1.0 } else { 0.0 }]);
+    for rapidity in [3.0, 8.0, 30.0, 100.0] {
+        let velocity = Velocity::from_rapidity(DVec3::Y, rapidity).unwrap();
+        let frame = light(&sky, &geometry(velocity, [9, 9], Lens::Pinhole)).unwrap();
+        for pixel in frame.pixels() {
+            assert!(
+                (pixel[1] - 0.25).abs() < 1e-4 && (0.0..=1.001).contains(&pixel[0]),
+                "{rapidity}: {pixel:?}"
+            );
+        }
+        assert!(frame.pixels()[0][2] < 0.01 || rapidity < 4.0);
+    }
+}
