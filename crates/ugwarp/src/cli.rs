@@ -88,7 +88,7 @@ pub struct Args {
     #[arg(long, visible_alias = "panorama", conflicts_with = "fish", help_heading = PICTURE)]
     pan: bool,
 
-    /// Fisheye that shows ANGLE degrees in a circle, as for domes
+    /// Fisheye: ANGLE degrees in a circle, as for domes
     ///
     /// The distance to the middle of the picture is the angle to the view direction (equidistant).
     /// A dome needs 180.
@@ -135,7 +135,7 @@ pub fn manual() -> Manual {
 
 impl ToolArgs for Args {
     const ESSENTIAL: &'static [&'static str] =
-        &["-vel", "-cv", "--part", "-sp", "--basis", "-vc", "-va", "-pan", "-fish", "-sz", "-ex", "-fo"];
+        &["-vel", "-cv", "-part", "-sp", "-vc", "-va", "-pan", "-fish", "-sz", "-ex", "-fo"];
 
     fn common(&self) -> &CommonArgs {
         &self.common

@@ -46,7 +46,7 @@ impl fmt::Display for Error {
             Self::Shape { size: [width, height] } => write!(
                 f,
                 "{width} x {height} pixels are not the shape of a panorama, which is twice as wide as high: give the \
-                 angles that it shows with --part WEST EAST SOUTH NORTH, or --part -180 180 -90 90 if it shows all"
+                 angles that it shows with -part WEST EAST SOUTH NORTH, or -part -180 180 -90 90 if it shows all"
             ),
             Self::Picture(error) => error.fmt(f),
             Self::Basis(error) => error.fmt(f),

@@ -92,7 +92,7 @@ fn mistakes_have_answers() {
     refused(&["-dt", "exr", "-ch", "time"], &sky, 2, "the channels of a panorama are D, direction");
     refused(&["--basis", "green"], &sky, 2, "--basis takes smooth, blackbody or three temperatures");
     refused(&["--basis", "5000", "5000", "9000"], &sky, 2, "are no basis of colours");
-    refused(&["--part", "10", "-10", "0", "20"], &sky, 2, "must increase from west to east");
+    refused(&["-part", "10", "-10", "0", "20"], &sky, 2, "must increase from west to east");
     refused(&["-vc", "0", "0", "0"], &sky, 1, "no direction to look in");
     refused(&["no-such-file.png"], &sky, 1, "No such file");
 }
@@ -109,7 +109,7 @@ fn what_is_no_panorama_is_refused() {
     };
     refused(&[], &shaped([60, 40]), 1, "60 x 40 pixels are not the shape of a panorama");
     refused(&[], &shaped([8, 4]), 1, "has too few pixels");
-    let strip = fed(&["-sz", "20", "10", "--part", "-60", "60", "-40", "40"], &shaped([60, 40]));
+    let strip = fed(&["-sz", "20", "10", "-part", "-60", "60", "-40", "40"], &shaped([60, 40]));
     assert_eq!(strip.status.code(), Some(0), "{}", stderr(&strip));
     let file = sky();
     for length in (0..file.len() - 30).step_by(37) {
