@@ -14,10 +14,10 @@ mkdir -p "$out/rows"
 out=$(cd "$out" && pwd)
 cd "$(dirname "$0")/.."
 
-n_figures=50
+n_figures=95
 printf 'Builds the programs, then draws %s figures into %s\n' "$n_figures" "$out"
-printf 'On two cores: some minutes for the first build, then about one for the figures.\n\n'
-cargo build --release -p uglorentz -p ugdoppler -p ugrainbow -p ugsheet
+printf 'On two cores: some minutes for the first build, then about two for the figures.\n\n'
+cargo build --release -p uglorentz -p ugdoppler -p ugrainbow -p ugphoton -p ugsheet
 printf '\nDrawing:\n'
 export PATH="${CARGO_TARGET_DIR:-$PWD/target}/release:$PATH"
 cd scenes
@@ -60,6 +60,17 @@ draw() {
     ugrainbow -qt -sz "$width" "$height" "$@" -fo "$out/$name.png"
     announce "$name"
 }
+
+# trace NAME [OPTION...]: the shape of moving bodies by rays, to OUTDIR/NAME.png
+trace() {
+    local name=$1
+    shift
+    ugphoton -qt --no-doppler --no-flux -bg .8 210 .25 -sz "$width" "$height" "$@" -fo "$out/$name.png"
+    announce "$name"
+}
+
+# The functions of the gallery's page write variants of scenes.
+page() { sed -n 's/^    \([a-z_]*() {.*\)/\1/p' ../docs/gallery.md; }
 
 # Nguyen 1988, figure 1: the rainbow.
 draw nguyen-01 -wi rainbow.ug
@@ -159,6 +170,48 @@ uglorentz -in dice.ug | draw dice
 uglorentz lamp.ug | ugdoppler -qt | draw lamp-at-rest
 uglorentz lamp.ug | ugdoppler -qt -li | draw lamp-moving
 
+# With rays, by the gallery's scenes.
+eval "$(page)"
+
+# Nguyen 1988, figures 3 and 4: reflections; refractions and reflections.
+for speed in 0.0 0.3 0.6 0.9; do
+    trace "nguyen-03-reflections-${speed}c" -in <(over_floor_of_ice $speed)
+    trace "nguyen-04-refractions-${speed}c" -in <(behind_a_globe $speed)
+done
+
+# Chang, Lai and Chen 1996, figures 9 and 12 with shadows, and 18: a shadow that lags.
+for scene in teapot cubes sphere; do
+    trace "chang-09-rays-$scene-rest" -in $scene.ug
+    trace "chang-09-rays-$scene-0.95c" -in -vel .95 0 0 $scene.ug
+done
+for speed in 0.95 0.999; do
+    for time in 07 12 17 22; do trace "chang-10-rays-${speed}c-$time" -vel $speed 0 0 -ti $time -va 90 teapot.ug; done
+done
+trace chang-11-rays-rest street.ug
+trace chang-12a-rays-in-0.99c -vel 0 -.99 0 -ep 0 40 3 street.ug
+trace chang-12b-rays-out-0.99c -vel 0 .99 0 -ep 0 -250 3 -vc 0 23 10 street.ug
+for speed in 0.0 0.95; do trace "chang-18-shadow-${speed}c" -in <(over_floor $speed); done
+
+# Howard, Dance and Kitchen 1995, figures 6 to 8: an infinite plane ahead; a grid behind and beside.
+# Then both shutters.
+for speed in 0.0 0.5 0.9; do
+    trace "howard-06-plane-${speed}c" -cv 0 $speed 0 <(infinite_plane)
+    trace "howard-07-behind-${speed}c" -cv 0 -$speed 0 -ep 0 -14.4 0 grid.ug
+    trace "howard-08-beside-${speed}c" -in -vel -$speed 0 0 -ep 0 -8 0 grid.ug
+done
+trace howard-shutter-pinhole -cv 0 .5 0 -ep 0 -1.5 0 -va 112 grid.ug
+trace howard-shutter-film -cv 0 .5 0 -ep 0 -1.5 0 -va 112 --film-shutter 2 grid.ug
+
+# Li, Shum and Peng 2001, figures 5 and 6: glass and metal in a room of letters.
+for material in glass metal; do
+    trace "li-$material-right-0.9c" -in <($material '.9 0 0')
+    trace "li-$material-near-0.9c" -in <($material '0 -.9 0')
+    trace "li-$material-away-0.99c" -in <($material '0 .99 0')
+done
+
+# Our own: a glass of water.
+trace water-0.8c -in -rd 64 -rc .05 <(water .8)
+
 # Cars at 0.6c, from a camera at rest and from one that moves at 0.5c.
 uglorentz -an center -cv 0 0 0 traffic.ug | draw traffic-a-standing
 uglorentz -an center traffic.ug | draw traffic-b-driving
@@ -169,5 +222,5 @@ uglorentz -in -vel .9 0 0 glass.ug | draw glass-b-0.9c
 uglorentz -in -vel .9 0 0 glass.ug | draw glass-c-0.9c-edges -wf -lc 1 -dc 7 12
 uglorentz -in -vel .9 0 0 glass.ug | draw glass-d-0.9c-both -ed
 
-ugsheet -qt -lb names -bg .25 -cols 6 -fo "$out/sheet.png" "$out"/{nguyen,chang,howard,weiskopf,lattice,halves,dice,traffic,lamp,glass}*.png
+ugsheet -qt -lb names -bg .25 -cols 6 -fo "$out/sheet.png" "$out"/{nguyen,chang,howard,weiskopf,li,lattice,halves,dice,traffic,lamp,glass,water}*.png
 printf 'The pictures are in %s, all of them on %s/sheet.png\n' "$out" "$out"
