@@ -28,7 +28,8 @@ fn commands_in_documents_work() {
             // Smaller pictures are sufficient, unless they need room for text.
             let has_text = command.contains("-lg") || command.contains("-cap");
             let small = if has_text { command.clone() } else { resized(command, [640, 480], 0.25) };
-            let small = with_options(&small, "-aa 1");
+            // An option is given once.
+            let small = if small.contains(" -aa ") { small } else { with_options(&small, "-aa 1") };
             let messages =
                 page.run(&small, folder.path(), &programs).unwrap_or_else(|message| panic!("{message}"));
             // Frames of a film may be empty, before a body comes; lines may be black.
