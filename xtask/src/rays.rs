@@ -2,7 +2,9 @@
 //! same mesh, as Markdown.
 //!
 //! `embree.cpp` runs Embree; its head lists what must be installed. Both compute the directions of
-//! their rays while they are measured, Embree's in single precision.
+//! their rays while they are measured, Embree's in single precision. Rounds are short and alternate,
+//! and medians count, so that other programs on the machine disturb both alike; the processor time
+//! of all threads is hardly disturbed at all.
 
 use std::error::Error;
 use std::f64::consts::PI;
@@ -20,8 +22,8 @@ use ugbvh::{Bvh, Ray};
 use crate::bench::{machine, target_dir};
 use crate::mesh;
 
-/// Runs of each program alternately; the fastest counts.
-const ROUNDS: usize = 15;
+/// Runs of each program alternately; the median counts.
+const ROUNDS: usize = 21;
 
 const WIDTH: usize = 1280;
 const HEIGHT: usize = 720;
@@ -42,47 +44,79 @@ pub fn write(
     threads: usize,
 ) -> Result<(), Box<dyn Error>> {
     let pool = ThreadPoolBuilder::new().num_threads(threads).build()?;
+    let dir = target_dir().join("bench");
+    std::fs::create_dir_all(&dir)?;
+    compile(compiler, &dir.join(PROGRAM))?;
     writeln!(out, "{}, {threads} used, {WIDTH}×{HEIGHT} rays\n", machine())?;
     writeln!(
         out,
-        "| triangles | bytes per triangle | | `ugbvh` | Embree 3 | ratio |\n| ---: | ---: | --- | ---: | ---: | ---: |"
+        "| triangles | bytes per triangle | | `ugbvh` | Embree 3 | speed / Embree's | processor time | Embree's | ratio |\n\
+         | ---: | ---: | --- | ---: | ---: | ---: | ---: | ---: | ---: |"
     )?;
     for &size in sizes {
         let (positions, triangles) = rounded_mesh(size);
-        let mut embree = Embree::start(&positions, &triangles, compiler, threads)?;
-        let mut fastest = [[f64::INFINITY; 2]; 3];
+        let mut embree = Embree::start(&positions, &triangles, &dir, threads)?;
+        let mut rounds = [const { Vec::new() }; 3];
         let mut bvh = pool.install(|| Bvh::new(&positions, &triangles));
         check_same(&pool, &bvh, &mut embree)?;
         for _ in 0..ROUNDS {
-            let mut keep = |row: usize, ours: f64, theirs: f64| {
-                fastest[row] = [fastest[row][0].min(ours), fastest[row][1].min(theirs)];
-            };
             // Neither program's time includes freeing the hierarchy before.
             drop(bvh);
-            let start = Instant::now();
-            bvh = pool.install(|| Bvh::new(black_box(&positions), &triangles));
-            keep(0, start.elapsed().as_secs_f64(), embree.run("build")?.0);
-            let start = Instant::now();
-            black_box(pool.install(|| trace(&bvh, trace_single)));
-            keep(1, start.elapsed().as_secs_f64(), embree.run("single")?.0);
-            let start = Instant::now();
-            black_box(pool.install(|| trace(&bvh, trace_packet)));
-            keep(2, start.elapsed().as_secs_f64(), embree.run("packet")?.0);
+            let (built, ours) = measured(|| pool.install(|| Bvh::new(black_box(&positions), &triangles)))?;
+            bvh = built;
+            rounds[0].push([ours, embree.run("build")?.0]);
+            let (_, ours) = measured(|| black_box(pool.install(|| trace(&bvh, trace_single))))?;
+            rounds[1].push([ours, embree.run("single")?.0]);
+            let (_, ours) = measured(|| black_box(pool.install(|| trace(&bvh, trace_packet))))?;
+            rounds[2].push([ours, embree.run("packet")?.0]);
         }
         let n_bytes = bvh.n_bytes() as f64 / triangles.len() as f64;
         let head = format!("| {} | {n_bytes:.0} |", triangles.len());
-        let [ours, theirs] = fastest[0].map(|seconds| seconds * 1e3);
-        writeln!(out, "{head} building, ms | {ours:.1} | {theirs:.1} | {:.2} |", theirs / ours)?;
-        for (row, name) in [(1, "single rays"), (2, "packets")] {
-            let [ours, theirs] = fastest[row].map(|seconds| (WIDTH * HEIGHT) as f64 / seconds / 1e6);
-            writeln!(
-                out,
-                "{head} {name}, 10⁶ rays per second | {ours:.1} | {theirs:.1} | {:.2} |",
-                ours / theirs
-            )?;
+        for (name, rounds) in ["building", "single rays", "packets"].into_iter().zip(&rounds) {
+            write!(out, "{head} {name}")?;
+            for of in [|time: &Time| time.wall, |time: &Time| time.processor] {
+                let [ours, theirs] =
+                    [0, 1].map(|program| median(rounds.iter().map(|round| of(&round[program]))));
+                let ratio = median(rounds.iter().map(|[ours, theirs]| of(theirs) / of(ours)));
+                write!(out, " | {:.1} ms | {:.1} ms | {ratio:.2}", ours * 1e3, theirs * 1e3)?;
+            }
+            writeln!(out, " |")?;
+            out.flush()?;
         }
     }
     Ok(())
+}
+
+/// How long something took, seconds.
+#[derive(Clone, Copy)]
+struct Time {
+    wall: f64,
+    /// The sum of all threads.
+    processor: f64,
+}
+
+fn measured<T>(work: impl FnOnce() -> T) -> Result<(T, Time), Box<dyn Error>> {
+    let (start, processor_start) = (Instant::now(), processor_time()?);
+    let result = work();
+    let wall = start.elapsed().as_secs_f64();
+    Ok((result, Time { wall, processor: processor_time()? - processor_start }))
+}
+
+/// Processor time of all threads of this process, seconds. Threads that ended do not count.
+fn processor_time() -> Result<f64, Box<dyn Error>> {
+    let mut nanoseconds = 0;
+    for thread in std::fs::read_dir("/proc/self/task")? {
+        // Threads of others may end meanwhile.
+        let Ok(text) = std::fs::read_to_string(thread?.path().join("schedstat")) else { continue };
+        nanoseconds += text.split_whitespace().next().unwrap_or("0").parse::<u64>()?;
+    }
+    Ok(nanoseconds as f64 * 1e-9)
+}
+
+fn median(numbers: impl Iterator<Item = f64>) -> f64 {
+    let mut numbers: Vec<f64> = numbers.collect();
+    numbers.sort_by(f64::total_cmp);
+    numbers[numbers.len() / 2]
 }
 
 /// The mesh with positions rounded to single precision, so that both programs have the same.
@@ -164,6 +198,9 @@ fn trace_packet(bvh: &Bvh, camera: &Camera, column: usize, row: usize) -> usize 
     hits.iter().flatten().count()
 }
 
+/// The program that `embree.cpp` becomes.
+const PROGRAM: &str = "embree";
+
 /// A running `embree.cpp` that waits for requests.
 struct Embree {
     child: Child,
@@ -175,22 +212,10 @@ impl Embree {
     fn start(
         positions: &[DVec3],
         triangles: &[[u32; 3]],
-        compiler: &str,
+        dir: &Path,
         threads: usize,
     ) -> Result<Self, Box<dyn Error>> {
-        let dir = target_dir().join("bench");
-        std::fs::create_dir_all(&dir)?;
-        let (program, mesh) = (dir.join("embree"), dir.join("rays.bin"));
-        let status = Command::new(compiler)
-            .args(["-O3", "-march=native", "-pthread"])
-            .arg(Path::new(env!("CARGO_MANIFEST_DIR")).join("embree.cpp"))
-            .arg("-o")
-            .arg(&program)
-            .arg("-lembree3")
-            .status()?;
-        if !status.success() {
-            return Err(format!("`{compiler}` could not compile embree.cpp: {status}").into());
-        }
+        let (program, mesh) = (dir.join(PROGRAM), dir.join("rays.bin"));
         let mut bytes = Vec::new();
         for count in [positions.len(), triangles.len()] {
             bytes.extend(u32::try_from(count)?.to_le_bytes());
@@ -209,8 +234,8 @@ impl Embree {
         Ok(Self { child, requests, answers })
     }
 
-    /// Returns the time in seconds and the number of hits.
-    fn run(&mut self, request: &str) -> Result<(f64, usize), Box<dyn Error>> {
+    /// Returns the time and the number of hits.
+    fn run(&mut self, request: &str) -> Result<(Time, usize), Box<dyn Error>> {
         writeln!(self.requests, "{request}")?;
         self.requests.flush()?;
         let mut line = String::new();
@@ -218,9 +243,31 @@ impl Embree {
             return Err(format!("embree.cpp stopped: {}", self.child.wait()?).into());
         }
         let mut words = line.split_whitespace();
-        let seconds = words.next().ok_or("no time")?.parse()?;
-        Ok((seconds, words.next().unwrap_or("0").parse()?))
+        let mut next = || words.next().ok_or("embree.cpp answered with fewer than three numbers");
+        let time = Time { wall: next()?.parse()?, processor: next()?.parse()? };
+        Ok((time, next()?.parse()?))
     }
+}
+
+/// Compiles `embree.cpp`.
+fn compile(compiler: &str, program: &Path) -> Result<(), Box<dyn Error>> {
+    const REMEDY: &str = "the benchmark requires a C++ compiler and Embree 3: on Debian 12 and Ubuntu 22.04, \
+                          `apt-get install g++ libembree-dev`";
+    let output = Command::new(compiler)
+        .args(["-O3", "-march=native", "-pthread"])
+        .arg(Path::new(env!("CARGO_MANIFEST_DIR")).join("embree.cpp"))
+        .arg("-o")
+        .arg(program)
+        .arg("-lembree3")
+        .output()
+        .map_err(|error| format!("`{compiler}` could not be run: {error}; {REMEDY}"))?;
+    if output.status.success() {
+        return Ok(());
+    }
+    let message = String::from_utf8_lossy(&output.stderr);
+    let first = message.lines().find(|line| line.contains("error") || line.contains("cannot find"));
+    Err(format!("`{compiler}` could not compile embree.cpp: {}; {REMEDY}", first.unwrap_or("no message"))
+        .into())
 }
 
 impl Drop for Embree {

@@ -19,17 +19,19 @@
 //! x − origin ≤ τ s + ε + 2⁻⁵⁰ (d + 2) + u / 2 − p + 4 u.
 //! ```
 //!
-//! It is 2 or less, or else the box is behind the hit. Rounding adds 2 u or less to the difference,
-//! and a part of 3.1 u to the product with 1 / s, both rounded, which is 6.2 u of the product with
-//! s. Slopes less than 2⁻⁴⁰ are replaced by 2⁻⁴⁰, which moves the ray by 2⁻³⁸ or less. With p = 16
-//! u + 2⁻⁴⁸ (d + 2), which is greater than the sum of all errors, the computed entry is not behind
-//! the hit. In the same way the computed exit is not before it. Limits of τ are moved by p, too,
-//! for their rounding.
+//! It is 2 or less, or else the box is behind the hit. With the rounded reciprocal r of s, the entry
+//! is computed as x r − (origin r), fused or not. Errors are multiplied by s here, as in the formula
+//! above: u from x r, 3 u + 3 u p from origin r, 2 u from the difference, and 2 u from r, which is
+//! wrong by a part of u. Reciprocals are 2⁴⁰ or less, which moves a ray by 2⁻³⁸ or less. With p =
+//! 16 u + 2⁻⁴⁸ (d + 2), which is greater than the sum of all errors, the computed entry is not
+//! behind the hit. In the same way the computed exit is not before it. Limits of τ are moved by p,
+//! too, for their rounding.
 
+use std::array;
 use std::ops::Range;
 
 use crate::frame::power_of_two;
-use crate::shear::Shear;
+use crate::shear::{Shear, permuted};
 
 /// A ray for tests of boxes and blocks. Coordinates are in the order of the projection.
 #[derive(Clone, Copy, Debug)]
@@ -37,10 +39,10 @@ pub struct BoxRay {
     pub line: Line,
     /// Planes of a node where the ray enters boxes ([`crate::nodes::Node::planes`]).
     pub entries: [usize; 3],
-    /// Origins for the planes where the ray enters boxes.
-    pub entry_origins: [f32; 3],
-    /// Origins for the planes where the ray leaves boxes.
-    pub exit_origins: [f32; 3],
+    /// Origins for the planes where the ray enters boxes, times `reciprocals`.
+    pub entry_starts: [f32; 3],
+    /// Origins for the planes where the ray leaves boxes, times `reciprocals`.
+    pub exit_starts: [f32; 3],
     /// Reciprocals of the direction.
     pub reciprocals: [f32; 3],
     depths: Depths,
@@ -73,13 +75,13 @@ pub struct Depths {
 /// Padding beyond which all boxes are hit.
 const MAX_PADDING: f64 = 1024.0;
 
-/// Least |slope| for tests of boxes, 2⁻⁴⁰.
-const MIN_SLOPE: f32 = power_of_two(-40) as f32;
+/// Greatest |reciprocal of a slope| for tests of boxes.
+const MAX_RECIPROCAL: f64 = power_of_two(40);
 
 impl BoxRay {
-    /// Returns `None` if the ray misses the cube.
+    /// `direction`: that of the ray. Returns `None` if the ray misses the cube.
     #[inline(always)]
-    pub fn new(shear: &Shear) -> Option<Self> {
+    pub fn new(shear: &Shear, direction: [f64; 3]) -> Option<Self> {
         let depths = Depths::new(shear);
         let Depths { z, sign, .. } = depths;
         let [slope_x, slope_y] = shear.slopes;
@@ -91,19 +93,31 @@ impl BoxRay {
         } else if !(x.abs() <= 3.0 + 2.0 * padding && y.abs() <= 3.0 + 2.0 * padding) {
             return None;
         }
+        let [across, down, along] = permuted(direction, shear.axes);
+        let reciprocal = |speed: f64| {
+            // Infinite if the ray is perpendicular to the axis.
+            let reciprocal = along.abs() / speed;
+            let size = reciprocal.abs();
+            (if size < MAX_RECIPROCAL { size } else { MAX_RECIPROCAL }).copysign(reciprocal) as f32
+        };
+        let reciprocals = [reciprocal(across), reciprocal(down), sign as f32];
         // In single precision from here on.
         let [x, y, sign, padding] = [x as f32, y as f32, sign as f32, padding as f32];
-        let slopes = [slope_x as f32, slope_y as f32];
-        let directions = [slopes[0] * sign, slopes[1] * sign];
-        let backward = [is_backward(directions[0]), is_backward(directions[1]), is_backward(sign)];
-        let ahead = [padding.copysign(directions[0]), padding.copysign(directions[1]), padding * sign];
+        let is_backward = reciprocals.map(is_backward);
+        let ahead = reciprocals.map(|reciprocal| padding.copysign(reciprocal));
+        let position = [x, y, -sign];
         let [axis_x, axis_y, axis_z] = shear.axes;
         Some(Self {
-            line: Line { axes: shear.axes, position: [x, y, -sign], slopes, padding },
-            entries: [2 * axis_x + backward[0], 2 * axis_y + backward[1], 2 * axis_z + backward[2]],
-            entry_origins: [x + ahead[0], y + ahead[1], ahead[2] - sign],
-            exit_origins: [x - ahead[0], y - ahead[1], -sign - ahead[2]],
-            reciprocals: [reciprocal(directions[0]), reciprocal(directions[1]), sign],
+            line: Line {
+                axes: shear.axes,
+                position,
+                slopes: shear.slopes.map(|slope| slope as f32),
+                padding,
+            },
+            entries: [2 * axis_x + is_backward[0], 2 * axis_y + is_backward[1], 2 * axis_z + is_backward[2]],
+            entry_starts: array::from_fn(|axis| (position[axis] + ahead[axis]) * reciprocals[axis]),
+            exit_starts: array::from_fn(|axis| (position[axis] - ahead[axis]) * reciprocals[axis]),
+            reciprocals,
             depths,
         })
     }
@@ -113,11 +127,11 @@ impl BoxRay {
     #[inline(always)]
     pub fn limits(&self, shear: &Shear, range: &Range<f64>) -> Range<f32> {
         let Depths { z, sign, padding } = self.depths;
-        let start = shear.z(range.start);
+        let start = (shear.z(range.start) - z) * sign - padding;
         // NaN and infinities, which can be due to overflow, do not limit.
-        let start = (start - z) * sign - padding;
-        let start = if start > 0.0 && start < f64::INFINITY { start as f32 } else { 0.0 };
-        start..self.depths.end(shear, range.end)
+        let start = if start > 0.0 && start <= f64::MAX { start as f32 } else { 0.0 };
+        let end = if range.end < f64::INFINITY { self.depths.end(shear, range.end) } else { f32::INFINITY };
+        start..end
     }
 
     /// Greatest τ of hits up to z.
@@ -125,13 +139,6 @@ impl BoxRay {
     pub fn limit(&self, z: f64) -> f32 {
         self.depths.limit(z)
     }
-}
-
-/// 1 / slope, or ±2⁴⁰ for slopes near 0.
-#[inline(always)]
-fn reciprocal(slope: f32) -> f32 {
-    let size = slope.abs();
-    1.0 / (if size > MIN_SLOPE { size } else { MIN_SLOPE }).copysign(slope)
 }
 
 /// 1 for negative numbers and −0.
@@ -159,6 +166,6 @@ impl Depths {
     #[inline(always)]
     pub fn end(&self, shear: &Shear, t: f64) -> f32 {
         let z = shear.z(t);
-        if z.abs() < f64::INFINITY { self.limit(z) } else { f32::INFINITY }
+        if z.abs() <= f64::MAX { self.limit(z) } else { f32::INFINITY }
     }
 }

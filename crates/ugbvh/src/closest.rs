@@ -74,41 +74,55 @@ impl<F: FnMut(Hit) -> ControlFlow<()>> Search for All<'_, F> {
     }
 }
 
-pub fn closest(bvh: &Bvh, ray: &Ray, range: Range<f64>, count: &mut impl Count) -> Option<Hit> {
+/// A ray ready for a search. It is prepared where it is made, in registers: loading it again right
+/// after it was stored, in other pieces, took a quarter of that time.
+pub struct Prepared {
+    shear: Shear,
+    box_ray: BoxRay,
+    range: Range<f64>,
+    /// The range of τ.
+    depths: Range<f32>,
+}
+
+impl Prepared {
+    /// Returns `None` for rays that hit nothing.
+    #[inline(always)]
+    pub fn new(bvh: &Bvh, ray: &Ray, range: Range<f64>) -> Option<Self> {
+        // NaN fails the comparison.
+        let has_length = range.start < range.end;
+        if bvh.nodes.is_empty() || !has_length {
+            return None;
+        }
+        let direction = ray.direction.to_array();
+        let shear = Shear::new(&bvh.frame, ray.origin.to_array(), direction)?;
+        let box_ray = BoxRay::new(&shear, direction)?;
+        let depths = box_ray.limits(&shear, &range);
+        Some(Self { shear, box_ray, range, depths })
+    }
+}
+
+pub fn closest(bvh: &Bvh, ray: &Prepared, count: &mut impl Count) -> Option<Hit> {
     let mut nearest = Nearest { hit: None };
     // A search for the nearest hit never breaks.
-    let _ = dispatch!(bvh.level, simd => search(simd, bvh, ray, range, &mut nearest, count));
+    let _ = dispatch!(bvh.level, simd => search(simd, bvh, ray, &mut nearest, count));
     nearest.hit
 }
 
-pub fn visit(
-    bvh: &Bvh,
-    ray: &Ray,
-    range: Range<f64>,
-    visit: &mut impl FnMut(Hit) -> ControlFlow<()>,
-) -> ControlFlow<()> {
-    dispatch!(bvh.level, simd => search(simd, bvh, ray, range, &mut All(visit), &mut ()))
+pub fn visit(bvh: &Bvh, ray: &Prepared, visit: &mut impl FnMut(Hit) -> ControlFlow<()>) -> ControlFlow<()> {
+    dispatch!(bvh.level, simd => search(simd, bvh, ray, &mut All(visit), &mut ()))
 }
 
 #[inline(always)]
 fn search<S: Simd>(
     simd: S,
     bvh: &Bvh,
-    ray: &Ray,
-    range: Range<f64>,
+    ray: &Prepared,
     search: &mut impl Search,
     count: &mut impl Count,
 ) -> ControlFlow<()> {
-    // NaN fails the comparison.
-    let has_length = range.start < range.end;
-    if bvh.nodes.is_empty() || !has_length {
-        return ControlFlow::Continue(());
-    }
-    let shear = Shear::new(&bvh.frame, ray.origin.to_array(), ray.direction.to_array());
-    let Some(shear) = shear else { return ControlFlow::Continue(()) };
-    let Some(box_ray) = BoxRay::new(&shear) else { return ControlFlow::Continue(()) };
-    let Range { start, mut end } = box_ray.limits(&shear, &range);
-    let simd_ray = SimdRay::new(simd, &box_ray);
+    let Prepared { shear, box_ray, range, depths } = ray;
+    let Range { start, mut end } = *depths;
+    let simd_ray = SimdRay::new(simd, box_ray);
     let mut stack = Stack::new();
     let mut child = 0;
     loop {

@@ -26,6 +26,7 @@ impl Frame {
         Self { center, scale: power_of_two(exponent), unit: power_of_two(-exponent) }
     }
 
+    #[inline(always)]
     pub fn to_box(self, position: [f64; 3]) -> [f64; 3] {
         std::array::from_fn(|axis| (position[axis] - self.center[axis]) * self.scale)
     }

@@ -18,8 +18,8 @@
 //! triangles with it would return, bit for bit. Boxes (`box_ray`) and single-precision tests of
 //! eight triangles at once (`nodes`) only skip triangles of which it is proved that the function
 //! misses them. So hits do not depend on the hierarchy, on the number of threads or on the
-//! instruction set: only sums, differences, products, quotients and comparisons are used, never
-//! fused multiply-add.
+//! instruction set: they are computed by sums, differences, products, quotients and comparisons,
+//! never by fused multiply-add. Only tests that skip triangles use it, where the processor has it.
 //!
 //! # Watertight edges
 //!
@@ -54,6 +54,7 @@ use std::ops::{ControlFlow, Range};
 use fearless_simd::Level;
 use glam::DVec3;
 
+use closest::Prepared;
 use frame::Frame;
 use nodes::{Block, Node};
 
@@ -135,13 +136,14 @@ impl Bvh {
     }
 
     /// The nearest hit with `range.start` < t < `range.end`. Ties go to the lowest triangle index.
+    #[inline(always)]
     pub fn closest(&self, ray: &Ray, range: Range<f64>) -> Option<Hit> {
-        closest::closest(self, ray, range, &mut ())
+        closest::closest(self, &Prepared::new(self, ray, range)?, &mut ())
     }
 
     /// Like [`Bvh::closest`], and counts what is done.
     pub fn closest_counted(&self, ray: &Ray, range: Range<f64>, work: &mut Work) -> Option<Hit> {
-        closest::closest(self, ray, range, work)
+        closest::closest(self, &Prepared::new(self, ray, range)?, work)
     }
 
     /// Calls `visit` for hits with `range.start` < t < `range.end`, in any order, until it returns
@@ -152,7 +154,8 @@ impl Bvh {
         range: Range<f64>,
         mut visit: impl FnMut(Hit) -> ControlFlow<()>,
     ) -> ControlFlow<()> {
-        closest::visit(self, ray, range, &mut visit)
+        let Some(ray) = Prepared::new(self, ray, range) else { return ControlFlow::Continue(()) };
+        closest::visit(self, &ray, &mut visit)
     }
 
     /// The nearest hit of each of several rays from one origin, as [`Bvh::closest`] returns it.

@@ -76,16 +76,16 @@ impl Node {
         let entry = f32x8::from_slice(simd, self.planes(ray.entries[axis]));
         let exit = f32x8::from_slice(simd, self.opposite(ray.entries[axis]));
         [
-            (entry - ray.entry_origins[axis]) * ray.reciprocals[axis],
-            (exit - ray.exit_origins[axis]) * ray.reciprocals[axis],
+            entry.mul_sub(ray.reciprocals[axis], ray.entry_starts[axis]),
+            exit.mul_sub(ray.reciprocals[axis], ray.exit_starts[axis]),
         ]
     }
 }
 
 /// A ray in vector registers.
 pub struct SimdRay<S: Simd> {
-    entry_origins: [f32x8<S>; 3],
-    exit_origins: [f32x8<S>; 3],
+    entry_starts: [f32x8<S>; 3],
+    exit_starts: [f32x8<S>; 3],
     reciprocals: [f32x8<S>; 3],
     entries: [usize; 3],
 }
@@ -94,8 +94,8 @@ impl<S: Simd> SimdRay<S> {
     #[inline(always)]
     pub fn new(simd: S, ray: &BoxRay) -> Self {
         Self {
-            entry_origins: splats(simd, ray.entry_origins),
-            exit_origins: splats(simd, ray.exit_origins),
+            entry_starts: splats(simd, ray.entry_starts),
+            exit_starts: splats(simd, ray.exit_starts),
             reciprocals: splats(simd, ray.reciprocals),
             entries: ray.entries,
         }
@@ -147,14 +147,14 @@ impl Block {
         is_hit.to_bitmask() as u32 & ((1 << self.n) - 1)
     }
 
-    /// Projects a corner of each triangle.
+    /// Projects a corner of each triangle; the result is −x, −y, as products of two are used.
     #[inline(always)]
     fn project<S: Simd>(&self, simd: S, corner: usize, ray: &Line) -> [f32x8<S>; 2] {
         let corner = &self.corners[corner];
         let x = f32x8::from_slice(simd, &corner[ray.axes[0]]) - ray.position[0];
         let y = f32x8::from_slice(simd, &corner[ray.axes[1]]) - ray.position[1];
         let z = f32x8::from_slice(simd, &corner[ray.axes[2]]) - ray.position[2];
-        [x - z * ray.slopes[0], y - z * ray.slopes[1]]
+        [z.mul_sub(f32x8::splat(simd, ray.slopes[0]), x), z.mul_sub(f32x8::splat(simd, ray.slopes[1]), y)]
     }
 
     #[inline(always)]
@@ -165,5 +165,5 @@ impl Block {
 
 #[inline(always)]
 fn cross<S: Simd>(a: [f32x8<S>; 2], b: [f32x8<S>; 2]) -> f32x8<S> {
-    a[0] * b[1] - a[1] * b[0]
+    a[0].mul_sub(b[1], a[1] * b[0])
 }

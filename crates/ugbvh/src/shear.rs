@@ -60,7 +60,7 @@ impl Shear {
             & (x.abs() <= z.abs())
             & (y.abs() <= z.abs())
             & (z.abs() > 0.0)
-            & (z.abs() < f64::INFINITY);
+            & (z.abs() <= f64::MAX);
         let Frame { scale, unit, .. } = *frame;
         let slopes = [x / z, y / z];
         is_valid.then_some(Self { axes, origin, start, distance, scale, unit, slopes, speed: z })
@@ -163,7 +163,7 @@ const MIN_AREA: f64 = power_of_two(-16);
 
 /// Coordinates in the order of the projection, which is an even permutation.
 #[inline(always)]
-fn permuted([x, y, z]: [f64; 3], axes: [usize; 3]) -> [f64; 3] {
+pub fn permuted([x, y, z]: [f64; 3], axes: [usize; 3]) -> [f64; 3] {
     match axes[2] {
         0 => [y, z, x],
         1 => [z, x, y],

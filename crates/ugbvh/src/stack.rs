@@ -25,6 +25,9 @@ impl Entry {
 
 /// Entries in an array that needs no allocation. Further ones, in deep hierarchies, go to a vector;
 /// the depth is bounded ([`crate::build`]), so their number is, too.
+///
+/// Aligned, so that clearing it takes no store across cache lines: those took a tenth of the time.
+#[repr(align(64))]
 pub struct Stack {
     first: [Entry; N_FIRST],
     n: usize,
