@@ -62,6 +62,17 @@ impl RestFrame {
         Event { t: self.gamma * t + self.proper_speed * along, x: moved }
     }
 
+    /// Where something at rest is at the moment of the picture, in the frame of the camera.
+    pub fn contracted(&self, place: DVec3) -> DVec3 {
+        let place = self.turn.map_or(place, |turn| turn.transpose() * place);
+        place - self.axis * (self.gamma_minus_one / self.gamma * place.dot(self.axis))
+    }
+
+    /// Its Lorentz factor.
+    pub fn gamma(&self) -> f64 {
+        self.gamma
+    }
+
     /// The step of a ray of light into the past, (−|d|, d) in the frame of the camera. It loses no
     /// digits.  Eq. (P6)
     #[inline]

@@ -19,7 +19,7 @@
 //!
 //! ```text
 //! error  config                             errors; options
-//! sampling  frame  path                     rest frames; rays and the media they are in
+//! sampling  frame  path  moving_boxes       rest frames; rays and their media; which bodies they may meet
 //! world                                     the faces, by rest frame
 //! scenery                                   a scene prepared for rays
 //! surface_point  shade  tracer              what a ray sees of a face; lamps; mirrors and glass
@@ -54,6 +54,7 @@ mod config;
 mod error;
 pub mod explain;
 mod frame;
+mod moving_boxes;
 mod notes;
 mod path;
 mod pixels;
@@ -62,6 +63,8 @@ mod sampling;
 mod scenery;
 mod shade;
 mod surface_point;
+#[cfg(test)]
+mod tests;
 mod tracer;
 mod world;
 

@@ -1,5 +1,7 @@
 //! Rays into the past, and the media they are in.
 
+use std::ops::Range;
+
 use glam::DVec3;
 use ugparse::SurfaceId;
 use ugphysics::{Event, WaveVector};
@@ -50,6 +52,12 @@ impl Ray {
             wave: WaveVector::in_vacuum(1.0, direction / -length),
             start: Start::Eye,
         }
+    }
+
+    /// The times before the origin, in the frame of the camera, of a range of parameters.
+    #[inline]
+    pub fn times(&self, range: &Range<f64>) -> Range<f64> {
+        -self.step.t * range.start..-self.step.t * range.end
     }
 
     /// Origin and step in the rest frame of a part.

@@ -10,6 +10,7 @@ use ugphysics::Event;
 use ugscene::{RestFrames, triangulate};
 
 use crate::frame::RestFrame;
+use crate::moving_boxes::{MovingBox, MovingBoxes, Rays};
 use crate::path::Ray;
 
 /// How far a ray leaves a surface before it can meet another one, relative to the largest
@@ -24,7 +25,12 @@ pub const SAME_PLACE: f64 = 1e-9;
 pub struct World {
     /// Bodies of the same velocity share a frame.
     pub parts: Vec<Part>,
+    /// The parts by their moving boxes; `None` if they are few. Hits do not depend on it.
+    pub boxes: Option<MovingBoxes>,
 }
+
+/// So many parts are tested one by one.
+const FEW_PARTS: usize = 4;
 
 /// The faces of all bodies with one velocity.
 pub struct Part {
@@ -60,6 +66,8 @@ pub struct Faces<'a> {
 pub struct PacketMemory {
     directions: Vec<DVec3>,
     hits: Vec<Option<ugbvh::Hit>>,
+    /// Rows of parts.
+    parts: Vec<usize>,
 }
 
 /// Where a ray meets a face.
@@ -100,8 +108,10 @@ impl World {
             rows[part_of_body[face.body.index()]].push(row as u32);
         }
         let parts = first_bodies.into_iter().zip(rows).filter(|(_, rows)| !rows.is_empty());
-        let parts = parts.map(|(body, rows)| Part::new(faces, RestFrame::new(frames, body), &rows));
-        Self { parts: parts.collect() }
+        let parts: Vec<Part> =
+            parts.map(|(body, rows)| Part::new(faces, RestFrame::new(frames, body), &rows)).collect();
+        let boxes = || MovingBoxes::new(&parts.iter().map(Part::moving_box).collect::<Vec<_>>());
+        Self { boxes: (parts.len() > FEW_PARTS).then(boxes), parts }
     }
 
     /// The latest event of the past at which light that follows the ray left a face, (P22), for
@@ -109,15 +119,29 @@ impl World {
     #[inline]
     pub fn closest(&self, faces: Faces<'_>, ray: &Ray, range: Range<f64>) -> Option<Intersection> {
         let mut best: Option<Intersection> = None;
-        let mut end = range.end;
-        for (row, part) in self.parts.iter().enumerate() {
+        let visit = |row: usize, best: &mut Option<Intersection>| {
+            let part = &self.parts[row];
             let (origin, step) = ray.in_part(row, &part.frame);
-            if let Some(found) = part.closest(faces, row, origin, step, range.start..end) {
-                end = found.s;
-                best = Some(found);
-            }
+            // At the same place the part with the lowest row is hit, in whatever order they come.
+            let end = best.map_or(range.end, |best| if row < best.part { best.s.next_up() } else { best.s });
+            let found = part.closest(faces, row, origin, step, range.start..end.min(range.end));
+            *best = found.or(*best);
+        };
+        match self.boxes_for(ray, &range) {
+            None => (0..self.parts.len()).for_each(|row| visit(row, &mut best)),
+            Some((boxes, rays)) => boxes.visit_nearest(&rays, ray.times(&range), |row| {
+                visit(row, &mut best);
+                -ray.step.t * best.map_or(range.end, |best| best.s)
+            }),
         }
         best
+    }
+
+    /// The hierarchy of moving boxes, and a ray for it; `None` if all parts have to be tested.
+    #[inline]
+    fn boxes_for(&self, ray: &Ray, range: &Range<f64>) -> Option<(&MovingBoxes, Rays)> {
+        let boxes = self.boxes.as_ref().filter(|_| range.start >= 0.0)?;
+        Some((boxes, Rays::from_step(ray.origin, ray.step)?))
     }
 
     /// The faces at the place of `first`, such as coplanar ones, in the order of the scene.
@@ -146,8 +170,17 @@ impl World {
         memory: &mut PacketMemory,
         first: &mut [Option<Intersection>],
     ) {
-        let PacketMemory { directions, hits } = memory;
-        for (row, part) in self.parts.iter().enumerate() {
+        let PacketMemory { directions, hits, parts } = memory;
+        let steps = rays.iter().map(|ray| ray.step.x);
+        match self.boxes.as_ref().and_then(|boxes| Some((boxes, Rays::from_eye(steps)?))) {
+            Some((boxes, rays)) => boxes.find(&rays, 0.0..f64::INFINITY, parts),
+            None => {
+                parts.clear();
+                parts.extend(0..self.parts.len());
+            }
+        }
+        for &row in &*parts {
+            let part = &self.parts[row];
             directions.clear();
             directions.extend(rays.iter().map(|ray| part.frame.light_to_rest(ray.step.x)));
             hits.clear();
@@ -177,7 +210,8 @@ impl World {
         range: Range<f64>,
         mut visit: impl FnMut(Intersection) -> ControlFlow<()>,
     ) -> ControlFlow<()> {
-        for (row, part) in self.parts.iter().enumerate() {
+        let mut visit = |row: usize| {
+            let part = &self.parts[row];
             let (origin, step) = ray.in_part(row, &part.frame);
             let ray = ugbvh::Ray { origin, direction: step };
             part.bvh.visit(&ray, part.range(step, range.clone()), |hit| {
@@ -186,9 +220,17 @@ impl World {
                     return ControlFlow::Continue(());
                 }
                 visit(found)
-            })?;
+            })
+        };
+        match self.boxes_for(ray, &range) {
+            None => (0..self.parts.len()).try_for_each(visit),
+            Some((boxes, rays)) => {
+                // In the order of rows, so that products of transmittances are the same.
+                let mut parts = Vec::new();
+                boxes.find(&rays, ray.times(&range), &mut parts);
+                parts.into_iter().try_for_each(&mut visit)
+            }
         }
-        ControlFlow::Continue(())
     }
 }
 
@@ -209,6 +251,19 @@ impl Part {
         let bvh = Bvh::new(&places, &corners);
         let reach = bvh.bounds().map_or(0.0, |(low, high)| low.abs().max(high.abs()).max_element());
         Self { frame, bvh, triangles, clearance: CLEARANCE * reach }
+    }
+
+    /// The box around the part, in the frame of the camera.
+    fn moving_box(&self) -> MovingBox {
+        let Some((low, high)) = self.bvh.bounds() else { return MovingBox::EMPTY };
+        let corner = |idx: usize| {
+            let at = |axis: usize| if idx >> axis & 1 == 0 { low[axis] } else { high[axis] };
+            self.frame.contracted(DVec3::new(at(0), at(1), at(2)))
+        };
+        let reach = low.abs().max(high.abs()).max_element();
+        let size = (high - low).max_element();
+        let corners = std::array::from_fn(corner);
+        MovingBox::new(corners, self.frame.velocity.beta(), self.frame.gamma(), size, reach)
     }
 
     /// The range of parameters that begins outside the surface at the ray's origin.

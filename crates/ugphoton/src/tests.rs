@@ -1,0 +1,181 @@
+//! The hierarchy of moving boxes against testing every part.
+
+use std::borrow::Cow;
+use std::fmt::Write;
+use std::ops::{ControlFlow, Range};
+
+use glam::DVec3;
+use ugphysics::{Event, Medium, Velocity, WaveVector};
+use ugrandom::Random;
+
+use crate::Config;
+use crate::moving_boxes::{MovingBox, MovingBoxes, Rays};
+use crate::path::{Ray, Start};
+use crate::render::as_seen;
+use crate::scenery::Scenery;
+use crate::world::{Intersection, PacketMemory, World, along};
+
+/// Tetrahedra in random places, each with a velocity of its own.
+fn scene(random: &mut Random, n: usize, fastest: f64) -> String {
+    let mut text = String::from("l 1; cam -ep 0 0 0 -vc 0 0 -1 -ud 0 1 0;\n");
+    for body in 0..n {
+        let center = random.in_cube(12.0);
+        let size = *random.pick(&[1.0, 3.0, 6.0]);
+        for corner in 0..4 {
+            let DVec3 { x, y, z } = center + random.in_ball(size);
+            let _ = write!(text, "v v{body}_{corner} {x} {y} {z};");
+        }
+        let DVec3 { x, y, z } = random.direction() * fastest * libm::sqrt(random.unit());
+        for [a, b, c] in [[0, 1, 2], [0, 2, 3], [0, 3, 1], [1, 3, 2]] {
+            let _ = writeln!(text, "f (v{body}_{a} v{body}_{b} v{body}_{c}) <{x} {y} {z}>;");
+        }
+    }
+    text
+}
+
+fn scenery(text: &str) -> Scenery<'static> {
+    let source = ugparse::Source::new("test.ug", text);
+    let config = Config::default();
+    let scene = ugparse::parse(&source, &ugparse::Options::default()).unwrap().scene;
+    Scenery::new(Cow::Owned(as_seen(scene, &config).unwrap()), &config).unwrap()
+}
+
+/// What a search found, with all digits.
+fn digits(found: &Intersection) -> String {
+    format!("{found:?}")
+}
+
+struct Worlds<'a> {
+    scenery: &'a Scenery<'a>,
+    /// The same without the hierarchy.
+    plain: &'a World,
+}
+
+impl Worlds<'_> {
+    /// Checks the searches along one ray. Returns the nearest hit.
+    fn check(&self, ray: &Ray, range: Range<f64>) -> Option<Intersection> {
+        let faces = self.scenery.faces();
+        let [found, expected] =
+            [&self.scenery.world, self.plain].map(|world| world.closest(faces, ray, range.clone()));
+        assert_eq!(found.as_ref().map(digits), expected.as_ref().map(digits), "{ray:?} {range:?}");
+        let [all, all_expected] = [&self.scenery.world, self.plain].map(|world| {
+            let mut all = Vec::new();
+            let end = world.visit(faces, ray, range.clone(), |found| {
+                all.push(digits(&found));
+                ControlFlow::Continue(())
+            });
+            assert_eq!(end, ControlFlow::Continue(()));
+            all
+        });
+        assert_eq!(all, all_expected, "{ray:?} {range:?}");
+        expected
+    }
+}
+
+/// A ray from an event, into the past, in a direction of the frame of the camera.
+fn ray(origin: Event, step: Event, start: Start) -> Ray {
+    Ray { origin, step, wave: WaveVector { frequency: 1.0, k: DVec3::ZERO }, start }
+}
+
+#[test]
+fn hits_are_those_of_testing_every_body() {
+    let mut random = Random(1);
+    let mut n_hits = [0; 4];
+    for (n, fastest) in [(5, 0.5), (60, 0.9), (200, 0.99), (60, 0.999_999), (40, 1.0 - 1e-13), (300, 0.05)] {
+        let text = scene(&mut random, n, fastest);
+        let scenery = scenery(&text);
+        assert_eq!(scenery.world.parts.len(), n);
+        let mut plain = self::scenery(&text);
+        assert!(plain.world.boxes.take().is_some());
+        let worlds = Worlds { scenery: &scenery, plain: &plain.world };
+        for _ in 0..400 {
+            // From the eye.
+            let primary = Ray::from_eye(random.direction() * random.between(0.5, 2.0));
+            let first = worlds.check(&primary, 0.0..f64::INFINITY);
+            n_hits[0] += usize::from(first.is_some());
+            // From any event, through any medium.
+            let velocity = Velocity::from_beta(random.in_ball(0.9)).unwrap();
+            let medium = Medium { index: random.between(1.0, 2.5), velocity };
+            let k = random.direction();
+            let forward = *random.pick(&[
+                Event { t: 1.0, x: k },
+                medium.step(WaveVector { frequency: 1.0, k: k * medium.index }.out_of_frame(velocity)),
+            ]);
+            let origin = Event { t: -random.between(0.0, 40.0), x: random.in_cube(12.0) };
+            let step = Event { t: -forward.t, x: -forward.x };
+            let range = 0.0..*random.pick(&[5.0, f64::INFINITY]);
+            n_hits[1] += usize::from(worlds.check(&ray(origin, step, Start::Event), range).is_some());
+            // From a surface, as for reflections and shadows, and beyond the first hit.
+            let Some(first) = first else { continue };
+            n_hits[2] += usize::from(worlds.check(&primary, first.s..f64::INFINITY).is_some());
+            let frame = &scenery.world.parts[first.part].frame;
+            let event = along(primary.origin, primary.step, first.s);
+            let place = frame.to_rest(event).x;
+            let step = frame.to_camera(Event { t: -1.0, x: random.direction() });
+            let from_surface = ray(event, step, Start::Surface { part: first.part, place });
+            n_hits[3] += usize::from(worlds.check(&from_surface, 0.0..f64::INFINITY).is_some());
+        }
+    }
+    assert!(n_hits.iter().all(|&n| n > 100), "{n_hits:?}");
+}
+
+#[test]
+fn packets_hit_what_testing_every_body_hits() {
+    let mut random = Random(2);
+    let mut n_hits = 0;
+    for fastest in [0.3, 0.95] {
+        let text = scene(&mut random, 100, fastest);
+        let scenery = scenery(&text);
+        let mut plain = self::scenery(&text);
+        plain.world.boxes = None;
+        for _ in 0..300 {
+            let middle = random.direction();
+            let spread = *random.pick(&[0.0, 0.01, 0.3, 1.2]);
+            let rays: Vec<Ray> =
+                (0..64).map(|_| Ray::from_eye(middle + random.in_ball(1.0) * spread * 0.5)).collect();
+            let [found, expected] = [&scenery.world, &plain.world].map(|world| {
+                let mut first = vec![None; rays.len()];
+                world.first(
+                    scenery.faces(),
+                    &rays,
+                    1e-3..f64::INFINITY,
+                    &mut PacketMemory::default(),
+                    &mut first,
+                );
+                first
+                    .iter()
+                    .map(|found: &Option<Intersection>| found.as_ref().map(digits))
+                    .collect::<Vec<_>>()
+            });
+            assert_eq!(found, expected);
+            n_hits += found.iter().flatten().count();
+        }
+    }
+    assert!(n_hits > 3000, "{n_hits}");
+}
+
+/// Bodies of one size in a space that grows with their number, so that a ray meets few.
+#[test]
+fn few_of_many_bodies_are_tested() {
+    let mut random = Random(3);
+    for n in [30, 300, 3000] {
+        let side = 2.0 * libm::cbrt(n as f64);
+        let boxes: Vec<MovingBox> = (0..n)
+            .map(|_| {
+                let center = random.in_cube(side);
+                let corners = std::array::from_fn(|_| center + random.in_cube(0.3));
+                MovingBox::new(corners, random.in_ball(0.02), 1.0, 0.6, side)
+            })
+            .collect();
+        let tree = MovingBoxes::new(&boxes);
+        let mut tested = 0;
+        for _ in 0..200 {
+            let rays = Rays::from_eye(std::iter::once(random.direction())).unwrap();
+            tree.visit_nearest(&rays, 0.0..f64::INFINITY, |_| {
+                tested += 1;
+                f64::INFINITY
+            });
+        }
+        assert!(tested < 200 * 8, "{tested} of {n}");
+    }
+}
