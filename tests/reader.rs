@@ -51,7 +51,7 @@ fn flat(scene: &Scene) -> Flat {
         illum: scene.light_level(face),
         surface: scene
             .surface(face)
-            .map(|s| [s.diffuse, s.specular, s.transmitted, s.refraction, s.exponent]),
+            .map(|s| [s.diffuse, s.specular, s.transmitted, s.refraction, s.exponent, s.absorption]),
         velocity: motion(face.body),
     });
     let wires = scene.wires.iter().map(|wire| Wire {
@@ -164,7 +164,7 @@ const ALL: &str = "\
 ( escape ; { not a comment ( nested ) ) (another)
 i early (tile late -tx 1) ; { what it uses comes later }
 f unlit (v f end) 0.5; f(v i f)late;
-f (v f i) sky glossy ; surf glossy .5 .5 0 1 60 ; surf late 1 0 .5 ; surf clear 0 .1 .9 1.5 ;
+f (v f i) sky glossy ; surf glossy .5 .5 0 1 60 ; surf late 1 0 .5 ; surf clear 0 .1 .9 1.5 20 .25 ;
 f (v f end) late late <.5 0 0> ;
 c_xyz haze 1.5 2 .25 0.5 ; c_bb sun 5800 ; c_bb lamp 2700 .5 ; c_spd sodium 588 0 589 2.5 590 0 ; c_xyz void 0 0 0 ;
 f (v f end) haze ; f (v f end) sun ; f (v f end) lamp ; f (v f end) sodium ; f (v f end) void ;
@@ -371,10 +371,11 @@ fn color_statement() -> impl Strategy<Value = Statement> {
 }
 
 fn surface() -> impl Strategy<Value = Statement> {
-    let last = some((0.5..2.0, some(0.0..90.0)));
+    let last = some((0.5..2.0, some((0.0..90.0, some(0.0..3.0)))));
     ([0.0..1.5, 0.0..1.5, 0.0..1.0], last).prop_map(|(numbers, last)| {
-        let (n, exponent) = last.map_or((None, None), |(n, exponent)| (Some(n), exponent));
-        Statement::Surface(numbers.into_iter().chain(n).chain(exponent).collect())
+        let (n, last) = last.map_or((None, None), |(n, last)| (Some(n), last));
+        let (exponent, absorption) = last.map_or((None, None), |(exponent, last)| (Some(exponent), last));
+        Statement::Surface(numbers.into_iter().chain(n).chain(exponent).chain(absorption).collect())
     })
 }
 

@@ -51,8 +51,8 @@ pub struct Face {
     pub color: Option<Paint>,
     /// Its fixed light level.
     pub illum: Option<f64>,
-    /// kd, ks, kt, n and exponent of its surface, without the name.
-    pub surface: Option<[f64; 5]>,
+    /// kd, ks, kt, n, exponent and absorption of its surface, without the name.
+    pub surface: Option<[f64; 6]>,
     /// Its velocity.
     pub velocity: Option<Triple>,
 }
@@ -266,7 +266,7 @@ struct Scope {
     /// Names of the enclosing definitions and its own, each followed by `:`.
     prefix: String,
     colors: BTreeMap<String, Paint>,
-    surfaces: BTreeMap<String, [f64; 5]>,
+    surfaces: BTreeMap<String, [f64; 6]>,
     definitions: BTreeMap<String, Scope>,
     statements: Vec<Statement>,
 }
@@ -335,9 +335,10 @@ fn read_scope(words: &mut Words, prefix: &str, mut unnamed: Option<Paint>) -> Sc
             "surf" => {
                 let name = words.take();
                 let surface = match words.all_numbers()[..] {
-                    [kd, ks, kt] => [kd, ks, kt, 1.0, 20.0],
-                    [kd, ks, kt, n] => [kd, ks, kt, n, 20.0],
-                    [kd, ks, kt, n, exponent] => [kd, ks, kt, n, exponent],
+                    [kd, ks, kt] => [kd, ks, kt, 1.0, 20.0, 0.0],
+                    [kd, ks, kt, n] => [kd, ks, kt, n, 20.0, 0.0],
+                    [kd, ks, kt, n, exponent] => [kd, ks, kt, n, exponent, 0.0],
+                    [kd, ks, kt, n, exponent, absorption] => [kd, ks, kt, n, exponent, absorption],
                     ref numbers => panic!("{} numbers behind `surf`", numbers.len()),
                 };
                 assert!(scope.surfaces.insert(name, surface).is_none(), "a second surface");

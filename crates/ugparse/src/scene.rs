@@ -236,6 +236,8 @@ pub struct SurfaceProperties {
     pub refraction: f64,
     /// Exponent of highlights, 0 or more.
     pub exponent: f64,
+    /// Absorption coefficient behind the surface, per unit of length at rest, 0 or more.  Eq. (P38)
+    pub absorption: f64,
 }
 
 impl SurfaceProperties {

@@ -326,13 +326,18 @@ impl<'s> Writer<'s> {
         self.text("surf");
         self.name(surface.name);
         self.numbers(&[surface.diffuse, surface.specular, surface.transmitted]);
-        if (surface.refraction, surface.exponent)
-            != (SurfaceProperties::REFRACTION, SurfaceProperties::EXPONENT)
-        {
-            self.number(surface.refraction);
+        let SurfaceProperties { refraction, exponent, absorption, .. } = *surface;
+        // A number is written if it or one behind it is not the default.
+        let has_absorption = absorption != 0.0;
+        let has_exponent = has_absorption || exponent != SurfaceProperties::EXPONENT;
+        if has_exponent || refraction != SurfaceProperties::REFRACTION {
+            self.number(refraction);
         }
-        if surface.exponent != SurfaceProperties::EXPONENT {
-            self.number(surface.exponent);
+        if has_exponent {
+            self.number(exponent);
+        }
+        if has_absorption {
+            self.number(absorption);
         }
         self.text(";");
     }

@@ -4,12 +4,14 @@ use std::ops::ControlFlow;
 
 use glam::DVec3;
 use uglight::{HueColor, IncidentLamp, Irradiance, LampPlace, SpectralFilter, SurfaceElement, Swatch};
+use ugparse::unit_normal;
 use ugphysics::{Event, Hsv, WaveVector, srgb_decode, srgb_encode, wavelength_to_hue};
 
 use crate::path::{Ray, Start};
 use crate::sampling::disk_point;
 use crate::scenery::Scenery;
 use crate::surface_point::SurfacePoint;
+use crate::world::Intersection;
 
 /// A coloured transparent surface that light crossed on its way from a surface to the eye.
 #[derive(Clone, Copy, Debug)]
@@ -168,11 +170,53 @@ fn unshadowed(scenery: &Scenery<'_>, point: &SurfacePoint, incident: &IncidentLa
         start: Start::Surface { part: point.part, place: point.place },
     };
     let mut part = 1.0;
+    let mut absorbed = Absorbed::default();
     let _ = scenery.world.visit(scenery.faces(), &ray, 0.0..distance, |found| {
         part *= transmittance(scenery, found.triangle.face);
+        absorbed.cross(scenery, &ray, &found);
         if part > 0.0 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
     });
+    part *= absorbed.left(distance);
     if scenery.spectra.is_some() { part } else { srgb_encode(part) }
+}
+
+/// The optical depth of a straight shadow ray through solids that absorb light.  Eq. (P38)
+#[derive(Default)]
+struct Absorbed {
+    /// Over all crossings, coefficients times parameters of the ray, negative where it enters.
+    depth: f64,
+    /// The sum of the coefficients, negative where it enters.
+    rest: f64,
+    /// The sum of their sizes.
+    size: f64,
+}
+
+impl Absorbed {
+    /// Adds a crossing, in any order.
+    fn cross(&mut self, scenery: &Scenery<'_>, ray: &Ray, found: &Intersection) {
+        let scene = &scenery.scene;
+        let face = &scene.faces[found.triangle.face as usize];
+        let coefficient = scene.surface(face).map_or(0.0, |surface| surface.absorption);
+        if coefficient == 0.0 {
+            return;
+        }
+        let step = ray.in_part(found.part, &scenery.world.parts[found.part].frame).1;
+        let outline = scene.face_contours(face).next().unwrap_or_default();
+        let outside = unit_normal(outline.iter().map(|corner| scenery.surface.rest(*corner)));
+        let per_step = coefficient * step.length() * if outside.dot(step) > 0.0 { 1.0 } else { -1.0 };
+        self.depth += per_step * found.s;
+        self.rest += per_step;
+        self.size += per_step.abs();
+    }
+
+    /// The part of the light that is left. `distance`: the parameter of the lamp.
+    fn left(&self, distance: f64) -> f64 {
+        /// Rounding errors of the sum.
+        const ROUNDING: f64 = 1e-9;
+        // A lamp in a solid: the ray does not leave it.
+        let inside = if self.rest < -ROUNDING * self.size { -self.rest * distance } else { 0.0 };
+        libm::exp(-(self.depth + inside).max(0.0))
+    }
 }
 
 /// Transmittance of a face for a ray that is not bent, 0…1.

@@ -60,8 +60,9 @@ pub struct Visit {
     pub depth: u32,
     /// The part of its light that reaches the eye.
     pub weight: f64,
-    /// The transparent solid that the light went through to the next surface or the eye.
-    pub medium: Option<Solid>,
+    /// The transparent solid that the light went through to the next surface or the eye, and the
+    /// part that it did not absorb.
+    pub medium: Option<(Solid, f64)>,
     /// Linear red, green and blue of its own light, of which `weight` is seen.
     pub light: DVec3,
     /// The light of lamps on it.
@@ -100,6 +101,8 @@ struct Path<'p> {
     depth: u32,
     /// The part of its light that reaches the eye.
     weight: f64,
+    /// Absorption along the ray per unit of its parameter, in its medium.  Eq. (P38)
+    absorption: f64,
     /// A number for each sample of the picture.
     sample: u64,
     /// Where it comes from.
@@ -140,7 +143,15 @@ impl<'a> Tracer<'a> {
     /// nearest face on the ray within the clipping distances. `far`: the end of the range of
     /// parameters.
     pub fn arriving(&mut self, ray: &Ray, first: Option<Intersection>, far: f64, sample: u64) -> Arriving {
-        let path = Path { ray, media: &Media::default(), depth: 0, weight: 1.0, sample, way: Way::Straight };
+        let path = Path {
+            ray,
+            media: &Media::default(),
+            depth: 0,
+            weight: 1.0,
+            absorption: 0.0,
+            sample,
+            way: Way::Straight,
+        };
         (self.n_branches, self.is_too_deep, self.begins_inside) = (0, false, false);
         self.seen(&path, first, far)
     }
@@ -151,10 +162,12 @@ impl<'a> Tracer<'a> {
         let mut passing = 1.0;
         let mut next = first;
         while let Some(found) = next {
+            let left = if path.absorption > 0.0 { libm::exp(-path.absorption * found.s) } else { 1.0 };
             if !self.scenery.is_translucent(found.triangle.face) {
                 let point = SurfacePoint::new(self.scenery, path.ray, &found);
-                let own = self.light_of(&Path { weight: path.weight * passing, ..*path }, &point);
-                sum.add(passing, own);
+                let part = passing * left;
+                let own = self.light_of(&Path { weight: path.weight * part, ..*path }, &point, left);
+                sum.add(part, own);
                 return sum;
             }
             // Faces at the same place are blended in the order of the scene.
@@ -163,28 +176,32 @@ impl<'a> Tracer<'a> {
             let mut end = found.s;
             for layer in &layers {
                 let point = SurfacePoint::new(self.scenery, path.ray, layer);
-                let weight = passing * (1.0 - point.translucency);
+                let weight = passing * left * (1.0 - point.translucency);
                 if weight > 0.0 {
-                    let own = self.light_of(&Path { weight: path.weight * weight, ..*path }, &point);
+                    let own = self.light_of(&Path { weight: path.weight * weight, ..*path }, &point, left);
                     sum.add(weight, own);
                 }
                 passing *= point.translucency;
                 end = end.max(layer.s);
             }
             self.layers = layers;
-            if path.weight * passing < FAINT {
+            if path.weight * passing * left < FAINT {
                 return sum;
             }
             next = self.scenery.closest(path.ray, end..far);
         }
-        sum.background += passing * transmitted(self.scenery, &self.filters);
+        // The background is infinitely far away.
+        if path.absorption == 0.0 {
+            sum.background += passing * transmitted(self.scenery, &self.filters);
+        }
         sum
     }
 
-    /// The light from a surface: of lamps, mirrored, and transmitted.
-    fn light_of(&mut self, path: &Path<'_>, point: &SurfacePoint) -> Arriving {
+    /// The light from a surface: of lamps, mirrored, and transmitted. `left`: the part of it that
+    /// the medium before the surface does not absorb.
+    fn light_of(&mut self, path: &Path<'_>, point: &SurfacePoint, left: f64) -> Arriving {
         let light = self.shader.light(point, &self.filters, path.sample);
-        let visit = self.visit(path, point, light);
+        let visit = self.visit(path, point, light, left);
         let mut sum = Arriving { light, background: DVec3::ZERO };
         let Some(id) = point.surface(self.scenery) else { return sum };
         let surface = self.scenery.properties(id);
@@ -240,14 +257,14 @@ impl<'a> Tracer<'a> {
     }
 
     /// Notes a surface, if surfaces are wanted, and returns its row.
-    fn visit(&mut self, path: &Path<'_>, point: &SurfacePoint, light: DVec3) -> usize {
+    fn visit(&mut self, path: &Path<'_>, point: &SurfacePoint, light: DVec3, left: f64) -> usize {
         let Some(visits) = &mut self.visits else { return 0 };
         visits.push(Visit {
             point: *point,
             way: path.way,
             depth: path.depth,
             weight: path.weight,
-            medium: path.media.innermost(),
+            medium: path.media.innermost().map(|solid| (solid, left)),
             light,
             lamps: self.shader.received.clone().unwrap_or_default(),
             followed: [None; 2],
@@ -283,7 +300,9 @@ impl<'a> Tracer<'a> {
             wave: frame.wave_to_camera(wave),
             start: Start::Surface { part: point.part, place: point.place },
         };
-        let next = Path { ray: &ray, media, depth: path.depth + 1, weight: path.weight * part, ..*path };
+        let absorption = absorption(self.scenery, media.innermost(), step);
+        let next =
+            Path { ray: &ray, media, absorption, depth: path.depth + 1, weight: path.weight * part, ..*path };
         let first = self.scenery.closest(&ray, 0.0..f64::INFINITY);
         self.seen(&next, first, f64::INFINITY)
     }
@@ -347,6 +366,16 @@ fn medium(scenery: &Scenery<'_>, solid: Option<Solid>, part: usize) -> Medium {
     let [of_solid, here] = [solid.part, part].map(|part| &scenery.world.parts[part].frame);
     let velocity = here.turned_velocity(compose(of_solid.velocity, -here.velocity));
     Medium { index, velocity }
+}
+
+/// Absorption in a medium for a step of a ray.  Eq. (P38)
+fn absorption(scenery: &Scenery<'_>, solid: Option<Solid>, step: Event) -> f64 {
+    let Some(solid) = solid else { return 0.0 };
+    let coefficient = scenery.properties(solid.surface).absorption;
+    if coefficient == 0.0 {
+        return 0.0;
+    }
+    coefficient * scenery.world.parts[solid.part].frame.to_rest(step).x.length()
 }
 
 /// The reflected part of unpolarised light at the boundary of two media.

@@ -5,9 +5,10 @@ use glam::DVec3;
 use rayon::ThreadPoolBuilder;
 use ugimage::{Format, LinearFrame, Samples};
 use ugphoton::{
-    Anchor, CameraOptions, Channel, Config, Exposure, Filter, Lens, MotionOptions, Output, PictureOptions,
-    RayOptions, Shutter, light, render,
+    Anchor, Background, CameraOptions, Channel, Config, Exposure, Filter, Lens, MotionOptions, Output,
+    PictureOptions, RayOptions, Shutter, light, render,
 };
+use ugphysics::{Hsv, Velocity, Wave};
 
 fn scene(text: &str) -> ugparse::Scene {
     let source = ugparse::Source::new("test.ug", text);
@@ -369,6 +370,81 @@ fn a_shutter_at_the_film_shows_its_edge_earlier() {
         // A pixel is 0.001 wide there.
         assert!(seen(shutter, 0.01) && !seen(shutter, -0.01), "{shutter:?}");
     }
+}
+
+/// A slab of absorbing glass with velocity `velocity`, 1 thick at rest, below z = `top`; its
+/// coefficient is 0.7, its index 1.5.
+fn absorbing_slab(top: f64, velocity: DVec3) -> String {
+    let corner = |name: &str, x: f64, y: f64, z: f64| format!("v {name} {x} {y} {z};");
+    let square = |name: &str, z: f64| {
+        let corners = [(-500.0, -500.0), (500.0, -500.0), (500.0, 500.0), (-500.0, 500.0)];
+        let corners = corners.iter().enumerate();
+        corners.map(|(at, (x, y))| corner(&format!("{name}{at}"), *x, *y, z)).collect::<String>()
+    };
+    let motion = format!("<{} {} {}>", velocity.x, velocity.y, velocity.z);
+    format!(
+        "surf glass 0 0 1 1.5 20 0.7; {} {} f (n0 n1 n2 n3) white glass {motion};
+         f (f3 f2 f1 f0) white glass {motion};",
+        square("n", top),
+        square("f", top - 1.0)
+    )
+}
+
+/// The light left behind a moving slab is exp(−a L), with L the length of the path in the frame of
+/// the slab: of the refracted ray, and of the straight shadow ray (P38).
+#[test]
+fn moving_glass_absorbs_light_along_its_path() {
+    let seen = |text: &str, toward: DVec3| {
+        let camera = CameraOptions {
+            center: Some(toward),
+            up: Some(DVec3::Y),
+            view_angle: Some((1e-3, None)),
+            ..CameraOptions::default()
+        };
+        let background = Background::Color(Hsv { hue: 0.0, saturation: 0.0, value: 1.0 });
+        let picture =
+            PictureOptions { size: [1, 1], samples: 1, camera, background, ..PictureOptions::default() };
+        light(scene(text), &Config { picture, ..Config::default() }).unwrap().pixels()[0][0]
+    };
+    let wall = "v a -900 -900 -60; v b 900 -900 -60; v c 900 900 -60; v d -900 900 -60;";
+    for velocity in [
+        DVec3::ZERO,
+        DVec3::new(0.0, 0.0, 0.5),
+        DVec3::new(0.0, 0.0, -0.3),
+        DVec3::new(0.6, 0.0, 0.0),
+        DVec3::new(0.3, 0.2, -0.4),
+    ] {
+        let frame = Velocity::from_beta(velocity).unwrap();
+        // The cosine to the normal of the slab, in its frame, of light that moves in a direction.
+        let cosine = |direction: DVec3| {
+            let wave = Wave { frequency: 1.0, direction: direction.normalize() };
+            wave.in_frame(frame).direction.z.abs()
+        };
+        let toward = DVec3::new(0.3, 0.1, -1.0);
+        let glass = absorbing_slab(-2.0, velocity);
+        let text = format!("c white 1; l 0; {wall} f (a b c d) white 1; {glass} cam -ep 0 0 0;");
+        let sine_squared = (1.0 - cosine(-toward) * cosine(-toward)) / (1.5 * 1.5);
+        let expected = libm::exp(-0.7 / (1.0 - sine_squared).sqrt());
+        let found = f64::from(seen(&text, toward));
+        assert!((found / expected - 1.0).abs() < 1e-5, "{velocity}: {found} {expected}");
+        // The shadow of a slab above the eye, on the wall below.
+        let lamp = DVec3::new(0.4, -0.2, 1.0);
+        let glass = absorbing_slab(7.0, velocity);
+        let text = format!(
+            "c white 1; l 1 {} {} {} <0 0 0>; {wall} f (a b c d) white; {glass} cam -ep 0 0 0;",
+            lamp.x, lamp.y, lamp.z
+        );
+        let level = ugphysics::srgb_decode(
+            lamp.normalize().z * ugphysics::srgb_encode(libm::exp(-0.7 / cosine(-lamp))),
+        );
+        let found = f64::from(seen(&text, DVec3::NEG_Z));
+        assert!((found / level - 1.0).abs() < 1e-5, "{velocity}: {found} {level}");
+    }
+    // Light from the background that never leaves the glass.
+    let endless = "c white 1; l 0; surf glass 0 0 1 1.5 20 0.7; v a -9 -9 -2; v b 9 -9 -2; v c 0 9 -2;
+        f (a b c) white glass; cam -ep 0 0 0;";
+    assert_eq!(seen(endless, DVec3::NEG_Z), 0.0);
+    assert_eq!(seen(&endless.replace(" 0.7;", ";"), DVec3::NEG_Z), 1.0);
 }
 
 #[test]

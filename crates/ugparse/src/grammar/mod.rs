@@ -221,7 +221,7 @@ impl<'t> Grammar<'t> {
         Ok((input, Statement::Color(ColorStatement { name, value, samples, translucency: 0.0 })))
     }
 
-    /// `surf ID kd ks kt [n [exponent]]`
+    /// `surf ID kd ks kt [n [exponent [absorption]]]`
     fn surface<'a>(&self, input: Input<'a>) -> Parsed<'a, Statement> {
         let part = number_from(0.0, f64::INFINITY, "a part of the light is 0 or more");
         let (input, name) = wanted(self.name(input), NAME)?;
@@ -234,6 +234,10 @@ impl<'t> Grammar<'t> {
             Some(_) => opt(number_from(0.0, f64::INFINITY, "an exponent is 0 or more")).parse(input)?,
             None => (input, None),
         };
+        let (input, absorption) = match exponent {
+            Some(_) => opt(number_from(0.0, f64::INFINITY, "absorption is 0 or more")).parse(input)?,
+            None => (input, None),
+        };
         let surface = SurfaceProperties {
             name: NameId::from_index(0),
             diffuse,
@@ -241,6 +245,7 @@ impl<'t> Grammar<'t> {
             transmitted,
             refraction: refraction.unwrap_or(SurfaceProperties::REFRACTION),
             exponent: exponent.unwrap_or(SurfaceProperties::EXPONENT),
+            absorption: absorption.unwrap_or(0.0),
         };
         Ok((input, Statement::Surface(SurfaceStatement { name, surface })))
     }

@@ -63,8 +63,9 @@ fn the_table_of_limits_is_correct() {
 #[test]
 fn the_examples_of_surfaces_have_the_stated_values() {
     let scene = parse(block("surf polished 0.6 0.4 0 ;"));
-    let rows: Vec<_> = scene.surfaces.iter().map(|s| (s.specular, s.refraction, s.exponent)).collect();
-    assert_eq!(rows, [(0.4, 1.0, 20.0), (0.1, 1.5, 60.0)]);
+    let rows: Vec<_> =
+        scene.surfaces.iter().map(|s| (s.specular, s.refraction, s.exponent, s.absorption)).collect();
+    assert_eq!(rows, [(0.4, 1.0, 20.0, 0.0), (0.1, 1.5, 60.0, 0.0), (0.1, 1.5, 60.0, 0.7)]);
 }
 
 #[test]

@@ -115,11 +115,13 @@ fn survives(bytes: &[u8]) -> Result<(), TestCaseError> {
     Ok(())
 }
 
-fn surface(scene: &Scene, face: &ugparse::Face) -> Option<(String, [f64; 5])> {
+fn surface(scene: &Scene, face: &ugparse::Face) -> Option<(String, [f64; 6])> {
     let surface = scene.surface(face)?;
-    let ugparse::SurfaceProperties { diffuse, specular, transmitted, refraction, exponent, .. } = *surface;
+    let ugparse::SurfaceProperties {
+        diffuse, specular, transmitted, refraction, exponent, absorption, ..
+    } = *surface;
     let name = scene.names.get(surface.name).to_string();
-    Some((name, [diffuse, specular, transmitted, refraction, exponent]))
+    Some((name, [diffuse, specular, transmitted, refraction, exponent, absorption]))
 }
 
 /// Equal row by row, not only as text.

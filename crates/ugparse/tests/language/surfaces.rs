@@ -8,10 +8,15 @@ fn surfaces_and_their_defaults() {
     check("surf s 1 0 0 1;surf t 1 0 0 1 20;", &["surf s 1 0 0;", "surf t 1 0 0;"]);
     check("surf glass 0 .1 .9 1.5;", &["surf glass 0 0.1 0.9 1.5;"]);
     check("surf m 0 3 0 1 0; surf n 0 1 0 1.5 20;", &["surf m 0 3 0 1 0;", "surf n 0 1 0 1.5;"]);
+    check(
+        "surf s 0 0 1 1.5 60 0.7; surf t 0 0 1 1 20 2; surf u 0 0 1 1.5 20 0;",
+        &["surf s 0 0 1 1.5 60 0.7;", "surf t 0 0 1 1 20 2;", "surf u 0 0 1 1.5;"],
+    );
+    assert_eq!(parse("surf s 0 0 1 1.5 60 0.7;").surfaces[0].absorption, 0.7);
     let scene = parse("surf s .5 .25 .125;");
     let surface = &scene.surfaces[0];
     assert_eq!((surface.diffuse, surface.specular, surface.transmitted), (0.5, 0.25, 0.125));
-    assert_eq!((surface.refraction, surface.exponent), (1.0, 20.0));
+    assert_eq!((surface.refraction, surface.exponent, surface.absorption), (1.0, 20.0, 0.0));
 }
 
 #[test]
@@ -21,6 +26,7 @@ fn invalid_surfaces_are_refused() {
         ("surf 1 0 0;", "expected a name that begins with a letter, `:`, `_` or `#`, found `1`"),
         ("surf s;", "expected a number, found `;`"),
         ("surf s 1 0;", "expected a number, found `;`"),
+        ("surf s 0 0 1 1.5 20 -1;", "the number `-1` is out of range"),
         ("surf s -1 0 0;", "the number `-1` is out of range"),
         ("surf s 0 -1e-9 0;", "the number `-1e-9` is out of range"),
         ("surf s 0 0 1.01;", "the number `1.01` is out of range"),
@@ -29,7 +35,7 @@ fn invalid_surfaces_are_refused() {
         ("surf s 0 0 0 -1;", "the number `-1` is out of range"),
         ("surf s 0 0 0 1 -1;", "the number `-1` is out of range"),
         ("surf s 0 1e999 0;", "the number `1e999` is too large"),
-        ("surf s 0 0 0 1 1 1;", "expected `;`, found `1`"),
+        ("surf s 0 0 0 1 1 1 1;", "expected `;`, found `1`"),
         ("surf s 1 0 0; surf s 0 1 0;", "surface `s` is defined twice"),
     ] {
         check_error(text, message);

@@ -48,7 +48,7 @@ fn surface(surface: &ExplainedSurface) -> Value {
         Way::Refracted(by) => ("refracted", Some(by)),
     };
     let medium = surface.medium.as_ref().map(
-        |medium| json!({ "surface": medium.name, "index": medium.index, "velocity": point(medium.beta) }),
+        |medium| json!({ "surface": medium.name, "index": medium.index, "velocity": point(medium.beta), "left": medium.left }),
     );
     json!({
         "item": item(&surface.item),

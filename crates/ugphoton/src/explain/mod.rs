@@ -114,6 +114,8 @@ pub struct ExplainedMedium {
     pub index: f64,
     /// Velocity.
     pub beta: DVec3,
+    /// The part of the light that is not absorbed (P38).
+    pub left: f64,
 }
 
 /// A light that shines on a surface.
@@ -264,7 +266,7 @@ impl Teller<'_> {
             way: visit.way,
             depth: visit.depth,
             weight: visit.weight,
-            medium: visit.medium.map(|solid| self.medium(solid)),
+            medium: visit.medium.map(|(solid, left)| self.medium(solid, left)),
             beta: velocity.beta(),
             gamma: velocity.gamma(),
             emission: (point.event.t, point.event.x - sample.ray.origin.x),
@@ -280,11 +282,12 @@ impl Teller<'_> {
         }
     }
 
-    fn medium(&self, solid: Solid) -> ExplainedMedium {
+    fn medium(&self, solid: Solid, left: f64) -> ExplainedMedium {
         let surface = self.scenery.properties(solid.surface);
         ExplainedMedium {
             name: self.scenery.scene.names.get(surface.name).to_owned(),
             index: surface.refraction,
+            left,
             beta: self.scenery.world.parts[solid.part].frame.velocity.beta(),
         }
     }

@@ -83,7 +83,11 @@ fn write_surface(
         } else {
             format!(", velocity {}", numbers(&medium.beta.to_array()))
         };
-        let text = format!("in `{}`, index {}{velocity} (P35)", medium.name, number(medium.index));
+        let left = match medium.left {
+            1.0 => String::new(),
+            left => format!(", which leaves {} of it (P38)", number(left)),
+        };
+        let text = format!("in `{}`, index {}{velocity} (P35){left}", medium.name, number(medium.index));
         row(out, "light goes", text)?;
     }
     let equation = if surface.depth == 0 { "P10" } else { "along the whole path, P23" };
