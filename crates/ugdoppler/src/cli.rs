@@ -117,7 +117,11 @@ impl ToolArgs for Args {
 }
 
 impl Args {
-    fn config(&self) -> Result<Config, Failure> {
+    /// What the options ask for.
+    ///
+    /// # Errors
+    /// [`Failure::Usage`]: options that exclude each other, or a value out of range.
+    pub fn config(&self) -> Result<Config, Failure> {
         if !(0.0..=100.0).contains(&self.ct) {
             return Err(Failure::usage("a colour tolerance (-ct) is between 0 and 100"));
         }

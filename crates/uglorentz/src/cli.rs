@@ -172,7 +172,11 @@ impl ToolArgs for Args {
 }
 
 impl Args {
-    fn config(&self) -> Result<Config, Failure> {
+    /// What the options ask for.
+    ///
+    /// # Errors
+    /// [`Failure::Usage`]: options that exclude each other, or a value out of range.
+    pub fn config(&self) -> Result<Config, Failure> {
         let pieces = match (self.equal, self.error) {
             (Some(n), _) => Pieces::PerEdge(n),
             (None, Some(milliradians)) => Pieces::UpTo(milliradians * 1e-3),

@@ -208,7 +208,12 @@ impl ToolArgs for Args {
 }
 
 impl Args {
-    fn config(&self, output: Option<&Path>) -> Result<Config, Failure> {
+    /// What the options ask for. `output`: the file whose ending is the format unless an option
+    /// gives it.
+    ///
+    /// # Errors
+    /// [`Failure::Usage`]: options that exclude each other, or a value out of range.
+    pub fn config(&self, output: Option<&Path>) -> Result<Config, Failure> {
         Ok(Config {
             motion: self.motion.options()?,
             shift: self.color_shift(),

@@ -131,6 +131,21 @@ impl CommonArgs {
         &self.limit
     }
 
+    /// The options for reading as they would be given to another program.
+    pub fn reading_words(&self) -> Vec<String> {
+        let flags = [
+            (self.lax, "--lax"),
+            (self.allow_execute, "--allow-execute"),
+            (self.allow_outside, "--allow-outside"),
+        ];
+        let mut words: Vec<String> =
+            flags.iter().filter(|(is_given, _)| *is_given).map(|(_, word)| (*word).to_owned()).collect();
+        words.extend(
+            self.limit.iter().flat_map(|(name, value)| ["--limit".to_owned(), format!("{name}={value}")]),
+        );
+        words
+    }
+
     /// True if notes and warnings are suppressed.
     pub fn quiet(&self) -> bool {
         self.qt

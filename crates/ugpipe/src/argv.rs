@@ -158,12 +158,27 @@ fn abbreviated(command: &Command, word: OsString) -> OsString {
     if is_free && is_known { format!("--{name}").into() } else { word }
 }
 
-/// The numbers of `80x60` or `.9,0,0`, if `arg` takes as many.
+/// The numbers of `80x60` or `.9,0,0`, or those over the time of a film, `0 0 0 .. 0 .9 0`, if
+/// `arg` takes as many.
 fn joined_numbers(arg: &Arg, word: &OsStr) -> Option<Vec<OsString>> {
     let range = arg.get_num_args().filter(|range| range.max_values() > 1)?;
-    let numbers: Vec<OsString> = word.to_str()?.split([',', 'x', '×']).map(OsString::from).collect();
+    let word = word.to_str()?;
+    let numbers =
+        rows_in_time(word).unwrap_or_else(|| word.split([',', 'x', '×']).map(OsString::from).collect());
     let is_whole = numbers.len() > 1 && (range.min_values()..=range.max_values()).contains(&numbers.len());
     (is_whole && numbers.iter().all(|number| is_number(number))).then_some(numbers)
+}
+
+/// The words `0..0`, `0...9`, `0..0` for `0 0 0 .. 0 .9 0`: each number with its values in time.
+fn rows_in_time(word: &str) -> Option<Vec<OsString>> {
+    let rows: Vec<Vec<&str>> = word.split("..").map(|row| row.split_whitespace().collect()).collect();
+    let n_numbers = rows.first()?.len();
+    if rows.len() < 2 || n_numbers < 2 || rows.iter().any(|row| row.len() != n_numbers) {
+        return None;
+    }
+    // A point at the end of a number would be taken for a part of the dots.
+    let values = |column: usize| rows.iter().map(move |row| row[column].trim_end_matches('.'));
+    Some((0..n_numbers).map(|column| values(column).collect::<Vec<_>>().join("..").into()).collect())
 }
 
 /// Copies the values of `arg` unchanged, except that numbers joined by commas or, as in `80x60`, by
@@ -207,8 +222,9 @@ fn may_be_value(arg: &Arg, word: &OsStr) -> bool {
     arg.is_allow_hyphen_values_set() || word == "-" || !word.as_encoded_bytes().starts_with(b"-")
 }
 
+/// True for a number, and for numbers over the time of a film: `-10..10`.
 fn is_number(word: &OsStr) -> bool {
-    word.to_str().is_some_and(|word| finite(word).is_ok())
+    word.to_str().is_some_and(|word| word.split("..").all(|number| finite(number.trim()).is_ok()))
 }
 
 fn is_variable(range: ValueRange) -> bool {
@@ -304,6 +320,17 @@ mod tests {
         // A number is a value even where only positive ones are valid.
         check("-fi -3 -gw", "--fi=-3 --gw");
         check("-fi -.5e1 -gw", "--fi=-.5e1 --gw");
+    }
+
+    #[test]
+    fn rows_become_values_of_each_number() {
+        let words =
+            |word: &str| rows_in_time(word).map(|words| words.join(" ".as_ref()).into_string().unwrap());
+        assert_eq!(words("0 0 0 .. 0 .9 0").as_deref(), Some("0..0 0...9 0..0"));
+        assert_eq!(words("1. 2..3 4 .. -5. 6").as_deref(), Some("1..3..-5 2..4..6"));
+        for word in ["-10..10", "0 0 0", "0 0 .. 1", ".. 1 2", "a b"] {
+            assert_eq!(words(word), None, "{word}");
+        }
     }
 
     #[test]

@@ -44,6 +44,10 @@ impl Temporary {
         self.0.as_file_mut()
     }
 
+    pub(crate) fn path(&self) -> &Path {
+        self.0.path()
+    }
+
     /// Renames the file to `target`.
     pub(crate) fn persist(self, target: &Path) -> io::Result<()> {
         let mut leftovers = leftovers();

@@ -172,6 +172,16 @@ impl Context {
         self.write(printable_json(json).as_bytes())
     }
 
+    /// Prints text to standard output, whatever the output is. What a terminal would obey in names
+    /// from outside is replaced by U+FFFD.
+    ///
+    /// # Errors
+    /// As of [`Context::write`].
+    pub fn print(&self, text: &str) -> Result<(), Failure> {
+        let mut stdout = Output::new(None);
+        stdout.write_with(|out| out.write_all(printable_lines(text).as_bytes()))
+    }
+
     /// Like [`Context::write`], for an output that is written in chunks while it is computed, so
     /// that it need not be in memory as a whole. `fill` writes it, in large chunks. Only writing
     /// may fail in it, since a chunk that has been written cannot be taken back.
@@ -195,6 +205,55 @@ impl Context {
         file.write_with(|out| out.write_all(data))?;
         self.others.push(file);
         Ok(())
+    }
+
+    /// Writes a file that is kept whatever happens afterwards, such as a frame of a film. It is
+    /// replaced atomically, now.
+    ///
+    /// # Errors
+    /// [`Failure::Write`] as in [`Context::write`].
+    pub fn write_now(path: &Path, data: &[u8]) -> Result<(), Failure> {
+        let mut file = Output::new(Some(path));
+        file.write_with(|out| out.write_all(data))?;
+        file.finish()
+    }
+
+    /// Lets another program write the output file: `fill` gets the name of a temporary file with
+    /// the same ending, which replaces the output when the program succeeds, and the receiver of
+    /// progress reports.
+    ///
+    /// # Errors
+    /// [`Failure::Write`] if no file can be created, [`Failure::Usage`] if the output is not a file;
+    /// errors of `fill`.
+    pub fn write_by_name(
+        &mut self,
+        fill: impl FnOnce(&Path, &Steps<'_>) -> Result<(), Failure>,
+    ) -> Result<(), Failure> {
+        let Some(path) = self.output.temporary_name()? else {
+            return Err(Failure::usage("this format is written to a file: give -fo FILE"));
+        };
+        fill(&path, &Steps::new(&self.messages))
+    }
+
+    /// Writes an output while it is computed, which takes long: `fill` gets the receiver of progress
+    /// reports as well. It ends with a failure of the computation, or with the error of writing.
+    ///
+    /// # Errors
+    /// As of [`Context::write`]; failures of `fill`.
+    pub fn write_stream(
+        &mut self,
+        fill: impl FnOnce(&mut dyn Write, &Steps<'_>) -> Result<io::Result<()>, Failure>,
+    ) -> Result<(), Failure> {
+        let mut outcome = Ok(());
+        let steps = Steps::new(&self.messages);
+        self.output.write_with(|out| match fill(out, &steps) {
+            Ok(written) => written,
+            Err(failure) => {
+                outcome = Err(failure);
+                Ok(())
+            }
+        })?;
+        outcome
     }
 
     /// True if the output goes to a terminal, where binary files must not be printed.

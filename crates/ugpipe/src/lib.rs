@@ -151,7 +151,7 @@ pub use progress::Progress;
 #[cfg(feature = "cli")]
 pub use provenance::{sha256, shell_word};
 #[cfg(feature = "cli")]
-pub use run::main;
+pub use run::{main, parse_words};
 #[cfg(feature = "cli")]
 pub use steps::Steps;
 pub use text::{is_printable, printable, shorten};

@@ -1,5 +1,6 @@
 //! The output: standard output, or a file that is replaced atomically.
 
+use std::ffi::OsString;
 use std::fs::{File, OpenOptions, Permissions};
 use std::io::{self, BufWriter, IsTerminal, Write};
 use std::os::fd::AsFd;
@@ -54,6 +55,17 @@ impl Output {
         self.try_write(fill).map_err(|error| self.failure(error))
     }
 
+    /// Creates the temporary file, or opens the device, and gives its name; `None` for standard
+    /// output.
+    pub(crate) fn temporary_name(&mut self) -> Result<Option<PathBuf>, Failure> {
+        self.write_with(|_| Ok(()))?;
+        Ok(match &mut self.sink {
+            Some(Sink::Temporary { temporary, .. }) => Some(temporary.path().to_owned()),
+            Some(Sink::Device(_)) => self.path.clone(),
+            Some(Sink::Stdout) | None => None,
+        })
+    }
+
     /// Renames the temporary file to its target.
     pub(crate) fn finish(&mut self) -> Result<(), Failure> {
         match self.sink.take() {
@@ -106,7 +118,13 @@ impl Sink {
         let all_may = Permissions::from_mode(0o666);
         let temporary = Temporary::new(|| {
             let mut builder = tempfile::Builder::new();
-            let file = builder.prefix(".ug-").permissions(all_may).tempfile_in(folder_of(&target))?;
+            let ending = target.extension().map_or_else(OsString::new, |ending| {
+                let mut with_point = OsString::from(".");
+                with_point.push(ending);
+                with_point
+            });
+            builder.prefix(".ug-").suffix(&ending).permissions(all_may);
+            let file = builder.tempfile_in(folder_of(&target))?;
             if let Some(permissions) = permissions {
                 file.as_file().set_permissions(permissions)?;
             }

@@ -1,6 +1,7 @@
 //! The `main` of every program: from the command line to the exit status.
 
 use std::env;
+use std::ffi::OsString;
 use std::io;
 use std::process::ExitCode;
 use std::sync::atomic::AtomicBool;
@@ -66,8 +67,29 @@ impl From<clap::Error> for Unparsed {
     }
 }
 
+/// Parses the command line of a program that is not run but whose functions are called, and gives
+/// the command line that it would record. `words`: the name of the program first.
+///
+/// # Errors
+/// [`Failure::Usage`] with the message of the program.
+pub fn parse_words<A: ToolArgs>(words: impl IntoIterator<Item = OsString>) -> Result<(A, String), Failure> {
+    let mut command = argv::prepare(A::command());
+    match parse_from(&mut command, words) {
+        Ok((args, matches)) => Ok((args, provenance::command_line(&command, &matches))),
+        Err(Unparsed::StrayNumber(stray)) => Err(Failure::Usage(usage::stray_number(&stray))),
+        Err(Unparsed::Clap(error)) => Err(Failure::Usage(usage::message(&command, &error))),
+    }
+}
+
 fn parse<A: ToolArgs>(command: &mut Command) -> Result<(A, ArgMatches), Unparsed> {
-    let words = argv::rewrite(command, env::args_os()).map_err(Unparsed::StrayNumber)?;
+    parse_from(command, env::args_os())
+}
+
+fn parse_from<A: ToolArgs>(
+    command: &mut Command,
+    words: impl IntoIterator<Item = OsString>,
+) -> Result<(A, ArgMatches), Unparsed> {
+    let words = argv::rewrite(command, words).map_err(Unparsed::StrayNumber)?;
     let matches = command.try_get_matches_from_mut(words)?;
     let args = A::from_arg_matches(&matches).map_err(|error| error.format(command))?;
     Ok((args, matches))

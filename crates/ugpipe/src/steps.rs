@@ -32,25 +32,35 @@ impl<'m> Steps<'m> {
         Self { messages, shows_bar, current: Mutex::new(None) }
     }
 
-    fn bar(&self, name: &'static str, parts: u64) -> ProgressBar {
+    /// Begins a step whose parts count for the user, such as frames: the bar shows how many are
+    /// done, how many a second, and the time left.
+    pub fn count(&self, name: &'static str, parts: u64) {
+        self.switch_to(Some((
+            name,
+            parts,
+            "{prefix}: {msg} [{bar:40}] {pos} of {len}, {per_sec}, {eta} left",
+        )));
+    }
+
+    fn bar(&self, name: &'static str, parts: u64, template: &str) -> ProgressBar {
         let bar = ProgressBar::with_draw_target(Some(parts), ProgressDrawTarget::hidden());
         // The template is valid; otherwise the bar would keep its default style.
-        if let Ok(style) = ProgressStyle::with_template("{prefix}: {msg} [{bar:40}] {percent}%") {
+        if let Ok(style) = ProgressStyle::with_template(template) {
             bar.set_style(style.progress_chars("=> "));
         }
         bar.with_prefix(self.messages.program().to_owned()).with_message(name)
     }
 
     /// Ends the current step and begins the next, if there is one.
-    fn switch_to(&self, next: Option<(&'static str, u64)>) {
+    fn switch_to(&self, next: Option<(&'static str, u64, &str)>) {
         let mut current = self.lock();
         if let Some(Step { name, begun, bar }) = current.take() {
             bar.iter().for_each(ProgressBar::finish_and_clear);
             let seconds = begun.elapsed().as_secs_f64();
             self.messages.detail(&format!("{name} took {seconds:.3} s"));
         }
-        *current = next.map(|(name, parts)| {
-            let bar = (self.shows_bar && parts > 0).then(|| self.bar(name, parts));
+        *current = next.map(|(name, parts, template)| {
+            let bar = (self.shows_bar && parts > 0).then(|| self.bar(name, parts, template));
             Step { name, begun: Instant::now(), bar }
         });
     }
@@ -63,7 +73,7 @@ impl<'m> Steps<'m> {
 
 impl Progress for Steps<'_> {
     fn step(&self, name: &'static str, parts: u64) {
-        self.switch_to(Some((name, parts)));
+        self.switch_to(Some((name, parts, "{prefix}: {msg} [{bar:40}] {percent}%")));
     }
 
     fn done(&self, parts: u64) {

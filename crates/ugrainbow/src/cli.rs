@@ -181,11 +181,12 @@ impl ToolArgs for Args {
 }
 
 impl Args {
-    /// The configuration that these arguments define. `output`: the file to be written.
+    /// What the options ask for. `output`: the file whose ending is the format unless an option
+    /// gives it.
     ///
     /// # Errors
-    /// The file name ends in an unknown format, or a colour or range is invalid.
-    fn config(&self, output: Option<&Path>) -> Result<Config, Failure> {
+    /// [`Failure::Usage`]: options that exclude each other, or a value out of range.
+    pub fn config(&self, output: Option<&Path>) -> Result<Config, Failure> {
         Ok(Config {
             picture: self.picture.options(self.output(output)?, self.annotations.options())?,
             interpolation: if self.iw { Interpolation::Wavelength } else { Interpolation::Hue },

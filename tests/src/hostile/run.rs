@@ -64,6 +64,7 @@ fn pipe(
     threads: Option<&str>,
 ) -> Result<Option<Vec<u8>>, String> {
     let mut input = case.files[0].1.clone();
+    let mut passes_all_on = false;
     for (idx, words) in case.stages.iter().enumerate() {
         let is_last = idx + 1 == case.stages.len();
         let edge = if is_last { case.edge } else { Edge::Plain };
@@ -82,14 +83,17 @@ fn pipe(
         let is_silent = words.iter().any(|word| word == "check") || edge == Edge::Input(CLOSED);
         check(&ended, is_silent, edge, folder).map_err(about)?;
         if ended.status.code() != Some(0) {
-            // Another camera may be asked for than there is.
-            let is_refused = is_diagnostic(&ended.messages) && !words.iter().any(|word| word == "-cam");
+            // Another camera may be asked for than there is, and an earlier program may have been
+            // told to pass unknown statements on.
+            let is_excused = words.iter().any(|word| word == "-cam") || passes_all_on && !is_lax(&words);
+            let is_refused = is_diagnostic(&ended.messages) && !is_excused;
             if idx > 0 && is_refused {
                 let messages = String::from_utf8_lossy(&ended.messages).into_owned();
                 return Err(about(format!("refuses the scene that a program has written:\n{messages}")));
             }
             return Ok(None);
         }
+        passes_all_on |= is_lax(&words);
         input = ended.output;
         if edge == Edge::Plain {
             for reader in readers(&words) {
@@ -104,6 +108,10 @@ fn pipe(
         }
     }
     Ok(Some(input))
+}
+
+fn is_lax(words: &[String]) -> bool {
+    words.iter().any(|word| word.trim_start_matches('-') == "lax")
 }
 
 /// The command lines that must accept what this one has written with status 0.

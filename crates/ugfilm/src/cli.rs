@@ -1,0 +1,322 @@
+//! The command line.
+
+use std::path::Path;
+
+use clap::Parser;
+use ugimage::Format;
+use ugparse::{Scene, pipe};
+use ugpicture::cli::format_for;
+use ugpipe::{CommonArgs, Context, Failure, Manual, ToolArgs, finite, one_of, whole};
+use ugscene::{CameraOptions, DefaultCamera};
+
+use crate::encode::Kind;
+use crate::film::{Film, Summary, Target};
+use crate::frame_files::FrameNames;
+use crate::keys;
+use crate::options::{Given, ProgramOptions};
+use crate::program::Renderer;
+use crate::script::Script;
+use crate::timeline::Ease;
+
+/// Draws the frames of a film or a figure sequence
+///
+/// Reads a scene at rest once and draws it again and again, with numbers that change: any number
+/// among the options of the programs may have several values, -ti -10..10, which it goes through in
+/// the course of the film. Several numbers change together in one word, -cv '0 0 0 .. 0 .9 0'.
+/// Velocities change by rapidity. Frames are numbered files, or one file with the whole film. Every
+/// frame is the file that its pipe of programs draws, which --print shows; frames that are there
+/// already are not drawn again.
+#[derive(Debug, Parser)]
+#[command(name = "ugfilm", version, after_help = EXAMPLES)]
+pub struct Args {
+    /// Number of frames
+    #[arg(long, value_name = "N", default_value = "100", value_parser = whole(1..=10_000_000), help_heading = FILM)]
+    frames: u32,
+
+    /// Frames a second, for films in one file
+    #[arg(long, value_name = "RATE", default_value = "25", value_parser = rate, help_heading = FILM)]
+    fps: f64,
+
+    /// Draw by tracing rays, with mirrors, glass and shadows, instead of the pipe of three programs
+    #[arg(long, help_heading = FILM)]
+    rays: bool,
+
+    /// How numbers change from one value to the next: linear, smooth
+    ///
+    /// smooth begins and ends slowly, without jumps in between, and never goes beyond the values.
+    #[arg(long, value_name = "WORD", default_value = "linear",
+          value_parser = one_of(["linear", "smooth"], ease), help_heading = FILM)]
+    ease: Ease,
+
+    /// The film repeats: the frame after the last one would be the first
+    #[arg(long = "loop", help_heading = FILM)]
+    is_loop: bool,
+
+    /// Read values at single frames from FILE: lines such as 120 -ti 0 -ep 0 -5 2
+    #[arg(long, value_name = "FILE", help_heading = FILM)]
+    keys: Option<std::path::PathBuf>,
+
+    /// Draw only these frames: 40..59, or 1,5,9..12
+    #[arg(long, value_name = "LIST", value_parser = ranges, help_heading = FILM)]
+    only: Option<Ranges>,
+
+    /// Also keep the frames of a film in these files, frame_%04d.png, and use those that are there
+    #[arg(long, value_name = "NAMES", help_heading = FILM)]
+    keep: Option<String>,
+
+    /// Print the command of every frame, or of frame N, and draw nothing
+    #[arg(long, num_args = 0..=1, value_name = "N", default_missing_value = "0",
+          value_parser = whole(0..=10_000_000), help_heading = FILM)]
+    print: Option<u32>,
+
+    /// Format of the film [default: by the ending of -fo]
+    ///
+    /// Of single frames: png, exr, pdf and all others of ugrainbow. Of films in one file: apng, gif,
+    /// y4m, ppm; mp4 and webm with ffmpeg.
+    #[arg(long, value_name = "FMT", visible_alias = "format", help_heading = FILM)]
+    dt: Option<String>,
+
+    #[command(flatten)]
+    options: ProgramOptions,
+
+    #[command(flatten)]
+    common: CommonArgs,
+}
+
+const FILM: &str = "Film";
+
+const EXAMPLES: &str = "Examples:
+  ugfilm -frames 60 -ti -6..6 -vel 0 .9 0 -fo flyby.gif ship.ug
+  ugfilm -frames 240 -cv '0 0 0 .. 0 .99 0' -sp -ex auto -fo drive.mp4 street.ug
+  ugfilm -frames 240 -cv '0 0 0 .. 0 .99 0' -fo frame_%04d.png street.ug
+  ugfilm --rays -frames 50 -ti 0..20 -fo shadow.apng shadow.ug";
+
+/// Frames by number.
+#[derive(Clone, Debug, PartialEq, Eq)]
+struct Ranges(Vec<[u32; 2]>);
+
+impl ToolArgs for Args {
+    const ESSENTIAL: &'static [&'static str] =
+        &["--frames", "-vel", "-cv", "-ti", "-ep", "-sp", "-ex", "-sz", "-rays", "-only", "--print", "-fo"];
+
+    fn common(&self) -> &CommonArgs {
+        &self.common
+    }
+}
+
+/// What the help, the man page and the completions of the program say.
+pub fn manual() -> Manual {
+    ugpipe::manual::<Args>()
+}
+
+/// The whole program between its streams: reads the scene, draws the frames, writes them.
+///
+/// # Errors
+/// Bad usage, a bad scene, or a stream that fails.
+pub fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
+    let output = Output::new(args, context.output_name())?;
+    let keep = args.keep.as_deref().map(|names| names_of(names, "--keep")).transpose()?;
+    let mut script = args.script(context)?;
+    let frames = args.numbers()?;
+    let reading = pipe::options(&args.common)?;
+    let source = pipe::read(context, &reading)?;
+    let camera = script.fixed("cam");
+    let parsed = ugscene::read(&source, &reading, camera.as_deref()).map_err(pipe::refused)?;
+    if !parsed.warnings.is_empty() {
+        context.report(&parsed.warnings.render(true));
+    }
+    let scene = parsed.scene;
+    if let Some(camera) = default_camera(&scene, &script)? {
+        context.note(&format!("{camera}, in all frames"));
+        let words = |point: [f64; 3]| point.map(|part| part.to_string()).to_vec();
+        script.set("ep", words(camera.eye.to_array()));
+        script.set("vc", words(camera.center.to_array()));
+        script.set("va", vec![camera.view_angle_deg.to_string()]);
+    }
+    if script.fixed("ex").as_deref() == Some("auto") {
+        let film = Film { scene: &scene, script: &script, format: output.frame_format() };
+        let stops = film.exposure(&context.steps())?.to_string();
+        context.note(&format!("one exposure for all frames: -ex {stops}"));
+        script.set("ex", vec![stops]);
+    }
+    if let Some(number) = args.print {
+        return print(&script, &output, &frames, number, context);
+    }
+    let film = Film { scene: &scene, script: &script, format: output.frame_format() };
+    let summary = match &output {
+        Output::Files(names, _) => {
+            film.size()?;
+            film.write_files(&frames, names, &context.steps())?
+        }
+        Output::Film(kind) => {
+            if context.output_is_terminal() {
+                return Err(Failure::usage("a film is not written to a terminal; give -fo FILE"));
+            }
+            film.write_film(&frames, Target { kind: *kind, rate: args.fps, keep: keep.as_ref() }, context)?
+        }
+    };
+    tell(&summary, context);
+    Ok(())
+}
+
+fn tell(summary: &Summary, context: &Context) {
+    summary.notes.iter().for_each(|note| context.note(&format!("first frame: {note}")));
+    let Summary { n_drawn, n_done, n_elsewhere, .. } = summary;
+    if *n_done + *n_elsewhere > 0 {
+        let elsewhere = match n_elsewhere {
+            0 => String::new(),
+            _ => format!(", {n_elsewhere} are drawn by another process"),
+        };
+        context.note(&format!("{n_drawn} frames drawn, {n_done} were there already{elsewhere}"));
+    }
+}
+
+/// The camera of all frames, if the scene has none and the options give none.
+fn default_camera(scene: &Scene, script: &Script) -> Result<Option<DefaultCamera>, Failure> {
+    if ["ep", "vc", "va"].iter().any(|name| script.get(name).is_some()) {
+        return Ok(None);
+    }
+    DefaultCamera::new(scene, &CameraOptions::default(), [4, 3], []).map_err(Failure::failed)
+}
+
+/// Where frames go.
+enum Output {
+    /// Numbered files.
+    Files(FrameNames, Format),
+    /// One file.
+    Film(Kind),
+}
+
+impl Output {
+    fn new(args: &Args, file: Option<&Path>) -> Result<Self, Failure> {
+        let name = file.map(|path| path.to_string_lossy().into_owned());
+        let names = name.as_deref().and_then(FrameNames::new);
+        let ending = file.and_then(Path::extension).map(|ending| ending.to_string_lossy().into_owned());
+        let word = args.dt.clone().or(ending);
+        let kind = word.as_deref().and_then(Kind::from_name);
+        match (names, kind) {
+            (None, Some(kind)) => Ok(Self::Film(kind)),
+            // Pictures of this format are single frames, too.
+            (Some(names), None | Some(Kind::Ppm)) => {
+                let given = args.dt.as_deref().map(ugpicture::cli::format_named).transpose();
+                Ok(Self::Files(names, format_for(given.map_err(Failure::usage)?, file)?))
+            }
+            (Some(_), Some(kind)) => Err(Failure::Usage(format!(
+                "{} is a whole film, not a frame: give a name without %d, or frames in png",
+                kind.name()
+            ))),
+            (None, None) => {
+                let kinds = Kind::ALL.map(Kind::name).join(", ");
+                Err(Failure::Usage(format!(
+                    "give numbered files, -fo frame_%04d.png, or a film: -fo FILE or -dt with {kinds}"
+                )))
+            }
+        }
+    }
+
+    /// The format of a frame.
+    fn frame_format(&self) -> Format {
+        match self {
+            Self::Files(_, format) => *format,
+            Self::Film(_) => Format::Png,
+        }
+    }
+}
+
+fn names_of(pattern: &str, option: &str) -> Result<FrameNames, Failure> {
+    let is_png = pattern.to_ascii_lowercase().ends_with(".png");
+    FrameNames::new(pattern).filter(|_| is_png).ok_or_else(|| {
+        Failure::Usage(format!("{option} names numbered PNG files, such as frame_%04d.png, not `{pattern}`"))
+    })
+}
+
+fn print(
+    script: &Script,
+    output: &Output,
+    frames: &[u32],
+    number: u32,
+    context: &mut Context,
+) -> Result<(), Failure> {
+    let input = Some(context.recorded_name()).filter(|name| name != "-");
+    let mut text = String::new();
+    for &frame in frames.iter().filter(|&&frame| number == 0 || frame == number) {
+        let file = match output {
+            Output::Files(names, _) => names.path(frame).display().to_string(),
+            Output::Film(_) => format!("frame_{frame:04}.png"),
+        };
+        let mut commands = script.commands(f64::from(frame))?;
+        commands.set_format(output.frame_format());
+        text += &commands.line(input.as_deref(), Some(&file));
+        text.push('\n');
+    }
+    if text.is_empty() {
+        return Err(Failure::Usage(format!("--print {number}: the film has no such frame")));
+    }
+    context.print(&text)
+}
+
+impl Args {
+    fn script(&self, context: &Context) -> Result<Script, Failure> {
+        let exact = Given { name: "xc".to_owned(), values: Vec::new() };
+        let renderer = match (self.rays, self.options.given.contains(&exact)) {
+            (true, _) => Renderer::Rays,
+            (false, true) => Renderer::Exact,
+            (false, false) => Renderer::Pipe,
+        };
+        let mut script = Script::new(renderer, self.frames);
+        script.ease = self.ease;
+        script.is_loop = self.is_loop;
+        script.reading = self.common.reading_words();
+        self.options.given.iter().try_for_each(|option| script.add(option))?;
+        if let Some(path) = &self.keys {
+            let file = context.input_file(path)?;
+            let text = String::from_utf8_lossy(&file.text);
+            keys::add(&mut script, &file.name, &text).map_err(Failure::Failed)?;
+        }
+        Ok(script)
+    }
+
+    /// The numbers of the frames to draw.
+    fn numbers(&self) -> Result<Vec<u32>, Failure> {
+        let Some(Ranges(ranges)) = &self.only else { return Ok((1..=self.frames).collect()) };
+        let mut frames: Vec<u32> = Vec::new();
+        for &[first, last] in ranges {
+            if last > self.frames {
+                return Err(Failure::Usage(format!("--only: the film has {} frames", self.frames)));
+            }
+            frames.extend(first..=last);
+        }
+        frames.sort_unstable();
+        frames.dedup();
+        Ok(frames)
+    }
+}
+
+/// `1,5,9..12`.
+fn ranges(list: &str) -> Result<Ranges, String> {
+    let number = |word: &str| word.parse().ok().filter(|number: &u32| *number > 0);
+    let range = |part: &str| {
+        let (first, last) = part.split_once("..").unwrap_or((part, part));
+        let range = [number(first)?, number(last)?];
+        (range[0] <= range[1]).then_some(range)
+    };
+    let ranges: Option<Vec<[u32; 2]>> = list.split(',').map(range).collect();
+    ranges.map(Ranges).ok_or_else(|| "write frames as 40..59 or 1,5,9".to_owned())
+}
+
+fn ease(word: &str) -> Result<Ease, String> {
+    match word {
+        "linear" => Ok(Ease::Linear),
+        "smooth" => Ok(Ease::Smooth),
+        _ => Err("neither linear nor smooth".to_owned()),
+    }
+}
+
+fn rate(word: &str) -> Result<f64, String> {
+    let rate = finite(word)?;
+    if (0.01..=1000.0).contains(&rate) {
+        Ok(rate)
+    } else {
+        Err("from 0.01 to 1000 frames a second".to_owned())
+    }
+}

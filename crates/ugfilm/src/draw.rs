@@ -1,0 +1,202 @@
+//! Draws a frame by calling the functions of the programs, in the order of its pipe.
+
+use std::ffi::OsString;
+
+use ugimage::{Format, LinearFrame, Metadata};
+use ugparse::Scene;
+use ugpicture::Output;
+use ugpicture::cli::with_format;
+use ugpipe::{Failure, ToolArgs, parse_words};
+
+use crate::program::Program;
+use crate::script::Commands;
+
+/// All programs have one version.
+const VERSION: &str = env!("CARGO_PKG_VERSION");
+
+/// A frame as a file.
+#[derive(Clone, Debug)]
+pub struct Drawn {
+    /// The whole file: the bytes that the pipe writes.
+    pub bytes: Vec<u8>,
+    /// Notes and warnings, one sentence each, with the name of the program.
+    pub notes: Vec<String>,
+}
+
+/// The commands of a frame, parsed by the programs.
+pub struct Stages {
+    filters: Vec<Filter>,
+    renderer: Renderer,
+}
+
+enum Filter {
+    Lorentz(uglorentz::Config, String),
+    Doppler(ugdoppler::Config, String),
+}
+
+enum Renderer {
+    Rainbow(ugrainbow::Config, String),
+    Photon(ugphoton::Config, String),
+}
+
+impl Stages {
+    /// Parses the commands of a frame. `format`: of its file.
+    ///
+    /// # Errors
+    /// [`Failure::Usage`] with the message of the program.
+    pub fn new(commands: &Commands, format: Format) -> Result<Self, Failure> {
+        let mut filters = Vec::new();
+        let mut renderer = None;
+        for (program, words) in &commands.stages {
+            match program {
+                Program::Lorentz => {
+                    let (args, line) = parsed::<uglorentz::Args>(words)?;
+                    filters.push(Filter::Lorentz(args.config()?, line));
+                }
+                Program::Doppler => {
+                    let (args, line) = parsed::<ugdoppler::Args>(words)?;
+                    filters.push(Filter::Doppler(args.config()?, line));
+                }
+                Program::Rainbow => {
+                    let (args, line) = parsed::<ugrainbow::Args>(words)?;
+                    let mut config = args.config(None)?;
+                    config.picture.output = match config.picture.output {
+                        Output::Vector(_) => Output::Vector(format),
+                        _ => Output::Color(format),
+                    };
+                    let line = with_format(&line, config.picture.output, false);
+                    renderer = Some(Renderer::Rainbow(config, line));
+                }
+                Program::Photon => {
+                    let (args, line) = parsed::<ugphoton::Args>(words)?;
+                    let mut config = args.config(None)?;
+                    config.picture.output = Output::Color(format);
+                    let line = with_format(&line, config.picture.output, false);
+                    renderer = Some(Renderer::Photon(config, line));
+                }
+            }
+        }
+        let renderer = renderer.ok_or_else(|| Failure::failed("no program draws the frame"))?;
+        Ok(Self { filters, renderer })
+    }
+
+    /// What the file of the frame says about its making. Of the scene only the comments are used.
+    pub fn metadata(&self, scene: &Scene) -> Metadata {
+        let mut head = Scene { head: scene.head.clone(), origin: scene.origin.clone(), ..Scene::default() };
+        self.filters.iter().for_each(|filter| filter.record(&mut head));
+        match &self.renderer {
+            Renderer::Rainbow(_, line) => ugrainbow::metadata(&head, line),
+            Renderer::Photon(_, line) => ugphoton::metadata(&head, line),
+        }
+    }
+
+    /// Draws the frame of a scene.
+    ///
+    /// # Errors
+    /// The scene cannot be drawn with these options.
+    pub fn draw(&self, scene: &Scene) -> Result<Drawn, Failure> {
+        let mut notes = Vec::new();
+        let scene = self.filtered(scene, &mut notes)?;
+        let bytes = match &self.renderer {
+            Renderer::Rainbow(config, line) => {
+                let metadata = ugrainbow::metadata(&scene, line);
+                let rendering = ugrainbow::render(&scene, config).map_err(Failure::failed)?;
+                notes.extend(named(Program::Rainbow, &rendering.notes));
+                rendering.into_file(&metadata)
+            }
+            Renderer::Photon(config, line) => {
+                let metadata = ugphoton::metadata(&scene, line);
+                let rendering = ugphoton::render(scene, config).map_err(Failure::failed)?;
+                notes.extend(named(Program::Photon, &rendering.notes));
+                rendering.into_file(&metadata)
+            }
+        };
+        Ok(Drawn { bytes, notes })
+    }
+
+    /// The same frame in a picture of at most `side` pixels a side, without annotations.
+    pub fn small(mut self, side: u32) -> Self {
+        match &mut self.renderer {
+            Renderer::Rainbow(config, _) => shrink(&mut config.picture, side),
+            Renderer::Photon(config, _) => shrink(&mut config.picture, side),
+        }
+        self
+    }
+
+    /// The light of the frame, without exposure.
+    ///
+    /// # Errors
+    /// As of [`Stages::draw`].
+    pub fn light(&self, scene: &Scene) -> Result<LinearFrame, Failure> {
+        let scene = self.filtered(scene, &mut Vec::new())?;
+        match &self.renderer {
+            Renderer::Rainbow(config, _) => ugrainbow::light(&scene, config).map_err(Failure::failed),
+            Renderer::Photon(config, _) => ugphoton::light(scene, config).map_err(Failure::failed),
+        }
+    }
+
+    /// The picture options of the renderer.
+    pub fn picture(&self) -> &ugpicture::PictureOptions {
+        match &self.renderer {
+            Renderer::Rainbow(config, _) => &config.picture,
+            Renderer::Photon(config, _) => &config.picture,
+        }
+    }
+
+    /// The scene as the renderer gets it.
+    fn filtered(&self, scene: &Scene, notes: &mut Vec<String>) -> Result<Scene, Failure> {
+        let mut scene = scene.clone();
+        for filter in &self.filters {
+            scene = filter.apply(scene, notes)?;
+            filter.record(&mut scene);
+        }
+        Ok(scene)
+    }
+}
+
+impl Filter {
+    fn apply(&self, scene: Scene, notes: &mut Vec<String>) -> Result<Scene, Failure> {
+        match self {
+            Self::Lorentz(config, _) => {
+                let (scene, report) = uglorentz::apply(scene, config).map_err(Failure::failed)?;
+                notes.extend(named(Program::Lorentz, &report.warnings()));
+                notes.extend(named(Program::Lorentz, &report.notes()));
+                Ok(scene)
+            }
+            Self::Doppler(config, _) => {
+                let (scene, report) = ugdoppler::apply(scene, config).map_err(Failure::failed)?;
+                notes.extend(named(Program::Doppler, &report.notes));
+                Ok(scene)
+            }
+        }
+    }
+
+    fn record(&self, scene: &mut Scene) {
+        let (program, line) = match self {
+            Self::Lorentz(_, line) => (Program::Lorentz, line),
+            Self::Doppler(_, line) => (Program::Doppler, line),
+        };
+        ugscene::record(scene, program.command().get_name(), VERSION, line);
+    }
+}
+
+fn parsed<A: ToolArgs>(words: &[String]) -> Result<(A, String), Failure> {
+    parse_words(words.iter().map(OsString::from))
+}
+
+/// Makes a picture small, without annotations, which would leave no room for the scene.
+fn shrink(picture: &mut ugpicture::PictureOptions, side: u32) {
+    let [width, height] = picture.size;
+    let longest = width.max(height).max(1);
+    if longest > side {
+        let scaled = |length: u32| ((u64::from(length) * u64::from(side)) / u64::from(longest)).max(1) as u32;
+        picture.size = [scaled(width), scaled(height)];
+    }
+    picture.channels.clear();
+    picture.annotations = ugpicture::AnnotationOptions::default();
+}
+
+fn named(program: Program, texts: &[String]) -> Vec<String> {
+    let name = program.command().get_name().to_owned();
+    texts.iter().map(|text| format!("{name}: {text}")).collect()
+}

@@ -1,0 +1,282 @@
+//! Films as files: animated PNG and GIF, frames for other programs, and MP4 or WebM through ffmpeg.
+
+use std::io::{self, Read, Write};
+use std::path::Path;
+use std::process::{Child, ChildStdin, Command, Stdio};
+
+use ugimage::Frame;
+use ugpipe::{Failure, shorten};
+
+use crate::animation::{AnimatedPng, Gif, Palette};
+
+/// The kind of a film.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// Animated PNG, all colours.
+    Apng,
+    /// GIF, 256 colours.
+    Gif,
+    /// Uncompressed frames with a header (YUV4MPEG2), 4:4:4, BT.709.
+    Y4m,
+    /// PPM pictures, one behind the other.
+    Ppm,
+    /// A format that ffmpeg writes.
+    Mp4,
+    /// A format that ffmpeg writes.
+    Webm,
+}
+
+impl Kind {
+    /// All of them.
+    pub const ALL: [Self; 6] = [Self::Apng, Self::Gif, Self::Y4m, Self::Ppm, Self::Mp4, Self::Webm];
+
+    /// Its name, which is the ending of its files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Apng => "apng",
+            Self::Gif => "gif",
+            Self::Y4m => "y4m",
+            Self::Ppm => "ppm",
+            Self::Mp4 => "mp4",
+            Self::Webm => "webm",
+        }
+    }
+
+    /// The kind of this name.
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|kind| kind.name().eq_ignore_ascii_case(name))
+    }
+
+    /// True if ffmpeg writes it.
+    pub fn is_encoded(self) -> bool {
+        matches!(self, Self::Mp4 | Self::Webm)
+    }
+}
+
+/// What a film is made of.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Shape {
+    /// Width and height in pixels.
+    pub size: [u32; 2],
+    /// How many frames.
+    pub n_frames: u32,
+    /// Frames a second.
+    pub rate: f64,
+}
+
+/// Writes frames to a stream, in order.
+pub enum Stream<'w> {
+    /// Animated PNG.
+    Apng(AnimatedPng<'w>),
+    /// GIF.
+    Gif(Gif<'w>),
+    /// YUV4MPEG2.
+    Y4m(&'w mut dyn Write, Vec<u8>),
+    /// PPM.
+    Ppm(&'w mut dyn Write),
+}
+
+impl<'w> Stream<'w> {
+    /// Begins a film. `palette`: the colours of a GIF.
+    ///
+    /// # Errors
+    /// Writing fails, or the format cannot hold the film.
+    pub fn new(kind: Kind, shape: Shape, palette: &Palette, out: &'w mut dyn Write) -> io::Result<Self> {
+        Ok(match kind {
+            Kind::Gif => Self::Gif(Gif::new(out, shape, palette)?),
+            Kind::Y4m => {
+                let ([width, height], [count, seconds]) = (shape.size, fraction(shape.rate));
+                writeln!(
+                    out,
+                    "YUV4MPEG2 W{width} H{height} F{count}:{seconds} Ip A1:1 C444 XCOLORRANGE=LIMITED"
+                )?;
+                Self::Y4m(out, Vec::new())
+            }
+            Kind::Ppm => Self::Ppm(out),
+            Kind::Apng | Kind::Mp4 | Kind::Webm => Self::Apng(AnimatedPng::new(out, shape)?),
+        })
+    }
+
+    /// Adds the next frame.
+    ///
+    /// # Errors
+    /// Writing fails.
+    pub fn push(&mut self, frame: &Frame) -> io::Result<()> {
+        match self {
+            Self::Apng(film) => film.push(frame),
+            Self::Gif(film) => film.push(frame),
+            Self::Y4m(out, planes) => {
+                y_cb_cr(frame, planes);
+                out.write_all(b"FRAME\n")?;
+                out.write_all(planes)
+            }
+            Self::Ppm(out) => {
+                write!(out, "P6\n{} {}\n255\n", frame.width(), frame.height())?;
+                out.write_all(&rgb(frame))
+            }
+        }
+    }
+
+    /// Ends the film.
+    ///
+    /// # Errors
+    /// Writing fails.
+    pub fn finish(self) -> io::Result<()> {
+        match self {
+            Self::Apng(film) => film.finish(),
+            Self::Gif(film) => film.finish(),
+            Self::Y4m(out, _) | Self::Ppm(out) => out.flush(),
+        }
+    }
+}
+
+/// A film rate as a fraction: 25, or 30000/1001 for 29.97.
+pub fn fraction(rate: f64) -> [u32; 2] {
+    let ntsc = rate.ceil() * 1000.0 / 1001.0;
+    if rate.fract() == 0.0 {
+        [rate as u32, 1]
+    } else if (rate - ntsc).abs() < 0.005 {
+        [(rate.ceil() * 1000.0) as u32, 1001]
+    } else {
+        [(rate * 1000.0).round() as u32, 1000]
+    }
+}
+
+/// Red, green and blue of all pixels; what is transparent has its own colour.
+pub fn rgb(frame: &Frame) -> Vec<u8> {
+    frame.pixels().iter().flat_map(|&[red, green, blue, _]| [red, green, blue]).collect()
+}
+
+/// Three planes of ITU-R BT.709 in the range of video: 16 to 235, and 16 to 240.
+fn y_cb_cr(frame: &Frame, planes: &mut Vec<u8>) {
+    let pixels = frame.pixels();
+    planes.clear();
+    planes.resize(3 * pixels.len(), 0);
+    let (luma, chroma) = planes.split_at_mut(pixels.len());
+    let (blue_plane, red_plane) = chroma.split_at_mut(pixels.len());
+    for (row, &[red, green, blue, _]) in pixels.iter().enumerate() {
+        let [r, g, b] = [red, green, blue].map(|part| f64::from(part) / 255.0);
+        let y = 0.2126 * r + 0.7152 * g + 0.0722 * b;
+        luma[row] = (16.0 + 219.0 * y).round() as u8;
+        blue_plane[row] = (128.0 + 224.0 * (b - y) / 1.8556).round() as u8;
+        red_plane[row] = (128.0 + 224.0 * (r - y) / 1.5748).round() as u8;
+    }
+}
+
+/// ffmpeg, which gets raw frames and writes a file.
+pub struct Ffmpeg {
+    child: Child,
+    input: Option<ChildStdin>,
+}
+
+impl Ffmpeg {
+    /// Starts it.
+    ///
+    /// # Errors
+    /// There is no ffmpeg.
+    pub fn new(kind: Kind, shape: Shape, path: &Path) -> Result<Self, Failure> {
+        let [width, height] = shape.size;
+        let [count, seconds] = fraction(shape.rate);
+        let codec: &[&str] = match kind {
+            Kind::Webm => &["-c:v", "libvpx-vp9", "-crf", "24", "-b:v", "0", "-row-mt", "1", "-f", "webm"],
+            _ => &["-c:v", "libx264", "-crf", "16", "-movflags", "+faststart", "-f", "mp4"],
+        };
+        let mut command = Command::new("ffmpeg");
+        command
+            .args([
+                "-nostdin",
+                "-hide_banner",
+                "-loglevel",
+                "error",
+                "-y",
+                "-f",
+                "rawvideo",
+                "-pix_fmt",
+                "rgb24",
+            ])
+            .args(["-s", &format!("{width}x{height}"), "-r", &format!("{count}/{seconds}"), "-i", "-", "-an"])
+            // Widths and heights of the format are even.
+            .args(["-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2,scale=out_color_matrix=bt709,format=yuv420p"])
+            .args(["-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709"])
+            .args(["-fflags", "+bitexact", "-flags:v", "+bitexact"])
+            .args(codec)
+            .arg(path)
+            .stdin(Stdio::piped())
+            .stdout(Stdio::null())
+            .stderr(Stdio::piped());
+        let mut child = command.spawn().map_err(|error| match error.kind() {
+            io::ErrorKind::NotFound => Failure::failed(format!(
+                "there is no ffmpeg, which writes {} files: install it, or write frames (-fo frame_%04d.png), \
+                 an animated PNG (film.apng) or a GIF",
+                kind.name()
+            )),
+            _ => Failure::failed(format!("cannot run ffmpeg: {error}")),
+        })?;
+        let input = child.stdin.take();
+        Ok(Self { child, input })
+    }
+
+    /// Adds the next frame.
+    ///
+    /// # Errors
+    /// ffmpeg has ended, for the reason it gives.
+    pub fn push(&mut self, frame: &Frame) -> Result<(), Failure> {
+        let written = self.input.as_mut().map(|input| input.write_all(&rgb(frame)));
+        match written {
+            Some(Ok(())) => Ok(()),
+            _ => Err(self.complaint()),
+        }
+    }
+
+    /// Ends the film.
+    ///
+    /// # Errors
+    /// ffmpeg fails, for the reason it gives.
+    pub fn finish(mut self) -> Result<(), Failure> {
+        drop(self.input.take());
+        match self.child.wait() {
+            Ok(status) if status.success() => Ok(()),
+            _ => Err(self.complaint()),
+        }
+    }
+
+    fn complaint(&mut self) -> Failure {
+        drop(self.input.take());
+        let mut text = String::new();
+        // What it printed may be no text; its status says enough then.
+        let _ = self.child.stderr.take().map(|mut stream| stream.read_to_string(&mut text));
+        let status = self.child.wait().map_or_else(|error| error.to_string(), |status| status.to_string());
+        let line = text.lines().rev().find(|line| !line.trim().is_empty()).map(|line| shorten(line.trim()));
+        Failure::failed(format!("ffmpeg failed with {status}: {}", line.as_deref().unwrap_or("no message")))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rates_are_fractions() {
+        assert_eq!(fraction(25.0), [25, 1]);
+        assert_eq!(fraction(29.97), [30000, 1001]);
+        assert_eq!(fraction(23.976), [24000, 1001]);
+        assert_eq!(fraction(12.5), [12500, 1000]);
+    }
+
+    /// ITU-R BT.709: black, white and the pure colours, in the range of video.
+    #[test]
+    fn colours_of_video_are_those_of_the_standard() {
+        let check = |rgb: [u8; 3], expected: [u8; 3]| {
+            let mut frame = Frame::opaque(1, 1);
+            frame.pixels_mut()[0] = [rgb[0], rgb[1], rgb[2], 255];
+            let mut planes = Vec::new();
+            y_cb_cr(&frame, &mut planes);
+            assert_eq!(planes, expected, "{rgb:?}");
+        };
+        check([0, 0, 0], [16, 128, 128]);
+        check([255, 255, 255], [235, 128, 128]);
+        check([255, 0, 0], [63, 102, 240]);
+        check([0, 255, 0], [173, 42, 26]);
+        check([0, 0, 255], [32, 240, 118]);
+    }
+}

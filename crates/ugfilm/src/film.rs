@@ -1,0 +1,289 @@
+//! From a scene and a script to a film.
+
+use std::path::Path;
+
+use ugimage::{Format, Frame, LinearFrame, auto_exposure, read_png};
+use ugparse::Scene;
+use ugpipe::{Context, Failure, Progress, Steps};
+
+use crate::animation::Palette;
+use crate::draw::{Drawn, Stages};
+use crate::encode::{Ffmpeg, Kind, Shape, Stream};
+use crate::frame_files::{Claim, FrameNames, is_done};
+use crate::script::Script;
+use crate::work::in_order;
+
+/// Frames from which the exposure of a film is chosen, and the colours of a GIF.
+const MOST_MEASURED: u32 = 48;
+
+/// Longest side of these frames, in pixels.
+const MEASURED_SIDE: u32 = 128;
+
+/// A film that can be drawn.
+pub struct Film<'s> {
+    /// The scene at rest.
+    pub scene: &'s Scene,
+    /// The commands of its frames.
+    pub script: &'s Script,
+    /// The format of single frames.
+    pub format: Format,
+}
+
+/// What became of the frames.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Summary {
+    /// Frames that were drawn.
+    pub n_drawn: u32,
+    /// Frames whose files were there.
+    pub n_done: u32,
+    /// Frames that another process draws.
+    pub n_elsewhere: u32,
+    /// Notes of the first frame that was drawn.
+    pub notes: Vec<String>,
+}
+
+/// What became of a frame.
+enum Outcome {
+    Drawn(Vec<String>),
+    Done,
+    Elsewhere,
+}
+
+impl Film<'_> {
+    fn stages(&self, frame: u32) -> Result<Stages, Failure> {
+        Stages::new(&self.script.commands(f64::from(frame))?, self.format)
+    }
+
+    fn draw(&self, frame: u32) -> Result<Drawn, Failure> {
+        self.stages(frame)?.draw(self.scene)
+    }
+
+    /// Width and height of all frames.
+    ///
+    /// # Errors
+    /// The commands of the first frame are wrong, or the size changes.
+    pub fn size(&self) -> Result<[u32; 2], Failure> {
+        let size = |frame| Ok::<_, Failure>(self.stages(frame)?.picture().size);
+        let first = size(1)?;
+        if size(self.script.n_frames)? != first {
+            return Err(Failure::usage("all frames of a film have one size: give one -sz"));
+        }
+        Ok(first)
+    }
+
+    /// Frames spread evenly over the film, among them the first and the last.
+    fn spread(&self) -> Vec<u32> {
+        let last = self.script.n_frames - 1;
+        let count = self.script.n_frames.min(MOST_MEASURED);
+        let steps = u64::from(count.max(2) - 1);
+        (0..count).map(|row| 1 + (u64::from(row) * u64::from(last) / steps) as u32).collect()
+    }
+
+    /// Small pictures of frames spread over the film, without exposure, and their tone curve.
+    fn measured(&self, steps: &Steps<'_>) -> Result<Vec<LinearFrame>, Failure> {
+        let spread = self.spread();
+        steps.count("measuring", spread.len() as u64);
+        let mut frames = Vec::new();
+        let light = |row: usize| {
+            let frame = spread[row];
+            about(frame, self.stages(frame).and_then(|stages| stages.small(MEASURED_SIDE).light(self.scene)))
+        };
+        in_order(spread.len(), light, |_, light| {
+            frames.push(light);
+            steps.done(1);
+            Ok(())
+        })?;
+        Ok(frames)
+    }
+
+    /// The exposure at which 99 of 100 lit pixels of the film are at or below white, in stops.
+    ///
+    /// # Errors
+    /// A frame cannot be drawn.
+    pub fn exposure(&self, steps: &Steps<'_>) -> Result<f64, Failure> {
+        let tone = self.stages(1)?.picture().tone;
+        let frames = self.measured(steps)?;
+        let pixels: Vec<[f32; 4]> = frames.iter().flat_map(|frame| frame.pixels().to_vec()).collect();
+        Ok(auto_exposure(&LinearFrame::new([pixels.len() as u32, 1], true, pixels), tone))
+    }
+
+    /// The colours of a GIF.
+    fn palette(&self, steps: &Steps<'_>) -> Result<Palette, Failure> {
+        let spread = self.spread();
+        steps.count("choosing colours", spread.len() as u64);
+        let mut pixels = Vec::new();
+        let small = |row: usize| {
+            let frame = spread[row];
+            about(frame, self.stages(frame).and_then(|stages| stages.small(MEASURED_SIDE).draw(self.scene)))
+        };
+        in_order(spread.len(), small, |_, drawn| {
+            let (frame, _) = read_png(&drawn.bytes).map_err(Failure::failed)?;
+            pixels.extend_from_slice(frame.pixels());
+            steps.done(1);
+            Ok(())
+        })?;
+        Ok(Palette::new(&pixels))
+    }
+
+    /// Writes frames as numbered files. Frames whose files were made by the same commands of the
+    /// same scene are not drawn again.
+    ///
+    /// # Errors
+    /// A frame cannot be drawn or written; those before it are kept.
+    pub fn write_files(
+        &self,
+        frames: &[u32],
+        names: &FrameNames,
+        steps: &Steps<'_>,
+    ) -> Result<Summary, Failure> {
+        let mut summary = Summary::default();
+        steps.count("drawing", frames.len() as u64);
+        let draw = |row: usize| about(frames[row], self.write_file(frames[row], &names.path(frames[row])));
+        in_order(frames.len(), draw, |_, outcome| {
+            match outcome {
+                Outcome::Drawn(notes) => {
+                    if summary.n_drawn == 0 {
+                        summary.notes = notes;
+                    }
+                    summary.n_drawn += 1;
+                }
+                Outcome::Done => summary.n_done += 1,
+                Outcome::Elsewhere => summary.n_elsewhere += 1,
+            }
+            steps.done(1);
+            Ok(())
+        })?;
+        Ok(summary)
+    }
+
+    fn write_file(&self, frame: u32, path: &Path) -> Result<Outcome, Failure> {
+        let stages = self.stages(frame)?;
+        let metadata = stages.metadata(self.scene);
+        if is_done(path, &metadata) {
+            return Ok(Outcome::Done);
+        }
+        let Some(_claim) = Claim::new(path) else { return Ok(Outcome::Elsewhere) };
+        // Another process may have finished it before it was claimed.
+        if is_done(path, &metadata) {
+            return Ok(Outcome::Done);
+        }
+        let drawn = stages.draw(self.scene)?;
+        Context::write_now(path, &drawn.bytes)?;
+        Ok(Outcome::Drawn(drawn.notes))
+    }
+
+    /// Draws all frames of a film and gives them to `consume` in order. Frames kept in files are
+    /// read if they are done, and written if they are not.
+    ///
+    /// # Errors
+    /// A frame cannot be drawn, or `consume` fails.
+    fn frames(
+        &self,
+        frames: &[u32],
+        keep: Option<&FrameNames>,
+        steps: &Steps<'_>,
+        mut consume: impl FnMut(&Frame) -> Result<(), Failure>,
+    ) -> Result<Summary, Failure> {
+        let mut summary = Summary::default();
+        steps.count("drawing", frames.len() as u64);
+        let draw = |row: usize| about(frames[row], self.frame(frames[row], keep));
+        in_order(frames.len(), draw, |_, (frame, notes)| {
+            match notes {
+                Some(notes) => {
+                    if summary.n_drawn == 0 {
+                        summary.notes = notes;
+                    }
+                    summary.n_drawn += 1;
+                }
+                None => summary.n_done += 1,
+            }
+            consume(&frame)?;
+            steps.done(1);
+            Ok(())
+        })?;
+        Ok(summary)
+    }
+
+    /// The pixels of a frame, and notes if it was drawn.
+    fn frame(&self, frame: u32, keep: Option<&FrameNames>) -> Result<(Frame, Option<Vec<String>>), Failure> {
+        let decoded = |bytes: &[u8]| read_png(bytes).map(|(pixels, _)| pixels).map_err(Failure::failed);
+        let Some(names) = keep else {
+            let drawn = self.draw(frame)?;
+            return Ok((decoded(&drawn.bytes)?, Some(drawn.notes)));
+        };
+        let path = names.path(frame);
+        let stages = self.stages(frame)?;
+        if is_done(&path, &stages.metadata(self.scene)) {
+            let read = std::fs::read(&path);
+            let read = read.map_err(|error| Failure::Read { name: path.display().to_string(), error })?;
+            return Ok((decoded(&read)?, None));
+        }
+        let drawn = stages.draw(self.scene)?;
+        Context::write_now(&path, &drawn.bytes)?;
+        Ok((decoded(&drawn.bytes)?, Some(drawn.notes)))
+    }
+
+    /// Writes a film to the output of the program.
+    ///
+    /// # Errors
+    /// A frame cannot be drawn, or the film cannot be written.
+    pub fn write_film(
+        &self,
+        frames: &[u32],
+        target: Target<'_>,
+        context: &mut Context,
+    ) -> Result<Summary, Failure> {
+        let Target { kind, rate, keep } = target;
+        let shape = Shape { size: self.size()?, n_frames: frames.len() as u32, rate };
+        let mut summary = Summary::default();
+        if kind.is_encoded() {
+            context.write_by_name(|path, steps| {
+                let mut ffmpeg = Ffmpeg::new(kind, shape, path)?;
+                summary = self.frames(frames, keep, steps, |frame| ffmpeg.push(frame))?;
+                ffmpeg.finish()
+            })?;
+            return Ok(summary);
+        }
+        context.write_stream(|out, steps| {
+            let palette = if kind == Kind::Gif { self.palette(steps)? } else { Palette::default() };
+            let mut stream = match Stream::new(kind, shape, &palette, out) {
+                Ok(stream) => stream,
+                Err(error) => return Ok(Err(error)),
+            };
+            let mut broken = None;
+            let drawn = self.frames(frames, keep, steps, |frame| {
+                stream.push(frame).map_err(|error| {
+                    let failure = Failure::failed(&error);
+                    broken = Some(error);
+                    failure
+                })
+            });
+            if let Some(error) = broken {
+                return Ok(Err(error));
+            }
+            summary = drawn?;
+            Ok(stream.finish())
+        })?;
+        Ok(summary)
+    }
+}
+
+/// An error with the frame in which it occurred.
+fn about<T>(frame: u32, outcome: Result<T, Failure>) -> Result<T, Failure> {
+    outcome.map_err(|failure| match failure {
+        Failure::Usage(text) => Failure::Usage(format!("frame {frame}: {text}")),
+        Failure::Failed(text) => Failure::Failed(format!("frame {frame}: {text}")),
+        other => other,
+    })
+}
+
+/// A film as one file.
+#[derive(Clone, Copy)]
+pub struct Target<'t> {
+    /// Its kind.
+    pub kind: Kind,
+    /// Frames a second.
+    pub rate: f64,
+    /// Files in which single frames are kept.
+    pub keep: Option<&'t FrameNames>,
+}

@@ -1,0 +1,108 @@
+//! Frames as numbered files: their names, which of them are done, and who draws which.
+
+use std::ffi::OsString;
+use std::fs::{self, File, OpenOptions, TryLockError};
+use std::io::Read;
+use std::path::{Path, PathBuf};
+
+use ugimage::{Metadata, read_history};
+
+/// Names of numbered files: `frame_%04d.png`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct FrameNames {
+    before: String,
+    n_digits: usize,
+    after: String,
+}
+
+impl FrameNames {
+    /// Names with a number in place of `%d`, or of `%04d` with at least as many digits. `None` if
+    /// there is no such place.
+    pub fn new(pattern: &str) -> Option<Self> {
+        let (before, rest) = pattern.split_once('%')?;
+        let (digits, after) = rest.split_once('d')?;
+        let is_width = digits.bytes().all(|byte| byte.is_ascii_digit()) && digits.len() <= 2;
+        let n_digits = if digits.is_empty() { 1 } else { digits.parse().ok()? };
+        is_width.then(|| Self { before: before.to_owned(), n_digits, after: after.to_owned() })
+    }
+
+    /// The file of a frame, counted from 1.
+    pub fn path(&self, frame: u32) -> PathBuf {
+        let Self { before, n_digits, after } = self;
+        PathBuf::from(format!("{before}{frame:0n_digits$}{after}"))
+    }
+}
+
+/// True if the file is whole and was made by the commands that these metadata state.
+pub fn is_done(path: &Path, metadata: &Metadata) -> bool {
+    /// The end of a PNG file.
+    const END: &[u8] = b"\0\0\0\0IEND\xaeB`\x82";
+    let mut bytes = Vec::new();
+    // A device or pipe would be read without end.
+    let is_file = fs::metadata(path).is_ok_and(|found| found.is_file());
+    let read = |bytes: &mut Vec<u8>| File::open(path).and_then(|mut file| file.read_to_end(bytes));
+    if !is_file || metadata.comment.is_empty() || read(&mut bytes).is_err() {
+        return false;
+    }
+    let is_whole = !bytes.starts_with(b"\x89PNG") || bytes.ends_with(END);
+    is_whole && read_history(&bytes).is_some_and(|history| history == metadata.comment)
+}
+
+/// The right to draw a frame, against other processes that work on the same film. It ends when this
+/// is dropped, or with the process.
+pub struct Claim {
+    path: PathBuf,
+    _file: File,
+}
+
+impl Claim {
+    /// Claims a frame; `None` if another process draws it. Where files cannot be locked every
+    /// process draws every frame, which does no harm: they write the same bytes.
+    pub fn new(frame: &Path) -> Option<Self> {
+        let mut name = OsString::from(".");
+        name.push(frame.file_name()?);
+        name.push(".claim");
+        let path = frame.with_file_name(name);
+        let opened = OpenOptions::new().write(true).create(true).truncate(false).open(&path);
+        // The error of a folder that cannot be written to is that of the frame.
+        let file = opened.or_else(|_| File::open("/dev/null")).ok()?;
+        match file.try_lock() {
+            Err(TryLockError::WouldBlock) => None,
+            Ok(()) | Err(TryLockError::Error(_)) => Some(Self { path, _file: file }),
+        }
+    }
+}
+
+impl Drop for Claim {
+    fn drop(&mut self) {
+        // Another process may have removed it.
+        let _ = fs::remove_file(&self.path);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_have_the_number_in_their_place() {
+        let name = |pattern: &str| Some(FrameNames::new(pattern)?.path(7).display().to_string());
+        assert_eq!(name("f_%04d.png").as_deref(), Some("f_0007.png"));
+        assert_eq!(name("a/%d.exr").as_deref(), Some("a/7.exr"));
+        assert_eq!(FrameNames::new("%02d").unwrap().path(12345), PathBuf::from("12345"));
+        for pattern in ["film.png", "f_%4x.png", "f%.png", "%123d", "%-4d"] {
+            assert_eq!(name(pattern), None, "{pattern}");
+        }
+    }
+
+    #[test]
+    fn a_frame_is_drawn_by_one_process() {
+        let folder = tempfile::tempdir().unwrap();
+        let frame = folder.path().join("f_1.png");
+        let claim = Claim::new(&frame).unwrap();
+        assert!(Claim::new(&frame).is_none());
+        drop(claim);
+        assert!(Claim::new(&frame).is_some());
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
+    }
+}

@@ -1,0 +1,123 @@
+//! The options of the programs that make a frame, as options of a film.
+
+use std::ffi::OsString;
+
+use clap::builder::Resettable;
+use clap::parser::ValueSource;
+use clap::{Arg, ArgAction, ArgMatches, Args, Command, CommandFactory, FromArgMatches, Id, Parser};
+use ugpipe::CommonArgs;
+
+use crate::program::Program;
+
+/// Options that a film has itself or does without, because they write something else than a
+/// picture.
+const LEFT_OUT: [&str; 5] = ["dt", "at", "explain", "dp", "crop"];
+
+/// An option as it was given.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Given {
+    /// Its name without dashes.
+    pub name: String,
+    /// Its values; none for an option that has none.
+    pub values: Vec<String>,
+}
+
+/// The options of the programs that make a frame, in the order in which they were given.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct ProgramOptions {
+    /// The options.
+    pub given: Vec<Given>,
+}
+
+/// The arguments that all programs have.
+#[derive(Parser)]
+struct Bare {
+    #[command(flatten)]
+    _common: CommonArgs,
+}
+
+/// The options of a program that a film has, too.
+pub fn options_of(program: Program) -> Vec<Arg> {
+    let common = Bare::command();
+    let is_common = |name: &str| common.get_arguments().any(|arg| arg.get_long() == Some(name));
+    let command = program.command();
+    let is_own = |arg: &&Arg| {
+        arg.get_long().is_some_and(|name| !is_common(name) && !LEFT_OUT.contains(&name) && !arg.is_hide_set())
+    };
+    command.get_arguments().filter(is_own).cloned().collect()
+}
+
+/// An option as that of a film: its numbers may be words for the time, so its values and what they
+/// exclude are checked by the program.
+fn of_film(arg: Arg, heading: &'static str) -> Arg {
+    let none = || Resettable::<Id>::Reset;
+    let free = arg.help_heading(heading).conflicts_with(none()).requires(none()).required(false);
+    if !free.get_action().takes_values() {
+        return free;
+    }
+    free.action(ArgAction::Set)
+        .default_value(Resettable::Reset)
+        .value_parser(clap::value_parser!(OsString))
+        .allow_hyphen_values(true)
+}
+
+/// The long name of an option and its other names.
+fn all_names(arg: &Arg) -> impl Iterator<Item = &str> {
+    arg.get_long().into_iter().chain(arg.get_visible_aliases().unwrap_or_default())
+}
+
+/// The options of all programs; of those with one name the first.
+fn all_options() -> Vec<Arg> {
+    let mut options: Vec<Arg> = Vec::new();
+    for program in Program::ALL {
+        for arg in options_of(program) {
+            if options.iter().any(|other| other.get_long() == arg.get_long()) {
+                continue;
+            }
+            let is_taken =
+                |alias: &str| options.iter().any(|other| all_names(other).any(|name| name == alias));
+            // Options of two programs may have the same second name.
+            let has_own_names = all_names(&arg).skip(1).all(|alias| !is_taken(alias));
+            let arg = of_film(arg, program.heading());
+            options.push(if has_own_names { arg } else { arg.visible_alias(Resettable::Reset) });
+        }
+    }
+    options
+}
+
+impl Args for ProgramOptions {
+    fn augment_args(command: Command) -> Command {
+        command.args(all_options())
+    }
+
+    fn augment_args_for_update(command: Command) -> Command {
+        Self::augment_args(command)
+    }
+}
+
+impl FromArgMatches for ProgramOptions {
+    fn from_arg_matches(matches: &ArgMatches) -> Result<Self, clap::Error> {
+        let mut given = Vec::new();
+        for arg in all_options() {
+            let id = arg.get_id().as_str();
+            if matches.value_source(id) != Some(ValueSource::CommandLine) {
+                continue;
+            }
+            let values = if arg.get_action().takes_values() {
+                let raw = matches.get_raw(id).into_iter().flatten();
+                raw.map(|value| value.to_string_lossy().into_owned()).collect()
+            } else {
+                Vec::new()
+            };
+            let name = arg.get_long().unwrap_or(id).to_owned();
+            given.push((matches.index_of(id), Given { name, values }));
+        }
+        given.sort_by_key(|(index, _)| *index);
+        Ok(Self { given: given.into_iter().map(|(_, option)| option).collect() })
+    }
+
+    fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), clap::Error> {
+        *self = Self::from_arg_matches(matches)?;
+        Ok(())
+    }
+}
