@@ -7,12 +7,13 @@ use ugtests::documents::{Page, prepare, resized, transcripts, with_options, writ
 use ugtests::{programs, tools};
 
 /// Pages with commands for a folder with scenes, and the least number of commands.
-const PAGES: [(&str, usize); 6] = [
+const PAGES: [(&str, usize); 7] = [
     ("README.md", 18),
     ("docs/start.md", 9),
     ("docs/gallery.md", 60),
     ("docs/pipeline.md", 18),
     ("docs/meshes.md", 4),
+    ("docs/film.md", 8),
     ("docs/geometry.md", 1),
 ];
 
@@ -34,6 +35,7 @@ fn commands_in_documents_work() {
                 page.run(&small, folder.path(), &programs).unwrap_or_else(|message| panic!("{message}"));
             // Frames of a film may be empty, before a body comes; lines may be black.
             let is_drawn = command.starts_with("for ")
+                || command.starts_with("ugfilm ")
                 || command.contains("-lc 0")
                 || !messages.contains("nothing is drawn") && !messages.contains("is black");
             assert!(is_drawn, "{path}: {command}: {messages}");

@@ -194,10 +194,16 @@ fn data_goes_one_way() {
 /// pipes.
 #[test]
 fn no_crate_spells_the_name_of_a_sibling_program() {
-    const PROGRAMS: [&str; 8] =
-        ["uglorentz", "ugdoppler", "ugrainbow", "ugphoton", "ugwarp", "ugmesh", "ugsheet", "ugparse"];
-    /// The remedies, and the word that older scenes have in their escapes.
-    const EXEMPT: [&str; 2] = ["crates/ugpipe/src/remedies.rs", "crates/ugparse/src/stage_statement.rs"];
+    const PROGRAMS: [&str; 9] =
+        ["uglorentz", "ugdoppler", "ugrainbow", "ugphoton", "ugmesh", "ugsheet", "ugparse", "ugfilm", "ugwarp"];
+    /// The remedies, the word that older scenes have in their escapes, and the program that calls
+    /// the others.
+    const EXEMPT: [&str; 4] = [
+        "crates/ugpipe/src/remedies.rs",
+        "crates/ugparse/src/stage_statement.rs",
+        "crates/ugfilm/src/program.rs",
+        "crates/ugfilm/src/cli.rs",
+    ];
     let mut findings = Vec::new();
     let mut n_literals = 0;
     for (krate, folder) in crates().into_iter().filter(|(krate, _)| krate != "ugconformance") {

@@ -16,6 +16,7 @@ const PROGRAMS: [&str; 10] = [
     "ugsheet ",
     "ugmesh ",
     "ugparse ",
+    "ugfilm ",
     "sed ",
     "for ",
 ];
@@ -136,7 +137,7 @@ pub fn prepare(folder: &Path, programs: &Path) {
 }
 
 /// Programs that draw pictures.
-const RENDERERS: [&str; 3] = ["ugrainbow ", "ugphoton ", "ugwarp "];
+const RENDERERS: [&str; 4] = ["ugrainbow ", "ugphoton ", "ugwarp ", "ugfilm "];
 
 /// The command with pictures of other sizes: sizes in it are multiplied by `scale`, and `default`
 /// (width and height in pixels) is added to every renderer without a size, times `scale`.
@@ -176,12 +177,13 @@ pub fn with_options(command: &str, options: &str) -> String {
 }
 
 /// The files that a command writes, by its redirections and `-fo`; those of a loop for each of its
-/// values.
+/// values, and of the numbered frames of a film the first.
 #[must_use]
 pub fn written_files(command: &str) -> Vec<PathBuf> {
     let marks = command.match_indices("> ").chain(command.match_indices("-fo "));
     let names = marks.filter_map(|(at, mark)| command[at + mark.len()..].split([' ', ';', '\n']).next());
-    names.flat_map(|name| loop_values(command, name.trim_matches('"'))).map(PathBuf::from).collect()
+    let names = names.flat_map(|name| loop_values(command, name.trim_matches('"')));
+    names.map(|name| PathBuf::from(name.replace("%04d", "0001"))).collect()
 }
 
 /// `name` with the variables of the `for` loops of a command replaced by each of their values.

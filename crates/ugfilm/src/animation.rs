@@ -6,7 +6,16 @@ use gif::{Encoder as GifEncoder, Frame as GifFrame, Repeat};
 use png::{BitDepth, ColorType, Compression, Encoder as PngEncoder, Writer};
 use ugimage::Frame;
 
-use crate::encode::Shape;
+/// What a film is made of.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Shape {
+    /// Width and height in pixels.
+    pub size: [u32; 2],
+    /// How many frames.
+    pub n_frames: u32,
+    /// Frames a second.
+    pub rate: f64,
+}
 
 /// Columns and rows of a part of a frame: left, top, width, height.
 type Part = [usize; 4];

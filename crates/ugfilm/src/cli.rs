@@ -14,7 +14,7 @@ use crate::film::{Film, Summary, Target};
 use crate::frame_files::FrameNames;
 use crate::keys;
 use crate::options::{Given, ProgramOptions};
-use crate::program::Renderer;
+use crate::program::Method;
 use crate::script::Script;
 use crate::timeline::Ease;
 
@@ -86,10 +86,9 @@ pub struct Args {
 const FILM: &str = "Film";
 
 const EXAMPLES: &str = "Examples:
-  ugfilm -frames 60 -ti -6..6 -vel 0 .9 0 -fo flyby.gif ship.ug
-  ugfilm -frames 240 -cv '0 0 0 .. 0 .99 0' -sp -ex auto -fo drive.mp4 street.ug
-  ugfilm -frames 240 -cv '0 0 0 .. 0 .99 0' -fo frame_%04d.png street.ug
-  ugfilm --rays -frames 50 -ti 0..20 -fo shadow.apng shadow.ug";
+  ugfilm -frames 40 -vel .9 0 0 -ti 3..36 -va 90 -sz 640 240 -fo pass.gif teapot.ug
+  ugfilm -frames 40 -cv '0 0 0 .. 0 .99 0' -sp -ex auto -fo drive_%04d.png street.ug
+  ugfilm -rays -frames 20 -vel .95 0 0 -ti -4..4 -fo shadow.apng shadow.ug";
 
 /// Frames by number.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -258,12 +257,12 @@ fn print(
 impl Args {
     fn script(&self, context: &Context) -> Result<Script, Failure> {
         let exact = Given { name: "xc".to_owned(), values: Vec::new() };
-        let renderer = match (self.rays, self.options.given.contains(&exact)) {
-            (true, _) => Renderer::Rays,
-            (false, true) => Renderer::Exact,
-            (false, false) => Renderer::Pipe,
+        let method = match (self.rays, self.options.given.contains(&exact)) {
+            (true, _) => Method::Rays,
+            (false, true) => Method::Exact,
+            (false, false) => Method::Pipe,
         };
-        let mut script = Script::new(renderer, self.frames);
+        let mut script = Script::new(method, self.frames);
         script.ease = self.ease;
         script.is_loop = self.is_loop;
         script.reading = self.common.reading_words();

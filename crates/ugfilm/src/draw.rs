@@ -26,15 +26,17 @@ pub struct Drawn {
 /// The commands of a frame, parsed by the programs.
 pub struct Stages {
     filters: Vec<Filter>,
-    renderer: Renderer,
+    last: Last,
 }
 
+/// A program from scene to scene.
 enum Filter {
     Lorentz(uglorentz::Config, String),
     Doppler(ugdoppler::Config, String),
 }
 
-enum Renderer {
+/// The program that draws.
+enum Last {
     Rainbow(ugrainbow::Config, String),
     Photon(ugphoton::Config, String),
 }
@@ -46,7 +48,7 @@ impl Stages {
     /// [`Failure::Usage`] with the message of the program.
     pub fn new(commands: &Commands, format: Format) -> Result<Self, Failure> {
         let mut filters = Vec::new();
-        let mut renderer = None;
+        let mut last = None;
         for (program, words) in &commands.stages {
             match program {
                 Program::Lorentz => {
@@ -65,28 +67,28 @@ impl Stages {
                         _ => Output::Color(format),
                     };
                     let line = with_format(&line, config.picture.output, false);
-                    renderer = Some(Renderer::Rainbow(config, line));
+                    last = Some(Last::Rainbow(config, line));
                 }
                 Program::Photon => {
                     let (args, line) = parsed::<ugphoton::Args>(words)?;
                     let mut config = args.config(None)?;
                     config.picture.output = Output::Color(format);
                     let line = with_format(&line, config.picture.output, false);
-                    renderer = Some(Renderer::Photon(config, line));
+                    last = Some(Last::Photon(config, line));
                 }
             }
         }
-        let renderer = renderer.ok_or_else(|| Failure::failed("no program draws the frame"))?;
-        Ok(Self { filters, renderer })
+        let last = last.ok_or_else(|| Failure::failed("no program draws the frame"))?;
+        Ok(Self { filters, last })
     }
 
     /// What the file of the frame says about its making. Of the scene only the comments are used.
     pub fn metadata(&self, scene: &Scene) -> Metadata {
         let mut head = Scene { head: scene.head.clone(), origin: scene.origin.clone(), ..Scene::default() };
         self.filters.iter().for_each(|filter| filter.record(&mut head));
-        match &self.renderer {
-            Renderer::Rainbow(_, line) => ugrainbow::metadata(&head, line),
-            Renderer::Photon(_, line) => ugphoton::metadata(&head, line),
+        match &self.last {
+            Last::Rainbow(_, line) => ugrainbow::metadata(&head, line),
+            Last::Photon(_, line) => ugphoton::metadata(&head, line),
         }
     }
 
@@ -97,14 +99,14 @@ impl Stages {
     pub fn draw(&self, scene: &Scene) -> Result<Drawn, Failure> {
         let mut notes = Vec::new();
         let scene = self.filtered(scene, &mut notes)?;
-        let bytes = match &self.renderer {
-            Renderer::Rainbow(config, line) => {
+        let bytes = match &self.last {
+            Last::Rainbow(config, line) => {
                 let metadata = ugrainbow::metadata(&scene, line);
                 let rendering = ugrainbow::render(&scene, config).map_err(Failure::failed)?;
                 notes.extend(named(Program::Rainbow, &rendering.notes));
                 rendering.into_file(&metadata)
             }
-            Renderer::Photon(config, line) => {
+            Last::Photon(config, line) => {
                 let metadata = ugphoton::metadata(&scene, line);
                 let rendering = ugphoton::render(scene, config).map_err(Failure::failed)?;
                 notes.extend(named(Program::Photon, &rendering.notes));
@@ -116,9 +118,9 @@ impl Stages {
 
     /// The same frame in a picture of at most `side` pixels a side, without annotations.
     pub fn small(mut self, side: u32) -> Self {
-        match &mut self.renderer {
-            Renderer::Rainbow(config, _) => shrink(&mut config.picture, side),
-            Renderer::Photon(config, _) => shrink(&mut config.picture, side),
+        match &mut self.last {
+            Last::Rainbow(config, _) => shrink(&mut config.picture, side),
+            Last::Photon(config, _) => shrink(&mut config.picture, side),
         }
         self
     }
@@ -129,17 +131,17 @@ impl Stages {
     /// As of [`Stages::draw`].
     pub fn light(&self, scene: &Scene) -> Result<LinearFrame, Failure> {
         let scene = self.filtered(scene, &mut Vec::new())?;
-        match &self.renderer {
-            Renderer::Rainbow(config, _) => ugrainbow::light(&scene, config).map_err(Failure::failed),
-            Renderer::Photon(config, _) => ugphoton::light(scene, config).map_err(Failure::failed),
+        match &self.last {
+            Last::Rainbow(config, _) => ugrainbow::light(&scene, config).map_err(Failure::failed),
+            Last::Photon(config, _) => ugphoton::light(scene, config).map_err(Failure::failed),
         }
     }
 
     /// The picture options of the renderer.
     pub fn picture(&self) -> &ugpicture::PictureOptions {
-        match &self.renderer {
-            Renderer::Rainbow(config, _) => &config.picture,
-            Renderer::Photon(config, _) => &config.picture,
+        match &self.last {
+            Last::Rainbow(config, _) => &config.picture,
+            Last::Photon(config, _) => &config.picture,
         }
     }
 

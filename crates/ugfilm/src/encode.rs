@@ -7,7 +7,7 @@ use std::process::{Child, ChildStdin, Command, Stdio};
 use ugimage::Frame;
 use ugpipe::{Failure, shorten};
 
-use crate::animation::{AnimatedPng, Gif, Palette};
+use crate::animation::{AnimatedPng, Gif, Palette, Shape};
 
 /// The kind of a film.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -51,17 +51,6 @@ impl Kind {
     pub fn is_encoded(self) -> bool {
         matches!(self, Self::Mp4 | Self::Webm)
     }
-}
-
-/// What a film is made of.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Shape {
-    /// Width and height in pixels.
-    pub size: [u32; 2],
-    /// How many frames.
-    pub n_frames: u32,
-    /// Frames a second.
-    pub rate: f64,
 }
 
 /// Writes frames to a stream, in order.

@@ -6,9 +6,9 @@ use ugimage::{Format, Frame, LinearFrame, auto_exposure, read_png};
 use ugparse::Scene;
 use ugpipe::{Context, Failure, Progress, Steps};
 
-use crate::animation::Palette;
+use crate::animation::{Palette, Shape};
 use crate::draw::{Drawn, Stages};
-use crate::encode::{Ffmpeg, Kind, Shape, Stream};
+use crate::encode::{Ffmpeg, Kind, Stream};
 use crate::frame_files::{Claim, FrameNames, is_done};
 use crate::script::Script;
 use crate::work::in_order;
@@ -63,7 +63,7 @@ impl Film<'_> {
     /// # Errors
     /// The commands of the first frame are wrong, or the size changes.
     pub fn size(&self) -> Result<[u32; 2], Failure> {
-        let size = |frame| Ok::<_, Failure>(self.stages(frame)?.picture().size);
+        let size = |frame| Ok::<_, Failure>(about(frame, self.stages(frame))?.picture().size);
         let first = size(1)?;
         if size(self.script.n_frames)? != first {
             return Err(Failure::usage("all frames of a film have one size: give one -sz"));

@@ -85,10 +85,10 @@ fn numbers_of<'w>(words: impl Iterator<Item = &'w str>) -> Result<Vec<(String, V
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::program::Renderer;
+    use crate::program::Method;
 
     fn read(text: &str) -> Result<Script, String> {
-        let mut script = Script::new(Renderer::Pipe, 11);
+        let mut script = Script::new(Method::Pipe, 11);
         add(&mut script, "keys", text).map(|()| script)
     }
 

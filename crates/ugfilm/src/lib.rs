@@ -16,7 +16,8 @@
 //! timeline  program  work  frame_files      numbers over time; programs; threads; numbered files
 //! options                                   the options of the programs, as our own
 //! script                                    the command lines of every frame
-//! keys  draw  encode  animation             key frames; functions of the programs; film formats
+//! animation                                 animated PNG and GIF
+//! keys  draw  encode                        key frames; functions of the programs; film formats
 //! film                                      frames, in files or in a film
 //! cli                                       the command line
 //! ```

@@ -42,7 +42,7 @@ impl Program {
 
 /// How a frame is drawn: the programs of its pipe, the last of which draws.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Renderer {
+pub enum Method {
     /// The pipe of three programs.
     Pipe,
     /// The pipe without the program that colours vertices: the renderer computes the light of every
@@ -52,7 +52,7 @@ pub enum Renderer {
     Rays,
 }
 
-impl Renderer {
+impl Method {
     /// The programs in the order of the pipe.
     pub fn programs(self) -> &'static [Program] {
         match self {

@@ -6,7 +6,7 @@ use ugimage::Format;
 use ugpipe::{Failure, shell_word};
 
 use crate::options::{Given, options_of};
-use crate::program::{Program, Renderer};
+use crate::program::{Method, Program};
 use crate::timeline::{Ease, Quantity, Timeline};
 
 /// Options that more than one program of a pipe must know; all others are given to the first that
@@ -20,7 +20,7 @@ const VELOCITIES: [&str; 2] = ["vel", "cv"];
 #[derive(Clone, Debug)]
 pub struct Script {
     /// How frames are drawn.
-    pub renderer: Renderer,
+    pub method: Method,
     /// How many there are.
     pub n_frames: u32,
     /// How numbers go from one value to the next.
@@ -52,18 +52,14 @@ pub struct Commands {
 
 impl Script {
     /// A script without options. `n_frames`: 1 or more.
-    pub fn new(renderer: Renderer, n_frames: u32) -> Self {
+    pub fn new(method: Method, n_frames: u32) -> Self {
         Self {
-            renderer,
+            method,
             n_frames,
             ease: Ease::Linear,
             is_loop: false,
             reading: Vec::new(),
-            names: renderer
-                .programs()
-                .iter()
-                .map(|program| program.command().get_name().to_owned())
-                .collect(),
+            names: method.programs().iter().map(|program| program.command().get_name().to_owned()).collect(),
             options: Vec::new(),
         }
     }
@@ -120,7 +116,7 @@ impl Script {
 
     /// The programs of the pipe that are given an option.
     fn owners(&self, name: &str) -> Vec<usize> {
-        let programs = self.renderer.programs().iter().enumerate();
+        let programs = self.method.programs().iter().enumerate();
         let owners = programs.filter(|(_, program)| has(**program, name)).map(|(row, _)| row);
         owners.take(if FOR_ALL.contains(&name) { usize::MAX } else { 1 }).collect()
     }
@@ -143,7 +139,7 @@ impl Script {
     /// A caption asks for what the frame does not have.
     pub fn commands(&self, frame: f64) -> Result<Commands, Failure> {
         let time = self.time(frame);
-        let programs = self.renderer.programs().iter().zip(&self.names);
+        let programs = self.method.programs().iter().zip(&self.names);
         let mut stages: Vec<(Program, Vec<String>)> = programs
             .map(|(&program, name)| (program, [name].into_iter().chain(&self.reading).cloned().collect()))
             .collect();

@@ -45,6 +45,7 @@ fn manuals() -> [Manual; 8] {
         ugmesh::manual(),
         ugparse::manual(),
         ugsheet::manual(),
+        ugfilm::manual(),
     ]
 }
 

@@ -1,0 +1,286 @@
+//! Films beside the pipes that their frames are the pictures of.
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking, its helpers too")]
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::PathBuf;
+use std::process::{Command, Output, Stdio};
+use std::time::Duration;
+
+use ugtests::{programs, scenes};
+
+/// A folder with scenes, and the programs on the path.
+struct Shell {
+    folder: tempfile::TempDir,
+    programs: PathBuf,
+}
+
+impl Shell {
+    fn new() -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        for scene in ["dice", "shadow", "street"] {
+            fs::write(folder.path().join(format!("{scene}.ug")), scenes::text(scene)).unwrap();
+        }
+        Self { folder, programs: programs::of_this_profile() }
+    }
+
+    fn command(&self, script: &str) -> Command {
+        let system = std::env::var_os("PATH").unwrap();
+        let path = std::iter::once(self.programs.clone()).chain(std::env::split_paths(&system));
+        let mut shell = Command::new("sh");
+        shell.args(["-c", script]).current_dir(self.folder.path());
+        shell.env("PATH", std::env::join_paths(path).unwrap());
+        shell
+    }
+
+    fn output(&self, script: &str) -> Output {
+        self.command(script).output().unwrap()
+    }
+
+    /// Runs a script; returns what it wrote to standard output and to standard error.
+    #[track_caller]
+    fn run(&self, script: &str) -> [String; 2] {
+        let output = self.output(script);
+        let [out, messages] = [output.stdout, output.stderr].map(|text| String::from_utf8(text).unwrap());
+        assert!(output.status.success(), "{script}: {messages}");
+        [out, messages]
+    }
+
+    /// Status and messages of a script that fails.
+    #[track_caller]
+    fn fail(&self, script: &str) -> (Option<i32>, String) {
+        let output = self.output(script);
+        assert!(!output.status.success(), "{script}");
+        (output.status.code(), String::from_utf8(output.stderr).unwrap())
+    }
+
+    /// The files in a folder, by name.
+    fn files(&self, folder: &str) -> BTreeMap<String, Vec<u8>> {
+        let entries = fs::read_dir(self.folder.path().join(folder)).unwrap().flatten();
+        entries
+            .filter(|entry| entry.file_type().unwrap().is_file())
+            .map(|entry| (entry.file_name().into_string().unwrap(), fs::read(entry.path()).unwrap()))
+            .collect()
+    }
+}
+
+/// Films of every renderer, with options that change.
+const FILMS: [&str; 5] = [
+    "-frames 5 -vel '0 0 0 .. .9 0 0' -in -sz 80 60 dice.ug",
+    "-frames 5 -ti -2..2 -vel 0 .8 0 -in -sp -ex auto -ease smooth -sz 80 60 dice.ug",
+    "-frames 4 -cv '0 0 0 .. 0 .9 0' -xc -sp -ex -2..-4 -sz 60 40 -aa 2 street.ug",
+    "-frames 4 -vel 0 0 0..-.6 -in -vec -cap 'β = {beta}' -sz 80 60 dice.ug",
+    "-rays -frames 4 -loop -ti -3..3 -vel .9 0 0 -in -sz 60 40 -aa 2 shadow.ug",
+];
+
+#[test]
+fn every_frame_is_the_picture_of_its_pipe() {
+    let shell = Shell::new();
+    for (row, film) in FILMS.into_iter().enumerate() {
+        let ending = if film.contains("-vec") { "svg" } else { "png" };
+        for n_threads in [1, 2, 5] {
+            let folder = format!("film{row}-{n_threads}");
+            shell.run(&format!("mkdir {folder}; ugfilm {film} -nt {n_threads} -fo {folder}/f_%02d.{ending}"));
+        }
+        shell.run(&format!(
+            "mkdir pipe{row}; ugfilm {film} -fo pipe{row}/f_%02d.{ending} --print > frames.sh"
+        ));
+        let [_, messages] = shell.run("sh -e frames.sh");
+        assert!(!messages.contains("error"), "{messages}");
+        let expected = shell.files(&format!("pipe{row}"));
+        assert!(expected.len() >= 4 && expected.values().all(|bytes| bytes.len() > 300), "{film}");
+        let distinct: std::collections::BTreeSet<&Vec<u8>> = expected.values().collect();
+        assert_eq!(distinct.len(), expected.len(), "{film}: frames differ");
+        for n_threads in [1, 2, 5] {
+            assert!(shell.files(&format!("film{row}-{n_threads}")) == expected, "{film} -nt {n_threads}");
+        }
+        // The command of a single frame.
+        let print = format!("ugfilm {film} -fo pipe{row}/f_%02d.{ending} --print");
+        let [one, _] = shell.run(&format!("{print} 2"));
+        let [all, _] = shell.run(&print);
+        assert_eq!(Some(one.trim_end()), all.lines().nth(1));
+    }
+}
+
+#[test]
+fn frames_that_are_done_are_not_drawn_again() {
+    let shell = Shell::new();
+    let film = "ugfilm -frames 6 -vel 0 0..0.8 0 -in -sz 80 60 dice.ug -fo f_%02d.png";
+    let drawn = |messages: &str| messages.lines().last().unwrap_or_default().to_owned();
+    shell.run(film);
+    let whole = shell.files(".");
+    let [_, messages] = shell.run(film);
+    assert_eq!(drawn(&messages), "ugfilm: note: 0 frames drawn, 6 were there already");
+    // One is missing, one was cut off, one was drawn otherwise, one of another scene.
+    let cut = fs::read(shell.folder.path().join("f_03.png")).unwrap();
+    fs::write(shell.folder.path().join("f_03.png"), &cut[..cut.len() - 1]).unwrap();
+    shell.run("rm f_02.png; uglorentz dice.ug | ugdoppler | ugrainbow -sz 80 60 > f_04.png");
+    shell.run(&format!("cp dice.ug kept; echo >> dice.ug; {film} -only 5; mv kept dice.ug"));
+    let [_, messages] = shell.run(film);
+    assert_eq!(drawn(&messages), "ugfilm: note: 4 frames drawn, 2 were there already");
+    assert!(shell.files(".") == whole);
+    // Another option is another film.
+    let [_, messages] = shell.run(&format!("{film} -aa 2 -only 1..3,6"));
+    assert!(!messages.contains("already"), "{messages}");
+}
+
+#[test]
+fn killed_films_go_on_and_two_processes_share_one() {
+    let shell = Shell::new();
+    let film = "ugfilm -frames 24 -ti -2..2 -vel 0 .8 0 -in -sz 120 90 dice.ug -fo out/f_%02d.png";
+    shell.run(&format!("mkdir out; {film}; mv out whole; mkdir out"));
+    for milliseconds in [20, 90, 150, 300] {
+        let exec = format!("exec {film}");
+        let mut run = shell.command(&exec).stderr(Stdio::null()).spawn().unwrap();
+        std::thread::sleep(Duration::from_millis(milliseconds));
+        // It may have finished.
+        let _ = run.kill();
+        run.wait().unwrap();
+    }
+    let left = shell.files("out");
+    let whole = shell.files("whole");
+    for (name, bytes) in left.iter().filter(|(name, _)| name.starts_with('f')) {
+        assert!(whole[name] == *bytes, "{name} is half written");
+    }
+    shell.run(&format!("{film} & {film} & wait"));
+    shell.run(film);
+    let done: BTreeMap<_, _> =
+        shell.files("out").into_iter().filter(|(name, _)| name.starts_with('f')).collect();
+    assert!(done == whole);
+}
+
+#[test]
+fn films_in_one_file_have_the_pixels_of_their_frames() {
+    let shell = Shell::new();
+    let film = "ugfilm -frames 5 -vel 0 0..0.8 0 -in -sz 81 60 dice.ug";
+    shell.run(&format!(
+        "{film} -fo film.ppm; {film} -fo film.apng -fps 12.5; {film} -fo film.gif -keep k_%02d.png"
+    ));
+    shell.run(&format!("{film} -fo film.y4m; {film} -fo f_%02d.png; {film} -fo again.ppm -keep f_%02d.png"));
+    let pixels = |row: usize| {
+        let file = fs::read(shell.folder.path().join(format!("f_{row:02}.png"))).unwrap();
+        ugimage::read_png(&file).unwrap().0.pixels().to_vec()
+    };
+    let files = shell.files(".");
+    assert!(files["film.ppm"] == files["again.ppm"]);
+    for row in 1..=5 {
+        assert!(files[&format!("k_{row:02}.png")] == files[&format!("f_{row:02}.png")]);
+        let rgb: Vec<u8> = pixels(row).iter().flat_map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect();
+        let head = b"P6\n81 60\n255\n";
+        let frame = &files["film.ppm"][(row - 1) * (head.len() + rgb.len())..];
+        assert!(frame.starts_with(head) && frame[head.len()..].starts_with(&rgb), "frame {row}");
+    }
+    // The first frame of an animated PNG is what other programs read.
+    assert!(ugimage::read_png(&files["film.apng"]).unwrap().0.pixels() == pixels(1));
+    let decoder = png::Decoder::new(std::io::Cursor::new(&files["film.apng"])).read_info().unwrap();
+    let control = decoder.info().animation_control().unwrap();
+    assert_eq!((control.num_frames, control.num_plays), (5, 0));
+    let delay = decoder.info().frame_control().unwrap();
+    assert_eq!((delay.delay_num, delay.delay_den), (80, 1000));
+    let head = b"YUV4MPEG2 W81 H60 F25:1 Ip A1:1 C444 XCOLORRANGE=LIMITED\n";
+    assert!(files["film.y4m"].starts_with(head));
+    assert_eq!(files["film.y4m"].len(), head.len() + 5 * (6 + 3 * 81 * 60));
+    assert!(files["film.gif"].starts_with(b"GIF89a"));
+}
+
+#[test]
+fn one_exposure_and_one_camera_for_all_frames() {
+    let shell = Shell::new();
+    let film = "-frames 4 -vel '0 0 0 .. 0 -.8 0' -sp -ex auto -sz 80 60";
+    let [commands, messages] = shell.run(&format!("ugfilm {film} -fo f_%d.png --print dice.ug"));
+    let exposures: std::collections::BTreeSet<&str> =
+        commands.lines().map(|line| line.split(" -ex ").nth(1).unwrap().split(' ').next().unwrap()).collect();
+    let [stops] = Vec::from_iter(exposures)[..] else { panic!("{commands}") };
+    assert!(messages.contains(&format!("one exposure for all frames: -ex {stops}")), "{messages}");
+    shell.run("grep -v '^cam' dice.ug > bare.ug");
+    let [commands, messages] =
+        shell.run(&format!("ugfilm {film} -ex 0 -fo f_%d.png --print bare.ug").replace("-ex auto ", ""));
+    let eyes: std::collections::BTreeSet<&str> = commands
+        .lines()
+        .map(|line| line.split(" -ep ").nth(1).unwrap().split(" |").next().unwrap())
+        .collect();
+    assert_eq!(eyes.len(), 1, "{commands}");
+    assert!(messages.contains("no camera in the scene") && messages.contains("in all frames"), "{messages}");
+}
+
+#[test]
+fn mistakes() {
+    let shell = Shell::new();
+    #[track_caller]
+    fn check(shell: &Shell, film: &str, status: i32, message: &str) {
+        let (found, messages) = shell.fail(&format!("ugfilm {film} dice.ug"));
+        assert!(messages.contains(message), "{film}: {messages}");
+        assert_eq!(found, Some(status), "{film}: {messages}");
+    }
+    let frames = "-frames 3 -sz 20 20";
+    check(&shell, frames, 2, "give numbered files, -fo frame_%04d.png, or a film");
+    check(&shell, &format!("{frames} -fo a.png"), 2, "give numbered files");
+    check(&shell, &format!("{frames} -fo f_%d.gif"), 2, "gif is a whole film, not a frame");
+    check(&shell, &format!("{frames} -fo f_%d.jpg"), 2, "`.jpg` is none of the formats");
+    check(
+        &shell,
+        &format!("{frames} -fo f_%d.png -vel 0 0..1 0"),
+        2,
+        "`-vel`: speed is 1 c: it must be below 1",
+    );
+    check(&shell, &format!("{frames} -fo f_%d.png -ti 0..1..x"), 2, "frame 1: ");
+    check(&shell, &format!("{frames} -fo f_%d.png -rd 3"), 2, "`-rd`: it is an option of ugphoton");
+    check(&shell, &format!("{frames} -fo f_%d.png -sp -br photon"), 2, "frame 1: ");
+    check(&shell, &format!("{frames} -fo f_%d.png -only 2..4"), 2, "--only: the film has 3 frames");
+    check(&shell, &format!("{frames} -fo f_%d.png -cap '{{x}}'"), 2, "`{x}` is none of {frame}");
+    check(
+        &shell,
+        &format!("{frames} -fo no/f_%d.png"),
+        1,
+        "cannot write `no/f_1.png`: No such file or directory",
+    );
+    check(&shell, "-frames 0 -fo a.gif", 2, "from 1 to 10000000");
+    check(&shell, &format!("{frames} -sz 20..30 20 -fo f_%d.png"), 2, "must be a whole number");
+    // A file of key frames.
+    let keys = |text: &str| fs::write(shell.folder.path().join("keys"), text).unwrap();
+    keys("1 -ti 0\n2 -ti 1\n2 -ti 2\n");
+    check(&shell, &format!("{frames} -keys keys -fo f_%d.png"), 1, "keys:3: frame 2 comes after frame 2");
+    keys("1 -ti 0\n3 -vel 0 0 1\n");
+    check(&shell, &format!("{frames} -keys keys -fo f_%d.png"), 1, "`-vel`: speed is 1 c");
+    keys("1 -ti 0\n");
+    check(&shell, &format!("{frames} -ti 1 -keys keys -fo f_%d.png"), 1, "`-ti`: it is given twice");
+    // Without ffmpeg.
+    let (status, messages) =
+        shell.fail(&format!("f=$(command -v ugfilm); PATH= $f {frames} -fo a.mp4 dice.ug"));
+    assert!(messages.contains("there is no ffmpeg, which writes mp4 files"), "{messages}");
+    assert_eq!(status, Some(1));
+    let left: Vec<String> = shell.files(".").into_keys().collect();
+    assert_eq!(left, ["dice.ug", "keys", "shadow.ug", "street.ug"]);
+}
+
+#[test]
+fn a_full_disk_and_a_failing_encoder_keep_what_is_done() {
+    let shell = Shell::new();
+    let film = "ugfilm -frames 9 -vel 0 0..0.8 0 -in -sz 80 60 dice.ug";
+    // No file may be larger than 4 blocks of 512 bytes: the frames at high speed are.
+    let largest =
+        shell.run(&format!("{film} -fo f_%d.png; ls -l f_*.png | awk '{{print $5}}' | sort -n | tail -1"));
+    let largest: u64 = largest[0].trim().parse().unwrap();
+    let blocks = largest / 512;
+    shell.run("mkdir small");
+    let (_, messages) =
+        shell.fail(&format!("ulimit -f {blocks}; trap '' XFSZ; {film} -nt 1 -fo small/f_%d.png"));
+    assert!(messages.contains("cannot write `small/f_") && messages.contains("File too large"), "{messages}");
+    let whole = shell.files(".");
+    for (name, bytes) in shell.files("small") {
+        assert!(whole[&name] == bytes, "{name}");
+    }
+    // An ffmpeg that ends early.
+    shell.run("mkdir bin; printf '#!/bin/sh\\necho no codec >&2; exit 3' > bin/ffmpeg; chmod +x bin/ffmpeg");
+    let (status, messages) = shell.fail(&format!("PATH=$PWD/bin:$PATH; {film} -keep k_%d.png -fo a.mp4"));
+    assert!(messages.contains("ffmpeg failed with exit status: 3: no codec"), "{messages}");
+    assert_eq!(status, Some(1));
+    let files = shell.files(".");
+    assert!(!files.contains_key("a.mp4") && !files.keys().any(|name| name.starts_with(".ug-")));
+    assert!(
+        files
+            .iter()
+            .filter(|(name, _)| name.starts_with('k'))
+            .all(|(name, bytes)| { whole[&name.replacen('k', "f", 1)] == *bytes })
+    );
+}
