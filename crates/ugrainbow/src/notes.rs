@@ -62,7 +62,8 @@ fn light_note(config: &Config, statistics: &DrawStatistics) -> Option<String> {
         return Some(format!("exposure is {stops} stops; -ex {stops} gives the same picture"));
     }
     let is_chosen = config.picture.exposure.is_some() || config.picture.tone != Tone::Clip;
-    let brightest = statistics.stats.max_intensity;
+    // Light beyond the largest number is shown as that number.
+    let brightest = statistics.stats.max_intensity.min(f64::MAX);
     if brightest <= CLIPPED || is_chosen {
         return None;
     }
