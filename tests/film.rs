@@ -235,7 +235,7 @@ fn mistakes() {
         "cannot write `no/f_1.png`: No such file or directory",
     );
     check(&shell, "-frames 0 -fo a.gif", 2, "from 1 to 10000000");
-    check(&shell, &format!("{frames} -fo f_%d.png -sz 9 9"), 2, "cannot be used multiple times");
+    check(&shell, &format!("{frames} -fo f_%d.png -sz 9 9"), 2, "`-sz` is given twice");
     check(&shell, "-frames 3 -sz 20..30 20 -fo f_%d.png", 2, "all frames of a film have one size");
     check(&shell, "-frames 4 -sz 20..30 20 -fo f_%d.png", 2, "all frames of a film have one size");
     // A file of key frames.

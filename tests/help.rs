@@ -28,7 +28,9 @@ fn printed(folder: &Path, program: &str, option: &str) -> String {
 #[test]
 fn short_help_is_one_screenful() {
     let folder = programs::of_this_profile();
-    for manual in manuals!(uglorentz, ugdoppler, ugrainbow, ugphoton, ugwarp, ugmesh, ugparse, ugsheet, ugfilm) {
+    for manual in
+        manuals!(uglorentz, ugdoppler, ugrainbow, ugphoton, ugwarp, ugmesh, ugparse, ugsheet, ugfilm)
+    {
         for part in manual.commands.iter().chain([&manual]) {
             let name = &part.name;
             let help = printed(&folder, name, "-h");
@@ -51,7 +53,9 @@ fn short_help_is_one_screenful() {
 #[test]
 fn help_has_everything_as_documented() {
     let folder = programs::of_this_profile();
-    for manual in manuals!(uglorentz, ugdoppler, ugrainbow, ugphoton, ugwarp, ugmesh, ugparse, ugsheet, ugfilm) {
+    for manual in
+        manuals!(uglorentz, ugdoppler, ugrainbow, ugphoton, ugwarp, ugmesh, ugparse, ugsheet, ugfilm)
+    {
         for part in manual.commands.iter().chain([&manual]) {
             let help = printed(&folder, &part.name, "--help");
             for heading in ["Usage", "Common options", "Exit status", "Documentation"] {
@@ -89,7 +93,9 @@ fn help_has_everything_as_documented() {
 #[test]
 fn names_in_help_are_accepted() {
     let folder = programs::of_this_profile();
-    for manual in manuals!(uglorentz, ugdoppler, ugrainbow, ugphoton, ugwarp, ugmesh, ugparse, ugsheet, ugfilm) {
+    for manual in
+        manuals!(uglorentz, ugdoppler, ugrainbow, ugphoton, ugwarp, ugmesh, ugparse, ugsheet, ugfilm)
+    {
         for option in manual.options() {
             for name in option
                 .names
@@ -123,7 +129,9 @@ fn examples_in_help_work() {
         "ugrainbow -sz 90 60 ship.ug -fo rest.png; for name in fast 0.5c 0.9c 0.99c; do cp rest.png $name.png; done".to_owned(),
     ]);
     pictures.run(&pictures.commands[0], folder.path(), &programs).unwrap();
-    for manual in manuals!(uglorentz, ugdoppler, ugrainbow, ugphoton, ugwarp, ugmesh, ugparse, ugsheet, ugfilm) {
+    for manual in
+        manuals!(uglorentz, ugdoppler, ugrainbow, ugphoton, ugwarp, ugmesh, ugparse, ugsheet, ugfilm)
+    {
         let page = Page::of_commands("--help", &manual.examples);
         assert!(page.commands.len() >= 2, "{}", manual.name);
         for command in &page.commands {

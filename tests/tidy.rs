@@ -194,8 +194,17 @@ fn data_goes_one_way() {
 /// pipes.
 #[test]
 fn no_crate_spells_the_name_of_a_sibling_program() {
-    const PROGRAMS: [&str; 9] =
-        ["uglorentz", "ugdoppler", "ugrainbow", "ugphoton", "ugmesh", "ugsheet", "ugparse", "ugfilm", "ugwarp"];
+    const PROGRAMS: [&str; 9] = [
+        "uglorentz",
+        "ugdoppler",
+        "ugrainbow",
+        "ugphoton",
+        "ugmesh",
+        "ugsheet",
+        "ugparse",
+        "ugfilm",
+        "ugwarp",
+    ];
     /// The remedies, the word that older scenes have in their escapes, and the program that calls
     /// the others.
     const EXEMPT: [&str; 4] = [

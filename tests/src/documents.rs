@@ -7,7 +7,7 @@ use std::process::Command;
 use crate::scenes;
 
 /// First words of the commands that a reader types in a folder with scenes.
-const PROGRAMS: [&str; 10] = [
+const PROGRAMS: [&str; 11] = [
     "uglorentz ",
     "ugdoppler ",
     "ugrainbow ",

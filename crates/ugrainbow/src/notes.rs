@@ -63,7 +63,7 @@ fn light_note(config: &Config, statistics: &DrawStatistics) -> Option<String> {
     }
     let is_chosen = config.picture.exposure.is_some() || config.picture.tone != Tone::Clip;
     // Light beyond the largest number is shown as that number.
-    let brightest = statistics.stats.max_intensity.min(f64::MAX);
+    let brightest = statistics.stats.max_intensity.min(f32::MAX);
     if brightest <= CLIPPED || is_chosen {
         return None;
     }

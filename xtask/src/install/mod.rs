@@ -35,7 +35,7 @@ pub struct Args {
 }
 
 /// The manuals of all programs.
-fn manuals() -> [Manual; 8] {
+fn manuals() -> [Manual; 9] {
     [
         uglorentz::manual(),
         ugdoppler::manual(),
@@ -153,12 +153,12 @@ mod tests {
             let mut listed = Vec::new();
             write(&mut listed, &args).expect("everything is installed");
             let listed = String::from_utf8(listed).expect("text");
-            assert_eq!(listed.lines().count(), 8 + 1 + 8 * 4, "{listed}");
+            assert_eq!(listed.lines().count(), 9 + 1 + 9 * 4, "{listed}");
             assert!(listed.lines().all(|file| Path::new(file).is_file()), "{listed}");
         }
         assert_eq!(fs::read_to_string(to.path().join("bin/ugrainbow")).expect("a file"), "ugrainbow");
         let left = fs::read_dir(to.path().join("bin")).expect("a folder").count();
-        assert_eq!(left, 8);
+        assert_eq!(left, 9);
     }
 
     #[test]
