@@ -162,12 +162,16 @@ impl<'a> Shader<'a> {
 fn unshadowed(scenery: &Scenery<'_>, point: &SurfacePoint, incident: &IncidentLamp) -> f64 {
     let Some((toward, distance)) = incident.toward else { return 1.0 };
     let frame = &scenery.world.parts[point.part].frame;
+    // Beneath a smooth surface, faces in its light may be turned away from the lamp. The shadow
+    // ray starts above them, so the limit of the light is as smooth as the normals.
+    let lift = frame.to_camera(Event { t: 0.0, x: point.lift });
+    let origin = Event { t: point.event.t + lift.t, x: point.event.x + lift.x };
     let ray = Ray {
-        origin: point.event,
+        origin,
         step: frame.to_camera(Event { t: -1.0, x: toward }),
         // Nothing depends on the frequency of a shadow ray.
         wave: WaveVector { frequency: 1.0, k: DVec3::ZERO },
-        start: Start::Surface { part: point.part, place: point.place },
+        start: Start::Surface { part: point.part, place: point.place + point.lift },
     };
     let mut part = 1.0;
     let mut absorbed = Absorbed::default();

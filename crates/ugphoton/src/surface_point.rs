@@ -20,6 +20,8 @@ pub struct SurfacePoint {
     pub event: Event,
     /// Place, relative to the eye.
     pub place: DVec3,
+    /// From the place to the smooth surface that the normals of the corners describe, above it.
+    pub lift: DVec3,
     /// Unit normal of the plane of the face, on the side from which the ray comes.
     pub plane_normal: DVec3,
     /// Interpolated unit normal, on the same side.
@@ -49,13 +51,14 @@ impl SurfacePoint {
         let step = ray.in_part(found.part, &part.frame).1;
         let is_outside = outside.dot(step) <= 0.0;
         let plane_normal = if is_outside { outside } else { -outside };
-        let normal = shading_normal(scenery, found, plane_normal);
+        let (normal, lift) = smooth(scenery, found, (places, place), plane_normal);
         let (color, rows) = color(scenery, face, found, !part.frame.velocity.is_zero());
         Self {
             part: found.part,
             face: found.triangle.face,
             event: along(ray.origin, ray.step, found.s),
             place,
+            lift,
             plane_normal,
             normal,
             is_outside,
@@ -89,14 +92,22 @@ fn mean(values: [DVec3; 3], weights: [f64; 3]) -> DVec3 {
     weights[0] * values[0] + weights[1] * values[1] + weights[2] * values[2]
 }
 
-/// The interpolated normal, where corners have normals of their own.
-fn shading_normal(scenery: &Scenery<'_>, found: &Intersection, plane: DVec3) -> DVec3 {
+/// The interpolated normal, where corners have normals of their own, and the way from a place on
+/// the face to the surface with these normals: the mean of the places projected to the tangent
+/// planes of the corners, where these are above the face (Hanika 2021).
+fn smooth(
+    scenery: &Scenery<'_>,
+    found: &Intersection,
+    (corners, place): ([DVec3; 3], DVec3),
+    plane: DVec3,
+) -> (DVec3, DVec3) {
     let own = found.triangle.corners.map(|corner| scenery.scene.vertices[corner.index()].normal);
     if own == [None; 3] {
-        return plane;
+        return (plane, DVec3::ZERO);
     }
     let normals = own.map(|own| ugscene::shading_normal(own, plane));
-    mean(normals, found.weights).normalize_or_zero()
+    let lifts = [0, 1, 2].map(|at| (corners[at] - place).dot(normals[at]).max(0.0) * normals[at]);
+    (mean(normals, found.weights).normalize_or_zero(), mean(lifts, found.weights))
 }
 
 /// The colour at rest, interpolated between the corners as by every renderer.

@@ -447,6 +447,47 @@ fn moving_glass_absorbs_light_along_its_path() {
     assert_eq!(seen(&endless.replace(" 0.7;", ";"), DVec3::NEG_Z), 1.0);
 }
 
+/// On a coarse globe with the normals of a sphere, faces near the limit of the light are turned
+/// away from the lamp. They cast no shadows with edges, since a globe hides no lamp above its
+/// horizon; what another body hides is dark.
+#[test]
+fn shadows_end_as_smoothly_as_normals() {
+    let mut text = String::from("c white 1; l 1 3 -1 1 <0 0 0>;");
+    let (across, down) = (16, 8);
+    for row in 0..=down {
+        for column in 0..across {
+            let (sin, cos) = libm::sincos(std::f64::consts::PI * f64::from(row) / f64::from(down));
+            let (y, x) = libm::sincos(std::f64::consts::TAU * f64::from(column) / f64::from(across));
+            let [x, y, z] = [sin * x, sin * y, cos];
+            text += &format!("v g{row}_{column} {x} {y} {z} {x} {y} {z};");
+        }
+    }
+    for (row, column) in (0..down).flat_map(|row| (0..across).map(move |column| (row, column))) {
+        let (below, right) = (row + 1, (column + 1) % across);
+        // At the poles one of the two triangles has no area.
+        if row + 1 < down {
+            text += &format!("f (g{row}_{column} g{below}_{column} g{below}_{right}) white <0.3 0 0.2>;");
+        }
+        if row > 0 {
+            text += &format!("f (g{row}_{column} g{below}_{right} g{row}_{right}) white <0.3 0 0.2>;");
+        }
+    }
+    let drawn = |text: &str, shadows: bool| {
+        let mut config = picture([60, 60]);
+        config.rays.shadows = shadows;
+        config.picture.samples = 1;
+        config.motion.in_place = true;
+        light(scene(&format!("{text} cam -ep 0 -6 0 -vc 0 0 0 -va 30;")), &config).unwrap()
+    };
+    let (with, without) = (drawn(&text, true), drawn(&text, false));
+    let n_lit = without.pixels().iter().filter(|pixel| pixel[0] > 0.0).count();
+    let n_shadowed = n_different(with.pixels(), without.pixels());
+    assert!(n_lit > 200 && n_shadowed * 100 < n_lit, "{n_shadowed} of {n_lit}");
+    let plate = "v p 3 -3 -2; v q 3 3 -2; v r 3 3 4; v s 3 -3 4; f (p q r s) white;";
+    let hidden = drawn(&format!("{text} {plate}"), true);
+    assert!(n_different(hidden.pixels(), without.pixels()) > n_lit / 2);
+}
+
 #[test]
 fn lamps_with_a_radius_make_soft_shadows() {
     // A lamp 4 above the ground, a plate 2 above it that hides the lamp from x < 0 in part.
