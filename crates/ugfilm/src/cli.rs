@@ -1,14 +1,16 @@
 //! The command line.
 
+use std::ffi::OsString;
 use std::path::Path;
 
 use clap::Parser;
 use ugimage::Format;
 use ugparse::{Scene, pipe};
 use ugpicture::cli::format_for;
-use ugpipe::{CommonArgs, Context, Failure, Manual, ToolArgs, finite, one_of, whole};
+use ugpipe::{CommonArgs, Context, Failure, Manual, ToolArgs, finite, one_of, parse_words, sha256, whole};
 use ugscene::{CameraOptions, DefaultCamera};
 
+use crate::draw::Subject;
 use crate::encode::Kind;
 use crate::film::{Film, Summary, Target};
 use crate::frame_files::FrameNames;
@@ -38,8 +40,12 @@ pub struct Args {
     fps: f64,
 
     /// Draw by tracing rays, with mirrors, glass and shadows, instead of the pipe of three programs
-    #[arg(long, help_heading = FILM)]
+    #[arg(long, conflicts_with = "warp", help_heading = FILM)]
     rays: bool,
+
+    /// Draw views of a panorama, a picture, instead of a scene
+    #[arg(long, help_heading = FILM)]
+    warp: bool,
 
     /// How numbers change from one value to the next: linear, smooth
     ///
@@ -117,23 +123,10 @@ pub fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
     let keep = args.keep.as_deref().map(|names| names_of(names, "--keep")).transpose()?;
     let mut script = args.script(context)?;
     let frames = args.numbers()?;
-    let reading = pipe::options(&args.common)?;
-    let source = pipe::read(context, &reading)?;
-    let camera = script.fixed("cam");
-    let parsed = ugscene::read(&source, &reading, camera.as_deref()).map_err(pipe::refused)?;
-    if !parsed.warnings.is_empty() {
-        context.report(&parsed.warnings.render(true));
-    }
-    let scene = parsed.scene;
-    if let Some(camera) = default_camera(&scene, &script)? {
-        context.note(&format!("{camera}, in all frames"));
-        let words = |point: [f64; 3]| point.map(|part| part.to_string()).to_vec();
-        script.set("ep", words(camera.eye.to_array()));
-        script.set("vc", words(camera.center.to_array()));
-        script.set("va", vec![camera.view_angle_deg.to_string()]);
-    }
+    let read = Read::new(args, &mut script, context)?;
+    let subject = read.subject();
     if script.fixed("ex").as_deref() == Some("auto") {
-        let film = Film { scene: &scene, script: &script, format: output.frame_format() };
+        let film = Film { subject, script: &script, format: output.frame_format() };
         let stops = film.exposure(&context.steps())?.to_string();
         context.note(&format!("one exposure for all frames: -ex {stops}"));
         script.set("ex", vec![stops]);
@@ -141,7 +134,7 @@ pub fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
     if let Some(number) = args.print {
         return print(&script, &output, &frames, number, context);
     }
-    let film = Film { scene: &scene, script: &script, format: output.frame_format() };
+    let film = Film { subject, script: &script, format: output.frame_format() };
     let summary = match &output {
         Output::Files(names, _) => {
             film.size()?;
@@ -167,6 +160,49 @@ fn tell(summary: &Summary, context: &Context) {
             _ => format!(", {n_elsewhere} are drawn by another process"),
         };
         context.note(&format!("{n_drawn} frames drawn, {n_done} were there already{elsewhere}"));
+    }
+}
+
+/// What was read.
+enum Read {
+    Scene(Box<Scene>),
+    /// A panorama, and the words for its origin.
+    Panorama(Box<ugwarp::Panorama>, String),
+}
+
+impl Read {
+    /// Reads the input. A scene without a camera gets one for all frames.
+    fn new(args: &Args, script: &mut Script, context: &mut Context) -> Result<Self, Failure> {
+        if args.warp {
+            let input = context.input()?;
+            let opened = args.panorama(script, &input.text);
+            let opened = opened.map_err(|why| Failure::Failed(format!("`{}`: {why}", input.name)))?;
+            opened.notes.iter().for_each(|note| context.note(note));
+            let origin = format!("SHA-256 {} {}", sha256(&input.text), context.recorded_name());
+            return Ok(Self::Panorama(Box::new(opened.panorama), origin));
+        }
+        let reading = pipe::options(&args.common)?;
+        let source = pipe::read(context, &reading)?;
+        let camera = script.fixed("cam");
+        let parsed = ugscene::read(&source, &reading, camera.as_deref()).map_err(pipe::refused)?;
+        if !parsed.warnings.is_empty() {
+            context.report(&parsed.warnings.render(true));
+        }
+        if let Some(camera) = default_camera(&parsed.scene, script)? {
+            context.note(&format!("{camera}, in all frames"));
+            let words = |point: [f64; 3]| point.map(|part| part.to_string()).to_vec();
+            script.set("ep", words(camera.eye.to_array()));
+            script.set("vc", words(camera.center.to_array()));
+            script.set("va", vec![camera.view_angle_deg.to_string()]);
+        }
+        Ok(Self::Scene(Box::new(parsed.scene)))
+    }
+
+    fn subject(&self) -> Subject<'_> {
+        match self {
+            Self::Scene(scene) => Subject::Scene(scene),
+            Self::Panorama(panorama, origin) => Subject::Panorama(panorama, origin),
+        }
     }
 }
 
@@ -257,10 +293,11 @@ fn print(
 impl Args {
     fn script(&self, context: &Context) -> Result<Script, Failure> {
         let exact = Given { name: "xc".to_owned(), values: Vec::new() };
-        let method = match (self.rays, self.options.given.contains(&exact)) {
-            (true, _) => Method::Rays,
-            (false, true) => Method::Exact,
-            (false, false) => Method::Pipe,
+        let method = match (self.warp, self.rays, self.options.given.contains(&exact)) {
+            (true, ..) => Method::Warp,
+            (false, true, _) => Method::Rays,
+            (false, false, true) => Method::Exact,
+            (false, false, false) => Method::Pipe,
         };
         let mut script = Script::new(method, self.frames);
         script.ease = self.ease;
@@ -273,6 +310,14 @@ impl Args {
             keys::add(&mut script, &file.name, &text).map_err(Failure::Failed)?;
         }
         Ok(script)
+    }
+
+    /// The panorama of a file, of which the first frame says which part of the sphere it is.
+    fn panorama(&self, script: &Script, file: &[u8]) -> Result<ugwarp::Opened, Failure> {
+        let commands = script.commands(1.0)?;
+        let words = commands.stages.into_iter().flat_map(|(_, words)| words).map(OsString::from);
+        let (args, _) = parse_words::<ugwarp::Args>(words)?;
+        ugwarp::open(file, args.extent()).map_err(Failure::failed)
     }
 
     /// The numbers of the frames to draw.

@@ -23,6 +23,15 @@ pub struct Drawn {
     pub notes: Vec<String>,
 }
 
+/// What a film shows.
+#[derive(Clone, Copy)]
+pub enum Subject<'s> {
+    /// A scene at rest.
+    Scene(&'s Scene),
+    /// A panorama, with the words for its origin.
+    Panorama(&'s ugwarp::Panorama, &'s str),
+}
+
 /// The commands of a frame, parsed by the programs.
 pub struct Stages {
     filters: Vec<Filter>,
@@ -39,6 +48,7 @@ enum Filter {
 enum Last {
     Rainbow(ugrainbow::Config, String),
     Photon(ugphoton::Config, String),
+    Warp(ugwarp::Config, String),
 }
 
 impl Stages {
@@ -76,42 +86,60 @@ impl Stages {
                     let line = with_format(&line, config.picture.output, false);
                     last = Some(Last::Photon(config, line));
                 }
+                Program::Warp => {
+                    let (args, line) = parsed::<ugwarp::Args>(words)?;
+                    let mut config = args.config(None)?;
+                    config.picture.output = Output::Color(format);
+                    let line = with_format(&line, config.picture.output, false);
+                    last = Some(Last::Warp(config, line));
+                }
             }
         }
         let last = last.ok_or_else(|| Failure::failed("no program draws the frame"))?;
         Ok(Self { filters, last })
     }
 
-    /// What the file of the frame says about its making. Of the scene only the comments are used.
-    pub fn metadata(&self, scene: &Scene) -> Metadata {
-        let mut head = Scene { head: scene.head.clone(), origin: scene.origin.clone(), ..Scene::default() };
+    /// What the file of the frame says about its making. Of a scene only the comments are used.
+    pub fn metadata(&self, subject: Subject<'_>) -> Metadata {
+        let mut head = match subject {
+            Subject::Scene(scene) => {
+                Scene { head: scene.head.clone(), origin: scene.origin.clone(), ..Scene::default() }
+            }
+            Subject::Panorama(_, origin) => Scene { origin: Some(origin.to_owned()), ..Scene::default() },
+        };
         self.filters.iter().for_each(|filter| filter.record(&mut head));
         match &self.last {
             Last::Rainbow(_, line) => ugrainbow::metadata(&head, line),
             Last::Photon(_, line) => ugphoton::metadata(&head, line),
+            Last::Warp(_, line) => ugwarp::metadata(head.origin.as_deref(), line),
         }
     }
 
-    /// Draws the frame of a scene.
+    /// Draws the frame.
     ///
     /// # Errors
-    /// The scene cannot be drawn with these options.
-    pub fn draw(&self, scene: &Scene) -> Result<Drawn, Failure> {
+    /// The scene or panorama cannot be drawn with these options.
+    pub fn draw(&self, subject: Subject<'_>) -> Result<Drawn, Failure> {
         let mut notes = Vec::new();
-        let scene = self.filtered(scene, &mut notes)?;
-        let bytes = match &self.last {
-            Last::Rainbow(config, line) => {
-                let metadata = ugrainbow::metadata(&scene, line);
+        let metadata = self.metadata(subject);
+        let bytes = match (&self.last, subject) {
+            (Last::Rainbow(config, _), Subject::Scene(scene)) => {
+                let scene = self.filtered(scene, &mut notes)?;
                 let rendering = ugrainbow::render(&scene, config).map_err(Failure::failed)?;
                 notes.extend(named(Program::Rainbow, &rendering.notes));
                 rendering.into_file(&metadata)
             }
-            Last::Photon(config, line) => {
-                let metadata = ugphoton::metadata(&scene, line);
-                let rendering = ugphoton::render(scene, config).map_err(Failure::failed)?;
+            (Last::Photon(config, _), Subject::Scene(scene)) => {
+                let rendering = ugphoton::render(scene.clone(), config).map_err(Failure::failed)?;
                 notes.extend(named(Program::Photon, &rendering.notes));
                 rendering.into_file(&metadata)
             }
+            (Last::Warp(config, _), Subject::Panorama(panorama, _)) => {
+                let rendering = ugwarp::render(panorama, config).map_err(Failure::failed)?;
+                notes.extend(named(Program::Warp, &rendering.notes));
+                rendering.into_file(&metadata)
+            }
+            _ => return Err(other_subject()),
         };
         Ok(Drawn { bytes, notes })
     }
@@ -121,6 +149,7 @@ impl Stages {
         match &mut self.last {
             Last::Rainbow(config, _) => shrink(&mut config.picture, side),
             Last::Photon(config, _) => shrink(&mut config.picture, side),
+            Last::Warp(config, _) => shrink(&mut config.picture, side),
         }
         self
     }
@@ -129,11 +158,19 @@ impl Stages {
     ///
     /// # Errors
     /// As of [`Stages::draw`].
-    pub fn light(&self, scene: &Scene) -> Result<LinearFrame, Failure> {
-        let scene = self.filtered(scene, &mut Vec::new())?;
-        match &self.last {
-            Last::Rainbow(config, _) => ugrainbow::light(&scene, config).map_err(Failure::failed),
-            Last::Photon(config, _) => ugphoton::light(scene, config).map_err(Failure::failed),
+    pub fn light(&self, subject: Subject<'_>) -> Result<LinearFrame, Failure> {
+        match (&self.last, subject) {
+            (Last::Rainbow(config, _), Subject::Scene(scene)) => {
+                let scene = self.filtered(scene, &mut Vec::new())?;
+                ugrainbow::light(&scene, config).map_err(Failure::failed)
+            }
+            (Last::Photon(config, _), Subject::Scene(scene)) => {
+                ugphoton::light(scene.clone(), config).map_err(Failure::failed)
+            }
+            (Last::Warp(config, _), Subject::Panorama(panorama, _)) => {
+                ugwarp::light(panorama, config).map_err(Failure::failed)
+            }
+            _ => Err(other_subject()),
         }
     }
 
@@ -142,6 +179,7 @@ impl Stages {
         match &self.last {
             Last::Rainbow(config, _) => &config.picture,
             Last::Photon(config, _) => &config.picture,
+            Last::Warp(config, _) => &config.picture,
         }
     }
 
@@ -180,6 +218,10 @@ impl Filter {
         };
         ugscene::record(scene, program.command().get_name(), VERSION, line);
     }
+}
+
+fn other_subject() -> Failure {
+    Failure::failed("a scene and a panorama are drawn by different programs")
 }
 
 fn parsed<A: ToolArgs>(words: &[String]) -> Result<(A, String), Failure> {

@@ -3,11 +3,10 @@
 use std::path::Path;
 
 use ugimage::{Format, Frame, LinearFrame, auto_exposure, read_png};
-use ugparse::Scene;
 use ugpipe::{Context, Failure, Progress, Steps};
 
 use crate::animation::{Palette, Shape};
-use crate::draw::{Drawn, Stages};
+use crate::draw::{Drawn, Stages, Subject};
 use crate::encode::{Ffmpeg, Kind, Stream};
 use crate::frame_files::{Claim, FrameNames, is_done};
 use crate::script::Script;
@@ -21,8 +20,8 @@ const MEASURED_SIDE: u32 = 128;
 
 /// A film that can be drawn.
 pub struct Film<'s> {
-    /// The scene at rest.
-    pub scene: &'s Scene,
+    /// What it shows.
+    pub subject: Subject<'s>,
     /// The commands of its frames.
     pub script: &'s Script,
     /// The format of single frames.
@@ -55,7 +54,7 @@ impl Film<'_> {
     }
 
     fn draw(&self, frame: u32) -> Result<Drawn, Failure> {
-        self.stages(frame)?.draw(self.scene)
+        self.stages(frame)?.draw(self.subject)
     }
 
     /// Width and height of all frames.
@@ -86,7 +85,10 @@ impl Film<'_> {
         let mut frames = Vec::new();
         let light = |row: usize| {
             let frame = spread[row];
-            about(frame, self.stages(frame).and_then(|stages| stages.small(MEASURED_SIDE).light(self.scene)))
+            about(
+                frame,
+                self.stages(frame).and_then(|stages| stages.small(MEASURED_SIDE).light(self.subject)),
+            )
         };
         in_order(spread.len(), light, |_, light| {
             frames.push(light);
@@ -114,7 +116,7 @@ impl Film<'_> {
         let mut pixels = Vec::new();
         let small = |row: usize| {
             let frame = spread[row];
-            about(frame, self.stages(frame).and_then(|stages| stages.small(MEASURED_SIDE).draw(self.scene)))
+            about(frame, self.stages(frame).and_then(|stages| stages.small(MEASURED_SIDE).draw(self.subject)))
         };
         in_order(spread.len(), small, |_, drawn| {
             let (frame, _) = read_png(&drawn.bytes).map_err(Failure::failed)?;
@@ -158,7 +160,7 @@ impl Film<'_> {
 
     fn write_file(&self, frame: u32, path: &Path) -> Result<Outcome, Failure> {
         let stages = self.stages(frame)?;
-        let metadata = stages.metadata(self.scene);
+        let metadata = stages.metadata(self.subject);
         if is_done(path, &metadata) {
             return Ok(Outcome::Done);
         }
@@ -167,7 +169,7 @@ impl Film<'_> {
         if is_done(path, &metadata) {
             return Ok(Outcome::Done);
         }
-        let drawn = stages.draw(self.scene)?;
+        let drawn = stages.draw(self.subject)?;
         Context::write_now(path, &drawn.bytes)?;
         Ok(Outcome::Drawn(drawn.notes))
     }
@@ -213,12 +215,12 @@ impl Film<'_> {
         };
         let path = names.path(frame);
         let stages = self.stages(frame)?;
-        if is_done(&path, &stages.metadata(self.scene)) {
+        if is_done(&path, &stages.metadata(self.subject)) {
             let read = std::fs::read(&path);
             let read = read.map_err(|error| Failure::Read { name: path.display().to_string(), error })?;
             return Ok((decoded(&read)?, None));
         }
-        let drawn = stages.draw(self.scene)?;
+        let drawn = stages.draw(self.subject)?;
         Context::write_now(&path, &drawn.bytes)?;
         Ok((decoded(&drawn.bytes)?, Some(drawn.notes)))
     }

@@ -52,7 +52,8 @@ pub fn is_done(path: &Path, metadata: &Metadata) -> bool {
 /// is dropped, or with the process.
 pub struct Claim {
     path: PathBuf,
-    _file: File,
+    /// Locked as long as it is open.
+    _file: Option<File>,
 }
 
 impl Claim {
@@ -64,11 +65,11 @@ impl Claim {
         name.push(".claim");
         let path = frame.with_file_name(name);
         let opened = OpenOptions::new().write(true).create(true).truncate(false).open(&path);
-        // The error of a folder that cannot be written to is that of the frame.
-        let file = opened.or_else(|_| File::open("/dev/null")).ok()?;
+        // Writing the frame will tell what is wrong with its folder.
+        let Ok(file) = opened else { return Some(Self { path, _file: None }) };
         match file.try_lock() {
             Err(TryLockError::WouldBlock) => None,
-            Ok(()) | Err(TryLockError::Error(_)) => Some(Self { path, _file: file }),
+            Ok(()) | Err(TryLockError::Error(_)) => Some(Self { path, _file: Some(file) }),
         }
     }
 }
@@ -103,6 +104,10 @@ mod tests {
         assert!(Claim::new(&frame).is_none());
         drop(claim);
         assert!(Claim::new(&frame).is_some());
+        // Where nothing can be locked, all frames are drawn.
+        let nowhere = folder.path().join("no/f_1.png");
+        let claims = [Claim::new(&nowhere), Claim::new(&nowhere)];
+        assert!(claims.iter().all(Option::is_some));
         assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
     }
 }

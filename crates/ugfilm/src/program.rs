@@ -13,11 +13,13 @@ pub enum Program {
     Rainbow,
     /// The picture, by tracing rays.
     Photon,
+    /// The view of a panorama.
+    Warp,
 }
 
 impl Program {
     /// All of them, in the order in which their options are listed.
-    pub const ALL: [Self; 4] = [Self::Lorentz, Self::Doppler, Self::Rainbow, Self::Photon];
+    pub const ALL: [Self; 5] = [Self::Lorentz, Self::Doppler, Self::Rainbow, Self::Photon, Self::Warp];
 
     /// The heading of its options in `--help`.
     pub fn heading(self) -> &'static str {
@@ -26,6 +28,7 @@ impl Program {
             Self::Doppler => "Options of ugdoppler",
             Self::Rainbow => "Options of ugrainbow",
             Self::Photon => "Options of ugphoton",
+            Self::Warp => "Options of ugwarp",
         }
     }
 
@@ -36,6 +39,7 @@ impl Program {
             Self::Doppler => ugdoppler::Args::command(),
             Self::Rainbow => ugrainbow::Args::command(),
             Self::Photon => ugphoton::Args::command(),
+            Self::Warp => ugwarp::Args::command(),
         }
     }
 }
@@ -50,6 +54,8 @@ pub enum Method {
     Exact,
     /// The ray tracer alone.
     Rays,
+    /// Views of a panorama.
+    Warp,
 }
 
 impl Method {
@@ -59,6 +65,7 @@ impl Method {
             Self::Pipe => &[Program::Lorentz, Program::Doppler, Program::Rainbow],
             Self::Exact => &[Program::Lorentz, Program::Rainbow],
             Self::Rays => &[Program::Photon],
+            Self::Warp => &[Program::Warp],
         }
     }
 }

@@ -143,7 +143,12 @@ impl ToolArgs for Args {
 }
 
 impl Args {
-    fn config(&self, output: Option<&Path>) -> Result<Config, Failure> {
+    /// What the options ask for. `output`: the file whose ending is the format unless an option
+    /// gives it.
+    ///
+    /// # Errors
+    /// [`Failure::Usage`]: options that exclude each other, or a value out of range.
+    pub fn config(&self, output: Option<&Path>) -> Result<Config, Failure> {
         let output = Output::Color(format_for(self.dt, output)?);
         Ok(Config {
             velocity: self.velocity()?,
@@ -177,7 +182,8 @@ impl Args {
         ColorShift::Hues(HueShift { doppler, law })
     }
 
-    fn extent(&self) -> Option<Extent> {
+    /// The angles that the panorama shows.
+    pub fn extent(&self) -> Option<Extent> {
         let [west, east, south, north]: [f64; 4] = self.part.as_deref()?.try_into().ok()?;
         let radians = |edges: [f64; 2]| edges.map(f64::to_radians);
         Some(Extent { longitudes: radians([west, east]), latitudes: radians([south, north]) })
