@@ -174,3 +174,75 @@ fn exr(file: &[u8]) -> Result<([u32; 2], Pixels), ReadError> {
     }
     Ok((size, Pixels::Light(pixels)))
 }
+
+#[cfg(test)]
+mod tests {
+    use base64::Engine;
+
+    use super::*;
+    use crate::{Compression, Format, LinearFrame, Metadata};
+
+    /// Bars of 64 x 32 pixels; the upper left is black.
+    const BARS: &str = "\
+        /9j/4AAQSkZJRgABAgAAAQABAAD//gAQTGF2YzU5LjM3LjEwMAD/2wBDAAgoKC8oLzc3Nzc3N0E8QUNDQ0FBQUFD\
+        Q0NISEhVVVVISEhDQ0hIUFBVVVxfXFdXVVdfX2RkZHh4c3OMjJGsrM//xACEAAADAQEBAQAAAAAAAAAAAAAABgcI\
+        BQQDAQADAQEBAQAAAAAAAAAAAAAABgcIAwQCEAACAQIFAgcBAQAAAAAAAAAAAQIRA5HRUTEEcaESgfFh0jIUISIR\
+        AAIBAgMGBQQDAQAAAAAAAAIBAAMRQTEEUZEhgaHRBRIi0nFCUjIUFSPwYf/AABEIACAAQAMBEgACEgADEgD/2gAM\
+        AwEAAhEDEQA/AM/gEIQl849uv+n5ZjPbVIR6LufFEL+p8u8YQVgH4nfxPUsf6Qdrq522PIc+F8f+Wkg1ZMtRVb+8\
+        lyTsuiiKA7Qmw4SZgNcJn+E2KBgCEaoSZgNkJn+EX7Fyj8L2e3UWE6OuhTKJ2fleTy+Yvp24zQXiWmRg6or1D+Vs\
+        R25ZrbslgIUYsXxTTT+HNYANEJCITABT7fKhDdSwWYRTKiTxX+5Qj0eoEsC6d5Vrf0j0R94ciE/4qp+/qUsPxH4U\
+        iY6YjeY879pmnVJqvVuresnvd10lu1YlRHzNNrFjxt85ZyeDM7sXqahkTWhqrEN79srMhJ+H1S+oN79shpVly7ek\
+        sFmaXkpDSVBzY732nliF+ue0evaW8Q7nHnPZx75GVpfB8QpL6T3D7pZ5OA0xjiPXtOeT/wDPOtax75Evl+/kaX21\
+        Nw+6I0fQ1ADgXTvPOdq1Bz2xJXLEq41L2Rc7d5qltJNt2S4tvCTerXDSWRu7eA8XbbxtwmlyLvg3NYYv4iPOxvzZ\
+        RMlK/aDYXTvP/9k=\
+        ";
+
+    fn bars() -> Vec<u8> {
+        base64::engine::general_purpose::STANDARD.decode(BARS).unwrap()
+    }
+
+    #[test]
+    fn jpeg_files_are_read_whole_or_not_at_all() {
+        let file = bars();
+        let (size, pixels) = read_picture(&file).unwrap();
+        let Pixels::Srgb(pixels) = pixels else { panic!("8 bits") };
+        assert_eq!((size, pixels.len()), ([64, 32], 64 * 32));
+        // Colours of several bars, at the lower edge.
+        let bottom = &pixels[31 * 64..];
+        assert!(bottom.iter().any(|pixel| pixel[0] > 150) && bottom.iter().any(|pixel| pixel[2] > 150));
+        for length in 0..file.len() {
+            assert!(read_picture(&file[..length]).is_err(), "{length}");
+        }
+        // What telephones append is not looked at.
+        let longer = [&file[..], b"and a film"].concat();
+        assert_eq!(read_picture(&longer).unwrap(), (size, Pixels::Srgb(pixels)));
+    }
+
+    #[test]
+    fn light_is_read_as_it_was_written() {
+        let pixel = |idx: u32| [idx as f32 * 0.25, 1.5, 0.0, 1.0];
+        let frame = LinearFrame::new([8, 4], true, (0..32).map(pixel).collect());
+        for format in [Format::Exr, Format::Hdr] {
+            let file = format.encode_linear_with(&frame, &Metadata::default(), Compression::Fast);
+            let (size, pixels) = read_picture(&file).unwrap();
+            let Pixels::Light(pixels) = pixels else { panic!("light") };
+            assert_eq!(size, [8, 4]);
+            for (found, expected) in pixels.iter().zip(frame.pixels()) {
+                let error = (0..4).map(|i| (found[i] - expected[i]).abs()).fold(0.0, f32::max);
+                assert!(error <= 0.01 * expected[0].max(1.5), "{format:?}: {found:?} {expected:?}");
+            }
+            for length in (0..file.len() - 1).step_by(7) {
+                assert!(read_picture(&file[..length]).is_err(), "{format:?} {length}");
+            }
+        }
+    }
+
+    /// Headers of pictures that are too large for their files, or for any.
+    #[test]
+    fn large_headers_are_refused() {
+        let hdr = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1000000 +X 1000000\n";
+        assert!(read_picture(hdr).unwrap_err().to_string().contains("exceed the limit"));
+        let hdr = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 10000 +X 20000\n";
+        assert!(read_picture(hdr).unwrap_err().to_string().contains("truncated"));
+    }
+}

@@ -209,7 +209,7 @@ fn overlaps(n_fine: usize, n_coarse: usize, idx: usize) -> impl Iterator<Item = 
     })
 }
 
-fn premultiply(texel: &mut [f32; 4]) {
+pub(crate) fn premultiply(texel: &mut [f32; 4]) {
     let finite = |part: f32| if part.is_nan() { 0.0 } else { part.clamp(-f32::MAX, f32::MAX) };
     let alpha = finite(texel[3]).clamp(0.0, 1.0);
     let [red, green, blue, _] = *texel;

@@ -1,6 +1,6 @@
 //! The command line.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use clap::{ArgAction, Parser};
 use glam::DVec3;
@@ -16,6 +16,7 @@ use ugpicture::lens::Lens;
 use ugpipe::{CommonArgs, Context, Failure, Manual, ToolArgs, finite, one_of, sha256, vector};
 use ugsky::{Basis, Extent};
 
+use crate::arrangement::Arrangement;
 use crate::config::Config;
 use crate::error::Error;
 use crate::open::open;
@@ -23,7 +24,7 @@ use crate::render::{metadata, run};
 
 /// Shows a 360-degree panorama as a fast traveller sees it
 ///
-/// Reads an equirectangular panorama (PNG, JPEG, HDR or EXR) and writes a picture: a perspective
+/// Reads an equirectangular panorama or a cube map (PNG, JPEG, HDR or EXR) and writes a picture: a perspective
 /// view, a panorama, a fisheye or a cube map. In the panorama y is ahead, in its middle, x is to the
 /// right and z up.
 #[derive(Clone, Debug, Parser)]
@@ -41,6 +42,15 @@ pub struct Args {
     #[arg(long, visible_alias = "camera-velocity", value_names = ["X", "Y", "Z"], num_args = 3,
           action = ArgAction::Set, allow_hyphen_values = true, value_parser = finite)]
     cv: Option<Vec<f64>>,
+
+    /// Arrangement of directions: panorama, strip, cross, sides [default: panorama]
+    ///
+    /// panorama: longitude across, latitude down. The others are cube maps: six squares from left to
+    /// right, as -cube draws them; four squares across and three down, or three and four; six files
+    /// in the order right, left, up, down, front, back.
+    #[arg(long, value_name = "KIND", value_parser = one_of(Arrangement::ALL.map(Arrangement::name), arrangement),
+          conflicts_with = "part")]
+    from: Option<Arrangement>,
 
     /// Angles that the panorama shows, in degrees [default: -180 180 -90 90]
     ///
@@ -118,6 +128,10 @@ pub struct Args {
 
     #[command(flatten)]
     common: CommonArgs,
+
+    /// More files to read: the other sides of a cube
+    #[arg(value_name = "FILE")]
+    files: Vec<PathBuf>,
 }
 
 const COLOR: &str = "Colour";
@@ -200,15 +214,19 @@ pub fn draw(args: &Args, context: &mut Context) -> Result<(), Failure> {
     if let Some(format) = config.picture.output.format() {
         refuse_terminal(format, context)?;
     }
-    let input = context.input()?;
-    context.detail(&format!("read {} bytes", input.text.len()));
-    let opened = open(&input.text, args.extent()).map_err(|error| match error {
-        Error::Read(_) | Error::Shape { .. } => Failure::Failed(format!("`{}`: {error}", input.name)),
+    let mut inputs = vec![context.input()?];
+    for path in &args.files {
+        inputs.push(context.input_file(path)?);
+    }
+    let files: Vec<&[u8]> = inputs.iter().map(|input| input.text.as_slice()).collect();
+    context.detail(&format!("read {} bytes", files.iter().map(|file| file.len()).sum::<usize>()));
+    let opened = open(&files, args.from.unwrap_or_default(), args.extent()).map_err(|error| match error {
+        Error::Read { idx, error } => Failure::Failed(format!("`{}`: {error}", inputs[idx].name)),
         error => failure(error),
     })?;
     context.detail("decoded the panorama");
     let command_line = with_format(context.command_line(), config.picture.output, args.dt.is_some());
-    let origin = format!("SHA-256 {} {}", sha256(&input.text), context.recorded_name());
+    let origin = format!("SHA-256 {} {}", sha256(&inputs[0].text), context.recorded_name());
     let metadata = metadata(Some(&origin), &command_line);
     let picture = run(&config, &opened, &metadata, &context.steps()).map_err(failure)?;
     write_picture(&picture, config.picture.size, context)
@@ -222,6 +240,13 @@ fn failure(error: Error) -> Failure {
 fn law(word: &str) -> Result<Brightness, String> {
     Brightness::from_name(word)
         .ok_or_else(|| format!("none of the laws {}", Brightness::ALL.map(Brightness::name).join(", ")))
+}
+
+/// The name of an arrangement.
+fn arrangement(word: &str) -> Result<Arrangement, String> {
+    Arrangement::from_name(word).ok_or_else(|| {
+        format!("none of the arrangements {}", Arrangement::ALL.map(Arrangement::name).join(", "))
+    })
 }
 
 /// The name of a basis, or three temperatures.

@@ -6,17 +6,40 @@ use ugimage::ReadError;
 use ugscene::CameraError;
 use ugsky::{BasisError, PanoramaError};
 
+use crate::arrangement::Arrangement;
+
 /// Why there is no picture.
 #[derive(Debug)]
 pub enum Error {
-    /// The file is no picture that can be read.
-    Read(ReadError),
+    /// A file is no picture that can be read.
+    Read {
+        /// Which of several files.
+        idx: usize,
+        /// What is wrong.
+        error: ReadError,
+    },
     /// The picture cannot be a panorama.
     Panorama(PanoramaError),
-    /// The picture is not twice as wide as high, and no angles were given.
+    /// The sides of the picture have not the ratio of its arrangement.
     Shape {
         /// Its pixels across and down.
         size: [u32; 2],
+        /// What it should be.
+        arrangement: Arrangement,
+    },
+    /// There are not as many files as a cube has sides, or more than one for other arrangements.
+    Sides {
+        /// Their number.
+        n_files: usize,
+    },
+    /// A side of a cube is no square, or has another size than the first.
+    Side {
+        /// Which of the six.
+        idx: usize,
+        /// Its pixels across and down.
+        size: [u32; 2],
+        /// Columns of the first side.
+        expected: u32,
     },
     /// The options of the picture, its camera or its annotations.
     Picture(ugpicture::Error),
@@ -31,9 +54,9 @@ impl Error {
     pub fn is_usage(&self) -> bool {
         match self {
             Self::Picture(error) => error.is_usage(),
-            Self::Options(_) | Self::Basis(_) => true,
+            Self::Options(_) | Self::Basis(_) | Self::Sides { .. } => true,
             Self::Panorama(error) => *error == PanoramaError::Extent,
-            Self::Read(_) | Self::Shape { .. } => false,
+            Self::Read { .. } | Self::Shape { .. } | Self::Side { .. } => false,
         }
     }
 }
@@ -41,12 +64,30 @@ impl Error {
 impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Read(error) => error.fmt(f),
+            Self::Read { error, .. } => error.fmt(f),
             Self::Panorama(error) => error.fmt(f),
-            Self::Shape { size: [width, height] } => write!(
+            Self::Shape { size: [width, height], arrangement: Arrangement::Equirectangular } => write!(
                 f,
                 "{width} x {height} pixels are not the shape of a panorama, which is twice as wide as high: give the \
-                 angles that it shows with -part WEST EAST SOUTH NORTH, or -part -180 180 -90 90 if it shows all"
+                 angles that it shows with -part WEST EAST SOUTH NORTH, or -part -180 180 -90 90 if it shows all; a \
+                 cube map needs -from strip or -from cross"
+            ),
+            Self::Shape { size: [width, height], arrangement } => write!(
+                f,
+                "{width} x {height} pixels are not the shape of a {}: a strip is 6 squares across, a cross 4 across and \
+                 3 down, or 3 across and 4 down",
+                arrangement.name()
+            ),
+            Self::Sides { n_files } => write!(
+                f,
+                "{n_files} files were given: -from sides needs six, right, left, up, down, front and back, and others \
+                 one"
+            ),
+            Self::Side { idx, size: [width, height], expected } => write!(
+                f,
+                "the {} side of the cube has {width} x {height} pixels: all must be squares of the same size, here \
+                 {expected} x {expected}",
+                ["first", "second", "third", "fourth", "fifth", "sixth"][*idx % 6]
             ),
             Self::Picture(error) => error.fmt(f),
             Self::Basis(error) => error.fmt(f),
@@ -56,12 +97,6 @@ impl fmt::Display for Error {
 }
 
 impl std::error::Error for Error {}
-
-impl From<ReadError> for Error {
-    fn from(error: ReadError) -> Self {
-        Self::Read(error)
-    }
-}
 
 impl From<PanoramaError> for Error {
     fn from(error: PanoramaError) -> Self {

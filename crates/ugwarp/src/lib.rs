@@ -6,7 +6,7 @@
 //! spectrum of its colours, infrared and ultraviolet light above all: [`Basis`] and [`ColorShift`]
 //! are assumptions about it.
 //!
-//! - [`open`] makes a panorama of the bytes of a PNG, JPEG, HDR or EXR file.
+//! - [`open`] makes a panorama of the bytes of PNG, JPEG, HDR or EXR files, cube maps among them.
 //! - [`render`] makes a picture of a panorama, [`light`] linear light.
 //! - [`Warp`] is a picture's map to the sky, and the light of its velocity, ready to use with any
 //!   number of panoramas.
@@ -16,7 +16,7 @@
 //! Each line imports only from the lines above it:
 //!
 //! ```text
-//! error  config                             errors; options
+//! arrangement  error  config                how directions are arranged in files; errors; options
 //! open                                      from files to panoramas
 //! shade                                     colours as seen
 //! warp                                      from pixels to the sky, and their light
@@ -43,6 +43,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod arrangement;
 #[cfg(feature = "cli")]
 mod cli;
 mod config;
@@ -52,6 +53,7 @@ mod render;
 mod shade;
 mod warp;
 
+pub use arrangement::Arrangement;
 #[cfg(feature = "cli")]
 pub use cli::{Args, draw, manual};
 pub use config::Config;

@@ -1,0 +1,41 @@
+//! How directions are arranged in pictures.
+
+/// How directions are arranged in a picture.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Arrangement {
+    /// Longitude across, latitude down.
+    #[default]
+    Equirectangular,
+    /// Six squares from left to right: right, left, up, down, front, back.
+    Strip,
+    /// A cube unfolded around its front: four squares across and three down, or three across and
+    /// four down.
+    Cross,
+    /// A file for each side: right, left, up, down, front, back.
+    Sides,
+}
+
+impl Arrangement {
+    /// All of them.
+    pub const ALL: [Self; 4] = [Self::Equirectangular, Self::Strip, Self::Cross, Self::Sides];
+
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Equirectangular => "panorama",
+            Self::Strip => "strip",
+            Self::Cross => "cross",
+            Self::Sides => "sides",
+        }
+    }
+
+    /// The arrangement called `name`.
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|arrangement| arrangement.name() == name)
+    }
+
+    /// Number of files.
+    pub fn n_files(self) -> usize {
+        if self == Self::Sides { 6 } else { 1 }
+    }
+}

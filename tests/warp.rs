@@ -1,0 +1,115 @@
+//! Panoramas warped for a moving observer against rays traced for a moving camera: two independent
+//! methods (Weiskopf 2000).
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+use glam::DVec3;
+use ugimage::LinearFrame;
+use ugparse::Scene;
+use ugphoton::{
+    CameraOptions, ColorShift, HueShift, Lens, MotionOptions, PictureOptions, RayOptions, SpectralShift,
+};
+use ugphysics::{Velocity, srgb_encode};
+use ugwarp::{Basis, Extent, Panorama, Texels};
+
+/// A room of 6 x 6 x 6 with the eye off its middle, lit alike everywhere.
+fn room(colors: &str) -> Scene {
+    let text = format!(
+        "{colors} l 1;
+         v a -3 -2 -2; v b 3 -2 -2; v c 3 4 -2; v d -3 4 -2; v e -3 -2 3; v f 3 -2 3; v g 3 4 3; v h -3 4 3;
+         f (a b c d) one; f (h g f e) two; f (d c g h) three; f (a e f b) one; f (a d h e) two; f (b f g c) three;
+         cam -ep 0 0 0 -vc 0 1 0 -ud 0 0 1;"
+    );
+    let source = ugparse::Source::new("room.ug", text);
+    ugparse::parse(&source, &ugparse::Options::default()).unwrap().scene
+}
+
+fn camera() -> CameraOptions {
+    CameraOptions {
+        eye: Some(DVec3::ZERO),
+        center: Some(DVec3::Y),
+        up: Some(DVec3::Z),
+        view_angle: Some((100.0, None)),
+        ..CameraOptions::default()
+    }
+}
+
+fn picture(size: [u32; 2], samples: u32) -> PictureOptions {
+    PictureOptions { size, samples, camera: camera(), ..PictureOptions::default() }
+}
+
+fn traced(scene: &Scene, config: ugphoton::Config) -> LinearFrame {
+    let rays = RayOptions { shadows: false, ..RayOptions::default() };
+    ugphoton::light(scene.clone(), &ugphoton::Config { rays, ..config }).unwrap()
+}
+
+/// Peak signal-to-noise ratio, in dB, of pictures exposed so that white is at `peak`.
+fn psnr(one: &LinearFrame, other: &LinearFrame, peak: f64) -> f64 {
+    let (mut sum, mut n) = (0.0, 0.0);
+    for (one, other) in one.pixels().iter().zip(other.pixels()) {
+        for channel in 0..3 {
+            let [one, other] =
+                [one, other].map(|pixel| srgb_encode((f64::from(pixel[channel]) / peak).clamp(0.0, 1.0)));
+            sum += (one - other) * (one - other);
+            n += 1.0;
+        }
+    }
+    -10.0 * libm::log10(sum / n)
+}
+
+#[track_caller]
+fn check(colors: &str, shift: ColorShift, basis: Basis) {
+    let scene = room(colors);
+    let size = [1024, 512];
+    let rest_shift = match shift {
+        ColorShift::Spectra(_) => ColorShift::Spectra(SpectralShift { doppler: true, flux: true }),
+        ColorShift::Hues(_) => ColorShift::default(),
+    };
+    let sky = traced(
+        &scene,
+        ugphoton::Config {
+            picture: picture(size, 3),
+            lens: Lens::Panorama,
+            shift: rest_shift,
+            ..ugphoton::Config::default()
+        },
+    );
+    let sky = Panorama::new(size, Texels::Light(sky.pixels().to_vec()), Extent::FULL).unwrap();
+    for beta in [DVec3::new(0.0, 0.5, 0.0), DVec3::new(0.4, -0.2, 0.3)] {
+        let motion = MotionOptions { camera_velocity: Some(beta), ..MotionOptions::default() };
+        let by_rays = traced(
+            &scene,
+            ugphoton::Config { picture: picture([96, 72], 6), motion, shift, ..ugphoton::Config::default() },
+        );
+        let velocity = Velocity::from_beta(beta).unwrap();
+        let config =
+            ugwarp::Config { velocity, shift, basis, picture: picture([96, 72], 4), ..Default::default() };
+        let warped = ugwarp::light(&sky, &config).unwrap();
+        let peak = by_rays.pixels().iter().flat_map(|pixel| pixel[..3].to_vec()).fold(0.0, f32::max);
+        let found = psnr(&by_rays, &warped, f64::from(peak));
+        assert!(found > 40.0, "{shift:?} {beta}: {found} dB");
+    }
+}
+
+const HUES: &str = "c one 0.5 30 0.7; c two 0.6 150 0.4; c three 0.4 215 0.9;";
+
+#[test]
+fn geometry_is_that_of_a_moving_camera() {
+    check(HUES, ColorShift::NONE, Basis::Smooth);
+}
+
+#[test]
+fn hues_are_those_of_a_moving_camera() {
+    check(HUES, ColorShift::default(), Basis::Smooth);
+    let shift = HueShift { doppler: true, law: ugphysics::Brightness::Bolometric };
+    check(HUES, ColorShift::Hues(shift), Basis::Smooth);
+}
+
+#[test]
+fn spectra_are_those_of_a_moving_camera() {
+    let shift = ColorShift::Spectra(SpectralShift { doppler: true, flux: true });
+    let bodies = "c_bb one 3500 0.3; c_bb two 5900 0.3; c_bb three 10000 0.3;";
+    check(bodies, shift, Basis::Planck([3500.0, 5900.0, 10_000.0]));
+    // At edges between temperatures a pixel is a mixture, which is no black body.
+    check("c_bb one 5900 0.3; c_bb two 5900 0.2; c_bb three 5900 0.1;", shift, Basis::BlackBody);
+}
