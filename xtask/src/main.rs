@@ -7,6 +7,7 @@
 //! cargo xtask bench-reading
 //! cargo xtask bench-raster
 //! cargo xtask bench-rays
+//! cargo xtask bench-photon plot.svg
 //! cargo xtask bench-scale plot.svg
 //! cargo xtask bench-exact
 //! cargo xtask geometry > tables.md
@@ -25,6 +26,7 @@ mod globe;
 mod hostile;
 mod install;
 mod mesh;
+mod photon;
 mod plot;
 mod raster;
 mod rays;
@@ -120,6 +122,20 @@ enum Task {
         #[arg(long, default_value_t = 2)]
         threads: usize,
     },
+    /// Measure `ugphoton`: motion relative to rest, whole pictures relative to POV-Ray, and time and
+    /// memory as functions of faces and bodies, as Markdown and as a plot
+    ///
+    /// Requires POV-Ray, the Debian package povray.
+    BenchPhoton {
+        /// SVG file to write
+        plot: PathBuf,
+        /// POV-Ray executable
+        #[arg(long, default_value = "povray")]
+        povray: String,
+        /// Triangles of the greatest mesh
+        #[arg(long, value_name = "N", default_value_t = 10_000_000)]
+        most: u32,
+    },
     /// Measure time and memory of drawing as functions of faces, pixels and samples, as Markdown
     /// and as a plot
     BenchScale {
@@ -153,6 +169,12 @@ enum Task {
         height: u32,
         /// Samples along a side of a pixel
         samples: u32,
+    },
+    /// Trace a scene and print the time, the processor time of tracing and the peak memory
+    #[command(hide = true)]
+    TraceOnce {
+        /// Scene to draw
+        scene: PathBuf,
     },
     /// Read a scene and print the peak memory in bytes
     #[command(hide = true)]
@@ -198,6 +220,13 @@ fn run(task: &Task) -> io::Result<()> {
         Task::BenchRays { triangles, compiler, threads } => {
             rays::write(&mut out, triangles, compiler, *threads)
                 .map_err(|error| io::Error::other(error.to_string()))?;
+        }
+        Task::BenchPhoton { plot, povray, most } => {
+            photon::write(&mut out, plot, povray, *most)
+                .map_err(|error| io::Error::other(error.to_string()))?;
+        }
+        Task::TraceOnce { scene } => {
+            photon::trace_once(&mut out, scene).map_err(|error| io::Error::other(error.to_string()))?;
         }
         Task::BenchScale { plot } => {
             scale::write(&mut out, plot).map_err(|error| io::Error::other(error.to_string()))?;

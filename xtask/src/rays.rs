@@ -103,7 +103,7 @@ fn measured<T>(work: impl FnOnce() -> T) -> Result<(T, Time), Box<dyn Error>> {
 }
 
 /// Processor time of all threads of this process, seconds. Threads that ended do not count.
-fn processor_time() -> Result<f64, Box<dyn Error>> {
+pub fn processor_time() -> Result<f64, Box<dyn Error>> {
     let mut nanoseconds = 0;
     for thread in std::fs::read_dir("/proc/self/task")? {
         // Threads of others may end meanwhile.
@@ -113,7 +113,8 @@ fn processor_time() -> Result<f64, Box<dyn Error>> {
     Ok(nanoseconds as f64 * 1e-9)
 }
 
-fn median(numbers: impl Iterator<Item = f64>) -> f64 {
+/// The upper one of two.
+pub fn median(numbers: impl Iterator<Item = f64>) -> f64 {
     let mut numbers: Vec<f64> = numbers.collect();
     numbers.sort_by(f64::total_cmp);
     numbers[numbers.len() / 2]
