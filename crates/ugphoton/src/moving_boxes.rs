@@ -1,10 +1,11 @@
 //! The top level over rest frames: which of them rays may meet.
 //!
-//! In the frame of the camera the box around bodies of one velocity moves with them: at time t,
-//! relative to the moment of the picture, it is low + v t … high + v t. Several such boxes are, at
-//! every t ≤ 0, within low + v₁ t … high + v₀ t, where low and high bound them and v₀…v₁ their
-//! velocities. So a node of the hierarchy is a moving box, too, and a ray into the past is inside it
-//! where six linear functions of its parameter have the right signs.
+//! In the frame of the camera the box around bodies of one velocity moves with them. Relative to a
+//! reference time, from which on t counts, it is low + v t … high + v t. Several such boxes are within
+//! low + v₁ t … high + v₀ t for t ≤ 0, where low and high bound them and v₀…v₁ their velocities, and
+//! within low + v₀ t … high + v₁ t for t ≥ 0. So a node of the hierarchy is a moving box, too, and a
+//! ray is inside it where six linear functions of its parameter have the right signs, on each side
+//! of the reference time. That is the time at which light left bodies at the mean distance.
 //!
 //! # Why no hit is lost
 //!
@@ -31,6 +32,9 @@ const TOLERANCE: f64 = 1e-8;
 
 /// The part of a parameter of a ray by which rounding may have changed it.
 const ROUNDING: f64 = 1e-9;
+
+/// Times at which bodies are seen differ from the reference time by about this part of it.
+const SPREAD: f64 = 0.25;
 
 /// Marks a child that is a part.
 const IS_PART: u32 = 1 << 31;
@@ -68,11 +72,12 @@ impl MovingBox {
         }
     }
 
-    /// What similar boxes have in common: the centre, and how far they move in a typical time.
+    /// What similar boxes have in common: the centre at the reference time, `time` before the picture,
+    /// and how far they move meanwhile.
     fn key(&self, axis: usize, time: f64) -> f64 {
         match axis {
-            0..3 => self.low[axis] / 2.0 + self.high[axis] / 2.0,
-            _ => self.velocity[axis - 3] * time,
+            0..3 => self.low[axis] / 2.0 + self.high[axis] / 2.0 - self.velocity[axis] * time,
+            _ => self.velocity[axis - 3] * (time * SPREAD),
         }
     }
 }
@@ -80,6 +85,8 @@ impl MovingBox {
 /// A hierarchy of moving boxes.
 #[derive(Debug)]
 pub struct MovingBoxes {
+    /// The reference time, so long before the picture.
+    time: f64,
     /// The root comes first.
     nodes: Vec<Node>,
 }
@@ -87,7 +94,7 @@ pub struct MovingBoxes {
 /// Up to eight moving boxes around parts.
 #[derive(Clone, Debug)]
 struct Node {
-    /// x, y and z of each child at t = 0. Where there is no child they are +∞ and −∞, which no ray
+    /// x, y and z of each child at the reference time. Where there is no child they are +∞ and −∞, which no ray
     /// crosses.
     low: [[f64; WIDTH]; 3],
     high: [[f64; WIDTH]; 3],
@@ -142,22 +149,23 @@ impl MovingBoxes {
             if center.is_finite() { center.length() } else { 0.0 }
         });
         let time = distances.sum::<f64>() / boxes.len().max(1) as f64;
-        let mut tree = Self { nodes: Vec::new() };
-        tree.build(boxes, &mut rows, time);
+        let time = if time.is_finite() { time } else { 0.0 };
+        let mut tree = Self { time, nodes: Vec::new() };
+        tree.build(boxes, &mut rows);
         tree
     }
 
     /// Appends a node for these rows and all below it. Returns its index.
-    fn build(&mut self, boxes: &[MovingBox], rows: &mut [u32], time: f64) -> u32 {
+    fn build(&mut self, boxes: &[MovingBox], rows: &mut [u32]) -> u32 {
         let idx = self.nodes.len();
         self.nodes.push(Node::EMPTY);
-        for (child, rows) in groups(boxes, rows, time).into_iter().enumerate() {
+        for (child, rows) in groups(boxes, rows, self.time).into_iter().enumerate() {
             for &row in &*rows {
-                self.nodes[idx].extend(child, &boxes[row as usize]);
+                self.nodes[idx].extend(child, &boxes[row as usize], self.time);
             }
             let row = match rows {
                 [row] => *row | IS_PART,
-                rows => self.build(boxes, rows, time),
+                rows => self.build(boxes, rows),
             };
             self.nodes[idx].children[child] = row;
         }
@@ -168,6 +176,8 @@ impl MovingBoxes {
     /// the nearest first. `visit` returns the end of the range from then on.
     pub fn visit_nearest(&self, rays: &Rays, range: Range<f64>, mut visit: impl FnMut(usize) -> f64) {
         let (start, mut end) = (range.start * (1.0 - ROUNDING), range.end * (1.0 + ROUNDING));
+        let turn = rays.origin.t + self.time;
+        let [before_turn, behind_turn] = [turn * (1.0 - ROUNDING), turn * (1.0 + ROUNDING)];
         let mut stack = [(0.0, 0); MOST_ENTRIES];
         let mut n = 1;
         while n > 0 {
@@ -182,11 +192,17 @@ impl MovingBoxes {
             }
             let node = &self.nodes[row as usize];
             let first = n;
-            let (near, far) = node.crossings(rays);
-            for child in 0..WIDTH {
-                let near = if near[child] > start { near[child] } else { start };
-                let far = if far[child] < end { far[child] } else { end };
-                if near <= far {
+            let mut entries = [f64::INFINITY; WIDTH];
+            if before_turn < end {
+                let limits = [if before_turn > start { before_turn } else { start }, end];
+                node.enter(rays, turn, [&node.slowest, &node.fastest], limits, &mut entries);
+            }
+            if behind_turn > start {
+                let limits = [start, if behind_turn < end { behind_turn } else { end }];
+                node.enter(rays, turn, [&node.fastest, &node.slowest], limits, &mut entries);
+            }
+            for (child, near) in entries.into_iter().enumerate() {
+                if near < f64::INFINITY {
                     // The nearest is popped first.
                     let mut at = n;
                     while at > first && stack[at - 1].0 < near {
@@ -249,38 +265,50 @@ impl Node {
     };
 
     /// Extends a child by a box.
-    fn extend(&mut self, child: usize, part: &MovingBox) {
+    fn extend(&mut self, child: usize, part: &MovingBox, time: f64) {
+        let margin = part.slack * time;
         for axis in 0..3 {
+            let moved = part.velocity[axis] * time;
             let at = |side: &[[f64; WIDTH]; 3]| side[axis][child];
-            self.low[axis][child] = f64::min(at(&self.low), part.low[axis]);
-            self.high[axis][child] = f64::max(at(&self.high), part.high[axis]);
+            self.low[axis][child] = f64::min(at(&self.low), part.low[axis] - moved - margin);
+            self.high[axis][child] = f64::max(at(&self.high), part.high[axis] - moved + margin);
             self.slowest[axis][child] = f64::min(at(&self.slowest), part.velocity[axis] - part.slack);
             self.fastest[axis][child] = f64::max(at(&self.fastest), part.velocity[axis] + part.slack);
         }
         self.slack[child] = f64::max(self.slack[child], part.slack);
     }
 
-    /// The times before the origin at which rays may enter and leave each child.
+    /// Reduces entries to the times before the origin, within limits, at which rays may enter each
+    /// child. `turn`: the reference time. `velocities`: of the upper sides and of the lower sides.
     #[inline]
-    fn crossings(&self, rays: &Rays) -> ([f64; WIDTH], [f64; WIDTH]) {
-        let mut near = [0.0_f64; WIDTH];
-        let mut far = [f64::INFINITY; WIDTH];
+    fn enter(
+        &self,
+        rays: &Rays,
+        turn: f64,
+        [of_high, of_low]: [&[[f64; WIDTH]; 3]; 2],
+        [start, end]: [f64; 2],
+        entries: &mut [f64; WIDTH],
+    ) {
+        let mut near = [start; WIDTH];
+        let mut far = [end; WIDTH];
         for axis in 0..3 {
-            let (origin, t) = (rays.origin.x[axis], rays.origin.t);
+            let origin = rays.origin.x[axis];
             for child in 0..WIDTH {
-                let [slowest, fastest] = [self.slowest[axis][child], self.fastest[axis][child]];
                 let margin = self.slack[child] * rays.reach;
                 // Where the coordinate of a ray is not below the box: rate × time ≥ bound.
-                let rate = rays.high[axis] + fastest;
-                let bound = self.low[axis][child] + fastest * t - origin - margin;
-                limit(rate, bound, &mut near[child], &mut far[child]);
+                let velocity = of_low[axis][child];
+                let bound = self.low[axis][child] + velocity * turn - origin - margin;
+                limit(rays.high[axis] + velocity, bound, &mut near[child], &mut far[child]);
                 // Where it is not above: both with the opposite sign.
-                let rate = rays.low[axis] + slowest;
-                let bound = self.high[axis][child] + slowest * t - origin + margin;
-                limit(-rate, -bound, &mut near[child], &mut far[child]);
+                let velocity = of_high[axis][child];
+                let bound = self.high[axis][child] + velocity * turn - origin + margin;
+                limit(-(rays.low[axis] + velocity), -bound, &mut near[child], &mut far[child]);
             }
         }
-        (near, far)
+        for child in 0..WIDTH {
+            let is_nearer = near[child] <= far[child] && near[child] < entries[child];
+            entries[child] = if is_nearer { near[child] } else { entries[child] };
+        }
     }
 }
 
