@@ -317,7 +317,7 @@ impl Args {
         let commands = script.commands(1.0)?;
         let words = commands.stages.into_iter().flat_map(|(_, words)| words).map(OsString::from);
         let (args, _) = parse_words::<ugwarp::Args>(words)?;
-        ugwarp::open(file, args.extent()).map_err(Failure::failed)
+        ugwarp::open(&[file], args.arrangement(), args.extent()).map_err(Failure::failed)
     }
 
     /// The numbers of the frames to draw.

@@ -196,6 +196,11 @@ impl Args {
         ColorShift::Hues(HueShift { doppler, law })
     }
 
+    /// How directions are arranged in the input.
+    pub fn arrangement(&self) -> Arrangement {
+        self.from.unwrap_or_default()
+    }
+
     /// The angles that the panorama shows.
     pub fn extent(&self) -> Option<Extent> {
         let [west, east, south, north]: [f64; 4] = self.part.as_deref()?.try_into().ok()?;
@@ -220,7 +225,7 @@ pub fn draw(args: &Args, context: &mut Context) -> Result<(), Failure> {
     }
     let files: Vec<&[u8]> = inputs.iter().map(|input| input.text.as_slice()).collect();
     context.detail(&format!("read {} bytes", files.iter().map(|file| file.len()).sum::<usize>()));
-    let opened = open(&files, args.from.unwrap_or_default(), args.extent()).map_err(|error| match error {
+    let opened = open(&files, args.arrangement(), args.extent()).map_err(|error| match error {
         Error::Read { idx, error } => Failure::Failed(format!("`{}`: {error}", inputs[idx].name)),
         error => failure(error),
     })?;
