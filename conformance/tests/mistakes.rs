@@ -19,7 +19,8 @@ struct Mistake {
     /// An expression that occurs in the file once.
     right: &'static str,
     wrong: &'static str,
-    /// A case, picture or topic that detects it; for a mistake in the ray tracer, a test of `ugphoton`.
+    /// A case, picture or topic that detects it; for a mistake in the ray tracer, a test of
+    /// `ugphoton`.
     found_by: &'static str,
 }
 

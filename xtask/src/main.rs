@@ -122,8 +122,8 @@ enum Task {
         #[arg(long, default_value_t = 2)]
         threads: usize,
     },
-    /// Measure `ugphoton`: motion relative to rest, whole pictures relative to POV-Ray, and time and
-    /// memory as functions of faces and bodies, as Markdown and as a plot
+    /// Measure `ugphoton`: motion relative to rest, whole pictures relative to POV-Ray, and time
+    /// and memory as functions of faces and bodies, as Markdown and as a plot
     ///
     /// Requires POV-Ray, the Debian package povray.
     BenchPhoton {

@@ -2,9 +2,9 @@
 //! same mesh, as Markdown.
 //!
 //! `embree.cpp` runs Embree; its head lists what must be installed. Both compute the directions of
-//! their rays while they are measured, Embree's in single precision. Rounds are short and alternate,
-//! and medians count, so that other programs on the machine disturb both alike; the processor time
-//! of all threads is hardly disturbed at all.
+//! their rays while they are measured, Embree's in single precision. Rounds are short and
+//! alternate, and medians count, so that other programs on the machine disturb both alike; the
+//! processor time of all threads is hardly disturbed at all.
 
 use std::error::Error;
 use std::f64::consts::PI;

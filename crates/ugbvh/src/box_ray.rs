@@ -19,13 +19,13 @@
 //! x − origin ≤ τ s + ε + 2⁻⁵⁰ (d + 2) + u / 2 − p + 4 u.
 //! ```
 //!
-//! It is 2 or less, or else the box is behind the hit. With the rounded reciprocal r of s, the entry
-//! is computed as x r − (origin r), fused or not. Errors are multiplied by s here, as in the formula
-//! above: u from x r, 3 u + 3 u p from origin r, 2 u from the difference, and 2 u from r, which is
-//! wrong by a part of u. Reciprocals are 2⁴⁰ or less, which moves a ray by 2⁻³⁸ or less. With p =
-//! 16 u + 2⁻⁴⁸ (d + 2), which is greater than the sum of all errors, the computed entry is not
-//! behind the hit. In the same way the computed exit is not before it. Limits of τ are moved by p,
-//! too, for their rounding.
+//! It is 2 or less, or else the box is behind the hit. With the rounded reciprocal r of s, the
+//! entry is computed as x r − (origin r), fused or not. Errors are multiplied by s here, as in the
+//! formula above: u from x r, 3 u + 3 u p from origin r, 2 u from the difference, and 2 u from r,
+//! which is wrong by a part of u. Reciprocals are 2⁴⁰ or less, which moves a ray by 2⁻³⁸ or less.
+//! With p = 16 u + 2⁻⁴⁸ (d + 2), which is greater than the sum of all errors, the computed entry is
+//! not behind the hit. In the same way the computed exit is not before it. Limits of τ are moved by
+//! p, too, for their rounding.
 
 use std::array;
 use std::ops::Range;

@@ -77,8 +77,8 @@ pub struct Args {
 
     /// Format of the film [default: by the ending of -fo]
     ///
-    /// Of single frames: png, exr, pdf and all others of ugrainbow. Of films in one file: apng, gif,
-    /// y4m, ppm; mp4 and webm with ffmpeg.
+    /// Of single frames: png, exr, pdf and all others of ugrainbow. Of films in one file: apng,
+    /// gif, y4m, ppm; mp4 and webm with ffmpeg.
     #[arg(long, value_name = "FMT", visible_alias = "format", help_heading = FILM)]
     dt: Option<String>,
 

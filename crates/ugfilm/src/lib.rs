@@ -5,8 +5,8 @@
 //! ```
 //!
 //! A film is a pipe whose numbers change. The scene is read once, and every frame is drawn by the
-//! functions of the programs, in one process; its file is byte for byte that of the pipe of its own,
-//! which `--print` shows.
+//! functions of the programs, in one process; its file is byte for byte that of the pipe of its
+//! own, which `--print` shows.
 //!
 //! # Modules
 //!

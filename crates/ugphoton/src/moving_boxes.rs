@@ -1,20 +1,21 @@
 //! The top level over rest frames: which of them rays may meet.
 //!
 //! In the frame of the camera the box around bodies of one velocity moves with them. Relative to a
-//! reference time, from which on t counts, it is low + v t … high + v t. Several such boxes are within
-//! low + v₁ t … high + v₀ t for t ≤ 0, where low and high bound them and v₀…v₁ their velocities, and
-//! within low + v₀ t … high + v₁ t for t ≥ 0. So a node of the hierarchy is a moving box, too, and a
-//! ray is inside it where six linear functions of its parameter have the right signs, on each side
-//! of the reference time. That is the time at which light left bodies at the mean distance.
+//! reference time, from which on t counts, it is low + v t … high + v t. Several such boxes are
+//! within low + v₁ t … high + v₀ t for t ≤ 0, where low and high bound them and v₀…v₁ their
+//! velocities, and within low + v₀ t … high + v₁ t for t ≥ 0. So a node of the hierarchy is a
+//! moving box, too, and a ray is inside it where six linear functions of its parameter have the
+//! right signs, on each side of the reference time. That is the time at which light left bodies at
+//! the mean distance.
 //!
 //! # Why no hit is lost
 //!
 //! The hierarchy of a part finds hits within 2⁻³⁰ sizes of the part and 2⁻⁵⁰ times the distance of
 //! the ray's origin ([`ugbvh`]), in the rest frame. An event is carried there with errors of a few
 //! 2⁻⁵³ γ times its distance from the eye, and back with 2⁻⁵³ γ² times it. None of them becomes
-//! greater in the frame of the camera, where lengths are contracted. Boxes are extended by more than
-//! that, and velocities likewise, for times far in the past: [`SLACK`] γ² of all distances. Where γ
-//! is so great that this bounds nothing, the box is infinite.
+//! greater in the frame of the camera, where lengths are contracted. Boxes are extended by more
+//! than that, and velocities likewise, for times far in the past: [`SLACK`] γ² of all distances.
+//! Where γ is so great that this bounds nothing, the box is infinite.
 
 use std::ops::Range;
 
@@ -72,8 +73,8 @@ impl MovingBox {
         }
     }
 
-    /// What similar boxes have in common: the centre at the reference time, `time` before the picture,
-    /// and how far they move meanwhile.
+    /// What similar boxes have in common: the centre at the reference time, `time` before the
+    /// picture, and how far they move meanwhile.
     fn key(&self, axis: usize, time: f64) -> f64 {
         match axis {
             0..3 => self.low[axis] / 2.0 + self.high[axis] / 2.0 - self.velocity[axis] * time,
@@ -94,8 +95,8 @@ pub struct MovingBoxes {
 /// Up to eight moving boxes around parts.
 #[derive(Clone, Debug)]
 struct Node {
-    /// x, y and z of each child at the reference time. Where there is no child they are +∞ and −∞, which no ray
-    /// crosses.
+    /// x, y and z of each child at the reference time. Where there is no child they are +∞ and −∞,
+    /// which no ray crosses.
     low: [[f64; WIDTH]; 3],
     high: [[f64; WIDTH]; 3],
     /// Bounds of the velocities, with their slack.
@@ -118,8 +119,8 @@ pub struct Rays {
 }
 
 impl Rays {
-    /// A ray: `step` is a step of it into the past. Returns `None` for a ray that is not in the past
-    /// of the picture.
+    /// A ray: `step` is a step of it into the past. Returns `None` for a ray that is not in the
+    /// past of the picture.
     pub fn from_step(origin: Event, step: Event) -> Option<Self> {
         let direction = step.x / -step.t;
         let reach = origin.x.abs().max_element().max(-origin.t);
@@ -140,7 +141,8 @@ impl Rays {
 }
 
 impl MovingBoxes {
-    /// A hierarchy whose parts are the rows of `boxes`, which are fewer than 2³¹. The first 2³¹ count.
+    /// A hierarchy whose parts are the rows of `boxes`, which are fewer than 2³¹. The first 2³¹
+    /// count.
     pub fn new(boxes: &[MovingBox]) -> Self {
         let mut rows: Vec<u32> = (0..boxes.len().min(IS_PART as usize) as u32).collect();
         // Light arrives from boxes at a typical distance after that time.

@@ -184,8 +184,8 @@ fn sides_of_a_cube_are_square_views() {
     }
 }
 
-/// Each eye sees the picture of a camera in its place at the same moment. The camera moves ahead, so
-/// its frame has the same distances across.
+/// Each eye sees the picture of a camera in its place at the same moment. The camera moves ahead,
+/// so its frame has the same distances across.
 #[test]
 fn eyes_see_what_cameras_in_their_places_see() {
     let motion = MotionOptions {

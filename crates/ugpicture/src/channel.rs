@@ -19,16 +19,16 @@ pub enum Channel {
     Time,
     /// `distance`: from the eye to the emission event; ∞ where nothing is visible.
     Distance,
-    /// `Z`: depth of the emission event along the view, or its distance if the camera is no pinhole;
-    /// ∞ where nothing is visible.
+    /// `Z`: depth of the emission event along the view, or its distance if the camera is no
+    /// pinhole; ∞ where nothing is visible.
     Depth,
     /// `id`: faces counted from 1 in the order of the scene, then wires; 0 where nothing is
     /// visible.
     Id,
     /// `velocity.X`, `velocity.Y`, `velocity.Z`: of the body; 0 where nothing is visible.
     Velocity,
-    /// `direction.X`, `direction.Y`, `direction.Z`: unit vector to what is seen, in the frame of the
-    /// body (P6); 0 where nothing is visible.
+    /// `direction.X`, `direction.Y`, `direction.Z`: unit vector to what is seen, in the frame of
+    /// the body (P6); 0 where nothing is visible.
     Direction,
 }
 

@@ -223,8 +223,8 @@ impl Context {
     /// progress reports.
     ///
     /// # Errors
-    /// [`Failure::Write`] if no file can be created, [`Failure::Usage`] if the output is not a file;
-    /// errors of `fill`.
+    /// [`Failure::Write`] if no file can be created, [`Failure::Usage`] if the output is not a
+    /// file; errors of `fill`.
     pub fn write_by_name(
         &mut self,
         fill: impl FnOnce(&Path, &Steps<'_>) -> Result<(), Failure>,
@@ -235,8 +235,9 @@ impl Context {
         fill(&path, &Steps::new(&self.messages))
     }
 
-    /// Writes an output while it is computed, which takes long: `fill` gets the receiver of progress
-    /// reports as well. It ends with a failure of the computation, or with the error of writing.
+    /// Writes an output while it is computed, which takes long: `fill` gets the receiver of
+    /// progress reports as well. It ends with a failure of the computation, or with the error of
+    /// writing.
     ///
     /// # Errors
     /// As of [`Context::write`]; failures of `fill`.
@@ -283,9 +284,8 @@ impl Context {
     }
 
     /// Prints rendered diagnostics: warnings with their own locations and headings, each after the
-    /// name of the program. Always render them with terminal styles, which are removed if the output
-    /// is not a terminal.
-    /// Prints nothing if `-qt` is given.
+    /// name of the program. Always render them with terminal styles, which are removed if the
+    /// output is not a terminal. Prints nothing if `-qt` is given.
     ///
     /// For errors, end the run with [`Failure::Report`] instead.
     pub fn report(&self, text: &str) {

@@ -132,7 +132,8 @@ mod tests {
         assert_eq!(near_atan2(0.0, 0.0), core::f64::consts::FRAC_PI_2);
     }
 
-    /// Second moments of the kernel on a fine grid are those of the pixel: a twelfth of its squares.
+    /// Second moments of the kernel on a fine grid are those of the pixel: a twelfth of its
+    /// squares.
     #[test]
     fn moments_are_those_of_the_pixel() {
         let ray = |size: f64| SkyRay {

@@ -1,9 +1,10 @@
 //! The cells of a panorama and of its mip levels.
 //!
 //! A level halves the rows of the one before, and the columns. Near the poles rows are short, so
-//! they have fewer columns: the *ladder* of column counts is halved as often as keeps cells no wider
-//! than at the equator (a reduced grid, as in weather models). Cells are then nearly square
-//! everywhere on the sphere, and a disc on the sphere covers about as many at the pole as elsewhere.
+//! they have fewer columns: the *ladder* of column counts is halved as often as keeps cells no
+//! wider than at the equator (a reduced grid, as in weather models). Cells are then nearly square
+//! everywhere on the sphere, and a disc on the sphere covers about as many at the pole as
+//! elsewhere.
 
 use core::f64::consts::{FRAC_PI_2, PI, TAU};
 

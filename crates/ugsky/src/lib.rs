@@ -5,11 +5,11 @@
 //! does not depend on the scene (Weiskopf 2000).
 //!
 //! - A [`Panorama`] is light on an equirectangular grid, for the whole sphere or a part of it.
-//! - An [`Observer`] carries directions of a picture, and how they change from pixel to pixel, to the
-//!   frame of the sky: a [`SkyRay`].
+//! - An [`Observer`] carries directions of a picture, and how they change from pixel to pixel, to
+//!   the frame of the sky: a [`SkyRay`].
 //! - [`Sampler::light`] is the mean light of the pixel: an elliptical footprint on the sphere, with
-//!   weights by true directions and solid angles. There is no aliasing where the sky is seen smaller,
-//!   by (1 − β)/(1 + β) straight ahead, and no blocks where it is seen larger.
+//!   weights by true directions and solid angles. There is no aliasing where the sky is seen
+//!   smaller, by (1 − β)/(1 + β) straight ahead, and no blocks where it is seen larger.
 //! - A [`SpectralTable`] is light as seen, on an assumption about its spectrum: a [`Basis`].
 //!
 //! ```

@@ -315,7 +315,8 @@ impl RowWeights {
     }
 }
 
-/// The longitudes of a row that may be in an ellipse, where circles of latitude are nearly straight.
+/// The longitudes of a row that may be in an ellipse, where circles of latitude are nearly
+/// straight.
 #[inline]
 fn flat_range(kernel: &Kernel, latitude: f64, longitude: f64, row: &Row) -> [f64; 2] {
     let [see, sen, snn] = kernel.matrix;

@@ -80,8 +80,8 @@ fn footprints_are_means_at_every_size_and_place() {
                 let error = (f64::from(light) - mean(waves, &ray)).abs();
                 worst = if error > worst.0 { (error, direction) } else { worst };
             }
-            // A square of a tenth of a wave, or thinner than the most eccentric ellipse, has another
-            // shape than the kernel.
+            // A square of a tenth of a wave, or thinner than the most eccentric ellipse, has
+            // another shape than the kernel.
             let limit = if axes[0] > 0.05 { 6e-3 } else { 2e-3 };
             assert!(worst.0 < limit, "{size:?} {axes:?}: {worst:?}");
         }

@@ -24,9 +24,9 @@ use crate::render::{metadata, run};
 
 /// Shows a 360-degree panorama as a fast traveller sees it
 ///
-/// Reads an equirectangular panorama or a cube map (PNG, JPEG, HDR or EXR) and writes a picture: a perspective
-/// view, a panorama, a fisheye or a cube map. In the panorama y is ahead, in its middle, x is to the
-/// right and z up.
+/// Reads an equirectangular panorama or a cube map (PNG, JPEG, HDR or EXR) and writes a picture: a
+/// perspective view, a panorama, a fisheye or a cube map. In the panorama y is ahead, in its
+/// middle, x is to the right and z up.
 #[derive(Clone, Debug, Parser)]
 #[command(name = "ugwarp", version, after_help = EXAMPLES)]
 #[command(mut_arg("aa", |arg| arg.default_value("1")))]
@@ -45,9 +45,9 @@ pub struct Args {
 
     /// Arrangement of directions: panorama, strip, cross, sides [default: panorama]
     ///
-    /// panorama: longitude across, latitude down. The others are cube maps: six squares from left to
-    /// right, as -cube draws them; four squares across and three down, or three and four; six files
-    /// in the order right, left, up, down, front, back.
+    /// panorama: longitude across, latitude down. The others are cube maps: six squares from left
+    /// to right, as -cube draws them; four squares across and three down, or three and four; six
+    /// files in the order right, left, up, down, front, back.
     #[arg(long, value_name = "KIND", value_parser = one_of(Arrangement::ALL.map(Arrangement::name), arrangement),
           conflicts_with = "part")]
     from: Option<Arrangement>,
@@ -78,7 +78,8 @@ pub struct Args {
     /// Spectra of colours: smooth, blackbody, or three temperatures [default: smooth]
     ///
     /// smooth: daylight on surfaces with smooth reflectances. blackbody: each colour is a black
-    /// body. Three temperatures in kelvins, such as 3500 5900 10000: sums of black bodies. Implies -sp.
+    /// body. Three temperatures in kelvins, such as 3500 5900 10000: sums of black bodies. Implies
+    /// -sp.
     #[arg(long, num_args = 1..=3, value_names = ["BASIS", "T2", "T3"], action = ArgAction::Set,
           conflicts_with = "br", help_heading = COLOR)]
     basis: Option<Vec<String>>,

@@ -2,9 +2,9 @@
 //!
 //! A 360° photograph holds all light that arrives at one event. Aberration, the Doppler effect and
 //! the searchlight effect turn it into what any other observer sees who is there at the same
-//! moment, exactly and whatever the scene was (Weiskopf 2000). What the picture does not hold is the
-//! spectrum of its colours, infrared and ultraviolet light above all: [`Basis`] and [`ColorShift`]
-//! are assumptions about it.
+//! moment, exactly and whatever the scene was (Weiskopf 2000). What the picture does not hold is
+//! the spectrum of its colours, infrared and ultraviolet light above all: [`Basis`] and
+//! [`ColorShift`] are assumptions about it.
 //!
 //! - [`open`] makes a panorama of the bytes of PNG, JPEG, HDR or EXR files, cube maps among them.
 //! - [`render`] makes a picture of a panorama, [`light`] linear light.
@@ -26,7 +26,8 @@
 //!
 //! # Example
 //!
-//! The law of 1988 at D = 2, straight ahead of a traveller at 0.6 c: the value of a grey sky doubles.
+//! The law of 1988 at D = 2, straight ahead of a traveller at 0.6 c: the value of a grey sky
+//! doubles.
 //!
 //! ```
 //! use ugphysics::Velocity;

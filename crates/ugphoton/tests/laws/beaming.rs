@@ -242,7 +242,8 @@ fn temperature(luminance: f64, reference: f64) -> f64 {
 }
 
 /// T25: a point lamp of power 1, seen from a surface at rest at distance 2. Levels of lamps do not
-/// decrease with distance, so the level states 1/(4π r'²), r' the distance in the frame of the lamp.
+/// decrease with distance, so the level states 1/(4π r'²), r' the distance in the frame of the
+/// lamp.
 #[test]
 fn moving_lamps_light_by_powers_of_their_doppler_factor() {
     let place = DVec3::NEG_Z;
@@ -259,7 +260,8 @@ fn moving_lamps_light_by_powers_of_their_doppler_factor() {
         let distance = 2.0;
         let energy = doppler * doppler * doppler * doppler / (4.0 * PI * distance * distance);
         check(energy, expected.unwrap_or(energy), 1e-8);
-        // The light reaches the surface at time −1. The frame of the lamp has its origin at the eye.
+        // The light reaches the surface at time −1. The frame of the lamp has its origin at the
+        // eye.
         let emission = (place + distance * toward_lamp).extend(-1.0 - distance);
         let to_lamp = boost(-v);
         let at = (to_lamp * emission).truncate();

@@ -181,9 +181,9 @@ fn later_pictures_show_bodies_that_moved_on() {
 }
 
 /// The light left a body at an event on the past light cone of the eye, in all frames: the place in
-/// the rest frame that is seen, by its colour, is that of the event in the direction of the pixel at
-/// the distance of channel `distance`. There the distance is r' = r/D, with D from the brightness
-/// (T26).
+/// the rest frame that is seen, by its colour, is that of the event in the direction of the pixel
+/// at the distance of channel `distance`. There the distance is r' = r/D, with D from the
+/// brightness (T26).
 #[test]
 fn emission_events_are_on_the_light_cone() {
     let mut n_seen = 0;
@@ -214,7 +214,8 @@ fn emission_events_are_on_the_light_cone() {
 }
 
 /// In front is what emitted its light last in the frame of the eye, whatever the distances in the
-/// frames of the bodies (P22): a receding body from 24 is seen at 8, an approaching one from 5 at 15.
+/// frames of the bodies (P22): a receding body from 24 is seen at 8, an approaching one from 5 at
+/// 15.
 #[test]
 fn what_emitted_last_is_in_front() {
     let wall = |name: &str, rest: f64, level: f64, beta: f64| {
@@ -237,8 +238,8 @@ fn what_emitted_last_is_in_front() {
     }
 }
 
-/// A sphere of any size, speed and direction has a circular outline (Penrose 1959): the image of its
-/// outline at rest by the Möbius map of directions.
+/// A sphere of any size, speed and direction has a circular outline (Penrose 1959): the image of
+/// its outline at rest by the Möbius map of directions.
 #[test]
 fn spheres_have_circular_outlines() {
     /// Faces from pole to pole and half around it.

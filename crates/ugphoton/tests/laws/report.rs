@@ -118,8 +118,8 @@ impl Plane {
     }
 }
 
-/// A chart across the way of light: at the event where light of velocity `r_d` was at a time `flight`
-/// before it reached `r_0`.
+/// A chart across the way of light: at the event where light of velocity `r_d` was at a time
+/// `flight` before it reached `r_0`.
 fn chart_behind(random: &mut Random, r_0: DVec3, t_0: f64, r_d: DVec3, flight: f64) -> Chart {
     let v = random.in_ball(0.8);
     let center = at_rest(r_0 - flight * r_d, t_0 - flight, v);

@@ -43,8 +43,8 @@ pub struct Annotated<'a> {
     pub camera: &'a CameraOptions,
     /// True if wavelengths in the picture are Doppler shifted.
     pub is_shifted: bool,
-    /// What is seen at the middle of each pixel, if the camera is no pinhole. Then only captions and
-    /// legends can be drawn.
+    /// What is seen at the middle of each pixel, if the camera is no pinhole. Then only captions
+    /// and legends can be drawn.
     pub seen: Option<&'a [Option<SeenItem>]>,
 }
 

@@ -21,8 +21,8 @@ pub struct MotionSummary {
 }
 
 impl MotionSummary {
-    /// Summarizes what is seen at the middles of pixels. `is_shifted`: wavelengths have been Doppler
-    /// shifted.
+    /// Summarizes what is seen at the middles of pixels. `is_shifted`: wavelengths have been
+    /// Doppler shifted.
     pub fn new(
         seen: &SeenScene<'_>,
         items: impl Iterator<Item = Option<SeenItem>>,

@@ -33,7 +33,8 @@ pub fn body(beta: DVec3, gamma: f64, is_all_at_rest: bool) -> String {
     format!("velocity {}, beta {}, gamma {}", numbers(&beta.to_array()), number(beta.length()), number(gamma))
 }
 
-/// The angles between the line of sight and the motion, in the frames of the camera and of the body.
+/// The angles between the line of sight and the motion, in the frames of the camera and of the
+/// body.
 pub fn angles([camera, rest]: [f64; 2]) -> String {
     format!(
         "{}° from the motion in the camera frame, {}° in the rest frame (P6)",
