@@ -48,6 +48,10 @@ pub fn light(scene: &Scene, color: &Color) -> Option<[f64; 3]> {
 
 /// X, Y, Z as the hue, saturation and value of a screen; colours outside its gamut are clipped.
 fn shown(xyz: [f64; 3]) -> Hsv {
+    /// Sums of such numbers are finite. Brighter light is shown as bright as this.
+    const BRIGHTEST: f64 = 1e300;
+    let largest = xyz.iter().fold(BRIGHTEST, |largest, part| largest.max(part.abs()));
+    let xyz = xyz.map(|part| part * (BRIGHTEST / largest));
     Hsv::from_rgb(xyz_to_linear_srgb(xyz).map(|channel| srgb_encode(channel.max(0.0))))
 }
 

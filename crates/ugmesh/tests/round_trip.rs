@@ -285,3 +285,11 @@ fn a_name_for_every_face_is_left_out() {
     assert_eq!(names(256), [""; 0]);
     assert_eq!(names(257), ["names of faces and colours are left out: 257 are more than 256"]);
 }
+
+#[test]
+fn the_brightest_light_has_a_colour() {
+    let text = "c_xyz sun 1.7976931348623157e308 1.7976931348623157e308 1.7976931348623157e308;
+        v a 0 0 0; v b 1 0 0; v c 0 1 0; f (a b c) sun;";
+    let obj = String::from_utf8(to_mesh(Target::Obj, text.as_bytes())).unwrap();
+    assert!(obj.contains("v 0 0 0 1 1 1\n"), "{obj}");
+}

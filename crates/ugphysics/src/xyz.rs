@@ -14,8 +14,7 @@ const XYZ_FROM_RGB: [[f64; 3]; 3] = xyz_from_rgb();
 const RGB_FROM_XYZ: [[f64; 3]; 3] = inverse(XYZ_FROM_RGB);
 
 /// Linear sRGB from X, Y, Z; [`WHITE_XYZ`] gives 1, 1, 1. A colour outside the sRGB gamut has a
-/// negative channel. Finite input has finite output: channels beyond the largest number are that
-/// number.  Eq. (P19)
+/// negative channel.  Eq. (P19)
 ///
 /// ```
 /// let [red, green, blue] = ugphysics::xyz_to_linear_srgb(ugphysics::WHITE_XYZ);
@@ -23,14 +22,7 @@ const RGB_FROM_XYZ: [[f64; 3]; 3] = inverse(XYZ_FROM_RGB);
 /// ```
 #[must_use]
 pub fn xyz_to_linear_srgb(xyz: [f64; 3]) -> [f64; 3] {
-    /// Above the sum of the absolute numbers in any row of the matrix.
-    const SCALE: f64 = 16.0;
-    let rgb = times(RGB_FROM_XYZ, xyz);
-    if rgb.iter().all(|channel| channel.is_finite()) {
-        return rgb;
-    }
-    let scaled = times(RGB_FROM_XYZ, xyz.map(|part| part / SCALE));
-    scaled.map(|channel| (channel * SCALE).clamp(f64::MIN, f64::MAX))
+    times(RGB_FROM_XYZ, xyz)
 }
 
 /// X, Y, Z from linear sRGB: the inverse of [`xyz_to_linear_srgb`].  Eq. (P19)

@@ -137,9 +137,6 @@ fn primaries_have_their_published_chromaticities() {
         }
     }
     near("white", linear_srgb_to_xyz([1.0; 3])[1], 1.0, 1e-10);
-    // Products of the largest numbers overflow, their differences must not.
-    let brightest = xyz_to_linear_srgb([f64::MAX; 3]);
-    assert!(brightest[0] == f64::MAX && brightest.iter().all(|channel| *channel > 0.5 * f64::MAX));
 }
 
 proptest! {
