@@ -39,7 +39,8 @@ fn commands_in_documents_work() {
                 || command.contains("-lc 0")
                 || !messages.contains("nothing is drawn") && !messages.contains("is black");
             assert!(is_drawn, "{path}: {command}: {messages}");
-            for file in written_files(command) {
+            // What is only printed writes no file.
+            for file in written_files(command).into_iter().filter(|_| !command.contains("--print")) {
                 let size = std::fs::metadata(folder.path().join(&file)).map_or(0, |made| made.len());
                 assert!(size > 300, "{path}: {command}: {} has {size} bytes", file.display());
             }
