@@ -168,7 +168,7 @@ const MISTAKES: [Mistake; 17] = [
     },
 ];
 
-/// Mistakes in the code of the ray tracer. Its own tests detect them.
+/// Mistakes in `ugphoton`, each with the test of that crate that fails.
 const RAY_MISTAKES: [Mistake; 5] = [
     Mistake {
         name: "M1rays",

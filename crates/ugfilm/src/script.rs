@@ -67,7 +67,7 @@ impl Script {
     /// Adds an option as it was given.
     ///
     /// # Errors
-    /// No program of the pipe has it, or its values make no sense.
+    /// No program of the pipe has this option, or a value is invalid.
     pub fn add(&mut self, option: &Given) -> Result<(), Failure> {
         let timeline = Timeline::new(option.values.clone(), quantity(&option.name));
         let timeline = timeline.map_err(|why| refused(&option.name, &why))?;
@@ -77,7 +77,7 @@ impl Script {
     /// Adds an option with its values over the film.
     ///
     /// # Errors
-    /// No program of the pipe has it, or it was added before.
+    /// No program of the pipe has this option, or it was added before.
     pub fn add_timeline(&mut self, name: &str, timeline: Timeline) -> Result<(), Failure> {
         if self.get(name).is_some() {
             return Err(refused(name, "it is given twice"));

@@ -1,4 +1,4 @@
-//! Work on many frames at once, with results in order.
+//! Draws several frames at the same time and passes them on in the order of the film.
 
 use std::collections::BTreeMap;
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
@@ -10,7 +10,7 @@ use ugpipe::Failure;
 struct State<T> {
     /// The row that is taken next.
     next: usize,
-    /// How many results have been consumed.
+    /// Number of results passed to the consumer.
     n_consumed: usize,
     ready: BTreeMap<usize, Result<T, Failure>>,
     is_stopped: bool,

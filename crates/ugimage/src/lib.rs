@@ -74,5 +74,5 @@ pub use linear::{LinearFrame, Plane, Samples, display_pixel};
 pub use metadata::Metadata;
 pub use png::Compression;
 pub use quantizer::{Quantizer, ROUNDING_OFFSET};
-pub use read::{ReadError, read_png, read_png_header};
+pub use read::{MAX_PIXELS, ReadError, read_png, read_png_header};
 pub use read_light::{Pixels, read_picture};

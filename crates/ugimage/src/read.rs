@@ -9,7 +9,7 @@ use png::{ColorType, Decoder, Transformations};
 use crate::{Frame, Metadata};
 
 /// Largest number of pixels that is accepted.
-pub(crate) const MAX_PIXELS: u64 = 1 << 28;
+pub const MAX_PIXELS: u64 = 1 << 28;
 
 /// Largest number of bytes of a text that is read, unpacked.
 pub(crate) const MAX_TEXT: usize = 1 << 20;

@@ -10,7 +10,7 @@ use zune_jpeg::zune_core::bytestream::ZCursor;
 use zune_jpeg::zune_core::colorspace::ColorSpace;
 use zune_jpeg::zune_core::options::DecoderOptions;
 
-use crate::read::{MAX_PIXELS, ReadError, read_png, zeros};
+use crate::read::{MAX_PIXELS, ReadError, read_png, read_png_header, zeros};
 
 /// The pixels of a picture, row after row from the top.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,35 +23,38 @@ pub enum Pixels {
 }
 
 /// Reads a picture, by the first bytes of its file: PNG, JPEG, Radiance HDR or OpenEXR. Returns its
-/// size and its pixels.
+/// size and its pixels. `max_pixels`: at most [`MAX_PIXELS`].
 ///
 /// Colours of PNG and JPEG are assumed to be sRGB, and 16 bits are rounded to 8; those of HDR and
 /// OpenEXR to be linear light with the primaries of sRGB. Colour profiles and the orientation that
 /// cameras note are not used.
 ///
 /// # Errors
-/// [`ReadError`] if the file is of another kind, is truncated or corrupt, has more than 2²⁸ pixels,
-/// or does not fit in memory.
-pub fn read_picture(file: &[u8]) -> Result<([u32; 2], Pixels), ReadError> {
+/// [`ReadError`] if the file is of another kind, is truncated or corrupt, has more than `max_pixels`
+/// pixels, or does not fit in memory.
+pub fn read_picture(file: &[u8], max_pixels: u64) -> Result<([u32; 2], Pixels), ReadError> {
+    let limit = max_pixels.min(MAX_PIXELS);
     match file {
         [0x89, b'P', b'N', b'G', ..] => {
+            let (size, _) = read_png_header(file)?;
+            checked(size.map(|side| side as usize), limit)?;
             let (frame, _) = read_png(file)?;
             let size = [frame.width(), frame.height()];
             Ok((size, Pixels::Srgb(frame.into_pixels())))
         }
-        [0xff, 0xd8, 0xff, ..] => jpeg(file),
-        [b'#', b'?', ..] => hdr(file),
-        [0x76, 0x2f, 0x31, 0x01, ..] => exr(file),
+        [0xff, 0xd8, 0xff, ..] => jpeg(file, limit),
+        [b'#', b'?', ..] => hdr(file, limit),
+        [0x76, 0x2f, 0x31, 0x01, ..] => exr(file, limit),
         _ => Err(ReadError::new("not a picture of a kind that is read: PNG, JPEG, HDR or EXR")),
     }
 }
 
 /// Refuses pictures with too many pixels.
-fn checked([width, height]: [usize; 2]) -> Result<[u32; 2], ReadError> {
+fn checked([width, height]: [usize; 2], limit: u64) -> Result<[u32; 2], ReadError> {
     let n_pixels = (width as u64).saturating_mul(height as u64);
     match (u32::try_from(width), u32::try_from(height)) {
-        (Ok(width), Ok(height)) if n_pixels <= MAX_PIXELS => Ok([width, height]),
-        _ => Err(ReadError::new(&format!("{width} x {height} pixels exceed the limit of {MAX_PIXELS}"))),
+        (Ok(width), Ok(height)) if n_pixels <= limit => Ok([width, height]),
+        _ => Err(ReadError::new(&format!("{width} x {height} pixels exceed the limit of {limit}"))),
     }
 }
 
@@ -60,7 +63,7 @@ fn broken(kind: &str, error: &dyn std::fmt::Display) -> ReadError {
     ReadError::new(&format!("not a readable {kind} file: {}", problem.trim_end_matches('.')))
 }
 
-fn jpeg(file: &[u8]) -> Result<([u32; 2], Pixels), ReadError> {
+fn jpeg(file: &[u8], limit: u64) -> Result<([u32; 2], Pixels), ReadError> {
     let broken = |error: &dyn std::fmt::Display| broken("JPEG", error);
     // The decoder fills what is missing of a truncated file with grey.
     if !has_end_of_image(file) {
@@ -73,7 +76,7 @@ fn jpeg(file: &[u8]) -> Result<([u32; 2], Pixels), ReadError> {
     let mut decoder = JpegDecoder::new_with_options(ZCursor::new(file), options);
     decoder.decode_headers().map_err(|error| broken(&error))?;
     let (width, height) = decoder.dimensions().ok_or_else(|| broken(&"it has no size"))?;
-    let size = checked([width, height])?;
+    let size = checked([width, height], limit)?;
     let n_pixels = width * height;
     // Reserved before the decoder allocates as much.
     let mut pixels: Vec<[u8; 4]> = zeros(n_pixels)?;
@@ -111,11 +114,11 @@ fn has_end_of_image(file: &[u8]) -> bool {
     }
 }
 
-fn hdr(file: &[u8]) -> Result<([u32; 2], Pixels), ReadError> {
+fn hdr(file: &[u8], limit: u64) -> Result<([u32; 2], Pixels), ReadError> {
     let broken = |error: &dyn std::fmt::Display| broken("HDR", error);
     let decoder = HdrDecoder::new(Cursor::new(file)).map_err(|error| broken(&error))?;
     let (width, height) = decoder.dimensions();
-    let size = checked([width as usize, height as usize])?;
+    let size = checked([width as usize, height as usize], limit)?;
     let n_pixels = width as usize * height as usize;
     // Each row has a header of four bytes and more, so a short file cannot ask for much memory.
     if (file.len() as u64) < 4 * u64::from(height) {
@@ -134,13 +137,13 @@ fn hdr(file: &[u8]) -> Result<([u32; 2], Pixels), ReadError> {
     Ok((size, Pixels::Light(pixels)))
 }
 
-fn exr(file: &[u8]) -> Result<([u32; 2], Pixels), ReadError> {
+fn exr(file: &[u8], limit: u64) -> Result<([u32; 2], Pixels), ReadError> {
     let broken = |error: &dyn std::fmt::Display| broken("EXR", error);
     let headers = exr::meta::MetaData::read_from_buffered(Cursor::new(file), false);
     let headers = headers.map_err(|error| broken(&error))?;
     // The first layer with these channels is read, so none may be too large.
     for header in headers.headers.iter().filter(|header| !header.deep) {
-        let size = checked([header.layer_size.width(), header.layer_size.height()])?;
+        let size = checked([header.layer_size.width(), header.layer_size.height()], limit)?;
         zeros::<[f32; 4]>(size[0] as usize * size[1] as usize)?;
     }
     let image = exr_reader()
@@ -164,7 +167,7 @@ fn exr(file: &[u8]) -> Result<([u32; 2], Pixels), ReadError> {
         .from_buffered(Cursor::new(file));
     let image = image.map_err(|error| broken(&error))?;
     let data = image.layer_data.channel_data.pixels;
-    let size = checked([data.resolution.width(), data.resolution.height()])?;
+    let size = checked([data.resolution.width(), data.resolution.height()], limit)?;
     let mut pixels = data.pixels;
     // Colours of EXR files are multiplied by alpha.
     for [red, green, blue, alpha] in &mut pixels {
@@ -177,45 +180,31 @@ fn exr(file: &[u8]) -> Result<([u32; 2], Pixels), ReadError> {
 
 #[cfg(test)]
 mod tests {
-    use base64::Engine;
-
     use super::*;
     use crate::{Compression, Format, LinearFrame, Metadata};
 
     /// Bars of 64 x 32 pixels; the upper left is black.
-    const BARS: &str = "\
-        /9j/4AAQSkZJRgABAgAAAQABAAD//gAQTGF2YzU5LjM3LjEwMAD/2wBDAAgoKC8oLzc3Nzc3N0E8QUNDQ0FBQUFD\
-        Q0NISEhVVVVISEhDQ0hIUFBVVVxfXFdXVVdfX2RkZHh4c3OMjJGsrM//xACEAAADAQEBAQAAAAAAAAAAAAAABgcI\
-        BQQDAQADAQEBAQAAAAAAAAAAAAAABgcIAwQCEAACAQIFAgcBAQAAAAAAAAAAAQIRA5HRUTEEcaESgfFh0jIUISIR\
-        AAIBAgMGBQQDAQAAAAAAAAIBAAMRQTEEUZEhgaHRBRIi0nFCUjIUFSPwYf/AABEIACAAQAMBEgACEgADEgD/2gAM\
-        AwEAAhEDEQA/AM/gEIQl849uv+n5ZjPbVIR6LufFEL+p8u8YQVgH4nfxPUsf6Qdrq522PIc+F8f+Wkg1ZMtRVb+8\
-        lyTsuiiKA7Qmw4SZgNcJn+E2KBgCEaoSZgNkJn+EX7Fyj8L2e3UWE6OuhTKJ2fleTy+Yvp24zQXiWmRg6or1D+Vs\
-        R25ZrbslgIUYsXxTTT+HNYANEJCITABT7fKhDdSwWYRTKiTxX+5Qj0eoEsC6d5Vrf0j0R94ciE/4qp+/qUsPxH4U\
-        iY6YjeY879pmnVJqvVuresnvd10lu1YlRHzNNrFjxt85ZyeDM7sXqahkTWhqrEN79srMhJ+H1S+oN79shpVly7ek\
-        sFmaXkpDSVBzY732nliF+ue0evaW8Q7nHnPZx75GVpfB8QpL6T3D7pZ5OA0xjiPXtOeT/wDPOtax75Evl+/kaX21\
-        Nw+6I0fQ1ADgXTvPOdq1Bz2xJXLEq41L2Rc7d5qltJNt2S4tvCTerXDSWRu7eA8XbbxtwmlyLvg3NYYv4iPOxvzZ\
-        RMlK/aDYXTvP/9k=\
-        ";
+    const BARS: &[u8] = include_bytes!("../tests/bars.jpg");
 
-    fn bars() -> Vec<u8> {
-        base64::engine::general_purpose::STANDARD.decode(BARS).unwrap()
+    fn read(file: &[u8]) -> Result<([u32; 2], Pixels), ReadError> {
+        read_picture(file, MAX_PIXELS)
     }
 
     #[test]
     fn jpeg_files_are_read_whole_or_not_at_all() {
-        let file = bars();
-        let (size, pixels) = read_picture(&file).unwrap();
+        let file = BARS;
+        let (size, pixels) = read(file).unwrap();
         let Pixels::Srgb(pixels) = pixels else { panic!("8 bits") };
         assert_eq!((size, pixels.len()), ([64, 32], 64 * 32));
         // Colours of several bars, at the lower edge.
         let bottom = &pixels[31 * 64..];
         assert!(bottom.iter().any(|pixel| pixel[0] > 150) && bottom.iter().any(|pixel| pixel[2] > 150));
         for length in 0..file.len() {
-            assert!(read_picture(&file[..length]).is_err(), "{length}");
+            assert!(read(&file[..length]).is_err(), "{length}");
         }
         // What telephones append is not looked at.
-        let longer = [&file[..], b"and a film"].concat();
-        assert_eq!(read_picture(&longer).unwrap(), (size, Pixels::Srgb(pixels)));
+        let longer = [file, b"and a film"].concat();
+        assert_eq!(read(&longer).unwrap(), (size, Pixels::Srgb(pixels)));
     }
 
     #[test]
@@ -224,7 +213,7 @@ mod tests {
         let frame = LinearFrame::new([8, 4], true, (0..32).map(pixel).collect());
         for format in [Format::Exr, Format::Hdr] {
             let file = format.encode_linear_with(&frame, &Metadata::default(), Compression::Fast);
-            let (size, pixels) = read_picture(&file).unwrap();
+            let (size, pixels) = read(&file).unwrap();
             let Pixels::Light(pixels) = pixels else { panic!("light") };
             assert_eq!(size, [8, 4]);
             for (found, expected) in pixels.iter().zip(frame.pixels()) {
@@ -232,7 +221,7 @@ mod tests {
                 assert!(error <= 0.01 * expected[0].max(1.5), "{format:?}: {found:?} {expected:?}");
             }
             for length in (0..file.len() - 1).step_by(7) {
-                assert!(read_picture(&file[..length]).is_err(), "{format:?} {length}");
+                assert!(read(&file[..length]).is_err(), "{format:?} {length}");
             }
         }
     }
@@ -241,8 +230,8 @@ mod tests {
     #[test]
     fn large_headers_are_refused() {
         let hdr = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1000000 +X 1000000\n";
-        assert!(read_picture(hdr).unwrap_err().to_string().contains("exceed the limit"));
+        assert!(read(hdr).unwrap_err().to_string().contains("exceed the limit"));
         let hdr = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 10000 +X 20000\n";
-        assert!(read_picture(hdr).unwrap_err().to_string().contains("truncated"));
+        assert!(read(hdr).unwrap_err().to_string().contains("truncated"));
     }
 }

@@ -56,7 +56,7 @@ pub struct Visit {
     pub point: SurfacePoint,
     /// How the light went on.
     pub way: Way,
-    /// Reflections and refractions from there to the eye.
+    /// Number of reflections and refractions between the surface and the eye.
     pub depth: u32,
     /// The part of its light that reaches the eye.
     pub weight: f64,

@@ -77,7 +77,7 @@ pub(crate) struct Columns {
 /// A row of cells.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Row {
-    /// Which column count of the ladder.
+    /// Index in the ladder: of the number of columns that this row has.
     pub ladder: usize,
     /// Index of its first texel, among those of the panorama if it has all columns and the level is
     /// 0, else among those of the level.

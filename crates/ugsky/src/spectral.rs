@@ -22,7 +22,7 @@ pub enum Basis {
     BlackBody,
 }
 
-/// Why three temperatures are no basis.
+/// What is wrong with three temperatures for [`Basis::Planck`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BasisError(pub [f64; 3]);
 
@@ -42,7 +42,7 @@ impl std::error::Error for BasisError {}
 /// Step of tables of linear maps and of black bodies in ln D or ln T.
 const STEP: f64 = 0.0025;
 
-/// Step of tables of smooth spectra in ln D.
+/// Distance in ln D between two entries of the tables of [`Basis::Smooth`].
 const SMOOTH_STEP: f64 = 0.02;
 
 /// |ln D| up to which light is tabulated: beyond it nothing visible is left.

@@ -1,6 +1,6 @@
 //! From the bytes of files to a panorama.
 
-use ugimage::{Pixels, read_picture};
+use ugimage::{MAX_PIXELS, Pixels, read_picture};
 use ugsky::{CubeMap, Extent, Panorama, PanoramaError, Texels};
 
 use crate::arrangement::Arrangement;
@@ -23,8 +23,11 @@ const CROSSES: [[[usize; 2]; 6]; 2] =
 /// equirectangular one shows; without it the whole sphere.
 ///
 /// # Errors
-/// [`Error::Read`], [`Error::Panorama`], [`Error::Sides`], or [`Error::Shape`] if its sides have
-/// not the ratio of the arrangement.
+/// - [`Error::Read`]: a file is no picture that can be read.
+/// - [`Error::Sides`]: the number of files does not suit the arrangement.
+/// - [`Error::Shape`]: nor does the ratio of width to height.
+/// - [`Error::Side`]: the sides of a cube are not squares of one size.
+/// - [`Error::Panorama`]: the picture is too small, or its angles are impossible.
 pub fn open(files: &[&[u8]], arrangement: Arrangement, extent: Option<Extent>) -> Result<Opened, Error> {
     if files.len() != arrangement.n_files() {
         return Err(Error::Sides { n_files: files.len() });
@@ -32,7 +35,7 @@ pub fn open(files: &[&[u8]], arrangement: Arrangement, extent: Option<Extent>) -
     let mut notes = Vec::new();
     let mut pictures = Vec::new();
     for (idx, file) in files.iter().enumerate() {
-        let (size, pixels) = read_picture(file).map_err(|error| Error::Read { idx, error })?;
+        let (size, pixels) = read_picture(file, MAX_PIXELS).map_err(|error| Error::Read { idx, error })?;
         pictures.push((size, texels(pixels, &mut notes)));
     }
     let panorama = match arrangement {

@@ -95,8 +95,8 @@ impl Curves {
     }
 }
 
-/// A function of a positive number, tabulated at 1024 points in each power of two and interpolated
-/// linearly: relative errors are below 10⁻⁶. Negative numbers become 0.
+/// A table of a function: 1024 values for each power of two of its argument, with linear
+/// interpolation between them. Relative errors are below 10⁻⁶. Negative arguments count as 0.
 struct Curve {
     values: Vec<f32>,
 }

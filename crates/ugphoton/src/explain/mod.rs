@@ -72,7 +72,7 @@ pub struct ExplainedSurface {
     pub item: Item,
     /// How its light goes on; rows of [`ExplainedSample::surfaces`].
     pub way: Way,
-    /// Reflections and refractions from there to the eye.
+    /// Number of reflections and refractions between the surface and the eye.
     pub depth: u32,
     /// The part of its light that reaches the eye.
     pub weight: f64,

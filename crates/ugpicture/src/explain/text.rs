@@ -83,7 +83,7 @@ pub fn level(level: &[f64; 3]) -> String {
     }
 }
 
-/// The colour of a sample, with the wavelength it stands for.
+/// The lines about the colour of a sample: its numbers, and the wavelength at rest and as seen.
 ///
 /// # Errors
 /// Those of `out`.
