@@ -38,6 +38,8 @@ fn libraries_hold() {
         (File::Mesh(Format::Stl), 500),
         (File::Mesh(Format::Gltf), 500),
         (File::Picture, 300),
+        (File::Panorama, 500),
+        (File::History, 500),
     ];
     for (file, n_cases) in kinds {
         let finding = |seed: u64| {

@@ -8,6 +8,7 @@ use ugrainbow::{
     HueShift, Interpolation, Output, PictureOptions, SpectralShift, Wireframe,
 };
 use ugrandom::Random;
+use ugwarp::{Basis, Lens};
 
 use super::words;
 
@@ -82,6 +83,28 @@ pub fn rainbow(random: &mut Random) -> ugrainbow::Config {
         exact: maybe(random, 4, shift),
         cull: random.one_in(6),
         repeat: random.one_in(6),
+    }
+}
+
+/// Options of `ugwarp`.
+pub fn warp(random: &mut Random) -> ugwarp::Config {
+    let velocity = |random: &mut Random| Velocity::from_beta(beta(random)).ok();
+    ugwarp::Config {
+        velocity: velocity(random).unwrap_or(Velocity::ZERO),
+        shift: shift(random),
+        basis: match random.below(4) {
+            0 => Basis::Planck([number(random), number(random), number(random)]),
+            1 => Basis::Planck([3500.0, 5900.0, 10000.0]),
+            2 => Basis::BlackBody,
+            _ => Basis::Smooth,
+        },
+        picture: picture(random),
+        lens: match random.below(4) {
+            0 => Lens::Panorama,
+            1 => Lens::Fisheye { angle: random.between(0.0, std::f64::consts::TAU) },
+            2 => Lens::Cube,
+            _ => Lens::Pinhole,
+        },
     }
 }
 

@@ -138,6 +138,55 @@ pub fn mesh(format: ugmesh::Format, bytes: &[u8]) -> Result<(), String> {
 /// Pixels of a picture above which [`picture`] does not read it.
 const MAX_PIXELS: u64 = 1 << 14;
 
+/// A panorama as an observer in motion sees it, with options that follow from `seed`: every number
+/// of the light is finite, and another number of threads gives the same.
+///
+/// # Errors
+/// What does not hold.
+pub fn panorama(seed: u64, bytes: &[u8]) -> Result<(), String> {
+    if ugimage::read_picture(bytes, MAX_PIXELS).is_err() {
+        return Ok(());
+    }
+    let mut random = Random(seed);
+    let arrangement = *random.pick(&ugwarp::Arrangement::ALL);
+    let config = config::warp(&mut random);
+    let Ok(opened) = ugwarp::open(&[bytes], arrangement, None) else { return Ok(()) };
+    let light = match ugwarp::light(&opened.panorama, &config) {
+        Ok(light) => light,
+        // Options that exclude each other.
+        Err(_) => return Ok(()),
+    };
+    if let Some(pixel) = light.pixels().iter().find(|pixel| pixel.iter().any(|part| !part.is_finite())) {
+        return Err(format!("ugwarp: the light of a pixel is {pixel:?}"));
+    }
+    if seed.is_multiple_of(4) {
+        let other = if rayon::current_num_threads() > 1 { &ONE } else { &TWO };
+        match other.install(|| ugwarp::light(&opened.panorama, &config)) {
+            Ok(again) if again == light => {}
+            _ => return Err("another number of threads gives other light".to_owned()),
+        }
+    }
+    Ok(())
+}
+
+/// A picture of any format: a history that is read from it is written into a PNG file and read
+/// again.
+///
+/// # Errors
+/// What differs.
+pub fn history(bytes: &[u8]) -> Result<(), String> {
+    let Some(history) = ugimage::read_history(bytes) else { return Ok(()) };
+    // Text in PNG files ends at NUL.
+    let comment = history.replace('\0', "");
+    let metadata = Metadata { software: String::new(), comment };
+    let frame = ugimage::Frame::new([1, 1], true, vec![[0, 0, 0, 255]]);
+    let again = ugimage::read_history(&Format::Png.encode(&frame, &metadata));
+    if again.as_ref().unwrap_or(&String::new()) == &metadata.comment {
+        return Ok(());
+    }
+    Err(format!("the history {:?} is written as {again:?}", metadata.comment))
+}
+
 /// A PNG file: what is read is put on a sheet, and the sheet is read again as it was written.
 ///
 /// # Errors

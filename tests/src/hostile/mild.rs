@@ -6,11 +6,11 @@ use std::fmt::Write;
 use ugrandom::Random;
 
 use super::options::{MEASURED, flags, maybe, word, words};
-use super::{Files, mesh, picture, scene};
+use super::{Files, film, mesh, panorama, picture, scene};
 
 /// Files, the first of which is the input, and the stages of a pipe.
 pub fn pipe(random: &mut Random) -> (Files, Vec<Vec<String>>) {
-    match random.below(12) {
+    match random.below(13) {
         0 => {
             let files: Vec<_> =
                 (0..1 + random.below(3)).map(|idx| (format!("{idx}.png"), picture::png(random))).collect();
@@ -26,6 +26,12 @@ pub fn pipe(random: &mut Random) -> (Files, Vec<Vec<String>>) {
             let mut stages = vec![line];
             stages.extend(drawing(random));
             (vec![(name.to_owned(), content)], stages)
+        }
+        3 => {
+            let files = vec![("0.sky".to_owned(), panorama::valid(random))];
+            let line =
+                if random.one_in(4) { film::mild(random, "panorama") } else { film::mild_warp(random) };
+            (files, vec![line])
         }
         _ => {
             let stages = if random.one_in(10) {
@@ -152,8 +158,10 @@ fn solid(random: &mut Random) -> (&'static str, Vec<u8>) {
 /// Stages that draw a scene, or make a mesh of it.
 fn drawing(random: &mut Random) -> Vec<Vec<String>> {
     let mut stages = Vec::new();
-    if random.one_in(5) {
-        return vec![photon(random)];
+    match random.below(15) {
+        0..=2 => return vec![photon(random)],
+        3 => return vec![film::mild(random, "scene")],
+        _ => {}
     }
     if !random.one_in(9) {
         stages.push(lorentz(random));

@@ -1,6 +1,6 @@
 //! Hostile inputs for the programs, and what must hold whatever they are given.
 //!
-//! A [`Case`] follows from its number alone: an input (a scene, a mesh or pictures) that is
+//! A [`Case`] follows from its number alone: an input (a scene, a mesh, pictures or panoramas) that is
 //! malformed, extreme or both, and the command lines of a pipe. Half of the cases are valid, so
 //! that their pipes run to the end. [`Case::run`] runs it with the built programs and checks what
 //! no input may break:
@@ -20,10 +20,12 @@
 mod bytes;
 pub mod config;
 mod edge;
+mod film;
 pub mod memory;
 mod mesh;
 mod mild;
 mod options;
+mod panorama;
 mod picture;
 mod run;
 mod scene;
@@ -90,9 +92,10 @@ impl Case {
 
 /// Malformed and extreme files and options.
 fn wild(random: &mut Random) -> (Files, Vec<Vec<String>>) {
-    let (files, first) = match random.below(10) {
+    let (files, first) = match random.below(11) {
         0 | 1 => mesh::files(random),
         2 => picture::files(random),
+        3 => panorama::files(random),
         _ => scene::files(random),
     };
     let stages = options::stages(random, first, &files);
@@ -108,6 +111,10 @@ pub enum File {
     Mesh(ugmesh::Format),
     /// A PNG file.
     Picture,
+    /// A panorama: a PNG, JPEG, HDR or EXR file.
+    Panorama,
+    /// A picture of any format, with its history.
+    History,
 }
 
 impl File {
@@ -117,6 +124,8 @@ impl File {
             Self::Scene => return scene::text(random),
             Self::Mesh(format) => mesh::of(format, random),
             Self::Picture => picture::png(random),
+            Self::Panorama => panorama::file(random),
+            Self::History => picture::with_history(random),
         };
         if random.one_in(2) {
             damage(random, &mut bytes);
@@ -130,15 +139,16 @@ impl File {
     /// What does not hold.
     pub fn check(self, bytes: &[u8]) -> Result<(), String> {
         match self {
-            Self::Scene => {
-                // The options follow from the content, so that a corpus is a folder of scenes.
-                let seed = bytes
-                    .iter()
-                    .fold(0, |seed: u64, &byte| (seed ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3));
-                memory::pipe(seed, bytes)
-            }
+            Self::Scene => memory::pipe(seed_of(bytes), bytes),
             Self::Mesh(format) => memory::mesh(format, bytes),
             Self::Picture => memory::picture(bytes),
+            Self::Panorama => memory::panorama(seed_of(bytes), bytes),
+            Self::History => memory::history(bytes),
         }
     }
+}
+
+/// Options follow from the content, so that a corpus is a folder of files.
+fn seed_of(bytes: &[u8]) -> u64 {
+    bytes.iter().fold(0, |seed: u64, &byte| (seed ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))
 }

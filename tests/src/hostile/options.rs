@@ -2,7 +2,7 @@
 
 use ugrandom::Random;
 
-use super::words;
+use super::{film, words};
 
 /// A second output file.
 pub const MEASURED: &str = "measured.csv";
@@ -20,6 +20,8 @@ pub fn stages(random: &mut Random, kind: &str, files: &[(String, Vec<u8>)]) -> V
 fn programs(random: &mut Random, kind: &str, files: &[(String, Vec<u8>)]) -> Vec<Vec<String>> {
     let mut stages = match kind {
         "pictures" => return vec![sheet(random, files)],
+        "panorama" if files.len() == 1 && random.one_in(4) => return vec![film::film(random, kind)],
+        "panorama" => return vec![film::warp(random, files)],
         "mesh" => vec![mesh(random, files)],
         _ => Vec::new(),
     };
@@ -29,9 +31,16 @@ fn programs(random: &mut Random, kind: &str, files: &[(String, Vec<u8>)]) -> Vec
     if random.one_in(6) && kind == "mesh" {
         return stages;
     }
-    if random.one_in(6) {
-        stages.push(photon(random));
-        return stages;
+    match random.below(12) {
+        0 | 1 => {
+            stages.push(photon(random));
+            return stages;
+        }
+        2 => {
+            stages.push(film::film(random, kind));
+            return stages;
+        }
+        _ => {}
     }
     if !random.one_in(4) {
         stages.push(lorentz(random));
@@ -62,7 +71,8 @@ pub fn maybe(random: &mut Random, one_in: usize, line: &mut Vec<String>, option:
     }
 }
 
-fn numbers<const N: usize>(random: &mut Random) -> Vec<String> {
+/// Numbers as text.
+pub fn numbers<const N: usize>(random: &mut Random) -> Vec<String> {
     [(); N].map(|()| words::number(random)).to_vec()
 }
 
@@ -105,7 +115,7 @@ fn common(random: &mut Random, line: &mut Vec<String>) {
 }
 
 /// Options of the camera.
-fn camera(random: &mut Random, line: &mut Vec<String>) {
+pub fn camera(random: &mut Random, line: &mut Vec<String>) {
     let center = numbers::<3>(random);
     maybe(random, 6, line, "-vc", center);
     let eye = numbers::<3>(random);
@@ -170,7 +180,7 @@ fn parse(random: &mut Random) -> Vec<String> {
 }
 
 /// Options of motion.
-fn motion(random: &mut Random, line: &mut Vec<String>) {
+pub fn motion(random: &mut Random, line: &mut Vec<String>) {
     let velocity = betas(random);
     maybe(random, 2, line, "-vel", velocity);
     let camera = betas(random);

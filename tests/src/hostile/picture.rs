@@ -1,5 +1,6 @@
-//! PNG files with text, for `ugsheet`.
+//! Pictures with their histories, for `ugsheet`.
 
+use ugimage::{Format, Frame, Metadata};
 use ugrandom::Random;
 
 use super::{Files, bytes, words};
@@ -30,6 +31,13 @@ pub fn png(random: &mut Random) -> Vec<u8> {
     // Behind the signature and the header.
     drop(bytes.splice(33..33, chunk(*b"tEXt", text.as_bytes())));
     bytes
+}
+
+/// A picture of any format, with its history.
+pub fn with_history(random: &mut Random) -> Vec<u8> {
+    let comment = format!("ugrainbow -cap {}\n{}", words::name(random), words::number(random));
+    let history = Metadata { software: "ugrainbow".to_owned(), comment };
+    random.pick(&Format::ALL).encode(&Frame::new([2, 1], false, vec![[9, 99, 199, 255]; 2]), &history)
 }
 
 fn chunk(kind: [u8; 4], data: &[u8]) -> Vec<u8> {

@@ -11,6 +11,7 @@ use std::time::{Duration, Instant};
 
 use super::Case;
 use super::edge::{CLOSED, Edge, INTERRUPTED};
+use super::film::FRAMES;
 use super::options::MEASURED;
 
 /// A program that runs longer than this hangs. Usual cases take milliseconds; the largest number of
@@ -45,8 +46,11 @@ pub fn run(case: &Case, programs: &Path) -> Result<bool, String> {
     }
     let left = fs::read_dir(folder.path()).map_err(words)?;
     let left = left.flatten().map(|entry| entry.file_name());
-    let is_known =
-        |name: &OsString| name == MEASURED || case.files.iter().any(|(given, _)| name == given.as_str());
+    let is_known = |name: &OsString| {
+        name == MEASURED
+            || name.to_string_lossy().starts_with(FRAMES)
+            || case.files.iter().any(|(given, _)| name == given.as_str())
+    };
     let others: Vec<_> = left.filter(|name| !is_known(name)).collect();
     if others.is_empty() { Ok(output.is_some()) } else { Err(format!("files are left: {others:?}")) }
 }
@@ -80,8 +84,10 @@ fn pipe(
         let ended = stage(programs, &words, &input, folder, edge)?;
         let about = |finding: String| format!("{} ({edge:?}): {finding}", words.join(" "));
         // Nothing is to be said of a scene that is right, and an empty one stays empty.
-        let is_silent = words.iter().any(|word| word == "check") || edge == Edge::Input(CLOSED);
-        check(&ended, is_silent, edge, folder).map_err(about)?;
+        // The frames of a film may be files.
+        let is_silent = words.iter().any(|word| word == "check" || word.starts_with(FRAMES))
+            || edge == Edge::Input(CLOSED);
+        check(&words[0], &ended, is_silent, edge, folder).map_err(about)?;
         if ended.status.code() != Some(0) {
             // Another camera may be asked for than there is, and an earlier program may have been
             // told to pass unknown statements on.
@@ -131,6 +137,8 @@ fn readers(words: &[String]) -> Vec<Vec<String>> {
         ("ugmesh", Some("obj")) => &[&["ugmesh", "-if", "obj"]],
         ("ugmesh", Some("ply")) => &[&["ugmesh", "-if", "ply"]],
         ("ugmesh", Some("gltf" | "glb")) => &[&["ugmesh", "-if", "gltf"]],
+        ("ugfilm", Some("apng")) if !has("--print") => &[&["ugsheet", "/dev/stdin"]],
+        ("ugwarp", None) => &[&["ugsheet", "/dev/stdin"]],
         ("ugphoton", None) if !has("--explain") => &[&["ugsheet", "/dev/stdin"]],
         ("ugrainbow", None) if !["--explain", "-dp", "-vec"].iter().any(|option| has(option)) => {
             &[&["ugsheet", "/dev/stdin"]]
@@ -155,7 +163,7 @@ fn is_diagnostic(messages: &[u8]) -> bool {
 }
 
 /// `is_silent`: success may come without output.
-fn check(ended: &Ended, is_silent: bool, edge: Edge, folder: &Path) -> Result<(), String> {
+fn check(program: &str, ended: &Ended, is_silent: bool, edge: Edge, folder: &Path) -> Result<(), String> {
     let messages = String::from_utf8_lossy(&ended.messages);
     if let Edge::Signal { .. } = edge {
         check_file(ended, folder)?;
@@ -179,6 +187,8 @@ fn check(ended: &Ended, is_silent: bool, edge: Edge, folder: &Path) -> Result<()
         }
         (0, ..) => {}
         (1 | 2, true, _) => {}
+        // A film is written frame by frame.
+        (1, false, _) if program == "ugfilm" => {}
         (1 | 2, false, _) => {
             return Err(format!("status {status} and {} bytes of output", ended.output.len()));
         }
