@@ -323,15 +323,17 @@ impl Args {
     /// The numbers of the frames to draw.
     fn numbers(&self) -> Result<Vec<u32>, Failure> {
         let Some(Ranges(ranges)) = &self.only else { return Ok((1..=self.frames).collect()) };
+        let mut ranges = ranges.clone();
+        ranges.sort_unstable();
+        // No frame twice, however often it is given.
         let mut frames: Vec<u32> = Vec::new();
-        for &[first, last] in ranges {
+        for [first, last] in ranges {
             if last > self.frames {
                 return Err(Failure::Usage(format!("--only: the film has {} frames", self.frames)));
             }
-            frames.extend(first..=last);
+            let next = frames.last().map_or(1, |frame| frame + 1);
+            frames.extend(first.max(next)..=last);
         }
-        frames.sort_unstable();
-        frames.dedup();
         Ok(frames)
     }
 }

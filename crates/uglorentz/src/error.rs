@@ -2,16 +2,17 @@
 
 use std::fmt;
 
+use thiserror::Error;
 use ugparse::{Diagnostic, Diagnostics, Origins, Source};
 use ugscene::{CameraError, MotionError};
 
 use crate::adaptive::MAX_PIECES;
 
 /// Why a scene cannot be mapped to the scene as seen.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Error)]
 pub enum Error {
     /// The stage of the scene, a motion or the camera is invalid.
-    Motion(MotionError),
+    Motion(#[from] MotionError),
     /// [`crate::Config::cull`] needs the view centre, and neither the configuration nor the scene
     /// has one.
     NoViewCenter,
@@ -124,13 +125,5 @@ impl fmt::Display for Error {
             "" => Ok(()),
             remedy => write!(f, ": {remedy}"),
         }
-    }
-}
-
-impl std::error::Error for Error {}
-
-impl From<MotionError> for Error {
-    fn from(error: MotionError) -> Self {
-        Self::Motion(error)
     }
 }

@@ -2,12 +2,13 @@
 
 use std::fmt;
 
+use thiserror::Error;
 use ugparse::{Diagnostics, Foreign};
 
 use crate::Format;
 
 /// Why a mesh cannot be converted.
-#[derive(Debug)]
+#[derive(Debug, Error)]
 pub enum Error {
     /// The format of the input cannot be detected.
     UnknownFormat {
@@ -28,7 +29,7 @@ pub enum Error {
         problem: Problem,
     },
     /// The UniGrafix text has errors.
-    Scene(Diagnostics),
+    Scene(#[from] Diagnostics),
     /// Scaling made a coordinate infinite, or the scale factor underflows to 0.
     Overflow,
     /// A coordinate exceeds the range of 32-bit floats, which glTF uses.
@@ -93,13 +94,5 @@ impl fmt::Display for Error {
             ),
             Self::TooLarge => f.write_str("the mesh is too large for one glTF file; write PLY (-dt ply)"),
         }
-    }
-}
-
-impl std::error::Error for Error {}
-
-impl From<Diagnostics> for Error {
-    fn from(findings: Diagnostics) -> Self {
-        Self::Scene(findings)
     }
 }

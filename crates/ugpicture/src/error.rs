@@ -1,24 +1,41 @@
 //! Why there is no picture.
 
-use std::fmt;
-
+use thiserror::Error;
 use uglabel::MissingCharacter;
 use ugscene::CameraError;
 
 use crate::limits::{MAX_PIXELS, MAX_SAMPLES, MAX_SIDE};
 
 /// Why there is no picture.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Error, PartialEq)]
 pub enum Error {
     /// The picture has no pixels, or more than [`MAX_PIXELS`] or [`MAX_SIDE`].
+    #[error(
+        "a picture of {width} x {height} pixels cannot be made: the limit is {MAX_PIXELS} \
+         pixels in all and {MAX_SIDE} along a side; give a smaller -sz",
+        width = .0[0],
+        height = .0[1]
+    )]
     Size([u32; 2]),
     /// The samples along a side of a pixel are not 1…[`MAX_SAMPLES`].
+    #[error("{0} x {0} samples a pixel cannot be taken; give -aa 1 to {MAX_SAMPLES}")]
     Samples(u32),
     /// The system has less memory than the picture needs: its size, and bytes.
+    #[error(
+        "there is not enough memory for a picture of {width} x {height} pixels, {1} bytes; give a smaller -sz",
+        width = .0[0],
+        height = .0[1]
+    )]
     Memory([u32; 2], u64),
     /// Options that exclude each other; the text says which, and what to do.
+    #[error("{0}")]
     Options(&'static str),
     /// A pixel to be explained that is not in the picture.
+    #[error(
+        "pixel {},{} is not in the picture of {} x {} pixels; \
+         count columns and rows from 0 at the upper left, or give -sz",
+        .pixel[0], .pixel[1], .size[0], .size[1]
+    )]
     Pixel {
         /// Its column and row.
         pixel: [u32; 2],
@@ -26,9 +43,11 @@ pub enum Error {
         size: [u32; 2],
     },
     /// Text with a character that the font lacks.
-    Text(MissingCharacter),
+    #[error(transparent)]
+    Text(#[from] MissingCharacter),
     /// The options of the camera do not define a picture.
-    Camera(CameraError),
+    #[error(transparent)]
+    Camera(#[from] CameraError),
 }
 
 impl Error {
@@ -43,50 +62,5 @@ impl Error {
                 | Self::Text(_)
                 | Self::Camera(CameraError::NoUp)
         )
-    }
-}
-
-impl fmt::Display for Error {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Size([width, height]) => write!(
-                f,
-                "a picture of {width} x {height} pixels cannot be made: the limit is {MAX_PIXELS} pixels in \
-                 all and {MAX_SIDE} along a side; give a smaller -sz"
-            ),
-            Self::Samples(samples) => {
-                write!(
-                    f,
-                    "{samples} x {samples} samples a pixel cannot be taken; give -aa 1 to {MAX_SAMPLES}"
-                )
-            }
-            Self::Memory([width, height], bytes) => write!(
-                f,
-                "there is not enough memory for a picture of {width} x {height} pixels, {bytes} bytes; give a \
-                 smaller -sz"
-            ),
-            Self::Options(text) => f.write_str(text),
-            Self::Pixel { pixel: [x, y], size: [width, height] } => write!(
-                f,
-                "pixel {x},{y} is not in the picture of {width} x {height} pixels; \
-                 count columns and rows from 0 at the upper left, or give -sz"
-            ),
-            Self::Text(missing) => missing.fmt(f),
-            Self::Camera(error) => error.fmt(f),
-        }
-    }
-}
-
-impl std::error::Error for Error {}
-
-impl From<MissingCharacter> for Error {
-    fn from(missing: MissingCharacter) -> Self {
-        Self::Text(missing)
-    }
-}
-
-impl From<CameraError> for Error {
-    fn from(error: CameraError) -> Self {
-        Self::Camera(error)
     }
 }

@@ -1,7 +1,6 @@
 //! Why there is no picture.
 
-use std::fmt;
-
+use thiserror::Error;
 use ugimage::ReadError;
 use ugscene::CameraError;
 use ugsky::{BasisError, PanoramaError};
@@ -9,9 +8,10 @@ use ugsky::{BasisError, PanoramaError};
 use crate::arrangement::Arrangement;
 
 /// Why there is no picture.
-#[derive(Debug)]
+#[derive(Debug, Error)]
 pub enum Error {
     /// A file is no picture that can be read.
+    #[error("{error}")]
     Read {
         /// Which of several files.
         idx: usize,
@@ -19,8 +19,10 @@ pub enum Error {
         error: ReadError,
     },
     /// The picture cannot be a panorama.
-    Panorama(PanoramaError),
+    #[error(transparent)]
+    Panorama(#[from] PanoramaError),
     /// The sides of the picture have not the ratio of its arrangement.
+    #[error("{}", wrong_shape(*size, *arrangement))]
     Shape {
         /// Its pixels across and down.
         size: [u32; 2],
@@ -28,11 +30,20 @@ pub enum Error {
         arrangement: Arrangement,
     },
     /// There are not as many files as a cube has sides, or more than one for other arrangements.
+    #[error(
+        "{n_files} files were given: -from sides needs six, right, left, up, down, front and back, and others \
+         one"
+    )]
     Sides {
         /// Their number.
         n_files: usize,
     },
     /// A side of a cube is no square, or has another size than the first.
+    #[error(
+        "the {} side of the cube has {} x {} pixels: all must be squares of the same size, here \
+         {expected} x {expected}",
+        ORDINALS[*idx % 6], .size[0], .size[1]
+    )]
     Side {
         /// Which of the six.
         idx: usize,
@@ -42,11 +53,31 @@ pub enum Error {
         expected: u32,
     },
     /// The options of the picture, its camera or its annotations.
-    Picture(ugpicture::Error),
+    #[error(transparent)]
+    Picture(#[from] ugpicture::Error),
     /// The temperatures of a basis.
-    Basis(BasisError),
+    #[error(transparent)]
+    Basis(#[from] BasisError),
     /// Options that exclude each other; the text says which, and what to do.
+    #[error("{0}")]
     Options(&'static str),
+}
+
+const ORDINALS: [&str; 6] = ["first", "second", "third", "fourth", "fifth", "sixth"];
+
+fn wrong_shape([width, height]: [u32; 2], arrangement: Arrangement) -> String {
+    let (expected, remedy) = match arrangement {
+        Arrangement::Equirectangular => (
+            "panorama, which is twice as wide as high",
+            "give the angles that it shows with -part WEST EAST SOUTH NORTH, or -part -180 180 -90 90 if it shows \
+             all; a cube map needs -from strip or -from cross",
+        ),
+        _ => (
+            arrangement.name(),
+            "a strip is 6 squares across, a cross 4 across and 3 down, or 3 across and 4 down",
+        ),
+    };
+    format!("{width} x {height} pixels are not the shape of a {expected}: {remedy}")
 }
 
 impl Error {
@@ -61,63 +92,8 @@ impl Error {
     }
 }
 
-impl fmt::Display for Error {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Read { error, .. } => error.fmt(f),
-            Self::Panorama(error) => error.fmt(f),
-            Self::Shape { size: [width, height], arrangement: Arrangement::Equirectangular } => write!(
-                f,
-                "{width} x {height} pixels are not the shape of a panorama, which is twice as wide as high: give the \
-                 angles that it shows with -part WEST EAST SOUTH NORTH, or -part -180 180 -90 90 if it shows all; a \
-                 cube map needs -from strip or -from cross"
-            ),
-            Self::Shape { size: [width, height], arrangement } => write!(
-                f,
-                "{width} x {height} pixels are not the shape of a {}: a strip is 6 squares across, a cross 4 across and \
-                 3 down, or 3 across and 4 down",
-                arrangement.name()
-            ),
-            Self::Sides { n_files } => write!(
-                f,
-                "{n_files} files were given: -from sides needs six, right, left, up, down, front and back, and others \
-                 one"
-            ),
-            Self::Side { idx, size: [width, height], expected } => write!(
-                f,
-                "the {} side of the cube has {width} x {height} pixels: all must be squares of the same size, here \
-                 {expected} x {expected}",
-                ["first", "second", "third", "fourth", "fifth", "sixth"][*idx % 6]
-            ),
-            Self::Picture(error) => error.fmt(f),
-            Self::Basis(error) => error.fmt(f),
-            Self::Options(text) => f.write_str(text),
-        }
-    }
-}
-
-impl std::error::Error for Error {}
-
-impl From<PanoramaError> for Error {
-    fn from(error: PanoramaError) -> Self {
-        Self::Panorama(error)
-    }
-}
-
-impl From<ugpicture::Error> for Error {
-    fn from(error: ugpicture::Error) -> Self {
-        Self::Picture(error)
-    }
-}
-
 impl From<CameraError> for Error {
     fn from(error: CameraError) -> Self {
         Self::Picture(error.into())
-    }
-}
-
-impl From<BasisError> for Error {
-    fn from(error: BasisError) -> Self {
-        Self::Basis(error)
     }
 }

@@ -5,7 +5,7 @@
 //! that their pipes run to the end. [`Case::run`] runs it with the built programs and checks what
 //! no input may break:
 //!
-//! - a program ends by itself, with status 0, 1 or 2, within [`TIME_LIMIT`] and [`MEMORY_LIMIT`];
+//! - a program ends by itself, with status 0, 1 or 2, within [`PROCESSOR_LIMIT`] and [`MEMORY_LIMIT`];
 //! - with status 0 it has written something, and every program downstream reads it;
 //! - with another status it has written nothing to standard output, and says why;
 //! - if its output is lost (a full disk, a closed pipe), the status is not 0;
@@ -37,7 +37,7 @@ use ugrandom::Random;
 
 pub use bytes::damage;
 pub use edge::Edge;
-pub use run::{MEMORY_LIMIT, TIME_LIMIT};
+pub use run::{MEMORY_LIMIT, PROCESSOR_LIMIT};
 
 /// Names and contents.
 type Files = Vec<(String, Vec<u8>)>;

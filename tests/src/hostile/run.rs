@@ -14,15 +14,22 @@ use super::edge::{CLOSED, Edge, INTERRUPTED};
 use super::film::FRAMES;
 use super::options::MEASURED;
 
-/// A program that runs longer than this hangs. Usual cases take milliseconds; the largest number of
-/// pieces of `uglorentz` takes up to a minute on a busy machine.
-pub const TIME_LIMIT: Duration = Duration::from_secs(300);
+/// Processor time of each program, in seconds, on however busy a machine. Usual cases take
+/// milliseconds; the largest number of pieces of `uglorentz` takes half a minute in a development
+/// build.
+pub const PROCESSOR_LIMIT: u64 = 120;
+
+/// A program that waits for something that never comes is found after this long.
+const WAITING_LIMIT: Duration = Duration::from_secs(1800);
 
 /// Address space of each program, in KiB: 8 GB.
 pub const MEMORY_LIMIT: u64 = 8 << 20;
 
 /// SIGPIPE.
 const PIPE: i32 = 13;
+
+/// SIGXCPU.
+const PROCESSOR: i32 = 24;
 
 /// How a stage ended.
 struct Ended {
@@ -172,6 +179,9 @@ fn check(program: &str, ended: &Ended, is_silent: bool, edge: Edge, folder: &Pat
         (Some(status), ..) => status,
         (None, Some(PIPE), Edge::Unread) => return Ok(()),
         (None, Some(died_of), Edge::Signal { number, .. }) if died_of == number => return Ok(()),
+        (None, Some(PROCESSOR), _) => {
+            return Err(format!("takes more than {PROCESSOR_LIMIT} s of processor time\n{messages}"));
+        }
         (None, signal, _) => return Err(format!("died of signal {signal:?}\n{messages}")),
     };
     // A program that aborts ends with status 1. With this much memory, no case may.
@@ -246,7 +256,8 @@ fn stage(
 ) -> Result<Ended, String> {
     let messages = tempfile::tempfile().map_err(self::words)?;
     let output = tempfile::tempfile().map_err(self::words)?;
-    let script = format!("ulimit -v {MEMORY_LIMIT}; exec \"$@\" {}", edge.redirection());
+    let script =
+        format!("ulimit -v {MEMORY_LIMIT}; ulimit -S -t {PROCESSOR_LIMIT}; exec \"$@\" {}", edge.redirection());
     let mut child = Command::new("sh")
         .args(["-c", &script, "sh"])
         .arg(programs.join(&words[0]))
@@ -284,9 +295,9 @@ fn wait(child: &mut Child, edge: Edge) -> Result<ExitStatus, String> {
             let status = Command::new("sh").args(["-c", &kill]).stderr(Stdio::null()).status();
             status.map_err(words)?;
         }
-        if begun.elapsed() > TIME_LIMIT {
+        if begun.elapsed() > WAITING_LIMIT {
             child.kill().and_then(|()| child.wait()).map_err(words)?;
-            return Err(format!("runs for more than {TIME_LIMIT:?}"));
+            return Err(format!("has not ended after {WAITING_LIMIT:?}"));
         }
         thread::sleep(Duration::from_millis(if begun.elapsed().as_millis() < 100 { 1 } else { 20 }));
     }
