@@ -2,7 +2,6 @@
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, its helpers too")]
 
-use std::io::Cursor;
 use std::path::Path;
 use std::process::Command;
 
@@ -37,13 +36,7 @@ fn ugrainbow(folder: &Path, args: &[&str]) -> Vec<u8> {
 
 /// Red, green, blue and alpha of every pixel of a PNG.
 fn pixels(file: &[u8]) -> Vec<[u8; 4]> {
-    let mut reader = png::Decoder::new(Cursor::new(file)).read_info().unwrap();
-    let mut bytes = vec![0; reader.output_buffer_size().unwrap()];
-    let info = reader.next_frame(&mut bytes).unwrap();
-    match info.color_type {
-        png::ColorType::Rgb => bytes.as_chunks::<3>().0.iter().map(|&[r, g, b]| [r, g, b, 255]).collect(),
-        _ => bytes.as_chunks::<4>().0.to_vec(),
-    }
+    ugimage::read_png(file).unwrap().0.into_pixels()
 }
 
 fn number(value: &Value) -> f64 {

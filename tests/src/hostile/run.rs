@@ -256,8 +256,10 @@ fn stage(
 ) -> Result<Ended, String> {
     let messages = tempfile::tempfile().map_err(self::words)?;
     let output = tempfile::tempfile().map_err(self::words)?;
-    let script =
-        format!("ulimit -v {MEMORY_LIMIT}; ulimit -S -t {PROCESSOR_LIMIT}; exec \"$@\" {}", edge.redirection());
+    let script = format!(
+        "ulimit -v {MEMORY_LIMIT}; ulimit -S -t {PROCESSOR_LIMIT}; exec \"$@\" {}",
+        edge.redirection()
+    );
     let mut child = Command::new("sh")
         .args(["-c", &script, "sh"])
         .arg(programs.join(&words[0]))

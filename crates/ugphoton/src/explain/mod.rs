@@ -11,7 +11,7 @@ use ugimage::{Quantizer, display_pixel};
 use uglight::{ColorShift, HueShift, Interpolation, LampPlace};
 use ugparse::{ColorScale, Diagnostics, HueScale, Parsed, SeenColors, Source};
 use ugphysics::{Velocity, attenuation, linear_srgb_to_xyz};
-use ugpicture::explain::{Item, PixelSteps, SampleColor, Wavelength};
+use ugpicture::explain::{ExplainedPixel, Item, PixelSteps, SampleColor, Wavelength, nearest};
 use ugpicture::{Backdrop, Exposure, Layout};
 
 use crate::config::Config;
@@ -29,27 +29,12 @@ pub use text::text;
 /// The explanation of a pixel.
 #[derive(Clone, Debug)]
 pub struct Explanation {
-    /// Column and row from the upper left.
-    pub pixel: [u32; 2],
-    /// Size of the picture.
-    pub size: [u32; 2],
-    /// Samples along a side of a pixel.
-    pub samples: u32,
-    /// The surfaces that the pixel's samples show without mirrors and refraction, each with its
-    /// number of samples, in order of first occurrence. A sample of a translucent surface also
-    /// counts for the surfaces behind it.
-    pub covers: Vec<(Item, usize)>,
-    /// Number of samples in which the background is visible, also in mirrors and through
-    /// transparent surfaces.
-    pub n_free: usize,
-    /// True if nothing in the scene moves.
-    pub is_at_rest: bool,
+    /// What every renderer tells. Mirrors and refraction are left out of its surfaces.
+    pub pixel: ExplainedPixel,
     /// How motion changes colours; `None` if it does not.
     pub colors: Option<SeenColors>,
     /// The covered sample nearest to the centre of the pixel.
     pub sample: Option<ExplainedSample>,
-    /// From the samples to the bytes.
-    pub pixel_steps: PixelSteps,
 }
 
 /// The explanation of a sample.
@@ -157,17 +142,20 @@ pub fn explain(
     let n = config.picture.samples;
     let n_missing = (n * n) as usize - samples.len();
     let is_free = |sample: &&ExplainedRay| sample.arriving.background.max_element() > 0.0;
+    let covered: Vec<&ExplainedRay> = samples.iter().filter(|sample| !sample.visits.is_empty()).collect();
     let explanation = Explanation {
-        pixel,
-        size,
-        samples: n,
-        covers: teller.covers(&samples),
-        n_free: n_missing + samples.iter().filter(is_free).count(),
-        is_at_rest: !ugscene::has_moving_bodies(&scenery.scene)
-            && !ugscene::has_moving_lights(&scenery.scene),
+        pixel: ExplainedPixel {
+            place: pixel,
+            size,
+            samples: n,
+            covers: teller.covers(&samples),
+            n_free: n_missing + samples.iter().filter(is_free).count(),
+            is_at_rest: !ugscene::has_moving_bodies(&scenery.scene)
+                && !ugscene::has_moving_lights(&scenery.scene),
+            steps: pixel_steps(&scenery, config, pixel),
+        },
         colors: seen_colors(&scenery),
-        sample: nearest(&samples, pixel, n).map(|sample| teller.shown(sample)),
-        pixel_steps: pixel_steps(&scenery, config, pixel),
+        sample: nearest(&covered, |sample| sample.place, pixel, n).map(|sample| teller.shown(sample)),
     };
     Ok((explanation, parsed.warnings))
 }
@@ -182,16 +170,6 @@ fn seen_colors(scenery: &Scenery<'_>) -> Option<SeenColors> {
         ColorShift::Spectra(shift) => (shift.doppler, ColorScale::Spectra { flux: shift.flux }),
     };
     Some(SeenColors { scale, doppler, lights: scenery.lights.are_of_scene })
-}
-
-/// The covered sample nearest to the centre of the pixel; ties go to the last, as for channels.
-fn nearest(samples: &[ExplainedRay], pixel: [u32; 2], n: u32) -> Option<&ExplainedRay> {
-    let away = |sample: &&ExplainedRay| {
-        // Twice the distance, which is an integer.
-        let axis = |i: usize| i64::from(2 * (sample.place[i] - pixel[i] * n) + 1) - i64::from(n);
-        axis(0) * axis(0) + axis(1) * axis(1)
-    };
-    samples.iter().rev().filter(|sample| !sample.visits.is_empty()).min_by_key(away)
 }
 
 fn pixel_steps(scenery: &Scenery<'_>, config: &Config, [column, row]: [u32; 2]) -> PixelSteps {

@@ -3,7 +3,7 @@
 use std::fmt::{self, Write};
 
 use ugpicture::explain::text::{
-    angles, body, described, event, level, number, numbers, row, write_color, write_colors, write_pixel,
+    angles, body, described, event, level, number, numbers, row, write_color, write_colors,
 };
 
 use super::{ExplainedLamp, ExplainedSample, ExplainedSurface, Explanation};
@@ -17,27 +17,10 @@ const MAX_LAMPS: usize = 8;
 
 /// The explanation as text.
 pub fn text(explanation: &Explanation) -> String {
-    let mut out = String::new();
-    // Writing into a string does not fail.
-    let _ = write_all(&mut out, explanation);
-    out
-}
-
-fn write_all(out: &mut String, explanation: &Explanation) -> fmt::Result {
-    let Explanation { pixel: [x, y], size: [width, height], samples: n, .. } = explanation;
-    writeln!(out, "pixel {x} {y} of {width} x {height}, {n} x {n} samples")?;
-    let n_samples = (n * n) as usize;
-    for (item, count) in &explanation.covers {
-        writeln!(out, "    {count} of {n_samples}: {}", described(item))?;
-    }
-    if explanation.n_free > 0 {
-        let n_free = explanation.n_free;
-        writeln!(out, "    {n_free} of {n_samples}: background")?;
-    }
-    if let Some(sample) = &explanation.sample {
-        write_sample(out, sample, explanation)?;
-    }
-    write_pixel(out, &explanation.pixel_steps, explanation.samples)
+    ugpicture::explain::text::explanation(&explanation.pixel, |out| match &explanation.sample {
+        Some(sample) => write_sample(out, sample, explanation),
+        None => Ok(()),
+    })
 }
 
 fn write_sample(out: &mut String, sample: &ExplainedSample, explanation: &Explanation) -> fmt::Result {
@@ -69,7 +52,7 @@ fn write_surface(
     };
     writeln!(out, "\nsurface {}, {way}", at + 1)?;
     row(out, surface.item.kind, described(&surface.item))?;
-    row(out, "body", body(surface.beta, surface.gamma, explanation.is_at_rest))?;
+    row(out, "body", body(surface.beta, surface.gamma, explanation.pixel.is_at_rest))?;
     let (time, place) = surface.emission;
     row(out, "emission", event(Some(time), place.to_array(), "camera frame, from the eye"))?;
     let (time, place) = surface.rest;
@@ -78,7 +61,7 @@ fn write_surface(
         row(out, "seen at", angles(angles_deg))?;
     }
     if let Some(medium) = &surface.medium {
-        let velocity = if explanation.is_at_rest {
+        let velocity = if explanation.pixel.is_at_rest {
             String::new()
         } else {
             format!(", velocity {}", numbers(&medium.beta.to_array()))

@@ -1,9 +1,33 @@
 //! Explanations as JSON.
 
 use glam::DVec3;
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 
-use super::{Item, PixelSteps, SampleColor};
+use super::{ExplainedPixel, Item, PixelSteps, SampleColor};
+
+/// An explanation, ending with a line break. `of_renderer`: what only this renderer tells, names and
+/// values.
+pub fn explanation<const N: usize>(pixel: &ExplainedPixel, of_renderer: [(&str, Value); N]) -> String {
+    let ExplainedPixel { place, size, samples, covers, n_free, is_at_rest, steps } = pixel;
+    let n_samples = (samples * samples) as usize;
+    let part = |count: usize| count as f64 / n_samples as f64;
+    let covers: Vec<Value> =
+        covers.iter().map(|(shown, count)| json!({ "item": item(shown), "part": part(*count) })).collect();
+    let mut all = Map::new();
+    let mut add = |name: &str, value: Value| drop(all.insert(name.to_owned(), value));
+    add("pixel", json!(place));
+    add("size", json!(size));
+    add("samples", json!(n_samples));
+    add("covers", json!(covers));
+    add("background_part", json!(part(*n_free)));
+    add("is_at_rest", json!(is_at_rest));
+    of_renderer.into_iter().for_each(|(name, value)| add(name, value));
+    add("filter", json!(steps.filter.name()));
+    add("mean_linear", json!(steps.mean[..3]));
+    add("development", development(steps));
+    add("bytes", json!(steps.bytes));
+    format!("{:#}\n", Value::Object(all))
+}
 
 /// A face or wire.
 pub fn item(item: &Item) -> Value {
@@ -34,7 +58,7 @@ pub fn color(color: &SampleColor) -> Value {
 }
 
 /// How the light of a pixel was developed; null if it was not.
-pub fn development(steps: &PixelSteps) -> Value {
+fn development(steps: &PixelSteps) -> Value {
     let developed = steps.development.map(|(development, steps)| {
         json!({
             "stops": development.stops,

@@ -8,6 +8,27 @@ pub mod text;
 use ugimage::{Development, Filter, Steps};
 use ugparse::{Diagnostic, Diagnostics, Parsed, Scene, Source};
 
+/// What the explanation of a pixel tells in every renderer.
+#[derive(Clone, Debug)]
+pub struct ExplainedPixel {
+    /// Column and row from the upper left.
+    pub place: [u32; 2],
+    /// Size of the picture.
+    pub size: [u32; 2],
+    /// Samples along a side of a pixel.
+    pub samples: u32,
+    /// The surfaces that its samples show, each with its number of samples, in order of first
+    /// occurrence. A sample of a translucent surface also counts for the surfaces behind it.
+    pub covers: Vec<(Item, usize)>,
+    /// Number of samples in which the background is visible, also through translucent surfaces and
+    /// in mirrors.
+    pub n_free: usize,
+    /// True if nothing in the scene moves.
+    pub is_at_rest: bool,
+    /// From the samples to the bytes.
+    pub steps: PixelSteps,
+}
+
 /// A face or wire.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Item {
@@ -71,6 +92,23 @@ pub struct PixelSteps {
     pub development: Option<(Development, Steps)>,
     /// Red, green, blue, alpha.
     pub bytes: [u8; 4],
+}
+
+/// The sample nearest to the centre of a pixel; of several the last, as for channels. `place`:
+/// column and row of a sample, `n_samples` to a pixel.
+pub fn nearest<S>(
+    samples: &[S],
+    place: impl Fn(&S) -> [u32; 2],
+    pixel: [u32; 2],
+    n_samples: u32,
+) -> Option<&S> {
+    let away = |sample: &&S| {
+        let place = place(sample);
+        // Twice the distance, which is an integer.
+        let axis = |i: usize| 2 * i64::from(place[i] - pixel[i] * n_samples) + 1 - i64::from(n_samples);
+        axis(0) * axis(0) + axis(1) * axis(1)
+    };
+    samples.iter().rev().min_by_key(away)
 }
 
 impl Item {

@@ -6,7 +6,33 @@ use glam::DVec3;
 use ugimage::Filter;
 use ugparse::{ColorScale, SeenColors};
 
-use super::{Item, PixelSteps, SampleColor};
+use super::{ExplainedPixel, Item, PixelSteps, SampleColor};
+
+/// An explanation. `write_sample`: writes what the renderer tells of a sample.
+pub fn explanation(pixel: &ExplainedPixel, write_sample: impl FnOnce(&mut String) -> fmt::Result) -> String {
+    let mut out = String::new();
+    // Writing into a string does not fail.
+    let _ = write_explanation(&mut out, pixel, write_sample);
+    out
+}
+
+fn write_explanation(
+    out: &mut String,
+    pixel: &ExplainedPixel,
+    write_sample: impl FnOnce(&mut String) -> fmt::Result,
+) -> fmt::Result {
+    let ExplainedPixel { place: [x, y], size: [width, height], samples: n, .. } = pixel;
+    writeln!(out, "pixel {x} {y} of {width} x {height}, {n} x {n} samples")?;
+    let n_samples = (n * n) as usize;
+    for (item, count) in &pixel.covers {
+        writeln!(out, "    {count} of {n_samples}: {}", described(item))?;
+    }
+    if pixel.n_free > 0 {
+        writeln!(out, "    {} of {n_samples}: background", pixel.n_free)?;
+    }
+    write_sample(out)?;
+    write_pixel(out, &pixel.steps, pixel.samples)
+}
 
 /// A line: a title, and a text.
 ///
@@ -121,10 +147,7 @@ fn lit(level: &Option<[f64; 3]>) -> String {
 }
 
 /// From the samples of a pixel to its bytes. `samples`: along a side of a pixel.
-///
-/// # Errors
-/// Those of `out`.
-pub fn write_pixel(out: &mut String, steps: &PixelSteps, samples: u32) -> fmt::Result {
+fn write_pixel(out: &mut String, steps: &PixelSteps, samples: u32) -> fmt::Result {
     let [red, green, blue, part] = steps.mean.map(f64::from);
     writeln!(out, "\nthe pixel")?;
     let by = match steps.filter {

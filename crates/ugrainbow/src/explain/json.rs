@@ -1,35 +1,19 @@
 //! An explanation as JSON, for scripts.
 
 use serde_json::{Value, json};
-use ugpicture::explain::json::{color, development, item, point};
+use ugpicture::explain::json::{color, item, point};
 use ugpicture::explain::text::law_name;
 
 use super::{Corner, ExplainedSample, Explanation, LayerShown};
 
 /// The explanation as JSON, ending with a line break.
 pub fn json(explanation: &Explanation) -> String {
-    let Explanation { pixel, size, samples, covers, n_free, history, stage, is_at_rest, sample, pixel_steps } =
-        explanation;
-    let n_samples = (samples * samples) as usize;
-    let part = |count: usize| count as f64 / n_samples as f64;
-    let covers: Vec<Value> =
-        covers.iter().map(|(shown, count)| json!({ "item": item(shown), "part": part(*count) })).collect();
-    let value = json!({
-        "pixel": pixel,
-        "size": size,
-        "samples": n_samples,
-        "covers": covers,
-        "background_part": part(*n_free),
-        "history": history,
-        "is_at_rest": is_at_rest,
-        "brightness_law": stage.seen_colors().map(law_name),
-        "sample": sample.as_ref().map(shown),
-        "filter": pixel_steps.filter.name(),
-        "mean_linear": pixel_steps.mean[..3],
-        "development": development(pixel_steps),
-        "bytes": pixel_steps.bytes,
-    });
-    format!("{value:#}\n")
+    let of_renderer = [
+        ("history", json!(explanation.history)),
+        ("brightness_law", json!(explanation.stage.seen_colors().map(law_name))),
+        ("sample", json!(explanation.sample.as_ref().map(shown))),
+    ];
+    ugpicture::explain::json::explanation(&explanation.pixel, of_renderer)
 }
 
 fn shown(shown: &ExplainedSample) -> Value {

@@ -7,6 +7,7 @@ use glam::DVec3;
 use ugimage::{Quantizer, display_pixel};
 use ugparse::{Diagnostics, Parsed, Source, Stage, VertexId};
 use ugphysics::{attenuation, doppler_at, linear_srgb_to_xyz, wavelength_to_hue};
+use ugpicture::explain::nearest;
 use ugpicture::{Emissions, Filter, Layout, SurfaceSample};
 use ugraster::{Fragment, PixelSamples, ProbedSample, Resolve};
 use ugscene::{Geometry, RestPosition, SeenPosition};
@@ -25,32 +26,19 @@ use uglight::Swatch;
 
 pub use json::json;
 pub use text::text;
-pub use ugpicture::explain::{Item, PixelSteps, SampleColor, Wavelength};
+pub use ugpicture::explain::{ExplainedPixel, Item, PixelSteps, SampleColor, Wavelength};
 
 /// The explanation of a pixel.
 #[derive(Clone, Debug)]
 pub struct Explanation {
-    /// Column and row from the upper left.
-    pub pixel: [u32; 2],
-    /// Size of the picture.
-    pub size: [u32; 2],
-    /// Samples along a side of a pixel.
-    pub samples: u32,
-    /// The surfaces that the pixel's samples show, each with its number of samples, in order of
-    /// first occurrence. A sample of a translucent surface also counts for the surfaces behind it.
-    pub covers: Vec<(Item, usize)>,
-    /// Number of samples in which the background is visible, also through translucent surfaces.
-    pub n_free: usize,
+    /// What every renderer tells.
+    pub pixel: ExplainedPixel,
     /// The command lines that produced the scene, oldest first.
     pub history: Vec<String>,
     /// The stage of its positions and colours.
     pub stage: Stage,
-    /// True if nothing in the scene moves.
-    pub is_at_rest: bool,
     /// The covered sample nearest to the centre of the pixel.
     pub sample: Option<ExplainedSample>,
-    /// From the samples to the bytes.
-    pub pixel_steps: PixelSteps,
 }
 
 /// The explanation of a sample.
@@ -146,29 +134,23 @@ pub fn explain(
     };
     let teller = Teller { setup: &setup, config, source, parsed: &parsed };
     let explanation = Explanation {
-        pixel,
-        size: picture.size,
-        samples: picture.samples,
-        covers: teller.covers(&samples),
-        n_free: (picture.samples * picture.samples) as usize
-            - samples.iter().filter(|sample| !is_free(sample)).count(),
-        is_at_rest: !ugscene::has_moving_bodies(setup.scene()) && !ugscene::has_moving_lights(setup.scene()),
-        sample: nearest(&samples, pixel, picture.samples).map(|sample| teller.shown(sample)),
-        pixel_steps: pixel_steps(&setup, &layers, config, mean, bytes),
+        pixel: ExplainedPixel {
+            place: pixel,
+            size: picture.size,
+            samples: picture.samples,
+            covers: teller.covers(&samples),
+            n_free: (picture.samples * picture.samples) as usize
+                - samples.iter().filter(|sample| !is_free(sample)).count(),
+            is_at_rest: !ugscene::has_moving_bodies(setup.scene())
+                && !ugscene::has_moving_lights(setup.scene()),
+            steps: pixel_steps(&setup, &layers, config, mean, bytes),
+        },
+        sample: nearest(&samples, |sample| sample.place, pixel, picture.samples)
+            .map(|sample| teller.shown(sample)),
         history: ugscene::history(&parsed.scene).into_iter().map(str::to_owned).collect(),
         stage: parsed.scene.stage,
     };
     Ok((explanation, warnings(source, parsed)))
-}
-
-/// The sample nearest to the centre of the pixel; ties go to the last, as for channels.
-fn nearest(samples: &[ProbedSample], pixel: [u32; 2], n: u32) -> Option<&ProbedSample> {
-    let away = |sample: &ProbedSample| {
-        // Twice the distance, which is an integer.
-        let axis = |i: usize| i64::from(2 * (sample.place[i] - pixel[i] * n) + 1) - i64::from(n);
-        axis(0) * axis(0) + axis(1) * axis(1)
-    };
-    samples.iter().rev().min_by_key(|sample| away(sample))
 }
 
 fn pixel_steps(

@@ -3,7 +3,7 @@
 use std::fmt::{self, Write};
 
 use ugpicture::explain::text::{
-    angles, body, described, event, level, number, numbers, row, write_color, write_colors, write_pixel,
+    angles, body, described, event, level, number, numbers, row, write_color, write_colors,
 };
 
 use super::{Corner, ExplainedSample, Explanation};
@@ -13,34 +13,17 @@ const MAX_CORNERS: usize = 8;
 
 /// The explanation as text.
 pub fn text(explanation: &Explanation) -> String {
-    let mut out = String::new();
-    // Writing into a string does not fail.
-    let _ = write_all(&mut out, explanation);
-    out
-}
-
-fn write_all(out: &mut String, explanation: &Explanation) -> fmt::Result {
-    let Explanation { pixel: [x, y], size: [width, height], samples: n, .. } = explanation;
-    writeln!(out, "pixel {x} {y} of {width} x {height}, {n} x {n} samples")?;
-    let n_samples = (n * n) as usize;
-    for (item, count) in &explanation.covers {
-        writeln!(out, "    {count} of {n_samples}: {}", described(item))?;
-    }
-    if explanation.n_free > 0 {
-        let n_free = explanation.n_free;
-        writeln!(out, "    {n_free} of {n_samples}: background")?;
-    }
-    if let Some(shown) = &explanation.sample {
-        write_sample(out, shown, explanation)?;
-    }
-    write_pixel(out, &explanation.pixel_steps, explanation.samples)
+    ugpicture::explain::text::explanation(&explanation.pixel, |out| match &explanation.sample {
+        Some(sample) => write_sample(out, sample, explanation),
+        None => Ok(()),
+    })
 }
 
 fn write_sample(out: &mut String, shown: &ExplainedSample, explanation: &Explanation) -> fmt::Result {
     let [x, y] = shown.place;
     writeln!(out, "\nthe covered sample nearest to the centre, at {} {}", number(x), number(y))?;
     row(out, shown.item.kind, described(&shown.item))?;
-    row(out, "body", body(shown.beta, shown.gamma, explanation.is_at_rest))?;
+    row(out, "body", body(shown.beta, shown.gamma, explanation.pixel.is_at_rest))?;
     row(
         out,
         "emission",
