@@ -1,26 +1,10 @@
 //! The program: its commands, files and exit status.
 
 use std::fs;
-use std::io::Write;
-use std::process::{Command, Output, Stdio};
+use std::process::{Command, Output};
 
 fn run(args: &[&str], input: &[u8]) -> Output {
-    let mut child = Command::new(env!("CARGO_BIN_EXE_ugconformance"))
-        .args(args)
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .expect("the program starts");
-    let mut pipe = child.stdin.take().expect("a pipe");
-    let input = input.to_vec();
-    // On another thread, so that no pipe fills up. The program may exit without reading.
-    let writer = std::thread::spawn(move || {
-        let _ = pipe.write_all(&input);
-    });
-    let output = child.wait_with_output().expect("the program ends");
-    writer.join().expect("writing ends");
-    output
+    ugrun::fed(Command::new(env!("CARGO_BIN_EXE_ugconformance")).args(args), input)
 }
 
 fn text(output: &Output) -> String {

@@ -1,19 +1,9 @@
 //! The program itself: usage, streams, exit status.
 
-use std::io::Write;
-use std::process::{Command, Output, Stdio};
+use std::process::{Command, Output};
 
 fn ugdoppler(args: &[&str], input: &str) -> Output {
-    let mut child = Command::new(env!("CARGO_BIN_EXE_ugdoppler"))
-        .args(args)
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .expect("the program starts");
-    // The program may end without reading; a closed pipe is no failure of ours.
-    let _ = child.stdin.take().expect("a pipe").write_all(input.as_bytes());
-    child.wait_with_output().expect("the program ends")
+    ugrun::fed(Command::new(env!("CARGO_BIN_EXE_ugdoppler")).args(args), input)
 }
 
 const SCENE: &str = "{ a licence }\nc green 1 120;\nv a 9 0 0;\nv b 9 1 0;\nv c 9 1 1;\nf (a b c) green;\n";

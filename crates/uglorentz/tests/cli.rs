@@ -16,10 +16,7 @@ fn program(args: &str) -> Command {
 }
 
 fn run(args: &str, scene: &str) -> Output {
-    let mut child = program(args).spawn().unwrap();
-    // A program that refuses its command line does not read.
-    let _ = child.stdin.take().unwrap().write_all(scene.as_bytes());
-    child.wait_with_output().unwrap()
+    ugrun::fed(&mut program(args), scene)
 }
 
 #[test]

@@ -6,17 +6,7 @@ use std::path::Path;
 use std::process::{Command, Output, Stdio};
 
 fn ugmesh(folder: &Path, args: &[&str], input: &[u8]) -> Output {
-    let mut child = Command::new(env!("CARGO_BIN_EXE_ugmesh"))
-        .args(args)
-        .current_dir(folder)
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .expect("the program starts");
-    // Ignores errors: a program that ends without reading closes the pipe.
-    let _ = child.stdin.take().expect("a pipe").write_all(input);
-    child.wait_with_output().expect("the program ends")
+    ugrun::fed(Command::new(env!("CARGO_BIN_EXE_ugmesh")).args(args).current_dir(folder), input)
 }
 
 const OBJ: &str = "mtllib cube.mtl\nv 0 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\nv 1 1 3\nusemtl red\nf 4 3 2 1\nf 1 2 5\n\

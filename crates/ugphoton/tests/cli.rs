@@ -6,6 +6,8 @@ use std::io::{Cursor, Read, Write};
 use std::os::unix::process::ExitStatusExt;
 use std::process::{Command, Output, Stdio};
 
+use ugrun::{assert_refused, messages};
+
 const SCENE: &str = "\
 { A square. }
 c green 1 120; l 1;
@@ -21,29 +23,18 @@ fn ugphoton(args: &[&str]) -> Command {
 
 /// Runs the program with `scene` on its standard input.
 fn fed(args: &[&str], scene: &str) -> Output {
-    let mut child = ugphoton(args).spawn().unwrap();
-    // Fails if the program ends without reading its input, which is irrelevant here.
-    let _ = child.stdin.take().unwrap().write_all(scene.as_bytes());
-    child.wait_with_output().unwrap()
+    ugrun::fed(&mut ugphoton(args), scene)
 }
 
-fn stderr(output: &Output) -> String {
-    String::from_utf8(output.stderr.clone()).unwrap()
-}
-
-/// Runs the program, which has to fail with nothing on standard output.
 #[track_caller]
 fn refused(args: &[&str], scene: &str, status: i32, expected: &str) {
-    let output = fed(args, scene);
-    assert_eq!(output.status.code(), Some(status), "{}", stderr(&output));
-    assert!(output.stdout.is_empty());
-    assert!(stderr(&output).contains(expected), "{}", stderr(&output));
+    assert_refused(&mut ugphoton(args), scene, status, expected);
 }
 
 #[test]
 fn a_picture_says_how_it_was_made() {
     let output = fed(&["-sz", "20", "10", "-nt", "2", "-qt", "-vel", ".1", "0", "0"], SCENE);
-    assert_eq!((output.status.code(), stderr(&output)), (Some(0), String::new()));
+    assert_eq!((output.status.code(), messages(&output)), (Some(0), String::new()));
     let reader = png::Decoder::new(Cursor::new(output.stdout)).read_info().unwrap();
     let info = reader.info();
     let texts = &info.uncompressed_latin1_text;
@@ -64,7 +55,7 @@ fn options_have_two_spellings() {
                 --depth 3 --cut-off .01 --smooth --format pfm --spectral";
     let run = |options: &str| fed(&options.split(' ').collect::<Vec<_>>(), SCENE);
     let (short, long) = (run(short), run(long));
-    assert_eq!(short.status.code(), Some(0), "{}", stderr(&short));
+    assert_eq!(short.status.code(), Some(0), "{}", messages(&short));
     assert!(short.stdout.starts_with(b"PF") && short.stdout == long.stdout);
 }
 
@@ -96,7 +87,7 @@ fn notes_say_what_is_missing() {
     let check = |scene: &str, expected: &str| {
         let output = fed(&["-sz", "20", "10"], scene);
         assert_eq!(output.status.code(), Some(0));
-        assert!(stderr(&output).contains(expected), "{}", stderr(&output));
+        assert!(messages(&output).contains(expected), "{}", messages(&output));
     };
     check(&SCENE.replace("l 1;", ""), "no lights in the scene");
     check(&SCENE.replace("l 1;", "l 0;"), "all that is in the picture is black");
@@ -113,5 +104,5 @@ fn a_closed_pipe_ends_it_silently() {
     drop(pipe);
     let output = child.wait_with_output().unwrap();
     const SIGPIPE: i32 = 13;
-    assert_eq!((output.status.signal(), stderr(&output)), (Some(SIGPIPE), String::new()));
+    assert_eq!((output.status.signal(), messages(&output)), (Some(SIGPIPE), String::new()));
 }

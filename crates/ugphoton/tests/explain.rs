@@ -2,8 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, its helpers too")]
 
-use std::io::Write;
-use std::process::{Command, Output, Stdio};
+use std::process::{Command, Output};
 
 use glam::DVec3;
 use serde_json::Value;
@@ -25,17 +24,8 @@ cam -ep 0 0 0 -vc 0 6 0 -va 60;
 ";
 
 fn ugphoton(args: &[&str]) -> Output {
-    let mut child = Command::new(env!("CARGO_BIN_EXE_ugphoton"))
-        .args(["-qt", "-sz", "60", "44"])
-        .args(args)
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap();
-    // Fails if the program ends without reading its input.
-    let _ = child.stdin.take().unwrap().write_all(SCENE.as_bytes());
-    child.wait_with_output().unwrap()
+    let mut command = Command::new(env!("CARGO_BIN_EXE_ugphoton"));
+    ugrun::fed(command.args(["-qt", "-sz", "60", "44"]).args(args), SCENE)
 }
 
 fn written(args: &[&str]) -> Vec<u8> {

@@ -10,6 +10,7 @@ use std::process::{Command, Output, Stdio};
 
 use rustix::pty::{OpenptFlags, grantpt, openpt, ptsname, unlockpt};
 use tempfile::tempdir;
+use ugrun::{fed, fed_as_it_is, messages};
 
 const SCENE: &str = "\
 { A square. }
@@ -25,18 +26,6 @@ fn ugrainbow(args: &[&str]) -> Command {
     command
 }
 
-/// Runs the program with `scene` on its standard input.
-fn fed(command: &mut Command, scene: &str) -> Output {
-    let mut child = command.spawn().unwrap();
-    // Fails if the program ends without reading its input, which is irrelevant here.
-    let _ = child.stdin.take().unwrap().write_all(scene.as_bytes());
-    child.wait_with_output().unwrap()
-}
-
-fn stderr(output: &Output) -> String {
-    String::from_utf8(output.stderr.clone()).unwrap()
-}
-
 /// Size, colour type and `Comment` of a PNG file.
 fn png_facts(file: &[u8]) -> (u32, u32, png::ColorType, String) {
     let reader = png::Decoder::new(Cursor::new(file)).read_info().unwrap();
@@ -48,8 +37,8 @@ fn png_facts(file: &[u8]) -> (u32, u32, png::ColorType, String) {
 #[test]
 fn a_picture_says_how_the_whole_pipe_was_called() {
     let output = fed(&mut ugrainbow(&["-sz", "20", "10", "-nt", "2", "-qt", "-aa", "2"]), SCENE);
-    assert!(output.status.success(), "{}", stderr(&output));
-    assert_eq!(stderr(&output), "");
+    assert!(output.status.success(), "{}", messages(&output));
+    assert_eq!(messages(&output), "");
     let history = "uglorentz -vel .1 0 0\nugrainbow -sz 20 10 -aa 2";
     assert_eq!(png_facts(&output.stdout), (20, 10, png::ColorType::Rgb, history.to_owned()));
 }
@@ -58,13 +47,13 @@ fn a_picture_says_how_the_whole_pipe_was_called() {
 fn a_scene_without_a_camera_is_drawn_with_a_note() {
     let scene = SCENE.replace("cam -ep 0 -1 4 -vc 0 0 0;", "");
     let output = fed(&mut ugrainbow(&["-sz", "20", "10"]), &scene);
-    let note = stderr(&output);
+    let note = messages(&output);
     let options = note.strip_prefix("ugrainbow: note: no camera in the scene: seen as with ").unwrap();
     let drawn =
         |args: &[&str]| fed(&mut ugrainbow(&[&["-sz", "20", "10", "-dt", "pfm"], args].concat()), &scene);
     let options: Vec<&str> = options.split_whitespace().collect();
     let (by_default, as_noted) = (drawn(&[]), drawn(&[&options[..], &["-ud", "0", "0", "1"]].concat()));
-    assert!(as_noted.status.success(), "{}", stderr(&as_noted));
+    assert!(as_noted.status.success(), "{}", messages(&as_noted));
     assert_eq!(by_default.stdout.len(), as_noted.stdout.len());
     let is_same = |(a, b): (&[u8], &[u8])| {
         let [a, b] = [a, b].map(|bytes| f32::from_le_bytes(bytes.try_into().unwrap()));
@@ -85,7 +74,7 @@ fn options_have_two_spellings() {
     let [short, long] = [short, long].map(|line| {
         let args: Vec<&str> = line.split_whitespace().collect();
         let output = fed(&mut ugrainbow(&args), SCENE);
-        assert!(output.status.success(), "{}", stderr(&output));
+        assert!(output.status.success(), "{}", messages(&output));
         output.stdout
     });
     assert!(short == long);
@@ -106,7 +95,7 @@ fn the_ending_of_the_file_is_the_format() {
     for (name, start) in rows {
         let path = folder.path().join(name);
         let output = fed(&mut ugrainbow(&["-sz", "8", "8", "-fo", path.to_str().unwrap()]), SCENE);
-        assert!(output.status.success(), "{}", stderr(&output));
+        assert!(output.status.success(), "{}", messages(&output));
         assert_eq!(output.stdout, b"");
         assert!(fs::read(path).unwrap().starts_with(&start), "{name}");
     }
@@ -121,9 +110,9 @@ fn bad_usage_ends_with_2() {
     fn check(args: &str, message: &str) {
         let args: Vec<&str> = args.split_whitespace().collect();
         let output = fed(&mut ugrainbow(&args), SCENE);
-        assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
+        assert_eq!(output.status.code(), Some(2), "{}", messages(&output));
         assert_eq!(output.stdout, b"");
-        assert!(stderr(&output).contains(message), "{}", stderr(&output));
+        assert!(messages(&output).contains(message), "{}", messages(&output));
     }
     check("-dt jpg", "none of the formats png, png16, eps, ps, pdf, svg, ppm, exr, pfm, hdr");
     check(
@@ -161,9 +150,9 @@ fn bad_scenes_end_with_1() {
     #[track_caller]
     fn check(scene: &str, message: &str) {
         let output = fed(&mut ugrainbow(&["-sz", "8", "8"]), scene);
-        assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
+        assert_eq!(output.status.code(), Some(1), "{}", messages(&output));
         assert_eq!(output.stdout, b"");
-        assert!(stderr(&output).contains(message), "{}", stderr(&output));
+        assert!(messages(&output).contains(message), "{}", messages(&output));
     }
     check("", "nothing came through the pipe");
     check("l 1; v a 0 0 0;", "the scene has no faces and no wires");
@@ -178,7 +167,7 @@ fn bad_scenes_end_with_1() {
 fn a_missing_file_is_named() {
     let output = ugrainbow(&["-fi", "no-such-scene.ug"]).output().unwrap();
     assert_eq!(output.status.code(), Some(1));
-    assert!(stderr(&output).contains("`no-such-scene.ug`"), "{}", stderr(&output));
+    assert!(messages(&output).contains("`no-such-scene.ug`"), "{}", messages(&output));
 }
 
 #[test]
@@ -191,7 +180,7 @@ fn a_reader_that_leaves_kills_quietly() {
     let output = child.wait_with_output().unwrap();
     // SIGPIPE is 13 on all supported systems.
     assert_eq!(output.status.signal(), Some(13), "{:?}", output.status);
-    assert_eq!(stderr(&output), "");
+    assert_eq!(messages(&output), "");
 }
 
 /// Runs the program in `folder` with its standard output on a terminal. Also returns what the
@@ -203,7 +192,7 @@ fn on_terminal(args: &[&str], folder: &Path) -> (Output, Vec<u8>) {
     let name = ptsname(&master, Vec::new()).unwrap().into_string().unwrap();
     let terminal = fs::OpenOptions::new().read(true).write(true).open(name).unwrap();
     let mut command = ugrainbow(args);
-    let output = fed(command.current_dir(folder).stdout(terminal), SCENE);
+    let output = fed_as_it_is(command.current_dir(folder).stdout(terminal), SCENE);
     // Our copy of the terminal is in the command; with the last copy gone, reading ends with
     // an error instead of waiting.
     drop(command);
@@ -219,12 +208,12 @@ fn a_png_is_not_written_to_a_terminal() {
     assert_eq!(output.status.code(), Some(2));
     assert_eq!(shown, b"");
     assert_eq!(
-        stderr(&output),
+        messages(&output),
         "ugrainbow: error: a picture is not written to a terminal; send it to a file with `> FILE` or -fo FILE\n\
          try `ugrainbow -h`\n"
     );
     let (output, _) = on_terminal(&["-sz", "8", "8", "-fo", "a.png"], folder.path());
-    assert!(output.status.success(), "{}", stderr(&output));
+    assert!(output.status.success(), "{}", messages(&output));
     assert!(folder.path().join("a.png").exists());
 }
 
@@ -232,9 +221,9 @@ fn a_png_is_not_written_to_a_terminal() {
 fn grey_postscript_goes_to_its_file_of_1988() {
     let folder = tempdir().unwrap();
     let (output, shown) = on_terminal(&["-sz", "8", "8", "-dp"], folder.path());
-    assert!(output.status.success(), "{}", stderr(&output));
+    assert!(output.status.success(), "{}", messages(&output));
     assert_eq!(shown, b"");
-    assert_eq!(stderr(&output), "ugrainbow: note: the picture goes to the file POSTSCRIPTFILE\n");
+    assert_eq!(messages(&output), "ugrainbow: note: the picture goes to the file POSTSCRIPTFILE\n");
     let file = fs::read(folder.path().join("POSTSCRIPTFILE")).unwrap();
     assert!(file.starts_with(b"%!PS-Adobe-2.0 EPSF-2.0\n%%BoundingBox: 0 0 8 8\n"));
     // Into a pipe it is written like every other format.

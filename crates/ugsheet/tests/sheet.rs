@@ -6,10 +6,11 @@ use std::fs;
 use std::io::Write;
 use std::os::unix::process::ExitStatusExt;
 use std::path::Path;
-use std::process::{Command, Output, Stdio};
+use std::process::{Command, Stdio};
 
 use ugimage::{Format, Frame, Metadata, read_png};
 use ugrandom::Random;
+use ugrun::fed;
 use ugsheet::{Config, Error, Labels};
 
 /// A picture with its pixels.
@@ -153,13 +154,6 @@ fn ugsheet(folder: &Path, args: &[&str]) -> Command {
         .stdout(Stdio::piped())
         .stderr(Stdio::piped());
     command
-}
-
-fn fed(command: &mut Command, input: &[u8]) -> Output {
-    let mut child = command.spawn().unwrap();
-    // Ignores errors: a program that ends without reading closes the pipe.
-    let _ = child.stdin.take().unwrap().write_all(input);
-    child.wait_with_output().unwrap()
 }
 
 /// A folder with `rest.png` and `fast.png`, which have histories.

@@ -7,6 +7,7 @@ use std::os::unix::process::ExitStatusExt;
 use std::process::{Command, Output, Stdio};
 
 use ugimage::{Format, Frame, LinearFrame, Metadata};
+use ugrun::{assert_refused, messages};
 
 /// A small panorama as PNG.
 fn sky() -> Vec<u8> {
@@ -21,31 +22,20 @@ fn ugwarp(args: &[&str]) -> Command {
     command
 }
 
-/// Runs the program with a file on its standard input.
+/// Runs the program with `file` on its standard input.
 fn fed(args: &[&str], file: &[u8]) -> Output {
-    let mut child = ugwarp(args).spawn().unwrap();
-    // Fails if the program ends without reading its input, which is irrelevant here.
-    let _ = child.stdin.take().unwrap().write_all(file);
-    child.wait_with_output().unwrap()
+    ugrun::fed(&mut ugwarp(args), file)
 }
 
-fn stderr(output: &Output) -> String {
-    String::from_utf8(output.stderr.clone()).unwrap()
-}
-
-/// Runs the program, which has to fail with nothing on standard output.
 #[track_caller]
 fn refused(args: &[&str], file: &[u8], status: i32, expected: &str) {
-    let output = fed(args, file);
-    assert_eq!(output.status.code(), Some(status), "{}", stderr(&output));
-    assert!(output.stdout.is_empty());
-    assert!(stderr(&output).contains(expected), "{}", stderr(&output));
+    assert_refused(&mut ugwarp(args), file, status, expected);
 }
 
 #[test]
 fn a_picture_says_how_it_was_made() {
     let output = fed(&["-sz", "20", "10", "-nt", "2", "-qt", "-cv", "0", ".1", "0"], &sky());
-    assert_eq!((output.status.code(), stderr(&output)), (Some(0), String::new()));
+    assert_eq!((output.status.code(), messages(&output)), (Some(0), String::new()));
     let reader = png::Decoder::new(Cursor::new(output.stdout)).read_info().unwrap();
     let info = reader.info();
     let texts = &info.uncompressed_latin1_text;
@@ -64,7 +54,7 @@ fn options_have_two_spellings() {
     let long = "--size 20 10 --velocity .1 0 0 --format pfm --spectral --panorama --samples 2";
     let run = |options: &str| fed(&options.split(' ').collect::<Vec<_>>(), &sky());
     let (short, long) = (run(short), run(long));
-    assert_eq!(short.status.code(), Some(0), "{}", stderr(&short));
+    assert_eq!(short.status.code(), Some(0), "{}", messages(&short));
     assert!(short.stdout.starts_with(b"PF") && short.stdout == long.stdout);
     // The surroundings that move by are those that a camera with the opposite velocity passes.
     let camera = run("-sz 20 10 -cv -.1 0 0 -dt pfm -sp -pan -aa 2");
@@ -110,7 +100,7 @@ fn what_is_no_panorama_is_refused() {
     refused(&[], &shaped([60, 40]), 1, "60 x 40 pixels are not the shape of a panorama");
     refused(&[], &shaped([8, 4]), 1, "has too few pixels");
     let strip = fed(&["-sz", "20", "10", "-part", "-60", "60", "-40", "40"], &shaped([60, 40]));
-    assert_eq!(strip.status.code(), Some(0), "{}", stderr(&strip));
+    assert_eq!(strip.status.code(), Some(0), "{}", messages(&strip));
     let file = sky();
     for length in (0..file.len() - 30).step_by(37) {
         assert_eq!(fed(&["-sz", "8", "8"], &file[..length]).status.code(), Some(1), "{length}");
@@ -129,7 +119,7 @@ fn light_that_is_not_finite_is_bounded() {
         )
     };
     let plain = fed(&["-sz", "8", "8", "-dt", "pfm", "--no-doppler", "--no-flux"], &file(&pixels));
-    assert_eq!((plain.status.code(), stderr(&plain)), (Some(0), String::new()));
+    assert_eq!((plain.status.code(), messages(&plain)), (Some(0), String::new()));
     pixels[16 * 64 + 32] = [1.25, -7.5, 2.0, 1.0];
     let mut broken = file(&pixels);
     // The writer has only finite numbers, so they are replaced in the file if it is not packed.
@@ -140,8 +130,8 @@ fn light_that_is_not_finite_is_bounded() {
     };
     let is_replaced = replace(-7.5, f32::NAN);
     let output = fed(&["-sz", "8", "8", "-dt", "pfm", "--no-doppler", "--no-flux"], &broken);
-    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-    assert_eq!(is_replaced, stderr(&output).contains("1 pixels of the panorama are not finite"));
+    assert_eq!(output.status.code(), Some(0), "{}", messages(&output));
+    assert_eq!(is_replaced, messages(&output).contains("1 pixels of the panorama are not finite"));
     let numbers = output.stdout[output.stdout.len() - 4 * 3 * 64..].chunks_exact(4);
     for number in numbers {
         assert!(f32::from_le_bytes(number.try_into().unwrap()).is_finite());
@@ -156,5 +146,5 @@ fn a_closed_pipe_ends_the_program() {
     stdout.read_exact(&mut [0; 9]).unwrap();
     drop(stdout);
     let output = child.wait_with_output().unwrap();
-    assert_eq!((output.status.signal(), stderr(&output)), (Some(13), String::new()));
+    assert_eq!((output.status.signal(), messages(&output)), (Some(13), String::new()));
 }
