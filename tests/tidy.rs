@@ -103,7 +103,11 @@ fn crates_depend_on_what_the_table_allows() {
         };
         let manifest = folder.join("Cargo.toml");
         let used = dependencies(&read(&manifest));
-        assert!(!used.is_empty() || allowed.is_empty(), "{}: `[dependencies]` can be read", manifest.display());
+        assert!(
+            !used.is_empty() || allowed.is_empty(),
+            "{}: `[dependencies]` can be read",
+            manifest.display()
+        );
         findings.extend(used.difference(allowed).map(|other| {
             format!(
                 "{}: {krate} may not depend on {other}: do without, or add it to its row in ARCHITECTURE.md",
