@@ -7,13 +7,14 @@ use ugtests::documents::{Page, prepare, resized, transcripts, with_options, writ
 use ugtests::{programs, tools};
 
 /// Pages with commands for a folder with scenes, and the least number of commands.
-const PAGES: [(&str, usize); 7] = [
+const PAGES: [(&str, usize); 8] = [
     ("README.md", 18),
     ("docs/start.md", 9),
     ("docs/gallery.md", 60),
     ("docs/pipeline.md", 18),
     ("docs/meshes.md", 4),
     ("docs/film.md", 7),
+    ("docs/batch.md", 3),
     ("docs/geometry.md", 1),
 ];
 
@@ -28,7 +29,12 @@ fn commands_in_documents_work() {
         for command in &page.commands {
             // Smaller pictures are sufficient, unless they need room for text.
             let has_text = command.contains("-lg") || command.contains("-cap");
-            let small = if has_text { command.clone() } else { resized(command, [640, 480], 0.25) };
+            // The parts of a picture are those of its size.
+            let small = if has_text || command.contains("-crop") {
+                command.clone()
+            } else {
+                resized(command, [640, 480], 0.25)
+            };
             // An option is given once.
             let small = if small.contains(" -aa ") { small } else { with_options(&small, "-aa 1") };
             let messages =

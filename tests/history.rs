@@ -153,3 +153,37 @@ fn files_without_a_history_are_an_error() {
     assert_eq!(String::from_utf8(output.stderr).unwrap(), expected);
     assert_eq!((output.status.code(), output.stdout.len()), (Some(1), 0));
 }
+
+/// The file that joins the tiles of a picture is the one that a single command writes.
+#[test]
+fn tiles_are_joined_to_the_bytes_of_the_whole_picture() {
+    let shell = Shell::new("dice.ug");
+    let draw = "ugphoton -vel .5 0 0 dice.ug -aa 2 -sz 50 40";
+    for options in ["", "-sp -ex -1", "-tb"] {
+        shell.run(&format!("{draw} {options} > whole.png"));
+        for part in ["0 0 20 25", "20 0 30 25", "0 25 33 15", "33 25 17 15"] {
+            shell.run(&format!("{draw} {options} -crop {part} > \"tile-{part}.png\""));
+        }
+        shell.run("ugsheet --tiles tile-*.png > joined.png; ls -r tile-* | xargs -d '\\n' ugsheet --tiles -fo again.png");
+        shell.check_same("whole.png", "joined.png");
+        shell.check_same("whole.png", "again.png");
+        let [history, _] = shell.run("ugsheet --history joined.png");
+        assert!(history.contains("-sz 50 40") && !history.contains("crop"), "{history}");
+    }
+    let message = |script: &str| {
+        let output = shell.output(shell.folder.path(), script);
+        assert!(!output.status.success() && output.stdout.is_empty(), "{script}");
+        String::from_utf8(output.stderr).unwrap()
+    };
+    shell.run("rm tile-0*25.png");
+    assert_eq!(
+        message("ugsheet --tiles tile-*.png"),
+        "ugsheet: error: the tiles have 1500 of the 2000 pixels of the picture: draw those missing\n"
+    );
+    shell.run(&format!("echo >> dice.ug; {draw} -tb -crop 0 0 20 25 > other.png"));
+    let other = message("ugsheet --tiles tile-*.png other.png");
+    assert!(other.starts_with("ugsheet: error: `other.png`: not drawn by the command that"), "{other}");
+    assert!(message("ugsheet --tiles whole.png").contains("which part of a picture it is (-crop)"));
+    assert!(message("ugsheet --tiles -fo a.pdf tile-*.png").contains("--tiles writes the picture as PNG"));
+    assert!(message("ugsheet --tiles -cols 2 tile-*.png").contains("-cols"));
+}

@@ -13,12 +13,14 @@
 //! cargo xtask geometry > tables.md
 //! cargo xtask gallery
 //! cargo xtask hostile 50000
+//! cargo xtask cluster
 //! cargo xtask install --prefix ~/.local
 //! ```
 //!
 //! Scenes go to standard output and are the same bytes on every run and platform.
 
 mod bench;
+mod cluster;
 mod exact;
 mod gallery;
 mod geometry;
@@ -156,6 +158,11 @@ enum Task {
     Gallery(gallery::Args),
     /// Run the programs on malformed and extreme inputs, and check what must hold of any
     Hostile(hostile::Args),
+    /// Run the workflows of batch/ on a Slurm of this machine, and compare with one process
+    ///
+    /// Installs the Debian packages slurm-wlm, munge, parallel and python3-venv if they are missing,
+    /// and Snakemake in the cache folder of the user.
+    Cluster,
     /// Install the programs, their man pages, and completions for bash, zsh and fish
     Install(install::Args),
     /// Draw a scene and print the time in seconds and the peak memory in megabytes
@@ -243,6 +250,7 @@ fn run(task: &Task) -> io::Result<()> {
         }
         Task::Gallery(args) => gallery::write(&mut out, args)?,
         Task::Hostile(args) => hostile::write(&mut out, args)?,
+        Task::Cluster => cluster::check()?,
         Task::Install(args) => install::write(&mut out, args)?,
         Task::ReadOnce { scene, threads } => {
             reading::read_once(&mut out, scene, *threads)

@@ -11,7 +11,7 @@ use ugpipe::{
 };
 
 use crate::recipe::{Recipe, recipes};
-use crate::{Config, Error, Labels, Picture, history, sheet};
+use crate::{Config, Error, Labels, Picture, history, join, sheet};
 
 /// Arranges several pictures on one sheet, with labels
 ///
@@ -70,6 +70,13 @@ pub struct Args {
     #[arg(long, conflicts_with_all = ["cols", "label", "lb", "lt", "title", "cap", "ts", "gap", "bg", "dt"])]
     history: bool,
 
+    /// Join the tiles of a picture, drawn with -crop, to the whole picture
+    ///
+    /// Tiles are PNG files that were drawn by one command but for their -crop. The result is the
+    /// file that the command without -crop writes. Their order does not matter.
+    #[arg(long, conflicts_with_all = ["history", "cols", "label", "lb", "lt", "title", "cap", "ts", "gap", "bg", "dt"])]
+    tiles: bool,
+
     #[command(flatten)]
     common: CommonArgs,
 
@@ -81,6 +88,7 @@ pub struct Args {
 const EXAMPLES: &str = "Examples:
   ugsheet -cols 2 rest.png 0.5c.png 0.9c.png 0.99c.png > sheet.png
   ugsheet -lt --label 'at rest' --label 'β = 0.9' -cap 'A ship passes' rest.png fast.png > ship.png
+  ugsheet --tiles tile_*.png > whole.png
   ugsheet --history rest.png";
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -92,6 +100,9 @@ enum Kind {
     /// No labels
     None,
 }
+
+const NO_TERMINAL: &str =
+    "a picture is not written to a terminal; send it to a file with `> FILE` or -fo FILE";
 
 /// Largest text size, in pixels.
 const LARGEST: f64 = 1000.0;
@@ -173,6 +184,32 @@ fn picture(path: Option<&Path>, input: &Input) -> Result<Picture, Failure> {
     Ok(Picture { name: name.unwrap_or_default(), size, history })
 }
 
+/// Joins tiles to a whole picture.
+fn print_joined(args: &Args, context: &mut Context) -> Result<(), Failure> {
+    if context.output_is_terminal() {
+        return Err(Failure::usage(NO_TERMINAL));
+    }
+    if args.format(context.output_name())? != Format::Png {
+        return Err(Failure::usage("--tiles writes the picture as PNG, the format of its tiles"));
+    }
+    let mut inputs = vec![context.input()?];
+    for path in &args.files {
+        inputs.push(context.input_file(path)?);
+    }
+    let tile = |input: &Input| {
+        let (size, history) = read_png_header(&input.text).map_err(|error| unreadable(input, &error))?;
+        Ok(Picture { name: input.name.clone(), size, history })
+    };
+    let tiles = inputs.iter().map(tile).collect::<Result<Vec<_>, Error>>().map_err(Failure::failed)?;
+    let frame_of = |idx: usize| {
+        // Each file is needed once.
+        let input = Input { text: std::mem::take(&mut inputs[idx].text), ..inputs[idx].clone() };
+        read_png(&input.text).map(|(frame, _)| frame).map_err(|error| unreadable(&input, &error))
+    };
+    let (frame, history) = join(&tiles, frame_of).map_err(Failure::failed)?;
+    context.write(&Format::Png.encode(&frame, &history))
+}
+
 fn unreadable(input: &Input, error: &ReadError) -> Error {
     Error::Picture(format!("`{}`: {error}", input.name))
 }
@@ -236,12 +273,13 @@ pub fn main() -> ExitCode {
         if args.history {
             return print_history(args, context);
         }
+        if args.tiles {
+            return print_joined(args, context);
+        }
         let config = args.config()?;
         let format = args.format(context.output_name())?;
         if context.output_is_terminal() && format.is_binary() {
-            return Err(Failure::usage(
-                "a picture is not written to a terminal; send it to a file with `> FILE` or -fo FILE",
-            ));
+            return Err(Failure::usage(NO_TERMINAL));
         }
         let mut inputs = vec![context.input()?];
         let mut pictures = vec![picture(args.common.input(), &inputs[0])?];

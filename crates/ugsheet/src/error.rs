@@ -34,7 +34,7 @@ pub enum Error {
     /// The sheet has more than 2²⁸ pixels, or the pictures are too narrow for text.
     #[error("the sheet has more than {MAX_PIXELS} pixels; draw smaller pictures")]
     Size,
-    /// A picture cannot be read; the message names it.
+    /// A picture cannot be read or joined to others; the message names it.
     #[error("{0}")]
     Picture(String),
 }

@@ -6,6 +6,8 @@
 //! the file names ([`Labels`]). Opaque pixels are copied unchanged; transparent ones are composited
 //! over the background.
 //!
+//! It also joins the tiles of a large picture to the whole ([`join`]).
+//!
 //! # Example
 //!
 //! ```
@@ -32,6 +34,7 @@ mod layout;
 #[cfg(feature = "cli")]
 mod recipe;
 mod shell_words;
+mod tiles;
 
 use ugimage::{Frame, Metadata};
 use uglabel::Drawing;
@@ -41,6 +44,7 @@ pub use cli::{main, manual};
 pub use error::Error;
 pub use labels::Labels;
 use layout::Layout;
+pub use tiles::join;
 pub use uglabel::Rgb;
 
 /// A picture to be placed on a sheet.
@@ -107,12 +111,16 @@ pub fn sheet(
     let mut frame = Frame::opaque(layout.size[0], layout.size[1]);
     let [red, green, blue] = config.background;
     frame.pixels_mut().fill([red, green, blue, 255]);
+    let quantizer = ugimage::Quantizer::new();
     for (idx, (picture, &place)) in pictures.iter().zip(&layout.pictures).enumerate() {
         let pixels = frame_of(idx)?;
         if [pixels.width(), pixels.height()] != picture.size {
             return Err(Error::Picture(format!("`{}` has changed while it was read", picture.name)));
         }
-        copy(&pixels, place, &mut frame);
+        copy(&pixels, place, &mut frame, |pixel, under| match pixel[3] {
+            255 => pixel,
+            alpha => over(pixel, f64::from(alpha) / 255.0, under, &quantizer),
+        });
     }
     let mut drawing = Drawing::default();
     for (line, origin) in &layout.lines {
@@ -132,18 +140,20 @@ pub fn history(pictures: &[Picture], command_line: &str) -> Metadata {
     }
 }
 
-/// Copies a picture to a frame, with its upper left corner at `[left, top]`.
-fn copy(picture: &Frame, [left, top]: [u32; 2], frame: &mut Frame) {
+/// Copies a picture to a frame, with its upper left corner at `[left, top]`. `composed`: a pixel of
+/// the picture over one of the frame.
+fn copy(
+    picture: &Frame,
+    [left, top]: [u32; 2],
+    frame: &mut Frame,
+    composed: impl Fn([u8; 4], [u8; 4]) -> [u8; 4],
+) {
     let (width, columns) = (frame.width() as usize, picture.width() as usize);
     let rows = picture.pixels().chunks_exact(columns);
-    let quantizer = ugimage::Quantizer::new();
     for (row, pixels) in (top as usize..).zip(rows) {
         let start = row * width + left as usize;
-        for (under, pixel) in frame.pixels_mut()[start..start + columns].iter_mut().zip(pixels) {
-            *under = match pixel[3] {
-                255 => *pixel,
-                alpha => over(*pixel, f64::from(alpha) / 255.0, *under, &quantizer),
-            };
+        for (under, &pixel) in frame.pixels_mut()[start..start + columns].iter_mut().zip(pixels) {
+            *under = composed(pixel, *under);
         }
     }
 }

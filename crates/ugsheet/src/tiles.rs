@@ -1,0 +1,162 @@
+//! Joins the parts of a picture that were drawn by commands of their own.
+
+use ugimage::{Frame, Metadata};
+
+use crate::error::Error;
+use crate::shell_words::split;
+use crate::{Picture, copy};
+
+/// What a renderer records of the part that it drew, before its left column, upper row, width and
+/// height.
+const PART: &str = "--crop";
+
+/// Joins tiles to the whole picture. Each is at the place that its history states, and what else
+/// its history states must be the same for all. The result has the pixels and the history of the
+/// whole picture drawn by one command. `frame_of` returns the pixels of a tile by its index; it is
+/// called once for each tile, in order.
+///
+/// # Errors
+/// A history states no place, or differs from the first; tiles overlap or do not cover the picture.
+pub fn join(
+    tiles: &[Picture],
+    mut frame_of: impl FnMut(usize) -> Result<Frame, Error>,
+) -> Result<(Frame, Metadata), Error> {
+    let first = tiles.first().ok_or(Error::Empty)?;
+    let (history, size) = (whole_history(first)?, whole_size(first)?);
+    let mut places: Vec<[u32; 4]> = Vec::new();
+    for tile in tiles {
+        if whole_history(tile)? != history {
+            return Err(refused(tile, &format!("not drawn by the command that drew `{}`", first.name)));
+        }
+        let place = place(tile)?;
+        if !is_inside(place, size) {
+            return Err(refused(tile, "its part of the picture is not inside the picture"));
+        }
+        if let Some(other) = places.iter().position(|other| overlap(*other, place)) {
+            return Err(refused(tile, &format!("it overlaps `{}`", tiles[other].name)));
+        }
+        places.push(place);
+    }
+    let area = |[width, height]: [u32; 2]| u64::from(width) * u64::from(height);
+    let (covered, all) = (places.iter().map(|&[_, _, w, h]| area([w, h])).sum::<u64>(), area(size));
+    if covered != all {
+        let text = format!("the tiles have {covered} of the {all} pixels of the picture: draw those missing");
+        return Err(Error::Picture(text));
+    }
+    if all > crate::error::MAX_PIXELS {
+        return Err(Error::Size);
+    }
+    let mut frame = Frame::opaque(size[0], size[1]);
+    let mut is_opaque = true;
+    for (idx, (tile, &[left, top, width, height])) in tiles.iter().zip(&places).enumerate() {
+        let pixels = frame_of(idx)?;
+        if [pixels.width(), pixels.height()] != [width, height] {
+            return Err(refused(tile, "it has changed while it was read"));
+        }
+        is_opaque &= pixels.is_opaque();
+        copy(&pixels, [left, top], &mut frame, |pixel, _| pixel);
+    }
+    Ok((Frame::new(size, is_opaque, frame.into_pixels()), history))
+}
+
+fn refused(tile: &Picture, problem: &str) -> Error {
+    Error::Picture(format!("`{}`: {problem}", tile.name))
+}
+
+/// The history without the part of the picture.
+fn whole_history(tile: &Picture) -> Result<Metadata, Error> {
+    let part = place(tile)?.map(|number| number.to_string()).join(" ");
+    let option = format!(" {PART} {part}");
+    let without = |line: &str| {
+        let is_option = |at: &usize| {
+            let (before, after) = (&line[..*at], &line[at + option.len()..]);
+            before.matches('\'').count() % 2 == 0 && (after.is_empty() || after.starts_with(' '))
+        };
+        let found = line.match_indices(&option).map(|(at, _)| at).find(is_option);
+        found.map_or_else(|| line.to_owned(), |at| line[..at].to_owned() + &line[at + option.len()..])
+    };
+    let lines: Vec<String> = tile.history.comment.lines().map(without).collect();
+    Ok(Metadata { comment: lines.join("\n"), ..tile.history.clone() })
+}
+
+/// The part of the picture that a tile is: left column, upper row, width and height.
+fn place(tile: &Picture) -> Result<[u32; 4], Error> {
+    let place = numbers(tile, PART);
+    let place = place.filter(|&[_, _, width, height]| [width, height] == tile.size);
+    place.ok_or_else(|| refused(tile, "its history does not state which part of a picture it is (-crop)"))
+}
+
+/// Width and height of the whole picture.
+fn whole_size(tile: &Picture) -> Result<[u32; 2], Error> {
+    let stated = numbers(tile, "-sz");
+    stated.ok_or_else(|| {
+        refused(tile, "its history does not state the size of the whole picture: give -sz W H")
+    })
+}
+
+/// The numbers of an option in the last line of a history.
+fn numbers<const N: usize>(tile: &Picture, option: &str) -> Option<[u32; N]> {
+    let words = split(tile.history.comment.lines().next_back()?);
+    let at = words.iter().position(|word| word == option)? + 1;
+    let numbers: Option<Vec<u32>> = words.get(at..at + N)?.iter().map(|word| word.parse().ok()).collect();
+    numbers?.try_into().ok()
+}
+
+fn is_inside([left, top, width, height]: [u32; 4], size: [u32; 2]) -> bool {
+    let ends = [left.checked_add(width), top.checked_add(height)];
+    ends.iter().zip(size).all(|(end, size)| end.is_some_and(|end| end <= size))
+}
+
+/// Both are inside a picture, so the sums are in range.
+fn overlap(a: [u32; 4], b: [u32; 4]) -> bool {
+    (0..2).all(|axis| a[axis] < b[axis] + b[axis + 2] && b[axis] < a[axis] + a[axis + 2])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn tile(line: &str, size: [u32; 2]) -> Picture {
+        let comment = format!("head\n{line} # SHA-256 00 a.ug");
+        Picture { name: "t".into(), size, history: Metadata { software: "a".into(), comment } }
+    }
+
+    fn error(tiles: &[Picture]) -> String {
+        join(tiles, |_| unreachable!()).unwrap_err().to_string()
+    }
+
+    #[test]
+    fn tiles_are_placed_where_their_history_says() {
+        let place = |x: u32, y: u32, w: u32, h: u32| {
+            tile(&format!("ug 'b --crop 0 0 2 1' -sz 3 2 --crop {x} {y} {w} {h} -va 5"), [w, h])
+        };
+        let tiles = [place(2, 0, 1, 2), place(0, 0, 2, 1), place(0, 1, 2, 1)];
+        let color = |idx: usize| [idx as u8, 1, 2, if idx == 1 { 0 } else { 255 }];
+        let frame_of = |idx: usize| {
+            let size = tiles[idx].size;
+            Ok(Frame::new(size, idx != 1, vec![color(idx); (size[0] * size[1]) as usize]))
+        };
+        let (frame, history) = join(&tiles, frame_of).unwrap();
+        assert_eq!(frame.pixels(), [1, 1, 0, 2, 2, 0].map(color));
+        assert!(!frame.is_opaque());
+        assert_eq!(history.comment, "head\nug 'b --crop 0 0 2 1' -sz 3 2 -va 5 # SHA-256 00 a.ug");
+    }
+
+    #[test]
+    fn what_is_wrong() {
+        let place = |x: u32, w: u32| tile(&format!("ug -sz 4 1 --crop {x} 0 {w} 1"), [w, 1]);
+        assert_eq!(error(&[]), "there are no pictures; name PNG files");
+        assert_eq!(
+            error(&[place(0, 1), place(2, 2)]),
+            "the tiles have 3 of the 4 pixels of the picture: draw those missing"
+        );
+        assert_eq!(error(&[place(0, 3), place(2, 2)]), "`t`: it overlaps `t`");
+        assert!(error(&[place(3, 2)]).contains("not inside the picture"));
+        assert!(error(&[place(u32::MAX, 2)]).contains("not inside the picture"));
+        let other = tile("ug -sz 4 1 --crop 1 0 3 1 -va 5", [3, 1]);
+        assert_eq!(error(&[place(0, 1), other]), "`t`: not drawn by the command that drew `t`");
+        assert!(error(&[tile("ug -sz 4 1", [4, 1])]).contains("which part of a picture it is"));
+        assert!(error(&[tile("ug -sz 4 1 --crop 0 0 4 1", [3, 1])]).contains("which part of a picture"));
+        assert!(error(&[tile("ug --crop 0 0 4 1", [4, 1])]).contains("give -sz W H"));
+    }
+}
