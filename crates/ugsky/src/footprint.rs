@@ -43,7 +43,7 @@ pub(crate) struct Ellipse {
 
 impl Ellipse {
     /// `spread`: variance of the pixel filter along each axis, relative to that of a box.
-    #[inline]
+    #[inline(always)]
     pub fn new(ray: &SkyRay, spread: f64) -> Self {
         let DVec3 { x, y, z } = ray.direction;
         let level = (x * x + y * y).sqrt();
@@ -83,7 +83,7 @@ impl Ellipse {
     }
 
     /// The kernel on a level with texels of this size; `finest`: of level 0.
-    #[inline]
+    #[inline(always)]
     pub fn kernel(&self, texel: f64, finest: f64) -> Kernel {
         let margin = RADIUS * RADIUS * texel * texel;
         let [see, sen, snn] = [self.matrix[0] + margin, self.matrix[1], self.matrix[2] + margin];
@@ -102,7 +102,7 @@ impl Ellipse {
 }
 
 /// atan2 within 2·10⁻⁶, which is enough to find the texels around a direction.
-#[inline]
+#[inline(always)]
 pub(crate) fn near_atan2(y: f64, x: f64) -> f64 {
     use core::f64::consts::{FRAC_PI_2, PI};
     let (above, across) = (y.abs(), x.abs());

@@ -35,6 +35,7 @@ mod observer;
 mod panorama;
 mod sample;
 mod spectral;
+mod window;
 
 pub use cube::CubeMap;
 pub use grid::Extent;

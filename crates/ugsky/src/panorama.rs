@@ -1,12 +1,13 @@
 //! Panoramas: light by direction, on an equirectangular grid with mip levels.
 
 use std::fmt;
+use std::ops::Range;
 use std::sync::OnceLock;
 
 use rayon::prelude::*;
 use ugphysics::srgb_decode;
 
-use crate::grid::{Columns, Extent, Grid, Row, grids, ladder};
+use crate::grid::{APRON, Columns, Extent, Grid, Row, SEGMENT, grids, ladder};
 
 /// The texels of a panorama, row after row from the top.
 #[derive(Clone, Debug, PartialEq)]
@@ -67,13 +68,17 @@ pub struct Panorama {
     extent: Extent,
     size: [u32; 2],
     texels: Texels,
-    /// Light of an 8-bit colour.
-    decoded: [f32; 256],
+    decoder: Decoder,
     pub(crate) ladder: Vec<Columns>,
     pub(crate) grids: Vec<Grid>,
-    /// Light times alpha, and alpha. Level 0 has only its rows with fewer columns, the polar ones.
-    levels: Vec<OnceLock<Vec<[f32; 4]>>>,
+    /// Segments of rows, computed when they are first needed. Level 0 has only those of its rows
+    /// with fewer columns, the polar ones.
+    levels: Vec<Vec<Segment>>,
 }
+
+/// Light times alpha, and alpha, of [`SEGMENT`] columns or those up to the end of the row, and of
+/// [`APRON`] more.
+type Segment = OnceLock<Box<[[f32; 4]]>>;
 
 impl Panorama {
     /// A panorama of `size` texels across and down.
@@ -97,9 +102,9 @@ impl Panorama {
         }
         let ladder = ladder(size[0], &extent);
         let grids = grids(size, &extent, &ladder);
-        let levels = grids.iter().map(|_| OnceLock::new()).collect();
-        let decoded = std::array::from_fn(|level| srgb_decode(level as f64 / 255.0) as f32);
-        Ok(Self { extent, size, texels, decoded, ladder, grids, levels })
+        let levels =
+            grids.iter().map(|grid| (0..grid.n_segments).map(|_| OnceLock::new()).collect()).collect();
+        Ok(Self { extent, size, texels, decoder: Decoder::new(), ladder, grids, levels })
     }
 
     /// The part of the sphere that is shown.
@@ -112,24 +117,6 @@ impl Panorama {
     #[must_use]
     pub fn size(&self) -> [u32; 2] {
         self.size
-    }
-
-    /// Computes the levels for pixels whose smaller semi-axis, in radians, is at most this large,
-    /// on all threads. Others are computed when they are first needed, each on one thread.
-    pub fn prepare(&self, semi_axis: f64) {
-        let last = self.level_of(semi_axis * semi_axis);
-        for level in 0..=last {
-            if self.levels[level].get().is_none() {
-                let rows = self.grids[level].rows.par_iter().enumerate();
-                let is_stored = |row: &Row| level > 0 || row.ladder > 0;
-                let parts: Vec<Vec<[f32; 4]>> = rows
-                    .filter(|(_, row)| is_stored(row))
-                    .map(|(idx, _)| self.computed_row(level, idx))
-                    .collect();
-                // Another thread may have been faster, with the same texels.
-                let _ = self.levels[level].set(parts.concat());
-            }
-        }
     }
 
     /// The level on which an ellipse is sampled, by the square of its smaller semi-axis: its texels
@@ -145,44 +132,72 @@ impl Panorama {
         level
     }
 
-    /// The texels of a row: light times alpha, and alpha.
-    #[inline]
-    pub(crate) fn row(&self, level: usize, row: &Row) -> RowTexels<'_> {
-        let range = row.offset..row.offset + self.ladder[row.ladder].n;
+    /// Consecutive texels of a row, at most [`APRON`], none beyond its end.
+    #[inline(always)]
+    pub(crate) fn texels(&self, level: usize, row: &Row, column: usize, n: usize) -> RowTexels<'_> {
         if level == 0 && row.ladder == 0 {
-            return match &self.texels {
-                Texels::Srgb(texels) => RowTexels::Srgb(&texels[range], &self.decoded),
-                Texels::Light(texels) => RowTexels::Light(&texels[range]),
-            };
+            let start = row.offset + column;
+            return self.given(start..start + n);
         }
-        RowTexels::Light(&self.level(level)[range])
+        let at = column % SEGMENT;
+        RowTexels::Light(&self.segment(level, row, column / SEGMENT)[at..at + n])
     }
 
-    #[inline]
-    fn level(&self, level: usize) -> &[[f32; 4]] {
-        self.levels[level].get_or_init(|| {
-            let rows = self.grids[level].rows.iter().enumerate();
-            let stored = rows.filter(|(_, row)| level > 0 || row.ladder > 0);
-            stored.flat_map(|(idx, _)| self.computed_row(level, idx)).collect()
-        })
+    #[inline(always)]
+    fn given(&self, range: Range<usize>) -> RowTexels<'_> {
+        match &self.texels {
+            Texels::Srgb(texels) => RowTexels::Srgb(&texels[range], &self.decoder),
+            Texels::Light(texels) => RowTexels::Light(&texels[range]),
+        }
     }
 
-    /// The means of the texels below a row, weighted by their areas.
-    fn computed_row(&self, level: usize, idx: usize) -> Vec<[f32; 4]> {
-        let n = self.ladder[self.grids[level].rows[idx].ladder].n;
-        let mut sum = vec![[0.0_f32; 4]; n];
-        if level == 0 {
-            let range = idx * self.ladder[0].n..(idx + 1) * self.ladder[0].n;
-            match &self.texels {
-                Texels::Srgb(texels) => RowTexels::Srgb(&texels[range], &self.decoded),
-                Texels::Light(texels) => RowTexels::Light(&texels[range]),
+    #[inline(always)]
+    fn segment(&self, level: usize, row: &Row, idx: usize) -> &[[f32; 4]] {
+        let segment = &self.levels[level][row.offset + idx];
+        match segment.get() {
+            Some(texels) => texels,
+            None => segment.get_or_init(|| self.computed(level, row, idx)),
+        }
+    }
+
+    /// A segment, from the texels below it. Closed rows begin again after their end; after the end
+    /// of others there is nothing.
+    #[inline(never)]
+    fn computed(&self, level: usize, row: &Row, idx: usize) -> Box<[[f32; 4]]> {
+        let n = self.ladder[row.ladder].n;
+        let start = idx * SEGMENT;
+        let length = SEGMENT.min(n - start) + APRON;
+        let mut texels = vec![[0.0; 4]; length];
+        let mut done = 0;
+        while done < length {
+            let first = (start + done) % n;
+            let part = (length - done).min(n - first);
+            self.compute(level, row, first, &mut texels[done..done + part]);
+            done += part;
+            if !self.extent.is_closed() {
+                break;
             }
-            .add_reduced(1.0, &mut sum);
-            return sum;
+        }
+        texels.into_boxed_slice()
+    }
+
+    /// The means of the texels below those of a row from a column on, weighted by their areas.
+    fn compute(&self, level: usize, row: &Row, first: usize, sum: &mut [[f32; 4]]) {
+        let n = self.ladder[row.ladder].n;
+        let mut below = Vec::new();
+        let mut add = |level: usize, row: &Row, n_fine: usize, weight: f32| {
+            let start = first * n_fine / n;
+            let end = ((first + sum.len()) * n_fine).div_ceil(n);
+            below.clear();
+            self.copy(level, row, start..end, &mut below);
+            add_reduced(&below, start, [n_fine, n], weight, first, sum);
+        };
+        if level == 0 {
+            let given = Row { ladder: 0, offset: row.idx * self.ladder[0].n, ..*row };
+            return add(0, &given, self.ladder[0].n, 1.0);
         }
         let finer = &self.grids[level - 1];
-        let n_rows = self.grids[level].rows.len();
-        let parts = overlaps(finer.rows.len(), n_rows, idx);
+        let parts = overlaps(finer.rows.len(), self.grids[level].rows.len(), row.idx);
         // Relative to the solid angle of the whole row.
         let whole = |(row, part): (usize, f64)| {
             let row = &finer.rows[row];
@@ -190,9 +205,31 @@ impl Panorama {
         };
         let total: f64 = parts.clone().map(whole).sum();
         for (row, part) in parts {
-            self.row(level - 1, &finer.rows[row]).add_reduced((whole((row, part)) / total) as f32, &mut sum);
+            let weight = (whole((row, part)) / total) as f32;
+            let row = &finer.rows[row];
+            add(level - 1, row, self.ladder[row.ladder].n, weight);
         }
-        sum
+    }
+
+    /// Appends texels of a row.
+    fn copy(&self, level: usize, row: &Row, columns: Range<usize>, texels: &mut Vec<[f32; 4]>) {
+        if level == 0 && row.ladder == 0 {
+            let given = self.given(row.offset + columns.start..row.offset + columns.end);
+            return match given {
+                RowTexels::Srgb(given, decoder) => {
+                    texels.extend(given.iter().map(|&texel| decoder.light(texel)));
+                }
+                RowTexels::Light(given) => texels.extend_from_slice(given),
+            };
+        }
+        let mut at = columns.start;
+        while at < columns.end {
+            let segment = self.segment(level, row, at / SEGMENT);
+            let end = columns.end.min((at / SEGMENT + 1) * SEGMENT);
+            let offset = at - at % SEGMENT;
+            texels.extend_from_slice(&segment[at - offset..end - offset]);
+            at = end;
+        }
     }
 }
 
@@ -216,10 +253,50 @@ pub(crate) fn premultiply(texel: &mut [f32; 4]) {
     *texel = [alpha * finite(red), alpha * finite(green), alpha * finite(blue), alpha];
 }
 
-/// The texels of a row.
+/// Light of 8-bit colours.
+pub(crate) struct Decoder {
+    /// Red, green and blue in their places, and alpha 1 with red: their sum is the light of an
+    /// opaque texel.
+    parts: Box<[[[f32; 4]; 256]; 3]>,
+}
+
+impl Decoder {
+    fn new() -> Self {
+        let part = |channel: usize| {
+            std::array::from_fn(|level| {
+                let mut light = [0.0; 4];
+                light[channel] = srgb_decode(level as f64 / 255.0) as f32;
+                light[3] = if channel == 0 { 1.0 } else { 0.0 };
+                light
+            })
+        };
+        Self { parts: Box::new([part(0), part(1), part(2)]) }
+    }
+
+    /// The parts of an opaque colour, which are to be added.
+    #[inline(always)]
+    pub fn parts(&self, [red, green, blue, _]: [u8; 4]) -> [&[f32; 4]; 3] {
+        let [reds, greens, blues] = &*self.parts;
+        [&reds[usize::from(red)], &greens[usize::from(green)], &blues[usize::from(blue)]]
+    }
+
+    /// Light times alpha, and alpha.
+    #[inline(always)]
+    pub fn light(&self, texel: [u8; 4]) -> [f32; 4] {
+        let [red, green, blue] = self.parts(texel);
+        let light = [red[0], green[1], blue[2], 1.0];
+        if texel[3] == 255 {
+            return light;
+        }
+        let alpha = f32::from(texel[3]) / 255.0;
+        light.map(|part| alpha * part)
+    }
+}
+
+/// Consecutive texels of a row.
 #[derive(Clone, Copy)]
 pub(crate) enum RowTexels<'a> {
-    Srgb(&'a [[u8; 4]], &'a [f32; 256]),
+    Srgb(&'a [[u8; 4]], &'a Decoder),
     Light(&'a [[f32; 4]]),
 }
 
@@ -228,41 +305,35 @@ impl RowTexels<'_> {
     #[inline]
     pub fn get(&self, idx: usize) -> [f32; 4] {
         match self {
-            Self::Srgb(texels, decoded) => {
-                let [red, green, blue, alpha] = texels[idx];
-                let light = [red, green, blue].map(|level| decoded[usize::from(level)]);
-                if alpha == 255 {
-                    return [light[0], light[1], light[2], 1.0];
-                }
-                let alpha = f32::from(alpha) / 255.0;
-                [alpha * light[0], alpha * light[1], alpha * light[2], alpha]
-            }
+            Self::Srgb(texels, decoder) => decoder.light(texels[idx]),
             Self::Light(texels) => texels[idx],
         }
     }
+}
 
-    fn len(&self) -> usize {
-        match self {
-            Self::Srgb(texels, _) => texels.len(),
-            Self::Light(texels) => texels.len(),
+/// Adds texels reduced to fewer columns by means, times a weight. `below`: those of the finer row
+/// from column `start` on; `counts`: the columns of both rows; `first`: the column of the first
+/// sum.
+fn add_reduced(
+    below: &[[f32; 4]],
+    start: usize,
+    [n_fine, n]: [usize; 2],
+    weight: f32,
+    first: usize,
+    sum: &mut [[f32; 4]],
+) {
+    if n_fine == 2 * n {
+        let half = 0.5 * weight;
+        for (sum, pair) in sum.iter_mut().zip(below.chunks_exact(2)) {
+            (0..4).for_each(|channel| sum[channel] += half * (pair[0][channel] + pair[1][channel]));
         }
+        return;
     }
-
-    /// Adds the row, reduced to fewer columns by means, times a weight.
-    fn add_reduced(&self, weight: f32, sum: &mut [[f32; 4]]) {
-        let (n_fine, n) = (self.len(), sum.len());
-        for (idx, sum) in sum.iter_mut().enumerate() {
-            let mut add = |cell: usize, part: f32| {
-                let texel = self.get(cell);
-                (0..4).for_each(|channel| sum[channel] += part * texel[channel]);
-            };
-            if n_fine == 2 * n {
-                add(2 * idx, 0.5 * weight);
-                add(2 * idx + 1, 0.5 * weight);
-            } else {
-                let per_cell = weight * n as f32 / n_fine as f32;
-                overlaps(n_fine, n, idx).for_each(|(cell, part)| add(cell, per_cell * part as f32));
-            }
+    let per_cell = weight * n as f32 / n_fine as f32;
+    for (idx, sum) in (first..).zip(sum) {
+        for (cell, part) in overlaps(n_fine, n, idx) {
+            let texel = below[cell - start];
+            (0..4).for_each(|channel| sum[channel] += per_cell * part as f32 * texel[channel]);
         }
     }
 }
@@ -290,14 +361,13 @@ mod tests {
             let texel = |idx: usize| [(idx as f32 * 0.618_034).fract(), (idx / 7 % 5) as f32, 1.0, 1.0];
             let texels = Texels::Light((0..n_texels).map(texel).collect());
             let panorama = Panorama::new(size, texels, Extent::FULL).unwrap();
-            panorama.prepare(1.0);
             let mean = |level: usize| {
                 let (mut sum, mut total) = ([0.0_f64; 4], 0.0);
                 for row in &panorama.grids[level].rows {
-                    let texels = panorama.row(level, row);
-                    for idx in 0..texels.len() {
+                    for idx in 0..panorama.ladder[row.ladder].n {
                         let area = f64::from(row.area);
-                        (0..4).for_each(|i| sum[i] += area * f64::from(texels.get(idx)[i]));
+                        let texel = panorama.texels(level, row, idx, 1).get(0);
+                        (0..4).for_each(|i| sum[i] += area * f64::from(texel[i]));
                         total += area;
                     }
                 }

@@ -2,23 +2,27 @@
 
 use core::f64::consts::{FRAC_PI_2, PI, TAU};
 
+use fearless_simd::{Level, Simd, dispatch};
 use glam::DVec3;
 
 use crate::footprint::{Ellipse, Kernel, near_atan2};
 use crate::grid::{CHUNK, Columns, Grid, PAD, Row};
 use crate::observer::SkyRay;
-use crate::panorama::{Panorama, RowTexels};
+use crate::panorama::Panorama;
+use crate::window::{self, Scratch};
 
 /// Above this product of radius and tangent of the latitude, circles of latitude are too curved for
 /// the simple range of columns.
-const CURVED: f64 = 0.1;
+pub(crate) const CURVED: f64 = 0.1;
 
 /// Part of a radius by which ranges are widened for what they neglect.
-const SLACK: f64 = 0.05;
+pub(crate) const SLACK: f64 = 0.05;
 
 /// Finds the light of footprints in a panorama.
 pub struct Sampler<'a> {
     panorama: &'a Panorama,
+    simd: Level,
+    scratch: Box<Scratch>,
     runs: Vec<Run>,
     /// The weights of all runs, each in whole chunks.
     chunks: Vec<Weights>,
@@ -53,7 +57,14 @@ impl Panorama {
     /// Finds the light of footprints. Make one for each thread.
     #[must_use]
     pub fn sampler(&self) -> Sampler<'_> {
-        Sampler { panorama: self, runs: Vec::new(), chunks: Vec::new(), moments: Moments::default() }
+        Sampler {
+            panorama: self,
+            simd: Level::new(),
+            scratch: Box::default(),
+            runs: Vec::new(),
+            chunks: Vec::new(),
+            moments: Moments::default(),
+        }
     }
 }
 
@@ -65,8 +76,12 @@ impl Sampler<'_> {
     /// Weights are those of the directions of the texels, times their solid angles, so there is no
     /// seam at the date line or the poles.
     #[must_use]
-    #[inline]
     pub fn light(&mut self, ray: &SkyRay, spread: f64) -> Option<[f32; 4]> {
+        dispatch!(self.simd, simd => self.light_on(simd, ray, spread))
+    }
+
+    #[inline(always)]
+    fn light_on<S: Simd>(&mut self, simd: S, ray: &SkyRay, spread: f64) -> Option<[f32; 4]> {
         let ellipse = Ellipse::new(ray, spread);
         if !ellipse.is_small() {
             return None;
@@ -74,8 +89,15 @@ impl Sampler<'_> {
         let sky = self.panorama;
         let level = sky.level_of(ellipse.small_square());
         let kernel = ellipse.kernel(sky.grids[level].texel, sky.grids[0].texel);
-        self.weigh(level, &kernel, ray.direction);
-        Some(self.sum(level))
+        let light = window::light(simd, sky, level, &kernel, ray.direction, &mut self.scratch);
+        light.or_else(|| Some(self.light_anywhere(level, &kernel, ray.direction)))
+    }
+
+    /// The light of a footprint of any shape, beside poles and edges too.
+    #[inline(never)]
+    pub(crate) fn light_anywhere(&mut self, level: usize, kernel: &Kernel, center: DVec3) -> [f32; 4] {
+        self.weigh(level, kernel, center);
+        self.sum(level)
     }
 
     /// Computes the weights of all texels of a footprint.
@@ -209,10 +231,7 @@ impl Sampler<'_> {
         let (mut light, mut total) = ([0.0_f32; 4], [0.0_f32; CHUNK]);
         let mut chunks = self.chunks.iter();
         for run in &self.runs {
-            let texels = run.row.map(|row| {
-                let row = &sky.grids[level].rows[row];
-                (sky.row(level, row), sky.ladder[row.ladder].n)
-            });
+            let row = run.row.map(|row| &sky.grids[level].rows[row]);
             let mut column = run.column;
             let mut rest = run.n;
             while rest > 0 {
@@ -222,8 +241,8 @@ impl Sampler<'_> {
                     chunk.kernel[k] + across * chunk.across[k] + along * chunk.along[k]
                 });
                 (0..CHUNK).for_each(|k| total[k] += weights[k]);
-                if let Some((texels, n)) = texels {
-                    add_texels(texels, n, column, &weights[..count], &mut light);
+                if let Some(row) = row {
+                    add_texels(sky, level, row, column, &weights[..count], &mut light);
                 }
                 column += CHUNK as i64;
                 rest -= count;
@@ -236,24 +255,16 @@ impl Sampler<'_> {
 
 /// Adds texels from a column on; there is nothing beyond the edges.
 #[inline]
-fn add_texels(texels: RowTexels<'_>, n: usize, column: i64, weights: &[f32], light: &mut [f32; 4]) {
-    let mut add = |texel: [f32; 4], weight: f32| {
+fn add_texels(sky: &Panorama, level: usize, row: &Row, column: i64, weights: &[f32], light: &mut [f32; 4]) {
+    let n = sky.ladder[row.ladder].n as i64;
+    let (first, end) = (column.max(0), n.min(column + weights.len() as i64));
+    if first >= end {
+        return;
+    }
+    let texels = sky.texels(level, row, first as usize, (end - first) as usize);
+    for (idx, weight) in weights[(first - column) as usize..(end - column) as usize].iter().enumerate() {
+        let texel = texels.get(idx);
         (0..4).for_each(|channel| light[channel] += weight * texel[channel]);
-    };
-    match usize::try_from(column) {
-        Ok(first) if first + weights.len() <= n => match texels {
-            RowTexels::Light(texels) => {
-                texels[first..].iter().zip(weights).for_each(|(texel, weight)| add(*texel, *weight));
-            }
-            RowTexels::Srgb(..) => (0..weights.len()).for_each(|k| add(texels.get(first + k), weights[k])),
-        },
-        _ => {
-            for (column, &weight) in (column..).zip(weights) {
-                if let Some(column) = usize::try_from(column).ok().filter(|column| *column < n) {
-                    add(texels.get(column), weight);
-                }
-            }
-        }
     }
 }
 
@@ -261,21 +272,26 @@ impl Moments {
     /// The factors of s and t in the positive part with which the first moments vanish, so that the
     /// light of a linear function is exact.
     fn correction(&self) -> [f32; 2] {
-        let [s, t, ss, st, tt] = self.0.map(|lanes| lanes.iter().sum::<f32>());
-        let determinant = ss * tt - st * st;
-        // With texels along a line only, one of the two has no effect.
-        if determinant <= 1e-3 * ss * tt {
-            return [0.0; 2];
-        }
-        [(st * t - tt * s) / determinant, (st * s - ss * t) / determinant]
+        correction(self.0.map(|lanes| lanes.iter().sum::<f32>()))
     }
+}
+
+/// Weight times s and t, and positive part times s², s t and t², to the factors of s and t.
+#[inline(always)]
+pub(crate) fn correction([s, t, ss, st, tt]: [f32; 5]) -> [f32; 2] {
+    let determinant = ss * tt - st * st;
+    // With texels along a line only, one of the two has no effect.
+    if determinant <= 1e-3 * ss * tt {
+        return [0.0; 2];
+    }
+    [(st * t - tt * s) / determinant, (st * s - ss * t) / determinant]
 }
 
 /// A row above or below the panorama, in which there is nothing.
 fn row_beyond(sky: &Panorama, grid: &Grid, level: usize, idx: i64) -> Row {
     let latitude = sky.extent().latitudes[1] - (idx as f64 + 0.5) / grid.rows_per_radian;
     let (sin, cos) = libm::sincos(latitude);
-    Row { ladder: level, offset: 0, sin, cos, latitude, area: cos.max(0.0) as f32 }
+    Row { idx: 0, ladder: level, offset: 0, sin, cos, latitude, area: cos.max(0.0) as f32 }
 }
 
 /// What the weights of a row have in common: a·d and b·d are linear in the cosine and the sine of

@@ -135,14 +135,3 @@ fn a_part_ends_at_its_angles() {
         assert!(n_inside > 200 && n_outside > 200, "{n_inside} {n_outside}");
     }
 }
-
-/// Prepared levels and those computed when needed have the same bits.
-#[test]
-fn preparing_changes_nothing() {
-    let [plain, prepared] = [(); 2].map(|()| panorama([400, 200], Extent::FULL, waves));
-    prepared.prepare(0.1);
-    for direction in directions() {
-        let ray = ray(direction, [0.09, 0.05], 0.3);
-        assert_eq!(plain.sampler().light(&ray, 1.0), prepared.sampler().light(&ray, 1.0));
-    }
-}

@@ -24,10 +24,6 @@ const HALF_STEP: f64 = 0.49;
 /// How often the footprint of a sample is divided at most, if it is large on the sky.
 const MOST_DIVISIONS: u32 = 24;
 
-/// Every so many pixels the size of footprints is looked at before the levels of a panorama are
-/// made.
-const PROBE: usize = 16;
-
 /// The way of light from the sky to a picture: directions, Doppler factors, and how colours change.
 /// It can be used with any number of panoramas.
 pub struct Warp {
@@ -132,7 +128,6 @@ impl Warp {
 
     /// The light of a picture of a panorama, on the background.
     pub fn light(&self, panorama: &Panorama, progress: &dyn Progress) -> (LinearFrame, Statistics) {
-        panorama.prepare(self.largest_footprint());
         let [width, height] = self.size.map(|side| side as usize);
         let backdrop = Backdrop::new(self.background, 1);
         let mut pixels = vec![[0.0; 4]; width * height];
@@ -258,23 +253,6 @@ impl Warp {
             difference - direction.dot(difference) * direction
         };
         Some(self.observer.ray(direction, [slope([1.0, 0.0]), slope([0.0, 1.0])]))
-    }
-
-    /// The largest smaller semi-axis of footprints, radians, found at some pixels.
-    fn largest_footprint(&self) -> f64 {
-        let n = self.samples as usize;
-        let [width, height] = self.size.map(|side| side as usize * n);
-        let rows: Vec<usize> = (0..height).step_by(PROBE * n).chain([height - 1]).collect();
-        let largest = |row: usize| {
-            let columns = (0..width).step_by(PROBE * n).chain([width - 1]);
-            let size = |column: usize| {
-                let ray = self.ray([column as f64 + 0.5, row as f64 + 0.5], 1.0)?;
-                let [across, down] = ray.slopes;
-                Some(across.cross(down).length().sqrt() * self.spread.sqrt())
-            };
-            columns.filter_map(size).fold(0.0, f64::max)
-        };
-        rows.into_par_iter().map(largest).reduce(|| 0.0, f64::max)
     }
 
     /// What is seen at the middles of pixels, as channels and legends need it: light that was
