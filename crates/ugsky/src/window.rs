@@ -11,15 +11,17 @@ use fearless_simd::{Simd, f32x4, f32x8};
 use glam::DVec3;
 
 use crate::footprint::{Kernel, near_atan2};
-use crate::grid::{APRON, CHUNK, PAD};
+use crate::grid::{APRON, CHUNK, PAD, Row};
 use crate::panorama::{Panorama, RowTexels};
 use crate::sample::{CURVED, SLACK, correction};
 
 /// Most rows of a window. Its columns are at most [`APRON`].
 const ROWS: usize = 16;
 
+const CHUNKS: usize = ROWS * APRON / CHUNK;
+
 /// The weights of a window: of the kernel, and of its positive part times s and times t.
-pub(crate) type Scratch = [[[f32; CHUNK]; 3]; ROWS * APRON / CHUNK];
+pub(crate) type Scratch = [[[f32; CHUNK]; 3]; CHUNKS];
 
 /// The rows and columns that an ellipse may cover.
 struct Window {
@@ -49,7 +51,7 @@ impl Window {
             return None;
         }
         let rows = [first as usize, last as usize];
-        let [top, bottom] = rows.map(|row| &grid.rows[row]);
+        let (top, bottom) = (&grid.rows[rows[0]], &grid.rows[rows[1]]);
         if top.ladder != bottom.ladder {
             return None;
         }
@@ -88,79 +90,138 @@ pub(crate) fn light<S: Simd>(
     let pad = if sky.extent().is_closed() { 0 } else { PAD };
     let n_chunks = window.n_columns.div_ceil(CHUNK);
 
-    let splat = |number: f32| f32x8::splat(simd, number);
-    let (one, zero, c) = (splat(1.0), splat(0.0), splat(kernel.c));
-    let (a, b) = (kernel.a, kernel.b);
-    let mut sums = [zero; 8];
-    let mut next = scratch.iter_mut();
+    let one = f32x8::splat(simd, 1.0);
+    let zero = f32x8::splat(simd, 0.0);
+    let c = f32x8::splat(simd, kernel.c);
+    let mut sums = Sums::new(zero);
+    let mut idx = 0;
     for row in rows {
-        let across = [a.y * row.cos, a.x * row.cos, a.z * row.sin].map(|part| splat(part as f32));
-        let along = [b.y * row.cos, b.x * row.cos, b.z * row.sin].map(|part| splat(part as f32));
-        let area = splat(row.area);
+        let across = Line::new(simd, kernel.a, row);
+        let along = Line::new(simd, kernel.b, row);
+        let area = f32x8::splat(simd, row.area);
         for chunk in 0..n_chunks {
             let at = window.column + pad + CHUNK * chunk;
             let cos = f32x8::from_slice(simd, &columns.cos[at..at + CHUNK]);
             let sin = f32x8::from_slice(simd, &columns.sin[at..at + CHUNK]);
-            let s = across[0] * cos + across[1] * sin + across[2];
-            let t = along[0] * cos + along[1] * sin + along[2];
+            let s = across.at(cos, sin);
+            let t = along.at(cos, sin);
             let q = s * s + t * t;
             let rest = (one - q).max(zero);
             let positive = area * rest * rest;
             let weight = positive * (one - c * q);
             let (by_s, by_t) = (positive * s, positive * t);
-            sums[0] += weight * s;
-            sums[1] += weight * t;
-            sums[2] += by_s * s;
-            sums[3] += by_s * t;
-            sums[4] += by_t * t;
-            sums[5] += weight;
-            sums[6] += by_s;
-            sums[7] += by_t;
-            let [kernel, first, second] = next.next()?;
-            weight.store_slice(kernel);
-            by_s.store_slice(first);
-            by_t.store_slice(second);
+            sums.s += weight * s;
+            sums.t += weight * t;
+            sums.ss += by_s * s;
+            sums.st += by_s * t;
+            sums.tt += by_t * t;
+            sums.total += weight;
+            sums.by_s += by_s;
+            sums.by_t += by_t;
+            let stored = &mut scratch[idx % CHUNKS];
+            weight.store_slice(&mut stored[0]);
+            by_s.store_slice(&mut stored[1]);
+            by_t.store_slice(&mut stored[2]);
+            idx += 1;
         }
     }
-    let [s, t, ss, st, tt, total, first, second] = sums.map(lanes);
-    let [across, along] = correction([s, t, ss, st, tt]);
-    let total = total + across * first + along * second;
+    let moments = [lanes(sums.s), lanes(sums.t), lanes(sums.ss), lanes(sums.st), lanes(sums.tt)];
+    let [across, along] = correction(moments);
+    let total = lanes(sums.total) + across * lanes(sums.by_s) + along * lanes(sums.by_t);
     if total <= 0.0 {
         return Some([0.0; 4]);
     }
 
-    let (across, along) = (splat(across), splat(along));
-    let mut light = [f32x4::splat(simd, 0.0); 2];
-    let mut next = scratch.iter();
+    let across = f32x8::splat(simd, across);
+    let along = f32x8::splat(simd, along);
+    let dark = f32x4::splat(simd, 0.0);
+    let (mut even, mut odd) = (dark, dark);
+    let mut idx = 0;
     for row in rows {
         let texels = sky.texels(level, row, window.column, window.n_columns);
+        let mut rest = window.n_columns;
         for chunk in 0..n_chunks {
-            let [weight, first, second] = next.next()?;
-            let [weight, first, second] = [weight, first, second].map(|lanes| f32x8::from_slice(simd, lanes));
-            let weights: [f32; CHUNK] = (weight + across * first + along * second).into();
+            let stored = &scratch[idx % CHUNKS];
+            let weight = f32x8::from_slice(simd, &stored[0]);
+            let by_s = f32x8::from_slice(simd, &stored[1]);
+            let by_t = f32x8::from_slice(simd, &stored[2]);
+            let weights: [f32; CHUNK] = (weight + across * by_s + along * by_t).into();
+            let n = rest.min(CHUNK);
             match texels {
                 RowTexels::Light(texels) => {
-                    for (idx, (texel, &weight)) in texels[CHUNK * chunk..].iter().zip(&weights).enumerate() {
-                        light[idx % 2] += f32x4::splat(simd, weight) * f32x4::from_slice(simd, texel);
+                    let texels = &texels[CHUNK * chunk..];
+                    let texels = &texels[..n];
+                    for k in 0..n {
+                        let texel = f32x4::from_slice(simd, &texels[k]);
+                        let light = f32x4::splat(simd, weights[k % CHUNK]) * texel;
+                        (even, odd) = (odd, even + light);
                     }
                 }
                 RowTexels::Srgb(texels, decoder) => {
-                    for (idx, (&texel, &weight)) in texels[CHUNK * chunk..].iter().zip(&weights).enumerate() {
-                        let texel = if texel[3] == 255 {
-                            let [red, green, blue] =
-                                decoder.parts(texel).map(|part| f32x4::from_slice(simd, part));
-                            red + green + blue
-                        } else {
-                            f32x4::from_slice(simd, &decoder.light(texel))
-                        };
-                        light[idx % 2] += f32x4::splat(simd, weight) * texel;
+                    let texels = &texels[CHUNK * chunk..];
+                    let texels = &texels[..n];
+                    for k in 0..n {
+                        let [red, green, blue] = decoder.parts(texels[k]);
+                        let mut texel = f32x4::from_slice(simd, red)
+                            + f32x4::from_slice(simd, green)
+                            + f32x4::from_slice(simd, blue);
+                        if texels[k][3] != 255 {
+                            texel *= f32x4::splat(simd, f32::from(texels[k][3]) / 255.0);
+                        }
+                        let light = f32x4::splat(simd, weights[k % CHUNK]) * texel;
+                        (even, odd) = (odd, even + light);
                     }
                 }
             }
+            rest -= n;
+            idx += 1;
         }
     }
-    let light = (light[0] + light[1]) * f32x4::splat(simd, 1.0 / total);
-    Some(light.into())
+    Some(((even + odd) * f32x4::splat(simd, 1.0 / total)).into())
+}
+
+/// Sums over the texels of a window.
+struct Sums<S: Simd> {
+    /// Weight times s, weight times t, and positive part times s², s t and t².
+    s: f32x8<S>,
+    t: f32x8<S>,
+    ss: f32x8<S>,
+    st: f32x8<S>,
+    tt: f32x8<S>,
+    /// Weight, and positive part times s and times t.
+    total: f32x8<S>,
+    by_s: f32x8<S>,
+    by_t: f32x8<S>,
+}
+
+impl<S: Simd> Sums<S> {
+    #[inline(always)]
+    fn new(zero: f32x8<S>) -> Self {
+        Self { s: zero, t: zero, ss: zero, st: zero, tt: zero, total: zero, by_s: zero, by_t: zero }
+    }
+}
+
+/// A vector times the directions of a row: linear in the cosine and the sine of the longitude.
+struct Line<S: Simd> {
+    by_cos: f32x8<S>,
+    by_sin: f32x8<S>,
+    level: f32x8<S>,
+}
+
+impl<S: Simd> Line<S> {
+    #[inline(always)]
+    fn new(simd: S, vector: DVec3, row: &Row) -> Self {
+        Self {
+            by_cos: f32x8::splat(simd, (vector.y * row.cos) as f32),
+            by_sin: f32x8::splat(simd, (vector.x * row.cos) as f32),
+            level: f32x8::splat(simd, (vector.z * row.sin) as f32),
+        }
+    }
+
+    #[inline(always)]
+    fn at(&self, cos: f32x8<S>, sin: f32x8<S>) -> f32x8<S> {
+        self.by_cos * cos + self.by_sin * sin + self.level
+    }
 }
 
 /// The sum of the lanes, in the same order on every processor.
