@@ -191,3 +191,29 @@ fn lack_of_memory_is_an_error() {
     check(at, LITTLE, "ugparse flatten ship.ug -nt 1024", 1, " ");
     check(at, LITTLE, "ulimit -s 200000; ugparse flatten ship.ug", 0, "");
 }
+
+/// A PNG file of one bit per pixel, whose rows are alike.
+fn bits([width, height]: [u32; 2]) -> Vec<u8> {
+    let mut file = Vec::new();
+    let mut encoder = png::Encoder::new(&mut file, width, height);
+    encoder.set_color(png::ColorType::Grayscale);
+    encoder.set_depth(png::BitDepth::One);
+    let row = width.div_ceil(8) as usize;
+    let data: Vec<u8> = (0..row * height as usize).map(|idx| (idx % row) as u8).collect();
+    encoder.write_header().and_then(|mut writer| writer.write_image_data(&data)).expect("a file");
+    file
+}
+
+/// A panorama of 100 megapixels needs 4 bytes a pixel and what is seen of its mip levels; the
+/// whole sky seen small needs more, and one that is too large is refused before it is decoded.
+#[test]
+fn large_panoramas_are_bounded() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let write = |name: &str, size: [u32; 2]| fs::write(folder.path().join(name), bits(size)).expect("a file");
+    write("sky.png", [14_144, 7072]);
+    let at = folder.path();
+    check(at, 1_000_000, "ugwarp -qt -nt 2 -cv 0 .5 0 -sz 160 90 -dt ppm sky.png", 0, "");
+    check(at, 2_000_000, "ugwarp -qt -nt 2 -cv 0 .9 0 -pan -sz 400 200 -dt ppm sky.png", 0, "");
+    write("huge.png", [32_768, 16_384]);
+    check(at, LITTLE, "ugwarp huge.png", 1, "32768 x 16384 pixels exceed the limit of 268435456");
+}

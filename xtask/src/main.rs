@@ -8,6 +8,7 @@
 //! cargo xtask bench-raster
 //! cargo xtask bench-rays
 //! cargo xtask bench-photon plot.svg
+//! cargo xtask bench-warp
 //! cargo xtask bench-scale plot.svg
 //! cargo xtask bench-exact
 //! cargo xtask geometry > tables.md
@@ -37,6 +38,7 @@ mod scale;
 mod short;
 mod sphere;
 mod teapot;
+mod warp;
 
 use clap::{Parser, Subcommand};
 use std::io::{self, BufWriter, Write};
@@ -138,6 +140,13 @@ enum Task {
         #[arg(long, value_name = "N", default_value_t = 10_000_000)]
         most: u32,
     },
+    /// Measure `ugwarp` relative to the filter `v360` of ffmpeg, for the same view of the same
+    /// panorama of 8192 x 4096 pixels, as Markdown
+    BenchWarp {
+        /// ffmpeg executable
+        #[arg(long, default_value = "ffmpeg")]
+        ffmpeg: String,
+    },
     /// Measure time and memory of drawing as functions of faces, pixels and samples, as Markdown
     /// and as a plot
     BenchScale {
@@ -231,6 +240,9 @@ fn run(task: &Task) -> io::Result<()> {
         Task::BenchPhoton { plot, povray, most } => {
             photon::write(&mut out, plot, povray, *most)
                 .map_err(|error| io::Error::other(error.to_string()))?;
+        }
+        Task::BenchWarp { ffmpeg } => {
+            warp::write(&mut out, ffmpeg).map_err(|error| io::Error::other(error.to_string()))?;
         }
         Task::TraceOnce { scene } => {
             photon::trace_once(&mut out, scene).map_err(|error| io::Error::other(error.to_string()))?;

@@ -210,7 +210,7 @@ fn compare_povray(out: &mut impl Write, dir: &Path, povray: &str) -> Result<(), 
 }
 
 /// Runs a command. Returns its time and its processor time in seconds.
-fn time(command: &mut Command) -> Result<[f64; 2], Box<dyn Error>> {
+pub fn time(command: &mut Command) -> Result<[f64; 2], Box<dyn Error>> {
     let name = command.get_program().to_string_lossy().into_owned();
     let (start, processor_start) = (Instant::now(), processor_time_of_children()?);
     let status = command.status().map_err(|error| format!("`{name}` could not be run: {error}"))?;

@@ -5,6 +5,7 @@ use std::io::Cursor;
 
 use miniz_oxide::inflate::decompress_to_vec_zlib_with_limit;
 use png::{ColorType, Decoder, Transformations};
+use ugphysics::srgb_decode;
 
 use crate::{Frame, Metadata};
 
@@ -50,19 +51,8 @@ pub fn read_png_header(file: &[u8]) -> Result<([u32; 2], Metadata), ReadError> {
 /// [`ReadError`] if the file is not a PNG, is truncated or corrupt, has more than 2²⁸ pixels, or
 /// does not fit in memory.
 pub fn read_png(file: &[u8]) -> Result<(Frame, Metadata), ReadError> {
-    let mut decoder = decoder(file)?;
-    let [width, height] = size(&mut decoder)?;
-    let mut reader = decoder.read_info().map_err(broken)?;
-    let size = reader.output_buffer_size().ok_or_else(|| ReadError("too large".to_owned()))?;
-    let mut data = zeros(size)?;
-    let output = reader.next_frame(&mut data).map_err(broken)?;
-    let data = &data[..output.buffer_size()];
-    let (n_channels, is_opaque) = match output.color_type {
-        ColorType::Grayscale => (1, true),
-        ColorType::GrayscaleAlpha => (2, false),
-        ColorType::Rgb | ColorType::Indexed => (3, true),
-        ColorType::Rgba => (4, false),
-    };
+    let Decoded { size: [width, height], data, n_channels } = decoded(decoder(file)?)?;
+    let is_opaque = matches!(n_channels, 1 | 3);
     let mut pixels: Vec<[u8; 4]> = zeros(width as usize * height as usize)?;
     for (pixel, channels) in pixels.iter_mut().zip(data.chunks_exact(n_channels)) {
         *pixel = match *channels {
@@ -74,6 +64,60 @@ pub fn read_png(file: &[u8]) -> Result<(Frame, Metadata), ReadError> {
         };
     }
     Ok((Frame::new([width, height], is_opaque, pixels), metadata(file)))
+}
+
+/// The light of a PNG file with 16 bits per channel, not multiplied by alpha. Colours are assumed
+/// to be sRGB.
+///
+/// # Errors
+/// As of [`read_png`].
+pub(crate) fn read_png_light(file: &[u8]) -> Result<Vec<[f32; 4]>, ReadError> {
+    let mut decoder = decoder(file)?;
+    decoder.set_transformations(Transformations::EXPAND);
+    let Decoded { size, data, n_channels } = decoded(decoder)?;
+    let mut pixels: Vec<[f32; 4]> = zeros(size[0] as usize * size[1] as usize)?;
+    let curve: Vec<f32> =
+        (0..=u16::MAX).map(|level| srgb_decode(f64::from(level) / 65535.0) as f32).collect();
+    for (pixel, bytes) in pixels.iter_mut().zip(data.chunks_exact(2 * n_channels)) {
+        let level = |idx: usize| u16::from_be_bytes([bytes[2 * idx], bytes[2 * idx + 1]]);
+        let light = |idx: usize| curve[usize::from(level(idx))];
+        let alpha = |idx: usize| f32::from(level(idx)) / 65535.0;
+        *pixel = match n_channels {
+            1 => [light(0), light(0), light(0), 1.0],
+            2 => [light(0), light(0), light(0), alpha(1)],
+            3 => [light(0), light(1), light(2), 1.0],
+            _ => [light(0), light(1), light(2), alpha(3)],
+        };
+    }
+    Ok(pixels)
+}
+
+/// True if a PNG file has 16 bits per channel, by its header.
+pub(crate) fn is_png_deep(file: &[u8]) -> bool {
+    file.get(24) == Some(&16)
+}
+
+/// The bytes of an image.
+struct Decoded {
+    size: [u32; 2],
+    data: Vec<u8>,
+    n_channels: usize,
+}
+
+fn decoded(mut decoder: Decoder<Cursor<&[u8]>>) -> Result<Decoded, ReadError> {
+    let size = size(&mut decoder)?;
+    let mut reader = decoder.read_info().map_err(broken)?;
+    let n_bytes = reader.output_buffer_size().ok_or_else(|| ReadError("too large".to_owned()))?;
+    let mut data = zeros(n_bytes)?;
+    let output = reader.next_frame(&mut data).map_err(broken)?;
+    data.truncate(output.buffer_size());
+    let n_channels = match output.color_type {
+        ColorType::Grayscale => 1,
+        ColorType::GrayscaleAlpha => 2,
+        ColorType::Rgb | ColorType::Indexed => 3,
+        ColorType::Rgba => 4,
+    };
+    Ok(Decoded { size, data, n_channels })
 }
 
 fn broken(error: png::DecodingError) -> ReadError {

@@ -10,7 +10,7 @@ use zune_jpeg::zune_core::bytestream::ZCursor;
 use zune_jpeg::zune_core::colorspace::ColorSpace;
 use zune_jpeg::zune_core::options::DecoderOptions;
 
-use crate::read::{MAX_PIXELS, ReadError, read_png, read_png_header, zeros};
+use crate::read::{MAX_PIXELS, ReadError, is_png_deep, read_png, read_png_header, read_png_light, zeros};
 
 /// The pixels of a picture, row after row from the top.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,9 +25,9 @@ pub enum Pixels {
 /// Reads a picture, by the first bytes of its file: PNG, JPEG, Radiance HDR or OpenEXR. Returns its
 /// size and its pixels. `max_pixels`: at most [`MAX_PIXELS`].
 ///
-/// Colours of PNG and JPEG are assumed to be sRGB, and 16 bits are rounded to 8; those of HDR and
-/// OpenEXR to be linear light with the primaries of sRGB. Colour profiles and the orientation that
-/// cameras note are not used.
+/// Colours of PNG and JPEG are assumed to be sRGB; PNG files with 16 bits per channel are converted
+/// to light. Those of HDR and OpenEXR are assumed to be linear light with the primaries of sRGB.
+/// Colour profiles and the orientation that cameras note are not used.
 ///
 /// # Errors
 /// [`ReadError`] if the file is of another kind, is truncated or corrupt, has more than `max_pixels`
@@ -38,6 +38,9 @@ pub fn read_picture(file: &[u8], max_pixels: u64) -> Result<([u32; 2], Pixels), 
         [0x89, b'P', b'N', b'G', ..] => {
             let (size, _) = read_png_header(file)?;
             checked(size.map(|side| side as usize), limit)?;
+            if is_png_deep(file) {
+                return Ok((size, Pixels::Light(read_png_light(file)?)));
+            }
             let (frame, _) = read_png(file)?;
             let size = [frame.width(), frame.height()];
             Ok((size, Pixels::Srgb(frame.into_pixels())))
@@ -222,6 +225,27 @@ mod tests {
             }
             for length in (0..file.len() - 1).step_by(7) {
                 assert!(read(&file[..length]).is_err(), "{format:?} {length}");
+            }
+        }
+    }
+
+    /// 16 bits are not rounded to 8.
+    #[test]
+    fn deep_png_files_are_light() {
+        for is_opaque in [true, false] {
+            let alpha = if is_opaque { 1.0 } else { 0.25 };
+            let pixel = |idx: u32| [0.002 + 1e-5 * idx as f32, 0.5 + 1e-4 * idx as f32, 1.0, alpha];
+            let frame = LinearFrame::new([8, 4], is_opaque, (0..32).map(pixel).collect());
+            let file = Format::Png16.encode_linear_with(&frame, &Metadata::default(), Compression::Fast);
+            let (size, pixels) = read_picture(&file, MAX_PIXELS).unwrap();
+            let Pixels::Light(pixels) = pixels else { panic!("light") };
+            assert_eq!(size, [8, 4]);
+            for (found, expected) in pixels.iter().zip(frame.pixels()) {
+                let error = (0..4).map(|i| (found[i] - expected[i]).abs()).fold(0.0, f32::max);
+                assert!(error < 2e-5, "{found:?} {expected:?}");
+            }
+            for length in (0..file.len() - 12).step_by(7) {
+                assert!(read_picture(&file[..length], MAX_PIXELS).is_err(), "{length}");
             }
         }
     }

@@ -9,10 +9,17 @@ use crate::observer::SkyRay;
 pub(crate) const LARGEST: f64 = 0.1;
 
 /// Longest ellipse, as ratio of its axes; longer ones are widened.
-const MOST_ECCENTRIC: f64 = 16.0;
+pub(crate) const MOST_ECCENTRIC: f64 = 16.0;
 
 /// Radius of the kernel on a texel grid without footprint, in texels.
-const RADIUS: f64 = 2.0;
+pub(crate) const RADIUS: f64 = 2.0;
+
+/// Above this product of radius and tangent of the latitude, circles of latitude are too curved for
+/// the simple range of columns.
+pub(crate) const CURVED: f64 = 0.1;
+
+/// Part of a radius by which ranges are widened for what they neglect.
+pub(crate) const SLACK: f64 = 0.05;
 
 /// An elliptical kernel w(q) = (1 − q)² (1 − c q) for q < 1, q = (a·d)² + (b·d)², over directions d
 /// near a centre.
@@ -101,6 +108,19 @@ impl Ellipse {
         let radius = (self.squares[1] + margin).sqrt();
         Kernel { a, b, c: c as f32, matrix: [see, sen, snn], radius }
     }
+}
+
+/// The factors of s and t in the positive part of weights with which their first moments vanish, so
+/// that the light of a linear function is exact. Passed are sums of weight times s and t, and of the
+/// positive part times s², s t and t².
+#[inline(always)]
+pub(crate) fn correction([s, t, ss, st, tt]: [f32; 5]) -> [f32; 2] {
+    let determinant = ss * tt - st * st;
+    // With texels along a line only, one of the two has no effect.
+    if determinant <= 1e-3 * ss * tt {
+        return [0.0; 2];
+    }
+    [(st * t - tt * s) / determinant, (st * s - ss * t) / determinant]
 }
 
 /// atan2 within 2·10⁻⁶, which is enough to find the texels around a direction.

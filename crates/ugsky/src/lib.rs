@@ -29,6 +29,7 @@
 //! ```
 
 mod cube;
+mod flat;
 mod footprint;
 mod grid;
 mod observer;
@@ -38,6 +39,7 @@ mod spectral;
 mod window;
 
 pub use cube::CubeMap;
+pub use flat::{FlatFilm, Seen};
 pub use grid::Extent;
 pub use observer::{Observer, SkyRay};
 pub use panorama::{Panorama, PanoramaError, Texels};

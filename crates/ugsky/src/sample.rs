@@ -5,24 +5,17 @@ use core::f64::consts::{FRAC_PI_2, PI, TAU};
 use fearless_simd::{Level, Simd, dispatch};
 use glam::DVec3;
 
-use crate::footprint::{Ellipse, Kernel, near_atan2};
+use crate::footprint::{CURVED, Ellipse, Kernel, SLACK, correction, near_atan2};
 use crate::grid::{CHUNK, Columns, Grid, PAD, Row};
 use crate::observer::SkyRay;
 use crate::panorama::Panorama;
 use crate::window::{self, Scratch};
 
-/// Above this product of radius and tangent of the latitude, circles of latitude are too curved for
-/// the simple range of columns.
-pub(crate) const CURVED: f64 = 0.1;
-
-/// Part of a radius by which ranges are widened for what they neglect.
-pub(crate) const SLACK: f64 = 0.05;
-
 /// Finds the light of footprints in a panorama.
 pub struct Sampler<'a> {
-    panorama: &'a Panorama,
-    simd: Level,
-    scratch: Box<Scratch>,
+    pub(crate) panorama: &'a Panorama,
+    pub(crate) simd: Level,
+    pub(crate) scratch: Box<Scratch>,
     runs: Vec<Run>,
     /// The weights of all runs, each in whole chunks.
     chunks: Vec<Weights>,
@@ -274,17 +267,6 @@ impl Moments {
     fn correction(&self) -> [f32; 2] {
         correction(self.0.map(|lanes| lanes.iter().sum::<f32>()))
     }
-}
-
-/// Weight times s and t, and positive part times s², s t and t², to the factors of s and t.
-#[inline(always)]
-pub(crate) fn correction([s, t, ss, st, tt]: [f32; 5]) -> [f32; 2] {
-    let determinant = ss * tt - st * st;
-    // With texels along a line only, one of the two has no effect.
-    if determinant <= 1e-3 * ss * tt {
-        return [0.0; 2];
-    }
-    [(st * t - tt * s) / determinant, (st * s - ss * t) / determinant]
 }
 
 /// A row above or below the panorama, in which there is nothing.

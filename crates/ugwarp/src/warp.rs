@@ -8,7 +8,7 @@ use ugpicture::lens::{Film, Lens};
 use ugpicture::{Backdrop, Background, Emission, SeenItem};
 use ugpipe::Progress;
 use ugscene::{CameraOptions, View};
-use ugsky::{Observer, Panorama, Sampler, SkyRay};
+use ugsky::{FlatFilm, Observer, Panorama, Sampler, Seen, SkyRay};
 
 use crate::config::Config;
 use crate::error::Error;
@@ -23,6 +23,16 @@ const HALF_STEP: f64 = 0.49;
 
 /// How often the footprint of a sample is divided at most, if it is large on the sky.
 const MOST_DIVISIONS: u32 = 24;
+
+/// The directions of a pinhole camera, which are linear in the place.
+fn flat_film(lens: Lens, film: &Film) -> Option<FlatFilm> {
+    let at = |place: [f64; 2]| film.sight(place).map(|sight| sight.direction);
+    if lens != Lens::Pinhole {
+        return None;
+    }
+    let corner = at([0.0, 0.0])?;
+    Some(FlatFilm { corner, across: at([1.0, 0.0])? - corner, down: at([0.0, 1.0])? - corner })
+}
 
 /// The way of light from the sky to a picture: directions, Doppler factors, and how colours change.
 /// It can be used with any number of panoramas.
@@ -39,15 +49,8 @@ pub struct Warp {
     shade: Shade,
     /// The camera was parallel to its up direction.
     pub(crate) is_up_replaced: bool,
-    rays: Option<Vec<Option<StoredRay>>>,
-}
-
-/// A ray of the table of a map, in single precision.
-#[derive(Clone, Copy, Debug)]
-struct StoredRay {
-    direction: [f32; 3],
-    slopes: [[f32; 3]; 2],
-    doppler: f32,
+    /// The directions of a pinhole camera.
+    flat: Option<FlatFilm>,
 }
 
 /// What was found in a picture.
@@ -88,37 +91,19 @@ impl Warp {
             Filter::Triangle => 1.0 / 6.0,
             Filter::Spline => 1.0 / 4.0,
         };
+        let film = Film::new(config.lens, None, &view, frame);
         Ok(Self {
             size: picture.size,
             samples,
-            film: Film::new(config.lens, None, &view, frame),
             lens: config.lens,
             observer: Observer::new(config.velocity),
             spread: 12.0 * variance * n - n + 1.0,
             background: picture.background,
             shade: Shade::new(config)?,
             is_up_replaced: view.is_up_replaced,
-            rays: None,
+            flat: flat_film(config.lens, &film),
+            film,
         })
-    }
-
-    /// Keeps the rays of all pixels in memory, 40 bytes each, for pictures of more than one
-    /// panorama. Pictures with several samples per pixel have none.
-    pub fn store_rays(&mut self) {
-        if self.samples > 1 {
-            return;
-        }
-        let width = self.size[0] as usize;
-        let ray = |idx: usize| {
-            let ray = self.ray([idx % width, idx / width].map(|at| at as f64 + 0.5), 1.0)?;
-            let single = |vector: DVec3| vector.as_vec3().to_array();
-            Some(StoredRay {
-                direction: single(ray.direction),
-                slopes: ray.slopes.map(single),
-                doppler: ray.doppler as f32,
-            })
-        };
-        self.rays = Some((0..width * self.size[1] as usize).into_par_iter().map(ray).collect());
     }
 
     /// Light brighter than white is kept until it is developed.
@@ -134,16 +119,18 @@ impl Warp {
         progress.step("warping", height.div_ceil(BAND) as u64);
         let bands = pixels.par_chunks_mut(BAND * width).enumerate();
         let statistics = bands.map_init(
-            || panorama.sampler(),
-            |sampler, (band, pixels)| {
+            || (panorama.sampler(), vec![None; width * self.samples as usize]),
+            |(sampler, row), (band, pixels)| {
                 let mut statistics = Statistics::default();
-                for (idx, pixel) in pixels.iter_mut().enumerate() {
-                    let at = [idx % width, band * BAND + idx / width];
-                    let [red, green, blue, covered] = self.pixel(sampler, at);
-                    *pixel = backdrop.pixel([red, green, blue], covered);
-                    if covered > 0.0 {
-                        statistics.n_covered += 1;
-                        statistics.max_light = statistics.max_light.max(red).max(green).max(blue);
+                for (idx, pixels) in pixels.chunks_mut(width).enumerate() {
+                    self.add_row(sampler, row, band * BAND + idx, pixels);
+                    for pixel in pixels {
+                        let [red, green, blue, covered] = *pixel;
+                        *pixel = backdrop.pixel([red, green, blue], covered);
+                        if covered > 0.0 {
+                            statistics.n_covered += 1;
+                            statistics.max_light = statistics.max_light.max(red).max(green).max(blue);
+                        }
                     }
                 }
                 progress.done(1);
@@ -157,61 +144,58 @@ impl Warp {
         (LinearFrame::new(self.size, backdrop.is_opaque(), pixels), statistics)
     }
 
-    /// The mean light of the samples of a pixel, times their covered part, and that part.
-    fn pixel(&self, sampler: &mut Sampler<'_>, at: [usize; 2]) -> [f32; 4] {
+    /// Sets pixels of a row to the mean light of their samples, times their covered part, and that
+    /// part. `found`: a buffer for a row of samples.
+    fn add_row(
+        &self,
+        sampler: &mut Sampler<'_>,
+        found: &mut [Option<Seen>],
+        row: usize,
+        pixels: &mut [[f32; 4]],
+    ) {
         let n = self.samples as usize;
-        if n == 1 {
-            let stored = self.rays.as_ref().map(|rays| rays[at[1] * self.size[0] as usize + at[0]]);
-            let place = at.map(|at| at as f64 + 0.5);
-            return match stored {
-                Some(None) => [0.0; 4],
-                Some(Some(ray)) => self.of_ray(sampler, &ray.into(), place, 1.0, 0),
-                None => self.sample(sampler, place, 1.0, 0),
-            };
-        }
-        let mut sum = [0.0; 4];
-        for row in 0..n {
-            for column in 0..n {
-                let place = [at[0] * n + column, at[1] * n + row].map(|at| at as f64 + 0.5);
-                let light = self.sample(sampler, place, 1.0, 0);
-                (0..4).for_each(|channel| sum[channel] += light[channel]);
+        for y in row * n..(row + 1) * n {
+            let y = y as f64 + 0.5;
+            if let Some(flat) = &self.flat {
+                sampler.flat_row(&self.observer, flat, [0.5, y], self.spread, found);
+            }
+            for (pixel, (first, found)) in pixels.iter_mut().zip(found.chunks(n).enumerate()) {
+                for (column, seen) in found.iter().enumerate() {
+                    let light = match seen {
+                        Some(seen) => self.shaded(seen.light, f64::from(seen.doppler)),
+                        None => self.sample(sampler, [(first * n + column) as f64 + 0.5, y], 1.0, 0),
+                    };
+                    (0..4).for_each(|channel| pixel[channel] += light[channel]);
+                }
             }
         }
-        let part = 1.0 / (n * n) as f32;
-        sum.map(|sum| sum * part)
+        if n > 1 {
+            let part = 1.0 / (n * n) as f32;
+            pixels.iter_mut().flatten().for_each(|sum| *sum *= part);
+        }
     }
 
     /// The light of a square of the film, `side` samples wide.
     fn sample(&self, sampler: &mut Sampler<'_>, place: [f64; 2], side: f64, depth: u32) -> [f32; 4] {
-        match self.ray(place, side) {
-            Some(ray) => self.of_ray(sampler, &ray, place, side, depth),
+        let Some(ray) = self.ray(place, side) else { return [0.0; 4] };
+        match sampler.light(&ray, self.spread) {
+            Some(light) => self.shaded(light, ray.doppler),
+            None if depth < MOST_DIVISIONS => self.divided(sampler, place, side, depth),
+            // A footprint of nearly the whole sky, of no more than 4⁻²⁴ of a sample.
             None => [0.0; 4],
         }
     }
 
+    /// Light as seen, times the covered part, and that part.
     #[inline]
-    fn of_ray(
-        &self,
-        sampler: &mut Sampler<'_>,
-        ray: &SkyRay,
-        place: [f64; 2],
-        side: f64,
-        depth: u32,
-    ) -> [f32; 4] {
-        let light = match sampler.light(ray, self.spread) {
-            Some(light) => light,
-            None if depth < MOST_DIVISIONS => return self.divided(sampler, place, side, depth),
-            // A footprint of nearly the whole sky, of no more than 4⁻²⁴ of a sample.
-            None => [0.0; 4],
-        };
-        let [red, green, blue, covered] = light;
+    fn shaded(&self, [red, green, blue, covered]: [f32; 4], doppler: f64) -> [f32; 4] {
         // Interpolation may exceed the range by a little.
         let covered = covered.clamp(0.0, 1.0);
         if covered == 0.0 {
             return [0.0; 4];
         }
         let rest = [red, green, blue].map(|part| part / covered);
-        let [red, green, blue] = self.shade.seen(rest, ray.doppler).map(|part| part * covered);
+        let [red, green, blue] = self.shade.seen(rest, doppler).map(|part| part * covered);
         [red, green, blue, covered]
     }
 
@@ -264,16 +248,5 @@ impl Warp {
         let direction = self.film.sight(place)?.direction.normalize();
         let velocity = -self.observer.velocity();
         Some((0, Emission { place: direction, depth: f64::INFINITY, time: f64::NEG_INFINITY, velocity }))
-    }
-}
-
-impl From<StoredRay> for SkyRay {
-    fn from(ray: StoredRay) -> Self {
-        let double = |vector: [f32; 3]| DVec3::from_array(vector.map(f64::from));
-        Self {
-            direction: double(ray.direction),
-            slopes: ray.slopes.map(double),
-            doppler: f64::from(ray.doppler),
-        }
     }
 }

@@ -67,6 +67,38 @@ fn the_forward_hemisphere_is_a_disc() {
     }
 }
 
+/// A camera of 60° and a dome of 180° at 0.9 c: circles around the direction of motion, up to the
+/// edge of the field of view, are seen where aberration has them (T15: the dome shows 308.3°).
+#[test]
+fn fields_of_view_are_those_of_a_moving_camera() {
+    let seen = |in_sky: f64| 2.0 * libm::atan(libm::tan(0.5 * in_sky) / libm::sqrt(19.0));
+    assert!((seen(0.5 * 308.316_134_5_f64.to_radians()) - 0.5 * PI).abs() < 1e-9);
+    for degrees in [30.0, 60.0, 90.0, 98.0, 120.0, 150.0] {
+        let in_sky = f64::to_radians(degrees);
+        let sky = panorama(2048, |d| [if d.y > libm::cos(in_sky) { 1.0 } else { 0.0 }; 3]);
+        for lens in [Lens::Pinhole, Lens::Fisheye { angle: PI }] {
+            let mut config = geometry(ahead(0.9), [301, 301], lens);
+            config.picture.camera =
+                CameraOptions { view_angle: Some((60.0, None)), ..CameraOptions::default() };
+            let expected = match lens {
+                Lens::Pinhole => 150.5 * libm::tan(seen(in_sky)) / libm::tan(PI / 6.0),
+                _ => 150.5 * seen(in_sky) / (0.5 * PI),
+            };
+            if seen(in_sky) >= PI / 6.0 && lens == Lens::Pinhole {
+                continue;
+            }
+            let frame = light(&sky, &config).unwrap();
+            for step in [1, 301] {
+                // The row or the column through the middle.
+                let middle = 150 * (302 - step);
+                let pixels = (0..301).map(|k| f64::from(frame.pixels()[middle + k * step][0]));
+                let found = 0.5 * pixels.sum::<f64>();
+                assert!((found - expected).abs() < 0.5, "{lens:?} {degrees}: {found}, not {expected} pixels");
+            }
+        }
+    }
+}
+
 /// A uniform sky has the means of D², D³ and D⁴ over the sphere of the observer.
 #[test]
 fn energies_of_a_uniform_sky() {
