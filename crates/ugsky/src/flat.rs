@@ -70,10 +70,10 @@ impl Sampler<'_> {
     ) {
         let (footprints, doppler) = footprints(simd, self.panorama, observer, film, first, spread);
         for (k, found) in found.iter_mut().enumerate() {
-            *found = match light_of(simd, self.panorama, &footprints[k % CHUNK], &mut self.scratch) {
-                Some(light) => Some(Seen { light, doppler: doppler[k % CHUNK] }),
-                None => None,
-            };
+            *found = None;
+            if let Some(light) = light_of(simd, self.panorama, &footprints[k % CHUNK], &mut self.scratch) {
+                *found = Some(Seen { light, doppler: doppler[k % CHUNK] });
+            }
         }
     }
 }
