@@ -317,7 +317,12 @@ mod tests {
         let size = [1100, 550];
         let texel = |idx: u32| {
             let part = |by: f32| (255.0 * (idx as f32 * by).fract()) as u8;
-            [part(0.618_034), part(0.754_878), part(0.569_84), if idx.is_multiple_of(7) { part(0.3) } else { 255 }]
+            [
+                part(0.618_034),
+                part(0.754_878),
+                part(0.569_84),
+                if idx.is_multiple_of(7) { part(0.3) } else { 255 },
+            ]
         };
         let texels: Vec<[u8; 4]> = (0..size[0] * size[1]).map(texel).collect();
         let part = Extent { longitudes: [1.0, 1.0 + PI], latitudes: [-1.0, 0.8] };
