@@ -122,14 +122,16 @@ const PREPARATION: &str = "\
     uglorentz -vel .3 0 0 -in scenes/ship.ug | ugdoppler > seen.ug; \
     ugphoton -qt -pan -aa 1 -sz 256 128 scenes/tunnel.ug -fo sky.png";
 
-/// Fills a folder with what a reader has when typing commands: the scenes of the repository, also
-/// in a folder `scenes` in it, and the files that pages take for granted.
+/// Fills a folder with what a reader has when typing commands: the scenes and stars of the
+/// repository, also in a folder `scenes` in it, and the files that pages take for granted.
 pub fn prepare(folder: &Path, programs: &Path) {
     for folder in [folder.to_owned(), folder.join("scenes")] {
         fs::create_dir_all(&folder).expect("a folder");
         for name in scenes::names() {
             fs::write(folder.join(format!("{name}.ug")), scenes::text(&name)).expect("a copy");
         }
+        let stars = "stars.csv";
+        fs::copy(scenes::root().join("scenes").join(stars), folder.join(stars)).expect("a copy");
     }
     Page::of_commands("preparation", &[])
         .run(PREPARATION, folder, programs)

@@ -7,7 +7,9 @@ use clap::Parser;
 use ugimage::Format;
 use ugparse::{Scene, pipe};
 use ugpicture::cli::format_for;
-use ugpipe::{CommonArgs, Context, Failure, Manual, ToolArgs, finite, one_of, parse_words, sha256, whole};
+use ugpipe::{
+    CommonArgs, Context, Failure, Input, Manual, ToolArgs, finite, one_of, parse_words, sha256, whole,
+};
 use ugscene::{CameraOptions, DefaultCamera};
 
 use crate::draw::Subject;
@@ -167,7 +169,7 @@ fn tell(summary: &Summary, context: &Context) {
 enum Read {
     Scene(Box<Scene>),
     /// A panorama, and the words for its origin.
-    Panorama(Box<ugwarp::Panorama>, String),
+    Panorama(Box<ugwarp::Opened>, String),
 }
 
 impl Read {
@@ -175,11 +177,10 @@ impl Read {
     fn new(args: &Args, script: &mut Script, context: &mut Context) -> Result<Self, Failure> {
         if args.warp {
             let input = context.input()?;
-            let opened = args.panorama(script, &input.text);
-            let opened = opened.map_err(|why| Failure::Failed(format!("`{}`: {why}", input.name)))?;
+            let opened = args.panorama(script, &input, context)?;
             opened.notes.iter().for_each(|note| context.note(note));
             let origin = format!("SHA-256 {} {}", sha256(&input.text), context.recorded_name());
-            return Ok(Self::Panorama(Box::new(opened.panorama), origin));
+            return Ok(Self::Panorama(Box::new(opened), origin));
         }
         let reading = pipe::options(&args.common)?;
         let source = pipe::read(context, &reading)?;
@@ -312,12 +313,13 @@ impl Args {
         Ok(script)
     }
 
-    /// The panorama of a file, of which the first frame says which part of the sphere it is.
-    fn panorama(&self, script: &Script, file: &[u8]) -> Result<ugwarp::Opened, Failure> {
+    /// The panorama of a file, of which the first frame says which part of the sphere it is, and
+    /// stars.
+    fn panorama(&self, script: &Script, input: &Input, context: &Context) -> Result<ugwarp::Opened, Failure> {
         let commands = script.commands(1.0)?;
         let words = commands.stages.into_iter().flat_map(|(_, words)| words).map(OsString::from);
         let (args, _) = parse_words::<ugwarp::Args>(words)?;
-        ugwarp::open(&[file], args.arrangement(), args.extent()).map_err(Failure::failed)
+        args.open(input, context)
     }
 
     /// The numbers of the frames to draw.

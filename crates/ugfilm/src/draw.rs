@@ -29,7 +29,7 @@ pub enum Subject<'s> {
     /// A scene at rest.
     Scene(&'s Scene),
     /// A panorama, with the words for its origin.
-    Panorama(&'s ugwarp::Panorama, &'s str),
+    Panorama(&'s ugwarp::Opened, &'s str),
 }
 
 /// The commands of a frame, parsed by the programs.

@@ -1,9 +1,13 @@
 //! Which direction is seen at a place of the picture.
 
+mod cap;
+
 use std::ops::Range;
 
 use glam::DVec3;
 use ugscene::View;
+
+pub use cap::{Facet, Window};
 
 /// Which direction is seen at a place of the picture.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -152,19 +156,23 @@ impl Film {
                 Some(cos * self.forward + sin * aside)
             }
             Lens::Cube => {
-                let (right, up, forward) = (self.right, self.up, self.forward);
-                // The middle of the side, and what is to the right and below in its square.
-                let [middle, across, down] = match frame {
-                    0 => [right, -forward, -up],
-                    1 => [-right, forward, -up],
-                    2 => [up, right, forward],
-                    3 => [-up, right, -forward],
-                    4 => [forward, right, -up],
-                    _ => [-forward, -right, -up],
-                };
+                let [middle, across, down] = self.side(frame);
                 let [u, v] = [2.0 * x / width - 1.0, 2.0 * y / height - 1.0];
                 Some((middle + u * across + v * down).normalize())
             }
+        }
+    }
+
+    /// The middle of a side of a cube, and what is to the right and below in its square.
+    fn side(&self, side: usize) -> [DVec3; 3] {
+        let (right, up, forward) = (self.right, self.up, self.forward);
+        match side {
+            0 => [right, -forward, -up],
+            1 => [-right, forward, -up],
+            2 => [up, right, forward],
+            3 => [-up, right, -forward],
+            4 => [forward, right, -up],
+            _ => [-forward, -right, -up],
         }
     }
 }
@@ -178,11 +186,11 @@ pub fn frame_around(pixel: u32, side: u32, n_frames: u32) -> Range<u32> {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
     use ugscene::CameraOptions;
 
-    fn film(lens: Lens, stereo: Option<f64>, samples: [u32; 2]) -> Film {
+    pub(super) fn film(lens: Lens, stereo: Option<f64>, samples: [u32; 2]) -> Film {
         let text = "v a 0 1 0; cam -ep 0 0 0 -vc 0 1 0 -ud 0 0 1;";
         let source = ugparse::Source::new("t.ug", text);
         let scene = ugparse::parse(&source, &ugparse::Options::default());

@@ -11,6 +11,8 @@
 //!   weights by true directions and solid angles. There is no aliasing where the sky is seen
 //!   smaller, by (1 − β)/(1 + β) straight ahead, and no blocks where it is seen larger.
 //! - A [`SpectralTable`] is light as seen, on an assumption about its spectrum: a [`Basis`].
+//! - A [`Star`] is a black body too small to be resolved, and [`StarLight`] what it gives an
+//!   observer in motion.
 //!
 //! ```
 //! use glam::DVec3;
@@ -36,6 +38,7 @@ mod observer;
 mod panorama;
 mod sample;
 mod spectral;
+mod stars;
 mod window;
 
 pub use cube::CubeMap;
@@ -45,3 +48,4 @@ pub use observer::{Observer, SkyRay};
 pub use panorama::{Panorama, PanoramaError, Texels};
 pub use sample::Sampler;
 pub use spectral::{Basis, BasisError, SpectralTable};
+pub use stars::{Star, StarLight};

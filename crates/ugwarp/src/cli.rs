@@ -13,20 +13,21 @@ use ugpicture::cli::{
     write_picture,
 };
 use ugpicture::lens::Lens;
-use ugpipe::{CommonArgs, Context, Failure, Manual, ToolArgs, finite, one_of, sha256, vector};
-use ugsky::{Basis, Extent};
+use ugpipe::{CommonArgs, Context, Failure, Input, Manual, ToolArgs, finite, one_of, sha256, vector};
+use ugsky::{Basis, Extent, Star};
 
 use crate::arrangement::Arrangement;
-use crate::config::Config;
+use crate::config::{Config, StarOptions};
 use crate::error::Error;
-use crate::open::open;
+use crate::open::{Opened, open};
 use crate::render::{metadata, run};
+use crate::star_list::{is_star_list, read_stars};
 
 /// Shows a 360-degree panorama as a fast traveller sees it
 ///
-/// Reads an equirectangular panorama or a cube map (PNG, JPEG, HDR or EXR) and writes a picture: a
-/// perspective view, a panorama, a fisheye or a cube map. In the panorama y is ahead, in its
-/// middle, x is to the right and z up.
+/// Reads an equirectangular panorama or a cube map (PNG, JPEG, HDR or EXR) or a list of stars (CSV)
+/// and writes a picture: a perspective view, a panorama, a fisheye or a cube map. In the panorama y
+/// is ahead, in its middle, x is to the right and z up.
 #[derive(Clone, Debug, Parser)]
 #[command(name = "ugwarp", version, after_help = EXAMPLES)]
 #[command(mut_arg("aa", |arg| arg.default_value("1")))]
@@ -84,6 +85,25 @@ pub struct Args {
           conflicts_with = "br", help_heading = COLOR)]
     basis: Option<Vec<String>>,
 
+    /// Draw the stars of a list in front of the panorama
+    ///
+    /// A list is CSV text whose first line names its columns: ra,dec,mag,kelvin. Without a
+    /// panorama, give the list in its place.
+    #[arg(long, value_name = "LIST", conflicts_with = "br", help_heading = STARS)]
+    stars: Option<PathBuf>,
+
+    /// Width of stars at half of their maximum, in pixels [default: 1.7]
+    ///
+    /// A star is a Gaussian profile on the sphere.
+    #[arg(long, value_name = "PIXELS", allow_hyphen_values = true, value_parser = finite, help_heading = STARS)]
+    star_width: Option<f64>,
+
+    /// Magnitude of stars of which one per square degree is white [default: -2]
+    ///
+    /// It relates stars to the light of a panorama, in which white is 1.
+    #[arg(long, value_name = "MAG", allow_hyphen_values = true, value_parser = finite, help_heading = STARS)]
+    white: Option<f64>,
+
     /// Leave wavelengths as they are
     #[arg(long, help_heading = COLOR)]
     no_doppler: bool,
@@ -136,12 +156,14 @@ pub struct Args {
 }
 
 const COLOR: &str = "Colour";
+const STARS: &str = "Stars";
 
 const EXAMPLES: &str = "Examples:
   ugwarp -cv 0 .9 0 -va 90 sky.png > view.png
   ugwarp -cv 0 .5 0 -sp -ex auto -pan -sz 2048 1024 sky.png > moving.png
   ugwarp -vel 0 -.9 0 --basis 3500 5900 10000 -fish 180 -sz 900 900 sky.png > dome.png
-  ugwarp -cv 0 .5 0 -dt exr -ch D,direction sky.png > light.exr";
+  ugwarp -cv 0 .5 0 -dt exr -ch D,direction sky.png > light.exr
+  ugwarp -cv 0 .9 0 -fish 180 -sz 900 900 stars.csv > stars.png";
 
 /// What the help, the man page and the completions of the program say.
 pub fn manual() -> Manual {
@@ -176,6 +198,10 @@ impl Args {
                 None if self.cube => Lens::Cube,
                 None => Lens::Pinhole,
             },
+            stars: StarOptions {
+                width: self.star_width.unwrap_or(StarOptions::default().width),
+                white: self.white.unwrap_or(StarOptions::default().white),
+            },
         })
     }
 
@@ -197,13 +223,59 @@ impl Args {
         ColorShift::Hues(HueShift { doppler, law })
     }
 
-    /// How directions are arranged in the input.
-    pub fn arrangement(&self) -> Arrangement {
-        self.from.unwrap_or_default()
+    /// Reads the panorama, or the stars, of the input and of the other files that options name.
+    ///
+    /// # Errors
+    /// A file that cannot be read, is no panorama or no list of stars, or options that do not suit
+    /// it.
+    pub fn open(&self, input: &Input, context: &Context) -> Result<Opened, Failure> {
+        let is_list = is_star_list(&input.text);
+        let mut opened = if is_list {
+            self.refuse_for_stars()?;
+            Opened { panorama: None, stars: stars(input)?, notes: Vec::new() }
+        } else {
+            self.open_panorama(input, context)?
+        };
+        if let Some(path) = &self.stars {
+            opened.stars.extend(stars(&context.input_file(path)?)?);
+        }
+        if opened.panorama.is_none() && opened.stars.is_empty() {
+            opened.notes.push("the list has no stars".to_owned());
+        }
+        Ok(opened)
+    }
+
+    /// Refuses options of panoramas, if a list of stars is read instead.
+    fn refuse_for_stars(&self) -> Result<(), Failure> {
+        let refused = |text: &str| Err(Failure::usage(text));
+        if self.from.is_some() || self.part.is_some() || !self.files.is_empty() {
+            return refused("the input is a list of stars: leave out -from, -part and other files");
+        }
+        if self.br.is_some() || self.basis.is_some() {
+            return refused(
+                "the input is a list of stars, which are black bodies: leave out -br and --basis",
+            );
+        }
+        Ok(())
+    }
+
+    fn open_panorama(&self, input: &Input, context: &Context) -> Result<Opened, Failure> {
+        let others: Vec<Input> =
+            self.files.iter().map(|path| context.input_file(path)).collect::<Result<_, _>>()?;
+        let inputs: Vec<&Input> = std::iter::once(input).chain(&others).collect();
+        let files: Vec<&[u8]> = inputs.iter().map(|input| input.text.as_slice()).collect();
+        context.detail(&format!("read {} bytes", files.iter().map(|file| file.len()).sum::<usize>()));
+        let arrangement = self.from.unwrap_or_default();
+        let opened = open(&files, arrangement, self.extent()).map_err(|error| match error {
+            Error::Read { idx, error } => Failure::Failed(format!("`{}`: {error}", inputs[idx].name)),
+            error => failure(error),
+        })?;
+        context.detail("decoded the panorama");
+        Ok(opened)
     }
 
     /// The angles that the panorama shows.
-    pub fn extent(&self) -> Option<Extent> {
+    fn extent(&self) -> Option<Extent> {
         let [west, east, south, north]: [f64; 4] = self.part.as_deref()?.try_into().ok()?;
         let radians = |edges: [f64; 2]| edges.map(f64::to_radians);
         Some(Extent { longitudes: radians([west, east]), latitudes: radians([south, north]) })
@@ -220,22 +292,18 @@ pub fn draw(args: &Args, context: &mut Context) -> Result<(), Failure> {
     if let Some(format) = config.picture.output.format() {
         refuse_terminal(format, context)?;
     }
-    let mut inputs = vec![context.input()?];
-    for path in &args.files {
-        inputs.push(context.input_file(path)?);
-    }
-    let files: Vec<&[u8]> = inputs.iter().map(|input| input.text.as_slice()).collect();
-    context.detail(&format!("read {} bytes", files.iter().map(|file| file.len()).sum::<usize>()));
-    let opened = open(&files, args.arrangement(), args.extent()).map_err(|error| match error {
-        Error::Read { idx, error } => Failure::Failed(format!("`{}`: {error}", inputs[idx].name)),
-        error => failure(error),
-    })?;
-    context.detail("decoded the panorama");
+    let input = context.input()?;
+    let opened = args.open(&input, context)?;
     let command_line = with_format(context.command_line(), config.picture.output, args.dt.is_some());
-    let origin = format!("SHA-256 {} {}", sha256(&inputs[0].text), context.recorded_name());
+    let origin = format!("SHA-256 {} {}", sha256(&input.text), context.recorded_name());
     let metadata = metadata(Some(&origin), &command_line);
     let picture = run(&config, &opened, &metadata, &context.steps()).map_err(failure)?;
     write_picture(&picture, config.picture.size, context)
+}
+
+/// The stars of a list.
+fn stars(input: &Input) -> Result<Vec<Star>, Failure> {
+    read_stars(&input.name, &input.text).map_err(|found| Failure::Report(found.render(true)))
 }
 
 fn failure(error: Error) -> Failure {

@@ -22,6 +22,23 @@ pub struct Config {
     pub picture: PictureOptions,
     /// Which direction is seen where.
     pub lens: Lens,
+    /// How stars are drawn.
+    pub stars: StarOptions,
+}
+
+/// How stars are drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StarOptions {
+    /// Full width at half maximum of the disc of a star, pixels, 0.5 to 50.
+    pub width: f64,
+    /// Magnitude of the stars of which one per square degree is light of 1.
+    pub white: f64,
+}
+
+impl Default for StarOptions {
+    fn default() -> Self {
+        Self { width: 1.7, white: -2.0 }
+    }
 }
 
 impl Default for Config {
@@ -33,6 +50,7 @@ impl Default for Config {
             basis: Basis::Smooth,
             picture: PictureOptions { samples: 1, ..PictureOptions::default() },
             lens: Lens::Pinhole,
+            stars: StarOptions::default(),
         }
     }
 }
@@ -59,6 +77,11 @@ impl Config {
         if !picture.channels.iter().all(is_of_sky) {
             return refused(
                 "a sky has no time, distance, Z or id (-ch): the channels of a panorama are D, direction and velocity",
+            );
+        }
+        if !(0.5..=50.0).contains(&self.stars.width) || !(-60.0..=60.0).contains(&self.stars.white) {
+            return refused(
+                "stars (--star-width, --white) are 0.5 to 50 pixels wide, and white has a magnitude from -60 to 60",
             );
         }
         let [width, height] = picture.size;

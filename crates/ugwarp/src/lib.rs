@@ -6,8 +6,9 @@
 //! the spectrum of its colours, infrared and ultraviolet light above all: [`Basis`] and
 //! [`ColorShift`] are assumptions about it.
 //!
-//! - [`open`] makes a panorama of the bytes of PNG, JPEG, HDR or EXR files, cube maps among them.
-//! - [`render`] makes a picture of a panorama, [`light`] linear light.
+//! - [`open`] makes a panorama of the bytes of PNG, JPEG, HDR or EXR files, cube maps among them;
+//!   [`read_stars`] reads a list of stars.
+//! - [`render`] makes a picture of a panorama, of stars or of both, [`light`] linear light.
 //! - [`Warp`] is a picture's map to the sky, and the light of its velocity, ready to use with any
 //!   number of panoramas.
 //!
@@ -17,9 +18,9 @@
 //!
 //! ```text
 //! arrangement  error  config                how directions are arranged in files; errors; options
-//! open                                      from files to panoramas
+//! open  star_list  sky                      from files to panoramas and stars; both together
 //! shade                                     colours as seen
-//! warp                                      from pixels to the sky, and their light
+//! warp  stars                               from pixels to the sky, and their light; points of light
 //! render                                    from a panorama to a picture, with messages
 //! cli                                       the command line
 //! ```
@@ -52,18 +53,23 @@ mod error;
 mod open;
 mod render;
 mod shade;
+mod sky;
+mod star_list;
+mod stars;
 mod warp;
 
 pub use arrangement::Arrangement;
 #[cfg(feature = "cli")]
 pub use cli::{Args, draw, manual};
-pub use config::Config;
+pub use config::{Config, StarOptions};
 pub use error::Error;
 pub use open::{Opened, open};
 pub use render::{Rendering, light, metadata, render, run};
+pub use sky::Sky;
+pub use star_list::{MAX_STARS, is_star_list, read_stars};
 pub use uglight::{ColorShift, HueShift, SpectralShift};
 pub use ugpicture::lens::Lens;
 pub use ugpicture::{Background, Channel, Exposure, Filter, Output, PictureFile, PictureOptions, Tone};
 pub use ugscene::CameraOptions;
-pub use ugsky::{Basis, Extent, Observer, Panorama, Texels};
+pub use ugsky::{Basis, Extent, Observer, Panorama, Star, Texels};
 pub use warp::Warp;

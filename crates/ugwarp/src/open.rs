@@ -1,15 +1,17 @@
 //! From the bytes of files to a panorama.
 
 use ugimage::{MAX_PIXELS, Pixels, read_picture};
-use ugsky::{CubeMap, Extent, Panorama, PanoramaError, Texels};
+use ugsky::{CubeMap, Extent, Panorama, PanoramaError, Star, Texels};
 
 use crate::arrangement::Arrangement;
 use crate::error::Error;
 
-/// A panorama, and what its user should know.
+/// A panorama, stars or both, and what their user should know.
 pub struct Opened {
     /// The panorama.
-    pub panorama: Panorama,
+    pub panorama: Option<Panorama>,
+    /// The stars.
+    pub stars: Vec<Star>,
     /// Notes for the user, one sentence each.
     pub notes: Vec<String>,
 }
@@ -42,7 +44,7 @@ pub fn open(files: &[&[u8]], arrangement: Arrangement, extent: Option<Extent>) -
         Arrangement::Equirectangular => equirectangular(pictures, extent)?,
         _ => cube(pictures, arrangement)?.panorama()?,
     };
-    Ok(Opened { panorama, notes })
+    Ok(Opened { panorama: Some(panorama), stars: Vec::new(), notes })
 }
 
 type Picture = ([u32; 2], Texels);
@@ -152,7 +154,7 @@ mod tests {
             let opened = open(&files, arrangement, None).unwrap_or_else(|error| panic!("{error}"));
             let config = crate::Config { lens: crate::Lens::Panorama, ..crate::Config::default() };
             let picture = crate::PictureOptions { size: [40, 20], samples: 1, ..config.picture.clone() };
-            crate::light(&opened.panorama, &crate::Config { picture, ..config }).unwrap()
+            crate::light(&opened, &crate::Config { picture, ..config }).unwrap()
         };
         let files: Vec<Vec<u8>> = (0..6).map(|face| png([SIDE, SIDE], |at| side(face, at))).collect();
         let expected = light(&files, Arrangement::Sides);

@@ -2,6 +2,7 @@
 
 use rayon::prelude::*;
 use ugimage::{Compression, Development, Frame, LinearFrame, Metadata};
+use uglight::{ColorShift, SpectralShift};
 use ugparse::{Diagnostics, Scene, Source};
 use ugpicture::{
     Annotated, Annotations, DepthBuffer, Error as PictureError, Exposure, Image, Layout, Output, PictureFile,
@@ -9,11 +10,13 @@ use ugpicture::{
 };
 use ugpipe::Progress;
 use ugscene::CameraOptions;
-use ugsky::Panorama;
+use ugsky::Basis;
 
 use crate::config::Config;
 use crate::error::Error;
 use crate::open::Opened;
+use crate::sky::Sky;
+use crate::stars::{StarField, parts};
 use crate::warp::{Statistics, Warp, camera};
 
 /// Least brightness at which clipping is reported; less is invisible in 8 bits.
@@ -41,12 +44,12 @@ impl Rendering {
     }
 }
 
-/// Makes a picture of a panorama.
+/// Makes a picture of a panorama, of stars or of both.
 ///
 /// # Errors
 /// See [`Error`].
-pub fn render(panorama: &Panorama, config: &Config) -> Result<Rendering, Error> {
-    render_with(panorama, config, &())
+pub fn render<'s>(sky: impl Into<Sky<'s>>, config: &Config) -> Result<Rendering, Error> {
+    render_with(sky.into(), config, &())
 }
 
 /// The linear light of a picture with its channels, without exposure and gamut mapping: white is 1.
@@ -55,16 +58,47 @@ pub fn render(panorama: &Panorama, config: &Config) -> Result<Rendering, Error> 
 ///
 /// # Errors
 /// See [`Error`].
-pub fn light(panorama: &Panorama, config: &Config) -> Result<LinearFrame, Error> {
-    let mut config = config.clone();
+pub fn light<'s>(sky: impl Into<Sky<'s>>, config: &Config) -> Result<LinearFrame, Error> {
+    let sky = sky.into();
+    let mut config = options_for(sky, config);
     let picture = &mut config.picture;
     (picture.output, picture.exposure, picture.tone) =
         (Output::Color(ugimage::Format::Exr), None, ugimage::Tone::Clip);
     picture.annotations = ugpicture::AnnotationOptions::default();
     let warp = Warp::new(&config)?;
-    let (mut frame, _) = warp.light(panorama, &());
+    let (mut frame, _) = seen(sky, &warp, &config, &())?;
     push_channels(&mut frame, &warp, &config);
     Ok(frame)
+}
+
+/// The light of a sky.
+fn seen(
+    sky: Sky<'_>,
+    warp: &Warp,
+    config: &Config,
+    progress: &dyn Progress,
+) -> Result<(LinearFrame, Statistics), Error> {
+    let (mut frame, mut statistics) = match sky.panorama {
+        Some(panorama) => warp.light(panorama, progress),
+        None => warp.darkness(),
+    };
+    if !sky.stars.is_empty() {
+        progress.step("stars", 0);
+        statistics.max_light = StarField::new(sky.stars, config)?.add(sky.stars, &mut frame);
+    }
+    Ok((frame, statistics))
+}
+
+/// The options for a sky. Stars are black bodies, so their spectra are shifted.
+fn options_for(sky: Sky<'_>, config: &Config) -> Config {
+    let mut config = config.clone();
+    if sky.panorama.is_none() {
+        let [doppler, flux] = parts(config.shift);
+        config.shift = ColorShift::Spectra(SpectralShift { doppler, flux });
+        // Colours of a panorama are not needed, and this basis is computed at once.
+        config.basis = Basis::Planck([3500.0, 5900.0, 10_000.0]);
+    }
+    config
 }
 
 /// Adds the channels that the options ask for.
@@ -93,7 +127,7 @@ pub fn run(
     metadata: &Metadata,
     progress: &dyn Progress,
 ) -> Result<PictureFile, Error> {
-    let rendering = render_with(&opened.panorama, config, progress)?;
+    let rendering = render_with(opened.into(), config, progress)?;
     progress.step("compression", 0);
     let notes = opened.notes.iter().chain(&rendering.notes).cloned().collect();
     Ok(PictureFile {
@@ -103,14 +137,15 @@ pub fn run(
     })
 }
 
-fn render_with(panorama: &Panorama, config: &Config, progress: &dyn Progress) -> Result<Rendering, Error> {
+fn render_with(sky: Sky<'_>, config: &Config, progress: &dyn Progress) -> Result<Rendering, Error> {
     config.check()?;
+    let config = &options_for(sky, config);
     let layout = Layout::new(&config.picture)?;
     let config = &Config { picture: layout.of_scene(&config.picture).into_owned(), ..config.clone() };
     let picture = &config.picture;
     progress.step("preparing", 0);
     let warp = Warp::new(config)?;
-    let (mut frame, statistics) = warp.light(panorama, progress);
+    let (mut frame, statistics) = seen(sky, &warp, config, progress)?;
     push_channels(&mut frame, &warp, config);
     let (image, development) = developed(frame, &warp, config);
     progress.step("annotating", 0);

@@ -144,6 +144,22 @@ impl Warp {
         (LinearFrame::new(self.size, backdrop.is_opaque(), pixels), statistics)
     }
 
+    /// A black sky on the background, which is outside the circle of a fisheye.
+    pub fn darkness(&self) -> (LinearFrame, Statistics) {
+        let backdrop = Backdrop::new(self.background, 1);
+        let (n, width) = (f64::from(self.samples), self.size[0] as usize);
+        let covered = |idx: usize| {
+            let place = [idx % width, idx / width].map(|at| n * (at as f64 + 0.5));
+            f32::from(self.film.sight(place).is_some())
+        };
+        let n_pixels = width * self.size[1] as usize;
+        let pixel = |idx: usize| backdrop.pixel([0.0; 3], covered(idx));
+        let pixels: Vec<[f32; 4]> = (0..n_pixels).into_par_iter().map(pixel).collect();
+        let n_covered = pixels.par_iter().filter(|pixel| pixel[3] > 0.0).count() as u64;
+        let statistics = Statistics { max_light: 0.0, n_covered };
+        (LinearFrame::new(self.size, backdrop.is_opaque(), pixels), statistics)
+    }
+
     /// Sets pixels of a row to the mean light of their samples, times their covered part, and that
     /// part. `found`: a buffer for a row of samples.
     fn add_row(

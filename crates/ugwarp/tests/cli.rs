@@ -139,3 +139,45 @@ fn a_closed_pipe_ends_the_program() {
     let output = child.wait_with_output().unwrap();
     assert_eq!((output.status.signal(), messages(&output)), (Some(13), String::new()));
 }
+
+/// A list of stars is drawn in place of a panorama or in front of one, with the same bytes on any
+/// number of threads.
+#[test]
+fn lists_of_stars_are_drawn() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("stars.csv");
+    let star = |idx: u32| {
+        let [ra, dec] = [idx * 7 % 360, idx * 11 % 180].map(f64::from);
+        format!("{ra},{},{},{}\n", dec - 90.0, idx % 5, 3000 + 50 * idx)
+    };
+    let list: String = (0..300).map(star).collect();
+    let list = format!("ra,dec,mag,kelvin\n{list}");
+    std::fs::write(&path, &list).unwrap();
+    let path = path.to_str().unwrap();
+    for options in [vec!["-fish", "180"], vec!["-pan"], vec!["-va", "100"], vec!["-cube", "-sz", "240", "40"]]
+    {
+        let run = |threads: &str, more: &[&str], input: &[u8]| {
+            let size = if options[0] == "-cube" { vec![] } else { vec!["-sz", "80", "60"] };
+            let args = [&options[..], &size, &["-cv", ".4", ".6", "0", "-qt", "-nt", threads], more].concat();
+            let output = fed(&args, input);
+            assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+            output.stdout
+        };
+        let one = run("1", &[], list.as_bytes());
+        assert_eq!(one, run("7", &[], list.as_bytes()));
+        let both = run("1", &["--stars", path, "-sp"], &sky());
+        assert_eq!(both, run("7", &["--stars", path, "-sp"], &sky()));
+        assert!(both != one && both != run("2", &["-sp"], &sky()));
+    }
+    refused(&["--stars", path, "--br", "photon"], &sky(), 2, "`-br`");
+    refused(
+        &["-part", "-10", "10", "-5", "5"],
+        list.as_bytes(),
+        2,
+        "the input is a list of stars: leave out -from",
+    );
+    refused(&["--basis", "smooth"], list.as_bytes(), 2, "leave out -br and --basis");
+    refused(&["--star-width", "0"], list.as_bytes(), 2, "0.5 to 50 pixels wide");
+    refused(&[], b"ra,dec,mag,kelvin\n1,2,3,x\n", 1, "<stdin>:2:7");
+    refused(&["--stars", "no-such-list.csv"], &sky(), 1, "No such file");
+}

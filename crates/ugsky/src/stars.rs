@@ -1,0 +1,124 @@
+//! Stars: black bodies too small to be resolved.
+
+use glam::DVec3;
+use ugphysics::xyz_to_linear_srgb;
+use ugspectrum::{DopplerGrid, DopplerTable, Spectrum};
+
+/// A star in the frame of a sky.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Star {
+    /// Unit vector to it.
+    pub direction: DVec3,
+    /// Apparent visual magnitude for an observer at rest.
+    pub magnitude: f64,
+    /// Temperature of the black body of its colour, kelvins.
+    pub kelvin: f64,
+}
+
+/// The temperature to which the table is relative, kelvins.
+const REFERENCE: f64 = 5800.0;
+
+/// |ln D| up to which starlight is tabulated. Beyond it the nearest entry is used.
+const MOST_LN_DOPPLER: f64 = 30.0;
+
+/// Irradiance by stars as a moving observer measures it.
+///
+/// A star of temperature T is seen as a black body of D T, so its radiance per wavelength is D⁵
+/// L(λD). Its disc is D² times smaller in solid angle, so its irradiance per wavelength grows by D³,
+/// and over all wavelengths by D².  Eq. (P6), (P12), (P13)
+///
+/// ```
+/// use glam::DVec3;
+/// use ugsky::{Star, StarLight};
+///
+/// let sun = Star { direction: DVec3::Y, magnitude: 0.0, kelvin: 5800.0 };
+/// let light = StarLight::new(&[sun], [true, true], 0.5);
+/// // At rest a star of magnitude 0 has luminance 1.
+/// let luminance = ugphysics::luminance(light.irradiance(&sun, 1.0));
+/// assert!((luminance - 1.0).abs() < 1e-4);
+/// ```
+pub struct StarLight {
+    table: DopplerTable,
+    doppler: bool,
+    flux: bool,
+}
+
+impl StarLight {
+    /// A table for stars and Doppler factors up to e^±`reach`. `shift`: whether wavelengths are
+    /// shifted, and whether the radiance at each wavelength is multiplied by D⁵. Directions, and
+    /// so solid angles, always change.
+    #[must_use]
+    pub fn new(stars: &[Star], shift: [bool; 2], reach: f64) -> Self {
+        let reach = reach.abs().min(MOST_LN_DOPPLER);
+        let [mut low, mut high] = [0.0_f64; 2];
+        for star in stars {
+            let ln = ln_relative(star.kelvin);
+            (low, high) = (low.min(ln), high.max(ln));
+        }
+        let grid = DopplerGrid::new(low - reach..=high + reach);
+        let table = grid.table(&Spectrum::blackbody(REFERENCE, 1.0));
+        Self { table, doppler: shift[0], flux: shift[1] }
+    }
+
+    /// Linear red, green and blue of the irradiance by a star that is seen with a Doppler factor,
+    /// above 0. The luminance of a star of magnitude 0 at rest is 1.
+    #[must_use]
+    pub fn irradiance(&self, star: &Star, doppler: f64) -> [f64; 3] {
+        let rest = ln_relative(star.kelvin);
+        let seen = if self.doppler { rest + libm::log(doppler) } else { rest };
+        let [_, luminance, _] = self.table.xyz(rest);
+        let gain = if self.flux { doppler * doppler * doppler } else { 1.0 / (doppler * doppler) };
+        let scale = gain * libm::exp10(-0.4 * star.magnitude) / luminance;
+        xyz_to_linear_srgb(self.table.xyz(seen).map(|part| part * scale))
+    }
+}
+
+fn ln_relative(kelvin: f64) -> f64 {
+    libm::log(kelvin / REFERENCE)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ugphysics::linear_srgb_to_xyz;
+    use ugspectrum::planck;
+
+    /// Irradiance by Planck's law and the CIE's tables, with no table over D, up to a constant.
+    fn exact(kelvin: f64, doppler: f64) -> [f64; 3] {
+        let radiance = |nm: f64| doppler.powi(5) * planck(nm * doppler, kelvin);
+        let rest = ugspectrum::integrate(|nm| planck(nm, kelvin))[1];
+        ugspectrum::integrate(radiance).map(|part| part / rest / (doppler * doppler))
+    }
+
+    #[test]
+    fn irradiance_is_that_of_a_smaller_disc() {
+        for kelvin in [2500.0, 3500.0, 5800.0, 10_000.0, 30_000.0] {
+            let star = Star { direction: DVec3::Y, magnitude: 2.0, kelvin };
+            let light = StarLight::new(&[star], [true, true], 2.7);
+            for ln in [-2.65, -1.47, -0.55, -0.01, 0.0, 0.3, 0.549, 1.472, 2.647] {
+                let doppler = libm::exp(ln);
+                let seen = linear_srgb_to_xyz(light.irradiance(&star, doppler));
+                for (found, expected) in seen.iter().zip(exact(kelvin, doppler)) {
+                    let expected = expected * libm::exp10(-0.8);
+                    let error = (found / expected - 1.0).abs();
+                    assert!(error < 1e-5, "{kelvin} K, ln D {ln}: {found} {expected}");
+                }
+            }
+        }
+    }
+
+    /// The parts of the effect: the shift alone, and brightness alone.
+    #[test]
+    fn parts_multiply() {
+        let star = Star { direction: DVec3::Y, magnitude: -1.0, kelvin: 4000.0 };
+        let light = |shift| StarLight::new(&[star], shift, 1.0).irradiance(&star, 2.0);
+        let [all, shift, flux, none] =
+            [[true, true], [true, false], [false, true], [false, false]].map(light);
+        for channel in 0..3 {
+            assert!((shift[channel] * 32.0 / all[channel] - 1.0).abs() < 1e-12);
+            assert!((none[channel] * 32.0 / flux[channel] - 1.0).abs() < 1e-12);
+        }
+        let luminance = ugphysics::luminance(none) * 4.0;
+        assert!((luminance / libm::exp10(0.4) - 1.0).abs() < 1e-4, "{luminance}");
+    }
+}

@@ -1,0 +1,174 @@
+//! Stars as points of light in a picture.
+
+use core::ops::Range;
+
+use glam::DVec3;
+use rayon::prelude::*;
+use ugimage::LinearFrame;
+use uglight::ColorShift;
+use ugparse::Scene;
+use ugphysics::Brightness;
+use ugpicture::lens::{Film, Lens, Window};
+use ugscene::View;
+use ugsky::{Observer, Star, StarLight};
+
+use crate::config::Config;
+use crate::error::Error;
+use crate::warp::camera;
+
+/// Rows that one task draws.
+const BAND: u32 = 16;
+
+/// Stars whose places are in memory at once.
+const CHUNK: usize = 1 << 17;
+
+/// Radius of a star's disc in standard deviations of its profile.
+const REACH: f64 = 4.0;
+
+/// Standard deviations of a Gaussian in its full width at half maximum, 2 √(2 ln 2).
+const DEVIATIONS: f64 = 2.354_820_045_030_949_3;
+
+/// Largest value of a channel, far from the end of single precision.
+const MOST: f64 = 1e30;
+
+/// Stars in a picture: their directions by aberration, and their light spread over pixels.
+///
+/// The profile of a star is a Gaussian of the angle to it, cut off at four standard deviations. It
+/// is normalised by the sum over the pixels, so that light times solid angle, added up, is the
+/// irradiance, wherever the star is between the middles of pixels and whatever the lens.
+pub struct StarField {
+    size: [u32; 2],
+    film: Film,
+    lens: Lens,
+    observer: Observer,
+    light: StarLight,
+    /// Standard deviation of the profile in pixels.
+    deviation: f64,
+    /// Light per irradiance and steradian.
+    scale: f64,
+}
+
+/// A star as seen.
+struct Point {
+    direction: DVec3,
+    /// Irradiance divided by the sum of the profile times solid angles.
+    light: [f64; 3],
+    deviation: f64,
+    rows: Range<u32>,
+}
+
+impl StarField {
+    /// The map of a picture's options for a list of stars.
+    ///
+    /// # Errors
+    /// The camera of the picture is invalid.
+    pub fn new(stars: &[Star], config: &Config) -> Result<Self, Error> {
+        let picture = &config.picture;
+        let [across, down] = config.lens.frames(false);
+        let frame = [picture.size[0] / across, picture.size[1] / down];
+        let view = View::new(&Scene::default(), &camera(&picture.camera), frame)?;
+        Ok(Self {
+            size: picture.size,
+            film: Film::new(config.lens, None, &view, frame),
+            lens: config.lens,
+            observer: Observer::new(config.velocity),
+            light: StarLight::new(stars, parts(config.shift), config.velocity.rapidity()),
+            deviation: config.stars.width / DEVIATIONS,
+            scale: libm::exp10(0.4 * config.stars.white) * 1.0_f64.to_radians().powi(2),
+        })
+    }
+
+    /// Adds the light of stars to a picture. Returns the largest channel of its pixels.
+    pub fn add(&self, stars: &[Star], frame: &mut LinearFrame) -> f32 {
+        let n_bands = self.size[1].div_ceil(BAND);
+        for stars in stars.chunks(CHUNK) {
+            let points: Vec<Point> = stars.par_iter().filter_map(|star| self.point(star)).collect();
+            let mut bands = vec![Vec::new(); n_bands as usize];
+            for (idx, point) in points.iter().enumerate() {
+                for band in point.rows.start / BAND..=(point.rows.end - 1) / BAND {
+                    bands[band as usize].push(idx);
+                }
+            }
+            let rows = frame.pixels_mut().par_chunks_mut((BAND * self.size[0]) as usize);
+            rows.zip(bands).enumerate().for_each(|(band, (pixels, indices))| {
+                let top = band as u32 * BAND;
+                indices.into_iter().for_each(|idx| self.draw(&points[idx], top, pixels));
+            });
+        }
+        let largest = |pixel: &[f32; 4]| pixel[0].max(pixel[1]).max(pixel[2]);
+        frame.pixels().par_iter().map(largest).reduce(|| 0.0, f32::max)
+    }
+
+    /// A star as seen; `None` if none of its light is in the picture.
+    fn point(&self, star: &Star) -> Option<Point> {
+        let (direction, doppler) = self.observer.seen_direction(star.direction);
+        let deviation = self.deviation_at(direction);
+        if deviation <= 0.0 {
+            return None;
+        }
+        let (mut sum, mut rows) = (0.0, u32::MAX..0);
+        for window in self.film.cap(direction, REACH * deviation) {
+            self.film.visit(&window, |facet| {
+                let square = (facet.direction - direction).length_squared();
+                sum += profile(square, deviation) * facet.solid_angle;
+            });
+            let [from, to] =
+                [window.rows.start, window.rows.end].map(|row| row.clamp(0, i64::from(self.size[1])) as u32);
+            rows = rows.start.min(from)..rows.end.max(to);
+        }
+        if sum <= 0.0 || rows.is_empty() {
+            return None;
+        }
+        let irradiance = self.light.irradiance(star, doppler);
+        let light = irradiance.map(|part| (part * self.scale / sum).clamp(-MOST, MOST));
+        Some(Point { direction, light, deviation, rows })
+    }
+
+    /// Standard deviation of the profile at a direction, radians; 0 where the lens shows nothing.
+    fn deviation_at(&self, direction: DVec3) -> f64 {
+        // A disc has to be ahead of a pinhole, and smaller than a quarter of the sphere.
+        const MOST_DEVIATION: f64 = 0.3;
+        let side = self.deviation * self.film.pixel_side(direction);
+        let most = if self.lens == Lens::Pinhole {
+            MOST_DEVIATION.min(self.film.ahead(direction) / (2.0 * REACH))
+        } else {
+            MOST_DEVIATION
+        };
+        side.min(most)
+    }
+
+    /// Adds the light of a star to rows of the picture from `top` on.
+    fn draw(&self, point: &Point, top: u32, pixels: &mut [[f32; 4]]) {
+        let width = self.size[0] as usize;
+        let bottom = i64::from(top) + (pixels.len() / width) as i64;
+        for window in self.film.cap(point.direction, REACH * point.deviation) {
+            let rows = window.rows.start.max(i64::from(top))..window.rows.end.min(bottom);
+            self.film.visit(&Window { rows, ..window }, |facet| {
+                let Some([column, row]) = facet.place else { return };
+                let square = (facet.direction - point.direction).length_squared();
+                let weight = profile(square, point.deviation);
+                if weight > 0.0 {
+                    let pixel = &mut pixels[(row - top) as usize * width + column as usize];
+                    (0..3).for_each(|channel| pixel[channel] += (weight * point.light[channel]) as f32);
+                    let brightest = pixel[0].max(pixel[1]).max(pixel[2]);
+                    pixel[3] = pixel[3].max(brightest.min(1.0));
+                }
+            });
+        }
+    }
+}
+
+/// Whether wavelengths are shifted, and whether brightness changes.
+pub fn parts(shift: ColorShift) -> [bool; 2] {
+    match shift {
+        ColorShift::Spectra(shift) => [shift.doppler, shift.flux],
+        ColorShift::Hues(shift) => [shift.doppler, shift.law != Brightness::None],
+    }
+}
+
+/// The profile of a star at the square of a distance on the unit sphere.
+#[inline]
+fn profile(square: f64, deviation: f64) -> f64 {
+    let ratio = square / (deviation * deviation);
+    if ratio < REACH * REACH { libm::exp(-0.5 * ratio) } else { 0.0 }
+}
