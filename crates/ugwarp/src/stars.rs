@@ -28,6 +28,9 @@ const REACH: f64 = 4.0;
 /// Standard deviations of a Gaussian in its full width at half maximum, 2 √(2 ln 2).
 const DEVIATIONS: f64 = 2.354_820_045_030_949_3;
 
+/// A square degree, in steradians.
+const SQUARE_DEGREE: f64 = (core::f64::consts::PI / 180.0) * (core::f64::consts::PI / 180.0);
+
 /// Largest value of a channel, far from the end of single precision.
 const MOST: f64 = 1e30;
 
@@ -74,7 +77,7 @@ impl StarField {
             observer: Observer::new(config.velocity),
             light: StarLight::new(stars, parts(config.shift), config.velocity.rapidity()),
             deviation: config.stars.width / DEVIATIONS,
-            scale: libm::exp10(0.4 * config.stars.white) * 1.0_f64.to_radians().powi(2),
+            scale: libm::exp10(0.4 * config.stars.white) * SQUARE_DEGREE,
         })
     }
 
@@ -106,7 +109,7 @@ impl StarField {
         if deviation <= 0.0 {
             return None;
         }
-        let (mut sum, mut rows) = (0.0, u32::MAX..0);
+        let (mut sum, mut first, mut last) = (0.0, u32::MAX, 0);
         for window in self.film.cap(direction, REACH * deviation) {
             self.film.visit(&window, |facet| {
                 let square = (facet.direction - direction).length_squared();
@@ -114,14 +117,14 @@ impl StarField {
             });
             let [from, to] =
                 [window.rows.start, window.rows.end].map(|row| row.clamp(0, i64::from(self.size[1])) as u32);
-            rows = rows.start.min(from)..rows.end.max(to);
+            (first, last) = (first.min(from), last.max(to));
         }
-        if sum <= 0.0 || rows.is_empty() {
+        if sum <= 0.0 || first >= last {
             return None;
         }
         let irradiance = self.light.irradiance(star, doppler);
         let light = irradiance.map(|part| (part * self.scale / sum).clamp(-MOST, MOST));
-        Some(Point { direction, light, deviation, rows })
+        Some(Point { direction, light, deviation, rows: first..last })
     }
 
     /// Standard deviation of the profile at a direction, radians; 0 where the lens shows nothing.

@@ -160,7 +160,7 @@ fn lists_of_stars_are_drawn() {
             let size = if options[0] == "-cube" { vec![] } else { vec!["-sz", "80", "60"] };
             let args = [&options[..], &size, &["-cv", ".4", ".6", "0", "-qt", "-nt", threads], more].concat();
             let output = fed(&args, input);
-            assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+            assert_eq!(output.status.code(), Some(0), "{}", messages(&output));
             output.stdout
         };
         let one = run("1", &[], list.as_bytes());

@@ -105,6 +105,7 @@ pub fn warp(random: &mut Random) -> ugwarp::Config {
             2 => Lens::Cube,
             _ => Lens::Pinhole,
         },
+        stars: ugwarp::StarOptions { width: random.between(0.4, 52.0), white: number(random) },
     }
 }
 

@@ -151,7 +151,7 @@ pub fn panorama(seed: u64, bytes: &[u8]) -> Result<(), String> {
     let arrangement = *random.pick(&ugwarp::Arrangement::ALL);
     let config = config::warp(&mut random);
     let Ok(opened) = ugwarp::open(&[bytes], arrangement, None) else { return Ok(()) };
-    let light = match ugwarp::light(&opened.panorama, &config) {
+    let light = match ugwarp::light(&opened, &config) {
         Ok(light) => light,
         // Options that exclude each other.
         Err(_) => return Ok(()),
@@ -161,7 +161,7 @@ pub fn panorama(seed: u64, bytes: &[u8]) -> Result<(), String> {
     }
     if seed.is_multiple_of(4) {
         let other = if rayon::current_num_threads() > 1 { &ONE } else { &TWO };
-        match other.install(|| ugwarp::light(&opened.panorama, &config)) {
+        match other.install(|| ugwarp::light(&opened, &config)) {
             Ok(again) if again == light => {}
             _ => return Err("another number of threads gives other light".to_owned()),
         }
