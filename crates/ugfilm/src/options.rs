@@ -11,7 +11,7 @@ use crate::program::Program;
 
 /// Options that a film has itself or does without, because they write something else than a
 /// picture.
-const LEFT_OUT: [&str; 5] = ["dt", "at", "explain", "dp", "crop"];
+const LEFT_OUT: [&str; 6] = ["dt", "at", "explain", "dp", "crop", "pv"];
 
 /// An option as it was given.
 #[derive(Clone, Debug, PartialEq, Eq)]

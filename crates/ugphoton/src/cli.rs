@@ -18,7 +18,7 @@ use crate::config::{Config, RayOptions, Shutter};
 use crate::error::Error;
 use crate::explain::{self, explain};
 use crate::lens::Lens;
-use crate::run;
+use crate::render::Drawing;
 
 /// Draws a UniGrafix scene in motion by tracing rays: mirrors, glass, shadows
 ///
@@ -137,6 +137,14 @@ pub struct Args {
     #[arg(long, num_args = 4, value_names = ["X", "Y", "W", "H"], action = ArgAction::Set,
           value_parser = whole(0..=u32::MAX), help_heading = PICTURE)]
     crop: Option<Vec<u32>>,
+
+    /// Write a coarse picture at once, and replace it by finer ones until it is done
+    ///
+    /// FILE (-fo) is first a picture in squares of 8 x 8 pixels with one sample each, then of 4 x 4
+    /// and 2 x 2, and at last the picture itself, with the same bytes as without -pv. It is complete
+    /// at any time, so a viewer that reloads it shows the progress.
+    #[arg(long, visible_alias = "preview", conflicts_with = "explain", help_heading = PICTURE)]
+    pv: bool,
 
     /// Smooth shading
     ///
@@ -276,10 +284,21 @@ pub fn draw(args: &Args, context: &mut Context) -> Result<(), Failure> {
     if let Some(format) = config.picture.output.format() {
         refuse_terminal(format, context)?;
     }
+    let preview = if args.pv { Some(context.replaceable_output().ok_or_else(no_preview)?) } else { None };
     let source = pipe::read(context, &config.reading)?;
     let command_line = with_format(context.command_line(), config.picture.output, args.dt.is_some());
-    let picture = run(&config, &source, &command_line, &context.steps()).map_err(failure)?;
+    let drawing = Drawing::read(&config, &source, &command_line, &context.steps()).map_err(failure)?;
+    if let Some(file) = preview {
+        for side in Drawing::PREVIEWS {
+            Context::write_now(&file, &drawing.preview(side, &context.steps()).map_err(failure)?)?;
+        }
+    }
+    let picture = drawing.picture(&context.steps()).map_err(failure)?;
     write_picture(&picture, config.picture.size, context)
+}
+
+fn no_preview() -> Failure {
+    Failure::usage("-pv replaces a file by finer pictures: name one with -fo FILE, or leave out -pv")
 }
 
 fn failure(error: Error) -> Failure {

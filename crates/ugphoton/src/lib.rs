@@ -19,11 +19,12 @@
 //!
 //! ```text
 //! error  config                             errors; options
-//! sampling  frame  path  moving_boxes       rest frames; rays and their media; which bodies they may meet
+//! sampling  frame  path                      rest frames; rays and their media
+//! outline  moving_boxes  corridor            which bodies rays may meet
 //! world                                     the faces, by rest frame
 //! scenery                                   a scene prepared for rays
 //! surface_point  shade  tracer              what a ray sees of a face; lamps; mirrors and glass
-//! pixels  notes  render  explain            from samples to a picture, with messages; one pixel
+//! middles  pixels  notes  render  explain   from samples to a picture, with messages; one pixel
 //! cli                                       the command line
 //! ```
 //!
@@ -51,11 +52,14 @@
 #[cfg(feature = "cli")]
 mod cli;
 mod config;
+mod corridor;
 mod error;
 pub mod explain;
 mod frame;
+mod middles;
 mod moving_boxes;
 mod notes;
+mod outline;
 mod path;
 mod pixels;
 mod render;
@@ -73,7 +77,7 @@ pub use cli::{Args, draw, manual};
 pub use config::{Config, RayOptions, Shutter};
 pub use error::Error;
 pub use explain::explain;
-pub use render::{Rendering, light, metadata, render, run};
+pub use render::{Drawing, Rendering, light, metadata, render, run};
 pub use tracer::Way;
 pub use uglight::{ColorShift, HueShift, Interpolation, SpectralShift};
 pub use ugparse::HueScale;

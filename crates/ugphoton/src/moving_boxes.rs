@@ -107,14 +107,16 @@ struct Node {
     children: [u32; WIDTH],
 }
 
-/// Rays from one event into the past.
+/// A ray into the past, or several with origins and steps close to each other.
 #[derive(Clone, Copy, Debug)]
 pub struct Rays {
-    origin: Event,
+    /// Bounds of their origins.
+    from: Event,
+    to: Event,
     /// Bounds of their steps for each unit of time.
     low: DVec3,
     high: DVec3,
-    /// The greatest coordinate of the origin.
+    /// The greatest coordinate of an origin.
     reach: f64,
 }
 
@@ -123,9 +125,8 @@ impl Rays {
     /// past of the picture.
     pub fn from_step(origin: Event, step: Event) -> Option<Self> {
         let direction = step.x / -step.t;
-        let reach = origin.x.abs().max_element().max(-origin.t);
-        let is_past = origin.t <= 0.0 && step.t < 0.0 && direction.is_finite() && reach.is_finite();
-        is_past.then_some(Self { origin, low: direction, high: direction, reach })
+        let is_past = step.t < 0.0 && direction.is_finite();
+        is_past.then(|| Self::bounded([origin; 2], [direction; 2])).flatten()
     }
 
     /// Rays of light from the eye, in directions of any length but 0.
@@ -135,8 +136,44 @@ impl Rays {
             let unit = direction / direction.length();
             (low.min(unit), high.max(unit))
         });
-        let origin = Event { t: 0.0, x: DVec3::ZERO };
-        (low.is_finite() && high.is_finite()).then_some(Self { origin, low, high, reach: 0.0 })
+        let is_finite = low.is_finite() && high.is_finite();
+        is_finite.then(|| Self::bounded([Event { t: 0.0, x: DVec3::ZERO }; 2], [low, high])).flatten()
+    }
+
+    /// Rays with the least and greatest coordinates and times of their origins, and steps for each
+    /// unit of time. Returns `None` if an origin may be after the picture.
+    fn bounded([from, to]: [Event; 2], [low, high]: [DVec3; 2]) -> Option<Self> {
+        let reach = from.x.abs().max(to.x.abs()).max_element().max(-from.t);
+        let is_past = to.t <= 0.0 && reach.is_finite();
+        is_past.then_some(Self { from, to, low, high, reach })
+    }
+
+    /// Rays whose origins and steps differ from those of a single one by up to `margin` and
+    /// `turn`.
+    pub fn around(&self, margin: f64, turn: f64) -> Option<Self> {
+        let (from, to) = (self.from, self.to);
+        // Times of a surface that is seen at once differ by as much as its distances.
+        let origins = [
+            Event { t: from.t - 2.0 * margin, x: from.x - margin },
+            Event { t: (to.t + 2.0 * margin).min(0.0), x: to.x + margin },
+        ];
+        Self::bounded(origins, [self.low - turn, self.high + turn])
+    }
+
+    /// The greatest coordinate of an origin, or time before the picture.
+    pub fn reach(&self) -> f64 {
+        self.reach
+    }
+
+    /// True if it bounds all other rays, too.
+    pub fn contains(&self, other: &Self) -> bool {
+        let is_ascending = |low: DVec3, high: DVec3| low.cmple(high).all();
+        self.from.t <= other.from.t
+            && other.to.t <= self.to.t
+            && is_ascending(self.from.x, other.from.x)
+            && is_ascending(other.to.x, self.to.x)
+            && is_ascending(self.low, other.low)
+            && is_ascending(other.high, self.high)
     }
 }
 
@@ -178,8 +215,8 @@ impl MovingBoxes {
     /// the nearest first. `visit` returns the end of the range from then on.
     pub fn visit_nearest(&self, rays: &Rays, range: Range<f64>, mut visit: impl FnMut(usize) -> f64) {
         let (start, mut end) = (range.start * (1.0 - ROUNDING), range.end * (1.0 + ROUNDING));
-        let turn = rays.origin.t + self.time;
-        let [before_turn, behind_turn] = [turn * (1.0 - ROUNDING), turn * (1.0 + ROUNDING)];
+        let turns = [rays.from.t + self.time, rays.to.t + self.time];
+        let [before_turn, behind_turn] = [turns[0] * (1.0 - ROUNDING), turns[1] * (1.0 + ROUNDING)];
         let mut stack = [(0.0, 0); MOST_ENTRIES];
         let mut n = 1;
         while n > 0 {
@@ -197,11 +234,11 @@ impl MovingBoxes {
             let mut entries = [f64::INFINITY; WIDTH];
             if before_turn < end {
                 let limits = [if before_turn > start { before_turn } else { start }, end];
-                node.enter(rays, turn, [&node.slowest, &node.fastest], limits, &mut entries);
+                node.enter(rays, turns, [&node.slowest, &node.fastest], limits, &mut entries);
             }
             if behind_turn > start {
                 let limits = [start, if behind_turn < end { behind_turn } else { end }];
-                node.enter(rays, turn, [&node.fastest, &node.slowest], limits, &mut entries);
+                node.enter(rays, turns, [&node.fastest, &node.slowest], limits, &mut entries);
             }
             for (child, near) in entries.into_iter().enumerate() {
                 if near < f64::INFINITY {
@@ -281,12 +318,13 @@ impl Node {
     }
 
     /// Reduces entries to the times before the origin, within limits, at which rays may enter each
-    /// child. `turn`: the reference time. `velocities`: of the upper sides and of the lower sides.
+    /// child. `turns`: bounds of the reference time before the origins. `of_high`, `of_low`: the
+    /// velocities of the upper sides and of the lower sides.
     #[inline]
     fn enter(
         &self,
         rays: &Rays,
-        turn: f64,
+        turns: [f64; 2],
         [of_high, of_low]: [&[[f64; WIDTH]; 3]; 2],
         [start, end]: [f64; 2],
         entries: &mut [f64; WIDTH],
@@ -294,16 +332,18 @@ impl Node {
         let mut near = [start; WIDTH];
         let mut far = [end; WIDTH];
         for axis in 0..3 {
-            let origin = rays.origin.x[axis];
+            let (from, to) = (rays.from.x[axis], rays.to.x[axis]);
             for child in 0..WIDTH {
                 let margin = self.slack[child] * rays.reach;
                 // Where the coordinate of a ray is not below the box: rate × time ≥ bound.
                 let velocity = of_low[axis][child];
-                let bound = self.low[axis][child] + velocity * turn - origin - margin;
+                let [a, b] = turns.map(|turn| velocity * turn);
+                let bound = self.low[axis][child] + if a < b { a } else { b } - to - margin;
                 limit(rays.high[axis] + velocity, bound, &mut near[child], &mut far[child]);
                 // Where it is not above: both with the opposite sign.
                 let velocity = of_high[axis][child];
-                let bound = self.high[axis][child] + velocity * turn - origin + margin;
+                let [a, b] = turns.map(|turn| velocity * turn);
+                let bound = self.high[axis][child] + if a < b { b } else { a } - from + margin;
                 limit(-(rays.low[axis] + velocity), -bound, &mut near[child], &mut far[child]);
             }
         }

@@ -5,11 +5,12 @@ use std::ops::Range;
 use glam::DVec3;
 use rayon::prelude::*;
 use ugimage::{Filter, LinearFrame};
-use ugpicture::{Backdrop, DepthBuffer, Emission, PictureOptions, SeenItem, SurfaceSample, channel_planes};
+use ugpicture::{Backdrop, PictureOptions, channel_planes};
 use ugpipe::Progress;
 
 use crate::config::Config;
 use crate::lens::frame_around;
+use crate::middles::Middles;
 use crate::path::Ray;
 use crate::scenery::Scenery;
 use crate::tracer::{Arriving, Tracer, Visit};
@@ -56,21 +57,17 @@ impl Statistics {
 
 /// The light of a picture, or of a part of it, with the requested channels.
 pub fn light(scenery: &Scenery<'_>, config: &Config, progress: &dyn Progress) -> (LinearFrame, Statistics) {
-    let options = &config.picture;
-    let PictureOptions { size, samples, filter, .. } = *options;
-    let backdrop = Backdrop::new(options.background, samples);
-    let [left, top, width, height] = config.crop.unwrap_or([0, 0, size[0], size[1]]);
-    let area = [left..left + width, top..top + height];
-    let (frames, contrast) = (config.frames(), config.adaptive);
-    let painting = Painting { scenery, size, frames, area, samples, filter, contrast, backdrop };
+    let painting = Painting::new(scenery, config);
+    let [width, height] = painting.area.clone().map(|range| range.len() as u32);
+    let [left, top] = [painting.area[0].start, painting.area[1].start];
     let [columns, rows] = [width, height].map(|side| side.div_ceil(TILE));
     progress.step("tracing rays", u64::from(columns) * u64::from(rows));
     let tiles: Vec<Tile> = (0..columns * rows)
         .into_par_iter()
         .map_init(
-            || Tracer::new(scenery),
-            |tracer, idx| {
-                let tile = painting.tile([idx % columns, idx / columns], tracer);
+            || (Tracer::new(scenery), Packet::default()),
+            |(tracer, packet), idx| {
+                let tile = painting.tile([idx % columns, idx / columns], tracer, packet);
                 progress.done(1);
                 tile
             },
@@ -86,14 +83,40 @@ pub fn light(scenery: &Scenery<'_>, config: &Config, progress: &dyn Progress) ->
         }
     }
     let mut frame = LinearFrame::new([width, height], painting.backdrop.is_opaque(), pixels);
-    if !options.channels.is_empty() {
-        let seen = Middles::new(scenery, [left, top, width, height], samples);
-        for &channel in &options.channels {
-            let planes = channel_planes(channel, seen.surfaces.len(), &|idx| seen.item(idx));
+    let PictureOptions { channels, samples, .. } = &config.picture;
+    if !channels.is_empty() {
+        let seen = Middles::new(scenery, [left, top, width, height], *samples);
+        for &channel in channels {
+            let planes = channel_planes(channel, seen.len(), &|idx| seen.item(idx));
             planes.into_iter().for_each(|plane| frame.push_plane(plane));
         }
     }
     (frame, statistics)
+}
+
+/// A preview of [`light`]: squares of `side` pixels with one sample each, and without channels.
+pub fn preview(scenery: &Scenery<'_>, config: &Config, side: u32, progress: &dyn Progress) -> LinearFrame {
+    let painting = Painting::new(scenery, config);
+    let [width, height] = painting.area.clone().map(|range| range.len() as u32);
+    let [columns, rows] = [width, height].map(|length| length.div_ceil(side));
+    progress.step("tracing rays of a preview", u64::from(rows));
+    let lines: Vec<Vec<[f32; 4]>> = (0..rows)
+        .into_par_iter()
+        .map_init(
+            || Tracer::new(scenery),
+            |tracer, row| {
+                let line = (0..columns).map(|column| painting.square([column, row], side, tracer)).collect();
+                progress.done(1);
+                line
+            },
+        )
+        .collect();
+    let lines = &lines;
+    let pixels = (0..height).flat_map(|row| {
+        let line = &lines[(row / side) as usize];
+        (0..width).map(move |column| line[(column / side) as usize])
+    });
+    LinearFrame::new([width, height], painting.backdrop.is_opaque(), pixels.collect())
 }
 
 /// A sample of a pixel with the surfaces that contribute to it.
@@ -122,79 +145,6 @@ pub fn explained(scenery: &Scenery<'_>, config: &Config, pixel: [u32; 2]) -> Vec
     };
     let places = (0..n).flat_map(|row| (0..n).map(move |column| [column, row]));
     places.map(|[column, row]| [pixel[0] * n + column, pixel[1] * n + row]).filter_map(ray).collect()
-}
-
-/// What is seen at the middle of each pixel.
-pub fn seen_items(scenery: &Scenery<'_>, size: [u32; 2], samples: u32) -> Vec<Option<SeenItem>> {
-    let middles = Middles::new(scenery, [0, 0, size[0], size[1]], samples);
-    (0..middles.surfaces.len()).into_par_iter().map(|idx| middles.item(idx)).collect()
-}
-
-/// The nearest surface at the middle of each pixel of a pinhole camera.
-pub fn depths(scenery: &Scenery<'_>, size: [u32; 2], samples: u32) -> DepthBuffer {
-    let sample = |(s, item): (f64, u32)| SurfaceSample { key: (1.0 / s) as f32, item };
-    let middles = Middles::new(scenery, [0, 0, size[0], size[1]], samples);
-    DepthBuffer { size, seen: middles.surfaces.into_iter().map(|seen| seen.map(sample)).collect() }
-}
-
-/// The surfaces at the middles of the pixels of a part of a picture.
-struct Middles<'a> {
-    scenery: &'a Scenery<'a>,
-    /// Left column, upper row, and columns.
-    area: [u32; 3],
-    samples: u32,
-    /// For each pixel the surface at its middle that transmits less than half of the light behind
-    /// it: the parameter of its ray, and the row of the face.
-    surfaces: Vec<Option<(f64, u32)>>,
-}
-
-impl<'a> Middles<'a> {
-    /// `area`: left column, upper row, width and height.
-    fn new(scenery: &'a Scenery<'a>, [left, top, width, height]: [u32; 4], samples: u32) -> Self {
-        let n_pixels = width as usize * height as usize;
-        let mut middles = Self { scenery, area: [left, top, width], samples, surfaces: Vec::new() };
-        middles.surfaces = (0..n_pixels).into_par_iter().map(|idx| middles.surface(idx)).collect();
-        middles
-    }
-
-    /// The ray through the sample nearest to the centre of a pixel; ties go to the lower-right one.
-    fn ray(&self, idx: usize) -> Option<Ray> {
-        let [left, top, width] = self.area;
-        // A picture has fewer than 2^32 pixels.
-        let (column, row) = ((idx % width as usize) as u32, (idx / width as usize) as u32);
-        self.scenery.primary_ray([left + column, top + row].map(|at| at * self.samples + self.samples / 2))
-    }
-
-    fn surface(&self, idx: usize) -> Option<(f64, u32)> {
-        let scenery = self.scenery;
-        let ray = self.ray(idx)?;
-        let slab = scenery.view.slab;
-        let mut range = slab.near..slab.far;
-        loop {
-            let found = scenery.closest(&ray, range.clone())?;
-            let face = &scenery.scene.faces[found.triangle.face as usize];
-            let translucency =
-                face.color.map_or(0.0, |color| scenery.scene.colors[color.index()].translucency);
-            if translucency < 0.5 {
-                return Some((found.s, found.triangle.face));
-            }
-            range.start = found.s;
-        }
-    }
-
-    /// The surface at a pixel, and the emission event of its light, relative to the eye that sees
-    /// it.
-    fn item(&self, idx: usize) -> Option<SeenItem> {
-        let ((s, item), ray) = (self.surfaces[idx]?, self.ray(idx)?);
-        let frames = self.scenery.surface.frames();
-        let emission = Emission {
-            place: s * ray.step.x,
-            depth: s,
-            time: ray.origin.t + s * ray.step.t,
-            velocity: frames.velocity(self.scenery.scene.faces[item as usize].body),
-        };
-        Some((item, emission))
-    }
 }
 
 /// What is the same for all tiles of a picture.
@@ -228,15 +178,58 @@ struct Samples {
     light: Vec<[f32; 4]>,
 }
 
-impl Painting<'_> {
-    fn tile(&self, at: [u32; 2], tracer: &mut Tracer<'_>) -> Tile {
+impl<'a> Painting<'a> {
+    fn new(scenery: &'a Scenery<'a>, config: &Config) -> Self {
+        let PictureOptions { size, samples, filter, background, .. } = config.picture;
+        let [left, top, width, height] = config.crop.unwrap_or([0, 0, size[0], size[1]]);
+        Self {
+            scenery,
+            size,
+            frames: config.frames(),
+            area: [left..left + width, top..top + height],
+            samples,
+            filter,
+            contrast: config.adaptive,
+            backdrop: Backdrop::new(background, samples),
+        }
+    }
+
+    /// A square of a preview, as a pixel: a sample near its middle.
+    fn square(&self, at: [u32; 2], side: u32, tracer: &mut Tracer<'_>) -> [f32; 4] {
+        let middle = |axis: usize| {
+            let Range { start, end } = self.area[axis];
+            let pixel = (start + at[axis] * side + side / 2).min(end - 1);
+            pixel * self.samples + self.samples / 2
+        };
+        let place = [middle(0), middle(1)];
+        let slab = self.scenery.view.slab;
+        let sample = match self.scenery.primary_ray(place) {
+            Some(ray) => {
+                let first = self.scenery.closest(&ray, slab.near..slab.far);
+                let arriving = tracer.arriving(&ray, first, slab.far, self.number(place));
+                self.on_background(arriving.light, arriving.background)
+            }
+            None => self.on_background(DVec3::ZERO, DVec3::ONE),
+        };
+        // A pixel is the sum of its samples.
+        let [red, green, blue, covered] =
+            sample.map(|channel| channel * (self.samples * self.samples) as f32);
+        self.backdrop.pixel([red, green, blue], covered)
+    }
+
+    /// The number of a sample of the picture.
+    fn number(&self, [column, row]: [u32; 2]) -> u64 {
+        u64::from(row) * u64::from(self.size[0] * self.samples) + u64::from(column)
+    }
+
+    fn tile(&self, at: [u32; 2], tracer: &mut Tracer<'_>, packet: &mut Packet) -> Tile {
         let range = |axis: usize| {
             let start = self.area[axis].start + at[axis] * TILE;
             start..(start + TILE).min(self.area[axis].end)
         };
         let (columns, rows) = (range(0), range(1));
         let mut statistics = Statistics::default();
-        let samples = self.samples(&columns, &rows, tracer, &mut statistics);
+        let samples = self.samples(&columns, &rows, (tracer, packet), &mut statistics);
         let weights = self.filter.weights(self.samples);
         let mut pixels = Vec::with_capacity(columns.len() * rows.len());
         for row in rows.clone() {
@@ -253,7 +246,7 @@ impl Painting<'_> {
         &self,
         columns: &Range<u32>,
         rows: &Range<u32>,
-        tracer: &mut Tracer<'_>,
+        (tracer, packet): (&mut Tracer<'_>, &mut Packet),
         statistics: &mut Statistics,
     ) -> Samples {
         let (n, margin) = (self.samples, self.filter.margin());
@@ -273,12 +266,12 @@ impl Painting<'_> {
         let mut samples = Samples { columns: across, rows: down, light };
         let own = [columns, rows];
         let Some(contrast) = self.contrast else {
-            self.trace(&mut samples, own, tracer, statistics, |_| true);
+            self.trace(&mut samples, own, (tracer, packet), statistics, |_| true);
             return samples;
         };
         let first = first_samples(n);
         let is_first = |[column, row]: [u32; 2]| first.contains(&(column % n)) && first.contains(&(row % n));
-        self.trace(&mut samples, own, tracer, statistics, is_first);
+        self.trace(&mut samples, own, (tracer, packet), statistics, is_first);
         // Without the samples beside the outermost pixels.
         let pixels = [(columns, 0), (rows, 1)].map(|(range, axis): (&Range<u32>, usize)| {
             range.start.saturating_sub(margin)..(range.end + margin).min(self.size[axis])
@@ -295,7 +288,7 @@ impl Painting<'_> {
             let at = || (row - pixels[1].start) as usize * width + (column - pixels[0].start) as usize;
             is_inside && is_refined[at()]
         };
-        self.trace(&mut samples, own, tracer, statistics, |sample| {
+        self.trace(&mut samples, own, (tracer, packet), statistics, |sample| {
             !is_first(sample) && is_pixel_refined(sample.map(|at| at / n))
         });
         for row in pixels[1].clone() {
@@ -311,12 +304,11 @@ impl Painting<'_> {
         &self,
         samples: &mut Samples,
         [columns, rows]: [&Range<u32>; 2],
-        tracer: &mut Tracer<'_>,
+        (tracer, packet): (&mut Tracer<'_>, &mut Packet),
         statistics: &mut Statistics,
         is_wanted: impl Fn([u32; 2]) -> bool,
     ) {
         let n = self.samples;
-        let mut packet = Packet::default();
         for top in samples.rows.clone().step_by(PACKET as usize) {
             for left in samples.columns.clone().step_by(PACKET as usize) {
                 let (right, bottom) =
@@ -326,8 +318,8 @@ impl Painting<'_> {
                 for (&[column, row], (ray, first)) in
                     packet.places.iter().zip(packet.rays.iter().zip(&packet.first))
                 {
-                    let sample = u64::from(row) * u64::from(self.size[0] * n) + u64::from(column);
-                    let arriving = tracer.arriving(ray, *first, self.scenery.view.slab.far, sample);
+                    let far = self.scenery.view.slab.far;
+                    let arriving = tracer.arriving(ray, *first, far, self.number([column, row]));
                     let is_own = columns.contains(&(column / n)) && rows.contains(&(row / n));
                     let brightest = arriving.light.max_element();
                     if is_own && first.is_some() {

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 
 use ugimage::{Compression, Development, Frame, LinearFrame, Metadata};
-use ugparse::{Scene, Source};
+use ugparse::{Diagnostics, Scene, Source};
 use ugpicture::{
     Annotated, Annotations, DepthBuffer, Exposure, Image, Layout, Output, PictureFile, SceneState,
 };
@@ -13,6 +13,7 @@ use ugscene::{CameraOptions, PlacedBodies, RestPosition};
 use crate::config::Config;
 use crate::error::Error;
 use crate::lens::Lens;
+use crate::middles;
 use crate::notes::notes;
 use crate::pixels;
 use crate::scenery::Scenery;
@@ -47,7 +48,7 @@ impl Rendering {
 /// See [`Error`].
 pub fn render(scene: Scene, config: &Config) -> Result<Rendering, Error> {
     config.check()?;
-    render_with(scene, config, &Layout::new(&config.picture)?, &())
+    Prepared::new(scene, config, Layout::new(&config.picture)?, &())?.rendering(&())
 }
 
 /// The linear light of a scene, without exposure and gamut mapping: white is 1. Options for the
@@ -85,36 +86,111 @@ pub fn run(
     command_line: &str,
     progress: &dyn Progress,
 ) -> Result<PictureFile, Error> {
-    let layout = Layout::new(&config.picture)?;
-    progress.step("reading", 0);
-    let parsed = ugscene::read(source, &config.reading, config.picture.camera.name.as_deref())?;
-    config.check()?;
-    let metadata = metadata(&parsed.scene, command_line);
-    let rendering = render_with(parsed.scene, config, &layout, progress)?;
-    progress.step("compression", 0);
-    let notes = rendering.notes.clone();
-    Ok(PictureFile { bytes: rendering.into_file(&metadata), notes, warnings: parsed.warnings })
+    Drawing::read(config, source, command_line, progress)?.picture(progress)
 }
 
-/// Renders a scene in a layout. `config`: of the whole picture, already checked.
-fn render_with(
-    scene: Scene,
-    config: &Config,
-    layout: &Layout,
-    progress: &dyn Progress,
-) -> Result<Rendering, Error> {
-    progress.step("preparing", 0);
-    let config = &Config { picture: layout.of_scene(&config.picture).into_owned(), ..config.clone() };
-    let compression = if config.picture.small { Compression::Small } else { Compression::Fast };
-    let scenery = Scenery::new(Cow::Owned(as_seen(scene, config)?), config)?;
-    let (frame, statistics) = pixels::light(&scenery, config, progress);
-    let (image, development) = developed(frame, &scenery, config);
-    progress.step("annotating", 0);
-    let annotations = annotate(layout, &scenery, config, development)?;
-    let mut notes = notes(&scenery, config, &statistics, development);
-    notes.extend(annotations.notes.iter().cloned());
-    let (image, output) = (annotations.composite(image), config.picture.output);
-    Ok(Rendering { image, output, compression, n_samples: statistics.n_samples, notes })
+/// A scene that has been read, ready to be drawn: as a preview, or as the picture itself.
+pub struct Drawing {
+    prepared: Prepared,
+    metadata: Metadata,
+    warnings: Diagnostics,
+}
+
+impl Drawing {
+    /// Sides of the squares of previews, in pixels, from coarse to fine.
+    pub const PREVIEWS: [u32; 3] = [8, 4, 2];
+
+    /// Reads a scene. `command_line`: as in [`metadata`].
+    ///
+    /// # Errors
+    /// See [`Error`].
+    pub fn read(
+        config: &Config,
+        source: &Source,
+        command_line: &str,
+        progress: &dyn Progress,
+    ) -> Result<Self, Error> {
+        let layout = Layout::new(&config.picture)?;
+        progress.step("reading", 0);
+        let parsed = ugscene::read(source, &config.reading, config.picture.camera.name.as_deref())?;
+        config.check()?;
+        let metadata = metadata(&parsed.scene, command_line);
+        let prepared = Prepared::new(parsed.scene, config, layout, progress)?;
+        Ok(Self { prepared, metadata, warnings: parsed.warnings })
+    }
+
+    /// The file of a preview: of the size of the picture, in squares of `side` pixels with one
+    /// sample each, and without channels (`-ch`).
+    ///
+    /// # Errors
+    /// See [`Error`].
+    pub fn preview(&self, side: u32, progress: &dyn Progress) -> Result<Vec<u8>, Error> {
+        let prepared = &self.prepared;
+        let frame = pixels::preview(&prepared.scenery, &prepared.config, side.max(1), progress);
+        let (rendering, _) = prepared.developed(frame, progress)?;
+        Ok(rendering.into_file(&self.metadata))
+    }
+
+    /// Draws the picture.
+    ///
+    /// # Errors
+    /// See [`Error`].
+    pub fn picture(self, progress: &dyn Progress) -> Result<PictureFile, Error> {
+        let Self { prepared, metadata, warnings } = self;
+        let rendering = prepared.rendering(progress)?;
+        drop(prepared);
+        progress.step("compression", 0);
+        let notes = rendering.notes.clone();
+        Ok(PictureFile { bytes: rendering.into_file(&metadata), notes, warnings })
+    }
+}
+
+/// A scene prepared for drawing.
+struct Prepared {
+    /// Of the rows of the scene, without those of annotations.
+    config: Config,
+    layout: Layout,
+    scenery: Scenery<'static>,
+}
+
+impl Prepared {
+    /// `config`: of the whole picture, already checked.
+    fn new(scene: Scene, config: &Config, layout: Layout, progress: &dyn Progress) -> Result<Self, Error> {
+        progress.step("preparing", 0);
+        let config = Config { picture: layout.of_scene(&config.picture).into_owned(), ..config.clone() };
+        let scenery = Scenery::new(Cow::Owned(as_seen(scene, &config)?), &config)?;
+        Ok(Self { config, layout, scenery })
+    }
+
+    fn rendering(&self, progress: &dyn Progress) -> Result<Rendering, Error> {
+        let (frame, statistics) = pixels::light(&self.scenery, &self.config, progress);
+        let (mut rendering, development) = self.developed(frame, progress)?;
+        rendering.n_samples = statistics.n_samples;
+        let about_picture = notes(&self.scenery, &self.config, &statistics, development);
+        rendering.notes.splice(0..0, about_picture);
+        Ok(rendering)
+    }
+
+    /// Develops and annotates the light of a picture; its notes are those of the annotations.
+    fn developed(
+        &self,
+        frame: LinearFrame,
+        progress: &dyn Progress,
+    ) -> Result<(Rendering, Option<Development>), Error> {
+        let Self { config, layout, scenery } = self;
+        let (image, development) = developed(frame, scenery, config);
+        progress.step("annotating", 0);
+        let annotations = annotate(layout, scenery, config, development)?;
+        let notes = annotations.notes.clone();
+        let rendering = Rendering {
+            image: annotations.composite(image),
+            output: config.picture.output,
+            compression: if config.picture.small { Compression::Small } else { Compression::Fast },
+            n_samples: 0,
+            notes,
+        };
+        Ok((rendering, development))
+    }
 }
 
 /// The scene with its vertices where they are seen, and the stage that says so.
@@ -170,7 +246,7 @@ fn annotate(
     let is_shifted = config.shift.shifts_wavelengths();
     let picture = &config.picture;
     let seen = (config.lens != Lens::Pinhole && picture.annotations.legend)
-        .then(|| pixels::seen_items(scenery, picture.size, picture.samples));
+        .then(|| middles::seen_items(scenery, picture.size, picture.samples));
     let annotated =
         Annotated { scene: &scenery.scene, camera: &picture.camera, is_shifted, seen: seen.as_deref() };
     let depths = |scene: &Scene, camera: &CameraOptions, _: SceneState| -> Result<DepthBuffer, Error> {
@@ -178,7 +254,7 @@ fn annotate(
         coarse.picture.samples = 1;
         coarse.picture.camera = camera.clone();
         let scenery = Scenery::new(Cow::Borrowed(scene), &coarse)?;
-        Ok(pixels::depths(&scenery, coarse.picture.size, 1))
+        Ok(middles::depths(&scenery, coarse.picture.size, 1))
     };
     layout.annotate(annotated, &config.picture, development, depths)
 }

@@ -7,6 +7,7 @@ use uglight::{HueColor, IncidentLamp, Irradiance, LampPlace, SpectralFilter, Sur
 use ugparse::unit_normal;
 use ugphysics::{Event, Hsv, WaveVector, srgb_decode, srgb_encode, wavelength_to_hue};
 
+use crate::corridor::Corridor;
 use crate::path::{Ray, Start};
 use crate::sampling::disk_point;
 use crate::scenery::Scenery;
@@ -29,9 +30,14 @@ pub struct Shader<'a> {
     scenery: &'a Scenery<'a>,
     diffuse: Vec<Irradiance>,
     highlights: Vec<Irradiance>,
+    /// Of shadow rays, by lamp and part.
+    corridors: Vec<Corridor>,
     /// The light of lamps at the last point, for explanations; `None` if it is not wanted.
     pub received: Option<Vec<LampLight>>,
 }
+
+/// Those of other lamps and parts are forgotten.
+const N_CORRIDORS: usize = 256;
 
 /// The light of a lamp at a point of a surface.
 #[derive(Clone, Copy, Debug)]
@@ -47,7 +53,9 @@ pub struct LampLight {
 impl<'a> Shader<'a> {
     /// For the points of a scene.
     pub fn new(scenery: &'a Scenery<'a>) -> Self {
-        Self { scenery, diffuse: Vec::new(), highlights: Vec::new(), received: None }
+        let n_corridors = if scenery.world.boxes.is_some() { N_CORRIDORS } else { 1 };
+        let corridors = std::iter::repeat_with(Corridor::default).take(n_corridors).collect();
+        Self { scenery, diffuse: Vec::new(), highlights: Vec::new(), corridors, received: None }
     }
 
     /// Linear red, green and blue of the light of lamps that a point scatters and mirrors towards
@@ -111,11 +119,13 @@ impl<'a> Shader<'a> {
         let frame = &scenery.world.parts[point.part].frame;
         let element = SurfaceElement { point: point.place, normal: point.normal, body: frame.body };
         let (diffuse, highlights, received) = (&mut self.diffuse, &mut self.highlights, &mut self.received);
+        let corridors = &mut self.corridors;
         let toward_eye = point.toward_eye();
         let mut add = |incident: IncidentLamp| {
-            let Irradiance { level, .. } = incident.irradiance;
+            let Irradiance { level, lamp, .. } = incident.irradiance;
             let part = if lights.are_of_scene && scenery.rays.shadows {
-                unshadowed(scenery, point, &incident)
+                let corridor = (17 * lamp as usize + point.part) % corridors.len();
+                unshadowed(scenery, point, &incident, &mut corridors[corridor])
             } else {
                 1.0
             };
@@ -159,7 +169,12 @@ impl<'a> Shader<'a> {
 
 /// The part of a lamp's light that arrives at a point, in the unit in which levels add up: linear
 /// for spectra, display-encoded for hues. The shadow ray runs back in time to the lamp.  Eq. (P24)
-fn unshadowed(scenery: &Scenery<'_>, point: &SurfacePoint, incident: &IncidentLamp) -> f64 {
+fn unshadowed(
+    scenery: &Scenery<'_>,
+    point: &SurfacePoint,
+    incident: &IncidentLamp,
+    corridor: &mut Corridor,
+) -> f64 {
     let Some((toward, distance)) = incident.toward else { return 1.0 };
     let frame = &scenery.world.parts[point.part].frame;
     // Beneath a smooth surface, faces in its light may be turned away from the lamp. The shadow
@@ -175,7 +190,7 @@ fn unshadowed(scenery: &Scenery<'_>, point: &SurfacePoint, incident: &IncidentLa
     };
     let mut part = 1.0;
     let mut absorbed = Absorbed::default();
-    let _ = scenery.world.visit(scenery.faces(), &ray, 0.0..distance, |found| {
+    let _ = scenery.world.visit_along(scenery.faces(), &ray, 0.0..distance, Some(corridor), |found| {
         part *= transmittance(scenery, found.triangle.face);
         absorbed.cross(scenery, &ray, &found);
         if part > 0.0 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
@@ -302,7 +317,12 @@ pub fn hue_color(scenery: &Scenery<'_>, color: &Swatch) -> HueColor {
 /// A colour as the display shows it, as linear light. Hues near the ends of the visible range fade.
 fn shown(scenery: &Scenery<'_>, color: HueColor) -> DVec3 {
     let most = if scenery.is_uncut { f64::INFINITY } else { 1.0 };
-    DVec3::from(color.attenuated().to_rgb().map(|channel| srgb_decode(channel.min(most))))
+    let decode = |channel: f64| srgb_decode(channel.min(most));
+    let [red, green, blue] = color.attenuated().to_rgb();
+    let first = decode(red);
+    // Decoding is slow, and the channels of greys are equal.
+    let [second, third] = [green, blue].map(|channel| if channel == red { first } else { decode(channel) });
+    DVec3::new(first, second, third)
 }
 
 /// The part of linear red, green and blue that filters transmit, whose hues are shifted.

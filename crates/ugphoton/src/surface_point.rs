@@ -128,9 +128,13 @@ fn color(
         let swatch = scenery.palette.swatch_of(*scenery.surface.swatch(corner), &common);
         Swatch { light: swatch.light.filter(|_| common.is_light), ..swatch }
     };
+    let constant = [(rows[0], 1.0), (rows[0], 0.0), (rows[0], 0.0)];
+    if rows == [rows[0]; 3] {
+        return (swatch(corners[0]), constant);
+    }
     let [a, b, c] = corners.map(swatch);
     if a == b && b == c {
-        return (a, [(rows[0], 1.0), (rows[0], 0.0), (rows[0], 0.0)]);
+        return (a, constant);
     }
     let [_, second, third] = found.weights;
     let number = |of: fn(&Swatch) -> f64| of(&a) + second * (of(&b) - of(&a)) + third * (of(&c) - of(&a));

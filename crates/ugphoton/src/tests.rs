@@ -9,6 +9,7 @@ use ugphysics::{Event, Medium, Velocity, WaveVector};
 use ugrandom::Random;
 
 use crate::Config;
+use crate::corridor::Corridor;
 use crate::moving_boxes::{MovingBox, MovingBoxes, Rays};
 use crate::path::{Ray, Start};
 use crate::render::as_seen;
@@ -152,6 +153,75 @@ fn packets_hit_what_testing_every_body_hits() {
         }
     }
     assert!(n_hits > 3000, "{n_hits}");
+}
+
+/// Rays from neighbouring places towards one lamp, which share a corridor.
+#[test]
+fn shadow_rays_meet_what_testing_every_body_meets() {
+    let mut random = Random(4);
+    let (mut n_found, mut n_empty) = (0, 0);
+    for (n, fastest) in [(30, 0.5), (60, 0.99), (60, 0.0), (300, 0.3), (40, 1.0 - 1e-10)] {
+        let text = scene(&mut random, n, fastest);
+        let scenery = scenery(&text);
+        let mut plain = self::scenery(&text);
+        plain.world.boxes = None;
+        let faces = scenery.faces();
+        for _ in 0..60 {
+            let mut corridor = Corridor::default();
+            let (middle, lamp) = (random.in_cube(12.0), random.in_cube(30.0));
+            let distance = *random.pick(&[1.0, f64::INFINITY]);
+            for _ in 0..30 {
+                let spread = *random.pick(&[0.03, 0.1, 1.0]);
+                let place = middle + random.in_ball(spread);
+                let origin = Event { t: -place.length() - random.between(0.0, 0.1), x: place };
+                let toward = if distance.is_finite() { lamp - place } else { lamp };
+                let ray = ray(origin, Event { t: -toward.length(), x: toward }, Start::Event);
+                let all = |world: &World, corridor: Option<&mut Corridor>| {
+                    let mut all = Vec::new();
+                    let _ = world.visit_along(faces, &ray, 0.0..distance, corridor, |found| {
+                        all.push(digits(&found));
+                        ControlFlow::Continue(())
+                    });
+                    all
+                };
+                let expected = all(&plain.world, None);
+                assert_eq!(all(&scenery.world, Some(&mut corridor)), expected, "{ray:?}");
+                *if expected.is_empty() { &mut n_empty } else { &mut n_found } += 1;
+            }
+        }
+    }
+    assert!(n_found > 1000 && n_empty > 1000, "{n_found} {n_empty}");
+}
+
+/// Neighbouring shadow rays search the hierarchy once, and test few bodies each.
+#[test]
+fn neighbours_search_once() {
+    let mut random = Random(5);
+    let boxes: Vec<MovingBox> = (0..2000)
+        .map(|_| {
+            let center = random.in_cube(20.0);
+            let corners = std::array::from_fn(|_| center + random.in_cube(0.3));
+            MovingBox::new(corners, random.in_ball(0.2), 1.0, 0.6, 20.0)
+        })
+        .collect();
+    let tree = MovingBoxes::new(&boxes);
+    let (mut n_parts, mut n_corridors) = (0, 0);
+    for _ in 0..100 {
+        let mut corridor = Corridor::default();
+        let (middle, lamp) = (random.in_cube(8.0), random.in_cube(8.0));
+        let mut parts = Vec::new();
+        for _ in 0..100 {
+            let place = middle + 0.003 * middle.length() * random.in_cube(1.0);
+            let toward = lamp - place;
+            let step = Event { t: -toward.length(), x: toward };
+            let rays = Rays::from_step(Event { t: -place.length(), x: place }, step).unwrap();
+            let found = corridor.parts(&tree, &rays, toward.length()).unwrap_or_default().to_vec();
+            n_corridors += usize::from(found != parts);
+            n_parts += found.len();
+            parts = found;
+        }
+    }
+    assert!(n_corridors < 200 && n_parts < 100 * 100 * 20, "{n_corridors} {n_parts}");
 }
 
 /// Bodies of one size in a space that grows with their number, so that a ray meets few.

@@ -9,8 +9,10 @@ use ugparse::{BodyId, Face, Scene, VertexId};
 use ugphysics::Event;
 use ugscene::{RestFrames, triangulate};
 
+use crate::corridor::Corridor;
 use crate::frame::RestFrame;
 use crate::moving_boxes::{MovingBox, MovingBoxes, Rays};
+use crate::outline::Outline;
 use crate::path::Ray;
 
 /// How far a ray leaves a surface before it can meet another one, relative to the largest
@@ -39,6 +41,8 @@ pub struct Part {
     bvh: Bvh,
     triangles: Vec<FaceTriangle>,
     clearance: f64,
+    /// `None` if there are no triangles.
+    outline: Option<Outline>,
 }
 
 /// A triangle of a face.
@@ -66,8 +70,8 @@ pub struct Faces<'a> {
 pub struct PacketMemory {
     directions: Vec<DVec3>,
     hits: Vec<Option<ugbvh::Hit>>,
-    /// Rows of parts.
-    parts: Vec<usize>,
+    /// The rays that a part is tested with.
+    rows: Vec<usize>,
 }
 
 /// Where a ray meets a face.
@@ -122,6 +126,9 @@ impl World {
         let visit = |row: usize, best: &mut Option<Intersection>| {
             let part = &self.parts[row];
             let (origin, step) = ray.in_part(row, &part.frame);
+            if !self.may_be_hit(part, origin, step) {
+                return;
+            }
             // At the same place the part with the lowest row is hit, in whatever order they come.
             let end = best.map_or(range.end, |best| if row < best.part { best.s.next_up() } else { best.s });
             let found = part.closest(faces, row, origin, step, range.start..end.min(range.end));
@@ -170,36 +177,73 @@ impl World {
         memory: &mut PacketMemory,
         first: &mut [Option<Intersection>],
     ) {
-        let PacketMemory { directions, hits, parts } = memory;
         let steps = rays.iter().map(|ray| ray.step.x);
         match self.boxes.as_ref().and_then(|boxes| Some((boxes, Rays::from_eye(steps)?))) {
-            Some((boxes, rays)) => boxes.find(&rays, 0.0..f64::INFINITY, parts),
-            None => {
-                parts.clear();
-                parts.extend(0..self.parts.len());
-            }
-        }
-        for &row in &*parts {
-            let part = &self.parts[row];
-            directions.clear();
-            directions.extend(rays.iter().map(|ray| part.frame.light_to_rest(ray.step.x)));
-            hits.clear();
-            hits.resize(rays.len(), None);
-            part.bvh.closest_packet(DVec3::ZERO, directions, range.clone(), hits);
-            for ((best, hit), &step) in first.iter_mut().zip(&*hits).zip(&*directions) {
-                let Some(hit) = *hit else { continue };
-                if best.is_some_and(|best| best.s <= hit.t) {
-                    continue;
-                }
-                let found = part.intersection(row, hit);
-                *best = if !found.triangle.is_loose || part.is_inside(faces, &found) {
-                    Some(found)
-                } else {
-                    let end = best.map_or(range.end, |best| best.s);
-                    part.closest(faces, row, DVec3::ZERO, step, found.s..end).or(*best)
+            Some((boxes, bounds)) => boxes.visit_nearest(&bounds, 0.0..f64::INFINITY, |row| {
+                self.first_of_part(faces, row, rays, range.clone(), memory, first);
+                // The latest time at which light left what is seen so far.
+                let time = |(ray, found): (&Ray, &Option<Intersection>)| {
+                    found.map_or(f64::INFINITY, |found| -ray.step.t * found.s)
                 };
+                rays.iter().zip(&*first).map(time).fold(0.0, f64::max)
+            }),
+            None => {
+                for row in 0..self.parts.len() {
+                    self.first_of_part(faces, row, rays, range.clone(), memory, first);
+                }
             }
         }
+    }
+
+    /// Replaces hits by nearer ones on a part.
+    fn first_of_part(
+        &self,
+        faces: Faces<'_>,
+        row: usize,
+        rays: &[Ray],
+        range: Range<f64>,
+        memory: &mut PacketMemory,
+        first: &mut [Option<Intersection>],
+    ) {
+        let PacketMemory { directions, hits, rows } = memory;
+        let part = &self.parts[row];
+        let is_seen = |ray: &Ray| {
+            self.boxes.is_none() || part.outline.is_some_and(|outline| outline.is_seen(ray.step.x))
+        };
+        rows.clear();
+        rows.extend((0..rays.len()).filter(|&idx| is_seen(&rays[idx])));
+        if rows.is_empty() {
+            return;
+        }
+        directions.clear();
+        directions.extend(rows.iter().map(|&idx| part.frame.light_to_rest(rays[idx].step.x)));
+        hits.clear();
+        hits.resize(rows.len(), None);
+        part.bvh.closest_packet(DVec3::ZERO, directions, range.clone(), hits);
+        for ((&idx, hit), &step) in rows.iter().zip(&*hits).zip(&*directions) {
+            let (Some(hit), best) = (*hit, &mut first[idx]) else { continue };
+            // At the same place the part with the lowest row is hit, in whatever order they come.
+            let end = match best {
+                Some(best) if row < best.part => best.s.next_up(),
+                Some(best) => best.s,
+                None => range.end,
+            };
+            if best.is_some() && hit.t >= end {
+                continue;
+            }
+            let found = part.intersection(row, hit);
+            *best = if !found.triangle.is_loose || part.is_inside(faces, &found) {
+                Some(found)
+            } else {
+                part.closest(faces, row, DVec3::ZERO, step, found.s..end).or(*best)
+            };
+        }
+    }
+
+    /// False if a ray in the rest frame of a part misses it.
+    #[inline]
+    fn may_be_hit(&self, part: &Part, origin: DVec3, step: DVec3) -> bool {
+        self.boxes.is_none() || part.outline.is_some_and(|outline| outline.may_be_hit(origin, step))
     }
 
     /// Visits the faces that a ray crosses within a range, in any order, until `visit` breaks.
@@ -208,11 +252,26 @@ impl World {
         faces: Faces<'_>,
         ray: &Ray,
         range: Range<f64>,
+        visit: impl FnMut(Intersection) -> ControlFlow<()>,
+    ) -> ControlFlow<()> {
+        self.visit_along(faces, ray, range, None, visit)
+    }
+
+    /// [`World::visit`] for one of several rays in a corridor, from its origin.
+    pub fn visit_along(
+        &self,
+        faces: Faces<'_>,
+        ray: &Ray,
+        range: Range<f64>,
+        corridor: Option<&mut Corridor>,
         mut visit: impl FnMut(Intersection) -> ControlFlow<()>,
     ) -> ControlFlow<()> {
         let mut visit = |row: usize| {
             let part = &self.parts[row];
             let (origin, step) = ray.in_part(row, &part.frame);
+            if !self.may_be_hit(part, origin, step) {
+                return ControlFlow::Continue(());
+            }
             let ray = ugbvh::Ray { origin, direction: step };
             part.bvh.visit(&ray, part.range(step, range.clone()), |hit| {
                 let found = part.intersection(row, hit);
@@ -226,8 +285,12 @@ impl World {
             None => (0..self.parts.len()).try_for_each(visit),
             Some((boxes, rays)) => {
                 // In the order of rows, so that products of transmittances are the same.
+                let times = ray.times(&range);
+                if let Some(parts) = corridor.and_then(|corridor| corridor.parts(boxes, &rays, times.end)) {
+                    return parts.iter().copied().try_for_each(&mut visit);
+                }
                 let mut parts = Vec::new();
-                boxes.find(&rays, ray.times(&range), &mut parts);
+                boxes.find(&rays, times, &mut parts);
                 parts.into_iter().try_for_each(&mut visit)
             }
         }
@@ -250,7 +313,8 @@ impl Part {
             triangles.par_iter().map(|triangle| triangle.corners.map(place)).collect();
         let bvh = Bvh::new(&places, &corners);
         let reach = bvh.bounds().map_or(0.0, |(low, high)| low.abs().max(high.abs()).max_element());
-        Self { frame, bvh, triangles, clearance: CLEARANCE * reach }
+        let outline = bvh.bounds().map(|bounds| Outline::new(bounds, &frame));
+        Self { frame, bvh, triangles, clearance: CLEARANCE * reach, outline }
     }
 
     /// The box around the part, in the frame of the camera.

@@ -18,10 +18,12 @@ pub trait ToolArgs: clap::Parser {
 }
 
 /// Ids of the options for files, messages and threads: those below, `files` for additional input
-/// files ([`crate::Context::input_file`]), and `at` for a second output file
-/// ([`crate::Context::write_file`]). They do not affect the content of the output, so the recorded
+/// files ([`crate::Context::input_file`]), `at` for a second output file
+/// ([`crate::Context::write_file`]), and `pv` for previews in the place of the output
+/// ([`crate::Context::write_now`]). They do not affect the content of the output, so the recorded
 /// command line omits them.
-pub(crate) const WITHOUT_EFFECT: [&str; 9] = ["file", "files", "fi", "fo", "fm", "qt", "vb", "nt", "at"];
+pub(crate) const WITHOUT_EFFECT: [&str; 10] =
+    ["file", "files", "fi", "fo", "fm", "qt", "vb", "nt", "at", "pv"];
 
 /// The options that every program has. Put them last in the program's own arguments:
 /// `#[command(flatten)] common: CommonArgs`.

@@ -267,6 +267,13 @@ impl Context {
         self.output.path()
     }
 
+    /// The output file, if it can be replaced while the program runs ([`Context::write_now`]):
+    /// neither standard output nor a device or a pipe.
+    pub fn replaceable_output(&self) -> Option<PathBuf> {
+        let is_device = |path: &Path| std::fs::metadata(path).is_ok_and(|metadata| !metadata.is_file());
+        self.output.path().filter(|path| !is_device(path)).map(Path::to_owned)
+    }
+
     /// Redirects the output to a file that the user did not name, as some programs did in 1988 when
     /// their output was a terminal. Call it before [`Context::write`].
     pub fn set_output_name(&mut self, path: impl AsRef<Path>) {

@@ -38,26 +38,37 @@ pub fn vertex_shares(scene: &Scene, positions: &[DVec3]) -> Vec<Shares> {
         return shares;
     }
     let mut sums: Vec<Sum> = scene.vertices.iter().map(|vertex| Sum::new(vertex.color)).collect();
-    let mut use_colour = |contour: &[VertexId], color: Option<ColorId>, weighted: bool| {
-        for (idx, corner) in contour.iter().enumerate() {
-            let weight = || if weighted { corner_angle(contour, idx, positions) } else { 1.0 };
-            sums[corner.index()].add(color, weight);
-        }
-    };
-    for face in &scene.faces {
-        scene.face_contours(face).for_each(|contour| use_colour(contour, face.color, true));
+    for_each_corner(scene, |contour, idx, color, _| sums[contour[idx].index()].meet(color));
+    // Angles, which are slow to compute, are needed only where several colours meet.
+    if sums.iter().any(|sum| matches!(sum, Sum::Many(_))) {
+        for_each_corner(scene, |contour, idx, color, is_of_face| {
+            if let Sum::Many(parts) = &mut sums[contour[idx].index()] {
+                parts.add(color, if is_of_face { corner_angle(contour, idx, positions) } else { 1.0 });
+            }
+        });
     }
-    // Wires matter only for vertices that no face uses.
-    let used_by_faces: Vec<bool> =
-        if scene.wires.is_empty() { Vec::new() } else { face_vertices(scene, scene.vertices.len()) };
+    sums.into_iter().map(Sum::finish).collect()
+}
+
+/// Calls `visit` with each corner of a face, and of wires at vertices that no face uses: the
+/// contour, the index in it, the colour, and true for a face.
+fn for_each_corner(scene: &Scene, mut visit: impl FnMut(&[VertexId], usize, Option<ColorId>, bool)) {
+    for face in &scene.faces {
+        for contour in scene.face_contours(face) {
+            (0..contour.len()).for_each(|idx| visit(contour, idx, face.color, true));
+        }
+    }
+    if scene.wires.is_empty() {
+        return;
+    }
+    let used_by_faces = face_vertices(scene, scene.vertices.len());
     for wire in &scene.wires {
         for corner in scene.wire_contours(wire).flatten() {
             if !used_by_faces[corner.index()] {
-                use_colour(std::slice::from_ref(corner), wire.color, false);
+                visit(std::slice::from_ref(corner), 0, wire.color, false);
             }
         }
     }
-    sums.into_iter().map(Sum::finish).collect()
 }
 
 /// For each of the first `n_vertices` vertices, true if it is a corner of a face. All corners are
@@ -70,19 +81,18 @@ pub fn face_vertices(scene: &Scene, n_vertices: usize) -> Vec<bool> {
     used
 }
 
-/// The colours at a vertex so far, with the sums of their weights.
+/// The colours at a vertex.
 enum Sum {
     /// That of the vertex itself.
     Own(ColorId),
     Nothing,
-    One {
-        color: Option<ColorId>,
-        weight: f64,
-    },
+    One(Option<ColorId>),
+    /// Several, with the weights added so far.
     Many(Parts),
 }
 
 /// Colours in the order of their first face, with the sums of their weights.
+#[derive(Default)]
 struct Parts {
     all: Vec<(Option<ColorId>, f64)>,
     /// The index of each colour; no elements while there are few.
@@ -92,10 +102,6 @@ struct Parts {
 impl Parts {
     /// More colours are found through the index.
     const FEW: usize = 16;
-
-    fn new(parts: [(Option<ColorId>, f64); 2]) -> Self {
-        Self { all: parts.to_vec(), index: FxHashMap::default() }
-    }
 
     fn add(&mut self, color: Option<ColorId>, weight: f64) {
         let found = match self.all.len() {
@@ -120,15 +126,13 @@ impl Sum {
         own.map_or(Self::Nothing, Self::Own)
     }
 
-    fn add(&mut self, color: Option<ColorId>, weight: impl Fn() -> f64) {
+    /// Notes a colour. Weights are added when all colours are noted.
+    fn meet(&mut self, color: Option<ColorId>) {
         match self {
-            Self::Own(_) => {}
-            Self::Nothing => *self = Self::One { color, weight: weight() },
-            Self::One { color: first, weight: sum } if *first == color => *sum += weight(),
-            Self::One { color: first, weight: sum } => {
-                *self = Self::Many(Parts::new([(*first, *sum), (color, weight())]));
-            }
-            Self::Many(parts) => parts.add(color, weight()),
+            Self::Own(_) | Self::Many(_) => {}
+            Self::Nothing => *self = Self::One(color),
+            Self::One(first) if *first == color => {}
+            Self::One(_) => *self = Self::Many(Parts::default()),
         }
     }
 
@@ -136,7 +140,7 @@ impl Sum {
         match self {
             Self::Own(color) => Shares::One(Some(color)),
             Self::Nothing => Shares::One(None),
-            Self::One { color, .. } => Shares::One(color),
+            Self::One(color) => Shares::One(color),
             Self::Many(Parts { all: mut parts, .. }) => {
                 let whole: f64 = parts.iter().map(|part| part.1).sum();
                 // All angles are 0.
@@ -160,7 +164,9 @@ mod tests {
         for n_colors in [2, 3, 15, 16, 17, 18, 100_000] {
             let color = |row: usize| (row > 0).then(|| ColorId::from_index(row));
             let mut sum = Sum::new(None);
-            (0..2 * n_colors).for_each(|face| sum.add(color(face % n_colors), || 0.5));
+            (0..n_colors).for_each(|face| sum.meet(color(face)));
+            let Sum::Many(parts) = &mut sum else { panic!("several colours meet") };
+            (0..2 * n_colors).for_each(|face| parts.add(color(face % n_colors), 0.5));
             let Shares::Mixed(parts) = sum.finish() else { panic!("several colours are mixed") };
             let share = 1.0 / n_colors as f64;
             assert!(parts.into_iter().eq((0..n_colors).map(|row| (color(row), share))), "{n_colors}");

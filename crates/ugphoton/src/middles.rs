@@ -1,0 +1,85 @@
+//! What is seen at the middles of pixels: for channels, legends and outlines.
+
+use rayon::prelude::*;
+use ugpicture::{DepthBuffer, Emission, SeenItem, SurfaceSample};
+
+use crate::path::Ray;
+use crate::scenery::Scenery;
+
+/// What is seen at the middle of each pixel.
+pub fn seen_items(scenery: &Scenery<'_>, size: [u32; 2], samples: u32) -> Vec<Option<SeenItem>> {
+    let middles = Middles::new(scenery, [0, 0, size[0], size[1]], samples);
+    (0..middles.len()).into_par_iter().map(|idx| middles.item(idx)).collect()
+}
+
+/// The nearest surface at the middle of each pixel of a pinhole camera.
+pub fn depths(scenery: &Scenery<'_>, size: [u32; 2], samples: u32) -> DepthBuffer {
+    let sample = |(s, item): (f64, u32)| SurfaceSample { key: (1.0 / s) as f32, item };
+    let middles = Middles::new(scenery, [0, 0, size[0], size[1]], samples);
+    DepthBuffer { size, seen: middles.surfaces.into_iter().map(|seen| seen.map(sample)).collect() }
+}
+
+/// The surfaces at the middles of the pixels of a part of a picture.
+pub struct Middles<'a> {
+    scenery: &'a Scenery<'a>,
+    /// Left column, upper row, and columns.
+    area: [u32; 3],
+    samples: u32,
+    /// For each pixel the surface at its middle that transmits less than half of the light behind
+    /// it: the parameter of its ray, and the row of the face.
+    surfaces: Vec<Option<(f64, u32)>>,
+}
+
+impl<'a> Middles<'a> {
+    /// `area`: left column, upper row, width and height.
+    pub fn new(scenery: &'a Scenery<'a>, [left, top, width, height]: [u32; 4], samples: u32) -> Self {
+        let n_pixels = width as usize * height as usize;
+        let mut middles = Self { scenery, area: [left, top, width], samples, surfaces: Vec::new() };
+        middles.surfaces = (0..n_pixels).into_par_iter().map(|idx| middles.surface(idx)).collect();
+        middles
+    }
+
+    /// Number of pixels.
+    pub fn len(&self) -> usize {
+        self.surfaces.len()
+    }
+
+    /// The ray through the sample nearest to the centre of a pixel; ties go to the lower-right one.
+    fn ray(&self, idx: usize) -> Option<Ray> {
+        let [left, top, width] = self.area;
+        // A picture has fewer than 2^32 pixels.
+        let (column, row) = ((idx % width as usize) as u32, (idx / width as usize) as u32);
+        self.scenery.primary_ray([left + column, top + row].map(|at| at * self.samples + self.samples / 2))
+    }
+
+    fn surface(&self, idx: usize) -> Option<(f64, u32)> {
+        let scenery = self.scenery;
+        let ray = self.ray(idx)?;
+        let slab = scenery.view.slab;
+        let mut range = slab.near..slab.far;
+        loop {
+            let found = scenery.closest(&ray, range.clone())?;
+            let face = &scenery.scene.faces[found.triangle.face as usize];
+            let translucency =
+                face.color.map_or(0.0, |color| scenery.scene.colors[color.index()].translucency);
+            if translucency < 0.5 {
+                return Some((found.s, found.triangle.face));
+            }
+            range.start = found.s;
+        }
+    }
+
+    /// The surface at a pixel, and the emission event of its light, relative to the eye that sees
+    /// it.
+    pub fn item(&self, idx: usize) -> Option<SeenItem> {
+        let ((s, item), ray) = (self.surfaces[idx]?, self.ray(idx)?);
+        let frames = self.scenery.surface.frames();
+        let emission = Emission {
+            place: s * ray.step.x,
+            depth: s,
+            time: ray.origin.t + s * ray.step.t,
+            velocity: frames.velocity(self.scenery.scene.faces[item as usize].body),
+        };
+        Some((item, emission))
+    }
+}
