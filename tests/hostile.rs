@@ -39,6 +39,7 @@ fn libraries_hold() {
         (File::Mesh(Format::Gltf), 500),
         (File::Picture, 300),
         (File::Panorama, 500),
+        (File::Stars, 500),
         (File::History, 500),
     ];
     for (file, n_cases) in kinds {

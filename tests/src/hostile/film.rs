@@ -122,6 +122,11 @@ pub fn warp(random: &mut Random, files: &[(String, Vec<u8>)]) -> Vec<String> {
     maybe(random, 4, &mut line, "-ex", exposure);
     let samples = vec![(1 + random.below(4)).to_string()];
     maybe(random, 5, &mut line, "-aa", samples);
+    let width = numbers::<1>(random);
+    maybe(random, 12, &mut line, "--star-width", width);
+    let magnitude = numbers::<1>(random);
+    maybe(random, 12, &mut line, "--white", magnitude);
+    maybe(random, 12, &mut line, "--stars", vec![files[0].0.clone()]);
     flags(random, 8, &mut line, &["-sp", "-vr", "-pan", "-cube", "--no-doppler", "--no-flux", "-lg", "-tb"]);
     line
 }

@@ -151,17 +151,32 @@ pub fn panorama(seed: u64, bytes: &[u8]) -> Result<(), String> {
     let arrangement = *random.pick(&ugwarp::Arrangement::ALL);
     let config = config::warp(&mut random);
     let Ok(opened) = ugwarp::open(&[bytes], arrangement, None) else { return Ok(()) };
-    let light = match ugwarp::light(&opened, &config) {
-        Ok(light) => light,
-        // Options that exclude each other.
-        Err(_) => return Ok(()),
-    };
+    sky((&opened).into(), &config, seed)
+}
+
+/// A list of stars as an observer in motion sees them, as [`panorama`].
+///
+/// # Errors
+/// What does not hold.
+pub fn stars(seed: u64, bytes: &[u8]) -> Result<(), String> {
+    match ugwarp::read_stars("stars.csv", bytes) {
+        Ok(stars) => sky(stars.as_slice().into(), &config::warp(&mut Random(seed)), seed),
+        Err(findings) => {
+            std::hint::black_box(findings.render(false));
+            Ok(())
+        }
+    }
+}
+
+fn sky(sky: ugwarp::Sky<'_>, config: &ugwarp::Config, seed: u64) -> Result<(), String> {
+    // Options that exclude each other are refused.
+    let Ok(light) = ugwarp::light(sky, config) else { return Ok(()) };
     if let Some(pixel) = light.pixels().iter().find(|pixel| pixel.iter().any(|part| !part.is_finite())) {
         return Err(format!("ugwarp: the light of a pixel is {pixel:?}"));
     }
     if seed.is_multiple_of(4) {
         let other = if rayon::current_num_threads() > 1 { &ONE } else { &TWO };
-        match other.install(|| ugwarp::light(&opened, &config)) {
+        match other.install(|| ugwarp::light(sky, config)) {
             Ok(again) if again == light => {}
             _ => return Err("another number of threads gives other light".to_owned()),
         }

@@ -113,6 +113,8 @@ pub enum File {
     Picture,
     /// A panorama: a PNG, JPEG, HDR or EXR file.
     Panorama,
+    /// A list of stars.
+    Stars,
     /// A picture of any format, with its history.
     History,
 }
@@ -125,6 +127,7 @@ impl File {
             Self::Mesh(format) => mesh::of(format, random),
             Self::Picture => picture::png(random),
             Self::Panorama => panorama::file(random),
+            Self::Stars => panorama::stars(random).into_bytes(),
             Self::History => picture::with_history(random),
         };
         if random.one_in(2) {
@@ -143,6 +146,7 @@ impl File {
             Self::Mesh(format) => memory::mesh(format, bytes),
             Self::Picture => memory::picture(bytes),
             Self::Panorama => memory::panorama(seed_of(bytes), bytes),
+            Self::Stars => memory::stars(seed_of(bytes), bytes),
             Self::History => memory::history(bytes),
         }
     }

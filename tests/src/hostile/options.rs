@@ -227,7 +227,7 @@ fn photon(random: &mut Random) -> Vec<String> {
         random,
         8,
         &mut line,
-        &["-in", "-sp", "-sm", "-vr", "-pan", "-cube", "--fresnel", "--no-shadows", "-lg", "-tb"],
+        &["-in", "-sp", "-sm", "-vr", "-pan", "-cube", "--fresnel", "--no-shadows", "-lg", "-tb", "-pv"],
     );
     line
 }

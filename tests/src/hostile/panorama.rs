@@ -1,4 +1,6 @@
-//! Panoramas for `ugwarp`: PNG, JPEG, HDR and EXR files.
+//! Panoramas and lists of stars for `ugwarp`: PNG, JPEG, HDR, EXR and CSV files.
+
+use std::fmt::Write;
 
 use ugimage::{Compression, Format, Frame, LinearFrame, Metadata};
 use ugrandom::Random;
@@ -12,13 +14,43 @@ const JPEG: &[u8] = include_bytes!("../../../crates/ugimage/tests/bars.jpg");
 pub fn files(random: &mut Random) -> (Files, &'static str) {
     let n = if random.one_in(5) { 6 } else { 1 };
     let file = |idx: usize, random: &mut Random| {
-        let mut bytes = file(random);
+        let mut bytes = if random.one_in(4) { stars(random).into_bytes() } else { file(random) };
         if random.one_in(2) {
             bytes::damage(random, &mut bytes);
         }
         (format!("{idx}.sky"), bytes)
     };
     ((0..n).map(|idx| file(idx, random)).collect(), "panorama")
+}
+
+/// A list of stars, mostly valid.
+pub fn stars(random: &mut Random) -> String {
+    let head = *random.pick(&[
+        "ra,dec,mag,kelvin",
+        "ra_hours,dec,mag,b-v",
+        "lon,lat,mag,kelvin",
+        "x,y,z,mag,kelvin",
+        "ra,dec,mag",
+        "name,ra,dec,mag,kelvin,ra",
+    ]);
+    let mut text = format!("{head}\n");
+    let n_columns = head.split(',').count();
+    let is_wild = random.one_in(2);
+    for _ in 0..random.below(12) {
+        let number = |random: &mut Random| match is_wild {
+            true => words::number(random),
+            false => format!("{:.3}", random.between(0.1, 20.0)),
+        };
+        let mut fields: Vec<String> = (0..n_columns).map(|_| number(random)).collect();
+        if let Some(kelvin) = fields.last_mut() {
+            *kelvin = if head.ends_with("kelvin") { "6000".to_owned() } else { kelvin.clone() };
+        }
+        if random.one_in(40) {
+            fields.push(words::name(random));
+        }
+        let _ = writeln!(text, "{}", fields.join(","));
+    }
+    text
 }
 
 /// A panorama of any format, sometimes of a shape that is none, or with light that is not finite.
@@ -31,9 +63,10 @@ pub fn file(random: &mut Random) -> Vec<u8> {
 pub fn valid(random: &mut Random) -> Vec<u8> {
     let size = *random.pick(&[[64, 32], [128, 64], [66, 33]]);
     let level = random.unit();
-    match random.below(4) {
+    match random.below(5) {
         0 => JPEG.to_vec(),
-        1 => light(random, size, |random| (level * random.unit()) as f32),
+        1 => b"ra,dec,mag,kelvin\n10,20,1,5000\n0,-90,-1.5,40000\n".to_vec(),
+        2 => light(random, size, |random| (level * random.unit()) as f32),
         _ => srgb(random, size),
     }
 }
