@@ -1,6 +1,7 @@
 //! Spectra for light of which only red, green and blue are known, and how it is seen in motion.
 
 use std::fmt;
+use std::sync::OnceLock;
 
 use rayon::prelude::*;
 use ugphysics::{linear_srgb_to_xyz, luminance, xyz_to_linear_srgb};
@@ -48,8 +49,18 @@ const SMOOTH_STEP: f64 = 0.02;
 /// |ln D| up to which light is tabulated: beyond it nothing visible is left.
 const MOST_LN_DOPPLER: f64 = 12.0;
 
-/// Ratios of channels at which smooth spectra are tabulated.
-const N_RATIOS: usize = 33;
+/// Ratios of channels at which smooth spectra are tabulated, up to a largest |ln D|: tables with more
+/// factors have fewer colours. Where reflectances are steep at the red end, the infrared light of
+/// neighbouring colours differs much, so they are close.
+fn n_ratios(reach: f64) -> usize {
+    if reach <= 1.5 {
+        129
+    } else if reach <= 3.0 {
+        65
+    } else {
+        33
+    }
+}
 
 /// The brightest channel of the surfaces of smooth spectra.
 const REFLECTANCE: f64 = 0.5;
@@ -66,12 +77,17 @@ pub struct SpectralTable {
 
 enum Kind {
     /// Matrices from linear red, green and blue at rest to those seen, by ln D.
-    Linear { first: f64, maps: Vec<[[f32; 3]; 3]> },
+    Linear {
+        first: f64,
+        maps: Vec<[[f32; 3]; 3]>,
+    },
     /// ln X, ln Y, ln Z of a black body by ln T, and ln T by ln (Z/X).
-    BlackBody { first: f64, points: Vec<[f32; 3]>, ratio: Vec<f64> },
-    /// Light of surfaces whose brightest channel is 1, relative to that of white, by brightest
-    /// channel, ratios of the two others to it, and ln D; and the light of white.
-    Smooth { first: f64, n: usize, relative: Vec<[f32; 3]>, white: Vec<f32> },
+    BlackBody {
+        first: f64,
+        points: Vec<[f32; 3]>,
+        ratio: Vec<f64>,
+    },
+    Smooth(SmoothTable),
 }
 
 impl SpectralTable {
@@ -85,7 +101,7 @@ impl SpectralTable {
         let kind = match basis {
             Basis::Planck(kelvin) => planck(kelvin, reach)?,
             Basis::BlackBody => black_bodies(reach),
-            Basis::Smooth => smooth(reach),
+            Basis::Smooth => Kind::Smooth(SmoothTable::new(reach)),
         };
         Ok(Self { doppler, flux, kind })
     }
@@ -105,9 +121,7 @@ impl SpectralTable {
                 })
             }
             Kind::BlackBody { first, points, ratio } => black_body_seen(rgb, shift, *first, points, ratio),
-            Kind::Smooth { first, n, relative, white } => {
-                smooth_seen(rgb, shift, *first, *n, relative, white)
-            }
+            Kind::Smooth(table) => table.seen(rgb, shift),
         };
         if !self.flux {
             return seen;
@@ -203,62 +217,92 @@ fn black_body_seen(rgb: [f32; 3], shift: f64, first: f64, points: &[[f32; 3]], r
     xyz_to_linear_srgb(at(ln_kelvin + shift).map(|ln| libm::exp(ln + offset))).map(|part| part as f32)
 }
 
-fn smooth(reach: f64) -> Kind {
-    let (first, n) = range(reach, SMOOTH_STEP);
-    let grid = DopplerGrid::new(first..=-first);
-    let at = |idx: usize| first + SMOOTH_STEP * idx as f64;
-    let white = Spectrum::from_linear_srgb([REFLECTANCE; 3]);
-    let white: Vec<f64> =
-        (0..n).map(|idx| luminance(xyz_to_linear_srgb(grid.xyz(&white, at(idx)))) / REFLECTANCE).collect();
-    let node = |idx: usize| {
-        let (brightest, ratios) = (idx / (N_RATIOS * N_RATIOS), idx % (N_RATIOS * N_RATIOS));
-        let ratio = |idx: usize| idx as f64 / (N_RATIOS - 1) as f64;
-        let mut rgb = [REFLECTANCE; 3];
-        rgb[(brightest + 1) % 3] *= ratio(ratios / N_RATIOS);
-        rgb[(brightest + 2) % 3] *= ratio(ratios % N_RATIOS);
-        let spectrum = Spectrum::from_linear_srgb(rgb);
-        let seen = |idx: usize| {
-            let seen = xyz_to_linear_srgb(grid.xyz(&spectrum, at(idx)));
-            seen.map(|part| (part / (REFLECTANCE * white[idx]).max(f64::MIN_POSITIVE)) as f32)
-        };
-        (0..n).map(seen).collect::<Vec<_>>()
-    };
-    let nodes: Vec<Vec<[f32; 3]>> = (0..3 * N_RATIOS * N_RATIOS).into_par_iter().map(node).collect();
-    let white = white.into_iter().map(|part| libm::log(part.max(1e-300)) as f32).collect();
-    Kind::Smooth { first, n, relative: nodes.concat(), white }
-}
-
-fn smooth_seen(
-    rgb: [f32; 3],
-    shift: f64,
+/// The light of surfaces by brightest channel, ratios of the two others to it, and ln D.
+struct SmoothTable {
+    grid: DopplerGrid,
+    n_ratios: usize,
+    /// ln D of the first column, and the number of columns.
     first: f64,
     n: usize,
-    relative: &[[f32; 3]],
-    white: &[f32],
-) -> [f32; 3] {
-    let rgb = rgb.map(|part| part.max(0.0));
-    let brightest = (1..3).fold(0, |best, idx| if rgb[idx] > rgb[best] { idx } else { best });
-    let most = rgb[brightest];
-    if most <= 0.0 {
-        return [0.0; 3];
+    /// The light of white by ln D, and its logarithm.
+    white: Vec<f64>,
+    ln_white: Vec<f32>,
+    /// Light of surfaces whose brightest channel is 1, relative to that of white, by ln D. Computed
+    /// when it is first needed: a picture has few of all colours.
+    rows: Vec<OnceLock<Box<[[f32; 3]]>>>,
+}
+
+impl SmoothTable {
+    fn new(reach: f64) -> Self {
+        let (first, n) = range(reach, SMOOTH_STEP);
+        let grid = DopplerGrid::new(first..=-first);
+        let spectrum = Spectrum::from_linear_srgb([REFLECTANCE; 3]);
+        let at = |idx: usize| luminance(xyz_to_linear_srgb(grid.xyz(&spectrum, ln_doppler(first, idx))));
+        let white: Vec<f64> = (0..n).into_par_iter().map(|idx| at(idx) / REFLECTANCE).collect();
+        let ln_white = white.iter().map(|part| libm::log(part.max(1e-300)) as f32).collect();
+        let n_ratios = n_ratios(reach);
+        let rows = (0..3 * n_ratios * n_ratios).map(|_| OnceLock::new()).collect();
+        Self { grid, n_ratios, first, n, white, ln_white, rows }
     }
-    let (at, part) = place(shift, first, SMOOTH_STEP, n);
-    let ratio = |idx: usize| {
-        let at = rgb[(brightest + idx) % 3] / most * (N_RATIOS - 1) as f32;
-        let cell = (at as usize).min(N_RATIOS - 2);
-        (cell, at - cell as f32)
-    };
-    let ((i, u), (j, v)) = (ratio(1), ratio(2));
-    let corner = |i: usize, j: usize| {
-        let start = ((brightest * N_RATIOS + i) * N_RATIOS + j) * n + at;
-        let [low, high] = [relative[start], relative[start + 1]];
-        let mixed: [f32; 3] = std::array::from_fn(|c| low[c] + part * (high[c] - low[c]));
-        mixed
-    };
-    let corners = [corner(i, j), corner(i, j + 1), corner(i + 1, j), corner(i + 1, j + 1)];
-    let weights = [(1.0 - u) * (1.0 - v), (1.0 - u) * v, u * (1.0 - v), u * v];
-    let light = libm::expf(white[at] + part * (white[at + 1] - white[at])) * most;
-    std::array::from_fn(|c| light * (0..4).map(|k| weights[k] * corners[k][c]).sum::<f32>())
+
+    /// The light of a surface. `brightest`: its channel; `ratios`: of the next two, in steps of the
+    /// table.
+    #[inline]
+    fn row(&self, brightest: usize, ratios: [usize; 2]) -> &[[f32; 3]] {
+        let row = &self.rows[(brightest * self.n_ratios + ratios[0]) * self.n_ratios + ratios[1]];
+        row.get_or_init(|| self.computed(brightest, ratios))
+    }
+
+    #[inline(never)]
+    fn computed(&self, brightest: usize, ratios: [usize; 2]) -> Box<[[f32; 3]]> {
+        let mut rgb = [REFLECTANCE; 3];
+        for (idx, ratio) in ratios.into_iter().enumerate() {
+            rgb[(brightest + 1 + idx) % 3] *= ratio as f64 / (self.n_ratios - 1) as f64;
+        }
+        let spectrum = Spectrum::from_linear_srgb(rgb);
+        let seen = |(idx, white): (usize, &f64)| {
+            let seen = xyz_to_linear_srgb(self.grid.xyz(&spectrum, ln_doppler(self.first, idx)));
+            seen.map(|part| (part / (REFLECTANCE * white).max(f64::MIN_POSITIVE)) as f32)
+        };
+        self.white.iter().enumerate().map(seen).collect()
+    }
+
+    fn seen(&self, rgb: [f32; 3], shift: f64) -> [f32; 3] {
+        let rgb = rgb.map(|part| part.max(0.0));
+        let brightest = (1..3).fold(0, |best, idx| if rgb[idx] > rgb[best] { idx } else { best });
+        let most = rgb[brightest];
+        if most <= 0.0 {
+            return [0.0; 3];
+        }
+        let (at, part) = place(shift, self.first, SMOOTH_STEP, self.n);
+        let ratio = |idx: usize| {
+            let at = rgb[(brightest + idx) % 3] / most * (self.n_ratios - 1) as f32;
+            let cell = (at as usize).min(self.n_ratios - 2);
+            (cell, at - cell as f32)
+        };
+        let ((i, u), (j, v)) = (ratio(1), ratio(2));
+        let mut sum = [0.0_f32; 3];
+        for (ratios, weight) in [
+            ([i, j], (1.0 - u) * (1.0 - v)),
+            ([i, j + 1], (1.0 - u) * v),
+            ([i + 1, j], u * (1.0 - v)),
+            ([i + 1, j + 1], u * v),
+        ] {
+            // Rows without weight need not be computed: greys and primaries have one.
+            if weight > 0.0 {
+                let row = self.row(brightest, ratios);
+                let (low, high) = (row[at], row[at + 1]);
+                (0..3).for_each(|c| sum[c] += weight * (low[c] + part * (high[c] - low[c])));
+            }
+        }
+        let white = self.ln_white[at] + part * (self.ln_white[at + 1] - self.ln_white[at]);
+        let light = libm::expf(white) * most;
+        sum.map(|part| light * part)
+    }
+}
+
+fn ln_doppler(first: f64, idx: usize) -> f64 {
+    first + SMOOTH_STEP * idx as f64
 }
 
 #[cfg(test)]
@@ -323,6 +367,32 @@ mod tests {
                 assert!(error < 0.1, "{rgb:?} {ln_doppler}: {seen:?} {exact:?}");
             }
         }
+    }
+
+    /// The same for many colours, saturated ones among them: the root mean square of the errors,
+    /// relative to the largest channel.
+    #[test]
+    fn smooth_spectra_are_near_those_of_surfaces() {
+        let table = SpectralTable::new(Basis::Smooth, true, true, 0.56).unwrap();
+        let (mut sum, mut n) = (0.0, 0.0);
+        for step in 1..300_usize {
+            let part = |by: f64| (step as f64 * by).fract();
+            let mut rgb = [part(0.618_034), part(0.754_878), part(0.569_84)];
+            if step.is_multiple_of(4) {
+                rgb[step / 4 % 3] = 0.0;
+            }
+            let spectrum = Spectrum::from_linear_srgb(rgb);
+            for ln_doppler in [-0.537, -0.241, 0.241, 0.537] {
+                let seen = table.seen(rgb.map(|part| part as f32), ln_doppler).map(f64::from);
+                let exact = xyz_to_linear_srgb(spectrum.seen(libm::exp(ln_doppler)));
+                let size = exact.iter().fold(1e-6, |most: f64, part| most.max(part.abs()));
+                let error = (0..3).map(|i| (seen[i] - exact[i]).abs() / size).fold(0.0, f64::max);
+                assert!(error < 0.1, "{rgb:?} {ln_doppler}: {seen:?} {exact:?}");
+                sum += error * error;
+                n += 1.0;
+            }
+        }
+        assert!((sum / n).sqrt() < 0.01, "{}", (sum / n).sqrt());
     }
 
     #[test]

@@ -1,8 +1,10 @@
 //! Colours of a panorama as a moving observer sees them.
 
-use uglight::{ColorShift, HueShift, HueTable};
+use std::sync::{Arc, Mutex, PoisonError};
+
+use uglight::{ColorShift, HueShift, HueTable, SpectralShift};
 use ugphysics::{Hsv, VIOLET_END_NM, attenuation, srgb_decode, srgb_encode};
-use ugsky::SpectralTable;
+use ugsky::{Basis, BasisError, SpectralTable};
 
 use crate::config::Config;
 use crate::error::Error;
@@ -23,7 +25,7 @@ enum Kind {
         hues: &'static HueTable,
         curves: Curves,
     },
-    Spectra(SpectralTable),
+    Spectra(Arc<SpectralTable>),
 }
 
 impl Shade {
@@ -36,8 +38,7 @@ impl Shade {
             ColorShift::Hues(shift) if shift == HueShift::NONE => Kind::Same,
             ColorShift::Hues(shift) => Kind::Hues { shift, hues: HueTable::get(), curves: Curves::new() },
             ColorShift::Spectra(shift) => {
-                let reach = config.velocity.rapidity();
-                Kind::Spectra(SpectralTable::new(config.basis, shift.doppler, shift.flux, reach)?)
+                Kind::Spectra(spectral_table(config.basis, shift, config.velocity.rapidity())?)
             }
         };
         let is_uncut = config.picture.keeps_light() || matches!(kind, Kind::Spectra(_));
@@ -63,6 +64,29 @@ impl Shade {
             }
         }
     }
+}
+
+/// Tables are made for this step in ln D, so that the frames of an acceleration share them.
+const REACH_STEP: f64 = 0.25;
+
+/// What a spectral table depends on.
+type TableKey = (Basis, SpectralShift, f64);
+
+/// The table of a basis for rapidities up to `reach`. The last one is kept for the next picture: it
+/// is filled as colours need it.
+fn spectral_table(basis: Basis, shift: SpectralShift, reach: f64) -> Result<Arc<SpectralTable>, BasisError> {
+    static LAST: Mutex<Option<(TableKey, Arc<SpectralTable>)>> = Mutex::new(None);
+    let reach = (reach / REACH_STEP).ceil() * REACH_STEP;
+    let key = (basis, shift, reach);
+    let mut last = LAST.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some((of, table)) = &*last
+        && *of == key
+    {
+        return Ok(Arc::clone(table));
+    }
+    let table = Arc::new(SpectralTable::new(basis, shift.doppler, shift.flux, reach)?);
+    *last = Some((key, Arc::clone(&table)));
+    Ok(table)
 }
 
 /// A display-encoded colour by the hue model of 1988. A picture shows hues near the ends of the
