@@ -299,18 +299,11 @@ impl World {
 
 impl Part {
     fn new(Faces { scene, rest }: Faces<'_>, frame: RestFrame, rows: &[u32]) -> Self {
+        let triangle = |&row: &u32| whole_triangle(scene, row);
         let cut = |&row: &u32| face_triangles(scene, rest, row);
-        let triangles: Vec<FaceTriangle> = rows.par_iter().flat_map_iter(cut).collect();
-        // The vertices of these faces alone.
-        let mut used: Vec<u32> =
-            triangles.iter().flat_map(|triangle| triangle.corners.map(|corner| corner.0)).collect();
-        used.par_sort_unstable();
-        used.dedup();
-        let places: Vec<DVec3> = used.par_iter().map(|&vertex| rest[vertex as usize]).collect();
-        // Every corner is among them.
-        let place = |corner: VertexId| used.binary_search(&corner.0).unwrap_or_default() as u32;
-        let corners: Vec<[u32; 3]> =
-            triangles.par_iter().map(|triangle| triangle.corners.map(place)).collect();
+        let triangles: Option<Vec<FaceTriangle>> = rows.par_iter().map(triangle).collect();
+        let triangles = triangles.unwrap_or_else(|| rows.par_iter().flat_map_iter(cut).collect());
+        let (places, corners) = vertices(&triangles, rest);
         let bvh = Bvh::new(&places, &corners);
         let reach = bvh.bounds().map_or(0.0, |(low, high)| low.abs().max(high.abs()).max_element());
         let outline = bvh.bounds().map(|bounds| Outline::new(bounds, &frame));
@@ -394,14 +387,46 @@ impl Part {
     }
 }
 
+/// The places of the vertices of some triangles alone, and the rows of their corners among them.
+fn vertices(triangles: &[FaceTriangle], rest: &[DVec3]) -> (Vec<DVec3>, Vec<[u32; 3]>) {
+    /// With fewer triangles per vertex of the scene, a table of all vertices takes longer.
+    const DENSE: usize = 8;
+    let corners = || triangles.iter().flat_map(|triangle| triangle.corners);
+    if triangles.len() >= rest.len() / DENSE {
+        let mut rows = vec![u32::MAX; rest.len()];
+        corners().for_each(|corner| rows[corner.index()] = 0);
+        let mut places = Vec::new();
+        for (row, place) in rows.iter_mut().zip(rest).filter(|(row, _)| **row == 0) {
+            // Scenes have fewer than 2^32 vertices.
+            *row = places.len() as u32;
+            places.push(*place);
+        }
+        let row = |corner: VertexId| rows[corner.index()];
+        return (places, triangles.par_iter().map(|triangle| triangle.corners.map(row)).collect());
+    }
+    let mut used: Vec<u32> = corners().map(|corner| corner.0).collect();
+    used.par_sort_unstable();
+    used.dedup();
+    let places = used.par_iter().map(|&vertex| rest[vertex as usize]).collect();
+    // Every corner is among them.
+    let row = |corner: VertexId| used.binary_search(&corner.0).unwrap_or_default() as u32;
+    (places, triangles.par_iter().map(|triangle| triangle.corners.map(row)).collect())
+}
+
+/// A face with three corners, which need not be cut.
+fn whole_triangle(scene: &Scene, row: u32) -> Option<FaceTriangle> {
+    let &[a, b, c] = scene.contours.corners(scene.faces[row as usize].contours.clone()) else { return None };
+    Some(FaceTriangle { face: row, corners: [a, b, c], is_loose: false })
+}
+
 /// The triangles of a face. One that intersects itself gets a fan from its first corner: it covers
 /// each point of the face an odd number of times.
 fn face_triangles(scene: &Scene, rest: &[DVec3], row: u32) -> Vec<FaceTriangle> {
+    if let Some(whole) = whole_triangle(scene, row) {
+        return vec![whole];
+    }
     let face: &Face = &scene.faces[row as usize];
     let corners = scene.contours.corners(face.contours.clone());
-    if let &[a, b, c] = corners {
-        return vec![FaceTriangle { face: row, corners: [a, b, c], is_loose: false }];
-    }
     let rings: Vec<Vec<DVec3>> = scene
         .face_contours(face)
         .map(|contour| contour.iter().map(|corner| rest[corner.index()]).collect())
