@@ -185,7 +185,7 @@ const RAY_MISTAKES: [Mistake; 5] = [
     Mistake {
         name: "M6rays",
         file: "crates/ugphoton/src/world.rs",
-        right: "best.is_some_and(|best| best.s <= hit.t)",
+        right: "best.is_some() && hit.t >= end",
         // Distances in the rest frames of both bodies.
         wrong: "best.is_some_and(|best| {
             let weighted = best.triangle.corners.iter().zip(best.weights);
