@@ -14,10 +14,10 @@ mkdir -p "$out/rows"
 out=$(cd "$out" && pwd)
 cd "$(dirname "$0")/.."
 
-n_figures=95
+n_figures=107
 printf 'Builds the programs, then draws %s figures into %s\n' "$n_figures" "$out"
 printf 'On two cores: some minutes for the first build, then about two for the figures.\n\n'
-cargo build --release -p uglorentz -p ugdoppler -p ugrainbow -p ugphoton -p ugsheet
+cargo build --release -p uglorentz -p ugdoppler -p ugrainbow -p ugphoton -p ugwarp -p ugsheet
 printf '\nDrawing:\n'
 export PATH="${CARGO_TARGET_DIR:-$PWD/target}/release:$PATH"
 cd scenes
@@ -66,6 +66,14 @@ trace() {
     local name=$1
     shift
     ugphoton -qt --no-doppler --no-flux -bg .8 210 .25 -sz "$width" "$height" "$@" -fo "$out/$name.png"
+    announce "$name"
+}
+
+# warp NAME [OPTION...]: a view of a panorama or of stars, to OUTDIR/NAME.png
+warp() {
+    local name=$1
+    shift
+    ugwarp -qt -sz "$width" "$height" "$@" -fo "$out/$name.png"
     announce "$name"
 }
 
@@ -161,6 +169,20 @@ uglorentz -cv 0 .6 0 tunnel.ug | ugdoppler -qt -sp --no-doppler --no-flux | draw
 uglorentz -cv 0 .6 0 tunnel.ug | ugdoppler -qt -sp --no-flux | draw weiskopf-03c-0.6c-doppler
 uglorentz -cv 0 .6 0 tunnel.ug | ugdoppler -qt -sp | draw weiskopf-03d-0.6c-searchlight -ex -3.32
 
+# The same four from a panorama of the tunnel at rest.
+ugphoton -qt -sp -pan -aa 2 -sz 4096 2048 -dt exr tunnel.ug -fo "$out/rows/tunnel.exr"
+tunnel_view() { warp "$1" --basis 3500 5900 10000 -va 90 73.74 -aa 2 "${@:2}" "$out/rows/tunnel.exr"; }
+tunnel_view weiskopf-03a-warped-rest
+tunnel_view weiskopf-03b-warped-0.6c-shape -cv 0 .6 0 --no-doppler --no-flux
+tunnel_view weiskopf-03c-warped-0.6c-doppler -cv 0 .6 0 --no-flux
+tunnel_view weiskopf-03d-warped-0.6c-searchlight -cv 0 .6 0 -ex -3.32
+
+# Our own: stars ahead of a ship that flies to Orion, and for a dome.
+for speed in 0.0 0.5 0.9 0.99; do
+    warp "stars-${speed}c" -cv -$speed 0 0 -vc -1 0 0 -va 90 --white .5 --star-width 2.2 stars.csv
+    warp "stars-dome-${speed}c" -cv -$speed 0 0 -vc -1 0 0 -fish 180 --white .5 --star-width 2.2 stars.csv
+done
+
 # Our own: the lattice in shape and colour, mixed colours at a vertex, five speeds in one picture.
 uglorentz -vel 0 -.9 0 lattice.ug | draw lattice-0.9c-shape -va 120
 uglorentz -vel 0 -.9 0 lattice.ug | ugdoppler -qt -gw | draw lattice-0.9c-colours -wi -va 120
@@ -222,5 +244,5 @@ uglorentz -in -vel .9 0 0 glass.ug | draw glass-b-0.9c
 uglorentz -in -vel .9 0 0 glass.ug | draw glass-c-0.9c-edges -wf -lc 1 -dc 7 12
 uglorentz -in -vel .9 0 0 glass.ug | draw glass-d-0.9c-both -ed
 
-ugsheet -qt -lb names -bg .25 -cols 6 -fo "$out/sheet.png" "$out"/{nguyen,chang,howard,weiskopf,li,lattice,halves,dice,traffic,lamp,glass,water}*.png
+ugsheet -qt -lb names -bg .25 -cols 6 -fo "$out/sheet.png" "$out"/{nguyen,chang,howard,weiskopf,stars,li,lattice,halves,dice,traffic,lamp,glass,water}*.png
 printf 'The pictures are in %s, all of them on %s/sheet.png\n' "$out" "$out"
