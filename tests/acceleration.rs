@@ -4,7 +4,7 @@
 
 use std::process::Command;
 
-use ugtests::programs;
+use ugtests::{programs, scenes};
 
 /// Velocities of 1 g, 9.80665 m/s², in light years and Julian years.
 const PER_YEAR: f64 = 9.806_65 * 31_557_600.0 / 299_792_458.0;
@@ -16,6 +16,7 @@ fn velocities(n_frames: u32, last: f64) -> Vec<f64> {
     let output = Command::new(program)
         .args(["-warp", "-frames", &n_frames.to_string(), "-cv", &moving])
         .args(["-fo", "f_%d.png", "--print", "stars.csv"])
+        .current_dir(scenes::root().join("scenes"))
         .output()
         .unwrap();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));

@@ -306,3 +306,31 @@ fn the_list_of_the_gallery_is_read() {
     let growth = magnitudes(5.0, 6.0) / magnitudes(4.0, 5.0);
     assert!((2.7..3.7).contains(&growth), "{growth}");
 }
+
+/// No bytes make the reader panic, and its messages are about the file.
+#[test]
+fn damaged_lists_are_read_or_refused() {
+    let list = "name,ra,dec,mag,kelvin\n\"A, b\",90,30,1.5,5000\n# c\n,0,90,-1,3e4\r\nnorth,1,2,3,4000";
+    let damage = [b',', b'"', b'\n', b'\r', b'#', b'-', b'9', b'e', 0, 0xff];
+    let (mut n_read, mut n_refused) = (0, 0);
+    for at in 0..list.len() {
+        for byte in damage {
+            let mut bytes = list.as_bytes().to_vec();
+            bytes[at] = byte;
+            for bytes in [&bytes[..], &bytes[..at], &bytes[at..]] {
+                match read_stars("sky.csv", bytes) {
+                    Ok(stars) => {
+                        n_read += 1;
+                        let is_unit = |star: &Star| (star.direction.length() - 1.0).abs() < 1e-12;
+                        assert!(stars.iter().all(is_unit), "{stars:?}");
+                    }
+                    Err(found) => {
+                        n_refused += 1;
+                        assert!(found.render(false).contains("sky.csv:"), "{}", found.render(false));
+                    }
+                }
+            }
+        }
+    }
+    assert!(n_read > 100 && n_refused > 1000, "{n_read} {n_refused}");
+}
