@@ -13,7 +13,7 @@ const PAGES: [(&str, usize); 8] = [
     ("docs/gallery.md", 60),
     ("docs/pipeline.md", 18),
     ("docs/meshes.md", 4),
-    ("docs/film.md", 7),
+    ("docs/film.md", 8),
     ("docs/batch.md", 3),
     ("docs/geometry.md", 1),
 ];

@@ -288,3 +288,134 @@ fn a_full_disk_and_a_failing_encoder_keep_what_is_done() {
             .all(|(name, bytes)| { whole[&name.replacen('k', "f", 1)] == *bytes })
     );
 }
+
+/// The light of a picture in the folder.
+fn light(shell: &Shell, name: &str) -> Vec<[f32; 4]> {
+    let file = fs::read(shell.folder.path().join(name)).unwrap();
+    match ugimage::read_picture(&file, ugimage::MAX_PIXELS).unwrap().1 {
+        ugimage::Pixels::Light(pixels) => pixels,
+        ugimage::Pixels::Srgb(_) => panic!("{name} holds no light"),
+    }
+}
+
+#[test]
+fn motion_blur_is_the_mean_light_of_its_moments() {
+    let shell = Shell::new();
+    // What does not change over the film is not blurred.
+    let rest = "-frames 2 -vel 0 .5 0 -in -sp -sz 60 40 -cap 'β = {beta}' dice.ug";
+    shell.run(&format!("ugfilm {rest} -blur 1 -moments 7 -fo blurred_%d.png"));
+    shell.run(&format!("ugfilm {rest} -ex 0 -fo sharp_%d.png"));
+    let pixels = |name: &str| {
+        ugimage::read_png(&fs::read(shell.folder.path().join(name)).unwrap()).unwrap().0.pixels().to_vec()
+    };
+    assert!(pixels("blurred_1.png") == pixels("sharp_1.png"));
+    // The commands that are printed draw the moments.
+    let film = "ugfilm -frames 4 -vel 0 0..0.6 0 -in -ex -1 -tc filmic -sz 60 40 dice.ug -blur .8 -moments 5";
+    for n_threads in [1, 2, 5] {
+        shell.run(&format!("mkdir t{n_threads}; {film} -nt {n_threads} -fo t{n_threads}/f_%d.png"));
+        assert!(shell.files(&format!("t{n_threads}")) == shell.files("t1"));
+    }
+    let [script, _] =
+        shell.run(&format!("{film} -fo t1/f_%d.png --print 3 | tee moments.sh; sh -e moments.sh"));
+    let first = "# frame 3 is the mean light of the next 5 pictures, developed with -ex -1 -tc filmic\n";
+    assert!(script.starts_with(first), "{script}");
+    let moments: Vec<Vec<[f32; 4]>> =
+        (1..=5).map(|row| light(&shell, &format!("t1/f_3.0{row}.exr"))).collect();
+    assert!(moments[0] != moments[4]);
+    let development = ugimage::Development { stops: -1.0, tone: ugimage::Tone::Filmic };
+    let mean = |idx: usize| {
+        let sum = |part: usize| moments.iter().map(|pixels| f64::from(pixels[idx][part])).sum::<f64>();
+        let [red, green, blue] = development.apply([0, 1, 2].map(|part| (sum(part) / 5.0) as f32));
+        [red, green, blue, 1.0]
+    };
+    let expected = ugimage::LinearFrame::new([60, 40], true, (0..60 * 40).map(mean).collect()).to_display();
+    assert!(pixels("t1/f_3.png") == expected.pixels());
+    // A frame that is done is not drawn again, unless its blur is another.
+    let last = |messages: &str| messages.lines().last().unwrap_or_default().to_owned();
+    let [_, messages] = shell.run(&format!("{film} -fo t1/f_%d.png"));
+    assert_eq!(last(&messages), "ugfilm: note: 0 frames drawn, 4 were there already");
+    let [_, messages] = shell.run(&format!("{} -fo t1/f_%d.png", film.replace("-blur .8", "-blur .7")));
+    assert!(!messages.contains("already"), "{messages}");
+    let (status, messages) = shell.fail(&format!("{film} -lg -fo lg_%d.png"));
+    assert!(status == Some(2) && messages.contains("-blur gives the mean of several moments"), "{messages}");
+}
+
+/// An edge that the eye passes at a constant rate becomes a linear ramp, in linear light.
+#[test]
+fn a_moving_edge_is_a_linear_ramp() {
+    let shell = Shell::new();
+    let wall = "v a 0 5 -50 ; v b 99 5 -50 ; v c 99 5 50 ; v d 0 5 50 ; f wall (a b c d) ; l 1 ; \
+                cam -ud 0 0 1 -va 40 30 ;";
+    fs::write(shell.folder.path().join("wall.ug"), wall).unwrap();
+    // From frame 1 to frame 3 the eye moves by 2; the shutter of frame 2 is open from -1/2 to 1/2.
+    shell.run(
+        "ugfilm -frames 3 -ep -1..1 0 0 -vc -1..1 5 0 -blur 1 -moments 64 -only 2 -sz 80 60 -fo f_%d.exr wall.ug",
+    );
+    let pixels = light(&shell, "f_2.exr");
+    let row = &pixels[80 * 30..80 * 31];
+    let whole = row[79][1];
+    assert!(whole > 0.1 && row[0][1] == 0.0, "{row:?}");
+    // Half a picture of 40 columns is tan 20° wide at distance 1.
+    let reach = 0.5 / 5.0 / libm::tan(20f64.to_radians()) * 40.0;
+    assert!(reach > 10.0);
+    for (column, pixel) in row.iter().enumerate() {
+        let center = column as f64 + 0.5 - 40.0;
+        let expected = ((center + reach) / (2.0 * reach)).clamp(0.0, 1.0);
+        let found = f64::from(pixel[1] / whole);
+        // Half a moment, and half a sample at the ends of the ramp.
+        assert!(
+            (found - expected).abs() < 0.5 / 64.0 + 0.125 / (2.0 * reach) + 1e-3,
+            "{column}: {found} {expected}"
+        );
+    }
+}
+
+#[test]
+fn chosen_frames_on_one_sheet() {
+    let shell = Shell::new();
+    let film = "ugfilm -frames 5 -vel 0 0..0.8 0 -in -sz 80 60 dice.ug";
+    shell.run(&format!("{film} -fo f_%d.png; ugsheet f_1.png f_3.png f_5.png -fo expected.png"));
+    shell.run(&format!("{film} -sheet 3 -fo spread.png; {film} -sheet -only 1,3,5 -fo chosen.png"));
+    let pixels = |name: &str| {
+        ugimage::read_png(&fs::read(shell.folder.path().join(name)).unwrap()).unwrap().0.pixels().to_vec()
+    };
+    assert!(pixels("spread.png") == pixels("expected.png"));
+    assert!(pixels("chosen.png") == pixels("expected.png"));
+    let (status, messages) = shell.fail(&format!("{film} -sheet -fo sheet.gif"));
+    assert!(status == Some(2) && messages.contains("-sheet writes a PNG"), "{messages}");
+}
+
+#[test]
+fn frames_are_drawn_again_after_a_change_of_an_included_file() {
+    let shell = Shell::new();
+    shell.run("printf 'include dice.ug ;\\n' > whole.ug");
+    let film = "ugfilm -frames 3 -vel 0 0..0.8 0 -in -sz 40 30 whole.ug -fo f_%d.png";
+    let drawn = || {
+        let [_, messages] = shell.run(film);
+        messages.lines().last().filter(|line| line.contains("already")).map(str::to_owned)
+    };
+    assert_eq!(drawn(), None);
+    let all = Some("ugfilm: note: 0 frames drawn, 3 were there already".to_owned());
+    assert_eq!(drawn(), all);
+    let before = shell.files(".");
+    shell.run("sed -i 's/^l .*/l 0.05 ;/' dice.ug; touch -d '2001-01-01' dice.ug");
+    assert_eq!(drawn(), None);
+    let after = shell.files(".");
+    assert!(["f_1.png", "f_2.png", "f_3.png"].iter().any(|name| before[*name] != after[*name]));
+    assert_eq!(drawn(), all);
+    // A frame alone that is older than the change is drawn alone.
+    shell.run("rm f_2.png");
+    assert_eq!(drawn(), Some("ugfilm: note: 1 frames drawn, 2 were there already".to_owned()));
+}
+
+#[test]
+fn a_million_frames_and_a_folder_that_cannot_be_written() {
+    let shell = Shell::new();
+    let film = "ugfilm -frames 1000000 -vel '.9 0 0 .. 0 .9 0' -in -sz 20 20 dice.ug";
+    let [line, _] = shell.run(&format!("{film} -fo f_%07d.png --print 1000000"));
+    assert!(line.contains("-vel 0 0.9") && line.ends_with("> f_1000000.png\n"), "{line}");
+    shell.run(&format!("{film} -only 1,500000,999999..1000000 -fo f_%07d.png"));
+    assert_eq!(shell.files(".").keys().filter(|name| name.starts_with("f_")).count(), 4);
+    let (status, messages) = shell.fail(&format!("{film} -only 3..9 -fo /proc/f_%07d.png"));
+    assert!(status == Some(1) && messages.contains("cannot write `/proc/f_0000003.png`"), "{messages}");
+}

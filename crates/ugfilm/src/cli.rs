@@ -1,23 +1,24 @@
 //! The command line.
 
 use std::ffi::OsString;
-use std::path::Path;
+use std::hash::{DefaultHasher, Hasher};
 
 use clap::Parser;
 use ugimage::Format;
 use ugparse::{Scene, pipe};
-use ugpicture::cli::format_for;
 use ugpipe::{
     CommonArgs, Context, Failure, Input, Manual, ToolArgs, finite, one_of, parse_words, sha256, whole,
 };
 use ugscene::{CameraOptions, DefaultCamera};
 
+use crate::blur::MotionBlur;
 use crate::draw::Subject;
-use crate::encode::Kind;
 use crate::film::{Film, Summary, Target};
-use crate::frame_files::FrameNames;
+use crate::frame_files::valid_since;
 use crate::keys;
 use crate::options::{Given, ProgramOptions};
+use crate::output::{Output, names_of};
+use crate::print;
 use crate::program::Method;
 use crate::script::Script;
 use crate::timeline::Ease;
@@ -72,6 +73,23 @@ pub struct Args {
     #[arg(long, value_name = "NAMES", help_heading = FILM)]
     keep: Option<String>,
 
+    /// Motion blur: average the light of the film over TIME, in times between two frames
+    ///
+    /// The shutter is open from TIME/2 before a frame to TIME/2 after it; .5 is that of a film
+    /// camera. The mean is taken of linear light, before exposure and tone curve (-ex 0, if no
+    /// exposure is given).
+    #[arg(long, value_name = "TIME", value_parser = shutter_time, help_heading = FILM)]
+    blur: Option<f64>,
+
+    /// Moments that are averaged with -blur
+    #[arg(long, value_name = "N", default_value = "16", value_parser = whole(1..=10_000), help_heading = FILM)]
+    moments: u32,
+
+    /// Draw N frames spread over the film, or those of -only, on one sheet
+    #[arg(long, num_args = 0..=1, value_name = "N", default_missing_value = "9",
+          value_parser = whole(1..=10_000), help_heading = FILM)]
+    sheet: Option<u32>,
+
     /// Print the command of every frame, or of frame N, and draw nothing
     #[arg(long, num_args = 0..=1, value_name = "N", default_missing_value = "0",
           value_parser = whole(0..=10_000_000), help_heading = FILM)]
@@ -121,32 +139,57 @@ pub fn manual() -> Manual {
 /// # Errors
 /// Bad usage, a bad scene, or a stream that fails.
 pub fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
-    let output = Output::new(args, context.output_name())?;
+    let output = Output::new(args.dt.as_deref(), args.sheet.is_some(), context.output_name())?;
     let keep = args.keep.as_deref().map(|names| names_of(names, "--keep")).transpose()?;
     let mut script = args.script(context)?;
     let frames = args.numbers()?;
     let read = Read::new(args, &mut script, context)?;
-    let subject = read.subject();
+    let (subject, format) = (read.subject(), output.frame_format());
+    let blur = args.blur.map(|open| MotionBlur { open, n_moments: args.moments });
     if script.fixed("ex").as_deref() == Some("auto") {
-        let film = Film { subject, script: &script, format: output.frame_format() };
+        let film = Film { subject, script: &script, format, blur, valid_since: None };
         let stops = film.exposure(&context.steps())?.to_string();
         context.note(&format!("one exposure for all frames: -ex {stops}"));
         script.set("ex", vec![stops]);
     }
-    if let Some(number) = args.print {
-        return print(&script, &output, &frames, number, context);
+    if blur.is_some() && script.get("ex").is_none() && !format.is_linear() {
+        script.set("ex", vec!["0".to_owned()]);
     }
-    let film = Film { subject, script: &script, format: output.frame_format() };
+    let mut film = Film { subject, script: &script, format, blur, valid_since: None };
+    if let Some(number) = args.print {
+        let input = Some(context.recorded_name()).filter(|name| name != "-");
+        let chosen = frames.into_iter().filter(|&frame| number == 0 || frame == number);
+        let text = print::script(&film, chosen, &output.frame_names(), input.as_deref())?;
+        if text.is_empty() {
+            return Err(Failure::Usage(format!("--print {number}: the film has no such frame")));
+        }
+        return context.print(&text);
+    }
+    let names = match &output {
+        Output::Files(names, _) => Some(names),
+        _ => keep.as_ref(),
+    };
+    film.valid_since = match (names, read.included()) {
+        (Some(names), Some(sha256)) => Some(valid_since(names, sha256)?),
+        _ => None,
+    };
+    if context.output_is_terminal() && !matches!(output, Output::Files(..)) {
+        return Err(Failure::usage("a film is not written to a terminal; give -fo FILE"));
+    }
     let summary = match &output {
         Output::Files(names, _) => {
             film.size()?;
             film.write_files(&frames, names, &context.steps())?
         }
         Output::Film(kind) => {
-            if context.output_is_terminal() {
-                return Err(Failure::usage("a film is not written to a terminal; give -fo FILE"));
-            }
             film.write_film(&frames, Target { kind: *kind, rate: args.fps, keep: keep.as_ref() }, context)?
+        }
+        Output::Sheet => {
+            let chosen = args.sheet.filter(|_| args.only.is_none());
+            let frames = chosen.map_or(frames, |most| film.spread(most));
+            let (sheet, pictures) = film.sheet(&frames, &context.steps())?;
+            let history = ugsheet::history(&pictures, context.command_line());
+            return context.write(&Format::Png.encode(&sheet, &history));
         }
     };
     tell(&summary, context);
@@ -167,7 +210,8 @@ fn tell(summary: &Summary, context: &Context) {
 
 /// What was read.
 enum Read {
-    Scene(Box<Scene>),
+    /// A scene, and the SHA-256 of its whole text if it includes files.
+    Scene(Box<Scene>, Option<String>),
     /// A panorama, and the words for its origin.
     Panorama(Box<ugwarp::Opened>, String),
 }
@@ -183,7 +227,10 @@ impl Read {
             return Ok(Self::Panorama(Box::new(opened), origin));
         }
         let reading = pipe::options(&args.common)?;
-        let source = pipe::read(context, &reading)?;
+        let input = pipe::input(context, &reading)?;
+        let own = hash(&input.text);
+        let source = pipe::follow(input, &reading, context).map_err(pipe::refused)?;
+        let included = (hash(&source.text) != own).then(|| sha256(&source.text));
         let camera = script.fixed("cam");
         let parsed = ugscene::read(&source, &reading, camera.as_deref()).map_err(pipe::refused)?;
         if !parsed.warnings.is_empty() {
@@ -196,15 +243,30 @@ impl Read {
             script.set("vc", words(camera.center.to_array()));
             script.set("va", vec![camera.view_angle_deg.to_string()]);
         }
-        Ok(Self::Scene(Box::new(parsed.scene)))
+        Ok(Self::Scene(Box::new(parsed.scene), included))
+    }
+
+    /// The SHA-256 of the whole text of a scene that includes files.
+    fn included(&self) -> Option<&str> {
+        match self {
+            Self::Scene(_, included) => included.as_deref(),
+            Self::Panorama(..) => None,
+        }
     }
 
     fn subject(&self) -> Subject<'_> {
         match self {
-            Self::Scene(scene) => Subject::Scene(scene),
+            Self::Scene(scene, _) => Subject::Scene(scene),
             Self::Panorama(panorama, origin) => Subject::Panorama(panorama, origin),
         }
     }
+}
+
+/// A hash that tells texts apart in this run.
+fn hash(text: &[u8]) -> u64 {
+    let mut hasher = DefaultHasher::new();
+    hasher.write(text);
+    hasher.finish()
 }
 
 /// The camera of all frames, if the scene has none and the options give none.
@@ -213,82 +275,6 @@ fn default_camera(scene: &Scene, script: &Script) -> Result<Option<DefaultCamera
         return Ok(None);
     }
     DefaultCamera::new(scene, &CameraOptions::default(), [4, 3], []).map_err(Failure::failed)
-}
-
-/// Where frames go.
-enum Output {
-    /// Numbered files.
-    Files(FrameNames, Format),
-    /// One file.
-    Film(Kind),
-}
-
-impl Output {
-    fn new(args: &Args, file: Option<&Path>) -> Result<Self, Failure> {
-        let name = file.map(|path| path.to_string_lossy().into_owned());
-        let names = name.as_deref().and_then(FrameNames::new);
-        let ending = file.and_then(Path::extension).map(|ending| ending.to_string_lossy().into_owned());
-        let word = args.dt.clone().or(ending);
-        let kind = word.as_deref().and_then(Kind::from_name);
-        match (names, kind) {
-            (None, Some(kind)) => Ok(Self::Film(kind)),
-            // Pictures of this format are single frames, too.
-            (Some(names), None | Some(Kind::Ppm)) => {
-                let given = args.dt.as_deref().map(ugpicture::cli::format_named).transpose();
-                Ok(Self::Files(names, format_for(given.map_err(Failure::usage)?, file)?))
-            }
-            (Some(_), Some(kind)) => Err(Failure::Usage(format!(
-                "{} is a whole film, not a frame: give a name without %d, or frames in png",
-                kind.name()
-            ))),
-            (None, None) => {
-                let kinds = Kind::ALL.map(Kind::name).join(", ");
-                Err(Failure::Usage(format!(
-                    "give numbered files, -fo frame_%04d.png, or a film: -fo FILE or -dt with {kinds}"
-                )))
-            }
-        }
-    }
-
-    /// The format of a frame.
-    fn frame_format(&self) -> Format {
-        match self {
-            Self::Files(_, format) => *format,
-            Self::Film(_) => Format::Png,
-        }
-    }
-}
-
-fn names_of(pattern: &str, option: &str) -> Result<FrameNames, Failure> {
-    let is_png = pattern.to_ascii_lowercase().ends_with(".png");
-    FrameNames::new(pattern).filter(|_| is_png).ok_or_else(|| {
-        Failure::Usage(format!("{option} names numbered PNG files, such as frame_%04d.png, not `{pattern}`"))
-    })
-}
-
-fn print(
-    script: &Script,
-    output: &Output,
-    frames: &[u32],
-    number: u32,
-    context: &mut Context,
-) -> Result<(), Failure> {
-    let input = Some(context.recorded_name()).filter(|name| name != "-");
-    let mut text = String::new();
-    for &frame in frames.iter().filter(|&&frame| number == 0 || frame == number) {
-        let file = match output {
-            Output::Files(names, _) => names.path(frame).display().to_string(),
-            Output::Film(_) => format!("frame_{frame:04}.png"),
-        };
-        let mut commands = script.commands(f64::from(frame))?;
-        commands.set_format(output.frame_format());
-        text += &commands.line(input.as_deref(), Some(&file));
-        text.push('\n');
-    }
-    if text.is_empty() {
-        return Err(Failure::Usage(format!("--print {number}: the film has no such frame")));
-    }
-    context.print(&text)
 }
 
 impl Args {
@@ -358,6 +344,11 @@ fn ease(word: &str) -> Result<Ease, String> {
         "smooth" => Ok(Ease::Smooth),
         _ => Err("neither linear nor smooth".to_owned()),
     }
+}
+
+fn shutter_time(word: &str) -> Result<f64, String> {
+    let time = finite(word)?;
+    if time > 0.0 && time <= 1000.0 { Ok(time) } else { Err("above 0, at most 1000".to_owned()) }
 }
 
 fn rate(word: &str) -> Result<f64, String> {

@@ -2,7 +2,7 @@
 
 use std::ffi::OsString;
 
-use ugimage::{Format, LinearFrame, Metadata};
+use ugimage::{Compression, Format, LinearFrame, Metadata};
 use ugparse::Scene;
 use ugpicture::Output;
 use ugpicture::cli::with_format;
@@ -146,11 +146,7 @@ impl Stages {
 
     /// The same frame in a picture of at most `side` pixels a side, without annotations.
     pub fn small(mut self, side: u32) -> Self {
-        match &mut self.last {
-            Last::Rainbow(config, _) => shrink(&mut config.picture, side),
-            Last::Photon(config, _) => shrink(&mut config.picture, side),
-            Last::Warp(config, _) => shrink(&mut config.picture, side),
-        }
+        shrink(self.picture_mut(), side);
         self
     }
 
@@ -181,6 +177,20 @@ impl Stages {
             Last::Photon(config, _) => &config.picture,
             Last::Warp(config, _) => &config.picture,
         }
+    }
+
+    /// The picture options of the renderer, to be changed.
+    pub fn picture_mut(&mut self) -> &mut ugpicture::PictureOptions {
+        match &mut self.last {
+            Last::Rainbow(config, _) => &mut config.picture,
+            Last::Photon(config, _) => &mut config.picture,
+            Last::Warp(config, _) => &mut config.picture,
+        }
+    }
+
+    /// How hard its file is compressed.
+    pub fn compression(&self) -> Compression {
+        if self.picture().small { Compression::Small } else { Compression::Fast }
     }
 
     /// The scene as the renderer gets it.

@@ -1,11 +1,14 @@
 //! From a scene and a script to a film.
 
 use std::path::Path;
+use std::time::SystemTime;
 
-use ugimage::{Format, Frame, LinearFrame, auto_exposure, read_png};
+use ugimage::{Format, Frame, LinearFrame, Metadata, auto_exposure, read_png, read_png_header};
 use ugpipe::{Context, Failure, Progress, Steps};
+use ugsheet::Picture;
 
 use crate::animation::{Palette, Shape};
+use crate::blur::{MotionBlur, Shot};
 use crate::draw::{Drawn, Stages, Subject};
 use crate::encode::{Ffmpeg, Kind, Stream};
 use crate::frame_files::{Claim, FrameNames, is_done};
@@ -26,6 +29,10 @@ pub struct Film<'s> {
     pub script: &'s Script,
     /// The format of single frames.
     pub format: Format,
+    /// How long its shutter is open; otherwise a frame is the picture of one moment.
+    pub blur: Option<MotionBlur>,
+    /// Since when files of frames may have been drawn; older ones are of another scene.
+    pub valid_since: Option<SystemTime>,
 }
 
 /// What became of the frames.
@@ -53,8 +60,26 @@ impl Film<'_> {
         Stages::new(&self.script.commands(f64::from(frame))?, self.format)
     }
 
+    /// The moments whose mean a frame is, in frames; `None` without motion blur.
+    pub fn moments(&self, frame: u32) -> Option<Vec<f64>> {
+        let ends = [1.0, f64::from(self.script.n_frames)];
+        let ends = if self.script.is_loop { [f64::NEG_INFINITY, f64::INFINITY] } else { ends };
+        self.blur.map(|blur| blur.moments(frame, ends))
+    }
+
+    fn shot(&self, frame: u32) -> Result<Shot, Failure> {
+        let stages = |moment: f64| Stages::new(&self.script.light_commands(moment)?, self.format);
+        let moments =
+            self.moments(frame).unwrap_or_default().into_iter().map(stages).collect::<Result<_, _>>()?;
+        Ok(Shot { frame: self.stages(frame)?, moments })
+    }
+
     fn draw(&self, frame: u32) -> Result<Drawn, Failure> {
-        self.stages(frame)?.draw(self.subject)
+        self.shot(frame)?.draw(self.subject)
+    }
+
+    fn is_done(&self, path: &Path, metadata: &Metadata) -> bool {
+        is_done(path, metadata, self.valid_since)
     }
 
     /// Width and height of all frames.
@@ -70,17 +95,17 @@ impl Film<'_> {
         Ok(first)
     }
 
-    /// Frames spread evenly over the film, among them the first and the last.
-    fn spread(&self) -> Vec<u32> {
+    /// At most `most` frames spread evenly over the film, among them the first and the last.
+    pub fn spread(&self, most: u32) -> Vec<u32> {
         let last = self.script.n_frames - 1;
-        let count = self.script.n_frames.min(MOST_MEASURED);
+        let count = self.script.n_frames.min(most);
         let steps = u64::from(count.max(2) - 1);
         (0..count).map(|row| 1 + (u64::from(row) * u64::from(last) / steps) as u32).collect()
     }
 
     /// Small pictures of frames spread over the film, without exposure, and their tone curve.
     fn measured(&self, steps: &Steps<'_>) -> Result<Vec<LinearFrame>, Failure> {
-        let spread = self.spread();
+        let spread = self.spread(MOST_MEASURED);
         steps.count("measuring", spread.len() as u64);
         let mut frames = Vec::new();
         let light = |row: usize| {
@@ -111,7 +136,7 @@ impl Film<'_> {
 
     /// The colours of a GIF.
     fn palette(&self, steps: &Steps<'_>) -> Result<Palette, Failure> {
-        let spread = self.spread();
+        let spread = self.spread(MOST_MEASURED);
         steps.count("choosing colours", spread.len() as u64);
         let mut pixels = Vec::new();
         let small = |row: usize| {
@@ -159,17 +184,17 @@ impl Film<'_> {
     }
 
     fn write_file(&self, frame: u32, path: &Path) -> Result<Outcome, Failure> {
-        let stages = self.stages(frame)?;
-        let metadata = stages.metadata(self.subject);
-        if is_done(path, &metadata) {
+        let shot = self.shot(frame)?;
+        let metadata = shot.metadata(self.subject);
+        if self.is_done(path, &metadata) {
             return Ok(Outcome::Done);
         }
         let Some(_claim) = Claim::new(path) else { return Ok(Outcome::Elsewhere) };
         // Another process may have finished it before it was claimed.
-        if is_done(path, &metadata) {
+        if self.is_done(path, &metadata) {
             return Ok(Outcome::Done);
         }
-        let drawn = stages.draw(self.subject)?;
+        let drawn = shot.draw(self.subject)?;
         Context::write_now(path, &drawn.bytes)?;
         Ok(Outcome::Drawn(drawn.notes))
     }
@@ -214,15 +239,39 @@ impl Film<'_> {
             return Ok((decoded(&drawn.bytes)?, Some(drawn.notes)));
         };
         let path = names.path(frame);
-        let stages = self.stages(frame)?;
-        if is_done(&path, &stages.metadata(self.subject)) {
+        let shot = self.shot(frame)?;
+        if self.is_done(&path, &shot.metadata(self.subject)) {
             let read = std::fs::read(&path);
             let read = read.map_err(|error| Failure::Read { name: path.display().to_string(), error })?;
             return Ok((decoded(&read)?, None));
         }
-        let drawn = stages.draw(self.subject)?;
+        let drawn = shot.draw(self.subject)?;
         Context::write_now(&path, &drawn.bytes)?;
         Ok((decoded(&drawn.bytes)?, Some(drawn.notes)))
+    }
+
+    /// Draws frames on one sheet, with their velocities or times as labels, otherwise their numbers.
+    /// Returns the sheet and its pictures.
+    ///
+    /// # Errors
+    /// A frame cannot be drawn, or the sheet is too large.
+    pub fn sheet(&self, frames: &[u32], steps: &Steps<'_>) -> Result<(Frame, Vec<Picture>), Failure> {
+        steps.count("drawing", frames.len() as u64);
+        let draw = |row: usize| about(frames[row], self.draw(frames[row]));
+        let (mut files, mut pictures) = (Vec::new(), Vec::new());
+        in_order(frames.len(), draw, |row, drawn| {
+            let (size, history) = read_png_header(&drawn.bytes).map_err(Failure::failed)?;
+            pictures.push(Picture { name: frames[row].to_string(), size, history });
+            files.push(drawn.bytes);
+            steps.done(1);
+            Ok(())
+        })?;
+        let frame_of = |idx: usize| {
+            let read = read_png(&files[idx]).map(|(frame, _)| frame);
+            read.map_err(|error| ugsheet::Error::Picture(error.to_string()))
+        };
+        let sheet = ugsheet::sheet(&ugsheet::Config::default(), &pictures, frame_of);
+        Ok((sheet.map_err(Failure::failed)?, pictures))
     }
 
     /// Writes a film to the output of the program.

@@ -4,8 +4,10 @@ use std::ffi::OsString;
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::Read;
 use std::path::{Path, PathBuf};
+use std::time::SystemTime;
 
 use ugimage::{Metadata, read_history};
+use ugpipe::{Context, Failure};
 
 /// Names of numbered files: `frame_%04d.png`.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -13,6 +15,13 @@ pub struct FrameNames {
     before: String,
     n_digits: usize,
     after: String,
+}
+
+impl Default for FrameNames {
+    /// `frame_%04d.png`.
+    fn default() -> Self {
+        Self { before: "frame_".to_owned(), n_digits: 4, after: ".png".to_owned() }
+    }
 }
 
 impl FrameNames {
@@ -33,13 +42,35 @@ impl FrameNames {
     }
 }
 
-/// True if the file is whole and was made by the commands that these metadata state.
-pub fn is_done(path: &Path, metadata: &Metadata) -> bool {
+/// Since when frames may have been drawn of a scene that includes files. Their records state the
+/// hash of the scene's own file alone, so a file beside the first frame states that of the whole
+/// text; it is written anew when the text has changed, and older frames do not count.
+///
+/// # Errors
+/// The file cannot be written.
+pub fn valid_since(names: &FrameNames, sha256: &str) -> Result<SystemTime, Failure> {
+    let first = names.path(1);
+    let name = first.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+    let path = first.with_file_name(format!(".{name}.scene"));
+    let text = format!("{sha256}\n");
+    if fs::read(&path).ok().as_deref() != Some(text.as_bytes()) {
+        Context::write_now(&path, text.as_bytes())?;
+    }
+    let written = fs::metadata(&path).and_then(|found| found.modified());
+    written.map_err(|error| Failure::Read { name: path.display().to_string(), error })
+}
+
+/// True if the file is whole, was made by the commands that these metadata state, and not before
+/// `since`.
+pub fn is_done(path: &Path, metadata: &Metadata, since: Option<SystemTime>) -> bool {
     /// The end of a PNG file.
     const END: &[u8] = b"\0\0\0\0IEND\xaeB`\x82";
     let mut bytes = Vec::new();
     // A device or pipe would be read without end.
-    let is_file = fs::metadata(path).is_ok_and(|found| found.is_file());
+    let is_new = |found: &fs::Metadata| {
+        since.is_none_or(|since| found.modified().is_ok_and(|modified| modified >= since))
+    };
+    let is_file = fs::metadata(path).is_ok_and(|found| found.is_file() && is_new(&found));
     let read = |bytes: &mut Vec<u8>| File::open(path).and_then(|mut file| file.read_to_end(bytes));
     if !is_file || metadata.comment.is_empty() || read(&mut bytes).is_err() {
         return false;

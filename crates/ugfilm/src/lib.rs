@@ -18,12 +18,16 @@
 //! script                                    the command lines of every frame
 //! animation                                 animated PNG and GIF
 //! keys  draw  encode                        key frames; functions of the programs; film formats
+//! blur                                      frames while a shutter is open
 //! film                                      frames, in files or in a film
+//! output  print                             where frames go; commands for a shell
 //! cli                                       the command line
 //! ```
 
 #[cfg(feature = "cli")]
 mod animation;
+#[cfg(feature = "cli")]
+mod blur;
 #[cfg(feature = "cli")]
 mod cli;
 #[cfg(feature = "cli")]
@@ -38,6 +42,10 @@ mod frame_files;
 mod keys;
 #[cfg(feature = "cli")]
 mod options;
+#[cfg(feature = "cli")]
+mod output;
+#[cfg(feature = "cli")]
+mod print;
 #[cfg(feature = "cli")]
 mod program;
 #[cfg(feature = "cli")]

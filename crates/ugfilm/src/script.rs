@@ -130,7 +130,9 @@ impl Script {
     /// two.
     pub fn time(&self, frame: f64) -> f64 {
         let steps = if self.is_loop { self.n_frames } else { self.n_frames - 1 };
-        if steps == 0 { 0.0 } else { (frame - 1.0) / f64::from(steps) }
+        let time = if steps == 0 { 0.0 } else { (frame - 1.0) / f64::from(steps) };
+        // With motion blur, the first frame of a film that repeats begins at its end.
+        if self.is_loop && time < 0.0 { time.rem_euclid(1.0) } else { time }
     }
 
     /// The commands of a frame.
@@ -138,12 +140,35 @@ impl Script {
     /// # Errors
     /// A caption asks for what the frame does not have.
     pub fn commands(&self, frame: f64) -> Result<Commands, Failure> {
+        self.commands_without(frame, &[])
+    }
+
+    /// The commands for the light of a moment: those of a frame without what is done to light.
+    ///
+    /// # Errors
+    /// As of [`Script::commands`].
+    pub fn light_commands(&self, moment: f64) -> Result<Commands, Failure> {
+        self.commands_without(moment, &["cap", "ex", "tc"])
+    }
+
+    /// The options for the exposure and tone curve of a frame, in words.
+    pub fn development(&self, frame: f64) -> String {
+        let words = |name: &str| {
+            let values = self.get(name)?.at(self.time(frame), self.ease);
+            Some(format!("{} {}", spelling(name), values.join(" ")))
+        };
+        let options: Vec<String> = ["ex", "tc"].into_iter().filter_map(words).collect();
+        format!(", developed with {}", options.join(" "))
+    }
+
+    fn commands_without(&self, frame: f64, left_out: &[&str]) -> Result<Commands, Failure> {
         let time = self.time(frame);
         let programs = self.method.programs().iter().zip(&self.names);
         let mut stages: Vec<(Program, Vec<String>)> = programs
             .map(|(&program, name)| (program, [name].into_iter().chain(&self.reading).cloned().collect()))
             .collect();
-        for Setting { name, owners, timeline } in &self.options {
+        let is_kept = |setting: &&Setting| !left_out.contains(&setting.name.as_str());
+        for Setting { name, owners, timeline } in self.options.iter().filter(is_kept) {
             let mut values = timeline.at(time, self.ease);
             if name == "cap" {
                 for text in &mut values {

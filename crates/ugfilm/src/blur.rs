@@ -1,0 +1,189 @@
+//! Motion blur: the mean light of a frame while a shutter is open.
+
+use ugimage::{LinearFrame, Metadata};
+use ugparse::Scene;
+use ugpicture::{Annotated, Error, Exposure, Image, Layout, Output};
+use ugpipe::{Failure, sha256};
+
+use crate::draw::{Drawn, Stages, Subject};
+
+/// How long the shutter is open.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MotionBlur {
+    /// Its time, in times between two frames, above 0.
+    pub open: f64,
+    /// How many moments of this time are drawn, 1 or more.
+    pub n_moments: u32,
+}
+
+impl MotionBlur {
+    /// The moments of a frame, in frames: the middles of equal parts of the time in which the
+    /// shutter is open, half of it before the frame and half after, as far as this time lies
+    /// between `first` and `last`.
+    pub fn moments(self, frame: u32, [first, last]: [f64; 2]) -> Vec<f64> {
+        let n = f64::from(self.n_moments);
+        let middle = f64::from(frame);
+        let opened = (middle - 0.5 * self.open).max(first);
+        let time = (middle + 0.5 * self.open).min(last) - opened;
+        (0..self.n_moments).map(|row| opened + time * (f64::from(row) + 0.5) / n).collect()
+    }
+}
+
+/// A frame that can be drawn.
+pub struct Shot {
+    /// The frame at its own moment.
+    pub frame: Stages,
+    /// The moments while the shutter is open; none without a shutter.
+    pub moments: Vec<Stages>,
+}
+
+impl Shot {
+    /// What the file of the frame says about its making.
+    pub fn metadata(&self, subject: Subject<'_>) -> Metadata {
+        if self.moments.is_empty() {
+            return self.frame.metadata(subject);
+        }
+        metadata(&self.frame, &self.moments, subject)
+    }
+
+    /// Draws the frame.
+    ///
+    /// # Errors
+    /// The scene or panorama cannot be drawn with these options, or the mean of its moments cannot
+    /// have what they ask for.
+    pub fn draw(self, subject: Subject<'_>) -> Result<Drawn, Failure> {
+        if self.moments.is_empty() {
+            return self.frame.draw(subject);
+        }
+        mean(&self.frame, self.moments, subject)
+    }
+}
+
+/// Draws the mean light of several moments, developed and annotated as `frame` says.
+fn mean(frame: &Stages, moments: Vec<Stages>, subject: Subject<'_>) -> Result<Drawn, Failure> {
+    let whole = frame.picture();
+    let has_more = whole.annotations.legend || whole.annotations.outline || whole.annotations.grid;
+    if has_more || !whole.channels.is_empty() || matches!(whole.output, Output::Vector(_)) {
+        return Err(Failure::usage(
+            "-blur gives the mean of several moments: leave out -lg, -gr, -dl, -ch and vector formats",
+        ));
+    }
+    let metadata = metadata(frame, &moments, subject);
+    let layout = Layout::new(whole).map_err(Failure::usage)?;
+    let picture = layout.of_scene(whole).into_owned();
+    let mut sum = Sum::default();
+    for mut stages in moments {
+        stages.picture_mut().size = picture.size;
+        sum.add(&stages.light(subject)?);
+    }
+    let mut light = sum.mean();
+    if picture.output.is_linear() {
+        let bytes = Image::Light(light).into_file(picture.output, &metadata, frame.compression());
+        return Ok(Drawn { bytes, notes: Vec::new() });
+    }
+    let development = Exposure::development(picture.exposure, picture.tone, || &light);
+    for [red, green, blue, _] in light.pixels_mut() {
+        [*red, *green, *blue] = development.apply([*red, *green, *blue]);
+    }
+    let is_deep = picture.output.format().is_some_and(|format| format.is_deep());
+    let image = if is_deep { Image::Light(light) } else { Image::Display(light.to_display()) };
+    // A caption is independent of the scene.
+    let scene = Scene::default();
+    let annotated = Annotated { scene: &scene, camera: &picture.camera, is_shifted: false, seen: None };
+    let annotations = layout.annotate(annotated, &picture, Some(development), |_, _, _| {
+        Err(Error::Options("a caption needs no depths"))
+    });
+    let image = annotations.map_err(Failure::failed)?.composite(image);
+    let bytes = image.into_file(picture.output, &metadata, frame.compression());
+    Ok(Drawn { bytes, notes: Vec::new() })
+}
+
+/// What the file says about its making. No single pipe draws it, so it has none of the lines that
+/// can be run; the hash is that of the records of all moments.
+fn metadata(frame: &Stages, moments: &[Stages], subject: Subject<'_>) -> Metadata {
+    let records: Vec<String> = moments.iter().map(|stages| stages.metadata(subject).comment).collect();
+    let Metadata { software, comment } = frame.metadata(subject);
+    let commands = comment.lines().filter(|line| !line.contains(" # SHA-256 "));
+    let mean = format!(
+        "mean light of {} moments, whose records have the SHA-256 {}",
+        moments.len(),
+        sha256(records.join("\n").as_bytes())
+    );
+    let lines: Vec<&str> = commands.chain([mean.as_str()]).collect();
+    Metadata { software, comment: lines.join("\n") }
+}
+
+/// A sum of pictures of one size.
+#[derive(Default)]
+struct Sum {
+    size: [u32; 2],
+    is_opaque: bool,
+    n_pictures: u32,
+    /// Red, green and blue, multiplied by the covered part, and the covered part.
+    pixels: Vec<[f64; 4]>,
+}
+
+impl Sum {
+    fn add(&mut self, light: &LinearFrame) {
+        if self.n_pictures == 0 {
+            (self.size, self.is_opaque) = ([light.width(), light.height()], light.is_opaque());
+            self.pixels = vec![[0.0; 4]; light.pixels().len()];
+        }
+        self.n_pictures += 1;
+        for (sum, pixel) in self.pixels.iter_mut().zip(light.pixels()) {
+            let [red, green, blue, part] = pixel.map(f64::from);
+            let weight = if self.is_opaque { 1.0 } else { part };
+            let terms = [red * weight, green * weight, blue * weight, weight];
+            sum.iter_mut().zip(terms).for_each(|(sum, term)| *sum += term);
+        }
+    }
+
+    fn mean(self) -> LinearFrame {
+        let n = f64::from(self.n_pictures);
+        let mean = |[red, green, blue, weight]: [f64; 4]| {
+            let over = |sum: f64| if weight > 0.0 { (sum / weight) as f32 } else { 0.0 };
+            [over(red), over(green), over(blue), (weight / n) as f32]
+        };
+        LinearFrame::new(self.size, self.is_opaque, self.pixels.into_iter().map(mean).collect())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn moments_lie_evenly_around_the_frame() {
+        let moments = |open, n_moments| MotionBlur { open, n_moments }.moments(3, [1.0, 4.0]);
+        assert_eq!(moments(0.5, 1), [3.0]);
+        assert_eq!(moments(1.0, 2), [2.75, 3.25]);
+        assert_eq!(moments(0.5, 4), [2.8125, 2.9375, 3.0625, 3.1875]);
+        // The film has an end.
+        assert_eq!(moments(4.0, 3), [1.5, 2.5, 3.5]);
+        assert_eq!(MotionBlur { open: 1.0, n_moments: 2 }.moments(1, [1.0, 1.0]), [1.0, 1.0]);
+    }
+
+    #[test]
+    fn the_mean_of_equal_pictures_is_the_picture() {
+        let pixel = |idx: u8| [0.1, 1e-7 * f32::from(idx), 345.678, f32::from(idx) / 7.0];
+        let opaque = |idx: u8| [0.1, 1e-7 * f32::from(idx), 345.678, 1.0];
+        for (is_opaque, pixels) in
+            [(false, (1..8).map(pixel).collect::<Vec<_>>()), (true, (1..8).map(opaque).collect())]
+        {
+            for n_pictures in [1, 3, 16, 17, 1000] {
+                let frame = LinearFrame::new([7, 1], is_opaque, pixels.clone());
+                let mut sum = Sum::default();
+                (0..n_pictures).for_each(|_| sum.add(&frame));
+                assert_eq!(sum.mean().pixels(), frame.pixels(), "{n_pictures}");
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_not_covered_has_no_colour() {
+        let mut sum = Sum::default();
+        sum.add(&LinearFrame::new([1, 1], false, vec![[0.5, 0.25, 1.0, 1.0]]));
+        sum.add(&LinearFrame::new([1, 1], false, vec![[0.0; 4]]));
+        assert_eq!(sum.mean().pixels(), [[0.5, 0.25, 1.0, 0.5]]);
+    }
+}

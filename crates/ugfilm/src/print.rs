@@ -1,0 +1,51 @@
+//! The commands of frames as a script for a shell.
+
+use std::fmt::Write;
+
+use ugimage::Format;
+use ugpipe::Failure;
+
+use crate::film::Film;
+use crate::frame_files::FrameNames;
+
+/// The commands of these frames, one in a line. Of a frame with motion blur, those of its moments
+/// after a comment. `input`: the scene, `None` for standard input; `names`: the files of frames.
+///
+/// # Errors
+/// A caption asks for what the frame does not have.
+pub fn script(
+    film: &Film<'_>,
+    frames: impl Iterator<Item = u32>,
+    names: &FrameNames,
+    input: Option<&str>,
+) -> Result<String, Failure> {
+    let mut text = String::new();
+    for frame in frames {
+        let file = names.path(frame);
+        let Some(moments) = film.moments(frame) else {
+            let mut commands = film.script.commands(f64::from(frame))?;
+            commands.set_format(film.format);
+            text += &commands.line(input, Some(&file.display().to_string()));
+            text.push('\n');
+            continue;
+        };
+        let develop = match film.format.is_linear() {
+            true => String::new(),
+            false => film.script.development(f64::from(frame)),
+        };
+        // Writing to a string cannot fail.
+        let _ = writeln!(
+            text,
+            "# frame {frame} is the mean light of the next {} pictures{develop}",
+            moments.len()
+        );
+        for (row, moment) in (1..).zip(moments) {
+            let mut commands = film.script.light_commands(moment)?;
+            commands.set_format(Format::Exr);
+            let file = file.with_extension(format!("{row:02}.exr"));
+            text += &commands.line(input, Some(&file.display().to_string()));
+            text.push('\n');
+        }
+    }
+    Ok(text)
+}
