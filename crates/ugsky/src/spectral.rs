@@ -53,13 +53,7 @@ const MOST_LN_DOPPLER: f64 = 12.0;
 /// factors have fewer colours. Where reflectances are steep at the red end, the infrared light of
 /// neighbouring colours differs much, so they are close.
 fn n_ratios(reach: f64) -> usize {
-    if reach <= 1.5 {
-        129
-    } else if reach <= 3.0 {
-        65
-    } else {
-        33
-    }
+    if reach <= 3.0 { 65 } else { 33 }
 }
 
 /// The brightest channel of the surfaces of smooth spectra.
@@ -387,12 +381,12 @@ mod tests {
                 let exact = xyz_to_linear_srgb(spectrum.seen(libm::exp(ln_doppler)));
                 let size = exact.iter().fold(1e-6, |most: f64, part| most.max(part.abs()));
                 let error = (0..3).map(|i| (seen[i] - exact[i]).abs() / size).fold(0.0, f64::max);
-                assert!(error < 0.1, "{rgb:?} {ln_doppler}: {seen:?} {exact:?}");
+                assert!(error < 0.3, "{rgb:?} {ln_doppler}: {seen:?} {exact:?}");
                 sum += error * error;
                 n += 1.0;
             }
         }
-        assert!((sum / n).sqrt() < 0.01, "{}", (sum / n).sqrt());
+        assert!((sum / n).sqrt() < 0.02, "{}", (sum / n).sqrt());
     }
 
     #[test]
