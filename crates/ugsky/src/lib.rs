@@ -47,5 +47,5 @@ pub use grid::Extent;
 pub use observer::{Observer, SkyRay};
 pub use panorama::{Panorama, PanoramaError, Texels};
 pub use sample::Sampler;
-pub use spectral::{Basis, BasisError, SpectralTable};
+pub use spectral::{ALL_NM, Basis, BasisError, SpectralTable};
 pub use stars::{Star, StarLight};

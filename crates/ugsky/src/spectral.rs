@@ -1,11 +1,12 @@
 //! Spectra for light of which only red, green and blue are known, and how it is seen in motion.
 
 use std::fmt;
+use std::ops::Range;
 use std::sync::OnceLock;
 
 use rayon::prelude::*;
 use ugphysics::{linear_srgb_to_xyz, luminance, xyz_to_linear_srgb};
-use ugspectrum::{DopplerGrid, Spectrum};
+use ugspectrum::{DopplerGrid, LightSpectrum, Spectrum, integrate};
 
 /// The spectra that red, green and blue stand for. A picture determines three numbers of a
 /// spectrum, and nothing of its infrared and ultraviolet parts, which motion brings into view; each
@@ -21,7 +22,13 @@ pub enum Basis {
     /// Each colour is the black body with the same ratio of X to Z, and the same luminance. Other
     /// colours than those of black bodies change, at rest as well.
     BlackBody,
+    /// Daylight, as much as the luminance of a colour: for pictures of infrared or ultraviolet
+    /// light, which have no colours.
+    Grey,
 }
+
+/// All wavelengths at rest, nm.
+pub const ALL_NM: Range<f64> = 0.0..f64::INFINITY;
 
 /// What is wrong with three temperatures for [`Basis::Planck`].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -86,16 +93,24 @@ enum Kind {
 
 impl SpectralTable {
     /// A table for Doppler factors up to e^±`reach`. `doppler`: wavelengths are shifted; `flux`:
-    /// the radiance at each wavelength is multiplied by D⁵.
+    /// the radiance at each wavelength is multiplied by D⁵. `range`: wavelengths at rest, nm, at
+    /// which there is light, [`ALL_NM`] for [`Basis::BlackBody`], of which no part is left out.
     ///
     /// # Errors
     /// [`BasisError`].
-    pub fn new(basis: Basis, doppler: bool, flux: bool, reach: f64) -> Result<Self, BasisError> {
+    pub fn new(
+        basis: Basis,
+        doppler: bool,
+        flux: bool,
+        reach: f64,
+        range: Range<f64>,
+    ) -> Result<Self, BasisError> {
         let reach = if doppler { reach.abs().min(MOST_LN_DOPPLER) } else { 0.0 };
         let kind = match basis {
-            Basis::Planck(kelvin) => planck(kelvin, reach)?,
+            Basis::Planck(kelvin) => planck(kelvin, reach, &range)?,
             Basis::BlackBody => black_bodies(reach),
-            Basis::Smooth => Kind::Smooth(SmoothTable::new(reach)),
+            Basis::Smooth => Kind::Smooth(SmoothTable::new(reach, range)),
+            Basis::Grey => grey(reach, &range),
         };
         Ok(Self { doppler, flux, kind })
     }
@@ -134,22 +149,49 @@ fn place(at: f64, first: f64, step: f64, n: usize) -> (usize, f32) {
 }
 
 /// ln D of the first entry of a table with 0 among its entries, and the number of its entries.
-fn range(reach: f64, step: f64) -> (f64, usize) {
+fn range_of(reach: f64, step: f64) -> (f64, usize) {
     let half = (reach / step).ceil().max(1.0);
     (-half * step, 2 * half as usize + 1)
 }
 
-fn planck(kelvin: [f64; 3], reach: f64) -> Result<Kind, BasisError> {
+/// X, Y, Z of the light of a spectrum in a range of wavelengths at rest, seen with a Doppler factor,
+/// without D⁵.
+fn shifted(spectrum: &LightSpectrum, range: &Range<f64>, ln_doppler: f64) -> [f64; 3] {
+    let doppler = libm::exp(ln_doppler);
+    let radiance = |rest_nm: f64| if range.contains(&rest_nm) { spectrum.at(rest_nm) } else { 0.0 };
+    integrate(|nm| radiance(nm * doppler))
+}
+
+fn grey(reach: f64, range: &Range<f64>) -> Kind {
+    let daylight = LightSpectrum::new(&Spectrum::from_linear_srgb([1.0; 3]));
+    let weights = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(luminance);
+    let (first, n) = range_of(reach, STEP);
+    let map = |idx: usize| {
+        let seen = xyz_to_linear_srgb(shifted(&daylight, range, first + STEP * idx as f64));
+        seen.map(|part| weights.map(|weight| (part * weight) as f32))
+    };
+    Kind::Linear { first, maps: (0..n).into_par_iter().map(map).collect() }
+}
+
+fn planck(kelvin: [f64; 3], reach: f64, range: &Range<f64>) -> Result<Kind, BasisError> {
     let error = BasisError(kelvin);
     if kelvin.iter().any(|kelvin| !(KELVIN[0]..=KELVIN[1]).contains(kelvin)) {
         return Err(error);
     }
     let spectra = kelvin.map(|kelvin| Spectrum::blackbody(kelvin, 1.0));
-    let colors = |ln_doppler: f64| {
-        spectra.each_ref().map(|spectrum| xyz_to_linear_srgb(spectrum.shifted(libm::exp(ln_doppler))))
+    let lights = spectra.each_ref().map(LightSpectrum::new);
+    let colors = |ln_doppler: f64| -> [[f64; 3]; 3] {
+        std::array::from_fn(|idx| {
+            xyz_to_linear_srgb(match *range == ALL_NM {
+                true => spectra[idx].shifted(libm::exp(ln_doppler)),
+                false => shifted(&lights[idx], range, ln_doppler),
+            })
+        })
     };
-    let inverse = inverse(colors(0.0)).ok_or(error)?;
-    let (first, n) = range(reach, STEP);
+    // The amounts of the three bodies in a colour are those of the whole light at rest.
+    let rest = spectra.each_ref().map(|spectrum| xyz_to_linear_srgb(spectrum.shifted(1.0)));
+    let inverse = inverse(rest).ok_or(error)?;
+    let (first, n) = range_of(reach, STEP);
     let map = |idx: usize| {
         let seen = colors(first + STEP * idx as f64);
         std::array::from_fn(|i| {
@@ -214,6 +256,8 @@ fn black_body_seen(rgb: [f32; 3], shift: f64, first: f64, points: &[[f32; 3]], r
 /// The light of surfaces by brightest channel, ratios of the two others to it, and ln D.
 struct SmoothTable {
     grid: DopplerGrid,
+    /// Wavelengths at rest at which there is light, nm.
+    range: Range<f64>,
     n_ratios: usize,
     /// ln D of the first column, and the number of columns.
     first: f64,
@@ -227,8 +271,8 @@ struct SmoothTable {
 }
 
 impl SmoothTable {
-    fn new(reach: f64) -> Self {
-        let (first, n) = range(reach, SMOOTH_STEP);
+    fn new(reach: f64, range: Range<f64>) -> Self {
+        let (first, n) = range_of(reach, SMOOTH_STEP);
         let grid = DopplerGrid::new(first..=-first);
         let spectrum = Spectrum::from_linear_srgb([REFLECTANCE; 3]);
         let at = |idx: usize| luminance(xyz_to_linear_srgb(grid.xyz(&spectrum, ln_doppler(first, idx))));
@@ -236,7 +280,7 @@ impl SmoothTable {
         let ln_white = white.iter().map(|part| libm::log(part.max(1e-300)) as f32).collect();
         let n_ratios = n_ratios(reach);
         let rows = (0..3 * n_ratios * n_ratios).map(|_| OnceLock::new()).collect();
-        Self { grid, n_ratios, first, n, white, ln_white, rows }
+        Self { grid, range, n_ratios, first, n, white, ln_white, rows }
     }
 
     /// The light of a surface. `brightest`: its channel; `ratios`: of the next two, in steps of the
@@ -254,8 +298,13 @@ impl SmoothTable {
             rgb[(brightest + 1 + idx) % 3] *= ratio as f64 / (self.n_ratios - 1) as f64;
         }
         let spectrum = Spectrum::from_linear_srgb(rgb);
+        let light = LightSpectrum::new(&spectrum);
         let seen = |(idx, white): (usize, &f64)| {
-            let seen = xyz_to_linear_srgb(self.grid.xyz(&spectrum, ln_doppler(self.first, idx)));
+            let ln_doppler = ln_doppler(self.first, idx);
+            let seen = xyz_to_linear_srgb(match self.range == ALL_NM {
+                true => self.grid.xyz(&spectrum, ln_doppler),
+                false => shifted(&light, &self.range, ln_doppler),
+            });
             seen.map(|part| (part / (REFLECTANCE * white).max(f64::MIN_POSITIVE)) as f32)
         };
         self.white.iter().enumerate().map(seen).collect()
@@ -313,7 +362,7 @@ mod tests {
     #[test]
     fn colours_at_rest_are_kept() {
         for basis in &bases()[..2] {
-            let table = SpectralTable::new(*basis, true, true, 1.0).unwrap();
+            let table = SpectralTable::new(*basis, true, true, 1.0, ALL_NM).unwrap();
             for rgb in COLORS {
                 let seen = table.seen(rgb, 0.0);
                 let error = (0..3).map(|i| (seen[i] - rgb[i]).abs()).fold(0.0, f32::max);
@@ -329,7 +378,7 @@ mod tests {
             let body = Spectrum::blackbody(kelvin, 0.3);
             let rgb = xyz_to_linear_srgb(body.seen(1.0)).map(|part| part as f32);
             for basis in [Basis::BlackBody, Basis::Planck([kelvin, 4500.0, 20_000.0])] {
-                let table = SpectralTable::new(basis, true, true, 1.2).unwrap();
+                let table = SpectralTable::new(basis, true, true, 1.2, ALL_NM).unwrap();
                 // Rounding of the colour counts as light of the other temperatures.
                 let step = if basis == Basis::BlackBody { 0.0987 } else { 0.0387 };
                 for at in -12..=12 {
@@ -349,7 +398,7 @@ mod tests {
     /// Smooth spectra are those of surfaces whose brightest channel is one half.
     #[test]
     fn smooth_spectra_are_those_of_surfaces() {
-        let table = SpectralTable::new(Basis::Smooth, true, true, 1.0).unwrap();
+        let table = SpectralTable::new(Basis::Smooth, true, true, 1.0, ALL_NM).unwrap();
         for rgb in COLORS {
             let spectrum = Spectrum::from_linear_srgb(rgb.map(f64::from));
             for step in -9..=9 {
@@ -367,7 +416,7 @@ mod tests {
     /// relative to the largest channel.
     #[test]
     fn smooth_spectra_are_near_those_of_surfaces() {
-        let table = SpectralTable::new(Basis::Smooth, true, true, 0.56).unwrap();
+        let table = SpectralTable::new(Basis::Smooth, true, true, 0.56, ALL_NM).unwrap();
         let (mut sum, mut n) = (0.0, 0.0);
         for step in 1..300_usize {
             let part = |by: f64| (step as f64 * by).fract();
@@ -392,7 +441,30 @@ mod tests {
     #[test]
     fn dependent_temperatures_are_refused() {
         for kelvin in [[3500.0, 3500.0, 9000.0], [3500.0, 5900.0, f64::NAN], [1.0, 5900.0, 9000.0]] {
-            assert!(SpectralTable::new(Basis::Planck(kelvin), true, true, 1.0).is_err());
+            assert!(SpectralTable::new(Basis::Planck(kelvin), true, true, 1.0, ALL_NM).is_err());
+        }
+    }
+
+    /// The parts of a spectrum add up to the whole, and each is what is seen alone.
+    #[test]
+    fn parts_of_spectra_add_up() {
+        let (grey, ranges) = ([0.4_f32; 3], [0.0..360.0, 360.0..830.0, 830.0..f64::INFINITY]);
+        for basis in [Basis::Smooth, Basis::Grey, Basis::Planck([3500.0, 5900.0, 10_000.0])] {
+            let table = |range| SpectralTable::new(basis, true, true, 1.0, range).unwrap();
+            let (whole, parts) = (table(ALL_NM), ranges.clone().map(table));
+            // At rest only visible light is seen.
+            assert!([0, 2].iter().all(|&part| parts[part].seen(grey, 0.0).iter().all(|c| c.abs() < 1e-6)));
+            for ln_doppler in [-0.93, -0.4, -0.02, 0.0, 0.3, 0.77] {
+                let all = whole.seen(grey, ln_doppler);
+                let sum: [f32; 3] =
+                    std::array::from_fn(|i| parts.iter().map(|part| part.seen(grey, ln_doppler)[i]).sum());
+                let error = (0..3).map(|i| (sum[i] / all[i] - 1.0).abs()).fold(0.0, f32::max);
+                assert!(error < 3e-3, "{basis:?} {ln_doppler}: {sum:?} {all:?}");
+            }
+            // Infrared light is seen when it approaches, ultraviolet light when it recedes.
+            let brightness = |part: &SpectralTable, ln| luminance(part.seen(grey, ln).map(f64::from));
+            assert!(brightness(&parts[2], 0.77) > 0.1 && brightness(&parts[2], -0.77) == 0.0);
+            assert!(brightness(&parts[0], -0.77) > 1e-4 && brightness(&parts[0], 0.77) == 0.0);
         }
     }
 }

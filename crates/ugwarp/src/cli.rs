@@ -1,5 +1,6 @@
 //! The command line.
 
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use clap::{ArgAction, Parser};
@@ -19,8 +20,8 @@ use ugsky::{Basis, Extent, Star};
 use crate::arrangement::Arrangement;
 use crate::config::{Config, StarOptions};
 use crate::error::Error;
-use crate::open::{Opened, open};
-use crate::render::{metadata, run};
+use crate::open::{Band, Opened, open};
+use crate::render::{VISIBLE_NM, metadata, run};
 use crate::star_list::{is_star_list, read_stars};
 
 /// Shows a 360-degree panorama as a fast traveller sees it
@@ -84,6 +85,28 @@ pub struct Args {
     #[arg(long, num_args = 1..=3, value_names = ["BASIS", "T2", "T3"], action = ArgAction::Set,
           conflicts_with = "br", help_heading = COLOR)]
     basis: Option<Vec<String>>,
+
+    /// Panorama of infrared light
+    ///
+    /// A grey picture with the same arrangement of directions. Its light has the spectrum of
+    /// daylight from 830 nm to --infrared-to at rest, and 1 is a white surface; the panorama itself
+    /// has none there. Without it, --basis says what infrared light there is. Implies -sp.
+    #[arg(long, value_name = "FILE", conflicts_with = "br", help_heading = COLOR)]
+    infrared: Option<PathBuf>,
+
+    /// Longest wavelength of the infrared panorama, nm [default: 1400]
+    #[arg(long, value_name = "NM", requires = "infrared", value_parser = infrared_end, help_heading = COLOR)]
+    infrared_to: Option<f64>,
+
+    /// Panorama of ultraviolet light
+    ///
+    /// As --infrared, from --ultraviolet-from to 360 nm.
+    #[arg(long, value_name = "FILE", conflicts_with = "br", help_heading = COLOR)]
+    ultraviolet: Option<PathBuf>,
+
+    /// Shortest wavelength of the ultraviolet panorama, nm [default: 200]
+    #[arg(long, value_name = "NM", requires = "ultraviolet", value_parser = ultraviolet_end, help_heading = COLOR)]
+    ultraviolet_from: Option<f64>,
 
     /// Draw the stars of a list in front of the panorama
     ///
@@ -155,6 +178,10 @@ pub struct Args {
     files: Vec<PathBuf>,
 }
 
+/// Usual wavelengths of pictures of infrared and ultraviolet light, nm.
+const INFRARED_TO: f64 = 1400.0;
+const ULTRAVIOLET_FROM: f64 = 200.0;
+
 const COLOR: &str = "Colour";
 const STARS: &str = "Stars";
 
@@ -202,6 +229,7 @@ impl Args {
                 width: self.star_width.unwrap_or(StarOptions::default().width),
                 white: self.white.unwrap_or(StarOptions::default().white),
             },
+            ..Config::default()
         })
     }
 
@@ -216,7 +244,7 @@ impl Args {
 
     fn color_shift(&self) -> ColorShift {
         let doppler = !self.no_doppler;
-        if self.sp || self.basis.is_some() {
+        if self.sp || self.basis.is_some() || self.bands().next().is_some() {
             return ColorShift::Spectra(SpectralShift { doppler, flux: !self.no_flux });
         }
         let law = if self.no_flux { Brightness::None } else { self.br.unwrap_or_default() };
@@ -232,7 +260,7 @@ impl Args {
         let is_list = is_star_list(&input.text);
         let mut opened = if is_list {
             self.refuse_for_stars()?;
-            Opened { panorama: None, stars: stars(input)?, notes: Vec::new() }
+            Opened { panorama: None, bands: Vec::new(), stars: stars(input)?, notes: Vec::new() }
         } else {
             self.open_panorama(input, context)?
         };
@@ -251,9 +279,10 @@ impl Args {
         if self.from.is_some() || self.part.is_some() || !self.files.is_empty() {
             return refused("the input is a list of stars: leave out -from, -part and other files");
         }
-        if self.br.is_some() || self.basis.is_some() {
+        if self.br.is_some() || self.basis.is_some() || self.bands().next().is_some() {
             return refused(
-                "the input is a list of stars, which are black bodies: leave out -br and --basis",
+                "the input is a list of stars, which are black bodies: leave out -br, --basis, --infrared and \
+                 --ultraviolet",
             );
         }
         Ok(())
@@ -266,12 +295,32 @@ impl Args {
         let files: Vec<&[u8]> = inputs.iter().map(|input| input.text.as_slice()).collect();
         context.detail(&format!("read {} bytes", files.iter().map(|file| file.len()).sum::<usize>()));
         let arrangement = self.from.unwrap_or_default();
-        let opened = open(&files, arrangement, self.extent()).map_err(|error| match error {
+        let mut opened = open(&files, arrangement, self.extent()).map_err(|error| match error {
             Error::Read { idx, error } => Failure::Failed(format!("`{}`: {error}", inputs[idx].name)),
             error => failure(error),
         })?;
+        for (path, range_nm) in self.bands() {
+            if arrangement == Arrangement::Sides {
+                return Err(Failure::usage(
+                    "infrared and ultraviolet light comes in one file: use -from strip or -from cross for all",
+                ));
+            }
+            let file = context.input_file(path)?;
+            let band = open(&[&file.text], arrangement, self.extent())
+                .map_err(|error| Failure::Failed(format!("`{}`: {error}", file.name)))?;
+            opened.notes.extend(band.notes);
+            opened.bands.extend(band.panorama.map(|panorama| Band { range_nm, panorama }));
+        }
         context.detail("decoded the panorama");
         Ok(opened)
+    }
+
+    /// Files of infrared and ultraviolet light, with their wavelengths in nm.
+    fn bands(&self) -> impl Iterator<Item = (&PathBuf, Range<f64>)> {
+        let infrared = VISIBLE_NM.end..self.infrared_to.unwrap_or(INFRARED_TO);
+        let ultraviolet = self.ultraviolet_from.unwrap_or(ULTRAVIOLET_FROM)..VISIBLE_NM.start;
+        let infrared = self.infrared.iter().map(move |path| (path, infrared.clone()));
+        infrared.chain(self.ultraviolet.iter().map(move |path| (path, ultraviolet.clone())))
     }
 
     /// The angles that the panorama shows.
@@ -336,6 +385,20 @@ fn basis(words: &[String]) -> Result<Basis, Failure> {
             "`{}` is no basis: --basis takes smooth, blackbody or three temperatures",
             words.join(" ")
         ))),
+    }
+}
+
+fn infrared_end(word: &str) -> Result<f64, String> {
+    let nm = finite(word)?;
+    if nm > VISIBLE_NM.end { Ok(nm) } else { Err("infrared light has more than 830 nm".to_owned()) }
+}
+
+fn ultraviolet_end(word: &str) -> Result<f64, String> {
+    let nm = finite(word)?;
+    if (0.0..VISIBLE_NM.start).contains(&nm) {
+        Ok(nm)
+    } else {
+        Err("ultraviolet light has 0 to 360 nm".to_owned())
     }
 }
 

@@ -1,10 +1,12 @@
 //! The options of a picture of a panorama.
 
+use std::ops::Range;
+
 use uglight::ColorShift;
 use ugphysics::Velocity;
 use ugpicture::lens::Lens;
 use ugpicture::{Channel, PictureOptions};
-use ugsky::Basis;
+use ugsky::{ALL_NM, Basis};
 
 use crate::error::Error;
 
@@ -24,6 +26,8 @@ pub struct Config {
     pub lens: Lens,
     /// How stars are drawn.
     pub stars: StarOptions,
+    /// Wavelengths at rest at which a panorama has light, nm, with spectra.
+    pub range_nm: Range<f64>,
 }
 
 /// How stars are drawn.
@@ -51,6 +55,7 @@ impl Default for Config {
             picture: PictureOptions { samples: 1, ..PictureOptions::default() },
             lens: Lens::Pinhole,
             stars: StarOptions::default(),
+            range_nm: ALL_NM,
         }
     }
 }
@@ -82,6 +87,12 @@ impl Config {
         if !(0.5..=50.0).contains(&self.stars.width) || !(-60.0..=60.0).contains(&self.stars.white) {
             return refused(
                 "stars (--star-width, --white) are 0.5 to 50 pixels wide, and white has a magnitude from -60 to 60",
+            );
+        }
+        if self.basis == Basis::BlackBody && self.range_nm != ALL_NM {
+            return refused(
+                "the colours of --basis blackbody have infrared and ultraviolet light of their own: leave out --infrared \
+                 and --ultraviolet, or give --basis smooth",
             );
         }
         let [width, height] = picture.size;

@@ -1,15 +1,27 @@
 //! From the bytes of files to a panorama.
 
+use std::ops::Range;
+
 use ugimage::{MAX_PIXELS, Pixels, read_picture};
 use ugsky::{CubeMap, Extent, Panorama, PanoramaError, Star, Texels};
 
 use crate::arrangement::Arrangement;
 use crate::error::Error;
 
+/// A panorama of light outside of the visible range.
+pub struct Band {
+    /// Wavelengths at rest, nm.
+    pub range_nm: Range<f64>,
+    /// The light, of which only the luminance is used.
+    pub panorama: Panorama,
+}
+
 /// A panorama, stars or both, and what their user should know.
 pub struct Opened {
     /// The panorama.
     pub panorama: Option<Panorama>,
+    /// Infrared and ultraviolet light beside that of the panorama.
+    pub bands: Vec<Band>,
     /// The stars.
     pub stars: Vec<Star>,
     /// Notes for the user, one sentence each.
@@ -44,7 +56,7 @@ pub fn open(files: &[&[u8]], arrangement: Arrangement, extent: Option<Extent>) -
         Arrangement::Equirectangular => equirectangular(pictures, extent)?,
         _ => cube(pictures, arrangement)?.panorama()?,
     };
-    Ok(Opened { panorama: Some(panorama), stars: Vec::new(), notes })
+    Ok(Opened { panorama: Some(panorama), bands: Vec::new(), stars: Vec::new(), notes })
 }
 
 type Picture = ([u32; 2], Texels);

@@ -1,12 +1,14 @@
 //! From a panorama to a picture.
 
+use std::ops::Range;
+
 use rayon::prelude::*;
 use ugimage::{Compression, Development, Frame, LinearFrame, Metadata};
 use uglight::{ColorShift, SpectralShift};
 use ugparse::{Diagnostics, Scene, Source};
 use ugpicture::{
-    Annotated, Annotations, DepthBuffer, Error as PictureError, Exposure, Image, Layout, Output, PictureFile,
-    SceneState, channel_planes,
+    Annotated, Annotations, Background, DepthBuffer, Error as PictureError, Exposure, Image, Layout, Output,
+    PictureFile, SceneState, channel_planes,
 };
 use ugpipe::Progress;
 use ugscene::CameraOptions;
@@ -14,10 +16,13 @@ use ugsky::Basis;
 
 use crate::config::Config;
 use crate::error::Error;
-use crate::open::Opened;
+use crate::open::{Band, Opened};
 use crate::sky::Sky;
 use crate::stars::{StarField, parts};
 use crate::warp::{Statistics, Warp, camera};
+
+/// Wavelengths that are seen at rest, nm: those of the CIE 1931 observer.
+pub(crate) const VISIBLE_NM: Range<f64> = 360.0..830.0;
 
 /// Least brightness at which clipping is reported; less is invisible in 8 bits.
 const CLIPPED: f32 = 1.001;
@@ -82,6 +87,10 @@ fn seen(
         Some(panorama) => warp.light(panorama, progress),
         None => warp.darkness(),
     };
+    for band in sky.bands {
+        progress.step("light outside the visible range", 0);
+        add_band(band, &mut frame, &mut statistics, config)?;
+    }
     if !sky.stars.is_empty() {
         progress.step("stars", 0);
         statistics.max_light = StarField::new(sky.stars, config)?.add(sky.stars, &mut frame);
@@ -89,9 +98,35 @@ fn seen(
     Ok((frame, statistics))
 }
 
-/// The options for a sky. Stars are black bodies, so their spectra are shifted.
+/// Adds infrared or ultraviolet light, where the Doppler effect makes it visible.
+fn add_band(
+    band: &Band,
+    frame: &mut LinearFrame,
+    statistics: &mut Statistics,
+    config: &Config,
+) -> Result<(), Error> {
+    let mut of_band = Config { basis: Basis::Grey, range_nm: band.range_nm.clone(), ..config.clone() };
+    of_band.picture.background = Background::Transparent;
+    let (light, _) = Warp::new(&of_band)?.light(&band.panorama, &());
+    let sums = frame.pixels_mut().par_iter_mut().zip(light.pixels()).map(|(pixel, light)| {
+        (0..3).for_each(|channel| pixel[channel] += light[channel]);
+        pixel[..3].iter().fold(0.0, |most: f32, part| most.max(*part))
+    });
+    statistics.max_light = sums.reduce(|| statistics.max_light, f32::max);
+    Ok(())
+}
+
+/// The options for a sky. Stars are black bodies, so their spectra are shifted. Where there is a
+/// panorama of infrared or ultraviolet light, that of visible light has none.
 fn options_for(sky: Sky<'_>, config: &Config) -> Config {
     let mut config = config.clone();
+    for Band { range_nm, .. } in sky.bands {
+        if range_nm.start >= VISIBLE_NM.end {
+            config.range_nm.end = VISIBLE_NM.end;
+        } else {
+            config.range_nm.start = VISIBLE_NM.start;
+        }
+    }
     if sky.panorama.is_none() {
         let [doppler, flux] = parts(config.shift);
         config.shift = ColorShift::Spectra(SpectralShift { doppler, flux });

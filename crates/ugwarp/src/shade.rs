@@ -1,5 +1,7 @@
 //! Colours of a panorama as a moving observer sees them.
 
+use std::collections::VecDeque;
+use std::ops::Range;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use uglight::{ColorShift, HueShift, HueTable, SpectralShift};
@@ -37,9 +39,7 @@ impl Shade {
         let kind = match config.shift {
             ColorShift::Hues(shift) if shift == HueShift::NONE => Kind::Same,
             ColorShift::Hues(shift) => Kind::Hues { shift, hues: HueTable::get(), curves: Curves::new() },
-            ColorShift::Spectra(shift) => {
-                Kind::Spectra(spectral_table(config.basis, shift, config.velocity.rapidity())?)
-            }
+            ColorShift::Spectra(shift) => Kind::Spectra(spectral_table(config, shift)?),
         };
         let is_uncut = config.picture.keeps_light() || matches!(kind, Kind::Spectra(_));
         Ok(Self { kind, most: if is_uncut { f32::INFINITY } else { 1.0 } })
@@ -70,22 +70,25 @@ impl Shade {
 const REACH_STEP: f64 = 0.25;
 
 /// What a spectral table depends on.
-type TableKey = (Basis, SpectralShift, f64);
+type TableKey = (Basis, SpectralShift, f64, Range<f64>);
 
-/// The table of a basis for rapidities up to `reach`. The last one is kept for the next picture: it
-/// is filled as colours need it.
-fn spectral_table(basis: Basis, shift: SpectralShift, reach: f64) -> Result<Arc<SpectralTable>, BasisError> {
-    static LAST: Mutex<Option<(TableKey, Arc<SpectralTable>)>> = Mutex::new(None);
-    let reach = (reach / REACH_STEP).ceil() * REACH_STEP;
-    let key = (basis, shift, reach);
+/// Tables that are kept: those of visible, infrared and ultraviolet light.
+const MOST_TABLES: usize = 3;
+
+/// The table of a basis. The last ones are kept for the next picture: they are filled as colours
+/// need them.
+fn spectral_table(config: &Config, shift: SpectralShift) -> Result<Arc<SpectralTable>, BasisError> {
+    static LAST: Mutex<VecDeque<(TableKey, Arc<SpectralTable>)>> = Mutex::new(VecDeque::new());
+    let (basis, range) = (config.basis, config.range_nm.clone());
+    let reach = (config.velocity.rapidity() / REACH_STEP).ceil() * REACH_STEP;
+    let key = (basis, shift, reach, range.clone());
     let mut last = LAST.lock().unwrap_or_else(PoisonError::into_inner);
-    if let Some((of, table)) = &*last
-        && *of == key
-    {
+    if let Some((_, table)) = last.iter().find(|(of, _)| *of == key) {
         return Ok(Arc::clone(table));
     }
-    let table = Arc::new(SpectralTable::new(basis, shift.doppler, shift.flux, reach)?);
-    *last = Some((key, Arc::clone(&table)));
+    let table = Arc::new(SpectralTable::new(basis, shift.doppler, shift.flux, reach, range)?);
+    last.truncate(MOST_TABLES - 1);
+    last.push_front((key, Arc::clone(&table)));
     Ok(table)
 }
 

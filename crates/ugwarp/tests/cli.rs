@@ -176,8 +176,31 @@ fn lists_of_stars_are_drawn() {
         2,
         "the input is a list of stars: leave out -from",
     );
-    refused(&["--basis", "smooth"], list.as_bytes(), 2, "leave out -br and --basis");
+    refused(&["--basis", "smooth"], list.as_bytes(), 2, "leave out -br, --basis");
     refused(&["--star-width", "0"], list.as_bytes(), 2, "0.5 to 50 pixels wide");
     refused(&[], b"ra,dec,mag,kelvin\n1,2,3,x\n", 1, "<stdin>:2:7");
     refused(&["--stars", "no-such-list.csv"], &sky(), 1, "No such file");
+}
+
+/// Infrared light is a file of its own, and white infrared light brightens what is ahead.
+#[test]
+fn infrared_light_is_a_second_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("infrared.png");
+    let white = Frame::new([64, 32], true, vec![[255; 4]; 64 * 32]);
+    std::fs::write(&path, Format::Png.encode(&white, &Metadata::default())).unwrap();
+    let path = path.to_str().unwrap();
+    let mean = |options: &[&str]| {
+        let base = ["-sz", "8", "8", "-va", "30", "-dt", "ppm", "-cv", "0", ".6", "0", "-ex", "-3"];
+        let output = fed(&[&base, options].concat(), &sky());
+        assert_eq!(output.status.code(), Some(0), "{}", messages(&output));
+        output.stdout[output.stdout.len() - 192..].iter().map(|&byte| f64::from(byte)).sum::<f64>() / 192.0
+    };
+    let (all, none) = (mean(&["--infrared", path]), mean(&["--infrared", path, "--infrared-to", "831"]));
+    assert!(all > none + 30.0, "{all} {none}");
+    refused(&["--infrared", path, "-br", "photon"], &sky(), 2, "-br");
+    refused(&["--infrared", path, "--basis", "blackbody"], &sky(), 2, "give --basis smooth");
+    refused(&["--infrared", path, "--infrared-to", "700"], &sky(), 2, "more than 830 nm");
+    refused(&["--ultraviolet", "no-such-file.png"], &sky(), 1, "no-such-file.png");
+    refused(&["--ultraviolet", path], b"ra,dec,mag,kelvin\n", 2, "leave out");
 }

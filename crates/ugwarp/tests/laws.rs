@@ -9,8 +9,8 @@ use ugimage::{LinearFrame, Samples};
 use ugphysics::{Brightness, Velocity, linear_srgb_to_xyz, srgb_encode, xyz_to_linear_srgb};
 use ugspectrum::Spectrum;
 use ugwarp::{
-    Basis, CameraOptions, Channel, ColorShift, Config, Extent, Filter, HueShift, Lens, Panorama,
-    PictureOptions, SpectralShift, Texels, light,
+    Band, Basis, CameraOptions, Channel, ColorShift, Config, Extent, Filter, HueShift, Lens, Panorama,
+    PictureOptions, Sky, SpectralShift, Texels, light,
 };
 
 fn panorama(width: u32, color: impl Fn(DVec3) -> [f64; 3]) -> Panorama {
@@ -291,5 +291,39 @@ fn pixels_that_show_half_the_sky() {
             );
         }
         assert!(frame.pixels()[0][2] < 0.01 || rapidity < 4.0);
+    }
+}
+
+/// Grey daylight in an infrared, a visible and an ultraviolet panorama is grey daylight. Infrared
+/// light alone is seen where it approaches, as daylight between its wavelengths gives.
+#[test]
+fn infrared_and_ultraviolet_light_is_seen_in_motion() {
+    let sky = |level: f64| panorama(256, move |_| [level; 3]);
+    let band = |range_nm, level| Band { range_nm, panorama: sky(level) };
+    let shift = ColorShift::Spectra(SpectralShift { doppler: true, flux: true });
+    let config = Config { shift, ..geometry(ahead(0.6), [64, 32], Lens::Panorama) };
+    let seen = |visible: f64, bands: &[Band]| {
+        let (panorama, stars) = (sky(visible), &[][..]);
+        light(Sky { panorama: Some(&panorama), bands, stars }, &config).unwrap()
+    };
+    let both = [band(830.0..1e6, 0.4), band(0.0..360.0, 0.4)];
+    let (whole, parts) = (seen(0.4, &[]), seen(0.4, &both));
+    for (whole, parts) in whole.pixels().iter().zip(parts.pixels()) {
+        let most = whole[..3].iter().fold(0.0, |most: f32, part| most.max(*part));
+        assert!((0..3).all(|i| (parts[i] - whole[i]).abs() < 5e-3 * most), "{whole:?} {parts:?}");
+    }
+    let infrared = seen(0.0, &both[..1]);
+    // A pixel ahead, of D about 2, and one behind, of D about 1/2.
+    let [front, back] = [infrared.pixels()[16 * 64 + 32], infrared.pixels()[16 * 64]];
+    let white = ugspectrum::integrate(ugspectrum::daylight)[1];
+    // The middle of the pixel is half a pixel off, in longitude and latitude.
+    let cosine = libm::cos(PI / 64.0) * libm::cos(PI / 64.0);
+    let doppler = 1.0 / (ahead(0.6).gamma() * (1.0 - 0.6 * cosine));
+    let rest = |nm: f64| if nm >= 830.0 { 0.4 / white * ugspectrum::daylight(nm) } else { 0.0 };
+    let xyz = ugspectrum::integrate(|nm| doppler.powi(5) * rest(nm * doppler));
+    let expected = xyz_to_linear_srgb(xyz);
+    for channel in 0..3 {
+        assert!((f64::from(front[channel]) / expected[channel] - 1.0).abs() < 0.02, "{front:?} {expected:?}");
+        assert_eq!(back[channel], 0.0);
     }
 }

@@ -106,6 +106,7 @@ pub fn warp(random: &mut Random) -> ugwarp::Config {
             _ => Lens::Pinhole,
         },
         stars: ugwarp::StarOptions { width: random.between(0.4, 52.0), white: number(random) },
+        range_nm: if random.one_in(4) { 360.0..830.0 } else { ugwarp::ALL_NM },
     }
 }
 

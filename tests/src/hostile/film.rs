@@ -126,7 +126,9 @@ pub fn warp(random: &mut Random, files: &[(String, Vec<u8>)]) -> Vec<String> {
     maybe(random, 12, &mut line, "--star-width", width);
     let magnitude = numbers::<1>(random);
     maybe(random, 12, &mut line, "--white", magnitude);
-    maybe(random, 12, &mut line, "--stars", vec![files[0].0.clone()]);
+    for option in ["--stars", "--infrared", "--ultraviolet"] {
+        maybe(random, 12, &mut line, option, vec![files[0].0.clone()]);
+    }
     flags(random, 8, &mut line, &["-sp", "-vr", "-pan", "-cube", "--no-doppler", "--no-flux", "-lg", "-tb"]);
     line
 }
