@@ -24,36 +24,23 @@
 //! cli                                       the command line
 //! ```
 
-#[cfg(feature = "cli")]
+// Every frame is drawn by the options of programs, so there is no library without command lines.
+#![cfg(feature = "cli")]
+
 mod animation;
-#[cfg(feature = "cli")]
 mod blur;
-#[cfg(feature = "cli")]
 mod cli;
-#[cfg(feature = "cli")]
 mod draw;
-#[cfg(feature = "cli")]
 mod encode;
-#[cfg(feature = "cli")]
 mod film;
-#[cfg(feature = "cli")]
 mod frame_files;
-#[cfg(feature = "cli")]
 mod keys;
-#[cfg(feature = "cli")]
 mod options;
-#[cfg(feature = "cli")]
 mod output;
-#[cfg(feature = "cli")]
 mod print;
-#[cfg(feature = "cli")]
 mod program;
-#[cfg(feature = "cli")]
 mod script;
-#[cfg(feature = "cli")]
 mod timeline;
-#[cfg(feature = "cli")]
 mod work;
 
-#[cfg(feature = "cli")]
 pub use cli::{Args, manual, run};
