@@ -1,12 +1,14 @@
 //! The top level over rest frames: which of them rays may meet.
 //!
-//! In the frame of the camera the box around bodies of one velocity moves with them. Relative to a
-//! reference time, from which on t counts, it is low + v t … high + v t. Several such boxes are
-//! within low + v₁ t … high + v₀ t for t ≤ 0, where low and high bound them and v₀…v₁ their
-//! velocities, and within low + v₀ t … high + v₁ t for t ≥ 0. So a node of the hierarchy is a
-//! moving box, too, and a ray is inside it where six linear functions of its parameter have the
-//! right signs, on each side of the reference time. That is the time at which light left bodies at
-//! the mean distance.
+//! In the frame of the camera the bounding box of bodies with one velocity v moves with them: at a
+//! time t after a reference time it reaches from low + v t to high + v t. A node of the hierarchy
+//! bounds several such boxes. Let low and high be the bounds of their corners at the reference time,
+//! and v₀ and v₁ those of their velocities. Then the node reaches from low + v₁ t to high + v₀ t
+//! before the reference time (t ≤ 0), and from low + v₀ t to high + v₁ t after it.
+//!
+//! Time and position along a ray are linear in its parameter. So on each side of the reference time
+//! the ray is inside a node where six linear functions of the parameter are positive. The reference
+//! time is that at which light left bodies at the mean distance.
 //!
 //! # Why no hit is lost
 //!
@@ -15,7 +17,8 @@
 //! 2⁻⁵³ γ times its distance from the eye, and back with 2⁻⁵³ γ² times it. None of them becomes
 //! greater in the frame of the camera, where lengths are contracted. Boxes are extended by more
 //! than that, and velocities likewise, for times far in the past: [`SLACK`] γ² of all distances.
-//! Where γ is so great that this bounds nothing, the box is infinite.
+//! If γ is so large that an extension is not a finite number, the box is infinite: its part is tested
+//! with every ray.
 
 use std::ops::Range;
 
