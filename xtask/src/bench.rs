@@ -226,7 +226,8 @@ pub fn stderr_of(command: &str) -> Result<String, Box<dyn Error>> {
     if output.status.success() { Ok(stderr) } else { Err(format!("`{command}` failed: {stderr}").into()) }
 }
 
-fn path_with_programs() -> Result<std::ffi::OsString, Box<dyn Error>> {
+/// The search path, with the programs first.
+pub fn path_with_programs() -> Result<std::ffi::OsString, Box<dyn Error>> {
     let path = std::env::var_os("PATH").unwrap_or_default();
     let programs = target_dir().join("release");
     Ok(std::env::join_paths(std::iter::once(programs).chain(std::env::split_paths(&path)))?)

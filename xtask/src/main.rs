@@ -9,6 +9,7 @@
 //! cargo xtask bench-rays
 //! cargo xtask bench-photon plot.svg
 //! cargo xtask bench-warp
+//! cargo xtask bench-film
 //! cargo xtask bench-scale plot.svg
 //! cargo xtask bench-exact
 //! cargo xtask geometry > tables.md
@@ -23,6 +24,7 @@
 mod bench;
 mod cluster;
 mod exact;
+mod film;
 mod gallery;
 mod geometry;
 mod globe;
@@ -147,6 +149,13 @@ enum Task {
         #[arg(long, default_value = "ffmpeg")]
         ffmpeg: String,
     },
+    /// Measure `ugfilm` relative to the pipes that it prints, its memory, and the share of time in
+    /// each stage, as Markdown
+    BenchFilm {
+        /// Frames of the film
+        #[arg(default_value_t = 200, value_parser = clap::value_parser!(u32).range(2..=9999))]
+        frames: u32,
+    },
     /// Measure time and memory of drawing as functions of faces, pixels and samples, as Markdown
     /// and as a plot
     BenchScale {
@@ -243,6 +252,9 @@ fn run(task: &Task) -> io::Result<()> {
         }
         Task::BenchWarp { ffmpeg } => {
             warp::write(&mut out, ffmpeg).map_err(|error| io::Error::other(error.to_string()))?;
+        }
+        Task::BenchFilm { frames } => {
+            film::write(&mut out, *frames).map_err(|error| io::Error::other(error.to_string()))?;
         }
         Task::TraceOnce { scene } => {
             photon::trace_once(&mut out, scene).map_err(|error| io::Error::other(error.to_string()))?;

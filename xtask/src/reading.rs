@@ -88,10 +88,13 @@ pub fn read_once(out: &mut impl Write, path: &Path, n_threads: usize) -> Result<
 /// Peak memory of this process so far, in bytes.
 pub fn peak_memory() -> Result<u64, Box<dyn Error>> {
     let status = std::fs::read_to_string("/proc/self/status")?;
-    let peak =
-        status.lines().find_map(|line| line.strip_prefix("VmHWM:")).ok_or("no VmHWM in /proc/self/status")?;
-    let kib: u64 = peak.trim().trim_end_matches(" kB").parse()?;
-    Ok(kib * 1024)
+    Ok(peak_in(&status).ok_or("no VmHWM in /proc/self/status")?)
+}
+
+/// Peak memory in bytes by the status of a process.
+pub fn peak_in(status: &str) -> Option<u64> {
+    let peak = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
+    peak.trim().trim_end_matches(" kB").parse().ok().map(|kib: u64| kib * 1024)
 }
 
 fn peak_of_child(path: &Path, n_threads: usize) -> Result<f64, Box<dyn Error>> {

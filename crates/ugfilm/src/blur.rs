@@ -5,7 +5,7 @@ use ugparse::Scene;
 use ugpicture::{Annotated, Error, Exposure, Image, Layout, Output};
 use ugpipe::{Failure, sha256};
 
-use crate::draw::{Drawn, Stages, Subject};
+use crate::draw::{Drawn, Picture, Stages, Subject};
 
 /// How long the shutter is open.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -68,7 +68,6 @@ fn mean(frame: &Stages, moments: Vec<Stages>, subject: Subject<'_>) -> Result<Dr
             "-blur gives the mean of several moments: leave out -lg, -gr, -dl, -ch and vector formats",
         ));
     }
-    let metadata = metadata(frame, &moments, subject);
     let layout = Layout::new(whole).map_err(Failure::usage)?;
     let picture = layout.of_scene(whole).into_owned();
     let mut sum = Sum::default();
@@ -78,8 +77,7 @@ fn mean(frame: &Stages, moments: Vec<Stages>, subject: Subject<'_>) -> Result<Dr
     }
     let mut light = sum.mean();
     if picture.output.is_linear() {
-        let bytes = Image::Light(light).into_file(picture.output, &metadata, frame.compression());
-        return Ok(Drawn { bytes, notes: Vec::new() });
+        return Ok(drawn(Image::Light(light), picture.output, frame));
     }
     let development = Exposure::development(picture.exposure, picture.tone, || &light);
     for [red, green, blue, _] in light.pixels_mut() {
@@ -94,8 +92,11 @@ fn mean(frame: &Stages, moments: Vec<Stages>, subject: Subject<'_>) -> Result<Dr
         Err(Error::Options("a caption needs no depths"))
     });
     let image = annotations.map_err(Failure::failed)?.composite(image);
-    let bytes = image.into_file(picture.output, &metadata, frame.compression());
-    Ok(Drawn { bytes, notes: Vec::new() })
+    Ok(drawn(image, picture.output, frame))
+}
+
+fn drawn(image: Image, output: Output, frame: &Stages) -> Drawn {
+    Drawn { picture: Picture::Mean(image, output, frame.compression()), notes: Vec::new() }
 }
 
 /// What the file says about its making. No single pipe draws it, so it has none of the lines that

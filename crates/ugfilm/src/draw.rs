@@ -2,10 +2,10 @@
 
 use std::ffi::OsString;
 
-use ugimage::{Compression, Format, LinearFrame, Metadata};
+use ugimage::{Compression, Format, Frame, LinearFrame, Metadata};
 use ugparse::Scene;
-use ugpicture::Output;
 use ugpicture::cli::with_format;
+use ugpicture::{Image, Output};
 use ugpipe::{Failure, ToolArgs, parse_words};
 
 use crate::program::Program;
@@ -14,13 +14,50 @@ use crate::script::Commands;
 /// All programs have one version.
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 
-/// A frame as a file.
+/// A frame that was drawn.
 #[derive(Clone, Debug)]
 pub struct Drawn {
-    /// The whole file: the bytes that the pipe writes.
-    pub bytes: Vec<u8>,
+    /// The picture, in memory.
+    pub picture: Picture,
     /// Notes and warnings, one sentence each, with the name of the program.
     pub notes: Vec<String>,
+}
+
+/// A picture in memory, by the program that drew it.
+#[derive(Clone, Debug)]
+pub enum Picture {
+    Rainbow(ugrainbow::Rendering),
+    Photon(ugphoton::Rendering),
+    Warp(ugwarp::Rendering),
+    /// The mean of several moments.
+    Mean(Image, Output, Compression),
+}
+
+impl Picture {
+    /// The whole file: the bytes that the pipe writes.
+    pub fn into_file(self, metadata: &Metadata) -> Vec<u8> {
+        match self {
+            Self::Rainbow(rendering) => rendering.into_file(metadata),
+            Self::Photon(rendering) => rendering.into_file(metadata),
+            Self::Warp(rendering) => rendering.into_file(metadata),
+            Self::Mean(image, output, compression) => image.into_file(output, metadata, compression),
+        }
+    }
+
+    /// The pixels that a PNG file of the picture would have.
+    ///
+    /// # Errors
+    /// Vector graphics have no pixels.
+    pub fn into_frame(self) -> Result<Frame, Failure> {
+        match self {
+            Self::Rainbow(rendering) => {
+                rendering.into_frame().ok_or_else(|| Failure::usage("vector graphics have no pixels"))
+            }
+            Self::Photon(rendering) => Ok(rendering.into_frame()),
+            Self::Warp(rendering) => Ok(rendering.into_frame()),
+            Self::Mean(image, ..) => Ok(image.into_frame()),
+        }
+    }
 }
 
 /// What a film shows.
@@ -121,27 +158,26 @@ impl Stages {
     /// The scene or panorama cannot be drawn with these options.
     pub fn draw(&self, subject: Subject<'_>) -> Result<Drawn, Failure> {
         let mut notes = Vec::new();
-        let metadata = self.metadata(subject);
-        let bytes = match (&self.last, subject) {
+        let picture = match (&self.last, subject) {
             (Last::Rainbow(config, _), Subject::Scene(scene)) => {
                 let scene = self.filtered(scene, &mut notes)?;
                 let rendering = ugrainbow::render(&scene, config).map_err(Failure::failed)?;
                 notes.extend(named(Program::Rainbow, &rendering.notes));
-                rendering.into_file(&metadata)
+                Picture::Rainbow(rendering)
             }
             (Last::Photon(config, _), Subject::Scene(scene)) => {
                 let rendering = ugphoton::render(scene.clone(), config).map_err(Failure::failed)?;
                 notes.extend(named(Program::Photon, &rendering.notes));
-                rendering.into_file(&metadata)
+                Picture::Photon(rendering)
             }
             (Last::Warp(config, _), Subject::Panorama(panorama, _)) => {
                 let rendering = ugwarp::render(panorama, config).map_err(Failure::failed)?;
                 notes.extend(named(Program::Warp, &rendering.notes));
-                rendering.into_file(&metadata)
+                Picture::Warp(rendering)
             }
             _ => return Err(other_subject()),
         };
-        Ok(Drawn { bytes, notes })
+        Ok(Drawn { picture, notes })
     }
 
     /// The same frame in a picture of at most `side` pixels a side, without annotations.

@@ -74,8 +74,10 @@ impl Film<'_> {
         Ok(Shot { frame: self.stages(frame)?, moments })
     }
 
-    fn draw(&self, frame: u32) -> Result<Drawn, Failure> {
-        self.shot(frame)?.draw(self.subject)
+    fn file(&self, frame: u32) -> Result<Vec<u8>, Failure> {
+        let shot = self.shot(frame)?;
+        let metadata = shot.metadata(self.subject);
+        Ok(shot.draw(self.subject)?.picture.into_file(&metadata))
     }
 
     fn is_done(&self, path: &Path, metadata: &Metadata) -> bool {
@@ -141,10 +143,10 @@ impl Film<'_> {
         let mut pixels = Vec::new();
         let small = |row: usize| {
             let frame = spread[row];
-            about(frame, self.stages(frame).and_then(|stages| stages.small(MEASURED_SIDE).draw(self.subject)))
+            let drawn = self.stages(frame).and_then(|stages| stages.small(MEASURED_SIDE).draw(self.subject));
+            about(frame, drawn.and_then(|drawn| drawn.picture.into_frame()))
         };
-        in_order(spread.len(), small, |_, drawn| {
-            let (frame, _) = read_png(&drawn.bytes).map_err(Failure::failed)?;
+        in_order(spread.len(), small, |_, frame| {
             pixels.extend_from_slice(frame.pixels());
             steps.done(1);
             Ok(())
@@ -194,9 +196,9 @@ impl Film<'_> {
         if self.is_done(path, &metadata) {
             return Ok(Outcome::Done);
         }
-        let drawn = shot.draw(self.subject)?;
-        Context::write_now(path, &drawn.bytes)?;
-        Ok(Outcome::Drawn(drawn.notes))
+        let Drawn { picture, notes } = shot.draw(self.subject)?;
+        Context::write_now(path, &picture.into_file(&metadata))?;
+        Ok(Outcome::Drawn(notes))
     }
 
     /// Draws all frames of a film and gives them to `consume` in order. Frames kept in files are
@@ -233,21 +235,21 @@ impl Film<'_> {
 
     /// The pixels of a frame, and notes if it was drawn.
     fn frame(&self, frame: u32, keep: Option<&FrameNames>) -> Result<(Frame, Option<Vec<String>>), Failure> {
-        let decoded = |bytes: &[u8]| read_png(bytes).map(|(pixels, _)| pixels).map_err(Failure::failed);
+        let shot = self.shot(frame)?;
         let Some(names) = keep else {
-            let drawn = self.draw(frame)?;
-            return Ok((decoded(&drawn.bytes)?, Some(drawn.notes)));
+            let Drawn { picture, notes } = shot.draw(self.subject)?;
+            return Ok((picture.into_frame()?, Some(notes)));
         };
         let path = names.path(frame);
-        let shot = self.shot(frame)?;
-        if self.is_done(&path, &shot.metadata(self.subject)) {
+        let metadata = shot.metadata(self.subject);
+        if self.is_done(&path, &metadata) {
             let read = std::fs::read(&path);
             let read = read.map_err(|error| Failure::Read { name: path.display().to_string(), error })?;
-            return Ok((decoded(&read)?, None));
+            return Ok((read_png(&read).map_err(Failure::failed)?.0, None));
         }
-        let drawn = shot.draw(self.subject)?;
-        Context::write_now(&path, &drawn.bytes)?;
-        Ok((decoded(&drawn.bytes)?, Some(drawn.notes)))
+        let Drawn { picture, notes } = shot.draw(self.subject)?;
+        Context::write_now(&path, &picture.clone().into_file(&metadata))?;
+        Ok((picture.into_frame()?, Some(notes)))
     }
 
     /// Draws frames on one sheet, with their velocities or times as labels, otherwise their numbers.
@@ -257,12 +259,12 @@ impl Film<'_> {
     /// A frame cannot be drawn, or the sheet is too large.
     pub fn sheet(&self, frames: &[u32], steps: &Steps<'_>) -> Result<(Frame, Vec<Picture>), Failure> {
         steps.count("drawing", frames.len() as u64);
-        let draw = |row: usize| about(frames[row], self.draw(frames[row]));
+        let draw = |row: usize| about(frames[row], self.file(frames[row]));
         let (mut files, mut pictures) = (Vec::new(), Vec::new());
-        in_order(frames.len(), draw, |row, drawn| {
-            let (size, history) = read_png_header(&drawn.bytes).map_err(Failure::failed)?;
+        in_order(frames.len(), draw, |row, file| {
+            let (size, history) = read_png_header(&file).map_err(Failure::failed)?;
             pictures.push(Picture { name: frames[row].to_string(), size, history });
-            files.push(drawn.bytes);
+            files.push(file);
             steps.done(1);
             Ok(())
         })?;

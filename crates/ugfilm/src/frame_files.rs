@@ -2,7 +2,7 @@
 
 use std::ffi::OsString;
 use std::fs::{self, File, OpenOptions, TryLockError};
-use std::io::Read;
+use std::io::{self, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
@@ -63,20 +63,37 @@ pub fn valid_since(names: &FrameNames, sha256: &str) -> Result<SystemTime, Failu
 /// True if the file is whole, was made by the commands that these metadata state, and not before
 /// `since`.
 pub fn is_done(path: &Path, metadata: &Metadata, since: Option<SystemTime>) -> bool {
-    /// The end of a PNG file.
-    const END: &[u8] = b"\0\0\0\0IEND\xaeB`\x82";
-    let mut bytes = Vec::new();
-    // A device or pipe would be read without end.
     let is_new = |found: &fs::Metadata| {
         since.is_none_or(|since| found.modified().is_ok_and(|modified| modified >= since))
     };
+    // A device or pipe would be read without end.
     let is_file = fs::metadata(path).is_ok_and(|found| found.is_file() && is_new(&found));
-    let read = |bytes: &mut Vec<u8>| File::open(path).and_then(|mut file| file.read_to_end(bytes));
-    if !is_file || metadata.comment.is_empty() || read(&mut bytes).is_err() {
+    if !is_file || metadata.comment.is_empty() {
         return false;
     }
-    let is_whole = !bytes.starts_with(b"\x89PNG") || bytes.ends_with(END);
-    is_whole && read_history(&bytes).is_some_and(|history| history == metadata.comment)
+    let history = File::open(path).and_then(history_of_whole);
+    history.is_ok_and(|history| history.is_some_and(|history| history == metadata.comment))
+}
+
+/// The history in a file; `None` if it has none, or is a PNG file without its end. Of a PNG file
+/// only the beginning and the end are read.
+fn history_of_whole(mut file: File) -> io::Result<Option<String>> {
+    /// The end of a PNG file.
+    const END: &[u8; 12] = b"\0\0\0\0IEND\xaeB`\x82";
+    /// More than the history needs.
+    const HEAD: u64 = 1 << 16;
+    let mut bytes = Vec::new();
+    file.by_ref().take(HEAD).read_to_end(&mut bytes)?;
+    let is_png = bytes.starts_with(b"\x89PNG");
+    let history = if is_png { read_history(&bytes) } else { None };
+    if history.is_some() {
+        let mut end = [0; END.len()];
+        file.seek(SeekFrom::End(-(END.len() as i64)))?;
+        file.read_exact(&mut end)?;
+        return Ok(history.filter(|_| end == *END));
+    }
+    file.read_to_end(&mut bytes)?;
+    Ok(read_history(&bytes).filter(|_| !is_png || bytes.ends_with(END)))
 }
 
 /// The right to draw a frame, against other processes that work on the same film. It ends when this
@@ -114,6 +131,8 @@ impl Drop for Claim {
 
 #[cfg(test)]
 mod tests {
+    use ugimage::{Format, Frame};
+
     use super::*;
 
     #[test]
@@ -125,6 +144,35 @@ mod tests {
         for pattern in ["film.png", "f_%4x.png", "f%.png", "%123d", "%-4d"] {
             assert_eq!(name(pattern), None, "{pattern}");
         }
+    }
+
+    #[test]
+    fn whole_files_of_the_same_commands_are_done() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("frame");
+        // Noise, so that a PNG file is longer than the part that is read.
+        let mut frame = Frame::opaque(256, 256);
+        let mut noise = 1_u32;
+        for pixel in frame.pixels_mut() {
+            noise = noise.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            let [red, green, blue, _] = noise.to_be_bytes();
+            *pixel = [red, green, blue, 255];
+        }
+        let of = |comment: &str| Metadata { software: "ug".to_owned(), comment: comment.to_owned() };
+        for comment in ["a | b", &"long ".repeat(20_000)] {
+            for format in [Format::Png, Format::Ppm, Format::Pdf, Format::Exr] {
+                let file = format.encode(&frame, &of(comment));
+                assert!(file.len() > 100_000, "{format:?}");
+                fs::write(&path, &file).unwrap();
+                assert!(is_done(&path, &of(comment), None), "{format:?}");
+                assert!(!is_done(&path, &of("a | c"), None), "{format:?}");
+                if format == Format::Png {
+                    fs::write(&path, &file[..file.len() - 1]).unwrap();
+                    assert!(!is_done(&path, &of(comment), None));
+                }
+            }
+        }
+        assert!(!is_done(&folder.path().join("none"), &of("a | b"), None));
     }
 
     #[test]
