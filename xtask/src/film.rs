@@ -25,6 +25,9 @@ const TRIANGLES: u32 = 100_000;
 
 const OPTIONS: &str = "-qt -vel 0 0 0..0.9 -in -sz 1280 720";
 
+/// Samples along a side of a pixel: one, and the default.
+const SAMPLES: [u32; 2] = [1, 4];
+
 /// Frames of which the time in each stage is measured, at speeds from 0 to 0.9.
 const STAGED: u32 = 20;
 
@@ -47,14 +50,16 @@ pub fn write(out: &mut impl Write, n_frames: u32) -> Result<(), Box<dyn Error>> 
     file.flush()?;
     drop(file);
     writeln!(out, "{}\n", machine())?;
-    speed(out, &dir, n_frames)?;
+    for samples in SAMPLES {
+        speed(out, &dir, n_frames, samples)?;
+    }
     memory(out, &dir)?;
     shares(out, &dir)
 }
 
 /// The command for a film.
-fn film(n_frames: u32, output: &str) -> String {
-    format!("ugfilm --frames {n_frames} {OPTIONS} mesh.ug {output}")
+fn film(n_frames: u32, samples: u32, output: &str) -> String {
+    format!("ugfilm --frames {n_frames} {OPTIONS} -aa {samples} mesh.ug {output}")
 }
 
 fn shell(dir: &Path, command: &str) -> Result<Command, Box<dyn Error>> {
@@ -64,14 +69,14 @@ fn shell(dir: &Path, command: &str) -> Result<Command, Box<dyn Error>> {
     Ok(shell)
 }
 
-fn speed(out: &mut impl Write, dir: &Path, n_frames: u32) -> Result<(), Box<dyn Error>> {
+fn speed(out: &mut impl Write, dir: &Path, n_frames: u32, samples: u32) -> Result<(), Box<dyn Error>> {
     let folder = dir.display();
-    let print = film(n_frames, "-fo 'pipe_%04d.png' --print > pipes.sh");
+    let print = film(n_frames, samples, "-fo 'pipe_%04d.png' --print > pipes.sh");
     stderr_of(&format!("cd '{folder}'; rm -f f_*.png pipe_*.png; {print}"))?;
     let rows = [
         ("the pipes, one after the other", "sh pipes.sh".to_owned()),
-        ("`ugfilm`, files of frames", film(n_frames, "-fo 'f_%04d.png'")),
-        ("`ugfilm`, one file (Y4M)", film(n_frames, "-dt y4m > /dev/null")),
+        ("`ugfilm`, files of frames", film(n_frames, samples, "-fo 'f_%04d.png'")),
+        ("`ugfilm`, one file (Y4M)", film(n_frames, samples, "-dt y4m > /dev/null")),
     ];
     let mut rounds: Vec<Vec<[f64; 2]>> = Vec::new();
     for _ in 0..ROUNDS {
@@ -89,8 +94,8 @@ fn speed(out: &mut impl Write, dir: &Path, n_frames: u32) -> Result<(), Box<dyn 
     }
     writeln!(
         out,
-        "| {n_frames} frames of 1280 x 720 pixels, {TRIANGLES} triangles | frames a second | relative to \
-         the pipes | processor time of a frame |\n| --- | ---: | ---: | ---: |"
+        "| {n_frames} frames of 1280 x 720 pixels, `-aa {samples}` | frames a second | relative to the pipes \
+         | processor time of a frame |\n| --- | ---: | ---: | ---: |"
     )?;
     let frames = f64::from(n_frames);
     for (row, (name, _)) in rows.iter().enumerate() {
@@ -107,7 +112,7 @@ fn memory(out: &mut impl Write, dir: &Path) -> Result<(), Box<dyn Error>> {
     writeln!(out, "| frames | peak memory of `ugfilm` |\n| ---: | ---: |")?;
     for n_frames in [5, 20, 80] {
         // The shell is replaced, so that the process is that of the program.
-        let command = format!("rm -f m_*.png; exec {}", film(n_frames, "-fo 'm_%04d.png'"));
+        let command = format!("rm -f m_*.png; exec {}", film(n_frames, 4, "-fo 'm_%04d.png'"));
         writeln!(out, "| {n_frames} | {:.0} MB |", peak_of(&mut shell(dir, &command)?)? / 1e6)?;
     }
     Ok(writeln!(out)?)
@@ -135,21 +140,29 @@ fn shares(out: &mut impl Write, dir: &Path) -> Result<(), Box<dyn Error>> {
     let scene = parse(&source, &Options::default())?.scene;
     let pool = ThreadPoolBuilder::new().num_threads(1).build()?;
     let file = dir.join("staged.png");
-    let mut times = [0.0; STAGES.len()];
-    let mut total = || -> Result<(), Box<dyn Error + Send + Sync>> {
+    let sum = |samples: u32| -> Result<[f64; STAGES.len()], Box<dyn Error + Send + Sync>> {
+        let mut times = [0.0; STAGES.len()];
         for row in 0..STAGED {
             let speed = 0.9 * f64::from(row) / f64::from(STAGED - 1);
-            let stages = stages(&scene, speed, &file)?;
+            let stages = stages(&scene, speed, samples, &file)?;
             times.iter_mut().zip(stages).for_each(|(sum, time)| *sum += time);
         }
-        Ok(())
+        Ok(times)
     };
-    pool.install(&mut total).map_err(|error| error.to_string())?;
-    writeln!(out, "| stage of a frame, on one thread | time | share |\n| --- | ---: | ---: |")?;
-    let whole: f64 = times.iter().sum();
-    for (name, time) in STAGES.iter().zip(times) {
-        let (ms, share) = (time / f64::from(STAGED) * 1e3, time / whole * 100.0);
-        writeln!(out, "| {name} | {ms:.1} ms | {share:.0} % |")?;
+    let [one, many] = SAMPLES.map(|samples| pool.install(|| sum(samples)).map_err(|error| error.to_string()));
+    let (one, many) = (one?, many?);
+    writeln!(
+        out,
+        "| stage of a frame, on one thread | `-aa {}` | share | `-aa {}` | share |\n\
+         | --- | ---: | ---: | ---: | ---: |",
+        SAMPLES[0], SAMPLES[1]
+    )?;
+    let cells = |times: &[f64], row: usize| {
+        let share = 100.0 * times[row] / times.iter().sum::<f64>();
+        format!("{:.1} ms | {share:.0} %", times[row] / f64::from(STAGED) * 1e3)
+    };
+    for (row, name) in STAGES.iter().enumerate() {
+        writeln!(out, "| {name} | {} | {} |", cells(&one, row), cells(&many, row))?;
     }
     writeln!(out)?;
     Ok(out.flush()?)
@@ -159,13 +172,14 @@ fn shares(out: &mut impl Write, dir: &Path) -> Result<(), Box<dyn Error>> {
 fn stages(
     scene: &Scene,
     speed: f64,
+    samples: u32,
     file: &Path,
 ) -> Result<[f64; STAGES.len()], Box<dyn Error + Send + Sync>> {
     let mut ends = vec![Instant::now()];
     let mut end = || ends.push(Instant::now());
     let moving = parsed::<uglorentz::Args>(&format!("uglorentz -vel 0 0 {speed} -in"))?.config();
     let coloring = parsed::<ugdoppler::Args>("ugdoppler")?.config();
-    let drawing = parsed::<ugrainbow::Args>("ugrainbow -sz 1280 720")?.config(None);
+    let drawing = parsed::<ugrainbow::Args>(&format!("ugrainbow -sz 1280 720 -aa {samples}"))?.config(None);
     let copy = scene.clone();
     end();
     let (seen, _) = uglorentz::apply(copy, &moving.map_err(text)?)?;
