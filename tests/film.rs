@@ -274,6 +274,11 @@ fn a_full_disk_and_a_failing_encoder_keep_what_is_done() {
     for (name, bytes) in shell.files("small") {
         assert!(whole[&name] == bytes, "{name}");
     }
+    for kind in ["gif", "apng", "y4m", "ppm"] {
+        let (status, messages) = shell.fail(&format!("{film} -dt {kind} -fo /dev/full"));
+        assert_eq!(status, Some(1), "{kind}: {messages}");
+        assert!(messages.contains("cannot write `/dev/full`: No space left on device"), "{kind}: {messages}");
+    }
     // An ffmpeg that ends early.
     shell.run("mkdir bin; printf '#!/bin/sh\\necho no codec >&2; exit 3' > bin/ffmpeg; chmod +x bin/ffmpeg");
     let (status, messages) = shell.fail(&format!("PATH=$PWD/bin:$PATH; {film} -keep k_%d.png -fo a.mp4"));

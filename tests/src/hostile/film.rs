@@ -44,6 +44,12 @@ pub fn film(random: &mut Random, kind: &str) -> Vec<String> {
     maybe(random, 10, &mut line, "-only", list);
     let rate = numbers::<1>(random);
     maybe(random, 10, &mut line, "-fps", rate);
+    let open = if random.one_in(2) { word(random, &["0.5"]) } else { numbers::<1>(random) };
+    maybe(random, 10, &mut line, "-blur", open);
+    let moments = word(random, &["1", "3", "0", "4294967295"]);
+    maybe(random, 12, &mut line, "-moments", moments);
+    let count = word(random, &["1", "2", "9", "0"]);
+    maybe(random, 15, &mut line, "-sheet", count);
     flags(random, 8, &mut line, &["-loop", "-sp", "-lg", "-tb"]);
     output(random, &mut line);
     line
@@ -58,6 +64,7 @@ pub fn mild(random: &mut Random, kind: &str) -> Vec<String> {
     line.extend([(*random.pick(&["-vel", "-cv"])).to_owned(), format!("0 0 0 .. {to}")]);
     let exposure = word(random, &["auto", "0..2"]);
     maybe(random, 4, &mut line, "-ex", exposure);
+    maybe(random, 6, &mut line, "-blur", vec!["0.5".to_owned()]);
     flags(random, 4, &mut line, &["-loop", "-sp"]);
     output(random, &mut line);
     line
