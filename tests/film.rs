@@ -314,7 +314,7 @@ fn motion_blur_is_the_mean_light_of_its_moments() {
         ugimage::read_png(&fs::read(shell.folder.path().join(name)).unwrap()).unwrap().0.pixels().to_vec()
     };
     assert!(pixels("blurred_1.png") == pixels("sharp_1.png"));
-    // The commands that are printed draw the moments.
+    // `--print` prints one command for each moment.
     let film = "ugfilm -frames 4 -vel 0 0..0.6 0 -in -ex -1 -tc filmic -sz 60 40 dice.ug -blur .8 -moments 5";
     for n_threads in [1, 2, 5] {
         shell.run(&format!("mkdir t{n_threads}; {film} -nt {n_threads} -fo t{n_threads}/f_%d.png"));

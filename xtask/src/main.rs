@@ -178,8 +178,8 @@ enum Task {
     Hostile(hostile::Args),
     /// Run the workflows of batch/ on a Slurm of this machine, and compare with one process
     ///
-    /// Installs the Debian packages slurm-wlm, munge, parallel and python3-venv if they are missing,
-    /// and Snakemake in the cache folder of the user.
+    /// Installs the Debian packages slurm-wlm, munge, parallel and python3-venv if they are
+    /// missing, and Snakemake in the cache folder of the user.
     Cluster,
     /// Install the programs, their man pages, and completions for bash, zsh and fish
     Install(install::Args),

@@ -252,7 +252,7 @@ impl Film<'_> {
         Ok((picture.into_frame()?, Some(notes)))
     }
 
-    /// Draws frames on one sheet, with their velocities or times as labels, otherwise their numbers.
+    /// Draws frames on one sheet, labelled with their velocities or times, otherwise their numbers.
     /// Returns the sheet and its pictures.
     ///
     /// # Errors

@@ -42,9 +42,10 @@ impl FrameNames {
     }
 }
 
-/// Since when frames may have been drawn of a scene that includes files. Their records state the
-/// hash of the scene's own file alone, so a file beside the first frame states that of the whole
-/// text; it is written anew when the text has changed, and older frames do not count.
+/// Oldest modification time of frames that are up to date, for a scene that includes files. Frames
+/// record the hash of the main file only, so a file beside the first frame records the hash of the
+/// whole text, includes expanded. It is rewritten when that text changes; frames that are older than
+/// it are drawn again.
 ///
 /// # Errors
 /// The file cannot be written.

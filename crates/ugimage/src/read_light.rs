@@ -30,8 +30,8 @@ pub enum Pixels {
 /// Colour profiles and the orientation that cameras note are not used.
 ///
 /// # Errors
-/// [`ReadError`] if the file is of another kind, is truncated or corrupt, has more than `max_pixels`
-/// pixels, or does not fit in memory.
+/// [`ReadError`] if the file is of another kind, is truncated or corrupt, has more than
+/// `max_pixels` pixels, or does not fit in memory.
 pub fn read_picture(file: &[u8], max_pixels: u64) -> Result<([u32; 2], Pixels), ReadError> {
     let limit = max_pixels.min(MAX_PIXELS);
     match file {

@@ -22,7 +22,7 @@ pub fn depths(scenery: &Scenery<'_>, size: [u32; 2], samples: u32) -> DepthBuffe
 /// The surfaces at the middles of the pixels of a part of a picture.
 pub struct Middles<'a> {
     scenery: &'a Scenery<'a>,
-    /// Left column, upper row, and columns.
+    /// Left column, top row and number of columns.
     area: [u32; 3],
     samples: u32,
     /// For each pixel the surface at its middle that transmits less than half of the light behind

@@ -2,9 +2,9 @@
 //!
 //! In the frame of the camera the bounding box of bodies with one velocity v moves with them: at a
 //! time t after a reference time it reaches from low + v t to high + v t. A node of the hierarchy
-//! bounds several such boxes. Let low and high be the bounds of their corners at the reference time,
-//! and v₀ and v₁ those of their velocities. Then the node reaches from low + v₁ t to high + v₀ t
-//! before the reference time (t ≤ 0), and from low + v₀ t to high + v₁ t after it.
+//! bounds several such boxes. Let low and high be the bounds of their corners at the reference
+//! time, and v₀ and v₁ those of their velocities. Then the node reaches from low + v₁ t to
+//! high + v₀ t before the reference time (t ≤ 0), and from low + v₀ t to high + v₁ t after it.
 //!
 //! Time and position along a ray are linear in its parameter. So on each side of the reference time
 //! the ray is inside a node where six linear functions of the parameter are positive. The reference
@@ -17,8 +17,8 @@
 //! 2⁻⁵³ γ times its distance from the eye, and back with 2⁻⁵³ γ² times it. None of them becomes
 //! greater in the frame of the camera, where lengths are contracted. Boxes are extended by more
 //! than that, and velocities likewise, for times far in the past: [`SLACK`] γ² of all distances.
-//! If γ is so large that an extension is not a finite number, the box is infinite: its part is tested
-//! with every ray.
+//! If γ is so large that an extension is not a finite number, the box is infinite: its part is
+//! tested with every ray.
 
 use std::ops::Range;
 

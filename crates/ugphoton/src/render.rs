@@ -89,7 +89,7 @@ pub fn run(
     Drawing::read(config, source, command_line, progress)?.picture(progress)
 }
 
-/// A scene that has been read, ready to be drawn: as a preview, or as the picture itself.
+/// A scene that is prepared for drawing, as a preview or as the full picture.
 pub struct Drawing {
     prepared: Prepared,
     metadata: Metadata,

@@ -427,7 +427,7 @@ fn moving_glass_absorbs_light_along_its_path() {
         let expected = libm::exp(-0.7 / (1.0 - sine_squared).sqrt());
         let found = f64::from(seen(&text, toward));
         assert!((found / expected - 1.0).abs() < 1e-5, "{velocity}: {found} {expected}");
-        // The slab is above the eye and out of view; its shadow falls on the wall, below the middle.
+        // The slab is above the eye, out of view; its shadow falls on the wall, below the middle.
         let lamp = DVec3::new(0.4, -0.2, 1.0);
         let glass = absorbing_slab(7.0, velocity);
         let text = format!(

@@ -13,7 +13,8 @@ pub fn fed(command: &mut Command, input: impl AsRef<[u8]>) -> Output {
     fed_as_it_is(command.stdout(Stdio::piped()).stderr(Stdio::piped()), input)
 }
 
-/// As [`fed`], but standard output and messages go where the command sends them.
+/// Runs a program as [`fed`] does, but leaves its standard output and standard error as the command
+/// sets them.
 ///
 /// # Panics
 /// As of [`fed`].

@@ -110,9 +110,9 @@ impl Ellipse {
     }
 }
 
-/// The factors of s and t in the positive part of weights with which their first moments vanish, so
-/// that the light of a linear function is exact. Passed are sums of weight times s and t, and of the
-/// positive part times s², s t and t².
+/// The factors of s and t in the positive part of weights with which their first moments vanish,
+/// so that the light of a linear function is exact. Passed are sums of weight times s and t, and of
+/// the positive part times s², s t and t².
 #[inline(always)]
 pub(crate) fn correction([s, t, ss, st, tt]: [f32; 5]) -> [f32; 2] {
     let determinant = ss * tt - st * st;

@@ -56,9 +56,9 @@ const SMOOTH_STEP: f64 = 0.02;
 /// |ln D| up to which light is tabulated: beyond it nothing visible is left.
 const MOST_LN_DOPPLER: f64 = 12.0;
 
-/// Ratios of channels at which smooth spectra are tabulated, up to a largest |ln D|: tables with more
-/// factors have fewer colours. Where reflectances are steep at the red end, the infrared light of
-/// neighbouring colours differs much, so they are close.
+/// Number of ratios of channels at which smooth spectra are tabulated, for Doppler factors up to
+/// |ln D| = `reach`: tables of more Doppler factors have fewer colours. Reflectances that are steep
+/// at the red end continue into the infrared, where similar colours differ much; hence the fine grid.
 fn n_ratios(reach: f64) -> usize {
     if reach <= 3.0 { 65 } else { 33 }
 }
@@ -154,8 +154,8 @@ fn range_of(reach: f64, step: f64) -> (f64, usize) {
     (-half * step, 2 * half as usize + 1)
 }
 
-/// X, Y, Z of the light of a spectrum in a range of wavelengths at rest, seen with a Doppler factor,
-/// without D⁵.
+/// X, Y, Z of the light of a spectrum in a range of wavelengths at rest, seen with a Doppler
+/// factor, without D⁵.
 fn shifted(spectrum: &LightSpectrum, range: &Range<f64>, ln_doppler: f64) -> [f64; 3] {
     let doppler = libm::exp(ln_doppler);
     let radiance = |rest_nm: f64| if range.contains(&rest_nm) { spectrum.at(rest_nm) } else { 0.0 };

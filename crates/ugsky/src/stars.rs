@@ -24,8 +24,8 @@ const MOST_LN_DOPPLER: f64 = 30.0;
 /// Irradiance by stars as a moving observer measures it.
 ///
 /// A star of temperature T is seen as a black body of D T, so its radiance per wavelength is D⁵
-/// L(λD). Its disc is D² times smaller in solid angle, so its irradiance per wavelength grows by D³,
-/// and over all wavelengths by D². Eq. (P6), (P12), (P13)
+/// L(λD). Its disc is D² times smaller in solid angle, so its irradiance per wavelength grows by
+/// D³, and over all wavelengths by D². Eq. (P6), (P12), (P13)
 ///
 /// ```
 /// use glam::DVec3;

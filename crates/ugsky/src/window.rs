@@ -270,7 +270,8 @@ impl<S: Simd> Sums<S> {
     }
 }
 
-/// A vector times the directions of a row: linear in the cosine and the sine of the longitude.
+/// Dot product of a vector with the directions of one latitude: `level + by_cos cos λ + by_sin sin λ`
+/// at the longitude λ.
 struct Line<S: Simd> {
     by_cos: f32x8<S>,
     by_sin: f32x8<S>,

@@ -35,7 +35,7 @@ pub struct Config {
 pub struct StarOptions {
     /// Full width at half maximum of the disc of a star, pixels, 0.5 to 50.
     pub width: f64,
-    /// Magnitude of the stars of which one per square degree is light of 1.
+    /// Magnitude that is drawn as white: one such star per square degree has the mean light 1.
     pub white: f64,
 }
 

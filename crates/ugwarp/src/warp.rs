@@ -197,7 +197,8 @@ impl Warp {
         match sampler.light(&ray, self.spread) {
             Some(light) => self.shaded(light, ray.doppler),
             None if depth < MOST_DIVISIONS => self.divided(sampler, place, side, depth),
-            // A footprint of nearly the whole sky, of no more than 4⁻²⁴ of a sample.
+            // The footprint still covers nearly the whole sky. At this depth it weighs at most 4⁻²⁴
+            // of a sample, so it is left out.
             None => [0.0; 4],
         }
     }

@@ -309,7 +309,7 @@ fn infrared_and_ultraviolet_light_is_seen_in_motion() {
     let both = [band(830.0..1e6, 0.4), band(0.0..360.0, 0.4)];
     let (whole, parts) = (seen(0.4, &[]), seen(0.4, &both));
     for (whole, parts) in whole.pixels().iter().zip(parts.pixels()) {
-        // The table of smooth spectra is linear over 2 percent of D, across the edges of the ranges.
+        // The table of smooth spectra is linear over 2 % of D, across the edges of the ranges.
         let most = whole[..3].iter().fold(0.0, |most: f32, part| most.max(*part));
         assert!((0..3).all(|i| (parts[i] - whole[i]).abs() < 1e-2 * most), "{whole:?} {parts:?}");
     }

@@ -1,11 +1,12 @@
 //! Hostile inputs for the programs, and what must hold whatever they are given.
 //!
-//! A [`Case`] follows from its number alone: an input (a scene, a mesh, pictures or panoramas) that is
-//! malformed, extreme or both, and the command lines of a pipe. Half of the cases are valid, so
+//! A [`Case`] follows from its number alone: an input (a scene, a mesh, pictures or panoramas) that
+//! is malformed, extreme or both, and the command lines of a pipe. Half of the cases are valid, so
 //! that their pipes run to the end. [`Case::run`] runs it with the built programs and checks what
 //! no input may break:
 //!
-//! - a program ends by itself, with status 0, 1 or 2, within [`PROCESSOR_LIMIT`] and [`MEMORY_LIMIT`];
+//! - a program ends by itself, with status 0, 1 or 2, within [`PROCESSOR_LIMIT`] and
+//!   [`MEMORY_LIMIT`];
 //! - with status 0 it has written something, and every program downstream reads it;
 //! - with another status it has written nothing to standard output, and says why;
 //! - if its output is lost (a full disk, a closed pipe), the status is not 0;

@@ -1,4 +1,4 @@
-//! Pictures with their histories, for `ugsheet`.
+//! Hostile pictures with recorded commands, the input of `ugsheet`.
 
 use ugimage::{Format, Frame, Metadata};
 use ugrandom::Random;

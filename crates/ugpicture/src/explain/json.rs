@@ -5,8 +5,8 @@ use serde_json::{Map, Value, json};
 
 use super::{ExplainedPixel, Item, PixelSteps, SampleColor};
 
-/// An explanation, ending with a line break. `of_renderer`: what only this renderer tells, names and
-/// values.
+/// An explanation as JSON, ending with a line break. `of_renderer`: names and values of the fields
+/// that only this renderer has.
 pub fn explanation<const N: usize>(pixel: &ExplainedPixel, of_renderer: [(&str, Value); N]) -> String {
     let ExplainedPixel { place, size, samples, covers, n_free, is_at_rest, steps } = pixel;
     let n_samples = (samples * samples) as usize;

@@ -67,8 +67,8 @@ impl Film {
         direction.dot(self.forward)
     }
 
-    /// The pixels in which directions within `radius` of a direction are seen by one eye, in every
-    /// frame. `radius`: radians, below a quarter turn.
+    /// The pixels in which one eye sees directions within `radius` of `direction`, in every frame.
+    /// `radius`: radians, less than π/2.
     pub fn cap(&self, direction: DVec3, radius: f64) -> impl Iterator<Item = Window> {
         let n_frames = if self.lens == Lens::Cube { 6 } else { 1 };
         (0..n_frames).filter_map(move |frame| self.window(frame, direction, radius))
@@ -240,8 +240,8 @@ impl Film {
 
 /// The pixels of a flat film in which a cone is seen; `None` unless all of it is ahead.
 ///
-/// A plane through the eye and a column of the film, x a constant, has the normal N = â − x f, with
-/// f the view direction; it touches a cone of half-angle r about n if (N·n)² = sin² r N².
+/// The plane through the eye and a column x of the film has the normal N = â − x f, where f is the
+/// view direction. It touches a cone of half-angle r about n if (N·n)² = sin² r N².
 fn flat_window(flat: &Flat, direction: DVec3, radius: f64) -> Option<(Range<i64>, Range<i64>)> {
     let sin = libm::sin(radius);
     let ahead = direction.dot(flat.forward);
