@@ -111,7 +111,8 @@ fn spectra_are_those_of_a_moving_camera() {
     let bodies = "c_bb one 3500 0.3; c_bb two 5900 0.3; c_bb three 10000 0.3;";
     check(bodies, shift, Basis::Planck([3500.0, 5900.0, 10_000.0]));
     // Paints: the smooth reflectances are those that the ray tracer finds for the same colours.
-    // Where different paints mix, between the corners of a face, only the ray tracer knows the parts.
+    // Where different paints mix, between the corners of a face, only the ray tracer knows the
+    // parts.
     check("c one 0.6 30 0.3; c two 0.5 30 0.3; c three 0.4 30 0.3;", shift, Basis::Smooth);
     check("c one 0.4 215 0.7; c two 0.5 215 0.7; c three 0.4 215 0.7;", shift, Basis::Smooth);
     // At edges between temperatures a pixel is a mixture, which is no black body.

@@ -44,8 +44,8 @@ impl FrameNames {
 
 /// Oldest modification time of frames that are up to date, for a scene that includes files. Frames
 /// record the hash of the main file only, so a file beside the first frame records the hash of the
-/// whole text, includes expanded. It is rewritten when that text changes; frames that are older than
-/// it are drawn again.
+/// whole text, includes expanded. It is rewritten when that text changes; frames that are older
+/// than it are drawn again.
 ///
 /// # Errors
 /// The file cannot be written.

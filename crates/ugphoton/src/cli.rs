@@ -141,8 +141,8 @@ pub struct Args {
     /// Write a coarse picture at once, and replace it by finer ones until it is done
     ///
     /// FILE (-fo) is first a picture in squares of 8 x 8 pixels with one sample each, then of 4 x 4
-    /// and 2 x 2, and at last the picture itself, with the same bytes as without -pv. It is complete
-    /// at any time, so a viewer that reloads it shows the progress.
+    /// and 2 x 2, and at last the picture itself, with the same bytes as without -pv. It is a
+    /// complete file at any time, so a viewer that reloads it shows the progress.
     #[arg(long, visible_alias = "preview", conflicts_with = "explain", help_heading = PICTURE)]
     pv: bool,
 

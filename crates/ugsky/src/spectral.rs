@@ -57,8 +57,9 @@ const SMOOTH_STEP: f64 = 0.02;
 const MOST_LN_DOPPLER: f64 = 12.0;
 
 /// Number of ratios of channels at which smooth spectra are tabulated, for Doppler factors up to
-/// |ln D| = `reach`: tables of more Doppler factors have fewer colours. Reflectances that are steep
-/// at the red end continue into the infrared, where similar colours differ much; hence the fine grid.
+/// |ln D| = `reach`: tables of more Doppler factors have fewer colours. The grid is fine because
+/// reflectances that are steep at the red end go on into the infrared, where similar colours differ
+/// much.
 fn n_ratios(reach: f64) -> usize {
     if reach <= 3.0 { 65 } else { 33 }
 }

@@ -270,8 +270,8 @@ impl<S: Simd> Sums<S> {
     }
 }
 
-/// Dot product of a vector with the directions of one latitude: `level + by_cos cos λ + by_sin sin λ`
-/// at the longitude λ.
+/// Dot product of a vector with the directions of one latitude: `level + by_cos cos λ +
+/// by_sin sin λ` at the longitude λ.
 struct Line<S: Simd> {
     by_cos: f32x8<S>,
     by_sin: f32x8<S>,

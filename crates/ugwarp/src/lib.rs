@@ -8,7 +8,8 @@
 //!
 //! - [`open`] makes a panorama of the bytes of PNG, JPEG, HDR or EXR files, cube maps among them;
 //!   [`read_stars`] reads a list of stars.
-//! - [`render`] draws a panorama, stars or both as a picture; [`light`] returns linear light instead.
+//! - [`render`] draws a panorama, stars or both as a picture; [`light`] returns linear light
+//!   instead.
 //! - [`Warp`] is a picture's map to the sky, and the light of its velocity, ready to use with any
 //!   number of panoramas.
 //!
