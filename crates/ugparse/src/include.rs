@@ -16,7 +16,7 @@ use crate::parallel_reader::read_document;
 use crate::reader::RequestStatement;
 use crate::refuse_errors;
 use crate::source::{LineMark, Source};
-use crate::token::{comment, escape, word};
+use crate::token::{comment, escape, line_end, word};
 
 /// The kind of a requested text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -297,9 +297,7 @@ fn begins_like_a_scene(mut text: &[u8]) -> bool {
             Some(b'{') => comment(text).map(|(rest, _)| rest),
             Some(b'(') => escape(text).map(|(rest, _)| rest),
             Some(b';') => Ok(&text[1..]),
-            Some(b'#') if is_line_mark(text) => {
-                Ok(&text[memchr::memchr(b'\n', text).unwrap_or(text.len())..])
-            }
+            Some(b'#') if is_line_mark(text) => Ok(&text[line_end(text)..]),
             _ => break,
         };
         match skipped {

@@ -145,7 +145,7 @@ impl<'t, 'f> Reader<'t, 'f> {
     fn between(&mut self, mut input: Input<'t>) -> Result<Input<'t>, SyntaxError<'t>> {
         loop {
             match input.first() {
-                Some(b'\n') => {
+                Some(b'\n' | b'\r') => {
                     self.line_has_statement = false;
                     input = &input[1..];
                 }

@@ -69,9 +69,9 @@ impl Layout {
         let mut input = text;
         while let Some(&byte) = input.first() {
             input = match byte {
-                b'\n' => {
+                b'\n' | b'\r' => {
                     self.n_line_ends += 1;
-                    &input[1..]
+                    input.strip_prefix(b"\r\n").unwrap_or(&input[1..])
                 }
                 byte if is_blank(byte) || byte == b';' => &input[1..],
                 b'{' => {

@@ -210,6 +210,10 @@ fn lax_passes_on_unknown_statements() {
             "statement `#` is passed on unread"
         ]
     );
+    // A carriage return alone ends a directive, so a comment after it is on a line of its own.
+    let directive = crate::flat("# pragma\r{ of two\nlines }\nv a 0 0 0;");
+    assert!(directive.contains("# pragma\n") && !directive.contains("# pragma {"), "{directive}");
+    assert_eq!(crate::flat(&directive), directive);
     // More of them than the limit of errors: later statements are not lost.
     let many: String = (0..100).map(|idx| format!("x{idx};\n")).collect::<String>() + "v last 0 0 0;";
     assert!(crate::flat(&many).ends_with("x99;\nv last 0 0 0;\n"));
