@@ -25,7 +25,8 @@ pub struct Args {
     programs: Option<PathBuf>,
 }
 
-/// Runs the cases and writes what was found. Fails if anything was.
+/// Runs the cases and writes what was found; progress goes to standard error. Fails if anything was
+/// found.
 pub fn write(out: &mut impl Write, args: &Args) -> io::Result<()> {
     if let Some(folder) = &args.extract {
         let case = Case::new(args.first);
@@ -38,13 +39,16 @@ pub fn write(out: &mut impl Write, args: &Args) -> io::Result<()> {
     // In blocks, so that findings appear while the rest runs.
     for start in (0..args.cases).step_by(1000) {
         let seeds = args.first + start..args.first + (start + 1000).min(args.cases);
-        let results: Vec<_> = seeds.into_par_iter().map(|seed| Case::new(seed).run(&programs)).collect();
+        let results: Vec<_> =
+            seeds.clone().into_par_iter().map(|seed| Case::new(seed).run(&programs)).collect();
         n_drawn += results.iter().filter(|result| **result == Ok(true)).count();
         for finding in results.into_iter().filter_map(Result::err) {
             n_findings += 1;
             writeln!(out, "{finding}\n")?;
         }
         out.flush()?;
+        let (n_run, seconds) = (seeds.end - args.first, begun.elapsed().as_secs());
+        writeln!(io::stderr(), "{n_run} of {} cases, {n_findings} findings, {seconds} s", args.cases)?;
     }
     let seconds = begun.elapsed().as_secs_f64();
     writeln!(out, "{} cases, {n_drawn} pipes succeed, {n_findings} findings, {seconds:.0} s", args.cases)?;
