@@ -41,5 +41,5 @@ film nguyen-ship 75 -vel '0 0 0 .. .99 0 0' -in --no-doppler --no-flux ship.ug
 film street 80 -cv '0 0 0 .. 0 .99 0' -ep 0 -14..6 3 -sp -ex auto street.ug
 
 # A panorama of the tunnel, seen at growing speed.
-ugphoton -qt -pan -aa 2 -sz 1024 512 tunnel.ug -fo "$out/sky.png"
+ugphoton -qt -pan -sz 2048 1024 tunnel.ug -fo "$out/sky.png"
 film panorama 75 -warp -cv '0 0 0 .. 0 .95 0' -sp -ex auto -va 100 "$out/sky.png"
