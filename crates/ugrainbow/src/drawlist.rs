@@ -11,7 +11,7 @@ use ugraster::{
 use crate::clip::{ClipCounts, Vertex, clip_polygon};
 use crate::packing::Pack;
 use crate::painter::Painter;
-use uglight::Common;
+use uglight::{Common, Swatch};
 
 /// Faces classified together: several blocks of triangles, so that one block is filled while
 /// another is classified.
@@ -56,7 +56,12 @@ impl<const N: usize> CornerTable<N> for Corners<'_, N> {
             }
         }
         let look = FaceLook::new(&self.painter, face);
-        corners.map(|corner| look.numbers(VertexId(corner), self.pack))
+        let vertices = corners.map(VertexId);
+        if self.painter.is_flat(&vertices) {
+            let level = look.level(vertices[0]);
+            return vertices.map(|vertex| (self.pack)(&look.swatch(vertex), level));
+        }
+        vertices.map(|vertex| look.numbers(vertex, self.pack))
     }
 }
 
@@ -74,8 +79,15 @@ impl<'a> FaceLook<'a> {
     }
 
     fn numbers<const N: usize>(&self, vertex: VertexId, pack: Pack<N>) -> [f64; N] {
-        let swatch = self.painter.swatch(vertex, &self.common);
-        pack(&swatch, self.painter.level(self.face, vertex, self.normal, self.common.is_light))
+        pack(&self.swatch(vertex), self.level(vertex))
+    }
+
+    fn swatch(&self, vertex: VertexId) -> Swatch {
+        self.painter.swatch(vertex, &self.common)
+    }
+
+    fn level(&self, vertex: VertexId) -> DVec3 {
+        self.painter.level(self.face, vertex, self.normal, self.common.is_light)
     }
 }
 

@@ -132,6 +132,13 @@ impl Painter<'_> {
         self.lighting.level(self.surface.rest(vertex), normal, is_light)
     }
 
+    /// True if the light level of a face is the same at all these corners of it.
+    #[inline]
+    pub fn is_flat(&self, corners: &[VertexId]) -> bool {
+        let has_normal = |corner: &VertexId| self.scene.vertices[corner.index()].normal.is_some();
+        !self.lighting.needs_places() && !corners.iter().any(has_normal)
+    }
+
     /// The light level of all faces without one of their own, if it is the same for all of them and
     /// all colours are opaque hues.
     pub fn even_level(&self) -> Option<DVec3> {

@@ -7,7 +7,7 @@ use uglight::{ColorShift, HueShift, Lighting};
 use ugparse::{BodyId, ColorId, ColorValue, Scene, VertexId};
 use ugpicture::PictureOptions;
 use ugpipe::remedies;
-use ugraster::SampleGrid;
+use ugraster::{SampleGrid, TileShape};
 
 use crate::config::Config;
 use crate::error::Error;
@@ -57,7 +57,9 @@ impl<'a> Setup<'a> {
         let view = View::new(&scene, camera, [width * samples, height * samples])?;
         ugscene::require_eye(&scene, view.eye)?;
         let fade = config.depth_cue.and_then(|cue| Some(cue.between(cue.range?)));
-        let grid = SampleGrid { width, height, samples, is_perspective: view.is_perspective, fade };
+        let is_perspective = view.is_perspective;
+        let tiles = if config.exact.is_some() { TileShape::Wide } else { TileShape::Tall };
+        let grid = SampleGrid { width, height, samples, is_perspective, fade, tiles };
         let is_spectral = matches!(config.exact, Some(ColorShift::Spectra(_)));
         let hue_scale = ugscene::hue_scale(&scene, config.hue_scale)?;
         if hue_scale != scene.stage.hue_scale() {

@@ -7,9 +7,9 @@ use crate::depth_fade::DepthFade;
 /// Samples in a tile, about: with some 16 bytes each they stay in a core's cache.
 const TILE_SAMPLES: u32 = 1 << 15;
 
-/// Most samples of a tile one pixel high. Only wider pictures are cut into columns of tiles,
-/// because outlines are scanned again for every column.
-const MAX_ROW_SAMPLES: u32 = 1 << 19;
+/// Most samples of a tile one pixel high, in wide tiles and in tall ones. The second was found by
+/// trial with 10⁵ and 10⁶ triangles: tall tiles are eight pixels high, except with very many samples.
+const MAX_ROW_SAMPLES: [u32; 2] = [1 << 19, 1 << 12];
 
 /// Most bands of a picture. More would cost memory for the bins and gain nothing.
 const MAX_BANDS: u32 = 1 << 10;
@@ -27,6 +27,19 @@ pub struct SampleGrid {
     pub is_perspective: bool,
     /// Depth cueing.
     pub fade: Option<DepthFade>,
+    /// The shape of tiles, which does not change the picture.
+    pub tiles: TileShape,
+}
+
+/// The shape of tiles.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TileShape {
+    /// As wide as most pictures, and low: for surfaces whose outlines are intersected with every
+    /// row of a tile.
+    Wide,
+    /// Several pixels high, and narrow: for small triangles, whose setup is done again for every
+    /// tile that they touch.
+    Tall,
 }
 
 impl SampleGrid {
@@ -60,7 +73,9 @@ impl SampleGrid {
 
     /// Pixel columns of a tile.
     pub(crate) fn tile_columns(&self) -> u32 {
-        (MAX_ROW_SAMPLES / (self.samples * self.samples)).clamp(1, self.width)
+        let [wide, tall] = MAX_ROW_SAMPLES;
+        let row_samples = if self.tiles == TileShape::Wide { wide } else { tall };
+        (row_samples / (self.samples * self.samples)).clamp(1, self.width)
     }
 
     /// Pixel rows of a tile.

@@ -13,7 +13,7 @@
 //!
 //! ```
 //! use ugraster::{Corner, Encoding, NoTriangles, PixelSamples, PolygonLayer, PolygonList, Rasterizer};
-//! use ugraster::{SampleGrid, ShadedRun, ShadedSample, Shading};
+//! use ugraster::{SampleGrid, ShadedRun, ShadedSample, Shading, TileShape};
 //!
 //! /// The only interpolated value is grey light.
 //! struct Grey;
@@ -28,7 +28,8 @@
 //! }
 //!
 //! // Depth keys of an orthographic view: larger is nearer.
-//! let grid = SampleGrid { width: 9, height: 5, samples: 1, is_perspective: false, fade: None };
+//! let (fade, tiles) = (None, TileShape::Tall);
+//! let grid = SampleGrid { width: 9, height: 5, samples: 1, is_perspective: false, fade, tiles };
 //! let mut polygons = PolygonList::default();
 //! for (item, grey, left_key, right_key) in [(0, 0.75, 2.0, 0.0), (1, 0.25, 0.0, 2.0)] {
 //!     for (x, y, key) in [(0.0, -9.0, left_key), (9.0, 2.5, right_key), (0.0, 14.0, left_key)] {
@@ -115,7 +116,7 @@ pub use bins::Bins;
 pub use block::{BLOCK, BlockClasses, TriangleBlock};
 pub use depth_fade::DepthFade;
 pub use edges::Scanner;
-pub use grid::{Bands, SampleGrid};
+pub use grid::{Bands, SampleGrid, TileShape};
 pub use layer::{CornerTable, NoTriangles, OpaqueLayer, PolygonLayer};
 pub use polygons::{Bounds, Corner, Point, PolygonList, ShapeRef, greater, lesser};
 pub use probe::{ProbedSample, ProbedSurface};

@@ -145,16 +145,21 @@ impl<const N: usize> PolygonList<N> {
     pub fn in_band(
         &self,
         band: usize,
-    ) -> impl Iterator<Item = (u32, ShapeRef<impl Iterator<Item = &[Corner<N>]>>)> {
+    ) -> impl Iterator<Item = (u32, ShapeRef<impl Iterator<Item = &[Corner<N>]> + Clone>)> {
         self.bins.in_band(band).iter().map(|&shape| self.shape(&self.shapes[shape as usize]))
     }
 
     /// All shapes in drawing order, each with its item.
-    pub fn shapes(&self) -> impl Iterator<Item = (u32, ShapeRef<impl Iterator<Item = &[Corner<N>]>>)> {
+    pub fn shapes(
+        &self,
+    ) -> impl Iterator<Item = (u32, ShapeRef<impl Iterator<Item = &[Corner<N>]> + Clone>)> {
         self.shapes.iter().map(|shape| self.shape(shape))
     }
 
-    fn shape(&self, shape: &Shape) -> (u32, ShapeRef<impl Iterator<Item = &[Corner<N>]> + use<'_, N>>) {
+    fn shape(
+        &self,
+        shape: &Shape,
+    ) -> (u32, ShapeRef<impl Iterator<Item = &[Corner<N>]> + Clone + use<'_, N>>) {
         let outline = match &shape.outline {
             Outline::Triangle(corners) => ShapeRef::Triangle(*corners),
             Outline::Contours(contours) => ShapeRef::Polygon(contours.clone().map(|contour| {

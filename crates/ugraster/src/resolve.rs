@@ -163,7 +163,8 @@ impl<'a, const N: usize> Resolver<'a, N> {
     }
 
     /// Adds up the samples of `n_pixels` pixels of a row: down each column of samples, then from
-    /// the left.
+    /// the left. As many pixels at once as fit in a run, so that their sums stay in the level 1
+    /// cache.
     fn add_up(
         &mut self,
         tile: &Tile<N>,
@@ -172,25 +173,43 @@ impl<'a, const N: usize> Resolver<'a, N> {
         n_pixels: u32,
     ) {
         let n = self.grid.samples;
-        for all in &mut self.columns {
-            all.clear();
-            all.resize((n_pixels * n) as usize, 0.0);
-        }
-        for sample_row in row * n..(row + 1) * n {
-            self.light(tile, transparency, sample_row, [first * n, (first + n_pixels) * n]);
-            for (sums, lit) in self.columns.iter_mut().zip(&self.lit) {
-                sums.iter_mut().zip(lit).for_each(|(sum, lit)| *sum += lit);
-            }
-        }
+        let end = first + n_pixels;
+        let together = (RUN as u32 / n).max(1);
         self.sums.clear();
-        let [red, green, blue, coverage] = self.columns.each_ref().map(|all| all.chunks_exact(n as usize));
-        let sum = |parts: &[f32]| parts.iter().fold(0.0, |sum, part| sum + part);
-        self.sums.extend(
-            red.zip(green)
-                .zip(blue)
-                .zip(coverage)
-                .map(|(((red, green), blue), coverage)| [sum(red), sum(green), sum(blue), sum(coverage)]),
-        );
+        for first in (first..end).step_by(together as usize) {
+            let end = (first + together).min(end);
+            self.add_up_run(tile, transparency, row, [first, end]);
+        }
+    }
+
+    /// Adds up the samples of the pixels from column `first` to `end`.
+    fn add_up_run(
+        &mut self,
+        tile: &Tile<N>,
+        transparency: &TransparencyBuffer,
+        row: u32,
+        [first, end]: [u32; 2],
+    ) {
+        let n = self.grid.samples;
+        let mut is_lit = false;
+        for sample_row in row * n..(row + 1) * n {
+            if self.light(tile, transparency, sample_row, [first * n, end * n]).is_none() {
+                continue;
+            }
+            if !is_lit {
+                is_lit = true;
+                for all in &mut self.columns {
+                    all.clear();
+                    all.resize(((end - first) * n) as usize, 0.0);
+                }
+            }
+            dispatch!(Level::new(), simd => add_columns(simd, &mut self.columns, &self.lit));
+        }
+        if is_lit {
+            dispatch!(Level::new(), simd => add_rows(simd, &self.columns, n as usize, &mut self.sums));
+        } else {
+            self.sums.resize(self.sums.len() + (end - first) as usize, [0.0; 4]);
+        }
     }
 
     /// Linear light and coverage of the samples from column `first` to `end` of a row; `None` if
@@ -244,6 +263,40 @@ impl<'a, const N: usize> Resolver<'a, N> {
                 light[idx] = composite + part * light[idx];
             }
             coverage[idx] = composite.coverage + part;
+        }
+    }
+}
+
+/// Adds a row of samples to the sums of their columns.
+#[inline(always)] // Compiled for several instruction sets.
+fn add_columns<S: Simd>(_: S, columns: &mut Planes, lit: &Planes) {
+    for (sums, lit) in columns.iter_mut().zip(lit) {
+        for (sum, lit) in sums.iter_mut().zip(lit) {
+            *sum += lit;
+        }
+    }
+}
+
+/// Adds up the sums of `n` columns each, from the left.
+#[inline(always)] // Compiled for several instruction sets.
+fn add_rows<S: Simd>(_: S, columns: &Planes, n: usize, sums: &mut Vec<[f32; 4]>) {
+    // With a known number of columns the loop over them is unrolled.
+    match n {
+        2 => add_groups(columns, 2, sums),
+        4 => add_groups(columns, 4, sums),
+        _ => add_groups(columns, n, sums),
+    }
+}
+
+#[inline(always)]
+fn add_groups(columns: &Planes, n: usize, sums: &mut Vec<[f32; 4]>) {
+    let first = sums.len();
+    sums.resize(first + columns[0].len() / n, [0.0; 4]);
+    for (channel, all) in columns.iter().enumerate() {
+        for (sums, parts) in sums[first..].iter_mut().zip(all.chunks_exact(n)) {
+            for part in parts {
+                sums[channel] += part;
+            }
         }
     }
 }

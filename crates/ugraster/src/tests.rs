@@ -6,6 +6,11 @@ use ugrandom::Random;
 use crate::edges::Scanner;
 use crate::*;
 
+/// A grid without depth cueing.
+fn grid([width, height]: [u32; 2], samples: u32, is_perspective: bool) -> SampleGrid {
+    SampleGrid { width, height, samples, is_perspective, fade: None, tiles: TileShape::Tall }
+}
+
 /// A corner at a place, at depth key 1, without values.
 fn at(x: f64, y: f64) -> Corner<0> {
     Corner { x, y, key: 1.0, values: [] }
@@ -157,7 +162,7 @@ fn a_block_is_classified_like_its_triangles() {
     let mut counts = [0; 4];
     for (round, size) in (0..400).zip([0.3, 3.0, 40.0, 3e3].into_iter().cycle()) {
         let is_perspective = round % 3 != 0;
-        let grid = SampleGrid { width: 700, height: 300, samples: 1 + round % 3, is_perspective, fade: None };
+        let grid = grid([700, 300], 1 + round % 3, is_perspective);
         let mut triangles = [[Point::default(); 3]; BLOCK];
         let mut block = TriangleBlock::default();
         for (place, points) in triangles.iter_mut().enumerate() {
@@ -225,8 +230,9 @@ fn is_regular(points: &[Point; 3], is_perspective: bool) -> bool {
 fn triangles_are_drawn_like_polygons() {
     let mut random = Random(11);
     let (mut n_drawn, mut n_seen) = (0, 0);
-    for (samples, size) in [(1, 3.0), (1, 40.0), (2, 300.0), (1, 1e5)] {
-        let grid = SampleGrid { width: 60, height: 50, samples, is_perspective: true, fade: None };
+    // With 20 samples along a side, the picture has six columns of tiles.
+    for (samples, size) in [(1, 3.0), (1, 40.0), (2, 300.0), (1, 1e5), (20, 300.0)] {
+        let grid = grid([60, 50], samples, true);
         let (mut triangles, mut polygons) = (PolygonList::default(), PolygonList::default());
         let mut table = Vec::new();
         for item in 0..300 {
@@ -268,7 +274,8 @@ fn triangles_are_drawn_like_polygons() {
         for (ours, exact) in draw(triangles).into_iter().zip(draw(polygons)) {
             assert_eq!(ours.1, exact.1);
             assert_eq!(ours.2.map(|hit| hit.item), exact.2.map(|hit| hit.item));
-            assert!((ours.0 - exact.0).abs() < 4e-6, "{ours:?} {exact:?}");
+            let error = (ours.0 - exact.0).abs() / (samples * samples) as f32;
+            assert!(error < 4e-6, "{ours:?} {exact:?}");
             if let (Some(ours), Some(exact)) = (ours.2, exact.2) {
                 assert!((ours.key - exact.key).abs() < 1e-6, "{ours:?} {exact:?}");
                 n_seen += 1;
@@ -331,8 +338,9 @@ fn painted(polygons: &[Vec<Corner<1>>], grid: &SampleGrid) -> Vec<f32> {
 #[test]
 fn a_probe_finds_what_was_painted() {
     let mut random = Random(5);
-    for samples in [1, 2, 3] {
-        let grid = SampleGrid { width: 25, height: 20, samples, is_perspective: false, fade: None };
+    // With 20 samples along a side, the picture has three columns of tiles.
+    for samples in [1, 2, 3, 20] {
+        let grid = grid([25, 20], samples, false);
         let polygons: Vec<Vec<Corner<1>>> = (1..=40)
             .map(|k| {
                 let mut corner = || Corner {
@@ -353,7 +361,7 @@ fn a_probe_finds_what_was_painted() {
 #[test]
 fn tiles_do_not_show() {
     for (width, height, samples) in [(100_000, 5, 3), (600_000, 2, 1), (50, 3000, 2)] {
-        let grid = SampleGrid { width, height, samples, is_perspective: false, fade: None };
+        let grid = grid([width, height], samples, false);
         let (right, bottom) = (f64::from(grid.sample_columns()), f64::from(grid.sample_rows()));
         let corner = |x: f64, y: f64, light: f64| Corner { x, y, key: 0.0, values: [light] };
         let pixels = painted(
@@ -380,7 +388,7 @@ fn of_equal_depth_keys_the_first_drawn_wins() {
             .map(|(x, y)| Corner { x, y, key, values: [light] })
             .into()
     };
-    let grid = SampleGrid { width: 4, height: 4, samples: 1, is_perspective: false, fade: None };
+    let grid = grid([4, 4], 1, false);
     let rows = [
         ([(1.0, 5.0), (0.0, 5.0)], 1.0),
         ([(0.0, 5.0), (1.0, 5.0)], 0.0),
@@ -395,7 +403,7 @@ fn of_equal_depth_keys_the_first_drawn_wins() {
 
 #[test]
 fn polygons_with_nan_or_infinity_are_dropped() {
-    let grid = SampleGrid { width: 4, height: 4, samples: 1, is_perspective: false, fade: None };
+    let grid = grid([4, 4], 1, false);
     for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
         for place in 0..4 {
             let mut numbers = [1.0; 4];

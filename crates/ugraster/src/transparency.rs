@@ -419,6 +419,12 @@ mod tests {
     use std::sync::atomic::{AtomicU64, Ordering};
 
     use super::*;
+    use crate::grid::TileShape;
+
+    fn grid(width: u32, height: u32) -> SampleGrid {
+        let tiles = TileShape::Wide;
+        SampleGrid { width, height, samples: 1, is_perspective: false, fade: None, tiles }
+    }
 
     /// Panes in front of the whole tile, at depths in a mixed order.
     struct Panes {
@@ -458,7 +464,7 @@ mod tests {
     fn panes_are_drawn_about_once() {
         let area = Area { columns: [0, 64], rows: [16, 48] };
         let keys = vec![EMPTY; area.n_samples()];
-        let grid = SampleGrid { width: 64, height: 64, samples: 1, is_perspective: false, fade: None };
+        let grid = grid(64, 64);
         for n in [1, 100, 2000, 4001] {
             let panes = Panes { n, n_shaded: AtomicU64::new(0) };
             let mut buffer = TransparencyBuffer::default();
@@ -481,7 +487,7 @@ mod tests {
     fn a_row_is_drawn_in_parts() {
         let area = Area { columns: [0, 3000], rows: [0, 1] };
         let keys = vec![EMPTY; area.n_samples()];
-        let grid = SampleGrid { width: 3000, height: 1, samples: 1, is_perspective: false, fade: None };
+        let grid = grid(3000, 1);
         let panes = Panes { n: 1100, n_shaded: AtomicU64::new(0) };
         let mut buffer = TransparencyBuffer::default();
         buffer.draw_before(&panes, &grid, 0, (area, &keys), KeepFragments::Centers);
