@@ -6,6 +6,7 @@ use ugparse::{Color, ColorId, ColorValue, HueScale, NameId, Scene, Tint, UniqueN
 use ugphysics::{Hsv, hue_to_wavelength, linear_srgb_to_xyz};
 
 use crate::Config;
+use crate::digits::digits;
 use crate::notes::{clipped, kept, scaled};
 
 /// The longest visible wavelength, nm: there a relative step of D changes the wavelength most.
@@ -20,16 +21,16 @@ pub(crate) struct HueStatements<'s> {
     n_given: usize,
     /// Step of the quantization of ln D; 0 for none.
     step: f64,
-    made: FxHashMap<Key, ColorId>,
+    /// By row of the colour at rest, and quantized D.
+    made: FxHashMap<(u32, u64), ColorId>,
     /// Colours that include light, by translucency and quantized wavelength, saturation and value.
     lit: FxHashMap<[u64; 4], ColorId>,
-    bases: FxHashMap<BaseKey, Base>,
+    /// Colours at rest, and their rows.
+    bases: Vec<Base>,
+    base_rows: FxHashMap<BaseKey, u32>,
     names: UniqueNames,
     largest_value: f64,
 }
-
-/// A colour at rest and the quantized D it is seen with.
-type Key = (BaseKey, u64);
 
 /// Identifies a colour at rest.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
@@ -42,8 +43,8 @@ enum BaseKey {
 }
 
 /// A colour at rest.
-#[derive(Clone)]
 struct Base {
+    given: VertexColor,
     color: HueColor,
     translucency: f64,
     name: String,
@@ -58,7 +59,8 @@ impl<'s> HueStatements<'s> {
             step: 2.0 * config.bounded_tolerance() / LONGEST_NM,
             made: FxHashMap::default(),
             lit: FxHashMap::default(),
-            bases: FxHashMap::default(),
+            bases: Vec::new(),
+            base_rows: FxHashMap::default(),
             names,
             largest_value: 0.0,
             scene,
@@ -69,13 +71,13 @@ impl<'s> HueStatements<'s> {
 
     /// Gives vertex `row` the colour at rest `color` as seen with `doppler`.
     pub fn set(&mut self, row: usize, color: VertexColor, doppler: f64) {
-        let (step, doppler) = self.quantized(doppler);
-        let base = key(color);
-        let id = match self.made.get(&(base, step)) {
+        let step = self.quantized(doppler);
+        let base = self.base(color);
+        let id = match self.made.get(&(base, step.to_bits())) {
             Some(&id) => id,
             None => {
-                let id = self.make(base, color, doppler);
-                self.made.insert((base, step), id);
+                let id = self.make(base, self.doppler_at(step));
+                self.made.insert((base, step.to_bits()), id);
                 id
             }
         };
@@ -84,7 +86,8 @@ impl<'s> HueStatements<'s> {
 
     /// Gives vertex `row` a colour that includes light already; `color` is that of the surface.
     pub fn set_lit(&mut self, row: usize, color: VertexColor, seen: HueColor) {
-        let base = self.base(key(color), color);
+        let base = self.base(color);
+        let base = &self.bases[base as usize];
         let (key, n_lit) = (self.lit_key(base.translucency, seen), self.lit.len());
         let id = match self.lit.get(&key) {
             Some(&id) => id,
@@ -118,34 +121,41 @@ impl<'s> HueStatements<'s> {
         ]
     }
 
-    /// D rounded to the nearest step of ln D, as a key and as a number. D = 1 stays.
-    fn quantized(&self, doppler: f64) -> (u64, f64) {
-        if self.step == 0.0 {
-            return (doppler.to_bits(), doppler);
-        }
-        let step = (libm::log(doppler) / self.step).round();
-        (step.to_bits(), libm::exp(step * self.step))
+    /// The step of ln D nearest to that of D; D itself if it is not quantized.
+    fn quantized(&self, doppler: f64) -> f64 {
+        if self.step == 0.0 { doppler } else { (libm::log(doppler) / self.step).round() }
+    }
+
+    /// D at a step. D = 1 stays.
+    fn doppler_at(&self, step: f64) -> f64 {
+        if self.step == 0.0 { step } else { libm::exp(step * self.step) }
     }
 
     /// A colour statement for a colour at rest as seen with D; the given one if nothing changes.
-    fn make(&mut self, key: BaseKey, color: VertexColor, doppler: f64) -> ColorId {
-        let base = self.base(key, color);
+    fn make(&mut self, base: u32, doppler: f64) -> ColorId {
+        let base = &self.bases[base as usize];
         let seen = self.shift.seen(base.color, doppler);
         let is_changed = !self.shift.keeps_wavelength(base.color.saturation, doppler)
             || self.shift.law.factor(doppler) != 1.0;
         self.largest_value = self.largest_value.max(seen.value);
-        if let (false, VertexColor::Named(id)) = (is_changed, color) {
+        if let (false, VertexColor::Named(id)) = (is_changed, base.given) {
             return id;
         }
-        let name = if is_changed { format!("{}#{}", base.name, self.digits(doppler)) } else { base.name };
-        let name = self.names.fresh(&name);
+        let name = if is_changed {
+            let step = (self.step != 0.0).then_some(doppler * self.step);
+            self.names.fresh(&format!("{}#{}", base.name, digits(doppler, step)))
+        } else {
+            self.names.fresh(&base.name)
+        };
         let name = self.scene.names.add(&name);
-        if let (false, VertexColor::Mixed { light: Some(light), translucency, .. }) = (is_changed, color) {
+        if let (false, VertexColor::Mixed { light: Some(light), translucency, .. }) = (is_changed, base.given)
+        {
             let value = ColorValue::Xyz(linear_srgb_to_xyz(light));
             self.scene.colors.push(Color { name, value, translucency });
             return ColorId::from_index(self.scene.colors.len() - 1);
         }
-        self.push(name, seen, base.translucency)
+        let translucency = base.translucency;
+        self.push(name, seen, translucency)
     }
 
     /// Adds a colour statement. Greys have no hue, and are written with 0.
@@ -160,14 +170,17 @@ impl<'s> HueStatements<'s> {
         ColorId::from_index(self.scene.colors.len() - 1)
     }
 
-    fn base(&mut self, key: BaseKey, color: VertexColor) -> Base {
-        if let Some(base) = self.bases.get(&key) {
-            return base.clone();
+    /// The row of a colour at rest.
+    fn base(&mut self, given: VertexColor) -> u32 {
+        let key = key(given);
+        if let Some(&row) = self.base_rows.get(&key) {
+            return row;
         }
-        let base = match color {
+        let base = match given {
             VertexColor::Named(id) => {
                 let color = &self.scene.colors[id.index()];
                 Base {
+                    given,
                     color: hsv(self.scene, color).into(),
                     translucency: color.translucency,
                     name: self.scene.names.get(color.name).to_string(),
@@ -175,27 +188,18 @@ impl<'s> HueStatements<'s> {
             }
             VertexColor::White => {
                 let hsv = Hsv { hue: 0.0, saturation: 0.0, value: 1.0 };
-                Base { color: hsv.into(), translucency: 0.0, name: "white".to_string() }
+                Base { given, color: hsv.into(), translucency: 0.0, name: "white".to_string() }
             }
             VertexColor::Mixed { hsv, translucency, .. } => {
                 let name = format!("mixed{}", self.bases.len() + 1);
-                Base { color: hsv.into(), translucency, name }
+                Base { given, color: hsv.into(), translucency, name }
             }
         };
-        self.bases.insert(key, base.clone());
-        base
-    }
-
-    /// D for the name of a colour: as many digits as distinguish the steps, `_` for the point.
-    fn digits(&self, doppler: f64) -> String {
-        let text = if self.step == 0.0 {
-            format!("{doppler}")
-        } else {
-            // So many decimal places that a unit in the last is below a step of D.
-            let places = (-libm::log10(doppler * self.step)).ceil().clamp(0.0, 20.0);
-            format!("{doppler:.*}", places as usize)
-        };
-        text.replace('.', "_")
+        // Scenes have fewer than 2^32 vertices.
+        let row = self.bases.len() as u32;
+        self.bases.push(base);
+        self.base_rows.insert(key, row);
+        row
     }
 
     /// Clips or scales values above 1, unless they are kept, and converts the colours that the

@@ -33,6 +33,7 @@
 #[cfg(feature = "cli")]
 mod cli;
 mod config;
+mod digits;
 mod error;
 mod hue_statements;
 mod irradiance;

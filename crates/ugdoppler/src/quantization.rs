@@ -3,6 +3,8 @@
 use uglight::SpectralShift;
 use ugspectrum::{DopplerGrid, DopplerTable, LN_STEP};
 
+use crate::digits::digits;
+
 /// ln of the X, Y or Z of a colour without light: below that of every positive number.
 const DARK: f64 = -750.0;
 
@@ -76,19 +78,12 @@ impl DopplerQuantizer {
         self.ln_doppler[next - 1] + part * LN_STEP
     }
 
-    /// D for the name of a colour: as many digits as distinguish the levels, `_` for the point.
+    /// D for the name of a colour: as many digits as distinguish the levels.
     pub fn digits(&self, ln_doppler: f64) -> String {
         let doppler = libm::exp(ln_doppler);
         let (cell, _) = self.cell(ln_doppler);
         let levels_in_cell = self.levels[cell + 1] - self.levels[cell];
-        let text = if self.is_rounding && levels_in_cell > 0.0 && levels_in_cell.is_finite() {
-            let step = doppler * LN_STEP / levels_in_cell.max(1.0);
-            // So many decimal places that a unit in the last is below a step of D.
-            let places = (-libm::log10(step)).ceil().clamp(0.0, 20.0);
-            format!("{doppler:.*}", places as usize)
-        } else {
-            format!("{doppler}")
-        };
-        text.replace('.', "_")
+        let is_stepped = self.is_rounding && levels_in_cell > 0.0 && levels_in_cell.is_finite();
+        digits(doppler, is_stepped.then(|| doppler * LN_STEP / levels_in_cell.max(1.0)))
     }
 }
