@@ -224,8 +224,8 @@ impl<'a, const N: usize> Chunk<'a, N> {
             }
         }
         let (mut regular, mut in_picture, mut drawn) = (0, 0, 0);
-        let mut bands = [[[0; BLOCK]; 2]; TOGETHER / BLOCK];
-        for (idx, (block, bands)) in self.blocks.iter().zip(&mut bands).enumerate() {
+        let mut classes = [const { None }; TOGETHER / BLOCK];
+        for (idx, (block, classes)) in self.blocks.iter().zip(&mut classes).enumerate() {
             let first = idx * BLOCK;
             if triangles >> first & ((1 << BLOCK) - 1) == 0 {
                 continue;
@@ -234,7 +234,7 @@ impl<'a, const N: usize> Chunk<'a, N> {
             regular |= found.regular << first;
             in_picture |= found.in_picture << first;
             drawn |= found.drawn << first;
-            *bands = found.bands;
+            *classes = Some(found);
         }
         // The other entries of a block are stale.
         let regular = regular & triangles;
@@ -244,12 +244,11 @@ impl<'a, const N: usize> Chunk<'a, N> {
         while left != 0 {
             let idx = left.trailing_zeros() as usize;
             self.item = first + idx as u32;
-            if regular >> idx & 1 == 1 {
-                let [starts, ends] = &bands[idx / BLOCK];
-                let bands = starts[idx % BLOCK] as u32..ends[idx % BLOCK] as u32;
-                self.list.push_triangle(self.item, corners[idx], bands);
-            } else {
-                self.push_face(&faces[idx]);
+            match &classes[idx / BLOCK] {
+                Some(classes) if regular >> idx & 1 == 1 => {
+                    self.list.push_triangle(self.item, corners[idx], classes.place(idx % BLOCK));
+                }
+                _ => self.push_face(&faces[idx]),
             }
             left &= left - 1;
         }

@@ -4,7 +4,7 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Level, Simd, dispatch, f64x8};
 
 use crate::grid::SampleGrid;
-use crate::polygons::{Point, ROUNDING};
+use crate::polygons::{Point, ROUNDING, TilePlace};
 
 /// Triangles in a block.
 pub const BLOCK: usize = 8;
@@ -47,7 +47,19 @@ pub struct BlockClasses {
     /// Triangles that may contain samples and are not culled.
     pub drawn: u64,
     /// First band that each triangle may touch, and one past the last.
-    pub bands: [[i32; BLOCK]; 2],
+    bands: [[i32; BLOCK]; 2],
+    /// First and last column of tiles that each triangle may touch.
+    tile_columns: [[i32; BLOCK]; 2],
+}
+
+impl BlockClasses {
+    /// The tiles that a drawn triangle may touch.
+    #[inline]
+    pub fn place(&self, triangle: usize) -> TilePlace {
+        let [first, end] = self.bands.map(|bands| bands[triangle] as u32);
+        let columns = self.tile_columns.map(|all| all[triangle].try_into().unwrap_or(u16::MAX));
+        TilePlace { bands: first..end, columns }
+    }
 }
 
 /// Distance from the corner of the picture, in samples, up to which planes are used.
@@ -123,16 +135,21 @@ impl TriangleBlock {
         if is_culled {
             is_drawn &= twice_area.simd_gt(number(0.0));
         }
-        // Row centres are half a row from the nearest end of a band, so rounding of the product
-        // cannot move one into another band.
+        // Centres are half a sample from the nearest end of a band or tile, so rounding of the
+        // product cannot move one into another.
         let per_row = 1.0 / f64::from(grid.bands().sample_rows());
         let first_band = ((first_row + 0.5) * per_row).floor();
         let end_band = ((end_row - 0.5) * per_row).floor() + 1.0;
+        let tile_samples = grid.tile_columns() * grid.samples;
+        let per_column = 1.0 / f64::from(tile_samples);
+        let first_tile = ((first_column + 0.5) * per_column).floor();
+        let last_tile = ((end_column - 0.5) * per_column).floor();
         BlockClasses {
             regular: is_regular.to_bitmask(),
             in_picture: is_in_picture.to_bitmask(),
             drawn: is_drawn.to_bitmask(),
             bands: to_integers(simd, first_band, end_band),
+            tile_columns: to_integers(simd, first_tile, last_tile),
         }
     }
 }

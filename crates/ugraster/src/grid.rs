@@ -78,6 +78,14 @@ impl SampleGrid {
         (row_samples / (self.samples * self.samples)).clamp(1, self.width)
     }
 
+    /// The columns of tiles from that of the first of some columns of samples to that of the last.
+    /// Those beyond 2¹⁶ count as one.
+    pub(crate) fn tile_columns_of(&self, [first, end]: [u32; 2]) -> [u16; 2] {
+        let samples = self.tile_columns() * self.samples;
+        [first, end.saturating_sub(1).max(first)]
+            .map(|column| (column / samples).try_into().unwrap_or(u16::MAX))
+    }
+
     /// Pixel rows of a tile.
     pub(crate) fn tile_rows(&self) -> u32 {
         let row_samples = self.samples * self.samples * self.tile_columns();

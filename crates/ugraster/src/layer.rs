@@ -4,7 +4,7 @@ use fearless_simd::Level;
 
 use crate::edges::{Crossing, Scanner};
 use crate::grid::SampleGrid;
-use crate::polygons::{Point, PolygonList, ROUNDING, ShapeRef};
+use crate::polygons::{Point, PolygonList, ShapeRef};
 use crate::rows::draw_block;
 use crate::tile::{Area, Tile};
 use crate::transparency::{FragmentWriter, TRANSPARENT_VALUES};
@@ -78,29 +78,23 @@ impl<const N: usize, C: CornerTable<N> + ?Sized> PolygonLayer<'_, N, C> {
         let level = Level::new();
         let Area { columns, rows } = target.area();
         let is_perspective = grid.is_perspective;
-        let beside = Beside::new(grid, columns);
+        let tile_columns = grid.tile_columns_of(columns);
         let values = Values::<N, C>(self.corners);
         let mut queue = TriangleQueue::default();
         let flush = |queue: &mut TriangleQueue, target: &mut _| {
             let draw = |block: &BlockSetup<'_>| draw_triangles(target, level, block, &values);
             queue.flush(level, rows, columns, is_perspective, draw);
         };
-        for (item, shape) in self.lists.iter().flat_map(|list| list.in_band(band)) {
+        for (item, shape) in self.lists.iter().flat_map(|list| list.in_tiles(band, tile_columns)) {
             match shape {
                 ShapeRef::Triangle(corners) => {
                     let [a, b, c] = corners;
                     let points = [self.corners.point(a), self.corners.point(b), self.corners.point(c)];
-                    if beside.holds(points.iter().map(|point| point.x)) {
-                        continue;
-                    }
                     if queue.push(item, corners, points) {
                         flush(&mut queue, target);
                     }
                 }
                 ShapeRef::Polygon(contours) => {
-                    if beside.holds(contours.clone().flatten().map(|corner| corner.x)) {
-                        continue;
-                    }
                     // Of equal keys the first drawn wins, so the order must stay.
                     flush(&mut queue, target);
                     scanner.scan(contours, rows[0], rows[1], |row, left, right| {
@@ -110,27 +104,6 @@ impl<const N: usize, C: CornerTable<N> + ?Sized> PolygonLayer<'_, N, C> {
             }
         }
         flush(&mut queue, target);
-    }
-}
-
-/// The places on the left and on the right of a tile, which is one of several of a band.
-struct Beside {
-    /// The last column on the left, and the first on the right; infinite at the ends of a row.
-    ends: [f64; 2],
-}
-
-impl Beside {
-    fn new(grid: &SampleGrid, [start, end]: [u32; 2]) -> Self {
-        let left = if start == 0 { f64::NEG_INFINITY } else { f64::from(start) - ROUNDING };
-        let right = if end == grid.sample_columns() { f64::INFINITY } else { f64::from(end) + ROUNDING };
-        Self { ends: [left, right] }
-    }
-
-    /// True if all columns are on the same side of the tile.
-    #[inline(always)]
-    fn holds(&self, columns: impl Iterator<Item = f64> + Clone) -> bool {
-        let [left, right] = self.ends;
-        columns.clone().all(|column| column < left) || columns.clone().all(|column| column > right)
     }
 }
 

@@ -118,7 +118,7 @@ pub use depth_fade::DepthFade;
 pub use edges::Scanner;
 pub use grid::{Bands, SampleGrid, TileShape};
 pub use layer::{CornerTable, NoTriangles, OpaqueLayer, PolygonLayer};
-pub use polygons::{Bounds, Corner, Point, PolygonList, ShapeRef, greater, lesser};
+pub use polygons::{Bounds, Corner, Point, PolygonList, ShapeRef, TilePlace, greater, lesser};
 pub use probe::{ProbedSample, ProbedSurface};
 pub use progress::Progress;
 pub use rasterizer::Rasterizer;

@@ -56,6 +56,8 @@ pub struct PolygonList<const N: usize> {
 struct Shape {
     /// The item it belongs to, given by the caller.
     item: u32,
+    /// The first and the last column of tiles that it may touch.
+    tile_columns: [u16; 2],
     outline: Outline,
 }
 
@@ -65,6 +67,15 @@ enum Outline {
     Contours(Range<u32>),
     /// Its corners, as rows of the table.
     Triangle([u32; 3]),
+}
+
+/// The tiles that a shape may touch.
+#[derive(Clone, Debug)]
+pub struct TilePlace {
+    /// Its bands; not empty.
+    pub bands: Range<u32>,
+    /// The first and the last column of tiles. Those beyond 2¹⁶ count as one.
+    pub columns: [u16; 2],
 }
 
 /// A shape of a [`PolygonList`].
@@ -97,15 +108,13 @@ impl<const N: usize> PolygonList<N> {
     pub fn end_polygon(&mut self, grid: &SampleGrid, item: u32) -> bool {
         let first_corner = self.contour_start(self.n_contours);
         let corners = &self.corners[first_corner..];
-        let rows = if corners.iter().all(is_finite) {
-            Bounds::new(corners.iter().map(|corner| [corner.x, corner.y])).rows(grid)
-        } else {
-            None
-        };
+        let bounds = Bounds::new(corners.iter().map(|corner| [corner.x, corner.y]));
+        let rows = corners.iter().all(is_finite).then(|| bounds.rows(grid)).flatten();
         if let Some(rows) = rows.clone().filter(|rows| !rows.is_empty()) {
             let contours = self.n_contours..index(self.contour_ends.len());
             self.n_contours = contours.end;
-            self.push(item, Outline::Contours(contours), grid.bands().of(&rows));
+            let place = TilePlace { bands: grid.bands().of(&rows), columns: bounds.tile_columns(grid) };
+            self.push(item, Outline::Contours(contours), place);
         } else {
             self.drop_contours();
         }
@@ -118,16 +127,16 @@ impl<const N: usize> PolygonList<N> {
         self.contour_ends.truncate(self.n_contours as usize);
     }
 
-    /// Adds a triangle that may touch these bands. `bands` is not empty.
+    /// Adds a triangle that may touch these tiles.
     #[inline]
-    pub fn push_triangle(&mut self, item: u32, corners: [u32; 3], bands: Range<u32>) {
-        self.push(item, Outline::Triangle(corners), bands);
+    pub fn push_triangle(&mut self, item: u32, corners: [u32; 3], place: TilePlace) {
+        self.push(item, Outline::Triangle(corners), place);
     }
 
     #[inline]
-    fn push(&mut self, item: u32, outline: Outline, bands: Range<u32>) {
-        self.shapes.push(Shape { item, outline });
-        self.bands.push(bands);
+    fn push(&mut self, item: u32, outline: Outline, place: TilePlace) {
+        self.shapes.push(Shape { item, tile_columns: place.columns, outline });
+        self.bands.push(place.bands);
     }
 
     /// True if the list contains no shape.
@@ -141,25 +150,24 @@ impl<const N: usize> PolygonList<N> {
         self.shapes.shrink_to_fit();
     }
 
-    /// The shapes that touch a band, each with its item.
-    pub fn in_band(
+    /// The shapes that may touch the tiles of a band from one column to another, each with its item.
+    pub fn in_tiles(
         &self,
         band: usize,
-    ) -> impl Iterator<Item = (u32, ShapeRef<impl Iterator<Item = &[Corner<N>]> + Clone>)> {
-        self.bins.in_band(band).iter().map(|&shape| self.shape(&self.shapes[shape as usize]))
+        [first, last]: [u16; 2],
+    ) -> impl Iterator<Item = (u32, ShapeRef<impl Iterator<Item = &[Corner<N>]>>)> {
+        let shapes = self.bins.in_band(band).iter().map(|&shape| &self.shapes[shape as usize]);
+        shapes
+            .filter(move |Shape { tile_columns: [start, end], .. }| *start <= last && first <= *end)
+            .map(|shape| self.shape(shape))
     }
 
     /// All shapes in drawing order, each with its item.
-    pub fn shapes(
-        &self,
-    ) -> impl Iterator<Item = (u32, ShapeRef<impl Iterator<Item = &[Corner<N>]> + Clone>)> {
+    pub fn shapes(&self) -> impl Iterator<Item = (u32, ShapeRef<impl Iterator<Item = &[Corner<N>]>>)> {
         self.shapes.iter().map(|shape| self.shape(shape))
     }
 
-    fn shape(
-        &self,
-        shape: &Shape,
-    ) -> (u32, ShapeRef<impl Iterator<Item = &[Corner<N>]> + Clone + use<'_, N>>) {
+    fn shape(&self, shape: &Shape) -> (u32, ShapeRef<impl Iterator<Item = &[Corner<N>]> + use<'_, N>>) {
         let outline = match &shape.outline {
             Outline::Triangle(corners) => ShapeRef::Triangle(*corners),
             Outline::Contours(contours) => ShapeRef::Polygon(contours.clone().map(|contour| {
@@ -226,6 +234,13 @@ impl Bounds {
         let ([left, right], [top, bottom]) = (self.columns, self.rows);
         let (columns, rows) = (f64::from(grid.sample_columns()), f64::from(grid.sample_rows()));
         (right > 0.0) & (left < columns) & (bottom > 0.0) & (top < rows)
+    }
+
+    /// The columns of tiles that the box may touch.
+    pub(crate) fn tile_columns(&self, grid: &SampleGrid) -> [u16; 2] {
+        let [left, right] = self.columns;
+        let column = |place: f64| first_center(place, grid.sample_columns());
+        grid.tile_columns_of([column(left - ROUNDING), column(right + ROUNDING)])
     }
 
     /// The rows of samples in the box, an empty range if no sample is in it. `None` if it does not

@@ -196,8 +196,9 @@ fn a_block_is_classified_like_its_triangles() {
                 let is_drawn = rows.is_some() && !(is_culled && twice_area(points) <= 0.0);
                 assert_eq!(has(found.drawn), is_drawn, "{points:?}");
                 if let (true, Some(rows)) = (is_drawn, rows) {
-                    let [start, end] = found.bands.map(|bands| bands[place] as u32);
-                    assert_eq!(start..end, grid.bands().of(&rows), "{points:?}");
+                    let found = found.place(place);
+                    assert_eq!(found.bands, grid.bands().of(&rows), "{points:?}");
+                    assert_eq!(found.columns, bounds.tile_columns(&grid), "{points:?}");
                 }
                 counts[usize::from(is_drawn) + 2 * usize::from(is_culled)] += 1;
             }
@@ -253,8 +254,7 @@ fn triangles_are_drawn_like_polygons() {
             }
             if classes.drawn != 0 {
                 let first = table.len() as u32;
-                let [start, end] = classes.bands.map(|bands| bands[3] as u32);
-                triangles.push_triangle(item, [first, first + 1, first + 2], start..end);
+                triangles.push_triangle(item, [first, first + 1, first + 2], classes.place(3));
                 n_drawn += 1;
             }
             table.extend(corners);
