@@ -216,7 +216,8 @@ fn mistakes() {
     }
     let frames = "-frames 3 -sz 20 20";
     check(&shell, frames, 2, "give numbered files, -fo frame_%04d.png, or a film");
-    check(&shell, &format!("{frames} -fo a.png"), 2, "give numbered files");
+    check(&shell, &format!("{frames} -fo a.png"), 2, "`png` is not a kind of film; give numbered files");
+    check(&shell, &format!("{frames} -fo a.mp5"), 2, "`mp5` is not a kind of film; give numbered files");
     check(&shell, &format!("{frames} -fo f_%d.gif"), 2, "gif is a whole film, not a frame");
     check(&shell, &format!("{frames} -fo f_%d.jpg"), 2, "`.jpg` is none of the formats");
     check(
@@ -229,12 +230,12 @@ fn mistakes() {
     check(&shell, &format!("{frames} -fo f_%d.png -rd 3"), 2, "`-rd`: it is an option of ugphoton");
     check(&shell, &format!("{frames} -fo f_%d.png -sp -br photon"), 2, "frame 1: ");
     check(&shell, &format!("{frames} -fo f_%d.png -only 2..4"), 2, "--only: the film has 3 frames");
-    check(&shell, &format!("{frames} -fo f_%d.png -cap '{{x}}'"), 2, "`{x}` is none of {frame}");
+    check(&shell, &format!("{frames} -fo f_%d.png -cap '{{x}}'"), 2, "`{x}` is not one of {frame}");
     check(
         &shell,
         &format!("{frames} -fo no/f_%d.png"),
         1,
-        "cannot write `no/f_1.png`: No such file or directory",
+        "cannot write `no/f_1.png`: there is no folder `no`",
     );
     check(&shell, "-frames 0 -fo a.gif", 2, "from 1 to 10000000");
     check(&shell, &format!("{frames} -fo f_%d.png -sz 9 9"), 2, "`-sz` is given twice");

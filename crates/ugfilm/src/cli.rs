@@ -176,6 +176,9 @@ pub fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
     if context.output_is_terminal() && !matches!(output, Output::Files(..)) {
         return Err(Failure::usage("a film is not written to a terminal; give -fo FILE"));
     }
+    if film.script.is_still() && frames.len() > 1 {
+        context.note("no option has several values, so all frames are alike; give one, such as -ti 0..10");
+    }
     let summary = match &output {
         Output::Files(names, _) => {
             film.size()?;

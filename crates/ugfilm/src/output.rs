@@ -52,8 +52,9 @@ impl Output {
             ))),
             (None, None) => {
                 let kinds = Kind::ALL.map(Kind::name).join(", ");
+                let other = word.map(|word| format!("`{word}` is not a kind of film; ")).unwrap_or_default();
                 Err(Failure::Usage(format!(
-                    "give numbered files, -fo frame_%04d.png, or a film: -fo FILE or -dt with {kinds}"
+                    "{other}give numbered files, -fo frame_%04d.png, or a film: -fo FILE or -dt with {kinds}"
                 )))
             }
         }

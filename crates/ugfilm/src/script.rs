@@ -114,6 +114,11 @@ impl Script {
         }
     }
 
+    /// True if no option changes over the film.
+    pub fn is_still(&self) -> bool {
+        self.options.iter().all(|setting| matches!(setting.timeline, Timeline::Fixed(_)))
+    }
+
     /// The programs of the pipe that are given an option.
     fn owners(&self, name: &str) -> Vec<usize> {
         let programs = self.method.programs().iter().enumerate();
@@ -192,8 +197,9 @@ impl Script {
             let Some((name, after)) = after.split_once('}') else { break };
             filled += before;
             filled += &self.number(name, frame, time).ok_or_else(|| {
-                let known = "{frame}, {beta}, {gamma}, {t} and {ti}, {ex} or another option with one number";
-                refused("cap", &format!("`{{{name}}}` is none of {known} that is given"))
+                let known =
+                    "{frame}, {beta}, {gamma}, {t}, or an option of this film with one number, as {ti}";
+                refused("cap", &format!("`{{{name}}}` is not one of {known}"))
             })?;
             rest = after;
         }

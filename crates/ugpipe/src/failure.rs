@@ -3,6 +3,7 @@
 use std::error::Error;
 use std::fmt;
 use std::io;
+use std::path::Path;
 
 /// The error that ended a run. [`crate::main`] prints it and sets the exit status.
 ///
@@ -66,6 +67,15 @@ impl fmt::Display for Failure {
                 write!(f, "`{name}` is a directory; name a file in it")
             }
             Self::Read { name, error } => write!(f, "cannot read `{name}`: {}", reason(error)),
+            Self::Write { name, error } if error.kind() == io::ErrorKind::NotFound => {
+                let folder = Path::new(name).parent().filter(|folder| !folder.as_os_str().is_empty());
+                match folder {
+                    Some(folder) => {
+                        write!(f, "cannot write `{name}`: there is no folder `{}`", folder.display())
+                    }
+                    None => write!(f, "cannot write `{name}`: {}", reason(error)),
+                }
+            }
             Self::Write { name, error } => write!(f, "cannot write `{name}`: {}", reason(error)),
         }
     }

@@ -139,13 +139,8 @@ fn failures_have_a_status_and_a_message() {
     check(&folder, &["x.ug"], 1, "ugcat: error: cannot read `x.ug`: No such file or directory\n");
     check(&folder, &["."], 1, "ugcat: error: `.` is a directory; name a file in it\n");
     check(&folder, &["-fo", "."], 1, "ugcat: error: cannot write `.`: Is a directory\n");
-    check(
-        &folder,
-        &["-fo", "no/x.ug"],
-        1,
-        "ugcat: error: cannot write `no/x.ug`: No such file or directory\n",
-    );
-    check(&folder, &["-fm", "no/x"], 1, "ugcat: error: cannot write `no/x`: No such file or directory\n");
+    check(&folder, &["-fo", "no/x.ug"], 1, "ugcat: error: cannot write `no/x.ug`: there is no folder `no`\n");
+    check(&folder, &["-fm", "a/b/x"], 1, "ugcat: error: cannot write `a/b/x`: there is no folder `a/b`\n");
     check(&folder, &["-fail", "work"], 1, "ugcat: error: invalid digit found in string\n");
     check(&folder, &["-fail", "report"], 1, "ugcat: error: no face\n --> x.ug:1:2\n");
     let usage = "ugcat: error: `-vel` is too fast; stay below 1\ntry `ugcat -h`\n";
