@@ -266,10 +266,20 @@ struct SmoothTable {
     /// The light of white by ln D, and its logarithm.
     white: Vec<f64>,
     ln_white: Vec<f32>,
-    /// Light of surfaces whose brightest channel is 1, relative to that of white, by ln D. Computed
-    /// when it is first needed: a picture has few of all colours.
-    rows: Vec<OnceLock<Box<[[f32; 3]]>>>,
+    /// Surfaces whose brightest channel is [`REFLECTANCE`]. Computed when they are first needed: a
+    /// picture has few of all colours.
+    surfaces: Vec<OnceLock<Spectrum>>,
+    /// Their light relative to that of white, by block, brightest channel and first ratio; each has
+    /// all second ratios. Computed when it is first needed: a view has few of all Doppler factors.
+    strips: Vec<OnceLock<Box<[LightBlock]>>>,
 }
+
+/// Columns of a block: so many that a [`LightBlock`] fills a line of the processor's cache.
+const BLOCK: usize = 4;
+
+/// Light at the columns of a block, and at the first one of the next.
+#[repr(align(64))]
+struct LightBlock(OnceLock<[[f32; 3]; BLOCK + 1]>);
 
 impl SmoothTable {
     fn new(reach: f64, range: Range<f64>) -> Self {
@@ -280,35 +290,40 @@ impl SmoothTable {
         let white: Vec<f64> = (0..n).into_par_iter().map(|idx| at(idx) / REFLECTANCE).collect();
         let ln_white = white.iter().map(|part| libm::log(part.max(1e-300)) as f32).collect();
         let n_ratios = n_ratios(reach);
-        let rows = (0..3 * n_ratios * n_ratios).map(|_| OnceLock::new()).collect();
-        Self { grid, range, n_ratios, first, n, white, ln_white, rows }
+        let surfaces = (0..3 * n_ratios * n_ratios).map(|_| OnceLock::new()).collect();
+        let strips = (0..n.div_ceil(BLOCK) * 3 * n_ratios).map(|_| OnceLock::new()).collect();
+        Self { grid, range, n_ratios, first, n, white, ln_white, surfaces, strips }
     }
 
-    /// The light of a surface. `brightest`: its channel; `ratios`: of the next two, in steps of the
-    /// table.
+    /// The light of the surfaces with a brightest channel and a first ratio in a block.
     #[inline]
-    fn row(&self, brightest: usize, ratios: [usize; 2]) -> &[[f32; 3]] {
-        let row = &self.rows[(brightest * self.n_ratios + ratios[0]) * self.n_ratios + ratios[1]];
-        row.get_or_init(|| self.computed(brightest, ratios))
+    fn strip(&self, block: usize, brightest: usize, ratio: usize) -> &[LightBlock] {
+        let blank = || (0..self.n_ratios).map(|_| LightBlock(OnceLock::new())).collect();
+        self.strips[(block * 3 + brightest) * self.n_ratios + ratio].get_or_init(blank)
     }
 
+    /// The light of a surface from a column on. `brightest`: its channel; `ratios`: of the next two,
+    /// in steps of the table.
     #[inline(never)]
-    fn computed(&self, brightest: usize, ratios: [usize; 2]) -> Box<[[f32; 3]]> {
-        let mut rgb = [REFLECTANCE; 3];
-        for (idx, ratio) in ratios.into_iter().enumerate() {
-            rgb[(brightest + 1 + idx) % 3] *= ratio as f64 / (self.n_ratios - 1) as f64;
-        }
-        let spectrum = Spectrum::from_linear_srgb(rgb);
-        let light = LightSpectrum::new(&spectrum);
-        let seen = |(idx, white): (usize, &f64)| {
-            let ln_doppler = ln_doppler(self.first, idx);
-            let seen = xyz_to_linear_srgb(match self.range == ALL_NM {
-                true => self.grid.xyz(&spectrum, ln_doppler),
-                false => shifted(&light, &self.range, ln_doppler),
+    fn computed(&self, brightest: usize, ratios: [usize; 2], from: usize) -> [[f32; 3]; BLOCK + 1] {
+        let idx = (brightest * self.n_ratios + ratios[0]) * self.n_ratios + ratios[1];
+        let spectrum = self.surfaces[idx].get_or_init(|| {
+            let mut rgb = [REFLECTANCE; 3];
+            for (idx, ratio) in ratios.into_iter().enumerate() {
+                rgb[(brightest + 1 + idx) % 3] *= ratio as f64 / (self.n_ratios - 1) as f64;
+            }
+            Spectrum::from_linear_srgb(rgb)
+        });
+        let light = (self.range != ALL_NM).then(|| LightSpectrum::new(spectrum));
+        std::array::from_fn(|idx| {
+            let Some(white) = self.white.get(from + idx) else { return [0.0; 3] };
+            let ln_doppler = ln_doppler(self.first, from + idx);
+            let seen = xyz_to_linear_srgb(match &light {
+                None => self.grid.xyz(spectrum, ln_doppler),
+                Some(light) => shifted(light, &self.range, ln_doppler),
             });
             seen.map(|part| (part / (REFLECTANCE * white).max(f64::MIN_POSITIVE)) as f32)
-        };
-        self.white.iter().enumerate().map(seen).collect()
+        })
     }
 
     fn seen(&self, rgb: [f32; 3], shift: f64) -> [f32; 3] {
@@ -325,6 +340,7 @@ impl SmoothTable {
             (cell, at - cell as f32)
         };
         let ((i, u), (j, v)) = (ratio(1), ratio(2));
+        let (from, column) = (at - at % BLOCK, at % BLOCK);
         let mut sum = [0.0_f32; 3];
         for (ratios, weight) in [
             ([i, j], (1.0 - u) * (1.0 - v)),
@@ -332,10 +348,11 @@ impl SmoothTable {
             ([i + 1, j], u * (1.0 - v)),
             ([i + 1, j + 1], u * v),
         ] {
-            // Rows without weight need not be computed: greys and primaries have one.
+            // Surfaces without weight need not be computed: greys and primaries have one.
             if weight > 0.0 {
-                let row = self.row(brightest, ratios);
-                let (low, high) = (row[at], row[at + 1]);
+                let LightBlock(light) = &self.strip(at / BLOCK, brightest, ratios[0])[ratios[1]];
+                let light = light.get_or_init(|| self.computed(brightest, ratios, from));
+                let (low, high) = (light[column], light[column + 1]);
                 (0..3).for_each(|c| sum[c] += weight * (low[c] + part * (high[c] - low[c])));
             }
         }
