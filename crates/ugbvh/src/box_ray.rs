@@ -37,6 +37,13 @@ use crate::shear::{Shear, permuted};
 #[derive(Clone, Copy, Debug)]
 pub struct BoxRay {
     pub line: Line,
+    pub slabs: Slabs,
+    depths: Depths,
+}
+
+/// A ray for tests of boxes.
+#[derive(Clone, Copy, Debug)]
+pub struct Slabs {
     /// Planes of a node where the ray enters boxes ([`crate::nodes::Node::planes`]).
     pub entries: [usize; 3],
     /// Origins for the planes where the ray enters boxes, times `reciprocals`.
@@ -45,7 +52,6 @@ pub struct BoxRay {
     pub exit_starts: [f32; 3],
     /// Reciprocals of the direction.
     pub reciprocals: [f32; 3],
-    depths: Depths,
 }
 
 /// A ray for tests of blocks.
@@ -73,10 +79,10 @@ pub struct Depths {
 }
 
 /// Padding beyond which all boxes are hit.
-const MAX_PADDING: f64 = 1024.0;
+pub const MAX_PADDING: f64 = 1024.0;
 
 /// Greatest |reciprocal of a slope| for tests of boxes.
-const MAX_RECIPROCAL: f64 = power_of_two(40);
+pub const MAX_RECIPROCAL: f64 = power_of_two(40);
 
 impl BoxRay {
     /// `direction`: that of the ray. Returns `None` if the ray misses the cube.
@@ -114,10 +120,16 @@ impl BoxRay {
                 slopes: shear.slopes.map(|slope| slope as f32),
                 padding,
             },
-            entries: [2 * axis_x + is_backward[0], 2 * axis_y + is_backward[1], 2 * axis_z + is_backward[2]],
-            entry_starts: array::from_fn(|axis| (position[axis] + ahead[axis]) * reciprocals[axis]),
-            exit_starts: array::from_fn(|axis| (position[axis] - ahead[axis]) * reciprocals[axis]),
-            reciprocals,
+            slabs: Slabs {
+                entries: [
+                    2 * axis_x + is_backward[0],
+                    2 * axis_y + is_backward[1],
+                    2 * axis_z + is_backward[2],
+                ],
+                entry_starts: array::from_fn(|axis| (position[axis] + ahead[axis]) * reciprocals[axis]),
+                exit_starts: array::from_fn(|axis| (position[axis] - ahead[axis]) * reciprocals[axis]),
+                reciprocals,
+            },
             depths,
         })
     }
@@ -143,7 +155,7 @@ impl BoxRay {
 
 /// 1 for negative numbers and −0.
 #[inline(always)]
-fn is_backward(slope: f32) -> usize {
+pub fn is_backward(slope: f32) -> usize {
     (slope.to_bits() >> 31) as usize
 }
 

@@ -238,19 +238,19 @@ fn build_node(items: &mut [Item], first: usize, depth: u32, tree: &mut Subtree) 
         rest = behind;
         let first = first + part.first;
         if items.len() <= WIDTH {
-            tree.nodes[idx].children[child] = tree.leaves.len() as u32 | IS_BLOCK;
+            tree.nodes[idx].children_mut()[child] = tree.leaves.len() as u32 | IS_BLOCK;
             tree.leaves.push(Leaf { first: first as u32, n: part.n as u32 });
         } else if is_task {
             tasks.push((child, first, items, Subtree::default()));
         } else {
-            tree.nodes[idx].children[child] = build_node(items, first, depth + 1, tree);
+            tree.nodes[idx].children_mut()[child] = build_node(items, first, depth + 1, tree);
         }
     }
     ugparallel::for_jobs(&mut tasks, |_, (_, first, items, subtree)| {
         build_node(items, *first, depth + 1, subtree);
     });
     for (child, _, _, subtree) in tasks {
-        tree.nodes[idx].children[child] = tree.append(subtree);
+        tree.nodes[idx].children_mut()[child] = tree.append(subtree);
     }
     idx as u32
 }
@@ -259,7 +259,7 @@ impl Subtree {
     /// Appends another subtree. Returns the index of its root.
     fn append(&mut self, mut other: Self) -> u32 {
         let [nodes, leaves] = [self.nodes.len(), self.leaves.len()].map(|n| n as u32);
-        for child in other.nodes.iter_mut().flat_map(|node| &mut node.children) {
+        for child in other.nodes.iter_mut().flat_map(Node::children_mut) {
             *child += if *child & IS_BLOCK == 0 { nodes } else { leaves };
         }
         self.nodes.append(&mut other.nodes);
@@ -390,19 +390,25 @@ impl Bins {
         for (idx, bin) in bins.iter().enumerate().skip(1).rev() {
             bounds = bounds.union(&bin.bounds);
             n += bin.n;
-            costs_behind[idx] = bounds.area() * n as f32;
+            costs_behind[idx] = bounds.area() * n_blocks(n);
         }
         let (mut bounds, mut n) = (Bounds::EMPTY, 0);
         for idx in 1..self.n {
             bounds = bounds.union(&bins[idx - 1].bounds);
             n += bins[idx - 1].n;
-            let cost = bounds.area() * n as f32 + costs_behind[idx];
+            let cost = bounds.area() * n_blocks(n) + costs_behind[idx];
             if n > 0 && (n as usize) < n_items && cost < best.0 {
                 best = (cost, idx);
             }
         }
         best
     }
+}
+
+/// The least number of blocks for so many triangles.
+#[inline(always)]
+fn n_blocks(n: u32) -> f32 {
+    n.div_ceil(WIDTH as u32) as f32
 }
 
 /// Moves the items for which `is_first` holds before the others. Returns their number.

@@ -4,11 +4,11 @@ use std::ops::{ControlFlow, Range};
 
 use fearless_simd::{Simd, dispatch};
 
-use crate::box_ray::BoxRay;
-use crate::nodes::{IS_BLOCK, Node, SimdRay, WIDTH};
-use crate::shear::{Crossing, Shear};
-use crate::stack::{Entry, Stack};
-use crate::{Bvh, Hit, Ray, Work};
+use crate::box_ray::{BoxRay, Line, Slabs};
+use crate::nodes::{IS_BLOCK, SimdRay, WIDTH};
+use crate::shear::{Crossing, Shear, Simple};
+use crate::stack::{Entry, N_FIRST, Stack};
+use crate::{Bvh, Hit, Ray, Triangle, Work};
 
 /// Counts work, or does not.
 pub trait Count {
@@ -33,25 +33,6 @@ impl Count for Work {
     }
 }
 
-/// What a search does with hits.
-trait Search {
-    /// Receives a hit in the range of the search. Returns true if farther hits are no longer of
-    /// interest.
-    fn hit(&mut self, crossing: &Crossing, triangle: u32) -> ControlFlow<(), bool>;
-}
-
-/// Keeps the nearest hit.
-struct Nearest {
-    hit: Option<Hit>,
-}
-
-impl Search for Nearest {
-    #[inline(always)]
-    fn hit(&mut self, crossing: &Crossing, triangle: u32) -> ControlFlow<(), bool> {
-        ControlFlow::Continue(keep_nearest(&mut self.hit, crossing, triangle))
-    }
-}
-
 /// Replaces a hit by a nearer one. Returns true if it did.
 #[inline(always)]
 pub fn keep_nearest(hit: &mut Option<Hit>, crossing: &Crossing, triangle: u32) -> bool {
@@ -63,15 +44,10 @@ pub fn keep_nearest(hit: &mut Option<Hit>, crossing: &Crossing, triangle: u32) -
     is_nearer
 }
 
-/// Passes all hits on.
-struct All<'a, F>(&'a mut F);
-
-impl<F: FnMut(Hit) -> ControlFlow<()>> Search for All<'_, F> {
-    #[inline(always)]
-    fn hit(&mut self, crossing: &Crossing, triangle: u32) -> ControlFlow<(), bool> {
-        self.0(Hit { t: crossing.t, triangle, u: crossing.u, v: crossing.v })?;
-        ControlFlow::Continue(false)
-    }
+/// [`keep_nearest`] for a hit that may not be in a range.
+#[inline(always)]
+fn keep_nearest_in(range: &Range<f64>, hit: &mut Option<Hit>, crossing: &Crossing, triangle: u32) -> bool {
+    range.start < crossing.t && crossing.t < range.end && keep_nearest(hit, crossing, triangle)
 }
 
 /// A ray ready for a search. It is prepared where it is made, in registers: loading it again right
@@ -101,86 +77,235 @@ impl Prepared {
     }
 }
 
+#[inline(always)]
 pub fn closest(bvh: &Bvh, ray: &Prepared, count: &mut impl Count) -> Option<Hit> {
-    let mut nearest = Nearest { hit: None };
-    // A search for the nearest hit never breaks.
-    let _ = dispatch!(bvh.level, simd => search(simd, bvh, ray, &mut nearest, count));
-    nearest.hit
+    let mut walk = Walk::new(ray.depths.end);
+    let mut hit = None;
+    loop {
+        match dispatch!(bvh.level, simd => walk_on::<_, false>(simd, bvh, ray, &mut walk, &mut hit, count)) {
+            Stop::Empty if !walk.stack.refill() => return hit,
+            Stop::Empty => {}
+            stop => walk.resume(bvh, ray, stop, &mut hit, false),
+        }
+    }
 }
 
 pub fn visit(bvh: &Bvh, ray: &Prepared, visit: &mut impl FnMut(Hit) -> ControlFlow<()>) -> ControlFlow<()> {
-    dispatch!(bvh.level, simd => search(simd, bvh, ray, &mut All(visit), &mut ()))
+    let mut walk = Walk::new(ray.depths.end);
+    loop {
+        let mut hit = None;
+        match walk_to_hit(bvh, ray, &mut walk, &mut hit) {
+            Stop::Empty if !walk.stack.refill() => return ControlFlow::Continue(()),
+            Stop::Empty => {}
+            stop => walk.resume(bvh, ray, stop, &mut hit, true),
+        }
+        if let Some(hit) = hit {
+            visit(hit)?;
+        }
+    }
 }
 
+/// Not generic, so compiled once.
+fn walk_to_hit(bvh: &Bvh, ray: &Prepared, walk: &mut Walk, hit: &mut Option<Hit>) -> Stop {
+    dispatch!(bvh.level, simd => walk_on::<_, true>(simd, bvh, ray, walk, hit, &mut ()))
+}
+
+/// A ray of which each part is loaded where it is used.
+pub trait Source {
+    fn slabs(&self) -> Slabs;
+    fn line(&self) -> Line;
+    fn shear(&self) -> Shear;
+    fn range(&self) -> &Range<f64>;
+    /// The least τ of hits.
+    fn start(&self) -> f32;
+    /// Greatest τ of hits up to z.
+    fn limit(&self, z: f64) -> f32;
+}
+
+impl Source for Prepared {
+    #[inline(always)]
+    fn slabs(&self) -> Slabs {
+        self.box_ray.slabs
+    }
+
+    #[inline(always)]
+    fn line(&self) -> Line {
+        self.box_ray.line
+    }
+
+    #[inline(always)]
+    fn shear(&self) -> Shear {
+        self.shear
+    }
+
+    #[inline(always)]
+    fn range(&self) -> &Range<f64> {
+        &self.range
+    }
+
+    #[inline(always)]
+    fn start(&self) -> f32 {
+        self.depths.start
+    }
+
+    #[inline(always)]
+    fn limit(&self, z: f64) -> f32 {
+        self.box_ray.limit(z)
+    }
+}
+
+/// The state of a search.
+pub struct Walk {
+    stack: Stack,
+    /// Triangles of the next block that are to be tested.
+    triangles: u32,
+    /// Greatest τ of hits of interest.
+    end: f32,
+}
+
+/// Why a search stops. Rare cases are handled by its caller, as functions called in its loop would
+/// keep the ray out of vector registers.
+pub enum Stop {
+    /// The array of the stack is empty.
+    Empty,
+    /// The array of the stack has no room for the children of this node.
+    Full(u32),
+    /// There is a hit in the block of this child; a mask of its triangles that are left.
+    Hit(u32, u32),
+    /// The same for a triangle that has to be tested exactly.
+    Unsafe(u32, u32, Triangle),
+}
+
+impl Walk {
+    /// Starts at the root, for hits up to a τ.
+    #[inline(always)]
+    pub fn new(end: f32) -> Self {
+        Self { stack: Stack::with_root(), triangles: u32::MAX, end }
+    }
+
+    /// Restarts at the root, for hits up to a τ.
+    #[inline(always)]
+    pub fn begin(&mut self, end: f32) {
+        self.stack.begin();
+        (self.triangles, self.end) = (u32::MAX, end);
+    }
+
+    /// Handles the case a search stopped for, so that it can continue. `each`: as of [`walk_on`].
+    #[cold]
+    #[inline(never)]
+    fn resume(&mut self, bvh: &Bvh, ray: &Prepared, stop: Stop, hit: &mut Option<Hit>, each: bool) {
+        let (child, left) = match stop {
+            Stop::Empty => return,
+            Stop::Full(child) => {
+                self.stack.make_room();
+                (child, u32::MAX)
+            }
+            Stop::Hit(child, left) => (child, left),
+            Stop::Unsafe(child, left, triangle) => {
+                let crossing = ray.shear.intersect_exactly(bvh.corners(&triangle));
+                if let Some(crossing) = crossing
+                    && keep_nearest_in(&ray.range, hit, &crossing, triangle.index)
+                    && !each
+                {
+                    self.end = self.end.min(ray.box_ray.limit(crossing.z));
+                }
+                (child, left)
+            }
+        };
+        if left != 0 {
+            self.stack.push(Entry::new(0.0, child));
+            self.triangles = left;
+        }
+    }
+}
+
+/// Continues a search until it stops. `EACH`: it stops at every hit; otherwise it keeps the nearest.
 #[inline(always)]
-fn search<S: Simd>(
+pub fn walk_on<S: Simd, const EACH: bool>(
     simd: S,
     bvh: &Bvh,
-    ray: &Prepared,
-    search: &mut impl Search,
+    ray: &impl Source,
+    walk: &mut Walk,
+    nearest_hit: &mut Option<Hit>,
     count: &mut impl Count,
-) -> ControlFlow<()> {
-    let Prepared { shear, box_ray, range, depths } = ray;
-    let Range { start, mut end } = *depths;
-    let simd_ray = SimdRay::new(simd, box_ray);
-    let mut stack = Stack::new();
+) -> Stop {
+    let simd_ray = SimdRay::new(simd, &ray.slabs());
+    let start = ray.start();
+    let mut end = walk.end;
+    let mut n = walk.stack.n;
     let mut child = 0;
+    let mut is_popped = true;
     loop {
+        if is_popped {
+            let Some(below) = n.checked_sub(1) else {
+                (walk.stack.n, walk.end) = (0, end);
+                return Stop::Empty;
+            };
+            n = below;
+            let entry = walk.stack.first[n % N_FIRST];
+            if entry > Entry::limit(end) {
+                continue;
+            }
+            child = entry.child();
+        }
         if child & IS_BLOCK == 0 {
             let node = &bvh.nodes[child as usize];
             count.node();
             let (near, mut mask) = node.intersect(simd, &simd_ray, start, end);
-            if mask != 0 {
-                let first = lowest(mask);
-                mask &= mask - 1;
-                child = node.children[first];
-                if mask != 0 {
-                    child = push_others(&mut stack, node, &near, Entry::new(near[first], child), mask);
-                }
+            is_popped = mask == 0;
+            if is_popped {
                 continue;
             }
-        } else {
-            let block = &bvh.blocks[(child & !IS_BLOCK) as usize];
-            count.block();
-            let mut mask = block.candidates(simd, &box_ray.line);
+            let idx = lowest(mask);
+            mask &= mask - 1;
+            let first = node.children()[idx];
+            if mask == 0 {
+                child = first;
+                continue;
+            }
+            if n > N_FIRST - WIDTH {
+                (walk.stack.n, walk.end) = (n, end);
+                return Stop::Full(child);
+            }
+            let mut nearest = Entry::new(near[idx], first);
             while mask != 0 {
-                let triangle = bvh.triangles[block.first as usize + lowest(mask)];
+                let idx = lowest(mask);
                 mask &= mask - 1;
-                count.triangle();
-                let Some(crossing) = shear.intersect(bvh.corners(&triangle)) else { continue };
-                let is_in_range = range.start < crossing.t && crossing.t < range.end;
-                if is_in_range && search.hit(&crossing, triangle.index)? {
-                    end = end.min(box_ray.limit(crossing.z));
+                let other = Entry::new(near[idx], node.children()[idx]);
+                walk.stack.first[n % N_FIRST] = nearest.max(other);
+                n += 1;
+                nearest = nearest.min(other);
+            }
+            child = nearest.child();
+            continue;
+        }
+        is_popped = true;
+        let block = &bvh.blocks[(child & !IS_BLOCK) as usize];
+        count.block();
+        let mut mask = block.candidates(simd, &ray.line()) & walk.triangles;
+        walk.triangles = u32::MAX;
+        while mask != 0 {
+            let triangle = bvh.triangles[block.first as usize + lowest(mask)];
+            mask &= mask - 1;
+            count.triangle();
+            match ray.shear().intersect_simply(bvh.corners(&triangle)) {
+                Simple::Miss => {}
+                Simple::Crossing(crossing) => {
+                    if keep_nearest_in(ray.range(), nearest_hit, &crossing, triangle.index) {
+                        if EACH {
+                            walk.stack.n = n;
+                            return Stop::Hit(child, mask);
+                        }
+                        end = end.min(ray.limit(crossing.z));
+                    }
+                }
+                Simple::Unsafe => {
+                    (walk.stack.n, walk.end) = (n, end);
+                    return Stop::Unsafe(child, mask, triangle);
                 }
             }
         }
-        loop {
-            let Some(next) = stack.pop() else { return ControlFlow::Continue(()) };
-            if next <= Entry::limit(end) {
-                child = next.child();
-                break;
-            }
-        }
     }
-}
-
-/// Pushes the children in a mask and `nearest`, except the nearest of all, which is returned.
-#[inline(always)]
-fn push_others(
-    stack: &mut Stack,
-    node: &Node,
-    near: &[f32; WIDTH],
-    mut nearest: Entry,
-    mut mask: u32,
-) -> u32 {
-    while mask != 0 {
-        let idx = lowest(mask);
-        mask &= mask - 1;
-        let other = Entry::new(near[idx], node.children[idx]);
-        stack.push(nearest.max(other));
-        nearest = nearest.min(other);
-    }
-    nearest.child()
 }
 
 /// Index of the lowest bit of a mask of up to eight.

@@ -1,61 +1,71 @@
 //! Nodes of eight boxes and blocks of eight triangles, each tested at once in single precision.
 
 use fearless_simd::prelude::*;
-use fearless_simd::{Simd, f32x8};
+use fearless_simd::{Simd, f32x8, u32x8};
 
-use crate::box_ray::{BoxRay, Line};
+use crate::box_ray::{Line, Slabs};
 
 /// Children of a node, and triangles of a block.
 pub const WIDTH: usize = 8;
 
-/// The boxes of up to eight children.
+/// The boxes of up to eight children, in four cache lines.
 #[derive(Clone, Debug)]
-#[repr(align(32))]
+#[repr(align(64))]
 pub struct Node {
-    /// Rows of the table of nodes, or of blocks if [`IS_BLOCK`] is set.
-    pub children: [u32; WIDTH],
-    /// Least x of each child, greatest x, least y, and so on. Where there is no child they are +∞
-    /// and −∞, which no ray hits. The last two are not used; eight need no check of an index of
-    /// three bits.
-    planes: [[f32; WIDTH]; 8],
+    /// Bits of least x of each child, greatest x, least y, and so on. Where there is no child they
+    /// are +∞ and −∞, which no ray hits. The last row but one has the children; eight rows need no
+    /// check of an index of three bits.
+    rows: [[u32; WIDTH]; 8],
 }
+
+/// The row of a node that has its children.
+const CHILDREN: usize = 6;
 
 /// Marks a child that is a block.
 pub const IS_BLOCK: u32 = 1 << 31;
 
 impl Node {
-    pub const EMPTY: Self = Self {
-        children: [0; WIDTH],
-        planes: [
-            [f32::INFINITY; WIDTH],
-            [f32::NEG_INFINITY; WIDTH],
-            [f32::INFINITY; WIDTH],
-            [f32::NEG_INFINITY; WIDTH],
-            [f32::INFINITY; WIDTH],
-            [f32::NEG_INFINITY; WIDTH],
-            [0.0; WIDTH],
-            [0.0; WIDTH],
-        ],
+    pub const EMPTY: Self = {
+        let [low, high] = [[f32::INFINITY.to_bits(); WIDTH], [f32::NEG_INFINITY.to_bits(); WIDTH]];
+        Self { rows: [low, high, low, high, low, high, [0; WIDTH], [0; WIDTH]] }
     };
 
     pub fn set_box(&mut self, child: usize, low: [f32; 3], high: [f32; 3]) {
         for axis in 0..3 {
-            self.planes[2 * axis][child] = low[axis];
-            self.planes[2 * axis + 1][child] = high[axis];
+            self.rows[2 * axis][child] = low[axis].to_bits();
+            self.rows[2 * axis + 1][child] = high[axis].to_bits();
         }
+    }
+
+    /// Rows of the table of nodes, or of blocks if [`IS_BLOCK`] is set.
+    #[inline(always)]
+    pub fn children(&self) -> &[u32; WIDTH] {
+        &self.rows[CHILDREN]
+    }
+
+    /// To be set.
+    #[inline(always)]
+    pub fn children_mut(&mut self) -> &mut [u32; WIDTH] {
+        &mut self.rows[CHILDREN]
     }
 
     /// Planes of all children: the least coordinates in an axis at twice the axis, the greatest
     /// behind them.
     #[inline(always)]
-    pub fn planes(&self, idx: usize) -> &[f32; WIDTH] {
-        &self.planes[idx & 7]
+    pub fn planes<S: Simd>(&self, simd: S, idx: usize) -> f32x8<S> {
+        u32x8::from_slice(simd, &self.rows[idx & 7]).bitcast()
     }
 
     /// The planes on the other side of boxes.
     #[inline(always)]
-    pub fn opposite(&self, idx: usize) -> &[f32; WIDTH] {
-        &self.planes[(idx ^ 1) & 7]
+    pub fn opposite<S: Simd>(&self, simd: S, idx: usize) -> f32x8<S> {
+        self.planes(simd, idx ^ 1)
+    }
+
+    /// A plane of a child.
+    #[inline(always)]
+    pub fn plane(&self, idx: usize, child: usize) -> f32 {
+        f32::from_bits(self.rows[idx & 7][child])
     }
 
     /// Where the ray enters each box, and a mask of those it hits at τ in `start`…`end`.
@@ -73,8 +83,8 @@ impl Node {
     /// Where the ray crosses the planes of boxes in an axis.
     #[inline(always)]
     fn crossings<S: Simd>(&self, simd: S, ray: &SimdRay<S>, axis: usize) -> [f32x8<S>; 2] {
-        let entry = f32x8::from_slice(simd, self.planes(ray.entries[axis]));
-        let exit = f32x8::from_slice(simd, self.opposite(ray.entries[axis]));
+        let entry = self.planes(simd, ray.entries[axis]);
+        let exit = self.opposite(simd, ray.entries[axis]);
         [
             entry.mul_sub(ray.reciprocals[axis], ray.entry_starts[axis]),
             exit.mul_sub(ray.reciprocals[axis], ray.exit_starts[axis]),
@@ -92,7 +102,7 @@ pub struct SimdRay<S: Simd> {
 
 impl<S: Simd> SimdRay<S> {
     #[inline(always)]
-    pub fn new(simd: S, ray: &BoxRay) -> Self {
+    pub fn new(simd: S, ray: &Slabs) -> Self {
         Self {
             entry_starts: splats(simd, ray.entry_starts),
             exit_starts: splats(simd, ray.exit_starts),

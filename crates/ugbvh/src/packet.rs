@@ -10,6 +10,7 @@
 //! operand is greater than 5; planes have errors of u / 2 and their sums with 2 p of 2 u; and a hit
 //! is within ε = 2⁻³⁰ + 2⁻⁵⁰ (d + 2) of the box. Together that is less than 2 p.
 
+use std::array;
 use std::ops::Range;
 
 use fearless_simd::prelude::*;
@@ -22,7 +23,7 @@ use crate::frame::power_of_two;
 use crate::nodes::{Block, IS_BLOCK, Node, WIDTH};
 use crate::shear::Shear;
 use crate::stack::{Entry, Stack};
-use crate::{Bvh, Hit, Ray, Triangle};
+use crate::{Bvh, Hit, Ray, Triangle, each};
 
 /// Rays of a packet.
 const LEN: usize = 64;
@@ -30,7 +31,7 @@ const LEN: usize = 64;
 /// Rays tested at once.
 const GROUPS: usize = LEN / WIDTH;
 
-/// Greatest padding of packets; beyond it, rays are traced singly.
+/// Greatest padding of packets; beyond it, rays are traced each by itself.
 const MAX_PADDING: f64 = power_of_two(-10);
 
 pub fn closest(bvh: &Bvh, origin: DVec3, directions: &[DVec3], range: &Range<f64>, hits: &mut [Option<Hit>]) {
@@ -40,9 +41,9 @@ pub fn closest(bvh: &Bvh, origin: DVec3, directions: &[DVec3], range: &Range<f64
         hits.fill(None);
         let is_done = dispatch!(bvh.level, simd => closest_on(simd, bvh, origin, directions, range, hits));
         if !is_done {
-            for (&direction, hit) in directions.iter().zip(hits) {
-                *hit = bvh.closest(&Ray { origin, direction }, range.clone());
-            }
+            let rays: [Ray; LEN] =
+                array::from_fn(|idx| Ray { origin, direction: directions[idx.min(n - 1)] });
+            each::closest(bvh, &rays[..n], range, hits);
         }
     }
 }
@@ -58,7 +59,7 @@ struct Packet {
     exact: [([f64; 2], f64); LEN],
 }
 
-/// Returns false if the rays have to be traced singly.
+/// Returns false if the rays have to be traced each by itself.
 #[inline(always)]
 fn closest_on<S: Simd>(
     simd: S,
@@ -85,7 +86,7 @@ fn closest_on<S: Simd>(
     };
     let search = Search { simd, bvh, shear, depths, frustum, range };
     let mut end = packet.end();
-    let mut stack = Stack::new();
+    let mut stack = Stack::empty();
     let mut node = &bvh.nodes[0];
     let mut idx = 0;
     loop {
@@ -98,7 +99,7 @@ fn closest_on<S: Simd>(
             }
             let (parent, child) = (entry.child() as usize / WIDTH, entry.child() as usize % WIDTH);
             let parent = &bvh.nodes[parent];
-            let row = parent.children[child];
+            let row = parent.children()[child];
             if row & IS_BLOCK == 0 {
                 idx = row as usize;
                 node = &bvh.nodes[idx];
@@ -246,8 +247,8 @@ impl<S: Simd> Frustum<S> {
     fn intersect(&self, simd: S, node: &Node, end: f32) -> ([f32; WIDTH], u32) {
         let padding = f32x8::splat(simd, self.padding);
         let start = f32x8::splat(simd, self.start);
-        let near = f32x8::from_slice(simd, node.planes(self.planes[2])) * self.sign + 1.0;
-        let far = f32x8::from_slice(simd, node.opposite(self.planes[2])) * self.sign + 1.0;
+        let near = node.planes(simd, self.planes[2]) * self.sign + 1.0;
+        let far = node.opposite(simd, self.planes[2]) * self.sign + 1.0;
         let entry = (near - padding).max(start);
         let near = near.max(start);
         let mut is_hit = entry.simd_le(f32x8::splat(simd, end)) & start.simd_le(far + padding);
@@ -255,8 +256,8 @@ impl<S: Simd> Frustum<S> {
             let (low, high) = (&self.lows[axis], &self.highs[axis]);
             let least = low.at(if low.is_rising { near } else { far });
             let greatest = high.at(if high.is_rising { far } else { near });
-            let from = f32x8::from_slice(simd, node.planes(self.planes[axis])) - padding;
-            let to = f32x8::from_slice(simd, node.opposite(self.planes[axis])) + padding;
+            let from = node.planes(simd, self.planes[axis]) - padding;
+            let to = node.opposite(simd, self.planes[axis]) + padding;
             is_hit = is_hit & least.simd_le(to) & greatest.simd_ge(from);
         }
         (entry.into(), is_hit.to_bitmask() as u32)
@@ -265,16 +266,16 @@ impl<S: Simd> Frustum<S> {
     /// A mask of rays of a group that may hit the box of a child.
     #[inline(always)]
     fn rays_at(&self, simd: S, packet: &Packet, group: usize, node: &Node, child: usize) -> u32 {
-        let near = node.planes(self.planes[2])[child] * self.sign + 1.0;
-        let far = node.opposite(self.planes[2])[child] * self.sign + 1.0;
+        let near = node.plane(self.planes[2], child) * self.sign + 1.0;
+        let far = node.plane(self.planes[2] ^ 1, child) * self.sign + 1.0;
         let end = f32x8::from_slice(simd, &packet.ends[group]);
         let mut is_hit = end.simd_ge(f32x8::splat(simd, near - self.padding));
         for axis in 0..2 {
             let position = f32x8::from_slice(simd, &packet.positions[axis][group]);
             let slope = f32x8::from_slice(simd, &packet.slopes[axis][group]);
             let (a, b) = (position + slope * near, position + slope * far);
-            let from = node.planes(self.planes[axis])[child] - self.padding;
-            let to = node.opposite(self.planes[axis])[child] + self.padding;
+            let from = node.plane(self.planes[axis], child) - self.padding;
+            let to = node.plane(self.planes[axis] ^ 1, child) + self.padding;
             is_hit = is_hit
                 & a.min(b).simd_le(f32x8::splat(simd, to))
                 & a.max(b).simd_ge(f32x8::splat(simd, from));

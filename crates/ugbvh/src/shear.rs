@@ -3,7 +3,7 @@
 use crate::frame::{Frame, exponent, power_of_two};
 
 /// Greatest distance of an origin from the centre, in sizes of the mesh.
-const MAX_DISTANCE: f64 = power_of_two(300);
+pub const MAX_DISTANCE: f64 = power_of_two(300);
 
 /// A ray, ready for tests of triangles.
 ///
@@ -35,6 +35,14 @@ pub struct Crossing {
     pub z: f64,
     pub u: f64,
     pub v: f64,
+}
+
+/// The result of [`Shear::intersect_simply`].
+pub enum Simple {
+    Miss,
+    Crossing(Crossing),
+    /// Rounding errors may be too great.
+    Unsafe,
 }
 
 /// A projected corner.
@@ -104,14 +112,24 @@ impl Shear {
     /// those of the projected corners with an error of less than 2⁻³⁴.
     #[inline(always)]
     pub fn intersect(&self, corners: [&[f64; 3]; 3]) -> Option<Crossing> {
-        let [a, b, c] = [self.project(corners[0]), self.project(corners[1]), self.project(corners[2])];
+        match self.intersect_simply(corners) {
+            Simple::Miss => None,
+            Simple::Crossing(crossing) => Some(crossing),
+            Simple::Unsafe => self.intersect_exactly(corners),
+        }
+    }
+
+    /// Like [`Shear::intersect`], if rounding errors allow it.
+    #[inline(always)]
+    pub fn intersect_simply(&self, corners: [&[f64; 3]; 3]) -> Simple {
+        let [a, b, c] = corners.map(|corner| self.project(corner));
         let weights = [cross(b, c), cross(c, a), cross(a, b)];
         let [p, q, r] = weights;
         let [is_low, is_high] = [(p < 0.0) | (q < 0.0) | (r < 0.0), (p > 0.0) | (q > 0.0) | (r > 0.0)];
         // Rounding is monotonic: a computed product is less than another only if it is in truth.
         // So a sign is right unless it is 0.
         if is_low & is_high {
-            return None;
+            return Simple::Miss;
         }
         let sum = p + q + r;
         let size = extent([a, b, c]);
@@ -119,7 +137,7 @@ impl Shear {
         // coordinate the sum is NaN and the comparison false.
         let has_zero = (p == 0.0) | (q == 0.0) | (r == 0.0);
         let is_safe = !has_zero && sum.abs() >= MIN_AREA * (size * size);
-        if is_safe { Some(self.crossing(weights, [a, b, c])) } else { self.intersect_exactly([a, b, c]) }
+        if is_safe { Simple::Crossing(self.crossing(weights, [a, b, c])) } else { Simple::Unsafe }
     }
 
     #[inline(always)]
@@ -135,7 +153,8 @@ impl Shear {
     /// are exact, and their errors relative to them are less than 2⁻⁵⁰.
     #[cold]
     #[inline(never)]
-    fn intersect_exactly(&self, mut corners: [Corner; 3]) -> Option<Crossing> {
+    pub fn intersect_exactly(&self, corners: [&[f64; 3]; 3]) -> Option<Crossing> {
+        let mut corners = corners.map(|corner| self.project(corner));
         let size = extent(corners);
         let is_finite = corners.iter().all(|[x, y, _]| x.is_finite() && y.is_finite());
         if !is_finite || size == 0.0 {

@@ -29,39 +29,74 @@ impl Entry {
 /// Aligned, so that clearing it takes no store across cache lines: those took a tenth of the time.
 #[repr(align(64))]
 pub struct Stack {
-    first: [Entry; N_FIRST],
-    n: usize,
+    /// Of these, `n`.
+    pub first: [Entry; N_FIRST],
+    pub n: usize,
+    /// Those below them.
     others: Vec<Entry>,
 }
 
 /// A power of two.
-const N_FIRST: usize = 32;
+pub const N_FIRST: usize = 32;
 
 impl Stack {
     #[inline(always)]
-    pub fn new() -> Self {
+    pub fn empty() -> Self {
         Self { first: [Entry(0); N_FIRST], n: 0, others: Vec::new() }
+    }
+
+    /// With the root, a child of row 0 at the distance 0.
+    #[inline(always)]
+    pub fn with_root() -> Self {
+        Self { n: 1, ..Self::empty() }
+    }
+
+    /// Like [`Stack::with_root`], for a stack whose array alone was used.
+    #[inline(always)]
+    pub fn begin(&mut self) {
+        (self.first[0], self.n) = (Entry(0), 1);
     }
 
     #[inline(always)]
     pub fn push(&mut self, entry: Entry) {
-        if self.n < N_FIRST {
-            self.first[self.n] = entry;
-        } else {
-            self.push_other(entry);
+        if self.n == N_FIRST {
+            self.make_room();
         }
+        self.first[self.n % N_FIRST] = entry;
         self.n += 1;
-    }
-
-    #[cold]
-    #[inline(never)]
-    fn push_other(&mut self, entry: Entry) {
-        self.others.push(entry);
     }
 
     #[inline(always)]
     pub fn pop(&mut self) -> Option<Entry> {
-        self.n = self.n.checked_sub(1)?;
-        if self.n < N_FIRST { Some(self.first[self.n]) } else { self.others.pop() }
+        if self.n == 0 && !self.refill() {
+            return None;
+        }
+        self.n -= 1;
+        Some(self.first[self.n % N_FIRST])
+    }
+
+    /// Empties the array.
+    #[cold]
+    #[inline(never)]
+    pub fn make_room(&mut self) {
+        self.others.extend(&self.first[..self.n]);
+        self.n = 0;
+    }
+
+    /// Fills half of the empty array, if there are other entries. Returns false if there are none.
+    #[inline(always)]
+    pub fn refill(&mut self) -> bool {
+        !self.others.is_empty() && self.take_others()
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn take_others(&mut self) -> bool {
+        let from = self.others.len().saturating_sub(N_FIRST / 2);
+        for entry in self.others.drain(from..) {
+            self.first[self.n] = entry;
+            self.n += 1;
+        }
+        true
     }
 }

@@ -11,6 +11,8 @@ use crate::frame::{Frame, power_of_two};
 use crate::shear::Shear;
 use crate::{Bvh, Hit, Ray, Work};
 
+mod several;
+
 const ALL: Range<f64> = 0.0..f64::INFINITY;
 
 struct Mesh {
@@ -351,44 +353,6 @@ fn every_instruction_set_has_the_same_hits() {
     bvh.level = Level::baseline();
     let baseline: Vec<_> = rays.iter().map(|ray| bvh.closest(ray, ALL)).collect();
     assert_eq!(best, baseline);
-}
-
-#[test]
-fn a_packet_has_the_hits_of_its_rays() {
-    let mut random = Random(7);
-    let mut n_hits = 0;
-    let meshes =
-        [sphere(12, 24), sphere(30, 60), soup(&mut random, 300), sphere(5, 7).mapped(1e-300, DVec3::ZERO)];
-    for mesh in meshes {
-        let bvh = mesh.build();
-        let size = bvh.bounds().map_or(1.0, |(low, high)| (high - low).max_element());
-        for _ in 0..1500 {
-            let origin = random.in_cube(1.0) * size * *random.pick(&[0.3, 1.0, 2.0, 100.0, 1e6]);
-            let target = *random.pick(&mesh.positions) * *random.pick(&[0.0, 1.0, 1.0]);
-            let toward = match random.below(5) {
-                0 => *random.pick(&[DVec3::X, DVec3::NEG_Y, DVec3::Z, DVec3::NEG_Z]) * size,
-                1 => random.direction() * size,
-                _ => target - origin,
-            };
-            let width = *random.pick(&[0.0, 0.0, 0.0, 1e-3, 0.02, 0.3, 2.0]) * size;
-            let n = if width == 0.0 { 2 } else { *random.pick(&[1, 5, 64, 64, 100]) };
-            let mut directions: Vec<DVec3> =
-                (0..n).map(|_| (toward + random.in_cube(width)) * *random.pick(&[1.0, 1.0, 0.5])).collect();
-            if random.one_in(10) {
-                directions[n / 2] = *random.pick(&[DVec3::NAN, DVec3::ZERO, DVec3::INFINITY]);
-            }
-            let start = *random.pick(&[0.0, 0.0, 0.0, 0.0, 0.0, 0.5, -1.0]);
-            let end = *random.pick(&[f64::INFINITY, f64::INFINITY, f64::INFINITY, 1.0, f64::NAN]);
-            let mut hits = vec![Some(Hit { t: 0.0, triangle: 0, u: 0.0, v: 0.0 }); n];
-            bvh.closest_packet(origin, &directions, start..end, &mut hits);
-            for (direction, hit) in directions.into_iter().zip(hits) {
-                let ray = Ray { origin, direction };
-                assert_eq!(hit, bvh.closest(&ray, start..end), "{ray:?} {start} {end}");
-                n_hits += usize::from(hit.is_some());
-            }
-        }
-    }
-    assert!(n_hits > 20_000, "{n_hits}");
 }
 
 #[test]
