@@ -139,7 +139,9 @@ fn color(
     ugscene::separate_bodies(&mut scene);
     ugscene::repeat_vertices(&mut scene, config.repeat);
     let mixing_note = ugscene::mixing_note(&scene);
-    let rest = ugscene::rest_positions(&scene, eye, frames);
+    // Only for lamps, and for the angles at which colours of faces meet.
+    let needs_rest = config.light || scene.vertices.iter().any(|vertex| vertex.color.is_none());
+    let rest = if needs_rest { ugscene::rest_positions(&scene, eye, frames) } else { Vec::new() };
     let mut notes = if config.spectral {
         let mut shares = ugscene::vertex_shares(&scene, &rest);
         let light = light_vertices(&mut scene, config, eye, frames, rest, &mut shares)?;
