@@ -46,10 +46,10 @@ pub struct BoxRay {
 pub struct Slabs {
     /// Planes of a node where the ray enters boxes ([`crate::nodes::Node::planes`]).
     pub entries: [usize; 3],
-    /// Origins for the planes where the ray enters boxes, times `reciprocals`.
-    pub entry_starts: [f32; 3],
-    /// Origins for the planes where the ray leaves boxes, times `reciprocals`.
-    pub exit_starts: [f32; 3],
+    /// −(origins for the planes where the ray enters boxes) times `reciprocals`.
+    pub entry_offsets: [f32; 3],
+    /// −(origins for the planes where the ray leaves boxes) times `reciprocals`.
+    pub exit_offsets: [f32; 3],
     /// Reciprocals of the direction.
     pub reciprocals: [f32; 3],
 }
@@ -126,8 +126,8 @@ impl BoxRay {
                     2 * axis_y + is_backward[1],
                     2 * axis_z + is_backward[2],
                 ],
-                entry_starts: array::from_fn(|axis| (position[axis] + ahead[axis]) * reciprocals[axis]),
-                exit_starts: array::from_fn(|axis| (position[axis] - ahead[axis]) * reciprocals[axis]),
+                entry_offsets: array::from_fn(|axis| -(position[axis] + ahead[axis]) * reciprocals[axis]),
+                exit_offsets: array::from_fn(|axis| -(position[axis] - ahead[axis]) * reciprocals[axis]),
                 reciprocals,
             },
             depths,

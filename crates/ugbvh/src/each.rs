@@ -65,8 +65,8 @@ struct Batch {
     positions: [[f32; WIDTH]; 3],
     line_slopes: [[f32; WIDTH]; 2],
     paddings: [f32; WIDTH],
-    entry_starts: [[f32; WIDTH]; 3],
-    exit_starts: [[f32; WIDTH]; 3],
+    entry_offsets: [[f32; WIDTH]; 3],
+    exit_offsets: [[f32; WIDTH]; 3],
     reciprocals: [[f32; WIDTH]; 3],
     depths_z: [f64; WIDTH],
     depths_padding: [f64; WIDTH],
@@ -136,10 +136,10 @@ impl Batch {
         let positions = narrow3(simd, [q_x, q_y, -sign]);
         let [line_padding, slope_x, slope_y] = narrow3(simd, [line_padding, slopes[0], slopes[1]]);
         let along = |axis: usize| line_padding.copysign(reciprocals[axis]);
-        let entry_starts: [f32x8<S>; 3] =
-            std::array::from_fn(|axis| (positions[axis] + along(axis)) * reciprocals[axis]);
-        let exit_starts: [f32x8<S>; 3] =
-            std::array::from_fn(|axis| (positions[axis] - along(axis)) * reciprocals[axis]);
+        let entry_offsets: [f32x8<S>; 3] =
+            std::array::from_fn(|axis| -(positions[axis] + along(axis)) * reciprocals[axis]);
+        let exit_offsets: [f32x8<S>; 3] =
+            std::array::from_fn(|axis| -(positions[axis] - along(axis)) * reciprocals[axis]);
         // BoxRay::limits.
         let at = |t: f64| splat(t) * z * scale;
         let from = (at(range.start) - depth_z) * sign - padding;
@@ -167,8 +167,8 @@ impl Batch {
             positions: positions.map(|axis| axis.into()),
             line_slopes: [slope_x.into(), slope_y.into()],
             paddings: line_padding.into(),
-            entry_starts: entry_starts.map(|axis| axis.into()),
-            exit_starts: exit_starts.map(|axis| axis.into()),
+            entry_offsets: entry_offsets.map(|axis| axis.into()),
+            exit_offsets: exit_offsets.map(|axis| axis.into()),
             reciprocals: reciprocals.map(|axis| axis.into()),
             depths_z: depth_z.into(),
             depths_padding: padding.into(),
@@ -218,8 +218,8 @@ impl Source for Lane<'_> {
         let reciprocals = at(&batch.reciprocals);
         Slabs {
             entries: std::array::from_fn(|axis| 2 * axes[axis] + is_backward(reciprocals[axis])),
-            entry_starts: at(&batch.entry_starts),
-            exit_starts: at(&batch.exit_starts),
+            entry_offsets: at(&batch.entry_offsets),
+            exit_offsets: at(&batch.exit_offsets),
             reciprocals,
         }
     }

@@ -86,16 +86,16 @@ impl Node {
         let entry = self.planes(simd, ray.entries[axis]);
         let exit = self.opposite(simd, ray.entries[axis]);
         [
-            entry.mul_sub(ray.reciprocals[axis], ray.entry_starts[axis]),
-            exit.mul_sub(ray.reciprocals[axis], ray.exit_starts[axis]),
+            entry.mul_add(ray.reciprocals[axis], ray.entry_offsets[axis]),
+            exit.mul_add(ray.reciprocals[axis], ray.exit_offsets[axis]),
         ]
     }
 }
 
 /// A ray in vector registers.
 pub struct SimdRay<S: Simd> {
-    entry_starts: [f32x8<S>; 3],
-    exit_starts: [f32x8<S>; 3],
+    entry_offsets: [f32x8<S>; 3],
+    exit_offsets: [f32x8<S>; 3],
     reciprocals: [f32x8<S>; 3],
     entries: [usize; 3],
 }
@@ -104,8 +104,8 @@ impl<S: Simd> SimdRay<S> {
     #[inline(always)]
     pub fn new(simd: S, ray: &Slabs) -> Self {
         Self {
-            entry_starts: splats(simd, ray.entry_starts),
-            exit_starts: splats(simd, ray.exit_starts),
+            entry_offsets: splats(simd, ray.entry_offsets),
+            exit_offsets: splats(simd, ray.exit_offsets),
             reciprocals: splats(simd, ray.reciprocals),
             entries: ray.entries,
         }
