@@ -40,7 +40,7 @@ fn closest_on<S: Simd>(simd: S, bvh: &Bvh, rays: &[Ray], range: &Range<f64>, hit
             let (ray, hit) = (Lane { batch: &batch, lane, range }, &mut hits[lane]);
             match walk_on::<_, false>(simd, bvh, &ray, &mut walk, hit, &mut ()) {
                 Stop::Empty => {}
-                // These cases are rare.
+                // A full stack, or an edge that needs an exact test: rare, so the ray starts again.
                 _ => *hit = bvh.closest(&rays[lane], range.clone()),
             }
         }
