@@ -106,6 +106,7 @@ fn complaints() {
                         move the eye with -ep or the centre with -vc";
     check("-ep 1 1e-300 1 -vc 1 1e-300 1", TILE, 1, no_direction);
     check("-ep 1 1e-300 1", &format!("{TILE} cam -vc 1 1e-300 1;"), 1, no_direction);
+    check("-va 5e-324", TILE, 1, "degrees cannot be projected on a flat picture");
     check("-sd 0", TILE, 2, "-sd 0 would make no pieces: give 1 or more");
     check("-sd 2 -se 1", TILE, 2, "cannot be given together");
     check("-an nose", TILE, 2, "`nose` is not an anchor: -an takes eye, origin, center or three numbers");

@@ -140,7 +140,7 @@ fn half_width_of(camera: &Camera) -> Result<f64, CameraError> {
 }
 
 /// Half the side of the film at distance 1 that fills a view angle in degrees.
-fn half_side(degrees: f64) -> Result<f64, CameraError> {
+pub(crate) fn half_side(degrees: f64) -> Result<f64, CameraError> {
     let is_flat = 0.0 < degrees && degrees < 180.0;
     let half = libm::tan(0.5 * degrees.to_radians());
     if is_flat && half > 0.0 { Ok(half) } else { Err(CameraError::ViewAngle(degrees)) }

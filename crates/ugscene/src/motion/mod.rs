@@ -14,6 +14,7 @@ use ugphysics::{Velocity, VelocityError};
 
 pub use relative_motion::RelativeMotion;
 
+use crate::camera_options::half_side;
 use crate::{CameraError, CameraOptions, DefaultCamera, Geometry, StageError};
 
 /// How bodies, camera and lights move, and when the picture is taken.
@@ -219,7 +220,10 @@ fn set_camera(
         camera.projection = Some(Projection::Orthographic);
     }
     if let Some((across, down)) = options.view_angle {
-        camera.view_angle = Some([across, down.unwrap_or(across)]);
+        let angles = [across, down.unwrap_or(across)];
+        // So small an angle that the film has no width is refused by every renderer.
+        angles.into_iter().try_for_each(|angle| half_side(angle).map(drop))?;
+        camera.view_angle = Some(angles);
         // They would contradict the view angle.
         (camera.film_size, camera.focal_length) = (None, None);
     }
