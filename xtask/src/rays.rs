@@ -134,8 +134,8 @@ fn rounded_mesh(size: u32) -> (Vec<DVec3>, Vec<[u32; 3]>) {
     (positions, triangles)
 }
 
-/// Fails if single rays, independent rays and packets have different hits, or others than Embree. Embree's rays are
-/// rounded, so a few at the outline may differ.
+/// Fails if single rays, independent rays and packets have different hits, or others than Embree.
+/// Embree's rays are rounded, so a few at the outline may differ.
 fn check_same(pool: &rayon::ThreadPool, bvh: &Bvh, embree: &mut Embree) -> Result<(), Box<dyn Error>> {
     let ours = pool.install(|| trace(bvh, trace_single));
     let each = pool.install(|| trace(bvh, trace_each));

@@ -219,7 +219,8 @@ impl Walk {
     }
 }
 
-/// Continues a search until it stops. `EACH`: it stops at every hit; otherwise it keeps the nearest.
+/// Continues a search until it stops. With `EACH` it stops at every hit, otherwise it keeps the
+/// nearest.
 #[inline(always)]
 pub fn walk_on<S: Simd, const EACH: bool>(
     simd: S,

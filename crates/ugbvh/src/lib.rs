@@ -174,7 +174,7 @@ impl Bvh {
     }
 
     /// The nearest hit of each of several rays, as [`Bvh::closest`] returns it. The rays need not be
-    /// close to each other; eight at once are prepared faster than one by one.
+    /// close to each other. This is faster than one call for each, as eight are prepared at once.
     ///
     /// `hits[i]` becomes that of `rays[i]`; the shorter slice counts.
     pub fn closest_each(&self, rays: &[Ray], range: Range<f64>, hits: &mut [Option<Hit>]) {

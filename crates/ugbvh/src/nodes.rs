@@ -12,9 +12,9 @@ pub const WIDTH: usize = 8;
 #[derive(Clone, Debug)]
 #[repr(align(64))]
 pub struct Node {
-    /// Bits of least x of each child, greatest x, least y, and so on. Where there is no child they
-    /// are +∞ and −∞, which no ray hits. The last row but one has the children; eight rows need no
-    /// check of an index of three bits.
+    /// Rows 0 to 5: bits of the least x of each child, the greatest x, the least y, and so on; where
+    /// there is no child, of +∞ and −∞, which no ray hits. Row 6: the children. Row 7 is unused: with
+    /// eight rows, an index of three bits needs no bounds check.
     rows: [[u32; WIDTH]; 8],
 }
 
@@ -37,7 +37,7 @@ impl Node {
         }
     }
 
-    /// Rows of the table of nodes, or of blocks if [`IS_BLOCK`] is set.
+    /// Indices in the table of nodes, or in that of blocks if [`IS_BLOCK`] is set.
     #[inline(always)]
     pub fn children(&self) -> &[u32; WIDTH] {
         &self.rows[CHILDREN]

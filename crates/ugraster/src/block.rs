@@ -135,8 +135,8 @@ impl TriangleBlock {
         if is_culled {
             is_drawn &= twice_area.simd_gt(number(0.0));
         }
-        // Centres are half a sample from the nearest end of a band or tile, so rounding of the
-        // product cannot move one into another.
+        // A sample's centre is at least half a sample away from the ends of its band and its tile, so
+        // rounding of the products below cannot move it into another one.
         let per_row = 1.0 / f64::from(grid.bands().sample_rows());
         let first_band = ((first_row + 0.5) * per_row).floor();
         let end_band = ((end_row - 0.5) * per_row).floor() + 1.0;

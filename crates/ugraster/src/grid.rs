@@ -7,8 +7,9 @@ use crate::depth_fade::DepthFade;
 /// Samples in a tile, about: with some 16 bytes each they stay in a core's cache.
 const TILE_SAMPLES: u32 = 1 << 15;
 
-/// Most samples of a tile one pixel high, in wide tiles and in tall ones. The second was found by
-/// trial with 10⁵ and 10⁶ triangles: tall tiles are eight pixels high, except with very many samples.
+/// Limit of the samples in one row of pixels of a tile: for wide tiles, and for tall ones. The
+/// second was the fastest with 10⁵ and 10⁶ triangles. It makes tall tiles eight pixels high, or less
+/// if a pixel has very many samples.
 const MAX_ROW_SAMPLES: [u32; 2] = [1 << 19, 1 << 12];
 
 /// Most bands of a picture. More would cost memory for the bins and gain nothing.

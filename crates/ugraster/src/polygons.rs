@@ -150,7 +150,8 @@ impl<const N: usize> PolygonList<N> {
         self.shapes.shrink_to_fit();
     }
 
-    /// The shapes that may touch the tiles of a band from one column to another, each with its item.
+    /// The shapes that may touch the tiles of a band from one column to another, each with its
+    /// item.
     pub fn in_tiles(
         &self,
         band: usize,

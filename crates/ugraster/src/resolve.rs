@@ -280,7 +280,7 @@ fn add_columns<S: Simd>(_: S, columns: &mut Planes, lit: &Planes) {
 /// Adds up the sums of `n` columns each, from the left.
 #[inline(always)] // Compiled for several instruction sets.
 fn add_rows<S: Simd>(_: S, columns: &Planes, n: usize, sums: &mut Vec<[f32; 4]>) {
-    // With a known number of columns the loop over them is unrolled.
+    // For the usual numbers the compiler unrolls the inner loop, because they are constants here.
     match n {
         2 => add_groups(columns, 2, sums),
         4 => add_groups(columns, 4, sums),

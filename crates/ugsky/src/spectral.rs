@@ -266,11 +266,11 @@ struct SmoothTable {
     /// The light of white by ln D, and its logarithm.
     white: Vec<f64>,
     ln_white: Vec<f32>,
-    /// Surfaces whose brightest channel is [`REFLECTANCE`]. Computed when they are first needed: a
-    /// picture has few of all colours.
+    /// Reflectances whose brightest channel is [`REFLECTANCE`]. Each is computed when it is first
+    /// needed, because a picture uses few of all tabulated colours.
     surfaces: Vec<OnceLock<Spectrum>>,
     /// Their light relative to that of white, by block, brightest channel and first ratio; each has
-    /// all second ratios. Computed when it is first needed: a view has few of all Doppler factors.
+    /// all second ratios. Computed when first needed, because a view uses few of all Doppler factors.
     strips: Vec<OnceLock<Box<[LightBlock]>>>,
 }
 
@@ -302,8 +302,8 @@ impl SmoothTable {
         self.strips[(block * 3 + brightest) * self.n_ratios + ratio].get_or_init(blank)
     }
 
-    /// The light of a surface from a column on. `brightest`: its channel; `ratios`: of the next two,
-    /// in steps of the table.
+    /// The light of a surface at the Doppler factors of a block, from a column on. `brightest`: its
+    /// brightest channel; `ratios`: those of the next two channels to it, in steps of the table.
     #[inline(never)]
     fn computed(&self, brightest: usize, ratios: [usize; 2], from: usize) -> [[f32; 3]; BLOCK + 1] {
         let idx = (brightest * self.n_ratios + ratios[0]) * self.n_ratios + ratios[1];

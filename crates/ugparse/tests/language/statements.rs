@@ -210,7 +210,8 @@ fn lax_passes_on_unknown_statements() {
             "statement `#` is passed on unread"
         ]
     );
-    // A carriage return alone ends a directive, so a comment after it is on a line of its own.
+    // A carriage return without a line feed ends the line of a directive, so a comment after it is on a
+    // line of its own.
     let directive = crate::flat("# pragma\r{ of two\nlines }\nv a 0 0 0;");
     assert!(directive.contains("# pragma\n") && !directive.contains("# pragma {"), "{directive}");
     assert_eq!(crate::flat(&directive), directive);

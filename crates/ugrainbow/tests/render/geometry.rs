@@ -67,7 +67,7 @@ fn film_angles_and_size_agree() {
 /// Mean squared differences hide a shift; a line of pixels does not.
 #[test]
 fn faces_cut_through_each_other_where_their_planes_meet() {
-    // z = x and z = −x/2 + 1.2 meet at x = 0.8; seen from +z.
+    // The planes z = x and z = −x/2 + 1.2, seen from +z, meet at x = 0.8.
     let text = |camera: &str| {
         format!(
             "c red 1 0; c green 1 120; l 1;
@@ -136,7 +136,7 @@ fn clipping_distances_are_kept() {
     let frame = draw(text, &plain(200, 3));
     let half = libm::tan(30.0_f64.to_radians());
     for x in 0..200 {
-        // The wall is one unit to the right: at depth z it is seen at 1/z.
+        // The wall is 1 to the right of the eye, so its part at depth z is at 1/z on the film.
         let depth = 1.0 / (((f64::from(x) + 0.5) / 100.0 - 1.0) * half);
         let expected = if (4.0..6.0).contains(&depth) { 255 } else { 0 };
         assert_eq!(frame.pixel(x, 1)[0], expected, "column {x}");

@@ -39,8 +39,8 @@ fn lights_follow_the_cosine_law() {
 
 #[test]
 fn local_lights_and_normals_are_interpolated() {
-    // Normals leaning left and right: level at the corners cos 45°, so in the middle too, for
-    // levels are interpolated and normals are not.
+    // Normals lean 45° to the left and to the right, so the light level is cos 45° at every corner.
+    // It is so in the middle, too: light levels are interpolated, normals are not.
     let (camera, config) = map(5, 5);
     let text = format!(
         "l 1 0 0 1; v a -4 -4 0 -1 0 1; v b 4 -4 0 1 0 1; v c 4 4 0 1 0 1; v d -4 4 0 -1 0 1; f (a b c d); {camera}"
