@@ -2,15 +2,15 @@
 //! them, in single precision.
 
 use fearless_simd::prelude::*;
-use fearless_simd::{Simd, dispatch, f32x8};
+use fearless_simd::{Simd, dispatch, f32x8, mask32x8, u32x8};
 use glam::DVec3;
 
 use crate::footprint::{CURVED, LARGEST, MOST_ECCENTRIC, RADIUS, SLACK};
-use crate::grid::CHUNK;
+use crate::grid::{APRON, CHUNK};
 use crate::observer::Observer;
 use crate::panorama::Panorama;
 use crate::sample::Sampler;
-use crate::window::{Footprint, light_of};
+use crate::window::{EACH, Footprints, ROWS, Window, lights};
 
 /// Directions seen by the places of a flat film: corner + x across + y down, of any length.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,13 +23,27 @@ pub struct FlatFilm {
     pub down: DVec3,
 }
 
-/// The light of a pixel in the frame of the sky, and its Doppler factor.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// Eight pixels in the frame of the sky.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Seen {
-    /// Light times alpha, and alpha.
-    pub light: [f32; 4],
-    /// The Doppler factor.
-    pub doppler: f32,
+    /// Red, green and blue times alpha, and alpha.
+    pub light: [[f32; EACH]; 4],
+    /// The Doppler factors.
+    pub doppler: [f32; EACH],
+    /// Which of the pixels were found.
+    pub is_found: [bool; EACH],
+}
+
+impl Seen {
+    /// Number of pixels.
+    pub const N: usize = EACH;
+
+    /// Sets the light of a pixel: red, green and blue times alpha, and alpha.
+    pub fn set(&mut self, idx: usize, light: [f32; 4], doppler: f64) {
+        (0..4).for_each(|channel| self.light[channel][idx] = light[channel]);
+        self.doppler[idx] = doppler as f32;
+        self.is_found[idx] = true;
+    }
 }
 
 /// Above this Doppler factor single precision does not suffice.
@@ -37,23 +51,23 @@ const MOST_DOPPLER: f64 = 100.0;
 
 impl Sampler<'_> {
     /// The light of the pixels of a row, one column apart, from a place on a film on: the same as
-    /// of [`Sampler::light`] for each within 10⁻⁴, but several times faster. `None` for the few
-    /// that this way is not for, at poles, edges and near the speed of light.
+    /// of [`Sampler::light`] for each within 10⁻⁴, but several times faster. The few that this way
+    /// is not for are not found: those at poles, edges and near the speed of light.
     pub fn flat_row(
         &mut self,
         observer: &Observer,
         film: &FlatFilm,
         [x, y]: [f64; 2],
         spread: f64,
-        found: &mut [Option<Seen>],
+        found: &mut [Seen],
     ) {
         if observer.factors()[1] > MOST_DOPPLER {
-            found.fill(None);
+            found.fill(Seen::default());
             return;
         }
         let start = film.corner + y * film.down;
-        for (idx, found) in found.chunks_mut(CHUNK).enumerate() {
-            let first = start + (x + (idx * CHUNK) as f64) * film.across;
+        for (idx, found) in found.iter_mut().enumerate() {
+            let first = start + (x + (idx * EACH) as f64) * film.across;
             dispatch!(self.simd, simd => self.flat_chunk(simd, observer, film, first, spread, found));
         }
     }
@@ -66,15 +80,12 @@ impl Sampler<'_> {
         film: &FlatFilm,
         first: DVec3,
         spread: f64,
-        found: &mut [Option<Seen>],
+        found: &mut Seen,
     ) {
         let (footprints, doppler) = footprints(simd, self.panorama, observer, film, first, spread);
-        for (k, found) in found.iter_mut().enumerate() {
-            *found = None;
-            if let Some(light) = light_of(simd, self.panorama, &footprints[k % CHUNK], &mut self.scratch) {
-                *found = Some(Seen { light, doppler: doppler[k % CHUNK] });
-            }
-        }
+        found.light = lights(simd, self.panorama, &footprints, &mut self.buffers);
+        found.doppler = doppler;
+        found.is_found = footprints.windows.map(|window| window.is_some());
     }
 }
 
@@ -117,8 +128,8 @@ impl<S: Simd> Vectors<S> {
     }
 }
 
-/// The footprints of eight pixels, and their Doppler factors. Those that are too large, or where
-/// single precision does not suffice, have no rows: NaN.
+/// The footprints of eight pixels, and their Doppler factors. Those that are too large, and those
+/// near poles and edges, have no windows.
 ///
 /// `first`: the direction of the first pixel, of any length.
 #[inline(always)]
@@ -129,7 +140,7 @@ pub(crate) fn footprints<S: Simd>(
     film: &FlatFilm,
     first: DVec3,
     spread: f64,
-) -> ([Footprint; CHUNK], [f32; CHUNK]) {
+) -> (Footprints, [f32; CHUNK]) {
     let one = f32x8::splat(simd, 1.0);
     let zero = f32x8::splat(simd, 0.0);
     let half = f32x8::splat(simd, 0.5);
@@ -175,21 +186,10 @@ pub(crate) fn footprints<S: Simd>(
     let widened = (least - small).max(zero);
     see += widened;
     snn += widened;
-    let small: [f32; CHUNK] = small.max(least).into();
-
-    let mut levels = [0; CHUNK];
-    let mut texels = [0.0; CHUNK];
-    let mut rows_per_radian = [0.0; CHUNK];
-    for k in 0..CHUNK {
-        levels[k] = sky.level_of(f64::from(small[k]));
-        let grid = &sky.grids[levels[k]];
-        texels[k] = grid.texel as f32;
-        rows_per_radian[k] = grid.rows_per_radian as f32;
-    }
+    let grids = GridsOf::new(simd, sky, small.max(least));
 
     // As in Ellipse::kernel.
-    let texel = f32x8::from_slice(simd, &texels);
-    let square = texel * texel;
+    let square = grids.texel * grids.texel;
     let margin = f32x8::splat(simd, (RADIUS * RADIUS) as f32) * square;
     let finest = sky.grids[0].texel;
     let averaged = (square - f32x8::splat(simd, (finest * finest) as f32)) * f32x8::splat(simd, 1.0 / 6.0);
@@ -204,37 +204,146 @@ pub(crate) fn footprints<S: Simd>(
     let north = snn.sqrt();
     let b = tilt.times(one / north);
 
-    // As in Footprint::new.
-    let rows_per_radian = f32x8::from_slice(simd, &rows_per_radian);
+    // As in Window::new.
     let top = f32x8::splat(simd, sky.extent().latitudes[1] as f32);
-    let row = (top - near_atan2(simd, direction.z, level)) * rows_per_radian - half;
-    let reach = (north + f32x8::splat(simd, 0.21) * north * north * north) * rows_per_radian;
-    let longitude = near_atan2(simd, direction.x, direction.y);
-    let width = f32x8::splat(simd, (1.0 + SLACK) as f32) * see.sqrt();
+    let row = (top - near_atan2(simd, direction.z, level)) * grids.rows_per_radian - half;
+    let reach = north + f32x8::splat(simd, 0.21) * north * north * north;
+    let rows = reach * grids.rows_per_radian;
+    let (first, last) = ((row - rows).ceil(), (row + rows).floor());
     let is_small = large.simd_le(f32x8::splat(simd, (LARGEST * LARGEST) as f32));
     let curvature = (large + margin).sqrt() * direction.z.abs();
     let is_flat = curvature.simd_le(f32x8::splat(simd, CURVED as f32) * level);
-    let none = f32x8::splat(simd, f32::NAN);
-    let first = is_small.select(is_flat.select((row - reach).ceil(), none), none);
-    let last = (row + reach).floor();
+    let is_window = is_small & is_flat & are_windows(simd, first, last, grids.n_rows, ROWS);
+    let first_rows: [u32; CHUNK] = first.to_int::<u32x8<S>>().into();
+    let n_rows: [u32; CHUNK] = (last - first + one).to_int::<u32x8<S>>().into();
+    let ladder = LadderOf::new(simd, sky, &grids.levels, is_window, &first_rows, &n_rows);
 
-    let ([ax, ay, az], [bx, by, bz]) = (lanes_of(a), lanes_of(b));
-    let c: [f32; CHUNK] = c.into();
-    let (first, last): ([f32; CHUNK], [f32; CHUNK]) = (first.into(), last.into());
-    let (longitude, width): ([f32; CHUNK], [f32; CHUNK]) = (longitude.into(), width.into());
-    let mut found = [Footprint::default(); CHUNK];
-    for k in 0..CHUNK {
-        found[k] = Footprint {
-            level: levels[k],
-            a: [ax[k], ay[k], az[k]],
-            b: [bx[k], by[k], bz[k]],
-            c: c[k],
-            rows: [first[k], last[k]],
-            longitude: longitude[k],
-            half: width[k],
-        };
+    let [west, east] = sky.extent().longitudes;
+    let (west, east) = (f32x8::splat(simd, west as f32), f32x8::splat(simd, east as f32));
+    let longitude = near_atan2(simd, direction.x, direction.y);
+    let turn = f32x8::splat(simd, core::f32::consts::TAU);
+    let turned = longitude.simd_gt(east).select(longitude - turn, longitude);
+    let turned = longitude.simd_lt(west).select(longitude + turn, turned);
+    // A lower bound of cos(|latitude| + reach).
+    let least_cos = level * (one - half * reach * reach) - direction.z.abs() * reach;
+    let width = f32x8::splat(simd, (1.0 + SLACK) as f32) * see.sqrt();
+    let columns = width / least_cos * ladder.per_radian;
+    let column = (turned - west) * ladder.per_radian - half;
+    let (first, last) = ((column - columns).ceil(), (column + columns).floor());
+    let is_window = (is_window & are_windows(simd, first, last, ladder.n_columns, APRON)).to_bitmask();
+    let first_columns: [u32; CHUNK] = first.to_int::<u32x8<S>>().into();
+    let n_columns: [u32; CHUNK] = (last - first + one).to_int::<u32x8<S>>().into();
+
+    let mut windows = [None; CHUNK];
+    for (k, window) in windows.iter_mut().enumerate() {
+        if is_window >> k & 1 == 1 {
+            *window = Some(Window {
+                level: grids.levels[k],
+                ladder: ladder.idx[k],
+                row: first_rows[k],
+                column: first_columns[k],
+                n_rows: n_rows[k],
+                n_columns: n_columns[k],
+            });
+        }
     }
-    (found, doppler.into())
+    (Footprints { a: lanes_of(a), b: lanes_of(b), c: c.into(), windows }, doppler.into())
+}
+
+/// The grids of the levels of eight footprints.
+struct GridsOf<S: Simd> {
+    levels: [u32; CHUNK],
+    texel: f32x8<S>,
+    rows_per_radian: f32x8<S>,
+    n_rows: f32x8<S>,
+}
+
+impl<S: Simd> GridsOf<S> {
+    /// `small`: squares of the smaller semi-axes.
+    #[inline(always)]
+    fn new(simd: S, sky: &Panorama, small: f32x8<S>) -> Self {
+        let squares: [f32; CHUNK] = small.into();
+        let level = sky.level_of(f64::from(squares[0]));
+        let square =
+            |level: usize| sky.grids.get(level).map_or(f64::INFINITY, |grid| grid.texel * grid.texel);
+        let least = if level == 0 { 0.0 } else { square(level) as f32 };
+        let is_same = small.simd_ge(f32x8::splat(simd, least))
+            & small.simd_lt(f32x8::splat(simd, square(level + 1) as f32));
+        if is_same.all_true() {
+            let grid = &sky.grids[level];
+            return Self {
+                levels: [level as u32; CHUNK],
+                texel: f32x8::splat(simd, grid.texel as f32),
+                rows_per_radian: f32x8::splat(simd, grid.rows_per_radian as f32),
+                n_rows: f32x8::splat(simd, grid.rows.len() as f32),
+            };
+        }
+        let mut levels = [0; CHUNK];
+        let mut parts = [[0.0; CHUNK]; 3];
+        for k in 0..CHUNK {
+            let level = sky.level_of(f64::from(squares[k]));
+            let grid = &sky.grids[level];
+            levels[k] = level as u32;
+            parts[0][k] = grid.texel as f32;
+            parts[1][k] = grid.rows_per_radian as f32;
+            parts[2][k] = grid.rows.len() as f32;
+        }
+        Self {
+            levels,
+            texel: f32x8::from_slice(simd, &parts[0]),
+            rows_per_radian: f32x8::from_slice(simd, &parts[1]),
+            n_rows: f32x8::from_slice(simd, &parts[2]),
+        }
+    }
+}
+
+/// The columns of the rows of eight windows.
+struct LadderOf<S: Simd> {
+    /// Index in the ladder.
+    idx: [u32; CHUNK],
+    per_radian: f32x8<S>,
+    /// 0 where the rows of a window do not have the same, or there is no window.
+    n_columns: f32x8<S>,
+}
+
+impl<S: Simd> LadderOf<S> {
+    #[inline(always)]
+    fn new(
+        simd: S,
+        sky: &Panorama,
+        levels: &[u32; CHUNK],
+        is_window: mask32x8<S>,
+        first_rows: &[u32; CHUNK],
+        n_rows: &[u32; CHUNK],
+    ) -> Self {
+        let is_window = is_window.to_bitmask();
+        let (mut idx, mut per_radian, mut n_columns) = ([0; CHUNK], [1.0; CHUNK], [0.0; CHUNK]);
+        for k in 0..CHUNK {
+            if is_window >> k & 1 == 1 {
+                let lines = &sky.grids[levels[k] as usize].lines;
+                let [top, bottom] =
+                    [first_rows[k], first_rows[k] + n_rows[k] - 1].map(|row| lines[row as usize].ladder);
+                if top == bottom {
+                    let columns = &sky.ladder[top as usize];
+                    idx[k] = top;
+                    per_radian[k] = columns.per_radian as f32;
+                    n_columns[k] = columns.n as f32;
+                }
+            }
+        }
+        Self {
+            idx,
+            per_radian: f32x8::from_slice(simd, &per_radian),
+            n_columns: f32x8::from_slice(simd, &n_columns),
+        }
+    }
+}
+
+/// As `is_window`.
+#[inline(always)]
+fn are_windows<S: Simd>(simd: S, first: f32x8<S>, last: f32x8<S>, n: f32x8<S>, most: usize) -> mask32x8<S> {
+    let is_inside = first.simd_ge(f32x8::splat(simd, 0.0)) & last.simd_lt(n);
+    is_inside & last.simd_ge(first) & (last - first).simd_lt(f32x8::splat(simd, most as f32))
 }
 
 #[inline(always)]
@@ -316,21 +425,25 @@ mod tests {
             let film = FlatFilm { corner: forward + 0.3 * right, across, down };
             let axis = DVec3::new(part(0.32), part(0.21), part(0.77));
             let observer = Observer::new(Velocity::from_rapidity(axis, 2.0 + 2.0 * part(0.9)).unwrap());
-            let mut found = [None; 11];
+            let mut found = [Seen::default(); 2];
             sampler.flat_row(&observer, &film, [0.5, 3.5], 1.0, &mut found);
-            for (column, found) in found.iter().enumerate() {
+            for column in 0..found.len() * Seen::N {
                 n += 1;
-                let Some(found) = found else { continue };
+                let (found, idx) = (&found[column / Seen::N], column % Seen::N);
+                if !found.is_found[idx] {
+                    continue;
+                }
                 n_found += 1;
+                let light = found.light.map(|channel| channel[idx]);
                 let on_film = film.corner + (0.5 + column as f64) * across + 3.5 * down;
                 let inverse = 1.0 / on_film.length();
                 let seen = on_film * inverse;
                 let slopes = [across, down].map(|step| (step - seen.dot(step) * seen) * inverse);
                 let ray = observer.ray(seen, slopes);
                 let expected = sampler.light(&ray, 1.0).unwrap();
-                let error = (0..4).map(|i| (found.light[i] - expected[i]).abs()).fold(0.0, f32::max);
-                assert!(error < 1e-3, "{observer:?} {film:?}: {found:?}, not {expected:?}");
-                assert!((f64::from(found.doppler) / ray.doppler - 1.0).abs() < 1e-5);
+                let error = (0..4).map(|i| (light[i] - expected[i]).abs()).fold(0.0, f32::max);
+                assert!(error < 1e-3, "{observer:?} {film:?}: {light:?}, not {expected:?}");
+                assert!((f64::from(found.doppler[idx]) / ray.doppler - 1.0).abs() < 1e-5);
             }
         }
         assert!(n_found > n * 4 / 5, "{n_found} of {n}");

@@ -1,5 +1,7 @@
 //! The weights of an elliptical footprint on the sphere.
 
+use fearless_simd::prelude::*;
+use fearless_simd::{Simd, f32x8};
 use glam::DVec3;
 
 use crate::observer::SkyRay;
@@ -114,13 +116,15 @@ impl Ellipse {
 /// so that the light of a linear function is exact. Passed are sums of weight times s and t, and of
 /// the positive part times s², s t and t².
 #[inline(always)]
-pub(crate) fn correction([s, t, ss, st, tt]: [f32; 5]) -> [f32; 2] {
+pub(crate) fn correction<S: Simd>(simd: S, [s, t, ss, st, tt]: [f32x8<S>; 5]) -> [f32x8<S>; 2] {
     let determinant = ss * tt - st * st;
     // With texels along a line only, one of the two has no effect.
-    if determinant <= 1e-3 * ss * tt {
-        return [0.0; 2];
-    }
-    [(st * t - tt * s) / determinant, (st * s - ss * t) / determinant]
+    let is_regular = determinant.simd_gt(f32x8::splat(simd, 1e-3) * ss * tt);
+    let zero = f32x8::splat(simd, 0.0);
+    [
+        is_regular.select((st * t - tt * s) / determinant, zero),
+        is_regular.select((st * s - ss * t) / determinant, zero),
+    ]
 }
 
 /// atan2 within 2·10⁻⁶, which is enough to find the texels around a direction.

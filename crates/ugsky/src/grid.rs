@@ -100,9 +100,22 @@ pub(crate) struct Row {
     pub area: f32,
 }
 
+/// What the weights of the texels of a row depend on.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Line {
+    /// Sine and cosine of the latitude of its middle.
+    pub sin: f32,
+    pub cos: f32,
+    /// As those of [`Row`].
+    pub area: f32,
+    pub ladder: u32,
+}
+
 /// The cells of a level.
 pub(crate) struct Grid {
     pub rows: Vec<Row>,
+    /// The same in single precision.
+    pub lines: Vec<Line>,
     /// Segments of all rows.
     pub n_segments: usize,
     /// Height of a row and width of a column at the equator, whichever is larger; radians.
@@ -175,8 +188,15 @@ fn grid(level: usize, n_rows: usize, extent: &Extent, ladder: &[Columns]) -> Gri
         };
         Row { idx, ladder: row_ladder, offset, sin, cos, latitude, area }
     });
-    let rows = rows.collect();
-    Grid { rows, n_segments, texel: step.max(equator), rows_per_radian: 1.0 / step }
+    let rows: Vec<Row> = rows.collect();
+    let lines = rows.iter().map(|row| Line {
+        sin: row.sin as f32,
+        cos: row.cos as f32,
+        area: row.area,
+        ladder: row.ladder as u32,
+    });
+    let lines = lines.collect();
+    Grid { rows, lines, n_segments, texel: step.max(equator), rows_per_radian: 1.0 / step }
 }
 
 #[cfg(test)]

@@ -189,7 +189,7 @@ impl Panorama {
             let start = first * n_fine / n;
             let end = ((first + sum.len()) * n_fine).div_ceil(n);
             below.clear();
-            self.copy(level, row, start..end, &mut below);
+            self.for_each(level, row, start..end, |texels| texels.push_to(&mut below));
             add_reduced(&below, start, [n_fine, n], weight, first, sum);
         };
         if level == 0 {
@@ -211,23 +211,24 @@ impl Panorama {
         }
     }
 
-    /// Appends texels of a row.
-    fn copy(&self, level: usize, row: &Row, columns: Range<usize>, texels: &mut Vec<[f32; 4]>) {
+    /// Passes consecutive texels of a row on, from the left, in several parts.
+    #[inline]
+    pub(crate) fn for_each(
+        &self,
+        level: usize,
+        row: &Row,
+        columns: Range<usize>,
+        mut take: impl FnMut(RowTexels<'_>),
+    ) {
         if level == 0 && row.ladder == 0 {
-            let given = self.given(row.offset + columns.start..row.offset + columns.end);
-            return match given {
-                RowTexels::Srgb(given, decoder) => {
-                    texels.extend(given.iter().map(|&texel| decoder.light(texel)));
-                }
-                RowTexels::Light(given) => texels.extend_from_slice(given),
-            };
+            return take(self.given(row.offset + columns.start..row.offset + columns.end));
         }
         let mut at = columns.start;
         while at < columns.end {
             let segment = self.segment(level, row, at / SEGMENT);
             let end = columns.end.min((at / SEGMENT + 1) * SEGMENT);
             let offset = at - at % SEGMENT;
-            texels.extend_from_slice(&segment[at - offset..end - offset]);
+            take(RowTexels::Light(&segment[at - offset..end - offset]));
             at = end;
         }
     }
@@ -254,42 +255,43 @@ pub(crate) fn premultiply(texel: &mut [f32; 4]) {
 }
 
 /// Light of 8-bit colours.
-pub(crate) struct Decoder {
-    /// Red, green and blue in their places, and alpha 1 with red: their sum is the light of an
-    /// opaque texel.
-    parts: Box<[[[f32; 4]; 256]; 3]>,
-}
+pub(crate) struct Decoder(Box<[f32; 256]>);
 
 impl Decoder {
     fn new() -> Self {
-        let part = |channel: usize| {
-            std::array::from_fn(|level| {
-                let mut light = [0.0; 4];
-                light[channel] = srgb_decode(level as f64 / 255.0) as f32;
-                light[3] = if channel == 0 { 1.0 } else { 0.0 };
-                light
-            })
-        };
-        Self { parts: Box::new([part(0), part(1), part(2)]) }
-    }
-
-    /// The parts of an opaque colour, which are to be added.
-    #[inline(always)]
-    pub fn parts(&self, [red, green, blue, _]: [u8; 4]) -> [&[f32; 4]; 3] {
-        let [reds, greens, blues] = &*self.parts;
-        [&reds[usize::from(red)], &greens[usize::from(green)], &blues[usize::from(blue)]]
+        Self(Box::new(std::array::from_fn(|level| srgb_decode(level as f64 / 255.0) as f32)))
     }
 
     /// Light times alpha, and alpha.
     #[inline(always)]
-    pub fn light(&self, texel: [u8; 4]) -> [f32; 4] {
-        let [red, green, blue] = self.parts(texel);
-        let light = [red[0], green[1], blue[2], 1.0];
-        if texel[3] == 255 {
-            return light;
+    pub fn light(&self, [red, green, blue, alpha]: [u8; 4]) -> [f32; 4] {
+        let [red, green, blue] = [red, green, blue].map(|level| self.0[usize::from(level)]);
+        if alpha == 255 {
+            return [red, green, blue, 1.0];
         }
-        let alpha = f32::from(texel[3]) / 255.0;
-        light.map(|part| alpha * part)
+        let alpha = f32::from(alpha) / 255.0;
+        [alpha * red, alpha * green, alpha * blue, alpha]
+    }
+
+    /// Sets the channels of texels, from a place on.
+    pub fn decode<const N: usize>(&self, texels: &[[u8; 4]], planes: &mut [[f32; N]; 4], at: usize) {
+        let n = texels.len().min(N - at);
+        let [reds, greens, blues, alphas] = planes;
+        let places = reds[at..at + n].iter_mut().zip(&mut greens[at..at + n]).zip(&mut blues[at..at + n]);
+        for (((red, green), blue), texel) in places.zip(texels) {
+            *red = self.0[usize::from(texel[0])];
+            *green = self.0[usize::from(texel[1])];
+            *blue = self.0[usize::from(texel[2])];
+        }
+        let alphas = &mut alphas[at..at + n];
+        alphas.fill(1.0);
+        if texels.iter().fold(255, |all, texel| all & texel[3]) < 255 {
+            for (idx, &texel) in texels.iter().enumerate().take(n) {
+                let light = self.light(texel);
+                (reds[at + idx], greens[at + idx], blues[at + idx]) = (light[0], light[1], light[2]);
+                alphas[idx] = light[3];
+            }
+        }
     }
 }
 
@@ -301,6 +303,22 @@ pub(crate) enum RowTexels<'a> {
 }
 
 impl RowTexels<'_> {
+    /// Number of texels.
+    pub fn len(&self) -> usize {
+        match self {
+            Self::Srgb(texels, _) => texels.len(),
+            Self::Light(texels) => texels.len(),
+        }
+    }
+
+    /// Appends all to a list: light times alpha, and alpha.
+    fn push_to(&self, list: &mut Vec<[f32; 4]>) {
+        match self {
+            Self::Srgb(texels, decoder) => list.extend(texels.iter().map(|&texel| decoder.light(texel))),
+            Self::Light(texels) => list.extend_from_slice(texels),
+        }
+    }
+
     /// A texel: light times alpha, and alpha.
     #[inline]
     pub fn get(&self, idx: usize) -> [f32; 4] {

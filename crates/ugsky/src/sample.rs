@@ -2,20 +2,21 @@
 
 use core::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use fearless_simd::{Level, Simd, dispatch};
+use fearless_simd::prelude::*;
+use fearless_simd::{Level, Simd, dispatch, f32x8};
 use glam::DVec3;
 
 use crate::footprint::{CURVED, Ellipse, Kernel, SLACK, correction, near_atan2};
 use crate::grid::{CHUNK, Columns, Grid, PAD, Row};
 use crate::observer::SkyRay;
 use crate::panorama::Panorama;
-use crate::window::{self, Scratch};
+use crate::window::{self, Buffers};
 
 /// Finds the light of footprints in a panorama.
 pub struct Sampler<'a> {
     pub(crate) panorama: &'a Panorama,
     pub(crate) simd: Level,
-    pub(crate) scratch: Box<Scratch>,
+    pub(crate) buffers: Buffers,
     runs: Vec<Run>,
     /// The weights of all runs, each in whole chunks.
     chunks: Vec<Weights>,
@@ -53,7 +54,7 @@ impl Panorama {
         Sampler {
             panorama: self,
             simd: Level::new(),
-            scratch: Box::default(),
+            buffers: Buffers::new(),
             runs: Vec::new(),
             chunks: Vec::new(),
             moments: Moments::default(),
@@ -82,7 +83,7 @@ impl Sampler<'_> {
         let sky = self.panorama;
         let level = sky.level_of(ellipse.small_square());
         let kernel = ellipse.kernel(sky.grids[level].texel, sky.grids[0].texel);
-        let light = window::light(simd, sky, level, &kernel, ray.direction, &mut self.scratch);
+        let light = window::light(simd, sky, level, &kernel, ray.direction, &mut self.buffers);
         light.or_else(|| Some(self.light_anywhere(level, &kernel, ray.direction)))
     }
 
@@ -220,7 +221,10 @@ impl Sampler<'_> {
     /// The weighted mean of the light of the texels.
     fn sum(&self, level: usize) -> [f32; 4] {
         let sky = self.panorama;
-        let [across, along] = self.moments.correction();
+        let [across, along] = dispatch!(self.simd, simd => {
+            let moments = self.moments.0.map(|lanes| f32x8::splat(simd, lanes.iter().sum::<f32>()));
+            correction(simd, moments).map(|factors| factors[0])
+        });
         let (mut light, mut total) = ([0.0_f32; 4], [0.0_f32; CHUNK]);
         let mut chunks = self.chunks.iter();
         for run in &self.runs {
@@ -258,14 +262,6 @@ fn add_texels(sky: &Panorama, level: usize, row: &Row, column: i64, weights: &[f
     for (idx, weight) in weights[(first - column) as usize..(end - column) as usize].iter().enumerate() {
         let texel = texels.get(idx);
         (0..4).for_each(|channel| light[channel] += weight * texel[channel]);
-    }
-}
-
-impl Moments {
-    /// The factors of s and t in the positive part with which the first moments vanish, so that the
-    /// light of a linear function is exact.
-    fn correction(&self) -> [f32; 2] {
-        correction(self.0.map(|lanes| lanes.iter().sum::<f32>()))
     }
 }
 

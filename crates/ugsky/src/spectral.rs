@@ -119,8 +119,8 @@ impl SpectralTable {
     /// Linear red, green and blue as seen with a Doppler factor. Neither is clipped.
     #[must_use]
     #[inline]
-    pub fn seen(&self, rgb: [f32; 3], ln_doppler: f64) -> [f32; 3] {
-        let shift = if self.doppler { ln_doppler } else { 0.0 };
+    pub fn seen(&self, rgb: [f32; 3], doppler: f64) -> [f32; 3] {
+        let shift = if self.doppler { libm::log(doppler) } else { 0.0 };
         let seen = match &self.kind {
             Kind::Linear { first, maps } => {
                 let (idx, part) = place(shift, *first, STEP, maps.len());
@@ -136,7 +136,8 @@ impl SpectralTable {
         if !self.flux {
             return seen;
         }
-        let gain = libm::exp(5.0 * ln_doppler) as f32;
+        let square = doppler * doppler;
+        let gain = (square * square * doppler) as f32;
         seen.map(|part| part * gain)
     }
 }
@@ -263,9 +264,9 @@ struct SmoothTable {
     /// ln D of the first column, and the number of columns.
     first: f64,
     n: usize,
-    /// The light of white by ln D, and its logarithm.
+    /// The light of white by ln D: in each column, and in [`WHITE_STEPS`] steps between columns.
     white: Vec<f64>,
-    ln_white: Vec<f32>,
+    white_steps: Vec<f32>,
     /// Reflectances whose brightest channel is [`REFLECTANCE`]. Each is computed when it is first
     /// needed, because a picture uses few of all tabulated colours.
     surfaces: Vec<OnceLock<Spectrum>>,
@@ -273,6 +274,9 @@ struct SmoothTable {
     /// all second ratios. Computed when first needed, because a view uses few of all Doppler factors.
     strips: Vec<OnceLock<Box<[LightBlock]>>>,
 }
+
+/// Steps of the light of white from one column to the next, between which it is linear.
+const WHITE_STEPS: usize = 16;
 
 /// Columns of a block: so many that a [`LightBlock`] fills a line of the processor's cache.
 const BLOCK: usize = 4;
@@ -288,11 +292,18 @@ impl SmoothTable {
         let spectrum = Spectrum::from_linear_srgb([REFLECTANCE; 3]);
         let at = |idx: usize| luminance(xyz_to_linear_srgb(grid.xyz(&spectrum, ln_doppler(first, idx))));
         let white: Vec<f64> = (0..n).into_par_iter().map(|idx| at(idx) / REFLECTANCE).collect();
-        let ln_white = white.iter().map(|part| libm::log(part.max(1e-300)) as f32).collect();
+        let ln_white: Vec<f64> = white.iter().map(|part| libm::log(part.max(1e-300))).collect();
+        let step = |idx: usize| {
+            let at = idx as f64 / WHITE_STEPS as f64;
+            let column = (at as usize).min(n - 2);
+            let part = at - column as f64;
+            libm::exp(ln_white[column] + part * (ln_white[column + 1] - ln_white[column])) as f32
+        };
+        let white_steps = (0..=(n - 1) * WHITE_STEPS).map(step).collect();
         let n_ratios = n_ratios(reach);
         let surfaces = (0..3 * n_ratios * n_ratios).map(|_| OnceLock::new()).collect();
         let strips = (0..n.div_ceil(BLOCK) * 3 * n_ratios).map(|_| OnceLock::new()).collect();
-        Self { grid, range, n_ratios, first, n, white, ln_white, surfaces, strips }
+        Self { grid, range, n_ratios, first, n, white, white_steps, surfaces, strips }
     }
 
     /// The light of the surfaces with a brightest channel and a first ratio in a block.
@@ -356,8 +367,9 @@ impl SmoothTable {
                 (0..3).for_each(|c| sum[c] += weight * (low[c] + part * (high[c] - low[c])));
             }
         }
-        let white = self.ln_white[at] + part * (self.ln_white[at + 1] - self.ln_white[at]);
-        let light = libm::expf(white) * most;
+        let (step, rest) = place(shift, self.first, SMOOTH_STEP / WHITE_STEPS as f64, self.white_steps.len());
+        let (low, high) = (self.white_steps[step], self.white_steps[step + 1]);
+        let light = (low + rest * (high - low)) * most;
         sum.map(|part| light * part)
     }
 }
@@ -382,7 +394,7 @@ mod tests {
         for basis in &bases()[..2] {
             let table = SpectralTable::new(*basis, true, true, 1.0, ALL_NM).unwrap();
             for rgb in COLORS {
-                let seen = table.seen(rgb, 0.0);
+                let seen = table.seen(rgb, 1.0);
                 let error = (0..3).map(|i| (seen[i] - rgb[i]).abs()).fold(0.0, f32::max);
                 assert!(error < 2e-5, "{basis:?} {rgb:?} {seen:?}");
             }
@@ -401,7 +413,7 @@ mod tests {
                 let step = if basis == Basis::BlackBody { 0.0987 } else { 0.0387 };
                 for at in -12..=12 {
                     let ln_doppler = step * f64::from(at);
-                    let seen = table.seen(rgb, ln_doppler).map(f64::from);
+                    let seen = table.seen(rgb, libm::exp(ln_doppler)).map(f64::from);
                     let [x, y, z] = linear_srgb_to_xyz(seen);
                     let [x0, y0, z0] = body.seen(libm::exp(ln_doppler));
                     let (sum, sum0) = (x + y + z, x0 + y0 + z0);
@@ -421,7 +433,7 @@ mod tests {
             let spectrum = Spectrum::from_linear_srgb(rgb.map(f64::from));
             for step in -9..=9 {
                 let ln_doppler = 0.1037 * f64::from(step);
-                let seen = table.seen(rgb, ln_doppler).map(f64::from);
+                let seen = table.seen(rgb, libm::exp(ln_doppler)).map(f64::from);
                 let exact = xyz_to_linear_srgb(spectrum.seen(libm::exp(ln_doppler)));
                 let size = exact.iter().fold(1e-6, |most: f64, part| most.max(part.abs()));
                 let error = (0..3).map(|i| (seen[i] - exact[i]).abs() / size).fold(0.0, f64::max);
@@ -444,7 +456,7 @@ mod tests {
             }
             let spectrum = Spectrum::from_linear_srgb(rgb);
             for ln_doppler in [-0.537, -0.241, 0.241, 0.537] {
-                let seen = table.seen(rgb.map(|part| part as f32), ln_doppler).map(f64::from);
+                let seen = table.seen(rgb.map(|part| part as f32), libm::exp(ln_doppler)).map(f64::from);
                 let exact = xyz_to_linear_srgb(spectrum.seen(libm::exp(ln_doppler)));
                 let size = exact.iter().fold(1e-6, |most: f64, part| most.max(part.abs()));
                 let error = (0..3).map(|i| (seen[i] - exact[i]).abs() / size).fold(0.0, f64::max);
@@ -471,16 +483,18 @@ mod tests {
             let table = |range| SpectralTable::new(basis, true, true, 1.0, range).unwrap();
             let (whole, parts) = (table(ALL_NM), ranges.clone().map(table));
             // At rest only visible light is seen.
-            assert!([0, 2].iter().all(|&part| parts[part].seen(grey, 0.0).iter().all(|c| c.abs() < 1e-6)));
+            assert!([0, 2].iter().all(|&part| parts[part].seen(grey, 1.0).iter().all(|c| c.abs() < 1e-6)));
             for ln_doppler in [-0.93, -0.4, -0.02, 0.0, 0.3, 0.77] {
-                let all = whole.seen(grey, ln_doppler);
-                let sum: [f32; 3] =
-                    std::array::from_fn(|i| parts.iter().map(|part| part.seen(grey, ln_doppler)[i]).sum());
+                let all = whole.seen(grey, libm::exp(ln_doppler));
+                let sum: [f32; 3] = std::array::from_fn(|i| {
+                    parts.iter().map(|part| part.seen(grey, libm::exp(ln_doppler))[i]).sum()
+                });
                 let error = (0..3).map(|i| (sum[i] / all[i] - 1.0).abs()).fold(0.0, f32::max);
                 assert!(error < 3e-3, "{basis:?} {ln_doppler}: {sum:?} {all:?}");
             }
             // Infrared light is seen when it approaches, ultraviolet light when it recedes.
-            let brightness = |part: &SpectralTable, ln| luminance(part.seen(grey, ln).map(f64::from));
+            let brightness =
+                |part: &SpectralTable, ln| luminance(part.seen(grey, libm::exp(ln)).map(f64::from));
             assert!(brightness(&parts[2], 0.77) > 0.1 && brightness(&parts[2], -0.77) == 0.0);
             assert!(brightness(&parts[0], -0.77) > 1e-4 && brightness(&parts[0], 0.77) == 0.0);
         }

@@ -1,8 +1,8 @@
 //! The light of most footprints: away from poles and edges, where all rows of an ellipse have the
-//! same columns, and few.
+//! same columns, and few. That of eight footprints is found together.
 //!
-//! Weights are computed for a whole window, eight columns at once. There is no fused
-//! multiplication and addition, so all processors compute the same.
+//! Weights are computed for eight columns of a row at once. There is no fused multiplication and
+//! addition, so all processors compute the same.
 
 use core::f64::consts::TAU;
 
@@ -10,56 +10,26 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x4, f32x8};
 use glam::DVec3;
 
+use crate::blocks::{Block, Blocks, WIDTH};
 use crate::footprint::{CURVED, Kernel, SLACK, correction, near_atan2};
-use crate::grid::{APRON, CHUNK, PAD, Row};
-use crate::panorama::{Decoder, Panorama, RowTexels};
+use crate::grid::{APRON, CHUNK, PAD};
+use crate::panorama::Panorama;
 
 /// Most rows of a window. Its columns are at most [`APRON`].
-const ROWS: usize = 16;
+pub(crate) const ROWS: usize = 16;
 
-const CHUNKS: usize = ROWS * APRON / CHUNK;
+/// Footprints whose light is found together.
+pub(crate) const EACH: usize = 8;
 
-/// The weights of a window: of the kernel, and of its positive part times s and times t.
-pub(crate) type Scratch = [[[f32; CHUNK]; 3]; CHUNKS];
-
-/// What is needed of an ellipse to weigh texels.
+/// Eight footprints.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Footprint {
-    pub level: usize,
-    /// The kernel: q = (a·d)² + (b·d)², and c.
-    pub a: [f32; 3],
-    pub b: [f32; 3],
-    pub c: f32,
-    /// The first and the last row that it may cover; NaN where circles of latitude are too curved.
-    pub rows: [f32; 2],
-    /// The longitude of its middle, and half its width in radians on the sphere.
-    pub longitude: f32,
-    pub half: f32,
-}
-
-impl Footprint {
-    #[inline(always)]
-    fn new(sky: &Panorama, level: usize, kernel: &Kernel, center: DVec3) -> Self {
-        let grid = &sky.grids[level];
-        let cos = (center.x * center.x + center.y * center.y).sqrt();
-        let latitude = near_atan2(center.z, cos);
-        let reach = reach(kernel.matrix[2].sqrt()) * grid.rows_per_radian;
-        let row = (sky.extent().latitudes[1] - latitude) * grid.rows_per_radian - 0.5;
-        let is_curved = kernel.radius * center.z.abs() > CURVED * cos;
-        Self {
-            level,
-            a: kernel.a.as_vec3().to_array(),
-            b: kernel.b.as_vec3().to_array(),
-            c: kernel.c,
-            rows: if is_curved {
-                [f32::NAN; 2]
-            } else {
-                [(row - reach).ceil() as f32, (row + reach).floor() as f32]
-            },
-            longitude: near_atan2(center.x, center.y) as f32,
-            half: ((1.0 + SLACK) * kernel.matrix[0].sqrt()) as f32,
-        }
-    }
+pub(crate) struct Footprints {
+    /// Their kernels, by coordinate: q = (a·d)² + (b·d)², and c.
+    pub a: [[f32; EACH]; 3],
+    pub b: [[f32; EACH]; 3],
+    pub c: [f32; EACH],
+    /// Their texels. `None` where there is no footprint that can be summed here.
+    pub windows: [Option<Window>; EACH],
 }
 
 /// An angle not below asin r, as asin r < r + 0.21 r³ for r < 0.6.
@@ -68,30 +38,43 @@ fn reach(r: f64) -> f64 {
     r + 0.21 * r * r * r
 }
 
-/// The rows and columns that an ellipse may cover.
-struct Window {
-    rows: [usize; 2],
-    column: usize,
-    n_columns: usize,
+/// The texels that an ellipse may cover.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Window {
+    pub level: u32,
+    /// Index in the ladder of columns.
+    pub ladder: u32,
+    /// The first row and the first column.
+    pub row: u32,
+    pub column: u32,
+    pub n_rows: u32,
+    pub n_columns: u32,
 }
 
 impl Window {
     /// Returns `None` near poles and edges, and if the ellipse is large.
     #[inline(always)]
-    fn new(sky: &Panorama, footprint: &Footprint) -> Option<Self> {
-        let grid = &sky.grids[footprint.level];
-        let [first, last] = footprint.rows;
-        if !(first >= 0.0 && last < grid.rows.len() as f32 && last - first < ROWS as f32) {
+    fn new(sky: &Panorama, level: usize, kernel: &Kernel, center: DVec3) -> Option<Self> {
+        let grid = &sky.grids[level];
+        let cos = (center.x * center.x + center.y * center.y).sqrt();
+        if kernel.radius * center.z.abs() > CURVED * cos {
             return None;
         }
-        let rows = [first as usize, last as usize];
-        let (top, bottom) = (&grid.rows[rows[0]], &grid.rows[rows[1]]);
+        let latitude = near_atan2(center.z, cos);
+        let up = reach(kernel.matrix[2].sqrt()) * grid.rows_per_radian;
+        let row = (sky.extent().latitudes[1] - latitude) * grid.rows_per_radian - 0.5;
+        let (first, last) = ((row - up).ceil(), (row + up).floor());
+        if !is_window(first, last, grid.rows.len(), ROWS) {
+            return None;
+        }
+        let (row, n_rows) = (first as u32, (last - first) as u32 + 1);
+        let [top, bottom] = [first, last].map(|idx| &grid.rows[idx as usize]);
         if top.ladder != bottom.ladder {
             return None;
         }
         let columns = &sky.ladder[top.ladder];
         let [west, east] = sky.extent().longitudes;
-        let longitude = f64::from(footprint.longitude);
+        let longitude = near_atan2(center.x, center.y);
         let turned = if longitude < west {
             longitude + TAU
         } else if longitude > east {
@@ -99,13 +82,44 @@ impl Window {
         } else {
             longitude
         };
-        let half = f64::from(footprint.half) / top.cos.min(bottom.cos) * columns.per_radian;
-        let column = (turned - west) * columns.per_radian - 0.5;
-        let (first, last) = ((column - half).ceil(), (column + half).floor());
-        if !(first >= 0.0 && last < columns.n as f64 && last - first < APRON as f64) {
-            return None;
-        }
-        Some(Self { rows, column: first as usize, n_columns: (last - first) as usize + 1 })
+        let width = (1.0 + SLACK) * kernel.matrix[0].sqrt();
+        let half = width / top.cos.min(bottom.cos) * columns.per_radian;
+        let at = (turned - west) * columns.per_radian - 0.5;
+        let (first, last) = ((at - half).ceil(), (at + half).floor());
+        is_window(first, last, columns.n, APRON).then(|| Self {
+            level: level as u32,
+            ladder: top.ladder as u32,
+            row,
+            column: first as u32,
+            n_rows,
+            n_columns: (last - first) as u32 + 1,
+        })
+    }
+}
+
+/// True if indices are below `n` and not more than `most`.
+#[inline(always)]
+pub(crate) fn is_window(first: f64, last: f64, n: usize, most: usize) -> bool {
+    first >= 0.0 && last < n as f64 && last >= first && last - first < most as f64
+}
+
+/// The weights of a window by chunk and row: of the kernel, and of its positive part times s and
+/// times t.
+type Weights = [[[[f32; CHUNK]; 3]; ROWS]; APRON / CHUNK];
+
+/// Sums over the texels of a window: weight times s, weight times t, and positive part times s², s t
+/// and t².
+type Moments<S> = [f32x8<S>; 5];
+
+/// Buffers for the light of footprints.
+pub(crate) struct Buffers {
+    weights: Box<[Weights; EACH]>,
+    blocks: Blocks,
+}
+
+impl Buffers {
+    pub fn new() -> Self {
+        Self { weights: Box::default(), blocks: Blocks::new() }
     }
 }
 
@@ -117,189 +131,159 @@ pub(crate) fn light<S: Simd>(
     level: usize,
     kernel: &Kernel,
     center: DVec3,
-    scratch: &mut Scratch,
+    buffers: &mut Buffers,
 ) -> Option<[f32; 4]> {
-    light_of(simd, sky, &Footprint::new(sky, level, kernel, center), scratch)
+    let mut one = Footprints::default();
+    one.windows[0] = Some(Window::new(sky, level, kernel, center)?);
+    let (a, b) = (kernel.a.as_vec3().to_array(), kernel.b.as_vec3().to_array());
+    (0..3).for_each(|axis| (one.a[axis][0], one.b[axis][0]) = (a[axis], b[axis]));
+    one.c[0] = kernel.c;
+    Some(lights(simd, sky, &one, buffers).map(|channel| channel[0]))
 }
 
-/// The same of a footprint.
+/// The mean light of eight ellipses: red, green and blue times alpha, and alpha. Nothing where there
+/// is no window.
 #[inline(always)]
-pub(crate) fn light_of<S: Simd>(
+pub(crate) fn lights<S: Simd>(
     simd: S,
     sky: &Panorama,
-    footprint: &Footprint,
-    scratch: &mut Scratch,
-) -> Option<[f32; 4]> {
-    let window = Window::new(sky, footprint)?;
-    let level = footprint.level;
-    let rows = &sky.grids[level].rows[window.rows[0]..=window.rows[1]];
-    let columns = &sky.ladder[rows[0].ladder];
-    let pad = if sky.extent().is_closed() { 0 } else { PAD };
-    let n_chunks = window.n_columns.div_ceil(CHUNK);
-
-    let one = f32x8::splat(simd, 1.0);
+    footprints: &Footprints,
+    buffers: &mut Buffers,
+) -> [[f32; EACH]; 4] {
     let zero = f32x8::splat(simd, 0.0);
-    let c = f32x8::splat(simd, footprint.c);
-    let mut sums = Sums::new(zero);
-    let mut idx = 0;
-    for row in rows {
-        let across = Line::new(simd, &footprint.a, row);
-        let along = Line::new(simd, &footprint.b, row);
-        let area = f32x8::splat(simd, row.area);
-        for chunk in 0..n_chunks {
-            let at = window.column + pad + CHUNK * chunk;
-            let cos = f32x8::from_slice(simd, &columns.cos[at..at + CHUNK]);
-            let sin = f32x8::from_slice(simd, &columns.sin[at..at + CHUNK]);
-            let s = across.at(cos, sin);
-            let t = along.at(cos, sin);
+    let mut moments = [[zero; 5]; EACH];
+    for (idx, (moments, weights)) in moments.iter_mut().zip(buffers.weights.iter_mut()).enumerate() {
+        if let Some(window) = &footprints.windows[idx] {
+            *moments = weigh(simd, sky, footprints, idx, window, weights);
+        }
+    }
+    let moments = totals(simd, &moments);
+    let [across, along] = correction(simd, moments);
+    let (across, along): ([f32; EACH], [f32; EACH]) = (across.into(), along.into());
+
+    let mut sums = [[zero; 5]; EACH];
+    for (idx, (sums, weights)) in sums.iter_mut().zip(buffers.weights.iter()).enumerate() {
+        if let Some(window) = &footprints.windows[idx] {
+            *sums = sum(simd, sky, window, weights, [across[idx], along[idx]], &mut buffers.blocks);
+        }
+    }
+    let [total, red, green, blue, alpha] = totals(simd, &sums);
+    let is_any = total.simd_gt(zero);
+    let scale = is_any.select(f32x8::splat(simd, 1.0) / total, zero);
+    // Exactly 1 if all texels are opaque.
+    let alpha = is_any.select(alpha / total, zero);
+    [(red * scale).into(), (green * scale).into(), (blue * scale).into(), alpha.into()]
+}
+
+/// Computes the weights of a window.
+#[inline(always)]
+fn weigh<S: Simd>(
+    simd: S,
+    sky: &Panorama,
+    footprints: &Footprints,
+    idx: usize,
+    window: &Window,
+    weights: &mut Weights,
+) -> Moments<S> {
+    let grid = &sky.grids[window.level as usize];
+    let columns = &sky.ladder[window.ladder as usize];
+    let pad = if sky.extent().is_closed() { 0 } else { PAD };
+    let (one, zero) = (f32x8::splat(simd, 1.0), f32x8::splat(simd, 0.0));
+    let c = f32x8::splat(simd, footprints.c[idx]);
+    let (a_x, a_y) = (f32x8::splat(simd, footprints.a[0][idx]), f32x8::splat(simd, footprints.a[1][idx]));
+    let (b_x, b_y) = (f32x8::splat(simd, footprints.b[0][idx]), f32x8::splat(simd, footprints.b[1][idx]));
+    let (a_z, b_z) = (footprints.a[2][idx], footprints.b[2][idx]);
+    let lines = &grid.lines[window.row as usize..][..window.n_rows as usize];
+    let mut moments = [zero; 5];
+    let n_chunks = (window.n_columns as usize).div_ceil(CHUNK);
+    for (chunk, weights) in weights.iter_mut().enumerate().take(n_chunks) {
+        let at = window.column as usize + pad + CHUNK * chunk;
+        let cos = f32x8::from_slice(simd, &columns.cos[at..at + CHUNK]);
+        let sin = f32x8::from_slice(simd, &columns.sin[at..at + CHUNK]);
+        // The dot products of a and b with the horizontal directions of the columns.
+        let level_a = a_x * sin + a_y * cos;
+        let level_b = b_x * sin + b_y * cos;
+        for (line, stored) in lines.iter().zip(weights) {
+            let cos = f32x8::splat(simd, line.cos);
+            let s = cos * level_a + f32x8::splat(simd, line.sin * a_z);
+            let t = cos * level_b + f32x8::splat(simd, line.sin * b_z);
             let q = s * s + t * t;
             let rest = (one - q).max(zero);
-            let positive = area * rest * rest;
+            let positive = f32x8::splat(simd, line.area) * rest * rest;
             let weight = positive * (one - c * q);
             let (by_s, by_t) = (positive * s, positive * t);
-            sums.s += weight * s;
-            sums.t += weight * t;
-            sums.ss += by_s * s;
-            sums.st += by_s * t;
-            sums.tt += by_t * t;
-            sums.total += weight;
-            sums.by_s += by_s;
-            sums.by_t += by_t;
-            let stored = &mut scratch[idx % CHUNKS];
+            moments[0] += weight * s;
+            moments[1] += weight * t;
+            moments[2] += by_s * s;
+            moments[3] += by_s * t;
+            moments[4] += by_t * t;
             weight.store_slice(&mut stored[0]);
             by_s.store_slice(&mut stored[1]);
             by_t.store_slice(&mut stored[2]);
-            idx += 1;
         }
     }
-    let moments = [lanes(sums.s), lanes(sums.t), lanes(sums.ss), lanes(sums.st), lanes(sums.tt)];
-    let [across, along] = correction(moments);
-    let total = lanes(sums.total) + across * lanes(sums.by_s) + along * lanes(sums.by_t);
-    if total <= 0.0 {
-        return Some([0.0; 4]);
-    }
+    moments
+}
 
-    let across = f32x8::splat(simd, across);
-    let along = f32x8::splat(simd, along);
-    let dark = f32x4::splat(simd, 0.0);
-    let (mut even, mut odd) = (dark, dark);
-    let mut idx = 0;
-    for row in rows {
-        let texels = sky.texels(level, row, window.column, window.n_columns);
-        let mut rest = window.n_columns;
-        for chunk in 0..n_chunks {
-            let stored = &scratch[idx % CHUNKS];
-            let weight = f32x8::from_slice(simd, &stored[0]);
-            let by_s = f32x8::from_slice(simd, &stored[1]);
-            let by_t = f32x8::from_slice(simd, &stored[2]);
-            let weights: [f32; CHUNK] = (weight + across * by_s + along * by_t).into();
-            let n = rest.min(CHUNK);
-            match texels {
-                RowTexels::Light(texels) => {
-                    let texels = &texels[CHUNK * chunk..];
-                    let texels = &texels[..n];
-                    let mut k = 0;
-                    while k + 1 < n {
-                        even += weighted(simd, weights[k % CHUNK], &texels[k]);
-                        odd += weighted(simd, weights[(k + 1) % CHUNK], &texels[k + 1]);
-                        k += 2;
-                    }
-                    if k < n {
-                        even += weighted(simd, weights[k % CHUNK], &texels[k]);
-                    }
-                }
-                RowTexels::Srgb(texels, decoder) => {
-                    let texels = &texels[CHUNK * chunk..];
-                    let texels = &texels[..n];
-                    let is_opaque = texels.iter().fold(255, |all, texel| all & texel[3]) == 255;
-                    if is_opaque {
-                        let mut k = 0;
-                        while k + 1 < n {
-                            even += weighted_opaque(simd, weights[k % CHUNK], decoder, texels[k]);
-                            odd += weighted_opaque(simd, weights[(k + 1) % CHUNK], decoder, texels[k + 1]);
-                            k += 2;
-                        }
-                        if k < n {
-                            even += weighted_opaque(simd, weights[k % CHUNK], decoder, texels[k]);
-                        }
-                    } else {
-                        for k in 0..n {
-                            even += weighted(simd, weights[k % CHUNK], &decoder.light(texels[k]));
-                        }
-                    }
-                }
+/// Sums over the texels of a window: weight; and red, green, blue and alpha times weight. Passed are
+/// the factors of [`correction`].
+#[inline(always)]
+fn sum<S: Simd>(
+    simd: S,
+    sky: &Panorama,
+    window: &Window,
+    weights: &Weights,
+    factors: [f32; 2],
+    blocks: &mut Blocks,
+) -> [f32x8<S>; 5] {
+    let (across, along) = (f32x8::splat(simd, factors[0]), f32x8::splat(simd, factors[1]));
+    let mut sums = [f32x8::splat(simd, 0.0); 5];
+    let (blocks, at) = blocks.at(sky, window);
+    let (row, n_rows) = (window.row as usize, window.n_rows as usize);
+    let n_chunks = (window.n_columns as usize).div_ceil(CHUNK);
+    for (chunk, weights) in weights.iter().enumerate().take(n_chunks) {
+        let at = (at + CHUNK * chunk).min(WIDTH - CHUNK);
+        for (idx, [weight, by_s, by_t]) in weights.iter().enumerate().take(n_rows) {
+            let weight = f32x8::from_slice(simd, weight);
+            let by_s = f32x8::from_slice(simd, by_s);
+            let by_t = f32x8::from_slice(simd, by_t);
+            let weight = weight + across * by_s + along * by_t;
+            sums[0] += weight;
+            let Block(planes) = &blocks[(row + idx) % blocks.len()];
+            for (sum, plane) in sums[1..].iter_mut().zip(planes) {
+                *sum += weight * f32x8::from_slice(simd, &plane[at..at + CHUNK]);
             }
-            rest -= n;
-            idx += 1;
         }
     }
-    Some(((even + odd) * f32x4::splat(simd, 1.0 / total)).into())
+    sums
 }
 
+/// The sums of the lanes of each vector: for each part, those of eight footprints.
 #[inline(always)]
-fn weighted<S: Simd>(simd: S, weight: f32, texel: &[f32; 4]) -> f32x4<S> {
-    f32x4::splat(simd, weight) * f32x4::from_slice(simd, texel)
+fn totals<S: Simd, const N: usize>(simd: S, vectors: &[[f32x8<S>; N]; EACH]) -> [f32x8<S>; N] {
+    let mut totals = [f32x8::splat(simd, 0.0); N];
+    for (part, total) in totals.iter_mut().enumerate() {
+        let [a, b, c, d, e, f, g, h] = vectors;
+        let first = lanes(a[part], b[part], c[part], d[part]);
+        *total = simd.combine_f32x4(first, lanes(e[part], f[part], g[part], h[part]));
+    }
+    totals
 }
 
-/// The same of an opaque colour.
+/// The sums of the lanes of four vectors, in the same order on every processor.
 #[inline(always)]
-fn weighted_opaque<S: Simd>(simd: S, weight: f32, decoder: &Decoder, texel: [u8; 4]) -> f32x4<S> {
-    let [red, green, blue] = decoder.parts(texel);
-    let parts = f32x4::from_slice(simd, red) + f32x4::from_slice(simd, green);
-    f32x4::splat(simd, weight) * (parts + f32x4::from_slice(simd, blue))
+fn lanes<S: Simd>(a: f32x8<S>, b: f32x8<S>, c: f32x8<S>, d: f32x8<S>) -> f32x4<S> {
+    let (a, b, c, d) = (halved(a), halved(b), halved(c), halved(d));
+    let ac = a.zip_low(c) + a.zip_high(c);
+    let bd = b.zip_low(d) + b.zip_high(d);
+    ac.zip_low(bd) + ac.zip_high(bd)
 }
 
-/// Sums over the texels of a window.
-struct Sums<S: Simd> {
-    /// Weight times s, weight times t, and positive part times s², s t and t².
-    s: f32x8<S>,
-    t: f32x8<S>,
-    ss: f32x8<S>,
-    st: f32x8<S>,
-    tt: f32x8<S>,
-    /// Weight, and positive part times s and times t.
-    total: f32x8<S>,
-    by_s: f32x8<S>,
-    by_t: f32x8<S>,
-}
-
-impl<S: Simd> Sums<S> {
-    #[inline(always)]
-    fn new(zero: f32x8<S>) -> Self {
-        Self { s: zero, t: zero, ss: zero, st: zero, tt: zero, total: zero, by_s: zero, by_t: zero }
-    }
-}
-
-/// Dot product of a vector with the directions of one latitude: `level + by_cos cos λ +
-/// by_sin sin λ` at the longitude λ.
-struct Line<S: Simd> {
-    by_cos: f32x8<S>,
-    by_sin: f32x8<S>,
-    level: f32x8<S>,
-}
-
-impl<S: Simd> Line<S> {
-    #[inline(always)]
-    fn new(simd: S, [x, y, z]: &[f32; 3], row: &Row) -> Self {
-        let (cos, sin) = (row.cos as f32, row.sin as f32);
-        Self {
-            by_cos: f32x8::splat(simd, y * cos),
-            by_sin: f32x8::splat(simd, x * cos),
-            level: f32x8::splat(simd, z * sin),
-        }
-    }
-
-    #[inline(always)]
-    fn at(&self, cos: f32x8<S>, sin: f32x8<S>) -> f32x8<S> {
-        self.by_cos * cos + self.by_sin * sin + self.level
-    }
-}
-
-/// The sum of the lanes, in the same order on every processor.
+/// The sums of lanes half a vector apart.
 #[inline(always)]
-fn lanes<S: Simd>(number: f32x8<S>) -> f32 {
-    let [a, b, c, d, e, f, g, h]: [f32; CHUNK] = number.into();
-    ((a + e) + (c + g)) + ((b + f) + (d + h))
+fn halved<S: Simd>(vector: f32x8<S>) -> f32x4<S> {
+    let (low, high) = vector.split();
+    low + high
 }
 
 #[cfg(test)]
@@ -344,9 +328,9 @@ mod tests {
                 let level = sky.level_of(ellipse.small_square());
                 let kernel = ellipse.kernel(sky.grids[level].texel, sky.grids[0].texel);
                 let simd = fearless_simd::Level::new();
-                let mut scratch = Scratch::default();
+                let mut buffers = Buffers::new();
                 let found = fearless_simd::dispatch!(simd, simd =>
-                    light(simd, &sky, level, &kernel, direction, &mut scratch));
+                    light(simd, &sky, level, &kernel, direction, &mut buffers));
                 n += 1;
                 let Some(found) = found else { continue };
                 n_windows += 1;

@@ -20,7 +20,7 @@
 //! ```text
 //! arrangement  error  config                how directions are arranged in files; errors; options
 //! open  star_list  sky                      from files to panoramas and stars; both together
-//! shade                                     colours as seen
+//! hues  shade                               colours as seen: by hue, and by all models
 //! warp  stars                               from pixels to the sky, and their light; points of light
 //! render                                    from a panorama to a picture, with messages
 //! cli                                       the command line
@@ -51,6 +51,7 @@ mod arrangement;
 mod cli;
 mod config;
 mod error;
+mod hues;
 mod open;
 mod render;
 mod shade;

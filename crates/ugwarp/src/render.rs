@@ -180,15 +180,30 @@ fn render_with(sky: Sky<'_>, config: &Config, progress: &dyn Progress) -> Result
     let picture = &config.picture;
     progress.step("preparing", 0);
     let warp = Warp::new(config)?;
-    let (mut frame, statistics) = seen(sky, &warp, config, progress)?;
-    push_channels(&mut frame, &warp, config);
-    let (image, development) = developed(frame, &warp, config);
+    let (image, statistics, development) = match sky.panorama.filter(|_| is_plain(sky, &warp, config)) {
+        Some(panorama) => {
+            let (frame, statistics) = warp.frame(panorama, progress);
+            (Image::Display(frame), statistics, None)
+        }
+        None => {
+            let (mut frame, statistics) = seen(sky, &warp, config, progress)?;
+            push_channels(&mut frame, &warp, config);
+            let (image, development) = developed(frame, &warp, config);
+            (image, statistics, development)
+        }
+    };
     progress.step("annotating", 0);
     let annotations = annotate(&layout, &warp, config, development)?;
     let mut notes = notes(&warp, config, &statistics, development);
     notes.extend(annotations.notes.iter().cloned());
     let compression = if picture.small { Compression::Small } else { Compression::Fast };
     Ok(Rendering { image: annotations.composite(image), output: picture.output, compression, notes })
+}
+
+/// True if each pixel has its final colour, of 8 bits, as soon as its light is known.
+fn is_plain(sky: Sky<'_>, warp: &Warp, config: &Config) -> bool {
+    let is_deep = config.picture.output.format().is_some_and(|format| format.is_deep());
+    sky.bands.is_empty() && sky.stars.is_empty() && !warp.is_uncut() && !is_deep
 }
 
 /// The picture for its format, and how its light was developed; `None` if it was not.

@@ -4,29 +4,28 @@ use std::collections::VecDeque;
 use std::ops::Range;
 use std::sync::{Arc, Mutex, PoisonError};
 
-use uglight::{ColorShift, HueShift, HueTable, SpectralShift};
-use ugphysics::{Hsv, VIOLET_END_NM, attenuation, srgb_decode, srgb_encode};
-use ugsky::{Basis, BasisError, SpectralTable};
+use fearless_simd::prelude::*;
+use fearless_simd::{Level, Simd, dispatch, f32x8};
+use uglight::{ColorShift, HueShift, SpectralShift};
+use ugsky::{Basis, BasisError, Seen, SpectralTable};
 
 use crate::config::Config;
 use crate::error::Error;
+use crate::hues::Hues;
 
 /// How light changes with the Doppler factor.
 pub struct Shade {
     kind: Kind,
     /// Brightest display-encoded value.
     most: f32,
+    simd: Level,
 }
 
 enum Kind {
     /// As at rest.
     Same,
     /// Hues and values of 1988.
-    Hues {
-        shift: HueShift,
-        hues: &'static HueTable,
-        curves: Curves,
-    },
+    Hues(HueShift),
     Spectra(Arc<SpectralTable>),
 }
 
@@ -38,11 +37,11 @@ impl Shade {
     pub fn new(config: &Config) -> Result<Self, Error> {
         let kind = match config.shift {
             ColorShift::Hues(shift) if shift == HueShift::NONE => Kind::Same,
-            ColorShift::Hues(shift) => Kind::Hues { shift, hues: HueTable::get(), curves: Curves::new() },
+            ColorShift::Hues(shift) => Kind::Hues(shift),
             ColorShift::Spectra(shift) => Kind::Spectra(spectral_table(config, shift)?),
         };
         let is_uncut = config.picture.keeps_light() || matches!(kind, Kind::Spectra(_));
-        Ok(Self { kind, most: if is_uncut { f32::INFINITY } else { 1.0 } })
+        Ok(Self { kind, most: if is_uncut { f32::INFINITY } else { 1.0 }, simd: Level::new() })
     }
 
     /// Light brighter than white is kept until it is developed.
@@ -50,20 +49,54 @@ impl Shade {
         self.most > 1.0
     }
 
-    /// Linear red, green and blue at rest as seen with a Doppler factor.
-    #[inline]
-    pub fn seen(&self, rgb: [f32; 3], doppler: f64) -> [f32; 3] {
-        match &self.kind {
-            Kind::Same => rgb.map(|part| part.min(self.most)),
-            Kind::Spectra(table) => table.seen(rgb, libm::log(doppler)),
-            Kind::Hues { shift, hues, curves } => {
-                let encoded = rgb.map(|part| f64::from(curves.encoded.at(part)));
-                let rest = Hsv::from_rgb(encoded);
-                let color = seen_hue(*shift, hues, rest, doppler);
-                color.map(|part| curves.decoded.at((part as f32).min(self.most)))
-            }
-        }
+    /// Turns light at rest into light as seen. Passed are linear red, green and blue times alpha,
+    /// and alpha, of eight pixels, and their Doppler factors.
+    pub fn see(&self, light: &mut [[f32; Seen::N]; 4], doppler: &[f32; Seen::N]) {
+        dispatch!(self.simd, simd => self.see_with(simd, light, doppler));
     }
+
+    #[inline(always)]
+    fn see_with<S: Simd>(&self, simd: S, light: &mut [[f32; Seen::N]; 4], doppler: &[f32; Seen::N]) {
+        let (zero, one) = (f32x8::splat(simd, 0.0), f32x8::splat(simd, 1.0));
+        let [reds, greens, blues, alphas] = light;
+        // Interpolation may exceed the range by a little.
+        let alpha = f32x8::from_slice(simd, alphas).max(zero).min(one);
+        let inverse = alpha.simd_gt(zero).select(one / alpha, zero);
+        let red = f32x8::from_slice(simd, reds) * inverse;
+        let green = f32x8::from_slice(simd, greens) * inverse;
+        let blue = f32x8::from_slice(simd, blues) * inverse;
+        let [red, green, blue] = match &self.kind {
+            Kind::Same => {
+                let most = f32x8::splat(simd, self.most);
+                [red.min(most), green.min(most), blue.min(most)]
+            }
+            Kind::Hues(shift) => {
+                let doppler = f32x8::from_slice(simd, doppler);
+                Hues::get().seen(simd, *shift, self.most, [red, green, blue], doppler)
+            }
+            Kind::Spectra(table) => spectra(simd, table, [red, green, blue], doppler),
+        };
+        (red * alpha).store_slice(reds);
+        (green * alpha).store_slice(greens);
+        (blue * alpha).store_slice(blues);
+        alpha.store_slice(alphas);
+    }
+}
+
+#[inline(always)]
+fn spectra<S: Simd>(
+    simd: S,
+    table: &SpectralTable,
+    [red, green, blue]: [f32x8<S>; 3],
+    doppler: &[f32; Seen::N],
+) -> [f32x8<S>; 3] {
+    let (mut red, mut green, mut blue): ([f32; Seen::N], [f32; Seen::N], [f32; Seen::N]) =
+        (red.into(), green.into(), blue.into());
+    for k in 0..Seen::N {
+        let seen = table.seen([red[k], green[k], blue[k]], f64::from(doppler[k]));
+        (red[k], green[k], blue[k]) = (seen[0], seen[1], seen[2]);
+    }
+    [f32x8::from_slice(simd, &red), f32x8::from_slice(simd, &green), f32x8::from_slice(simd, &blue)]
 }
 
 /// Tables are made for this step in ln D, so that the frames of an acceleration share them.
@@ -92,97 +125,16 @@ fn spectral_table(config: &Config, shift: SpectralShift) -> Result<Arc<SpectralT
     Ok(table)
 }
 
-/// A display-encoded colour by the hue model of 1988. A picture shows hues near the ends of the
-/// visible range dimmed, so they are first amplified, up to white.  Eq. (P11), (P12), (P17)
-#[inline]
-fn seen_hue(shift: HueShift, hues: &HueTable, rest: Hsv, doppler: f64) -> [f64; 3] {
-    let gain = shift.law.factor(doppler);
-    if shift.keeps_wavelength(rest.saturation, doppler) {
-        return Hsv { value: rest.value * gain, ..rest }.to_rgb();
-    }
-    let rest_nm = hues.wavelength_nm(rest.hue);
-    let full = rest.unattenuated(attenuation(rest_nm), rest.value.max(1.0));
-    let seen_nm = rest_nm / doppler;
-    // Violet is the hue of 380 nm, and no longer −60 degrees.
-    let hue = if seen_nm <= VIOLET_END_NM { 300.0 } else { hues.hue(seen_nm) };
-    Hsv { hue, saturation: full.saturation, value: full.value * gain }
-        .attenuated(attenuation(seen_nm))
-        .to_rgb()
-}
-
-/// The sRGB transfer function and its inverse, tabulated.
-struct Curves {
-    encoded: Curve,
-    decoded: Curve,
-}
-
-impl Curves {
-    fn new() -> Self {
-        Self { encoded: Curve::new(srgb_encode), decoded: Curve::new(srgb_decode) }
-    }
-}
-
-/// A table of a function: 1024 values for each power of two of its argument, with linear
-/// interpolation between them. Relative errors are below 10⁻⁶. Negative arguments count as 0.
-struct Curve {
-    values: Vec<f32>,
-}
-
-/// Bits of the mantissa that select the cell.
-const CELL_BITS: u32 = 10;
-
-/// Exponents of the table, 2⁻²⁰ and 2²⁰, and outside of them the function is computed.
-const EXPONENTS: [i32; 2] = [-20, 20];
-
-impl Curve {
-    fn new(function: impl Fn(f64) -> f64) -> Self {
-        let n = ((EXPONENTS[1] - EXPONENTS[0]) << CELL_BITS) as u32 + 1;
-        let start = Self::start();
-        let at = |idx: u32| f32::from_bits(start + (idx << (23 - CELL_BITS)));
-        Self { values: (0..n).map(|idx| function(f64::from(at(idx))) as f32).collect() }
-    }
-
-    /// The bits of the first number.
-    fn start() -> u32 {
-        ((EXPONENTS[0] + 127) as u32) << 23
-    }
-
-    #[inline]
-    fn at(&self, x: f32) -> f32 {
-        const CELL: u32 = 1 << (23 - CELL_BITS);
-        let Some(bits) = x.to_bits().checked_sub(Self::start()) else {
-            // Linear near 0.
-            return x.max(0.0) * (self.values[0] / f32::from_bits(Self::start()));
-        };
-        let idx = (bits / CELL) as usize;
-        let Some([low, high]) = self.values.get(idx..idx + 2) else {
-            // Negative numbers have the highest bit; larger numbers are clipped at the end.
-            return if x > 0.0 { self.values[self.values.len() - 1] } else { 0.0 };
-        };
-        low + (high - low) * ((bits % CELL) as f32 / CELL as f32)
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use ugphysics::{Brightness, Velocity, hue_to_wavelength};
+    use ugphysics::{Brightness, Hsv, Velocity, hue_to_wavelength, srgb_decode, srgb_encode};
 
-    #[test]
-    fn curves_are_those_of_srgb() {
-        let curves = Curves::new();
-        for step in 0..20_000 {
-            let x = libm::exp(f64::from(step - 14_000) * 1e-3);
-            for (curve, exact) in [(&curves.encoded, srgb_encode(x)), (&curves.decoded, srgb_decode(x))] {
-                let found = f64::from(curve.at(x as f32));
-                assert!((found / exact - 1.0).abs() < 2e-6, "{x}: {found} {exact}");
-            }
-        }
-        assert_eq!(
-            (curves.encoded.at(0.0), curves.encoded.at(-1.0), curves.decoded.at(-0.0)),
-            (0.0, 0.0, 0.0)
-        );
-        assert!(curves.decoded.at(f32::MAX) > 1e9);
+    /// Linear red, green and blue at rest as seen with a Doppler factor.
+    fn seen(shade: &Shade, [red, green, blue]: [f32; 3], doppler: f32) -> [f32; 3] {
+        let mut light = [red, green, blue, 1.0].map(|part| [part; Seen::N]);
+        shade.see(&mut light, &[doppler; Seen::N]);
+        [light[0][3], light[1][3], light[2][3]]
     }
 
     fn shade(shift: HueShift) -> Shade {
@@ -195,7 +147,7 @@ mod tests {
     fn colours_at_rest_are_kept() {
         let shade = shade(HueShift { doppler: true, law: Brightness::Report });
         for rgb in [[0.5, 0.2, 0.1], [0.1, 0.9, 0.9], [0.4, 0.0, 0.4], [0.3, 0.02, 0.6], [0.7, 0.7, 0.7]] {
-            let seen = shade.seen(rgb, 1.0);
+            let seen = seen(&shade, rgb, 1.0);
             assert!((0..3).all(|i| (seen[i] - rgb[i]).abs() < 1e-5), "{rgb:?} {seen:?}");
         }
     }
@@ -205,7 +157,7 @@ mod tests {
         let shade = shade(HueShift { doppler: true, law: Brightness::Report });
         let green =
             Hsv { hue: 120.0, saturation: 1.0, value: 0.4 }.to_rgb().map(|part| srgb_decode(part) as f32);
-        let seen = shade.seen(green, 1.1);
+        let seen = seen(&shade, green, 1.1);
         let encoded = seen.map(|part| srgb_encode(f64::from(part)));
         let found = Hsv::from_rgb(encoded);
         assert!((hue_to_wavelength(found.hue) - 546.1 / 1.1).abs() < 1e-2, "{found:?}");

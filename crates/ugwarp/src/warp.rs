@@ -1,11 +1,13 @@
 //! From the pixels of a picture to the sky, and their light.
 
+use std::sync::{Mutex, PoisonError};
+
 use glam::DVec3;
 use rayon::prelude::*;
-use ugimage::{Filter, LinearFrame};
+use ugimage::{Filter, Frame, LinearFrame, Quantizer, display_pixel};
 use ugparse::Scene;
 use ugpicture::lens::{Film, Lens};
-use ugpicture::{Backdrop, Background, Emission, SeenItem};
+use ugpicture::{Backdrop, Emission, SeenItem};
 use ugpipe::Progress;
 use ugscene::{CameraOptions, View};
 use ugsky::{FlatFilm, Observer, Panorama, Sampler, Seen, SkyRay};
@@ -15,7 +17,11 @@ use crate::error::Error;
 use crate::shade::Shade;
 
 /// Rows that one task computes.
-const BAND: usize = 8;
+const BAND: usize = 32;
+
+/// Columns that are computed for all rows of a task before the next ones, so that their texels stay
+/// in the cache.
+const TILE: usize = 64;
 
 /// Half the distance of the places whose directions are compared, in samples: less than a half, so
 /// that both are in the same view of a picture of several.
@@ -45,7 +51,7 @@ pub struct Warp {
     /// Variance of the reconstruction filter, less that of the places of samples, relative to that
     /// of a sample.
     spread: f64,
-    background: Background,
+    backdrop: Backdrop,
     shade: Shade,
     /// The camera was parallel to its up direction.
     pub(crate) is_up_replaced: bool,
@@ -60,6 +66,21 @@ pub struct Statistics {
     pub max_light: f32,
     /// Pixels that show some of the panorama.
     pub n_covered: u64,
+}
+
+impl Statistics {
+    /// Adds pixels: light times the covered part, and that part.
+    fn add(&mut self, pixels: &[[f32; 4]]) {
+        for &[red, green, blue, covered] in pixels {
+            if covered > 0.0 {
+                self.n_covered += 1;
+                for part in [red, green, blue] {
+                    // Unlike `max`, a single instruction.
+                    self.max_light = if part > self.max_light { part } else { self.max_light };
+                }
+            }
+        }
+    }
 }
 
 /// The camera of a picture: in the middle of the sky, looking along +y unless options say
@@ -98,7 +119,7 @@ impl Warp {
             lens: config.lens,
             observer: Observer::new(config.velocity),
             spread: 12.0 * variance * n - n + 1.0,
-            background: picture.background,
+            backdrop: Backdrop::new(picture.background, 1),
             shade: Shade::new(config)?,
             is_up_replaced: view.is_up_replaced,
             flat: flat_film(config.lens, &film),
@@ -113,75 +134,99 @@ impl Warp {
 
     /// The light of a picture of a panorama, on the background.
     pub fn light(&self, panorama: &Panorama, progress: &dyn Progress) -> (LinearFrame, Statistics) {
+        let (pixels, statistics) = self.draw(panorama, progress, |pixel| pixel);
+        (LinearFrame::new(self.size, self.backdrop.is_opaque(), pixels), statistics)
+    }
+
+    /// The same display-encoded with 8 bits per channel; light outside 0…1 is clipped.
+    pub(crate) fn frame(&self, panorama: &Panorama, progress: &dyn Progress) -> (Frame, Statistics) {
+        let (quantizer, is_opaque) = (Quantizer::new(), self.backdrop.is_opaque());
+        let encode = |pixel| display_pixel(&quantizer, pixel, is_opaque);
+        let (pixels, statistics) = self.draw(panorama, progress, encode);
+        (Frame::new(self.size, is_opaque, pixels), statistics)
+    }
+
+    /// The pixels of a picture of a panorama. Passed is what becomes of the linear light of a pixel,
+    /// and its alpha.
+    fn draw<T: Copy + Default + Send>(
+        &self,
+        panorama: &Panorama,
+        progress: &dyn Progress,
+        finish: impl Fn([f32; 4]) -> T + Sync,
+    ) -> (Vec<T>, Statistics) {
         let [width, height] = self.size.map(|side| side as usize);
-        let backdrop = Backdrop::new(self.background, 1);
-        let mut pixels = vec![[0.0; 4]; width * height];
+        let mut pixels = vec![T::default(); width * height];
         progress.step("warping", height.div_ceil(BAND) as u64);
-        let bands = pixels.par_chunks_mut(BAND * width).enumerate();
-        let statistics = bands.map_init(
-            || (panorama.sampler(), vec![None; width * self.samples as usize]),
-            |(sampler, row), (band, pixels)| {
-                let mut statistics = Statistics::default();
-                for (idx, pixels) in pixels.chunks_mut(width).enumerate() {
-                    self.add_row(sampler, row, band * BAND + idx, pixels);
-                    for pixel in pixels {
-                        let [red, green, blue, covered] = *pixel;
-                        *pixel = backdrop.pixel([red, green, blue], covered);
-                        if covered > 0.0 {
-                            statistics.n_covered += 1;
-                            statistics.max_light = statistics.max_light.max(red).max(green).max(blue);
-                        }
+        let n_chunks = (TILE * self.samples as usize).div_ceil(Seen::N);
+        // Rayon would make new buffers for nearly every band.
+        let buffers = Mutex::new(Vec::new());
+        let lock = || buffers.lock().unwrap_or_else(PoisonError::into_inner);
+        let statistics = pixels.par_chunks_mut(BAND * width).enumerate().map(|(band, pixels)| {
+            let kept = lock().pop();
+            let (mut sampler, mut found) =
+                kept.unwrap_or_else(|| (panorama.sampler(), vec![Seen::default(); n_chunks]));
+            let mut statistics = Statistics::default();
+            for left in (0..width).step_by(TILE) {
+                for (idx, row) in pixels.chunks_mut(width).enumerate() {
+                    let row = &mut row[left..width.min(left + TILE)];
+                    let light = &mut [[0.0; 4]; TILE][..row.len()];
+                    self.add_row(&mut sampler, &mut found, [left, band * BAND + idx], light);
+                    statistics.add(light);
+                    for (pixel, &[red, green, blue, covered]) in row.iter_mut().zip(&*light) {
+                        *pixel = finish(match covered == 1.0 {
+                            // Nothing of the background is seen.
+                            true => [red, green, blue, 1.0],
+                            false => self.backdrop.pixel([red, green, blue], covered),
+                        });
                     }
                 }
-                progress.done(1);
-                statistics
-            },
-        );
+            }
+            lock().push((sampler, found));
+            progress.done(1);
+            statistics
+        });
         let statistics = statistics.reduce(Statistics::default, |one, other| Statistics {
             max_light: one.max_light.max(other.max_light),
             n_covered: one.n_covered + other.n_covered,
         });
-        (LinearFrame::new(self.size, backdrop.is_opaque(), pixels), statistics)
+        (pixels, statistics)
     }
 
     /// A black sky on the background, which is outside the circle of a fisheye.
     pub fn darkness(&self) -> (LinearFrame, Statistics) {
-        let backdrop = Backdrop::new(self.background, 1);
         let (n, width) = (f64::from(self.samples), self.size[0] as usize);
         let covered = |idx: usize| {
             let place = [idx % width, idx / width].map(|at| n * (at as f64 + 0.5));
             f32::from(self.film.sight(place).is_some())
         };
         let n_pixels = width * self.size[1] as usize;
-        let pixel = |idx: usize| backdrop.pixel([0.0; 3], covered(idx));
+        let pixel = |idx: usize| self.backdrop.pixel([0.0; 3], covered(idx));
         let pixels: Vec<[f32; 4]> = (0..n_pixels).into_par_iter().map(pixel).collect();
         let n_covered = pixels.par_iter().filter(|pixel| pixel[3] > 0.0).count() as u64;
         let statistics = Statistics { max_light: 0.0, n_covered };
-        (LinearFrame::new(self.size, backdrop.is_opaque(), pixels), statistics)
+        (LinearFrame::new(self.size, self.backdrop.is_opaque(), pixels), statistics)
     }
 
-    /// Sets pixels of a row to the mean light of their samples, times their covered part, and that
-    /// part. `found`: a buffer for a row of samples.
+    /// Sets pixels of a row, from a column on, to the mean light of their samples, times their
+    /// covered part, and that part. `found`: a buffer for a row of their samples.
     fn add_row(
         &self,
         sampler: &mut Sampler<'_>,
-        found: &mut [Option<Seen>],
-        row: usize,
+        found: &mut [Seen],
+        [left, row]: [usize; 2],
         pixels: &mut [[f32; 4]],
     ) {
         let n = self.samples as usize;
+        let found = &mut found[..(n * pixels.len()).div_ceil(Seen::N)];
+        let left = (left * n) as f64 + 0.5;
         for y in row * n..(row + 1) * n {
-            let y = y as f64 + 0.5;
-            if let Some(flat) = &self.flat {
-                sampler.flat_row(&self.observer, flat, [0.5, y], self.spread, found);
-            }
-            for (pixel, (first, found)) in pixels.iter_mut().zip(found.chunks(n).enumerate()) {
-                for (column, seen) in found.iter().enumerate() {
-                    let light = match seen {
-                        Some(seen) => self.shaded(seen.light, f64::from(seen.doppler)),
-                        None => self.sample(sampler, [(first * n + column) as f64 + 0.5, y], 1.0, 0),
-                    };
-                    (0..4).for_each(|channel| pixel[channel] += light[channel]);
+            self.see_row(sampler, found, [left, y as f64 + 0.5], n * pixels.len());
+            for (first, seen) in found.iter().enumerate() {
+                let [reds, greens, blues, alphas] = &seen.light;
+                for idx in 0..Seen::N.min(n * pixels.len() - first * Seen::N) {
+                    let sum = &mut pixels[(first * Seen::N + idx) / n];
+                    let light = [reds[idx], greens[idx], blues[idx], alphas[idx]];
+                    (0..4).for_each(|channel| sum[channel] += light[channel]);
                 }
             }
         }
@@ -191,11 +236,50 @@ impl Warp {
         }
     }
 
-    /// The light of a square of the film, `side` samples wide.
-    fn sample(&self, sampler: &mut Sampler<'_>, place: [f64; 2], side: f64, depth: u32) -> [f32; 4] {
+    /// The light of `n` samples of a row of the film as seen, times the covered part, and that part.
+    fn see_row(&self, sampler: &mut Sampler<'_>, found: &mut [Seen], [left, y]: [f64; 2], n: usize) {
+        match &self.flat {
+            Some(flat) => sampler.flat_row(&self.observer, flat, [left, y], self.spread, found),
+            None => found.fill(Seen::default()),
+        }
+        for (first, seen) in found.iter_mut().enumerate() {
+            let place = |idx: usize| [left + (first * Seen::N + idx) as f64, y];
+            let n = Seen::N.min(n - first * Seen::N);
+            if seen.is_found != [true; Seen::N] {
+                for idx in 0..n {
+                    if !seen.is_found[idx]
+                        && let Some((light, doppler)) = self.sample(sampler, place(idx))
+                    {
+                        seen.set(idx, light, doppler);
+                    }
+                }
+            }
+            self.shade.see(&mut seen.light, &seen.doppler);
+            if seen.is_found != [true; Seen::N] {
+                for idx in 0..n {
+                    if !seen.is_found[idx] {
+                        seen.set(idx, self.divided(sampler, place(idx), 1.0, 0), 1.0);
+                    }
+                }
+            }
+        }
+    }
+
+    /// The light of a sample, and its Doppler factor; `None` where its footprint is too large.
+    fn sample(&self, sampler: &mut Sampler<'_>, place: [f64; 2]) -> Option<([f32; 4], f64)> {
+        let Some(ray) = self.ray(place, 1.0) else { return Some(([0.0; 4], 1.0)) };
+        sampler.light(&ray, self.spread).map(|light| (light, ray.doppler))
+    }
+
+    /// The light of a square of the film, `side` samples wide, as seen.
+    fn square(&self, sampler: &mut Sampler<'_>, place: [f64; 2], side: f64, depth: u32) -> [f32; 4] {
         let Some(ray) = self.ray(place, side) else { return [0.0; 4] };
         match sampler.light(&ray, self.spread) {
-            Some(light) => self.shaded(light, ray.doppler),
+            Some(light) => {
+                let mut seen = light.map(|part| [part; Seen::N]);
+                self.shade.see(&mut seen, &[ray.doppler as f32; Seen::N]);
+                seen.map(|part| part[0])
+            }
             None if depth < MOST_DIVISIONS => self.divided(sampler, place, side, depth),
             // The footprint still covers nearly the whole sky. At this depth it weighs at most 4⁻²⁴
             // of a sample, so it is left out.
@@ -203,25 +287,12 @@ impl Warp {
         }
     }
 
-    /// Light as seen, times the covered part, and that part.
-    #[inline]
-    fn shaded(&self, [red, green, blue, covered]: [f32; 4], doppler: f64) -> [f32; 4] {
-        // Interpolation may exceed the range by a little.
-        let covered = covered.clamp(0.0, 1.0);
-        if covered == 0.0 {
-            return [0.0; 4];
-        }
-        let rest = [red, green, blue].map(|part| part / covered);
-        let [red, green, blue] = self.shade.seen(rest, doppler).map(|part| part * covered);
-        [red, green, blue, covered]
-    }
-
     /// The mean of the four quarters of a square, whose footprint is too large.
     fn divided(&self, sampler: &mut Sampler<'_>, place: [f64; 2], side: f64, depth: u32) -> [f32; 4] {
         let mut sum = [0.0_f32; 4];
         for [right, below] in [[-0.25, -0.25], [0.25, -0.25], [-0.25, 0.25], [0.25, 0.25]] {
             let quarter = [place[0] + right * side, place[1] + below * side];
-            let light = self.sample(sampler, quarter, 0.5 * side, depth + 1);
+            let light = self.square(sampler, quarter, 0.5 * side, depth + 1);
             (0..4).for_each(|channel| sum[channel] += 0.25 * light[channel]);
         }
         sum

@@ -1,0 +1,262 @@
+//! Colours that are hues, as seen in motion: eight pixels at once, in single precision.
+
+use std::sync::LazyLock;
+
+use fearless_simd::prelude::*;
+use fearless_simd::{Simd, f32x8, u32x8};
+use uglight::{HueShift, HueTable};
+use ugphysics::{Brightness, RED_END_NM, VIOLET_END_NM, srgb_decode, srgb_encode};
+use ugsky::Seen;
+
+/// Pixels that are computed at once.
+const N: usize = Seen::N;
+
+/// What the colours of all pictures are computed with.
+pub struct Hues {
+    /// The sRGB transfer function and its inverse.
+    encoded: Curve,
+    decoded: Curve,
+    /// Wavelengths by hue, and hues by wavelength.  Eq. (P16)
+    nm: Table,
+    hue: Table,
+}
+
+static HUES: LazyLock<Hues> = LazyLock::new(|| {
+    let hues = HueTable::get();
+    Hues {
+        encoded: Curve::new(srgb_encode),
+        decoded: Curve::new(srgb_decode),
+        nm: Table::new([-60.0, 300.0], |hue| hues.wavelength_nm(hue)),
+        hue: Table::new([VIOLET_END_NM, RED_END_NM], |nm| hues.hue(nm)),
+    }
+});
+
+impl Hues {
+    pub fn get() -> &'static Self {
+        &HUES
+    }
+
+    /// Linear red, green and blue at rest as seen by the hue model of 1988. A picture shows hues near
+    /// the ends of the visible range dimmed, so they are first amplified, up to white. Display-encoded
+    /// values of the result are at most `most`.  Eq. (P11), (P12), (P17)
+    #[inline(always)]
+    pub fn seen<S: Simd>(
+        &self,
+        simd: S,
+        shift: HueShift,
+        most: f32,
+        [red, green, blue]: [f32x8<S>; 3],
+        doppler: f32x8<S>,
+    ) -> [f32x8<S>; 3] {
+        let number = |x: f32| f32x8::splat(simd, x);
+        let (zero, one) = (number(0.0), number(1.0));
+        let (red, green, blue) =
+            (self.encoded.at(simd, red), self.encoded.at(simd, green), self.encoded.at(simd, blue));
+        let gain = match shift.law {
+            Brightness::Report => doppler,
+            Brightness::Photon => doppler * doppler * doppler,
+            Brightness::Bolometric => doppler * doppler * (doppler * doppler),
+            Brightness::None => one,
+        };
+
+        // A colour is a sum of white and of a pure hue.
+        let value = red.max(green).max(blue);
+        let white = red.min(green).min(blue);
+        let pure = value - white;
+        let keeps_wavelength = pure.simd_le(zero) | doppler.simd_eq(one);
+        if !shift.doppler || keeps_wavelength.all_true() {
+            let (red, green, blue) = (red * gain, green * gain, blue * gain);
+            return self.decode(simd, most, [red, green, blue]);
+        }
+        let sixth = number(60.0) / pure;
+        let of_green = number(120.0) + sixth * (blue - red);
+        let of_blue = number(240.0) + sixth * (red - green);
+        let hue = value.simd_eq(green).select(of_green, of_blue);
+        let hue = value.simd_eq(red).select(sixth * (green - blue), hue);
+        // Magenta is the violet end of the range, not the red one.
+        let hue = hue.simd_le(number(-60.0)).select(hue + number(360.0), hue);
+
+        let rest_nm = self.nm.at(simd, hue);
+        let most_pure = (value.max(one) - white).max(pure);
+        let pure_seen = (pure / attenuation(simd, rest_nm)).min(most_pure);
+        let seen_nm = rest_nm / doppler;
+        let seen_hue = self.hue.at(simd, seen_nm);
+        let pure_seen = pure_seen * attenuation(simd, seen_nm) * gain;
+
+        let white = white * gain;
+        let sixth = seen_hue * number(1.0 / 60.0);
+        let sixth = sixth.simd_lt(zero).select(sixth + number(6.0), sixth);
+        let (at_red, at_green, at_blue) =
+            (part(simd, sixth, 0.0), part(simd, sixth, 2.0), part(simd, sixth, 4.0));
+        let shifted_red = white + pure_seen * at_red;
+        let shifted_green = white + pure_seen * at_green;
+        let shifted_blue = white + pure_seen * at_blue;
+        let red = keeps_wavelength.select(red * gain, shifted_red);
+        let green = keeps_wavelength.select(green * gain, shifted_green);
+        let blue = keeps_wavelength.select(blue * gain, shifted_blue);
+        self.decode(simd, most, [red, green, blue])
+    }
+
+    #[inline(always)]
+    fn decode<S: Simd>(&self, simd: S, most: f32, [red, green, blue]: [f32x8<S>; 3]) -> [f32x8<S>; 3] {
+        let most = f32x8::splat(simd, most);
+        [
+            self.decoded.at(simd, red.min(most)),
+            self.decoded.at(simd, green.min(most)),
+            self.decoded.at(simd, blue.min(most)),
+        ]
+    }
+}
+
+/// The part of a pure hue in a primary colour: 1 within 60° of its hue, falling linearly to 0 at
+/// 120°. Both are in units of 60°.
+#[inline(always)]
+fn part<S: Simd>(simd: S, hue: f32x8<S>, primary: f32) -> f32x8<S> {
+    let number = |x: f32| f32x8::splat(simd, x);
+    let apart = (hue - number(primary)).abs();
+    (number(2.0) - apart.min(number(6.0) - apart)).max(number(0.0)).min(number(1.0))
+}
+
+/// As [`ugphysics::attenuation`].  Eq. (P17)
+#[inline(always)]
+fn attenuation<S: Simd>(simd: S, nm: f32x8<S>) -> f32x8<S> {
+    let number = |x: f32| f32x8::splat(simd, x);
+    let violet = (nm - number(VIOLET_END_NM as f32)) * number(1.0 / (435.8 - VIOLET_END_NM as f32));
+    let red = (number(RED_END_NM as f32) - nm) * number(1.0 / (RED_END_NM as f32 - 700.0));
+    violet.min(red).max(number(0.0)).min(number(1.0))
+}
+
+/// Cells of a [`Table`].
+const CELLS: usize = 4096;
+
+/// A function in a range, with linear interpolation between points. Arguments outside of it count as
+/// its ends.
+struct Table {
+    first: f32,
+    per_unit: f32,
+    points: Box<[f32; CELLS + 1]>,
+}
+
+impl Table {
+    fn new([first, last]: [f64; 2], function: impl Fn(f64) -> f64) -> Self {
+        let step = (last - first) / CELLS as f64;
+        let points = Box::new(std::array::from_fn(|idx| function(first + step * idx as f64) as f32));
+        Self { first: first as f32, per_unit: (1.0 / step) as f32, points }
+    }
+
+    #[inline(always)]
+    fn at<S: Simd>(&self, simd: S, x: f32x8<S>) -> f32x8<S> {
+        let place = (x - f32x8::splat(simd, self.first)) * f32x8::splat(simd, self.per_unit);
+        // NaN, the hue of greys, becomes a number too.
+        let place = place.max(f32x8::splat(simd, 0.0)).min(f32x8::splat(simd, CELLS as f32));
+        let places: [f32; N] = place.into();
+        let (mut low, mut high, mut cells) = ([0.0; N], [0.0; N], [0.0; N]);
+        for k in 0..N {
+            let cell = (places[k] as usize).min(CELLS - 1);
+            (low[k], high[k], cells[k]) = (self.points[cell], self.points[cell + 1], cell as f32);
+        }
+        interpolated(simd, &low, &high, place - f32x8::from_slice(simd, &cells))
+    }
+}
+
+#[inline(always)]
+fn interpolated<S: Simd>(simd: S, low: &[f32; N], high: &[f32; N], part: f32x8<S>) -> f32x8<S> {
+    let low = f32x8::from_slice(simd, low);
+    low + (f32x8::from_slice(simd, high) - low) * part
+}
+
+/// Bits of the mantissa that select the cell of a [`Curve`].
+const CELL_BITS: u32 = 9;
+
+/// Exponents of a [`Curve`].
+const EXPONENTS: [i32; 2] = [-20, 20];
+
+/// Number of cells of a [`Curve`].
+const N_CELLS: usize = ((EXPONENTS[1] - EXPONENTS[0]) as usize) << CELL_BITS;
+
+/// A function of light: 512 points for each power of two of its argument from 2⁻²⁰ to 2²⁰, with
+/// linear interpolation between them. Relative errors are below 5·10⁻⁶. Below it is linear, with 0
+/// for negative arguments, and above it is constant.
+struct Curve {
+    points: Box<[f32]>,
+}
+
+impl Curve {
+    /// Bits of the number at the first point.
+    const START: u32 = ((EXPONENTS[0] + 127) as u32) << 23;
+
+    fn new(function: impl Fn(f64) -> f64) -> Self {
+        let at = |idx: u32| f32::from_bits(Self::START + (idx << (23 - CELL_BITS)));
+        Self { points: (0..=N_CELLS as u32).map(|idx| function(f64::from(at(idx))) as f32).collect() }
+    }
+
+    #[inline(always)]
+    fn at<S: Simd>(&self, simd: S, x: f32x8<S>) -> f32x8<S> {
+        const REST: u32 = (1 << (23 - CELL_BITS)) - 1;
+        let start = f32x8::splat(simd, f32::from_bits(Self::START));
+        // The last number below the end.
+        let end = f32x8::splat(simd, f32::from_bits((((EXPONENTS[1] + 127) as u32) << 23) - 1));
+        // NaN becomes a number too.
+        let x = x.max(f32x8::splat(simd, 0.0)).min(end);
+        let bits: u32x8<S> = x.max(start).bitcast();
+        let offset = bits - u32x8::splat(simd, Self::START);
+        let cells: [u32; N] = (offset >> (23 - CELL_BITS)).into();
+        let part: f32x8<S> = (offset & u32x8::splat(simd, REST)).to_float();
+        let (mut low, mut high) = ([0.0; N], [0.0; N]);
+        for k in 0..N {
+            let cell = (cells[k] as usize).min(N_CELLS - 1);
+            if let Some([from, to]) = self.points.get(cell..cell + 2) {
+                (low[k], high[k]) = (*from, *to);
+            }
+        }
+        let curve = interpolated(simd, &low, &high, part * f32x8::splat(simd, 1.0 / (REST + 1) as f32));
+        let slope = f32x8::splat(simd, self.points[0]) / start;
+        x.simd_lt(start).select(x * slope, curve)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use fearless_simd::{Level, dispatch};
+
+    use super::*;
+
+    #[test]
+    fn curves_are_those_of_srgb() {
+        let hues = Hues::get();
+        let at = |curve: &Curve, x: f64| {
+            let found: [f32; N] =
+                dispatch!(Level::new(), simd => curve.at(simd, f32x8::splat(simd, x as f32)).into());
+            f64::from(found[0])
+        };
+        for step in 0..20_000 {
+            let x = libm::exp(f64::from(step - 14_000) * 1e-3);
+            for (curve, exact) in [(&hues.encoded, srgb_encode(x)), (&hues.decoded, srgb_decode(x))] {
+                let found = at(curve, x);
+                assert!((found / exact - 1.0).abs() < 5e-6, "{x}: {found} {exact}");
+            }
+        }
+        assert_eq!(
+            (at(&hues.encoded, 0.0), at(&hues.encoded, -1.0), at(&hues.decoded, -0.0)),
+            (0.0, 0.0, 0.0)
+        );
+        assert!(at(&hues.decoded, f64::MAX) > 1e9);
+        assert!(at(&hues.encoded, f64::NAN) >= 0.0);
+    }
+
+    #[test]
+    fn tables_are_those_of_hues() {
+        let (hues, exact) = (Hues::get(), HueTable::get());
+        let at = |table: &Table, x: f64| {
+            let found: [f32; N] =
+                dispatch!(Level::new(), simd => table.at(simd, f32x8::splat(simd, x as f32)).into());
+            f64::from(found[0])
+        };
+        for step in 0..=10_000 {
+            let part = f64::from(step) / 1e4;
+            let (hue, nm) = (-60.0 + 360.0 * part, 370.0 + 420.0 * part);
+            assert!((at(&hues.nm, hue) - exact.wavelength_nm(hue)).abs() < 1e-3, "{hue} degrees");
+            assert!((at(&hues.hue, nm) - exact.hue(nm)).abs() < 1e-3, "{nm} nm");
+        }
+    }
+}
