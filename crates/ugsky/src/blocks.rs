@@ -1,5 +1,5 @@
-//! Texels near the last footprints: linear light, each channel apart. Neighbouring pixels of a
-//! picture have most of their texels in common, so that they are decoded once for many.
+//! A cache of texels as linear light, each channel apart. The footprints of neighbouring pixels
+//! have most of their texels in common, so each texel is decoded once for many of them.
 
 use std::ops::Range;
 
@@ -10,7 +10,7 @@ use crate::window::Window;
 /// Columns of a block.
 const COLUMNS: usize = 64;
 
-/// Columns of a block, and of the next one as many as a window may have.
+/// Columns of a block, and those of the next one that a window which begins in it may need.
 pub(crate) const WIDTH: usize = COLUMNS + APRON;
 
 /// Rows and columns of blocks that are kept.
@@ -21,16 +21,17 @@ const KEPT: [usize; 2] = [64, 4];
 #[repr(align(64))]
 pub(crate) struct Block(pub [[f32; WIDTH]; 4]);
 
-/// Blocks of a few neighbouring rows and columns. Each has one place, which it takes from another.
+/// The cache. It is direct-mapped: row and column of a block, modulo [`KEPT`], are its only place.
 pub(crate) struct Blocks {
     texels: Vec<[Block; KEPT[0]]>,
-    /// The [`key`] of what is there.
+    /// The [`key`] of the block in each place.
     keys: [[u64; KEPT[0]]; KEPT[1]],
-    /// The [`key`] of the last window in row 0, and its rows. They are all there.
+    /// The rows of the last window, which are all in the cache, and the [`key`] of its block in
+    /// row 0.
     last: (u64, Range<u32>),
 }
 
-/// What is in a place that was never used.
+/// The key of a place that was never used.
 const NONE: u64 = u64::MAX;
 
 impl Blocks {
@@ -42,8 +43,8 @@ impl Blocks {
         }
     }
 
-    /// The blocks of the rows of a window, and the place of its first column in each. The block of a
-    /// row is at the index of the row modulo their number.
+    /// The blocks of the rows of a window, and the index of its first column in each. The block of a
+    /// row is at the index of the row, modulo their number.
     #[inline(always)]
     pub fn at(&mut self, sky: &Panorama, window: &Window) -> (&[Block; KEPT[0]], usize) {
         let idx = window.column as usize / COLUMNS;
@@ -72,13 +73,14 @@ impl Blocks {
     }
 }
 
-/// A number of each block of a panorama.
+/// The number of a block among all of a panorama.
 #[inline(always)]
 fn key(level: u32, row: u32, idx: usize) -> u64 {
     u64::from(level) << 58 | u64::from(row) << 26 | idx as u64
 }
 
-/// Sets the texels from a column on. There are none beyond the end of the row.
+/// Decodes the texels of a row from a column on. Beyond the end of the row nothing is changed,
+/// because no window reaches there.
 fn fill(Block(planes): &mut Block, sky: &Panorama, level: usize, row: &Row, column: usize) {
     let end = sky.ladder[row.ladder].n.min(column + WIDTH);
     let mut at = 0;

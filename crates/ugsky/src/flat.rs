@@ -23,14 +23,14 @@ pub struct FlatFilm {
     pub down: DVec3,
 }
 
-/// Eight pixels in the frame of the sky.
+/// The light of eight neighbouring pixels in the frame of the sky.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Seen {
     /// Red, green and blue times alpha, and alpha.
     pub light: [[f32; EACH]; 4],
     /// The Doppler factors.
     pub doppler: [f32; EACH],
-    /// Which of the pixels were found.
+    /// The pixels that have their light.
     pub is_found: [bool; EACH],
 }
 
@@ -51,8 +51,8 @@ const MOST_DOPPLER: f64 = 100.0;
 
 impl Sampler<'_> {
     /// The light of the pixels of a row, one column apart, from a place on a film on: the same as
-    /// of [`Sampler::light`] for each within 10⁻⁴, but several times faster. The few that this way
-    /// is not for are not found: those at poles, edges and near the speed of light.
+    /// of [`Sampler::light`] for each within 10⁻⁴, but several times faster. Pixels at poles and
+    /// edges, and all those near the speed of light, are left out: they are not `is_found`.
     pub fn flat_row(
         &mut self,
         observer: &Observer,
@@ -250,7 +250,7 @@ pub(crate) fn footprints<S: Simd>(
     (Footprints { a: lanes_of(a), b: lanes_of(b), c: c.into(), windows }, doppler.into())
 }
 
-/// The grids of the levels of eight footprints.
+/// What the grids of the mip levels of eight footprints have.
 struct GridsOf<S: Simd> {
     levels: [u32; CHUNK],
     texel: f32x8<S>,
@@ -297,7 +297,7 @@ impl<S: Simd> GridsOf<S> {
     }
 }
 
-/// The columns of the rows of eight windows.
+/// What the columns of the rows of eight windows have.
 struct LadderOf<S: Simd> {
     /// Index in the ladder.
     idx: [u32; CHUNK],

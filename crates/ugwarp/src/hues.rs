@@ -11,7 +11,7 @@ use ugsky::Seen;
 /// Pixels that are computed at once.
 const N: usize = Seen::N;
 
-/// What the colours of all pictures are computed with.
+/// Tables for the hue model of 1988.
 pub struct Hues {
     /// The sRGB transfer function and its inverse.
     encoded: Curve,

@@ -146,8 +146,7 @@ impl Warp {
         (Frame::new(self.size, is_opaque, pixels), statistics)
     }
 
-    /// The pixels of a picture of a panorama. Passed is what becomes of the linear light of a pixel,
-    /// and its alpha.
+    /// The pixels of a picture of a panorama. `finish` makes them of linear light and alpha.
     fn draw<T: Copy + Default + Send>(
         &self,
         panorama: &Panorama,
@@ -158,7 +157,7 @@ impl Warp {
         let mut pixels = vec![T::default(); width * height];
         progress.step("warping", height.div_ceil(BAND) as u64);
         let n_chunks = (TILE * self.samples as usize).div_ceil(Seen::N);
-        // Rayon would make new buffers for nearly every band.
+        // Buffers of all threads. Rayon's `map_init` would make new ones for nearly every band.
         let buffers = Mutex::new(Vec::new());
         let lock = || buffers.lock().unwrap_or_else(PoisonError::into_inner);
         let statistics = pixels.par_chunks_mut(BAND * width).enumerate().map(|(band, pixels)| {
