@@ -189,6 +189,27 @@ fn unsupported_parts_are_noted() {
     );
 }
 
+/// Cameras of glTF have single precision. Its JSON has no infinite numbers, and clipping distances
+/// of 0 are not allowed.
+#[test]
+fn cameras_of_any_size_are_read_back() {
+    let bodies = "v a 0 0 0; v b 1 0 0; v c 0 1 0; f (a b c);";
+    for (distance, angle) in [("1e38", "-og"), ("1e38", "-va 40"), ("1e-42", "-og"), ("1e-42", "-va 1e-9")] {
+        let film = if angle == "-og" { format!("-fs {distance} {distance}") } else { String::new() };
+        let text = format!("{bodies} cam -ep 0 0 {distance} -vc 0 0 0 -ud 0 1 0 {angle} {film};");
+        let config = Config { target: Target::Gltf, ..Config::default() };
+        let mesh = convert(&config, "a.ug", text.clone()).unwrap().bytes;
+        let document: serde_json::Value = serde_json::from_slice(&mesh).unwrap();
+        let lens = &document["cameras"][0];
+        let kind = lens["type"].as_str().unwrap_or_default();
+        let numbers: Vec<_> =
+            lens[kind].as_object().unwrap().values().map(|number| number.as_f64()).collect();
+        assert_eq!(numbers.len(), 4, "{text}: {lens}");
+        assert!(numbers.iter().all(|number| number.is_some_and(|number| number > 0.0)), "{text}: {lens}");
+        to_scene(&Config::default(), "<stdin>", mesh);
+    }
+}
+
 #[test]
 fn history_and_licence_are_kept() {
     let config = |target| Config { target, command_line: "ugmesh -dt x".to_string(), ..Config::default() };

@@ -113,16 +113,17 @@ fn camera(camera: &Camera) -> Option<(Value, [f32; 16])> {
         let row = axis.extend(w).as_vec4().to_array();
         matrix[4 * column..][..4].copy_from_slice(&row);
     }
-    let [near, far] = CLIP.map(|part| (part * eye.distance(center)) as f32);
+    let number = |x: f64| (x as f32).clamp(f32::MIN_POSITIVE, f32::MAX);
+    let [near, far] = CLIP.map(|part| number(part * eye.distance(center)));
     let lens = match (camera.view_angle, camera.film_size) {
         (Some([across, down]), _) => {
             let [across, down] = [across, down].map(|degrees| libm::tan(degrees.to_radians() / 2.0));
             json!({ "type": "perspective", "perspective": {
-                "aspectRatio": (across / down) as f32, "yfov": 2.0 * libm::atan(down), "znear": near, "zfar": far,
+                "aspectRatio": number(across / down), "yfov": 2.0 * libm::atan(down), "znear": near, "zfar": far,
             } })
         }
         (None, Some([across, down])) => json!({ "type": "orthographic", "orthographic": {
-            "xmag": (across / 2.0) as f32, "ymag": (down / 2.0) as f32, "znear": near, "zfar": far,
+            "xmag": number(across / 2.0), "ymag": number(down / 2.0), "znear": near, "zfar": far,
         } }),
         (None, None) => return None,
     };
