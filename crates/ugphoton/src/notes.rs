@@ -100,5 +100,6 @@ fn light_note(config: &Config, statistics: &Statistics, development: Option<Deve
     if statistics.max_light <= CLIPPED || is_chosen {
         return None;
     }
-    Some(format!("max light is {:.3}, clip to 1.0; -ex auto brings it into range", statistics.max_light))
+    let most = statistics.max_light.min(f64::from(f32::MAX));
+    Some(format!("max light is {most:.3}, clip to 1.0; -ex auto brings it into range"))
 }

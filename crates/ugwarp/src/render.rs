@@ -283,7 +283,8 @@ fn notes(
     {
         notes.push(format!(
             "max light is {:.3}, clip to 1.0; -ex auto brings it into range",
-            statistics.max_light
+            // As the frame has it.
+            statistics.max_light.min(f32::MAX)
         ));
     }
     notes

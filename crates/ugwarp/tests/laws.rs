@@ -10,7 +10,7 @@ use ugphysics::{Brightness, Velocity, linear_srgb_to_xyz, srgb_encode, xyz_to_li
 use ugspectrum::Spectrum;
 use ugwarp::{
     Band, Basis, CameraOptions, Channel, ColorShift, Config, Extent, Filter, HueShift, Lens, Panorama,
-    PictureOptions, Sky, SpectralShift, Texels, light,
+    PictureOptions, Sky, SpectralShift, Texels, light, render,
 };
 
 fn panorama(width: u32, color: impl Fn(DVec3) -> [f64; 3]) -> Panorama {
@@ -292,6 +292,21 @@ fn pixels_that_show_half_the_sky() {
         }
         assert!(frame.pixels()[0][2] < 0.01 || rapidity < 4.0);
     }
+}
+
+/// The largest numbers beside 0 add up to more than single precision holds. They stay numbers.
+#[test]
+fn the_brightest_light_is_a_number() {
+    let texel =
+        |idx: usize| if idx.is_multiple_of(3) { [f32::MAX, f32::MAX, f32::MAX, 1.0] } else { [0.0; 4] };
+    let texels = Texels::Light((0..64 * 32).map(texel).collect());
+    let sky = Panorama::new([64, 32], texels, Extent::FULL).unwrap();
+    let shift = ColorShift::Spectra(SpectralShift { doppler: true, flux: true });
+    let mut config = Config { shift, velocity: ahead(0.5), ..Config::default() };
+    config.picture.size = [8, 6];
+    let notes = render(&sky, &config).unwrap().notes;
+    assert!(notes[0].starts_with("max light is 3402823466"), "{notes:?}");
+    assert!(light(&sky, &config).unwrap().pixels().iter().flatten().all(|part| part.is_finite()));
 }
 
 /// Grey daylight in an infrared, a visible and an ultraviolet panorama is grey daylight. Infrared

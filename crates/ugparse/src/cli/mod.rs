@@ -5,6 +5,7 @@ mod examples;
 mod measure;
 
 use std::cell::Cell;
+use std::io::{self, Write};
 use std::process::ExitCode;
 
 use clap::{Arg, Parser, Subcommand, ValueEnum};
@@ -129,11 +130,14 @@ fn run(args: &Args, context: &mut Context) -> Result<bool, Failure> {
         None | Some(Command::Check(_) | Command::Example(_)) => {
             return check(source, &options, is_json, context);
         }
-        Some(Command::Tidy(_)) => context.write(&crate::tidy(&source, &options).map_err(refused)?)?,
+        Some(Command::Tidy(_)) => {
+            let text = crate::tidy(&source, &options).map_err(refused)?;
+            context.write_with(|out| write_scene(out, |out| out.write_all(&text)))?;
+        }
         Some(Command::Flatten(_)) => {
             let (_, parsed) = read(source, &options, context).map_err(refused)?;
             warn(&parsed.warnings, context);
-            context.write_with(|out| crate::write_to(&parsed.scene, out))?;
+            context.write_with(|out| write_scene(out, |out| crate::write_to(&parsed.scene, out)))?;
         }
         Some(Command::Count(_)) => {
             let (source, parsed) = read(source, &options, context).map_err(refused)?;
@@ -147,6 +151,32 @@ fn run(args: &Args, context: &mut Context) -> Result<bool, Failure> {
         }
     }
     Ok(true)
+}
+
+/// Writes the text of a scene. An empty one is written as a line feed: if nothing comes through a
+/// pipe, the next program reports that.
+fn write_scene(out: &mut dyn Write, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
+    let mut counter = Counter { out, n_bytes: 0 };
+    fill(&mut counter)?;
+    if counter.n_bytes == 0 { out.write_all(b"\n") } else { Ok(()) }
+}
+
+/// Counts the bytes that are written.
+struct Counter<'o> {
+    out: &'o mut dyn Write,
+    n_bytes: usize,
+}
+
+impl Write for Counter<'_> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let n_bytes = self.out.write(bytes)?;
+        self.n_bytes += n_bytes;
+        Ok(n_bytes)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.out.flush()
+    }
 }
 
 fn read(source: Source, options: &Options, context: &Context) -> Result<(Source, Parsed), Diagnostics> {
