@@ -205,6 +205,16 @@ fn one_exposure_and_one_camera_for_all_frames() {
     assert!(messages.contains("no camera in the scene") && messages.contains("in all frames"), "{messages}");
 }
 
+/// A number that is wrong in a later frame is found before the first is written.
+#[test]
+fn wrong_numbers_are_found_first() {
+    let shell = Shell::new();
+    let (status, messages) = shell.fail("ugfilm -frames 9 -sz 20 20 -va 40..-1 -dt apng dice.ug > film.apng");
+    assert!(messages.contains("frame 9: "), "{messages}");
+    assert_eq!(status, Some(2), "{messages}");
+    assert_eq!(fs::metadata(shell.folder.path().join("film.apng")).unwrap().len(), 0);
+}
+
 #[test]
 fn mistakes() {
     let shell = Shell::new();

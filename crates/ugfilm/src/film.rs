@@ -15,6 +15,9 @@ use crate::frame_files::{Claim, FrameNames, is_done};
 use crate::script::Script;
 use crate::work::in_order;
 
+/// Most frames whose commands are parsed before the first is drawn.
+const MOST_CHECKED: usize = 64;
+
 /// Frames from which the exposure of a film is chosen, and the colours of a GIF.
 const MOST_MEASURED: u32 = 48;
 
@@ -95,6 +98,17 @@ impl Film<'_> {
             return Err(Failure::usage("all frames of a film have one size: give one -sz"));
         }
         Ok(first)
+    }
+
+    /// Parses the commands of some of the frames, so that a wrong number is found before anything is
+    /// written.
+    ///
+    /// # Errors
+    /// The commands of a frame are wrong.
+    fn check(&self, frames: &[u32]) -> Result<(), Failure> {
+        let step = frames.len().div_ceil(MOST_CHECKED).max(1);
+        let checked = frames.iter().step_by(step).chain(frames.last());
+        checked.into_iter().try_for_each(|&frame| about(frame, self.stages(frame)).map(|_| ()))
     }
 
     /// At most `most` frames spread evenly over the film, among them the first and the last.
@@ -288,6 +302,7 @@ impl Film<'_> {
     ) -> Result<Summary, Failure> {
         let Target { kind, rate, keep } = target;
         let shape = Shape { size: self.size()?, n_frames: frames.len() as u32, rate };
+        self.check(frames)?;
         let mut summary = Summary::default();
         if kind.is_encoded() {
             context.write_by_name(|path, steps| {

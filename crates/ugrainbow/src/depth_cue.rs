@@ -9,7 +9,8 @@ use crate::render_layers::RenderLayers;
 use crate::setup::Setup;
 
 /// Prepares a scene. Without a range, depth cueing runs from the nearest to the farthest depth
-/// visible at the middle of a pixel; it is left out if nothing is visible.
+/// visible at the middle of a pixel; it is left out if nothing is visible, or a depth is beyond
+/// single precision.
 ///
 /// # Errors
 /// As [`Setup::new`].
@@ -36,5 +37,7 @@ fn visible_depths(setup: &Setup<'_>, config: &Config) -> Option<[f64; 2]> {
         let depth = setup.grid.depth(f64::from(key));
         format!("{depth:.3e}").parse().unwrap_or(depth)
     };
-    (farthest <= nearest).then(|| [depth(nearest), depth(farthest)])
+    let range = [depth(nearest), depth(farthest)];
+    // Infinite depths are those beyond single precision.
+    (farthest <= nearest && range.iter().all(|depth| depth.is_finite())).then_some(range)
 }

@@ -270,6 +270,17 @@ fn light_falls_with_depth_towards_the_background() {
     }
 }
 
+/// Depths beyond single precision are all alike: nothing fades, and no note names them.
+#[test]
+fn infinite_depths_do_not_fade() {
+    let text = "l 1; c red 1 0; v a -4e155 -4e155 -2; v b 4e155 -4e155 2; v c 4e155 4e155 2; f (a b c) red;
+                cam -ep 0 0 1e155 -vc 0 0 0 -ud 0 1 0 -va 40 40;";
+    let cue = DepthCue { range: None, least: 0.2 };
+    let rendering = render(&common::scene(text), &Config { depth_cue: Some(cue), ..config(8, 1) }).unwrap();
+    assert!(!rendering.notes.iter().any(|note| note.contains("depth cueing")), "{:?}", rendering.notes);
+    assert_pixel(&rendering.into_frame().unwrap(), [6, 6], [1.0, 0.0, 0.0]);
+}
+
 /// Each layer fades by its own depth, and what passes is not faded again.
 #[test]
 fn layers_fade_each_by_its_own_depth() {
