@@ -5,7 +5,6 @@ use std::ops::Range;
 
 use crate::grid::{APRON, Row};
 use crate::panorama::{Panorama, RowTexels};
-use crate::window::Window;
 
 /// Columns of a block.
 const COLUMNS: usize = 64;
@@ -20,6 +19,19 @@ const KEPT: [usize; 2] = [64, 4];
 #[derive(Clone, Copy)]
 #[repr(align(64))]
 pub(crate) struct Block(pub [[f32; WIDTH]; 4]);
+
+/// The texels that an ellipse may cover.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Window {
+    pub level: u32,
+    /// Index in the ladder of columns.
+    pub ladder: u32,
+    /// The first row and the first column.
+    pub row: u32,
+    pub column: u32,
+    pub n_rows: u32,
+    pub n_columns: u32,
+}
 
 /// The cache. It is direct-mapped: row and column of a block, modulo [`KEPT`], are its only place.
 pub(crate) struct Blocks {

@@ -5,12 +5,13 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Simd, dispatch, f32x8, mask32x8, u32x8};
 use glam::DVec3;
 
+use crate::blocks::Window;
 use crate::footprint::{CURVED, LARGEST, MOST_ECCENTRIC, RADIUS, SLACK};
 use crate::grid::{APRON, CHUNK};
 use crate::observer::Observer;
 use crate::panorama::Panorama;
 use crate::sample::Sampler;
-use crate::window::{EACH, Footprints, ROWS, Window, lights};
+use crate::window::{EACH, Footprints, ROWS, lights};
 
 /// Directions seen by the places of a flat film: corner + x across + y down, of any length.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -10,7 +10,7 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x4, f32x8};
 use glam::DVec3;
 
-use crate::blocks::{Block, Blocks, WIDTH};
+use crate::blocks::{Block, Blocks, WIDTH, Window};
 use crate::footprint::{CURVED, Kernel, SLACK, correction, near_atan2};
 use crate::grid::{APRON, CHUNK, PAD};
 use crate::panorama::Panorama;
@@ -36,19 +36,6 @@ pub(crate) struct Footprints {
 #[inline(always)]
 fn reach(r: f64) -> f64 {
     r + 0.21 * r * r * r
-}
-
-/// The texels that an ellipse may cover.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Window {
-    pub level: u32,
-    /// Index in the ladder of columns.
-    pub ladder: u32,
-    /// The first row and the first column.
-    pub row: u32,
-    pub column: u32,
-    pub n_rows: u32,
-    pub n_columns: u32,
 }
 
 impl Window {
