@@ -15,7 +15,7 @@ use crate::frame_files::{Claim, FrameNames, is_done};
 use crate::script::Script;
 use crate::work::in_order;
 
-/// Most frames whose commands are parsed before the first is drawn.
+/// Largest number of frames whose commands are checked before the first frame is drawn.
 const MOST_CHECKED: usize = 64;
 
 /// Frames from which the exposure of a film is chosen, and the colours of a GIF.

@@ -1,4 +1,4 @@
-//! Colours that are hues, as seen in motion: eight pixels at once, in single precision.
+//! The hue model of 1988 for eight pixels at once, in single precision.
 
 use std::sync::LazyLock;
 
@@ -8,7 +8,7 @@ use uglight::{HueShift, HueTable};
 use ugphysics::{Brightness, RED_END_NM, VIOLET_END_NM, srgb_decode, srgb_encode};
 use ugsky::Seen;
 
-/// Pixels that are computed at once.
+/// Pixels in one SIMD vector.
 const N: usize = Seen::N;
 
 /// Tables for the hue model of 1988.
@@ -36,9 +36,10 @@ impl Hues {
         &HUES
     }
 
-    /// Linear red, green and blue at rest as seen by the hue model of 1988. A picture shows hues near
-    /// the ends of the visible range dimmed, so they are first amplified, up to white. Display-encoded
-    /// values of the result are at most `most`.  Eq. (P11), (P12), (P17)
+    /// Linear red, green and blue at rest as seen with a Doppler factor, by the hue model of 1988. A
+    /// picture shows hues near the ends of the visible range dimmed, so their pure part is first
+    /// divided by that attenuation, as far as channels stay below 1. Display-encoded values of the
+    /// result are at most `most`.  Eq. (P11), (P12), (P17)
     #[inline(always)]
     pub fn seen<S: Simd>(
         &self,
@@ -175,8 +176,8 @@ const EXPONENTS: [i32; 2] = [-20, 20];
 const N_CELLS: usize = ((EXPONENTS[1] - EXPONENTS[0]) as usize) << CELL_BITS;
 
 /// A function of light: 512 points for each power of two of its argument from 2⁻²⁰ to 2²⁰, with
-/// linear interpolation between them. Relative errors are below 5·10⁻⁶. Below it is linear, with 0
-/// for negative arguments, and above it is constant.
+/// linear interpolation between them; relative errors are below 5·10⁻⁶. From 0 to 2⁻²⁰ it is a
+/// straight line, below 0 it is 0, and above 2²⁰ it keeps its last value.
 struct Curve {
     points: Box<[f32]>,
 }

@@ -75,7 +75,7 @@ impl Statistics {
             if covered > 0.0 {
                 self.n_covered += 1;
                 for part in [red, green, blue] {
-                    // Unlike `max`, a single instruction.
+                    // Faster than `f32::max`, which also has to handle NaN.
                     self.max_light = if part > self.max_light { part } else { self.max_light };
                 }
             }

@@ -153,8 +153,8 @@ fn run(args: &Args, context: &mut Context) -> Result<bool, Failure> {
     Ok(true)
 }
 
-/// Writes the text of a scene. An empty one is written as a line feed: if nothing comes through a
-/// pipe, the next program reports that.
+/// Writes the text of a scene. For an empty scene that is a line feed, because the next program in
+/// the pipe takes no input at all for a failure of this one.
 fn write_scene(out: &mut dyn Write, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
     let mut counter = Counter { out, n_bytes: 0 };
     fill(&mut counter)?;
