@@ -7,7 +7,8 @@ use rayon::prelude::*;
 use ugphysics::srgb_decode;
 
 use crate::grid::Extent;
-use crate::panorama::{Panorama, PanoramaError, Texels};
+use crate::panorama::{Panorama, PanoramaError};
+use crate::texels::{Texels, premultiply};
 
 /// The sides of a cube map, each as seen from inside: right, left, up, down, front, back (+X, −X,
 /// +Y, −Y, +Z, −Z of OpenGL).
@@ -46,7 +47,7 @@ impl CubeMap {
                     [red, green, blue, alpha]
                 })),
                 Texels::Light(mut face) => {
-                    face.iter_mut().for_each(crate::panorama::premultiply);
+                    face.iter_mut().for_each(premultiply);
                     texels.append(&mut face);
                 }
             }

@@ -1,17 +1,16 @@
-//! Rows of pixels on a flat film, eight at once: their rays, their ellipses and the texels around
+//! Rows of pixels on a flat film, sixteen at once: their rays, their ellipses and the texels around
 //! them, in single precision.
 
 use fearless_simd::prelude::*;
-use fearless_simd::{Simd, dispatch, f32x8, mask32x8, u32x8};
+use fearless_simd::{Simd, dispatch, f32x16, mask32x16, u32x16};
 use glam::DVec3;
 
-use crate::blocks::Window;
 use crate::footprint::{CURVED, LARGEST, MOST_ECCENTRIC, RADIUS, SLACK};
-use crate::grid::{APRON, CHUNK};
+use crate::grid::APRON;
 use crate::observer::Observer;
 use crate::panorama::Panorama;
 use crate::sample::Sampler;
-use crate::window::{EACH, Footprints, ROWS, lights};
+use crate::window::{EACH, Footprints, ROWS, Windows, lights};
 
 /// Directions seen by the places of a flat film: corner + x across + y down, of any length.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,7 +23,7 @@ pub struct FlatFilm {
     pub down: DVec3,
 }
 
-/// The light of eight neighbouring pixels in the frame of the sky.
+/// The light of sixteen neighbouring pixels in the frame of the sky.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Seen {
     /// Red, green and blue times alpha, and alpha.
@@ -86,35 +85,35 @@ impl Sampler<'_> {
         let (footprints, doppler) = footprints(simd, self.panorama, observer, film, first, spread);
         found.light = lights(simd, self.panorama, &footprints, &mut self.buffers);
         found.doppler = doppler;
-        found.is_found = footprints.windows.map(|window| window.is_some());
+        found.is_found = footprints.windows.are_windows();
     }
 }
 
-/// Eight vectors.
+/// Sixteen vectors.
 #[derive(Clone, Copy)]
 struct Vectors<S: Simd> {
-    x: f32x8<S>,
-    y: f32x8<S>,
-    z: f32x8<S>,
+    x: f32x16<S>,
+    y: f32x16<S>,
+    z: f32x16<S>,
 }
 
 impl<S: Simd> Vectors<S> {
     #[inline(always)]
     fn splat(simd: S, vector: DVec3) -> Self {
         Self {
-            x: f32x8::splat(simd, vector.x as f32),
-            y: f32x8::splat(simd, vector.y as f32),
-            z: f32x8::splat(simd, vector.z as f32),
+            x: f32x16::splat(simd, vector.x as f32),
+            y: f32x16::splat(simd, vector.y as f32),
+            z: f32x16::splat(simd, vector.z as f32),
         }
     }
 
     #[inline(always)]
-    fn dot(self, other: Self) -> f32x8<S> {
+    fn dot(self, other: Self) -> f32x16<S> {
         self.x * other.x + self.y * other.y + self.z * other.z
     }
 
     #[inline(always)]
-    fn times(self, factor: f32x8<S>) -> Self {
+    fn times(self, factor: f32x16<S>) -> Self {
         Self { x: self.x * factor, y: self.y * factor, z: self.z * factor }
     }
 
@@ -129,7 +128,7 @@ impl<S: Simd> Vectors<S> {
     }
 }
 
-/// The footprints of eight pixels, and their Doppler factors. Those that are too large, and those
+/// The footprints of sixteen pixels, and their Doppler factors. Those that are too large, and those
 /// near poles and edges, have no windows.
 ///
 /// `first`: the direction of the first pixel, of any length.
@@ -141,11 +140,13 @@ pub(crate) fn footprints<S: Simd>(
     film: &FlatFilm,
     first: DVec3,
     spread: f64,
-) -> (Footprints, [f32; CHUNK]) {
-    let one = f32x8::splat(simd, 1.0);
-    let zero = f32x8::splat(simd, 0.0);
-    let half = f32x8::splat(simd, 0.5);
-    let steps = f32x8::from_slice(simd, &[0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0]);
+) -> (Footprints, [f32; EACH]) {
+    let one = f32x16::splat(simd, 1.0);
+    let zero = f32x16::splat(simd, 0.0);
+    let half = f32x16::splat(simd, 0.5);
+    let steps: [f32; EACH] =
+        [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0, 10.0, 11.0, 12.0, 13.0, 14.0, 15.0];
+    let steps = f32x16::from_slice(simd, &steps);
     let (film_across, film_down) = (Vectors::splat(simd, film.across), Vectors::splat(simd, film.down));
     let on_film = Vectors::splat(simd, first).plus(film_across.times(steps));
     let inverse = one / on_film.dot(on_film).sqrt();
@@ -159,11 +160,11 @@ pub(crate) fn footprints<S: Simd>(
     let big = one + along.abs();
     let small = across.dot(across) / big;
     let is_ahead = along.simd_ge(zero);
-    let near = is_ahead.select(big, small) * f32x8::splat(simd, behind_factor as f32);
-    let far = is_ahead.select(small, big) * f32x8::splat(simd, ahead_factor as f32);
+    let near = is_ahead.select(big, small) * f32x16::splat(simd, behind_factor as f32);
+    let far = is_ahead.select(small, big) * f32x16::splat(simd, ahead_factor as f32);
     let doppler = (one + one) / (near + far);
     let direction = ahead.times(half * doppler * (near - far)).plus(across.times(doppler));
-    let proper_speed = f32x8::splat(simd, observer.proper_speed() as f32);
+    let proper_speed = f32x16::splat(simd, observer.proper_speed() as f32);
     let turned = ahead.plus(across.times(proper_speed)).times(doppler * doppler);
 
     let level = (direction.x * direction.x + direction.y * direction.y).sqrt();
@@ -174,7 +175,7 @@ pub(crate) fn footprints<S: Simd>(
     let (east_down, north_down) = on_sky.slope(film_down);
 
     // As in Ellipse::new.
-    let spread = f32x8::splat(simd, spread as f32);
+    let spread = f32x16::splat(simd, spread as f32);
     let mut see = spread * (east_across * east_across + east_down * east_down);
     let sen = spread * (east_across * north_across + east_down * north_down);
     let mut snn = spread * (north_across * north_across + north_down * north_down);
@@ -183,7 +184,7 @@ pub(crate) fn footprints<S: Simd>(
     let apart = (unequal * unequal + sen * sen).sqrt();
     let large = middle + apart;
     let small = (middle - apart).max(zero);
-    let least = large * f32x8::splat(simd, (1.0 / (MOST_ECCENTRIC * MOST_ECCENTRIC)) as f32);
+    let least = large * f32x16::splat(simd, (1.0 / (MOST_ECCENTRIC * MOST_ECCENTRIC)) as f32);
     let widened = (least - small).max(zero);
     see += widened;
     snn += widened;
@@ -191,14 +192,14 @@ pub(crate) fn footprints<S: Simd>(
 
     // As in Ellipse::kernel.
     let square = grids.texel * grids.texel;
-    let margin = f32x8::splat(simd, (RADIUS * RADIUS) as f32) * square;
+    let margin = f32x16::splat(simd, (RADIUS * RADIUS) as f32) * square;
     let finest = sky.grids[0].texel;
-    let averaged = (square - f32x8::splat(simd, (finest * finest) as f32)) * f32x8::splat(simd, 1.0 / 6.0);
-    let variance = (see + snn) * f32x8::splat(simd, 1.0 / 12.0);
+    let averaged = (square - f32x16::splat(simd, (finest * finest) as f32)) * f32x16::splat(simd, 1.0 / 6.0);
+    let variance = (see + snn) * f32x16::splat(simd, 1.0 / 12.0);
     let (see, snn) = (see + margin, snn + margin);
     let moment = (variance - averaged).max(zero) / (see + snn);
-    let c = (f32x8::splat(simd, 2.5) - f32x8::splat(simd, 20.0) * moment)
-        / (one - f32x8::splat(simd, 5.0) * moment);
+    let c = (f32x16::splat(simd, 2.5) - f32x16::splat(simd, 20.0) * moment)
+        / (one - f32x16::splat(simd, 5.0) * moment);
     let ratio = sen / snn;
     let east = Vectors { x: cos, y: zero - sin, z: zero };
     let a = east.minus(tilt.times(ratio)).times(one / (see - sen * ratio).sqrt());
@@ -206,82 +207,75 @@ pub(crate) fn footprints<S: Simd>(
     let b = tilt.times(one / north);
 
     // As in Window::new.
-    let top = f32x8::splat(simd, sky.extent().latitudes[1] as f32);
+    let top = f32x16::splat(simd, sky.extent().latitudes[1] as f32);
     let row = (top - near_atan2(simd, direction.z, level)) * grids.rows_per_radian - half;
-    let reach = north + f32x8::splat(simd, 0.21) * north * north * north;
+    let reach = north + f32x16::splat(simd, 0.21) * north * north * north;
     let rows = reach * grids.rows_per_radian;
     let (first, last) = ((row - rows).ceil(), (row + rows).floor());
-    let is_small = large.simd_le(f32x8::splat(simd, (LARGEST * LARGEST) as f32));
+    let is_small = large.simd_le(f32x16::splat(simd, (LARGEST * LARGEST) as f32));
     let curvature = (large + margin).sqrt() * direction.z.abs();
-    let is_flat = curvature.simd_le(f32x8::splat(simd, CURVED as f32) * level);
+    let is_flat = curvature.simd_le(f32x16::splat(simd, CURVED as f32) * level);
     let is_window = is_small & is_flat & are_windows(simd, first, last, grids.n_rows, ROWS);
-    let first_rows: [u32; CHUNK] = first.to_int::<u32x8<S>>().into();
-    let n_rows: [u32; CHUNK] = (last - first + one).to_int::<u32x8<S>>().into();
+    let first_rows: [u32; EACH] = first.to_int::<u32x16<S>>().into();
+    let n_rows: [u32; EACH] = (last - first + one).to_int::<u32x16<S>>().into();
     let ladder = LadderOf::new(simd, sky, &grids.levels, is_window, &first_rows, &n_rows);
 
     let [west, east] = sky.extent().longitudes;
-    let (west, east) = (f32x8::splat(simd, west as f32), f32x8::splat(simd, east as f32));
+    let (west, east) = (f32x16::splat(simd, west as f32), f32x16::splat(simd, east as f32));
     let longitude = near_atan2(simd, direction.x, direction.y);
-    let turn = f32x8::splat(simd, core::f32::consts::TAU);
+    let turn = f32x16::splat(simd, core::f32::consts::TAU);
     let turned = longitude.simd_gt(east).select(longitude - turn, longitude);
     let turned = longitude.simd_lt(west).select(longitude + turn, turned);
     // A lower bound of cos(|latitude| + reach).
     let least_cos = level * (one - half * reach * reach) - direction.z.abs() * reach;
-    let width = f32x8::splat(simd, (1.0 + SLACK) as f32) * see.sqrt();
+    let width = f32x16::splat(simd, (1.0 + SLACK) as f32) * see.sqrt();
     let columns = width / least_cos * ladder.per_radian;
     let column = (turned - west) * ladder.per_radian - half;
     let (first, last) = ((column - columns).ceil(), (column + columns).floor());
     let is_window = (is_window & are_windows(simd, first, last, ladder.n_columns, APRON)).to_bitmask();
-    let first_columns: [u32; CHUNK] = first.to_int::<u32x8<S>>().into();
-    let n_columns: [u32; CHUNK] = (last - first + one).to_int::<u32x8<S>>().into();
-
-    let mut windows = [None; CHUNK];
-    for (k, window) in windows.iter_mut().enumerate() {
-        if is_window >> k & 1 == 1 {
-            *window = Some(Window {
-                level: grids.levels[k],
-                ladder: ladder.idx[k],
-                row: first_rows[k],
-                column: first_columns[k],
-                n_rows: n_rows[k],
-                n_columns: n_columns[k],
-            });
-        }
-    }
+    let windows = Windows {
+        is_window,
+        level: grids.levels,
+        ladder: ladder.idx,
+        row: first_rows,
+        column: first.to_int::<u32x16<S>>().into(),
+        n_rows,
+        n_columns: (last - first + one).to_int::<u32x16<S>>().into(),
+    };
     (Footprints { a: lanes_of(a), b: lanes_of(b), c: c.into(), windows }, doppler.into())
 }
 
-/// What the grids of the mip levels of eight footprints have.
+/// What the grids of the mip levels of sixteen footprints have.
 struct GridsOf<S: Simd> {
-    levels: [u32; CHUNK],
-    texel: f32x8<S>,
-    rows_per_radian: f32x8<S>,
-    n_rows: f32x8<S>,
+    levels: [u32; EACH],
+    texel: f32x16<S>,
+    rows_per_radian: f32x16<S>,
+    n_rows: f32x16<S>,
 }
 
 impl<S: Simd> GridsOf<S> {
     /// `small`: squares of the smaller semi-axes.
     #[inline(always)]
-    fn new(simd: S, sky: &Panorama, small: f32x8<S>) -> Self {
-        let squares: [f32; CHUNK] = small.into();
+    fn new(simd: S, sky: &Panorama, small: f32x16<S>) -> Self {
+        let squares: [f32; EACH] = small.into();
         let level = sky.level_of(f64::from(squares[0]));
         let square =
             |level: usize| sky.grids.get(level).map_or(f64::INFINITY, |grid| grid.texel * grid.texel);
         let least = if level == 0 { 0.0 } else { square(level) as f32 };
-        let is_same = small.simd_ge(f32x8::splat(simd, least))
-            & small.simd_lt(f32x8::splat(simd, square(level + 1) as f32));
+        let is_same = small.simd_ge(f32x16::splat(simd, least))
+            & small.simd_lt(f32x16::splat(simd, square(level + 1) as f32));
         if is_same.all_true() {
             let grid = &sky.grids[level];
             return Self {
-                levels: [level as u32; CHUNK],
-                texel: f32x8::splat(simd, grid.texel as f32),
-                rows_per_radian: f32x8::splat(simd, grid.rows_per_radian as f32),
-                n_rows: f32x8::splat(simd, grid.rows.len() as f32),
+                levels: [level as u32; EACH],
+                texel: f32x16::splat(simd, grid.texel as f32),
+                rows_per_radian: f32x16::splat(simd, grid.rows_per_radian as f32),
+                n_rows: f32x16::splat(simd, grid.rows.len() as f32),
             };
         }
-        let mut levels = [0; CHUNK];
-        let mut parts = [[0.0; CHUNK]; 3];
-        for k in 0..CHUNK {
+        let mut levels = [0; EACH];
+        let mut parts = [[0.0; EACH]; 3];
+        for k in 0..EACH {
             let level = sky.level_of(f64::from(squares[k]));
             let grid = &sky.grids[level];
             levels[k] = level as u32;
@@ -291,20 +285,20 @@ impl<S: Simd> GridsOf<S> {
         }
         Self {
             levels,
-            texel: f32x8::from_slice(simd, &parts[0]),
-            rows_per_radian: f32x8::from_slice(simd, &parts[1]),
-            n_rows: f32x8::from_slice(simd, &parts[2]),
+            texel: f32x16::from_slice(simd, &parts[0]),
+            rows_per_radian: f32x16::from_slice(simd, &parts[1]),
+            n_rows: f32x16::from_slice(simd, &parts[2]),
         }
     }
 }
 
-/// What the columns of the rows of eight windows have.
+/// What the columns of the rows of sixteen windows have.
 struct LadderOf<S: Simd> {
     /// Index in the ladder.
-    idx: [u32; CHUNK],
-    per_radian: f32x8<S>,
+    idx: [u32; EACH],
+    per_radian: f32x16<S>,
     /// 0 where the rows of a window do not have the same, or there is no window.
-    n_columns: f32x8<S>,
+    n_columns: f32x16<S>,
 }
 
 impl<S: Simd> LadderOf<S> {
@@ -312,14 +306,14 @@ impl<S: Simd> LadderOf<S> {
     fn new(
         simd: S,
         sky: &Panorama,
-        levels: &[u32; CHUNK],
-        is_window: mask32x8<S>,
-        first_rows: &[u32; CHUNK],
-        n_rows: &[u32; CHUNK],
+        levels: &[u32; EACH],
+        is_window: mask32x16<S>,
+        first_rows: &[u32; EACH],
+        n_rows: &[u32; EACH],
     ) -> Self {
         let is_window = is_window.to_bitmask();
-        let (mut idx, mut per_radian, mut n_columns) = ([0; CHUNK], [1.0; CHUNK], [0.0; CHUNK]);
-        for k in 0..CHUNK {
+        let (mut idx, mut per_radian, mut n_columns) = ([0; EACH], [1.0; EACH], [0.0; EACH]);
+        for k in 0..EACH {
             if is_window >> k & 1 == 1 {
                 let lines = &sky.grids[levels[k] as usize].lines;
                 let [top, bottom] =
@@ -334,21 +328,27 @@ impl<S: Simd> LadderOf<S> {
         }
         Self {
             idx,
-            per_radian: f32x8::from_slice(simd, &per_radian),
-            n_columns: f32x8::from_slice(simd, &n_columns),
+            per_radian: f32x16::from_slice(simd, &per_radian),
+            n_columns: f32x16::from_slice(simd, &n_columns),
         }
     }
 }
 
 /// As `is_window`.
 #[inline(always)]
-fn are_windows<S: Simd>(simd: S, first: f32x8<S>, last: f32x8<S>, n: f32x8<S>, most: usize) -> mask32x8<S> {
-    let is_inside = first.simd_ge(f32x8::splat(simd, 0.0)) & last.simd_lt(n);
-    is_inside & last.simd_ge(first) & (last - first).simd_lt(f32x8::splat(simd, most as f32))
+fn are_windows<S: Simd>(
+    simd: S,
+    first: f32x16<S>,
+    last: f32x16<S>,
+    n: f32x16<S>,
+    most: usize,
+) -> mask32x16<S> {
+    let is_inside = first.simd_ge(f32x16::splat(simd, 0.0)) & last.simd_lt(n);
+    is_inside & last.simd_ge(first) & (last - first).simd_lt(f32x16::splat(simd, most as f32))
 }
 
 #[inline(always)]
-fn lanes_of<S: Simd>(vectors: Vectors<S>) -> [[f32; CHUNK]; 3] {
+fn lanes_of<S: Simd>(vectors: Vectors<S>) -> [[f32; EACH]; 3] {
     [vectors.x.into(), vectors.y.into(), vectors.z.into()]
 }
 
@@ -356,13 +356,13 @@ fn lanes_of<S: Simd>(vectors: Vectors<S>) -> [[f32; CHUNK]; 3] {
 struct OnSky<S: Simd> {
     seen: Vectors<S>,
     /// Of the lengths on the film.
-    inverse: f32x8<S>,
+    inverse: f32x16<S>,
     ahead: Vectors<S>,
-    doppler: f32x8<S>,
+    doppler: f32x16<S>,
     turned: Vectors<S>,
     /// Of the longitude.
-    sin: f32x8<S>,
-    cos: f32x8<S>,
+    sin: f32x16<S>,
+    cos: f32x16<S>,
     /// To the north.
     tilt: Vectors<S>,
 }
@@ -370,7 +370,7 @@ struct OnSky<S: Simd> {
 impl<S: Simd> OnSky<S> {
     /// East and north components of the change with a step on the film.
     #[inline(always)]
-    fn slope(&self, step: Vectors<S>) -> (f32x8<S>, f32x8<S>) {
+    fn slope(&self, step: Vectors<S>) -> (f32x16<S>, f32x16<S>) {
         let slope = step.minus(self.seen.times(self.seen.dot(step))).times(self.inverse);
         let part = slope.dot(self.ahead);
         let in_sky = slope.minus(self.ahead.times(part)).times(self.doppler).plus(self.turned.times(part));
@@ -380,20 +380,20 @@ impl<S: Simd> OnSky<S> {
 
 /// atan2 within 3·10⁻⁶; see [`crate::footprint::near_atan2`].
 #[inline(always)]
-fn near_atan2<S: Simd>(simd: S, y: f32x8<S>, x: f32x8<S>) -> f32x8<S> {
+fn near_atan2<S: Simd>(simd: S, y: f32x16<S>, x: f32x16<S>) -> f32x16<S> {
     use core::f32::consts::{FRAC_PI_2, PI};
-    let zero = f32x8::splat(simd, 0.0);
+    let zero = f32x16::splat(simd, 0.0);
     let (above, across) = (y.abs(), x.abs());
     let is_flat = above.simd_lt(across);
     let t = is_flat.select(above, across) / is_flat.select(across, above);
     let s = t * t;
-    let angle = f32x8::splat(simd, 0.052_653_32) - s * f32x8::splat(simd, 0.011_721_2);
-    let angle = f32x8::splat(simd, -0.116_432_87) + s * angle;
-    let angle = f32x8::splat(simd, 0.193_543_46) + s * angle;
-    let angle = f32x8::splat(simd, -0.332_623_47) + s * angle;
-    let angle = t * (f32x8::splat(simd, 0.999_977_26) + s * angle);
-    let angle = is_flat.select(angle, f32x8::splat(simd, FRAC_PI_2) - angle);
-    let angle = x.simd_lt(zero).select(f32x8::splat(simd, PI) - angle, angle);
+    let angle = f32x16::splat(simd, 0.052_653_32) - s * f32x16::splat(simd, 0.011_721_2);
+    let angle = f32x16::splat(simd, -0.116_432_87) + s * angle;
+    let angle = f32x16::splat(simd, 0.193_543_46) + s * angle;
+    let angle = f32x16::splat(simd, -0.332_623_47) + s * angle;
+    let angle = t * (f32x16::splat(simd, 0.999_977_26) + s * angle);
+    let angle = is_flat.select(angle, f32x16::splat(simd, FRAC_PI_2) - angle);
+    let angle = x.simd_lt(zero).select(f32x16::splat(simd, PI) - angle, angle);
     y.simd_lt(zero).select(zero - angle, angle)
 }
 
@@ -403,7 +403,7 @@ mod tests {
 
     use super::*;
     use crate::grid::Extent;
-    use crate::panorama::Texels;
+    use crate::texels::Texels;
 
     /// Rows have the light and the factors of single pixels, in all directions and at all sizes.
     #[test]

@@ -1,7 +1,7 @@
 //! The weights of an elliptical footprint on the sphere.
 
 use fearless_simd::prelude::*;
-use fearless_simd::{Simd, f32x8};
+use fearless_simd::{Simd, f32x16};
 use glam::DVec3;
 
 use crate::observer::SkyRay;
@@ -116,11 +116,11 @@ impl Ellipse {
 /// so that the light of a linear function is exact. Passed are sums of weight times s and t, and of
 /// the positive part times s², s t and t².
 #[inline(always)]
-pub(crate) fn correction<S: Simd>(simd: S, [s, t, ss, st, tt]: [f32x8<S>; 5]) -> [f32x8<S>; 2] {
+pub(crate) fn correction<S: Simd>(simd: S, [s, t, ss, st, tt]: [f32x16<S>; 5]) -> [f32x16<S>; 2] {
     let determinant = ss * tt - st * st;
     // With texels along a line only, one of the two has no effect.
-    let is_regular = determinant.simd_gt(f32x8::splat(simd, 1e-3) * ss * tt);
-    let zero = f32x8::splat(simd, 0.0);
+    let is_regular = determinant.simd_gt(f32x16::splat(simd, 1e-3) * ss * tt);
+    let zero = f32x16::splat(simd, 0.0);
     [
         is_regular.select((st * t - tt * s) / determinant, zero),
         is_regular.select((st * s - ss * t) / determinant, zero),

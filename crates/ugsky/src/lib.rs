@@ -40,13 +40,15 @@ mod panorama;
 mod sample;
 mod spectral;
 mod stars;
+mod texels;
 mod window;
 
 pub use cube::CubeMap;
 pub use flat::{FlatFilm, Seen};
 pub use grid::Extent;
 pub use observer::{Observer, SkyRay};
-pub use panorama::{Panorama, PanoramaError, Texels};
+pub use panorama::{Panorama, PanoramaError};
 pub use sample::Sampler;
 pub use spectral::{ALL_NM, Basis, BasisError, SpectralTable};
 pub use stars::{Star, StarLight};
+pub use texels::Texels;

@@ -5,28 +5,9 @@ use std::ops::Range;
 use std::sync::OnceLock;
 
 use rayon::prelude::*;
-use ugphysics::srgb_decode;
 
 use crate::grid::{APRON, Columns, Extent, Grid, Row, SEGMENT, grids, ladder};
-
-/// The texels of a panorama, row after row from the top.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Texels {
-    /// Display-encoded sRGB, and alpha.
-    Srgb(Vec<[u8; 4]>),
-    /// Linear light, white is 1, and alpha from 0 to 1. Colours are not multiplied by alpha. NaN
-    /// counts as 0, and infinite light as the largest number.
-    Light(Vec<[f32; 4]>),
-}
-
-impl Texels {
-    fn len(&self) -> usize {
-        match self {
-            Self::Srgb(texels) => texels.len(),
-            Self::Light(texels) => texels.len(),
-        }
-    }
-}
+use crate::texels::{Decoder, Planes, RowTexels, Texels, premultiply};
 
 /// Why a grid of texels is no panorama.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -76,9 +57,8 @@ pub struct Panorama {
     levels: Vec<Vec<Segment>>,
 }
 
-/// Light times alpha, and alpha, of [`SEGMENT`] columns or those up to the end of the row, and of
-/// [`APRON`] more.
-type Segment = OnceLock<Box<[[f32; 4]]>>;
+/// The texels of [`SEGMENT`] columns or those up to the end of the row, and of [`APRON`] more.
+type Segment = OnceLock<Planes>;
 
 impl Panorama {
     /// A panorama of `size` texels across and down.
@@ -140,7 +120,7 @@ impl Panorama {
             return self.given(start..start + n);
         }
         let at = column % SEGMENT;
-        RowTexels::Light(&self.segment(level, row, column / SEGMENT)[at..at + n])
+        RowTexels::Planes(self.segment(level, row, column / SEGMENT), at..at + n)
     }
 
     #[inline(always)]
@@ -152,7 +132,7 @@ impl Panorama {
     }
 
     #[inline(always)]
-    fn segment(&self, level: usize, row: &Row, idx: usize) -> &[[f32; 4]] {
+    fn segment(&self, level: usize, row: &Row, idx: usize) -> &Planes {
         let segment = &self.levels[level][row.offset + idx];
         match segment.get() {
             Some(texels) => texels,
@@ -163,38 +143,51 @@ impl Panorama {
     /// A segment, from the texels below it. Closed rows begin again after their end; after the end
     /// of others there is nothing.
     #[inline(never)]
-    fn computed(&self, level: usize, row: &Row, idx: usize) -> Box<[[f32; 4]]> {
+    fn computed(&self, level: usize, row: &Row, idx: usize) -> Planes {
         let n = self.ladder[row.ladder].n;
         let start = idx * SEGMENT;
         let length = SEGMENT.min(n - start) + APRON;
-        let mut texels = vec![[0.0; 4]; length];
+        let mut sums = [[0.0; SEGMENT + APRON]; 4];
+        let mut is_opaque = true;
         let mut done = 0;
         while done < length {
             let first = (start + done) % n;
             let part = (length - done).min(n - first);
-            self.compute(level, row, first, &mut texels[done..done + part]);
+            is_opaque &=
+                self.compute(level, row, first, sums.each_mut().map(|sum| &mut sum[done..done + part]));
             done += part;
             if !self.extent.is_closed() {
                 break;
             }
         }
-        texels.into_boxed_slice()
+        Planes::new(sums.each_ref().map(|sum| &sum[..length]), is_opaque)
     }
 
-    /// The means of the texels below those of a row from a column on, weighted by their areas.
-    fn compute(&self, level: usize, row: &Row, first: usize, sum: &mut [[f32; 4]]) {
+    /// The means of the texels below those of a row from a column on, weighted by their areas. True
+    /// if all are opaque.
+    fn compute(&self, level: usize, row: &Row, first: usize, mut sums: [&mut [f32]; 4]) -> bool {
         let n = self.ladder[row.ladder].n;
+        let n_sums = sums[0].len();
         let mut below = Vec::new();
+        let mut is_opaque = true;
         let mut add = |level: usize, row: &Row, n_fine: usize, weight: f32| {
             let start = first * n_fine / n;
-            let end = ((first + sum.len()) * n_fine).div_ceil(n);
-            below.clear();
-            self.for_each(level, row, start..end, |texels| texels.push_to(&mut below));
-            add_reduced(&below, start, [n_fine, n], weight, first, sum);
+            let length = ((first + n_sums) * n_fine).div_ceil(n) - start;
+            below.resize(4 * length, 0.0);
+            let mut planes = quarters(&mut below, length);
+            let mut at = 0;
+            self.for_each(level, row, start..start + length, |texels| {
+                let end = at + texels.len();
+                is_opaque &= texels.copy_to(planes.each_mut().map(|plane| &mut plane[at..end]));
+                at = end;
+            });
+            let planes = planes.map(|plane| &*plane);
+            add_reduced(planes, start, [n_fine, n], weight, first, &mut sums);
         };
         if level == 0 {
             let given = Row { ladder: 0, offset: row.idx * self.ladder[0].n, ..*row };
-            return add(0, &given, self.ladder[0].n, 1.0);
+            add(0, &given, self.ladder[0].n, 1.0);
+            return is_opaque;
         }
         let finer = &self.grids[level - 1];
         let parts = overlaps(finer.rows.len(), self.grids[level].rows.len(), row.idx);
@@ -209,6 +202,21 @@ impl Panorama {
             let row = &finer.rows[row];
             add(level - 1, row, self.ladder[row.ladder].n, weight);
         }
+        is_opaque
+    }
+
+    /// Reads given texels so that the processor has them when they are needed: it waits once for all
+    /// instead of once for each row.
+    pub(crate) fn load(&self, level: usize, rows: Range<usize>, columns: Range<usize>) {
+        let grid = &self.grids[level];
+        let mut sum = 0_u32;
+        for row in &grid.rows[rows.start..rows.end.min(grid.rows.len())] {
+            if level == 0 && row.ladder == 0 {
+                let end = columns.end.min(self.ladder[0].n);
+                sum = sum.wrapping_add(self.given(row.offset + columns.start..row.offset + end).load());
+            }
+        }
+        std::hint::black_box(sum);
     }
 
     /// Passes consecutive texels of a row on, from the left, in several parts.
@@ -228,10 +236,18 @@ impl Panorama {
             let segment = self.segment(level, row, at / SEGMENT);
             let end = columns.end.min((at / SEGMENT + 1) * SEGMENT);
             let offset = at - at % SEGMENT;
-            take(RowTexels::Light(&segment[at - offset..end - offset]));
+            take(RowTexels::Planes(segment, at - offset..end - offset));
             at = end;
         }
     }
+}
+
+/// Four parts of a buffer.
+fn quarters(buffer: &mut [f32], length: usize) -> [&mut [f32]; 4] {
+    let (first, rest) = buffer.split_at_mut(length);
+    let (second, rest) = rest.split_at_mut(length);
+    let (third, fourth) = rest.split_at_mut(length);
+    [first, second, third, fourth]
 }
 
 /// The cells of a finer division that a cell of a coarser one overlaps, with the overlapped part of
@@ -247,111 +263,32 @@ fn overlaps(n_fine: usize, n_coarse: usize, idx: usize) -> impl Iterator<Item = 
     })
 }
 
-pub(crate) fn premultiply(texel: &mut [f32; 4]) {
-    let finite = |part: f32| if part.is_nan() { 0.0 } else { part.clamp(-f32::MAX, f32::MAX) };
-    let alpha = finite(texel[3]).clamp(0.0, 1.0);
-    let [red, green, blue, _] = *texel;
-    *texel = [alpha * finite(red), alpha * finite(green), alpha * finite(blue), alpha];
-}
-
-/// Light of 8-bit colours.
-pub(crate) struct Decoder(Box<[f32; 256]>);
-
-impl Decoder {
-    fn new() -> Self {
-        Self(Box::new(std::array::from_fn(|level| srgb_decode(level as f64 / 255.0) as f32)))
-    }
-
-    /// Light times alpha, and alpha.
-    #[inline(always)]
-    pub fn light(&self, [red, green, blue, alpha]: [u8; 4]) -> [f32; 4] {
-        let [red, green, blue] = [red, green, blue].map(|level| self.0[usize::from(level)]);
-        if alpha == 255 {
-            return [red, green, blue, 1.0];
-        }
-        let alpha = f32::from(alpha) / 255.0;
-        [alpha * red, alpha * green, alpha * blue, alpha]
-    }
-
-    /// Sets the channels of texels, from a place on.
-    pub fn decode<const N: usize>(&self, texels: &[[u8; 4]], planes: &mut [[f32; N]; 4], at: usize) {
-        let n = texels.len().min(N - at);
-        let [reds, greens, blues, alphas] = planes;
-        let places = reds[at..at + n].iter_mut().zip(&mut greens[at..at + n]).zip(&mut blues[at..at + n]);
-        for (((red, green), blue), texel) in places.zip(texels) {
-            *red = self.0[usize::from(texel[0])];
-            *green = self.0[usize::from(texel[1])];
-            *blue = self.0[usize::from(texel[2])];
-        }
-        let alphas = &mut alphas[at..at + n];
-        alphas.fill(1.0);
-        if texels.iter().fold(255, |all, texel| all & texel[3]) < 255 {
-            for (idx, &texel) in texels.iter().enumerate().take(n) {
-                let light = self.light(texel);
-                (reds[at + idx], greens[at + idx], blues[at + idx]) = (light[0], light[1], light[2]);
-                alphas[idx] = light[3];
-            }
-        }
-    }
-}
-
-/// Consecutive texels of a row.
-#[derive(Clone, Copy)]
-pub(crate) enum RowTexels<'a> {
-    Srgb(&'a [[u8; 4]], &'a Decoder),
-    Light(&'a [[f32; 4]]),
-}
-
-impl RowTexels<'_> {
-    /// Number of texels.
-    pub fn len(&self) -> usize {
-        match self {
-            Self::Srgb(texels, _) => texels.len(),
-            Self::Light(texels) => texels.len(),
-        }
-    }
-
-    /// Appends all to a list: light times alpha, and alpha.
-    fn push_to(&self, list: &mut Vec<[f32; 4]>) {
-        match self {
-            Self::Srgb(texels, decoder) => list.extend(texels.iter().map(|&texel| decoder.light(texel))),
-            Self::Light(texels) => list.extend_from_slice(texels),
-        }
-    }
-
-    /// A texel: light times alpha, and alpha.
-    #[inline]
-    pub fn get(&self, idx: usize) -> [f32; 4] {
-        match self {
-            Self::Srgb(texels, decoder) => decoder.light(texels[idx]),
-            Self::Light(texels) => texels[idx],
-        }
-    }
-}
-
 /// Adds texels reduced to fewer columns by means, times a weight. `below`: those of the finer row
-/// from column `start` on; `counts`: the columns of both rows; `first`: the column of the first
+/// from column `start` on; `n_fine`, `n`: the columns of both rows; `first`: the column of the first
 /// sum.
 fn add_reduced(
-    below: &[[f32; 4]],
+    below: [&[f32]; 4],
     start: usize,
     [n_fine, n]: [usize; 2],
     weight: f32,
     first: usize,
-    sum: &mut [[f32; 4]],
+    sums: &mut [&mut [f32]; 4],
 ) {
     if n_fine == 2 * n {
         let half = 0.5 * weight;
-        for (sum, pair) in sum.iter_mut().zip(below.chunks_exact(2)) {
-            (0..4).for_each(|channel| sum[channel] += half * (pair[0][channel] + pair[1][channel]));
+        for (sum, below) in sums.iter_mut().zip(below) {
+            for (sum, pair) in sum.iter_mut().zip(below.as_chunks::<2>().0) {
+                *sum += half * (pair[0] + pair[1]);
+            }
         }
         return;
     }
     let per_cell = weight * n as f32 / n_fine as f32;
-    for (idx, sum) in (first..).zip(sum) {
-        for (cell, part) in overlaps(n_fine, n, idx) {
-            let texel = below[cell - start];
-            (0..4).for_each(|channel| sum[channel] += per_cell * part as f32 * texel[channel]);
+    for idx in 0..sums[0].len() {
+        for (cell, part) in overlaps(n_fine, n, first + idx) {
+            (0..4).for_each(|channel| {
+                sums[channel][idx] += per_cell * part as f32 * below[channel][cell - start]
+            });
         }
     }
 }
@@ -374,9 +311,12 @@ mod tests {
     /// All levels have the mean of the panorama, weighted by area, odd sizes too.
     #[test]
     fn levels_keep_the_mean() {
-        for size in [[256, 128], [301, 147], [288, 133]] {
+        for (size, alpha) in [([256, 128], 1.0), ([256, 128], 0.5), ([301, 147], 0.2), ([288, 133], 1.0)] {
             let n_texels = size[0] as usize * size[1] as usize;
-            let texel = |idx: usize| [(idx as f32 * 0.618_034).fract(), (idx / 7 % 5) as f32, 1.0, 1.0];
+            let texel = |idx: usize| {
+                let alpha = if idx.is_multiple_of(3) { alpha } else { 1.0 };
+                [(idx as f32 * 0.618_034).fract(), (idx / 7 % 5) as f32, 1.0, alpha]
+            };
             let texels = Texels::Light((0..n_texels).map(texel).collect());
             let panorama = Panorama::new(size, texels, Extent::FULL).unwrap();
             let mean = |level: usize| {

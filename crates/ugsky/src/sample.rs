@@ -3,7 +3,7 @@
 use core::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use fearless_simd::prelude::*;
-use fearless_simd::{Level, Simd, dispatch, f32x8};
+use fearless_simd::{Level, Simd, dispatch, f32x16};
 use glam::DVec3;
 
 use crate::footprint::{CURVED, Ellipse, Kernel, SLACK, correction, near_atan2};
@@ -222,7 +222,7 @@ impl Sampler<'_> {
     fn sum(&self, level: usize) -> [f32; 4] {
         let sky = self.panorama;
         let [across, along] = dispatch!(self.simd, simd => {
-            let moments = self.moments.0.map(|lanes| f32x8::splat(simd, lanes.iter().sum::<f32>()));
+            let moments = self.moments.0.map(|lanes| f32x16::splat(simd, lanes.iter().sum::<f32>()));
             correction(simd, moments).map(|factors| factors[0])
         });
         let (mut light, mut total) = ([0.0_f32; 4], [0.0_f32; CHUNK]);

@@ -1,5 +1,5 @@
 //! The light of most footprints: away from poles and edges, where all rows of an ellipse have the
-//! same columns, and few. That of eight footprints is found together.
+//! same columns, and few. That of sixteen footprints is found together.
 //!
 //! Weights are computed for eight columns of a row at once. There is no fused multiplication and
 //! addition, so all processors compute the same.
@@ -7,10 +7,10 @@
 use core::f64::consts::TAU;
 
 use fearless_simd::prelude::*;
-use fearless_simd::{Simd, f32x4, f32x8};
+use fearless_simd::{Simd, f32x4, f32x8, f32x16};
 use glam::DVec3;
 
-use crate::blocks::{Block, Blocks, WIDTH, Window};
+use crate::blocks::{Block, Blocks, Held, WIDTH, Window};
 use crate::footprint::{CURVED, Kernel, SLACK, correction, near_atan2};
 use crate::grid::{APRON, CHUNK, PAD};
 use crate::panorama::Panorama;
@@ -19,17 +19,64 @@ use crate::panorama::Panorama;
 pub(crate) const ROWS: usize = 16;
 
 /// Footprints whose light is found together.
-pub(crate) const EACH: usize = 8;
+pub(crate) const EACH: usize = 16;
 
-/// Eight footprints.
+/// Sixteen footprints.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Footprints {
     /// Their kernels, by coordinate: q = (a·d)² + (b·d)², and c.
     pub a: [[f32; EACH]; 3],
     pub b: [[f32; EACH]; 3],
     pub c: [f32; EACH],
-    /// Their texels. `None` where there is no footprint that can be summed here.
-    pub windows: [Option<Window>; EACH],
+    /// Their texels.
+    pub windows: Windows,
+}
+
+/// The windows of sixteen footprints, each number of all together, as they are computed.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Windows {
+    /// A bit for each footprint that can be summed here.
+    pub is_window: u64,
+    pub level: [u32; EACH],
+    pub ladder: [u32; EACH],
+    pub row: [u32; EACH],
+    pub column: [u32; EACH],
+    pub n_rows: [u32; EACH],
+    pub n_columns: [u32; EACH],
+}
+
+impl Windows {
+    #[inline(always)]
+    fn get(&self, idx: usize) -> Option<Window> {
+        (self.is_window >> idx & 1 == 1).then(|| Window {
+            level: self.level[idx],
+            ladder: self.ladder[idx],
+            row: self.row[idx],
+            column: self.column[idx],
+            n_rows: self.n_rows[idx],
+            n_columns: self.n_columns[idx],
+        })
+    }
+
+    fn set(&mut self, idx: usize, window: Window) {
+        self.is_window |= 1 << idx;
+        self.level[idx] = window.level;
+        self.ladder[idx] = window.ladder;
+        self.row[idx] = window.row;
+        self.column[idx] = window.column;
+        self.n_rows[idx] = window.n_rows;
+        self.n_columns[idx] = window.n_columns;
+    }
+
+    /// The footprints that can be summed here.
+    #[inline(always)]
+    pub fn are_windows(&self) -> [bool; EACH] {
+        let mut are = [false; EACH];
+        for (idx, is) in are.iter_mut().enumerate() {
+            *is = self.is_window >> idx & 1 == 1;
+        }
+        are
+    }
 }
 
 /// An angle not below asin r, as asin r < r + 0.21 r³ for r < 0.6.
@@ -94,19 +141,19 @@ pub(crate) fn is_window(first: f64, last: f64, n: usize, most: usize) -> bool {
 /// times t.
 type Weights = [[[[f32; CHUNK]; 3]; ROWS]; APRON / CHUNK];
 
-/// Sums over the texels of a window: weight times s, weight times t, and positive part times s², s t
-/// and t².
-type Moments<S> = [f32x8<S>; 5];
+/// Sums over the texels of a window, by column of a chunk.
+type Sums = [[f32; CHUNK]; 5];
 
 /// Buffers for the light of footprints.
 pub(crate) struct Buffers {
     weights: Box<[Weights; EACH]>,
+    sums: [Sums; EACH],
     blocks: Blocks,
 }
 
 impl Buffers {
     pub fn new() -> Self {
-        Self { weights: Box::default(), blocks: Blocks::new() }
+        Self { weights: Box::default(), sums: [[[0.0; CHUNK]; 5]; EACH], blocks: Blocks::new() }
     }
 }
 
@@ -121,15 +168,15 @@ pub(crate) fn light<S: Simd>(
     buffers: &mut Buffers,
 ) -> Option<[f32; 4]> {
     let mut one = Footprints::default();
-    one.windows[0] = Some(Window::new(sky, level, kernel, center)?);
+    one.windows.set(0, Window::new(sky, level, kernel, center)?);
     let (a, b) = (kernel.a.as_vec3().to_array(), kernel.b.as_vec3().to_array());
     (0..3).for_each(|axis| (one.a[axis][0], one.b[axis][0]) = (a[axis], b[axis]));
     one.c[0] = kernel.c;
     Some(lights(simd, sky, &one, buffers).map(|channel| channel[0]))
 }
 
-/// The mean light of eight ellipses: red, green and blue times alpha, and alpha. Nothing where there
-/// is no window.
+/// The mean light of sixteen ellipses: red, green and blue times alpha, and alpha. Nothing where
+/// there is no window.
 #[inline(always)]
 pub(crate) fn lights<S: Simd>(
     simd: S,
@@ -137,32 +184,33 @@ pub(crate) fn lights<S: Simd>(
     footprints: &Footprints,
     buffers: &mut Buffers,
 ) -> [[f32; EACH]; 4] {
-    let zero = f32x8::splat(simd, 0.0);
-    let mut moments = [[zero; 5]; EACH];
-    for (idx, (moments, weights)) in moments.iter_mut().zip(buffers.weights.iter_mut()).enumerate() {
-        if let Some(window) = &footprints.windows[idx] {
-            *moments = weigh(simd, sky, footprints, idx, window, weights);
+    let Buffers { weights, sums, blocks } = buffers;
+    for (idx, (sums, weights)) in sums.iter_mut().zip(weights.iter_mut()).enumerate() {
+        match footprints.windows.get(idx) {
+            Some(window) => weigh(simd, sky, footprints, idx, &window, weights, sums),
+            None => *sums = [[0.0; CHUNK]; 5],
         }
     }
-    let moments = totals(simd, &moments);
-    let [across, along] = correction(simd, moments);
+    let [across, along] = correction(simd, totals(simd, sums));
     let (across, along): ([f32; EACH], [f32; EACH]) = (across.into(), along.into());
 
-    let mut sums = [[zero; 5]; EACH];
-    for (idx, (sums, weights)) in sums.iter_mut().zip(buffers.weights.iter()).enumerate() {
-        if let Some(window) = &footprints.windows[idx] {
-            *sums = sum(simd, sky, window, weights, [across[idx], along[idx]], &mut buffers.blocks);
+    // The sums of footprints without a window stay 0.
+    for (idx, (sums, weights)) in sums.iter_mut().zip(weights.iter()).enumerate() {
+        if let Some(window) = footprints.windows.get(idx) {
+            sum(simd, sky, &window, weights, [across[idx], along[idx]], blocks, sums);
         }
     }
-    let [total, red, green, blue, alpha] = totals(simd, &sums);
+    let [total, red, green, blue, alpha] = totals(simd, sums);
+    let zero = f32x16::splat(simd, 0.0);
     let is_any = total.simd_gt(zero);
-    let scale = is_any.select(f32x8::splat(simd, 1.0) / total, zero);
+    let scale = is_any.select(f32x16::splat(simd, 1.0) / total, zero);
     // Exactly 1 if all texels are opaque.
     let alpha = is_any.select(alpha / total, zero);
     [(red * scale).into(), (green * scale).into(), (blue * scale).into(), alpha.into()]
 }
 
-/// Computes the weights of a window.
+/// Computes the weights of a window, and sums: weight times s, weight times t, and positive part
+/// times s², s t and t².
 #[inline(always)]
 fn weigh<S: Simd>(
     simd: S,
@@ -171,7 +219,8 @@ fn weigh<S: Simd>(
     idx: usize,
     window: &Window,
     weights: &mut Weights,
-) -> Moments<S> {
+    sums: &mut Sums,
+) {
     let grid = &sky.grids[window.level as usize];
     let columns = &sky.ladder[window.ladder as usize];
     let pad = if sky.extent().is_closed() { 0 } else { PAD };
@@ -179,7 +228,7 @@ fn weigh<S: Simd>(
     let c = f32x8::splat(simd, footprints.c[idx]);
     let (a_x, a_y) = (f32x8::splat(simd, footprints.a[0][idx]), f32x8::splat(simd, footprints.a[1][idx]));
     let (b_x, b_y) = (f32x8::splat(simd, footprints.b[0][idx]), f32x8::splat(simd, footprints.b[1][idx]));
-    let (a_z, b_z) = (footprints.a[2][idx], footprints.b[2][idx]);
+    let (a_z, b_z) = (f32x8::splat(simd, footprints.a[2][idx]), f32x8::splat(simd, footprints.b[2][idx]));
     let lines = &grid.lines[window.row as usize..][..window.n_rows as usize];
     let mut moments = [zero; 5];
     let n_chunks = (window.n_columns as usize).div_ceil(CHUNK);
@@ -191,9 +240,9 @@ fn weigh<S: Simd>(
         let level_a = a_x * sin + a_y * cos;
         let level_b = b_x * sin + b_y * cos;
         for (line, stored) in lines.iter().zip(weights) {
-            let cos = f32x8::splat(simd, line.cos);
-            let s = cos * level_a + f32x8::splat(simd, line.sin * a_z);
-            let t = cos * level_b + f32x8::splat(simd, line.sin * b_z);
+            let (sin, cos) = (f32x8::splat(simd, line.sin), f32x8::splat(simd, line.cos));
+            let s = cos * level_a + sin * a_z;
+            let t = cos * level_b + sin * b_z;
             let q = s * s + t * t;
             let rest = (one - q).max(zero);
             let positive = f32x8::splat(simd, line.area) * rest * rest;
@@ -209,7 +258,9 @@ fn weigh<S: Simd>(
             by_t.store_slice(&mut stored[2]);
         }
     }
-    moments
+    for (moment, sum) in moments.iter().zip(sums) {
+        moment.store_slice(sum);
+    }
 }
 
 /// Sums over the texels of a window: weight; and red, green, blue and alpha times weight. Passed are
@@ -222,21 +273,42 @@ fn sum<S: Simd>(
     weights: &Weights,
     factors: [f32; 2],
     blocks: &mut Blocks,
-) -> [f32x8<S>; 5] {
+    sums: &mut Sums,
+) {
+    let held = blocks.at(sky, window);
+    let channels = if held.is_opaque {
+        let [total, red, green, blue] = sum_channels(simd, &held, window, weights, factors);
+        [total, red, green, blue, total]
+    } else {
+        sum_channels(simd, &held, window, weights, factors)
+    };
+    for (channel, sum) in channels.iter().zip(sums) {
+        channel.store_slice(sum);
+    }
+}
+
+/// The sums of the weights and of the first channels.
+#[inline(always)]
+fn sum_channels<S: Simd, const N: usize>(
+    simd: S,
+    held: &Held<'_>,
+    window: &Window,
+    weights: &Weights,
+    factors: [f32; 2],
+) -> [f32x8<S>; N] {
     let (across, along) = (f32x8::splat(simd, factors[0]), f32x8::splat(simd, factors[1]));
-    let mut sums = [f32x8::splat(simd, 0.0); 5];
-    let (blocks, at) = blocks.at(sky, window);
+    let mut sums = [f32x8::splat(simd, 0.0); N];
     let (row, n_rows) = (window.row as usize, window.n_rows as usize);
     let n_chunks = (window.n_columns as usize).div_ceil(CHUNK);
     for (chunk, weights) in weights.iter().enumerate().take(n_chunks) {
-        let at = (at + CHUNK * chunk).min(WIDTH - CHUNK);
+        let at = (held.column + CHUNK * chunk).min(WIDTH - CHUNK);
         for (idx, [weight, by_s, by_t]) in weights.iter().enumerate().take(n_rows) {
             let weight = f32x8::from_slice(simd, weight);
             let by_s = f32x8::from_slice(simd, by_s);
             let by_t = f32x8::from_slice(simd, by_t);
             let weight = weight + across * by_s + along * by_t;
             sums[0] += weight;
-            let Block(planes) = &blocks[(row + idx) % blocks.len()];
+            let Block(planes) = &held.blocks[(row + idx) % held.blocks.len()];
             for (sum, plane) in sums[1..].iter_mut().zip(planes) {
                 *sum += weight * f32x8::from_slice(simd, &plane[at..at + CHUNK]);
             }
@@ -245,16 +317,27 @@ fn sum<S: Simd>(
     sums
 }
 
-/// The sums of the lanes of each vector: for each part, those of eight footprints.
+/// The sums over the columns of each part, for all footprints.
 #[inline(always)]
-fn totals<S: Simd, const N: usize>(simd: S, vectors: &[[f32x8<S>; N]; EACH]) -> [f32x8<S>; N] {
-    let mut totals = [f32x8::splat(simd, 0.0); N];
+fn totals<S: Simd>(simd: S, sums: &[Sums; EACH]) -> [f32x16<S>; 5] {
+    let mut totals = [f32x16::splat(simd, 0.0); 5];
     for (part, total) in totals.iter_mut().enumerate() {
-        let [a, b, c, d, e, f, g, h] = vectors;
-        let first = lanes(a[part], b[part], c[part], d[part]);
-        *total = simd.combine_f32x4(first, lanes(e[part], f[part], g[part], h[part]));
+        let first = simd.combine_f32x4(four(simd, sums, part, 0), four(simd, sums, part, 4));
+        let second = simd.combine_f32x4(four(simd, sums, part, 8), four(simd, sums, part, 12));
+        *total = simd.combine_f32x8(first, second);
     }
     totals
+}
+
+/// The sums over the columns of a part, for four footprints.
+#[inline(always)]
+fn four<S: Simd>(simd: S, sums: &[Sums; EACH], part: usize, first: usize) -> f32x4<S> {
+    lanes(
+        f32x8::from_slice(simd, &sums[first][part]),
+        f32x8::from_slice(simd, &sums[first + 1][part]),
+        f32x8::from_slice(simd, &sums[first + 2][part]),
+        f32x8::from_slice(simd, &sums[first + 3][part]),
+    )
 }
 
 /// The sums of the lanes of four vectors, in the same order on every processor.
@@ -281,7 +364,7 @@ mod tests {
     use crate::footprint::Ellipse;
     use crate::grid::Extent;
     use crate::observer::SkyRay;
-    use crate::panorama::Texels;
+    use crate::texels::Texels;
 
     /// Windows have the light that is computed row by row, in most directions.
     #[test]

@@ -1,9 +1,9 @@
-//! The hue model of 1988 for eight pixels at once, in single precision.
+//! The hue model of 1988 for sixteen pixels at once, in single precision.
 
 use std::sync::LazyLock;
 
 use fearless_simd::prelude::*;
-use fearless_simd::{Simd, f32x8, u32x8};
+use fearless_simd::{Simd, f32x16, u32x16};
 use uglight::{HueShift, HueTable};
 use ugphysics::{Brightness, RED_END_NM, VIOLET_END_NM, srgb_decode, srgb_encode};
 use ugsky::Seen;
@@ -46,10 +46,10 @@ impl Hues {
         simd: S,
         shift: HueShift,
         most: f32,
-        [red, green, blue]: [f32x8<S>; 3],
-        doppler: f32x8<S>,
-    ) -> [f32x8<S>; 3] {
-        let number = |x: f32| f32x8::splat(simd, x);
+        [red, green, blue]: [f32x16<S>; 3],
+        doppler: f32x16<S>,
+    ) -> [f32x16<S>; 3] {
+        let number = |x: f32| f32x16::splat(simd, x);
         let (zero, one) = (number(0.0), number(1.0));
         let (red, green, blue) =
             (self.encoded.at(simd, red), self.encoded.at(simd, green), self.encoded.at(simd, blue));
@@ -99,8 +99,8 @@ impl Hues {
     }
 
     #[inline(always)]
-    fn decode<S: Simd>(&self, simd: S, most: f32, [red, green, blue]: [f32x8<S>; 3]) -> [f32x8<S>; 3] {
-        let most = f32x8::splat(simd, most);
+    fn decode<S: Simd>(&self, simd: S, most: f32, [red, green, blue]: [f32x16<S>; 3]) -> [f32x16<S>; 3] {
+        let most = f32x16::splat(simd, most);
         [
             self.decoded.at(simd, red.min(most)),
             self.decoded.at(simd, green.min(most)),
@@ -112,16 +112,16 @@ impl Hues {
 /// The part of a pure hue in a primary colour: 1 within 60° of its hue, falling linearly to 0 at
 /// 120°. Both are in units of 60°.
 #[inline(always)]
-fn part<S: Simd>(simd: S, hue: f32x8<S>, primary: f32) -> f32x8<S> {
-    let number = |x: f32| f32x8::splat(simd, x);
+fn part<S: Simd>(simd: S, hue: f32x16<S>, primary: f32) -> f32x16<S> {
+    let number = |x: f32| f32x16::splat(simd, x);
     let apart = (hue - number(primary)).abs();
     (number(2.0) - apart.min(number(6.0) - apart)).max(number(0.0)).min(number(1.0))
 }
 
 /// As [`ugphysics::attenuation`].  Eq. (P17)
 #[inline(always)]
-fn attenuation<S: Simd>(simd: S, nm: f32x8<S>) -> f32x8<S> {
-    let number = |x: f32| f32x8::splat(simd, x);
+fn attenuation<S: Simd>(simd: S, nm: f32x16<S>) -> f32x16<S> {
+    let number = |x: f32| f32x16::splat(simd, x);
     let violet = (nm - number(VIOLET_END_NM as f32)) * number(1.0 / (435.8 - VIOLET_END_NM as f32));
     let red = (number(RED_END_NM as f32) - nm) * number(1.0 / (RED_END_NM as f32 - 700.0));
     violet.min(red).max(number(0.0)).min(number(1.0))
@@ -146,24 +146,24 @@ impl Table {
     }
 
     #[inline(always)]
-    fn at<S: Simd>(&self, simd: S, x: f32x8<S>) -> f32x8<S> {
-        let place = (x - f32x8::splat(simd, self.first)) * f32x8::splat(simd, self.per_unit);
+    fn at<S: Simd>(&self, simd: S, x: f32x16<S>) -> f32x16<S> {
+        let place = (x - f32x16::splat(simd, self.first)) * f32x16::splat(simd, self.per_unit);
         // NaN, the hue of greys, becomes a number too.
-        let place = place.max(f32x8::splat(simd, 0.0)).min(f32x8::splat(simd, CELLS as f32));
+        let place = place.max(f32x16::splat(simd, 0.0)).min(f32x16::splat(simd, CELLS as f32));
         let places: [f32; N] = place.into();
         let (mut low, mut high, mut cells) = ([0.0; N], [0.0; N], [0.0; N]);
         for k in 0..N {
             let cell = (places[k] as usize).min(CELLS - 1);
             (low[k], high[k], cells[k]) = (self.points[cell], self.points[cell + 1], cell as f32);
         }
-        interpolated(simd, &low, &high, place - f32x8::from_slice(simd, &cells))
+        interpolated(simd, &low, &high, place - f32x16::from_slice(simd, &cells))
     }
 }
 
 #[inline(always)]
-fn interpolated<S: Simd>(simd: S, low: &[f32; N], high: &[f32; N], part: f32x8<S>) -> f32x8<S> {
-    let low = f32x8::from_slice(simd, low);
-    low + (f32x8::from_slice(simd, high) - low) * part
+fn interpolated<S: Simd>(simd: S, low: &[f32; N], high: &[f32; N], part: f32x16<S>) -> f32x16<S> {
+    let low = f32x16::from_slice(simd, low);
+    low + (f32x16::from_slice(simd, high) - low) * part
 }
 
 /// Bits of the mantissa that select the cell of a [`Curve`].
@@ -192,17 +192,17 @@ impl Curve {
     }
 
     #[inline(always)]
-    fn at<S: Simd>(&self, simd: S, x: f32x8<S>) -> f32x8<S> {
+    fn at<S: Simd>(&self, simd: S, x: f32x16<S>) -> f32x16<S> {
         const REST: u32 = (1 << (23 - CELL_BITS)) - 1;
-        let start = f32x8::splat(simd, f32::from_bits(Self::START));
+        let start = f32x16::splat(simd, f32::from_bits(Self::START));
         // The last number below the end.
-        let end = f32x8::splat(simd, f32::from_bits((((EXPONENTS[1] + 127) as u32) << 23) - 1));
+        let end = f32x16::splat(simd, f32::from_bits((((EXPONENTS[1] + 127) as u32) << 23) - 1));
         // NaN becomes a number too.
-        let x = x.max(f32x8::splat(simd, 0.0)).min(end);
-        let bits: u32x8<S> = x.max(start).bitcast();
-        let offset = bits - u32x8::splat(simd, Self::START);
+        let x = x.max(f32x16::splat(simd, 0.0)).min(end);
+        let bits: u32x16<S> = x.max(start).bitcast();
+        let offset = bits - u32x16::splat(simd, Self::START);
         let cells: [u32; N] = (offset >> (23 - CELL_BITS)).into();
-        let part: f32x8<S> = (offset & u32x8::splat(simd, REST)).to_float();
+        let part: f32x16<S> = (offset & u32x16::splat(simd, REST)).to_float();
         let (mut low, mut high) = ([0.0; N], [0.0; N]);
         for k in 0..N {
             let cell = (cells[k] as usize).min(N_CELLS - 1);
@@ -210,8 +210,8 @@ impl Curve {
                 (low[k], high[k]) = (*from, *to);
             }
         }
-        let curve = interpolated(simd, &low, &high, part * f32x8::splat(simd, 1.0 / (REST + 1) as f32));
-        let slope = f32x8::splat(simd, self.points[0]) / start;
+        let curve = interpolated(simd, &low, &high, part * f32x16::splat(simd, 1.0 / (REST + 1) as f32));
+        let slope = f32x16::splat(simd, self.points[0]) / start;
         x.simd_lt(start).select(x * slope, curve)
     }
 }
@@ -227,7 +227,7 @@ mod tests {
         let hues = Hues::get();
         let at = |curve: &Curve, x: f64| {
             let found: [f32; N] =
-                dispatch!(Level::new(), simd => curve.at(simd, f32x8::splat(simd, x as f32)).into());
+                dispatch!(Level::new(), simd => curve.at(simd, f32x16::splat(simd, x as f32)).into());
             f64::from(found[0])
         };
         for step in 0..20_000 {
@@ -250,7 +250,7 @@ mod tests {
         let (hues, exact) = (Hues::get(), HueTable::get());
         let at = |table: &Table, x: f64| {
             let found: [f32; N] =
-                dispatch!(Level::new(), simd => table.at(simd, f32x8::splat(simd, x as f32)).into());
+                dispatch!(Level::new(), simd => table.at(simd, f32x16::splat(simd, x as f32)).into());
             f64::from(found[0])
         };
         for step in 0..=10_000 {

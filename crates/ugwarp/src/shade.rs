@@ -5,7 +5,7 @@ use std::ops::Range;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use fearless_simd::prelude::*;
-use fearless_simd::{Level, Simd, dispatch, f32x8};
+use fearless_simd::{Level, Simd, dispatch, f32x16};
 use uglight::{ColorShift, HueShift, SpectralShift};
 use ugsky::{Basis, BasisError, Seen, SpectralTable};
 
@@ -49,7 +49,7 @@ impl Shade {
         self.most > 1.0
     }
 
-    /// Changes the light of eight pixels from that at rest to that seen. `light`: linear red, green
+    /// Changes the light of sixteen pixels from that at rest to that seen. `light`: linear red, green
     /// and blue times alpha, and alpha; `doppler`: their Doppler factors.
     pub fn see(&self, light: &mut [[f32; Seen::N]; 4], doppler: &[f32; Seen::N]) {
         dispatch!(self.simd, simd => self.see_with(simd, light, doppler));
@@ -57,21 +57,21 @@ impl Shade {
 
     #[inline(always)]
     fn see_with<S: Simd>(&self, simd: S, light: &mut [[f32; Seen::N]; 4], doppler: &[f32; Seen::N]) {
-        let (zero, one) = (f32x8::splat(simd, 0.0), f32x8::splat(simd, 1.0));
+        let (zero, one) = (f32x16::splat(simd, 0.0), f32x16::splat(simd, 1.0));
         let [reds, greens, blues, alphas] = light;
         // Interpolation may exceed the range by a little.
-        let alpha = f32x8::from_slice(simd, alphas).max(zero).min(one);
+        let alpha = f32x16::from_slice(simd, alphas).max(zero).min(one);
         let inverse = alpha.simd_gt(zero).select(one / alpha, zero);
-        let red = f32x8::from_slice(simd, reds) * inverse;
-        let green = f32x8::from_slice(simd, greens) * inverse;
-        let blue = f32x8::from_slice(simd, blues) * inverse;
+        let red = f32x16::from_slice(simd, reds) * inverse;
+        let green = f32x16::from_slice(simd, greens) * inverse;
+        let blue = f32x16::from_slice(simd, blues) * inverse;
         let [red, green, blue] = match &self.kind {
             Kind::Same => {
-                let most = f32x8::splat(simd, self.most);
+                let most = f32x16::splat(simd, self.most);
                 [red.min(most), green.min(most), blue.min(most)]
             }
             Kind::Hues(shift) => {
-                let doppler = f32x8::from_slice(simd, doppler);
+                let doppler = f32x16::from_slice(simd, doppler);
                 Hues::get().seen(simd, *shift, self.most, [red, green, blue], doppler)
             }
             Kind::Spectra(table) => spectra(simd, table, [red, green, blue], doppler),
@@ -87,16 +87,16 @@ impl Shade {
 fn spectra<S: Simd>(
     simd: S,
     table: &SpectralTable,
-    [red, green, blue]: [f32x8<S>; 3],
+    [red, green, blue]: [f32x16<S>; 3],
     doppler: &[f32; Seen::N],
-) -> [f32x8<S>; 3] {
+) -> [f32x16<S>; 3] {
     let (mut red, mut green, mut blue): ([f32; Seen::N], [f32; Seen::N], [f32; Seen::N]) =
         (red.into(), green.into(), blue.into());
     for k in 0..Seen::N {
         let seen = table.seen([red[k], green[k], blue[k]], f64::from(doppler[k]));
         (red[k], green[k], blue[k]) = (seen[0], seen[1], seen[2]);
     }
-    [f32x8::from_slice(simd, &red), f32x8::from_slice(simd, &green), f32x8::from_slice(simd, &blue)]
+    [f32x16::from_slice(simd, &red), f32x16::from_slice(simd, &green), f32x16::from_slice(simd, &blue)]
 }
 
 /// Tables are made for this step in ln D, so that the frames of an acceleration share them.
