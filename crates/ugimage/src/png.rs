@@ -1,6 +1,6 @@
 //! PNG, written with the `png` crate.
 
-use std::borrow::Cow;
+use std::io::Write;
 
 use png::{BitDepth, ColorType, Encoder, EncodingError, SrgbRenderingIntent};
 
@@ -18,20 +18,29 @@ pub enum Compression {
     Small,
 }
 
+/// Bytes of a chunk of compressed data. There are several, so that memory for all of it is not needed
+/// twice.
+const CHUNK: usize = 1 << 18;
+
 /// The frame as a PNG file: RGB if it is opaque, otherwise RGBA; tagged as sRGB. The metadata is in
 /// the text chunks `Software` and `Comment`; there is no date.
 pub fn encode(frame: &Frame, metadata: &Metadata, compression: Compression) -> Vec<u8> {
-    let data: Cow<'_, [u8]> = if frame.is_opaque() {
-        let mut data = vec![0; 3 * frame.pixels().len()];
-        for (bytes, &[r, g, b, _]) in data.chunks_exact_mut(3).zip(frame.pixels()) {
-            bytes.copy_from_slice(&[r, g, b]);
-        }
-        data.into()
-    } else {
-        frame.pixels().as_flattened().into()
+    let image = Image {
+        size: [frame.width(), frame.height()],
+        is_opaque: frame.is_opaque(),
+        depth: BitDepth::Eight,
+        metadata,
     };
-    write([frame.width(), frame.height()], frame.is_opaque(), BitDepth::Eight, &data, metadata, compression)
-        .expect("a frame with pixels fits a PNG and a vector takes every write")
+    let pixels = frame.pixels().chunks_exact(frame.width() as usize);
+    image.encode(compression, pixels, |row, bytes| {
+        if frame.is_opaque() {
+            for (bytes, &[r, g, b, _]) in bytes.as_chunks_mut::<3>().0.iter_mut().zip(row) {
+                *bytes = [r, g, b];
+            }
+        } else {
+            bytes.copy_from_slice(row.as_flattened());
+        }
+    })
 }
 
 /// Linear light as a PNG file with 16 bits per channel, encoded as sRGB: RGB or RGBA. Light outside
@@ -40,42 +49,90 @@ pub fn encode_16(frame: &LinearFrame, metadata: &Metadata, compression: Compress
     let whole = |part: f64| (65535.0 * part).round() as u16;
     let level = |light: f32| whole(srgb_encode(f64::from(light).clamp(0.0, 1.0))).to_be_bytes();
     let channels = if frame.is_opaque() { 3 } else { 4 };
-    let mut data = Vec::with_capacity(frame.pixels().len() * 2 * channels);
+    let image = Image {
+        size: [frame.width(), frame.height()],
+        is_opaque: frame.is_opaque(),
+        depth: BitDepth::Sixteen,
+        metadata,
+    };
+    let pixels = frame.pixels().chunks_exact(frame.width() as usize);
     let mut last = ([f32::NAN; 4], [[0; 2]; 4]);
-    for &pixel in frame.pixels() {
-        if pixel != last.0 {
-            let [r, g, b, part] = pixel;
-            last = (pixel, [level(r), level(g), level(b), whole(f64::from(part)).to_be_bytes()]);
+    image.encode(compression, pixels, |row, bytes| {
+        for (bytes, &pixel) in bytes.chunks_exact_mut(2 * channels).zip(row) {
+            if pixel != last.0 {
+                let [r, g, b, part] = pixel;
+                last = (pixel, [level(r), level(g), level(b), whole(f64::from(part)).to_be_bytes()]);
+            }
+            bytes.copy_from_slice(last.1[..channels].as_flattened());
         }
-        data.extend_from_slice(last.1[..channels].as_flattened());
-    }
-    write([frame.width(), frame.height()], frame.is_opaque(), BitDepth::Sixteen, &data, metadata, compression)
-        .expect("a frame with pixels fits a PNG and a vector takes every write")
+    })
 }
 
-fn write(
-    [width, height]: [u32; 2],
+/// What a file is made of, but for its pixels.
+struct Image<'a> {
+    size: [u32; 2],
     is_opaque: bool,
     depth: BitDepth,
-    data: &[u8],
-    metadata: &Metadata,
-    compression: Compression,
-) -> Result<Vec<u8>, EncodingError> {
-    let mut file = Vec::new();
-    let mut encoder = Encoder::new(&mut file, width, height);
-    encoder.set_color(if is_opaque { ColorType::Rgb } else { ColorType::Rgba });
-    encoder.set_depth(depth);
-    encoder.set_source_srgb(SrgbRenderingIntent::Perceptual);
-    encoder.set_compression(match compression {
-        Compression::Fast => png::Compression::Fast,
-        Compression::Small => png::Compression::High,
-    });
-    add_text(&mut encoder, "Software", &metadata.software)?;
-    add_text(&mut encoder, "Comment", &metadata.comment)?;
-    let mut writer = encoder.write_header()?;
-    writer.write_image_data(data)?;
-    writer.finish()?;
-    Ok(file)
+    metadata: &'a Metadata,
+}
+
+impl Image<'_> {
+    /// The file of rows of pixels. `fill` sets the bytes of a row.
+    fn encode<R>(
+        &self,
+        compression: Compression,
+        rows: impl Iterator<Item = R> + Clone,
+        mut fill: impl FnMut(R, &mut [u8]),
+    ) -> Vec<u8> {
+        let mut encode = |compression| {
+            self.try_encode(compression, rows.clone(), &mut fill)
+                .expect("a frame with pixels fits a PNG and a vector takes every write")
+        };
+        if compression == Compression::Small {
+            return encode(png::Compression::High);
+        }
+        let file = encode(png::Compression::Fast);
+        let n_bytes = (self.stride() + 1) * self.size[1] as usize;
+        if file.len() <= n_bytes {
+            return file;
+        }
+        // Fast compression makes noise larger than it is.
+        let stored = encode(png::Compression::NoCompression);
+        if stored.len() < file.len() { stored } else { file }
+    }
+
+    fn try_encode<R>(
+        &self,
+        compression: png::Compression,
+        rows: impl Iterator<Item = R>,
+        mut fill: impl FnMut(R, &mut [u8]),
+    ) -> Result<Vec<u8>, EncodingError> {
+        let mut file = Vec::new();
+        let mut encoder = Encoder::new(&mut file, self.size[0], self.size[1]);
+        encoder.set_color(if self.is_opaque { ColorType::Rgb } else { ColorType::Rgba });
+        encoder.set_depth(self.depth);
+        encoder.set_source_srgb(SrgbRenderingIntent::Perceptual);
+        encoder.set_compression(compression);
+        add_text(&mut encoder, "Software", &self.metadata.software)?;
+        add_text(&mut encoder, "Comment", &self.metadata.comment)?;
+        let mut writer = encoder.write_header()?;
+        let mut stream = writer.stream_writer_with_size(CHUNK)?;
+        let mut bytes = vec![0; self.stride()];
+        for row in rows {
+            fill(row, &mut bytes);
+            stream.write_all(&bytes)?;
+        }
+        stream.finish()?;
+        writer.finish()?;
+        Ok(file)
+    }
+
+    /// Bytes of a row of pixels.
+    fn stride(&self) -> usize {
+        let channels = if self.is_opaque { 3 } else { 4 };
+        let bytes = if self.depth == BitDepth::Sixteen { 2 } else { 1 };
+        self.size[0] as usize * channels * bytes
+    }
 }
 
 /// Adds a text chunk: `tEXt`, which every PNG reader supports, if the text is Latin-1, otherwise
@@ -143,6 +200,24 @@ mod tests {
             assert_eq!(decode(&fast).1, decode(&small).1);
             assert!(small.len() < fast.len(), "{} {}", small.len(), fast.len());
         }
+    }
+
+    /// Noise, which cannot be compressed, and which fills several chunks.
+    #[test]
+    fn noise_is_stored() {
+        let size = [400, 300];
+        let mut state = 1_u32;
+        let pixels = (0..size[0] * size[1]).map(|_| {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            let [_, r, g, b] = state.to_le_bytes();
+            [r, g, b, 255]
+        });
+        let frame = Frame::new(size, true, pixels.collect());
+        let file = encode(&frame, &Metadata::default(), Compression::Fast);
+        let n_bytes = 3 * frame.pixels().len();
+        assert!(file.len() < n_bytes + n_bytes / 100, "{} of {n_bytes}", file.len());
+        let expected: Vec<u8> = frame.pixels().iter().flat_map(|&[r, g, b, _]| [r, g, b]).collect();
+        assert_eq!(decode(&file).1, expected);
     }
 
     #[test]
