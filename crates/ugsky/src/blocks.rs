@@ -154,3 +154,67 @@ fn fill(Block(planes): &mut Block, sky: &Panorama, level: usize, row: &Row, colu
     });
     is_opaque
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::grid::Extent;
+    use crate::texels::Texels;
+
+    /// Windows that wander and jump have the texels of the panorama, whatever was in the cache before.
+    #[test]
+    fn windows_have_their_texels() {
+        let size = [1600, 800];
+        let texel = |idx: u32| {
+            let bytes = idx.wrapping_mul(2_654_435_761).to_le_bytes();
+            // One half is opaque.
+            [bytes[0], bytes[1], bytes[2], if idx % size[0] < size[0] / 2 { 255 } else { bytes[3] }]
+        };
+        let texels = Texels::Srgb((0..size[0] * size[1]).map(texel).collect());
+        let sky = Panorama::new(size, texels, Extent::FULL).unwrap();
+        let mut blocks = Blocks::new();
+        let (mut level, mut row, mut column) = (0_usize, 300_i64, 700_i64);
+        let mut state = 1_u64;
+        let mut random = |n: i64| {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (state >> 33) as i64 % n
+        };
+        let mut n_opaque = 0;
+        for _ in 0..20_000 {
+            match random(200) {
+                0 => (level, row, column) = (random(3) as usize, random(800), random(1600)),
+                1..20 => row += random(40) - 20,
+                20..40 => column += random(200) - 100,
+                _ => (row, column) = (row + random(5) - 2, column + random(9) - 4),
+            }
+            let grid = &sky.grids[level];
+            row = row.clamp(0, grid.rows.len() as i64 - 1);
+            let ladder = grid.rows[row as usize].ladder;
+            let n = sky.ladder[ladder].n as i64;
+            column = column.clamp(0, n - 1);
+            let alike =
+                grid.rows[row as usize..].iter().take_while(|row| row.ladder == ladder).count() as i64;
+            let window = Window {
+                level: level as u32,
+                ladder: ladder as u32,
+                row: row as u32,
+                column: column as u32,
+                n_rows: (1 + random(16)).min(alike) as u32,
+                n_columns: (1 + random(APRON as i64)).min(n - column) as u32,
+            };
+            let held = blocks.at(&sky, &window);
+            n_opaque += u32::from(held.is_opaque);
+            for row in window.row..window.row + window.n_rows {
+                let Block(planes) = &held.blocks[row as usize % KEPT];
+                let row = &grid.rows[row as usize];
+                let texels = sky.texels(level, row, column as usize, window.n_columns as usize);
+                for idx in 0..window.n_columns as usize {
+                    let found = planes.each_ref().map(|plane| plane[held.column + idx]);
+                    assert_eq!(found, texels.get(idx), "{window:?}");
+                    assert!(!held.is_opaque || found[3] == 1.0);
+                }
+            }
+        }
+        assert!(n_opaque > 0);
+    }
+}
