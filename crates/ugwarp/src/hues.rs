@@ -246,6 +246,16 @@ mod tests {
     }
 
     #[test]
+    fn attenuation_is_that_of_the_library() {
+        for step in 0..=5000 {
+            let nm = 350.0 + 0.1 * f64::from(step);
+            let found: [f32; N] = dispatch!(Level::new(), simd =>
+                attenuation(simd, f32x16::splat(simd, nm as f32)).into());
+            assert!((f64::from(found[0]) - ugphysics::attenuation(nm)).abs() < 1e-6, "{nm} nm");
+        }
+    }
+
+    #[test]
     fn tables_are_those_of_hues() {
         let (hues, exact) = (Hues::get(), HueTable::get());
         let at = |table: &Table, x: f64| {
