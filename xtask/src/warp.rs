@@ -1,7 +1,8 @@
 //! Measures `ugwarp` relative to the filter `v360` of ffmpeg: the same view of the same panorama.
 //!
-//! Every run is a process of its own, and those to be compared alternate. Reading and decoding are
-//! left out by subtracting runs that make a tiny picture of a small part of the same file.
+//! Every run is a process of its own, and those to be compared alternate; the median of each is
+//! taken. Reading and decoding are left out by subtracting runs that make a tiny picture of a small
+//! part of the same file.
 
 use std::error::Error;
 use std::io::Write;
@@ -13,7 +14,7 @@ use crate::photon::time;
 use crate::rays::median;
 
 /// Runs that are compared.
-const ROUNDS: usize = 9;
+const ROUNDS: usize = 15;
 
 const SIZE: [u32; 2] = [1920, 1080];
 
@@ -40,33 +41,34 @@ pub fn write(out: &mut impl Write, ffmpeg: &str) -> Result<(), Box<dyn Error>> {
         ("`v360`, lanczos, one frame", None),
         ("`v360`, lanczos, each further frame", None),
     ];
+    // Of ugwarp: a tiny picture and the rows. Of v360: a tiny frame and one, then tiny frames and frames.
     let mut rounds: Vec<Vec<[f64; 2]>> = Vec::new();
     for _ in 0..ROUNDS {
         // A small view angle, so that no mip levels of the panorama are computed.
-        let none = ugwarp(png, "--no-doppler --no-flux", "0.5", [16, 9])?;
-        let idle = v360(ffmpeg, ppm, [16, 9], 1)?;
-        let one = v360(ffmpeg, ppm, SIZE, 1)?;
-        let idle_film = v360(ffmpeg, ppm, [16, 9], 1 + FRAMES)?;
-        let film = v360(ffmpeg, ppm, SIZE, 1 + FRAMES)?;
-        let mut round = Vec::new();
+        let mut round = vec![ugwarp(png, "--no-doppler --no-flux", "0.5", [16, 9])?];
         for options in rows.iter().filter_map(|(_, options)| *options) {
-            round.push(minus(ugwarp(png, options, ANGLES[0], SIZE)?, none));
+            round.push(ugwarp(png, options, ANGLES[0], SIZE)?);
         }
-        let first = minus(one, idle);
-        let further = minus(minus(film, idle_film), first).map(|time| time / f64::from(FRAMES));
-        round.extend([first, further]);
+        for n_frames in [1, 1 + FRAMES] {
+            round.push(v360(ffmpeg, ppm, [16, 9], n_frames)?);
+            round.push(v360(ffmpeg, ppm, SIZE, n_frames)?);
+        }
         rounds.push(round);
     }
+    let typical = |idx: usize| [0, 1].map(|kind| median(rounds.iter().map(|round| round[idx][kind])));
+    let mut times: Vec<[f64; 2]> = (1..4).map(|idx| minus(typical(idx), typical(0))).collect();
+    let first = minus(typical(5), typical(4));
+    let further = minus(minus(typical(7), typical(6)), first).map(|time| time / f64::from(FRAMES));
+    times.extend([first, further]);
     writeln!(
         out,
         "| {} x {} of 8192 x 4096 pixels | time | processor time | processor time / one frame of `v360` |\n\
          | --- | ---: | ---: | ---: |",
         SIZE[0], SIZE[1]
     )?;
-    for (row, (name, _)) in rows.iter().enumerate() {
-        let of = |kind: usize| median(rounds.iter().map(|round| round[row][kind])) * 1e3;
-        let ratio = median(rounds.iter().map(|round| round[row][1] / round[3][1]));
-        writeln!(out, "| {name} | {:.0} ms | {:.0} ms | {ratio:.2} |", of(0), of(1))?;
+    for ((name, _), [time, processor]) in rows.iter().zip(&times) {
+        let ratio = processor / first[1];
+        writeln!(out, "| {name} | {:.0} ms | {:.0} ms | {ratio:.2} |", time * 1e3, processor * 1e3)?;
     }
     writeln!(out)?;
     Ok(out.flush()?)
