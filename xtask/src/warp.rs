@@ -41,7 +41,8 @@ pub fn write(out: &mut impl Write, ffmpeg: &str) -> Result<(), Box<dyn Error>> {
         ("`v360`, lanczos, one frame", None),
         ("`v360`, lanczos, each further frame", None),
     ];
-    // Of ugwarp: a tiny picture and the rows. Of v360: a tiny frame and one, then tiny frames and frames.
+    // Each round has four runs of ugwarp: a tiny picture, then one for each row of the table. Then
+    // four of v360: one frame and 1 + FRAMES frames, each first tiny and then of the whole size.
     let mut rounds: Vec<Vec<[f64; 2]>> = Vec::new();
     for _ in 0..ROUNDS {
         // A small view angle, so that no mip levels of the panorama are computed.

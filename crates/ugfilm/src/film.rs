@@ -100,8 +100,8 @@ impl Film<'_> {
         Ok(first)
     }
 
-    /// Parses the commands of some of the frames, so that a wrong number is found before anything is
-    /// written.
+    /// Parses the commands of some of the frames, so that a wrong number is found before anything
+    /// is written.
     ///
     /// # Errors
     /// The commands of a frame are wrong.

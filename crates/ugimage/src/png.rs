@@ -18,8 +18,8 @@ pub enum Compression {
     Small,
 }
 
-/// Bytes of a chunk of compressed data. There are several, so that memory for all of it is not needed
-/// twice.
+/// Bytes of a chunk of compressed data. There are several, so that memory for all of it is not
+/// needed twice.
 const CHUNK: usize = 1 << 18;
 
 /// The frame as a PNG file: RGB if it is opaque, otherwise RGBA; tagged as sRGB. The metadata is in
@@ -68,7 +68,7 @@ pub fn encode_16(frame: &LinearFrame, metadata: &Metadata, compression: Compress
     })
 }
 
-/// What a file is made of, but for its pixels.
+/// All that a file needs except the pixels.
 struct Image<'a> {
     size: [u32; 2],
     is_opaque: bool,

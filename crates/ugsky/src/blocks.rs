@@ -18,7 +18,7 @@ const KEPT: usize = 64;
 /// Columns of blocks that are kept.
 const KEPT_COLUMNS: usize = 4;
 
-/// Rows of texels that are loaded into the processor's cache together.
+/// Rows of texels that are loaded into the processor's cache at once.
 const AHEAD: u32 = 8;
 
 /// Consecutive texels of a row: red, green and blue times alpha, and alpha.
@@ -50,7 +50,7 @@ struct Column {
     keys: [u64; KEPT],
     /// The rows that are all here, of the blocks whose row 0 has this key.
     held: (u64, Range<u32>),
-    /// The first of them that is not yet in the processor's cache.
+    /// The first row that [`Panorama::load`] has not yet read.
     ahead: u32,
     /// All texels that were ever decoded are opaque.
     is_opaque: bool,
@@ -124,7 +124,8 @@ pub(crate) struct Held<'a> {
     pub is_opaque: bool,
 }
 
-/// Rows that are in the cache after those of a window were fetched. `before`: those that were there.
+/// Rows that are in the cache after those of a window were fetched. `before`: those that were
+/// there.
 fn joined(before: &Range<u32>, rows: &Range<u32>) -> Range<u32> {
     let most = KEPT as u32;
     if rows.start > before.end || before.start > rows.end {
@@ -161,7 +162,7 @@ mod tests {
     use crate::grid::Extent;
     use crate::texels::Texels;
 
-    /// Windows that wander and jump have the texels of the panorama, whatever was in the cache before.
+    /// After any moves of a window its cached texels are those of the panorama.
     #[test]
     fn windows_have_their_texels() {
         let size = [1600, 800];

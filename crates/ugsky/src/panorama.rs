@@ -205,8 +205,8 @@ impl Panorama {
         is_opaque
     }
 
-    /// Reads given texels so that the processor has them when they are needed: it waits once for all
-    /// instead of once for each row.
+    /// Reads texels of the given panorama before they are used, so that the processor waits for
+    /// memory once for several rows.
     pub(crate) fn load(&self, level: usize, rows: Range<usize>, columns: Range<usize>) {
         let grid = &self.grids[level];
         let mut sum = 0_u32;
@@ -264,8 +264,8 @@ fn overlaps(n_fine: usize, n_coarse: usize, idx: usize) -> impl Iterator<Item = 
 }
 
 /// Adds texels reduced to fewer columns by means, times a weight. `below`: those of the finer row
-/// from column `start` on; `n_fine`, `n`: the columns of both rows; `first`: the column of the first
-/// sum.
+/// from column `start` on; `n_fine`, `n`: the columns of both rows; `first`: the column of the
+/// first sum.
 fn add_reduced(
     below: [&[f32]; 4],
     start: usize,

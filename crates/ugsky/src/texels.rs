@@ -23,7 +23,7 @@ impl Texels {
     }
 }
 
-/// Prepares a texel: see [`Texels::Light`].
+/// Limits the channels as [`Texels::Light`] says, and multiplies colours by alpha.
 pub(crate) fn premultiply(texel: &mut [f32; 4]) {
     let finite = |part: f32| if part.is_nan() { 0.0 } else { part.clamp(-f32::MAX, f32::MAX) };
     let alpha = finite(texel[3]).clamp(0.0, 1.0);

@@ -36,10 +36,10 @@ impl Hues {
         &HUES
     }
 
-    /// Linear red, green and blue at rest as seen with a Doppler factor, by the hue model of 1988. A
-    /// picture shows hues near the ends of the visible range dimmed, so their pure part is first
-    /// divided by that attenuation, as far as channels stay below 1. Display-encoded values of the
-    /// result are at most `most`.  Eq. (P11), (P12), (P17)
+    /// Linear red, green and blue at rest as seen with a Doppler factor, by the hue model of
+    /// 1988. A picture shows hues near the ends of the visible range dimmed, so their pure part
+    /// is first divided by that attenuation, as far as channels stay below 1. Display-encoded
+    /// values of the result are at most `most`.  Eq. (P11), (P12), (P17)
     #[inline(always)]
     pub fn seen<S: Simd>(
         &self,

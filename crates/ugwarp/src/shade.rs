@@ -49,8 +49,8 @@ impl Shade {
         self.most > 1.0
     }
 
-    /// Changes the light of sixteen pixels from that at rest to that seen. `light`: linear red, green
-    /// and blue times alpha, and alpha; `doppler`: their Doppler factors.
+    /// Changes the light of sixteen pixels from that at rest to that seen. `light`: linear red,
+    /// green and blue times alpha, and alpha; `doppler`: their Doppler factors.
     pub fn see(&self, light: &mut [[f32; Seen::N]; 4], doppler: &[f32; Seen::N]) {
         dispatch!(self.simd, simd => self.see_with(simd, light, doppler));
     }
