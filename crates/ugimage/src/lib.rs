@@ -72,7 +72,7 @@ pub use grey::grey_postscript;
 pub use history::read_history;
 pub use linear::{LinearFrame, Plane, Samples, display_pixel};
 pub use metadata::Metadata;
-pub use png::Compression;
+pub use png::{Compression, draw_png};
 pub use quantizer::{Quantizer, ROUNDING_OFFSET};
 pub use read::{MAX_PIXELS, ReadError, read_png, read_png_header};
 pub use read_light::{Pixels, read_picture};

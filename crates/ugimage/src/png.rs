@@ -25,22 +25,48 @@ const CHUNK: usize = 1 << 18;
 /// The frame as a PNG file: RGB if it is opaque, otherwise RGBA; tagged as sRGB. The metadata is in
 /// the text chunks `Software` and `Comment`; there is no date.
 pub fn encode(frame: &Frame, metadata: &Metadata, compression: Compression) -> Vec<u8> {
-    let image = Image {
-        size: [frame.width(), frame.height()],
-        is_opaque: frame.is_opaque(),
-        depth: BitDepth::Eight,
-        metadata,
-    };
-    let pixels = frame.pixels().chunks_exact(frame.width() as usize);
-    image.encode(compression, pixels, |row, bytes| {
-        if frame.is_opaque() {
-            for (bytes, &[r, g, b, _]) in bytes.as_chunks_mut::<3>().0.iter_mut().zip(row) {
-                *bytes = [r, g, b];
-            }
-        } else {
-            bytes.copy_from_slice(row.as_flattened());
+    let image = Image::of_8_bits([frame.width(), frame.height()], frame.is_opaque(), metadata);
+    let rows = || frame.pixels().chunks_exact(frame.width() as usize);
+    let file = image.encode(compression.into(), rows(), copy_row);
+    image.smaller(file, compression, rows(), copy_row)
+}
+
+/// A frame that is drawn on all threads in bands of rows, as a PNG file; bands are encoded while
+/// those below are drawn. The file is the same as that of [`Format::Png`](crate::Format::Png).
+///
+/// `draw` is passed the number of a band, from the top, and its pixels, which are all 0. If the frame
+/// is opaque, it must set every alpha to 255.
+///
+/// # Panics
+/// If a side or the height of bands is 0.
+pub fn draw_png(
+    [width, height]: [u32; 2],
+    is_opaque: bool,
+    band_height: usize,
+    metadata: &Metadata,
+    compression: Compression,
+    draw: impl Fn(usize, &mut [[u8; 4]]) + Sync,
+) -> Vec<u8> {
+    assert!(width > 0 && height > 0, "a frame has at least one pixel");
+    let image = Image::of_8_bits([width, height], is_opaque, metadata);
+    let width = width as usize;
+    let mut pixels = vec![[0; 4]; width * height as usize];
+    let file = ugparallel::fill_while(&mut pixels, band_height * width, draw, |bands| {
+        let rows = bands.flat_map(|band| band.chunks_exact(width));
+        image.encode(compression.into(), rows, copy_row)
+    });
+    image.smaller(file, compression, pixels.chunks_exact(width), copy_row)
+}
+
+/// Sets the bytes of a row: those of colours, and alpha if there is room.
+fn copy_row(row: &[[u8; 4]], bytes: &mut [u8]) {
+    if bytes.len() < 4 * row.len() {
+        for (bytes, &[r, g, b, _]) in bytes.as_chunks_mut::<3>().0.iter_mut().zip(row) {
+            *bytes = [r, g, b];
         }
-    })
+    } else {
+        bytes.copy_from_slice(row.as_flattened());
+    }
 }
 
 /// Linear light as a PNG file with 16 bits per channel, encoded as sRGB: RGB or RGBA. Light outside
@@ -55,9 +81,9 @@ pub fn encode_16(frame: &LinearFrame, metadata: &Metadata, compression: Compress
         depth: BitDepth::Sixteen,
         metadata,
     };
-    let pixels = frame.pixels().chunks_exact(frame.width() as usize);
+    let rows = || frame.pixels().chunks_exact(frame.width() as usize);
     let mut last = ([f32::NAN; 4], [[0; 2]; 4]);
-    image.encode(compression, pixels, |row, bytes| {
+    let mut convert = |row: &[[f32; 4]], bytes: &mut [u8]| {
         for (bytes, &pixel) in bytes.chunks_exact_mut(2 * channels).zip(row) {
             if pixel != last.0 {
                 let [r, g, b, part] = pixel;
@@ -65,7 +91,18 @@ pub fn encode_16(frame: &LinearFrame, metadata: &Metadata, compression: Compress
             }
             bytes.copy_from_slice(last.1[..channels].as_flattened());
         }
-    })
+    };
+    let file = image.encode(compression.into(), rows(), &mut convert);
+    image.smaller(file, compression, rows(), convert)
+}
+
+impl From<Compression> for png::Compression {
+    fn from(compression: Compression) -> Self {
+        match compression {
+            Compression::Fast => Self::Fast,
+            Compression::Small => Self::High,
+        }
+    }
 }
 
 /// All that a file needs except the pixels.
@@ -76,28 +113,36 @@ struct Image<'a> {
     metadata: &'a Metadata,
 }
 
-impl Image<'_> {
+impl<'a> Image<'a> {
+    fn of_8_bits(size: [u32; 2], is_opaque: bool, metadata: &'a Metadata) -> Self {
+        Self { size, is_opaque, depth: BitDepth::Eight, metadata }
+    }
+
     /// The file of rows of pixels. `fill` sets the bytes of a row.
     fn encode<R>(
         &self,
-        compression: Compression,
-        rows: impl Iterator<Item = R> + Clone,
-        mut fill: impl FnMut(R, &mut [u8]),
+        compression: png::Compression,
+        rows: impl Iterator<Item = R>,
+        fill: impl FnMut(R, &mut [u8]),
     ) -> Vec<u8> {
-        let mut encode = |compression| {
-            self.try_encode(compression, rows.clone(), &mut fill)
-                .expect("a frame with pixels fits a PNG and a vector takes every write")
-        };
-        if compression == Compression::Small {
-            return encode(png::Compression::High);
-        }
-        let file = encode(png::Compression::Fast);
+        self.try_encode(compression, rows, fill)
+            .expect("a frame with pixels fits a PNG and a vector takes every write")
+    }
+
+    /// A file, or the same without compression if that is smaller: fast compression makes noise
+    /// larger than it is.
+    fn smaller<R>(
+        &self,
+        file: Vec<u8>,
+        compression: Compression,
+        rows: impl Iterator<Item = R>,
+        fill: impl FnMut(R, &mut [u8]),
+    ) -> Vec<u8> {
         let n_bytes = (self.stride() + 1) * self.size[1] as usize;
-        if file.len() <= n_bytes {
+        if compression == Compression::Small || file.len() <= n_bytes {
             return file;
         }
-        // Fast compression makes noise larger than it is.
-        let stored = encode(png::Compression::NoCompression);
+        let stored = self.encode(png::Compression::NoCompression, rows, fill);
         if stored.len() < file.len() { stored } else { file }
     }
 

@@ -54,6 +54,22 @@ impl Quantizer {
         let level = self.start[cell(linear)];
         level + u8::from(linear >= self.thresholds[usize::from(level)])
     }
+
+    /// The levels of several values, which takes less time than one by one.
+    #[inline]
+    pub fn levels<const N: usize>(&self, linear: &[f32; N]) -> [u8; N] {
+        // All cells first, because this loop has SIMD instructions.
+        let mut cells = [0; N];
+        for (at, &linear) in cells.iter_mut().zip(linear) {
+            *at = cell(linear) as u32;
+        }
+        let mut levels = [0; N];
+        for ((level, &linear), &cell) in levels.iter_mut().zip(linear).zip(&cells) {
+            let low = self.start[cell as usize % CELLS];
+            *level = low + u8::from(linear >= self.thresholds[usize::from(low)]);
+        }
+        levels
+    }
 }
 
 /// The index of the cell of a number: the leading mantissa bits of 1 + `linear`, which is faster
@@ -90,6 +106,8 @@ mod tests {
             // level.
             let error = (f64::from(quantizer.level(linear)) - exact).abs();
             assert!(error <= ROUNDING_OFFSET + 1e-4, "{linear}: {error}");
+            let several = [linear, -linear, f32::NAN, 1.0 - linear];
+            assert_eq!(quantizer.levels(&several), several.map(|linear| quantizer.level(linear)));
         }
     }
 

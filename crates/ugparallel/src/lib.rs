@@ -14,9 +14,12 @@
 //! rows in a range. A table of fewer than two such ranges is processed by the calling thread alone,
 //! because waking another one would take longer.
 
+use std::collections::BTreeMap;
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{self, Receiver};
 use std::sync::{Mutex, PoisonError};
+use std::{panic, thread};
 
 use rayon::prelude::*;
 
@@ -77,6 +80,61 @@ pub fn for_jobs_while<T: Send, R>(
         scope.spawn(|_| run_all(jobs.len(), &job));
         meanwhile()
     })
+}
+
+/// Fills a table in parts of `length` rows, the last of which may be shorter, on all threads. `fill`
+/// is passed the number of a part and its rows; parts are begun in order. Meanwhile `take`, on a
+/// thread of its own, gets the parts in order, each as soon as it and all before it are full. Returns
+/// the value of `take`.
+///
+/// # Panics
+/// If `length` is 0.
+pub fn fill_while<T: Send + Sync, R: Send>(
+    table: &mut [T],
+    length: usize,
+    fill: impl Fn(usize, &mut [T]) + Sync,
+    take: impl FnOnce(FullParts<'_, T>) -> R + Send,
+) -> R {
+    let parts = Mutex::new(table.chunks_mut(length).enumerate());
+    let (sender, receiver) = mpsc::channel();
+    thread::scope(|scope| {
+        let taken = scope.spawn(|| take(FullParts { receiver, next: 0, early: BTreeMap::new() }));
+        run_all(n_threads(), &|_| {
+            loop {
+                let next = lock(&parts).next();
+                let Some((idx, part)) = next else { break };
+                fill(idx, part);
+                // `take` may have ended before the last part.
+                let _ = sender.send((idx, part));
+            }
+        });
+        // No more parts will come.
+        drop(sender);
+        taken.join().unwrap_or_else(|cause| panic::resume_unwind(cause))
+    })
+}
+
+/// The parts of a table in order. `next` waits until the part is full.
+pub struct FullParts<'t, T> {
+    receiver: Receiver<(usize, &'t mut [T])>,
+    next: usize,
+    /// Those that are full before the next one is.
+    early: BTreeMap<usize, &'t [T]>,
+}
+
+impl<'t, T> Iterator for FullParts<'t, T> {
+    type Item = &'t [T];
+
+    fn next(&mut self) -> Option<&'t [T]> {
+        loop {
+            if let Some(part) = self.early.remove(&self.next) {
+                self.next += 1;
+                return Some(part);
+            }
+            let (idx, part) = self.receiver.recv().ok()?;
+            self.early.insert(idx, part);
+        }
+    }
 }
 
 /// A table of what `row` returns for each of `0..n_rows`.
@@ -182,6 +240,34 @@ mod tests {
         }
     }
 
+    /// The first part is full last, and the taker ends early.
+    #[test]
+    fn parts_are_taken_in_order() {
+        for n_threads in [1, 3] {
+            on_threads(n_threads, || {
+                let fill = |part: usize, rows: &mut [usize]| {
+                    if part == 0 {
+                        thread::sleep(std::time::Duration::from_millis(20));
+                    }
+                    rows.fill(part);
+                };
+                let mut table = [0; 30];
+                let firsts = fill_while(&mut table, 4, fill, |parts| {
+                    parts.map(|part| (part[0], part.len())).take(5).collect::<Vec<_>>()
+                });
+                assert_eq!(firsts, [(0, 4), (1, 4), (2, 4), (3, 4), (4, 4)]);
+                assert_eq!(table[28..], [7, 7]);
+            });
+        }
+    }
+
+    #[test]
+    #[should_panic(expected = "the third part")]
+    fn panics_reach_the_caller() {
+        let fill = |part: usize, _: &mut [u8]| assert_ne!(part, 2, "the third part");
+        fill_while(&mut [0; 40], 4, fill, |parts| parts.count());
+    }
+
     #[test]
     fn tables_are_those_of_a_plain_loop() {
         for n_threads in [1, 2, 5] {
@@ -204,6 +290,14 @@ mod tests {
                     let end = for_jobs_while(&mut jobs, |idx, job| *job += idx, || 7);
                     assert_eq!(end, 7);
                     assert!(jobs.iter().enumerate().all(|(idx, job)| *job == squares[idx] + idx));
+                    let mut table = vec![0; n_rows];
+                    let fill = |part: usize, rows: &mut [usize]| {
+                        rows.iter_mut().enumerate().for_each(|(idx, row)| *row = 7 * part + idx);
+                    };
+                    let taken =
+                        fill_while(&mut table, 7, fill, |parts| parts.flatten().copied().collect::<Vec<_>>());
+                    assert!(taken.into_iter().eq(0..n_rows));
+                    assert!(table.into_iter().eq(0..n_rows));
                 }
             });
         }

@@ -315,9 +315,9 @@ impl<S: Simd> LadderOf<S> {
         let (mut idx, mut per_radian, mut n_columns) = ([0; EACH], [1.0; EACH], [0.0; EACH]);
         for k in 0..EACH {
             if is_window >> k & 1 == 1 {
-                let lines = &sky.grids[levels[k] as usize].lines;
+                let ladder = &sky.grids[levels[k] as usize].lines.ladder;
                 let [top, bottom] =
-                    [first_rows[k], first_rows[k] + n_rows[k] - 1].map(|row| lines[row as usize].ladder);
+                    [first_rows[k], first_rows[k] + n_rows[k] - 1].map(|row| ladder[row as usize]);
                 if top == bottom {
                     let columns = &sky.ladder[top as usize];
                     idx[k] = top;

@@ -62,6 +62,9 @@ pub(crate) const PAD: usize = 64;
 /// Columns that are computed at once.
 pub(crate) const CHUNK: usize = 8;
 
+/// Rows whose [`Lines`] are read at once.
+pub(crate) const LINES_AT_ONCE: usize = 16;
+
 /// Columns of a segment of a row, which is computed when it is first needed.
 pub(crate) const SEGMENT: usize = 256;
 
@@ -100,22 +103,41 @@ pub(crate) struct Row {
     pub area: f32,
 }
 
-/// What the weights of the texels of a row depend on.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Line {
-    /// Sine and cosine of the latitude of its middle.
-    pub sin: f32,
-    pub cos: f32,
+/// What the weights of the texels of rows depend on, in single precision. Each list has
+/// [`LINES_AT_ONCE`] more entries than rows.
+pub(crate) struct Lines {
+    /// Tangents of the latitudes of their middles.
+    pub tan: Vec<f32>,
+    /// Squares of the cosines of these.
+    pub cos_square: Vec<f32>,
+    /// Square roots of their areas, see [`Row`].
+    pub root: Vec<f32>,
+    /// The roots times the squares of the cosines.
+    pub root_cos_square: Vec<f32>,
     /// As those of [`Row`].
-    pub area: f32,
-    pub ladder: u32,
+    pub ladder: Vec<u32>,
+}
+
+impl Lines {
+    fn new(rows: &[Row]) -> Self {
+        let list = |value: fn(&Row) -> f64| {
+            let values = rows.iter().map(|row| value(row) as f32);
+            values.chain([0.0; LINES_AT_ONCE]).collect()
+        };
+        Self {
+            tan: list(|row| row.sin / row.cos),
+            cos_square: list(|row| row.cos * row.cos),
+            root: list(|row| f64::from(row.area).sqrt()),
+            root_cos_square: list(|row| f64::from(row.area).sqrt() * row.cos * row.cos),
+            ladder: rows.iter().map(|row| row.ladder as u32).collect(),
+        }
+    }
 }
 
 /// The cells of a level.
 pub(crate) struct Grid {
     pub rows: Vec<Row>,
-    /// The same in single precision.
-    pub lines: Vec<Line>,
+    pub lines: Lines,
     /// Segments of all rows.
     pub n_segments: usize,
     /// Height of a row and width of a column at the equator, whichever is larger; radians.
@@ -189,13 +211,7 @@ fn grid(level: usize, n_rows: usize, extent: &Extent, ladder: &[Columns]) -> Gri
         Row { idx, ladder: row_ladder, offset, sin, cos, latitude, area }
     });
     let rows: Vec<Row> = rows.collect();
-    let lines = rows.iter().map(|row| Line {
-        sin: row.sin as f32,
-        cos: row.cos as f32,
-        area: row.area,
-        ladder: row.ladder as u32,
-    });
-    let lines = lines.collect();
+    let lines = Lines::new(&rows);
     Grid { rows, lines, n_segments, texel: step.max(equator), rows_per_radian: 1.0 / step }
 }
 

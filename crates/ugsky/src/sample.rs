@@ -28,7 +28,8 @@ pub struct Sampler<'a> {
 struct Weights {
     /// Those of the kernel.
     kernel: [f32; CHUNK],
-    /// Those of its positive part, (1 − q)², times the coordinates s = a·d and t = b·d.
+    /// Those of its positive part, (1 − q)², times the coordinates s = a·d and t = b·d. Away from
+    /// poles these are divided by the cosine of the latitude of the row, as in windows.
     across: [f32; CHUNK],
     along: [f32; CHUNK],
 }
@@ -134,6 +135,7 @@ impl Sampler<'_> {
                 along: [b.y * row.cos, b.x * row.cos, b.z * row.sin].map(|part| part as f32),
                 area: row.area,
                 c: kernel.c,
+                scale: if is_curved { 1.0 } else { (1.0 / row.cos) as f32 },
             };
             let columns = &sky.ladder[row.ladder];
             if sky.extent().is_closed() {
@@ -279,6 +281,8 @@ struct RowWeights {
     along: [f32; 3],
     area: f32,
     c: f32,
+    /// A factor of s and t as coordinates, in which linear functions are exact.
+    scale: f32,
 }
 
 impl RowWeights {
@@ -295,6 +299,7 @@ impl RowWeights {
             let rest = if k < count { (1.0 - q).max(0.0) } else { 0.0 };
             let positive = self.area * rest * rest;
             let kernel = positive * (1.0 - self.c * q);
+            let (s, t) = (s * self.scale, t * self.scale);
             let (across, along) = (positive * s, positive * t);
             m_s[k] += kernel * s;
             m_t[k] += kernel * t;

@@ -12,11 +12,11 @@ use glam::DVec3;
 
 use crate::blocks::{Block, Blocks, Held, WIDTH, Window};
 use crate::footprint::{CURVED, Kernel, SLACK, correction, near_atan2};
-use crate::grid::{APRON, CHUNK, PAD};
+use crate::grid::{APRON, CHUNK, LINES_AT_ONCE, PAD};
 use crate::panorama::Panorama;
 
 /// Most rows of a window. Its columns are at most [`APRON`].
-pub(crate) const ROWS: usize = 16;
+pub(crate) const ROWS: usize = LINES_AT_ONCE;
 
 /// Footprints whose light is found together.
 pub(crate) const EACH: usize = 16;
@@ -138,7 +138,7 @@ pub(crate) fn is_window(first: f64, last: f64, n: usize, most: usize) -> bool {
 }
 
 /// The weights of a window by chunk and row: of the kernel, and of its positive part times s and
-/// times t.
+/// times t, see [`weigh`].
 type Weights = [[[[f32; CHUNK]; 3]; ROWS]; APRON / CHUNK];
 
 /// Sums over the texels of a window, by column of a chunk.
@@ -210,7 +210,8 @@ pub(crate) fn lights<S: Simd>(
 }
 
 /// Computes the weights of a window, and sums: weight times s, weight times t, and positive part
-/// times s², s t and t².
+/// times s², s t and t². Here s = a·d and t = b·d are divided by the cosine of the latitude of the
+/// row, so that each is the sum of a number of the column and one of the row.
 #[inline(always)]
 fn weigh<S: Simd>(
     simd: S,
@@ -225,11 +226,17 @@ fn weigh<S: Simd>(
     let columns = &sky.ladder[window.ladder as usize];
     let pad = if sky.extent().is_closed() { 0 } else { PAD };
     let (one, zero) = (f32x8::splat(simd, 1.0), f32x8::splat(simd, 0.0));
-    let c = f32x8::splat(simd, footprints.c[idx]);
     let (a_x, a_y) = (f32x8::splat(simd, footprints.a[0][idx]), f32x8::splat(simd, footprints.a[1][idx]));
     let (b_x, b_y) = (f32x8::splat(simd, footprints.b[0][idx]), f32x8::splat(simd, footprints.b[1][idx]));
-    let (a_z, b_z) = (f32x8::splat(simd, footprints.a[2][idx]), f32x8::splat(simd, footprints.b[2][idx]));
-    let lines = &grid.lines[window.row as usize..][..window.n_rows as usize];
+    let row = window.row as usize;
+    let rows = row..row + window.n_rows as usize;
+    let (root, root_cos_square) = (&grid.lines.root[rows.clone()], &grid.lines.root_cos_square[rows]);
+    // For each row, what its texels have in common.
+    let tan = f32x16::from_slice(simd, &grid.lines.tan[row..row + ROWS]);
+    let cos_square = f32x16::from_slice(simd, &grid.lines.cos_square[row..row + ROWS]);
+    let row_s: [f32; ROWS] = (f32x16::splat(simd, footprints.a[2][idx]) * tan).into();
+    let row_t: [f32; ROWS] = (f32x16::splat(simd, footprints.b[2][idx]) * tan).into();
+    let row_c: [f32; ROWS] = (f32x16::splat(simd, footprints.c[idx]) * cos_square).into();
     let mut moments = [zero; 5];
     let n_chunks = (window.n_columns as usize).div_ceil(CHUNK);
     for (chunk, weights) in weights.iter_mut().enumerate().take(n_chunks) {
@@ -239,14 +246,15 @@ fn weigh<S: Simd>(
         // The dot products of a and b with the horizontal directions of the columns.
         let level_a = a_x * sin + a_y * cos;
         let level_b = b_x * sin + b_y * cos;
-        for (line, stored) in lines.iter().zip(weights) {
-            let (sin, cos) = (f32x8::splat(simd, line.sin), f32x8::splat(simd, line.cos));
-            let s = cos * level_a + sin * a_z;
-            let t = cos * level_b + sin * b_z;
-            let q = s * s + t * t;
-            let rest = (one - q).max(zero);
-            let positive = f32x8::splat(simd, line.area) * rest * rest;
-            let weight = positive * (one - c * q);
+        let rows = root.iter().zip(root_cos_square).zip(row_s.iter().zip(&row_t)).zip(&row_c);
+        for ((((&root, &root_cos_square), (&row_s, &row_t)), &row_c), stored) in rows.zip(weights) {
+            let s = level_a + f32x8::splat(simd, row_s);
+            let t = level_b + f32x8::splat(simd, row_t);
+            let square = s * s + t * t;
+            let rest = f32x8::splat(simd, root) - f32x8::splat(simd, root_cos_square) * square;
+            let rest = rest.max(zero);
+            let positive = rest * rest;
+            let weight = positive * (one - f32x8::splat(simd, row_c) * square);
             let (by_s, by_t) = (positive * s, positive * t);
             moments[0] += weight * s;
             moments[1] += weight * t;

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use rayon::prelude::*;
-use ugimage::{Compression, Development, Frame, LinearFrame, Metadata};
+use ugimage::{Compression, Development, Format, Frame, LinearFrame, Metadata};
 use uglight::{ColorShift, SpectralShift};
 use ugparse::{Diagnostics, Scene, Source};
 use ugpicture::{
@@ -12,7 +12,7 @@ use ugpicture::{
 };
 use ugpipe::Progress;
 use ugscene::CameraOptions;
-use ugsky::Basis;
+use ugsky::{Basis, Panorama};
 
 use crate::config::Config;
 use crate::error::Error;
@@ -68,7 +68,7 @@ pub fn light<'s>(sky: impl Into<Sky<'s>>, config: &Config) -> Result<LinearFrame
     let mut config = options_for(sky, config);
     let picture = &mut config.picture;
     (picture.output, picture.exposure, picture.tone) =
-        (Output::Color(ugimage::Format::Exr), None, ugimage::Tone::Clip);
+        (Output::Color(Format::Exr), None, ugimage::Tone::Clip);
     picture.annotations = ugpicture::AnnotationOptions::default();
     let warp = Warp::new(&config)?;
     let (mut frame, _) = seen(sky, &warp, &config, &())?;
@@ -162,48 +162,100 @@ pub fn run(
     metadata: &Metadata,
     progress: &dyn Progress,
 ) -> Result<PictureFile, Error> {
-    let rendering = render_with(opened.into(), config, progress)?;
-    progress.step("compression", 0);
-    let notes = opened.notes.iter().chain(&rendering.notes).cloned().collect();
+    let sky = opened.into();
+    let prepared = Prepared::new(sky, config, progress)?;
+    let (bytes, notes) = match prepared.alone(sky) {
+        Some(panorama) if prepared.is_plain_png() => prepared.png(panorama, metadata, progress),
+        _ => {
+            let mut rendering = prepared.render(sky, progress)?;
+            progress.step("compression", 0);
+            let notes = std::mem::take(&mut rendering.notes);
+            (rendering.into_file(metadata), notes)
+        }
+    };
     Ok(PictureFile {
-        bytes: rendering.into_file(metadata),
-        notes,
+        bytes,
+        notes: opened.notes.iter().cloned().chain(notes).collect(),
         warnings: Diagnostics::new(&Source::new("", ""), Vec::new()),
     })
 }
 
 fn render_with(sky: Sky<'_>, config: &Config, progress: &dyn Progress) -> Result<Rendering, Error> {
-    config.check()?;
-    let config = &options_for(sky, config);
-    let layout = Layout::new(&config.picture)?;
-    let config = &Config { picture: layout.of_scene(&config.picture).into_owned(), ..config.clone() };
-    let picture = &config.picture;
-    progress.step("preparing", 0);
-    let warp = Warp::new(config)?;
-    let (image, statistics, development) = match sky.panorama.filter(|_| is_plain(sky, &warp, config)) {
-        Some(panorama) => {
-            let (frame, statistics) = warp.frame(panorama, progress);
-            (Image::Display(frame), statistics, None)
-        }
-        None => {
-            let (mut frame, statistics) = seen(sky, &warp, config, progress)?;
-            push_channels(&mut frame, &warp, config);
-            let (image, development) = developed(frame, &warp, config);
-            (image, statistics, development)
-        }
-    };
-    progress.step("annotating", 0);
-    let annotations = annotate(&layout, &warp, config, development)?;
-    let mut notes = notes(&warp, config, &statistics, development);
-    notes.extend(annotations.notes.iter().cloned());
-    let compression = if picture.small { Compression::Small } else { Compression::Fast };
-    Ok(Rendering { image: annotations.composite(image), output: picture.output, compression, notes })
+    Prepared::new(sky, config, progress)?.render(sky, progress)
 }
 
-/// True if each pixel has its final colour, of 8 bits, as soon as its light is known.
-fn is_plain(sky: Sky<'_>, warp: &Warp, config: &Config) -> bool {
-    let is_deep = config.picture.output.format().is_some_and(|format| format.is_deep());
-    sky.bands.is_empty() && sky.stars.is_empty() && !warp.is_uncut() && !is_deep
+/// All that a picture needs but the light of the sky.
+struct Prepared {
+    /// Of the picture without its annotations.
+    config: Config,
+    layout: Layout,
+    warp: Warp,
+}
+
+impl Prepared {
+    fn new(sky: Sky<'_>, config: &Config, progress: &dyn Progress) -> Result<Self, Error> {
+        config.check()?;
+        let mut config = options_for(sky, config);
+        let layout = Layout::new(&config.picture)?;
+        config.picture = layout.of_scene(&config.picture).into_owned();
+        progress.step("preparing", 0);
+        Ok(Self { warp: Warp::new(&config)?, config, layout })
+    }
+
+    /// The panorama, if there is nothing else in the sky and each pixel has its final colour, of 8
+    /// bits, as soon as its light is known.
+    fn alone<'s>(&self, sky: Sky<'s>) -> Option<&'s Panorama> {
+        let is_deep = self.config.picture.output.format().is_some_and(|format| format.is_deep());
+        let is_final = sky.bands.is_empty() && sky.stars.is_empty() && !self.warp.is_uncut() && !is_deep;
+        sky.panorama.filter(|_| is_final)
+    }
+
+    /// True for a PNG file of 8 bits without annotations.
+    fn is_plain_png(&self) -> bool {
+        let picture = &self.config.picture;
+        picture.output == Output::Color(Format::Png) && !picture.annotations.is_any()
+    }
+
+    fn compression(&self) -> Compression {
+        if self.config.picture.small { Compression::Small } else { Compression::Fast }
+    }
+
+    /// The file of a picture that [`is_plain_png`](Self::is_plain_png), and notes for the user.
+    fn png(
+        &self,
+        panorama: &Panorama,
+        metadata: &Metadata,
+        progress: &dyn Progress,
+    ) -> (Vec<u8>, Vec<String>) {
+        let (file, statistics) = self.warp.png(panorama, progress, metadata, self.compression());
+        (file, notes(&self.warp, &self.config, &statistics, None))
+    }
+
+    fn render(&self, sky: Sky<'_>, progress: &dyn Progress) -> Result<Rendering, Error> {
+        let Self { config, layout, warp } = self;
+        let (image, statistics, development) = match self.alone(sky) {
+            Some(panorama) => {
+                let (frame, statistics) = warp.frame(panorama, progress);
+                (Image::Display(frame), statistics, None)
+            }
+            None => {
+                let (mut frame, statistics) = seen(sky, warp, config, progress)?;
+                push_channels(&mut frame, warp, config);
+                let (image, development) = developed(frame, warp, config);
+                (image, statistics, development)
+            }
+        };
+        progress.step("annotating", 0);
+        let annotations = annotate(layout, warp, config, development)?;
+        let mut notes = notes(warp, config, &statistics, development);
+        notes.extend(annotations.notes.iter().cloned());
+        Ok(Rendering {
+            image: annotations.composite(image),
+            output: config.picture.output,
+            compression: self.compression(),
+            notes,
+        })
+    }
 }
 
 /// The picture for its format, and how its light was developed; `None` if it was not.

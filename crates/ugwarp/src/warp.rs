@@ -1,10 +1,10 @@
 //! From the pixels of a picture to the sky, and their light.
 
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use glam::DVec3;
 use rayon::prelude::*;
-use ugimage::{Filter, Frame, LinearFrame, Quantizer, display_pixel};
+use ugimage::{Compression, Filter, Frame, LinearFrame, Metadata, Quantizer, display_pixel, draw_png};
 use ugparse::Scene;
 use ugpicture::lens::{Film, Lens};
 use ugpicture::{Backdrop, Emission, SeenItem};
@@ -26,6 +26,9 @@ const TILE: usize = 64;
 /// Half the distance of the places whose directions are compared, in samples: less than a half, so
 /// that both are in the same view of a picture of several.
 const HALF_STEP: f64 = 0.49;
+
+/// The light of neighbouring pixels: red, green and blue, and alpha or the covered part.
+type Light = [[f32; Seen::N]; 4];
 
 /// How often the footprint of a sample is divided at most, if it is large on the sky.
 const MOST_DIVISIONS: u32 = 24;
@@ -68,18 +71,32 @@ pub struct Statistics {
     pub n_covered: u64,
 }
 
-impl Statistics {
+/// What was found in a part of a picture: as [`Statistics`], with the brightest of all pixels at
+/// the same place of their [`Light`].
+#[derive(Clone, Copy, Default)]
+struct Found {
+    max_light: [f32; Seen::N],
+    n_covered: u64,
+}
+
+impl Found {
     /// Adds pixels: light times the covered part, and that part.
-    fn add(&mut self, pixels: &[[f32; 4]]) {
-        for &[red, green, blue, covered] in pixels {
-            if covered > 0.0 {
-                self.n_covered += 1;
-                for part in [red, green, blue] {
-                    // Faster than `f32::max`, which also has to handle NaN.
-                    self.max_light = if part > self.max_light { part } else { self.max_light };
-                }
-            }
+    #[inline]
+    fn add(&mut self, [reds, greens, blues, covered]: &Light) {
+        for idx in 0..Seen::N {
+            // Faster than `f32::max`, which also has to handle NaN.
+            let max = |one: f32, other: f32| if one > other { one } else { other };
+            self.max_light[idx] = max(max(reds[idx], greens[idx]), max(blues[idx], self.max_light[idx]));
         }
+        self.n_covered += covered.iter().map(|part| u64::from(*part > 0.0)).sum::<u64>();
+    }
+}
+
+impl Statistics {
+    /// Adds those of another part of the picture.
+    fn add(&mut self, found: &Found) {
+        self.max_light = found.max_light.into_iter().fold(self.max_light, f32::max);
+        self.n_covered += found.n_covered;
     }
 }
 
@@ -134,61 +151,65 @@ impl Warp {
 
     /// The light of a picture of a panorama, on the background.
     pub fn light(&self, panorama: &Panorama, progress: &dyn Progress) -> (LinearFrame, Statistics) {
-        let (pixels, statistics) = self.draw(panorama, progress, |pixel| pixel);
+        let (pixels, statistics) = self.draw(panorama, progress, |light, pixels| {
+            for (idx, pixel) in pixels.iter_mut().enumerate() {
+                *pixel = light.map(|channel| channel[idx]);
+            }
+        });
         (LinearFrame::new(self.size, self.backdrop.is_opaque(), pixels), statistics)
     }
 
     /// The same display-encoded with 8 bits per channel; light outside 0…1 is clipped.
     pub(crate) fn frame(&self, panorama: &Panorama, progress: &dyn Progress) -> (Frame, Statistics) {
-        let (quantizer, is_opaque) = (Quantizer::new(), self.backdrop.is_opaque());
-        let encode = |pixel| display_pixel(&quantizer, pixel, is_opaque);
-        let (pixels, statistics) = self.draw(panorama, progress, encode);
-        (Frame::new(self.size, is_opaque, pixels), statistics)
+        let (pixels, statistics) = self.draw(panorama, progress, self.encode());
+        (Frame::new(self.size, self.backdrop.is_opaque(), pixels), statistics)
     }
 
-    /// The pixels of a picture of a panorama. `finish` makes them of linear light and alpha.
+    /// The same as a PNG file, which is written while the picture is drawn.
+    pub(crate) fn png(
+        &self,
+        panorama: &Panorama,
+        progress: &dyn Progress,
+        metadata: &Metadata,
+        compression: Compression,
+    ) -> (Vec<u8>, Statistics) {
+        let drawing = Drawing::new(self, panorama, progress, self.encode());
+        let draw = |band: usize, pixels: &mut [[u8; 4]]| drawing.band(band, pixels);
+        let file = draw_png(self.size, self.backdrop.is_opaque(), BAND, metadata, compression, draw);
+        (file, drawing.statistics())
+    }
+
+    /// From light to 8-bit pixels.
+    fn encode(&self) -> impl Fn(&Light, &mut [[u8; 4]]) + Sync {
+        let (quantizer, is_opaque) = (Quantizer::new(), self.backdrop.is_opaque());
+        move |light, pixels| {
+            if is_opaque {
+                let [reds, greens, blues, _] = light;
+                let (reds, greens) = (quantizer.levels(reds), quantizer.levels(greens));
+                let blues = quantizer.levels(blues);
+                for (idx, pixel) in pixels.iter_mut().enumerate() {
+                    *pixel = [reds[idx], greens[idx], blues[idx], 255];
+                }
+            } else {
+                for (idx, pixel) in pixels.iter_mut().enumerate() {
+                    *pixel = display_pixel(&quantizer, light.map(|channel| channel[idx]), false);
+                }
+            }
+        }
+    }
+
+    /// The pixels of a picture of a panorama. `finish` makes some of them of linear light and alpha.
     fn draw<T: Copy + Default + Send>(
         &self,
         panorama: &Panorama,
         progress: &dyn Progress,
-        finish: impl Fn([f32; 4]) -> T + Sync,
+        finish: impl Fn(&Light, &mut [T]) + Sync,
     ) -> (Vec<T>, Statistics) {
         let [width, height] = self.size.map(|side| side as usize);
         let mut pixels = vec![T::default(); width * height];
-        progress.step("warping", height.div_ceil(BAND) as u64);
-        let n_chunks = (TILE * self.samples as usize).div_ceil(Seen::N);
-        // Buffers of all threads. Rayon's `map_init` would make new ones for nearly every band.
-        let buffers = Mutex::new(Vec::new());
-        let lock = || buffers.lock().unwrap_or_else(PoisonError::into_inner);
-        let statistics = pixels.par_chunks_mut(BAND * width).enumerate().map(|(band, pixels)| {
-            let kept = lock().pop();
-            let (mut sampler, mut found) =
-                kept.unwrap_or_else(|| (panorama.sampler(), vec![Seen::default(); n_chunks]));
-            let mut statistics = Statistics::default();
-            for left in (0..width).step_by(TILE) {
-                for (idx, row) in pixels.chunks_mut(width).enumerate() {
-                    let row = &mut row[left..width.min(left + TILE)];
-                    let light = &mut [[0.0; 4]; TILE][..row.len()];
-                    self.add_row(&mut sampler, &mut found, [left, band * BAND + idx], light);
-                    statistics.add(light);
-                    for (pixel, &[red, green, blue, covered]) in row.iter_mut().zip(&*light) {
-                        *pixel = finish(match covered == 1.0 {
-                            // Nothing of the background is seen.
-                            true => [red, green, blue, 1.0],
-                            false => self.backdrop.pixel([red, green, blue], covered),
-                        });
-                    }
-                }
-            }
-            lock().push((sampler, found));
-            progress.done(1);
-            statistics
-        });
-        let statistics = statistics.reduce(Statistics::default, |one, other| Statistics {
-            max_light: one.max_light.max(other.max_light),
-            n_covered: one.n_covered + other.n_covered,
-        });
-        (pixels, statistics)
+        let drawing = Drawing::new(self, panorama, progress, finish);
+        pixels.par_chunks_mut(BAND * width).enumerate().for_each(|(band, pixels)| drawing.band(band, pixels));
+        (pixels, drawing.statistics())
     }
 
     /// A black sky on the background, which is outside the circle of a fisheye.
@@ -206,32 +227,52 @@ impl Warp {
         (LinearFrame::new(self.size, self.backdrop.is_opaque(), pixels), statistics)
     }
 
-    /// Sets pixels of a row, from a column on, to the mean light of their samples, times their
-    /// covered part, and that part. `found`: a buffer for a row of their samples.
-    fn add_row(
+    /// The mean light of the samples of `n` pixels of a row, from a column on, times their covered
+    /// part, and that part. `found`: a buffer for a row of their samples.
+    fn row(
         &self,
         sampler: &mut Sampler<'_>,
         found: &mut [Seen],
         [left, row]: [usize; 2],
-        pixels: &mut [[f32; 4]],
-    ) {
+        n_pixels: usize,
+    ) -> [Light; TILE / Seen::N] {
         let n = self.samples as usize;
-        let found = &mut found[..(n * pixels.len()).div_ceil(Seen::N)];
+        let mut light = [[[0.0; Seen::N]; 4]; TILE / Seen::N];
+        let found = &mut found[..(n * n_pixels).div_ceil(Seen::N)];
         let left = (left * n) as f64 + 0.5;
         for y in row * n..(row + 1) * n {
-            self.see_row(sampler, found, [left, y as f64 + 0.5], n * pixels.len());
+            self.see_row(sampler, found, [left, y as f64 + 0.5], n * n_pixels);
+            if n == 1 {
+                light.iter_mut().zip(&*found).for_each(|(light, seen)| *light = seen.light);
+                return light;
+            }
             for (first, seen) in found.iter().enumerate() {
-                let [reds, greens, blues, alphas] = &seen.light;
-                for idx in 0..Seen::N.min(n * pixels.len() - first * Seen::N) {
-                    let sum = &mut pixels[(first * Seen::N + idx) / n];
-                    let light = [reds[idx], greens[idx], blues[idx], alphas[idx]];
-                    (0..4).for_each(|channel| sum[channel] += light[channel]);
+                for idx in 0..Seen::N.min(n * n_pixels - first * Seen::N) {
+                    let pixel = (first * Seen::N + idx) / n;
+                    let sums = &mut light[pixel / Seen::N];
+                    for (sums, values) in sums.iter_mut().zip(&seen.light) {
+                        sums[pixel % Seen::N] += values[idx];
+                    }
                 }
             }
         }
-        if n > 1 {
-            let part = 1.0 / (n * n) as f32;
-            pixels.iter_mut().flatten().for_each(|sum| *sum *= part);
+        let part = 1.0 / (n * n) as f32;
+        light.as_flattened_mut().as_flattened_mut().iter_mut().for_each(|sum| *sum *= part);
+        light
+    }
+
+    /// Light on the background, from light times the covered part, and that part.
+    fn composite(&self, light: &mut Light) {
+        if light[3] == [1.0; Seen::N] {
+            // Nothing of the background is seen.
+            return;
+        }
+        for idx in 0..Seen::N {
+            let [red, green, blue, covered] = light.map(|channel| channel[idx]);
+            if covered != 1.0 {
+                let pixel = self.backdrop.pixel([red, green, blue], covered);
+                light.iter_mut().zip(pixel).for_each(|(channel, part)| channel[idx] = part);
+            }
         }
     }
 
@@ -336,4 +377,62 @@ impl Warp {
         let velocity = -self.observer.velocity();
         Some((0, Emission { place: direction, depth: f64::INFINITY, time: f64::NEG_INFINITY, velocity }))
     }
+}
+
+/// A picture of a panorama, of which bands are drawn in any order on any threads.
+struct Drawing<'a, F> {
+    warp: &'a Warp,
+    panorama: &'a Panorama,
+    progress: &'a dyn Progress,
+    /// Makes some pixels of linear light and alpha.
+    finish: F,
+    /// Buffers of all threads.
+    buffers: Mutex<Vec<(Sampler<'a>, Vec<Seen>)>>,
+    /// Of the bands that are drawn.
+    statistics: Mutex<Statistics>,
+}
+
+impl<'a, F> Drawing<'a, F> {
+    fn new(warp: &'a Warp, panorama: &'a Panorama, progress: &'a dyn Progress, finish: F) -> Self {
+        progress.step("warping", warp.size[1].div_ceil(BAND as u32).into());
+        Self { warp, panorama, progress, finish, buffers: Mutex::default(), statistics: Mutex::default() }
+    }
+
+    /// Draws [`BAND`] rows of pixels, or the last ones.
+    fn band<T>(&self, band: usize, pixels: &mut [T])
+    where
+        F: Fn(&Light, &mut [T]),
+    {
+        let (warp, width) = (self.warp, self.warp.size[0] as usize);
+        let kept = lock(&self.buffers).pop();
+        let (mut sampler, mut found) = kept.unwrap_or_else(|| {
+            let n_chunks = (TILE * warp.samples as usize).div_ceil(Seen::N);
+            (self.panorama.sampler(), vec![Seen::default(); n_chunks])
+        });
+        let mut statistics = Found::default();
+        for left in (0..width).step_by(TILE) {
+            for (idx, row) in pixels.chunks_mut(width).enumerate() {
+                let row = &mut row[left..width.min(left + TILE)];
+                let mut light = warp.row(&mut sampler, &mut found, [left, band * BAND + idx], row.len());
+                for (pixels, light) in row.chunks_mut(Seen::N).zip(&mut light) {
+                    // There is nothing after the end of the row.
+                    light.iter_mut().for_each(|channel| channel[pixels.len()..].fill(0.0));
+                    statistics.add(light);
+                    warp.composite(light);
+                    (self.finish)(light, pixels);
+                }
+            }
+        }
+        lock(&self.buffers).push((sampler, found));
+        lock(&self.statistics).add(&statistics);
+        self.progress.done(1);
+    }
+
+    fn statistics(self) -> Statistics {
+        self.statistics.into_inner().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+fn lock<T>(value: &Mutex<T>) -> MutexGuard<'_, T> {
+    value.lock().unwrap_or_else(PoisonError::into_inner)
 }
