@@ -3,19 +3,18 @@
 use std::sync::LazyLock;
 
 use fearless_simd::prelude::*;
-use fearless_simd::{Simd, f32x16, u32x16};
+use fearless_simd::{Simd, f32x16};
 use uglight::{HueShift, HueTable};
-use ugphysics::{Brightness, RED_END_NM, VIOLET_END_NM, srgb_decode, srgb_encode};
+use ugphysics::{Brightness, RED_END_NM, VIOLET_END_NM};
 use ugsky::Seen;
+
+use crate::transfer::{decode, encode};
 
 /// Pixels in one SIMD vector.
 const N: usize = Seen::N;
 
 /// Tables for the hue model of 1988.
 pub struct Hues {
-    /// The sRGB transfer function and its inverse.
-    encoded: Curve,
-    decoded: Curve,
     /// Wavelengths by hue, and hues by wavelength.  Eq. (P16)
     nm: Table,
     hue: Table,
@@ -24,8 +23,6 @@ pub struct Hues {
 static HUES: LazyLock<Hues> = LazyLock::new(|| {
     let hues = HueTable::get();
     Hues {
-        encoded: Curve::new(srgb_encode),
-        decoded: Curve::new(srgb_decode),
         nm: Table::new([-60.0, 300.0], |hue| hues.wavelength_nm(hue)),
         hue: Table::new([VIOLET_END_NM, RED_END_NM], |nm| hues.hue(nm)),
     }
@@ -51,8 +48,7 @@ impl Hues {
     ) -> [f32x16<S>; 3] {
         let number = |x: f32| f32x16::splat(simd, x);
         let (zero, one) = (number(0.0), number(1.0));
-        let (red, green, blue) =
-            (self.encoded.at(simd, red), self.encoded.at(simd, green), self.encoded.at(simd, blue));
+        let (red, green, blue) = (encode(simd, red), encode(simd, green), encode(simd, blue));
         let gain = match shift.law {
             Brightness::Report => doppler,
             Brightness::Photon => doppler * doppler * doppler,
@@ -67,7 +63,7 @@ impl Hues {
         let keeps_wavelength = pure.simd_le(zero) | doppler.simd_eq(one);
         if !shift.doppler || keeps_wavelength.all_true() {
             let (red, green, blue) = (red * gain, green * gain, blue * gain);
-            return self.decode(simd, most, [red, green, blue]);
+            return decoded(simd, most, [red, green, blue]);
         }
         let sixth = number(60.0) / pure;
         let of_green = number(120.0) + sixth * (blue - red);
@@ -95,18 +91,14 @@ impl Hues {
         let red = keeps_wavelength.select(red * gain, shifted_red);
         let green = keeps_wavelength.select(green * gain, shifted_green);
         let blue = keeps_wavelength.select(blue * gain, shifted_blue);
-        self.decode(simd, most, [red, green, blue])
+        decoded(simd, most, [red, green, blue])
     }
+}
 
-    #[inline(always)]
-    fn decode<S: Simd>(&self, simd: S, most: f32, [red, green, blue]: [f32x16<S>; 3]) -> [f32x16<S>; 3] {
-        let most = f32x16::splat(simd, most);
-        [
-            self.decoded.at(simd, red.min(most)),
-            self.decoded.at(simd, green.min(most)),
-            self.decoded.at(simd, blue.min(most)),
-        ]
-    }
+#[inline(always)]
+fn decoded<S: Simd>(simd: S, most: f32, [red, green, blue]: [f32x16<S>; 3]) -> [f32x16<S>; 3] {
+    let most = f32x16::splat(simd, most);
+    [decode(simd, red.min(most)), decode(simd, green.min(most)), decode(simd, blue.min(most))]
 }
 
 /// The part of a pure hue in a primary colour: 1 within 60° of its hue, falling linearly to 0 at
@@ -166,84 +158,11 @@ fn interpolated<S: Simd>(simd: S, low: &[f32; N], high: &[f32; N], part: f32x16<
     low + (f32x16::from_slice(simd, high) - low) * part
 }
 
-/// Bits of the mantissa that select the cell of a [`Curve`].
-const CELL_BITS: u32 = 9;
-
-/// Exponents of a [`Curve`].
-const EXPONENTS: [i32; 2] = [-20, 20];
-
-/// Number of cells of a [`Curve`].
-const N_CELLS: usize = ((EXPONENTS[1] - EXPONENTS[0]) as usize) << CELL_BITS;
-
-/// A function of light: 512 points for each power of two of its argument from 2⁻²⁰ to 2²⁰, with
-/// linear interpolation between them; relative errors are below 5·10⁻⁶. From 0 to 2⁻²⁰ it is a
-/// straight line, below 0 it is 0, and above 2²⁰ it keeps its last value.
-struct Curve {
-    points: Box<[f32]>,
-}
-
-impl Curve {
-    /// Bits of the number at the first point.
-    const START: u32 = ((EXPONENTS[0] + 127) as u32) << 23;
-
-    fn new(function: impl Fn(f64) -> f64) -> Self {
-        let at = |idx: u32| f32::from_bits(Self::START + (idx << (23 - CELL_BITS)));
-        Self { points: (0..=N_CELLS as u32).map(|idx| function(f64::from(at(idx))) as f32).collect() }
-    }
-
-    #[inline(always)]
-    fn at<S: Simd>(&self, simd: S, x: f32x16<S>) -> f32x16<S> {
-        const REST: u32 = (1 << (23 - CELL_BITS)) - 1;
-        let start = f32x16::splat(simd, f32::from_bits(Self::START));
-        // The last number below the end.
-        let end = f32x16::splat(simd, f32::from_bits((((EXPONENTS[1] + 127) as u32) << 23) - 1));
-        // NaN becomes a number too.
-        let x = x.max(f32x16::splat(simd, 0.0)).min(end);
-        let bits: u32x16<S> = x.max(start).bitcast();
-        let offset = bits - u32x16::splat(simd, Self::START);
-        let cells: [u32; N] = (offset >> (23 - CELL_BITS)).into();
-        let part: f32x16<S> = (offset & u32x16::splat(simd, REST)).to_float();
-        let (mut low, mut high) = ([0.0; N], [0.0; N]);
-        for k in 0..N {
-            let cell = (cells[k] as usize).min(N_CELLS - 1);
-            if let Some([from, to]) = self.points.get(cell..cell + 2) {
-                (low[k], high[k]) = (*from, *to);
-            }
-        }
-        let curve = interpolated(simd, &low, &high, part * f32x16::splat(simd, 1.0 / (REST + 1) as f32));
-        let slope = f32x16::splat(simd, self.points[0]) / start;
-        x.simd_lt(start).select(x * slope, curve)
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use fearless_simd::{Level, dispatch};
 
     use super::*;
-
-    #[test]
-    fn curves_are_those_of_srgb() {
-        let hues = Hues::get();
-        let at = |curve: &Curve, x: f64| {
-            let found: [f32; N] =
-                dispatch!(Level::new(), simd => curve.at(simd, f32x16::splat(simd, x as f32)).into());
-            f64::from(found[0])
-        };
-        for step in 0..20_000 {
-            let x = libm::exp(f64::from(step - 14_000) * 1e-3);
-            for (curve, exact) in [(&hues.encoded, srgb_encode(x)), (&hues.decoded, srgb_decode(x))] {
-                let found = at(curve, x);
-                assert!((found / exact - 1.0).abs() < 5e-6, "{x}: {found} {exact}");
-            }
-        }
-        assert_eq!(
-            (at(&hues.encoded, 0.0), at(&hues.encoded, -1.0), at(&hues.decoded, -0.0)),
-            (0.0, 0.0, 0.0)
-        );
-        assert!(at(&hues.decoded, f64::MAX) > 1e9);
-        assert!(at(&hues.encoded, f64::NAN) >= 0.0);
-    }
 
     #[test]
     fn attenuation_is_that_of_the_library() {

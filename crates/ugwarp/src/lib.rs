@@ -58,6 +58,7 @@ mod shade;
 mod sky;
 mod star_list;
 mod stars;
+mod transfer;
 mod warp;
 
 pub use arrangement::Arrangement;
