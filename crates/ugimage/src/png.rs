@@ -248,8 +248,7 @@ mod tests {
     }
 
     /// Noise, which cannot be compressed, and which fills several chunks.
-    #[test]
-    fn noise_is_stored() {
+    fn noise() -> Frame {
         let size = [400, 300];
         let mut state = 1_u32;
         let pixels = (0..size[0] * size[1]).map(|_| {
@@ -257,12 +256,35 @@ mod tests {
             let [_, r, g, b] = state.to_le_bytes();
             [r, g, b, 255]
         });
-        let frame = Frame::new(size, true, pixels.collect());
+        Frame::new(size, true, pixels.collect())
+    }
+
+    #[test]
+    fn noise_is_stored() {
+        let frame = noise();
         let file = encode(&frame, &Metadata::default(), Compression::Fast);
         let n_bytes = 3 * frame.pixels().len();
         assert!(file.len() < n_bytes + n_bytes / 100, "{} of {n_bytes}", file.len());
         let expected: Vec<u8> = frame.pixels().iter().flat_map(|&[r, g, b, _]| [r, g, b]).collect();
         assert_eq!(decode(&file).1, expected);
+    }
+
+    #[test]
+    fn a_frame_that_is_drawn_gives_the_same_file() {
+        let metadata = Metadata { software: "ug 1".into(), comment: "ug".into() };
+        for frame in test_frames().iter().chain([&noise()]) {
+            let size = [frame.width(), frame.height()];
+            for (height, compression) in
+                [(1, Compression::Fast), (7, Compression::Small), (1000, Compression::Fast)]
+            {
+                let draw = |band: usize, pixels: &mut [[u8; 4]]| {
+                    let first = band * height * size[0] as usize;
+                    pixels.copy_from_slice(&frame.pixels()[first..][..pixels.len()]);
+                };
+                let file = draw_png(size, frame.is_opaque(), height, &metadata, compression, draw);
+                assert!(file == encode(frame, &metadata, compression), "{size:?} {height}");
+            }
+        }
     }
 
     #[test]

@@ -16,10 +16,11 @@
 
 use std::collections::BTreeMap;
 use std::ops::Range;
+use std::panic;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{self, Receiver};
 use std::sync::{Mutex, PoisonError};
-use std::{panic, thread};
+use std::thread::{self, ScopedJoinHandle};
 
 use rayon::prelude::*;
 
@@ -85,7 +86,7 @@ pub fn for_jobs_while<T: Send, R>(
 /// Fills a table in parts of `length` rows, the last of which may be shorter, on all threads. `fill`
 /// is passed the number of a part and its rows; parts are begun in order. Meanwhile `take`, on a
 /// thread of its own, gets the parts in order, each as soon as it and all before it are full. Returns
-/// the value of `take`.
+/// the value of `take`. If no thread can be started, `take` is called afterwards.
 ///
 /// # Panics
 /// If `length` is 0.
@@ -97,8 +98,11 @@ pub fn fill_while<T: Send + Sync, R: Send>(
 ) -> R {
     let parts = Mutex::new(table.chunks_mut(length).enumerate());
     let (sender, receiver) = mpsc::channel();
+    let mut taker = Some((take, FullParts { receiver, next: 0, early: BTreeMap::new() }));
+    let mut taken = None;
     thread::scope(|scope| {
-        let taken = scope.spawn(|| take(FullParts { receiver, next: 0, early: BTreeMap::new() }));
+        let take = || taken = taker.take().map(|(take, parts)| take(parts));
+        let thread = thread::Builder::new().spawn_scoped(scope, take);
         run_all(n_threads(), &|_| {
             loop {
                 let next = lock(&parts).next();
@@ -110,8 +114,12 @@ pub fn fill_while<T: Send + Sync, R: Send>(
         });
         // No more parts will come.
         drop(sender);
-        taken.join().unwrap_or_else(|cause| panic::resume_unwind(cause))
-    })
+        if let Ok(Err(cause)) = thread.map(ScopedJoinHandle::join) {
+            panic::resume_unwind(cause);
+        }
+    });
+    let taken = taken.or_else(|| taker.map(|(take, parts)| take(parts)));
+    taken.expect("`take` is called by the thread or after it")
 }
 
 /// The parts of a table in order. `next` waits until the part is full.

@@ -80,7 +80,7 @@ fn exp2<S: Simd>(simd: S, x: f32x16<S>) -> f32x16<S> {
     let series = number(1.333_355_8e-3) + part * number(1.540_353e-4);
     let series = number(9.618_129e-3) + part * series;
     let series = number(0.055_504_11) + part * series;
-    let series = number(0.240_226_51) + part * series;
+    let series = number(0.240_226_5) + part * series;
     let series = number(core::f32::consts::LN_2) + part * series;
     scale * (number(1.0) + part * series)
 }

@@ -5,12 +5,12 @@
 use core::f64::consts::{PI, TAU};
 
 use glam::DVec3;
-use ugimage::{LinearFrame, Samples};
+use ugimage::{LinearFrame, Metadata, Samples};
 use ugphysics::{Brightness, Velocity, linear_srgb_to_xyz, srgb_encode, xyz_to_linear_srgb};
 use ugspectrum::Spectrum;
 use ugwarp::{
-    Band, Basis, CameraOptions, Channel, ColorShift, Config, Extent, Filter, HueShift, Lens, Panorama,
-    PictureOptions, Sky, SpectralShift, Texels, light, render,
+    Background, Band, Basis, CameraOptions, Channel, ColorShift, Config, Extent, Filter, HueShift, Lens,
+    Opened, Panorama, PictureOptions, Sky, SpectralShift, Texels, light, render, run,
 };
 
 fn panorama(width: u32, color: impl Fn(DVec3) -> [f64; 3]) -> Panorama {
@@ -342,5 +342,29 @@ fn infrared_and_ultraviolet_light_is_seen_in_motion() {
     for channel in 0..3 {
         assert!((f64::from(front[channel]) / expected[channel] - 1.0).abs() < 0.02, "{front:?} {expected:?}");
         assert_eq!(back[channel], 0.0);
+    }
+}
+
+/// A PNG file that is written while its picture is drawn is that of the whole picture, opaque or
+/// with a transparent background.
+#[test]
+fn files_are_those_of_whole_pictures() {
+    let colors = |d: DVec3| [0.5 + 0.5 * d.x, 0.5 + 0.5 * d.y, 0.5 + 0.5 * d.z];
+    let opened = Opened {
+        panorama: Some(panorama(256, colors)),
+        bands: Vec::new(),
+        stars: Vec::new(),
+        notes: Vec::new(),
+    };
+    let metadata = Metadata { software: "ugwarp".into(), comment: "ugwarp".into() };
+    let fisheye = Lens::Fisheye { angle: PI };
+    for (lens, samples, small) in [(Lens::Pinhole, 1, false), (fisheye, 2, false), (fisheye, 1, true)] {
+        let mut config = geometry(ahead(0.6), [75, 101], lens);
+        (config.picture.samples, config.picture.small) = (samples, small);
+        config.picture.background = Background::Transparent;
+        let file = run(&config, &opened, &metadata, &()).unwrap();
+        let picture = render(&opened, &config).unwrap();
+        assert_eq!(file.notes, picture.notes);
+        assert!(file.bytes == picture.into_file(&metadata), "{lens:?}");
     }
 }
