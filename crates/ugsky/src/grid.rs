@@ -103,8 +103,8 @@ pub(crate) struct Row {
     pub area: f32,
 }
 
-/// What the weights of the texels of rows depend on, in single precision. Each list has
-/// [`LINES_AT_ONCE`] more entries than rows.
+/// What the weights of the texels of rows depend on. Lists of numbers have [`LINES_AT_ONCE`] more
+/// entries than there are rows.
 pub(crate) struct Lines {
     /// Tangents of the latitudes of their middles.
     pub tan: Vec<f32>,
