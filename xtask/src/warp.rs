@@ -42,7 +42,7 @@ pub fn write(out: &mut impl Write, ffmpeg: &str) -> Result<(), Box<dyn Error>> {
         ("`v360`, lanczos, each further frame", None),
     ];
     // Each round has four runs of ugwarp: a tiny picture, then one for each row of the table. Then
-    // four of v360: one frame and 1 + FRAMES frames, each first tiny and then of the whole size.
+    // four of v360: a tiny and a full-size picture, each for one frame and for 1 + FRAMES frames.
     let mut rounds: Vec<Vec<[f64; 2]>> = Vec::new();
     for _ in 0..ROUNDS {
         // A small view angle, so that no mip levels of the panorama are computed.

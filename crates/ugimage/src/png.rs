@@ -31,11 +31,12 @@ pub fn encode(frame: &Frame, metadata: &Metadata, compression: Compression) -> V
     image.smaller(file, compression, rows(), copy_row)
 }
 
-/// A frame that is drawn on all threads in bands of rows, as a PNG file; bands are encoded while
-/// those below are drawn. The file is the same as that of [`Format::Png`](crate::Format::Png).
+/// Draws a frame in bands of rows on all threads, and compresses each band while the next ones are
+/// drawn. Returns a PNG file, the same bytes as [`Format::encode`](crate::Format::encode) of the
+/// whole frame.
 ///
-/// `draw` is passed the number of a band, from the top, and its pixels, which are all 0. If the frame
-/// is opaque, it must set every alpha to 255.
+/// `draw` is passed the index of a band, counted from the top, and its pixels, which are all 0. In
+/// an opaque frame it must set every alpha to 255.
 ///
 /// # Panics
 /// If a side or the height of bands is 0.
@@ -58,7 +59,7 @@ pub fn draw_png(
     image.smaller(file, compression, pixels.chunks_exact(width), copy_row)
 }
 
-/// Sets the bytes of a row: those of colours, and alpha if there is room.
+/// Copies a row of pixels into the bytes of a PNG row, with alpha if there are four bytes a pixel.
 fn copy_row(row: &[[u8; 4]], bytes: &mut [u8]) {
     if bytes.len() < 4 * row.len() {
         for (bytes, &[r, g, b, _]) in bytes.as_chunks_mut::<3>().0.iter_mut().zip(row) {

@@ -55,10 +55,10 @@ impl Quantizer {
         level + u8::from(linear >= self.thresholds[usize::from(level)])
     }
 
-    /// The levels of several values, which takes less time than one by one.
+    /// The display level of each value, as [`Quantizer::level`], but faster for many values.
     #[inline]
     pub fn levels<const N: usize>(&self, linear: &[f32; N]) -> [u8; N] {
-        // All cells first, because this loop has SIMD instructions.
+        // A loop of its own, because the compiler can use SIMD instructions for it.
         let mut cells = [0; N];
         for (at, &linear) in cells.iter_mut().zip(linear) {
             *at = cell(linear) as u32;

@@ -83,10 +83,12 @@ pub fn for_jobs_while<T: Send, R>(
     })
 }
 
-/// Fills a table in parts of `length` rows, the last of which may be shorter, on all threads. `fill`
-/// is passed the number of a part and its rows; parts are begun in order. Meanwhile `take`, on a
-/// thread of its own, gets the parts in order, each as soon as it and all before it are full. Returns
-/// the value of `take`. If no thread can be started, `take` is called afterwards.
+/// Fills a table on all threads, and reads it on one more thread at the same time.
+///
+/// The table is divided into parts of `length` rows; the last may be shorter. `fill` is passed the
+/// index of a part and its rows, and is called for the parts in order. `take` is passed an iterator
+/// over the filled parts, also in order, which waits until the next part is filled. If no thread
+/// can be started for `take`, it is called after all parts are filled. Returns what `take` returns.
 ///
 /// # Panics
 /// If `length` is 0.
@@ -122,11 +124,11 @@ pub fn fill_while<T: Send + Sync, R: Send>(
     taken.expect("`take` is called by the thread or after it")
 }
 
-/// The parts of a table in order. `next` waits until the part is full.
+/// The parts of a table in order. `next` waits until the part is filled.
 pub struct FullParts<'t, T> {
     receiver: Receiver<(usize, &'t mut [T])>,
     next: usize,
-    /// Those that are full before the next one is.
+    /// Parts that were filled before the one that `next` waits for.
     early: BTreeMap<usize, &'t [T]>,
 }
 
@@ -248,7 +250,7 @@ mod tests {
         }
     }
 
-    /// The first part is full last, and the taker ends early.
+    /// The first part is filled last, and `take` reads only some of the parts.
     #[test]
     fn parts_are_taken_in_order() {
         for n_threads in [1, 3] {

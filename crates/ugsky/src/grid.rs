@@ -106,15 +106,15 @@ pub(crate) struct Row {
 /// What the weights of the texels of rows depend on. Lists of numbers have [`LINES_AT_ONCE`] more
 /// entries than there are rows.
 pub(crate) struct Lines {
-    /// Tangents of the latitudes of their middles.
+    /// Tangent of the latitude in the middle of the row.
     pub tan: Vec<f32>,
-    /// Squares of the cosines of these.
+    /// Square of the cosine of that latitude.
     pub cos_square: Vec<f32>,
-    /// Square roots of their areas, see [`Row`].
+    /// Square root of [`Row::area`].
     pub root: Vec<f32>,
-    /// The roots times the squares of the cosines.
+    /// `root` times `cos_square`.
     pub root_cos_square: Vec<f32>,
-    /// As those of [`Row`].
+    /// [`Row::ladder`].
     pub ladder: Vec<u32>,
 }
 

@@ -28,8 +28,8 @@ pub struct Sampler<'a> {
 struct Weights {
     /// Those of the kernel.
     kernel: [f32; CHUNK],
-    /// Those of its positive part, (1 − q)², times the coordinates s = a·d and t = b·d. Away from
-    /// poles these are divided by the cosine of the latitude of the row, as in windows.
+    /// Those of its positive part, (1 − q)², times the coordinates s = a·d and t = b·d, which away
+    /// from poles are divided by the cosine of the latitude, as in windows.
     across: [f32; CHUNK],
     along: [f32; CHUNK],
 }

@@ -210,8 +210,8 @@ pub(crate) fn lights<S: Simd>(
 }
 
 /// Computes the weights of a window, and sums: weight times s, weight times t, and positive part
-/// times s², s t and t². Here s = a·d and t = b·d are divided by the cosine of the latitude of the
-/// row, so that each is the sum of a number of the column and one of the row.
+/// times s², s t and t². Here s = a·d and t = b·d are divided by the cosine of the latitude, so
+/// that each is a sum of two terms, one for the column and one for the row.
 #[inline(always)]
 fn weigh<S: Simd>(
     simd: S,

@@ -49,8 +49,9 @@ impl Shade {
         self.most > 1.0
     }
 
-    /// Changes the light of sixteen pixels from that at rest to that seen. `light`: linear red,
-    /// green and blue times alpha, and alpha; `doppler`: their Doppler factors.
+    /// Replaces the light of sixteen pixels in the frame of the sky by what the moving observer
+    /// sees. `light`: linear red, green and blue times alpha, and alpha; `doppler`: the Doppler
+    /// factors.
     pub fn see(&self, light: &mut [[f32; Seen::N]; 4], doppler: &[f32; Seen::N]) {
         dispatch!(self.simd, simd => self.see_with(simd, light, doppler));
     }

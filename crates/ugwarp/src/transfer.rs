@@ -70,7 +70,7 @@ fn log2<S: Simd>(simd: S, x: f32x16<S>) -> f32x16<S> {
 #[inline(always)]
 fn exp2<S: Simd>(simd: S, x: f32x16<S>) -> f32x16<S> {
     let number = |x: f32| f32x16::splat(simd, x);
-    // With 1.5·2²³ added, the last bits are those of the nearest whole number.
+    // Adding 1.5·2²³ rounds to the nearest integer, which is then in the low bits.
     let shift = number((3 << (MANTISSA - 1)) as f32);
     let shifted = x + shift;
     let part = x - (shifted - shift);

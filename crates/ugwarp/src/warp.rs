@@ -71,8 +71,8 @@ pub struct Statistics {
     pub n_covered: u64,
 }
 
-/// What was found in a part of a picture: as [`Statistics`], with the brightest of all pixels at
-/// the same place of their [`Light`].
+/// [`Statistics`] of a part of a picture. The maximum is kept for each index of [`Light`] apart, so
+/// that it is computed with SIMD instructions.
 #[derive(Clone, Copy, Default)]
 struct Found {
     max_light: [f32; Seen::N],
@@ -84,7 +84,7 @@ impl Found {
     #[inline]
     fn add(&mut self, [reds, greens, blues, covered]: &Light) {
         for idx in 0..Seen::N {
-            // Faster than `f32::max`, which also has to handle NaN.
+            // One instruction; `f32::max` takes several, because of NaN.
             let max = |one: f32, other: f32| if one > other { one } else { other };
             self.max_light[idx] = max(max(reds[idx], greens[idx]), max(blues[idx], self.max_light[idx]));
         }
@@ -93,7 +93,7 @@ impl Found {
 }
 
 impl Statistics {
-    /// Adds those of another part of the picture.
+    /// Adds the statistics of a part of the picture.
     fn add(&mut self, found: &Found) {
         self.max_light = found.max_light.into_iter().fold(self.max_light, f32::max);
         self.n_covered += found.n_covered;
@@ -198,7 +198,7 @@ impl Warp {
         }
     }
 
-    /// The pixels of a picture of a panorama. `finish` makes some of them of linear light and alpha.
+    /// The pixels of a picture of a panorama. `finish` converts linear light and alpha to pixels.
     fn draw<T: Copy + Default + Send>(
         &self,
         panorama: &Panorama,
@@ -227,8 +227,8 @@ impl Warp {
         (LinearFrame::new(self.size, self.backdrop.is_opaque(), pixels), statistics)
     }
 
-    /// The mean light of the samples of `n` pixels of a row, from a column on, times their covered
-    /// part, and that part. `found`: a buffer for a row of their samples.
+    /// The light of `n_pixels` pixels of a row from column `left` on: the mean of their samples,
+    /// times the covered part, and that part. `found`: a buffer for a row of samples.
     fn row(
         &self,
         sampler: &mut Sampler<'_>,
@@ -384,7 +384,7 @@ struct Drawing<'a, F> {
     warp: &'a Warp,
     panorama: &'a Panorama,
     progress: &'a dyn Progress,
-    /// Makes some pixels of linear light and alpha.
+    /// Converts linear light and alpha to pixels.
     finish: F,
     /// Buffers of all threads.
     buffers: Mutex<Vec<(Sampler<'a>, Vec<Seen>)>>,

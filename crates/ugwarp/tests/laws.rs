@@ -345,8 +345,8 @@ fn infrared_and_ultraviolet_light_is_seen_in_motion() {
     }
 }
 
-/// A PNG file that is written while its picture is drawn is that of the whole picture, opaque or
-/// with a transparent background.
+/// Compressing a PNG file while the picture is drawn gives the same bytes as compressing the
+/// finished picture, with and without transparent pixels.
 #[test]
 fn files_are_those_of_whole_pictures() {
     let colors = |d: DVec3| [0.5 + 0.5 * d.x, 0.5 + 0.5 * d.y, 0.5 + 0.5 * d.z];
