@@ -36,7 +36,11 @@ pub struct Args {
     #[arg(long, visible_alias = "wavelengths")]
     gw: bool,
 
-    /// Brightness law: how the value changes with D [default: report]
+    /// Brightness law: how brightness changes with D [default: report]
+    ///
+    /// The laws photon and bolometric multiply linear light, and so does everything downstream that
+    /// lights the scene. The laws report and none are those of 1988, which light display-encoded
+    /// values.
     #[arg(long, visible_alias = "brightness", value_name = "LAW", value_enum)]
     br: Option<Law>,
 

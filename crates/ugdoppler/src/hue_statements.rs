@@ -1,9 +1,9 @@
 //! Colour statements with hues as seen: one for each colour at rest and quantized Doppler factor.
 
 use rustc_hash::FxHashMap;
-use uglight::{HueColor, HueShift, VertexColor, hsv};
+use uglight::{HueColor, HueShift, VertexColor};
 use ugparse::{Color, ColorId, ColorValue, HueScale, NameId, Scene, Tint, UniqueNames};
-use ugphysics::{Hsv, hue_to_wavelength, linear_srgb_to_xyz};
+use ugphysics::{Hsv, hue_to_wavelength, linear_srgb_to_xyz, srgb_decode, srgb_encode};
 
 use crate::Config;
 use crate::digits::digits;
@@ -23,13 +23,15 @@ pub(crate) struct HueStatements<'s> {
     step: f64,
     /// By row of the colour at rest, and quantized D.
     made: FxHashMap<(u32, u64), ColorId>,
-    /// Colours that include light, by translucency and quantized wavelength, saturation and value.
-    lit: FxHashMap<[u64; 4], ColorId>,
+    /// Colours that include light, by translucency and quantized wavelength, saturation, value and
+    /// factor.
+    lit: FxHashMap<[u64; 5], ColorId>,
     /// Colours at rest, and their rows.
     bases: Vec<Base>,
     base_rows: FxHashMap<BaseKey, u32>,
     names: UniqueNames,
-    largest_value: f64,
+    /// See [`HueStatements::intensity`].
+    largest: f64,
 }
 
 /// Identifies a colour at rest.
@@ -62,7 +64,7 @@ impl<'s> HueStatements<'s> {
             bases: Vec::new(),
             base_rows: FxHashMap::default(),
             names,
-            largest_value: 0.0,
+            largest: 0.0,
             scene,
             shift: config.hue_shift(),
             config,
@@ -92,7 +94,7 @@ impl<'s> HueStatements<'s> {
         let id = match self.lit.get(&key) {
             Some(&id) => id,
             None => {
-                self.largest_value = self.largest_value.max(seen.value);
+                self.largest = self.largest.max(self.intensity(&seen));
                 let name = self.names.fresh(&format!("{}#lit{}", base.name, n_lit + 1));
                 let name = self.scene.names.add(&name);
                 let id = self.push(name, seen, base.translucency);
@@ -105,7 +107,7 @@ impl<'s> HueStatements<'s> {
 
     /// The key under which lit colours that differ by less than the tolerance are found: the first
     /// of them stands for all.
-    fn lit_key(&self, translucency: f64, seen: HueColor) -> [u64; 4] {
+    fn lit_key(&self, translucency: f64, seen: HueColor) -> [u64; 5] {
         let tolerance = self.config.bounded_tolerance();
         let step = |number: f64, width: f64| {
             let number = if tolerance > 0.0 { (number / width).round() } else { number };
@@ -118,7 +120,14 @@ impl<'s> HueStatements<'s> {
             step(seen.saturation, tolerance / 100.0),
             // Relative to the value, since the iris may scale dark scenes up.
             step(libm::log(seen.value), tolerance / 100.0),
+            step(libm::log(seen.factor), tolerance / 100.0),
         ]
+    }
+
+    /// The number that must not exceed 1: linear light of the largest channel under a law that acts
+    /// on linear light, else the value.
+    fn intensity(&self, seen: &HueColor) -> f64 {
+        if self.shift.law.acts_on_light() { seen.brightest() } else { seen.value }
     }
 
     /// The step of ln D nearest to that of D; D itself if it is not quantized.
@@ -137,7 +146,7 @@ impl<'s> HueStatements<'s> {
         let seen = self.shift.seen(base.color, doppler);
         let is_changed = !self.shift.keeps_wavelength(base.color.saturation, doppler)
             || self.shift.law.factor(doppler) != 1.0;
-        self.largest_value = self.largest_value.max(seen.value);
+        self.largest = self.largest.max(self.intensity(&seen));
         if let (false, VertexColor::Named(id)) = (is_changed, base.given) {
             return id;
         }
@@ -165,7 +174,10 @@ impl<'s> HueStatements<'s> {
             _ if self.config.wavelengths => Tint::Wavelength(color.wavelength_nm),
             _ => Tint::Hue(color.hue),
         };
-        let value = ColorValue::Hsv { value: color.value, tint, saturation: color.saturation };
+        let HueColor { value, saturation, .. } = color;
+        // Products of the largest numbers overflow, and of infinity and 0 are NaN.
+        let factor = if color.factor.is_nan() { 0.0 } else { color.factor.min(f64::MAX) };
+        let value = ColorValue::Hsv { value, tint, saturation, factor };
         self.scene.colors.push(Color { name, value, translucency });
         ColorId::from_index(self.scene.colors.len() - 1)
     }
@@ -181,7 +193,7 @@ impl<'s> HueStatements<'s> {
                 let color = &self.scene.colors[id.index()];
                 Base {
                     given,
-                    color: hsv(self.scene, color).into(),
+                    color: crate::hue_color(self.scene, self.shift, given),
                     translucency: color.translucency,
                     name: self.scene.names.get(color.name).to_string(),
                 }
@@ -208,8 +220,11 @@ impl<'s> HueStatements<'s> {
         if self.config.wavelengths {
             for color in &mut self.scene.colors[..self.n_given] {
                 color.value = match color.value {
-                    ColorValue::Hsv { value, tint: Tint::Hue(hue), saturation } if saturation > 0.0 => {
-                        ColorValue::Hsv { value, tint: Tint::Wavelength(hue_to_wavelength(hue)), saturation }
+                    ColorValue::Hsv { value, tint: Tint::Hue(hue), saturation, factor }
+                        if saturation > 0.0 =>
+                    {
+                        let tint = Tint::Wavelength(hue_to_wavelength(hue));
+                        ColorValue::Hsv { value, tint, saturation, factor }
                     }
                     // Of a grey any number will do.
                     other => other.with_tint_in(HueScale::Wavelengths),
@@ -222,7 +237,9 @@ impl<'s> HueStatements<'s> {
     /// Divides the values of vertices by the largest. Those of lights stay, for they multiply what
     /// is scaled here.
     fn scale_values(&mut self) -> Vec<String> {
-        let largest = self.largest_value;
+        let largest = self.largest;
+        let is_linear = self.shift.law.acts_on_light();
+        let scaled_channel = |channel: f64| srgb_encode(srgb_decode(channel) / largest).min(1.0);
         if largest == 0.0 || largest == 1.0 {
             return Vec::new();
         }
@@ -232,9 +249,13 @@ impl<'s> HueStatements<'s> {
         self.keep_lights(&is_scaled);
         for (color, _) in self.scene.colors.iter_mut().zip(is_scaled).filter(|(_, is_scaled)| *is_scaled) {
             color.value = match color.value {
+                ColorValue::Rgb(rgb) if is_linear => ColorValue::Rgb(rgb.map(scaled_channel)),
                 ColorValue::Rgb(rgb) => ColorValue::Rgb(rgb.map(|channel| channel / largest)),
-                ColorValue::Hsv { value, tint, saturation } => {
-                    ColorValue::Hsv { value: value / largest, tint, saturation }
+                ColorValue::Hsv { value, tint, saturation, factor } if is_linear => {
+                    ColorValue::Hsv { value, tint, saturation, factor: factor / largest }
+                }
+                ColorValue::Hsv { value, tint, saturation, factor } => {
+                    ColorValue::Hsv { value: value / largest, tint, saturation, factor }
                 }
                 ColorValue::Xyz(xyz) => ColorValue::Xyz(xyz.map(|part| part / largest)),
                 ColorValue::Blackbody { kelvin, scale } => {
@@ -263,18 +284,23 @@ impl<'s> HueStatements<'s> {
     }
 
     fn clip_values(&mut self) -> Vec<String> {
-        if self.largest_value <= 1.0 {
+        if self.largest <= 1.0 {
             return Vec::new();
         }
         if self.config.keep {
-            return vec![kept(self.largest_value)];
+            return vec![kept(self.largest)];
         }
+        let is_linear = self.shift.law.acts_on_light();
         for color in &mut self.scene.colors[self.n_given..] {
-            if let ColorValue::Hsv { value, .. } = &mut color.value {
-                *value = value.min(1.0);
+            if let ColorValue::Hsv { value, factor, .. } = &mut color.value {
+                if is_linear {
+                    *factor = factor.min(1.0 / srgb_decode(*value));
+                } else {
+                    *value = value.min(1.0);
+                }
             }
         }
-        vec![clipped(self.largest_value)]
+        vec![clipped(self.largest)]
     }
 }
 

@@ -79,7 +79,7 @@ impl VertexIrradiance {
         let bodies = ugscene::vertex_bodies(scene);
         let of_vertex = (rest.par_iter().zip(normals).zip(&bodies))
             .map(|((&point, normal), &body)| {
-                let surface = SurfaceElement { point, normal: (*normal)?, body };
+                let surface = SurfaceElement { point, delay: 0.0, normal: (*normal)?, body };
                 Some(surface.irradiances(&lamps, frames))
             })
             .collect();
@@ -90,6 +90,7 @@ impl VertexIrradiance {
 /// Replaces all lights by one ambient light of intensity 1, because the colours include the light
 /// already: a renderer then draws them unchanged. Comments beside the lights are kept.
 pub(crate) fn replace_lights(scene: &mut Scene) {
+    scene.lamp_shifts.clear();
     scene.lights = vec![Light {
         name: None,
         intensity: 1.0,

@@ -45,11 +45,11 @@ mod xyz_statements;
 
 use glam::DVec3;
 use rayon::prelude::*;
-use uglight::{HueColor, SpectralColor, VertexColor, hsv, spectral_lamps};
+use uglight::{HueColor, HueShift, SpectralColor, VertexColor, hsv, hsv_and_factor, spectral_lamps};
 use ugparse::{Camera, ColorId, Scene};
 use ugphysics::Hsv;
 use ugpipe::Progress;
-use ugscene::{CameraError, CameraOptions, DefaultCamera, RestFrames, Shares};
+use ugscene::{CameraError, CameraOptions, DefaultCamera, Geometry, RelativeMotion, RestFrames, Shares};
 
 #[cfg(feature = "cli")]
 pub use cli::{Args, main, manual};
@@ -81,8 +81,11 @@ pub fn apply(scene: Scene, config: &Config) -> Result<(Scene, Report), Error> {
 /// See [`Error`].
 pub fn apply_with(scene: Scene, config: &Config, progress: &dyn Progress) -> Result<(Scene, Report), Error> {
     progress.step("colouring", 0);
+    // The light of coloured lamps multiplies spectra, which are not in the output.
+    let is_lit = config.light || config.spectral && uglight::has_colored_lamps(&scene);
+    let config = &Config { light: is_lit, ..config.clone() };
     let frames = RestFrames::new(&scene).with_unstated(config.velocity);
-    let default_camera = default_camera(&scene, config);
+    let default_camera = default_camera(&scene, config, &frames);
     let eye = default_camera.map_or_else(|| ugscene::eye(&scene, config.eye), |camera| camera.eye);
     ugscene::require_colors_at_rest(&scene)?;
     ugscene::require_seen_geometry(&scene)?;
@@ -121,12 +124,13 @@ fn set_eye(scene: &mut Scene, eye: DVec3) -> Result<(), CameraError> {
 const MAX_LIT: usize = 1 << 27;
 
 /// The camera of a scene without one, if colours depend on the eye.
-fn default_camera(scene: &Scene, config: &Config) -> Option<DefaultCamera> {
+fn default_camera(scene: &Scene, config: &Config, frames: &RestFrames) -> Option<DefaultCamera> {
     if config.velocity.is_zero() && !config.light {
         return None;
     }
     let options = CameraOptions { eye: config.eye, ..CameraOptions::default() };
-    DefaultCamera::new(scene, &options, [4, 3], [config.velocity.beta()]).ok().flatten()
+    let motion = |body| vec![RelativeMotion::new(frames.velocity(body), Geometry::default())];
+    DefaultCamera::new(scene, &options, [4, 3], motion).ok().flatten()
 }
 
 fn color(
@@ -210,17 +214,23 @@ fn lit_hues(
     let shift = config.hue_shift();
     let all = colors.par_iter().zip(factors).zip(&light.of_vertex);
     all.map(|((&color, &doppler), parts)| {
-        let base = surface_hsv(scene, color);
+        let base = hue_color(scene, shift, color);
         Some(shift.seen_lit(base, doppler, parts.as_ref()?, &light.lamps))
     })
     .collect()
 }
 
-fn surface_hsv(scene: &Scene, color: VertexColor) -> Hsv {
+/// A colour at rest as `shift` requires it: with the factor of its linear light if the law acts on
+/// that, else with a value that contains the factor.
+pub(crate) fn hue_color(scene: &Scene, shift: HueShift, color: VertexColor) -> HueColor {
     match color {
-        VertexColor::Named(id) => hsv(scene, &scene.colors[id.index()]),
-        VertexColor::White => Hsv { hue: 0.0, saturation: 0.0, value: 1.0 },
-        VertexColor::Mixed { hsv, .. } => hsv,
+        VertexColor::Named(id) if shift.law.acts_on_light() => {
+            let (hsv, factor) = hsv_and_factor(scene, &scene.colors[id.index()]);
+            HueColor { factor, ..hsv.into() }
+        }
+        VertexColor::Named(id) => hsv(scene, &scene.colors[id.index()]).into(),
+        VertexColor::White => Hsv { hue: 0.0, saturation: 0.0, value: 1.0 }.into(),
+        VertexColor::Mixed { hsv, .. } => hsv.into(),
     }
 }
 

@@ -39,7 +39,7 @@ fn of(scene: &Scene, vertex: &str) -> (String, f64, f64, f64) {
     let color = &scene.colors[vertex.color.expect("a colour on every used vertex").index()];
     let name = scene.names.get(color.name).to_string();
     match color.value {
-        ColorValue::Hsv { value, tint, saturation } => (name, value, tint.number(), saturation),
+        ColorValue::Hsv { value, tint, saturation, .. } => (name, value, tint.number(), saturation),
         ColorValue::Rgb(rgb) => (name, rgb[0], rgb[1], rgb[2]),
         other => panic!("no colour of these scenes: {other:?}"),
     }
@@ -123,7 +123,35 @@ fn the_laws_are_powers_of_d() {
         // D = 0.5 for the receding rose, so nothing is clipped.
         let (scene, _) = colour(SCENE, &Config { law, ..moving(-0.6, 0.0, 0.0) });
         let expected: f64 = std::iter::repeat_n(0.5, power).product();
-        assert!((of(&scene, "g").1 - expected).abs() < 1e-12, "{law:?}");
+        let vertex = scene.vertices.iter().find(|v| scene.names.get(v.name) == "g");
+        let color = vertex.and_then(|vertex| vertex.color).expect("a colour on every used vertex");
+        let ColorValue::Hsv { value, factor, .. } = scene.colors[color.index()].value else {
+            panic!("{law:?}: {scene:?}")
+        };
+        // Of its value, which is 1 at rest, or of its linear light.
+        let found = if law.acts_on_light() { [factor, value] } else { [value, factor] };
+        assert!((found[0] - expected).abs() < 1e-12 && found[1] == 1.0, "{law:?}: {found:?}");
+    }
+}
+
+/// Intensities of linear light are noted, scaled and clipped under laws that act on it.
+#[test]
+fn the_iris_scales_linear_light() {
+    // D = 2 for the approaching rose: white, seen with 16.
+    let config = |iris, keep| Config { law: Brightness::Bolometric, iris, keep, ..moving(0.6, 0.0, 0.0) };
+    for (iris, keep, note, expected) in [
+        (true, false, "scaled to 1.0", 1.0),
+        (false, false, "clip to 1.0", 1.0),
+        (false, true, "kept for the renderer; -ir scales it to 1.0", 16.0),
+    ] {
+        let (scene, notes) = colour(SCENE, &config(iris, keep));
+        assert_eq!(notes, [format!("max intensity is 16, {note}")]);
+        let brightest = scene.vertices.iter().filter_map(|vertex| vertex.color).map(|id| {
+            let shown = uglight::hsv(&scene, &scene.colors[id.index()]);
+            ugphysics::srgb_decode(shown.value)
+        });
+        let brightest = brightest.fold(0.0, f64::max);
+        assert!((brightest - expected).abs() < 1e-9, "{brightest}, not {expected}");
     }
 }
 

@@ -187,7 +187,7 @@ fn colours_that_meet_are_added_by_angle() {
 
 #[test]
 fn lights_translucency_and_what_is_not_used_stay() {
-    let text = "c_rgb glass 0.2 0.5 0.9 0.25; c warm 1 40 0.3; c unused 0.5; l 1 0 0 1 warm;
+    let text = "c_rgb glass 0.2 0.5 0.9 0.25; c warm 1 40 0.3; c unused 0.5; l 1 0 0 1;
         v a 9 0 0; v b 9 1 0; v c 9 0 1; v lone 1 1 1 unused; f (a b c) glass;";
     let (scene, _) = colour(text, &Config { iris: true, ..moving(-0.5, 0.0, 0.0) });
     let before = ugparse::parse(&Source::new("t.ug", text), &Options::default()).unwrap().scene;

@@ -9,10 +9,10 @@ use ugparse::{Scene, pipe};
 use ugpipe::{
     CommonArgs, Context, Failure, Input, Manual, ToolArgs, finite, one_of, parse_words, sha256, whole,
 };
-use ugscene::{CameraOptions, DefaultCamera};
+use ugscene::{CameraOptions, DefaultCamera, MotionOptions};
 
 use crate::blur::MotionBlur;
-use crate::draw::Subject;
+use crate::draw::{Stages, Subject};
 use crate::film::{Film, Summary, Target};
 use crate::frame_files::valid_since;
 use crate::keys;
@@ -272,12 +272,21 @@ fn hash(text: &[u8]) -> u64 {
     hasher.finish()
 }
 
+/// Steps from the first frame to the last, at which the camera of all frames is fitted.
+const FITTED_STEPS: u32 = 16;
+
 /// The camera of all frames, if the scene has none and the options give none.
 fn default_camera(scene: &Scene, script: &Script) -> Result<Option<DefaultCamera>, Failure> {
     if ["ep", "vc", "va"].iter().any(|name| script.get(name).is_some()) {
         return Ok(None);
     }
-    DefaultCamera::new(scene, &CameraOptions::default(), [4, 3], []).map_err(Failure::failed)
+    // Frames that are wrong are reported when they are drawn.
+    let motion = |step: u32| {
+        let frame = 1.0 + f64::from(step) / f64::from(FITTED_STEPS) * f64::from(script.n_frames - 1);
+        Some(Stages::new(&script.commands(frame).ok()?, Format::Png).ok()?.motion())
+    };
+    let motions: Vec<MotionOptions> = (0..=FITTED_STEPS).filter_map(motion).collect();
+    ugscene::common_camera(scene, &CameraOptions::default(), [4, 3], &motions).map_err(Failure::failed)
 }
 
 impl Args {

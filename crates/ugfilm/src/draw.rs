@@ -7,6 +7,7 @@ use ugparse::Scene;
 use ugpicture::cli::with_format;
 use ugpicture::{Image, Output};
 use ugpipe::{Failure, ToolArgs, parse_words};
+use ugscene::MotionOptions;
 
 use crate::program::Program;
 use crate::script::Commands;
@@ -203,6 +204,18 @@ impl Stages {
                 ugwarp::light(panorama, config).map_err(Failure::failed)
             }
             _ => Err(other_subject()),
+        }
+    }
+
+    /// How bodies and camera move.
+    pub fn motion(&self) -> MotionOptions {
+        let of_filter = |filter: &Filter| match filter {
+            Filter::Lorentz(config, _) => Some(config.motion()),
+            Filter::Doppler(..) => None,
+        };
+        match &self.last {
+            Last::Photon(config, _) => config.motion.clone(),
+            Last::Rainbow(..) | Last::Warp(..) => self.filters.iter().find_map(of_filter).unwrap_or_default(),
         }
     }
 

@@ -10,8 +10,8 @@ use ugpipe::CommonArgs;
 use crate::program::Program;
 
 /// Options that a film has itself or does without, because they write something else than a
-/// picture.
-const LEFT_OUT: [&str; 6] = ["dt", "at", "explain", "dp", "crop", "pv"];
+/// picture or have no effect.
+const LEFT_OUT: [&str; 7] = ["dt", "at", "explain", "dp", "crop", "pv", "cn"];
 
 /// An option as it was given.
 #[derive(Clone, Debug, PartialEq, Eq)]

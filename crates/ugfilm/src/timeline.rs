@@ -30,8 +30,7 @@ pub enum Timeline {
     Fixed(Vec<String>),
     /// Numbers at some times.
     Moving {
-        /// Times from 0 (first frame) to 1 (last), increasing, and what is interpolated: the
-        /// numbers themselves, or rapidities.
+        /// Times from 0 (first frame) to 1 (last), increasing, and the numbers as given.
         keys: Vec<(f64, Vec<f64>)>,
         quantity: Quantity,
     },
@@ -62,18 +61,15 @@ impl Timeline {
     ///
     /// # Errors
     /// The keys have different counts of numbers, or a velocity is not below 1.
-    pub fn through(mut keys: Vec<(f64, Vec<f64>)>, quantity: Quantity) -> Result<Self, String> {
+    pub fn through(keys: Vec<(f64, Vec<f64>)>, quantity: Quantity) -> Result<Self, String> {
         let n_numbers = keys.first().map_or(0, |(_, numbers)| numbers.len());
         if keys.iter().any(|(_, numbers)| numbers.len() != n_numbers) {
             return Err("its values have different counts of numbers".to_owned());
         }
         if quantity == Quantity::Velocity {
-            for (_, beta) in &mut keys {
-                let speed = norm(beta);
-                if speed >= 1.0 {
-                    return Err(format!("speed is {speed} c: it must be below 1"));
-                }
-                scale(beta, if speed > 0.0 { libm::atanh(speed) / speed } else { 1.0 });
+            let fastest = keys.iter().map(|(_, beta)| norm(beta)).find(|&speed| speed >= 1.0);
+            if let Some(speed) = fastest {
+                return Err(format!("speed is {speed} c: it must be below 1"));
             }
         }
         Ok(Self::Moving { keys, quantity })
@@ -95,17 +91,16 @@ impl Timeline {
             }
             Self::Moving { keys, quantity } => (keys, *quantity),
         };
-        let n_numbers = keys.first().map_or(0, |(_, numbers)| numbers.len());
-        let mut numbers: Vec<f64> = (0..n_numbers)
-            .map(|idx| {
-                let points: Vec<[f64; 2]> = keys.iter().map(|(time, row)| [*time, row[idx]]).collect();
-                curve(&points, time, ease)
-            })
-            .collect();
-        if quantity == Quantity::Velocity {
-            let rapidity = norm(&numbers);
-            scale(&mut numbers, if rapidity > 0.0 { libm::tanh(rapidity) / rapidity } else { 1.0 });
-        }
+        let mut numbers = match given(keys, time) {
+            Some(numbers) => numbers.to_vec(),
+            None if quantity == Quantity::Velocity => {
+                let rapidities: Vec<_> = keys.iter().map(|(at, beta)| (*at, rapidity(beta))).collect();
+                let numbers = between(&rapidities, time, ease);
+                let rapidity = norm(&numbers);
+                scaled(&numbers, if rapidity > 0.0 { libm::tanh(rapidity) / rapidity } else { 1.0 })
+            }
+            None => between(keys, time, ease),
+        };
         // −0 would be printed with its sign.
         numbers.iter_mut().for_each(|number| *number += 0.0);
         numbers
@@ -116,8 +111,33 @@ fn norm(numbers: &[f64]) -> f64 {
     numbers.iter().fold(0.0, |sum, number| libm::hypot(sum, *number))
 }
 
-fn scale(numbers: &mut [f64], factor: f64) {
-    numbers.iter_mut().for_each(|number| *number *= factor);
+fn scaled(numbers: &[f64], factor: f64) -> Vec<f64> {
+    numbers.iter().map(|number| number * factor).collect()
+}
+
+/// A velocity with its rapidity in place of its speed.
+fn rapidity(beta: &[f64]) -> Vec<f64> {
+    let speed = norm(beta);
+    scaled(beta, if speed > 0.0 { libm::atanh(speed) / speed } else { 1.0 })
+}
+
+/// The numbers of a key where they hold exactly: at its time, before the first, after the last, and
+/// between two equal ones. Interpolation of rapidities would round them.
+fn given(keys: &[(f64, Vec<f64>)], time: f64) -> Option<&[f64]> {
+    let right = keys.iter().position(|(at, _)| *at >= time).unwrap_or(keys.len().saturating_sub(1));
+    let (at, numbers) = keys.get(right)?;
+    let is_held = right == 0 || *at <= time || keys[right - 1].1 == *numbers;
+    is_held.then_some(numbers)
+}
+
+/// All numbers at a time, each on its own curve.
+fn between(keys: &[(f64, Vec<f64>)], time: f64, ease: Ease) -> Vec<f64> {
+    let n_numbers = keys.first().map_or(0, |(_, numbers)| numbers.len());
+    let curve_of = |idx: usize| {
+        let points: Vec<[f64; 2]> = keys.iter().map(|(time, row)| [*time, row[idx]]).collect();
+        curve(&points, time, ease)
+    };
+    (0..n_numbers).map(curve_of).collect()
 }
 
 /// The value of a curve through points at a time; before the first and after the last point it is
@@ -194,6 +214,11 @@ mod tests {
     fn velocities_change_by_rapidity() {
         let speeds = timeline(&["0", "0...99", "0"], Quantity::Velocity);
         assert_eq!(speeds.at(1.0, Ease::Linear)[1], "0.99");
+        for (time, expected) in [(0.0, "0 0 0.3"), (0.5, "0.9 0.1 0.3"), (1.0, "0.7 0.7 -0.1")] {
+            let words = ["0...9...7", "0...1...7", ".3...3..-.1"];
+            assert_eq!(timeline(&words, Quantity::Velocity).at(time, Ease::Smooth).join(" "), expected);
+        }
+        assert_eq!(timeline(&["0..0", ".9", "0"], Quantity::Velocity).at(0.3, Ease::Linear)[1], "0.9");
         // Half the rapidity of 0.99: Bondi's k = √199 becomes its root.
         let half = speeds.numbers(0.5, Ease::Linear)[1];
         let k = 199f64.sqrt();

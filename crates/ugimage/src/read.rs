@@ -51,7 +51,7 @@ pub fn read_png_header(file: &[u8]) -> Result<([u32; 2], Metadata), ReadError> {
 /// [`ReadError`] if the file is not a PNG, is truncated or corrupt, has more than 2²⁸ pixels, or
 /// does not fit in memory.
 pub fn read_png(file: &[u8]) -> Result<(Frame, Metadata), ReadError> {
-    let Decoded { size: [width, height], data, n_channels } = decoded(decoder(file)?)?;
+    let Decoded { size: [width, height], data, n_channels } = decoded(decoder(file)?, file.len())?;
     let is_opaque = matches!(n_channels, 1 | 3);
     let mut pixels: Vec<[u8; 4]> = zeros(width as usize * height as usize)?;
     for (pixel, channels) in pixels.iter_mut().zip(data.chunks_exact(n_channels)) {
@@ -74,7 +74,7 @@ pub fn read_png(file: &[u8]) -> Result<(Frame, Metadata), ReadError> {
 pub(crate) fn read_png_light(file: &[u8]) -> Result<Vec<[f32; 4]>, ReadError> {
     let mut decoder = decoder(file)?;
     decoder.set_transformations(Transformations::EXPAND);
-    let Decoded { size, data, n_channels } = decoded(decoder)?;
+    let Decoded { size, data, n_channels } = decoded(decoder, file.len())?;
     let mut pixels: Vec<[f32; 4]> = zeros(size[0] as usize * size[1] as usize)?;
     let curve: Vec<f32> =
         (0..=u16::MAX).map(|level| srgb_decode(f64::from(level) / 65535.0) as f32).collect();
@@ -104,10 +104,12 @@ struct Decoded {
     n_channels: usize,
 }
 
-fn decoded(mut decoder: Decoder<Cursor<&[u8]>>) -> Result<Decoded, ReadError> {
+/// `n_file`: the size of the file.
+fn decoded(mut decoder: Decoder<Cursor<&[u8]>>, n_file: usize) -> Result<Decoded, ReadError> {
     let size = size(&mut decoder)?;
     let mut reader = decoder.read_info().map_err(broken)?;
     let n_bytes = reader.output_buffer_size().ok_or_else(|| ReadError("too large".to_owned()))?;
+    check_packed(n_file, n_bytes as u64, MOST_INFLATED)?;
     let mut data = zeros(n_bytes)?;
     let output = reader.next_frame(&mut data).map_err(broken)?;
     data.truncate(output.buffer_size());
@@ -145,6 +147,20 @@ fn size(decoder: &mut Decoder<Cursor<&[u8]>>) -> Result<[u32; 2], ReadError> {
         return Err(ReadError(format!("{width} x {height} pixels exceed the limit of {MAX_PIXELS}")));
     }
     Ok([width, height])
+}
+
+/// DEFLATE packs at most this many bytes into one.
+pub(crate) const MOST_INFLATED: u64 = 1032;
+
+/// Refuses a picture of `n_decoded` bytes if a file of `n_file` bytes cannot hold it, when at most
+/// `ratio` bytes are packed into one: its header lies, or the file is truncated.
+pub(crate) fn check_packed(n_file: usize, n_decoded: u64, ratio: u64) -> Result<(), ReadError> {
+    if (n_file as u64).saturating_mul(ratio) >= n_decoded {
+        return Ok(());
+    }
+    Err(ReadError(format!(
+        "{n_file} bytes cannot hold its pixels: the file is truncated, or its header is wrong"
+    )))
 }
 
 /// `len` zeros, or an error if there is not enough memory.

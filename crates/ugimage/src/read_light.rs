@@ -10,7 +10,10 @@ use zune_jpeg::zune_core::bytestream::ZCursor;
 use zune_jpeg::zune_core::colorspace::ColorSpace;
 use zune_jpeg::zune_core::options::DecoderOptions;
 
-use crate::read::{MAX_PIXELS, ReadError, is_png_deep, read_png, read_png_header, read_png_light, zeros};
+use crate::read::{
+    MAX_PIXELS, MOST_INFLATED, ReadError, check_packed, is_png_deep, read_png, read_png_header,
+    read_png_light, zeros,
+};
 
 /// The pixels of a picture, row after row from the top.
 #[derive(Clone, Debug, PartialEq)]
@@ -69,9 +72,7 @@ fn broken(kind: &str, error: &dyn std::fmt::Display) -> ReadError {
 fn jpeg(file: &[u8], limit: u64) -> Result<([u32; 2], Pixels), ReadError> {
     let broken = |error: &dyn std::fmt::Display| broken("JPEG", error);
     // The decoder fills what is missing of a truncated file with grey.
-    if !has_end_of_image(file) {
-        return Err(broken(&"the file is truncated"));
-    }
+    let Some(n_packed) = packed_bytes(file) else { return Err(broken(&"the file is truncated")) };
     let options = DecoderOptions::default()
         .jpeg_set_out_colorspace(ColorSpace::RGB)
         .set_max_width(usize::from(u16::MAX))
@@ -81,6 +82,8 @@ fn jpeg(file: &[u8], limit: u64) -> Result<([u32; 2], Pixels), ReadError> {
     let (width, height) = decoder.dimensions().ok_or_else(|| broken(&"it has no size"))?;
     let size = checked([width, height], limit)?;
     let n_pixels = width * height;
+    // Each block of 64 pixels has a bit or more.
+    check_packed(n_packed, n_pixels as u64, 8 * 64)?;
     // Reserved before the decoder allocates as much.
     let mut pixels: Vec<[u8; 4]> = zeros(n_pixels)?;
     let data = decoder.decode().map_err(|error| broken(&error))?;
@@ -93,24 +96,23 @@ fn jpeg(file: &[u8], limit: u64) -> Result<([u32; 2], Pixels), ReadError> {
     Ok((size, Pixels::Srgb(pixels)))
 }
 
-/// True if the segments of a JPEG file end with an end-of-image marker. What follows it, such as a
-/// film that telephones append, is not looked at.
-fn has_end_of_image(file: &[u8]) -> bool {
-    let mut at = 2;
+/// The number of bytes of a JPEG file that are not in segments with a length of their own, so hold
+/// pixels; `None` if no end-of-image marker ends its segments. What follows it, such as a film that
+/// telephones append, is not looked at.
+fn packed_bytes(file: &[u8]) -> Option<usize> {
+    let (mut at, mut n_packed) = (2, 0);
     loop {
         // The next marker: in compressed data FF is followed by 0 or by a restart marker.
-        let Some(skip) = file.get(at..).and_then(|rest| {
-            rest.windows(2).position(|pair| pair[0] == 0xff && !matches!(pair[1], 0 | 0xd0..=0xd7 | 0xff))
-        }) else {
-            return false;
-        };
+        let mut pairs = file.get(at..)?.windows(2);
+        let skip = pairs.position(|pair| pair[0] == 0xff && !matches!(pair[1], 0 | 0xd0..=0xd7 | 0xff))?;
         at += skip + 2;
+        n_packed += skip;
         match file[at - 1] {
-            0xd9 => return true,
+            0xd9 => return Some(n_packed),
             // Markers without a length.
             0x01 | 0xd8 => {}
             _ => {
-                let Some(&[high, low]) = file.get(at..at + 2) else { return false };
+                let &[high, low] = file.get(at..at + 2)? else { return None };
                 at += usize::from(u16::from_be_bytes([high, low])).max(2);
             }
         }
@@ -123,10 +125,9 @@ fn hdr(file: &[u8], limit: u64) -> Result<([u32; 2], Pixels), ReadError> {
     let (width, height) = decoder.dimensions();
     let size = checked([width as usize, height as usize], limit)?;
     let n_pixels = width as usize * height as usize;
-    // Each row has a header of four bytes and more, so a short file cannot ask for much memory.
-    if (file.len() as u64) < 4 * u64::from(height) {
-        return Err(broken(&"the file is truncated"));
-    }
+    // Runs have up to 127 equal bytes, or in the old format 255 equal pixels for four bytes; so a short
+    // file cannot ask for much memory. (Longer runs of the old format are not used for whole pictures.)
+    check_packed(file.len(), 4 * u64::from(height) * u64::from(width).div_ceil(256), 1)?;
     let mut data: Vec<u8> = zeros(12 * n_pixels)?;
     decoder.read_image(&mut data).map_err(|error| broken(&error))?;
     let mut pixels: Vec<[f32; 4]> = zeros(n_pixels)?;
@@ -147,7 +148,10 @@ fn exr(file: &[u8], limit: u64) -> Result<([u32; 2], Pixels), ReadError> {
     // The first layer with these channels is read, so none may be too large.
     for header in headers.headers.iter().filter(|header| !header.deep) {
         let size = checked([header.layer_size.width(), header.layer_size.height()], limit)?;
-        zeros::<[f32; 4]>(size[0] as usize * size[1] as usize)?;
+        let n_pixels = size[0] as usize * size[1] as usize;
+        // Three channels of two bytes or more.
+        check_packed(file.len(), 6 * n_pixels as u64, MOST_INFLATED)?;
+        zeros::<[f32; 4]>(n_pixels)?;
     }
     let image = exr_reader()
         .no_deep_data()
@@ -257,5 +261,27 @@ mod tests {
         assert!(read(hdr).unwrap_err().to_string().contains("exceed the limit"));
         let hdr = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 10000 +X 20000\n";
         assert!(read(hdr).unwrap_err().to_string().contains("truncated"));
+        // The size in the header of a small file, changed.
+        let frame = LinearFrame::new([8, 4], true, vec![[0.25, 1.5, 0.0, 1.0]; 32]);
+        let mut exr = Format::Exr.encode_linear_with(&frame, &Metadata::default(), Compression::Fast);
+        let corner = |x: u32| [x.to_le_bytes(), 3_u32.to_le_bytes()].concat();
+        while let Some(at) = exr.windows(8).position(|bytes| bytes == corner(7)) {
+            exr[at..at + 8].copy_from_slice(&corner(0xf_ffff));
+        }
+        assert!(read(&exr).unwrap_err().to_string().contains("header is wrong"));
+        let mut jpeg = BARS.to_vec();
+        let frame = jpeg.windows(2).position(|pair| matches!(pair, [0xff, 0xc0..=0xc2])).unwrap();
+        jpeg[frame + 5..frame + 9].copy_from_slice(&[0x0f, 0xff, 0xff, 0xff]);
+        assert!(read(&jpeg).unwrap_err().to_string().contains("header is wrong"));
+    }
+
+    /// The smallest files of large pictures are read: of one colour, as packed as their formats allow.
+    #[test]
+    fn plain_pictures_are_read() {
+        let frame = LinearFrame::new([2048, 1024], true, vec![[0.0, 0.0, 0.0, 1.0]; 2048 * 1024]);
+        for format in [Format::Exr, Format::Hdr, Format::Png, Format::Png16] {
+            let file = format.encode_linear_with(&frame, &Metadata::default(), Compression::Small);
+            assert_eq!(read(&file).unwrap().0, [2048, 1024], "{format:?}");
+        }
     }
 }

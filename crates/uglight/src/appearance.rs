@@ -55,7 +55,12 @@ impl<'a> Appearance<'a> {
         if rest.light.is_some() || stretch == 1.0 {
             return *rest;
         }
-        let seen = Swatch { value: self.shift.value(rest.value, 1.0 / stretch), ..*rest };
+        let factor = self.shift.law.factor(1.0 / stretch);
+        let seen = if self.shift.law.acts_on_light() {
+            Swatch { factor: rest.factor * factor, ..*rest }
+        } else {
+            Swatch { value: rest.value * factor, ..*rest }
+        };
         if !self.shift.doppler || rest.is_grey() {
             return seen;
         }
@@ -67,6 +72,20 @@ impl<'a> Appearance<'a> {
             Interpolation::Wavelength => seen_nm,
         };
         Swatch { tint, ..seen }
+    }
+
+    /// [`Appearance::seen_light`] under the coloured lamps of the scene, at rest with the surface.
+    /// `place`: see [`Spectra::light_of_lamps`].
+    pub fn seen_under_lamps(
+        &self,
+        parts: impl IntoIterator<Item = (u32, f64)>,
+        stretch: f64,
+        place: [DVec3; 3],
+    ) -> DVec3 {
+        let Some(spectra) = self.spectra else { return DVec3::ONE };
+        let ln_doppler = -libm::log(stretch);
+        let light = |row: u32| spectra.light_of_lamps(row, ln_doppler, place);
+        parts.into_iter().map(|(row, weight)| weight * light(row)).sum()
     }
 
     /// Linear red, green and blue of a weighted mean of spectra, where wavelengths are stretched by

@@ -17,7 +17,32 @@ pub fn hsv(scene: &Scene, color: &Color) -> Hsv {
         ColorValue::Blackbody { .. } | ColorValue::Spectrum { .. } => {
             shown(spectrum(scene, color).0.seen(1.0))
         }
-        ColorValue::Hsv { value, tint, saturation } => Hsv { hue: hue(tint), saturation, value },
+        ColorValue::Hsv { value, tint, saturation, factor } => {
+            let color = Hsv { hue: hue(tint), saturation, value };
+            if factor == 1.0 { color } else { brightened(color, factor) }
+        }
+    }
+}
+
+/// A colour with its linear light multiplied. The transfer function of displays is not a power, so
+/// hue and saturation change a little.
+fn brightened(color: Hsv, factor: f64) -> Hsv {
+    Hsv::from_rgb(color.to_rgb().map(|channel| srgb_encode(brightest(factor * srgb_decode(channel)))))
+}
+
+/// Light whose sums are finite: brighter light is shown as bright as this.
+fn brightest(light: f64) -> f64 {
+    light.min(1e300)
+}
+
+/// A colour statement like [`hsv`], and the factor on its linear light, which leaves hue and
+/// saturation as they are written.
+pub fn hsv_and_factor(scene: &Scene, color: &Color) -> (Hsv, f64) {
+    match color.value {
+        ColorValue::Hsv { value, tint, saturation, factor } => {
+            (Hsv { hue: hue(tint), saturation, value }, factor)
+        }
+        _ => (hsv(scene, color), 1.0),
     }
 }
 
@@ -59,11 +84,13 @@ fn shown(xyz: [f64; 3]) -> Hsv {
 /// this colour (P20). False if its colour at rest differs from the one stated, which happens to a
 /// `c_xyz` that is more saturated than a smooth reflectance allows.
 pub fn spectrum(scene: &Scene, color: &Color) -> (Spectrum, bool) {
-    let of_screen = |rgb: [f64; 3]| (Spectrum::from_linear_srgb(rgb.map(srgb_decode)), true);
+    let of_screen = |rgb: [f64; 3], factor: f64| {
+        (Spectrum::from_linear_srgb(rgb.map(|channel| brightest(factor * srgb_decode(channel)))), true)
+    };
     match color.value {
-        ColorValue::Rgb(rgb) => of_screen(rgb),
-        ColorValue::Hsv { value, tint, saturation } => {
-            of_screen(Hsv { hue: hue(tint), saturation, value }.to_rgb())
+        ColorValue::Rgb(rgb) => of_screen(rgb, 1.0),
+        ColorValue::Hsv { value, tint, saturation, factor } => {
+            of_screen(Hsv { hue: hue(tint), saturation, value }.to_rgb(), factor)
         }
         ColorValue::Xyz(xyz) => Spectrum::from_xyz(xyz),
         ColorValue::Blackbody { kelvin, scale } => (Spectrum::blackbody(kelvin, scale), true),

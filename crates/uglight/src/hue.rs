@@ -1,6 +1,9 @@
 //! Colours whose hue stands for a wavelength, as seen in motion (Nguyen 1988).
 
-use ugphysics::{Brightness, Hsv, attenuation, hue_to_wavelength, wavelength_to_hue};
+use glam::DVec3;
+use ugphysics::{
+    Brightness, Hsv, attenuation, hue_to_wavelength, srgb_decode, srgb_encode, wavelength_to_hue,
+};
 
 use crate::{Irradiance, Lamp};
 
@@ -16,14 +19,16 @@ pub struct HueColor {
     pub saturation: f64,
     /// 0 and more.
     pub value: f64,
+    /// Factor of the linear light that the other numbers stand for, 0 and more. At rest it is 1.
+    pub factor: f64,
 }
 
-/// What motion changes in a colour that is a hue: wavelengths by (P11), the value by (P12).
+/// What motion changes in a colour that is a hue: wavelengths by (P11), the brightness by (P12).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct HueShift {
     /// Wavelengths are divided by D.
     pub doppler: bool,
-    /// The brightness law: the power of D that the value is multiplied by.
+    /// The brightness law: the power of D that the brightness is multiplied by.
     pub law: Brightness,
 }
 
@@ -39,16 +44,37 @@ impl HueShift {
     ///
     /// let green = HueColor::from(Hsv { hue: 120.0, saturation: 1.0, value: 0.5 });
     /// let seen = HueShift { doppler: true, law: Brightness::Photon }.seen(green, 1.25);
-    /// assert!((seen.wavelength_nm - 436.88).abs() < 1e-9 && seen.value == 0.9765625);
+    /// assert!((seen.wavelength_nm - 436.88).abs() < 1e-9);
+    /// assert_eq!((seen.value, seen.factor), (0.5, 1.953125));
     /// ```
     #[must_use]
     pub fn seen(self, rest: HueColor, doppler: f64) -> HueColor {
-        let value = self.value(rest.value, doppler);
+        let seen = self.brightened(rest, self.law.factor(doppler));
         if self.keeps_wavelength(rest.saturation, doppler) {
-            return HueColor { value, ..rest };
+            return seen;
         }
         let wavelength_nm = self.wavelength_nm(rest.wavelength_nm, doppler);
-        HueColor { hue: wavelength_to_hue(wavelength_nm), wavelength_nm, value, ..rest }
+        HueColor { hue: wavelength_to_hue(wavelength_nm), wavelength_nm, ..seen }
+    }
+
+    /// A colour with its brightness multiplied: its linear light under a law that names a quantity,
+    /// else its display-encoded value.  Eq. (P18)
+    #[must_use]
+    #[inline]
+    pub fn brightened(self, color: HueColor, factor: f64) -> HueColor {
+        if self.law.acts_on_light() {
+            HueColor { factor: color.factor * factor, ..color }
+        } else {
+            HueColor { value: color.value * factor, ..color }
+        }
+    }
+
+    /// The colour of a lamp times its intensity, for the unit in which light is added: linear under
+    /// a law that names a quantity, else display-encoded.
+    #[must_use]
+    #[inline]
+    pub fn color_of(self, lamp: &Lamp) -> DVec3 {
+        if self.law.acts_on_light() { lamp.linear } else { lamp.color }
     }
 
     /// True if a colour of that saturation is seen with the wavelength it has at rest.
@@ -64,62 +90,78 @@ impl HueShift {
         rest_nm / if self.doppler { doppler } else { 1.0 }
     }
 
-    /// A value as seen.  Eq. (P12)
-    #[must_use]
-    #[inline]
-    pub fn value(self, rest: f64, doppler: f64) -> f64 {
-        rest * self.law.factor(doppler)
-    }
-
     /// A surface of colour `base` under several lamps, seen with the Doppler factor `doppler`.
     ///
     /// The light of each lamp is reflected and seen by itself: the colour of the surface times that
-    /// of the lamp, its wavelength divided by D_l D, its value changed by the brightness law for
-    /// both factors, (P14). Then the colours are added, [`HueColor::sum`].
+    /// of the lamp, its wavelength divided by D_l D, its brightness changed by the brightness law
+    /// for both factors, (P14). Then the colours are added: as linear light under a law that names a
+    /// quantity, else by [`HueColor::sum`].
     #[must_use]
-    pub fn seen_lit(self, base: Hsv, doppler: f64, light: &[Irradiance], lamps: &[Lamp]) -> HueColor {
-        let base = HueColor::from(base);
+    pub fn seen_lit(self, base: HueColor, doppler: f64, light: &[Irradiance], lamps: &[Lamp]) -> HueColor {
+        let shift = Self { law: Brightness::None, ..self };
         let parts: Vec<HueColor> = light
             .iter()
             .map(|part| {
-                let lamp = &lamps[part.lamp as usize];
-                let surface = if lamp.is_colored {
-                    HueColor::from(reflected(base.hsv(), lamp))
-                } else {
-                    HueColor { value: base.value * lamp.color.x, ..base }
-                };
+                let surface = self.reflected(base, &lamps[part.lamp as usize]);
                 let factor = self.law.irradiance_factor(part.doppler) * self.law.factor(doppler);
-                let value = surface.value * part.level * factor;
-                let shift = Self { law: Brightness::None, ..self };
-                shift.seen(HueColor { value, ..surface }, part.doppler * doppler)
+                let surface = self.brightened(self.brightened(surface, part.level), factor);
+                shift.seen(surface, part.doppler * doppler)
             })
-            .filter(|seen| seen.value > 0.0)
+            .filter(|seen| seen.value > 0.0 && seen.factor > 0.0)
             .collect();
-        HueColor::sum(&parts)
+        if self.law.acts_on_light() { HueColor::sum_of_light(&parts) } else { HueColor::sum(&parts) }
     }
-}
 
-/// The colour of a surface times that of a lamp, channel by channel.
-fn reflected(base: Hsv, lamp: &Lamp) -> Hsv {
-    let [red, green, blue] = base.to_rgb();
-    Hsv::from_rgb([red * lamp.color.x, green * lamp.color.y, blue * lamp.color.z])
+    /// The colour of a surface times that of a lamp, channel by channel.
+    fn reflected(self, base: HueColor, lamp: &Lamp) -> HueColor {
+        let color = self.color_of(lamp);
+        if !lamp.is_colored {
+            return self.brightened(base, color.x);
+        }
+        let encoded = base.hsv().to_rgb();
+        if !self.law.acts_on_light() {
+            let product = DVec3::from_array(encoded) * color;
+            return HueColor { factor: base.factor, ..Hsv::from_rgb(product.to_array()).into() };
+        }
+        // Without its intensity, so that lamps of one colour give colours of one wavelength.
+        let (color, intensity) = (color.max(DVec3::ZERO), color.max_element().max(0.0));
+        if intensity == 0.0 {
+            return HueColor::BLACK;
+        }
+        let product = DVec3::from_array(encoded.map(srgb_decode)) * (color / intensity);
+        let product = Hsv::from_rgb(product.to_array().map(srgb_encode));
+        HueColor { factor: base.factor * intensity, ..product.into() }
+    }
 }
 
 impl From<Hsv> for HueColor {
     fn from(Hsv { hue, saturation, value }: Hsv) -> Self {
         let wavelength_nm = if saturation > 0.0 { hue_to_wavelength(hue) } else { 0.0 };
-        Self { hue, wavelength_nm, saturation, value }
+        Self { hue, wavelength_nm, saturation, value, factor: 1.0 }
     }
 }
 
 impl HueColor {
-    const BLACK: Self = Self { hue: 0.0, wavelength_nm: 0.0, saturation: 0.0, value: 0.0 };
+    const BLACK: Self = Self { hue: 0.0, wavelength_nm: 0.0, saturation: 0.0, value: 0.0, factor: 1.0 };
 
     fn hsv(&self) -> Hsv {
         Hsv { hue: self.hue, saturation: self.saturation, value: self.value }
     }
 
-    /// The colour as a renderer draws it: faded where the eye sees little.  Eq. (P17)
+    /// Its brightness without attenuation: linear light of its largest channel.
+    #[must_use]
+    pub fn brightest(&self) -> f64 {
+        self.factor * srgb_decode(self.value)
+    }
+
+    /// Linear red, green and blue as a renderer draws it.  Eq. (P17)
+    #[must_use]
+    pub fn light(&self) -> DVec3 {
+        self.factor * DVec3::from_array(self.attenuated().to_rgb().map(srgb_decode))
+    }
+
+    /// The colour as a renderer draws it, without its factor: faded where the eye sees little.
+    /// Eq. (P17)
     #[must_use]
     pub fn attenuated(&self) -> Hsv {
         self.hsv().attenuated(attenuation(self.wavelength_nm))
@@ -154,7 +196,35 @@ impl HueColor {
         }
         let wavelength_nm = Self::from(mixed).wavelength_nm;
         let Hsv { hue, saturation, value } = mixed.unattenuated(attenuation(wavelength_nm), all);
-        Self { hue, wavelength_nm, saturation, value }
+        Self { hue, wavelength_nm, saturation, value, factor: first.factor }
+    }
+
+    /// The sum of colours as linear light.
+    ///
+    /// As in [`HueColor::sum`], colours of one wavelength keep it, and a mixture is amplified to
+    /// compensate the attenuation of its own wavelength.
+    #[must_use]
+    pub fn sum_of_light(parts: &[Self]) -> Self {
+        let Some(first) = parts.first() else { return Self::BLACK };
+        let is_alike = |part: &Self| Self { factor: first.factor, ..*part } == *first;
+        if parts.iter().all(is_alike) {
+            return Self { factor: parts.iter().map(|part| part.factor).sum(), ..*first };
+        }
+        let light: DVec3 = parts.iter().map(Self::light).sum();
+        let all: f64 = parts.iter().map(Self::brightest).sum();
+        let most = light.max_element();
+        if most <= 0.0 {
+            // Nothing is visible. The wavelength of the strongest part is kept.
+            let stronger =
+                |best: Self, part: &Self| if part.brightest() > best.brightest() { *part } else { best };
+            let strongest = parts.iter().fold(*first, stronger);
+            return Self { factor: all / srgb_decode(strongest.value), ..strongest };
+        }
+        let mixed = Hsv::from_rgb((light / most).to_array().map(srgb_encode));
+        let wavelength_nm = Self::from(mixed).wavelength_nm;
+        let limit = srgb_encode(all / most);
+        let Hsv { hue, saturation, value } = mixed.unattenuated(attenuation(wavelength_nm), limit);
+        Self { hue, wavelength_nm, saturation, value, factor: most }
     }
 }
 
@@ -163,7 +233,7 @@ mod tests {
     use super::*;
 
     fn of_wavelength(wavelength_nm: f64, value: f64) -> HueColor {
-        HueColor { hue: wavelength_to_hue(wavelength_nm), wavelength_nm, saturation: 1.0, value }
+        HueColor { hue: wavelength_to_hue(wavelength_nm), wavelength_nm, saturation: 1.0, value, factor: 1.0 }
     }
 
     #[test]

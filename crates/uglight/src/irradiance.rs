@@ -12,6 +12,10 @@ use crate::{Lamp, LampPlace};
 pub struct SurfaceElement {
     /// Relative to the eye, (P4).
     pub point: DVec3,
+    /// The time, in the rest frame, by which the point scatters the light later than where the eye
+    /// sees it directly: 0 unless light reaches the eye by a mirror, through glass, or at another
+    /// event than the origin.
+    pub delay: f64,
     /// Unit vector on the side that is seen, or zero for a surface without one.
     pub normal: DVec3,
     /// The body it is part of.
@@ -25,7 +29,7 @@ pub struct Irradiance {
     /// Row of the lamps, which have intensity and colour.
     pub lamp: u32,
     /// The part of the lamp's intensity that falls on the surface, without powers of D_l: max(0,
-    /// n·l).
+    /// n·l), times the fall-off of the lamp.
     pub level: f64,
     /// D_l, from the lamp to the surface. The irradiance has a factor of a power of it that depends
     /// on what is counted: [`ugphysics::Brightness::irradiance_factor`]; per wavelength it is D_l³.
@@ -41,6 +45,9 @@ pub struct IncidentLamp {
     /// surface and the axes of the scene, and the distance, infinite for a directional light.
     /// `None` for ambient light, which comes from everywhere.
     pub toward: Option<(DVec3, f64)>,
+    /// The part of the lamp's intensity that arrives here, whatever the normal: 1 unless its light
+    /// falls off.
+    pub part: f64,
 }
 
 impl SurfaceElement {
@@ -60,19 +67,24 @@ impl SurfaceElement {
         frames: &RestFrames,
         mut visit: impl FnMut(IncidentLamp),
     ) {
+        let shift = frames.lamp_shift(self.body);
         for (row, lamp) in lamps.iter().enumerate() {
-            let mut add = |level: f64, doppler: f64, toward: Option<(DVec3, f64)>| {
+            let lamp = &lamp.shifted(shift);
+            let mut add = |level: f64, doppler: f64, toward: Option<(DVec3, f64)>, part: f64| {
                 if level > 0.0 {
                     visit(IncidentLamp {
                         irradiance: Irradiance { lamp: row as u32, level, doppler },
                         toward,
+                        part,
                     });
                 }
             };
             match self.moving_body(lamp, frames) {
                 None => {
                     let level = lamp.level_at_rest(self.point, self.normal);
-                    add(level, 1.0, self.direction_at_rest(lamp));
+                    let toward = self.direction_at_rest(lamp);
+                    let part = toward.map_or(1.0, |(_, distance)| lamp.part_at(distance));
+                    add(level, 1.0, toward, part);
                 }
                 Some(body) => self.of_moving(lamp, body, frames, &mut add),
             }
@@ -101,7 +113,7 @@ impl SurfaceElement {
         lamp: &Lamp,
         body: BodyId,
         frames: &RestFrames,
-        add: &mut impl FnMut(f64, f64, Option<(DVec3, f64)>),
+        add: &mut impl FnMut(f64, f64, Option<(DVec3, f64)>, f64),
     ) {
         // Velocities of two frames can be composed only in common axes: those of the camera, which
         // boosts do not turn.  Eq. (P25)
@@ -112,16 +124,18 @@ impl SurfaceElement {
         let light = match lamp.place {
             LampPlace::Everywhere => {
                 for SkyRing { level, doppler } in ambient_illumination(normal, compose(motion, -velocity)) {
-                    add(level, doppler, None);
+                    add(level, doppler, None, 1.0);
                 }
                 return;
             }
             LampPlace::Afar(toward) => illumination_from_afar(velocity, of_lamp * toward, motion),
-            LampPlace::At(place) => illumination(point, velocity, of_lamp * place, motion),
+            LampPlace::At(place) => illumination(point, self.delay, velocity, of_lamp * place, motion),
         };
         if let Some(light) = light {
             let toward = of_surface.inverse() * light.toward;
-            add(normal.dot(light.toward), light.doppler, Some((toward, light.distance)));
+            let part = lamp.part_at(light.rest_distance);
+            let level = part * normal.dot(light.toward);
+            add(level, light.doppler, Some((toward, light.distance)), part);
         }
     }
 }

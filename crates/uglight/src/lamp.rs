@@ -1,9 +1,9 @@
 //! The lights of a scene, with their colours and places ready to compute with.
 
 use glam::DVec3;
-use ugparse::{Light, LightKind, LightMotion, Scene};
+use ugparse::{ColorValue, Light, LightKind, LightMotion, Scene};
 
-use ugphysics::{srgb_decode, unit_or_zero};
+use ugphysics::{length, srgb_decode, unit_or_zero};
 
 use crate::{hsv, light};
 
@@ -21,6 +21,41 @@ pub struct Lamp {
     pub is_colored: bool,
     /// How it moves.
     pub motion: LightMotion,
+    /// How its light falls off with distance; `None` if the level is the same at any distance.
+    pub fall_off: Option<FallOff>,
+}
+
+/// Light that falls off with the square of the distance.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FallOff {
+    /// The distance at which the level is the intensity, in the rest frame of the lamp.
+    reference: f64,
+    /// Points nearer than this count as at this distance.
+    least: f64,
+}
+
+impl FallOff {
+    /// The light of a lamp of that radius, whose level is its intensity at the distance `reference`,
+    /// above 0. The level is largest at the surface of the lamp; for a point it is limited to 10¹²
+    /// times the intensity, so no light is infinite.
+    pub fn new(reference: f64, radius: f64) -> Self {
+        /// Of the reference distance.
+        const LEAST: f64 = 1e-6;
+        Self { reference, least: radius.max(LEAST * reference) }
+    }
+
+    /// The part of the intensity that arrives at a distance in the rest frame of the lamp: r₀²/r''².
+    /// Eq. (P14)
+    #[inline]
+    pub fn at(self, rest_distance: f64) -> f64 {
+        let part = self.reference / rest_distance.max(self.least);
+        part * part
+    }
+
+    /// True if light still increases towards the lamp at that distance.
+    pub fn is_outside(self, rest_distance: f64) -> bool {
+        rest_distance > self.least
+    }
 }
 
 /// Where a light is.
@@ -30,8 +65,7 @@ pub enum LampPlace {
     Everywhere,
     /// At infinity along a unit vector, in the rest frame of the light.
     Afar(DVec3),
-    /// At a point, relative to the eye, in the rest frame of the light. There is no fall-off with
-    /// distance.
+    /// At a point, relative to the eye, in the rest frame of the light.
     At(DVec3),
 }
 
@@ -40,6 +74,17 @@ pub enum LampPlace {
 /// `eye`: in scene coordinates.
 pub fn lamps(scene: &Scene, eye: DVec3) -> Vec<Lamp> {
     scene.lights.iter().map(|light| lamp(scene, light, eye)).collect()
+}
+
+/// True if light of the scene has another spectrum than daylight, so that with spectra it multiplies
+/// colours wavelength by wavelength.
+#[must_use]
+pub fn has_colored_lamps(scene: &Scene) -> bool {
+    scene.lights.iter().filter_map(|light| light.color).any(|id| {
+        let color = &scene.colors[id.index()];
+        let is_source = matches!(color.value, ColorValue::Blackbody { .. } | ColorValue::Spectrum { .. });
+        is_source || hsv(scene, color).saturation > 0.0
+    })
 }
 
 fn lamp(scene: &Scene, statement: &Light, eye: DVec3) -> Lamp {
@@ -51,7 +96,12 @@ fn lamp(scene: &Scene, statement: &Light, eye: DVec3) -> Lamp {
         }
         LightKind::Local { position, .. } => LampPlace::At(position - eye),
     };
-    let white = Lamp { motion: statement.motion, ..Lamp::white(place, statement.intensity) };
+    let fall_off = match statement.kind {
+        LightKind::Local { radius, reference: Some(reference), .. } => Some(FallOff::new(reference, radius)),
+        _ => None,
+    };
+    let motion = statement.motion;
+    let white = Lamp { motion, fall_off, ..Lamp::white(place, statement.intensity) };
     let Some(id) = statement.color else { return white };
     let color = &scene.colors[id.index()];
     let shown = hsv(scene, color);
@@ -69,11 +119,30 @@ impl Lamp {
     /// A white light that rests with whatever it lights.
     pub fn white(place: LampPlace, intensity: f64) -> Lamp {
         let color = DVec3::splat(intensity);
-        Lamp { place, color, linear: color, is_colored: false, motion: LightMotion::WithWhatItLights }
+        let motion = LightMotion::WithWhatItLights;
+        Lamp { place, color, linear: color, is_colored: false, motion, fall_off: None }
+    }
+
+    /// The part of its intensity that arrives at a distance in its rest frame: 1 unless its light
+    /// falls off.
+    #[inline]
+    pub fn part_at(&self, rest_distance: f64) -> f64 {
+        self.fall_off.map_or(1.0, |fall_off| fall_off.at(rest_distance))
+    }
+
+    /// The lamp as a body sees it. `shift`: of lamps that rest with what they light, see
+    /// [`ugscene::RestFrames::lamp_shift`].
+    #[must_use]
+    #[inline]
+    pub fn shifted(mut self, shift: DVec3) -> Lamp {
+        if let (LampPlace::At(place), LightMotion::WithWhatItLights) = (&mut self.place, self.motion) {
+            *place += shift;
+        }
+        self
     }
 
     /// The irradiance of a surface that rests with the lamp, as a part of the lamp's intensity:
-    /// max(0, n·l), or 1 for ambient light.
+    /// max(0, n·l), times the fall-off of the lamp, or 1 for ambient light.
     ///
     /// `point`: of the surface, relative to the eye. `normal`: unit vector on the side that is
     /// seen, or zero for a surface without one.
@@ -84,6 +153,10 @@ impl Lamp {
             LampPlace::Afar(toward) => toward,
             LampPlace::At(place) => unit_or_zero(place - point),
         };
-        normal.dot(toward).max(0.0)
+        let level = normal.dot(toward).max(0.0);
+        match (self.fall_off, self.place) {
+            (Some(fall_off), LampPlace::At(place)) => level * fall_off.at(length(place - point)),
+            _ => level,
+        }
     }
 }

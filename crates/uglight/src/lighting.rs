@@ -1,9 +1,10 @@
 //! Irradiance by lamps that rest with what they light.
 
 use glam::DVec3;
-use ugparse::Scene;
+use ugparse::{LightKind, Scene};
+use ugphysics::Brightness;
 
-use crate::{Lamp, LampPlace, lamps};
+use crate::{Lamp, LampPlace, lamps, light_names};
 
 /// The intensity of the ambient light in a scene without lights.
 pub const DEFAULT_AMBIENT: f64 = 0.3;
@@ -17,8 +18,9 @@ pub const DEFAULT_FROM_EYE: f64 = 0.7;
 /// the rest frame of a face, with rest positions (P4) and rest normals, so a moving face is lit as
 /// if it stood still. Local lights are points, without a fall-off with distance.
 ///
-/// The level multiplies the value of a hue, which is display-encoded, as in 1988; or a colour given
-/// as light, which is linear. So every light has its colour in both forms.
+/// The level multiplies the value of a hue, which is display-encoded, as in 1988; or linear light: a
+/// colour given as light, and every colour under a law that names a quantity. So every light has
+/// its colour in both forms.
 #[derive(Clone, Debug)]
 pub struct Lighting {
     /// All ambient lights together.
@@ -26,18 +28,21 @@ pub struct Lighting {
     /// All others.
     lamps: Vec<Lamp>,
     is_colored: bool,
+    acts_on_light: bool,
 }
 
 impl Lighting {
     /// The lights of the scene; if it has none, an ambient light ([`DEFAULT_AMBIENT`]) and one
     /// from the eye ([`DEFAULT_FROM_EYE`]).
     ///
-    /// `eye`: in scene coordinates. `forward`: unit vector along the view.
-    pub fn new(scene: &Scene, eye: DVec3, forward: DVec3) -> Self {
+    /// `eye`: in scene coordinates. `forward`: unit vector along the view. `law`: the brightness law
+    /// of hues, which determines whether levels multiply their linear light.
+    pub fn new(scene: &Scene, eye: DVec3, forward: DVec3, law: Brightness) -> Self {
+        let acts_on_light = law.acts_on_light();
         if scene.lights.is_empty() {
             let from_eye = Lamp::white(LampPlace::Afar(-forward), DEFAULT_FROM_EYE);
             let ambient = Lamp::white(LampPlace::Everywhere, DEFAULT_AMBIENT);
-            return Self { ambient, lamps: vec![from_eye], is_colored: false };
+            return Self { ambient, lamps: vec![from_eye], is_colored: false, acts_on_light };
         }
         let all = lamps(scene, eye);
         let is_colored = all.iter().any(|lamp| lamp.is_colored);
@@ -48,7 +53,7 @@ impl Lighting {
             linear: ambient.iter().map(|lamp| lamp.linear).sum(),
             ..Lamp::white(LampPlace::Everywhere, 0.0)
         };
-        Self { ambient, lamps, is_colored }
+        Self { ambient, lamps, is_colored, acts_on_light }
     }
 
     /// True if a light is neither white nor grey, so that levels differ between red, green and
@@ -56,6 +61,13 @@ impl Lighting {
     #[inline]
     pub fn is_colored(&self) -> bool {
         self.is_colored
+    }
+
+    /// True if levels multiply linear light, of hues as well: the law of the picture names a
+    /// quantity, see [`Brightness::acts_on_light`].
+    #[inline]
+    pub fn acts_on_light(&self) -> bool {
+        self.acts_on_light
     }
 
     /// True if the level depends on the position and normal of a face.
@@ -74,37 +86,51 @@ impl Lighting {
     ///
     /// `point`: relative to the eye, in the rest frame of the surface. `normal`: unit vector
     /// on the side that is seen, or zero for a surface without one.
-    /// `is_linear`: with the lights' linear colours, else with the display-encoded ones.
+    /// `shift`: of lamps for the body of the surface, see [`ugscene::RestFrames::lamp_shift`].
+    /// `is_light`: of a colour given as light. Levels are linear for those, and for hues if the
+    /// lighting [acts on light](Self::acts_on_light); otherwise they multiply display-encoded values.
     /// Level = Σ ambient + Σ intensity · max(0, n·l).
     #[inline]
-    pub fn level(&self, point: DVec3, normal: DVec3, is_linear: bool) -> DVec3 {
+    pub fn level(&self, point: DVec3, normal: DVec3, shift: DVec3, is_light: bool) -> DVec3 {
         // Two loops, each with its colour inlined, because this runs for every corner of the scene.
-        if is_linear {
-            self.sum(point, normal, |lamp| lamp.linear)
+        if is_light || self.acts_on_light {
+            self.sum(point, normal, shift, |lamp| lamp.linear)
         } else {
-            self.sum(point, normal, |lamp| lamp.color)
+            self.sum(point, normal, shift, |lamp| lamp.color)
         }
     }
 
     #[inline]
-    fn sum(&self, point: DVec3, normal: DVec3, scale: impl Fn(&Lamp) -> DVec3) -> DVec3 {
-        let lit = |sum: DVec3, lamp: &Lamp| sum + scale(lamp) * lamp.level_at_rest(point, normal);
+    fn sum(&self, point: DVec3, normal: DVec3, shift: DVec3, scale: impl Fn(&Lamp) -> DVec3) -> DVec3 {
+        let lit =
+            |sum: DVec3, lamp: &Lamp| sum + scale(lamp) * lamp.shifted(shift).level_at_rest(point, normal);
         self.lamps.iter().fold(scale(&self.ambient), lit)
     }
 
-    /// The contribution of every light to the level, with a name for it.
-    pub fn parts(&self, point: DVec3, normal: DVec3, is_linear: bool) -> Vec<(String, DVec3)> {
+    /// The contribution of every light to the level, with its name ([`light_names`]). All ambient
+    /// lights together are one, called `ambient` unless it is a single one with a name.
+    ///
+    /// `scene`: that of the lights. The others: as of [`Lighting::level`].
+    pub fn parts(
+        &self,
+        scene: &Scene,
+        point: DVec3,
+        normal: DVec3,
+        shift: DVec3,
+        is_light: bool,
+    ) -> Vec<(String, DVec3)> {
+        let is_linear = is_light || self.acts_on_light;
         let scale = |lamp: &Lamp| if is_linear { lamp.linear } else { lamp.color };
-        let mut parts = vec![("ambient".to_owned(), scale(&self.ambient))];
-        let (mut n_directional, mut n_local) = (0, 0);
-        for lamp in &self.lamps {
-            let (kind, count) = match lamp.place {
-                LampPlace::At(_) => ("local", &mut n_local),
-                _ => ("directional", &mut n_directional),
-            };
-            *count += 1;
-            parts.push((format!("{kind} {count}"), scale(lamp) * lamp.level_at_rest(point, normal)));
-        }
-        parts
+        let is_ambient =
+            |row: usize| scene.lights.get(row).map_or(row == 0, |light| light.kind == LightKind::Ambient);
+        let names = light_names(scene).into_iter().enumerate();
+        let (ambient, others): (Vec<_>, Vec<_>) = names.partition(|(row, _)| is_ambient(*row));
+        let ambient = match &ambient[..] {
+            [(row, name)] if scene.lights.get(*row).is_some_and(|light| light.name.is_some()) => name,
+            _ => "ambient",
+        };
+        let part = |(lamp, (_, name))| (name, scale(lamp) * lamp.shifted(shift).level_at_rest(point, normal));
+        let others = self.lamps.iter().zip(others).map(part);
+        std::iter::once((ambient.to_owned(), scale(&self.ambient))).chain(others).collect()
     }
 }

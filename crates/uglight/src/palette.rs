@@ -2,7 +2,9 @@
 
 use glam::DVec3;
 use ugparse::{Color, ColorId, ColorValue, Scene, Tint};
-use ugphysics::{Hsv, attenuation, hue_to_wavelength, srgb_decode, wavelength_to_hue};
+use ugphysics::{
+    Brightness, Hsv, attenuation, hue_to_wavelength, srgb_decode, srgb_encode, wavelength_to_hue,
+};
 
 /// The interpolated quantity, besides saturation and value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -24,6 +26,9 @@ pub struct Swatch {
     pub saturation: f64,
     /// Not negative.
     pub value: f64,
+    /// Factor of the linear light that tint, saturation and value stand for. At rest it is 1; laws
+    /// that act on linear light change it instead of the value.
+    pub factor: f64,
     /// The light itself, if the colour is given as such (`c_xyz`): linear red, green and blue,
     /// neither clipped nor gamut-mapped. Tint, saturation and value are then the nearest colour
     /// that a display has.
@@ -34,7 +39,8 @@ pub struct Swatch {
 
 impl Swatch {
     /// The colour of objects without a colour.
-    pub const WHITE: Self = Self { tint: 0.0, saturation: 0.0, value: 1.0, light: None, translucency: 0.0 };
+    pub const WHITE: Self =
+        Self { tint: 0.0, saturation: 0.0, value: 1.0, factor: 1.0, light: None, translucency: 0.0 };
 
     /// True if it has no tint.
     pub fn is_grey(&self) -> bool {
@@ -101,7 +107,7 @@ impl Palette {
     pub fn light(&self, swatch: &Swatch) -> DVec3 {
         swatch.light.unwrap_or_else(|| {
             let seen = self.hsv(swatch).attenuated(attenuation(self.wavelength_nm(swatch)));
-            DVec3::from_array(seen.to_rgb().map(srgb_decode))
+            swatch.factor * DVec3::from_array(seen.to_rgb().map(srgb_decode))
         })
     }
 
@@ -128,7 +134,7 @@ impl Palette {
             Interpolation::Hue => spectral(color.hue),
             Interpolation::Wavelength => hue_to_wavelength(color.hue),
         };
-        Swatch { tint, saturation: color.saturation, value: color.value, light: None, translucency: 0.0 }
+        Swatch { tint, saturation: color.saturation, value: color.value, ..Swatch::WHITE }
     }
 
     /// The colour converted to light, if it is not given as light.
@@ -138,12 +144,20 @@ impl Palette {
 
     fn read(&self, scene: &Scene, color: &Color) -> Swatch {
         let translucency = color.translucency;
+        // In other scenes the factor is part of the value, which light levels multiply.
+        let is_linear = scene.stage.law().is_some_and(Brightness::acts_on_light);
         let swatch = match color.value {
             // Used unchanged, because an invisible wavelength has no hue.
-            ColorValue::Hsv { value, tint: Tint::Wavelength(tint), saturation }
+            ColorValue::Hsv { value, tint: Tint::Wavelength(tint), saturation, factor }
                 if self.interpolation == Interpolation::Wavelength =>
             {
-                Swatch { tint, saturation, value, light: None, translucency }
+                let [value, factor] =
+                    if is_linear { [value, factor] } else { [value_times(value, factor), 1.0] };
+                Swatch { tint, saturation, value, factor, light: None, translucency }
+            }
+            ColorValue::Hsv { .. } if is_linear => {
+                let (color, factor) = crate::hsv_and_factor(scene, color);
+                Swatch { factor, translucency, ..self.swatch(color) }
             }
             _ => Swatch {
                 light: crate::light(scene, color).map(DVec3::from_array),
@@ -154,6 +168,11 @@ impl Palette {
         // The light of a spectrum is computed per sample; here it only marks the colour as light.
         Swatch { light: swatch.light.or(self.white().light), ..swatch }
     }
+}
+
+/// The value of a colour with its linear light multiplied.
+fn value_times(value: f64, factor: f64) -> f64 {
+    if factor == 1.0 { value } else { srgb_encode(factor * srgb_decode(value)) }
 }
 
 /// A hue converted to −60…300 degrees.

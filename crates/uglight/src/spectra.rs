@@ -7,6 +7,7 @@ use ugphysics::xyz_to_linear_srgb;
 use ugscene::Shares;
 use ugspectrum::{DopplerGrid, Spectrum};
 
+use crate::lit_tables::LitTables;
 use crate::{Irradiance, SpectralColor, SpectralFilter, SpectralLamp, SpectralShift};
 
 /// The apparent light of mixtures of spectra as a function of the Doppler factor.
@@ -19,6 +20,8 @@ pub struct Spectra {
     colors: Vec<SpectralColor>,
     /// |ln D| up to which the spectra are tabulated.
     reach: f64,
+    /// Colours under the lamps of the scene; `None` if all of these are daylight.
+    lit: Option<LitTables>,
 }
 
 impl Spectra {
@@ -32,7 +35,41 @@ impl Spectra {
             .map(|row: usize| row.checked_sub(1).map(ColorId::from_index))
             .map(|color| SpectralColor::new(scene, color).tabulated(&grid))
             .collect();
-        Self { shift, grid, rows, colors, reach }
+        Self { shift, grid, rows, colors, reach, lit: None }
+    }
+
+    /// The same, with the lamps of the scene for [`Spectra::light_of_lamps`]. `eye`: in scene
+    /// coordinates.
+    pub fn with_lamps(self, scene: &Scene, eye: DVec3) -> Self {
+        let lit = crate::has_colored_lamps(scene).then(|| LitTables::new(scene, eye, self.colors.len()));
+        Self { lit, ..self }
+    }
+
+    /// True if the scene has coloured lamps.
+    pub fn has_colored_lamps(&self) -> bool {
+        self.lit.is_some()
+    }
+
+    /// Linear red, green and blue of a row under the lamps of the scene, at rest with it, at a ln D
+    /// within the reach; 0 without coloured lamps. Black bodies and samples are not lit.  Eq. (P14)
+    ///
+    /// `place`: point, normal and shift of lamps as for [`crate::Lighting::level`].
+    pub fn light_of_lamps(&self, row: u32, ln_doppler: f64, place: [DVec3; 3]) -> DVec3 {
+        let Some(lit) = &self.lit else { return DVec3::ZERO };
+        let ln_shift = self.shift.ln_shift(ln_doppler);
+        let gain = libm::exp(self.shift.ln_gain(ln_doppler));
+        let seen = |color: Option<ColorId>| {
+            let row = color.map_or(0, |color| color.index() + 1);
+            let color = &self.colors[row];
+            if color.spectrum().is_surface() {
+                gain * lit.xyz((row, color), &self.grid, ln_shift, place)
+            } else {
+                DVec3::from_array(color.seen(&self.grid, ln_doppler, self.shift))
+            }
+        };
+        let parts = self.rows[row as usize].parts();
+        let xyz: DVec3 = parts.map(|(color, share)| share * seen(color)).sum();
+        DVec3::from_array(xyz_to_linear_srgb(xyz.to_array()))
     }
 
     /// Linear red, green and blue of a row at a given ln D.  Eq. (P12), (P19)

@@ -48,12 +48,13 @@ impl SpectralShift {
         let flux = |factor: f64| if self.flux { factor } else { 1.0 };
         let square = doppler * doppler;
         let gain = flux(square * square * doppler);
+        if !surface.is_surface() {
+            return gain * DVec3::from(surface.shifted(shift(doppler)));
+        }
         let mut sum = DVec3::ZERO;
         for part in light {
             let lamp = &lamps[part.lamp as usize];
-            let Some(xyz) = surface.under(&lamp.light, shift(doppler), shift(part.doppler)) else {
-                return gain * DVec3::from(surface.shifted(shift(doppler)));
-            };
+            let xyz = surface.under(&lamp.light, shift(doppler), shift(part.doppler)).unwrap_or_default();
             let received = part.level * lamp.intensity * flux(part.doppler * part.doppler * part.doppler);
             sum += received * gain * DVec3::from(xyz);
         }
@@ -110,8 +111,8 @@ impl SpectralShift {
 /// The spectrum of a lamp, and its intensity.
 #[derive(Clone, Debug)]
 pub struct SpectralLamp {
-    light: LightSpectrum,
-    intensity: f64,
+    pub(crate) light: LightSpectrum,
+    pub(crate) intensity: f64,
 }
 
 /// The lamps of a scene, in its order: daylight filtered by the lamp's colour, or the black body or

@@ -9,7 +9,7 @@
 //! | piece | edges above the bound | becomes |
 //! | --- | --- | --- |
 //! | triangle | 1, 2, 3 | 2, 3, 4 triangles |
-//! | convex quadrilateral | all, and both diagonals | 4 quadrilaterals around the mean of its corners |
+//! | convex quadrilateral with corners of one colour and normal | all, and both diagonals | 4 quadrilaterals around the mean of its corners |
 //! | | two opposite ones | 2 quadrilaterals |
 //! | | others | 2 triangles, and those as above |
 //! | | none, but a diagonal or the inside | 2 triangles |
@@ -24,6 +24,7 @@ use rustc_hash::FxHashSet;
 use ugparse::Scene;
 
 use crate::criterion::{Bounds, Criterion, MAX_GENERATION, Marks, Verdict};
+use crate::evenness::Evenness;
 use crate::pieces::{Cut, Outcome, Piece, Polyline};
 use crate::refined_mesh::RefinedMesh;
 use crate::split::split;
@@ -33,10 +34,16 @@ pub(crate) const MAX_PIECES: usize = 4_000_000;
 
 /// Subdivides faces and wires until every error is within `bounds`, or `max_pieces` would be
 /// exceeded.
-pub(crate) fn cut(scene: &Scene, mesh: &mut RefinedMesh, bounds: &Bounds, max_pieces: usize) -> Outcome {
+pub(crate) fn cut(
+    scene: &Scene,
+    evenness: &Evenness,
+    mesh: &mut RefinedMesh,
+    bounds: &Bounds,
+    max_pieces: usize,
+) -> Outcome {
     let mut outcome = Outcome::default();
     let mut fresh: Vec<Piece> = Vec::new();
-    for (face, cut) in (Criterion { mesh, bounds }).first_cuts(scene) {
+    for (face, cut) in (Criterion { mesh, bounds }).first_cuts(scene, evenness) {
         for contour in scene.face_contours(&scene.faces[face as usize]) {
             let next = contour.iter().cycle().skip(1);
             contour.iter().zip(next).for_each(|(a, b)| mesh.add_rim(a.0, b.0));
@@ -241,7 +248,7 @@ mod tests {
                 ViewVolume::default(),
                 &motions,
             );
-            let outcome = cut(&scene, &mut mesh, &bounds, max_pieces);
+            let outcome = cut(&scene, &Evenness::default(), &mut mesh, &bounds, max_pieces);
             assert!(outcome.is_full);
             let n_pieces = outcome.pieces.len();
             assert!((max_pieces / 10..=max_pieces).contains(&n_pieces), "{n_pieces} of {max_pieces}");

@@ -9,6 +9,7 @@ use ugscene::{CameraOptions, Geometry, PlacedBodies};
 use crate::criterion::Bounds;
 use crate::cull::ViewVolume;
 use crate::edge::Tolerance;
+use crate::evenness::Evenness;
 use crate::near_lamps::NearLamps;
 use crate::pieces::Outcome;
 use crate::refined_mesh::RefinedMesh;
@@ -62,11 +63,11 @@ pub fn apply_with_progress(
     let tolerances = depth_factors.iter().map(|&factor| tolerance.with_depth(factor)).collect();
     let bounds = Bounds::new(tolerances, near_lamps, view_volume, motions);
     let mut mesh = RefinedMesh::new(motions, points);
+    let evenness = Evenness::new(&scene, config.repeat);
     let outcome = match config.pieces {
-        Pieces::UpTo(_) => adaptive::cut(&scene, &mut mesh, &bounds, adaptive::MAX_PIECES),
-        Pieces::PerEdge(n) => {
-            uniform::cut(&scene, &mut mesh, n).map_err(|n_pieces| Error::TooManyPieces { n_pieces })?
-        }
+        Pieces::UpTo(_) => adaptive::cut(&scene, &evenness, &mut mesh, &bounds, adaptive::MAX_PIECES),
+        Pieces::PerEdge(n) => uniform::cut(&scene, &evenness, &mut mesh, n)
+            .map_err(|n_pieces| Error::TooManyPieces { n_pieces })?,
     };
     let has_new = !mesh.recipes.is_empty();
     let shades = if has_new { attributes::shades(&scene, &mesh.points) } else { None };

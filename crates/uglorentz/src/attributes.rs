@@ -109,7 +109,7 @@ impl Shade {
         let Hsv { hue, saturation, value } = self.hsv;
         match self.light {
             Some(light) => ColorValue::Xyz(linear_srgb_to_xyz(light)),
-            None => ColorValue::Hsv { value, tint: Tint::Hue(hue), saturation },
+            None => ColorValue::Hsv { value, tint: Tint::Hue(hue), saturation, factor: 1.0 },
         }
     }
 }

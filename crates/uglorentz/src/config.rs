@@ -81,7 +81,8 @@ impl Default for Config {
 
 impl Config {
     /// The part of it that other renderers share.
-    pub(crate) fn motion(&self) -> MotionOptions {
+    #[must_use]
+    pub fn motion(&self) -> MotionOptions {
         MotionOptions {
             velocity: self.velocity,
             camera_velocity: self.camera_velocity,

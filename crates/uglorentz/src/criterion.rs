@@ -11,6 +11,7 @@ use ugparse::{Face, Scene, VertexId};
 
 use crate::cull::ViewVolume;
 use crate::edge::{self, Shown, Tolerance};
+use crate::evenness::Evenness;
 use crate::near_lamps::NearLamps;
 use crate::pieces::{Cut, Polyline, Shape, as_contours, shape};
 use crate::refined_mesh::RefinedMesh;
@@ -135,13 +136,13 @@ impl Criterion<'_, '_> {
     }
 
     /// The faces with edges that bend, in order, as triangles and convex quadrilaterals.
-    pub(crate) fn first_cuts(&self, scene: &Scene) -> Vec<(u32, Cut)> {
-        let cut = |(idx, face): (usize, &Face)| Some((idx as u32, self.first_cut(scene, face)?));
+    pub(crate) fn first_cuts(&self, scene: &Scene, evenness: &Evenness) -> Vec<(u32, Cut)> {
+        let cut = |(idx, face): (usize, &Face)| Some((idx as u32, self.first_cut(scene, face, evenness)?));
         scene.faces.par_iter().enumerate().filter_map(cut).collect()
     }
 
     /// `None` if the face can stay as it is.
-    fn first_cut(&self, scene: &Scene, face: &Face) -> Option<Cut> {
+    fn first_cut(&self, scene: &Scene, face: &Face, evenness: &Evenness) -> Option<Cut> {
         let corners = scene.contours.corners(face.contours.clone());
         let motion = self.mesh.motion(corners.first()?.0);
         if self.is_right_for_sure(motion, corners.iter().map(|corner| corner.0)) {
@@ -151,7 +152,7 @@ impl Criterion<'_, '_> {
         let cut = if edge_on::is_edge_on(scene, face, motion, rest) {
             Cut::EdgeOn(as_contours(scene, face))
         } else {
-            shape(scene, face, rest)?
+            shape(scene, face, evenness.is_even(scene, face), rest)?
         };
         let bends = match &cut {
             Cut::Pieces(shapes) => shapes.iter().any(|shape| self.piece(shape).is_open()),

@@ -75,6 +75,7 @@ mod early_accept;
 mod edge;
 mod edge_on;
 mod error;
+mod evenness;
 mod interior;
 mod measurement;
 mod near_lamps;

@@ -121,11 +121,9 @@ fn polygons(scene: &Scene, face: &Face) -> Vec<Vec<VertexId>> {
     if face.contours.len() == 1 {
         return vec![outline];
     }
-    let at = |corner: &VertexId| scene.vertices[corner.index()].position;
-    let rings: Vec<Vec<DVec3>> =
-        scene.face_contours(face).map(|contour| contour.iter().map(at).collect()).collect();
+    let at = |corner: VertexId| scene.vertices[corner.index()].position;
     let corners = scene.contours.corners(face.contours.clone());
-    match ugscene::triangulate(&rings) {
+    match ugscene::face_triangles(scene, face, at) {
         Some(triangles) => triangles.iter().map(|t| t.map(|row| corners[row as usize]).to_vec()).collect(),
         None => vec![outline],
     }

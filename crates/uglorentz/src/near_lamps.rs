@@ -1,14 +1,15 @@
 //! Edges along which the light of near lamps is not linear (`-sl`).
 //!
 //! Programs downstream add light to the colours of vertices and interpolate it linearly. The light
-//! of a lamp on a face with normal n is n·l D_l, with l towards the lamp and D_l of (P14). Faces
-//! that share an edge have different normals, so the criterion tests the vector D_l l, which they
-//! share (E6). Directional and ambient light do not change along an edge.
+//! of a lamp on a face with normal n is n·l D_l F, with l towards the lamp, D_l of (P14), and F the
+//! fall-off of its light with distance, if it has one. Faces that share an edge have different
+//! normals, so the criterion tests the vector D_l F l, which they share (E6). Directional and ambient light do not change along an edge.
 
 use glam::DVec3;
-use uglight::{LampPlace, lamps};
-use ugparse::Scene;
+use uglight::{FallOff, LampPlace, lamps};
+use ugparse::{BodyId, Scene};
 use ugphysics::{Velocity, illumination};
+use ugscene::RestFrames;
 
 use crate::early_accept::MOST_BEND;
 use crate::relative_motion::{Point, RelativeMotion};
@@ -23,6 +24,9 @@ const MAX_GENERATION: u32 = 12;
 #[derive(Clone, Debug, Default)]
 pub(crate) struct NearLamps {
     lamps: Vec<NearLamp>,
+    /// For each body the shift of lamps that rest with what they light, in the axes of
+    /// [`RelativeMotion::turned`].
+    shifts: Vec<DVec3>,
     bound: f64,
 }
 
@@ -35,6 +39,7 @@ struct NearLamp {
     place: DVec3,
     /// `None` for a lamp that rests in the frame of whatever it lights.
     velocity: Option<Velocity>,
+    fall_off: Option<FallOff>,
 }
 
 impl NearLamps {
@@ -49,9 +54,16 @@ impl NearLamps {
             let motion = lamp.motion.body().map(|body| &motions[body.index()]);
             let place = motion.map_or(place, |motion| motion.turned(place));
             let velocity = motion.map(RelativeMotion::velocity);
-            Some(NearLamp { intensity: lamp.color.max_element(), place, velocity })
+            let intensity = lamp.color.max_element();
+            Some(NearLamp { intensity, place, velocity, fall_off: lamp.fall_off })
         });
-        Self { lamps: near.filter(|lamp| lamp.intensity > 0.0).collect(), bound }
+        let frames = RestFrames::new(scene);
+        let shift = |(body, motion): (BodyId, &RelativeMotion)| motion.turned(frames.lamp_shift(body));
+        Self {
+            lamps: near.filter(|lamp| lamp.intensity > 0.0).collect(),
+            shifts: scene.bodies.ids().zip(motions).map(shift).collect(),
+            bound,
+        }
     }
 
     /// True if light adds no criterion.
@@ -69,7 +81,12 @@ impl NearLamps {
 
     /// The error of the light on an edge, of all lamps.  (E6)
     pub(crate) fn error(&self, a: &Point, b: &Point, motion: &RelativeMotion) -> f64 {
-        self.lamps.iter().map(|lamp| lamp.intensity * lamp.error(a.rest, b.rest, motion)).sum()
+        let shift = self.shift(a.body);
+        self.lamps.iter().map(|lamp| lamp.intensity * lamp.error(a.rest, b.rest, motion, shift)).sum()
+    }
+
+    fn shift(&self, body: BodyId) -> DVec3 {
+        self.shifts.get(body.index()).copied().unwrap_or_default()
     }
 
     /// True only if the error is below the bound on every line between these corners.
@@ -81,19 +98,24 @@ impl NearLamps {
         if self.is_empty() {
             return true;
         }
-        let of_lamp = |lamp: &NearLamp| lamp.intensity * lamp.most_error(motion, corners.clone());
+        let shift = corners.clone().next().map_or(DVec3::ZERO, |corner| self.shift(corner.body));
+        let of_lamp = |lamp: &NearLamp| lamp.intensity * lamp.most_error(motion, corners.clone(), shift);
         self.lamps.iter().map(of_lamp).sum::<f64>() <= self.bound
     }
 }
 
 impl NearLamp {
-    /// The relative errors of light and wavelength, interpolated linearly between the ends.  (E6)
-    fn error(&self, a: DVec3, b: DVec3, motion: &RelativeMotion) -> f64 {
+    /// The relative errors of light and wavelength, interpolated linearly between the ends. That of
+    /// light is relative to the light at the point if it is brighter than the intensity of the lamp,
+    /// else to that.  (E6)
+    fn error(&self, a: DVec3, b: DVec3, motion: &RelativeMotion, shift: DVec3) -> f64 {
+        let light = |point: DVec3| self.light(point, motion, shift);
         // At the lamp itself the direction is undefined.
-        let (Some(from), Some(to)) = (self.light(a, motion), self.light(b, motion)) else { return 0.0 };
+        let (Some(from), Some(to)) = (light(a), light(b)) else { return 0.0 };
         let at = |s: f64| {
-            let Some(light) = self.light(a.lerp(b, s), motion) else { return 0.0 };
+            let Some(light) = light(a.lerp(b, s)) else { return 0.0 };
             let off = (light.toward - from.toward.lerp(to.toward, s)).length() / light.doppler;
+            let off = off / light.part.max(1.0);
             let straight = (1.0 - s) / from.doppler + s / to.doppler;
             f64::max(off, (straight * light.doppler - 1.0).abs())
         };
@@ -104,44 +126,65 @@ impl NearLamp {
     /// moves relative to them.
     ///
     /// Along a line at a distance of at least r from the lamp, |d²l/dx²| ≤ 2/√3 / r², as for D in
-    /// [`crate::color`].
-    fn most_error<'a>(&self, motion: &RelativeMotion, mut corners: impl Iterator<Item = &'a Point>) -> f64 {
+    /// [`crate::color`], and |d²(F l)/dx²| ≤ 6F/r² for F ∝ 1/r²: the second derivative of 1/r²
+    /// towards the lamp.
+    fn most_error<'a>(
+        &self,
+        motion: &RelativeMotion,
+        mut corners: impl Iterator<Item = &'a Point>,
+        shift: DVec3,
+    ) -> f64 {
         let Some(first) = corners.next() else { return 0.0 };
-        let Some(place) = self.position_at_rest_with(motion) else { return f64::INFINITY };
+        let Some(place) = self.position_at_rest_with(motion, shift) else { return f64::INFINITY };
         let reach = corners.map(|corner| (corner.rest - first.rest).length()).fold(0.0, f64::max);
         let nearest = (place - first.rest).length() - reach;
         // Edges are at most twice as long as `reach`.
-        if nearest > 0.0 { MOST_BEND / 2.0 * (reach / nearest) * (reach / nearest) } else { f64::INFINITY }
+        let bend = match self.fall_off {
+            None => MOST_BEND,
+            // The light is a field like that of a charge.
+            Some(fall_off) if fall_off.is_outside(nearest) => 6.0 * fall_off.at(nearest),
+            Some(_) => return f64::INFINITY,
+        };
+        if nearest > 0.0 { bend / 2.0 * (reach / nearest) * (reach / nearest) } else { f64::INFINITY }
     }
 
-    /// Its position in the rest frame of a body, if it rests there.
-    fn position_at_rest_with(&self, motion: &RelativeMotion) -> Option<DVec3> {
+    /// Its position in the rest frame of a body, if it rests there. `shift`: see
+    /// [`NearLamps::shifts`].
+    fn position_at_rest_with(&self, motion: &RelativeMotion, shift: DVec3) -> Option<DVec3> {
         match self.velocity {
-            None => Some(motion.turned(self.place)),
+            None => Some(motion.turned(self.place) + shift),
             Some(velocity) => (velocity == motion.velocity()).then_some(self.place),
         }
     }
 
-    fn light(&self, rest: DVec3, motion: &RelativeMotion) -> Option<Light> {
-        if let Some(place) = self.position_at_rest_with(motion) {
-            return Some(Light { toward: (place - rest).try_normalize()?, doppler: 1.0 });
+    fn light(&self, rest: DVec3, motion: &RelativeMotion, shift: DVec3) -> Option<Light> {
+        if let Some(place) = self.position_at_rest_with(motion, shift) {
+            let part = self.part_at((place - rest).length());
+            return Some(Light { toward: (place - rest).try_normalize()? * part, doppler: 1.0, part });
         }
-        let light = illumination(rest, motion.velocity(), self.place, self.velocity?)?;
-        Some(Light { toward: light.toward * light.doppler, doppler: light.doppler })
+        let light = illumination(rest, 0.0, motion.velocity(), self.place, self.velocity?)?;
+        let part = self.part_at(light.rest_distance);
+        Some(Light { toward: light.toward * (light.doppler * part), doppler: light.doppler, part })
+    }
+
+    /// F, the fall-off at a distance in the rest frame of the lamp.
+    fn part_at(&self, rest_distance: f64) -> f64 {
+        self.fall_off.map_or(1.0, |fall_off| fall_off.at(rest_distance))
     }
 }
 
 /// The light of a lamp at a point.
 struct Light {
-    /// D_l l.
+    /// D_l F l.
     toward: DVec3,
     /// D_l.
     doppler: f64,
+    /// F.
+    part: f64,
 }
 
 #[cfg(test)]
 mod tests {
-    use ugparse::BodyId;
     use ugscene::Geometry;
 
     use super::*;
@@ -151,19 +194,39 @@ mod tests {
     #[test]
     fn the_error_is_that_of_the_chord() {
         let motion = RelativeMotion::new(Velocity::ZERO, Geometry::default());
-        let lamp = NearLamp { intensity: 1.0, place: DVec3::Z, velocity: None };
+        let lamp = NearLamp { intensity: 1.0, place: DVec3::Z, velocity: None, fall_off: None };
         let level = |x: f64| 1.0 / (1.0 + x * x).sqrt();
         for (from, to) in [(-0.2, 0.3), (0.5, 0.9), (-3.0, 2.0), (1.0, 1.1)] {
-            let error = lamp.error(DVec3::X * from, DVec3::X * to, &motion);
+            let error = lamp.error(DVec3::X * from, DVec3::X * to, &motion, DVec3::ZERO);
             for step in 0..=4 {
                 let s = f64::from(step) / 4.0;
                 let off = level(from + s * (to - from)) - (1.0 - s) * level(from) - s * level(to);
                 assert!(off.abs() <= error + 1e-15, "{from} {to}: {off} {error}");
             }
-            let half = lamp.error(DVec3::X * from, DVec3::X * f64::midpoint(from, to), &motion);
+            let half = lamp.error(DVec3::X * from, DVec3::X * f64::midpoint(from, to), &motion, DVec3::ZERO);
             assert!(half < 0.6 * error, "{from} {to}: {half} {error}");
         }
-        assert_eq!(lamp.error(DVec3::Z, DVec3::ZERO, &motion), 0.0);
+        assert_eq!(lamp.error(DVec3::Z, DVec3::ZERO, &motion, DVec3::ZERO), 0.0);
+    }
+
+    /// The same for light that falls off: 4/(1 + x²)^(3/2) on the floor. Where it is brighter than
+    /// the intensity, the error is relative.
+    #[test]
+    fn light_that_falls_off_has_the_error_of_its_chord() {
+        let motion = RelativeMotion::new(Velocity::ZERO, Geometry::default());
+        let fall_off = Some(FallOff::new(2.0, 0.0));
+        let lamp = NearLamp { intensity: 1.0, place: DVec3::Z, velocity: None, fall_off };
+        let level = |x: f64| 4.0 * libm::pow(1.0 + x * x, -1.5);
+        for (from, to) in [(-0.2, 0.3), (0.5, 0.9), (-3.0, 2.0), (1.0, 1.1), (4.0, 6.0)] {
+            let error = lamp.error(DVec3::X * from, DVec3::X * to, &motion, DVec3::ZERO);
+            for step in 0..=4 {
+                let s = f64::from(step) / 4.0;
+                let x = from + s * (to - from);
+                let off = level(x) - (1.0 - s) * level(from) - s * level(to);
+                let off = off / (4.0 / (1.0 + x * x)).max(1.0);
+                assert!(off.abs() <= error + 1e-15, "{from} {to}: {off} {error}");
+            }
+        }
     }
 
     /// Lamp and edge in common motion are as at rest; in relative motion D_l matters.
@@ -174,12 +237,17 @@ mod tests {
             RelativeMotion::new(Velocity::ZERO, Geometry::default()),
             RelativeMotion::new(fast, Geometry::default()),
         );
-        let lamp = |velocity| NearLamp { intensity: 1.0, place: DVec3::new(1.0, 5.0, 2.0), velocity };
+        let lamp = |velocity| NearLamp {
+            intensity: 1.0,
+            place: DVec3::new(1.0, 5.0, 2.0),
+            velocity,
+            fall_off: None,
+        };
         let (a, b) = (DVec3::new(0.0, 5.0, 0.0), DVec3::new(1.5, 6.0, 0.0));
-        let rest = lamp(None).error(a, b, &at_rest);
-        assert_eq!(lamp(Some(fast)).error(a, b, &moving), rest);
-        assert_eq!(lamp(None).error(a, b, &moving), rest);
-        assert!((lamp(Some(fast)).error(a, b, &at_rest) - rest).abs() > 1e-3 * rest);
+        let rest = lamp(None).error(a, b, &at_rest, DVec3::ZERO);
+        assert_eq!(lamp(Some(fast)).error(a, b, &moving, DVec3::ZERO), rest);
+        assert_eq!(lamp(None).error(a, b, &moving, DVec3::ZERO), rest);
+        assert!((lamp(Some(fast)).error(a, b, &at_rest, DVec3::ZERO) - rest).abs() > 1e-3 * rest);
     }
 
     /// `is_surely_linear` is conservative.
@@ -188,11 +256,12 @@ mod tests {
         let step = |k: u32, seed: f64| (f64::from(k) * seed).fract() * 2.0 - 1.0;
         let motion = RelativeMotion::new(Velocity::from_beta(DVec3::X * 0.6).unwrap(), Geometry::default());
         let (mut n_linear, mut n_nonlinear) = (0, 0);
-        for k in 1..2000_u32 {
+        for k in 1..4000_u32 {
             let point = |p, q, r| DVec3::new(step(k, p), step(k, q), step(k, r));
             let place = point(0.123_106, 0.872_983, 0.358_899);
-            let lamp = NearLamp { intensity: 1.0, place, velocity: None };
-            let near_lamps = NearLamps { lamps: vec![lamp], bound: 1e-2 };
+            let fall_off = (k % 2 == 0).then_some(FallOff::new(0.7, 0.0));
+            let lamp = NearLamp { intensity: 1.0, place, velocity: None, fall_off };
+            let near_lamps = NearLamps { lamps: vec![lamp], shifts: Vec::new(), bound: 1e-2 };
             let size = libm::pow(10.0, -f64::from(k % 12) / 4.0);
             let a = point(0.618_034, 0.414_214, 0.732_051);
             let corners = [a, a + point(0.236_068, 0.645_751, 0.316_625) * size, a + DVec3::Z * size];

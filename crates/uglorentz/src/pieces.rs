@@ -86,29 +86,29 @@ pub(crate) enum Cut {
 }
 
 /// A face as triangles and convex quadrilaterals, in its rest plane. `None` if it has no corners.
-pub(crate) fn shape(scene: &Scene, face: &Face, rest: impl Fn(VertexId) -> DVec3) -> Option<Cut> {
+///
+/// `is_even`: its corners have the same colour and normal. Only then is a quadrilateral cut as such:
+/// else a renderer interpolates in its triangles, and so do new vertices.
+pub(crate) fn shape(
+    scene: &Scene,
+    face: &Face,
+    is_even: bool,
+    rest: impl Fn(VertexId) -> DVec3,
+) -> Option<Cut> {
     let corners = scene.contours.corners(face.contours.clone());
-    if face.contours.len() == 1 {
-        if let &[a, b, c] = corners {
-            return Some(Cut::Pieces(vec![Shape::Triangle([a.0, b.0, c.0])]));
-        }
-        if let &[a, b, c, d] = corners
-            && ugscene::is_convex([a, b, c, d].map(&rest))
-        {
-            return Some(Cut::Pieces(vec![Shape::Quad([a.0, b.0, c.0, d.0])]));
-        }
-    }
-    let contours: Vec<Vec<VertexId>> = scene.face_contours(face).map(without_repeats).collect();
-    let rings: Vec<Vec<DVec3>> =
-        contours.iter().map(|contour| contour.iter().map(|&vertex| rest(vertex)).collect()).collect();
-    let corners = contours.concat();
     if corners.is_empty() {
         return None;
     }
-    Some(match ugscene::triangulate(&rings) {
-        Some(triangles) => Cut::Pieces(
-            triangles.iter().map(|t| Shape::Triangle(t.map(|corner| corners[corner as usize].0))).collect(),
-        ),
+    if let &[a, b, c, d] = corners
+        && is_even
+        && face.contours.len() == 1
+        && ugscene::is_convex(&[a, b, c, d].map(&rest))
+    {
+        return Some(Cut::Pieces(vec![Shape::Quad([a.0, b.0, c.0, d.0])]));
+    }
+    let triangle = |at: [u32; 3]| Shape::Triangle(at.map(|at| corners[at as usize].0));
+    Some(match ugscene::face_triangles(scene, face, rest) {
+        Some(triangles) => Cut::Pieces(triangles.into_iter().map(triangle).collect()),
         None => Cut::Contours(as_contours(scene, face)),
     })
 }
@@ -116,16 +116,6 @@ pub(crate) fn shape(scene: &Scene, face: &Face, rest: impl Fn(VertexId) -> DVec3
 /// The contours of a face, as polylines.
 pub(crate) fn as_contours(scene: &Scene, face: &Face) -> Vec<Polyline> {
     face.contours.clone().map(|row| Polyline::closed(row, scene.contours.get(row))).collect()
-}
-
-/// A contour without repeated corners.
-fn without_repeats(contour: &[VertexId]) -> Vec<VertexId> {
-    let mut corners = contour.to_vec();
-    corners.dedup();
-    while corners.len() > 1 && corners.first() == corners.last() {
-        corners.pop();
-    }
-    corners
 }
 
 /// The result of subdivision.

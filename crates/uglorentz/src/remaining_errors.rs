@@ -126,7 +126,7 @@ impl ErrorMeter<'_, '_> {
         if edge_on::is_edge_on(self.scene, face, motion, rest) {
             return (Errors::default(), Shown::All);
         }
-        let Some(Cut::Pieces(shapes)) = shape(self.scene, face, rest) else {
+        let Some(Cut::Pieces(shapes)) = shape(self.scene, face, true, rest) else {
             let corners = self.scene.contours.corners(face.contours.clone());
             let at = [0, 1, 2].map(|idx| corners.get(idx).map(|corner| corner.0));
             let depth = early_accept::offset(motion, points.iter().copied());

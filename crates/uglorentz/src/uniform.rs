@@ -1,10 +1,12 @@
 //! Subdivision of every edge into N equal pieces (`-sd N`): triangles into N² triangles, convex
-//! quadrilaterals into N² quadrilaterals, other polygons into triangles first.
+//! quadrilaterals with corners of one colour and normal into N² quadrilaterals, other polygons into
+//! triangles first.
 
 use rustc_hash::FxHashMap;
 use ugparse::Scene;
 
 use crate::adaptive::MAX_PIECES;
+use crate::evenness::Evenness;
 use crate::pieces::{Cut, Outcome, Piece, Polyline, Shape, shape};
 use crate::refined_mesh::{Recipe, RefinedMesh};
 
@@ -12,7 +14,12 @@ use crate::refined_mesh::{Recipe, RefinedMesh};
 ///
 /// # Errors
 /// The number of pieces, if it is above [`MAX_PIECES`].
-pub(crate) fn cut(scene: &Scene, mesh: &mut RefinedMesh, n: u32) -> Result<Outcome, usize> {
+pub(crate) fn cut(
+    scene: &Scene,
+    evenness: &Evenness,
+    mesh: &mut RefinedMesh,
+    n: u32,
+) -> Result<Outcome, usize> {
     if n <= 1 {
         return Ok(Outcome::default());
     }
@@ -20,7 +27,7 @@ pub(crate) fn cut(scene: &Scene, mesh: &mut RefinedMesh, n: u32) -> Result<Outco
     let mut shapes: Vec<Piece> = Vec::new();
     let mut lines: Vec<Polyline> = Vec::new();
     for (idx, face) in scene.faces.iter().enumerate() {
-        match shape(scene, face, rest) {
+        match shape(scene, face, evenness.is_even(scene, face), rest) {
             Some(Cut::Pieces(list)) => {
                 shapes.extend(list.into_iter().map(|shape| Piece { face: idx as u32, shape }));
             }

@@ -189,7 +189,7 @@ fn load_scene(config: &Config, input: &Input) -> Result<Loaded, Error> {
     let origin = input.origin.clone().filter(|_| !ugparse::has_history(&input.bytes));
     let source = Source { origin, ..Source::new(input.name.clone(), input.bytes.clone()) };
     let source = (input.resolve_includes)(source)?;
-    let parsed = ugscene::read(&source, &config.reading, None)?;
+    let parsed = ugparse::parse(&source, &config.reading)?;
     Ok(Loaded { scene: parsed.scene, warnings: Vec::new(), diagnostics: Some(parsed.warnings) })
 }
 

@@ -171,10 +171,9 @@ fn polygons(scene: &Scene, kind: Polygons, notes: &mut Vec<String>) -> (Contours
             faces.push(row as u32);
             continue;
         }
-        let place = |corner: &VertexId| scene.vertices[corner.index()].position;
-        let rings: Vec<Vec<DVec3>> = contours.iter().map(|ring| ring.iter().map(place).collect()).collect();
+        let place = |corner: VertexId| scene.vertices[corner.index()].position;
         let corners = contours.concat();
-        let triangles = ugscene::triangulate(&rings).unwrap_or_else(|| {
+        let triangles = ugscene::face_triangles(scene, face, place).unwrap_or_else(|| {
             n_uncut += 1;
             (2..contours[0].len() as u32).map(|last| [0, last - 1, last]).collect()
         });

@@ -3,11 +3,12 @@
 use glam::DVec3;
 use uglight::{DEFAULT_AMBIENT, DEFAULT_FROM_EYE};
 use ugparse::{Camera, Light, LightKind, LightMotion, Projection, Scene};
-use ugscene::{CameraOptions, DefaultCamera};
+use ugscene::{CameraOptions, MotionOptions};
 
 /// Adds the camera and the lights with which a scene without them is drawn.
 pub(crate) fn add(scene: &mut Scene) {
-    let camera = DefaultCamera::new(scene, &CameraOptions::default(), [4, 3], []);
+    let options = CameraOptions::default();
+    let camera = ugscene::common_camera(scene, &options, [4, 3], &[MotionOptions::default()]);
     if let Some(camera) = camera.ok().flatten() {
         scene.cameras.push(Camera {
             eye: Some(camera.eye),

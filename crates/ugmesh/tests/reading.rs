@@ -71,6 +71,22 @@ fn text_formats_become_scenes() {
         &format!("OFF\n{off} 1.0 0.0 0.2 0.75"),
         &format!("c_rgb c1 1 0 0.2 0.25;\n{triangle}f (v1 v2 v3) c1;"),
     );
+    check(
+        "one real number makes a colour real.off",
+        &format!("OFF\n{off} 0.286 0.226 0.159 1"),
+        &format!("c_rgb c1 0.286 0.226 0.159;\n{triangle}f (v1 v2 v3) c1;"),
+    );
+    check(
+        "one real number in the file makes zeros and ones real.off",
+        "COFF\n3 1 0\n0 0 0 1 1 1 1\n1 0 0 1 0 0 1\n0 1 0 1 1 1 1\n3 0 1 2 0 1 0 .5",
+        "c_rgb c1 1 1 1;\nc_rgb c2 1 0 0;\nc_rgb c3 0 1 0 0.5;\n\
+         v v1 0 0 0 c1;\nv v2 1 0 0 c2;\nv v3 0 1 0 c1;\nf (v1 v2 v3) c3;",
+    );
+    check(
+        "integers alone are bytes.off",
+        &format!("OFF\n{off} 0 1 0 255"),
+        &format!("c_rgb c1 0 {} 0;\n{triangle}f (v1 v2 v3) c1;", 1.0 / 255.0),
+    );
     check("a row of a colour map.off", &format!("OFF\n{off} 7"), &format!("{triangle}f (v1 v2 v3);"));
     check(
         "colours and normals of vertices.off",

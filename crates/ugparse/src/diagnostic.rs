@@ -3,7 +3,7 @@
 use std::fmt;
 
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
-use ugpipe::{is_printable, printable};
+use ugpipe::{is_printable, message, printable};
 
 use crate::reader::line_marks;
 use crate::source::{LineMark, Source, Span};
@@ -87,10 +87,10 @@ impl Diagnostic {
             Severity::Error => Level::ERROR,
             Severity::Warning => Level::WARNING,
         };
-        let title = level.primary_title(printable(&self.message));
+        let title = level.primary_title(message(&self.message));
         let mut report = vec![title.elements(self.snippets(source, marks))];
         if let Some(help) = &self.help {
-            report.push(Group::with_title(Level::HELP.secondary_title(printable(help))));
+            report.push(Group::with_title(Level::HELP.secondary_title(message(help))));
         }
         let renderer = if styled { Renderer::styled() } else { Renderer::plain() };
         let drawn = renderer.render(&report);
@@ -113,7 +113,7 @@ impl Diagnostic {
             .map(|(span, label, kind)| {
                 let excerpt = Excerpt::new(source, span);
                 let (name, line) = source.reported(marks, span.start);
-                let label = (!label.is_empty()).then(|| printable(label));
+                let label = (!label.is_empty()).then(|| message(label));
                 let annotation = kind.span(excerpt.mark).label(label);
                 Snippet::source(excerpt.text).path(printable(name)).line_start(line).annotation(annotation)
             })

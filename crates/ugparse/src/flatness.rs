@@ -9,22 +9,23 @@ use crate::resolve::face_name;
 use crate::scene::{Face, Scene, unit_normal};
 use crate::source::Span;
 
-/// A face is flat if no corner is farther from its plane than this fraction of its size, since
-/// coordinates are rounded in files.
+/// A face that is less flat than this causes a warning. Coordinates are rounded in files, so
+/// smaller deviations are common.
 pub const FLAT: f64 = 1e-3;
 
-/// A face without holes that is less flat than this should be drawn as triangles.
-pub const TOO_BENT: f64 = 3e-2;
+/// A face that is less flat than this is drawn as triangles. Below, its triangles differ from its
+/// plane by less than the precision of depth in pictures and of normals.
+pub const BENT: f64 = 1e-6;
 
 /// The least number of faces per thread.
 const MANY_FACES: usize = 1 << 14;
 
-/// A face that is not flat.
+/// A face to be drawn as triangles.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BentFace {
     /// Row of [`Scene::faces`].
     pub row: usize,
-    /// Its [`thickness`], above [`FLAT`].
+    /// Its [`thickness`], above [`BENT`].
     pub thickness: f64,
 }
 
@@ -47,8 +48,8 @@ pub fn thickness(scene: &Scene, face: &Face) -> f64 {
     if size > 0.0 { distance / size } else { 0.0 }
 }
 
-/// The faces that are not flat, in order. A scene as seen has none: there it is
-/// no mistake that faces are bent.
+/// The faces that are bent, in order. A scene as seen has none: its faces are bent by the motion,
+/// and those that are bent at rest have been cut.
 pub(crate) fn bent_faces(scene: &Scene) -> Vec<BentFace> {
     let bent = |row: usize| {
         let face = &scene.faces[row];
@@ -57,7 +58,7 @@ pub(crate) fn bent_faces(scene: &Scene) -> Vec<BentFace> {
             return None;
         }
         let thickness = thickness(scene, face);
-        (thickness > FLAT).then_some(BentFace { row, thickness })
+        (thickness > BENT).then_some(BentFace { row, thickness })
     };
     // No face has fewer than three corners, so if the mean is three, all are triangles.
     if scene.contours.corner_count() == 3 * scene.faces.len() || scene.stage.seen_geometry().is_some() {
@@ -66,20 +67,20 @@ pub(crate) fn bent_faces(scene: &Scene) -> Vec<BentFace> {
     ugparallel::collect(scene.faces.len(), MANY_FACES, |rows, found| found.extend(rows.filter_map(&bent)))
 }
 
-/// A single warning for all of them.
+/// A single warning for all that are not flat.
 pub(crate) fn warning(source: &Source, origins: &Origins, bent: &[BentFace]) -> Option<Diagnostic> {
-    let first = bent.first()?;
+    let mut warned = bent.iter().filter(|face| face.thickness > FLAT);
+    let first = warned.next()?;
     let span = origins.faces[first.row];
     let name = face_name(&source.text, span);
     let shown = name.map_or(String::new(), |name| format!(" `{}`", source.slice(name)));
-    let others = match bent.len() - 1 {
+    let others = match warned.count() {
         0 => " is".to_string(),
         1 => " and one other are".to_string(),
         others => format!(" and {others} others are"),
     };
     let place = name.unwrap_or(Span { start: span.start, end: span.start + 1 });
     let label = format!("a corner is off by {:.1e} of its size", first.thickness);
-    Some(Diagnostic::warning(place, format!("face{shown}{others} not flat")).label(label).help(format!(
-        "cut it into triangles; those without holes that are off by more than {TOO_BENT} are cut when drawn"
-    )))
+    let help = "cut it into triangles: it is drawn as triangles, perhaps not as those that are meant";
+    Some(Diagnostic::warning(place, format!("face{shown}{others} not flat")).label(label).help(help))
 }

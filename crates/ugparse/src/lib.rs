@@ -78,7 +78,7 @@ pub use cli::{main, manual};
 pub use contours::Contours;
 pub use diagnostic::{Diagnostic, Diagnostics, Location, MAX_ERRORS, Severity};
 pub use expand::Origins;
-pub use flatness::{BentFace, FLAT, TOO_BENT, thickness};
+pub use flatness::{BENT, BentFace, FLAT, thickness};
 pub use foreign::{Foreign, foreign_data};
 pub use history::{has_history, history, recipe, record};
 pub use include::{Request, RequestError, RequestKind, include};
@@ -87,7 +87,9 @@ pub use options::{Limit, Limits, Options};
 pub use origin::{Origin, with_origin};
 pub use scene::*;
 pub use source::{Source, Span};
-pub use stage::{ColorScale, ColorStage, GeometryStage, HueScale, Mixtures, SeenColors, SeenGeometry, Stage};
+pub use stage::{
+    ColorScale, ColorStage, GeometryStage, HueScale, LampShift, Mixtures, SeenColors, SeenGeometry, Stage,
+};
 pub use tidy::tidy;
 pub use writer::{write, write_to};
 
@@ -98,7 +100,7 @@ pub struct Parsed {
     pub scene: Scene,
     /// The locations of its rows in the text.
     pub origins: Origins,
-    /// Faces that are not flat, in order.
+    /// Faces to be drawn as triangles, because they are bent, in order.
     pub bent: Vec<BentFace>,
     /// Changes made to the scene, and possible mistakes in it.
     pub warnings: Diagnostics,
@@ -129,7 +131,8 @@ fn parse_text(source: &Source, options: &Options) -> Result<Parsed, Diagnostics>
     if stage.is_at_rest() {
         findings.extend(rgb_as_hsv::warning(text, &document.scopes));
     }
-    let mut scene = Scene { stage, ..Scene::default() };
+    let lamp_shifts = std::mem::take(&mut document.lamp_shifts);
+    let mut scene = Scene { stage, lamp_shifts, ..Scene::default() };
     let links = resolve::resolve(text, &mut document.scopes, &mut scene, &options.limits, &mut findings);
     refuse_errors(source, &mut findings)?;
 

@@ -8,7 +8,7 @@ use crate::include::RequestKind;
 use crate::options::{Limit, Options};
 use crate::scope::Scope;
 use crate::source::{LineMark, Span};
-use crate::stage::Stage;
+use crate::stage::{LampShift, Stage};
 use crate::statement::References;
 use crate::token::{
     Input, Reason, SyntaxError, blank, comment, escape, file_name, found, identifier, integer, line_end,
@@ -31,6 +31,8 @@ pub(crate) struct Document<'t> {
     pub requests: Vec<RequestStatement>,
     /// The stage of the scene and where it is stated, taken out of the escapes.
     pub stage: Option<(Stage, Span)>,
+    /// Part of the same statement.
+    pub lamp_shifts: Vec<LampShift>,
 }
 
 /// A comment: the text between its braces.

@@ -69,7 +69,7 @@ struct Doubtful {
 }
 
 fn doubt(text: &[u8], value: ColorValue, span: Span, name_span: Span) -> Option<Doubtful> {
-    let ColorValue::Hsv { value, tint: Tint::Hue(hue), saturation } = value else { return None };
+    let ColorValue::Hsv { value, tint: Tint::Hue(hue), saturation, .. } = value else { return None };
     let hsv = Hsv { hue, saturation, value };
     let numbers = [value, hue, saturation];
     let is_byte = |number: &f64| (0.0..=255.0).contains(number) && number.fract() == 0.0;

@@ -19,7 +19,7 @@ use ugphysics::{Velocity, unit_or_zero};
 use crate::body::{Bodies, BodyId};
 use crate::contours::Contours;
 use crate::names::{NameId, Names};
-use crate::stage::{HueScale, Stage};
+use crate::stage::{HueScale, LampShift, Stage};
 
 macro_rules! index {
     ($($(#[$doc:meta])* $name:ident)*) => {$(
@@ -105,6 +105,9 @@ pub struct Scene {
     pub origin: Option<String>,
     /// What filters have done to positions and colours: `(ugstage … )`.
     pub stage: Stage,
+    /// For velocities of bodies, part of the statement of the stage if positions are as seen. Empty
+    /// if lamps without a velocity are at their positions for all bodies.
+    pub lamp_shifts: Vec<LampShift>,
     /// All other comments.
     pub comments: Vec<Comment>,
     /// Text of every name used below.
@@ -161,6 +164,8 @@ pub enum ColorValue {
         tint: Tint,
         /// Saturation 0…1.
         saturation: f64,
+        /// Factor of its linear light, 0 or more; 1 for what the other three say.
+        factor: f64,
     },
     /// `c_rgb`: red, green, blue in 0…1, display-encoded (sRGB).
     Rgb([f64; 3]),
@@ -187,8 +192,8 @@ impl ColorValue {
     #[must_use]
     pub fn with_tint_in(self, unit: HueScale) -> Self {
         match self {
-            Self::Hsv { value, tint, saturation } => {
-                Self::Hsv { value, tint: Tint::new(tint.number(), unit), saturation }
+            Self::Hsv { value, tint, saturation, factor } => {
+                Self::Hsv { value, tint: Tint::new(tint.number(), unit), saturation, factor }
             }
             other => other,
         }
@@ -346,6 +351,9 @@ pub enum LightKind {
         position: DVec3,
         /// Its radius, 0 or more.
         radius: f64,
+        /// The distance in its rest frame, above 0, at which its light level is its intensity. The
+        /// level falls with the square of the distance; `None`: it is the same at any distance.
+        reference: Option<f64>,
     },
 }
 

@@ -335,7 +335,9 @@ impl<'t> Scope<'t> {
         let kind = match (light.vector, light.radius) {
             (None, _) => LightKind::Ambient,
             (Some(toward), None) => LightKind::Directional(toward),
-            (Some(position), Some(radius)) => LightKind::Local { position, radius },
+            (Some(position), Some(radius)) => {
+                LightKind::Local { position, radius, reference: light.reference }
+            }
         };
         let light = Light {
             name: self.name(text, light.name),

@@ -87,6 +87,17 @@ pub struct SeenGeometry {
     pub flight_time: bool,
 }
 
+/// How far lamps without a velocity are displaced in the rest frame of a body, because its rest
+/// coordinates were displaced (time of the picture, place of the body). Such lamps rest with
+/// whatever they light, so each body has them at another place in the scene.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LampShift {
+    /// The velocity of the body.
+    pub velocity: Velocity,
+    /// What is added to the positions of the lamps, in the axes of the scene.
+    pub shift: DVec3,
+}
+
 /// The stage of the colours in a scene.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum ColorStage {
@@ -154,6 +165,14 @@ impl Stage {
         match &self.colors {
             ColorStage::AtRest => None,
             ColorStage::AsSeen(seen) => Some(seen),
+        }
+    }
+
+    /// The brightness law of hues as seen; `None` at rest and for spectra.
+    pub fn law(&self) -> Option<Brightness> {
+        match self.seen_colors()?.scale {
+            ColorScale::Hues { law, .. } => Some(law),
+            ColorScale::Spectra { .. } => None,
         }
     }
 

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! (ugstage 1 geometry as-seen eye 0 -12 3 time -5 camera-velocity 0.6 0 0 no-contraction
-//!  colors as-seen hues law report no-doppler lights mixtures mix#)
+//!  lamp-shift 0.9 0 0 2 0 0 colors as-seen hues law report no-doppler lights mixtures mix#)
 //! ```
 
 use glam::DVec3;
@@ -12,7 +12,7 @@ use crate::diagnostic::Diagnostic;
 use crate::reader::Document;
 use crate::source::Span;
 use crate::stage::{
-    ColorScale, ColorStage, GeometryStage, HueScale, Mixtures, SeenColors, SeenGeometry, Stage,
+    ColorScale, ColorStage, GeometryStage, HueScale, LampShift, Mixtures, SeenColors, SeenGeometry, Stage,
 };
 use crate::suggest::nearest;
 use crate::token::{Input, found, is_blank, number};
@@ -35,6 +35,7 @@ const TIME: &str = "time";
 const CAMERA_VELOCITY: &str = "camera-velocity";
 const NO_CONTRACTION: &str = "no-contraction";
 const NO_FLIGHT_TIME: &str = "no-flight-time";
+const LAMP_SHIFT: &str = "lamp-shift";
 const HUES: &str = "hues";
 const WAVELENGTHS: &str = "wavelengths";
 const SPECTRA: &str = "spectra";
@@ -77,7 +78,9 @@ pub(crate) fn take(text: &[u8], document: &mut Document<'_>, findings: &mut Vec<
                 );
             } else {
                 match read(text, span) {
-                    Ok(stage) => document.stage = Some((stage, span)),
+                    Ok((stage, lamp_shifts)) => {
+                        (document.stage, document.lamp_shifts) = (Some((stage, span)), lamp_shifts);
+                    }
                     Err(finding) => findings.push(finding),
                 }
             }
@@ -112,24 +115,24 @@ fn earlier(text: &[u8], span: Span) -> Option<Diagnostic> {
 }
 
 /// Parses the statement at `span`, parentheses included.
-fn read(text: &[u8], span: Span) -> Result<Stage, Diagnostic> {
+fn read(text: &[u8], span: Span) -> Result<(Stage, Vec<LampShift>), Diagnostic> {
     let mut words = Words::new(text, span);
     words.next();
     words.version()?;
-    let mut stage = Stage::default();
+    let (mut stage, mut lamp_shifts) = (Stage::default(), Vec::new());
     while let Some(word) = words.next() {
         words.once(word)?;
         match word.as_str() {
-            GEOMETRY => stage.geometry = geometry(&mut words)?,
+            GEOMETRY => stage.geometry = geometry(&mut words, &mut lamp_shifts)?,
             COLORS => stage.colors = colors(&mut words)?,
             MIXTURES => stage.mixtures = Some(words.mixtures()?),
             _ => return Err(unknown(word, &[GEOMETRY, COLORS, MIXTURES])),
         }
     }
-    Ok(stage)
+    Ok((stage, lamp_shifts))
 }
 
-fn geometry(words: &mut Words<'_>) -> Result<GeometryStage, Diagnostic> {
+fn geometry(words: &mut Words<'_>, lamp_shifts: &mut Vec<LampShift>) -> Result<GeometryStage, Diagnostic> {
     if !words.is_as_seen()? {
         return Ok(GeometryStage::AtRest);
     }
@@ -142,24 +145,31 @@ fn geometry(words: &mut Words<'_>) -> Result<GeometryStage, Diagnostic> {
         flight_time: true,
     };
     while let Some(word) = words.next_of_part() {
+        // There is one for each body.
+        if word.as_str() == LAMP_SHIFT {
+            lamp_shifts.push(words.lamp_shift(word, lamp_shifts)?);
+            continue;
+        }
         words.once(word)?;
         match word.as_str() {
             EYE => eye = Some(words.point()?),
             TIME => seen.time = words.number()?,
-            CAMERA_VELOCITY => {
-                let beta = words.point()?;
-                seen.camera_velocity = Velocity::from_beta(beta).map_err(|error| {
-                    Diagnostic::error(word.span, error.to_string())
-                        .label("here")
-                        .help("give three numbers whose length is below 1")
-                })?;
-            }
+            CAMERA_VELOCITY => seen.camera_velocity = words.velocity(word)?,
             NO_CONTRACTION => seen.contraction = false,
             NO_FLIGHT_TIME => seen.flight_time = false,
             _ => {
                 return Err(unknown(
                     word,
-                    &[EYE, TIME, CAMERA_VELOCITY, NO_CONTRACTION, NO_FLIGHT_TIME, COLORS, MIXTURES],
+                    &[
+                        EYE,
+                        TIME,
+                        CAMERA_VELOCITY,
+                        NO_CONTRACTION,
+                        NO_FLIGHT_TIME,
+                        LAMP_SHIFT,
+                        COLORS,
+                        MIXTURES,
+                    ],
                 ));
             }
         }
@@ -332,6 +342,26 @@ impl<'t> Words<'t> {
         Ok(DVec3::new(self.number()?, self.number()?, self.number()?))
     }
 
+    /// The velocity after `word`.
+    fn velocity(&mut self, word: Word<'t>) -> Result<Velocity, Diagnostic> {
+        Velocity::from_beta(self.point()?).map_err(|error| {
+            Diagnostic::error(word.span, error.to_string())
+                .label("here")
+                .help("give three numbers whose length is below 1")
+        })
+    }
+
+    /// The velocity of a body, and the shift of lamps for it. `others`: of other bodies.
+    fn lamp_shift(&mut self, word: Word<'t>, others: &[LampShift]) -> Result<LampShift, Diagnostic> {
+        let (velocity, shift) = (self.velocity(word)?, self.point()?);
+        if others.iter().any(|other| other.velocity == velocity) {
+            return Err(Diagnostic::error(word.span, "the lamp shift of this velocity is given twice")
+                .label("again here")
+                .help("remove one of them"));
+        }
+        Ok(LampShift { velocity, shift })
+    }
+
     fn mixtures(&mut self) -> Result<Mixtures, Diagnostic> {
         let example = "mix#";
         let Some(word) = self.next() else { return Err(self.missing("the prefix of mixtures", example)) };
@@ -349,7 +379,7 @@ impl<'t> Words<'t> {
 }
 
 /// Writes the statement, parentheses included, without parts at rest and default values.
-pub(crate) fn write(stage: &Stage, out: &mut Vec<u8>, numbers: &mut zmij::Buffer) {
+pub(crate) fn write(stage: &Stage, lamp_shifts: &[LampShift], out: &mut Vec<u8>, numbers: &mut zmij::Buffer) {
     out.extend_from_slice(format!("({KEYWORD} {VERSION}").as_bytes());
     let mut add = |word: &str, values: &[f64]| {
         out.push(b' ');
@@ -374,6 +404,10 @@ pub(crate) fn write(stage: &Stage, out: &mut Vec<u8>, numbers: &mut zmij::Buffer
         }
         if !seen.flight_time {
             add(NO_FLIGHT_TIME, &[]);
+        }
+        for LampShift { velocity, shift } in lamp_shifts {
+            let [vx, vy, vz] = velocity.beta().to_array();
+            add(LAMP_SHIFT, &[vx, vy, vz, shift.x, shift.y, shift.z]);
         }
     }
     if let Some(seen) = stage.seen_colors() {

@@ -88,6 +88,7 @@ pub(crate) struct LightStatement {
     pub intensity: f64,
     pub vector: Option<DVec3>,
     pub radius: Option<f64>,
+    pub reference: Option<f64>,
     pub color: Option<Span>,
     pub velocity: Option<Velocity>,
 }

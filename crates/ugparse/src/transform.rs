@@ -100,6 +100,19 @@ impl Transform {
         if self.map.matrix3 == DMat3::IDENTITY { d } else { self.map.transform_vector3(d) }
     }
 
+    /// A length that has no direction, above 0: it is scaled as the cube root of volumes, and stays
+    /// above 0 in a map that collapses volumes.
+    pub fn mean_length(&self, length: f64) -> f64 {
+        let m = self.map.matrix3;
+        let largest = m.to_cols_array().into_iter().map(f64::abs).fold(0.0, f64::max);
+        if m == DMat3::IDENTITY {
+            return length;
+        }
+        // Divided first: the determinant of a large map may be too large.
+        let volume = (m * (1.0 / largest.max(f64::MIN_POSITIVE))).determinant().abs();
+        (length * (largest * libm::cbrt(volume))).max(f64::MIN_POSITIVE)
+    }
+
     /// Transforms a normal by the inverse transpose. For a singular map the result is along the
     /// collapsed direction.
     pub fn normal(&self, n: DVec3) -> DVec3 {

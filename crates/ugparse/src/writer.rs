@@ -104,7 +104,7 @@ impl<'s> Tables<'s, '_> {
             Writer::on(out, self.scene, comments, |w| {
                 if !stage.is_at_rest() {
                     w.comments_at(Item::Stage, false);
-                    stage_statement::write(stage, &mut w.out, &mut w.numbers);
+                    stage_statement::write(stage, &self.scene.lamp_shifts, &mut w.out, &mut w.numbers);
                     w.comments_at(Item::Stage, true);
                     w.out.push(b'\n');
                 }
@@ -287,12 +287,14 @@ impl<'s> Writer<'s> {
 
     fn color(&mut self, color: &Color) {
         let clear = (color.translucency != 0.0).then_some(color.translucency);
+        let mut factor = None;
         match color.value {
-            ColorValue::Hsv { value, tint, saturation } => {
+            ColorValue::Hsv { value, tint, saturation, factor: of_light } => {
+                factor = (of_light != 1.0).then_some([color.translucency, of_light]);
                 self.text("c");
                 self.name(color.name);
                 self.number(value);
-                if (tint.number(), saturation) != (0.0, 0.0) || clear.is_some() {
+                if (tint.number(), saturation) != (0.0, 0.0) || clear.is_some() || factor.is_some() {
                     self.numbers(&[tint.number(), saturation]);
                 }
             }
@@ -318,7 +320,10 @@ impl<'s> Writer<'s> {
                 self.numbers(self.scene.samples[start as usize..end as usize].as_flattened());
             }
         }
-        clear.into_iter().for_each(|clear| self.number(clear));
+        match factor {
+            Some(numbers) => self.numbers(&numbers),
+            None => clear.into_iter().for_each(|clear| self.number(clear)),
+        }
         self.text(";");
     }
 
@@ -356,9 +361,10 @@ impl<'s> Writer<'s> {
         match light.kind {
             LightKind::Ambient => {}
             LightKind::Directional(toward) => self.point(toward),
-            LightKind::Local { position, radius } => {
+            LightKind::Local { position, radius, reference } => {
                 self.point(position);
                 self.number(radius);
+                reference.into_iter().for_each(|reference| self.number(reference));
             }
         }
         self.optional_color(light.color);

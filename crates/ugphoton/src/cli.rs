@@ -33,7 +33,9 @@ pub struct Args {
 
     /// Brightness law: report (D), photon (D^3), bolometric (D^4), none [default: report]
     ///
-    /// Values above 1 are clipped per sample, unless -ex or -tc is given.
+    /// The laws photon and bolometric multiply linear light, report and none display-encoded values
+    /// as in 1988, and light of lamps likewise. Values above 1 are clipped per sample, unless -ex or
+    /// -tc is given.
     #[arg(long, visible_alias = "brightness", value_name = "LAW",
           value_parser = one_of(Brightness::ALL.map(Brightness::name), law), conflicts_with = "no_flux", help_heading = COLOR)]
     br: Option<Brightness>,
@@ -74,6 +76,13 @@ pub struct Args {
     #[arg(long, visible_alias = "cut-off", value_name = "PART", default_value = "0.01",
           value_parser = part, help_heading = RAYS)]
     rc: f64,
+
+    /// Accepted as in 1988, without effect: cells of a spatial subdivision
+    ///
+    /// Rays find what they hit in a bounding-volume hierarchy, which needs no options. In 1988, too,
+    /// any N had the effect of -1: no subdivision.
+    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = integer, help_heading = RAYS)]
+    cn: Option<i32>,
 
     /// Without shadows: light reaches surfaces through all others
     #[arg(long, help_heading = RAYS)]
@@ -329,6 +338,11 @@ fn fisheye(word: &str) -> Result<f64, String> {
 fn distance(word: &str) -> Result<f64, String> {
     let distance = finite(word)?;
     if distance >= 0.0 { Ok(distance) } else { Err("a distance is 0 or more".to_owned()) }
+}
+
+/// A whole number, also below 0.
+fn integer(word: &str) -> Result<i32, String> {
+    word.parse().map_err(|_| "must be a whole number".to_owned())
 }
 
 /// A part of a whole.

@@ -22,6 +22,7 @@
 //! sampling  frame  path                      rest frames; rays and their media
 //! outline  moving_boxes  corridor            which bodies rays may meet
 //! world                                     the faces, by rest frame
+//! immersion                                 the transparent solids that the eye is in
 //! scenery                                   a scene prepared for rays
 //! surface_point  shade  tracer              what a ray sees of a face; lamps; mirrors and glass
 //! middles  pixels  notes  render  explain   from samples to a picture, with messages; one pixel
@@ -56,6 +57,7 @@ mod corridor;
 mod error;
 pub mod explain;
 mod frame;
+mod immersion;
 mod middles;
 mod moving_boxes;
 mod notes;

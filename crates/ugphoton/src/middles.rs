@@ -1,8 +1,10 @@
 //! What is seen at the middles of pixels: for channels, legends and outlines.
 
 use rayon::prelude::*;
-use ugpicture::{DepthBuffer, Emission, SeenItem, SurfaceSample};
+use ugparse::BodyId;
+use ugpicture::{DepthBuffer, Emission, MediumLight, SeenItem, SurfaceSample};
 
+use crate::frame::RestFrame;
 use crate::path::Ray;
 use crate::scenery::Scenery;
 
@@ -74,12 +76,25 @@ impl<'a> Middles<'a> {
     pub fn item(&self, idx: usize) -> Option<SeenItem> {
         let ((s, item), ray) = (self.surfaces[idx]?, self.ray(idx)?);
         let frames = self.scenery.surface.frames();
+        let body = self.scenery.scene.faces[item as usize].body;
         let emission = Emission {
             place: s * ray.step.x,
             depth: s,
             time: ray.origin.t + s * ray.step.t,
-            velocity: frames.velocity(self.scenery.scene.faces[item as usize].body),
+            velocity: frames.velocity(body),
+            scene_from_axes: frames.scene_from_axes(body),
+            in_medium: self.in_medium(&ray, body),
         };
         Some((item, emission))
+    }
+
+    /// Light of a body along a ray, if the eye is in a transparent solid.
+    fn in_medium(&self, ray: &Ray, body: BodyId) -> Option<MediumLight> {
+        self.scenery.media_at(ray.origin).innermost()?;
+        let frame = RestFrame::new(self.scenery.surface.frames(), body);
+        Some(MediumLight {
+            doppler: ray.wave.frequency / frame.wave_to_rest(ray.wave).frequency,
+            rest_direction: frame.to_rest(ray.step).x.normalize_or_zero(),
+        })
     }
 }

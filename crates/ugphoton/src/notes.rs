@@ -1,12 +1,13 @@
 //! Notes for the user about a picture, above all why it is empty.
 
 use ugimage::{Development, Tone};
-use uglight::{DEFAULT_AMBIENT, DEFAULT_FROM_EYE};
+use uglight::{DEFAULT_AMBIENT, DEFAULT_FROM_EYE, LampPlace};
+use ugparse::{Face, SurfaceProperties};
 use ugpicture::Exposure;
 
 use crate::config::Config;
 use crate::pixels::Statistics;
-use crate::scenery::Scenery;
+use crate::scenery::{Lights, Scenery};
 
 /// Least brightness at which clipping is reported; less is invisible in 8 bits.
 const CLIPPED: f64 = 1.001;
@@ -39,10 +40,17 @@ pub fn notes(
         );
     }
     // Between the parts of a solid that share no vertices rounding leaves gaps, which are not seen.
-    if statistics.n_inside > statistics.n_covered / FEW {
+    if statistics.n_open > statistics.n_covered / FEW {
         notes.push(
-            "the eye is inside a transparent solid, which counts as vacuum up to its surface; or a solid is \
-             open, or its outlines run clockwise seen from outside"
+            "light leaves a transparent solid that it did not enter: the solid is open, or its outlines run \
+             clockwise seen from outside; it is drawn as if it were not refracted there"
+                .to_owned(),
+        );
+    }
+    if lamps_shine_through_glass(scenery) {
+        notes.push(
+            "light of lamps goes straight through transparent solids, as fast as in a vacuum: it is absorbed \
+             there, but neither refracted nor slowed"
                 .to_owned(),
         );
     }
@@ -71,6 +79,16 @@ pub fn notes(
     notes.extend(why_nothing_is_seen(statistics).map(str::to_owned));
     notes.extend(light_note(config, statistics, development));
     notes
+}
+
+/// True if the light of lamps, which is followed backwards in straight lines (P24), may cross a
+/// refracting solid.
+fn lamps_shine_through_glass(scenery: &Scenery<'_>) -> bool {
+    let Lights { lamps, are_of_scene, .. } = &scenery.lights;
+    let refracts = |surface: &SurfaceProperties| surface.transmitted > 0.0 && surface.refraction != 1.0;
+    let is_refracting = |face: &Face| scenery.scene.surface(face).is_some_and(refracts);
+    let is_directed = lamps.iter().any(|lamp| lamp.place != LampPlace::Everywhere);
+    *are_of_scene && is_directed && scenery.rays.shadows && scenery.scene.faces.iter().any(is_refracting)
 }
 
 fn why_nothing_is_seen(statistics: &Statistics) -> Option<&'static str> {

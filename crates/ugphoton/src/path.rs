@@ -4,12 +4,9 @@ use std::ops::Range;
 
 use glam::DVec3;
 use ugparse::SurfaceId;
-use ugphysics::{Event, WaveVector};
+use ugphysics::{Event, Medium, WaveVector};
 
 use crate::frame::RestFrame;
-
-/// Transparent solids within each other that a ray keeps track of; those inside more are ignored.
-const MOST_MEDIA: usize = 8;
 
 /// A ray, followed from the eye into the past.
 #[derive(Clone, Copy, Debug)]
@@ -54,6 +51,21 @@ impl Ray {
         }
     }
 
+    /// Light seen in a direction, of any length but 0, at an event in a vacuum.
+    pub fn in_vacuum(origin: Event, direction: DVec3) -> Self {
+        Self { origin, start: Start::Event, ..Self::from_eye(direction) }
+    }
+
+    /// Light seen in a direction, of any length but 0, at an event in a medium. `None` if no light
+    /// in the medium comes from there.
+    pub fn in_medium(origin: Event, direction: DVec3, medium: Medium) -> Option<Self> {
+        let length = direction.length();
+        let wave = medium.wave_along(direction / -length)?;
+        let forward = medium.step(wave);
+        let time = length / forward.x.length() * forward.t;
+        Some(Self { origin, step: Event { t: -time, x: direction }, wave, start: Start::Event })
+    }
+
     /// The times before the origin, in the frame of the camera, of a range of parameters.
     #[inline]
     pub fn times(&self, range: &Range<f64>) -> Range<f64> {
@@ -72,11 +84,8 @@ impl Ray {
 }
 
 /// The transparent solids that a ray is in, the innermost last.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Media {
-    entries: [Option<Solid>; MOST_MEDIA],
-    len: usize,
-}
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Media(Vec<Solid>);
 
 /// A transparent solid: the faces of one part with one surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -90,27 +99,24 @@ pub struct Solid {
 impl Media {
     /// The medium that the ray is in; `None` for vacuum.
     pub fn innermost(&self) -> Option<Solid> {
-        self.entries[..self.len].last().copied().flatten()
+        self.0.last().copied()
     }
 
     /// After the ray entered a solid.
     #[must_use]
     pub fn with(&self, solid: Solid) -> Self {
-        let mut media = *self;
-        if media.len < MOST_MEDIA {
-            media.entries[media.len] = Some(solid);
-            media.len += 1;
-        }
-        media
+        let mut media = Vec::with_capacity(self.0.len() + 1);
+        media.extend_from_slice(&self.0);
+        media.push(solid);
+        Self(media)
     }
 
     /// After the ray left a solid; `None` if it was not in it.
     #[must_use]
     pub fn without(&self, solid: Solid) -> Option<Self> {
-        let mut media = *self;
-        let at = media.entries[..media.len].iter().rposition(|&entry| entry == Some(solid))?;
-        media.entries[at..media.len].rotate_left(1);
-        media.len -= 1;
-        Some(media)
+        let at = self.0.iter().rposition(|&entry| entry == solid)?;
+        let mut media = self.0.clone();
+        media.remove(at);
+        Some(Self(media))
     }
 }

@@ -36,7 +36,7 @@ pub struct Statistics {
     /// A path had more branches than are followed.
     pub is_cut_short: bool,
     /// Samples of which a path left a transparent solid that it had not entered.
-    pub n_inside: u64,
+    pub n_open: u64,
     /// Samples traced. Those that two tiles need are counted twice.
     pub n_samples: u64,
 }
@@ -49,7 +49,7 @@ impl Statistics {
             max_light: self.max_light.max(other.max_light),
             n_too_deep: self.n_too_deep + other.n_too_deep,
             is_cut_short: self.is_cut_short || other.is_cut_short,
-            n_inside: self.n_inside + other.n_inside,
+            n_open: self.n_open + other.n_open,
             n_samples: self.n_samples + other.n_samples,
         }
     }
@@ -326,7 +326,7 @@ impl<'a> Painting<'a> {
                         statistics.n_covered += 1;
                         statistics.n_visible += u64::from(brightest > 0.0);
                         statistics.n_too_deep += u64::from(tracer.is_too_deep);
-                        statistics.n_inside += u64::from(tracer.begins_inside);
+                        statistics.n_open += u64::from(tracer.leaves_open_solid);
                         statistics.max_light = statistics.max_light.max(brightest);
                     }
                     *samples.at([column, row]) = self.on_background(arriving.light, arriving.background);

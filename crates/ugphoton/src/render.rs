@@ -58,10 +58,7 @@ pub fn render(scene: Scene, config: &Config) -> Result<Rendering, Error> {
 /// See [`Error`].
 pub fn light(scene: Scene, config: &Config) -> Result<LinearFrame, Error> {
     let mut config = config.clone();
-    let picture = &mut config.picture;
-    (picture.output, picture.exposure, picture.tone) =
-        (Output::Color(ugimage::Format::Exr), None, ugimage::Tone::Clip);
-    picture.small = false;
+    config.picture.keep_light();
     config.check()?;
     let scene = as_seen(scene, &config)?;
     let scenery = Scenery::new(Cow::Owned(scene), &config)?;

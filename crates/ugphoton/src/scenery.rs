@@ -9,7 +9,7 @@ use uglight::{
     Palette, Spectra, SpectralLamp, SurfaceAttributes, lamps, spectral_lamps,
 };
 use ugparse::{ColorId, ColorValue, Face, HueScale, LightKind, Scene, SurfaceProperties, VertexId};
-use ugphysics::Event;
+use ugphysics::{Event, Medium};
 use ugpicture::PictureOptions;
 use ugpipe::remedies;
 use ugscene::{Geometry, View};
@@ -17,13 +17,17 @@ use ugscene::{Geometry, View};
 use crate::config::{Config, RayOptions, Shutter};
 use crate::error::{Error, MOST_LIGHTINGS};
 use crate::frame::RestFrame;
+use crate::immersion::Immersion;
 use crate::lens::{Film, Sight};
-use crate::path::{Ray, Start};
+use crate::path::{Media, Ray, Solid};
 use crate::world::{Faces, Intersection, PacketMemory, World};
 
 /// Changes of D by mirrors that are fast to compute, as a multiple of the greatest rapidity: two
 /// reflections by mirrors that approach each other.
 const REACH: f64 = 5.0;
+
+/// The event at which the light of a picture arrives at a single eye.
+const ORIGIN: Event = Event { t: 0.0, x: DVec3::ZERO };
 
 /// A scene prepared for rays, for one camera.
 pub struct Scenery<'a> {
@@ -35,6 +39,10 @@ pub struct Scenery<'a> {
     film: Film,
     /// The faces, by rest frame.
     pub world: World,
+    /// The transparent solids, one of which the eye may be in.
+    immersion: Immersion,
+    /// The media at the origin, where the eye is at the moment of the picture.
+    eye_media: Media,
     /// The colours of the scene.
     pub palette: Palette,
     /// Colours and rest positions of the vertices.
@@ -47,6 +55,8 @@ pub struct Scenery<'a> {
     pub shift: ColorShift,
     /// If colours are spectra.
     pub spectra: Option<Spectra>,
+    /// True if a transparent solid absorbs light.
+    pub has_absorption: bool,
     /// Light brighter than white is kept until it is developed; otherwise it is clipped per sample,
     /// as in 1988.
     pub is_uncut: bool,
@@ -117,11 +127,30 @@ impl<'a> Scenery<'a> {
             ColorShift::Hues(_) => None,
         };
         check_spectra(&scene, &surface, config.shift)?;
-        let world = World::new(Faces { scene: &scene, rest: surface.all_rest() }, surface.frames());
+        let faces = Faces { scene: &scene, rest: surface.all_rest() };
+        let world = World::new(faces, surface.frames());
+        let immersion = Immersion::new(&world, faces);
+        let eye_media = immersion.media(&world, faces, ORIGIN);
         let lights = Lights::new(&scene, &view, &surface, is_spectral);
         let is_uncut = palette.has_light() || config.picture.keeps_light();
         let (rays, shift) = (config.rays, config.shift);
-        Ok(Self { scene, view, film, world, palette, surface, rays, lights, shift, spectra, is_uncut })
+        let has_absorption = scene.surfaces.iter().any(|surface| surface.absorption > 0.0);
+        Ok(Self {
+            scene,
+            view,
+            film,
+            world,
+            immersion,
+            eye_media,
+            has_absorption,
+            palette,
+            surface,
+            rays,
+            lights,
+            shift,
+            spectra,
+            is_uncut,
+        })
     }
 
     /// True if a face transmits light straight on.
@@ -157,13 +186,30 @@ impl<'a> Scenery<'a> {
     /// is the depth along the view, or the distance with another lens than a pinhole.
     pub fn primary_ray(&self, [column, row]: [u32; 2]) -> Option<Ray> {
         let Sight { eye, direction } = self.film.sight([f64::from(column) + 0.5, f64::from(row) + 0.5])?;
-        let ray = Ray::from_eye(direction);
         let ahead = match self.rays.shutter {
-            Shutter::Pinhole if eye == DVec3::ZERO => return Some(ray),
             Shutter::Pinhole => 0.0,
             Shutter::Film { distance } => distance * (direction.length() - 1.0),
         };
-        Some(Ray { start: Start::Event, origin: Event { t: -ahead, x: eye }, ..ray })
+        let origin = Event { t: -ahead, x: eye };
+        match self.media_at(origin).innermost() {
+            None if ahead == 0.0 && eye == DVec3::ZERO => Some(Ray::from_eye(direction)),
+            None => Some(Ray::in_vacuum(origin, direction)),
+            Some(solid) => Ray::in_medium(origin, direction, self.medium(solid)),
+        }
+    }
+
+    /// The transparent solids around an event at which rays start.
+    pub fn media_at(&self, event: Event) -> Cow<'_, Media> {
+        if event == ORIGIN {
+            return Cow::Borrowed(&self.eye_media);
+        }
+        Cow::Owned(self.immersion.media(&self.world, self.faces(), event))
+    }
+
+    /// The medium of a transparent solid, in the frame of the camera.
+    fn medium(&self, solid: Solid) -> Medium {
+        let velocity = self.world.parts[solid.part].frame.velocity;
+        Medium { index: self.properties(solid.surface).refraction, velocity }
     }
 
     /// The face that each of neighbouring rays from the eye meets first, for parameters in a range.
@@ -175,7 +221,8 @@ impl<'a> Scenery<'a> {
         first: &mut Vec<Option<Intersection>>,
     ) {
         first.clear();
-        if self.rays.shutter != Shutter::Pinhole || !self.film.has_one_eye() {
+        let is_in_vacuum = self.eye_media.innermost().is_none();
+        if self.rays.shutter != Shutter::Pinhole || !self.film.has_one_eye() || !is_in_vacuum {
             first.extend(rays.iter().map(|ray| self.closest(ray, range.clone())));
             return;
         }

@@ -4,11 +4,11 @@ use std::ops::ControlFlow;
 
 use glam::DVec3;
 use uglight::{HueColor, IncidentLamp, Irradiance, LampPlace, SpectralFilter, SurfaceElement, Swatch};
-use ugparse::unit_normal;
 use ugphysics::{Event, Hsv, WaveVector, srgb_decode, srgb_encode, wavelength_to_hue};
 
 use crate::corridor::Corridor;
-use crate::path::{Ray, Start};
+use crate::immersion::transparent_solid;
+use crate::path::{Ray, Solid, Start};
 use crate::sampling::disk_point;
 use crate::scenery::Scenery;
 use crate::surface_point::SurfacePoint;
@@ -100,10 +100,8 @@ impl<'a> Shader<'a> {
             Some(light) => level * light,
             None => {
                 let base = hue_color(scenery, &point.color);
-                shown(
-                    scenery,
-                    scenery.hue_shift().seen(HueColor { value: level * base.value, ..base }, doppler),
-                )
+                let shift = scenery.hue_shift();
+                shown(scenery, [shift.seen(shift.brightened(base, level), doppler)])
             }
         };
         light * transmitted(scenery, filters)
@@ -117,7 +115,8 @@ impl<'a> Shader<'a> {
         let scenery = self.scenery;
         let lights = &scenery.lights;
         let frame = &scenery.world.parts[point.part].frame;
-        let element = SurfaceElement { point: point.place, normal: point.normal, body: frame.body };
+        let element =
+            SurfaceElement { point: point.place, delay: point.delay, normal: point.normal, body: frame.body };
         let (diffuse, highlights, received) = (&mut self.diffuse, &mut self.highlights, &mut self.received);
         let corridors = &mut self.corridors;
         let toward_eye = point.toward_eye();
@@ -140,7 +139,7 @@ impl<'a> Shader<'a> {
             if let (Some(exponent), Some((toward, _))) = (exponent, incident.toward) {
                 let mirrored = 2.0 * point.normal.dot(toward) * point.normal - toward;
                 let cos = mirrored.dot(toward_eye).max(0.0);
-                let shine = part * libm::pow(cos, exponent);
+                let shine = part * incident.part * libm::pow(cos, exponent);
                 if shine > 0.0 {
                     highlights.push(Irradiance { level: shine, ..incident.irradiance });
                 }
@@ -152,12 +151,15 @@ impl<'a> Shader<'a> {
         }
         for (row, (lamp, &radius)) in lights.lamps.iter().zip(&lights.radii).enumerate() {
             let mut lamp = *lamp;
-            if let (LampPlace::At(place), true) = (&mut lamp.place, radius > 0.0) {
+            let shifted = lamp.shifted(scenery.surface.frames().lamp_shift(frame.body));
+            if let (LampPlace::At(place), LampPlace::At(shifted), true) =
+                (&mut lamp.place, shifted.place, radius > 0.0)
+            {
                 let from = match &lights.frames[row] {
                     Some(frame) => frame.to_rest(point.event).x,
                     None => point.place,
                 };
-                *place += radius * disk_point(ugphysics::unit_or_zero(*place - from), sample, row as u64);
+                *place += radius * disk_point(ugphysics::unit_or_zero(shifted - from), sample, row as u64);
             }
             element.for_each_incident(&[lamp], scenery.surface.frames(), |incident| {
                 let irradiance = Irradiance { lamp: row as u32, ..incident.irradiance };
@@ -168,7 +170,7 @@ impl<'a> Shader<'a> {
 }
 
 /// The part of a lamp's light that arrives at a point, in the unit in which levels add up: linear
-/// for spectra, display-encoded for hues. The shadow ray runs back in time to the lamp.  Eq. (P24)
+/// for spectra and for laws that act on linear light, else display-encoded. The shadow ray runs back in time to the lamp.  Eq. (P24)
 fn unshadowed(
     scenery: &Scenery<'_>,
     point: &SurfacePoint,
@@ -189,52 +191,83 @@ fn unshadowed(
         start: Start::Surface { part: point.part, place: point.place + point.lift },
     };
     let mut part = 1.0;
-    let mut absorbed = Absorbed::default();
+    let mut crossings = Vec::new();
     let _ = scenery.world.visit_along(scenery.faces(), &ray, 0.0..distance, Some(corridor), |found| {
         part *= transmittance(scenery, found.triangle.face);
-        absorbed.cross(scenery, &ray, &found);
+        if scenery.has_absorption {
+            crossings.extend(Crossing::new(scenery, &ray, &found));
+        }
         if part > 0.0 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
     });
-    part *= absorbed.left(distance);
-    if scenery.spectra.is_some() { part } else { srgb_encode(part) }
+    part *= left_by_solids(crossings, distance);
+    let is_linear = scenery.spectra.is_some() || scenery.hue_shift().law.acts_on_light();
+    if is_linear { part } else { srgb_encode(part) }
 }
 
-/// The optical depth of a straight shadow ray through solids that absorb light.  Eq. (P38)
-#[derive(Default)]
-struct Absorbed {
-    /// Over all crossings, coefficients times parameters of the ray, negative where it enters.
-    depth: f64,
-    /// The sum of the coefficients, negative where it enters.
-    rest: f64,
-    /// The sum of their sizes.
-    size: f64,
+/// Where a shadow ray crosses the surface of a transparent solid.
+struct Crossing {
+    /// The parameter of the ray.
+    s: f64,
+    solid: Solid,
+    /// True if the ray leaves the solid there.
+    is_exit: bool,
+    /// The absorption coefficient, for each step of the ray.
+    absorption: f64,
 }
 
-impl Absorbed {
-    /// Adds a crossing, in any order.
-    fn cross(&mut self, scenery: &Scenery<'_>, ray: &Ray, found: &Intersection) {
-        let scene = &scenery.scene;
-        let face = &scene.faces[found.triangle.face as usize];
-        let coefficient = scene.surface(face).map_or(0.0, |surface| surface.absorption);
-        if coefficient == 0.0 {
-            return;
-        }
+impl Crossing {
+    /// `None` if the face is not of a transparent solid.
+    fn new(scenery: &Scenery<'_>, ray: &Ray, found: &Intersection) -> Option<Self> {
+        let faces = scenery.faces();
+        let solid = transparent_solid(faces.scene, found.part, found.triangle.face)?;
         let step = ray.in_part(found.part, &scenery.world.parts[found.part].frame).1;
-        let outline = scene.face_contours(face).next().unwrap_or_default();
-        let outside = unit_normal(outline.iter().map(|corner| scenery.surface.rest(*corner)));
-        let per_step = coefficient * step.length() * if outside.dot(step) > 0.0 { 1.0 } else { -1.0 };
-        self.depth += per_step * found.s;
-        self.rest += per_step;
-        self.size += per_step.abs();
+        Some(Self {
+            s: found.s,
+            solid,
+            is_exit: faces.outside(found.triangle.face).dot(step) > 0.0,
+            absorption: scenery.properties(solid.surface).absorption * step.length(),
+        })
     }
+}
 
-    /// The part of the light that is left. `distance`: the parameter of the lamp.
-    fn left(&self, distance: f64) -> f64 {
-        /// Rounding errors of the sum.
-        const ROUNDING: f64 = 1e-9;
-        // A lamp in a solid: the ray does not leave it.
-        let inside = if self.rest < -ROUNDING * self.size { -self.rest * distance } else { 0.0 };
-        libm::exp(-(self.depth + inside).max(0.0))
+/// The part of the light that solids do not absorb along a straight shadow ray from 0 to `end`.
+/// Of solids within each other the innermost absorbs, as along the paths of the light that is seen.
+/// Eq. (P38)
+fn left_by_solids(mut crossings: Vec<Crossing>, end: f64) -> f64 {
+    crossings.sort_by(|a, b| a.s.total_cmp(&b.s));
+    // Solids that the ray leaves without having entered them are those it starts in.
+    let mut inside = Vec::new();
+    let mut around = Vec::new();
+    crossings.iter().for_each(|crossing| around.extend(cross(&mut inside, crossing)));
+    around.reverse();
+    let (mut inside, mut depth, mut from) = (around, 0.0, 0.0);
+    let absorption = |inside: &[&Crossing]| inside.last().map_or(0.0, |solid| solid.absorption);
+    for crossing in &crossings {
+        depth += (crossing.s - from) * absorption(&inside);
+        from = crossing.s;
+        cross(&mut inside, crossing);
+    }
+    // A lamp in a solid: the ray does not leave it.
+    if absorption(&inside) > 0.0 {
+        depth += (end - from) * absorption(&inside);
+    }
+    libm::exp(-depth)
+}
+
+/// Updates the solids that a ray is in, the innermost last. Returns a crossing out of a solid that it
+/// is not in.
+fn cross<'c>(inside: &mut Vec<&'c Crossing>, crossing: &'c Crossing) -> Option<&'c Crossing> {
+    if !crossing.is_exit {
+        inside.push(crossing);
+        return None;
+    }
+    let at = inside.iter().rposition(|other| other.solid == crossing.solid);
+    match at {
+        Some(at) => {
+            inside.remove(at);
+            None
+        }
+        None => Some(crossing),
     }
 }
 
@@ -277,15 +310,21 @@ fn lit(
     } else {
         let base = hue_color(scenery, color);
         let shift = scenery.hue_shift();
-        let seen = if is_plain && !lights.is_colored {
-            let level: f64 =
-                light.iter().map(|part| part.level * lights.lamps[part.lamp as usize].color.x).sum();
-            shift.seen(HueColor { value: base.value * level, ..base }, doppler)
+        if is_plain && !lights.is_colored {
+            let of_lamp = |part: &Irradiance| shift.color_of(&lights.lamps[part.lamp as usize]).x;
+            let level: f64 = light.iter().map(|part| part.level * of_lamp(part)).sum();
+            shown(scenery, [shift.seen(shift.brightened(base, level), doppler)])
         } else {
-            let base = Hsv { hue: base.hue, saturation: base.saturation, value: base.value };
-            shift.seen_lit(base, doppler, light, &lights.lamps)
-        };
-        shown(scenery, seen)
+            let hsv = Hsv { hue: base.hue, saturation: base.saturation, value: base.value };
+            let base = HueColor { factor: base.factor, ..hsv.into() };
+            let seen = |parts: &[Irradiance]| shift.seen_lit(base, doppler, parts, &lights.lamps);
+            // Light adds up, as seen; its hues need not be joined as in the text of a scene.
+            if shift.law.acts_on_light() {
+                shown(scenery, light.chunks(1).map(seen))
+            } else {
+                shown(scenery, [seen(light)])
+            }
+        }
     };
     seen * transmitted(scenery, filters)
 }
@@ -311,13 +350,18 @@ fn weighted(rows: [(u32, f64); 3], light: impl Fn(u32) -> DVec3) -> DVec3 {
 pub fn hue_color(scenery: &Scenery<'_>, color: &Swatch) -> HueColor {
     let hue = scenery.palette.hsv(color).hue;
     let wavelength_nm = if color.is_grey() { 0.0 } else { scenery.appearance().wavelength_nm(color.tint) };
-    HueColor { hue, wavelength_nm, saturation: color.saturation, value: color.value }
+    HueColor { hue, wavelength_nm, saturation: color.saturation, value: color.value, factor: color.factor }
 }
 
-/// A colour as the display shows it, as linear light. Hues near the ends of the visible range fade.
-fn shown(scenery: &Scenery<'_>, color: HueColor) -> DVec3 {
+/// The sum of colours as the display shows it, as linear light.
+fn shown(scenery: &Scenery<'_>, colors: impl IntoIterator<Item = HueColor>) -> DVec3 {
     let most = if scenery.is_uncut { f64::INFINITY } else { 1.0 };
-    let decode = |channel: f64| srgb_decode(channel.min(most));
+    colors.into_iter().map(light_of).sum::<DVec3>().min(DVec3::splat(most))
+}
+
+/// A colour as linear light. Hues near the ends of the visible range fade.
+fn light_of(color: HueColor) -> DVec3 {
+    let decode = |channel: f64| color.factor * srgb_decode(channel);
     let [red, green, blue] = color.attenuated().to_rgb();
     let first = decode(red);
     // Decoding is slow, and the channels of greys are equal.

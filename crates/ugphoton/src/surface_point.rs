@@ -2,10 +2,10 @@
 
 use glam::DVec3;
 use uglight::Swatch;
-use ugparse::{Face, SurfaceId, VertexId, unit_normal};
+use ugparse::{Face, SurfaceId, VertexId};
 use ugphysics::{Event, WaveVector};
 
-use crate::path::Ray;
+use crate::path::{Ray, Start};
 use crate::scenery::Scenery;
 use crate::world::{Intersection, along};
 
@@ -20,6 +20,9 @@ pub struct SurfacePoint {
     pub event: Event,
     /// Place, relative to the eye.
     pub place: DVec3,
+    /// How much later the light leaves than where the eye sees the place directly; see
+    /// [`SurfaceElement::delay`](uglight::SurfaceElement::delay).
+    pub delay: f64,
     /// From the place to the smooth surface that the normals of the corners describe, above it.
     pub lift: DVec3,
     /// Unit normal of the plane of the face, on the side from which the ray comes.
@@ -46,18 +49,23 @@ impl SurfacePoint {
         let places = found.triangle.corners.map(|corner| scenery.surface.rest(corner));
         let place = mean(places, found.weights);
         let wave = part.frame.wave_to_rest(ray.wave);
-        let outline = scenery.scene.face_contours(face).next().unwrap_or_default();
-        let outside = unit_normal(outline.iter().map(|corner| scenery.surface.rest(*corner)));
+        let outside = scenery.faces().outside(found.triangle.face);
         let step = ray.in_part(found.part, &part.frame).1;
         let is_outside = outside.dot(step) <= 0.0;
         let plane_normal = if is_outside { outside } else { -outside };
         let (normal, lift) = smooth(scenery, found, (places, place), plane_normal);
+        let event = along(ray.origin, ray.step, found.s);
+        let delay = match ray.start {
+            Start::Eye => 0.0,
+            _ => part.frame.to_rest(event).t + ugphysics::length(place),
+        };
         let (color, rows) = color(scenery, face, found, !part.frame.velocity.is_zero());
         Self {
             part: found.part,
             face: found.triangle.face,
-            event: along(ray.origin, ray.step, found.s),
+            event,
             place,
+            delay,
             lift,
             plane_normal,
             normal,
@@ -146,6 +154,7 @@ fn color(
         tint: number(|swatch| swatch.tint),
         saturation: number(|swatch| swatch.saturation),
         value: number(|swatch| swatch.value),
+        factor: number(|swatch| swatch.factor),
         light,
         translucency: number(|swatch| swatch.translucency),
     };

@@ -1,7 +1,7 @@
 //! Rays from the eye into the past: surfaces, mirrors and glass along them.
 
 use glam::DVec3;
-use ugphysics::{Event, Medium, WaveVector, compose};
+use ugphysics::{Event, Medium, WaveVector, compose, reflectance};
 
 use crate::path::{Media, Ray, Solid, Start};
 use crate::scenery::Scenery;
@@ -40,7 +40,7 @@ pub struct Tracer<'a> {
     /// A sample had more than [`MOST_BRANCHES`] of them.
     pub is_cut_short: bool,
     /// A path of the current sample exited a transparent solid without having entered it.
-    pub begins_inside: bool,
+    pub leaves_open_solid: bool,
     /// A path of the current sample ended after [`RayOptions::depth`] reflections and refractions.
     ///
     /// [`RayOptions::depth`]: crate::RayOptions::depth
@@ -119,7 +119,7 @@ impl<'a> Tracer<'a> {
             layers: Vec::new(),
             n_branches: 0,
             is_cut_short: false,
-            begins_inside: false,
+            leaves_open_solid: false,
             is_too_deep: false,
             visits: None,
         }
@@ -143,16 +143,17 @@ impl<'a> Tracer<'a> {
     /// nearest face on the ray within the clipping distances. `far`: the end of the range of
     /// parameters.
     pub fn arriving(&mut self, ray: &Ray, first: Option<Intersection>, far: f64, sample: u64) -> Arriving {
+        let media = self.scenery.media_at(ray.origin);
         let path = Path {
             ray,
-            media: &Media::default(),
+            media: &media,
             depth: 0,
             weight: 1.0,
-            absorption: 0.0,
+            absorption: absorption(self.scenery, media.innermost(), ray.step),
             sample,
             way: Way::Straight,
         };
-        (self.n_branches, self.is_too_deep, self.begins_inside) = (0, false, false);
+        (self.n_branches, self.is_too_deep, self.leaves_open_solid) = (0, false, false);
         self.seen(&path, first, far)
     }
 
@@ -222,7 +223,9 @@ impl<'a> Tracer<'a> {
             }
             Some(_) => {}
         }
-        if mirrored * path.weight >= self.scenery.rays.cutoff
+        let cutoff = self.scenery.rays.cutoff;
+        let is_followed = |part: f64| part > 0.0 && part * path.weight >= cutoff;
+        if is_followed(mirrored)
             && let Some(wave) = self.reflected(path, point)
         {
             if let Some(visit) = self.visited(visit) {
@@ -233,7 +236,7 @@ impl<'a> Tracer<'a> {
             sum.add(mirrored, self.follow(&on, point, wave, path.media, mirrored));
         }
         if let Some(Refracted { wave, media, .. }) = refracted
-            && transmitted * path.weight >= self.scenery.rays.cutoff
+            && is_followed(transmitted)
         {
             let is_white = point.color.is_grey() && point.color.value == 1.0 && point.color.light.is_none();
             if !is_white {
@@ -328,11 +331,11 @@ impl<'a> Tracer<'a> {
         let (media, is_inside_unknown) = if point.is_outside {
             (path.media.with(solid), false)
         } else {
-            path.media.without(solid).map_or((*path.media, true), |media| (media, false))
+            path.media.without(solid).map_or_else(|| (path.media.clone(), true), |media| (media, false))
         };
         if is_inside_unknown {
-            // The path began inside the solid, where it counts as vacuum.
-            self.begins_inside = true;
+            // The solid is open, so the path did not enter it.
+            self.leaves_open_solid = true;
             return Some(Refracted { wave: point.wave, media, reflectance: 0.0 });
         }
         let behind = medium(self.scenery, media.innermost(), point.part);
@@ -340,13 +343,12 @@ impl<'a> Tracer<'a> {
         let of = |normal: DVec3| behind.wave_beside(point.wave, normal);
         let is_behind = |wave: &WaveVector| wave.k.dot(point.plane_normal) > 0.0;
         let wave = of(point.normal).filter(is_behind).or_else(|| of(point.plane_normal))?;
-        let reflectance = fresnel(point.wave, wave, point.normal, before.index, behind.index);
+        let reflectance = reflectance(before, behind, point.wave, point.normal);
         Some(Refracted { wave, media, reflectance })
     }
 }
 
 /// Light behind a surface.
-#[derive(Clone, Copy)]
 struct Refracted {
     /// In the rest frame of the surface.
     wave: WaveVector,
@@ -376,15 +378,4 @@ fn absorption(scenery: &Scenery<'_>, solid: Option<Solid>, step: Event) -> f64 {
         return 0.0;
     }
     coefficient * scenery.world.parts[solid.part].frame.to_rest(step).x.length()
-}
-
-/// The reflected part of unpolarised light at the boundary of two media.
-fn fresnel(before: WaveVector, behind: WaveVector, normal: DVec3, n_before: f64, n_behind: f64) -> f64 {
-    let (a, b) = (before.k.dot(normal).abs(), behind.k.dot(normal).abs());
-    // Normal components of the wave vectors: across the plane of incidence, and in it.
-    let across = (a - b) / (a + b);
-    let (p, q) = (n_behind * n_behind * a, n_before * n_before * b);
-    let within = (p - q) / (p + q);
-    let part = 0.5 * (across * across + within * within);
-    if part.is_finite() { part.clamp(0.0, 1.0) } else { 1.0 }
 }

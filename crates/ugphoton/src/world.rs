@@ -5,9 +5,9 @@ use std::ops::{ControlFlow, Range};
 use glam::DVec3;
 use rayon::prelude::*;
 use ugbvh::Bvh;
-use ugparse::{BodyId, Face, Scene, VertexId};
+use ugparse::{BodyId, Face, Scene, VertexId, unit_normal};
 use ugphysics::Event;
-use ugscene::{RestFrames, triangulate};
+use ugscene::RestFrames;
 
 use crate::corridor::Corridor;
 use crate::frame::RestFrame;
@@ -65,6 +65,14 @@ pub struct Faces<'a> {
     pub rest: &'a [DVec3],
 }
 
+impl Faces<'_> {
+    /// The unit normal of a face on its outside, from which its outline runs counterclockwise.
+    pub fn outside(&self, face: u32) -> DVec3 {
+        let contour = self.scene.face_contours(&self.scene.faces[face as usize]).next();
+        unit_normal(contour.unwrap_or_default().iter().map(|corner| self.rest[corner.index()]))
+    }
+}
+
 /// Memory of [`World::first`].
 #[derive(Default)]
 pub struct PacketMemory {
@@ -116,6 +124,12 @@ impl World {
             parts.map(|(body, rows)| Part::new(faces, RestFrame::new(frames, body), &rows)).collect();
         let boxes = || MovingBoxes::new(&parts.iter().map(Part::moving_box).collect::<Vec<_>>());
         Self { boxes: (parts.len() > FEW_PARTS).then(boxes), parts }
+    }
+
+    /// All triangles, with the rows of their parts.
+    pub fn triangles(&self) -> impl Iterator<Item = (usize, &FaceTriangle)> {
+        let parts = self.parts.iter().enumerate();
+        parts.flat_map(|(row, part)| part.triangles.iter().map(move |triangle| (row, triangle)))
     }
 
     /// The latest event of the past at which light that follows the ray left a face, (P22), for
@@ -427,16 +441,12 @@ fn face_triangles(scene: &Scene, rest: &[DVec3], row: u32) -> Vec<FaceTriangle> 
     }
     let face: &Face = &scene.faces[row as usize];
     let corners = scene.contours.corners(face.contours.clone());
-    let rings: Vec<Vec<DVec3>> = scene
-        .face_contours(face)
-        .map(|contour| contour.iter().map(|corner| rest[corner.index()]).collect())
-        .collect();
     let triangle = |at: [u32; 3], is_loose| FaceTriangle {
         face: row,
         corners: at.map(|at| corners[at as usize]),
         is_loose,
     };
-    match triangulate(&rings).filter(|triangles| !triangles.is_empty()) {
+    match ugscene::face_triangles(scene, face, |vertex| rest[vertex.index()]) {
         Some(triangles) => triangles.into_iter().map(|at| triangle(at, false)).collect(),
         // The sides of every contour, each with the first corner.
         None => {

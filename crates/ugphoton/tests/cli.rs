@@ -48,6 +48,23 @@ fn a_picture_says_how_it_was_made() {
     assert!(recipe.starts_with(&format!("{command} # SHA-256 ")), "{recipe}");
 }
 
+/// The option of the manual page of 1988.
+#[test]
+fn cells_are_accepted_without_effect() {
+    let expected = fed(&["-sz", "20", "10"], SCENE);
+    for cells in ["-1", "0", "20"] {
+        let output = fed(&["-cn", cells, "-sz", "20", "10"], SCENE);
+        assert_eq!(output.status.code(), Some(0), "{}", messages(&output));
+        assert!(output.stdout == expected.stdout, "-cn {cells}");
+    }
+    refused(
+        &["-cn", "few"],
+        SCENE,
+        2,
+        "ugphoton: error: `few` is not valid for `-cn`: must be a whole number\ntry `ugphoton -h`\n",
+    );
+}
+
 #[test]
 fn options_have_two_spellings() {
     let short = "-sz 20 10 -vel .1 0 0 -cv 0 .1 0 -ti 1 -an center -in -rd 3 -rc .01 -sm -dt pfm -sp";

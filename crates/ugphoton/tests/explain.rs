@@ -24,8 +24,12 @@ cam -ep 0 0 0 -vc 0 6 0 -va 60;
 ";
 
 fn ugphoton(args: &[&str]) -> Output {
+    of_scene(args, SCENE)
+}
+
+fn of_scene(args: &[&str], scene: &str) -> Output {
     let mut command = Command::new(env!("CARGO_BIN_EXE_ugphoton"));
-    ugrun::fed(command.args(["-qt", "-sz", "60", "44"]).args(args), SCENE)
+    ugrun::fed(command.args(["-qt", "-sz", "60", "44"]).args(args), scene)
 }
 
 fn written(args: &[&str]) -> Vec<u8> {
@@ -191,4 +195,28 @@ fn bad_usage_is_told() {
     check("--explain 2,3 -dt exr", "give --format json, or leave --format out");
     check("--explain 2,3 -crop 0 0 9 9", "-crop");
     check("--format json", "add --explain X,Y");
+}
+
+#[test]
+fn lights_have_their_names() {
+    let names = |lights: &str| {
+        let scene = SCENE.replace("l 0.3; l 0.6 0.5 -2 1; l 0.5 -2 3 4;", lights);
+        assert!(scene.contains(lights));
+        let place = "50,22";
+        let told = of_scene(&["--explain", place, "--format", "json"], &scene);
+        let told: Value = serde_json::from_slice(&told.stdout).unwrap();
+        let lamps = told["sample"]["surfaces"][0]["lamps"].as_array().unwrap().clone();
+        let text = String::from_utf8(of_scene(&["--explain", place], &scene).stdout).unwrap();
+        lamps
+            .into_iter()
+            .map(|lamp| {
+                let name = lamp["light"].as_str().unwrap().to_owned();
+                assert!(text.contains(&format!(" {name}: level")), "{name}: {text}");
+                name
+            })
+            .collect::<Vec<_>>()
+    };
+    assert_eq!(names("l .3; l sun .6 .5 -2 1; l .5 -2 -3 4 0;"), ["ambient 1", "sun", "local 1"]);
+    assert_eq!(names("l sky .3; l .6 .5 -2 1; l lamp .5 -2 -3 4 0;"), ["sky", "directional 1", "lamp"]);
+    assert_eq!(names(""), ["ambient 1", "directional 1"]);
 }

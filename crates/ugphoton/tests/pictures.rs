@@ -527,6 +527,8 @@ fn endless_mirrors_end() {
             let third = normal.cross(other);
             let label = format!("{}{}", if side < 0.0 { "low" } else { "high" }, side.abs());
             for (at, [u, v]) in [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]].into_iter().enumerate() {
+                // Counterclockwise seen from outside.
+                let u = u * side.signum();
                 let corner = side * normal + side.abs() * (u * other + v * third);
                 text += &format!("v {name}{label}{at} {} {} {};", corner.x, corner.y, corner.z);
             }
@@ -539,11 +541,17 @@ fn endless_mirrors_end() {
     config.rays = RayOptions { depth: 64, cutoff: 0.0, ..RayOptions::default() };
     let notes = render(scene(&text), &config).unwrap().notes;
     assert!(notes.iter().any(|note| note.contains("cut short")), "{notes:?}");
-    assert!(notes.iter().any(|note| note.contains("eye is inside")), "{notes:?}");
+    let of_open_solids = |notes: &[String]| notes.iter().any(|note| note.contains("the solid is open"));
+    // The eye is inside both boxes, which are closed.
+    assert!(!of_open_solids(&notes), "{notes:?}");
     config.rays = RayOptions { depth: 3, ..RayOptions::default() };
     let notes = render(scene(&text), &config).unwrap().notes;
     assert!(!notes.iter().any(|note| note.contains("cut short")), "{notes:?}");
     assert!(notes.iter().any(|note| note.contains("end after 3 reflections")), "{notes:?}");
+    let without_a_wall = text.replacen("f (phigh20 phigh21 phigh22 phigh23) white both;", "", 1);
+    assert_ne!(without_a_wall, text);
+    let notes = render(scene(&without_a_wall), &config).unwrap().notes;
+    assert!(of_open_solids(&notes), "{notes:?}");
 }
 
 #[test]

@@ -104,6 +104,21 @@ impl Brightness {
         Self::ALL.into_iter().find(|law| law.name() == name)
     }
 
+    /// True if the law names a quantity of light. Its factors, sums over lamps, intensities and
+    /// cosines are then those of linear light. Those of the other laws, of 1988, are factors and
+    /// sums of display-encoded values.  Eq. (P18)
+    ///
+    /// ```
+    /// use ugphysics::Brightness;
+    ///
+    /// assert!(Brightness::Photon.acts_on_light() && !Brightness::Report.acts_on_light());
+    /// ```
+    #[must_use]
+    #[inline]
+    pub fn acts_on_light(self) -> bool {
+        matches!(self, Brightness::Photon | Brightness::Bolometric)
+    }
+
     /// The factor on brightness at Doppler factor `doppler`.  Eq. (P12)
     ///
     /// ```

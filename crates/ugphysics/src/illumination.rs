@@ -1,13 +1,17 @@
 //! Light that falls on a moving surface from a source that moves on its own.
 //!
 //! Three events follow each other: the source emits light, the surface scatters it, and the eye
-//! receives it (at the origin, at t = 0). The surface rests in S', which moves with **v** in the
-//! camera frame S; the light rests in S'', which moves with **v**_l in S. Rest coordinates are
-//! relative to the eye, as everywhere: the origins of all three frames coincide at t = 0.
+//! receives it. The surface rests in S', which moves with **v** in the camera frame S; the light
+//! rests in S'', which moves with **v**_l in S. Rest coordinates are relative to the eye, as
+//! everywhere: the origins of all three frames coincide at t = 0.
+//!
+//! An eye at the origin at t = 0 sees the surface point scatter at (−|p'|, p'). Light that reaches
+//! the eye by a mirror or through glass, or another eye at another time, left the point at another
+//! time; the difference is its *delay*.
 
 use glam::DVec3;
 
-use crate::{Brightness, Velocity, rest_position, seen_position};
+use crate::{Brightness, Velocity, compose, rest_position, seen_position};
 
 /// Light arriving at a point of a surface, described in the rest frame of the surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,7 +37,7 @@ impl IncidentLight {
     ///
     /// // A surface at rest at the eye. A light approaches it with 0.5 c, so D = √3.
     /// let v = Velocity::from_beta(DVec3::new(-0.5, 0.0, 0.0))?;
-    /// let light = illumination(DVec3::ZERO, Velocity::ZERO, DVec3::new(1.0, 0.0, 0.0), v);
+    /// let light = illumination(DVec3::ZERO, 0.0, Velocity::ZERO, DVec3::new(1.0, 0.0, 0.0), v);
     /// let light = light.ok_or("the light is not at the surface")?;
     /// assert!((light.distance - 3.0f64.sqrt()).abs() < 1e-15);
     /// assert!((light.irradiance(1.0) * 4.0 * std::f64::consts::PI - 3.0).abs() < 1e-14);
@@ -54,23 +58,29 @@ impl IncidentLight {
 }
 
 /// The light of a point source at rest at `light` in S'' that arrives at the surface point at rest
-/// at `p_rest` in S', at the moment when that point scatters the light that the eye sees at t = 0.
-/// `None` if the source is at the surface point at that moment, or so close that no direction can
-/// be computed.  Eq. (P14)
+/// at `p_rest` in S', at the event (−|p'| + `delay`, p') of S'. `None` if the source is at the
+/// surface point at that moment, or so close that no direction can be computed.  Eq. (P14)
 ///
-/// The surface point scatters the light at the event (−|p'|, p') of S', on the past light cone of
-/// the eye; in S'' that event is at (−|x''|, x'') with x'' = (P4) of its position in S. The source
-/// rests in S'', so q'' = l'' − x'' points at it, and it emitted the light |q''| earlier. (−|q''|,
-/// q'') is a past null vector, so (P3) and then (P4) transform it through S to S'.
-/// D_l = |q'|/|q''|, as for the eye.
+/// `delay`: 0 if the eye, at the origin at t = 0, sees the point directly through a vacuum. Then the
+/// event is on the past light cone of the eye, and its place x'' in S'' is (P4) of its position
+/// in S. A point at rest in S' moves through S'' with the 4-velocity of **v** composed with
+/// −**v**_l, so a delay adds its spatial part times the delay. The source rests in S'', so
+/// q'' = l'' − x'' points at it, and it emitted the light |q''| earlier. (−|q''|, q'') is a past
+/// null vector, so (P3) and then (P4) transform it through S to S'. D_l = |q'|/|q''|, as for the
+/// eye.
 ///
 /// If both velocities are equal no transformation is computed, so a light that moves with the
 /// surface gives the same bits as a light and surface at rest. Otherwise the error is about
 /// γ²·10⁻¹⁶ of the distances.
 #[must_use]
-pub fn illumination(p_rest: DVec3, v: Velocity, light: DVec3, v_light: Velocity) -> Option<IncidentLight> {
-    let at_light = if v == v_light { p_rest } else { rest_position(seen_position(p_rest, v), v_light) };
-    let to_light = light - at_light;
+pub fn illumination(
+    p_rest: DVec3,
+    delay: f64,
+    v: Velocity,
+    light: DVec3,
+    v_light: Velocity,
+) -> Option<IncidentLight> {
+    let to_light = light - place_in_frame(p_rest, delay, v, v_light);
     let at_surface = change_view(to_light, v_light, v);
     let [distance, rest_distance] = [at_surface, to_light].map(length);
     let illumination = IncidentLight {
@@ -112,6 +122,13 @@ pub fn illumination_from_afar(v: Velocity, toward_light: DVec3, v_light: Velocit
         rest_distance: f64::INFINITY,
     };
     (illumination.toward.is_finite() && illumination.doppler > 0.0).then_some(illumination)
+}
+
+/// The place in S'', which moves with `to`, of the event (−|p'| + `delay`, p') of S', which moves
+/// with `from`.
+fn place_in_frame(p_rest: DVec3, delay: f64, from: Velocity, to: Velocity) -> DVec3 {
+    let place = change_view(p_rest, from, to);
+    if delay == 0.0 || from == to { place } else { place + delay * compose(from, -to).proper() }
 }
 
 /// Transforms the vector towards a seen point from the frame that moves with `from` to the one that

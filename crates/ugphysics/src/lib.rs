@@ -60,6 +60,7 @@ mod apparent;
 mod color;
 mod doppler;
 mod error_free;
+mod fresnel;
 mod hue;
 mod hyperbolic;
 mod illumination;
@@ -77,6 +78,7 @@ pub use ambient::{SkyRing, ambient_illumination};
 pub use apparent::{apparent_velocity, contracted_normal};
 pub use color::{Hsv, luminance, srgb_decode, srgb_encode};
 pub use doppler::{Brightness, doppler_at, doppler_factor};
+pub use fresnel::reflectance;
 pub use hue::{
     CONTROL_POINTS, ControlPoint, RED_END_NM, VIOLET_END_NM, attenuation, hue_to_wavelength,
     wavelength_to_hue,

@@ -64,6 +64,43 @@ impl Medium {
         Event { t: wave.frequency + drag * self.velocity.gamma(), x: wave.k + drag * self.velocity.proper() }
     }
 
+    /// The light of frequency 1 that moves along `direction`, a unit vector; `None` if no light in the
+    /// medium does. Where the medium moves faster than light in it, light of two speeds moves along
+    /// some directions, and along others none: this is the faster one.  Eq. (P35), (P37)
+    ///
+    /// A step (T, **n**) of light, T the time for each unit of length, has in the frame of the medium
+    /// the time T' = γT − **u**·**n** and the length T'/N. As its interval is the same in all frames,
+    /// T² − 1 = (1 − 1/N²) T'².
+    ///
+    /// ```
+    /// use glam::DVec3;
+    /// use ugphysics::{Medium, Velocity};
+    ///
+    /// let water = Medium { index: 1.33, velocity: Velocity::from_beta(DVec3::X * 0.5)? };
+    /// let wave = water.wave_along(DVec3::X).ok_or("no light")?;
+    /// let step = water.step(wave);
+    /// assert!((step.x.x / step.t - 0.909_836_065_6).abs() < 1e-10);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn wave_along(&self, direction: DVec3) -> Option<WaveVector> {
+        let (gamma, u) = (self.velocity.gamma(), self.velocity.proper());
+        let (square, contrast) = (self.index * self.index, self.contrast());
+        let kappa = contrast / square;
+        let along = u.dot(direction);
+        // (1 − κγ²) T² + 2 κγu_n T = 1 + κu_n²
+        let (half, rest) = (kappa * gamma * along, 1.0 + kappa * along * along);
+        let root = (rest - kappa * gamma * gamma).sqrt();
+        let time =
+            if half >= 0.0 { rest / (half + root) } else { (root - half) / (1.0 - kappa * gamma * gamma) };
+        let own_time = gamma * time - along;
+        // K = N² X − (N² − 1) T' U, up to a factor.
+        let drag = contrast * own_time;
+        let (frequency, k) = (square * time - drag * gamma, square * direction - drag * u);
+        let is_possible = own_time > 0.0 && time > 0.0 && frequency > 0.0 && time.is_finite();
+        is_possible.then(|| WaveVector { frequency: 1.0, k: k / frequency })
+    }
+
     /// The light of a given frequency and tangential wave vector that moves in the medium beside a
     /// surface at rest: refracted light in the medium behind it, or reflected light in the medium
     /// before it. `None` if there is none, as at total reflection.  Eq. (P37)
@@ -188,6 +225,31 @@ mod tests {
             let light = Velocity::from_beta(own.k.normalize() / 1.33).unwrap();
             assert!((compose(light, v).beta() - step.x / step.t).length() < 1e-13);
         }
+    }
+
+    /// Light that is emitted in a direction of the frame of the medium is found by the direction in
+    /// which it moves.
+    #[test]
+    fn light_is_found_by_its_direction() {
+        let velocities = [velocity(0.0, 0.0, 0.0), velocity(0.5, 0.2, 0.1), velocity(-0.3, 0.0, 0.55)];
+        for (index, v) in [0.8, 1.0, 1.5].into_iter().flat_map(|index| velocities.map(|v| (index, v))) {
+            let medium = Medium { index, velocity: v };
+            for direction in [DVec3::X, DVec3::NEG_X, DVec3::new(0.6, 0.0, -0.8), DVec3::NEG_Z] {
+                let wave = WaveVector { frequency: 2.0, k: 2.0 * index * direction }.out_of_frame(v);
+                let found = medium.wave_along(medium.step(wave).x.normalize()).unwrap();
+                assert!((found.k - wave.k / wave.frequency).length() < 1e-13, "{medium:?} {direction}");
+            }
+        }
+    }
+
+    /// In glass that moves with 0.9 c no light moves backwards.
+    #[test]
+    fn fast_media_drag_all_light_along() {
+        let glass = Medium { index: 1.5, velocity: velocity(0.9, 0.0, 0.0) };
+        assert_eq!(glass.wave_along(DVec3::NEG_X), None);
+        let forwards = glass.wave_along(DVec3::X).unwrap();
+        let step = glass.step(forwards);
+        assert!((step.x.x / step.t - 0.979_166_666_7).abs() < 1e-10);
     }
 
     #[test]

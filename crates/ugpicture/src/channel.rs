@@ -4,7 +4,7 @@
 use glam::DVec3;
 use rayon::prelude::*;
 use ugimage::{Plane, Samples};
-use ugphysics::{aberrate, doppler_at, length};
+use ugphysics::length;
 
 use crate::emission::{Emission, SeenItem};
 
@@ -27,8 +27,8 @@ pub enum Channel {
     Id,
     /// `velocity.X`, `velocity.Y`, `velocity.Z`: of the body; 0 where nothing is visible.
     Velocity,
-    /// `direction.X`, `direction.Y`, `direction.Z`: unit vector to what is seen, in the frame of
-    /// the body (P6); 0 where nothing is visible.
+    /// `direction.X`, `direction.Y`, `direction.Z`: unit vector to what is seen, in the rest
+    /// frame of the body and the axes of the scene (P6), (P25); 0 where nothing is visible.
     Direction,
 }
 
@@ -80,7 +80,7 @@ pub fn channel_planes(
     };
     match channel {
         Channel::Doppler => {
-            vec![plane(name, of(&|emission| doppler_at(emission.place, emission.velocity), 0.0))]
+            vec![plane(name, of(&Emission::doppler, 0.0))]
         }
         Channel::Time => vec![plane(name, of(&|emission| emission.time, f32::NEG_INFINITY))],
         Channel::Distance => vec![plane(name, of(&|emission| length(emission.place), f32::INFINITY))],
@@ -90,7 +90,7 @@ pub fn channel_planes(
             vec![plane(name, Samples::Whole((0..n_pixels).into_par_iter().map(id).collect()))]
         }
         Channel::Velocity => axes(&|emission| emission.velocity.beta()),
-        Channel::Direction => axes(&|emission| aberrate(emission.place, emission.velocity)),
+        Channel::Direction => axes(&Emission::rest_direction),
     }
 }
 

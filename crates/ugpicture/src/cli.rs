@@ -83,8 +83,8 @@ pub struct PictureArgs {
     /// velocity, direction
     ///
     /// Doppler factor, emission time, distance of the emission event, depth along the view, number
-    /// of the face, velocity of the body, direction of the emission event in the frame of the body;
-    /// all at the middle of the pixel.
+    /// of the face, velocity of the body, direction of the emission event in the frame of the body
+    /// and the axes of the scene; all at the middle of the pixel.
     #[arg(long, value_name = "LIST", value_parser = channels, visible_alias = "channels", help_heading = PICTURE)]
     ch: Option<Channels>,
 }

@@ -1,8 +1,8 @@
 //! Emission events of the light seen in the picture.
 
-use glam::DVec3;
-use ugparse::Scene;
-use ugphysics::{Velocity, length};
+use glam::{DQuat, DVec3};
+use ugparse::{BodyId, Scene};
+use ugphysics::{Velocity, aberrate, doppler_at, length};
 use ugscene::{Geometry, RestFrames, View};
 
 use crate::depth_buffer::SurfaceSample;
@@ -18,6 +18,34 @@ pub struct Emission {
     pub time: f64,
     /// Velocity of the body.
     pub velocity: Velocity,
+    /// Turns rest coordinates of the body into the axes of the scene, see
+    /// [`RestFrames::scene_from_axes`].  Eq. (P25)
+    pub scene_from_axes: DQuat,
+    /// How the light is seen if it comes to the eye in a transparent medium; `None` in a vacuum.
+    pub in_medium: Option<MediumLight>,
+}
+
+/// Light that comes to the eye in a transparent medium, in which neither (P6) nor (P10) holds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MediumLight {
+    /// Doppler factor: the frequency at the eye divided by that in the rest frame of the body.
+    pub doppler: f64,
+    /// Unit vector against the light, in the rest frame of the body and the axes of the scene.
+    pub rest_direction: DVec3,
+}
+
+impl Emission {
+    /// Unit vector to what is seen, in the rest frame of the body and the axes of the scene.
+    /// Eq. (P6), (P25)
+    pub fn rest_direction(&self) -> DVec3 {
+        let in_vacuum = || self.scene_from_axes * aberrate(self.place, self.velocity);
+        self.in_medium.map_or_else(in_vacuum, |light| light.rest_direction)
+    }
+
+    /// Doppler factor.  Eq. (P10)
+    pub fn doppler(&self) -> f64 {
+        self.in_medium.map_or_else(|| doppler_at(self.place, self.velocity), |light| light.doppler)
+    }
 }
 
 /// What is seen at the middle of a pixel: the row of the face in the scene (wires are counted after
@@ -47,10 +75,12 @@ impl<'a> Emissions<'a> {
             Some(face) => Some(face.body),
             None => self.scene.wires.get(item - n_faces).map(|wire| wire.body),
         };
-        let velocity = body.map_or(Velocity::ZERO, |body| self.frames.velocity(body));
+        // Everything drawn is a face or a wire.
+        let body = body.unwrap_or(BodyId::UNSTATED);
+        let (velocity, scene_from_axes) = (self.frames.velocity(body), self.frames.scene_from_axes(body));
         let place = self.view.point([f64::from(column) + 0.5, f64::from(row) + 0.5], depth);
         let time = if self.has_flight_time { -length(place) } else { 0.0 };
-        Emission { place, depth, time, velocity }
+        Emission { place, depth, time, velocity, scene_from_axes, in_medium: None }
     }
 
     /// What is seen at the middle of a pixel, as channels need it. `seen`: the surfaces at the

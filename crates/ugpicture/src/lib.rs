@@ -51,7 +51,7 @@ pub use annotations::{Annotated, Annotations, Layout, SceneState};
 pub use background::{Backdrop, Background};
 pub use channel::{Channel, channel_planes};
 pub use depth_buffer::{DepthBuffer, SurfaceSample};
-pub use emission::{Emission, Emissions, SeenItem};
+pub use emission::{Emission, Emissions, MediumLight, SeenItem};
 pub use error::Error;
 pub use exposure::Exposure;
 pub use image::Image;

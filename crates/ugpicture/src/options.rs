@@ -107,6 +107,13 @@ impl PictureOptions {
         }
     }
 
+    /// Changes them to those of the linear light of the picture: exposure, tone curve and
+    /// compression are left out.
+    pub fn keep_light(&mut self) {
+        self.output = Output::Color(Format::Exr);
+        (self.exposure, self.tone, self.small) = (None, Tone::Clip, false);
+    }
+
     /// Refuses a picture that does not fit in memory.
     pub(crate) fn check_size(&self) -> Result<(), Error> {
         let [width, height] = self.size;

@@ -19,11 +19,11 @@ pub trait ToolArgs: clap::Parser {
 
 /// Ids of the options for files, messages and threads: those below, `files` for additional input
 /// files ([`crate::Context::input_file`]), `at` for a second output file
-/// ([`crate::Context::write_file`]), and `pv` for previews in the place of the output
-/// ([`crate::Context::write_now`]). They do not affect the content of the output, so the recorded
-/// command line omits them.
-pub(crate) const WITHOUT_EFFECT: [&str; 10] =
-    ["file", "files", "fi", "fo", "fm", "qt", "vb", "nt", "at", "pv"];
+/// ([`crate::Context::write_file`]), `pv` for previews in the place of the output
+/// ([`crate::Context::write_now`]), and `cn`, which is accepted as in 1988. They do not affect the
+/// content of the output, so the recorded command line omits them.
+pub(crate) const WITHOUT_EFFECT: [&str; 11] =
+    ["file", "files", "fi", "fo", "fm", "qt", "vb", "nt", "at", "pv", "cn"];
 
 /// The options that every program has. Put them last in the program's own arguments:
 /// `#[command(flatten)] common: CommonArgs`.

@@ -154,4 +154,4 @@ pub use provenance::{sha256, shell_word};
 pub use run::{main, parse_words};
 #[cfg(feature = "cli")]
 pub use steps::Steps;
-pub use text::{is_printable, printable, shorten};
+pub use text::{is_printable, message, printable, shorten};

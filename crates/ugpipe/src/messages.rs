@@ -14,7 +14,7 @@ use clap::builder::styling::{AnsiColor, Style};
 
 use crate::args::CommonArgs;
 use crate::failure::Failure;
-use crate::text::{printable, printable_styled};
+use crate::text::{message, printable, printable_styled};
 
 const ERROR: Style = AnsiColor::Red.on_default().bold();
 const WARNING: Style = AnsiColor::Yellow.on_default().bold();
@@ -109,7 +109,7 @@ impl Messages {
     }
 
     fn line(&self, heading: &str, style: Style, text: &str) -> String {
-        format!("{}: {style}{heading}:{style:#} {}", self.program, printable(text.trim_end_matches('\n')))
+        format!("{}: {style}{heading}:{style:#} {}", self.program, message(text.trim_end_matches('\n')))
     }
 
     /// Prints a message with a single write, because the programs of a pipe share the terminal.

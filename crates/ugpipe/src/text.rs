@@ -21,6 +21,30 @@ pub fn printable(text: &str) -> String {
     text.chars().map(|c| if is_printable(c) { c } else { char::REPLACEMENT_CHARACTER }).collect()
 }
 
+/// A message on one line: [`printable`], with its long words and its end cut off, since names and
+/// fields that it quotes may be millions of characters long.
+pub fn message(text: &str) -> String {
+    const MAX: usize = 4096;
+    let words: Vec<String> = text.split(' ').map(cut_word).collect();
+    let whole = printable(&words.join(" "));
+    match whole.char_indices().nth(MAX) {
+        Some((end, _)) => format!("{}…", &whole[..end]),
+        None => whole,
+    }
+}
+
+/// The beginning and the end of a long word.
+fn cut_word(word: &str) -> String {
+    const MAX: usize = 256;
+    const PART: usize = 100;
+    if word.chars().nth(MAX).is_none() {
+        return word.to_owned();
+    }
+    let start = word.char_indices().nth(PART).map_or(word, |(at, _)| &word[..at]);
+    let end = word.char_indices().nth_back(PART).map_or(word, |(at, _)| &word[at..]);
+    format!("{start}…{end}")
+}
+
 /// A word for a message: its first 40 characters, and `…` if there are more.
 pub fn shorten(word: &str) -> String {
     const MAX: usize = 40;
@@ -73,6 +97,16 @@ pub(crate) fn printable_json(json: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn messages_are_short() {
+        let long = "é".repeat(1_000_000);
+        let found = message(&format!("vertex `{long}` is not defined"));
+        assert!(found.starts_with("vertex `éé") && found.ends_with("é` is not defined"), "{found}");
+        assert!(found.chars().count() < 300);
+        assert!(message(&"a ".repeat(1_000_000)).len() < 5000);
+        assert_eq!(message(&"b".repeat(200)), "b".repeat(200));
+    }
 
     #[test]
     fn text_from_outside_cannot_move_the_cursor() {

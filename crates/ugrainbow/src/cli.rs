@@ -123,7 +123,8 @@ pub struct Args {
 
     /// With -xc, brightness law: report (D), photon (D^3), bolometric (D^4), none [default: report]
     ///
-    /// The laws are those of ugdoppler. Values above 1 are clipped per sample, unless -ex or -tc is
+    /// The laws are those of ugdoppler: photon and bolometric multiply linear light, report and none
+    /// display-encoded values as in 1988, and light of lamps likewise. Values above 1 are clipped per sample, unless -ex or -tc is
     /// given.
     #[arg(long, visible_alias = "brightness", value_name = "LAW",
           value_parser = one_of(Brightness::ALL.map(Brightness::name), law), requires = "xc",

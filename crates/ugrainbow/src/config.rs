@@ -1,8 +1,8 @@
 //! The options of the renderer.
 
 use uglight::{ColorShift, Interpolation};
-use ugparse::HueScale;
-use ugphysics::Hsv;
+use ugparse::{HueScale, Scene};
+use ugphysics::{Brightness, Hsv};
 use ugpicture::PictureOptions;
 use ugraster::DepthFade;
 
@@ -57,6 +57,16 @@ impl Config {
         match scale {
             HueScale::Degrees => self.interpolation,
             HueScale::Wavelengths => Interpolation::Wavelength,
+        }
+    }
+
+    /// The brightness law of hues: that of the rays, or the one by which the scene was coloured.
+    pub(crate) fn law(&self, scene: &Scene) -> Brightness {
+        match self.exact {
+            Some(ColorShift::Hues(shift)) => shift.law,
+            // Spectra are linear light by themselves.
+            Some(ColorShift::Spectra(_)) => Brightness::None,
+            None => scene.stage.law().unwrap_or(Brightness::None),
         }
     }
 

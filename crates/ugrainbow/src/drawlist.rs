@@ -13,7 +13,7 @@ use crate::packing::Pack;
 use crate::painter::Painter;
 use uglight::{Common, Swatch};
 
-/// Faces classified together: several blocks of triangles, so that one block is filled while
+/// Faces and triangles classified together: several blocks of triangles, so that one block is filled while
 /// another is classified.
 const TOGETHER: usize = 4 * BLOCK;
 
@@ -103,7 +103,7 @@ impl<'a, const N: usize> DrawList<'a, N> {
         let level = Level::new();
         let mut parts: Vec<_> = scene.faces.chunks(chunk).map(|faces| (faces, None)).collect();
         ugparallel::for_jobs(&mut parts, |idx, (faces, part)| {
-            *part = Some(Chunk::new(&corners, idx * chunk, faces.len(), level).all(faces, &is_drawn));
+            *part = Some(Chunk::new(&corners, faces.len(), level).all(idx * chunk, faces, &is_drawn));
         });
         let parts = parts.into_iter().filter_map(|(_, part)| part);
         let (lists, counts): (Vec<PolygonList<N>>, Vec<_>) = parts.unzip();
@@ -169,8 +169,7 @@ struct Chunk<'a, const N: usize> {
     item: u32,
     list: PolygonList<N>,
     clip_counts: ClipCounts,
-    /// Triangles classified together.
-    blocks: [TriangleBlock; TOGETHER / BLOCK],
+    parts: Parts,
     /// SIMD instructions of the processor. The result does not depend on them.
     level: Level,
     /// The current contour; its buffer is reused.
@@ -178,54 +177,103 @@ struct Chunk<'a, const N: usize> {
     scratch: Vec<Vertex<N>>,
 }
 
+/// Faces and triangles of faces in drawing order, to be classified together.
+struct Parts {
+    n: usize,
+    /// The rows of their faces.
+    items: [u32; TOGETHER],
+    /// The parts that are triangles: part i is bit i.
+    triangles: u64,
+    /// The corners of the triangles.
+    corners: [[u32; 3]; TOGETHER],
+    blocks: [TriangleBlock; TOGETHER / BLOCK],
+}
+
 impl<'a, const N: usize> Chunk<'a, N> {
-    /// A run of `n_faces` faces from row `first`.
-    fn new(corners: &'a Corners<'a, N>, first: usize, n_faces: usize, level: Level) -> Self {
+    /// For `n_faces` faces.
+    fn new(corners: &'a Corners<'a, N>, n_faces: usize, level: Level) -> Self {
         Self {
             corners,
             painter: &corners.painter,
-            // The text of a scene is below 4 GiB, so row numbers fit.
-            item: first as u32,
+            item: 0,
             // Allocated once, because allocations of several threads wait for each other.
             list: PolygonList::with_capacity(n_faces),
             clip_counts: ClipCounts::default(),
-            blocks: Default::default(),
+            parts: Parts {
+                n: 0,
+                items: [0; TOGETHER],
+                triangles: 0,
+                corners: [[0; 3]; TOGETHER],
+                blocks: Default::default(),
+            },
             level,
             contour: Vec::new(),
             scratch: Vec::new(),
         }
     }
 
-    fn all(mut self, faces: &[Face], is_drawn: impl Fn(&Face) -> bool) -> (PolygonList<N>, ClipCounts) {
-        let first = self.item;
-        for (idx, faces) in faces.chunks(TOGETHER).enumerate() {
-            // A chunk is short.
-            self.push_faces(first + (idx * TOGETHER) as u32, faces, &is_drawn);
+    /// The list of faces, the first of which is item `first`.
+    fn all(
+        mut self,
+        first: usize,
+        faces: &[Face],
+        is_drawn: impl Fn(&Face) -> bool,
+    ) -> (PolygonList<N>, ClipCounts) {
+        for (idx, face) in faces.iter().enumerate().filter(|(_, face)| is_drawn(face)) {
+            // The text of a scene is below 4 GiB, so row numbers fit.
+            self.add_face((first + idx) as u32, face);
         }
+        self.push_parts();
         self.list.sort_into_bands(self.painter.grid);
         (self.list, self.clip_counts)
     }
 
-    /// Adds some faces, the first of which is item `first`.
-    fn push_faces(&mut self, first: u32, faces: &[Face], is_drawn: &impl Fn(&Face) -> bool) {
-        // Face i is bit i.
-        let (mut triangles, mut others) = (0u64, 0u64);
-        let mut corners = [[0; 3]; TOGETHER];
-        for (idx, face) in faces.iter().enumerate().filter(|(_, face)| is_drawn(face)) {
-            if let &[VertexId(a), VertexId(b), VertexId(c)] =
-                self.painter.scene.contours.corners(face.contours.clone())
-            {
-                corners[idx] = [a, b, c];
-                let points = [self.corners.point(a), self.corners.point(b), self.corners.point(c)];
-                self.blocks[idx / BLOCK].set(idx % BLOCK, points);
-                triangles |= 1 << idx;
-            } else {
-                others |= 1 << idx;
-            }
+    /// Adds a face, as its triangles if there is something to interpolate between its corners.
+    fn add_face(&mut self, item: u32, face: &Face) {
+        let corners = self.painter.scene.contours.corners(face.contours.clone());
+        if let &[VertexId(a), VertexId(b), VertexId(c)] = corners {
+            self.add_triangle(item, [a, b, c]);
+            return;
         }
+        let triangles = if self.painter.is_even(face, corners) { None } else { self.painter.triangles(face) };
+        let Some(triangles) = triangles else {
+            self.parts.items[self.parts.n] = item;
+            self.count_part();
+            return;
+        };
+        for triangle in triangles {
+            self.add_triangle(item, triangle.map(|corner| corners[corner as usize].0));
+        }
+    }
+
+    #[inline]
+    fn add_triangle(&mut self, item: u32, corners: [u32; 3]) {
+        let [a, b, c] = corners;
+        let points = [self.corners.point(a), self.corners.point(b), self.corners.point(c)];
+        let idx = self.parts.n;
+        self.parts.items[idx] = item;
+        self.parts.corners[idx] = corners;
+        self.parts.blocks[idx / BLOCK].set(idx % BLOCK, points);
+        self.parts.triangles |= 1 << idx;
+        self.count_part();
+    }
+
+    #[inline]
+    fn count_part(&mut self) {
+        self.parts.n += 1;
+        if self.parts.n == TOGETHER {
+            self.push_parts();
+        }
+    }
+
+    /// Moves the parts to the list.
+    fn push_parts(&mut self) {
+        let Parts { n, triangles, blocks, .. } = &self.parts;
+        let (n, triangles) = (*n, *triangles);
+        let others = !triangles & u64::MAX.checked_shr((u64::BITS as usize - n) as u32).unwrap_or(0);
         let (mut regular, mut in_picture, mut drawn) = (0, 0, 0);
         let mut classes = [const { None }; TOGETHER / BLOCK];
-        for (idx, (block, classes)) in self.blocks.iter().zip(&mut classes).enumerate() {
+        for (idx, (block, classes)) in blocks.iter().zip(&mut classes).enumerate() {
             let first = idx * BLOCK;
             if triangles >> first & ((1 << BLOCK) - 1) == 0 {
                 continue;
@@ -243,21 +291,30 @@ impl<'a, const N: usize> Chunk<'a, N> {
         let mut left = (drawn & triangles) | (triangles & !regular) | others;
         while left != 0 {
             let idx = left.trailing_zeros() as usize;
-            self.item = first + idx as u32;
+            self.item = self.parts.items[idx];
+            let corners = self.parts.corners[idx];
             match &classes[idx / BLOCK] {
                 Some(classes) if regular >> idx & 1 == 1 => {
-                    self.list.push_triangle(self.item, corners[idx], classes.place(idx % BLOCK));
+                    self.list.push_triangle(self.item, corners, classes.place(idx % BLOCK));
                 }
-                _ => self.push_face(&faces[idx]),
+                _ if triangles >> idx & 1 == 1 => {
+                    let corners = corners.map(VertexId);
+                    self.push_contours(std::iter::once(&corners[..]));
+                }
+                _ => {
+                    let scene = self.painter.scene;
+                    self.push_contours(scene.face_contours(&scene.faces[self.item as usize]));
+                }
             }
             left &= left - 1;
         }
+        (self.parts.n, self.parts.triangles) = (0, 0);
     }
 
-    /// Adds a face that is not a regular triangle.
-    fn push_face(&mut self, face: &Face) {
-        let vertices = self.painter.scene.contours.corners(face.contours.clone());
-        let points = vertices.iter().map(|vertex| self.corners.points[vertex.index()]);
+    /// Adds the contours of the current face, or of a triangle of it that is not regular.
+    fn push_contours<'c>(&mut self, contours: impl Iterator<Item = &'c [VertexId]> + Clone) {
+        let face = &self.painter.scene.faces[self.item as usize];
+        let points = contours.clone().flatten().map(|vertex| self.corners.points[vertex.index()]);
         // The rows of a face that is not clipped are known at once: outside the picture, or between
         // samples, it needs no more work.
         if points.clone().all(|point| point.is_finite()) {
@@ -265,14 +322,14 @@ impl<'a, const N: usize> Chunk<'a, N> {
             self.clip_counts.in_front += 1;
             self.clip_counts.in_picture += usize::from(rows.is_some());
             if rows.is_some_and(|rows| !rows.is_empty()) && !self.is_left_out(face) {
-                self.push_contours(face);
+                self.clip_contours(face, contours);
                 self.list.end_polygon(self.painter.grid, self.item);
             }
         } else if self.is_left_out(face) {
             // Culled, so it is not clipped.
             self.clip_counts.in_front += 1;
             self.clip_counts.in_picture += 1;
-        } else if self.push_contours(face) {
+        } else if self.clip_contours(face, contours) {
             self.end_polygon();
         }
     }
@@ -282,10 +339,10 @@ impl<'a, const N: usize> Chunk<'a, N> {
     }
 
     /// Clips and projects the contours. Returns false if nothing is left.
-    fn push_contours(&mut self, face: &Face) -> bool {
+    fn clip_contours<'c>(&mut self, face: &Face, contours: impl Iterator<Item = &'c [VertexId]>) -> bool {
         let look = FaceLook::new(self.painter, face);
         let mut is_in_front = false;
-        for corners in self.painter.scene.face_contours(face) {
+        for corners in contours {
             self.contour.clear();
             self.contour.extend(corners.iter().map(|&vertex| Vertex {
                 place: self.painter.place(self.painter.scene.vertices[vertex.index()].position),

@@ -5,7 +5,7 @@
 //! | layout | scene | interpolants, in this order |
 //! | --- | --- | --- |
 //! | [`Plain`] | hues under white light | tint, saturation, value × level |
-//! | [`Colored`] | hues under coloured lights | tint, saturation, value; level of red, green, blue |
+//! | [`Colored`] | hues under coloured lights, or with levels of linear light | tint, saturation, value; level of red, green, blue |
 //! | [`Mixed`] | some colours given as light | as plain, then 0; or lit linear red, green, blue, then 1 |
 //! | [`MixedColored`] | both | as coloured, then 0; or lit linear red, green, blue, 1, 1, 1, then 1 |
 //! | [`Transparent`] | translucent faces, lines | as mixed coloured, then the translucency |
@@ -136,7 +136,7 @@ pub enum Interpolated {
 impl PackedLayout {
     /// The one with the fewest interpolants.
     pub fn new(palette: &Palette, lighting: &Lighting) -> Self {
-        match (palette.has_light(), lighting.is_colored()) {
+        match (palette.has_light(), lighting.is_colored() || lighting.acts_on_light()) {
             (false, false) => Self::Plain,
             (false, true) => Self::Colored,
             (true, false) => Self::Mixed,
@@ -183,8 +183,9 @@ pub fn pack_plain(swatch: &Swatch, level: DVec3) -> [f64; 3] {
     Plain { tint: swatch.tint, saturation: swatch.saturation, value: swatch.value * level.x }.pack()
 }
 
-/// Coloured light is interpolated beside the colour.
+/// Coloured light and factors of linear light are interpolated beside the colour.
 pub fn pack_colored(swatch: &Swatch, level: DVec3) -> [f64; 6] {
+    let level = level * swatch.factor;
     let color = Colored {
         tint: swatch.tint,
         saturation: swatch.saturation,
@@ -251,9 +252,9 @@ fn mixed_colored(swatch: &Swatch, level: DVec3) -> MixedColored<f64> {
             tint_or_red: swatch.tint,
             saturation_or_green: swatch.saturation,
             value_or_blue: swatch.value,
-            red_level: level.x,
-            green_level: level.y,
-            blue_level: level.z,
+            red_level: level.x * swatch.factor,
+            green_level: level.y * swatch.factor,
+            blue_level: level.z * swatch.factor,
             is_light: 0.0,
         },
     }

@@ -8,7 +8,7 @@ use crate::clip::Vertex;
 use uglight::Spectra;
 use uglight::SurfaceAttributes;
 use uglight::{Common, Lighting, Palette, Swatch};
-use ugscene::{CameraPoint, Slab, View};
+use ugscene::{CameraPoint, Slab, Triangle, View};
 
 /// Everything from which faces and wires are drawn.
 #[derive(Clone, Copy)]
@@ -98,6 +98,11 @@ impl Painter<'_> {
         self.palette.has_light() && ends.any(|&vertex| self.wire_end(vertex, color).light.is_some())
     }
 
+    /// The triangles of a face, as numbers of its corners; `None` if it intersects itself.
+    pub fn triangles(&self, face: &Face) -> Option<Vec<Triangle>> {
+        ugscene::face_triangles(self.scene, face, |vertex| self.surface.rest(vertex))
+    }
+
     /// The rest normal of a face on its visible side; zero if lighting needs none or the face is
     /// degenerate.
     pub fn seen_normal(&self, face: &Face) -> DVec3 {
@@ -126,10 +131,11 @@ impl Painter<'_> {
             return DVec3::splat(level);
         }
         if !self.lighting.needs_geometry() {
-            return self.lighting.level(DVec3::ZERO, DVec3::ZERO, is_light);
+            return self.lighting.level(DVec3::ZERO, DVec3::ZERO, DVec3::ZERO, is_light);
         }
         let normal = self.normal_at(vertex, seen_normal);
-        self.lighting.level(self.surface.rest(vertex), normal, is_light)
+        let shift = self.surface.frames().lamp_shift(face.body);
+        self.lighting.level(self.surface.rest(vertex), normal, shift, is_light)
     }
 
     /// True if the light level of a face is the same at all these corners of it.
@@ -139,12 +145,25 @@ impl Painter<'_> {
         !self.lighting.needs_places() && !corners.iter().any(has_normal)
     }
 
+    /// True if colour and light level are the same at all corners of a face.
+    pub fn is_even(&self, face: &Face, corners: &[VertexId]) -> bool {
+        let Some((&first, others)) = corners.split_first() else { return true };
+        let is_lit_evenly = || {
+            !self.lighting.needs_geometry() || self.scene.light_level(face).is_some() || self.is_flat(corners)
+        };
+        let looks_like_first = |&corner: &VertexId| {
+            self.surface.row(corner) == self.surface.row(first)
+                || self.surface.swatch(corner) == self.surface.swatch(first)
+        };
+        others.iter().all(looks_like_first) && is_lit_evenly()
+    }
+
     /// The light level of all faces without one of their own, if it is the same for all of them and
     /// all colours are opaque hues.
     pub fn even_level(&self) -> Option<DVec3> {
         let is_even = !self.lighting.needs_geometry();
         let is_plain = !self.palette.has_light() && !self.palette.has_translucency();
-        (is_even && is_plain).then(|| self.lighting.level(DVec3::ZERO, DVec3::ZERO, false))
+        (is_even && is_plain).then(|| self.lighting.level(DVec3::ZERO, DVec3::ZERO, DVec3::ZERO, false))
     }
 
     /// The normal at a corner of a face, on its visible side.

@@ -1,6 +1,6 @@
 //! From a scene to a picture.
 
-use ugimage::{Compression, Format, Frame, LinearFrame, Metadata, Tone};
+use ugimage::{Compression, Frame, LinearFrame, Metadata};
 use ugparse::{Diagnostics, Parsed, Scene, Source};
 use ugpicture::{Image, Layout, Output, PictureFile};
 use ugpipe::Progress;
@@ -67,10 +67,8 @@ const PROGRAM: &str = env!("CARGO_PKG_NAME");
 /// See [`Error`].
 pub fn light(scene: &Scene, config: &Config) -> Result<LinearFrame, Error> {
     let mut config = config.clone();
-    let picture = &mut config.picture;
-    (picture.output, picture.exposure, picture.tone) = (Output::Color(Format::Exr), None, Tone::Clip);
-    picture.small = false;
-    picture.check()?;
+    config.picture.keep_light();
+    config.picture.check()?;
     let setup = prepare(scene, &config)?;
     let layers = RenderLayers::new(setup.painter(), &config.draw_mode());
     Ok(pixels::light(&setup, &layers, &config).0)

@@ -67,7 +67,8 @@ impl<'a> Setup<'a> {
             ugscene::read_tints_in(scene.to_mut(), hue_scale);
         }
         let palette = Palette::new(&scene, config.interpolated(hue_scale), is_spectral);
-        let lighting = Lighting::new(&scene, view.eye, view.forward);
+        let law = config.law(&scene);
+        let lighting = Lighting::new(&scene, view.eye, view.forward, law);
         let surface = SurfaceAttributes::new(&scene, view.eye, &palette);
         let is_uncut = palette.has_light() || config.picture.keeps_light();
         if let Some(exact) = config.exact {
@@ -77,11 +78,12 @@ impl<'a> Setup<'a> {
         let spectra = match config.exact {
             Some(ColorShift::Spectra(shift)) => {
                 let rapidity = surface.greatest_rapidity(&scene);
-                Some(Spectra::new(&scene, shift, surface.mixtures(&scene), rapidity))
+                let spectra = Spectra::new(&scene, shift, surface.mixtures(&scene), rapidity);
+                Some(spectra.with_lamps(&scene, view.eye))
             }
             _ => None,
         };
-        let shader = Shader::new(palette.interpolation(), !is_uncut);
+        let shader = Shader::new(palette.interpolation(), !is_uncut, law.acts_on_light());
         let is_culled = config.cull;
         Ok(Self { scene, view, grid, palette, lighting, surface, spectra, shader, is_culled, is_uncut })
     }

@@ -237,3 +237,36 @@ fn layers_blend_to_the_pixel() {
         assert!(text.contains(part), "{part}: {text}");
     }
 }
+
+#[test]
+fn lights_have_their_names() {
+    let folder = tempfile::tempdir().unwrap();
+    let names = |lights: &str, place: &str| {
+        let scene = SCENE.replace("l .2; l .6 -1 -2 3 warm; l 1 2 -3 4;", lights);
+        assert!(scene.contains(lights));
+        std::fs::write(folder.path().join("scene.ug"), scene).unwrap();
+        let told = ugrainbow(folder.path(), &["--explain", place, "--format", "json"]);
+        let told: Value = serde_json::from_slice(&told).unwrap();
+        let lights = told["sample"]["corners"][0]["lights"].as_array().unwrap().clone();
+        let text = String::from_utf8(ugrainbow(folder.path(), &["--explain", place])).unwrap();
+        lights
+            .into_iter()
+            .map(|light| {
+                let name = light["light"].as_str().unwrap().to_owned();
+                assert!(text.contains(&format!(" {name}")), "{name}: {text}");
+                name
+            })
+            .collect::<Vec<_>>()
+    };
+    let place = "8,22";
+    assert_eq!(
+        names("l .2; l .6 -1 -2 3 warm; l 1 2 -3 4; l lamp .1 0 0 0 0;", place),
+        ["ambient", "directional 1", "directional 2", "lamp"]
+    );
+    assert_eq!(
+        names("l .1 0 0 9 0; l sky .2; l sun .6 -1 -2 3 warm; l 1 2 -3 4;", place),
+        ["sky", "local 1", "sun", "directional 2"]
+    );
+    assert_eq!(names("l sky .2; l glow .1; l lamp 1 2 -3 4 0;", place), ["ambient", "lamp"]);
+    assert_eq!(names("", place), ["ambient", "directional 1"]);
+}

@@ -87,7 +87,7 @@ impl View {
     pub fn new(scene: &Scene, options: &CameraOptions, samples: [u32; 2]) -> Result<Self, CameraError> {
         let none = Camera::default();
         let camera = scene.camera().unwrap_or(&none);
-        let default_camera = DefaultCamera::new(scene, options, samples, [])?;
+        let default_camera = DefaultCamera::new(scene, options, samples, |_| Vec::new())?;
         let (eye, center) = match default_camera {
             Some(DefaultCamera { eye, center, .. }) => (eye, center),
             None => {

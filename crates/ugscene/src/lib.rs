@@ -5,7 +5,8 @@
 //! - Positions: rest positions from seen ones ([`Geometry`], [`rest_positions`], equation (P4)).
 //! - Normals: [`smooth_normals`], and [`shading_normal`] for lighting.
 //! - The colours that meet at a vertex ([`vertex_shares`]).
-//! - Triangulation of polygons ([`triangulate`]), also of faces that are not flat ([`read`]).
+//! - The triangles of faces ([`face_triangles`]), as which those that are not flat are read
+//!   ([`read`]).
 //! - Motions: where bodies and lights are relative to the camera ([`PlacedBodies`]).
 //! - The camera ([`View`]), its options, the eye, and the camera of a scene without one
 //!   ([`DefaultCamera`]).
@@ -26,6 +27,7 @@
 //! ```
 
 mod camera;
+mod camera_fit;
 mod camera_motion;
 mod camera_options;
 #[cfg(feature = "cli")]
@@ -41,6 +43,7 @@ mod normals;
 mod polygon;
 mod position;
 mod read;
+mod relative_motion;
 mod rest_frames;
 mod shares;
 mod split;
@@ -56,12 +59,13 @@ pub use edges::face_edges;
 pub use eye::{eye, vertex_at_eye};
 pub use geometry::{Geometry, rest_positions};
 pub use measurement::{Measurement, measure};
-pub use mixing::{mixing_note, n_mixing_vertices, repeat_vertices, separate_wires};
-pub use motion::{Anchor, MotionError, MotionOptions, PlacedBodies, RelativeMotion};
+pub use mixing::{mixing_note, mixing_vertices, n_mixing_vertices, repeat_vertices, separate_wires};
+pub use motion::{Anchor, MotionError, MotionOptions, PlacedBodies, common_camera};
 pub use normals::{corner_angle, seen_normal, shading_normal, smooth_normals};
-pub use polygon::{Triangle, is_convex, triangulate};
+pub use polygon::{Triangle, face_triangles, is_convex, triangulate};
 pub use position::{RestPosition, SeenPosition};
 pub use read::read;
+pub use relative_motion::RelativeMotion;
 pub use rest_frames::{RestFrames, is_one_body, separate_bodies, vertex_bodies};
 pub use shares::{Shares, face_vertices, vertex_shares};
 pub use split::{split_corners, split_vertices};

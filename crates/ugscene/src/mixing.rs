@@ -62,10 +62,16 @@ fn remove_mixtures(scene: &mut Scene) {
 
 /// The number of vertices without a colour of their own at which faces of different colours meet.
 pub fn n_mixing_vertices(scene: &Scene) -> usize {
+    mixing_vertices(scene).into_iter().filter(|&is_mixing| is_mixing).count()
+}
+
+/// For each vertex, whether it has no colour of its own and faces of different colours meet there;
+/// empty if there is none.
+pub fn mixing_vertices(scene: &Scene) -> Vec<bool> {
     // Of most scenes no vertex needs a colour, or all faces have the same.
     let has_one_color = || scene.faces.windows(2).all(|pair| pair[0].color == pair[1].color);
     if scene.vertices.iter().all(|vertex| vertex.color.is_some()) || has_one_color() {
-        return 0;
+        return Vec::new();
     }
     let mut colors: Vec<Meeting> = vec![Meeting::None; scene.vertices.len()];
     for face in &scene.faces {
@@ -74,9 +80,8 @@ pub fn n_mixing_vertices(scene: &Scene) -> usize {
             *meeting = meeting.with(scene, face.color);
         }
     }
-    let is_mixing =
-        |&row: &usize| matches!(colors[row], Meeting::Different) && scene.vertices[row].color.is_none();
-    (0..colors.len()).filter(is_mixing).count()
+    let pairs = colors.iter().zip(&scene.vertices);
+    pairs.map(|(meeting, vertex)| matches!(meeting, Meeting::Different) && vertex.color.is_none()).collect()
 }
 
 /// The colours of the faces at a vertex.

@@ -1,28 +1,47 @@
-//! Polygons in their rest plane: convexity, and triangulation by ear clipping.
+//! Polygons in their rest plane: convexity, and the triangles of a face.
+//!
+//! All programs compute the triangles of a face by [`triangulate`], each from rest positions with
+//! rounding errors of its own and in axes of its own. So the result must not depend on either: no
+//! choice is made by comparing lengths, of which those of a square are equal, and corners on
+//! straight sides count as such with a tolerance.
 
 mod delaunay;
+mod ears;
 
-use earcut::Earcut;
 use glam::{DVec2, DVec3};
 use rustc_hash::{FxHashMap, FxHashSet};
-use ugparse::newell_normal;
+use ugparse::{Face, Scene, VertexId, newell_normal};
 
 /// Three corners, as indices of the list of corners.
 pub type Triangle = [u32; 3];
 
-/// Is this quadrilateral convex, and no corner almost straight?
-pub fn is_convex(corners: [DVec3; 4]) -> bool {
+/// A corner with a sine below this is almost straight.
+const STRAIGHT: f64 = 1e-6;
+
+/// Is this contour convex, and no corner almost straight?
+pub fn is_convex(corners: &[DVec3]) -> bool {
     let reach = corners.iter().map(|corner| corner.abs().max_element()).fold(0.0, f64::max);
-    // Products of three vectors would overflow or underflow.
-    let corners = if (1e-60..1e60).contains(&reach) { corners } else { corners.map(|corner| corner / reach) };
+    if !(1e-60..1e60).contains(&reach) {
+        // Products of three vectors would overflow or underflow.
+        return (reach > 0.0 && reach < f64::INFINITY)
+            && is_convex(&corners.iter().map(|&corner| corner / reach).collect::<Vec<_>>());
+    }
     let normal = newell_normal(corners.iter().copied());
-    // A corner with a sine below a millionth would make a degenerate triangle.
-    let least = 1e-6 * normal.length();
-    (0..4).all(|idx| {
-        let (back, here, ahead) = (corners[(idx + 3) % 4], corners[idx], corners[(idx + 1) % 4]);
-        let (into, out) = (here - back, ahead - here);
-        into.cross(out).dot(normal) > least * into.length() * out.length()
-    })
+    let least = STRAIGHT * normal.length();
+    let n = corners.len();
+    let is_left =
+        |into: DVec3, out: DVec3| into.cross(out).dot(normal) > least * into.length() * out.length();
+    let turns_left = |idx: usize| {
+        let (back, here, ahead) = (corners[(idx + n - 1) % n], corners[idx], corners[(idx + 1) % n]);
+        is_left(here - back, ahead - here)
+    };
+    // A star turns left at every corner, too, but runs around more than once. Four corners cannot.
+    let from_first = |idx: usize| corners[idx] - corners[0];
+    let is_ahead = |idx: usize| {
+        let normal = |from: usize| from_first(from).cross(from_first(idx)).dot(normal);
+        normal(1) > 0.0 && normal(idx - 1) > 0.0
+    };
+    n >= 3 && (0..n).all(turns_left) && (n == 4 || (2..n).all(is_ahead))
 }
 
 /// Ear cutting takes time quadratic in the number of corners, and more where corners coincide.
@@ -34,12 +53,22 @@ const MAX_EAR_CORNERS: usize = 256;
 /// this is not triangulated. Contours whose bounding boxes are not nested need no test.
 const MAX_NESTING_TESTS: usize = 1 << 24;
 
-/// Triangulates a polygon. The triangles have its orientation and use every corner and every side.
+/// The triangles of a polygon. They have its orientation and use every corner and every side.
+///
+/// A convex polygon is cut by the diagonals from its first corner. Another one, or one with corners
+/// on straight sides, is cut by ears: the first corner that can be cut off, from the second on, and
+/// so forth; holes are joined to the outline first.
 ///
 /// `rings`: the corners of its contours, numbered through all rings. The first gives the
 /// orientation; the even-odd rule decides what is inside. `None` for polygons that intersect
 /// themselves, have no area, or have contours nested thousands deep.
 pub fn triangulate(rings: &[Vec<DVec3>]) -> Option<Vec<Triangle>> {
+    if let [ring] = rings
+        && is_convex(ring)
+    {
+        // Scenes have fewer than 2^32 corners.
+        return Some((2..ring.len() as u32).map(|corner| [0, corner - 1, corner]).collect());
+    }
     let rings = of_usual_size(rings)?;
     let normal = newell_normal(rings[0].iter().copied());
     let flat = Flat::new(&rings, normal)?;
@@ -48,36 +77,67 @@ pub fn triangulate(rings: &[Vec<DVec3>]) -> Option<Vec<Triangle>> {
     let mut triangles = Vec::new();
     for group in &groups {
         if flat.n_corners(group) <= MAX_EAR_CORNERS {
-            flat.cut_ears(group, &mut triangles);
+            ears::triangulate(&flat.contours(group, &sides), &mut triangles)?;
         } else {
-            delaunay::triangulate(&flat.contours(group), &mut triangles)?;
+            delaunay::triangulate(&flat.contours(group, &sides), &mut triangles)?;
         }
     }
-    let triangles = take_up_dropped_corners(triangles, &sides)?;
     (is_complete(&triangles, &sides) && flat.are_upright(&triangles)).then_some(triangles)
 }
 
-/// The polygon projected to a coordinate plane, its first contour counterclockwise. Dropping a
-/// coordinate does not round, so collinear corners stay collinear.
+/// The triangles of a face, as numbers of its corners through all contours; see [`triangulate`].
+/// A corner that is repeated at once counts once. `rest`: the rest position of a vertex.
+pub fn face_triangles(scene: &Scene, face: &Face, rest: impl Fn(VertexId) -> DVec3) -> Option<Vec<Triangle>> {
+    // The usual faces, without copies of their corners.
+    if face.contours.len() == 1 {
+        match scene.contours.get(face.contours.start) {
+            [_, _, _] => return Some(vec![[0, 1, 2]]),
+            &[a, b, c, d] if is_convex(&[a, b, c, d].map(&rest)) => {
+                return Some(vec![[0, 1, 2], [0, 2, 3]]);
+            }
+            _ => {}
+        }
+    }
+    let (mut rings, mut numbers, mut first) = (Vec::new(), Vec::new(), 0);
+    for contour in scene.face_contours(face) {
+        let n = contour.len();
+        let is_new = |&at: &usize| contour[at] != contour[(at + n - 1) % n];
+        let kept = (0..n).filter(is_new);
+        rings.push(kept.clone().map(|at| rest(contour[at])).collect::<Vec<DVec3>>());
+        numbers.extend(kept.map(|at| first + at as u32));
+        first += n as u32;
+    }
+    let mut triangles = triangulate(&rings)?;
+    triangles.iter_mut().flatten().for_each(|corner| *corner = numbers[*corner as usize]);
+    Some(triangles)
+}
+
+/// The polygon in coordinates of its plane, its first contour counterclockwise.
 struct Flat {
     rings: Vec<Vec<DVec2>>,
     /// Number of each ring's first corner.
     first: Vec<u32>,
 }
 
+/// Cosine and sine of the angle, one radian, from a side of the polygon to the first coordinate
+/// axis. Sides are rarely parallel to the axes then, so no choice is made between corners of equal
+/// coordinates.
+const AXES: [f64; 2] = [0.540_302_305_868_139_7, 0.841_470_984_807_896_5];
+
 impl Flat {
     fn new(rings: &[Vec<DVec3>], normal: DVec3) -> Option<Flat> {
-        let size = normal.abs();
-        let (drop, dropped): (fn(DVec3) -> DVec2, f64) = if size.x >= size.y && size.x >= size.z {
-            (|p| DVec2::new(p.y, p.z), normal.x)
-        } else if size.y >= size.z {
-            (|p| DVec2::new(p.z, p.x), normal.y)
-        } else {
-            (|p| DVec2::new(p.x, p.y), normal.z)
-        };
-        let turn = |p: DVec2| if dropped < 0.0 { DVec2::new(-p.x, p.y) } else { p };
-        let rings: Vec<Vec<DVec2>> =
-            rings.iter().map(|ring| ring.iter().map(|&corner| turn(drop(corner))).collect()).collect();
+        let normal = normal.try_normalize()?;
+        let origin = rings[0][0];
+        let reach = rings[0].iter().map(|corner| corner.distance(origin)).fold(0.0, f64::max);
+        // Not the farthest corner: several may be equally far.
+        let is_far = |corner: &&DVec3| corner.distance(origin) > 0.37 * reach;
+        let toward = *rings[0].iter().find(is_far)? - origin;
+        let along = (toward - toward.dot(normal) * normal).try_normalize()?;
+        let across = normal.cross(along);
+        let [cosine, sine] = AXES;
+        let (x, y) = (cosine * along + sine * across, cosine * across - sine * along);
+        let flat = |corner: &DVec3| DVec2::new((*corner - origin).dot(x), (*corner - origin).dot(y));
+        let rings: Vec<Vec<DVec2>> = rings.iter().map(|ring| ring.iter().map(flat).collect()).collect();
         let first = rings
             .iter()
             .scan(0, |next, ring| {
@@ -112,33 +172,16 @@ impl Flat {
         group.iter().map(|&ring| self.rings[ring].len()).sum()
     }
 
-    /// The contours of a group, as corners with their numbers.
-    fn contours(&self, group: &[usize]) -> Vec<Vec<(u32, DVec2)>> {
-        let numbered = |&ring: &usize| (self.first[ring]..).zip(self.rings[ring].iter().copied()).collect();
-        group.iter().map(numbered).collect()
-    }
-
-    fn cut_ears(&self, group: &[usize], triangles: &mut Vec<Triangle>) {
-        let corners: Vec<[f64; 2]> =
-            group.iter().flat_map(|&ring| self.rings[ring].iter().map(|p| p.to_array())).collect();
-        let numbers: Vec<u32> =
-            group.iter().flat_map(|&ring| (self.first[ring]..).take(self.rings[ring].len())).collect();
-        let holes: Vec<u32> = group
-            .iter()
-            .scan(0, |next, &ring| {
-                *next += self.rings[ring].len() as u32;
-                Some(*next)
-            })
-            .take(group.len() - 1)
-            .collect();
-        let mut cut: Vec<u32> = Vec::new();
-        Earcut::new().earcut(corners.iter().copied(), &holes, &mut cut);
-        let at = |idx: u32| DVec2::from_array(corners[idx as usize]);
-        let area: f64 = cut.chunks_exact(3).map(|t| signed_area(&[at(t[0]), at(t[1]), at(t[2])])).sum();
-        triangles.extend(cut.chunks_exact(3).map(|t| {
-            let [a, b, c] = [t[0], t[1], t[2]].map(|idx| numbers[idx as usize]);
-            if area < 0.0 { [a, c, b] } else { [a, b, c] }
-        }));
+    /// The contours of a group, as corners with their numbers, from the first corner on with the
+    /// inside on the left. `sides`: the corner after each corner.
+    fn contours(&self, group: &[usize], sides: &[u32]) -> Vec<Vec<(u32, DVec2)>> {
+        let contour = |&ring: &usize| {
+            let first = self.first[ring];
+            let next = |&corner: &u32| Some(sides[corner as usize]);
+            let numbers = std::iter::successors(Some(first), next).take(self.rings[ring].len());
+            numbers.map(|number| (number, self.rings[ring][(number - first) as usize])).collect()
+        };
+        group.iter().map(contour).collect()
     }
 
     /// Do all triangles have the orientation of the polygon? False for polygons that intersect
@@ -219,46 +262,6 @@ fn nesting(rings: &[Vec<DVec2>]) -> Option<Vec<Vec<usize>>> {
 fn bounds(ring: &[DVec2]) -> [DVec2; 2] {
     let grown = |[low, high]: [DVec2; 2], &p: &DVec2| [low.min(p), high.max(p)];
     ring.iter().fold([DVec2::INFINITY, DVec2::NEG_INFINITY], grown)
-}
-
-/// Ear cutting drops corners on a straight side. Neighbours do use them, so the triangle at such a
-/// side is replaced by a fan that uses them too.
-fn take_up_dropped_corners(triangles: Vec<Triangle>, sides: &[u32]) -> Option<Vec<Triangle>> {
-    let mut edges: FxHashSet<(u32, u32)> = triangles.iter().flat_map(|&t| edges_of(t)).collect();
-    let mut todo = triangles;
-    todo.reverse();
-    let mut done = Vec::with_capacity(todo.len());
-    // Each step finishes a triangle or adds a corner.
-    let mut steps_left = todo.len() + 2 * sides.len();
-    while let Some([a, b, c]) = todo.pop() {
-        steps_left = steps_left.checked_sub(1)?;
-        let open = [[a, b, c], [b, c, a], [c, a, b]]
-            .into_iter()
-            .find(|&[u, w, _]| sides[u as usize] != w && !edges.contains(&(w, u)));
-        let Some([u, w, apex]) = open else {
-            done.push([a, b, c]);
-            continue;
-        };
-        let chain = chain(sides, u, w)?;
-        for pair in chain.windows(2).rev() {
-            let piece = [pair[0], pair[1], apex];
-            edges.extend(edges_of(piece));
-            todo.push(piece);
-        }
-    }
-    Some(done)
-}
-
-/// The corners along the sides from `from` to `to`.
-fn chain(sides: &[u32], from: u32, to: u32) -> Option<Vec<u32>> {
-    let mut chain = vec![from];
-    while *chain.last()? != to {
-        if chain.len() > sides.len() {
-            return None;
-        }
-        chain.push(sides[*chain.last()? as usize]);
-    }
-    Some(chain)
 }
 
 /// Is every side used once, and every other edge once in each direction?
@@ -446,11 +449,74 @@ mod tests {
         }
     }
 
+    /// Programs compute the triangles of a face in axes and units of their own, from positions that
+    /// were rounded in text.
+    #[test]
+    fn triangles_do_not_depend_on_axes_units_or_rounding() {
+        let square = |x: f64, y: f64, size: f64| {
+            [(x, y), (x + size, y), (x + size, y + size), (x, y + size)]
+                .map(|(x, y)| DVec3::new(x, y, 0.0))
+                .to_vec()
+        };
+        let flat = |points: &[(f64, f64)]| -> Vec<DVec3> {
+            points.iter().map(|&(x, y)| DVec3::new(x, y, 0.0)).collect()
+        };
+        let mut bent = square(0.0, 0.0, 1.0);
+        bent[2].z = 0.01;
+        let shapes: [Vec<Vec<DVec3>>; 8] = [
+            vec![square(0.0, 0.0, 1.0)],
+            vec![bent],
+            vec![flat(&[(0.0, 0.0), (4.0, 0.0), (1.0, 1.0), (0.0, 4.0)])],
+            vec![flat(&[(0.0, 0.0), (2.0, 0.0), (2.0, 1.0), (1.0, 1.0), (1.0, 2.0), (0.0, 2.0)])],
+            vec![flat(&[(0.0, 0.0), (1.0, 0.0), (2.0, 0.0), (2.0, 2.0), (1.0, 2.0), (0.0, 2.0)])],
+            vec![square(0.0, 0.0, 3.0), square(1.0, 1.0, 1.0)],
+            vec![square(0.0, 0.0, 5.0), square(1.0, 1.0, 1.0), square(3.0, 1.0, 1.0), square(3.0, 3.0, 1.0)],
+            vec![flat(&[(0.0, 0.0), (1.0, 0.0), (2.0, 0.0), (3.0, 0.0), (3.0, 3.0), (1.0, 1.0), (0.0, 3.0)])],
+        ];
+        let mut seed = 1_u64;
+        let mut random = || {
+            seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (seed >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+        };
+        for (row, rings) in shapes.iter().enumerate() {
+            let expected = triangulate(rings).unwrap();
+            for _ in 0..200 {
+                let axis = DVec3::new(random(), random(), random()).normalize();
+                let turn = glam::DQuat::from_axis_angle(axis, 3.0 * random());
+                let unit = libm::pow(10.0, 6.0 * random());
+                let offset = DVec3::new(random(), random(), random());
+                let mut place = |p: &DVec3| {
+                    let rounding = 1e-13 * DVec3::new(random(), random(), random());
+                    turn * ((*p + offset + rounding) * unit)
+                };
+                let placed: Vec<Vec<DVec3>> =
+                    rings.iter().map(|ring| ring.iter().map(&mut place).collect()).collect();
+                assert_eq!(triangulate(&placed).as_ref(), Some(&expected), "shape {row}");
+            }
+        }
+    }
+
+    /// Mirroring an instance reverses its faces, but keeps the first corner.
+    #[test]
+    fn a_mirrored_convex_face_has_mirrored_triangles() {
+        let ring = ring(&[(0.0, 0.0), (2.0, 0.0), (3.0, 1.0), (2.0, 3.0), (0.0, 2.0)]);
+        let n = ring.len();
+        let mirrored: Vec<DVec3> =
+            (0..n).map(|idx| ring[(n - idx) % n] * DVec3::new(-1.0, 1.0, 1.0)).collect();
+        let sorted = |triangles: Vec<Triangle>, number: &dyn Fn(u32) -> u32| {
+            let mut all: Vec<Triangle> = triangles.into_iter().map(|t| t.map(number)).collect();
+            all.iter_mut().for_each(|t| t.sort_unstable());
+            all.sort_unstable();
+            all
+        };
+        let found = sorted(triangulate(&[mirrored]).unwrap(), &|corner| (n as u32 - corner) % n as u32);
+        assert_eq!(found, sorted(triangulate(&[ring]).unwrap(), &|corner| corner));
+    }
+
     #[test]
     fn convexity() {
         fn check(points: [(f64, f64); 4], expected: bool) {
-            let corners: [DVec3; 4] = ring(&points).try_into().unwrap();
-            assert_eq!(is_convex(corners), expected, "{points:?}");
+            assert_eq!(is_convex(&ring(&points)), expected, "{points:?}");
         }
         check([(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)], true);
         check([(0.0, 1.0), (1.0, 1.0), (1.0, 0.0), (0.0, 0.0)], true);
@@ -458,5 +524,10 @@ mod tests {
         check([(0.0, 0.0), (1.0, 0.0), (2.0, 0.0), (0.0, 1.0)], false);
         check([(0.0, 0.0), (1.0, 1.0), (1.0, 0.0), (0.0, 1.0)], false);
         check([(1.0, 1.0); 4], false);
+        let around = |step: f64| {
+            let corner = |at: i32| libm::sincos(f64::from(at) * step);
+            is_convex(&ring(&(0..5).map(|at| (corner(at).1, corner(at).0)).collect::<Vec<_>>()))
+        };
+        assert!(around(std::f64::consts::TAU / 5.0) && !around(2.0 * std::f64::consts::TAU / 5.0), "a star");
     }
 }

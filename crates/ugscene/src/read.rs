@@ -1,15 +1,14 @@
-//! Reading for programs that move or draw faces: faces that are not flat are triangulated.
+//! Reading for programs that move or draw faces: bent faces become triangles.
 
 use std::ops::Range;
 
-use glam::DVec3;
-use ugparse::{Diagnostics, Face, Item, Options, Parsed, Scene, Source, TOO_BENT, VertexId};
+use ugparse::{Diagnostics, Face, Item, Options, Parsed, Scene, Source, VertexId};
 
-use crate::polygon::triangulate;
+use crate::face_triangles;
 
-/// Reads a scene and triangulates faces without holes that are far from flat ([`TOO_BENT`]), since
-/// their shape would depend on the side they are seen from. The triangles keep all properties of
-/// the face, including its name.
+/// Reads a scene and cuts bent faces ([`Parsed::bent`]) into their triangles, since their shape
+/// would depend on the side they are seen from. The triangles keep all properties of the face,
+/// including its name.
 ///
 /// `camera`: the name of the camera to use, see [`Parsed::choose_camera`].
 ///
@@ -20,8 +19,7 @@ pub fn read(source: &Source, options: &Options, camera: Option<&str>) -> Result<
     if let Some(name) = camera {
         parsed.choose_camera(source, name)?;
     }
-    let rows: Vec<usize> =
-        parsed.bent.iter().filter(|face| face.thickness > TOO_BENT).map(|face| face.row).collect();
+    let rows: Vec<usize> = parsed.bent.iter().map(|face| face.row).collect();
     if !rows.is_empty() {
         cut_faces(&mut parsed, &rows);
     }
@@ -58,14 +56,10 @@ fn cut_faces(parsed: &mut Parsed, rows: &[usize]) {
     }
 }
 
-/// The triangles of a face, as contours; `None` if it has holes or intersects itself.
+/// The triangles of a face, as contours; `None` if it intersects itself.
 fn triangles(scene: &mut Scene, face: &Face) -> Option<impl Iterator<Item = Range<u32>> + use<>> {
-    if face.contours.len() != 1 {
-        return None;
-    }
-    let corners: Vec<VertexId> = scene.contours.get(face.contours.start).to_vec();
-    let places: Vec<DVec3> = corners.iter().map(|corner| scene.vertices[corner.index()].position).collect();
-    let triangles = triangulate(&[places])?;
+    let corners: Vec<VertexId> = scene.contours.corners(face.contours.clone()).to_vec();
+    let triangles = face_triangles(scene, face, |vertex| scene.vertices[vertex.index()].position)?;
     let cut = triangles.iter().map(|triangle| triangle.map(|corner| corners[corner as usize]));
     let rows = scene.contours.push_all(cut);
     Some(rows.map(|row| row..row + 1))
@@ -85,7 +79,7 @@ mod tests {
     }
 
     #[test]
-    fn faces_far_from_flat_become_triangles() {
+    fn bent_faces_become_triangles() {
         let check = |d: f64, n_faces: usize, n_warnings: usize| {
             let parsed = read_text(&square(d, "f (a b c e);"));
             assert_eq!((parsed.scene.faces.len(), parsed.warnings.list.len()), (n_faces, n_warnings), "{d}");
@@ -93,10 +87,10 @@ mod tests {
         };
         // Its size is the root of 2, almost.
         check(0.0, 1, 0);
-        check(0.99e-3 * 2f64.sqrt(), 1, 0);
-        check(1.01e-3 * 2f64.sqrt(), 1, 1);
-        check(0.99 * 3e-2 * 2f64.sqrt(), 1, 1);
-        check(1.02 * 3e-2 * 2f64.sqrt(), 2, 1);
+        check(0.99e-6 * 2f64.sqrt(), 1, 0);
+        check(1.01e-6 * 2f64.sqrt(), 2, 0);
+        check(0.99e-3 * 2f64.sqrt(), 2, 0);
+        check(1.01e-3 * 2f64.sqrt(), 2, 1);
     }
 
     #[test]
@@ -117,9 +111,9 @@ mod tests {
     }
 
     #[test]
-    fn holes_and_what_was_seen_stay() {
+    fn faces_with_holes_are_cut_and_what_was_seen_stays() {
         let hole = "v h .4 .4 0; v i .6 .4 0; v j .5 .6 0; f (a b c e) (h i j);";
-        assert_eq!(read_text(&square(0.25, hole)).scene.faces.len(), 1);
+        assert_eq!(read_text(&square(0.25, hole)).scene.faces.len(), 7);
         let seen = format!("(ugstage 1 geometry as-seen eye 0 0 0) {}", square(0.25, "f (a b c e);"));
         let parsed = read_text(&seen);
         assert_eq!((parsed.scene.faces.len(), parsed.warnings.list.len()), (1, 0));

@@ -1,6 +1,6 @@
 //! The rest frames of a scene's bodies, and which body a vertex is part of.
 
-use glam::DQuat;
+use glam::{DQuat, DVec3};
 use ugparse::{BodyId, Motion, Scene};
 use ugphysics::Velocity;
 
@@ -13,6 +13,8 @@ pub struct RestFrames {
     velocities: Vec<Velocity>,
     /// For each body, see [`RestFrames::scene_from_axes`].
     scene_from_axes: Vec<DQuat>,
+    /// For each body, see [`RestFrames::lamp_shift`]; empty if all are 0.
+    lamp_shifts: Vec<DVec3>,
     /// Of the camera, in the frame the scene was written in.
     camera: Velocity,
 }
@@ -27,7 +29,13 @@ impl RestFrames {
         let camera = camera_velocity(scene);
         let turned = |&velocity: &Velocity| axes_from_scene(velocity, camera).inverse();
         let scene_from_axes = velocities.iter().map(turned).collect();
-        Self { velocities, scene_from_axes, camera }
+        let shift = |velocity: &Velocity| {
+            let own = scene.lamp_shifts.iter().find(|shift| shift.velocity == *velocity);
+            own.map_or(DVec3::ZERO, |own| own.shift)
+        };
+        let are_shifted = !scene.lamp_shifts.is_empty();
+        let lamp_shifts = velocities.iter().filter(|_| are_shifted).map(shift).collect();
+        Self { velocities, scene_from_axes, lamp_shifts, camera }
     }
 
     /// With `velocity` for bodies whose motion is not stated.
@@ -47,6 +55,13 @@ impl RestFrames {
     /// lights and normals are. The identity unless the camera moves in the scene.  Eq. (P25)
     pub fn scene_from_axes(&self, body: BodyId) -> DQuat {
         self.scene_from_axes[body.index()]
+    }
+
+    /// What is added to the positions of lamps that rest with whatever they light, when they light
+    /// this body, in the axes of the scene.
+    #[inline]
+    pub fn lamp_shift(&self, body: BodyId) -> DVec3 {
+        self.lamp_shifts.get(body.index()).copied().unwrap_or_default()
     }
 
     /// True if nothing moves.

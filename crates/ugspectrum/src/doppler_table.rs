@@ -68,6 +68,13 @@ impl DopplerGrid {
         DopplerTable { first: self.first, points }
     }
 
+    /// Tabulates X, Y, Z that `xyz` gives for every Doppler factor of the grid.
+    #[must_use]
+    pub fn table_of(&self, xyz: impl Fn(f64) -> [f64; 3]) -> DopplerTable {
+        let points = self.factors().map(|doppler| xyz(doppler).map(libm::log)).collect();
+        DopplerTable { first: self.first, points }
+    }
+
     /// X, Y, Z as from [`Spectrum::shifted`], at one ln D and without a table. For surfaces the
     /// integrals use the reflectance every 4 nm, with weights that the grid caches. Exact at the
     /// grid's own Doppler factors, and so at rest.

@@ -64,7 +64,8 @@ pub struct Args {
 
     /// Brightness law: report (D), photon (D^3), bolometric (D^4), none [default: report]
     ///
-    /// Values above 1 are clipped, unless -ex or -tc is given.
+    /// The laws photon and bolometric multiply linear light, report display-encoded values as in
+    /// 1988. Values above 1 are clipped, unless -ex or -tc is given.
     #[arg(long, visible_alias = "brightness", value_name = "LAW",
           value_parser = one_of(Brightness::ALL.map(Brightness::name), law), conflicts_with = "no_flux", help_heading = COLOR)]
     br: Option<Brightness>,

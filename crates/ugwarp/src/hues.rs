@@ -49,12 +49,14 @@ impl Hues {
         let number = |x: f32| f32x16::splat(simd, x);
         let (zero, one) = (number(0.0), number(1.0));
         let (red, green, blue) = (encode(simd, red), encode(simd, green), encode(simd, blue));
-        let gain = match shift.law {
+        let factor = match shift.law {
             Brightness::Report => doppler,
             Brightness::Photon => doppler * doppler * doppler,
             Brightness::Bolometric => doppler * doppler * (doppler * doppler),
             Brightness::None => one,
         };
+        // The factor of display-encoded values.
+        let (gain, of_light) = if shift.law.acts_on_light() { (one, Some(factor)) } else { (factor, None) };
 
         // A colour is a sum of white and of a pure hue.
         let value = red.max(green).max(blue);
@@ -63,7 +65,7 @@ impl Hues {
         let keeps_wavelength = pure.simd_le(zero) | doppler.simd_eq(one);
         if !shift.doppler || keeps_wavelength.all_true() {
             let (red, green, blue) = (red * gain, green * gain, blue * gain);
-            return decoded(simd, most, [red, green, blue]);
+            return decoded(simd, most, of_light, [red, green, blue]);
         }
         let sixth = number(60.0) / pure;
         let of_green = number(120.0) + sixth * (blue - red);
@@ -91,14 +93,25 @@ impl Hues {
         let red = keeps_wavelength.select(red * gain, shifted_red);
         let green = keeps_wavelength.select(green * gain, shifted_green);
         let blue = keeps_wavelength.select(blue * gain, shifted_blue);
-        decoded(simd, most, [red, green, blue])
+        decoded(simd, most, of_light, [red, green, blue])
     }
 }
 
+/// Linear light of display-encoded channels, which are at most `most`, 1 or infinite. With a factor
+/// of linear light, its product is at most `most`.
 #[inline(always)]
-fn decoded<S: Simd>(simd: S, most: f32, [red, green, blue]: [f32x16<S>; 3]) -> [f32x16<S>; 3] {
+fn decoded<S: Simd>(
+    simd: S,
+    most: f32,
+    factor: Option<f32x16<S>>,
+    [red, green, blue]: [f32x16<S>; 3],
+) -> [f32x16<S>; 3] {
     let most = f32x16::splat(simd, most);
-    [decode(simd, red.min(most)), decode(simd, green.min(most)), decode(simd, blue.min(most))]
+    let light = |channel: f32x16<S>| match factor {
+        Some(factor) => (factor * decode(simd, channel)).min(most),
+        None => decode(simd, channel.min(most)),
+    };
+    [light(red), light(green), light(blue)]
 }
 
 /// The part of a pure hue in a primary colour: 1 within 60° of its hue, falling linearly to 0 at

@@ -66,10 +66,8 @@ pub fn render<'s>(sky: impl Into<Sky<'s>>, config: &Config) -> Result<Rendering,
 pub fn light<'s>(sky: impl Into<Sky<'s>>, config: &Config) -> Result<LinearFrame, Error> {
     let sky = sky.into();
     let mut config = options_for(sky, config);
-    let picture = &mut config.picture;
-    (picture.output, picture.exposure, picture.tone) =
-        (Output::Color(Format::Exr), None, ugimage::Tone::Clip);
-    picture.annotations = ugpicture::AnnotationOptions::default();
+    config.picture.keep_light();
+    config.picture.annotations = ugpicture::AnnotationOptions::default();
     let warp = Warp::new(&config)?;
     let (mut frame, _) = seen(sky, &warp, &config, &())?;
     push_channels(&mut frame, &warp, &config);

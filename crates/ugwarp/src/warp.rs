@@ -2,7 +2,7 @@
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 use rayon::prelude::*;
 use ugimage::{Compression, Filter, Frame, LinearFrame, Metadata, Quantizer, display_pixel, draw_png};
 use ugparse::Scene;
@@ -374,8 +374,16 @@ impl Warp {
         let width = self.size[0] as usize;
         let place = [idx % width, idx / width].map(|at| n * (at as f64 + 0.5));
         let direction = self.film.sight(place)?.direction.normalize();
-        let velocity = -self.observer.velocity();
-        Some((0, Emission { place: direction, depth: f64::INFINITY, time: f64::NEG_INFINITY, velocity }))
+        let emission = Emission {
+            place: direction,
+            depth: f64::INFINITY,
+            time: f64::NEG_INFINITY,
+            velocity: -self.observer.velocity(),
+            // The axes of the panorama are those of a single boost to the observer.
+            scene_from_axes: DQuat::IDENTITY,
+            in_medium: None,
+        };
+        Some((0, emission))
     }
 }
 

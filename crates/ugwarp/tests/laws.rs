@@ -114,8 +114,9 @@ fn energies_of_a_uniform_sky() {
         };
         let value = |pixel: [f32; 4]| srgb_encode(f64::from(pixel[1])) / VALUE;
         let square = mean(&seen(Brightness::Report), |pixel| value(pixel) * value(pixel));
-        let cube = mean(&seen(Brightness::Photon), value);
-        let fourth = mean(&seen(Brightness::Bolometric), value);
+        let light = |pixel: [f32; 4]| f64::from(pixel[1]) / grey;
+        let cube = mean(&seen(Brightness::Photon), light);
+        let fourth = mean(&seen(Brightness::Bolometric), light);
         let expected = [1.0, gamma, gamma * gamma * (1.0 + beta * beta / 3.0)];
         for (found, expected) in [square, cube, fourth].into_iter().zip(expected) {
             assert!((found / expected - 1.0).abs() < 1e-3, "{beta}: {found}, not {expected}");

@@ -43,9 +43,12 @@ fn statements(text: &str) -> impl Iterator<Item = (usize, Cow<'_, str>)> {
     std::iter::from_fn(move || {
         let (idx, line) = lines.next()?;
         let mut statement = Cow::Borrowed(line);
-        while let Some(begun) = statement.strip_suffix('\\') {
-            let joined = format!("{begun} {}", lines.next().map_or("", |(_, line)| line));
-            statement = joined.into();
+        while statement.ends_with('\\') {
+            // Appended in place, since a statement may continue over thousands of lines.
+            let joined = statement.to_mut();
+            joined.pop();
+            joined.push(' ');
+            joined.push_str(lines.next().map_or("", |(_, line)| line));
         }
         Some((idx + 1, statement))
     })

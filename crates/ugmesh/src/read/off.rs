@@ -18,15 +18,42 @@ pub(super) fn read(bytes: &[u8], builder: &mut Builder) -> Result<(), Problem> {
     let mut lines = lines.filter(|(_, line)| !line.is_empty());
 
     let (kind, [n_vertices, n_faces]) = read_head(&mut lines)?;
+    let scale = Scale { is_real: has_real_colors(lines.clone(), kind, n_vertices) };
     for n_read in 0..n_vertices {
         let (line, vertex) = lines.next().ok_or_else(|| ends_early(n_vertices, "vertices", n_read))?;
-        read_vertex(vertex, line, kind, builder)?;
+        read_vertex(vertex, line, kind, scale, builder)?;
     }
     for n_read in 0..n_faces {
         let (line, face) = lines.next().ok_or_else(|| ends_early(n_faces, "faces", n_read))?;
-        read_face(face, line, builder)?;
+        read_face(face, line, scale, builder)?;
     }
     Ok(())
+}
+
+/// The range of the colours of a file.
+#[derive(Clone, Copy)]
+struct Scale {
+    /// A colour in the file has a real number, so colours of the digits 0 and 1 are real as well.
+    is_real: bool,
+}
+
+/// True if a number of a colour is real. Colours are what follows the position and normal of a
+/// vertex, and the corners of a face.
+fn has_real_colors<'t>(lines: impl Iterator<Item = (usize, &'t str)>, kind: Kind, n_vertices: u64) -> bool {
+    let n_before_color = if kind.has_normal { 6 } else { 3 };
+    (0..).zip(lines).any(|(row, (_, line))| {
+        let mut words = line.split_whitespace();
+        if row < n_vertices {
+            kind.has_color && words.skip(n_before_color).take(4).any(is_real)
+        } else {
+            let n_corners = words.next().and_then(|word| word.parse().ok());
+            n_corners.is_some_and(|n_corners| words.skip(n_corners).take(4).any(is_real))
+        }
+    })
+}
+
+fn is_real(word: &str) -> bool {
+    !word.bytes().all(|byte| byte.is_ascii_digit())
 }
 
 /// The vertex attributes that the keyword declares.
@@ -72,17 +99,23 @@ fn read_head<'t>(lines: &mut impl Iterator<Item = (usize, &'t str)>) -> Result<(
     }
 }
 
-fn read_vertex(vertex: &str, line: usize, kind: Kind, builder: &mut Builder) -> Result<(), Problem> {
+fn read_vertex(
+    vertex: &str,
+    line: usize,
+    kind: Kind,
+    scale: Scale,
+    builder: &mut Builder,
+) -> Result<(), Problem> {
     let mut words = vertex.split_whitespace();
     let position = numbers::<3>(&mut words, line, "vertex")?;
     let normal =
         if kind.has_normal { Some(DVec3::from_array(numbers(&mut words, line, "normal")?)) } else { None };
-    let color = if kind.has_color { color(words, line)? } else { None };
+    let color = if kind.has_color { color(words, line, scale)? } else { None };
     builder.vertex(DVec3::from_array(position), normal, color)?;
     Ok(())
 }
 
-fn read_face(face: &str, line: usize, builder: &mut Builder) -> Result<(), Problem> {
+fn read_face(face: &str, line: usize, scale: Scale, builder: &mut Builder) -> Result<(), Problem> {
     let mut words = face.split_whitespace();
     let n_corners: u64 = words
         .next()
@@ -105,18 +138,26 @@ fn read_face(face: &str, line: usize, builder: &mut Builder) -> Result<(), Probl
         })?;
         corners.push(corner);
     }
-    let color = color(words, line)?.map(|color| builder.color(color));
+    let color = color(words, line, scale)?.map(|color| builder.color(color));
     builder.face(&corners, color)
 }
 
-/// A colour of three or four numbers: integers from 0 to 255, others from 0 to 1. A single number
-/// is an index into a colour map that the file does not contain, and is ignored.
-fn color<'w>(words: impl Iterator<Item = &'w str>, line: usize) -> Result<Option<Rgba>, Problem> {
+/// A colour of three or four numbers. One real number makes all of them real, from 0 to 1; whole
+/// numbers are from 0 to 255, but in a file with real numbers 0 and 1 are real. A single number is
+/// an index into a colour map that the file does not contain, and is ignored.
+fn color<'w>(
+    words: impl Iterator<Item = &'w str>,
+    line: usize,
+    scale: Scale,
+) -> Result<Option<Rgba>, Problem> {
+    let words: Vec<&str> = words.take(4).collect();
     let mut parts = Vec::with_capacity(4);
-    for word in words.take(4) {
-        let value = number(word, line, "colour")?;
-        let is_whole = word.bytes().all(|byte| byte.is_ascii_digit());
-        parts.push(if is_whole { value / 255.0 } else { value });
+    for word in &words {
+        parts.push(number(word, line, "colour")?);
+    }
+    let is_real = words.into_iter().any(is_real) || scale.is_real && parts.iter().all(|&part| part <= 1.0);
+    if !is_real {
+        parts.iter_mut().for_each(|part| *part /= 255.0);
     }
     Ok(match parts[..] {
         [red, green, blue] => Some(Rgba::opaque([red, green, blue])),

@@ -5,13 +5,14 @@ use std::path::PathBuf;
 use ugpipe::{Context, Failure};
 
 /// Names and texts.
-const SCENES: [(&str, &str); 19] = [
+const SCENES: [(&str, &str); 20] = [
     ("house", include_str!("../../../../scenes/house.ug")),
     ("ship", include_str!("../../../../scenes/ship.ug")),
     ("street", include_str!("../../../../scenes/street.ug")),
     ("teapot", include_str!("../../../../scenes/teapot.ug")),
     ("cubes", include_str!("../../../../scenes/cubes.ug")),
     ("sphere", include_str!("../../../../scenes/sphere.ug")),
+    ("directions", include_str!("../../../../scenes/directions.ug")),
     ("lattice", include_str!("../../../../scenes/lattice.ug")),
     ("grid", include_str!("../../../../scenes/grid.ug")),
     ("tunnel", include_str!("../../../../scenes/tunnel.ug")),
@@ -45,7 +46,7 @@ pub fn write(args: &ExampleArgs, context: &mut Context) -> Result<(), Failure> {
         return write_all(context);
     }
     let Some(name) = &args.name else {
-        let lines = SCENES.map(|(name, text)| format!("{name:8} {}\n", subject(text)));
+        let lines = SCENES.map(|(name, text)| format!("{name:10} {}\n", subject(text)));
         return context.write_text(&lines.concat());
     };
     let name = name.strip_suffix(".ug").unwrap_or(name);

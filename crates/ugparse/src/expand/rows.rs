@@ -128,10 +128,12 @@ impl Expander<'_, '_> {
                 self.check_direction(span, toward);
                 LightKind::Directional(toward)
             }
-            LightKind::Local { position, radius } => {
+            LightKind::Local { position, radius, reference } => {
                 let position = inherited.transform.point(position);
+                let reference = reference.map(|reference| inherited.transform.mean_length(reference));
                 self.check_finite(span, position);
-                LightKind::Local { position, radius }
+                self.check_finite(span, DVec3::splat(reference.unwrap_or_default()));
+                LightKind::Local { position, radius, reference }
             }
         };
         let placed = Light {

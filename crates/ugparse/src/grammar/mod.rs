@@ -154,17 +154,22 @@ impl<'t> Grammar<'t> {
         }
     }
 
-    /// `c [ID] lightness [hue [saturation [translucency]]]`
+    /// `c [ID] lightness [hue [saturation [translucency [factor]]]]`
     fn color<'a>(&self, input: Input<'a>) -> Parsed<'a, Statement> {
         let (input, name) = self.optional_name(input)?;
         let (input, value) = number_from(0.0, f64::INFINITY, "a lightness is 0 or more")(input)?;
         let (input, hue) = opt(number).parse(input)?;
         let (input, saturation) = opt(number_from(0.0, 1.0, SHARE)).parse(input)?;
         let (input, translucency) = opt(number_from(0.0, 1.0, SHARE)).parse(input)?;
+        let (input, factor) = match translucency {
+            Some(_) => opt(number_from(0.0, f64::INFINITY, "a factor is 0 or more")).parse(input)?,
+            None => (input, None),
+        };
         // `c L` is grey, `c L H` is fully saturated.
         let saturation = saturation.unwrap_or(if hue.is_some() { 1.0 } else { 0.0 });
         // A hue until the stage is known, which may be stated further down.
-        let value = ColorValue::Hsv { value, tint: Tint::Hue(hue.unwrap_or(0.0)), saturation };
+        let tint = Tint::Hue(hue.unwrap_or(0.0));
+        let value = ColorValue::Hsv { value, tint, saturation, factor: factor.unwrap_or(1.0) };
         let translucency = translucency.unwrap_or(0.0);
         Ok((input, Statement::Color(ColorStatement { name, value, samples: Vec::new(), translucency })))
     }
@@ -250,7 +255,7 @@ impl<'t> Grammar<'t> {
         Ok((input, Statement::Surface(SurfaceStatement { name, surface })))
     }
 
-    /// `l [ID] intensity [x y z [radius]] [color] [< x y z >]`
+    /// `l [ID] intensity [x y z [radius [reference]]] [color] [< x y z >]`
     fn light<'a>(&self, input: Input<'a>) -> Parsed<'a, Statement> {
         let (input, name) = self.optional_name(input)?;
         let (input, intensity) = number_from(0.0, f64::INFINITY, "an intensity is 0 or more")(input)?;
@@ -260,12 +265,20 @@ impl<'t> Grammar<'t> {
             Some(_) => opt(number_from(0.0, f64::INFINITY, "a radius is 0 or more")).parse(input)?,
             None => (input, None),
         };
+        let (input, reference) = match radius {
+            Some(_) => {
+                let distance = "a reference distance is above 0";
+                opt(number_from(f64::MIN_POSITIVE, f64::INFINITY, distance)).parse(input)?
+            }
+            None => (input, None),
+        };
         if radius.is_none() && vector == Some(DVec3::ZERO) {
             return fail(at, zero_vector(3));
         }
         let (input, color) = self.optional_name(input)?;
         let (input, velocity) = opt(velocity).parse(input)?;
-        Ok((input, Statement::Light(LightStatement { name, intensity, vector, radius, color, velocity })))
+        let light = LightStatement { name, intensity, vector, radius, reference, color, velocity };
+        Ok((input, Statement::Light(light)))
     }
 
     /// `cam [ID] { -vc -ep -ud -cl -ph -og -ps -va -fs -fl } [< x y z >]`

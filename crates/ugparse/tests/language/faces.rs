@@ -73,7 +73,7 @@ warning: face `roof` is not flat
 2 | f roof (a b up d);
   |   ^^^^ a corner is off by 4.4e-3 of its size
   |
-help: cut it into triangles; those without holes that are off by more than 0.03 are cut when drawn"
+help: cut it into triangles: it is drawn as triangles, perhaps not as those that are meant"
     );
 }
 

@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 use ugparse::{
-    ColorScale, ColorStage, ColorValue, GeometryStage, HueScale, Mixtures, SeenColors, SeenGeometry, Stage,
-    Tint,
+    ColorScale, ColorStage, ColorValue, GeometryStage, HueScale, LampShift, Mixtures, SeenColors,
+    SeenGeometry, Stage, Tint,
 };
 use ugphysics::{Brightness, Velocity};
 
@@ -50,6 +50,25 @@ fn every_stage_reads_back() {
             }
         }
     }
+}
+
+#[test]
+fn lamp_shifts_read_back() {
+    let third = Velocity::from_beta(DVec3::new(1.0 / 3.0, -1e-300, 0.7)).unwrap();
+    let lamp_shifts = vec![
+        LampShift { velocity: third, shift: DVec3::new(-0.1, 1.0 / 3.0, 1e300) },
+        LampShift { velocity: Velocity::ZERO, shift: DVec3::X },
+    ];
+    let stage = Stage { geometry: GeometryStage::AsSeen(SEEN), ..Stage::default() };
+    let scene = Scene { stage, lamp_shifts, ..Scene::default() };
+    let text = write(&scene);
+    assert_eq!(
+        text,
+        "(ugstage 1 geometry as-seen eye 0 -12 3 lamp-shift 0.3333333333333333 -1e-300 0.7 -0.1 \
+         0.3333333333333333 1e+300 lamp-shift 0 0 0 1 0 0)\n"
+    );
+    assert_eq!(parse(&text).lamp_shifts, scene.lamp_shifts);
+    assert_ne!(parse(&text), Scene { stage, ..Scene::default() });
 }
 
 #[test]
@@ -169,7 +188,20 @@ fn errors_have_locations_and_remedies() {
         "(ugstage 1 geometry as-seen eye 0 0 0 law report)",
         "1:39",
         &unexpected("law"),
-        "expected `eye`, `time`, `camera-velocity`, `no-contraction`, `no-flight-time`, `colors`, `mixtures`",
+        "expected `eye`, `time`, `camera-velocity`, `no-contraction`, `no-flight-time`, `lamp-shift`, \
+         `colors`, `mixtures`",
+    );
+    check(
+        "(ugstage 1 geometry as-seen eye 0 0 0 lamp-shift 0 1 0 0 0 0)",
+        "1:39",
+        "speed is 1 c: it must be below 1 (velocities are fractions of the speed of light)",
+        "give three numbers whose length is below 1",
+    );
+    check(
+        "(ugstage 1 geometry as-seen eye 0 0 0 lamp-shift .5 0 0 1 0 0 lamp-shift 0.5 0 0 0 0 1)",
+        "1:63",
+        "the lamp shift of this velocity is given twice",
+        "remove one of them",
     );
     check(
         "(ugstage 1 colors as-seen)",

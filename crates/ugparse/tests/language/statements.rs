@@ -78,6 +78,9 @@ fn color_statements() {
     check("c red 2.5 589.3 1 0.5;", &["c red 2.5 589.3 1 0.5;"]);
     check("c red 0.5 0 0 0.5;", &["c red 0.5 0 0 0.5;"]);
     check("c red 0.5 0 0 0;", &["c red 0.5;"]);
+    check("c red 0.5 0 0 0 1;", &["c red 0.5;"]);
+    check("c red 0.5 0 0 0 2.5;", &["c red 0.5 0 0 0 2.5;"]);
+    check("c red 0.5 90 1 0.25 0;", &["c red 0.5 90 1 0.25 0;"]);
     check("c_rgb red 1 0 0.5;", &["c_rgb red 1 0 0.5;"]);
     check("c_rgb red 1 0 0.5 0.25;", &["c_rgb red 1 0 0.5 0.25;"]);
     check("c_rgb red 1 0 0.5 0;", &["c_rgb red 1 0 0.5;"]);
@@ -88,7 +91,8 @@ fn color_statements() {
     check_error("c red 1 0 1.5;", "the number `1.5` is out of range");
     check_error("c red 1 0 -.1;", "the number `-.1` is out of range");
     check_error("c red 1 0 1 2;", "the number `2` is out of range");
-    check_error("c red 1 0 1 0 0;", "expected `;`, found `0`");
+    check_error("c red 1 0 1 0 -1;", "the number `-1` is out of range");
+    check_error("c red 1 0 1 0 1 0;", "expected `;`, found `0`");
     check_error("c_rgb red 1 0;", "expected a number, found `;`");
     check_error("c_rgb red 255 0 0;", "the number `255` is out of range");
     check_error("c_rgb red 0 0 -1;", "the number `-1` is out of range");
@@ -101,6 +105,7 @@ fn lights() {
     check("l .5 0 0 2;", &["l 0.5 0 0 2;"]);
     check("l .5 0 0 2 0;", &["l 0.5 0 0 2 0;"]);
     check("l .5 0 0 0 3;", &["l 0.5 0 0 0 3;"]);
+    check("c red 1; l .5 0 0 0 3 2 red;", &["c red 1;", "l 0.5 0 0 0 3 2 red;"]);
     check("c red 1; l sun 2 0 0 2 red <0 0 .5>;", &["c red 1;", "l sun 2 0 0 2 red <0 0 0.5>;"]);
     check("c red 1; l .5 red;", &["c red 1;", "l 0.5 red;"]);
     check("l .5 <0 0 .5>;", &["l 0.5 <0 0 0.5>;"]);
@@ -109,6 +114,7 @@ fn lights() {
     check_error("l 1 0 0;", "expected a number, found `;`");
     check_error("l 1 0 0 0;", "the vector is zero");
     check_error("l 1 0 0 0 -1;", "the number `-1` is out of range");
+    check_error("l 1 0 0 0 0 0;", "the number `0` is out of range");
     check_error("l 1 red;", "colour `red` is not defined");
 }
 

@@ -8,7 +8,7 @@ use std::borrow::Cow;
 
 use glam::DVec3;
 use ugimage::{Quantizer, display_pixel};
-use uglight::{ColorShift, HueShift, Interpolation, LampPlace};
+use uglight::{ColorShift, HueShift, Interpolation, light_names};
 use ugparse::{ColorScale, Diagnostics, HueScale, Parsed, SeenColors, Source};
 use ugphysics::{Velocity, attenuation, linear_srgb_to_xyz};
 use ugpicture::explain::{ExplainedPixel, Item, PixelSteps, SampleColor, Wavelength, nearest};
@@ -69,7 +69,7 @@ pub struct ExplainedSurface {
     pub gamma: f64,
     /// Time and position of emission, relative to the eye, in the frame of the camera.
     pub emission: (f64, DVec3),
-    /// The emission event in the rest frame of the body.
+    /// The emission event in the rest frame of the body and the axes of the scene.
     pub rest: (f64, DVec3),
     /// Angle in degrees between the line of sight and the motion, in the frames of the camera and
     /// of the body; `None` at rest and for light that is mirrored or refracted.
@@ -106,7 +106,7 @@ pub struct ExplainedMedium {
 /// A light that shines on a surface.
 #[derive(Clone, Debug)]
 pub struct ExplainedLamp {
-    /// Its kind, counted in the order of the scene.
+    /// Its name, see [`uglight::light_names`].
     pub name: String,
     /// The level of its red, green and blue light without shadow, in the rest frame of the surface.
     pub level: [f64; 3],
@@ -137,7 +137,8 @@ pub fn explain(
         return Err(ugpicture::Error::Pixel { pixel, size }.into());
     }
     let scenery = Scenery::new(Cow::Owned(as_seen(parsed.scene.clone(), config)?), config)?;
-    let teller = Teller { scenery: &scenery, config, source, parsed: &parsed };
+    let light_names = light_names(&scenery.scene);
+    let teller = Teller { scenery: &scenery, config, source, parsed: &parsed, light_names };
     let samples = pixels::explained(&scenery, config, pixel);
     let n = config.picture.samples;
     let n_missing = (n * n) as usize - samples.len();
@@ -198,6 +199,8 @@ struct Teller<'a> {
     config: &'a Config,
     source: &'a Source,
     parsed: &'a Parsed,
+    /// In the order of the lamps.
+    light_names: Vec<String>,
 }
 
 impl Teller<'_> {
@@ -273,16 +276,10 @@ impl Teller<'_> {
     fn lamp(&self, light: &LampLight) -> ExplainedLamp {
         let lamps = &self.scenery.lights.lamps;
         let row = light.irradiance.lamp as usize;
-        let kind = |place: &LampPlace| match place {
-            LampPlace::Everywhere => "ambient",
-            LampPlace::Afar(_) => "directional",
-            LampPlace::At(_) => "local",
-        };
-        let own = kind(&lamps[row].place);
-        let count = lamps[..=row].iter().filter(|lamp| kind(&lamp.place) == own).count();
+        let shift = self.scenery.hue_shift();
         ExplainedLamp {
-            name: format!("{own} {count}"),
-            level: (light.irradiance.level * lamps[row].color).to_array(),
+            name: self.light_names[row].clone(),
+            level: (light.irradiance.level * shift.color_of(&lamps[row])).to_array(),
             doppler: light.irradiance.doppler,
             distance: light.distance,
             part: light.part,
@@ -324,9 +321,10 @@ impl Teller<'_> {
         if let Some(level) = scene.light_level(&scene.faces[visit.point.face as usize]) {
             return [level; 3];
         }
-        let lamps = &self.scenery.lights.lamps;
+        let (lamps, shift) = (&self.scenery.lights.lamps, self.scenery.hue_shift());
         let level = |light: &LampLight| {
-            light.irradiance.level * light.part * lamps[light.irradiance.lamp as usize].color
+            let color = shift.color_of(&lamps[light.irradiance.lamp as usize]);
+            light.irradiance.level * light.part * color
         };
         visit.lamps.iter().map(level).sum::<DVec3>().to_array()
     }

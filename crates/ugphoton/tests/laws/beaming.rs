@@ -8,7 +8,8 @@ use ugphysics::{Brightness, linear_srgb_to_xyz, srgb_encode};
 use ugspectrum::blackbody_luminance_ratio;
 
 use crate::drawing::{
-    HEAD, boost, by_law, by_spectra, config, drawn, seen_with, square, surroundings, value, velocity,
+    HEAD, boost, by_law, by_spectra, config, drawn, grey_light, seen_with, square, surroundings, value,
+    velocity,
 };
 
 fn gamma(beta: f64) -> f64 {
@@ -87,8 +88,8 @@ fn radiances_change_by_powers_of_the_doppler_factor() {
         let text =
             |color: &str| format!("{HEAD}{color}{}", surroundings("s", 1e3, &format!("own 1 <{beta} 0 0>")));
         let [photons, energy, per_wavelength] = powers;
-        check(value(&text("c own 1;"), toward, by_law(Brightness::Photon)), photons, 1e-5);
-        check(value(&text("c own 1;"), toward, by_law(Brightness::Bolometric)), energy, 1e-5);
+        check(grey_light(&text("c own 1;"), toward, by_law(Brightness::Photon)), photons, 1e-5);
+        check(grey_light(&text("c own 1;"), toward, by_law(Brightness::Bolometric)), energy, 1e-5);
         // The same radiance at every wavelength.
         let light = seen_with(&text("c_spd own 1 1 1000000 1;"), toward, by_spectra());
         check(linear_srgb_to_xyz(light.to_array())[1], per_wavelength, 1e-4);
@@ -121,10 +122,11 @@ fn panoramas_have_the_energy_of_the_sky() {
         let along = DVec3::new(0.48, 0.6, 0.64);
         let motion = || MotionOptions { camera_velocity: Some(beta * along), ..MotionOptions::default() };
         let law = |law| Config { motion: motion(), ..by_law(law) };
-        let number = |pixel: [f32; 4]| srgb_encode(pixel[1].into());
+        let linear = |pixel: [f32; 4]| f64::from(pixel[1]);
+        let number = |pixel: [f32; 4]| srgb_encode(linear(pixel));
         let across = along.any_orthonormal_vector();
         for (pole, size, tolerance) in [(along, [2, 4000], 1e-5), (across, [240, 120], 2e-3)] {
-            let of = |brightness| mean(&text, pole, size, law(brightness), number);
+            let of = |brightness| mean(&text, pole, size, law(brightness), linear);
             let squares =
                 mean(&text, pole, size, law(Brightness::Report), |pixel| number(pixel) * number(pixel));
             check(squares, energies[0], tolerance);
@@ -277,8 +279,8 @@ fn moving_lamps_light_by_powers_of_their_doppler_factor() {
                 velocity(v)
             )
         };
-        check(value(&text("white"), place, by_law(Brightness::Bolometric)), energy, 1e-6);
-        check(value(&text("white"), place, by_law(Brightness::Photon)), energy / doppler, 1e-6);
+        check(grey_light(&text("white"), place, by_law(Brightness::Bolometric)), energy, 1e-6);
+        check(grey_light(&text("white"), place, by_law(Brightness::Photon)), energy / doppler, 1e-6);
         let light = seen_with(&text("flat"), place, by_spectra());
         check(linear_srgb_to_xyz(light.to_array())[1], energy * doppler, 1e-3);
     }

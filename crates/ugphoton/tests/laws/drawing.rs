@@ -71,6 +71,11 @@ pub fn value(text: &str, toward: DVec3, base: Config) -> f64 {
     srgb_encode(seen_with(text, toward, base).y)
 }
 
+/// The linear light of a grey seen in a direction: what a law that names a quantity multiplies.
+pub fn grey_light(text: &str, toward: DVec3, base: Config) -> f64 {
+    seen_with(text, toward, base).y
+}
+
 /// Vertices and a face. `rest` follows the corners in its statement.
 pub fn polygon(name: &str, corners: &[DVec3], rest: &str) -> String {
     let vertex =

@@ -5,13 +5,13 @@ use std::f64::consts::PI;
 use glam::{DMat3, DVec3, Vec4Swizzles};
 use ugphysics::{
     Brightness, Event, IncidentLight, Lorentz, Velocity, ambient_illumination, compose, doppler_factor,
-    illumination, illumination_from_afar, seen_event,
+    illumination, illumination_from_afar,
 };
 
 use crate::{along_x, beta, directions, near, near_vector};
 
 fn light_on(p: DVec3, v: Velocity, light: DVec3, v_light: Velocity) -> IncidentLight {
-    illumination(p, v, light, v_light).expect("the light is away from the surface")
+    illumination(p, 0.0, v, light, v_light).expect("the light is away from the surface")
 }
 
 /// Surface point, its velocity, light, its velocity: across, along and against each other, slow and
@@ -81,26 +81,39 @@ fn light_in_the_same_frame_is_as_at_rest() {
 #[test]
 fn bisection_finds_the_same_emission_event() {
     for (p, v, l, v_light) in settings() {
-        let scatter = seen_event(p, v);
-        let worldline = |t: f64| Lorentz::boost(v_light).apply(Event { t, x: l });
-        let is_past = |event: Event| scatter.t - event.t >= (scatter.x - event.x).length();
-        let (mut early, mut late) = (-1e4, 1e4);
-        for _ in 0..200 {
-            let middle = 0.5 * (early + late);
-            if is_past(worldline(middle)) { early = middle } else { late = middle }
-        }
-        let shone = worldline(early);
-        let to_surface = Lorentz::boost(v).inverse();
-        let (here, there) = (to_surface.apply(scatter), to_surface.apply(shone));
-        let light = light_on(p, v, l, v_light);
-        // The bisection finds the time of the event to 1e4 · 2⁻⁵³ · γ, and boosts magnify that by
-        // γ².
-        near_vector("light", light.toward * light.distance, there.x - here.x, 1e-8);
-        // The photon's energy in a frame is −k·u.
-        let k = scatter.x - shone.x;
-        let energy = |u: Velocity| u.gamma() * k.length() - u.proper().dot(k);
-        near("D", light.doppler, energy(v) / energy(v_light), 1e-8);
+        check_by_bisection(p, 0.0, v, l, v_light);
     }
+}
+
+/// Light that a mirror or glass brings to the eye leaves the surface at another time than light that
+/// reaches the eye directly.
+#[test]
+fn a_surface_is_lit_at_the_event_at_which_it_scatters() {
+    for (p, v, l, v_light) in settings() {
+        [-9.0, -0.3, 2.5].into_iter().for_each(|delay| check_by_bisection(p, delay, v, l, v_light));
+    }
+}
+
+fn check_by_bisection(p: DVec3, delay: f64, v: Velocity, l: DVec3, v_light: Velocity) {
+    let scatter = Lorentz::boost(v).apply(Event { t: delay - p.length(), x: p });
+    let worldline = |t: f64| Lorentz::boost(v_light).apply(Event { t, x: l });
+    let is_past = |event: Event| scatter.t - event.t >= (scatter.x - event.x).length();
+    let (mut early, mut late) = (-1e4, 1e4);
+    for _ in 0..200 {
+        let middle = 0.5 * (early + late);
+        if is_past(worldline(middle)) { early = middle } else { late = middle }
+    }
+    let shone = worldline(early);
+    let to_surface = Lorentz::boost(v).inverse();
+    let (here, there) = (to_surface.apply(scatter), to_surface.apply(shone));
+    let light = illumination(p, delay, v, l, v_light).expect("the light is away from the surface");
+    // The bisection finds the time of the event to 1e4 · 2⁻⁵³ · γ, and boosts magnify that by
+    // γ².
+    near_vector("light", light.toward * light.distance, there.x - here.x, 1e-8);
+    // The photon's energy in a frame is −k·u.
+    let k = scatter.x - shone.x;
+    let energy = |u: Velocity| u.gamma() * k.length() - u.proper().dot(k);
+    near("D", light.doppler, energy(v) / energy(v_light), 1e-8);
 }
 
 /// Computed from another camera frame, the light on a surface is the same: only the axes are
@@ -191,8 +204,8 @@ fn extremes() {
     }
     // A lamp at the surface point has no direction, nor has a directional light with a zero vector.
     let p = DVec3::new(1.0, 2.0, 3.0);
-    assert_eq!(illumination(p, along_x(0.5), p, along_x(0.5)), None);
-    assert_eq!(illumination(DVec3::ZERO, along_x(0.5), DVec3::ZERO, Velocity::ZERO), None);
+    assert_eq!(illumination(p, 0.0, along_x(0.5), p, along_x(0.5)), None);
+    assert_eq!(illumination(DVec3::ZERO, 0.0, along_x(0.5), DVec3::ZERO, Velocity::ZERO), None);
     assert_eq!(illumination_from_afar(along_x(0.5), DVec3::ZERO, Velocity::ZERO), None);
     // Lengths whose squares overflow or underflow.
     for scale in [1e-200, 1e200] {

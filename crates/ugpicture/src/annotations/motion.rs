@@ -1,7 +1,7 @@
 //! Velocities and Doppler factors of the bodies in a picture.
 
 use glam::DVec3;
-use ugphysics::{Velocity, doppler_at};
+use ugphysics::Velocity;
 use ugscene::View;
 
 use super::seen::SeenScene;
@@ -34,7 +34,7 @@ impl MotionSummary {
             if !velocities.contains(&emission.velocity) {
                 velocities.push(emission.velocity);
             }
-            let factor = doppler_at(emission.place, emission.velocity);
+            let factor = emission.doppler();
             doppler = Some(doppler.map_or([factor; 2], |[low, high]| [low.min(factor), high.max(factor)]));
         }
         if velocities.is_empty() {

@@ -17,6 +17,8 @@ pub struct RestFrameRays {
     /// Rotates rest coordinates to the axes of the scene, in which lights and normals are given.
     /// Eq. (P25)
     pub scene_from_axes: DMat3,
+    /// Of lamps for the body, see [`ugscene::RestFrames::lamp_shift`].
+    pub lamp_shift: DVec3,
     /// Rotates apparent coordinates to the axes of the camera's frame.
     camera_from_axes: DMat3,
     /// From apparent coordinates to samples: x and y times the depth, and the depth.
@@ -56,6 +58,7 @@ impl RestFrameRays {
         Self {
             velocity,
             scene_from_axes: scene_from_camera * camera_from_axes,
+            lamp_shift: painter.surface.frames().lamp_shift(body),
             camera_from_axes,
             samples_from_seen: DMat3::from_cols(place(along), place(e1), place(e2)),
             rays: painter.view.rays().map(|ray| axes_from_camera * ray),

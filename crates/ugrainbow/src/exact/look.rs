@@ -17,6 +17,8 @@ pub struct Look {
     level: Option<DVec3>,
     /// The light level depends on the position.
     needs_place: bool,
+    /// Spectra of lamps multiply those of the face.
+    is_lit_by_spectra: bool,
     is_light: bool,
     /// Its colour at rest, or that of its first corner, with the wavelength of the colour.
     color: Swatch,
@@ -94,18 +96,26 @@ impl Look {
         let has_colors = differ(&|a, b| a.color != b.color || (is_spectral && a.row != b.row));
         let has_tints = differ(&|a, b| a.color.tint != b.color.tint);
         let has_normals = differ(&|a, b| a.normal != b.normal);
-        let is_even = painter.scene.light_level(face).is_some()
+        let has_level = painter.scene.light_level(face).is_some();
+        let is_lit_by_spectra =
+            !has_level && appearance.spectra().is_some_and(uglight::Spectra::has_colored_lamps);
+        let is_even = has_level
             || !(painter.lighting.needs_places() || has_normals && painter.lighting.needs_geometry());
-        let level = is_even.then(|| painter.level(face, vertices[0], normal, common.is_light));
+        let level = (is_even && !is_lit_by_spectra)
+            .then(|| painter.level(face, vertices[0], normal, common.is_light));
         let has_normals = has_normals && level.is_none();
         let has_translucency = corners.iter().any(|corner| corner.color.translucency > 0.0);
-        let mesh =
-            || Mesh { has_colors, has_tints, has_normals, has_translucency, ..Mesh::new(&corners, contours) };
-        let mesh = (has_colors || has_normals).then(|| Box::new(mesh()));
+        let mesh = || {
+            let triangles = painter.triangles(face);
+            let mesh = Mesh::new(&corners, contours, triangles);
+            Box::new(Mesh { has_colors, has_tints, has_normals, has_translucency, ..mesh })
+        };
+        let mesh = (has_colors || has_normals).then(mesh);
         Self {
             normal: first.normal,
             level,
             needs_place: painter.lighting.needs_places(),
+            is_lit_by_spectra,
             is_light: common.is_light,
             color: first.color,
             wavelength_nm: appearance.wavelength_nm(first.color.tint),
@@ -127,6 +137,9 @@ impl Look {
         key: f64,
     ) -> (Swatch, DVec3) {
         let spot = self.mesh.as_ref().map(|mesh| mesh.spot(ray.rest));
+        if SPECTRAL && self.is_lit_by_spectra {
+            return (self.seen_under_lamps(appearance, frame, ray, key, spot), DVec3::ONE);
+        }
         let color = match &spot {
             &spot if SPECTRAL => self.seen_spectrum(appearance, spot, ray.stretch),
             Some(spot) if spot.mesh.has_colors => {
@@ -147,7 +160,26 @@ impl Look {
         };
         let place = || frame.scene_from_axes * (ray.rest * (1.0 / key));
         let point = if self.needs_place { place() } else { DVec3::ZERO };
-        (color, painter.lighting.level(point, normal, self.is_light))
+        (color, painter.lighting.level(point, normal, frame.lamp_shift, self.is_light))
+    }
+
+    /// The apparent colour in spectral mode, lit by lamps with spectra of their own.
+    fn seen_under_lamps(
+        &self,
+        appearance: &Appearance<'_>,
+        frame: &RestFrameRays,
+        ray: &Ray,
+        key: f64,
+        spot: Option<Spot<'_>>,
+    ) -> Swatch {
+        let normal = spot.filter(|spot| spot.mesh.has_normals).map_or(self.normal, |spot| spot.normal());
+        let place = [frame.scene_from_axes * (ray.rest * (1.0 / key)), normal, frame.lamp_shift];
+        let Some(spot) = spot.filter(|spot| spot.mesh.has_colors) else {
+            let light = Some(appearance.seen_under_lamps([(self.row, 1.0)], ray.stretch, place));
+            return Swatch { light, ..self.color };
+        };
+        let light = Some(appearance.seen_under_lamps(spot.rows(), ray.stretch, place));
+        Swatch { light, ..spot.color() }
     }
 
     /// The apparent colour in spectral mode. Between corners, the apparent colours of spectra are
@@ -157,18 +189,16 @@ impl Look {
             let light = Some(appearance.seen_light([(self.row, 1.0)], stretch));
             return Swatch { light, ..self.color };
         };
-        let rows = spot.triangle.corners.map(|corner| spot.mesh.corners[corner as usize].row);
-        let light = Some(appearance.seen_light(rows.into_iter().zip(spot.weights), stretch));
+        let light = Some(appearance.seen_light(spot.rows(), stretch));
         Swatch { light, ..spot.color() }
     }
 }
 
 impl Mesh {
-    fn new(corners: &[Corner], contours: &[Vec<DVec3>]) -> Self {
+    fn new(corners: &[Corner], contours: &[Vec<DVec3>], triangles: Option<Vec<[u32; 3]>>) -> Self {
         let places = contours.concat();
         // A self-intersecting face has no triangulation, so it gets a fan.
         let fan = || (2..places.len() as u32).map(|corner| [0, corner - 1, corner]).collect();
-        let triangles = ugscene::triangulate(contours).filter(|triangles| !triangles.is_empty());
         let triangle = |at: [u32; 3]| {
             let [a, b, c] = at.map(|corner| places[corner as usize]);
             let sides = [(b, c), (c, a), (a, b)].map(|(from, to)| from.cross(to - from));
@@ -215,6 +245,12 @@ impl Mesh {
 }
 
 impl Spot<'_> {
+    /// The rows of the spectra of the corners, with their weights.
+    fn rows(&self) -> impl Iterator<Item = (u32, f64)> + use<> {
+        let rows = self.triangle.corners.map(|corner| self.mesh.corners[corner as usize].row);
+        rows.into_iter().zip(self.weights)
+    }
+
     /// The weighted mean. Colours are interpolated as in scanline mode.
     #[inline]
     fn color(&self) -> Swatch {
@@ -224,7 +260,7 @@ impl Spot<'_> {
         let first = &self.mesh.corners[self.triangle.corners[0] as usize];
         let light = first.color.light.and_then(|_| self.light());
         let translucency = if self.mesh.has_translucency { self.translucency() } else { 0.0 };
-        Swatch { tint, saturation, value, light, translucency }
+        Swatch { tint, saturation, value, factor: first.color.factor, light, translucency }
     }
 
     fn translucency(&self) -> f64 {

@@ -86,6 +86,7 @@ impl Curve<'_> {
             tint: mix(a.tint, b.tint),
             saturation: mix(a.saturation, b.saturation),
             value: mix(a.value, b.value),
+            factor: mix(a.factor, b.factor),
             translucency: 0.0,
             light: a.light.zip(b.light).map(|(a, b)| a + part * (b - a)),
         };

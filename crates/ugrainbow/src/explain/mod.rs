@@ -6,7 +6,7 @@ mod text;
 use glam::DVec3;
 use ugimage::{Quantizer, display_pixel};
 use ugparse::{Diagnostics, Parsed, Source, Stage, VertexId};
-use ugphysics::{attenuation, doppler_at, linear_srgb_to_xyz, wavelength_to_hue};
+use ugphysics::{attenuation, doppler_at, linear_srgb_to_xyz, srgb_decode, srgb_encode, wavelength_to_hue};
 use ugpicture::explain::nearest;
 use ugpicture::{Emissions, Filter, Layout, SurfaceSample};
 use ugraster::{Fragment, PixelSamples, ProbedSample, Resolve};
@@ -54,8 +54,8 @@ pub struct ExplainedSample {
     pub gamma: f64,
     /// Time and position of emission, relative to the eye, in the frame of the camera.
     pub emission: (f64, DVec3),
-    /// The emission event in the rest frame of the body; without a time if contraction or time of
-    /// flight was left out.
+    /// The emission event in the rest frame of the body and the axes of the scene; without a time if
+    /// contraction or time of flight was left out.
     pub rest: (Option<f64>, DVec3),
     /// Angle in degrees between the line of sight and the motion, in the frames of the camera and
     /// of the body; `None` at rest.
@@ -249,7 +249,7 @@ impl Teller<'_> {
             beta: velocity.beta(),
             gamma: velocity.gamma(),
             emission: (emission.time, place),
-            rest: (rest_time, rest),
+            rest: (rest_time, emission.scene_from_axes * rest),
             angles_deg: (!velocity.is_zero()).then(|| [angle(place), angle(rest)]),
             doppler,
             color: values.map(|values| self.color(values, doppler)),
@@ -335,7 +335,9 @@ impl Teller<'_> {
                     Vec::new()
                 } else {
                     let normal = painter.normal_at(vertex, normal);
-                    painter.lighting.parts(painter.surface.rest(vertex), normal, common.is_light)
+                    let point = painter.surface.rest(vertex);
+                    let shift = painter.surface.frames().lamp_shift(face.body);
+                    painter.lighting.parts(scene, point, normal, shift, common.is_light)
                 };
                 self.corner(vertex, &swatch, level, lights)
             };
@@ -356,9 +358,14 @@ impl Teller<'_> {
     ) -> Corner {
         let scene = self.setup.scene();
         let hsv = self.setup.palette.hsv(swatch);
+        // As a display shows its linear light.
+        let value = match swatch.factor {
+            1.0 => hsv.value,
+            factor => srgb_encode(factor * srgb_decode(hsv.value)),
+        };
         Corner {
             name: scene.names.get(scene.vertices[vertex.index()].name).to_owned(),
-            color: swatch.light.map_or([hsv.hue, hsv.saturation, hsv.value], |light| light.to_array()),
+            color: swatch.light.map_or([hsv.hue, hsv.saturation, value], |light| light.to_array()),
             is_light: swatch.light.is_some(),
             level: level.to_array(),
             lights: lights.into_iter().map(|(name, level)| (name, level.to_array())).collect(),

@@ -20,8 +20,10 @@ const FADE_CELLS: usize = 1024;
 #[derive(Clone, Debug)]
 pub struct Shader {
     interpolation: Interpolation,
-    /// Values are clipped to this.
+    /// Values are clipped to this, or light is.
     ceiling: f32,
+    /// Light levels multiply linear light; otherwise they multiply display-encoded values.
+    acts_on_light: bool,
     /// SIMD instructions of the processor. The result does not depend on them.
     level: Level,
     /// Attenuation for hues −60…0 and 240…300; in between it is 1. Tables, because the wavelength
@@ -32,12 +34,14 @@ pub struct Shader {
 
 impl Shader {
     /// Computes the tables. `is_clipped`: values of hues are clipped to 1, sample by sample, as in
-    /// 1988; otherwise the transfer function is continued above 1.
-    pub fn new(interpolation: Interpolation, is_clipped: bool) -> Self {
+    /// 1988; otherwise the transfer function is continued above 1. `acts_on_light`: light levels
+    /// multiply linear light, see [`ugphysics::Brightness::acts_on_light`].
+    pub fn new(interpolation: Interpolation, is_clipped: bool, acts_on_light: bool) -> Self {
         let fade = |hue: f64| attenuation(hue_to_wavelength(hue));
         Self {
             interpolation,
             ceiling: if is_clipped { 1.0 } else { f32::INFINITY },
+            acts_on_light,
             level: Level::new(),
             red_fade: Table::new(FADE_CELLS, |part| fade(-60.0 + 60.0 * part)),
             violet_fade: Table::new(FADE_CELLS, |part| fade(240.0 + 60.0 * part)),
@@ -81,6 +85,11 @@ impl Shader {
 
     fn lit(&self, Plain { tint, saturation, value }: Plain<f32>, lights: [f32; 3]) -> ShadedSample {
         let pure = Pure { hue: self.hue(tint), fade: self.fade(tint, saturation), saturation };
+        if self.acts_on_light {
+            let (levels, peak) = encode(pure, [value; 3], f32::INFINITY);
+            let (light, intensity) = times(levels.map(linear), linear(peak), lights, self.ceiling);
+            return ShadedSample { light, intensity, is_out_of_range: pure.fade == 0.0 };
+        }
         let (levels, intensity) = encode(pure, lights.map(|light| value * light), self.ceiling);
         ShadedSample { light: levels.map(linear), intensity, is_out_of_range: pure.fade == 0.0 }
     }
@@ -114,7 +123,28 @@ impl Shader {
             }
             Some(&own_fades[..n])
         };
-        encode_all(self.level, [hues, saturations, values], fades, lights, self.ceiling, encoding, run);
+        let numbers = [hues, saturations, values];
+        if self.acts_on_light {
+            encode_all(self.level, numbers, fades, None, f32::INFINITY, Encoding::Linear, run);
+            self.light_up(lights, n, encoding, run);
+        } else {
+            encode_all(self.level, numbers, fades, lights, self.ceiling, encoding, run);
+        }
+    }
+
+    /// Multiplies the linear light of `n` samples by light levels.
+    fn light_up(&self, lights: Lights<'_>, n: usize, encoding: Encoding, run: &mut ShadedRun) {
+        for idx in 0..n {
+            let levels = lights.map_or([1.0; 3], |lights| lights.map(|level| level[idx]));
+            let own = run.light.each_ref().map(|channel| channel[idx]);
+            let (light, intensity) = times(own, linear(run.intensity[idx]), levels, self.ceiling);
+            let shown = match encoding {
+                Encoding::Linear => light,
+                Encoding::Display => light.map(|light| srgb_encode(f64::from(light)) as f32),
+            };
+            run.light.iter_mut().zip(shown).for_each(|(channel, light)| channel[idx] = light);
+            run.intensity[idx] = intensity;
+        }
     }
 
     #[inline]
@@ -181,6 +211,14 @@ fn linear(level: f32) -> f32 {
     if level <= 1.0 { decode(level) } else { srgb_decode(f64::from(level)) as f32 }
 }
 
+/// Linear light under levels of light, and its greatest channel before it is clipped to `ceiling`.
+/// Clipping keeps hue and saturation. `peak`: the greatest channel under white light.
+fn times(light: [f32; 3], peak: f32, levels: [f32; 3], ceiling: f32) -> ([f32; 3], f32) {
+    let most = if peak > 0.0 { ceiling / peak } else { f32::INFINITY };
+    let intensity = levels.into_iter().map(|level| peak * level).fold(0.0, f32::max);
+    (std::array::from_fn(|i| light[i] * levels[i].min(most)), intensity)
+}
+
 /// Replaces the samples whose colours are given as light.
 fn set_given(samples: &Mixed<&[f32]>, encoding: Encoding, run: &mut ShadedRun) {
     let light = samples.light();
@@ -240,7 +278,7 @@ mod tests {
 
     #[test]
     fn hues_fade_as_their_wavelengths() {
-        let shader = Shader::new(Interpolation::Hue, true);
+        let shader = Shader::new(Interpolation::Hue, true, false);
         for step in 0..=3600 {
             let hue = f64::from(step) / 10.0 - 60.0;
             let fade = attenuation(hue_to_wavelength(hue));
@@ -258,7 +296,7 @@ mod tests {
 
     #[test]
     fn of_pale_colours_the_hue_alone_fades() {
-        let shader = Shader::new(Interpolation::Hue, true);
+        let shader = Shader::new(Interpolation::Hue, true, false);
         for hue in [-60.0, -59.0, -30.0, -1.0, 0.0, 120.0, 240.0, 250.0, 280.0, 299.0, 300.0] {
             let fade = attenuation(hue_to_wavelength(hue));
             let mut before = shader.plain(&[hue as f32, 0.0, 0.8]).light;
@@ -279,7 +317,7 @@ mod tests {
     #[test]
     fn whitish_is_never_nearly_black() {
         for interpolation in [Interpolation::Hue, Interpolation::Wavelength] {
-            let shader = Shader::new(interpolation, true);
+            let shader = Shader::new(interpolation, true, false);
             let tints: [f32; 5] = match interpolation {
                 Interpolation::Hue => [-60.0, -59.9, 299.9, 300.0, 120.0],
                 Interpolation::Wavelength => [10.0, 379.9, 380.1, 779.9, 5000.0],
@@ -301,7 +339,7 @@ mod tests {
 
     #[test]
     fn wavelengths_fade_at_both_ends() {
-        let shader = Shader::new(Interpolation::Wavelength, true);
+        let shader = Shader::new(Interpolation::Wavelength, true, false);
         for nm in [300.0, 379.0, 380.0, 400.0, 435.8, 500.0, 589.0, 700.0, 740.0, 779.0, 780.0, 5000.0] {
             let fade = attenuation(nm);
             let shade = shader.plain(&[nm as f32, 1.0, 1.0]);
@@ -368,10 +406,11 @@ mod tests {
             let samples: Vec<_> = (0..1000).map(|_| sample()).collect();
             // The bits are the same with all SIMD instructions.
             let levels = [Level::new(), Level::baseline()];
-            for (is_clipped, level) in
-                [true, false].into_iter().flat_map(|is| levels.map(|level| (is, level)))
+            let kinds = [[true, false], [false, false], [true, true], [false, true]];
+            for ([is_clipped, acts_on_light], level) in
+                kinds.into_iter().flat_map(|kind| levels.map(|level| (kind, level)))
             {
-                let shader = Shader { level, ..Shader::new(interpolation, is_clipped) };
+                let shader = Shader { level, ..Shader::new(interpolation, is_clipped, acts_on_light) };
                 let plain: Vec<_> = samples.iter().map(|(color, ..)| *color).collect();
                 check_runs(&shader, &plain, |numbers| shader.plain(numbers));
                 let colored: Vec<_> =
@@ -388,15 +427,15 @@ mod tests {
 
     #[test]
     fn grey_has_no_wavelength() {
-        let shade = Shader::new(Interpolation::Wavelength, true).plain(&[5000.0, 0.0, 0.5]);
+        let shade = Shader::new(Interpolation::Wavelength, true, false).plain(&[5000.0, 0.0, 0.5]);
         assert_light(&shade, [srgb_decode(0.5); 3]);
-        let shade = Shader::new(Interpolation::Hue, true).plain(&[300.0, 0.0, 0.5]);
+        let shade = Shader::new(Interpolation::Hue, true, false).plain(&[300.0, 0.0, 0.5]);
         assert_light(&shade, [srgb_decode(0.5); 3]);
     }
 
     #[test]
     fn intensity_is_told_before_clipping() {
-        let shader = Shader::new(Interpolation::Hue, true);
+        let shader = Shader::new(Interpolation::Hue, true, false);
         let shade = shader.plain(&[120.0, 0.5, 1.5]);
         assert_eq!(shade.intensity, 1.5);
         assert_light(&shade, exact(120.0, 0.5, 1.0));
@@ -405,9 +444,29 @@ mod tests {
         assert_light(&shade, [srgb_decode(0.5), 1.0, 0.0]);
     }
 
+    /// Levels of a law that names a quantity multiply linear light; clipping keeps ratios of
+    /// channels.
+    #[test]
+    fn levels_multiply_linear_light() {
+        for hue in [40.0, 130.0, 200.0] {
+            let own = exact(hue, 0.6, 0.5);
+            for (is_clipped, level) in [(false, 0.25), (false, 7.0), (true, 0.25), (true, 7.0)] {
+                let shader = Shader::new(Interpolation::Hue, is_clipped, true);
+                let shade = shader.colored(&[hue as f32, 0.6, 0.5, level, level, level]);
+                let bright = srgb_decode(0.5) * f64::from(level);
+                let scale = f64::from(level) / if is_clipped { bright.max(1.0) } else { 1.0 };
+                // Single precision, of which the level multiplies the errors.
+                for (found, own) in shade.light.iter().zip(own) {
+                    assert!((f64::from(*found) - scale * own).abs() < 1e-6 * scale.max(1.0), "{shade:?}");
+                }
+                assert!((f64::from(shade.intensity) - bright).abs() < 1e-6);
+            }
+        }
+    }
+
     #[test]
     fn without_a_ceiling_bright_colours_follow_the_curve() {
-        let shader = Shader::new(Interpolation::Hue, false);
+        let shader = Shader::new(Interpolation::Hue, false, false);
         for value in [0.25, 1.0, 1.0001, 1.5, 40.0] {
             let shade = shader.plain(&[120.0, 0.5, value]);
             let light =

@@ -3,7 +3,6 @@
 
 mod camera_frame;
 mod placement;
-mod relative_motion;
 
 use std::fmt;
 
@@ -12,10 +11,8 @@ use rayon::prelude::*;
 use ugparse::{BodyId, Camera, GeometryStage, Motion, Projection, Scene, SeenGeometry};
 use ugphysics::{Velocity, VelocityError};
 
-pub use relative_motion::RelativeMotion;
-
 use crate::camera_options::half_side;
-use crate::{CameraError, CameraOptions, DefaultCamera, Geometry, StageError};
+use crate::{CameraError, CameraOptions, DefaultCamera, Geometry, RelativeMotion, RestFrames, StageError};
 
 /// How bodies, camera and lights move, and when the picture is taken.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -143,9 +140,8 @@ impl PlacedBodies {
         crate::separate_bodies(scene);
         let bodies = crate::vertex_bodies(scene);
         let motions = motions(scene, velocity, of_camera, options.geometry)?;
-        let velocities = motions.iter().map(|motion| motion.velocity().beta());
-        let default_camera =
-            DefaultCamera::new(scene, camera, size, velocities).map_err(MotionError::Camera)?;
+        let default_camera = DefaultCamera::new(scene, camera, size, |body| vec![motions[body.index()]]);
+        let default_camera = default_camera.map_err(MotionError::Camera)?;
         let eye = default_camera.map_or_else(|| crate::eye(scene, camera.eye), |camera| camera.eye);
         camera_frame::transform_velocities(scene, of_camera)?;
         let has_motion = !velocity.is_zero()
@@ -194,7 +190,38 @@ fn motions(
         _ if body == BodyId::UNSTATED => default,
         Motion::Inertial(velocity) => velocity,
     };
-    scene.bodies.ids().map(|body| RelativeMotion::seen_by(camera, velocity(body), geometry)).collect()
+    scene.bodies.ids().map(|body| seen_by(camera, velocity(body), geometry)).collect()
+}
+
+/// The motion of a body and a camera with velocities `in_scene` and `camera` in the frame of the
+/// scene.
+///
+/// # Errors
+/// Their relative velocity rounds to that of light.
+fn seen_by(camera: Velocity, in_scene: Velocity, geometry: Geometry) -> Result<RelativeMotion, MotionError> {
+    let velocity = camera_frame::in_camera_frame(in_scene, camera)?;
+    Ok(RelativeMotion::composed(velocity, in_scene, camera, geometry))
+}
+
+/// One default camera for several pictures of a scene at rest, with these motions.
+///
+/// # Errors
+/// As of [`DefaultCamera::new`].
+pub fn common_camera(
+    scene: &Scene,
+    options: &CameraOptions,
+    size: [u32; 2],
+    pictures: &[MotionOptions],
+) -> Result<Option<DefaultCamera>, CameraError> {
+    let frames = RestFrames::new(scene);
+    let motion = |picture: &MotionOptions, body: BodyId| {
+        let stated = |beta: Option<DVec3>| Velocity::from_beta(beta?).ok();
+        let own = stated(picture.velocity).unwrap_or_else(|| frames.velocity(body));
+        let camera = stated(picture.camera_velocity).unwrap_or_default();
+        seen_by(camera, own, picture.geometry).ok()
+    };
+    let motions = |body| pictures.iter().filter_map(|picture| motion(picture, body)).collect();
+    DefaultCamera::new(scene, options, size, motions)
 }
 
 /// Writes the eye and the options into the scene's camera, so that programs downstream use them.

@@ -4,7 +4,7 @@
 //! coordinates alone, and the rest geometry recovered from the output has the same shape.
 
 use glam::DVec3;
-use ugparse::{BodyId, LightKind, Scene};
+use ugparse::{BodyId, LampShift, LightKind, Motion, Scene};
 use ugphysics::observer_shift;
 
 use super::{Anchor, MotionOptions, RelativeMotion};
@@ -98,20 +98,37 @@ fn centers(scene: &Scene, bodies: &[BodyId]) -> Vec<DVec3> {
     boxes.into_iter().zip(lamp_boxes).map(center).collect()
 }
 
-/// Shifts local lights with their body. Lights whose motion is not stated are shifted only if all
-/// faces and wires are one body; with several bodies it is not known which one a light belongs to.
+/// Shifts lamps with their body. Those without a velocity rest with whatever they light, and so are
+/// shifted with every body: in place if all bodies are shifted alike, otherwise the shift for each
+/// of them becomes part of the scene.
+///
+/// `scene`: with velocities in the frame of the camera.
 pub(super) fn shift_lights(scene: &mut Scene, motions: &[RelativeMotion], shifts: &[DVec3]) {
-    if !scene.lights.iter().any(|light| matches!(light.kind, LightKind::Local { .. })) {
-        return;
-    }
-    let users = scene.faces.iter().map(|face| face.body).chain(scene.wires.iter().map(|wire| wire.body));
-    let mut users = users.peekable();
-    let first = users.peek().copied();
-    let of_all = first.filter(|&first| users.all(|body| body == first));
+    let shift_of = |body: BodyId| motions[body.index()].turned_back(shifts[body.index()]);
+    let mut lights_everything = Vec::new();
     for light in &mut scene.lights {
-        let body = light.motion.body().or(of_all).map(BodyId::index);
-        if let (LightKind::Local { position, .. }, Some(body)) = (&mut light.kind, body) {
-            *position += motions[body].turned_back(shifts[body]);
+        match (&mut light.kind, light.motion.body()) {
+            (LightKind::Local { position, .. }, Some(body)) => *position += shift_of(body),
+            (LightKind::Local { position, .. }, None) => lights_everything.push(position),
+            _ => {}
         }
     }
+    if lights_everything.is_empty() {
+        return;
+    }
+    let mut is_used = vec![false; motions.len()];
+    let users = scene.faces.iter().map(|face| face.body).chain(scene.wires.iter().map(|wire| wire.body));
+    users.for_each(|body| is_used[body.index()] = true);
+    let used = scene.bodies.ids().filter(|body| is_used[body.index()]);
+    let shifts: Vec<(BodyId, DVec3)> = used.map(|body| (body, shift_of(body))).collect();
+    let Some(&(_, first)) = shifts.first() else { return };
+    if shifts.iter().all(|&(_, shift)| shift == first) {
+        lights_everything.into_iter().for_each(|position| *position += first);
+        return;
+    }
+    let stated = |(body, shift): (BodyId, DVec3)| {
+        let Motion::Inertial(velocity) = scene.bodies[body].motion;
+        (shift != DVec3::ZERO).then_some(LampShift { velocity, shift })
+    };
+    scene.lamp_shifts = shifts.into_iter().filter_map(stated).collect();
 }

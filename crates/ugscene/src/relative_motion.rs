@@ -3,7 +3,6 @@
 use glam::{DQuat, DVec3};
 use ugphysics::{Velocity, elongated};
 
-use super::{MotionError, camera_frame};
 use crate::{Geometry, RestPosition, SeenPosition};
 
 /// How one body moves relative to the camera, and which effects are shown.
@@ -22,18 +21,16 @@ impl RelativeMotion {
         RelativeMotion { velocity, in_scene: velocity, axes_from_scene: DQuat::IDENTITY, geometry }
     }
 
-    /// Of a body and a camera with velocities `in_scene` and `camera` in the frame of the scene.
-    ///
-    /// # Errors
-    /// Their relative velocity rounds to that of light.
-    pub fn seen_by(
-        camera: Velocity,
+    /// Of a body with `velocity` in the frame of the camera; `in_scene`, `camera`: velocities of the
+    /// body and the camera in the frame of the scene.
+    pub(crate) fn composed(
+        velocity: Velocity,
         in_scene: Velocity,
+        camera: Velocity,
         geometry: Geometry,
-    ) -> Result<RelativeMotion, MotionError> {
-        let velocity = camera_frame::in_camera_frame(in_scene, camera)?;
+    ) -> RelativeMotion {
         let axes_from_scene = crate::axes_from_scene(velocity, camera);
-        Ok(RelativeMotion { in_scene, axes_from_scene, ..RelativeMotion::new(velocity, geometry) })
+        RelativeMotion { in_scene, axes_from_scene, ..RelativeMotion::new(velocity, geometry) }
     }
 
     /// In the frame of the camera.

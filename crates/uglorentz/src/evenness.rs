@@ -1,0 +1,29 @@
+//! Faces whose corners look alike: only these are cut without regard to their triangles.
+
+use ugparse::{Face, Scene};
+
+/// Tells faces whose corners differ in colour or normal.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Evenness {
+    /// For each vertex, whether colours of several faces are mixed there; empty if nowhere.
+    is_mixing: Vec<bool>,
+}
+
+impl Evenness {
+    /// `is_apart`: downstream, colours of faces are not mixed at their common vertices (`-vr`).
+    pub(crate) fn new(scene: &Scene, is_apart: bool) -> Self {
+        Self { is_mixing: if is_apart { Vec::new() } else { ugscene::mixing_vertices(scene) } }
+    }
+
+    /// Do all corners of a face have the same colour and normal?
+    pub(crate) fn is_even(&self, scene: &Scene, face: &Face) -> bool {
+        let corners = scene.contours.corners(face.contours.clone());
+        let Some(first) = corners.first() else { return true };
+        let first = &scene.vertices[first.index()];
+        corners.iter().all(|corner| {
+            let vertex = &scene.vertices[corner.index()];
+            let is_mixing = self.is_mixing.get(corner.index()).is_some_and(|is_mixing| *is_mixing);
+            !is_mixing && vertex.color == first.color && vertex.normal == first.normal
+        })
+    }
+}
