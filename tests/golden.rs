@@ -6,9 +6,9 @@
 
 use glam::DVec3;
 use ugrainbow::{Background, Exposure, HueScale, Interpolation, Tone};
-use ugtests::picture::{assert_golden, decode};
+use ugtests::picture::{self, assert_golden, decode};
 use ugtests::pipe::{Pipe, rainbow};
-use ugtests::scenes;
+use ugtests::{programs, scenes};
 
 const SIZE: [u32; 2] = [160, 120];
 
@@ -244,4 +244,58 @@ fn outlines_show_what_is_not_distorted() {
     teapot.rainbow.picture.background =
         Background::Color(ugphysics::Hsv { hue: 0.0, saturation: 0.0, value: 1.0 });
     check("undistorted-outline-and-grid-teapot-0.95c", "teapot", &teapot);
+}
+
+/// Runs commands beside the scenes, and compares the pictures of these names that they write.
+fn check_commands(commands: &str, names: &[&str]) {
+    let folder = tempfile::tempdir().unwrap();
+    for entry in std::fs::read_dir(scenes::root().join("scenes")).unwrap().flatten() {
+        let path = entry.path();
+        if path.extension().is_some_and(|ending| ending == "ug" || ending == "csv") {
+            std::fs::copy(&path, folder.path().join(entry.file_name())).unwrap();
+        }
+    }
+    let system = std::env::var_os("PATH").unwrap();
+    let path = std::iter::once(programs::of_this_profile()).chain(std::env::split_paths(&system));
+    let mut shell = std::process::Command::new("sh");
+    shell.args(["-ec", commands]).current_dir(&folder).env("PATH", std::env::join_paths(path).unwrap());
+    let output = shell.output().unwrap();
+    assert!(output.status.success(), "{commands}: {}", String::from_utf8_lossy(&output.stderr));
+    for name in names {
+        assert_golden(name, &picture::read(&folder.path().join(format!("{name}.png"))));
+    }
+}
+
+#[test]
+fn rays_show_mirrors_shadows_and_glass() {
+    const SHAPES: &str = "--no-doppler --no-flux -bg .8 210 .25 -aa 3 -sz 160 120 -in";
+    for (name, options) in [
+        ("rays-cube-and-its-mirror-image-0.9c", "mirrors.ug"),
+        ("rays-shadow-lags-0.95c", "shadow.ug"),
+        ("rays-glass-cube-in-a-room", "room.ug"),
+        ("rays-glass-of-water-0.8c", "-rd 64 -rc .05 water.ug"),
+        ("rays-panorama-of-a-room", "-pan room.ug"),
+        ("rays-stereo-shadow-0.95c", "-stereo .6 shadow.ug"),
+    ] {
+        check_commands(&format!("ugphoton {SHAPES} {options} -fo {name}.png"), &[name]);
+    }
+}
+
+#[test]
+fn panoramas_are_warped_and_stars_drawn() {
+    check_commands(
+        "ugphoton -pan -sz 512 256 -aa 2 street.ug -fo sky.png
+         ugwarp -cv 0 .5 0 -va 90 -sz 160 120 sky.png -fo warp-street-0.5c.png
+         ugwarp -cv 0 .9 0 -va 90 -ex auto -sz 160 120 stars.csv -fo warp-stars-0.9c.png",
+        &["warp-street-0.5c", "warp-stars-0.9c"],
+    );
+}
+
+#[test]
+fn frames_of_a_film_follow_a_shadow() {
+    check_commands(
+        "ugfilm -rays -frames 3 -ti -3..3 -vel .9 0 0 -in --no-doppler --no-flux -bg .8 210 .25 \
+         -sz 96 72 -aa 2 shadow.ug -fo film-shadow-lags-0.9c-%d.png",
+        &["film-shadow-lags-0.9c-1", "film-shadow-lags-0.9c-2", "film-shadow-lags-0.9c-3"],
+    );
 }

@@ -25,8 +25,8 @@ fn flat(scene: &Scene) -> Flat {
     let color = |id: Option<ColorId>| {
         let color = &scene.colors[id?.index()];
         Some(match color.value {
-            ColorValue::Hsv { value, tint, saturation } => {
-                Paint::Hsv([value, tint.number(), saturation, color.translucency])
+            ColorValue::Hsv { value, tint, saturation, factor } => {
+                Paint::Hsv([value, tint.number(), saturation, color.translucency, factor])
             }
             ColorValue::Rgb([r, g, b]) => Paint::Rgb([r, g, b, color.translucency]),
             ColorValue::Xyz([x, y, z]) => Paint::Xyz([x, y, z, color.translucency]),
@@ -61,14 +61,16 @@ fn flat(scene: &Scene) -> Flat {
         velocity: motion(wire.body),
     });
     let lights = scene.lights.iter().map(|light| {
-        let (place, radius) = match light.kind {
-            LightKind::Ambient => (None, None),
-            LightKind::Directional(toward) => (Some(toward.to_array()), None),
-            LightKind::Local { position, radius } => (Some(position.to_array()), Some(radius)),
+        let (place, radius, reference) = match light.kind {
+            LightKind::Ambient => (None, None, None),
+            LightKind::Directional(toward) => (Some(toward.to_array()), None, None),
+            LightKind::Local { position, radius, reference } => {
+                (Some(position.to_array()), Some(radius), reference)
+            }
         };
         let (name, color) = (name(light.name), color(light.color));
         let velocity = light.motion.body().and_then(motion);
-        Light { name, intensity: light.intensity, place, radius, color, velocity }
+        Light { name, intensity: light.intensity, place, radius, reference, color, velocity }
     });
     let cameras = scene.cameras.iter().map(|camera| Camera {
         name: name(camera.name),
@@ -138,7 +140,15 @@ fn check(text: &str) -> Flat {
     assert_rows(&normals(&ours), &normals(&slow), take_triple);
     assert_rows(&ours.faces, &slow.faces, |_| Vec::new());
     assert_rows(&ours.wires, &slow.wires, |_| Vec::new());
-    assert_rows(&ours.lights, &slow.lights, |light| take_triple(&mut light.place));
+    assert_rows(&ours.lights, &slow.lights, |light| {
+        light.reference = light.reference.map(|_| 1.0);
+        take_triple(&mut light.place)
+    });
+    // Lengths are scaled by a cube root, so they agree relative to themselves only.
+    for (ours, slow) in ours.lights.iter().zip(&slow.lights) {
+        let near = |(ours, slow): (f64, f64)| (ours - slow).abs() <= 1e-9 * slow;
+        assert!(ours.reference.zip(slow.reference).is_none_or(near), "{ours:?}\nmust be\n{slow:?}");
+    }
     assert_rows(&ours.cameras, &slow.cameras, |camera| {
         let places = ["-ep", "-vc", "-ud"].map(|option| camera.options.get_mut(option).map(std::mem::take));
         places.into_iter().flatten().flatten().collect()
@@ -208,7 +218,7 @@ def car ;
   i lamp (lamp -tz 1) ; i wheel (tile inner -rx 90) <.1 0 0> ; i (plain) ;
   def lamp ;
     v a 0 0 0 inner ; v b 1 0 0 ; v c 0 1 0 ; f glass (a b c) 0.9 ;
-    l bulb 1 0 0 1 0.25 inner ; l beam 1 0 1 0 late ; l 0.125 ; l moving 1 0 0 1 <.1 .2 .3> ;
+    l bulb 1 0 0 1 0.25 2 inner ; l beam 1 0 1 0 late ; l 0.125 ; l moving 1 0 0 1 <.1 .2 .3> ;
     cam driver -ep 0 0 1 -vc 5 0 1 -ud 0 0 1 -va 60 40 ;
     cam -og <.1 0 0> ;
   end ;
@@ -359,6 +369,8 @@ fn color_statement() -> impl Strategy<Value = Statement> {
         (0.0..2.0, number()).prop_map(|(l, h)| ("c", vec![l, h])),
         (0.0..2.0, -400.0..800.0, part()).prop_map(|(l, h, s)| ("c", vec![l, h, s])),
         (part(), number(), part(), part()).prop_map(|(l, h, s, t)| ("c", vec![l, h, s, t])),
+        (prop::array::uniform3(part()), number(), 0.0..9.0)
+            .prop_map(|([l, s, t], h, factor)| ("c", vec![l, h, s, t, factor])),
         prop::array::uniform3(part()).prop_map(|rgb| ("c_rgb", rgb.to_vec())),
         prop::array::uniform4(part()).prop_map(|rgbt| ("c_rgb", rgbt.to_vec())),
         prop::array::uniform4(part()).prop_map(|xyzt| ("c_xyz", xyzt.to_vec())),
@@ -380,9 +392,12 @@ fn surface() -> impl Strategy<Value = Statement> {
 }
 
 fn light() -> impl Strategy<Value = Statement> {
-    let numbers = (0.0..2.0, some((direction(), some(0.0..1.0)))).prop_map(|(intensity, place)| {
-        let (place, radius) = place.map_or((None, None), |(place, radius)| (Some(place), radius));
-        std::iter::once(intensity).chain(place.into_iter().flatten()).chain(radius).collect()
+    let size = some((0.0..1.0, some(0.1..9.0)));
+    let numbers = (0.0..2.0, some((direction(), size))).prop_map(|(intensity, place)| {
+        let (place, size) = place.map_or((None, None), |(place, size)| (Some(place), size));
+        let (radius, reference) = size.map_or((None, None), |(radius, last)| (Some(radius), last));
+        let place = place.into_iter().flatten();
+        std::iter::once(intensity).chain(place).chain(radius).chain(reference).collect()
     });
     (some(0..9usize), numbers, some(0..9usize), tail())
         .prop_map(|(name, numbers, color, tail)| Statement::Light { name, numbers, color, tail })

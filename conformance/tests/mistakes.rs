@@ -211,9 +211,9 @@ const RAY_MISTAKES: [Mistake; 5] = [
     Mistake {
         name: "M12rays",
         file: "crates/ugphoton/src/surface_point.rs",
-        right: "unit_normal(outline.iter().map(|corner| scenery.surface.rest(*corner)))",
+        right: "scenery.faces().outside(found.triangle.face)",
         wrong: "{
-            let normal = unit_normal(outline.iter().map(|corner| scenery.surface.rest(*corner)));
+            let normal = scenery.faces().outside(found.triangle.face);
             let v = part.frame.velocity;
             (normal - (1.0 - 1.0 / v.gamma()) * normal.dot(v.direction()) * v.direction()).normalize()
         }",

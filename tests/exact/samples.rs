@@ -317,10 +317,13 @@ fn colour_and_light_are_those_of_the_point() {
                 let level = 0.2 + 0.7 * toward.dot(DVec3::NEG_Y).max(0.0);
                 let factor = doppler_at(direction, velocity);
                 let wavelength_nm = hue_to_wavelength(130.0) / if doppler { factor } else { 1.0 };
-                let value = 0.9 * level * law.factor(factor) * attenuation(wavelength_nm);
+                // Under a law that names a quantity, level and factor multiply linear light.
+                let bright = level * law.factor(factor);
+                let [encoded, linear] = if law.acts_on_light() { [1.0, bright] } else { [bright, 1.0] };
+                let value = 0.9 * encoded * attenuation(wavelength_nm);
                 let color = Hsv { hue: wavelength_to_hue(wavelength_nm), saturation: 0.8, value };
                 for (name, channel) in ["R", "G", "B"].iter().zip(color.to_rgb()) {
-                    let (ours, expected) = (channels[*name][pixel], srgb_decode(channel));
+                    let (ours, expected) = (channels[*name][pixel], linear * srgb_decode(channel));
                     assert!(
                         (ours - expected).abs() < 1e-5,
                         "{law:?}, {point_light}, {x}, {y}: {name} {ours}, not {expected}"

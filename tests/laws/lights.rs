@@ -3,7 +3,7 @@
 use glam::DVec3;
 use ugdoppler::Config;
 use ugparse::{ColorValue, Scene, Tint};
-use ugphysics::{Brightness, Velocity};
+use ugphysics::{Brightness, Velocity, srgb_decode};
 use ugrandom::Random;
 use ugtests::picture::{assert_same, decode};
 use ugtests::pipe::{Pipe, doppler, lorentz, rainbow};
@@ -109,22 +109,27 @@ fn both_factors_shift_and_dim() {
             ] {
                 let config = Config { wavelengths: true, law, iris: true, ..lit() };
                 let scene = scenes::parse(&doppler(text.as_bytes(), &config));
-                let (wavelength, value) = wavelength_and_value(&scene);
+                let (wavelength, intensity) = wavelength_and_intensity(&scene, law);
                 assert!((wavelength - 546.1 / (d * d_light)).abs() < 1e-5, "{text}: {wavelength}");
-                // The iris scales the value to 1.
-                assert!((value - 1.0).abs() < 1e-12);
+                // The iris scales the intensity to 1.
+                assert!((intensity - 1.0).abs() < 1e-12);
                 let dim = Config { iris: false, ..config };
-                let value = wavelength_and_value(&scenes::parse(&doppler(text.as_bytes(), &dim))).1;
-                assert!((value - (0.05 * factor).min(1.0)).abs() < 1e-9, "{text} {law:?}: {value}, {factor}");
+                let found = wavelength_and_intensity(&scenes::parse(&doppler(text.as_bytes(), &dim)), law).1;
+                let own = if law.acts_on_light() { srgb_decode(0.1) } else { 0.1 };
+                let expected = (0.5 * own * factor).min(1.0);
+                assert!((found - expected).abs() < 1e-9, "{text} {law:?}: {found}, {expected}");
             }
         }
     }
 }
 
-fn wavelength_and_value(scene: &Scene) -> (f64, f64) {
+/// The wavelength of the first vertex, and what the law multiplies: its linear light or its value.
+fn wavelength_and_intensity(scene: &Scene, law: Brightness) -> (f64, f64) {
     let color = scene.vertices[0].color.expect("a colour on every used vertex");
     match scene.colors[color.index()].value {
-        ColorValue::Hsv { tint: Tint::Wavelength(wavelength_nm), value, .. } => (wavelength_nm, value),
+        ColorValue::Hsv { tint: Tint::Wavelength(wavelength_nm), value, factor, .. } => {
+            (wavelength_nm, if law.acts_on_light() { factor * srgb_decode(value) } else { value })
+        }
         other => panic!("{other:?}"),
     }
 }
@@ -311,6 +316,8 @@ fn large_faces_get_the_vertices_that_their_light_needs() {
         "l lamp 0.6 5 0 2 0 <0.4 0 0>;",
         "l lamp 0.8 -2 1 1.5 0;",
         "l 0.1; l 0.5 3 -1 2 0 <0 0.3 0>; l 0.3 -6 2 3 0;",
+        "l lamp 0.6 5 0 2 0 2 <0.4 0 0>;",
+        "l lamp 0.8 -2 1 1.5 0 1.8;",
     ] {
         let text = format!("{floor} {light}").into_bytes();
         let base = uglorentz::Config::default();

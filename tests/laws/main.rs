@@ -6,14 +6,18 @@
 
 mod colours;
 mod culling;
+mod directions;
 mod edges;
 mod exact;
+mod fall_off;
 mod lights;
+mod linear_light;
 mod moving_camera;
 mod notice;
 mod outlines;
 mod rest;
 mod switches;
+mod unseen;
 
 use std::collections::HashMap;
 

@@ -36,9 +36,10 @@ fn colored(seen: &[u8], change: impl FnOnce(&mut ugdoppler::Config)) -> Scene {
     parse(&pipe::doppler(seen, &config))
 }
 
-fn hsv(scene: &Scene, vertex: &ugparse::Vertex) -> [f64; 3] {
+/// Hue, saturation, value, and the factor of linear light.
+fn hsv(scene: &Scene, vertex: &ugparse::Vertex) -> [f64; 4] {
     match color_of(scene, vertex).value {
-        ColorValue::Hsv { value, tint, saturation } => [tint.number(), saturation, value],
+        ColorValue::Hsv { value, tint, saturation, factor } => [tint.number(), saturation, value, factor],
         other => panic!("ugdoppler writes `c` only: {other:?}"),
     }
 }
@@ -53,10 +54,10 @@ fn near(got: f64, want: f64) -> bool {
 }
 
 /// Runs `ugdoppler` with default options and with a change, and compares the colours of every
-/// vertex. `law` receives [hue, saturation, value] at rest, by default and with the change, and D.
+/// vertex. `law` receives [hue, saturation, value, factor] at rest, by default and with the change, and D.
 fn check_colors(
     change: impl Fn(&mut ugdoppler::Config),
-    law: impl Fn([f64; 3], [f64; 3], [f64; 3], f64) -> bool,
+    law: impl Fn([f64; 4], [f64; 4], [f64; 4], f64) -> bool,
 ) {
     let (text, points) = still();
     let rest = parse(text.as_bytes());
@@ -81,8 +82,8 @@ fn check_colors(
 fn no_doppler_keeps_hues_and_nothing_else() {
     check_colors(
         |config| config.doppler = false,
-        |[hue, saturation, value], full, changed, factor| {
-            changed == [hue, saturation, full[2]] && near(full[2], value * factor)
+        |[hue, saturation, value, _], full, changed, factor| {
+            changed == [hue, saturation, full[2], 1.0] && near(full[2], value * factor)
         },
     );
 }
@@ -91,7 +92,7 @@ fn no_doppler_keeps_hues_and_nothing_else() {
 fn no_flux_keeps_values_and_nothing_else() {
     check_colors(
         |config| config.flux = false,
-        |[_, saturation, value], full, changed, _| changed == [full[0], saturation, value],
+        |[_, saturation, value, _], full, changed, _| changed == [full[0], saturation, value, 1.0],
     );
 }
 
@@ -114,8 +115,11 @@ fn brightness_laws_are_powers_of_d() {
     for (law, power) in laws {
         check_colors(
             |config| config.law = law,
-            |[_, saturation, value], full, changed, factor| {
-                let is_bright = near(changed[2], value * libm::pow(factor, power));
+            |[_, saturation, value, _], full, changed, doppler| {
+                let power = libm::pow(doppler, power);
+                // Of linear light, or of display-encoded values.
+                let [value, factor] = if law.acts_on_light() { [value, power] } else { [value * power, 1.0] };
+                let is_bright = near(changed[2], value) && near(changed[3], factor);
                 changed[..2] == [full[0], saturation] && is_bright
             },
         );
@@ -126,7 +130,7 @@ fn brightness_laws_are_powers_of_d() {
 fn wavelengths_are_divided_by_d() {
     check_colors(
         |config| config.wavelengths = true,
-        |[hue, saturation, _], full, changed, factor| {
+        |[hue, saturation, _, _], full, changed, factor| {
             let wavelength_nm = ugphysics::hue_to_wavelength(hue) / factor;
             let is_grey = saturation == 0.0 && changed[0] == 0.0;
             changed[1..] == full[1..] && (is_grey || near(changed[0], wavelength_nm))

@@ -14,7 +14,8 @@
 //! - [`shading`]: the expected colour of a point, from the formulas;
 //! - [`slow_reader`]: a second, independent reader of the scene language;
 //! - [`tools`]: whether programs of others are there, and what is skipped without them;
-//! - [`tracked`]: the files of the repository.
+//! - [`tracked`]: the files of the repository;
+//! - [`worlds`]: random worlds, and laws that hold in them.
 
 #![allow(clippy::missing_panics_doc, reason = "a test helper fails by panicking")]
 
@@ -32,3 +33,4 @@ pub mod shading;
 pub mod slow_reader;
 pub mod tools;
 pub mod tracked;
+pub mod worlds;

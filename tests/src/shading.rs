@@ -78,7 +78,7 @@ impl<'a> Shading<'a> {
 
     fn hsv(&self, vertex: VertexId) -> Option<Hsv> {
         match self.scene.colors[self.colors[vertex.index()]?.index()].value {
-            ColorValue::Hsv { value, tint: Tint::Hue(hue), saturation } => {
+            ColorValue::Hsv { value, tint: Tint::Hue(hue), saturation, .. } => {
                 Some(Hsv { hue, saturation, value })
             }
             _ => None,

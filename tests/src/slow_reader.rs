@@ -81,6 +81,8 @@ pub struct Light {
     pub place: Option<Triple>,
     /// The radius of a lamp.
     pub radius: Option<f64>,
+    /// The distance at which its level is its intensity, if its light falls off.
+    pub reference: Option<f64>,
     /// Its colour.
     pub color: Option<Paint>,
     /// Its velocity.
@@ -101,8 +103,8 @@ pub struct Camera {
 /// A colour: its numbers and translucency.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Paint {
-    /// Lightness, hue, saturation, translucency.
-    Hsv([f64; 4]),
+    /// Lightness, hue, saturation, translucency, factor.
+    Hsv([f64; 5]),
     /// Red, green, blue, translucency.
     Rgb([f64; 4]),
     /// X, Y, Z, translucency.
@@ -290,7 +292,7 @@ enum Statement {
         illum: Option<f64>,
         velocity: Option<Triple>,
     },
-    /// `numbers`: intensity, then direction or position and radius.
+    /// `numbers`: intensity, then direction or position, radius and reference distance.
     Light {
         name: Option<String>,
         numbers: Vec<f64>,
@@ -359,10 +361,11 @@ fn read_scope(words: &mut Words, prefix: &str, mut unnamed: Option<Paint>) -> Sc
 
 fn paint(keyword: &str, numbers: &[f64]) -> Paint {
     match (keyword, numbers) {
-        ("c", &[l]) => Paint::Hsv([l, 0.0, 0.0, 0.0]),
-        ("c", &[l, h]) => Paint::Hsv([l, h, 1.0, 0.0]),
-        ("c", &[l, h, s]) => Paint::Hsv([l, h, s, 0.0]),
-        ("c", &[l, h, s, t]) => Paint::Hsv([l, h, s, t]),
+        ("c", &[l]) => Paint::Hsv([l, 0.0, 0.0, 0.0, 1.0]),
+        ("c", &[l, h]) => Paint::Hsv([l, h, 1.0, 0.0, 1.0]),
+        ("c", &[l, h, s]) => Paint::Hsv([l, h, s, 0.0, 1.0]),
+        ("c", &[l, h, s, t]) => Paint::Hsv([l, h, s, t, 1.0]),
+        ("c", &[l, h, s, t, factor]) => Paint::Hsv([l, h, s, t, factor]),
         ("c_rgb", &[r, g, b]) => Paint::Rgb([r, g, b, 0.0]),
         ("c_rgb", &[r, g, b, t]) => Paint::Rgb([r, g, b, t]),
         ("c_xyz", &[x, y, z]) => Paint::Xyz([x, y, z, 0.0]),
@@ -609,6 +612,16 @@ impl Placement {
         })
     }
 
+    /// The factor of lengths without a direction: the cube root of that of volumes.
+    fn scale(&self) -> f64 {
+        let [a, b, c, _] = self.matrix;
+        let cross = |a: [f64; 4], b: [f64; 4]| {
+            [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+        };
+        let volume: f64 = cross(a, b).iter().zip(c).map(|(x, y)| x * y).sum();
+        libm::cbrt(volume.abs())
+    }
+
     fn direction(&self, d: Triple) -> Triple {
         std::array::from_fn(|column| (0..3).map(|row| d[row] * self.matrix[row][column]).sum())
     }
@@ -778,6 +791,7 @@ impl Expansion {
             intensity: numbers[0],
             place: triple.map(to_scene),
             radius,
+            reference: numbers.get(5).map(|reference| reference * place.scale()),
             color: find_paint(scopes, color),
             velocity: *velocity,
         });

@@ -102,7 +102,7 @@ fn statements(random: &mut Random) -> String {
     }
     if random.one_in(3) {
         let [x, y, z] = (random.direction() * size).to_array();
-        let radius = if random.one_in(2) { "0.1" } else { "" };
+        let radius = *random.pick(&["", "0.1", "0", "0.1 2", "0 0.3"]);
         let moving =
             if random.one_in(3) { format!("<{}>", velocity(random).join(" ")) } else { String::new() };
         let _ = writeln!(text, "l 0.2 ;\nl lamp {} {x} {y} {z} {radius} {moving} ;", random.unit());
@@ -123,7 +123,11 @@ fn color(random: &mut Random, idx: usize) -> String {
         1 => format!("c_xyz red{idx} {numbers} ;"),
         2 => format!("c_bb red{idx} {} ;", libm::exp10(random.between(1.0, 6.0))),
         3 => format!("c_spd red{idx} 400 {} 500 1 600 0.5 ;", random.unit()),
-        4 => format!("c red{idx} {} {} 1 {} ;", random.unit(), random.below(360), random.unit()),
+        4 => {
+            let factor =
+                if random.one_in(3) { format!("{}", random.between(0.1, 4.0)) } else { String::new() };
+            format!("c red{idx} {} {} 1 {} {factor} ;", random.unit(), random.below(360), random.unit())
+        }
         _ => format!("c red{idx} 1 {} 1 ;", random.below(360)),
     }
 }

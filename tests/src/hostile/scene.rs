@@ -58,10 +58,11 @@ fn statement(random: &mut Random, n_vertices: usize, text: &mut String) {
         10 => writeln!(text, "l {} {}{color}{velocity} ;", words::number(random), point(random)),
         11 => writeln!(
             text,
-            "l {} {} {}{velocity} ;",
+            "l {} {} {} {}{velocity} ;",
             words::number(random),
             point(random),
-            words::number(random)
+            words::number(random),
+            if random.one_in(2) { words::number(random) } else { String::new() }
         ),
         12 => writeln!(text, "cam -ep {} -vc {}{velocity} ;", point(random), point(random)),
         13 => {
@@ -119,12 +120,13 @@ fn contours(random: &mut Random, n_vertices: usize) -> String {
 
 fn color(random: &mut Random, idx: usize) -> String {
     let numbers = [(); 3].map(|()| words::number(random)).join(" ");
-    match random.below(6) {
+    match random.below(7) {
         0 => format!("c_rgb red{idx} {numbers} ;"),
         1 => format!("c_xyz red{idx} {numbers} ;"),
         2 => format!("c_bb red{idx} {} ;", words::number(random)),
         3 => format!("c_spd red{idx} 400 1 500 {} 600 1 ;", words::number(random)),
         4 => format!("c red{idx} {numbers} {} ;", words::number(random)),
+        5 => format!("c red{idx} {numbers} {} {} ;", words::number(random), words::number(random)),
         _ => format!("c red{idx} 1 {} 1 ;", random.below(360)),
     }
 }

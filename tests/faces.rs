@@ -1,0 +1,208 @@
+//! One face, one picture: colours inside faces, the triangles of bent ones, and coloured lamps are
+//! the same by rays, in exact mode, and in the pipe within its tolerances.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+use std::fmt::Write;
+
+use glam::DVec3;
+use ugimage::{LinearFrame, Samples};
+use uglight::{ColorShift, SpectralShift};
+use uglorentz::Pieces;
+use ugparse::{Options, Scene, Source};
+use ugphoton::RayOptions;
+use ugrainbow::{Channel, Output, PictureOptions};
+use ugrandom::Random;
+use ugscene::MotionOptions;
+
+const SIZE: [u32; 2] = [64, 48];
+
+/// Exact pictures interpolate in single precision, and tabulate spectra over D: two thousandths of a
+/// channel, relative to the brightest of the picture.
+const EXACT: f64 = 2e-3;
+
+/// The pipe interpolates D and light within its tolerances.
+const PIPE: f64 = 1e-2;
+
+/// Bodies of random faces: quads, slightly bent or flat, concave ones, and ones with holes and with
+/// corners on straight sides; placed as they are and mirrored. Everything is in units of `unit`.
+fn world(random: &mut Random, unit: f64, is_moving: bool) -> String {
+    const SHAPES: [&[(f64, f64)]; 5] = [
+        &[(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)],
+        &[(0.0, 0.0), (1.0, 0.1), (0.9, 0.8), (0.1, 1.0)],
+        &[(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.4, 0.4), (0.0, 0.9)],
+        &[(0.0, 0.0), (0.5, 0.0), (1.0, 0.0), (1.0, 1.0), (0.5, 1.0), (0.0, 1.0)],
+        &[(0.0, 0.0), (1.0, 0.0), (1.2, 0.6), (0.6, 1.1), (-0.2, 0.7)],
+    ];
+    const HOLE: [(f64, f64); 4] = [(0.4, 0.1), (0.6, 0.1), (0.6, 0.3), (0.4, 0.3)];
+    let mut text = String::new();
+    for color in 0..6 {
+        let [hue, saturation] = [random.between(0.0, 240.0), random.between(0.2, 1.0)];
+        writeln!(text, "c k{color} {} {hue} {saturation};", random.between(0.3, 1.0)).unwrap();
+    }
+    for body in 0..3 {
+        writeln!(text, "def d{body};").unwrap();
+        for face in 0..4 {
+            let bend = if random.one_in(2) { 0.0 } else { random.between(-0.02, 0.02) };
+            let (across, up) = random.direction().any_orthonormal_pair();
+            let origin = random.in_cube(1.2);
+            let mut contours = String::new();
+            let shape = *random.pick(&SHAPES);
+            let hole = if random.one_in(3) && shape.len() != 5 { &HOLE[..] } else { &[] };
+            for (contour, points) in [shape, hole].into_iter().filter(|points| !points.is_empty()).enumerate()
+            {
+                let mut names = String::new();
+                for (at, &(x, y)) in points.iter().enumerate() {
+                    let height = if at % 2 == 0 { bend } else { -bend };
+                    let place = origin + across * x + up * y + across.cross(up) * height;
+                    let color =
+                        if random.one_in(3) { format!("k{}", random.below(6)) } else { String::new() };
+                    let [x, y, z] = (place * unit).to_array();
+                    writeln!(text, "v p{face}_{contour}_{at} {x} {y} {z} {color};").unwrap();
+                    write!(names, "p{face}_{contour}_{at} ").unwrap();
+                }
+                write!(contours, "({names})").unwrap();
+            }
+            writeln!(text, "f {contours} k{};", random.below(6)).unwrap();
+        }
+        writeln!(text, "end;").unwrap();
+        let place = (random.in_cube(1.0) + DVec3::new(0.0, 0.0, 4.0)) * unit;
+        let mirror = if random.one_in(2) { "-mx" } else { "" };
+        let velocity = if is_moving { random.in_ball(0.6) } else { DVec3::ZERO };
+        let ([x, y, z], [vx, vy, vz]) = (place.to_array(), velocity.to_array());
+        writeln!(text, "i b{body} (d{body} {mirror} -tx {x} -ty {y} -tz {z}) < {vx} {vy} {vz} >;").unwrap();
+    }
+    text
+}
+
+/// A camera in front of the bodies, or among them, and lamps: with spectra, of several colours.
+/// (With hues, only `ugdoppler -li` and rays shift the colours of lamps.)
+fn lights(random: &mut Random, unit: f64, shift: ColorShift) -> String {
+    let toward = random.direction();
+    let depth = if random.one_in(3) { 3.7 } else { 0.0 };
+    let [ex, ey, ez] = (DVec3::new(0.013, 0.027, depth) * unit).to_array();
+    let [first, second] = if matches!(shift, ColorShift::Spectra(_)) { ["k0", "k1"] } else { [""; 2] };
+    format!(
+        "l .3; l .5 {} {} {} {first}; l .4 .3 .5 -1 {second}; cam -ep {ex} {ey} {ez} -vc {ex} {ey} {} -ud 0 1 0 -va 60;",
+        toward.x,
+        toward.y,
+        toward.z,
+        ez + unit,
+    )
+}
+
+fn read(text: &[u8]) -> Scene {
+    let parsed = ugscene::read(&Source::new("world.ug", text), &Options::default(), None);
+    parsed.unwrap_or_else(|findings| panic!("{findings}")).scene
+}
+
+fn picture() -> PictureOptions {
+    let output = Output::Color(ugimage::Format::Exr);
+    PictureOptions {
+        size: SIZE,
+        samples: 1,
+        channels: vec![Channel::Id],
+        output,
+        ..PictureOptions::default()
+    }
+}
+
+fn by_rays(text: &str, shift: ColorShift) -> LinearFrame {
+    let config = ugphoton::Config {
+        motion: MotionOptions::default(),
+        shift,
+        picture: picture(),
+        rays: RayOptions { depth: 0, shadows: false, ..RayOptions::default() },
+        ..ugphoton::Config::default()
+    };
+    ugphoton::light(read(text.as_bytes()), &config).unwrap()
+}
+
+fn seen(text: &str, pieces: Pieces) -> Scene {
+    let config = uglorentz::Config { pieces, size: SIZE, ..uglorentz::Config::default() };
+    let (scene, _) = uglorentz::apply(read(text.as_bytes()), &config).unwrap();
+    // Through text, as between programs.
+    read(&ugparse::write(&scene))
+}
+
+fn exact(text: &str, shift: ColorShift) -> LinearFrame {
+    let config = ugrainbow::Config { picture: picture(), exact: Some(shift), ..ugrainbow::Config::default() };
+    ugrainbow::light(&seen(text, Pieces::PerEdge(1)), &config).unwrap()
+}
+
+/// In the pipe, after cutting, every piece has an id of its own.
+fn by_pipe(text: &str, shift: ColorShift) -> LinearFrame {
+    let spectral = matches!(shift, ColorShift::Spectra(_));
+    let config = ugdoppler::Config { spectral, keep: true, ..ugdoppler::Config::default() };
+    let (scene, _) = ugdoppler::apply(seen(text, Pieces::UpTo(1e-4)), &config).unwrap();
+    let config = ugrainbow::Config { picture: picture(), ..ugrainbow::Config::default() };
+    ugrainbow::light(&read(&ugparse::write(&scene)), &config).unwrap()
+}
+
+fn ids(frame: &LinearFrame) -> &[u32] {
+    match &frame.planes().iter().find(|plane| plane.name == "id").unwrap().samples {
+        Samples::Whole(ids) => ids,
+        Samples::Float(_) => panic!("ids are whole numbers"),
+    }
+}
+
+/// The pixels off an edge in the ray tracer's picture, and how many of them differ by more than
+/// `tolerance` of the brightest channel, and the largest difference.
+fn compare(rays: &LinearFrame, other: &LinearFrame, tolerance: f64) -> (usize, usize, f64) {
+    let (width, ids) = (SIZE[0] as usize, ids(rays));
+    let brightest =
+        rays.pixels().iter().flat_map(|pixel| &pixel[..3]).fold(0.0_f64, |most, &part| most.max(part.into()));
+    let (mut n, mut n_wrong, mut most) = (0, 0, 0.0_f64);
+    for (row, column) in (1..SIZE[1] as usize - 1).flat_map(|row| (1..width - 1).map(move |x| (row, x))) {
+        let at = row * width + column;
+        let around = [at - width - 1, at - width, at - width + 1, at - 1, at + 1, at + width - 1, at + width];
+        let is_off_edge = around.iter().chain([&(at + width + 1)]).all(|&near| ids[near] == ids[at]);
+        if ids[at] == 0 || !is_off_edge {
+            continue;
+        }
+        let pair = rays.pixels()[at].iter().zip(&other.pixels()[at]).take(3);
+        let difference = pair.map(|(a, b)| f64::from((a - b).abs())).fold(0.0, f64::max) / brightest;
+        (n, n_wrong, most) = (n + 1, n_wrong + usize::from(difference > tolerance), most.max(difference));
+    }
+    (n, n_wrong, most)
+}
+
+fn shifts() -> [ColorShift; 2] {
+    [ColorShift::default(), ColorShift::Spectra(SpectralShift { doppler: true, flux: true })]
+}
+
+/// Worlds at rest and in motion, in several units, with the eye before the bodies and among them.
+#[test]
+fn exact_pictures_are_those_of_rays() {
+    let mut n_all = 0;
+    for seed in 0..24 {
+        let mut random = Random(seed);
+        let unit = [1.0, 1e-6, 1e6][seed as usize % 3];
+        let world = world(&mut random, unit, seed % 2 == 1);
+        for shift in shifts() {
+            let text = world.clone() + &lights(&mut random.clone(), unit, shift);
+            let (n, n_wrong, most) = compare(&by_rays(&text, shift), &exact(&text, shift), EXACT);
+            assert_eq!(n_wrong, 0, "world {seed}, {shift:?}: of {n} pixels, by {most:.1e}\n{text}");
+            n_all += n;
+        }
+    }
+    assert!(n_all > 20_000, "{n_all}");
+}
+
+/// At rest nothing is cut, and the pipe has only its own precision.
+#[test]
+fn pictures_of_the_pipe_at_rest_are_those_of_rays() {
+    let mut n_all = 0;
+    for seed in (0..24).step_by(2) {
+        let mut random = Random(seed);
+        let unit = [1.0, 1e-6, 1e6][seed as usize / 2 % 3];
+        let world = world(&mut random, unit, false);
+        for shift in shifts() {
+            let text = world.clone() + &lights(&mut random.clone(), unit, shift);
+            let (n, n_wrong, most) = compare(&by_rays(&text, shift), &by_pipe(&text, shift), PIPE);
+            assert_eq!(n_wrong, 0, "world {seed}, {shift:?}: of {n} pixels, by {most:.1e}\n{text}");
+            n_all += n;
+        }
+    }
+    assert!(n_all > 10_000, "{n_all}");
+}

@@ -1,0 +1,283 @@
+//! Pictures of worlds: by rays, by the exact mode of the pipe, and by the whole pipe.
+
+use ugimage::{Format, LinearFrame, Samples};
+use uglight::{ColorShift, HueShift, SpectralShift};
+use uglorentz::Pieces;
+use ugparse::{Options, Scene, Source};
+use ugphoton::{Channel, Lens, Output, PictureOptions, RayOptions, Shutter};
+use ugphysics::Brightness;
+use ugscene::{Anchor, MotionOptions};
+
+use super::world::World;
+
+/// Pixels across and down.
+pub const SIZE: [u32; 2] = [24, 18];
+
+/// Colours as they are at rest.
+pub const UNSHIFTED: ColorShift = ColorShift::NONE;
+
+/// Colours as spectra.
+pub const SPECTRA: ColorShift = ColorShift::Spectra(SpectralShift { doppler: true, flux: true });
+
+/// Grey stays grey, and its light is multiplied by a power of D.
+pub const fn by_law(law: Brightness) -> ColorShift {
+    ColorShift::Hues(HueShift { doppler: true, law })
+}
+
+/// Who draws.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Renderer {
+    /// `ugphoton`
+    Rays,
+    /// `uglorentz | ugrainbow -xc`
+    Exact,
+    /// `uglorentz | ugdoppler | ugrainbow`
+    Pipe,
+}
+
+/// How a world is drawn.
+#[derive(Clone, Debug)]
+pub struct Picture {
+    /// Its scene.
+    pub text: String,
+    /// Times and anchors.
+    pub motion: MotionOptions,
+    /// By whom.
+    pub renderer: Renderer,
+    /// Pixels across and down.
+    pub size: [u32; 2],
+    /// Samples along a side of a pixel.
+    pub samples: u32,
+    /// How motion changes colours.
+    pub shift: ColorShift,
+    /// What `ugphoton` has besides.
+    pub rays: RayOptions,
+    /// The lens of `ugphoton`.
+    pub lens: Lens,
+    /// The distance of two eyes.
+    pub stereo: Option<f64>,
+    /// A part of the picture.
+    pub crop: Option<[u32; 4]>,
+    /// More than colours.
+    pub channels: Vec<Channel>,
+}
+
+impl Picture {
+    /// By rays with all their light, and one sample a pixel.
+    pub fn new(world: &World, shift: ColorShift) -> Self {
+        Self {
+            text: world.text(),
+            motion: world.motion(),
+            renderer: Renderer::Rays,
+            size: SIZE,
+            samples: 1,
+            shift,
+            rays: RayOptions { cutoff: 0.0, ..RayOptions::default() },
+            lens: Lens::Pinhole,
+            stereo: None,
+            crop: None,
+            channels: Vec::new(),
+        }
+    }
+
+    /// By another renderer. The pipe knows neither mirrors nor shadows.
+    #[must_use]
+    pub fn by(self, renderer: Renderer) -> Self {
+        Self { renderer, ..self }
+    }
+
+    /// Without mirrors, glass and shadows, as the pipe draws.
+    #[must_use]
+    pub fn like_pipe(mut self) -> Self {
+        (self.rays.depth, self.rays.shadows) = (0, false);
+        self
+    }
+
+    /// Of a single pixel.
+    #[must_use]
+    pub fn of_pixel(self) -> Self {
+        Self { size: [1, 1], ..self }
+    }
+
+    /// Draws it.
+    ///
+    /// # Errors
+    /// What a program says instead.
+    pub fn draw(&self) -> Result<Drawn, String> {
+        let frame = match self.renderer {
+            Renderer::Rays => self.traced(),
+            Renderer::Exact => self.exact(),
+            Renderer::Pipe => self.piped(),
+        };
+        let frame = frame.map_err(|error| format!("{error}\n{}", self.described()))?;
+        Ok(Drawn { frame, picture: self.clone() })
+    }
+
+    fn scene(&self) -> Result<Scene, String> {
+        let parsed = ugscene::read(&Source::new("world.ug", self.text.as_str()), &Options::default(), None);
+        parsed.map(|parsed| parsed.scene).map_err(words)
+    }
+
+    fn options(&self) -> PictureOptions {
+        PictureOptions {
+            size: self.size,
+            samples: self.samples,
+            channels: self.channels.clone(),
+            output: Output::Color(Format::Exr),
+            ..PictureOptions::default()
+        }
+    }
+
+    fn traced(&self) -> Result<LinearFrame, String> {
+        let config = ugphoton::Config {
+            motion: self.motion.clone(),
+            shift: self.shift,
+            picture: self.options(),
+            rays: self.rays,
+            lens: self.lens,
+            stereo: self.stereo,
+            crop: self.crop,
+            ..ugphoton::Config::default()
+        };
+        ugphoton::light(self.scene()?, &config).map_err(words)
+    }
+
+    fn seen(&self, pieces: Pieces) -> Result<Scene, String> {
+        let MotionOptions { velocity, camera_velocity, time, anchor, in_place, geometry } =
+            self.motion.clone();
+        let (size, light_error) = (self.size, 0.005);
+        let config = uglorentz::Config {
+            velocity,
+            camera_velocity,
+            time,
+            anchor,
+            in_place,
+            geometry,
+            size,
+            pieces,
+            light_error,
+            ..uglorentz::Config::default()
+        };
+        uglorentz::apply(self.scene()?, &config).map(|(scene, _)| scene).map_err(words)
+    }
+
+    fn exact(&self) -> Result<LinearFrame, String> {
+        let config = ugrainbow::Config {
+            picture: self.options(),
+            exact: Some(self.shift),
+            ..ugrainbow::Config::default()
+        };
+        ugrainbow::light(&self.seen(Pieces::PerEdge(1))?, &config).map_err(words)
+    }
+
+    fn piped(&self) -> Result<LinearFrame, String> {
+        let (spectral, doppler, law) = match self.shift {
+            ColorShift::Spectra(shift) => (true, shift.doppler, Brightness::Report),
+            ColorShift::Hues(shift) => (false, shift.doppler, shift.law),
+        };
+        let config = ugdoppler::Config {
+            spectral,
+            doppler,
+            law,
+            light: true,
+            keep: true,
+            tolerance: 0.0,
+            flux: law != Brightness::None,
+            ..ugdoppler::Config::default()
+        };
+        let seen = self.seen(Pieces::UpTo(uglorentz::DEFAULT_ERROR))?;
+        let (colored, _) = ugdoppler::apply(seen, &config).map_err(words)?;
+        let config = ugrainbow::Config { picture: self.options(), ..ugrainbow::Config::default() };
+        ugrainbow::light(&colored, &config).map_err(words)
+    }
+
+    /// The command line and the scene, to draw the picture by hand.
+    pub fn described(&self) -> String {
+        let mut motion = format!("-ti {}", self.motion.time);
+        if let Some(Anchor::Point(point)) = self.motion.anchor {
+            motion += &format!(" -an {} {} {}", point.x, point.y, point.z);
+        } else if let Some(anchor) = self.motion.anchor {
+            motion += &format!(" -an {anchor:?}").to_lowercase();
+        }
+        if self.motion.in_place {
+            motion += " -in";
+        }
+        let [width, height] = self.size;
+        let picture = format!("-sz {width} {height} -aa {} -dt exr", self.samples);
+        let shift = match self.shift {
+            ColorShift::Spectra(_) => "-sp".to_owned(),
+            UNSHIFTED => "--no-doppler --no-flux".to_owned(),
+            ColorShift::Hues(shift) => format!("-br {}", shift.law.name()),
+        };
+        let command = match self.renderer {
+            Renderer::Rays => {
+                format!("ugphoton {motion} {shift} {picture}{}", self.of_rays())
+            }
+            Renderer::Exact => format!("uglorentz -sd 1 {motion} | ugrainbow -xc {shift} {picture}"),
+            Renderer::Pipe => {
+                format!("uglorentz -sl .5 {motion} | ugdoppler -li -hd {shift} | ugrainbow {picture}")
+            }
+        };
+        format!("{{ {command} }}\n{}", self.text)
+    }
+
+    fn of_rays(&self) -> String {
+        let mut words = format!(" -rd {} -rc {}", self.rays.depth, self.rays.cutoff);
+        for (is_given, word) in [(!self.rays.shadows, " --no-shadows"), (self.rays.fresnel, " --fresnel")] {
+            words += if is_given { word } else { "" };
+        }
+        if let Shutter::Film { distance } = self.rays.shutter {
+            words += &format!(" --film-shutter {distance}");
+        }
+        words += &match self.lens {
+            Lens::Pinhole => String::new(),
+            Lens::Panorama => " -pan".to_owned(),
+            Lens::Fisheye { angle } => format!(" -fish {}", angle.to_degrees()),
+            Lens::Cube => " -cube".to_owned(),
+        };
+        if let Some(distance) = self.stereo {
+            words += &format!(" -stereo {distance}");
+        }
+        if let Some(crop) = self.crop {
+            words += &format!(" -crop {}", crop.map(|number| number.to_string()).join(" "));
+        }
+        words
+    }
+}
+
+fn words(error: impl std::fmt::Display) -> String {
+    error.to_string()
+}
+
+/// A picture that was drawn.
+#[derive(Clone, Debug)]
+pub struct Drawn {
+    frame: LinearFrame,
+    /// How.
+    pub picture: Picture,
+}
+
+impl Drawn {
+    /// Linear red, green and blue, row by row.
+    pub fn light(&self) -> Vec<[f32; 3]> {
+        self.frame.pixels().iter().map(|&pixel| self.frame.light_of(pixel)).collect()
+    }
+
+    /// The numbers of faces from 1, 0 where nothing is seen.
+    pub fn ids(&self) -> &[u32] {
+        let plane = self.frame.planes().iter().find(|plane| plane.name == "id");
+        match plane.map(|plane| &plane.samples) {
+            Some(Samples::Whole(ids)) => ids,
+            _ => &[],
+        }
+    }
+
+    /// A channel of real numbers; empty if the picture has none of this name.
+    pub fn channel(&self, name: &str) -> &[f32] {
+        let plane = self.frame.planes().iter().find(|plane| plane.name == name);
+        match plane.map(|plane| &plane.samples) {
+            Some(Samples::Float(numbers)) => numbers,
+            _ => &[],
+        }
+    }
+}

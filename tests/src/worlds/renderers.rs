@@ -1,0 +1,111 @@
+//! Three renderers draw one picture.
+
+use glam::DVec3;
+use ugphoton::Channel;
+use ugphysics::Brightness;
+use ugrandom::Random;
+
+use super::Outcome;
+use super::compare::{are_around, check_pipe_light, check_within, is_within};
+use super::generate::{Lamps, Recipe, Surfaces, paint, world};
+use super::picture::{Picture, Renderer, SPECTRA, UNSHIFTED, by_law};
+use super::world::World;
+
+/// Rays and the exact mode of the pipe: the same light at every sample. Bodies have one colour, and
+/// lamps are white.
+pub fn exact(random: &mut Random) -> Outcome {
+    check_exact(random, white_lamps)
+}
+
+/// As [`exact`], with colours at vertices and faces that are not flat.
+pub fn painted_exact(random: &mut Random) -> Outcome {
+    check_exact(random, painted)
+}
+
+/// Rays and the whole pipe, off edges. Bodies have one colour, and lamps are white.
+pub fn pipe(random: &mut Random) -> Outcome {
+    check_pipe(random, white_lamps)
+}
+
+/// As [`pipe`], with colours at vertices and faces that are not flat.
+pub fn painted_pipe(random: &mut Random) -> Outcome {
+    check_pipe(random, painted)
+}
+
+/// As [`exact`], under coloured lamps.
+pub fn colored_exact(random: &mut Random) -> Outcome {
+    check_exact(random, |_, world| world)
+}
+
+/// As [`pipe`], under coloured lamps.
+pub fn colored_pipe(random: &mut Random) -> Outcome {
+    check_pipe(random, |_, world| world)
+}
+
+fn check_exact(random: &mut Random, change: fn(&mut Random, World) -> World) -> Outcome {
+    let recipe = Recipe { fastest: 0.9, lamps: Lamps::Unstated, surfaces: Surfaces::Matt };
+    let world = world(random, recipe);
+    let world = change(random, world);
+    let shift = *random.pick(&[SPECTRA, UNSHIFTED, by_law(Brightness::Report)]);
+    let rays = Picture::new(&world, shift).like_pipe();
+    let (one, other) = (rays.clone().by(Renderer::Exact).draw()?, rays.draw()?);
+    let pairs: Vec<_> = one.light().into_iter().zip(other.light()).collect();
+    check_within(&pairs, [&one, &other], 3e-3, 3)
+}
+
+fn check_pipe(random: &mut Random, change: fn(&mut Random, World) -> World) -> Outcome {
+    let recipe = Recipe { fastest: 0.8, lamps: Lamps::All, surfaces: Surfaces::Matt };
+    let world = world(random, recipe);
+    let world = change(random, world);
+    let shift = *random.pick(&[SPECTRA, UNSHIFTED]);
+    let channels = vec![Channel::Id];
+    let rays = Picture { channels, ..Picture::new(&world, shift).like_pipe() };
+    let (one, other) =
+        (Picture { channels: Vec::new(), ..rays.clone().by(Renderer::Pipe) }.draw()?, rays.draw()?);
+    let (width, light, ids) = (rays.size[0] as usize, other.light(), other.ids());
+    // Between different faces, and where a light sets, light changes from sample to sample.
+    let is_smooth = |at: usize| {
+        are_around(at, width, light.len(), |near| {
+            ids[near] == ids[at] && is_within(light[near], light[at], 0.5)
+        })
+    };
+    let pairs: Vec<_> = one.light().into_iter().zip(light.clone()).enumerate().collect();
+    let pairs: Vec<_> = pairs.into_iter().filter(|(at, _)| is_smooth(*at)).map(|(_, pair)| pair).collect();
+    if pairs.is_empty() {
+        return Ok(0);
+    }
+    check_pipe_light(pairs, [&one, &other])
+}
+
+fn white_lamps(_: &mut Random, mut world: World) -> World {
+    world.lamps.iter_mut().for_each(|lamp| lamp.paint = None);
+    world
+}
+
+/// Some bodies get colours at their vertices, and some vertices leave the planes of their faces.
+fn painted(random: &mut Random, mut world: World) -> World {
+    for body in &mut world.bodies {
+        let own = body.paint;
+        match random.below(4) {
+            0 => {
+                body.vertex_paints =
+                    body.vertices.iter().map(|_| without_translucency(paint(random))).collect()
+            }
+            1 => {
+                body.vertex_paints = vec![without_translucency(own); body.vertices.len()];
+                body.vertex_paints[0] = without_translucency(paint(random));
+            }
+            _ => {}
+        }
+        if random.one_in(3) {
+            let size = (body.vertices[0] - body.vertices[2]).length();
+            let bent: DVec3 = random.direction() * size * random.between(0.0, 0.05);
+            body.vertices[0] += bent;
+        }
+    }
+    white_lamps(random, world)
+}
+
+fn without_translucency([red, green, blue, _]: [f64; 4]) -> [f64; 4] {
+    [red, green, blue, 0.0]
+}

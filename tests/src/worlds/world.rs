@@ -1,0 +1,281 @@
+//! A world: bodies, lamps and a camera in spacetime, and its scene text.
+
+use std::fmt::Write as _;
+
+use glam::{DMat3, DVec3};
+use ugscene::{Anchor, MotionOptions};
+
+use super::spacetime::{Change, Event, boost};
+
+/// Bodies, lamps and a camera. All rest frames have the same origin: the event at place and time 0.
+#[derive(Clone, Debug)]
+pub struct World {
+    /// The bodies.
+    pub bodies: Vec<Body>,
+    /// The lamps.
+    pub lamps: Vec<Lamp>,
+    /// The camera.
+    pub camera: Camera,
+    /// Where the text has the common origin, in scene coordinates (`-an`).
+    pub anchor: DVec3,
+}
+
+/// A body of one colour and one surface.
+#[derive(Clone, Debug)]
+pub struct Body {
+    /// At rest.
+    pub vertices: Vec<DVec3>,
+    /// Rows of `vertices`, counterclockwise seen from outside.
+    pub faces: Vec<Vec<usize>>,
+    /// Display-encoded red, green and blue, and translucency.
+    pub paint: [f64; 4],
+    /// Colours of vertices, in the same form; none or one for each.
+    pub vertex_paints: Vec<[f64; 4]>,
+    /// Its surface, or its own light.
+    pub surface: Surface,
+    /// `None`: it rests in the scene.
+    pub velocity: Option<DVec3>,
+}
+
+/// What faces do with light.
+#[derive(Clone, Copy, Debug)]
+pub enum Surface {
+    /// They scatter all of it.
+    Matt,
+    /// They emit light of this level.
+    Level(f64),
+    /// kd, ks, kt, n, exponent and absorption of `surf`.
+    Reflecting([f64; 6]),
+}
+
+/// A light.
+#[derive(Clone, Debug)]
+pub struct Lamp {
+    /// 1 lights a white surface fully.
+    pub intensity: f64,
+    /// Where it is, in its rest frame.
+    pub place: LampPlace,
+    /// Display-encoded red, green and blue; white if `None`.
+    pub paint: Option<[f64; 3]>,
+    /// `None`: it rests with whatever it lights.
+    pub velocity: Option<DVec3>,
+}
+
+/// Where a light is, in its rest frame.
+#[derive(Clone, Copy, Debug)]
+pub enum LampPlace {
+    /// Everywhere.
+    Ambient,
+    /// Infinitely far away in a direction.
+    Afar(DVec3),
+    /// At a point.
+    At(DVec3),
+}
+
+/// A camera that takes a picture at an event.
+#[derive(Clone, Copy, Debug)]
+pub struct Camera {
+    /// Place and time of the picture in the frame of the scene.
+    pub event: Event,
+    /// In the frame of the scene.
+    pub velocity: DVec3,
+    /// View direction in the frame of the camera, a unit vector.
+    pub forward: DVec3,
+    /// Up, in the frame of the camera, a unit vector perpendicular to `forward`.
+    pub up: DVec3,
+    /// The view angle across, degrees.
+    pub angle: f64,
+}
+
+impl Camera {
+    /// To the right in the picture.
+    pub fn right(&self) -> DVec3 {
+        self.forward.cross(self.up)
+    }
+
+    /// Displaced in its own frame in space and time.
+    #[must_use]
+    pub fn displaced(&self, place: DVec3, time: f64) -> Self {
+        Self { event: self.event + boost(self.velocity) * place.extend(time), ..*self }
+    }
+
+    /// Turned so that it looks in a direction.
+    #[must_use]
+    pub fn looking(&self, direction: DVec3) -> Self {
+        let forward = direction.normalize();
+        let aside = if forward.dot(self.up).abs() < 0.9 { self.up } else { self.right() };
+        Self { forward, up: (aside - forward * aside.dot(forward)).normalize(), ..*self }
+    }
+
+    /// The direction seen in the middle of a pixel of a pinhole picture, of depth 1.
+    pub fn direction(&self, [column, row]: [u32; 2], [width, height]: [u32; 2]) -> DVec3 {
+        let half = libm::tan(0.5 * self.angle.to_radians());
+        let across = half * (2.0 * (f64::from(column) + 0.5) / f64::from(width) - 1.0);
+        let down = half * (2.0 * (f64::from(row) + 0.5) - f64::from(height)) / f64::from(width);
+        self.forward + across * self.right() - down * self.up
+    }
+}
+
+impl World {
+    /// The same world in another frame. Lights that rest with what they light are left out of it,
+    /// except ambient light.
+    #[must_use]
+    pub fn changed(&self, change: &Change) -> Self {
+        let mut world = self.clone();
+        for body in &mut world.bodies {
+            let (velocity, rest) = change.of_frame(body.velocity.unwrap_or_default());
+            body.velocity = (body.velocity.is_some() || velocity != DVec3::ZERO).then_some(velocity);
+            body.vertices.iter_mut().for_each(|place| *place = rest.place(*place));
+        }
+        for lamp in &mut world.lamps {
+            let Some(velocity) = &mut lamp.velocity else { continue };
+            let (moved, rest) = change.of_frame(*velocity);
+            *velocity = moved;
+            lamp.place = match lamp.place {
+                LampPlace::Ambient => LampPlace::Ambient,
+                LampPlace::Afar(toward) => LampPlace::Afar(rest.turn * toward),
+                LampPlace::At(place) => LampPlace::At(rest.place(place)),
+            };
+        }
+        let camera = &mut world.camera;
+        let (velocity, rest) = change.of_frame(camera.velocity);
+        camera.event = change.linear * camera.event + change.shift;
+        (camera.velocity, camera.forward, camera.up) =
+            (velocity, rest.turn * camera.forward, rest.turn * camera.up);
+        world
+    }
+
+    /// The same world turned or mirrored, in another unit of length, and written elsewhere.
+    #[must_use]
+    pub fn placed(&self, turn: DMat3, unit: f64, anchor: DVec3) -> Self {
+        let mut world = self.clone();
+        let place = |place: &mut DVec3| *place = unit * (turn * *place);
+        for body in &mut world.bodies {
+            body.vertices.iter_mut().for_each(place);
+            body.velocity = body.velocity.map(|velocity| turn * velocity);
+            if let Surface::Reflecting([.., absorption]) = &mut body.surface {
+                *absorption /= unit;
+            }
+            if turn.determinant() < 0.0 {
+                body.faces.iter_mut().for_each(|face| face.reverse());
+            }
+        }
+        for lamp in &mut world.lamps {
+            lamp.velocity = lamp.velocity.map(|velocity| turn * velocity);
+            match &mut lamp.place {
+                LampPlace::Ambient => {}
+                LampPlace::Afar(toward) => *toward = turn * *toward,
+                LampPlace::At(at) => place(at),
+            }
+        }
+        let Camera { event, velocity, forward, up, .. } = &mut world.camera;
+        *event = (unit * (turn * event.truncate())).extend(unit * event.w);
+        for vector in [velocity, forward, up] {
+            *vector = turn * *vector;
+        }
+        world.anchor = anchor;
+        world
+    }
+
+    /// The motion options that draw it: the time of the picture on the camera's clock, and the
+    /// common origin.
+    pub fn motion(&self) -> MotionOptions {
+        let Camera { event, velocity, .. } = self.camera;
+        let time = event.w * (1.0 - velocity.length_squared()).sqrt();
+        MotionOptions { time, anchor: Some(Anchor::Point(self.anchor)), ..MotionOptions::default() }
+    }
+
+    /// Its scene.
+    pub fn text(&self) -> String {
+        self.statements().concat()
+    }
+
+    /// Its scene, statement by statement. Their order does not matter.
+    pub fn statements(&self) -> Vec<String> {
+        let mut all = Vec::new();
+        for (row, body) in self.bodies.iter().enumerate() {
+            body.write(row, self.anchor, &mut all);
+        }
+        all.extend(self.lamps.iter().enumerate().map(|(row, lamp)| lamp.statements(row, self.anchor)));
+        all.push(self.camera.statement(self.anchor));
+        all
+    }
+}
+
+impl Body {
+    fn write(&self, row: usize, anchor: DVec3, all: &mut Vec<String>) {
+        all.push(paint(&format!("c{row}"), &self.paint));
+        for (corner, place) in self.vertices.iter().enumerate() {
+            let own = self.vertex_paints.get(corner).map(|own| {
+                all.push(paint(&format!("c{row}_{corner}"), own));
+                format!(" c{row}_{corner}")
+            });
+            let [x, y, z] = (*place + anchor).to_array();
+            all.push(format!("v b{row}_{corner} {x} {y} {z}{};\n", own.unwrap_or_default()));
+        }
+        let surface = match self.surface {
+            Surface::Matt => String::new(),
+            Surface::Level(level) => format!(" {level}"),
+            Surface::Reflecting(numbers) => {
+                let numbers = numbers.map(|number| number.to_string()).join(" ");
+                all.push(format!("surf s{row} {numbers};\n"));
+                format!(" s{row}")
+            }
+        };
+        let velocity = velocity(self.velocity);
+        for face in &self.faces {
+            let corners: Vec<String> = face.iter().map(|corner| format!("b{row}_{corner}")).collect();
+            all.push(format!("f ({}) c{row}{surface}{velocity};\n", corners.join(" ")));
+        }
+    }
+
+    /// Its scene as an instance, with the transformation `words`, of a definition with other places.
+    pub fn as_instance(&self, row: usize, words: &str, of: &Self) -> String {
+        let mut inner = Vec::new();
+        Self { velocity: None, ..of.clone() }.write(row, DVec3::ZERO, &mut inner);
+        let velocity = velocity(self.velocity);
+        format!("def d{row};\n{}end;\ni (d{row} {words}){velocity};\n", inner.concat())
+    }
+}
+
+impl Lamp {
+    fn statements(&self, row: usize, anchor: DVec3) -> String {
+        let mut text = String::new();
+        if let Some([red, green, blue]) = self.paint {
+            text += &format!("c_rgb l{row} {red} {green} {blue};\n");
+        }
+        let _ = write!(text, "l lamp{row} {}", self.intensity);
+        match self.place {
+            LampPlace::Ambient => {}
+            LampPlace::Afar(toward) => text += &format!(" {} {} {}", toward.x, toward.y, toward.z),
+            LampPlace::At(place) => {
+                let [x, y, z] = (place + anchor).to_array();
+                text += &format!(" {x} {y} {z} 0");
+            }
+        }
+        if self.paint.is_some() {
+            let _ = write!(text, " l{row}");
+        }
+        text + &velocity(self.velocity) + ";\n"
+    }
+}
+
+impl Camera {
+    fn statement(&self, anchor: DVec3) -> String {
+        let eye = self.event.truncate() - self.velocity * self.event.w + anchor;
+        let numbers = |vector: DVec3| format!("{} {} {}", vector.x, vector.y, vector.z);
+        // The view centre is far enough away that its digits tell the direction.
+        let center = eye + eye.length().max(1.0) * self.forward;
+        let moving = velocity((self.velocity != DVec3::ZERO).then_some(self.velocity));
+        let [eye, center, up] = [eye, center, self.up].map(numbers);
+        format!("cam -ep {eye} -vc {center} -ud {up} -va {}{moving};\n", self.angle)
+    }
+}
+
+fn paint(name: &str, [red, green, blue, translucency]: &[f64; 4]) -> String {
+    format!("c_rgb {name} {red} {green} {blue} {translucency};\n")
+}
+
+fn velocity(velocity: Option<DVec3>) -> String {
+    velocity.map_or(String::new(), |beta| format!(" <{} {} {}>", beta.x, beta.y, beta.z))
+}
