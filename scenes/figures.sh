@@ -14,10 +14,10 @@ mkdir -p "$out/rows"
 out=$(cd "$out" && pwd)
 cd "$(dirname "$0")/.."
 
-n_figures=107
+n_figures=115
 printf 'Builds the programs, then draws %s figures into %s\n' "$n_figures" "$out"
-printf 'On two cores: some minutes for the first build, then about two for the figures.\n\n'
-cargo build --release -p uglorentz -p ugdoppler -p ugrainbow -p ugphoton -p ugwarp -p ugsheet
+printf 'On two cores: some minutes for the first build, then about three for the figures.\n\n'
+cargo build --release -p uglorentz -p ugdoppler -p ugrainbow -p ugphoton -p ugwarp -p ugsheet -p xtask
 printf '\nDrawing:\n'
 export PATH="${CARGO_TARGET_DIR:-$PWD/target}/release:$PATH"
 cd scenes
@@ -35,13 +35,12 @@ pot() {
     printf 'l 1.8 %s ;' "0 -1 0 ${1-}" "1 1 0 ${1-}" "-1 1 0 ${1-}"
 }
 
-# flyby NAME SCENE [OPTION...]: four moments at 0.95c, options for ugdoppler
+# flyby NAME SCENE STOPS: four moments at 0.95c with changes of brightness, by rays
 flyby() {
-    local name=$1 scene=$2 rows=() time row
-    shift 2
+    local name=$1 rows=() time row
     for time in 07 12 17 22; do
         row=$out/rows/$name-$time.png
-        uglorentz -vel .95 0 0 -ti $time "$scene" | ugdoppler -qt "$@" | ugrainbow -qt -va 90 -sz "$width" $((height / 4 - 3)) -fo "$row"
+        ugphoton -qt -vel .95 0 0 -ti $time --no-doppler -va 90 -ex "$3" -tc filmic -sz "$width" $((height / 4 - 3)) -fo "$row" "$2"
         rows+=("$row")
     done
     tile "$out/$name.png" 1 "${rows[@]}"
@@ -69,6 +68,14 @@ trace() {
     announce "$name"
 }
 
+# shine NAME [OPTION...]: moving bodies by rays with changes of brightness, to OUTDIR/NAME.png
+shine() {
+    local name=$1
+    shift
+    ugphoton -qt --no-doppler -tc filmic -sz "$width" "$height" "$@" -fo "$out/$name.png"
+    announce "$name"
+}
+
 # warp NAME [OPTION...]: a view of a panorama or of stars, to OUTDIR/NAME.png
 warp() {
     local name=$1
@@ -79,6 +86,14 @@ warp() {
 
 # The functions of the gallery's page write variants of scenes.
 page() { sed -n 's/^    \([a-z_]*() {.*\)/\1/p' ../docs/gallery.md; }
+
+# Nguyen 1988, figures 3.3.1 and 3.3.2, Chang, Lai and Chen 1996, figure 1, and Howard, Dance and
+# Kitchen 1995, figures 2 and 3: plots.
+xtask plots "$out"
+for plot in nguyen-3.3.1-hues nguyen-3.3.2-attenuation chang-01-aberration \
+    howard-02-field-of-view-forward howard-03-field-of-view-backward; do
+    announce "$plot"
+done
 
 # Nguyen 1988, figure 1: the rainbow.
 draw nguyen-01 -wi rainbow.ug
@@ -123,23 +138,23 @@ uglorentz -vel 0 -.99 0 -ep 0 40 3 street.ug | draw chang-12a-in-0.99c
 uglorentz -vel 0 .99 0 -ep 0 -250 3 street.ug | draw chang-12b-out-0.99c
 uglorentz -vel 0 -.9 0 -ep 0 20 3 street.ug | ugdoppler -qt -gw | draw chang-12c-in-0.9c-colours -wi -va 110
 
-# Figures 13 and 15: the teapot's brightness under three distant lights: moving with the teapot, at
-# rest with the viewer, and, in the teapot's rest frame, moving towards it.
+# Figures 13 and 15, with shadows: the teapot's brightness under three distant lights: moving with the
+# teapot, at rest with the viewer, and, in the teapot's rest frame, moving towards it.
 pot > "$out/rows/pot.ug"
 pot '<0 0 0>' > "$out/rows/pot-lights-at-rest.ug"
-flyby chang-13-lights-along "$out/rows/pot.ug" -li --no-doppler
-flyby chang-15a-lights-at-rest "$out/rows/pot-lights-at-rest.ug" -li --no-doppler
-ugdoppler -qt -li -ir --no-doppler < "$out/rows/pot.ug" | draw chang-13-rest
-pot '<-0.95 0 0>' | ugdoppler -qt -li -ir --no-doppler | draw chang-15b-lights-coming
+pot '<-0.95 0 0>' > "$out/rows/pot-lights-coming.ug"
+flyby chang-13-lights-along "$out/rows/pot.ug" .5
+flyby chang-15a-lights-at-rest "$out/rows/pot-lights-at-rest.ug" 3
+shine chang-13-rest -ex .5 "$out/rows/pot.ug"
+shine chang-15b-lights-coming -ex -5 "$out/rows/pot-lights-coming.ug"
 
-# Figures 14 and 16: the brightness of the street, approaching and receding, under lights at rest
-# with the street and with the viewer. The approaching street is much brighter, so it is exposed
-# less.
-street_under() { sed "s/^\\(l .*\\);/\\1 $1 ;/" street.ug; }
-uglorentz -vel 0 -.99 0 -ep 0 40 3 street.ug | ugdoppler -qt -hd --no-doppler | draw chang-14a-in-0.99c -ex auto -tc filmic
-uglorentz -vel 0 .99 0 -ep 0 -250 3 street.ug | ugdoppler -qt --no-doppler | draw chang-14b-out-0.99c
-street_under '<0 0 0>' | uglorentz -vel 0 -.99 0 -ep 0 40 3 | ugdoppler -qt -li -hd --no-doppler |
-    draw chang-16-lights-at-rest -ex auto -tc filmic
+# Figures 14 and 16, with shadows: the brightness of the street, approaching and receding, under
+# lights at rest with the street and with the viewer. Those approached have one exposure. The street
+# that recedes is darker by a factor of 14, so it is exposed six stops more.
+sed 's/^\(l .*\);/\1 <0 0 0> ;/' street.ug > "$out/rows/street-lights-at-rest.ug"
+shine chang-14a-in-0.99c -vel 0 -.99 0 -ep 0 40 3 -ex -1.55 street.ug
+shine chang-14b-out-0.99c -vel 0 .99 0 -ep 0 -250 3 -vc 0 23 10 -ex 6 street.ug
+shine chang-16-lights-at-rest -vel 0 -.99 0 -ep 0 40 3 -ex -1.55 "$out/rows/street-lights-at-rest.ug"
 
 # Figure 17: three narrow bands around 460, 540 and 600 nm, at 0.5c from left to right, later
 # pictures below: blueshifted when approaching, redshifted when receding. Each row has its own
@@ -159,7 +174,14 @@ announce chang-17-bands-0.5c
 uglorentz grid.ug | draw howard-04a-rest
 uglorentz -vel 0 -.5 0 grid.ug | draw howard-04b-0.5c
 uglorentz -vel 0 -.9 0 grid.ug | draw howard-04c-0.9c
-uglorentz -vel 0 -.9 0 -ep 0 .5 0 grid.ug | draw howard-05-through-0.9c
+uglorentz -ep 0 -1.732 0 grid.ug | draw howard-05a-rest
+uglorentz -vel 0 -.5 0 -ep 0 -1.732 0 grid.ug | draw howard-05b-0.5c
+uglorentz -vel 0 -.9 0 -ep 0 .109 0 grid.ug | draw howard-05c-through-0.9c
+
+# Weiskopf 2000, figure 1: a textured sphere of directions, at rest and at 0.9c. Its texture is made
+# of faces.
+ugrainbow -qt -sz "$width" $((width * 14 / 27)) -fo "$out/weiskopf-01-directions.png" directions.ug
+announce weiskopf-01-directions
 
 # Weiskopf 2000, figure 3: a tunnel of black bodies at 3500, 5900 and 10000 K: at rest; flying
 # through it at 0.6c with the shape alone, with the Doppler effect, and with the searchlight effect
@@ -224,11 +246,12 @@ done
 trace howard-shutter-pinhole -cv 0 .5 0 -ep 0 -1.5 0 -va 112 grid.ug
 trace howard-shutter-film -cv 0 .5 0 -ep 0 -1.5 0 -va 112 --film-shutter 2 grid.ug
 
-# Li, Shum and Peng 2001, figures 5 and 6: glass and metal in a room of letters.
+# Li, Shum and Peng 2001, figures 5 and 6: glass and metal in a room of letters. Their clips are
+# drawn by films.sh.
 for material in glass metal; do
-    trace "li-$material-right-0.9c" -in <($material '.9 0 0')
-    trace "li-$material-near-0.9c" -in <($material '0 -.9 0')
-    trace "li-$material-away-0.99c" -in <($material '0 .99 0')
+    trace "li-$material-a-right-0.99c" -in <($material '.99 0 0')
+    trace "li-$material-b-near-0.9c" -in <($material '0 -.9 0')
+    trace "li-$material-c-away-0.99c" -in <($material '0 .99 0')
 done
 
 # Our own: a glass of water.

@@ -4,7 +4,8 @@
 #   scenes/films.sh [OUTDIR [FRAMES [WIDTH]]]        default: films 120 640
 #
 # Frames are kept in OUTDIR/NAME/, so an interrupted run goes on where it stopped. Each film is an
-# animated PNG, with a contact sheet beside it.
+# animated PNG, with a contact sheet beside it. On two cores the six clips by rays at the end take
+# about twenty minutes.
 set -euo pipefail
 export LC_ALL=C
 
@@ -14,7 +15,7 @@ mkdir -p "$out"
 out=$(cd "$out" && pwd)
 cd "$(dirname "$0")/.."
 
-cargo build --release -p ugfilm -p ugphoton
+cargo build --release -p ugfilm -p ugphoton -p ugsheet
 export PATH="${CARGO_TARGET_DIR:-$PWD/target}/release:$PATH"
 cd scenes
 
@@ -26,6 +27,35 @@ film() {
     ugfilm -qt -frames "$frames" -sz "$width" "$height" "$@" -keep "$out/$name/%05d.png" -fo "$out/$name.apng"
     ugfilm -qt -frames "$frames" -sz $((width / 4)) $((height / 4)) "$@" -sheet 12 -fo "$out/$name-sheet.png"
     printf '%s\n' "$name.apng"
+}
+
+# clip NAME MATERIAL X SLOW_VELOCITY SLOW_TIMES VELOCITY TIMES: a clip of Li, Shum and Peng. The cube
+# of room.ug, moved to X, slow and fast; the frames of both side by side are OUTDIR/NAME/*.png and,
+# where there is ffmpeg, OUTDIR/NAME.mp4.
+clip() {
+    local name=$1 frame
+    mkdir -p "$out/$name"
+    half slow "$1" "$2" "$3" "$4" "$5"
+    half fast "$1" "$2" "$3" "$6" "$7"
+    for frame in $(seq -f %05.0f "$frames"); do
+        ugsheet -qt -lb none -gap 4 0 -cols 2 -fo "$out/$name/$frame.png" "$out/$name"/{slow,fast}-"$frame.png"
+    done
+    # About twelve moments, the slow cube beside the fast one.
+    ugsheet -qt -lb none -gap 4 0 -cols 3 -fo "$out/$name-sheet.png" \
+        $(seq -f "$out/$name/%05.0f.png" 1 $(((frames + 11) / 12)) "$frames")
+    if command -v ffmpeg > /dev/null; then
+        ffmpeg -loglevel error -y -framerate 25 -i "$out/$name/%05d.png" -pix_fmt yuv420p \
+            -vf 'crop=trunc(iw/2)*2:trunc(ih/2)*2' "$out/$name.mp4"
+    fi
+    printf '%s\n' "$name"
+}
+
+# half SPEED NAME MATERIAL X VELOCITY TIMES: one of the two sides of a clip
+half() {
+    local scene=$out/$2/$1.ug
+    sed "/^i cube/{s/<.*>/<$5>/; s/-ta 0/-ta $4/}; s/white glass/white $3/g" room.ug > "$scene"
+    ugfilm -qt -rays --no-doppler --no-flux -frames "$frames" -sz $((width / 2)) $((width * 3 / 8)) -ti "$6" \
+        "$scene" -keep "$out/$2/$1-%05d.png" -fo "$out/$2-$1.apng"
 }
 
 # Chang, Lai and Chen 1996, figure 10: a teapot flies past at 0.95c, its shape alone.
@@ -43,3 +73,12 @@ film street 80 -cv '0 0 0 .. 0 .99 0' -ep 0 -14..6 3 -sp -ex auto street.ug
 # A panorama of the tunnel, seen at growing speed.
 ugphoton -qt -pan -sz 2048 1024 tunnel.ug -fo "$out/sky.png"
 film panorama 75 -warp -cv '0 0 0 .. 0 .95 0' -sp -ex auto -va 100 "$out/sky.png"
+
+# Li, Shum and Peng 2001: six clips, of the cubes of figures 5 and 6, each at a hundredth of the speed
+# and at full speed. Towards the viewer and away the cube passes beside the camera (X is -0.9). The
+# shadow of a fast cube is seen after the cube itself is gone.
+for material in glass metal; do
+    clip "li-$material-a-right" $material 0 '.0099 0 0' -600..600 '.99 0 0' 1..12
+    clip "li-$material-b-near" $material -.9 '0 -.009 0' -420..740 '0 -.9 0' 1.5..9
+    clip "li-$material-c-away" $material -.9 '0 .0099 0' -480..620 '0 .99 0' 1..24
+done

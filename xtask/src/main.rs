@@ -14,7 +14,10 @@
 //! cargo xtask bench-exact
 //! cargo xtask geometry > tables.md
 //! cargo xtask gallery
+//! cargo xtask plots figures
+//! cargo xtask directions > scenes/directions.ug
 //! cargo xtask hostile 50000
+//! cargo xtask worlds --from 1000000 --count 10000
 //! cargo xtask cluster
 //! cargo xtask install --prefix ~/.local
 //! ```
@@ -23,6 +26,7 @@
 
 mod bench;
 mod cluster;
+mod directions;
 mod exact;
 mod film;
 mod gallery;
@@ -33,6 +37,7 @@ mod install;
 mod mesh;
 mod photon;
 mod plot;
+mod plots;
 mod raster;
 mod rays;
 mod reading;
@@ -41,6 +46,7 @@ mod short;
 mod sphere;
 mod teapot;
 mod warp;
+mod worlds;
 
 use clap::{Parser, Subcommand};
 use std::io::{self, BufWriter, Write};
@@ -72,6 +78,13 @@ enum Task {
         /// equator
         #[arg(long)]
         halves: bool,
+    },
+    /// Write a textured sphere, and beside it the same as an observer in motion towards its pole sees
+    /// it from its middle
+    Directions {
+        /// Speed of the observer
+        #[arg(long, value_name = "BETA", default_value_t = 0.9)]
+        beta: f64,
     },
     /// Write a bumpy sphere of about N triangles with vertex colours, for benchmarks
     Mesh {
@@ -172,10 +185,17 @@ enum Task {
     /// Measure errors of outlines in pictures against the oracle, and the number of faces, as
     /// Markdown
     Geometry(geometry::Args),
+    /// Draw the plots of the papers, as SVG and PNG
+    Plots {
+        /// Folder of the files
+        folder: PathBuf,
+    },
     /// Draw the pictures of the documentation with the commands in its pages
     Gallery(gallery::Args),
     /// Run the programs on malformed and extreme inputs, and check what must hold of any
     Hostile(hostile::Args),
+    /// Check the laws of light in random worlds
+    Worlds(worlds::Args),
     /// Run the workflows of batch/ on a Slurm of this machine, and compare with one process
     ///
     /// Installs the Debian packages slurm-wlm, munge, parallel and python3-venv if they are
@@ -230,6 +250,9 @@ fn run(task: &Task) -> io::Result<()> {
         Task::Teapot { squares } => teapot::write(&mut out, *squares)?,
         Task::Sphere { bands, halves: false } => sphere::write(&mut out, *bands)?,
         Task::Sphere { bands, halves: true } => sphere::write_halves(&mut out, *bands)?,
+        Task::Directions { beta } => {
+            directions::write(&mut out, *beta).map_err(|error| io::Error::other(error.to_string()))?;
+        }
         Task::Mesh { triangles, each } => mesh::write(&mut out, *triangles, *each)?,
         Task::Bench { triangles } => {
             bench::write(&mut out, triangles).map_err(|error| io::Error::other(error.to_string()))?;
@@ -273,7 +296,11 @@ fn run(task: &Task) -> io::Result<()> {
             geometry::write(&mut out, args).map_err(|error| io::Error::other(error.to_string()))?;
         }
         Task::Gallery(args) => gallery::write(&mut out, args)?,
+        Task::Plots { folder } => {
+            plots::write(folder).map_err(|error| io::Error::other(error.to_string()))?;
+        }
         Task::Hostile(args) => hostile::write(&mut out, args)?,
+        Task::Worlds(args) => worlds::write(&mut out, args)?,
         Task::Cluster => cluster::check()?,
         Task::Install(args) => install::write(&mut out, args)?,
         Task::ReadOnce { scene, threads } => {

@@ -19,7 +19,7 @@ use ugpipe::Progress;
 
 use crate::bench::{build, machine, program, target_dir};
 use crate::mesh;
-use crate::plot::{Panel, Series, svg};
+use crate::plot::{Growth, Series, logarithmic};
 use crate::rays::{median, processor_time};
 
 /// Runs that are compared.
@@ -62,11 +62,11 @@ pub fn write(out: &mut impl Write, plot: &Path, povray: &str, most: u32) -> Resu
         };
         let tracing = Series { name: "seconds of tracing", points: of(&|cost| cost.tracing) };
         let memory = Series { name: "GB of memory", points: of(&|cost| cost.megabytes / 1e3) };
-        Panel { title, unit, series: [tracing, memory] }
+        Growth { title, unit, series: [tracing, memory] }
     };
     let panels =
         [panel("1 body at rest", "triangles", &faces), panel("100 000 triangles", "bodies", &bodies)];
-    Ok(std::fs::write(plot, svg(&panels))?)
+    Ok(std::fs::write(plot, logarithmic(&panels).svg()?)?)
 }
 
 /// Bumpy spheres in the unit ball, as seen from the eye.

@@ -1,9 +1,245 @@
-//! Plots with logarithmic axes, as SVG.
+//! Plots as SVG and PNG by `plotters`: panels in rows, with the same calls for both formats.
 
-use std::fmt::Write;
+use std::error::Error;
+use std::fs;
+use std::io::Cursor;
+use std::ops::Range;
+use std::path::Path;
 
-/// One of several plots in a row.
-pub struct Panel<'a> {
+use image::{ImageFormat, RgbImage, imageops};
+use plotters::coord::Shift;
+use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, ValueFormatter};
+use plotters::prelude::*;
+use plotters::style::{FontStyle, register_font};
+
+/// Pixels of the drawing to one of the picture, since `plotters` rounds all places to whole pixels.
+const SCALE: u32 = 4;
+
+/// The first of these is for the first series of a panel.
+pub const COLORS: [RGBColor; 2] = [RGBColor(11, 98, 168), RGBColor(184, 74, 0)];
+const GRID: RGBColor = RGBColor(221, 221, 221);
+const FRAME: RGBColor = RGBColor(120, 120, 120);
+
+const FONT: &str = "sans-serif";
+const TEXT_SIZE: u32 = 15;
+const TITLE_SIZE: u32 = 17;
+
+/// Pixels around the axes and their numbers.
+const MARGIN: u32 = 12;
+/// Numbers at the end of the horizontal axis need more.
+const RIGHT_MARGIN: u32 = 28;
+
+/// Panels of one size, in rows.
+pub struct Plot {
+    /// Panels in a row.
+    pub columns: u32,
+    /// Width and height of each panel, pixels.
+    pub panel_size: [u32; 2],
+    pub panels: Vec<Panel>,
+}
+
+/// Marks in a system of coordinates.
+pub struct Panel {
+    /// Above the axes; empty for none.
+    pub title: String,
+    /// The horizontal axis and the vertical one.
+    pub axes: [Axis; 2],
+    /// Whether the axes have ticks, numbers and names.
+    pub has_scales: bool,
+    pub marks: Vec<Mark>,
+}
+
+/// An axis from the first of its ticks to the last.
+#[derive(Clone)]
+pub struct Axis {
+    pub name: String,
+    pub ticks: Vec<f64>,
+    pub label: fn(f64) -> String,
+}
+
+/// What is drawn at places x, y in the coordinates of the axes.
+pub enum Mark {
+    /// Points connected by lines of this width in pixels.
+    Line(Vec<[f64; 2]>, RGBColor, u32),
+    Dashes([[f64; 2]; 2]),
+    Dots(Vec<[f64; 2]>, RGBColor),
+    Arrow([[f64; 2]; 2], RGBColor),
+    /// A text that begins at a place.
+    Text([f64; 2], String, RGBColor),
+}
+
+impl Plot {
+    /// The plot as SVG.
+    pub fn svg(&self) -> Result<String, Box<dyn Error>> {
+        let [width, height] = self.size();
+        let [wide, high] = [width, height].map(|side| side * SCALE);
+        let mut text = String::new();
+        self.draw(&SVGBackend::with_string(&mut text, (wide, high)).into_drawing_area())?;
+        let sides = |width, height| format!("<svg width=\"{width}\" height=\"{height}\"");
+        Ok(text.replacen(&sides(wide, high), &sides(width, height), 1))
+    }
+
+    /// The plot as PNG.
+    pub fn png(&self) -> Result<Vec<u8>, Box<dyn Error>> {
+        let [width, height] = self.size();
+        let [wide, high] = [width, height].map(|side| side * SCALE);
+        let mut pixels = RgbImage::new(wide, high);
+        self.draw(&BitMapBackend::with_buffer(&mut pixels, (wide, high)).into_drawing_area())?;
+        let mut bytes = Cursor::new(Vec::new());
+        imageops::thumbnail(&pixels, width, height).write_to(&mut bytes, ImageFormat::Png)?;
+        Ok(bytes.into_inner())
+    }
+
+    /// Writes `NAME.svg` and `NAME.png` into a folder.
+    pub fn write(&self, folder: &Path, name: &str) -> Result<(), Box<dyn Error>> {
+        fs::write(folder.join(format!("{name}.svg")), self.svg()?)?;
+        Ok(fs::write(folder.join(format!("{name}.png")), self.png()?)?)
+    }
+
+    /// Width of a panel without title and scales, relative to its height.
+    pub fn aspect([width, height]: [u32; 2]) -> f64 {
+        f64::from(width - MARGIN - RIGHT_MARGIN) / f64::from(height - 2 * MARGIN)
+    }
+
+    fn size(&self) -> [u32; 2] {
+        [self.panel_size[0] * self.columns, self.panel_size[1] * self.rows()]
+    }
+
+    fn rows(&self) -> u32 {
+        (self.panels.len() as u32).div_ceil(self.columns)
+    }
+
+    fn draw<B>(&self, area: &DrawingArea<B, Shift>) -> Result<(), Box<dyn Error>>
+    where
+        B: DrawingBackend,
+        B::ErrorType: 'static,
+    {
+        let bytes = include_bytes!("../../crates/uglabel/font/DejaVuSans.ttf");
+        register_font(FONT, FontStyle::Normal, bytes).map_err(|_| "the font is invalid")?;
+        area.fill(&WHITE)?;
+        for (panel, area) in
+            self.panels.iter().zip(area.split_evenly((self.rows() as usize, self.columns as usize)))
+        {
+            panel.draw(&area)?;
+        }
+        Ok(area.present()?)
+    }
+}
+
+impl Panel {
+    fn draw<B>(&self, area: &DrawingArea<B, Shift>) -> Result<(), Box<dyn Error>>
+    where
+        B: DrawingBackend,
+        B::ErrorType: 'static,
+    {
+        let [x, y] = &self.axes;
+        let labels = if self.has_scales { [44, 66] } else { [0, 0] };
+        let text = (FONT, TEXT_SIZE * SCALE);
+        let mut builder = ChartBuilder::on(area);
+        builder.margin(MARGIN * SCALE).margin_right(RIGHT_MARGIN * SCALE);
+        builder.x_label_area_size(labels[0] * SCALE).y_label_area_size(labels[1] * SCALE);
+        if !self.title.is_empty() {
+            builder.caption(&self.title, (FONT, TITLE_SIZE * SCALE));
+        }
+        let mut chart = builder.build_cartesian_2d(x.clone(), y.clone())?;
+        if self.has_scales {
+            chart
+                .configure_mesh()
+                .bold_line_style(GRID.stroke_width(SCALE))
+                .set_all_tick_mark_size(5 * SCALE)
+                .axis_style(FRAME.stroke_width(SCALE))
+                .label_style(text)
+                .axis_desc_style(text)
+                .x_desc(&x.name)
+                .y_desc(&y.name)
+                .draw()?;
+        }
+        let places = |points: &[[f64; 2]]| points.iter().map(|&[x, y]| (x, y)).collect::<Vec<_>>();
+        for mark in &self.marks {
+            let lines = |color: RGBColor, width: u32| color.stroke_width(width * SCALE);
+            match mark {
+                Mark::Line(points, color, width) => {
+                    chart.draw_series([PathElement::new(places(points), lines(*color, *width))])?;
+                }
+                Mark::Dashes(ends) => {
+                    chart.draw_series(
+                        dashes(ends).map(|dash| PathElement::new(places(&dash), lines(FRAME, 1))),
+                    )?;
+                }
+                Mark::Dots(points, color) => {
+                    let dot = |place| Circle::new(place, 4 * SCALE, color.filled());
+                    chart.draw_series(places(points).into_iter().map(dot))?;
+                }
+                Mark::Arrow([from, to], color) => {
+                    let (neck, head) = arrow_head([*from, *to]);
+                    chart.draw_series([PathElement::new(places(&[*from, neck]), lines(*color, 2))])?;
+                    chart.draw_series([Polygon::new(places(&head), color.filled())])?;
+                }
+                Mark::Text([x, y], words, color) => {
+                    let style = TextStyle::from(text.into_font()).color(color);
+                    chart.draw_series([Text::new(words.clone(), (*x, *y), style)])?;
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Axis {
+    /// An axis for numbers.
+    pub fn new(name: &str, ticks: &[f64]) -> Self {
+        Self { name: name.to_owned(), ticks: ticks.to_vec(), label: |number| number.to_string() }
+    }
+}
+
+impl Ranged for Axis {
+    type FormatOption = NoDefaultFormatting;
+    type ValueType = f64;
+
+    fn map(&self, value: &f64, (first, last): (i32, i32)) -> i32 {
+        let Range { start, end } = self.range();
+        first + ((value - start) / (end - start) * f64::from(last - first)).round() as i32
+    }
+
+    fn key_points<Hint: KeyPointHint>(&self, hint: Hint) -> Vec<f64> {
+        if hint.weight().allow_light_points() { Vec::new() } else { self.ticks.clone() }
+    }
+
+    fn range(&self) -> Range<f64> {
+        let ends = [self.ticks.first(), self.ticks.last()].map(|end| end.copied().unwrap_or_default());
+        ends[0]..ends[1]
+    }
+}
+
+impl ValueFormatter<f64> for Axis {
+    fn format_ext(&self, value: &f64) -> String {
+        (self.label)(*value)
+    }
+}
+
+/// A straight line as dashes with equal gaps.
+fn dashes([from, to]: &[[f64; 2]; 2]) -> impl Iterator<Item = [[f64; 2]; 2]> {
+    const N: u32 = 30;
+    let at = |part: u32| {
+        [0, 1].map(|axis| from[axis] + (to[axis] - from[axis]) * f64::from(part) / f64::from(2 * N - 1))
+    };
+    (0..N).map(move |n| [at(2 * n), at(2 * n + 1)])
+}
+
+/// The end of an arrow's shaft, and its head.
+fn arrow_head([from, to]: [[f64; 2]; 2]) -> ([f64; 2], [[f64; 2]; 3]) {
+    const LENGTH: f64 = 0.1;
+    const HALF_WIDTH: f64 = 0.035;
+    let (x, y) = (to[0] - from[0], to[1] - from[1]);
+    let length = libm::hypot(x, y);
+    let (x, y) = (x / length, y / length);
+    let neck = [to[0] - LENGTH * x, to[1] - LENGTH * y];
+    let side = |by: f64| [neck[0] - by * y, neck[1] + by * x];
+    (neck, [to, side(HALF_WIDTH), side(-HALF_WIDTH)])
+}
+
+/// Measurements on logarithmic axes.
+pub struct Growth<'a> {
     pub title: &'a str,
     /// Unit of the horizontal axis.
     pub unit: &'a str,
@@ -16,22 +252,9 @@ pub struct Series<'a> {
     pub points: Vec<[f64; 2]>,
 }
 
-const COLORS: [&str; 2] = ["#0b62a8", "#b84a00"];
-const WIDTH: f64 = 420.0;
-const HEIGHT: f64 = 360.0;
-const LEFT: f64 = 60.0;
-const TOP: f64 = 36.0;
-/// Length of each axis.
-const SIDE: f64 = 260.0;
-
-/// Draws panels side by side. All have the same vertical range and as many decades horizontally, so
-/// that a slope of 1 looks the same in all.
-pub fn svg(panels: &[Panel<'_>]) -> String {
-    let mut text = format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {} {HEIGHT}\" font-family=\"sans-serif\" \
-         font-size=\"12\">\n<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n",
-        WIDTH * panels.len() as f64
-    );
+/// Panels with the same vertical range and as many decades horizontally, so that a slope of 1 looks
+/// the same in all. A dashed line has that slope.
+pub fn logarithmic(panels: &[Growth<'_>]) -> Plot {
     let all = || panels.iter().flat_map(|panel| &panel.series).flat_map(|series| &series.points);
     let down = decades(all().map(|point| point[1]));
     let across: Vec<_> = panels
@@ -39,14 +262,25 @@ pub fn svg(panels: &[Panel<'_>]) -> String {
         .map(|panel| decades(panel.series.iter().flat_map(|series| &series.points).map(|point| point[0])))
         .collect();
     let most = across.iter().map(|[low, high]| high - low).fold(down[1] - down[0], i32::max);
-    for (idx, (panel, [low, _])) in panels.iter().zip(across).enumerate() {
-        let axes = Axes { across: low, down: down[0], decade: SIDE / f64::from(most), most };
-        let _ = writeln!(text, "<g transform=\"translate({} 0)\">", WIDTH * idx as f64);
-        axes.draw(&mut text, panel);
-        text.push_str("</g>\n");
-    }
-    text.push_str("</svg>\n");
-    text
+    let axis = |name: &str, low: i32| Axis {
+        name: name.to_owned(),
+        ticks: (low..=low + most).map(f64::from).collect(),
+        label: |exponent| power(exponent as i32),
+    };
+    let panels = panels.iter().zip(across).map(|(panel, [low, _])| {
+        let [left, bottom, size] = [low, down[0], most].map(f64::from);
+        let mut marks = vec![Mark::Dashes([[left, bottom], [left + size, bottom + size]])];
+        for (row, (series, color)) in panel.series.iter().zip(COLORS).enumerate() {
+            let points: Vec<_> = series.points.iter().map(|point| point.map(libm::log10)).collect();
+            marks.push(Mark::Line(points.clone(), color, 2));
+            marks.push(Mark::Dots(points, color));
+            let name_at = [left + 0.03 * size, bottom + (0.97 - 0.07 * row as f64) * size];
+            marks.push(Mark::Text(name_at, series.name.to_owned(), color));
+        }
+        let axes = [axis(panel.unit, low), axis("", down[0])];
+        Panel { title: panel.title.to_owned(), axes, has_scales: true, marks }
+    });
+    Plot { columns: panels.len() as u32, panel_size: [420, 420], panels: panels.collect() }
 }
 
 /// The exponents of the powers of ten that enclose these numbers.
@@ -57,79 +291,12 @@ fn decades(numbers: impl Iterator<Item = f64>) -> [i32; 2] {
     [low.floor() as i32, high.ceil() as i32]
 }
 
-struct Axes {
-    /// Exponents of ten at the beginning of the axes.
-    across: i32,
-    down: i32,
-    /// Length of a decade in the plot.
-    decade: f64,
-    /// Decades of each axis.
-    most: i32,
-}
-
-impl Axes {
-    fn x(&self, number: f64) -> f64 {
-        LEFT + (libm::log10(number) - f64::from(self.across)) * self.decade
-    }
-
-    fn y(&self, number: f64) -> f64 {
-        TOP + SIDE - (libm::log10(number) - f64::from(self.down)) * self.decade
-    }
-
-    fn draw(&self, text: &mut String, panel: &Panel<'_>) {
-        let _ = writeln!(text, "<text x=\"{LEFT}\" y=\"20\" font-weight=\"bold\">{}</text>", panel.title);
-        let (right, bottom) = (LEFT + SIDE, TOP + SIDE);
-        for step in 0..=self.most {
-            let at = f64::from(step) * self.decade;
-            let (x, y) = (LEFT + at, bottom - at);
-            let _ = writeln!(
-                text,
-                "<path d=\"M{x:.1} {TOP}V{bottom}M{LEFT} {y:.1}H{right}\" stroke=\"#ddd\"/>\n\
-                 <text x=\"{x:.1}\" y=\"{}\" text-anchor=\"middle\">{}</text>\n\
-                 <text x=\"{}\" y=\"{:.1}\" text-anchor=\"end\">{}</text>",
-                bottom + 16.0,
-                power(self.across + step),
-                LEFT - 6.0,
-                y + 4.0,
-                power(self.down + step),
-            );
-        }
-        let _ = writeln!(
-            text,
-            "<path d=\"M{LEFT} {bottom}L{right} {TOP}\" stroke=\"#aaa\" stroke-dasharray=\"4 4\"/>\n\
-             <text x=\"{}\" y=\"{}\" text-anchor=\"middle\">{}</text>",
-            LEFT + SIDE / 2.0,
-            bottom + 36.0,
-            panel.unit
-        );
-        for (idx, (series, color)) in panel.series.iter().zip(COLORS).enumerate() {
-            self.draw_series(text, series, color, TOP + 18.0 + 18.0 * idx as f64);
-        }
-    }
-
-    fn draw_series(&self, text: &mut String, series: &Series<'_>, color: &str, name_at: f64) {
-        let points = series.points.iter().map(|[x, y]| format!("{:.1},{:.1}", self.x(*x), self.y(*y)));
-        let points: Vec<String> = points.collect();
-        let _ = writeln!(
-            text,
-            "<polyline points=\"{}\" fill=\"none\" stroke=\"{color}\" stroke-width=\"2\"/>\n\
-             <text x=\"{}\" y=\"{name_at}\" fill=\"{color}\">{}</text>",
-            points.join(" "),
-            LEFT + 8.0,
-            series.name
-        );
-        for point in points {
-            let (x, y) = point.split_once(',').unwrap_or_default();
-            let _ = writeln!(text, "<circle cx=\"{x}\" cy=\"{y}\" r=\"3\" fill=\"{color}\"/>");
-        }
-    }
-}
-
-/// A power of ten as SVG text.
+/// A power of ten as text.
 fn power(exponent: i32) -> String {
+    const DIGITS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
     match u32::try_from(exponent) {
-        Ok(exponent) if exponent > 3 => format!("10<tspan dy=\"-4\" font-size=\"9\">{exponent}</tspan>"),
-        Ok(exponent) => 10u32.pow(exponent).to_string(),
+        Ok(exponent @ 4..=9) => format!("10{}", DIGITS[exponent as usize]),
+        Ok(exponent) => 10u64.pow(exponent).to_string(),
         Err(_) => format!("0.{}1", "0".repeat(exponent.unsigned_abs() as usize - 1)),
     }
 }

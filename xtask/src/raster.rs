@@ -123,7 +123,8 @@ fn to_binary(scene: &Scene) -> Result<Vec<u8>, Box<dyn Error>> {
     }
     for vertex in &scene.vertices {
         let color = vertex.color.ok_or("a vertex has no colour")?;
-        let ColorValue::Hsv { value, tint: Tint::Hue(hue), saturation } = scene.colors[color.index()].value
+        let ColorValue::Hsv { value, tint: Tint::Hue(hue), saturation, .. } =
+            scene.colors[color.index()].value
         else {
             return Err("a colour has no hue".into());
         };

@@ -12,7 +12,7 @@ use ugrainbow::Config;
 
 use crate::bench::{machine, target_dir};
 use crate::mesh;
-use crate::plot::{Panel, Series, svg};
+use crate::plot::{Growth, Series, logarithmic};
 
 /// Runs of each measurement; the fastest and the least memory count.
 const ROUNDS: usize = 3;
@@ -61,13 +61,13 @@ pub fn write(out: &mut impl Write, plot: &Path) -> Result<(), Box<dyn Error>> {
         let of = |number: &dyn Fn(&Cost) -> f64| costs.iter().map(|(x, cost)| [*x, number(cost)]).collect();
         let seconds = Series { name: "seconds", points: of(&|cost| cost.seconds) };
         let gigabytes = Series { name: "GB of memory", points: of(&|cost| cost.megabytes / 1e3) };
-        Panel { title, unit, series: [seconds, gigabytes] }
+        Growth { title, unit, series: [seconds, gigabytes] }
     };
     let panels = [
         panel("1280×720 pixels", "triangles", &faces),
         panel("100 000 triangles", "million pixels", &pixels),
     ];
-    Ok(std::fs::write(plot, svg(&panels))?)
+    Ok(std::fs::write(plot, logarithmic(&panels).svg()?)?)
 }
 
 fn head(out: &mut impl Write, what: &str) -> std::io::Result<()> {
