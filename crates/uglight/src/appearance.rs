@@ -1,8 +1,11 @@
 //! Colours as they appear in the frame of the camera.
 
 use glam::DVec3;
+use ugphysics::Hsv;
 
-use crate::{ColorShift, HueShift, HueTable, Interpolation, Palette, Spectra, Swatch};
+use crate::{
+    ColorShift, HueColor, HueShift, HueTable, Interpolation, Irradiance, Lamp, Palette, Spectra, Swatch,
+};
 
 /// Computes the apparent colour of each sample from its colour at rest.
 #[derive(Clone, Copy)]
@@ -72,6 +75,24 @@ impl<'a> Appearance<'a> {
             Interpolation::Wavelength => seen_nm,
         };
         Swatch { tint, ..seen }
+    }
+
+    /// A colour at rest with its wavelength.
+    pub fn hue_color(&self, rest: &Swatch) -> HueColor {
+        let Hsv { hue, saturation, value } = self.palette.hsv(rest);
+        let wavelength_nm = if rest.is_grey() { 0.0 } else { self.wavelength_nm(rest.tint) };
+        HueColor { hue, wavelength_nm, saturation, value, factor: rest.factor }
+    }
+
+    /// [`Appearance::seen`] under lamps, which may be coloured: the colour contains their light.
+    /// Eq. (P14)
+    pub fn seen_lit(&self, rest: &Swatch, stretch: f64, light: &[Irradiance], lamps: &[Lamp]) -> Swatch {
+        let seen = self.shift.seen_lit(self.hue_color(rest), 1.0 / stretch, light, lamps);
+        let tint = match self.palette.interpolation() {
+            Interpolation::Hue => seen.hue,
+            Interpolation::Wavelength => seen.wavelength_nm,
+        };
+        Swatch { tint, saturation: seen.saturation, value: seen.value, factor: seen.factor, ..*rest }
     }
 
     /// [`Appearance::seen_light`] under the coloured lamps of the scene, at rest with the surface.

@@ -4,7 +4,7 @@ use glam::DVec3;
 use ugparse::{LightKind, Scene};
 use ugphysics::Brightness;
 
-use crate::{Lamp, LampPlace, lamps, light_names};
+use crate::{Irradiance, Lamp, LampPlace, lamps, light_names};
 
 /// The intensity of the ambient light in a scene without lights.
 pub const DEFAULT_AMBIENT: f64 = 0.3;
@@ -27,7 +27,8 @@ pub struct Lighting {
     ambient: Lamp,
     /// All others.
     lamps: Vec<Lamp>,
-    is_colored: bool,
+    /// All lamps, if one is neither white nor grey.
+    colored: Vec<Lamp>,
     acts_on_light: bool,
 }
 
@@ -42,10 +43,11 @@ impl Lighting {
         if scene.lights.is_empty() {
             let from_eye = Lamp::white(LampPlace::Afar(-forward), DEFAULT_FROM_EYE);
             let ambient = Lamp::white(LampPlace::Everywhere, DEFAULT_AMBIENT);
-            return Self { ambient, lamps: vec![from_eye], is_colored: false, acts_on_light };
+            return Self { ambient, lamps: vec![from_eye], colored: Vec::new(), acts_on_light };
         }
         let all = lamps(scene, eye);
         let is_colored = all.iter().any(|lamp| lamp.is_colored);
+        let colored = if is_colored { all.clone() } else { Vec::new() };
         let (ambient, lamps): (Vec<Lamp>, Vec<Lamp>) =
             all.into_iter().partition(|lamp| lamp.place == LampPlace::Everywhere);
         let ambient = Lamp {
@@ -53,14 +55,32 @@ impl Lighting {
             linear: ambient.iter().map(|lamp| lamp.linear).sum(),
             ..Lamp::white(LampPlace::Everywhere, 0.0)
         };
-        Self { ambient, lamps, is_colored, acts_on_light }
+        Self { ambient, lamps, colored, acts_on_light }
     }
 
     /// True if a light is neither white nor grey, so that levels differ between red, green and
     /// blue.
     #[inline]
     pub fn is_colored(&self) -> bool {
-        self.is_colored
+        !self.colored.is_empty()
+    }
+
+    /// The lamps of a scene in which a light is neither white nor grey; none in other scenes.
+    #[inline]
+    pub fn colored_lamps(&self) -> &[Lamp] {
+        &self.colored
+    }
+
+    /// What each of the [coloured lamps](Self::colored_lamps) contributes. The arguments: as of
+    /// [`Lighting::level`].
+    pub fn irradiances(&self, point: DVec3, normal: DVec3, shift: DVec3) -> Vec<Irradiance> {
+        let irradiance = |(row, lamp): (usize, &Lamp)| Irradiance {
+            lamp: row as u32,
+            level: lamp.shifted(shift).level_at_rest(point, normal),
+            doppler: 1.0,
+        };
+        let all = self.colored.iter().enumerate().map(irradiance);
+        all.filter(|part| part.level > 0.0).collect()
     }
 
     /// True if levels multiply linear light, of hues as well: the law of the picture names a

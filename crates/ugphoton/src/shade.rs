@@ -99,7 +99,7 @@ impl<'a> Shader<'a> {
         let light = match point.color.light {
             Some(light) => level * light,
             None => {
-                let base = hue_color(scenery, &point.color);
+                let base = scenery.appearance().hue_color(&point.color);
                 let shift = scenery.hue_shift();
                 shown(scenery, [shift.seen(shift.brightened(base, level), doppler)])
             }
@@ -308,7 +308,7 @@ fn lit(
         let received = |part: &Irradiance| part.level * lights.lamps[part.lamp as usize].linear;
         own * light.iter().map(received).sum::<DVec3>()
     } else {
-        let base = hue_color(scenery, color);
+        let base = scenery.appearance().hue_color(color);
         let shift = scenery.hue_shift();
         if is_plain && !lights.is_colored {
             let of_lamp = |part: &Irradiance| shift.color_of(&lights.lamps[part.lamp as usize]).x;
@@ -346,13 +346,6 @@ fn weighted(rows: [(u32, f64); 3], light: impl Fn(u32) -> DVec3) -> DVec3 {
     rows.into_iter().filter(|&(_, weight)| weight != 0.0).map(|(row, weight)| weight * light(row)).sum()
 }
 
-/// A colour as hue and wavelength.
-pub fn hue_color(scenery: &Scenery<'_>, color: &Swatch) -> HueColor {
-    let hue = scenery.palette.hsv(color).hue;
-    let wavelength_nm = if color.is_grey() { 0.0 } else { scenery.appearance().wavelength_nm(color.tint) };
-    HueColor { hue, wavelength_nm, saturation: color.saturation, value: color.value, factor: color.factor }
-}
-
 /// The sum of colours as the display shows it, as linear light.
 fn shown(scenery: &Scenery<'_>, colors: impl IntoIterator<Item = HueColor>) -> DVec3 {
     let most = if scenery.is_uncut { f64::INFINITY } else { 1.0 };
@@ -373,7 +366,7 @@ fn light_of(color: HueColor) -> DVec3 {
 pub fn transmitted(scenery: &Scenery<'_>, filters: &[Filter]) -> DVec3 {
     let shift = scenery.hue_shift();
     let part = |filter: &Filter| {
-        let base = hue_color(scenery, &filter.color);
+        let base = scenery.appearance().hue_color(&filter.color);
         let wavelength_nm = shift.wavelength_nm(base.wavelength_nm, filter.doppler);
         let hue = if base.saturation > 0.0 { wavelength_to_hue(wavelength_nm) } else { base.hue };
         let hsv = Hsv { hue, saturation: base.saturation, value: base.value };

@@ -20,7 +20,7 @@ use crate::path::Solid;
 use crate::pixels::{self, ExplainedRay};
 use crate::render::as_seen;
 use crate::scenery::Scenery;
-use crate::shade::{LampLight, hue_color};
+use crate::shade::LampLight;
 use crate::tracer::{Visit, Way};
 
 pub use json::json;
@@ -294,7 +294,7 @@ impl Teller<'_> {
             let chromaticity = (sum > 0.0).then(|| [xyz[0] / sum, xyz[1] / sum]);
             return SampleColor::Light { xyz, chromaticity };
         }
-        let base = hue_color(scenery, &point.color);
+        let base = scenery.appearance().hue_color(&point.color);
         let is_end =
             scenery.palette.interpolation() == Interpolation::Hue && !(-60.0 < base.hue && base.hue < 300.0);
         let wavelength = (!point.color.is_grey()).then(|| {

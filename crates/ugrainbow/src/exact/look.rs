@@ -19,6 +19,8 @@ pub struct Look {
     needs_place: bool,
     /// Spectra of lamps multiply those of the face.
     is_lit_by_spectra: bool,
+    /// Coloured lamps, whose light changes the hue.
+    is_lit_by_hues: bool,
     is_light: bool,
     /// Its colour at rest, or that of its first corner, with the wavelength of the colour.
     color: Swatch,
@@ -99,9 +101,10 @@ impl Look {
         let has_level = painter.scene.light_level(face).is_some();
         let is_lit_by_spectra =
             !has_level && appearance.spectra().is_some_and(uglight::Spectra::has_colored_lamps);
+        let is_lit_by_hues = !has_level && !is_spectral && !common.is_light && painter.lighting.is_colored();
         let is_even = has_level
             || !(painter.lighting.needs_places() || has_normals && painter.lighting.needs_geometry());
-        let level = (is_even && !is_lit_by_spectra)
+        let level = (is_even && !is_lit_by_spectra && !is_lit_by_hues)
             .then(|| painter.level(face, vertices[0], normal, common.is_light));
         let has_normals = has_normals && level.is_none();
         let has_translucency = corners.iter().any(|corner| corner.color.translucency > 0.0);
@@ -116,6 +119,7 @@ impl Look {
             level,
             needs_place: painter.lighting.needs_places(),
             is_lit_by_spectra,
+            is_lit_by_hues,
             is_light: common.is_light,
             color: first.color,
             wavelength_nm: appearance.wavelength_nm(first.color.tint),
@@ -140,6 +144,9 @@ impl Look {
         if SPECTRAL && self.is_lit_by_spectra {
             return (self.seen_under_lamps(appearance, frame, ray, key, spot), DVec3::ONE);
         }
+        if !SPECTRAL && self.is_lit_by_hues {
+            return (self.seen_lit(painter, appearance, frame, ray, key, spot), DVec3::ONE);
+        }
         let color = match &spot {
             &spot if SPECTRAL => self.seen_spectrum(appearance, spot, ray.stretch),
             Some(spot) if spot.mesh.has_colors => {
@@ -163,6 +170,28 @@ impl Look {
         (color, painter.lighting.level(point, normal, frame.lamp_shift, self.is_light))
     }
 
+    /// The apparent hue under coloured lamps.
+    fn seen_lit(
+        &self,
+        painter: &Painter<'_>,
+        appearance: &Appearance<'_>,
+        frame: &RestFrameRays,
+        ray: &Ray,
+        key: f64,
+        spot: Option<Spot<'_>>,
+    ) -> Swatch {
+        let normal = self.normal_at(spot);
+        let place = frame.scene_from_axes * (ray.rest * (1.0 / key));
+        let light = painter.lighting.irradiances(place, normal, frame.lamp_shift);
+        let color = spot.filter(|spot| spot.mesh.has_colors).map_or(self.color, |spot| spot.color());
+        appearance.seen_lit(&color, ray.stretch, &light, painter.lighting.colored_lamps())
+    }
+
+    /// The normal where a ray meets the face.
+    fn normal_at(&self, spot: Option<Spot<'_>>) -> DVec3 {
+        spot.filter(|spot| spot.mesh.has_normals).map_or(self.normal, |spot| spot.normal())
+    }
+
     /// The apparent colour in spectral mode, lit by lamps with spectra of their own.
     fn seen_under_lamps(
         &self,
@@ -172,7 +201,7 @@ impl Look {
         key: f64,
         spot: Option<Spot<'_>>,
     ) -> Swatch {
-        let normal = spot.filter(|spot| spot.mesh.has_normals).map_or(self.normal, |spot| spot.normal());
+        let normal = self.normal_at(spot);
         let place = [frame.scene_from_axes * (ray.rest * (1.0 / key)), normal, frame.lamp_shift];
         let Some(spot) = spot.filter(|spot| spot.mesh.has_colors) else {
             let light = Some(appearance.seen_under_lamps([(self.row, 1.0)], ray.stretch, place));

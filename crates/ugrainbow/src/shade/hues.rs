@@ -1,7 +1,7 @@
 //! Conversion of hues to red, green and blue.
 
 use fearless_simd::{Level, Simd, dispatch};
-use ugraster::{Encoding, RUN, ShadedRun, greater, lesser};
+use ugraster::{RUN, ShadedRun, greater, lesser};
 
 use super::linear;
 use super::transfer::decode;
@@ -54,22 +54,21 @@ fn are_between<S: Simd>(_: S, numbers: &[f32], [least, most]: [f32; 2]) -> bool 
     numbers.iter().fold(true, |all, &number| all & (least <= number) & (number <= most))
 }
 
-/// Light of many samples from their hues, saturations, values and attenuations of the hue. Without
-/// `fades` no hue is attenuated.
+/// Display-encoded red, green and blue of many samples from their hues, saturations, values and
+/// attenuations of the hue. Without `fades` no hue is attenuated.
 pub fn encode_all(
     level: Level,
     numbers: [&[f32]; 3],
     fades: Option<&[f32]>,
     lights: Lights<'_>,
     ceiling: f32,
-    encoding: Encoding,
     run: &mut ShadedRun,
 ) {
-    let n = numbers[0].len();
     dispatch!(level, simd => encode_run(simd, numbers, fades, lights, ceiling, run));
-    if encoding == Encoding::Display {
-        return;
-    }
+}
+
+/// The linear light of `n` samples that are display-encoded and clipped to `ceiling`.
+pub fn decode_all(level: Level, n: usize, ceiling: f32, run: &mut ShadedRun) {
     for levels in &mut run.light {
         let levels = &mut levels[..n];
         if ceiling > 1.0 && levels.iter().any(|level| *level > 1.0) {

@@ -8,7 +8,7 @@ use ugphysics::{attenuation, hue_to_wavelength, srgb_decode, srgb_encode, wavele
 use ugraster::{Encoding, RUN, ShadedRun, ShadedSample, Shading, TRANSPARENT_VALUES};
 
 use crate::packing::{Colored, Mixed, MixedColored, Plain, Transparent};
-use hues::{Lights, Pure, all_between, encode, encode_all};
+use hues::{Lights, Pure, all_between, decode_all, encode, encode_all};
 use transfer::decode;
 use uglight::Interpolation;
 
@@ -84,14 +84,53 @@ impl Shader {
     }
 
     fn lit(&self, Plain { tint, saturation, value }: Plain<f32>, lights: [f32; 3]) -> ShadedSample {
-        let pure = Pure { hue: self.hue(tint), fade: self.fade(tint, saturation), saturation };
+        let is_product = is_product(lights);
+        let fade = if is_product { 1.0 } else { self.fade(tint, saturation) };
+        let pure = Pure { hue: self.hue(tint), fade, saturation };
         if self.acts_on_light {
             let (levels, peak) = encode(pure, [value; 3], f32::INFINITY);
             let (light, intensity) = times(levels.map(linear), linear(peak), lights, self.ceiling);
-            return ShadedSample { light, intensity, is_out_of_range: pure.fade == 0.0 };
+            let (light, intensity, fade) = if is_product {
+                self.faded_light(light, intensity, lights)
+            } else {
+                (light, intensity, fade)
+            };
+            return ShadedSample { light, intensity, is_out_of_range: fade == 0.0 };
         }
         let (levels, intensity) = encode(pure, lights.map(|light| value * light), self.ceiling);
-        ShadedSample { light: levels.map(linear), intensity, is_out_of_range: pure.fade == 0.0 }
+        let (levels, intensity, fade) =
+            if is_product { self.faded(levels, intensity) } else { (levels, intensity, fade) };
+        ShadedSample { light: levels.map(linear), intensity, is_out_of_range: fade == 0.0 }
+    }
+
+    /// Display-encoded red, green and blue with their hue attenuated, the greatest of them before
+    /// clipping likewise, and the attenuation.  Eq. (P17)
+    fn faded(&self, levels: [f32; 3], intensity: f32) -> ([f32; 3], f32, f32) {
+        let [red, green, blue] = levels;
+        // All other hues are between 0° and 240°.
+        if green >= red.min(blue) {
+            return (levels, intensity, 1.0);
+        }
+        let (red_part, blue_part) = (red - green, blue - green);
+        let fade = if blue_part >= red_part {
+            self.violet_fade.at(red_part / blue_part)
+        } else {
+            self.red_fade.at(1.0 - blue_part / red_part)
+        };
+        let levels = [green + red_part * fade, green, green + blue_part * fade];
+        (levels, intensity * (levels[0].max(levels[2]) / red.max(blue)), fade)
+    }
+
+    /// As [`Shader::faded`], of linear light. `lights`: the levels that are contained in it.
+    fn faded_light(&self, light: [f32; 3], intensity: f32, lights: [f32; 3]) -> ([f32; 3], f32, f32) {
+        let most = lights.into_iter().fold(0.0, f32::max);
+        if most <= 0.0 || light[1] >= light[0].min(light[2]) {
+            return (light, intensity, 1.0);
+        }
+        let encoded = light.map(|channel| srgb_encode(f64::from(channel / most)) as f32);
+        let (encoded, _, fade) = self.faded(encoded, 0.0);
+        let seen = encoded.map(|channel| most * linear(channel));
+        (seen, intensity * (seen[0].max(seen[2]) / light[0].max(light[2])), fade)
     }
 
     /// Shades a run of samples.
@@ -115,8 +154,9 @@ impl Shader {
             run.is_out_of_range = [false; RUN];
             None
         } else {
-            for ((fade, &tint), &saturation) in own_fades.iter_mut().zip(tints).zip(saturations) {
-                *fade = self.fade(tint, saturation);
+            for (idx, fade) in own_fades[..n].iter_mut().enumerate() {
+                let is_product = lights.is_some_and(|lights| is_product(lights.map(|light| light[idx])));
+                *fade = if is_product { 1.0 } else { self.fade(tints[idx], saturations[idx]) };
             }
             for (is_out, fade) in run.is_out_of_range.iter_mut().zip(&own_fades) {
                 *is_out = *fade == 0.0;
@@ -125,10 +165,28 @@ impl Shader {
         };
         let numbers = [hues, saturations, values];
         if self.acts_on_light {
-            encode_all(self.level, numbers, fades, None, f32::INFINITY, Encoding::Linear, run);
+            encode_all(self.level, numbers, fades, None, f32::INFINITY, run);
+            decode_all(self.level, n, f32::INFINITY, run);
             self.light_up(lights, n, encoding, run);
-        } else {
-            encode_all(self.level, numbers, fades, lights, self.ceiling, encoding, run);
+            return;
+        }
+        encode_all(self.level, numbers, fades, lights, self.ceiling, run);
+        if let Some(lights) = lights {
+            self.fade_products(lights, n, run);
+        }
+        if encoding == Encoding::Linear {
+            decode_all(self.level, n, self.ceiling, run);
+        }
+    }
+
+    /// Attenuates the products of colours with light in a run of `n` samples.
+    fn fade_products(&self, lights: [&[f32]; 3], n: usize, run: &mut ShadedRun) {
+        for idx in (0..n).filter(|&idx| is_product(lights.map(|light| light[idx]))) {
+            let levels = run.light.each_ref().map(|channel| channel[idx]);
+            let (levels, intensity, fade) = self.faded(levels, run.intensity[idx]);
+            run.light.iter_mut().zip(levels).for_each(|(channel, level)| channel[idx] = level);
+            run.intensity[idx] = intensity;
+            run.is_out_of_range[idx] = fade == 0.0;
         }
     }
 
@@ -137,7 +195,12 @@ impl Shader {
         for idx in 0..n {
             let levels = lights.map_or([1.0; 3], |lights| lights.map(|level| level[idx]));
             let own = run.light.each_ref().map(|channel| channel[idx]);
-            let (light, intensity) = times(own, linear(run.intensity[idx]), levels, self.ceiling);
+            let (mut light, mut intensity) = times(own, linear(run.intensity[idx]), levels, self.ceiling);
+            if is_product(levels) {
+                let fade;
+                (light, intensity, fade) = self.faded_light(light, intensity, levels);
+                run.is_out_of_range[idx] = fade == 0.0;
+            }
             let shown = match encoding {
                 Encoding::Linear => light,
                 Encoding::Display => light.map(|light| srgb_encode(f64::from(light)) as f32),
@@ -204,6 +267,13 @@ impl Shading<7> for Shader {
         self.lit_all(samples.mixed().color(), Some(samples.level()), encoding, run);
         set_given(&samples.mixed(), encoding, run);
     }
+}
+
+/// True if light of these levels is coloured: what is seen is then the product of two colours, and
+/// the hue of the product fades.
+#[inline]
+fn is_product([red, green, blue]: [f32; 3]) -> bool {
+    red != green || green != blue
 }
 
 /// Linear light of a display-encoded level, which may be above 1.
