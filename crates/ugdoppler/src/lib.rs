@@ -147,7 +147,8 @@ fn color(
     let needs_rest = config.light || scene.vertices.iter().any(|vertex| vertex.color.is_none());
     let rest = if needs_rest { ugscene::rest_positions(&scene, eye, frames) } else { Vec::new() };
     let mut notes = if config.spectral {
-        let mut shares = ugscene::vertex_shares(&scene, &rest);
+        let shares = ugscene::vertex_shares(&scene, &rest).into_iter();
+        let mut shares = shares.map(|shares| shares.of_spectra(&scene)).collect();
         let light = light_vertices(&mut scene, config, eye, frames, rest, &mut shares)?;
         let (factors, used) = (doppler_factors(&scene, eye, frames), vertices::used(&scene));
         let lit = light.map(|light| lit_spectra(&scene, config, &shares, &factors, &light));
@@ -174,6 +175,7 @@ fn color(
     } else if config.light {
         irradiance::replace_lights(&mut scene);
     }
+    scene.mixes.clear();
     scene.stage = stage;
     Ok((scene, notes))
 }

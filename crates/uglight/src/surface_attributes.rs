@@ -47,7 +47,7 @@ impl SurfaceAttributes {
         for (&row, shares) in self.rows.iter().zip(vertex_shares(scene, &self.rest)) {
             mixtures[row as usize] = shares;
         }
-        mixtures
+        mixtures.into_iter().map(|shares| shares.of_spectra(scene)).collect()
     }
 
     /// The greatest rapidity of a body.

@@ -3,9 +3,9 @@
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 use uglight::VertexColor;
-use ugparse::{Color, ColorId, ColorValue, Mixtures, Scene, Tint, Vertex};
+use ugparse::{Color, ColorId, ColorValue, Mix, Mixtures, Scene, Tint, Vertex};
 use ugphysics::{Hsv, linear_srgb_to_xyz, srgb_decode, unit_or_zero};
-use ugscene::face_vertices;
+use ugscene::{Shares, face_vertices, vertex_shares};
 
 use crate::refined_mesh::Recipe;
 use crate::relative_motion::{Point, RelativeMotion};
@@ -22,7 +22,7 @@ const PREFIX: &str = "s#";
 pub(crate) fn add_vertices(
     scene: &mut Scene,
     recipes: &[Recipe],
-    mut shades: Option<Vec<Shade>>,
+    mut shades: Option<Vec<(Shade, Shares)>>,
     is_apart: bool,
 ) -> Vec<bool> {
     if recipes.is_empty() {
@@ -37,12 +37,12 @@ pub(crate) fn add_vertices(
         let row = scene.vertices.len();
         let mut color = mixer.mix(scene, recipe);
         if let (Some(shades), Some(is_used)) = (&mut shades, &is_used) {
-            let shade = mixer.shade(scene, recipe, shades, color);
+            let (shade, shares) = mixer.shade(scene, recipe, shades, color);
             if color.is_none() && is_used[row] && !(is_apart && shade.is_mixture) {
-                color = mixer.statement(scene, &shade);
+                color = mixer.statement(scene, &shade, &shares);
                 inherits[row] = color.is_some();
             }
-            shades.push(shade);
+            shades.push((shade, shares));
         }
         let normal = mean_normal(scene, recipe);
         let name = scene.names.add_parts(&[&prefix, &(idx + 1).to_string()]);
@@ -51,9 +51,9 @@ pub(crate) fn add_vertices(
     inherits
 }
 
-/// The shades of the vertices of a scene, from which those of new vertices are interpolated; `None`
-/// if no new vertex needs that, because vertices and faces have their colours and meet no others.
-pub(crate) fn shades(scene: &Scene, points: &[Point]) -> Option<Vec<Shade>> {
+/// The shades of the vertices of a scene, and the colours in them, from which those of new vertices
+/// are interpolated; `None` if no new vertex needs that, because vertices and faces have their colours and meet no others.
+pub(crate) fn shades(scene: &Scene, points: &[Point]) -> Option<Vec<(Shade, Shares)>> {
     let mut has_color = scene.vertices.iter().map(|vertex| vertex.color.is_some());
     let first = has_color.next()?;
     let is_partial = has_color.any(|has_color| has_color != first);
@@ -68,7 +68,9 @@ pub(crate) fn shades(scene: &Scene, points: &[Point]) -> Option<Vec<Shade>> {
             Shade { color: None, is_mixture: true, hsv, light, translucency }
         }
     };
-    Some(uglight::vertex_colors(scene, &rest).into_iter().map(shade).collect())
+    let shades = uglight::vertex_colors(scene, &rest).into_iter().map(shade);
+    let shares = vertex_shares(scene, &rest).into_iter().map(|shares| shares.of_spectra(scene));
+    Some(shades.zip(shares).collect())
 }
 
 /// What a vertex looks like at rest.
@@ -155,11 +157,15 @@ struct ColorMixer {
     prefix: String,
     mixed: FxHashMap<Mixture, ColorId>,
     mixtures: Mixtures,
-    stated: FxHashMap<[u64; 5], ColorId>,
+    stated: FxHashMap<([u64; 5], MixedColors), ColorId>,
+    white: Option<ColorId>,
 }
 
 /// Rows of the parents' colours and the bits of their weights.
 type Mixture = Vec<(ColorId, u64)>;
+
+/// Colours of the scene, each once, and the bits of their shares.
+type MixedColors = Vec<(Option<ColorId>, u64)>;
 
 impl ColorMixer {
     fn new(scene: &Scene) -> ColorMixer {
@@ -169,7 +175,7 @@ impl ColorMixer {
         let earlier = scene.stage.mixtures.map(Mixtures::prefix);
         let mixtures = Mixtures::unused(names.chain(earlier.as_deref()));
         let (mixed, stated) = (FxHashMap::default(), FxHashMap::default());
-        ColorMixer { prefix, mixed, mixtures, stated }
+        ColorMixer { prefix, mixed, mixtures, stated, white: None }
     }
 
     /// The colour of a new vertex: that of its parents if they agree, else a mixture; `None` if a
@@ -187,18 +193,34 @@ impl ColorMixer {
             return Some(known);
         }
         let shade = blend(parts.iter().map(|&(color, weight)| (Shade::of(scene, Some(color)), weight)));
-        let color = self.add(scene, &shade);
+        let parts =
+            parts.into_iter().map(|(color, weight)| (Shares::One(Some(color)).of_spectra(scene), weight));
+        let shares = sum(parts);
+        let color = self.add(scene, &shade, &shares);
         self.mixed.insert(key, color);
         Some(color)
     }
 
-    /// The shade of a new vertex, whose own colour is `color`.
-    fn shade(&self, scene: &Scene, recipe: &Recipe, shades: &[Shade], color: Option<ColorId>) -> Shade {
+    /// The shade of a new vertex, whose own colour is `color`, and the colours in it.
+    fn shade(
+        &self,
+        scene: &Scene,
+        recipe: &Recipe,
+        shades: &[(Shade, Shares)],
+        color: Option<ColorId>,
+    ) -> (Shade, Shares) {
         if color.is_some() {
-            return Shade::of(scene, color);
+            return (Shade::of(scene, color), Shares::One(color).of_spectra(scene));
         }
         let parts = recipe.parents.into_iter().zip(recipe.weights).filter(|&(_, weight)| weight > 0.0);
-        let parts = parts.map(|(row, weight)| (shades[row as usize], weight));
+        let shares = sum(parts.clone().map(|(row, weight)| (shades[row as usize].1.clone(), weight)));
+        let parts = parts.map(|(row, weight)| (shades[row as usize].0, weight));
+        let shade = Self::blend_or_same(parts);
+        (shade, shares)
+    }
+
+    /// The shade of parts if it is one, else their mixture.
+    fn blend_or_same(parts: impl Iterator<Item = (Shade, f64)> + Clone) -> Shade {
         match parts.clone().next() {
             Some((first, _))
                 if first.color.is_some() && parts.clone().all(|part| part.0.color == first.color) =>
@@ -210,7 +232,7 @@ impl ColorMixer {
     }
 
     /// The statement for a shade; `None` if it is that of a face.
-    fn statement(&mut self, scene: &mut Scene, shade: &Shade) -> Option<ColorId> {
+    fn statement(&mut self, scene: &mut Scene, shade: &Shade, shares: &Shares) -> Option<ColorId> {
         if shade.color.is_some() {
             return None;
         }
@@ -218,17 +240,18 @@ impl ColorMixer {
         let numbers = shade.light.unwrap_or([hue, saturation, value]);
         let kind = u64::from(shade.light.is_some()) + 2 * u64::from(shade.is_mixture);
         let [a, b, c] = numbers.map(f64::to_bits);
-        let key = [a, b, c, shade.translucency.to_bits(), kind];
+        let numbers = [a, b, c, shade.translucency.to_bits(), kind];
+        let key = (numbers, shares.parts().map(|(color, share)| (color, share.to_bits())).collect());
         if let Some(&known) = self.stated.get(&key) {
             return Some(known);
         }
-        let color = self.add(scene, shade);
+        let color = self.add(scene, shade, shares);
         self.stated.insert(key, color);
         Some(color)
     }
 
-    /// Adds a statement.
-    fn add(&mut self, scene: &mut Scene, shade: &Shade) -> ColorId {
+    /// Adds a statement, and that of what it is mixed of where colours are spectra.
+    fn add(&mut self, scene: &mut Scene, shade: &Shade, shares: &Shares) -> ColorId {
         let prefix = if shade.is_mixture {
             scene.stage.mixtures.get_or_insert(self.mixtures);
             self.mixtures.prefix()
@@ -237,8 +260,45 @@ impl ColorMixer {
         };
         let number = self.mixed.len() + self.stated.len() + 1;
         let name = scene.names.add_parts(&[&prefix, &number.to_string()]);
+        let part = |(color, share): (Option<ColorId>, f64)| {
+            (color.unwrap_or_else(|| self.white(scene)), share.min(1.0))
+        };
+        let parts: Vec<_> = shares.parts().map(part).collect();
+        let color = ColorId::from_index(scene.colors.len());
         scene.colors.push(Color { name, value: shade.value(), translucency: shade.translucency });
-        ColorId::from_index(scene.colors.len() - 1)
+        // Of colours in ascending order, as the scene requires.
+        scene.mixes.push(Mix { color, parts });
+        color
+    }
+
+    /// A statement of white, for parts without one.
+    fn white(&mut self, scene: &mut Scene) -> ColorId {
+        *self.white.get_or_insert_with(|| {
+            let name = scene.names.add_parts(&[&self.prefix, "white"]);
+            let value = ColorValue::Hsv { value: 1.0, tint: Tint::Hue(0.0), saturation: 0.0, factor: 1.0 };
+            scene.colors.push(Color { name, value, translucency: 0.0 });
+            ColorId::from_index(scene.colors.len() - 1)
+        })
+    }
+}
+
+/// The colours in weighted parts, each once.
+fn sum(parts: impl Iterator<Item = (Shares, f64)>) -> Shares {
+    let parts = parts.flat_map(|(shares, weight)| {
+        shares.parts().map(|(color, share)| (color, weight * share)).collect::<Vec<_>>()
+    });
+    let mut parts: Vec<_> = parts.collect();
+    parts.sort_by_key(|&(color, _)| color);
+    parts.dedup_by(|(color, share), (before, sum)| {
+        let is_same = color == before;
+        if is_same {
+            *sum += *share;
+        }
+        is_same
+    });
+    match parts[..] {
+        [(color, _)] => Shares::One(color),
+        _ => Shares::Mixed(parts),
     }
 }
 

@@ -164,6 +164,15 @@ fn join<'t>(mut parts: Vec<Scope<'t>>) -> Option<Scope<'t>> {
             color.value = shifted(color.value, offset.first_sample);
         },
     );
+    file.mixes = join_tables(
+        &mut parts,
+        &offsets,
+        |part| &mut part.mixes,
+        |mix, offset| {
+            mix.color = offset.colors[mix.color.index()];
+            mix.parts.iter_mut().for_each(|(part, _)| *part = offset.colors[part.index()]);
+        },
+    );
     file.surfaces.table = join_tables(&mut parts, &offsets, |part| &mut part.surfaces.table, |_, _| {});
     file.escapes = join_tables(&mut parts, &offsets, |part| &mut part.escapes, |_, _| {});
     file.unknown = join_tables(&mut parts, &offsets, |part| &mut part.unknown, |_, _| {});

@@ -117,6 +117,8 @@ pub struct Scene {
     /// Samples of spectra: wavelength in nm, increasing within each spectrum, and value, 0 or more.
     /// Linear between samples, 0 outside.
     pub samples: Vec<[f64; 2]>,
+    /// `c_mix`, by the row of the colour: see [`Scene::mix_of`].
+    pub mixes: Vec<Mix>,
     /// `surf`.
     pub surfaces: Vec<SurfaceProperties>,
     /// The bodies and their motions: every distinct velocity in the text is a body.
@@ -151,6 +153,16 @@ pub struct Color {
     pub value: ColorValue,
     /// Translucency: 0 opaque … 1 invisible.
     pub translucency: f64,
+}
+
+/// The mixture that a colour is where colours are spectra. Its own statement says what it is where
+/// they are hues, since spectra and hues are mixed differently.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mix {
+    /// The colour.
+    pub color: ColorId,
+    /// What it is mixed of: colours, which count as their own statements say, and shares in 0…1.
+    pub parts: Vec<(ColorId, f64)>,
 }
 
 /// The ways to specify a colour. Numbers are stored as written.
@@ -415,6 +427,8 @@ pub enum Item {
     Unknown(u32),
     /// Row of [`Scene::colors`].
     Color(u32),
+    /// Row of [`Scene::mixes`].
+    Mix(u32),
     /// Row of [`Scene::surfaces`].
     Surface(u32),
     /// Row of [`Scene::vertices`].
@@ -441,6 +455,14 @@ impl Scene {
     /// The contours of a face, outline first.
     pub fn face_contours(&self, face: &Face) -> impl ExactSizeIterator<Item = &[VertexId]> + Clone {
         self.contours.iter(face.contours.clone())
+    }
+
+    /// What a colour is mixed of, if it is a mixture where colours are spectra; else nothing.
+    pub fn mix_of(&self, color: ColorId) -> &[(ColorId, f64)] {
+        match self.mixes.binary_search_by_key(&color, |mix| mix.color) {
+            Ok(row) => &self.mixes[row].parts,
+            Err(_) => &[],
+        }
     }
 
     /// The fixed light level of a face, if it has one; such a face is not lit.

@@ -16,13 +16,13 @@ use crate::named::Named;
 use crate::names::{NameId, Names};
 use crate::numbered::{Name, NumberedNames};
 use crate::scene::{
-    Camera, Color, ColorId, ColorValue, Face, Illum, IllumId, Light, LightKind, LightMotion, SurfaceId,
+    Camera, Color, ColorId, ColorValue, Face, Illum, IllumId, Light, LightKind, LightMotion, Mix, SurfaceId,
     SurfaceProperties, Vertex, VertexId, Wire,
 };
 use crate::source::Span;
 use crate::statement::{
     CallStatement, CameraStatement, ColorStatement, FaceStatement, IllumStatement, LightStatement,
-    References, Statement, SurfaceStatement, VertexStatement,
+    MixStatement, References, Statement, SurfaceStatement, VertexStatement,
 };
 use crate::token::{skip_statement, statement_start};
 
@@ -112,6 +112,7 @@ pub(crate) struct Scope<'t> {
     /// Samples of spectra.
     pub samples: Vec<[f64; 2]>,
     pub colors: Named<'t, Color>,
+    pub mixes: Rows<Mix>,
     pub surfaces: Named<'t, SurfaceProperties>,
     /// Unnamed colours, with the first rows to which they apply.
     pub defaults: Vec<DefaultColor>,
@@ -200,6 +201,7 @@ impl<'t> Scope<'t> {
             Statement::Face(face) => self.add_face(text, span, &face, references),
             Statement::Wire(wire) => self.add_wire(text, span, &wire, references),
             Statement::Color(color) => self.add_color(text, span, &color),
+            Statement::Mix(mix) => self.add_mix(text, span, &mix),
             Statement::Surface(surface) => self.add_surface(text, span, &surface),
             Statement::Light(light) => self.add_light(text, span, &light),
             Statement::Camera(camera) => self.add_camera(text, span, camera),
@@ -316,6 +318,15 @@ impl<'t> Scope<'t> {
         let row = Color { name, value, translucency: color.translucency };
         let before = self.colors.push(text, color.name, row, span);
         self.note_duplicate("colour", color.name, before);
+    }
+
+    fn add_mix(&mut self, text: &'t [u8], span: Span, mix: &MixStatement) {
+        let mut color = |name: Span| ColorId::from_index(self.colors.names.enter(name.of(text)));
+        let row = Mix {
+            color: color(mix.color),
+            parts: mix.parts.iter().map(|&(name, share)| (color(name), share)).collect(),
+        };
+        self.mixes.push(row, span);
     }
 
     fn add_surface(&mut self, text: &'t [u8], span: Span, surface: &SurfaceStatement) {
@@ -448,6 +459,7 @@ impl<'t> Scope<'t> {
             &self.lights.spans,
             &self.cameras.spans,
             &self.colors.table.spans,
+            &self.mixes.spans,
             &self.surfaces.table.spans,
             &self.calls.spans,
             &self.escapes.spans,

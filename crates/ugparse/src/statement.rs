@@ -36,6 +36,7 @@ pub(crate) enum Statement {
     Face(FaceStatement),
     Wire(FaceStatement),
     Color(ColorStatement),
+    Mix(MixStatement),
     Surface(SurfaceStatement),
     Light(LightStatement),
     Camera(CameraStatement),
@@ -73,6 +74,13 @@ pub(crate) struct ColorStatement {
     pub value: crate::scene::ColorValue,
     pub samples: Vec<[f64; 2]>,
     pub translucency: f64,
+}
+
+/// What a colour is mixed of: its name, and those of the parts with their shares.
+#[derive(Debug)]
+pub(crate) struct MixStatement {
+    pub color: Span,
+    pub parts: Vec<(Span, f64)>,
 }
 
 /// A surface; the name in `surface` is not set.

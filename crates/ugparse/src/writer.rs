@@ -61,6 +61,15 @@ impl<'s> Tables<'s, '_> {
         })?;
         self.rows(&scene.unknown, Item::Unknown, |w, text| w.text(text))?;
         self.rows(&scene.colors, Item::Color, Writer::color)?;
+        self.rows(&scene.mixes, Item::Mix, |w, mix| {
+            w.text("c_mix");
+            w.name(scene.colors[mix.color.index()].name);
+            for &(part, share) in &mix.parts {
+                w.name(scene.colors[part.index()].name);
+                w.number(share);
+            }
+            w.text(";");
+        })?;
         self.rows(&scene.surfaces, Item::Surface, Writer::surface)?;
         self.rows(&scene.vertices, Item::Vertex, |w, vertex| {
             w.text("v");

@@ -11,12 +11,28 @@ use crate::corner_angle;
 pub enum Shares {
     /// Its own, or that of all its faces.
     One(Option<ColorId>),
-    /// Those of its faces, in their order, each once and with its share by the angles of the faces.
-    /// Shares add up to 1.
+    /// Those of its faces, in their order, each once and with its share by the angles of the faces,
+    /// or those of a mixture (`c_mix`). Shares add up to 1.
     Mixed(Vec<(Option<ColorId>, f64)>),
 }
 
 impl Shares {
+    /// Where colours are spectra: a mixture (`c_mix`) is its parts.
+    #[must_use]
+    pub fn of_spectra(self, scene: &Scene) -> Self {
+        let mix = |color: Option<ColorId>| color.map_or(&[][..], |color| scene.mix_of(color));
+        let has_none = scene.mixes.is_empty() || self.parts().all(|(color, _)| mix(color).is_empty());
+        if has_none {
+            return self;
+        }
+        let parts = self.parts().flat_map(|(color, share)| {
+            let parts = mix(color).iter().map(move |&(part, of_mix)| (Some(part), share * of_mix));
+            let own = mix(color).is_empty().then_some((color, share));
+            own.into_iter().chain(parts)
+        });
+        Self::Mixed(parts.collect())
+    }
+
     /// Each colour with its share.
     pub fn parts(&self) -> impl Iterator<Item = (Option<ColorId>, f64)> {
         let (one, many) = match self {

@@ -127,7 +127,9 @@ fn color(random: &mut Random, idx: usize) -> String {
         3 => format!("c_spd red{idx} 400 1 500 {} 600 1 ;", words::number(random)),
         4 => format!("c red{idx} {numbers} {} ;", words::number(random)),
         5 => format!("c red{idx} {numbers} {} {} ;", words::number(random), words::number(random)),
-        _ => format!("c red{idx} 1 {} 1 ;", random.below(360)),
+        _ => {
+            format!("c red{idx} 1 {} 1 ; c_mix red{idx} red0 {} ;", random.below(360), words::number(random))
+        }
     }
 }
 

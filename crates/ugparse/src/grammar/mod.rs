@@ -16,7 +16,7 @@ use crate::scene::{Camera, ColorValue, SurfaceProperties, Tint};
 use crate::source::Span;
 use crate::statement::{
     CallStatement, CameraStatement, ColorStatement, FaceStatement, IllumStatement, LightStatement,
-    References, Repeat, Statement, SurfaceStatement, VertexStatement,
+    MixStatement, References, Repeat, Statement, SurfaceStatement, VertexStatement,
 };
 use crate::token::{
     Input, Parsed, Reason, backtrack, blank, fail, identifier, integer, mark, number, point, require, wanted,
@@ -27,7 +27,8 @@ use cameras::camera_option;
 use transforms::transforms;
 
 /// The statement keywords, as messages list them.
-pub(crate) const KEYWORDS: &str = "v w f c c_rgb c_xyz c_bb c_spd surf l cam def end i a include execute";
+pub(crate) const KEYWORDS: &str =
+    "v w f c c_rgb c_xyz c_bb c_spd c_mix surf l cam def end i a include execute";
 
 /// A parser of one text; the text's length gives the position of any rest of it.
 pub(crate) struct Grammar<'t> {
@@ -72,6 +73,7 @@ impl<'t> Grammar<'t> {
             b"c_xyz" => self.xyz(input),
             b"c_bb" => self.blackbody(input),
             b"c_spd" => self.spectrum(input),
+            b"c_mix" => self.mix(input),
             b"surf" => self.surface(input),
             b"l" => self.light(input),
             b"cam" => self.camera(input),
@@ -224,6 +226,22 @@ impl<'t> Grammar<'t> {
         }
         let value = ColorValue::Spectrum { start: 0, end: samples.len() as u32 };
         Ok((input, Statement::Color(ColorStatement { name, value, samples, translucency: 0.0 })))
+    }
+
+    /// `c_mix ID color share …`
+    fn mix<'a>(&self, input: Input<'a>) -> Parsed<'a, Statement> {
+        let (mut input, color) = wanted(self.name(input), NAME)?;
+        let mut parts = Vec::new();
+        loop {
+            let (behind, part) = match self.name(input) {
+                Err(nom::Err::Error(_)) if !parts.is_empty() => break,
+                result => require(wanted(result, NAME))?,
+            };
+            let (rest, share) = require(number_from(0.0, 1.0, SHARE)(behind))?;
+            parts.push((part, share));
+            input = rest;
+        }
+        Ok((input, Statement::Mix(MixStatement { color, parts })))
     }
 
     /// `surf ID kd ks kt [n [exponent [absorption]]]`

@@ -19,7 +19,7 @@ pub(crate) use undefined::undefined;
 use calls::link_calls;
 use corners::{link_corners, path_corners};
 use degenerate::{remove_degenerate_faces, remove_short_wires};
-use named::{apply_default_colors, gather_named, name_surfaces, paint, visible};
+use named::{apply_default_colors, gather_mixes, gather_named, name_surfaces, paint, visible};
 use sizes::Sizes;
 use undefined::{UndefinedNames, show};
 
@@ -74,6 +74,9 @@ pub(crate) fn resolve(
         let surfaces = visible(scopes, row, |scope| &scope.surfaces, &firsts.surfaces);
         let scope = &mut scopes[row];
         let has_colors = paint(scope, &colors);
+        if has_colors {
+            findings.extend(gather_mixes(scope, &colors, scene));
+        }
         let has_surfaces = name_surfaces(scope, &surfaces);
         let has_corners = link_corners(scope);
         if !(has_colors && has_surfaces && has_corners) {
@@ -84,6 +87,7 @@ pub(crate) fn resolve(
         remove_degenerate_faces(text, scope, has_corners, findings);
         remove_short_wires(text, scope, has_corners, findings);
     }
+    scene.mixes.sort_by_key(|mix| mix.color);
     apply_default_colors(&mut scopes[0]);
     let calls = (0..scopes.len()).map(|row| link_calls(text, scopes, row, findings)).collect();
     let mut links = Links { calls, first_colors: firsts.colors, levels: 0 };

@@ -7,7 +7,7 @@ use crate::diagnostic::Diagnostic;
 use crate::named::Named;
 use crate::names::{NameId, Names};
 use crate::options::{Limit, Limits};
-use crate::scene::{Color, ColorId, Illum, Scene, SurfaceId, SurfaceProperties};
+use crate::scene::{Color, ColorId, Illum, Mix, Scene, SurfaceId, SurfaceProperties};
 use crate::scope::{Scope, shifted};
 use crate::source::Span;
 
@@ -112,6 +112,29 @@ pub(super) fn paint(scope: &mut Scope<'_>, colors: &[Option<usize>]) -> bool {
     scope.lights.rows.iter_mut().for_each(|light| paint(&mut light.color));
     scope.calls.rows.iter_mut().for_each(|call| paint(&mut call.color));
     colors.iter().all(Option::is_some)
+}
+
+/// Moves the mixtures of a scope to the scene. Returns an error if it has two of one colour.
+pub(super) fn gather_mixes(
+    scope: &Scope<'_>,
+    colors: &[Option<usize>],
+    scene: &mut Scene,
+) -> Option<Diagnostic> {
+    let first = scene.mixes.len();
+    let row = |name: ColorId| colors[name.index()].map(ColorId::from_index);
+    let resolved = |mix: &Mix| {
+        let parts = mix.parts.iter().map(|&(name, share)| Some((row(name)?, share)));
+        Some(Mix { color: row(mix.color)?, parts: parts.collect::<Option<_>>()? })
+    };
+    scene.mixes.extend(scope.mixes.rows.iter().filter_map(resolved));
+    let mut order: Vec<usize> = (first..scene.mixes.len()).collect();
+    order.sort_by_key(|&row| scene.mixes[row].color);
+    let twice = order.windows(2).find(|pair| scene.mixes[pair[0]].color == scene.mixes[pair[1]].color)?;
+    let color = &scene.colors[scene.mixes[twice[0]].color.index()];
+    let [before, again] = [twice[0], twice[1]].map(|row| scope.mixes.spans[row - first]);
+    let message = format!("colour `{}` is mixed twice", scene.names.get(color.name));
+    let error = Diagnostic::error(again, message).label("again here").other(before, "first here");
+    Some(error.help("remove one of them"))
 }
 
 /// Replaces names of surfaces by rows; returns false if one is not defined.

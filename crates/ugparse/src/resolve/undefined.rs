@@ -25,6 +25,10 @@ impl UndefinedNames<'_, '_, '_> {
             match read_again(self.text, span, &mut references) {
                 Some(Statement::Vertex(vertex)) => self.check_color(vertex.color),
                 Some(Statement::Light(light)) => self.check_color(light.color),
+                Some(Statement::Mix(mix)) => {
+                    self.check_color(Some(mix.color));
+                    mix.parts.iter().for_each(|&(part, _)| self.check_color(Some(part)));
+                }
                 Some(Statement::Call(call)) => self.check_color(call.color),
                 Some(Statement::Face(face) | Statement::Wire(face)) => {
                     self.check_color(face.color);

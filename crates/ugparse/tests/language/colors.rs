@@ -99,6 +99,14 @@ fn colours_may_be_physical() {
     check("c_xyz x 0.95 1 -1.09;", &["c_xyz x 0.95 1 -1.09;"]);
     check("c_xyz x 9 1 1 .5;", &["c_xyz x 9 1 1 0.5;"]);
     check("c_bb sun 5772; c_bb dim 300 0;", &["c_bb sun 5772;", "c_bb dim 300 0;"]);
+    check(
+        "c_mix m a .25 b .75; c a 1 0 1; c b 1 240 1; c m .5 300 1;",
+        &["c a 1 0 1;", "c b 1 240 1;", "c m 0.5 300 1;", "c_mix m a 0.25 b 0.75;"],
+    );
+    check(
+        "c a 1; def d; c m .5; c_mix m a 1; c_mix a m .5 a .5; v p 0 0 0 m; end; i (d);",
+        &["c a 1;", "c d:m 0.5;", "c_mix a d:m 0.5 a 0.5;", "c_mix d:m a 1;", "v d:p 0 0 0 d:m;"],
+    );
     check("c_spd s 380 0 555 1.5;c_spd t 589 1;", &["c_spd s 380 0 555 1.5;", "c_spd t 589 1;"]);
     // Samples of all scopes share a table.
     check(
@@ -110,6 +118,13 @@ fn colours_may_be_physical() {
         ("c_bb x 0;", "the number `0` is out of range"),
         ("c_bb x 300 -1;", "the number `-1` is out of range"),
         ("c_spd x;", "expected a number, found `;`"),
+        ("c_mix;", "expected a name that begins with a letter"),
+        ("c_mix x;", "expected a name that begins with a letter"),
+        ("c_mix x y;", "expected a number, found `;`"),
+        ("c_mix x y 1.5;", "the number `1.5` is out of range"),
+        ("c x 1; c_mix x y 1;", "colour `y` is not defined"),
+        ("c y 1; c_mix x y 1;", "colour `x` is not defined"),
+        ("c y 1; c x 1; c_mix x y 1; c_mix x y .5;", "colour `x` is mixed twice"),
         ("c_spd x 400;", "expected a number, found `;`"),
         ("c_spd x 400 1 400 2;", "the number `400` is out of range"),
         ("c_spd x 400 -1;", "the number `-1` is out of range"),

@@ -59,6 +59,7 @@ fn faces(text: &mut String, rows: std::ops::Range<usize>) {
 
 fn colors(text: &mut String) {
     (0..7).for_each(|row| writeln!(text, "c c{row} .5 {row}0;").unwrap());
+    (1..7).for_each(|row| writeln!(text, "c_mix c{row} c0 .{row} c6 .25;").unwrap());
     (0..3).for_each(|row| writeln!(text, "surf s{row} .{row} 0 .5;").unwrap());
 }
 
