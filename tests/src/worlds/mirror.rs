@@ -139,11 +139,15 @@ fn body_before(random: &mut Random, plane: &Plane, behind: &Camera, recipe: Reci
     }
     // The first face that hides more than half of what is behind it has to be the mirror.
     body.paint[3] = body.paint[3].min(0.4);
-    let is_before = |place: &DVec3| {
-        let event = generate::on_light_cone(behind, *place, velocity);
+    // Edges that are straight at rest are seen bent, so that they can reach through the mirror
+    // where their ends do not.
+    let is_before = |place: DVec3| {
+        let event = generate::on_light_cone(behind, place, velocity);
         plane.distance(event.truncate()) > 0.1
     };
-    body.vertices.iter().all(is_before).then_some(body)
+    let between = |from: DVec3, to: DVec3| (0..=8).map(move |step| from.lerp(to, f64::from(step) / 8.0));
+    let mut pairs = body.vertices.iter().flat_map(|&from| body.vertices.iter().map(move |&to| (from, to)));
+    pairs.all(|(from, to)| between(from, to).all(is_before)).then_some(body)
 }
 
 fn lamp_before(
