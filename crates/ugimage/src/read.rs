@@ -109,7 +109,8 @@ fn decoded(mut decoder: Decoder<Cursor<&[u8]>>, n_file: usize) -> Result<Decoded
     let size = size(&mut decoder)?;
     let mut reader = decoder.read_info().map_err(broken)?;
     let n_bytes = reader.output_buffer_size().ok_or_else(|| ReadError("too large".to_owned()))?;
-    check_packed(n_file, n_bytes as u64, MOST_INFLATED)?;
+    // As stored: a pixel may have one bit.
+    check_packed(n_file, reader.info().raw_bytes() as u64, MOST_INFLATED)?;
     let mut data = zeros(n_bytes)?;
     let output = reader.next_frame(&mut data).map_err(broken)?;
     data.truncate(output.buffer_size());
