@@ -79,9 +79,6 @@ impl Config {
 /// Width of lines in pixels unless given.
 pub const LINE_WIDTH: f64 = 1.2;
 
-/// Greatest width of lines.
-pub const MAX_LINE_WIDTH: f64 = 100.0;
-
 /// Edges of faces as lines. They are not lit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Wireframe {

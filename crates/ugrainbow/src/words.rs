@@ -3,7 +3,8 @@
 use ugphysics::Brightness;
 use ugpipe::finite;
 
-use crate::config::MAX_LINE_WIDTH;
+/// Greatest width of lines.
+const MAX_LINE_WIDTH: f64 = 100.0;
 
 /// Width of lines in pixels.
 pub fn line_width(word: &str) -> Result<f64, String> {
