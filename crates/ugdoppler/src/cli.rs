@@ -6,7 +6,8 @@ use clap::{ArgAction, Parser, ValueEnum};
 use glam::DVec3;
 use ugparse::{Diagnostic, Diagnostics, Origins, Source, pipe};
 use ugphysics::{Brightness, Velocity};
-use ugpipe::{CommonArgs, Context, Failure, Manual, Progress, ToolArgs};
+use ugpipe::{CommonArgs, Context, Failure, Manual, Progress, ToolArgs, Words};
+use ugscene::CameraError;
 use ugscene::cli::{EyeArgs, RepeatArgs};
 
 use crate::{Config, DEFAULT_TOLERANCE, Error, apply_with};
@@ -209,6 +210,21 @@ fn failure(error: Error, source: &Source, origins: &Origins) -> Failure {
             let finding = finding.label("here").help("move the eye (-ep) or the vertex");
             pipe::refused(Diagnostics::one(source, finding))
         }
-        Error::Stage(_) | Error::Camera(_) | Error::TooManyLights { .. } => Failure::failed(error),
+        error => Failure::failed(error.words()),
+    }
+}
+
+impl Words for Error {
+    fn words(&self) -> String {
+        match self {
+            Self::Stage(error) => error.words(),
+            // The view centre is that of the scene.
+            Self::Camera(CameraError::NoDirection { .. }) => {
+                format!("{self}; move the eye with -ep, or correct the `cam` statement of the scene")
+            }
+            Self::Camera(error) => error.words(),
+            Self::TooManyLights { .. } => format!("-li computes {self}"),
+            Self::VertexAtEye { .. } => self.to_string(),
+        }
     }
 }

@@ -12,8 +12,8 @@ pub enum Error {
     Stage(#[from] StageError),
     /// More than 2^27 lights times lit vertices.
     #[error(
-        "-li computes {n_lights} lights at {n_vertices} vertices, more than {} together: use fewer lights, or faces \
-         with fewer vertices",
+        "{n_lights} lights at {n_vertices} vertices, more than {} together: use fewer lights, or faces with \
+         fewer vertices",
         crate::MAX_LIT
     )]
     TooManyLights {

@@ -5,6 +5,7 @@ use glam::DVec3;
 use ugdoppler::{Config, apply};
 use ugparse::{ColorValue, Options, Scene, Source};
 use ugphysics::{Brightness, Velocity, hue_to_wavelength};
+use ugpipe::Words;
 
 /// One green triangle, far away to the right, above and behind; and one grey.
 const SCENE: &str = "c green 0.5 120; c grey 0.4; c_rgb rose 1 0.5 0.5;
@@ -54,7 +55,7 @@ fn lights_times_vertices_are_limited() {
         apply(parsed("t.ug", text(n_lights)), &Config { light: true, ..Config::default() }).map(drop)
     };
     assert!(lit(1).is_ok());
-    let error = lit(20_000).unwrap_err().to_string();
+    let error = lit(20_000).unwrap_err().words();
     assert!(error.starts_with("-li computes 20000 lights at 8000 vertices, more than 134217728"), "{error}");
 }
 

@@ -3,7 +3,7 @@
 use ugimage::{LinearFrame, Metadata};
 use ugparse::Scene;
 use ugpicture::{Annotated, Error, Exposure, Image, Layout, Output};
-use ugpipe::{Failure, sha256};
+use ugpipe::{Failure, Words, sha256};
 
 use crate::draw::{Drawn, Picture, Stages, Subject};
 
@@ -68,7 +68,7 @@ fn mean(frame: &Stages, moments: Vec<Stages>, subject: Subject<'_>) -> Result<Dr
             "-blur gives the mean of several moments: leave out -lg, -gr, -dl, -ch and vector formats",
         ));
     }
-    let layout = Layout::new(whole).map_err(Failure::usage)?;
+    let layout = Layout::new(whole).map_err(|error| Failure::usage(error.words()))?;
     let picture = layout.of_scene(whole).into_owned();
     let mut sum = Sum::default();
     for mut stages in moments {
@@ -88,10 +88,8 @@ fn mean(frame: &Stages, moments: Vec<Stages>, subject: Subject<'_>) -> Result<Dr
     // A caption is independent of the scene.
     let scene = Scene::default();
     let annotated = Annotated { scene: &scene, camera: &picture.camera, is_shifted: false, seen: None };
-    let annotations = layout.annotate(annotated, &picture, Some(development), |_, _, _| {
-        Err(Error::Options("a caption needs no depths"))
-    });
-    let image = annotations.map_err(Failure::failed)?.composite(image);
+    let annotations = layout.annotate(annotated, &picture, Some(development), |_, _, _| Err(Error::NoRoom));
+    let image = annotations.map_err(|error| Failure::failed(error.words()))?.composite(image);
     Ok(drawn(image, picture.output, frame))
 }
 

@@ -7,7 +7,7 @@ use clap::Parser;
 use ugimage::Format;
 use ugparse::{Scene, pipe};
 use ugpipe::{
-    CommonArgs, Context, Failure, Input, Manual, ToolArgs, finite, one_of, parse_words, sha256, whole,
+    CommonArgs, Context, Failure, Input, Manual, ToolArgs, Words, finite, one_of, parse_words, sha256, whole,
 };
 use ugscene::{CameraOptions, DefaultCamera, MotionOptions};
 
@@ -286,7 +286,8 @@ fn default_camera(scene: &Scene, script: &Script) -> Result<Option<DefaultCamera
         Some(Stages::new(&script.commands(frame).ok()?, Format::Png).ok()?.motion())
     };
     let motions: Vec<MotionOptions> = (0..=FITTED_STEPS).filter_map(motion).collect();
-    ugscene::common_camera(scene, &CameraOptions::default(), [4, 3], &motions).map_err(Failure::failed)
+    ugscene::common_camera(scene, &CameraOptions::default(), [4, 3], &motions)
+        .map_err(|error| Failure::failed(error.words()))
 }
 
 impl Args {

@@ -6,7 +6,7 @@ use ugimage::{Compression, Format, Frame, LinearFrame, Metadata};
 use ugparse::Scene;
 use ugpicture::cli::with_format;
 use ugpicture::{Image, Output};
-use ugpipe::{Failure, ToolArgs, parse_words};
+use ugpipe::{Failure, ToolArgs, Words, parse_words};
 use ugscene::MotionOptions;
 
 use crate::program::Program;
@@ -162,17 +162,17 @@ impl Stages {
         let picture = match (&self.last, subject) {
             (Last::Rainbow(config, _), Subject::Scene(scene)) => {
                 let scene = self.filtered(scene, &mut notes)?;
-                let rendering = ugrainbow::render(&scene, config).map_err(Failure::failed)?;
+                let rendering = ugrainbow::render(&scene, config).map_err(failed)?;
                 notes.extend(named(Program::Rainbow, &rendering.notes));
                 Picture::Rainbow(rendering)
             }
             (Last::Photon(config, _), Subject::Scene(scene)) => {
-                let rendering = ugphoton::render(scene.clone(), config).map_err(Failure::failed)?;
+                let rendering = ugphoton::render(scene.clone(), config).map_err(failed)?;
                 notes.extend(named(Program::Photon, &rendering.notes));
                 Picture::Photon(rendering)
             }
             (Last::Warp(config, _), Subject::Panorama(panorama, _)) => {
-                let rendering = ugwarp::render(panorama, config).map_err(Failure::failed)?;
+                let rendering = ugwarp::render(panorama, config).map_err(failed)?;
                 notes.extend(named(Program::Warp, &rendering.notes));
                 Picture::Warp(rendering)
             }
@@ -195,13 +195,13 @@ impl Stages {
         match (&self.last, subject) {
             (Last::Rainbow(config, _), Subject::Scene(scene)) => {
                 let scene = self.filtered(scene, &mut Vec::new())?;
-                ugrainbow::light(&scene, config).map_err(Failure::failed)
+                ugrainbow::light(&scene, config).map_err(failed)
             }
             (Last::Photon(config, _), Subject::Scene(scene)) => {
-                ugphoton::light(scene.clone(), config).map_err(Failure::failed)
+                ugphoton::light(scene.clone(), config).map_err(failed)
             }
             (Last::Warp(config, _), Subject::Panorama(panorama, _)) => {
-                ugwarp::light(panorama, config).map_err(Failure::failed)
+                ugwarp::light(panorama, config).map_err(failed)
             }
             _ => Err(other_subject()),
         }
@@ -257,13 +257,13 @@ impl Filter {
     fn apply(&self, scene: Scene, notes: &mut Vec<String>) -> Result<Scene, Failure> {
         match self {
             Self::Lorentz(config, _) => {
-                let (scene, report) = uglorentz::apply(scene, config).map_err(Failure::failed)?;
+                let (scene, report) = uglorentz::apply(scene, config).map_err(failed)?;
                 notes.extend(named(Program::Lorentz, &report.warnings()));
                 notes.extend(named(Program::Lorentz, &report.notes()));
                 Ok(scene)
             }
             Self::Doppler(config, _) => {
-                let (scene, report) = ugdoppler::apply(scene, config).map_err(Failure::failed)?;
+                let (scene, report) = ugdoppler::apply(scene, config).map_err(failed)?;
                 notes.extend(named(Program::Doppler, &report.notes));
                 Ok(scene)
             }
@@ -277,6 +277,10 @@ impl Filter {
         };
         ugscene::record(scene, program.command().get_name(), VERSION, line);
     }
+}
+
+fn failed(error: impl Words) -> Failure {
+    Failure::failed(error.words())
 }
 
 fn other_subject() -> Failure {

@@ -4,7 +4,7 @@ use std::path::Path;
 use std::time::SystemTime;
 
 use ugimage::{Format, Frame, LinearFrame, Metadata, auto_exposure, read_png, read_png_header};
-use ugpipe::{Context, Failure, Progress, Steps};
+use ugpipe::{Context, Failure, Progress, Steps, Words};
 use ugsheet::Picture;
 
 use crate::animation::{Palette, Shape};
@@ -287,7 +287,7 @@ impl Film<'_> {
             read.map_err(|error| ugsheet::Error::Picture(error.to_string()))
         };
         let sheet = ugsheet::sheet(&ugsheet::Config::default(), &pictures, frame_of);
-        Ok((sheet.map_err(Failure::failed)?, pictures))
+        Ok((sheet.map_err(|error| Failure::failed(error.words()))?, pictures))
     }
 
     /// Writes a film to the output of the program.

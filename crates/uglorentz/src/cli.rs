@@ -1,11 +1,13 @@
 //! The command line of `uglorentz`.
 
+mod words;
+
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::{ArgAction, Parser};
 use ugparse::{Origins, Source, pipe};
-use ugpipe::{CommonArgs, Context, Failure, Manual, Progress, ToolArgs, finite, whole};
+use ugpipe::{CommonArgs, Context, Failure, Manual, Progress, ToolArgs, Words, finite, whole};
 use ugscene::cli::{CameraArgs, EffectArgs, MotionArgs, RepeatArgs};
 
 use crate::{Config, DEFAULT_COLOR_ERROR, DEFAULT_ERROR, Error, Pieces, Table, measure};
@@ -146,8 +148,8 @@ fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
 fn failure(error: Error, source: &Source, origins: &Origins) -> Failure {
     match error.diagnostics(source, origins) {
         Some(findings) => pipe::refused(findings),
-        None if error.is_usage() => Failure::usage(error),
-        None => Failure::failed(error),
+        None if error.is_usage() => Failure::usage(error.words()),
+        None => Failure::failed(error.words()),
     }
 }
 

@@ -1,9 +1,6 @@
 //! Errors.
 
-use std::fmt;
-
 use thiserror::Error;
-use ugparse::{Diagnostic, Diagnostics, Origins, Source};
 use ugscene::{CameraError, MotionError};
 
 use crate::adaptive::MAX_PIECES;
@@ -12,35 +9,44 @@ use crate::adaptive::MAX_PIECES;
 #[derive(Clone, Debug, Error)]
 pub enum Error {
     /// The stage of the scene, a motion or the camera is invalid.
+    #[error(transparent)]
     Motion(#[from] MotionError),
     /// [`crate::Config::cull`] needs the view centre, and neither the configuration nor the scene
     /// has one.
+    #[error("culling needs the view centre of the camera")]
     NoViewCenter,
     /// The view of the camera is invalid.
+    #[error(transparent)]
     Camera(CameraError),
     /// The bound of [`crate::Pieces::UpTo`] is not above 0, or not finite.
+    #[error("the error bound is {} milliradians", error * 1e3)]
     NoBound {
         /// The bound given, radians.
         error: f64,
     },
     /// [`crate::Config::color_error`] is not above 0.
+    #[error("the bound of colour errors is {} percent", error * 1e2)]
     NoColorBound {
         /// The bound given, a fraction.
         error: f64,
     },
     /// [`crate::Config::light_error`] is not above 0.
+    #[error("the bound of light errors is {} percent", error * 1e2)]
     NoLightBound {
         /// The bound given, a fraction.
         error: f64,
     },
     /// [`crate::Pieces::PerEdge`] is 0.
+    #[error("0 pieces of an edge are none")]
     NoPieces,
     /// [`crate::Pieces::PerEdge`] makes too many pieces.
+    #[error("{n_pieces} pieces are more than the limit of {MAX_PIECES}")]
     TooManyPieces {
         /// The number of pieces it would make.
         n_pieces: usize,
     },
     /// A vertex of a moving body is exactly at the eye.
+    #[error("vertex `{name}` lies at the eye, where no direction to it exists")]
     VertexAtEye {
         /// Its name.
         name: String,
@@ -48,6 +54,7 @@ pub enum Error {
         row: usize,
     },
     /// The seen position of a vertex overflows.
+    #[error("the seen position of vertex `{name}` is too far away for a number")]
     OutOfRange {
         /// Its name.
         name: String,
@@ -72,58 +79,5 @@ impl Error {
             );
         };
         error.is_usage()
-    }
-
-    /// The error with its place in the text of the scene; `None` if it is not about a vertex.
-    pub fn diagnostics(&self, source: &Source, origins: &Origins) -> Option<Diagnostics> {
-        let (Error::VertexAtEye { row, .. } | Error::OutOfRange { row, .. }) = self else { return None };
-        let finding = Diagnostic::error(*origins.vertices.get(*row)?, self.problem()).label("this vertex");
-        Some(Diagnostics::one(source, finding.help(self.remedy())))
-    }
-
-    fn problem(&self) -> String {
-        match self {
-            Error::Motion(error) => error.to_string(),
-            Error::NoViewCenter => "-cull needs the view centre of the camera".to_string(),
-            Error::Camera(error) => error.to_string(),
-            Error::NoBound { error } => format!("the bound of -se is {} milliradians", error * 1e3),
-            Error::NoColorBound { error } => format!("the bound of -sc is {} percent", error * 1e2),
-            Error::NoLightBound { error } => format!("the bound of -sl is {} percent", error * 1e2),
-            Error::NoPieces => "-sd 0 would make no pieces".to_string(),
-            Error::TooManyPieces { n_pieces } => {
-                format!("-sd would make {n_pieces} pieces, more than the limit of {MAX_PIECES}")
-            }
-            Error::VertexAtEye { name, .. } => {
-                format!("vertex `{name}` lies at the eye, where no direction to it exists")
-            }
-            Error::OutOfRange { name, .. } => {
-                format!("the seen position of vertex `{name}` is too far away for a number")
-            }
-        }
-    }
-
-    fn remedy(&self) -> &'static str {
-        match self {
-            Error::Motion(_) | Error::Camera(_) => "",
-            Error::NoViewCenter => "give it with -vc, or in the `cam` statement of the scene",
-            Error::NoBound { .. } => "give a number above 0",
-            Error::NoColorBound { .. } | Error::NoLightBound { .. } => "give a number above 0, or off",
-            Error::NoPieces => "give 1 or more",
-            Error::TooManyPieces { .. } => {
-                "give fewer, or use -se, which subdivides only where it is visible"
-            }
-            Error::VertexAtEye { .. } => "move the eye (-ep) or the vertex",
-            Error::OutOfRange { .. } => "use smaller coordinates, a smaller time (-ti) or a lower speed",
-        }
-    }
-}
-
-impl fmt::Display for Error {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.problem())?;
-        match self.remedy() {
-            "" => Ok(()),
-            remedy => write!(f, ": {remedy}"),
-        }
     }
 }

@@ -10,6 +10,7 @@ use glam::DVec3;
 use uglorentz::{Anchor, Config, Pieces};
 use ugparse::{BodyId, LightKind, LightMotion, Scene};
 use ugphysics::{Velocity, compose, doppler_at, rest_position, wigner_rotation};
+use ugpipe::Words;
 use ugrandom::Random;
 use ugscene::{Geometry, RestFrames, rest_positions};
 
@@ -377,7 +378,7 @@ fn what_meets_too_fast_is_refused() {
     let config = Config { camera_velocity: Some(DVec3::Y * -0.999_999_999_9), ..Config::default() };
     let error = uglorentz::apply(parse(text), &config).unwrap_err();
     assert_eq!(
-        error.to_string(),
+        error.words(),
         "the body with velocity 0 0.9999999999 0 in the scene moves too close to the speed of light relative \
          to the camera (-cv): make one of them slower"
     );
@@ -386,7 +387,7 @@ fn what_meets_too_fast_is_refused() {
     let error = uglorentz::apply(parse(text), &config).unwrap_err();
     assert!(error.is_usage());
     assert_eq!(
-        error.to_string(),
+        error.words(),
         "-cv: speed is 1 c: it must be below 1 (velocities are fractions of the speed of light)"
     );
     // Together they are slow enough.

@@ -11,6 +11,7 @@ use glam::DVec3;
 use uglorentz::{Config, DEFAULT_COLOR_ERROR, Pieces};
 use ugparse::{Item, Scene, VertexId};
 use ugphysics::{Velocity, doppler_at, seen_position};
+use ugpipe::Words;
 use ugrandom::Random;
 use ugscene::{Geometry, RestFrames};
 
@@ -558,7 +559,7 @@ fn bad_numbers_are_refused_with_a_remedy() {
     let check = |config: Config, expected: &str| {
         let error =
             uglorentz::apply(parse("v a 0 0 1; v b 1 0 1; v c 0 1 1; f (a b c);"), &config).unwrap_err();
-        assert_eq!(error.to_string(), expected);
+        assert_eq!(error.words(), expected);
         assert!(error.is_usage());
     };
     let pieces = |pieces| Config { pieces, ..Config::default() };

@@ -7,7 +7,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, ValueEnum};
 use ugparse::pipe;
-use ugpipe::{CommonArgs, Context, Failure, Manual, ToolArgs};
+use ugpipe::{CommonArgs, Context, Failure, Manual, ToolArgs, Words};
 
 use crate::{Axis, Config, Error, Format, Input, Size, Target};
 
@@ -222,6 +222,20 @@ fn read_beside(context: &Context, mesh: Option<&Path>, name: &str, limit: u64) -
     }
 }
 
+impl Words for Error {
+    fn words(&self) -> String {
+        let remedy = match self {
+            Self::UnknownFormat { foreign: None, .. } => "; give it with -if ug, obj, ply, stl, off or gltf",
+            Self::NothingToConvert => "; choose an output format with -dt obj, ply, gltf, glb or vtp",
+            Self::Overflow => "; choose another -scale or -fit",
+            Self::OutOfRange => "; make the mesh smaller (-fit 1) or write PLY (-dt ply)",
+            Self::TooLarge => "; write PLY (-dt ply)",
+            Self::UnknownFormat { foreign: Some(_), .. } | Self::Malformed { .. } | Self::Scene(_) => "",
+        };
+        format!("{self}{remedy}")
+    }
+}
+
 /// What the help, the man page and the completions of the program say.
 pub fn manual() -> Manual {
     ugpipe::manual::<Args>()
@@ -243,8 +257,8 @@ pub fn main() -> ExitCode {
         let input = input.with_files(&read_file).with_includes(&resolve_includes);
         let converted = crate::run(&config, &input).map_err(|error| match error {
             Error::Scene(findings) => pipe::refused(findings),
-            Error::NothingToConvert => Failure::usage(error),
-            other => Failure::failed(other),
+            Error::NothingToConvert => Failure::usage(error.words()),
+            other => Failure::failed(other.words()),
         })?;
         if let Some(findings) = converted.diagnostics.filter(|findings| !findings.is_empty()) {
             context.report(&findings.render(true));

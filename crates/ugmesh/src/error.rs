@@ -72,27 +72,18 @@ impl fmt::Display for Error {
                 write!(f, "`{name}` is not a mesh but {what}; {remedy}")
             }
             Self::UnknownFormat { name, foreign: None } => {
-                write!(
-                    f,
-                    "cannot detect the format of `{name}`; give it with -if ug, obj, ply, stl, off or gltf"
-                )
+                write!(f, "cannot detect the format of `{name}`")
             }
-            Self::NothingToConvert => f.write_str(
-                "the input is already a UniGrafix scene; choose an output format with -dt obj, ply, gltf, glb or vtp",
-            ),
+            Self::NothingToConvert => f.write_str("the input is already a UniGrafix scene"),
             Self::Malformed { name, format, problem: Problem { line, what } } => {
                 write!(f, "cannot read `{name}` as {format}: ")?;
                 line.iter().try_for_each(|line| write!(f, "line {line}: "))?;
                 f.write_str(what)
             }
             Self::Scene(findings) => findings.fmt(f),
-            Self::Overflow => {
-                f.write_str("scaled coordinates are out of range; choose another -scale or -fit")
-            }
-            Self::OutOfRange => f.write_str(
-                "coordinates do not fit glTF; make the mesh smaller (-fit 1) or write PLY (-dt ply)",
-            ),
-            Self::TooLarge => f.write_str("the mesh is too large for one glTF file; write PLY (-dt ply)"),
+            Self::Overflow => f.write_str("scaled coordinates are out of range"),
+            Self::OutOfRange => f.write_str("coordinates do not fit glTF"),
+            Self::TooLarge => f.write_str("the mesh is too large for one glTF file"),
         }
     }
 }

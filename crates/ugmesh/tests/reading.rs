@@ -6,6 +6,7 @@ use common::{
     Encoding, convert, floats, glb, glb_with_nodes, ply, seen, statements, stl_binary, stl_text, to_scene,
 };
 use ugmesh::{Axis, Config, Input, Size};
+use ugpipe::Words;
 
 fn z_up() -> Config {
     Config { up: Some(Axis::Z), ..Config::default() }
@@ -407,7 +408,7 @@ fn scaling_out_of_range_is_an_error() {
         let config = Config { size, ..Config::default() };
         let error =
             convert(&config, "a.obj", format!("v {x} 2 3\nv -{x} 2 3\nv 1 4 3\nf 1 2 3")).unwrap_err();
-        assert_eq!(error.to_string(), "scaled coordinates are out of range; choose another -scale or -fit");
+        assert_eq!(error.words(), "scaled coordinates are out of range; choose another -scale or -fit");
     }
     check(Size::Times(1e300), "1e10");
     check(Size::Fit(1.0), "1.7e308");

@@ -5,6 +5,7 @@ mod common;
 use common::{Corner, convert, parse, seen, statements, to_mesh, to_scene};
 use ugmesh::{Axis, Config, Target};
 use ugparse::ColorValue;
+use ugpipe::Words;
 
 /// Colours that 8 bits represent exactly, coordinates that 32 bits represent exactly, corners with
 /// and without their own colours.
@@ -158,7 +159,7 @@ fn ply_uses_float_where_it_is_exact() {
     let config = Config { target: Target::Glb, ..Config::default() };
     let error = convert(&config, "a.ug", "v a 1e300 0 0; v b 1 0 0; v c 0 1 0; f (a b c);").unwrap_err();
     assert_eq!(
-        error.to_string(),
+        error.words(),
         "coordinates do not fit glTF; make the mesh smaller (-fit 1) or write PLY (-dt ply)"
     );
 }

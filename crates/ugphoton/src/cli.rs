@@ -1,5 +1,7 @@
 //! The command line.
 
+mod words;
+
 use std::path::Path;
 
 use clap::{ArgAction, Parser};
@@ -11,7 +13,7 @@ use ugpicture::cli::{
     AnnotationArgs, Kind, PICTURE, PictureArgs, Pixel, Report, kind_named, kinds, picture_format, pixel,
     refuse_terminal, report_format, with_format, write_picture,
 };
-use ugpipe::{CommonArgs, Context, Failure, Manual, ToolArgs, finite, one_of, whole};
+use ugpipe::{CommonArgs, Context, Failure, Manual, ToolArgs, Words, finite, one_of, whole};
 use ugscene::cli::{MotionArgs, RepeatArgs};
 
 use crate::config::{Config, RayOptions, Shutter};
@@ -313,8 +315,8 @@ fn no_preview() -> Failure {
 fn failure(error: Error) -> Failure {
     match error {
         Error::Text(diagnostics) => Failure::Report(diagnostics.render(true)),
-        error if error.is_usage() => Failure::usage(error),
-        error => Failure::failed(error),
+        error if error.is_usage() => Failure::usage(error.words()),
+        error => Failure::failed(error.words()),
     }
 }
 

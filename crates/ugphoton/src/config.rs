@@ -49,7 +49,7 @@ impl Config {
     /// Refuses options that exclude each other, and pictures that do not fit in memory.
     ///
     /// # Errors
-    /// [`Error::Options`], [`Error::Crop`], [`Error::Picture`].
+    /// See [`Error`].
     pub(crate) fn check(&self) -> Result<(), Error> {
         self.check_lens()?;
         let Some([left, top, width, height]) = self.crop else { return Ok(self.picture.check()?) };
@@ -60,14 +60,10 @@ impl Config {
             return Err(Error::Crop { crop: [left, top, width, height], size: self.picture.size });
         }
         if self.picture.annotations.is_any() {
-            return Err(Error::Options(
-                "annotations (-cap, -lg, -dl, -gr) are for whole pictures: leave them out, or -crop",
-            ));
+            return Err(Error::AnnotatedPart);
         }
         if self.picture.exposure == Some(Exposure::Auto) {
-            return Err(Error::Options(
-                "-ex auto would differ between the parts of a picture: with -crop give the exposure of the whole one",
-            ));
+            return Err(Error::ExposedPart);
         }
         let part = PictureOptions { size: [width, height], ..self.picture.clone() };
         Ok(part.check()?)
@@ -75,44 +71,28 @@ impl Config {
 
     fn check_lens(&self) -> Result<(), Error> {
         let annotations = &self.picture.annotations;
-        let refused = |text| Err(Error::Options(text));
         if self.lens == Lens::Cube && self.stereo.is_some() {
-            return refused(
-                "a cube map is seen from one place: leave out -stereo, or give -pan instead of -cube",
-            );
+            return Err(Error::StereoCube);
         }
         let [width, height] = self.picture.size;
         if self.lens == Lens::Cube && u64::from(width) != 6 * u64::from(height) {
-            return refused(
-                "a cube map (-cube) is six squares side by side: give -sz W H with W = 6 H, such as -sz 3072 512",
-            );
+            return Err(Error::CubeSize);
         }
         let [across, down] = self.frames();
         if width % across != 0 || height % down != 0 {
-            return refused(
-                "the pictures of both eyes (-stereo) are side by side, with -pan one above the other: give an \
-                 even width in -sz, with -pan an even height",
-            );
+            return Err(Error::StereoSize);
         }
         if [across, down] != [1, 1] && annotations.is_any() {
-            return refused(
-                "annotations (-cap, -lg, -dl, -gr) are for pictures of a single view: leave them out, or -cube \
-                 and -stereo",
-            );
+            return Err(Error::AnnotatedViews);
         }
         if self.lens == Lens::Pinhole {
             return Ok(());
         }
         if annotations.outline || annotations.grid {
-            return refused(
-                "outline and grid (-dl, -gr) are straight lines of pinhole cameras: leave them out, or -pan and \
-                 -fish",
-            );
+            return Err(Error::BentLines);
         }
         if self.rays.shutter != Shutter::Pinhole {
-            return refused(
-                "--film-shutter is for pinhole cameras, whose film is flat: leave it out, or -pan, -fish and -cube",
-            );
+            return Err(Error::FilmShutter);
         }
         Ok(())
     }

@@ -24,20 +24,38 @@ pub enum Error {
     #[error(transparent)]
     Picture(#[from] ugpicture::Error),
     /// The seen position of a vertex overflows.
-    #[error(
-        "the seen position of vertex `{name}` is too far away for a number: \
-         use smaller coordinates, a smaller time (-ti) or a lower speed"
-    )]
+    #[error("the seen position of vertex `{name}` is too far away for a number")]
     OutOfRange {
         /// Its name.
         name: String,
     },
-    /// Options that exclude each other; the text says which, and what to do.
-    #[error("{0}")]
-    Options(&'static str),
+    /// Annotations of a part of a picture.
+    #[error("annotations are for whole pictures")]
+    AnnotatedPart,
+    /// Automatic exposure of a part of a picture.
+    #[error("automatic exposure would differ between the parts of a picture")]
+    ExposedPart,
+    /// A cube map for two eyes.
+    #[error("a cube map is seen from one place")]
+    StereoCube,
+    /// A cube map that is not six times as wide as high.
+    #[error("a cube map is six squares side by side")]
+    CubeSize,
+    /// A side of the picture cannot be halved for two eyes.
+    #[error("the pictures of both eyes have the same size, each half of the whole picture")]
+    StereoSize,
+    /// Annotations of a cube map or of pictures for two eyes.
+    #[error("annotations are for pictures of a single view")]
+    AnnotatedViews,
+    /// Outline or grid with a lens that bends straight lines.
+    #[error("outline and grid are straight lines of pinhole cameras")]
+    BentLines,
+    /// A shutter at the film with a lens whose film is not flat.
+    #[error("a shutter at the film is for pinhole cameras, whose film is flat")]
+    FilmShutter,
     /// A part of a picture that is not in it.
     #[error(
-        "-crop {} {} {} {} is not in the picture of {} x {} pixels: \
+        "the part {} {} {} {} is not in the picture of {} x {} pixels: \
          columns and rows count from 0 at the upper left",
         .crop[0], .crop[1], .crop[2], .crop[3], .size[0], .size[1]
     )]
@@ -49,8 +67,7 @@ pub enum Error {
     },
     /// More lights than can be computed at so many samples.
     #[error(
-        "{n_lights} lights at each of {n_samples} samples are more than 2^{}: \
-         give fewer lights, a smaller -sz, or a smaller -aa",
+        "{n_lights} lights at each of {n_samples} samples are more than 2^{}",
         MOST_LIGHTINGS.ilog2()
     )]
     TooManyLights {
@@ -60,14 +77,14 @@ pub enum Error {
         n_samples: u64,
     },
     /// Rays through the eye need perspective.
-    #[error(
-        "rays go through the eye, and in orthographic projection they do not meet there: leave out -og \
-         (in the scene, too)"
-    )]
+    #[error("rays go through the eye, and in orthographic projection they do not meet there")]
     Orthographic,
-    /// The scene cannot be drawn by rays; the text says why, and what to do.
-    #[error("{0}")]
-    Scene(&'static str),
+    /// Contraction or time of flight is left out.
+    #[error("rays follow contraction and time of flight, and one of them is left out of this scene")]
+    PartialGeometry,
+    /// Hues are shifted, of moving bodies with spectra.
+    #[error("hues are shifted, and a black body or spectrum of this scene moves")]
+    MovingSpectrum,
     /// The scene is not at the stage at which it can be drawn so.
     #[error(transparent)]
     Stage(#[from] StageError),
@@ -79,14 +96,15 @@ impl Error {
         match self {
             Self::Picture(error) => error.is_usage(),
             Self::Motion(error) => error.is_usage(),
-            Self::Options(_) | Self::Crop { .. } => true,
-            Self::TooManyLights { .. } => false,
             Self::Text(_)
             | Self::Empty
             | Self::OutOfRange { .. }
+            | Self::TooManyLights { .. }
             | Self::Orthographic
-            | Self::Scene(_)
+            | Self::PartialGeometry
+            | Self::MovingSpectrum
             | Self::Stage(_) => false,
+            _ => true,
         }
     }
 }

@@ -11,7 +11,6 @@ use uglight::{
 use ugparse::{ColorId, ColorValue, Face, HueScale, LightKind, Scene, SurfaceProperties, VertexId};
 use ugphysics::{Event, Medium};
 use ugpicture::PictureOptions;
-use ugpipe::remedies;
 use ugscene::{Geometry, View};
 
 use crate::config::{Config, RayOptions, Shutter};
@@ -90,7 +89,7 @@ impl<'a> Scenery<'a> {
             return Err(Error::Empty);
         }
         if Geometry::of(&scene) != Geometry::default() {
-            return Err(Error::Scene(remedies::EXACT_PARTIAL_GEOMETRY));
+            return Err(Error::PartialGeometry);
         }
         let PictureOptions { size: [width, height], samples, camera, .. } = &config.picture;
         let [frame_width, frame_height] = config.frame_size().map(|side| side * samples);
@@ -255,10 +254,7 @@ fn check_spectra(scene: &Scene, surface: &SurfaceAttributes, shift: ColorShift) 
         !surface.velocity(face.body).is_zero() && corners.iter().filter_map(color_of).any(is_spectrum)
     };
     if is_hue && scene.colors.iter().any(uglight::is_light) && scene.faces.iter().any(moves) {
-        return Err(Error::Scene(
-            "hues are shifted, and a black body or spectrum of this scene moves: give -sp to shift all colours \
-             as spectra, or --no-doppler --no-flux to see the shape",
-        ));
+        return Err(Error::MovingSpectrum);
     }
     Ok(())
 }

@@ -9,6 +9,7 @@ use ugphoton::{
     PictureOptions, RayOptions, Shutter, light, render,
 };
 use ugphysics::{Hsv, Velocity, Wave};
+use ugpipe::Words;
 
 fn scene(text: &str) -> ugparse::Scene {
     let source = ugparse::Source::new("test.ug", text);
@@ -557,7 +558,7 @@ fn endless_mirrors_end() {
 #[test]
 fn messages() {
     let check = |config: Config, expected: &str| {
-        let found = light(scene(ROOM), &config).unwrap_err().to_string();
+        let found = light(scene(ROOM), &config).unwrap_err().words();
         assert!(found.contains(expected), "{found}");
     };
     let config = picture([40, 30]);
@@ -571,7 +572,7 @@ fn messages() {
     auto.picture.exposure = Some(Exposure::Auto);
     // Light is not exposed; the picture is.
     assert!(light(scene(ROOM), &auto).is_ok());
-    let found = render(scene(ROOM), &auto).unwrap_err().to_string();
+    let found = render(scene(ROOM), &auto).unwrap_err().words();
     assert!(found.contains("-ex auto would differ"), "{found}");
     let shutter = Shutter::Film { distance: 1.0 };
     let rays = RayOptions { shutter, ..RayOptions::default() };
@@ -597,10 +598,10 @@ fn messages() {
     let mut orthographic = config.clone();
     orthographic.picture.camera.is_orthographic = true;
     check(orthographic, "leave out -og");
-    let empty = light(scene("v a 0 0 0; cam -ep 0 -5 0;"), &config).unwrap_err().to_string();
+    let empty = light(scene("v a 0 0 0; cam -ep 0 -5 0;"), &config).unwrap_err().words();
     assert!(empty.contains("no faces"), "{empty}");
     let seen = "(ugstage 1 geometry as-seen eye 0 0 0) v a 0 1 0; v b 1 1 0; v c 0 1 1; f (a b c);";
-    let seen = light(scene(seen), &config).unwrap_err().to_string();
+    let seen = light(scene(seen), &config).unwrap_err().words();
     assert!(seen.contains("start again from the scene at rest"), "{seen}");
     let mut large = picture([16384, 16384]);
     large.picture.samples = 16;

@@ -1,6 +1,8 @@
 //! Options of a picture on the command line, the same in every renderer, and the way of a picture
 //! out of the program.
 
+mod words;
+
 use std::path::Path;
 
 use clap::{ArgAction, Args};

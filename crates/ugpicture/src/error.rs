@@ -4,7 +4,7 @@ use thiserror::Error;
 use uglabel::MissingCharacter;
 use ugscene::CameraError;
 
-use crate::limits::{MAX_PIXELS, MAX_SAMPLES, MAX_SIDE};
+use crate::limits::{MAX_PIXELS, MAX_SAMPLES, MAX_SIDE, MAX_VECTOR_SIDE};
 
 /// Why there is no picture.
 #[derive(Clone, Debug, Error, PartialEq)]
@@ -12,28 +12,54 @@ pub enum Error {
     /// The picture has no pixels, or more than [`MAX_PIXELS`] or [`MAX_SIDE`].
     #[error(
         "a picture of {width} x {height} pixels cannot be made: the limit is {MAX_PIXELS} \
-         pixels in all and {MAX_SIDE} along a side; give a smaller -sz",
+         pixels in all and {MAX_SIDE} along a side",
         width = .0[0],
         height = .0[1]
     )]
     Size([u32; 2]),
     /// The samples along a side of a pixel are not 1…[`MAX_SAMPLES`].
-    #[error("{0} x {0} samples a pixel cannot be taken; give -aa 1 to {MAX_SAMPLES}")]
+    #[error("{0} x {0} samples a pixel cannot be taken: the limit is {MAX_SAMPLES}")]
     Samples(u32),
     /// The system has less memory than the picture needs: its size, and bytes.
     #[error(
-        "there is not enough memory for a picture of {width} x {height} pixels, {1} bytes; give a smaller -sz",
+        "there is not enough memory for a picture of {width} x {height} pixels, {1} bytes",
         width = .0[0],
         height = .0[1]
     )]
     Memory([u32; 2], u64),
-    /// Options that exclude each other; the text says which, and what to do.
-    #[error("{0}")]
-    Options(&'static str),
+    /// A file to be packed is no PNG file.
+    #[error("only PNG files are packed smaller")]
+    NotPng,
+    /// A file with other channels than colour is no EXR file.
+    #[error("only EXR has a place for other channels than colour")]
+    NotExr,
+    /// Exposure or tone curve of a format that holds linear light.
+    #[error("EXR, PFM and HDR pictures hold the light as it is")]
+    NotDeveloped,
+    /// Annotations of a format that holds linear light.
+    #[error("EXR, PFM and HDR pictures hold the light of the scene and nothing else")]
+    NotAnnotated,
+    /// A transparent background of a format without transparency.
+    #[error("PFM and HDR pictures have no transparency")]
+    NotTransparent,
+    /// A vector figure of a format of pixels.
+    #[error("this format has only pixels")]
+    NoVectors,
+    /// A reconstruction filter of a vector figure.
+    #[error("vector graphics have no samples to filter")]
+    NoSamples,
+    /// A vector figure of more points along a side than the figure can count.
+    #[error("vector graphics are at most {MAX_VECTOR_SIDE} points along a side")]
+    VectorSize,
+    /// A word of the caption, or the legend, is wider than the picture.
+    #[error("the picture is too narrow for a caption or legend")]
+    TooNarrow,
+    /// Caption and legend are almost as high as the picture.
+    #[error("caption and legend leave no room for the picture")]
+    NoRoom,
     /// A pixel to be explained that is not in the picture.
     #[error(
-        "pixel {},{} is not in the picture of {} x {} pixels; \
-         count columns and rows from 0 at the upper left, or give -sz",
+        "pixel {},{} is not in the picture of {} x {} pixels; columns and rows count from 0 at the upper left",
         .pixel[0], .pixel[1], .size[0], .size[1]
     )]
     Pixel {
@@ -53,14 +79,6 @@ pub enum Error {
 impl Error {
     /// True if the command line is wrong, whatever the scene.
     pub fn is_usage(&self) -> bool {
-        matches!(
-            self,
-            Self::Size(_)
-                | Self::Samples(_)
-                | Self::Options(_)
-                | Self::Pixel { .. }
-                | Self::Text(_)
-                | Self::Camera(CameraError::NoUp)
-        )
+        !matches!(self, Self::Memory(..) | Self::Camera(_)) || *self == Self::Camera(CameraError::NoUp)
     }
 }

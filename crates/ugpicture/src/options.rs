@@ -68,7 +68,7 @@ impl PictureOptions {
     /// that exclude each other.
     ///
     /// # Errors
-    /// [`Error::Size`], [`Error::Samples`], [`Error::Options`], [`Error::Memory`].
+    /// See [`Error`].
     pub fn check(&self) -> Result<(), Error> {
         self.check_size()?;
         self.check_output()?;
@@ -134,43 +134,29 @@ impl PictureOptions {
             self.check_vectors(format)?;
         }
         if self.small && !matches!(self.output, Output::Color(Format::Png | Format::Png16)) {
-            return Err(Error::Options(
-                "only PNG files are packed smaller: leave out -pz, or write -dt png or png16",
-            ));
+            return Err(Error::NotPng);
         }
         if !self.channels.is_empty() && format != Some(Format::Exr) {
-            return Err(Error::Options(
-                "only EXR has a place for other channels than colour: with -ch write -dt exr",
-            ));
+            return Err(Error::NotExr);
         }
         if self.output.is_linear() && (self.exposure.is_some() || self.tone != Tone::Clip) {
-            return Err(Error::Options(
-                "EXR, PFM and HDR pictures hold the light as it is: leave out -ex and -tc, or write -dt png16",
-            ));
+            return Err(Error::NotDeveloped);
         }
         if self.background == Background::Transparent && format.is_some_and(|format| !format.has_alpha()) {
-            return Err(Error::Options(
-                "PFM and HDR pictures have no transparency: leave out -tb, or write -dt exr",
-            ));
+            return Err(Error::NotTransparent);
         }
         Ok(())
     }
 
     fn check_vectors(&self, format: Format) -> Result<(), Error> {
         if !format.has_vectors() {
-            return Err(Error::Options(
-                "this format has only pixels: with -vec write -dt eps, ps, pdf or svg",
-            ));
+            return Err(Error::NoVectors);
         }
         if self.filter != Filter::Box {
-            return Err(Error::Options(
-                "vector graphics (-vec) have no samples to filter: leave out -fl or -vec",
-            ));
+            return Err(Error::NoSamples);
         }
         if self.size.iter().any(|&side| side > MAX_VECTOR_SIDE) {
-            return Err(Error::Options(
-                "vector graphics (-vec) are at most 32768 points along a side: give a smaller -sz",
-            ));
+            return Err(Error::VectorSize);
         }
         Ok(())
     }

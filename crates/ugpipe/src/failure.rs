@@ -52,6 +52,15 @@ impl Failure {
     }
 }
 
+/// An error or a note as a command line words it.
+///
+/// The `Display` of a library's error says what is wrong. Only the command line knows the options
+/// that correct it.
+pub trait Words {
+    /// What is wrong, and the options that correct it.
+    fn words(&self) -> String;
+}
+
 /// `Failure` itself does not implement [`Error`], so that `?` can convert every error to it.
 impl<E: Error> From<E> for Failure {
     fn from(error: E) -> Self {

@@ -138,7 +138,7 @@ pub use args::{CommonArgs, ToolArgs, finite, one_of, vector, view_angle, whole};
 #[cfg(feature = "cli")]
 pub use context::{Context, MAX_INPUT};
 #[cfg(feature = "cli")]
-pub use failure::Failure;
+pub use failure::{Failure, Words};
 #[cfg(feature = "cli")]
 pub use files::ProgramOutput;
 #[cfg(feature = "cli")]

@@ -3,17 +3,16 @@
 //! No other source spells the name of a sibling program (`tests/tidy.rs` checks it): a
 //! program learns what was done to a scene from its stage, never from a name.
 
-/// The scene was made as seen already, and its rest shapes are needed.
-pub const SEEN_GEOMETRY: &str = "positions in this scene are as seen already, so its rest shapes are not known: \
-     start again from the scene at rest, and go through uglorentz once";
+/// Positions were made as seen already, and rest shapes are needed.
+pub const SEEN_GEOMETRY: &str = "start again from the scene at rest, and go through uglorentz once";
 
-/// The colours were made as seen already.
-pub const SEEN_COLORS: &str = "colours in this scene are as seen already: start again from the scene before ugdoppler; \
+/// Colours were made as seen already.
+pub const SEEN_COLORS: &str = "start again from the scene before ugdoppler; \
      the order is uglorentz, ugdoppler, ugrainbow, each once";
 
-/// Bodies with velocities whose positions are still at rest.
-pub const GEOMETRY_AT_REST: &str = "bodies in this scene move, and their positions are not as seen yet: \
-     give the scene to uglorentz first (with -nc and --no-flight-time to keep rest shapes)";
+/// Bodies move whose positions are still at rest.
+pub const GEOMETRY_AT_REST: &str =
+    "give the scene to uglorentz first (with -nc and --no-flight-time to keep rest shapes)";
 
 /// Help to the warning that moving bodies are drawn with their rest shapes.
 pub const DRAW_AS_SEEN: &str = "send the scene through uglorentz to draw it as seen";

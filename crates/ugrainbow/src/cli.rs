@@ -1,5 +1,8 @@
 //! The command line.
 
+mod values;
+mod words;
+
 use std::path::Path;
 
 use clap::{ArgAction, Parser};
@@ -12,15 +15,15 @@ use ugpicture::cli::{
     AnnotationArgs, Kind, PICTURE, PictureArgs, Pixel, Report, color, kind_named, kinds, picture_format,
     pixel, refuse_terminal, report_format, with_format, write_picture,
 };
-use ugpipe::{CommonArgs, Context, Failure, Manual, ToolArgs, finite, one_of};
+use ugpipe::{CommonArgs, Context, Failure, Manual, ToolArgs, Words, finite, one_of};
 use ugscene::cli::RepeatArgs;
 
 use crate::config::{Config, DepthCue, LINE_WIDTH, Wireframe};
 use crate::error::Error;
 use crate::explain::{self, explain};
 use crate::run_with;
-use crate::words::{law, line_width};
 use uglight::Interpolation;
+use values::{law, line_width};
 
 /// Where black-and-white PostScript goes if standard output is a terminal, as in 1988.
 const POSTSCRIPT_FILE: &str = "POSTSCRIPTFILE";
@@ -311,8 +314,8 @@ fn explain_pixel(
 fn failure(error: Error) -> Failure {
     match error {
         Error::Scene(diagnostics) => Failure::Report(diagnostics.render(true)),
-        error if error.is_usage() => Failure::usage(error),
-        error => Failure::failed(error),
+        error if error.is_usage() => Failure::usage(error.words()),
+        error => Failure::failed(error.words()),
     }
 }
 

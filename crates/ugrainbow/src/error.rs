@@ -19,15 +19,30 @@ pub enum Error {
     /// The options of the picture, its camera or its annotations.
     #[error(transparent)]
     Picture(#[from] ugpicture::Error),
-    /// Options that exclude each other; the text says which, and what to do.
-    #[error("{0}")]
-    Options(&'static str),
-    /// A scene that cannot be drawn by rays; the text says why, and what to do.
-    #[error("{0}")]
-    Exact(&'static str),
-    /// A scene that cannot be drawn as areas; the text says why, and what to do.
-    #[error("{0}")]
-    Figure(&'static str),
+    /// A pixel of an exact picture is to be explained.
+    #[error("only pixels of scanline mode can be explained")]
+    ExplainExact,
+    /// An exact picture of colours as seen.
+    #[error("exact pictures shift colours themselves, and those of this scene are as seen already")]
+    ExactSeenColors,
+    /// An exact picture of positions without contraction or without time of flight.
+    #[error("rays follow contraction and time of flight, and one of them is left out of this scene")]
+    ExactPartialGeometry,
+    /// An exact picture in orthographic projection.
+    #[error("rays go to the eye, and in orthographic projection they do not meet there")]
+    ExactOrthographic,
+    /// An exact picture that shifts hues, of moving bodies with spectra.
+    #[error("hues are shifted, and a black body or spectrum of this scene moves")]
+    ExactMovingSpectrum,
+    /// A vector figure with translucent faces on a transparent background.
+    #[error("vector graphics with translucent faces need a background")]
+    FigureBackground,
+    /// A vector figure of too many faces.
+    #[error("faces, and the parts into which they cut each other, are too many for vector graphics")]
+    FigureFaces,
+    /// A vector figure with too many translucent faces one behind another.
+    #[error("too many translucent faces overlap for vector graphics")]
+    FigureOverlaps,
     /// The scene is not at the stage at which it can be drawn so.
     #[error(transparent)]
     Stage(#[from] StageError),
@@ -38,8 +53,8 @@ impl Error {
     pub fn is_usage(&self) -> bool {
         match self {
             Self::Picture(error) => error.is_usage(),
-            Self::Options(_) => true,
-            Self::Scene(_) | Self::Empty | Self::Stage(_) | Self::Exact(_) | Self::Figure(_) => false,
+            Self::ExplainExact => true,
+            _ => false,
         }
     }
 }

@@ -57,7 +57,7 @@
 //! render_layers  setup  depth_cue  front              the whole scene for one camera
 //! pixels  annotate  notes                             from samples to an image, with messages
 //! vector  render  explain                             vector graphics, pictures, one pixel
-//! words  cli                                          the command line
+//! cli                                                 the command line
 //! ```
 //!
 //! # Example
@@ -102,8 +102,6 @@ mod render_layers;
 mod setup;
 mod shade;
 mod vector;
-#[cfg(feature = "cli")]
-mod words;
 
 #[cfg(feature = "cli")]
 pub use cli::{Args, draw, manual};

@@ -6,7 +6,6 @@ use std::ops::Range;
 use uglight::{ColorShift, HueShift, Lighting};
 use ugparse::{BodyId, ColorId, ColorValue, Scene, VertexId};
 use ugpicture::PictureOptions;
-use ugpipe::remedies;
 use ugraster::{SampleGrid, TileShape};
 
 use crate::config::Config;
@@ -111,16 +110,13 @@ impl<'a> Setup<'a> {
 /// Refuses orthographic projection and scenes whose colours would be shifted twice.
 fn check_exact(scene: &Scene, view: &View) -> Result<(), Error> {
     if scene.stage.seen_colors().is_some() {
-        return Err(Error::Exact(remedies::EXACT_SEEN_COLORS));
+        return Err(Error::ExactSeenColors);
     }
     if Geometry::of(scene) != Geometry::default() {
-        return Err(Error::Exact(remedies::EXACT_PARTIAL_GEOMETRY));
+        return Err(Error::ExactPartialGeometry);
     }
     if !view.is_perspective {
-        return Err(Error::Exact(
-            "-xc follows rays to the eye, and in orthographic projection they do not meet there: \
-             leave out -xc, or -og (in the scene, too)",
-        ));
+        return Err(Error::ExactOrthographic);
     }
     Ok(())
 }
@@ -141,10 +137,7 @@ fn check_spectra(scene: &Scene, surface: &SurfaceAttributes, shift: ColorShift) 
     let has_spectra = scene.colors.iter().any(uglight::is_light);
     let is_hue = matches!(shift, ColorShift::Hues(shift) if shift != HueShift::NONE);
     if has_spectra && is_hue && (faces.any(|moves| moves) || wires.any(|moves| moves)) {
-        return Err(Error::Exact(
-            "-xc shifts hues, and a black body or spectrum of this scene moves: give -sp to shift all colours as \
-             spectra, or --no-doppler --no-flux to see the shape",
-        ));
+        return Err(Error::ExactMovingSpectrum);
     }
     Ok(())
 }

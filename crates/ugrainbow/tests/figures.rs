@@ -8,6 +8,7 @@ mod common;
 use common::{draw, scene};
 use ugimage::Format;
 use ugphysics::Hsv;
+use ugpipe::Words;
 use ugrainbow::{
     AnnotationOptions, Background, ColorShift, Config, Error, MAX_PIXELS, Output, PictureOptions, render, run,
 };
@@ -266,7 +267,7 @@ fn what_cannot_be_is_refused() {
     let check = |config: Config, part: &str| {
         let source = ugparse::Source::new("test.ug", SHIP);
         let error: Error = run(&config, &source).unwrap_err();
-        assert!(error.is_usage() && error.to_string().contains(part), "{error}");
+        assert!(error.is_usage() && error.words().contains(part), "{error}");
     };
     let with = |figures: AnnotationOptions| Config {
         picture: PictureOptions { size: [320, 240], annotations: figures, ..PictureOptions::default() },

@@ -8,6 +8,7 @@ use common::{file, light};
 use ugimage::{Development, Format, Quantizer};
 use ugparse::Source;
 use ugphysics::{Hsv, linear_srgb_to_xyz, luminance, srgb_decode, srgb_encode};
+use ugpipe::Words;
 use ugrainbow::{Background, Channel, Config, Exposure, Output, PictureOptions, Tone, render, run};
 
 const SQUARE: &str = "v a -4 -4 0; v b 4 -4 0; v c 4 4 0; v d -4 4 0;";
@@ -234,7 +235,7 @@ fn what_a_format_has_no_place_for_is_refused() {
         let (camera, _) = map(2, 2, 1);
         let error = run(config, &Source::new("t.ug", format!("{SQUARE} f (a b c d); {camera}"))).unwrap_err();
         assert!(error.is_usage());
-        assert!(error.to_string().contains(message), "{error}");
+        assert!(error.words().contains(message), "{error}");
     }
     let to = |format| Config {
         picture: PictureOptions { output: Output::Color(format), ..map(2, 2, 1).1.picture },

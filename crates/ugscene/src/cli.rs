@@ -1,5 +1,7 @@
 //! Options of camera and motion on the command line, the same in every program.
 
+mod words;
+
 use clap::{ArgAction, Args};
 use glam::DVec3;
 use ugpipe::{Failure, finite, vector, view_angle};

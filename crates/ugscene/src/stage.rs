@@ -1,26 +1,34 @@
 //! Checks that a scene is at the stage that a program requires: wrong orders of programs are
 //! refused.
 
-use std::fmt;
-
 use glam::DVec3;
+use thiserror::Error;
 use ugparse::{Body, BodyId, ColorScale, Diagnostic, Face, HueScale, Motion, Parsed, Scene};
 use ugpipe::remedies;
 
 use crate::words::point;
 
 /// Why a scene cannot go through a program: its stage is not the one the program needs.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Error, PartialEq)]
 pub enum StageError {
     /// Rest shapes are required, but positions are as seen.
+    #[error("positions in this scene are as seen already, so its rest shapes are not known")]
     GeometryAsSeen,
     /// Colours at rest are required, but colours are as seen.
+    #[error("colours in this scene are as seen already")]
     ColorsAsSeen,
     /// Positions as seen are required, but bodies move and have their rest shapes.
+    #[error("bodies in this scene move, and their positions are not as seen yet")]
     GeometryAtRest,
     /// Wavelengths are required, but colours as seen are hues.
+    #[error("colours in this scene are as seen, and are not written as wavelengths")]
     NotWavelengths,
     /// Positions are as seen from another eye point.
+    #[error(
+        "positions in this scene are as seen from the eye point {}, and would be wrong from {}",
+        point(*made_for),
+        point(*asked)
+    )]
     OtherEye {
         /// The eye point that positions were computed for.
         made_for: DVec3,
@@ -28,32 +36,6 @@ pub enum StageError {
         asked: DVec3,
     },
 }
-
-impl fmt::Display for StageError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::GeometryAsSeen => f.write_str(remedies::SEEN_GEOMETRY),
-            Self::ColorsAsSeen => f.write_str(remedies::SEEN_COLORS),
-            Self::GeometryAtRest => f.write_str(remedies::GEOMETRY_AT_REST),
-            Self::NotWavelengths => write!(
-                f,
-                "colours in this scene are as seen, and are not written as wavelengths: leave out -wi, or {}",
-                remedies::WRITE_WAVELENGTHS
-            ),
-            Self::OtherEye { made_for, asked } => write!(
-                f,
-                "positions in this scene are as seen from the eye point {}, and would be wrong from {}: \
-                 leave out -ep or -cam here, or {} (-ep {}) with the scene at rest",
-                point(*made_for),
-                point(*asked),
-                remedies::EYE_POINT,
-                point(*asked),
-            ),
-        }
-    }
-}
-
-impl std::error::Error for StageError {}
 
 /// True if a face or wire moves.
 pub fn has_moving_bodies(scene: &Scene) -> bool {

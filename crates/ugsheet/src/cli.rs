@@ -7,7 +7,7 @@ use clap::{ArgAction, Parser, ValueEnum};
 use ugimage::{Format, ReadError, read_history, read_png, read_png_header};
 use ugphysics::Hsv;
 use ugpipe::{
-    CommonArgs, Context, Failure, Input, MAX_INPUT, Manual, ToolArgs, finite, one_of, sha256, whole,
+    CommonArgs, Context, Failure, Input, MAX_INPUT, Manual, ToolArgs, Words, finite, one_of, sha256, whole,
 };
 
 use crate::recipe::{Recipe, recipes};
@@ -206,12 +206,25 @@ fn print_joined(args: &Args, context: &mut Context) -> Result<(), Failure> {
         let input = Input { text: std::mem::take(&mut inputs[idx].text), ..inputs[idx].clone() };
         read_png(&input.text).map(|(frame, _)| frame).map_err(|error| unreadable(&input, &error))
     };
-    let (frame, history) = join(&tiles, frame_of).map_err(Failure::failed)?;
+    let (frame, history) = join(&tiles, frame_of).map_err(|error| Failure::failed(error.words()))?;
     context.write(&Format::Png.encode(&frame, &history))
 }
 
 fn unreadable(input: &Input, error: &ReadError) -> Error {
     Error::Picture(format!("`{}`: {error}", input.name))
+}
+
+impl Words for Error {
+    fn words(&self) -> String {
+        let remedy = match self {
+            Self::Count { .. } => ": give -label once for each picture, in order, or not at all",
+            Self::Text { .. } => "; change the text, or use -label or -lb none",
+            Self::NoPart { .. } => " (-crop)",
+            Self::NoWholeSize { .. } => ": draw all tiles with -sz W H",
+            Self::Empty | Self::Size | Self::Picture(_) => "",
+        };
+        format!("{self}{remedy}")
+    }
 }
 
 /// What the help, the man page and the completions of the program say.
@@ -294,8 +307,8 @@ pub fn main() -> ExitCode {
             read_png(&input.text).map(|(frame, _)| frame).map_err(|error| unreadable(input, &error))
         };
         let frame = sheet(&config, &pictures, frame_of).map_err(|error| match error {
-            Error::Count { .. } | Error::Text { .. } => Failure::usage(error),
-            error => Failure::failed(error),
+            Error::Count { .. } | Error::Text { .. } => Failure::usage(error.words()),
+            error => Failure::failed(error.words()),
         })?;
         context.detail(&format!(
             "{} pictures on {} x {} pixels",

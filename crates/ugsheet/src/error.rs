@@ -14,7 +14,7 @@ pub enum Error {
     Empty,
     /// The number of labels is not the number of pictures.
     #[error(
-        "{labels} label{} for {pictures} picture{}: give -label once for each picture, in order, or not at all",
+        "{labels} label{} for {pictures} picture{}",
         plural(*labels), plural(*pictures)
     )]
     Count {
@@ -24,7 +24,7 @@ pub enum Error {
         pictures: usize,
     },
     /// The font lacks a character of a title, caption or label.
-    #[error("in `{text}`: {missing}; change the text, or use -label or -lb none")]
+    #[error("in `{text}`: {missing}")]
     Text {
         /// The whole text.
         text: String,
@@ -34,6 +34,18 @@ pub enum Error {
     /// The sheet has more than 2²⁸ pixels, or the pictures are too narrow for text.
     #[error("the sheet has more than {MAX_PIXELS} pixels; draw smaller pictures")]
     Size,
+    /// A tile whose history has no part of a picture.
+    #[error("`{name}`: its history does not state which part of a picture it is")]
+    NoPart {
+        /// The name of the tile.
+        name: String,
+    },
+    /// A tile whose history has no size of the whole picture.
+    #[error("`{name}`: its history does not state the size of the whole picture")]
+    NoWholeSize {
+        /// The name of the tile.
+        name: String,
+    },
     /// A picture cannot be read or joined to others; the message names it.
     #[error("{0}")]
     Picture(String),

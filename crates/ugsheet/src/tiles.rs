@@ -10,6 +10,9 @@ use crate::{Picture, copy};
 /// height.
 const PART: &str = "--crop";
 
+/// What a renderer records before the width and height of the whole picture.
+const SIZE: &str = "-sz";
+
 /// Joins tiles to the whole picture. Each is at the place that its history states, and what else
 /// its history states must be the same for all. The result has the pixels and the history of the
 /// whole picture drawn by one command. `frame_of` returns the pixels of a tile by its index; it is
@@ -83,15 +86,12 @@ fn whole_history(tile: &Picture) -> Result<Metadata, Error> {
 fn place(tile: &Picture) -> Result<[u32; 4], Error> {
     let place = numbers(tile, PART);
     let place = place.filter(|&[_, _, width, height]| [width, height] == tile.size);
-    place.ok_or_else(|| refused(tile, "its history does not state which part of a picture it is (-crop)"))
+    place.ok_or_else(|| Error::NoPart { name: tile.name.clone() })
 }
 
 /// Width and height of the whole picture.
 fn whole_size(tile: &Picture) -> Result<[u32; 2], Error> {
-    let stated = numbers(tile, "-sz");
-    stated.ok_or_else(|| {
-        refused(tile, "its history does not state the size of the whole picture: give -sz W H")
-    })
+    numbers(tile, SIZE).ok_or_else(|| Error::NoWholeSize { name: tile.name.clone() })
 }
 
 /// The numbers of an option in the last line of a history.
@@ -157,6 +157,6 @@ mod tests {
         assert_eq!(error(&[place(0, 1), other]), "`t`: not drawn by the command that drew `t`");
         assert!(error(&[tile("ug -sz 4 1", [4, 1])]).contains("which part of a picture it is"));
         assert!(error(&[tile("ug -sz 4 1 --crop 0 0 4 1", [3, 1])]).contains("which part of a picture"));
-        assert!(error(&[tile("ug --crop 0 0 4 1", [4, 1])]).contains("give -sz W H"));
+        assert!(error(&[tile("ug --crop 0 0 4 1", [4, 1])]).contains("size of the whole picture"));
     }
 }

@@ -1,5 +1,7 @@
 //! The command line.
 
+mod words;
+
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
@@ -14,7 +16,7 @@ use ugpicture::cli::{
     write_picture,
 };
 use ugpicture::lens::Lens;
-use ugpipe::{CommonArgs, Context, Failure, Input, Manual, ToolArgs, finite, one_of, sha256, vector};
+use ugpipe::{CommonArgs, Context, Failure, Input, Manual, ToolArgs, Words, finite, one_of, sha256, vector};
 use ugsky::{Basis, Extent, Star};
 
 use crate::arrangement::Arrangement;
@@ -308,7 +310,7 @@ impl Args {
             }
             let file = context.input_file(path)?;
             let band = open(&[&file.text], arrangement, self.extent())
-                .map_err(|error| Failure::Failed(format!("`{}`: {error}", file.name)))?;
+                .map_err(|error| Failure::Failed(format!("`{}`: {}", file.name, error.words())))?;
             opened.notes.extend(band.notes);
             opened.bands.extend(band.panorama.map(|panorama| Band { range_nm, panorama }));
         }
@@ -357,7 +359,7 @@ fn stars(input: &Input) -> Result<Vec<Star>, Failure> {
 }
 
 fn failure(error: Error) -> Failure {
-    if error.is_usage() { Failure::usage(error) } else { Failure::failed(error) }
+    if error.is_usage() { Failure::usage(error.words()) } else { Failure::failed(error.words()) }
 }
 
 /// The name of a brightness law.

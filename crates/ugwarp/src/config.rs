@@ -64,46 +64,36 @@ impl Config {
     /// Refuses options that exclude each other, and pictures that do not fit in memory.
     ///
     /// # Errors
-    /// [`Error::Options`], [`Error::Picture`].
+    /// See [`Error`].
     pub(crate) fn check(&self) -> Result<(), Error> {
         let picture = &self.picture;
-        let refused = |text| Err(Error::Options(text));
         if picture.camera.is_orthographic {
-            return refused("light from all directions meets at one point, so there is no -og: leave it out");
+            return Err(Error::Orthographic);
         }
         if picture.camera.name.is_some() {
-            return refused("a panorama has no cameras with names: leave out -cam, and give -vc and -va");
+            return Err(Error::NamedCamera);
         }
         if picture.annotations.outline || picture.annotations.grid {
-            return refused("outline and grid (-dl, -gr) are for scenes: leave them out");
+            return Err(Error::OutlineOrGrid);
         }
         let is_of_sky =
             |channel: &Channel| matches!(channel, Channel::Doppler | Channel::Direction | Channel::Velocity);
         if !picture.channels.iter().all(is_of_sky) {
-            return refused(
-                "a sky has no time, distance, Z or id (-ch): the channels of a panorama are D, direction and velocity",
-            );
+            return Err(Error::Channels);
         }
         if !(0.5..=50.0).contains(&self.stars.width) || !(-60.0..=60.0).contains(&self.stars.white) {
-            return refused(
-                "stars (--star-width, --white) are 0.5 to 50 pixels wide, and white has a magnitude from -60 to 60",
-            );
+            return Err(Error::Stars);
         }
         if self.basis == Basis::BlackBody && self.range_nm != ALL_NM {
-            return refused(
-                "the colours of --basis blackbody have infrared and ultraviolet light of their own: leave out --infrared \
-                 and --ultraviolet, or give --basis smooth",
-            );
+            return Err(Error::BlackBodyRange);
         }
         let [width, height] = picture.size;
         if self.lens == Lens::Cube {
             if u64::from(width) != 6 * u64::from(height) {
-                return refused(
-                    "a cube map (-cube) is six squares side by side: give -sz W H with W = 6 H, such as -sz 3072 512",
-                );
+                return Err(Error::CubeSize);
             }
             if picture.annotations.is_any() {
-                return refused("annotations (-cap, -lg) are for pictures of a single view: leave out -cube");
+                return Err(Error::AnnotatedCube);
             }
         }
         Ok(picture.check()?)

@@ -22,7 +22,15 @@ pub enum Error {
     #[error(transparent)]
     Panorama(#[from] PanoramaError),
     /// The sides of the picture have not the ratio of its arrangement.
-    #[error("{}", wrong_shape(*size, *arrangement))]
+    #[error(
+        "{} x {} pixels are not the shape of a {}",
+        .size[0], .size[1],
+        if *arrangement == Arrangement::Equirectangular {
+            "panorama, which is twice as wide as high"
+        } else {
+            arrangement.name()
+        }
+    )]
     Shape {
         /// Its pixels across and down.
         size: [u32; 2],
@@ -30,10 +38,7 @@ pub enum Error {
         arrangement: Arrangement,
     },
     /// There are not as many files as a cube has sides, or more than one for other arrangements.
-    #[error(
-        "{n_files} files were given: -from sides needs six, right, left, up, down, front and back, and others \
-         one"
-    )]
+    #[error("{n_files} files were given: a cube of sides needs six, and other panoramas one")]
     Sides {
         /// Their number.
         n_files: usize,
@@ -58,36 +63,43 @@ pub enum Error {
     /// The temperatures of a basis.
     #[error(transparent)]
     Basis(#[from] BasisError),
-    /// Options that exclude each other; the text says which, and what to do.
-    #[error("{0}")]
-    Options(&'static str),
+    /// Orthographic projection.
+    #[error("light from all directions meets at one point, so there is no orthographic projection")]
+    Orthographic,
+    /// The name of a camera.
+    #[error("a panorama has no cameras with names")]
+    NamedCamera,
+    /// Outline or grid.
+    #[error("outline and grid are for scenes")]
+    OutlineOrGrid,
+    /// A channel that light from infinitely far away does not have.
+    #[error("a sky has no time, distance, Z or id: the channels of a panorama are D, direction and velocity")]
+    Channels,
+    /// Width or magnitude of stars out of range.
+    #[error("stars are 0.5 to 50 pixels wide, and white has a magnitude from -60 to 60")]
+    Stars,
+    /// Panoramas of infrared or ultraviolet light, or a range of wavelengths, with spectra of black
+    /// bodies.
+    #[error("the colours of black bodies have infrared and ultraviolet light of their own")]
+    BlackBodyRange,
+    /// A cube map that is not six times as wide as high.
+    #[error("a cube map is six squares side by side")]
+    CubeSize,
+    /// Annotations of a cube map.
+    #[error("annotations are for pictures of a single view")]
+    AnnotatedCube,
 }
 
 const ORDINALS: [&str; 6] = ["first", "second", "third", "fourth", "fifth", "sixth"];
-
-fn wrong_shape([width, height]: [u32; 2], arrangement: Arrangement) -> String {
-    let (expected, remedy) = match arrangement {
-        Arrangement::Equirectangular => (
-            "panorama, which is twice as wide as high",
-            "give the angles that it shows with -part WEST EAST SOUTH NORTH, or -part -180 180 -90 90 if it shows \
-             all; a cube map needs -from strip or -from cross",
-        ),
-        _ => (
-            arrangement.name(),
-            "a strip is 6 squares across, a cross 4 across and 3 down, or 3 across and 4 down",
-        ),
-    };
-    format!("{width} x {height} pixels are not the shape of a {expected}: {remedy}")
-}
 
 impl Error {
     /// True if the command line is wrong, whatever the panorama.
     pub fn is_usage(&self) -> bool {
         match self {
             Self::Picture(error) => error.is_usage(),
-            Self::Options(_) | Self::Basis(_) | Self::Sides { .. } => true,
             Self::Panorama(error) => *error == PanoramaError::Extent,
             Self::Read { .. } | Self::Shape { .. } | Self::Side { .. } => false,
+            _ => true,
         }
     }
 }

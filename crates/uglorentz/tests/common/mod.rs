@@ -7,6 +7,7 @@ use std::fmt::Write;
 use glam::DVec3;
 use uglorentz::{Config, Report, Table};
 use ugparse::{Face, Options, Scene, Source, VertexId};
+use ugpipe::Words;
 use ugrandom::Random;
 
 /// A mesh as text: vertices `v0`, `v1`, … and faces by vertex row.
@@ -60,7 +61,7 @@ pub fn try_run(text: &str, config: &Config) -> Result<Outcome, String> {
     let config = &Config { eye: config.eye.or(origin), ..config.clone() };
     let (mut scene, report) = uglorentz::apply(parsed.scene, config).map_err(|error| {
         let diagnostics = error.diagnostics(&source, &parsed.origins);
-        diagnostics.map_or_else(|| error.to_string(), |diagnostics| diagnostics.to_string())
+        diagnostics.map_or_else(|| error.words(), |diagnostics| diagnostics.to_string())
     })?;
     ugscene::record(&mut scene, "uglorentz", env!("CARGO_PKG_VERSION"), "uglorentz");
     Ok(Outcome { scene, report })

@@ -77,10 +77,7 @@ impl Layout {
         options.check_size()?;
         let annotations = &options.annotations;
         if annotations.is_any() && options.output.is_linear() {
-            return Err(Error::Options(
-                "EXR, PFM and HDR pictures hold the light of the scene and nothing else: \
-                 leave out -cap, -lg, -dl and -gr, or write -dt png16",
-            ));
+            return Err(Error::NotAnnotated);
         }
         let style = Style::new(options.size, None, options.output);
         let [width, height] = options.size;
@@ -89,9 +86,7 @@ impl Layout {
         let legend_rows = if annotations.legend { legend::rows(&style, width) } else { Some(0) };
         let Some(legend_rows) = legend_rows.filter(|_| caption.iter().all(|line| line.width() <= room))
         else {
-            return Err(Error::Options(
-                "the picture is too narrow for a caption or legend: give a wider -sz, or leave out -cap and -lg",
-            ));
+            return Err(Error::TooNarrow);
         };
         let strips = legend_rows.saturating_add(caption_rows(&style, caption.len()));
         // Less than a third of the height is not enough for the scene.
@@ -99,9 +94,7 @@ impl Layout {
             Some(scene_rows) if scene_rows > 0 && scene_rows >= height / 3 => {
                 Ok(Self { size: options.size, scene_rows, legend_rows, caption })
             }
-            _ => Err(Error::Options(
-                "caption and legend leave no room for the picture: give a larger -sz, or a shorter -cap",
-            )),
+            _ => Err(Error::NoRoom),
         }
     }
 

@@ -112,7 +112,7 @@ pub fn explain(
 ) -> Result<(Explanation, Diagnostics), Error> {
     let parsed = ugscene::read(source, &config.reading, config.picture.camera.name.as_deref())?;
     if config.exact.is_some() {
-        return Err(Error::Options("--explain works in scanline mode only: leave out -xc"));
+        return Err(Error::ExplainExact);
     }
     let layout = Layout::new(&config.picture)?;
     let config = &Config { picture: layout.of_scene(&config.picture).into_owned(), ..config.clone() };

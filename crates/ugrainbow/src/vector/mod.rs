@@ -112,9 +112,7 @@ pub fn draw<'a>(
     }
     let layers = layers.telling(progress);
     if backdrop(&config.picture).light().is_none() && layers.has_transparent_faces() {
-        return Err(Error::Figure(
-            "vector graphics (-vec) with translucent faces need a background: give -bg 1, for paper, in place of -tb",
-        ));
+        return Err(Error::FigureBackground);
     }
     let seen = seen::faces(&setup, &layers);
     let development = if setup.is_uncut { Some(development(scene, config)?) } else { None };
@@ -320,7 +318,7 @@ mod tests {
         }
         let index = BoxIndex::new(patches.iter().map(Patch::bounds), [100, 100]);
         let work = Work::new(1 << 20);
-        assert!(matches!(order::painting_order(&patches, &index, &work), Err(Error::Figure(_))));
+        assert!(matches!(order::painting_order(&patches, &index, &work), Err(Error::FigureFaces)));
         // A face is compared with the others before the limit is seen.
         assert!(work.done() < (1 << 20) + 16 * 3000, "{work:?}");
         let work = Work::new(order::MOST_WORK);

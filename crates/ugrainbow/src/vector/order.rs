@@ -7,7 +7,6 @@
 //! is above all of them, so what lies below is painted first.
 
 use super::patch::Patch;
-use super::transparency::TOO_MANY_FACES;
 use super::work::Work;
 use crate::error::Error;
 use crate::planar::BoxIndex;
@@ -41,7 +40,7 @@ pub fn painting_order(patches: &[Patch], index: &BoxIndex, work: &Work) -> Resul
             _ => partition(patches, &group, &mut pieces, work),
         }
         if work.is_exceeded() {
-            return Err(Error::Figure(TOO_MANY_FACES));
+            return Err(Error::FigureFaces);
         }
     }
     Ok(pieces)

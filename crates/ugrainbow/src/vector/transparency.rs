@@ -19,10 +19,6 @@ const MOST_AREAS: usize = 1 << 16;
 /// Most work for the areas of a figure, which took about two seconds.
 const MOST_WORK: u64 = 1 << 26;
 
-/// Too many faces overlap.
-pub const TOO_MANY_FACES: &str = "faces, and the parts into which they cut each other, are too many for vector graphics: leave out -vec, \
-     and give a larger -sz for print";
-
 /// An area to paint, and the patches that are seen there.
 #[derive(Clone, Debug)]
 pub struct PaintedArea {
@@ -52,19 +48,15 @@ pub fn areas(patches: &[Patch], pieces: &[Piece], size: [u32; 2]) -> Result<Vec<
             areas.push(area);
         }
         if areas.all.len() > MOST_AREAS || areas.work.is_exceeded() {
-            return Err(Error::Figure(too_many(has_clear, pieces.len())));
+            return Err(too_many(has_clear, pieces.len()));
         }
     }
     Ok(areas.all)
 }
 
 /// Why there are too many areas of so many pieces.
-fn too_many(has_clear: bool, n_pieces: usize) -> &'static str {
-    if has_clear && n_pieces <= MOST_AREAS {
-        "too many translucent faces overlap for vector graphics: leave out -vec, and give a larger -sz for print"
-    } else {
-        TOO_MANY_FACES
-    }
+fn too_many(has_clear: bool, n_pieces: usize) -> Error {
+    if has_clear && n_pieces <= MOST_AREAS { Error::FigureOverlaps } else { Error::FigureFaces }
 }
 
 /// A piece with the background directly behind it.
@@ -153,9 +145,9 @@ mod tests {
 
     #[test]
     fn translucent_faces_are_blamed_only_if_they_add_the_areas() {
-        assert!(too_many(true, 1000).contains("translucent"));
-        assert!(!too_many(true, MOST_AREAS + 1).contains("translucent"));
-        assert!(!too_many(false, MOST_AREAS + 1).contains("translucent"));
+        assert!(matches!(too_many(true, 1000), Error::FigureOverlaps));
+        assert!(matches!(too_many(true, MOST_AREAS + 1), Error::FigureFaces));
+        assert!(matches!(too_many(false, MOST_AREAS + 1), Error::FigureFaces));
     }
 
     /// Panes in front of each other at random places: the work of the last piece is bounded, too.

@@ -4,6 +4,7 @@ use crate::common::scene;
 use crate::{BLACK, SQUARE, notes, plain};
 use ugimage::{LinearFrame, Samples};
 use ugphysics::Hsv;
+use ugpipe::Words;
 use ugrainbow::{
     Background, CameraOptions, Channel, Config, Error, HueScale, PictureOptions, Wireframe, light, render,
 };
@@ -21,7 +22,7 @@ fn sizes_that_do_not_fit_are_refused() {
         )
         .unwrap_err();
         assert!(error.is_usage());
-        assert_eq!(error.to_string(), message);
+        assert_eq!(error.words(), message);
     }
     check(
         [32_768, 16_384],
@@ -49,7 +50,7 @@ fn sizes_that_do_not_fit_are_refused() {
 fn scenes_without_a_picture_are_errors() {
     #[track_caller]
     fn check(text: &str, message: &str) {
-        assert_eq!(render(&scene(text), &plain(4, 4)).unwrap_err().to_string(), message);
+        assert_eq!(render(&scene(text), &plain(4, 4)).unwrap_err().words(), message);
     }
     assert!(matches!(render(&scene("v a 0 0 0; l 1;"), &plain(4, 4)), Err(Error::Empty)));
     check(

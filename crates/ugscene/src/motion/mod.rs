@@ -4,10 +4,9 @@
 mod camera_frame;
 mod placement;
 
-use std::fmt;
-
 use glam::DVec3;
 use rayon::prelude::*;
+use thiserror::Error;
 use ugparse::{BodyId, Camera, GeometryStage, Motion, Projection, Scene, SeenGeometry};
 use ugphysics::{Velocity, VelocityError};
 
@@ -47,20 +46,28 @@ pub enum Anchor {
 }
 
 /// Why the motions of a scene are invalid.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Error)]
 pub enum MotionError {
     /// Positions or colours of the scene are as seen already.
+    #[error(transparent)]
     Stage(StageError),
     /// [`MotionOptions::velocity`] is invalid.
+    #[error("velocity of the bodies: {0}")]
     Velocity(VelocityError),
     /// [`MotionOptions::camera_velocity`] is invalid.
+    #[error("velocity of the camera: {0}")]
     CameraVelocity(VelocityError),
     /// The velocity of a body relative to the camera rounds to the speed of light.
+    #[error(
+        "the body with velocity {} {} {} in the scene moves too close to the speed of light relative to the camera",
+        beta.x, beta.y, beta.z
+    )]
     TooFast {
         /// The body's velocity in the frame of the scene.
         beta: DVec3,
     },
     /// The camera is invalid.
+    #[error(transparent)]
     Camera(CameraError),
 }
 
@@ -70,25 +77,6 @@ impl MotionError {
         matches!(self, Self::Velocity(_) | Self::CameraVelocity(_) | Self::Camera(CameraError::NoUp))
     }
 }
-
-impl fmt::Display for MotionError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Stage(error) => error.fmt(f),
-            Self::Velocity(error) => write!(f, "-vel: {error}"),
-            Self::CameraVelocity(error) => write!(f, "-cv: {error}"),
-            Self::TooFast { beta } => write!(
-                f,
-                "the body with velocity {} {} {} in the scene moves too close to the speed of light relative to \
-                 the camera (-cv): make one of them slower",
-                beta.x, beta.y, beta.z
-            ),
-            Self::Camera(error) => error.fmt(f),
-        }
-    }
-}
-
-impl std::error::Error for MotionError {}
 
 /// Where the bodies of a scene are relative to the camera.
 #[derive(Clone, Debug)]

@@ -1,0 +1,31 @@
+//! Errors, with the options that correct them.
+
+use ugpipe::{Words, remedies};
+
+use crate::Error;
+
+impl Words for Error {
+    fn words(&self) -> String {
+        let words = match self {
+            Self::Scene(_) | Self::Empty => "{}",
+            Self::Picture(error) => return error.words(),
+            Self::Stage(error) => return error.words(),
+            Self::ExplainExact => "--explain works in scanline mode only: leave out -xc",
+            Self::ExactSeenColors => remedies::EXACT_SEEN_COLORS,
+            Self::ExactPartialGeometry => remedies::EXACT_PARTIAL_GEOMETRY,
+            Self::ExactOrthographic => {
+                "-xc follows rays to the eye, and in orthographic projection they do not meet there: \
+                 leave out -xc, or -og (in the scene, too)"
+            }
+            Self::ExactMovingSpectrum => {
+                "-xc shifts hues, and a black body or spectrum of this scene moves: give -sp to shift all colours as \
+                 spectra, or --no-doppler --no-flux to see the shape"
+            }
+            Self::FigureBackground => {
+                "vector graphics (-vec) with translucent faces need a background: give -bg 1, for paper, in place of -tb"
+            }
+            Self::FigureFaces | Self::FigureOverlaps => "{}: leave out -vec, and give a larger -sz for print",
+        };
+        words.replacen("{}", &self.to_string(), 1)
+    }
+}

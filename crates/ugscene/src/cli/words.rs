@@ -1,0 +1,48 @@
+//! Errors of cameras, motions and stages, with the options that correct them.
+
+use ugpipe::{Words, remedies};
+
+use crate::words::point;
+use crate::{CameraError, MotionError, StageError};
+
+impl Words for CameraError {
+    fn words(&self) -> String {
+        let words = match self {
+            Self::NoDirection { .. } => "{}; move the eye with -ep or the centre with -vc",
+            Self::NoUp => "-ud 0 0 0 has no direction; give one, such as -ud 0 0 1",
+            Self::ViewAngle(_) => "{}; give -va more than 0 and less than 180",
+            Self::Film => "{}; correct -fs and -fl of the `cam` statement, or give -va",
+            Self::FilmRectangle => "{}; give -ph of the `cam` statement as min x, min y, max x, max y",
+            Self::Clip(_) => "{}; give -cl of the `cam` statement as hither and a greater yon",
+        };
+        words.replacen("{}", &self.to_string(), 1)
+    }
+}
+
+impl Words for StageError {
+    fn words(&self) -> String {
+        match self {
+            Self::GeometryAsSeen => format!("{self}: {}", remedies::SEEN_GEOMETRY),
+            Self::ColorsAsSeen => format!("{self}: {}", remedies::SEEN_COLORS),
+            Self::GeometryAtRest => format!("{self}: {}", remedies::GEOMETRY_AT_REST),
+            Self::NotWavelengths => format!("{self}: leave out -wi, or {}", remedies::WRITE_WAVELENGTHS),
+            Self::OtherEye { asked, .. } => format!(
+                "{self}: leave out -ep or -cam here, or {} (-ep {}) with the scene at rest",
+                remedies::EYE_POINT,
+                point(*asked)
+            ),
+        }
+    }
+}
+
+impl Words for MotionError {
+    fn words(&self) -> String {
+        match self {
+            Self::Stage(error) => error.words(),
+            Self::Velocity(error) => format!("-vel: {error}"),
+            Self::CameraVelocity(error) => format!("-cv: {error}"),
+            Self::TooFast { .. } => format!("{self} (-cv): make one of them slower"),
+            Self::Camera(error) => error.words(),
+        }
+    }
+}

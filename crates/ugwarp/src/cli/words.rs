@@ -1,0 +1,50 @@
+//! Errors, with the options that correct them.
+
+use ugpipe::Words;
+
+use crate::Error;
+use crate::arrangement::Arrangement;
+
+impl Words for Error {
+    fn words(&self) -> String {
+        let words = match self {
+            Self::Read { .. } | Self::Panorama(_) | Self::Side { .. } | Self::Basis(_) => "{}",
+            Self::Picture(error) => return error.words(),
+            Self::Shape { arrangement: Arrangement::Equirectangular, .. } => {
+                "{}: give the angles that it shows with -part WEST EAST SOUTH NORTH, or -part -180 180 -90 90 if it \
+                 shows all; a cube map needs -from strip or -from cross"
+            }
+            Self::Shape { .. } => {
+                "{}: a strip is 6 squares across, a cross 4 across and 3 down, or 3 across and 4 down"
+            }
+            Self::Sides { n_files } => {
+                return format!(
+                    "{n_files} files were given: -from sides needs six, right, left, up, down, front and back, and \
+                     others one"
+                );
+            }
+            Self::Orthographic => {
+                "light from all directions meets at one point, so there is no -og: leave it out"
+            }
+            Self::NamedCamera => "{}: leave out -cam, and give -vc and -va",
+            Self::OutlineOrGrid => "outline and grid (-dl, -gr) are for scenes: leave them out",
+            Self::Channels => {
+                "a sky has no time, distance, Z or id (-ch): the channels of a panorama are D, direction and velocity"
+            }
+            Self::Stars => {
+                "stars (--star-width, --white) are 0.5 to 50 pixels wide, and white has a magnitude from -60 to 60"
+            }
+            Self::BlackBodyRange => {
+                "the colours of --basis blackbody have infrared and ultraviolet light of their own: leave out \
+                 --infrared and --ultraviolet, or give --basis smooth"
+            }
+            Self::CubeSize => {
+                "a cube map (-cube) is six squares side by side: give -sz W H with W = 6 H, such as -sz 3072 512"
+            }
+            Self::AnnotatedCube => {
+                "annotations (-cap, -lg) are for pictures of a single view: leave out -cube"
+            }
+        };
+        words.replacen("{}", &self.to_string(), 1)
+    }
+}
