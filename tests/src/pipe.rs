@@ -2,7 +2,7 @@
 //! between them.
 
 use glam::DVec3;
-use ugparse::{Options, Scene, Source};
+use ugparse::{Options, Provenance, Scene, Source};
 
 use crate::picture::{Picture, decode};
 
@@ -93,7 +93,7 @@ pub fn lorentz(text: &[u8], config: &uglorentz::Config) -> Vec<u8> {
 #[track_caller]
 fn lorentz_as(text: &[u8], config: &uglorentz::Config, command_line: &str) -> Vec<u8> {
     let (mut scene, _) = lorentz_scene(text, config).unwrap_or_else(|error| panic!("uglorentz: {error}"));
-    ugscene::record(&mut scene, "uglorentz", env!("CARGO_PKG_VERSION"), command_line);
+    ugscene::record(&mut scene, Provenance { command: Some(command_line), ..uglorentz::PROVENANCE });
     ugparse::write(&scene)
 }
 
@@ -126,7 +126,7 @@ pub fn doppler(text: &[u8], config: &ugdoppler::Config) -> Vec<u8> {
 fn doppler_as(text: &[u8], config: &ugdoppler::Config, command_line: &str) -> Vec<u8> {
     let applied = ugdoppler::apply(read(text, None), config);
     let (mut scene, _) = applied.unwrap_or_else(|error| panic!("ugdoppler: {error}"));
-    ugscene::record(&mut scene, "ugdoppler", env!("CARGO_PKG_VERSION"), command_line);
+    ugscene::record(&mut scene, Provenance { command: Some(command_line), ..ugdoppler::PROVENANCE });
     ugparse::write(&scene)
 }
 
@@ -146,6 +146,8 @@ pub fn rainbow(text: &[u8], config: &ugrainbow::Config) -> Vec<u8> {
 /// `ugrainbow`, with its command line in the history of the file.
 #[track_caller]
 pub fn rainbow_as(text: &[u8], config: &ugrainbow::Config, command_line: &str) -> Vec<u8> {
-    let picture = ugrainbow::run_with(config, &Source::new("<stdin>", text), command_line, &());
+    let command = Some(command_line).filter(|line| !line.is_empty());
+    let provenance = Provenance { command, ..ugrainbow::PROVENANCE };
+    let picture = ugrainbow::run_with(config, &Source::new("<stdin>", text), provenance, &());
     picture.unwrap_or_else(|error| panic!("ugrainbow: {error}")).bytes
 }

@@ -188,7 +188,7 @@ fn stages(
     end();
     let rendering = ugrainbow::render(&colored, &drawing.map_err(text)?)?;
     end();
-    let bytes = rendering.into_file(&ugrainbow::metadata(&colored, ""));
+    let bytes = rendering.into_file(&ugrainbow::metadata(&colored, ugrainbow::PROVENANCE));
     end();
     std::fs::write(file, bytes)?;
     end();

@@ -302,7 +302,12 @@ pub fn trace_once(out: &mut impl Write, scene: &Path) -> Result<(), Box<dyn Erro
     let camera = CameraOptions { view_angle: Some((2.0 * HALF_ANGLE, None)), ..CameraOptions::default() };
     let picture = PictureOptions { size: SIZE, samples: 1, camera, ..PictureOptions::default() };
     let steps = Steps::default();
-    std::hint::black_box(ugphoton::run(&Config { picture, ..Config::default() }, &source, "", &steps)?);
+    std::hint::black_box(ugphoton::run(
+        &Config { picture, ..Config::default() },
+        &source,
+        ugphoton::PROVENANCE,
+        &steps,
+    )?);
     let seconds = start.elapsed().as_secs_f64();
     let steps = steps.0.into_inner()?;
     let tracing = steps.iter().position(|(name, _)| *name == "tracing rays").ok_or("no step of tracing")?;

@@ -265,8 +265,8 @@ impl PictureCase {
             repeat: true,
             ..Default::default()
         };
-        let picture =
-            ugphoton::run(&config, &self.source("ugphoton"), "", &()).map_err(|error| error.to_string())?;
+        let picture = ugphoton::run(&config, &self.source("ugphoton"), ugphoton::PROVENANCE, &())
+            .map_err(|error| error.to_string())?;
         Ok(picture.bytes)
     }
 

@@ -8,12 +8,11 @@ use ugparse::{Options, Source};
 const SHIP: &str = "(ugstage 1 geometry as-seen eye 0 0 0) c green 0.5 120;
     v a 9 0 0; v b 9 1 0; v c 9 0 1; f (a b c) green <-0.3 0 0>;";
 
-/// The program `ugdoppler -gw` as a function.
+/// What `ugdoppler -gw` writes, without its history.
 fn colored(text: &str) -> Result<Vec<u8>, Box<dyn Error>> {
     let source = Source::new("ship.ug", text);
     let scene = ugscene::read(&source, &Options::default(), None)?.scene;
-    let (mut scene, _) = apply(scene, &Config { wavelengths: true, ..Config::default() })?;
-    ugscene::record(&mut scene, "ugdoppler", "0.1.0", "ugdoppler -gw");
+    let (scene, _) = apply(scene, &Config { wavelengths: true, ..Config::default() })?;
     Ok(ugparse::write(&scene))
 }
 

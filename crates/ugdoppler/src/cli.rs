@@ -4,15 +4,13 @@ use std::process::ExitCode;
 
 use clap::{ArgAction, Parser, ValueEnum};
 use glam::DVec3;
-use ugparse::{Diagnostic, Diagnostics, Origins, Source, pipe};
+use ugparse::{Diagnostic, Diagnostics, Origins, Provenance, Source, pipe};
 use ugphysics::{Brightness, Velocity};
 use ugpipe::{CommonArgs, Context, Failure, Manual, Progress, ToolArgs, Words};
 use ugscene::CameraError;
 use ugscene::cli::{EyeArgs, RepeatArgs};
 
-use crate::{Config, DEFAULT_TOLERANCE, Error, apply_with};
-
-const PROGRAM: &str = env!("CARGO_PKG_NAME");
+use crate::{Config, DEFAULT_TOLERANCE, Error, PROVENANCE, apply_with};
 
 /// Colours of a UniGrafix scene as seen in relativistic motion
 ///
@@ -192,7 +190,7 @@ fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
     let applied = apply_with(parsed.scene, &config, &steps);
     let (mut scene, report) = applied.map_err(|error| failure(error, &source, &parsed.origins))?;
     drop(steps);
-    ugscene::record(&mut scene, PROGRAM, env!("CARGO_PKG_VERSION"), context.command_line());
+    ugscene::record(&mut scene, Provenance { command: Some(context.command_line()), ..PROVENANCE });
     if !parsed.warnings.is_empty() {
         context.report(&parsed.warnings.render(true));
     }

@@ -46,7 +46,7 @@ mod xyz_statements;
 use glam::DVec3;
 use rayon::prelude::*;
 use uglight::{HueColor, HueShift, SpectralColor, VertexColor, hsv, hsv_and_factor, spectral_lamps};
-use ugparse::{Camera, ColorId, Scene};
+use ugparse::{Camera, ColorId, Provenance, Scene};
 use ugphysics::Hsv;
 use ugpipe::Progress;
 use ugscene::{CameraError, CameraOptions, DefaultCamera, Geometry, RelativeMotion, RestFrames, Shares};
@@ -59,6 +59,10 @@ pub use error::Error;
 use hue_statements::HueStatements;
 use irradiance::VertexIrradiance;
 use vertices::doppler_factors;
+
+/// This program, without a command line, for the history of what it makes.
+pub const PROVENANCE: Provenance<'static> =
+    Provenance { program: env!("CARGO_PKG_NAME"), version: env!("CARGO_PKG_VERSION"), command: None };
 
 /// What a user should know about a scene that was coloured.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

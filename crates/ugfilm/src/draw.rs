@@ -3,7 +3,7 @@
 use std::ffi::OsString;
 
 use ugimage::{Compression, Format, Frame, LinearFrame, Metadata};
-use ugparse::Scene;
+use ugparse::{Provenance, Scene};
 use ugpicture::cli::with_format;
 use ugpicture::{Image, Output};
 use ugpipe::{Failure, ToolArgs, Words, parse_words};
@@ -11,9 +11,6 @@ use ugscene::MotionOptions;
 
 use crate::program::Program;
 use crate::script::Commands;
-
-/// All programs have one version.
-const VERSION: &str = env!("CARGO_PKG_VERSION");
 
 /// A frame that was drawn.
 #[derive(Clone, Debug)]
@@ -146,11 +143,12 @@ impl Stages {
             Subject::Panorama(_, origin) => Scene { origin: Some(origin.to_owned()), ..Scene::default() },
         };
         self.filters.iter().for_each(|filter| filter.record(&mut head));
-        match &self.last {
-            Last::Rainbow(_, line) => ugrainbow::metadata(&head, line),
-            Last::Photon(_, line) => ugphoton::metadata(&head, line),
-            Last::Warp(_, line) => ugwarp::metadata(head.origin.as_deref(), line),
-        }
+        let (program, line) = match &self.last {
+            Last::Rainbow(_, line) => (ugrainbow::PROVENANCE, line),
+            Last::Photon(_, line) => (ugphoton::PROVENANCE, line),
+            Last::Warp(_, line) => (ugwarp::PROVENANCE, line),
+        };
+        ugpicture::metadata(&head, Provenance { command: Some(line), ..program })
     }
 
     /// Draws the frame.
@@ -272,10 +270,10 @@ impl Filter {
 
     fn record(&self, scene: &mut Scene) {
         let (program, line) = match self {
-            Self::Lorentz(_, line) => (Program::Lorentz, line),
-            Self::Doppler(_, line) => (Program::Doppler, line),
+            Self::Lorentz(_, line) => (uglorentz::PROVENANCE, line),
+            Self::Doppler(_, line) => (ugdoppler::PROVENANCE, line),
         };
-        ugscene::record(scene, program.command().get_name(), VERSION, line);
+        ugscene::record(scene, Provenance { command: Some(line), ..program });
     }
 }
 

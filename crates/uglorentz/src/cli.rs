@@ -6,11 +6,11 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::{ArgAction, Parser};
-use ugparse::{Origins, Source, pipe};
+use ugparse::{Origins, Provenance, Source, pipe};
 use ugpipe::{CommonArgs, Context, Failure, Manual, Progress, ToolArgs, Words, finite, whole};
 use ugscene::cli::{CameraArgs, EffectArgs, MotionArgs, RepeatArgs};
 
-use crate::{Config, DEFAULT_COLOR_ERROR, DEFAULT_ERROR, Error, Pieces, Table, measure};
+use crate::{Config, DEFAULT_COLOR_ERROR, DEFAULT_ERROR, Error, PROVENANCE, Pieces, Table, measure};
 
 /// Geometry of a UniGrafix scene as seen in relativistic motion
 ///
@@ -99,8 +99,6 @@ pub struct Args {
     common: CommonArgs,
 }
 
-const PROGRAM: &str = env!("CARGO_PKG_NAME");
-
 const CAMERA: &str = "Camera";
 
 const EXAMPLES: &str = "Examples:
@@ -130,7 +128,7 @@ fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
     let (mut scene, report) = crate::apply_with_progress(parsed.scene, &config, &steps)
         .map_err(|error| failure(error, &source, &parsed.origins))?;
     drop(steps);
-    ugscene::record(&mut scene, PROGRAM, env!("CARGO_PKG_VERSION"), context.command_line());
+    ugscene::record(&mut scene, Provenance { command: Some(context.command_line()), ..PROVENANCE });
     if !parsed.warnings.is_empty() {
         context.report(&parsed.warnings.render(true));
     }

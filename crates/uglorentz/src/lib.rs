@@ -95,5 +95,8 @@ pub use config::{Config, DEFAULT_COLOR_ERROR, DEFAULT_ERROR, Pieces};
 pub use error::Error;
 pub use measurement::Table;
 pub use report::{LargestError, RemainingErrors, Report};
-pub use ugscene::Anchor;
-pub use ugscene::{Measurement, measure};
+pub use ugscene::{Anchor, Measurement, Provenance, measure};
+
+/// This program, without a command line, for the history of what it makes.
+pub const PROVENANCE: Provenance<'static> =
+    Provenance { program: env!("CARGO_PKG_NAME"), version: env!("CARGO_PKG_VERSION"), command: None };

@@ -6,10 +6,10 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use clap::{Parser, ValueEnum};
-use ugparse::pipe;
+use ugparse::{Provenance, pipe};
 use ugpipe::{CommonArgs, Context, Failure, Manual, ToolArgs, Words};
 
-use crate::{Axis, Config, Error, Format, Input, Size, Target};
+use crate::{Axis, Config, Error, Format, Input, PROVENANCE, Size, Target};
 
 /// Converts meshes of other programs to UniGrafix and back
 ///
@@ -121,7 +121,7 @@ impl ToolArgs for Args {
 }
 
 impl Args {
-    fn config(&self, command_line: &str) -> Result<Config, Failure> {
+    fn config(&self) -> Result<Config, Failure> {
         if [self.scale, self.fit].into_iter().flatten().any(|size| size <= 0.0) {
             return Err(Failure::usage("sizes (-scale, -fit) must be above 0"));
         }
@@ -153,12 +153,16 @@ impl Args {
             rest_normals: self.rest_normals,
             name: self.name.clone().unwrap_or_default(),
             reading: pipe::options(&self.common)?,
-            command_line: match (self.dt, target) {
-                // A format that follows from the ending of -fo, so that the pipe can be run again.
-                (None, target) if target != Target::Ug => format!("{command_line} -dt {}", target.name()),
-                _ => command_line.to_string(),
-            },
         })
+    }
+
+    /// The command line to be recorded. A format that follows from the ending of -fo is part of it,
+    /// so that the pipe can be run again with another output.
+    fn with_format(&self, command_line: &str, target: Target) -> String {
+        match self.dt {
+            None if target != Target::Ug => format!("{command_line} -dt {}", target.name()),
+            _ => command_line.to_owned(),
+        }
     }
 
     /// The output format. An unknown extension is an error, so that no file has an extension that
@@ -244,7 +248,7 @@ pub fn manual() -> Manual {
 /// The program.
 pub fn main() -> ExitCode {
     ugpipe::main(|args: &Args, context: &mut Context| {
-        let config = args.config(context.command_line())?;
+        let config = args.config()?;
         if context.output_is_terminal() && config.target.is_binary() {
             return Err(Failure::usage(
                 "binary data is not written to a terminal; send it to a file with `> FILE` or -fo FILE",
@@ -253,7 +257,9 @@ pub fn main() -> ExitCode {
         let read = context.input()?;
         let read_file = |name: &str, limit| read_beside(context, args.common.input(), name, limit);
         let resolve_includes = |source| pipe::follow(source, &config.reading, context);
-        let input = Input::new(read.name, read.text).with_origin(pipe::origin(context));
+        let command_line = args.with_format(context.command_line(), config.target);
+        let provenance = Provenance { command: Some(&command_line), ..PROVENANCE };
+        let input = Input::new(read.name, read.text).with_history(pipe::origin(context), provenance);
         let input = input.with_files(&read_file).with_includes(&resolve_includes);
         let converted = crate::run(&config, &input).map_err(|error| match error {
             Error::Scene(findings) => pipe::refused(findings),

@@ -18,8 +18,7 @@
 //!
 //! ```
 //! let input = ugmesh::Input::new("tile.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n");
-//! let config = ugmesh::Config { command_line: "ugmesh".to_string(), ..Default::default() };
-//! let scene = String::from_utf8(ugmesh::run(&config, &input)?.bytes)?;
+//! let scene = String::from_utf8(ugmesh::run(&ugmesh::Config::default(), &input)?.bytes)?;
 //! // The up axis is y in OBJ and z in UniGrafix.
 //! assert!(scene.ends_with("v v3 1 0 1;\nv v4 0 0 1;\nf (v1 v2 v3 v4);\n"), "{scene}");
 //! # Ok::<(), Box<dyn std::error::Error>>(())
@@ -40,7 +39,7 @@ mod write;
 
 use std::io;
 
-use ugparse::{Diagnostics, Options, Origin, Scene, Source};
+use ugparse::{Diagnostics, Options, Origin, Provenance, Scene, Source};
 
 #[cfg(feature = "cli")]
 pub use cli::{Args, main, manual};
@@ -50,7 +49,9 @@ pub use placement::Size;
 
 use builder::Builder;
 
-const PROGRAM: &str = env!("CARGO_PKG_NAME");
+/// This program, without a command line, for the history of what it makes.
+pub const PROVENANCE: Provenance<'static> =
+    Provenance { program: env!("CARGO_PKG_NAME"), version: env!("CARGO_PKG_VERSION"), command: None };
 
 /// The options of a conversion.
 #[derive(Clone, Debug, Default)]
@@ -74,8 +75,6 @@ pub struct Config {
     pub name: String,
     /// The options for reading UniGrafix.
     pub reading: Options,
-    /// The command line, which is recorded in the history of the scene.
-    pub command_line: String,
 }
 
 /// Reads a file that a mesh refers to, such as its materials: at most as many bytes as the second
@@ -97,6 +96,8 @@ pub struct Input<'a> {
     pub resolve_includes: ResolveIncludes<'a>,
     /// What the history begins with, unless a scene has one.
     pub origin: Option<Origin>,
+    /// For the history of the scene.
+    pub provenance: Provenance<'a>,
 }
 
 impl<'a> Input<'a> {
@@ -109,12 +110,13 @@ impl<'a> Input<'a> {
             read_file: &|_, _| Err(io::ErrorKind::NotFound.into()),
             resolve_includes: &Ok,
             origin: None,
+            provenance: PROVENANCE,
         }
     }
 
-    /// The same mesh with an origin, which the history will begin with.
-    pub fn with_origin(self, origin: Origin) -> Self {
-        Self { origin: Some(origin), ..self }
+    /// The same mesh with a history, which begins with its origin.
+    pub fn with_history(self, origin: Origin, provenance: Provenance<'a>) -> Self {
+        Self { origin: Some(origin), provenance, ..self }
     }
 
     /// The same mesh with other files that it refers to, which `read_file` reads.
@@ -163,7 +165,7 @@ pub fn run(config: &Config, input: &Input) -> Result<Converted, Error> {
     if config.stage && config.target == Target::Ug {
         staging::add(&mut scene);
     }
-    ugscene::record(&mut scene, PROGRAM, env!("CARGO_PKG_VERSION"), &config.command_line);
+    ugscene::record(&mut scene, input.provenance);
     let (bytes, notes) = write::write(scene, config.target, is_placed)?;
     Ok(Converted { bytes, notes, warnings, diagnostics })
 }

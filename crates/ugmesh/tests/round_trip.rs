@@ -3,8 +3,8 @@
 mod common;
 
 use common::{Corner, convert, parse, seen, statements, to_mesh, to_scene};
-use ugmesh::{Axis, Config, Target};
-use ugparse::ColorValue;
+use ugmesh::{Axis, Config, Input, PROVENANCE, Target};
+use ugparse::{ColorValue, Provenance};
 use ugpipe::Words;
 
 /// Colours that 8 bits represent exactly, coordinates that 32 bits represent exactly, corners with
@@ -213,10 +213,14 @@ fn cameras_of_any_size_are_read_back() {
 
 #[test]
 fn history_and_licence_are_kept() {
-    let config = |target| Config { target, command_line: "ugmesh -dt x".to_string(), ..Config::default() };
+    let made = Provenance { command: Some("ugmesh -dt x"), ..PROVENANCE };
+    let convert = |target, name, bytes: &[u8]| {
+        let input = Input { provenance: made, ..Input::new(name, bytes) };
+        ugmesh::run(&Config { target, ..Config::default() }, &input).unwrap().bytes
+    };
     for target in [Target::Obj, Target::Ply { is_ascii: false }] {
-        let mesh = convert(&config(target), "a.ug", SCENE).unwrap().bytes;
-        let scene = to_scene(&config(Target::Ug), "<stdin>", mesh);
+        let mesh = convert(target, "a.ug", SCENE.as_bytes());
+        let scene = parse(&convert(Target::Ug, "<stdin>", &mesh));
         let line = concat!(" ugmesh ", env!("CARGO_PKG_VERSION"), ": ugmesh -dt x ");
         assert_eq!(scene.head, [" a licence ", line, line], "{target:?}");
     }

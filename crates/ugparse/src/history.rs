@@ -5,20 +5,36 @@ use crate::origin::Origin;
 use crate::scene::Scene;
 use crate::token;
 
-/// Appends a head comment with the name, version and command line of a program, after one with the
+/// The program that made a scene or a picture, and the command that makes it again.
+///
+/// By default nothing is stated. A library caller states name and version of its own program, and
+/// a command only if there is one.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Provenance<'s> {
+    /// Name of the program.
+    pub program: &'s str,
+    /// Version of the program.
+    pub version: &'s str,
+    /// The command line, which begins with the name of the program. Without it nothing is added to a
+    /// history.
+    pub command: Option<&'s str>,
+}
+
+/// Appends a head comment with a command and its program, after one with the
 /// [origin](Scene::origin) of a scene without a history.
-pub fn record(scene: &mut Scene, program: &str, version: &str, command_line: &str) {
+pub fn record(scene: &mut Scene, provenance: Provenance<'_>) {
+    let Provenance { program, version, command: Some(command) } = provenance else { return };
     if let Some(origin) = scene.origin.take()
         && history(scene).is_empty()
     {
         scene.head.push(format!(" {origin} "));
     }
-    scene.head.push(format!(" {program} {version}: {command_line} "));
+    scene.head.push(format!(" {program} {version}: {command} "));
 }
 
 /// The command lines recorded in a scene, oldest first.
 pub fn history(scene: &Scene) -> Vec<&str> {
-    entries(scene).map(|entry| entry.command_line).collect()
+    entries(scene).filter_map(|entry| entry.command).collect()
 }
 
 /// The history in one line for a shell, with the input of the first program, and with the hash of
@@ -29,15 +45,16 @@ pub fn history(scene: &Scene) -> Vec<&str> {
 /// 0.1.0
 /// ```
 ///
-/// `program`, `version` and `command_line`: the last program of the pipe. `None` if the origin of
-/// the scene is unknown. The comments of a scene may have been written by anybody, so check a
-/// line before a shell runs it.
-pub fn recipe(scene: &Scene, program: &str, version: &str, command_line: &str) -> Option<String> {
+/// `last`: the last program of the pipe. `None` if it has no command, or if the origin of the scene
+/// is unknown. The comments of a scene may have been written by anybody, so check a line before a
+/// shell runs it.
+pub fn recipe(scene: &Scene, last: Provenance<'_>) -> Option<String> {
+    last.command?;
     let origin = recorded_origin(scene).or(scene.origin.as_deref())?;
     let (_, name) = Origin::parts(origin)?;
-    let last = Entry { program, version, command_line };
-    let entries: Vec<Entry<'_>> = entries(scene).chain([last]).collect();
-    let mut commands: Vec<String> = entries.iter().map(|entry| entry.command_line.to_owned()).collect();
+    let entries: Vec<Provenance<'_>> = entries(scene).chain([last]).collect();
+    let mut commands: Vec<String> =
+        entries.iter().filter_map(|entry| entry.command).map(str::to_owned).collect();
     if name != "-" {
         commands[0].insert_str(entries[0].program.len(), &format!(" {name}"));
     }
@@ -58,26 +75,19 @@ pub fn has_history(text: &[u8]) -> bool {
     false
 }
 
-/// What a program recorded.
-struct Entry<'s> {
-    program: &'s str,
-    version: &'s str,
-    /// It begins with the name of the program.
-    command_line: &'s str,
-}
-
-fn entries(scene: &Scene) -> impl Iterator<Item = Entry<'_>> {
+/// What programs recorded, oldest first; each has a command.
+fn entries(scene: &Scene) -> impl Iterator<Item = Provenance<'_>> {
     scene.head.iter().filter_map(|comment| entry(comment))
 }
 
 /// `name version: command line`, where the name is one of the family's and the
 /// command line begins with it.
-fn entry(comment: &str) -> Option<Entry<'_>> {
-    let (title, command_line) = comment.trim().split_once(": ")?;
+fn entry(comment: &str) -> Option<Provenance<'_>> {
+    let (title, command) = comment.trim().split_once(": ")?;
     let (program, version) = title.split_once(' ')?;
     let is_version = version.starts_with(|c: char| c.is_ascii_digit()) && !version.contains(' ');
-    let is_ours = program.starts_with("ug") && command_line.split(' ').next() == Some(program);
-    (is_version && is_ours).then_some(Entry { program, version, command_line })
+    let is_ours = program.starts_with("ug") && command.split(' ').next() == Some(program);
+    (is_version && is_ours).then_some(Provenance { program, version, command: Some(command) })
 }
 
 /// The recorded hash and name.
@@ -89,6 +99,10 @@ fn recorded_origin(scene: &Scene) -> Option<&str> {
 mod tests {
     use super::*;
 
+    fn made<'s>(program: &'s str, version: &'s str, command: &'s str) -> Provenance<'s> {
+        Provenance { program, version, command: Some(command) }
+    }
+
     fn licensed() -> Scene {
         Scene { head: vec![" A licence: free for all ".to_string()], ..Scene::default() }
     }
@@ -96,11 +110,11 @@ mod tests {
     #[test]
     fn history_is_what_was_recorded() {
         let mut scene = licensed();
-        record(&mut scene, "uglorentz", "0.1.0", "uglorentz -vel .9 0 0");
-        record(&mut scene, "ugdoppler", "0.1.0", "ugdoppler");
+        record(&mut scene, made("uglorentz", "0.1.0", "uglorentz -vel .9 0 0"));
+        record(&mut scene, made("ugdoppler", "0.1.0", "ugdoppler"));
         assert_eq!(history(&scene), ["uglorentz -vel .9 0 0", "ugdoppler"]);
         assert_eq!(scene.head[0], " A licence: free for all ");
-        assert_eq!(recipe(&scene, "ugrainbow", "0.1.0", "ugrainbow"), None);
+        assert_eq!(recipe(&scene, made("ugrainbow", "0.1.0", "ugrainbow")), None);
         let text = crate::write(&scene);
         assert!(has_history(&text) && !has_history(&crate::write(&licensed())) && !has_history(b"{"));
     }
@@ -110,13 +124,13 @@ mod tests {
         let hash = "0123456789abcdef".repeat(4);
         let check = |name: &str, first: &str| {
             let mut scene = Scene { origin: Some(format!("SHA-256 {hash} {name}")), ..licensed() };
-            let alone = recipe(&scene, "ugrainbow", "0.1.0", "ugrainbow").expect("an origin");
+            let alone = recipe(&scene, made("ugrainbow", "0.1.0", "ugrainbow")).expect("an origin");
             assert!(alone.starts_with("ugrainbow ") && alone.ends_with("; ugrainbow 0.1.0"), "{alone}");
-            record(&mut scene, "uglorentz", "0.1.0", "uglorentz -vel .9 0 0");
+            record(&mut scene, made("uglorentz", "0.1.0", "uglorentz -vel .9 0 0"));
             // What a program downstream reads has no origin of its own.
             scene.origin = Some(format!("SHA-256 {} -", "0".repeat(64)));
-            record(&mut scene, "ugdoppler", "0.2.0", "ugdoppler");
-            let line = recipe(&scene, "ugrainbow", "0.1.0", "ugrainbow -sz 9 9");
+            record(&mut scene, made("ugdoppler", "0.2.0", "ugdoppler"));
+            let line = recipe(&scene, made("ugrainbow", "0.1.0", "ugrainbow -sz 9 9"));
             assert_eq!(
                 line.expect("an origin"),
                 format!(

@@ -80,7 +80,7 @@ pub use diagnostic::{Diagnostic, Diagnostics, Location, MAX_ERRORS, Severity};
 pub use expand::Origins;
 pub use flatness::{BENT, BentFace, FLAT, thickness};
 pub use foreign::{Foreign, foreign_data};
-pub use history::{has_history, history, recipe, record};
+pub use history::{Provenance, has_history, history, recipe, record};
 pub use include::{Request, RequestError, RequestKind, include};
 pub use names::{NameId, Names, UniqueNames};
 pub use options::{Limit, Limits, Options};

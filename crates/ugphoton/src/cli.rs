@@ -6,7 +6,7 @@ use std::path::Path;
 
 use clap::{ArgAction, Parser};
 use uglight::{ColorShift, HueShift, Interpolation, SpectralShift};
-use ugparse::{HueScale, pipe};
+use ugparse::{HueScale, Provenance, pipe};
 use ugphysics::Brightness;
 use ugpicture::Output;
 use ugpicture::cli::{
@@ -20,7 +20,7 @@ use crate::config::{Config, RayOptions, Shutter};
 use crate::error::Error;
 use crate::explain::{self, explain};
 use crate::lens::Lens;
-use crate::render::Drawing;
+use crate::render::{Drawing, PROVENANCE};
 
 /// Draws a UniGrafix scene in motion by tracing rays: mirrors, glass, shadows
 ///
@@ -298,7 +298,8 @@ pub fn draw(args: &Args, context: &mut Context) -> Result<(), Failure> {
     let preview = if args.pv { Some(context.replaceable_output().ok_or_else(no_preview)?) } else { None };
     let source = pipe::read(context, &config.reading)?;
     let command_line = with_format(context.command_line(), config.picture.output, args.dt.is_some());
-    let drawing = Drawing::read(&config, &source, &command_line, &context.steps()).map_err(failure)?;
+    let provenance = Provenance { command: Some(&command_line), ..PROVENANCE };
+    let drawing = Drawing::read(&config, &source, provenance, &context.steps()).map_err(failure)?;
     if let Some(file) = preview {
         for side in Drawing::PREVIEWS {
             Context::write_now(&file, &drawing.preview(side, &context.steps()).map_err(failure)?)?;

@@ -79,11 +79,13 @@ pub use cli::{Args, draw, manual};
 pub use config::{Config, RayOptions, Shutter};
 pub use error::Error;
 pub use explain::explain;
-pub use render::{Drawing, Rendering, light, metadata, render, run};
+pub use render::{Drawing, PROVENANCE, Rendering, light, render, run};
 pub use tracer::Way;
 pub use uglight::{ColorShift, HueShift, Interpolation, SpectralShift};
-pub use ugparse::HueScale;
+pub use ugparse::{HueScale, Provenance};
 use ugpicture::lens;
 pub use ugpicture::lens::Lens;
-pub use ugpicture::{Background, Channel, Exposure, Filter, Output, PictureFile, PictureOptions, Tone};
+pub use ugpicture::{
+    Background, Channel, Exposure, Filter, Output, PictureFile, PictureOptions, Tone, metadata,
+};
 pub use ugscene::{Anchor, CameraOptions, MotionOptions};

@@ -3,9 +3,9 @@
 use std::borrow::Cow;
 
 use ugimage::{Compression, Development, Frame, LinearFrame, Metadata};
-use ugparse::{Diagnostics, Scene, Source};
+use ugparse::{Diagnostics, Provenance, Scene, Source};
 use ugpicture::{
-    Annotated, Annotations, DepthBuffer, Exposure, Image, Layout, Output, PictureFile, SceneState,
+    Annotated, Annotations, DepthBuffer, Exposure, Image, Layout, Output, PictureFile, SceneState, metadata,
 };
 use ugpipe::Progress;
 use ugscene::{CameraOptions, PlacedBodies, RestPosition};
@@ -65,25 +65,21 @@ pub fn light(scene: Scene, config: &Config) -> Result<LinearFrame, Error> {
     Ok(pixels::light(&scenery, &config, &()).0)
 }
 
-const PROGRAM: &str = env!("CARGO_PKG_NAME");
+/// This program, without a command line, for the history of what it makes.
+pub const PROVENANCE: Provenance<'static> =
+    Provenance { program: env!("CARGO_PKG_NAME"), version: env!("CARGO_PKG_VERSION"), command: None };
 
-/// What a picture says about its making: our name and version, and the command lines that led to
-/// it. `command_line`: our own, empty if there is none.
-pub fn metadata(scene: &Scene, command_line: &str) -> Metadata {
-    ugpicture::metadata(scene, PROGRAM, env!("CARGO_PKG_VERSION"), command_line)
-}
-
-/// Reads a scene, renders it, and packs it into a file. `command_line`: as in [`metadata`].
+/// Reads a scene, renders it, and packs it into a file. `provenance`: for the history in the file.
 ///
 /// # Errors
 /// See [`Error`].
 pub fn run(
     config: &Config,
     source: &Source,
-    command_line: &str,
+    provenance: Provenance<'_>,
     progress: &dyn Progress,
 ) -> Result<PictureFile, Error> {
-    Drawing::read(config, source, command_line, progress)?.picture(progress)
+    Drawing::read(config, source, provenance, progress)?.picture(progress)
 }
 
 /// A scene that is prepared for drawing, as a preview or as the full picture.
@@ -97,21 +93,21 @@ impl Drawing {
     /// Sides of the squares of previews, in pixels, from coarse to fine.
     pub const PREVIEWS: [u32; 3] = [8, 4, 2];
 
-    /// Reads a scene. `command_line`: as in [`metadata`].
+    /// Reads a scene. `provenance`: for the history in the file.
     ///
     /// # Errors
     /// See [`Error`].
     pub fn read(
         config: &Config,
         source: &Source,
-        command_line: &str,
+        provenance: Provenance<'_>,
         progress: &dyn Progress,
     ) -> Result<Self, Error> {
         let layout = Layout::new(&config.picture)?;
         progress.step("reading", 0);
         let parsed = ugscene::read(source, &config.reading, config.picture.camera.name.as_deref())?;
         config.check()?;
-        let metadata = metadata(&parsed.scene, command_line);
+        let metadata = metadata(&parsed.scene, provenance);
         let prepared = Prepared::new(parsed.scene, config, layout, progress)?;
         Ok(Self { prepared, metadata, warnings: parsed.warnings })
     }

@@ -19,7 +19,7 @@ cam -ep 0 -6 2 -vc 0 0 .7 -ud 0 0 1;
 ";
 
 fn drawing(config: &Config) -> Drawing {
-    Drawing::read(config, &ugparse::Source::new("scene.ug", SCENE), "", &()).unwrap()
+    Drawing::read(config, &ugparse::Source::new("scene.ug", SCENE), ugphoton::PROVENANCE, &()).unwrap()
 }
 
 fn config(size: [u32; 2], crop: Option<[u32; 4]>) -> Config {

@@ -8,7 +8,7 @@ use std::path::Path;
 use clap::{ArgAction, Parser};
 use uglight::{ColorShift, HueShift, SpectralShift};
 use ugparse::HueScale;
-use ugparse::{Source, pipe};
+use ugparse::{Provenance, Source, pipe};
 use ugphysics::{Brightness, Hsv};
 use ugpicture::Output;
 use ugpicture::cli::{
@@ -21,7 +21,7 @@ use ugscene::cli::RepeatArgs;
 use crate::config::{Config, DepthCue, LINE_WIDTH, Wireframe};
 use crate::error::Error;
 use crate::explain::{self, explain};
-use crate::run_with;
+use crate::{PROVENANCE, run_with};
 use uglight::Interpolation;
 use values::{law, line_width};
 
@@ -290,7 +290,8 @@ pub fn draw(args: &Args, context: &mut Context) -> Result<(), Failure> {
         return explain_pixel(&config, &source, pixel, report, context);
     }
     let command_line = with_format(context.command_line(), config.picture.output, args.dt.is_some());
-    let picture = run_with(&config, &source, &command_line, &context.steps()).map_err(failure)?;
+    let provenance = Provenance { command: Some(&command_line), ..PROVENANCE };
+    let picture = run_with(&config, &source, provenance, &context.steps()).map_err(failure)?;
     write_picture(&picture, config.picture.size, context)
 }
 

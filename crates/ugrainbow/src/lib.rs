@@ -107,12 +107,12 @@ mod vector;
 pub use cli::{Args, draw, manual};
 pub use config::{Config, DepthCue, Wireframe};
 pub use error::Error;
-pub use render::{Prepared, Rendering, light, metadata, render, run, run_with};
+pub use render::{PROVENANCE, Prepared, Rendering, light, render, run, run_with};
 pub use uglight::{ColorShift, HueShift, Interpolation, SpectralShift};
-pub use ugparse::HueScale;
+pub use ugparse::{HueScale, Provenance};
 pub use ugpicture::{
     AnnotationOptions, Background, Channel, Exposure, Filter, MAX_PIXELS, MAX_SIDE, Output, PictureFile,
-    PictureOptions, Tone,
+    PictureOptions, Tone, metadata,
 };
 pub use ugscene::{CameraError, CameraOptions};
 pub use vector::VectorFigure;

@@ -1,8 +1,8 @@
 //! From a scene to a picture.
 
 use ugimage::{Compression, Frame, LinearFrame, Metadata};
-use ugparse::{Diagnostics, Parsed, Scene, Source};
-use ugpicture::{Image, Layout, Output, PictureFile};
+use ugparse::{Diagnostics, Parsed, Provenance, Scene, Source};
+use ugpicture::{Image, Layout, Output, PictureFile, metadata};
 use ugpipe::Progress;
 
 use crate::annotate::annotate;
@@ -58,7 +58,9 @@ pub fn render(scene: &Scene, config: &Config) -> Result<Rendering, Error> {
     render_with(scene, config, &Layout::new(&config.picture)?, &())
 }
 
-const PROGRAM: &str = env!("CARGO_PKG_NAME");
+/// This program, without a command line, for the history of what it makes.
+pub const PROVENANCE: Provenance<'static> =
+    Provenance { program: env!("CARGO_PKG_NAME"), version: env!("CARGO_PKG_VERSION"), command: None };
 
 /// The linear light of a scene, without exposure and gamut mapping: white is 1. Options for the
 /// file, exposure, tone curve and annotations are ignored.
@@ -74,29 +76,22 @@ pub fn light(scene: &Scene, config: &Config) -> Result<LinearFrame, Error> {
     Ok(pixels::light(&setup, &layers, &config).0)
 }
 
-/// What a picture says about its making: our name and version, the command lines of the whole pipe,
-/// and the pipe in one line (see [`ugscene::recipe`]). `command_line`: our own, empty if there is
-/// none.
-pub fn metadata(scene: &Scene, command_line: &str) -> Metadata {
-    ugpicture::metadata(scene, PROGRAM, env!("CARGO_PKG_VERSION"), command_line)
-}
-
 /// Reads a scene, renders it, and packs it into a file.
 ///
 /// # Errors
 /// See [`Error`].
 pub fn run(config: &Config, source: &Source) -> Result<PictureFile, Error> {
-    run_with(config, source, "", &())
+    run_with(config, source, PROVENANCE, &())
 }
 
-/// Like [`run`], and reports progress. `command_line`: as in [`metadata`].
+/// Like [`run`], and reports progress. `provenance`: for the history in the file.
 ///
 /// # Errors
 /// See [`Error`].
 pub fn run_with(
     config: &Config,
     source: &Source,
-    command_line: &str,
+    provenance: Provenance<'_>,
     progress: &dyn Progress,
 ) -> Result<PictureFile, Error> {
     let layout = Layout::new(&config.picture)?;
@@ -106,7 +101,7 @@ pub fn run_with(
     let rendering = render_with(&parsed.scene, config, &layout, progress)?;
     progress.step("compression", 0);
     let notes = rendering.notes.clone();
-    let bytes = rendering.into_file(&metadata(&parsed.scene, command_line));
+    let bytes = rendering.into_file(&metadata(&parsed.scene, provenance));
     Ok(PictureFile { bytes, notes, warnings: warnings(source, parsed) })
 }
 

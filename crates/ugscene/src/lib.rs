@@ -75,4 +75,4 @@ pub use stage::{
 };
 pub use vtk_polygons::VtkPolygons;
 
-pub use ugparse::{history, recipe, record};
+pub use ugparse::{Provenance, history, recipe, record};

@@ -9,6 +9,7 @@ use clap::{ArgAction, Parser};
 use glam::DVec3;
 use ugimage::Format;
 use uglight::{ColorShift, HueShift, SpectralShift};
+use ugparse::Provenance;
 use ugphysics::{Brightness, Velocity};
 use ugpicture::Output;
 use ugpicture::cli::{
@@ -23,7 +24,7 @@ use crate::arrangement::Arrangement;
 use crate::config::{Config, StarOptions};
 use crate::error::Error;
 use crate::open::{Band, Opened, open};
-use crate::render::{VISIBLE_NM, metadata, run};
+use crate::render::{PROVENANCE, VISIBLE_NM, metadata, run};
 use crate::star_list::{is_star_list, read_stars};
 
 /// Shows a 360-degree panorama as a fast traveller sees it
@@ -348,7 +349,7 @@ pub fn draw(args: &Args, context: &mut Context) -> Result<(), Failure> {
     let opened = args.open(&input, context)?;
     let command_line = with_format(context.command_line(), config.picture.output, args.dt.is_some());
     let origin = format!("SHA-256 {} {}", sha256(&input.text), context.recorded_name());
-    let metadata = metadata(Some(&origin), &command_line);
+    let metadata = metadata(Some(&origin), Provenance { command: Some(&command_line), ..PROVENANCE });
     let picture = run(&config, &opened, &metadata, &context.steps()).map_err(failure)?;
     write_picture(&picture, config.picture.size, context)
 }

@@ -5,7 +5,7 @@ use std::ops::Range;
 use rayon::prelude::*;
 use ugimage::{Compression, Development, Format, Frame, LinearFrame, Metadata};
 use uglight::{ColorShift, SpectralShift};
-use ugparse::{Diagnostics, Scene, Source};
+use ugparse::{Diagnostics, Provenance, Scene, Source};
 use ugpicture::{
     Annotated, Annotations, Background, DepthBuffer, Error as PictureError, Exposure, Image, Layout, Output,
     PictureFile, SceneState, channel_planes,
@@ -143,11 +143,14 @@ fn push_channels(frame: &mut LinearFrame, warp: &Warp, config: &Config) {
     }
 }
 
-/// What a picture says about its making: our name and version, the command line, and the hash and
-/// name of the panorama. `command_line`: our own, empty if there is none.
-pub fn metadata(origin: Option<&str>, command_line: &str) -> Metadata {
+/// This program, without a command line, for the history of what it makes.
+pub const PROVENANCE: Provenance<'static> =
+    Provenance { program: env!("CARGO_PKG_NAME"), version: env!("CARGO_PKG_VERSION"), command: None };
+
+/// What a picture says about its making. `origin`: hash and name of the panorama.
+pub fn metadata(origin: Option<&str>, provenance: Provenance<'_>) -> Metadata {
     let scene = Scene { origin: origin.map(str::to_owned), ..Scene::default() };
-    ugpicture::metadata(&scene, env!("CARGO_PKG_NAME"), env!("CARGO_PKG_VERSION"), command_line)
+    ugpicture::metadata(&scene, provenance)
 }
 
 /// Makes a picture of a panorama and packs it into a file.

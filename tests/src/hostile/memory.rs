@@ -81,7 +81,9 @@ fn stages(seed: u64, text: &[u8], options: &Options) -> Result<Vec<u8>, String> 
         return Err(format!("ugrainbow: the light of a pixel is {pixel:?}"));
     }
     match ugrainbow::render(&scene, &rainbow) {
-        Ok(rendering) => Ok([written, rendering.into_file(&ugrainbow::metadata(&scene, ""))].concat()),
+        Ok(rendering) => {
+            Ok([written, rendering.into_file(&ugrainbow::metadata(&scene, ugrainbow::PROVENANCE))].concat())
+        }
         Err(error) => Ok(error.to_string().into_bytes()),
     }
 }
@@ -106,7 +108,6 @@ pub fn mesh(format: ugmesh::Format, bytes: &[u8]) -> Result<(), String> {
             format: Some(format),
             target,
             reading: Options { limits: Limits::default(), ..Options::default() },
-            command_line: "ugmesh".to_owned(),
             ..ugmesh::Config::default()
         };
         let read_file = |_: &str, limit: u64| -> io::Result<Vec<u8>> {

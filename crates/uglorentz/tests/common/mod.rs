@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 
 use glam::DVec3;
-use uglorentz::{Config, Report, Table};
+use uglorentz::{Config, PROVENANCE, Provenance, Report, Table};
 use ugparse::{Face, Options, Scene, Source, VertexId};
 use ugpipe::Words;
 use ugrandom::Random;
@@ -63,7 +63,7 @@ pub fn try_run(text: &str, config: &Config) -> Result<Outcome, String> {
         let diagnostics = error.diagnostics(&source, &parsed.origins);
         diagnostics.map_or_else(|| error.words(), |diagnostics| diagnostics.to_string())
     })?;
-    ugscene::record(&mut scene, "uglorentz", env!("CARGO_PKG_VERSION"), "uglorentz");
+    ugscene::record(&mut scene, Provenance { command: Some("uglorentz"), ..PROVENANCE });
     Ok(Outcome { scene, report })
 }
 
