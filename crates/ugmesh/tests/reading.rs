@@ -418,7 +418,7 @@ fn scaling_out_of_range_is_an_error() {
 fn errors_name_the_problem_and_line() {
     #[track_caller]
     fn check(name: &str, bytes: impl Into<Vec<u8>>, expected: &str) {
-        assert_eq!(convert(&Config::default(), name, bytes).unwrap_err().to_string(), expected);
+        assert_eq!(convert(&Config::default(), name, bytes).unwrap_err().words(), expected);
     }
     check("a", "", "cannot detect the format of `a`; give it with -if ug, obj, ply, stl, off or gltf");
     check(
