@@ -7,6 +7,7 @@ use std::fmt::Write;
 use glam::DVec3;
 use ugmesh::{Format, Input, Target};
 use ugparse::{Options, Scene, Source};
+use ugpipe::Words;
 use ugtests::picture::{Picture, decode};
 
 /// A body with a knob, so that no side looks like another: vertices on rings around y, which is up
@@ -93,7 +94,10 @@ fn drawn(text: &[u8], size: [u32; 2]) -> (Picture, Vec<String>) {
     let mut config = ugrainbow::Config::default();
     (config.picture.size, config.picture.samples) = (size, 1);
     let picture = ugrainbow::run(&config, &Source::new("blob.ug", text)).unwrap();
-    (decode(&picture.bytes), picture.notes.into_iter().filter(|note| note.contains("camera")).collect())
+    (
+        decode(&picture.bytes),
+        picture.notes.iter().map(Words::words).filter(|note| note.contains("camera")).collect(),
+    )
 }
 
 /// Checks the part of the picture's sides between the outermost pixels that are not background.

@@ -1,6 +1,7 @@
 //! Exact pictures: independence of threads, refused input, and notes.
 
 use glam::DVec3;
+use ugpipe::Words;
 use ugrainbow::{ColorShift, SpectralShift};
 use ugtests::pipe::{Pipe, lorentz, rainbow};
 use ugtests::scenes;
@@ -24,7 +25,7 @@ fn threads_do_not_change_the_picture() {
 fn unsupported_scenes_are_refused() {
     let refusal = |pipe: &Pipe, text: &[u8]| {
         let source = ugparse::Source::new("test.ug", text);
-        ugrainbow::run(&pipe.rainbow, &source).err().map(|error| error.to_string())
+        ugrainbow::run(&pipe.rainbow, &source).err().map(|error| error.words())
     };
     let mut pipe = exact(Some(0.5 * DVec3::X));
     let seen = lorentz(SQUARE.as_bytes(), &pipe.lorentz);
@@ -54,7 +55,8 @@ fn moving_lights_cause_a_note() {
     let notes = |text: &str| {
         let seen = format!("(ugstage 1 geometry as-seen eye 0 0 0) {text}");
         let scene = scenes::parse(seen.as_bytes());
-        ugrainbow::render(&scene, &exact(None).rainbow).unwrap().notes.join("; ")
+        let notes = ugrainbow::render(&scene, &exact(None).rainbow).unwrap().notes;
+        notes.iter().map(Words::words).collect::<Vec<_>>().join("; ")
     };
     assert_eq!(notes(SQUARE), "");
     let moving = notes(&SQUARE.replace("l .7 1 -2 .5;", "l .7 1 -2 .5 <0 .5 0>;"));

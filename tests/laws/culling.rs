@@ -1,6 +1,7 @@
 //! `-cull` omits invisible faces, and no others.
 
 use glam::DVec3;
+use ugpipe::Words;
 use ugscene::{CameraOptions, Geometry};
 use ugtests::picture::assert_same;
 use ugtests::pipe::{Pipe, lorentz_scene};
@@ -115,7 +116,10 @@ fn where_the_camera_looks_must_be_known() {
     let config = uglorentz::Config { size: SIZE, cull: true, ..Default::default() };
     let error = lorentz_scene(text, &config).unwrap_err();
     assert!(error.is_usage());
-    assert_eq!(error.to_string(), "culling needs the view centre of the camera");
+    assert_eq!(
+        error.words(),
+        "-cull needs the view centre of the camera: give it with -vc, or in the `cam` statement of the scene"
+    );
     // Everything is behind the camera; one face is kept, because a scene without faces is invalid.
     let camera = CameraOptions { center: Some(DVec3::NEG_ONE), ..Default::default() };
     let (scene, report) = lorentz_scene(text, &uglorentz::Config { camera, ..config }).unwrap();

@@ -223,7 +223,7 @@ fn no_lights_no_change() {
     let text = room("");
     let config = lit();
     let (scene, report) = ugdoppler::apply(scenes::parse(&text), &config).unwrap();
-    assert!(report.notes.iter().any(|note| note.starts_with("no lights")), "{:?}", report.notes);
+    assert!(report.notes.iter().any(|note| note.to_string().starts_with("no lights")), "{:?}", report.notes);
     assert!(scene.lights.is_empty());
     let plain = Config { light: false, ..config };
     assert_eq!(numbers(&ugparse::write(&scene)), numbers(&doppler(&text, &plain)));

@@ -10,7 +10,7 @@ use ugpipe::{CommonArgs, Context, Failure, Manual, Progress, ToolArgs, Words};
 use ugscene::CameraError;
 use ugscene::cli::{EyeArgs, RepeatArgs};
 
-use crate::{Config, DEFAULT_TOLERANCE, Error, PROVENANCE, apply_with};
+use crate::{Config, DEFAULT_TOLERANCE, Error, Note, PROVENANCE, apply_with};
 
 /// Colours of a UniGrafix scene as seen in relativistic motion
 ///
@@ -194,7 +194,7 @@ fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
     if !parsed.warnings.is_empty() {
         context.report(&parsed.warnings.render(true));
     }
-    report.notes.iter().for_each(|note| context.note(note));
+    report.notes.iter().for_each(|note| context.note(&note.words()));
     context.detail(&format!("{} vertices, {} colours", scene.vertices.len(), scene.colors.len()));
     context.write_with(|out| ugparse::write_to(&scene, out))
 }
@@ -209,6 +209,17 @@ fn failure(error: Error, source: &Source, origins: &Origins) -> Failure {
             pipe::refused(Diagnostics::one(source, finding))
         }
         error => Failure::failed(error.words()),
+    }
+}
+
+impl Words for Note {
+    fn words(&self) -> String {
+        match self {
+            Self::Scene(note) => note.words(),
+            Self::Kept(_) => format!("{self}; -ir scales it to 1.0"),
+            Self::NoLights => "no lights in the scene, so -li puts none into its colours".to_owned(),
+            Self::Scaled(_) | Self::Clipped(_) | Self::TooSaturated { .. } => self.to_string(),
+        }
     }
 }
 

@@ -7,7 +7,7 @@ use ugphysics::{Hsv, hue_to_wavelength, linear_srgb_to_xyz, srgb_decode, srgb_en
 
 use crate::Config;
 use crate::digits::digits;
-use crate::notes::{clipped, kept, scaled};
+use crate::notes::Note;
 
 /// The longest visible wavelength, nm: there a relative step of D changes the wavelength most.
 const LONGEST_NM: f64 = 780.0;
@@ -216,7 +216,7 @@ impl<'s> HueStatements<'s> {
 
     /// Clips or scales values above 1, unless they are kept, and converts the colours that the
     /// scene had at first to the scale of the output. Returns what to tell the user.
-    pub fn finish(mut self) -> Vec<String> {
+    pub fn finish(mut self) -> Vec<Note> {
         if self.config.wavelengths {
             for color in &mut self.scene.colors[..self.n_given] {
                 color.value = match color.value {
@@ -236,7 +236,7 @@ impl<'s> HueStatements<'s> {
 
     /// Divides the values of vertices by the largest. Those of lights stay, for they multiply what
     /// is scaled here.
-    fn scale_values(&mut self) -> Vec<String> {
+    fn scale_values(&mut self) -> Vec<Note> {
         let largest = self.largest;
         let is_linear = self.shift.law.acts_on_light();
         let scaled_channel = |channel: f64| srgb_encode(srgb_decode(channel) / largest).min(1.0);
@@ -264,7 +264,7 @@ impl<'s> HueStatements<'s> {
                 spectrum @ ColorValue::Spectrum { .. } => spectrum,
             };
         }
-        vec![scaled(largest)]
+        vec![Note::Scaled(largest)]
     }
 
     /// Gives lights that share a colour with vertices a copy of it, which is not scaled.
@@ -283,12 +283,12 @@ impl<'s> HueStatements<'s> {
         }
     }
 
-    fn clip_values(&mut self) -> Vec<String> {
+    fn clip_values(&mut self) -> Vec<Note> {
         if self.largest <= 1.0 {
             return Vec::new();
         }
         if self.config.keep {
-            return vec![kept(self.largest)];
+            return vec![Note::Kept(self.largest)];
         }
         let is_linear = self.shift.law.acts_on_light();
         for color in &mut self.scene.colors[self.n_given..] {
@@ -300,7 +300,7 @@ impl<'s> HueStatements<'s> {
                 }
             }
         }
-        vec![clipped(self.largest)]
+        vec![Note::Clipped(self.largest)]
     }
 }
 

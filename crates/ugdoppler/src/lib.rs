@@ -55,6 +55,7 @@ use ugscene::{CameraError, CameraOptions, DefaultCamera, Geometry, RelativeMotio
 pub use cli::{Args, main, manual};
 pub use config::{Config, DEFAULT_TOLERANCE};
 pub use error::Error;
+pub use notes::Note;
 
 use hue_statements::HueStatements;
 use irradiance::VertexIrradiance;
@@ -65,10 +66,10 @@ pub const PROVENANCE: Provenance<'static> =
     Provenance { program: env!("CARGO_PKG_NAME"), version: env!("CARGO_PKG_VERSION"), command: None };
 
 /// What a user should know about a scene that was coloured.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Report {
-    /// One sentence each.
-    pub notes: Vec<String>,
+    /// In the order in which they are shown.
+    pub notes: Vec<Note>,
 }
 
 /// The scene with a colour as seen on every vertex that a face or wire uses.
@@ -102,7 +103,7 @@ pub fn apply_with(scene: Scene, config: &Config, progress: &dyn Progress) -> Res
     if let Some(camera) = default_camera {
         let (eye, center) = (Some(camera.eye), Some(camera.center));
         scene.cameras.push(Camera { eye, center, ..Camera::default() });
-        notes.insert(0, camera.to_string());
+        notes.insert(0, Note::Scene(ugscene::Note::DefaultCamera(camera)));
     }
     if let Some(eye) = config.eye {
         set_eye(&mut scene, eye)?;
@@ -142,11 +143,11 @@ fn color(
     config: &Config,
     eye: DVec3,
     frames: &RestFrames,
-) -> Result<(Scene, Vec<String>), Error> {
+) -> Result<(Scene, Vec<Note>), Error> {
     let stage = stage::with_seen_colors(&scene, config, eye);
     ugscene::separate_bodies(&mut scene);
     ugscene::repeat_vertices(&mut scene, config.repeat);
-    let mixing_note = ugscene::mixing_note(&scene);
+    let mixing_note = ugscene::Note::mixed_colors(&scene);
     // Only for lamps, and for the angles at which colours of faces meet.
     let needs_rest = config.light || scene.vertices.iter().any(|vertex| vertex.color.is_none());
     let rest = if needs_rest { ugscene::rest_positions(&scene, eye, frames) } else { Vec::new() };
@@ -171,11 +172,11 @@ fn color(
                 None => statements.set(row, color, doppler),
             }
         }
-        statements.finish().into_iter().chain(spectra_note).collect()
+        statements.finish().into_iter().chain(spectra_note.map(Note::Scene)).collect()
     };
-    notes.extend(mixing_note);
+    notes.extend(mixing_note.map(Note::Scene));
     if config.light && scene.lights.is_empty() {
-        notes.push("no lights in the scene, so -li puts none into its colours".to_string());
+        notes.push(Note::NoLights);
     } else if config.light {
         irradiance::replace_lights(&mut scene);
     }

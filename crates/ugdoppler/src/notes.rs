@@ -1,15 +1,42 @@
-//! Notes for the user on values above 1.
+//! What a user should know about a scene that was coloured.
 
-pub(crate) fn scaled(largest: f64) -> String {
-    format!("max intensity is {}, scaled to 1.0", shown(largest))
+use std::fmt;
+
+/// What a user should know about a scene that was coloured.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Note {
+    /// About the scene itself.
+    Scene(ugscene::Note),
+    /// Values up to this were scaled to 1.
+    Scaled(f64),
+    /// Values up to this were clipped to 1.
+    Clipped(f64),
+    /// Values up to this were kept.
+    Kept(f64),
+    /// A colour has no smooth spectrum.
+    TooSaturated {
+        /// Its name.
+        color: String,
+    },
+    /// The light of the scene is to be put into its colours, and there is none.
+    NoLights,
 }
 
-pub(crate) fn clipped(largest: f64) -> String {
-    format!("max intensity is {}, clip to 1.0", shown(largest))
-}
-
-pub(crate) fn kept(largest: f64) -> String {
-    format!("max intensity is {}, kept for the renderer; -ir scales it to 1.0", shown(largest))
+impl fmt::Display for Note {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Scene(note) => note.fmt(f),
+            Self::Scaled(largest) => write!(f, "max intensity is {}, scaled to 1.0", shown(*largest)),
+            Self::Clipped(largest) => write!(f, "max intensity is {}, clip to 1.0", shown(*largest)),
+            Self::Kept(largest) => write!(f, "max intensity is {}, kept for the renderer", shown(*largest)),
+            Self::TooSaturated { color } => write!(
+                f,
+                "colour `{color}` is more saturated than a smooth spectrum can be, and is brought toward grey; \
+                 give it by `c_spd`"
+            ),
+            Self::NoLights => f.write_str("no lights in the scene, so its colours contain none"),
+        }
+    }
 }
 
 /// A value with about three significant digits.

@@ -9,7 +9,7 @@ use ugscene::Shares;
 use ugspectrum::DopplerGrid;
 
 use crate::Config;
-use crate::notes::{kept, scaled};
+use crate::notes::Note;
 use crate::quantization::DopplerQuantizer;
 
 /// Gives every used vertex the X, Y, Z with which the spectra of its colours are seen, or those of
@@ -22,7 +22,7 @@ pub(crate) fn write(
     factors: &[f64],
     used: &[bool],
     lit: Option<&[Option<[f64; 3]>]>,
-) -> Vec<String> {
+) -> Vec<Note> {
     let lit = Lit::new(lit.unwrap_or_default(), used);
     let used = &*lit.others;
     let shift = config.spectral_shift();
@@ -156,24 +156,22 @@ pub(crate) fn finite(xyz: [f64; 3]) -> [f64; 3] {
 
 /// With `iris` scales the largest channel of linear sRGB to 1. Returns what to tell the user of
 /// values above 1.
-fn expose(seen: &mut [[f64; 3]], iris: bool) -> Option<String> {
+fn expose(seen: &mut [[f64; 3]], iris: bool) -> Option<Note> {
     let brightest = |&xyz: &[f64; 3]| xyz_to_linear_srgb(xyz).into_iter().fold(0.0, f64::max);
     // The largest X, Y, Z overflow in linear sRGB.
     let largest = seen.iter().map(brightest).fold(0.0, f64::max).min(f64::MAX);
     if iris && largest > 0.0 {
         seen.iter_mut().flatten().for_each(|part| *part /= largest);
-        return (largest != 1.0).then(|| scaled(largest));
+        return (largest != 1.0).then_some(Note::Scaled(largest));
     }
     // By rounding, white may be slightly above 1.
-    (largest > 1.0 + 1e-9).then(|| kept(largest))
+    (largest > 1.0 + 1e-9).then_some(Note::Kept(largest))
 }
 
-fn changed_note(scene: &Scene, colors: &[Option<SpectralColor>]) -> Option<String> {
+fn changed_note(scene: &Scene, colors: &[Option<SpectralColor>]) -> Option<Note> {
     let row = colors.iter().position(|color| color.as_ref().is_some_and(|color| !color.is_exact()))?;
     let name = scene.names.get(scene.colors[row.checked_sub(1)?].name);
-    Some(format!(
-        "colour `{name}` is more saturated than a smooth spectrum can be, and is brought toward grey; give it by `c_spd`"
-    ))
+    Some(Note::TooSaturated { color: name.to_owned() })
 }
 
 fn push_colors(
@@ -281,8 +279,8 @@ mod tests {
     #[test]
     fn the_largest_light_is_exposed() {
         let mut seen = [[f64::MAX, 0.0, 0.0], [1.0; 3]];
-        assert_eq!(expose(&mut seen, false), Some(kept(f64::MAX)));
-        assert_eq!(expose(&mut seen, true), Some(scaled(f64::MAX)));
+        assert_eq!(expose(&mut seen, false), Some(Note::Kept(f64::MAX)));
+        assert_eq!(expose(&mut seen, true), Some(Note::Scaled(f64::MAX)));
         assert_eq!(seen[0], [1.0, 0.0, 0.0]);
     }
 }

@@ -15,7 +15,7 @@ const SCENE: &str = "c green 0.5 120; c grey 0.4; c_rgb rose 1 0.5 0.5;
 
 fn colour(text: &str, config: &Config) -> (Scene, Vec<String>) {
     let (scene, report) = apply(parsed("t.ug", text), config).unwrap_or_else(|error| panic!("{error}"));
-    (parsed("out.ug", ugparse::write(&scene)), report.notes)
+    (parsed("out.ug", ugparse::write(&scene)), report.notes.iter().map(Words::words).collect())
 }
 
 fn parsed(name: &str, text: impl Into<Vec<u8>>) -> Scene {

@@ -5,11 +5,12 @@ use glam::DVec3;
 use ugdoppler::{Config, apply};
 use ugparse::{ColorValue, Options, Scene, Source, Tint};
 use ugphysics::{Velocity, WHITE_XYZ, doppler_at, linear_srgb_to_xyz, srgb_decode, xyz_to_linear_srgb};
+use ugpipe::Words;
 use ugspectrum::{Spectrum, blackbody_luminance_ratio};
 
 fn colour(text: &str, config: &Config) -> (Scene, Vec<String>) {
     let (scene, report) = apply(parsed("t.ug", text), config).unwrap_or_else(|error| panic!("{error}"));
-    (parsed("out.ug", ugparse::write(&scene)), report.notes)
+    (parsed("out.ug", ugparse::write(&scene)), report.notes.iter().map(Words::words).collect())
 }
 
 fn parsed(name: &str, text: impl Into<Vec<u8>>) -> Scene {

@@ -9,7 +9,7 @@ use ugparse::{Scene, pipe};
 use ugpipe::{
     CommonArgs, Context, Failure, Input, Manual, ToolArgs, Words, finite, one_of, parse_words, sha256, whole,
 };
-use ugscene::{CameraOptions, DefaultCamera, MotionOptions};
+use ugscene::{CameraOptions, DefaultCamera, MotionOptions, Note};
 
 use crate::blur::MotionBlur;
 use crate::draw::{Stages, Subject};
@@ -240,7 +240,7 @@ impl Read {
             context.report(&parsed.warnings.render(true));
         }
         if let Some(camera) = default_camera(&parsed.scene, script)? {
-            context.note(&format!("{camera}, in all frames"));
+            context.note(&format!("{}, in all frames", Note::DefaultCamera(camera).words()));
             let words = |point: [f64; 3]| point.map(|part| part.to_string()).to_vec();
             script.set("ep", words(camera.eye.to_array()));
             script.set("vc", words(camera.center.to_array()));

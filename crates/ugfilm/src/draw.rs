@@ -161,17 +161,17 @@ impl Stages {
             (Last::Rainbow(config, _), Subject::Scene(scene)) => {
                 let scene = self.filtered(scene, &mut notes)?;
                 let rendering = ugrainbow::render(&scene, config).map_err(failed)?;
-                notes.extend(named(Program::Rainbow, &rendering.notes));
+                notes.extend(named(Program::Rainbow, &words(&rendering.notes)));
                 Picture::Rainbow(rendering)
             }
             (Last::Photon(config, _), Subject::Scene(scene)) => {
                 let rendering = ugphoton::render(scene.clone(), config).map_err(failed)?;
-                notes.extend(named(Program::Photon, &rendering.notes));
+                notes.extend(named(Program::Photon, &words(&rendering.notes)));
                 Picture::Photon(rendering)
             }
             (Last::Warp(config, _), Subject::Panorama(panorama, _)) => {
                 let rendering = ugwarp::render(panorama, config).map_err(failed)?;
-                notes.extend(named(Program::Warp, &rendering.notes));
+                notes.extend(named(Program::Warp, &words(&rendering.notes)));
                 Picture::Warp(rendering)
             }
             _ => return Err(other_subject()),
@@ -262,7 +262,7 @@ impl Filter {
             }
             Self::Doppler(config, _) => {
                 let (scene, report) = ugdoppler::apply(scene, config).map_err(failed)?;
-                notes.extend(named(Program::Doppler, &report.notes));
+                notes.extend(named(Program::Doppler, &words(&report.notes)));
                 Ok(scene)
             }
         }
@@ -275,6 +275,10 @@ impl Filter {
         };
         ugscene::record(scene, Provenance { command: Some(line), ..program });
     }
+}
+
+fn words(notes: &[impl Words]) -> Vec<String> {
+    notes.iter().map(Words::words).collect()
 }
 
 fn failed(error: impl Words) -> Failure {

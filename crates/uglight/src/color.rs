@@ -2,7 +2,7 @@
 
 use ugparse::{Color, ColorId, ColorValue, Scene, Tint};
 use ugphysics::{Hsv, srgb_decode, srgb_encode, wavelength_to_hue, xyz_to_linear_srgb};
-use ugpipe::remedies::SHIFT_SPECTRA;
+use ugscene::Note;
 use ugspectrum::Spectrum;
 
 /// A colour statement as hue in degrees, saturation and value.
@@ -100,9 +100,9 @@ pub fn spectrum(scene: &Scene, color: &Color) -> (Spectrum, bool) {
     }
 }
 
-/// The note for the user of a scene where something is drawn or lit with a black body or spectrum,
-/// of which [`hsv`] uses the colour at rest only.
-pub fn spectra_note(scene: &Scene) -> Option<String> {
+/// The note on a scene where something is drawn or lit with a black body or spectrum, of which [`hsv`]
+/// uses the colour at rest only.
+pub fn spectra_note(scene: &Scene) -> Option<Note> {
     let has_spectrum =
         |color: &Color| matches!(color.value, ColorValue::Blackbody { .. } | ColorValue::Spectrum { .. });
     // Most scenes have none, and there is no need to test their vertices.
@@ -120,10 +120,7 @@ pub fn spectra_note(scene: &Scene) -> Option<String> {
     let wires = scene.wires.iter().filter(|wire| needs_color(&wire.contours)).filter_map(|wire| wire.color);
     let lights = scene.lights.iter().filter_map(|light| light.color);
     let color = vertices.chain(faces).chain(wires).chain(lights).find(is_spectrum)?;
-    let name = scene.names.get(scene.colors[color.index()].name);
-    Some(format!(
-        "black bodies and spectra count with their colour at rest (colour `{name}`): {SHIFT_SPECTRA}"
-    ))
+    Some(Note::SpectraAtRest { color: scene.names.get(scene.colors[color.index()].name).to_owned() })
 }
 
 #[cfg(test)]

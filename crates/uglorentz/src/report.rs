@@ -1,11 +1,8 @@
-//! What was done, as numbers and as messages.
+//! What was done.
 
 use std::fmt::{self, Display, Formatter};
 
 use ugscene::DefaultCamera;
-
-use crate::adaptive::MAX_PIECES;
-use crate::criterion::MAX_GENERATION;
 
 /// What [`crate::apply`] did.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -51,53 +48,6 @@ pub struct LargestError {
     pub error: f64,
     /// Names of the two or three vertices it is between; empty if there is no error.
     pub at: Vec<String>,
-}
-
-impl Report {
-    /// Messages about results that are not as requested.
-    pub fn warnings(&self) -> Vec<String> {
-        let mut warnings = Vec::new();
-        let left = match &self.remaining_errors {
-            Some(errors) => format!("; errors left: {errors}"),
-            None => String::new(),
-        };
-        if self.is_full {
-            warnings.push(format!(
-                "subdivision stopped at {MAX_PIECES} pieces: the error of some edges is above the bound; \
-                 a larger bound (-se) needs fewer pieces{left}"
-            ));
-        }
-        if self.n_uncut > 0 {
-            warnings.push(format!(
-                "{} faces are right at their edges only: their contours intersect or enclose no area, so they \
-                 cannot be subdivided; correct them{left}",
-                self.n_uncut
-            ));
-        }
-        if self.n_too_deep > 0 {
-            warnings.push(format!(
-                "the error of {} edges is above the bound after {MAX_GENERATION} halvings: they pass close to \
-                 the eye, or colours change by orders of magnitude along them; if it is visible, move the eye \
-                 (-ep), reduce the speed, or bound only shapes (-sc off){left}",
-                self.n_too_deep
-            ));
-        }
-        warnings
-    }
-
-    /// What was chosen for the user.
-    pub fn notes(&self) -> Vec<String> {
-        self.default_camera.iter().map(DefaultCamera::to_string).collect()
-    }
-
-    /// Statistics, for `-vb`.
-    pub fn details(&self) -> Vec<String> {
-        let added =
-            format!("subdivision added {} faces and {} vertices", self.n_new_faces, self.n_new_vertices);
-        let errors = self.remaining_errors.as_ref().map(|errors| format!("errors left: {errors}"));
-        let culled = (self.n_culled > 0).then(|| format!("removed {} faces outside the view", self.n_culled));
-        [added].into_iter().chain(culled).chain(errors).collect()
-    }
 }
 
 impl Display for RemainingErrors {

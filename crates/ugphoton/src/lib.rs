@@ -86,6 +86,6 @@ pub use ugparse::{HueScale, Provenance};
 use ugpicture::lens;
 pub use ugpicture::lens::Lens;
 pub use ugpicture::{
-    Background, Channel, Exposure, Filter, Output, PictureFile, PictureOptions, Tone, metadata,
+    Background, Channel, Exposure, Filter, Note, Output, PictureFile, PictureOptions, Tone, metadata,
 };
 pub use ugscene::{Anchor, CameraOptions, MotionOptions};

@@ -5,7 +5,8 @@ use std::borrow::Cow;
 use ugimage::{Compression, Development, Frame, LinearFrame, Metadata};
 use ugparse::{Diagnostics, Provenance, Scene, Source};
 use ugpicture::{
-    Annotated, Annotations, DepthBuffer, Exposure, Image, Layout, Output, PictureFile, SceneState, metadata,
+    Annotated, Annotations, DepthBuffer, Exposure, Image, Layout, Note, Output, PictureFile, SceneState,
+    metadata,
 };
 use ugpipe::Progress;
 use ugscene::{CameraOptions, PlacedBodies, RestPosition};
@@ -26,8 +27,8 @@ pub struct Rendering {
     compression: Compression,
     /// Samples that were traced. Those that two tiles need are counted twice.
     pub n_samples: u64,
-    /// Notes for the user, one sentence each.
-    pub notes: Vec<String>,
+    /// What the user should know about it.
+    pub notes: Vec<Note>,
 }
 
 impl Rendering {

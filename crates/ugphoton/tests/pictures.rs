@@ -5,7 +5,7 @@ use glam::DVec3;
 use rayon::ThreadPoolBuilder;
 use ugimage::{Format, LinearFrame, Samples};
 use ugphoton::{
-    Anchor, Background, CameraOptions, Channel, Config, Exposure, Filter, Lens, MotionOptions, Output,
+    Anchor, Background, CameraOptions, Channel, Config, Exposure, Filter, Lens, MotionOptions, Note, Output,
     PictureOptions, RayOptions, Shutter, light, render,
 };
 use ugphysics::{Hsv, Velocity, Wave};
@@ -541,14 +541,14 @@ fn endless_mirrors_end() {
     config.picture.samples = 1;
     config.rays = RayOptions { depth: 64, cutoff: 0.0, ..RayOptions::default() };
     let notes = render(scene(&text), &config).unwrap().notes;
-    assert!(notes.iter().any(|note| note.contains("cut short")), "{notes:?}");
-    let of_open_solids = |notes: &[String]| notes.iter().any(|note| note.contains("the solid is open"));
+    assert!(notes.contains(&Note::CutShort), "{notes:?}");
+    let of_open_solids = |notes: &[Note]| notes.contains(&Note::OpenSolid);
     // The eye is inside both boxes, which are closed.
     assert!(!of_open_solids(&notes), "{notes:?}");
     config.rays = RayOptions { depth: 3, ..RayOptions::default() };
     let notes = render(scene(&text), &config).unwrap().notes;
-    assert!(!notes.iter().any(|note| note.contains("cut short")), "{notes:?}");
-    assert!(notes.iter().any(|note| note.contains("end after 3 reflections")), "{notes:?}");
+    assert!(!notes.contains(&Note::CutShort), "{notes:?}");
+    assert!(notes.iter().any(|note| matches!(note, Note::TooDeep { depth: 3, .. })), "{notes:?}");
     let without_a_wall = text.replacen("f (phigh20 phigh21 phigh22 phigh23) white both;", "", 1);
     assert_ne!(without_a_wall, text);
     let notes = render(scene(&without_a_wall), &config).unwrap().notes;

@@ -8,7 +8,7 @@ use std::path::Path;
 use clap::{ArgAction, Args};
 use ugimage::{Filter, Format, Tone};
 use ugphysics::Hsv;
-use ugpipe::{Context, Failure, finite, one_of, whole};
+use ugpipe::{Context, Failure, Words, finite, one_of, whole};
 use ugscene::cli::CameraArgs;
 
 use crate::background::Background;
@@ -289,7 +289,7 @@ pub fn write_picture(picture: &PictureFile, size: [u32; 2], context: &mut Contex
     if !picture.warnings.is_empty() {
         context.report(&picture.warnings.render(true));
     }
-    picture.notes.iter().for_each(|note| context.note(note));
+    picture.notes.iter().for_each(|note| context.note(&note.words()));
     context.detail(&format!("drew {} x {} pixels", size[0], size[1]));
     context.write(&picture.bytes)
 }

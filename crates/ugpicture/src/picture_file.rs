@@ -2,13 +2,15 @@
 
 use ugparse::Diagnostics;
 
+use crate::note::Note;
+
 /// A picture as a file.
 #[derive(Clone, Debug)]
 pub struct PictureFile {
     /// The whole file.
     pub bytes: Vec<u8>,
-    /// Notes for the user, one sentence each.
-    pub notes: Vec<String>,
+    /// What the user should know about it.
+    pub notes: Vec<Note>,
     /// Warnings about the text of the scene.
     pub warnings: Diagnostics,
 }

@@ -1,7 +1,8 @@
 //! Messages that tell a person which program of the family to use.
 //!
 //! No other source spells the name of a sibling program (`tests/tidy.rs` checks it): a
-//! program learns what was done to a scene from its stage, never from a name.
+//! program learns what was done to a scene from its stage, never from a name. `{}` stands for what
+//! is wrong.
 
 /// Positions were made as seen already, and rest shapes are needed.
 pub const SEEN_GEOMETRY: &str = "start again from the scene at rest, and go through uglorentz once";
@@ -32,16 +33,14 @@ pub const EXACT_PARTIAL_GEOMETRY: &str = "-xc follows rays through contraction a
 pub const MOVING_LIGHTS: &str = "`ugdoppler -li` draws with them";
 
 /// Nothing is in front of the eye.
-pub const NOTHING_IN_FRONT: &str = "nothing is drawn: everything is behind the eye or outside the clipping distances; \
-     try `uglorentz --keep-in-view`, another -ep or -vc";
+pub const NOTHING_IN_FRONT: &str = "{}; try `uglorentz --keep-in-view`, another -ep or -vc";
 
 /// Nothing is in the picture.
-pub const NOTHING_IN_PICTURE: &str = "nothing is drawn: everything is outside the picture, where fast bodies often are; \
-     try `uglorentz --keep-in-view`, another -vc or a wider -va";
+pub const NOTHING_IN_PICTURE: &str = "{}; try `uglorentz --keep-in-view`, another -vc or a wider -va";
 
 /// Most or everything is shifted out of the visible range.
-pub const OUT_OF_RANGE: &str = "its wavelengths are outside 380-780 nm; \
-     try a lower speed, or `ugdoppler --no-doppler --no-flux` to see the shape";
+pub const OUT_OF_RANGE: &str =
+    "{}; try a lower speed, or `ugdoppler --no-doppler --no-flux` to see the shape";
 
 /// Vertices have colours as seen, so they cannot be repeated for the colours of faces.
 pub const REPEAT_EARLIER: &str =

@@ -111,8 +111,8 @@ pub use render::{PROVENANCE, Prepared, Rendering, light, render, run, run_with};
 pub use uglight::{ColorShift, HueShift, Interpolation, SpectralShift};
 pub use ugparse::{HueScale, Provenance};
 pub use ugpicture::{
-    AnnotationOptions, Background, Channel, Exposure, Filter, MAX_PIXELS, MAX_SIDE, Output, PictureFile,
-    PictureOptions, Tone, metadata,
+    AnnotationOptions, Background, Channel, Exposure, Filter, MAX_PIXELS, MAX_SIDE, Note, Output,
+    PictureFile, PictureOptions, Tone, metadata,
 };
 pub use ugscene::{CameraError, CameraOptions};
 pub use vector::VectorFigure;

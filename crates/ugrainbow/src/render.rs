@@ -2,7 +2,7 @@
 
 use ugimage::{Compression, Frame, LinearFrame, Metadata};
 use ugparse::{Diagnostics, Parsed, Provenance, Scene, Source};
-use ugpicture::{Image, Layout, Output, PictureFile, metadata};
+use ugpicture::{Image, Layout, Note, Output, PictureFile, metadata};
 use ugpipe::Progress;
 
 use crate::annotate::annotate;
@@ -21,8 +21,8 @@ pub struct Rendering {
     content: Content,
     output: Output,
     compression: Compression,
-    /// Notes for the user, one sentence each.
-    pub notes: Vec<String>,
+    /// What the user should know about it.
+    pub notes: Vec<Note>,
 }
 
 #[derive(Clone, Debug)]

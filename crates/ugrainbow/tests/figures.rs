@@ -10,7 +10,8 @@ use ugimage::Format;
 use ugphysics::Hsv;
 use ugpipe::Words;
 use ugrainbow::{
-    AnnotationOptions, Background, ColorShift, Config, Error, MAX_PIXELS, Output, PictureOptions, render, run,
+    AnnotationOptions, Background, ColorShift, Config, Error, MAX_PIXELS, Note, Output, PictureOptions,
+    render, run,
 };
 
 const SHIP: &str = "(ugstage 1 geometry as-seen eye 0 -9 3) c green 1 120 .8; l 1; cam -ep 0 -9 3 -vc 0 0 .5;
@@ -340,7 +341,7 @@ fn at_rest_there_is_a_legend_but_no_outline() {
     };
     let rendering = render(AnnotationOptions { outline: true, ..strips() });
     let notes = &rendering.notes;
-    assert!(notes.iter().any(|note| note.starts_with("nothing moves")), "{notes:?}");
+    assert!(notes.contains(&Note::NoOutline), "{notes:?}");
     assert_eq!(rendering.into_frame().unwrap().height(), 240);
     let notes = render(strips()).notes;
     assert!(notes.is_empty(), "{notes:?}");

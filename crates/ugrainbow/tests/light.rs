@@ -28,7 +28,7 @@ fn display(text: &str, config: &Config) -> (Vec<[u8; 4]>, Vec<String>) {
     let source = Source::new("test.ug", text);
     let scene = ugparse::parse(&source, &ugparse::Options::default()).unwrap().scene;
     let rendering = render(&scene, config).unwrap();
-    let notes = rendering.notes.clone();
+    let notes = rendering.notes.iter().map(Words::words).collect();
     (rendering.into_frame().unwrap().pixels().to_vec(), notes)
 }
 

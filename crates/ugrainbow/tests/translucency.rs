@@ -7,7 +7,7 @@ mod common;
 use common::config;
 use ugimage::Frame;
 use ugphysics::{Hsv, srgb_encode};
-use ugrainbow::{Background, ColorShift, Config, DepthCue, PictureOptions, render};
+use ugrainbow::{Background, ColorShift, Config, DepthCue, Note, PictureOptions, render};
 use ugrandom::Random;
 
 /// Eye ten units above the plane z = 0, +y up, orthographic; 8 units across the picture.
@@ -277,7 +277,11 @@ fn infinite_depths_do_not_fade() {
                 cam -ep 0 0 1e155 -vc 0 0 0 -ud 0 1 0 -va 40 40;";
     let cue = DepthCue { range: None, least: 0.2 };
     let rendering = render(&common::scene(text), &Config { depth_cue: Some(cue), ..config(8, 1) }).unwrap();
-    assert!(!rendering.notes.iter().any(|note| note.contains("depth cueing")), "{:?}", rendering.notes);
+    assert!(
+        !rendering.notes.iter().any(|note| matches!(note, Note::DepthCue { .. })),
+        "{:?}",
+        rendering.notes
+    );
     assert_pixel(&rendering.into_frame().unwrap(), [6, 6], [1.0, 0.0, 0.0]);
 }
 

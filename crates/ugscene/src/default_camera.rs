@@ -1,14 +1,11 @@
 //! The camera of a scene that has none: as near as everything is in the picture.
 
-use std::fmt;
-
 use glam::{DQuat, DVec3};
 use ugparse::{BodyId, Scene};
 
 use crate::camera_fit::{Frame, Place, Subject};
 use crate::camera_options::{CameraError, CameraOptions, DEFAULT_VIEW_ANGLE, half_film};
 use crate::relative_motion::RelativeMotion;
-use crate::words;
 
 /// From the view centre to the eye, where z is up: from the front (−y), the right and above. No
 /// axis is within [`CLEAR`] of it.
@@ -35,15 +32,6 @@ pub struct DefaultCamera {
     pub center: DVec3,
     /// Full horizontal view angle, degrees.
     pub view_angle_deg: f64,
-}
-
-/// As a note, with the options that have the same effect.
-impl fmt::Display for DefaultCamera {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { eye, center, view_angle_deg } = self;
-        let [eye, center] = [*eye, *center].map(words::point);
-        write!(f, "no camera in the scene: seen as with -ep {eye} -vc {center} -va {view_angle_deg}")
-    }
 }
 
 impl DefaultCamera {
@@ -193,6 +181,8 @@ fn rounded(p: DVec3, exponent: i32) -> DVec3 {
 
 #[cfg(test)]
 mod tests {
+    use ugpipe::Words;
+
     use super::*;
     use crate::{CameraPoint, Geometry, MotionOptions, PlacedBodies, RestPosition, View};
 
@@ -337,7 +327,7 @@ mod tests {
     fn the_eye_keeps_its_distance() {
         let found = camera("v a 0 0 0; v b 3 -4 2; w (a b);", &CameraOptions::default(), &[]).unwrap();
         let (distance, length) = ((found.eye - found.center).length(), 29f64.sqrt());
-        assert!((0.9..2.0).contains(&(distance / length)), "{found}");
+        assert!((0.9..2.0).contains(&(distance / length)), "{found:?}");
     }
 
     #[test]
@@ -351,7 +341,7 @@ mod tests {
         assert_eq!(camera(&text, &aside, &[]).unwrap().center, DVec3::new(0.1, 2.0, 0.3));
         // With y up, the front is +z, as in most mesh formats.
         let found = camera(&text, &CameraOptions { up: Some(DVec3::Y), ..options() }, &[]).unwrap();
-        assert!(found.eye.z > found.eye.x && found.eye.x > found.eye.y && found.eye.y > 0.0, "{found}");
+        assert!(found.eye.z > found.eye.x && found.eye.x > found.eye.y && found.eye.y > 0.0, "{found:?}");
         // A vertex that nothing uses is not part of the picture.
         assert_eq!(
             camera(&format!("{text} v far 1e9 0 0;"), &options(), &[]),
@@ -367,22 +357,22 @@ mod tests {
             for velocity in [0.9 * axis, -0.9 * axis] {
                 let moving = camera(&text, &CameraOptions::default(), &[velocity]).unwrap();
                 let [one, other] = [at_rest, moving].map(|found| (found.eye - found.center).normalize());
-                assert!(one.dot(other) > 0.999_99, "{moving}");
+                assert!(one.dot(other) > 0.999_99, "{moving:?}");
             }
         }
         let toward = at_rest.eye.normalize();
         let other = camera(&text, &CameraOptions::default(), &[0.5 * toward]).unwrap();
-        assert!(other.eye.dot(toward) < 0.0 && other.eye.z > 0.0, "{other}");
+        assert!(other.eye.dot(toward) < 0.0 && other.eye.z > 0.0, "{other:?}");
         let other =
             camera(&text, &CameraOptions::default(), &[0.5 * toward, 0.5 * other.eye.normalize()]).unwrap();
-        assert!(other.eye.normalize().dot(toward).abs() < CLEAR, "{other}");
+        assert!(other.eye.normalize().dot(toward).abs() < CLEAR, "{other:?}");
     }
 
     #[test]
     fn the_note_has_options() {
         let found = camera(&square(DVec3::new(1.0, 2.0, 3.0), 1.0), &CameraOptions::default(), &[]).unwrap();
         assert_eq!(
-            found.to_string(),
+            crate::Note::DefaultCamera(found).words(),
             "no camera in the scene: seen as with -ep 3.688 -1.674 4.566 -vc 1.009 1.897 2.78 -va 40"
         );
     }

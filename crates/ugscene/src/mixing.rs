@@ -5,16 +5,6 @@ use ugparse::{Color, ColorId, Face, Scene, VertexId};
 
 use crate::split_corners;
 
-/// The note for the user on vertices whose colours are mixed; `None` if there are none.
-pub fn mixing_note(scene: &Scene) -> Option<String> {
-    let place = match n_mixing_vertices(scene) {
-        0 => return None,
-        1 => "1 vertex".to_string(),
-        n => format!("{n} vertices"),
-    };
-    Some(format!("colours are mixed at {place} where faces of different colours meet; -vr keeps them apart"))
-}
-
 /// Gives wires vertices of their own, since a vertex carries one colour only; and with
 /// `each_face_color` (`-vr`) a copy of a vertex to each colour of its faces. All copies keep the
 /// normal, so shading stays smooth across them.

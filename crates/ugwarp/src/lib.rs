@@ -73,7 +73,7 @@ pub use star_list::{MAX_STARS, is_star_list, read_stars};
 pub use uglight::{ColorShift, HueShift, SpectralShift};
 pub use ugparse::Provenance;
 pub use ugpicture::lens::Lens;
-pub use ugpicture::{Background, Channel, Exposure, Filter, Output, PictureFile, PictureOptions, Tone};
+pub use ugpicture::{Background, Channel, Exposure, Filter, Note, Output, PictureFile, PictureOptions, Tone};
 pub use ugscene::CameraOptions;
 pub use ugsky::{ALL_NM, Basis, Extent, Observer, Panorama, Star, Texels};
 pub use warp::Warp;

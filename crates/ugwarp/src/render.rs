@@ -7,8 +7,8 @@ use ugimage::{Compression, Development, Format, Frame, LinearFrame, Metadata};
 use uglight::{ColorShift, SpectralShift};
 use ugparse::{Diagnostics, Provenance, Scene, Source};
 use ugpicture::{
-    Annotated, Annotations, Background, DepthBuffer, Error as PictureError, Exposure, Image, Layout, Output,
-    PictureFile, SceneState, channel_planes,
+    Annotated, Annotations, Background, DepthBuffer, Error as PictureError, Exposure, Image, Layout, Note,
+    Output, PictureFile, SceneState, channel_planes,
 };
 use ugpipe::Progress;
 use ugscene::CameraOptions;
@@ -33,8 +33,8 @@ pub struct Rendering {
     image: Image,
     output: Output,
     compression: Compression,
-    /// Notes for the user, one sentence each.
-    pub notes: Vec<String>,
+    /// What the user should know about it.
+    pub notes: Vec<Note>,
 }
 
 impl Rendering {
@@ -176,7 +176,7 @@ pub fn run(
     };
     Ok(PictureFile {
         bytes,
-        notes: opened.notes.iter().cloned().chain(notes).collect(),
+        notes: opened.notes.iter().cloned().map(Note::Source).chain(notes).collect(),
         warnings: Diagnostics::new(&Source::new("", ""), Vec::new()),
     })
 }
@@ -222,12 +222,7 @@ impl Prepared {
     }
 
     /// The file of a picture that [`is_plain_png`](Self::is_plain_png), and notes for the user.
-    fn png(
-        &self,
-        panorama: &Panorama,
-        metadata: &Metadata,
-        progress: &dyn Progress,
-    ) -> (Vec<u8>, Vec<String>) {
+    fn png(&self, panorama: &Panorama, metadata: &Metadata, progress: &dyn Progress) -> (Vec<u8>, Vec<Note>) {
         let (file, statistics) = self.warp.png(panorama, progress, metadata, self.compression());
         (file, notes(&self.warp, &self.config, &statistics, None))
     }
@@ -301,44 +296,34 @@ fn annotate(
     Ok(layout.annotate(annotated, picture, development, depths)?)
 }
 
-/// Notes for the user about a picture.
+/// The notes on a picture.
 fn notes(
     warp: &Warp,
     config: &Config,
     statistics: &Statistics,
     development: Option<Development>,
-) -> Vec<String> {
+) -> Vec<Note> {
     let picture = &config.picture;
     let mut notes = Vec::new();
     if warp.is_up_replaced {
-        notes.push(
-            "the up direction is zero or parallel to the view, so another axis is up; choose one with -ud"
-                .into(),
-        );
+        notes.push(Note::UpReplaced);
     }
     if statistics.n_covered == 0 {
-        notes.push("the picture shows no part of the panorama: try another -vc, or a wider -va".to_owned());
+        notes.push(Note::NoPanorama);
     } else if statistics.max_light == 0.0 {
-        notes.push(
-            "all that is in the picture is black: its wavelengths are outside 380-780 nm; try a lower speed, or \
-             --no-doppler --no-flux to see the shape"
-                .to_owned(),
-        );
+        notes.push(Note::BlackPanorama);
     }
     if picture.output.is_linear() {
         return notes;
     }
     if let (Some(Exposure::Auto), Some(Development { stops, .. })) = (picture.exposure, development) {
-        notes.push(format!("exposure is {stops} stops; -ex {stops} gives the same picture"));
+        notes.push(Note::Exposure(stops));
     } else if picture.exposure.is_none()
         && picture.tone == ugimage::Tone::Clip
         && statistics.max_light > CLIPPED
     {
-        notes.push(format!(
-            "max light is {:.3}, clip to 1.0; -ex auto brings it into range",
-            // As the frame has it.
-            statistics.max_light.min(f32::MAX)
-        ));
+        // As the frame has it.
+        notes.push(Note::ClippedLight(f64::from(statistics.max_light.min(f32::MAX))));
     }
     notes
 }

@@ -1,10 +1,12 @@
-//! Errors, with the options that correct them.
+//! Errors and reports, with the options that correct what is wrong.
 
 use ugparse::{Diagnostic, Diagnostics, Origins, Source};
 use ugpipe::Words;
+use ugscene::Note;
 
-use crate::Error;
 use crate::adaptive::MAX_PIECES;
+use crate::criterion::MAX_GENERATION;
+use crate::{Error, Report};
 
 const AT_EYE: &str = "move the eye (-ep) or the vertex";
 const OUT_OF_RANGE: &str = "use smaller coordinates, a smaller time (-ti) or a lower speed";
@@ -49,5 +51,52 @@ impl Error {
         };
         let finding = Diagnostic::error(*origins.vertices.get(*row)?, self.to_string()).label("this vertex");
         Some(Diagnostics::one(source, finding.help(remedy)))
+    }
+}
+
+impl Report {
+    /// Messages about results that are not as requested.
+    pub fn warnings(&self) -> Vec<String> {
+        let mut warnings = Vec::new();
+        let left = match &self.remaining_errors {
+            Some(errors) => format!("; errors left: {errors}"),
+            None => String::new(),
+        };
+        if self.is_full {
+            warnings.push(format!(
+                "subdivision stopped at {MAX_PIECES} pieces: the error of some edges is above the bound; \
+                 a larger bound (-se) needs fewer pieces{left}"
+            ));
+        }
+        if self.n_uncut > 0 {
+            warnings.push(format!(
+                "{} faces are right at their edges only: their contours intersect or enclose no area, so they \
+                 cannot be subdivided; correct them{left}",
+                self.n_uncut
+            ));
+        }
+        if self.n_too_deep > 0 {
+            warnings.push(format!(
+                "the error of {} edges is above the bound after {MAX_GENERATION} halvings: they pass close to \
+                 the eye, or colours change by orders of magnitude along them; if it is visible, move the eye \
+                 (-ep), reduce the speed, or bound only shapes (-sc off){left}",
+                self.n_too_deep
+            ));
+        }
+        warnings
+    }
+
+    /// What was chosen for the user.
+    pub fn notes(&self) -> Vec<String> {
+        self.default_camera.iter().map(|camera| Note::DefaultCamera(*camera).words()).collect()
+    }
+
+    /// Statistics, for `-vb`.
+    pub fn details(&self) -> Vec<String> {
+        let added =
+            format!("subdivision added {} faces and {} vertices", self.n_new_faces, self.n_new_vertices);
+        let errors = self.remaining_errors.as_ref().map(|errors| format!("errors left: {errors}"));
+        let culled = (self.n_culled > 0).then(|| format!("removed {} faces outside the view", self.n_culled));
+        [added].into_iter().chain(culled).chain(errors).collect()
     }
 }

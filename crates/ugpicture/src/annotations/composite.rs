@@ -5,6 +5,7 @@ use ugimage::{Frame, LinearFrame, Quantizer};
 use uglabel::Drawing;
 
 use crate::image::Image;
+use crate::note::Note;
 
 /// Annotations over and below the picture of a scene, ready to be composited.
 pub struct Annotations {
@@ -19,7 +20,7 @@ pub struct Annotations {
     /// Drawn on the strips.
     pub strips: Drawing,
     /// Notes for the user.
-    pub notes: Vec<String>,
+    pub notes: Vec<Note>,
 }
 
 impl Annotations {

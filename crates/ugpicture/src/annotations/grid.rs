@@ -11,6 +11,7 @@ use ugscene::View;
 use super::seen::SeenScene;
 use super::style::Style;
 use super::visible::{VisibleLines, in_picture};
+use crate::note::Note;
 use uglabel::number::significant;
 
 /// Squares side by side in the picture, counted a quarter above its lower edge; decides their size.
@@ -31,7 +32,7 @@ pub fn draw(
     visible: &VisibleLines<'_>,
     style: &Style,
     drawing: &mut Drawing,
-) -> Result<Option<String>, MissingCharacter> {
+) -> Result<Option<Note>, MissingCharacter> {
     let Some(grid) = GroundGrid::new(seen) else { return Ok(None) };
     let view = &seen.view;
     let mut lines = Vec::new();
@@ -49,11 +50,7 @@ pub fn draw(
         labels.draw(axis, drawing)?;
     }
     let (step, level) = (significant(grid.step, 4), significant(grid.level, 4));
-    Ok(Some(if is_empty {
-        format!("no line of the grid (-gr) is in the picture; it lies in the plane z = {level}")
-    } else {
-        format!("the lines of the grid (-gr) are {step} apart, in the plane z = {level}")
-    }))
+    Ok(Some(Note::Grid { step: (!is_empty).then_some(step), level }))
 }
 
 /// Lines at multiples of a step.

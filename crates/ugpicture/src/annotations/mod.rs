@@ -26,6 +26,7 @@ use crate::background::Backdrop;
 use crate::depth_buffer::DepthBuffer;
 use crate::emission::{Emissions, SeenItem};
 use crate::error::Error;
+use crate::note::Note;
 use crate::options::{AnnotationOptions, PictureOptions};
 pub use composite::Annotations;
 use motion::MotionSummary;
@@ -162,9 +163,7 @@ impl Layout {
                         let depths = render_depths(&ideal.scene, &camera, SceneState::AtRest)?;
                         outline::draw(&seen, &ideal, &depths, style, &mut all.over);
                     }
-                    None => all.notes.push(
-                        "nothing moves, so there is no undistorted outline (-dl) beside the picture".into(),
-                    ),
+                    None => all.notes.push(Note::NoOutline),
                 }
             }
         }

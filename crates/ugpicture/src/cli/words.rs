@@ -1,9 +1,9 @@
-//! Errors of picture options, with the options that correct them.
+//! Errors and notes, with the options that correct what is wrong.
 
-use ugpipe::Words;
+use ugpipe::{Words, remedies};
 
-use crate::Error;
 use crate::limits::{MAX_SAMPLES, MAX_VECTOR_SIDE};
+use crate::{Error, Note};
 
 impl Words for Error {
     fn words(&self) -> String {
@@ -34,6 +34,51 @@ impl Words for Error {
             }
             Self::Text(_) => "{}",
             Self::Camera(error) => return error.words(),
+        };
+        words.replacen("{}", &self.to_string(), 1)
+    }
+}
+
+impl Words for Note {
+    fn words(&self) -> String {
+        let words = match self {
+            Self::Scene(note) => return note.words(),
+            Self::MovingLights { is_exact } => {
+                let remedy = if *is_exact { "leave out -xc: " } else { "" };
+                return format!("{self}; {remedy}{}", remedies::MOVING_LIGHTS);
+            }
+            Self::NotRepeated => remedies::REPEAT_EARLIER,
+            Self::UpReplaced => "{}; choose one with -ud",
+            Self::NothingInFront => remedies::NOTHING_IN_FRONT,
+            Self::NothingInPicture => remedies::NOTHING_IN_PICTURE,
+            Self::NothingMet => "{}; try -in, another -vc or a wider -va",
+            Self::NoPanorama => "{}: try another -vc, or a wider -va",
+            Self::BackFacing => "{}; leave out -cb, or turn the faces round",
+            Self::EdgeOn => "{}; try another -ep or a narrower -va",
+            Self::BlackLines => "{}: choose another colour with -lc or -bg",
+            Self::OutOfRange { .. } => remedies::OUT_OF_RANGE,
+            Self::BlackFaces | Self::BlackPanorama => {
+                "{}; try a lower speed, or --no-doppler --no-flux to see the shape"
+            }
+            Self::TooDeep { .. } => "{}: a larger -rd shows it",
+            Self::CutShort => "{}: give a smaller -rd or a larger -rc",
+            Self::Adaptive(_) => "{} (-ad)",
+            Self::Exposure(stops) => return format!("{self}; -ex {stops} gives the same picture"),
+            Self::ClippedIntensity { has_light: true, .. } | Self::ClippedLight(_) => {
+                "{}; -ex auto brings it into range"
+            }
+            Self::DepthCue { near, far, least } => {
+                return format!("{self}; -dc {near} {far} {least} gives the same picture");
+            }
+            Self::Grid { .. } => return self.to_string().replacen("the grid", "the grid (-gr)", 1),
+            Self::NoOutline => return self.to_string().replacen("outline", "outline (-dl)", 1),
+            Self::Source(_)
+            | Self::NoLights { .. }
+            | Self::NoWires
+            | Self::NoLight
+            | Self::OpenSolid
+            | Self::StraightThroughGlass
+            | Self::ClippedIntensity { has_light: false, .. } => "{}",
         };
         words.replacen("{}", &self.to_string(), 1)
     }

@@ -11,6 +11,7 @@ mod messages;
 
 use common::scene;
 use ugphysics::Hsv;
+use ugpipe::Words;
 use ugrainbow::{Config, PictureOptions, render};
 
 const BLACK: Hsv = Hsv { hue: 0.0, saturation: 0.0, value: 0.0 };
@@ -25,7 +26,7 @@ fn plain(width: u32, height: u32) -> Config {
 
 #[track_caller]
 fn notes(text: &str, config: &Config) -> Vec<String> {
-    render(&scene(text), config).unwrap().notes
+    render(&scene(text), config).unwrap().notes.iter().map(Words::words).collect()
 }
 
 /// Eye ten units above the plane z = 0, +y up; orthographic, and 8 units of the plane across the

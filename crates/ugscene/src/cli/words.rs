@@ -1,9 +1,9 @@
-//! Errors of cameras, motions and stages, with the options that correct them.
+//! Errors and notes, with the options that correct what is wrong.
 
 use ugpipe::{Words, remedies};
 
 use crate::words::point;
-use crate::{CameraError, MotionError, StageError};
+use crate::{CameraError, DefaultCamera, MotionError, Note, StageError};
 
 impl Words for CameraError {
     fn words(&self) -> String {
@@ -31,6 +31,20 @@ impl Words for StageError {
                 remedies::EYE_POINT,
                 point(*asked)
             ),
+        }
+    }
+}
+
+impl Words for Note {
+    fn words(&self) -> String {
+        match self {
+            Self::DefaultCamera(DefaultCamera { eye, center, view_angle_deg }) => format!(
+                "no camera in the scene: seen as with -ep {} -vc {} -va {view_angle_deg}",
+                point(*eye),
+                point(*center)
+            ),
+            Self::MixedColors(_) => format!("{self}; -vr keeps them apart"),
+            Self::SpectraAtRest { .. } => format!("{self}: {}", remedies::SHIFT_SPECTRA),
         }
     }
 }

@@ -1,0 +1,191 @@
+//! What a user should know about a picture, above all why it is empty.
+
+use std::fmt;
+
+/// What a user should know about a picture.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Note {
+    /// About its scene.
+    Scene(ugscene::Note),
+    /// About the file of its panorama, or of its stars.
+    Source(String),
+    /// The scene has no lights.
+    NoLights {
+        /// The ambient light in place of them.
+        ambient: f64,
+        /// The light from the eye in place of them.
+        from_eye: f64,
+        /// Lights of a scene would cast shadows, and these do not.
+        has_shadows: bool,
+    },
+    /// Lights of the scene move.
+    MovingLights {
+        /// The picture is drawn by rays.
+        is_exact: bool,
+    },
+    /// Vertices are to be repeated, but have colours as seen.
+    NotRepeated,
+    /// Rays do not meet wires.
+    NoWires,
+    /// The up direction is zero or parallel to the view.
+    UpReplaced,
+    /// Everything is behind the eye or outside the clipping distances.
+    NothingInFront,
+    /// Everything is outside the picture.
+    NothingInPicture,
+    /// No ray meets a face.
+    NothingMet,
+    /// The panorama is outside the picture.
+    NoPanorama,
+    /// Everything is culled, or smaller than a sample.
+    BackFacing,
+    /// Everything is seen edge-on, or smaller than a sample.
+    EdgeOn,
+    /// Black lines on a black background.
+    BlackLines,
+    /// No light falls on the scene, or its colours are black.
+    NoLight,
+    /// Wavelengths are shifted out of the visible range.
+    OutOfRange {
+        /// How much of what is in the picture, rounded down.
+        percent: u64,
+        /// All of it is black; otherwise a part, or some is grey.
+        is_black: bool,
+    },
+    /// No light falls on what rays meet, or its wavelengths are shifted out of the visible range.
+    BlackFaces,
+    /// The wavelengths of a panorama are shifted out of the visible range.
+    BlackPanorama,
+    /// A solid is open, or its outlines run clockwise.
+    OpenSolid,
+    /// Light of lamps may cross a refracting solid.
+    StraightThroughGlass,
+    /// Samples end at the greatest depth.
+    TooDeep {
+        /// How many of them.
+        percent: f64,
+        /// Reflections and refractions.
+        depth: u32,
+    },
+    /// Paths with too many branches.
+    CutShort,
+    /// The percentage of samples that were traced.
+    Adaptive(f64),
+    /// Automatic exposure, in stops.
+    Exposure(f64),
+    /// Display-encoded values up to this were clipped.
+    ClippedIntensity {
+        /// The largest one.
+        most: f32,
+        /// They could have been exposed.
+        has_light: bool,
+    },
+    /// Light up to this was clipped.
+    ClippedLight(f64),
+    /// The depths between which light fades.
+    DepthCue {
+        /// Where it begins.
+        near: f64,
+        /// Where it ends.
+        far: f64,
+        /// The part of the light that remains.
+        least: f64,
+    },
+    /// The grid of the ground.
+    Grid {
+        /// The distance between its lines; `None` if none is in the picture.
+        step: Option<String>,
+        /// The height of its plane.
+        level: String,
+    },
+    /// Nothing moves that could have an undistorted outline.
+    NoOutline,
+}
+
+impl fmt::Display for Note {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let text = match self {
+            Self::Scene(note) => return note.fmt(f),
+            Self::Source(text) => text,
+            Self::NoLights { ambient, from_eye, has_shadows } => {
+                write!(
+                    f,
+                    "no lights in the scene: drawn with ambient light {ambient} and a light of {from_eye} from the eye"
+                )?;
+                if *has_shadows { ", without shadows" } else { "" }
+            }
+            Self::MovingLights { .. } => {
+                "velocities of lights are left out: each light rests with the faces it lights"
+            }
+            Self::NotRepeated => "vertices with colours as seen are not repeated",
+            Self::NoWires => "wires are left out: rays do not meet lines",
+            Self::UpReplaced => "the up direction is zero or parallel to the view, so another axis is up",
+            Self::NothingInFront => {
+                "nothing is drawn: everything is behind the eye or outside the clipping distances"
+            }
+            Self::NothingInPicture | Self::NothingMet => {
+                "nothing is drawn: everything is outside the picture, where fast bodies often are"
+            }
+            Self::NoPanorama => "the picture shows no part of the panorama",
+            Self::BackFacing => "nothing is drawn: everything is seen from behind, or smaller than a sample",
+            Self::EdgeOn => "nothing is drawn: everything is seen edge-on or smaller than a sample",
+            Self::BlackLines => "the lines are black on black",
+            Self::NoLight => {
+                "all that is in the picture is black: its colours are, or no light falls on it; try `l 1;` in the scene"
+            }
+            Self::OutOfRange { percent, is_black } => {
+                match percent {
+                    100 if *is_black => write!(f, "all that is in the picture is black"),
+                    100 => write!(f, "all that is in the picture is black or grey"),
+                    _ => write!(f, "{percent} percent of what is in the picture is black or grey"),
+                }?;
+                ": its wavelengths are outside 380-780 nm"
+            }
+            Self::BlackFaces => {
+                "all that is in the picture is black: no light falls on it, or its wavelengths are outside \
+                 380-780 nm"
+            }
+            Self::BlackPanorama => {
+                "all that is in the picture is black: its wavelengths are outside 380-780 nm"
+            }
+            Self::OpenSolid => {
+                "light leaves a transparent solid that it did not enter: the solid is open, or its outlines run \
+                 clockwise seen from outside; it is drawn as if it were not refracted there"
+            }
+            Self::StraightThroughGlass => {
+                "light of lamps goes straight through transparent solids, as fast as in a vacuum: it is absorbed \
+                 there, but neither refracted nor slowed"
+            }
+            Self::TooDeep { percent, depth } => {
+                return write!(
+                    f,
+                    "{percent:.1} percent of the samples end after {depth} reflections and refractions, and what is \
+                     behind is black"
+                );
+            }
+            Self::CutShort => "some paths branch at too many mirrors and solids, and are cut short",
+            Self::Adaptive(percent) => return write!(f, "traced {percent:.0} percent of the samples"),
+            Self::Exposure(stops) => return write!(f, "exposure is {stops} stops"),
+            Self::ClippedIntensity { most, .. } => {
+                return write!(f, "max intensity is {}, clip to 1.0", decimal(*most));
+            }
+            Self::ClippedLight(most) => return write!(f, "max light is {most:.3}, clip to 1.0"),
+            Self::DepthCue { near, far, .. } => return write!(f, "depth cueing is from {near} to {far}"),
+            Self::Grid { step: Some(step), level } => {
+                return write!(f, "the lines of the grid are {step} apart, in the plane z = {level}");
+            }
+            Self::Grid { step: None, level } => {
+                return write!(f, "no line of the grid is in the picture; it lies in the plane z = {level}");
+            }
+            Self::NoOutline => "nothing moves, so there is no undistorted outline beside the picture",
+        };
+        f.write_str(text)
+    }
+}
+
+/// A number with one to three decimals, as short as possible.
+fn decimal(number: f32) -> String {
+    let text = format!("{number:.3}");
+    let short = text.trim_end_matches('0');
+    if short.ends_with('.') { format!("{short}0") } else { short.to_owned() }
+}

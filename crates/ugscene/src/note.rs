@@ -1,0 +1,49 @@
+//! What a user should know about a scene.
+
+use std::fmt;
+
+use crate::words::point;
+use crate::{DefaultCamera, n_mixing_vertices};
+use ugparse::Scene;
+
+/// What a user should know about a scene.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Note {
+    /// The scene has no camera.
+    DefaultCamera(DefaultCamera),
+    /// Faces of different colours meet at this many vertices.
+    MixedColors(usize),
+    /// A black body or spectrum is drawn with its colour at rest.
+    SpectraAtRest {
+        /// The name of its colour.
+        color: String,
+    },
+}
+
+impl Note {
+    /// The note on vertices whose colours are mixed; `None` if there are none.
+    pub fn mixed_colors(scene: &Scene) -> Option<Self> {
+        let n_vertices = n_mixing_vertices(scene);
+        (n_vertices > 0).then_some(Self::MixedColors(n_vertices))
+    }
+}
+
+impl fmt::Display for Note {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::DefaultCamera(DefaultCamera { eye, center, view_angle_deg }) => write!(
+                f,
+                "no camera in the scene: seen from {}, toward {}, with a view angle of {view_angle_deg} degrees",
+                point(*eye),
+                point(*center)
+            ),
+            Self::MixedColors(n) => {
+                let vertices = if *n == 1 { "vertex" } else { "vertices" };
+                write!(f, "colours are mixed at {n} {vertices} where faces of different colours meet")
+            }
+            Self::SpectraAtRest { color } => {
+                write!(f, "black bodies and spectra count with their colour at rest (colour `{color}`)")
+            }
+        }
+    }
+}
